@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// Seam A seen from the world: whatever drives a robot. hal_sim implements it with a board and a firmware; tests
+// implement it with three lines. The world hands over a frozen scene and a span of time; it gets wheel angles back.
+#pragma once
+#include <cstdint>
+
+#include "sim_core/base/clock.h"
+
+namespace sim {
+
+class Scene;
+
+/// Angle each wheel has turned since the world began, rad, forward positive, not wrapped.
+struct WheelAngles {
+  double left_rad = 0;
+  double right_rad = 0;
+};
+
+/// What recorders and pictures show of a robot's inside.
+struct MindReport {
+  std::int64_t left_steps = 0;   ///< motor full steps since power-up, forward positive, not wrapped
+  std::int64_t right_steps = 0;  ///< same, right wheel
+  std::uint32_t leds = 0;        ///< bits 0 to 7 the ring, 8 body, 9 front
+};
+
+class RobotMind {
+ public:
+  virtual ~RobotMind() = default;
+
+  /// Runs the robot's inside up to `end` (clicks). May read the scene (frozen at the last tick) and nothing else
+  /// that changes; may be called on any thread, never on two at once for one robot. Must not block.
+  virtual void run_until(const Scene& scene, Clicks end) = 0;
+
+  /// Wheel angles at `at`, where at <= the last end. Called once per tick, in order of time.
+  virtual WheelAngles wheel_angles(Clicks at) = 0;
+
+  /// Steps and LEDs at the last end.
+  virtual MindReport report() const = 0;
+
+  /// Proximity reading of sensor `index` as the robot would get it now (counts), for recorders; no side effects.
+  virtual int proximity_counts(const Scene& scene, int index) = 0;
+
+  /// Everything of the inside that must repeat from run to run, folded into one number, for the world's digest.
+  virtual std::uint64_t state_hash() const = 0;
+};
+
+}  // namespace sim
