@@ -23,7 +23,8 @@
 /** Pin directions, converter, LEDs off, supply off. */
 void e_init_sharp(void);
 
-/** Sensor voltage, counts 0 to 4095: nearer is higher. Blocks for one conversion. */
+/** The sensor's voltage, counts: nearer is higher. It comes in on the accelerometer's x channel and is read by
+ *  e_get_acc(0). */
 int e_get_dist_sharp(void);
 
 /** LED 1 to 5: 0 off, 1 on, above 1 toggles. */
