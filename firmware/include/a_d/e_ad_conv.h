@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * Analogue inputs, basic variant: one conversion at a time, by hand, no interrupt.
- * Shares its guard with the advanced e_ad_conv.h. Do not use both: they program the same converter differently.
+ * Shares its guard with the advanced e_ad_conv.h. Do not use both: they program the same converter
+ * differently.
  */
 #ifndef _AD_CONV
 #define _AD_CONV

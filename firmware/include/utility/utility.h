@@ -15,8 +15,9 @@ TP_POLL unsigned int getBatteryValueRaw();
 /** Battery charge in percent, not limited to 0..100: revision 1.3 only, else 0. */
 TP_POLL unsigned int getBatteryValuePercentage();
 
-/** A stopwatch that counts interrupts of the ADC scan (0.061 ms each; half of that with MICRO_ONLY). It stands while
- *  the scan does not run and stops at 4 s. resetTime() starts it; the others return milliseconds. */
+/** A stopwatch that counts interrupts of the ADC scan (0.061 ms each; half of that with MICRO_ONLY). It
+ *  stands while the scan does not run and stops at 4 s. resetTime() starts it; the others return
+ *  milliseconds. */
 void resetTime(void);
 TP_POLL float getDiffTimeMs(void);
 float getDiffTimeMsAndReset(void);

@@ -2,8 +2,8 @@
  * Accelerometer, advanced variant: reads what the ADC scan has filed; call e_init_ad_scan(ALL_ADC) first.
  *
  * Robots before revision 1.3: analogue, 12 bits, fresh at 252 Hz, 0 g at about 2048, about 800 counts per g.
- * Revision 1.3: over I2C (a reading older than 3.9 ms is refreshed, which blocks for about 1 ms), about 750 counts
- * per g, x and y exchanged.
+ * Revision 1.3: over I2C (a reading older than 3.9 ms is refreshed, which blocks for about 1 ms), about 750
+ * counts per g, x and y exchanged.
  * Axes: x to the right, y to the front, z up; 1 g on z when the robot stands.
  */
 #ifndef _ACC_DEFS
@@ -32,12 +32,12 @@ typedef struct {
   int acc_z;
 } TypeAccRaw;
 
-/** Newest sample of axis 0, 1 or 2 minus its centre; 666 for other axes. Before e_acc_calibr() the centres are
- *  0, 0 and 2000. */
+/** Newest sample of axis 0, 1 or 2 minus its centre; 666 for other axes. Before e_acc_calibr() the centres
+ *  are 0, 0 and 2000. */
 int e_get_acc(unsigned int captor);
 
-/** Mean of the newest `filter_size` samples (1 to 50) of an axis, centre not subtracted; 0 for larger sizes or
- *  other axes. filter_size 0 divides by zero: math-error trap. */
+/** Mean of the newest `filter_size` samples (1 to 50) of an axis, centre not subtracted; 0 for larger sizes
+ *  or other axes. filter_size 0 divides by zero: math-error trap. */
 int e_get_acc_filtered(unsigned int captor, unsigned int filter_size);
 
 /** Acceleration in spherical coordinates, from means of 5 samples. */
@@ -56,8 +56,8 @@ int e_read_acc_x(void);
 int e_read_acc_y(void);
 int e_read_acc_z(void);
 
-/** Takes the present mean of 50 samples as the centre of x and y, and mean - 768 as that of z. The robot must stand
- *  flat and still. Does not block. */
+/** Takes the present mean of 50 samples as the centre of x and y, and mean - 768 as that of z. The robot must
+ *  stand flat and still. Does not block. */
 void e_acc_calibr(void);
 
 /** Lights the ring LED on the lowest side, and no other. Hysteresis 5 degrees. */

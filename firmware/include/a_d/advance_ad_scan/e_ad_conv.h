@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
- * Analogue inputs, advanced variant (the usual one): the converter scans by itself, and its interrupt (priority 4)
- * files the samples. Getters of e_prox.h, e_acc.h and e_micro.h then only read memory.
+ * Analogue inputs, advanced variant (the usual one): the converter scans by itself, and its interrupt
+ * (priority 4) files the samples. Getters of e_prox.h, e_acc.h and e_micro.h then only read memory.
  *
- * One interrupt every 61 us (16384 Hz nominal). Three microphones each time; the accelerometer once in 65, which
- * is 252 Hz; one pair of IR sensors once in 65, all eight every 15.87 ms (63 Hz). The scan takes a noticeable share
- * of the processor. All samples are 12 bits, 0 to 4095.
+ * One interrupt every 61 us (16384 Hz nominal). Three microphones each time; the accelerometer once in 65,
+ * which is 252 Hz; one pair of IR sensors once in 65, all eight every 15.87 ms (63 Hz). The scan takes a
+ * noticeable share of the processor. All samples are 12 bits, 0 to 4095.
  * Shares its guard with the basic e_ad_conv.h.
  */
 #ifndef _AD_CONV
@@ -35,15 +35,17 @@
 
 #define ADC_ISR_PERIOD_MS 0.061 /* ms */
 
-/** Starts the scan. ALL_ADC: blocks for about 194 ms, until the accelerometer's buffer is full. MICRO_ONLY: does not
- *  block; IR and accelerometer values then never change. With selector 10 two more IR sensors (gumstix turret, pins
- *  AN0 and AN1) join the scan and the interrupt's priority is 6. */
+/** Starts the scan. ALL_ADC: blocks for about 194 ms, until the accelerometer's buffer is full. MICRO_ONLY:
+ *  does not block; IR and accelerometer values then never change. With selector 10 two more IR sensors
+ *  (gumstix turret, pins AN0 and AN1) join the scan and the interrupt's priority is 6. */
 void e_init_ad_scan(unsigned char only_micro);
 
-/** 1 for one interrupt period (61 us) after the microphone buffers have wrapped, else 0. Poll it without pause. */
+/** 1 for one interrupt period (61 us) after the microphone buffers have wrapped, else 0. Poll it without
+ *  pause. */
 TP_POLL unsigned char e_ad_is_array_filled(void);
 
-/** 0 while the interrupt files samples, else 1; the main program therefore always sees 1 once the scan runs. */
+/** 0 while the interrupt files samples, else 1; the main program therefore always sees 1 once the scan
+ *  runs. */
 TP_POLL unsigned char e_ad_is_acquisition_completed(void);
 
 /** Converter on, off; buffers keep their content. Do not block. */
@@ -59,7 +61,8 @@ void e_ad_scan_off(void);
  *   extern int e_ambient_and_reflected_ir[10];        lit samples
  *   extern int selector;                              selector position when the scan was started
  *   extern unsigned int tickAdcIsr;                   interrupts counted, stays at 65535
- *   extern unsigned char updateAccI2CCounter;         interrupts since the I2C accelerometer was read, stays at 64
+ *   extern unsigned char updateAccI2CCounter;         interrupts since the I2C accelerometer was read, stays
+ *  at 64
  */
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * Microphones, advanced variant: reads what the ADC scan has filed; call e_init_ad_scan() first. Nothing here blocks.
- * Microphone 0 is on the right, 1 on the left, 2 behind. 16384 samples a second each (32768 with MICRO_ONLY), 0 to
- * 4095, silence at about 2000.
+ * Microphones, advanced variant: reads what the ADC scan has filed; call e_init_ad_scan() first. Nothing here
+ * blocks. Microphone 0 is on the right, 1 on the left, 2 behind. 16384 samples a second each (32768 with
+ * MICRO_ONLY), 0 to 4095, silence at about 2000.
  */
 #ifndef _MICRO
 #define _MICRO

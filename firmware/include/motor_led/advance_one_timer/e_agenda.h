@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  * Agendas: functions called periodically by one timer. The usual variant.
  *
- * Timer 2, priority 4, ticks every 1475 cycles = 100.03 us. At each tick every active agenda counts; one that has
- * counted its cycle runs, inside the interrupt, newest agenda first. A callback that takes longer than a tick
- * delays all agendas, and ticks missed meanwhile are lost (one is remembered).
+ * Timer 2, priority 4, ticks every 1475 cycles = 100.03 us. At each tick every active agenda counts; one that
+ * has counted its cycle runs, inside the interrupt, newest agenda first. A callback that takes longer than a
+ * tick delays all agendas, and ticks missed meanwhile are lost (one is remembered).
  * A callback may change, pause or destroy agendas, its own included.
  * The list is allocated with malloc(); when memory runs out the program ends.
  * Changing the list from the main program races with the interrupt, as on the robot: agendas may be skipped
@@ -34,8 +34,8 @@ void e_start_agendas_processing(void);
 /** Stops timer 2; agendas keep their state. */
 void e_end_agendas_processing(void);
 
-/** Calls `func` every `cycle` ticks of 0.1 ms from now on: 10000 is once a second; 0 registers without calling;
- *  a negative cycle is taken as unsigned (-1 = 65535). First call one cycle after the activation.
+/** Calls `func` every `cycle` ticks of 0.1 ms from now on: 10000 is once a second; 0 registers without
+ *  calling; a negative cycle is taken as unsigned (-1 = 65535). First call one cycle after the activation.
  *  Returns 1. A function that is already registered keeps its old cycle, and the answer is 1 as well. */
 int e_activate_agenda(void (*func)(void), int cycle);
 

@@ -7,8 +7,8 @@
 #define _LED
 
 /** Ring LED `led_number` 0 to 7 clockwise, 0 in front; 8 and above means all eight.
- *  `value` 0 off, 1 on, above 1 toggles a single LED. For "all" only bit 0 counts, so (8, 2) switches all off;
- *  the basic variant toggles instead. */
+ *  `value` 0 off, 1 on, above 1 toggles a single LED. For "all" only bit 0 counts, so (8, 2) switches all
+ *  off; the basic variant toggles instead. */
 void e_set_led(unsigned int led_number, unsigned int value);
 
 /** All eight ring LEDs off; body and front LED stay. */

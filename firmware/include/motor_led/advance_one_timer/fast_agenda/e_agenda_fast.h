@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Agendas spread over timers 1, 2 and 3, so that each timer ticks only as often as its tasks need. Rarely used.
+ * Agendas spread over timers 1, 2 and 3, so that each timer ticks only as often as its tasks need. Rarely
+ * used.
  *
  * Each timer's period is the greatest common divisor of its tasks' cycles, in units of 0.1 ms (1475 cycles).
  * A timer can be reserved for the two motor tasks. Tasks of cycle 0 wait in a list of their own.

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Stepper motors on the fast agendas. Prototypes and quantisation as in the advanced e_motors.h; the steps run on
- * a timer of their own. Nothing here blocks.
+ * Stepper motors on the fast agendas. Prototypes and quantisation as in the advanced e_motors.h; the steps
+ * run on a timer of their own. Nothing here blocks.
  * Shares its guard with the other two e_motors.h: the first one included decides which variant runs.
  */
 #ifndef _MOTORS
