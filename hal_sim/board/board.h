@@ -16,9 +16,13 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <string>
 
+#include "hal_sim/board/adc_scan.h"
+#include "hal_sim/board/agenda_timer.h"
+#include "hal_sim/board/basic_prox.h"
 #include "hal_sim/board/clock.h"
+#include "hal_sim/board/timer_motors.h"
+#include "hal_sim/board/uart.h"
 #include "hal_sim/host/context.h"
 
 namespace sim {
@@ -27,17 +31,6 @@ class Scene;
 
 namespace board {
 
-class AdcScan;      // the ADC interrupt of advance_ad_scan, in closed form
-class AgendaTimer;  // Timer 2 and its list, motor agendas included
-class BasicProx;    // the Timer 1 state machine of a_d/e_prox
-class FastAgenda;   // Timers 1 to 3 of fast_agenda
-class TimerMotors;  // Timers 4 and 5 (basic) or Timer 3
-class Stepper;
-class Uart;
-class UartEnd;
-
-enum class Wheel { Left = 0, Right = 1 };
-
 /// Hardware revisions that firmware can tell apart.
 enum class Revision {
   Analogue,  ///< rev 1.0 to 1.2: MMA7260 accelerometer on AN5 to AN7
@@ -45,7 +38,6 @@ enum class Revision {
 };
 
 inline constexpr int kRingSensors = 8;
-inline constexpr int kIrChannels = 10;  ///< 8 and 9 belong to the gumstix turret, which is not fitted
 
 /// What distinguishes one robot from another; fixed while it is powered.
 struct Setup {
@@ -59,6 +51,7 @@ struct Setup {
   std::array<double, kRingSensors> ir_offset_counts{};  ///< added to dark - lit where nothing reflects
   double ir_noise_scale = 1.0;      ///< factor on the profile's relative noise; 0 = none
   double ambient_noise_counts = 0;  ///< standard deviation of every conversion of an IR channel, counts
+  double ambient_counts_per_w_m2 = kAmbientCountsPerWm2;  ///< fall of the dark sample with light
   double clock_ppm = 0;             ///< crystal error, parts per million, positive = fast
   double boot_delay_s = 0;          ///< s from the world's beginning to the first instruction
 };
@@ -120,45 +113,57 @@ class Board {
 
   // --- what the library's drivers keep in the processor, in closed form -------------------------------------
 
-  AgendaTimer& agendas() { return *agendas_; }
-  TimerMotors& timer_motors() { return *timer_motors_; }
-  FastAgenda& fast_agenda() { return *fast_agenda_; }
-  AdcScan& scan() { return *scan_; }
-  BasicProx& basic_prox() { return *basic_prox_; }
-  Stepper& stepper(Wheel wheel) { return *steppers_[static_cast<int>(wheel)]; }
+  AgendaTimer& agendas() { return agendas_; }
+  const AgendaTimer& agendas() const { return agendas_; }
+  TimerMotors& timer_motors() { return timer_motors_; }
+  const TimerMotors& timer_motors() const { return timer_motors_; }
+  AdcScan& scan() { return scan_; }
+  const AdcScan& scan() const { return scan_; }
+  BasicProx& basic_prox() { return basic_prox_; }
+  const BasicProx& basic_prox() const { return basic_prox_; }
+  /// The motor of a wheel, brought to `at`.
+  Stepper& stepper(Wheel wheel, Cycle at);
   /// UART 1 (Bluetooth) or 2 (RS232).
-  Uart& uart(int number) { return *uarts_[number - 1]; }
-  /// Connects a host end; null takes it off. The board owns it.
-  void connect_uart(int number, std::unique_ptr<UartEnd> end);
+  Uart& uart(int number) { return uarts_[static_cast<std::size_t>(number - 1)]; }
+  /// e_init_port(): latches 0, directions as the library wants them. (Its cost is the caller's.)
+  void init_ports(Cycle at);
   /// Tick boundary: bytes from outside enter, bytes sent so far go out, old bookkeeping is dropped.
   void exchange(Cycle at);
 
-  /// Counts of ADC input AN`channel` sampled at `at` (noise drawn from `sample`, a number unique to the sample).
-  int analogue_counts(int channel, Cycle at, std::uint64_t sample) const;
+  /// Counts of a proximity sensor's phototransistor at `at`, its emitter having been on for `lit_for` cycles
+  /// (negative: off). Noise is drawn from `sample`, a number unique to the sample.
+  int ir_counts(int sensor, Cycle at, Cycle lit_for, std::uint64_t sample) const;
+  /// Counts of a single conversion of input AN`channel` by a program that runs the converter itself. Sensors and
+  /// battery only; microphones and accelerometer are not simulated (answers -1). Each call is a new sample.
+  int convert(int channel, Cycle at);
+  /// Battery as the library's raw value on AN7 (revision 1.3); 0 on others.
+  int battery_counts() const;
   int selector() const { return setup_.selector; }
   double battery_v() const { return setup_.battery_v; }
 
  private:
-  friend class AdcScan;
-  friend class BasicProx;
+  static constexpr std::size_t kPorts = 6;  // A B C D F G
+  static int port_index(char port);
+  unsigned pulses(Cycle at) const;
+  /// Cycles for which the emitter line of a sensor has been on by its latch alone; -1 when off.
+  Cycle line_on_for(int sensor, Cycle at) const;
+  Stepper stepper_at(Wheel wheel, Cycle at) const;
+  void connect_steppers(Cycle at);
 
   Setup setup_;
   RobotClock clock_;
   const sim::Scene* scene_ = nullptr;
 
-  struct PortWords {
-    std::uint16_t lat = 0;
-    std::uint16_t tris = 0;
-  };
-  std::array<PortWords, 6> ports_;
+  std::array<std::uint16_t, kPorts> lat_{};   // of D the high byte only: the low one is the coils
+  std::array<std::uint16_t, kPorts> tris_{};
+  std::array<Cycle, 4> line_since_{};         // when the latch of an emitter line was last set
 
-  std::unique_ptr<Stepper> steppers_[2];
-  std::unique_ptr<AgendaTimer> agendas_;
-  std::unique_ptr<TimerMotors> timer_motors_;
-  std::unique_ptr<FastAgenda> fast_agenda_;
-  std::unique_ptr<AdcScan> scan_;
-  std::unique_ptr<BasicProx> basic_prox_;
-  std::unique_ptr<Uart> uarts_[2];
+  AgendaTimer agendas_;
+  TimerMotors timer_motors_;
+  AdcScan scan_;
+  BasicProx basic_prox_;
+  std::array<Uart, 2> uarts_;
+  std::uint64_t conversions_ = 0;
 };
 
 }  // namespace board
