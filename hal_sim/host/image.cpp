@@ -54,6 +54,22 @@ int private_copy_of(const std::string& path) {
   return to;
 }
 
+// do all segments lie inside the file? (the dynamic linker maps them unseen and would fault)
+bool is_whole(const std::string& path) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  const auto size = static_cast<std::uint64_t>(file.tellg());
+  Elf64_Ehdr head;
+  file.seekg(0);
+  if (!file.read(reinterpret_cast<char*>(&head), sizeof head) || head.e_phentsize != sizeof(Elf64_Phdr)) return false;
+  for (unsigned i = 0; i < head.e_phnum; ++i) {
+    Elf64_Phdr segment;
+    file.seekg(static_cast<std::streamoff>(head.e_phoff + i * sizeof segment));
+    if (!file.read(reinterpret_cast<char*>(&segment), sizeof segment)) return false;
+    if (segment.p_offset > size || segment.p_filesz > size - segment.p_offset) return false;
+  }
+  return true;
+}
+
 std::string what_is(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   unsigned char head[20] = {};
@@ -62,7 +78,8 @@ std::string what_is(const std::string& path) {
   if (head[0] == ':') return "an Intel hex file";
   if (std::memcmp(head, ELFMAG, SELFMAG) != 0) return "a file that is no ELF";
   const unsigned machine = head[18] | head[19] << 8;
-  if (head[16] == ET_DYN && machine == EM_X86_64 && head[4] == ELFCLASS64) return "a shared object of this PC";
+  if (head[16] == ET_DYN && machine == EM_X86_64 && head[4] == ELFCLASS64)
+    return is_whole(path) ? "a shared object of this PC" : "a shared object that has been cut off";
   if (machine == 118) return "an ELF for the dsPIC30F";
   return "an ELF of another kind (type " + std::to_string(head[16]) + ", machine " + std::to_string(machine) + ")";
 }

@@ -18,7 +18,9 @@ Cycle FirmwareMind::cycle_at(sim::Clicks at) const { return std::max<Cycle>(0, b
 void FirmwareMind::run_until(const sim::Scene& scene, sim::Clicks end) {
   catch_faults_on_this_thread();
   board_.look_at(&scene);
-  if (board_.exchange(now_) && robot_) robot_->wake();
+  board_.exchange(now_);
+  // bytes are on their way: whoever waits for them looks again
+  if (robot_ && (board_.uart(1).next_arrival(now_) < kNever || board_.uart(2).next_arrival(now_) < kNever)) robot_->wake();
   now_ = cycle_at(end);
   if (robot_) robot_->run_until(now_);
 }

@@ -78,8 +78,8 @@ TEST(Robot, background_work_slows_the_main_program_by_its_share) {
 TEST(Robot, robots_of_two_copies_run_at_the_same_time_and_agree) {
   auto image = open_image("hand_ticker");
   BenchRobot a(image, "a", 0), b(image, "b", 1);
-  std::thread one([&] { host::catch_faults_on_this_thread(); a.run(10 * kSecond); });
-  std::thread two([&] { host::catch_faults_on_this_thread(); b.run(10 * kSecond); });
+  std::thread one([&] { host::catch_faults_on_this_thread(); a.run(10 * kSecond + 100); });
+  std::thread two([&] { host::catch_faults_on_this_thread(); b.run(10 * kSecond + 100); });
   one.join();
   two.join();
   EXPECT_EQ(a.robot.hash(), b.robot.hash());
