@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: MIT
-// CHECK(condition, "sentence"): our own bugs end the program at once, with the place. Never for user's input.
+// CHECK is for our own mistakes only: it prints where and why, then aborts. User input never reaches it.
 #pragma once
 #include <cstdio>
 #include <cstdlib>
 
-#define CHECK(condition, sentence)                                                                      \
-  do {                                                                                                  \
-    if (!(condition)) {                                                                                 \
-      std::fprintf(stderr, "twinpuck: internal error at %s:%d: %s (%s)\n", __FILE__, __LINE__, sentence, #condition); \
-      std::abort();                                                                                     \
-    }                                                                                                   \
-  } while (false)
+namespace sim {
+[[noreturn]] inline void check_failed(const char* file, int line, const char* condition, const char* why) {
+  std::fprintf(stderr, "%s:%d: internal error: %s (%s)\n", file, line, why, condition);
+  std::abort();
+}
+}  // namespace sim
+
+#ifndef CHECK
+/// Aborts with `why` unless `condition` holds. Never compiled out.
+#define CHECK(condition, why) \
+  ((condition) ? static_cast<void>(0) : ::sim::check_failed(__FILE__, __LINE__, #condition, why))
+#endif
