@@ -105,7 +105,7 @@ class AgendaMotor {
     if (periods > 0) {
       const int direction = step_direction();
       const std::int64_t end = count.tick + periods * period;
-      const std::int64_t last_step = phase_on_is_new() ? end : end - count.cycle;
+      const std::int64_t last_step = phase_on_is_new() ? end : end - kPowerSaveTicks;
       commanded += periods * direction;
       phase = static_cast<int>((phase + periods * direction * stepper.forward()) & 3);
       stepper.turn(periods, direction, line.cycle_of(last_step), move_cycles(),

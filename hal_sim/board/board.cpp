@@ -212,6 +212,7 @@ void Board::processor_reset(Cycle at) {
   scan_.reset(at);
   basic_prox_.reset(at);
   for (Uart& uart : uarts_) uart.reset(at);
+  requests = Requests{};
   lat_.fill(0);
   for (std::size_t i = 0; i < kPorts; ++i) tris_[i] = kImplemented[i];
 }

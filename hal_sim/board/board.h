@@ -138,6 +138,14 @@ class Board {
   int convert(int channel, Cycle at);
   /// Battery as the library's raw value on AN7 (revision 1.3); 0 on others.
   int battery_counts() const;
+  /// What the exported functions last asked of the host for this board, so that they ask only when it changed.
+  struct Requests {
+    Cycle agenda_interrupt = -1;
+    std::array<Cycle, 16> background_period{};
+    std::array<Cycle, 16> background_cost{};
+  };
+  Requests requests;
+
   int selector() const { return setup_.selector; }
   double battery_v() const { return setup_.battery_v; }
 
