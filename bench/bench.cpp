@@ -14,7 +14,7 @@
 #include "bench/enki_swarm.h"
 #include "hal_sim/board/epuck_model.h"
 #include "hal_sim/twin/twin.h"
-#include "sim_core/load/world_file.h"
+#include "sim_core/load/world_loader.h"
 
 namespace {
 
@@ -127,8 +127,10 @@ int main(int argc, char** argv) {
   bool kept = true;
   for (int n : sizes) {
     const auto loaded = sim::load_world(worlds + "/brait_" + std::to_string(n) + ".toml", {board::epuck_model()});
-    for (const auto& p : loaded.problems) std::fprintf(stderr, "%s\n", p.c_str());
-    if (!loaded.world) return 2;
+    if (!loaded.world) {
+      std::fprintf(stderr, "%s\n", loaded.report("bench world").c_str());
+      return 2;
+    }
     std::vector<double> ours, peer, ratios;
     for (int round = 0; round < rounds; ++round) {
       ours.push_back(run_ours(*loaded.world));

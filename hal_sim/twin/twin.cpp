@@ -6,7 +6,7 @@
 
 #include "hal_sim/board/epuck_model.h"
 #include "hal_sim/board/uart_end.h"
-#include "sim_core/base/did_you_mean.h"
+#include "sim_core/load/world_loader.h"
 #include "sim_core/world/variation.h"
 
 namespace twin {
@@ -32,6 +32,9 @@ void check_names(const sim::WorldDesc& world, const std::vector<Choice>& choices
                        (guess.empty() ? "" : "; did you mean '" + guess + "'?"));
   }
 }
+
+// where a robot's pseudo-terminal is found: a stable name in the run's folder
+std::string pty_link(const std::string& robot, int port) { return "twinpuck-" + robot + "-uart" + std::to_string(port); }
 
 // noise settings stay with the world's optics; the board gets what is this robot's own
 board::Setup setup_of(const sim::WorldDesc& world, int index) {
@@ -93,9 +96,10 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options, s
     const std::string ends[2] = {chosen(options.uart1, robot.name, robot.uart1), chosen(options.uart2, robot.name, robot.uart2)};
     for (int port = 1; port <= 2; ++port) {
       std::string error;
-      auto end = board::open_uart_end(ends[port - 1], robot.name, port, error);
-      if (!error.empty()) problems.push_back(error);
-      if (end) mind->board().connect_uart(port, std::move(end));
+      auto end = board::open_uart_end(ends[port - 1], pty_link(robot.name, port), error);
+      if (!error.empty())
+        problems.push_back("robot '" + robot.name + "': uart" + std::to_string(port) + ": " + error);
+      if (end) mind->board().uart(port).connect(std::move(end));
     }
     twin->minds_.push_back(mind.get());
     twin->image_paths_.push_back(firmware[i].empty() ? "" : paths[firmware[i]]);

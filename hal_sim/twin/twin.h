@@ -25,8 +25,10 @@ struct Options {
   std::vector<Choice> uart2;
   int threads = 1;               ///< 1 or more; results do not depend on it
   std::string world_folder;      ///< where relative firmware paths of the world file start; empty: the current folder
-  std::vector<std::string> extra_build_flags;  ///< passed to twinpuck-cc when a controller is built from source
-  /// Told every line of compiler output and every file that is built; may be empty.
+  std::string optimisation = "-O1";  ///< of controllers that are built from source: -O0 -O1 -O2 -Os
+  bool sanitize = false;             ///< ... with address and 16-bit overflow checks
+  bool coverage = false;             ///< ... with line counters
+  /// Told the compiler's warnings, a line each; may be empty.
   std::function<void(const std::string&)> tell;
 };
 
@@ -64,5 +66,7 @@ class Twin {
 
 /// Folder of the project: the one that holds firmware/include. TWINPUCK_ROOT, or found from the executable's place.
 std::string project_root();
+/// Folder of the executables and of everything built from source.
+std::string build_folder();
 
 }  // namespace twin

@@ -6,7 +6,7 @@
 
 #include "hal_sim/board/epuck_model.h"
 #include "sim_core/base/hash.h"
-#include "sim_core/load/world_file.h"
+#include "sim_core/load/world_loader.h"
 
 namespace firmware_test {
 
@@ -117,7 +117,7 @@ void FirmwareTest::box(double x_m, double y_m, double size_m, double heading_deg
 void FirmwareTest::load_world(const std::string& path) {
   const auto file = std::filesystem::path(TWINPUCK_SOURCE_DIR) / path;
   auto loaded = sim::load_world(file.string(), {board::epuck_model()});
-  ASSERT_TRUE(loaded.world) << all_lines(loaded.problems);
+  ASSERT_TRUE(loaded.world) << loaded.report(path);
   world = *loaded.world;
   robots_.clear();
   for (std::size_t i = 0; i < world.robots.size(); ++i) {
@@ -152,7 +152,7 @@ void FirmwareTest::start() {
     for (int port = 1; port <= 2; ++port) {
       auto end = std::make_unique<board::MemoryEnd>();
       r->serial_[port - 1] = end.get();
-      r->mind().board().connect_uart(port, std::move(end));
+      r->mind().board().uart(port).connect(std::move(end));
     }
 }
 
