@@ -3,6 +3,8 @@
 #pragma once
 #include <cmath>
 
+#include "sim_core/base/portable_math.h"
+
 namespace sim {
 
 inline constexpr double kPi = 3.14159265358979323846;
@@ -44,7 +46,11 @@ struct Frame2 {
   double s = 0;  ///< sine of the heading
 
   Frame2() = default;
-  explicit Frame2(const Pose2& p) : at{p.x_m, p.y_m}, c(std::cos(p.heading_rad)), s(std::sin(p.heading_rad)) {}
+  explicit Frame2(const Pose2& p) : at{p.x_m, p.y_m} {
+    const SinCos turn = sin_cos(p.heading_rad);
+    c = turn.c;
+    s = turn.s;
+  }
 
   Vec2 turn(Vec2 v) const { return {c * v.x - s * v.y, s * v.x + c * v.y}; }
   Vec2 turn_back(Vec2 v) const { return {c * v.x + s * v.y, c * v.y - s * v.x}; }
@@ -54,8 +60,8 @@ struct Frame2 {
 
 /// Pose after travelling `forward_m` along an arc that turns by `turn_rad`: half the turn, the way, half the turn.
 inline Pose2 advance(const Pose2& p, double forward_m, double turn_rad) {
-  const double middle = p.heading_rad + 0.5 * turn_rad;
-  return {p.x_m + forward_m * std::cos(middle), p.y_m + forward_m * std::sin(middle), p.heading_rad + turn_rad};
+  const SinCos middle = sin_cos(p.heading_rad + 0.5 * turn_rad);
+  return {p.x_m + forward_m * middle.c, p.y_m + forward_m * middle.s, p.heading_rad + turn_rad};
 }
 
 }  // namespace sim

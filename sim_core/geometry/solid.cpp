@@ -33,12 +33,12 @@ bool clip_heights(double z, double dz, double z0, double z1, double& near, doubl
   return near <= far;
 }
 
-bool cast_prism(const Ray& ray, const Placed& what, double limit_m, RayHit* hit) {
+bool cast_prism(const Ray& ray, const Placed& what, double& distance_m, Vec3* normal) {
   const Frame2& f = what.frame;
   const Vec2 from = f.to_local({ray.from.x, ray.from.y});
   const Vec2 dir = f.turn_back({ray.dir.x, ray.dir.y});
   double near = 0;
-  double far = limit_m;
+  double far = distance_m;
   const HalfPlane* entered = nullptr;
   for (const HalfPlane& side : what.solid->sides) {
     const double along = dot(side.normal, dir);
@@ -61,22 +61,22 @@ bool cast_prism(const Ray& ray, const Placed& what, double limit_m, RayHit* hit)
   bool by_cap = false;
   const double z0 = what.z_m + what.solid->z0_m;
   const double z1 = what.z_m + what.solid->z1_m;
-  if (!clip_heights(ray.from.z, ray.dir.z, z0, z1, near, far, by_cap) || near >= limit_m) return false;
-  if (hit) {
-    hit->distance_m = near;
+  if (!clip_heights(ray.from.z, ray.dir.z, z0, z1, near, far, by_cap) || near >= distance_m) return false;
+  distance_m = near;
+  if (normal) {
     if (by_cap) {
-      hit->normal = {0, 0, ray.dir.z < 0 ? 1.0 : -1.0};
+      *normal = {0, 0, ray.dir.z < 0 ? 1.0 : -1.0};
     } else if (entered) {
       const Vec2 n = f.turn(entered->normal);
-      hit->normal = {n.x, n.y, 0};
+      *normal = {n.x, n.y, 0};
     } else {
-      hit->normal = {-ray.dir.x, -ray.dir.y, -ray.dir.z};
+      *normal = {-ray.dir.x, -ray.dir.y, -ray.dir.z};
     }
   }
   return true;
 }
 
-bool cast_cylinder(const Ray& ray, const Placed& what, double limit_m, RayHit* hit) {
+bool cast_cylinder(const Ray& ray, const Placed& what, double& distance_m, Vec3* normal) {
   const Vec2 rel{ray.from.x - what.frame.at.x, ray.from.y - what.frame.at.y};
   const Vec2 dir{ray.dir.x, ray.dir.y};
   const double r = what.solid->radius_m;
@@ -84,7 +84,7 @@ bool cast_cylinder(const Ray& ray, const Placed& what, double limit_m, RayHit* h
   const double b = dot(rel, dir);
   const double c = dot(rel, rel) - r * r;
   double near = 0;
-  double far = limit_m;
+  double far = distance_m;
   bool by_side = false;
   if (a < kParallel) {
     if (c > 0) return false;
@@ -104,21 +104,21 @@ bool cast_cylinder(const Ray& ray, const Placed& what, double limit_m, RayHit* h
   bool by_cap = false;
   const double z0 = what.z_m + what.solid->z0_m;
   const double z1 = what.z_m + what.solid->z1_m;
-  if (!clip_heights(ray.from.z, ray.dir.z, z0, z1, near, far, by_cap) || near >= limit_m) return false;
-  if (hit) {
-    hit->distance_m = near;
+  if (!clip_heights(ray.from.z, ray.dir.z, z0, z1, near, far, by_cap) || near >= distance_m) return false;
+  distance_m = near;
+  if (normal) {
     if (by_cap) {
-      hit->normal = {0, 0, ray.dir.z < 0 ? 1.0 : -1.0};
+      *normal = {0, 0, ray.dir.z < 0 ? 1.0 : -1.0};
     } else if (by_side) {
-      hit->normal = {(rel.x + near * dir.x) / r, (rel.y + near * dir.y) / r, 0};
+      *normal = {(rel.x + near * dir.x) / r, (rel.y + near * dir.y) / r, 0};
     } else {
-      hit->normal = {-ray.dir.x, -ray.dir.y, -ray.dir.z};
+      *normal = {-ray.dir.x, -ray.dir.y, -ray.dir.z};
     }
   }
   return true;
 }
 
-bool cast_ball(const Ray& ray, const Placed& what, double limit_m, RayHit* hit) {
+bool cast_ball(const Ray& ray, const Placed& what, double& distance_m, Vec3* normal) {
   const double r = what.solid->radius_m;
   const Vec3 rel{ray.from.x - what.frame.at.x, ray.from.y - what.frame.at.y,
                  ray.from.z - (what.z_m + what.solid->z0_m + r)};
@@ -128,10 +128,10 @@ bool cast_ball(const Ray& ray, const Placed& what, double limit_m, RayHit* hit) 
   const double disc = b * b - c;
   if (disc < 0) return false;
   const double near = std::max(0.0, -b - std::sqrt(disc));
-  if (near >= limit_m) return false;
-  if (hit) {
-    hit->distance_m = near;
-    hit->normal = {(rel.x + near * ray.dir.x) / r, (rel.y + near * ray.dir.y) / r, (rel.z + near * ray.dir.z) / r};
+  if (near >= distance_m) return false;
+  distance_m = near;
+  if (normal) {
+    *normal = {(rel.x + near * ray.dir.x) / r, (rel.y + near * ray.dir.y) / r, (rel.z + near * ray.dir.z) / r};
   }
   return true;
 }
@@ -213,11 +213,31 @@ double Solid::gyration_m2() const {
   return moment / area;
 }
 
-bool cast_ray(const Ray& ray, const Placed& what, double limit_m, RayHit* hit) {
+bool cast_ray(const Ray& ray, const Placed& what, double& distance_m, Vec3* normal) {
   switch (what.solid->kind) {
-    case SolidKind::Prism: return cast_prism(ray, what, limit_m, hit);
-    case SolidKind::Cylinder: return cast_cylinder(ray, what, limit_m, hit);
-    case SolidKind::Ball: return cast_ball(ray, what, limit_m, hit);
+    case SolidKind::Prism: return cast_prism(ray, what, distance_m, normal);
+    case SolidKind::Cylinder: return cast_cylinder(ray, what, distance_m, normal);
+    case SolidKind::Ball: return cast_ball(ray, what, distance_m, normal);
+  }
+  return false;
+}
+
+bool out_of_sight(Vec2 from, Vec2 axis, double half_sin, double half_cos, double range_m, const Placed& what) {
+  const Vec2 gap = what.frame.at - from;
+  const double bound = what.solid->bound_m;
+  if (dot(gap, gap) > (range_m + bound) * (range_m + bound)) return true;
+  if (dot(gap, axis) < -bound || std::fabs(cross(axis, gap)) > bound + range_m * half_sin) return true;
+  if (what.solid->kind != SolidKind::Prism) return false;
+  // each side that the point is outside of must come near fast enough along the best ray
+  const Vec2 point = what.frame.turn_back(from - what.frame.at);
+  const Vec2 dir = what.frame.turn_back(axis);
+  for (const HalfPlane& side : what.solid->sides) {
+    const double outside = dot(side.normal, point) - side.offset_m;
+    if (outside <= 0) continue;
+    if (outside > range_m) return true;
+    const double facing = -dot(side.normal, dir);
+    const double best = facing >= half_cos ? 1 : facing * half_cos + std::sqrt(std::max(0.0, 1 - facing * facing)) * half_sin;
+    if (outside > range_m * best + 1e-12) return true;
   }
   return false;
 }

@@ -54,15 +54,13 @@ struct Ray {
   Vec3 dir;
 };
 
-/// First meeting of a ray with something.
-struct RayHit {
-  double distance_m = 0;
-  Vec3 normal;  ///< unit, pointing out of what was hit
-};
+/// True when the ray meets the solid nearer than `distance_m`, which then becomes the distance of the first meeting;
+/// `normal`, if given, the unit vector out of the surface there. A ray that starts inside hits at distance 0.
+bool cast_ray(const Ray& ray, const Placed& what, double& distance_m, Vec3* normal = nullptr);
 
-/// True when the ray meets the solid nearer than `limit_m`; `hit` is then the first meeting. A ray that starts
-/// inside hits at distance 0. `hit` may be null when only the answer counts.
-bool cast_ray(const Ray& ray, const Placed& what, double limit_m, RayHit* hit);
+/// True when no ray from a point can meet the solid within `range_m`, if it leaves within half_sin/half_cos (sine and
+/// cosine of the half angle) of the axis. Sure when true; when false, cast.
+bool out_of_sight(Vec2 from, Vec2 axis, double half_sin, double half_cos, double range_m, const Placed& what);
 
 /// Distance in the plane from a point to the solid's footprint, m; negative inside. `toward`, if given, gets the
 /// unit vector from the solid's nearest point towards the point.

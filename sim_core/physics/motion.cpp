@@ -66,8 +66,8 @@ Motion::Wanted Motion::wanted(int robot, const RimTravel& travel) const {
   // the direction is taken at the middle of the turn that friction will allow
   const double most = r.traction_n * 0.5 * r.axle_m * tick_s / r.inertia_kg_m2;
   const double allowed = b.spin_rad_s + std::clamp(spin - b.spin_rad_s, -most, most);
-  const double middle = b.pose.heading_rad + 0.5 * allowed * tick_s;
-  return {{speed * std::cos(middle), speed * std::sin(middle)}, spin};
+  const SinCos middle = sin_cos(b.pose.heading_rad + 0.5 * allowed * tick_s);
+  return {{speed * middle.c, speed * middle.s}, spin};
 }
 
 void Motion::drive_freely(int robot, const Wanted& want) {

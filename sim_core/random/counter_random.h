@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "sim_core/base/hash.h"
+#include "sim_core/base/portable_math.h"
 
 namespace sim {
 
@@ -43,7 +44,7 @@ inline double random_gaussian(const RandomKey& key, std::uint64_t counter) {
   const std::uint64_t bits = random_bits(key, counter);
   const double u = (static_cast<double>(bits >> 11) + 1.0) * 0x1p-53;  // (0, 1]: the logarithm stays finite
   const double v = static_cast<double>(mix64(bits) >> 11) * 0x1p-53;
-  return std::sqrt(-2.0 * std::log(u)) * std::cos(6.283185307179586 * v);
+  return std::sqrt(-2.0 * natural_log(u)) * sin_cos(6.283185307179586 * v).c;
 }
 
 }  // namespace sim

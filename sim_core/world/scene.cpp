@@ -96,16 +96,11 @@ Surface Scene::floor(Vec2 point_m) const {
 }
 
 bool Scene::cast(const Ray& ray, double limit_m, int skip_robot, Clicks at, SceneHit* hit) const {
-  RayHit best;
+  Vec3 best;
   double nearest = limit_m;
   Candidate what{-1, false};
   const auto try_one = [&](const Candidate& c, const Placed& placed) {
-    RayHit h;
-    if (cast_ray(ray, placed, nearest, &h)) {
-      nearest = h.distance_m;
-      best = h;
-      what = c;
-    }
+    if (cast_ray(ray, placed, nearest, &best)) what = c;
   };
   // walk the ray in pieces of a few cells; what a piece meets nearer than its end is final
   const double plan = std::sqrt(ray.dir.x * ray.dir.x + ray.dir.y * ray.dir.y);
@@ -143,7 +138,7 @@ bool Scene::cast(const Ray& ray, double limit_m, int skip_robot, Clicks at, Scen
   hit->point_m = {ray.from.x + hit->distance_m * ray.dir.x, ray.from.y + hit->distance_m * ray.dir.y,
                   ray.from.z + hit->distance_m * ray.dir.z};
   hit->floor = on_floor;
-  hit->normal = on_floor ? Vec3{0, 0, 1} : best.normal;
+  hit->normal = on_floor ? Vec3{0, 0, 1} : best;
   hit->surface = on_floor ? floor({hit->point_m.x, hit->point_m.y}) : surface(what);
   hit->robot = !on_floor && what.moving && what.index < robots_ ? what.index : -1;
   return true;

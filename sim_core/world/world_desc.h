@@ -48,6 +48,12 @@ struct ProximitySettings {
   std::optional<ColourRule> colour_rule;
   std::optional<NoiseLaw> noise_law;
   std::optional<double> noise_scale;            ///< factor on the table's relative noise; 0 = none
+
+  /// True when nothing is set.
+  bool is_empty() const {
+    return !profile && !table && !type && !rays && !aperture_rad && !gaussian_width && !layout && !colour_rule &&
+           !noise_law && !noise_scale;
+  }
 };
 
 /// Departures of one robot from its model. Fixed parts as written; the random spread is drawn from the robot's seed
