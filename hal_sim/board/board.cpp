@@ -162,7 +162,7 @@ Cycle Board::port_horizon(char port, Cycle at) const {
   switch (port_index(port)) {
     case kD:
       return std::min({agendas_.coils_horizon(Wheel::Left, at), agendas_.coils_horizon(Wheel::Right, at),
-                       timer_motors_.horizon(Wheel::Left, at), timer_motors_.horizon(Wheel::Right, at)});
+                       timer_motors_.coils_horizon(Wheel::Left, at), timer_motors_.coils_horizon(Wheel::Right, at)});
     case kC:
     case kF:
     case kG:
