@@ -34,7 +34,8 @@ std::unique_ptr<Motion> make_motion(const WorldDesc& world, const Layout& layout
     body.mass_kg = m.mass_kg;
     body.inertia_kg_m2 = m.inertia_kg_m2;
     body.axle_m = m.axle_m * resolve_variation(world, static_cast<int>(r)).axle_ratio;
-    body.traction_n = std::min(m.wheel_friction * world.floor.friction * m.mass_kg * world.gravity_m_s2, m.max_push_n);
+    body.hold_n = m.wheel_friction * world.floor.friction * m.mass_kg * world.gravity_m_s2;
+    body.traction_n = std::min(body.hold_n, m.max_push_n);
     body.side_friction = m.side_friction;
     desc.robots.push_back(body);
   }

@@ -2,9 +2,13 @@
 // Charges every segment to the budget, writes the function table, and counts lines for --coverage.
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "cost_model.h"
+#include "llvm/ADT/PostOrderIterator.h"
+#include "llvm/IR/CFG.h"
 #include "llvm/IR/DebugInfoMetadata.h"
+#include "llvm/IR/Dominators.h"
 #include "llvm/IR/IRBuilder.h"
 #include "llvm/IR/InstIterator.h"
 #include "llvm/IR/IntrinsicInst.h"
@@ -78,37 +82,169 @@ void count_lines(Function& f, std::vector<GlobalValue*>& used) {
   }
 }
 
+/// The way through a function that costs least or most, back edges left out, loops weighed by their trip counts.
+struct Way {
+  double cycles = -1;
+  std::map<std::string, double> calls;
+};
+
+struct BlockPlan {
+  double cycles = 0;
+  double trips = 1, likely_trips = 1, weight = 1;
+  bool bounded = true;
+  std::vector<std::string> calls;
+};
+
+Way best_way(Function& f, std::map<BasicBlock*, BlockPlan>& plans, bool least) {
+  std::map<BasicBlock*, std::pair<double, BasicBlock*>> reached;
+  ReversePostOrderTraversal<Function*> order(&f);
+  for (BasicBlock* block : order) {
+    std::pair<double, BasicBlock*> here{0, nullptr};
+    bool first = true;
+    for (BasicBlock* from : predecessors(block)) {
+      auto found = reached.find(from);
+      if (from == block || found == reached.end()) continue;
+      if (first || (least ? found->second.first < here.first : found->second.first > here.first))
+        here = {found->second.first, from};
+      first = false;
+    }
+    here.first += plans[block].cycles * (least && !plans[block].bounded ? 1 : plans[block].trips);
+    reached[block] = here;
+  }
+  BasicBlock* end = nullptr;
+  for (BasicBlock& block : f)
+    if (isa<ReturnInst>(block.getTerminator()) && reached.count(&block))
+      if (!end || (least ? reached[&block].first < reached[end].first : reached[&block].first > reached[end].first))
+        end = &block;
+  Way way;
+  if (!end) return way;
+  way.cycles = reached[end].first;
+  for (BasicBlock* b = end; b; b = reached[b].second)
+    for (auto& name : plans[b].calls) way.calls[name] += plans[b].bounded || !least ? plans[b].trips : 1;
+  return way;
+}
+
+std::string list_of(const std::map<std::string, double>& calls) {
+  std::string s;
+  for (auto& [name, count] : calls) s += (s.empty() ? "" : ",") + name + ":" + std::to_string(count);
+  return s;
+}
+
+/// One line for `twinpuck cycles`: own cycles and calls, least, mean and most. Returns the least.
+double describe(Function& f, FunctionAnalysisManager& analyses, const std::vector<Segment>& segments, std::string& out) {
+  auto& loops = analyses.getResult<LoopAnalysis>(f);
+  auto& dom = analyses.getResult<DominatorTreeAnalysis>(f);
+  auto& se = analyses.getResult<ScalarEvolutionAnalysis>(f);
+  std::map<BasicBlock*, BlockPlan> plans;
+  bool bounded = true;
+  for (BasicBlock& block : f) {
+    auto& p = plans[&block];
+    for (Loop* l = loops.getLoopFor(&block); l; l = l->getParentLoop()) {
+      unsigned trips = se.getSmallConstantTripCount(l);
+      unsigned most = trips ? trips : se.getSmallConstantMaxTripCount(l);
+      if (trips == 0 && (most == 0 || most > 10000)) p.bounded = false;
+      p.trips *= trips ? trips : most > 0 && most <= 10000 ? most : 1;
+      p.likely_trips *= trips ? trips : 10;
+      BasicBlock* latch = l->getLoopLatch();
+      if (latch && !dom.dominates(&block, latch)) p.weight *= 0.5;
+    }
+    if (!loops.getLoopFor(&block)) {
+      for (BasicBlock& other : f)
+        if (isa<ReturnInst>(other.getTerminator()) && !dom.dominates(&block, &other)) p.weight = 0.5;
+    }
+    bounded = bounded && p.bounded;
+    for (Instruction& i : block) {
+      auto* c = dyn_cast<CallBase>(&i);
+      auto* callee = c ? c->getCalledFunction() : nullptr;
+      if (!callee || callee->isIntrinsic() || callee->getName().startswith("tp.")) continue;
+      if (callee->getName() == "tp_delay") {
+        auto* rounds = dyn_cast<ConstantInt>(c->getArgOperand(0));
+        double each = double(cast<ConstantInt>(c->getArgOperand(1))->getSExtValue());
+        if (rounds) p.cycles += double(rounds->getSExtValue()) * each;
+        else bounded = false, p.cycles += each;
+      } else if (!callee->getName().startswith("tp_")) {
+        p.calls.push_back(callee->getName().str());
+      }
+    }
+  }
+  for (const Segment& s : segments) plans[s.first->getParent()].cycles += s.cycles();
+  double mean = 0;
+  std::map<std::string, double> mean_calls;
+  for (auto& [block, p] : plans) {
+    mean += p.cycles * p.likely_trips * p.weight;
+    for (auto& name : p.calls) mean_calls[name] += p.likely_trips * p.weight;
+  }
+  Way least = best_way(f, plans, true), most = best_way(f, plans, false);
+  if (!bounded || least.cycles < 0) most.cycles = -1;
+  auto* where = f.getSubprogram();
+  out = (f.getName() + "|" + (where ? where->getFilename() : "") + "|" + Twine(where ? where->getLine() : 0)).str() + "|" +
+        std::to_string(least.cycles) + "|" + std::to_string(mean) + "|" + std::to_string(most.cycles) + "|" +
+        list_of(least.calls) + "|" + list_of(mean_calls) + "|" + list_of(most.calls);
+  return least.cycles;
+}
+
+/// For fitting the model: what each segment consists of, and a counter of its executions.
+void dump_segment(raw_ostream& out, const Function& f, const Segment& s) {
+  out << f.getName();
+  for (int r = 0; r < kRuleCount; ++r)
+    if (s.features[r]) out << " " << kRuleNames[r] << "=" << s.features[r];
+  out << "\n";
+}
+
+void count_segments(Module& m, const std::vector<Charge>& charges) {
+  Type* i64 = Type::getInt64Ty(m.getContext());
+  auto* array = ArrayType::get(i64, 4096);
+  auto* counts = m.getOrInsertGlobal("tp_bench_counts", array);
+  for (size_t n = 0; n < charges.size(); ++n) {
+    IRBuilder<> b(charges[n].before);
+    Value* field = b.CreateConstGEP2_64(array, counts, 0, n);
+    b.CreateStore(b.CreateAdd(b.CreateLoad(i64, field), b.getInt64(1)), field);
+  }
+}
+
 }  // namespace
 
-void account(Unit& unit, FunctionAnalysisManager& analyses) {
+CostPlan plan_costs(Unit& unit, FunctionAnalysisManager& analyses) {
   Module& m = unit.module;
-  std::vector<GlobalValue*> used;
-  std::vector<Function*> all;
-  for (Function& f : m)
-    if (!f.isDeclaration() && !f.getName().startswith("tp_image_") && !f.hasFnAttribute("tp-uncounted")) all.push_back(&f);
-  std::vector<std::pair<Instruction*, double>> charges;
+  CostPlan plan;
   std::unique_ptr<raw_fd_ostream> dump;
   std::error_code ec;
   if (!unit.options.cost_dump.empty()) dump = std::make_unique<raw_fd_ostream>(unit.options.cost_dump, ec);
-  for (Function* f : all) {
-    FunctionCost cost(*f, analyses, unit.options.level);
-    double straight = 0;
+  for (Function& f : m) {
+    if (f.isDeclaration() || f.getName().startswith("tp_image_")) continue;
+    FunctionCost cost(f, analyses, unit.options.level);
+    FunctionPlan function{&f};
     for (Segment& s : cost.segments) {
-      charges.emplace_back(s.first, s.cycles());
-      straight += s.cycles();
+      plan.charges.push_back({s.first, s.cycles()});
+      function.straight += s.cycles();
+      if (dump) dump_segment(*dump, f, s);
     }
-    if (auto* where = f->getSubprogram()) {
-      Type* i64 = Type::getInt64Ty(m.getContext());
-      Constant* fields[] = {text(m, f->getName()), text(m, where->getFilename()), ConstantInt::get(i64, where->getLine()),
-                            ConstantExpr::getBitCast(f, Type::getInt8PtrTy(m.getContext())), ConstantInt::get(i64, -1),
-                            ConstantInt::get(i64, std::llround(straight))};
-      add_to_section(m, "tpfunc", ConstantStruct::getAnon(fields), used);
-    }
+    function.least = describe(f, analyses, cost.segments, function.description);
+    plan.functions.push_back(function);
   }
-  for (auto& [before, cycles] : charges)
+  return plan;
+}
+
+void account(Unit& unit, const CostPlan& plan) {
+  Module& m = unit.module;
+  std::vector<GlobalValue*> used;
+  Type* i64 = Type::getInt64Ty(m.getContext());
+  if (!unit.options.cost_dump.empty()) return count_segments(m, plan.charges);
+  for (const auto& function : plan.functions) {
+    auto* where = function.function->getSubprogram();
+    if (!where) continue;
+    Constant* fields[] = {text(m, function.function->getName()), text(m, where->getFilename()), ConstantInt::get(i64, where->getLine()),
+                          ConstantExpr::getBitCast(function.function, Type::getInt8PtrTy(m.getContext())),
+                          ConstantInt::get(i64, std::llround(function.least)), ConstantInt::get(i64, std::llround(function.straight))};
+    add_to_section(m, "tpfunc", ConstantStruct::getAnon(fields), used);
+    add_to_section(m, "tpcost", ConstantDataArray::getString(m.getContext(), function.description), used);
+    cast<GlobalVariable>(used.back())->setAlignment(Align(1));
+    cast<GlobalVariable>(used.back())->setConstant(true);
+  }
+  for (auto& [before, cycles] : plan.charges)
     if (std::llround(cycles) > 0) charge(m, before, std::llround(cycles));
   if (unit.options.coverage)
-    for (Function* f : all) count_lines(*f, used);
+    for (const auto& function : plan.functions) count_lines(*function.function, used);
   if (!used.empty()) appendToCompilerUsed(m, used);
 }
 

@@ -152,7 +152,7 @@ void Model::call(CallBase& c, Segment& s) {
         return;
     }
   }
-  if (callee && callee->getName().startswith("__ubsan")) return;
+  if (callee && (callee->getName().startswith("__ubsan") || callee->getName() == "tp_delay")) return;
   if (callee && callee->getName().startswith("tp_sfr_")) {
     s.features[k_load_word] += 1;
     return;

@@ -7,6 +7,8 @@
 #include "clang/AST/ASTContext.h"
 #include "clang/AST/Attr.h"
 #include "clang/AST/Decl.h"
+#include "clang/AST/Expr.h"
+#include "clang/AST/Stmt.h"
 #include "clang/Basic/TargetInfo.h"
 #include "clang/CodeGen/CodeGenAction.h"
 #include "clang/Driver/Compilation.h"
@@ -86,6 +88,7 @@ class FactConsumer : public ASTConsumer {
  public:
   explicit FactConsumer(Facts& facts) : facts_(facts) {}
   void Initialize(ASTContext& context) override {
+    context_ = &context;
     // the machine's va_list counts in 32 bits; "unsigned int" has only 16 of them now
     if (auto* record = dyn_cast_or_null<RecordDecl>(context.getVaListTagDecl())) {
       int index = 0;
@@ -94,7 +97,11 @@ class FactConsumer : public ASTConsumer {
     }
   }
   bool HandleTopLevelDecl(DeclGroupRef group) override {
-    for (Decl* decl : group) note(decl);
+    for (Decl* decl : group) {
+      note(decl);
+      if (auto* function = dyn_cast<FunctionDecl>(decl))
+        if (function->doesThisDeclarationHaveABody()) narrow_differences(function->getBody());
+    }
     return true;
   }
   void HandleTopLevelDeclInObjCContainer(DeclGroupRef) override {}
@@ -112,7 +119,28 @@ class FactConsumer : public ASTConsumer {
       }
     }
   }
+  /// The code generator makes p - q and sizeof(int[n]) as wide as the PC's pointers, whatever ptrdiff_t is. Say so
+  /// in the tree, and narrow the result to the robot's int.
+  void narrow_differences(Stmt* statement) {
+    for (Stmt*& child : statement->children()) {
+      if (!child) continue;
+      narrow_differences(child);
+      auto* difference = dyn_cast<BinaryOperator>(child);
+      bool wide = difference && difference->getOpcode() == BO_Sub && difference->getLHS()->getType()->isPointerType() &&
+                  difference->getRHS()->getType()->isPointerType();
+      auto* trait = dyn_cast<UnaryExprOrTypeTraitExpr>(child);
+      wide = wide || (trait && trait->getKind() == UETT_SizeOf && trait->getTypeOfArgument()->isVariableArrayType());
+      if (!wide) continue;
+      auto* expression = cast<Expr>(child);
+      QualType narrow = expression->getType();
+      expression->setType(trait ? context_->UnsignedLongLongTy : context_->LongLongTy);
+      child = ImplicitCastExpr::Create(*context_, narrow, CK_IntegralCast, expression, nullptr, VK_PRValue,
+                                       FPOptionsOverride());
+    }
+  }
+
   Facts& facts_;
+  ASTContext* context_ = nullptr;
 };
 
 /// Inside __attribute__((...)) some names mean something else to x86 or need a special signature there.

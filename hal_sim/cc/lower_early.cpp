@@ -171,7 +171,19 @@ void trap_divisions(Unit& unit) {
     if (isa<ConstantInt>(op->getOperand(1))) {
       // never reached, but must not be "poison" either
       op->setOperand(1, ConstantInt::get(op->getType(), 1));
+      continue;
     }
+    unsigned bits = op->getType()->getIntegerBitWidth();
+    if (bits >= 64 || (op->getOpcode() != Instruction::SDiv && op->getOpcode() != Instruction::SRem)) continue;
+    // twice as wide: the one overflow (-32768 / -1) is none there, and truncating wraps it as the chip does
+    b.SetInsertPoint(op);
+    b.SetCurrentDebugLocation(op->getDebugLoc());
+    Type* wide = b.getIntNTy(bits * 2);
+    Value* left = b.CreateSExt(op->getOperand(0), wide);
+    Value* right = b.CreateSExt(op->getOperand(1), wide);
+    Value* result = op->getOpcode() == Instruction::SDiv ? b.CreateSDiv(left, right) : b.CreateSRem(left, right);
+    op->replaceAllUsesWith(b.CreateTrunc(result, op->getType()));
+    op->eraseFromParent();
   }
 }
 

@@ -16,6 +16,8 @@ void widen_division(BinaryOperator* op) {
   IRBuilder<> b(op);
   auto* by = dyn_cast<ConstantInt>(op->getOperand(1));
   if (by && !by->isMinusOne()) return;
+  if (auto* right = dyn_cast<SExtInst>(op->getOperand(1)))
+    if (right->getSrcTy()->getIntegerBitWidth() < bits) return;  // widened in the first stage
   bool remainder = op->getOpcode() == Instruction::SRem;
   Value* result;
   if (bits < 64) {

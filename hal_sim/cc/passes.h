@@ -33,10 +33,26 @@ void lower_registers(Unit& unit);
 void keep_polled_flags(Unit& unit, llvm::FunctionAnalysisManager& analyses);
 /// Counting loops that do nothing become tp_delay(rounds, cycles).
 void lower_delay_loops(Unit& unit, llvm::FunctionAnalysisManager& analyses);
+struct Charge {
+  llvm::Instruction* before;
+  double cycles;
+};
+struct FunctionPlan {
+  llvm::Function* function;
+  double straight = 0, least = 0;
+  std::string description;  // a line for `twinpuck cycles`, fields separated by |
+};
+struct CostPlan {
+  std::vector<Charge> charges;
+  std::vector<FunctionPlan> functions;
+};
+
+/// What everything costs, before instrumentation adds what the chip does not have.
+CostPlan plan_costs(Unit& unit, llvm::FunctionAnalysisManager& analyses);
 /// tp_poll at the back edge of loops whose last round changed nothing.
 void instrument_polls(Unit& unit, llvm::FunctionAnalysisManager& analyses);
 /// Budget, function table, coverage.
-void account(Unit& unit, llvm::FunctionAnalysisManager& analyses);
+void account(Unit& unit, const CostPlan& plan);
 /// What x86 would trap on or define otherwise: INT16_MIN / -1, shifts by 16 and more.
 void lower_late(Unit& unit);
 /// --sanitize: every access checked against the objects that exist.

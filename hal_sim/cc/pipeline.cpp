@@ -183,7 +183,7 @@ bool run_pipeline(Unit& unit) {
     second.addPass(GlobalDCEPass());
     run(second);
     keep_polled_flags(unit, fam);
-    lower_delay_loops(unit, fam);
+    if (unit.options.cost_dump.empty()) lower_delay_loops(unit, fam);
     fam.clear();
   } else {
     ModulePassManager only;
@@ -191,10 +191,11 @@ bool run_pipeline(Unit& unit) {
     only.addPass(GlobalDCEPass());
     run(only);
   }
+  CostPlan costs = plan_costs(unit, fam);
+  fam.clear();
   instrument_polls(unit, fam);
   fam.clear();
-  account(unit, fam);
-  fam.clear();
+  account(unit, costs);
   lower_late(unit);
   if (unit.options.sanitize) check_addresses(unit);
   if (unit.options.library) make_weak(unit);

@@ -90,9 +90,10 @@ void keep_loop(Unit& unit, Loop* loop) {
   }
 }
 
-struct Candidate {
-  BasicBlock* header;
-  BasicBlock* latch;
+struct BackEdge {
+  Instruction* terminator;  // of the block on the edge back to the header
+  Value* same;              // nothing changed in this round
+  Value* id;
 };
 
 bool waits(Loop* loop, DominatorTree& dom, const Unit& unit) {
@@ -121,7 +122,7 @@ void bump_writes(Module& m, FreeBuilder& b, Value* amount) {
 }
 
 void instrument(Unit& unit, Function& f, Loop* loop, DominatorTree& dom, int ordinal, SmallPtrSetImpl<Instruction*>& marked,
-                std::vector<std::pair<Instruction*, Value*>>& back_edges) {
+                std::vector<BackEdge>& back_edges) {
   Module& m = unit.module;
   for (BasicBlock* block : loop->blocks())
     for (Instruction& i : make_early_inc_range(*block)) {
@@ -149,11 +150,14 @@ void instrument(Unit& unit, Function& f, Loop* loop, DominatorTree& dom, int ord
   FreeBuilder start(&*header->getFirstInsertionPt());
   auto* before = start.CreateAlignedLoad(start.getInt64Ty(), control_field(m, 1), Align(8), /*volatile*/ true);
   BasicBlock* latch = loop->getLoopLatch();
-  FreeBuilder b(latch->getTerminator());
+  // only when there is a next round: on the edge back to the header
+  BasicBlock* edge = SplitEdge(latch, header);
+  mark_free(edge->getTerminator());
+  FreeBuilder b(edge->getTerminator());
   auto* after = b.CreateAlignedLoad(b.getInt64Ty(), control_field(m, 1), Align(8), true);
   Value* same = b.CreateICmpEQ(before, after);
   for (PHINode& phi : header->phis()) {
-    Value* next = phi.getIncomingValueForBlock(latch);
+    Value* next = phi.getIncomingValueForBlock(edge);
     if (next == &phi) continue;
     Value* old = &phi;
     if (next->getType()->isFloatingPointTy()) {
@@ -170,8 +174,7 @@ void instrument(Unit& unit, Function& f, Loop* loop, DominatorTree& dom, int ord
   MD5::MD5Result result;
   hash.final(result);
   Value* id = b.getInt64(result.low() >> 1);
-  back_edges.emplace_back(latch->getTerminator(), same);
-  latch->getTerminator()->setMetadata("tp.loop", MDNode::get(m.getContext(), {ConstantAsMetadata::get(cast<ConstantInt>(id))}));
+  back_edges.push_back({edge->getTerminator(), same, id});
 }
 
 }  // namespace
@@ -197,16 +200,15 @@ void instrument_polls(Unit& unit, FunctionAnalysisManager& analyses) {
     auto& loops = analyses.getResult<LoopAnalysis>(f);
     auto& dom = analyses.getResult<DominatorTreeAnalysis>(f);
     SmallPtrSet<Instruction*, 32> marked;
-    std::vector<std::pair<Instruction*, Value*>> back_edges;
+    std::vector<BackEdge> back_edges;
     int ordinal = 0;
     std::vector<Loop*> chosen;
     for (Loop* loop : loops.getLoopsInPreorder())
       if (loop->getLoopLatch() && waits(loop, dom, unit)) chosen.push_back(loop);
     for (Loop* loop : chosen) instrument(unit, f, loop, dom, ordinal++, marked, back_edges);
-    for (auto& [terminator, same] : back_edges) {
-      auto* id = mdconst::extract<ConstantInt>(terminator->getMetadata("tp.loop")->getOperand(0));
+    for (auto& [terminator, same, id] : back_edges) {
       Instruction* then = SplitBlockAndInsertIfThen(same, terminator, false);
-      cast<BranchInst>(then->getParent()->getSinglePredecessor()->getTerminator())->setMetadata(kFree, MDNode::get(f.getContext(), {}));
+      mark_free(then->getParent()->getSinglePredecessor()->getTerminator());
       mark_free(then);
       IRBuilder<> b(then);
       b.SetCurrentDebugLocation(terminator->getDebugLoc());

@@ -2,6 +2,7 @@
 // twinpuck-cc -c x.c -o x.o: one C file to one object, for the PC, computing and costing as the robot does.
 #include <cstring>
 
+#include "llvm/Analysis/TargetLibraryInfo.h"
 #include "llvm/IR/LegacyPassManager.h"
 #include "llvm/IR/Verifier.h"
 #include "llvm/MC/TargetRegistry.h"
@@ -74,6 +75,10 @@ bool emit(Module& m, const cc::Options& o) {
       m.getTargetTriple(), "x86-64", "", options, Reloc::PIC_, CodeModel::Small,
       o.level == 0 ? CodeGenOpt::None : o.level == 1 ? CodeGenOpt::Less : CodeGenOpt::Default));
   legacy::PassManager passes;
+  // floor() is a function of the firmware's libc here, not something the PC may know by name
+  TargetLibraryInfoImpl library(Triple(m.getTargetTriple()));
+  library.disableAllFunctions();
+  passes.add(new TargetLibraryInfoWrapperPass(library));
   if (machine->addPassesToEmitFile(passes, out, nullptr, CGFT_ObjectFile)) return false;
   passes.run(m);
   return true;
@@ -94,6 +99,7 @@ int main(int argc, char** argv) {
   cc::Unit unit{*module, options, facts};
   if (!cc::run_pipeline(unit)) return 1;
   if (verifyModule(*module, &errs())) {
+    if (options.emit_ir) module->print(errs(), nullptr);
     errs() << options.input << ": internal error: malformed code after the pipeline\n";
     return 6;
   }

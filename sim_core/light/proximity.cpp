@@ -41,7 +41,7 @@ struct alignas(64) Surroundings {
     const Surface* surface;
   };
   Clicks at = -1;
-  Clicks tick = -1;
+  std::uint64_t version = 0;
   Frame2 frame;
   std::vector<Placed> moving;
   std::vector<Item> items;
@@ -67,9 +67,9 @@ const SensorOptics& optics_of(const Scene& scene, int robot, int sensor) {
 
 const Surroundings& surroundings(const Scene& scene, int robot, Clicks at) {
   Surroundings& s = scene.optics()->around[static_cast<std::size_t>(robot)];
-  if (s.at == at && s.tick == scene.now()) return s;
+  if (s.at == at && s.version == scene.version()) return s;
   s.at = at;
-  s.tick = scene.now();
+  s.version = scene.version();
   s.frame = Frame2(scene.pose(robot, at));
   s.items.clear();
   s.moving.clear();

@@ -147,6 +147,7 @@ bool Scene::cast(const Ray& ray, double limit_m, int skip_robot, Clicks at, Scen
 void Scene::publish(const std::vector<BodyState>& states, double moved_m) {
   states_ = states;
   ++tick_;
+  ++version_;
   const std::size_t slot = static_cast<std::size_t>(tick_ % slots_);
   for (std::size_t i = 0; i < states_.size(); ++i) {
     history_[i * static_cast<std::size_t>(slots_) + slot] = states_[i].pose;
@@ -158,6 +159,7 @@ void Scene::publish(const std::vector<BodyState>& states, double moved_m) {
 void Scene::relocate(int body, const BodyState& state) {
   const std::size_t i = static_cast<std::size_t>(body);
   states_[i] = state;
+  ++version_;
   std::fill_n(history_.begin() + static_cast<std::ptrdiff_t>(i) * slots_, slots_, state.pose);
   regather();
 }
