@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: MIT
+// Rays are clipped against half planes (prism), a circle (cylinder) or a sphere (ball), then against the height range.
+#include "sim_core/geometry/solid.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim_core/base/check.h"
+
+namespace sim {
+namespace {
+
+constexpr double kParallel = 1e-12;       // below this a direction counts as parallel to a plane
+constexpr double kSmallestAreaM2 = 1e-6;  // one square millimetre
+
+double signed_area_m2(const std::vector<Vec2>& corners) {
+  double twice = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) twice += cross(corners[i], corners[(i + 1) % corners.size()]);
+  return 0.5 * twice;
+}
+
+/// Narrows [near, far] to where the ray is between the heights; false when nothing is left.
+bool clip_heights(double z, double dz, double z0, double z1, double& near, double& far, bool& entered_by_cap) {
+  if (std::fabs(dz) < kParallel) return z >= z0 && z <= z1;
+  double first = (z0 - z) / dz;
+  double last = (z1 - z) / dz;
+  if (first > last) std::swap(first, last);
+  if (first > near) {
+    near = first;
+    entered_by_cap = true;
+  }
+  far = std::min(far, last);
+  return near <= far;
+}
+
+bool cast_prism(const Ray& ray, const Placed& what, double& distance_m, Vec3* normal) {
+  const Frame2& f = what.frame;
+  const Vec2 from = f.to_local({ray.from.x, ray.from.y});
+  const Vec2 dir = f.turn_back({ray.dir.x, ray.dir.y});
+  double near = 0;
+  double far = distance_m;
+  const HalfPlane* entered = nullptr;
+  for (const HalfPlane& side : what.solid->sides) {
+    const double along = dot(side.normal, dir);
+    const double outside = dot(side.normal, from) - side.offset_m;
+    if (std::fabs(along) < kParallel) {
+      if (outside > 0) return false;
+      continue;
+    }
+    const double t = -outside / along;
+    if (along < 0) {
+      if (t > near) {
+        near = t;
+        entered = &side;
+      }
+    } else {
+      far = std::min(far, t);
+    }
+    if (near > far) return false;
+  }
+  bool by_cap = false;
+  const double z0 = what.z_m + what.solid->z0_m;
+  const double z1 = what.z_m + what.solid->z1_m;
+  if (!clip_heights(ray.from.z, ray.dir.z, z0, z1, near, far, by_cap) || near >= distance_m) return false;
+  distance_m = near;
+  if (normal) {
+    if (by_cap) {
+      *normal = {0, 0, ray.dir.z < 0 ? 1.0 : -1.0};
+    } else if (entered) {
+      const Vec2 n = f.turn(entered->normal);
+      *normal = {n.x, n.y, 0};
+    } else {
+      *normal = {-ray.dir.x, -ray.dir.y, -ray.dir.z};
+    }
+  }
+  return true;
+}
+
+bool cast_cylinder(const Ray& ray, const Placed& what, double& distance_m, Vec3* normal) {
+  const Vec2 rel{ray.from.x - what.frame.at.x, ray.from.y - what.frame.at.y};
+  const Vec2 dir{ray.dir.x, ray.dir.y};
+  const double r = what.solid->radius_m;
+  const double a = dot(dir, dir);
+  const double b = dot(rel, dir);
+  const double c = dot(rel, rel) - r * r;
+  double near = 0;
+  double far = distance_m;
+  bool by_side = false;
+  if (a < kParallel) {
+    if (c > 0) return false;
+  } else {
+    if (c > 0 && b >= 0) return false;
+    const double disc = b * b - a * c;
+    if (disc < 0) return false;
+    const double root = std::sqrt(disc);
+    const double first = (-b - root) / a;
+    if (first > near) {
+      near = first;
+      by_side = true;
+    }
+    far = std::min(far, (-b + root) / a);
+    if (near > far) return false;
+  }
+  bool by_cap = false;
+  const double z0 = what.z_m + what.solid->z0_m;
+  const double z1 = what.z_m + what.solid->z1_m;
+  if (!clip_heights(ray.from.z, ray.dir.z, z0, z1, near, far, by_cap) || near >= distance_m) return false;
+  distance_m = near;
+  if (normal) {
+    if (by_cap) {
+      *normal = {0, 0, ray.dir.z < 0 ? 1.0 : -1.0};
+    } else if (by_side) {
+      *normal = {(rel.x + near * dir.x) / r, (rel.y + near * dir.y) / r, 0};
+    } else {
+      *normal = {-ray.dir.x, -ray.dir.y, -ray.dir.z};
+    }
+  }
+  return true;
+}
+
+bool cast_ball(const Ray& ray, const Placed& what, double& distance_m, Vec3* normal) {
+  const double r = what.solid->radius_m;
+  const Vec3 rel{ray.from.x - what.frame.at.x, ray.from.y - what.frame.at.y,
+                 ray.from.z - (what.z_m + what.solid->z0_m + r)};
+  const double b = rel.x * ray.dir.x + rel.y * ray.dir.y + rel.z * ray.dir.z;
+  const double c = rel.x * rel.x + rel.y * rel.y + rel.z * rel.z - r * r;
+  if (c > 0 && b >= 0) return false;
+  const double disc = b * b - c;
+  if (disc < 0) return false;
+  const double near = std::max(0.0, -b - std::sqrt(disc));
+  if (near >= distance_m) return false;
+  distance_m = near;
+  if (normal) {
+    *normal = {(rel.x + near * ray.dir.x) / r, (rel.y + near * ray.dir.y) / r, (rel.z + near * ray.dir.z) / r};
+  }
+  return true;
+}
+
+}  // namespace
+
+std::vector<Vec2> counter_clockwise(std::vector<Vec2> corners) {
+  if (signed_area_m2(corners) < 0) std::reverse(corners.begin(), corners.end());
+  return corners;
+}
+
+bool is_convex(const std::vector<Vec2>& corners) {
+  const std::size_t n = corners.size();
+  if (n < 3) return false;
+  const std::vector<Vec2> ring = counter_clockwise(corners);
+  if (signed_area_m2(ring) < kSmallestAreaM2) return false;
+  double turned = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec2 a = ring[(i + 1) % n] - ring[i];
+    const Vec2 b = ring[(i + 2) % n] - ring[(i + 1) % n];
+    if (length(a) < 1e-6 || cross(a, b) <= 1e-9 * length(a) * length(b)) return false;
+    turned += std::atan2(cross(a, b), dot(a, b));
+  }
+  return turned < 2 * kPi + 1e-6;  // a pentagram turns left everywhere, but twice round
+}
+
+Solid Solid::prism(std::vector<Vec2> corners, double z0_m, double z1_m) {
+  CHECK(corners.size() >= 3, "a prism has at least three corners");
+  Solid s;
+  s.kind = SolidKind::Prism;
+  s.outline = std::move(corners);
+  s.z0_m = z0_m;
+  s.z1_m = z1_m;
+  for (std::size_t i = 0; i < s.outline.size(); ++i) {
+    const Vec2 a = s.outline[i];
+    const Vec2 edge = s.outline[(i + 1) % s.outline.size()] - a;
+    const double len = length(edge);
+    const Vec2 normal{edge.y / len, -edge.x / len};
+    s.sides.push_back({normal, dot(normal, a)});
+    s.bound_m = std::max(s.bound_m, length(a));
+  }
+  return s;
+}
+
+Solid Solid::box(double size_x_m, double size_y_m, double z0_m, double z1_m) {
+  const double x = 0.5 * size_x_m;
+  const double y = 0.5 * size_y_m;
+  return prism({{x, y}, {-x, y}, {-x, -y}, {x, -y}}, z0_m, z1_m);
+}
+
+Solid Solid::cylinder(double radius_m, double z0_m, double z1_m) {
+  Solid s;
+  s.kind = SolidKind::Cylinder;
+  s.radius_m = radius_m;
+  s.z0_m = z0_m;
+  s.z1_m = z1_m;
+  s.bound_m = radius_m;
+  return s;
+}
+
+Solid Solid::ball(double radius_m) {
+  Solid s = cylinder(radius_m, 0, 2 * radius_m);
+  s.kind = SolidKind::Ball;
+  return s;
+}
+
+double Solid::gyration_m2() const {
+  if (kind == SolidKind::Cylinder) return 0.5 * radius_m * radius_m;
+  if (kind == SolidKind::Ball) return 0.4 * radius_m * radius_m;
+  double area = 0;
+  double moment = 0;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vec2 a = outline[i];
+    const Vec2 b = outline[(i + 1) % outline.size()];
+    const double c = cross(a, b);
+    area += 0.5 * c;
+    moment += c * (dot(a, a) + dot(a, b) + dot(b, b)) / 12.0;
+  }
+  return moment / area;
+}
+
+bool cast_ray(const Ray& ray, const Placed& what, double& distance_m, Vec3* normal) {
+  switch (what.solid->kind) {
+    case SolidKind::Prism: return cast_prism(ray, what, distance_m, normal);
+    case SolidKind::Cylinder: return cast_cylinder(ray, what, distance_m, normal);
+    case SolidKind::Ball: return cast_ball(ray, what, distance_m, normal);
+  }
+  return false;
+}
+
+bool out_of_sight(Vec2 from, Vec2 axis, double half_sin, double half_cos, double range_m, const Placed& what) {
+  const Vec2 gap = what.frame.at - from;
+  const double bound = what.solid->bound_m;
+  if (dot(gap, gap) > (range_m + bound) * (range_m + bound)) return true;
+  if (dot(gap, axis) < -bound || std::fabs(cross(axis, gap)) > bound + range_m * half_sin) return true;
+  if (what.solid->kind != SolidKind::Prism) return false;
+  // each side that the point is outside of must come near fast enough along the best ray
+  const Vec2 point = what.frame.turn_back(from - what.frame.at);
+  const Vec2 dir = what.frame.turn_back(axis);
+  for (const HalfPlane& side : what.solid->sides) {
+    const double outside = dot(side.normal, point) - side.offset_m;
+    if (outside <= 0) continue;
+    if (outside > range_m) return true;
+    const double facing = -dot(side.normal, dir);
+    const double best = facing >= half_cos ? 1 : facing * half_cos + std::sqrt(std::max(0.0, 1 - facing * facing)) * half_sin;
+    if (outside > range_m * best + 1e-12) return true;
+  }
+  return false;
+}
+
+double plan_distance_m(Vec2 point, const Placed& what, Vec2* toward) {
+  const Vec2 p = what.frame.to_local(point);
+  const Solid& s = *what.solid;
+  if (s.kind != SolidKind::Prism) {
+    const double d = length(p);
+    if (toward) *toward = d > 0 ? what.frame.turn({p.x / d, p.y / d}) : Vec2{1, 0};
+    return d - s.radius_m;
+  }
+  // inside: the least deep side; outside: the nearest edge
+  double deepest = -1e300;
+  Vec2 normal;
+  for (const HalfPlane& side : s.sides) {
+    const double d = dot(side.normal, p) - side.offset_m;
+    if (d > deepest) {
+      deepest = d;
+      normal = side.normal;
+    }
+  }
+  if (deepest <= 0) {
+    if (toward) *toward = what.frame.turn(normal);
+    return deepest;
+  }
+  double best = 1e300;
+  Vec2 away;
+  for (std::size_t i = 0; i < s.outline.size(); ++i) {
+    const Vec2 a = s.outline[i];
+    const Vec2 edge = s.outline[(i + 1) % s.outline.size()] - a;
+    const double t = std::clamp(dot(p - a, edge) / dot(edge, edge), 0.0, 1.0);
+    const Vec2 gap = p - (a + t * edge);
+    const double d2 = dot(gap, gap);
+    if (d2 < best) {
+      best = d2;
+      away = gap;
+    }
+  }
+  const double d = std::sqrt(best);
+  if (toward) *toward = d > 0 ? what.frame.turn({away.x / d, away.y / d}) : what.frame.turn(normal);
+  return d;
+}
+
+}  // namespace sim

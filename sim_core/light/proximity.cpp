@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: MIT
+// Rays are kept in the robot's frame and turned by its heading once per instant. Only solids on the robot's
+// neighbour list are tried, and only those that a sensor's bundle of rays can touch. [Webots B2] [Enki: IRSensor.cpp]
+#include "sim_core/light/proximity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "sim_core/base/check.h"
+#include "sim_core/light/response_curve.h"
+#include "sim_core/world/scene.h"
+
+namespace sim {
+
+/// One ray in the robot's frame.
+struct BodyRay {
+  Vec3 dir;
+  double weight = 1;
+  double cos_off_axis = 1;
+  double off_axis_rad = 0;
+};
+
+struct SensorOptics {
+  ProximityConfig config;
+  ResponseCurve curve;
+  Vec3 at_m;
+  Vec3 axis;
+  double half_sin = 0;     // of the half angle around the axis, in plan, that holds every ray
+  double half_cos = 1;
+  bool wide = false;       // rays may go anywhere: no culling by direction
+  bool meets_floor = false;
+  std::vector<BodyRay> rays;
+  ProximityResponse nothing;  // the answer where no ray meets anything
+};
+
+/// What one robot's rays may meet at one instant; the four instants of an ADC scan serve two sensors each.
+struct alignas(64) Surroundings {
+  struct Item {
+    const Placed* placed;
+    const Surface* surface;
+  };
+  Clicks at = -1;
+  std::uint64_t version = 0;
+  Frame2 frame;
+  std::vector<Placed> moving;
+  std::vector<Item> items;
+};
+
+struct ProximityOptics {
+  std::vector<std::unique_ptr<SensorOptics>> sensors;  // robots of one model without settings of their own share
+  std::vector<std::int32_t> first;                     // per robot: its sensor 0 among the sensors
+  std::vector<std::int32_t> count;                     // per robot
+  std::vector<double> reach_m;
+  mutable std::vector<Surroundings> around;            // per robot; used by that robot's thread only
+};
+
+namespace {
+
+const SensorOptics& optics_of(const Scene& scene, int robot, int sensor) {
+  const ProximityOptics* optics = scene.optics();
+  CHECK(optics, "a scene has its optics attached before anybody looks");
+  const std::size_t r = static_cast<std::size_t>(robot);
+  CHECK(sensor >= 0 && sensor < optics->count[r], "no such sensor");
+  return *optics->sensors[static_cast<std::size_t>(optics->first[r] + sensor)];
+}
+
+const Surroundings& surroundings(const Scene& scene, int robot, Clicks at) {
+  Surroundings& s = scene.optics()->around[static_cast<std::size_t>(robot)];
+  if (s.at == at && s.version == scene.version()) return s;
+  s.at = at;
+  s.version = scene.version();
+  s.frame = Frame2(scene.pose(robot, at));
+  s.items.clear();
+  s.moving.clear();
+  const Neighbours& near = scene.neighbours();
+  for (const Candidate* c = near.begin(robot); c != near.end(robot); ++c) {
+    if (c->moving) s.moving.push_back(scene.placed(c->index, at));
+  }
+  std::size_t next = 0;
+  for (const Candidate* c = near.begin(robot); c != near.end(robot); ++c) {
+    s.items.push_back({c->moving ? &s.moving[next++] : &scene.layout().fixed[static_cast<std::size_t>(c->index)],
+                       &scene.surface(*c)});
+  }
+  return s;
+}
+
+/// Colour factor f of a surface. [Webots B2]: .2 + .8 red, since R2019b with red times (1 - roughness / 2).
+double colour_factor(const ProximityConfig& config, const Surface& surface) {
+  if (config.type == SensorType::Generic || config.colour_rule == ColourRule::None) return 1;
+  const double gloss = config.colour_rule == ColourRule::New ? 1 - 0.5 * surface.roughness : 1.0;
+  return 0.2 + 0.8 * surface.ir_reflectance * gloss;
+}
+
+/// What each ray of a sensor met.
+struct RayEnd {
+  double distance_m;
+  double factor;
+  bool hit;
+};
+
+/// Fills one end per ray; returns false when none met anything.
+bool shoot(const Scene& scene, int robot, const SensorOptics& s, Clicks at, RayEnd* ends) {
+  const Surroundings& around = surroundings(scene, robot, at);
+  const Frame2& frame = around.frame;
+  const double range = s.config.max_range_m();
+  const Vec2 from = frame.to_world({s.at_m.x, s.at_m.y});
+  const Vec2 axis = frame.turn({s.axis.x, s.axis.y});
+  const std::size_t rays = s.rays.size();
+  for (std::size_t i = 0; i < rays; ++i) ends[i] = {range, 1, false};
+  bool any = false;
+  for (const Surroundings::Item& item : around.items) {
+    if (!s.wide && out_of_sight(from, axis, s.half_sin, s.half_cos, range, *item.placed)) continue;
+    const double factor = colour_factor(s.config, *item.surface);
+    for (std::size_t i = 0; i < rays; ++i) {
+      const Vec3& d = s.rays[i].dir;
+      const Vec2 dir = frame.turn({d.x, d.y});
+      if (!cast_ray({{from.x, from.y, s.at_m.z}, {dir.x, dir.y, d.z}}, *item.placed, ends[i].distance_m)) continue;
+      ends[i].factor = factor;
+      ends[i].hit = any = true;
+    }
+  }
+  if (!s.meets_floor) return any;
+  for (std::size_t i = 0; i < rays; ++i) {
+    const Vec3& dir = s.rays[i].dir;
+    if (dir.z > -1e-9 || s.at_m.z >= -dir.z * ends[i].distance_m) continue;
+    const double d = -s.at_m.z / dir.z;
+    const Vec2 there = from + d * frame.turn({dir.x, dir.y});
+    ends[i] = {d, colour_factor(s.config, scene.floor(there)), true};
+    any = true;
+  }
+  return any;
+}
+
+/// Enki's law: each slanted ray answers by itself; a ray on the axis answers for what a flat wall leaves to it.
+double answer_singly(const SensorOptics& s, const RayEnd* ends) {
+  double sum = 0;
+  for (std::size_t i = 0; i < s.rays.size(); ++i) {
+    if (!ends[i].hit) continue;
+    const double d = ends[i].distance_m / ends[i].factor;
+    sum += s.curve.at(d).value;
+    if (s.rays[i].off_axis_rad > 1e-9) continue;
+    for (const BodyRay& other : s.rays) {
+      if (other.off_axis_rad > 1e-9) sum -= s.curve.at(d / other.cos_off_axis).value;
+    }
+  }
+  return std::clamp(sum, 0.0, s.curve.at(0).value);
+}
+
+/// From the ends of the rays to the table's output.
+ProximityResponse respond(const SensorOptics& s, const RayEnd* ends) {
+  double distance = 0, factor = 0;
+  for (std::size_t i = 0; i < s.rays.size(); ++i) {
+    distance += s.rays[i].weight * ends[i].distance_m;
+    factor += s.rays[i].weight * ends[i].factor;
+  }
+  ProximityResponse out;
+  out.apparent_distance_m = factor > 0 ? distance / factor : s.config.max_range_m();
+  out.uniform_noise = s.config.noise_law == NoiseLaw::Uniform;
+  const ResponseRow row = s.curve.at(out.apparent_distance_m);
+  out.value = row.value;
+  out.relative_noise = row.relative_noise * s.config.noise_scale;
+  if (s.config.rays_answer_singly) {
+    out.value = answer_singly(s, ends);
+    const double absolute = row.relative_noise * row.value;  // Enki's noise is in counts
+    out.relative_noise = out.value > 0 ? absolute * s.config.noise_scale / out.value : 0;
+  }
+  return out;
+}
+
+constexpr std::size_t kMostRays = 100;  // limit of the world format
+
+std::unique_ptr<SensorOptics> make_sensor(const WorldDesc& world, int robot, int sensor, const SensorMount& mount) {
+  const ProximityConfig config = resolve_proximity(world, robot, sensor);
+  auto s = std::make_unique<SensorOptics>(SensorOptics{config, ResponseCurve(config.table), mount.at_m, {}, 0, 1, false, false, {}, {}});
+  // sensor frame to robot frame: pitch up about the sensor's left axis, then yaw
+  const SinCos yaw = sin_cos(mount.yaw_rad), pitch = sin_cos(mount.pitch_rad);
+  const auto turn = [&](const Vec3& v) {
+    const double x = pitch.c * v.x - pitch.s * v.z;
+    const double z = pitch.s * v.x + pitch.c * v.z;
+    return Vec3{yaw.c * x - yaw.s * v.y, yaw.s * x + yaw.c * v.y, z};
+  };
+  // culling works in plan, around the direction in which the sensor looks
+  s->axis = {yaw.c, yaw.s, 0};
+  double widest = 0;
+  for (const RayPlan& plan : plan_rays(config.rays, config.aperture_rad, config.gaussian_width, config.layout)) {
+    BodyRay ray{turn(plan.dir), plan.weight, sin_cos(plan.off_axis_rad).c, plan.off_axis_rad};
+    if (std::fabs(ray.dir.z) < 1e-15) ray.dir.z = 0;
+    s->meets_floor = s->meets_floor || -ray.dir.z * config.max_range_m() > mount.at_m.z;
+    const Vec2 plan_dir{ray.dir.x, ray.dir.y};
+    widest = std::max(widest, std::atan2(std::fabs(cross({yaw.c, yaw.s}, plan_dir)), dot({yaw.c, yaw.s}, plan_dir)));
+    s->rays.push_back(ray);
+  }
+  CHECK(s->rays.size() <= kMostRays, "the world format limits the number of rays");
+  s->wide = widest > 0.45 * kPi;
+  s->half_sin = std::min(1.0, std::sin(widest) + 1e-9);
+  s->half_cos = std::cos(widest) - 1e-9;
+  RayEnd ends[kMostRays];
+  for (std::size_t i = 0; i < s->rays.size(); ++i) ends[i] = {config.max_range_m(), 1, false};
+  s->nothing = respond(*s, ends);
+  return s;
+}
+
+}  // namespace
+
+std::shared_ptr<const ProximityOptics> make_optics(const WorldDesc& world) {
+  auto optics = std::make_shared<ProximityOptics>();
+  std::map<const RobotModel*, int> shared;  // looked up only, never walked in order of address
+  for (int robot = 0; robot < static_cast<int>(world.robots.size()); ++robot) {
+    const RobotDesc& desc = world.robots[static_cast<std::size_t>(robot)];
+    const RobotModel* model = world.model_of(desc);
+    CHECK(model, "every robot has a model");
+    const bool plain = desc.sensors.empty() && desc.proximity.is_empty();
+    const auto known = shared.find(model);
+    if (plain && known != shared.end()) {
+      optics->first.push_back(optics->first[static_cast<std::size_t>(known->second)]);
+      optics->reach_m.push_back(optics->reach_m[static_cast<std::size_t>(known->second)]);
+    } else {
+      if (plain) shared.emplace(model, robot);
+      optics->first.push_back(static_cast<std::int32_t>(optics->sensors.size()));
+      double reach = model->body_radius_m;
+      for (int i = 0; i < static_cast<int>(model->proximity.size()); ++i) {
+        const SensorMount& mount = model->proximity[static_cast<std::size_t>(i)];
+        optics->sensors.push_back(make_sensor(world, robot, i, mount));
+        reach = std::max(reach, length({mount.at_m.x, mount.at_m.y}) + optics->sensors.back()->config.max_range_m());
+      }
+      optics->reach_m.push_back(reach);
+    }
+    optics->count.push_back(static_cast<std::int32_t>(model->proximity.size()));
+  }
+  optics->around.resize(world.robots.size());
+  return optics;
+}
+
+std::vector<double> optics_reach_m(const ProximityOptics& optics) { return optics.reach_m; }
+
+ProximityResponse sense_proximity(const Scene& scene, int robot, int sensor, Clicks at) {
+  const SensorOptics& s = optics_of(scene, robot, sensor);
+  const Neighbours& near = scene.neighbours();
+  if (near.begin(robot) == near.end(robot) && !s.meets_floor) return s.nothing;
+  RayEnd ends[kMostRays];
+  return shoot(scene, robot, s, at, ends) ? respond(s, ends) : s.nothing;
+}
+
+double sense_irradiance_w_m2(const Scene& scene, int robot, int sensor, Clicks at) {
+  const WorldDesc& world = scene.world();
+  double sum = world.ambient_w_m2;
+  if (world.lamps.empty()) return sum;
+  const SensorOptics& s = optics_of(scene, robot, sensor);
+  const Frame2& frame = surroundings(scene, robot, at).frame;
+  const Vec2 at_m = frame.to_world({s.at_m.x, s.at_m.y});
+  const SensorMount& mount =
+      world.model_of(world.robots[static_cast<std::size_t>(robot)])->proximity[static_cast<std::size_t>(sensor)];
+  const SinCos pitch = sin_cos(mount.pitch_rad);
+  const Vec2 axis = pitch.c * frame.turn({s.axis.x, s.axis.y});
+  for (const LampDesc& lamp : world.lamps) {
+    if (!lamp.on) continue;
+    const Vec3 to{lamp.position_m.x - at_m.x, lamp.position_m.y - at_m.y, lamp.position_m.z - s.at_m.z};
+    const double d = std::sqrt(to.x * to.x + to.y * to.y + to.z * to.z);
+    if (d <= 0) continue;
+    const Vec3 dir{to.x / d, to.y / d, to.z / d};
+    const double facing = dir.x * axis.x + dir.y * axis.y + dir.z * pitch.s;
+    if (facing <= 0) continue;
+    if (scene.cast({{at_m.x, at_m.y, s.at_m.z}, dir}, d, robot, at, nullptr)) continue;
+    const std::array<double, 3>& a = lamp.attenuation;
+    const double white = (lamp.colour.r + lamp.colour.g + lamp.colour.b) / 3;  // [Webots B3]
+    sum += lamp.intensity_w_m2 * white * facing / (a[0] + a[1] * d + a[2] * d * d);
+  }
+  return sum;
+}
+
+const ProximityConfig& proximity_config(const Scene& scene, int robot, int sensor) {
+  return optics_of(scene, robot, sensor).config;
+}
+
+std::vector<RayTrace> trace_proximity(const Scene& scene, int robot, int sensor, Clicks at) {
+  const SensorOptics& s = optics_of(scene, robot, sensor);
+  RayEnd ends[kMostRays];
+  shoot(scene, robot, s, at, ends);
+  const Frame2 frame(scene.pose(robot, at));
+  const Vec2 from = frame.to_world({s.at_m.x, s.at_m.y});
+  std::vector<RayTrace> out;
+  for (std::size_t i = 0; i < s.rays.size(); ++i) {
+    const Vec2 dir = frame.turn({s.rays[i].dir.x, s.rays[i].dir.y});
+    const double d = ends[i].distance_m;
+    out.push_back({{from.x, from.y, s.at_m.z},
+                   {from.x + d * dir.x, from.y + d * dir.y, s.at_m.z + d * s.rays[i].dir.z},
+                   d, ends[i].hit, ends[i].factor, s.rays[i].weight});
+  }
+  return out;
+}
+
+}  // namespace sim

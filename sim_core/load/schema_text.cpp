@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+// Words made from the schema: what a message says was expected, and the whole of docs/world-format.md.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "sim_core/light/profiles.h"
+#include "sim_core/load/schema.h"
+
+namespace sim {
+namespace {
+
+const char* type_name(ValueType type) {
+  switch (type) {
+    case ValueType::Integer: return "whole number";
+    case ValueType::Number: return "number";
+    case ValueType::Text: return "text in quotes";
+    case ValueType::Flag: return "true or false";
+    case ValueType::Choice: return "one of";
+    case ValueType::Pair: return "two numbers [x, y]";
+    case ValueType::Triple: return "three numbers [x, y, z]";
+    case ValueType::Colour: return "three numbers [red, green, blue]";
+    case ValueType::Numbers: return "list of numbers";
+    case ValueType::Points: return "list of points [[x, y], ...]";
+    case ValueType::Rows: return "list of rows [[distance, value, noise], ...]";
+  }
+  return "";
+}
+
+bool has_range(const KeySpec& k) {
+  return k.type != ValueType::Text && k.type != ValueType::Flag && k.type != ValueType::Choice;
+}
+
+std::string range_text(const KeySpec& k) {
+  if (k.least == k.most) return fmt::format("{}", k.least);
+  if (k.least <= -1e8 && k.most >= 1e8) return "any";
+  return fmt::format("{} to {}", k.least, k.most);
+}
+
+std::string choices_text(const KeySpec& k) {
+  std::string out;
+  for (const char* c = k.choices; *c; ++c) out += *c == '|' ? std::string(", ") : std::string(1, *c);
+  return out;
+}
+
+}  // namespace
+
+std::string expected_text(const KeySpec& k) {
+  std::string out = type_name(k.type);
+  if (k.type == ValueType::Choice) return out + " " + choices_text(k);
+  if (!has_range(k)) return out;
+  const std::string range = range_text(k);
+  if (range != "any") out += (k.least == k.most ? ": " : " from ") + range;
+  if (*k.unit) out += std::string(" ") + k.unit;
+  return out;
+}
+
+std::string world_format_page() {
+  std::string out =
+      "# World files\n\n"
+      "<!-- Made by build/world_format_doc from sim_core/load/schema.cpp; do not edit. -->\n\n"
+      "A world is a TOML file. Lengths are metres, angles degrees, times seconds, everything else SI. x points east,\n"
+      "y north, z up; headings turn counter-clockwise from x. File names are relative to the world file. A key that is\n"
+      "not listed here is an error, and `twinpuck check WORLD` reports all errors at once with line and column.\n\n"
+      "```toml\n"
+      "twinpuck = 1\n"
+      "title = \"two robots and a crate\"\n\n"
+      "[arena]\nsize = [1.0, 0.8]\n\n"
+      "[[box]]\nposition = [0.2, 0.1]\nsize = [0.06, 0.06, 0.05]\nmovable = true\nmass = 0.05\n\n"
+      "[[robot]]\nname = \"left\"\nfirmware = \"obstacle\"\nposition = [-0.3, 0.1]\n\n"
+      "[[robot]]\nname = \"right\"\nfirmware = \"obstacle\"\nposition = [0.3, -0.2]\nheading = 90\n"
+      "[robot.proximity]\nprofile = \"webots-old\"\nnoise_scale = 0\n"
+      "```\n";
+  for (const SectionSpec& s : world_schema()) {
+    const std::string path = s.path;
+    out += "\n## " + (path.empty() ? std::string("Top of the file")
+                                   : (s.many ? "`[[" : "`[") + path + (s.many ? "]]`" : "]`")) +
+           "\n\n" + s.doc + "\n\n";
+    if (path == "robot.proximity") continue;
+    const std::size_t shown = path == "robot.sensor" ? 1 : s.keys.size();
+    out += "| key | value | unit | range | default | meaning |\n|---|---|---|---|---|---|\n";
+    for (std::size_t i = 0; i < shown; ++i) {
+      const KeySpec& k = s.keys[i];
+      const std::string fallback = k.fallback;
+      const std::string range = k.type == ValueType::Choice ? choices_text(k) : has_range(k) ? range_text(k) : "";
+      out += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", k.key,
+                         k.type == ValueType::Choice ? "text" : type_name(k.type), k.unit, range,
+                         fallback == "required" ? "**required**" : fallback.empty() ? "" : "`" + fallback + "`", k.doc);
+    }
+  }
+  out += "\n## Proximity profiles\n\n| name | rows | range (m) | rays | aperture (deg) | layout | colour rule | noise |\n"
+         "|---|---|---|---|---|---|---|---|\n";
+  for (const ProximityProfile& p : proximity_profiles()) {
+    out += fmt::format("| `{}` | {} | {:.3g} | {} | {:.3g} | {} | {} | {} |\n", p.name, p.table.size(),
+                       p.table.back().distance_m, p.rays, degrees(p.aperture_rad),
+                       p.layout == RayLayout::Fan ? "fan" : "cone",
+                       p.colour_rule == ColourRule::Old   ? "old"
+                       : p.colour_rule == ColourRule::New ? "new"
+                                                          : "none",
+                       p.noise_law == NoiseLaw::Uniform ? "uniform" : "gaussian");
+  }
+  out += "\nReadings in counts of a white wall that a single ray meets at right angles, noise in brackets:\n\n| distance |";
+  for (const ProximityProfile& p : proximity_profiles()) out += fmt::format(" `{}` |", p.name);
+  out += "\n|---|";
+  for (std::size_t i = 0; i < proximity_profiles().size(); ++i) out += "---|";
+  out += "\n";
+  for (double mm : {0., 5., 10., 20., 30., 40., 50., 60., 70., 100.}) {
+    out += fmt::format("| {} mm |", mm);
+    for (const ProximityProfile& p : proximity_profiles()) {
+      const ResponseRow row = look_up(p.table, mm / 1000);
+      out += fmt::format(" {:.0f} ({:.3f}) |", row.value, row.relative_noise);
+    }
+    out += "\n";
+  }
+  return out;
+}
+
+}  // namespace sim

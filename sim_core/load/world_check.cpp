@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// What no single key shows: double names, robots without a model, bodies inside each other (by libccd, in 3-D).
+#include <fmt/format.h>
+
+#include <map>
+
+#include "sim_core/geometry/neighbours.h"
+#include "sim_core/geometry/overlap.h"
+#include "sim_core/load/schema.h"
+#include "sim_core/load/world_loader.h"
+#include "sim_core/world/layout.h"
+
+namespace sim {
+namespace {
+
+constexpr double kOverlapM = 0.0002;  // deeper than this counts: bodies may be placed so that they just touch
+
+void check_names(const WorldDesc& world, std::vector<WorldProblem>& out) {
+  std::map<std::string, int> lines;
+  for (const RobotDesc& r : world.robots) {
+    const auto [it, fresh] = lines.emplace(r.name, r.line);
+    if (!fresh) {
+      out.push_back({r.line, 1, fmt::format("robot.name: got \"{}\" a second time (first on line {}), expected a name of its own",
+                                            r.name, it->second)});
+    }
+  }
+}
+
+void check_models(const WorldDesc& world, std::vector<WorldProblem>& out) {
+  for (const RobotDesc& r : world.robots) {
+    const RobotModel* model = world.model_of(r);
+    if (!model) {
+      out.push_back({r.line, 1, fmt::format("robot.model: got \"{}\", expected a model that the program knows", r.model)});
+      continue;
+    }
+    const std::size_t sensors = model->proximity.size();
+    const auto counted = [&](const char* key, std::size_t got) {
+      if (got > 0 && got != sensors) {
+        out.push_back({r.line, 1, fmt::format("robot.variation.{}: got {} numbers, expected {}, one per sensor", key, got, sensors)});
+      }
+    };
+    counted("sensor_gain", r.variation.sensor_gain.size());
+    counted("sensor_offset", r.variation.sensor_offset_counts.size());
+  }
+}
+
+/// Robots and movable objects must not begin inside anything. Fixed solids may cross each other: that is how walls
+/// are built.
+void check_overlaps(const WorldDesc& world, std::vector<WorldProblem>& out) {
+  const Layout layout = build_layout(world);
+  std::vector<double> bounds;
+  for (const Placed& p : layout.moving) bounds.push_back(p.solid->bound_m);
+  Neighbours near(layout.fixed, bounds, 0, {});
+  near.rebuild(layout.moving, 0);
+  const auto line_of = [&](std::size_t body) {
+    const std::size_t robots = world.robots.size();
+    return body < robots ? world.robots[body].line
+                         : world.objects[static_cast<std::size_t>(layout.loose_object[body - robots])].line;
+  };
+  std::vector<Candidate> around;
+  for (std::size_t i = 0; i < layout.moving.size(); ++i) {
+    const Placed& me = layout.moving[i];
+    around.clear();
+    near.gather(me.frame.at, me.solid->bound_m, around);
+    for (const Candidate& c : around) {
+      const std::size_t other = static_cast<std::size_t>(c.index);
+      if (c.moving && other <= i) continue;  // each pair once
+      if (!overlaps(me, c.moving ? layout.moving[other] : layout.fixed[other], kOverlapM)) continue;
+      const std::string& name = c.moving ? layout.moving_name[other] : layout.fixed_name[other];
+      const int their_line = c.moving ? line_of(other) : layout.fixed_line[other];
+      out.push_back({line_of(i), 1,
+                     fmt::format("{}: got position [{:.4g}, {:.4g}] m inside {}{}, expected free room", layout.moving_name[i],
+                                 me.frame.at.x, me.frame.at.y, name,
+                                 their_line > 0 ? fmt::format(" (line {})", their_line) : std::string())});
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<WorldProblem> check_world(const WorldDesc& world) {
+  std::vector<WorldProblem> out;
+  if (world.robots.size() > kMostRobots) {
+    out.push_back({0, 0, fmt::format("robot: got {} robots, expected at most {}", world.robots.size(), kMostRobots)});
+    return out;
+  }
+  check_names(world, out);
+  check_models(world, out);
+  if (out.empty()) check_overlaps(world, out);
+  return out;
+}
+
+}  // namespace sim

@@ -1,0 +1,384 @@
+// SPDX-License-Identifier: MIT
+// Walks the TOML tree along the schema. Keys are applied in the schema's order, so that an object's own colour comes
+// after its material whatever the order in the file.
+#include "sim_core/load/world_loader.h"
+
+#include <fmt/format.h>
+#define TOML_EXCEPTIONS 0
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include "sim_core/load/floor_image.h"
+#include "sim_core/load/schema.h"
+
+namespace sim {
+namespace {
+
+constexpr std::size_t kLongestFile = 8u << 20;  // bytes; ten thousand robots need a tenth of it
+constexpr std::size_t kMostProblems = 200;      // reported; more would help nobody
+
+/// A value as a person wrote it, for messages.
+std::string written(const toml::node& node) {
+  if (node.is_table()) return "a table";
+  std::ostringstream out;
+  if (const auto* a = node.as_array()) {
+    if (a->size() > 6) return fmt::format("a list of {}", a->size());
+    out << *a;
+  } else {
+    node.visit([&](const auto& n) {
+      if constexpr (toml::is_value<decltype(n)>) out << n;
+    });
+  }
+  std::string text = out.str();
+  if (text.size() > 60) text = text.substr(0, 57) + "...";
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+bool number_of(const toml::node& node, double& out) {
+  if (const auto* i = node.as_integer()) {
+    out = static_cast<double>(i->get());
+    return true;
+  }
+  if (const auto* f = node.as_floating_point()) {
+    out = f->get();
+    return std::isfinite(out);
+  }
+  return false;
+}
+
+bool in_range(const KeySpec& k, double v) { return v >= k.least && v <= k.most; }
+
+/// Reads a node into a value; false when its type or range is wrong.
+bool read_value(const KeySpec& k, const toml::node& node, Value& v) {
+  const auto numbers = [&](const toml::node& list, std::vector<double>& out, std::size_t count, bool ranged) {
+    const toml::array* a = list.as_array();
+    if (!a || (count && a->size() != count)) return false;
+    for (const toml::node& n : *a) {
+      double x = 0;
+      if (!number_of(n, x) || (ranged && !in_range(k, x))) return false;
+      out.push_back(x);
+    }
+    return true;
+  };
+  switch (k.type) {
+    case ValueType::Integer: {
+      const auto* i = node.as_integer();
+      if (!i || !in_range(k, static_cast<double>(i->get()))) return false;
+      v.integer = i->get();
+      return true;
+    }
+    case ValueType::Number: return number_of(node, v.number) && in_range(k, v.number);
+    case ValueType::Text: {
+      const auto* s = node.as_string();
+      if (s) v.text = s->get();
+      return s && v.text.find('\0') == std::string::npos;
+    }
+    case ValueType::Choice: {
+      const auto* s = node.as_string();
+      if (!s || s->get().empty() || s->get().find('|') != std::string::npos) return false;
+      v.text = s->get();
+      return ("|" + std::string(k.choices) + "|").find("|" + v.text + "|") != std::string::npos;
+    }
+    case ValueType::Flag: {
+      const auto* b = node.as_boolean();
+      if (b) v.flag = b->get();
+      return b != nullptr;
+    }
+    case ValueType::Pair: return numbers(node, v.numbers, 2, true);
+    case ValueType::Triple:
+    case ValueType::Colour: return numbers(node, v.numbers, 3, true);
+    case ValueType::Numbers: return numbers(node, v.numbers, 0, true);
+    case ValueType::Points:
+    case ValueType::Rows: {
+      const toml::array* a = node.as_array();
+      if (!a) return false;
+      for (const toml::node& row : *a) {
+        v.rows.emplace_back();
+        if (!numbers(row, v.rows.back(), k.type == ValueType::Points ? 2 : 3, true)) return false;
+      }
+      return true;
+    }
+  }
+  return false;
+}
+
+class Reader {
+ public:
+  Reader(const std::string& path, const std::vector<RobotModel>& models) {
+    world_.file = path;
+    world_.models = models;
+  }
+
+  LoadedWorld read(std::string_view text) {
+    LoadedWorld out;
+    if (text.size() > kLongestFile) {
+      problem({}, fmt::format("file: got {} bytes, expected at most {}", text.size(), kLongestFile));
+    } else {
+      const toml::parse_result result = toml::parse(text);
+      if (!result) {
+        // the library's sentence says what stands there; ours says what kind of file was wanted
+        std::string what(result.error().description());
+        std::replace(what.begin(), what.end(), '\n', ' ');
+        problem(result.error().source(), "not TOML: " + what);
+      } else {
+        read_all(result.table());
+      }
+    }
+    if (problems_.empty()) problems_ = check_world(world_);
+    std::stable_sort(problems_.begin(), problems_.end(), [](const WorldProblem& a, const WorldProblem& b) {
+      return a.line != b.line ? a.line < b.line : a.column < b.column;
+    });
+    if (problems_.empty()) out.world = std::move(world_);
+    out.problems = std::move(problems_);
+    return out;
+  }
+
+ private:
+  void problem(const toml::source_region& where, std::string text) {
+    if (problems_.size() >= kMostProblems) return;
+    problems_.push_back({static_cast<int>(where.begin.line), static_cast<int>(where.begin.column), std::move(text)});
+  }
+
+  static int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
+
+  /// Sections that may stand inside `path`.
+  static std::vector<std::string> inner_sections(const std::string& path) {
+    std::vector<std::string> out;
+    for (const SectionSpec& s : world_schema()) {
+      const std::string p = s.path;
+      const std::size_t dot = p.rfind('.');
+      const std::string outer = dot == std::string::npos ? "" : p.substr(0, dot);
+      if (!p.empty() && outer == path) out.push_back(dot == std::string::npos ? p : p.substr(dot + 1));
+    }
+    return out;
+  }
+
+  /// Applies every key of a table and names the unknown ones.
+  void read_table(const std::string& path, const toml::table& table, void* target) {
+    const SectionSpec& spec = section(path);
+    const std::vector<std::string> inner = inner_sections(path);
+    const std::string prefix = path.empty() ? "" : path + ".";
+    for (const auto& [key, node] : table) {
+      const std::string name(key.str());
+      const bool known = std::any_of(spec.keys.begin(), spec.keys.end(), [&](const KeySpec& k) { return name == k.key; });
+      if (known || std::find(inner.begin(), inner.end(), name) != inner.end()) continue;
+      std::vector<std::string> candidates = inner;
+      for (const KeySpec& k : spec.keys) candidates.push_back(k.key);
+      const std::string meant = did_you_mean(name, candidates);
+      std::string all;
+      for (const std::string& c : candidates) all += (all.empty() ? "" : ", ") + c;
+      problem(key.source(), fmt::format("unknown key '{}'{}{} (keys: {})", name.substr(0, 60),
+                                        path.empty() ? "" : " in " + path,
+                                        meant.empty() ? "" : "; did you mean '" + meant + "'?", all));
+    }
+    for (const KeySpec& k : spec.keys) {
+      const toml::node* node = table.get(k.key);
+      if (!node) {
+        if (std::strcmp(k.fallback, "required") == 0) {
+          problem(table.source(), fmt::format("{}{}: missing, expected {}", prefix, k.key, expected_text(k)));
+        }
+        continue;
+      }
+      Value value;
+      if (!read_value(k, *node, value)) {
+        std::string hint;
+        if (k.type == ValueType::Choice && node->is_string()) hint = choice_hint(k, node->as_string()->get());
+        problem(node->source(),
+                fmt::format("{}{}: got {}, expected {}{}", prefix, k.key, written(*node), expected_text(k), hint));
+        continue;
+      }
+      const std::string wrong = k.set(target, value, world_);
+      if (!wrong.empty()) problem(node->source(), fmt::format("{}{}: {}", prefix, k.key, wrong));
+    }
+  }
+
+  static std::string choice_hint(const KeySpec& k, const std::string& got) {
+    std::vector<std::string> words;
+    std::istringstream in(k.choices);
+    for (std::string w; std::getline(in, w, '|');) words.push_back(w);
+    const std::string meant = did_you_mean(got, words);
+    return meant.empty() ? "" : "; did you mean '" + meant + "'?";
+  }
+
+  /// A [section], if it is there.
+  void read_one(const char* path, const toml::table& parent, const char* key, void* target) {
+    const toml::node* node = parent.get(key);
+    if (!node) return;
+    if (const toml::table* table = node->as_table()) return read_table(path, *table, target);
+    problem(node->source(), fmt::format("{}: got {}, expected a table, written [{}]", path, written(*node), path));
+  }
+
+  /// Every [[section]], in order; `each` gets the table.
+  template <typename F>
+  void read_many(const char* path, const toml::table& parent, const char* key, F each) {
+    const toml::node* node = parent.get(key);
+    if (!node) return;
+    const toml::array* list = node->as_array();
+    if (!list) {
+      problem(node->source(), fmt::format("{}: got {}, expected [[{}]] with double brackets", path, written(*node), path));
+      return;
+    }
+    for (const toml::node& item : *list) {
+      if (const toml::table* table = item.as_table()) {
+        each(*table);
+      } else {
+        problem(item.source(), fmt::format("{}: got {}, expected a table, written [[{}]]", path, written(item), path));
+      }
+    }
+  }
+
+  void read_objects(const toml::table& root, const char* path, ObjectKind kind) {
+    read_many(path, root, path, [&](const toml::table& t) {
+      ObjectDesc o;
+      o.kind = kind;
+      o.line = line_of(t);
+      read_table(path, t, &o);
+      if (kind == ObjectKind::Ball) o.size_m.z = 2 * o.radius_m;
+      world_.objects.push_back(std::move(o));
+    });
+  }
+
+  void read_all(const toml::table& root) {
+    read_table("", root, &world_);
+    read_one("world", root, "world", &world_);
+    read_many("material", root, "material", [&](const toml::table& t) {
+      Material m;
+      read_table("material", t, &m);
+      for (const Material& other : world_.materials) {
+        if (!m.name.empty() && other.name == m.name) {
+          problem(t.source(), fmt::format("material.name: got \"{}\" a second time, expected a name of its own", m.name));
+        }
+      }
+      world_.materials.push_back(std::move(m));
+    });
+    if (root.get("arena")) {
+      ArenaDesc arena;
+      read_one("arena", root, "arena", &arena);
+      world_.arena = arena;
+    }
+    read_one("floor", root, "floor", &world_.floor);
+    if (!world_.floor.image.empty()) {
+      const std::string wrong = read_floor_image(resolve_path(world_, world_.floor.image), world_.floor);
+      const toml::node* node = root["floor"]["image"].node();
+      if (!wrong.empty()) problem(node->source(), "floor.image: " + wrong);
+      if (!world_.arena) problem(node->source(), "floor.image: got an image but no [arena], expected an arena to lay it in");
+    }
+    read_one("proximity", root, "proximity", &world_.proximity);
+    read_many("wall", root, "wall", [&](const toml::table& t) {
+      WallDesc w;
+      w.line = line_of(t);
+      const std::size_t before = problems_.size();
+      read_table("wall", t, &w);
+      if (problems_.size() == before) world_.walls.push_back(std::move(w));
+    });
+    read_objects(root, "box", ObjectKind::Box);
+    read_objects(root, "cylinder", ObjectKind::Cylinder);
+    read_objects(root, "ball", ObjectKind::Ball);
+    read_objects(root, "polygon", ObjectKind::Polygon);
+    read_many("lamp", root, "lamp", [&](const toml::table& t) {
+      LampDesc lamp;
+      read_table("lamp", t, &lamp);
+      world_.lamps.push_back(std::move(lamp));
+    });
+    read_robots(root);
+  }
+
+  void read_robots(const toml::table& root) {
+    read_many("robot", root, "robot", [&](const toml::table& t) {
+      RobotDesc r;
+      r.name = "robot" + std::to_string(world_.robots.size());
+      r.line = line_of(t);
+      read_table("robot", t, &r);
+      read_one("robot.variation", t, "variation", &r.variation);
+      read_one("robot.proximity", t, "proximity", &r.proximity);
+      read_many("robot.sensor", t, "sensor", [&](const toml::table& st) {
+        SensorDesc s;
+        read_table("robot.sensor", st, &s);
+        const RobotModel* model = world_.model_of(r);
+        if (model && s.index >= static_cast<int>(model->proximity.size())) {
+          problem(st.source(), fmt::format("robot.sensor.index: got {}, expected 0 to {}", s.index,
+                                           static_cast<int>(model->proximity.size()) - 1));
+        }
+        for (const SensorDesc& other : r.sensors) {
+          if (other.index == s.index) {
+            problem(st.source(), fmt::format("robot.sensor.index: got {} a second time, expected each sensor once", s.index));
+          }
+        }
+        r.sensors.push_back(std::move(s));
+      });
+      world_.robots.push_back(std::move(r));
+    });
+  }
+
+  WorldDesc world_;
+  std::vector<WorldProblem> problems_;
+};
+
+}  // namespace
+
+std::string LoadedWorld::report(std::string_view file) const {
+  std::string out;
+  for (const WorldProblem& p : problems) {
+    if (!out.empty()) out += '\n';
+    out += p.line > 0 ? fmt::format("{}:{}:{}: {}", file, p.line, p.column, p.text) : fmt::format("{}: {}", file, p.text);
+  }
+  return out;
+}
+
+LoadedWorld load_world(const std::string& path, const std::vector<RobotModel>& models) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  if (in) text << in.rdbuf();
+  if (!in || !text) {
+    LoadedWorld out;
+    out.problems.push_back({0, 0, std::string("cannot be read: ") + std::strerror(errno)});
+    return out;
+  }
+  return parse_world(text.str(), path, models);
+}
+
+LoadedWorld parse_world(std::string_view text, const std::string& path, const std::vector<RobotModel>& models) {
+  return Reader(path, models).read(text);
+}
+
+std::string resolve_path(const WorldDesc& world, const std::string& name) {
+  const std::size_t slash = world.file.rfind('/');
+  if (name.empty() || name.front() == '/' || slash == std::string::npos) return name;
+  return world.file.substr(0, slash + 1) + name;
+}
+
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates) {
+  if (word.size() > 40) return {};
+  std::string best;
+  std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
+  for (const std::string& candidate : candidates) {
+    // edits between the two words, a swap of neighbours counting as one
+    const std::size_t n = word.size(), m = candidate.size();
+    std::vector<std::vector<std::size_t>> d(n + 1, std::vector<std::size_t>(m + 1));
+    for (std::size_t i = 0; i <= n; ++i) {
+      for (std::size_t j = 0; j <= m; ++j) {
+        if (i == 0 || j == 0) {
+          d[i][j] = i + j;
+          continue;
+        }
+        d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + (word[i - 1] != candidate[j - 1])});
+        if (i > 1 && j > 1 && word[i - 1] == candidate[j - 2] && word[i - 2] == candidate[j - 1]) {
+          d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+        }
+      }
+    }
+    if (d[n][m] < least) {
+      least = d[n][m];
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+}  // namespace sim

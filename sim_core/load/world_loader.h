@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// World files in, checked WorldDescs out. All problems of a file are found in one go; nothing here throws.
+#pragma once
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim_core/world/world_desc.h"
+
+namespace sim {
+
+/// One thing that is wrong with a world file.
+struct WorldProblem {
+  int line = 0;    ///< from 1; 0 where no place can be named
+  int column = 0;  ///< from 1; 0 where no place can be named
+  std::string text;  ///< "what: got value, expected set or range with unit"
+};
+
+struct LoadedWorld {
+  std::optional<WorldDesc> world;      ///< set when there are no problems
+  std::vector<WorldProblem> problems;  ///< in the order of their places
+  /// One line per problem, "file:line:column: ...", without a line break at the end of the last.
+  std::string report(std::string_view file) const;
+};
+
+/// Reads and checks a file. `models`: the kinds of robot that the caller knows; the first is the default.
+LoadedWorld load_world(const std::string& path, const std::vector<RobotModel>& models);
+
+/// Same for text already in memory; `path` serves messages and relative file names.
+LoadedWorld parse_world(std::string_view text, const std::string& path, const std::vector<RobotModel>& models);
+
+/// Checks what no single key shows: names, overlaps, sensors that do not exist. Also for worlds built in C++.
+std::vector<WorldProblem> check_world(const WorldDesc& world);
+
+/// A file name as written in a world file, resolved against the world's own folder.
+std::string resolve_path(const WorldDesc& world, const std::string& name);
+
+/// The candidate most like `word`, or an empty string when none is near enough to be meant.
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates);
+
+}  // namespace sim

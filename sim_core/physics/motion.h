@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+// Motion engines: wheel travel of every robot in, poses of every moving body out, one tick at a time.
+// Units: m, rad, s, kg, N. Bodies are numbered robots first, then loose objects.
+// Not modelled: tipping, wheels that leave the floor, rolling balls' spin, suspension.
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "sim_core/geometry/neighbours.h"
+#include "sim_core/geometry/solid.h"
+
+namespace sim {
+
+/// What a robot is to the floor and to whatever it bumps into.
+struct RobotBody {
+  double mass_kg = 1;
+  double inertia_kg_m2 = 1e-4;  ///< about the vertical axis
+  double axle_m = 0.05;         ///< effective distance between the wheels
+  double traction_n = 1;        ///< most the turning wheels together can push, N
+  double hold_n = 1;            ///< most the standing wheels can hold against a push, N
+  double side_friction = 0.3;   ///< Coulomb coefficient of the body's side
+};
+
+/// What a loose object is.
+struct LooseBody {
+  double mass_kg = 0.1;
+  double floor_friction = 0.5;  ///< Coulomb coefficient against the floor or whatever it stands on
+  double side_friction = 0.3;
+  double restitution = 0;       ///< 0 to 1
+};
+
+/// Friction and bounce of a fixed solid.
+struct FixedSurface {
+  double friction = 0.3;
+  double restitution = 0;
+};
+
+/// State of a moving body, at a tick.
+struct BodyState {
+  Pose2 pose;
+  double z_m = 0;          ///< height of its origin (its underside) above the floor
+  Vec2 velocity_m_s;       ///< world frame
+  double spin_rad_s = 0;
+  double climb_m_s = 0;    ///< vertical speed; negative while falling
+};
+
+/// What a robot has bumped into since the world began.
+struct TouchReport {
+  int collisions = 0;              ///< touches begun, whatever was touched
+  double wall_touch_s = 0;         ///< length of the touch of a fixed solid that lasts now, s
+  double longest_wall_touch_s = 0; ///< longest such touch so far, s
+  double longest_touch_s = 0;      ///< longest touch of anything, s
+};
+
+/// Way of each rim over the floor during one tick, m, forward positive.
+struct RimTravel {
+  double left_m = 0;
+  double right_m = 0;
+};
+
+struct MotionDesc {
+  double tick_s = 1.0 / 512;
+  double gravity_m_s2 = 9.81;
+  const std::vector<Placed>* fixed = nullptr;  ///< must outlive the engine
+  std::vector<FixedSurface> surfaces;          ///< one per fixed solid
+  std::vector<const Solid*> solids;            ///< one per moving body; must outlive the engine
+  std::vector<RobotBody> robots;
+  std::vector<LooseBody> loose;
+  std::vector<BodyState> start;                ///< one per moving body
+};
+
+class Motion {
+ public:
+  explicit Motion(MotionDesc desc);
+  virtual ~Motion() = default;
+
+  /// Moves everything by one tick; `travel` holds one entry per robot. Returns the largest distance any body moved, m.
+  double step(const RimTravel* travel, const Neighbours& neighbours);
+
+  const std::vector<BodyState>& bodies() const { return bodies_; }
+  const TouchReport& touches(int robot) const { return touches_[static_cast<std::size_t>(robot)]; }
+  /// A body at its place, for rays and overlaps.
+  Placed placed(int body) const;
+  /// Puts a body somewhere else, at rest.
+  virtual void move(int body, const Pose2& pose, double z_m);
+
+ protected:
+  virtual void step_plane(const RimTravel* travel, const Neighbours& neighbours) = 0;
+  /// Called when a loose body's height range changed.
+  virtual void heights_changed(int body) {}
+  bool heights_meet(double z0_a, double z1_a, double z0_b, double z1_b) const;
+  /// Books this tick's touches of a robot.
+  void note_touch(int robot, bool wall, bool anything);
+  int robots() const { return static_cast<int>(desc_.robots.size()); }
+
+  /// Traction-limited change of a robot's speeds towards what its wheels ask for; then the pose follows.
+  struct Wanted {
+    Vec2 velocity_m_s;      ///< world frame, at the middle of the tick's turn
+    double spin_rad_s = 0;
+  };
+  Wanted wanted(int robot, const RimTravel& travel) const;
+  void drive_freely(int robot, const Wanted& wanted);
+  /// Most force between wheels and floor now, N.
+  double grip_n(int robot, const Wanted& want) const {
+    const RobotBody& r = desc_.robots[static_cast<std::size_t>(robot)];
+    const bool standing = want.velocity_m_s.x == 0 && want.velocity_m_s.y == 0 && want.spin_rad_s == 0;
+    return standing ? r.hold_n : r.traction_n;
+  }
+  /// Moves a robot out of whatever it is inside of: all the way out of fixed solids, half the way out of robots.
+  void push_out(int robot, const Neighbours& neighbours);
+
+  MotionDesc desc_;
+  std::vector<BodyState> bodies_;
+  std::vector<int> support_;  // per body: -1 floor, -2 in the air, otherwise the moving body it stands on, -3 a fixed one
+
+ private:
+  void step_heights();
+  bool blocked_at(int body, double z_m, int& by) const;
+
+  struct Touching {
+    double wall_gap_s = 1;  // since the last touch
+    double any_gap_s = 1;
+    double any_s = 0;
+  };
+  std::vector<TouchReport> touches_;
+  std::vector<Touching> touch_times_;
+};
+
+/// Box2D underneath: limited traction, slip, pushing.
+std::unique_ptr<Motion> make_dynamic_motion(MotionDesc desc);
+/// No forces: exact arcs; a robot stops where it would enter something, and pushes nothing.
+std::unique_ptr<Motion> make_kinematic_motion(MotionDesc desc);
+
+}  // namespace sim

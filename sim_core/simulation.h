@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+// The front door of sim_core: a world, one mind per robot, and time that moves one tick per step().
+// In: a WorldDesc (already checked by load/, or built in C++). Out: poses, touches, distances, a digest of the whole
+// state history that does not depend on the number of threads. Nothing throws once it is built.
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "sim_core/base/clock.h"
+#include "sim_core/physics/motion.h"
+#include "sim_core/world/robot_mind.h"
+#include "sim_core/world/scene.h"
+#include "sim_core/world/world_desc.h"
+
+namespace sim {
+
+class WorkerPool;
+
+class Simulation {
+ public:
+  /// One mind per robot of the world, in its order. threads: how many run the minds, 1 or more.
+  Simulation(const WorldDesc& world, std::vector<std::unique_ptr<RobotMind>> minds, int threads = 1);
+  ~Simulation();
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
+
+  /// Advances by one tick.
+  void step();
+  /// Steps until now() >= at.
+  void run_until(Clicks at);
+
+  Clicks now() const { return scene_->now(); }
+  const Scene& scene() const { return *scene_; }
+  int robots() const { return scene_->robots(); }
+  RobotMind& mind(int robot) { return *minds_[static_cast<std::size_t>(robot)]; }
+  const RobotMind& mind(int robot) const { return *minds_[static_cast<std::size_t>(robot)]; }
+
+  /// Where a robot or a movable object is (robots come first).
+  const Pose2& pose(int body) const { return scene_->state(body).pose; }
+  const BodyState& state(int body) const { return scene_->state(body); }
+  /// Way the robot's centre has travelled over the floor, m. Moves by hand do not count.
+  double distance_m(int robot) const { return distance_m_[static_cast<std::size_t>(robot)]; }
+  /// Collisions and how long they lasted.
+  const TouchReport& touches(int robot) const { return motion_->touches(robot); }
+
+  /// Hash of every tick's poses, wheel angles and minds since the world began.
+  std::uint64_t digest() const { return digest_; }
+
+  /// Puts a body somewhere else, at rest; part of the history that the digest sees.
+  void move(int body, const Pose2& pose, double z_m = 0);
+
+ private:
+  void run_minds(Clicks end);
+  void turn_wheels(Clicks end);
+  void fold_digest();
+
+  std::shared_ptr<const ProximityOptics> optics_;
+  std::unique_ptr<Scene> scene_;
+  std::unique_ptr<Motion> motion_;
+  std::vector<std::unique_ptr<RobotMind>> minds_;
+  std::unique_ptr<WorkerPool> workers_;
+
+  struct Wheels {
+    double left_radius_m = 0;
+    double right_radius_m = 0;
+    double noise = 0;   // half width of the factor on the travel
+    double grip = 1;    // 1 - slip
+    std::uint64_t seed = 0;
+    WheelAngles last;
+    double left_factor = 1, right_factor = 1;
+    std::int64_t noise_index = -1;
+    std::uint64_t mind_hash = 0;
+  };
+  std::vector<Wheels> wheels_;
+  std::vector<WheelAngles> angles_;
+  std::vector<RimTravel> travel_;
+  std::vector<double> distance_m_;
+  std::vector<Vec2> last_place_;
+  std::uint64_t digest_ = 0;
+};
+
+}  // namespace sim

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+// Walls become one box per segment, lengthened by half a thickness at each end so that corners are closed.
+#include "sim_core/world/layout.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim_core/base/check.h"
+
+namespace sim {
+namespace {
+
+/// Shifts a polygon so that its centroid is its origin; returns where the centroid was.
+Vec2 centre_outline(std::vector<Vec2>& corners) {
+  double twice = 0;
+  Vec2 sum;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec2 a = corners[i], b = corners[(i + 1) % corners.size()];
+    const double c = cross(a, b);
+    twice += c;
+    sum = sum + c * (a + b);
+  }
+  const Vec2 centre = (1 / (3 * twice)) * sum;
+  for (Vec2& corner : corners) corner = corner - centre;
+  return centre;
+}
+
+class Builder {
+ public:
+  explicit Builder(Layout& out) : out_(out) {}
+
+  void fixed(Solid solid, const Pose2& pose, double z_m, const Surface& surface, std::string name, int object,
+             int line) {
+    out_.solids.push_back(std::move(solid));
+    out_.fixed.push_back({&out_.solids.back(), Frame2(pose), z_m});
+    out_.fixed_surface.push_back(surface);
+    out_.fixed_name.push_back(std::move(name));
+    out_.fixed_object.push_back(object);
+    out_.fixed_line.push_back(line);
+  }
+
+  void moving(Solid solid, const Pose2& pose, double z_m, const Surface& surface, std::string name) {
+    out_.solids.push_back(std::move(solid));
+    out_.moving.push_back({&out_.solids.back(), Frame2(pose), z_m});
+    out_.moving_pose.push_back(pose);
+    out_.moving_surface.push_back(surface);
+    out_.moving_name.push_back(std::move(name));
+  }
+
+ private:
+  Layout& out_;
+};
+
+void add_arena(const ArenaDesc& arena, Builder& build) {
+  const double t = arena.wall_thickness_m, h = arena.wall_height_m;
+  if (h <= 0) return;
+  const Surface surface = surface_of(arena.material);
+  const Vec2 c = arena.centre_m, s = arena.size_m;
+  const double x = 0.5 * (s.x + t), y = 0.5 * (s.y + t);
+  build.fixed(Solid::box(s.x + 2 * t, t, 0, h), {c.x, c.y + y, 0}, 0, surface, "north arena wall", -1, 0);
+  build.fixed(Solid::box(s.x + 2 * t, t, 0, h), {c.x, c.y - y, 0}, 0, surface, "south arena wall", -1, 0);
+  build.fixed(Solid::box(t, s.y, 0, h), {c.x + x, c.y, 0}, 0, surface, "east arena wall", -1, 0);
+  build.fixed(Solid::box(t, s.y, 0, h), {c.x - x, c.y, 0}, 0, surface, "west arena wall", -1, 0);
+}
+
+void add_wall(const WallDesc& wall, int number, Builder& build) {
+  const std::size_t n = wall.points_m.size();
+  const std::size_t segments = wall.closed ? n : n - 1;
+  for (std::size_t i = 0; i < segments; ++i) {
+    const Vec2 a = wall.points_m[i], b = wall.points_m[(i + 1) % n];
+    const Vec2 along = b - a;
+    const double len = length(along);
+    // ends are lengthened only where another segment joins: a free end stands where it was written
+    const bool joined_a = wall.closed || i > 0;
+    const bool joined_b = wall.closed || i + 1 < segments;
+    const double extra_a = joined_a ? 0.5 * wall.thickness_m : 0;
+    const double extra_b = joined_b ? 0.5 * wall.thickness_m : 0;
+    const Vec2 dir = (1 / len) * along;
+    const Vec2 middle = a + 0.5 * (len + extra_b - extra_a) * dir;
+    const Pose2 pose{middle.x, middle.y, std::atan2(dir.y, dir.x)};
+    build.fixed(Solid::box(len + extra_a + extra_b, wall.thickness_m, 0, wall.height_m), pose, wall.z_m,
+                surface_of(wall.material), "wall " + std::to_string(number) + " segment " + std::to_string(i), -1,
+                wall.line);
+  }
+}
+
+Solid solid_of(const ObjectDesc& o, Pose2& pose) {
+  switch (o.kind) {
+    case ObjectKind::Box: return Solid::box(o.size_m.x, o.size_m.y, 0, o.size_m.z);
+    case ObjectKind::Cylinder: return Solid::cylinder(o.radius_m, 0, o.size_m.z);
+    case ObjectKind::Ball: return Solid::ball(o.radius_m);
+    case ObjectKind::Polygon: break;
+  }
+  std::vector<Vec2> corners = counter_clockwise(o.corners_m);
+  const Vec2 centre = Frame2(pose).to_world(centre_outline(corners));
+  pose.x_m = centre.x;
+  pose.y_m = centre.y;
+  return Solid::prism(std::move(corners), 0, o.size_m.z);
+}
+
+const char* kind_name(ObjectKind kind) {
+  switch (kind) {
+    case ObjectKind::Box: return "box";
+    case ObjectKind::Cylinder: return "cylinder";
+    case ObjectKind::Ball: return "ball";
+    case ObjectKind::Polygon: return "polygon";
+  }
+  return "object";
+}
+
+}  // namespace
+
+Surface surface_of(const Material& m) {
+  return {m.colour, m.ir_reflectance < 0 ? m.colour.r : m.ir_reflectance, m.roughness, m.friction, m.restitution};
+}
+
+Layout build_layout(const WorldDesc& world) {
+  Layout out;
+  Builder build(out);
+  if (world.arena) add_arena(*world.arena, build);
+  for (std::size_t i = 0; i < world.walls.size(); ++i) add_wall(world.walls[i], static_cast<int>(i), build);
+
+  for (const RobotDesc& r : world.robots) {
+    const RobotModel* model = world.model_of(r);
+    CHECK(model, "every robot has a model");
+    Surface surface;
+    surface.colour = r.colour ? *r.colour : model->colour;
+    surface.ir_reflectance = model->ir_reflectance < 0 ? surface.colour.r : model->ir_reflectance;
+    surface.roughness = model->roughness;
+    surface.friction = model->side_friction;
+    build.moving(Solid::cylinder(model->body_radius_m, model->body_z0_m, model->body_height_m), r.pose, 0, surface,
+                 "robot '" + r.name + "'");
+  }
+  for (std::size_t i = 0; i < world.objects.size(); ++i) {
+    const ObjectDesc& o = world.objects[i];
+    Pose2 pose = o.pose;
+    Solid solid = solid_of(o, pose);
+    std::string name = std::string(kind_name(o.kind)) + (o.name.empty() ? " " + std::to_string(i) : " '" + o.name + "'");
+    if (o.movable) {
+      build.moving(std::move(solid), pose, o.z_m, surface_of(o.material), std::move(name));
+      out.loose_object.push_back(static_cast<int>(i));
+    } else {
+      build.fixed(std::move(solid), pose, o.z_m, surface_of(o.material), std::move(name), static_cast<int>(i), o.line);
+    }
+  }
+
+  Vec2 low{1e300, 1e300}, high{-1e300, -1e300};
+  const auto include = [&](const Placed& p) {
+    const auto point = [&](Vec2 w, double r) {
+      low = {std::min(low.x, w.x - r), std::min(low.y, w.y - r)};
+      high = {std::max(high.x, w.x + r), std::max(high.y, w.y + r)};
+    };
+    if (p.solid->kind != SolidKind::Prism) return point(p.frame.at, p.solid->radius_m);
+    for (const Vec2& corner : p.solid->outline) point(p.frame.to_world(corner), 0);
+  };
+  for (const Placed& p : out.fixed) include(p);
+  for (const Placed& p : out.moving) include(p);
+  if (low.x > high.x) low = {-0.5, -0.5}, high = {0.5, 0.5};
+  if (out.fixed.empty()) low = low - Vec2{0.25, 0.25}, high = high + Vec2{0.25, 0.25};
+  out.low_m = low;
+  out.high_m = high;
+  return out;
+}
+
+}  // namespace sim

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// The world as robots see it while they run: frozen at the last tick, with the poses of the last 40 ms behind it.
+// In: body states once per tick. Out: poses at any instant, rays, surfaces, who is near whom. All const methods are
+// safe from any thread while nobody publishes. Heights of falling bodies are those of the last tick.
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "sim_core/base/clock.h"
+#include "sim_core/geometry/neighbours.h"
+#include "sim_core/physics/motion.h"
+#include "sim_core/world/layout.h"
+#include "sim_core/world/world_desc.h"
+
+namespace sim {
+
+struct ProximityOptics;  // light/proximity.h: rays and tables of every sensor, resolved once
+
+/// How far back poses are kept, s. [design 4: an ADC scan looks at most 40 ms back]
+inline constexpr double kHistoryS = 0.040;
+
+/// What a ray met.
+struct SceneHit {
+  double distance_m = 0;
+  Vec3 point_m;
+  Vec3 normal;         ///< unit, out of the surface
+  Surface surface;
+  int robot = -1;      ///< index when a robot was hit
+  bool floor = false;
+};
+
+class Scene {
+ public:
+  /// `reach_m[r]`: how far from its centre robot r's proximity rays can end.
+  Scene(const WorldDesc& world, std::vector<double> reach_m);
+  Scene(const Scene&) = delete;
+  Scene& operator=(const Scene&) = delete;
+
+  const WorldDesc& world() const { return world_; }
+  const Layout& layout() const { return layout_; }
+  int robots() const { return robots_; }
+  /// Robots and movable objects; robots come first.
+  int bodies() const { return static_cast<int>(states_.size()); }
+
+  /// Instant of the last tick.
+  Clicks now() const { return tick_ * tick_clicks_; }
+  Clicks tick_clicks() const { return tick_clicks_; }
+  double tick_s() const { return tick_s_; }
+
+  /// Grows with every tick and every relocation: what a cache must have been made with.
+  std::uint64_t version() const { return version_; }
+
+  /// State at the last tick.
+  const BodyState& state(int body) const { return states_[static_cast<std::size_t>(body)]; }
+  /// Pose at an instant: between ticks interpolated, after the last one carried on with its velocity, before the
+  /// oldest kept one that one.
+  Pose2 pose(int body, Clicks at) const;
+  /// Same with the solid, ready for rays. Headings of round bodies are left out.
+  Placed placed(int body, Clicks at) const;
+
+  const Neighbours& neighbours() const { return neighbours_; }
+  /// Look of a fixed solid or of a moving body.
+  const Surface& surface(const Candidate& c) const {
+    return (c.moving ? layout_.moving_surface : layout_.fixed_surface)[static_cast<std::size_t>(c.index)];
+  }
+  /// Look of the floor at a point; the image's pixel where there is one.
+  Surface floor(Vec2 point_m) const;
+
+  /// First thing a ray of any length meets at an instant: solids and the floor. skip_robot -1: none.
+  bool cast(const Ray& ray, double limit_m, int skip_robot, Clicks at, SceneHit* hit) const;
+
+  /// Resolved optics of the robots' sensors; set once by whoever builds the simulation.
+  const ProximityOptics* optics() const { return optics_.get(); }
+  void attach_optics(std::shared_ptr<const ProximityOptics> optics) { optics_ = std::move(optics); }
+
+  /// The next tick's states; `moved_m` is the largest distance any body moved.
+  void publish(const std::vector<BodyState>& states, double moved_m);
+  /// A body was put somewhere else: its history is forgotten, lists are gathered anew.
+  void relocate(int body, const BodyState& state);
+
+ private:
+  void regather();
+
+  WorldDesc world_;
+  Layout layout_;
+  int robots_;
+  Clicks tick_clicks_;
+  double tick_s_;
+  Clicks tick_ = 0;
+  std::uint64_t version_ = 1;
+  int slots_;                     // poses kept per body
+  std::vector<Pose2> history_;    // [body * slots_ + tick % slots_]
+  std::vector<double> moved_;     // [tick % slots_]: largest movement of that tick, m
+  std::vector<BodyState> states_;
+  std::vector<Placed> moving_;
+  Neighbours neighbours_;
+  std::shared_ptr<const ProximityOptics> optics_;
+};
+
+}  // namespace sim
