@@ -74,7 +74,8 @@ TEST(Contract, structures_have_the_robots_sizes) {
                   "_Static_assert(sizeof(TypeAccRaw) == 6 && sizeof(TypeAccSpheric) == 12, \"acceleration\");\n"
                   "_Static_assert(sizeof(struct BtDevice) == 29 && sizeof(struct BtEPuck) == 11, \"Bluetooth\");\n"
                   "_Static_assert(sizeof(fractcomplex) == 4, \"fractions\");\n"
-                  "_Static_assert(PULSE_PERIOD == 4 && ACC_PROX_PERIOD == 64 && ADCS_3_CHAN == 39, \"scan\");\n"
+                  // casts of floating constants are not constant expressions in the strict sense
+                  "extern char scan[PULSE_PERIOD == 4 && ACC_PROX_PERIOD == 64 && ADCS_3_CHAN == 39 ? 1 : -1];\n"
                   "int main(void) { return 0; }\n");
 }
 
