@@ -37,7 +37,7 @@ build: setup
 run: build
 	@mkdir -p $(OUT)
 	@$(BUILD)/twinpuck build firmware/$(FW) -o $(OUT)/$(FW).so
-	@$(BUILD)/twinpuck run worlds/$(WORLD).toml --fw puck=$(OUT)/$(FW).so --for 60 --speed max \
+	@$(BUILD)/twinpuck run worlds/$(WORLD).toml --fw '*=$(OUT)/$(FW).so' --for 60 --speed max \
 	  --record $(OUT)/$(FW).csv --summary $(OUT)/$(FW).json --picture $(OUT)/$(FW).png $(ARGS)
 
 ## test: all tests that need no browser; T=filter selects by name
@@ -67,8 +67,8 @@ format:
 ## bench: speed for 1 to 1000 robots, beside libenki
 bench: build
 	@scripts/setup.sh bench
-	@ninja -C $(BUILD) --quiet -j $(JOBS) bench_compare
-	@$(BUILD)/bench_compare $(ARGS)
+	@ninja -C $(BUILD) --quiet -j $(JOBS) bench
+	@$(BUILD)/bin/bench $(ARGS)
 
 ## asan: all tests under the address and undefined-behaviour sanitizers
 asan: setup

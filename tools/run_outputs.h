@@ -12,7 +12,7 @@
 
 namespace sim {
 class CsvRecorder;
-class PathLog;
+class Trajectories;
 }
 
 namespace tools {
@@ -41,7 +41,7 @@ class RunOutputs {
   const OutputArguments arguments_;
   twin::Twin& twin_;
   std::unique_ptr<sim::CsvRecorder> recorder_;
-  std::unique_ptr<sim::PathLog> paths_;
+  std::unique_ptr<sim::Trajectories> paths_;
 };
 
 }  // namespace tools
