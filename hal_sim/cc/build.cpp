@@ -74,7 +74,6 @@ Plan plan(const BuildOptions& o, const std::vector<fs::path>& sources, bool lint
   fs::path include_root = o.include_root.empty() ? root / "firmware/include" : o.include_root;
   fs::path api = o.api_dir.empty() ? root / "hal_sim/api" : o.api_dir;
   std::vector<std::string> mode = {o.optimisation};
-  if (o.sanitize) mode.push_back("--sanitize");
   std::vector<std::string> library_include, user_include;
   for (const auto& d : o.include_dirs) user_include.push_back("-I" + d.string());
   auto headers = files_below(o.source_dir, ".h");
@@ -99,6 +98,7 @@ Plan plan(const BuildOptions& o, const std::vector<fs::path>& sources, bool lint
 
   Plan p;
   std::vector<std::string> flags = mode;
+  if (o.sanitize) flags.push_back("--sanitize");
   if (o.coverage) flags.push_back("--coverage");
   if (o.strict) flags.push_back("--strict");
   if (lint) flags.push_back("--lint");
@@ -122,7 +122,7 @@ Plan plan(const BuildOptions& o, const std::vector<fs::path>& sources, bool lint
   if (o.coverage) p.runtime.flags.push_back("-DTP_COVERAGE");
   if (o.sanitize)
     p.library.push_back({cc_dir / "runtime/image_sanitize.c",
-                         {"-O1", "-I" + root.string(), "-I" + (cc_dir / "libc/include").string()}, ""});
+                         {"-O1", "--uncounted", "-I" + root.string(), "-I" + (cc_dir / "libc/include").string()}, ""});
   return p;
 }
 

@@ -23,6 +23,7 @@ struct Options {
   int level = 1;                       // 0, 1, 2
   bool for_size = false;
   bool sanitize = false, coverage = false, strict = false, lint = false, emit_ir = false;
+  bool uncounted = false;  // part of the runtime: costs no cycles
   bool library = false;  // part of the API or libc: definitions are weak, the program's own win
 };
 

@@ -191,11 +191,13 @@ bool run_pipeline(Unit& unit) {
     only.addPass(GlobalDCEPass());
     run(only);
   }
-  CostPlan costs = plan_costs(unit, fam);
-  fam.clear();
-  instrument_polls(unit, fam);
-  fam.clear();
-  account(unit, costs);
+  if (!unit.options.uncounted) {
+    CostPlan costs = plan_costs(unit, fam);
+    fam.clear();
+    instrument_polls(unit, fam);
+    fam.clear();
+    account(unit, costs);
+  }
   lower_late(unit);
   if (unit.options.sanitize) check_addresses(unit);
   if (unit.options.library) make_weak(unit);

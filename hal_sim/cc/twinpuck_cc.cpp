@@ -31,6 +31,7 @@ bool parse(int argc, char** argv, cc::Options& o) {
     else if (a == "--strict") o.strict = true;
     else if (a == "--lint") o.lint = true;
     else if (a == "--library") o.library = true;
+    else if (a == "--uncounted") o.uncounted = true;
     else if (a == "--emit-ir") o.emit_ir = true;
     else if (a == "--depfile") o.depfile = value();
     else if (a == "--cost-dump") o.cost_dump = value();

@@ -14,6 +14,7 @@ struct block {
 };
 
 __attribute__((aligned(8))) char tp_image_heap[TP_HEAP_BYTES];
+unsigned int tp_image_heap_bytes = TP_HEAP_BYTES;
 static int ready;
 
 static struct block *next_of(struct block *b) { return (struct block *)((char *)(b + 1) + b->bytes); }
