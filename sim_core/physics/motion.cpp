@@ -18,6 +18,13 @@ Motion::Motion(MotionDesc desc) : desc_(std::move(desc)), bodies_(desc_.start) {
   CHECK(bodies_.size() == desc_.solids.size() && bodies_.size() == desc_.robots.size() + desc_.loose.size(),
         "one start, one solid and one description per moving body");
   CHECK(desc_.surfaces.size() == desc_.fixed->size(), "one surface per fixed solid");
+  ticks_per_s_ = 1 / desc_.tick_s;
+  for (const RobotBody& r : desc_.robots) {
+    const auto limits = [&](double grip_n) {
+      return Limits{grip_n * desc_.tick_s / r.mass_kg, grip_n * 0.5 * r.axle_m * desc_.tick_s / r.inertia_kg_m2};
+    };
+    drives_.push_back({ticks_per_s_ / r.axle_m, limits(r.traction_n), limits(r.hold_n)});
+  }
   touches_.resize(desc_.robots.size());
   touch_times_.resize(desc_.robots.size());
   support_.assign(bodies_.size(), kOnFloor);
@@ -57,28 +64,26 @@ bool Motion::heights_meet(double z0_a, double z1_a, double z0_b, double z1_b) co
 }
 
 Motion::Wanted Motion::wanted(int robot, const RimTravel& travel) const {
-  const RobotBody& r = desc_.robots[static_cast<std::size_t>(robot)];
+  const Drive& d = drives_[static_cast<std::size_t>(robot)];
   const BodyState& b = bodies_[static_cast<std::size_t>(robot)];
-  const double tick_s = desc_.tick_s;
-  const double speed = 0.5 * (travel.left_m + travel.right_m) / tick_s;
-  const double spin = (travel.right_m - travel.left_m) / (r.axle_m * tick_s);
+  const double speed = 0.5 * (travel.left_m + travel.right_m) * ticks_per_s_;
+  const double spin = (travel.right_m - travel.left_m) * d.spin_per_m;
   if (speed == 0) return {{0, 0}, spin};
   // the direction is taken at the middle of the turn that friction will allow
-  const double most = r.traction_n * 0.5 * r.axle_m * tick_s / r.inertia_kg_m2;
+  const double most = d.driving.spin_rad_s;
   const double allowed = b.spin_rad_s + std::clamp(spin - b.spin_rad_s, -most, most);
-  const SinCos middle = sin_cos(b.pose.heading_rad + 0.5 * allowed * tick_s);
+  const SinCos middle = sin_cos(b.pose.heading_rad + 0.5 * allowed * desc_.tick_s);
   return {{speed * middle.c, speed * middle.s}, spin};
 }
 
 void Motion::drive_freely(int robot, const Wanted& want) {
-  const RobotBody& r = desc_.robots[static_cast<std::size_t>(robot)];
+  const Drive& d = drives_[static_cast<std::size_t>(robot)];
+  const Limits& limits = is_standing(want) ? d.standing : d.driving;
   BodyState& b = bodies_[static_cast<std::size_t>(robot)];
   const double tick_s = desc_.tick_s;
-  const double grip = grip_n(robot, want);
-  const double most_spin = grip * 0.5 * r.axle_m * tick_s / r.inertia_kg_m2;
-  b.spin_rad_s += std::clamp(want.spin_rad_s - b.spin_rad_s, -most_spin, most_spin);
+  b.spin_rad_s += std::clamp(want.spin_rad_s - b.spin_rad_s, -limits.spin_rad_s, limits.spin_rad_s);
   const Vec2 change = want.velocity_m_s - b.velocity_m_s;
-  const double most = grip * tick_s / r.mass_kg;
+  const double most = limits.speed_m_s;
   const double size2 = dot(change, change);
   if (size2 <= most * most) {
     b.velocity_m_s = want.velocity_m_s;

@@ -317,6 +317,7 @@ class Painter {
     const auto entry = [&](const std::string& s, auto draw) {
       const double room = 26 + text_width(s, 13) + 22;
       if (x + room > width_px_ - kMarginPx + 22) return false;
+      cairo_new_path(cr_);  // text leaves its end as the current point
       draw(x, y - 2);
       cairo_set_source_rgb(cr_, 0.1, 0.1, 0.1);
       text(s, x + 26, y + 3, 13);

@@ -89,6 +89,8 @@ class Scene {
   Clicks tick_ = 0;
   std::uint64_t version_ = 1;
   int slots_;                     // poses kept per body
+  int last_slot_ = 0;             // where the last tick's poses are
+  double per_tick_;               // 1 / tick_clicks_
   std::vector<Pose2> history_;    // [body * slots_ + tick % slots_]
   std::vector<double> moved_;     // [tick % slots_]: largest movement of that tick, m
   std::vector<BodyState> states_;
