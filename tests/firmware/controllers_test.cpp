@@ -180,6 +180,20 @@ TEST_F(FirmwareTest, headers_are_found_in_every_usual_spelling) {
   EXPECT_EQ(robot.leds(), 1u << 5 | 1u << 8);
 }
 
+TEST_F(FirmwareTest, calls_without_argument_mean_what_they_meant_in_older_libraries) {
+  Robot& robot = add_robot_with_source(
+      "#include <a_d/advance_ad_scan/e_ad_conv.h>\n#include <motor_led/e_init_port.h>\n"
+      "#include <uart/e_uart_char.h>\n"
+      "int main(void) {\n"
+      "  e_init_port(); e_init_uart2(); e_init_ad_scan();\n"
+      "  e_send_uart2_char(\"U\", 1);\n"
+      "  while (1);\n"
+      "}\n");
+  run_for(0.5);
+  EXPECT_EQ(robot.uart2_text(), "U");
+  expect_no_traps();
+}
+
 TEST_F(FirmwareTest, a_transform_helper_rounds_the_mean_down) {
   Robot& robot = add_robot_with_source(
       "#include <fft/e_fft_utilities.h>\n"
