@@ -48,7 +48,7 @@ std::unique_ptr<Motion> make_motion(const WorldDesc& world, const Layout& layout
 
 }  // namespace
 
-Simulation::Simulation(const WorldDesc& world, std::vector<std::unique_ptr<RobotMind>> minds, int threads)
+Simulation::Simulation(const WorldDesc& world, Minds minds, int threads)
     : optics_(make_optics(world)),
       scene_(std::make_unique<Scene>(world, optics_reach_m(*optics_))),
       motion_(make_motion(scene_->world(), scene_->layout())),

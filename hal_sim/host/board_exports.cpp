@@ -175,7 +175,7 @@ void tp_agenda_end(void) {
   Context& context = Context::current();
   Board& robot = context.board();
   robot.agendas().finish(context.now());
-  robot.requests.agenda_interrupt = -1;  // the request was used up
+  robot.requests.agenda_interrupt = Board::Requests::kUnknown;  // the request was used up
   context.note_write();
   follow_agendas(context, robot);
 }
