@@ -142,7 +142,8 @@ TEST_F(FirmwareTest, bench_braitenberg_cruises_at_8_cm_per_second) {
   EXPECT_NEAR(robot.x_m() - start_m, 10 * speed_m_s, 0.02);
 }
 
-// --- the contract as controllers meet it ------------------------------------------------------------------------
+// --- the contract as controllers meet it
+// ------------------------------------------------------------------------
 
 TEST_F(FirmwareTest, an_unsimulated_device_stops_the_robot_by_name) {
   Robot& camera = add_robot_with_source(
@@ -158,8 +159,8 @@ TEST_F(FirmwareTest, an_unsimulated_device_stops_the_robot_by_name) {
 TEST_F(FirmwareTest, the_header_decides_the_variant_of_a_function) {
   // all LEDs with value 2: the basic variant toggles each, the advanced one switches all off
   const std::string body = "int main(void) { e_init_port(); e_set_led(3, 1); e_set_led(8, 2); while (1); }\n";
-  Robot& basic = add_robot_with_source(
-      "#include <motor_led/e_init_port.h>\n#include <motor_led/e_led.h>\n" + body);
+  Robot& basic =
+      add_robot_with_source("#include <motor_led/e_init_port.h>\n#include <motor_led/e_led.h>\n" + body);
   Robot& advanced = add_robot_with_source(
       "#include <motor_led/e_init_port.h>\n#include <motor_led/advance_one_timer/e_led.h>\n" + body);
   advanced.at(0.5, 0);
@@ -218,7 +219,8 @@ TEST_F(FirmwareTest, matlab_messages_have_the_documented_bytes) {
       "}\n");
   run_for(0.2);
   EXPECT_EQ(robot.uart1_text(), std::string("I\4\0\1\0\xFE\xFF"
-                                            "EOF\0", 11));
+                                            "EOF\0",
+                                            11));
   robot.send_uart1(std::string("\4\0\x10\x27\xFF\x00", 6));
   run_for(0.1);
   EXPECT_EQ(robot.variable("count"), 2);
