@@ -58,9 +58,9 @@ TEST_F(FirmwareTest, obstacle_wanders_through_the_maze_without_touching_it) {
 }
 
 TEST_F(FirmwareTest, obstacle_sees_a_wall_end_dead_ahead) {
-  // the end of a wall 2 cm thick stands between the two front sensors
+  // the end of a wall 1 cm thick stands between the two front sensors
   arena(1, 1);
-  box(0.21, 0, 0.02);
+  wall(0.2, 0, 0.45, 0);
   Robot& robot = add_robot("obstacle").at(0, 0, 0);
   run_for(20);
   EXPECT_EQ(robot.longest_wall_touch_s(), 0);
