@@ -58,9 +58,9 @@ TEST_F(FirmwareTest, obstacle_wanders_through_the_maze_without_touching_it) {
 }
 
 TEST_F(FirmwareTest, obstacle_sees_a_wall_end_dead_ahead) {
-  // the end of a wall 2 cm thick stands between the two front sensors
+  // the end of a wall 1 cm thick stands between the two front sensors
   arena(1, 1);
-  box(0.21, 0, 0.02);
+  wall(0.2, 0, 0.45, 0);
   Robot& robot = add_robot("obstacle").at(0, 0, 0);
   run_for(20);
   EXPECT_EQ(robot.longest_wall_touch_s(), 0);
@@ -142,7 +142,8 @@ TEST_F(FirmwareTest, bench_braitenberg_cruises_at_8_cm_per_second) {
   EXPECT_NEAR(robot.x_m() - start_m, 10 * speed_m_s, 0.02);
 }
 
-// --- the contract as controllers meet it ------------------------------------------------------------------------
+// --- the contract as controllers meet it
+// ------------------------------------------------------------------------
 
 TEST_F(FirmwareTest, an_unsimulated_device_stops_the_robot_by_name) {
   Robot& camera = add_robot_with_source(
@@ -158,8 +159,8 @@ TEST_F(FirmwareTest, an_unsimulated_device_stops_the_robot_by_name) {
 TEST_F(FirmwareTest, the_header_decides_the_variant_of_a_function) {
   // all LEDs with value 2: the basic variant toggles each, the advanced one switches all off
   const std::string body = "int main(void) { e_init_port(); e_set_led(3, 1); e_set_led(8, 2); while (1); }\n";
-  Robot& basic = add_robot_with_source(
-      "#include <motor_led/e_init_port.h>\n#include <motor_led/e_led.h>\n" + body);
+  Robot& basic =
+      add_robot_with_source("#include <motor_led/e_init_port.h>\n#include <motor_led/e_led.h>\n" + body);
   Robot& advanced = add_robot_with_source(
       "#include <motor_led/e_init_port.h>\n#include <motor_led/advance_one_timer/e_led.h>\n" + body);
   advanced.at(0.5, 0);
@@ -178,6 +179,20 @@ TEST_F(FirmwareTest, headers_are_found_in_every_usual_spelling) {
       "int main(void) { e_init_port(); LED5 = 1; BODY_LED = 1; NOP(); while (1); }\n");
   run_for(0.5);
   EXPECT_EQ(robot.leds(), 1u << 5 | 1u << 8);
+}
+
+TEST_F(FirmwareTest, calls_without_argument_mean_what_they_meant_in_older_libraries) {
+  Robot& robot = add_robot_with_source(
+      "#include <a_d/advance_ad_scan/e_ad_conv.h>\n#include <motor_led/e_init_port.h>\n"
+      "#include <uart/e_uart_char.h>\n"
+      "int main(void) {\n"
+      "  e_init_port(); e_init_uart2(); e_init_ad_scan();\n"
+      "  e_send_uart2_char(\"U\", 1);\n"
+      "  while (1);\n"
+      "}\n");
+  run_for(0.5);
+  EXPECT_EQ(robot.uart2_text(), "U");
+  expect_no_traps();
 }
 
 TEST_F(FirmwareTest, a_transform_helper_rounds_the_mean_down) {
@@ -204,7 +219,8 @@ TEST_F(FirmwareTest, matlab_messages_have_the_documented_bytes) {
       "}\n");
   run_for(0.2);
   EXPECT_EQ(robot.uart1_text(), std::string("I\4\0\1\0\xFE\xFF"
-                                            "EOF\0", 11));
+                                            "EOF\0",
+                                            11));
   robot.send_uart1(std::string("\4\0\x10\x27\xFF\x00", 6));
   run_for(0.1);
   EXPECT_EQ(robot.variable("count"), 2);
