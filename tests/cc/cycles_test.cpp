@@ -47,7 +47,7 @@ std::map<std::string, double> estimate(const fs::path& source, const fs::path& w
   std::map<std::string, double> cycles;
   fs::path base = work / source.stem();
   std::string o = base.string() + ".o", so = base.string() + ".so", dump = base.string() + ".dump";
-  auto compiled = cc::run_process({std::string(TWINPUCK_BUILD_DIR) + "/twinpuck-cc", "-c", source.string(), "-o", o, "-O1", "--cost-dump", dump});
+  auto compiled = cc::run_process({std::string(TWINPUCK_BUILD_DIR) + "/twinpuck-cc", "-c", source.string(), "-o", o, "-O1", "-fvisibility=default", "--cost-dump", dump});
   EXPECT_EQ(compiled.status, 0) << compiled.output;
   fs::path control = work / "control.c";
   std::ofstream(control) << "struct { long long a, b; } tp_ctl __attribute__((visibility(\"hidden\")));";

@@ -55,7 +55,7 @@ TEST(time, counted_delay_becomes_one_call) {
 
 TEST(time, empty_delay_leaves_the_final_counter) {
   auto run = run_c("#include <stdio.h>\nint main(void) { unsigned int i, n = 4000; volatile unsigned int m = 300;\n"
-                   "  for (i = 0; i < m; i++); printf(\"%u \", i); while (n--); printf(\"%u\", n); return 0; }");
+                   "  { unsigned int end = m; for (i = 0; i < end; i++); } printf(\"%u \", i); while (n--); printf(\"%u\", n); return 0; }");
   EXPECT_EQ(run.console, "300 65535");
   ASSERT_EQ(run.delays.size(), 2u);
   EXPECT_EQ(run.delays[0].first, 300);
