@@ -34,7 +34,8 @@ std::unique_ptr<Motion> make_motion(const WorldDesc& world, const Layout& layout
     body.mass_kg = m.mass_kg;
     body.inertia_kg_m2 = m.inertia_kg_m2;
     body.axle_m = m.axle_m * resolve_variation(world, static_cast<int>(r)).axle_ratio;
-    body.traction_n = std::min(m.wheel_friction * world.floor.friction * m.mass_kg * world.gravity_m_s2, m.max_push_n);
+    body.hold_n = m.wheel_friction * world.floor.friction * m.mass_kg * world.gravity_m_s2;
+    body.traction_n = std::min(body.hold_n, m.max_push_n);
     body.side_friction = m.side_friction;
     desc.robots.push_back(body);
   }
@@ -47,7 +48,7 @@ std::unique_ptr<Motion> make_motion(const WorldDesc& world, const Layout& layout
 
 }  // namespace
 
-Simulation::Simulation(const WorldDesc& world, std::vector<std::unique_ptr<RobotMind>> minds, int threads)
+Simulation::Simulation(const WorldDesc& world, Minds minds, int threads)
     : optics_(make_optics(world)),
       scene_(std::make_unique<Scene>(world, optics_reach_m(*optics_))),
       motion_(make_motion(scene_->world(), scene_->layout())),

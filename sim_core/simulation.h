@@ -20,7 +20,7 @@ class WorkerPool;
 class Simulation {
  public:
   /// One mind per robot of the world, in its order. threads: how many run the minds, 1 or more.
-  Simulation(const WorldDesc& world, std::vector<std::unique_ptr<RobotMind>> minds, int threads = 1);
+  Simulation(const WorldDesc& world, Minds minds, int threads = 1);
   ~Simulation();
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
@@ -33,6 +33,7 @@ class Simulation {
   Clicks now() const { return scene_->now(); }
   const Scene& scene() const { return *scene_; }
   int robots() const { return scene_->robots(); }
+  const Minds& minds() const { return minds_; }
   RobotMind& mind(int robot) { return *minds_[static_cast<std::size_t>(robot)]; }
   const RobotMind& mind(int robot) const { return *minds_[static_cast<std::size_t>(robot)]; }
 
@@ -58,7 +59,7 @@ class Simulation {
   std::shared_ptr<const ProximityOptics> optics_;
   std::unique_ptr<Scene> scene_;
   std::unique_ptr<Motion> motion_;
-  std::vector<std::unique_ptr<RobotMind>> minds_;
+  Minds minds_;
   std::unique_ptr<WorkerPool> workers_;
 
   struct Wheels {

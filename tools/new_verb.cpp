@@ -97,7 +97,7 @@ TEST_F(@SUITE@, drives_and_keeps_off_the_wall) {
 }
 )";
 
-std::string fill(std::string text, const std::string& key, const std::string& value) {
+std::string replace_all(std::string text, const std::string& key, const std::string& value) {
   for (std::size_t at = text.find(key); at != std::string::npos; at = text.find(key, at + value.size()))
     text.replace(at, key.size(), value);
   return text;
@@ -134,7 +134,7 @@ int make_controller(const std::string& name) {
   const std::pair<const char*, const char*> files[] = {{"main.c", kMain}, {"README.md", kReadme}, {"test.cpp", kTest}};
   for (const auto& [file, text] : files) {
     std::ofstream out(folder / file);
-    out << fill(fill(text, "@NAME@", name), "@SUITE@", suite_name(name));
+    out << replace_all(replace_all(text, "@NAME@", name), "@SUITE@", suite_name(name));
     if (!out.flush()) {
       complain({(folder / file).string() + ": new controller: cannot write the file"});
       return kBadInput;

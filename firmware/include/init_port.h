@@ -4,6 +4,8 @@
 #ifndef _INIT_PORT
 #define _INIT_PORT
 
+#include "epuck_ports.h"
+
 /** Pin directions and start levels; LEDs off, motors without current. */
 void InitPort(void);
 

@@ -12,6 +12,8 @@
 /** The function only reads, and waits for nothing: a loop that does nothing but call it may be jumped over
  *  until its answer can change. */
 #define TP_POLL __attribute__((annotate("tp_poll")))
+/** A second form of a function that had no argument in older versions of the library: both calls compile. */
+#define TP_OLDER_CALL static __inline__ __attribute__((overloadable, unused))
 #else
 #define TP_VARIANT(prefix, name)
 #define TP_POLL

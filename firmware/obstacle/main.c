@@ -3,7 +3,8 @@
  *
  * Forward it swings its nose to both sides, because the two front sensors look 17 degrees outwards and would miss
  * the end of a wall dead ahead. When something comes near it turns on the spot, away from the nearer side, until the
- * way is free: a round robot that turns on the spot touches nothing.
+ * way is free: a round robot that turns on the spot touches nothing. It turns some more then, because an edge
+ * that has just left one ray may stand in the gap of 28 degrees before the next.
  */
 #include <a_d/advance_ad_scan/e_ad_conv.h>
 #include <a_d/advance_ad_scan/e_prox.h>
@@ -18,7 +19,8 @@
 #define CRUISE 480         /* steps/s */
 #define SWING 250          /* steps/s added to one wheel and taken from the other */
 #define SWING_PERIODS 10   /* control periods to one side */
-#define SPIN 300           /* steps/s */
+#define SPIN 300           /* steps/s: 83 degrees a second */
+#define FREE_PERIODS 11    /* control periods the way must be free before a turn ends: 29 degrees */
 
 #define FRONT_NEAR 130 /* counts: about 45 mm, white wall */
 #define FRONT_FREE 110
@@ -50,17 +52,19 @@ static int closeness(int front, int front_limit, int side, int side_limit) {
 
 static void control(void) {
   static int state = FORWARD;
-  static int swing_phase;
+  static int swing_phase, free_periods;
   int front_limit = state == FORWARD ? FRONT_NEAR : FRONT_FREE;
   int side_limit = state == FORWARD ? SIDE_NEAR : SIDE_FREE;
   int right = closeness(0, front_limit, 1, side_limit);
   int left = closeness(7, front_limit, 6, side_limit);
 
   /* once begun, a turn keeps its direction: in a corner the nearer side changes all the time */
-  if (left < 100 && right < 100)
+  if (left >= 100 || right >= 100) {
+    free_periods = 0;
+    if (state == FORWARD) state = left > right ? TURN_RIGHT : TURN_LEFT;
+  } else if (++free_periods > FREE_PERIODS) {
     state = FORWARD;
-  else if (state == FORWARD)
-    state = left > right ? TURN_RIGHT : TURN_LEFT;
+  }
 
   if (state == TURN_LEFT) {
     drive(-SPIN, SPIN);

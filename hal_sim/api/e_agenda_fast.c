@@ -46,6 +46,10 @@ static tp_i64 counts_since_start(const struct timer *t) { return (tp_now() - t->
 /* cycle of the next match; a count beyond the period first runs through 16 bits */
 static void request_match(struct timer *t) {
   tp_i64 to_go = (tp_i64)t->period + 1 - t->count;
+  if (tasks.speed[t - timers] == 0) {
+    tp_irq_at(t->vector, -1); /* a timer whose tasks all rest */
+    return;
+  }
   if (to_go <= 0) to_go += 65536;
   tp_irq_at(t->vector, t->started + (to_go << t->shift));
 }

@@ -51,3 +51,7 @@ UNSIMULATED(unsigned char, GetStatus, ())
 UNSIMULATED(int, SendPacket, (unsigned char destinationgroup, unsigned int destinationaddress,
                               unsigned char *packet, int packetsize))
 UNSIMULATED(int, IsPacketReady, (unsigned char *packet, int *packetSize))
+
+/* in the library's object, in none of its headers */
+unsigned int GetOwnAddress();
+UNSIMULATED(unsigned int, GetOwnAddress, ())

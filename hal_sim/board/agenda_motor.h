@@ -86,9 +86,8 @@ class AgendaMotor {
       count_idle(tick);
       return;
     }
-    // firing by firing until driver, rotor and rhythm agree
-    int regular = 0;
-    while (regular < 3) {
+    // firing by firing until driver, rotor and rhythm agree; then only up to the next one
+    do {
       const std::int64_t fire_tick = count.tick + count.ticks_to_fire();
       if (fire_tick > tick) {
         count_idle(tick);
@@ -97,8 +96,9 @@ class AgendaMotor {
       count.tick = fire_tick;
       fire(line.cycle_of(fire_tick));
       count.counter = 0;
-      regular = stepper.is_at(phase) && fire_tick > line.late_tick ? regular + 1 : 0;
-    }
+      regular_ = stepper.is_at(phase) && fire_tick > line.late_tick ? regular_ + 1 : 0;
+    } while (regular_ < kRegularFirings);
+    regular_ = kRegularFirings;
     // whole periods at once; each ends in the state it began with
     const std::int64_t period = full_period();
     const std::int64_t periods = (tick - count.tick) / period;
@@ -130,7 +130,14 @@ class AgendaMotor {
 
   void set_cycle(int cycle) { count.cycle = static_cast<std::uint16_t>(cycle); }
 
+  /// Somebody changed speed, cycle, pins or phase: the rhythm has to be found again.
+  void disturb() { regular_ = 0; }
+
  private:
+  /// Firings in a row after which every step has had the time to finish, so that periods can be added up.
+  static constexpr int kRegularFirings = 3;
+  int regular_ = 0;
+
   /// left: forward only for v > 0; right: backward only for v < 0
   int step_direction() const {
     if (stepper.forward() < 0) return speed > 0 ? 1 : -1;

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "hal_sim/board/noise.h"
+#include "sim_core/base/hash.h"
 
 namespace board {
 
@@ -20,7 +20,8 @@ std::int64_t floor_div(std::int64_t a, std::int64_t b) {
 }
 }  // namespace
 
-AgendaTimer::AgendaTimer() : motors_{AgendaMotor(-1), AgendaMotor(+1)} {
+AgendaTimer::AgendaTimer()
+    : motors_{AgendaMotor(-1), AgendaMotor(+1)}, ahead_{AgendaMotor(-1), AgendaMotor(+1)} {
   nodes_.reserve(8);
   for (AgendaMotor& m : motors_) m.count.active = false;
 }
@@ -70,6 +71,7 @@ void AgendaTimer::reset(Cycle at) {
     motor(wheel).count.active = false;
     motor_functions_[static_cast<int>(wheel)] = nullptr;
     motor_serial_[static_cast<int>(wheel)] = 0;
+    has_ahead_[static_cast<int>(wheel)] = has_node_[static_cast<int>(wheel)] = false;
   }
   nodes_.clear();
   line_ = TickLine{};
@@ -101,7 +103,7 @@ bool AgendaTimer::needs_handler(const Node& node) const {
 
 void AgendaTimer::settle(Node& node, std::int64_t tick) {
   if (node.kind != Kind::User) {
-    motor(wheel_of(node.kind)).advance_to(tick, line_);
+    bring(wheel_of(node.kind), tick);
     return;
   }
   AgendaCount& count = node.count;
@@ -110,9 +112,19 @@ void AgendaTimer::settle(Node& node, std::int64_t tick) {
   count.tick = tick;
 }
 
+AgendaMotor& AgendaTimer::bring(Wheel wheel, std::int64_t tick) {
+  const std::size_t i = static_cast<std::size_t>(wheel);
+  AgendaMotor& m = motors_[i];
+  if (has_ahead_[i] && ahead_[i].count.tick <= tick) m = ahead_[i];
+  has_ahead_[i] = false;
+  m.advance_to(tick, line_);
+  return m;
+}
+
 void AgendaTimer::settle_motors(std::int64_t tick) {
   if (tick < 0) return;
-  for (AgendaMotor& m : motors_) m.advance_to(tick, line_);
+  bring(Wheel::Left, tick);
+  bring(Wheel::Right, tick);
 }
 
 void AgendaTimer::find_next_fire() {
@@ -134,7 +146,9 @@ int AgendaTimer::activate(Function function, int cycle, Cycle at) {
   for (Wheel wheel : {Wheel::Left, Wheel::Right}) {
     if (motor_functions_[static_cast<int>(wheel)] != function) continue;
     node.kind = wheel == Wheel::Left ? Kind::Left : Kind::Right;
+    bring(wheel, done);
     motor_serial_[static_cast<int>(wheel)] = node.serial;
+    has_node_[static_cast<int>(wheel)] = true;
   }
   AgendaCount& count = node.kind == Kind::User ? node.count : motor(wheel_of(node.kind)).count;
   count = AgendaCount{static_cast<std::uint16_t>(cycle), 0, true, done};
@@ -147,7 +161,10 @@ int AgendaTimer::destroy(Function function, Cycle at) {
   Node* node = find(function);
   if (!node) return kNotFound;
   settle(*node, done_tick(node->serial, at));
-  if (node->kind != Kind::User) count_of(*node).active = false;
+  if (node->kind != Kind::User) {
+    count_of(*node).active = false;
+    has_node_[static_cast<int>(wheel_of(node->kind))] = false;
+  }
   nodes_.erase(nodes_.begin() + (node - nodes_.data()));
   if (!walking_) find_next_fire();
   return kDone;
@@ -158,6 +175,7 @@ int AgendaTimer::set_cycle(Function function, int cycle, Cycle at) {
   if (!node) return kNotFound;
   settle(*node, done_tick(node->serial, at));
   count_of(*node).cycle = static_cast<std::uint16_t>(cycle);
+  if (node->kind != Kind::User) motor(wheel_of(node->kind)).disturb();
   if (!walking_) find_next_fire();
   return kDone;
 }
@@ -196,59 +214,57 @@ void AgendaTimer::name_motor(Wheel wheel, Function function) {
 // --- motors ----------------------------------------------------------------------------------------------------
 
 void AgendaTimer::set_speed(Wheel wheel, int speed, Cycle at) {
-  AgendaMotor& m = motor(wheel);
-  m.advance_to(done_tick(serial_of(wheel), at), line_);
+  AgendaMotor& m = bring(wheel, done_tick(serial_of(wheel), at));
+  const bool was_handled = m.count.counts() && m.speed == 0;
   m.stepper.set_coils_only(0);
+  m.disturb();
   m.speed = std::clamp(speed, -kMaxSpeed, kMaxSpeed);
-  const bool has_node = serial_of(wheel) != 0 && find(motor_functions_[static_cast<int>(wheel)]);
-  if (has_node) m.set_cycle(m.speed == 0 ? 0 : kSpeedUnit / std::abs(m.speed));
-  if (!walking_) find_next_fire();
+  if (has_node_[static_cast<int>(wheel)]) m.set_cycle(m.speed == 0 ? 0 : kSpeedUnit / std::abs(m.speed));
+  // a motor that runs, or stands without a cycle, needs no interrupt
+  if (was_handled && !walking_) find_next_fire();
 }
 
 bool AgendaTimer::run_motor(Wheel wheel, Cycle at) {
-  AgendaMotor& m = motor(wheel);
-  m.advance_to(done_tick(serial_of(wheel), at), line_);
+  AgendaMotor& m = bring(wheel, done_tick(serial_of(wheel), at));
   const bool fine = m.fire(at);
+  m.disturb();
   if (!walking_) find_next_fire();
   return fine;
 }
 
-const AgendaMotor& AgendaTimer::motor_at(Wheel wheel, Cycle at, AgendaMotor& copy) const {
-  const AgendaMotor& m = motor(wheel);
+const AgendaMotor& AgendaTimer::motor_at(Wheel wheel, Cycle at) const {
+  const std::size_t i = static_cast<std::size_t>(wheel);
+  const AgendaMotor& m = motors_[i];
   if (!m.count.counts() || m.speed == 0) return m;
-  const std::int64_t tick = done_tick(serial_of(wheel), at);
-  if (tick < m.count.tick + m.count.ticks_to_fire()) return m;
-  copy = m;
-  copy.advance_to(tick, line_);
-  return copy;
+  const std::int64_t tick = done_tick(motor_serial_[i], at);
+  if (!has_ahead_[i] || ahead_[i].count.tick > tick) {
+    if (tick < m.count.tick + m.count.ticks_to_fire()) return m;
+    ahead_[i] = m;
+    has_ahead_[i] = true;
+  }
+  ahead_[i].advance_to(tick, line_);
+  return ahead_[i];
 }
 
-std::int64_t AgendaTimer::commanded_steps(Wheel wheel, Cycle at) const {
-  AgendaMotor copy(1);
-  return motor_at(wheel, at, copy).commanded;
-}
+std::int64_t AgendaTimer::commanded_steps(Wheel wheel, Cycle at) const { return motor_at(wheel, at).commanded; }
 
-Stepper AgendaTimer::stepper_at(Wheel wheel, Cycle at) const {
-  AgendaMotor copy(1);
-  return motor_at(wheel, at, copy).stepper;
-}
+const Stepper& AgendaTimer::stepper_at(Wheel wheel, Cycle at) const { return motor_at(wheel, at).stepper; }
 
 Stepper& AgendaTimer::stepper(Wheel wheel, Cycle at) {
-  motor(wheel).advance_to(done_tick(serial_of(wheel), at), line_);
-  return motor(wheel).stepper;
+  AgendaMotor& m = bring(wheel, done_tick(serial_of(wheel), at));
+  m.disturb();  // the caller may write pins
+  return m.stepper;
 }
 
 Cycle AgendaTimer::steps_horizon(Wheel wheel, Cycle at) const {
   if (!running_ && !walking_) return host::kNever;
-  AgendaMotor copy(1);
-  const std::int64_t tick = motor_at(wheel, at, copy).next_step_tick();
+  const std::int64_t tick = motor_at(wheel, at).next_step_tick();
   return tick < 0 ? host::kNever : line_.cycle_of(tick);
 }
 
 Cycle AgendaTimer::coils_horizon(Wheel wheel, Cycle at) const {
   if (!running_ && !walking_) return host::kNever;
-  AgendaMotor copy(1);
-  const AgendaMotor& m = motor_at(wheel, at, copy);
+  const AgendaMotor& m = motor_at(wheel, at);
   if (!m.count.counts() || m.speed == 0) return host::kNever;
   return line_.cycle_of(m.count.tick + m.count.ticks_to_fire());
 }
@@ -347,16 +363,15 @@ Cycle AgendaTimer::firing_period(Wheel wheel) const {
 }
 
 std::uint64_t AgendaTimer::state_hash(Cycle at) const {
-  std::uint64_t hash = mix64(static_cast<std::uint64_t>(ticks_at(at)) * 2 + (running_ ? 1 : 0));
+  std::uint64_t hash = sim::mix64(static_cast<std::uint64_t>(ticks_at(at)) * 2 + (running_ ? 1 : 0));
   for (Wheel wheel : {Wheel::Left, Wheel::Right}) {
-    AgendaMotor copy(1);
-    const AgendaMotor& m = motor_at(wheel, at, copy);
-    hash = mix64(hash ^ static_cast<std::uint64_t>(m.stepper.steps()));
-    hash = mix64(hash ^ static_cast<std::uint64_t>(m.commanded));
-    hash = mix64(hash ^ (m.stepper.coils() | static_cast<std::uint64_t>(m.phase) << 8 |
+    const AgendaMotor& m = motor_at(wheel, at);
+    hash = sim::mix64(hash ^ static_cast<std::uint64_t>(m.stepper.steps()));
+    hash = sim::mix64(hash ^ static_cast<std::uint64_t>(m.commanded));
+    hash = sim::mix64(hash ^ (m.stepper.coils() | static_cast<std::uint64_t>(m.phase) << 8 |
                          static_cast<std::uint64_t>(m.speed + kMaxSpeed) << 16 | (m.phase_on ? 1ull << 40 : 0)));
   }
-  for (const Node& node : nodes_) hash = mix64(hash ^ (node.count.cycle | std::uint64_t{node.serial} << 16));
+  for (const Node& node : nodes_) hash = sim::mix64(hash ^ (node.count.cycle | std::uint64_t{node.serial} << 16));
   return hash;
 }
 

@@ -63,8 +63,8 @@ class AgendaTimer {
   Cycle steps_horizon(Wheel wheel, Cycle at) const;
   /// Cycle before which the coils keep their state without a command.
   Cycle coils_horizon(Wheel wheel, Cycle at) const;
-  /// The motor as it is at `at` (a copy).
-  Stepper stepper_at(Wheel wheel, Cycle at) const;
+  /// The motor as it is at `at`; valid until the next call of anything here.
+  const Stepper& stepper_at(Wheel wheel, Cycle at) const;
   /// The motor itself, brought to `at`; changing it is up to the caller (pins written directly, other drivers).
   Stepper& stepper(Wheel wheel, Cycle at);
 
@@ -109,9 +109,11 @@ class AgendaTimer {
   std::int64_t done_tick(std::uint32_t serial, Cycle at) const;
   void settle(Node& node, std::int64_t tick);
   void settle_motors(std::int64_t tick);
+  /// The motor itself, brought to `tick`.
+  AgendaMotor& bring(Wheel wheel, std::int64_t tick);
   std::uint32_t serial_of(Wheel wheel) const { return motor_serial_[static_cast<int>(wheel)]; }
-  /// The motor as it is at `at`, in `copy` if it has to move on.
-  const AgendaMotor& motor_at(Wheel wheel, Cycle at, AgendaMotor& copy) const;
+  /// The motor as it is at `at`: itself, or the copy kept for looking ahead.
+  const AgendaMotor& motor_at(Wheel wheel, Cycle at) const;
   /// Does this node need the handler when it fires?
   bool needs_handler(const Node& node) const;
   void find_next_fire();
@@ -121,6 +123,10 @@ class AgendaTimer {
   std::int64_t stopped_tick_ = 0;  // ticks processed while not running
   std::vector<Node> nodes_;        // oldest first; the list is walked from the back
   AgendaMotor motors_[2];
+  // what queries have computed ahead of the last command; a cache, its presence changes no answer
+  mutable AgendaMotor ahead_[2];
+  mutable bool has_ahead_[2] = {false, false};
+  bool has_node_[2] = {false, false};
   Function motor_functions_[2] = {nullptr, nullptr};
   std::uint32_t motor_serial_[2] = {0, 0};
   std::uint32_t last_serial_ = 0;

@@ -10,8 +10,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hal_sim/board/noise.h"
+#include "sim_core/base/hash.h"
 #include "sim_core/light/proximity.h"
+#include "sim_core/random/counter_random.h"
 
 namespace board {
 
@@ -34,8 +35,8 @@ constexpr std::uint16_t bit(int n) { return static_cast<std::uint16_t>(1u << n);
 constexpr std::uint16_t kRingMask = bit(6) | bit(7) | bit(9) | bit(10) | bit(12) | bit(13) | bit(14) | bit(15);
 
 constexpr double kTwoPi = 6.283185307179586;
-constexpr std::uint32_t kAmbientStream = 64;     // + sensor
-constexpr std::uint32_t kReflectionStream = 80;  // + sensor
+constexpr std::uint32_t kAmbientStream = sim::kStreamBoard;          // + sensor
+constexpr std::uint32_t kReflectionStream = sim::kStreamBoard + 16;  // + sensor
 constexpr std::uint64_t kConversionOffset = std::uint64_t{1} << 41;  // single conversions, apart from the drivers'
 
 std::int64_t to_ppb(double ppm) { return static_cast<std::int64_t>(std::llround(ppm * 1000.0)); }
@@ -74,7 +75,8 @@ Stepper& Board::stepper(Wheel wheel, Cycle at) {
 }
 
 double Board::wheel_angle_rad(Wheel wheel, Cycle at) const {
-  const double steps = stepper_at(wheel, at).position(at);
+  const double steps = timer_motors_.drives(wheel) ? stepper_at(wheel, at).position(at)
+                                                   : agendas_.stepper_at(wheel, at).position(at);
   return steps * (kTwoPi / kStepsPerTurn) * setup_.wheel_ratio[static_cast<std::size_t>(wheel)];
 }
 
@@ -162,7 +164,7 @@ Cycle Board::port_horizon(char port, Cycle at) const {
   switch (port_index(port)) {
     case kD:
       return std::min({agendas_.coils_horizon(Wheel::Left, at), agendas_.coils_horizon(Wheel::Right, at),
-                       timer_motors_.horizon(Wheel::Left, at), timer_motors_.horizon(Wheel::Right, at)});
+                       timer_motors_.coils_horizon(Wheel::Left, at), timer_motors_.coils_horizon(Wheel::Right, at)});
     case kC:
     case kF:
     case kG:
@@ -239,8 +241,8 @@ int Board::ir_counts(int sensor, Cycle at, Cycle lit_for, std::uint64_t sample) 
       const sim::ProximityResponse seen = sim::sense_proximity(*scene_, setup_.robot, sensor, when);
       reflection = seen.value * setup_.ir_gain[i];
       if (seen.relative_noise > 0 && setup_.ir_noise_scale > 0) {
-        const NoiseKey key{setup_.seed, robot, kReflectionStream + static_cast<std::uint32_t>(sensor)};
-        const double noise = seen.uniform_noise ? noise_uniform(key, sample) : noise_gaussian(key, sample);
+        const sim::RandomKey key{setup_.seed, robot, kReflectionStream + static_cast<std::uint32_t>(sensor)};
+        const double noise = seen.uniform_noise ? sim::random_signed(key, sample) : sim::random_gaussian(key, sample);
         reflection *= 1.0 + noise * seen.relative_noise * setup_.ir_noise_scale;
       }
     }
@@ -252,8 +254,8 @@ int Board::ir_counts(int sensor, Cycle at, Cycle lit_for, std::uint64_t sample) 
       reflection *= 1.0 - std::exp(-static_cast<double>(lit_for) / static_cast<double>(kIrSettleCycles));
   }
   if (setup_.ambient_noise_counts > 0) {
-    const NoiseKey key{setup_.seed, robot, kAmbientStream + static_cast<std::uint32_t>(sensor)};
-    light += setup_.ambient_noise_counts * noise_gaussian(key, sample);
+    const sim::RandomKey key{setup_.seed, robot, kAmbientStream + static_cast<std::uint32_t>(sensor)};
+    light += setup_.ambient_noise_counts * sim::random_gaussian(key, sample);
   }
   return static_cast<int>(std::clamp(std::floor(kAdcMax - light - reflection + 0.5), 0.0, double{kAdcMax}));
 }
@@ -297,12 +299,12 @@ std::uint64_t Board::state_hash(Cycle at) const {
   std::uint64_t hash = agendas_.state_hash(at);
   for (Wheel wheel : {Wheel::Left, Wheel::Right}) {
     const Stepper motor = stepper_at(wheel, at);
-    hash = mix64(hash ^ static_cast<std::uint64_t>(motor.steps()) << 4 ^ motor.coils());
+    hash = sim::mix64(hash ^ static_cast<std::uint64_t>(motor.steps()) << 4 ^ motor.coils());
   }
   for (std::size_t i = 0; i < kPorts; ++i)
-    hash = mix64(hash ^ (lat_[i] | static_cast<std::uint64_t>(tris_[i]) << 16));
-  for (const Uart& uart : uarts_) hash = mix64(hash ^ uart.state_hash());
-  return mix64(hash ^ static_cast<std::uint64_t>(scan_.interrupts(at)));
+    hash = sim::mix64(hash ^ (lat_[i] | static_cast<std::uint64_t>(tris_[i]) << 16));
+  for (const Uart& uart : uarts_) hash = sim::mix64(hash ^ uart.state_hash());
+  return sim::mix64(hash ^ static_cast<std::uint64_t>(scan_.interrupts(at)));
 }
 
 }  // namespace board

@@ -140,6 +140,7 @@ class Board {
   int battery_counts() const;
   /// What the exported functions last asked of the host for this board, so that they ask only when it changed.
   struct Requests {
+    static constexpr Cycle kUnknown = -2;
     Cycle agenda_interrupt = -1;
     std::array<Cycle, 16> background_period{};
     std::array<Cycle, 16> background_cost{};

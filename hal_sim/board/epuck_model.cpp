@@ -1,15 +1,31 @@
 // SPDX-License-Identifier: MIT
+// The e-puck's body for the world; every number is epuck_params.h's. Sensors look level: the few degrees by which
+// some models tilt them upwards are part of the profiles, which were measured on walls.
 #include "hal_sim/board/epuck_model.h"
+
+#include "hal_sim/board/epuck_params.h"
 
 namespace board {
 
 sim::RobotModel epuck_model() {
-  sim::RobotModel m;
-  m.name = "e-puck";
-  const double x[8] = {.030, .022, 0, -.030, -.030, 0, .022, .030}, y[8] = {-.010, -.025, -.031, -.015, .015, .031, .025, .010};
-  const double yaw[8] = {-17.2, -45.9, -90, -151.5, 151.2, 90, 45.8, 17.1};
-  for (int i = 0; i < 8; ++i) m.proximity.push_back({{x[i], y[i], 0.033}, sim::radians(yaw[i]), 0});
-  return m;
+  sim::RobotModel model;
+  model.name = "e-puck";
+  model.body_radius_m = kBodyRadiusM;
+  model.body_z0_m = kBodyUndersideM;
+  model.body_height_m = kBodyTopM;
+  model.mass_kg = kMassKg;
+  model.centre_of_mass_m = {0, 0, kCentreOfMassZM};
+  model.inertia_kg_m2 = kInertiaKgM2;
+  model.wheel_radius_m = kWheelRadiusM;
+  model.axle_m = kAxleM;
+  model.steps_per_turn = kStepsPerTurn;
+  for (const SensorPlace& place : kProximity)
+    model.proximity.push_back({{place.x_m, place.y_m, kProximityZM}, sim::radians(place.yaw_deg), 0});
+  const sim::Colour red{1, 0.1, 0.1}, green{0.1, 1, 0.1};
+  for (const Place& place : kRingLeds) model.leds.push_back({{place.x_m, place.y_m}, red});
+  model.leds.push_back({{kBodyLed.x_m, kBodyLed.y_m}, green});
+  model.leds.push_back({{kFrontLed.x_m, kFrontLed.y_m}, red});
+  return model;
 }
 
 }  // namespace board

@@ -75,6 +75,46 @@ inline constexpr int kUart1Brg = 7;             // 115,200 baud exactly [lib: ua
 inline constexpr int kUartFifoBytes = 4;        // transmit buffer [DS70143 18.3]
 inline constexpr int kUartRingBytes = 64;       // receive ring [lib: uart/e_uart1_rx_char.s]
 
+// --- body, as the world sees it: x forward, y left, z up, origin between the wheels ----------------------------------
+inline constexpr double kBodyRadiusM = 0.037;       // m [FRM A1]
+inline constexpr double kBodyUndersideM = 0.002;    // m, bounding cylinder of 45 mm centred at 25 mm [FRM A1]
+inline constexpr double kBodyTopM = 0.047;          // m [FRM A1]
+inline constexpr double kMassKg = 0.150;            // kg [FRM A1]
+inline constexpr double kCentreOfMassZM = 0.015;    // m [FRM A1]
+inline constexpr double kInertiaKgM2 = 8.75e-5;     // kg m2 about the vertical [FRM A1]
+inline constexpr double kWheelRadiusM = 0.0205;     // m, 41 mm diameter [FRM A1]
+inline constexpr double kAxleM = 0.053;             // m [FRM A1]
+
+struct Place {
+  double x_m, y_m;
+};
+struct SensorPlace {
+  double x_m, y_m, yaw_deg;  // yaw counter-clockwise from forward
+};
+inline constexpr double kProximityZM = 0.033;  // m [FRM A2]
+inline constexpr SensorPlace kProximity[8] = {
+    {0.030, -0.010, -17.2},   // ps0, front right; then clockwise seen from above [FRM A2]
+    {0.022, -0.025, -45.9},   // ps1 [FRM A2]
+    {0.000, -0.031, -90.0},   // ps2 [FRM A2]
+    {-0.030, -0.015, -151.5}, // ps3 [FRM A2]
+    {-0.030, 0.015, 151.2},   // ps4 [FRM A2]
+    {0.000, 0.031, 90.0},     // ps5 [FRM A2]
+    {0.022, 0.025, 45.8},     // ps6 [FRM A2]
+    {0.030, 0.010, 17.1},     // ps7 [FRM A2]
+};
+inline constexpr Place kRingLeds[8] = {
+    {0.0337, 0.0},      // LED 0, front; then clockwise [FRM A10]
+    {0.022, -0.025},    // LED 1 [FRM A10]
+    {0.0, -0.0337},     // LED 2 [FRM A10]
+    {-0.027, -0.0201},  // LED 3 [FRM A10]
+    {-0.033, 0.0},      // LED 4 [FRM A10]
+    {-0.027, 0.0201},   // LED 5 [FRM A10]
+    {0.0, 0.0337},      // LED 6 [FRM A10]
+    {0.022, 0.025},     // LED 7 [FRM A10]
+};
+inline constexpr Place kBodyLed = {0.0, 0.0};          // [assumed: the glow fills the transparent body]
+inline constexpr Place kFrontLed = {0.031, -0.0125};   // [FRM A10]
+
 // --- processor time of the library's interrupt handlers, entry and RETFIE included --------------------------------
 inline constexpr Cycle kAgendaIsrCycles = 26;      // empty list [estimated: 4 entry, 14 pushes and pops, 8 body]
 inline constexpr Cycle kAgendaNodeCycles = 14;     // one node that does not fire [estimated: instructions of the loop]

@@ -15,7 +15,7 @@ int StepTrain::direction(const Stepper& stepper) const {
 void StepTrain::advance_to(Cycle at, Stepper& stepper) {
   if (coils_off_at >= 0 && coils_off_at <= at) {
     stepper.set_coils_only(0);
-    coils_off_at = -1;
+    coils_off_at += ((at - coils_off_at) / kTimer3TickCycles + 1) * kTimer3TickCycles;
   }
   if (!running) return;
   const int toward = direction(stepper);
@@ -85,11 +85,17 @@ std::int64_t TimerMotors::commanded_steps(Driver driver, Wheel wheel, Cycle at, 
   return t.commanded;
 }
 
-Cycle TimerMotors::horizon(Wheel wheel, Cycle at) const {
+Cycle TimerMotors::coils_horizon(Wheel wheel, Cycle at) const {
+  const StepTrain& t = train(Driver::Timer3, wheel);
+  const Cycle steps = steps_horizon(wheel, at);
+  if (t.coils_off_at < 0) return steps;
+  return std::min(steps, t.coils_off_at > at ? t.coils_off_at : at + 1);
+}
+
+Cycle TimerMotors::steps_horizon(Wheel wheel, Cycle at) const {
   Cycle earliest = host::kNever;
   for (const auto& driver : trains_) {
     const StepTrain& t = driver[index(wheel)];
-    if (t.coils_off_at > at) earliest = std::min(earliest, t.coils_off_at);
     if (!t.running) continue;
     const Cycle next = t.next > at ? t.next : t.next + ((at - t.next) / t.period + 1) * t.period;
     earliest = std::min(earliest, next);

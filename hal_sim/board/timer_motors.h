@@ -4,8 +4,8 @@
 //
 //   basic:   Timer 5 left, Timer 4 right; period (57600/|v| + 1) x 256 cycles, restarted by every command; coils
 //            stay on while it runs; 0 stops the timer and switches the coils off.
-//   timer 3: one tick of 1536 cycles for both; a step every 10000/|v| ticks; speed 0 switches the coils off at the
-//            next tick.
+//   timer 3: one tick of 1536 cycles for both; a step every 10000/|v| ticks; at speed 0 every tick switches the
+//            coils off.
 //
 // The drivers' statics (phase, counter) are theirs; the motor they move is the AgendaTimer's, handed in at each call.
 // Not modelled: this driver and the agenda driver moving the same wheel at the same time, which needs two copies of
@@ -24,7 +24,7 @@ struct StepTrain {
   bool running = false;
   Cycle next = 0;
   Cycle period = 0;
-  Cycle coils_off_at = -1;  ///< timer 3 at speed 0; -1 none
+  Cycle coils_off_at = -1;  ///< timer 3 at speed 0: the next tick; -1 otherwise
   int speed = 0;
   int phase = 0;
   std::int64_t commanded = 0;  ///< steps counted by the driver, not wrapped
@@ -44,8 +44,9 @@ class TimerMotors {
   void start_timer3(Cycle at);
   void set_speed(Driver driver, Wheel wheel, int speed, Cycle at, Stepper& stepper);
   std::int64_t commanded_steps(Driver driver, Wheel wheel, Cycle at, const Stepper& stepper) const;
-  /// Cycle before which steps and coils keep their state without a command.
-  Cycle horizon(Wheel wheel, Cycle at) const;
+  /// Cycle before which the step counters, or the coils, keep their state without a command.
+  Cycle steps_horizon(Wheel wheel, Cycle at) const;
+  Cycle coils_horizon(Wheel wheel, Cycle at) const;
   /// Applies what happened up to `at` to the wheel's motor, or to a copy of it.
   void move(Wheel wheel, Cycle at, Stepper& stepper);
   void peek(Wheel wheel, Cycle at, Stepper& copy) const;

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "hal_sim/board/noise.h"
+#include "sim_core/base/hash.h"
 
 namespace board {
 
@@ -52,7 +52,7 @@ bool Uart::load(std::uint8_t byte, Cycle at) {
   out_bytes_.push_back(byte);
   out_ends_.push_back(free_at_);
   ++sent_;
-  hash_ = mix64(hash_ ^ (byte | static_cast<std::uint64_t>(free_at_) << 8));
+  hash_ = sim::mix64(hash_ ^ (byte | static_cast<std::uint64_t>(free_at_) << 8));
   return true;
 }
 
@@ -70,7 +70,7 @@ void Uart::settle(Cycle at) {
     on_wire_.pop_front();
     if (!enabled_) continue;
     ++received_;
-    hash_ = mix64(hash_ ^ (arrival.byte | static_cast<std::uint64_t>(arrival.at) << 8 | 1ull << 63));
+    hash_ = sim::mix64(hash_ ^ (arrival.byte | static_cast<std::uint64_t>(arrival.at) << 8 | 1ull << 63));
     if (library_) {
       ring_[received_count_ % kUartRingBytes] = arrival.byte;
       ++received_count_;

@@ -175,7 +175,7 @@ void tp_agenda_end(void) {
   Context& context = Context::current();
   Board& robot = context.board();
   robot.agendas().finish(context.now());
-  robot.requests.agenda_interrupt = -1;  // the request was used up
+  robot.requests.agenda_interrupt = Board::Requests::kUnknown;  // the request was used up
   context.note_write();
   follow_agendas(context, robot);
 }
@@ -231,7 +231,7 @@ tp_i64 tp_timer_motor_steps(tp_i64 driver, tp_i64 wheel) {
   Board& robot = context.board();
   const Cycle now = context.now();
   const Wheel which = wheel_of(wheel);
-  context.lower_horizon(robot.timer_motors().horizon(which, now));
+  context.lower_horizon(robot.timer_motors().steps_horizon(which, now));
   return robot.timer_motors().commanded_steps(driver == 0 ? TimerMotors::Driver::Basic : TimerMotors::Driver::Timer3,
                                               which, now, robot.agendas().stepper_at(which, now));
 }

@@ -86,8 +86,8 @@ std::string what_is(const std::string& path) {
 
 }  // namespace
 
-ImageCopy::ImageCopy(const std::string& path, void* handle, const tp_image* image)
-    : path_(path), handle_(handle), image_(image) {
+ImageCopy::ImageCopy(const std::string& path, void* handle, const tp_image* image, int fd)
+    : path_(path), handle_(handle), image_(image), fd_(fd) {
   const std::size_t whole = static_cast<std::size_t>(image->data_end - image->data_begin);
   const std::size_t hole = static_cast<std::size_t>(image->hole_end - image->hole_begin);
   private_bytes_ = whole - hole;
@@ -100,7 +100,10 @@ ImageCopy::ImageCopy(const std::string& path, void* handle, const tp_image* imag
   code_end_ = query.first.end;
 }
 
-ImageCopy::~ImageCopy() { dlclose(handle_); }
+ImageCopy::~ImageCopy() {
+  dlclose(handle_);
+  if (fd_ >= 0) close(fd_);
+}
 
 void ImageCopy::copy_out(char* to) const {
   const std::size_t before = static_cast<std::size_t>(image_->hole_begin - image_->data_begin);
@@ -125,8 +128,8 @@ std::unique_ptr<ImageCopy> Image::load(bool private_file, std::string& error) co
     name = "/proc/self/fd/" + std::to_string(fd);
   }
   void* handle = dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (fd >= 0) close(fd);
   if (!handle) {
+    if (fd >= 0) close(fd);
     error = path_ + ": firmware image: got '" + dlerror() +
             "', expected a .so made by `twinpuck build`; build it again with this version";
     return nullptr;
@@ -138,9 +141,10 @@ std::unique_ptr<ImageCopy> Image::load(bool private_file, std::string& error) co
                                                      : std::string("a shared object without a firmware inside")) +
             ", expected interface version " + std::to_string(TP_IMAGE_ABI) + "; make it with `twinpuck build DIR -o FILE.so`";
     dlclose(handle);
+    if (fd >= 0) close(fd);
     return nullptr;
   }
-  return std::make_unique<ImageCopy>(path_, handle, image);
+  return std::make_unique<ImageCopy>(path_, handle, image, fd);
 }
 
 std::shared_ptr<Image> Image::open(const std::string& path, std::string& error) {

@@ -16,7 +16,9 @@ class Symbols;
 /// One loaded copy. Robots bound to it swap their private data in and out of its data segment.
 class ImageCopy {
  public:
-  ImageCopy(const std::string& path, void* handle, const tp_image* image);
+  /// `fd`: the private file the copy was loaded from, -1 if none. It stays open: the dynamic linker tells files apart
+  /// by name, and the name holds the number.
+  ImageCopy(const std::string& path, void* handle, const tp_image* image, int fd);
   ~ImageCopy();
   ImageCopy(const ImageCopy&) = delete;
   ImageCopy& operator=(const ImageCopy&) = delete;
@@ -42,6 +44,7 @@ class ImageCopy {
   std::string path_;
   void* handle_;
   const tp_image* image_;
+  int fd_;
   std::size_t private_bytes_;
   std::vector<char> start_values_;
   std::uintptr_t base_ = 0, code_begin_ = 0, code_end_ = 0;

@@ -7,13 +7,15 @@ namespace host {
 
 void InterruptController::reset() {
   sources_.fill({});
+  used_ = 0;
   touch();
 }
 
 void InterruptController::raise_due(Cycle now) {
   next_due();  // refreshes the caches
   if (now < next_raise_) return;
-  for (auto& s : sources_) {
+  for (std::uint64_t left = used_; left != 0; left &= left - 1) {
+    InterruptSource& s = sources_[static_cast<std::size_t>(__builtin_ctzll(left))];
     if (s.due > now) continue;
     if (!s.flag) s.flag_since = s.due;
     s.flag = true;
@@ -30,8 +32,9 @@ Cycle InterruptController::next_due() {
   next_due_ = kNever;
   next_raise_ = kNever;
   ready_ = 0;
-  for (int v = 0; v < TP_VECTORS; ++v) {
-    const auto& s = source(v);
+  for (std::uint64_t left = used_; left != 0; left &= left - 1) {
+    const int v = __builtin_ctzll(left);
+    const InterruptSource& s = sources_[static_cast<std::size_t>(v)];
     next_raise_ = std::min(next_raise_, s.due);
     if (!s.enabled || s.priority == 0) continue;
     next_due_ = std::min(next_due_, s.due);
@@ -51,7 +54,7 @@ int InterruptController::select(int cpu_priority, bool held_by_disi) {
   int best = -1;
   for (std::uint64_t left = ready_; left != 0; left &= left - 1) {
     const int v = __builtin_ctzll(left);
-    if (!can_be_served(source(v), cpu_priority, held_by_disi)) continue;
+    if (!can_be_served(sources_[static_cast<std::size_t>(v)], cpu_priority, held_by_disi)) continue;
     if (best < 0 || source(v).priority > source(best).priority) best = v;
   }
   return best;
@@ -62,14 +65,10 @@ int InterruptController::longest_waiting(int cpu_priority, bool held_by_disi) {
   int oldest = -1;
   for (std::uint64_t left = ready_; left != 0; left &= left - 1) {
     const int v = __builtin_ctzll(left);
-    if (can_be_served(source(v), cpu_priority, held_by_disi)) continue;
+    if (can_be_served(sources_[static_cast<std::size_t>(v)], cpu_priority, held_by_disi)) continue;
     if (oldest < 0 || source(v).flag_since < source(oldest).flag_since) oldest = v;
   }
   return oldest;
-}
-
-bool InterruptController::any_enabled() const {
-  return std::any_of(sources_.begin(), sources_.end(), [](const auto& s) { return s.enabled && s.priority > 0; });
 }
 
 }  // namespace host

@@ -33,7 +33,11 @@ class InterruptController {
   /// Power-up values: nothing enabled, priorities 4.
   void reset();
 
-  InterruptSource& source(int vector) { return sources_[static_cast<std::size_t>(vector)]; }
+  /// For changing; call touch() afterwards. The source is looked at from now on.
+  InterruptSource& source(int vector) {
+    used_ |= std::uint64_t{1} << vector;
+    return sources_[static_cast<std::size_t>(vector)];
+  }
   const InterruptSource& source(int vector) const { return sources_[static_cast<std::size_t>(vector)]; }
 
   /// A source was changed from outside: the cached next due time is wrong now.
@@ -51,11 +55,10 @@ class InterruptController {
   /// Vector of the longest-waiting enabled flag that cannot be served now, -1 if none.
   int longest_waiting(int cpu_priority, bool held_by_disi);
 
-  bool any_enabled() const;
-
  private:
   static constexpr Cycle kUnknown = -1;
   std::array<InterruptSource, TP_VECTORS> sources_;
+  std::uint64_t used_ = 0;      // bit v: somebody has touched vector v; most programs use two or three
   Cycle next_due_ = kUnknown;   // over enabled sources
   Cycle next_raise_ = 0;        // over all sources
   std::uint64_t ready_ = 0;     // bit v: flag and enable of vector v are both set

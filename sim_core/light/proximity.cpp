@@ -17,7 +17,7 @@ namespace sim {
 struct BodyRay {
   Vec3 dir;
   double weight = 1;
-  double cos_off_axis = 1;
+  double slant = 1;  // how much longer the ray is to a flat wall across the axis: 1 / cos(off axis)
   double off_axis_rad = 0;
 };
 
@@ -41,7 +41,7 @@ struct alignas(64) Surroundings {
     const Surface* surface;
   };
   Clicks at = -1;
-  Clicks tick = -1;
+  std::uint64_t version = 0;
   Frame2 frame;
   std::vector<Placed> moving;
   std::vector<Item> items;
@@ -67,9 +67,9 @@ const SensorOptics& optics_of(const Scene& scene, int robot, int sensor) {
 
 const Surroundings& surroundings(const Scene& scene, int robot, Clicks at) {
   Surroundings& s = scene.optics()->around[static_cast<std::size_t>(robot)];
-  if (s.at == at && s.tick == scene.now()) return s;
+  if (s.at == at && s.version == scene.version()) return s;
   s.at = at;
-  s.tick = scene.now();
+  s.version = scene.version();
   s.frame = Frame2(scene.pose(robot, at));
   s.items.clear();
   s.moving.clear();
@@ -137,11 +137,11 @@ double answer_singly(const SensorOptics& s, const RayEnd* ends) {
   double sum = 0;
   for (std::size_t i = 0; i < s.rays.size(); ++i) {
     if (!ends[i].hit) continue;
-    const double d = ends[i].distance_m / ends[i].factor;
+    const double d = ends[i].factor == 1 ? ends[i].distance_m : ends[i].distance_m / ends[i].factor;
     sum += s.curve.at(d).value;
     if (s.rays[i].off_axis_rad > 1e-9) continue;
     for (const BodyRay& other : s.rays) {
-      if (other.off_axis_rad > 1e-9) sum -= s.curve.at(d / other.cos_off_axis).value;
+      if (other.off_axis_rad > 1e-9) sum -= s.curve.at(d * other.slant).value;
     }
   }
   return std::clamp(sum, 0.0, s.curve.at(0).value);
@@ -184,7 +184,7 @@ std::unique_ptr<SensorOptics> make_sensor(const WorldDesc& world, int robot, int
   s->axis = {yaw.c, yaw.s, 0};
   double widest = 0;
   for (const RayPlan& plan : plan_rays(config.rays, config.aperture_rad, config.gaussian_width, config.layout)) {
-    BodyRay ray{turn(plan.dir), plan.weight, sin_cos(plan.off_axis_rad).c, plan.off_axis_rad};
+    BodyRay ray{turn(plan.dir), plan.weight, 1 / sin_cos(plan.off_axis_rad).c, plan.off_axis_rad};
     if (std::fabs(ray.dir.z) < 1e-15) ray.dir.z = 0;
     s->meets_floor = s->meets_floor || -ray.dir.z * config.max_range_m() > mount.at_m.z;
     const Vec2 plan_dir{ray.dir.x, ray.dir.y};

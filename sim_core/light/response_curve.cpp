@@ -12,6 +12,9 @@ ResponseCurve::ResponseCurve(std::vector<ResponseRow> rows) : rows_(std::move(ro
   const double span = rows_.back().distance_m - begin;
   CHECK(span > 0, "a table's distances grow");
   bins_per_m_ = static_cast<double>(kBins) / span;
+  for (std::size_t i = 0; i + 1 < rows_.size(); ++i) {
+    per_span_.push_back(1 / (rows_[i + 1].distance_m - rows_[i].distance_m));
+  }
   std::size_t row = 0;
   for (std::size_t bin = 0; bin <= kBins; ++bin) {
     // a hair early, so that rounding in the division can never skip a row

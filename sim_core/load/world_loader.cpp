@@ -4,6 +4,8 @@
 #include "sim_core/load/world_loader.h"
 
 #include <fmt/format.h>
+// the parser asserts where it goes on to report the very same mistake ("[[#"): let it report
+#define TOML_ASSERT(condition) static_cast<void>(0)
 #define TOML_EXCEPTIONS 0
 #include <toml++/toml.h>
 
@@ -22,22 +24,16 @@ namespace {
 constexpr std::size_t kLongestFile = 8u << 20;  // bytes; ten thousand robots need a tenth of it
 constexpr std::size_t kMostProblems = 200;      // reported; more would help nobody
 
-/// A value as a person wrote it, for messages.
-std::string written(const toml::node& node) {
-  if (node.is_table()) return "a table";
-  std::ostringstream out;
-  if (const auto* a = node.as_array()) {
-    if (a->size() > 6) return fmt::format("a list of {}", a->size());
-    out << *a;
-  } else {
-    node.visit([&](const auto& n) {
-      if constexpr (toml::is_value<decltype(n)>) out << n;
-    });
+constexpr std::size_t kLongestQuote = 60;       // characters of a value that a message repeats
+
+std::vector<std::string_view> split_lines(std::string_view text) {
+  std::vector<std::string_view> lines;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    lines.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
   }
-  std::string text = out.str();
-  if (text.size() > 60) text = text.substr(0, 57) + "...";
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
+  return lines;
 }
 
 bool number_of(const toml::node& node, double& out) {
@@ -118,8 +114,9 @@ class Reader {
   LoadedWorld read(std::string_view text) {
     LoadedWorld out;
     if (text.size() > kLongestFile) {
-      problem({}, fmt::format("file: got {} bytes, expected at most {}", text.size(), kLongestFile));
+      problem({}, fmt::format("got {} bytes, expected at most {}", text.size(), kLongestFile));
     } else {
+      lines_ = split_lines(text);
       const toml::parse_result result = toml::parse(text);
       if (!result) {
         // the library's sentence says what stands there; ours says what kind of file was wanted
@@ -143,6 +140,19 @@ class Reader {
   void problem(const toml::source_region& where, std::string text) {
     if (problems_.size() >= kMostProblems) return;
     problems_.push_back({static_cast<int>(where.begin.line), static_cast<int>(where.begin.column), std::move(text)});
+  }
+
+  /// A value as it stands in the file, for messages.
+  std::string written(const toml::node& node) const {
+    if (node.is_table()) return "a table";
+    if (node.is_array_of_tables()) return "several tables in [[ ]]";
+    const toml::source_region& at = node.source();
+    if (at.begin.line != at.end.line || at.begin.line < 1 || at.begin.line > lines_.size()) return "a list";
+    const std::string_view line = lines_[at.begin.line - 1];
+    if (at.begin.column < 1 || at.end.column < at.begin.column || at.end.column - 1 > line.size()) return "this";
+    std::string text(line.substr(at.begin.column - 1, at.end.column - at.begin.column));
+    if (text.size() > kLongestQuote) text = text.substr(0, kLongestQuote - 3) + "...";
+    return text;
   }
 
   static int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
@@ -318,6 +328,7 @@ class Reader {
 
   WorldDesc world_;
   std::vector<WorldProblem> problems_;
+  std::vector<std::string_view> lines_;
 };
 
 }  // namespace

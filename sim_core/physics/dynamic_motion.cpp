@@ -85,6 +85,11 @@ class DynamicMotion final : public Motion, b2ContactFilter {
     if (near_.empty() && !solve) return;
     world_.Step(static_cast<float>(tick_s), kVelocityIterations, kPositionIterations);
     for (int robot : near_) read_robot(robot);
+    // Box2D notices a meeting only once bodies overlap, by up to a tick's way, and separates them softly; twice round
+    // settles a robot in a corner, and walls have the last word
+    for (int round = 0; round < 2; ++round) {
+      for (int robot : near_) push_out(robot, neighbours);
+    }
     for (int i = robots(); i < static_cast<int>(bodies_.size()); ++i) read_loose(i);
   }
 
@@ -257,6 +262,9 @@ class DynamicMotion final : public Motion, b2ContactFilter {
     part.body->SetAngularVelocity(static_cast<float>(bodies_[r].spin_rad_s));
     part.ghost->SetLinearVelocity(units(wanted_[r].velocity_m_s));
     part.ghost->SetAngularVelocity(static_cast<float>(wanted_[r].spin_rad_s));
+    const double grip = grip_n(robot, wanted_[r]);
+    part.joint->SetMaxForce(static_cast<float>(grip * kUnits));
+    part.joint->SetMaxTorque(static_cast<float>(grip * 0.5 * desc_.robots[r].axle_m * kUnits * kUnits));
   }
 
   void leave_solver(int robot) {

@@ -18,8 +18,15 @@ Motion::Motion(MotionDesc desc) : desc_(std::move(desc)), bodies_(desc_.start) {
   CHECK(bodies_.size() == desc_.solids.size() && bodies_.size() == desc_.robots.size() + desc_.loose.size(),
         "one start, one solid and one description per moving body");
   CHECK(desc_.surfaces.size() == desc_.fixed->size(), "one surface per fixed solid");
+  ticks_per_s_ = 1 / desc_.tick_s;
+  for (const RobotBody& r : desc_.robots) {
+    const auto limits = [&](double grip_n) {
+      return Limits{grip_n * desc_.tick_s / r.mass_kg, grip_n * 0.5 * r.axle_m * desc_.tick_s / r.inertia_kg_m2};
+    };
+    drives_.push_back({ticks_per_s_ / r.axle_m, limits(r.traction_n), limits(r.hold_n)});
+  }
   touches_.resize(desc_.robots.size());
-  touching_.resize(desc_.robots.size());
+  touch_times_.resize(desc_.robots.size());
   support_.assign(bodies_.size(), kOnFloor);
   for (std::size_t i = desc_.robots.size(); i < bodies_.size(); ++i) {
     if (bodies_[i].z_m > 0) support_[i] = kInAir;
@@ -57,27 +64,26 @@ bool Motion::heights_meet(double z0_a, double z1_a, double z0_b, double z1_b) co
 }
 
 Motion::Wanted Motion::wanted(int robot, const RimTravel& travel) const {
-  const RobotBody& r = desc_.robots[static_cast<std::size_t>(robot)];
+  const Drive& d = drives_[static_cast<std::size_t>(robot)];
   const BodyState& b = bodies_[static_cast<std::size_t>(robot)];
-  const double tick_s = desc_.tick_s;
-  const double speed = 0.5 * (travel.left_m + travel.right_m) / tick_s;
-  const double spin = (travel.right_m - travel.left_m) / (r.axle_m * tick_s);
+  const double speed = 0.5 * (travel.left_m + travel.right_m) * ticks_per_s_;
+  const double spin = (travel.right_m - travel.left_m) * d.spin_per_m;
   if (speed == 0) return {{0, 0}, spin};
   // the direction is taken at the middle of the turn that friction will allow
-  const double most = r.traction_n * 0.5 * r.axle_m * tick_s / r.inertia_kg_m2;
+  const double most = d.driving.spin_rad_s;
   const double allowed = b.spin_rad_s + std::clamp(spin - b.spin_rad_s, -most, most);
-  const SinCos middle = sin_cos(b.pose.heading_rad + 0.5 * allowed * tick_s);
+  const SinCos middle = sin_cos(b.pose.heading_rad + 0.5 * allowed * desc_.tick_s);
   return {{speed * middle.c, speed * middle.s}, spin};
 }
 
 void Motion::drive_freely(int robot, const Wanted& want) {
-  const RobotBody& r = desc_.robots[static_cast<std::size_t>(robot)];
+  const Drive& d = drives_[static_cast<std::size_t>(robot)];
+  const Limits& limits = is_standing(want) ? d.standing : d.driving;
   BodyState& b = bodies_[static_cast<std::size_t>(robot)];
   const double tick_s = desc_.tick_s;
-  const double most_spin = r.traction_n * 0.5 * r.axle_m * tick_s / r.inertia_kg_m2;
-  b.spin_rad_s += std::clamp(want.spin_rad_s - b.spin_rad_s, -most_spin, most_spin);
+  b.spin_rad_s += std::clamp(want.spin_rad_s - b.spin_rad_s, -limits.spin_rad_s, limits.spin_rad_s);
   const Vec2 change = want.velocity_m_s - b.velocity_m_s;
-  const double most = r.traction_n * tick_s / r.mass_kg;
+  const double most = limits.speed_m_s;
   const double size2 = dot(change, change);
   if (size2 <= most * most) {
     b.velocity_m_s = want.velocity_m_s;
@@ -91,7 +97,7 @@ void Motion::drive_freely(int robot, const Wanted& want) {
 
 void Motion::note_touch(int robot, bool wall, bool anything) {
   TouchReport& report = touches_[static_cast<std::size_t>(robot)];
-  Touching& now = touching_[static_cast<std::size_t>(robot)];
+  Touching& now = touch_times_[static_cast<std::size_t>(robot)];
   const double tick_s = desc_.tick_s;
   now.any_gap_s = anything ? 0 : std::min(1.0, now.any_gap_s + tick_s);
   now.wall_gap_s = wall ? 0 : std::min(1.0, now.wall_gap_s + tick_s);
@@ -100,6 +106,29 @@ void Motion::note_touch(int robot, bool wall, bool anything) {
   report.wall_touch_s = now.wall_gap_s < kTouchGapS ? report.wall_touch_s + tick_s : 0;
   report.longest_touch_s = std::max(report.longest_touch_s, now.any_s);
   report.longest_wall_touch_s = std::max(report.longest_wall_touch_s, report.wall_touch_s);
+}
+
+void Motion::push_out(int robot, const Neighbours& neighbours) {
+  BodyState& b = bodies_[static_cast<std::size_t>(robot)];
+  const Solid& me = *desc_.solids[static_cast<std::size_t>(robot)];
+  for (const Candidate* c = neighbours.begin(robot); c != neighbours.end(robot); ++c) {
+    if (c->moving && c->index >= robots()) continue;  // loose objects give way by themselves
+    const Placed other = c->moving ? placed(c->index) : (*desc_.fixed)[static_cast<std::size_t>(c->index)];
+    if (!heights_meet(b.z_m + me.z0_m, b.z_m + me.z1_m, other.z_m + other.solid->z0_m, other.z_m + other.solid->z1_m)) {
+      continue;
+    }
+    Vec2 out;
+    // a hair of overlap is left, or the solver would not see the contact
+    const double gap = plan_distance_m({b.pose.x_m, b.pose.y_m}, other, &out) - me.bound_m + kContactDepthM;
+    if (gap >= 0) continue;
+    const double part = c->moving ? -0.5 * gap : -gap;
+    b.pose.x_m += part * out.x;
+    b.pose.y_m += part * out.y;
+    if (!c->moving) continue;
+    BodyState& they = bodies_[static_cast<std::size_t>(c->index)];
+    they.pose.x_m -= part * out.x;
+    they.pose.y_m -= part * out.y;
+  }
 }
 
 bool Motion::blocked_at(int body, double z_m, int& by) const {
@@ -141,9 +170,9 @@ void Motion::step_heights() {
       support = kInAir;
     }
     const double bounce = desc_.loose[static_cast<std::size_t>(i - robots())].restitution;
-    b.climb_m_s -= desc_.gravity_m_s2 * tick_s;
     const double from = b.z_m;
-    double to = from + b.climb_m_s * tick_s;
+    double to = from + (b.climb_m_s - 0.5 * desc_.gravity_m_s2 * tick_s) * tick_s;
+    b.climb_m_s -= desc_.gravity_m_s2 * tick_s;
     int by = kOnFloor;
     bool landed = to <= 0;
     if (landed) to = 0;

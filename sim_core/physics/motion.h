@@ -16,7 +16,8 @@ struct RobotBody {
   double mass_kg = 1;
   double inertia_kg_m2 = 1e-4;  ///< about the vertical axis
   double axle_m = 0.05;         ///< effective distance between the wheels
-  double traction_n = 1;        ///< most the wheels together can push, N
+  double traction_n = 1;        ///< most the turning wheels together can push, N
+  double hold_n = 1;            ///< most the standing wheels can hold against a push, N
   double side_friction = 0.3;   ///< Coulomb coefficient of the body's side
 };
 
@@ -99,6 +100,17 @@ class Motion {
   };
   Wanted wanted(int robot, const RimTravel& travel) const;
   void drive_freely(int robot, const Wanted& wanted);
+  /// True when the wheels are told to stand, and hold rather than drive.
+  static bool is_standing(const Wanted& want) {
+    return want.velocity_m_s.x == 0 && want.velocity_m_s.y == 0 && want.spin_rad_s == 0;
+  }
+  /// Most force between wheels and floor now, N.
+  double grip_n(int robot, const Wanted& want) const {
+    const RobotBody& r = desc_.robots[static_cast<std::size_t>(robot)];
+    return is_standing(want) ? r.hold_n : r.traction_n;
+  }
+  /// Moves a robot out of whatever it is inside of: all the way out of fixed solids, half the way out of robots.
+  void push_out(int robot, const Neighbours& neighbours);
 
   MotionDesc desc_;
   std::vector<BodyState> bodies_;
@@ -108,13 +120,25 @@ class Motion {
   void step_heights();
   bool blocked_at(int body, double z_m, int& by) const;
 
+  /// What grip allows in one tick, worked out once.
+  struct Limits {
+    double speed_m_s = 0;   // change of speed
+    double spin_rad_s = 0;  // change of spin
+  };
+  struct Drive {
+    double spin_per_m = 0;  // spin for a difference of the rims' ways in a tick
+    Limits driving, standing;
+  };
+  std::vector<Drive> drives_;
+  double ticks_per_s_ = 0;
+
   struct Touching {
     double wall_gap_s = 1;  // since the last touch
     double any_gap_s = 1;
     double any_s = 0;
   };
   std::vector<TouchReport> touches_;
-  std::vector<Touching> touching_;
+  std::vector<Touching> touch_times_;
 };
 
 /// Box2D underneath: limited traction, slip, pushing.

@@ -12,6 +12,8 @@ inline constexpr double kSolverMarginM = 0.0015;  // [assumed: above Box2D's own
 inline constexpr double kHeightOverlapM = 0.0005;  // [assumed: a box that stands on another must not hit it sideways]
 /// Bodies nearer than this in the plane count as touching in the kinematic engine, m.
 inline constexpr double kTouchM = 0.0001;  // [assumed: the skin that Box2D leaves in the dynamic engine]
+/// Overlap of bodies in contact, m.
+inline constexpr double kContactDepthM = 0.00005;  // [Box2D: b2_linearSlop, 0.005 units]
 /// A touch that ends and begins again within this time is one touch, s.
 inline constexpr double kTouchGapS = 0.02;  // [assumed: two of the slowest ticks]
 /// Solver iterations for speeds and positions.

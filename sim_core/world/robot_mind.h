@@ -3,6 +3,8 @@
 // implement it with three lines. The world hands over a frozen scene and a span of time; it gets wheel angles back.
 #pragma once
 #include <cstdint>
+#include <memory>
+#include <vector>
 
 #include "sim_core/base/clock.h"
 
@@ -43,5 +45,8 @@ class RobotMind {
   /// Everything of the inside that must repeat from run to run, folded into one number, for the world's digest.
   virtual std::uint64_t state_hash() const = 0;
 };
+
+/// One mind per robot, in the order of the world.
+using Minds = std::vector<std::unique_ptr<RobotMind>>;
 
 }  // namespace sim

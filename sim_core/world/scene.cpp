@@ -25,6 +25,7 @@ Scene::Scene(const WorldDesc& world, std::vector<double> reach_m)
       tick_clicks_(kClicksPerSecond / world_.physics_hz),
       tick_s_(to_seconds(tick_clicks_)),
       slots_(static_cast<int>(std::ceil(kHistoryS * world_.physics_hz)) + 2),
+      per_tick_(1.0 / static_cast<double>(tick_clicks_)),
       moving_(layout_.moving),
       neighbours_(layout_.fixed, bounds_of(layout_), robots_, std::move(reach_m)) {
   CHECK(tick_clicks_ * world_.physics_hz == kClicksPerSecond, "the tick rate divides the click rate");
@@ -50,18 +51,17 @@ Pose2 Scene::pose(int body, Clicks at) const {
             b.pose.heading_rad + b.spin_rad_s * ahead_s};
   }
   const Pose2* ring = history_.data() + i * static_cast<std::size_t>(slots_);
-  const Clicks oldest = std::max<Clicks>(0, tick_ - slots_ + 1);
-  // the tick before `at`; usually only a few ticks back, so counting down beats dividing
-  Clicks before = tick_ - 1;
-  Clicks start = last - tick_clicks_;
-  while (start > at && before > oldest) {
-    --before;
+  // count back to the tick at or before `at`: usually one or two; slots from before the world began hold its start
+  int slot = last_slot_;
+  Clicks start = last;
+  for (int back = 1; back < slots_ && start > at; ++back) {
+    slot = slot == 0 ? slots_ - 1 : slot - 1;
     start -= tick_clicks_;
   }
-  if (at <= start || before < oldest) return ring[std::max(before, oldest) % slots_];
-  const Pose2& a = ring[before % slots_];
-  const Pose2& b = ring[(before + 1) % slots_];
-  const double f = static_cast<double>(at - start) / static_cast<double>(tick_clicks_);
+  const Pose2& a = ring[slot];
+  if (at <= start) return a;
+  const Pose2& b = ring[slot + 1 == slots_ ? 0 : slot + 1];
+  const double f = static_cast<double>(at - start) * per_tick_;
   return {a.x_m + f * (b.x_m - a.x_m), a.y_m + f * (b.y_m - a.y_m), a.heading_rad + f * (b.heading_rad - a.heading_rad)};
 }
 
@@ -147,7 +147,9 @@ bool Scene::cast(const Ray& ray, double limit_m, int skip_robot, Clicks at, Scen
 void Scene::publish(const std::vector<BodyState>& states, double moved_m) {
   states_ = states;
   ++tick_;
-  const std::size_t slot = static_cast<std::size_t>(tick_ % slots_);
+  ++version_;
+  last_slot_ = last_slot_ + 1 == slots_ ? 0 : last_slot_ + 1;
+  const std::size_t slot = static_cast<std::size_t>(last_slot_);
   for (std::size_t i = 0; i < states_.size(); ++i) {
     history_[i * static_cast<std::size_t>(slots_) + slot] = states_[i].pose;
   }
@@ -158,6 +160,7 @@ void Scene::publish(const std::vector<BodyState>& states, double moved_m) {
 void Scene::relocate(int body, const BodyState& state) {
   const std::size_t i = static_cast<std::size_t>(body);
   states_[i] = state;
+  ++version_;
   std::fill_n(history_.begin() + static_cast<std::ptrdiff_t>(i) * slots_, slots_, state.pose);
   regather();
 }

@@ -47,6 +47,9 @@ class Scene {
   Clicks tick_clicks() const { return tick_clicks_; }
   double tick_s() const { return tick_s_; }
 
+  /// Grows with every tick and every relocation: what a cache must have been made with.
+  std::uint64_t version() const { return version_; }
+
   /// State at the last tick.
   const BodyState& state(int body) const { return states_[static_cast<std::size_t>(body)]; }
   /// Pose at an instant: between ticks interpolated, after the last one carried on with its velocity, before the
@@ -84,7 +87,10 @@ class Scene {
   Clicks tick_clicks_;
   double tick_s_;
   Clicks tick_ = 0;
+  std::uint64_t version_ = 1;
   int slots_;                     // poses kept per body
+  int last_slot_ = 0;             // where the last tick's poses are
+  double per_tick_;               // 1 / tick_clicks_
   std::vector<Pose2> history_;    // [body * slots_ + tick % slots_]
   std::vector<double> moved_;     // [tick % slots_]: largest movement of that tick, m
   std::vector<BodyState> states_;

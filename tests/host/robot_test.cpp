@@ -85,3 +85,13 @@ TEST(Robot, robots_of_two_copies_run_at_the_same_time_and_agree) {
   EXPECT_EQ(a.robot.hash(), b.robot.hash());
   EXPECT_EQ(a.variable("ticks"), 1000);
 }
+
+TEST(Robot, every_copy_of_an_image_has_data_of_its_own) {
+  // symptom: digests changed with three threads. Cause: copies 1 and 2 were loaded from the same /proc/self/fd name,
+  // so the dynamic linker handed out one object twice.
+  auto image = open_image("hand_busy");
+  std::vector<const char*> data;
+  for (std::size_t i = 0; i < 5; ++i) data.push_back(image->copy(i).description().data_begin);
+  for (std::size_t i = 0; i < 5; ++i)
+    for (std::size_t k = 0; k < i; ++k) EXPECT_NE(data[i], data[k]);
+}

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Microseconds per robot and tick of the world alone, driven by fake minds, on bench/worlds. Not a test.
 // usage: world_bench [WORLD.toml...]
-#include <chrono>
+#include <ctime>
 #include <cstdio>
 
 #include "tests/sim_core/fixture.h"
@@ -25,18 +25,18 @@ int main(int argc, char** argv) {
     double best_us = 1e9;
     std::uint64_t digest = 0;
     for (int round = 0; round < 5; ++round) {
-      double wall_s = 0;
+      double cpu_s = 0;
       long ticks = 0;
-      while (wall_s < 0.25) {
+      while (cpu_s < 0.25) {
         auto simulation = simulation_of(*loaded.world, [](int r) { return std::make_unique<Braitenberg>(r); });
         run_for(*simulation, 1);
-        const auto begin = std::chrono::steady_clock::now();
+        const std::clock_t begin = std::clock();
         run_for(*simulation, robots >= 1000 ? 5 : 20);
-        wall_s += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        cpu_s += static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
         ticks += (robots >= 1000 ? 5 : 20) * loaded.world->physics_hz;
         digest = simulation->digest();
       }
-      best_us = std::min(best_us, 1e6 * wall_s / static_cast<double>(ticks) / robots);
+      best_us = std::min(best_us, 1e6 * cpu_s / static_cast<double>(ticks) / robots);
     }
     std::printf("%-50s %5d robots  %7.4f us per robot and tick  %9.0f robot-s/s  digest %016llx\n", file.c_str(), robots,
                 best_us, 1e6 / best_us / loaded.world->physics_hz, static_cast<unsigned long long>(digest));

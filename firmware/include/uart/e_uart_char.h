@@ -35,6 +35,10 @@ TP_POLL int e_uart1_sending(void);
 
 /** UART 2 at the given rate (BAUD115200, ...); otherwise as UART 1. */
 void e_init_uart2(int baud);
+#ifdef __TWINPUCK__
+/** As older programs call it: 115200 baud. */
+TP_OLDER_CALL void e_init_uart2(void) { e_init_uart2(BAUD115200); }
+#endif
 TP_POLL int e_ischar_uart2();
 TP_POLL int e_getchar_uart2(char *car);
 void e_send_uart2_char(const char *buff, int length);

@@ -39,6 +39,10 @@
  *  does not block; IR and accelerometer values then never change. With selector 10 two more IR sensors
  *  (gumstix turret, pins AN0 and AN1) join the scan and the interrupt's priority is 6. */
 void e_init_ad_scan(unsigned char only_micro);
+#ifdef __TWINPUCK__
+/** As older programs call it: everything. */
+TP_OLDER_CALL void e_init_ad_scan(void) { e_init_ad_scan(ALL_ADC); }
+#endif
 
 /** 1 for one interrupt period (61 us) after the microphone buffers have wrapped, else 0. Poll it without
  *  pause. */

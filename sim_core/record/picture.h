@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// Pictures of a world and of what happened in it, by cairo: PNG or SVG by the file's extension.
+// North is up. Robots at their last poses, one trajectory each, a scale bar, a legend.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "sim_core/base/clock.h"
+#include "sim_core/geometry/pose.h"
+#include "sim_core/world/robot_mind.h"
+
+namespace sim {
+
+/// Collects every robot's way; drops points in between when there are very many.
+class Trajectories {
+ public:
+  explicit Trajectories(int robots) : ways_(static_cast<std::size_t>(robots)) {}
+  /// Call before the first step and after every step; keeps a point when a robot has moved by 1 mm.
+  void sample(const Scene& scene);
+  /// A robot was put somewhere else: its line is broken there.
+  void lift_pen(int robot);
+  struct Way {
+    std::vector<Vec2> points_m;
+    std::vector<std::size_t> breaks;  ///< indices of points where a new line begins
+  };
+  const std::vector<Way>& ways() const { return ways_; }
+
+ private:
+  std::vector<Way> ways_;
+};
+
+struct PictureOptions {
+  int width_px = 1200;          ///< the longer side of the map; PNG pixels, SVG units
+  bool sensor_rays = false;     ///< rays of every proximity sensor, coloured by what they met
+  bool names = true;            ///< robots' names, up to a few dozen robots
+  std::string caption;          ///< second line under the title, such as time and seed; may be empty
+};
+
+/// Draws and writes the file. Returns an empty string, or "FILE: what is wrong: got ..., expected ...".
+std::string write_picture(const std::string& path, const Scene& scene, const Minds& minds, const Trajectories* trajectories,
+                          const PictureOptions& options = {});
+
+}  // namespace sim

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+// Physics bars: ways on free floor, walls, pushing, friction, heights, falling. Expectations are computed by hand.
+#include "tests/sim_core/fixture.h"
+
+using namespace sim_test;
+
+namespace {
+
+const char* const kFree = R"(twinpuck = 1
+[[robot]]
+)";
+
+/// 500 steps/s of 1000 steps per turn: pi rad/s; with a wheel of 20.5 mm 64.4 mm/s.
+constexpr double kHalfTurn = sim::kPi;
+
+TEST(Motion, straight_way_on_free_floor_is_the_wheels_way) {
+  for (const char* engine : {"dynamic", "kinematic"}) {
+    for (int hz : {96, 128, 256, 512, 1024}) {
+      const auto world = world_of("twinpuck = 1\n[world]\nengine = \"" + std::string(engine) +
+                                  "\"\nphysics_hz = " + std::to_string(hz) + "\n[[robot]]\nheading = 30\n");
+      auto s = cruising(world, kHalfTurn, kHalfTurn);
+      run_for(*s, 10);
+      const double way = 10 * kHalfTurn * 0.0205;  // 0.6440 m
+      EXPECT_NEAR(s->distance_m(0), way, 0.005 * way) << engine << hz;
+      EXPECT_NEAR(s->pose(0).x_m, way * std::cos(sim::kPi / 6), 0.005 * way) << engine << hz;
+      EXPECT_NEAR(s->pose(0).heading_rad, sim::kPi / 6, 1e-9);
+    }
+  }
+}
+
+TEST(Motion, turning_on_the_spot_follows_the_axle) {
+  auto s = cruising(world_of(kFree), -kHalfTurn, kHalfTurn);
+  run_for(*s, 4);
+  // 2 * v / axle * t = 2 * 0.0644 / 0.053 * 4
+  EXPECT_NEAR(s->pose(0).heading_rad, 2 * kHalfTurn * 0.0205 / 0.053 * 4, 0.02);
+  EXPECT_NEAR(s->pose(0).x_m, 0, 1e-6);
+}
+
+TEST(Motion, a_circle_closes) {
+  for (const char* engine : {"dynamic", "kinematic"}) {
+    auto s = cruising(world_of("twinpuck = 1\n[world]\nengine = \"" + std::string(engine) + "\"\n[[robot]]\n"), 2, 4);
+    // spin = (4 - 2) * 0.0205 / 0.053 = 0.7736 rad/s: once round in 8.122 s; radius 0.0795 m
+    run_for(*s, 2 * sim::kPi / (2 * 0.0205 / 0.053));
+    EXPECT_NEAR(s->pose(0).x_m, 0, 0.001) << engine;
+    EXPECT_NEAR(s->pose(0).y_m, 0, 0.001) << engine;
+    EXPECT_NEAR(s->distance_m(0), 2 * sim::kPi * 0.0795, 0.001) << engine;
+  }
+}
+
+TEST(Motion, pushed_against_a_wall_the_robot_stays) {
+  for (const char* engine : {"dynamic", "kinematic"}) {
+    for (int hz : {96, 512}) {
+      auto s = cruising(world_of("twinpuck = 1\n[world]\nengine = \"" + std::string(engine) + "\"\nphysics_hz = " +
+                                 std::to_string(hz) + "\n[[box]]\nposition = [0.15, 0]\nsize = [0.1, 0.4, 0.1]\n[[robot]]\n"),
+                        kHalfTurn, kHalfTurn);
+      run_for(*s, 5);
+      // wall at 0.10, radius 0.037: the middle stops at 0.063, with a gap of at most 0.2 mm
+      EXPECT_NEAR(s->pose(0).x_m, 0.063, 0.0002) << engine << hz;
+      EXPECT_NEAR(s->pose(0).y_m, 0, 0.0005) << engine << hz;
+      EXPECT_EQ(s->touches(0).collisions, 1) << engine << hz;
+      EXPECT_GT(s->touches(0).longest_wall_touch_s, 3.9) << engine << hz;  // it arrives after 0.98 s
+      EXPECT_LT(s->touches(0).longest_wall_touch_s, 4.1) << engine << hz;
+    }
+  }
+}
+
+TEST(Motion, a_light_box_is_pushed_and_a_heavy_one_is_not) {
+  const auto run = [](const char* mass) {
+    auto s = cruising(world_of(std::string("twinpuck = 1\n[[box]]\nposition = [0.1, 0]\nsize = [0.06, 0.06, 0.05]\n"
+                                           "movable = true\nfriction = 0.5\nmass = ") + mass + "\n[[robot]]\n"),
+                      kHalfTurn, kHalfTurn);
+    run_for(*s, 5);
+    return s->pose(1).x_m;
+  };
+  // traction 1.0 * 0.15 kg; box friction 0.5 * m: moves below 0.3 kg. Robot front arrives at 0.07 after 0.033 m.
+  EXPECT_NEAR(run("0.1"), 0.1 + 5 * kHalfTurn * 0.0205 - 0.033, 0.003);
+  EXPECT_NEAR(run("0.6"), 0.1, 0.001);
+}
+
+TEST(Motion, a_braked_robot_resists_the_push_of_another) {
+  sim::RobotModel model = puck();
+  model.max_push_n = 1.0;  // less than its tyres hold: 1.0 * 0.15 kg * 9.81 m/s2 = 1.47 N
+  const auto world = world_of("twinpuck = 1\n[[robot]]\n[[robot]]\nposition = [0.1, 0]\nheading = 90\n", {model});
+  auto s = simulation_of(world, [](int r) { return std::make_unique<Cruise>(r ? 0 : kHalfTurn, r ? 0 : kHalfTurn); });
+  run_for(*s, 5);
+  // where free pushing would have moved it by 0.3 m
+  EXPECT_LT(s->pose(1).x_m, 0.101);
+  EXPECT_NEAR(s->pose(1).x_m - s->pose(0).x_m, 0.074, 0.0003);
+  EXPECT_EQ(s->touches(1).collisions, 1);
+  EXPECT_EQ(s->touches(1).longest_wall_touch_s, 0);
+}
+
+TEST(Motion, slip_and_wheel_noise_change_the_way) {
+  auto slipping = cruising(world_of("twinpuck = 1\n[[robot]]\nslip = 0.25\n"), kHalfTurn, kHalfTurn);
+  run_for(*slipping, 10);
+  EXPECT_NEAR(slipping->distance_m(0), 0.75 * 0.6440, 0.003);
+  auto noisy = cruising(world_of("twinpuck = 1\n[[robot]]\nwheel_noise = 0.2\n"), kHalfTurn, kHalfTurn);
+  run_for(*noisy, 10);
+  EXPECT_NE(noisy->pose(0).y_m, 0);
+  EXPECT_NEAR(noisy->distance_m(0), 0.6440, 0.03);
+}
+
+TEST(Motion, a_bar_above_the_robot_does_not_stop_it) {
+  const char* const text = R"(twinpuck = 1
+[[wall]]
+points = [[0.2, -0.5], [0.2, 0.5]]
+z = %Z
+height = 0.05
+[[robot]]
+)";
+  for (const bool high : {true, false}) {
+    std::string t = text;
+    t.replace(t.find("%Z"), 2, high ? "0.06" : "0.03");  // the robot is 47 mm high
+    auto s = cruising(world_of(t), kHalfTurn, kHalfTurn);
+    run_for(*s, 8);
+    if (high) {
+      EXPECT_GT(s->pose(0).x_m, 0.5);
+    } else {
+      EXPECT_NEAR(s->pose(0).x_m, 0.195 - 0.037, 0.0003);
+    }
+  }
+}
+
+TEST(Motion, a_dropped_ball_falls_and_rests) {
+  const auto world = world_of("twinpuck = 1\n[[ball]]\nposition = [0, 0]\nradius = 0.02\nz = 0.5\nmovable = true\n");
+  auto s = cruising(world, 0, 0);
+  // after 0.25 s: 0.5 - 9.81 * 0.25^2 / 2 = 0.19344 m
+  run_for(*s, 0.25);
+  EXPECT_NEAR(s->state(0).z_m, 0.19344, 1e-5);
+  run_for(*s, 1);
+  EXPECT_EQ(s->state(0).z_m, 0);
+  EXPECT_EQ(s->state(0).climb_m_s, 0);
+}
+
+TEST(Motion, a_dropped_box_rests_on_a_table_and_falls_when_the_table_is_gone) {
+  const auto world = world_of(R"(twinpuck = 1
+[[box]]
+name = "table"
+position = [0, 0]
+size = [0.2, 0.2, 0.1]
+movable = true
+mass = 5
+[[box]]
+name = "crate"
+position = [0.05, 0]
+size = [0.05, 0.05, 0.05]
+z = 0.3
+movable = true
+)");
+  auto s = cruising(world, 0, 0);
+  run_for(*s, 1);
+  EXPECT_NEAR(s->state(1).z_m, 0.1, 0.0005);
+  run_for(*s, 1);
+  EXPECT_NEAR(s->state(1).z_m, 0.1, 0.0005);
+  s->move(0, {1, 0, 0});
+  run_for(*s, 1);
+  EXPECT_EQ(s->state(1).z_m, 0);
+}
+
+TEST(Motion, a_crate_on_a_robots_back_rides_along) {
+  const auto world = world_of(R"(twinpuck = 1
+[[robot]]
+[[box]]
+position = [0, 0]
+size = [0.03, 0.03, 0.03]
+z = 0.05
+movable = true
+mass = 0.01
+)");
+  auto s = cruising(world, 1, 1);
+  run_for(*s, 5);
+  EXPECT_NEAR(s->state(1).z_m, 0.047, 0.0005);
+  EXPECT_NEAR(s->pose(0).x_m, 5 * 0.0205, 0.001);
+  EXPECT_NEAR(s->pose(1).x_m, s->pose(0).x_m, 0.003);
+}
+
+TEST(Motion, a_teleported_robot_starts_at_rest_from_there) {
+  auto s = cruising(world_of(kFree), kHalfTurn, kHalfTurn);
+  run_for(*s, 1);
+  const double way = s->distance_m(0);
+  s->move(0, {5, 5, 1});
+  EXPECT_EQ(s->pose(0).x_m, 5);
+  EXPECT_EQ(s->distance_m(0), way);
+  EXPECT_EQ(s->scene().pose(0, s->now() - 100000).x_m, 5);
+}
+
+TEST(Motion, far_from_the_origin_the_way_is_as_exact) {
+  const auto world = world_of("twinpuck = 1\n[[robot]]\nposition = [500, 500]\n"
+                              "[[box]]\nposition = [500.02, 500.0385]\nsize = [1, 0.001, 0.05]\n");
+  auto s = cruising(world, 0.05, 0.05);  // 1 mm/s along a wall that is never touched but always near
+  run_for(*s, 10);
+  EXPECT_NEAR(s->pose(0).x_m - 500, 0.01025, 0.00006);
+}
+
+}  // namespace

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: MIT
+// Tables, ray placement, weights, colour rule, pose history. Source of the numbers: epuck-robot.md A3, B1, B2.
+#include "sim_core/light/profiles.h"
+#include "sim_core/light/response_curve.h"
+#include "tests/sim_core/fixture.h"
+
+using namespace sim_test;
+
+namespace {
+
+TEST(Proximity, four_rays_weigh_as_the_lab_computes) {
+  // exp(-(0.15 / 0.3)^2) = 0.7788; 1 / (1 + 3 * 0.7788) = 0.2997; the others 0.2334
+  const auto rays = sim::plan_rays(4, 0.3, 1, sim::RayLayout::Cone);
+  ASSERT_EQ(rays.size(), 4u);
+  EXPECT_NEAR(rays[0].weight, 0.2997, 5e-5);
+  for (int i = 1; i < 4; ++i) {
+    EXPECT_NEAR(rays[static_cast<std::size_t>(i)].weight, 0.2334, 5e-5);
+    EXPECT_NEAR(rays[static_cast<std::size_t>(i)].dir.x, std::cos(0.15), 1e-12);
+  }
+}
+
+TEST(Proximity, every_number_of_rays_has_a_placement_whose_weights_add_up) {
+  for (int n = 1; n <= 40; ++n) {
+    for (auto layout : {sim::RayLayout::Cone, sim::RayLayout::Fan}) {
+      for (double width : {0.0, 0.5, 1.0}) {
+        const auto rays = sim::plan_rays(n, 0.5, width, layout);
+        ASSERT_EQ(static_cast<int>(rays.size()), n);
+        double sum = 0;
+        for (const auto& r : rays) {
+          sum += r.weight;
+          EXPECT_LE(r.off_axis_rad, 0.25 + 1e-12);
+          EXPECT_NEAR(r.dir.x * r.dir.x + r.dir.y * r.dir.y + r.dir.z * r.dir.z, 1, 1e-12);
+        }
+        EXPECT_NEAR(sum, 1, 1e-12);
+      }
+    }
+  }
+}
+
+TEST(Proximity, a_fan_of_three_lies_in_the_plane) {
+  const auto rays = sim::plan_rays(3, sim::radians(30), 1, sim::RayLayout::Fan);
+  EXPECT_NEAR(rays[0].dir.y, std::sin(sim::radians(15)), 1e-12);
+  EXPECT_NEAR(rays[1].dir.y, 0, 1e-12);
+  EXPECT_NEAR(rays[2].dir.y, -std::sin(sim::radians(15)), 1e-12);
+  for (const auto& r : rays) EXPECT_EQ(r.dir.z, 0);
+}
+
+TEST(Proximity, width_zero_leaves_the_ray_on_the_axis) {
+  const auto rays = sim::plan_rays(4, 0.3, 0, sim::RayLayout::Cone);
+  EXPECT_EQ(rays[0].weight, 1);
+  EXPECT_EQ(rays[1].weight, 0);
+}
+
+TEST(Proximity, tables_are_linear_between_rows_and_clamped_beyond) {
+  const auto& old = sim::find_profile("webots-old")->table;
+  EXPECT_EQ(sim::look_up(old, -1).value, 4095);
+  EXPECT_EQ(sim::look_up(old, 0.0025).value, (4095 + 3474) / 2.0);
+  EXPECT_NEAR(sim::look_up(old, 0.0025).relative_noise, 0.021, 1e-12);
+  EXPECT_EQ(sim::look_up(old, 0.01).value, 2211);
+  EXPECT_EQ(sim::look_up(old, 1).value, 34);
+  EXPECT_EQ(sim::look_up(old, 1).relative_noise, .704);
+}
+
+TEST(Proximity, a_curve_equals_its_table_everywhere) {
+  for (const auto& p : sim::proximity_profiles()) {
+    const sim::ResponseCurve curve(p.table);
+    for (int i = -10; i < 14000; ++i) {
+      const double d = i * 1e-5;
+      EXPECT_NEAR(curve.at(d).value, sim::look_up(p.table, d).value, 1e-9) << p.name << d;
+    }
+    for (const auto& row : p.table) EXPECT_EQ(curve.at(row.distance_m).value, row.value) << p.name;
+  }
+}
+
+TEST(Proximity, enki_and_inverse_square_tables_follow_their_laws) {
+  // Enki at 5 mm: 3731 * (0.7 - 0.09) / (0.25 - 0.3 + 0.7) = 3501; at 20 mm 650
+  EXPECT_NEAR(sim::look_up(sim::find_profile("enki")->table, 0.005).value, 3501, 1);
+  EXPECT_NEAR(sim::look_up(sim::find_profile("enki")->table, 0.02).value, 650, 1);
+  EXPECT_NEAR(sim::look_up(sim::find_profile("inverse-square")->table, 0.02).value, 625, 0.5);
+  EXPECT_NEAR(sim::look_up(sim::find_profile("inverse-square")->table, 0.005).value, 4095, 0.5);
+  EXPECT_NEAR(sim::look_up(sim::find_profile("argos")->table, 0.01).value, 3043, 1);
+}
+
+/// A wall `gap` metres in front of the one-eyed robot's sensor.
+std::string wall_world(double gap, const std::string& more = "", const std::string& material = "") {
+  return "twinpuck = 1\n[proximity]\nnoise_scale = 0\n" + more + "\n[[box]]\nposition = [" +
+         std::to_string(0.037 + gap + 0.05) + ", 0]\nsize = [0.1, 0.6, 0.1]\n" + material +
+         "\n[[robot]]\nmodel = \"one-eyed\"\n";
+}
+
+TEST(Proximity, white_wall_straight_ahead_reads_the_table) {
+  for (const auto& p : sim::proximity_profiles()) {
+    if (p.aperture_rad != 0 && !p.rays_answer_singly && p.rays > 1) continue;
+    for (double mm : {0.5, 5., 10., 20., 30., 50.}) {
+      auto s = cruising(world_of(wall_world(mm / 1000, std::string("profile = \"") + p.name + "\"")), 0, 0);
+      const auto r = sim::sense_proximity(s->scene(), 0, 0, 0);
+      EXPECT_NEAR(r.value, sim::look_up(p.table, mm / 1000).value, 0.002) << p.name << " " << mm;
+      EXPECT_EQ(r.relative_noise, 0);
+    }
+  }
+}
+
+TEST(Proximity, black_and_blue_walls_look_five_times_as_far) {
+  for (const char* colour : {"[0, 0, 0]", "[0, 0, 1]"}) {
+    auto s = cruising(world_of(wall_world(0.01, "profile = \"webots-old\"", std::string("colour = ") + colour)), 0, 0);
+    const auto r = sim::sense_proximity(s->scene(), 0, 0, 0);
+    EXPECT_NEAR(r.apparent_distance_m, 0.05, 1e-6);
+    EXPECT_NEAR(r.value, 90, 0.01);
+  }
+  // generic sensors see no colour
+  auto s = cruising(world_of(wall_world(0.01, "profile = \"webots-old\"\ntype = \"generic\"", "colour = [0, 0, 0]")), 0, 0);
+  EXPECT_NEAR(sim::sense_proximity(s->scene(), 0, 0, 0).value, 2211, 0.01);
+}
+
+TEST(Proximity, the_newer_rule_counts_roughness) {
+  const std::string rough = "[[material]]\nname = \"matt\"\nroughness = 1\n";
+  auto s = cruising(world_of("twinpuck = 1\n" + rough + "[proximity]\nprofile = \"webots-old\"\ncolour_rule = \"new\"\n"
+                             "[[box]]\nposition = [0.107, 0]\nmaterial = \"matt\"\nsize = [0.1, 0.6, 0.1]\n"
+                             "[[robot]]\nmodel = \"one-eyed\"\n"), 0, 0);
+  // f = .2 + .8 * .5 = .6; 20 mm look like 33.3 mm
+  EXPECT_NEAR(sim::sense_proximity(s->scene(), 0, 0, 0).apparent_distance_m, 0.02 / 0.6, 1e-6);
+}
+
+TEST(Proximity, nothing_ahead_reads_the_last_row) {
+  auto s = cruising(world_of("twinpuck = 1\n[proximity]\nprofile = \"webots-old\"\n[[robot]]\nmodel = \"one-eyed\"\n"), 0, 0);
+  EXPECT_EQ(sim::sense_proximity(s->scene(), 0, 0, 0).value, 34);
+}
+
+TEST(Proximity, cone_rays_that_miss_count_as_the_whole_range) {
+  // four rays of 0.3 rad, wall at 60 mm: centre 0.060, cones 0.060 / cos 0.15 = 0.06068
+  auto s = cruising(world_of(wall_world(0.06, "profile = \"webots-old\"\nrays = 4\naperture_rad = 0.3")), 0, 0);
+  const double d = 0.29970 * 0.06 + 0.70030 * 0.06 / std::cos(0.15);
+  EXPECT_NEAR(sim::sense_proximity(s->scene(), 0, 0, 0).apparent_distance_m, d, 1e-6);
+}
+
+TEST(Proximity, a_wall_lower_than_the_sensor_is_not_seen) {
+  auto low = cruising(world_of("twinpuck = 1\n[[box]]\nposition = [0.1, 0]\nsize = [0.1, 0.6, 0.02]\n"
+                               "[[robot]]\nmodel = \"one-eyed\"\n"), 0, 0);
+  EXPECT_NEAR(sim::sense_proximity(low->scene(), 0, 0, 0).apparent_distance_m, 0.1, 1e-9);
+}
+
+TEST(Proximity, other_robots_are_seen_and_the_own_body_is_not) {
+  auto s = cruising(world_of("twinpuck = 1\n[proximity]\ncolour_rule = \"none\"\n[[robot]]\nmodel = \"one-eyed\"\n"
+                             "[[robot]]\nposition = [0.104, 0]\n"), 0, 0);
+  // 0.104 - 0.037 - 0.037 = 0.030
+  EXPECT_NEAR(sim::sense_proximity(s->scene(), 0, 0, 0).apparent_distance_m, 0.030, 1e-9);
+}
+
+TEST(Proximity, settings_are_inherited_and_overridden) {
+  const auto world = world_of(R"(twinpuck = 1
+[proximity]
+profile = "webots-old"
+noise_scale = 2
+[[robot]]
+[robot.proximity]
+rays = 4
+aperture = 20
+[[robot.sensor]]
+index = 3
+profile = "webots-new"
+noise_scale = 0
+[[robot.sensor]]
+index = 5
+table = [[0, 1000, 0.1], [0.1, 0, 0]]
+[[robot]]
+position = [1, 0]
+)");
+  const auto c0 = sim::resolve_proximity(world, 0, 0), c3 = sim::resolve_proximity(world, 0, 3);
+  const auto c5 = sim::resolve_proximity(world, 0, 5), d0 = sim::resolve_proximity(world, 1, 0);
+  EXPECT_EQ(c0.rays, 4);
+  EXPECT_EQ(c0.noise_scale, 2);
+  EXPECT_EQ(c0.table.size(), 9u);
+  EXPECT_EQ(c3.table.size(), 10u);
+  EXPECT_EQ(c3.noise_scale, 0);
+  EXPECT_EQ(c5.table.size(), 2u);
+  EXPECT_EQ(d0.rays, 1);
+}
+
+TEST(Scene, poses_are_interpolated_between_ticks_and_carried_on_after_the_last) {
+  auto s = cruising(world_of("twinpuck = 1\n[world]\nengine = \"kinematic\"\nphysics_hz = 128\n[[robot]]\n"), 2, 2);
+  run_for(*s, 1);
+  const double v = 2 * 0.0205;
+  for (double back_s : {0.0, 0.001, 0.0078125, 0.02, 0.0399}) {
+    const sim::Clicks at = s->now() - sim::from_seconds(back_s);
+    EXPECT_NEAR(s->scene().pose(0, at).x_m, v * sim::to_seconds(at), 1e-9) << back_s;
+  }
+  const sim::Clicks ahead = s->now() + sim::kClicksPerSecond / 256;
+  EXPECT_NEAR(s->scene().pose(0, ahead).x_m, v * sim::to_seconds(ahead), 1e-9);
+  // before the world began everything stood where it stands at 0
+  auto fresh = cruising(world_of("twinpuck = 1\n[[robot]]\nposition = [3, 0]\n"), 2, 2);
+  EXPECT_EQ(fresh->scene().pose(0, -1000).x_m, 3);
+}
+
+TEST(Scene, long_rays_meet_the_nearest_thing) {
+  auto s = cruising(world_of("twinpuck = 1\n[arena]\nsize = [8, 8]\n[[cylinder]]\nposition = [2, 0]\nradius = 0.1\n"
+                             "[[robot]]\n[[robot]]\nposition = [3, 0]\n"), 0, 0);
+  sim::SceneHit hit;
+  ASSERT_TRUE(s->scene().cast({{0, 0, 0.02}, {1, 0, 0}}, 100, 0, 0, &hit));
+  EXPECT_NEAR(hit.distance_m, 1.9, 1e-9);
+  EXPECT_NEAR(hit.normal.x, -1, 1e-9);
+  ASSERT_TRUE(s->scene().cast({{0, 0, 0.02}, {0, 1, 0}}, 100, 0, 0, &hit));
+  EXPECT_NEAR(hit.distance_m, 4, 1e-9);
+  ASSERT_TRUE(s->scene().cast({{2.5, 0, 0.02}, {1, 0, 0}}, 100, -1, 0, &hit));
+  EXPECT_EQ(hit.robot, 1);
+  ASSERT_TRUE(s->scene().cast({{0, 0.5, 0.02}, {0, 0.6, -0.8}}, 100, -1, 0, &hit));
+  EXPECT_TRUE(hit.floor);
+  EXPECT_NEAR(hit.distance_m, 0.025, 1e-9);
+  EXPECT_FALSE(s->scene().cast({{0, 0, 0.02}, {0, 0, 1}}, 100, 0, 0, &hit));
+}
+
+TEST(Light, a_lamp_shines_by_its_law_and_casts_shadows) {
+  const char* const text = R"(twinpuck = 1
+[world]
+ambient = 0.5
+[[lamp]]
+position = [1.037, 0, 0.025]
+intensity = 3
+attenuation = [0, 0, 2]
+[[robot]]
+model = "one-eyed"
+)";
+  auto s = cruising(world_of(text), 0, 0);
+  // distance 1 m, straight ahead: 0.5 + 3 / 2
+  EXPECT_NEAR(sim::sense_irradiance_w_m2(s->scene(), 0, 0, 0), 2.0, 1e-9);
+  auto shaded = cruising(world_of(std::string(text) + "[[box]]\nposition = [0.5, 0]\n"), 0, 0);
+  EXPECT_NEAR(sim::sense_irradiance_w_m2(shaded->scene(), 0, 0, 0), 0.5, 1e-9);
+  s->move(0, {0, 0, sim::kPi});
+  EXPECT_NEAR(sim::sense_irradiance_w_m2(s->scene(), 0, 0, 0), 0.5, 1e-9);
+}
+
+}  // namespace
