@@ -104,6 +104,44 @@ bool read_value(const KeySpec& k, const toml::node& node, Value& v) {
   return false;
 }
 
+/// Place of the first character beyond ASCII that stands outside comments and quotes, where TOML knows none (and
+/// where the parser would ask itself whether a letter is white space, without an answer). line 0: there is none.
+WorldProblem find_stray_character(std::string_view text) {
+  enum class In { Plain, Comment, Basic, Literal, LongBasic, LongLiteral } in = In::Plain;
+  int line = 1, column = 1;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    const bool basic = in == In::Basic || in == In::LongBasic;
+    const bool triple = text.substr(i, 3) == "\"\"\"" || text.substr(i, 3) == "'''";
+    std::size_t skip = 0;  // characters of the same line to leave out
+    if (in == In::Plain) {
+      // a byte order mark at the very beginning is all right
+      if (static_cast<unsigned char>(c) >= 0x80 && !(i < 3 && text.substr(0, 3) == "\xEF\xBB\xBF")) {
+        return {line, column, "not TOML: got a character beyond ASCII, expected those in quotes or comments only"};
+      }
+      if (c == '#') in = In::Comment;
+      if (c == '"') in = triple ? In::LongBasic : In::Basic;
+      if (c == '\'') in = triple ? In::LongLiteral : In::Literal;
+      if (triple) skip = 2;
+    } else if (basic && c == '\\' && i + 1 < text.size() && text[i + 1] != '\n') {
+      skip = 1;
+    } else if ((in == In::Basic && c == '"') || (in == In::Literal && c == '\'')) {
+      in = In::Plain;
+    } else if (triple && ((in == In::LongBasic && c == '"') || (in == In::LongLiteral && c == '\''))) {
+      in = In::Plain;
+      skip = 2;
+    }
+    if (c == '\n') {
+      if (in == In::Comment || in == In::Basic || in == In::Literal) in = In::Plain;
+      ++line;
+      column = 0;
+    }
+    i += skip;
+    column += 1 + static_cast<int>(skip);
+  }
+  return {};
+}
+
 class Reader {
  public:
   Reader(const std::string& path, const std::vector<RobotModel>& models) {
@@ -115,6 +153,8 @@ class Reader {
     LoadedWorld out;
     if (text.size() > kLongestFile) {
       problem({}, fmt::format("got {} bytes, expected at most {}", text.size(), kLongestFile));
+    } else if (const WorldProblem stray = find_stray_character(text); stray.line > 0) {
+      problems_.push_back(stray);
     } else {
       lines_ = split_lines(text);
       const toml::parse_result result = toml::parse(text);

@@ -198,6 +198,7 @@ TEST(Loader, every_kind_of_mistake_has_its_sentence) {
       {"[[box]]\nname = \"a\"\nposition = [0, 0]\n[[box]]\nname = \"b\"\nposition = [0.05, 0]\nmovable = true", "w.toml:5:1: box 'b': got position [0.05, 0] m inside box 'a' (line 2), expected free room"},
       {"[[wal]]\npoints = []", "w.toml:2:3: unknown key 'wal'; did you mean 'wall'?"},
       {"key = ", "w.toml:2:7: not TOML: "},
+      {"title = \"\u00e9\" # \u00e9\n\u00e9 = 1", "w.toml:3:1: not TOML: got a character beyond ASCII, expected those in quotes or comments only"},
       {"[[#", "w.toml:2:3: not TOML: "},
       {"[world", "w.toml:2:7: not TOML: "},
       {"title = \"a\"\ntitle = \"b\"", "w.toml:3:9: not TOML: "},
