@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: MIT
+# The front door. `make` alone prints this list; everything is built in build/ by cmake and ninja.
+
+FW    ?= obstacle
+WORLD ?= maze
+T     ?=
+ARGS  ?=
+XC16  ?= xc16-gcc
+
+BUILD  := build
+OUT    := $(BUILD)/run
+JOBS   := $(shell nproc)
+CMAKE  := cmake -G Ninja -S .
+
+.DEFAULT_GOAL := help
+.PHONY: help setup build run test view dspic check format bench asan tsan fuzz clean
+
+## help: this list
+help:
+	@echo "Twinpuck: e-puck controllers on a PC, in virtual time."
+	@echo
+	@sed -n 's/^## \([a-z]*\): *\(.*\)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 18
+	@echo
+	@echo "  variables: FW=controller (folder of firmware/)  WORLD=world (file of worlds/)  T=filter  ARGS=options"
+
+## setup: install the packages that building and testing need (Debian 12)
+setup:
+	@scripts/setup.sh
+
+## build: build everything for the PC
+build: setup
+	@test -f $(BUILD)/build.ninja || $(CMAKE) -B $(BUILD) -DCMAKE_BUILD_TYPE=Release >$(BUILD).log 2>&1 \
+	  || { cat $(BUILD).log; rm -f $(BUILD).log; exit 1; }; rm -f $(BUILD).log
+	@ninja -C $(BUILD) --quiet -j $(JOBS)
+
+## run: 60 simulated seconds of FW in WORLD: summary, CSV and picture
+run: build
+	@mkdir -p $(OUT)
+	@$(BUILD)/twinpuck build firmware/$(FW) -o $(OUT)/$(FW).so
+	@$(BUILD)/twinpuck run worlds/$(WORLD).toml --fw '*=$(OUT)/$(FW).so' --for 60 --speed max \
+	  --record $(OUT)/$(FW).csv --summary $(OUT)/$(FW).json --picture $(OUT)/$(FW).png $(ARGS)
+
+## test: all tests that need no browser; T=filter selects by name
+test: build
+	@scripts/run_tests.sh $(BUILD) '$(T)'
+
+## view: the same run in the browser
+view:
+	@echo "make view: the browser page is not built yet; use make run, which writes a picture" >&2; exit 2
+
+## dspic: cross-build FW for the robot with XC16 (XC16=path, or xc16-gcc in PATH)
+dspic:
+	@scripts/build_dspic.sh '$(XC16)' '$(FW)' $(BUILD)/dspic
+
+## check: rules of the code: includes, sources of numbers, formatting, contract
+check: setup
+	@scripts/setup.sh check
+	@scripts/check.py
+	@scripts/check_contract.py
+	@scripts/gen_sfr_header.py --check
+
+## format: format C++ sources in place
+format:
+	@scripts/setup.sh check
+	@git ls-files '*.h' '*.cpp' | grep -v '^firmware/' | grep -v '^hal_sim/api/' | xargs -r clang-format -i
+
+## bench: speed for 1 to 1000 robots, beside libenki
+bench: build
+	@scripts/setup.sh bench
+	@ninja -C $(BUILD) --quiet -j $(JOBS) bench
+	@$(BUILD)/bin/bench $(ARGS)
+
+## asan: all tests under the address and undefined-behaviour sanitizers
+asan: setup
+	@$(CMAKE) -B $(BUILD)-asan -DCMAKE_BUILD_TYPE=Debug -DTWINPUCK_SANITIZE=address,undefined >/dev/null
+	@ninja -C $(BUILD)-asan --quiet -j $(JOBS)
+	@scripts/run_tests.sh $(BUILD)-asan '$(T)'
+
+## tsan: all tests under the thread sanitizer
+tsan: setup
+	@$(CMAKE) -B $(BUILD)-tsan -DCMAKE_BUILD_TYPE=Debug -DTWINPUCK_SANITIZE=thread >/dev/null
+	@ninja -C $(BUILD)-tsan --quiet -j $(JOBS)
+	@scripts/run_tests.sh $(BUILD)-tsan '$(T)'
+
+## fuzz: ten minutes of broken world files against the loader
+fuzz: setup
+	@scripts/setup.sh fuzz
+	@$(CMAKE) -B $(BUILD)-fuzz -DCMAKE_C_COMPILER=clang-14 -DCMAKE_CXX_COMPILER=clang++-14 -DTWINPUCK_FUZZ=ON >/dev/null
+	@ninja -C $(BUILD)-fuzz --quiet -j $(JOBS) fuzz_world
+	@$(BUILD)-fuzz/fuzz_world -max_total_time=600 $(ARGS) tests/fuzz/worlds
+
+## clean: remove everything that was built
+clean:
+	@rm -rf $(BUILD) $(BUILD)-asan $(BUILD)-tsan $(BUILD)-fuzz

@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: MIT
+ * What the contract's headers need to serve two compilers: twinpuck-cc (which defines __TWINPUCK__) and
+ * Microchip's XC16, for which both macros are empty. Controllers never need this file.
+ */
+#ifndef TWINPUCK_H
+#define TWINPUCK_H
+
+#ifdef __TWINPUCK__
+/** The library has two or three implementations of some functions under one name; on the robot the object
+ *  file that is linked decides. Here the header decides: it gives the function the label of its variant. */
+#define TP_VARIANT(prefix, name) __asm__(#prefix #name)
+/** The function only reads, and waits for nothing: a loop that does nothing but call it may be jumped over
+ *  until its answer can change. */
+#define TP_POLL __attribute__((annotate("tp_poll")))
+/** A second form of a function that had no argument in older versions of the library: both calls compile. */
+#define TP_OLDER_CALL static __inline__ __attribute__((overloadable, unused))
+#else
+#define TP_VARIANT(prefix, name)
+#define TP_POLL
+#endif
+
+#endif

@@ -1,0 +1,8 @@
+/* SPDX-License-Identifier: MIT
+ * <xc.h> chooses the device header; the e-puck has one device.
+ */
+#ifndef __TWINPUCK__
+#include_next <xc.h>
+#else
+#include "p30F6014A.h"
+#endif

@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: MIT
+ * The ADC scan, usual variant. Schedule and samples are the board's (hal_sim/board/adc_scan.h); see adc_arrays.h
+ * for the driver's public variables.
+ * Source: [lib: a_d/advance_ad_scan/e_ad_conv.c], facts restated.
+ */
+#include "adc_arrays.h"
+
+#include "hal_sim/host/pins.h"
+#include "utility/utility.h"
+
+#define GUMSTIX_POSITION 10  /* selector position that scans the turret's pair too */
+#define ACC_COUNTER_MAX 64   /* where updateAccI2CCounter stops */
+#define TICK_COUNTER_MAX 65535u
+
+int e_mic_scan[3][MIC_SAMP_NB];
+int e_acc_scan[3][ACC_SAMP_NB];
+unsigned int e_last_mic_scan_id;
+unsigned int e_last_acc_scan_id;
+int e_ambient_ir[IR_CHANNELS];
+int e_ambient_and_reflected_ir[IR_CHANNELS];
+int selector;
+unsigned int tickAdcIsr;
+unsigned char updateAccI2CCounter;
+
+static tp_i64 interrupts_seen;
+
+void twinpuck_refresh_adc_counters(void) {
+  tp_i64 interrupts = tp_scan_interrupts();
+  tp_i64 ticks = tickAdcIsr + (interrupts - interrupts_seen);
+  tp_i64 updates = updateAccI2CCounter + (interrupts - interrupts_seen);
+  if (interrupts == interrupts_seen) return;
+  interrupts_seen = interrupts;
+  tickAdcIsr = ticks > TICK_COUNTER_MAX ? TICK_COUNTER_MAX : (unsigned int)ticks;
+  updateAccI2CCounter = (unsigned char)(updates > ACC_COUNTER_MAX ? ACC_COUNTER_MAX : updates);
+  e_last_mic_scan_id = (unsigned int)(interrupts % MIC_SAMP_NB);
+  e_last_acc_scan_id = (unsigned int)(tp_scan_acc_samples() % ACC_SAMP_NB);
+}
+
+void twinpuck_refresh_ir(unsigned int sensor) {
+  e_ambient_ir[sensor] = (int)tp_scan_dark(sensor);
+  e_ambient_and_reflected_ir[sensor] = (int)tp_scan_lit(sensor);
+}
+
+static void refresh_all(void) {
+  unsigned int sensor;
+  tp_i64 before = interrupts_seen;
+  twinpuck_refresh_adc_counters();
+  if (interrupts_seen == before) return;
+  for (sensor = 0; sensor < IR_CHANNELS; sensor++) twinpuck_refresh_ir(sensor);
+}
+
+void e_init_ad_scan(unsigned char only_micro) {
+  selector = getselector();
+  tp_scan_start(only_micro == MICRO_ONLY, selector == GUMSTIX_POSITION);
+  /* blocks until the accelerometer's buffer is full once */
+  if (only_micro != MICRO_ONLY) tp_wait_until(tp_scan_filled_at());
+  refresh_all();
+}
+
+unsigned char e_ad_is_array_filled(void) {
+  if (!tp_scan_array_filled()) return 0;
+  refresh_all();
+  return 1;
+}
+
+/* the program never runs inside the interrupt, so after the first sample it always sees 1 */
+unsigned char e_ad_is_acquisition_completed(void) {
+  refresh_all();
+  return interrupts_seen > 0;
+}
+
+void e_ad_scan_on(void) { tp_scan_switch(1); }
+
+void e_ad_scan_off(void) {
+  tp_scan_switch(0);
+  refresh_all();
+}

@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: MIT
+ * Single conversions by the program itself.
+ * Source: [lib: a_d/e_ad_conv.c], facts restated.
+ */
+#include "a_d/e_ad_conv.h"
+
+#include "hal_sim/host/pins.h"
+
+#define LAST_CHANNEL 15
+#define SETUP_CYCLES 40      /* [estimated: 22 register and bit writes, call] */
+#define SAMPLING_CYCLES 320  /* [estimated: 40 rounds of 7 cycles, set-up] */
+#define CONVERSION_CYCLES 150 /* [estimated: 14 TAD of 9.5 cycles, polling, return] */
+
+void e_init_ad(void) { tp_spend(SETUP_CYCLES); }
+
+int e_read_ad(unsigned int channel) {
+  int counts;
+  if (channel > LAST_CHANNEL) return 0;
+  tp_spend(SAMPLING_CYCLES);
+  counts = (int)tp_convert(channel);
+  tp_spend(CONVERSION_CYCLES);
+  return counts;
+}

@@ -1,0 +1,347 @@
+/* SPDX-License-Identifier: MIT
+ * Fast agenda: tasks spread over Timers 1 to 3, each timer running at the greatest common divisor of its tasks'
+ * cycles, one timer reserved for the two motor tasks. Rare; so its interrupts are not evaluated in closed form but
+ * delivered one by one, and this file is plain event-driven C.
+ *
+ *   task of cycle 0 -> waiting list        new task -> a free timer, else the one with the best common divisor
+ *
+ * Modelled: choice of timer, prescaler and period with their truncations, the timer's count kept over stops,
+ * counters that advance by the timer's period, no clearing of the flag for a timer without tasks (it then would
+ * interrupt for ever; here it is silent).
+ * Not modelled: e_destroy_agenda() of the original unlinks the wrong node; here it unlinks the task's.
+ * Source: [lib: motor_led/advance_one_timer/fast_agenda/e_agenda_fast.c], facts restated.
+ */
+#include "motor_led/advance_one_timer/fast_agenda/e_agenda_fast.h"
+
+#include <stdlib.h>
+
+#include "hal_sim/host/pins.h"
+
+#define EXIT_OK 1
+#define TIMERS 3
+#define NO_TIMER (-1)
+#define UNIT_CYCLES 1474.56 /* 0.1 ms [lib: motor_led/advance_one_timer/fast_agenda/e_agenda_fast.c] */
+#define LONGEST 11459u      /* units that the largest prescaler can hold [lib: the same file] */
+#define TIMER_PRIORITY 4
+#define TIMER_ENTRY_CYCLES 30 /* [estimated: entry 4, context 20, RETFIE 3, flag] */
+
+/* one hardware timer */
+struct timer {
+  tp_i64 vector;
+  unsigned int period;  /* PR register */
+  unsigned char shift;  /* prescaler as a power of two: 0, 3, 6, 8 */
+  char running;
+  unsigned int count;   /* TMR register while stopped */
+  tp_i64 started;       /* cycle at which it was started with that count */
+};
+
+static struct AgendaList tasks;
+static struct timer timers[TIMERS] = {
+    {TP_V_T1, 65535u, 0, 0, 0, 0}, {TP_V_T2, 65535u, 0, 0, 0, 0}, {TP_V_T3, 65535u, 0, 0, 0, 0}};
+
+/* --- timers ------------------------------------------------------------------------------------------------- */
+
+static tp_i64 counts_since_start(const struct timer *t) { return (tp_now() - t->started) >> t->shift; }
+
+/* cycle of the next match; a count beyond the period first runs through 16 bits */
+static void request_match(struct timer *t) {
+  tp_i64 to_go = (tp_i64)t->period + 1 - t->count;
+  if (tasks.speed[t - timers] == 0) {
+    tp_irq_at(t->vector, -1); /* a timer whose tasks all rest */
+    return;
+  }
+  if (to_go <= 0) to_go += 65536;
+  tp_irq_at(t->vector, t->started + (to_go << t->shift));
+}
+
+static void start_timer(struct timer *t) {
+  if (t->running) return;
+  t->running = 1;
+  t->started = tp_now();
+  request_match(t);
+}
+
+static void stop_timer(struct timer *t) {
+  if (!t->running) return;
+  t->count = (unsigned int)(t->count + counts_since_start(t));
+  t->running = 0;
+  tp_irq_at(t->vector, -1);
+}
+
+static void serve(int index) {
+  struct timer *t = &timers[index];
+  Agenda *task;
+  /* the counter went on from 0 at the match */
+  t->started += ((tp_i64)t->period + 1 - t->count) << t->shift;
+  t->count = 0;
+  request_match(t);
+  if (tasks.timers_in_use[index] == 0 || tasks.speed[index] == 0) return;
+  for (task = tasks.agendas[index]; task; task = task->next) {
+    if (task->activate != 1 || task->cycle == 0) continue;
+    task->counter += tasks.speed[index];
+    if ((unsigned int)task->counter >= task->cycle) {
+      task->function();
+      task->counter = 0;
+    }
+  }
+}
+
+static void serve_timer1(void) { serve(0); }
+static void serve_timer2(void) { serve(1); }
+static void serve_timer3(void) { serve(2); }
+
+static void configure(int index) {
+  static void (*const handlers[TIMERS])(void) = {serve_timer1, serve_timer2, serve_timer3};
+  struct timer *t = &timers[index];
+  stop_timer(t);
+  t->shift = 0;
+  t->count = 0;
+  t->period = (unsigned int)UNIT_CYCLES;
+  tp_irq_install(t->vector, handlers[index], TIMER_PRIORITY, TIMER_ENTRY_CYCLES);
+}
+
+/* period of a timer in units of 0.1 ms, with the smallest prescaler that holds it */
+static void set_period(int index, unsigned int units) {
+  struct timer *t = &timers[index];
+  if (units > LONGEST) {
+    float parts = units / (float)LONGEST;
+    unsigned int whole = (unsigned int)parts;
+    units = units / (parts > (float)whole ? whole + 1 : whole);
+  }
+  tasks.speed[index] = units;
+  /* below 44 units the library leaves the shift 0 but also the prescaler of before, which is 1 after configuring */
+  t->shift = units > 2864 ? 8 : units > 358 ? 6 : units >= 44 ? 3 : 0;
+  t->period = (unsigned int)((unsigned long)(UNIT_CYCLES * units) >> t->shift);
+  if (t->running) request_match(t);
+}
+
+static unsigned int common_divisor(unsigned int a, unsigned int b) {
+  while (b != 0) {
+    unsigned int rest = a % b;
+    a = b;
+    b = rest;
+  }
+  return a;
+}
+
+/* --- choice of a timer ---------------------------------------------------------------------------------------- */
+
+static int free_timer(void) {
+  int i;
+  for (i = 0; i < TIMERS && tasks.timers_in_use[i] > 0; i++) continue;
+  return i < TIMERS && tasks.motors != i ? i : NO_TIMER;
+}
+
+/* the busy timer whose period shares most with the cycle; else the one with the longest period */
+static int shared_timer(unsigned int cycle, unsigned int *divisor) {
+  int i, best = NO_TIMER;
+  *divisor = 1;
+  for (i = 0; i < TIMERS; i++) {
+    unsigned int d = common_divisor(tasks.speed[i], cycle);
+    if (tasks.timers_in_use[i] == 0 || tasks.motors == i || d <= *divisor) continue;
+    *divisor = d;
+    best = i;
+  }
+  if (best != NO_TIMER) return best;
+  best = tasks.motors == 0 ? 1 : 0;
+  for (i = 1; i < TIMERS; i++)
+    if (tasks.motors != i && tasks.speed[i] < tasks.speed[best]) best = i;
+  return best;
+}
+
+static void place(Agenda *task) {
+  unsigned int divisor = task->cycle;
+  int timer = free_timer();
+  if (timer != NO_TIMER)
+    configure(timer);
+  else
+    timer = shared_timer(task->cycle, &divisor);
+  set_period(timer, divisor);
+  task->activate = 1;
+  task->next = tasks.agendas[timer];
+  tasks.agendas[timer] = task;
+  tasks.timers_in_use[timer]++;
+}
+
+static Agenda *new_task(void (*func)(void), unsigned cycle) {
+  Agenda *task = malloc(sizeof(Agenda));
+  if (!task) tp_trap_message(TP_TRAP_ABORT, "e_activate_agenda: no memory left for a task");
+  task->cycle = cycle;
+  task->counter = 0;
+  task->activate = 0;
+  task->function = func;
+  task->next = 0;
+  return task;
+}
+
+/* takes the task of `func` out of a list; null if it is not there */
+static Agenda *unlink_task(Agenda **list, void (*func)(void)) {
+  for (; *list; list = &(*list)->next)
+    if ((*list)->function == func) {
+      Agenda *task = *list;
+      *list = task->next;
+      task->next = 0;
+      return task;
+    }
+  return 0;
+}
+
+static Agenda *find_in(Agenda *list, void (*func)(void)) {
+  while (list && list->function != func) list = list->next;
+  return list;
+}
+
+static Agenda *find_task(void (*func)(void)) {
+  int i;
+  Agenda *task = find_in(tasks.waiting, func);
+  for (i = 0; i < TIMERS && !task; i++) task = find_in(tasks.agendas[i], func);
+  return task;
+}
+
+/* --- the API ---------------------------------------------------------------------------------------------------- */
+
+void e_start_agendas_processing(void) {
+  int i;
+  for (i = 0; i < TIMERS; i++) {
+    tasks.agendas[i] = 0;
+    tasks.speed[i] = 1;
+    tasks.timers_in_use[i] = 0;
+  }
+  tasks.waiting = 0;
+  tasks.motors = NO_TIMER;
+}
+
+void e_configure_timer(int timer) {
+  int i;
+  for (i = 0; i < TIMERS; i++)
+    if (timer == 0 || timer == i + 1) configure(i);
+}
+
+void e_start_timer_processing(int timer) {
+  int i;
+  for (i = 0; i < TIMERS; i++)
+    if ((timer == 0 || timer == i + 1) && tasks.timers_in_use[i] > 0) start_timer(&timers[i]);
+}
+
+void e_end_agendas_processing(int timer) {
+  int i;
+  for (i = 0; i < TIMERS; i++)
+    if (timer == 0 || timer == i + 1) stop_timer(&timers[i]);
+}
+
+void e_activate_agenda(void (*func)(void), unsigned cycle) {
+  Agenda *task = new_task(func, cycle);
+  e_end_agendas_processing(0);
+  if (cycle > 0) {
+    place(task);
+  } else {
+    task->next = tasks.waiting;
+    tasks.waiting = task;
+  }
+  e_start_timer_processing(0);
+}
+
+void e_activate_motors(void (*func1)(void), void (*func2)(void)) {
+  Agenda *first = new_task(func1, 0);
+  int i, timer = 0;
+  e_end_agendas_processing(0);
+  /* a timer without tasks, else the one with the fewest, whose tasks move elsewhere */
+  for (i = 1; i < TIMERS; i++)
+    if (tasks.timers_in_use[i] < tasks.timers_in_use[timer]) timer = i;
+  tasks.motors = (char)timer;
+  if (tasks.timers_in_use[timer] > 0) {
+    Agenda *task = tasks.agendas[timer];
+    tasks.agendas[timer] = 0;
+    while (task) {
+      Agenda *next = task->next;
+      place(task);
+      task = next;
+    }
+    tasks.timers_in_use[timer] = 0;
+    tasks.speed[timer] = 1;
+  }
+  configure(timer);
+  first->activate = 1;
+  first->next = new_task(func2, 0);
+  first->next->activate = 1;
+  tasks.agendas[timer] = first;
+  tasks.timers_in_use[timer] += 2;
+  e_start_timer_processing(0);
+}
+
+int e_set_motor_speed(void (*func)(void), unsigned cycle) {
+  Agenda *task;
+  unsigned int other;
+  if (tasks.motors < 0) return AG_NOT_FOUND;
+  task = find_in(tasks.agendas[(int)tasks.motors], func);
+  if (!task) return AG_NOT_FOUND;
+  e_end_agendas_processing(tasks.motors + 1);
+  other = task->next ? task->next->cycle : tasks.speed[(int)tasks.motors];
+  set_period(tasks.motors, common_divisor(other, cycle));
+  task->cycle = cycle;
+  e_start_timer_processing(tasks.motors + 1);
+  return EXIT_OK;
+}
+
+int e_destroy_agenda(void (*func)(void)) {
+  int i;
+  for (i = 0; i < TIMERS; i++) {
+    Agenda *task = unlink_task(&tasks.agendas[i], func);
+    if (!task) continue;
+    free(task);
+    tasks.timers_in_use[i]--;
+    return EXIT_OK;
+  }
+  return AG_NOT_FOUND;
+}
+
+int e_set_agenda_cycle(void (*func)(void), unsigned cycle) {
+  Agenda *task = 0;
+  int i;
+  e_end_agendas_processing(0);
+  if (cycle > 0 && (task = unlink_task(&tasks.waiting, func)) != 0) {
+    task->cycle = cycle;
+    place(task);
+    e_start_timer_processing(0);
+    return EXIT_OK;
+  }
+  for (i = 0; i < TIMERS && !task; i++) task = find_in(tasks.agendas[i], func);
+  if (!task) {
+    e_start_timer_processing(0);
+    return AG_NOT_FOUND;
+  }
+  i--;
+  if (cycle == 0) {
+    unlink_task(&tasks.agendas[i], func);
+    tasks.timers_in_use[i]--;
+    task->activate = 0;
+    task->next = tasks.waiting;
+    tasks.waiting = task;
+  } else {
+    set_period(i, common_divisor(cycle, tasks.speed[i]));
+  }
+  task->cycle = cycle;
+  e_start_timer_processing(0);
+  return EXIT_OK;
+}
+
+int e_reset_agenda(void (*func)(void)) {
+  Agenda *task = find_task(func);
+  if (!task) return AG_NOT_FOUND;
+  task->counter = 0;
+  return EXIT_OK;
+}
+
+int e_pause_agenda(void (*func)(void)) {
+  Agenda *task = find_task(func);
+  if (!task) return AG_NOT_FOUND;
+  task->activate = 0;
+  return EXIT_OK;
+}
+
+int e_restart_agenda(void (*func)(void)) {
+  Agenda *task = find_task(func);
+  if (!task) return AG_NOT_FOUND;
+  task->activate = 1;
+  return EXIT_OK;
+}

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+// See adc_scan.h. Interrupts of ALL_ADC mode are numbered from 0; number i has slot i % 65 and period i / 65. In
+// period q the lit sample of pair_of_lit(q) arrives, and the dark one of pair_of_lit(q + 1).
+#include "hal_sim/board/adc_scan.h"
+
+#include <algorithm>
+
+#include "hal_sim/board/board.h"
+
+namespace board {
+
+namespace {
+/// `pair` of a sensor: 0 and 4 share an emitter line, and so on; 8 and 9 are the turret's.
+int pair_of_sensor(int sensor) { return sensor >= 8 ? 4 : sensor & 3; }
+
+/// Cycles from the beginning of a five-channel frame to the hold instant of a sensor's channel.
+Cycle hold_cycles(int sensor) {
+  const int channel = sensor < 4 ? 3 : sensor < 8 ? 4 : 9 - sensor;
+  return (channel * kScanChannelTad + 1) * kScanTadCycles;
+}
+static_assert((3 * kScanChannelTad + 1) * kScanTadCycles == 552);
+static_assert(5 * kScanChannelTad * kScanTadCycles == kScanFrameCycles);
+}  // namespace
+
+void AdcScan::settle(Cycle at) {
+  // samples so far must not depend on frame times that are about to be forgotten
+  for (int sensor = 0; sensor < kRingSensors; ++sensor) {
+    dark(sensor, at);
+    lit(sensor, at);
+  }
+  const std::int64_t passed = frames(at);
+  total_base_ += passed;
+  if (!micro_only_) full_base_ += passed;
+  anchor_ = at;
+}
+
+void AdcScan::start(bool micro_only, bool five_pairs, Cycle at) {
+  settle(at);
+  const std::int64_t period = (full_base_ + kScanPeriod - 1 - kScanLitSlot) / kScanPeriod;
+  pair_base_ = pair_of_lit(period);
+  period_base_ = period;
+  pairs_ = five_pairs ? 5 : 4;
+  pair_base_ %= pairs_;
+  micro_only_ = micro_only;
+  on_ = true;
+}
+
+void AdcScan::switch_converter(bool on, Cycle at) {
+  if (on == on_) return;
+  settle(at);
+  on_ = on;
+}
+
+void AdcScan::reset(Cycle at) {
+  settle(at);
+  noise_base_ += 2 * static_cast<std::uint64_t>(full_base_ / kScanPeriod + 1);
+  on_ = micro_only_ = false;
+  pairs_ = 4;
+  total_base_ = full_base_ = period_base_ = 0;
+  pair_base_ = 0;
+  dark_.fill(Sample{});
+  lit_.fill(Sample{});
+}
+
+int AdcScan::pair_of_lit(std::int64_t period) const {
+  return static_cast<int>((pair_base_ + (period - period_base_) % pairs_ + pairs_) % pairs_);
+}
+
+Cycle AdcScan::full_cycle(std::int64_t interrupt) const {
+  return anchor_ + (interrupt - full_base_ + 1) * kScanFrameCycles;
+}
+
+Cycle AdcScan::next_interrupt(Cycle at) const {
+  return on_ ? anchor_ + (frames(at) + 1) * frame_cycles() : host::kNever;
+}
+
+Cycle AdcScan::interrupt_cycle(std::int64_t count) const {
+  return on_ ? anchor_ + (count - total_base_) * frame_cycles() : host::kNever;
+}
+
+Cycle AdcScan::first_fill(Cycle at) const {
+  if (!on_ || micro_only_) return at;
+  const std::int64_t have = acc_samples(at);
+  const std::int64_t missing = (2 * kAccSamples - 1 - have % kAccSamples) % kAccSamples;
+  if (missing == 0) return at;
+  return full_cycle(kScanPeriod * (have + missing - 1) + kScanAccSlot);
+}
+
+/// Newest period whose interrupt in `slot` has come and that serves `pair`; a value below 0 if none.
+std::int64_t AdcScan::newest(std::int64_t interrupts, int slot, int shift, int pair) const {
+  if (interrupts <= slot) return -1;
+  const std::int64_t period = (interrupts - 1 - slot) / kScanPeriod;
+  const int ahead = (pair_of_lit(period + shift) - pair + pairs_) % pairs_;
+  return period - ahead;
+}
+
+std::int64_t AdcScan::dark_number(int sensor, Cycle at) const {
+  return newest(full_interrupts(at), kScanDarkSlot, 1, pair_of_sensor(sensor));
+}
+
+std::int64_t AdcScan::lit_number(int sensor, Cycle at) const {
+  return newest(full_interrupts(at), kScanLitSlot, 0, pair_of_sensor(sensor));
+}
+
+int AdcScan::evaluate(int sensor, std::int64_t period, bool lit_sample) const {
+  if (sensor >= kRingSensors) return 0;
+  const std::int64_t interrupt = period * kScanPeriod + (lit_sample ? kScanLitSlot : kScanDarkSlot);
+  const Cycle at = full_cycle(interrupt) - kScanFrameCycles + hold_cycles(sensor);
+  // the LED was switched on at the dark interrupt of the period before; in the very first period nobody did
+  Cycle lit_for = -1;
+  if (lit_sample && period > 0) lit_for = at - full_cycle(interrupt - kScanLitSlot - kScanPeriod + kScanDarkSlot);
+  const std::uint64_t number = noise_base_ + 2 * static_cast<std::uint64_t>(period) + (lit_sample ? 1 : 0);
+  return board_.ir_counts(sensor, at, lit_for, number);
+}
+
+int AdcScan::dark(int sensor, Cycle at) {
+  Sample& kept = dark_[static_cast<std::size_t>(sensor)];
+  const std::int64_t number = dark_number(sensor, at);
+  if (number >= 0 && number != kept.number) kept = {number, evaluate(sensor, number, false)};
+  return kept.counts;
+}
+
+int AdcScan::lit(int sensor, Cycle at) {
+  Sample& kept = lit_[static_cast<std::size_t>(sensor)];
+  const std::int64_t number = lit_number(sensor, at);
+  if (number >= 0 && number != kept.number) kept = {number, evaluate(sensor, number, true)};
+  return kept.counts;
+}
+
+int AdcScan::peek_dark(int sensor, Cycle at) const {
+  const Sample& kept = dark_[static_cast<std::size_t>(sensor)];
+  const std::int64_t number = dark_number(sensor, at);
+  return number < 0 || number == kept.number ? kept.counts : evaluate(sensor, number, false);
+}
+
+int AdcScan::peek_lit(int sensor, Cycle at) const {
+  const Sample& kept = lit_[static_cast<std::size_t>(sensor)];
+  const std::int64_t number = lit_number(sensor, at);
+  return number < 0 || number == kept.number ? kept.counts : evaluate(sensor, number, true);
+}
+
+Cycle AdcScan::horizon(int sensor, Cycle at) const {
+  if (!on_ || micro_only_) return host::kNever;
+  const std::int64_t count = full_interrupts(at);
+  const int pair = pair_of_sensor(sensor);
+  Cycle earliest = host::kNever;
+  for (const auto& [slot, shift] : {std::pair{kScanLitSlot, 0}, std::pair{kScanDarkSlot, 1}}) {
+    // first period whose interrupt in this slot is still to come, then on to the one that serves the pair
+    std::int64_t period = (count + kScanPeriod - 1 - slot) / kScanPeriod;
+    period += (pair - pair_of_lit(period + shift) + pairs_) % pairs_;
+    earliest = std::min(earliest, full_cycle(period * kScanPeriod + slot));
+  }
+  return earliest;
+}
+
+unsigned AdcScan::pulses(Cycle at) const {
+  const std::int64_t count = full_interrupts(at);
+  if (count <= kScanDarkSlot) return 0;
+  const std::int64_t last = count - 1;
+  const int slot = static_cast<int>(last % kScanPeriod);
+  const std::int64_t period = last / kScanPeriod;
+  if (slot >= kScanDarkSlot) return 1u << pair_of_lit(period + 1);
+  if (slot < kScanLitSlot) return 1u << pair_of_lit(period);
+  return 0;
+}
+
+Cycle AdcScan::pulses_horizon(Cycle at) const {
+  if (!on_ || micro_only_) return host::kNever;
+  const std::int64_t count = full_interrupts(at);
+  const int slot = static_cast<int>(count % kScanPeriod);  // of the next interrupt
+  const int wait = slot <= kScanLitSlot    ? kScanLitSlot - slot
+                   : slot <= kScanDarkSlot ? kScanDarkSlot - slot
+                                           : kScanPeriod - slot + kScanLitSlot;
+  return full_cycle(count + wait);
+}
+
+}  // namespace board

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+// The converter and its interrupt as a_d/advance_ad_scan runs them, in closed form.
+//
+//   slot (interrupts since the start mod 65):   3  lit pair arrives, IR LED off, next pair
+//                                              62  accelerometer arrives
+//                                              63  dark pair arrives, IR LED on
+//   every interrupt: 3 microphones. One frame = 900 cycles (450 with MICRO_ONLY).
+//   a pair's samples are the 4th and 5th channel of the frame that ends at its interrupt
+//
+// Nothing is ticked: the number of interrupts so far follows from the clock, and a sample is evaluated when
+// somebody asks for it, at the instant at which it was taken. It is then kept, so it never changes.
+// Modelled: both rates, stopping and starting the converter, 4 or 5 pairs, the sample before the first flash.
+// Not modelled: the converter's few cycles of rest while the interrupt changes its settings; microphones;
+// accelerometer; turret sensors 8 and 9 (read 0).
+// Source: [lib: a_d/advance_ad_scan/e_ad_conv.c], facts restated.
+#pragma once
+#include <array>
+#include <cstdint>
+
+#include "hal_sim/board/epuck_params.h"
+
+namespace board {
+
+class Board;
+
+class AdcScan {
+ public:
+  explicit AdcScan(const Board& board) : board_(board) {}
+
+  /// e_init_ad_scan(): converter and interrupt start. `five_pairs`: selector 10.
+  void start(bool micro_only, bool five_pairs, Cycle at);
+  /// ADON bit. Off: the frame under way is lost; on: a full frame begins.
+  void switch_converter(bool on, Cycle at);
+  /// The driver's statics and arrays return to their start values.
+  void reset(Cycle at);
+
+  bool is_on() const { return on_; }
+  bool micro_only() const { return micro_only_; }
+  Cycle frame_cycles() const { return micro_only_ ? kScanMicroFrameCycles : kScanFrameCycles; }
+
+  /// Interrupts so far, in both modes.
+  std::int64_t interrupts(Cycle at) const { return total_base_ + frames(at); }
+  /// Accelerometer samples so far.
+  std::int64_t acc_samples(Cycle at) const { return (full_interrupts(at) + kScanPeriod - 1 - kScanAccSlot) / kScanPeriod; }
+  /// Cycle of the next interrupt; kNever when the converter is off.
+  Cycle next_interrupt(Cycle at) const;
+  /// Cycle of the interrupt that completes the `count`-th microphone sample from power-up on.
+  Cycle interrupt_cycle(std::int64_t count) const;
+  /// First cycle from `at` on at which the accelerometer index is 49: where e_init_ad_scan() returns.
+  Cycle first_fill(Cycle at) const;
+
+  /// e_ambient_ir[sensor] and e_ambient_and_reflected_ir[sensor] at `at`; 0 before the first sample. Keeps the value.
+  int dark(int sensor, Cycle at);
+  int lit(int sensor, Cycle at);
+  /// The same without keeping anything.
+  int peek_dark(int sensor, Cycle at) const;
+  int peek_lit(int sensor, Cycle at) const;
+  /// Cycle before which neither of the two changes.
+  Cycle horizon(int sensor, Cycle at) const;
+
+  /// IR emitter lines that the scan holds on: bit = pair; bit 4 the turret's (body and front LED).
+  unsigned pulses(Cycle at) const;
+  /// Next change of pulses().
+  Cycle pulses_horizon(Cycle at) const;
+
+  /// Number of the newest sample of each kind, -1 none: changes exactly when the value does.
+  std::int64_t dark_number(int sensor, Cycle at) const;
+  std::int64_t lit_number(int sensor, Cycle at) const;
+
+ private:
+  struct Sample {
+    std::int64_t number = -1;
+    int counts = 0;
+  };
+
+  std::int64_t frames(Cycle at) const { return on_ && at > anchor_ ? (at - anchor_) / frame_cycles() : 0; }
+  std::int64_t full_interrupts(Cycle at) const { return full_base_ + (micro_only_ ? 0 : frames(at)); }
+  int pair_of_lit(std::int64_t period) const;  // pair whose lit sample arrives in this period
+  std::int64_t newest(std::int64_t interrupts, int slot, int shift, int pair) const;
+  Cycle full_cycle(std::int64_t interrupt) const;  // of ALL_ADC interrupt number (from 0)
+  int evaluate(int sensor, std::int64_t period, bool lit_sample) const;
+  void settle(Cycle at);
+
+  const Board& board_;
+  bool on_ = false;
+  bool micro_only_ = false;
+  int pairs_ = 4;
+  Cycle anchor_ = 0;               // the current run of frames began here
+  std::int64_t total_base_ = 0;    // interrupts before the anchor
+  std::int64_t full_base_ = 0;     // of these, in ALL_ADC mode: the driver's slot counter
+  std::int64_t period_base_ = 0;   // from this period on ...
+  int pair_base_ = 0;              // ... pairs count from here
+  std::uint64_t noise_base_ = 0;   // samples drawn before the last reset
+  std::array<Sample, 10> dark_{};
+  std::array<Sample, 10> lit_{};
+};
+
+}  // namespace board

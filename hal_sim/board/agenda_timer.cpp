@@ -1,0 +1,378 @@
+// SPDX-License-Identifier: MIT
+// See agenda_timer.h. Invariants: a node's count.tick never exceeds the ticks it has processed; next_fire_ is up to
+// date whenever no walk is under way; outside a walk no tick at or after next_fire_ is processed.
+#include "hal_sim/board/agenda_timer.h"
+
+#include <algorithm>
+
+#include "sim_core/base/hash.h"
+
+namespace board {
+
+namespace {
+constexpr int kDone = 1;      // EXIT_OK of the library, AG_ALREADY_CREATED too
+constexpr int kNotFound = 2;  // AG_NOT_FOUND
+constexpr std::uint32_t kBeforeAll = UINT32_MAX;
+
+std::int64_t floor_div(std::int64_t a, std::int64_t b) {
+  const std::int64_t q = a / b;
+  return a % b < 0 ? q - 1 : q;
+}
+}  // namespace
+
+AgendaTimer::AgendaTimer()
+    : motors_{AgendaMotor(-1), AgendaMotor(+1)}, ahead_{AgendaMotor(-1), AgendaMotor(+1)} {
+  nodes_.reserve(8);
+  for (AgendaMotor& m : motors_) m.count.active = false;
+}
+
+// --- ticks -----------------------------------------------------------------------------------------------------
+
+std::int64_t AgendaTimer::ticks_at(Cycle at) const {
+  if (walking_) return walk_tick_;
+  if (!running_) return stopped_tick_;
+  std::int64_t tick = floor_div(at - line_.origin, kAgendaTickCycles);
+  if (tick < line_.late_tick) tick = at >= line_.late_cycle ? line_.late_tick : line_.late_tick - 1;
+  if (tick == line_.late_tick && at < line_.late_cycle) tick = line_.late_tick - 1;
+  // the handler is due: until it has begun, the interrupt is pending and nothing counts
+  if (next_fire_ >= 0 && tick >= next_fire_) tick = next_fire_ - 1;
+  return tick;
+}
+
+std::int64_t AgendaTimer::done_tick(std::uint32_t serial, Cycle at) const {
+  if (!walking_) return ticks_at(at);
+  return serial >= walk_serial_ ? walk_tick_ : walk_tick_ - 1;
+}
+
+void AgendaTimer::start(Cycle at) {
+  const std::int64_t tick = ticks_at(at);
+  settle_motors(walking_ ? -1 : tick);
+  // a callback may do this: motors further down the list still belong to the tick that is being walked
+  line_.late_cycle = line_.cycle_of(tick);
+  line_.late_tick = walking_ ? tick : -1;
+  line_.origin = at - tick * kAgendaTickCycles;
+  running_ = true;
+  find_next_fire();
+}
+
+void AgendaTimer::stop(Cycle at) {
+  stopped_tick_ = ticks_at(at);
+  settle_motors(walking_ ? -1 : stopped_tick_);
+  running_ = false;
+}
+
+void AgendaTimer::reset(Cycle at) {
+  for (Wheel wheel : {Wheel::Left, Wheel::Right}) {
+    Stepper kept = stepper_at(wheel, at);
+    kept.connect(false);
+    kept.set_coils_only(0);
+    motor(wheel) = AgendaMotor(kept.forward());
+    motor(wheel).stepper = kept;
+    motor(wheel).count.active = false;
+    motor_functions_[static_cast<int>(wheel)] = nullptr;
+    motor_serial_[static_cast<int>(wheel)] = 0;
+    has_ahead_[static_cast<int>(wheel)] = has_node_[static_cast<int>(wheel)] = false;
+  }
+  nodes_.clear();
+  line_ = TickLine{};
+  running_ = walking_ = in_callback_ = false;
+  stopped_tick_ = 0;
+  next_fire_ = -1;
+  last_serial_ = 0;
+}
+
+// --- the list --------------------------------------------------------------------------------------------------
+
+AgendaTimer::Node* AgendaTimer::find(Function function) {
+  for (Node& node : nodes_)
+    if (node.function == function) return &node;
+  return nullptr;
+}
+
+AgendaCount& AgendaTimer::count_of(Node& node) {
+  return node.kind == Kind::User ? node.count : motor(wheel_of(node.kind)).count;
+}
+
+const AgendaCount& AgendaTimer::count_of(const Node& node) const {
+  return node.kind == Kind::User ? node.count : motor(wheel_of(node.kind)).count;
+}
+
+bool AgendaTimer::needs_handler(const Node& node) const {
+  return node.kind == Kind::User || motor(wheel_of(node.kind)).speed == 0;
+}
+
+void AgendaTimer::settle(Node& node, std::int64_t tick) {
+  if (node.kind != Kind::User) {
+    bring(wheel_of(node.kind), tick);
+    return;
+  }
+  AgendaCount& count = node.count;
+  if (tick <= count.tick) return;
+  if (count.counts()) count.counter = static_cast<std::uint16_t>(count.counter + (tick - count.tick));
+  count.tick = tick;
+}
+
+AgendaMotor& AgendaTimer::bring(Wheel wheel, std::int64_t tick) {
+  const std::size_t i = static_cast<std::size_t>(wheel);
+  AgendaMotor& m = motors_[i];
+  if (has_ahead_[i] && ahead_[i].count.tick <= tick) m = ahead_[i];
+  has_ahead_[i] = false;
+  m.advance_to(tick, line_);
+  return m;
+}
+
+void AgendaTimer::settle_motors(std::int64_t tick) {
+  if (tick < 0) return;
+  bring(Wheel::Left, tick);
+  bring(Wheel::Right, tick);
+}
+
+void AgendaTimer::find_next_fire() {
+  next_fire_ = -1;
+  for (const Node& node : nodes_) {
+    const AgendaCount& count = count_of(node);
+    if (!count.counts() || !needs_handler(node)) continue;
+    const std::int64_t fire = count.tick + count.ticks_to_fire();
+    if (next_fire_ < 0 || fire < next_fire_) next_fire_ = fire;
+  }
+}
+
+int AgendaTimer::activate(Function function, int cycle, Cycle at) {
+  if (find(function)) return kDone;
+  Node node;
+  node.function = function;
+  node.serial = ++last_serial_;
+  const std::int64_t done = walking_ ? walk_tick_ : ticks_at(at);
+  for (Wheel wheel : {Wheel::Left, Wheel::Right}) {
+    if (motor_functions_[static_cast<int>(wheel)] != function) continue;
+    node.kind = wheel == Wheel::Left ? Kind::Left : Kind::Right;
+    bring(wheel, done);
+    motor_serial_[static_cast<int>(wheel)] = node.serial;
+    has_node_[static_cast<int>(wheel)] = true;
+  }
+  AgendaCount& count = node.kind == Kind::User ? node.count : motor(wheel_of(node.kind)).count;
+  count = AgendaCount{static_cast<std::uint16_t>(cycle), 0, true, done};
+  nodes_.push_back(node);
+  if (!walking_) find_next_fire();
+  return kDone;
+}
+
+int AgendaTimer::destroy(Function function, Cycle at) {
+  Node* node = find(function);
+  if (!node) return kNotFound;
+  settle(*node, done_tick(node->serial, at));
+  if (node->kind != Kind::User) {
+    count_of(*node).active = false;
+    has_node_[static_cast<int>(wheel_of(node->kind))] = false;
+  }
+  nodes_.erase(nodes_.begin() + (node - nodes_.data()));
+  if (!walking_) find_next_fire();
+  return kDone;
+}
+
+int AgendaTimer::set_cycle(Function function, int cycle, Cycle at) {
+  Node* node = find(function);
+  if (!node) return kNotFound;
+  settle(*node, done_tick(node->serial, at));
+  count_of(*node).cycle = static_cast<std::uint16_t>(cycle);
+  if (node->kind != Kind::User) motor(wheel_of(node->kind)).disturb();
+  if (!walking_) find_next_fire();
+  return kDone;
+}
+
+int AgendaTimer::reset_count(Function function, Cycle at) {
+  Node* node = find(function);
+  if (!node) return kNotFound;
+  settle(*node, done_tick(node->serial, at));
+  count_of(*node).counter = 0;
+  if (!walking_) find_next_fire();
+  return kDone;
+}
+
+int AgendaTimer::pause(Function function, Cycle at) {
+  Node* node = find(function);
+  if (!node) return kNotFound;
+  settle(*node, done_tick(node->serial, at));
+  count_of(*node).active = false;
+  if (!walking_) find_next_fire();
+  return kDone;
+}
+
+int AgendaTimer::restart(Function function, Cycle at) {
+  Node* node = find(function);
+  if (!node) return kNotFound;
+  settle(*node, done_tick(node->serial, at));
+  count_of(*node).active = true;
+  if (!walking_) find_next_fire();
+  return kDone;
+}
+
+void AgendaTimer::name_motor(Wheel wheel, Function function) {
+  motor_functions_[static_cast<int>(wheel)] = function;
+}
+
+// --- motors ----------------------------------------------------------------------------------------------------
+
+void AgendaTimer::set_speed(Wheel wheel, int speed, Cycle at) {
+  AgendaMotor& m = bring(wheel, done_tick(serial_of(wheel), at));
+  const bool was_handled = m.count.counts() && m.speed == 0;
+  m.stepper.set_coils_only(0);
+  m.disturb();
+  m.speed = std::clamp(speed, -kMaxSpeed, kMaxSpeed);
+  if (has_node_[static_cast<int>(wheel)]) m.set_cycle(m.speed == 0 ? 0 : kSpeedUnit / std::abs(m.speed));
+  // a motor that runs, or stands without a cycle, needs no interrupt
+  if (was_handled && !walking_) find_next_fire();
+}
+
+bool AgendaTimer::run_motor(Wheel wheel, Cycle at) {
+  AgendaMotor& m = bring(wheel, done_tick(serial_of(wheel), at));
+  const bool fine = m.fire(at);
+  m.disturb();
+  if (!walking_) find_next_fire();
+  return fine;
+}
+
+const AgendaMotor& AgendaTimer::motor_at(Wheel wheel, Cycle at) const {
+  const std::size_t i = static_cast<std::size_t>(wheel);
+  const AgendaMotor& m = motors_[i];
+  if (!m.count.counts() || m.speed == 0) return m;
+  const std::int64_t tick = done_tick(motor_serial_[i], at);
+  if (!has_ahead_[i] || ahead_[i].count.tick > tick) {
+    if (tick < m.count.tick + m.count.ticks_to_fire()) return m;
+    ahead_[i] = m;
+    has_ahead_[i] = true;
+  }
+  ahead_[i].advance_to(tick, line_);
+  return ahead_[i];
+}
+
+std::int64_t AgendaTimer::commanded_steps(Wheel wheel, Cycle at) const { return motor_at(wheel, at).commanded; }
+
+const Stepper& AgendaTimer::stepper_at(Wheel wheel, Cycle at) const { return motor_at(wheel, at).stepper; }
+
+Stepper& AgendaTimer::stepper(Wheel wheel, Cycle at) {
+  AgendaMotor& m = bring(wheel, done_tick(serial_of(wheel), at));
+  m.disturb();  // the caller may write pins
+  return m.stepper;
+}
+
+Cycle AgendaTimer::steps_horizon(Wheel wheel, Cycle at) const {
+  if (!running_ && !walking_) return host::kNever;
+  const std::int64_t tick = motor_at(wheel, at).next_step_tick();
+  return tick < 0 ? host::kNever : line_.cycle_of(tick);
+}
+
+Cycle AgendaTimer::coils_horizon(Wheel wheel, Cycle at) const {
+  if (!running_ && !walking_) return host::kNever;
+  const AgendaMotor& m = motor_at(wheel, at);
+  if (!m.count.counts() || m.speed == 0) return host::kNever;
+  return line_.cycle_of(m.count.tick + m.count.ticks_to_fire());
+}
+
+// --- the interrupt handler -----------------------------------------------------------------------------------------
+
+Cycle AgendaTimer::next_interrupt() const {
+  if (!running_ || walking_ || next_fire_ < 0) return host::kNever;
+  return line_.cycle_of(next_fire_);
+}
+
+void AgendaTimer::begin(Cycle at) {
+  walk_tick_ = next_fire_ >= 0 && at >= next_interrupt() ? next_fire_ : ticks_at(at);
+  settle_motors(walk_tick_ - 1);
+  // ticks that came while the flag was already set are lost
+  const std::int64_t lost = floor_div(at - (line_.origin + walk_tick_ * kAgendaTickCycles), kAgendaTickCycles);
+  if (lost > 0) {
+    line_.origin += lost * kAgendaTickCycles;
+    line_.late_tick = walk_tick_;
+    line_.late_cycle = at;
+  }
+  walking_ = true;
+  walk_serial_ = kBeforeAll;
+  in_callback_ = false;
+}
+
+AgendaTimer::Function AgendaTimer::next(bool& divided_by_zero) {
+  divided_by_zero = false;
+  if (!walking_) return nullptr;
+  // the callback has returned: its counter is zeroed now, whatever it did itself
+  if (in_callback_) {
+    in_callback_ = false;
+    for (Node& node : nodes_)
+      if (node.serial == walk_serial_) node.count.counter = 0;
+  }
+  for (;;) {
+    // newest node that is older than the one just processed
+    Node* node = nullptr;
+    for (std::size_t i = nodes_.size(); i-- > 0 && !node;)
+      if (nodes_[i].serial < walk_serial_) node = &nodes_[i];
+    if (!node) {
+      walk_serial_ = 0;
+      return nullptr;
+    }
+    settle(*node, walk_tick_ - 1);
+    walk_serial_ = node->serial;
+    if (!needs_handler(*node)) {
+      settle(*node, walk_tick_);
+      continue;
+    }
+    AgendaCount& count = count_of(*node);
+    count.tick = walk_tick_;
+    if (!count.counts()) continue;
+    ++count.counter;
+    if (count.counter < count.cycle) continue;
+    if (node->kind == Kind::User) {
+      in_callback_ = true;
+      return node->function;
+    }
+    divided_by_zero = !motor(wheel_of(node->kind)).fire(line_.cycle_of(walk_tick_));
+    count.counter = 0;
+    if (divided_by_zero) return nullptr;
+  }
+}
+
+void AgendaTimer::finish(Cycle at) {
+  if (!walking_) return;
+  walking_ = false;
+  in_callback_ = false;
+  stopped_tick_ = walk_tick_;
+  settle_motors(walk_tick_);
+  if (running_) {
+    // one tick was remembered by the flag and runs now; the others are lost
+    const std::int64_t since = floor_div(at - (line_.origin + walk_tick_ * kAgendaTickCycles), kAgendaTickCycles);
+    if (since >= 1) {
+      line_.origin += (since - 1) * kAgendaTickCycles;
+      line_.late_tick = walk_tick_ + 1;
+      line_.late_cycle = at;
+    }
+  }
+  find_next_fire();
+}
+
+// --- costs and digest ------------------------------------------------------------------------------------------------
+
+Cycle AgendaTimer::idle_tick_cost() const {
+  return kAgendaIsrCycles + kAgendaNodeCycles * static_cast<Cycle>(nodes_.size());
+}
+
+Cycle AgendaTimer::firing_period(Wheel wheel) const {
+  const AgendaMotor& m = motor(wheel);
+  if (!running_ || !m.count.counts() || m.speed == 0) return 0;
+  const int magnitude = std::abs(m.speed);
+  const Cycle ticks = magnitude < kPowerSaveBelow ? kSpeedUnit / magnitude / 2 : m.count.cycle;
+  return ticks * kAgendaTickCycles;
+}
+
+std::uint64_t AgendaTimer::state_hash(Cycle at) const {
+  std::uint64_t hash = sim::mix64(static_cast<std::uint64_t>(ticks_at(at)) * 2 + (running_ ? 1 : 0));
+  for (Wheel wheel : {Wheel::Left, Wheel::Right}) {
+    const AgendaMotor& m = motor_at(wheel, at);
+    hash = sim::mix64(hash ^ static_cast<std::uint64_t>(m.stepper.steps()));
+    hash = sim::mix64(hash ^ static_cast<std::uint64_t>(m.commanded));
+    hash = sim::mix64(hash ^ (m.stepper.coils() | static_cast<std::uint64_t>(m.phase) << 8 |
+                         static_cast<std::uint64_t>(m.speed + kMaxSpeed) << 16 | (m.phase_on ? 1ull << 40 : 0)));
+  }
+  for (const Node& node : nodes_) hash = sim::mix64(hash ^ (node.count.cycle | std::uint64_t{node.serial} << 16));
+  return hash;
+}
+
+}  // namespace board

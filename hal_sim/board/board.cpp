@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: MIT
+// See board.h. Pin map [lib: motor_led/e_epuck_ports.h], facts restated:
+//
+//   RA6 7 9 12 10 13 14 15  ring LEDs 0..7      RC1 front LED   RC2 body LED   RC13 camera reset
+//   RD0..3 left coils A..D  RD4..7 right coils  RD8..15 camera data
+//   RF0 codec on   RF1 battery good   RF2..5 UARTs   RF6 remote receiver   RF7 RF8 RG0 RG1 IR emitters 0..3
+//   RG2 RG3 I2C    RG6..9 selector
+#include "hal_sim/board/board.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim_core/base/hash.h"
+#include "sim_core/light/proximity.h"
+#include "sim_core/random/counter_random.h"
+
+namespace board {
+
+namespace {
+
+constexpr std::uint16_t kImplemented[] = {0xF6C0, 0xFFFF, 0xE01E, 0xFFFF, 0x01FF, 0xF3CF};  // [DS70143 3.2]
+enum : int { kA, kB, kC, kD, kF, kG };
+
+constexpr int kRingLedBit[8] = {6, 7, 9, 12, 10, 13, 14, 15};  // [lib: motor_led/e_epuck_ports.h]
+constexpr int kFrontLedBit = 1;                                 // [lib: motor_led/e_epuck_ports.h]
+constexpr int kBodyLedBit = 2;                                  // [lib: motor_led/e_epuck_ports.h]
+
+struct Line {
+  int port;
+  int bit;
+};
+constexpr Line kEmitter[4] = {{kF, 7}, {kF, 8}, {kG, 0}, {kG, 1}};  // [lib: motor_led/e_epuck_ports.h]
+
+constexpr std::uint16_t bit(int n) { return static_cast<std::uint16_t>(1u << n); }
+constexpr std::uint16_t kRingMask = bit(6) | bit(7) | bit(9) | bit(10) | bit(12) | bit(13) | bit(14) | bit(15);
+
+constexpr double kTwoPi = 6.283185307179586;
+constexpr std::uint32_t kAmbientStream = sim::kStreamBoard;          // + sensor
+constexpr std::uint32_t kReflectionStream = sim::kStreamBoard + 16;  // + sensor
+constexpr std::uint64_t kConversionOffset = std::uint64_t{1} << 41;  // single conversions, apart from the drivers'
+
+std::int64_t to_ppb(double ppm) { return static_cast<std::int64_t>(std::llround(ppm * 1000.0)); }
+
+}  // namespace
+
+Board::Board(const Setup& setup)
+    : setup_(setup),
+      clock_(to_ppb(setup.clock_ppm), sim::from_seconds(setup.boot_delay_s)),
+      scan_(*this),
+      basic_prox_(*this) {
+  for (std::size_t i = 0; i < kPorts; ++i) tris_[i] = kImplemented[i];
+}
+
+Board::~Board() = default;
+
+int Board::port_index(char port) {
+  constexpr char kLetters[] = "ABCDFG";
+  for (int i = 0; i < static_cast<int>(kPorts); ++i)
+    if (kLetters[i] == port) return i;
+  return -1;
+}
+
+// --- motors ------------------------------------------------------------------------------------------------------
+
+Stepper Board::stepper_at(Wheel wheel, Cycle at) const {
+  Stepper copy = agendas_.stepper_at(wheel, at);
+  if (timer_motors_.drives(wheel)) timer_motors_.peek(wheel, at, copy);
+  return copy;
+}
+
+Stepper& Board::stepper(Wheel wheel, Cycle at) {
+  Stepper& stepper = agendas_.stepper(wheel, at);
+  if (timer_motors_.drives(wheel)) timer_motors_.move(wheel, at, stepper);
+  return stepper;
+}
+
+double Board::wheel_angle_rad(Wheel wheel, Cycle at) const {
+  const double steps = timer_motors_.drives(wheel) ? stepper_at(wheel, at).position(at)
+                                                   : agendas_.stepper_at(wheel, at).position(at);
+  return steps * (kTwoPi / kStepsPerTurn) * setup_.wheel_ratio[static_cast<std::size_t>(wheel)];
+}
+
+std::int64_t Board::steps(Wheel wheel, Cycle at) const { return stepper_at(wheel, at).steps(); }
+
+unsigned Board::coils(Wheel wheel, Cycle at) const { return stepper_at(wheel, at).coils(); }
+
+void Board::connect_steppers(Cycle at) {
+  stepper(Wheel::Left, at).connect((tris_[kD] & 0x0F) == 0);
+  stepper(Wheel::Right, at).connect((tris_[kD] & 0xF0) == 0);
+}
+
+// --- ports -------------------------------------------------------------------------------------------------------
+
+unsigned Board::pulses(Cycle at) const { return scan_.pulses(at) | basic_prox_.pulses(at); }
+
+std::uint16_t Board::port_read(char port, Register reg, Cycle at) const {
+  const int index = port_index(port);
+  if (index < 0) return 0;
+  const std::uint16_t tris = tris_[static_cast<std::size_t>(index)];
+  if (reg == Register::Tris) return tris;
+
+  std::uint16_t lat = lat_[static_cast<std::size_t>(index)];
+  if (index == kD) lat = static_cast<std::uint16_t>((lat & 0xFF00) | coils(Wheel::Right, at) << 4 | coils(Wheel::Left, at));
+  if (index == kF || index == kG || index == kC) {
+    const unsigned on = pulses(at);
+    for (int pair = 0; pair < 4; ++pair)
+      if (on & (1u << pair) && kEmitter[pair].port == index) lat |= bit(kEmitter[pair].bit);
+    if (index == kC && on & 16u) lat |= bit(kFrontLedBit) | bit(kBodyLedBit);
+  }
+  if (reg == Register::Lat) return lat;
+
+  // levels that the board puts on input pins; open pins read 0, idle serial lines and pull-ups 1
+  std::uint16_t level = 0;
+  if (index == kF) {
+    level = bit(2) | bit(3) | bit(4) | bit(5) | bit(6);
+    if (setup_.battery_v >= kBatteryLowV) level |= bit(1);
+  }
+  if (index == kG) level = static_cast<std::uint16_t>((setup_.selector & 15) << 6 | bit(2) | bit(3));
+  return static_cast<std::uint16_t>((lat & ~tris) | (level & tris)) & kImplemented[index];
+}
+
+void Board::port_write(char port, Register reg, std::uint16_t value, Cycle at) {
+  const int index = port_index(port);
+  if (index < 0) return;
+  const std::size_t i = static_cast<std::size_t>(index);
+  value &= kImplemented[index];
+  if (reg == Register::Tris) {
+    tris_[i] = value;
+    if (index == kD) connect_steppers(at);
+    return;
+  }
+  if (index == kD) {
+    for (Wheel wheel : {Wheel::Left, Wheel::Right}) {
+      const unsigned coils = (value >> (wheel == Wheel::Left ? 0 : 4)) & 15u;
+      if (coils != this->coils(wheel, at)) stepper(wheel, at).energise(coils, at);
+    }
+    lat_[i] = value & 0xFF00;
+    return;
+  }
+  for (int pair = 0; pair < 4; ++pair) {
+    const Line line = kEmitter[pair];
+    if (line.port != index) continue;
+    // a driver that owns the lines switches them off itself; a read-modify-write must not latch its pulse
+    if (scan_.is_on() || basic_prox_.is_on()) value = static_cast<std::uint16_t>(value & ~bit(line.bit));
+    if (value & ~lat_[i] & bit(line.bit)) line_since_[static_cast<std::size_t>(pair)] = at;
+  }
+  if (index == kC && scan_.pulses(at) & 16u) value = static_cast<std::uint16_t>(value & ~(bit(1) | bit(2)));
+  lat_[i] = value;
+}
+
+bool Board::latch_bit(char port, int n, Cycle at) const {
+  const int index = port_index(port);
+  // ring LEDs: no overlay
+  if (index == kA) return (lat_[kA] & bit(n)) != 0;
+  return (port_read(port, Register::Lat, at) & bit(n)) != 0;
+}
+
+void Board::latch_bit(char port, int n, bool level, Cycle at) {
+  const std::uint16_t old = port_read(port, Register::Lat, at);
+  port_write(port, Register::Lat, static_cast<std::uint16_t>(level ? old | bit(n) : old & ~bit(n)), at);
+}
+
+Cycle Board::port_horizon(char port, Cycle at) const {
+  switch (port_index(port)) {
+    case kD:
+      return std::min({agendas_.coils_horizon(Wheel::Left, at), agendas_.coils_horizon(Wheel::Right, at),
+                       timer_motors_.coils_horizon(Wheel::Left, at), timer_motors_.coils_horizon(Wheel::Right, at)});
+    case kC:
+    case kF:
+    case kG:
+      return std::min(scan_.pulses_horizon(at), basic_prox_.horizon(at));
+    default:
+      return host::kNever;
+  }
+}
+
+std::uint32_t Board::leds(Cycle at) const {
+  const unsigned ring = lat_[kA] & ~static_cast<unsigned>(tris_[kA]);
+  std::uint32_t mask = 0;
+  for (int led = 0; led < 8; ++led)
+    if (ring & bit(kRingLedBit[led])) mask |= 1u << led;
+  unsigned other = lat_[kC];
+  if (scan_.pulses(at) & 16u) other |= bit(kFrontLedBit) | bit(kBodyLedBit);
+  other &= ~static_cast<unsigned>(tris_[kC]);
+  if (other & bit(kBodyLedBit)) mask |= 1u << 8;
+  if (other & bit(kFrontLedBit)) mask |= 1u << 9;
+  return mask;
+}
+
+void Board::init_ports(Cycle at) {
+  lat_[kA] = static_cast<std::uint16_t>(lat_[kA] & ~kRingMask);
+  tris_[kA] = static_cast<std::uint16_t>(tris_[kA] & ~kRingMask);
+  const std::uint16_t outputs_c = bit(kFrontLedBit) | bit(kBodyLedBit) | bit(13);
+  lat_[kC] = static_cast<std::uint16_t>(lat_[kC] & ~outputs_c);
+  tris_[kC] = static_cast<std::uint16_t>(tris_[kC] & ~outputs_c);
+  const std::uint16_t outputs_f = bit(0) | bit(7) | bit(8);
+  lat_[kF] = static_cast<std::uint16_t>(lat_[kF] & ~outputs_f);
+  tris_[kF] = static_cast<std::uint16_t>((tris_[kF] & ~outputs_f) | bit(1) | bit(6));
+  const std::uint16_t outputs_g = bit(0) | bit(1) | bit(2) | bit(3);
+  lat_[kG] = static_cast<std::uint16_t>(lat_[kG] & ~outputs_g);
+  tris_[kG] = static_cast<std::uint16_t>((tris_[kG] & ~outputs_g) | bit(6) | bit(7) | bit(8) | bit(9));
+  // coils last: a running driver energises them again at its next step
+  tris_[kD] = static_cast<std::uint16_t>((tris_[kD] & 0x00) | 0xFF00);
+  connect_steppers(at);
+  stepper(Wheel::Left, at).set_coils_only(0);
+  stepper(Wheel::Right, at).set_coils_only(0);
+}
+
+void Board::processor_reset(Cycle at) {
+  // whatever another driver did to the wheels by now, before its train is forgotten
+  for (Wheel wheel : {Wheel::Left, Wheel::Right}) stepper(wheel, at);
+  timer_motors_.reset();
+  agendas_.reset(at);
+  scan_.reset(at);
+  basic_prox_.reset(at);
+  for (Uart& uart : uarts_) uart.reset(at);
+  requests = Requests{};
+  lat_.fill(0);
+  for (std::size_t i = 0; i < kPorts; ++i) tris_[i] = kImplemented[i];
+}
+
+void Board::turn_selector(int position) { setup_.selector = position & 15; }
+
+void Board::set_battery(double volts) { setup_.battery_v = volts; }
+
+void Board::exchange(Cycle at) {
+  for (Uart& uart : uarts_) uart.exchange(at);
+}
+
+// --- analogue inputs ---------------------------------------------------------------------------------------------
+
+int Board::ir_counts(int sensor, Cycle at, Cycle lit_for, std::uint64_t sample) const {
+  const std::size_t i = static_cast<std::size_t>(sensor);
+  const std::uint32_t robot = static_cast<std::uint32_t>(setup_.robot);
+  double light = 0;       // counts below darkness
+  double reflection = 0;  // counts
+  if (scene_) {
+    const sim::Clicks when = clock_.click_at(at);
+    light = sim::sense_irradiance_w_m2(*scene_, setup_.robot, sensor, when) * setup_.ambient_counts_per_w_m2;
+    if (lit_for >= 0) {
+      const sim::ProximityResponse seen = sim::sense_proximity(*scene_, setup_.robot, sensor, when);
+      reflection = seen.value * setup_.ir_gain[i];
+      if (seen.relative_noise > 0 && setup_.ir_noise_scale > 0) {
+        const sim::RandomKey key{setup_.seed, robot, kReflectionStream + static_cast<std::uint32_t>(sensor)};
+        const double noise = seen.uniform_noise ? sim::random_signed(key, sample) : sim::random_gaussian(key, sample);
+        reflection *= 1.0 + noise * seen.relative_noise * setup_.ir_noise_scale;
+      }
+    }
+  }
+  if (lit_for >= 0) {
+    reflection += setup_.ir_offset_counts[i];
+    // the phototransistor follows the flash with one time constant; after 300 us nothing is missing
+    if (lit_for < 40 * kIrSettleCycles)
+      reflection *= 1.0 - std::exp(-static_cast<double>(lit_for) / static_cast<double>(kIrSettleCycles));
+  }
+  if (setup_.ambient_noise_counts > 0) {
+    const sim::RandomKey key{setup_.seed, robot, kAmbientStream + static_cast<std::uint32_t>(sensor)};
+    light += setup_.ambient_noise_counts * sim::random_gaussian(key, sample);
+  }
+  return static_cast<int>(std::clamp(std::floor(kAdcMax - light - reflection + 0.5), 0.0, double{kAdcMax}));
+}
+
+Cycle Board::line_on_for(int sensor, Cycle at) const {
+  const int pair = sensor & 3;
+  const Line line = kEmitter[pair];
+  if (!(lat_[static_cast<std::size_t>(line.port)] & ~tris_[static_cast<std::size_t>(line.port)] & bit(line.bit))) return -1;
+  return at - line_since_[static_cast<std::size_t>(pair)];
+}
+
+int Board::convert(int channel, Cycle at) {
+  if (channel < 0 || channel > 15) return 0;
+  if (channel >= 8) {
+    const int sensor = channel - 8;
+    Cycle lit_for = line_on_for(sensor, at);
+    if (lit_for < 0 && pulses(at) & (1u << (sensor & 3))) lit_for = 40 * kIrSettleCycles;
+    return ir_counts(sensor, at, lit_for, kConversionOffset + conversions_++);
+  }
+  if (channel == 7 && setup_.revision == Revision::Rev13) return battery_counts();
+  return -1;
+}
+
+int Board::battery_counts() const {
+  if (setup_.revision != Revision::Rev13) return 0;
+  constexpr double kPerVolt = (kBatteryRawAt4V2 - kBatteryRawAt3V4) / (4.2 - 3.4);
+  return static_cast<int>(std::lround(kBatteryRawAt3V4 + (setup_.battery_v - 3.4) * kPerVolt));
+}
+
+int Board::proximity_counts(int sensor, Cycle at) const {
+  if (scan_.is_on() && !scan_.micro_only()) return scan_.peek_dark(sensor, at) - scan_.peek_lit(sensor, at);
+  if (basic_prox_.is_on()) return basic_prox_.peek_reflected(sensor, at);
+  if (!scene_) return 0;
+  const sim::Clicks when = clock_.click_at(at);
+  const double seen = sim::sense_proximity(*scene_, setup_.robot, sensor, when).value *
+                      setup_.ir_gain[static_cast<std::size_t>(sensor)];
+  return static_cast<int>(std::clamp(std::floor(seen + 0.5), 0.0, double{kAdcMax}));
+}
+
+std::uint64_t Board::state_hash(Cycle at) const {
+  std::uint64_t hash = agendas_.state_hash(at);
+  for (Wheel wheel : {Wheel::Left, Wheel::Right}) {
+    const Stepper motor = stepper_at(wheel, at);
+    hash = sim::mix64(hash ^ static_cast<std::uint64_t>(motor.steps()) << 4 ^ motor.coils());
+  }
+  for (std::size_t i = 0; i < kPorts; ++i)
+    hash = sim::mix64(hash ^ (lat_[i] | static_cast<std::uint64_t>(tris_[i]) << 16));
+  for (const Uart& uart : uarts_) hash = sim::mix64(hash ^ uart.state_hash());
+  return sim::mix64(hash ^ static_cast<std::uint64_t>(scan_.interrupts(at)));
+}
+
+}  // namespace board

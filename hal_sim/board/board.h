@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+// The e-puck, electrically: everything between the processor's pins and the world, for one robot.
+//
+//   firmware -- e_* API -- host/pins.h ---.
+//   firmware -- registers - tp_sfr_* -----+--> Board --> wheel angles, LEDs, IR light      (to the world)
+//                                             Board <-- sim::sense_proximity, irradiance   (from the Scene)
+//
+// Modelled: port latches, directions and pin levels; two steppers that follow their coils; the library's motor
+// drivers, agenda timer, ADC scan and UARTs in closed form; IR circuit; LEDs; selector; battery.
+// Not modelled: accelerometer, microphones, camera, codec, I2C (each fails loudly in hal_sim/api).
+//
+// Every method takes the cycle of this robot's clock at which it happens. Cycles never go back between calls
+// that change something. Nothing depends on who looked before: const methods have no side effects, and a
+// sample has one value however often it is read. One Board is used by one thread at a time.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <memory>
+
+#include "hal_sim/board/adc_scan.h"
+#include "hal_sim/board/agenda_timer.h"
+#include "hal_sim/board/basic_prox.h"
+#include "hal_sim/board/clock.h"
+#include "hal_sim/board/timer_motors.h"
+#include "hal_sim/board/uart.h"
+#include "hal_sim/host/context.h"
+
+namespace sim {
+class Scene;
+}
+
+namespace board {
+
+/// Hardware revisions that firmware can tell apart.
+enum class Revision {
+  Analogue,  ///< rev 1.0 to 1.2: MMA7260 accelerometer on AN5 to AN7
+  Rev13,     ///< rev 1.3: LSM330 on I2C, battery voltage on AN7
+};
+
+inline constexpr int kRingSensors = 8;
+
+/// What distinguishes one robot from another; fixed while it is powered.
+struct Setup {
+  int robot = 0;                    ///< index in the Scene
+  std::uint64_t seed = 1;           ///< of all noise of this robot
+  int selector = 0;                 ///< position 0 to 15
+  double battery_v = 4.0;           ///< V, 3.0 to 4.2
+  Revision revision = Revision::Analogue;
+  std::array<double, 2> wheel_ratio{1.0, 1.0};  ///< true over nominal wheel size, left and right
+  std::array<double, kRingSensors> ir_gain{1, 1, 1, 1, 1, 1, 1, 1};  ///< factor on the reflected response
+  std::array<double, kRingSensors> ir_offset_counts{};  ///< added to dark - lit where nothing reflects
+  double ir_noise_scale = 1.0;      ///< factor on the profile's relative noise; 0 = none
+  double ambient_noise_counts = 0;  ///< standard deviation of every conversion of an IR channel, counts
+  double ambient_counts_per_w_m2 = kAmbientCountsPerWm2;  ///< fall of the dark sample with light
+  double clock_ppm = 0;             ///< crystal error, parts per million, positive = fast
+  double boot_delay_s = 0;          ///< s from the world's beginning to the first instruction
+};
+
+class Board {
+ public:
+  explicit Board(const Setup& setup);
+  ~Board();
+  Board(const Board&) = delete;
+  Board& operator=(const Board&) = delete;
+
+  const Setup& setup() const { return setup_; }
+  const RobotClock& clock() const { return clock_; }
+
+  // --- the world ------------------------------------------------------------------------------------------
+
+  /// The frozen scene that sensors see until the next call; null: a dark void. Called before each run window.
+  void look_at(const sim::Scene* scene) { scene_ = scene; }
+  const sim::Scene* scene() const { return scene_; }
+
+  /// Angle the wheel has turned since power-up, rad, forward positive, wheel ratio included. The rotor needs up
+  /// to kRotorMoveCycles to follow a step, so constant speed gives a constant rim speed. O(1). `at` not before
+  /// the last command.
+  double wheel_angle_rad(Wheel wheel, Cycle at) const;
+  /// Full steps since power-up, forward positive, not wrapped, lost steps not counted.
+  std::int64_t steps(Wheel wheel, Cycle at) const;
+  std::int64_t left_steps(Cycle at) const { return steps(Wheel::Left, at); }
+  std::int64_t right_steps(Cycle at) const { return steps(Wheel::Right, at); }
+  /// Coils A to D in bits 0 to 3.
+  unsigned coils(Wheel wheel, Cycle at) const;
+  /// Bits 0 to 7 the ring, 8 body, 9 front.
+  std::uint32_t leds(Cycle at) const;
+  /// Dark minus lit of the last completed pair of samples, or of a noise-free pair taken at `at` when no driver
+  /// runs. No side effects, and what firmware reads later does not depend on it.
+  int proximity_counts(int sensor, Cycle at) const;
+  /// Everything that must repeat from run to run.
+  std::uint64_t state_hash(Cycle at) const;
+
+  // --- pins and registers ---------------------------------------------------------------------------------
+
+  enum class Register { Tris, Port, Lat };
+  /// Word of port 'A' 'B' 'C' 'D' 'F' 'G' as the processor reads it now; other letters read 0. PORT gives pin
+  /// levels: selector, battery detector and remote receiver included.
+  std::uint16_t port_read(char port, Register reg, Cycle at) const;
+  /// Writing PORT writes the latch. Motor coils move at once; LEDs follow.
+  void port_write(char port, Register reg, std::uint16_t value, Cycle at);
+  /// One latch bit, as BSET/BCLR do it (the read half of the instruction included).
+  void latch_bit(char port, int bit, bool level, Cycle at);
+  bool latch_bit(char port, int bit, Cycle at) const;
+  /// First cycle after `at` at which a PORT or LAT word can change by itself; kNever if it cannot.
+  Cycle port_horizon(char port, Cycle at) const;
+
+  /// The reset button, or asm("reset"): pins to inputs, drivers stop, wheels stay where they are. Wiring,
+  /// selector, UART ends and the noise's sample numbers stay.
+  void processor_reset(Cycle at);
+  /// Selector turned by hand (or a test) while running.
+  void turn_selector(int position);
+  void set_battery(double volts);
+
+  // --- what the library's drivers keep in the processor, in closed form -------------------------------------
+
+  AgendaTimer& agendas() { return agendas_; }
+  const AgendaTimer& agendas() const { return agendas_; }
+  TimerMotors& timer_motors() { return timer_motors_; }
+  const TimerMotors& timer_motors() const { return timer_motors_; }
+  AdcScan& scan() { return scan_; }
+  const AdcScan& scan() const { return scan_; }
+  BasicProx& basic_prox() { return basic_prox_; }
+  const BasicProx& basic_prox() const { return basic_prox_; }
+  /// The motor of a wheel, brought to `at`.
+  Stepper& stepper(Wheel wheel, Cycle at);
+  /// UART 1 (Bluetooth) or 2 (RS232).
+  Uart& uart(int number) { return uarts_[static_cast<std::size_t>(number - 1)]; }
+  /// e_init_port(): latches 0, directions as the library wants them. (Its cost is the caller's.)
+  void init_ports(Cycle at);
+  /// Tick boundary: bytes from outside enter, bytes sent so far go out, old bookkeeping is dropped.
+  void exchange(Cycle at);
+
+  /// Counts of a proximity sensor's phototransistor at `at`, its emitter having been on for `lit_for` cycles
+  /// (negative: off). Noise is drawn from `sample`, a number unique to the sample.
+  int ir_counts(int sensor, Cycle at, Cycle lit_for, std::uint64_t sample) const;
+  /// Counts of a single conversion of input AN`channel` by a program that runs the converter itself. Sensors and
+  /// battery only; microphones and accelerometer are not simulated (answers -1). Each call is a new sample.
+  int convert(int channel, Cycle at);
+  /// Battery as the library's raw value on AN7 (revision 1.3); 0 on others.
+  int battery_counts() const;
+  /// What the exported functions last asked of the host for this board, so that they ask only when it changed.
+  struct Requests {
+    static constexpr Cycle kUnknown = -2;
+    Cycle agenda_interrupt = -1;
+    std::array<Cycle, 16> background_period{};
+    std::array<Cycle, 16> background_cost{};
+  };
+  Requests requests;
+
+  int selector() const { return setup_.selector; }
+  double battery_v() const { return setup_.battery_v; }
+
+ private:
+  static constexpr std::size_t kPorts = 6;  // A B C D F G
+  static int port_index(char port);
+  unsigned pulses(Cycle at) const;
+  /// Cycles for which the emitter line of a sensor has been on by its latch alone; -1 when off.
+  Cycle line_on_for(int sensor, Cycle at) const;
+  Stepper stepper_at(Wheel wheel, Cycle at) const;
+  void connect_steppers(Cycle at);
+
+  Setup setup_;
+  RobotClock clock_;
+  const sim::Scene* scene_ = nullptr;
+
+  std::array<std::uint16_t, kPorts> lat_{};   // of D the high byte only: the low one is the coils
+  std::array<std::uint16_t, kPorts> tris_{};
+  std::array<Cycle, 4> line_since_{};         // when the latch of an emitter line was last set
+
+  AgendaTimer agendas_;
+  TimerMotors timer_motors_;
+  AdcScan scan_;
+  BasicProx basic_prox_;
+  std::array<Uart, 2> uarts_;
+  std::uint64_t conversions_ = 0;
+};
+
+}  // namespace board

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+// See uart.h.
+#include "hal_sim/board/uart.h"
+
+#include <algorithm>
+
+#include "sim_core/base/hash.h"
+
+namespace board {
+
+void Uart::init_library(int brg, Cycle at) {
+  settle(at);
+  enabled_ = library_ = true;
+  brg_ = brg & 0xFFFF;
+  received_count_ = read_count_ = 0;
+}
+
+void Uart::init_raw(bool enabled, int brg, Cycle at) {
+  settle(at);
+  enabled_ = enabled;
+  library_ = false;
+  brg_ = brg & 0xFFFF;
+  if (!enabled) raw_count_ = 0;
+}
+
+void Uart::reset(Cycle at) {
+  settle(at);
+  // a byte cut off by the reset never arrives
+  while (!out_ends_.empty() && out_ends_.back() > at) {
+    out_ends_.pop_back();
+    out_bytes_.pop_back();
+  }
+  enabled_ = library_ = overrun_ = false;
+  received_count_ = read_count_ = 0;
+  raw_count_ = 0;
+  starts_.fill(at);
+  last_start_ = free_at_ = at;
+}
+
+int Uart::waiting(Cycle at) const {
+  int count = 0;
+  for (Cycle start : starts_) count += start > at ? 1 : 0;
+  return count;
+}
+
+bool Uart::load(std::uint8_t byte, Cycle at) {
+  if (!enabled_ || buffer_full(at)) return false;
+  last_start_ = std::max(at, free_at_);
+  free_at_ = last_start_ + byte_cycles();
+  newest_ = (newest_ + 1) % kUartFifoBytes;
+  starts_[static_cast<std::size_t>(newest_)] = last_start_;
+  out_bytes_.push_back(byte);
+  out_ends_.push_back(free_at_);
+  ++sent_;
+  hash_ = sim::mix64(hash_ ^ (byte | static_cast<std::uint64_t>(free_at_) << 8));
+  return true;
+}
+
+Cycle Uart::load_when_room(std::uint8_t byte, Cycle at) {
+  enabled_ = true;
+  // the oldest of four waiting bytes moves on first
+  if (buffer_full(at)) at = *std::min_element(starts_.begin(), starts_.end());
+  load(byte, at);
+  return at;
+}
+
+void Uart::settle(Cycle at) {
+  while (!on_wire_.empty() && on_wire_.front().at <= at) {
+    const Arrival arrival = on_wire_.front();
+    on_wire_.pop_front();
+    if (!enabled_) continue;
+    ++received_;
+    hash_ = sim::mix64(hash_ ^ (arrival.byte | static_cast<std::uint64_t>(arrival.at) << 8 | 1ull << 63));
+    if (library_) {
+      ring_[received_count_ % kUartRingBytes] = arrival.byte;
+      ++received_count_;
+    } else if (raw_count_ < static_cast<int>(raw_.size())) {
+      raw_[static_cast<std::size_t>(raw_count_++)] = arrival.byte;
+    } else {
+      overrun_ = true;
+    }
+  }
+}
+
+int Uart::unread(Cycle at) {
+  settle(at);
+  return static_cast<std::int16_t>(received_count_ - read_count_);
+}
+
+int Uart::take(Cycle at) {
+  settle(at);
+  if (received_count_ == read_count_) return -1;
+  return ring_[read_count_++ % kUartRingBytes];
+}
+
+int Uart::raw_available(Cycle at) {
+  settle(at);
+  return raw_count_;
+}
+
+int Uart::raw_take(Cycle at) {
+  settle(at);
+  if (raw_count_ == 0) return -1;
+  const int byte = raw_[0];
+  std::copy(raw_.begin() + 1, raw_.end(), raw_.begin());
+  --raw_count_;
+  return byte;
+}
+
+bool Uart::overrun(Cycle at) {
+  settle(at);
+  return overrun_;
+}
+
+void Uart::clear_overrun(Cycle at) {
+  settle(at);
+  overrun_ = false;
+  raw_count_ = 0;  // clearing OERR empties the buffer
+}
+
+Cycle Uart::next_arrival(Cycle at) {
+  settle(at);
+  return on_wire_.empty() ? host::kNever : on_wire_.front().at;
+}
+
+std::int64_t Uart::received(Cycle at) {
+  settle(at);
+  return received_;
+}
+
+void Uart::hand_out(Cycle at) {
+  const std::size_t done =
+      static_cast<std::size_t>(std::upper_bound(out_ends_.begin(), out_ends_.end(), at) - out_ends_.begin());
+  if (done == 0) return;
+  if (end_) end_->deliver(out_bytes_.data(), out_ends_.data(), done);
+  out_bytes_.erase(out_bytes_.begin(), out_bytes_.begin() + static_cast<std::ptrdiff_t>(done));
+  out_ends_.erase(out_ends_.begin(), out_ends_.begin() + static_cast<std::ptrdiff_t>(done));
+}
+
+void Uart::exchange(Cycle at) {
+  if (!end_ && out_ends_.empty() && on_wire_.empty()) return;
+  hand_out(at);
+  settle(at);
+  if (!end_) return;
+  // only what the wire can carry soon is taken; the rest waits outside
+  constexpr std::size_t kAhead = 64;
+  while (on_wire_.size() < kAhead) {
+    std::uint8_t bytes[kAhead];
+    const std::size_t count = end_->collect(bytes, kAhead - on_wire_.size(), at);
+    if (count == 0) break;
+    for (std::size_t i = 0; i < count; ++i) {
+      wire_free_at_ = std::max(wire_free_at_, at) + byte_cycles();
+      on_wire_.push_back({bytes[i], wire_free_at_});
+    }
+  }
+}
+
+}  // namespace board

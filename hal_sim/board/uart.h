@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+// One UART of the processor and the library's receive ring behind it.
+//
+//   program -> TXREG -> [ 4 bytes ] -> shift register -> wire      one byte = 10 bits = 160 (BRG + 1) cycles
+//   wire -> shift register -> receive interrupt -> ring of 64 (library) or [ 4 bytes ] (program without library)
+//
+// A byte's start is known when it is loaded: the end of the byte before, or now. So nothing is ticked.
+// Modelled: transmit buffer, times, bytes lost while disabled, overwriting of unread bytes in the library's ring,
+// 16-bit counters, hardware overrun of four bytes for programs with their own receive interrupt.
+// Not modelled: the transmitter's wait for the next edge of its bit clock (below one bit), framing, parity.
+// Source: [DS70143 18], [lib: uart/], facts restated.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <vector>
+
+#include "hal_sim/board/epuck_params.h"
+#include "hal_sim/board/uart_end.h"
+
+namespace board {
+
+class Uart {
+ public:
+  /// e_init_uartN(): enabled at BRG `brg`, ring emptied.
+  void init_library(int brg, Cycle at);
+  /// UARTEN and BRG by registers; received bytes wait in the hardware's buffer of four.
+  void init_raw(bool enabled, int brg, Cycle at);
+  void reset(Cycle at);
+
+  bool enabled() const { return enabled_; }
+  Cycle byte_cycles() const { return Cycle{kUartBitsPerByte} * kUartCyclesPerBrg * (brg_ + 1); }
+
+  // --- transmitter ----------------------------------------------------------------------------------------
+  /// Write to TXREG. False: lost, because the buffer is full or the UART is disabled.
+  bool load(std::uint8_t byte, Cycle at);
+  bool buffer_full(Cycle at) const { return waiting(at) >= kUartFifoBytes; }
+  /// Cycle at which the last loaded byte moves into the shift register: the transmit interrupt (UTXISEL 1).
+  Cycle buffer_empty_at() const { return last_start_; }
+  /// Cycle at which the wire falls idle (TRMT).
+  Cycle idle_at() const { return free_at_; }
+  /// For programs that wait on the buffer: loads as soon as there is room, and says when that is.
+  Cycle load_when_room(std::uint8_t byte, Cycle at);
+
+  // --- receiver -----------------------------------------------------------------------------------------------
+  /// Library: bytes received minus bytes read, as a 16-bit difference.
+  int unread(Cycle at);
+  /// Library: next byte of the ring, or -1.
+  int take(Cycle at);
+  /// Raw: bytes in the hardware's buffer, its next byte or -1, overrun flag.
+  int raw_available(Cycle at);
+  int raw_take(Cycle at);
+  bool overrun(Cycle at);
+  void clear_overrun(Cycle at);
+  /// End of the next byte known to be on its way; kNever if none.
+  Cycle next_arrival(Cycle at);
+  /// Bytes received since power-up.
+  std::int64_t received(Cycle at);
+
+  // --- outside ------------------------------------------------------------------------------------------------
+  void connect(std::unique_ptr<UartEnd> end) { end_ = std::move(end); }
+  UartEnd* end() const { return end_.get(); }
+  /// Tick boundary: what has left goes to the end, what has come starts on the wire.
+  void exchange(Cycle at);
+  /// Bytes sent since power-up.
+  std::int64_t sent() const { return sent_; }
+  std::uint64_t state_hash() const { return hash_; }
+
+ private:
+  int waiting(Cycle at) const;
+  void settle(Cycle at);
+  void hand_out(Cycle at);
+
+  struct Arrival {
+    std::uint8_t byte;
+    Cycle at;
+  };
+
+  bool enabled_ = false;
+  bool library_ = false;
+  int brg_ = kUart1Brg;
+
+  std::array<Cycle, kUartFifoBytes> starts_{};  // of the last four bytes loaded
+  int newest_ = 0;
+  Cycle last_start_ = 0;
+  Cycle free_at_ = 0;
+  std::vector<std::uint8_t> out_bytes_;  // loaded, not yet handed out
+  std::vector<Cycle> out_ends_;
+  std::int64_t sent_ = 0;
+
+  std::deque<Arrival> on_wire_;
+  Cycle wire_free_at_ = 0;
+  std::array<std::uint8_t, kUartRingBytes> ring_{};
+  std::uint16_t received_count_ = 0;
+  std::uint16_t read_count_ = 0;
+  std::array<std::uint8_t, 4> raw_{};
+  int raw_count_ = 0;
+  bool overrun_ = false;
+  std::int64_t received_ = 0;
+
+  std::unique_ptr<UartEnd> end_;
+  std::uint64_t hash_ = 0;
+};
+
+}  // namespace board

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// Where a robot's serial line ends outside the simulation. A line carries bytes only; timing is the Uart's.
+// Servers listen on 127.0.0.1 only. Nothing here blocks.
+// Not modelled: parity, framing errors, flow control (the robot's connector has no such pins).
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hal_sim/board/clock.h"
+
+namespace board {
+
+class UartEnd {
+ public:
+  virtual ~UartEnd() = default;
+
+  /// Bytes whose stop bit has left the robot, in order; `ends` are the cycles at which they ended. Bytes that
+  /// nobody takes are lost, as on a wire.
+  virtual void deliver(const std::uint8_t* bytes, const Cycle* ends, std::size_t count) = 0;
+
+  /// Takes up to `room` bytes that have come from outside by cycle `at`. Returns how many.
+  virtual std::size_t collect(std::uint8_t* bytes, std::size_t room, Cycle at) = 0;
+
+  /// How to reach it, for messages: "/tmp/robot0", "tcp:127.0.0.1:5000", "file:out.txt".
+  virtual std::string name() const = 0;
+};
+
+/// Keeps everything in memory: for tests.
+class MemoryEnd : public UartEnd {
+ public:
+  void deliver(const std::uint8_t* bytes, const Cycle* ends, std::size_t count) override;
+  std::size_t collect(std::uint8_t* bytes, std::size_t room, Cycle at) override;
+  std::string name() const override { return "memory"; }
+
+  /// These bytes come from outside at cycle `at` (not before the last ones).
+  void inject(const std::string& bytes, Cycle at);
+  /// Everything the robot has sent so far.
+  const std::string& text() const { return text_; }
+  /// Cycle at which the i-th byte of text() ended.
+  Cycle ended_at(std::size_t i) const { return ends_.at(i); }
+
+ private:
+  struct Waiting {
+    std::uint8_t byte;
+    Cycle at;
+  };
+  std::string text_;
+  std::vector<Cycle> ends_;
+  std::deque<Waiting> waiting_;
+};
+
+/// Opens an end from its description:
+///   "none"               no end (null)
+///   "pty" "pty:LINK"     a pseudo-terminal; LINK (default `default_link`) is a symbolic link to it
+///   "tcp:PORT"           a server on 127.0.0.1; 0 takes any free port; one client at a time
+///   "file:OUT" "file:OUT,IN"  bytes go to OUT, bytes come from IN at the line's speed
+/// On failure null, and `error` says what was wrong (one line, without a full stop).
+std::unique_ptr<UartEnd> open_uart_end(const std::string& description, const std::string& default_link,
+                                       std::string& error);
+
+}  // namespace board

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: MIT
+// Charges every segment to the budget, writes the function table, and counts lines for --coverage.
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "cost_model.h"
+#include "llvm/ADT/PostOrderIterator.h"
+#include "llvm/IR/CFG.h"
+#include "llvm/IR/DebugInfoMetadata.h"
+#include "llvm/IR/Dominators.h"
+#include "llvm/IR/IRBuilder.h"
+#include "llvm/IR/InstIterator.h"
+#include "llvm/IR/IntrinsicInst.h"
+#include "llvm/IR/MDBuilder.h"
+#include "llvm/Support/FileSystem.h"
+#include "llvm/Support/raw_ostream.h"
+#include "llvm/Transforms/Utils/BasicBlockUtils.h"
+#include "llvm/Transforms/Utils/ModuleUtils.h"
+#include "passes.h"
+
+namespace cc {
+namespace {
+
+using namespace llvm;
+
+Constant* text(Module& m, StringRef s) {
+  IRBuilder<> b(m.getContext());
+  auto* data = ConstantDataArray::getString(m.getContext(), s);
+  auto* g = new GlobalVariable(m, data->getType(), true, GlobalValue::PrivateLinkage, data, "tp.text");
+  g->setUnnamedAddr(GlobalValue::UnnamedAddr::Global);
+  return ConstantExpr::getBitCast(g, b.getInt8PtrTy());
+}
+
+void add_to_section(Module& m, StringRef section, Constant* value, std::vector<GlobalValue*>& used) {
+  auto* g = new GlobalVariable(m, value->getType(), false, GlobalValue::InternalLinkage, value, section + ".entry");
+  g->setSection(section);
+  g->setAlignment(Align(8));
+  used.push_back(g);
+}
+
+/// budget -= cycles; if (budget < 0) tp_event();
+void charge(Module& m, Instruction* before, int64_t cycles) {
+  IRBuilder<> b(before);
+  b.SetCurrentDebugLocation(before->getDebugLoc());
+  Value* field = control_field(m, 0);
+  Value* left = b.CreateSub(b.CreateAlignedLoad(b.getInt64Ty(), field, Align(8)), b.getInt64(cycles));
+  b.CreateAlignedStore(left, field, Align(8));
+  Value* spent = b.CreateICmpSLT(left, b.getInt64(0));
+  auto* rarely = MDBuilder(m.getContext()).createBranchWeights(1, 100000);
+  Instruction* then = SplitBlockAndInsertIfThen(spent, before, false, rarely);
+  IRBuilder<> slow(then);
+  slow.SetCurrentDebugLocation(before->getDebugLoc());
+  auto event = host_function(m, "tp_image_event", b.getVoidTy(), {});
+  auto* f = cast<Function>(event.getCallee());
+  // saves every register itself, so the fast path keeps its values where they are
+  f->setCallingConv(CallingConv::PreserveMost);
+  f->setVisibility(GlobalValue::HiddenVisibility);
+  slow.CreateCall(event)->setCallingConv(CallingConv::PreserveMost);
+}
+
+void count_lines(Function& f, std::vector<GlobalValue*>& used) {
+  Module& m = *f.getParent();
+  Type* i64 = Type::getInt64Ty(m.getContext());
+  std::vector<BasicBlock*> blocks;
+  for (BasicBlock& block : f) blocks.push_back(&block);
+  for (BasicBlock* block : blocks) {
+    std::map<unsigned, StringRef> lines;
+    for (Instruction& i : *block)
+      if (!isa<DbgInfoIntrinsic>(i) && !isa<PHINode>(i) && i.getDebugLoc() && i.getDebugLoc().getLine())
+        lines.emplace(i.getDebugLoc().getLine(), cast<DIScope>(i.getDebugLoc().getScope())->getFilename());
+    if (lines.empty()) continue;
+    auto* counter = new GlobalVariable(m, i64, false, GlobalValue::InternalLinkage, ConstantInt::get(i64, 0), "tp.count");
+    counter->setSection("tpcov");
+    counter->setAlignment(Align(8));
+    for (auto& [line, file] : lines) {
+      Constant* fields[] = {text(m, file), ConstantInt::get(i64, line), counter};
+      add_to_section(m, "tpcovmap", ConstantStruct::getAnon(fields), used);
+    }
+    IRBuilder<> b(&*block->getFirstInsertionPt());
+    b.CreateAlignedStore(b.CreateAdd(b.CreateAlignedLoad(i64, counter, Align(8)), b.getInt64(1)), counter, Align(8));
+  }
+}
+
+/// The way through a function that costs least or most, back edges left out, loops weighed by their trip counts.
+struct Way {
+  double cycles = -1;
+  std::map<std::string, double> calls;
+};
+
+struct BlockPlan {
+  double cycles = 0;
+  double trips = 1, likely_trips = 1, weight = 1;
+  bool bounded = true;
+  std::vector<std::string> calls;
+};
+
+Way best_way(Function& f, std::map<BasicBlock*, BlockPlan>& plans, bool least) {
+  std::map<BasicBlock*, std::pair<double, BasicBlock*>> reached;
+  ReversePostOrderTraversal<Function*> order(&f);
+  for (BasicBlock* block : order) {
+    std::pair<double, BasicBlock*> here{0, nullptr};
+    bool first = true;
+    for (BasicBlock* from : predecessors(block)) {
+      auto found = reached.find(from);
+      if (from == block || found == reached.end()) continue;
+      if (first || (least ? found->second.first < here.first : found->second.first > here.first))
+        here = {found->second.first, from};
+      first = false;
+    }
+    here.first += plans[block].cycles * (least && !plans[block].bounded ? 1 : plans[block].trips);
+    reached[block] = here;
+  }
+  BasicBlock* end = nullptr;
+  for (BasicBlock& block : f)
+    if (isa<ReturnInst>(block.getTerminator()) && reached.count(&block))
+      if (!end || (least ? reached[&block].first < reached[end].first : reached[&block].first > reached[end].first))
+        end = &block;
+  Way way;
+  if (!end) return way;
+  way.cycles = reached[end].first;
+  for (BasicBlock* b = end; b; b = reached[b].second)
+    for (auto& name : plans[b].calls) way.calls[name] += plans[b].bounded || !least ? plans[b].trips : 1;
+  return way;
+}
+
+std::string list_of(const std::map<std::string, double>& calls) {
+  std::string s;
+  for (auto& [name, count] : calls) s += (s.empty() ? "" : ",") + name + ":" + std::to_string(count);
+  return s;
+}
+
+/// One line for `twinpuck cycles`: own cycles and calls, least, mean and most. Returns the least.
+double describe(Function& f, FunctionAnalysisManager& analyses, const std::vector<Segment>& segments, std::string& out) {
+  auto& loops = analyses.getResult<LoopAnalysis>(f);
+  auto& dom = analyses.getResult<DominatorTreeAnalysis>(f);
+  auto& se = analyses.getResult<ScalarEvolutionAnalysis>(f);
+  std::map<BasicBlock*, BlockPlan> plans;
+  bool bounded = true;
+  for (BasicBlock& block : f) {
+    auto& p = plans[&block];
+    for (Loop* l = loops.getLoopFor(&block); l; l = l->getParentLoop()) {
+      unsigned trips = se.getSmallConstantTripCount(l);
+      unsigned most = trips ? trips : se.getSmallConstantMaxTripCount(l);
+      if (trips == 0 && (most == 0 || most > 10000)) p.bounded = false;
+      p.trips *= trips ? trips : most > 0 && most <= 10000 ? most : 1;
+      p.likely_trips *= trips ? trips : 10;
+      BasicBlock* latch = l->getLoopLatch();
+      if (latch && !dom.dominates(&block, latch)) p.weight *= 0.5;
+    }
+    if (!loops.getLoopFor(&block)) {
+      for (BasicBlock& other : f)
+        if (isa<ReturnInst>(other.getTerminator()) && !dom.dominates(&block, &other)) p.weight = 0.5;
+    }
+    bounded = bounded && p.bounded;
+    for (Instruction& i : block) {
+      auto* c = dyn_cast<CallBase>(&i);
+      auto* callee = c ? c->getCalledFunction() : nullptr;
+      if (!callee || callee->isIntrinsic() || callee->getName().startswith("tp.")) continue;
+      if (callee->getName() == "tp_delay") {
+        auto* rounds = dyn_cast<ConstantInt>(c->getArgOperand(0));
+        double each = double(cast<ConstantInt>(c->getArgOperand(1))->getSExtValue());
+        if (rounds) p.cycles += double(rounds->getSExtValue()) * each;
+        else bounded = false, p.cycles += each;
+      } else if (!callee->getName().startswith("tp_")) {
+        p.calls.push_back(callee->getName().str());
+      }
+    }
+  }
+  for (const Segment& s : segments) plans[s.first->getParent()].cycles += s.cycles();
+  double mean = 0;
+  std::map<std::string, double> mean_calls;
+  for (auto& [block, p] : plans) {
+    mean += p.cycles * p.likely_trips * p.weight;
+    for (auto& name : p.calls) mean_calls[name] += p.likely_trips * p.weight;
+  }
+  Way least = best_way(f, plans, true), most = best_way(f, plans, false);
+  if (!bounded || least.cycles < 0) most.cycles = -1;
+  auto* where = f.getSubprogram();
+  out = (f.getName() + "|" + (where ? where->getFilename() : "") + "|" + Twine(where ? where->getLine() : 0)).str() + "|" +
+        std::to_string(least.cycles) + "|" + std::to_string(mean) + "|" + std::to_string(most.cycles) + "|" +
+        list_of(least.calls) + "|" + list_of(mean_calls) + "|" + list_of(most.calls);
+  return least.cycles;
+}
+
+/// For fitting the model: what each segment consists of, and a counter of its executions.
+void dump_segment(raw_ostream& out, const Function& f, const Segment& s) {
+  out << f.getName();
+  for (int r = 0; r < kRuleCount; ++r)
+    if (s.features[r]) out << " " << kRuleNames[r] << "=" << s.features[r];
+  out << "\n";
+}
+
+void count_segments(Module& m, const std::vector<Charge>& charges) {
+  Type* i64 = Type::getInt64Ty(m.getContext());
+  auto* array = ArrayType::get(i64, 4096);
+  auto* counts = m.getOrInsertGlobal("tp_bench_counts", array);
+  for (size_t n = 0; n < charges.size(); ++n) {
+    IRBuilder<> b(charges[n].before);
+    Value* field = b.CreateConstGEP2_64(array, counts, 0, n);
+    b.CreateStore(b.CreateAdd(b.CreateLoad(i64, field), b.getInt64(1)), field);
+  }
+}
+
+}  // namespace
+
+CostPlan plan_costs(Unit& unit, FunctionAnalysisManager& analyses) {
+  Module& m = unit.module;
+  CostPlan plan;
+  std::unique_ptr<raw_fd_ostream> dump;
+  std::error_code ec;
+  if (!unit.options.cost_dump.empty()) dump = std::make_unique<raw_fd_ostream>(unit.options.cost_dump, ec);
+  for (Function& f : m) {
+    if (f.isDeclaration() || f.getName().startswith("tp_image_")) continue;
+    FunctionCost cost(f, analyses, unit.options.level);
+    FunctionPlan function{&f};
+    for (Segment& s : cost.segments) {
+      plan.charges.push_back({s.first, s.cycles()});
+      function.straight += s.cycles();
+      if (dump) dump_segment(*dump, f, s);
+    }
+    function.least = describe(f, analyses, cost.segments, function.description);
+    plan.functions.push_back(function);
+  }
+  return plan;
+}
+
+void account(Unit& unit, const CostPlan& plan) {
+  Module& m = unit.module;
+  std::vector<GlobalValue*> used;
+  Type* i64 = Type::getInt64Ty(m.getContext());
+  if (!unit.options.cost_dump.empty()) return count_segments(m, plan.charges);
+  for (const auto& function : plan.functions) {
+    auto* where = function.function->getSubprogram();
+    if (!where) continue;
+    Constant* fields[] = {text(m, function.function->getName()), text(m, where->getFilename()), ConstantInt::get(i64, where->getLine()),
+                          ConstantExpr::getBitCast(function.function, Type::getInt8PtrTy(m.getContext())),
+                          ConstantInt::get(i64, std::llround(function.least)), ConstantInt::get(i64, std::llround(function.straight))};
+    add_to_section(m, "tpfunc", ConstantStruct::getAnon(fields), used);
+    add_to_section(m, "tpcost", ConstantDataArray::getString(m.getContext(), function.description), used);
+    cast<GlobalVariable>(used.back())->setAlignment(Align(1));
+    cast<GlobalVariable>(used.back())->setConstant(true);
+  }
+  for (auto& [before, cycles] : plan.charges)
+    if (std::llround(cycles) > 0) charge(m, before, std::llround(cycles));
+  if (unit.options.coverage)
+    for (const auto& function : plan.functions) count_lines(*function.function, used);
+  if (!used.empty()) appendToCompilerUsed(m, used);
+}
+
+}  // namespace cc

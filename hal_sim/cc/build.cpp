@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: MIT
+// See build.h. Objects of the controller come first; the API and the libc follow as archives of weak symbols, so
+// whatever a program defines itself (wait, getselector, an e_ function) takes the place of ours.
+#include "build.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "elf_reader.h"
+#include "object_cache.h"
+#include "timer_owners.h"
+
+namespace cc {
+namespace fs = std::filesystem;
+namespace {
+
+fs::path source_root() {
+  const char* home = std::getenv("TWINPUCK_HOME");
+  return home ? home : TWINPUCK_SOURCE_DIR;
+}
+
+fs::path build_root() { return TWINPUCK_BUILD_DIR; }
+
+std::vector<fs::path> files_below(const fs::path& folder, const std::string& extension) {
+  std::vector<fs::path> found;
+  std::error_code ec;
+  for (fs::recursive_directory_iterator it(folder, ec), end; it != end && !ec; it.increment(ec)) {
+    std::string name = it->path().filename().string();
+    if (it->is_directory() && name.size() > 1 && name[0] == '.') {
+      it.disable_recursion_pending();
+      continue;
+    }
+    std::string end_of_name = it->path().extension().string();
+    std::transform(end_of_name.begin(), end_of_name.end(), end_of_name.begin(), ::tolower);
+    if (it->is_regular_file() && end_of_name == extension) found.push_back(it->path());
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+/// Sub-folders of the contract, in the order a flat "e_motors.h" is looked up: the one-timer drivers first.
+std::vector<fs::path> contract_folders(const fs::path& root) {
+  std::vector<fs::path> folders = {root};
+  for (const char* sub : {"motor_led/advance_one_timer", "motor_led", "a_d/advance_ad_scan", "a_d", "uart", "utility",
+                          "camera/fast_2_timer", "codec", "bluetooth", "I2C", "fft", "matlab", "acc_gyro",
+                          "motor_led/advance_one_timer/fast_agenda", "contrib/LIS_sensors_turret",
+                          "contrib/SWIS_com_module", "contrib"})
+    folders.push_back(root / sub);
+  return folders;
+}
+
+struct Plan {
+  std::vector<CompileJob> user, library;
+  CompileJob runtime;
+};
+
+std::string common_salt(const std::vector<fs::path>& headers) {
+  // a header that appears or goes away can change what an #include finds
+  std::string names;
+  for (const auto& h : headers) names += h.string() + "\n";
+  return content_hash(names);
+}
+
+Plan plan(const BuildOptions& o, const std::vector<fs::path>& sources, bool lint) {
+  fs::path root = source_root(), cc_dir = root / "hal_sim/cc";
+  fs::path include_root = o.include_root.empty() ? root / "firmware/include" : o.include_root;
+  fs::path api = o.api_dir.empty() ? root / "hal_sim/api" : o.api_dir;
+  std::vector<std::string> mode = {o.optimisation};
+  std::vector<std::string> library_include, user_include;
+  for (const auto& d : o.include_dirs) user_include.push_back("-I" + d.string());
+  auto headers = files_below(o.source_dir, ".h");
+  std::vector<fs::path> own = {o.source_dir};
+  for (const auto& h : headers)
+    if (std::find(own.begin(), own.end(), h.parent_path()) == own.end()) own.push_back(h.parent_path());
+  for (const auto& d : own) user_include.push_back("-I" + d.string());
+  for (const auto& d : contract_folders(include_root)) {
+    user_include.push_back("-I" + d.string());
+    library_include.push_back("-I" + d.string());
+  }
+  for (auto* list : {&user_include, &library_include}) {
+    list->push_back("-I" + (cc_dir / "libc/include").string());
+    list->push_back("--fallback");
+    list->push_back(include_root.string());
+    list->push_back("--fallback");
+    list->push_back((cc_dir / "libc/include").string());
+  }
+  user_include.push_back("--fallback");
+  user_include.push_back(o.source_dir.string());
+  library_include.push_back("-I" + root.string());
+
+  Plan p;
+  std::vector<std::string> flags = mode;
+  if (o.sanitize) flags.push_back("--sanitize");
+  if (o.coverage) flags.push_back("--coverage");
+  if (o.strict) flags.push_back("--strict");
+  if (lint) flags.push_back("--lint");
+  for (const auto& d : o.defines) flags.push_back("-D" + d);
+  flags.insert(flags.end(), user_include.begin(), user_include.end());
+  for (const auto& s : sources) p.user.push_back({s, flags, common_salt(headers)});
+
+  std::vector<std::string> library_flags = mode;
+  library_flags.push_back("--library");
+  library_flags.insert(library_flags.end(), library_include.begin(), library_include.end());
+  for (const auto& folder : {api, cc_dir / "libc/src"})
+    for (const auto& s : files_below(folder, ".c")) p.library.push_back({s, library_flags, ""});
+
+  std::string name = o.name.empty() ? fs::absolute(o.source_dir).lexically_normal().filename().string() : o.name;
+  std::string image_flags = o.sanitize ? "sanitize" : "";
+  if (o.coverage) image_flags += image_flags.empty() ? "coverage" : " coverage";
+  p.runtime = {cc_dir / "runtime/image_runtime.c",
+               {"-O1", "-I" + root.string(), "-I" + (cc_dir / "libc/include").string(), "-DTP_IMAGE_NAME=\"" + name + "\"",
+                "-DTP_IMAGE_FLAGS=\"" + image_flags + "\""},
+               ""};
+  if (o.coverage) p.runtime.flags.push_back("-DTP_COVERAGE");
+  if (o.sanitize)
+    p.library.push_back({cc_dir / "runtime/image_sanitize.c",
+                         {"-O1", "--uncounted", "-I" + root.string(), "-I" + (cc_dir / "libc/include").string()}, ""});
+  return p;
+}
+
+/// Splits what a compiler printed into errors and warnings; notes stay with the line before them.
+void sort_messages(const std::string& text, BuildResult& result, bool failed) {
+  static const std::regex kSummary(R"(^\d+ (warning|error)s?( and \d+ errors?)? generated\.$)");
+  std::istringstream lines(text);
+  std::vector<std::string>* last = nullptr;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.empty() || std::regex_match(line, kSummary)) continue;
+    bool is_error = line.find(" error: ") != std::string::npos || line.find("fatal error: ") != std::string::npos;
+    bool is_warning = line.find("warning: ") != std::string::npos;
+    if (is_error || is_warning) {
+      last = is_error ? &result.errors : &result.warnings;
+      if (std::find(last->begin(), last->end(), line) == last->end()) last->push_back(line);
+    } else if (last && !last->empty() && line.find("note: ") != std::string::npos) {
+      last->back() += "\n" + line;
+    } else if (failed) {
+      last = &result.errors;
+      last->push_back(line);
+    }
+  }
+}
+
+/// Everything the host exports: named in the two headers of the seam, and in host_exports.def.
+std::set<std::string> host_exports() {
+  std::set<std::string> names;
+  fs::path root = source_root();
+  static const std::regex kFunction(R"(\b(tp_\w+)\s*\()");
+  for (const char* header : {"hal_sim/host/image_abi.h", "hal_sim/host/pins.h"}) {
+    std::string text = read_text(root / header);
+    for (std::sregex_iterator it(text.begin(), text.end(), kFunction), end; it != end; ++it) names.insert((*it)[1]);
+  }
+  std::istringstream lines(read_text(root / "hal_sim/cc/host_exports.def"));
+  for (std::string line; std::getline(lines, line);)
+    if (!line.empty() && line[0] != '#') names.insert(line);
+  return names;
+}
+
+/// "x.o: in function `f': main.c:12: undefined reference to `g'" -> our grammar.
+void sort_linker_messages(const std::string& text, BuildResult& result) {
+  static const std::regex kIn(R"(in function `([^']+)':)");
+  static const std::regex kUndefined(R"(^(?:.*?: )?(?:\.\./)*(\S+?:\d+|\S+\.o:\S+): (?:warning: )?undefined reference to `([^']+)')");
+  static const std::regex kPlain(R"(undefined reference to `([^']+)')");
+  static const std::regex kTwice(R"(multiple definition of `([^']+)'; .*?first defined here)");
+  auto exports = host_exports();
+  std::string function;
+  std::set<std::string> told;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    std::smatch m;
+    if (std::regex_search(line, m, kIn)) function = m[1];
+    if (std::regex_search(line, m, kPlain)) {
+      std::string name = m[1], where;
+      if (exports.count(name) || !told.insert(function + " " + name).second) continue;
+      if (std::regex_search(line, m, kUndefined)) where = m[1];
+      if (where.rfind(".o:") != std::string::npos || where.empty()) where = function.empty() ? "link" : function + "()";
+      std::string hint = name.rfind("e_", 0) == 0 ? "this function of the e-puck library is not simulated yet, or its name is misspelt"
+                                                  : "is a .c file missing from the folder, or the name misspelt?";
+      result.errors.push_back(where + ": " + (function.empty() ? "" : function + "() calls ") + name +
+                              "(): got no definition, expected one in the project or the library; " + hint);
+    } else if (std::regex_search(line, m, kTwice)) {
+      std::string name = m[1];
+      if (told.insert("twice " + name).second)
+        result.errors.push_back("link: " + name + ": got two definitions, expected one: " + line);
+    } else if (line.find("error: ") != std::string::npos || line.find("cannot ") != std::string::npos ||
+               line.find("No space") != std::string::npos) {
+      result.errors.push_back("link: " + line);
+    }
+  }
+}
+
+void check_main(const std::vector<CompileOutcome>& outcomes, const std::vector<CompileJob>& jobs, const fs::path& folder,
+                BuildResult& result) {
+  std::vector<std::string> with_main;
+  long ram = 0;
+  for (size_t i = 0; i < outcomes.size(); ++i) {
+    auto elf = read_elf(outcomes[i].object);
+    for (const auto& s : elf.symbols) {
+      if (s.name == "main" && s.is_defined && s.is_function) with_main.push_back(jobs[i].source.filename().string());
+      if (s.is_defined && s.is_object && s.is_writable && s.name.rfind("tp", 0) != 0) ram += long(s.is_common ? s.size : s.size);
+    }
+  }
+  result.ram_bytes = ram;
+  if (with_main.empty())
+    result.errors.push_back(folder.string() + ": main(): got no definition, expected one; is this a controller's folder?");
+  if (with_main.size() > 1) {
+    std::string list;
+    for (const auto& f : with_main) list += (list.empty() ? "" : ", ") + f;
+    result.errors.push_back(folder.string() + ": main(): got " + std::to_string(with_main.size()) + " definitions (" + list +
+                            "), expected 1; give each program a folder of its own");
+  }
+  if (ram > 8192)
+    result.warnings.push_back(folder.string() + ": static data: got " + std::to_string(ram) +
+                              " (bytes), expected at most 8192 (bytes); it would not fit the chip's RAM");
+}
+
+bool archive(const std::vector<CompileOutcome>& objects, const fs::path& path, BuildResult& result) {
+  std::string names;
+  for (const auto& o : objects) names += o.object.string() + " " + std::to_string(fs::file_size(o.object)) + " " +
+                                         std::to_string(fs::last_write_time(o.object).time_since_epoch().count()) + "\n";
+  fs::path list = path.string() + ".list";
+  if (fs::exists(path) && read_text(list) == names) return true;
+  std::error_code ec;
+  fs::remove(path, ec);
+  std::vector<std::string> argv = {"ar", "rcs", path.string()};
+  for (const auto& o : objects) argv.push_back(o.object.string());
+  auto run = run_process(argv);
+  if (run.status != 0) {
+    result.errors.push_back("ar: " + run.output);
+    return false;
+  }
+  return write_text(list, names);
+}
+
+}  // namespace
+
+BuildResult build_image(const BuildOptions& options) {
+  auto start = std::chrono::steady_clock::now();
+  BuildResult result;
+  BuildOptions o = options;
+  auto finish = [&]() -> BuildResult& {
+    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return result;
+  };
+  std::error_code ec;
+  if (!fs::is_directory(o.source_dir, ec)) {
+    result.errors.push_back(o.source_dir.string() + ": controller: got no such folder, expected one with a main.c");
+    return finish();
+  }
+  auto sources = o.sources.empty() ? files_below(o.source_dir, ".c") : o.sources;
+  if (sources.empty()) {
+    result.errors.push_back(o.source_dir.string() + ": controller: got no .c file, expected at least one");
+    return finish();
+  }
+  if (o.cache_dir.empty()) o.cache_dir = build_root() / "firmware-cache";
+  o.cache_dir = fs::absolute(o.cache_dir);
+  Plan p = plan(o, sources, false);
+  fs::path compiler = build_root() / "twinpuck-cc";
+  std::vector<CompileJob> all = p.user;
+  all.insert(all.end(), p.library.begin(), p.library.end());
+  all.push_back(p.runtime);
+  auto outcomes = compile_all(all, compiler, o.cache_dir, std::max(1, o.jobs));
+  bool ok = true;
+  for (size_t i = 0; i < outcomes.size(); ++i) {
+    sort_messages(outcomes[i].messages, result, !outcomes[i].ok);
+    ok = ok && outcomes[i].ok;
+    ++(outcomes[i].reused ? result.reused : result.compiled);
+  }
+  if (!ok) return finish();
+  std::vector<CompileOutcome> user(outcomes.begin(), outcomes.begin() + long(p.user.size()));
+  std::vector<CompileOutcome> library(outcomes.begin() + long(p.user.size()), outcomes.end() - 1);
+  check_main(user, p.user, o.source_dir, result);
+  if (!result.errors.empty()) return finish();
+
+  fs::path output = fs::absolute(o.output);
+  fs::create_directories(output.parent_path(), ec);
+  fs::path half = output.string() + ".half" + std::to_string(getpid());
+  std::vector<std::string> argv = {"ld", "-shared", "-Bsymbolic", "-z", "now", "-z", "relro", "-z", "noexecstack", "-z", "defs",
+                                   "--warn-unresolved-symbols", "--build-id=none", "--hash-style=gnu", "--no-warn-mismatch",
+                                   "-T", (source_root() / "hal_sim/cc/runtime/image.ld").string(), "-o", half.string()};
+  for (const auto& u : user) argv.push_back(u.object.string());
+  argv.push_back(outcomes.back().object.string());
+  if (!library.empty()) {
+    std::string key;
+    for (const auto& l : library) key += l.object.filename().string();
+    fs::path lib = o.cache_dir / ("library-" + content_hash(key) + ".a");
+    if (!archive(library, lib, result)) return finish();
+    argv.push_back(lib.string());
+  }
+  auto link = run_process(argv);
+  sort_linker_messages(link.output, result);
+  if (link.status != 0 && result.errors.empty()) result.errors.push_back("link: " + link.output);
+  if (result.errors.empty()) {
+    fs::rename(half, output, ec);
+    if (ec) result.errors.push_back(output.string() + ": cannot write: " + ec.message());
+  }
+  fs::remove(half, ec);
+  result.ok = result.errors.empty();
+  return finish();
+}
+
+BuildResult lint_folder(const BuildOptions& options) {
+  BuildResult result;
+  BuildOptions o = options;
+  o.strict = true;
+  std::error_code ec;
+  auto sources = o.sources.empty() ? files_below(o.source_dir, ".c") : o.sources;
+  if (sources.empty()) {
+    result.errors.push_back(o.source_dir.string() + ": controller: got no .c file, expected at least one");
+    return result;
+  }
+  if (o.cache_dir.empty()) o.cache_dir = build_root() / "firmware-cache";
+  Plan p = plan(o, sources, true);
+  auto outcomes = compile_all(p.user, build_root() / "twinpuck-cc", o.cache_dir, std::max(1, o.jobs));
+  for (const auto& outcome : outcomes) sort_messages(outcome.messages, result, !outcome.ok);
+  std::vector<std::pair<std::string, std::string>> texts;
+  for (const auto& s : sources) texts.emplace_back(s.filename().string(), read_text(s));
+  for (auto& conflict : timer_conflicts(texts)) result.warnings.push_back(conflict);
+  result.ok = result.errors.empty() && result.warnings.empty();
+  return result;
+}
+
+}  // namespace cc

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// See elf_reader.h. Malformed files give ok == false, never a crash: every offset is checked.
+#include "elf_reader.h"
+
+#include <elf.h>
+
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+namespace cc {
+namespace {
+
+template <class T>
+const T* at(const std::string& bytes, uint64_t offset) {
+  if (offset > bytes.size() || bytes.size() - offset < sizeof(T)) return nullptr;
+  return reinterpret_cast<const T*>(bytes.data() + offset);
+}
+
+const Elf64_Shdr* section_header(const std::string& bytes, unsigned index) {
+  auto* head = at<Elf64_Ehdr>(bytes, 0);
+  if (!head || index >= head->e_shnum) return nullptr;
+  return at<Elf64_Shdr>(bytes, head->e_shoff + uint64_t(index) * sizeof(Elf64_Shdr));
+}
+
+std::string string_at(const std::string& bytes, const Elf64_Shdr* table, uint64_t offset) {
+  if (!table || offset >= table->sh_size || table->sh_offset + offset >= bytes.size()) return "";
+  const char* s = bytes.data() + table->sh_offset + offset;
+  return std::string(s, strnlen(s, bytes.size() - (table->sh_offset + offset)));
+}
+
+}  // namespace
+
+std::string ElfFile::section(const std::string& name) const {
+  auto* head = at<Elf64_Ehdr>(bytes, 0);
+  if (!ok || !head) return "";
+  for (unsigned i = 0; i < head->e_shnum; ++i) {
+    auto* s = section_header(bytes, i);
+    if (!s || string_at(bytes, section_header(bytes, head->e_shstrndx), s->sh_name) != name) continue;
+    if (s->sh_type == SHT_NOBITS || s->sh_offset > bytes.size()) return "";
+    return bytes.substr(s->sh_offset, s->sh_size);
+  }
+  return "";
+}
+
+ElfFile read_elf(const std::filesystem::path& path) {
+  ElfFile file;
+  std::ifstream in(path, std::ios::binary);
+  if (!in) return file;
+  std::ostringstream all;
+  all << in.rdbuf();
+  file.bytes = all.str();
+  auto* head = at<Elf64_Ehdr>(file.bytes, 0);
+  if (!head || std::memcmp(head->e_ident, ELFMAG, SELFMAG) != 0 || head->e_ident[EI_CLASS] != ELFCLASS64) return file;
+  file.ok = true;
+  for (unsigned i = 0; i < head->e_shnum; ++i) {
+    auto* table = section_header(file.bytes, i);
+    if (!table || table->sh_type != SHT_SYMTAB) continue;
+    for (uint64_t offset = 0; offset + sizeof(Elf64_Sym) <= table->sh_size; offset += sizeof(Elf64_Sym)) {
+      auto* symbol = at<Elf64_Sym>(file.bytes, table->sh_offset + offset);
+      if (!symbol) break;
+      ElfSymbol s;
+      s.name = string_at(file.bytes, section_header(file.bytes, table->sh_link), symbol->st_name);
+      s.value = symbol->st_value, s.size = symbol->st_size;
+      s.is_defined = symbol->st_shndx != SHN_UNDEF;
+      s.is_common = symbol->st_shndx == SHN_COMMON;
+      s.is_function = ELF64_ST_TYPE(symbol->st_info) == STT_FUNC;
+      s.is_object = ELF64_ST_TYPE(symbol->st_info) == STT_OBJECT;
+      s.is_weak = ELF64_ST_BIND(symbol->st_info) == STB_WEAK;
+      s.is_global = ELF64_ST_BIND(symbol->st_info) != STB_LOCAL;
+      auto* home = symbol->st_shndx < SHN_LORESERVE ? section_header(file.bytes, symbol->st_shndx) : nullptr;
+      s.is_writable = s.is_common || (home && (home->sh_flags & SHF_WRITE));
+      if (!s.name.empty()) file.symbols.push_back(std::move(s));
+    }
+  }
+  return file;
+}
+
+}  // namespace cc

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// The little of ELF64 that the build needs: symbols and sections of objects and images.
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace cc {
+
+struct ElfSymbol {
+  std::string name;
+  uint64_t value = 0, size = 0;
+  bool is_defined = false, is_function = false, is_object = false, is_weak = false, is_global = false, is_common = false;
+  bool is_writable = false;  // lies in a writable section
+};
+
+struct ElfFile {
+  bool ok = false;
+  std::vector<ElfSymbol> symbols;
+  /// Content of a section, "" when absent.
+  std::string section(const std::string& name) const;
+  std::string bytes;
+};
+
+ElfFile read_elf(const std::filesystem::path& path);
+
+}  // namespace cc

@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: MIT
+// clang as a library, with the target's widths changed before the preprocessor exists. What XC16 accepts and
+// clang for x86 would refuse (the interrupt attribute above all) is neutralised here, token by token.
+#include "frontend.h"
+
+#include "clang/AST/ASTConsumer.h"
+#include "clang/AST/ASTContext.h"
+#include "clang/AST/Attr.h"
+#include "clang/AST/Decl.h"
+#include "clang/AST/Expr.h"
+#include "clang/AST/Stmt.h"
+#include "clang/Basic/TargetInfo.h"
+#include "clang/CodeGen/CodeGenAction.h"
+#include "clang/Driver/Compilation.h"
+#include "clang/Driver/Driver.h"
+#include "clang/Driver/Tool.h"
+#include "clang/Frontend/CompilerInstance.h"
+#include "clang/Frontend/CompilerInvocation.h"
+#include "clang/Frontend/MultiplexConsumer.h"
+#include "clang/Frontend/TextDiagnosticPrinter.h"
+#include "clang/Lex/PPCallbacks.h"
+#include "clang/Lex/Preprocessor.h"
+#include "include_finder.h"
+#include "llvm/Support/Host.h"
+#include "llvm/Support/raw_ostream.h"
+#include "refused.h"
+
+namespace cc {
+namespace {
+
+using namespace clang;
+
+/// Integer kinds are protected in TargetInfo; a derived class may set them.
+struct ModelAccess : TargetInfo {
+  static void set(TargetInfo& target) {
+    auto& t = static_cast<ModelAccess&>(target);
+    t.SizeType = UnsignedInt;
+    t.PtrDiffType = SignedInt;
+    t.IntPtrType = SignedLongLong;
+    t.Int16Type = SignedInt;
+    t.Int64Type = SignedLongLong;
+    t.IntMaxType = SignedLongLong;
+    t.WCharType = UnsignedShort;
+    t.WIntType = UnsignedInt;
+    t.Char32Type = UnsignedLong;
+    t.SigAtomicType = SignedInt;
+  }
+};
+
+void set_robot_model(TargetInfo& t) {
+  ModelAccess::set(t);
+  t.IntWidth = 16, t.IntAlign = 16;
+  t.LongWidth = 32, t.LongAlign = 16;
+  t.LongLongWidth = 64, t.LongLongAlign = 16;
+  t.FloatAlign = 16;
+  t.DoubleWidth = 32, t.DoubleAlign = 16, t.DoubleFormat = &llvm::APFloat::IEEEsingle();
+  t.LongDoubleWidth = 64, t.LongDoubleAlign = 16, t.LongDoubleFormat = &llvm::APFloat::IEEEdouble();
+  t.PointerAlign = 16;
+  t.SuitableAlign = 16, t.DefaultAlignForAttributeAligned = 16;
+}
+
+/// Refuses headers of an operating system, and writes down every file read.
+class IncludeWatch : public PPCallbacks {
+ public:
+  explicit IncludeWatch(CompilerInstance& ci) : ci_(ci) {}
+  bool FileNotFound(StringRef name, SmallVectorImpl<char>&) override {
+    missing_ = name.str();
+    return false;
+  }
+  void InclusionDirective(SourceLocation, const Token&, StringRef name, bool, CharSourceRange range,
+                          const FileEntry* file, StringRef, StringRef, const Module*,
+                          SrcMgr::CharacteristicKind) override {
+    if (const char* instead = refused_header(name)) {
+      auto& d = ci_.getDiagnostics();
+      d.Report(range.getBegin(), d.getCustomDiagID(DiagnosticsEngine::Fatal,
+                                                   "#include <%0>: a robot has no operating system; %1"))
+          << name << instead;
+    }
+  }
+
+ private:
+  CompilerInstance& ci_;
+  std::string missing_;
+};
+
+/// Collects what later stages need from declarations, and mends the one type the widths break.
+class FactConsumer : public ASTConsumer {
+ public:
+  explicit FactConsumer(Facts& facts) : facts_(facts) {}
+  void Initialize(ASTContext& context) override {
+    context_ = &context;
+    // the machine's va_list counts in 32 bits; "unsigned int" has only 16 of them now
+    if (auto* record = dyn_cast_or_null<RecordDecl>(context.getVaListTagDecl())) {
+      int index = 0;
+      for (auto* field : record->fields())
+        if (index++ < 2) field->setType(context.UnsignedLongTy);
+    }
+  }
+  bool HandleTopLevelDecl(DeclGroupRef group) override {
+    for (Decl* decl : group) {
+      note(decl);
+      if (auto* function = dyn_cast<FunctionDecl>(decl))
+        if (function->doesThisDeclarationHaveABody()) narrow_differences(function->getBody());
+    }
+    return true;
+  }
+  void HandleTopLevelDeclInObjCContainer(DeclGroupRef) override {}
+
+ private:
+  void note(Decl* decl) {
+    if (auto* var = dyn_cast<VarDecl>(decl)) {
+      if (auto* label = var->getAttr<AsmLabelAttr>())
+        if (label->getLabel().startswith("tp_sfr_"))
+          facts_.register_names.emplace(label->getLabel().str(), var->getNameAsString());
+    } else if (auto* function = dyn_cast<FunctionDecl>(decl)) {
+      for (auto* note : function->specific_attrs<AnnotateAttr>()) {
+        if (note->getAnnotation() == "tp_poll") facts_.poll_safe.insert(function->getNameAsString());
+        if (note->getAnnotation() == "tp_interrupt") facts_.interrupts.insert(function->getNameAsString());
+      }
+    }
+  }
+  /// The code generator makes p - q and sizeof(int[n]) as wide as the PC's pointers, whatever ptrdiff_t is. Say so
+  /// in the tree, and narrow the result to the robot's int.
+  void narrow_differences(Stmt* statement) {
+    for (Stmt*& child : statement->children()) {
+      if (!child) continue;
+      narrow_differences(child);
+      auto* difference = dyn_cast<BinaryOperator>(child);
+      bool wide = difference && difference->getOpcode() == BO_Sub && difference->getLHS()->getType()->isPointerType() &&
+                  difference->getRHS()->getType()->isPointerType();
+      auto* trait = dyn_cast<UnaryExprOrTypeTraitExpr>(child);
+      wide = wide || (trait && trait->getKind() == UETT_SizeOf && trait->getTypeOfArgument()->isVariableArrayType());
+      if (!wide) continue;
+      auto* expression = cast<Expr>(child);
+      QualType narrow = expression->getType();
+      expression->setType(trait ? context_->UnsignedLongLongTy : context_->LongLongTy);
+      child = ImplicitCastExpr::Create(*context_, narrow, CK_IntegralCast, expression, nullptr, VK_PRValue,
+                                       FPOptionsOverride());
+    }
+  }
+
+  Facts& facts_;
+  ASTContext* context_ = nullptr;
+};
+
+/// Inside __attribute__((...)) some names mean something else to x86 or need a special signature there.
+class AttributeFilter {
+ public:
+  explicit AttributeFilter(Preprocessor& pp) : pp_(pp) {}
+  void operator()(const Token& token) {
+    if (token.is(tok::kw___attribute)) {
+      armed_ = true;
+      depth_ = 0;
+      return;
+    }
+    if (!armed_) return;
+    if (token.is(tok::l_paren)) ++depth_;
+    if (token.is(tok::r_paren) && --depth_ <= 0) armed_ = false;
+    if (token.is(tok::eof)) armed_ = false;
+    if (!token.is(tok::identifier) && !token.isAnyIdentifier()) return;
+    const IdentifierInfo* name = token.getIdentifierInfo();
+    if (!name || depth_ != 2) return;
+    StringRef bare = name->getName();
+    while (bare.startswith("_")) bare = bare.drop_front();
+    while (bare.endswith("_")) bare = bare.drop_back();
+    for (const char* known : {"interrupt", "signal", "address", "space", "near", "far", "shadow", "persistent",
+                              "preprologue", "fillupper", "secure", "boot", "sfr", "reverse", "eds", "unordered",
+                              "auto_psv", "no_auto_psv", "keep", "update", "save", "irq", "altirq", "context"})
+      if (bare == known) {
+        // the parser takes unknown attributes with any arguments and drops them
+        const_cast<Token&>(token).setIdentifierInfo(&pp_.getIdentifierTable().get("tp_ignored"));
+        return;
+      }
+  }
+
+ private:
+  Preprocessor& pp_;
+  bool armed_ = false;
+  int depth_ = 0;
+};
+
+class RobotAction : public EmitLLVMOnlyAction {
+ public:
+  RobotAction(llvm::LLVMContext& context, Facts& facts) : EmitLLVMOnlyAction(&context), facts_(facts) {}
+  bool BeginInvocation(CompilerInstance& ci) override {
+    set_robot_model(ci.getTarget());
+    return EmitLLVMOnlyAction::BeginInvocation(ci);
+  }
+  bool BeginSourceFileAction(CompilerInstance& ci) override {
+    auto& pp = ci.getPreprocessor();
+    pp.addPPCallbacks(std::make_unique<IncludeWatch>(ci));
+    filter_ = std::make_shared<AttributeFilter>(pp);
+    pp.setTokenWatcher([f = filter_](const Token& token) { (*f)(token); });
+    return EmitLLVMOnlyAction::BeginSourceFileAction(ci);
+  }
+  std::unique_ptr<ASTConsumer> CreateASTConsumer(CompilerInstance& ci, StringRef file) override {
+    std::vector<std::unique_ptr<ASTConsumer>> all;
+    all.push_back(std::make_unique<FactConsumer>(facts_));
+    all.push_back(EmitLLVMOnlyAction::CreateASTConsumer(ci, file));
+    return std::make_unique<MultiplexConsumer>(std::move(all));
+  }
+
+ private:
+  Facts& facts_;
+  std::shared_ptr<AttributeFilter> filter_;
+};
+
+std::vector<std::string> clang_arguments(const Options& o) {
+  std::vector<std::string> a = {"/usr/lib/llvm-14/bin/clang", "-c", o.input, "-o", o.output,
+    "--target=x86_64-pc-linux-gnu", "-x", "c", "-std=gnu89", "-fgnu89-inline", "-fcommon", "-fsigned-char",
+    "-fno-strict-aliasing", "-fno-delete-null-pointer-checks", "-fno-finite-loops", "-fno-omit-frame-pointer",
+    "-mno-omit-leaf-frame-pointer", "-fPIC", "-fvisibility=hidden", "-fno-stack-protector", "-fcf-protection=none",
+    "-fno-asynchronous-unwind-tables", "-ffp-contract=off", "-fmath-errno", "-g", "-gdwarf-4", "-fno-short-enums",
+    "-fno-caret-diagnostics", "-Qunused-arguments", "-nostdinc", "-Xclang", "-disable-llvm-passes",
+    "-Wno-unknown-attributes", "-Wno-ignored-attributes", "-Wno-unknown-pragmas", "-Wno-c99-extensions",
+    "-Wno-gnu-binary-literal", "-Wno-main-return-type", "-Wno-builtin-requires-header",
+    "-Wno-incompatible-library-redeclaration", "-Wno-implicit-int", "-Wno-asm-operand-widths", "-Wno-typedef-redefinition",
+    "-Wno-pointer-sign", "-Wno-invalid-source-encoding", "-Wno-nonportable-include-path", "-Wno-comment", "-Wno-empty-body",
+    "-Wno-newline-eof"};
+  a.push_back(o.level == 0 ? "-O0" : o.for_size ? "-Os" : o.level == 1 ? "-O1" : "-O2");
+  if (o.sanitize) {
+    a.push_back("-fsanitize=signed-integer-overflow,shift-exponent,array-bounds");
+    a.push_back("-fsanitize-recover=all");
+  } else {
+    a.push_back("-fwrapv");
+  }
+  if (o.strict || o.lint)
+    for (const char* w : {"-Wall", "-Wextra", "-Wimplicit-function-declaration", "-Wshadow", "-Wwrite-strings",
+                          "-Wfloat-conversion", "-Wshorten-64-to-32", "-Wsign-compare", "-Wno-unused-parameter"})
+      a.push_back(w);
+  // what XC16 v1.22 for this chip predefines, and nothing of the PC
+  for (const char* d : {"__dsPIC30F__=1", "__dsPIC30F6014A__=1", "dsPIC30F6014A=1", "dsPIC30=1", "__dsPIC30=1", "__dsPIC30__=1", "__C30__=1",
+                        "__C30=1", "C30=1", "__XC16__=1", "__XC16=1", "XC16=1", "__XC__=1", "__XC16_VERSION__=1022",
+                        "__C30_VERSION__=1022", "__C30ELF=1", "__C30ELF__=1", "__HAS_DSP__=1", "__TWINPUCK__=1"})
+    a.push_back(std::string("-D") + d);
+  for (const char* u : {"__x86_64__", "__x86_64", "__amd64__", "__amd64", "__linux__", "__linux", "linux", "__unix__", "__unix",
+                        "unix", "__gnu_linux__", "__LP64__", "_LP64", "__SSE__", "__SSE2__", "__MMX__", "__k8", "__k8__"})
+    a.push_back(std::string("-U") + u);
+  for (const auto& p : o.passed_on) a.push_back(p);
+  a.push_back(std::string("-I") + kFallbackRoot);
+  return a;
+}
+
+}  // namespace
+
+std::unique_ptr<llvm::Module> compile_to_module(const Options& options, llvm::LLVMContext& context, Facts& facts) {
+  IntrusiveRefCntPtr<DiagnosticOptions> diagnostic_options = new DiagnosticOptions;
+  auto* printer = new TextDiagnosticPrinter(llvm::errs(), &*diagnostic_options);
+  DiagnosticsEngine diagnostics(new DiagnosticIDs, &*diagnostic_options, printer);
+  auto arguments = clang_arguments(options);
+  std::vector<const char*> argv;
+  for (const auto& s : arguments) argv.push_back(s.c_str());
+  driver::Driver driver(argv[0], "x86_64-pc-linux-gnu", diagnostics);
+  std::unique_ptr<driver::Compilation> compilation(driver.BuildCompilation(argv));
+  if (!compilation || compilation->getJobs().empty() || diagnostics.hasErrorOccurred()) return nullptr;
+  auto invocation = std::make_shared<CompilerInvocation>();
+  const auto& cc1 = compilation->getJobs().begin()->getArguments();
+  if (!CompilerInvocation::CreateFromArgs(*invocation, cc1, diagnostics)) return nullptr;
+  auto& found = invocation->getPreprocessorOpts();
+  (void)found;
+  if (!options.depfile.empty()) {
+    auto& dep = invocation->getDependencyOutputOpts();
+    dep.OutputFile = options.depfile;
+    dep.Targets = {"x"};
+    dep.IncludeSystemHeaders = true;
+    dep.UsePhonyTargets = false;
+  }
+  // the virtual root must look like a folder, or clang drops it from the include path
+  auto memory = llvm::makeIntrusiveRefCnt<llvm::vfs::InMemoryFileSystem>();
+  memory->addFile(std::string(kFallbackRoot) + "/.root", 0, llvm::MemoryBuffer::getMemBuffer(""));
+  auto overlay = llvm::makeIntrusiveRefCnt<llvm::vfs::OverlayFileSystem>(forgiving_file_system(options.fallback));
+  overlay->pushOverlay(memory);
+  CompilerInstance ci;
+  ci.setInvocation(invocation);
+  ci.createDiagnostics();
+  ci.setFileManager(new FileManager(FileSystemOptions(), overlay));
+  RobotAction action(context, facts);
+  if (!ci.ExecuteAction(action)) return nullptr;
+  return action.takeModule();
+}
+
+}  // namespace cc

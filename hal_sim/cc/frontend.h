@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// One C file in, one LLVM module out, with the robot's data model (16-bit int, 32-bit long, single-precision
+// double, host pointers) and with what old e-puck code expects of its compiler.
+#pragma once
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "llvm/IR/LLVMContext.h"
+#include "llvm/IR/Module.h"
+
+namespace cc {
+
+/// The command line of twinpuck-cc.
+struct Options {
+  std::string input, output;
+  std::vector<std::string> passed_on;  // -I, -D, -U, -W..., -include
+  std::vector<std::string> fallback;   // folders searched by trailing path components, in order
+  std::string depfile;                 // every file read, one a line
+  std::string cost_dump;               // block features for fitting the cost model
+  int level = 1;                       // 0, 1, 2
+  bool for_size = false;
+  bool sanitize = false, coverage = false, strict = false, lint = false, emit_ir = false;
+  bool uncounted = false;  // part of the runtime: costs no cycles
+  bool library = false;  // part of the API or libc: definitions are weak, the program's own win
+};
+
+/// What the syntax tree says and the module no longer does.
+struct Facts {
+  std::map<std::string, std::string> register_names;  // "tp_sfr_02C2" -> "LATA"
+  std::set<std::string> poll_safe;                    // functions with annotate("tp_poll")
+  std::set<std::string> interrupts;                   // functions with the interrupt attribute
+};
+
+/// Null after errors (already printed).
+std::unique_ptr<llvm::Module> compile_to_module(const Options& options, llvm::LLVMContext& context, Facts& facts);
+
+}  // namespace cc

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// See include_finder.h. Exact names are always tried first, so a tidy project never pays for this.
+#include "include_finder.h"
+
+#include <algorithm>
+
+#include "llvm/Support/FileSystem.h"
+#include "llvm/Support/Path.h"
+
+namespace cc {
+namespace {
+
+using llvm::StringRef;
+
+std::vector<std::string> components(const std::string& path) {
+  std::vector<std::string> parts;
+  std::string part;
+  for (char c : path + "/") {
+    if (c != '/' && c != '\\') {
+      part += c;
+      continue;
+    }
+    if (!part.empty() && part != ".") parts.push_back(part);
+    part.clear();
+  }
+  return parts;
+}
+
+/// The existing path that differs from `parts` below `root` in case only, or "".
+std::string match_ignoring_case(std::string root, const std::vector<std::string>& parts, size_t first) {
+  for (size_t i = first; i < parts.size(); ++i) {
+    if (parts[i] == "..") {
+      root += "/..";
+      continue;
+    }
+    std::string exact = root + "/" + parts[i];
+    if (llvm::sys::fs::exists(exact)) {
+      root = exact;
+      continue;
+    }
+    std::string found;
+    std::error_code ec;
+    for (llvm::sys::fs::directory_iterator it(root.empty() ? "/" : root, ec), end; it != end && !ec;
+         it.increment(ec)) {
+      StringRef name = llvm::sys::path::filename(it->path());
+      // several spellings in one folder: the first by name, so the choice does not hang on the disk's order
+      if (name.equals_insensitive(parts[i]) && (found.empty() || name < StringRef(found))) found = name.str();
+    }
+    if (found.empty()) return "";
+    root += "/" + found;
+  }
+  return llvm::sys::fs::is_regular_file(root) ? root : "";
+}
+
+class ForgivingFileSystem : public llvm::vfs::ProxyFileSystem {
+ public:
+  explicit ForgivingFileSystem(std::vector<std::string> folders)
+      : ProxyFileSystem(llvm::vfs::getRealFileSystem()), folders_(std::move(folders)) {}
+
+  llvm::ErrorOr<llvm::vfs::Status> status(const llvm::Twine& path) override {
+    auto exact = ProxyFileSystem::status(path);
+    if (exact) return exact;
+    std::string other = find(path.str());
+    if (other.empty()) return exact;
+    auto found = ProxyFileSystem::status(other);
+    if (found) return llvm::vfs::Status::copyWithNewName(*found, other);
+    return found;
+  }
+
+  llvm::ErrorOr<std::unique_ptr<llvm::vfs::File>> openFileForRead(const llvm::Twine& path) override {
+    auto exact = ProxyFileSystem::openFileForRead(path);
+    if (exact) return exact;
+    std::string other = find(path.str());
+    if (other.empty()) return exact;
+    return ProxyFileSystem::openFileForRead(other);
+  }
+
+ private:
+  std::string find(const std::string& path) {
+    StringRef name = path;
+    if (name == kFallbackRoot || !name.contains('.')) return "";
+    if (name.startswith(std::string(kFallbackRoot) + "/")) {
+      auto parts = components(name.substr(std::string(kFallbackRoot).size()).str());
+      parts.erase(std::remove(parts.begin(), parts.end(), ".."), parts.end());
+      // the longest tail that exists wins: motor_led/e_motors.h before e_motors.h
+      for (size_t first = 0; first < parts.size(); ++first)
+        for (const auto& folder : folders_) {
+          std::string found = match_ignoring_case(folder, parts, first);
+          if (!found.empty()) return found;
+        }
+      return "";
+    }
+    // relative to the working folder when not absolute
+    auto parts = components(path);
+    std::string root = name.startswith("/") ? "" : ".";
+    return match_ignoring_case(root, parts, 0);
+  }
+
+  std::vector<std::string> folders_;
+};
+
+}  // namespace
+
+llvm::IntrusiveRefCntPtr<llvm::vfs::FileSystem> forgiving_file_system(std::vector<std::string> folders) {
+  return new ForgivingFileSystem(std::move(folders));
+}
+
+}  // namespace cc

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// Header lookup for code written on Windows: any case, backslashes, drive letters, and the e-puck library named
+// by a path that does not exist here ("../../library/motor_led/e_motors.h", "C:\...\h\p30F6014A.h").
+#pragma once
+#include <string>
+#include <vector>
+
+#include "llvm/Support/VirtualFileSystem.h"
+
+namespace cc {
+
+/// Stands last in the include path; what is looked up below it is searched by trailing path components.
+inline constexpr const char* kFallbackRoot = "/twinpuck-fallback";
+
+/// The real file system, forgiving about case and separators in names of header files.
+llvm::IntrusiveRefCntPtr<llvm::vfs::FileSystem> forgiving_file_system(std::vector<std::string> fallback_folders);
+
+}  // namespace cc

@@ -1,0 +1,9 @@
+/* SPDX-License-Identifier: MIT
+ * Firmware libc: a failed assertion stops the robot with file, line and text. */
+#undef assert
+#ifdef NDEBUG
+#define assert(condition) ((void)0)
+#else
+void tp_image_assert(const char *file, int line, const char *text);
+#define assert(condition) ((condition) ? (void)0 : tp_image_assert(__FILE__, __LINE__, #condition))
+#endif

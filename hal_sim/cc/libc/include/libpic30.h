@@ -1,0 +1,11 @@
+/* SPDX-License-Identifier: MIT
+ * What XC16's libpic30.h offers: exact delays. FCY may be defined before; default is the e-puck's. */
+#ifndef TP_LIBC_LIBPIC30_H
+#define TP_LIBC_LIBPIC30_H
+#ifndef FCY
+#define FCY 14745600UL
+#endif
+void __delay32(unsigned long cycles);
+#define __delay_ms(d) __delay32((unsigned long)(((unsigned long long)(d)) * (FCY) / 1000ULL))
+#define __delay_us(d) __delay32((unsigned long)(((unsigned long long)(d)) * (FCY) / 1000000ULL))
+#endif

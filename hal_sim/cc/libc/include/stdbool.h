@@ -1,0 +1,9 @@
+/* SPDX-License-Identifier: MIT
+ * Firmware libc: bool. */
+#ifndef TP_LIBC_STDBOOL_H
+#define TP_LIBC_STDBOOL_H
+#define bool _Bool
+#define true 1
+#define false 0
+#define __bool_true_false_are_defined 1
+#endif

@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: MIT
+ * Firmware libc: integer types by width; int has 16 bits, long 32. */
+#ifndef TP_LIBC_STDINT_H
+#define TP_LIBC_STDINT_H
+typedef signed char int8_t;
+typedef unsigned char uint8_t;
+typedef int int16_t;
+typedef unsigned int uint16_t;
+typedef long int32_t;
+typedef unsigned long uint32_t;
+typedef long long int64_t;
+typedef unsigned long long uint64_t;
+typedef int8_t int_least8_t;
+typedef uint8_t uint_least8_t;
+typedef int16_t int_least16_t;
+typedef uint16_t uint_least16_t;
+typedef int32_t int_least32_t;
+typedef uint32_t uint_least32_t;
+typedef int16_t int_fast8_t;
+typedef uint16_t uint_fast8_t;
+typedef int16_t int_fast16_t;
+typedef uint16_t uint_fast16_t;
+typedef int32_t int_fast32_t;
+typedef uint32_t uint_fast32_t;
+typedef int64_t intmax_t;
+typedef uint64_t uintmax_t;
+typedef __INTPTR_TYPE__ intptr_t;
+typedef __UINTPTR_TYPE__ uintptr_t;
+#define INT8_MIN (-128)
+#define INT8_MAX 127
+#define UINT8_MAX 255
+#define INT16_MIN (-32767 - 1)
+#define INT16_MAX 32767
+#define UINT16_MAX 65535U
+#define INT32_MIN (-2147483647L - 1)
+#define INT32_MAX 2147483647L
+#define UINT32_MAX 4294967295UL
+#define INT64_MIN (-9223372036854775807LL - 1)
+#define INT64_MAX 9223372036854775807LL
+#define UINT64_MAX 18446744073709551615ULL
+#define SIZE_MAX 65535U
+#define INT8_C(v) v
+#define UINT8_C(v) v
+#define INT16_C(v) v
+#define UINT16_C(v) v##U
+#define INT32_C(v) v##L
+#define UINT32_C(v) v##UL
+#define INT64_C(v) v##LL
+#define UINT64_C(v) v##ULL
+#endif

@@ -1,0 +1,71 @@
+/* SPDX-License-Identifier: MIT
+ * Firmware libc: first-fit heap inside the image's data, so each robot has its own. XC16 gives no heap unless the
+ * linker is told; 2048 bytes is what student projects ask for. */
+#include <stdlib.h>
+#include <string.h>
+
+#ifndef TP_HEAP_BYTES
+#define TP_HEAP_BYTES 2048
+#endif
+
+struct block {
+  unsigned int bytes; /* of the payload, even */
+  unsigned int used;
+};
+
+__attribute__((aligned(8))) char tp_image_heap[TP_HEAP_BYTES];
+unsigned int tp_image_heap_bytes = TP_HEAP_BYTES;
+static int ready;
+
+static struct block *next_of(struct block *b) { return (struct block *)((char *)(b + 1) + b->bytes); }
+static struct block *end_of_heap(void) { return (struct block *)(tp_image_heap + TP_HEAP_BYTES); }
+
+void *malloc(size_t bytes)
+{
+  struct block *b = (struct block *)tp_image_heap;
+  if (!ready) {
+    ready = 1;
+    b->bytes = TP_HEAP_BYTES - sizeof(struct block);
+    b->used = 0;
+  }
+  if (bytes == 0 || bytes > TP_HEAP_BYTES) return 0;
+  bytes = (bytes + 3u) & ~3u;
+  for (; b < end_of_heap(); b = next_of(b)) {
+    if (b->used) continue;
+    while (next_of(b) < end_of_heap() && !next_of(b)->used) b->bytes += next_of(b)->bytes + sizeof(struct block);
+    if (b->bytes < bytes) continue;
+    if (b->bytes >= bytes + sizeof(struct block) + 4) {
+      unsigned int rest = b->bytes - bytes - sizeof(struct block);
+      b->bytes = bytes;
+      next_of(b)->bytes = rest;
+      next_of(b)->used = 0;
+    }
+    b->used = 1;
+    return b + 1;
+  }
+  return 0;
+}
+
+void free(void *p)
+{
+  if (p) ((struct block *)p - 1)->used = 0;
+}
+
+void *calloc(size_t n, size_t bytes)
+{
+  unsigned long all = (unsigned long)n * bytes;
+  void *p = all > TP_HEAP_BYTES ? 0 : malloc((size_t)all);
+  if (p) memset(p, 0, (size_t)all);
+  return p;
+}
+
+void *realloc(void *old, size_t bytes)
+{
+  void *p;
+  unsigned int before = old ? ((struct block *)old - 1)->bytes : 0;
+  if (old && bytes && before >= bytes) return old;
+  p = malloc(bytes);
+  if (p && old) memcpy(p, old, before);
+  if (p || !bytes) free(old);
+  return p;
+}

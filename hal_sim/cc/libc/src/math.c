@@ -1,0 +1,221 @@
+/* SPDX-License-Identifier: MIT
+ * Firmware libc: single-precision mathematics. The value comes from the host, the time from published figures of
+ * the vendor's library (or, where none is known, from the generic routine scaled by the ratio of those that are). */
+#include <math.h>
+#include "hal_sim/host/image_abi.h"
+#include "hal_sim/host/pins.h"
+#include "math_costs.h"
+
+union bits { float f; unsigned long u; };
+
+float tp_m_sinf(float x);
+float tp_m_cosf(float x);
+float tp_m_tanf(float x);
+float tp_m_asinf(float x);
+float tp_m_acosf(float x);
+float tp_m_atanf(float x);
+float tp_m_sinhf(float x);
+float tp_m_coshf(float x);
+float tp_m_tanhf(float x);
+float tp_m_expf(float x);
+float tp_m_logf(float x);
+float tp_m_log10f(float x);
+float tp_m_sqrtf(float x);
+float tp_m_floorf(float x);
+float tp_m_ceilf(float x);
+float tp_m_atan2f(float x, float y);
+float tp_m_powf(float x, float y);
+float tp_m_fmodf(float x, float y);
+
+double sin(double x)
+{
+  tp_spend(kCycles_sin);
+  return tp_m_sinf(x);
+}
+float sinf(float x) { return sin(x); }
+
+double cos(double x)
+{
+  tp_spend(kCycles_cos);
+  return tp_m_cosf(x);
+}
+float cosf(float x) { return cos(x); }
+
+double tan(double x)
+{
+  tp_spend(kCycles_tan);
+  return tp_m_tanf(x);
+}
+float tanf(float x) { return tan(x); }
+
+double asin(double x)
+{
+  tp_spend(kCycles_asin);
+  return tp_m_asinf(x);
+}
+float asinf(float x) { return asin(x); }
+
+double acos(double x)
+{
+  tp_spend(kCycles_acos);
+  return tp_m_acosf(x);
+}
+float acosf(float x) { return acos(x); }
+
+double atan(double x)
+{
+  tp_spend(kCycles_atan);
+  return tp_m_atanf(x);
+}
+float atanf(float x) { return atan(x); }
+
+double sinh(double x)
+{
+  tp_spend(kCycles_sinh);
+  return tp_m_sinhf(x);
+}
+float sinhf(float x) { return sinh(x); }
+
+double cosh(double x)
+{
+  tp_spend(kCycles_cosh);
+  return tp_m_coshf(x);
+}
+float coshf(float x) { return cosh(x); }
+
+double tanh(double x)
+{
+  tp_spend(kCycles_tanh);
+  return tp_m_tanhf(x);
+}
+float tanhf(float x) { return tanh(x); }
+
+double exp(double x)
+{
+  tp_spend(kCycles_exp);
+  return tp_m_expf(x);
+}
+float expf(float x) { return exp(x); }
+
+double log(double x)
+{
+  tp_spend(kCycles_log);
+  return tp_m_logf(x);
+}
+float logf(float x) { return log(x); }
+
+double log10(double x)
+{
+  tp_spend(kCycles_log10);
+  return tp_m_log10f(x);
+}
+float log10f(float x) { return log10(x); }
+
+double sqrt(double x)
+{
+  tp_spend(kCycles_sqrt);
+  return tp_m_sqrtf(x);
+}
+float sqrtf(float x) { return sqrt(x); }
+
+double floor(double x)
+{
+  tp_spend(kCycles_floor);
+  return tp_m_floorf(x);
+}
+float floorf(float x) { return floor(x); }
+
+double ceil(double x)
+{
+  tp_spend(kCycles_ceil);
+  return tp_m_ceilf(x);
+}
+float ceilf(float x) { return ceil(x); }
+
+double atan2(double x, double y)
+{
+  tp_spend(kCycles_atan2);
+  return tp_m_atan2f(x, y);
+}
+float atan2f(float x, float y) { return atan2(x, y); }
+
+double pow(double x, double y)
+{
+  tp_spend(kCycles_pow);
+  return tp_m_powf(x, y);
+}
+float powf(float x, float y) { return pow(x, y); }
+
+double fmod(double x, double y)
+{
+  tp_spend(kCycles_fmod);
+  return tp_m_fmodf(x, y);
+}
+float fmodf(float x, float y) { return fmod(x, y); }
+
+double fabs(double x)
+{
+  union bits b;
+  b.f = x;
+  b.u &= 0x7FFFFFFFUL;
+  return b.f;
+}
+float fabsf(float x) { return fabs(x); }
+
+double trunc(double x) { return x < 0 ? ceil(x) : floor(x); }
+float truncf(float x) { return trunc(x); }
+double round(double x) { return x < 0 ? -floor(0.5f - x) : floor(x + 0.5f); }
+float roundf(float x) { return round(x); }
+
+double rint(double x)
+{
+  double down = floor(x), rest = x - down;
+  if (rest > 0.5f || (rest == 0.5f && fmod(down, 2.0f) != 0)) return down + 1;
+  return down;
+}
+float rintf(float x) { return rint(x); }
+
+double fmin(double x, double y) { return x < y || y != y ? x : y; }
+double fmax(double x, double y) { return x > y || y != y ? x : y; }
+float fminf(float x, float y) { return fmin(x, y); }
+float fmaxf(float x, float y) { return fmax(x, y); }
+double hypot(double x, double y) { return sqrt(x * x + y * y); }
+float hypotf(float x, float y) { return hypot(x, y); }
+
+double copysign(double x, double y)
+{
+  union bits a, b;
+  a.f = x, b.f = y;
+  a.u = (a.u & 0x7FFFFFFFUL) | (b.u & 0x80000000UL);
+  return a.f;
+}
+float copysignf(float x, float y) { return copysign(x, y); }
+
+double ldexp(double x, int e)
+{
+  for (; e > 0; e--) x *= 2;
+  for (; e < 0; e++) x *= 0.5f;
+  return x;
+}
+float ldexpf(float x, int e) { return ldexp(x, e); }
+
+double frexp(double x, int *e)
+{
+  *e = 0;
+  if (x == 0 || x != x || x - x != 0) return x;
+  while (fabs(x) >= 1) x *= 0.5f, ++*e;
+  while (fabs(x) < 0.5f) x *= 2, --*e;
+  return x;
+}
+float frexpf(float x, int *e) { return frexp(x, e); }
+
+double modf(double x, double *whole)
+{
+  *whole = trunc(x);
+  return x - *whole;
+}
+float modff(float x, float *whole)
+{
+  *whole = trunc(x);
+  return x - *whole;
+}

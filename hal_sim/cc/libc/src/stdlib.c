@@ -1,0 +1,156 @@
+/* SPDX-License-Identifier: MIT
+ * Firmware libc: numbers, sorting, leaving. exit(0) and a return from main restart the program on the robot;
+ * exit(n) and abort() are traps here, so nobody mistakes them for a quiet end. */
+#include <stdlib.h>
+#include <ctype.h>
+#include "hal_sim/host/image_abi.h"
+
+int errno;
+
+long strtol(const char *s, char **end, int base)
+{
+  const char *start = s;
+  unsigned long v = 0;
+  int negative = 0, any = 0;
+  while (isspace(*s)) s++;
+  if (*s == '+' || *s == '-') negative = *s++ == '-';
+  if ((base == 0 || base == 16) && s[0] == '0' && (s[1] == 'x' || s[1] == 'X') && isxdigit(s[2])) s += 2, base = 16;
+  if (base == 0) base = *s == '0' ? 8 : 10;
+  for (;; s++) {
+    int d = isdigit(*s) ? *s - '0' : isalpha(*s) ? toupper(*s) - 'A' + 10 : 99;
+    if (d >= base) break;
+    v = v * (unsigned long)base + (unsigned long)d;
+    any = 1;
+  }
+  if (end) *end = (char *)(any ? s : start);
+  return (long)(negative ? 0UL - v : v);
+}
+
+unsigned long strtoul(const char *s, char **end, int base) { return (unsigned long)strtol(s, end, base); }
+long atol(const char *s) { return strtol(s, 0, 10); }
+int atoi(const char *s) { return (int)strtol(s, 0, 10); }
+
+double strtod(const char *s, char **end)
+{
+  const char *start = s;
+  long double v = 0, scale = 1;
+  int negative = 0, any = 0;
+  while (isspace(*s)) s++;
+  if (*s == '+' || *s == '-') negative = *s++ == '-';
+  for (; isdigit(*s); s++) v = v * 10 + (*s - '0'), any = 1;
+  if (*s == '.')
+    for (s++; isdigit(*s); s++) v = v * 10 + (*s - '0'), scale *= 10, any = 1;
+  if (any && (*s == 'e' || *s == 'E')) {
+    char *after;
+    long e = strtol(s + 1, &after, 10);
+    if (after != s + 1) {
+      s = after;
+      for (; e > 0; e--) v *= 10;
+      for (; e < 0; e++) scale *= 10;
+    }
+  }
+  if (end) *end = (char *)(any ? s : start);
+  v /= scale;
+  return (double)(negative ? -v : v);
+}
+
+double atof(const char *s) { return strtod(s, 0); }
+int abs(int v) { return v < 0 ? -v : v; }
+long labs(long v) { return v < 0 ? -v : v; }
+
+div_t div(int a, int b)
+{
+  div_t r;
+  r.quot = a / b, r.rem = a % b;
+  return r;
+}
+
+ldiv_t ldiv(long a, long b)
+{
+  ldiv_t r;
+  r.quot = a / b, r.rem = a % b;
+  return r;
+}
+
+int rand(void) { return (int)tp_rand(); }
+void srand(unsigned int seed) { tp_srand(seed); }
+
+static void swap(char *a, char *b, size_t n)
+{
+  while (n--) {
+    char t = *a;
+    *a++ = *b;
+    *b++ = t;
+  }
+}
+
+/* heap sort: no recursion, no extra memory */
+static void sift(char *first, size_t root, size_t n, size_t bytes, int (*compare)(const void *, const void *))
+{
+  for (;;) {
+    size_t child = 2 * root + 1;
+    if (child >= n) return;
+    if (child + 1 < n && compare(first + child * bytes, first + (child + 1) * bytes) < 0) child++;
+    if (compare(first + root * bytes, first + child * bytes) >= 0) return;
+    swap(first + root * bytes, first + child * bytes, bytes);
+    root = child;
+  }
+}
+
+void qsort(void *base, size_t n, size_t bytes, int (*compare)(const void *, const void *))
+{
+  char *first = base;
+  size_t i;
+  if (n < 2) return;
+  for (i = n / 2; i-- > 0;) sift(first, i, n, bytes, compare);
+  for (i = n - 1; i > 0; i--) {
+    swap(first, first + i * bytes, bytes);
+    sift(first, 0, i, bytes, compare);
+  }
+}
+
+void *bsearch(const void *key, const void *base, size_t n, size_t bytes, int (*compare)(const void *, const void *))
+{
+  const char *first = base;
+  while (n) {
+    const char *middle = first + (n / 2) * bytes;
+    int order = compare(key, middle);
+    if (order == 0) return (void *)middle;
+    if (order > 0) first = middle + bytes, n -= n / 2 + 1;
+    else n /= 2;
+  }
+  return 0;
+}
+
+void exit(int status)
+{
+  if (status == 0) tp_reset();
+  tp_trap_message(TP_TRAP_ABORT, "exit() with a failure");
+  for (;;) {
+  }
+}
+
+void abort(void)
+{
+  tp_trap_message(TP_TRAP_ABORT, "abort()");
+  for (;;) {
+  }
+}
+
+int atexit(void (*function)(void)) { return function == 0; /* the program of a robot never ends */ }
+
+char *itoa(char *to, int value, int base)
+{
+  char digits[18], *p = digits + sizeof digits;
+  unsigned int v = value < 0 && base == 10 ? 0U - (unsigned int)value : (unsigned int)value;
+  char *t = to;
+  *--p = 0;
+  do {
+    *--p = "0123456789abcdefghijklmnopqrstuvwxyz"[v % (unsigned int)base];
+    v /= (unsigned int)base;
+  } while (v);
+  if (value < 0 && base == 10) *t++ = '-';
+  while ((*t++ = *p++)) {
+  }
+  return to;
+}

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: MIT
+// First stage after the front end, before any optimiser may reason about the PC's rules: inline assembler by its
+// text, functions that no robot has, division by zero, shifts and conversions defined as on the dsPIC.
+#include <regex>
+
+#include "llvm/ADT/StringExtras.h"
+#include "llvm/ADT/StringSwitch.h"
+#include "llvm/IR/DebugInfoMetadata.h"
+#include "llvm/IR/IRBuilder.h"
+#include "llvm/IR/InlineAsm.h"
+#include "llvm/IR/InstIterator.h"
+#include "llvm/IR/IntrinsicInst.h"
+#include "llvm/Transforms/Utils/BasicBlockUtils.h"
+#include "passes.h"
+#include "refused.h"
+
+namespace cc {
+namespace {
+
+using namespace llvm;
+
+Function* marker(Module& m, const char* name) {
+  auto* f = cast<Function>(m.getOrInsertFunction(name, FunctionType::get(Type::getVoidTy(m.getContext()), false))
+                               .getCallee());
+  // touches nothing the program can see, yet must stay where it is
+  f->addFnAttr(Attribute::InaccessibleMemOnly);
+  f->addFnAttr(Attribute::NoUnwind);
+  f->addFnAttr(Attribute::WillReturn);
+  return f;
+}
+
+/// One statement of inline assembler -> a call. False when it is not one of the few that are understood.
+bool lower_statement(Unit& unit, IRBuilder<>& b, StringRef text) {
+  Module& m = unit.module;
+  Type* i64 = b.getInt64Ty();
+  Type* none = b.getVoidTy();
+  std::string lower = text.lower();
+  std::smatch match;
+  static const std::regex kDisi(R"(disi\s+#\s*(0x[0-9a-f]+|[0-9]+))");
+  static const std::regex kPwrsav(R"(pwrsav\s+#\s*(0|1|0x0|0x1|sleep_mode|idle_mode))");
+  if (lower == "nop") {
+    b.CreateCall(marker(m, kNop));
+  } else if (lower == "reset") {
+    b.CreateCall(host_function(m, "tp_reset", none, {}));
+  } else if (lower == "clrwdt") {
+    b.CreateCall(host_function(m, "tp_clear_watchdog", none, {}));
+  } else if (std::regex_match(lower, match, kPwrsav)) {
+    bool idle = match[1] == "1" || match[1] == "0x1" || match[1] == "idle_mode";
+    b.CreateCall(host_function(m, "tp_power_save", none, {i64}), {b.getInt64(idle)});
+  } else if (std::regex_match(lower, match, kDisi)) {
+    b.CreateCall(host_function(m, "tp_disi", none, {i64}), {b.getInt64(std::stoll(match[1].str(), nullptr, 0))});
+  } else {
+    return false;
+  }
+  return true;
+}
+
+void lower_assembler(Unit& unit) {
+  Module& m = unit.module;
+  if (!StringRef(m.getModuleInlineAsm()).trim().empty()) {
+    unit.error(DebugLoc(), Twine(m.getSourceFileName()) + ": assembler outside functions: got \"" +
+                               StringRef(m.getModuleInlineAsm()).trim() + "\"; native firmware is C only");
+  }
+  std::vector<CallBase*> all;
+  for (Function& f : m)
+    for (Instruction& i : instructions(f))
+      if (auto* call = dyn_cast<CallBase>(&i))
+        if (call->isInlineAsm()) all.push_back(call);
+  for (CallBase* call : all) {
+    std::string text = cast<InlineAsm>(call->getCalledOperand())->getAsmString();
+    IRBuilder<> b(call);
+    SmallVector<StringRef, 4> lines;
+    SplitString(text, lines, "\n;");
+    for (StringRef line : lines) {
+      line = line.trim();
+      if (line.empty() || line.startswith(";")) continue;
+      if (!lower_statement(unit, b, line))
+        unit.error(call->getDebugLoc(), "inline assembler: got \"" + line +
+                                            "\", expected nop, reset, clrwdt, pwrsav #0, pwrsav #1 or disi #n; write it in C, or run "
+                                            "the program the chip way");
+    }
+    if (!call->getType()->isVoidTy()) call->replaceAllUsesWith(UndefValue::get(call->getType()));
+    call->eraseFromParent();
+  }
+}
+
+void refuse_functions(Unit& unit) {
+  for (Function& f : unit.module) {
+    if (!f.isDeclaration() || f.use_empty()) continue;
+    const char* instead = refused_function(f.getName());
+    if (!instead) continue;
+    for (User* user : f.users()) {
+      auto* where = dyn_cast<Instruction>(user);
+      unit.error(where ? where->getDebugLoc() : DebugLoc(),
+                 f.getName() + "(): firmware cannot call it; " + instead);
+      break;
+    }
+  }
+}
+
+/// Data of the controller must lie in the image's own data segment, whatever section XC16 was told to use.
+void drop_sections(Unit& unit) {
+  for (GlobalVariable& g : unit.module.globals())
+    if (g.hasSection() && !g.getSection().startswith("tp") && !g.getSection().startswith("llvm."))
+      g.setSection("");
+  for (Function& f : unit.module)
+    if (f.hasSection()) f.setSection("");
+}
+
+/// A shift by a constant of 16 or more: 0 or the sign, as the dsPIC's shifter gives, instead of "undefined".
+void define_shifts(Unit& unit) {
+  for (Function& f : unit.module)
+    for (Instruction& i : make_early_inc_range(instructions(f))) {
+      auto* shift = dyn_cast<BinaryOperator>(&i);
+      if (!shift || !shift->isShift()) continue;
+      auto* amount = dyn_cast<ConstantInt>(shift->getOperand(1));
+      unsigned width = shift->getType()->getIntegerBitWidth();
+      if (!amount || amount->getValue().ult(width)) continue;
+      IRBuilder<> b(shift);
+      Value* result = shift->getOpcode() == Instruction::AShr
+                          ? b.CreateAShr(shift->getOperand(0), ConstantInt::get(shift->getType(), width - 1))
+                          : ConstantInt::get(shift->getType(), 0);
+      shift->replaceAllUsesWith(result);
+      shift->eraseFromParent();
+    }
+}
+
+/// float -> integer goes through a 32-bit long as the library routine does, and saturates there.
+void define_conversions(Unit& unit) {
+  for (Function& f : unit.module)
+    for (Instruction& i : make_early_inc_range(instructions(f))) {
+      auto* cast_to = dyn_cast<CastInst>(&i);
+      if (!cast_to || (cast_to->getOpcode() != Instruction::FPToSI && cast_to->getOpcode() != Instruction::FPToUI))
+        continue;
+      unsigned bits = cast_to->getType()->getIntegerBitWidth();
+      bool is_signed = bits < 32 || cast_to->getOpcode() == Instruction::FPToSI;
+      IRBuilder<> b(cast_to);
+      Type* wide = b.getIntNTy(std::max(bits, 32u));
+      auto* convert = Intrinsic::getDeclaration(&unit.module, is_signed ? Intrinsic::fptosi_sat : Intrinsic::fptoui_sat,
+                                                {wide, cast_to->getOperand(0)->getType()});
+      Value* result = b.CreateCall(convert, {cast_to->getOperand(0)});
+      if (bits < 32) result = b.CreateTrunc(result, cast_to->getType());
+      cast_to->replaceAllUsesWith(result);
+      cast_to->eraseFromParent();
+    }
+}
+
+/// if (divisor == 0) tp_trap(TP_TRAP_MATH), before anybody may conclude that it is not.
+void trap_divisions(Unit& unit) {
+  std::vector<BinaryOperator*> all;
+  for (Function& f : unit.module)
+    for (Instruction& i : instructions(f))
+      if (auto* op = dyn_cast<BinaryOperator>(&i))
+        if (op->isIntDivRem()) {
+          auto* by = dyn_cast<ConstantInt>(op->getOperand(1));
+          if (!by || by->isZero()) all.push_back(op);
+        }
+  for (BinaryOperator* op : all) {
+    IRBuilder<> b(op);
+    auto* zero = cast<Constant>(ConstantInt::get(op->getType(), 0));
+    Value* bad = b.CreateICmpEQ(op->getOperand(1), zero);
+    if (auto* i = dyn_cast<Instruction>(bad)) mark_free(i);
+    Instruction* split = SplitBlockAndInsertIfThen(bad, op, /*Unreachable=*/true);
+    b.SetInsertPoint(split);
+    b.SetCurrentDebugLocation(op->getDebugLoc());
+    auto trap = host_function(unit.module, "tp_trap", b.getVoidTy(), {b.getInt64Ty()});
+    auto* call = b.CreateCall(trap, {b.getInt64(1)});
+    call->setDoesNotReturn();
+    call->setDoesNotThrow();
+    mark_free(call);
+    if (isa<ConstantInt>(op->getOperand(1))) {
+      // never reached, but must not be "poison" either
+      op->setOperand(1, ConstantInt::get(op->getType(), 1));
+      continue;
+    }
+    unsigned bits = op->getType()->getIntegerBitWidth();
+    if (bits >= 64 || (op->getOpcode() != Instruction::SDiv && op->getOpcode() != Instruction::SRem)) continue;
+    // twice as wide: the one overflow (-32768 / -1) is none there, and truncating wraps it as the chip does
+    b.SetInsertPoint(op);
+    b.SetCurrentDebugLocation(op->getDebugLoc());
+    Type* wide = b.getIntNTy(bits * 2);
+    Value* left = b.CreateSExt(op->getOperand(0), wide);
+    Value* right = b.CreateSExt(op->getOperand(1), wide);
+    Value* result = op->getOpcode() == Instruction::SDiv ? b.CreateSDiv(left, right) : b.CreateSRem(left, right);
+    op->replaceAllUsesWith(b.CreateTrunc(result, op->getType()));
+    op->eraseFromParent();
+  }
+}
+
+/// memcpy with a 16-bit length: the PC's memcpy takes 64 bits. va_start fills the machine's structure already.
+void widen_lengths(Unit& unit) {
+  for (Function& f : unit.module)
+    for (Instruction& i : make_early_inc_range(instructions(f))) {
+      auto* mem = dyn_cast<MemIntrinsic>(&i);
+      if (!mem || mem->getLength()->getType()->isIntegerTy(64)) continue;
+      IRBuilder<> b(mem);
+      Value* length = b.CreateZExt(mem->getLength(), b.getInt64Ty());
+      if (auto* copy = dyn_cast<MemCpyInst>(mem))
+        b.CreateMemCpy(copy->getDest(), copy->getDestAlign(), copy->getSource(), copy->getSourceAlign(), length,
+                       copy->isVolatile());
+      else if (auto* move = dyn_cast<MemMoveInst>(mem))
+        b.CreateMemMove(move->getDest(), move->getDestAlign(), move->getSource(), move->getSourceAlign(), length,
+                        move->isVolatile());
+      else if (auto* set = dyn_cast<MemSetInst>(mem))
+        b.CreateMemSet(set->getDest(), set->getValue(), length, set->getDestAlign(), set->isVolatile());
+      else
+        continue;
+      mem->eraseFromParent();
+    }
+}
+
+/// C functions whose symbol the back end also uses, with the PC's widths, get a name of their own.
+void rename_for_c(Unit& unit) {
+  static const char* const kNames[] = {"memcpy", "memset", "memmove", "memcmp", "bcmp", "strlen", "floorf", "ceilf",
+                                       "fmodf", "truncf", "roundf", "rintf", "nearbyintf", "sqrtf", "powf", "sinf", "cosf",
+                                       "expf", "logf", "log10f", "exp2f", "log2f", "fminf", "fmaxf", "fabsf", "copysignf", "ldexpf"};
+  for (const char* name : kNames)
+    if (Function* f = unit.module.getFunction(name)) f->setName(std::string("tp_c_") + name);
+}
+
+/// floor(x) and friends reach us as intrinsics; they are library calls on the robot.
+void restore_library_calls(Unit& unit) {
+  for (Function& f : unit.module)
+    for (Instruction& i : make_early_inc_range(instructions(f))) {
+      auto* call = dyn_cast<IntrinsicInst>(&i);
+      if (!call || !call->getType()->isFloatTy()) continue;
+      const char* name = nullptr;
+      switch (call->getIntrinsicID()) {
+        case Intrinsic::floor: name = "floor"; break;
+        case Intrinsic::ceil: name = "ceil"; break;
+        case Intrinsic::trunc: name = "trunc"; break;
+        case Intrinsic::round: name = "round"; break;
+        case Intrinsic::rint:
+        case Intrinsic::nearbyint: name = "rint"; break;
+        case Intrinsic::minnum: name = "fmin"; break;
+        case Intrinsic::maxnum: name = "fmax"; break;
+        case Intrinsic::sqrt: name = "sqrt"; break;
+        default: continue;
+      }
+      IRBuilder<> b(call);
+      SmallVector<Type*, 2> types;
+      SmallVector<Value*, 2> values;
+      for (Value* v : call->args()) values.push_back(v), types.push_back(v->getType());
+      auto callee = unit.module.getOrInsertFunction(name, FunctionType::get(call->getType(), types, false));
+      call->replaceAllUsesWith(b.CreateCall(callee, values));
+      call->eraseFromParent();
+    }
+}
+
+}  // namespace
+
+void lower_early(Unit& unit) {
+  lower_assembler(unit);
+  refuse_functions(unit);
+  drop_sections(unit);
+  define_shifts(unit);
+  define_conversions(unit);
+  restore_library_calls(unit);
+  widen_lengths(unit);
+  trap_divisions(unit);
+  rename_for_c(unit);
+}
+
+}  // namespace cc

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+// See object_cache.h. For each object `<key>.o` stands `<key>.deps`: a line per file read with its hash.
+#include "object_cache.h"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include <atomic>
+#include <fstream>
+#include <map>
+#include <mutex>
+#include <sstream>
+#include <thread>
+
+extern char** environ;
+
+namespace cc {
+namespace fs = std::filesystem;
+
+ProcessResult run_process(const std::vector<std::string>& argv) {
+  ProcessResult result;
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) return result;
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, ends[1], 1);
+  posix_spawn_file_actions_adddup2(&actions, ends[1], 2);
+  std::vector<char*> raw;
+  for (const auto& a : argv) raw.push_back(const_cast<char*>(a.c_str()));
+  raw.push_back(nullptr);
+  pid_t pid;
+  int failed = posix_spawnp(&pid, raw[0], &actions, nullptr, raw.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  close(ends[1]);
+  if (failed) {
+    close(ends[0]);
+    result.output = argv[0] + ": cannot start it: " + std::string(strerror(failed)) + "\n";
+    return result;
+  }
+  char buffer[4096];
+  for (ssize_t n; (n = read(ends[0], buffer, sizeof buffer)) != 0;) {
+    if (n < 0 && errno != EINTR) break;
+    if (n > 0) result.output.append(buffer, size_t(n));
+  }
+  close(ends[0]);
+  int status = 0;
+  while (waitpid(pid, &status, 0) < 0 && errno == EINTR) {
+  }
+  result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return result;
+}
+
+std::string content_hash(const std::string& bytes) {
+  // two FNV-1a runs with different offsets: 128 bits, plenty against accidents
+  uint64_t a = 1469598103934665603ull, b = 1099511628211ull ^ 0x9e3779b97f4a7c15ull;
+  for (unsigned char c : bytes) {
+    a = (a ^ c) * 1099511628211ull;
+    b = (b ^ c) * 0x100000001b3ull + 0x9e3779b97f4a7c15ull;
+  }
+  char text[33];
+  std::snprintf(text, sizeof text, "%016lx%016lx", (unsigned long)a, (unsigned long)b);
+  return text;
+}
+
+std::string read_text(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream all;
+  all << in.rdbuf();
+  return all.str();
+}
+
+bool write_text(const fs::path& path, const std::string& text) {
+  static std::atomic<int> count{0};
+  fs::path half = path.string() + ".tmp" + std::to_string(getpid()) + "_" + std::to_string(count++);
+  {
+    std::ofstream out(half, std::ios::binary);
+    out << text;
+    if (!out.flush()) {
+      std::error_code ignored;
+      fs::remove(half, ignored);
+      return false;
+    }
+  }
+  std::error_code ec;
+  fs::rename(half, path, ec);
+  return !ec;
+}
+
+namespace {
+
+/// File names of a make rule ("x: a.c b.h \").
+std::vector<std::string> names_of_rule(const std::string& rule) {
+  std::vector<std::string> names;
+  std::string name;
+  size_t i = rule.find(':');
+  for (i = i == std::string::npos ? rule.size() : i + 1; i <= rule.size(); ++i) {
+    char c = i < rule.size() ? rule[i] : ' ';
+    if (c == '\\' && i + 1 < rule.size() && rule[i + 1] == '\n') {
+      ++i;
+    } else if (c == '\\' && i + 1 < rule.size() && (rule[i + 1] == ' ' || rule[i + 1] == '#')) {
+      name += rule[++i];
+    } else if (c == ' ' || c == '\n' || c == '\t') {
+      if (!name.empty()) names.push_back(name);
+      name.clear();
+    } else {
+      name += c;
+    }
+  }
+  return names;
+}
+
+/// Hashes of files, each read once a build.
+class FileHashes {
+ public:
+  std::string of(const std::string& path) {
+    std::lock_guard<std::mutex> lock(mutex_);
+    auto found = known_.find(path);
+    if (found != known_.end()) return found->second;
+    return known_[path] = fs::exists(path) ? content_hash(read_text(path)) : "gone";
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<std::string, std::string> known_;
+};
+
+bool is_fresh(const fs::path& deps, FileHashes& hashes) {
+  std::ifstream in(deps);
+  std::string hash, path;
+  bool any = false;
+  while (in >> hash && std::getline(in, path)) {
+    any = true;
+    if (hashes.of(path.substr(1)) != hash) return false;
+  }
+  return any;
+}
+
+CompileOutcome compile(const CompileJob& job, const fs::path& compiler, const std::string& salt, const fs::path& cache,
+                       FileHashes& hashes) {
+  CompileOutcome outcome;
+  std::string key = job.source.string() + "\n" + job.salt + "\n" + salt;
+  for (const auto& f : job.flags) key += "\n" + f;
+  fs::path base = cache / (job.source.stem().string() + "-" + content_hash(key));
+  outcome.object = base.string() + ".o";
+  fs::path deps = base.string() + ".deps", notes = base.string() + ".txt";
+  if (fs::exists(outcome.object) && is_fresh(deps, hashes)) {
+    outcome.ok = outcome.reused = true;
+    outcome.messages = read_text(notes);
+    return outcome;
+  }
+  std::string half = base.string() + ".half" + std::to_string(getpid());
+  std::vector<std::string> argv = {compiler.string(), "-c", job.source.string(), "-o", half, "--depfile", half + ".d"};
+  argv.insert(argv.end(), job.flags.begin(), job.flags.end());
+  auto result = run_process(argv);
+  outcome.messages = result.output;
+  outcome.ok = result.status == 0;
+  std::error_code ec;
+  if (outcome.ok) {
+    std::string lines;
+    for (const auto& name : names_of_rule(read_text(half + ".d"))) lines += hashes.of(name) + " " + name + "\n";
+    write_text(notes, result.output);
+    fs::rename(half, outcome.object, ec);
+    if (ec || !write_text(deps, lines)) {
+      outcome.ok = false;
+      outcome.messages += outcome.object.string() + ": cannot write the object; is the disk full?\n";
+    }
+  } else if (result.status != 1) {
+    outcome.messages += job.source.string() + ": the compiler stopped with status " + std::to_string(result.status) + "\n";
+  }
+  fs::remove(half, ec);
+  fs::remove(half + ".d", ec);
+  return outcome;
+}
+
+}  // namespace
+
+std::vector<CompileOutcome> compile_all(const std::vector<CompileJob>& jobs, const fs::path& compiler,
+                                        const fs::path& cache_dir, int parallel) {
+  std::error_code ec;
+  fs::create_directories(cache_dir, ec);
+  // a rebuilt compiler invalidates everything; its time and size tell
+  auto time = fs::last_write_time(compiler, ec).time_since_epoch().count();
+  std::string salt = compiler.string() + " " + std::to_string(time) + " " + std::to_string(fs::file_size(compiler, ec));
+  std::vector<CompileOutcome> outcomes(jobs.size());
+  FileHashes hashes;
+  std::atomic<size_t> next{0};
+  auto work = [&] {
+    for (size_t i; (i = next++) < jobs.size();) outcomes[i] = compile(jobs[i], compiler, salt, cache_dir, hashes);
+  };
+  std::vector<std::thread> others;
+  for (int t = 1; t < parallel && size_t(t) < jobs.size(); ++t) others.emplace_back(work);
+  work();
+  for (auto& t : others) t.join();
+  return outcomes;
+}
+
+}  // namespace cc

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// Objects kept between builds. An object is reused when its source, every header it read, its flags and the
+// compiler are what they were.
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace cc {
+
+struct ProcessResult {
+  int status = -1;
+  std::string output;  // standard output and error together
+};
+
+/// Runs a program and collects what it prints.
+ProcessResult run_process(const std::vector<std::string>& argv);
+
+/// A short name for a content; equal contents give equal names.
+std::string content_hash(const std::string& bytes);
+std::string read_text(const std::filesystem::path& path);
+/// Through a temporary file, so that a reader never sees half of it. False when the disk refuses.
+bool write_text(const std::filesystem::path& path, const std::string& text);
+
+struct CompileJob {
+  std::filesystem::path source;
+  std::vector<std::string> flags;
+  std::string salt;  // anything else the result hangs on
+};
+
+struct CompileOutcome {
+  bool ok = false, reused = false;
+  std::filesystem::path object;
+  std::string messages;
+};
+
+/// All jobs, at most `parallel` at once; outcomes in the order of the jobs.
+std::vector<CompileOutcome> compile_all(const std::vector<CompileJob>& jobs, const std::filesystem::path& compiler,
+                                        const std::filesystem::path& cache_dir, int parallel);
+
+}  // namespace cc

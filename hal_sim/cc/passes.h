@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// The stages between clang's front end and the PC's back end, in the order pipeline.cpp runs them.
+#pragma once
+#include "frontend.h"
+#include "llvm/ADT/Twine.h"
+#include "llvm/IR/DebugLoc.h"
+#include "llvm/IR/Instructions.h"
+#include "llvm/IR/PassManager.h"
+
+namespace cc {
+
+/// One translation unit on its way through the stages.
+struct Unit {
+  llvm::Module& module;
+  const Options& options;
+  const Facts& facts;
+  bool failed = false;
+
+  /// Prints "file:line:col: error: text".
+  void error(const llvm::DebugLoc& where, const llvm::Twine& text);
+  void warning(const llvm::DebugLoc& where, const llvm::Twine& text);
+};
+
+// --- names of the functions stages leave for one another (never called at run time) -------------------------
+inline constexpr const char* kNop = "tp.nop";        // asm("nop"): one cycle, no effect
+inline constexpr const char* kFree = "tp.free";      // metadata: instruction exists on the PC only, costs nothing
+
+/// Inline assembler, refused functions, sections, wide shifts, float to int, division by zero.
+void lower_early(Unit& unit);
+/// Accesses to tp_sfr_XXXX globals become calls to the register host.
+void lower_registers(Unit& unit);
+/// A flag that only an interrupt can change is read afresh in the loop that polls it.
+void keep_polled_flags(Unit& unit, llvm::FunctionAnalysisManager& analyses);
+/// Counting loops that do nothing become tp_delay(rounds, cycles).
+void lower_delay_loops(Unit& unit, llvm::FunctionAnalysisManager& analyses);
+struct Charge {
+  llvm::Instruction* before;
+  double cycles;
+};
+struct FunctionPlan {
+  llvm::Function* function;
+  double straight = 0, least = 0;
+  std::string description;  // a line for `twinpuck cycles`, fields separated by |
+};
+struct CostPlan {
+  std::vector<Charge> charges;
+  std::vector<FunctionPlan> functions;
+};
+
+/// What everything costs, before instrumentation adds what the chip does not have.
+CostPlan plan_costs(Unit& unit, llvm::FunctionAnalysisManager& analyses);
+/// tp_poll at the back edge of loops whose last round changed nothing.
+void instrument_polls(Unit& unit, llvm::FunctionAnalysisManager& analyses);
+/// Budget, function table, coverage.
+void account(Unit& unit, const CostPlan& plan);
+/// What x86 would trap on or define otherwise: INT16_MIN / -1, shifts by 16 and more.
+void lower_late(Unit& unit);
+/// --sanitize: every access checked against the objects that exist.
+void check_addresses(Unit& unit);
+
+/// Runs all stages; false after an error. Then the module is ready for the back end.
+bool run_pipeline(Unit& unit);
+
+// --- small tools ---------------------------------------------------------------------------------------------
+llvm::FunctionCallee host_function(llvm::Module& m, const char* name, llvm::Type* result,
+                                   llvm::ArrayRef<llvm::Type*> parameters);
+/// Marks an instruction as costing nothing on the chip.
+void mark_free(llvm::Instruction* instruction);
+inline bool is_free(const llvm::Instruction& i) { return i.getMetadata(kFree) != nullptr; }
+/// Is this a call of the named function?
+bool calls(const llvm::Instruction& i, llvm::StringRef name);
+/// Poll-safe: reads at most; may stand in a polling loop.
+bool is_poll_safe(const llvm::Function* callee, const Unit& unit);
+/// Address of the tp_control field: 0 budget, 1 writes.
+llvm::Value* control_field(llvm::Module& m, unsigned index);
+
+}  // namespace cc

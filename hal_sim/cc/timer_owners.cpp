@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// See timer_owners.h. Owners after epuck-api.md section 0.1; a driver counts as used when its header is included.
+#include "timer_owners.h"
+
+#include <algorithm>
+#include <map>
+#include <regex>
+
+namespace cc {
+namespace {
+
+struct Owner {
+  const char* header;  // trailing part of the include, lower case
+  const char* driver;
+  const char* timers;  // digits
+};
+
+constexpr Owner kOwners[] = {
+    {"motor_led/advance_one_timer/fast_agenda/e_agenda_fast.h", "the fast agenda", "123"},
+    {"motor_led/advance_one_timer/e_agenda.h", "the agenda", "2"},
+    {"motor_led/advance_one_timer/e_motors.h", "the agenda motors", "2"},
+    {"motor_led/e_motors.h", "the basic motors", "45"},
+    {"motor_led/e_motors_timer3.h", "the Timer 3 motors", "3"},
+    {"a_d/e_prox.h", "the basic proximity sensors", "1"},
+    {"camera/fast_2_timer/e_poxxxx.h", "the camera", "45"},
+    {"camera/fast_2_timer/e_po3030k.h", "the camera", "45"},
+    {"camera/fast_2_timer/e_po6030k.h", "the camera", "45"},
+    {"camera/fast_2_timer/e_po8030d.h", "the camera", "45"},
+    {"camera/slow_3_timer/e_po3030k.h", "the slow camera", "145"},
+};
+
+}  // namespace
+
+std::vector<std::string> timer_conflicts(const std::vector<std::pair<std::string, std::string>>& texts) {
+  static const std::regex kInclude(R"(^[ \t]*#[ \t]*include[ \t]*[<"]([^>"]+)[>"])", std::regex::multiline);
+  static const std::regex kHandler(R"(\b_T([1-5])Interrupt\s*\()");
+  std::map<char, std::map<std::string, std::string>> users;  // timer -> driver -> file
+  for (const auto& [file, text] : texts) {
+    for (std::sregex_iterator it(text.begin(), text.end(), kInclude), end; it != end; ++it) {
+      std::string name = (*it)[1];
+      std::transform(name.begin(), name.end(), name.begin(), [](char c) { return c == '\\' ? '/' : char(::tolower(c)); });
+      for (const auto& owner : kOwners) {
+        std::string tail = owner.header;
+        if (name.size() < tail.size() || name.compare(name.size() - tail.size(), tail.size(), tail) != 0) continue;
+        for (const char* t = owner.timers; *t; ++t) users[*t].emplace(owner.driver, file);
+        break;
+      }
+    }
+    for (std::sregex_iterator it(text.begin(), text.end(), kHandler), end; it != end; ++it)
+      users[(*it)[1].str()[0]].emplace("the program's own _T" + (*it)[1].str() + "Interrupt", file);
+  }
+  std::vector<std::string> messages;
+  for (auto& [timer, drivers] : users) {
+    // the agenda and the agenda motors share Timer 2 on purpose
+    drivers.size() > 1 ? drivers.erase(timer == '2' ? "the agenda motors" : "") : 0;
+    if (drivers.size() < 2) continue;
+    std::string list, file;
+    for (const auto& [driver, where] : drivers) list += (list.empty() ? "" : " and ") + driver, file = where;
+    messages.push_back(file + ": warning: Timer " + timer + ": got two owners (" + list + "), expected one; the later one silences the other");
+  }
+  return messages;
+}
+
+}  // namespace cc

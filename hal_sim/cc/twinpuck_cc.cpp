@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// twinpuck-cc -c x.c -o x.o: one C file to one object, for the PC, computing and costing as the robot does.
+#include <cstring>
+
+#include "llvm/Analysis/TargetLibraryInfo.h"
+#include "llvm/IR/LegacyPassManager.h"
+#include "llvm/IR/Verifier.h"
+#include "llvm/MC/TargetRegistry.h"
+#include "llvm/Support/FileSystem.h"
+#include "llvm/Support/TargetSelect.h"
+#include "llvm/Support/raw_ostream.h"
+#include "llvm/Target/TargetMachine.h"
+#include "passes.h"
+
+namespace {
+
+using namespace llvm;
+
+bool parse(int argc, char** argv, cc::Options& o) {
+  for (int i = 1; i < argc; ++i) {
+    StringRef a = argv[i];
+    auto value = [&]() -> std::string { return i + 1 < argc ? argv[++i] : ""; };
+    if (a == "-c") continue;
+    else if (a == "-o") o.output = value();
+    else if (a == "-O0") o.level = 0;
+    else if (a == "-O" || a == "-O1") o.level = 1;
+    else if (a == "-O2" || a == "-O3") o.level = 2;
+    else if (a == "-Os") o.level = 2, o.for_size = true;
+    else if (a == "--sanitize") o.sanitize = true;
+    else if (a == "--coverage") o.coverage = true;
+    else if (a == "--strict") o.strict = true;
+    else if (a == "--lint") o.lint = true;
+    else if (a == "--library") o.library = true;
+    else if (a == "--uncounted") o.uncounted = true;
+    else if (a == "--emit-ir") o.emit_ir = true;
+    else if (a == "--depfile") o.depfile = value();
+    else if (a == "--cost-dump") o.cost_dump = value();
+    else if (a == "--fallback") o.fallback.push_back(value());
+    else if (a == "-I" || a == "-D" || a == "-U" || a == "-include") {
+      o.passed_on.push_back(a.str());
+      o.passed_on.push_back(value());
+    } else if (a.startswith("-I") || a.startswith("-D") || a.startswith("-U") || a.startswith("-W") || a.startswith("-g") || a.startswith("-f")) {
+      o.passed_on.push_back(a.str());
+    } else if (a.startswith("-")) {
+      errs() << "twinpuck-cc: command line: got " << a << ", expected a known option\n";
+      return false;
+    } else if (o.input.empty()) {
+      o.input = a.str();
+    } else {
+      errs() << "twinpuck-cc: command line: got a second file " << a << ", expected one\n";
+      return false;
+    }
+  }
+  if (o.input.empty() || o.output.empty()) {
+    errs() << "usage: twinpuck-cc -c x.c -o x.o [-O0|-O1|-O2|-Os] [-I..] [-D..] [--sanitize] [--coverage] [--strict]\n";
+    return false;
+  }
+  return true;
+}
+
+bool emit(Module& m, const cc::Options& o) {
+  std::error_code ec;
+  raw_fd_ostream out(o.output, ec, sys::fs::OF_None);
+  if (ec) {
+    errs() << o.output << ": cannot write: " << ec.message() << "\n";
+    return false;
+  }
+  if (o.emit_ir) {
+    m.print(out, nullptr);
+    return true;
+  }
+  std::string message;
+  const Target* target = TargetRegistry::lookupTarget(m.getTargetTriple(), message);
+  TargetOptions options;
+  std::unique_ptr<TargetMachine> machine(target->createTargetMachine(
+      m.getTargetTriple(), "x86-64", "", options, Reloc::PIC_, CodeModel::Small,
+      o.level == 0 ? CodeGenOpt::None : o.level == 1 ? CodeGenOpt::Less : CodeGenOpt::Default));
+  legacy::PassManager passes;
+  // floor() is a function of the firmware's libc here, not something the PC may know by name
+  TargetLibraryInfoImpl library(Triple(m.getTargetTriple()));
+  library.disableAllFunctions();
+  passes.add(new TargetLibraryInfoWrapperPass(library));
+  if (machine->addPassesToEmitFile(passes, out, nullptr, CGFT_ObjectFile)) return false;
+  passes.run(m);
+  return true;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  cc::Options options;
+  if (!parse(argc, argv, options)) return 2;
+  InitializeNativeTarget();
+  InitializeNativeTargetAsmPrinter();
+  InitializeNativeTargetAsmParser();
+  LLVMContext context;
+  cc::Facts facts;
+  auto module = cc::compile_to_module(options, context, facts);
+  if (!module) return 1;
+  cc::Unit unit{*module, options, facts};
+  if (!cc::run_pipeline(unit)) return 1;
+  if (verifyModule(*module, &errs())) {
+    if (options.emit_ir) module->print(errs(), nullptr);
+    errs() << options.input << ": internal error: malformed code after the pipeline\n";
+    return 6;
+  }
+  return emit(*module, options) ? 0 : 1;
+}

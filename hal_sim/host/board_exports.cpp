@@ -1,0 +1,405 @@
+// SPDX-License-Identifier: MIT
+// The board functions of pins.h: each finds the running robot, asks its board at this cycle, and tells the host
+// until when the answer holds (a read) or that something changed (a write).
+// Nothing is computed here; the numbers are hal_sim/board's.
+#include <algorithm>
+
+#include "hal_sim/board/board.h"
+#include "hal_sim/host/context.h"
+#include "hal_sim/host/pins.h"
+
+namespace {
+
+using board::Board;
+using board::Cycle;
+using board::TimerMotors;
+using board::Wheel;
+using host::Context;
+
+// processor time of library functions whose work happens on this side
+constexpr Cycle kSetSpeedCycles = 70;     // [estimated: 4 bit writes, one 18-cycle division, list search, store]
+constexpr Cycle kListSearchCycles = 30;   // [estimated: call, two nodes compared, store]
+constexpr Cycle kActivateCycles = 120;    // [estimated: list search, malloc of one node, five stores]
+
+Wheel wheel_of(tp_i64 wheel) { return wheel == 0 ? Wheel::Left : Wheel::Right; }
+
+void request_background(Context& context, Board& robot, int slot, Cycle period, Cycle cost) {
+  const std::size_t i = static_cast<std::size_t>(slot);
+  if (cost == 0 || period <= 0) period = cost = 0;
+  if (robot.requests.background_period[i] == period && robot.requests.background_cost[i] == cost) return;
+  robot.requests.background_period[i] = period;
+  robot.requests.background_cost[i] = cost;
+  context.set_background(slot, period, cost);
+}
+
+/// After a change to agendas: the next interrupt, and the time the handler steals.
+void follow_agendas(Context& context, Board& robot) {
+  board::AgendaTimer& agendas = robot.agendas();
+  if (agendas.is_walking()) return;  // tp_agenda_end() follows
+  const Cycle next = agendas.next_interrupt();
+  const Cycle wanted = next >= host::kNever ? -1 : next;
+  if (wanted != robot.requests.agenda_interrupt) {
+    robot.requests.agenda_interrupt = wanted;
+    context.irq_at(TP_V_T2, wanted);
+  }
+  request_background(context, robot, TP_BG_AGENDA, board::kAgendaTickCycles,
+                     agendas.is_running() ? agendas.idle_tick_cost() : 0);
+  for (Wheel wheel : {Wheel::Left, Wheel::Right}) {
+    const Cycle period = agendas.firing_period(wheel);
+    // the drivers with their own timers use the same slots; a wheel has one driver
+    if (period > 0 || !robot.timer_motors().drives(wheel))
+      request_background(context, robot, wheel == Wheel::Left ? TP_BG_MOTOR_LEFT : TP_BG_MOTOR_RIGHT, period,
+                         period > 0 ? board::kMotorStepCycles : 0);
+  }
+}
+
+/// Shape of every change of the agenda list.
+template <typename Change>
+tp_i64 change_list(Cycle cost, Change change) {
+  Context& context = Context::current();
+  Board& robot = context.board();
+  const int result = change(robot.agendas(), context.now());
+  context.note_write();
+  follow_agendas(context, robot);
+  context.spend(cost);
+  return result;
+}
+
+}  // namespace
+
+extern "C" {
+
+// --- ports -----------------------------------------------------------------------------------------------------
+
+void tp_init_ports(void) {
+  Context& context = Context::current();
+  context.board().init_ports(context.now());
+  context.note_write();
+}
+
+tp_i64 tp_latch_read(tp_i64 port, tp_i64 bit) {
+  Context& context = Context::current();
+  const Cycle now = context.now();
+  context.lower_horizon(context.board().port_horizon(static_cast<char>(port), now));
+  return context.board().latch_bit(static_cast<char>(port), static_cast<int>(bit), now) ? 1 : 0;
+}
+
+void tp_latch_write(tp_i64 port, tp_i64 bit, tp_i64 level) {
+  Context& context = Context::current();
+  context.board().latch_bit(static_cast<char>(port), static_cast<int>(bit), (level & 1) != 0, context.now());
+  context.note_write();
+}
+
+tp_i64 tp_pins_read(tp_i64 port) {
+  Context& context = Context::current();
+  const Cycle now = context.now();
+  context.lower_horizon(context.board().port_horizon(static_cast<char>(port), now));
+  return context.board().port_read(static_cast<char>(port), Board::Register::Port, now);
+}
+
+void tp_coils_write(tp_i64 wheel, tp_i64 coils) {
+  Context& context = Context::current();
+  const Cycle now = context.now();
+  context.board().stepper(wheel_of(wheel), now).energise(static_cast<unsigned>(coils & 15), now);
+  context.note_write();
+}
+
+// --- agendas ---------------------------------------------------------------------------------------------------
+
+void tp_agenda_start(void) {
+  change_list(20, [](board::AgendaTimer& agendas, Cycle now) {
+    agendas.start(now);
+    return 1;
+  });
+}
+
+void tp_agenda_stop(void) {
+  change_list(4, [](board::AgendaTimer& agendas, Cycle now) {
+    agendas.stop(now);
+    return 1;
+  });
+}
+
+tp_i64 tp_agenda_activate(const void* function, tp_i64 cycle) {
+  return change_list(kActivateCycles, [&](board::AgendaTimer& agendas, Cycle now) {
+    return agendas.activate(function, static_cast<int>(cycle), now);
+  });
+}
+
+tp_i64 tp_agenda_destroy(const void* function) {
+  return change_list(kActivateCycles, [&](board::AgendaTimer& agendas, Cycle now) {
+    return agendas.destroy(function, now);
+  });
+}
+
+tp_i64 tp_agenda_set_cycle(const void* function, tp_i64 cycle) {
+  return change_list(kListSearchCycles, [&](board::AgendaTimer& agendas, Cycle now) {
+    return agendas.set_cycle(function, static_cast<int>(cycle), now);
+  });
+}
+
+tp_i64 tp_agenda_reset(const void* function) {
+  return change_list(kListSearchCycles, [&](board::AgendaTimer& agendas, Cycle now) {
+    return agendas.reset_count(function, now);
+  });
+}
+
+tp_i64 tp_agenda_pause(const void* function) {
+  return change_list(kListSearchCycles, [&](board::AgendaTimer& agendas, Cycle now) {
+    return agendas.pause(function, now);
+  });
+}
+
+tp_i64 tp_agenda_restart(const void* function) {
+  return change_list(kListSearchCycles, [&](board::AgendaTimer& agendas, Cycle now) {
+    return agendas.restart(function, now);
+  });
+}
+
+void tp_agenda_begin(void) {
+  Context& context = Context::current();
+  context.board().agendas().begin(context.now());
+  context.note_write();
+}
+
+const void* tp_agenda_next(void) {
+  Context& context = Context::current();
+  bool divided_by_zero = false;
+  const void* function = context.board().agendas().next(divided_by_zero);
+  if (divided_by_zero)
+    context.trap(TP_TRAP_MATH, "motor agenda: 10000 / 0 (speed 0 with a power-save half pending)");
+  return function;
+}
+
+void tp_agenda_end(void) {
+  Context& context = Context::current();
+  Board& robot = context.board();
+  robot.agendas().finish(context.now());
+  robot.requests.agenda_interrupt = Board::Requests::kUnknown;  // the request was used up
+  context.note_write();
+  follow_agendas(context, robot);
+}
+
+// --- motors ----------------------------------------------------------------------------------------------------
+
+void tp_motor_agenda(tp_i64 wheel, const void* function) {
+  Context::current().board().agendas().name_motor(wheel_of(wheel), function);
+}
+
+void tp_motor_speed(tp_i64 wheel, tp_i64 speed_steps_s) {
+  change_list(kSetSpeedCycles, [&](board::AgendaTimer& agendas, Cycle now) {
+    agendas.set_speed(wheel_of(wheel), static_cast<int>(speed_steps_s), now);
+    return 1;
+  });
+}
+
+void tp_motor_run(tp_i64 wheel) {
+  Context& context = Context::current();
+  Board& robot = context.board();
+  const bool fine = robot.agendas().run_motor(wheel_of(wheel), context.now());
+  context.note_write();
+  follow_agendas(context, robot);
+  if (!fine) context.trap(TP_TRAP_MATH, "motor agenda: 10000 / 0 (speed 0 with a power-save half pending)");
+}
+
+tp_i64 tp_motor_steps(tp_i64 wheel) {
+  Context& context = Context::current();
+  const Cycle now = context.now();
+  const board::AgendaTimer& agendas = context.board().agendas();
+  context.lower_horizon(agendas.steps_horizon(wheel_of(wheel), now));
+  return agendas.commanded_steps(wheel_of(wheel), now);
+}
+
+void tp_timer_motor_speed(tp_i64 driver, tp_i64 wheel, tp_i64 speed_steps_s) {
+  Context& context = Context::current();
+  Board& robot = context.board();
+  const Cycle now = context.now();
+  const Wheel which = wheel_of(wheel);
+  const auto kind = driver == 0 ? TimerMotors::Driver::Basic : TimerMotors::Driver::Timer3;
+  robot.timer_motors().set_speed(kind, which, static_cast<int>(speed_steps_s), now, robot.stepper(which, now));
+  if (kind == TimerMotors::Driver::Basic) {
+    const Cycle period = robot.timer_motors().interrupt_period(which);
+    request_background(context, robot, which == Wheel::Left ? TP_BG_MOTOR_LEFT : TP_BG_MOTOR_RIGHT, period,
+                       period > 0 ? board::kBasicMotorIsrCycles : 0);
+  }
+  context.note_write();
+  context.spend(kSetSpeedCycles);
+}
+
+tp_i64 tp_timer_motor_steps(tp_i64 driver, tp_i64 wheel) {
+  Context& context = Context::current();
+  Board& robot = context.board();
+  const Cycle now = context.now();
+  const Wheel which = wheel_of(wheel);
+  context.lower_horizon(robot.timer_motors().steps_horizon(which, now));
+  return robot.timer_motors().commanded_steps(driver == 0 ? TimerMotors::Driver::Basic : TimerMotors::Driver::Timer3,
+                                              which, now, robot.agendas().stepper_at(which, now));
+}
+
+void tp_timer3_motors_start(void) {
+  Context& context = Context::current();
+  Board& robot = context.board();
+  for (Wheel wheel : {Wheel::Left, Wheel::Right}) robot.stepper(wheel, context.now());
+  robot.timer_motors().start_timer3(context.now());
+  request_background(context, robot, TP_BG_MOTOR_LEFT, board::kTimer3TickCycles, board::kTimer3IsrCycles);
+  context.note_write();
+}
+
+// --- converter ---------------------------------------------------------------------------------------------------
+
+void tp_scan_start(tp_i64 micro_only, tp_i64 five_pairs) {
+  Context& context = Context::current();
+  Board& robot = context.board();
+  robot.scan().start(micro_only != 0, five_pairs != 0, context.now());
+  request_background(context, robot, TP_BG_ADC, robot.scan().frame_cycles(),
+                     micro_only ? board::kScanMicroIsrCycles : board::kScanIsrCycles);
+  context.note_write();
+}
+
+void tp_scan_switch(tp_i64 on) {
+  Context& context = Context::current();
+  Board& robot = context.board();
+  robot.scan().switch_converter(on != 0, context.now());
+  const Cycle cost = robot.scan().micro_only() ? board::kScanMicroIsrCycles : board::kScanIsrCycles;
+  request_background(context, robot, TP_BG_ADC, robot.scan().frame_cycles(), on ? cost : 0);
+  context.note_write();
+}
+
+tp_i64 tp_scan_filled_at(void) {
+  Context& context = Context::current();
+  return context.board().scan().first_fill(context.now());
+}
+
+tp_i64 tp_scan_interrupts(void) {
+  Context& context = Context::current();
+  const board::AdcScan& scan = context.board().scan();
+  const Cycle now = context.now();
+  context.lower_horizon(scan.next_interrupt(now));
+  return scan.interrupts(now);
+}
+
+tp_i64 tp_scan_array_filled(void) {
+  Context& context = Context::current();
+  const board::AdcScan& scan = context.board().scan();
+  const Cycle now = context.now();
+  const std::int64_t count = scan.interrupts(now);
+  const bool filled = count > 0 && count % board::kMicSamples == 0;
+  const std::int64_t next = filled ? count + 1 : count - count % board::kMicSamples + board::kMicSamples;
+  context.lower_horizon(scan.interrupt_cycle(next));
+  return filled ? 1 : 0;
+}
+
+tp_i64 tp_scan_acc_samples(void) {
+  Context& context = Context::current();
+  const board::AdcScan& scan = context.board().scan();
+  const Cycle now = context.now();
+  context.lower_horizon(scan.next_interrupt(now));
+  return scan.acc_samples(now);
+}
+
+tp_i64 tp_scan_dark(tp_i64 sensor) {
+  Context& context = Context::current();
+  board::AdcScan& scan = context.board().scan();
+  if (sensor < 0 || sensor > 9) return 0;
+  const Cycle now = context.now();
+  context.lower_horizon(scan.horizon(static_cast<int>(sensor), now));
+  return scan.dark(static_cast<int>(sensor), now);
+}
+
+tp_i64 tp_scan_lit(tp_i64 sensor) {
+  Context& context = Context::current();
+  board::AdcScan& scan = context.board().scan();
+  if (sensor < 0 || sensor > 9) return 0;
+  const Cycle now = context.now();
+  context.lower_horizon(scan.horizon(static_cast<int>(sensor), now));
+  return scan.lit(static_cast<int>(sensor), now);
+}
+
+void tp_basic_prox_start(void) {
+  Context& context = Context::current();
+  Board& robot = context.board();
+  robot.basic_prox().start(context.now());
+  // two interrupts a pair, each with two conversions
+  request_background(context, robot, TP_BG_PROX, (board::kBasicPulseCycles + board::kBasicRestCycles) / 2,
+                     board::kBasicIsrEntryCycles + 2 * board::kReadAdCycles);
+  context.note_write();
+}
+
+void tp_basic_prox_stop(void) {
+  Context& context = Context::current();
+  context.board().basic_prox().stop(context.now());
+  request_background(context, context.board(), TP_BG_PROX, 0, 0);
+  context.note_write();
+}
+
+tp_i64 tp_basic_prox_ambient(tp_i64 sensor) {
+  Context& context = Context::current();
+  if (sensor < 0 || sensor >= board::kRingSensors) return 0;
+  board::BasicProx& prox = context.board().basic_prox();
+  const Cycle now = context.now();
+  context.lower_horizon(prox.horizon(now));
+  return prox.ambient(static_cast<int>(sensor), now);
+}
+
+tp_i64 tp_basic_prox_reflected(tp_i64 sensor) {
+  Context& context = Context::current();
+  if (sensor < 0 || sensor >= board::kRingSensors) return 0;
+  board::BasicProx& prox = context.board().basic_prox();
+  const Cycle now = context.now();
+  context.lower_horizon(prox.horizon(now));
+  return prox.reflected(static_cast<int>(sensor), now);
+}
+
+tp_i64 tp_convert(tp_i64 channel) {
+  Context& context = Context::current();
+  const Cycle now = context.now();
+  const int counts = context.board().convert(static_cast<int>(channel), now);
+  if (counts < 0) context.trap(TP_TRAP_UNSIMULATED, "converter: microphones and accelerometer are not simulated yet");
+  context.lower_horizon(now);
+  return counts;
+}
+
+// --- serial lines ----------------------------------------------------------------------------------------------
+
+void tp_uart_init(tp_i64 number, tp_i64 brg) {
+  Context& context = Context::current();
+  context.board().uart(number == 2 ? 2 : 1).init_library(static_cast<int>(brg), context.now());
+  context.note_write();
+}
+
+void tp_uart_load(tp_i64 number, tp_i64 byte) {
+  Context& context = Context::current();
+  board::Uart& uart = context.board().uart(number == 2 ? 2 : 1);
+  const Cycle now = context.now();
+  if (uart.load(static_cast<std::uint8_t>(byte), now))
+    context.irq_at(number == 2 ? TP_V_U2TX : TP_V_U1TX, std::max(now, uart.buffer_empty_at()));
+  context.note_write();
+}
+
+tp_i64 tp_uart_unread(tp_i64 number) {
+  Context& context = Context::current();
+  board::Uart& uart = context.board().uart(number == 2 ? 2 : 1);
+  const Cycle now = context.now();
+  context.lower_horizon(uart.next_arrival(now));
+  return uart.unread(now);
+}
+
+tp_i64 tp_uart_take(tp_i64 number) {
+  Context& context = Context::current();
+  board::Uart& uart = context.board().uart(number == 2 ? 2 : 1);
+  const Cycle now = context.now();
+  context.lower_horizon(uart.next_arrival(now));
+  const int byte = uart.take(now);
+  if (byte >= 0) context.note_write();
+  return byte;
+}
+
+// --- the rest --------------------------------------------------------------------------------------------------
+
+tp_i64 tp_revision_1_3(void) {
+  return Context::current().board().setup().revision == board::Revision::Rev13 ? 1 : 0;
+}
+
+tp_i64 tp_battery_counts(void) { return Context::current().board().battery_counts(); }
+
+}  // extern "C"

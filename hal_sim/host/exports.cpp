@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// The functions of image_abi.h and the time and interrupt part of pins.h, as firmware images call them.
+#include <string>
+
+#include "hal_sim/host/pins.h"
+#include "hal_sim/host/registers.h"
+#include "hal_sim/host/robot.h"
+#include "sim_core/base/check.h"
+
+using host::Robot;
+
+namespace {
+Robot& robot() {
+  Robot* r = Robot::running();
+  CHECK(r, "a firmware function was called outside firmware");
+  return *r;
+}
+}  // namespace
+
+extern "C" {
+
+void tp_event(void) { robot().on_event(); }
+void tp_poll(tp_i64 loop) { robot().on_poll(loop); }
+void tp_delay(tp_i64 rounds, tp_i64 cycles) { robot().on_delay(rounds, cycles); }
+
+void tp_trap(tp_i64 kind) {
+  static constexpr const char* kSentence[] = {"", "division by zero", "bad address", "stack overflow", "abort() was called"};
+  robot().trap(static_cast<int>(kind), kind >= 1 && kind <= 4 ? kSentence[kind] : host::trap_name(static_cast<int>(kind)));
+}
+void tp_trap_message(tp_i64 kind, const char* message) { robot().trap(static_cast<int>(kind), message); }
+void tp_reset(void) { robot().on_reset(nullptr); }
+void tp_disi(tp_i64 cycles) { robot().on_disi(cycles); }
+void tp_power_save(tp_i64) { robot().on_power_save(); }
+void tp_clear_watchdog(void) { robot().note_write(); }
+
+tp_i64 tp_sfr_read(tp_i64 address, tp_i64 bits) {
+  return robot().registers().read(static_cast<unsigned>(address), static_cast<unsigned>(bits));
+}
+void tp_sfr_write(tp_i64 address, tp_i64 value, tp_i64 bits) {
+  robot().registers().write(static_cast<unsigned>(address), static_cast<std::uint16_t>(value), static_cast<unsigned>(bits));
+}
+
+tp_i64 tp_rand(void) { return robot().next_rand(); }
+void tp_srand(tp_i64 seed) { robot().seed_rand(seed); }
+
+tp_i64 tp_now(void) {
+  const host::Cycle now = robot().now();
+  robot().lower_horizon(now);
+  return now;
+}
+void tp_spend(tp_i64 cycles) { robot().spend(cycles); }
+void tp_wait_until(tp_i64 at) { robot().wait_until(at); }
+void tp_irq_install(tp_i64 vector, void (*handler)(void), tp_i64 priority, tp_i64 entry_cycles) {
+  robot().irq_install(static_cast<int>(vector), handler, static_cast<int>(priority), entry_cycles);
+}
+void tp_irq_at(tp_i64 vector, tp_i64 at) { robot().irq_at(static_cast<int>(vector), at); }
+void tp_background(tp_i64 slot, tp_i64 period, tp_i64 cost) { robot().set_background(static_cast<int>(slot), period, cost); }
+
+}  // extern "C"

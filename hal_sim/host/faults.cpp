@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+// Page faults and arithmetic faults of natively run firmware become traps of that robot. The signal handler only
+// redirects the thread to a recovery stack; the report is made there, in normal context, and the fiber is abandoned.
+#include <pthread.h>
+#include <signal.h>
+#include <ucontext.h>
+
+#include <cstring>
+#include <memory>
+#include <mutex>
+
+#include "hal_sim/host/robot.h"
+#include "sim_core/base/check.h"
+
+namespace host {
+
+namespace {
+
+constexpr int kSignals[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL};
+struct sigaction previous[NSIG];
+
+struct Fault {
+  int kind = 0;
+  std::uintptr_t pc = 0, frame = 0, address = 0;
+  bool is_write = false, has_address = false;
+};
+thread_local Fault last_fault;
+
+constexpr std::size_t kSignalStackBytes = 64 * 1024;
+constexpr std::size_t kRecoveryStackBytes = 256 * 1024;
+struct ThreadStacks {
+  std::unique_ptr<char[]> signal{new char[kSignalStackBytes]};
+  std::unique_ptr<char[]> recovery{new char[kRecoveryStackBytes]};
+  ~ThreadStacks() {
+    stack_t off{};
+    off.ss_flags = SS_DISABLE;
+    sigaltstack(&off, nullptr);
+  }
+};
+thread_local std::unique_ptr<ThreadStacks> stacks;
+
+std::string describe(const Fault& f) {
+  constexpr std::uintptr_t kNullPage = 64 * 1024;
+  if (f.kind == TP_TRAP_STACK) return "stack overflow: endless recursion, or local arrays too large";
+  if (f.kind == TP_TRAP_MATH) return "arithmetic fault";
+  if (f.kind == TP_TRAP_ILLEGAL) return "illegal instruction: the program ran into a place it can never reach";
+  const std::string access = f.is_write ? "write through" : "read through";
+  if (f.has_address && f.address < 4096) return access + " a null pointer";
+  if (f.has_address && f.address < kNullPage) return access + " a wild pointer (address " + std::to_string(f.address) + ")";
+  return access + " a wild pointer";
+}
+
+[[noreturn]] void land() {
+  const Fault f = last_fault;
+  sigset_t set;
+  sigemptyset(&set);
+  for (int s : kSignals) sigaddset(&set, s);
+  pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
+  Robot::running()->fault(f.kind, describe(f), f.pc, f.frame);
+}
+
+void on_signal(int signal, siginfo_t* info, void* raw) {
+  auto* context = static_cast<ucontext_t*>(raw);
+  auto& r = context->uc_mcontext.gregs;
+  Robot* robot = Robot::running();
+  auto pc = static_cast<std::uintptr_t>(r[REG_RIP]);
+  const auto sp = static_cast<std::uintptr_t>(r[REG_RSP]);
+  const auto address = reinterpret_cast<std::uintptr_t>(info->si_addr);
+  bool ours = robot && robot->owns_code(pc);
+  // memcpy and the like, called by firmware: the return address on top of the stack is the firmware's
+  if (robot && !ours && robot->fiber().is_on_stack(sp)) {
+    std::uintptr_t back;
+    std::memcpy(&back, reinterpret_cast<const void*>(sp), sizeof back);
+    if (robot->owns_code(back)) {
+      ours = true;
+      pc = back - 1;
+    }
+  }
+  // a jump through a wild function pointer
+  if (robot && !ours && signal == SIGSEGV && pc == address) ours = true;
+  // out of stack anywhere on the firmware's stack
+  if (robot && signal == SIGSEGV && robot->fiber().is_in_guard(address)) ours = true;
+  if (!ours) {
+    sigaction(signal, &previous[signal], nullptr);  // not firmware: fault again with whoever was there before us
+    return;
+  }
+  Fault& f = last_fault;
+  f.pc = pc;
+  f.frame = static_cast<std::uintptr_t>(r[REG_RBP]);
+  f.address = address;
+  f.has_address = signal == SIGSEGV && info->si_code != SI_KERNEL;
+  f.is_write = (r[REG_ERR] & 2) != 0;
+  f.kind = signal == SIGFPE ? TP_TRAP_MATH : signal == SIGILL ? TP_TRAP_ILLEGAL : TP_TRAP_ADDRESS;
+  if (signal == SIGSEGV && robot->fiber().is_in_guard(address)) f.kind = TP_TRAP_STACK;
+  const auto top = reinterpret_cast<std::uintptr_t>(stacks->recovery.get()) + kRecoveryStackBytes;
+  r[REG_RSP] = static_cast<greg_t>((top & ~std::uintptr_t{15}) - 8);
+  r[REG_RBP] = 0;
+  r[REG_RIP] = static_cast<greg_t>(reinterpret_cast<std::uintptr_t>(&land));
+}
+
+}  // namespace
+
+void catch_faults_on_this_thread() {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    struct sigaction action {};
+    action.sa_sigaction = on_signal;
+    action.sa_flags = SA_SIGINFO | SA_ONSTACK;
+    sigemptyset(&action.sa_mask);
+    for (int s : kSignals) CHECK(sigaction(s, &action, &previous[s]) == 0, "cannot install a fault handler");
+  });
+  if (stacks) return;
+  stacks = std::make_unique<ThreadStacks>();
+  stack_t stack{};
+  stack.ss_sp = stacks->signal.get();
+  stack.ss_size = kSignalStackBytes;
+  CHECK(sigaltstack(&stack, nullptr) == 0, "cannot set a signal stack");
+}
+
+}  // namespace host

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include "hal_sim/host/fiber.h"
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <boost/context/detail/fcontext.hpp>
+
+#include "sim_core/base/check.h"
+
+#if defined(__SANITIZE_ADDRESS__)
+#include <sanitizer/asan_interface.h>
+#include <sanitizer/common_interface_defs.h>
+#endif
+#if defined(__SANITIZE_THREAD__)
+#include <sanitizer/tsan_interface.h>
+#endif
+
+namespace host {
+
+namespace ctx = boost::context::detail;
+
+namespace {
+constexpr std::size_t kGuardBytes = 64 * 1024;  // wider than any one frame of a controller, so no frame jumps over it
+}
+
+Fiber::Fiber(std::size_t stack_bytes) {
+  const std::size_t page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  stack_bytes = (stack_bytes + page - 1) / page * page;
+  mapping_bytes_ = stack_bytes + kGuardBytes;
+  mapping_ = mmap(nullptr, mapping_bytes_, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  CHECK(mapping_ != MAP_FAILED, "no memory for a firmware stack");
+  CHECK(mprotect(mapping_, kGuardBytes, PROT_NONE) == 0, "cannot protect a stack's guard pages");
+  low_ = reinterpret_cast<std::uintptr_t>(mapping_) + kGuardBytes;
+  high_ = reinterpret_cast<std::uintptr_t>(mapping_) + mapping_bytes_;
+}
+
+Fiber::~Fiber() {
+#if defined(__SANITIZE_THREAD__)
+  if (tsan_inside_) __tsan_destroy_fiber(tsan_inside_);
+#endif
+  munmap(mapping_, mapping_bytes_);
+}
+
+bool Fiber::is_in_guard(std::uintptr_t address) const { return address < low_ && address + kGuardBytes >= low_; }
+
+void Fiber::restart(Entry entry, void* argument) {
+  entry_ = entry;
+  argument_ = argument;
+#if defined(__SANITIZE_ADDRESS__)
+  ASAN_UNPOISON_MEMORY_REGION(reinterpret_cast<void*>(low_), high_ - low_);  // frames that were dropped left poison
+#endif
+#if defined(__SANITIZE_THREAD__)
+  if (tsan_inside_) __tsan_destroy_fiber(tsan_inside_);
+  tsan_inside_ = __tsan_create_fiber(0);
+#endif
+  inside_ = ctx::make_fcontext(reinterpret_cast<void*>(high_), high_ - low_, [](ctx::transfer_t from) {
+    auto* self = static_cast<Fiber*>(from.data);
+    self->outside_ = from.fctx;
+    trampoline(self);
+  });
+}
+
+void Fiber::trampoline(void* raw) {
+  auto* self = static_cast<Fiber*>(raw);
+#if defined(__SANITIZE_ADDRESS__)
+  __sanitizer_finish_switch_fiber(nullptr, &self->outside_bottom_, &self->outside_size_);
+#endif
+  self->entry_(self->argument_);
+  CHECK(false, "a fiber's entry returned");
+}
+
+void Fiber::enter() {
+#if defined(__SANITIZE_ADDRESS__)
+  __sanitizer_start_switch_fiber(&outside_fake_stack_, reinterpret_cast<void*>(low_), high_ - low_);
+#endif
+#if defined(__SANITIZE_THREAD__)
+  tsan_outside_ = __tsan_get_current_fiber();
+  __tsan_switch_to_fiber(tsan_inside_, 0);
+#endif
+  const ctx::transfer_t back = ctx::jump_fcontext(inside_, this);
+  inside_ = back.fctx;
+#if defined(__SANITIZE_ADDRESS__)
+  __sanitizer_finish_switch_fiber(outside_fake_stack_, nullptr, nullptr);
+#endif
+}
+
+void Fiber::yield() {
+#if defined(__SANITIZE_ADDRESS__)
+  void* fake = nullptr;
+  __sanitizer_start_switch_fiber(&fake, outside_bottom_, outside_size_);
+#endif
+#if defined(__SANITIZE_THREAD__)
+  __tsan_switch_to_fiber(tsan_outside_, 0);
+#endif
+  const ctx::transfer_t again = ctx::jump_fcontext(outside_, nullptr);
+  outside_ = again.fctx;
+#if defined(__SANITIZE_ADDRESS__)
+  __sanitizer_finish_switch_fiber(fake, &outside_bottom_, &outside_size_);
+#endif
+}
+
+}  // namespace host

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// A stackful coroutine on Boost.Context: the firmware's own stack. The scheduler enters it, the firmware yields.
+// The stack lies between two guard pages, so running over its end is a page fault that traps.h recognises.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+namespace host {
+
+class Fiber {
+ public:
+  /// Entry point; must never return (yield for ever instead).
+  using Entry = void (*)(void* argument);
+
+  /// Reserves `stack_bytes` of stack (rounded up to pages); memory is touched only as it is used.
+  explicit Fiber(std::size_t stack_bytes);
+  ~Fiber();
+  Fiber(const Fiber&) = delete;
+  Fiber& operator=(const Fiber&) = delete;
+
+  /// (Re)starts the fiber: the next enter() calls entry(argument) on an empty stack. What was on it is dropped.
+  void restart(Entry entry, void* argument);
+
+  /// Runs the fiber until it yields. Called by the scheduler only.
+  void enter();
+
+  /// Goes back to whoever called enter(). Called on the fiber only (or on a recovery stack standing in for it).
+  void yield();
+
+  bool is_on_stack(std::uintptr_t address) const { return address >= low_ && address < high_; }
+  /// In the guard page below the stack: the stack has overflowed.
+  bool is_in_guard(std::uintptr_t address) const;
+  std::uintptr_t stack_high() const { return high_; }
+
+ private:
+  static void trampoline(void* self);
+
+  void* mapping_ = nullptr;
+  std::size_t mapping_bytes_ = 0;
+  std::uintptr_t low_ = 0;   // lowest usable stack address
+  std::uintptr_t high_ = 0;  // one past the highest
+  void* inside_ = nullptr;   // saved context of the fiber while it does not run
+  void* outside_ = nullptr;  // saved context of the scheduler while it runs
+  Entry entry_ = nullptr;
+  void* argument_ = nullptr;
+#if defined(__SANITIZE_ADDRESS__)
+  void* outside_fake_stack_ = nullptr;
+  const void* outside_bottom_ = nullptr;
+  std::size_t outside_size_ = 0;
+#endif
+#if defined(__SANITIZE_THREAD__)
+  void* tsan_inside_ = nullptr;
+  void* tsan_outside_ = nullptr;
+#endif
+};
+
+}  // namespace host

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+#include "hal_sim/host/image.h"
+
+#include <dlfcn.h>
+#include <elf.h>
+#include <fcntl.h>
+#include <link.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+#include "hal_sim/host/symbols.h"
+#include "sim_core/base/check.h"
+
+namespace host {
+
+namespace {
+
+struct CodeRange {
+  std::uintptr_t base, begin, end;
+};
+
+// the loaded object's executable segment
+int find_code(dl_phdr_info* info, size_t, void* out_and_probe) {
+  auto& [range, probe] = *static_cast<std::pair<CodeRange, std::uintptr_t>*>(out_and_probe);
+  for (int i = 0; i < info->dlpi_phnum; ++i) {
+    const auto& segment = info->dlpi_phdr[i];
+    const std::uintptr_t begin = info->dlpi_addr + segment.p_vaddr;
+    if (segment.p_type != PT_LOAD || probe < begin || probe >= begin + segment.p_memsz) continue;
+    range.base = info->dlpi_addr;
+    for (int k = 0; k < info->dlpi_phnum; ++k)
+      if (info->dlpi_phdr[k].p_type == PT_LOAD && (info->dlpi_phdr[k].p_flags & PF_X)) {
+        range.begin = info->dlpi_addr + info->dlpi_phdr[k].p_vaddr;
+        range.end = range.begin + info->dlpi_phdr[k].p_memsz;
+      }
+    return 1;
+  }
+  return 0;
+}
+
+// a copy of the file that the dynamic linker takes for a different one
+int private_copy_of(const std::string& path) {
+  const int from = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const int to = memfd_create("twinpuck-image", MFD_CLOEXEC);
+  char buffer[65536];
+  ssize_t n;
+  while ((n = read(from, buffer, sizeof buffer)) > 0)
+    if (write(to, buffer, static_cast<size_t>(n)) != n) break;
+  close(from);
+  return to;
+}
+
+// do all segments lie inside the file? (the dynamic linker maps them unseen and would fault)
+bool is_whole(const std::string& path) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  const auto size = static_cast<std::uint64_t>(file.tellg());
+  Elf64_Ehdr head;
+  file.seekg(0);
+  if (!file.read(reinterpret_cast<char*>(&head), sizeof head) || head.e_phentsize != sizeof(Elf64_Phdr)) return false;
+  for (unsigned i = 0; i < head.e_phnum; ++i) {
+    Elf64_Phdr segment;
+    file.seekg(static_cast<std::streamoff>(head.e_phoff + i * sizeof segment));
+    if (!file.read(reinterpret_cast<char*>(&segment), sizeof segment)) return false;
+    if (segment.p_offset > size || segment.p_filesz > size - segment.p_offset) return false;
+  }
+  return true;
+}
+
+std::string what_is(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  unsigned char head[20] = {};
+  file.read(reinterpret_cast<char*>(head), sizeof head);
+  if (file.gcount() == 0) return "an empty file";
+  if (head[0] == ':') return "an Intel hex file";
+  if (std::memcmp(head, ELFMAG, SELFMAG) != 0) return "a file that is no ELF";
+  const unsigned machine = head[18] | head[19] << 8;
+  if (head[16] == ET_DYN && machine == EM_X86_64 && head[4] == ELFCLASS64)
+    return is_whole(path) ? "a shared object of this PC" : "a shared object that has been cut off";
+  if (machine == 118) return "an ELF for the dsPIC30F";
+  return "an ELF of another kind (type " + std::to_string(head[16]) + ", machine " + std::to_string(machine) + ")";
+}
+
+}  // namespace
+
+ImageCopy::ImageCopy(const std::string& path, void* handle, const tp_image* image, int fd)
+    : path_(path), handle_(handle), image_(image), fd_(fd) {
+  const std::size_t whole = static_cast<std::size_t>(image->data_end - image->data_begin);
+  const std::size_t hole = static_cast<std::size_t>(image->hole_end - image->hole_begin);
+  private_bytes_ = whole - hole;
+  start_values_.resize(private_bytes_);
+  copy_out(start_values_.data());
+  std::pair<CodeRange, std::uintptr_t> query{{0, 0, 0}, reinterpret_cast<std::uintptr_t>(image)};
+  dl_iterate_phdr(find_code, &query);
+  base_ = query.first.base;
+  code_begin_ = query.first.begin;
+  code_end_ = query.first.end;
+}
+
+ImageCopy::~ImageCopy() {
+  dlclose(handle_);
+  if (fd_ >= 0) close(fd_);
+}
+
+void ImageCopy::copy_out(char* to) const {
+  const std::size_t before = static_cast<std::size_t>(image_->hole_begin - image_->data_begin);
+  std::memcpy(to, image_->data_begin, before);
+  std::memcpy(to + before, image_->hole_end, private_bytes_ - before);
+}
+
+void ImageCopy::copy_in(const char* from) const {
+  const std::size_t before = static_cast<std::size_t>(image_->hole_begin - image_->data_begin);
+  std::memcpy(image_->data_begin, from, before);
+  std::memcpy(image_->hole_end, from + before, private_bytes_ - before);
+}
+
+Image::Image(std::string path) : path_(std::move(path)), symbols_(std::make_unique<Symbols>(path_)) {}
+Image::~Image() = default;
+
+std::unique_ptr<ImageCopy> Image::load(bool private_file, std::string& error) const {
+  int fd = -1;
+  std::string name = path_.find('/') == std::string::npos ? "./" + path_ : path_;
+  if (private_file) {
+    fd = private_copy_of(path_);
+    name = "/proc/self/fd/" + std::to_string(fd);
+  }
+  void* handle = dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (!handle) {
+    if (fd >= 0) close(fd);
+    error = path_ + ": firmware image: got '" + dlerror() +
+            "', expected a .so made by `twinpuck build`; build it again with this version";
+    return nullptr;
+  }
+  const auto* image = static_cast<const tp_image*>(dlsym(handle, "tp_image"));
+  if (!image || image->magic != TP_IMAGE_MAGIC || image->abi != TP_IMAGE_ABI) {
+    error = path_ + ": firmware image: got " +
+            (image && image->magic == TP_IMAGE_MAGIC ? "an image of interface version " + std::to_string(image->abi)
+                                                     : std::string("a shared object without a firmware inside")) +
+            ", expected interface version " + std::to_string(TP_IMAGE_ABI) + "; make it with `twinpuck build DIR -o FILE.so`";
+    dlclose(handle);
+    if (fd >= 0) close(fd);
+    return nullptr;
+  }
+  return std::make_unique<ImageCopy>(path_, handle, image, fd);
+}
+
+std::shared_ptr<Image> Image::open(const std::string& path, std::string& error) {
+  struct stat status;
+  if (stat(path.c_str(), &status) != 0) {
+    error = path + ": firmware image: got '" + std::strerror(errno) + "', expected a readable file";
+    return nullptr;
+  }
+  if (!S_ISREG(status.st_mode)) {
+    error = path + ": firmware image: got something that is no regular file, expected a .so made by `twinpuck build`";
+    return nullptr;
+  }
+  const std::string kind = what_is(path);
+  if (kind != "a shared object of this PC") {
+    error = path + ": firmware image: got " + kind + ", expected a .so made by `twinpuck build`" +
+            (kind.find("dsPIC") != std::string::npos || kind.find("hex") != std::string::npos
+                 ? "; the chip way (.hex, .elf) is not simulated yet, see docs/limits.md"
+                 : "");
+    return nullptr;
+  }
+  std::shared_ptr<Image> image(new Image(path));
+  auto first = image->load(false, error);
+  if (!first) return nullptr;
+  image->copies_.push_back(std::move(first));
+  return image;
+}
+
+ImageCopy& Image::copy(std::size_t n) {
+  while (copies_.size() <= n) {
+    std::string error;
+    auto next = load(true, error);
+    CHECK(next, error.c_str());
+    copies_.push_back(std::move(next));
+  }
+  return *copies_[n];
+}
+
+}  // namespace host

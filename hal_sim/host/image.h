@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// A firmware image (.so from `twinpuck build`) in memory. One file may be loaded several times, once per worker
+// thread; robots of one copy share its code and take turns in its data segment.
+#pragma once
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "hal_sim/host/image_abi.h"
+
+namespace host {
+
+class Symbols;
+
+/// One loaded copy. Robots bound to it swap their private data in and out of its data segment.
+class ImageCopy {
+ public:
+  /// `fd`: the private file the copy was loaded from, -1 if none. It stays open: the dynamic linker tells files apart
+  /// by name, and the name holds the number.
+  ImageCopy(const std::string& path, void* handle, const tp_image* image, int fd);
+  ~ImageCopy();
+  ImageCopy(const ImageCopy&) = delete;
+  ImageCopy& operator=(const ImageCopy&) = delete;
+
+  const tp_image& description() const { return *image_; }
+  tp_control& control() const { return *image_->control; }
+  std::size_t private_bytes() const { return private_bytes_; }
+  /// Start-up values of the private data, private_bytes() long.
+  const std::vector<char>& start_values() const { return start_values_; }
+
+  void copy_out(char* to) const;         ///< live data -> a robot's own copy
+  void copy_in(const char* from) const;  ///< a robot's own copy -> live data
+
+  bool is_code(std::uintptr_t address) const { return address >= code_begin_ && address < code_end_; }
+  /// Load address: address in the file = address in memory - base().
+  std::uintptr_t base() const { return base_; }
+  const std::string& path() const { return path_; }
+
+  const void* owner = nullptr;  ///< the robot whose data is live; null: start-up values or nobody's
+  std::mutex turn;              ///< held while a robot of this copy runs
+
+ private:
+  std::string path_;
+  void* handle_;
+  const tp_image* image_;
+  int fd_;
+  std::size_t private_bytes_;
+  std::vector<char> start_values_;
+  std::uintptr_t base_ = 0, code_begin_ = 0, code_end_ = 0;
+};
+
+/// All copies of one firmware file.
+class Image {
+ public:
+  /// Opens `path` and checks that it is one of ours. On failure returns null and `error` holds one line
+  /// `where: what: got X, expected Y; hint`.
+  static std::shared_ptr<Image> open(const std::string& path, std::string& error);
+  ~Image();
+
+  const std::string& path() const { return path_; }
+  /// The n-th copy; loaded when first asked for. Not thread-safe: ask while setting up.
+  ImageCopy& copy(std::size_t n);
+  const std::vector<std::unique_ptr<ImageCopy>>& copies() const { return copies_; }
+  const Symbols& symbols() const { return *symbols_; }
+
+ private:
+  explicit Image(std::string path);
+  std::unique_ptr<ImageCopy> load(bool private_file, std::string& error) const;
+
+  std::string path_;
+  std::vector<std::unique_ptr<ImageCopy>> copies_;
+  std::unique_ptr<Symbols> symbols_;
+};
+
+}  // namespace host

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// What drives an e-puck in the world: its board and, in the native way, its firmware. Joins the world's clock to the
+// robot's own.
+#pragma once
+#include <memory>
+
+#include "hal_sim/board/board.h"
+#include "hal_sim/host/robot.h"
+#include "sim_core/world/robot_mind.h"
+
+namespace host {
+
+class FirmwareMind final : public sim::RobotMind {
+ public:
+  /// `image` null: a robot that is switched off. `copy`: which loaded copy of the image this robot lives in; robots
+  /// of one copy never run at the same time.
+  FirmwareMind(const board::Setup& setup, RobotSettings settings, std::shared_ptr<Image> image, std::size_t copy);
+
+  void run_until(const sim::Scene& scene, sim::Clicks end) override;
+  sim::WheelAngles wheel_angles(sim::Clicks at) override;
+  sim::MindReport report() const override;
+  int proximity_counts(const sim::Scene& scene, int index) override;
+  std::uint64_t state_hash() const override;
+
+  board::Board& board() { return board_; }
+  const board::Board& board() const { return board_; }
+  /// Null when no firmware is loaded.
+  Robot* robot() { return robot_.get(); }
+  const Robot* robot() const { return robot_.get(); }
+  /// Last cycle that has begun, never below 0.
+  Cycle cycle_at(sim::Clicks at) const;
+  /// Cycle up to which the robot has run.
+  Cycle now() const { return now_; }
+
+ private:
+  board::Board board_;
+  std::unique_ptr<Robot> robot_;
+  Cycle now_ = 0;
+};
+
+}  // namespace host

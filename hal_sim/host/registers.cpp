@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: MIT
+#include "hal_sim/host/registers.h"
+
+#include <algorithm>
+#include <string>
+
+#include "hal_sim/board/board.h"
+#include "hal_sim/host/pins.h"
+#include "hal_sim/host/robot.h"
+
+namespace host {
+
+namespace {
+
+constexpr unsigned kSr = 0x042, kDisicnt = 0x052, kIntcon1 = 0x080, kIntcon2 = 0x082, kIfs0 = 0x084, kIec0 = 0x08C,
+                   kIpc0 = 0x094, kRcon = 0x740;
+constexpr std::uint16_t kPor = 1 << 0, kBor = 1 << 1, kSwr = 1 << 6;
+
+// timer 1 stands alone; 2 and 3, 4 and 5 are laid out as pairs
+struct TimerRegisters {
+  unsigned tmr, pr, con;
+  int vector;
+};
+constexpr TimerRegisters kTimers[5] = {{0x100, 0x102, 0x104, TP_V_T1},
+                                       {0x106, 0x10C, 0x110, TP_V_T2},
+                                       {0x10A, 0x10E, 0x112, TP_V_T3},
+                                       {0x114, 0x11A, 0x11E, TP_V_T4},
+                                       {0x118, 0x11C, 0x120, TP_V_T5}};
+
+struct PortBlock {
+  unsigned tris;
+  char letter;
+};
+constexpr PortBlock kPorts[] = {{0x2C0, 'A'}, {0x2C6, 'B'}, {0x2CC, 'C'}, {0x2D2, 'D'}, {0x2DE, 'F'}, {0x2E4, 'G'}};
+
+// registers that hold what was written and do nothing else here
+constexpr unsigned kKept[] = {0x032, 0x034, 0x044, 0x0C0, 0x0C2, 0x0C4, 0x0C6, 0x2A8, 0x744, 0x770, 0x772};
+
+struct RegisterName {
+  unsigned address;
+  const char* name;
+};
+constexpr RegisterName kNames[] = {
+#include "sfr_names.inc"
+};
+
+const char* register_name(unsigned address) {
+  for (const auto& r : kNames)
+    if (r.address == address) return r.name;
+  return "?";
+}
+
+bool is_port(unsigned address, char& letter, board::Board::Register& kind) {
+  for (const auto& block : kPorts) {
+    if (address < block.tris || address >= block.tris + 6) continue;
+    letter = block.letter;
+    kind = static_cast<board::Board::Register>((address - block.tris) / 2);
+    return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+const char* vector_name(int vector) {
+  static constexpr const char* kVectors[TP_VECTORS] = {
+      "INT0", "IC1",  "OC1",  "T1",   "IC2",  "OC2", "T2",  "T3",  "SPI1", "U1RX", "U1TX", "ADC", "NVM", "SI2C",
+      "MI2C", "CN",   "INT1", "IC7",  "IC8",  "OC3", "OC4", "T4",  "T5",   "INT2", "U2RX", "U2TX", "SPI2", "C1",
+      "IC3",  "IC4",  "IC5",  "IC6",  "OC5",  "OC6", "OC7", "OC8", "INT3", "INT4", "C2",   "?",    "?",    "DCI",
+      "LVD",  "?",    "?",    "?",    "?",    "?",   "?",   "?",   "?",    "?",    "?",    "?"};
+  return vector >= 0 && vector < TP_VECTORS ? kVectors[vector] : "?";
+}
+
+void NativeRegisters::power_up() {
+  processor_reset();
+  rcon_ = kPor | kBor;
+}
+
+void NativeRegisters::processor_reset() {
+  timers_.fill({});
+  intcon1_ = intcon2_ = 0;
+  kept_.clear();
+  robot_.board().processor_reset(robot_.cycles());
+}
+
+void NativeRegisters::note_software_reset() { rcon_ |= kSwr; }
+
+void NativeRegisters::processor_stopped() { robot_.board().processor_reset(robot_.now()); }
+
+void NativeRegisters::refuse(unsigned address, const char* what) const {
+  robot_.trap(TP_TRAP_UNSIMULATED, std::string(register_name(address)) + ": " + what);
+}
+
+// --- timers ----------------------------------------------------------------------------------------------------------
+
+Cycle NativeRegisters::prescale(const Timer& t) const {
+  constexpr Cycle kDivide[] = {1, 8, 64, 256};
+  return kDivide[t.con >> 4 & 3];
+}
+
+std::uint16_t NativeRegisters::count_at(const Timer& t, Cycle at) const {
+  if (!runs(t)) return t.count;
+  const Cycle ticks = (at - t.since) / prescale(t);
+  // up to the match (or the 16-bit end when the count is already beyond it), then round and round
+  const Cycle first = t.count <= t.pr ? Cycle{t.pr} + 1 - t.count : Cycle{0x10000} - t.count;
+  if (ticks < first) return static_cast<std::uint16_t>(t.count + ticks);
+  return static_cast<std::uint16_t>((ticks - first) % (Cycle{t.pr} + 1));
+}
+
+void NativeRegisters::settle(Timer& t, Cycle at) {
+  t.count = count_at(t, at);
+  if (runs(t)) at -= (at - t.since) % prescale(t);  // the prescaler keeps its phase
+  t.since = at;
+}
+
+void NativeRegisters::schedule(int number) {
+  Timer& t = timers_[static_cast<std::size_t>(number)];
+  auto& source = robot_.interrupts().source(kTimers[number].vector);
+  if (!runs(t)) {
+    source.due = kNever;
+    source.period = 0;
+  } else {
+    const Cycle ticks = t.count <= t.pr ? Cycle{t.pr} + 1 - t.count : Cycle{0x10000} - t.count + t.pr + 1;
+    source.due = t.since + ticks * prescale(t);
+    source.period = (Cycle{t.pr} + 1) * prescale(t);
+  }
+  robot_.changed();
+}
+
+NativeRegisters::Timer* NativeRegisters::timer_at(unsigned address, int& which) {
+  for (int n = 0; n < 5; ++n) {
+    const auto& r = kTimers[n];
+    if (address != r.tmr && address != r.pr && address != r.con) continue;
+    which = n;
+    return &timers_[static_cast<std::size_t>(n)];
+  }
+  return nullptr;
+}
+
+// --- words -----------------------------------------------------------------------------------------------------------
+
+std::uint16_t NativeRegisters::read_word(unsigned address) {
+  auto& interrupts = robot_.interrupts();
+  const Cycle now = robot_.now();
+  char letter;
+  board::Board::Register kind;
+  if (is_port(address, letter, kind)) {
+    robot_.lower_horizon(robot_.board().port_horizon(letter, now));
+    return robot_.board().port_read(letter, kind, now);
+  }
+  int n;
+  if (const Timer* t = timer_at(address, n)) {
+    if (address == kTimers[n].pr) return t->pr;
+    if (address == kTimers[n].con) return t->con;
+    robot_.lower_horizon(runs(*t) ? now + prescale(*t) - (now - t->since) % prescale(*t) : kNever);
+    return count_at(*t, now);
+  }
+  if (address >= kIfs0 && address < kIfs0 + 6) {
+    interrupts.raise_due(now);
+    std::uint16_t word = 0;
+    for (int v = static_cast<int>(address - kIfs0) * 8, bit = 0; bit < 16 && v + bit < TP_VECTORS; ++bit) {
+      word |= static_cast<std::uint16_t>(interrupts.source(v + bit).flag << bit);
+      robot_.lower_horizon(interrupts.source(v + bit).due);
+    }
+    return word;
+  }
+  if (address >= kIec0 && address < kIec0 + 6) {
+    std::uint16_t word = 0;
+    for (int v = static_cast<int>(address - kIec0) * 8, bit = 0; bit < 16 && v + bit < TP_VECTORS; ++bit)
+      word |= static_cast<std::uint16_t>(interrupts.source(v + bit).enabled << bit);
+    return word;
+  }
+  if (address >= kIpc0 && address < kIpc0 + 22) {
+    std::uint16_t word = 0;
+    for (int v = static_cast<int>(address - kIpc0) * 2, field = 0; field < 4 && v + field < TP_VECTORS; ++field)
+      word |= static_cast<std::uint16_t>(interrupts.source(v + field).priority << (4 * field));
+    return word;
+  }
+  switch (address) {
+    case kSr: return static_cast<std::uint16_t>(std::min(robot_.cpu_priority(), 7) << 5);
+    case kIntcon1: return intcon1_;
+    case kIntcon2: return static_cast<std::uint16_t>(intcon2_ | (robot_.disi_active() ? 1 << 14 : 0));
+    case kDisicnt: return robot_.disi_active() ? 1 : 0;
+    case kRcon: return rcon_;
+    default: break;
+  }
+  if (std::find(std::begin(kKept), std::end(kKept), address) != std::end(kKept)) return kept_[address];
+  refuse(address, "this register is not simulated yet (see docs/limits.md)");
+}
+
+void NativeRegisters::write_word(unsigned address, std::uint16_t value) {
+  auto& interrupts = robot_.interrupts();
+  const Cycle now = robot_.now();
+  robot_.note_write();
+  char letter;
+  board::Board::Register kind;
+  if (is_port(address, letter, kind)) return robot_.board().port_write(letter, kind, value, now);
+  int n;
+  if (Timer* t = timer_at(address, n)) {
+    settle(*t, now);
+    if (address == kTimers[n].pr) {
+      t->pr = value;
+    } else if (address == kTimers[n].con) {
+      if (value & 0x0002) refuse(address, "an external timer clock (TCS) is not simulated in the native way yet");
+      if (value & 0x0040) refuse(address, "gated timer mode (TGATE) is not simulated in the native way yet");
+      if ((value & 0x0008) && n > 0) refuse(address, "32-bit timer mode (T32) is not simulated in the native way yet");
+      t->con = value;
+    } else {
+      t->count = value;
+      t->since = now;
+    }
+    return schedule(n);
+  }
+  if (address >= kIfs0 && address < kIfs0 + 6) {
+    interrupts.raise_due(now);
+    for (int v = static_cast<int>(address - kIfs0) * 8, bit = 0; bit < 16 && v + bit < TP_VECTORS; ++bit) {
+      auto& s = interrupts.source(v + bit);
+      const bool flag = (value >> bit & 1) != 0;
+      if (flag && !s.flag) s.flag_since = now;
+      s.flag = flag;
+    }
+    return robot_.changed();
+  }
+  if (address >= kIec0 && address < kIec0 + 6) {
+    for (int v = static_cast<int>(address - kIec0) * 8, bit = 0; bit < 16 && v + bit < TP_VECTORS; ++bit)
+      interrupts.source(v + bit).enabled = (value >> bit & 1) != 0;
+    return robot_.changed();
+  }
+  if (address >= kIpc0 && address < kIpc0 + 22) {
+    for (int v = static_cast<int>(address - kIpc0) * 2, field = 0; field < 4 && v + field < TP_VECTORS; ++field)
+      interrupts.source(v + field).priority = value >> (4 * field) & 7;
+    return robot_.changed();
+  }
+  switch (address) {
+    case kSr: return robot_.set_cpu_priority(value >> 5 & 7);
+    case kIntcon1: intcon1_ = value; return;
+    case kIntcon2: intcon2_ = value & 0x801F; return;
+    case kDisicnt: return robot_.on_disi(value & 0x3FFF);
+    case kRcon: rcon_ = value; return;
+    default: break;
+  }
+  if (std::find(std::begin(kKept), std::end(kKept), address) != std::end(kKept)) {
+    kept_[address] = value;
+    return;
+  }
+  refuse(address, "this register is not simulated yet (see docs/limits.md)");
+}
+
+std::uint16_t NativeRegisters::read(unsigned address, unsigned bits) {
+  const std::uint16_t word = read_word(address & ~1u);
+  if (bits > 8) return word;
+  return (address & 1) ? word >> 8 : word & 0xFF;
+}
+
+void NativeRegisters::write(unsigned address, std::uint16_t value, unsigned bits) {
+  if (bits > 8) return write_word(address & ~1u, value);
+  const std::uint16_t word = read_word(address & ~1u);
+  const std::uint16_t merged = (address & 1) ? static_cast<std::uint16_t>((word & 0x00FF) | (value & 0xFF) << 8)
+                                             : static_cast<std::uint16_t>((word & 0xFF00) | (value & 0xFF));
+  write_word(address & ~1u, merged);
+}
+
+}  // namespace host

@@ -1,0 +1,504 @@
+// SPDX-License-Identifier: MIT
+#include "hal_sim/host/robot.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "hal_sim/host/host_params.h"
+#include "hal_sim/host/registers.h"
+#include "sim_core/base/check.h"
+
+namespace host {
+
+namespace {
+thread_local Robot* running_robot = nullptr;
+constexpr unsigned kQ = 32;
+constexpr std::uint64_t kOne = std::uint64_t{1} << kQ;
+}  // namespace
+
+const char* trap_name(int kind) {
+  switch (kind) {
+    case 0: return "unexpected reset";
+    case TP_TRAP_MATH: return "math error";
+    case TP_TRAP_ADDRESS: return "address error";
+    case TP_TRAP_STACK: return "stack error";
+    case TP_TRAP_ABORT: return "abort";
+    case TP_TRAP_INTERRUPT: return "interrupt trouble";
+    case TP_TRAP_ILLEGAL: return "illegal instruction";
+    case TP_TRAP_SANITIZER: return "sanitizer";
+    case TP_TRAP_UNSIMULATED: return "not simulated";
+    default: return "trap";
+  }
+}
+
+Robot* Robot::running() { return running_robot; }
+
+Context& Context::current() {
+  CHECK(running_robot, "a firmware function was called outside firmware");
+  return *running_robot;
+}
+
+Robot::Robot(RobotSettings settings, std::shared_ptr<Image> image, std::size_t copy, board::Board& board)
+    : settings_(std::move(settings)),
+      image_(std::move(image)),
+      copy_(image_->copy(copy)),
+      board_(board),
+      fiber_(settings_.stack_bytes),
+      registers_(std::make_unique<NativeRegisters>(*this)) {
+  power_up();
+}
+
+Robot::~Robot() {
+  if (copy_.owner == this) copy_.owner = nullptr;
+}
+
+void Robot::power_up() {
+  registers_->power_up();
+  now_ = 0;
+  end_ = 0;
+  idle_ = 0;
+  stopped_ = false;
+  traps_.clear();
+  rand_state_ = static_cast<std::uint32_t>(settings_.seed * 2654435761u + 1);
+  restart_program();
+}
+
+void Robot::restart_program() {
+  data_ = copy_.start_values();
+  if (copy_.owner == this) copy_.owner = nullptr;
+  interrupts_.reset();
+  std::fill(background_.begin(), background_.end(), Background{});
+  stolen_q32_ = 0;
+  cpu_priority_ = 0;
+  handler_depth_ = 0;
+  disi_until_ = 0;
+  horizon_ = kNever;
+  poll_loop_ = -1;
+  asleep_until_ = -1;
+  reset_asked_ = false;
+  registers_->processor_reset();
+  now_ += kStartUpCycles;
+  fiber_.restart(enter_firmware, this);
+}
+
+void Robot::enter_firmware(void* raw) {
+  auto* self = static_cast<Robot*>(raw);
+  self->pass_window();
+  self->give_budget();
+  self->copy_.description().start();
+  self->on_reset("main() returned, so the start-up code resets the processor");
+}
+
+void Robot::swap_in() {
+  if (copy_.owner == this) return;
+  if (copy_.owner) {
+    auto* other = static_cast<Robot*>(const_cast<void*>(copy_.owner));
+    copy_.copy_out(other->data_.data());
+  }
+  copy_.copy_in(data_.data());
+  copy_.owner = this;
+}
+
+void Robot::run_until(Cycle end) {
+  window_start_ = end_;
+  end_ = end;
+  if (stopped_ || end <= window_start_) return;
+  if (asleep_until_ > end && !woken_) return;
+  std::lock_guard<std::mutex> turn(copy_.turn);
+  Robot* outer = running_robot;
+  running_robot = this;
+  do {
+    if (reset_asked_) restart_program();
+    swap_in();
+    fiber_.enter();
+  } while (reset_asked_);
+  woken_ = false;
+  running_robot = outer;
+}
+
+// --- time --------------------------------------------------------------------------------------------------------
+
+void Robot::advance_main(Cycle main) {
+  const unsigned __int128 stolen = static_cast<unsigned __int128>(main) * stolen_q32_ + fraction_;
+  now_ += main + static_cast<Cycle>(stolen >> kQ);
+  fraction_ = static_cast<std::uint64_t>(stolen) & (kOne - 1);
+}
+
+Cycle Robot::main_until(Cycle real) const {
+  if (stolen_q32_ == 0) return real;
+  const unsigned __int128 whole = (static_cast<unsigned __int128>(real) << kQ) - fraction_;
+  return static_cast<Cycle>(whole / (kOne + stolen_q32_));
+}
+
+void Robot::fold() {
+  tp_control& control = copy_.control();
+  advance_main(issued_ - control.budget);
+  issued_ = 0;
+  control.budget = 0;
+}
+
+Cycle Robot::now() {
+  const Cycle main = issued_ - copy_.control().budget;
+  const unsigned __int128 stolen = static_cast<unsigned __int128>(main) * stolen_q32_ + fraction_;
+  return now_ + main + static_cast<Cycle>(stolen >> kQ);
+}
+
+Cycle Robot::next_disturbance() {
+  const Cycle due = interrupts_.next_due();
+  return disi_until_ > now_ ? std::min(due, disi_until_) : due;
+}
+
+void Robot::give_budget() {
+  Cycle until = std::min(end_, next_disturbance());
+  if (interrupts_.select(cpu_priority_, disi_until_ > now_) >= 0) until = now_;
+  issued_ = until > now_ ? main_until(until - now_) : 0;
+  copy_.control().budget = issued_;
+}
+
+void Robot::changed() {
+  interrupts_.touch();
+  fold();
+  give_budget();
+}
+
+void Robot::set_background(int slot, Cycle period, Cycle cost) {
+  fold();
+  background_[static_cast<std::size_t>(slot)] = {period, cost};
+  std::uint64_t share = 0;
+  for (const auto& b : background_)
+    if (b.period > 0) share += (static_cast<std::uint64_t>(b.cost) << kQ) / static_cast<std::uint64_t>(b.period);
+  share = std::min<std::uint64_t>(share, kOne / 100 * kMostBackgroundPercent);
+  stolen_q32_ = static_cast<std::uint64_t>((static_cast<unsigned __int128>(share) << kQ) / (kOne - share));
+  note_write();
+  give_budget();
+}
+
+// --- interrupts ----------------------------------------------------------------------------------------------------
+
+void Robot::irq_install(int vector, void (*handler)(), int priority, Cycle entry_cycles) {
+  auto& s = interrupts_.source(vector);
+  s.handler = handler;
+  s.enabled = handler != nullptr;
+  s.priority = priority;
+  s.entry_cycles = entry_cycles;
+  s.self_clearing = true;
+  note_write();
+  changed();
+}
+
+void Robot::irq_at(int vector, Cycle at) {
+  interrupts_.source(vector).due = at < 0 ? kNever : at;
+  if (at < 0) interrupts_.source(vector).flag = false;
+  changed();
+}
+
+void Robot::deliver() {
+  for (;;) {
+    interrupts_.raise_due(now_);
+    const int vector = interrupts_.select(cpu_priority_, disi_until_ > now_);
+    if (vector < 0) break;
+    serve(vector);
+  }
+}
+
+void Robot::serve(int vector) {
+  auto& s = interrupts_.source(vector);
+  void (*handler)() = s.handler;
+  if (s.self_clearing) {
+    s.flag = false;
+    interrupts_.touch();
+  } else {
+    handler = copy_.description().vectors[vector];
+  }
+  if (!handler) {
+    trap(TP_TRAP_INTERRUPT, std::string("interrupt ") + vector_name(vector) +
+                                " is enabled and was raised, but the program has no handler _" + vector_name(vector) +
+                                "Interrupt; on the chip the processor resets");
+  }
+  const int outer = cpu_priority_;
+  cpu_priority_ = registers_->nesting_disabled() ? 7 : s.priority;
+  now_ += s.self_clearing ? s.entry_cycles : kInterruptEntryCycles;
+  give_budget();
+  ++handler_depth_;
+  handler();
+  --handler_depth_;
+  fold();
+  cpu_priority_ = outer;
+  ++served_;
+  note_write();
+}
+
+void Robot::check_blocked() {
+  const int waiting = interrupts_.longest_waiting(cpu_priority_, disi_until_ > now_);
+  if (waiting < 0 || now_ - interrupts_.source(waiting).flag_since < kBlockedInterruptCycles) return;
+  if (handler_depth_ > 0) return;  // a long handler delays others on the chip too
+  trap(TP_TRAP_INTERRUPT, std::string("interrupts have been off for more than a second while ") + vector_name(waiting) +
+                              " is waiting: an endless loop with interrupts off");
+}
+
+// --- what compiled code calls ---------------------------------------------------------------------------------------
+
+void Robot::on_event() {
+  fold();
+  for (;;) {
+    deliver();
+    check_blocked();
+    if (now_ < end_) break;
+    pass_window();
+  }
+  give_budget();
+}
+
+void Robot::pass_window() {
+  while (now_ >= end_) {
+    asleep_until_ = now_ + 1;
+    fiber_.yield();
+  }
+  asleep_until_ = -1;
+}
+
+void Robot::doze(Cycle until) {
+  asleep_until_ = std::max(until, end_ + 1);
+  fiber_.yield();
+  asleep_until_ = -1;
+}
+
+void Robot::run_main(Cycle main) {
+  while (true) {
+    deliver();
+    check_blocked();
+    const Cycle before = now_;
+    const std::uint64_t fraction = fraction_;
+    advance_main(main);
+    const Cycle finish = now_;
+    const Cycle disturbed = next_disturbance();
+    if (finish <= std::min(disturbed, end_)) return;
+    now_ = before;
+    fraction_ = fraction;
+    if (std::min(disturbed, finish) > end_) {
+      doze(std::min(disturbed, finish));
+      continue;
+    }
+    const Cycle part = std::min(main, main_until(disturbed - now_));
+    advance_main(part);
+    main -= part;
+    now_ = std::max(now_, disturbed);
+  }
+}
+
+void Robot::spend(Cycle cycles) {
+  fold();
+  run_main(cycles);
+  give_budget();
+}
+
+void Robot::on_delay(Cycle rounds, Cycle cycles_per_round) {
+  fold();
+  if (rounds > 0) run_main(rounds * cycles_per_round);
+  give_budget();
+}
+
+void Robot::wait_until(Cycle at) {
+  fold();
+  while (now_ < at) {
+    deliver();
+    check_blocked();
+    const Cycle stop = std::min(at, next_disturbance());
+    if (stop > end_) {
+      doze(stop);
+      continue;
+    }
+    now_ = std::max(now_, stop);
+  }
+  give_budget();
+}
+
+void Robot::on_poll(std::int64_t loop) {
+  fold();
+  const bool same = loop == poll_loop_ && served_ == poll_served_;
+  const Cycle round = now_ - poll_at_;
+  if (same && round > 0 && horizon_ > now_) sleep_until(horizon_, round);
+  poll_loop_ = loop;
+  poll_at_ = now_;
+  poll_served_ = served_;
+  horizon_ = kNever;
+  looked_outside_ = false;
+  give_budget();
+}
+
+void Robot::sleep_until(Cycle target, Cycle round) {
+  const Cycle start = now_;
+  // the program notices a change at the end of the round in which it happens
+  const auto end_of_round = [&](Cycle at) { return start + (at - start + round - 1) / round * round; };
+  if (target < kNever) target = end_of_round(target);
+  while (now_ < target) {
+    deliver();
+    if (now_ != start && served_ != poll_served_) break;  // a handler ran: look again
+    check_blocked();
+    const Cycle stop = std::min(target, next_disturbance());
+    if (stop >= kNever && handler_depth_ > 0 && !looked_outside_)
+      trap(TP_TRAP_INTERRUPT, "an interrupt handler waits for ever: nothing that it looks at can change");
+    if (stop > end_) {
+      doze(stop);
+      if (woken_) {
+        woken_ = false;
+        const Cycle at = end_of_round(std::max(window_start_, now_));
+        idle_ += at - now_;
+        now_ = at;
+        break;
+      }
+      continue;
+    }
+    if (stop > now_) {
+      idle_ += stop - now_;
+      now_ = stop;
+    }
+  }
+  deliver();
+}
+
+void Robot::on_disi(Cycle cycles) {
+  fold();
+  disi_until_ = std::max(disi_until_, now_ + cycles);
+  if (cycles <= 2) disi_until_ = now_ + cycles;  // INTERRUPT_ON() writes a short count over a long one
+  note_write();
+  deliver();
+  check_blocked();
+  give_budget();
+}
+
+void Robot::on_power_save() {
+  fold();
+  const std::int64_t before = served_;
+  while (served_ == before) {
+    deliver();
+    if (served_ != before) break;
+    const Cycle stop = next_disturbance();
+    if (stop > end_) {
+      doze(stop);
+      continue;
+    }
+    if (stop > now_) {
+      idle_ += stop - now_;
+      now_ = stop;
+    }
+  }
+  give_budget();
+}
+
+std::int64_t Robot::next_rand() {
+  // 32-bit congruential generator with the usual constants; the upper half is what rand() shows
+  rand_state_ = rand_state_ * 1103515245u + 12345u;
+  note_write();
+  return (rand_state_ >> 16) & 0x7FFF;
+}
+
+// --- the end of a program ----------------------------------------------------------------------------------------
+
+void Robot::on_reset(const char* unexpected_reason) {
+  fold();
+  registers_->note_software_reset();
+  if (unexpected_reason) {
+    if (!traps_.empty() && traps_.back().kind == 0 && traps_.back().message == unexpected_reason)
+      ++traps_.back().count;
+    else
+      traps_.push_back(report_here(0, unexpected_reason));
+  }
+  reset_asked_ = true;
+  fiber_.yield();
+  CHECK(false, "a reset robot went on");
+  std::abort();
+}
+
+TrapReport Robot::report_here(int kind, std::string_view message) {
+  TrapReport report;
+  report.robot = settings_.name;
+  report.kind = kind;
+  report.message = std::string(message);
+  report.cycle = now_;
+  report.time_s = to_world_s ? to_world_s(now_) : static_cast<double>(now_) / kFcyHz;
+  report.backtrace = walk(0, reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0)));
+  if (!report.backtrace.empty()) report.place = report.backtrace.front();
+  return report;
+}
+
+void Robot::trap(int kind, std::string_view message) {
+  fold();
+  const tp_image& image = copy_.description();
+  if (kind == TP_TRAP_MATH && image.trap_vectors[3] && cpu_priority_ < kMathErrorPriority) {
+    // the program has its own _MathError: it may reset or report; the division itself cannot be resumed
+    cpu_priority_ = kMathErrorPriority;
+    give_budget();
+    image.trap_vectors[3]();
+    fold();
+  }
+  stop_with(report_here(kind, message));
+}
+
+void Robot::fault(int kind, std::string message, std::uintptr_t pc, std::uintptr_t frame) {
+  fold();
+  TrapReport report;
+  report.robot = settings_.name;
+  report.kind = kind;
+  report.message = std::move(message);
+  report.cycle = now_;
+  report.time_s = to_world_s ? to_world_s(now_) : static_cast<double>(now_) / kFcyHz;
+  report.backtrace = walk(pc, frame);
+  if (!report.backtrace.empty()) report.place = report.backtrace.front();
+  stop_with(std::move(report));
+}
+
+void Robot::stop_with(TrapReport report) {
+  traps_.push_back(std::move(report));
+  stopped_ = true;
+  registers_->processor_stopped();
+  fiber_.yield();
+  CHECK(false, "a stopped robot went on");
+  std::abort();
+}
+
+// frames are linked through the frame pointer, which twinpuck-cc keeps
+std::vector<Place> Robot::walk(std::uintptr_t pc, std::uintptr_t frame) const {
+  constexpr std::size_t kMostFrames = 16;
+  std::vector<Place> places;
+  const auto add = [&](std::uintptr_t address) {
+    if (copy_.is_code(address)) places.push_back(image_->symbols().find(address - copy_.base()));
+  };
+  if (pc) add(pc);
+  while (places.size() < kMostFrames && fiber_.is_on_stack(frame) && frame % sizeof(void*) == 0 &&
+         fiber_.is_on_stack(frame + 2 * sizeof(void*) - 1)) {
+    std::uintptr_t link[2];
+    std::memcpy(link, reinterpret_cast<const void*>(frame), sizeof link);
+    if (link[1]) add(link[1] - 1);
+    if (link[0] <= frame) break;
+    frame = link[0];
+  }
+  return places;
+}
+
+std::uint64_t Robot::hash() const {
+  std::uint64_t h = static_cast<std::uint64_t>(now_) * 0x9E3779B97F4A7C15u;
+  h ^= static_cast<std::uint64_t>(served_) + (h << 6) + (h >> 2);
+  h ^= static_cast<std::uint64_t>(traps_.size()) + (h << 6) + (h >> 2);
+  return h;
+}
+
+std::vector<char> Robot::read_variable(const std::string& symbol, std::size_t bytes) const {
+  std::uintptr_t address = 0;
+  std::size_t size = 0;
+  if (!image_->symbols().find_object(symbol, address, size)) return {};
+  bytes = bytes == 0 ? size : std::min(bytes, size);
+  std::vector<char> value(bytes);
+  const char* live = reinterpret_cast<const char*>(copy_.base() + address);
+  const tp_image& image = copy_.description();
+  if (copy_.owner == this || live < image.data_begin || live >= image.data_end) {
+    std::memcpy(value.data(), live, bytes);
+  } else {
+    const std::size_t hole = static_cast<std::size_t>(image.hole_end - image.hole_begin);
+    const std::size_t offset = static_cast<std::size_t>(live - image.data_begin) - (live >= image.hole_end ? hole : 0);
+    std::memcpy(value.data(), data_.data() + offset, bytes);
+  }
+  return value;
+}
+
+}  // namespace host

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "hal_sim/twin/twin.h"
+
+#include <algorithm>
+#include <map>
+
+#include "hal_sim/board/epuck_model.h"
+#include "hal_sim/board/uart_end.h"
+#include "sim_core/load/world_loader.h"
+#include "sim_core/world/variation.h"
+
+namespace twin {
+
+namespace {
+
+// what the command line says about a robot, or what the world file says
+std::string chosen(const std::vector<Choice>& choices, const std::string& robot, const std::string& from_world) {
+  std::string value = from_world;
+  for (const auto& c : choices)
+    if (c.robot == robot || c.robot == "*") value = c.value;
+  return value;
+}
+
+void check_names(const sim::WorldDesc& world, const std::vector<Choice>& choices, const char* option,
+                 std::vector<std::string>& problems) {
+  std::vector<std::string> names;
+  for (const auto& r : world.robots) names.push_back(r.name);
+  for (const auto& c : choices) {
+    if (c.robot == "*" || std::find(names.begin(), names.end(), c.robot) != names.end()) continue;
+    const std::string guess = sim::did_you_mean(c.robot, names);
+    problems.push_back("command line: " + std::string(option) + ": got robot '" + c.robot + "', expected a robot of the world" +
+                       (guess.empty() ? "" : "; did you mean '" + guess + "'?"));
+  }
+}
+
+// where a robot's pseudo-terminal is found: a stable name in the run's folder
+std::string pty_link(const std::string& robot, int port) { return "twinpuck-" + robot + "-uart" + std::to_string(port); }
+
+// noise settings stay with the world's optics; the board gets what is this robot's own
+board::Setup setup_of(const sim::WorldDesc& world, int index) {
+  const sim::RobotDesc& robot = world.robots[static_cast<std::size_t>(index)];
+  const sim::ResolvedVariation variation = sim::resolve_variation(world, index);
+  board::Setup setup;
+  setup.robot = index;
+  setup.seed = variation.seed;
+  setup.selector = robot.selector;
+  setup.battery_v = robot.battery_v >= 0 ? robot.battery_v : world.model_of(robot)->battery_v;
+  setup.wheel_ratio = {variation.left_wheel_ratio, variation.right_wheel_ratio};
+  for (std::size_t i = 0; i < setup.ir_gain.size(); ++i) {
+    if (i < variation.sensor_gain.size()) setup.ir_gain[i] = variation.sensor_gain[i];
+    if (i < variation.sensor_offset_counts.size()) setup.ir_offset_counts[i] = variation.sensor_offset_counts[i];
+  }
+  setup.clock_ppm = variation.clock_ppm;
+  setup.boot_delay_s = variation.boot_delay_s;
+  return setup;
+}
+
+}  // namespace
+
+std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options, std::vector<std::string>& problems) {
+  const std::size_t problems_before = problems.size();
+  check_names(world, options.firmware, "--fw", problems);
+  check_names(world, options.uart1, "--uart", problems);
+  check_names(world, options.uart2, "--uart2", problems);
+  if (problems.size() != problems_before) return nullptr;
+
+  // every distinct firmware is found, built and loaded once
+  std::map<std::string, std::string> paths;
+  std::map<std::string, std::shared_ptr<host::Image>> images;
+  std::vector<std::string> firmware;
+  for (const auto& robot : world.robots) {
+    const std::string name = chosen(options.firmware, robot.name, robot.firmware);
+    firmware.push_back(name);
+    if (name.empty() || paths.count(name)) continue;
+    std::string& path = paths[name];
+    path = provide_image(name, options.world_folder, options, problems);
+    if (path.empty()) continue;
+    std::string error;
+    images[name] = host::Image::open(path, error);
+    if (!images[name]) problems.push_back(error);
+  }
+  if (problems.size() != problems_before) return nullptr;
+
+  std::unique_ptr<Twin> twin(new Twin);
+  const std::size_t n = world.robots.size();
+  const std::size_t shares = std::max<std::size_t>(1, std::min(n, static_cast<std::size_t>(std::max(1, options.threads))));
+  std::vector<std::unique_ptr<sim::RobotMind>> minds;
+  std::size_t share = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    // robots that one thread runs share a copy of their image, as Simulation divides them
+    while (i >= n * (share + 1) / shares) ++share;
+    const auto& robot = world.robots[i];
+    const board::Setup setup = setup_of(world, static_cast<int>(i));
+    auto mind = std::make_unique<host::FirmwareMind>(setup, host::RobotSettings{robot.name, setup.seed},
+                                                     firmware[i].empty() ? nullptr : images[firmware[i]], share);
+    const std::string ends[2] = {chosen(options.uart1, robot.name, robot.uart1), chosen(options.uart2, robot.name, robot.uart2)};
+    for (int port = 1; port <= 2; ++port) {
+      std::string error;
+      auto end = board::open_uart_end(ends[port - 1], pty_link(robot.name, port), error);
+      if (!error.empty())
+        problems.push_back("robot '" + robot.name + "': uart" + std::to_string(port) + ": " + error);
+      if (end) mind->board().uart(port).connect(std::move(end));
+    }
+    twin->minds_.push_back(mind.get());
+    twin->image_paths_.push_back(firmware[i].empty() ? "" : paths[firmware[i]]);
+    minds.push_back(std::move(mind));
+  }
+  if (problems.size() != problems_before) return nullptr;
+  for (auto& [name, image] : images) twin->images_.push_back(image);
+  twin->simulation_ = std::make_unique<sim::Simulation>(std::move(world), std::move(minds), options.threads);
+  return twin;
+}
+
+int Twin::find(const std::string& name) const {
+  const auto& robots = world().robots;
+  for (std::size_t i = 0; i < robots.size(); ++i)
+    if (robots[i].name == name) return static_cast<int>(i);
+  return -1;
+}
+
+std::vector<host::TrapReport> Twin::traps() const {
+  std::vector<host::TrapReport> all;
+  for (const auto* mind : minds_)
+    if (mind->robot()) all.insert(all.end(), mind->robot()->traps().begin(), mind->robot()->traps().end());
+  return all;
+}
+
+}  // namespace twin

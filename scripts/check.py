@@ -1,0 +1,181 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Rules of the code that a compiler does not know. Prints one line a problem; exit 1 when there is one.
+
+    scripts/check.py
+
+Rules: who may include whom (docs/architecture.md) · sim_core knows no robot by name · every number of a
+*_params.h names its one source (docs/sources.md) · no file above 700 lines, no file above 1 MB, no path of
+somebody's machine, an SPDX line in every source · C++ formatted by .clang-format.
+"""
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+LONGEST_FILE = 700      # lines
+LARGEST_FILE = 1 << 20  # bytes
+
+# rooms of the simulator core, each may include itself and those to its left
+CORE = ["base", "time", "random", "geometry", "physics", "world", "light", "camera", "sound", "radio", "record",
+        "load", "supervisor"]
+CHIP = ["memory", "core", "periph", "device", "load", "mcu"]
+# other rooms -> what they may include, as prefixes of the path (their own folder is always allowed)
+MAY_INCLUDE = {
+    "hal_sim/board": ["sim_core/base", "sim_core/world", "sim_core/light", "sim_core/camera", "sim_core/sound",
+                      "sim_core/radio", "sim_core/random", "sim_core/time", "hal_sim/host/pins.h",
+                      "hal_sim/host/image_abi.h", "hal_sim/host/context.h"],
+    "hal_sim/host": ["hal_sim/board", "sim_core/base", "sim_core/time", "sim_core/world/robot_mind.h"],
+    "hal_sim/api": ["hal_sim/host/pins.h", "hal_sim/host/image_abi.h", "firmware/include"],
+    "hal_sim/cc": ["hal_sim/host/image_abi.h", "hal_sim/host/pins.h"],  # its libc calls the host
+    "hal_sim/twin": ["hal_sim/", "sim_core/"],  # ties board, host and world together
+    "hal_sim/register": ["hal_sim/host", "hal_sim/board", "dspic30"],
+    "hal_sim/chip": ["hal_sim/board", "hal_sim/host", "dspic30", "sim_core/base", "sim_core/world/robot_mind.h"],
+    "hal_dspic": ["firmware/include"],
+    "firmware": [],
+}
+# packages and the only room that may include them
+PACKAGE_ROOMS = {
+    "box2d/": ["sim_core/physics"], "ccd/": ["sim_core/geometry"], "boost/": ["hal_sim/host"],
+    "toml++/": ["sim_core/load"], "CLI/": ["tools"], "llvm/": ["hal_sim/cc"], "clang/": ["hal_sim/cc"],
+    "cairo": ["sim_core/record", "sim_core/load", "tools"], "enki/": ["bench"], "gelf.h": ["hal_sim", "dspic30"],
+    "libelf.h": ["hal_sim", "dspic30"],
+}
+FREE_ROOMS = ("tools", "tests", "bench")  # may include anything
+GENERATED = {"firmware/include/p30F6014A.h"}
+
+problems = []
+
+
+def problem(path, line, text):
+    problems.append("%s:%d: %s" % (path, line, text) if line else "%s: %s" % (path, text))
+
+
+def committed_files():
+    names = subprocess.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"], cwd=ROOT,
+                           capture_output=True, text=True, check=True).stdout.split("\0")
+    return [name for name in names if name and (ROOT / name).is_file()]
+
+
+def room_of(path):
+    parts = path.split("/")
+    if parts[0] in ("sim_core", "dspic30", "hal_sim") and len(parts) > 2:
+        return "/".join(parts[:2])
+    return parts[0]
+
+
+def may_include(path, target):
+    """Whether the file may include the project file `target` (a path from the top)."""
+    room = room_of(path)
+    own = room_of(target)
+    if room.startswith(FREE_ROOMS) or own == room:
+        return True
+    if room.startswith("sim_core"):
+        if path.count("/") == 1:  # sim_core/simulation.*: the front door of all rooms
+            return target.startswith("sim_core/")
+        if not target.startswith("sim_core/"):
+            return False
+        here, there = room.split("/")[1], own.split("/")[-1]
+        return there in CORE and here in CORE and CORE.index(there) <= CORE.index(here)
+    if room.startswith("dspic30"):
+        if not target.startswith("dspic30/") or path.count("/") == 1:
+            return target.startswith("dspic30/")
+        here, there = room.split("/")[1], own.split("/")[-1]
+        return there in CHIP and here in CHIP and CHIP.index(there) <= CHIP.index(here)
+    return any(target.startswith(allowed) for allowed in MAY_INCLUDE.get(room, []))
+
+
+def check_includes(path, text):
+    for number, line in enumerate(text.split("\n"), 1):
+        match = re.match(r'\s*#\s*include(?:_next)?\s*([<"])([^>"]+)[>"]', line)
+        if not match:
+            continue
+        target = match.group(2)
+        if (ROOT / target).exists() and "/" in target and not may_include(path, target):
+            problem(path, number, "%s may not include %s" % (room_of(path), target))
+        for package, rooms in PACKAGE_ROOMS.items():
+            if match.group(1) == "<" and target.startswith(package):
+                if not path.startswith(tuple(rooms)) and not path.startswith(FREE_ROOMS):
+                    problem(path, number, "<%s> belongs to %s" % (target, " or ".join(rooms)))
+
+
+def check_numbers(path, text):
+    """Each line of a *_params.h that holds a number ends in, or follows, exactly one tag [..]."""
+    tag = re.compile(r"\[[^\]\[]+\]")
+    above = []
+    for number, line in enumerate(text.split("\n"), 1):
+        comment = re.search(r"//.*|/\*.*", line)
+        code = line[:comment.start()] if comment else line
+        tags = tag.findall(comment.group(0)) if comment else []
+        if not code.strip():
+            above = above + tags if comment else []  # a comment above speaks for the lines up to the next gap
+            continue
+        if re.search(r"[={(,\s][-+]?(?:0x[0-9a-fA-F]+|\d[\d.']*(?:e[-+]?\d+)?)", code) and re.search(r"[^=!<>]=[^=]", code):
+            found = tags or above[-1:]
+            if len(found) != 1:
+                problem(path, number, "number without exactly one source tag, such as [DS 5.1]: " + code.strip())
+
+
+def check_text(path, text):
+    lines = text.split("\n")
+    if len(lines) > LONGEST_FILE and path not in GENERATED and not path.endswith((".csv", ".toml", ".txt")):
+        problem(path, 0, "%d lines, expected at most %d; split it" % (len(lines), LONGEST_FILE))
+    for number, line in enumerate(lines, 1):
+        if re.search(r"(?<![\w.$])/(?:home|Users|root|work|tmp/bash_jobs)/\w", line) and path != "scripts/check.py":
+            problem(path, number, "path of somebody's machine: " + line.strip()[:80])
+        if path.startswith("sim_core/") and re.search(r"e-?puck", line, re.I):
+            problem(path, number, "sim_core knows no robot by name: " + line.strip()[:80])
+    if path.endswith((".c", ".h", ".cpp", ".py", ".sh", ".cmake", ".s")) or path in ("Makefile", ".ci/run"):
+        if not any("SPDX-License-Identifier: MIT" in line for line in lines[:3]):
+            problem(path, 1, "no SPDX-License-Identifier: MIT in the first three lines")
+
+
+def check_format(paths):
+    if not shutil.which("clang-format"):
+        problem(".clang-format", 0, "clang-format is not installed; run scripts/setup.sh check")
+        return
+    if not paths:
+        return
+    run = subprocess.run(["clang-format", "--dry-run", *paths], cwd=ROOT, capture_output=True, text=True)
+    seen = set()
+    for line in run.stderr.split("\n"):
+        match = re.match(r"(.+?):(\d+):\d+: warning: code should be clang-formatted", line)
+        if match and match.group(1) not in seen:
+            seen.add(match.group(1))
+            problem(match.group(1), int(match.group(2)), "not formatted as .clang-format says; run make format")
+
+
+def main():
+    if sys.argv[1:]:
+        print(__doc__.strip(), file=sys.stderr)
+        return 2
+    files = committed_files()
+    cpp = []
+    for path in files:
+        whole = ROOT / path
+        if whole.stat().st_size > LARGEST_FILE:
+            problem(path, 0, "%d bytes, expected at most %d" % (whole.stat().st_size, LARGEST_FILE))
+            continue
+        try:
+            text = whole.read_text()
+        except UnicodeDecodeError:
+            continue  # a picture
+        check_text(path, text)
+        if path.endswith((".c", ".h", ".cpp")):
+            check_includes(path, text)
+            # C of the contract, the API and the controllers follows K&R by hand, not .clang-format
+            if not path.startswith(("firmware/", "hal_sim/api/", "hal_dspic/")) and not path.endswith(".c"):
+                cpp.append(path)
+        if path.endswith("_params.h"):
+            check_numbers(path, text)
+    check_format(cpp)
+    for line in problems:
+        print(line)
+    print("check: %d files, %d problems" % (len(files), len(problems)))
+    return 1 if problems else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: MIT
+// The ADC scan and the basic proximity driver: instants by hand, and equality with plain ticked state machines.
+#include "hal_sim/board/adc_scan.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "hal_sim/board/board.h"
+#include "tests/board/flat_scene.h"
+
+namespace {
+
+using board::Board;
+using board::Cycle;
+
+constexpr Cycle kFrame = 900;
+
+/// A scene whose reflection tells sensor and time, so that a value reveals when it was taken.
+void make_telling(sim::Scene& scene) {
+  scene.reflection = [](int sensor, sim::Clicks at) { return 100.0 * (sensor + 1) + static_cast<double>(at / 7 % 997); };
+  scene.irradiance_w_m2 = 0.25;  // dark = 4095 - 100
+}
+
+/// The library's interrupt, one at a time.
+class TickedScan {
+ public:
+  TickedScan(const Board& robot, bool five_pairs) : robot_(robot), five_pairs_(five_pairs) {}
+
+  int dark[10] = {}, lit[10] = {};
+  unsigned pulses = 0;
+  int mic_index = 0, acc_index = 0;
+  bool filled = false;
+
+  /// The interrupt at cycle `at`, whose frame began 900 cycles before.
+  void interrupt(Cycle at) {
+    filled = false;
+    if (++mic_index >= 100) {
+      mic_index = 0;
+      filled = true;
+    }
+    if (counter_ == 62) acc_index = acc_index == 49 ? 0 : acc_index + 1;
+    if (counter_ == 63) {
+      sample(dark, at, -1);
+      pulses = 1u << pair_;
+      lit_at_ = at;
+    }
+    if (counter_ == 3) {
+      sample(lit, at, pulses ? lit_at_ : -1);
+      pulses = 0;
+      pair_ = pair_ == 3 ? (five_pairs_ ? 4 : 0) : pair_ == 4 ? 0 : pair_ + 1;
+    }
+    counter_ = counter_ == 64 ? 0 : counter_ + 1;
+  }
+
+ private:
+  void sample(int* into, Cycle at, Cycle lit_at) {
+    if (pair_ == 4) return;
+    for (int half = 0; half < 2; ++half) {
+      // channels of a five-channel frame last 180 cycles; the signal is held after 12 of them
+      const Cycle when = at - kFrame + (3 + half) * 180 + 12;
+      const int sensor = pair_ + 4 * half;
+      into[sensor] = robot_.ir_counts(sensor, when, lit_at < 0 ? -1 : when - lit_at, 0);
+    }
+  }
+  const Board& robot_;
+  bool five_pairs_;
+  int counter_ = 0;
+  int pair_ = 0;
+  Cycle lit_at_ = 0;
+};
+
+void expect_equal(Board& robot, const TickedScan& want, Cycle at) {
+  for (int sensor = 0; sensor < 8; ++sensor) {
+    ASSERT_EQ(robot.scan().peek_dark(sensor, at), want.dark[sensor]) << sensor << " at " << at;
+    ASSERT_EQ(robot.scan().peek_lit(sensor, at), want.lit[sensor]) << sensor << " at " << at;
+  }
+  ASSERT_EQ(robot.scan().pulses(at), want.pulses) << at;
+  ASSERT_EQ(robot.scan().interrupts(at) % 100, want.mic_index);
+  ASSERT_EQ(robot.scan().acc_samples(at) % 50, want.acc_index);
+}
+
+class Scan : public ::testing::TestWithParam<bool> {};
+
+TEST_P(Scan, closed_form_equals_the_ticked_interrupt) {
+  const bool five = GetParam();
+  sim::Scene scene;
+  make_telling(scene);
+  board::Setup setup;
+  setup.ir_noise_scale = 0;
+  Board robot(setup), reader(setup);
+  robot.look_at(&scene);
+  reader.look_at(&scene);
+  TickedScan want(robot, five);
+  const Cycle start = 12345;
+  robot.scan().start(false, five, start);
+  reader.scan().start(false, five, start);
+  std::mt19937 random(7);
+  for (int i = 0; i < 3000; ++i) {
+    const Cycle at = start + (i + 1) * kFrame;
+    // just before the interrupt nothing has changed yet
+    expect_equal(robot, want, at - 1);
+    if (HasFatalFailure()) return;
+    ASSERT_EQ(robot.scan().next_interrupt(at - 1), at);
+    want.interrupt(at);
+    expect_equal(robot, want, at);
+    if (HasFatalFailure()) return;
+    // somebody who reads now and then gets the same values
+    if (random() % 5 == 0) {
+      const int sensor = static_cast<int>(random() % 8);
+      ASSERT_EQ(reader.scan().dark(sensor, at), want.dark[sensor]);
+      ASSERT_EQ(reader.scan().lit(sensor, at), want.lit[sensor]);
+      // and the horizon never lies beyond the next change
+      const Cycle horizon = reader.scan().horizon(sensor, at);
+      ASSERT_GT(horizon, at);
+      ASSERT_EQ(reader.scan().peek_dark(sensor, horizon - 1), want.dark[sensor]);
+      ASSERT_EQ(reader.scan().peek_lit(sensor, horizon - 1), want.lit[sensor]);
+      ASSERT_TRUE(reader.scan().dark_number(sensor, horizon) != reader.scan().dark_number(sensor, at) ||
+                  reader.scan().lit_number(sensor, horizon) != reader.scan().lit_number(sensor, at));
+    }
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Pairs, Scan, ::testing::Values(false, true));
+
+TEST(AdcScan, survives_stops_and_starts_in_the_middle_of_anything) {
+  sim::Scene scene;
+  make_telling(scene);
+  board::Setup setup;
+  Board robot(setup);
+  robot.look_at(&scene);
+  TickedScan want(robot, false);
+  std::mt19937 random(11);
+  Cycle now = 100;
+  robot.scan().start(false, false, now);
+  for (int round = 0; round < 300; ++round) {
+    // some frames, and a part of one that is lost
+    const Cycle anchor = now;
+    const int frames = static_cast<int>(random() % 90);
+    for (int i = 1; i <= frames; ++i) want.interrupt(anchor + i * kFrame);
+    now = anchor + frames * kFrame + static_cast<Cycle>(random() % kFrame);
+    expect_equal(robot, want, now);
+    if (HasFatalFailure()) return;
+    if (random() % 2) {
+      robot.scan().switch_converter(false, now);
+      expect_equal(robot, want, now + 5'000'000);
+      if (HasFatalFailure()) return;
+      now += static_cast<Cycle>(random() % 100000);
+      robot.scan().switch_converter(true, now);
+    } else {
+      robot.scan().start(false, false, now);
+    }
+  }
+}
+
+// 16384 Hz / 65 / 4: every sensor 63 times a second
+TEST(AdcScan, refreshes_each_sensor_63_times_a_second) {
+  Board robot{board::Setup{}};
+  robot.scan().start(false, false, 0);
+  const Cycle second = 14'745'600;
+  for (int sensor = 0; sensor < 8; ++sensor) {
+    int changes = 0;
+    for (Cycle at = robot.scan().horizon(sensor, 2 * second); at <= 3 * second; at = robot.scan().horizon(sensor, at))
+      changes += robot.scan().lit_number(sensor, at) != robot.scan().lit_number(sensor, at - 1);
+    EXPECT_NEAR(changes, 63, 1);
+  }
+}
+
+// a flash lasts 5 interrupts = 305 us; its samples are taken 282 and 294 us after it began
+TEST(AdcScan, flash_and_sample_instants) {
+  sim::Scene scene;
+  Board robot{board::Setup{}};
+  robot.look_at(&scene);
+  robot.scan().start(false, false, 0);
+  const Cycle on = 64 * kFrame;  // interrupt number 63 (from 0): the second pair's LED
+  EXPECT_EQ(robot.scan().pulses(on - 1), 0u);
+  EXPECT_EQ(robot.scan().pulses(on), 2u);
+  EXPECT_EQ(robot.scan().pulses(on + 5 * kFrame - 1), 2u);
+  EXPECT_EQ(robot.scan().pulses(on + 5 * kFrame), 0u);
+  EXPECT_EQ(robot.scan().pulses_horizon(on), on + 5 * kFrame);
+  scene.asked.clear();
+  robot.scan().lit(1, on + 5 * kFrame);
+  robot.scan().lit(5, on + 5 * kFrame);
+  ASSERT_EQ(scene.asked.size(), 2u);
+  EXPECT_NEAR(static_cast<double>(scene.asked[0].at - on) / 14.7456, 282, 1);
+  EXPECT_NEAR(static_cast<double>(scene.asked[1].at - on) / 14.7456, 294, 1);
+}
+
+TEST(AdcScan, initialisation_takes_194_ms) {
+  Board robot{board::Setup{}};
+  robot.scan().start(false, false, 0);
+  const Cycle filled = robot.scan().first_fill(0);
+  EXPECT_NEAR(static_cast<double>(filled) / 14745.6, 194.3, 0.1);
+  EXPECT_EQ(robot.scan().acc_samples(filled - 1), 48);
+  EXPECT_EQ(robot.scan().acc_samples(filled), 49);
+  EXPECT_EQ(robot.scan().first_fill(filled), filled);
+}
+
+TEST(AdcScan, microphones_alone_run_twice_as_fast) {
+  sim::Scene scene;
+  make_telling(scene);
+  Board robot{board::Setup{}};
+  robot.look_at(&scene);
+  robot.scan().start(true, false, 0);
+  EXPECT_EQ(robot.scan().interrupts(14'745'600), 32768);
+  EXPECT_EQ(robot.scan().dark(0, 14'745'600), 0);
+  EXPECT_EQ(robot.scan().acc_samples(14'745'600), 0);
+  EXPECT_EQ(robot.scan().first_fill(500), 500);  // returns at once
+}
+
+TEST(AdcScan, a_sample_never_changes_once_read) {
+  sim::Scene scene;
+  double value = 500;
+  scene.reflection = [&](int, sim::Clicks) { return value; };
+  Board robot{board::Setup{}};
+  robot.look_at(&scene);
+  robot.scan().start(false, false, 0);
+  const Cycle at = 300 * kFrame;
+  const int first = robot.scan().lit(0, at);
+  value = 900;
+  EXPECT_EQ(robot.scan().lit(0, at + 10), first);
+  EXPECT_NE(robot.scan().lit(0, at + 400 * kFrame), first);
+}
+
+TEST(IrCircuit, noise_depends_on_the_sample_and_on_nothing_else) {
+  sim::Scene scene;
+  scene.reflection = [](int, sim::Clicks) { return 1000.0; };
+  scene.relative_noise = 0.05;
+  board::Setup setup;
+  setup.seed = 42;
+  Board a(setup), b(setup);
+  a.look_at(&scene);
+  b.look_at(&scene);
+  a.scan().start(false, false, 0);
+  b.scan().start(false, false, 0);
+  double sum = 0, squares = 0;
+  int count = 0;
+  for (Cycle at = 600 * kFrame; at < 60000 * kFrame; at += 260 * kFrame) {
+    // b skips most readings and asks for other sensors in between
+    const int reading = a.scan().dark(0, at) - a.scan().lit(0, at);
+    b.scan().lit(static_cast<int>(at % 7), at);
+    if (count % 3 == 0) { EXPECT_EQ(b.scan().dark(0, at) - b.scan().lit(0, at), reading); }
+    EXPECT_EQ(a.proximity_counts(0, at), reading);
+    sum += reading;
+    squares += 1.0 * reading * reading;
+    ++count;
+  }
+  const double mean = sum / count;
+  EXPECT_NEAR(mean, 1000, 12);
+  EXPECT_NEAR(std::sqrt(squares / count - mean * mean), 50, 8);
+}
+
+TEST(IrCircuit, more_light_gives_lower_counts_and_the_ends_clamp) {
+  sim::Scene scene;
+  board::Setup setup;
+  setup.ir_gain[2] = 1.5;
+  setup.ir_offset_counts[2] = 7;
+  Board robot(setup);
+  EXPECT_EQ(robot.ir_counts(0, 0, -1, 0), 4095);  // darkness without a world
+  robot.look_at(&scene);
+  scene.irradiance_w_m2 = 1.0;
+  EXPECT_EQ(robot.ir_counts(0, 0, -1, 0), 4095 - 400);
+  scene.irradiance_w_m2 = 100;
+  EXPECT_EQ(robot.ir_counts(0, 0, -1, 0), 0);
+  scene.irradiance_w_m2 = 0;
+  scene.reflection = [](int, sim::Clicks) { return 1000.0; };
+  EXPECT_EQ(robot.ir_counts(2, 0, 1'000'000, 0), 4095 - 1507);
+  // a flash of 1 us has hardly begun to act
+  EXPECT_GT(robot.ir_counts(2, 0, 15, 0), 4095 - 100);
+  scene.reflection = [](int, sim::Clicks) { return 5000.0; };
+  EXPECT_EQ(robot.ir_counts(2, 0, 1'000'000, 0), 0);
+}
+
+// --- basic driver ----------------------------------------------------------------------------------------------------
+
+TEST(BasicProx, closed_form_equals_the_ticked_state_machine) {
+  sim::Scene scene;
+  make_telling(scene);
+  Board robot{board::Setup{}};
+  robot.look_at(&scene);
+  Cycle start = 777;
+  robot.basic_prox().start(start);
+  int dark[8] = {}, reflected[8] = {};
+  bool lit_phase = false;
+  int pair = 0;
+  Cycle at = start + 5168, lit_at = 0;
+  std::mt19937 random(3);
+  for (int i = 0; i < 4000; ++i) {
+    auto same = [&](Cycle when) {
+      for (int s = 0; s < 8; ++s) {
+        EXPECT_EQ(robot.basic_prox().peek_reflected(s, when), reflected[s]) << s << " " << i;
+      }
+      if (random() % 3 == 0) {
+        const int s = static_cast<int>(random() % 8);
+        EXPECT_EQ(robot.basic_prox().ambient(s, when), dark[s]) << s << " " << i;
+        EXPECT_EQ(robot.basic_prox().reflected(s, when), reflected[s]);
+      }
+      EXPECT_EQ(robot.basic_prox().pulses(when), lit_phase ? 1u << pair : 0u);
+    };
+    same(at - 1);
+    EXPECT_EQ(robot.basic_prox().horizon(at - 1), at);
+    for (int half = 0; half < 2; ++half) {
+      const int s = pair + 4 * half;
+      const Cycle when = at + 24 + 320 + half * 470;
+      if (lit_phase) reflected[s] = dark[s] - robot.ir_counts(s, when, when - lit_at, 0);
+      else dark[s] = robot.ir_counts(s, when, -1, 0);
+    }
+    if (!lit_phase) lit_at = at + 24 + 940;
+    if (lit_phase) pair = (pair + 1) % 4;
+    const Cycle now = at;
+    at += lit_phase ? 30968 : 5168;
+    lit_phase = !lit_phase;
+    same(now);
+    if (random() % 50 == 0) {
+      // e_init_prox() again: the timer starts anew, the state machine goes on
+      start = now + 1000 + static_cast<Cycle>(random() % 3000);
+      robot.basic_prox().start(start);
+      at = start + 5168;
+    }
+    if (HasFailure()) return;
+  }
+}
+
+// 2.45 ms a pair, 9.80 ms for all
+TEST(BasicProx, all_eight_are_fresh_every_9_8_ms) {
+  Board robot{board::Setup{}};
+  robot.basic_prox().start(0);
+  EXPECT_NEAR(static_cast<double>(robot.basic_prox().events(14'745'600)), 8 * 102.0, 2);
+  robot.basic_prox().stop(14'745'600);
+  EXPECT_EQ(robot.basic_prox().pulses(14'745'600 + 5), 0u);
+}
+
+}  // namespace

@@ -1,0 +1,366 @@
+// SPDX-License-Identifier: MIT
+// AgendaTimer: hand-computed motor rates and quirks, and equality with the ticked yardstick over random programs.
+#include "hal_sim/board/agenda_timer.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <random>
+
+#include "tests/board/ticked_agenda.h"
+
+namespace {
+
+using board::AgendaTimer;
+using board::Cycle;
+using board::Wheel;
+
+constexpr Cycle kSecond = 14'745'600;
+constexpr Cycle kTick = 1475;
+
+char left_motor, right_motor, user_a, user_b, user_c;  // addresses stand for functions
+
+struct Driven {
+  AgendaTimer timer;
+  explicit Driven(Cycle start = 0) {
+    timer.stepper(Wheel::Left, 0).connect(true);
+    timer.stepper(Wheel::Right, 0).connect(true);
+    timer.name_motor(Wheel::Left, &left_motor);
+    timer.name_motor(Wheel::Right, &right_motor);
+    timer.activate(&left_motor, 0, 0);
+    timer.activate(&right_motor, 0, 0);
+    timer.start(start);
+  }
+  std::int64_t steps_in(Wheel wheel, int speed, double seconds) {
+    timer.set_speed(wheel, speed, 0);
+    return timer.commanded_steps(wheel, static_cast<Cycle>(seconds * kSecond));
+  }
+};
+
+// one second holds 9997 ticks (14745600 / 1475 = 9997.0); a wheel steps every 10000/|v| ticks
+TEST(AgendaMotors, speeds_are_quantised_as_by_the_library) {
+  struct Row {
+    int speed;
+    int steps;
+  };
+  for (const Row& row : {Row{1000, 999}, Row{950, 999}, Row{900, 908}, Row{700, 714}, Row{601, 624}, Row{600, 625},
+                         Row{501, 526}, Row{333, 333}, Row{300, 303}, Row{150, 151}, Row{100, 100}, Row{10, 10},
+                         Row{1, 1}, Row{5000, 999}, Row{-700, -714}, Row{-32000, -999}}) {
+    // the first step comes one period after the command; counted over exactly one second plus a tick's slack
+    EXPECT_NEAR(Driven().steps_in(Wheel::Left, row.speed, 1.0), row.steps, 1) << row.speed;
+    EXPECT_NEAR(Driven().steps_in(Wheel::Right, row.speed, 1.0), row.steps, 1) << row.speed;
+  }
+}
+
+TEST(AgendaMotors, seven_hundred_steps_every_fourteen_ticks) {
+  Driven d;
+  d.timer.set_speed(Wheel::Right, 700, 0);
+  EXPECT_EQ(d.timer.commanded_steps(Wheel::Right, 14 * kTick - 1), 0);
+  EXPECT_EQ(d.timer.commanded_steps(Wheel::Right, 14 * kTick), 1);
+  EXPECT_EQ(d.timer.commanded_steps(Wheel::Right, 28 * kTick - 1), 1);
+  EXPECT_EQ(d.timer.commanded_steps(Wheel::Right, 28 * kTick), 2);
+  EXPECT_EQ(d.timer.steps_horizon(Wheel::Right, 14 * kTick), 28 * kTick);
+}
+
+TEST(AgendaMotors, five_hundred_for_ten_seconds_makes_4998_steps) {
+  Driven d;
+  d.timer.set_speed(Wheel::Left, 500, 0);
+  d.timer.set_speed(Wheel::Right, 500, 0);
+  EXPECT_NEAR(d.timer.commanded_steps(Wheel::Left, 10 * kSecond), 4998, 2);
+  EXPECT_EQ(d.timer.stepper_at(Wheel::Left, 10 * kSecond).steps(), d.timer.commanded_steps(Wheel::Right, 10 * kSecond));
+}
+
+// below 601 the coils are on for 15 ticks of each period, above all the time
+TEST(AgendaMotors, power_save_switches_the_coils_off_between_steps) {
+  Driven d;
+  d.timer.set_speed(Wheel::Right, 100, 0);
+  EXPECT_EQ(d.timer.stepper_at(Wheel::Right, 100 * kTick - 1).coils(), 0u);
+  EXPECT_EQ(d.timer.stepper_at(Wheel::Right, 100 * kTick).coils(), 0x6u);  // phase 1: B C
+  EXPECT_EQ(d.timer.stepper_at(Wheel::Right, 115 * kTick - 1).coils(), 0x6u);
+  EXPECT_EQ(d.timer.stepper_at(Wheel::Right, 115 * kTick).coils(), 0u);
+  EXPECT_EQ(d.timer.stepper_at(Wheel::Right, 200 * kTick).coils(), 0x5u);  // phase 2: A C
+  d.timer.set_speed(Wheel::Left, 800, 200 * kTick);
+  EXPECT_EQ(d.timer.stepper_at(Wheel::Left, 212 * kTick).coils(), 0x9u);  // left forward: phase falls to 3, A D
+  EXPECT_EQ(d.timer.stepper_at(Wheel::Left, 223 * kTick).coils(), 0x9u);
+}
+
+// quirk: each command overwrites the half-phase with the whole period, so both halves take one
+TEST(AgendaMotors, setting_a_low_speed_again_and_again_halves_it) {
+  Driven d;
+  std::int64_t steps = 0;
+  for (Cycle at = 0; at <= kSecond; at += 10 * kTick) d.timer.set_speed(Wheel::Left, 300, at);
+  steps = d.timer.commanded_steps(Wheel::Left, kSecond);
+  EXPECT_NEAR(steps, 303 / 2, 2);
+  // above the power-save limit nothing of the kind happens
+  Driven fast;
+  for (Cycle at = 0; at <= kSecond; at += 10 * kTick) fast.timer.set_speed(Wheel::Left, 700, at);
+  EXPECT_NEAR(fast.timer.commanded_steps(Wheel::Left, kSecond), 714, 1);
+}
+
+TEST(AgendaMotors, counter_survives_a_stop) {
+  Driven d;
+  d.timer.set_speed(Wheel::Left, 100, 0);
+  d.timer.set_speed(Wheel::Left, 0, 90 * kTick);  // 90 ticks counted, 10 to go
+  d.timer.set_speed(Wheel::Left, 100, 5000 * kTick);
+  EXPECT_EQ(d.timer.commanded_steps(Wheel::Left, 5010 * kTick - 1), 0);
+  EXPECT_EQ(d.timer.commanded_steps(Wheel::Left, 5010 * kTick), 1);
+}
+
+TEST(AgendaMotors, a_pause_of_the_motor_agenda_stops_the_wheel) {
+  Driven d;
+  d.timer.set_speed(Wheel::Left, 1000, 0);
+  EXPECT_EQ(d.timer.pause(&left_motor, 100 * kTick), 1);
+  EXPECT_EQ(d.timer.commanded_steps(Wheel::Left, kSecond), 10);
+  d.timer.restart(&left_motor, kSecond);
+  EXPECT_GT(d.timer.commanded_steps(Wheel::Left, 2 * kSecond), 1000);
+  EXPECT_EQ(d.timer.destroy(&left_motor, 2 * kSecond), 1);
+  const std::int64_t steps = d.timer.commanded_steps(Wheel::Left, 2 * kSecond);
+  EXPECT_EQ(d.timer.commanded_steps(Wheel::Left, 3 * kSecond), steps);
+  EXPECT_EQ(d.timer.set_cycle(&left_motor, 5, 3 * kSecond), 2);
+}
+
+TEST(AgendaMotors, wheels_turn_smoothly_and_never_run_ahead) {
+  Driven d;
+  d.timer.set_speed(Wheel::Right, 1000, 0);
+  double last = 0;
+  for (Cycle at = 0; at < kSecond / 10; at += 997) {
+    const board::Stepper motor = d.timer.stepper_at(Wheel::Right, at);
+    const double position = motor.position(at);
+    EXPECT_GE(position, last);
+    EXPECT_LE(position, static_cast<double>(motor.steps()));
+    // constant speed after the first step: one step per 10 ticks, one step behind
+    if (at > 20 * kTick) { EXPECT_NEAR(position, static_cast<double>(at) / (10.0 * kTick) - 1.0, 1e-9); }
+    last = position;
+  }
+}
+
+TEST(AgendaMotors, speed_zero_with_a_cycle_set_by_hand_divides_by_zero) {
+  Driven d;
+  d.timer.set_cycle(&left_motor, 5, 0);
+  EXPECT_EQ(d.timer.next_interrupt(), 5 * kTick);
+  bool trap = false;
+  d.timer.begin(5 * kTick);
+  EXPECT_EQ(d.timer.next(trap), nullptr);
+  EXPECT_FALSE(trap);
+  d.timer.finish(5 * kTick);
+  EXPECT_EQ(d.timer.next_interrupt(), 20 * kTick);  // 15 ticks on, then 10000 / 0
+  d.timer.begin(20 * kTick);
+  d.timer.next(trap);
+  EXPECT_TRUE(trap);
+}
+
+TEST(Agendas, newest_runs_first_and_counters_survive_a_new_cycle) {
+  AgendaTimer timer;
+  timer.activate(&user_a, 10, 0);
+  timer.activate(&user_b, 10, 0);
+  EXPECT_EQ(timer.activate(&user_a, 3, 0), 1);  // already there: the new cycle is ignored
+  timer.start(0);
+  EXPECT_EQ(timer.next_interrupt(), 10 * kTick);
+  bool trap;
+  timer.begin(10 * kTick);
+  EXPECT_EQ(timer.next(trap), &user_b);
+  EXPECT_EQ(timer.next(trap), &user_a);
+  EXPECT_EQ(timer.next(trap), nullptr);
+  timer.finish(10 * kTick + 500);
+  // 7 ticks counted; a cycle of 5 fires at the very next tick
+  timer.set_cycle(&user_a, 5, 17 * kTick + 3);
+  EXPECT_EQ(timer.next_interrupt(), 18 * kTick);
+}
+
+TEST(Agendas, a_long_callback_loses_ticks_but_one_is_remembered) {
+  AgendaTimer timer;
+  timer.activate(&user_a, 10, 0);
+  timer.start(0);
+  bool trap;
+  timer.begin(10 * kTick);
+  timer.next(trap);
+  timer.next(trap);
+  timer.finish(14 * kTick + 100);  // ticks 11 to 14 came: 11 is remembered and runs now, three are lost
+  EXPECT_EQ(timer.ticks_at(14 * kTick + 100), 11);
+  EXPECT_EQ(timer.ticks_at(15 * kTick), 12);
+  EXPECT_EQ(timer.next_interrupt(), 23 * kTick);
+}
+
+TEST(Agendas, negative_cycles_are_huge) {
+  AgendaTimer timer;
+  timer.activate(&user_a, -1, 0);
+  timer.start(0);
+  EXPECT_EQ(timer.next_interrupt(), 65535 * kTick);
+}
+
+// --- ticked == closed ------------------------------------------------------------------------------------------------
+
+const void* const kFunctions[] = {&user_a, &user_b, &user_c};
+
+const void* address(int function) {
+  if (function == ticked::Agendas::kLeft) return &left_motor;
+  if (function == ticked::Agendas::kRight) return &right_motor;
+  return kFunctions[function];
+}
+
+/// One command, the same on both sides.
+struct Command {
+  int kind, function, value;
+};
+
+class Twin {
+ public:
+  explicit Twin(unsigned seed) : random_(seed) {
+    closed_.stepper(Wheel::Left, 0).connect(true);
+    closed_.stepper(Wheel::Right, 0).connect(true);
+    closed_.name_motor(Wheel::Left, &left_motor);
+    closed_.name_motor(Wheel::Right, &right_motor);
+    ticked_.callback = [this](int function, Cycle at) {
+      ticked_log_.push_back({function, at});
+      const Script script = script_of(function, static_cast<int>(ticked_log_.size()));
+      for (const Command& c : script.commands) apply_ticked(c, at);
+      return script.duration;
+    };
+  }
+
+  void run(int commands) {
+    for (int i = 0; i < commands; ++i) {
+      const Cycle until = now_ + pick(0, 5) * pick(0, 60000);
+      const Cycle ticked_now = ticked_.run(until);
+      const Cycle closed_now = run_closed(until);
+      ASSERT_EQ(ticked_.trapped, trapped_);
+      if (trapped_) return;
+      ASSERT_EQ(ticked_now, closed_now);
+      now_ = ticked_now;
+      compare();
+      if (::testing::Test::HasFailure()) return;
+      const Command command = random_command(random_);
+      apply_ticked(command, now_);
+      apply_closed(command, now_);
+      compare();
+      if (::testing::Test::HasFailure()) return;
+    }
+  }
+  std::size_t callbacks() const { return closed_log_.size(); }
+
+ private:
+  struct Script {
+    Cycle duration = 0;
+    std::vector<Command> commands;
+  };
+  struct Call {
+    int function;
+    Cycle at;
+    bool operator==(const Call& other) const { return function == other.function && at == other.at; }
+  };
+
+  int pick(int low, int high) { return std::uniform_int_distribution<int>(low, high)(random_); }
+
+  static int pick_from(std::mt19937& random, int low, int high) {
+    return std::uniform_int_distribution<int>(low, high)(random);
+  }
+
+  static Command random_command(std::mt19937& random) {
+    Command c{pick_from(random, 0, 13), pick_from(random, 0, 2), 0};
+    if (c.kind >= 6 && c.kind <= 7) c.value = pick_from(random, 0, 40);  // activate, set_cycle
+    if (c.kind >= 8) {
+      const int range = pick_from(random, 0, 3);
+      c.value = range == 0 ? 0 : range == 1 ? pick_from(random, -1100, 1100) : pick_from(random, -300, 300);
+    }
+    // now and then the motors' own agendas are meddled with
+    if (c.kind <= 5 && pick_from(random, 0, 7) == 0) c.function = ticked::Agendas::kLeft + pick_from(random, 0, 1);
+    if (c.kind == 6 && pick_from(random, 0, 1) == 0) {
+      c.function = ticked::Agendas::kLeft + pick_from(random, 0, 1);
+      c.value = 0;
+    }
+    return c;
+  }
+
+  /// A callback's behaviour depends only on who is called and how many calls there were.
+  Script script_of(int function, int call) const {
+    std::mt19937 random(static_cast<unsigned>(function * 7919 + call * 104729));
+    Script script;
+    script.duration = pick_from(random, 0, 9) == 0 ? pick_from(random, 0, 9000) : pick_from(random, 0, 700);
+    if (pick_from(random, 0, 3) == 0) script.commands.push_back(random_command(random));
+    return script;
+  }
+
+  void apply_ticked(const Command& c, Cycle at) {
+    using Node = ticked::Agendas::Node;
+    switch (c.kind) {
+      case 0: ticked_.start(at); return;
+      case 1: if (c.value == 0 && c.function == 1) ticked_.stop(); return;
+      case 2: ticked_.destroy(c.function); return;
+      case 3: ticked_.with(c.function, [](Node& n) { n.active = false; }); return;
+      case 4: ticked_.with(c.function, [](Node& n) { n.active = true; }); return;
+      case 5: ticked_.with(c.function, [](Node& n) { n.counter = 0; }); return;
+      case 6: ticked_.activate(c.function, c.value); return;
+      case 7: ticked_.set_cycle(c.function, c.value); return;
+      default: ticked_.set_speed(c.kind % 2 == 0, c.value); return;
+    }
+  }
+
+  void apply_closed(const Command& c, Cycle at) {
+    const void* f = address(c.function);
+    switch (c.kind) {
+      case 0: closed_.start(at); return;
+      case 1: if (c.value == 0 && c.function == 1) closed_.stop(at); return;
+      case 2: closed_.destroy(f, at); return;
+      case 3: closed_.pause(f, at); return;
+      case 4: closed_.restart(f, at); return;
+      case 5: closed_.reset_count(f, at); return;
+      case 6: closed_.activate(f, c.value, at); return;
+      case 7: closed_.set_cycle(f, c.value, at); return;
+      default: closed_.set_speed(c.kind % 2 == 0 ? Wheel::Left : Wheel::Right, c.value, at); return;
+    }
+  }
+
+  Cycle run_closed(Cycle until) {
+    Cycle now = now_;
+    while (closed_.next_interrupt() <= std::max(until, now)) {
+      Cycle at = std::max(closed_.next_interrupt(), now);
+      closed_.begin(at);
+      while (const void* f = closed_.next(trapped_)) {
+        const int function = f == &user_a ? 0 : f == &user_b ? 1 : 2;
+        closed_log_.push_back({function, at});
+        const Script script = script_of(function, static_cast<int>(closed_log_.size()));
+        for (const Command& c : script.commands) apply_closed(c, at);
+        at += script.duration;
+      }
+      if (trapped_) return at;
+      closed_.finish(at);
+      now = at;
+    }
+    return std::max(until, now);
+  }
+
+  void compare() {
+    ASSERT_EQ(closed_log_ == ticked_log_, true) << "callbacks differ at cycle " << now_;
+    for (Wheel wheel : {Wheel::Left, Wheel::Right}) {
+      const ticked::Motor& want = wheel == Wheel::Left ? ticked_.left : ticked_.right;
+      const board::Stepper got = closed_.stepper_at(wheel, now_);
+      ASSERT_EQ(got.steps(), want.stepper.steps()) << "cycle " << now_;
+      ASSERT_EQ(got.coils(), want.stepper.coils()) << "cycle " << now_;
+      ASSERT_EQ(static_cast<std::int16_t>(closed_.commanded_steps(wheel, now_)), want.steps) << "cycle " << now_;
+      ASSERT_EQ(got.position(now_), want.stepper.position(now_)) << "cycle " << now_;
+    }
+  }
+
+  std::mt19937 random_;
+  AgendaTimer closed_;
+  ticked::Agendas ticked_;
+  std::vector<Call> closed_log_, ticked_log_;
+  Cycle now_ = 0;
+  bool trapped_ = false;
+};
+
+TEST(Agendas, closed_form_equals_the_ticked_yardstick) {
+  std::size_t callbacks = 0;
+  for (unsigned seed = 1; seed <= 3000; ++seed) {
+    Twin twin(seed);
+    twin.run(60);
+    callbacks += twin.callbacks();
+    if (HasFailure()) {
+      std::printf("seed %u\n", seed);
+      return;
+    }
+  }
+  EXPECT_GT(callbacks, 100000u);  // the random programs do exercise the handler
+}
+
+}  // namespace

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#include "hal_sim/board/clock.h"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using board::RobotClock;
+
+TEST(RobotClock, a_perfect_crystal_counts_clicks) {
+  const RobotClock clock(0, 5000);
+  EXPECT_EQ(clock.cycle_at(5000), 0);
+  EXPECT_EQ(clock.cycle_at(4999), -1);
+  EXPECT_EQ(clock.click_at(14'745'600), 14'745'600 + 5000);
+}
+
+// 100 ppm fast: 1474.56 cycles too many a second, without drift over hours
+TEST(RobotClock, parts_per_million_are_exact) {
+  const RobotClock clock(100'000);
+  EXPECT_EQ(clock.cycle_at(14'745'600), 14'745'600 + 1474);
+  const sim::Clicks day = sim::Clicks{86400} * 14'745'600;
+  EXPECT_EQ(clock.cycle_at(day), day + day / 10'000);
+}
+
+TEST(RobotClock, conversions_are_monotone_and_fit_each_other) {
+  for (std::int64_t ppb : {-50'000'000, -37'123, -1, 1, 999, 250'000, 50'000'000}) {
+    const RobotClock clock(ppb, 12'345);
+    std::int64_t last = clock.cycle_at(0);
+    for (sim::Clicks t = 0; t < 3'000'000'000; t += 7'654'321) {
+      const std::int64_t cycle = clock.cycle_at(t);
+      EXPECT_GE(cycle, last);
+      last = cycle;
+      EXPECT_LE(clock.click_at(cycle), t);
+      EXPECT_GE(clock.cycle_at(clock.click_at(cycle)), cycle);
+      EXPECT_LT(clock.cycle_at(clock.click_at(cycle) - 1), cycle);
+    }
+  }
+}
+
+}  // namespace

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// A stand-in for sim_core's Scene: a test sets what every sensor sees, and may look at who asked for what and when.
+#pragma once
+#include <functional>
+#include <vector>
+
+#include "sim_core/light/proximity.h"
+
+namespace sim {
+
+class Scene {
+ public:
+  struct Question {
+    int sensor;
+    Clicks at;
+  };
+  std::function<double(int sensor, Clicks at)> reflection = [](int, Clicks) { return 0.0; };
+  double irradiance_w_m2 = 0;
+  double relative_noise = 0;
+  mutable std::vector<Question> asked;
+};
+
+}  // namespace sim

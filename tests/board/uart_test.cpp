@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: MIT
+// UART timing, the library's receive ring, and the ends outside.
+#include "hal_sim/board/uart.h"
+
+#include <arpa/inet.h>
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+namespace {
+
+using board::Cycle;
+using board::MemoryEnd;
+using board::Uart;
+
+constexpr Cycle kByte = 1280;  // 10 bits of 128 cycles at 115,200 baud
+
+struct Wired {
+  Uart uart;
+  MemoryEnd* end;
+  Wired() : end(new MemoryEnd) { uart.connect(std::unique_ptr<MemoryEnd>(end)); }
+};
+
+TEST(Uart, a_byte_takes_ten_bits_at_115200_baud) {
+  Wired w;
+  w.uart.init_library(7, 0);
+  EXPECT_EQ(w.uart.byte_cycles(), kByte);
+  EXPECT_NEAR(14'745'600.0 / static_cast<double>(w.uart.byte_cycles()), 11520, 1e-9);  // bytes/s
+  EXPECT_TRUE(w.uart.load('a', 100));
+  w.uart.exchange(100 + kByte - 1);
+  EXPECT_EQ(w.end->text(), "");
+  w.uart.exchange(100 + kByte);
+  EXPECT_EQ(w.end->text(), "a");
+  EXPECT_EQ(w.end->ended_at(0), 100 + kByte);
+}
+
+TEST(Uart, four_bytes_wait_and_a_sixth_is_lost) {
+  Wired w;
+  w.uart.init_library(7, 0);
+  for (char c : {'a', 'b', 'c', 'd', 'e'}) EXPECT_TRUE(w.uart.load(static_cast<std::uint8_t>(c), 0));
+  EXPECT_TRUE(w.uart.buffer_full(0));
+  EXPECT_FALSE(w.uart.load('f', 0));
+  EXPECT_FALSE(w.uart.buffer_full(kByte));  // b has moved on
+  EXPECT_EQ(w.uart.buffer_empty_at(), 4 * kByte);
+  EXPECT_EQ(w.uart.idle_at(), 5 * kByte);
+  w.uart.exchange(5 * kByte);
+  EXPECT_EQ(w.end->text(), "abcde");
+}
+
+TEST(Uart, waiting_for_room_keeps_the_line_busy) {
+  Wired w;
+  Cycle at = 0;
+  for (int i = 0; i < 100; ++i) at = w.uart.load_when_room(static_cast<std::uint8_t>(i), at);
+  EXPECT_EQ(w.uart.idle_at(), 100 * kByte);
+  EXPECT_EQ(at, 95 * kByte);  // the last one was accepted when the fifth from the end moved on
+}
+
+TEST(Uart, disabled_sends_and_receives_nothing) {
+  Wired w;
+  EXPECT_FALSE(w.uart.load('x', 0));
+  w.end->inject("lost", 0);
+  w.uart.exchange(0);
+  EXPECT_EQ(w.uart.unread(10 * kByte), 0);
+  EXPECT_EQ(w.uart.received(10 * kByte), 0);
+}
+
+TEST(Uart, bytes_arrive_one_after_another) {
+  Wired w;
+  w.uart.init_library(7, 0);
+  w.end->inject("abc", 28800);
+  w.uart.exchange(28799);
+  EXPECT_EQ(w.uart.next_arrival(28799), host::kNever);
+  w.uart.exchange(28800);
+  EXPECT_EQ(w.uart.next_arrival(28800), 28800 + kByte);
+  EXPECT_EQ(w.uart.unread(28800 + kByte - 1), 0);
+  EXPECT_EQ(w.uart.unread(28800 + kByte), 1);
+  EXPECT_EQ(w.uart.take(28800 + kByte), 'a');
+  EXPECT_EQ(w.uart.take(28800 + kByte), -1);
+  EXPECT_EQ(w.uart.unread(28800 + 3 * kByte), 2);
+}
+
+// 70 bytes into 64 places: the count says 70, the first six places hold the newest bytes
+TEST(Uart, ring_overwrites_silently) {
+  Wired w;
+  w.uart.init_library(7, 0);
+  std::string bytes;
+  for (int i = 0; i < 70; ++i) bytes += static_cast<char>(i);
+  w.end->inject(bytes, 0);
+  for (Cycle at = 0; at <= 80 * kByte; at += 10 * kByte) w.uart.exchange(at);
+  const Cycle late = 100 * kByte;
+  EXPECT_EQ(w.uart.unread(late), 70);
+  for (int i = 0; i < 70; ++i) EXPECT_EQ(w.uart.take(late), i < 6 ? i + 64 : i < 64 ? i : i);
+  EXPECT_EQ(w.uart.take(late), -1);
+}
+
+TEST(Uart, hardware_buffer_overruns_after_four_bytes) {
+  Wired w;
+  w.uart.init_raw(true, 7, 0);
+  w.end->inject("abcdef", 0);
+  w.uart.exchange(0);
+  const Cycle late = 10 * kByte;
+  EXPECT_EQ(w.uart.raw_available(late), 4);
+  EXPECT_TRUE(w.uart.overrun(late));
+  EXPECT_EQ(w.uart.raw_take(late), 'a');
+  w.uart.clear_overrun(late);
+  EXPECT_EQ(w.uart.raw_take(late), -1);
+}
+
+TEST(Uart, other_rates) {
+  Uart uart;
+  uart.init_library(0, 0);
+  EXPECT_EQ(uart.byte_cycles(), 160);  // 921,600 baud
+  uart.init_library(3, 0);
+  EXPECT_EQ(uart.byte_cycles(), 640);
+}
+
+TEST(Uart, a_reset_cuts_off_what_has_not_left) {
+  Wired w;
+  w.uart.init_library(7, 0);
+  for (char c : {'a', 'b', 'c'}) w.uart.load(static_cast<std::uint8_t>(c), 0);
+  w.uart.reset(kByte + 10);
+  w.uart.exchange(10 * kByte);
+  EXPECT_EQ(w.end->text(), "a");
+  EXPECT_FALSE(w.uart.enabled());
+}
+
+// --- ends ------------------------------------------------------------------------------------------------------------
+
+TEST(UartEnd, pty_carries_bytes_both_ways_under_a_stable_name) {
+  const std::string link = "/tmp/twinpuck_uart_test_" + std::to_string(::getpid());
+  std::string error;
+  auto end = board::open_uart_end("pty", link, error);
+  ASSERT_TRUE(end) << error;
+  EXPECT_EQ(end->name(), link);
+  const int fd = ::open(link.c_str(), O_RDWR | O_NOCTTY);
+  ASSERT_GE(fd, 0);
+  const std::uint8_t out[] = {'h', 'i', 0, 255, '\n', 13};
+  const Cycle ends[6] = {};
+  end->deliver(out, ends, 6);
+  std::uint8_t got[8] = {};
+  EXPECT_EQ(::read(fd, got, 8), 6);
+  EXPECT_EQ(std::memcmp(got, out, 6), 0);
+  EXPECT_EQ(::write(fd, "ok\r", 3), 3);
+  std::uint8_t in[8] = {};
+  EXPECT_EQ(end->collect(in, 8, 0), 3u);
+  EXPECT_EQ(in[2], '\r');
+  EXPECT_EQ(end->collect(in, 8, 0), 0u);
+  ::close(fd);
+  end.reset();
+  EXPECT_NE(::access(link.c_str(), F_OK), 0);  // the link goes with the end
+}
+
+TEST(UartEnd, tcp_listens_on_loopback_and_says_when_the_port_is_taken) {
+  std::string error;
+  auto end = board::open_uart_end("tcp:0", "", error);
+  ASSERT_TRUE(end) << error;
+  const std::string name = end->name();
+  const int port = std::atoi(name.substr(name.rfind(':') + 1).c_str());
+  EXPECT_GT(port, 0);
+  auto second = board::open_uart_end("tcp:" + std::to_string(port), "", error);
+  EXPECT_FALSE(second);
+  EXPECT_NE(error.find("port is in use"), std::string::npos) << error;
+
+  const int fd = ::socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(static_cast<std::uint16_t>(port));
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  ASSERT_EQ(::connect(fd, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+  const std::uint8_t out[] = {'x'};
+  const Cycle ends[1] = {};
+  end->deliver(out, ends, 1);
+  char got = 0;
+  EXPECT_EQ(::recv(fd, &got, 1, 0), 1);
+  EXPECT_EQ(got, 'x');
+  ASSERT_EQ(::send(fd, "in", 2, 0), 2);
+  std::uint8_t in[4];
+  std::size_t count = 0;
+  for (int i = 0; i < 1000 && count == 0; ++i) {
+    count = end->collect(in, 4, 0);
+    ::usleep(1000);
+  }
+  EXPECT_EQ(count, 2u);
+  ::close(fd);
+}
+
+TEST(UartEnd, file_takes_the_output_and_gives_the_input) {
+  const std::string base = "/tmp/twinpuck_uart_test_" + std::to_string(::getpid());
+  std::ofstream(base + ".in") << "go";
+  std::string error;
+  {
+    Uart uart;
+    auto end = board::open_uart_end("file:" + base + ".out," + base + ".in", "", error);
+    ASSERT_TRUE(end) << error;
+    uart.connect(std::move(end));
+    uart.init_library(7, 0);
+    uart.load('!', 0);
+    uart.exchange(2 * kByte);
+    EXPECT_EQ(uart.take(3 * kByte), 'g');
+    EXPECT_EQ(uart.take(4 * kByte), 'o');
+  }
+  std::stringstream text;
+  text << std::ifstream(base + ".out").rdbuf();
+  EXPECT_EQ(text.str(), "!");
+  std::remove((base + ".out").c_str());
+  std::remove((base + ".in").c_str());
+}
+
+TEST(UartEnd, nonsense_is_refused_in_one_line) {
+  for (const char* bad : {"tcp:", "tcp:70000", "tcp:abc", "usb", "file:", "file:/nonexistent/dir/x", "", "none:1"}) {
+    std::string error;
+    EXPECT_FALSE(board::open_uart_end(bad, "", error)) << bad;
+    EXPECT_FALSE(error.empty()) << bad;
+    EXPECT_EQ(error.find('\n'), std::string::npos);
+  }
+  std::string error;
+  EXPECT_FALSE(board::open_uart_end("none", "", error));
+  EXPECT_TRUE(error.empty());
+}
+
+}  // namespace

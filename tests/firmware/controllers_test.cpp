@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: MIT
+// Each example controller does what its page promises.
+#include <array>
+#include <cmath>
+
+#include "tests/support/firmware_test.h"
+
+using namespace firmware_test;
+
+namespace {
+
+constexpr double kTickS = 1475 / 14745600.0;  // one agenda tick
+
+/// How often the LED changed in a stretch of time, seen at every tick of the world.
+struct LedChanges {
+  const Robot& robot;
+  int led;
+  bool last = robot.led(led);
+  int count = 0;
+  bool look() {
+    if (robot.led(led) != last) last = !last, ++count;
+    return false;
+  }
+};
+
+TEST_F(FirmwareTest, blink_toggles_every_thousand_agenda_ticks) {
+  Robot& robot = add_robot("blink");
+  run_for(0.05);
+  LedChanges changes{robot, 0};
+  run_until([&] { return changes.look(); }, 10);
+  EXPECT_NEAR(changes.count, 10 / (1000 * kTickS), 1);
+  EXPECT_EQ(robot.distance_m(), 0);
+  expect_no_traps();
+}
+
+TEST_F(FirmwareTest, square_comes_back_to_its_start) {
+  Robot& robot = add_robot("square");
+  ASSERT_TRUE(run_until([&] { return robot.led(8); }, 30)) << "never finished";
+  EXPECT_NEAR(robot.right_steps(), 4 * 1553 + 4 * 323, 8);
+  EXPECT_NEAR(robot.left_steps(), 4 * 1553 - 4 * 323, 8);
+  // four sides of 1553 steps of 0.1288 mm
+  EXPECT_NEAR(robot.distance_m(), 0.8, 0.01);
+  // a quarter turn differs from 90 degrees by what the axle differs from 53 mm: 2 % are 7 degrees and 25 mm
+  EXPECT_NEAR(robot.x_m(), 0, 0.03);
+  EXPECT_NEAR(robot.y_m(), 0, 0.03);
+  EXPECT_NEAR(std::cos(sim::radians(robot.heading_deg())), 1, 0.01);
+  expect_no_traps();
+}
+
+TEST_F(FirmwareTest, obstacle_wanders_through_the_maze_without_touching_it) {
+  load_world("worlds/maze.toml");
+  Robot& puck = robot(0);
+  puck.settings().firmware = "obstacle";
+  run_for(60);
+  EXPECT_GE(puck.distance_m(), 2);
+  EXPECT_LE(puck.longest_wall_touch_s(), 0.2);
+  expect_no_traps();
+}
+
+TEST_F(FirmwareTest, obstacle_sees_a_wall_end_dead_ahead) {
+  // the end of a wall 1 cm thick stands between the two front sensors
+  arena(1, 1);
+  wall(0.2, 0, 0.45, 0);
+  Robot& robot = add_robot("obstacle").at(0, 0, 0);
+  run_for(20);
+  EXPECT_EQ(robot.longest_wall_touch_s(), 0);
+  EXPECT_GE(robot.distance_m(), 0.7);
+}
+
+TEST_F(FirmwareTest, braitenberg_avoids_a_box_in_an_open_arena) {
+  arena(1, 1);
+  box(0, 0.05, 0.15, 20);
+  Robot& robot = add_robot("braitenberg").at(-0.3, -0.3, 40);
+  run_for(30);
+  EXPECT_GE(robot.distance_m(), 1);
+  EXPECT_LE(robot.longest_wall_touch_s(), 0.2);
+  expect_no_traps();
+}
+
+TEST_F(FirmwareTest, follow_wall_stays_at_the_wall_around_inner_corners) {
+  arena(0.8, 0.8);
+  Robot& robot = add_robot("follow_wall").at(0, 0, 30);
+  run_for(15);  // finds the wall
+  for (int i = 0; i < 60; ++i) {
+    run_for(0.5);
+    const double gap_m = 0.4 - std::fmax(std::fabs(robot.x_m()), std::fabs(robot.y_m())) - 0.037;
+    EXPECT_LT(gap_m, 0.06) << "at " << now_s() << " s";
+  }
+  EXPECT_GT(robot.distance_m(), 1.2);
+  EXPECT_LE(robot.longest_wall_touch_s(), 0.2);
+  expect_no_traps();
+}
+
+TEST_F(FirmwareTest, selector_demo_drives_straight_in_position_2) {
+  Robot& robot = add_robot("selector_demo").selector(2);
+  run_for(2);
+  EXPECT_EQ(robot.uart1_text(), "selector 2\r\n");  // once, although the program starts twice after power-up
+  EXPECT_GT(robot.x_m(), 0.05);
+  EXPECT_NEAR(robot.y_m(), 0, 0.002);
+}
+
+TEST_F(FirmwareTest, selector_demo_turns_left_in_position_3) {
+  Robot& robot = add_robot("selector_demo").selector(3);
+  run_for(1);
+  EXPECT_GT(robot.heading_deg(), 20);
+  EXPECT_NEAR(std::hypot(robot.x_m(), robot.y_m()), 0, 0.002);
+}
+
+TEST_F(FirmwareTest, selector_demo_shows_other_positions_on_the_ring) {
+  Robot& robot = add_robot("selector_demo").selector(13);
+  run_for(0.5);
+  EXPECT_EQ(robot.leds(), 1u << 5 | 1u << 8);  // 13 = 8 + 5: the body LED and LED 5
+}
+
+TEST_F(FirmwareTest, serial_echo_obeys_commands_and_returns_the_rest) {
+  Robot& robot = add_robot("serial_echo").selector(7);
+  run_for(0.2);
+  EXPECT_EQ(robot.uart1_text(), "serial_echo ready\r\n");
+  robot.send_uart1("hello\r\nC\rL,3,1\n");
+  run_for(0.1);
+  EXPECT_EQ(robot.uart1_text(), "serial_echo ready\r\nhello\r\nc,7\r\nl\r\n");
+  EXPECT_TRUE(robot.led(3));
+  robot.send_uart1("D,500,-500\r");
+  run_for(1);
+  robot.send_uart1("D,0,0\rQ\r");
+  run_for(0.2);
+  EXPECT_NEAR(robot.left_steps(), 500, 5);
+  EXPECT_NEAR(robot.right_steps(), -500, 5);
+  const std::string expected =
+      "q," + std::to_string(robot.left_steps()) + "," + std::to_string(robot.right_steps()) + "\r\n";
+  EXPECT_NE(robot.uart1_text().find(expected), std::string::npos) << robot.uart1_text();
+  expect_no_traps();
+}
+
+TEST_F(FirmwareTest, bench_braitenberg_cruises_at_8_cm_per_second) {
+  Robot& robot = add_robot("bench_braitenberg");
+  run_for(1);
+  const double start_m = robot.x_m();
+  run_for(10);
+  // 621 steps/s become one step in 10000 / 621 = 16 ticks; 1000 steps are one turn of a 41 mm wheel
+  const double speed_m_s = 1 / (16 * kTickS) / 1000 * 0.041 * 3.14159265;
+  EXPECT_NEAR(robot.x_m() - start_m, 10 * speed_m_s, 0.02);
+}
+
+// --- the contract as controllers meet it
+// ------------------------------------------------------------------------
+
+TEST_F(FirmwareTest, an_unsimulated_device_stops_the_robot_by_name) {
+  Robot& camera = add_robot_with_source(
+      "#include <camera/fast_2_timer/e_poxxxx.h>\n"
+      "int main(void) { e_poxxxx_init_cam(); while (1); }\n");
+  Robot& other = add_robot("blink").at(0.5, 0);
+  run_for(0.5);
+  ASSERT_EQ(camera.traps().size(), 1u);
+  EXPECT_EQ(camera.traps()[0].message, "e_poxxxx_init_cam: the camera is not simulated yet");
+  EXPECT_TRUE(other.traps().empty());
+}
+
+TEST_F(FirmwareTest, the_header_decides_the_variant_of_a_function) {
+  // all LEDs with value 2: the basic variant toggles each, the advanced one switches all off
+  const std::string body = "int main(void) { e_init_port(); e_set_led(3, 1); e_set_led(8, 2); while (1); }\n";
+  Robot& basic =
+      add_robot_with_source("#include <motor_led/e_init_port.h>\n#include <motor_led/e_led.h>\n" + body);
+  Robot& advanced = add_robot_with_source(
+      "#include <motor_led/e_init_port.h>\n#include <motor_led/advance_one_timer/e_led.h>\n" + body);
+  advanced.at(0.5, 0);
+  run_for(0.5);
+  EXPECT_EQ(basic.leds() & 0xFF, 0xF7u);
+  EXPECT_EQ(advanced.leds() & 0xFF, 0x00u);
+}
+
+TEST_F(FirmwareTest, headers_are_found_in_every_usual_spelling) {
+  Robot& robot = add_robot_with_source(
+      "#include \"p30f6014a.h\"\n"
+      "#include <e_epuck_ports.h>\n"
+      "#include \"../../library/motor_LED/e_init_port.h\"\n"
+      "#include <motor_led\\advance_one_timer\\e_led.h>\n"
+      "_FOSC(CSW_FSCM_OFF & XT_PLL8);\n"
+      "int main(void) { e_init_port(); LED5 = 1; BODY_LED = 1; NOP(); while (1); }\n");
+  run_for(0.5);
+  EXPECT_EQ(robot.leds(), 1u << 5 | 1u << 8);
+}
+
+TEST_F(FirmwareTest, calls_without_argument_mean_what_they_meant_in_older_libraries) {
+  Robot& robot = add_robot_with_source(
+      "#include <a_d/advance_ad_scan/e_ad_conv.h>\n#include <motor_led/e_init_port.h>\n"
+      "#include <uart/e_uart_char.h>\n"
+      "int main(void) {\n"
+      "  e_init_port(); e_init_uart2(); e_init_ad_scan();\n"
+      "  e_send_uart2_char(\"U\", 1);\n"
+      "  while (1);\n"
+      "}\n");
+  run_for(0.5);
+  EXPECT_EQ(robot.uart2_text(), "U");
+  expect_no_traps();
+}
+
+TEST_F(FirmwareTest, a_transform_helper_rounds_the_mean_down) {
+  Robot& robot = add_robot_with_source(
+      "#include <fft/e_fft_utilities.h>\n"
+      "int in[4] = {-1, -2, 30000, 30001};\n"
+      "int out[4];\n"
+      "int main(void) { e_fast_copy(in, out, 4); e_subtract_mean(out, 4, 2); while (1); }\n");
+  run_for(0.1);
+  // the sum is 59998, a quarter of it 14999.5, the mean 14999
+  using Words = std::array<std::int16_t, 4>;
+  EXPECT_EQ(robot.variable<Words>("out"), (Words{-15000, -15001, 15001, 15002}));
+}
+
+TEST_F(FirmwareTest, matlab_messages_have_the_documented_bytes) {
+  Robot& robot = add_robot_with_source(
+      "#include <motor_led/e_init_port.h>\n#include <uart/e_uart_char.h>\n#include <matlab/matlab.h>\n"
+      "int data[2] = {1, -2}; int got[4]; int count = -1;\n"
+      "int main(void) {\n"
+      "  e_init_port(); e_init_uart1();\n"
+      "  e_send_int_to_matlab(data, 2);\n"
+      "  count = e_receive_int_from_matlab(got, 4);\n"
+      "  while (1);\n"
+      "}\n");
+  run_for(0.2);
+  EXPECT_EQ(robot.uart1_text(), std::string("I\4\0\1\0\xFE\xFF"
+                                            "EOF\0",
+                                            11));
+  robot.send_uart1(std::string("\4\0\x10\x27\xFF\x00", 6));
+  run_for(0.1);
+  EXPECT_EQ(robot.variable("count"), 2);
+  EXPECT_EQ(robot.variable<std::int32_t>("got"), 0x00FF2710);
+}
+
+}  // namespace

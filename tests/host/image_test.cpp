@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include <sys/stat.h>
+
+#include <cstdio>
+#include <fstream>
+
+#include "tests/host/bench.h"
+
+namespace {
+
+std::string refusal(const std::string& path) {
+  std::string error;
+  EXPECT_FALSE(host::Image::open(path, error));
+  return error;
+}
+
+std::string write_file(const std::string& name, const std::string& bytes) {
+  const std::string path = ::testing::TempDir() + name;
+  std::ofstream(path, std::ios::binary) << bytes;
+  return path;
+}
+
+TEST(Image, a_missing_file_is_named) {
+  EXPECT_EQ(refusal("/nowhere/x.so"), "/nowhere/x.so: firmware image: got 'No such file or directory', expected a readable file");
+}
+
+TEST(Image, a_folder_is_refused) { EXPECT_NE(refusal("/tmp").find("no regular file"), std::string::npos); }
+
+TEST(Image, an_empty_file_is_refused) {
+  EXPECT_NE(refusal(write_file("empty.so", "")).find("got an empty file"), std::string::npos);
+}
+
+TEST(Image, a_text_is_refused) {
+  EXPECT_NE(refusal(write_file("text.so", "hello, I am a text\n")).find("no ELF"), std::string::npos);
+}
+
+TEST(Image, a_hex_file_is_told_from_others) {
+  EXPECT_NE(refusal(write_file("x.hex", ":020000040000FA\n")).find("Intel hex"), std::string::npos);
+}
+
+TEST(Image, a_dspic_elf_is_told_from_others) {
+  std::string elf("\x7f" "ELF\x01\x01\x01", 7);
+  elf.resize(52);
+  elf[16] = 2;
+  elf[18] = 118;
+  const std::string error = refusal(write_file("x.elf", elf));
+  EXPECT_NE(error.find("ELF for the dsPIC30F"), std::string::npos) << error;
+  EXPECT_NE(error.find("docs/limits.md"), std::string::npos) << error;
+}
+
+TEST(Image, a_cut_off_shared_object_is_refused) {
+  std::ifstream whole(std::string(TWINPUCK_BUILD_DIR) + "/tests/images/hand_idle.so", std::ios::binary);
+  std::string bytes((std::istreambuf_iterator<char>(whole)), {});
+  bytes.resize(bytes.size() / 3);
+  EXPECT_NE(refusal(write_file("cut.so", bytes)).find("cut off"), std::string::npos);
+}
+
+TEST(Image, a_foreign_shared_object_is_refused) {
+  EXPECT_NE(refusal("/lib/x86_64-linux-gnu/libm.so.6").find("without a firmware inside"), std::string::npos);
+}
+
+}  // namespace

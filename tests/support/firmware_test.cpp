@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+#include "tests/support/firmware_test.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include "hal_sim/board/epuck_model.h"
+#include "sim_core/base/hash.h"
+#include "sim_core/load/world_loader.h"
+
+namespace firmware_test {
+
+namespace {
+
+std::string all_lines(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const auto& l : lines) text += l + "\n";
+  return text;
+}
+
+// a controller written in a test gets a folder of its own, named after its content
+std::string folder_for(const std::string& source) {
+  std::uint64_t h = source.size();
+  for (unsigned char c : source) h = sim::mix64(h ^ c);
+  char name[32];
+  std::snprintf(name, sizeof name, "t%016llx", static_cast<unsigned long long>(h));
+  const std::filesystem::path folder = std::filesystem::path(TWINPUCK_BUILD_DIR) / "tests" / "inline" / name;
+  std::filesystem::create_directories(folder);
+  const std::filesystem::path file = folder / "main.c";
+  if (!std::filesystem::exists(file)) std::ofstream(file) << source;
+  return folder.string();
+}
+
+}  // namespace
+
+// --- Robot ---------------------------------------------------------------------------------------------------------
+
+Robot& Robot::at(double x_m, double y_m, double heading_deg) {
+  desc_.pose = {x_m, y_m, sim::radians(heading_deg)};
+  return *this;
+}
+Robot& Robot::selector(int position) {
+  desc_.selector = position;
+  return *this;
+}
+Robot& Robot::battery(double volts) {
+  desc_.battery_v = volts;
+  return *this;
+}
+
+const sim::Pose2& Robot::pose() const { return test_->twin().simulation().pose(index_); }
+host::FirmwareMind& Robot::mind() const { return test_->twin().mind(index_); }
+double Robot::distance_m() const { return test_->twin().simulation().distance_m(index_); }
+std::int64_t Robot::left_steps() const { return mind().report().left_steps; }
+std::int64_t Robot::right_steps() const { return mind().report().right_steps; }
+std::uint32_t Robot::leds() const { return mind().report().leds; }
+bool Robot::led(int number) const { return (leds() >> number & 1) != 0; }
+bool Robot::pin(char port, int bit) const {
+  return (mind().board().port_read(port, board::Board::Register::Port, mind().now()) >> bit & 1) != 0;
+}
+int Robot::proximity(int sensor) const {
+  return mind().proximity_counts(test_->twin().simulation().scene(), sensor);
+}
+int Robot::collisions() const { return test_->twin().simulation().touches(index_).collisions; }
+double Robot::longest_wall_touch_s() const { return test_->twin().simulation().touches(index_).longest_wall_touch_s; }
+double Robot::cpu_load() const {
+  const auto* r = mind().robot();
+  return r->cycles() > 0 ? 1.0 - static_cast<double>(r->idle_cycles()) / static_cast<double>(r->cycles()) : 0.0;
+}
+std::int64_t Robot::cycles() const { return mind().now(); }
+void Robot::turn_selector(int position) {
+  mind().board().turn_selector(position);
+  mind().robot()->wake();
+}
+void Robot::push_to(double x_m, double y_m, double heading_deg) {
+  test_->twin().simulation().move(index_, {x_m, y_m, sim::radians(heading_deg)});
+}
+std::string Robot::serial_text(int port) const {
+  test_->twin();
+  mind().board().exchange(mind().now());
+  return serial_[port - 1]->text();
+}
+void Robot::serial_send(int port, const std::string& bytes) {
+  test_->twin();
+  serial_[port - 1]->inject(bytes, mind().now());
+}
+
+// --- FirmwareTest ----------------------------------------------------------------------------------------------------
+
+FirmwareTest::FirmwareTest() {
+  world.models = {board::epuck_model()};
+  world.title = "test";
+  world.proximity.noise_scale = 0;
+}
+FirmwareTest::~FirmwareTest() = default;
+
+void FirmwareTest::arena(double width_m, double depth_m) {
+  world.arena = sim::ArenaDesc{};
+  world.arena->size_m = {width_m, depth_m};
+}
+
+void FirmwareTest::wall(double x0_m, double y0_m, double x1_m, double y1_m, sim::Colour colour) {
+  sim::WallDesc w;
+  w.points_m = {{x0_m, y0_m}, {x1_m, y1_m}};
+  w.material.colour = colour;
+  world.walls.push_back(w);
+}
+
+void FirmwareTest::box(double x_m, double y_m, double size_m, double heading_deg) {
+  sim::ObjectDesc o;
+  o.name = "box" + std::to_string(world.objects.size());
+  o.size_m = {size_m, size_m, size_m};
+  o.pose = {x_m, y_m, sim::radians(heading_deg)};
+  world.objects.push_back(o);
+}
+
+void FirmwareTest::load_world(const std::string& path) {
+  const auto file = std::filesystem::path(TWINPUCK_SOURCE_DIR) / path;
+  auto loaded = sim::load_world(file.string(), {board::epuck_model()});
+  ASSERT_TRUE(loaded.world) << loaded.report(path);
+  world = *loaded.world;
+  robots_.clear();
+  for (std::size_t i = 0; i < world.robots.size(); ++i) {
+    robots_.push_back(std::make_unique<Robot>());
+    robots_.back()->test_ = this;
+    robots_.back()->index_ = static_cast<int>(i);
+    robots_.back()->desc_ = world.robots[i];
+  }
+}
+
+Robot& FirmwareTest::add_robot(const std::string& firmware, const std::string& name) {
+  auto r = std::make_unique<Robot>();
+  r->test_ = this;
+  r->index_ = static_cast<int>(robots_.size());
+  r->desc_.firmware = firmware;
+  r->desc_.name = name.empty() ? "robot" + std::to_string(robots_.size()) : name;
+  robots_.push_back(std::move(r));
+  return *robots_.back();
+}
+
+Robot& FirmwareTest::add_robot_with_source(const std::string& c_source, const std::string& name) {
+  return add_robot(folder_for(c_source), name);
+}
+
+void FirmwareTest::start() {
+  world.robots.clear();
+  for (const auto& r : robots_) world.robots.push_back(r->desc_);
+  std::vector<std::string> problems;
+  twin_ = twin::Twin::open(world, options, problems);
+  if (!twin_) throw std::runtime_error("the test's world cannot start:\n" + all_lines(problems));
+  for (auto& r : robots_)
+    for (int port = 1; port <= 2; ++port) {
+      auto end = std::make_unique<board::MemoryEnd>();
+      r->serial_[port - 1] = end.get();
+      r->mind().board().uart(port).connect(std::move(end));
+    }
+}
+
+twin::Twin& FirmwareTest::twin() {
+  if (!twin_) start();
+  return *twin_;
+}
+
+void FirmwareTest::run_for(double seconds) {
+  auto& s = twin().simulation();
+  s.run_until(s.now() + sim::from_seconds(seconds));
+}
+
+bool FirmwareTest::run_until(const std::function<bool()>& done, double at_most_s) {
+  auto& s = twin().simulation();
+  const sim::Clicks end = s.now() + sim::from_seconds(at_most_s);
+  while (!done()) {
+    if (s.now() >= end) return false;
+    s.step();
+  }
+  return true;
+}
+
+double FirmwareTest::now_s() const { return twin_ ? sim::to_seconds(twin_->simulation().now()) : 0; }
+std::uint64_t FirmwareTest::digest() const { return twin_ ? twin_->simulation().digest() : 0; }
+
+void FirmwareTest::expect_no_traps() const {
+  if (!twin_) return;
+  for (const auto& t : twin_->traps())
+    ADD_FAILURE() << t.robot << ": " << host::trap_name(t.kind) << ": " << t.message << " at " << to_string(t.place);
+}
+
+}  // namespace firmware_test

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// The fixture for firmware tests, hardware-in-the-loop style: a world in a few lines, a robot with a controller,
+// run for so long or until something happens, expect what the robot did. docs/testing.md is the guide.
+//
+//   TEST_F(FirmwareTest, blink_lights_the_ring) {
+//     Robot& robot = add_robot("blink");
+//     run_for(0.95);
+//     EXPECT_TRUE(robot.led(0));
+//     expect_no_traps();
+//   }
+#pragma once
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <cstring>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hal_sim/board/uart_end.h"
+#include "hal_sim/twin/twin.h"
+
+namespace firmware_test {
+
+class FirmwareTest;
+
+/// One robot of a test. Before the first run it collects settings; afterwards it answers questions.
+class Robot {
+ public:
+  // --- before the first run -------------------------------------------------------------------------------------
+  Robot& at(double x_m, double y_m, double heading_deg = 0);
+  Robot& selector(int position);
+  Robot& battery(double volts);
+  sim::RobotDesc& settings() { return desc_; }  ///< everything else a world file can say
+
+  // --- while running ----------------------------------------------------------------------------------------------
+  double x_m() const { return pose().x_m; }
+  double y_m() const { return pose().y_m; }
+  double heading_deg() const { return sim::degrees(pose().heading_rad); }
+  double distance_m() const;                 ///< way travelled over the floor
+  std::int64_t left_steps() const;           ///< motor steps since power-up, not wrapped
+  std::int64_t right_steps() const;
+  bool led(int number) const;                ///< 0 to 7 the ring, 8 body, 9 front
+  std::uint32_t leds() const;                ///< the same as a mask
+  bool pin(char port, int bit) const;        ///< level of a pin, e.g. ('D', 3): left motor, phase D
+  int proximity(int sensor) const;           ///< what e_get_prox would give, counts
+  int collisions() const;
+  double longest_wall_touch_s() const;
+  double cpu_load() const;                   ///< share of cycles not spent waiting, 0 to 1
+  std::int64_t cycles() const;               ///< instruction cycles since power-up
+  std::string uart1_text() const { return serial_text(1); }  ///< everything sent so far
+  std::string uart2_text() const { return serial_text(2); }
+  void send_uart1(const std::string& bytes) { serial_send(1, bytes); }  ///< arrives at the line's baud rate
+  void send_uart2(const std::string& bytes) { serial_send(2, bytes); }
+  void turn_selector(int position);
+  void push_to(double x_m, double y_m, double heading_deg);  ///< puts the robot somewhere else by hand
+
+  /// Value of a global or static variable of the firmware by name (16-bit int by default).
+  template <typename T = std::int16_t>
+  T variable(const std::string& name) const {
+    T value{};
+    const auto bytes = mind().robot()->read_variable(name, sizeof value);
+    EXPECT_EQ(bytes.size(), sizeof value) << "no variable '" << name << "' of that size in the firmware";
+    std::memcpy(&value, bytes.data(), std::min(bytes.size(), sizeof value));
+    return value;
+  }
+
+  const std::vector<host::TrapReport>& traps() const { return mind().robot()->traps(); }
+
+ private:
+  friend class FirmwareTest;
+  const sim::Pose2& pose() const;
+  host::FirmwareMind& mind() const;
+  std::string serial_text(int port) const;
+  void serial_send(int port, const std::string& bytes);
+
+  FirmwareTest* test_ = nullptr;
+  int index_ = 0;
+  sim::RobotDesc desc_;
+  board::MemoryEnd* serial_[2] = {nullptr, nullptr};
+};
+
+class FirmwareTest : public ::testing::Test {
+ public:
+  FirmwareTest();
+  ~FirmwareTest() override;
+
+ protected:
+  // --- the world, before the first run ---------------------------------------------------------------------------
+  sim::WorldDesc world;  ///< an empty floor without walls or noise; change anything
+  void arena(double width_m, double depth_m);
+  /// A fixed wall from one point to another, 10 cm high; colour parts 0 to 1.
+  void wall(double x0_m, double y0_m, double x1_m, double y1_m, sim::Colour colour = {1, 1, 1});
+  /// A fixed box with its centre at (x, y).
+  void box(double x_m, double y_m, double size_m, double heading_deg = 0);
+  /// Starts from a world file instead (path relative to the project).
+  void load_world(const std::string& path);
+
+  /// A robot with a controller: a name under firmware/, a folder, or a .so.
+  Robot& add_robot(const std::string& firmware, const std::string& name = "");
+  /// A robot with a controller written in the test itself.
+  Robot& add_robot_with_source(const std::string& c_source, const std::string& name = "");
+  Robot& robot(int index) { return *robots_[static_cast<std::size_t>(index)]; }
+
+  // --- running -----------------------------------------------------------------------------------------------------
+  void run_for(double seconds);
+  /// Runs until `done` holds (looked at every tick) or `at_most_s` have passed; false then.
+  bool run_until(const std::function<bool()>& done, double at_most_s);
+  double now_s() const;
+  std::uint64_t digest() const;
+  void expect_no_traps() const;
+  /// Number of threads, extra flags for twinpuck-cc; before the first run.
+  twin::Options options;
+  twin::Twin& twin();
+
+ private:
+  friend class Robot;
+  void start();
+
+  std::vector<std::unique_ptr<Robot>> robots_;
+  std::unique_ptr<twin::Twin> twin_;
+};
+
+}  // namespace firmware_test

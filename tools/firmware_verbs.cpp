@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+// The verbs that look at firmware without running it: build, lint, cycles; and check, which looks at a world.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <iostream>
+
+#include "hal_sim/board/epuck_model.h"
+#include "hal_sim/cc/build.h"
+#include "hal_sim/twin/twin.h"
+#include "sim_core/load/world_loader.h"
+#include "tools/verbs.h"
+
+namespace tools {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// a folder as given, or the controller of that name
+std::string controller_folder(const std::string& name) {
+  const fs::path known = fs::path(twin::project_root()) / "firmware" / name;
+  if (!fs::exists(name) && name.find('/') == std::string::npos && fs::is_directory(known)) return known.string();
+  return name;
+}
+
+bool is_folder(const std::string& folder, const char* verb) {
+  if (fs::is_directory(folder)) return true;
+  complain({folder + ": " + verb + ": got " + (fs::exists(folder) ? "a file" : "a name that does not exist") +
+            ", expected a folder with C files"});
+  return false;
+}
+
+int build(cc::BuildOptions options) {
+  options.source_dir = controller_folder(options.source_dir.string());
+  if (!is_folder(options.source_dir.string(), "build")) return kBadInput;
+  const auto result = cc::build_image(options);
+  complain(result.warnings);
+  complain(result.errors);
+  if (!result.ok) return kTestFailed;
+  std::cout << fmt::format("{}: {} bytes of data on the chip (of 8192), {} files compiled, {} unchanged, {:.2f} s\n",
+                           options.output.string(), result.ram_bytes, result.compiled, result.reused, result.seconds);
+  return kPass;
+}
+
+int lint(const std::string& name) {
+  cc::BuildOptions options;
+  options.source_dir = controller_folder(name);
+  if (!is_folder(options.source_dir.string(), "lint")) return kBadInput;
+  const auto result = cc::lint_folder(options);
+  complain(result.errors);
+  complain(result.warnings);
+  if (result.ok) std::cout << options.source_dir.string() << ": nothing to complain about\n";
+  return result.ok ? kPass : kTestFailed;
+}
+
+std::string count(double cycles) { return cycles < 0 ? "no bound" : fmt::format("{:.0f}", cycles); }
+
+int cycles(const std::string& name, double period_ms) {
+  std::vector<std::string> problems;
+  const std::string image = twin::provide_image(name, "", {}, problems);
+  complain(problems);
+  if (image.empty()) return kBadInput;
+  const auto functions = cc::function_costs(image);
+  if (functions.empty()) {
+    complain({image + ": cycles: got a file without a cost table, expected an image made by `twinpuck build`"});
+    return kBadInput;
+  }
+  std::cout << fmt::format("estimated cycles at 14.7456 MHz, callees included (docs/cycles.md says how good the estimate is)\n"
+                           "{:<32} {:>9} {:>9} {:>9} {:>11} {:>10}  where\n", "function", "min", "mean", "max", "mean (us)",
+                           fmt::format("load/{:g}ms", period_ms));
+  for (const auto& f : functions)
+    std::cout << fmt::format("{:<32} {:>9} {:>9} {:>9} {:>11.2f} {:>9.2f}%  {}:{}\n", f.name + (f.is_interrupt ? " (interrupt)" : ""),
+                             count(f.min), count(f.mean), count(f.max), f.mean_us(), 100 * f.cpu_load(period_ms / 1000), f.file, f.line);
+  return kPass;
+}
+
+int check(const std::vector<std::string>& files) {
+  int exit_code = kPass;
+  for (const auto& file : files) {
+    const auto loaded = sim::load_world(file, {board::epuck_model()});
+    if (!loaded.world) {
+      complain({loaded.report(file)});
+      exit_code = kBadInput;
+      continue;
+    }
+    std::cout << fmt::format("{}: good: {} robots, {} objects, {} Hz\n", file, loaded.world->robots.size(), loaded.world->objects.size(),
+                             loaded.world->physics_hz);
+  }
+  return exit_code;
+}
+
+}  // namespace
+
+void add_build(CLI::App& app, int& exit_code) {
+  auto* verb = app.add_subcommand("build", "Compile a folder of firmware into an image for this PC");
+  auto o = std::make_shared<cc::BuildOptions>();
+  verb->add_option("DIR", o->source_dir, "folder with C files, or a controller's name")->required();
+  verb->add_option("-o,--output", o->output, "the image to write, a .so")->required();
+  verb->add_option("--opt", o->optimisation, "-O0 -O1 -O2 -Os")->check(CLI::IsMember({"-O0", "-O1", "-O2", "-Os"}))->capture_default_str();
+  verb->add_option("-D", o->defines, "NAME or NAME=value for the preprocessor");
+  verb->add_flag("--sanitize", o->sanitize, "address and 16-bit overflow checks");
+  verb->add_flag("--coverage", o->coverage, "line counters, for run --coverage");
+  verb->callback([o, &exit_code] { exit_code = build(*o); });
+}
+
+void add_lint(CLI::App& app, int& exit_code) {
+  auto* verb = app.add_subcommand("lint", "Strict warnings, timer conflicts, flags that should be volatile");
+  auto name = std::make_shared<std::string>();
+  verb->add_option("DIR", *name, "folder with C files, or a controller's name")->required();
+  verb->callback([name, &exit_code] { exit_code = lint(*name); });
+}
+
+void add_cycles(CLI::App& app, int& exit_code) {
+  auto* verb = app.add_subcommand("cycles", "Estimated cycles of every function and interrupt");
+  auto name = std::make_shared<std::string>();
+  auto period_ms = std::make_shared<double>(10);
+  verb->add_option("FILE", *name, "an image, a folder or a controller's name")->required();
+  verb->add_option("--period", *period_ms, "the load column assumes one call every so many ms")->check(CLI::PositiveNumber)->capture_default_str();
+  verb->callback([name, period_ms, &exit_code] { exit_code = cycles(*name, *period_ms); });
+}
+
+void add_check(CLI::App& app, int& exit_code) {
+  auto* verb = app.add_subcommand("check", "Read world files and tell everything that is wrong with them");
+  auto files = std::make_shared<std::vector<std::string>>();
+  verb->add_option("WORLD", *files, "world files")->required();
+  verb->callback([files, &exit_code] { exit_code = check(*files); });
+}
+
+}  // namespace tools

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+// twinpuck new NAME: a controller that builds, runs and passes its own test, to start from.
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+#include "hal_sim/twin/twin.h"
+#include "tools/verbs.h"
+
+namespace tools {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* const kMain = R"(/* SPDX-License-Identifier: MIT
+ * @NAME@: drives forward and turns away from what the front sensors see. A start for your own controller. */
+#include <a_d/advance_ad_scan/e_ad_conv.h>
+#include <a_d/advance_ad_scan/e_prox.h>
+#include <motor_led/advance_one_timer/e_agenda.h>
+#include <motor_led/advance_one_timer/e_led.h>
+#include <motor_led/advance_one_timer/e_motors.h>
+#include <motor_led/e_epuck_ports.h>
+#include <motor_led/e_init_port.h>
+
+#define CRUISE 400 /* steps/s; 1000 is one wheel turn a second */
+#define NEAR 300   /* counts; about 3 cm from a white wall */
+
+static volatile int step_due;
+
+/* every 20 ms, from the agenda's interrupt */
+static void tick(void)
+{
+  step_due = 1;
+}
+
+static void control_step(void)
+{
+  int right = e_get_prox(0) + e_get_prox(1);
+  int left = e_get_prox(7) + e_get_prox(6);
+
+  if (right < NEAR && left < NEAR) {
+    e_set_speed_left(CRUISE);
+    e_set_speed_right(CRUISE);
+  } else if (right > left) {
+    e_set_speed_left(-CRUISE / 2);
+    e_set_speed_right(CRUISE / 2);
+  } else {
+    e_set_speed_left(CRUISE / 2);
+    e_set_speed_right(-CRUISE / 2);
+  }
+  e_set_led(0, 2);
+}
+
+int main(void)
+{
+  e_init_port();
+  e_start_agendas_processing();
+  e_init_motors();
+  e_init_ad_scan(ALL_ADC);
+  e_activate_agenda(tick, 200); /* 200 ticks of 0.1 ms */
+  while (1) {
+    while (!step_due)
+      ;
+    step_due = 0;
+    control_step();
+  }
+}
+)";
+
+const char* const kReadme = R"(# @NAME@
+
+Drives forward and turns away from what the front sensors see. Made by `twinpuck new`.
+
+- Run it: `make run FW=@NAME@`, in another world: `make run FW=@NAME@ WORLD=arena`
+- Test it: `make test T=@NAME@` (the test is `test.cpp` in this folder; docs/testing.md says what it can do)
+- Time it: `build/twinpuck cycles firmware/@NAME@`
+- Debug it: `gdb --args build/twinpuck run worlds/maze.toml --fw '*=firmware/@NAME@'`
+)";
+
+const char* const kTest = R"(// SPDX-License-Identifier: MIT
+#include "tests/support/firmware_test.h"
+
+using firmware_test::FirmwareTest;
+
+class @SUITE@ : public FirmwareTest {};
+
+TEST_F(@SUITE@, drives_and_keeps_off_the_wall) {
+  arena(1.0, 1.0);
+  auto& robot = add_robot("@NAME@").at(0, 0, 10);
+  run_for(5);
+  EXPECT_GT(robot.distance_m(), 0.1);
+  EXPECT_EQ(robot.collisions(), 0);
+  expect_no_traps();
+}
+)";
+
+std::string replace_all(std::string text, const std::string& key, const std::string& value) {
+  for (std::size_t at = text.find(key); at != std::string::npos; at = text.find(key, at + value.size()))
+    text.replace(at, key.size(), value);
+  return text;
+}
+
+std::string suite_name(const std::string& name) {
+  std::string suite;
+  bool capital = true;
+  for (char c : name) {
+    if (c == '_') {
+      capital = true;
+      continue;
+    }
+    suite += capital ? static_cast<char>(std::toupper(static_cast<unsigned char>(c))) : c;
+    capital = false;
+  }
+  return suite + "Controller";
+}
+
+int make_controller(const std::string& name) {
+  const bool good = !name.empty() && std::islower(static_cast<unsigned char>(name[0])) &&
+                    std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::islower(c) || std::isdigit(c) || c == '_'; });
+  if (!good) {
+    complain({"command line: NAME: got '" + name + "', expected lower-case letters, digits and underscores, a letter first"});
+    return kBadInput;
+  }
+  const fs::path folder = fs::path(twin::project_root()) / "firmware" / name;
+  if (fs::exists(folder)) {
+    complain({folder.string() + ": new controller: got a folder that exists, expected a new name"});
+    return kBadInput;
+  }
+  std::error_code error;
+  fs::create_directories(folder, error);
+  const std::pair<const char*, const char*> files[] = {{"main.c", kMain}, {"README.md", kReadme}, {"test.cpp", kTest}};
+  for (const auto& [file, text] : files) {
+    std::ofstream out(folder / file);
+    out << replace_all(replace_all(text, "@NAME@", name), "@SUITE@", suite_name(name));
+    if (!out.flush()) {
+      complain({(folder / file).string() + ": new controller: cannot write the file"});
+      return kBadInput;
+    }
+  }
+  std::cout << "Made firmware/" << name << " with main.c, README.md and test.cpp.\n"
+            << "  make run FW=" << name << "\n  make test T=" << name << "\n";
+  return kPass;
+}
+
+}  // namespace
+
+void add_new(CLI::App& app, int& exit_code) {
+  auto* verb = app.add_subcommand("new", "Make a new controller that builds, runs and passes its own test");
+  auto name = std::make_shared<std::string>();
+  verb->add_option("NAME", *name, "its name: a folder under firmware/")->required();
+  verb->callback([name, &exit_code] { exit_code = make_controller(*name); });
+}
+
+}  // namespace tools

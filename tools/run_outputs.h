@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// The files a run leaves behind: recording, summary, picture, coverage. Files are opened before the run, so a bad
+// path costs no simulated second; the recording is whole up to the last line after any crash.
+#pragma once
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hal_sim/twin/twin.h"
+#include "tools/summary.h"
+
+namespace sim {
+class CsvRecorder;
+class Trajectories;
+}
+
+namespace tools {
+
+struct OutputArguments {
+  std::string record, summary, picture, coverage;
+  double record_every_s = 0.01;
+  bool rays = false;
+};
+
+void add_output_options(CLI::App& verb, OutputArguments& arguments);
+
+class RunOutputs {
+ public:
+  RunOutputs(const OutputArguments& arguments, twin::Twin& twin);
+  ~RunOutputs();
+  /// Opens what can be opened; false and one line per problem otherwise.
+  bool open(std::vector<std::string>& problems);
+  void before_run();
+  void after_tick();
+  /// An output was lost (disk full): the run should end.
+  bool failed() const;
+  void finish(const Summary& summary, std::vector<std::string>& problems);
+
+ private:
+  const OutputArguments arguments_;
+  twin::Twin& twin_;
+  std::unique_ptr<sim::CsvRecorder> recorder_;
+  std::unique_ptr<sim::Trajectories> paths_;
+};
+
+}  // namespace tools

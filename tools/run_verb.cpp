@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+// twinpuck run WORLD: simulates, shows progress, writes what was asked for, tells what happened.
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <iostream>
+#include <thread>
+
+#include "hal_sim/board/epuck_model.h"
+#include "hal_sim/twin/twin.h"
+#include "sim_core/load/world_loader.h"
+#include "tools/progress.h"
+#include "tools/run_outputs.h"
+#include "tools/summary.h"
+#include "tools/verbs.h"
+
+namespace tools {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Wall = std::chrono::steady_clock;
+
+volatile std::sig_atomic_t interrupted = 0;
+
+struct RunArguments {
+  std::string world;
+  std::vector<std::string> firmware, uart1, uart2;
+  double seconds = 60;
+  std::string speed = "max";
+  long long seed = -1;
+  int threads = 1;
+  double host_limit_s = 0;
+  std::string optimisation = "-O1";
+  bool sanitize = false, quiet = false;
+  OutputArguments outputs;
+};
+
+// "ROBOT=VALUE"
+bool split(const std::vector<std::string>& words, const char* option, std::vector<twin::Choice>& choices) {
+  for (const auto& w : words) {
+    const auto eq = w.find('=');
+    if (eq == std::string::npos || eq == 0 || eq + 1 == w.size()) {
+      complain({"command line: " + std::string(option) + ": got '" + w + "', expected ROBOT=VALUE; ROBOT may be '*'"});
+      return false;
+    }
+    choices.push_back({w.substr(0, eq), w.substr(eq + 1)});
+  }
+  return true;
+}
+
+// a world may be named as `make run` does: maze for worlds/maze.toml
+std::string find_world(const std::string& name) {
+  if (fs::exists(name)) return name;
+  const fs::path known = fs::path(twin::project_root()) / "worlds" / (name + ".toml");
+  return name.find('/') == std::string::npos && fs::exists(known) ? known.string() : name;
+}
+
+bool parse_speed(const std::string& text, double& factor) {
+  if (text == "max") {
+    factor = 0;
+    return true;
+  }
+  char* end = nullptr;
+  factor = std::strtod(text.c_str(), &end);
+  if (end && *end == 0 && factor > 0 && factor <= 1e6) return true;
+  complain({"command line: --speed: got '" + text + "', expected max or a factor above 0; 1 is real time"});
+  return false;
+}
+
+int run(const RunArguments& arguments) {
+  double speed;
+  twin::Options options;
+  options.threads = arguments.threads;
+  options.optimisation = arguments.optimisation;
+  options.sanitize = arguments.sanitize;
+  options.coverage = !arguments.outputs.coverage.empty();
+  options.tell = [](const std::string& line) { std::cerr << line << '\n'; };
+  if (!parse_speed(arguments.speed, speed) || !split(arguments.firmware, "--fw", options.firmware) ||
+      !split(arguments.uart1, "--uart", options.uart1) || !split(arguments.uart2, "--uart2", options.uart2))
+    return kBadInput;
+
+  const std::string file = find_world(arguments.world);
+  sim::LoadedWorld loaded = sim::load_world(file, {board::epuck_model()});
+  if (!loaded.world) {
+    complain({loaded.report(file)});
+    return kBadInput;
+  }
+  if (arguments.seed >= 0) loaded.world->seed = static_cast<std::uint64_t>(arguments.seed);
+  options.world_folder = fs::path(file).parent_path().string();
+  std::vector<std::string> problems;
+  auto twin = twin::Twin::open(std::move(*loaded.world), options, problems);
+  if (!twin) {
+    complain(problems);
+    return kBadInput;
+  }
+  RunOutputs outputs(arguments.outputs, *twin);
+  if (!outputs.open(problems)) {
+    complain(problems);
+    return kBadInput;
+  }
+  for (int i = 0; i < twin->robots(); ++i)
+    for (int port = 1; port <= 2; ++port)
+      if (const auto* end = twin->mind(i).board().uart(port).end())
+        std::cerr << twin->world().robots[static_cast<std::size_t>(i)].name << " uart" << port << ": " << end->name() << '\n';
+
+  // the run
+  std::signal(SIGINT, [](int) { interrupted = 1; });
+  std::signal(SIGTERM, [](int) { interrupted = 1; });
+  auto& simulation = twin->simulation();
+  const sim::Clicks end = sim::from_seconds(arguments.seconds);
+  Progress progress(arguments.seconds, arguments.quiet);
+  const auto start = Wall::now();
+  const auto wall_s = [&] { return std::chrono::duration<double>(Wall::now() - start).count(); };
+  int exit_code = kPass;
+  outputs.before_run();
+  while (simulation.now() < end) {
+    simulation.step();
+    outputs.after_tick();
+    if (interrupted || outputs.failed()) break;
+    if (progress.is_due()) {
+      progress.show(sim::to_seconds(simulation.now()));
+      if (arguments.host_limit_s > 0 && wall_s() > arguments.host_limit_s) {
+        exit_code = kHostTime;
+        break;
+      }
+    }
+    if (speed > 0) {
+      const double ahead_s = sim::to_seconds(simulation.now()) / speed - wall_s();
+      if (ahead_s > 0) std::this_thread::sleep_for(std::chrono::duration<double>(ahead_s));
+    }
+  }
+  const double took_s = wall_s();
+  progress.finish();
+  for (int i = 0; i < twin->robots(); ++i) twin->mind(i).board().exchange(twin->mind(i).now());
+
+  const Summary summary = summarise(*twin, took_s);
+  outputs.finish(summary, problems);
+  complain(problems);
+  if (!arguments.quiet) std::cout << to_text(summary);
+  for (const auto& t : summary.traps) std::cerr << to_text(t);
+  if (exit_code == kHostTime) {
+    complain({"twinpuck: host time: got " + std::to_string(static_cast<long>(took_s)) + " s, expected at most " +
+              std::to_string(static_cast<long>(arguments.host_limit_s)) + " s; outputs hold what was simulated"});
+    return exit_code;
+  }
+  if (interrupted) return kInterrupted;
+  if (!problems.empty() || outputs.failed()) return kInvalidRun;
+  return summary.traps.empty() ? kPass : kTrapped;
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, int& exit_code) {
+  auto* verb = app.add_subcommand("run", "Simulate a world");
+  auto a = std::make_shared<RunArguments>();
+  verb->add_option("WORLD", a->world, "world file, or the name of one in worlds/")->required();
+  verb->add_option("--fw", a->firmware, "ROBOT=FILE: a .so, a folder of C files, or a controller's name; '*' is every robot");
+  verb->add_option("--for", a->seconds, "simulated seconds")->check(CLI::Range(0.0, 1e7))->capture_default_str();
+  verb->add_option("--speed", a->speed, "pace: 1 is real time, max as fast as possible")->capture_default_str();
+  verb->add_option("--seed", a->seed, "the world's seed, 0 or more, instead of the file's")->check(CLI::NonNegativeNumber);
+  verb->add_option("--threads", a->threads, "threads that run firmware; the result does not depend on it")
+      ->check(CLI::Range(1, 256))->capture_default_str();
+  verb->add_option("--uart", a->uart1, "ROBOT=none|pty|tcp:PORT|file:PATH: the other end of UART 1");
+  verb->add_option("--uart2", a->uart2, "the same for UART 2");
+  verb->add_option("--host-limit", a->host_limit_s, "give up after this many real seconds (exit 124)")->check(CLI::NonNegativeNumber);
+  verb->add_option("--opt", a->optimisation, "level for controllers built from source")
+      ->check(CLI::IsMember({"-O0", "-O1", "-O2", "-Os"}))->capture_default_str();
+  verb->add_flag("--sanitize", a->sanitize, "build controllers with address and 16-bit overflow checks");
+  verb->add_flag("-q,--quiet", a->quiet, "no progress and no summary on the terminal");
+  add_output_options(*verb, a->outputs);
+  verb->callback([a, &exit_code] { exit_code = run(*a); });
+}
+
+}  // namespace tools

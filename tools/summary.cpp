@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "tools/summary.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+namespace tools {
+
+namespace {
+
+constexpr std::size_t kRobotsInText = 12;  // more would scroll the summary away
+
+std::string hex(std::uint64_t digest) { return fmt::format("{:016x}", digest); }
+
+nlohmann::ordered_json json_of(const host::TrapReport& t) {
+  nlohmann::ordered_json j;
+  j["kind"] = host::trap_name(t.kind);
+  j["message"] = t.message;
+  j["function"] = t.place.function;
+  j["file"] = t.place.file;
+  j["line"] = t.place.line;
+  j["cycle"] = t.cycle;
+  j["time_s"] = t.time_s;
+  j["count"] = t.count;
+  for (const auto& p : t.backtrace) j["backtrace"].push_back(to_string(p));
+  return j;
+}
+
+}  // namespace
+
+Summary summarise(const twin::Twin& twin, double wall_s) {
+  Summary s;
+  const auto& simulation = twin.simulation();
+  s.world = twin.world().file.empty() ? twin.world().title : twin.world().file;
+  s.seed = twin.world().seed;
+  s.digest = simulation.digest();
+  s.simulated_s = sim::to_seconds(simulation.now());
+  s.wall_s = wall_s;
+  for (int i = 0; i < twin.robots(); ++i) {
+    const auto& mind = twin.mind(i);
+    RobotSummary r;
+    r.name = twin.world().robots[static_cast<std::size_t>(i)].name;
+    r.firmware = twin.image_path(i);
+    r.way = mind.robot() ? "native" : "none";
+    const auto& pose = simulation.pose(i);
+    r.x_m = pose.x_m;
+    r.y_m = pose.y_m;
+    r.heading_rad = pose.heading_rad;
+    r.distance_m = simulation.distance_m(i);
+    r.collisions = simulation.touches(i).collisions;
+    r.longest_wall_touch_s = simulation.touches(i).longest_wall_touch_s;
+    const auto report = mind.report();
+    r.left_steps = report.left_steps;
+    r.right_steps = report.right_steps;
+    r.cycles = mind.now();
+    if (mind.robot()) {
+      const auto cycles = static_cast<double>(mind.robot()->cycles());
+      r.cpu_load = cycles > 0 ? 1 - static_cast<double>(mind.robot()->idle_cycles()) / cycles : 0;
+      r.traps = mind.robot()->traps();
+      s.traps.insert(s.traps.end(), r.traps.begin(), r.traps.end());
+    }
+    s.robots.push_back(std::move(r));
+  }
+  return s;
+}
+
+std::string to_text(const Summary& s) {
+  std::string text = fmt::format("{}: {:.1f} s simulated in {:.2f} s ({:.0f} times real time), seed {}, digest {}\n", s.world, s.simulated_s,
+                                 s.wall_s, s.wall_s > 0 ? s.simulated_s / s.wall_s : 0, s.seed, hex(s.digest));
+  if (!s.robots.empty())
+    text += fmt::format("{:<12} {:>8} {:>8} {:>9} {:>9} {:>11} {:>9} {:>6}\n", "robot", "x (m)", "y (m)", "heading", "path (m)",
+                        "collisions", "wall (s)", "load");
+  for (std::size_t i = 0; i < s.robots.size() && i < kRobotsInText; ++i) {
+    const auto& r = s.robots[i];
+    const double turn = 360.0;
+    double heading = r.heading_rad * 180 / 3.14159265358979323846;
+    heading -= turn * static_cast<double>(static_cast<long long>(heading / turn));
+    text += fmt::format("{:<12} {:>8.3f} {:>8.3f} {:>5.0f} deg {:>9.3f} {:>11} {:>9.2f} {:>5.0f}%\n", r.name, r.x_m, r.y_m, heading,
+                        r.distance_m, r.collisions, r.longest_wall_touch_s, 100 * r.cpu_load);
+  }
+  if (s.robots.size() > kRobotsInText) text += fmt::format("... and {} more\n", s.robots.size() - kRobotsInText);
+  return text;
+}
+
+std::string to_json(const Summary& s) {
+  nlohmann::ordered_json j;
+  j["version"] = TWINPUCK_VERSION;
+  j["world"] = s.world;
+  j["seed"] = s.seed;
+  j["simulated_s"] = s.simulated_s;
+  j["wall_s"] = s.wall_s;
+  j["speed"] = s.wall_s > 0 ? s.simulated_s / s.wall_s : 0.0;
+  j["digest"] = hex(s.digest);
+  j["robots"] = nlohmann::ordered_json::array();
+  for (const auto& r : s.robots) {
+    nlohmann::ordered_json robot;
+    robot["name"] = r.name;
+    robot["firmware"] = r.firmware;
+    robot["way"] = r.way;
+    robot["x_m"] = r.x_m;
+    robot["y_m"] = r.y_m;
+    robot["heading_rad"] = r.heading_rad;
+    robot["distance_m"] = r.distance_m;
+    robot["collisions"] = r.collisions;
+    robot["longest_wall_touch_s"] = r.longest_wall_touch_s;
+    robot["left_steps"] = r.left_steps;
+    robot["right_steps"] = r.right_steps;
+    robot["cycles"] = r.cycles;
+    robot["cpu_load"] = r.cpu_load;
+    robot["traps"] = nlohmann::ordered_json::array();
+    for (const auto& t : r.traps) robot["traps"].push_back(json_of(t));
+    j["robots"].push_back(std::move(robot));
+  }
+  return j.dump(2) + "\n";
+}
+
+std::string to_text(const host::TrapReport& t) {
+  std::string text = fmt::format("{}: {}: {}", t.robot, host::trap_name(t.kind), t.message);
+  if (t.count > 1) text += fmt::format(" ({} times)", t.count);
+  text += fmt::format("\n  at {}, cycle {}, {:.6f} s\n", t.place.function.empty() ? "an unknown place" : to_string(t.place), t.cycle, t.time_s);
+  for (std::size_t i = 1; i < t.backtrace.size(); ++i) text += fmt::format("  called from {}\n", to_string(t.backtrace[i]));
+  return text;
+}
+
+}  // namespace tools

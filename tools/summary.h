@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// What a run comes to: for people, and as JSON for programs (the keys are a contract, docs/design.md).
+#pragma once
+#include <string>
+#include <vector>
+
+#include "hal_sim/twin/twin.h"
+
+namespace tools {
+
+struct RobotSummary {
+  std::string name, firmware, way;
+  double x_m = 0, y_m = 0, heading_rad = 0, distance_m = 0;
+  int collisions = 0;
+  double longest_wall_touch_s = 0;
+  std::int64_t left_steps = 0, right_steps = 0;
+  std::int64_t cycles = 0;
+  double cpu_load = 0;  ///< share of cycles not spent waiting
+  std::vector<host::TrapReport> traps;
+};
+
+struct Summary {
+  std::string world;
+  std::uint64_t seed = 0, digest = 0;
+  double simulated_s = 0, wall_s = 0;
+  std::vector<RobotSummary> robots;
+  std::vector<host::TrapReport> traps;  ///< of all robots
+};
+
+Summary summarise(const twin::Twin& twin, double wall_s);
+std::string to_text(const Summary& summary);
+std::string to_json(const Summary& summary);
+/// A report of a few lines: what, who, where, when, back-trace.
+std::string to_text(const host::TrapReport& trap);
+
+}  // namespace tools

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// The verbs of the `twinpuck` command and what they share. Exit codes are those of docs/design.md.
+#pragma once
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+namespace tools {
+
+/// Exit codes of every verb.
+enum Exit {
+  kPass = 0,
+  kTestFailed = 1,     ///< a test or assertion failed; `build`, `check`, `lint`: the input has errors
+  kBadInput = 2,       ///< usage or bad input, nothing ran
+  kTrapped = 3,        ///< a firmware trapped or was reset unexpectedly
+  kTimeOut = 4,        ///< virtual time-out or no progress
+  kNothing = 5,        ///< nothing was selected
+  kInternal = 6,       ///< internal error
+  kInvalidRun = 7,     ///< an output was lost (disk full), a fault never fired, a replay diverged
+  kHostTime = 124,     ///< host time guard
+  kInterrupted = 130,  ///< Ctrl-C
+};
+
+/// Each verb adds its options to `app`; `exit_code` is set when it has run.
+void add_run(CLI::App& app, int& exit_code);
+void add_check(CLI::App& app, int& exit_code);
+void add_build(CLI::App& app, int& exit_code);
+void add_lint(CLI::App& app, int& exit_code);
+void add_cycles(CLI::App& app, int& exit_code);
+void add_new(CLI::App& app, int& exit_code);
+void add_list(CLI::App& app, int& exit_code);
+
+/// Writes each problem on a line of its own to stderr.
+void complain(const std::vector<std::string>& problems);
+
+}  // namespace tools
