@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kFullScale = 4095;  // counts of a 12-bit converter [DS70143]
 
-/// 0.25 / d2, saturating at full scale. [epuck-robot.md A3: driver of the real robot, 0.5 / sqrt(value)]
+/// 0.25 / d2, saturating at full scale. [FRM A3: driver of the real robot, 0.5 / sqrt(value)]
 std::vector<ResponseRow> inverse_square_table() {
   std::vector<ResponseRow> rows;
   const auto add = [&](double d) {
@@ -46,7 +46,7 @@ std::vector<ResponseRow> enki_table() {
   return rows;
 }
 
-/// 298.701 d2 - 36.8961 d + 1.08212 of full scale, nothing beyond 5 cm. [ARGoS: argos3-epuck]
+/// 298.701 d2 - 36.8961 d + 1.08212 of full scale, nothing beyond 5 cm. [ARGoS]
 std::vector<ResponseRow> argos_table() {
   std::vector<ResponseRow> rows;
   for (int k = 0; k <= 20; ++k) {
@@ -68,7 +68,7 @@ std::vector<ProximityProfile> make_profiles() {
       {0, 4095, .002},       {.005, 2133.33, .003}, {.01, 1465.73, .007}, {.015, 601.46, .0406},
       {.02, 383.84, .01472}, {.03, 234.93, .0241},  {.04, 158.03, .0287}, {.05, 120, .04225},
       {.06, 104.09, .03065}, {.07, 67.19, .04897}};
-  const double enki_aperture = radians(30);  // rays at -15, 0 and 15 degrees [Enki: EPuck.cpp]
+  const double enki_aperture = radians(30);  // rays at -15, 0 and 15 degrees [Enki]
   return {
       {"inverse-square", inverse_square_table(), 1, 0, RayLayout::Cone, ColourRule::Old, NoiseLaw::Gaussian,
        false},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Named lookup tables of proximity sensors, and the settings of a sensor after inheritance.
-// Distances in m, values in counts (0 to 4095). Sources: epuck-robot.md A3, B1, B2; see each table.
+// Distances in m, values in counts (0 to 4095). Sources: [FRM A3, B1, B2]; see each table.
 #pragma once
 #include <string>
 #include <vector>
