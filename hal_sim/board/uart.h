@@ -61,7 +61,8 @@ class Uart {
   // --- outside ------------------------------------------------------------------------------------------------
   void connect(std::unique_ptr<UartEnd> end) { end_ = std::move(end); }
   UartEnd* end() const { return end_.get(); }
-  /// Tick boundary: what has left goes to the end, what has come starts on the wire.
+  /// Tick boundary: what has left goes to the end; what has come starts on the wire, or waits outside until the
+  /// UART is enabled.
   void exchange(Cycle at);
   /// Bytes sent since power-up.
   std::int64_t sent() const { return sent_; }

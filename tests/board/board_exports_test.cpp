@@ -140,6 +140,13 @@ TEST_F(Exports, transmit_interrupt_follows_the_last_loaded_byte) {
   EXPECT_EQ(tp_uart_take(1), -1);
 }
 
+// 8 bytes: one in the shift register, four wait; the eighth is accepted when the fourth moves on
+TEST_F(Exports, printf_waits_for_room) {
+  tp_console("12345678", 8);
+  EXPECT_EQ(context.cycle, 3 * 1280);
+  EXPECT_EQ(robot.uart(1).idle_at(), 8 * 1280);
+}
+
 TEST_F(Exports, microphones_and_accelerometer_fail_loudly) {
   EXPECT_THROW(tp_convert(2), std::runtime_error);
   EXPECT_THROW(tp_convert(5), std::runtime_error);

@@ -62,12 +62,24 @@ TEST(Uart, waiting_for_room_keeps_the_line_busy) {
   EXPECT_EQ(at, 95 * kByte);  // the last one was accepted when the fifth from the end moved on
 }
 
-TEST(Uart, disabled_sends_and_receives_nothing) {
+TEST(Uart, disabled_sends_nothing_and_lets_the_outside_wait) {
   Wired w;
   EXPECT_FALSE(w.uart.load('x', 0));
+  w.end->inject("hi", 0);
+  w.uart.exchange(0);
+  EXPECT_EQ(w.uart.received(10 * kByte), 0);
+  w.uart.init_library(7, 10 * kByte);
+  w.uart.exchange(11 * kByte);
+  EXPECT_EQ(w.uart.take(12 * kByte), 'h');
+  EXPECT_EQ(w.uart.take(13 * kByte), 'i');
+}
+
+TEST(Uart, bytes_on_the_wire_are_lost_on_a_reset_processor) {
+  Wired w;
+  w.uart.init_library(7, 0);
   w.end->inject("lost", 0);
   w.uart.exchange(0);
-  EXPECT_EQ(w.uart.unread(10 * kByte), 0);
+  w.uart.reset(10);
   EXPECT_EQ(w.uart.received(10 * kByte), 0);
 }
 
