@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * The ADC scan, usual variant. Schedule and samples are the board's (hal_sim/board/adc_scan.h); see adc_arrays.h
- * for the driver's public variables.
+ * The ADC scan, usual variant. Schedule and samples are the board's (hal_sim/board/adc_scan.h); see
+ * adc_arrays.h for the driver's public variables.
  * Source: [lib: a_d/advance_ad_scan/e_ad_conv.c], facts restated.
  */
 #include "adc_arrays.h"

@@ -143,7 +143,7 @@ TEST(Uart, a_reset_cuts_off_what_has_not_left) {
   EXPECT_FALSE(w.uart.enabled());
 }
 
-// --- ends ------------------------------------------------------------------------------------------------------------
+// --- ends ------------------------------------------------------------------------------------------------
 
 TEST(UartEnd, pty_carries_bytes_both_ways_under_a_stable_name) {
   const std::string link = "/tmp/twinpuck_uart_test_" + std::to_string(::getpid());
@@ -226,7 +226,8 @@ TEST(UartEnd, file_takes_the_output_and_gives_the_input) {
 }
 
 TEST(UartEnd, nonsense_is_refused_in_one_line) {
-  for (const char* bad : {"tcp:", "tcp:70000", "tcp:abc", "usb", "file:", "file:/nonexistent/dir/x", "", "none:1"}) {
+  for (const char* bad :
+       {"tcp:", "tcp:70000", "tcp:abc", "usb", "file:", "file:/nonexistent/dir/x", "", "none:1"}) {
     std::string error;
     EXPECT_FALSE(board::open_uart_end(bad, "", error)) << bad;
     EXPECT_FALSE(error.empty()) << bad;
