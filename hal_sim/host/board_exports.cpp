@@ -314,6 +314,16 @@ tp_i64 tp_scan_lit(tp_i64 sensor) {
   return scan.lit(static_cast<int>(sensor), now);
 }
 
+void tp_scan_values(void* dark, void* lit) {
+  Context& context = Context::current();
+  board::AdcScan& scan = context.board().scan();
+  const Cycle now = context.now();
+  for (int sensor = 0; sensor < 10; ++sensor) {
+    static_cast<std::int16_t*>(dark)[sensor] = static_cast<std::int16_t>(scan.dark(sensor, now));
+    static_cast<std::int16_t*>(lit)[sensor] = static_cast<std::int16_t>(scan.lit(sensor, now));
+  }
+}
+
 void tp_basic_prox_start(void) {
   Context& context = Context::current();
   Board& robot = context.board();

@@ -122,6 +122,9 @@ tp_i64 tp_scan_acc_samples(void);
 tp_i64 tp_scan_dark(tp_i64 sensor);
 tp_i64 tp_scan_lit(tp_i64 sensor);
 
+/** All ten dark and lit samples at once, into two arrays of ten 16-bit words. Horizon: none. */
+void tp_scan_values(void* dark, void* lit);
+
 /** The basic proximity driver starts / stops. Write. Source: [lib: a_d/e_prox.c]. */
 void tp_basic_prox_start(void);
 void tp_basic_prox_stop(void);
