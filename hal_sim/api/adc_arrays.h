@@ -2,8 +2,8 @@
  * The ADC driver's public variables, shared by the files of the API that fill them.
  *
  * On the robot the interrupt writes them; here they are brought up to date when a function of the driver is
- * called (e_get_prox() its own two entries, e_ad_is_*() and the stopwatch everything). A program that reads them
- * without ever calling one of these sees old values.
+ * called (e_get_prox() its own two entries, e_ad_is_*() and the stopwatch everything). A program that reads
+ * them without ever calling one of these sees old values.
  * Not modelled: e_mic_scan and e_acc_scan stay 0.
  */
 #ifndef TWINPUCK_API_ADC_ARRAYS_H

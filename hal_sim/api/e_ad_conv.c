@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * The ADC scan, usual variant. Schedule and samples are the board's (hal_sim/board/adc_scan.h); see adc_arrays.h
- * for the driver's public variables.
+ * The ADC scan, usual variant. Schedule and samples are the board's (hal_sim/board/adc_scan.h); see
+ * adc_arrays.h for the driver's public variables.
  * Source: [lib: a_d/advance_ad_scan/e_ad_conv.c], facts restated.
  */
 #include "adc_arrays.h"
@@ -42,11 +42,9 @@ void twinpuck_refresh_ir(unsigned int sensor) {
 }
 
 static void refresh_all(void) {
-  unsigned int sensor;
   tp_i64 before = interrupts_seen;
   twinpuck_refresh_adc_counters();
-  if (interrupts_seen == before) return;
-  for (sensor = 0; sensor < IR_CHANNELS; sensor++) twinpuck_refresh_ir(sensor);
+  if (interrupts_seen != before) tp_scan_values(e_ambient_ir, e_ambient_and_reflected_ir);
 }
 
 void e_init_ad_scan(unsigned char only_micro) {

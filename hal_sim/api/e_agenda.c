@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * Agendas, usual variant. The list and the counting are the board's (hal_sim/board/agenda_timer.h): the interrupt
- * comes only at ticks at which a callback is due, and finds all counters where 10,000 ticks a second would have
- * left them.
+ * Agendas, usual variant. The list and the counting are the board's (hal_sim/board/agenda_timer.h): the
+ * interrupt comes only at ticks at which a callback is due, and finds all counters where 10,000 ticks a
+ * second would have left them.
  * Not modelled: the heap that the nodes take, and the end of the program when it is full.
  * Source: [lib: motor_led/advance_one_timer/e_agenda.c], facts restated.
  */

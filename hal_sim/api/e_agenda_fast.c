@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT
- * Fast agenda: tasks spread over Timers 1 to 3, each timer running at the greatest common divisor of its tasks'
- * cycles, one timer reserved for the two motor tasks. Rare; so its interrupts are not evaluated in closed form but
- * delivered one by one, and this file is plain event-driven C.
+ * Fast agenda: tasks spread over Timers 1 to 3, each timer running at the greatest common divisor of its
+ * tasks' cycles, one timer reserved for the two motor tasks. Rare; so its interrupts are not evaluated in
+ * closed form but delivered one by one, and this file is plain event-driven C.
  *
- *   task of cycle 0 -> waiting list        new task -> a free timer, else the one with the best common divisor
+ *   task of cycle 0 -> waiting list       new task -> a free timer, else the one with the best common divisor
  *
  * Modelled: choice of timer, prescaler and period with their truncations, the timer's count kept over stops,
- * counters that advance by the timer's period, no clearing of the flag for a timer without tasks (it then would
- * interrupt for ever; here it is silent).
+ * counters that advance by the timer's period, no clearing of the flag for a timer without tasks (it then
+ * would interrupt for ever; here it is silent).
  * Not modelled: e_destroy_agenda() of the original unlinks the wrong node; here it unlinks the task's.
  * Source: [lib: motor_led/advance_one_timer/fast_agenda/e_agenda_fast.c], facts restated.
  */
@@ -39,7 +39,7 @@ static struct AgendaList tasks;
 static struct timer timers[TIMERS] = {
     {TP_V_T1, 65535u, 0, 0, 0, 0}, {TP_V_T2, 65535u, 0, 0, 0, 0}, {TP_V_T3, 65535u, 0, 0, 0, 0}};
 
-/* --- timers ------------------------------------------------------------------------------------------------- */
+/* --- timers ------------------------------------------------------------------------------------------- */
 
 static tp_i64 counts_since_start(const struct timer *t) { return (tp_now() - t->started) >> t->shift; }
 
@@ -109,7 +109,7 @@ static void set_period(int index, unsigned int units) {
     units = units / (parts > (float)whole ? whole + 1 : whole);
   }
   tasks.speed[index] = units;
-  /* below 44 units the library leaves the shift 0 but also the prescaler of before, which is 1 after configuring */
+  /* below 44 units the library leaves the prescaler of before, which is 1 after configuring */
   t->shift = units > 2864 ? 8 : units > 358 ? 6 : units >= 44 ? 3 : 0;
   t->period = (unsigned int)((unsigned long)(UNIT_CYCLES * units) >> t->shift);
   if (t->running) request_match(t);
@@ -124,7 +124,7 @@ static unsigned int common_divisor(unsigned int a, unsigned int b) {
   return a;
 }
 
-/* --- choice of a timer ---------------------------------------------------------------------------------------- */
+/* --- choice of a timer -------------------------------------------------------------------------------- */
 
 static int free_timer(void) {
   int i;
@@ -198,7 +198,7 @@ static Agenda *find_task(void (*func)(void)) {
   return task;
 }
 
-/* --- the API ---------------------------------------------------------------------------------------------------- */
+/* --- the API ------------------------------------------------------------------------------------------ */
 
 void e_start_agendas_processing(void) {
   int i;

@@ -53,7 +53,7 @@ void e_set_blinking_cycle(int cycle) {
   if (cycle >= 0) e_set_agenda_cycle(e_blink_led, cycle);
 }
 
-/* --- animations: one step a call ------------------------------------------------------------------------- */
+/* --- animations: one step a call ---------------------------------------------------------------------- */
 
 /* one LED travels clockwise; the one behind it goes out */
 void snake_led(void) {
@@ -86,7 +86,8 @@ void k2000_led(void) {
 }
 
 /* front and back, then the pair beside them, then the LED at the side; then all out */
-static void point_to_side(unsigned char *step, unsigned char before, unsigned char behind, unsigned char side) {
+static void point_to_side(unsigned char *step, unsigned char before, unsigned char behind,
+                          unsigned char side) {
   switch (*step) {
     case 0: e_set_led(0, TOGGLE); e_set_led(4, TOGGLE); break;
     case 1: e_set_led(before, TOGGLE); e_set_led(behind, TOGGLE); break;

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * Motors on agendas, usual variant. Steps and coils are evaluated by the board (hal_sim/board/agenda_motor.h).
- * Not modelled: the tick that may fall between storing speed 0 and stopping the agenda, which divides by zero.
+ * Motors on agendas, usual variant. Steps and coils are evaluated by the board
+ * (hal_sim/board/agenda_motor.h).
+ * Not modelled: the tick that may fall between storing speed 0 and stopping the agenda, which divides by
+ * zero.
  * Source: [lib: motor_led/advance_one_timer/e_motors.c], facts restated.
  */
 #include "motor_led/advance_one_timer/e_motors.h"

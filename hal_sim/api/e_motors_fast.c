@@ -60,7 +60,9 @@ static void run_right(void) {
 
 void e_init_motors(void) { e_activate_motors(run_left, run_right); }
 
-static int limited(int speed) { return speed > MAX_SPEED ? MAX_SPEED : speed < -MAX_SPEED ? -MAX_SPEED : speed; }
+static int limited(int speed) {
+  return speed > MAX_SPEED ? MAX_SPEED : speed < -MAX_SPEED ? -MAX_SPEED : speed;
+}
 
 void e_set_speed_left(int motor_speed) {
   tp_coils_write(LEFT, 0);

@@ -5,9 +5,11 @@
 #include "a_d/advance_ad_scan/e_prox.h"
 
 #include "adc_arrays.h"
+#include "hal_sim/host/pins.h"
 
 #define CALIBRATION_ROUNDS 100
-#define CALIBRATION_PAUSE 1000 /* rounds of an empty loop after each reading */
+/* after each reading: 1000 rounds of an empty loop over a long [estimated: 10 cycles a round] */
+#define CALIBRATION_PAUSE_CYCLES 10000
 
 static int free_space[IR_CHANNELS];
 
@@ -32,7 +34,6 @@ int e_get_ambient_light(unsigned int sensor_number) {
 
 void e_calibrate_ir() {
   long sum[IR_CHANNELS];
-  long pause;
   int round;
   unsigned int sensor;
   for (sensor = 0; sensor < IR_CHANNELS; sensor++) {
@@ -42,7 +43,7 @@ void e_calibrate_ir() {
   for (round = 0; round < CALIBRATION_ROUNDS; round++)
     for (sensor = 0; sensor < IR_CHANNELS; sensor++) {
       sum[sensor] += e_get_prox(sensor);
-      for (pause = 0; pause < CALIBRATION_PAUSE; pause++) continue;
+      tp_spend(CALIBRATION_PAUSE_CYCLES);
     }
   for (sensor = 0; sensor < IR_CHANNELS; sensor++)
     free_space[sensor] = (int)((float)sum[sensor] / CALIBRATION_ROUNDS);

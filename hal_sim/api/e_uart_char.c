@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
- * UART 1 and 2. Bytes are taken from the caller's memory when the transmit interrupt loads them, up to four at a
- * time, so a buffer that is overwritten too early is sent overwritten, as on the robot.
+ * UART 1 and 2. Bytes are taken from the caller's memory when the transmit interrupt loads them, up to four
+ * at a time, so a buffer that is overwritten too early is sent overwritten, as on the robot.
  *
  * Modelled: blocking while a transfer is under way, the first byte loaded at once, 64-byte receive ring.
- * Not modelled: what a length of 0 or less sends after its first byte: the robot goes through its whole memory,
- * here 65,536 bytes less the length are 0. Clearing a variable's bits on reception (a build option).
+ * Not modelled: what a length of 0 or less sends after its first byte: the robot goes through its whole
+ * memory, here 65,536 bytes less the length are 0. Clearing a variable's bits on reception (a build option).
  * Source: [lib: uart/], facts restated.
  */
 #include "uart/e_uart_char.h"

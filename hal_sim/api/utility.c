@@ -8,7 +8,7 @@
 #include "hal_sim/host/pins.h"
 #include "motor_led/e_init_port.h"
 
-#define ROUND_CYCLES 10 /* one round of an empty loop over a long, not optimised [estimated: add, compare, 2 branches] */
+#define ROUND_CYCLES 10 /* a round of an empty loop over a long [estimated: load, add, store, compare] */
 #define SELECTOR_PIN 6  /* RG6 to RG9 */
 #define BATTERY_EMPTY 2070 /* counts at 3.4 V */
 #define BATTERY_RANGE 490  /* counts from there to 4.2 V */

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See adc_scan.h. Interrupts of ALL_ADC mode are numbered from 0; number i has slot i % 65 and period i / 65. In
-// period q the lit sample of pair_of_lit(q) arrives, and the dark one of pair_of_lit(q + 1).
+// See adc_scan.h. Interrupts of ALL_ADC mode are numbered from 0; number i has slot i % 65 and period i / 65.
+// In period q the lit sample of pair_of_lit(q) arrives, and the dark one of pair_of_lit(q + 1).
 #include "hal_sim/board/adc_scan.h"
 
 #include <algorithm>
@@ -108,7 +108,8 @@ int AdcScan::evaluate(int sensor, std::int64_t period, bool lit_sample) const {
   const Cycle at = full_cycle(interrupt) - kScanFrameCycles + hold_cycles(sensor);
   // the LED was switched on at the dark interrupt of the period before; in the very first period nobody did
   Cycle lit_for = -1;
-  if (lit_sample && period > 0) lit_for = at - full_cycle(interrupt - kScanLitSlot - kScanPeriod + kScanDarkSlot);
+  if (lit_sample && period > 0)
+    lit_for = at - full_cycle(interrupt - kScanLitSlot - kScanPeriod + kScanDarkSlot);
   const std::uint64_t number = noise_base_ + 2 * static_cast<std::uint64_t>(period) + (lit_sample ? 1 : 0);
   return board_.ir_counts(sensor, at, lit_for, number);
 }

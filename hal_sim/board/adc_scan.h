@@ -41,7 +41,9 @@ class AdcScan {
   /// Interrupts so far, in both modes.
   std::int64_t interrupts(Cycle at) const { return total_base_ + frames(at); }
   /// Accelerometer samples so far.
-  std::int64_t acc_samples(Cycle at) const { return (full_interrupts(at) + kScanPeriod - 1 - kScanAccSlot) / kScanPeriod; }
+  std::int64_t acc_samples(Cycle at) const {
+    return (full_interrupts(at) + kScanPeriod - 1 - kScanAccSlot) / kScanPeriod;
+  }
   /// Cycle of the next interrupt; kNever when the converter is off.
   Cycle next_interrupt(Cycle at) const;
   /// Cycle of the interrupt that completes the `count`-th microphone sample from power-up on.
@@ -49,7 +51,8 @@ class AdcScan {
   /// First cycle from `at` on at which the accelerometer index is 49: where e_init_ad_scan() returns.
   Cycle first_fill(Cycle at) const;
 
-  /// e_ambient_ir[sensor] and e_ambient_and_reflected_ir[sensor] at `at`; 0 before the first sample. Keeps the value.
+  /// e_ambient_ir[sensor] and e_ambient_and_reflected_ir[sensor] at `at`; 0 before the first sample. Keeps
+  /// the value.
   int dark(int sensor, Cycle at);
   int lit(int sensor, Cycle at);
   /// The same without keeping anything.
@@ -85,12 +88,12 @@ class AdcScan {
   bool on_ = false;
   bool micro_only_ = false;
   int pairs_ = 4;
-  Cycle anchor_ = 0;               // the current run of frames began here
-  std::int64_t total_base_ = 0;    // interrupts before the anchor
-  std::int64_t full_base_ = 0;     // of these, in ALL_ADC mode: the driver's slot counter
-  std::int64_t period_base_ = 0;   // from this period on ...
-  int pair_base_ = 0;              // ... pairs count from here
-  std::uint64_t noise_base_ = 0;   // samples drawn before the last reset
+  Cycle anchor_ = 0;              // the current run of frames began here
+  std::int64_t total_base_ = 0;   // interrupts before the anchor
+  std::int64_t full_base_ = 0;    // of these, in ALL_ADC mode: the driver's slot counter
+  std::int64_t period_base_ = 0;  // from this period on ...
+  int pair_base_ = 0;             // ... pairs count from here
+  std::uint64_t noise_base_ = 0;  // samples drawn before the last reset
   std::array<Sample, 10> dark_{};
   std::array<Sample, 10> lit_{};
 };

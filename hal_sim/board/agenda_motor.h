@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One wheel under the library's usual motor driver: what run_left_motor() / run_right_motor() do at each firing of
-// their agenda, and the closed form of many firings in a row.
+// One wheel under the library's usual motor driver: what run_left_motor() / run_right_motor() do at each
+// firing of their agenda, and the closed form of many firings in a row.
 //
 //   |v| >= 601: step, step, step ...           every `cycle` ticks, coils stay on
 //   |v| <= 600: step, coils off, step, off ... 15 ticks on, 10000/|v| - 15 ticks off (power save)
@@ -17,10 +17,10 @@
 
 namespace board {
 
-/// When the n-th processed tick of Timer 2 happens: a straight line, except one tick that came late because its
-/// interrupt had to wait for a callback.
+/// When the n-th processed tick of Timer 2 happens: a straight line, except one tick that came late because
+/// its interrupt had to wait for a callback.
 struct TickLine {
-  Cycle origin = 0;          ///< tick n is due at origin + n * kAgendaTickCycles
+  Cycle origin = 0;  ///< tick n is due at origin + n * kAgendaTickCycles
   std::int64_t late_tick = -1;
   Cycle late_cycle = 0;
 
@@ -48,11 +48,11 @@ class AgendaMotor {
  public:
   explicit AgendaMotor(int forward) : stepper(forward) {}
 
-  AgendaCount count;      ///< its node; count.active stays false while no node exists
-  Stepper stepper;        ///< the motor itself
-  int speed = 0;          ///< steps/s, clamped
-  int phase = 0;          ///< the driver's idea of the rotor
-  bool phase_on = false;  ///< power save: the next firing switches the coils off
+  AgendaCount count;           ///< its node; count.active stays false while no node exists
+  Stepper stepper;             ///< the motor itself
+  int speed = 0;               ///< steps/s, clamped
+  int phase = 0;               ///< the driver's idea of the rotor
+  bool phase_on = false;       ///< power save: the next firing switches the coils off
   std::int64_t commanded = 0;  ///< steps counted by the driver, not wrapped
 
   /// Does the next firing divide by zero? (speed 0 with a cycle set by hand, in the off half)
@@ -146,7 +146,9 @@ class AgendaMotor {
   /// Time the rotor has for a step.
   Cycle move_cycles() const {
     const int magnitude = std::abs(speed);
-    const Cycle ticks = magnitude >= kPowerSaveBelow ? count.cycle : magnitude > 0 ? kSpeedUnit / magnitude : 0;
+    const Cycle ticks = magnitude >= kPowerSaveBelow ? count.cycle
+                        : magnitude > 0              ? kSpeedUnit / magnitude
+                                                     : 0;
     const Cycle cycles = ticks * kAgendaTickCycles;
     return cycles > 0 && cycles < kRotorMoveCycles ? cycles : kRotorMoveCycles;
   }

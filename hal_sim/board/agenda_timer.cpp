@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See agenda_timer.h. Invariants: a node's count.tick never exceeds the ticks it has processed; next_fire_ is up to
-// date whenever no walk is under way; outside a walk no tick at or after next_fire_ is processed.
+// See agenda_timer.h. Invariants: a node's count.tick never exceeds the ticks it has processed; next_fire_ is
+// up to date whenever no walk is under way; outside a walk no tick at or after next_fire_ is processed.
 #include "hal_sim/board/agenda_timer.h"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ AgendaTimer::AgendaTimer()
   for (AgendaMotor& m : motors_) m.count.active = false;
 }
 
-// --- ticks -----------------------------------------------------------------------------------------------------
+// --- ticks -----------------------------------------------------------------------------------------------
 
 std::int64_t AgendaTimer::ticks_at(Cycle at) const {
   if (walking_) return walk_tick_;
@@ -81,7 +81,7 @@ void AgendaTimer::reset(Cycle at) {
   last_serial_ = 0;
 }
 
-// --- the list --------------------------------------------------------------------------------------------------
+// --- the list --------------------------------------------------------------------------------------------
 
 AgendaTimer::Node* AgendaTimer::find(Function function) {
   for (Node& node : nodes_)
@@ -211,7 +211,7 @@ void AgendaTimer::name_motor(Wheel wheel, Function function) {
   motor_functions_[static_cast<int>(wheel)] = function;
 }
 
-// --- motors ----------------------------------------------------------------------------------------------------
+// --- motors ----------------------------------------------------------------------------------------------
 
 void AgendaTimer::set_speed(Wheel wheel, int speed, Cycle at) {
   AgendaMotor& m = bring(wheel, done_tick(serial_of(wheel), at));
@@ -246,7 +246,9 @@ const AgendaMotor& AgendaTimer::motor_at(Wheel wheel, Cycle at) const {
   return ahead_[i];
 }
 
-std::int64_t AgendaTimer::commanded_steps(Wheel wheel, Cycle at) const { return motor_at(wheel, at).commanded; }
+std::int64_t AgendaTimer::commanded_steps(Wheel wheel, Cycle at) const {
+  return motor_at(wheel, at).commanded;
+}
 
 const Stepper& AgendaTimer::stepper_at(Wheel wheel, Cycle at) const { return motor_at(wheel, at).stepper; }
 
@@ -269,7 +271,7 @@ Cycle AgendaTimer::coils_horizon(Wheel wheel, Cycle at) const {
   return line_.cycle_of(m.count.tick + m.count.ticks_to_fire());
 }
 
-// --- the interrupt handler -----------------------------------------------------------------------------------------
+// --- the interrupt handler -------------------------------------------------------------------------------
 
 Cycle AgendaTimer::next_interrupt() const {
   if (!running_ || walking_ || next_fire_ < 0) return host::kNever;
@@ -280,7 +282,8 @@ void AgendaTimer::begin(Cycle at) {
   walk_tick_ = next_fire_ >= 0 && at >= next_interrupt() ? next_fire_ : ticks_at(at);
   settle_motors(walk_tick_ - 1);
   // ticks that came while the flag was already set are lost
-  const std::int64_t lost = floor_div(at - (line_.origin + walk_tick_ * kAgendaTickCycles), kAgendaTickCycles);
+  const std::int64_t lost =
+      floor_div(at - (line_.origin + walk_tick_ * kAgendaTickCycles), kAgendaTickCycles);
   if (lost > 0) {
     line_.origin += lost * kAgendaTickCycles;
     line_.late_tick = walk_tick_;
@@ -338,7 +341,8 @@ void AgendaTimer::finish(Cycle at) {
   settle_motors(walk_tick_);
   if (running_) {
     // one tick was remembered by the flag and runs now; the others are lost
-    const std::int64_t since = floor_div(at - (line_.origin + walk_tick_ * kAgendaTickCycles), kAgendaTickCycles);
+    const std::int64_t since =
+        floor_div(at - (line_.origin + walk_tick_ * kAgendaTickCycles), kAgendaTickCycles);
     if (since >= 1) {
       line_.origin += (since - 1) * kAgendaTickCycles;
       line_.late_tick = walk_tick_ + 1;
@@ -348,7 +352,7 @@ void AgendaTimer::finish(Cycle at) {
   find_next_fire();
 }
 
-// --- costs and digest ------------------------------------------------------------------------------------------------
+// --- costs and digest ------------------------------------------------------------------------------------
 
 Cycle AgendaTimer::idle_tick_cost() const {
   return kAgendaIsrCycles + kAgendaNodeCycles * static_cast<Cycle>(nodes_.size());
@@ -369,9 +373,11 @@ std::uint64_t AgendaTimer::state_hash(Cycle at) const {
     hash = sim::mix64(hash ^ static_cast<std::uint64_t>(m.stepper.steps()));
     hash = sim::mix64(hash ^ static_cast<std::uint64_t>(m.commanded));
     hash = sim::mix64(hash ^ (m.stepper.coils() | static_cast<std::uint64_t>(m.phase) << 8 |
-                         static_cast<std::uint64_t>(m.speed + kMaxSpeed) << 16 | (m.phase_on ? 1ull << 40 : 0)));
+                              static_cast<std::uint64_t>(m.speed + kMaxSpeed) << 16 |
+                              (m.phase_on ? 1ull << 40 : 0)));
   }
-  for (const Node& node : nodes_) hash = sim::mix64(hash ^ (node.count.cycle | std::uint64_t{node.serial} << 16));
+  for (const Node& node : nodes_)
+    hash = sim::mix64(hash ^ (node.count.cycle | std::uint64_t{node.serial} << 16));
   return hash;
 }
 

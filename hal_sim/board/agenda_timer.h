@@ -4,16 +4,16 @@
 //   tick:  1475 cycles; at each tick every active node with a cycle counts, newest first, and fires when its
 //          counter reaches the cycle; the counter is zeroed after the callback has returned.
 //
-// Between two firings of user agendas nothing but counting and the motors' own firings can happen, and both have
-// a closed form. So only ticks at which a user agenda fires become interrupts (next_interrupt()); the handler in
-// the image then walks the list with begin / next / finish and calls what next() names.
+// Between two firings of user agendas nothing but counting and the motors' own firings can happen, and both
+// have a closed form. So only ticks at which a user agenda fires become interrupts (next_interrupt()); the
+// handler in the image then walks the list with begin / next / finish and calls what next() names.
 // A handler that takes longer than a tick delays the following tick to its end and loses the others, as the
 // processor with its single pending flag does; motors lose them too.
 //
-// Modelled: list order, counters that survive speed and cycle changes, pause, restart, reset, destroy from within
-// callbacks, lost ticks, division by zero in the power-save half.
-// Not modelled: a list edited while the interrupt walks it (the robot races); use of freed nodes; ticks lost to
-// other interrupts while no user agenda is due; the few microseconds of interrupt latency.
+// Modelled: list order, counters that survive speed and cycle changes, pause, restart, reset, destroy from
+// within callbacks, lost ticks, division by zero in the power-save half.
+// Not modelled: a list edited while the interrupt walks it (the robot races); use of freed nodes; ticks lost
+// to other interrupts while no user agenda is due; the few microseconds of interrupt latency.
 // Source: [lib: motor_led/advance_one_timer/e_agenda.c], facts restated.
 #pragma once
 #include <cstdint>
@@ -32,16 +32,17 @@ class AgendaTimer {
 
   AgendaTimer();
 
-  // --- the timer --------------------------------------------------------------------------------------------
+  // --- the timer -----------------------------------------------------------------------------------------
   /// Timer 2 starts from 0: the first tick is one period later.
   void start(Cycle at);
   /// Timer 2 stops; nothing counts until the next start.
   void stop(Cycle at);
   bool is_running() const { return running_; }
-  /// Processor reset: list, statics and timer as after loading; wheels keep their position and lose their current.
+  /// Processor reset: list, statics and timer as after loading; wheels keep their position and lose their
+  /// current.
   void reset(Cycle at);
 
-  // --- the list; results as the C functions return them (1 done, 2 not found) ---------------------------------
+  // --- the list; results as the C functions return them (1 done, 2 not found) ----------------------------
   int activate(Function function, int cycle, Cycle at);
   int destroy(Function function, Cycle at);
   int set_cycle(Function function, int cycle, Cycle at);
@@ -51,7 +52,7 @@ class AgendaTimer {
   /// Tells which functions are run_left_motor and run_right_motor, so that their firing is evaluated here.
   void name_motor(Wheel wheel, Function function);
 
-  // --- motors -------------------------------------------------------------------------------------------------
+  // --- motors --------------------------------------------------------------------------------------------
   /// e_set_speed_left / right: coils off, clamp, new cycle.
   void set_speed(Wheel wheel, int speed, Cycle at);
   /// run_left_motor() called as a function, from wherever. False: division by zero.
@@ -65,16 +66,17 @@ class AgendaTimer {
   Cycle coils_horizon(Wheel wheel, Cycle at) const;
   /// The motor as it is at `at`; valid until the next call of anything here.
   const Stepper& stepper_at(Wheel wheel, Cycle at) const;
-  /// The motor itself, brought to `at`; changing it is up to the caller (pins written directly, other drivers).
+  /// The motor itself, brought to `at`; changing it is up to the caller (pins written directly, other
+  /// drivers).
   Stepper& stepper(Wheel wheel, Cycle at);
 
-  // --- the interrupt handler ------------------------------------------------------------------------------------
+  // --- the interrupt handler -----------------------------------------------------------------------------
   /// Cycle of the next tick at which a user agenda fires (or a motor traps); kNever if none.
   Cycle next_interrupt() const;
   /// The handler starts. Must be called at or after next_interrupt().
   void begin(Cycle at);
-  /// The next callback of this tick, in list order, or null when the list's end is reached. `divided_by_zero` is
-  /// set when a motor's firing trapped; the walk is then over.
+  /// The next callback of this tick, in list order, or null when the list's end is reached. `divided_by_zero`
+  /// is set when a motor's firing trapped; the walk is then over.
   Function next(bool& divided_by_zero);
   /// The handler returns.
   void finish(Cycle at);

@@ -60,7 +60,8 @@ int BasicProx::evaluate(int sensor, std::int64_t event) const {
   const Cycle interrupt = event_cycle(event);
   const Cycle at = interrupt + kBasicIsrEntryCycles + kReadAdSampleCycles + (sensor >= 4 ? kReadAdCycles : 0);
   const Cycle lit_for = event % 2 == 1 ? at - (interrupt - kBasicPulseCycles + kSwitchCycles) : -1;
-  return board_.ir_counts(sensor, at, lit_for, kNoiseOffset + noise_base_ + static_cast<std::uint64_t>(event));
+  return board_.ir_counts(sensor, at, lit_for,
+                          kNoiseOffset + noise_base_ + static_cast<std::uint64_t>(event));
 }
 
 int BasicProx::evaluate_reflected(int sensor, std::int64_t event) const {

@@ -45,8 +45,11 @@ class BasicProx {
   static Cycle span(std::int64_t event) {
     return event / 2 * (kBasicPulseCycles + kBasicRestCycles) + event % 2 * kBasicPulseCycles;
   }
-  Cycle event_cycle(std::int64_t event) const { return started_ + kBasicPulseCycles + span(event) - span(base_); }
-  /// Newest event of the sensor's pair with this phase (0 dark, 1 lit) among the first `events`; below 0 if none.
+  Cycle event_cycle(std::int64_t event) const {
+    return started_ + kBasicPulseCycles + span(event) - span(base_);
+  }
+  /// Newest event of the sensor's pair with this phase (0 dark, 1 lit) among the first `events`; below 0 if
+  /// none.
   static std::int64_t newest(std::int64_t events, int sensor, int phase);
   int evaluate(int sensor, std::int64_t event) const;
   int evaluate_reflected(int sensor, std::int64_t event) const;

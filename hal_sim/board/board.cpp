@@ -22,8 +22,8 @@ constexpr std::uint16_t kImplemented[] = {0xF6C0, 0xFFFF, 0xE01E, 0xFFFF, 0x01FF
 enum : int { kA, kB, kC, kD, kF, kG };
 
 constexpr int kRingLedBit[8] = {6, 7, 9, 12, 10, 13, 14, 15};  // [lib: motor_led/e_epuck_ports.h]
-constexpr int kFrontLedBit = 1;                                 // [lib: motor_led/e_epuck_ports.h]
-constexpr int kBodyLedBit = 2;                                  // [lib: motor_led/e_epuck_ports.h]
+constexpr int kFrontLedBit = 1;                                // [lib: motor_led/e_epuck_ports.h]
+constexpr int kBodyLedBit = 2;                                 // [lib: motor_led/e_epuck_ports.h]
 
 struct Line {
   int port;
@@ -32,12 +32,14 @@ struct Line {
 constexpr Line kEmitter[4] = {{kF, 7}, {kF, 8}, {kG, 0}, {kG, 1}};  // [lib: motor_led/e_epuck_ports.h]
 
 constexpr std::uint16_t bit(int n) { return static_cast<std::uint16_t>(1u << n); }
-constexpr std::uint16_t kRingMask = bit(6) | bit(7) | bit(9) | bit(10) | bit(12) | bit(13) | bit(14) | bit(15);
+constexpr std::uint16_t kRingMask =
+    bit(6) | bit(7) | bit(9) | bit(10) | bit(12) | bit(13) | bit(14) | bit(15);
 
 constexpr double kTwoPi = 6.283185307179586;
 constexpr std::uint32_t kAmbientStream = sim::kStreamBoard;          // + sensor
 constexpr std::uint32_t kReflectionStream = sim::kStreamBoard + 16;  // + sensor
-constexpr std::uint64_t kConversionOffset = std::uint64_t{1} << 41;  // single conversions, apart from the drivers'
+constexpr std::uint64_t kConversionOffset = std::uint64_t{1}
+                                            << 41;  // single conversions, apart from the drivers'
 
 std::int64_t to_ppb(double ppm) { return static_cast<std::int64_t>(std::llround(ppm * 1000.0)); }
 
@@ -60,7 +62,7 @@ int Board::port_index(char port) {
   return -1;
 }
 
-// --- motors ------------------------------------------------------------------------------------------------------
+// --- motors ----------------------------------------------------------------------------------------------
 
 Stepper Board::stepper_at(Wheel wheel, Cycle at) const {
   Stepper copy = agendas_.stepper_at(wheel, at);
@@ -89,7 +91,7 @@ void Board::connect_steppers(Cycle at) {
   stepper(Wheel::Right, at).connect((tris_[kD] & 0xF0) == 0);
 }
 
-// --- ports -------------------------------------------------------------------------------------------------------
+// --- ports -----------------------------------------------------------------------------------------------
 
 unsigned Board::pulses(Cycle at) const { return scan_.pulses(at) | basic_prox_.pulses(at); }
 
@@ -100,7 +102,8 @@ std::uint16_t Board::port_read(char port, Register reg, Cycle at) const {
   if (reg == Register::Tris) return tris;
 
   std::uint16_t lat = lat_[static_cast<std::size_t>(index)];
-  if (index == kD) lat = static_cast<std::uint16_t>((lat & 0xFF00) | coils(Wheel::Right, at) << 4 | coils(Wheel::Left, at));
+  if (index == kD)
+    lat = static_cast<std::uint16_t>((lat & 0xFF00) | coils(Wheel::Right, at) << 4 | coils(Wheel::Left, at));
   if (index == kF || index == kG || index == kC) {
     const unsigned on = pulses(at);
     for (int pair = 0; pair < 4; ++pair)
@@ -164,7 +167,8 @@ Cycle Board::port_horizon(char port, Cycle at) const {
   switch (port_index(port)) {
     case kD:
       return std::min({agendas_.coils_horizon(Wheel::Left, at), agendas_.coils_horizon(Wheel::Right, at),
-                       timer_motors_.coils_horizon(Wheel::Left, at), timer_motors_.coils_horizon(Wheel::Right, at)});
+                       timer_motors_.coils_horizon(Wheel::Left, at),
+                       timer_motors_.coils_horizon(Wheel::Right, at)});
     case kC:
     case kF:
     case kG:
@@ -227,7 +231,7 @@ void Board::exchange(Cycle at) {
   for (Uart& uart : uarts_) uart.exchange(at);
 }
 
-// --- analogue inputs ---------------------------------------------------------------------------------------------
+// --- analogue inputs -------------------------------------------------------------------------------------
 
 int Board::ir_counts(int sensor, Cycle at, Cycle lit_for, std::uint64_t sample) const {
   const std::size_t i = static_cast<std::size_t>(sensor);
@@ -242,7 +246,8 @@ int Board::ir_counts(int sensor, Cycle at, Cycle lit_for, std::uint64_t sample) 
       reflection = seen.value * setup_.ir_gain[i];
       if (seen.relative_noise > 0 && setup_.ir_noise_scale > 0) {
         const sim::RandomKey key{setup_.seed, robot, kReflectionStream + static_cast<std::uint32_t>(sensor)};
-        const double noise = seen.uniform_noise ? sim::random_signed(key, sample) : sim::random_gaussian(key, sample);
+        const double noise =
+            seen.uniform_noise ? sim::random_signed(key, sample) : sim::random_gaussian(key, sample);
         reflection *= 1.0 + noise * seen.relative_noise * setup_.ir_noise_scale;
       }
     }
@@ -263,7 +268,9 @@ int Board::ir_counts(int sensor, Cycle at, Cycle lit_for, std::uint64_t sample) 
 Cycle Board::line_on_for(int sensor, Cycle at) const {
   const int pair = sensor & 3;
   const Line line = kEmitter[pair];
-  if (!(lat_[static_cast<std::size_t>(line.port)] & ~tris_[static_cast<std::size_t>(line.port)] & bit(line.bit))) return -1;
+  if (!(lat_[static_cast<std::size_t>(line.port)] & ~tris_[static_cast<std::size_t>(line.port)] &
+        bit(line.bit)))
+    return -1;
   return at - line_since_[static_cast<std::size_t>(pair)];
 }
 

@@ -5,8 +5,8 @@
 //   firmware -- registers - tp_sfr_* -----+--> Board --> wheel angles, LEDs, IR light      (to the world)
 //                                             Board <-- sim::sense_proximity, irradiance   (from the Scene)
 //
-// Modelled: port latches, directions and pin levels; two steppers that follow their coils; the library's motor
-// drivers, agenda timer, ADC scan and UARTs in closed form; IR circuit; LEDs; selector; battery.
+// Modelled: port latches, directions and pin levels; two steppers that follow their coils; the library's
+// motor drivers, agenda timer, ADC scan and UARTs in closed form; IR circuit; LEDs; selector; battery.
 // Not modelled: accelerometer, microphones, camera, codec, I2C (each fails loudly in hal_sim/api).
 //
 // Every method takes the cycle of this robot's clock at which it happens. Cycles never go back between calls
@@ -41,19 +41,19 @@ inline constexpr int kRingSensors = 8;
 
 /// What distinguishes one robot from another; fixed while it is powered.
 struct Setup {
-  int robot = 0;                    ///< index in the Scene
-  std::uint64_t seed = 1;           ///< of all noise of this robot
-  int selector = 0;                 ///< position 0 to 15
-  double battery_v = 4.0;           ///< V, 3.0 to 4.2
+  int robot = 0;           ///< index in the Scene
+  std::uint64_t seed = 1;  ///< of all noise of this robot
+  int selector = 0;        ///< position 0 to 15
+  double battery_v = 4.0;  ///< V, 3.0 to 4.2
   Revision revision = Revision::Analogue;
   std::array<double, 2> wheel_ratio{1.0, 1.0};  ///< true over nominal wheel size, left and right
   std::array<double, kRingSensors> ir_gain{1, 1, 1, 1, 1, 1, 1, 1};  ///< factor on the reflected response
   std::array<double, kRingSensors> ir_offset_counts{};  ///< added to dark - lit where nothing reflects
-  double ir_noise_scale = 1.0;      ///< factor on the profile's relative noise; 0 = none
+  double ir_noise_scale = 1.0;                          ///< factor on the profile's relative noise; 0 = none
   double ambient_noise_counts = 0;  ///< standard deviation of every conversion of an IR channel, counts
   double ambient_counts_per_w_m2 = kAmbientCountsPerWm2;  ///< fall of the dark sample with light
-  double clock_ppm = 0;             ///< crystal error, parts per million, positive = fast
-  double boot_delay_s = 0;          ///< s from the world's beginning to the first instruction
+  double clock_ppm = 0;     ///< crystal error, parts per million, positive = fast
+  double boot_delay_s = 0;  ///< s from the world's beginning to the first instruction
 };
 
 class Board {
@@ -72,9 +72,9 @@ class Board {
   void look_at(const sim::Scene* scene) { scene_ = scene; }
   const sim::Scene* scene() const { return scene_; }
 
-  /// Angle the wheel has turned since power-up, rad, forward positive, wheel ratio included. The rotor needs up
-  /// to kRotorMoveCycles to follow a step, so constant speed gives a constant rim speed. O(1). `at` not before
-  /// the last command.
+  /// Angle the wheel has turned since power-up, rad, forward positive, wheel ratio included. The rotor needs
+  /// up to kRotorMoveCycles to follow a step, so constant speed gives a constant rim speed. O(1). `at` not
+  /// before the last command.
   double wheel_angle_rad(Wheel wheel, Cycle at) const;
   /// Full steps since power-up, forward positive, not wrapped, lost steps not counted.
   std::int64_t steps(Wheel wheel, Cycle at) const;
@@ -84,8 +84,8 @@ class Board {
   unsigned coils(Wheel wheel, Cycle at) const;
   /// Bits 0 to 7 the ring, 8 body, 9 front.
   std::uint32_t leds(Cycle at) const;
-  /// Dark minus lit of the last completed pair of samples, or of a noise-free pair taken at `at` when no driver
-  /// runs. No side effects, and what firmware reads later does not depend on it.
+  /// Dark minus lit of the last completed pair of samples, or of a noise-free pair taken at `at` when no
+  /// driver runs. No side effects, and what firmware reads later does not depend on it.
   int proximity_counts(int sensor, Cycle at) const;
   /// Everything that must repeat from run to run.
   std::uint64_t state_hash(Cycle at) const;
@@ -111,7 +111,7 @@ class Board {
   void turn_selector(int position);
   void set_battery(double volts);
 
-  // --- what the library's drivers keep in the processor, in closed form -------------------------------------
+  // --- what the library's drivers keep in the processor, in closed form ----------------------------------
 
   AgendaTimer& agendas() { return agendas_; }
   const AgendaTimer& agendas() const { return agendas_; }
@@ -133,12 +133,14 @@ class Board {
   /// Counts of a proximity sensor's phototransistor at `at`, its emitter having been on for `lit_for` cycles
   /// (negative: off). Noise is drawn from `sample`, a number unique to the sample.
   int ir_counts(int sensor, Cycle at, Cycle lit_for, std::uint64_t sample) const;
-  /// Counts of a single conversion of input AN`channel` by a program that runs the converter itself. Sensors and
-  /// battery only; microphones and accelerometer are not simulated (answers -1). Each call is a new sample.
+  /// Counts of a single conversion of input AN`channel` by a program that runs the converter itself. Sensors
+  /// and battery only; microphones and accelerometer are not simulated (answers -1). Each call is a new
+  /// sample.
   int convert(int channel, Cycle at);
   /// Battery as the library's raw value on AN7 (revision 1.3); 0 on others.
   int battery_counts() const;
-  /// What the exported functions last asked of the host for this board, so that they ask only when it changed.
+  /// What the exported functions last asked of the host for this board, so that they ask only when it
+  /// changed.
   struct Requests {
     static constexpr Cycle kUnknown = -2;
     Cycle agenda_interrupt = -1;
@@ -163,9 +165,9 @@ class Board {
   RobotClock clock_;
   const sim::Scene* scene_ = nullptr;
 
-  std::array<std::uint16_t, kPorts> lat_{};   // of D the high byte only: the low one is the coils
+  std::array<std::uint16_t, kPorts> lat_{};  // of D the high byte only: the low one is the coils
   std::array<std::uint16_t, kPorts> tris_{};
-  std::array<Cycle, 4> line_since_{};         // when the latch of an emitter line was last set
+  std::array<Cycle, 4> line_since_{};  // when the latch of an emitter line was last set
 
   AgendaTimer agendas_;
   TimerMotors timer_motors_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One robot's oscillator seen from the world's clock. The robot counts instruction cycles from the moment its
-// processor starts (world time 0 plus the boot delay); its crystal is off by a fixed number of parts per billion.
-// Conversions are exact rationals in integers: monotone, without drift, the same on every machine.
+// processor starts (world time 0 plus the boot delay); its crystal is off by a fixed number of parts per
+// billion. Conversions are exact rationals in integers: monotone, without drift, the same on every machine.
 // Not modelled: a crystal whose rate changes with temperature.
 #pragma once
 #include <cstdint>
@@ -27,7 +27,8 @@ class RobotClock {
     return floor_div(static_cast<Wide>(since) * (kBillion + ppb_), kBillion);
   }
 
-  /// First click at which cycle `cycle` has begun: cycle_at(click_at(c)) >= c, and click_at(cycle_at(t)) <= t.
+  /// First click at which cycle `cycle` has begun: cycle_at(click_at(c)) >= c, and click_at(cycle_at(t)) <=
+  /// t.
   sim::Clicks click_at(Cycle cycle) const {
     if (ppb_ == 0) return cycle + boot_clicks_;
     return -floor_div(-static_cast<Wide>(cycle) * kBillion, kBillion + ppb_) + boot_clicks_;

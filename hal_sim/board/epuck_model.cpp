@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The e-puck's body for the world; every number is epuck_params.h's. Sensors look level: the few degrees by which
-// some models tilt them upwards are part of the profiles, which were measured on walls.
+// The e-puck's body for the world; every number is epuck_params.h's. Sensors look level: the few degrees by
+// which some models tilt them upwards are part of the profiles, which were measured on walls.
 #include "hal_sim/board/epuck_model.h"
 
 #include "hal_sim/board/epuck_params.h"

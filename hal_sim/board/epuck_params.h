@@ -18,72 +18,81 @@ using host::Cycle;
 // --- clock -------------------------------------------------------------------------------------------------
 inline constexpr Cycle kFcyHz = 14'745'600;  // 7.3728 MHz x 8 / 4 [DS70143 table 19-1]
 
-// --- agendas and motors --------------------------------------------------------------------------------------
+// --- agendas and motors ----------------------------------------------------------------------------------
 inline constexpr Cycle kAgendaTickCycles = 1475;  // PR2 + 1 [lib: motor_led/advance_one_timer/e_agenda.c]
-inline constexpr int kSpeedUnit = 10000;          // ticks times steps/s [lib: motor_led/advance_one_timer/e_motors.c]
-inline constexpr int kMaxSpeed = 1000;            // steps/s [lib: motor_led/advance_one_timer/e_motors.c]
-inline constexpr int kPowerSaveBelow = 601;       // steps/s, MAXV [lib: motor_led/advance_one_timer/e_motors.c]
-inline constexpr int kPowerSaveSpeed = 650;       // TRESHV [lib: motor_led/advance_one_timer/e_motors.c]
+inline constexpr int kSpeedUnit = 10000;  // ticks times steps/s [lib: motor_led/advance_one_timer/e_motors.c]
+inline constexpr int kMaxSpeed = 1000;    // steps/s [lib: motor_led/advance_one_timer/e_motors.c]
+inline constexpr int kPowerSaveBelow = 601;  // steps/s, MAXV [lib: motor_led/advance_one_timer/e_motors.c]
+inline constexpr int kPowerSaveSpeed = 650;  // TRESHV [lib: motor_led/advance_one_timer/e_motors.c]
 inline constexpr int kPowerSaveTicks = kSpeedUnit / kPowerSaveSpeed;
 static_assert(kPowerSaveTicks == 15);
 
 inline constexpr Cycle kBasicMotorPrescale = 256;  // TCKPS 3 [lib: motor_led/e_motors.c]
 inline constexpr int kBasicMotorUnit = 57600;      // FCY / 256 [lib: motor_led/e_motors.c]
-inline constexpr Cycle kTimer3TickCycles = 6 * 256;  // PR3 = 5, prescale 256 [lib: motor_led/e_motors_timer3.c]
-inline constexpr int kTimer3MaxSpeed = 999;        // steps/s [lib: motor_led/e_motors_timer3.c]
-inline constexpr int kTimer3Idle = 9999;           // counter at speed 0 [lib: motor_led/e_motors_timer3.c]
+inline constexpr Cycle kTimer3TickCycles =
+    6 * 256;                                 // PR3 = 5, prescale 256 [lib: motor_led/e_motors_timer3.c]
+inline constexpr int kTimer3MaxSpeed = 999;  // steps/s [lib: motor_led/e_motors_timer3.c]
+inline constexpr int kTimer3Idle = 9999;     // counter at speed 0 [lib: motor_led/e_motors_timer3.c]
 
 inline constexpr int kStepsPerTurn = 1000;  // 20 steps a turn, gear 50:1 [FRM A1]
 // a loaded 20-step motor settles within a few ms of a step; 4 ms keeps speeds from 250 steps/s smooth
-inline constexpr Cycle kRotorMoveCycles = 4 * kFcyHz / 1000;  // [assumed: settling time of a small PM stepper]
+inline constexpr Cycle kRotorMoveCycles =
+    4 * kFcyHz / 1000;  // [assumed: settling time of a small PM stepper]
 
-// --- ADC scan ------------------------------------------------------------------------------------------------
-inline constexpr Cycle kScanFrameCycles = 900;       // 3, 5 or 6 channels alike [lib: a_d/advance_ad_scan/e_ad_conv.h]
-inline constexpr Cycle kScanMicroFrameCycles = 450;  // MICRO_ONLY, ADCS 19 [lib: a_d/advance_ad_scan/e_ad_conv.c]
-inline constexpr int kScanPeriod = 65;       // interrupts from one pair to the next [lib: a_d/advance_ad_scan/e_ad_conv.c]
-inline constexpr int kScanLitSlot = 3;       // PULSE_PERIOD - 1 [lib: a_d/advance_ad_scan/e_ad_conv.c]
-inline constexpr int kScanAccSlot = 62;      // ACC_PROX_PERIOD - 2 [lib: a_d/advance_ad_scan/e_ad_conv.c]
-inline constexpr int kScanDarkSlot = 63;     // ACC_PROX_PERIOD - 1 [lib: a_d/advance_ad_scan/e_ad_conv.c]
-inline constexpr Cycle kScanTadCycles = 12;  // five channels: ADCS 23 [lib: a_d/advance_ad_scan/e_ad_conv.h]
-inline constexpr Cycle kScanChannelTad = 15; // SAMC 1 + conversion 14 [DS70143 20.7]
-inline constexpr int kMicSamples = 100;      // MIC_SAMP_NB [lib: a_d/advance_ad_scan/e_ad_conv.h]
-inline constexpr int kAccSamples = 50;       // ACC_SAMP_NB [lib: a_d/advance_ad_scan/e_ad_conv.h]
-inline constexpr int kGumstixSelector = 10;  // scans a fifth pair [lib: a_d/advance_ad_scan/e_ad_conv.c]
+// --- ADC scan --------------------------------------------------------------------------------------------
+inline constexpr Cycle kScanFrameCycles =
+    900;  // 3, 5 or 6 channels alike [lib: a_d/advance_ad_scan/e_ad_conv.h]
+inline constexpr Cycle kScanMicroFrameCycles =
+    450;  // MICRO_ONLY, ADCS 19 [lib: a_d/advance_ad_scan/e_ad_conv.c]
+inline constexpr int kScanPeriod =
+    65;  // interrupts from one pair to the next [lib: a_d/advance_ad_scan/e_ad_conv.c]
+inline constexpr int kScanLitSlot = 3;        // PULSE_PERIOD - 1 [lib: a_d/advance_ad_scan/e_ad_conv.c]
+inline constexpr int kScanAccSlot = 62;       // ACC_PROX_PERIOD - 2 [lib: a_d/advance_ad_scan/e_ad_conv.c]
+inline constexpr int kScanDarkSlot = 63;      // ACC_PROX_PERIOD - 1 [lib: a_d/advance_ad_scan/e_ad_conv.c]
+inline constexpr Cycle kScanTadCycles = 12;   // five channels: ADCS 23 [lib: a_d/advance_ad_scan/e_ad_conv.h]
+inline constexpr Cycle kScanChannelTad = 15;  // SAMC 1 + conversion 14 [DS70143 20.7]
+inline constexpr int kMicSamples = 100;       // MIC_SAMP_NB [lib: a_d/advance_ad_scan/e_ad_conv.h]
+inline constexpr int kAccSamples = 50;        // ACC_SAMP_NB [lib: a_d/advance_ad_scan/e_ad_conv.h]
+inline constexpr int kGumstixSelector = 10;   // scans a fifth pair [lib: a_d/advance_ad_scan/e_ad_conv.c]
 
-// --- basic proximity driver ------------------------------------------------------------------------------------
-inline constexpr Cycle kBasicPulseCycles = 646 * 8;   // PR1 = 645, prescale 8 [lib: a_d/e_prox.c]
-inline constexpr Cycle kBasicRestCycles = 3871 * 8;   // PR1 = 3870, prescale 8 [lib: a_d/e_prox.c]
-inline constexpr Cycle kReadAdSampleCycles = 320;     // call to end of sampling [estimated: 40 loop rounds of 7, set-up]
-inline constexpr Cycle kReadAdCycles = 470;           // call to return [estimated: sampling, 14 TAD of 9.5, return]
-inline constexpr Cycle kBasicIsrEntryCycles = 24;     // interrupt to first e_read_ad [estimated: context, switch]
+// --- basic proximity driver ------------------------------------------------------------------------------
+inline constexpr Cycle kBasicPulseCycles = 646 * 8;  // PR1 = 645, prescale 8 [lib: a_d/e_prox.c]
+inline constexpr Cycle kBasicRestCycles = 3871 * 8;  // PR1 = 3870, prescale 8 [lib: a_d/e_prox.c]
+inline constexpr Cycle kReadAdSampleCycles =
+    320;  // call to end of sampling [estimated: 40 loop rounds of 7, set-up]
+inline constexpr Cycle kReadAdCycles = 470;  // call to return [estimated: sampling, 14 TAD of 9.5, return]
+inline constexpr Cycle kBasicIsrEntryCycles =
+    24;  // interrupt to first e_read_ad [estimated: context, switch]
 
-// --- IR circuit ------------------------------------------------------------------------------------------------
+// --- IR circuit ------------------------------------------------------------------------------------------
 inline constexpr int kAdcMax = 4095;  // 12 bits [DS70143 20.0]
 // a dim room (0.5 W/m2) then reads about 3900, as robots do, and leaves the range to the reflection
-inline constexpr double kAmbientCountsPerWm2 = 400.0;  // [assumed: typical dark readings of 3500 to 4000, FRM A4]
-inline constexpr Cycle kIrSettleCycles = 25 * kFcyHz / 1'000'000;  // time constant [assumed: library's 300 us is ample]
+inline constexpr double kAmbientCountsPerWm2 =
+    400.0;  // [assumed: typical dark readings of 3500 to 4000, FRM A4]
+inline constexpr Cycle kIrSettleCycles =
+    25 * kFcyHz / 1'000'000;  // time constant [assumed: library's 300 us is ample]
 
-// --- battery ---------------------------------------------------------------------------------------------------
-inline constexpr double kBatteryLowV = 3.4;          // BATT_LOW detector [FRM A10]
-inline constexpr double kBatteryRawAt3V4 = 2070;     // counts [lib: utility/utility.c]
-inline constexpr double kBatteryRawAt4V2 = 2560;     // counts [lib: utility/utility.c]
+// --- battery ---------------------------------------------------------------------------------------------
+inline constexpr double kBatteryLowV = 3.4;       // BATT_LOW detector [FRM A10]
+inline constexpr double kBatteryRawAt3V4 = 2070;  // counts [lib: utility/utility.c]
+inline constexpr double kBatteryRawAt4V2 = 2560;  // counts [lib: utility/utility.c]
 
-// --- UART ------------------------------------------------------------------------------------------------------
-inline constexpr int kUartBitsPerByte = 10;     // 8N1 [lib: uart/e_init_uart1.s]
-inline constexpr int kUartCyclesPerBrg = 16;    // bit = 16 (BRG + 1) cycles [DS70143 18.4]
-inline constexpr int kUart1Brg = 7;             // 115,200 baud exactly [lib: uart/e_init_uart1.s]
-inline constexpr int kUartFifoBytes = 4;        // transmit buffer [DS70143 18.3]
-inline constexpr int kUartRingBytes = 64;       // receive ring [lib: uart/e_uart1_rx_char.s]
+// --- UART ------------------------------------------------------------------------------------------------
+inline constexpr int kUartBitsPerByte = 10;   // 8N1 [lib: uart/e_init_uart1.s]
+inline constexpr int kUartCyclesPerBrg = 16;  // bit = 16 (BRG + 1) cycles [DS70143 18.4]
+inline constexpr int kUart1Brg = 7;           // 115,200 baud exactly [lib: uart/e_init_uart1.s]
+inline constexpr int kUartFifoBytes = 4;      // transmit buffer [DS70143 18.3]
+inline constexpr int kUartRingBytes = 64;     // receive ring [lib: uart/e_uart1_rx_char.s]
 
-// --- body, as the world sees it: x forward, y left, z up, origin between the wheels ----------------------------------
-inline constexpr double kBodyRadiusM = 0.037;       // m [FRM A1]
-inline constexpr double kBodyUndersideM = 0.002;    // m, bounding cylinder of 45 mm centred at 25 mm [FRM A1]
-inline constexpr double kBodyTopM = 0.047;          // m [FRM A1]
-inline constexpr double kMassKg = 0.150;            // kg [FRM A1]
-inline constexpr double kCentreOfMassZM = 0.015;    // m [FRM A1]
-inline constexpr double kInertiaKgM2 = 8.75e-5;     // kg m2 about the vertical [FRM A1]
-inline constexpr double kWheelRadiusM = 0.0205;     // m, 41 mm diameter [FRM A1]
-inline constexpr double kAxleM = 0.053;             // m [FRM A1]
+// --- body, as the world sees it: x forward, y left, z up, origin between the wheels ----------------------
+inline constexpr double kBodyRadiusM = 0.037;     // m [FRM A1]
+inline constexpr double kBodyUndersideM = 0.002;  // m, bounding cylinder of 45 mm centred at 25 mm [FRM A1]
+inline constexpr double kBodyTopM = 0.047;        // m [FRM A1]
+inline constexpr double kMassKg = 0.150;          // kg [FRM A1]
+inline constexpr double kCentreOfMassZM = 0.015;  // m [FRM A1]
+inline constexpr double kInertiaKgM2 = 8.75e-5;   // kg m2 about the vertical [FRM A1]
+inline constexpr double kWheelRadiusM = 0.0205;   // m, 41 mm diameter [FRM A1]
+inline constexpr double kAxleM = 0.053;           // m [FRM A1]
 
 struct Place {
   double x_m, y_m;
@@ -93,14 +102,14 @@ struct SensorPlace {
 };
 inline constexpr double kProximityZM = 0.033;  // m [FRM A2]
 inline constexpr SensorPlace kProximity[8] = {
-    {0.030, -0.010, -17.2},   // ps0, front right; then clockwise seen from above [FRM A2]
-    {0.022, -0.025, -45.9},   // ps1 [FRM A2]
-    {0.000, -0.031, -90.0},   // ps2 [FRM A2]
-    {-0.030, -0.015, -151.5}, // ps3 [FRM A2]
-    {-0.030, 0.015, 151.2},   // ps4 [FRM A2]
-    {0.000, 0.031, 90.0},     // ps5 [FRM A2]
-    {0.022, 0.025, 45.8},     // ps6 [FRM A2]
-    {0.030, 0.010, 17.1},     // ps7 [FRM A2]
+    {0.030, -0.010, -17.2},    // ps0, front right; then clockwise seen from above [FRM A2]
+    {0.022, -0.025, -45.9},    // ps1 [FRM A2]
+    {0.000, -0.031, -90.0},    // ps2 [FRM A2]
+    {-0.030, -0.015, -151.5},  // ps3 [FRM A2]
+    {-0.030, 0.015, 151.2},    // ps4 [FRM A2]
+    {0.000, 0.031, 90.0},      // ps5 [FRM A2]
+    {0.022, 0.025, 45.8},      // ps6 [FRM A2]
+    {0.030, 0.010, 17.1},      // ps7 [FRM A2]
 };
 inline constexpr Place kRingLeds[8] = {
     {0.0337, 0.0},      // LED 0, front; then clockwise [FRM A10]
@@ -112,17 +121,21 @@ inline constexpr Place kRingLeds[8] = {
     {0.0, 0.0337},      // LED 6 [FRM A10]
     {0.022, 0.025},     // LED 7 [FRM A10]
 };
-inline constexpr Place kBodyLed = {0.0, 0.0};          // [assumed: the glow fills the transparent body]
-inline constexpr Place kFrontLed = {0.031, -0.0125};   // [FRM A10]
+inline constexpr Place kBodyLed = {0.0, 0.0};         // [assumed: the glow fills the transparent body]
+inline constexpr Place kFrontLed = {0.031, -0.0125};  // [FRM A10]
 
-// --- processor time of the library's interrupt handlers, entry and RETFIE included --------------------------------
-inline constexpr Cycle kAgendaIsrCycles = 26;      // empty list [estimated: 4 entry, 14 pushes and pops, 8 body]
-inline constexpr Cycle kAgendaNodeCycles = 14;     // one node that does not fire [estimated: instructions of the loop]
-inline constexpr Cycle kMotorStepCycles = 60;      // one firing [estimated: call, branch, 4 bit writes, set_cycle]
-inline constexpr Cycle kScanIsrCycles = 92;        // [estimated: context 20, reconfiguration 30, 3 copies, counters]
-inline constexpr Cycle kScanMicroIsrCycles = 58;   // [estimated: context 20, 3 copies, counters]
-inline constexpr Cycle kBasicMotorIsrCycles = 34;  // [estimated: shadow context, counter, phase, 4 bit writes]
-inline constexpr Cycle kTimer3IsrCycles = 40;      // [estimated: context, two counters, coil clearing]
-inline constexpr Cycle kUartRxIsrCycles = 26;      // [estimated: instructions of the receive loop, one byte]
+// --- processor time of the library's interrupt handlers, entry and RETFIE included -----------------------
+inline constexpr Cycle kAgendaIsrCycles = 26;  // empty list [estimated: 4 entry, 14 pushes and pops, 8 body]
+inline constexpr Cycle kAgendaNodeCycles =
+    14;  // one node that does not fire [estimated: instructions of the loop]
+inline constexpr Cycle kMotorStepCycles =
+    60;  // one firing [estimated: call, branch, 4 bit writes, set_cycle]
+inline constexpr Cycle kScanIsrCycles =
+    92;  // [estimated: context 20, reconfiguration 30, 3 copies, counters]
+inline constexpr Cycle kScanMicroIsrCycles = 58;  // [estimated: context 20, 3 copies, counters]
+inline constexpr Cycle kBasicMotorIsrCycles =
+    34;                                        // [estimated: shadow context, counter, phase, 4 bit writes]
+inline constexpr Cycle kTimer3IsrCycles = 40;  // [estimated: context, two counters, coil clearing]
+inline constexpr Cycle kUartRxIsrCycles = 26;  // [estimated: instructions of the receive loop, one byte]
 
 }  // namespace board

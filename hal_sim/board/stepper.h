@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // One stepper motor with its gear, as its four coil pins see it.
 //
-//   LATD0..3 left / LATD4..7 right:  A B C D      phase 0: B D   1: B C   2: A C   3: A D   (full step, two coils)
+//   LATD0..3 left / LATD4..7 right:  A B C D     phase 0: B D   1: B C   2: A C   3: A D   (two coils on)
 //
-// Modelled: a pattern one phase away from the rotor pulls it one step; two phases away: the step is lost (it might
-// go either way); no coil or a single coil: the gear holds. The rotor follows a step at constant speed during
-// the time it has (the expected period, at most kRotorMoveCycles), so it is never ahead of the pattern, and a
-// constant step rate gives a constant rim speed.
+// Modelled: a pattern one phase away from the rotor pulls it one step; two phases away: the step is lost (it
+// might go either way); no coil or a single coil: the gear holds. The rotor follows a step at constant speed
+// during the time it has (the expected period, at most kRotorMoveCycles), so it is never ahead of the
+// pattern, and a constant step rate gives a constant rim speed.
 // Not modelled: half steps and single-coil drive, pull-out at high load or speed, ringing.
 #pragma once
 #include <cstdint>
@@ -48,8 +48,8 @@ class Stepper {
     }
   }
 
-  /// `count` > 0 regular steps at once, all in wheel direction `direction`, the last one at `last`, each of which
-  /// had time to finish before the next. The caller guarantees that rotor and driver agree.
+  /// `count` > 0 regular steps at once, all in wheel direction `direction`, the last one at `last`, each of
+  /// which had time to finish before the next. The caller guarantees that rotor and driver agree.
   void turn(std::int64_t count, int direction, Cycle last, Cycle move, unsigned coils) {
     steps_ += count * direction;
     from_ = static_cast<double>(steps_ - direction);
@@ -84,9 +84,9 @@ class Stepper {
   unsigned coils_ = 0;
   std::int64_t steps_ = 0;
   std::int64_t lost_ = 0;
-  double from_ = 0;        // position when the last step began
-  Cycle moved_at_ = 0;     // when it began
-  Cycle move_ = 0;         // how long it takes
+  double from_ = 0;     // position when the last step began
+  Cycle moved_at_ = 0;  // when it began
+  Cycle move_ = 0;      // how long it takes
 };
 
 }  // namespace board

@@ -78,7 +78,8 @@ void TimerMotors::set_speed(Driver driver, Wheel wheel, int speed, Cycle at, Ste
   t.next = timer3_origin_ + (tick + ticks) * kTimer3TickCycles;
 }
 
-std::int64_t TimerMotors::commanded_steps(Driver driver, Wheel wheel, Cycle at, const Stepper& stepper) const {
+std::int64_t TimerMotors::commanded_steps(Driver driver, Wheel wheel, Cycle at,
+                                          const Stepper& stepper) const {
   StepTrain t = train(driver, wheel);
   Stepper copy = stepper;
   t.advance_to(at, copy);

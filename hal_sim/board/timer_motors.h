@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
-// The two motor drivers that own a timer, in closed form: a step at every interrupt of a train that began with the
-// last command.
+// The two motor drivers that own a timer, in closed form: a step at every interrupt of a train that began
+// with the last command.
 //
-//   basic:   Timer 5 left, Timer 4 right; period (57600/|v| + 1) x 256 cycles, restarted by every command; coils
-//            stay on while it runs; 0 stops the timer and switches the coils off.
-//   timer 3: one tick of 1536 cycles for both; a step every 10000/|v| ticks; at speed 0 every tick switches the
-//            coils off.
+//   basic:   Timer 5 left, Timer 4 right; period (57600/|v| + 1) x 256 cycles, restarted by every command;
+//            coils stay on while it runs; 0 stops the timer and switches them off.
+//   timer 3: one tick of 1536 cycles for both; a step every 10000/|v| ticks; at speed 0 every tick switches
+//            the coils off.
 //
-// The drivers' statics (phase, counter) are theirs; the motor they move is the AgendaTimer's, handed in at each call.
-// Not modelled: this driver and the agenda driver moving the same wheel at the same time, which needs two copies of
-// the library in one program; steps then come in the wrong order.
+// The drivers' statics (phase, counter) are theirs; the motor they move is the AgendaTimer's, handed in at
+// each call.
+// Not modelled: this driver and the agenda driver moving the same wheel at the same time, which needs two
+// copies of the library in one program; steps then come in the wrong order.
 // Sources: [lib: motor_led/e_motors.c], [lib: motor_led/e_motors_timer3.c], facts restated.
 #pragma once
 #include <cstdint>
@@ -50,8 +51,10 @@ class TimerMotors {
   /// Applies what happened up to `at` to the wheel's motor, or to a copy of it.
   void move(Wheel wheel, Cycle at, Stepper& stepper);
   void peek(Wheel wheel, Cycle at, Stepper& copy) const;
-  bool drives(Wheel wheel) const { return trains_[0][index(wheel)].running || trains_[1][index(wheel)].running ||
-                                          trains_[1][index(wheel)].coils_off_at >= 0; }
+  bool drives(Wheel wheel) const {
+    return trains_[0][index(wheel)].running || trains_[1][index(wheel)].running ||
+           trains_[1][index(wheel)].coils_off_at >= 0;
+  }
   bool timer3_runs() const { return timer3_runs_; }
   /// Cycles between two interrupts of the basic driver; 0 when stopped.
   Cycle interrupt_period(Wheel wheel) const;

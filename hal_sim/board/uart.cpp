@@ -141,7 +141,8 @@ void Uart::exchange(Cycle at) {
   if (!end_ && out_ends_.empty() && on_wire_.empty()) return;
   hand_out(at);
   settle(at);
-  if (!end_) return;
+  // before the program has set the UART up, nobody outside is made to talk to a deaf robot
+  if (!end_ || !enabled_) return;
   // only what the wire can carry soon is taken; the rest waits outside
   constexpr std::size_t kAhead = 64;
   while (on_wire_.size() < kAhead) {

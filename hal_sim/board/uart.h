@@ -2,11 +2,11 @@
 // One UART of the processor and the library's receive ring behind it.
 //
 //   program -> TXREG -> [ 4 bytes ] -> shift register -> wire      one byte = 10 bits = 160 (BRG + 1) cycles
-//   wire -> shift register -> receive interrupt -> ring of 64 (library) or [ 4 bytes ] (program without library)
+//   wire -> shift register -> receive interrupt -> ring of 64 (library), or [ 4 bytes ] without the library
 //
 // A byte's start is known when it is loaded: the end of the byte before, or now. So nothing is ticked.
-// Modelled: transmit buffer, times, bytes lost while disabled, overwriting of unread bytes in the library's ring,
-// 16-bit counters, hardware overrun of four bytes for programs with their own receive interrupt.
+// Modelled: transmit buffer, times, bytes lost while disabled, overwriting of unread bytes in the library's
+// ring, 16-bit counters, hardware overrun of four bytes for programs with their own receive interrupt.
 // Not modelled: the transmitter's wait for the next edge of its bit clock (below one bit), framing, parity.
 // Source: [DS70143 18], [lib: uart/], facts restated.
 #pragma once
@@ -43,7 +43,7 @@ class Uart {
   /// For programs that wait on the buffer: loads as soon as there is room, and says when that is.
   Cycle load_when_room(std::uint8_t byte, Cycle at);
 
-  // --- receiver -----------------------------------------------------------------------------------------------
+  // --- receiver ------------------------------------------------------------------------------------------
   /// Library: bytes received minus bytes read, as a 16-bit difference.
   int unread(Cycle at);
   /// Library: next byte of the ring, or -1.
@@ -58,10 +58,11 @@ class Uart {
   /// Bytes received since power-up.
   std::int64_t received(Cycle at);
 
-  // --- outside ------------------------------------------------------------------------------------------------
+  // --- outside -------------------------------------------------------------------------------------------
   void connect(std::unique_ptr<UartEnd> end) { end_ = std::move(end); }
   UartEnd* end() const { return end_.get(); }
-  /// Tick boundary: what has left goes to the end, what has come starts on the wire.
+  /// Tick boundary: what has left goes to the end; what has come starts on the wire, or waits outside until
+  /// the UART is enabled.
   void exchange(Cycle at);
   /// Bytes sent since power-up.
   std::int64_t sent() const { return sent_; }

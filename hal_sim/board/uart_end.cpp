@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See uart_end.h. Descriptors are non-blocking; a reader that is slower than the robot loses bytes, never time.
+// See uart_end.h. Descriptors are non-blocking; a reader that is slower than the robot loses bytes, never
+// time.
 #include "hal_sim/board/uart_end.h"
 
 #include <arpa/inet.h>
@@ -188,7 +189,8 @@ class FileEnd : public UartEnd {
     if (failed_) return;
     if (std::fwrite(bytes, 1, count, out_) == count && std::fflush(out_) == 0) return;
     failed_ = true;  // said once; the robot goes on
-    std::fprintf(stderr, "file:%s: cannot be written: %s; further bytes are lost\n", path_.c_str(), why().c_str());
+    std::fprintf(stderr, "file:%s: cannot be written: %s; further bytes are lost\n", path_.c_str(),
+                 why().c_str());
   }
   std::size_t collect(std::uint8_t* bytes, std::size_t room, Cycle) override {
     return in_ ? std::fread(bytes, 1, room, in_) : 0;
@@ -230,7 +232,8 @@ std::unique_ptr<UartEnd> open_uart_end(const std::string& description, const std
   if (kind == "file" && !rest.empty()) {
     const std::size_t comma = rest.find(',');
     auto end = std::make_unique<FileEnd>();
-    if (end->open(rest.substr(0, comma), comma == std::string::npos ? "" : rest.substr(comma + 1), error)) return end;
+    if (end->open(rest.substr(0, comma), comma == std::string::npos ? "" : rest.substr(comma + 1), error))
+      return end;
     return nullptr;
   }
   error = "uart: got '" + description + "', expected none, pty[:LINK], tcp:PORT or file:OUT[,IN]";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The board functions of pins.h: each finds the running robot, asks its board at this cycle, and tells the host
-// until when the answer holds (a read) or that something changed (a write).
+// The board functions of pins.h: each finds the running robot, asks its board at this cycle, and tells the
+// host until when the answer holds (a read) or that something changed (a write).
 // Nothing is computed here; the numbers are hal_sim/board's.
 #include <algorithm>
 
@@ -17,9 +17,9 @@ using board::Wheel;
 using host::Context;
 
 // processor time of library functions whose work happens on this side
-constexpr Cycle kSetSpeedCycles = 70;     // [estimated: 4 bit writes, one 18-cycle division, list search, store]
-constexpr Cycle kListSearchCycles = 30;   // [estimated: call, two nodes compared, store]
-constexpr Cycle kActivateCycles = 120;    // [estimated: list search, malloc of one node, five stores]
+constexpr Cycle kSetSpeedCycles = 70;  // [estimated: 4 bit writes, one 18-cycle division, list search, store]
+constexpr Cycle kListSearchCycles = 30;  // [estimated: call, two nodes compared, store]
+constexpr Cycle kActivateCycles = 120;   // [estimated: list search, malloc of one node, five stores]
 
 Wheel wheel_of(tp_i64 wheel) { return wheel == 0 ? Wheel::Left : Wheel::Right; }
 
@@ -69,7 +69,7 @@ tp_i64 change_list(Cycle cost, Change change) {
 
 extern "C" {
 
-// --- ports -----------------------------------------------------------------------------------------------------
+// --- ports -----------------------------------------------------------------------------------------------
 
 void tp_init_ports(void) {
   Context& context = Context::current();
@@ -104,7 +104,7 @@ void tp_coils_write(tp_i64 wheel, tp_i64 coils) {
   context.note_write();
 }
 
-// --- agendas ---------------------------------------------------------------------------------------------------
+// --- agendas ---------------------------------------------------------------------------------------------
 
 void tp_agenda_start(void) {
   change_list(20, [](board::AgendaTimer& agendas, Cycle now) {
@@ -127,9 +127,8 @@ tp_i64 tp_agenda_activate(const void* function, tp_i64 cycle) {
 }
 
 tp_i64 tp_agenda_destroy(const void* function) {
-  return change_list(kActivateCycles, [&](board::AgendaTimer& agendas, Cycle now) {
-    return agendas.destroy(function, now);
-  });
+  return change_list(kActivateCycles,
+                     [&](board::AgendaTimer& agendas, Cycle now) { return agendas.destroy(function, now); });
 }
 
 tp_i64 tp_agenda_set_cycle(const void* function, tp_i64 cycle) {
@@ -145,15 +144,13 @@ tp_i64 tp_agenda_reset(const void* function) {
 }
 
 tp_i64 tp_agenda_pause(const void* function) {
-  return change_list(kListSearchCycles, [&](board::AgendaTimer& agendas, Cycle now) {
-    return agendas.pause(function, now);
-  });
+  return change_list(kListSearchCycles,
+                     [&](board::AgendaTimer& agendas, Cycle now) { return agendas.pause(function, now); });
 }
 
 tp_i64 tp_agenda_restart(const void* function) {
-  return change_list(kListSearchCycles, [&](board::AgendaTimer& agendas, Cycle now) {
-    return agendas.restart(function, now);
-  });
+  return change_list(kListSearchCycles,
+                     [&](board::AgendaTimer& agendas, Cycle now) { return agendas.restart(function, now); });
 }
 
 void tp_agenda_begin(void) {
@@ -180,7 +177,7 @@ void tp_agenda_end(void) {
   follow_agendas(context, robot);
 }
 
-// --- motors ----------------------------------------------------------------------------------------------------
+// --- motors ----------------------------------------------------------------------------------------------
 
 void tp_motor_agenda(tp_i64 wheel, const void* function) {
   Context::current().board().agendas().name_motor(wheel_of(wheel), function);
@@ -216,7 +213,8 @@ void tp_timer_motor_speed(tp_i64 driver, tp_i64 wheel, tp_i64 speed_steps_s) {
   const Cycle now = context.now();
   const Wheel which = wheel_of(wheel);
   const auto kind = driver == 0 ? TimerMotors::Driver::Basic : TimerMotors::Driver::Timer3;
-  robot.timer_motors().set_speed(kind, which, static_cast<int>(speed_steps_s), now, robot.stepper(which, now));
+  robot.timer_motors().set_speed(kind, which, static_cast<int>(speed_steps_s), now,
+                                 robot.stepper(which, now));
   if (kind == TimerMotors::Driver::Basic) {
     const Cycle period = robot.timer_motors().interrupt_period(which);
     request_background(context, robot, which == Wheel::Left ? TP_BG_MOTOR_LEFT : TP_BG_MOTOR_RIGHT, period,
@@ -232,8 +230,9 @@ tp_i64 tp_timer_motor_steps(tp_i64 driver, tp_i64 wheel) {
   const Cycle now = context.now();
   const Wheel which = wheel_of(wheel);
   context.lower_horizon(robot.timer_motors().steps_horizon(which, now));
-  return robot.timer_motors().commanded_steps(driver == 0 ? TimerMotors::Driver::Basic : TimerMotors::Driver::Timer3,
-                                              which, now, robot.agendas().stepper_at(which, now));
+  return robot.timer_motors().commanded_steps(
+      driver == 0 ? TimerMotors::Driver::Basic : TimerMotors::Driver::Timer3, which, now,
+      robot.agendas().stepper_at(which, now));
 }
 
 void tp_timer3_motors_start(void) {
@@ -245,7 +244,7 @@ void tp_timer3_motors_start(void) {
   context.note_write();
 }
 
-// --- converter ---------------------------------------------------------------------------------------------------
+// --- converter -------------------------------------------------------------------------------------------
 
 void tp_scan_start(tp_i64 micro_only, tp_i64 five_pairs) {
   Context& context = Context::current();
@@ -315,6 +314,16 @@ tp_i64 tp_scan_lit(tp_i64 sensor) {
   return scan.lit(static_cast<int>(sensor), now);
 }
 
+void tp_scan_values(void* dark, void* lit) {
+  Context& context = Context::current();
+  board::AdcScan& scan = context.board().scan();
+  const Cycle now = context.now();
+  for (int sensor = 0; sensor < 10; ++sensor) {
+    static_cast<std::int16_t*>(dark)[sensor] = static_cast<std::int16_t>(scan.dark(sensor, now));
+    static_cast<std::int16_t*>(lit)[sensor] = static_cast<std::int16_t>(scan.lit(sensor, now));
+  }
+}
+
 void tp_basic_prox_start(void) {
   Context& context = Context::current();
   Board& robot = context.board();
@@ -354,12 +363,13 @@ tp_i64 tp_convert(tp_i64 channel) {
   Context& context = Context::current();
   const Cycle now = context.now();
   const int counts = context.board().convert(static_cast<int>(channel), now);
-  if (counts < 0) context.trap(TP_TRAP_UNSIMULATED, "converter: microphones and accelerometer are not simulated yet");
+  if (counts < 0)
+    context.trap(TP_TRAP_UNSIMULATED, "converter: microphones and accelerometer are not simulated yet");
   context.lower_horizon(now);
   return counts;
 }
 
-// --- serial lines ----------------------------------------------------------------------------------------------
+// --- serial lines ----------------------------------------------------------------------------------------
 
 void tp_uart_init(tp_i64 number, tp_i64 brg) {
   Context& context = Context::current();
@@ -394,7 +404,16 @@ tp_i64 tp_uart_take(tp_i64 number) {
   return byte;
 }
 
-// --- the rest --------------------------------------------------------------------------------------------------
+/* image_abi.h: printf() waits for room in UART 1's buffer byte by byte, as XC16's does */
+void tp_console(const char* bytes, tp_i64 length) {
+  Context& context = Context::current();
+  board::Uart& uart = context.board().uart(1);
+  context.note_write();
+  for (tp_i64 i = 0; i < length; ++i)
+    context.wait_until(uart.load_when_room(static_cast<std::uint8_t>(bytes[i]), context.now()));
+}
+
+// --- the rest --------------------------------------------------------------------------------------------
 
 tp_i64 tp_revision_1_3(void) {
   return Context::current().board().setup().revision == board::Revision::Rev13 ? 1 : 0;

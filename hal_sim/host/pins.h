@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: MIT
- * Seam B as the e_* API sees it: pins, counts and time of the robot whose firmware is running. The API knows no
- * world. All quantities are tp_i64 (see image_abi.h). Cycles are instruction cycles of this robot's clock since
- * its last power-up (FCY = 14,745,600 Hz nominal).
+ * Seam B as the e_* API sees it: pins, counts and time of the robot whose firmware is running. The API knows
+ * no world. All quantities are tp_i64 (see image_abi.h). Cycles are instruction cycles of this robot's clock
+ * since its last power-up (FCY = 14,745,600 Hz nominal).
  *
- * "Horizon": functions that read something say until when the value cannot change by itself; the host collects
- * the earliest of these to jump over polling loops. Functions that change something count as a write.
+ * "Horizon": functions that read something say until when the value cannot change by itself; the host
+ * collects the earliest of these to jump over polling loops. Functions that change something count as a
+ * write.
  *
- * What the real library's interrupt handlers do by themselves (motor steps, ADC scan, UART bytes) is evaluated
- * in closed form on the host's side, in hal_sim/board; results equal the ticked evaluation exactly.
+ * What the real library's interrupt handlers do by themselves (motor steps, ADC scan, UART bytes) is
+ * evaluated in closed form on the host's side, in hal_sim/board; results equal the ticked evaluation exactly.
  */
 #ifndef TWINPUCK_HOST_PINS_H
 #define TWINPUCK_HOST_PINS_H
@@ -16,7 +17,7 @@
 extern "C" {
 #endif
 
-/* --- time ------------------------------------------------------------------------------------------------- */
+/* --- time --------------------------------------------------------------------------------------------- */
 /** Cycles now. Horizon: now (it always changes). */
 tp_i64 tp_now(void);
 /** Spends `cycles` here: the body of a library function whose own cost is known. Interrupts are delivered. */
@@ -24,9 +25,9 @@ void tp_spend(tp_i64 cycles);
 /** Waits until the cycle `at` (returns at once when past); interrupts are delivered meanwhile. */
 void tp_wait_until(tp_i64 at);
 
-/* --- interrupts the API installs --------------------------------------------------------------------------- */
-/** `handler` serves `vector` (natural order, TP_V_*) at `priority` 1..7; handler 0 disables it. entry_cycles: cost of entry,
- *  context saving and RETFIE. */
+/* --- interrupts the API installs ---------------------------------------------------------------------- */
+/** `handler` serves `vector` (natural order, TP_V_*) at `priority` 1..7; handler 0 disables it. entry_cycles:
+ * cost of entry, context saving and RETFIE. */
 void tp_irq_install(tp_i64 vector, void (*handler)(void), tp_i64 priority, tp_i64 entry_cycles);
 /** The vector's flag rises at cycle `at` (replaces an earlier request); at < 0 cancels. */
 void tp_irq_at(tp_i64 vector, tp_i64 at);
@@ -55,7 +56,7 @@ void tp_background(tp_i64 slot, tp_i64 period, tp_i64 cost);
 #define TP_BG_UART1 5
 #define TP_BG_UART2 6
 
-/* --- board (implemented in host/board_exports.cpp on hal_sim/board) ----------------------------------------- */
+/* --- board (implemented in host/board_exports.cpp on hal_sim/board) ----------------------------------- */
 /* Wheels: 0 left, 1 right. Ports: 'A' 'B' 'C' 'D' 'F' 'G'. Answers are whole numbers; nothing here blocks. */
 
 /** Latches and directions as e_init_port() leaves them. Write. Source: [lib: motor_led/e_init_port.c]. */
@@ -79,15 +80,16 @@ tp_i64 tp_agenda_set_cycle(const void* function, tp_i64 cycle);
 tp_i64 tp_agenda_reset(const void* function);
 tp_i64 tp_agenda_pause(const void* function);
 tp_i64 tp_agenda_restart(const void* function);
-/** The Timer 2 interrupt: begin, then call what next answers until it answers null, then end. The interrupt is
- *  requested only for ticks at which a callback is due. next traps when a motor divides by zero. */
+/** The Timer 2 interrupt: begin, then call what next answers until it answers null, then end. The interrupt
+ * is requested only for ticks at which a callback is due. next traps when a motor divides by zero. */
 void tp_agenda_begin(void);
 const void* tp_agenda_next(void);
 void tp_agenda_end(void);
 
 /** `function` is run_left_motor or run_right_motor: its agenda is evaluated by the board. */
 void tp_motor_agenda(tp_i64 wheel, const void* function);
-/** Speed in steps/s as e_set_speed_left/right() of the agenda driver do it: coils off, clamped to +-1000. Write. */
+/** Speed in steps/s as e_set_speed_left/right() of the agenda driver do it: coils off, clamped to +-1000.
+ * Write. */
 void tp_motor_speed(tp_i64 wheel, tp_i64 speed_steps_s);
 /** One firing of the motor's agenda, now. Write. */
 void tp_motor_run(tp_i64 wheel);
@@ -102,8 +104,8 @@ tp_i64 tp_timer_motor_steps(tp_i64 driver, tp_i64 wheel);
 /** Timer 3 starts with both speeds 0. Write. */
 void tp_timer3_motors_start(void);
 
-/** The converter and its interrupt start: three microphones only, or everything; five_pairs for selector 10. Write.
- *  Source: [lib: a_d/advance_ad_scan/e_ad_conv.c]. */
+/** The converter and its interrupt start: three microphones only, or everything; five_pairs for selector 10.
+ * Write. Source: [lib: a_d/advance_ad_scan/e_ad_conv.c]. */
 void tp_scan_start(tp_i64 micro_only, tp_i64 five_pairs);
 /** ADON off or on. Write. */
 void tp_scan_switch(tp_i64 on);
@@ -115,9 +117,13 @@ tp_i64 tp_scan_interrupts(void);
 tp_i64 tp_scan_array_filled(void);
 /** Accelerometer samples since reset. Horizon: next interrupt. */
 tp_i64 tp_scan_acc_samples(void);
-/** Newest dark / lit sample of a sensor 0 to 9, counts 0 to 4095; 0 before the first. Horizon: the next of either. */
+/** Newest dark / lit sample of a sensor 0 to 9, counts 0 to 4095; 0 before the first. Horizon: the next of
+ * either. */
 tp_i64 tp_scan_dark(tp_i64 sensor);
 tp_i64 tp_scan_lit(tp_i64 sensor);
+
+/** All ten dark and lit samples at once, into two arrays of ten 16-bit words. Horizon: none. */
+void tp_scan_values(void* dark, void* lit);
 
 /** The basic proximity driver starts / stops. Write. Source: [lib: a_d/e_prox.c]. */
 void tp_basic_prox_start(void);
@@ -125,13 +131,15 @@ void tp_basic_prox_stop(void);
 /** Its newest dark sample / dark minus lit of a sensor 0 to 7, counts. Horizon: its next interrupt. */
 tp_i64 tp_basic_prox_ambient(tp_i64 sensor);
 tp_i64 tp_basic_prox_reflected(tp_i64 sensor);
-/** One conversion of input AN`channel` now, counts; traps TP_TRAP_UNSIMULATED for microphones and accelerometer. */
+/** One conversion of input AN`channel` now, counts; traps TP_TRAP_UNSIMULATED for microphones and
+ * accelerometer. */
 tp_i64 tp_convert(tp_i64 channel);
 
-/** UART `number` 1 or 2: enabled at BRG `brg`, the library's receive ring emptied. Write. Source: [lib: uart/]. */
+/** UART `number` 1 or 2: enabled at BRG `brg`, the library's receive ring emptied. Write. Source: [lib:
+ * uart/]. */
 void tp_uart_init(tp_i64 number, tp_i64 brg);
-/** Writes the transmit register (the byte is lost when the buffer is full or the UART is off) and requests the
- *  transmit interrupt for the cycle at which the buffer is empty again. Write. */
+/** Writes the transmit register (the byte is lost when the buffer is full or the UART is off) and requests
+ * the transmit interrupt for the cycle at which the buffer is empty again. Write. */
 void tp_uart_load(tp_i64 number, tp_i64 byte);
 /** Library ring: bytes received minus bytes read, as 16 bits. Horizon: next byte known to be on the wire. */
 tp_i64 tp_uart_unread(tp_i64 number);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The ADC scan and the basic proximity driver: instants by hand, and equality with plain ticked state machines.
+// The ADC scan and the basic proximity driver: instants by hand, and equality with plain ticked state
+// machines.
 #include "hal_sim/board/adc_scan.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +20,9 @@ constexpr Cycle kFrame = 900;
 
 /// A scene whose reflection tells sensor and time, so that a value reveals when it was taken.
 void make_telling(sim::Scene& scene) {
-  scene.reflection = [](int sensor, sim::Clicks at) { return 100.0 * (sensor + 1) + static_cast<double>(at / 7 % 997); };
+  scene.reflection = [](int sensor, sim::Clicks at) {
+    return 100.0 * (sensor + 1) + static_cast<double>(at / 7 % 997);
+  };
   scene.irradiance_w_m2 = 0.25;  // dark = 4095 - 100
 }
 
@@ -160,7 +163,8 @@ TEST(AdcScan, refreshes_each_sensor_63_times_a_second) {
   const Cycle second = 14'745'600;
   for (int sensor = 0; sensor < 8; ++sensor) {
     int changes = 0;
-    for (Cycle at = robot.scan().horizon(sensor, 2 * second); at <= 3 * second; at = robot.scan().horizon(sensor, at))
+    for (Cycle at = robot.scan().horizon(sensor, 2 * second); at <= 3 * second;
+         at = robot.scan().horizon(sensor, at))
       changes += robot.scan().lit_number(sensor, at) != robot.scan().lit_number(sensor, at - 1);
     EXPECT_NEAR(changes, 63, 1);
   }
@@ -239,7 +243,9 @@ TEST(IrCircuit, noise_depends_on_the_sample_and_on_nothing_else) {
     // b skips most readings and asks for other sensors in between
     const int reading = a.scan().dark(0, at) - a.scan().lit(0, at);
     b.scan().lit(static_cast<int>(at % 7), at);
-    if (count % 3 == 0) { EXPECT_EQ(b.scan().dark(0, at) - b.scan().lit(0, at), reading); }
+    if (count % 3 == 0) {
+      EXPECT_EQ(b.scan().dark(0, at) - b.scan().lit(0, at), reading);
+    }
     EXPECT_EQ(a.proximity_counts(0, at), reading);
     sum += reading;
     squares += 1.0 * reading * reading;
@@ -271,7 +277,7 @@ TEST(IrCircuit, more_light_gives_lower_counts_and_the_ends_clamp) {
   EXPECT_EQ(robot.ir_counts(2, 0, 1'000'000, 0), 0);
 }
 
-// --- basic driver ----------------------------------------------------------------------------------------------------
+// --- basic driver ----------------------------------------------------------------------------------------
 
 TEST(BasicProx, closed_form_equals_the_ticked_state_machine) {
   sim::Scene scene;
@@ -302,8 +308,10 @@ TEST(BasicProx, closed_form_equals_the_ticked_state_machine) {
     for (int half = 0; half < 2; ++half) {
       const int s = pair + 4 * half;
       const Cycle when = at + 24 + 320 + half * 470;
-      if (lit_phase) reflected[s] = dark[s] - robot.ir_counts(s, when, when - lit_at, 0);
-      else dark[s] = robot.ir_counts(s, when, -1, 0);
+      if (lit_phase)
+        reflected[s] = dark[s] - robot.ir_counts(s, when, when - lit_at, 0);
+      else
+        dark[s] = robot.ir_counts(s, when, -1, 0);
     }
     if (!lit_phase) lit_at = at + 24 + 940;
     if (lit_phase) pair = (pair + 1) % 4;

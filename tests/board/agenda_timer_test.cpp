@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// AgendaTimer: hand-computed motor rates and quirks, and equality with the ticked yardstick over random programs.
+// AgendaTimer: hand-computed motor rates and quirks, and equality with the ticked yardstick over random
+// programs.
 #include "hal_sim/board/agenda_timer.h"
 
 #include <gtest/gtest.h>
@@ -43,9 +44,10 @@ TEST(AgendaMotors, speeds_are_quantised_as_by_the_library) {
     int speed;
     int steps;
   };
-  for (const Row& row : {Row{1000, 999}, Row{950, 999}, Row{900, 908}, Row{700, 714}, Row{601, 624}, Row{600, 625},
-                         Row{501, 526}, Row{333, 333}, Row{300, 303}, Row{150, 151}, Row{100, 100}, Row{10, 10},
-                         Row{1, 1}, Row{5000, 999}, Row{-700, -714}, Row{-32000, -999}}) {
+  for (const Row& row :
+       {Row{1000, 999}, Row{950, 999}, Row{900, 908}, Row{700, 714}, Row{601, 624}, Row{600, 625},
+        Row{501, 526}, Row{333, 333}, Row{300, 303}, Row{150, 151}, Row{100, 100}, Row{10, 10}, Row{1, 1},
+        Row{5000, 999}, Row{-700, -714}, Row{-32000, -999}}) {
     // the first step comes one period after the command; counted over exactly one second plus a tick's slack
     EXPECT_NEAR(Driven().steps_in(Wheel::Left, row.speed, 1.0), row.steps, 1) << row.speed;
     EXPECT_NEAR(Driven().steps_in(Wheel::Right, row.speed, 1.0), row.steps, 1) << row.speed;
@@ -67,7 +69,8 @@ TEST(AgendaMotors, five_hundred_for_ten_seconds_makes_4998_steps) {
   d.timer.set_speed(Wheel::Left, 500, 0);
   d.timer.set_speed(Wheel::Right, 500, 0);
   EXPECT_NEAR(d.timer.commanded_steps(Wheel::Left, 10 * kSecond), 4998, 2);
-  EXPECT_EQ(d.timer.stepper_at(Wheel::Left, 10 * kSecond).steps(), d.timer.commanded_steps(Wheel::Right, 10 * kSecond));
+  EXPECT_EQ(d.timer.stepper_at(Wheel::Left, 10 * kSecond).steps(),
+            d.timer.commanded_steps(Wheel::Right, 10 * kSecond));
 }
 
 // below 601 the coils are on for 15 ticks of each period, above all the time
@@ -80,7 +83,8 @@ TEST(AgendaMotors, power_save_switches_the_coils_off_between_steps) {
   EXPECT_EQ(d.timer.stepper_at(Wheel::Right, 115 * kTick).coils(), 0u);
   EXPECT_EQ(d.timer.stepper_at(Wheel::Right, 200 * kTick).coils(), 0x5u);  // phase 2: A C
   d.timer.set_speed(Wheel::Left, 800, 200 * kTick);
-  EXPECT_EQ(d.timer.stepper_at(Wheel::Left, 212 * kTick).coils(), 0x9u);  // left forward: phase falls to 3, A D
+  EXPECT_EQ(d.timer.stepper_at(Wheel::Left, 212 * kTick).coils(),
+            0x9u);  // left forward: phase falls to 3, A D
   EXPECT_EQ(d.timer.stepper_at(Wheel::Left, 223 * kTick).coils(), 0x9u);
 }
 
@@ -129,7 +133,9 @@ TEST(AgendaMotors, wheels_turn_smoothly_and_never_run_ahead) {
     EXPECT_GE(position, last);
     EXPECT_LE(position, static_cast<double>(motor.steps()));
     // constant speed after the first step: one step per 10 ticks, one step behind
-    if (at > 20 * kTick) { EXPECT_NEAR(position, static_cast<double>(at) / (10.0 * kTick) - 1.0, 1e-9); }
+    if (at > 20 * kTick) {
+      EXPECT_NEAR(position, static_cast<double>(at) / (10.0 * kTick) - 1.0, 1e-9);
+    }
     last = position;
   }
 }
@@ -188,7 +194,7 @@ TEST(Agendas, negative_cycles_are_huge) {
   EXPECT_EQ(timer.next_interrupt(), 65535 * kTick);
 }
 
-// --- ticked == closed ------------------------------------------------------------------------------------------------
+// --- ticked == closed ------------------------------------------------------------------------------------
 
 const void* const kFunctions[] = {&user_a, &user_b, &user_c};
 
@@ -263,7 +269,8 @@ class Twin {
       c.value = range == 0 ? 0 : range == 1 ? pick_from(random, -1100, 1100) : pick_from(random, -300, 300);
     }
     // now and then the motors' own agendas are meddled with
-    if (c.kind <= 5 && pick_from(random, 0, 7) == 0) c.function = ticked::Agendas::kLeft + pick_from(random, 0, 1);
+    if (c.kind <= 5 && pick_from(random, 0, 7) == 0)
+      c.function = ticked::Agendas::kLeft + pick_from(random, 0, 1);
     if (c.kind == 6 && pick_from(random, 0, 1) == 0) {
       c.function = ticked::Agendas::kLeft + pick_from(random, 0, 1);
       c.value = 0;
@@ -283,30 +290,66 @@ class Twin {
   void apply_ticked(const Command& c, Cycle at) {
     using Node = ticked::Agendas::Node;
     switch (c.kind) {
-      case 0: ticked_.start(at); return;
-      case 1: if (c.value == 0 && c.function == 1) ticked_.stop(); return;
-      case 2: ticked_.destroy(c.function); return;
-      case 3: ticked_.with(c.function, [](Node& n) { n.active = false; }); return;
-      case 4: ticked_.with(c.function, [](Node& n) { n.active = true; }); return;
-      case 5: ticked_.with(c.function, [](Node& n) { n.counter = 0; }); return;
-      case 6: ticked_.activate(c.function, c.value); return;
-      case 7: ticked_.set_cycle(c.function, c.value); return;
-      default: ticked_.set_speed(c.kind % 2 == 0, c.value); return;
+      case 0:
+        ticked_.start(at);
+        return;
+      case 1:
+        if (c.value == 0 && c.function == 1) ticked_.stop();
+        return;
+      case 2:
+        ticked_.destroy(c.function);
+        return;
+      case 3:
+        ticked_.with(c.function, [](Node& n) { n.active = false; });
+        return;
+      case 4:
+        ticked_.with(c.function, [](Node& n) { n.active = true; });
+        return;
+      case 5:
+        ticked_.with(c.function, [](Node& n) { n.counter = 0; });
+        return;
+      case 6:
+        ticked_.activate(c.function, c.value);
+        return;
+      case 7:
+        ticked_.set_cycle(c.function, c.value);
+        return;
+      default:
+        ticked_.set_speed(c.kind % 2 == 0, c.value);
+        return;
     }
   }
 
   void apply_closed(const Command& c, Cycle at) {
     const void* f = address(c.function);
     switch (c.kind) {
-      case 0: closed_.start(at); return;
-      case 1: if (c.value == 0 && c.function == 1) closed_.stop(at); return;
-      case 2: closed_.destroy(f, at); return;
-      case 3: closed_.pause(f, at); return;
-      case 4: closed_.restart(f, at); return;
-      case 5: closed_.reset_count(f, at); return;
-      case 6: closed_.activate(f, c.value, at); return;
-      case 7: closed_.set_cycle(f, c.value, at); return;
-      default: closed_.set_speed(c.kind % 2 == 0 ? Wheel::Left : Wheel::Right, c.value, at); return;
+      case 0:
+        closed_.start(at);
+        return;
+      case 1:
+        if (c.value == 0 && c.function == 1) closed_.stop(at);
+        return;
+      case 2:
+        closed_.destroy(f, at);
+        return;
+      case 3:
+        closed_.pause(f, at);
+        return;
+      case 4:
+        closed_.restart(f, at);
+        return;
+      case 5:
+        closed_.reset_count(f, at);
+        return;
+      case 6:
+        closed_.activate(f, c.value, at);
+        return;
+      case 7:
+        closed_.set_cycle(f, c.value, at);
+        return;
+      default:
+        closed_.set_speed(c.kind % 2 == 0 ? Wheel::Left : Wheel::Right, c.value, at);
+        return;
     }
   }
 
@@ -336,7 +379,8 @@ class Twin {
       const board::Stepper got = closed_.stepper_at(wheel, now_);
       ASSERT_EQ(got.steps(), want.stepper.steps()) << "cycle " << now_;
       ASSERT_EQ(got.coils(), want.stepper.coils()) << "cycle " << now_;
-      ASSERT_EQ(static_cast<std::int16_t>(closed_.commanded_steps(wheel, now_)), want.steps) << "cycle " << now_;
+      ASSERT_EQ(static_cast<std::int16_t>(closed_.commanded_steps(wheel, now_)), want.steps)
+          << "cycle " << now_;
       ASSERT_EQ(got.position(now_), want.stepper.position(now_)) << "cycle " << now_;
     }
   }

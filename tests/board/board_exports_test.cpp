@@ -124,6 +124,10 @@ TEST_F(Exports, readings_hold_until_the_next_sample) {
   EXPECT_EQ(tp_scan_dark(3) - tp_scan_lit(3), 321);
   EXPECT_GT(context.horizon, context.cycle);
   EXPECT_LT(context.horizon, context.cycle + 260 * 900);
+  std::int16_t dark[10], lit[10];
+  tp_scan_values(dark, lit);
+  for (int sensor = 0; sensor < 8; ++sensor) EXPECT_EQ(dark[sensor] - lit[sensor], 321);
+  EXPECT_EQ(dark[9], 0);
   EXPECT_EQ(tp_scan_dark(10), 0);
   EXPECT_EQ(tp_scan_dark(-1), 0);
   tp_scan_switch(0);
@@ -138,6 +142,13 @@ TEST_F(Exports, transmit_interrupt_follows_the_last_loaded_byte) {
   EXPECT_EQ(context.requested[TP_V_U1TX], 4 * 1280);
   EXPECT_EQ(tp_uart_unread(1), 0);
   EXPECT_EQ(tp_uart_take(1), -1);
+}
+
+// 8 bytes: one in the shift register, four wait; the eighth is accepted when the fourth moves on
+TEST_F(Exports, printf_waits_for_room) {
+  tp_console("12345678", 8);
+  EXPECT_EQ(context.cycle, 3 * 1280);
+  EXPECT_EQ(robot.uart(1).idle_at(), 8 * 1280);
 }
 
 TEST_F(Exports, microphones_and_accelerometer_fail_loudly) {

@@ -91,7 +91,8 @@ TEST(Pins, coils_written_directly_turn_the_wheels) {
   // right wheel phases 0 1 2 3 on bits 4 to 7, left wheel 0 3 2 1 on bits 0 to 3: both forward
   const unsigned pattern[4] = {0xA, 0x6, 0x5, 0x9};
   for (int n = 0; n <= 8; ++n)
-    robot.port_write('D', Register::Lat, static_cast<std::uint16_t>(pattern[n & 3] << 4 | pattern[-n & 3]), n * 15000);
+    robot.port_write('D', Register::Lat, static_cast<std::uint16_t>(pattern[n & 3] << 4 | pattern[-n & 3]),
+                     n * 15000);
   EXPECT_EQ(robot.left_steps(kSecond), 8);
   EXPECT_EQ(robot.right_steps(kSecond), 8);
   EXPECT_EQ(robot.port_read('D', Register::Lat, kSecond), 0xA0 | 0xA);
@@ -159,7 +160,8 @@ TEST(Board, wheel_ratio_scales_the_angle_and_nothing_else) {
   Board robot(setup);
   drive(robot, 1000, 1000, 0);
   EXPECT_EQ(robot.left_steps(kSecond), robot.right_steps(kSecond));
-  EXPECT_NEAR(robot.wheel_angle_rad(Wheel::Left, kSecond), 1.02 * robot.wheel_angle_rad(Wheel::Right, kSecond), 1e-12);
+  EXPECT_NEAR(robot.wheel_angle_rad(Wheel::Left, kSecond),
+              1.02 * robot.wheel_angle_rad(Wheel::Right, kSecond), 1e-12);
 }
 
 TEST(Board, a_reset_stops_everything_and_keeps_the_wheels) {
@@ -243,8 +245,8 @@ TEST(Board, equal_programs_give_equal_hashes_and_different_ones_do_not) {
   EXPECT_NE(run(500, false), run(510, false));
 }
 
-// the work of one robot for a second under the benchmark's controller: 16 rounds of 8 readings and 2 speeds, and a
-// world of 96 ticks. Bounds are wide: they catch an algorithm that ticks, not a slow machine.
+// the work of one robot for a second under the benchmark's controller: 16 rounds of 8 readings and 2 speeds,
+// and a world of 96 ticks. Bounds are wide: they catch an algorithm that ticks, not a slow machine.
 TEST(Board, a_thousand_boards_cost_little) {
   sim::Scene scene;
   scene.reflection = [](int, sim::Clicks) { return 300.0; };
@@ -286,9 +288,11 @@ TEST(Board, a_thousand_boards_cost_little) {
     angle_s += cpu_s() - began;
   }
   EXPECT_NE(sum, 0);
-  std::printf("one robot, one second: angles %.2f us (%.0f ns each), prox %.2f us (%.0f ns each), speeds %.2f us (%.0f ns each)\n",
-              angle_s * 1e3, angle_s * 1e9 / 1000 / 192, prox_s * 1e3, prox_s * 1e9 / 1000 / 120, speed_s * 1e3,
-              speed_s * 1e9 / 1000 / 30);
+  std::printf(
+      "one robot, one second: angles %.2f us (%.0f ns each), prox %.2f us (%.0f ns each), speeds %.2f us "
+      "(%.0f ns each)\n",
+      angle_s * 1e3, angle_s * 1e9 / 1000 / 192, prox_s * 1e3, prox_s * 1e9 / 1000 / 120, speed_s * 1e3,
+      speed_s * 1e9 / 1000 / 30);
   EXPECT_LT(angle_s + prox_s + speed_s, 2.0);
 }
 

@@ -21,8 +21,12 @@ class FakeContext : public host::Context {
   void wait_until(host::Cycle at) override { cycle = std::max(cycle, at); }
   void irq_install(int vector, void (*handler)(), int, host::Cycle) override { handlers[vector] = handler; }
   void irq_at(int vector, host::Cycle at) override { requested[vector] = at; }
-  void set_background(int slot, host::Cycle period, host::Cycle cost) override { background[slot] = {period, cost}; }
-  [[noreturn]] void trap(int, std::string_view message) override { throw std::runtime_error(std::string(message)); }
+  void set_background(int slot, host::Cycle period, host::Cycle cost) override {
+    background[slot] = {period, cost};
+  }
+  [[noreturn]] void trap(int, std::string_view message) override {
+    throw std::runtime_error(std::string(message));
+  }
 
   host::Cycle cycle = 0;
   host::Cycle spent = 0;

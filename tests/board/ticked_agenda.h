@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The yardstick for AgendaTimer: Timer 2, its interrupt and the motor agendas written out tick by tick, as the
-// processor runs them. Slow and plain on purpose. Times in cycles; a handler's own time is the sum of its
+// The yardstick for AgendaTimer: Timer 2, its interrupt and the motor agendas written out tick by tick, as
+// the processor runs them. Slow and plain on purpose. Times in cycles; a handler's own time is the sum of its
 // callbacks' durations.
 #pragma once
 #include <cstdint>
@@ -85,7 +85,8 @@ class Agendas {
     set_cycle(is_left ? kLeft : kRight, speed == 0 ? 0 : 10000 / std::abs(speed));
   }
 
-  /// Lets time pass up to `until`; returns the time at which the program goes on (later if a handler ran over).
+  /// Lets time pass up to `until`; returns the time at which the program goes on (later if a handler ran
+  /// over).
   Cycle run(Cycle until) {
     for (;;) {
       if (!running_ || next_tick_ > until) return until;
@@ -154,8 +155,7 @@ class Agendas {
     m.phase = (m.phase + turn + 4) % 4;
     // time the rotor has: the period of this speed
     Cycle ticks = magnitude > 0 ? 10000 / magnitude : 0;
-    if (magnitude >= 601)
-      with(self, [&](Node& n) { ticks = n.cycle; });
+    if (magnitude >= 601) with(self, [&](Node& n) { ticks = n.cycle; });
     Cycle move = ticks * kTick;
     if (move == 0 || move > board::kRotorMoveCycles) move = board::kRotorMoveCycles;
     m.stepper.energise(board::kPhaseCoils[m.phase], at, move);

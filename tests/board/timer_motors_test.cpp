@@ -29,8 +29,8 @@ TEST(BasicMotors, rates_follow_the_timer) {
     int speed;
     double steps_per_second;
   };
-  for (const Row& row : {Row{1000, 993.1}, Row{500, 496.6}, Row{100, 99.83}, Row{10, 10.0}, Row{-1000, -993.1},
-                         Row{2000, 1986.2}, Row{30000, 28800}}) {
+  for (const Row& row : {Row{1000, 993.1}, Row{500, 496.6}, Row{100, 99.83}, Row{10, 10.0},
+                         Row{-1000, -993.1}, Row{2000, 1986.2}, Row{30000, 28800}}) {
     TimerMotors motors;
     Stepper motor = connected(Wheel::Left);
     motors.set_speed(Driver::Basic, Wheel::Left, row.speed, 0, motor);
@@ -43,7 +43,8 @@ TEST(BasicMotors, rates_follow_the_timer) {
 TEST(BasicMotors, each_command_restarts_the_period) {
   TimerMotors motors;
   Stepper motor = connected(Wheel::Right);
-  for (Cycle at = 0; at < kSecond; at += 14'000) motors.set_speed(Driver::Basic, Wheel::Right, 1000, at, motor);
+  for (Cycle at = 0; at < kSecond; at += 14'000)
+    motors.set_speed(Driver::Basic, Wheel::Right, 1000, at, motor);
   EXPECT_EQ(motor.steps(), 0);  // a period is 14848 cycles
 }
 
@@ -60,13 +61,14 @@ TEST(BasicMotors, coils_stay_on_while_running_and_go_off_at_zero) {
 
 // ticks of 1536 cycles: 9600 / (10000 / 999) = 960 steps/s at most
 TEST(Timer3Motors, rates_follow_the_tick) {
-  for (const auto& [speed, rate] : {std::pair{999, 960}, std::pair{5000, 960}, std::pair{500, 480}, std::pair{100, 96},
-                                    std::pair{-300, -290}}) {
+  for (const auto& [speed, rate] : {std::pair{999, 960}, std::pair{5000, 960}, std::pair{500, 480},
+                                    std::pair{100, 96}, std::pair{-300, -290}}) {
     TimerMotors motors;
     Stepper motor = connected(Wheel::Left);
     motors.start_timer3(0);
     motors.set_speed(Driver::Timer3, Wheel::Left, speed, 0, motor);
-    EXPECT_NEAR(static_cast<double>(motors.commanded_steps(Driver::Timer3, Wheel::Left, kSecond, motor)), rate, 1.0);
+    EXPECT_NEAR(static_cast<double>(motors.commanded_steps(Driver::Timer3, Wheel::Left, kSecond, motor)),
+                rate, 1.0);
   }
 }
 
@@ -98,8 +100,10 @@ struct Ticked {
         step(at, period);
         continue;
       }
-      if (speed != 0) --counter;
-      else motor.set_coils_only(0);
+      if (speed != 0)
+        --counter;
+      else
+        motor.set_coils_only(0);
       if (counter <= 0) {
         counter = reload;
         step(at, reload * 1536);
@@ -154,8 +158,10 @@ TEST(TimerMotors, closed_form_equals_the_ticked_interrupts) {
       } else if (kind < 4) {
         const int v = kind == 1 ? 0 : static_cast<int>(random() % 2400) - 1200;
         motors.set_speed(timer3 ? Driver::Timer3 : Driver::Basic, wheel, v, now, motor);
-        if (timer3) want.set_timer3(v, now);
-        else want.set_basic(v, now);
+        if (timer3)
+          want.set_timer3(v, now);
+        else
+          want.set_basic(v, now);
       }
       now += static_cast<Cycle>(random() % 40000);
       want.run(now);
@@ -164,7 +170,8 @@ TEST(TimerMotors, closed_form_equals_the_ticked_interrupts) {
       ASSERT_EQ(seen.steps(), want.motor.steps()) << run;
       ASSERT_EQ(seen.coils(), want.motor.coils()) << run;
       ASSERT_EQ(seen.position(now), want.motor.position(now)) << run;
-      ASSERT_EQ(motors.commanded_steps(timer3 ? Driver::Timer3 : Driver::Basic, wheel, now, motor), want.steps);
+      ASSERT_EQ(motors.commanded_steps(timer3 ? Driver::Timer3 : Driver::Basic, wheel, now, motor),
+                want.steps);
     }
   }
 }

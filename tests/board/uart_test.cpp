@@ -62,12 +62,24 @@ TEST(Uart, waiting_for_room_keeps_the_line_busy) {
   EXPECT_EQ(at, 95 * kByte);  // the last one was accepted when the fifth from the end moved on
 }
 
-TEST(Uart, disabled_sends_and_receives_nothing) {
+TEST(Uart, disabled_sends_nothing_and_lets_the_outside_wait) {
   Wired w;
   EXPECT_FALSE(w.uart.load('x', 0));
+  w.end->inject("hi", 0);
+  w.uart.exchange(0);
+  EXPECT_EQ(w.uart.received(10 * kByte), 0);
+  w.uart.init_library(7, 10 * kByte);
+  w.uart.exchange(11 * kByte);
+  EXPECT_EQ(w.uart.take(12 * kByte), 'h');
+  EXPECT_EQ(w.uart.take(13 * kByte), 'i');
+}
+
+TEST(Uart, bytes_on_the_wire_are_lost_on_a_reset_processor) {
+  Wired w;
+  w.uart.init_library(7, 0);
   w.end->inject("lost", 0);
   w.uart.exchange(0);
-  EXPECT_EQ(w.uart.unread(10 * kByte), 0);
+  w.uart.reset(10);
   EXPECT_EQ(w.uart.received(10 * kByte), 0);
 }
 
@@ -131,7 +143,7 @@ TEST(Uart, a_reset_cuts_off_what_has_not_left) {
   EXPECT_FALSE(w.uart.enabled());
 }
 
-// --- ends ------------------------------------------------------------------------------------------------------------
+// --- ends ------------------------------------------------------------------------------------------------
 
 TEST(UartEnd, pty_carries_bytes_both_ways_under_a_stable_name) {
   const std::string link = "/tmp/twinpuck_uart_test_" + std::to_string(::getpid());
@@ -214,7 +226,8 @@ TEST(UartEnd, file_takes_the_output_and_gives_the_input) {
 }
 
 TEST(UartEnd, nonsense_is_refused_in_one_line) {
-  for (const char* bad : {"tcp:", "tcp:70000", "tcp:abc", "usb", "file:", "file:/nonexistent/dir/x", "", "none:1"}) {
+  for (const char* bad :
+       {"tcp:", "tcp:70000", "tcp:abc", "usb", "file:", "file:/nonexistent/dir/x", "", "none:1"}) {
     std::string error;
     EXPECT_FALSE(board::open_uart_end(bad, "", error)) << bad;
     EXPECT_FALSE(error.empty()) << bad;
