@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One tick, in order: minds run against the frozen scene, wheels turn into travel, bodies move, poses are published,
-// the digest grows.
+// One tick, in order: minds run against the frozen scene, wheels turn into travel, bodies move, poses are
+// published, the digest grows.
 #include "sim_core/simulation.h"
 
 #include <algorithm>
@@ -43,7 +43,8 @@ std::unique_ptr<Motion> make_motion(const WorldDesc& world, const Layout& layout
     const ObjectDesc& o = world.objects[static_cast<std::size_t>(object)];
     desc.loose.push_back({o.mass_kg, o.floor_friction, o.material.friction, o.material.restitution});
   }
-  return world.engine == Engine::Dynamic ? make_dynamic_motion(std::move(desc)) : make_kinematic_motion(std::move(desc));
+  return world.engine == Engine::Dynamic ? make_dynamic_motion(std::move(desc))
+                                         : make_kinematic_motion(std::move(desc));
 }
 
 }  // namespace
@@ -90,7 +91,8 @@ void Simulation::run_until(Clicks at) {
   while (now() < at) step();
 }
 
-/// Minds see only the frozen scene, so they may run side by side; each worker has a fixed share of the robots.
+/// Minds see only the frozen scene, so they may run side by side; each worker has a fixed share of the
+/// robots.
 void Simulation::run_minds(Clicks end) {
   const auto run = [&](std::size_t first, std::size_t last) {
     for (std::size_t r = first; r < last; ++r) {
@@ -101,9 +103,8 @@ void Simulation::run_minds(Clicks end) {
   };
   if (!workers_) return run(0, minds_.size());
   const std::size_t shares = static_cast<std::size_t>(workers_->size());
-  workers_->run([&](std::size_t share) {
-    run(minds_.size() * share / shares, minds_.size() * (share + 1) / shares);
-  });
+  workers_->run(
+      [&](std::size_t share) { run(minds_.size() * share / shares, minds_.size() * (share + 1) / shares); });
 }
 
 /// Wheel angles become ways of the rims over the floor, noise and slip included.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The front door of sim_core: a world, one mind per robot, and time that moves one tick per step().
-// In: a WorldDesc (already checked by load/, or built in C++). Out: poses, touches, distances, a digest of the whole
-// state history that does not depend on the number of threads. Nothing throws once it is built.
+// In: a WorldDesc (already checked by load/, or built in C++). Out: poses, touches, distances, a digest of
+// the whole state history that does not depend on the number of threads. Nothing throws once it is built.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -65,8 +65,8 @@ class Simulation {
   struct Wheels {
     double left_radius_m = 0;
     double right_radius_m = 0;
-    double noise = 0;   // half width of the factor on the travel
-    double grip = 1;    // 1 - slip
+    double noise = 0;  // half width of the factor on the travel
+    double grip = 1;   // 1 - slip
     std::uint64_t seed = 0;
     WheelAngles last;
     double left_factor = 1, right_factor = 1;

@@ -188,7 +188,7 @@ bool Model::clobbers(const Instruction& i) const {
   if (auto* intrinsic = dyn_cast<IntrinsicInst>(c))
     return intrinsic->getIntrinsicID() == Intrinsic::fptosi_sat || intrinsic->getIntrinsicID() == Intrinsic::fptoui_sat;
   auto* callee = c->getCalledFunction();
-  return !callee || !(callee->getName() == kNop || callee->getName().startswith("tp_"));
+  return !callee || !(callee->getName() == kNop || callee->getName() == kRound || callee->getName().startswith("tp_"));
 }
 
 /// Which registers survive calls: how many words live across one, or more than eight at once.
@@ -280,7 +280,7 @@ bool Model::is_unrolled(const Loop* loop) {
   double size = 0;
   for (BasicBlock* block : loop->blocks())
     for (Instruction& i : *block)
-      if (!isa<PHINode>(i) && !isa<DbgInfoIntrinsic>(i) && !isa<CastInst>(i) && !is_free(i)) size += 1;
+      if (!isa<PHINode>(i) && !isa<DbgInfoIntrinsic>(i) && !isa<CastInst>(i) && !is_free(i) && !calls(i, kRound)) size += 1;
   // counter, comparison and branch vanish; gcc takes two thirds of the copies to survive its clean-up
   return unrolled_[loop] = rounds > 0 && rounds <= 16 && rounds * (size - 3) * 2 / 3 <= size;
 }
@@ -306,6 +306,7 @@ bool Model::sets_flags(const Value* v, const Instruction& at) const {
 }
 
 void Model::call(CallBase& c, Segment& s) {
+  if (calls(c, kRound)) return;
   if (calls(c, kNop)) {
     s.features[k_nop] += 1;
     return;
@@ -561,6 +562,8 @@ void Model::run(std::vector<Segment>& out) {
       }
   for (BasicBlock& block : f_) {
     Instruction* begin = &*block.getFirstInsertionPt();
+    // local variables stay together at the entry, or the back end would treat them as of unknown size
+    while (isa<AllocaInst>(begin)) begin = begin->getNextNode();
     Segment s{begin};
     if (entry) {
       for (Instruction& i : block)
@@ -599,7 +602,7 @@ void Model::run(std::vector<Segment>& out) {
         instruction(i, s);
       }
       auto* c = dyn_cast<CallBase>(&i);
-      if (c && !isa<IntrinsicInst>(c) && !calls(i, kNop)) after_call = true;
+      if (c && !isa<IntrinsicInst>(c) && !calls(i, kNop) && !calls(i, kRound)) after_call = true;
     }
     if (s.cycles() > 0) out.push_back(s);
   }

@@ -27,7 +27,7 @@ bool is_idle(Loop* loop, DominatorTree& dom) {
   for (BasicBlock* block : loop->blocks()) {
     if (!dom.dominates(block, latch)) return false;
     for (Instruction& i : *block) {
-      if (isa<DbgInfoIntrinsic>(i) || calls(i, kNop)) continue;
+      if (isa<DbgInfoIntrinsic>(i) || calls(i, kNop) || calls(i, kRound)) continue;
       if (i.mayReadOrWriteMemory() || i.mayHaveSideEffects() || i.getType()->isFloatingPointTy()) return false;
       if (auto* op = dyn_cast<BinaryOperator>(&i))
         if (op->isIntDivRem()) return false;

@@ -216,7 +216,7 @@ std::vector<std::string> clang_arguments(const Options& o) {
     "-Wno-gnu-binary-literal", "-Wno-main-return-type", "-Wno-builtin-requires-header",
     "-Wno-incompatible-library-redeclaration", "-Wno-implicit-int", "-Wno-asm-operand-widths", "-Wno-typedef-redefinition",
     "-Wno-pointer-sign", "-Wno-invalid-source-encoding", "-Wno-nonportable-include-path", "-Wno-comment", "-Wno-empty-body",
-    "-Wno-newline-eof"};
+    "-Wno-newline-eof", "-Wno-error=return-type", "-Wno-gnu-designator"};
   a.push_back(o.level == 0 ? "-O0" : o.for_size ? "-Os" : o.level == 1 ? "-O1" : "-O2");
   if (o.sanitize) {
     a.push_back("-fsanitize=signed-integer-overflow,shift-exponent,array-bounds");

@@ -49,7 +49,7 @@ std::string match_ignoring_case(std::string root, const std::vector<std::string>
     if (found.empty()) return "";
     root += "/" + found;
   }
-  return llvm::sys::fs::is_regular_file(root) ? root : "";
+  return llvm::sys::fs::exists(root) ? root : "";
 }
 
 class ForgivingFileSystem : public llvm::vfs::ProxyFileSystem {
@@ -78,10 +78,12 @@ class ForgivingFileSystem : public llvm::vfs::ProxyFileSystem {
  private:
   std::string find(const std::string& path) {
     StringRef name = path;
-    if (name == kFallbackRoot || !name.contains('.')) return "";
+    if (name == kFallbackRoot) return "";
     if (name.startswith(std::string(kFallbackRoot) + "/")) {
       auto parts = components(name.substr(std::string(kFallbackRoot).size()).str());
       parts.erase(std::remove(parts.begin(), parts.end(), ".."), parts.end());
+      bool is_header = !parts.empty() && llvm::StringRef(parts.back()).contains('.');
+      if (!is_header) return "/";  // any folder "exists" there; what counts is the header looked up in it
       // the longest tail that exists wins: motor_led/e_motors.h before e_motors.h
       for (size_t first = 0; first < parts.size(); ++first)
         for (const auto& folder : folders_) {

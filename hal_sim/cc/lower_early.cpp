@@ -5,7 +5,9 @@
 
 #include "llvm/ADT/StringExtras.h"
 #include "llvm/ADT/StringSwitch.h"
+#include "llvm/Analysis/LoopInfo.h"
 #include "llvm/IR/DebugInfoMetadata.h"
+#include "llvm/IR/Dominators.h"
 #include "llvm/IR/IRBuilder.h"
 #include "llvm/IR/InlineAsm.h"
 #include "llvm/IR/InstIterator.h"
@@ -90,6 +92,8 @@ void refuse_functions(Unit& unit) {
     const char* instead = refused_function(f.getName());
     if (!instead) continue;
     for (User* user : f.users()) {
+      // a call without prototype goes through a cast of the function
+      while (isa<Constant>(user) && !user->use_empty()) user = user->user_back();
       auto* where = dyn_cast<Instruction>(user);
       unit.error(where ? where->getDebugLoc() : DebugLoc(),
                  f.getName() + "(): firmware cannot call it; " + instead);
@@ -247,6 +251,27 @@ void restore_library_calls(Unit& unit) {
     }
 }
 
+/// A loop that only counts must not vanish before it is recognised as a delay: it gets a mark in each round.
+void keep_empty_loops(Unit& unit) {
+  for (Function& f : unit.module) {
+    if (f.isDeclaration()) continue;
+    DominatorTree dom(f);
+    LoopInfo loops(dom);
+    for (Loop* loop : loops.getLoopsInPreorder()) {
+      bool counts_only = loop->getSubLoops().empty() && loop->getLoopLatch();
+      for (BasicBlock* block : loop->blocks())
+        for (Instruction& i : *block) {
+          if (auto* store = dyn_cast<StoreInst>(&i)) counts_only &= isa<AllocaInst>(store->getPointerOperand()) && !store->isVolatile();
+          else if (auto* load = dyn_cast<LoadInst>(&i)) counts_only &= isa<AllocaInst>(load->getPointerOperand()) && !load->isVolatile();
+          else if (isa<CallBase>(i) && !isa<DbgInfoIntrinsic>(i)) counts_only &= calls(i, kNop);
+        }
+      if (!counts_only) continue;
+      IRBuilder<> b(loop->getLoopLatch()->getTerminator());
+      b.CreateCall(marker(unit.module, kRound));
+    }
+  }
+}
+
 }  // namespace
 
 void lower_early(Unit& unit) {
@@ -258,6 +283,7 @@ void lower_early(Unit& unit) {
   restore_library_calls(unit);
   widen_lengths(unit);
   trap_divisions(unit);
+  keep_empty_loops(unit);
   rename_for_c(unit);
 }
 

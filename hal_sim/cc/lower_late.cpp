@@ -60,7 +60,7 @@ void define_shift(BinaryOperator* op) {
 void lower_late(Unit& unit) {
   for (Function& f : unit.module)
     for (Instruction& i : make_early_inc_range(instructions(f))) {
-      if (calls(i, kNop)) {
+      if (calls(i, kNop) || calls(i, kRound)) {
         i.eraseFromParent();
         continue;
       }

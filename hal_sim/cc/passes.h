@@ -23,6 +23,7 @@ struct Unit {
 
 // --- names of the functions stages leave for one another (never called at run time) -------------------------
 inline constexpr const char* kNop = "tp.nop";        // asm("nop"): one cycle, no effect
+inline constexpr const char* kRound = "tp.round";    // keeps an empty counting loop alive; no cycle
 inline constexpr const char* kFree = "tp.free";      // metadata: instruction exists on the PC only, costs nothing
 
 /// Inline assembler, refused functions, sections, wide shifts, float to int, division by zero.

@@ -108,7 +108,7 @@ bool waits(Loop* loop, DominatorTree& dom, const Unit& unit) {
         if (!harmless_call(*call, unit) && !isa<IntrinsicInst>(call)) {
           // certain to happen each round: the round never changes nothing
           if (dom.dominates(block, latch)) looks = false;
-        } else if (!isa<IntrinsicInst>(call) && !calls(i, kNop)) {
+        } else if (!isa<IntrinsicInst>(call) && !calls(i, kNop) && !calls(i, kRound)) {
           reads = true;
         }
       }
@@ -181,7 +181,7 @@ void instrument(Unit& unit, Function& f, Loop* loop, DominatorTree& dom, int ord
 
 bool is_poll_safe(const Function* callee, const Unit& unit) {
   StringRef name = callee->getName();
-  if (name == kNop || name == "tp_sfr_read" || name == "tp_delay") return true;
+  if (name == kNop || name == kRound || name == "tp_sfr_read" || name == "tp_delay") return true;
   if (unit.facts.poll_safe.count(name.str())) return true;
   return !callee->isDeclaration() && !callee->isInterposable() && safe_body(*callee, unit, 0);
 }

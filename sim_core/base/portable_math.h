@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Sine, cosine and logarithm that give the same bits on every PC. The C library picks variants by processor (with or
-// without fused multiply-add), which may differ in the last bit; digests must not. Polynomials: fdlibm (Sun, 1993).
-// Accuracy: within 1e-15 absolute for sine and cosine of angles up to 1e6 rad, 1e-15 relative for the logarithm.
+// Sine, cosine and logarithm that give the same bits on every PC. The C library picks variants by processor
+// (with or without fused multiply-add), which may differ in the last bit; digests must not. Polynomials:
+// fdlibm (Sun, 1993). Accuracy: within 1e-15 absolute for sine and cosine of angles up to 1e6 rad, 1e-15
+// relative for the logarithm.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -34,19 +35,22 @@ inline SinCos sin_cos(double angle_rad) {
                     z * (-1.98412698298579493134e-04 +
                          z * (2.75573137070700676789e-06 +
                               z * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10)))));
-  const double c =
-      1 - 0.5 * z +
-      z * z *
-          (4.16666666666666019037e-02 +
-           z * (-1.38888888888741095749e-03 +
-                z * (2.48015872894767294178e-05 +
-                     z * (-2.75573143513906633035e-07 +
-                          z * (2.08757232129817482790e-09 + z * -1.13596475577881948265e-11)))));
+  const double c = 1 - 0.5 * z +
+                   z * z *
+                       (4.16666666666666019037e-02 +
+                        z * (-1.38888888888741095749e-03 +
+                             z * (2.48015872894767294178e-05 +
+                                  z * (-2.75573143513906633035e-07 +
+                                       z * (2.08757232129817482790e-09 + z * -1.13596475577881948265e-11)))));
   switch (bits & 3) {
-    case 0: return {s, c};
-    case 1: return {c, -s};
-    case 2: return {-s, -c};
-    default: return {-c, s};
+    case 0:
+      return {s, c};
+    case 1:
+      return {c, -s};
+    case 2:
+      return {-s, -c};
+    default:
+      return {-c, s};
   }
 }
 
@@ -61,12 +65,13 @@ inline double natural_log(double x) {
   const double f = m - 1;
   const double s = f / (2 + f);
   const double z = s * s;
-  const double r = z * (6.666666666666735130e-01 +
-                        z * (3.999999999940941908e-01 +
-                             z * (2.857142874366239149e-01 +
-                                  z * (2.222219843214978396e-01 +
-                                       z * (1.818357216161805012e-01 +
-                                            z * (1.531383769920937332e-01 + z * 1.479819860511658591e-01))))));
+  const double r =
+      z * (6.666666666666735130e-01 +
+           z * (3.999999999940941908e-01 +
+                z * (2.857142874366239149e-01 +
+                     z * (2.222219843214978396e-01 +
+                          z * (1.818357216161805012e-01 +
+                               z * (1.531383769920937332e-01 + z * 1.479819860511658591e-01))))));
   const double half = 0.5 * f * f;
   const double k = static_cast<double>(exponent);
   return k * 6.93147180369123816490e-01 + (f - (half - (s * (half + r) + k * 1.90821492927058770002e-10)));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The grid covers the fixed solids and one cell around them; whatever is outside is binned in the border cells.
+// The grid covers the fixed solids and one cell around them; whatever is outside is binned in the border
+// cells.
 #include "sim_core/geometry/neighbours.h"
 
 #include <algorithm>
@@ -10,7 +11,8 @@
 namespace sim {
 namespace {
 
-constexpr int kMostCells = 4'000'000;  // of the grid: a huge empty arena gets larger cells' worth of border instead
+constexpr int kMostCells =
+    4'000'000;  // of the grid: a huge empty arena gets larger cells' worth of border instead
 
 /// Axis-aligned box of a placed solid in the plane.
 struct Extent {
@@ -58,7 +60,8 @@ Neighbours::Neighbours(const std::vector<Placed>& fixed, std::vector<double> mov
       for (int y = cell_y(boxes[i].y0); y <= cell_y(boxes[i].y1); ++y) {
         for (int x = cell_x(boxes[i].x0); x <= cell_x(boxes[i].x1); ++x) {
           Cell& cell = fixed_cells_[static_cast<std::size_t>(y) * columns_ + x];
-          if (pass == 1) fixed_items_[static_cast<std::size_t>(cell.first + cell.count)] = static_cast<int>(i);
+          if (pass == 1)
+            fixed_items_[static_cast<std::size_t>(cell.first + cell.count)] = static_cast<int>(i);
           ++cell.count;
         }
       }

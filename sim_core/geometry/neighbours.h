@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Who is near whom: fixed solids in a uniform grid, moving ones binned anew whenever they have moved far enough, and
-// for each robot one list of everything its rays or its bumper could meet until then (a Verlet list).
-// In: placed solids, positions, m. Out: candidate lists, clearances (m), first hit of a long ray.
-// Algorithm: every moving solid moves at most `moved_m` between two rebuilds; lists are gathered `kSkinM` too wide
-// and stay valid until twice the movement has used up the skin. Lists are constant while robots' minds run.
+// Who is near whom: fixed solids in a uniform grid, moving ones binned anew whenever they have moved far
+// enough, and for each robot one list of everything its rays or its bumper could meet until then (a Verlet
+// list). In: placed solids, positions, m. Out: candidate lists, clearances (m), first hit of a long ray.
+// Algorithm: every moving solid moves at most `moved_m` between two rebuilds; lists are gathered `kSkinM` too
+// wide and stay valid until twice the movement has used up the skin. Lists are constant while robots' minds
+// run.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -30,11 +31,12 @@ class Neighbours {
   Neighbours(const std::vector<Placed>& fixed, std::vector<double> moving_bound_m, int robots,
              std::vector<double> reach_m);
 
-  /// Bins the moving bodies where they are now and gathers every robot's list. `history_m`: how far any body has
-  /// moved within the poses that readers may still ask for, or may be extrapolated.
+  /// Bins the moving bodies where they are now and gathers every robot's list. `history_m`: how far any body
+  /// has moved within the poses that readers may still ask for, or may be extrapolated.
   void rebuild(const std::vector<Placed>& moving, double history_m);
 
-  /// Counts a movement of at most `most_m` by any body since the last call; true when the lists need a rebuild.
+  /// Counts a movement of at most `most_m` by any body since the last call; true when the lists need a
+  /// rebuild.
   bool note_motion(double most_m);
 
   /// Distance, m, that robot r can be sure to have around its bound now; negative: it may touch something.
@@ -43,7 +45,8 @@ class Neighbours {
   const Candidate* begin(int robot) const { return list_.data() + first_[static_cast<std::size_t>(robot)]; }
   const Candidate* end(int robot) const { return list_.data() + first_[static_cast<std::size_t>(robot) + 1]; }
 
-  /// Fixed and moving solids that may stand within radius_m of a point, each once, fixed ones first, in order.
+  /// Fixed and moving solids that may stand within radius_m of a point, each once, fixed ones first, in
+  /// order.
   void gather(Vec2 point, double radius_m, std::vector<Candidate>& out) const;
 
  private:

@@ -48,7 +48,8 @@ void support(const void* object, const ccd_vec3_t* direction, ccd_vec3_t* out) {
   }
   const Vec2 in = middle - best;
   const double len = length(in);
-  const double k = len > 0 ? std::min(1.0, 1.4142 * shape.shrink_m / len) : 0.0;  // sqrt 2: at a square corner
+  const double k =
+      len > 0 ? std::min(1.0, 1.4142 * shape.shrink_m / len) : 0.0;  // sqrt 2: at a square corner
   const Vec2 w = p.frame.to_world(best + k * in);
   ccdVec3Set(out, w.x, w.y, z);
 }

@@ -5,8 +5,8 @@
 
 namespace sim {
 
-/// True when the two solids overlap by more than about `slack_m` (each is shrunk by half of it, so that bodies that
-/// only touch, such as a box on the floor of a shelf, do not count).
+/// True when the two solids overlap by more than about `slack_m` (each is shrunk by half of it, so that
+/// bodies that only touch, such as a box on the floor of a shelf, do not count).
 bool overlaps(const Placed& a, const Placed& b, double slack_m);
 
 }  // namespace sim

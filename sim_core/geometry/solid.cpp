@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rays are clipped against half planes (prism), a circle (cylinder) or a sphere (ball), then against the height range.
+// Rays are clipped against half planes (prism), a circle (cylinder) or a sphere (ball), then against the
+// height range.
 #include "sim_core/geometry/solid.h"
 
 #include <algorithm>
@@ -15,12 +16,14 @@ constexpr double kSmallestAreaM2 = 1e-6;  // one square millimetre
 
 double signed_area_m2(const std::vector<Vec2>& corners) {
   double twice = 0;
-  for (std::size_t i = 0; i < corners.size(); ++i) twice += cross(corners[i], corners[(i + 1) % corners.size()]);
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    twice += cross(corners[i], corners[(i + 1) % corners.size()]);
   return 0.5 * twice;
 }
 
 /// Narrows [near, far] to where the ray is between the heights; false when nothing is left.
-bool clip_heights(double z, double dz, double z0, double z1, double& near, double& far, bool& entered_by_cap) {
+bool clip_heights(double z, double dz, double z0, double z1, double& near, double& far,
+                  bool& entered_by_cap) {
   if (std::fabs(dz) < kParallel) return z >= z0 && z <= z1;
   double first = (z0 - z) / dz;
   double last = (z1 - z) / dz;
@@ -131,7 +134,8 @@ bool cast_ball(const Ray& ray, const Placed& what, double& distance_m, Vec3* nor
   if (near >= distance_m) return false;
   distance_m = near;
   if (normal) {
-    *normal = {(rel.x + near * ray.dir.x) / r, (rel.y + near * ray.dir.y) / r, (rel.z + near * ray.dir.z) / r};
+    *normal = {(rel.x + near * ray.dir.x) / r, (rel.y + near * ray.dir.y) / r,
+               (rel.z + near * ray.dir.z) / r};
   }
   return true;
 }
@@ -215,14 +219,18 @@ double Solid::gyration_m2() const {
 
 bool cast_ray(const Ray& ray, const Placed& what, double& distance_m, Vec3* normal) {
   switch (what.solid->kind) {
-    case SolidKind::Prism: return cast_prism(ray, what, distance_m, normal);
-    case SolidKind::Cylinder: return cast_cylinder(ray, what, distance_m, normal);
-    case SolidKind::Ball: return cast_ball(ray, what, distance_m, normal);
+    case SolidKind::Prism:
+      return cast_prism(ray, what, distance_m, normal);
+    case SolidKind::Cylinder:
+      return cast_cylinder(ray, what, distance_m, normal);
+    case SolidKind::Ball:
+      return cast_ball(ray, what, distance_m, normal);
   }
   return false;
 }
 
-bool out_of_sight(Vec2 from, Vec2 axis, double half_sin, double half_cos, double range_m, const Placed& what) {
+bool out_of_sight(Vec2 from, Vec2 axis, double half_sin, double half_cos, double range_m,
+                  const Placed& what) {
   const Vec2 gap = what.frame.at - from;
   const double bound = what.solid->bound_m;
   if (dot(gap, gap) > (range_m + bound) * (range_m + bound)) return true;
@@ -236,7 +244,8 @@ bool out_of_sight(Vec2 from, Vec2 axis, double half_sin, double half_cos, double
     if (outside <= 0) continue;
     if (outside > range_m) return true;
     const double facing = -dot(side.normal, dir);
-    const double best = facing >= half_cos ? 1 : facing * half_cos + std::sqrt(std::max(0.0, 1 - facing * facing)) * half_sin;
+    const double best =
+        facing >= half_cos ? 1 : facing * half_cos + std::sqrt(std::max(0.0, 1 - facing * facing)) * half_sin;
     if (outside > range_m * best + 1e-12) return true;
   }
   return false;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The shapes a world is made of: upright convex prisms, upright cylinders and balls, each in its own frame with a
-// height range; and what a ray, a disc or a neighbour asks of them. Metres. Not modelled: tilted bodies.
+// The shapes a world is made of: upright convex prisms, upright cylinders and balls, each in its own frame
+// with a height range; and what a ray, a disc or a neighbour asks of them. Metres. Not modelled: tilted
+// bodies.
 #pragma once
 #include <vector>
 
@@ -24,7 +25,7 @@ struct Solid {
   double radius_m = 0;           ///< cylinder and ball
   double z0_m = 0;               ///< bottom above the body's own z
   double z1_m = 0;               ///< top above the body's own z
-  double bound_m = 0;            ///< radius of the vertical cylinder around the body's origin that holds it all
+  double bound_m = 0;  ///< radius of the vertical cylinder around the body's origin that holds it all
 
   static Solid prism(std::vector<Vec2> counter_clockwise, double z0_m, double z1_m);
   static Solid box(double size_x_m, double size_y_m, double z0_m, double z1_m);
@@ -54,16 +55,17 @@ struct Ray {
   Vec3 dir;
 };
 
-/// True when the ray meets the solid nearer than `distance_m`, which then becomes the distance of the first meeting;
-/// `normal`, if given, the unit vector out of the surface there. A ray that starts inside hits at distance 0.
+/// True when the ray meets the solid nearer than `distance_m`, which then becomes the distance of the first
+/// meeting; `normal`, if given, the unit vector out of the surface there. A ray that starts inside hits at
+/// distance 0.
 bool cast_ray(const Ray& ray, const Placed& what, double& distance_m, Vec3* normal = nullptr);
 
-/// True when no ray from a point can meet the solid within `range_m`, if it leaves within half_sin/half_cos (sine and
-/// cosine of the half angle) of the axis. Sure when true; when false, cast.
+/// True when no ray from a point can meet the solid within `range_m`, if it leaves within half_sin/half_cos
+/// (sine and cosine of the half angle) of the axis. Sure when true; when false, cast.
 bool out_of_sight(Vec2 from, Vec2 axis, double half_sin, double half_cos, double range_m, const Placed& what);
 
-/// Distance in the plane from a point to the solid's footprint, m; negative inside. `toward`, if given, gets the
-/// unit vector from the solid's nearest point towards the point.
+/// Distance in the plane from a point to the solid's footprint, m; negative inside. `toward`, if given, gets
+/// the unit vector from the solid's nearest point towards the point.
 double plan_distance_m(Vec2 point, const Placed& what, Vec2* toward = nullptr);
 
 }  // namespace sim

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kFullScale = 4095;  // counts of a 12-bit converter [DS70143]
 
-/// 0.25 / d2, saturating at full scale. [epuck-robot.md A3: driver of the real robot, 0.5 / sqrt(value)]
+/// 0.25 / d2, saturating at full scale. [FRM A3: driver of the real robot, 0.5 / sqrt(value)]
 std::vector<ResponseRow> inverse_square_table() {
   std::vector<ResponseRow> rows;
   const auto add = [&](double d) {
@@ -27,7 +27,8 @@ std::vector<ResponseRow> inverse_square_table() {
   return rows;
 }
 
-/// m (c - x0^2) / (x^2 - 2 x0 x + c) with x in cm, saturating below x0; noise of 10 counts. [Enki: IRSensor.cpp]
+/// m (c - x0^2) / (x^2 - 2 x0 x + c) with x in cm, saturating below x0; noise of 10 counts. [Enki:
+/// IRSensor.cpp]
 std::vector<ResponseRow> enki_table() {
   constexpr double m = 3731, x0_cm = 0.3, c_cm2 = 0.7, noise_counts = 10, range_mm = 120;
   std::vector<ResponseRow> rows;
@@ -45,7 +46,7 @@ std::vector<ResponseRow> enki_table() {
   return rows;
 }
 
-/// 298.701 d2 - 36.8961 d + 1.08212 of full scale, nothing beyond 5 cm. [ARGoS: argos3-epuck]
+/// 298.701 d2 - 36.8961 d + 1.08212 of full scale, nothing beyond 5 cm. [ARGoS]
 std::vector<ResponseRow> argos_table() {
   std::vector<ResponseRow> rows;
   for (int k = 0; k <= 20; ++k) {
@@ -59,17 +60,18 @@ std::vector<ResponseRow> argos_table() {
 
 std::vector<ProximityProfile> make_profiles() {
   // [Webots V6 to R2019a: e-puck DistanceSensor lookupTable]
-  const std::vector<ResponseRow> webots_old{{0, 4095, .005},   {.005, 3474, .037}, {.01, 2211, .071},
-                                            {.02, 676, .105},  {.03, 306, .125},   {.04, 164, .206},
-                                            {.05, 90, .269},   {.06, 56, .438},    {.07, 34, .704}};
+  const std::vector<ResponseRow> webots_old{{0, 4095, .005},  {.005, 3474, .037}, {.01, 2211, .071},
+                                            {.02, 676, .105}, {.03, 306, .125},   {.04, 164, .206},
+                                            {.05, 90, .269},  {.06, 56, .438},    {.07, 34, .704}};
   // [Webots R2020b and later: same table, measured on the real robot]
-  const std::vector<ResponseRow> webots_new{{0, 4095, .002},      {.005, 2133.33, .003}, {.01, 1465.73, .007},
-                                            {.015, 601.46, .0406}, {.02, 383.84, .01472}, {.03, 234.93, .0241},
-                                            {.04, 158.03, .0287}, {.05, 120, .04225},    {.06, 104.09, .03065},
-                                            {.07, 67.19, .04897}};
-  const double enki_aperture = radians(30);  // rays at -15, 0 and 15 degrees [Enki: EPuck.cpp]
+  const std::vector<ResponseRow> webots_new{
+      {0, 4095, .002},       {.005, 2133.33, .003}, {.01, 1465.73, .007}, {.015, 601.46, .0406},
+      {.02, 383.84, .01472}, {.03, 234.93, .0241},  {.04, 158.03, .0287}, {.05, 120, .04225},
+      {.06, 104.09, .03065}, {.07, 67.19, .04897}};
+  const double enki_aperture = radians(30);  // rays at -15, 0 and 15 degrees [Enki]
   return {
-      {"inverse-square", inverse_square_table(), 1, 0, RayLayout::Cone, ColourRule::Old, NoiseLaw::Gaussian, false},
+      {"inverse-square", inverse_square_table(), 1, 0, RayLayout::Cone, ColourRule::Old, NoiseLaw::Gaussian,
+       false},
       {"webots-old", webots_old, 1, 0, RayLayout::Cone, ColourRule::Old, NoiseLaw::Gaussian, false},
       {"webots-new", webots_new, 1, 0.1, RayLayout::Cone, ColourRule::New, NoiseLaw::Gaussian, false},
       {"enki", enki_table(), 3, enki_aperture, RayLayout::Fan, ColourRule::None, NoiseLaw::Gaussian, true},
@@ -79,7 +81,8 @@ std::vector<ProximityProfile> make_profiles() {
 
 /// First setting that is present, from the most special to the most general.
 template <typename T>
-T inherit(std::optional<T> ProximitySettings::*field, const ProximitySettings* const (&levels)[3], T otherwise) {
+T inherit(std::optional<T> ProximitySettings::*field, const ProximitySettings* const (&levels)[3],
+          T otherwise) {
   for (const ProximitySettings* level : levels) {
     if (level && (level->*field)) return *(level->*field);
   }
@@ -205,7 +208,8 @@ ResponseRow look_up(const std::vector<ResponseRow>& table, double distance_m) {
   const ResponseRow& b = *next;
   const ResponseRow& a = *(next - 1);
   const double f = (distance_m - a.distance_m) / (b.distance_m - a.distance_m);
-  return {distance_m, a.value + f * (b.value - a.value), a.relative_noise + f * (b.relative_noise - a.relative_noise)};
+  return {distance_m, a.value + f * (b.value - a.value),
+          a.relative_noise + f * (b.relative_noise - a.relative_noise)};
 }
 
 }  // namespace sim

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Named lookup tables of proximity sensors, and the settings of a sensor after inheritance.
-// Distances in m, values in counts (0 to 4095). Sources: epuck-robot.md A3, B1, B2; see each table.
+// Distances in m, values in counts (0 to 4095). Sources: [FRM A3, B1, B2]; see each table.
 #pragma once
 #include <string>
 #include <vector>
@@ -18,8 +18,8 @@ struct ProximityProfile {
   RayLayout layout;
   ColourRule colour_rule;
   NoiseLaw noise_law;
-  /// Enki's law: every ray answers by itself and the centre ray makes up for the slant of the others; otherwise the
-  /// rays' weighted mean distance goes through the table.
+  /// Enki's law: every ray answers by itself and the centre ray makes up for the slant of the others;
+  /// otherwise the rays' weighted mean distance goes through the table.
   bool rays_answer_singly;
 };
 
@@ -56,8 +56,8 @@ struct RayPlan {
   double off_axis_rad = 0;
 };
 
-/// Where the rays of a sensor go. [Webots] placement for cones (one ray on the axis, further ones on cones up to half
-/// the aperture); fans spread evenly over the aperture in the plane.
+/// Where the rays of a sensor go. [Webots] placement for cones (one ray on the axis, further ones on cones up
+/// to half the aperture); fans spread evenly over the aperture in the plane.
 std::vector<RayPlan> plan_rays(int rays, double aperture_rad, double gaussian_width, RayLayout layout);
 
 /// Value and relative noise at a distance: linear between rows, clamped beyond the ends.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Rays are kept in the robot's frame and turned by its heading once per instant. Only solids on the robot's
-// neighbour list are tried, and only those that a sensor's bundle of rays can touch. [Webots B2] [Enki: IRSensor.cpp]
+// neighbour list are tried, and only those that a sensor's bundle of rays can touch. [Webots B2] [Enki:
+// IRSensor.cpp]
 #include "sim_core/light/proximity.h"
 
 #include <algorithm>
@@ -26,9 +27,9 @@ struct SensorOptics {
   ResponseCurve curve;
   Vec3 at_m;
   Vec3 axis;
-  double half_sin = 0;     // of the half angle around the axis, in plan, that holds every ray
+  double half_sin = 0;  // of the half angle around the axis, in plan, that holds every ray
   double half_cos = 1;
-  bool wide = false;       // rays may go anywhere: no culling by direction
+  bool wide = false;  // rays may go anywhere: no culling by direction
   bool meets_floor = false;
   std::vector<BodyRay> rays;
   ProximityResponse nothing;  // the answer where no ray meets anything
@@ -48,11 +49,12 @@ struct alignas(64) Surroundings {
 };
 
 struct ProximityOptics {
-  std::vector<std::unique_ptr<SensorOptics>> sensors;  // robots of one model without settings of their own share
-  std::vector<std::int32_t> first;                     // per robot: its sensor 0 among the sensors
-  std::vector<std::int32_t> count;                     // per robot
+  std::vector<std::unique_ptr<SensorOptics>>
+      sensors;                      // robots of one model without settings of their own share
+  std::vector<std::int32_t> first;  // per robot: its sensor 0 among the sensors
+  std::vector<std::int32_t> count;  // per robot
   std::vector<double> reach_m;
-  mutable std::vector<Surroundings> around;            // per robot; used by that robot's thread only
+  mutable std::vector<Surroundings> around;  // per robot; used by that robot's thread only
 };
 
 namespace {
@@ -79,8 +81,9 @@ const Surroundings& surroundings(const Scene& scene, int robot, Clicks at) {
   }
   std::size_t next = 0;
   for (const Candidate* c = near.begin(robot); c != near.end(robot); ++c) {
-    s.items.push_back({c->moving ? &s.moving[next++] : &scene.layout().fixed[static_cast<std::size_t>(c->index)],
-                       &scene.surface(*c)});
+    s.items.push_back(
+        {c->moving ? &s.moving[next++] : &scene.layout().fixed[static_cast<std::size_t>(c->index)],
+         &scene.surface(*c)});
   }
   return s;
 }
@@ -115,7 +118,8 @@ bool shoot(const Scene& scene, int robot, const SensorOptics& s, Clicks at, RayE
     for (std::size_t i = 0; i < rays; ++i) {
       const Vec3& d = s.rays[i].dir;
       const Vec2 dir = frame.turn({d.x, d.y});
-      if (!cast_ray({{from.x, from.y, s.at_m.z}, {dir.x, dir.y, d.z}}, *item.placed, ends[i].distance_m)) continue;
+      if (!cast_ray({{from.x, from.y, s.at_m.z}, {dir.x, dir.y, d.z}}, *item.placed, ends[i].distance_m))
+        continue;
       ends[i].factor = factor;
       ends[i].hit = any = true;
     }
@@ -132,7 +136,8 @@ bool shoot(const Scene& scene, int robot, const SensorOptics& s, Clicks at, RayE
   return any;
 }
 
-/// Enki's law: each slanted ray answers by itself; a ray on the axis answers for what a flat wall leaves to it.
+/// Enki's law: each slanted ray answers by itself; a ray on the axis answers for what a flat wall leaves to
+/// it.
 double answer_singly(const SensorOptics& s, const RayEnd* ends) {
   double sum = 0;
   for (std::size_t i = 0; i < s.rays.size(); ++i) {
@@ -170,9 +175,11 @@ ProximityResponse respond(const SensorOptics& s, const RayEnd* ends) {
 
 constexpr std::size_t kMostRays = 100;  // limit of the world format
 
-std::unique_ptr<SensorOptics> make_sensor(const WorldDesc& world, int robot, int sensor, const SensorMount& mount) {
+std::unique_ptr<SensorOptics> make_sensor(const WorldDesc& world, int robot, int sensor,
+                                          const SensorMount& mount) {
   const ProximityConfig config = resolve_proximity(world, robot, sensor);
-  auto s = std::make_unique<SensorOptics>(SensorOptics{config, ResponseCurve(config.table), mount.at_m, {}, 0, 1, false, false, {}, {}});
+  auto s = std::make_unique<SensorOptics>(
+      SensorOptics{config, ResponseCurve(config.table), mount.at_m, {}, 0, 1, false, false, {}, {}});
   // sensor frame to robot frame: pitch up about the sensor's left axis, then yaw
   const SinCos yaw = sin_cos(mount.yaw_rad), pitch = sin_cos(mount.pitch_rad);
   const auto turn = [&](const Vec3& v) {
@@ -183,12 +190,14 @@ std::unique_ptr<SensorOptics> make_sensor(const WorldDesc& world, int robot, int
   // culling works in plan, around the direction in which the sensor looks
   s->axis = {yaw.c, yaw.s, 0};
   double widest = 0;
-  for (const RayPlan& plan : plan_rays(config.rays, config.aperture_rad, config.gaussian_width, config.layout)) {
+  for (const RayPlan& plan :
+       plan_rays(config.rays, config.aperture_rad, config.gaussian_width, config.layout)) {
     BodyRay ray{turn(plan.dir), plan.weight, 1 / sin_cos(plan.off_axis_rad).c, plan.off_axis_rad};
     if (std::fabs(ray.dir.z) < 1e-15) ray.dir.z = 0;
     s->meets_floor = s->meets_floor || -ray.dir.z * config.max_range_m() > mount.at_m.z;
     const Vec2 plan_dir{ray.dir.x, ray.dir.y};
-    widest = std::max(widest, std::atan2(std::fabs(cross({yaw.c, yaw.s}, plan_dir)), dot({yaw.c, yaw.s}, plan_dir)));
+    widest = std::max(widest,
+                      std::atan2(std::fabs(cross({yaw.c, yaw.s}, plan_dir)), dot({yaw.c, yaw.s}, plan_dir)));
     s->rays.push_back(ray);
   }
   CHECK(s->rays.size() <= kMostRays, "the world format limits the number of rays");
@@ -222,7 +231,8 @@ std::shared_ptr<const ProximityOptics> make_optics(const WorldDesc& world) {
       for (int i = 0; i < static_cast<int>(model->proximity.size()); ++i) {
         const SensorMount& mount = model->proximity[static_cast<std::size_t>(i)];
         optics->sensors.push_back(make_sensor(world, robot, i, mount));
-        reach = std::max(reach, length({mount.at_m.x, mount.at_m.y}) + optics->sensors.back()->config.max_range_m());
+        reach = std::max(reach,
+                         length({mount.at_m.x, mount.at_m.y}) + optics->sensors.back()->config.max_range_m());
       }
       optics->reach_m.push_back(reach);
     }
@@ -249,8 +259,8 @@ double sense_irradiance_w_m2(const Scene& scene, int robot, int sensor, Clicks a
   const SensorOptics& s = optics_of(scene, robot, sensor);
   const Frame2& frame = surroundings(scene, robot, at).frame;
   const Vec2 at_m = frame.to_world({s.at_m.x, s.at_m.y});
-  const SensorMount& mount =
-      world.model_of(world.robots[static_cast<std::size_t>(robot)])->proximity[static_cast<std::size_t>(sensor)];
+  const SensorMount& mount = world.model_of(world.robots[static_cast<std::size_t>(robot)])
+                                 ->proximity[static_cast<std::size_t>(sensor)];
   const SinCos pitch = sin_cos(mount.pitch_rad);
   const Vec2 axis = pitch.c * frame.turn({s.axis.x, s.axis.y});
   for (const LampDesc& lamp : world.lamps) {
@@ -285,7 +295,10 @@ std::vector<RayTrace> trace_proximity(const Scene& scene, int robot, int sensor,
     const double d = ends[i].distance_m;
     out.push_back({{from.x, from.y, s.at_m.z},
                    {from.x + d * dir.x, from.y + d * dir.y, s.at_m.z + d * s.rays[i].dir.z},
-                   d, ends[i].hit, ends[i].factor, s.rays[i].weight});
+                   d,
+                   ends[i].hit,
+                   ends[i].factor,
+                   s.rays[i].weight});
   }
   return out;
 }

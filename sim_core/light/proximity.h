@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What a proximity sensor's optics return at one instant: rays, colour rule, weights, lookup table; no noise drawn.
-// A robot's gains and offsets (its Variation) and the noise itself belong to its board and are not applied here.
+// What a proximity sensor's optics return at one instant: rays, colour rule, weights, lookup table; no noise
+// drawn. A robot's gains and offsets (its Variation) and the noise itself belong to its board and are not
+// applied here.
 #pragma once
 #include <memory>
 #include <vector>
@@ -16,16 +17,16 @@ struct ProximityOptics;  ///< rays and tables of every sensor of a world, resolv
 
 /// One noise-free evaluation of a sensor.
 struct ProximityResponse {
-  double value = 0;             ///< table output for the apparent distance (the profile's own unit: counts of 4095)
-  double relative_noise = 0;    ///< standard deviation (gaussian) or half width (uniform) as a fraction of value; the
-                                ///< world file's noise scale is already in it
-  bool uniform_noise = false;   ///< noise law of the sensor
+  double value = 0;  ///< table output for the apparent distance (the profile's own unit: counts of 4095)
+  double relative_noise = 0;  ///< standard deviation (gaussian) or half width (uniform) as a fraction of
+                              ///< value; the world file's noise scale is already in it
+  bool uniform_noise = false;      ///< noise law of the sensor
   double apparent_distance_m = 0;  ///< after the colour rule; the table's last row where nothing is seen
 };
 
-/// Sensor `sensor` of robot `robot` at instant `at`. `at` may lie up to 40 ms before or one tick after the last
-/// tick: poses are interpolated, or carried on with the last tick's velocity. Deterministic; may be called from any
-/// thread, but for one robot from one thread at a time (each robot keeps a cache).
+/// Sensor `sensor` of robot `robot` at instant `at`. `at` may lie up to 40 ms before or one tick after the
+/// last tick: poses are interpolated, or carried on with the last tick's velocity. Deterministic; may be
+/// called from any thread, but for one robot from one thread at a time (each robot keeps a cache).
 ProximityResponse sense_proximity(const Scene& scene, int robot, int sensor, Clicks at);
 
 /// Irradiance from lamps and ambient light on the same sensor, W/m2, occlusion by bodies included.
@@ -37,7 +38,7 @@ const ProximityConfig& proximity_config(const Scene& scene, int robot, int senso
 /// One ray as pictures and inspectors show it.
 struct RayTrace {
   Vec3 from_m;
-  Vec3 to_m;               ///< where it hit, or its end at the table's last distance
+  Vec3 to_m;  ///< where it hit, or its end at the table's last distance
   double distance_m = 0;
   bool hit = false;
   double colour_factor = 1;  ///< f of the colour rule

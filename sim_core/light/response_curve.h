@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A lookup table that finds its row without searching: equal distance bins say where to begin. Same results as look_up(),
-// up to the last bit between rows.
+// A lookup table that finds its row without searching: equal distance bins say where to begin. Same results
+// as look_up(), up to the last bit between rows.
 #pragma once
 #include <vector>
 
@@ -22,7 +22,8 @@ class ResponseCurve {
     const ResponseRow& a = rows_[i];
     const ResponseRow& b = rows_[i + 1];
     const double f = (distance_m - a.distance_m) * per_span_[i];
-    return {distance_m, a.value + f * (b.value - a.value), a.relative_noise + f * (b.relative_noise - a.relative_noise)};
+    return {distance_m, a.value + f * (b.value - a.value),
+            a.relative_noise + f * (b.relative_noise - a.relative_noise)};
   }
 
  private:

@@ -33,8 +33,8 @@ std::string read_floor_image(const std::string& path, FloorDesc& floor) {
     floor.image_height = height;
     floor.image_rgb.clear();
     for (int y = 0; y < height; ++y) {
-      const auto* row = reinterpret_cast<const std::uint32_t*>(cairo_image_surface_get_data(flat) +
-                                                               static_cast<long>(y) * cairo_image_surface_get_stride(flat));
+      const auto* row = reinterpret_cast<const std::uint32_t*>(
+          cairo_image_surface_get_data(flat) + static_cast<long>(y) * cairo_image_surface_get_stride(flat));
       for (int x = 0; x < width; ++x) {
         for (int shift : {16, 8, 0}) floor.image_rgb.push_back(static_cast<std::uint8_t>(row[x] >> shift));
       }

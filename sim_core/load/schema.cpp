@@ -13,8 +13,8 @@
 namespace sim {
 namespace {
 
-constexpr double kFar = 1000;      // m: no coordinate or size beyond
-constexpr double kThin = 0.0005;   // m: nothing thinner
+constexpr double kFar = 1000;     // m: no coordinate or size beyond
+constexpr double kThin = 0.0005;  // m: nothing thinner
 constexpr double kMany = 1e9;
 
 /// Wraps a typed assignment.
@@ -59,8 +59,10 @@ std::string find_material(const WorldDesc& draft, const std::string& name, Mater
 template <typename T>
 std::vector<KeySpec> material_keys() {
   return {
-      {"material", ValueType::Text, "", 0, 0, "", "", "name of a `[[material]]`; without it a white one is used",
-       checked<T>([](T& t, const Value& v, const WorldDesc& d) { return find_material(d, v.text, t.material); })},
+      {"material", ValueType::Text, "", 0, 0, "", "",
+       "name of a `[[material]]`; without it a white one is used",
+       checked<T>(
+           [](T& t, const Value& v, const WorldDesc& d) { return find_material(d, v.text, t.material); })},
       {"colour", ValueType::Colour, "", 0, 1, "", "", "red, green, blue; overrides the material's colour",
        into<T>([](T& t, const Value& v) { t.material.colour = colour_of(v); })},
   };
@@ -74,7 +76,8 @@ std::vector<KeySpec> object_keys(ObjectKind kind, std::vector<KeySpec> shape) {
       {"position", ValueType::Pair, "m", -kFar, kFar, "", kind == ObjectKind::Polygon ? "[0, 0]" : "required",
        kind == ObjectKind::Polygon ? "x and y of the origin of its points" : "x and y of its middle",
        into<T>([](T& o, const Value& v) { o.pose.x_m = v.numbers[0], o.pose.y_m = v.numbers[1]; })},
-      {"z", ValueType::Number, "m", 0, kFar, "", "0", "height of its underside; a movable one falls from there",
+      {"z", ValueType::Number, "m", 0, kFar, "", "0",
+       "height of its underside; a movable one falls from there",
        into<T>([](T& o, const Value& v) { o.z_m = v.number; })},
       {"heading", ValueType::Number, "deg", -kMany, kMany, "", "0", "counter-clockwise from +x",
        into<T>([](T& o, const Value& v) { o.pose.heading_rad = radians(v.number); })},
@@ -101,7 +104,8 @@ std::vector<KeySpec> proximity_keys(Get get) {
   };
   static const std::string names = [] {
     std::string all;
-    for (const ProximityProfile& p : proximity_profiles()) all += (all.empty() ? "" : "|") + std::string(p.name);
+    for (const ProximityProfile& p : proximity_profiles())
+      all += (all.empty() ? "" : "|") + std::string(p.name);
     return all;
   }();
   using P = ProximitySettings;
@@ -110,7 +114,8 @@ std::vector<KeySpec> proximity_keys(Get get) {
        "lookup table, rays, colour rule and noise law by name",
        to([](P& p, const Value& v) { p.profile = v.text; })},
       {"table", ValueType::Rows, "m, counts, fraction", 0, 1e6, "", "",
-       "own lookup table instead of the profile's: rows of distance, value and relative noise, distances growing; "
+       "own lookup table instead of the profile's: rows of distance, value and relative noise, distances "
+       "growing; "
        "linear in between, clamped beyond the ends",
        checked<T>([get](T& t, const Value& v, const WorldDesc&) {
          std::vector<ResponseRow> rows;
@@ -132,9 +137,11 @@ std::vector<KeySpec> proximity_keys(Get get) {
        })},
       {"rays", ValueType::Integer, "", 1, 100, "", "", "how many; the profile's otherwise",
        to([](P& p, const Value& v) { p.rays = static_cast<int>(v.integer); })},
-      {"aperture", ValueType::Number, "deg", 0, 180, "", "", "full angle that the rays cover; 0 leaves one ray",
+      {"aperture", ValueType::Number, "deg", 0, 180, "", "",
+       "full angle that the rays cover; 0 leaves one ray",
        to([](P& p, const Value& v) { p.aperture_rad = radians(v.number); })},
-      {"aperture_rad", ValueType::Number, "rad", 0, kPi, "", "", "the same in radians, as Webots worlds write it",
+      {"aperture_rad", ValueType::Number, "rad", 0, kPi, "", "",
+       "the same in radians, as Webots worlds write it",
        to([](P& p, const Value& v) { p.aperture_rad = v.number; })},
       {"gaussian_width", ValueType::Number, "", 0, 1000, "", "1",
        "a ray at angle t weighs exp(-(t / (aperture * width))^2); 0 leaves only the ray on the axis",
@@ -144,14 +151,16 @@ std::vector<KeySpec> proximity_keys(Get get) {
       {"colour_rule", ValueType::Choice, "", 0, 0, "old|new|none", "",
        "old: distances are divided by 0.2 + 0.8 red; new: the red part also shrinks with roughness",
        to([](P& p, const Value& v) {
-         p.colour_rule = v.text == "old" ? ColourRule::Old : v.text == "new" ? ColourRule::New : ColourRule::None;
+         p.colour_rule = v.text == "old"   ? ColourRule::Old
+                         : v.text == "new" ? ColourRule::New
+                                           : ColourRule::None;
        })},
       {"noise_law", ValueType::Choice, "", 0, 0, "uniform|gaussian", "",
-       "what the table's third column means: half width or standard deviation",
-       to([](P& p, const Value& v) {
+       "what the table's third column means: half width or standard deviation", to([](P& p, const Value& v) {
          p.noise_law = v.text == "uniform" ? NoiseLaw::Uniform : NoiseLaw::Gaussian;
        })},
-      {"noise_scale", ValueType::Number, "", 0, 1000, "", "1", "factor on the table's noise; 0 switches it off",
+      {"noise_scale", ValueType::Number, "", 0, 1000, "", "1",
+       "factor on the table's noise; 0 switches it off",
        to([](P& p, const Value& v) { p.noise_scale = v.number; })},
   };
 }
@@ -165,7 +174,8 @@ std::string uart_text(const Value& v, std::string& out) {
     const int port = std::stoi(t.substr(4));
     good = port >= 1 && port <= 65535;
   }
-  if (!good) return fmt::format("got \"{}\", expected none, pty, tcp:PORT with a port of 1 to 65535, or file:PATH", t);
+  if (!good)
+    return fmt::format("got \"{}\", expected none, pty, tcp:PORT with a port of 1 to 65535, or file:PATH", t);
   out = t;
   return {};
 }
@@ -174,8 +184,10 @@ std::vector<KeySpec> variation_keys() {
   using V = Variation;
   const auto number = [](const char* key, const char* unit, double least, double most, const char* fallback,
                          const char* doc, double V::*field) {
-    return KeySpec{key, ValueType::Number, unit, least, most, "", fallback, doc,
-                   into<V>([field](V& t, const Value& v) { t.*field = v.number; })};
+    return KeySpec{
+        key, ValueType::Number, unit, least, most, "", fallback, doc, into<V>([field](V& t, const Value& v) {
+          t.*field = v.number;
+        })};
   };
   return {
       {"sensor_gain", ValueType::Numbers, "", 0, 10, "", "", "factor per proximity sensor, from sensor 0 on",
@@ -183,17 +195,23 @@ std::vector<KeySpec> variation_keys() {
       {"sensor_offset", ValueType::Numbers, "counts", -4095, 4095, "", "", "added per proximity sensor",
        into<V>([](V& t, const Value& v) { t.sensor_offset_counts = v.numbers; })},
       number("left_wheel", "", 0.5, 2, "1", "true over nominal size of the left wheel", &V::left_wheel_ratio),
-      number("right_wheel", "", 0.5, 2, "1", "true over nominal size of the right wheel", &V::right_wheel_ratio),
+      number("right_wheel", "", 0.5, 2, "1", "true over nominal size of the right wheel",
+             &V::right_wheel_ratio),
       number("axle", "", 0.5, 2, "1", "effective over nominal distance of the wheels", &V::axle_ratio),
-      number("clock_ppm", "ppm", -10000, 10000, "0", "error of the robot's clock; positive is fast", &V::clock_ppm),
+      number("clock_ppm", "ppm", -10000, 10000, "0", "error of the robot's clock; positive is fast",
+             &V::clock_ppm),
       number("boot_delay", "s", 0, 3600, "0", "from the world's beginning to the robot's first instruction",
              &V::boot_delay_s),
-      number("gain_spread", "", 0, 1, "0", "standard deviation of a further factor per sensor", &V::gain_spread),
+      number("gain_spread", "", 0, 1, "0", "standard deviation of a further factor per sensor",
+             &V::gain_spread),
       number("offset_spread", "counts", 0, 1000, "0", "standard deviation of a further offset per sensor",
              &V::offset_spread_counts),
-      number("wheel_spread", "", 0, 0.2, "0", "standard deviation of a further factor per wheel", &V::wheel_spread),
-      number("axle_spread", "", 0, 0.2, "0", "standard deviation of a further factor on the axle", &V::axle_spread),
-      number("clock_spread", "ppm", 0, 1000, "0", "standard deviation of a further clock error", &V::clock_spread_ppm),
+      number("wheel_spread", "", 0, 0.2, "0", "standard deviation of a further factor per wheel",
+             &V::wheel_spread),
+      number("axle_spread", "", 0, 0.2, "0", "standard deviation of a further factor on the axle",
+             &V::axle_spread),
+      number("clock_spread", "ppm", 0, 1000, "0", "standard deviation of a further clock error",
+             &V::clock_spread_ppm),
       number("boot_spread", "s", 0, 3600, "0", "the boot delay grows by a random time from 0 to this",
              &V::boot_spread_s),
   };
@@ -206,57 +224,66 @@ std::vector<SectionSpec> make_schema() {
   };
   using W = WorldDesc;
 
-  section("", false, "The file itself.", {
-      {"twinpuck", ValueType::Integer, "", kWorldFormatVersion, kWorldFormatVersion, "", "required",
-       "version of this format", into<W>([](W&, const Value&) {})},
-      {"title", ValueType::Text, "", 0, 0, "", "\"\"", "shown in pictures and lists",
-       into<W>([](W& w, const Value& v) { w.title = v.text; })},
-  });
-  section("world", false, "Physics and chance.", {
-      {"physics_hz", ValueType::Integer, "Hz", 32, 4096, "", "512",
-       "ticks per second; must divide 14,745,600: 96, 128, 256, 512, 1024 and others",
-       checked<W>([](W& w, const Value& v, const WorldDesc&) {
-         if (kClicksPerSecond % v.integer != 0) {
-           return fmt::format("got {} Hz, expected a divisor of {} such as 96, 128, 256, 512, 1024", v.integer,
-                              kClicksPerSecond);
-         }
-         w.physics_hz = static_cast<int>(v.integer);
-         return std::string();
-       })},
-      {"engine", ValueType::Choice, "", 0, 0, "dynamic|kinematic", "\"dynamic\"",
-       "dynamic: traction, slip, pushing; kinematic: no forces, robots stop at contacts",
-       into<W>([](W& w, const Value& v) {
-         w.engine = v.text == "dynamic" ? Engine::Dynamic : Engine::Kinematic;
-       })},
-      {"gravity", ValueType::Number, "m/s2", 0.01, 100, "", "9.81", "downwards",
-       into<W>([](W& w, const Value& v) { w.gravity_m_s2 = v.number; })},
-      {"seed", ValueType::Integer, "", 0, 9e18, "", "1", "of all that is left to chance",
-       into<W>([](W& w, const Value& v) { w.seed = static_cast<std::uint64_t>(v.integer); })},
-      {"ambient", ValueType::Number, "W/m2", 0, 10000, "", "0", "light that reaches every sensor from everywhere",
-       into<W>([](W& w, const Value& v) { w.ambient_w_m2 = v.number; })},
-  });
+  section("", false, "The file itself.",
+          {
+              {"twinpuck", ValueType::Integer, "", kWorldFormatVersion, kWorldFormatVersion, "", "required",
+               "version of this format", into<W>([](W&, const Value&) {})},
+              {"title", ValueType::Text, "", 0, 0, "", "\"\"", "shown in pictures and lists",
+               into<W>([](W& w, const Value& v) { w.title = v.text; })},
+          });
+  section("world", false, "Physics and chance.",
+          {
+              {"physics_hz", ValueType::Integer, "Hz", 32, 4096, "", "512",
+               "ticks per second; must divide 14,745,600: 96, 128, 256, 512, 1024 and others",
+               checked<W>([](W& w, const Value& v, const WorldDesc&) {
+                 if (kClicksPerSecond % v.integer != 0) {
+                   return fmt::format("got {} Hz, expected a divisor of {} such as 96, 128, 256, 512, 1024",
+                                      v.integer, kClicksPerSecond);
+                 }
+                 w.physics_hz = static_cast<int>(v.integer);
+                 return std::string();
+               })},
+              {"engine", ValueType::Choice, "", 0, 0, "dynamic|kinematic", "\"dynamic\"",
+               "dynamic: traction, slip, pushing; kinematic: no forces, robots stop at contacts",
+               into<W>([](W& w, const Value& v) {
+                 w.engine = v.text == "dynamic" ? Engine::Dynamic : Engine::Kinematic;
+               })},
+              {"gravity", ValueType::Number, "m/s2", 0.01, 100, "", "9.81", "downwards",
+               into<W>([](W& w, const Value& v) { w.gravity_m_s2 = v.number; })},
+              {"seed", ValueType::Integer, "", 0, 9e18, "", "1", "of all that is left to chance",
+               into<W>([](W& w, const Value& v) { w.seed = static_cast<std::uint64_t>(v.integer); })},
+              {"ambient", ValueType::Number, "W/m2", 0, 10000, "", "0",
+               "light that reaches every sensor from everywhere",
+               into<W>([](W& w, const Value& v) { w.ambient_w_m2 = v.number; })},
+          });
   using M = Material;
-  section("material", true, "How a surface looks and feels. Walls and objects refer to it by name.", {
-      {"name", ValueType::Text, "", 0, 0, "", "required", "what others write in `material`",
-       into<M>([](M& m, const Value& v) { m.name = v.text; })},
-      {"colour", ValueType::Colour, "", 0, 1, "", "[1, 1, 1]", "red, green, blue",
-       into<M>([](M& m, const Value& v) { m.colour = colour_of(v); })},
-      {"ir_reflectance", ValueType::Number, "", 0, 1, "", "",
-       "what proximity sensors take for red; without it the red part of the colour",
-       into<M>([](M& m, const Value& v) { m.ir_reflectance = v.number; })},
-      {"roughness", ValueType::Number, "", 0, 1, "", "0", "0 mirror to 1 matt; only the new colour rule asks for it",
-       into<M>([](M& m, const Value& v) { m.roughness = v.number; })},
-      {"friction", ValueType::Number, "", 0, 10, "", "0.3", "Coulomb coefficient of the sides",
-       into<M>([](M& m, const Value& v) { m.friction = v.number; })},
-      {"restitution", ValueType::Number, "", 0, 1, "", "0", "bounce",
-       into<M>([](M& m, const Value& v) { m.restitution = v.number; })},
-  });
+  section("material", true, "How a surface looks and feels. Walls and objects refer to it by name.",
+          {
+              {"name", ValueType::Text, "", 0, 0, "", "required", "what others write in `material`",
+               into<M>([](M& m, const Value& v) { m.name = v.text; })},
+              {"colour", ValueType::Colour, "", 0, 1, "", "[1, 1, 1]", "red, green, blue",
+               into<M>([](M& m, const Value& v) { m.colour = colour_of(v); })},
+              {"ir_reflectance", ValueType::Number, "", 0, 1, "", "",
+               "what proximity sensors take for red; without it the red part of the colour",
+               into<M>([](M& m, const Value& v) { m.ir_reflectance = v.number; })},
+              {"roughness", ValueType::Number, "", 0, 1, "", "0",
+               "0 mirror to 1 matt; only the new colour rule asks for it",
+               into<M>([](M& m, const Value& v) { m.roughness = v.number; })},
+              {"friction", ValueType::Number, "", 0, 10, "", "0.3", "Coulomb coefficient of the sides",
+               into<M>([](M& m, const Value& v) { m.friction = v.number; })},
+              {"restitution", ValueType::Number, "", 0, 1, "", "0", "bounce",
+               into<M>([](M& m, const Value& v) { m.restitution = v.number; })},
+          });
   using A = ArenaDesc;
   std::vector<KeySpec> arena{
       {"size", ValueType::Pair, "m", 0.01, kFar, "", "required", "inside measures along x and y",
-       into<A>([](A& a, const Value& v) { a.size_m = {v.numbers[0], v.numbers[1]}; })},
+       into<A>([](A& a, const Value& v) {
+         a.size_m = {v.numbers[0], v.numbers[1]};
+       })},
       {"centre", ValueType::Pair, "m", -kFar, kFar, "", "[0, 0]", "where its middle lies",
-       into<A>([](A& a, const Value& v) { a.centre_m = {v.numbers[0], v.numbers[1]}; })},
+       into<A>([](A& a, const Value& v) {
+         a.centre_m = {v.numbers[0], v.numbers[1]};
+       })},
       {"wall_height", ValueType::Number, "m", 0, kFar, "", "0.1", "0 leaves the arena without walls",
        into<A>([](A& a, const Value& v) { a.wall_height_m = v.number; })},
       {"wall_thickness", ValueType::Number, "m", kThin, 10, "", "0.01", "",
@@ -265,26 +292,29 @@ std::vector<SectionSpec> make_schema() {
   for (KeySpec& k : material_keys<A>()) arena.push_back(std::move(k));
   section("arena", false, "A rectangle with four walls. Without it the floor is endless.", std::move(arena));
   using F = FloorDesc;
-  section("floor", false, "What robots drive on.", {
-      {"colour", ValueType::Colour, "", 0, 1, "", "[0.93, 0.93, 0.9]", "red, green, blue",
-       into<F>([](F& f, const Value& v) { f.colour = colour_of(v); })},
-      {"ir_reflectance", ValueType::Number, "", 0, 1, "", "", "without it the red part of the colour",
-       into<F>([](F& f, const Value& v) { f.ir_reflectance = v.number; })},
-      {"image", ValueType::Text, "", 0, 0, "", "", "PNG file stretched over the arena, north up; relative to this file",
-       into<F>([](F& f, const Value& v) { f.image = v.text; })},
-      {"friction", ValueType::Number, "", 0, 10, "", "1", "factor on the traction of wheels",
-       into<F>([](F& f, const Value& v) { f.friction = v.number; })},
-  });
+  section("floor", false, "What robots drive on.",
+          {
+              {"colour", ValueType::Colour, "", 0, 1, "", "[0.93, 0.93, 0.9]", "red, green, blue",
+               into<F>([](F& f, const Value& v) { f.colour = colour_of(v); })},
+              {"ir_reflectance", ValueType::Number, "", 0, 1, "", "", "without it the red part of the colour",
+               into<F>([](F& f, const Value& v) { f.ir_reflectance = v.number; })},
+              {"image", ValueType::Text, "", 0, 0, "", "",
+               "PNG file stretched over the arena, north up; relative to this file",
+               into<F>([](F& f, const Value& v) { f.image = v.text; })},
+              {"friction", ValueType::Number, "", 0, 10, "", "1", "factor on the traction of wheels",
+               into<F>([](F& f, const Value& v) { f.friction = v.number; })},
+          });
   using L = WallDesc;
   std::vector<KeySpec> wall{
-      {"points", ValueType::Points, "m", -kFar, kFar, "", "required", "corners of the middle line, two or more",
-       checked<L>([](L& w, const Value& v, const WorldDesc&) {
+      {"points", ValueType::Points, "m", -kFar, kFar, "", "required",
+       "corners of the middle line, two or more", checked<L>([](L& w, const Value& v, const WorldDesc&) {
          w.points_m = points_of(v);
-         if (w.points_m.size() < 2) return fmt::format("got {} point(s), expected at least 2", w.points_m.size());
+         if (w.points_m.size() < 2)
+           return fmt::format("got {} point(s), expected at least 2", w.points_m.size());
          for (std::size_t i = 1; i < w.points_m.size(); ++i) {
            if (length(w.points_m[i] - w.points_m[i - 1]) < kThin) {
-             return fmt::format("got points {} and {} at the same place, expected at least {} m between them", i - 1, i,
-                                kThin);
+             return fmt::format("got points {} and {} at the same place, expected at least {} m between them",
+                                i - 1, i, kThin);
            }
          }
          return std::string();
@@ -308,108 +338,134 @@ std::vector<SectionSpec> make_schema() {
   section("wall", true, "A line of walls with square corners.", std::move(wall));
 
   using O = ObjectDesc;
-  const KeySpec height{"height", ValueType::Number, "m", kThin, kFar, "", "0.1", "",
-                       into<O>([](O& o, const Value& v) { o.size_m.z = v.number; })};
-  const KeySpec radius{"radius", ValueType::Number, "m", kThin, kFar, "", "required", "",
-                       into<O>([](O& o, const Value& v) { o.radius_m = v.number; })};
-  section("box", true, "A block.", object_keys<O>(ObjectKind::Box, {
-      {"size", ValueType::Triple, "m", kThin, kFar, "", "[0.1, 0.1, 0.1]", "along x, y and z",
-       into<O>([](O& o, const Value& v) { o.size_m = {v.numbers[0], v.numbers[1], v.numbers[2]}; })}}));
+  const KeySpec height{
+      "height", ValueType::Number, "m", kThin, kFar, "", "0.1", "", into<O>([](O& o, const Value& v) {
+        o.size_m.z = v.number;
+      })};
+  const KeySpec radius{
+      "radius", ValueType::Number, "m", kThin, kFar, "", "required", "", into<O>([](O& o, const Value& v) {
+        o.radius_m = v.number;
+      })};
+  section(
+      "box", true, "A block.",
+      object_keys<O>(ObjectKind::Box, {{"size", ValueType::Triple, "m", kThin, kFar, "", "[0.1, 0.1, 0.1]",
+                                        "along x, y and z", into<O>([](O& o, const Value& v) {
+                                          o.size_m = {v.numbers[0], v.numbers[1], v.numbers[2]};
+                                        })}}));
   section("cylinder", true, "An upright cylinder.", object_keys<O>(ObjectKind::Cylinder, {radius, height}));
   section("ball", true, "A ball.", object_keys<O>(ObjectKind::Ball, {radius}));
-  section("polygon", true, "An upright prism over a convex outline.", object_keys<O>(ObjectKind::Polygon, {
-      {"points", ValueType::Points, "m", -kFar, kFar, "", "required",
-       "corners of a convex outline, 3 to 64, around `position` before it is turned by `heading`",
-       checked<O>([](O& o, const Value& v, const WorldDesc&) {
-         o.corners_m = points_of(v);
-         if (o.corners_m.size() < 3 || o.corners_m.size() > 64) {
-           return fmt::format("got {} points, expected 3 to 64", o.corners_m.size());
-         }
-         if (!is_convex(o.corners_m)) {
-           return std::string("got a shape that is not convex, expected corners that all turn the same way; "
-                              "build other shapes of several polygons");
-         }
-         return std::string();
-       })},
-      height}));
+  section("polygon", true, "An upright prism over a convex outline.",
+          object_keys<O>(
+              ObjectKind::Polygon,
+              {{"points", ValueType::Points, "m", -kFar, kFar, "", "required",
+                "corners of a convex outline, 3 to 64, around `position` before it is turned by `heading`",
+                checked<O>([](O& o, const Value& v, const WorldDesc&) {
+                  o.corners_m = points_of(v);
+                  if (o.corners_m.size() < 3 || o.corners_m.size() > 64) {
+                    return fmt::format("got {} points, expected 3 to 64", o.corners_m.size());
+                  }
+                  if (!is_convex(o.corners_m)) {
+                    return std::string(
+                        "got a shape that is not convex, expected corners that all turn the same way; "
+                        "build other shapes of several polygons");
+                  }
+                  return std::string();
+                })},
+               height}));
   using P = LampDesc;
-  section("lamp", true, "A point light. Bodies cast shadows.", {
-      {"name", ValueType::Text, "", 0, 0, "", "", "", into<P>([](P& p, const Value& v) { p.name = v.text; })},
-      {"position", ValueType::Triple, "m", -kFar, kFar, "", "required", "x, y and z",
-       into<P>([](P& p, const Value& v) { p.position_m = {v.numbers[0], v.numbers[1], v.numbers[2]}; })},
-      {"intensity", ValueType::Number, "W/m2", 0, 10000, "", "1", "on a surface that faces it, before attenuation",
-       into<P>([](P& p, const Value& v) { p.intensity_w_m2 = v.number; })},
-      {"attenuation", ValueType::Triple, "1, 1/m, 1/m2", 0, 1e6, "", "[1, 0, 0]",
-       "a, b, c: light at d metres is divided by a + b d + c d2",
-       checked<P>([](P& p, const Value& v, const WorldDesc&) {
-         if (v.numbers[0] + v.numbers[1] + v.numbers[2] <= 0) {
-           return std::string("got [0, 0, 0], expected at least one number above 0");
-         }
-         p.attenuation = {v.numbers[0], v.numbers[1], v.numbers[2]};
-         return std::string();
-       })},
-      {"colour", ValueType::Colour, "", 0, 1, "", "[1, 1, 1]", "red, green, blue; sensors see the mean",
-       into<P>([](P& p, const Value& v) { p.colour = colour_of(v); })},
-      {"on", ValueType::Flag, "", 0, 0, "", "true", "", into<P>([](P& p, const Value& v) { p.on = v.flag; })},
-  });
+  section(
+      "lamp", true, "A point light. Bodies cast shadows.",
+      {
+          {"name", ValueType::Text, "", 0, 0, "", "", "",
+           into<P>([](P& p, const Value& v) { p.name = v.text; })},
+          {"position", ValueType::Triple, "m", -kFar, kFar, "", "required", "x, y and z",
+           into<P>([](P& p, const Value& v) {
+             p.position_m = {v.numbers[0], v.numbers[1], v.numbers[2]};
+           })},
+          {"intensity", ValueType::Number, "W/m2", 0, 10000, "", "1",
+           "on a surface that faces it, before attenuation",
+           into<P>([](P& p, const Value& v) { p.intensity_w_m2 = v.number; })},
+          {"attenuation", ValueType::Triple, "1, 1/m, 1/m2", 0, 1e6, "", "[1, 0, 0]",
+           "a, b, c: light at d metres is divided by a + b d + c d2",
+           checked<P>([](P& p, const Value& v, const WorldDesc&) {
+             if (v.numbers[0] + v.numbers[1] + v.numbers[2] <= 0) {
+               return std::string("got [0, 0, 0], expected at least one number above 0");
+             }
+             p.attenuation = {v.numbers[0], v.numbers[1], v.numbers[2]};
+             return std::string();
+           })},
+          {"colour", ValueType::Colour, "", 0, 1, "", "[1, 1, 1]", "red, green, blue; sensors see the mean",
+           into<P>([](P& p, const Value& v) { p.colour = colour_of(v); })},
+          {"on", ValueType::Flag, "", 0, 0, "", "true", "",
+           into<P>([](P& p, const Value& v) { p.on = v.flag; })},
+      });
   section("proximity", false,
-          "Proximity sensors of all robots. `[robot.proximity]` and `[[robot.sensor]]` take the same keys for one robot "
+          "Proximity sensors of all robots. `[robot.proximity]` and `[[robot.sensor]]` take the same keys "
+          "for one robot "
           "and one sensor; the nearest setting counts.",
           proximity_keys<ProximitySettings>([](ProximitySettings& p) -> ProximitySettings& { return p; }));
 
   using R = RobotDesc;
-  section("robot", true, "A robot.", {
-      {"name", ValueType::Text, "", 0, 0, "", "\"robotN\"", "N counts from 0; names differ",
-       checked<R>([](R& r, const Value& v, const WorldDesc&) {
-         if (v.text.empty() || v.text.find_first_of(",\"\n\r=") != std::string::npos) {
-           return fmt::format("got \"{}\", expected a name without comma, quote, = or line break", v.text);
-         }
-         r.name = v.text;
-         return std::string();
-       })},
-      {"model", ValueType::Text, "", 0, 0, "", "", "kind of robot; the first that the program knows",
-       checked<R>([](R& r, const Value& v, const WorldDesc& d) {
-         r.model = v.text;
-         std::string known;
-         for (const RobotModel& m : d.models) known += (known.empty() ? "" : ", ") + m.name;
-         return d.model_of(r) ? std::string()
-                              : fmt::format("got \"{}\", expected one of the models: {}", v.text, known);
-       })},
-      {"firmware", ValueType::Text, "", 0, 0, "", "\"\"", "controller by name, or a file relative to this one",
-       into<R>([](R& r, const Value& v) { r.firmware = v.text; })},
-      {"position", ValueType::Pair, "m", -kFar, kFar, "", "[0, 0]", "x and y of the middle between its wheels",
-       into<R>([](R& r, const Value& v) { r.pose.x_m = v.numbers[0], r.pose.y_m = v.numbers[1]; })},
-      {"heading", ValueType::Number, "deg", -kMany, kMany, "", "0", "counter-clockwise from +x",
-       into<R>([](R& r, const Value& v) { r.pose.heading_rad = radians(v.number); })},
-      {"selector", ValueType::Integer, "", 0, 15, "", "0", "position of the selector switch",
-       into<R>([](R& r, const Value& v) { r.selector = static_cast<int>(v.integer); })},
-      {"seed", ValueType::Integer, "", 0, 9e18, "", "", "its own seed; otherwise made of the world's seed and its number",
-       into<R>([](R& r, const Value& v) { r.seed = static_cast<std::uint64_t>(v.integer); })},
-      {"battery", ValueType::Number, "V", 2.5, 5, "", "", "the model's otherwise",
-       into<R>([](R& r, const Value& v) { r.battery_v = v.number; })},
-      {"colour", ValueType::Colour, "", 0, 1, "", "", "of the body; the model's otherwise",
-       into<R>([](R& r, const Value& v) { r.colour = colour_of(v); })},
-      {"wheel_noise", ValueType::Number, "", 0, 0.5, "", "0",
-       "each wheel's travel times a random factor of 1 - n to 1 + n, drawn anew every 1/32 s",
-       into<R>([](R& r, const Value& v) { r.wheel_noise = v.number; })},
-      {"slip", ValueType::Number, "", 0, 1, "", "0", "part of the wheels' travel that is lost on the floor",
-       into<R>([](R& r, const Value& v) { r.slip = v.number; })},
-      {"uart1", ValueType::Text, "", 0, 0, "", "\"none\"", "none, pty, tcp:PORT or file:PATH",
-       checked<R>([](R& r, const Value& v, const WorldDesc&) { return uart_text(v, r.uart1); })},
-      {"uart2", ValueType::Text, "", 0, 0, "", "\"none\"", "none, pty, tcp:PORT or file:PATH",
-       checked<R>([](R& r, const Value& v, const WorldDesc&) { return uart_text(v, r.uart2); })},
-  });
+  section("robot", true, "A robot.",
+          {
+              {"name", ValueType::Text, "", 0, 0, "", "\"robotN\"", "N counts from 0; names differ",
+               checked<R>([](R& r, const Value& v, const WorldDesc&) {
+                 if (v.text.empty() || v.text.find_first_of(",\"\n\r=") != std::string::npos) {
+                   return fmt::format("got \"{}\", expected a name without comma, quote, = or line break",
+                                      v.text);
+                 }
+                 r.name = v.text;
+                 return std::string();
+               })},
+              {"model", ValueType::Text, "", 0, 0, "", "", "kind of robot; the first that the program knows",
+               checked<R>([](R& r, const Value& v, const WorldDesc& d) {
+                 r.model = v.text;
+                 std::string known;
+                 for (const RobotModel& m : d.models) known += (known.empty() ? "" : ", ") + m.name;
+                 return d.model_of(r)
+                            ? std::string()
+                            : fmt::format("got \"{}\", expected one of the models: {}", v.text, known);
+               })},
+              {"firmware", ValueType::Text, "", 0, 0, "", "\"\"",
+               "controller by name, or a file relative to this one",
+               into<R>([](R& r, const Value& v) { r.firmware = v.text; })},
+              {"position", ValueType::Pair, "m", -kFar, kFar, "", "[0, 0]",
+               "x and y of the middle between its wheels",
+               into<R>([](R& r, const Value& v) { r.pose.x_m = v.numbers[0], r.pose.y_m = v.numbers[1]; })},
+              {"heading", ValueType::Number, "deg", -kMany, kMany, "", "0", "counter-clockwise from +x",
+               into<R>([](R& r, const Value& v) { r.pose.heading_rad = radians(v.number); })},
+              {"selector", ValueType::Integer, "", 0, 15, "", "0", "position of the selector switch",
+               into<R>([](R& r, const Value& v) { r.selector = static_cast<int>(v.integer); })},
+              {"seed", ValueType::Integer, "", 0, 9e18, "", "",
+               "its own seed; otherwise made of the world's seed and its number",
+               into<R>([](R& r, const Value& v) { r.seed = static_cast<std::uint64_t>(v.integer); })},
+              {"battery", ValueType::Number, "V", 2.5, 5, "", "", "the model's otherwise",
+               into<R>([](R& r, const Value& v) { r.battery_v = v.number; })},
+              {"colour", ValueType::Colour, "", 0, 1, "", "", "of the body; the model's otherwise",
+               into<R>([](R& r, const Value& v) { r.colour = colour_of(v); })},
+              {"wheel_noise", ValueType::Number, "", 0, 0.5, "", "0",
+               "each wheel's travel times a random factor of 1 - n to 1 + n, drawn anew every 1/32 s",
+               into<R>([](R& r, const Value& v) { r.wheel_noise = v.number; })},
+              {"slip", ValueType::Number, "", 0, 1, "", "0",
+               "part of the wheels' travel that is lost on the floor",
+               into<R>([](R& r, const Value& v) { r.slip = v.number; })},
+              {"uart1", ValueType::Text, "", 0, 0, "", "\"none\"", "none, pty, tcp:PORT or file:PATH",
+               checked<R>([](R& r, const Value& v, const WorldDesc&) { return uart_text(v, r.uart1); })},
+              {"uart2", ValueType::Text, "", 0, 0, "", "\"none\"", "none, pty, tcp:PORT or file:PATH",
+               checked<R>([](R& r, const Value& v, const WorldDesc&) { return uart_text(v, r.uart2); })},
+          });
   section("robot.variation", false, "How this robot differs from its model.", variation_keys());
   section("robot.proximity", false, "Proximity sensors of this robot; keys as in `[proximity]`.",
           proximity_keys<ProximitySettings>([](ProximitySettings& p) -> ProximitySettings& { return p; }));
-  std::vector<KeySpec> sensor{{"index", ValueType::Integer, "", 0, 63, "", "required", "which sensor",
-                               into<SensorDesc>([](SensorDesc& t, const Value& v) {
-                                 t.index = static_cast<int>(v.integer);
-                               })}};
-  for (KeySpec& k : proximity_keys<SensorDesc>([](SensorDesc& t) -> ProximitySettings& { return t.proximity; })) {
+  std::vector<KeySpec> sensor{
+      {"index", ValueType::Integer, "", 0, 63, "", "required", "which sensor",
+       into<SensorDesc>([](SensorDesc& t, const Value& v) { t.index = static_cast<int>(v.integer); })}};
+  for (KeySpec& k :
+       proximity_keys<SensorDesc>([](SensorDesc& t) -> ProximitySettings& { return t.proximity; })) {
     sensor.push_back(std::move(k));
   }
-  section("robot.sensor", true, "One proximity sensor of this robot; keys as in `[proximity]`.", std::move(sensor));
+  section("robot.sensor", true, "One proximity sensor of this robot; keys as in `[proximity]`.",
+          std::move(sensor));
   return s;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The one table of everything a world file may say: key, type, unit, range, default, meaning, and where the value
-// goes. The parser, its messages and docs/world-format.md are all made from it.
+// The one table of everything a world file may say: key, type, unit, range, default, meaning, and where the
+// value goes. The parser, its messages and docs/world-format.md are all made from it.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -16,11 +16,17 @@ inline constexpr int kWorldFormatVersion = 1;
 inline constexpr int kMostRobots = 10000;
 
 enum class ValueType {
-  Integer, Number, Text, Flag, Choice,
-  Pair, Triple, Colour,  ///< two or three numbers
-  Numbers,               ///< a list of numbers
-  Points,                ///< a list of [x, y]
-  Rows                   ///< a list of [distance, value, noise]
+  Integer,
+  Number,
+  Text,
+  Flag,
+  Choice,
+  Pair,
+  Triple,
+  Colour,   ///< two or three numbers
+  Numbers,  ///< a list of numbers
+  Points,   ///< a list of [x, y]
+  Rows      ///< a list of [distance, value, noise]
 };
 
 /// A value as read, already checked against its type and range.
@@ -33,25 +39,26 @@ struct Value {
   std::vector<std::vector<double>> rows;
 };
 
-/// Puts a value into its struct. `draft` is the world so far (materials are read first). Returns what is wrong beyond
-/// type and range as "got ..., expected ...", or an empty string.
+/// Puts a value into its struct. `draft` is the world so far (materials are read first). Returns what is
+/// wrong beyond type and range as "got ..., expected ...", or an empty string.
 using Setter = std::function<std::string(void* target, const Value& value, const WorldDesc& draft)>;
 
 struct KeySpec {
   const char* key;
   ValueType type;
-  const char* unit;      ///< "" for none
-  double least;          ///< of numbers, list members included
+  const char* unit;  ///< "" for none
+  double least;      ///< of numbers, list members included
   double most;
-  const char* choices;   ///< Choice: words separated by '|'; otherwise ""
-  const char* fallback;  ///< as TOML would write it; "" where nothing stands; "required" where it must be written
+  const char* choices;  ///< Choice: words separated by '|'; otherwise ""
+  const char*
+      fallback;  ///< as TOML would write it; "" where nothing stands; "required" where it must be written
   const char* doc;
   Setter set;
 };
 
 struct SectionSpec {
-  const char* path;      ///< "" the file itself, "arena", "robot.variation", ...
-  bool many;             ///< [[path]]: may be written again and again
+  const char* path;  ///< "" the file itself, "arena", "robot.variation", ...
+  bool many;         ///< [[path]]: may be written again and again
   const char* doc;
   std::vector<KeySpec> keys;
 };

@@ -12,17 +12,28 @@ namespace {
 
 const char* type_name(ValueType type) {
   switch (type) {
-    case ValueType::Integer: return "whole number";
-    case ValueType::Number: return "number";
-    case ValueType::Text: return "text in quotes";
-    case ValueType::Flag: return "true or false";
-    case ValueType::Choice: return "one of";
-    case ValueType::Pair: return "two numbers [x, y]";
-    case ValueType::Triple: return "three numbers [x, y, z]";
-    case ValueType::Colour: return "three numbers [red, green, blue]";
-    case ValueType::Numbers: return "list of numbers";
-    case ValueType::Points: return "list of points [[x, y], ...]";
-    case ValueType::Rows: return "list of rows [[distance, value, noise], ...]";
+    case ValueType::Integer:
+      return "whole number";
+    case ValueType::Number:
+      return "number";
+    case ValueType::Text:
+      return "text in quotes";
+    case ValueType::Flag:
+      return "true or false";
+    case ValueType::Choice:
+      return "one of";
+    case ValueType::Pair:
+      return "two numbers [x, y]";
+    case ValueType::Triple:
+      return "three numbers [x, y, z]";
+    case ValueType::Colour:
+      return "three numbers [red, green, blue]";
+    case ValueType::Numbers:
+      return "list of numbers";
+    case ValueType::Points:
+      return "list of points [[x, y], ...]";
+    case ValueType::Rows:
+      return "list of rows [[distance, value, noise], ...]";
   }
   return "";
 }
@@ -59,9 +70,12 @@ std::string world_format_page() {
   std::string out =
       "# World files\n\n"
       "<!-- Made by build/world_format_doc from sim_core/load/schema.cpp; do not edit. -->\n\n"
-      "A world is a TOML file. Lengths are metres, angles degrees, times seconds, everything else SI. x points east,\n"
-      "y north, z up; headings turn counter-clockwise from x. File names are relative to the world file. A key that is\n"
-      "not listed here is an error, and `twinpuck check WORLD` reports all errors at once with line and column.\n\n"
+      "A world is a TOML file. Lengths are metres, angles degrees, times seconds, everything else SI. x "
+      "points east,\n"
+      "y north, z up; headings turn counter-clockwise from x. File names are relative to the world file. A "
+      "key that is\n"
+      "not listed here is an error, and `twinpuck check WORLD` reports all errors at once with line and "
+      "column.\n\n"
       "```toml\n"
       "twinpuck = 1\n"
       "title = \"two robots and a crate\"\n\n"
@@ -73,8 +87,9 @@ std::string world_format_page() {
       "```\n";
   for (const SectionSpec& s : world_schema()) {
     const std::string path = s.path;
-    out += "\n## " + (path.empty() ? std::string("Top of the file")
-                                   : (s.many ? "`[[" : "`[") + path + (s.many ? "]]`" : "]`")) +
+    out += "\n## " +
+           (path.empty() ? std::string("Top of the file")
+                         : (s.many ? "`[[" : "`[") + path + (s.many ? "]]`" : "]`")) +
            "\n\n" + s.doc + "\n\n";
     if (path == "robot.proximity") continue;
     const std::size_t shown = path == "robot.sensor" ? 1 : s.keys.size();
@@ -82,14 +97,21 @@ std::string world_format_page() {
     for (std::size_t i = 0; i < shown; ++i) {
       const KeySpec& k = s.keys[i];
       const std::string fallback = k.fallback;
-      const std::string range = k.type == ValueType::Choice ? choices_text(k) : has_range(k) ? range_text(k) : "";
+      const std::string range = k.type == ValueType::Choice ? choices_text(k)
+                                : has_range(k)              ? range_text(k)
+                                                            : "";
       out += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", k.key,
                          k.type == ValueType::Choice ? "text" : type_name(k.type), k.unit, range,
-                         fallback == "required" ? "**required**" : fallback.empty() ? "" : "`" + fallback + "`", k.doc);
+                         fallback == "required" ? "**required**"
+                         : fallback.empty()     ? ""
+                                                : "`" + fallback + "`",
+                         k.doc);
     }
   }
-  out += "\n## Proximity profiles\n\n| name | rows | range (m) | rays | aperture (deg) | layout | colour rule | noise |\n"
-         "|---|---|---|---|---|---|---|---|\n";
+  out +=
+      "\n## Proximity profiles\n\n| name | rows | range (m) | rays | aperture (deg) | layout | colour rule | "
+      "noise |\n"
+      "|---|---|---|---|---|---|---|---|\n";
   for (const ProximityProfile& p : proximity_profiles()) {
     out += fmt::format("| `{}` | {} | {:.3g} | {} | {:.3g} | {} | {} | {} |\n", p.name, p.table.size(),
                        p.table.back().distance_m, p.rays, degrees(p.aperture_rad),
@@ -99,7 +121,9 @@ std::string world_format_page() {
                                                           : "none",
                        p.noise_law == NoiseLaw::Uniform ? "uniform" : "gaussian");
   }
-  out += "\nReadings in counts of a white wall that a single ray meets at right angles, noise in brackets:\n\n| distance |";
+  out +=
+      "\nReadings in counts of a white wall that a single ray meets at right angles, noise in brackets:\n\n| "
+      "distance |";
   for (const ProximityProfile& p : proximity_profiles()) out += fmt::format(" `{}` |", p.name);
   out += "\n|---|";
   for (std::size_t i = 0; i < proximity_profiles().size(); ++i) out += "---|";

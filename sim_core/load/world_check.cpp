@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What no single key shows: double names, robots without a model, bodies inside each other (by libccd, in 3-D).
+// What no single key shows: double names, robots without a model, bodies inside each other (by libccd, in
+// 3-D).
 #include <fmt/format.h>
 
 #include <map>
@@ -20,8 +21,10 @@ void check_names(const WorldDesc& world, std::vector<WorldProblem>& out) {
   for (const RobotDesc& r : world.robots) {
     const auto [it, fresh] = lines.emplace(r.name, r.line);
     if (!fresh) {
-      out.push_back({r.line, 1, fmt::format("robot.name: got \"{}\" a second time (first on line {}), expected a name of its own",
-                                            r.name, it->second)});
+      out.push_back(
+          {r.line, 1,
+           fmt::format("robot.name: got \"{}\" a second time (first on line {}), expected a name of its own",
+                       r.name, it->second)});
     }
   }
 }
@@ -30,13 +33,17 @@ void check_models(const WorldDesc& world, std::vector<WorldProblem>& out) {
   for (const RobotDesc& r : world.robots) {
     const RobotModel* model = world.model_of(r);
     if (!model) {
-      out.push_back({r.line, 1, fmt::format("robot.model: got \"{}\", expected a model that the program knows", r.model)});
+      out.push_back(
+          {r.line, 1,
+           fmt::format("robot.model: got \"{}\", expected a model that the program knows", r.model)});
       continue;
     }
     const std::size_t sensors = model->proximity.size();
     const auto counted = [&](const char* key, std::size_t got) {
       if (got > 0 && got != sensors) {
-        out.push_back({r.line, 1, fmt::format("robot.variation.{}: got {} numbers, expected {}, one per sensor", key, got, sensors)});
+        out.push_back({r.line, 1,
+                       fmt::format("robot.variation.{}: got {} numbers, expected {}, one per sensor", key,
+                                   got, sensors)});
       }
     };
     counted("sensor_gain", r.variation.sensor_gain.size());
@@ -44,8 +51,8 @@ void check_models(const WorldDesc& world, std::vector<WorldProblem>& out) {
   }
 }
 
-/// Robots and movable objects must not begin inside anything. Fixed solids may cross each other: that is how walls
-/// are built.
+/// Robots and movable objects must not begin inside anything. Fixed solids may cross each other: that is how
+/// walls are built.
 void check_overlaps(const WorldDesc& world, std::vector<WorldProblem>& out) {
   const Layout layout = build_layout(world);
   std::vector<double> bounds;
@@ -69,8 +76,8 @@ void check_overlaps(const WorldDesc& world, std::vector<WorldProblem>& out) {
       const std::string& name = c.moving ? layout.moving_name[other] : layout.fixed_name[other];
       const int their_line = c.moving ? line_of(other) : layout.fixed_line[other];
       out.push_back({line_of(i), 1,
-                     fmt::format("{}: got position [{:.4g}, {:.4g}] m inside {}{}, expected free room", layout.moving_name[i],
-                                 me.frame.at.x, me.frame.at.y, name,
+                     fmt::format("{}: got position [{:.4g}, {:.4g}] m inside {}{}, expected free room",
+                                 layout.moving_name[i], me.frame.at.x, me.frame.at.y, name,
                                  their_line > 0 ? fmt::format(" (line {})", their_line) : std::string())});
     }
   }
@@ -81,7 +88,8 @@ void check_overlaps(const WorldDesc& world, std::vector<WorldProblem>& out) {
 std::vector<WorldProblem> check_world(const WorldDesc& world) {
   std::vector<WorldProblem> out;
   if (world.robots.size() > kMostRobots) {
-    out.push_back({0, 0, fmt::format("robot: got {} robots, expected at most {}", world.robots.size(), kMostRobots)});
+    out.push_back(
+        {0, 0, fmt::format("robot: got {} robots, expected at most {}", world.robots.size(), kMostRobots)});
     return out;
   }
   check_names(world, out);

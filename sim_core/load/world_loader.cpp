@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Walks the TOML tree along the schema. Keys are applied in the schema's order, so that an object's own colour comes
-// after its material whatever the order in the file.
+// Walks the TOML tree along the schema. Keys are applied in the schema's order, so that an object's own
+// colour comes after its material whatever the order in the file.
 #include "sim_core/load/world_loader.h"
 
 #include <fmt/format.h>
@@ -24,7 +24,7 @@ namespace {
 constexpr std::size_t kLongestFile = 8u << 20;  // bytes; ten thousand robots need a tenth of it
 constexpr std::size_t kMostProblems = 200;      // reported; more would help nobody
 
-constexpr std::size_t kLongestQuote = 60;       // characters of a value that a message repeats
+constexpr std::size_t kLongestQuote = 60;  // characters of a value that a message repeats
 
 std::vector<std::string_view> split_lines(std::string_view text) {
   std::vector<std::string_view> lines;
@@ -69,7 +69,8 @@ bool read_value(const KeySpec& k, const toml::node& node, Value& v) {
       v.integer = i->get();
       return true;
     }
-    case ValueType::Number: return number_of(node, v.number) && in_range(k, v.number);
+    case ValueType::Number:
+      return number_of(node, v.number) && in_range(k, v.number);
     case ValueType::Text: {
       const auto* s = node.as_string();
       if (s) v.text = s->get();
@@ -86,10 +87,13 @@ bool read_value(const KeySpec& k, const toml::node& node, Value& v) {
       if (b) v.flag = b->get();
       return b != nullptr;
     }
-    case ValueType::Pair: return numbers(node, v.numbers, 2, true);
+    case ValueType::Pair:
+      return numbers(node, v.numbers, 2, true);
     case ValueType::Triple:
-    case ValueType::Colour: return numbers(node, v.numbers, 3, true);
-    case ValueType::Numbers: return numbers(node, v.numbers, 0, true);
+    case ValueType::Colour:
+      return numbers(node, v.numbers, 3, true);
+    case ValueType::Numbers:
+      return numbers(node, v.numbers, 0, true);
     case ValueType::Points:
     case ValueType::Rows: {
       const toml::array* a = node.as_array();
@@ -104,6 +108,46 @@ bool read_value(const KeySpec& k, const toml::node& node, Value& v) {
   return false;
 }
 
+/// Place of the first character beyond ASCII that stands outside comments and quotes, where TOML knows none
+/// (and where the parser would ask itself whether a letter is white space, without an answer). line 0: there
+/// is none.
+WorldProblem find_stray_character(std::string_view text) {
+  enum class In { Plain, Comment, Basic, Literal, LongBasic, LongLiteral } in = In::Plain;
+  int line = 1, column = 1;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    const bool basic = in == In::Basic || in == In::LongBasic;
+    const bool triple = text.substr(i, 3) == "\"\"\"" || text.substr(i, 3) == "'''";
+    std::size_t skip = 0;  // characters of the same line to leave out
+    if (in == In::Plain) {
+      // a byte order mark at the very beginning is all right
+      if (static_cast<unsigned char>(c) >= 0x80 && !(i < 3 && text.substr(0, 3) == "\xEF\xBB\xBF")) {
+        return {line, column,
+                "not TOML: got a character beyond ASCII, expected those in quotes or comments only"};
+      }
+      if (c == '#') in = In::Comment;
+      if (c == '"') in = triple ? In::LongBasic : In::Basic;
+      if (c == '\'') in = triple ? In::LongLiteral : In::Literal;
+      if (triple) skip = 2;
+    } else if (basic && c == '\\' && i + 1 < text.size() && text[i + 1] != '\n') {
+      skip = 1;
+    } else if ((in == In::Basic && c == '"') || (in == In::Literal && c == '\'')) {
+      in = In::Plain;
+    } else if (triple && ((in == In::LongBasic && c == '"') || (in == In::LongLiteral && c == '\''))) {
+      in = In::Plain;
+      skip = 2;
+    }
+    if (c == '\n') {
+      if (in == In::Comment || in == In::Basic || in == In::Literal) in = In::Plain;
+      ++line;
+      column = 0;
+    }
+    i += skip;
+    column += 1 + static_cast<int>(skip);
+  }
+  return {};
+}
+
 class Reader {
  public:
   Reader(const std::string& path, const std::vector<RobotModel>& models) {
@@ -115,6 +159,8 @@ class Reader {
     LoadedWorld out;
     if (text.size() > kLongestFile) {
       problem({}, fmt::format("got {} bytes, expected at most {}", text.size(), kLongestFile));
+    } else if (const WorldProblem stray = find_stray_character(text); stray.line > 0) {
+      problems_.push_back(stray);
     } else {
       lines_ = split_lines(text);
       const toml::parse_result result = toml::parse(text);
@@ -139,7 +185,8 @@ class Reader {
  private:
   void problem(const toml::source_region& where, std::string text) {
     if (problems_.size() >= kMostProblems) return;
-    problems_.push_back({static_cast<int>(where.begin.line), static_cast<int>(where.begin.column), std::move(text)});
+    problems_.push_back(
+        {static_cast<int>(where.begin.line), static_cast<int>(where.begin.column), std::move(text)});
   }
 
   /// A value as it stands in the file, for messages.
@@ -149,7 +196,8 @@ class Reader {
     const toml::source_region& at = node.source();
     if (at.begin.line != at.end.line || at.begin.line < 1 || at.begin.line > lines_.size()) return "a list";
     const std::string_view line = lines_[at.begin.line - 1];
-    if (at.begin.column < 1 || at.end.column < at.begin.column || at.end.column - 1 > line.size()) return "this";
+    if (at.begin.column < 1 || at.end.column < at.begin.column || at.end.column - 1 > line.size())
+      return "this";
     std::string text(line.substr(at.begin.column - 1, at.end.column - at.begin.column));
     if (text.size() > kLongestQuote) text = text.substr(0, kLongestQuote - 3) + "...";
     return text;
@@ -176,7 +224,8 @@ class Reader {
     const std::string prefix = path.empty() ? "" : path + ".";
     for (const auto& [key, node] : table) {
       const std::string name(key.str());
-      const bool known = std::any_of(spec.keys.begin(), spec.keys.end(), [&](const KeySpec& k) { return name == k.key; });
+      const bool known =
+          std::any_of(spec.keys.begin(), spec.keys.end(), [&](const KeySpec& k) { return name == k.key; });
       if (known || std::find(inner.begin(), inner.end(), name) != inner.end()) continue;
       std::vector<std::string> candidates = inner;
       for (const KeySpec& k : spec.keys) candidates.push_back(k.key);
@@ -199,8 +248,8 @@ class Reader {
       if (!read_value(k, *node, value)) {
         std::string hint;
         if (k.type == ValueType::Choice && node->is_string()) hint = choice_hint(k, node->as_string()->get());
-        problem(node->source(),
-                fmt::format("{}{}: got {}, expected {}{}", prefix, k.key, written(*node), expected_text(k), hint));
+        problem(node->source(), fmt::format("{}{}: got {}, expected {}{}", prefix, k.key, written(*node),
+                                            expected_text(k), hint));
         continue;
       }
       const std::string wrong = k.set(target, value, world_);
@@ -221,7 +270,8 @@ class Reader {
     const toml::node* node = parent.get(key);
     if (!node) return;
     if (const toml::table* table = node->as_table()) return read_table(path, *table, target);
-    problem(node->source(), fmt::format("{}: got {}, expected a table, written [{}]", path, written(*node), path));
+    problem(node->source(),
+            fmt::format("{}: got {}, expected a table, written [{}]", path, written(*node), path));
   }
 
   /// Every [[section]], in order; `each` gets the table.
@@ -231,14 +281,16 @@ class Reader {
     if (!node) return;
     const toml::array* list = node->as_array();
     if (!list) {
-      problem(node->source(), fmt::format("{}: got {}, expected [[{}]] with double brackets", path, written(*node), path));
+      problem(node->source(),
+              fmt::format("{}: got {}, expected [[{}]] with double brackets", path, written(*node), path));
       return;
     }
     for (const toml::node& item : *list) {
       if (const toml::table* table = item.as_table()) {
         each(*table);
       } else {
-        problem(item.source(), fmt::format("{}: got {}, expected a table, written [[{}]]", path, written(item), path));
+        problem(item.source(),
+                fmt::format("{}: got {}, expected a table, written [[{}]]", path, written(item), path));
       }
     }
   }
@@ -262,7 +314,8 @@ class Reader {
       read_table("material", t, &m);
       for (const Material& other : world_.materials) {
         if (!m.name.empty() && other.name == m.name) {
-          problem(t.source(), fmt::format("material.name: got \"{}\" a second time, expected a name of its own", m.name));
+          problem(t.source(),
+                  fmt::format("material.name: got \"{}\" a second time, expected a name of its own", m.name));
         }
       }
       world_.materials.push_back(std::move(m));
@@ -277,7 +330,8 @@ class Reader {
       const std::string wrong = read_floor_image(resolve_path(world_, world_.floor.image), world_.floor);
       const toml::node* node = root["floor"]["image"].node();
       if (!wrong.empty()) problem(node->source(), "floor.image: " + wrong);
-      if (!world_.arena) problem(node->source(), "floor.image: got an image but no [arena], expected an arena to lay it in");
+      if (!world_.arena)
+        problem(node->source(), "floor.image: got an image but no [arena], expected an arena to lay it in");
     }
     read_one("proximity", root, "proximity", &world_.proximity);
     read_many("wall", root, "wall", [&](const toml::table& t) {
@@ -317,7 +371,9 @@ class Reader {
         }
         for (const SensorDesc& other : r.sensors) {
           if (other.index == s.index) {
-            problem(st.source(), fmt::format("robot.sensor.index: got {} a second time, expected each sensor once", s.index));
+            problem(
+                st.source(),
+                fmt::format("robot.sensor.index: got {} a second time, expected each sensor once", s.index));
           }
         }
         r.sensors.push_back(std::move(s));
@@ -337,7 +393,8 @@ std::string LoadedWorld::report(std::string_view file) const {
   std::string out;
   for (const WorldProblem& p : problems) {
     if (!out.empty()) out += '\n';
-    out += p.line > 0 ? fmt::format("{}:{}:{}: {}", file, p.line, p.column, p.text) : fmt::format("{}: {}", file, p.text);
+    out += p.line > 0 ? fmt::format("{}:{}:{}: {}", file, p.line, p.column, p.text)
+                      : fmt::format("{}: {}", file, p.text);
   }
   return out;
 }
@@ -354,7 +411,8 @@ LoadedWorld load_world(const std::string& path, const std::vector<RobotModel>& m
   return parse_world(text.str(), path, models);
 }
 
-LoadedWorld parse_world(std::string_view text, const std::string& path, const std::vector<RobotModel>& models) {
+LoadedWorld parse_world(std::string_view text, const std::string& path,
+                        const std::vector<RobotModel>& models) {
   return Reader(path, models).read(text);
 }
 
@@ -378,7 +436,8 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
           d[i][j] = i + j;
           continue;
         }
-        d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + (word[i - 1] != candidate[j - 1])});
+        d[i][j] =
+            std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + (word[i - 1] != candidate[j - 1])});
         if (i > 1 && j > 1 && word[i - 1] == candidate[j - 2] && word[i - 2] == candidate[j - 1]) {
           d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
         }

@@ -12,8 +12,8 @@ namespace sim {
 
 /// One thing that is wrong with a world file.
 struct WorldProblem {
-  int line = 0;    ///< from 1; 0 where no place can be named
-  int column = 0;  ///< from 1; 0 where no place can be named
+  int line = 0;      ///< from 1; 0 where no place can be named
+  int column = 0;    ///< from 1; 0 where no place can be named
   std::string text;  ///< "what: got value, expected set or range with unit"
 };
 
@@ -28,7 +28,8 @@ struct LoadedWorld {
 LoadedWorld load_world(const std::string& path, const std::vector<RobotModel>& models);
 
 /// Same for text already in memory; `path` serves messages and relative file names.
-LoadedWorld parse_world(std::string_view text, const std::string& path, const std::vector<RobotModel>& models);
+LoadedWorld parse_world(std::string_view text, const std::string& path,
+                        const std::vector<RobotModel>& models);
 
 /// Checks what no single key shows: names, overlaps, sensors that do not exist. Also for worlds built in C++.
 std::vector<WorldProblem> check_world(const WorldDesc& world);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The engine with forces, on Box2D. Robots with room all around follow the traction law in closed form (motion.cpp)
-// and are switched off in Box2D; robots near something obey the same law as a friction joint to a ghost that moves
-// as the wheels ask, so contacts and traction are solved together. Loose objects have a friction joint to a ghost
-// that moves like whatever they stand on. Lengths are converted to Box2D's units here and nowhere else.
+// The engine with forces, on Box2D. Robots with room all around follow the traction law in closed form
+// (motion.cpp) and are switched off in Box2D; robots near something obey the same law as a friction joint to
+// a ghost that moves as the wheels ask, so contacts and traction are solved together. Loose objects have a
+// friction joint to a ghost that moves like whatever they stand on. Lengths are converted to Box2D's units
+// here and nowhere else.
 #include <box2d/box2d.h>
 
 #include <algorithm>
@@ -12,8 +13,8 @@
 #include "sim_core/physics/motion.h"
 #include "sim_core/physics/physics_params.h"
 
-// Box2D reads the host's clock for every island, a third of a swarm's step; these definitions take its place and
-// make sure that nothing in the simulator depends on the host's time.
+// Box2D reads the host's clock for every island, a third of a swarm's step; these definitions take its place
+// and make sure that nothing in the simulator depends on the host's time.
 b2Timer::b2Timer() : m_start_sec(0), m_start_usec(0) {}
 void b2Timer::Reset() {}
 float b2Timer::GetMilliseconds() const { return 0; }
@@ -22,7 +23,8 @@ namespace sim {
 namespace {
 
 constexpr double kUnits = kBox2dUnitsPerMetre;
-constexpr double kLongestPieceM = 0.5;  // long walls are cut: one fixture across the arena spoils Box2D's tree
+constexpr double kLongestPieceM =
+    0.5;  // long walls are cut: one fixture across the arena spoils Box2D's tree
 constexpr std::uintptr_t kFixedId = 1u << 30;
 
 float units(double metres) { return static_cast<float>(metres * kUnits); }
@@ -85,8 +87,8 @@ class DynamicMotion final : public Motion, b2ContactFilter {
     if (near_.empty() && !solve) return;
     world_.Step(static_cast<float>(tick_s), kVelocityIterations, kPositionIterations);
     for (int robot : near_) read_robot(robot);
-    // Box2D notices a meeting only once bodies overlap, by up to a tick's way, and separates them softly; twice round
-    // settles a robot in a corner, and walls have the last word
+    // Box2D notices a meeting only once bodies overlap, by up to a tick's way, and separates them softly;
+    // twice round settles a robot in a corner, and walls have the last word
     for (int round = 0; round < 2; ++round) {
       for (int robot : near_) push_out(robot, neighbours);
     }
@@ -105,7 +107,7 @@ class DynamicMotion final : public Motion, b2ContactFilter {
     b2Body* body = nullptr;
     b2Body* ghost = nullptr;
     b2FrictionJoint* joint = nullptr;
-    b2Vec2 placed{0, 0};     // where the body was put before the step
+    b2Vec2 placed{0, 0};  // where the body was put before the step
     float placed_angle = 0;
     double angle_base_rad = 0;  // headings are not wrapped; Box2D gets the rest after whole turns
   };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The engine without forces: a robot follows its wheels exactly (half the turn, the way, half the turn) and stops
-// short of whatever it would enter; it can still turn on the spot and drive away. Loose objects do not move.
+// The engine without forces: a robot follows its wheels exactly (half the turn, the way, half the turn) and
+// stops short of whatever it would enter; it can still turn on the spot and drive away. Loose objects do not
+// move.
 #include <algorithm>
 #include <cmath>
 
@@ -55,7 +56,9 @@ class KinematicMotion final : public Motion {
       }
       const double gap = plan_distance_m(start, other) - me.bound_m;
       const double least = std::min(gap, 0.5 * kTouchM);
-      const auto enters = [&](double part) { return plan_distance_m(start + part * way, other) - me.bound_m < least; };
+      const auto enters = [&](double part) {
+        return plan_distance_m(start + part * way, other) - me.bound_m < least;
+      };
       if (gap < kTouchM) {
         anything = true;
         wall = wall || !c->moving;

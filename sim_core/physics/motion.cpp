@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What both engines share: wheels to wanted speeds, free motion, heights (falling and resting, by libccd), touches.
+// What both engines share: wheels to wanted speeds, free motion, heights (falling and resting, by libccd),
+// touches.
 #include "sim_core/physics/motion.h"
 
 #include <algorithm>
@@ -21,7 +22,8 @@ Motion::Motion(MotionDesc desc) : desc_(std::move(desc)), bodies_(desc_.start) {
   ticks_per_s_ = 1 / desc_.tick_s;
   for (const RobotBody& r : desc_.robots) {
     const auto limits = [&](double grip_n) {
-      return Limits{grip_n * desc_.tick_s / r.mass_kg, grip_n * 0.5 * r.axle_m * desc_.tick_s / r.inertia_kg_m2};
+      return Limits{grip_n * desc_.tick_s / r.mass_kg,
+                    grip_n * 0.5 * r.axle_m * desc_.tick_s / r.inertia_kg_m2};
     };
     drives_.push_back({ticks_per_s_ / r.axle_m, limits(r.traction_n), limits(r.hold_n)});
   }
@@ -114,7 +116,8 @@ void Motion::push_out(int robot, const Neighbours& neighbours) {
   for (const Candidate* c = neighbours.begin(robot); c != neighbours.end(robot); ++c) {
     if (c->moving && c->index >= robots()) continue;  // loose objects give way by themselves
     const Placed other = c->moving ? placed(c->index) : (*desc_.fixed)[static_cast<std::size_t>(c->index)];
-    if (!heights_meet(b.z_m + me.z0_m, b.z_m + me.z1_m, other.z_m + other.solid->z0_m, other.z_m + other.solid->z1_m)) {
+    if (!heights_meet(b.z_m + me.z0_m, b.z_m + me.z1_m, other.z_m + other.solid->z0_m,
+                      other.z_m + other.solid->z1_m)) {
       continue;
     }
     Vec2 out;
@@ -137,7 +140,8 @@ bool Motion::blocked_at(int body, double z_m, int& by) const {
   const auto meets = [&](const Placed& other) {
     const Vec2 gap = other.frame.at - me.frame.at;
     const double reach = other.solid->bound_m + me.solid->bound_m;
-    return dot(gap, gap) <= reach * reach && other.z_m + other.solid->z1_m > z_m && overlaps(me, other, kRestSlackM);
+    return dot(gap, gap) <= reach * reach && other.z_m + other.solid->z1_m > z_m &&
+           overlaps(me, other, kRestSlackM);
   };
   for (const Placed& other : *desc_.fixed) {
     if (meets(other)) {

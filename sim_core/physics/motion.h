@@ -26,7 +26,7 @@ struct LooseBody {
   double mass_kg = 0.1;
   double floor_friction = 0.5;  ///< Coulomb coefficient against the floor or whatever it stands on
   double side_friction = 0.3;
-  double restitution = 0;       ///< 0 to 1
+  double restitution = 0;  ///< 0 to 1
 };
 
 /// Friction and bounce of a fixed solid.
@@ -38,18 +38,18 @@ struct FixedSurface {
 /// State of a moving body, at a tick.
 struct BodyState {
   Pose2 pose;
-  double z_m = 0;          ///< height of its origin (its underside) above the floor
-  Vec2 velocity_m_s;       ///< world frame
+  double z_m = 0;     ///< height of its origin (its underside) above the floor
+  Vec2 velocity_m_s;  ///< world frame
   double spin_rad_s = 0;
-  double climb_m_s = 0;    ///< vertical speed; negative while falling
+  double climb_m_s = 0;  ///< vertical speed; negative while falling
 };
 
 /// What a robot has bumped into since the world began.
 struct TouchReport {
-  int collisions = 0;              ///< touches begun, whatever was touched
-  double wall_touch_s = 0;         ///< length of the touch of a fixed solid that lasts now, s
-  double longest_wall_touch_s = 0; ///< longest such touch so far, s
-  double longest_touch_s = 0;      ///< longest touch of anything, s
+  int collisions = 0;               ///< touches begun, whatever was touched
+  double wall_touch_s = 0;          ///< length of the touch of a fixed solid that lasts now, s
+  double longest_wall_touch_s = 0;  ///< longest such touch so far, s
+  double longest_touch_s = 0;       ///< longest touch of anything, s
 };
 
 /// Way of each rim over the floor during one tick, m, forward positive.
@@ -66,7 +66,7 @@ struct MotionDesc {
   std::vector<const Solid*> solids;            ///< one per moving body; must outlive the engine
   std::vector<RobotBody> robots;
   std::vector<LooseBody> loose;
-  std::vector<BodyState> start;                ///< one per moving body
+  std::vector<BodyState> start;  ///< one per moving body
 };
 
 class Motion {
@@ -74,7 +74,8 @@ class Motion {
   explicit Motion(MotionDesc desc);
   virtual ~Motion() = default;
 
-  /// Moves everything by one tick; `travel` holds one entry per robot. Returns the largest distance any body moved, m.
+  /// Moves everything by one tick; `travel` holds one entry per robot. Returns the largest distance any body
+  /// moved, m.
   double step(const RimTravel* travel, const Neighbours& neighbours);
 
   const std::vector<BodyState>& bodies() const { return bodies_; }
@@ -95,7 +96,7 @@ class Motion {
 
   /// Traction-limited change of a robot's speeds towards what its wheels ask for; then the pose follows.
   struct Wanted {
-    Vec2 velocity_m_s;      ///< world frame, at the middle of the tick's turn
+    Vec2 velocity_m_s;  ///< world frame, at the middle of the tick's turn
     double spin_rad_s = 0;
   };
   Wanted wanted(int robot, const RimTravel& travel) const;
@@ -109,12 +110,14 @@ class Motion {
     const RobotBody& r = desc_.robots[static_cast<std::size_t>(robot)];
     return is_standing(want) ? r.hold_n : r.traction_n;
   }
-  /// Moves a robot out of whatever it is inside of: all the way out of fixed solids, half the way out of robots.
+  /// Moves a robot out of whatever it is inside of: all the way out of fixed solids, half the way out of
+  /// robots.
   void push_out(int robot, const Neighbours& neighbours);
 
   MotionDesc desc_;
   std::vector<BodyState> bodies_;
-  std::vector<int> support_;  // per body: -1 floor, -2 in the air, otherwise the moving body it stands on, -3 a fixed one
+  std::vector<int>
+      support_;  // per body: -1 floor, -2 in the air, otherwise the moving body it stands on, -3 a fixed one
 
  private:
   void step_heights();

@@ -4,12 +4,15 @@
 
 namespace sim {
 
-/// Box2D lengths per metre: its slop of 0.005 units is then 0.05 mm. At 1 a robot would stop 10 mm from a wall.
+/// Box2D lengths per metre: its slop of 0.005 units is then 0.05 mm. At 1 a robot would stop 10 mm from a
+/// wall.
 inline constexpr double kBox2dUnitsPerMetre = 100;  // [measured: style.md 6, gap 0.05 mm for a disc]
 /// A robot whose free room falls below this takes part in the solver, m.
-inline constexpr double kSolverMarginM = 0.0015;  // [assumed: above Box2D's own skin of 0.1 mm, below what rays see]
+inline constexpr double kSolverMarginM =
+    0.0015;  // [assumed: above Box2D's own skin of 0.1 mm, below what rays see]
 /// Bodies whose heights overlap by less than this pass over each other, m.
-inline constexpr double kHeightOverlapM = 0.0005;  // [assumed: a box that stands on another must not hit it sideways]
+inline constexpr double kHeightOverlapM =
+    0.0005;  // [assumed: a box that stands on another must not hit it sideways]
 /// Bodies nearer than this in the plane count as touching in the kinematic engine, m.
 inline constexpr double kTouchM = 0.0001;  // [assumed: the skin that Box2D leaves in the dynamic engine]
 /// Overlap of bodies in contact, m.
@@ -24,6 +27,7 @@ inline constexpr double kLandingMS = 0.05;  // [assumed: a bounce of 0.1 mm]
 /// How deep solids may be inside each other before libccd's answer counts, m.
 inline constexpr double kRestSlackM = 0.0001;  // [assumed: ten times smaller than any wall]
 /// How often wheel noise is drawn anew, s; independent of the tick rate.
-inline constexpr double kWheelNoisePeriodS = 1.0 / 32;  // [assumed: the two 16 ms steps of common Webots worlds]
+inline constexpr double kWheelNoisePeriodS =
+    1.0 / 32;  // [assumed: the two 16 ms steps of common Webots worlds]
 
 }  // namespace sim

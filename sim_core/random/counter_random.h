@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Counter-based random numbers: pure functions of (seed, robot, stream, counter). Nothing is stored, so a sample may
-// be drawn only when somebody reads it, in any order, on any thread, and adding a robot changes no other's noise.
-// Each draw mixes the four words through splitmix64's finaliser (base/hash.h).
+// Counter-based random numbers: pure functions of (seed, robot, stream, counter). Nothing is stored, so a
+// sample may be drawn only when somebody reads it, in any order, on any thread, and adding a robot changes no
+// other's noise. Each draw mixes the four words through splitmix64's finaliser (base/hash.h).
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -18,7 +18,8 @@ struct RandomKey {
   std::uint32_t stream = 0;  ///< kStream* below, or a board's own from 64 on
 };
 
-inline constexpr std::uint32_t kStreamVariation = 1;   ///< spread of a robot's parts, drawn once when it is built
+inline constexpr std::uint32_t kStreamVariation =
+    1;  ///< spread of a robot's parts, drawn once when it is built
 inline constexpr std::uint32_t kStreamWheelLeft = 2;   ///< wheel noise
 inline constexpr std::uint32_t kStreamWheelRight = 3;  ///< wheel noise
 inline constexpr std::uint32_t kStreamBoard = 64;      ///< first stream that hal_sim may use as it likes

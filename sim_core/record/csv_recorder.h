@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The --record file: one CSV row per robot and instant, SI units. Whole lines are written at once, so whatever
-// happens the file is readable up to its last line. The first I/O error is kept; later calls do nothing.
+// The --record file: one CSV row per robot and instant, SI units. Whole lines are written at once, so
+// whatever happens the file is readable up to its last line. The first I/O error is kept; later calls do
+// nothing.
 #pragma once
 #include <string>
 
@@ -11,7 +12,8 @@ namespace sim {
 
 class CsvRecorder {
  public:
-  /// every_s: time between rows of one robot, s, > 0; rows appear at the first tick at or after each multiple.
+  /// every_s: time between rows of one robot, s, > 0; rows appear at the first tick at or after each
+  /// multiple.
   CsvRecorder(std::string path, double every_s = 0.01);
   ~CsvRecorder();
   CsvRecorder(const CsvRecorder&) = delete;

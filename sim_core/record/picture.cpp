@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Everything is drawn in metres through one transform; line widths and text are given in pixels and converted.
+// Everything is drawn in metres through one transform; line widths and text are given in pixels and
+// converted.
 #include "sim_core/record/picture.h"
 
 #include <cairo-svg.h>
@@ -16,22 +17,28 @@ namespace sim {
 namespace {
 
 constexpr double kMarginPx = 28, kTitlePx = 62, kFootPx = 64;
-constexpr std::size_t kMostNames = 40;    // robots: more names would cover each other
-constexpr std::size_t kMostLegend = 8;    // robots named in the legend
+constexpr std::size_t kMostNames = 40;  // robots: more names would cover each other
+constexpr std::size_t kMostLegend = 8;  // robots named in the legend
 constexpr std::size_t kMostPoints = 400'000;
 constexpr double kPointM = 0.001;
 
 /// Ten colours that differ in hue and in brightness (Tableau 10).
-constexpr double kWayColours[10][3] = {{.122, .467, .706}, {.839, .153, .157}, {.173, .627, .173}, {.580, .404, .741},
-                                       {1.0, .498, .055},  {.090, .745, .812}, {.890, .467, .761}, {.549, .337, .294},
-                                       {.737, .741, .133}, {.35, .35, .35}};
+constexpr double kWayColours[10][3] = {
+    {.122, .467, .706}, {.839, .153, .157}, {.173, .627, .173}, {.580, .404, .741}, {1.0, .498, .055},
+    {.090, .745, .812}, {.890, .467, .761}, {.549, .337, .294}, {.737, .741, .133}, {.35, .35, .35}};
 
 class Painter {
  public:
   Painter(cairo_t* cr, const Scene& scene, const Minds& minds, const Trajectories* trajectories,
           const PictureOptions& options, double px_per_m, double width_px, double height_px)
-      : cr_(cr), scene_(scene), minds_(minds), ways_(trajectories), options_(options), px_per_m_(px_per_m),
-        width_px_(width_px), height_px_(height_px) {}
+      : cr_(cr),
+        scene_(scene),
+        minds_(minds),
+        ways_(trajectories),
+        options_(options),
+        px_per_m_(px_per_m),
+        width_px_(width_px),
+        height_px_(height_px) {}
 
   void paint() {
     cairo_set_source_rgb(cr_, 1, 1, 1);
@@ -131,7 +138,8 @@ class Painter {
     outline(p);
     ink(s.colour, see_under ? 0.45 : 1);
     cairo_fill_preserve(cr_);
-    cairo_set_source_rgba(cr_, s.colour.r * edge * 0.6, s.colour.g * edge * 0.6, s.colour.b * edge * 0.6, 0.9);
+    cairo_set_source_rgba(cr_, s.colour.r * edge * 0.6, s.colour.g * edge * 0.6, s.colour.b * edge * 0.6,
+                          0.9);
     pen(loose ? 2 : 1.2);
     if (see_under) {
       const double dash[] = {6 / px_per_m_, 4 / px_per_m_};
@@ -143,7 +151,8 @@ class Painter {
 
   void solids() {
     const Layout& layout = scene_.layout();
-    for (std::size_t i = 0; i < layout.fixed.size(); ++i) solid(layout.fixed[i], layout.fixed_surface[i], false);
+    for (std::size_t i = 0; i < layout.fixed.size(); ++i)
+      solid(layout.fixed[i], layout.fixed_surface[i], false);
     for (int b = scene_.robots(); b < scene_.bodies(); ++b) {
       solid(scene_.placed(b, scene_.now()), layout.moving_surface[static_cast<std::size_t>(b)], true);
     }
@@ -213,7 +222,8 @@ class Painter {
         line(frame.to_world({-half, y}), frame.to_world({half, y}));
       }
       // an arrow that points ahead
-      const Vec2 nose = frame.to_world({0.8 * radius, 0}), left = frame.to_world({0.25 * radius, 0.4 * radius}),
+      const Vec2 nose = frame.to_world({0.8 * radius, 0}),
+                 left = frame.to_world({0.25 * radius, 0.4 * radius}),
                  right = frame.to_world({0.25 * radius, -0.4 * radius});
       cairo_move_to(cr_, nose.x, nose.y);
       cairo_line_to(cr_, left.x, left.y);
@@ -288,10 +298,10 @@ class Painter {
     cairo_set_source_rgb(cr_, 0.1, 0.1, 0.1);
     const std::string& own = scene_.world().title;
     text(own.empty() ? "world" : own, kMarginPx, 30, 20, true);
-    const std::string caption =
-        options_.caption.empty()
-            ? fmt::format("{:.2f} s, {} robot{}", to_seconds(scene_.now()), scene_.robots(), scene_.robots() == 1 ? "" : "s")
-            : options_.caption;
+    const std::string caption = options_.caption.empty()
+                                    ? fmt::format("{:.2f} s, {} robot{}", to_seconds(scene_.now()),
+                                                  scene_.robots(), scene_.robots() == 1 ? "" : "s")
+                                    : options_.caption;
     cairo_set_source_rgb(cr_, 0.35, 0.35, 0.35);
     text(caption, kMarginPx, 50, 13);
   }
@@ -311,7 +321,8 @@ class Painter {
     cairo_rel_line_to(cr_, w, 0);
     cairo_rel_line_to(cr_, 0, -6);
     cairo_stroke(cr_);
-    text(bar_m < 1 ? fmt::format("{:g} cm", bar_m * 100) : fmt::format("{:g} m", bar_m), kMarginPx, y + 18, 13);
+    text(bar_m < 1 ? fmt::format("{:g} cm", bar_m * 100) : fmt::format("{:g} m", bar_m), kMarginPx, y + 18,
+         13);
 
     double x = kMarginPx + std::max(w, 60.0) + 36;
     const auto entry = [&](const std::string& s, auto draw) {
@@ -349,7 +360,8 @@ class Painter {
     }
     for (std::size_t r = 0; r < std::min(n, kMostLegend); ++r) {
       const RobotDesc& robot = scene_.world().robots[r];
-      const std::string label = robot.firmware.empty() ? robot.name : robot.name + " (" + robot.firmware + ")";
+      const std::string label =
+          robot.firmware.empty() ? robot.name : robot.name + " (" + robot.firmware + ")";
       const bool fits = entry(label, [&](double ex, double ey) {
         way_ink(r, 1);
         cairo_set_line_width(cr_, 3);
@@ -389,21 +401,23 @@ void Trajectories::sample(const Scene& scene) {
 
 void Trajectories::lift_pen(int robot) {
   Way& way = ways_[static_cast<std::size_t>(robot)];
-  if (way.breaks.empty() || way.breaks.back() != way.points_m.size()) way.breaks.push_back(way.points_m.size());
+  if (way.breaks.empty() || way.breaks.back() != way.points_m.size())
+    way.breaks.push_back(way.points_m.size());
 }
 
-std::string write_picture(const std::string& path, const Scene& scene, const Minds& minds, const Trajectories* trajectories,
-                          const PictureOptions& options) {
+std::string write_picture(const std::string& path, const Scene& scene, const Minds& minds,
+                          const Trajectories* trajectories, const PictureOptions& options) {
   const bool svg = ends_with(path, ".svg");
-  if (!svg && !ends_with(path, ".png")) return fmt::format("{}: picture: got this extension, expected .png or .svg", path);
+  if (!svg && !ends_with(path, ".png"))
+    return fmt::format("{}: picture: got this extension, expected .png or .svg", path);
   const Layout& layout = scene.layout();
   const Vec2 span = layout.high_m - layout.low_m;
   const double px_per_m = options.width_px / std::max({span.x, span.y, 1e-3});
   const double width = std::max(520.0, std::ceil(span.x * px_per_m + 2 * kMarginPx));
   const double height = std::ceil(span.y * px_per_m + kTitlePx + kFootPx);
-  cairo_surface_t* surface = svg ? cairo_svg_surface_create(path.c_str(), width, height)
-                                 : cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(width),
-                                                              static_cast<int>(height));
+  cairo_surface_t* surface =
+      svg ? cairo_svg_surface_create(path.c_str(), width, height)
+          : cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(width), static_cast<int>(height));
   cairo_t* cr = cairo_create(surface);
   Painter(cr, scene, minds, trajectories, options, px_per_m, width, height).paint();
   cairo_status_t status = cairo_status(cr);

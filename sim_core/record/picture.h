@@ -30,14 +30,14 @@ class Trajectories {
 };
 
 struct PictureOptions {
-  int width_px = 1200;          ///< the longer side of the map; PNG pixels, SVG units
-  bool sensor_rays = false;     ///< rays of every proximity sensor, coloured by what they met
-  bool names = true;            ///< robots' names, up to a few dozen robots
-  std::string caption;          ///< second line under the title, such as time and seed; may be empty
+  int width_px = 1200;       ///< the longer side of the map; PNG pixels, SVG units
+  bool sensor_rays = false;  ///< rays of every proximity sensor, coloured by what they met
+  bool names = true;         ///< robots' names, up to a few dozen robots
+  std::string caption;       ///< second line under the title, such as time and seed; may be empty
 };
 
 /// Draws and writes the file. Returns an empty string, or "FILE: what is wrong: got ..., expected ...".
-std::string write_picture(const std::string& path, const Scene& scene, const Minds& minds, const Trajectories* trajectories,
-                          const PictureOptions& options = {});
+std::string write_picture(const std::string& path, const Scene& scene, const Minds& minds,
+                          const Trajectories* trajectories, const PictureOptions& options = {});
 
 }  // namespace sim

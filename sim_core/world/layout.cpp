@@ -79,17 +79,21 @@ void add_wall(const WallDesc& wall, int number, Builder& build) {
     const Vec2 middle = a + 0.5 * (len + extra_b - extra_a) * dir;
     const Pose2 pose{middle.x, middle.y, std::atan2(dir.y, dir.x)};
     build.fixed(Solid::box(len + extra_a + extra_b, wall.thickness_m, 0, wall.height_m), pose, wall.z_m,
-                surface_of(wall.material), "wall " + std::to_string(number) + " segment " + std::to_string(i), -1,
-                wall.line);
+                surface_of(wall.material), "wall " + std::to_string(number) + " segment " + std::to_string(i),
+                -1, wall.line);
   }
 }
 
 Solid solid_of(const ObjectDesc& o, Pose2& pose) {
   switch (o.kind) {
-    case ObjectKind::Box: return Solid::box(o.size_m.x, o.size_m.y, 0, o.size_m.z);
-    case ObjectKind::Cylinder: return Solid::cylinder(o.radius_m, 0, o.size_m.z);
-    case ObjectKind::Ball: return Solid::ball(o.radius_m);
-    case ObjectKind::Polygon: break;
+    case ObjectKind::Box:
+      return Solid::box(o.size_m.x, o.size_m.y, 0, o.size_m.z);
+    case ObjectKind::Cylinder:
+      return Solid::cylinder(o.radius_m, 0, o.size_m.z);
+    case ObjectKind::Ball:
+      return Solid::ball(o.radius_m);
+    case ObjectKind::Polygon:
+      break;
   }
   std::vector<Vec2> corners = counter_clockwise(o.corners_m);
   const Vec2 centre = Frame2(pose).to_world(centre_outline(corners));
@@ -100,10 +104,14 @@ Solid solid_of(const ObjectDesc& o, Pose2& pose) {
 
 const char* kind_name(ObjectKind kind) {
   switch (kind) {
-    case ObjectKind::Box: return "box";
-    case ObjectKind::Cylinder: return "cylinder";
-    case ObjectKind::Ball: return "ball";
-    case ObjectKind::Polygon: return "polygon";
+    case ObjectKind::Box:
+      return "box";
+    case ObjectKind::Cylinder:
+      return "cylinder";
+    case ObjectKind::Ball:
+      return "ball";
+    case ObjectKind::Polygon:
+      return "polygon";
   }
   return "object";
 }
@@ -111,7 +119,8 @@ const char* kind_name(ObjectKind kind) {
 }  // namespace
 
 Surface surface_of(const Material& m) {
-  return {m.colour, m.ir_reflectance < 0 ? m.colour.r : m.ir_reflectance, m.roughness, m.friction, m.restitution};
+  return {m.colour, m.ir_reflectance < 0 ? m.colour.r : m.ir_reflectance, m.roughness, m.friction,
+          m.restitution};
 }
 
 Layout build_layout(const WorldDesc& world) {
@@ -128,19 +137,21 @@ Layout build_layout(const WorldDesc& world) {
     surface.ir_reflectance = model->ir_reflectance < 0 ? surface.colour.r : model->ir_reflectance;
     surface.roughness = model->roughness;
     surface.friction = model->side_friction;
-    build.moving(Solid::cylinder(model->body_radius_m, model->body_z0_m, model->body_height_m), r.pose, 0, surface,
-                 "robot '" + r.name + "'");
+    build.moving(Solid::cylinder(model->body_radius_m, model->body_z0_m, model->body_height_m), r.pose, 0,
+                 surface, "robot '" + r.name + "'");
   }
   for (std::size_t i = 0; i < world.objects.size(); ++i) {
     const ObjectDesc& o = world.objects[i];
     Pose2 pose = o.pose;
     Solid solid = solid_of(o, pose);
-    std::string name = std::string(kind_name(o.kind)) + (o.name.empty() ? " " + std::to_string(i) : " '" + o.name + "'");
+    std::string name =
+        std::string(kind_name(o.kind)) + (o.name.empty() ? " " + std::to_string(i) : " '" + o.name + "'");
     if (o.movable) {
       build.moving(std::move(solid), pose, o.z_m, surface_of(o.material), std::move(name));
       out.loose_object.push_back(static_cast<int>(i));
     } else {
-      build.fixed(std::move(solid), pose, o.z_m, surface_of(o.material), std::move(name), static_cast<int>(i), o.line);
+      build.fixed(std::move(solid), pose, o.z_m, surface_of(o.material), std::move(name), static_cast<int>(i),
+                  o.line);
     }
   }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A world's description turned into solids at their places: what rays, physics, overlap checks and pictures share.
+// A world's description turned into solids at their places: what rays, physics, overlap checks and pictures
+// share.
 #pragma once
 #include <deque>
 #include <string>
@@ -23,7 +24,7 @@ Surface surface_of(const Material& material);
 
 /// Everything solid. Fixed ones first come from the arena, then walls, then objects in order.
 struct Layout {
-  std::deque<Solid> solids;             ///< owns the shapes; a deque, so pointers stay good
+  std::deque<Solid> solids;  ///< owns the shapes; a deque, so pointers stay good
   std::vector<Placed> fixed;
   std::vector<Surface> fixed_surface;
   std::vector<std::string> fixed_name;  ///< for messages: "arena wall 2", "box 'crate'"
@@ -33,11 +34,12 @@ struct Layout {
   std::vector<Pose2> moving_pose;
   std::vector<Surface> moving_surface;
   std::vector<std::string> moving_name;
-  std::vector<int> loose_object;        ///< per movable object: index into WorldDesc::objects
-  Vec2 low_m, high_m;                   ///< what a picture should show: all solids, or 1 m around nothing
+  std::vector<int> loose_object;  ///< per movable object: index into WorldDesc::objects
+  Vec2 low_m, high_m;             ///< what a picture should show: all solids, or 1 m around nothing
 };
 
-/// The world must be consistent (models known, sizes positive): load/ has seen to that, or a test built it so.
+/// The world must be consistent (models known, sizes positive): load/ has seen to that, or a test built it
+/// so.
 Layout build_layout(const WorldDesc& world);
 
 }  // namespace sim

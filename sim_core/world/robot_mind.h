@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Seam A seen from the world: whatever drives a robot. hal_sim implements it with a board and a firmware; tests
-// implement it with three lines. The world hands over a frozen scene and a span of time; it gets wheel angles back.
+// Seam A seen from the world: whatever drives a robot. hal_sim implements it with a board and a firmware;
+// tests implement it with three lines. The world hands over a frozen scene and a span of time; it gets wheel
+// angles back.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -29,8 +30,8 @@ class RobotMind {
  public:
   virtual ~RobotMind() = default;
 
-  /// Runs the robot's inside up to `end` (clicks). May read the scene (frozen at the last tick) and nothing else
-  /// that changes; may be called on any thread, never on two at once for one robot. Must not block.
+  /// Runs the robot's inside up to `end` (clicks). May read the scene (frozen at the last tick) and nothing
+  /// else that changes; may be called on any thread, never on two at once for one robot. Must not block.
   virtual void run_until(const Scene& scene, Clicks end) = 0;
 
   /// Wheel angles at `at`, where at <= the last end. Called once per tick, in order of time.
@@ -39,10 +40,12 @@ class RobotMind {
   /// Steps and LEDs at the last end.
   virtual MindReport report() const = 0;
 
-  /// Proximity reading of sensor `index` as the robot would get it now (counts), for recorders; no side effects.
+  /// Proximity reading of sensor `index` as the robot would get it now (counts), for recorders; no side
+  /// effects.
   virtual int proximity_counts(const Scene& scene, int index) = 0;
 
-  /// Everything of the inside that must repeat from run to run, folded into one number, for the world's digest.
+  /// Everything of the inside that must repeat from run to run, folded into one number, for the world's
+  /// digest.
   virtual std::uint64_t state_hash() const = 0;
 };
 

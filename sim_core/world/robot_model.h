@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A kind of robot as pure data: its body, its wheels, where its proximity sensors look from, what it looks like.
-// Whoever knows a real robot fills one in and hands it to the loader; sim_core itself names none.
+// A kind of robot as pure data: its body, its wheels, where its proximity sensors look from, what it looks
+// like. Whoever knows a real robot fills one in and hands it to the loader; sim_core itself names none.
 // Frame: x forward, y left, z up from the floor, origin between the wheels. Metres, radians, kilograms.
 #pragma once
 #include <string>
@@ -31,25 +31,25 @@ struct LedMount {
 };
 
 struct RobotModel {
-  std::string name;                  ///< what world files write in `model`
+  std::string name;  ///< what world files write in `model`
   double body_radius_m = 0.037;
-  double body_z0_m = 0.002;          ///< underside of the body above the floor
-  double body_height_m = 0.047;      ///< top of the body above the floor
+  double body_z0_m = 0.002;      ///< underside of the body above the floor
+  double body_height_m = 0.047;  ///< top of the body above the floor
   double mass_kg = 0.15;
   Vec3 centre_of_mass_m{0, 0, 0.015};
-  double inertia_kg_m2 = 8.75e-5;    ///< about the vertical axis
+  double inertia_kg_m2 = 8.75e-5;  ///< about the vertical axis
   double wheel_radius_m = 0.0205;
-  double axle_m = 0.053;             ///< distance between the wheels
-  double max_push_n = 1e9;           ///< most the drive can push, N; traction may allow less
-  double wheel_friction = 1.0;       ///< Coulomb coefficient tyre to floor
-  double side_friction = 0.3;        ///< Coulomb coefficient of the body's side
-  int steps_per_turn = 1000;         ///< motor full steps of one wheel turn
-  double battery_v = 4.0;            ///< when the world file does not say
+  double axle_m = 0.053;        ///< distance between the wheels
+  double max_push_n = 1e9;      ///< most the drive can push, N; traction may allow less
+  double wheel_friction = 1.0;  ///< Coulomb coefficient tyre to floor
+  double side_friction = 0.3;   ///< Coulomb coefficient of the body's side
+  int steps_per_turn = 1000;    ///< motor full steps of one wheel turn
+  double battery_v = 4.0;       ///< when the world file does not say
   Colour colour{0.2, 0.6, 0.3};
-  double ir_reflectance = -1;        ///< 0 to 1; negative: the red part of the colour
-  double roughness = 0;              ///< 0 mirror to 1 matt, for the newer colour rule
+  double ir_reflectance = -1;  ///< 0 to 1; negative: the red part of the colour
+  double roughness = 0;        ///< 0 mirror to 1 matt, for the newer colour rule
   std::vector<SensorMount> proximity;
-  std::vector<LedMount> leds;        ///< index = bit of MindReport::leds
+  std::vector<LedMount> leds;  ///< index = bit of MindReport::leds
 };
 
 }  // namespace sim

@@ -51,7 +51,8 @@ Pose2 Scene::pose(int body, Clicks at) const {
             b.pose.heading_rad + b.spin_rad_s * ahead_s};
   }
   const Pose2* ring = history_.data() + i * static_cast<std::size_t>(slots_);
-  // count back to the tick at or before `at`: usually one or two; slots from before the world began hold its start
+  // count back to the tick at or before `at`: usually one or two; slots from before the world began hold its
+  // start
   int slot = last_slot_;
   Clicks start = last;
   for (int back = 1; back < slots_ && start > at; ++back) {
@@ -62,7 +63,8 @@ Pose2 Scene::pose(int body, Clicks at) const {
   if (at <= start) return a;
   const Pose2& b = ring[slot + 1 == slots_ ? 0 : slot + 1];
   const double f = static_cast<double>(at - start) * per_tick_;
-  return {a.x_m + f * (b.x_m - a.x_m), a.y_m + f * (b.y_m - a.y_m), a.heading_rad + f * (b.heading_rad - a.heading_rad)};
+  return {a.x_m + f * (b.x_m - a.x_m), a.y_m + f * (b.y_m - a.y_m),
+          a.heading_rad + f * (b.heading_rad - a.heading_rad)};
 }
 
 Placed Scene::placed(int body, Clicks at) const {
@@ -89,7 +91,8 @@ Surface Scene::floor(Vec2 point_m) const {
   if (!(u >= 0 && u < 1 && v >= 0 && v < 1)) return out;
   const int column = std::min(f.image_width - 1, static_cast<int>(u * f.image_width));
   const int row = std::min(f.image_height - 1, static_cast<int>(v * f.image_height));
-  const std::uint8_t* pixel = f.image_rgb.data() + 3 * (static_cast<std::size_t>(row) * f.image_width + column);
+  const std::uint8_t* pixel =
+      f.image_rgb.data() + 3 * (static_cast<std::size_t>(row) * f.image_width + column);
   out.colour = {pixel[0] / 255.0, pixel[1] / 255.0, pixel[2] / 255.0};
   if (f.ir_reflectance < 0) out.ir_reflectance = out.colour.r;
   return out;

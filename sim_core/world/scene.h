@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The world as robots see it while they run: frozen at the last tick, with the poses of the last 40 ms behind it.
-// In: body states once per tick. Out: poses at any instant, rays, surfaces, who is near whom. All const methods are
-// safe from any thread while nobody publishes. Heights of falling bodies are those of the last tick.
+// The world as robots see it while they run: frozen at the last tick, with the poses of the last 40 ms behind
+// it. In: body states once per tick. Out: poses at any instant, rays, surfaces, who is near whom. All const
+// methods are safe from any thread while nobody publishes. Heights of falling bodies are those of the last
+// tick.
 #pragma once
 #include <memory>
 #include <vector>
@@ -23,9 +24,9 @@ inline constexpr double kHistoryS = 0.040;
 struct SceneHit {
   double distance_m = 0;
   Vec3 point_m;
-  Vec3 normal;         ///< unit, out of the surface
+  Vec3 normal;  ///< unit, out of the surface
   Surface surface;
-  int robot = -1;      ///< index when a robot was hit
+  int robot = -1;  ///< index when a robot was hit
   bool floor = false;
 };
 
@@ -52,8 +53,8 @@ class Scene {
 
   /// State at the last tick.
   const BodyState& state(int body) const { return states_[static_cast<std::size_t>(body)]; }
-  /// Pose at an instant: between ticks interpolated, after the last one carried on with its velocity, before the
-  /// oldest kept one that one.
+  /// Pose at an instant: between ticks interpolated, after the last one carried on with its velocity, before
+  /// the oldest kept one that one.
   Pose2 pose(int body, Clicks at) const;
   /// Same with the solid, ready for rays. Headings of round bodies are left out.
   Placed placed(int body, Clicks at) const;
@@ -88,11 +89,11 @@ class Scene {
   double tick_s_;
   Clicks tick_ = 0;
   std::uint64_t version_ = 1;
-  int slots_;                     // poses kept per body
-  int last_slot_ = 0;             // where the last tick's poses are
-  double per_tick_;               // 1 / tick_clicks_
-  std::vector<Pose2> history_;    // [body * slots_ + tick % slots_]
-  std::vector<double> moved_;     // [tick % slots_]: largest movement of that tick, m
+  int slots_;                   // poses kept per body
+  int last_slot_ = 0;           // where the last tick's poses are
+  double per_tick_;             // 1 / tick_clicks_
+  std::vector<Pose2> history_;  // [body * slots_ + tick % slots_]
+  std::vector<double> moved_;   // [tick % slots_]: largest movement of that tick, m
   std::vector<BodyState> states_;
   std::vector<Placed> moving_;
   Neighbours neighbours_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A world as pure data: what a world file says, in SI units and radians, ready to be built. Made by load/, or in a
-// few lines of C++. Every field's key, unit, range and default stand once, in load/schema.cpp and docs/world-format.md.
+// A world as pure data: what a world file says, in SI units and radians, ready to be built. Made by load/, or
+// in a few lines of C++. Every field's key, unit, range and default stand once, in load/schema.cpp and
+// docs/world-format.md.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -17,15 +18,15 @@ enum class Engine { Dynamic, Kinematic };
 /// How surfaces look to light.
 struct Material {
   std::string name;
-  Colour colour;                ///< default white
-  double ir_reflectance = -1;   ///< 0 to 1; negative: the red part of the colour
-  double roughness = 0;         ///< 0 to 1
-  double friction = 0.3;        ///< Coulomb coefficient of the sides
-  double restitution = 0;       ///< 0 to 1
+  Colour colour;               ///< default white
+  double ir_reflectance = -1;  ///< 0 to 1; negative: the red part of the colour
+  double roughness = 0;        ///< 0 to 1
+  double friction = 0.3;       ///< Coulomb coefficient of the sides
+  double restitution = 0;      ///< 0 to 1
 };
 
-enum class RayLayout { Cone, Fan };                 ///< spread on cones (Webots) or side by side in the plane (Enki)
-enum class SensorType { InfraRed, Generic };        ///< with or without a colour rule
+enum class RayLayout { Cone, Fan };  ///< spread on cones (Webots) or side by side in the plane (Enki)
+enum class SensorType { InfraRed, Generic };  ///< with or without a colour rule
 enum class ColourRule { Old, New, None };
 enum class NoiseLaw { Uniform, Gaussian };
 
@@ -36,9 +37,10 @@ struct ResponseRow {
   double relative_noise = 0;  ///< fraction of value
 };
 
-/// Proximity settings as written: what is not set is inherited (sensor from robot from world from the profile).
+/// Proximity settings as written: what is not set is inherited (sensor from robot from world from the
+/// profile).
 struct ProximitySettings {
-  std::optional<std::string> profile;           ///< webots-old, webots-new, inverse-square, enki, argos
+  std::optional<std::string> profile;             ///< webots-old, webots-new, inverse-square, enki, argos
   std::optional<std::vector<ResponseRow>> table;  ///< own rows, instead of the profile's
   std::optional<SensorType> type;
   std::optional<int> rays;
@@ -47,31 +49,31 @@ struct ProximitySettings {
   std::optional<RayLayout> layout;
   std::optional<ColourRule> colour_rule;
   std::optional<NoiseLaw> noise_law;
-  std::optional<double> noise_scale;            ///< factor on the table's relative noise; 0 = none
+  std::optional<double> noise_scale;  ///< factor on the table's relative noise; 0 = none
 
   /// True when nothing is set.
   bool is_empty() const {
-    return !profile && !table && !type && !rays && !aperture_rad && !gaussian_width && !layout && !colour_rule &&
-           !noise_law && !noise_scale;
+    return !profile && !table && !type && !rays && !aperture_rad && !gaussian_width && !layout &&
+           !colour_rule && !noise_law && !noise_scale;
   }
 };
 
-/// Departures of one robot from its model. Fixed parts as written; the random spread is drawn from the robot's seed
-/// by resolve_variation() (world/variation.h).
+/// Departures of one robot from its model. Fixed parts as written; the random spread is drawn from the
+/// robot's seed by resolve_variation() (world/variation.h).
 struct Variation {
   std::vector<double> sensor_gain;           ///< factor per proximity sensor; empty = 1
   std::vector<double> sensor_offset_counts;  ///< added per proximity sensor; empty = 0
   double left_wheel_ratio = 1;               ///< true over nominal wheel radius
   double right_wheel_ratio = 1;
-  double axle_ratio = 1;                     ///< effective over nominal axle
-  double clock_ppm = 0;                      ///< positive: the robot's clock is fast
+  double axle_ratio = 1;  ///< effective over nominal axle
+  double clock_ppm = 0;   ///< positive: the robot's clock is fast
   double boot_delay_s = 0;
-  double gain_spread = 0;                    ///< standard deviation of a further factor per sensor
-  double offset_spread_counts = 0;           ///< standard deviation, counts
-  double wheel_spread = 0;                   ///< standard deviation of a further wheel factor, each side
-  double axle_spread = 0;                    ///< standard deviation of a further axle factor
-  double clock_spread_ppm = 0;               ///< standard deviation, ppm
-  double boot_spread_s = 0;                  ///< the delay grows by a uniform draw from 0 to this
+  double gain_spread = 0;           ///< standard deviation of a further factor per sensor
+  double offset_spread_counts = 0;  ///< standard deviation, counts
+  double wheel_spread = 0;          ///< standard deviation of a further wheel factor, each side
+  double axle_spread = 0;           ///< standard deviation of a further axle factor
+  double clock_spread_ppm = 0;      ///< standard deviation, ppm
+  double boot_spread_s = 0;         ///< the delay grows by a uniform draw from 0 to this
 };
 
 /// Settings of single sensors.
@@ -82,21 +84,21 @@ struct SensorDesc {
 
 struct RobotDesc {
   std::string name;
-  std::string model;        ///< empty: the only or first model the caller knows
-  std::string firmware;     ///< name or path as written; may be empty
+  std::string model;     ///< empty: the only or first model the caller knows
+  std::string firmware;  ///< name or path as written; may be empty
   Pose2 pose;
-  int selector = 0;         ///< 0 to 15
+  int selector = 0;                   ///< 0 to 15
   std::optional<std::uint64_t> seed;  ///< unset: made of the world's seed and the robot's index
-  double battery_v = -1;    ///< V; negative: the model's
+  double battery_v = -1;              ///< V; negative: the model's
   std::optional<Colour> colour;
-  double wheel_noise = 0;   ///< each wheel's travel times U(1 - n, 1 + n), drawn every 1/32 s
-  double slip = 0;          ///< fraction of the wheels' travel that is lost on the floor
+  double wheel_noise = 0;  ///< each wheel's travel times U(1 - n, 1 + n), drawn every 1/32 s
+  double slip = 0;         ///< fraction of the wheels' travel that is lost on the floor
   std::string uart1 = "none";
   std::string uart2 = "none";
   Variation variation;
   ProximitySettings proximity;
   std::vector<SensorDesc> sensors;
-  int line = 0;             ///< line in the world file; 0 when built in C++
+  int line = 0;  ///< line in the world file; 0 when built in C++
 };
 
 enum class ObjectKind { Box, Cylinder, Ball, Polygon };
@@ -109,7 +111,7 @@ struct ObjectDesc {
   double radius_m = 0.05;       ///< cylinder and ball
   std::vector<Vec2> corners_m;  ///< polygon, in its own frame
   Pose2 pose;
-  double z_m = 0;               ///< underside above the floor; movable ones fall from there
+  double z_m = 0;  ///< underside above the floor; movable ones fall from there
   bool movable = false;
   double mass_kg = 0.1;
   double floor_friction = 0.5;  ///< of movable ones, against whatever they stand on
@@ -129,7 +131,7 @@ struct WallDesc {
 };
 
 struct ArenaDesc {
-  Vec2 size_m{1, 1};          ///< inside measures
+  Vec2 size_m{1, 1};  ///< inside measures
   Vec2 centre_m;
   double wall_height_m = 0.1;
   double wall_thickness_m = 0.01;
@@ -139,17 +141,17 @@ struct ArenaDesc {
 struct FloorDesc {
   Colour colour{0.93, 0.93, 0.90};
   double ir_reflectance = -1;
-  std::string image;          ///< PNG over the whole arena, as written; empty: plain
-  int image_width = 0;        ///< pixels, once the file is read
+  std::string image;    ///< PNG over the whole arena, as written; empty: plain
+  int image_width = 0;  ///< pixels, once the file is read
   int image_height = 0;
   std::vector<std::uint8_t> image_rgb;  ///< rows from the north, three bytes a pixel
-  double friction = 1.0;      ///< factor on the traction of wheels
+  double friction = 1.0;                ///< factor on the traction of wheels
 };
 
 struct LampDesc {
   std::string name;
   Vec3 position_m{0, 0, 1};
-  double intensity_w_m2 = 1;             ///< at a distance where the attenuation is 1
+  double intensity_w_m2 = 1;                   ///< at a distance where the attenuation is 1
   std::array<double, 3> attenuation{1, 0, 0};  ///< a0 + a1 d + a2 d2 divides the intensity; d in m
   Colour colour;
   bool on = true;
@@ -157,7 +159,7 @@ struct LampDesc {
 
 struct WorldDesc {
   std::string title;
-  std::string file;           ///< where it was read from; empty when built in C++
+  std::string file;  ///< where it was read from; empty when built in C++
   int physics_hz = 512;
   Engine engine = Engine::Dynamic;
   double gravity_m_s2 = 9.81;

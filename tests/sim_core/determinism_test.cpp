@@ -8,14 +8,16 @@ using namespace sim_test;
 namespace {
 
 sim::WorldDesc bench_world(int robots) {
-  const std::string file = std::string(TWINPUCK_SOURCE_DIR "/bench/worlds/brait_") + std::to_string(robots) + ".toml";
+  const std::string file =
+      std::string(TWINPUCK_SOURCE_DIR "/bench/worlds/brait_") + std::to_string(robots) + ".toml";
   const sim::LoadedWorld loaded = sim::load_world(file, {puck()});
   EXPECT_TRUE(loaded.world) << loaded.report(file);
   return *loaded.world;
 }
 
 std::uint64_t digest_of(const sim::WorldDesc& world, int threads, double seconds, bool look = false) {
-  auto s = simulation_of(world, [](int r) { return std::make_unique<Braitenberg>(r); }, threads);
+  auto s = simulation_of(
+      world, [](int r) { return std::make_unique<Braitenberg>(r); }, threads);
   while (s->now() < sim::from_seconds(seconds)) {
     s->step();
     if (!look) continue;
@@ -60,7 +62,8 @@ TEST(Determinism, robots_never_enter_walls_or_each_other) {
     run_for(*s, 0.1);
     for (int r = 0; r < 100; ++r) {
       const sim::Vec2 at{s->pose(r).x_m, s->pose(r).y_m};
-      for (const sim::Placed& p : s->scene().layout().fixed) deepest = std::min(deepest, sim::plan_distance_m(at, p) - 0.037);
+      for (const sim::Placed& p : s->scene().layout().fixed)
+        deepest = std::min(deepest, sim::plan_distance_m(at, p) - 0.037);
       for (int o = 0; o < r; ++o) {
         deepest = std::min(deepest, sim::length(at - sim::Vec2{s->pose(o).x_m, s->pose(o).y_m}) - 0.074);
       }
@@ -83,7 +86,7 @@ TEST(Random, draws_are_pure_and_well_spread) {
     sum2 += g * g;
     mean += sim::random_uniform(key, static_cast<std::uint64_t>(i));
   }
-  EXPECT_NEAR(sum / n, 0, 0.01);       // 4.5 standard errors
+  EXPECT_NEAR(sum / n, 0, 0.01);  // 4.5 standard errors
   EXPECT_NEAR(sum2 / n, 1, 0.02);
   EXPECT_NEAR(mean / n, 0.5, 0.003);
 }

@@ -94,7 +94,8 @@ class Braitenberg : public sim::RobotMind {
 };
 
 /// Parses a world that must be good.
-inline sim::WorldDesc world_of(const std::string& toml, std::vector<sim::RobotModel> models = {puck(), one_eyed()}) {
+inline sim::WorldDesc world_of(const std::string& toml,
+                               std::vector<sim::RobotModel> models = {puck(), one_eyed()}) {
   sim::LoadedWorld loaded = sim::parse_world(toml, "test.toml", models);
   EXPECT_TRUE(loaded.world) << loaded.report("test.toml");
   return loaded.world ? *loaded.world : sim::WorldDesc{};
@@ -102,13 +103,15 @@ inline sim::WorldDesc world_of(const std::string& toml, std::vector<sim::RobotMo
 
 using MakeMind = std::function<std::unique_ptr<sim::RobotMind>(int robot)>;
 
-inline std::unique_ptr<sim::Simulation> simulation_of(const sim::WorldDesc& world, const MakeMind& make, int threads = 1) {
+inline std::unique_ptr<sim::Simulation> simulation_of(const sim::WorldDesc& world, const MakeMind& make,
+                                                      int threads = 1) {
   std::vector<std::unique_ptr<sim::RobotMind>> minds;
   for (int r = 0; r < static_cast<int>(world.robots.size()); ++r) minds.push_back(make(r));
   return std::make_unique<sim::Simulation>(world, std::move(minds), threads);
 }
 
-inline std::unique_ptr<sim::Simulation> cruising(const sim::WorldDesc& world, double left_rad_s, double right_rad_s) {
+inline std::unique_ptr<sim::Simulation> cruising(const sim::WorldDesc& world, double left_rad_s,
+                                                 double right_rad_s) {
   return simulation_of(world, [&](int) { return std::make_unique<Cruise>(left_rad_s, right_rad_s); });
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // libFuzzer target: any bytes are either a world that can be built and stepped, or a list of problems.
-// Build: cmake -S . -B build-fuzz -DCMAKE_C_COMPILER=clang-14 -DCMAKE_CXX_COMPILER=clang++-14 -DTWINPUCK_FUZZ=ON
-// Run:   build-fuzz/fuzz_world_loader -max_total_time=600 CORPUS worlds
+// Build: cmake -S . -B build-fuzz -DCMAKE_C_COMPILER=clang-14 -DCMAKE_CXX_COMPILER=clang++-14
+// -DTWINPUCK_FUZZ=ON Run:   build-fuzz/fuzz_world_loader -max_total_time=600 CORPUS worlds
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

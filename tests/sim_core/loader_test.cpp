@@ -90,7 +90,7 @@ variation = { left_wheel = 1.01, clock_ppm = -20, boot_delay = 0.5, sensor_gain 
   EXPECT_EQ(w.arena->material.colour.r, 0.7);
   EXPECT_EQ(w.arena->material.ir_reflectance, 0.9);
   EXPECT_EQ(w.objects.size(), 4u);
-  EXPECT_EQ(w.objects[0].material.colour.g, 1);   // own colour beats the material's
+  EXPECT_EQ(w.objects[0].material.colour.g, 1);    // own colour beats the material's
   EXPECT_EQ(w.objects[0].material.friction, 0.6);  // the rest of the material stays
   EXPECT_NEAR(w.objects[0].pose.heading_rad, sim::kPi / 2, 1e-12);
   const sim::RobotDesc& r = w.robots[0];
@@ -105,8 +105,9 @@ variation = { left_wheel = 1.01, clock_ppm = -20, boot_delay = 0.5, sensor_gain 
 }
 
 TEST(Loader, spread_is_drawn_from_the_robots_seed) {
-  const auto w = world_of("twinpuck = 1\n[[robot]]\nvariation = { gain_spread = 0.1 }\n"
-                          "[[robot]]\nposition = [1, 0]\nvariation = { gain_spread = 0.1 }\n");
+  const auto w = world_of(
+      "twinpuck = 1\n[[robot]]\nvariation = { gain_spread = 0.1 }\n"
+      "[[robot]]\nposition = [1, 0]\nvariation = { gain_spread = 0.1 }\n");
   const auto a = sim::resolve_variation(w, 0), b = sim::resolve_variation(w, 1);
   EXPECT_EQ(a.sensor_gain.size(), 8u);
   EXPECT_NE(a.sensor_gain[0], b.sensor_gain[0]);
@@ -125,79 +126,146 @@ const char* const kUnknownBoxKeys =
 
 TEST(Loader, every_kind_of_mistake_has_its_sentence) {
   const Broken cases[] = {
-      {"[world]\nphysics_hz = 1000", "w.toml:3:14: world.physics_hz: got 1000 Hz, expected a divisor of 14745600 such as 96, 128, 256, 512, 1024"},
-      {"[world]\nphysics_hz = 8", "w.toml:3:14: world.physics_hz: got 8, expected whole number from 32 to 4096 Hz"},
-      {"[world]\nphysics_hz = 96.0", "w.toml:3:14: world.physics_hz: got 96.0, expected whole number from 32 to 4096 Hz"},
-      {"[world]\nengine = \"dynamics\"", "w.toml:3:10: world.engine: got \"dynamics\", expected one of dynamic, kinematic; did you mean 'dynamic'?"},
+      {"[world]\nphysics_hz = 1000",
+       "w.toml:3:14: world.physics_hz: got 1000 Hz, expected a divisor of 14745600 such as 96, 128, 256, "
+       "512, 1024"},
+      {"[world]\nphysics_hz = 8",
+       "w.toml:3:14: world.physics_hz: got 8, expected whole number from 32 to 4096 Hz"},
+      {"[world]\nphysics_hz = 96.0",
+       "w.toml:3:14: world.physics_hz: got 96.0, expected whole number from 32 to 4096 Hz"},
+      {"[world]\nengine = \"dynamics\"",
+       "w.toml:3:10: world.engine: got \"dynamics\", expected one of dynamic, kinematic; did you mean "
+       "'dynamic'?"},
       {"[world]\nengine = 3", "w.toml:3:10: world.engine: got 3, expected one of dynamic, kinematic"},
-      {"[world]\ngravity = -9.81", "w.toml:3:11: world.gravity: got -9.81, expected number from 0.01 to 100 m/s2"},
-      {"[world]\ngravity = nan", "w.toml:3:11: world.gravity: got nan, expected number from 0.01 to 100 m/s2"},
-      {"[world]\ngravity = inf", "w.toml:3:11: world.gravity: got inf, expected number from 0.01 to 100 m/s2"},
+      {"[world]\ngravity = -9.81",
+       "w.toml:3:11: world.gravity: got -9.81, expected number from 0.01 to 100 m/s2"},
+      {"[world]\ngravity = nan",
+       "w.toml:3:11: world.gravity: got nan, expected number from 0.01 to 100 m/s2"},
+      {"[world]\ngravity = inf",
+       "w.toml:3:11: world.gravity: got inf, expected number from 0.01 to 100 m/s2"},
       {"[world]\nseed = -1", "w.toml:3:8: world.seed: got -1, expected whole number from 0 to 9e+18"},
-      {"[world]\nambient = \"sun\"", "w.toml:3:11: world.ambient: got \"sun\", expected number from 0 to 10000 W/m2"},
-      {"[world]\nphysicshz = 96", "w.toml:3:1: unknown key 'physicshz' in world; did you mean 'physics_hz'? (keys: physics_hz, engine, gravity, seed, ambient)"},
+      {"[world]\nambient = \"sun\"",
+       "w.toml:3:11: world.ambient: got \"sun\", expected number from 0 to 10000 W/m2"},
+      {"[world]\nphysicshz = 96",
+       "w.toml:3:1: unknown key 'physicshz' in world; did you mean 'physics_hz'? (keys: physics_hz, engine, "
+       "gravity, seed, ambient)"},
       {"title = 5", "w.toml:2:9: title: got 5, expected text in quotes"},
       {"world = 3", "w.toml:2:9: world: got 3, expected a table, written [world]"},
-      {"[[arena]]\nsize = [1, 1]", "w.toml:2:1: arena: got several tables in [[ ]], expected a table, written [arena]"},
+      {"[[arena]]\nsize = [1, 1]",
+       "w.toml:2:1: arena: got several tables in [[ ]], expected a table, written [arena]"},
       {"[arena]", "w.toml:2:1: arena.size: missing, expected two numbers [x, y] from 0.01 to 1000 m"},
       {"[arena]\nsize = 1", "w.toml:3:8: arena.size: got 1, expected two numbers [x, y] from 0.01 to 1000 m"},
-      {"[arena]\nsize = [1]", "w.toml:3:8: arena.size: got [1], expected two numbers [x, y] from 0.01 to 1000 m"},
-      {"[arena]\nsize = [1, 0]", "w.toml:3:8: arena.size: got [1, 0], expected two numbers [x, y] from 0.01 to 1000 m"},
-      {"[arena]\nsize = [1, \"2\"]", "w.toml:3:8: arena.size: got [1, \"2\"], expected two numbers [x, y] from 0.01 to 1000 m"},
-      {"[arena]\nsize = [1, 1]\nwall_height = -0.1", "w.toml:4:15: arena.wall_height: got -0.1, expected number from 0 to 1000 m"},
-      {"[arena]\nsize = [1, 1]\nmaterial = \"wood\"", "w.toml:4:12: arena.material: got \"wood\", expected the name of a [[material]] (there are none)"},
-      {"[[material]]\nname = \"oak\"\n[arena]\nsize = [1, 1]\nmaterial = \"wood\"", "w.toml:6:12: arena.material: got \"wood\", expected the name of a [[material]] (oak)"},
+      {"[arena]\nsize = [1]",
+       "w.toml:3:8: arena.size: got [1], expected two numbers [x, y] from 0.01 to 1000 m"},
+      {"[arena]\nsize = [1, 0]",
+       "w.toml:3:8: arena.size: got [1, 0], expected two numbers [x, y] from 0.01 to 1000 m"},
+      {"[arena]\nsize = [1, \"2\"]",
+       "w.toml:3:8: arena.size: got [1, \"2\"], expected two numbers [x, y] from 0.01 to 1000 m"},
+      {"[arena]\nsize = [1, 1]\nwall_height = -0.1",
+       "w.toml:4:15: arena.wall_height: got -0.1, expected number from 0 to 1000 m"},
+      {"[arena]\nsize = [1, 1]\nmaterial = \"wood\"",
+       "w.toml:4:12: arena.material: got \"wood\", expected the name of a [[material]] (there are none)"},
+      {"[[material]]\nname = \"oak\"\n[arena]\nsize = [1, 1]\nmaterial = \"wood\"",
+       "w.toml:6:12: arena.material: got \"wood\", expected the name of a [[material]] (oak)"},
       {"[[material]]\ncolour = [1, 1, 1]", "w.toml:2:1: material.name: missing, expected text in quotes"},
-      {"[[material]]\nname = \"a\"\ncolour = [255, 0, 0]", "w.toml:4:10: material.colour: got [255, 0, 0], expected three numbers [red, green, blue] from 0 to 1"},
-      {"[[material]]\nname = \"a\"\nroughness = 2", "w.toml:4:13: material.roughness: got 2, expected number from 0 to 1"},
-      {"[[material]]\nname = \"a\"\n[[material]]\nname = \"a\"", "w.toml:4:1: material.name: got \"a\" a second time, expected a name of its own"},
-      {"[material]\nname = \"a\"", "w.toml:2:1: material: got a table, expected [[material]] with double brackets"},
-      {"[floor]\nimage = \"no.png\"\n[arena]\nsize = [1, 1]", "w.toml:3:9: floor.image: got no.png (file not found), expected a PNG file"},
-      {"[[wall]]\nheight = 0.1", "w.toml:2:1: wall.points: missing, expected list of points [[x, y], ...] from -1000 to 1000 m"},
+      {"[[material]]\nname = \"a\"\ncolour = [255, 0, 0]",
+       "w.toml:4:10: material.colour: got [255, 0, 0], expected three numbers [red, green, blue] from 0 to "
+       "1"},
+      {"[[material]]\nname = \"a\"\nroughness = 2",
+       "w.toml:4:13: material.roughness: got 2, expected number from 0 to 1"},
+      {"[[material]]\nname = \"a\"\n[[material]]\nname = \"a\"",
+       "w.toml:4:1: material.name: got \"a\" a second time, expected a name of its own"},
+      {"[material]\nname = \"a\"",
+       "w.toml:2:1: material: got a table, expected [[material]] with double brackets"},
+      {"[floor]\nimage = \"no.png\"\n[arena]\nsize = [1, 1]",
+       "w.toml:3:9: floor.image: got no.png (file not found), expected a PNG file"},
+      {"[[wall]]\nheight = 0.1",
+       "w.toml:2:1: wall.points: missing, expected list of points [[x, y], ...] from -1000 to 1000 m"},
       {"[[wall]]\npoints = [[0, 0]]", "w.toml:3:10: wall.points: got 1 point(s), expected at least 2"},
-      {"[[wall]]\npoints = [[0, 0], [0, 0]]", "w.toml:3:10: wall.points: got points 0 and 1 at the same place, expected at least 0.0005 m between them"},
-      {"[[wall]]\npoints = [0, 1]", "w.toml:3:10: wall.points: got [0, 1], expected list of points [[x, y], ...] from -1000 to 1000 m"},
-      {"[[wall]]\npoints = [[0, 0], [1, 0]]\nclosed = true", "w.toml:4:10: wall.closed: got true, expected three or more points, the last not on the first"},
-      {"[[wall]]\npoints = [[0, 0], [1, 0]]\nheigth = 1", "w.toml:4:1: unknown key 'heigth' in wall; did you mean 'height'? (keys: points, closed, thickness, height, z, material, colour)"},
-      {"[[wall]]\npoints = [[0, 0], [1, 0]]\nthickness = 0", "w.toml:4:13: wall.thickness: got 0, expected number from 0.0005 to 10 m"},
+      {"[[wall]]\npoints = [[0, 0], [0, 0]]",
+       "w.toml:3:10: wall.points: got points 0 and 1 at the same place, expected at least 0.0005 m between "
+       "them"},
+      {"[[wall]]\npoints = [0, 1]",
+       "w.toml:3:10: wall.points: got [0, 1], expected list of points [[x, y], ...] from -1000 to 1000 m"},
+      {"[[wall]]\npoints = [[0, 0], [1, 0]]\nclosed = true",
+       "w.toml:4:10: wall.closed: got true, expected three or more points, the last not on the first"},
+      {"[[wall]]\npoints = [[0, 0], [1, 0]]\nheigth = 1",
+       "w.toml:4:1: unknown key 'heigth' in wall; did you mean 'height'? (keys: points, closed, thickness, "
+       "height, z, material, colour)"},
+      {"[[wall]]\npoints = [[0, 0], [1, 0]]\nthickness = 0",
+       "w.toml:4:13: wall.thickness: got 0, expected number from 0.0005 to 10 m"},
       {"[[box]]", "w.toml:2:1: box.position: missing, expected two numbers [x, y] from -1000 to 1000 m"},
-      {"[[box]]\nposition = [0, 0]\nmoveable = true", "w.toml:4:1: unknown key 'moveable' in box; did you mean 'movable'?"},
+      {"[[box]]\nposition = [0, 0]\nmoveable = true",
+       "w.toml:4:1: unknown key 'moveable' in box; did you mean 'movable'?"},
       {"[[box]]\nposition = [0, 0]\nmovable = 1", "w.toml:4:11: box.movable: got 1, expected true or false"},
-      {"[[box]]\nposition = [0, 0]\nmass = 0", "w.toml:4:8: box.mass: got 0, expected number from 0.0001 to 1000 kg"},
+      {"[[box]]\nposition = [0, 0]\nmass = 0",
+       "w.toml:4:8: box.mass: got 0, expected number from 0.0001 to 1000 kg"},
       {"[[box]]\nposition = [0, 0]\nxyzzy = true", "w.toml:4:1: unknown key 'xyzzy' in box"},
-      {"[[cylinder]]\nposition = [0, 0]", "w.toml:2:1: cylinder.radius: missing, expected number from 0.0005 to 1000 m"},
-      {"[[ball]]\nposition = [0, 0]\nradius = -1", "w.toml:4:10: ball.radius: got -1, expected number from 0.0005 to 1000 m"},
-      {"[[polygon]]\npoints = [[0, 0], [1, 0]]", "w.toml:3:10: polygon.points: got 2 points, expected 3 to 64"},
-      {"[[polygon]]\npoints = [[0, 0], [2, 0], [1, 0.5], [0, 2]]", "w.toml:3:10: polygon.points: got a shape that is not convex, expected corners that all turn the same way; build other shapes of several polygons"},
-      {"[[lamp]]\nintensity = 1", "w.toml:2:1: lamp.position: missing, expected three numbers [x, y, z] from -1000 to 1000 m"},
-      {"[[lamp]]\nposition = [0, 0, 1]\nattenuation = [0, 0, 0]", "w.toml:4:15: lamp.attenuation: got [0, 0, 0], expected at least one number above 0"},
-      {"[proximity]\nprofile = \"webots\"", "w.toml:3:11: proximity.profile: got \"webots\", expected one of inverse-square, webots-old, webots-new, enki, argos"},
+      {"[[cylinder]]\nposition = [0, 0]",
+       "w.toml:2:1: cylinder.radius: missing, expected number from 0.0005 to 1000 m"},
+      {"[[ball]]\nposition = [0, 0]\nradius = -1",
+       "w.toml:4:10: ball.radius: got -1, expected number from 0.0005 to 1000 m"},
+      {"[[polygon]]\npoints = [[0, 0], [1, 0]]",
+       "w.toml:3:10: polygon.points: got 2 points, expected 3 to 64"},
+      {"[[polygon]]\npoints = [[0, 0], [2, 0], [1, 0.5], [0, 2]]",
+       "w.toml:3:10: polygon.points: got a shape that is not convex, expected corners that all turn the same "
+       "way; build other shapes of several polygons"},
+      {"[[lamp]]\nintensity = 1",
+       "w.toml:2:1: lamp.position: missing, expected three numbers [x, y, z] from -1000 to 1000 m"},
+      {"[[lamp]]\nposition = [0, 0, 1]\nattenuation = [0, 0, 0]",
+       "w.toml:4:15: lamp.attenuation: got [0, 0, 0], expected at least one number above 0"},
+      {"[proximity]\nprofile = \"webots\"",
+       "w.toml:3:11: proximity.profile: got \"webots\", expected one of inverse-square, webots-old, "
+       "webots-new, enki, argos"},
       {"[proximity]\nrays = 0", "w.toml:3:8: proximity.rays: got 0, expected whole number from 1 to 100"},
       {"[proximity]\ntable = [[0, 1, 0]]", "w.toml:3:9: proximity.table: got 1 row(s), expected at least 2"},
-      {"[proximity]\ntable = [[0.1, 1, 0], [0, 1, 0]]", "w.toml:3:9: proximity.table: got distance 0 after 0.1, expected growing distances in m"},
-      {"[proximity]\ntable = [[0, 1], [1, 0]]", "w.toml:3:9: proximity.table: got [[0, 1], [1, 0]], expected list of rows [[distance, value, noise], ...] from 0 to 1000000 m, counts, fraction"},
-      {"[proximity]\nnoise_law = \"normal\"", "w.toml:3:13: proximity.noise_law: got \"normal\", expected one of uniform, gaussian"},
+      {"[proximity]\ntable = [[0.1, 1, 0], [0, 1, 0]]",
+       "w.toml:3:9: proximity.table: got distance 0 after 0.1, expected growing distances in m"},
+      {"[proximity]\ntable = [[0, 1], [1, 0]]",
+       "w.toml:3:9: proximity.table: got [[0, 1], [1, 0]], expected list of rows [[distance, value, noise], "
+       "...] from 0 to 1000000 m, counts, fraction"},
+      {"[proximity]\nnoise_law = \"normal\"",
+       "w.toml:3:13: proximity.noise_law: got \"normal\", expected one of uniform, gaussian"},
       {"[[robot]]\nselector = 16", "w.toml:3:12: robot.selector: got 16, expected whole number from 0 to 15"},
-      {"[[robot]]\nmodel = \"khepera\"", "w.toml:3:9: robot.model: got \"khepera\", expected one of the models: puck, one-eyed"},
-      {"[[robot]]\nname = \"a,b\"", "w.toml:3:8: robot.name: got \"a,b\", expected a name without comma, quote, = or line break"},
-      {"[[robot]]\nname = \"a\"\n[[robot]]\nname = \"a\"\nposition = [1, 0]", "w.toml:4:1: robot.name: got \"a\" a second time (first on line 2), expected a name of its own"},
-      {"[[robot]]\nuart1 = \"tcp:70000\"", "w.toml:3:9: robot.uart1: got \"tcp:70000\", expected none, pty, tcp:PORT with a port of 1 to 65535, or file:PATH"},
-      {"[[robot]]\nuart2 = \"usb\"", "w.toml:3:9: robot.uart2: got \"usb\", expected none, pty, tcp:PORT with a port of 1 to 65535, or file:PATH"},
+      {"[[robot]]\nmodel = \"khepera\"",
+       "w.toml:3:9: robot.model: got \"khepera\", expected one of the models: puck, one-eyed"},
+      {"[[robot]]\nname = \"a,b\"",
+       "w.toml:3:8: robot.name: got \"a,b\", expected a name without comma, quote, = or line break"},
+      {"[[robot]]\nname = \"a\"\n[[robot]]\nname = \"a\"\nposition = [1, 0]",
+       "w.toml:4:1: robot.name: got \"a\" a second time (first on line 2), expected a name of its own"},
+      {"[[robot]]\nuart1 = \"tcp:70000\"",
+       "w.toml:3:9: robot.uart1: got \"tcp:70000\", expected none, pty, tcp:PORT with a port of 1 to 65535, "
+       "or file:PATH"},
+      {"[[robot]]\nuart2 = \"usb\"",
+       "w.toml:3:9: robot.uart2: got \"usb\", expected none, pty, tcp:PORT with a port of 1 to 65535, or "
+       "file:PATH"},
       {"[[robot]]\nbattery = 12", "w.toml:3:11: robot.battery: got 12, expected number from 2.5 to 5 V"},
       {"[[robot]]\nx = 1", "w.toml:3:1: unknown key 'x' in robot"},
       {"[[robot]]\n[robot.variation]\nclock = 3", "w.toml:4:1: unknown key 'clock' in robot.variation"},
-      {"[[robot]]\nvariation = { left_wheel = 0 }", "w.toml:3:28: robot.variation.left_wheel: got 0, expected number from 0.5 to 2"},
-      {"[[robot]]\nvariation = { sensor_gain = [1, 1] }", "w.toml:2:1: robot.variation.sensor_gain: got 2 numbers, expected 8, one per sensor"},
-      {"[[robot]]\n[[robot.sensor]]\nrays = 2", "w.toml:3:1: robot.sensor.index: missing, expected whole number from 0 to 63"},
+      {"[[robot]]\nvariation = { left_wheel = 0 }",
+       "w.toml:3:28: robot.variation.left_wheel: got 0, expected number from 0.5 to 2"},
+      {"[[robot]]\nvariation = { sensor_gain = [1, 1] }",
+       "w.toml:2:1: robot.variation.sensor_gain: got 2 numbers, expected 8, one per sensor"},
+      {"[[robot]]\n[[robot.sensor]]\nrays = 2",
+       "w.toml:3:1: robot.sensor.index: missing, expected whole number from 0 to 63"},
       {"[[robot]]\n[[robot.sensor]]\nindex = 8", "w.toml:3:1: robot.sensor.index: got 8, expected 0 to 7"},
-      {"[[robot]]\n[[robot.sensor]]\nindex = 1\n[[robot.sensor]]\nindex = 1", "w.toml:5:1: robot.sensor.index: got 1 a second time, expected each sensor once"},
+      {"[[robot]]\n[[robot.sensor]]\nindex = 1\n[[robot.sensor]]\nindex = 1",
+       "w.toml:5:1: robot.sensor.index: got 1 a second time, expected each sensor once"},
       {"[robot]\nname = \"a\"", "w.toml:2:1: robot: got a table, expected [[robot]] with double brackets"},
-      {"[[box]]\nposition = [0, 0]\n[[robot]]", "w.toml:4:1: robot 'robot0': got position [0, 0] m inside box 0 (line 2), expected free room"},
-      {"[[robot]]\n[[robot]]\nposition = [0.05, 0]", "w.toml:2:1: robot 'robot0': got position [0, 0] m inside robot 'robot1' (line 3), expected free room"},
-      {"[arena]\nsize = [1, 1]\n[[robot]]\nposition = [0.49, 0]", "w.toml:4:1: robot 'robot0': got position [0.49, 0] m inside east arena wall, expected free room"},
-      {"[[box]]\nname = \"a\"\nposition = [0, 0]\n[[box]]\nname = \"b\"\nposition = [0.05, 0]\nmovable = true", "w.toml:5:1: box 'b': got position [0.05, 0] m inside box 'a' (line 2), expected free room"},
+      {"[[box]]\nposition = [0, 0]\n[[robot]]",
+       "w.toml:4:1: robot 'robot0': got position [0, 0] m inside box 0 (line 2), expected free room"},
+      {"[[robot]]\n[[robot]]\nposition = [0.05, 0]",
+       "w.toml:2:1: robot 'robot0': got position [0, 0] m inside robot 'robot1' (line 3), expected free "
+       "room"},
+      {"[arena]\nsize = [1, 1]\n[[robot]]\nposition = [0.49, 0]",
+       "w.toml:4:1: robot 'robot0': got position [0.49, 0] m inside east arena wall, expected free room"},
+      {"[[box]]\nname = \"a\"\nposition = [0, 0]\n[[box]]\nname = \"b\"\nposition = [0.05, 0]\nmovable = "
+       "true",
+       "w.toml:5:1: box 'b': got position [0.05, 0] m inside box 'a' (line 2), expected free room"},
       {"[[wal]]\npoints = []", "w.toml:2:3: unknown key 'wal'; did you mean 'wall'?"},
       {"key = ", "w.toml:2:7: not TOML: "},
+      {"title = \"\u00e9\" # \u00e9\n\u00e9 = 1",
+       "w.toml:3:1: not TOML: got a character beyond ASCII, expected those in quotes or comments only"},
       {"[[#", "w.toml:2:3: not TOML: "},
       {"[world", "w.toml:2:7: not TOML: "},
       {"title = \"a\"\ntitle = \"b\"", "w.toml:3:9: not TOML: "},
@@ -207,13 +275,15 @@ TEST(Loader, every_kind_of_mistake_has_its_sentence) {
     const std::string got = report_of(std::string("twinpuck = 1\n") + c.text + "\n");
     // sentences that go on with a list of keys or the parser's own words are compared up to there
     const std::string expected = c.expected;
-    const bool open = expected.find("unknown key") != std::string::npos || expected.find("not TOML") != std::string::npos;
+    const bool open =
+        expected.find("unknown key") != std::string::npos || expected.find("not TOML") != std::string::npos;
     EXPECT_EQ(open ? got.substr(0, expected.size()) : got, expected) << c.text;
     EXPECT_EQ(got.find('\n'), std::string::npos) << "one mistake, one line: " << got;
     ++count;
   }
   EXPECT_GE(count, 50);
-  EXPECT_NE(report_of("twinpuck = 1\n[[box]]\nposition = [0, 0]\nsiz = 1\n").find(kUnknownBoxKeys), std::string::npos);
+  EXPECT_NE(report_of("twinpuck = 1\n[[box]]\nposition = [0, 0]\nsiz = 1\n").find(kUnknownBoxKeys),
+            std::string::npos);
 }
 
 TEST(Loader, the_version_is_asked_for) {
@@ -223,15 +293,18 @@ TEST(Loader, the_version_is_asked_for) {
 }
 
 TEST(Loader, all_mistakes_are_reported_in_order) {
-  const std::string report = report_of("twinpuck = 1\n[[robot]]\nselector = 99\nbatery = 4\n[world]\ngravity = 0\n");
+  const std::string report =
+      report_of("twinpuck = 1\n[[robot]]\nselector = 99\nbatery = 4\n[world]\ngravity = 0\n");
   EXPECT_EQ(report.substr(0, report.find('(')),
             "w.toml:3:12: robot.selector: got 99, expected whole number from 0 to 15\n"
             "w.toml:4:1: unknown key 'batery' in robot; did you mean 'battery'? ");
-  EXPECT_NE(report.find("\nw.toml:6:11: world.gravity: got 0, expected number from 0.01 to 100 m/s2"), std::string::npos);
+  EXPECT_NE(report.find("\nw.toml:6:11: world.gravity: got 0, expected number from 0.01 to 100 m/s2"),
+            std::string::npos);
 }
 
 TEST(Loader, a_missing_file_and_a_folder_are_said) {
-  EXPECT_EQ(sim::load_world("/nonexistent.toml", {puck()}).report("x"), "x: cannot be read: No such file or directory");
+  EXPECT_EQ(sim::load_world("/nonexistent.toml", {puck()}).report("x"),
+            "x: cannot be read: No such file or directory");
   EXPECT_FALSE(sim::load_world("/tmp", {puck()}).world);
 }
 
@@ -247,13 +320,16 @@ TEST(Loader, ten_thousand_robots_are_the_limit) {
 
 TEST(Loader, bodies_above_one_another_do_not_overlap) {
   world_of("twinpuck = 1\n[[box]]\nposition = [0, 0]\nz = 0.06\n[[robot]]\n");
-  world_of("twinpuck = 1\n[[box]]\nposition = [0, 0]\n[[ball]]\nposition = [0, 0]\nradius = 0.02\nz = 0.1\nmovable = true\n");
+  world_of(
+      "twinpuck = 1\n[[box]]\nposition = [0, 0]\n[[ball]]\nposition = [0, 0]\nradius = 0.02\nz = "
+      "0.1\nmovable = true\n");
 }
 
 TEST(Loader, worlds_of_the_repository_are_good) {
-  for (const char* name : {"worlds/maze", "worlds/arena", "worlds/empty", "worlds/corridor", "worlds/wall", "worlds/u_obstacle",
-                           "worlds/u_obstacle_black", "worlds/lamp", "worlds/push", "worlds/swarm", "bench/worlds/brait_1",
-                           "bench/worlds/brait_5", "bench/worlds/brait_10", "bench/worlds/brait_100", "bench/worlds/brait_1000"}) {
+  for (const char* name : {"worlds/maze", "worlds/arena", "worlds/empty", "worlds/corridor", "worlds/wall",
+                           "worlds/u_obstacle", "worlds/u_obstacle_black", "worlds/lamp", "worlds/push",
+                           "worlds/swarm", "bench/worlds/brait_1", "bench/worlds/brait_5",
+                           "bench/worlds/brait_10", "bench/worlds/brait_100", "bench/worlds/brait_1000"}) {
     const std::string file = std::string(TWINPUCK_SOURCE_DIR "/") + name + ".toml";
     EXPECT_EQ(sim::load_world(file, {puck()}).report(file), "");
   }
@@ -265,12 +341,14 @@ TEST(Loader, defaults_in_the_table_are_the_defaults_of_the_structs) {
     std::string out;
     for (const sim::KeySpec& k : sim::section(path).keys) {
       const std::string fallback = k.fallback;
-      if (!fallback.empty() && fallback != "required" && fallback != "\"robotN\"") out += std::string(k.key) + " = " + fallback + "\n";
+      if (!fallback.empty() && fallback != "required" && fallback != "\"robotN\"")
+        out += std::string(k.key) + " = " + fallback + "\n";
     }
     return out;
   };
-  const std::string with = "twinpuck = 1\ntitle = \"\"\n[world]\n" + spelled("world") + "[floor]\n" + spelled("floor") +
-                           "[[robot]]\n" + spelled("robot") + "[robot.variation]\n" + spelled("robot.variation");
+  const std::string with = "twinpuck = 1\ntitle = \"\"\n[world]\n" + spelled("world") + "[floor]\n" +
+                           spelled("floor") + "[[robot]]\n" + spelled("robot") + "[robot.variation]\n" +
+                           spelled("robot.variation");
   const auto a = world_of(with), b = world_of("twinpuck = 1\n[[robot]]\n");
   EXPECT_EQ(a.physics_hz, b.physics_hz);
   EXPECT_EQ(a.gravity_m_s2, b.gravity_m_s2);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Physics bars: ways on free floor, walls, pushing, friction, heights, falling. Expectations are computed by hand.
+// Physics bars: ways on free floor, walls, pushing, friction, heights, falling. Expectations are computed by
+// hand.
 #include "tests/sim_core/fixture.h"
 
 using namespace sim_test;
@@ -38,7 +39,8 @@ TEST(Motion, turning_on_the_spot_follows_the_axle) {
 
 TEST(Motion, a_circle_closes) {
   for (const char* engine : {"dynamic", "kinematic"}) {
-    auto s = cruising(world_of("twinpuck = 1\n[world]\nengine = \"" + std::string(engine) + "\"\n[[robot]]\n"), 2, 4);
+    auto s = cruising(
+        world_of("twinpuck = 1\n[world]\nengine = \"" + std::string(engine) + "\"\n[[robot]]\n"), 2, 4);
     // spin = (4 - 2) * 0.0205 / 0.053 = 0.7736 rad/s: once round in 8.122 s; radius 0.0795 m
     run_for(*s, 2 * sim::kPi / (2 * 0.0205 / 0.053));
     EXPECT_NEAR(s->pose(0).x_m, 0, 0.001) << engine;
@@ -50,8 +52,9 @@ TEST(Motion, a_circle_closes) {
 TEST(Motion, pushed_against_a_wall_the_robot_stays) {
   for (const char* engine : {"dynamic", "kinematic"}) {
     for (int hz : {96, 512}) {
-      auto s = cruising(world_of("twinpuck = 1\n[world]\nengine = \"" + std::string(engine) + "\"\nphysics_hz = " +
-                                 std::to_string(hz) + "\n[[box]]\nposition = [0.15, 0]\nsize = [0.1, 0.4, 0.1]\n[[robot]]\n"),
+      auto s = cruising(world_of("twinpuck = 1\n[world]\nengine = \"" + std::string(engine) +
+                                 "\"\nphysics_hz = " + std::to_string(hz) +
+                                 "\n[[box]]\nposition = [0.15, 0]\nsize = [0.1, 0.4, 0.1]\n[[robot]]\n"),
                         kHalfTurn, kHalfTurn);
       run_for(*s, 5);
       // wall at 0.10, radius 0.037: the middle stops at 0.063, with a gap of at most 0.2 mm
@@ -66,13 +69,16 @@ TEST(Motion, pushed_against_a_wall_the_robot_stays) {
 
 TEST(Motion, a_light_box_is_pushed_and_a_heavy_one_is_not) {
   const auto run = [](const char* mass) {
-    auto s = cruising(world_of(std::string("twinpuck = 1\n[[box]]\nposition = [0.1, 0]\nsize = [0.06, 0.06, 0.05]\n"
-                                           "movable = true\nfriction = 0.5\nmass = ") + mass + "\n[[robot]]\n"),
-                      kHalfTurn, kHalfTurn);
+    auto s = cruising(
+        world_of(std::string("twinpuck = 1\n[[box]]\nposition = [0.1, 0]\nsize = [0.06, 0.06, 0.05]\n"
+                             "movable = true\nfriction = 0.5\nmass = ") +
+                 mass + "\n[[robot]]\n"),
+        kHalfTurn, kHalfTurn);
     run_for(*s, 5);
     return s->pose(1).x_m;
   };
-  // traction 1.0 * 0.15 kg; box friction 0.5 * m: moves below 0.3 kg. Robot front arrives at 0.07 after 0.033 m.
+  // traction 1.0 * 0.15 kg; box friction 0.5 * m: moves below 0.3 kg. Robot front arrives at 0.07 after 0.033
+  // m.
   EXPECT_NEAR(run("0.1"), 0.1 + 5 * kHalfTurn * 0.0205 - 0.033, 0.003);
   EXPECT_NEAR(run("0.6"), 0.1, 0.001);
 }
@@ -80,8 +86,10 @@ TEST(Motion, a_light_box_is_pushed_and_a_heavy_one_is_not) {
 TEST(Motion, a_braked_robot_resists_the_push_of_another) {
   sim::RobotModel model = puck();
   model.max_push_n = 1.0;  // less than its tyres hold: 1.0 * 0.15 kg * 9.81 m/s2 = 1.47 N
-  const auto world = world_of("twinpuck = 1\n[[robot]]\n[[robot]]\nposition = [0.1, 0]\nheading = 90\n", {model});
-  auto s = simulation_of(world, [](int r) { return std::make_unique<Cruise>(r ? 0 : kHalfTurn, r ? 0 : kHalfTurn); });
+  const auto world =
+      world_of("twinpuck = 1\n[[robot]]\n[[robot]]\nposition = [0.1, 0]\nheading = 90\n", {model});
+  auto s = simulation_of(
+      world, [](int r) { return std::make_unique<Cruise>(r ? 0 : kHalfTurn, r ? 0 : kHalfTurn); });
   run_for(*s, 5);
   // where free pushing would have moved it by 0.3 m
   EXPECT_LT(s->pose(1).x_m, 0.101);
@@ -122,7 +130,8 @@ height = 0.05
 }
 
 TEST(Motion, a_dropped_ball_falls_and_rests) {
-  const auto world = world_of("twinpuck = 1\n[[ball]]\nposition = [0, 0]\nradius = 0.02\nz = 0.5\nmovable = true\n");
+  const auto world =
+      world_of("twinpuck = 1\n[[ball]]\nposition = [0, 0]\nradius = 0.02\nz = 0.5\nmovable = true\n");
   auto s = cruising(world, 0, 0);
   // after 0.25 s: 0.5 - 9.81 * 0.25^2 / 2 = 0.19344 m
   run_for(*s, 0.25);
@@ -185,8 +194,9 @@ TEST(Motion, a_teleported_robot_starts_at_rest_from_there) {
 }
 
 TEST(Motion, far_from_the_origin_the_way_is_as_exact) {
-  const auto world = world_of("twinpuck = 1\n[[robot]]\nposition = [500, 500]\n"
-                              "[[box]]\nposition = [500.02, 500.0385]\nsize = [1, 0.001, 0.05]\n");
+  const auto world = world_of(
+      "twinpuck = 1\n[[robot]]\nposition = [500, 500]\n"
+      "[[box]]\nposition = [500.02, 500.0385]\nsize = [1, 0.001, 0.05]\n");
   auto s = cruising(world, 0.05, 0.05);  // 1 mm/s along a wall that is never touched but always near
   run_for(*s, 10);
   EXPECT_NEAR(s->pose(0).x_m - 500, 0.01025, 0.00006);

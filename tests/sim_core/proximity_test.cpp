@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tables, ray placement, weights, colour rule, pose history. Source of the numbers: epuck-robot.md A3, B1, B2.
+// Tables, ray placement, weights, colour rule, pose history. Source of the numbers: epuck-robot.md A3, B1,
+// B2.
 #include "sim_core/light/profiles.h"
 #include "sim_core/light/response_curve.h"
 #include "tests/sim_core/fixture.h"
@@ -102,46 +103,56 @@ TEST(Proximity, white_wall_straight_ahead_reads_the_table) {
 
 TEST(Proximity, black_and_blue_walls_look_five_times_as_far) {
   for (const char* colour : {"[0, 0, 0]", "[0, 0, 1]"}) {
-    auto s = cruising(world_of(wall_world(0.01, "profile = \"webots-old\"", std::string("colour = ") + colour)), 0, 0);
+    auto s = cruising(
+        world_of(wall_world(0.01, "profile = \"webots-old\"", std::string("colour = ") + colour)), 0, 0);
     const auto r = sim::sense_proximity(s->scene(), 0, 0, 0);
     EXPECT_NEAR(r.apparent_distance_m, 0.05, 1e-6);
     EXPECT_NEAR(r.value, 90, 0.01);
   }
   // generic sensors see no colour
-  auto s = cruising(world_of(wall_world(0.01, "profile = \"webots-old\"\ntype = \"generic\"", "colour = [0, 0, 0]")), 0, 0);
+  auto s = cruising(
+      world_of(wall_world(0.01, "profile = \"webots-old\"\ntype = \"generic\"", "colour = [0, 0, 0]")), 0, 0);
   EXPECT_NEAR(sim::sense_proximity(s->scene(), 0, 0, 0).value, 2211, 0.01);
 }
 
 TEST(Proximity, the_newer_rule_counts_roughness) {
   const std::string rough = "[[material]]\nname = \"matt\"\nroughness = 1\n";
-  auto s = cruising(world_of("twinpuck = 1\n" + rough + "[proximity]\nprofile = \"webots-old\"\ncolour_rule = \"new\"\n"
+  auto s = cruising(world_of("twinpuck = 1\n" + rough +
+                             "[proximity]\nprofile = \"webots-old\"\ncolour_rule = \"new\"\n"
                              "[[box]]\nposition = [0.107, 0]\nmaterial = \"matt\"\nsize = [0.1, 0.6, 0.1]\n"
-                             "[[robot]]\nmodel = \"one-eyed\"\n"), 0, 0);
+                             "[[robot]]\nmodel = \"one-eyed\"\n"),
+                    0, 0);
   // f = .2 + .8 * .5 = .6; 20 mm look like 33.3 mm
   EXPECT_NEAR(sim::sense_proximity(s->scene(), 0, 0, 0).apparent_distance_m, 0.02 / 0.6, 1e-6);
 }
 
 TEST(Proximity, nothing_ahead_reads_the_last_row) {
-  auto s = cruising(world_of("twinpuck = 1\n[proximity]\nprofile = \"webots-old\"\n[[robot]]\nmodel = \"one-eyed\"\n"), 0, 0);
+  auto s = cruising(
+      world_of("twinpuck = 1\n[proximity]\nprofile = \"webots-old\"\n[[robot]]\nmodel = \"one-eyed\"\n"), 0,
+      0);
   EXPECT_EQ(sim::sense_proximity(s->scene(), 0, 0, 0).value, 34);
 }
 
 TEST(Proximity, cone_rays_that_miss_count_as_the_whole_range) {
   // four rays of 0.3 rad, wall at 60 mm: centre 0.060, cones 0.060 / cos 0.15 = 0.06068
-  auto s = cruising(world_of(wall_world(0.06, "profile = \"webots-old\"\nrays = 4\naperture_rad = 0.3")), 0, 0);
+  auto s =
+      cruising(world_of(wall_world(0.06, "profile = \"webots-old\"\nrays = 4\naperture_rad = 0.3")), 0, 0);
   const double d = 0.29970 * 0.06 + 0.70030 * 0.06 / std::cos(0.15);
   EXPECT_NEAR(sim::sense_proximity(s->scene(), 0, 0, 0).apparent_distance_m, d, 1e-6);
 }
 
 TEST(Proximity, a_wall_lower_than_the_sensor_is_not_seen) {
   auto low = cruising(world_of("twinpuck = 1\n[[box]]\nposition = [0.1, 0]\nsize = [0.1, 0.6, 0.02]\n"
-                               "[[robot]]\nmodel = \"one-eyed\"\n"), 0, 0);
+                               "[[robot]]\nmodel = \"one-eyed\"\n"),
+                      0, 0);
   EXPECT_NEAR(sim::sense_proximity(low->scene(), 0, 0, 0).apparent_distance_m, 0.1, 1e-9);
 }
 
 TEST(Proximity, other_robots_are_seen_and_the_own_body_is_not) {
-  auto s = cruising(world_of("twinpuck = 1\n[proximity]\ncolour_rule = \"none\"\n[[robot]]\nmodel = \"one-eyed\"\n"
-                             "[[robot]]\nposition = [0.104, 0]\n"), 0, 0);
+  auto s =
+      cruising(world_of("twinpuck = 1\n[proximity]\ncolour_rule = \"none\"\n[[robot]]\nmodel = \"one-eyed\"\n"
+                        "[[robot]]\nposition = [0.104, 0]\n"),
+               0, 0);
   // 0.104 - 0.037 - 0.037 = 0.030
   EXPECT_NEAR(sim::sense_proximity(s->scene(), 0, 0, 0).apparent_distance_m, 0.030, 1e-9);
 }
@@ -177,7 +188,8 @@ position = [1, 0]
 }
 
 TEST(Scene, poses_are_interpolated_between_ticks_and_carried_on_after_the_last) {
-  auto s = cruising(world_of("twinpuck = 1\n[world]\nengine = \"kinematic\"\nphysics_hz = 128\n[[robot]]\n"), 2, 2);
+  auto s = cruising(world_of("twinpuck = 1\n[world]\nengine = \"kinematic\"\nphysics_hz = 128\n[[robot]]\n"),
+                    2, 2);
   run_for(*s, 1);
   const double v = 2 * 0.0205;
   for (double back_s : {0.0, 0.001, 0.0078125, 0.02, 0.0399}) {
@@ -192,8 +204,10 @@ TEST(Scene, poses_are_interpolated_between_ticks_and_carried_on_after_the_last) 
 }
 
 TEST(Scene, long_rays_meet_the_nearest_thing) {
-  auto s = cruising(world_of("twinpuck = 1\n[arena]\nsize = [8, 8]\n[[cylinder]]\nposition = [2, 0]\nradius = 0.1\n"
-                             "[[robot]]\n[[robot]]\nposition = [3, 0]\n"), 0, 0);
+  auto s = cruising(
+      world_of("twinpuck = 1\n[arena]\nsize = [8, 8]\n[[cylinder]]\nposition = [2, 0]\nradius = 0.1\n"
+               "[[robot]]\n[[robot]]\nposition = [3, 0]\n"),
+      0, 0);
   sim::SceneHit hit;
   ASSERT_TRUE(s->scene().cast({{0, 0, 0.02}, {1, 0, 0}}, 100, 0, 0, &hit));
   EXPECT_NEAR(hit.distance_m, 1.9, 1e-9);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Recordings and pictures: their form, that they agree with the simulation, and what happens when a disk is full.
+// Recordings and pictures: their form, that they agree with the simulation, and what happens when a disk is
+// full.
 #include <sys/stat.h>
 
 #include <fstream>
@@ -27,7 +28,8 @@ std::vector<std::string> lines_of(const std::string& path) {
 
 TEST(CsvRecorder, rows_have_the_documented_form) {
   const std::string path = scratch("run.csv");
-  auto s = cruising(world_of("twinpuck = 1\n[[robot]]\nname = \"a\"\n[[robot]]\nname = \"b\"\nposition = [1, 0]\n"), 1, 1);
+  auto s = cruising(
+      world_of("twinpuck = 1\n[[robot]]\nname = \"a\"\n[[robot]]\nname = \"b\"\nposition = [1, 0]\n"), 1, 1);
   {
     sim::CsvRecorder csv(path);
     csv.sample(s->scene(), s->minds());
@@ -39,7 +41,8 @@ TEST(CsvRecorder, rows_have_the_documented_form) {
   }
   const auto lines = lines_of(path);
   ASSERT_EQ(lines.size(), 1 + 2 * 11u);  // t = 0, 0.01 ... 0.1
-  EXPECT_EQ(lines[0], "time_s,robot,x_m,y_m,heading_rad,left_steps,right_steps,ir0,ir1,ir2,ir3,ir4,ir5,ir6,ir7,leds");
+  EXPECT_EQ(lines[0],
+            "time_s,robot,x_m,y_m,heading_rad,left_steps,right_steps,ir0,ir1,ir2,ir3,ir4,ir5,ir6,ir7,leds");
   EXPECT_EQ(lines[1], "0.000000,a,0.000000,0.000000,0.000000,0,0,0,0,0,0,0,0,0,0,000");
   EXPECT_EQ(lines[2], "0.000000,b,1.000000,0.000000,0.000000,0,0,0,0,0,0,0,0,0,0,000");
   for (const auto& line : lines) EXPECT_EQ(std::count(line.begin(), line.end(), ','), 15);
@@ -63,9 +66,10 @@ TEST(CsvRecorder, a_full_disk_and_a_missing_folder_are_said_once) {
 }
 
 TEST(Picture, is_written_for_every_world) {
-  for (const char* name : {"maze", "arena", "empty", "corridor", "wall", "u_obstacle", "u_obstacle_black", "lamp", "push",
-                           "swarm"}) {
-    const auto loaded = sim::load_world(std::string(TWINPUCK_SOURCE_DIR "/worlds/") + name + ".toml", {puck()});
+  for (const char* name : {"maze", "arena", "empty", "corridor", "wall", "u_obstacle", "u_obstacle_black",
+                           "lamp", "push", "swarm"}) {
+    const auto loaded =
+        sim::load_world(std::string(TWINPUCK_SOURCE_DIR "/worlds/") + name + ".toml", {puck()});
     ASSERT_TRUE(loaded.world) << loaded.report(name);
     auto s = simulation_of(*loaded.world, [](int r) { return std::make_unique<Braitenberg>(r); });
     sim::Trajectories ways(s->robots());
@@ -104,7 +108,9 @@ TEST(Picture, bad_names_are_said) {
   auto s = cruising(world_of("twinpuck = 1\n"), 0, 0);
   EXPECT_EQ(sim::write_picture("a.gif", s->scene(), s->minds(), nullptr),
             "a.gif: picture: got this extension, expected .png or .svg");
-  EXPECT_EQ(sim::write_picture("/nonexistent/a.png", s->scene(), s->minds(), nullptr).rfind("/nonexistent/a.png: cannot be written: ", 0), 0u);
+  EXPECT_EQ(sim::write_picture("/nonexistent/a.png", s->scene(), s->minds(), nullptr)
+                .rfind("/nonexistent/a.png: cannot be written: ", 0),
+            0u);
 }
 
 }  // namespace

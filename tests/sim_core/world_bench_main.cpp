@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Microseconds per robot and tick of the world alone, driven by fake minds, on bench/worlds. Not a test.
 // usage: world_bench [WORLD.toml...]
-#include <ctime>
 #include <cstdio>
+#include <ctime>
 
 #include "tests/sim_core/fixture.h"
 
@@ -28,7 +28,8 @@ int main(int argc, char** argv) {
       double cpu_s = 0;
       long ticks = 0;
       while (cpu_s < 0.25) {
-        auto simulation = simulation_of(*loaded.world, [](int r) { return std::make_unique<Braitenberg>(r); });
+        auto simulation =
+            simulation_of(*loaded.world, [](int r) { return std::make_unique<Braitenberg>(r); });
         run_for(*simulation, 1);
         const std::clock_t begin = std::clock();
         run_for(*simulation, robots >= 1000 ? 5 : 20);
@@ -38,8 +39,9 @@ int main(int argc, char** argv) {
       }
       best_us = std::min(best_us, 1e6 * cpu_s / static_cast<double>(ticks) / robots);
     }
-    std::printf("%-50s %5d robots  %7.4f us per robot and tick  %9.0f robot-s/s  digest %016llx\n", file.c_str(), robots,
-                best_us, 1e6 / best_us / loaded.world->physics_hz, static_cast<unsigned long long>(digest));
+    std::printf("%-50s %5d robots  %7.4f us per robot and tick  %9.0f robot-s/s  digest %016llx\n",
+                file.c_str(), robots, best_us, 1e6 / best_us / loaded.world->physics_hz,
+                static_cast<unsigned long long>(digest));
   }
   return 0;
 }

@@ -67,6 +67,12 @@ double Robot::cpu_load() const {
   const auto* r = mind().robot();
   return r->cycles() > 0 ? 1.0 - static_cast<double>(r->idle_cycles()) / static_cast<double>(r->cycles()) : 0.0;
 }
+cc::FunctionCycles Robot::cost_of(const std::string& function) const {
+  for (const auto& f : cc::function_costs(test_->twin().image_path(index_)))
+    if (f.name == function) return f;
+  ADD_FAILURE() << "no function '" << function << "' in the firmware";
+  return {};
+}
 std::int64_t Robot::cycles() const { return mind().now(); }
 void Robot::turn_selector(int position) {
   mind().board().turn_selector(position);

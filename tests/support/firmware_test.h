@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "hal_sim/board/uart_end.h"
+#include "hal_sim/cc/build.h"
 #include "hal_sim/twin/twin.h"
 
 namespace firmware_test {
@@ -65,6 +66,19 @@ class Robot {
     std::memcpy(&value, bytes.data(), std::min(bytes.size(), sizeof value));
     return value;
   }
+
+  /// The first `count` elements of an array of the firmware.
+  template <typename T = std::int16_t>
+  std::vector<T> variables(const std::string& name, std::size_t count) const {
+    std::vector<T> values(count);
+    const auto bytes = mind().robot()->read_variable(name, count * sizeof(T));
+    EXPECT_EQ(bytes.size(), count * sizeof(T)) << "no array '" << name << "' of that size in the firmware";
+    std::memcpy(values.data(), bytes.data(), std::min(bytes.size(), count * sizeof(T)));
+    return values;
+  }
+
+  /// Estimated cycles of a function of the firmware, callees included; -1 fields: no bound known (docs/cycles.md).
+  cc::FunctionCycles cost_of(const std::string& function) const;
 
   const std::vector<host::TrapReport>& traps() const { return mind().robot()->traps(); }
 

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+// The build driver: incremental builds, overriding, errors in the project's grammar, lint, costs.
+#include <gtest/gtest.h>
+
+#include "fake_host.h"
+
+using namespace fake;
+
+TEST(build, second_build_takes_everything_from_the_cache) {
+  Folder folder;
+  auto change = [&](cc::BuildOptions& o) { o.cache_dir = folder.path / "cache"; };
+  auto first = build(folder, "int main(void) { return 1; }", "-O1", change);
+  ASSERT_TRUE(first.ok) << text_of(first);
+  EXPECT_GT(first.compiled, 5);
+  auto second = build(folder, "int main(void) { return 1; }", "-O1", change);
+  EXPECT_EQ(second.compiled, 0);
+  EXPECT_LT(second.seconds, 1.0);
+  auto third = build(folder, "int main(void) { return 2; }", "-O1", change);
+  EXPECT_EQ(third.compiled, 1);
+  EXPECT_LT(third.seconds, 1.5);
+}
+
+TEST(build, a_changed_header_recompiles_who_includes_it) {
+  Folder folder;
+  folder.file("prog/speed.h", "#define SPEED 3\n");
+  folder.file("prog/other.c", "int other(void) { return 1; }");
+  const char* text = "#include <stdio.h>\n#include \"speed.h\"\nint main(void) { printf(\"%d\", SPEED); return 0; }";
+  ASSERT_TRUE(build(folder, text).ok);
+  folder.file("prog/speed.h", "#define SPEED 4\n");
+  auto again = build(folder, text);
+  EXPECT_EQ(again.compiled, 1);
+  Image image(folder.path / "prog.so");
+  EXPECT_EQ(image.run().console, "4");
+}
+
+TEST(build, the_programs_own_function_replaces_the_librarys) {
+  auto run = run_c("#include <stdio.h>\nint abs(int v) { return v + 1000; } int puts(const char *s) { printf(\"mine\"); return 0; }\nint main(void) { puts(\"x\"); return 0; }");
+  EXPECT_EQ(run.console, "mine");
+}
+
+TEST(build, missing_functions_are_named_with_file_and_caller) {
+  Folder folder;
+  auto built = build(folder, "int main(void) {\n  e_fly_to_the_moon(3);\n  return 0; }");
+  EXPECT_FALSE(built.ok);
+  EXPECT_NE(text_of(built).find("main.c:2"), std::string::npos) << text_of(built);
+  EXPECT_NE(text_of(built).find("e_fly_to_the_moon"), std::string::npos) << text_of(built);
+  EXPECT_NE(text_of(built).find("main()"), std::string::npos) << text_of(built);
+  EXPECT_FALSE(std::filesystem::exists(folder.path / "prog.so"));
+}
+
+TEST(build, several_mains_and_none_are_said_clearly) {
+  Folder folder;
+  folder.file("prog/second.c", "int main(void) { return 2; }");
+  auto two = build(folder, "int main(void) { return 1; }");
+  EXPECT_FALSE(two.ok);
+  EXPECT_NE(text_of(two).find("got 2 definitions (main.c, second.c), expected 1"), std::string::npos) << text_of(two);
+  Folder other;
+  auto none = build(other, "int start(void) { return 1; }");
+  EXPECT_NE(text_of(none).find("main(): got no definition"), std::string::npos) << text_of(none);
+  cc::BuildOptions nowhere;
+  nowhere.source_dir = other.path / "absent";
+  nowhere.output = other.path / "x.so";
+  EXPECT_NE(text_of(cc::build_image(nowhere)).find("got no such folder"), std::string::npos);
+}
+
+TEST(build, sixteen_bit_warnings_are_passed_on) {
+  Folder folder;
+  auto built = build(folder, "#include <stdio.h>\nint a = 70000;\nint f(int i) { return i << 16; }\nint main(void) { int i; for (i = 0; i < 100000; i++) printf(\"%ld\", i); return 0; }");
+  ASSERT_TRUE(built.ok);
+  std::string text = text_of(built);
+  EXPECT_NE(text.find("main.c:2"), std::string::npos) << text;
+  EXPECT_NE(text.find("70000"), std::string::npos) << text;
+  EXPECT_NE(text.find("shift count"), std::string::npos) << text;
+  EXPECT_NE(text.find("100000"), std::string::npos) << text;
+  EXPECT_NE(text.find("format specifies type 'long'"), std::string::npos) << text;
+}
+
+TEST(build, syntax_errors_name_file_and_line) {
+  Folder folder;
+  auto built = build(folder, "int main(void) {\n  int x = ;\n}");
+  EXPECT_FALSE(built.ok);
+  ASSERT_EQ(built.errors.size(), 1u) << text_of(built);
+  EXPECT_NE(built.errors[0].find("main.c:2"), std::string::npos) << built.errors[0];
+}
+
+TEST(build, too_much_data_is_warned_of) {
+  Folder folder;
+  auto built = build(folder, "char picture[9000]; int main(void) { return picture[3]; }");
+  EXPECT_TRUE(built.ok);
+  EXPECT_NE(text_of(built).find("expected at most 8192 (bytes)"), std::string::npos) << text_of(built);
+}
+
+TEST(lint, finds_plain_flags_and_timer_conflicts) {
+  Folder folder;
+  folder.file("prog/main.c", "int flag; void _T5Interrupt(void) { flag = 1; }\n#include \"motor_led/e_motors.h\"\nint main(void) {\n  while (!flag);\n  return 0; }");
+  folder.file("prog/motor_led/e_motors.h", "void e_init_motors(void);\n");
+  cc::BuildOptions options;
+  options.source_dir = folder.path / "prog";
+  auto result = cc::lint_folder(options);
+  EXPECT_FALSE(result.ok);
+  EXPECT_NE(text_of(result).find("flag: polled in a loop"), std::string::npos) << text_of(result);
+  EXPECT_NE(text_of(result).find("Timer 5: got two owners"), std::string::npos) << text_of(result);
+}
+
+TEST(costs, callees_are_included_and_loops_bounded_when_known) {
+  Folder folder;
+  auto built = build(folder, "volatile int n, s; __attribute__((noinline)) int leaf(int a) { return a + 1; }\n"
+                             "__attribute__((noinline)) int ten(void) { int i; for (i = 0; i < 10; i++) s = leaf(i); return s; }\n"
+                             "__attribute__((noinline)) void unknown(void) { int i; for (i = 0; i < n; i++) s += i; }\n"
+                             "void _T1Interrupt(void) { s++; }\nint main(void) { ten(); unknown(); return 0; }");
+  ASSERT_TRUE(built.ok) << text_of(built);
+  double leaf = 0, ten = 0;
+  for (const auto& f : cc::function_costs(folder.path / "prog.so")) {
+    if (f.name == "leaf") {
+      leaf = f.mean;
+      EXPECT_EQ(f.min, f.max);
+    }
+    if (f.name == "ten") ten = f.max;
+    if (f.name == "unknown") {
+      EXPECT_EQ(f.max, -1);
+    }
+    if (f.name == "_T1Interrupt") {
+      EXPECT_TRUE(f.is_interrupt);
+      EXPECT_GT(f.cpu_load(0.001), 0.001);
+      EXPECT_LT(f.cpu_load(0.001), 0.01);
+    }
+  }
+  EXPECT_GE(leaf, 4);
+  EXPECT_LE(leaf, 6);
+  EXPECT_GE(ten, 10 * (leaf + 2));
+  EXPECT_LE(ten, 10 * (leaf + 12) + 20);
+}

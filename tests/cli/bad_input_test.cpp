@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+// Bad input, one kind a test: a clear line, the documented exit code, nothing lost. (World files have many more of
+// their own in tests/sim_core/loader_test.cpp.)
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include "tests/cli/command.h"
+
+using namespace cli_test;
+
+namespace {
+
+struct Bad {
+  const char* name;
+  const char* arguments;  // @ stands for the test's folder
+  int exit_code;
+  const char* says;
+};
+
+class BadInput : public CommandTest, public ::testing::WithParamInterface<Bad> {};
+
+TEST_P(BadInput, is_refused_with_a_clear_line) {
+  const Bad& bad = GetParam();
+  write("text.so", "I am no ELF\n");
+  write("empty.so", "");
+  write("chip.hex", ":020000040000FA\n");
+  write("syntax/main.c", "int main(void) { retrun 0; }\n");
+  write("undefined/main.c", "int main(void) { no_such_function(); while (1); }\n");
+  write("sleepy/main.c", "#include <unistd.h>\nint main(void) { sleep(1); while (1); }\n");
+  write("clock/main.c", "#include <time.h>\nint main(void) { return (int)time(0); }\n");
+  write("threads/main.c", "#include <pthread.h>\nint main(void) { while (1); }\n");
+  write("files/main.c", "#include <stdio.h>\nint main(void) { fopen(\"x\", \"r\"); while (1); }\n");
+  write("two_mains/a.c", "int main(void) { while (1); }\n");
+  write("two_mains/b.c", "int main(void) { while (1); }\n");
+  write("no_main/a.c", "int x;\n");
+  write("assembler/main.c", "int main(void) { asm(\"mov w0, w1\"); while (1); }\n");
+  write("no_header/main.c", "#include \"nowhere.h\"\nint main(void) { while (1); }\n");
+  write("nothing_here/readme.txt", "no C\n");
+  write("broken.toml", "this is = = not toml\n");
+  write("typo.toml", "twinpuck = 1\n[aren]\nsize_m = [1, 1]\n");
+  write("no_version.toml", "title = \"x\"\n");
+  write("unknown_firmware.toml", "twinpuck = 1\n[arena]\nsize_m = [1, 1]\n[[robot]]\nname = \"r\"\nfirmware = \"obstakle\"\n");
+  std::string arguments = bad.arguments;
+  for (std::size_t at; (at = arguments.find('@')) != std::string::npos;) arguments.replace(at, 1, folder.string());
+  const Said s = twinpuck(arguments);
+  EXPECT_EQ(s.exit_code, bad.exit_code) << s.text;
+  EXPECT_NE(s.text.find(bad.says), std::string::npos) << s.text;
+  EXPECT_EQ(s.text.find("terminate called"), std::string::npos) << s.text;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Kind, BadInput,
+    ::testing::Values(
+        Bad{"no_verb", "", 2, "subcommand"}, Bad{"unknown_verb", "rnu maze", 2, "did you mean 'run'"},
+        Bad{"unknown_option", "run maze --sede 3", 2, "did you mean '--seed'"}, Bad{"no_world", "run", 2, "WORLD"},
+        Bad{"missing_world", "run nowhere.toml", 2, "nowhere.toml"}, Bad{"world_is_a_folder", "run worlds", 2, "worlds"},
+        Bad{"broken_world", "run @/broken.toml", 2, "broken.toml:1:"}, Bad{"unknown_key", "run @/typo.toml", 2, "did you mean"},
+        Bad{"no_version", "check @/no_version.toml", 2, "twinpuck"},
+        Bad{"unknown_firmware_in_world", "run @/unknown_firmware.toml", 2, "did you mean 'obstacle'"},
+        Bad{"missing_firmware", "run maze --fw puck=@/nothing.so", 2, "nothing.so"},
+        Bad{"firmware_is_text", "run maze --fw puck=@/text.so", 2, "no ELF"}, Bad{"firmware_is_empty", "run maze --fw puck=@/empty.so", 2, "empty file"},
+        Bad{"firmware_is_hex", "run maze --fw puck=@/chip.hex", 2, "Intel hex"},
+        Bad{"firmware_of_the_pc", "run maze --fw puck=/lib/x86_64-linux-gnu/libm.so.6", 2, "without a firmware"},
+        Bad{"firmware_for_nobody", "run maze --fw punk=blink", 2, "did you mean 'puck'"}, Bad{"firmware_without_robot", "run maze --fw blink", 2, "ROBOT=VALUE"},
+        Bad{"syntax_error", "run maze --fw puck=@/syntax", 2, "main.c:1"}, Bad{"undefined_function", "run maze --fw puck=@/undefined", 2, "no_such_function"},
+        Bad{"sleep", "run maze --fw puck=@/sleepy", 2, "unistd.h"}, Bad{"time", "run maze --fw puck=@/clock", 2, "time"},
+        Bad{"threads", "run maze --fw puck=@/threads", 2, "pthread.h"}, Bad{"files", "run maze --fw puck=@/files", 2, "fopen"},
+        Bad{"two_mains", "build @/two_mains -o @/x.so", 1, "main"}, Bad{"no_main", "build @/no_main -o @/x.so", 1, "main"},
+        Bad{"assembler", "build @/assembler -o @/x.so", 1, "mov w0, w1"}, Bad{"missing_header", "build @/no_header -o @/x.so", 1, "nowhere.h"},
+        Bad{"folder_without_c", "build @/nothing_here -o @/x.so", 1, "nothing_here"}, Bad{"build_of_nothing", "build @/nowhere -o @/x.so", 2, "does not exist"},
+        Bad{"lint_of_nothing", "lint @/nowhere", 2, "does not exist"}, Bad{"cycles_of_text", "cycles @/text.so", 2, "cost table"},
+        Bad{"negative_time", "run maze --for -1", 2, "--for"}, Bad{"time_is_a_word", "run maze --for long", 2, "--for"},
+        Bad{"bad_speed", "run maze --speed quick", 2, "expected max or a factor"}, Bad{"zero_threads", "run maze --threads 0", 2, "--threads"},
+        Bad{"negative_seed", "run maze --seed -4", 2, "--seed"}, Bad{"bad_uart", "run maze --uart puck=telnet", 2, "telnet"},
+        Bad{"bad_port", "run maze --uart puck=tcp:99999", 2, "99999"}, Bad{"uart_file_nowhere", "run maze --uart puck=file:/nowhere/x", 2, "/nowhere/x"},
+        Bad{"picture_of_unknown_kind", "run maze --picture @/x.gif", 2, "expected .png or .svg"},
+        Bad{"record_nowhere", "run maze --record /nowhere/r.csv", 2, "/nowhere/r.csv"},
+        Bad{"summary_nowhere", "run maze --summary /nowhere/s.json", 2, "/nowhere/s.json"},
+        Bad{"record_too_often", "run maze --record @/r.csv --record-every 0", 2, "--record-every"},
+        Bad{"bad_name", "new 'My Robot'", 2, "lower-case"}, Bad{"name_taken", "new obstacle", 2, "exists"}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+class BadLuck : public CommandTest {};
+
+TEST_F(BadLuck, a_port_in_use_is_named) {
+  const int fd = socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  ASSERT_EQ(bind(fd, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+  ASSERT_EQ(listen(fd, 1), 0);
+  socklen_t size = sizeof address;
+  getsockname(fd, reinterpret_cast<sockaddr*>(&address), &size);
+  const std::string port = std::to_string(ntohs(address.sin_port));
+  const Said s = twinpuck("run maze --uart puck=tcp:" + port + " --for 1");
+  close(fd);
+  EXPECT_EQ(s.exit_code, 2);
+  EXPECT_NE(s.text.find(port), std::string::npos) << s.text;
+}
+
+TEST_F(BadLuck, a_full_disk_ends_the_run_with_7_and_says_so) {
+  const Said s = twinpuck("run maze --for 60 --record /dev/full");
+  EXPECT_EQ(s.exit_code, 7) << s.text;
+  EXPECT_NE(s.text.find("No space left"), std::string::npos) << s.text;
+}
+
+TEST_F(BadLuck, a_summary_on_a_full_disk_is_reported) {
+  const Said s = twinpuck("run maze --for 1 --summary /dev/full");
+  EXPECT_EQ(s.exit_code, 7) << s.text;
+  EXPECT_NE(s.text.find("/dev/full"), std::string::npos) << s.text;
+}
+
+TEST_F(BadLuck, a_failed_build_leaves_the_old_image) {
+  write("c/main.c", "int main(void) { while (1); }\n");
+  ASSERT_EQ(twinpuck("build " + path("c") + " -o " + path("c.so")).exit_code, 0);
+  const std::string before = read(path("c.so"));
+  write("c/main.c", "int main(void) { oops }\n");
+  EXPECT_EQ(twinpuck("build " + path("c") + " -o " + path("c.so")).exit_code, 1);
+  EXPECT_EQ(read(path("c.so")), before);
+}
+
+}  // namespace

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+// The verbs when all goes well, and what they leave behind.
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/cli/command.h"
+
+using namespace cli_test;
+using nlohmann::json;
+
+namespace {
+
+class Command : public CommandTest {};
+
+TEST_F(Command, help_names_every_verb) {
+  const Said s = twinpuck("--help");
+  EXPECT_EQ(s.exit_code, 0);
+  for (const char* verb : {"run", "check", "build", "lint", "cycles", "new", "list"})
+    EXPECT_NE(s.text.find(verb), std::string::npos) << verb;
+}
+
+TEST_F(Command, run_writes_record_summary_and_picture_that_agree) {
+  const Said s = twinpuck("run maze --for 10 --record " + path("r.csv") + " --summary " + path("s.json") + " --picture " + path("p.png") + " -q");
+  ASSERT_EQ(s.exit_code, 0) << s.text;
+  const json summary = json::parse(read(path("s.json")));
+  for (const char* key : {"version", "world", "seed", "simulated_s", "wall_s", "speed", "digest", "robots"})
+    EXPECT_TRUE(summary.contains(key)) << key;
+  const json& robot = summary["robots"][0];
+  for (const char* key : {"name", "firmware", "way", "x_m", "y_m", "heading_rad", "distance_m", "collisions", "cycles", "cpu_load", "traps"})
+    EXPECT_TRUE(robot.contains(key)) << key;
+  EXPECT_EQ(robot["way"], "native");
+  EXPECT_EQ(robot["cycles"], 147'456'000);
+
+  std::istringstream csv(read(path("r.csv")));
+  std::string line, last, header;
+  std::getline(csv, header);
+  EXPECT_EQ(header, "time_s,robot,x_m,y_m,heading_rad,left_steps,right_steps,ir0,ir1,ir2,ir3,ir4,ir5,ir6,ir7,leds");
+  int rows = 0;
+  while (std::getline(csv, line)) last = line, ++rows;
+  EXPECT_NEAR(rows, 1001, 1);
+  double time_s, x_m, y_m;
+  char name[32];
+  ASSERT_EQ(std::sscanf(last.c_str(), "%lf,%31[^,],%lf,%lf", &time_s, name, &x_m, &y_m), 4) << last;
+  EXPECT_NEAR(time_s, 10, 0.011);
+  EXPECT_NEAR(x_m, robot["x_m"].get<double>(), 0.001);
+  EXPECT_NEAR(y_m, robot["y_m"].get<double>(), 0.001);
+  EXPECT_EQ(read(path("p.png")).substr(1, 3), "PNG");
+}
+
+TEST_F(Command, the_same_run_twice_is_the_same_to_the_byte) {
+  for (const char* name : {"a", "b"})
+    ASSERT_EQ(twinpuck("run maze --for 5 -q --record " + path(std::string(name) + ".csv")).exit_code, 0);
+  EXPECT_EQ(read(path("a.csv")), read(path("b.csv")));
+}
+
+TEST_F(Command, the_digest_depends_on_the_seed_and_not_on_threads_or_outputs) {
+  const auto digest = [&](const std::string& options) {
+    const Said s = twinpuck("run bench/worlds/brait_5.toml --for 3 -q --summary " + path("s.json") + " " + options);
+    EXPECT_EQ(s.exit_code, 0) << s.text;
+    return json::parse(read(path("s.json")))["digest"].get<std::string>();
+  };
+  const std::string plain = digest("");
+  EXPECT_EQ(plain, digest("--threads 2"));
+  EXPECT_EQ(plain, digest("--threads 5 --record " + path("x.csv") + " --picture " + path("x.svg")));
+  EXPECT_NE(plain, digest("--seed 7"));
+}
+
+TEST_F(Command, a_trap_ends_with_exit_code_3_and_says_where) {
+  write("bad/main.c", "volatile int zero;\nint main(void) {\n  return 5 / zero;\n}\n");
+  const Said s = twinpuck("run worlds/maze.toml --fw '*=" + path("bad") + "' --for 1 --summary " + path("s.json"));
+  EXPECT_EQ(s.exit_code, 3) << s.text;
+  EXPECT_NE(s.text.find("division by zero"), std::string::npos) << s.text;
+  EXPECT_NE(s.text.find("main.c:3"), std::string::npos) << s.text;
+  const json trap = json::parse(read(path("s.json")))["robots"][0]["traps"][0];
+  EXPECT_EQ(trap["kind"], "math error");
+  EXPECT_EQ(trap["line"], 3);
+}
+
+TEST_F(Command, a_real_time_run_is_paced) {
+  const Said s = twinpuck("run maze --for 1 --speed 1 --summary " + path("s.json"));
+  ASSERT_EQ(s.exit_code, 0) << s.text;
+  EXPECT_NEAR(json::parse(read(path("s.json")))["wall_s"].get<double>(), 1.0, 0.3);
+}
+
+TEST_F(Command, the_host_time_guard_ends_with_124) {
+  EXPECT_EQ(twinpuck("run maze --for 100 --speed 1 --host-limit 0.5").exit_code, 124);
+}
+
+TEST_F(Command, ctrl_c_ends_with_130_and_keeps_the_outputs) {
+  const Said s = twinpuck("run maze --for 1000 --speed 1 --record " + path("r.csv") + " --summary " + path("s.json"), "timeout -s INT 1");
+  EXPECT_EQ(s.exit_code, 130) << s.text;
+  EXPECT_TRUE(json::accept(read(path("s.json"))));
+  EXPECT_EQ(read(path("r.csv")).back(), '\n');
+}
+
+TEST_F(Command, a_killed_run_leaves_a_readable_recording) {
+  twinpuck("run maze --for 1000 --speed 20 -q --record " + path("r.csv"), "timeout -s KILL 2");
+  const std::string csv = read(path("r.csv"));
+  EXPECT_GT(csv.size(), 1000u);
+  const std::size_t end = csv.rfind('\n');
+  const std::string last = csv.substr(csv.rfind('\n', end - 1) + 1, end - csv.rfind('\n', end - 1) - 1);
+  EXPECT_EQ(std::count(last.begin(), last.end(), ','), 15) << last;
+}
+
+TEST_F(Command, uart_output_goes_to_a_file) {
+  write("hello/main.c", "#include <uart/e_uart_char.h>\nint main(void) { e_init_uart1(); e_send_uart1_char(\"hello\\r\\n\", 7); while (1); }\n");
+  const Said s = twinpuck("run maze --fw '*=" + path("hello") + "' --uart '*=file:" + path("out.txt") + "' --for 0.5");
+  EXPECT_EQ(s.exit_code, 0) << s.text;
+  EXPECT_EQ(read(path("out.txt")), "hello\r\n");
+}
+
+TEST_F(Command, build_then_run_the_image) {
+  ASSERT_EQ(twinpuck("build blink -o " + path("blink.so")).exit_code, 0);
+  const Said s = twinpuck("run maze --fw puck=" + path("blink.so") + " --for 1");
+  EXPECT_EQ(s.exit_code, 0) << s.text;
+}
+
+TEST_F(Command, cycles_lists_functions_with_microseconds) {
+  const Said s = twinpuck("cycles obstacle");
+  EXPECT_EQ(s.exit_code, 0) << s.text;
+  EXPECT_NE(s.text.find("main"), std::string::npos);
+  EXPECT_NE(s.text.find("mean (us)"), std::string::npos);
+}
+
+TEST_F(Command, lint_praises_and_blames) {
+  EXPECT_EQ(twinpuck("lint blink").exit_code, 0);
+  write("sloppy/main.c", "int flag;\nint main(void) { while (!flag); return 70000; }\n");
+  const Said s = twinpuck("lint " + path("sloppy"));
+  EXPECT_EQ(s.exit_code, 1);
+  EXPECT_NE(s.text.find("volatile"), std::string::npos) << s.text;
+}
+
+TEST_F(Command, list_shows_controllers_and_worlds) {
+  const Said s = twinpuck("list");
+  EXPECT_EQ(s.exit_code, 0);
+  EXPECT_NE(s.text.find("obstacle"), std::string::npos);
+  EXPECT_NE(s.text.find("maze"), std::string::npos);
+}
+
+TEST_F(Command, check_accepts_every_world_that_ships) {
+  const Said s = twinpuck("check worlds/*.toml bench/worlds/*.toml");
+  EXPECT_EQ(s.exit_code, 0) << s.text;
+}
+
+TEST_F(Command, coverage_counts_executed_lines) {
+  write("cov/main.c", "volatile int n;\nint main(void) {\n  if (n)\n    n = 5;\n  n = 7;\n  while (1);\n}\n");
+  const Said s = twinpuck("run maze --fw '*=" + path("cov") + "' --for 0.1 --coverage " + path("c.info"));
+  ASSERT_EQ(s.exit_code, 0) << s.text;
+  const std::string info = read(path("c.info"));
+  EXPECT_NE(info.find("main.c\n"), std::string::npos) << info;
+  EXPECT_NE(info.find("DA:4,0\n"), std::string::npos) << info;
+  EXPECT_EQ(info.find("DA:5,0\n"), std::string::npos) << info;
+  EXPECT_NE(info.find("DA:5,"), std::string::npos) << info;
+}
+
+TEST_F(Command, sanitize_finds_a_16_bit_overflow_and_a_bad_index) {
+  write("over/main.c", "volatile int a = 30000, b;\nint main(void) {\n  b = a + a;\n  while (1);\n}\n");
+  Said s = twinpuck("run maze --fw '*=" + path("over") + "' --for 0.1 --sanitize");
+  EXPECT_EQ(s.exit_code, 3) << s.text;
+  EXPECT_NE(s.text.find("main.c:3"), std::string::npos) << s.text;
+  write("index/main.c", "int table[4], other[4];\nvolatile int i = 4;\nint main(void) {\n  table[i] = 1;\n  while (1);\n}\n");
+  s = twinpuck("run maze --fw '*=" + path("index") + "' --for 0.1 --sanitize");
+  EXPECT_EQ(s.exit_code, 3) << s.text;
+  EXPECT_NE(s.text.find("main.c:4"), std::string::npos) << s.text;
+}
+
+TEST_F(Command, new_makes_a_controller_that_builds_and_runs) {
+  // in a tree of its own, so the checkout stays clean
+  fs::create_directories(folder / "root" / "worlds");
+  fs::create_directory_symlink(fs::path(TWINPUCK_SOURCE_DIR) / "firmware" / "include", folder / "include_link");
+  fs::create_directories(folder / "root" / "firmware");
+  fs::copy(fs::path(TWINPUCK_SOURCE_DIR) / "worlds" / "maze.toml", folder / "root" / "worlds" / "maze.toml");
+  const Said made = twinpuck("new my_robot", "TWINPUCK_ROOT=" + path("root"));
+  ASSERT_EQ(made.exit_code, 0) << made.text;
+  EXPECT_TRUE(fs::exists(folder / "root/firmware/my_robot/test.cpp"));
+  const Said s = twinpuck("run maze --fw '*=" + path("root/firmware/my_robot") + "' --for 5 --summary " + path("s.json"));
+  EXPECT_EQ(s.exit_code, 0) << s.text;
+  EXPECT_GT(json::parse(read(path("s.json")))["robots"][0]["distance_m"].get<double>(), 0.1);
+}
+
+}  // namespace

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// Runs the `twinpuck` command as a user would and keeps what it said.
+#pragma once
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace cli_test {
+
+namespace fs = std::filesystem;
+
+struct Said {
+  int exit_code = -1;
+  std::string text;  ///< stdout and stderr
+};
+
+inline std::string executable() { return std::string(TWINPUCK_BUILD_DIR) + "/twinpuck"; }
+
+/// `arguments` go through the shell; the current folder is the project's.
+inline Said twinpuck(const std::string& arguments, const std::string& before = "") {
+  Said said;
+  const std::string line = "cd '" TWINPUCK_SOURCE_DIR "' && " + before + " '" + executable() + "' " + arguments + " 2>&1 </dev/null";
+  FILE* pipe = popen(line.c_str(), "r");
+  std::array<char, 4096> buffer;
+  while (const std::size_t n = fread(buffer.data(), 1, buffer.size(), pipe)) said.text.append(buffer.data(), n);
+  const int status = pclose(pipe);
+  said.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return said;
+}
+
+/// A folder of this test's own, empty at the start.
+class CommandTest : public ::testing::Test {
+ protected:
+  CommandTest() : folder(fs::path(::testing::TempDir()) / ("twinpuck-" + std::to_string(getpid()) + "-" +
+                                                           ::testing::UnitTest::GetInstance()->current_test_info()->name())) {
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+  }
+  ~CommandTest() override { fs::remove_all(folder); }
+
+  std::string path(const std::string& name) const { return (folder / name).string(); }
+  std::string write(const std::string& name, const std::string& text) const {
+    fs::create_directories((folder / name).parent_path());
+    std::ofstream(folder / name, std::ios::binary) << text;
+    return path(name);
+  }
+  static std::string read(const std::string& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+
+  const fs::path folder;
+};
+
+}  // namespace cli_test
