@@ -22,18 +22,20 @@ int selector;
 unsigned int tickAdcIsr;
 unsigned char updateAccI2CCounter;
 
-static tp_i64 interrupts_seen;
+static unsigned long interrupts_seen;
 
 void twinpuck_refresh_adc_counters(void) {
-  tp_i64 interrupts = tp_scan_interrupts();
-  tp_i64 ticks = tickAdcIsr + (interrupts - interrupts_seen);
-  tp_i64 updates = updateAccI2CCounter + (interrupts - interrupts_seen);
-  if (interrupts == interrupts_seen) return;
+  /* 32 bits: the robot would find anything longer slow */
+  unsigned long interrupts = (unsigned long)tp_scan_interrupts();
+  unsigned long news = interrupts - interrupts_seen;
+  if (news == 0) return;
   interrupts_seen = interrupts;
-  tickAdcIsr = ticks > TICK_COUNTER_MAX ? TICK_COUNTER_MAX : (unsigned int)ticks;
-  updateAccI2CCounter = (unsigned char)(updates > ACC_COUNTER_MAX ? ACC_COUNTER_MAX : updates);
-  e_last_mic_scan_id = (unsigned int)(interrupts % MIC_SAMP_NB);
-  e_last_acc_scan_id = (unsigned int)(tp_scan_acc_samples() % ACC_SAMP_NB);
+  tickAdcIsr = news > TICK_COUNTER_MAX - tickAdcIsr ? TICK_COUNTER_MAX : tickAdcIsr + (unsigned int)news;
+  updateAccI2CCounter = news + updateAccI2CCounter > ACC_COUNTER_MAX
+                            ? ACC_COUNTER_MAX
+                            : (unsigned char)(updateAccI2CCounter + (unsigned int)news);
+  e_last_mic_scan_id = (unsigned int)tp_scan_mic_index();
+  e_last_acc_scan_id = (unsigned int)tp_scan_acc_index();
 }
 
 void twinpuck_refresh_ir(unsigned int sensor) {
@@ -42,7 +44,7 @@ void twinpuck_refresh_ir(unsigned int sensor) {
 }
 
 static void refresh_all(void) {
-  tp_i64 before = interrupts_seen;
+  unsigned long before = interrupts_seen;
   twinpuck_refresh_adc_counters();
   if (interrupts_seen != before) tp_scan_values(e_ambient_ir, e_ambient_and_reflected_ir);
 }

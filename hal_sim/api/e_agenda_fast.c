@@ -31,13 +31,14 @@ struct timer {
   unsigned int period;  /* PR register */
   unsigned char shift;  /* prescaler as a power of two: 0, 3, 6, 8 */
   char running;
+  char pending;         /* matched, interrupt not served yet */
   unsigned int count;   /* TMR register while stopped */
   tp_i64 started;       /* cycle at which it was started with that count */
 };
 
 static struct AgendaList tasks;
 static struct timer timers[TIMERS] = {
-    {TP_V_T1, 65535u, 0, 0, 0, 0}, {TP_V_T2, 65535u, 0, 0, 0, 0}, {TP_V_T3, 65535u, 0, 0, 0, 0}};
+    {TP_V_T1, 65535u, 0, 0, 0, 0, 0}, {TP_V_T2, 65535u, 0, 0, 0, 0, 0}, {TP_V_T3, 65535u, 0, 0, 0, 0, 0}};
 
 /* --- timers ------------------------------------------------------------------------------------------- */
 
@@ -58,12 +59,22 @@ static void start_timer(struct timer *t) {
   if (t->running) return;
   t->running = 1;
   t->started = tp_now();
-  request_match(t);
+  if (t->pending)
+    tp_irq_at(t->vector, t->started);
+  else
+    request_match(t);
 }
 
 static void stop_timer(struct timer *t) {
+  tp_i64 count;
   if (!t->running) return;
-  t->count = (unsigned int)(t->count + counts_since_start(t));
+  count = t->count + counts_since_start(t);
+  /* another handler held up this one: the count has gone on from 0, the flag stays */
+  if (t->count <= t->period && count > t->period && tasks.speed[t - timers] > 0) {
+    count -= (tp_i64)t->period + 1;
+    t->pending = 1;
+  }
+  t->count = (unsigned int)count;
   t->running = 0;
   tp_irq_at(t->vector, -1);
 }
@@ -72,8 +83,11 @@ static void serve(int index) {
   struct timer *t = &timers[index];
   Agenda *task;
   /* the counter went on from 0 at the match */
-  t->started += ((tp_i64)t->period + 1 - t->count) << t->shift;
-  t->count = 0;
+  if (!t->pending) {
+    t->started += ((tp_i64)t->period + 1 - t->count) << t->shift;
+    t->count = 0;
+  }
+  t->pending = 0;
   request_match(t);
   if (tasks.timers_in_use[index] == 0 || tasks.speed[index] == 0) return;
   for (task = tasks.agendas[index]; task; task = task->next) {
@@ -96,6 +110,7 @@ static void configure(int index) {
   stop_timer(t);
   t->shift = 0;
   t->count = 0;
+  t->pending = 0;
   t->period = (unsigned int)UNIT_CYCLES;
   tp_irq_install(t->vector, handlers[index], TIMER_PRIORITY, TIMER_ENTRY_CYCLES);
 }

@@ -314,6 +314,16 @@ tp_i64 tp_scan_lit(tp_i64 sensor) {
   return scan.lit(static_cast<int>(sensor), now);
 }
 
+tp_i64 tp_scan_mic_index(void) {
+  Context& context = Context::current();
+  return context.board().scan().interrupts(context.now()) % board::kMicSamples;
+}
+
+tp_i64 tp_scan_acc_index(void) {
+  Context& context = Context::current();
+  return context.board().scan().acc_samples(context.now()) % board::kAccSamples;
+}
+
 void tp_scan_values(void* dark, void* lit) {
   Context& context = Context::current();
   board::AdcScan& scan = context.board().scan();

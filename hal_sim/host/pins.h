@@ -115,6 +115,10 @@ tp_i64 tp_scan_filled_at(void);
 tp_i64 tp_scan_interrupts(void);
 /** 1 between the interrupt that wrapped the microphone index and the next. Horizon: its next change. */
 tp_i64 tp_scan_array_filled(void);
+/** The driver's indices: next microphone sample 0 to 99, newest accelerometer sample 0 to 49. Horizon: none.
+ */
+tp_i64 tp_scan_mic_index(void);
+tp_i64 tp_scan_acc_index(void);
 /** Accelerometer samples since reset. Horizon: next interrupt. */
 tp_i64 tp_scan_acc_samples(void);
 /** Newest dark / lit sample of a sensor 0 to 9, counts 0 to 4095; 0 before the first. Horizon: the next of
