@@ -2,7 +2,6 @@
 // The functions of image_abi.h and the time and interrupt part of pins.h, as firmware images call them.
 #include <string>
 
-#include "hal_sim/board/board.h"
 #include "hal_sim/host/pins.h"
 #include "hal_sim/host/registers.h"
 #include "hal_sim/host/robot.h"
@@ -39,16 +38,6 @@ tp_i64 tp_sfr_read(tp_i64 address, tp_i64 bits) {
 }
 void tp_sfr_write(tp_i64 address, tp_i64 value, tp_i64 bits) {
   robot().registers().write(static_cast<unsigned>(address), static_cast<std::uint16_t>(value), static_cast<unsigned>(bits));
-}
-
-// XC16's printf() writes to UART 1, byte by byte, waiting for room in the transmit buffer; it opens the line if the
-// program has not.
-void tp_console(const char* bytes, tp_i64 length) {
-  board::Uart& uart = robot().board().uart(1);
-  for (tp_i64 i = 0; i < length; ++i) {
-    robot().wait_until(uart.load_when_room(static_cast<std::uint8_t>(bytes[i]), robot().now()));
-    robot().note_write();
-  }
 }
 
 tp_i64 tp_rand(void) { return robot().next_rand(); }
