@@ -144,8 +144,16 @@ Cycle Robot::now() {
 }
 
 Cycle Robot::next_disturbance() {
-  const Cycle due = interrupts_.next_due();
-  return disi_until_ > now_ ? std::min(due, disi_until_) : due;
+  Cycle next = interrupts_.next_due();
+  const bool held = disi_until_ > now_;
+  if (held) next = std::min(next, disi_until_);
+  if (handler_depth_ == 0 && (held || cpu_priority_ > 0)) {
+    // a main program that masks a waiting interrupt for ever is found out after a while
+    const int waiting = interrupts_.longest_waiting(cpu_priority_, held);
+    if (waiting >= 0)
+      next = std::min(next, std::max(now_ + 1, interrupts_.source(waiting).flag_since + kBlockedInterruptCycles));
+  }
+  return next;
 }
 
 void Robot::give_budget() {
