@@ -13,7 +13,7 @@ JOBS   := $(shell nproc)
 CMAKE  := cmake -G Ninja -S .
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build run test view dspic check format bench asan tsan fuzz clean
+.PHONY: help setup build run test view dspic check format bench asan tsan fuzz levels clean
 
 ## help: this list
 help:
@@ -72,13 +72,13 @@ bench: build
 
 ## asan: all tests under the address and undefined-behaviour sanitizers
 asan: setup
-	@$(CMAKE) -B $(BUILD)-asan -DCMAKE_BUILD_TYPE=Debug -DTWINPUCK_SANITIZE=address,undefined >/dev/null
+	@$(CMAKE) -B $(BUILD)-asan -DCMAKE_CXX_FLAGS_RELEASE="-O1 -g1" -DTWINPUCK_SANITIZE=address,undefined >/dev/null
 	@ninja -C $(BUILD)-asan --quiet -j $(JOBS)
 	@scripts/run_tests.sh $(BUILD)-asan '$(T)'
 
 ## tsan: all tests under the thread sanitizer
 tsan: setup
-	@$(CMAKE) -B $(BUILD)-tsan -DCMAKE_BUILD_TYPE=Debug -DTWINPUCK_SANITIZE=thread >/dev/null
+	@$(CMAKE) -B $(BUILD)-tsan -DCMAKE_CXX_FLAGS_RELEASE="-O1 -g1" -DTWINPUCK_SANITIZE=thread >/dev/null
 	@ninja -C $(BUILD)-tsan --quiet -j $(JOBS)
 	@scripts/run_tests.sh $(BUILD)-tsan '$(T)'
 
@@ -86,9 +86,14 @@ tsan: setup
 fuzz: setup
 	@scripts/setup.sh fuzz
 	@$(CMAKE) -B $(BUILD)-fuzz -DCMAKE_C_COMPILER=clang-14 -DCMAKE_CXX_COMPILER=clang++-14 -DTWINPUCK_FUZZ=ON >/dev/null
-	@ninja -C $(BUILD)-fuzz --quiet -j $(JOBS) fuzz_world
-	@$(BUILD)-fuzz/fuzz_world -max_total_time=600 $(ARGS) tests/fuzz/worlds
+	@ninja -C $(BUILD)-fuzz --quiet -j $(JOBS) fuzz_world_loader
+	@mkdir -p $(BUILD)-fuzz/corpus
+	@$$(find $(BUILD)-fuzz -name fuzz_world_loader -type f) -max_total_time=600 -timeout=10 -max_len=4096 $(ARGS) $(BUILD)-fuzz/corpus worlds
+
+## levels: digests with the simulator at -O0 and -O2 must agree
+levels: build
+	@scripts/digest_levels.sh $(BUILD)
 
 ## clean: remove everything that was built
 clean:
-	@rm -rf $(BUILD) $(BUILD)-asan $(BUILD)-tsan $(BUILD)-fuzz
+	@rm -rf $(BUILD) $(BUILD)-asan $(BUILD)-tsan $(BUILD)-fuzz $(BUILD)-o0

@@ -20,6 +20,7 @@
 #include "clang/Frontend/TextDiagnosticPrinter.h"
 #include "clang/Lex/PPCallbacks.h"
 #include "clang/Lex/Preprocessor.h"
+#include "forward_calls.h"
 #include "include_finder.h"
 #include "llvm/Support/Host.h"
 #include "llvm/Support/raw_ostream.h"
@@ -243,21 +244,29 @@ std::vector<std::string> clang_arguments(const Options& o) {
 
 }  // namespace
 
-std::unique_ptr<llvm::Module> compile_to_module(const Options& options, llvm::LLVMContext& context, Facts& facts) {
+namespace {
+
+/// One attempt; `declarations` go in front of the file. Messages go to `out`.
+std::unique_ptr<llvm::Module> attempt(const Options& options, llvm::LLVMContext& context, Facts& facts,
+                                      const std::string& declarations, llvm::raw_ostream& out) {
+  constexpr const char* kDeclarations = "/twinpuck-forward-declarations.h";
   IntrusiveRefCntPtr<DiagnosticOptions> diagnostic_options = new DiagnosticOptions;
-  auto* printer = new TextDiagnosticPrinter(llvm::errs(), &*diagnostic_options);
+  auto* printer = new TextDiagnosticPrinter(out, &*diagnostic_options);
   DiagnosticsEngine diagnostics(new DiagnosticIDs, &*diagnostic_options, printer);
   auto arguments = clang_arguments(options);
+  if (!declarations.empty()) {
+    arguments.push_back("-include");
+    arguments.push_back(kDeclarations);
+  }
   std::vector<const char*> argv;
   for (const auto& s : arguments) argv.push_back(s.c_str());
   driver::Driver driver(argv[0], "x86_64-pc-linux-gnu", diagnostics);
+  driver.setCheckInputsExist(false);
   std::unique_ptr<driver::Compilation> compilation(driver.BuildCompilation(argv));
   if (!compilation || compilation->getJobs().empty() || diagnostics.hasErrorOccurred()) return nullptr;
   auto invocation = std::make_shared<CompilerInvocation>();
   const auto& cc1 = compilation->getJobs().begin()->getArguments();
   if (!CompilerInvocation::CreateFromArgs(*invocation, cc1, diagnostics)) return nullptr;
-  auto& found = invocation->getPreprocessorOpts();
-  (void)found;
   if (!options.depfile.empty()) {
     auto& dep = invocation->getDependencyOutputOpts();
     dep.OutputFile = options.depfile;
@@ -268,15 +277,37 @@ std::unique_ptr<llvm::Module> compile_to_module(const Options& options, llvm::LL
   // the virtual root must look like a folder, or clang drops it from the include path
   auto memory = llvm::makeIntrusiveRefCnt<llvm::vfs::InMemoryFileSystem>();
   memory->addFile(std::string(kFallbackRoot) + "/.root", 0, llvm::MemoryBuffer::getMemBuffer(""));
+  if (!declarations.empty()) memory->addFile(kDeclarations, 0, llvm::MemoryBuffer::getMemBufferCopy(declarations));
   auto overlay = llvm::makeIntrusiveRefCnt<llvm::vfs::OverlayFileSystem>(forgiving_file_system(options.fallback));
   overlay->pushOverlay(memory);
   CompilerInstance ci;
   ci.setInvocation(invocation);
-  ci.createDiagnostics();
+  ci.createDiagnostics(new TextDiagnosticPrinter(out, &invocation->getDiagnosticOpts()));
   ci.setFileManager(new FileManager(FileSystemOptions(), overlay));
   RobotAction action(context, facts);
   if (!ci.ExecuteAction(action)) return nullptr;
   return action.takeModule();
+}
+
+}  // namespace
+
+std::unique_ptr<llvm::Module> compile_to_module(const Options& options, llvm::LLVMContext& context, Facts& facts) {
+  std::string messages;
+  llvm::raw_string_ostream said(messages);
+  auto module = attempt(options, context, facts, "", said);
+  said.flush();
+  if (!module) {
+    auto source = llvm::MemoryBuffer::getFile(options.input);
+    const std::string declarations = source ? forward_declarations(messages, (*source)->getBuffer().str()) : "";
+    if (!declarations.empty()) {
+      messages.clear();
+      facts = Facts();
+      module = attempt(options, context, facts, declarations, said);
+      said.flush();
+    }
+  }
+  llvm::errs() << messages;
+  return module;
 }
 
 }  // namespace cc

@@ -9,6 +9,11 @@
 #include <memory>
 #include <mutex>
 
+#if defined(__SANITIZE_ADDRESS__)
+#include <sanitizer/asan_interface.h>
+#include <sanitizer/common_interface_defs.h>
+#endif
+
 #include "hal_sim/host/robot.h"
 #include "sim_core/base/check.h"
 
@@ -50,13 +55,29 @@ std::string describe(const Fault& f) {
   return access + " a wild pointer";
 }
 
-[[noreturn]] void land() {
+#if defined(__SANITIZE_ADDRESS__)
+// the sanitizer learns that the thread has changed stacks, and forgets what earlier faults left on this one
+__attribute__((no_sanitize("address"))) void tell_sanitizer() {
+  ASAN_UNPOISON_MEMORY_REGION(stacks->recovery.get(), kRecoveryStackBytes);
+  __sanitizer_start_switch_fiber(nullptr, stacks->recovery.get(), kRecoveryStackBytes);
+  __sanitizer_finish_switch_fiber(nullptr, nullptr, nullptr);
+}
+#else
+void tell_sanitizer() {}
+#endif
+
+[[noreturn]] void recover() {
   const Fault f = last_fault;
   sigset_t set;
   sigemptyset(&set);
   for (int s : kSignals) sigaddset(&set, s);
   pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
   Robot::running()->fault(f.kind, describe(f), f.pc, f.frame);
+}
+
+__attribute__((noreturn, no_sanitize("address"))) void land() {
+  tell_sanitizer();
+  recover();
 }
 
 void on_signal(int signal, siginfo_t* info, void* raw) {

@@ -154,3 +154,7 @@ char *itoa(char *to, int value, int base)
   }
   return to;
 }
+
+/* not in any standard, but programs for the robot call them without a definition of their own; theirs wins if they have one */
+int min(int a, int b) { return a < b ? a : b; }
+int max(int a, int b) { return a > b ? a : b; }
