@@ -23,7 +23,7 @@ for program in "$build"/tests/*; do
   GTEST_COLOR=no "$program" --gtest_filter="$selection" >"$log" 2>&1
   status=$?
   # "[       OK ] Room.sentence (12 ms)" -> "ok    program: Room.sentence"
-  sed -n -e "s/^\[       OK \] \([^ ]*\).*/ok    $name: \1/p" -e "s/^\[  FAILED  \] \([^ ]*\) (.* ms).*/FAIL  $name: \1/p" "$log"
+  sed -n -e "s/^\[       OK \] \([^ ]*\).*/ok    $name: \1/p" -e "s/^\[  FAILED  \] \([^ ,]*\).* ms)$/FAIL  $name: \1/p" "$log"
   p=$(grep -c '^\[       OK \]' "$log")
   f=$(grep -c '^\[  FAILED  \] .* ms)$' "$log")
   if [ $status -ne 0 ] && [ "$f" = 0 ]; then

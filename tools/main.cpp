@@ -27,12 +27,13 @@ int usage_error(const CLI::App& app, const CLI::ParseError& e, int argc, char** 
   const CLI::App* at = &app;
   for (const auto* verb : app.get_subcommands()) at = verb;
   std::string line = "command line: " + std::string(e.what());
-  for (int i = 1; i < argc; ++i) {
+  const bool extras = e.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
+  const bool missing = e.get_exit_code() == static_cast<int>(CLI::ExitCodes::RequiredError);
+  for (int i = 1; i < argc && (extras || missing); ++i) {
     const std::string word = std::string(argv[i]).substr(0, std::string(argv[i]).find('='));
     const auto words = known_words(*at);
-    if (e.get_name() != "ExtrasError" && e.get_name() != "RequiredError") break;
     if (std::find(words.begin(), words.end(), word) != words.end() || word == at->get_name()) continue;
-    if (std::string(e.what()).find(word) == std::string::npos && e.get_name() == "ExtrasError") continue;
+    if (std::string(e.what()).find(word) == std::string::npos && extras) continue;
     const std::string guess = sim::did_you_mean(word, words);
     line = "command line: unknown word: got '" + word + "', expected an option or verb of `twinpuck" +
            (at == &app ? "" : " " + at->get_name()) + "`" + (guess.empty() ? "" : "; did you mean '" + guess + "'?");

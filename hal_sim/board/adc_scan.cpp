@@ -32,6 +32,8 @@ void AdcScan::settle(Cycle at) {
   total_base_ += passed;
   if (!micro_only_) full_base_ += passed;
   anchor_ = at;
+  for (auto* samples : {&dark_, &lit_})
+    for (Sample& s : *samples) s.until = 0;
 }
 
 void AdcScan::start(bool micro_only, bool five_pairs, Cycle at) {
@@ -116,15 +118,19 @@ int AdcScan::evaluate(int sensor, std::int64_t period, bool lit_sample) const {
 
 int AdcScan::dark(int sensor, Cycle at) {
   Sample& kept = dark_[static_cast<std::size_t>(sensor)];
+  if (at < kept.until) return kept.counts;
   const std::int64_t number = dark_number(sensor, at);
-  if (number >= 0 && number != kept.number) kept = {number, evaluate(sensor, number, false)};
+  if (number >= 0 && number != kept.number) kept.counts = evaluate(sensor, number, false), kept.number = number;
+  kept.until = next_sample(at, kScanDarkSlot, 1, pair_of_sensor(sensor));
   return kept.counts;
 }
 
 int AdcScan::lit(int sensor, Cycle at) {
   Sample& kept = lit_[static_cast<std::size_t>(sensor)];
+  if (at < kept.until) return kept.counts;
   const std::int64_t number = lit_number(sensor, at);
-  if (number >= 0 && number != kept.number) kept = {number, evaluate(sensor, number, true)};
+  if (number >= 0 && number != kept.number) kept.counts = evaluate(sensor, number, true), kept.number = number;
+  kept.until = next_sample(at, kScanLitSlot, 0, pair_of_sensor(sensor));
   return kept.counts;
 }
 
@@ -140,18 +146,18 @@ int AdcScan::peek_lit(int sensor, Cycle at) const {
   return number < 0 || number == kept.number ? kept.counts : evaluate(sensor, number, true);
 }
 
-Cycle AdcScan::horizon(int sensor, Cycle at) const {
+Cycle AdcScan::next_sample(Cycle at, int slot, int shift, int pair) const {
   if (!on_ || micro_only_) return host::kNever;
-  const std::int64_t count = full_interrupts(at);
-  const int pair = pair_of_sensor(sensor);
-  Cycle earliest = host::kNever;
-  for (const auto& [slot, shift] : {std::pair{kScanLitSlot, 0}, std::pair{kScanDarkSlot, 1}}) {
-    // first period whose interrupt in this slot is still to come, then on to the one that serves the pair
-    std::int64_t period = (count + kScanPeriod - 1 - slot) / kScanPeriod;
-    period += (pair - pair_of_lit(period + shift) + pairs_) % pairs_;
-    earliest = std::min(earliest, full_cycle(period * kScanPeriod + slot));
-  }
-  return earliest;
+  // first period whose interrupt in this slot is still to come, then on to the one that serves the pair
+  std::int64_t period = (full_interrupts(at) + kScanPeriod - 1 - slot) / kScanPeriod;
+  period += (pair - pair_of_lit(period + shift) + pairs_) % pairs_;
+  return full_cycle(period * kScanPeriod + slot);
+}
+
+Cycle AdcScan::horizon(int sensor, Cycle at) {
+  dark(sensor, at);
+  lit(sensor, at);
+  return std::min(dark_[static_cast<std::size_t>(sensor)].until, lit_[static_cast<std::size_t>(sensor)].until);
 }
 
 unsigned AdcScan::pulses(Cycle at) const {

@@ -55,11 +55,14 @@ class AdcScan {
   /// the value.
   int dark(int sensor, Cycle at);
   int lit(int sensor, Cycle at);
+  /// Cycle before which what dark() or lit() returned last stays true.
+  Cycle dark_until(int sensor) const { return dark_[static_cast<std::size_t>(sensor)].until; }
+  Cycle lit_until(int sensor) const { return lit_[static_cast<std::size_t>(sensor)].until; }
   /// The same without keeping anything.
   int peek_dark(int sensor, Cycle at) const;
   int peek_lit(int sensor, Cycle at) const;
   /// Cycle before which neither of the two changes.
-  Cycle horizon(int sensor, Cycle at) const;
+  Cycle horizon(int sensor, Cycle at);
 
   /// IR emitter lines that the scan holds on: bit = pair; bit 4 the turret's (body and front LED).
   unsigned pulses(Cycle at) const;
@@ -74,6 +77,7 @@ class AdcScan {
   struct Sample {
     std::int64_t number = -1;
     int counts = 0;
+    Cycle until = 0;  // the next sample of this kind arrives then; 0: not known
   };
 
   std::int64_t frames(Cycle at) const { return on_ && at > anchor_ ? (at - anchor_) / frame_cycles() : 0; }
@@ -81,6 +85,8 @@ class AdcScan {
   int pair_of_lit(std::int64_t period) const;  // pair whose lit sample arrives in this period
   std::int64_t newest(std::int64_t interrupts, int slot, int shift, int pair) const;
   Cycle full_cycle(std::int64_t interrupt) const;  // of ALL_ADC interrupt number (from 0)
+  /// Cycle after `at` at which the next sample arrives in `slot` for `pair`; kNever when none will.
+  Cycle next_sample(Cycle at, int slot, int shift, int pair) const;
   int evaluate(int sensor, std::int64_t period, bool lit_sample) const;
   void settle(Cycle at);
 

@@ -366,19 +366,22 @@ Cycle AgendaTimer::firing_period(Wheel wheel) const {
   return ticks * kAgendaTickCycles;
 }
 
-std::uint64_t AgendaTimer::state_hash(Cycle at) const {
-  std::uint64_t hash = sim::mix64(static_cast<std::uint64_t>(ticks_at(at)) * 2 + (running_ ? 1 : 0));
+std::uint64_t AgendaTimer::state_sum(Cycle at) const {
+  std::uint64_t sum = static_cast<std::uint64_t>(ticks_at(at)) * 2 + (running_ ? 1 : 0);
+  std::uint64_t factor = 0xA0761D6478BD642Fu;
+  const auto add = [&](std::uint64_t part) {
+    sum += part * factor;
+    factor += 0xE7037ED1A0B428DAu;  // even, so the factor stays odd
+  };
   for (Wheel wheel : {Wheel::Left, Wheel::Right}) {
     const AgendaMotor& m = motor_at(wheel, at);
-    hash = sim::mix64(hash ^ static_cast<std::uint64_t>(m.stepper.steps()));
-    hash = sim::mix64(hash ^ static_cast<std::uint64_t>(m.commanded));
-    hash = sim::mix64(hash ^ (m.stepper.coils() | static_cast<std::uint64_t>(m.phase) << 8 |
-                              static_cast<std::uint64_t>(m.speed + kMaxSpeed) << 16 |
-                              (m.phase_on ? 1ull << 40 : 0)));
+    add(static_cast<std::uint64_t>(m.stepper.steps()));
+    add(static_cast<std::uint64_t>(m.commanded));
+    add(m.stepper.coils() | static_cast<std::uint64_t>(m.phase) << 8 |
+        static_cast<std::uint64_t>(m.speed + kMaxSpeed) << 16 | (m.phase_on ? 1ull << 40 : 0));
   }
-  for (const Node& node : nodes_)
-    hash = sim::mix64(hash ^ (node.count.cycle | std::uint64_t{node.serial} << 16));
-  return hash;
+  for (const Node& node : nodes_) add(node.count.cycle | std::uint64_t{node.serial} << 16);
+  return sum;
 }
 
 }  // namespace board

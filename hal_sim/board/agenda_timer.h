@@ -88,8 +88,8 @@ class AgendaTimer {
   Cycle idle_tick_cost() const;
   /// Estimated cycles between two motor firings of this wheel; 0 when it does not fire.
   Cycle firing_period(Wheel wheel) const;
-  /// Folds the state at `at` into a hash.
-  std::uint64_t state_hash(Cycle at) const;
+  /// The state at `at` as a sum of products, for a hash: the caller mixes it.
+  std::uint64_t state_sum(Cycle at) const;
 
  private:
   enum class Kind : std::uint8_t { User, Left, Right };

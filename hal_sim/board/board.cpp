@@ -255,8 +255,13 @@ int Board::ir_counts(int sensor, Cycle at, Cycle lit_for, std::uint64_t sample) 
   if (lit_for >= 0) {
     reflection += setup_.ir_offset_counts[i];
     // the phototransistor follows the flash with one time constant; after 300 us nothing is missing
-    if (lit_for < 40 * kIrSettleCycles)
-      reflection *= 1.0 - std::exp(-static_cast<double>(lit_for) / static_cast<double>(kIrSettleCycles));
+    if (lit_for < 40 * kIrSettleCycles) {
+      if (lit_for != settled_for_) {
+        settled_for_ = lit_for;
+        settled_share_ = 1.0 - std::exp(-static_cast<double>(lit_for) / static_cast<double>(kIrSettleCycles));
+      }
+      reflection *= settled_share_;
+    }
   }
   if (setup_.ambient_noise_counts > 0) {
     const sim::RandomKey key{setup_.seed, robot, kAmbientStream + static_cast<std::uint32_t>(sensor)};
@@ -303,15 +308,22 @@ int Board::proximity_counts(int sensor, Cycle at) const {
 }
 
 std::uint64_t Board::state_hash(Cycle at) const {
-  std::uint64_t hash = agendas_.state_hash(at);
+  // a sum of products with odd numbers: the parts do not wait for one another; mixed once at the end
+  std::uint64_t sum = agendas_.state_sum(at);
+  std::uint64_t factor = 0x9E3779B97F4A7C15u;
+  const auto add = [&](std::uint64_t part) {
+    sum += part * factor;
+    factor += 0xD1B54A32D192ED02u;  // even, so the factor stays odd
+  };
   for (Wheel wheel : {Wheel::Left, Wheel::Right}) {
+    if (!timer_motors_.drives(wheel)) continue;  // the agenda's motors are in its sum
     const Stepper motor = stepper_at(wheel, at);
-    hash = sim::mix64(hash ^ static_cast<std::uint64_t>(motor.steps()) << 4 ^ motor.coils());
+    add(static_cast<std::uint64_t>(motor.steps()) << 4 ^ motor.coils());
   }
-  for (std::size_t i = 0; i < kPorts; ++i)
-    hash = sim::mix64(hash ^ (lat_[i] | static_cast<std::uint64_t>(tris_[i]) << 16));
-  for (const Uart& uart : uarts_) hash = sim::mix64(hash ^ uart.state_hash());
-  return sim::mix64(hash ^ static_cast<std::uint64_t>(scan_.interrupts(at)));
+  for (std::size_t i = 0; i < kPorts; ++i) add(lat_[i] | static_cast<std::uint64_t>(tris_[i]) << 16);
+  for (const Uart& uart : uarts_) add(uart.state_hash());
+  add(static_cast<std::uint64_t>(scan_.interrupts(at)));
+  return sim::mix64(sum);
 }
 
 }  // namespace board

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The optimiser's passes in our own order. Everything that would turn a loop into something else (idioms, deletion,
 // unrolling, vectors) is absent: the chip's compiler has none of it, and a delay loop must stay a delay.
+#include "llvm/Analysis/LoopInfo.h"
 #include "llvm/Analysis/TargetLibraryInfo.h"
 #include "llvm/Analysis/TargetTransformInfo.h"
 #include "llvm/IR/DebugInfoMetadata.h"
@@ -84,6 +85,31 @@ FunctionPassManager loops(bool more) {
 void set_llvm_flags() {
   const char* argv[] = {"twinpuck-cc", "-disable-auto-upgrade-debug-info=false"};
   cl::ParseCommandLineOptions(1, argv);
+}
+
+// In a loop without an exit every store to a global may be seen by an interrupt or a debugger, though the optimiser sees
+// no reader. A call that might read anything keeps it from sinking stores to an exit that never comes.
+constexpr const char* kObserve = "tp.observe";
+
+void keep_endless_loops_visible(Unit& unit, FunctionAnalysisManager& analyses) {
+  Module& m = unit.module;
+  FunctionCallee observe = host_function(m, kObserve, Type::getVoidTy(m.getContext()), {});
+  auto* function = cast<Function>(observe.getCallee());
+  function->setOnlyReadsMemory();
+  for (Function& f : m) {
+    if (f.isDeclaration()) continue;
+    for (Loop* loop : analyses.getResult<LoopAnalysis>(f).getLoopsInPreorder())
+      if (loop->hasNoExitBlocks()) mark_free(CallInst::Create(observe, "", &*loop->getHeader()->getFirstInsertionPt()));
+    analyses.invalidate(f, PreservedAnalyses::none());
+  }
+  if (function->use_empty()) function->eraseFromParent();
+}
+
+void forget_endless_loops(Unit& unit) {
+  Function* function = unit.module.getFunction(kObserve);
+  if (!function) return;
+  while (!function->use_empty()) cast<Instruction>(function->user_back())->eraseFromParent();
+  function->eraseFromParent();
 }
 
 void make_weak(Unit& unit) {
@@ -173,6 +199,7 @@ bool run_pipeline(Unit& unit) {
   if (unit.failed) return false;
   if (optimise) {
     keep_polled_flags(unit, fam);
+    keep_endless_loops_visible(unit, fam);
     ModulePassManager second;
     // -O1 of gcc 4.5: functions called once and inline ones; -O2 small ones as well
     InlineParams inlining = getInlineParams(unit.options.level >= 2 ? 40 : 5);
@@ -182,6 +209,7 @@ bool run_pipeline(Unit& unit) {
     second.addPass(createModuleToFunctionPassAdaptor(loops(unit.options.level >= 2)));
     second.addPass(GlobalDCEPass());
     run(second);
+    forget_endless_loops(unit);
     keep_polled_flags(unit, fam);
     if (unit.options.cost_dump.empty()) lower_delay_loops(unit, fam);
     fam.clear();

@@ -301,8 +301,9 @@ tp_i64 tp_scan_dark(tp_i64 sensor) {
   board::AdcScan& scan = context.board().scan();
   if (sensor < 0 || sensor > 9) return 0;
   const Cycle now = context.now();
-  context.lower_horizon(scan.horizon(static_cast<int>(sensor), now));
-  return scan.dark(static_cast<int>(sensor), now);
+  const int counts = scan.dark(static_cast<int>(sensor), now);
+  context.lower_horizon(scan.dark_until(static_cast<int>(sensor)));
+  return counts;
 }
 
 tp_i64 tp_scan_lit(tp_i64 sensor) {
@@ -310,8 +311,9 @@ tp_i64 tp_scan_lit(tp_i64 sensor) {
   board::AdcScan& scan = context.board().scan();
   if (sensor < 0 || sensor > 9) return 0;
   const Cycle now = context.now();
-  context.lower_horizon(scan.horizon(static_cast<int>(sensor), now));
-  return scan.lit(static_cast<int>(sensor), now);
+  const int counts = scan.lit(static_cast<int>(sensor), now);
+  context.lower_horizon(scan.lit_until(static_cast<int>(sensor)));
+  return counts;
 }
 
 tp_i64 tp_scan_mic_index(void) {

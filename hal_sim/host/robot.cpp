@@ -14,6 +14,13 @@ namespace {
 thread_local Robot* running_robot = nullptr;
 constexpr unsigned kQ = 32;
 constexpr std::uint64_t kOne = std::uint64_t{1} << kQ;
+
+// the innermost frame of the program itself: what our API and libc do inside is the caller's doing
+Place culprit(const std::vector<Place>& backtrace) {
+  for (const Place& place : backtrace)
+    if (place.line > 0 && place.file.find("hal_sim/") == std::string::npos) return place;
+  return backtrace.empty() ? Place{} : backtrace.front();
+}
 }  // namespace
 
 const char* trap_name(int kind) {
@@ -144,8 +151,16 @@ Cycle Robot::now() {
 }
 
 Cycle Robot::next_disturbance() {
-  const Cycle due = interrupts_.next_due();
-  return disi_until_ > now_ ? std::min(due, disi_until_) : due;
+  Cycle next = interrupts_.next_due();
+  const bool held = disi_until_ > now_;
+  if (held) next = std::min(next, disi_until_);
+  if (handler_depth_ == 0 && (held || cpu_priority_ > 0)) {
+    // a main program that masks a waiting interrupt for ever is found out after a while
+    const int waiting = interrupts_.longest_waiting(cpu_priority_, held);
+    if (waiting >= 0)
+      next = std::min(next, std::max(now_ + 1, interrupts_.source(waiting).flag_since + kBlockedInterruptCycles));
+  }
+  return next;
 }
 
 void Robot::give_budget() {
@@ -418,7 +433,7 @@ TrapReport Robot::report_here(int kind, std::string_view message) {
   report.cycle = now_;
   report.time_s = to_world_s ? to_world_s(now_) : static_cast<double>(now_) / kFcyHz;
   report.backtrace = walk(0, reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0)));
-  if (!report.backtrace.empty()) report.place = report.backtrace.front();
+  report.place = culprit(report.backtrace);
   return report;
 }
 
@@ -444,7 +459,7 @@ void Robot::fault(int kind, std::string message, std::uintptr_t pc, std::uintptr
   report.cycle = now_;
   report.time_s = to_world_s ? to_world_s(now_) : static_cast<double>(now_) / kFcyHz;
   report.backtrace = walk(pc, frame);
-  if (!report.backtrace.empty()) report.place = report.backtrace.front();
+  report.place = culprit(report.backtrace);
   stop_with(std::move(report));
 }
 
@@ -462,7 +477,9 @@ std::vector<Place> Robot::walk(std::uintptr_t pc, std::uintptr_t frame) const {
   constexpr std::size_t kMostFrames = 16;
   std::vector<Place> places;
   const auto add = [&](std::uintptr_t address) {
-    if (copy_.is_code(address)) places.push_back(image_->symbols().find(address - copy_.base()));
+    if (!copy_.is_code(address)) return;
+    Place place = image_->symbols().find(address - copy_.base());
+    if (place.function.rfind("tp_image_", 0) != 0) places.push_back(std::move(place));  // the runtime's own frames say nothing
   };
   if (pc) add(pc);
   while (places.size() < kMostFrames && fiber_.is_on_stack(frame) && frame % sizeof(void*) == 0 &&

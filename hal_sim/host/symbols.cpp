@@ -40,6 +40,16 @@ std::string function_symbol(Elf* elf, std::uintptr_t address) {
   });
   return found;
 }
+// the compilation unit that holds an address (clang writes no table of them)
+bool unit_of(Dwarf* dwarf, std::uintptr_t address, Dwarf_Die* unit) {
+  Dwarf_Off offset = 0, next;
+  std::size_t header;
+  while (dwarf_nextcu(dwarf, offset, &next, &header, nullptr, nullptr, nullptr) == 0) {
+    if (dwarf_offdie(dwarf, offset + header, unit) && dwarf_haspc(unit, address) > 0) return true;
+    offset = next;
+  }
+  return false;
+}
 }  // namespace
 
 std::string to_string(const Place& place) {
@@ -74,7 +84,7 @@ Place Symbols::find(std::uintptr_t address) const {
   Place place;
   place.function = reader_->elf ? function_symbol(reader_->elf, address) : "?";
   Dwarf_Die unit;
-  if (!reader_->dwarf || !dwarf_addrdie(reader_->dwarf, address, &unit)) return place;
+  if (!reader_->dwarf || !unit_of(reader_->dwarf, address, &unit)) return place;
   Dwarf_Line* line = dwarf_getsrc_die(&unit, address);
   if (!line) return place;
   const char* file = dwarf_linesrc(line, nullptr, nullptr);

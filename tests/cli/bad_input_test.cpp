@@ -37,9 +37,9 @@ TEST_P(BadInput, is_refused_with_a_clear_line) {
   write("no_header/main.c", "#include \"nowhere.h\"\nint main(void) { while (1); }\n");
   write("nothing_here/readme.txt", "no C\n");
   write("broken.toml", "this is = = not toml\n");
-  write("typo.toml", "twinpuck = 1\n[aren]\nsize_m = [1, 1]\n");
+  write("typo.toml", "twinpuck = 1\n[aren]\nsize = [1, 1]\n");
   write("no_version.toml", "title = \"x\"\n");
-  write("unknown_firmware.toml", "twinpuck = 1\n[arena]\nsize_m = [1, 1]\n[[robot]]\nname = \"r\"\nfirmware = \"obstakle\"\n");
+  write("unknown_firmware.toml", "twinpuck = 1\n[arena]\nsize = [1, 1]\n[[robot]]\nname = \"r\"\nfirmware = \"obstakle\"\n");
   std::string arguments = bad.arguments;
   for (std::size_t at; (at = arguments.find('@')) != std::string::npos;) arguments.replace(at, 1, folder.string());
   const Said s = twinpuck(arguments);

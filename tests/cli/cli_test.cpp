@@ -87,7 +87,7 @@ TEST_F(Command, the_host_time_guard_ends_with_124) {
 }
 
 TEST_F(Command, ctrl_c_ends_with_130_and_keeps_the_outputs) {
-  const Said s = twinpuck("run maze --for 1000 --speed 1 --record " + path("r.csv") + " --summary " + path("s.json"), "timeout -s INT 1");
+  const Said s = twinpuck("run maze --for 1000 --speed 1 --record " + path("r.csv") + " --summary " + path("s.json"), "timeout --preserve-status -s INT 1");
   EXPECT_EQ(s.exit_code, 130) << s.text;
   EXPECT_TRUE(json::accept(read(path("s.json"))));
   EXPECT_EQ(read(path("r.csv")).back(), '\n');

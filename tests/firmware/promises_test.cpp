@@ -56,7 +56,7 @@ TEST_F(Promise, an_agenda_toggles_every_100_ms_without_drift) {
   const int first = r.variable("toggles");
   run_for(100);
   // 1000 agenda ticks of 1475 cycles each
-  EXPECT_EQ(r.variable("toggles") - first, static_cast<int>(100 * 14745600.0 / 1475000.0));
+  EXPECT_NEAR(r.variable("toggles") - first, 100 * 14745600.0 / 1475000.0, 1);
   expect_no_traps();
 }
 
@@ -261,7 +261,8 @@ TEST_P(Ring, reads_what_the_profile_says) {
   const double ray_m = distance_m / std::cos(mount.pitch_rad);  // a ray that is pitched up meets the wall later
   const double wall_x = forward_m + distance_m;
   const double across = -mount.at_m.x * std::sin(mount.yaw_rad) + mount.at_m.y * std::cos(mount.yaw_rad);
-  if (wall_x < 0.0372) GTEST_SKIP() << "the wall would stand inside the body: the sensor sits " << forward_m << " m from the centre";
+  // sensors sit up to 7 mm inside the rim: for the nearest walls the body, which no ray sees, is made slimmer
+  world.models[0].body_radius_m = 0.032;
   sim::Colour colour = black ? sim::Colour{0, 0, 0} : sim::Colour{1, 1, 1};
   wall(wall_x + 0.005, across - 0.3, wall_x + 0.005, across + 0.3, colour);
   run_for(0.4);
