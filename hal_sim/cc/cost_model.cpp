@@ -535,7 +535,7 @@ void Model::terminator(BasicBlock& block, Segment& s) {
     bool first_next = br->getSuccessor(0) == next;
     BasicBlock* taken = first_next ? br->getSuccessor(1) : br->getSuccessor(0);
     Loop* loop = loops_.getLoopFor(&block);
-    if (loop && loop->getHeader() == taken) s.features[k_taken] += 1;
+    if (loop && (loop->getHeader() == br->getSuccessor(0) || loop->getHeader() == br->getSuccessor(1))) s.features[k_taken] += 1;
     else if (!taken->getSinglePredecessor()) s.features[k_taken] += 0.5;
   } else if (auto* sw = dyn_cast<SwitchInst>(t)) {
     if (sw->getNumCases() >= 5) s.features[k_switch_table] += 1;
