@@ -4,6 +4,8 @@
 
 #include <map>
 
+#include "cost_flow.h"
+
 #include "llvm/Analysis/ScalarEvolutionExpressions.h"
 #include "llvm/ADT/SmallPtrSet.h"
 #include "llvm/IR/CFG.h"
@@ -25,11 +27,14 @@ double Segment::cycles() const { return own() + library; }
 
 namespace {
 
+int words_of(const Value* v);
+bool holds_register(const Value* v);
+
 class Model {
  public:
   Model(Function& f, FunctionAnalysisManager& analyses, int level)
       : f_(f), loops_(analyses.getResult<LoopAnalysis>(f)), se_(analyses.getResult<ScalarEvolutionAnalysis>(f)),
-        level_(level) {}
+        level_(level), flow_(f, loops_, words_of, holds_register) {}
 
   void run(std::vector<Segment>& out);
 
@@ -54,6 +59,7 @@ class Model {
   LoopInfo& loops_;
   ScalarEvolution& se_;
   int level_;
+  CostFlow flow_;
   const Value* last_result_ = nullptr;   // what lies in w0.. after the last library call
   bool no_call_yet_ = true;              // arguments are still where the caller put them
   int saved_words_ = 0;                  // w8..w14 and stack words that calls must not destroy
@@ -87,7 +93,20 @@ bool is_pointer_arithmetic(const Value* v) {
   return false;
 }
 
-int Model::words(const Value* v) const { return is_pointer_arithmetic(v) ? 1 : type_words(v->getType()); }
+int words_of(const Value* v) { return is_pointer_arithmetic(v) ? 1 : type_words(v->getType()); }
+
+/// Constants of address computations, conditions and the like need no register of their own.
+bool holds_register(const Value* v) {
+  if (isa<AllocaInst>(v) || v->getType()->isVoidTy() || (isa<CmpInst>(v) && v->hasOneUse())) return false;
+  if (auto* i = dyn_cast<Instruction>(v)) {
+    if (is_free(*i)) return false;
+    if (isa<GetElementPtrInst>(i) && cast<GetElementPtrInst>(i)->hasAllConstantIndices()) return false;
+    if (v->getType()->isIntegerTy(64) && is_pointer_arithmetic(v)) return false;
+  }
+  return true;
+}
+
+int Model::words(const Value* v) const { return words_of(v); }
 
 void Model::constant_operand(Value* v, Segment& s, bool) {
   auto* c = dyn_cast<ConstantInt>(v);
@@ -193,45 +212,9 @@ bool Model::clobbers(const Instruction& i) const {
 
 /// Which registers survive calls: how many words live across one, or more than eight at once.
 void Model::live_words() {
-  std::map<const BasicBlock*, SmallPtrSet<const Value*, 16>> live_out;
-  auto holds_register = [&](const Value* v) {
-    if (isa<AllocaInst>(v) || v->getType()->isVoidTy() || (isa<CmpInst>(v) && v->hasOneUse())) return false;
-    if (auto* i = dyn_cast<Instruction>(v)) {
-      if (is_free(*i)) return false;
-      if (isa<GetElementPtrInst>(i) && cast<GetElementPtrInst>(i)->hasAllConstantIndices()) return false;
-      if (v->getType()->isIntegerTy(64) && is_pointer_arithmetic(v)) return false;
-    }
-    return true;
-  };
-  auto spread = [&](const Value* v) {
-    const BasicBlock* home = isa<Instruction>(v) ? cast<Instruction>(v)->getParent() : &f_.getEntryBlock();
-    SmallVector<const BasicBlock*, 16> work;
-    SmallPtrSet<const BasicBlock*, 16> live_in;
-    auto at_end = [&](const BasicBlock* b) {
-      live_out[b].insert(v);
-      if (b != home && live_in.insert(b).second) work.push_back(b);
-    };
-    for (const User* u : v->users()) {
-      auto* user = dyn_cast<Instruction>(u);
-      if (!user) continue;
-      if (auto* phi = dyn_cast<PHINode>(user)) {
-        for (unsigned n = 0; n < phi->getNumIncomingValues(); ++n)
-          if (phi->getIncomingValue(n) == v) at_end(phi->getIncomingBlock(n));
-      } else if (user->getParent() != home || isa<PHINode>(v)) {
-        if (user->getParent() != home && live_in.insert(user->getParent()).second) work.push_back(user->getParent());
-      }
-    }
-    while (!work.empty()) {
-      const BasicBlock* b = work.pop_back_val();
-      for (const BasicBlock* from : predecessors(b)) at_end(from);
-    }
-  };
-  for (Argument& a : f_.args()) spread(&a);
-  for (Instruction& i : instructions(f_))
-    if (holds_register(&i)) spread(&i);
   int most_across = 0, most = 0;
   for (BasicBlock& block : f_) {
-    SmallPtrSet<const Value*, 16> live = live_out[&block];
+    CostFlow::Values live = flow_.live_out(&block);
     for (Instruction& i : reverse(block)) {
       live.erase(&i);
       if (isa<PHINode>(i)) continue;
@@ -373,10 +356,7 @@ void Model::instruction(Instruction& i, Segment& s) {
     if (auto* phi = dyn_cast<PHINode>(gep->getPointerOperand()); phi && gep->hasAllConstantIndices() && is_contained(phi->incoming_values(), gep))
       s.features[k_pointer_step] += 1;
   if (isa<AllocaInst>(i) || isa<GetElementPtrInst>(i) || isa<FreezeInst>(i)) return;
-  if (isa<PHINode>(i)) {
-    s.features[k_phi] += w;
-    return;
-  }
+  if (isa<PHINode>(i)) return;
   if (auto* load = dyn_cast<LoadInst>(&i)) {
     bool byte = (load->getType()->isIntegerTy(8) || load->getType()->isIntegerTy(1));
     if (in_place_.count(load)) return;
@@ -501,7 +481,7 @@ void Model::instruction(Instruction& i, Segment& s) {
         return;
       }
       default:
-        if (w == 2) s.features[k_alu32] += 1;
+        if (w == 2) s.features[op->isBitwiseLogicOp() ? k_logic32 : k_alu32] += 1;
         else s.features[k_alu] += w;
         if (in_place_.count(&i))
           if (auto* bit = dyn_cast<ConstantInt>(op->getOperand(1)))
@@ -520,27 +500,17 @@ void Model::instruction(Instruction& i, Segment& s) {
 
 void Model::terminator(BasicBlock& block, Segment& s) {
   Instruction* t = block.getTerminator();
-  BasicBlock* next = block.getNextNode();
   if (isa<ReturnInst>(t)) {
     s.features[k_return_] += 1;
-  } else if (auto* br = dyn_cast<BranchInst>(t)) {
-    if (br->isUnconditional()) {
-      if (br->getSuccessor(0) != next) s.features[k_jump] += 1;
-      return;
-    }
-    if (auto* c = dyn_cast<Instruction>(br->getCondition()))
-      if (is_free(*c)) return;
-    if (Loop* around = loops_.getLoopFor(&block); around && around->getLoopLatch() == &block && is_unrolled(around)) return;
-    s.features[k_branch] += 1;
-    bool first_next = br->getSuccessor(0) == next;
-    BasicBlock* taken = first_next ? br->getSuccessor(1) : br->getSuccessor(0);
-    Loop* loop = loops_.getLoopFor(&block);
-    if (loop && (loop->getHeader() == br->getSuccessor(0) || loop->getHeader() == br->getSuccessor(1))) s.features[k_taken] += 1;
-    else if (!taken->getSinglePredecessor()) s.features[k_taken] += 0.5;
   } else if (auto* sw = dyn_cast<SwitchInst>(t)) {
     if (sw->getNumCases() >= 5) s.features[k_switch_table] += 1;
     else s.features[k_switch_case] += sw->getNumCases() * 0.6 + 0.5;
   }
+  Features edges{};
+  flow_.charge(block, edges);
+  Loop* around = loops_.getLoopFor(&block);
+  if (around && around->getLoopLatch() == &block && is_unrolled(around)) edges = Features{};
+  for (int r = 0; r < kRuleCount; ++r) s.features[r] += edges[r];
 }
 
 /// Arithmetic for one arm of a choice: the chip's compiler branches round it.
@@ -576,11 +546,6 @@ void Model::run(std::vector<Segment>& out) {
         if (kept_.count(&a)) s.features[k_kept_word] += words(&a);
       entry = false;
     }
-    if (BasicBlock* before = block.getSinglePredecessor())
-      if (auto* br = dyn_cast<BranchInst>(before->getTerminator())) {
-        auto* condition = br->isConditional() ? dyn_cast<Instruction>(br->getCondition()) : nullptr;
-        if (br->isConditional() && !(condition && is_free(*condition)) && before->getNextNode() != &block) s.features[k_taken] += 1;
-      }
     bool after_call = false;
     for (Instruction& i : block) {
       bool big = s.cycles() > kSegmentCycles;
@@ -590,7 +555,7 @@ void Model::run(std::vector<Segment>& out) {
         after_call = false;
       }
       if (i.isTerminator()) {
-        if (!is_free(i)) terminator(block, s);
+        terminator(block, s);
         continue;
       }
       if (level_ > 0 && only_for_select(i)) {
