@@ -2,6 +2,8 @@
 // See cost_flow.h. XC16 -O1 keeps the blocks in the order of the source, and so does our pipeline.
 #include "cost_flow.h"
 
+#include <set>
+
 #include "llvm/IR/CFG.h"
 #include "llvm/IR/InstIterator.h"
 #include "llvm/IR/IntrinsicInst.h"
@@ -52,19 +54,28 @@ void CostFlow::find_live(Function& f) {
 
 /// Where two paths join: constants are loaded on the way, and a value that lives on beside the joined one is copied.
 void CostFlow::find_moves(Function& f) {
+  std::set<std::pair<const BasicBlock*, const Value*>> loaded;
   for (BasicBlock& block : f)
     for (PHINode& phi : block.phis()) {
       if (!counted_(&phi)) continue;
+      const Value* own = nullptr;  // the argument whose register the joined value takes
+      for (const Value* v : phi.incoming_values())
+        if (auto* argument = dyn_cast<Argument>(v))
+          if (!own || argument->getArgNo() == 0) own = v;
       for (unsigned n = 0; n < phi.getNumIncomingValues(); ++n) {
         Value* v = phi.getIncomingValue(n);
         Features& at = cost_[phi.getIncomingBlock(n)];
         if (isa<UndefValue>(v) || v == &phi) continue;
         if (isa<Constant>(v)) {
+          // ways out of a switch exclude one another
+          if (isa<SwitchInst>(phi.getIncomingBlock(n)->getTerminator()) && !loaded.emplace(phi.getIncomingBlock(n), v).second)
+            continue;
           at[k_phi_constant] += words_(&phi) > 1 && cast<Constant>(v)->isNullValue() ? 1 : words_(&phi);
           continue;
         }
         auto* other = dyn_cast<PHINode>(v);
-        if (live_in_[&block].count(v) || (other && other->getParent() == &block)) at[k_phi_move] += words_(&phi);
+        bool foreign = isa<Argument>(v) && v != own;
+        if (foreign || live_in_[&block].count(v) || (other && other->getParent() == &block)) at[k_phi_move] += words_(&phi);
       }
     }
   for (BasicBlock& block : f)

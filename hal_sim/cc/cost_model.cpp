@@ -5,8 +5,10 @@
 #include <map>
 
 #include "cost_flow.h"
+#include "cost_values.h"
 
 #include "llvm/Analysis/ScalarEvolutionExpressions.h"
+#include "llvm/Analysis/ValueTracking.h"
 #include "llvm/ADT/SmallPtrSet.h"
 #include "llvm/IR/CFG.h"
 #include "llvm/IR/InstIterator.h"
@@ -26,9 +28,6 @@ double Segment::own() const {
 double Segment::cycles() const { return own() + library; }
 
 namespace {
-
-int words_of(const Value* v);
-bool holds_register(const Value* v);
 
 class Model {
  public:
@@ -51,8 +50,8 @@ class Model {
   bool updates_memory(const StoreInst& store) const;
   bool is_unrolled(const Loop* loop);
   bool counts_down(const ICmpInst& compare);
-  bool sets_flags(const Value* v, const Instruction& at) const;
-  int words(const Value* v) const;
+  bool sets_flags(const Value* v, const ICmpInst& at) const;
+  int words(const Value* v) const { return words_of(v); }
   bool in_loop(const Instruction& i) const { return loops_.getLoopFor(i.getParent()) != nullptr; }
 
   Function& f_;
@@ -68,55 +67,17 @@ class Model {
   SmallPtrSet<const Instruction*, 16> in_place_;  // loads and operations merged into a memory operation
 };
 
-int type_words(Type* t) {
-  if (t->isVoidTy()) return 0;
-  if (t->isPointerTy() || t->isIntegerTy(1)) return 1;
-  if (t->isFloatTy()) return 2;
-  if (t->isDoubleTy()) return 4;
-  if (auto* i = dyn_cast<IntegerType>(t)) return std::max(1u, (i->getBitWidth() + 15) / 16);
-  return std::max<int>(1, int(t->getPrimitiveSizeInBits()) / 16);
-}
-
-/// 64-bit numbers that only exist because the PC's pointers are wide.
-bool is_pointer_arithmetic(const Value* v) {
-  if (!v->getType()->isIntegerTy(64)) return false;
-  if (isa<PtrToIntInst>(v)) return true;
-  if (auto* op = dyn_cast<BinaryOperator>(v))
-    if (op->isIntDivRem()) return false;
-  if (auto* cast_from = dyn_cast<CastInst>(v)) {
-    if (cast_from->getOperand(0)->getType()->getScalarSizeInBits() > 16) return false;
-    for (const User* u : v->users())
-      if (isa<GetElementPtrInst>(u)) return true;
-  }
-  if (auto* op = dyn_cast<BinaryOperator>(v))
-    return is_pointer_arithmetic(op->getOperand(0)) || is_pointer_arithmetic(op->getOperand(1));
-  return false;
-}
-
-int words_of(const Value* v) { return is_pointer_arithmetic(v) ? 1 : type_words(v->getType()); }
-
-/// Constants of address computations, conditions and the like need no register of their own.
-bool holds_register(const Value* v) {
-  if (isa<AllocaInst>(v) || v->getType()->isVoidTy() || (isa<CmpInst>(v) && v->hasOneUse())) return false;
-  if (auto* i = dyn_cast<Instruction>(v)) {
-    if (is_free(*i)) return false;
-    if (isa<GetElementPtrInst>(i) && cast<GetElementPtrInst>(i)->hasAllConstantIndices()) return false;
-    if (v->getType()->isIntegerTy(64) && is_pointer_arithmetic(v)) return false;
-  }
-  return true;
-}
-
-int Model::words(const Value* v) const { return words_of(v); }
-
 void Model::constant_operand(Value* v, Segment& s, bool) {
   auto* c = dyn_cast<ConstantInt>(v);
   if (!c || c->getBitWidth() > 32) return;
   int64_t value = c->getSExtValue();
   Rule rule = in_loop(*s.first) ? k_wide_constant_loop : k_wide_constant;
+  bool wide = false;
   for (int w = 0; w < words(v); ++w) {
     int64_t part = (value >> (16 * w)) & 0xffff;
-    if (part > 31 && part < 0xffe1) s.features[rule] += 1;
+    wide |= part > 31 && part < 0xffe1;
   }
+  if (wide) s.features[rule] += words(v);
 }
 
 void Model::address(Value* pointer, Segment& s, bool is_word) {
@@ -130,6 +91,8 @@ void Model::address(Value* pointer, Segment& s, bool is_word) {
       if (loop && se_.isSCEVable(pointer->getType()))
         if (auto* rec = dyn_cast<SCEVAddRecExpr>(se_.getSCEV(pointer)))
           if (rec->getLoop() == loop) {
+            auto* table = dyn_cast<GlobalVariable>(getUnderlyingObject(pointer));
+            if (table && is_program_memory(*table)) s.features[k_constant_memory] += 1;
             if (!is_unrolled(loop)) s.features[k_walk] += 1;
             return;
           }
@@ -140,34 +103,10 @@ void Model::address(Value* pointer, Segment& s, bool is_word) {
   }
   if (auto* g = dyn_cast<GlobalVariable>(base)) {
     bool direct = !gep || gep->hasAllConstantIndices();
-    if (g->isConstant()) s.features[k_constant_memory] += 1;
-    if (!direct || g->isConstant()) s.features[in_loop(*s.first) ? k_address_loop : k_address] += 1;
+    if (is_program_memory(*g)) s.features[k_constant_memory] += 1;
+    if (!direct || is_program_memory(*g)) s.features[in_loop(*s.first) ? k_address_loop : k_address] += 1;
     else if (!is_word) s.features[k_global_byte] += 1;
   }
-}
-
-bool narrow_operand(const Value* v) {
-  auto* e = dyn_cast<CastInst>(v);
-  return (e && e->isIntegerCast() && e->getSrcTy()->getScalarSizeInBits() <= 16) ||
-         (isa<ConstantInt>(v) && cast<ConstantInt>(v)->getValue().getMinSignedBits() <= 16);
-}
-
-/// A 16-bit signed division that the first stage widened to 32 bits.
-bool is_narrow_division(const Value* v) {
-  auto* op = dyn_cast<BinaryOperator>(v);
-  return op && (op->getOpcode() == Instruction::SDiv || op->getOpcode() == Instruction::SRem) &&
-         op->getType()->isIntegerTy(32) && narrow_operand(op->getOperand(0)) && narrow_operand(op->getOperand(1));
-}
-
-/// The operand before the first stage made divisions twice as wide.
-Value* undo_widening(Value* v) {
-  auto* e = dyn_cast<SExtInst>(v);
-  return e && e->getType()->isIntegerTy(64) ? e->getOperand(0) : v;
-}
-
-bool is_long_division(const Value* v) {
-  auto* op = dyn_cast<BinaryOperator>(v);
-  return op && op->isIntDivRem() && op->getType()->getIntegerBitWidth() > 16 && !is_narrow_division(v);
 }
 
 /// A call of the compiler's library: operands go to w0.., the result comes back in w0..
@@ -282,10 +221,17 @@ bool Model::counts_down(const ICmpInst& compare) {
 }
 
 /// The instruction before left the flags of v == 0 and v < 0.
-bool Model::sets_flags(const Value* v, const Instruction& at) const {
+bool Model::sets_flags(const Value* v, const ICmpInst& at) const {
   auto* op = dyn_cast<BinaryOperator>(v);
-  return op && op->getParent() == at.getParent() && !op->getType()->isFloatingPointTy() && words(op) == 1 &&
-         op->getOpcode() != Instruction::Mul && !op->isIntDivRem() && level_ > 0;
+  if (!op || level_ == 0 || op->getType()->isFloatingPointTy() || words(op) != 1 || op->getOpcode() == Instruction::Mul ||
+      op->isIntDivRem())
+    return false;
+  if (!at.isEquality() && at.getPredicate() != CmpInst::ICMP_SLT && at.getPredicate() != CmpInst::ICMP_SGE) return false;
+  const Instruction* before = at.getPrevNode();
+  while (before && (isa<DbgInfoIntrinsic>(before) || calls(*before, kRound) || is_free(*before) ||
+                    isa<GetElementPtrInst>(before) || isa<CastInst>(before)))
+    before = before->getPrevNode();
+  return before == op;
 }
 
 void Model::call(CallBase& c, Segment& s) {
@@ -352,9 +298,7 @@ void Model::instruction(Instruction& i, Segment& s) {
     if (isa<BinaryOperator>(i) && se_.isSCEVable(i.getType()) && isa<SCEVAddRecExpr>(se_.getSCEV(&i))) return;
   }
   int w = words(&i);
-  if (auto* gep = dyn_cast<GetElementPtrInst>(&i))
-    if (auto* phi = dyn_cast<PHINode>(gep->getPointerOperand()); phi && gep->hasAllConstantIndices() && is_contained(phi->incoming_values(), gep))
-      s.features[k_pointer_step] += 1;
+  if (auto* gep = dyn_cast<GetElementPtrInst>(&i); gep && steps_alone(*gep)) s.features[k_pointer_step] += 1;
   if (isa<AllocaInst>(i) || isa<GetElementPtrInst>(i) || isa<FreezeInst>(i)) return;
   if (isa<PHINode>(i)) return;
   if (auto* load = dyn_cast<LoadInst>(&i)) {
@@ -378,7 +322,7 @@ void Model::instruction(Instruction& i, Segment& s) {
     auto* zero = dyn_cast<Constant>(compare->getOperand(1));
     bool by_zero = zero && zero->isNullValue();
     if (counts_down(*compare)) return;
-    if (!(by_zero && sets_flags(compare->getOperand(0), i))) {
+    if (!(by_zero && sets_flags(compare->getOperand(0), *compare))) {
       if (words(compare->getOperand(0)) > 1) s.features[by_zero ? k_compare32_zero : k_compare32] += 1;
       else s.features[k_compare] += 1;
       constant_operand(compare->getOperand(1), s, true);
@@ -467,12 +411,20 @@ void Model::instruction(Instruction& i, Segment& s) {
           if (isa<Constant>(op->getOperand(1))) s.features[in_loop(i) ? k_wide_constant_loop : k_wide_constant] += 1;
           return;
         }
+        if (auto* by = dyn_cast<ConstantInt>(op->getOperand(1)); by && w == 2 && by->getValue().isPowerOf2()) {
+          // a negative number gets divisor - 1 added before the shift
+          bool is_signed = op->getOpcode() == Instruction::SDiv || op->getOpcode() == Instruction::SRem;
+          if (is_signed) s.features[k_alu] += 2, s.features[k_alu32] += 1;
+          s.features[op->getOpcode() == Instruction::SDiv || op->getOpcode() == Instruction::UDiv ? k_shift32 : k_logic32] += 1;
+          return;
+        }
         float_operation(i, s, w > 2 && undo_widening(op->getOperand(0)) == op->getOperand(0) ? kLongLongDivide
                               : op->getOpcode() == Instruction::SDiv || op->getOpcode() == Instruction::SRem
                                   ? kLongDivide : kUnsignedLongDivide);
         return;
       case Instruction::Shl: case Instruction::LShr: case Instruction::AShr: {
         auto* n = dyn_cast<ConstantInt>(op->getOperand(1));
+        if (op->getType()->isIntegerTy(8) && op->getOpcode() != Instruction::Shl) s.features[k_extend8] += 1;
         if (w == 1) s.features[k_shift16] += 1;
         else if (!n) s.features[k_shift32_count] += 4;
         else if (n->getZExtValue() == 1) s.features[k_shift32_one] += 1;
@@ -508,16 +460,14 @@ void Model::terminator(BasicBlock& block, Segment& s) {
   }
   Features edges{};
   flow_.charge(block, edges);
+  if (auto* ret = dyn_cast<ReturnInst>(t); ret && ret->getReturnValue() && isa<PHINode>(ret->getReturnValue())) {
+    // calls have driven one of the two out of w0
+    if (kept_.count(ret->getReturnValue())) edges[k_return_move] = words(ret->getReturnValue());
+    else if (!f_.arg_empty() && kept_.count(f_.getArg(0))) edges[k_return_move] = 0;
+  }
   Loop* around = loops_.getLoopFor(&block);
   if (around && around->getLoopLatch() == &block && is_unrolled(around)) edges = Features{};
   for (int r = 0; r < kRuleCount; ++r) s.features[r] += edges[r];
-}
-
-/// Arithmetic for one arm of a choice: the chip's compiler branches round it.
-bool only_for_select(const Instruction& i) {
-  if (!isa<BinaryOperator>(i) || !i.hasOneUse()) return false;
-  auto* select = dyn_cast<SelectInst>(i.user_back());
-  return select && select->getCondition() != &i && select->getParent() == i.getParent();
 }
 
 void Model::run(std::vector<Segment>& out) {
@@ -550,7 +500,7 @@ void Model::run(std::vector<Segment>& out) {
     for (Instruction& i : block) {
       bool big = s.cycles() > kSegmentCycles;
       if ((after_call || big) && !isa<PHINode>(i) && !isa<AllocaInst>(i)) {
-        if (s.cycles() > 0) out.push_back(s);
+        out.push_back(s);
         s = Segment{&i};
         after_call = false;
       }
@@ -569,7 +519,7 @@ void Model::run(std::vector<Segment>& out) {
       auto* c = dyn_cast<CallBase>(&i);
       if (c && !isa<IntrinsicInst>(c) && !calls(i, kNop) && !calls(i, kRound)) after_call = true;
     }
-    if (s.cycles() > 0) out.push_back(s);
+    out.push_back(s);
   }
 }
 
