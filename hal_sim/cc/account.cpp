@@ -46,6 +46,7 @@ void charge(Module& m, Instruction* before, int64_t cycles) {
   Value* field = control_field(m, 0);
   Value* left = b.CreateSub(b.CreateAlignedLoad(b.getInt64Ty(), field, Align(8)), b.getInt64(cycles));
   b.CreateAlignedStore(left, field, Align(8));
+  if (cycles < 0) return;  // a correction: a branch paid for by the block before was not taken
   Value* spent = b.CreateICmpSLT(left, b.getInt64(0));
   auto* rarely = MDBuilder(m.getContext()).createBranchWeights(1, 100000);
   Instruction* then = SplitBlockAndInsertIfThen(spent, before, false, rarely);
@@ -213,7 +214,7 @@ CostPlan plan_costs(Unit& unit, FunctionAnalysisManager& analyses) {
   for (Function& f : m) {
     if (f.isDeclaration() || f.getName().startswith("tp_image_")) continue;
     FunctionCost cost(f, analyses, unit.options.level);
-    FunctionPlan function{&f};
+    FunctionPlan function{&f, 0, 0, {}};
     for (Segment& s : cost.segments) {
       plan.charges.push_back({s.first, s.cycles()});
       function.straight += s.cycles();
@@ -242,7 +243,7 @@ void account(Unit& unit, const CostPlan& plan) {
     cast<GlobalVariable>(used.back())->setConstant(true);
   }
   for (auto& [before, cycles] : plan.charges)
-    if (std::llround(cycles) > 0) charge(m, before, std::llround(cycles));
+    if (std::llround(cycles) != 0) charge(m, before, std::llround(cycles));
   if (unit.options.coverage)
     for (const auto& function : plan.functions) count_lines(*function.function, used);
   if (!used.empty()) appendToCompilerUsed(m, used);

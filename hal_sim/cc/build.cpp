@@ -94,6 +94,8 @@ Plan plan(const BuildOptions& o, const std::vector<fs::path>& sources, bool lint
   }
   user_include.push_back("--fallback");
   user_include.push_back(o.source_dir.string());
+  user_include.push_back("--project");
+  user_include.push_back(fs::weakly_canonical(o.source_dir).string());
   library_include.push_back("-I" + root.string());
 
   Plan p;

@@ -4,7 +4,11 @@
 
 #include <map>
 
+#include "cost_flow.h"
+#include "cost_values.h"
+
 #include "llvm/Analysis/ScalarEvolutionExpressions.h"
+#include "llvm/Analysis/ValueTracking.h"
 #include "llvm/ADT/SmallPtrSet.h"
 #include "llvm/IR/CFG.h"
 #include "llvm/IR/InstIterator.h"
@@ -29,7 +33,7 @@ class Model {
  public:
   Model(Function& f, FunctionAnalysisManager& analyses, int level)
       : f_(f), loops_(analyses.getResult<LoopAnalysis>(f)), se_(analyses.getResult<ScalarEvolutionAnalysis>(f)),
-        level_(level) {}
+        level_(level), flow_(f, loops_, words_of, holds_register) {}
 
   void run(std::vector<Segment>& out);
 
@@ -46,14 +50,15 @@ class Model {
   bool updates_memory(const StoreInst& store) const;
   bool is_unrolled(const Loop* loop);
   bool counts_down(const ICmpInst& compare);
-  bool sets_flags(const Value* v, const Instruction& at) const;
-  int words(const Value* v) const;
+  bool sets_flags(const Value* v, const ICmpInst& at) const;
+  int words(const Value* v) const { return words_of(v); }
   bool in_loop(const Instruction& i) const { return loops_.getLoopFor(i.getParent()) != nullptr; }
 
   Function& f_;
   LoopInfo& loops_;
   ScalarEvolution& se_;
   int level_;
+  CostFlow flow_;
   const Value* last_result_ = nullptr;   // what lies in w0.. after the last library call
   bool no_call_yet_ = true;              // arguments are still where the caller put them
   int saved_words_ = 0;                  // w8..w14 and stack words that calls must not destroy
@@ -62,42 +67,17 @@ class Model {
   SmallPtrSet<const Instruction*, 16> in_place_;  // loads and operations merged into a memory operation
 };
 
-int type_words(Type* t) {
-  if (t->isVoidTy()) return 0;
-  if (t->isPointerTy() || t->isIntegerTy(1)) return 1;
-  if (t->isFloatTy()) return 2;
-  if (t->isDoubleTy()) return 4;
-  if (auto* i = dyn_cast<IntegerType>(t)) return std::max(1u, (i->getBitWidth() + 15) / 16);
-  return std::max<int>(1, int(t->getPrimitiveSizeInBits()) / 16);
-}
-
-/// 64-bit numbers that only exist because the PC's pointers are wide.
-bool is_pointer_arithmetic(const Value* v) {
-  if (!v->getType()->isIntegerTy(64)) return false;
-  if (isa<PtrToIntInst>(v)) return true;
-  if (auto* op = dyn_cast<BinaryOperator>(v))
-    if (op->isIntDivRem()) return false;
-  if (auto* cast_from = dyn_cast<CastInst>(v)) {
-    if (cast_from->getOperand(0)->getType()->getScalarSizeInBits() > 16) return false;
-    for (const User* u : v->users())
-      if (isa<GetElementPtrInst>(u)) return true;
-  }
-  if (auto* op = dyn_cast<BinaryOperator>(v))
-    return is_pointer_arithmetic(op->getOperand(0)) || is_pointer_arithmetic(op->getOperand(1));
-  return false;
-}
-
-int Model::words(const Value* v) const { return is_pointer_arithmetic(v) ? 1 : type_words(v->getType()); }
-
 void Model::constant_operand(Value* v, Segment& s, bool) {
   auto* c = dyn_cast<ConstantInt>(v);
   if (!c || c->getBitWidth() > 32) return;
   int64_t value = c->getSExtValue();
   Rule rule = in_loop(*s.first) ? k_wide_constant_loop : k_wide_constant;
+  bool wide = false;
   for (int w = 0; w < words(v); ++w) {
     int64_t part = (value >> (16 * w)) & 0xffff;
-    if (part > 31 && part < 0xffe1) s.features[rule] += 1;
+    wide |= part > 31 && part < 0xffe1;
   }
+  if (wide) s.features[rule] += words(v);
 }
 
 void Model::address(Value* pointer, Segment& s, bool is_word) {
@@ -111,6 +91,8 @@ void Model::address(Value* pointer, Segment& s, bool is_word) {
       if (loop && se_.isSCEVable(pointer->getType()))
         if (auto* rec = dyn_cast<SCEVAddRecExpr>(se_.getSCEV(pointer)))
           if (rec->getLoop() == loop) {
+            auto* table = dyn_cast<GlobalVariable>(getUnderlyingObject(pointer));
+            if (table && is_program_memory(*table)) s.features[k_constant_memory] += 1;
             if (!is_unrolled(loop)) s.features[k_walk] += 1;
             return;
           }
@@ -121,34 +103,10 @@ void Model::address(Value* pointer, Segment& s, bool is_word) {
   }
   if (auto* g = dyn_cast<GlobalVariable>(base)) {
     bool direct = !gep || gep->hasAllConstantIndices();
-    if (g->isConstant()) s.features[k_constant_memory] += 1;
-    if (!direct || g->isConstant()) s.features[in_loop(*s.first) ? k_address_loop : k_address] += 1;
+    if (is_program_memory(*g)) s.features[k_constant_memory] += 1;
+    if (!direct || is_program_memory(*g)) s.features[in_loop(*s.first) ? k_address_loop : k_address] += 1;
     else if (!is_word) s.features[k_global_byte] += 1;
   }
-}
-
-bool narrow_operand(const Value* v) {
-  auto* e = dyn_cast<CastInst>(v);
-  return (e && e->isIntegerCast() && e->getSrcTy()->getScalarSizeInBits() <= 16) ||
-         (isa<ConstantInt>(v) && cast<ConstantInt>(v)->getValue().getMinSignedBits() <= 16);
-}
-
-/// A 16-bit signed division that the first stage widened to 32 bits.
-bool is_narrow_division(const Value* v) {
-  auto* op = dyn_cast<BinaryOperator>(v);
-  return op && (op->getOpcode() == Instruction::SDiv || op->getOpcode() == Instruction::SRem) &&
-         op->getType()->isIntegerTy(32) && narrow_operand(op->getOperand(0)) && narrow_operand(op->getOperand(1));
-}
-
-/// The operand before the first stage made divisions twice as wide.
-Value* undo_widening(Value* v) {
-  auto* e = dyn_cast<SExtInst>(v);
-  return e && e->getType()->isIntegerTy(64) ? e->getOperand(0) : v;
-}
-
-bool is_long_division(const Value* v) {
-  auto* op = dyn_cast<BinaryOperator>(v);
-  return op && op->isIntDivRem() && op->getType()->getIntegerBitWidth() > 16 && !is_narrow_division(v);
 }
 
 /// A call of the compiler's library: operands go to w0.., the result comes back in w0..
@@ -193,45 +151,9 @@ bool Model::clobbers(const Instruction& i) const {
 
 /// Which registers survive calls: how many words live across one, or more than eight at once.
 void Model::live_words() {
-  std::map<const BasicBlock*, SmallPtrSet<const Value*, 16>> live_out;
-  auto holds_register = [&](const Value* v) {
-    if (isa<AllocaInst>(v) || v->getType()->isVoidTy() || (isa<CmpInst>(v) && v->hasOneUse())) return false;
-    if (auto* i = dyn_cast<Instruction>(v)) {
-      if (is_free(*i)) return false;
-      if (isa<GetElementPtrInst>(i) && cast<GetElementPtrInst>(i)->hasAllConstantIndices()) return false;
-      if (v->getType()->isIntegerTy(64) && is_pointer_arithmetic(v)) return false;
-    }
-    return true;
-  };
-  auto spread = [&](const Value* v) {
-    const BasicBlock* home = isa<Instruction>(v) ? cast<Instruction>(v)->getParent() : &f_.getEntryBlock();
-    SmallVector<const BasicBlock*, 16> work;
-    SmallPtrSet<const BasicBlock*, 16> live_in;
-    auto at_end = [&](const BasicBlock* b) {
-      live_out[b].insert(v);
-      if (b != home && live_in.insert(b).second) work.push_back(b);
-    };
-    for (const User* u : v->users()) {
-      auto* user = dyn_cast<Instruction>(u);
-      if (!user) continue;
-      if (auto* phi = dyn_cast<PHINode>(user)) {
-        for (unsigned n = 0; n < phi->getNumIncomingValues(); ++n)
-          if (phi->getIncomingValue(n) == v) at_end(phi->getIncomingBlock(n));
-      } else if (user->getParent() != home || isa<PHINode>(v)) {
-        if (user->getParent() != home && live_in.insert(user->getParent()).second) work.push_back(user->getParent());
-      }
-    }
-    while (!work.empty()) {
-      const BasicBlock* b = work.pop_back_val();
-      for (const BasicBlock* from : predecessors(b)) at_end(from);
-    }
-  };
-  for (Argument& a : f_.args()) spread(&a);
-  for (Instruction& i : instructions(f_))
-    if (holds_register(&i)) spread(&i);
   int most_across = 0, most = 0;
   for (BasicBlock& block : f_) {
-    SmallPtrSet<const Value*, 16> live = live_out[&block];
+    CostFlow::Values live = flow_.live_out(&block);
     for (Instruction& i : reverse(block)) {
       live.erase(&i);
       if (isa<PHINode>(i)) continue;
@@ -299,10 +221,17 @@ bool Model::counts_down(const ICmpInst& compare) {
 }
 
 /// The instruction before left the flags of v == 0 and v < 0.
-bool Model::sets_flags(const Value* v, const Instruction& at) const {
+bool Model::sets_flags(const Value* v, const ICmpInst& at) const {
   auto* op = dyn_cast<BinaryOperator>(v);
-  return op && op->getParent() == at.getParent() && !op->getType()->isFloatingPointTy() && words(op) == 1 &&
-         op->getOpcode() != Instruction::Mul && !op->isIntDivRem() && level_ > 0;
+  if (!op || level_ == 0 || op->getType()->isFloatingPointTy() || words(op) != 1 || op->getOpcode() == Instruction::Mul ||
+      op->isIntDivRem())
+    return false;
+  if (!at.isEquality() && at.getPredicate() != CmpInst::ICMP_SLT && at.getPredicate() != CmpInst::ICMP_SGE) return false;
+  const Instruction* before = at.getPrevNode();
+  while (before && (isa<DbgInfoIntrinsic>(before) || calls(*before, kRound) || is_free(*before) ||
+                    isa<GetElementPtrInst>(before) || isa<CastInst>(before)))
+    before = before->getPrevNode();
+  return before == op;
 }
 
 void Model::call(CallBase& c, Segment& s) {
@@ -369,14 +298,9 @@ void Model::instruction(Instruction& i, Segment& s) {
     if (isa<BinaryOperator>(i) && se_.isSCEVable(i.getType()) && isa<SCEVAddRecExpr>(se_.getSCEV(&i))) return;
   }
   int w = words(&i);
-  if (auto* gep = dyn_cast<GetElementPtrInst>(&i))
-    if (auto* phi = dyn_cast<PHINode>(gep->getPointerOperand()); phi && gep->hasAllConstantIndices() && is_contained(phi->incoming_values(), gep))
-      s.features[k_pointer_step] += 1;
+  if (auto* gep = dyn_cast<GetElementPtrInst>(&i); gep && steps_alone(*gep)) s.features[k_pointer_step] += 1;
   if (isa<AllocaInst>(i) || isa<GetElementPtrInst>(i) || isa<FreezeInst>(i)) return;
-  if (isa<PHINode>(i)) {
-    s.features[k_phi] += w;
-    return;
-  }
+  if (isa<PHINode>(i)) return;
   if (auto* load = dyn_cast<LoadInst>(&i)) {
     bool byte = (load->getType()->isIntegerTy(8) || load->getType()->isIntegerTy(1));
     if (in_place_.count(load)) return;
@@ -398,7 +322,7 @@ void Model::instruction(Instruction& i, Segment& s) {
     auto* zero = dyn_cast<Constant>(compare->getOperand(1));
     bool by_zero = zero && zero->isNullValue();
     if (counts_down(*compare)) return;
-    if (!(by_zero && sets_flags(compare->getOperand(0), i))) {
+    if (!(by_zero && sets_flags(compare->getOperand(0), *compare))) {
       if (words(compare->getOperand(0)) > 1) s.features[by_zero ? k_compare32_zero : k_compare32] += 1;
       else s.features[k_compare] += 1;
       constant_operand(compare->getOperand(1), s, true);
@@ -487,12 +411,20 @@ void Model::instruction(Instruction& i, Segment& s) {
           if (isa<Constant>(op->getOperand(1))) s.features[in_loop(i) ? k_wide_constant_loop : k_wide_constant] += 1;
           return;
         }
+        if (auto* by = dyn_cast<ConstantInt>(op->getOperand(1)); by && w == 2 && by->getValue().isPowerOf2()) {
+          // a negative number gets divisor - 1 added before the shift
+          bool is_signed = op->getOpcode() == Instruction::SDiv || op->getOpcode() == Instruction::SRem;
+          if (is_signed) s.features[k_alu] += 2, s.features[k_alu32] += 1;
+          s.features[op->getOpcode() == Instruction::SDiv || op->getOpcode() == Instruction::UDiv ? k_shift32 : k_logic32] += 1;
+          return;
+        }
         float_operation(i, s, w > 2 && undo_widening(op->getOperand(0)) == op->getOperand(0) ? kLongLongDivide
                               : op->getOpcode() == Instruction::SDiv || op->getOpcode() == Instruction::SRem
                                   ? kLongDivide : kUnsignedLongDivide);
         return;
       case Instruction::Shl: case Instruction::LShr: case Instruction::AShr: {
         auto* n = dyn_cast<ConstantInt>(op->getOperand(1));
+        if (op->getType()->isIntegerTy(8) && op->getOpcode() != Instruction::Shl) s.features[k_extend8] += 1;
         if (w == 1) s.features[k_shift16] += 1;
         else if (!n) s.features[k_shift32_count] += 4;
         else if (n->getZExtValue() == 1) s.features[k_shift32_one] += 1;
@@ -501,7 +433,7 @@ void Model::instruction(Instruction& i, Segment& s) {
         return;
       }
       default:
-        if (w == 2) s.features[k_alu32] += 1;
+        if (w == 2) s.features[op->isBitwiseLogicOp() ? k_logic32 : k_alu32] += 1;
         else s.features[k_alu] += w;
         if (in_place_.count(&i))
           if (auto* bit = dyn_cast<ConstantInt>(op->getOperand(1)))
@@ -520,34 +452,22 @@ void Model::instruction(Instruction& i, Segment& s) {
 
 void Model::terminator(BasicBlock& block, Segment& s) {
   Instruction* t = block.getTerminator();
-  BasicBlock* next = block.getNextNode();
   if (isa<ReturnInst>(t)) {
     s.features[k_return_] += 1;
-  } else if (auto* br = dyn_cast<BranchInst>(t)) {
-    if (br->isUnconditional()) {
-      if (br->getSuccessor(0) != next) s.features[k_jump] += 1;
-      return;
-    }
-    if (auto* c = dyn_cast<Instruction>(br->getCondition()))
-      if (is_free(*c)) return;
-    if (Loop* around = loops_.getLoopFor(&block); around && around->getLoopLatch() == &block && is_unrolled(around)) return;
-    s.features[k_branch] += 1;
-    bool first_next = br->getSuccessor(0) == next;
-    BasicBlock* taken = first_next ? br->getSuccessor(1) : br->getSuccessor(0);
-    Loop* loop = loops_.getLoopFor(&block);
-    if (loop && loop->getHeader() == taken) s.features[k_taken] += 1;
-    else if (!taken->getSinglePredecessor()) s.features[k_taken] += 0.5;
   } else if (auto* sw = dyn_cast<SwitchInst>(t)) {
     if (sw->getNumCases() >= 5) s.features[k_switch_table] += 1;
     else s.features[k_switch_case] += sw->getNumCases() * 0.6 + 0.5;
   }
-}
-
-/// Arithmetic for one arm of a choice: the chip's compiler branches round it.
-bool only_for_select(const Instruction& i) {
-  if (!isa<BinaryOperator>(i) || !i.hasOneUse()) return false;
-  auto* select = dyn_cast<SelectInst>(i.user_back());
-  return select && select->getCondition() != &i && select->getParent() == i.getParent();
+  Features edges{};
+  flow_.charge(block, edges);
+  if (auto* ret = dyn_cast<ReturnInst>(t); ret && ret->getReturnValue() && isa<PHINode>(ret->getReturnValue())) {
+    // calls have driven one of the two out of w0
+    if (kept_.count(ret->getReturnValue())) edges[k_return_move] = words(ret->getReturnValue());
+    else if (!f_.arg_empty() && kept_.count(f_.getArg(0))) edges[k_return_move] = 0;
+  }
+  Loop* around = loops_.getLoopFor(&block);
+  if (around && around->getLoopLatch() == &block && is_unrolled(around)) edges = Features{};
+  for (int r = 0; r < kRuleCount; ++r) s.features[r] += edges[r];
 }
 
 void Model::run(std::vector<Segment>& out) {
@@ -576,21 +496,16 @@ void Model::run(std::vector<Segment>& out) {
         if (kept_.count(&a)) s.features[k_kept_word] += words(&a);
       entry = false;
     }
-    if (BasicBlock* before = block.getSinglePredecessor())
-      if (auto* br = dyn_cast<BranchInst>(before->getTerminator())) {
-        auto* condition = br->isConditional() ? dyn_cast<Instruction>(br->getCondition()) : nullptr;
-        if (br->isConditional() && !(condition && is_free(*condition)) && before->getNextNode() != &block) s.features[k_taken] += 1;
-      }
     bool after_call = false;
     for (Instruction& i : block) {
       bool big = s.cycles() > kSegmentCycles;
       if ((after_call || big) && !isa<PHINode>(i) && !isa<AllocaInst>(i)) {
-        if (s.cycles() > 0) out.push_back(s);
+        out.push_back(s);
         s = Segment{&i};
         after_call = false;
       }
       if (i.isTerminator()) {
-        if (!is_free(i)) terminator(block, s);
+        terminator(block, s);
         continue;
       }
       if (level_ > 0 && only_for_select(i)) {
@@ -604,7 +519,7 @@ void Model::run(std::vector<Segment>& out) {
       auto* c = dyn_cast<CallBase>(&i);
       if (c && !isa<IntrinsicInst>(c) && !calls(i, kNop) && !calls(i, kRound)) after_call = true;
     }
-    if (s.cycles() > 0) out.push_back(s);
+    out.push_back(s);
   }
 }
 

@@ -12,7 +12,8 @@ namespace cc {
   R(alu, 1.0, "[DS]")              /* one 16-bit word through the ALU */                       \
   R(wide_constant, 1.0, "[DS]")    /* mov #lit16: constant beyond a 5-bit literal */           \
   R(wide_constant_loop, 0.15, "[xc16-cycles: fit]") /* same inside a loop: mostly hoisted */    \
-  R(alu32, 3.2, "[xc16-cycles: fit]")  /* a long: two halves, and copies */               \
+  R(alu32, 2.2, "[xc16-cycles: fit]")  /* add, subtract longs: two halves, some copies */  \
+  R(logic32, 4.6, "[xc16-cycles: fit]") /* and, or, xor of longs: split late, many copies */ \
   R(folded_load, 0.1, "[xc16-cycles: fit]") /* operand of an ALU instruction */             \
   R(compare32, 1.8, "[xc16-cycles: fit]")                                                    \
   R(compare32_zero, 2.2, "[xc16-cycles: fit]")                                               \
@@ -58,7 +59,9 @@ namespace cc {
   R(kept_word, 0.95, "[xc16-cycles: fit]")   /* value moved to where calls leave it alone */  \
   R(pointer_step, 0.35, "[xc16-cycles: fit]") /* p++ that is not part of an access */         \
   R(select_again, 0.5, "[xc16-cycles: fit]") /* second choice on the same condition */       \
-  R(phi, 0.05, "[xc16-cycles: fit]")                                                            \
+  R(phi_constant, 1.0, "[xc16-cycles: fit]") /* paths join: constant loaded on one of them */    \
+  R(phi_move, 1.0, "[xc16-cycles: fit]")     /* paths join: value copied, as it lives on */      \
+  R(return_move, 1.0, "[xc16-cycles: fit]")  /* result moved to w0 */                            \
   R(switch_table, 9.5, "[xc16-cycles: fit]")                                                   \
   R(switch_case, 2.0, "[xc16-cycles: fit]")                                                    \
   R(copy_word, 1.0, "[xc16-cycles: fit]")   /* struct copies */                                \

@@ -278,7 +278,7 @@ std::unique_ptr<llvm::Module> attempt(const Options& options, llvm::LLVMContext&
   auto memory = llvm::makeIntrusiveRefCnt<llvm::vfs::InMemoryFileSystem>();
   memory->addFile(std::string(kFallbackRoot) + "/.root", 0, llvm::MemoryBuffer::getMemBuffer(""));
   if (!declarations.empty()) memory->addFile(kDeclarations, 0, llvm::MemoryBuffer::getMemBufferCopy(declarations));
-  auto overlay = llvm::makeIntrusiveRefCnt<llvm::vfs::OverlayFileSystem>(forgiving_file_system(options.fallback));
+  auto overlay = llvm::makeIntrusiveRefCnt<llvm::vfs::OverlayFileSystem>(forgiving_file_system(options.fallback, options.project));
   overlay->pushOverlay(memory);
   CompilerInstance ci;
   ci.setInvocation(invocation);

@@ -54,10 +54,15 @@ std::string match_ignoring_case(std::string root, const std::vector<std::string>
 
 class ForgivingFileSystem : public llvm::vfs::ProxyFileSystem {
  public:
-  explicit ForgivingFileSystem(std::vector<std::string> folders)
-      : ProxyFileSystem(llvm::vfs::getRealFileSystem()), folders_(std::move(folders)) {}
+  ForgivingFileSystem(std::vector<std::string> folders, std::string project)
+      : ProxyFileSystem(llvm::vfs::getRealFileSystem()), folders_(std::move(folders)), project_(std::move(project)) {}
 
   llvm::ErrorOr<llvm::vfs::Status> status(const llvm::Twine& path) override {
+    std::string ours = replaced_copy(path.str());
+    if (!ours.empty()) {
+      auto status = ProxyFileSystem::status(ours);
+      if (status) return llvm::vfs::Status::copyWithNewName(*status, ours);
+    }
     auto exact = ProxyFileSystem::status(path);
     if (exact) return exact;
     std::string other = find(path.str());
@@ -68,6 +73,8 @@ class ForgivingFileSystem : public llvm::vfs::ProxyFileSystem {
   }
 
   llvm::ErrorOr<std::unique_ptr<llvm::vfs::File>> openFileForRead(const llvm::Twine& path) override {
+    std::string ours = replaced_copy(path.str());
+    if (!ours.empty()) return ProxyFileSystem::openFileForRead(ours);
     auto exact = ProxyFileSystem::openFileForRead(path);
     if (exact) return exact;
     std::string other = find(path.str());
@@ -76,6 +83,25 @@ class ForgivingFileSystem : public llvm::vfs::ProxyFileSystem {
   }
 
  private:
+  /// Our header for a copy of the library outside the project, "" for anything else.
+  std::string replaced_copy(const std::string& path) const {
+    if (project_.empty() || folders_.empty() || !StringRef(path).endswith_insensitive(".h")) return "";
+    llvm::SmallString<256> plain(path);
+    llvm::sys::fs::make_absolute(plain);
+    llvm::sys::path::remove_dots(plain, /*remove_dot_dot=*/true);
+    for (const std::string& inside : {project_, folders_.front()})
+      if (plain.str().startswith(inside + "/")) return "";
+    auto parts = components(plain.str().str());
+    if (parts.size() < 2) return "";
+    // folder and name, so that a header that merely has a library's name stays the project's
+    for (size_t tail : {size_t{3}, size_t{2}}) {
+      if (parts.size() < tail) continue;
+      std::string ours = match_ignoring_case(folders_.front(), parts, parts.size() - tail);
+      if (!ours.empty()) return ours;
+    }
+    return "";
+  }
+
   std::string find(const std::string& path) {
     StringRef name = path;
     if (name == kFallbackRoot) return "";
@@ -99,12 +125,14 @@ class ForgivingFileSystem : public llvm::vfs::ProxyFileSystem {
   }
 
   std::vector<std::string> folders_;
+  std::string project_;
 };
 
 }  // namespace
 
-llvm::IntrusiveRefCntPtr<llvm::vfs::FileSystem> forgiving_file_system(std::vector<std::string> folders) {
-  return new ForgivingFileSystem(std::move(folders));
+llvm::IntrusiveRefCntPtr<llvm::vfs::FileSystem> forgiving_file_system(std::vector<std::string> folders,
+                                                                      std::string project) {
+  return new ForgivingFileSystem(std::move(folders), std::move(project));
 }
 
 }  // namespace cc

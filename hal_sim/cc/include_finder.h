@@ -12,7 +12,10 @@ namespace cc {
 /// Stands last in the include path; what is looked up below it is searched by trailing path components.
 inline constexpr const char* kFallbackRoot = "/twinpuck-fallback";
 
-/// The real file system, forgiving about case and separators in names of header files.
-llvm::IntrusiveRefCntPtr<llvm::vfs::FileSystem> forgiving_file_system(std::vector<std::string> fallback_folders);
+/// The real file system, forgiving about case and separators in names of header files. `project`: the controller's
+/// own folder. A copy of the e-puck library that lies outside it ("../lib/motor_led/e_led.h") is passed over in
+/// favour of the first fallback folder's header of the same place and name, because our library is what is linked.
+llvm::IntrusiveRefCntPtr<llvm::vfs::FileSystem> forgiving_file_system(std::vector<std::string> fallback_folders,
+                                                                      std::string project);
 
 }  // namespace cc

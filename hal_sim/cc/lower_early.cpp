@@ -251,6 +251,9 @@ void restore_library_calls(Unit& unit) {
     }
 }
 
+/// A whole variable, local or global.
+bool is_variable(const Value* pointer) { return isa<AllocaInst>(pointer) || isa<GlobalVariable>(pointer); }
+
 /// A loop that only counts must not vanish before it is recognised as a delay: it gets a mark in each round.
 void keep_empty_loops(Unit& unit) {
   for (Function& f : unit.module) {
@@ -261,8 +264,8 @@ void keep_empty_loops(Unit& unit) {
       bool counts_only = loop->getSubLoops().empty() && loop->getLoopLatch();
       for (BasicBlock* block : loop->blocks())
         for (Instruction& i : *block) {
-          if (auto* store = dyn_cast<StoreInst>(&i)) counts_only &= isa<AllocaInst>(store->getPointerOperand()) && !store->isVolatile();
-          else if (auto* load = dyn_cast<LoadInst>(&i)) counts_only &= isa<AllocaInst>(load->getPointerOperand()) && !load->isVolatile();
+          if (auto* store = dyn_cast<StoreInst>(&i)) counts_only &= is_variable(store->getPointerOperand()) && !store->isVolatile();
+          else if (auto* load = dyn_cast<LoadInst>(&i)) counts_only &= is_variable(load->getPointerOperand()) && !load->isVolatile();
           else if (isa<CallBase>(i) && !isa<DbgInfoIntrinsic>(i)) counts_only &= calls(i, kNop);
         }
       if (!counts_only) continue;

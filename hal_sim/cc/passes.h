@@ -34,6 +34,10 @@ void lower_registers(Unit& unit);
 void keep_polled_flags(Unit& unit, llvm::FunctionAnalysisManager& analyses);
 /// Counting loops that do nothing become tp_delay(rounds, cycles).
 void lower_delay_loops(Unit& unit, llvm::FunctionAnalysisManager& analyses);
+/// Control flow made plain without turning branches into selects.
+struct PlainCfgPass : llvm::PassInfoMixin<PlainCfgPass> {
+  llvm::PreservedAnalyses run(llvm::Function& f, llvm::FunctionAnalysisManager& analyses);
+};
 struct Charge {
   llvm::Instruction* before;
   double cycles;

@@ -18,13 +18,11 @@
 #include "llvm/Transforms/Scalar/DeadStoreElimination.h"
 #include "llvm/Transforms/Scalar/EarlyCSE.h"
 #include "llvm/Transforms/Scalar/GVN.h"
-#include "llvm/Transforms/Scalar/IndVarSimplify.h"
 #include "llvm/Transforms/Scalar/LICM.h"
 #include "llvm/Transforms/Scalar/LoopPassManager.h"
 #include "llvm/Transforms/Scalar/LoopRotation.h"
 #include "llvm/Transforms/Scalar/Reassociate.h"
 #include "llvm/Transforms/Scalar/SROA.h"
-#include "llvm/Transforms/Scalar/SimplifyCFG.h"
 #include "llvm/Transforms/Utils/LCSSA.h"
 #include "llvm/Transforms/Utils/LoopSimplify.h"
 #include "passes.h"
@@ -49,9 +47,9 @@ FunctionPassManager tidy() {
   FunctionPassManager f;
   f.addPass(SROAPass());
   f.addPass(EarlyCSEPass(true));
-  f.addPass(SimplifyCFGPass());
+  f.addPass(PlainCfgPass());
   f.addPass(InstCombinePass());
-  f.addPass(SimplifyCFGPass());
+  f.addPass(PlainCfgPass());
   return f;
 }
 
@@ -60,7 +58,7 @@ FunctionPassManager loops(bool more) {
   f.addPass(SROAPass());
   f.addPass(EarlyCSEPass(true));
   f.addPass(InstCombinePass());
-  f.addPass(SimplifyCFGPass());
+  f.addPass(PlainCfgPass());
   if (more) {
     f.addPass(GVNPass());
     f.addPass(DSEPass());
@@ -70,14 +68,11 @@ FunctionPassManager loops(bool more) {
   LoopPassManager l;
   l.addPass(LoopRotatePass(/*EnableHeaderDuplication=*/true));
   l.addPass(LICMPass());
-  LoopPassManager iv;
-  iv.addPass(IndVarSimplifyPass(/*WidenIndVars=*/false));
   f.addPass(createFunctionToLoopPassAdaptor(std::move(l), /*UseMemorySSA=*/true));
-  f.addPass(createFunctionToLoopPassAdaptor(std::move(iv)));
   f.addPass(EarlyCSEPass(true));
   f.addPass(InstCombinePass());
   f.addPass(ADCEPass());
-  f.addPass(SimplifyCFGPass());
+  f.addPass(PlainCfgPass());
   return f;
 }
 

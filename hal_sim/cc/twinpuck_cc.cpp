@@ -33,6 +33,7 @@ bool parse(int argc, char** argv, cc::Options& o) {
     else if (a == "--library") o.library = true;
     else if (a == "--uncounted") o.uncounted = true;
     else if (a == "--emit-ir") o.emit_ir = true;
+    else if (a == "--project") o.project = value();
     else if (a == "--depfile") o.depfile = value();
     else if (a == "--cost-dump") o.cost_dump = value();
     else if (a == "--fallback") o.fallback.push_back(value());

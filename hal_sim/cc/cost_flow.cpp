@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+// See cost_flow.h. XC16 -O1 keeps the blocks in the order of the source, and so does our pipeline.
+#include "cost_flow.h"
+
+#include <set>
+
+#include "llvm/IR/CFG.h"
+#include "llvm/IR/InstIterator.h"
+#include "llvm/IR/IntrinsicInst.h"
+#include "passes.h"
+
+namespace cc {
+
+using namespace llvm;
+
+CostFlow::CostFlow(Function& f, LoopInfo& loops, std::function<int(const Value*)> words,
+                   std::function<bool(const Value*)> counted)
+    : loops_(loops), words_(std::move(words)), counted_(std::move(counted)) {
+  find_live(f);
+  find_moves(f);
+  place_branches(f);
+}
+
+void CostFlow::find_live(Function& f) {
+  auto spread = [&](const Value* v) {
+    const BasicBlock* home = isa<Instruction>(v) ? cast<Instruction>(v)->getParent() : nullptr;
+    SmallVector<const BasicBlock*, 16> work;
+    auto enter = [&](const BasicBlock* b) {
+      if (b != home && live_in_[b].insert(v).second) work.push_back(b);
+    };
+    for (const User* u : v->users()) {
+      auto* user = dyn_cast<Instruction>(u);
+      if (!user) continue;
+      if (auto* phi = dyn_cast<PHINode>(user)) {
+        for (unsigned n = 0; n < phi->getNumIncomingValues(); ++n)
+          if (phi->getIncomingValue(n) == v) {
+            live_out_[phi->getIncomingBlock(n)].insert(v);
+            enter(phi->getIncomingBlock(n));
+          }
+      } else {
+        enter(user->getParent());
+      }
+    }
+    while (!work.empty())
+      for (const BasicBlock* from : predecessors(work.pop_back_val())) {
+        live_out_[from].insert(v);
+        enter(from);
+      }
+  };
+  for (Argument& a : f.args()) spread(&a);
+  for (Instruction& i : instructions(f))
+    if (counted_(&i)) spread(&i);
+}
+
+/// Where two paths join: constants are loaded on the way, and a value that lives on beside the joined one is copied.
+void CostFlow::find_moves(Function& f) {
+  std::set<std::pair<const BasicBlock*, const Value*>> loaded;
+  for (BasicBlock& block : f)
+    for (PHINode& phi : block.phis()) {
+      if (!counted_(&phi)) continue;
+      const Value* own = nullptr;  // the argument whose register the joined value takes
+      for (const Value* v : phi.incoming_values())
+        if (auto* argument = dyn_cast<Argument>(v))
+          if (!own || argument->getArgNo() == 0) own = v;
+      for (unsigned n = 0; n < phi.getNumIncomingValues(); ++n) {
+        Value* v = phi.getIncomingValue(n);
+        Features& at = cost_[phi.getIncomingBlock(n)];
+        if (isa<UndefValue>(v) || v == &phi) continue;
+        if (isa<Constant>(v)) {
+          // ways out of a switch exclude one another
+          if (isa<SwitchInst>(phi.getIncomingBlock(n)->getTerminator()) && !loaded.emplace(phi.getIncomingBlock(n), v).second)
+            continue;
+          at[k_phi_constant] += words_(&phi) > 1 && cast<Constant>(v)->isNullValue() ? 1 : words_(&phi);
+          continue;
+        }
+        auto* other = dyn_cast<PHINode>(v);
+        bool foreign = isa<Argument>(v) && v != own;
+        if (foreign || live_in_[&block].count(v) || (other && other->getParent() == &block)) at[k_phi_move] += words_(&phi);
+      }
+    }
+  for (BasicBlock& block : f)
+    if (auto* ret = dyn_cast<ReturnInst>(block.getTerminator())) place_result(*ret);
+}
+
+/// The result is computed in w0 unless the first argument still occupies it.
+void CostFlow::place_result(ReturnInst& ret) {
+  Value* result = ret.getReturnValue();
+  if (!result) return;
+  const Function& f = *ret.getFunction();
+  Features& at = cost_[ret.getParent()];
+  if (isa<Constant>(result)) {
+    if (!isa<UndefValue>(result)) at[k_phi_constant] += words_(result);
+    return;
+  }
+  if (auto* argument = dyn_cast<Argument>(result)) {
+    if (argument->getArgNo() > 0) at[k_return_move] += words_(result);
+    return;
+  }
+  if (f.arg_empty() || !isa<PHINode>(result)) return;
+  // everything that shares a register with the argument, and with the result
+  auto web_of = [](const Value* start, bool forward) {
+    Values web;
+    SmallVector<const Value*, 8> work{start};
+    while (!work.empty()) {
+      const Value* v = work.pop_back_val();
+      if (!web.insert(v).second) continue;
+      if (forward) {
+        for (const User* u : v->users())
+          if (isa<PHINode>(u)) work.push_back(u);
+      } else if (auto* phi = dyn_cast<PHINode>(v)) {
+        for (const Value* from : phi->incoming_values())
+          if (isa<PHINode>(from) || isa<Argument>(from)) work.push_back(from);
+      }
+    }
+    return web;
+  };
+  Values first = web_of(f.getArg(0), true), last = web_of(result, false);
+  for (const Value* v : last)
+    if (first.count(v)) return;
+  for (const Value* v : last) {
+    auto* phi = dyn_cast<PHINode>(v);
+    if (!phi) continue;
+    for (const Value* w : first) {
+      auto* beside = dyn_cast<PHINode>(w);
+      bool meets = live_in_[phi->getParent()].count(w) || (beside && beside->getParent() == phi->getParent());
+      for (unsigned n = 0; n < phi->getNumIncomingValues() && !meets; ++n)
+        meets = isa<Constant>(phi->getIncomingValue(n)) && live_in_[phi->getIncomingBlock(n)].count(w);
+      if (meets) {
+        at[k_return_move] += words_(result);
+        return;
+      }
+    }
+  }
+}
+
+/// Nothing but a jump: the chip's code does not have this block.
+bool CostFlow::is_empty(const BasicBlock* block) const {
+  auto* br = dyn_cast<BranchInst>(block->getTerminator());
+  if (!br || br->isConditional()) return false;
+  auto moves = cost_.find(block);
+  if (moves != cost_.end() && (moves->second[k_phi_constant] > 0 || moves->second[k_phi_move] > 0)) return false;
+  for (const Instruction& i : *block)
+    if (!isa<PHINode>(i) && !isa<DbgInfoIntrinsic>(i) && !is_free(i) && &i != br) return false;
+  return true;
+}
+
+const BasicBlock* CostFlow::target(const BasicBlock* block) const {
+  for (int steps = 0; steps < 20 && is_empty(block); ++steps) block = block->getSingleSuccessor();
+  return block;
+}
+
+const BasicBlock* CostFlow::next(const BasicBlock* block) const {
+  do block = block->getNextNode();
+  while (block && (is_empty(block) || isa<UnreachableInst>(block->getTerminator())));
+  return block;
+}
+
+void CostFlow::place_branches(Function& f) {
+  for (BasicBlock& block : f) {
+    auto* br = dyn_cast<BranchInst>(block.getTerminator());
+    if (!br || is_free(*br)) continue;
+    const BasicBlock* after = next(&block);
+    Features& here = cost_[&block];
+    if (br->isUnconditional()) {
+      if (!is_empty(&block) && target(br->getSuccessor(0)) != after) here[k_jump] += 1;
+      continue;
+    }
+    auto* condition = dyn_cast<Instruction>(br->getCondition());
+    if (condition && is_free(*condition)) continue;
+    here[k_branch] += 1;
+    Loop* loop = loops_.getLoopFor(&block);
+    BasicBlock *jumped = br->getSuccessor(0), *straight = br->getSuccessor(1);
+    if (target(jumped) == after || (target(straight) != after && loop && straight == loop->getHeader()))
+      std::swap(jumped, straight);
+    if (target(straight) != after && (!loop || jumped != loop->getHeader())) {
+      // both away: a branch and a jump
+      if (straight->getSinglePredecessor()) cost_[straight][k_jump] += 1;
+      else here[k_jump] += 0.5;
+    }
+    if (jumped->getSinglePredecessor()) {
+      cost_[jumped][k_taken] += 1;
+    } else if (straight->getSinglePredecessor()) {
+      here[k_taken] += 1;
+      cost_[straight][k_taken] -= 1;
+    } else if (loop && loop->getLoopLatch() == &block && loop->getExitingBlock() == &block && loop->getLoopPreheader()) {
+      here[k_taken] += 1;
+      cost_[loop->getLoopPreheader()][k_taken] -= 1;
+    } else {
+      here[k_taken] += 0.5;
+    }
+  }
+}
+
+void CostFlow::charge(BasicBlock& block, Features& features) {
+  auto found = cost_.find(&block);
+  if (found == cost_.end()) return;
+  for (int r = 0; r < kRuleCount; ++r) features[r] += found->second[r];
+}
+
+}  // namespace cc

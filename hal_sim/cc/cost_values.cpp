@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// See cost_values.h.
+#include "cost_values.h"
+
+#include "llvm/ADT/STLExtras.h"
+#include "llvm/IR/Operator.h"
+#include "passes.h"
+
+namespace cc {
+
+using namespace llvm;
+
+int type_words(Type* t) {
+  if (t->isVoidTy()) return 0;
+  if (t->isPointerTy() || t->isIntegerTy(1)) return 1;
+  if (t->isFloatTy()) return 2;
+  if (t->isDoubleTy()) return 4;
+  if (auto* i = dyn_cast<IntegerType>(t)) return std::max(1u, (i->getBitWidth() + 15) / 16);
+  return std::max<int>(1, int(t->getPrimitiveSizeInBits()) / 16);
+}
+
+bool is_pointer_arithmetic(const Value* v) {
+  if (!v->getType()->isIntegerTy(64)) return false;
+  if (isa<PtrToIntInst>(v)) return true;
+  if (auto* op = dyn_cast<BinaryOperator>(v))
+    if (op->isIntDivRem()) return false;
+  if (auto* cast_from = dyn_cast<CastInst>(v)) {
+    if (cast_from->getOperand(0)->getType()->getScalarSizeInBits() > 16) return false;
+    for (const User* u : v->users())
+      if (isa<GetElementPtrInst>(u)) return true;
+  }
+  if (auto* op = dyn_cast<BinaryOperator>(v))
+    return is_pointer_arithmetic(op->getOperand(0)) || is_pointer_arithmetic(op->getOperand(1));
+  return false;
+}
+
+int words_of(const Value* v) { return is_pointer_arithmetic(v) ? 1 : type_words(v->getType()); }
+
+bool holds_register(const Value* v) {
+  if (isa<AllocaInst>(v) || v->getType()->isVoidTy() || (isa<CmpInst>(v) && v->hasOneUse())) return false;
+  if (auto* i = dyn_cast<Instruction>(v)) {
+    if (is_free(*i)) return false;
+    if (isa<GetElementPtrInst>(i) && cast<GetElementPtrInst>(i)->hasAllConstantIndices()) return false;
+    if (v->getType()->isIntegerTy(64) && is_pointer_arithmetic(v)) return false;
+  }
+  return true;
+}
+
+bool is_program_memory(const GlobalVariable& g) {
+  if (g.isConstant()) return true;
+  if (!g.hasLocalLinkage() || !g.getValueType()->isAggregateType() || g.getName().startswith("tp")) return false;
+  SmallVector<const User*, 16> work(g.user_begin(), g.user_end());
+  while (!work.empty()) {
+    const User* u = work.pop_back_val();
+    if (isa<LoadInst>(u)) continue;
+    if (!isa<GEPOperator>(u) && !isa<BitCastOperator>(u)) return false;
+    work.append(u->user_begin(), u->user_end());
+  }
+  return true;
+}
+
+bool narrow_operand(const Value* v) {
+  auto* e = dyn_cast<CastInst>(v);
+  return (e && e->isIntegerCast() && e->getSrcTy()->getScalarSizeInBits() <= 16) ||
+         (isa<ConstantInt>(v) && cast<ConstantInt>(v)->getValue().getMinSignedBits() <= 16);
+}
+
+bool is_narrow_division(const Value* v) {
+  auto* op = dyn_cast<BinaryOperator>(v);
+  return op && (op->getOpcode() == Instruction::SDiv || op->getOpcode() == Instruction::SRem) &&
+         op->getType()->isIntegerTy(32) && narrow_operand(op->getOperand(0)) && narrow_operand(op->getOperand(1));
+}
+
+Value* undo_widening(Value* v) {
+  auto* e = dyn_cast<SExtInst>(v);
+  return e && e->getType()->isIntegerTy(64) ? e->getOperand(0) : v;
+}
+
+bool is_long_division(const Value* v) {
+  auto* op = dyn_cast<BinaryOperator>(v);
+  if (op && op->isIntDivRem() && op->getType()->isIntegerTy(32))
+    if (auto* by = dyn_cast<ConstantInt>(op->getOperand(1)); by && by->getValue().isPowerOf2()) return false;
+  return op && op->isIntDivRem() && op->getType()->getIntegerBitWidth() > 16 && !is_narrow_division(v);
+}
+
+bool steps_alone(const GetElementPtrInst& gep) {
+  auto* phi = dyn_cast<PHINode>(gep.getPointerOperand());
+  if (!phi || !gep.hasAllConstantIndices() || !is_contained(phi->incoming_values(), &gep)) return false;
+  for (const User* u : phi->users()) {
+    auto* access = dyn_cast<Instruction>(u);
+    if (access && access->getParent() == gep.getParent() && getLoadStorePointerOperand(access) == phi) return false;
+  }
+  return true;
+}
+
+bool only_for_select(const Instruction& i) {
+  if (!isa<BinaryOperator>(i) || !i.hasOneUse()) return false;
+  auto* select = dyn_cast<SelectInst>(i.user_back());
+  return select && select->getCondition() != &i && select->getParent() == i.getParent();
+}
+
+}  // namespace cc
