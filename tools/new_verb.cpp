@@ -85,9 +85,9 @@ const char* const kTest = R"(// SPDX-License-Identifier: MIT
 
 using firmware_test::FirmwareTest;
 
-class @SUITE@ : public FirmwareTest {};
+class @NAME@ : public FirmwareTest {};  // `make test T=@NAME@` finds it by this name
 
-TEST_F(@SUITE@, drives_and_keeps_off_the_wall) {
+TEST_F(@NAME@, drives_and_keeps_off_the_wall) {
   arena(1.0, 1.0);
   auto& robot = add_robot("@NAME@").at(0, 0, 10);
   run_for(5);
@@ -101,20 +101,6 @@ std::string replace_all(std::string text, const std::string& key, const std::str
   for (std::size_t at = text.find(key); at != std::string::npos; at = text.find(key, at + value.size()))
     text.replace(at, key.size(), value);
   return text;
-}
-
-std::string suite_name(const std::string& name) {
-  std::string suite;
-  bool capital = true;
-  for (char c : name) {
-    if (c == '_') {
-      capital = true;
-      continue;
-    }
-    suite += capital ? static_cast<char>(std::toupper(static_cast<unsigned char>(c))) : c;
-    capital = false;
-  }
-  return suite + "Controller";
 }
 
 int make_controller(const std::string& name) {
@@ -134,7 +120,7 @@ int make_controller(const std::string& name) {
   const std::pair<const char*, const char*> files[] = {{"main.c", kMain}, {"README.md", kReadme}, {"test.cpp", kTest}};
   for (const auto& [file, text] : files) {
     std::ofstream out(folder / file);
-    out << replace_all(replace_all(text, "@NAME@", name), "@SUITE@", suite_name(name));
+    out << replace_all(text, "@NAME@", name);
     if (!out.flush()) {
       complain({(folder / file).string() + ": new controller: cannot write the file"});
       return kBadInput;

@@ -55,8 +55,7 @@ Summary summarise(const twin::Twin& twin, double wall_s) {
     r.right_steps = report.right_steps;
     r.cycles = mind.now();
     if (mind.robot()) {
-      const auto cycles = static_cast<double>(mind.robot()->cycles());
-      r.cpu_load = cycles > 0 ? 1 - static_cast<double>(mind.robot()->idle_cycles()) / cycles : 0;
+      r.cpu_load = mind.robot()->cpu_load();
       r.traps = mind.robot()->traps();
       s.traps.insert(s.traps.end(), r.traps.begin(), r.traps.end());
     }

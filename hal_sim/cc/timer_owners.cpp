@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// See timer_owners.h. Owners after epuck-api.md section 0.1; a driver counts as used when its header is included.
+// See timer_owners.h. Owners as the library has them; a driver counts as used when its header is included.
 #include "timer_owners.h"
 
 #include <algorithm>

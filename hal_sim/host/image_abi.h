@@ -100,7 +100,7 @@ void tp_trap_message(tp_i64 kind, const char* message);
 
 /** asm("reset"), RESET(), exit(0): restarts the program with its start-up values. Does not return. */
 void tp_reset(void);
-/** asm("disi #n"): priorities 1 to 6 wait for `cycles` cycles [core.md]. */
+/** asm("disi #n"): priorities 1 to 6 wait for `cycles` cycles [DS70143 5.5]. */
 void tp_disi(tp_i64 cycles);
 /** asm("pwrsav #0/#1"), asm("clrwdt"). mode 0 sleep, 1 idle: time passes until the next interrupt. */
 void tp_power_save(tp_i64 mode);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The chip's interrupt controller as native firmware meets it: flags that rise at known cycles, enables, priorities,
-// nesting, DISI. Source: DS70143 section 5 and core.md.
+// nesting, DISI. Source: DS70143 section 5.
 //
 //   flag rises (due) --> IFS bit --+-- IEC bit set? --+-- priority > CPU's? --+-- not held by DISI? --> handler
 //

@@ -82,6 +82,7 @@ void Robot::restart_program() {
   horizon_ = kNever;
   poll_loop_ = -1;
   asleep_until_ = -1;
+  idling_ = false;
   reset_asked_ = false;
   registers_->processor_reset();
   now_ += kStartUpCycles;
@@ -354,7 +355,9 @@ void Robot::sleep_until(Cycle target, Cycle round) {
     if (stop >= kNever && handler_depth_ > 0 && !looked_outside_)
       trap(TP_TRAP_INTERRUPT, "an interrupt handler waits for ever: nothing that it looks at can change");
     if (stop > end_) {
+      idling_ = true;
       doze(stop);
+      idling_ = false;
       if (woken_) {
         woken_ = false;
         const Cycle at = end_of_round(std::max(window_start_, now_));
@@ -390,7 +393,9 @@ void Robot::on_power_save() {
     if (served_ != before) break;
     const Cycle stop = next_disturbance();
     if (stop > end_) {
+      idling_ = true;
       doze(stop);
+      idling_ = false;
       continue;
     }
     if (stop > now_) {

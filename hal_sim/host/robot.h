@@ -64,8 +64,14 @@ class Robot final : public Context {
   bool has_stopped() const { return stopped_; }
   const std::vector<TrapReport>& traps() const { return traps_; }
   Cycle cycles() const { return end_; }
-  /// Cycles in which the processor only waited (jumped over).
-  Cycle idle_cycles() const { return idle_; }
+  /// Cycles up to now, or up to where the robot was stopped by a trap.
+  Cycle lived_cycles() const { return stopped_ ? now_ : end_; }
+  /// Cycles in which the processor only waited (jumped over), a wait that still goes on included.
+  Cycle idle_cycles() const { return idle_ + (idling_ && !stopped_ && end_ > now_ ? end_ - now_ : 0); }
+  /// Share of its life in which it did anything but wait, 0 to 1.
+  double cpu_load() const {
+    return lived_cycles() > 0 ? 1 - static_cast<double>(idle_cycles()) / static_cast<double>(lived_cycles()) : 0;
+  }
   std::uint64_t hash() const;
   /// World time of a cycle, for reports.
   std::function<double(Cycle)> to_world_s;
@@ -156,6 +162,7 @@ class Robot final : public Context {
   bool stopped_ = false;
   bool reset_asked_ = false;
   bool woken_ = false;
+  bool idling_ = false;             // asleep because it waits, not because a delay loop counts
   Cycle asleep_until_ = -1;         // the firmware sleeps up to this cycle; -1 awake
   Cycle idle_ = 0;
 

@@ -6,7 +6,7 @@ namespace sim {
 
 /// Box2D lengths per metre: its slop of 0.005 units is then 0.05 mm. At 1 a robot would stop 10 mm from a
 /// wall.
-inline constexpr double kBox2dUnitsPerMetre = 100;  // [measured: style.md 6, gap 0.05 mm for a disc]
+inline constexpr double kBox2dUnitsPerMetre = 100;  // [measured: docs/design.md, gap 0.05 mm for a disc]
 /// A robot whose free room falls below this takes part in the solver, m.
 inline constexpr double kSolverMarginM =
     0.0015;  // [assumed: above Box2D's own skin of 0.1 mm, below what rays see]

@@ -17,7 +17,7 @@ namespace sim {
 
 struct ProximityOptics;  // light/proximity.h: rays and tables of every sensor, resolved once
 
-/// How far back poses are kept, s. [design 4: an ADC scan looks at most 40 ms back]
+/// How far back poses are kept, s. [assumed: an ADC scan looks at most 40 ms back]
 inline constexpr double kHistoryS = 0.040;
 
 /// What a ray met.

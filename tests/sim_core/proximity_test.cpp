@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tables, ray placement, weights, colour rule, pose history. Source of the numbers: epuck-robot.md A3, B1,
+// Tables, ray placement, weights, colour rule, pose history. Source of the numbers: [FRM] A3, B1,
 // B2.
 #include "sim_core/light/profiles.h"
 #include "sim_core/light/response_curve.h"

@@ -63,10 +63,7 @@ int Robot::proximity(int sensor) const {
 }
 int Robot::collisions() const { return test_->twin().simulation().touches(index_).collisions; }
 double Robot::longest_wall_touch_s() const { return test_->twin().simulation().touches(index_).longest_wall_touch_s; }
-double Robot::cpu_load() const {
-  const auto* r = mind().robot();
-  return r->cycles() > 0 ? 1.0 - static_cast<double>(r->idle_cycles()) / static_cast<double>(r->cycles()) : 0.0;
-}
+double Robot::cpu_load() const { return mind().robot()->cpu_load(); }
 cc::FunctionCycles Robot::cost_of(const std::string& function) const {
   for (const auto& f : cc::function_costs(test_->twin().image_path(index_)))
     if (f.name == function) return f;
