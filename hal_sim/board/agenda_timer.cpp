@@ -373,8 +373,9 @@ std::uint64_t AgendaTimer::state_sum(Cycle at) const {
     sum += part * factor;
     factor += 0xE7037ED1A0B428DAu;  // even, so the factor stays odd
   };
-  for (Wheel wheel : {Wheel::Left, Wheel::Right}) {
-    const AgendaMotor& m = motor_at(wheel, at);
+  // motors as the last command left them: what they have done since follows from the ticks
+  for (const AgendaMotor& m : motors_) {
+    add(static_cast<std::uint64_t>(m.count.tick) << 16 | m.count.counter);
     add(static_cast<std::uint64_t>(m.stepper.steps()));
     add(static_cast<std::uint64_t>(m.commanded));
     add(m.stepper.coils() | static_cast<std::uint64_t>(m.phase) << 8 |
