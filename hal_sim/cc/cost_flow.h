@@ -27,6 +27,8 @@ class CostFlow {
   /// where another block has paid for them already.
   void charge(llvm::BasicBlock& block, Features& features);
 
+  bool ends_range_test(const llvm::BasicBlock& block) const;
+
  private:
   void find_live(llvm::Function& f);
   void find_moves(llvm::Function& f);

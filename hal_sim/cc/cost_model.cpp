@@ -96,6 +96,14 @@ void Model::address(Value* pointer, Segment& s, bool is_word) {
             if (!is_unrolled(loop)) s.features[k_walk] += 1;
             return;
           }
+      if (loop && all_of(gep->indices(), [&](const Value* v) {
+            return is_induction(v, *loop) || loop->isLoopInvariant(v);
+          })) {
+        if (auto* table = dyn_cast<GlobalVariable>(base); table && is_program_memory(*table))
+          s.features[k_constant_memory] += 1;
+        s.features[k_walk] += 1;
+        return;
+      }
       s.features[k_index] += 1;
       if (f_.getParent()->getDataLayout().getTypeAllocSize(gep->getResultElementType()) > 1)
         s.features[k_index_scale] += 1;
@@ -160,6 +168,10 @@ void Model::live_words() {
       int sum = 0;
       bool call = clobbers(i);
       for (const Value* v : live) {
+        // a widened number is kept narrow and widened again
+        auto* wide = dyn_cast<CastInst>(v);
+        bool narrow = wide && (isa<SExtInst>(wide) || isa<ZExtInst>(wide)) && !live.count(wide->getOperand(0));
+        if (narrow) v = wide->getOperand(0);
         sum += words(v);
         if (call) kept_.insert(v);
       }
@@ -228,7 +240,7 @@ bool Model::sets_flags(const Value* v, const ICmpInst& at) const {
     return false;
   if (!at.isEquality() && at.getPredicate() != CmpInst::ICMP_SLT && at.getPredicate() != CmpInst::ICMP_SGE) return false;
   const Instruction* before = at.getPrevNode();
-  while (before && (isa<DbgInfoIntrinsic>(before) || calls(*before, kRound) || is_free(*before) ||
+  while (before && (isa<DbgInfoIntrinsic>(before) || calls(*before, kRound) || is_free(*before) || is_byte_wrap(*before) ||
                     isa<GetElementPtrInst>(before) || isa<CastInst>(before)))
     before = before->getPrevNode();
   return before == op;
@@ -297,6 +309,7 @@ void Model::instruction(Instruction& i, Segment& s) {
     if (isa<PHINode>(i) || &i == dyn_cast<BranchInst>(loop->getLoopLatch()->getTerminator())->getCondition()) return;
     if (isa<BinaryOperator>(i) && se_.isSCEVable(i.getType()) && isa<SCEVAddRecExpr>(se_.getSCEV(&i))) return;
   }
+  if (level_ > 0 && is_byte_wrap(i)) return;
   int w = words(&i);
   if (auto* gep = dyn_cast<GetElementPtrInst>(&i); gep && steps_alone(*gep)) s.features[k_pointer_step] += 1;
   if (isa<AllocaInst>(i) || isa<GetElementPtrInst>(i) || isa<FreezeInst>(i)) return;
@@ -304,6 +317,8 @@ void Model::instruction(Instruction& i, Segment& s) {
   if (auto* load = dyn_cast<LoadInst>(&i)) {
     bool byte = (load->getType()->isIntegerTy(8) || load->getType()->isIntegerTy(1));
     if (in_place_.count(load)) return;
+    auto* table = dyn_cast<GlobalVariable>(getUnderlyingObject(load->getPointerOperand()));
+    if (table && is_program_memory(*table) && is_folded_load(*load)) s.features[k_constant_memory] += 1;  // 2 in all
     if (is_folded_load(*load)) s.features[k_folded_load] += 1;
     else s.features[byte ? k_load_byte : k_load_word] += w;
     address(load->getPointerOperand(), s, w == 1 && !byte);
@@ -319,6 +334,10 @@ void Model::instruction(Instruction& i, Segment& s) {
     return;
   }
   if (auto* compare = dyn_cast<ICmpInst>(&i)) {
+    if (level_ > 0 && words(compare->getOperand(0)) == 1 && flow_.ends_range_test(*i.getParent())) {
+      s.features[k_alu] += 1;
+      return;
+    }
     auto* zero = dyn_cast<Constant>(compare->getOperand(1));
     bool by_zero = zero && zero->isNullValue();
     if (counts_down(*compare)) return;
@@ -435,9 +454,16 @@ void Model::instruction(Instruction& i, Segment& s) {
       default:
         if (w == 2) s.features[op->isBitwiseLogicOp() ? k_logic32 : k_alu32] += 1;
         else s.features[k_alu] += w;
+        if (op->getOpcode() == Instruction::And && w == 1)
+          if (auto* mask = dyn_cast<ConstantInt>(op->getOperand(1)); mask && mask->equalsInt(255)) return;  // ze
         if (in_place_.count(&i))
           if (auto* bit = dyn_cast<ConstantInt>(op->getOperand(1)))
-            if (bit->getValue().isPowerOf2() || (~bit->getValue()).isPowerOf2()) return;  // bset, bclr, btg
+            if (op->isBitwiseLogicOp() && (bit->getValue().isPowerOf2() || (~bit->getValue()).isPowerOf2())) return;  // bset, bclr, btg
+        if (auto* c = dyn_cast<ConstantInt>(op->getOperand(1)); c && in_place_.count(&i) && w == 1) {
+          // inc, dec, inc2, dec2 know their constant; add takes it from w0
+          if (op->isBitwiseLogicOp() || c->getValue().abs().ugt(2)) s.features[k_alu] += 1;
+          return;
+        }
         constant_operand(op->getOperand(1), s);
         return;
     }
