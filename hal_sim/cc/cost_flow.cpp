@@ -79,9 +79,18 @@ std::map<const Value*, const Value*> variables_of(Function& f) {
   return result;
 }
 
+bool calls_out(const BasicBlock& block) {
+  return any_of(block, [](const Instruction& i) {
+    auto* call = dyn_cast<CallBase>(&i);
+    auto* callee = call ? call->getCalledFunction() : nullptr;
+    return call && !is_free(i) && !(callee && (callee->isIntrinsic() || callee->getName().startswith("tp")));
+  });
+}
+
 }  // namespace
 
-/// Where two paths join: constants are loaded on the way, and a value that lives on beside the joined one is copied.
+/// Where two paths join: constants are loaded on the way, and a value that lives on beside the joined one is
+/// copied.
 void CostFlow::find_moves(Function& f) {
   auto variable = variables_of(f);
   using Load = std::tuple<const BasicBlock*, const Value*, const Value*>;
@@ -114,9 +123,16 @@ void CostFlow::find_moves(Function& f) {
         if (isa<UndefValue>(v) || v == &phi) continue;
         if (isa<Constant>(v)) {
           // ways out of a switch exclude one another; x = 0 before a loop is done once, entered or not
-          if (isa<SwitchInst>(from->getTerminator()) && !in_switch.emplace(from, variable[&phi]).second) continue;
+          if (isa<SwitchInst>(from->getTerminator()) && !in_switch.emplace(from, variable[&phi]).second)
+            continue;
           if (loaded_before(from, phi, v)) continue;
-          at[k_phi_constant] += words_(&phi) > 1 && cast<Constant>(v)->isNullValue() ? 1 : words_(&phi);
+          double share = 1;
+          // a register that the other way's call would destroy cannot be loaded before the branch
+          for (BasicBlock* way : successors(from))
+            if (way != &block && from->getTerminator()->getNumSuccessors() == 2 && calls_out(*way))
+              share = 0.5;
+          at[k_phi_constant] +=
+              share * (words_(&phi) > 1 && cast<Constant>(v)->isNullValue() ? 1 : words_(&phi));
           continue;
         }
         auto* other = dyn_cast<PHINode>(v);
@@ -125,7 +141,8 @@ void CostFlow::find_moves(Function& f) {
         bool beside = false;
         if (auto* made = dyn_cast<Instruction>(v); made && !other)
           for (const Value* w : phi.incoming_values())
-            beside |= (isa<PHINode>(w) || w == own) && !live_in_[&block].count(w) && live_out_[made->getParent()].count(w);
+            beside |= (isa<PHINode>(w) || w == own) && !live_in_[&block].count(w) &&
+                      live_out_[made->getParent()].count(w);
         if (foreign || beside || live_in_[&block].count(v) || (other && other->getParent() == &block))
           at[k_phi_move] += words_(&phi);
       }
@@ -190,7 +207,8 @@ bool CostFlow::is_empty(const BasicBlock* block) const {
   auto* br = dyn_cast<BranchInst>(block->getTerminator());
   if (!br || br->isConditional()) return false;
   auto moves = cost_.find(block);
-  if (moves != cost_.end() && (moves->second[k_phi_constant] > 0 || moves->second[k_phi_move] > 0)) return false;
+  if (moves != cost_.end() && (moves->second[k_phi_constant] > 0 || moves->second[k_phi_move] > 0))
+    return false;
   for (const Instruction& i : *block)
     if (!isa<PHINode>(i) && !isa<DbgInfoIntrinsic>(i) && !is_free(i) && &i != br) return false;
   return true;
@@ -216,10 +234,12 @@ bool CostFlow::ends_range_test(const BasicBlock& block) const {
   };
   const BasicBlock* before = block.getSinglePredecessor();
   auto* second = compare_of(block);
-  if (!before || !second || second->getPrevNonDebugInstruction() || second->getNextNonDebugInstruction() != block.getTerminator())
+  if (!before || !second || second->getPrevNonDebugInstruction() ||
+      second->getNextNonDebugInstruction() != block.getTerminator())
     return false;
   auto* first = compare_of(*before);
-  if (!first || first->getOperand(0) != second->getOperand(0) || words_(first->getOperand(0)) > 1) return false;
+  if (!first || first->getOperand(0) != second->getOperand(0) || words_(first->getOperand(0)) > 1)
+    return false;
   for (const BasicBlock* s : successors(&block))
     if (is_contained(successors(before), s))
       return all_of(s->phis(), [&](const PHINode& phi) {
@@ -247,15 +267,18 @@ void CostFlow::place_branches(Function& f) {
       std::swap(jumped, straight);
     if (target(straight) != after && (!loop || jumped != loop->getHeader())) {
       // both away: a branch and a jump
-      if (straight->getSinglePredecessor()) cost_[straight][k_jump] += 1;
-      else here[k_jump] += 0.5;
+      if (straight->getSinglePredecessor())
+        cost_[straight][k_jump] += 1;
+      else
+        here[k_jump] += 0.5;
     }
     if (jumped->getSinglePredecessor()) {
       cost_[jumped][k_taken] += 1;
     } else if (straight->getSinglePredecessor()) {
       here[k_taken] += 1;
       cost_[straight][k_taken] -= 1;
-    } else if (loop && loop->getLoopLatch() == &block && loop->getExitingBlock() == &block && loop->getLoopPreheader()) {
+    } else if (loop && loop->getLoopLatch() == &block && loop->getExitingBlock() == &block &&
+               loop->getLoopPreheader()) {
       here[k_taken] += 1;
       cost_[loop->getLoopPreheader()][k_taken] -= 1;
     } else {
