@@ -41,9 +41,12 @@ def measure(args, source, work):
     image.bench_run()
     counts = (ctypes.c_longlong * 4096).in_dll(image, "tp_bench_counts")
     functions = {}
+    table = rules()
     for line, count in zip(open(base + ".dump"), counts):
         name, *pairs = line.split()
         features = functions.setdefault(name, {})
+        whole = round(sum(table[p.split("=")[0]][0] * float(p.split("=")[1]) for p in pairs))
+        features["rounded"] = features.get("rounded", 0) + whole * count
         for pair in pairs:
             rule, times = pair.split("=")
             features[rule] = features.get(rule, 0) + float(times) * count
@@ -71,7 +74,7 @@ def samples(args):
 
 
 def predict(cycles, features):
-    return sum(cycles[rule] * times for rule, times in features.items())
+    return sum(cycles[rule] * times for rule, times in features.items() if rule in cycles)
 
 
 def fit(data, expected, fitted, pull):
@@ -134,6 +137,7 @@ def main():
             parts = " ".join("%s=%g" % p for p in sorted(features.items()))
             print("%6.1f %%  exact %6.0f  estimate %8.1f  %-20s %s" % (error * 100, exact, predict(cycles, features), name, parts))
     summary("%d functions, %s:" % (len(data), args.level), errors)
+    summary("rounded by segment:", [(f["rounded"] / exact - 1, name) for name, _, exact, f in data])
     if args.folds:
         files = sorted({d[1] for d in data})
         left_out = []

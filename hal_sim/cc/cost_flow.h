@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the flow of control and of values costs: taken branches by the layout of the blocks, moves between registers
-// where two paths join, the result on its way to w0.
+// What the flow of control and of values costs: taken branches by the layout of the blocks, moves between
+// registers where two paths join, the result on its way to w0.
 #pragma once
 #include <functional>
 #include <map>
@@ -23,9 +23,11 @@ class CostFlow {
   const Values& live_out(const llvm::BasicBlock* block) { return live_out_[block]; }
   const Values& live_in(const llvm::BasicBlock* block) { return live_in_[block]; }
 
-  /// Cost of a block for its terminator and for moves on its way out; cycles of taken branches may be negative,
-  /// where another block has paid for them already.
+  /// Cost of a block for its terminator and for moves on its way out; cycles of taken branches may be
+  /// negative, where another block has paid for them already.
   void charge(llvm::BasicBlock& block, Features& features);
+
+  bool ends_range_test(const llvm::BasicBlock& block) const;
 
  private:
   void find_live(llvm::Function& f);

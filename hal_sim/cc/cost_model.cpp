@@ -7,9 +7,9 @@
 #include "cost_flow.h"
 #include "cost_values.h"
 
+#include "llvm/ADT/SmallPtrSet.h"
 #include "llvm/Analysis/ScalarEvolutionExpressions.h"
 #include "llvm/Analysis/ValueTracking.h"
-#include "llvm/ADT/SmallPtrSet.h"
 #include "llvm/IR/CFG.h"
 #include "llvm/IR/InstIterator.h"
 #include "llvm/IR/IntrinsicInst.h"
@@ -32,8 +32,11 @@ namespace {
 class Model {
  public:
   Model(Function& f, FunctionAnalysisManager& analyses, int level)
-      : f_(f), loops_(analyses.getResult<LoopAnalysis>(f)), se_(analyses.getResult<ScalarEvolutionAnalysis>(f)),
-        level_(level), flow_(f, loops_, words_of, holds_register) {}
+      : f_(f),
+        loops_(analyses.getResult<LoopAnalysis>(f)),
+        se_(analyses.getResult<ScalarEvolutionAnalysis>(f)),
+        level_(level),
+        flow_(f, loops_, words_of, holds_register) {}
 
   void run(std::vector<Segment>& out);
 
@@ -59,11 +62,11 @@ class Model {
   ScalarEvolution& se_;
   int level_;
   CostFlow flow_;
-  const Value* last_result_ = nullptr;   // what lies in w0.. after the last library call
-  bool no_call_yet_ = true;              // arguments are still where the caller put them
-  int saved_words_ = 0;                  // w8..w14 and stack words that calls must not destroy
+  const Value* last_result_ = nullptr;  // what lies in w0.. after the last library call
+  bool no_call_yet_ = true;             // arguments are still where the caller put them
+  int saved_words_ = 0;                 // w8..w14 and stack words that calls must not destroy
   std::map<const Loop*, bool> unrolled_;
-  SmallPtrSet<const Value*, 16> kept_;   // values that live across a call
+  SmallPtrSet<const Value*, 16> kept_;            // values that live across a call
   SmallPtrSet<const Instruction*, 16> in_place_;  // loads and operations merged into a memory operation
 };
 
@@ -96,6 +99,14 @@ void Model::address(Value* pointer, Segment& s, bool is_word) {
             if (!is_unrolled(loop)) s.features[k_walk] += 1;
             return;
           }
+      if (loop && all_of(gep->indices(), [&](const Value* v) {
+            return is_induction(v, *loop) || loop->isLoopInvariant(v);
+          })) {
+        if (auto* table = dyn_cast<GlobalVariable>(base); table && is_program_memory(*table))
+          s.features[k_constant_memory] += 1;
+        s.features[k_walk] += 1;
+        return;
+      }
       s.features[k_index] += 1;
       if (f_.getParent()->getDataLayout().getTypeAllocSize(gep->getResultElementType()) > 1)
         s.features[k_index_scale] += 1;
@@ -104,8 +115,10 @@ void Model::address(Value* pointer, Segment& s, bool is_word) {
   if (auto* g = dyn_cast<GlobalVariable>(base)) {
     bool direct = !gep || gep->hasAllConstantIndices();
     if (is_program_memory(*g)) s.features[k_constant_memory] += 1;
-    if (!direct || is_program_memory(*g)) s.features[in_loop(*s.first) ? k_address_loop : k_address] += 1;
-    else if (!is_word) s.features[k_global_byte] += 1;
+    if (!direct || is_program_memory(*g))
+      s.features[in_loop(*s.first) ? k_address_loop : k_address] += 1;
+    else if (!is_word)
+      s.features[k_global_byte] += 1;
   }
 }
 
@@ -134,7 +147,8 @@ void Model::float_operation(Instruction& i, Segment& s, double library) {
   no_call_yet_ = false;
   last_result_ = &i;
   if (kept_.count(&i)) s.features[k_kept_word] += type_words(i.getType());
-  s.library += library * (i.getType()->isDoubleTy() || i.getOperand(0)->getType()->isDoubleTy() ? kDoubleFactor : 1);
+  s.library +=
+      library * (i.getType()->isDoubleTy() || i.getOperand(0)->getType()->isDoubleTy() ? kDoubleFactor : 1);
 }
 
 /// Destroys w0..w7: a call of a function or of the compiler's library.
@@ -144,9 +158,11 @@ bool Model::clobbers(const Instruction& i) const {
   auto* c = dyn_cast<CallBase>(&i);
   if (!c || is_free(i)) return false;
   if (auto* intrinsic = dyn_cast<IntrinsicInst>(c))
-    return intrinsic->getIntrinsicID() == Intrinsic::fptosi_sat || intrinsic->getIntrinsicID() == Intrinsic::fptoui_sat;
+    return intrinsic->getIntrinsicID() == Intrinsic::fptosi_sat ||
+           intrinsic->getIntrinsicID() == Intrinsic::fptoui_sat;
   auto* callee = c->getCalledFunction();
-  return !callee || !(callee->getName() == kNop || callee->getName() == kRound || callee->getName().startswith("tp_"));
+  return !callee ||
+         !(callee->getName() == kNop || callee->getName() == kRound || callee->getName().startswith("tp_"));
 }
 
 /// Which registers survive calls: how many words live across one, or more than eight at once.
@@ -160,6 +176,11 @@ void Model::live_words() {
       int sum = 0;
       bool call = clobbers(i);
       for (const Value* v : live) {
+        // a widened number is kept narrow and widened again
+        auto* wide = dyn_cast<CastInst>(v);
+        bool narrow =
+            wide && (isa<SExtInst>(wide) || isa<ZExtInst>(wide)) && !live.count(wide->getOperand(0));
+        if (narrow) v = wide->getOperand(0);
         sum += words(v);
         if (call) kept_.insert(v);
       }
@@ -174,9 +195,12 @@ void Model::live_words() {
 
 /// add [w1],w0,w0: the load costs nothing of its own.
 bool Model::is_folded_load(const LoadInst& load) const {
-  if (level_ == 0 || !load.hasOneUse() || load.isVolatile() || words(&load) != 1 || !load.getType()->isIntegerTy(16)) return false;
+  if (level_ == 0 || !load.hasOneUse() || load.isVolatile() || words(&load) != 1 ||
+      !load.getType()->isIntegerTy(16))
+    return false;
   auto* user = dyn_cast<BinaryOperator>(load.user_back());
-  if (!user || user->getParent() != load.getParent() || user->getOpcode() == Instruction::Mul || user->isIntDivRem() || user->isShift())
+  if (!user || user->getParent() != load.getParent() || user->getOpcode() == Instruction::Mul ||
+      user->isIntDivRem() || user->isShift())
     return false;
   const Value* pointer = load.getPointerOperand();
   if (isa<GlobalVariable>(pointer->stripPointerCasts())) return false;
@@ -187,10 +211,12 @@ bool Model::is_folded_load(const LoadInst& load) const {
 /// count++, sum += x on a global word: one or two instructions in memory.
 bool Model::updates_memory(const StoreInst& store) const {
   auto* op = dyn_cast<BinaryOperator>(store.getValueOperand());
-  if (!op || !op->hasOneUse() || op->getOpcode() == Instruction::Mul || op->isShift() || op->isIntDivRem()) return false;
+  if (!op || !op->hasOneUse() || op->getOpcode() == Instruction::Mul || op->isShift() || op->isIntDivRem())
+    return false;
   if (words(op) != 1 || !isa<GlobalVariable>(store.getPointerOperand()->stripPointerCasts())) return false;
   auto* load = dyn_cast<LoadInst>(op->getOperand(0));
-  return load && load->hasOneUse() && load->getParent() == store.getParent() && load->getPointerOperand() == store.getPointerOperand();
+  return load && load->hasOneUse() && load->getParent() == store.getParent() &&
+         load->getPointerOperand() == store.getPointerOperand();
 }
 
 /// gcc unrolls a loop of few rounds completely when the code does not grow by it: the counting goes away.
@@ -202,7 +228,9 @@ bool Model::is_unrolled(const Loop* loop) {
   double size = 0;
   for (BasicBlock* block : loop->blocks())
     for (Instruction& i : *block)
-      if (!isa<PHINode>(i) && !isa<DbgInfoIntrinsic>(i) && !isa<CastInst>(i) && !is_free(i) && !calls(i, kRound)) size += 1;
+      if (!isa<PHINode>(i) && !isa<DbgInfoIntrinsic>(i) && !isa<CastInst>(i) && !is_free(i) &&
+          !calls(i, kRound))
+        size += 1;
   // counter, comparison and branch vanish; gcc takes two thirds of the copies to survive its clean-up
   return unrolled_[loop] = rounds > 0 && rounds <= 16 && rounds * (size - 3) * 2 / 3 <= size;
 }
@@ -210,7 +238,9 @@ bool Model::is_unrolled(const Loop* loop) {
 /// A counter that serves nothing but a known number of rounds is turned round: dec sets the flags.
 bool Model::counts_down(const ICmpInst& compare) {
   Loop* loop = loops_.getLoopFor(compare.getParent());
-  if (level_ == 0 || !loop || loop->getLoopLatch() != compare.getParent() || se_.getSmallConstantTripCount(loop) == 0) return false;
+  if (level_ == 0 || !loop || loop->getLoopLatch() != compare.getParent() ||
+      se_.getSmallConstantTripCount(loop) == 0)
+    return false;
   auto* step = dyn_cast<BinaryOperator>(compare.getOperand(0));
   auto* counter = step ? dyn_cast<PHINode>(step->getOperand(0)) : nullptr;
   if (!counter || words(counter) != 1) return false;
@@ -223,13 +253,14 @@ bool Model::counts_down(const ICmpInst& compare) {
 /// The instruction before left the flags of v == 0 and v < 0.
 bool Model::sets_flags(const Value* v, const ICmpInst& at) const {
   auto* op = dyn_cast<BinaryOperator>(v);
-  if (!op || level_ == 0 || op->getType()->isFloatingPointTy() || words(op) != 1 || op->getOpcode() == Instruction::Mul ||
-      op->isIntDivRem())
+  if (!op || level_ == 0 || op->getType()->isFloatingPointTy() || words(op) != 1 ||
+      op->getOpcode() == Instruction::Mul || op->isIntDivRem())
     return false;
-  if (!at.isEquality() && at.getPredicate() != CmpInst::ICMP_SLT && at.getPredicate() != CmpInst::ICMP_SGE) return false;
+  if (!at.isEquality() && at.getPredicate() != CmpInst::ICMP_SLT && at.getPredicate() != CmpInst::ICMP_SGE)
+    return false;
   const Instruction* before = at.getPrevNode();
   while (before && (isa<DbgInfoIntrinsic>(before) || calls(*before, kRound) || is_free(*before) ||
-                    isa<GetElementPtrInst>(before) || isa<CastInst>(before)))
+                    is_byte_wrap(*before) || isa<GetElementPtrInst>(before) || isa<CastInst>(before)))
     before = before->getPrevNode();
   return before == op;
 }
@@ -244,10 +275,18 @@ void Model::call(CallBase& c, Segment& s) {
   if (auto* intrinsic = dyn_cast<IntrinsicInst>(&c)) {
     switch (intrinsic->getIntrinsicID()) {
       case Intrinsic::fptosi_sat:
-      case Intrinsic::fptoui_sat: return float_operation(c, s, kFloatToInt);
-      case Intrinsic::fabs: s.features[k_alu] += 1; return;
-      case Intrinsic::fmuladd: float_operation(c, s, kFloatMul + kFloatAdd); return;
-      case Intrinsic::smin: case Intrinsic::smax: case Intrinsic::umin: case Intrinsic::umax:
+      case Intrinsic::fptoui_sat:
+        return float_operation(c, s, kFloatToInt);
+      case Intrinsic::fabs:
+        s.features[k_alu] += 1;
+        return;
+      case Intrinsic::fmuladd:
+        float_operation(c, s, kFloatMul + kFloatAdd);
+        return;
+      case Intrinsic::smin:
+      case Intrinsic::smax:
+      case Intrinsic::umin:
+      case Intrinsic::umax:
         s.features[k_compare] += words(&c);
         s.features[k_select] += 1;
         s.features[k_select_word] += words(&c) - 1;
@@ -256,17 +295,23 @@ void Model::call(CallBase& c, Segment& s) {
       case Intrinsic::abs:  // btsc w0,#15 over neg
         s.features[k_alu] += 2 * words(&c);
         return;
-      case Intrinsic::memcpy: case Intrinsic::memmove: case Intrinsic::memset: {
+      case Intrinsic::memcpy:
+      case Intrinsic::memmove:
+      case Intrinsic::memset: {
         auto* n = dyn_cast<ConstantInt>(cast<MemIntrinsic>(c).getLength());
         s.features[k_copy_word] += n ? n->getZExtValue() / 2.0 + 2 : 20;
         return;
       }
-      case Intrinsic::bswap: s.features[k_alu] += words(&c); return;
-      case Intrinsic::fshl: case Intrinsic::fshr:
+      case Intrinsic::bswap:
+        s.features[k_alu] += words(&c);
+        return;
+      case Intrinsic::fshl:
+      case Intrinsic::fshr:
         s.features[words(&c) > 1 ? k_shift32 : k_shift16] += words(&c) > 1 ? 1 : 3;
         return;
       default:
-        if (intrinsic->getType()->isStructTy()) s.features[k_alu] += type_words(c.getArgOperand(0)->getType());
+        if (intrinsic->getType()->isStructTy())
+          s.features[k_alu] += type_words(c.getArgOperand(0)->getType());
         return;
     }
   }
@@ -294,9 +339,11 @@ void Model::call(CallBase& c, Segment& s) {
 void Model::instruction(Instruction& i, Segment& s) {
   if (is_free(i) || isa<DbgInfoIntrinsic>(i)) return;
   if (Loop* loop = loops_.getLoopFor(i.getParent()); loop && is_unrolled(loop)) {
-    if (isa<PHINode>(i) || &i == dyn_cast<BranchInst>(loop->getLoopLatch()->getTerminator())->getCondition()) return;
+    if (isa<PHINode>(i) || &i == dyn_cast<BranchInst>(loop->getLoopLatch()->getTerminator())->getCondition())
+      return;
     if (isa<BinaryOperator>(i) && se_.isSCEVable(i.getType()) && isa<SCEVAddRecExpr>(se_.getSCEV(&i))) return;
   }
+  if (level_ > 0 && is_byte_wrap(i)) return;
   int w = words(&i);
   if (auto* gep = dyn_cast<GetElementPtrInst>(&i); gep && steps_alone(*gep)) s.features[k_pointer_step] += 1;
   if (isa<AllocaInst>(i) || isa<GetElementPtrInst>(i) || isa<FreezeInst>(i)) return;
@@ -304,8 +351,13 @@ void Model::instruction(Instruction& i, Segment& s) {
   if (auto* load = dyn_cast<LoadInst>(&i)) {
     bool byte = (load->getType()->isIntegerTy(8) || load->getType()->isIntegerTy(1));
     if (in_place_.count(load)) return;
-    if (is_folded_load(*load)) s.features[k_folded_load] += 1;
-    else s.features[byte ? k_load_byte : k_load_word] += w;
+    auto* table = dyn_cast<GlobalVariable>(getUnderlyingObject(load->getPointerOperand()));
+    if (table && is_program_memory(*table) && is_folded_load(*load))
+      s.features[k_constant_memory] += 1;  // 2 in all
+    if (is_folded_load(*load))
+      s.features[k_folded_load] += 1;
+    else
+      s.features[byte ? k_load_byte : k_load_word] += w;
     address(load->getPointerOperand(), s, w == 1 && !byte);
     return;
   }
@@ -319,12 +371,18 @@ void Model::instruction(Instruction& i, Segment& s) {
     return;
   }
   if (auto* compare = dyn_cast<ICmpInst>(&i)) {
+    if (level_ > 0 && words(compare->getOperand(0)) == 1 && flow_.ends_range_test(*i.getParent())) {
+      s.features[k_alu] += 1;
+      return;
+    }
     auto* zero = dyn_cast<Constant>(compare->getOperand(1));
     bool by_zero = zero && zero->isNullValue();
     if (counts_down(*compare)) return;
     if (!(by_zero && sets_flags(compare->getOperand(0), *compare))) {
-      if (words(compare->getOperand(0)) > 1) s.features[by_zero ? k_compare32_zero : k_compare32] += 1;
-      else s.features[k_compare] += 1;
+      if (words(compare->getOperand(0)) > 1)
+        s.features[by_zero ? k_compare32_zero : k_compare32] += 1;
+      else
+        s.features[k_compare] += 1;
       constant_operand(compare->getOperand(1), s, true);
     }
     return;
@@ -351,8 +409,13 @@ void Model::instruction(Instruction& i, Segment& s) {
   if (auto* conversion = dyn_cast<CastInst>(&i)) {
     Type* from = conversion->getSrcTy();
     switch (conversion->getOpcode()) {
-      case Instruction::SIToFP: case Instruction::UIToFP: float_operation(i, s, kIntToFloat); return;
-      case Instruction::SExt: case Instruction::ZExt:
+      case Instruction::SIToFP:
+      case Instruction::UIToFP:
+        if (from->getScalarSizeInBits() <= 16) s.features[k_extend32] += 1;  // the routine takes a long
+        float_operation(i, s, kIntToFloat);
+        return;
+      case Instruction::SExt:
+      case Instruction::ZExt:
         if (is_pointer_arithmetic(&i)) return;
         if (from->isIntegerTy(1)) {
           s.features[k_flag_value] += 1;
@@ -361,29 +424,39 @@ void Model::instruction(Instruction& i, Segment& s) {
         if (all_of(i.users(), [](const User* u) {
               auto* op = dyn_cast<BinaryOperator>(u);
               return is_narrow_division(u) || (is_long_division(u) && u->getType()->isIntegerTy(64)) ||
-                     (op && op->getOpcode() == Instruction::Mul && narrow_operand(op->getOperand(0)) && narrow_operand(op->getOperand(1)));
+                     (op && op->getOpcode() == Instruction::Mul && narrow_operand(op->getOperand(0)) &&
+                      narrow_operand(op->getOperand(1)));
             })) {
           if (from->isIntegerTy(8)) s.features[k_extend8] += 1;
           return;
         }
         if (from->isIntegerTy(8)) {
           auto* load = dyn_cast<LoadInst>(conversion->getOperand(0));
-          bool merged = load && load->hasOneUse() && load->getParent() == i.getParent() && !in_place_.count(load);
+          bool merged =
+              load && load->hasOneUse() && load->getParent() == i.getParent() && !in_place_.count(load);
           if (!merged) s.features[k_extend8] += 1;  // ze [w1],w2 loads and extends at once
         }
         if (w >= 2) s.features[k_extend32] += 1;
         return;
-      default: return;
+      default:
+        return;
     }
   }
   if (auto* op = dyn_cast<BinaryOperator>(&i)) {
     if (op->getType()->isFloatingPointTy()) {
       double library = 0;
       switch (op->getOpcode()) {
-        case Instruction::FAdd: library = kFloatAdd; break;
-        case Instruction::FSub: library = kFloatSub; break;
-        case Instruction::FMul: library = kFloatMul; break;
-        default: library = kFloatDiv;
+        case Instruction::FAdd:
+          library = kFloatAdd;
+          break;
+        case Instruction::FSub:
+          library = kFloatSub;
+          break;
+        case Instruction::FMul:
+          library = kFloatMul;
+          break;
+        default:
+          library = kFloatDiv;
       }
       return float_operation(i, s, library);
     }
@@ -393,51 +466,86 @@ void Model::instruction(Instruction& i, Segment& s) {
           s.features[isa<Constant>(op->getOperand(1)) ? k_mul16_constant : k_mul16] += 1;
           return;
         }
-        if (w == 2 && narrow_operand(op->getOperand(0)) && narrow_operand(op->getOperand(1))) s.features[k_mul_widening] += 1;
-        else s.features[k_mul32] += w / 2;
+        if (w == 2 && narrow_operand(op->getOperand(0)) && narrow_operand(op->getOperand(1)))
+          s.features[k_mul_widening] += 1;
+        else if (auto* c = dyn_cast<ConstantInt>(op->getOperand(1));
+                 c && w == 2 && (c->getValue().countPopulation() <= 2 || (c->getValue() + 1).isPowerOf2())) {
+          s.features[k_alu32] += 1;  // shift and add
+          s.features[c->getValue().ult(4) ? k_shift32_one : k_shift32] += 1;
+        } else
+          s.features[k_mul32] += w / 2;
         if (w > 2) s.library += kLongLongMultiply;
         return;
       }
-      case Instruction::SDiv: case Instruction::UDiv: case Instruction::SRem: case Instruction::URem:
+      case Instruction::SDiv:
+      case Instruction::UDiv:
+      case Instruction::SRem:
+      case Instruction::URem:
         if (w == 1 || is_narrow_division(op)) {
           // quotient and remainder come from one division
           for (Instruction* j = op->getPrevNode(); j; j = j->getPrevNode()) {
             auto* other = dyn_cast<BinaryOperator>(j);
-            if (other && other->isIntDivRem() && other->getOperand(0) == op->getOperand(0) && other->getOperand(1) == op->getOperand(1) &&
-                other != op)
+            if (other && other->isIntDivRem() && other->getOperand(0) == op->getOperand(0) &&
+                other->getOperand(1) == op->getOperand(1) && other != op)
               return;
           }
           s.features[k_div16] += 1;
-          if (isa<Constant>(op->getOperand(1))) s.features[in_loop(i) ? k_wide_constant_loop : k_wide_constant] += 1;
+          if (isa<Constant>(op->getOperand(1)))
+            s.features[in_loop(i) ? k_wide_constant_loop : k_wide_constant] += 1;
           return;
         }
-        if (auto* by = dyn_cast<ConstantInt>(op->getOperand(1)); by && w == 2 && by->getValue().isPowerOf2()) {
+        if (auto* by = dyn_cast<ConstantInt>(op->getOperand(1));
+            by && w == 2 && by->getValue().isPowerOf2()) {
           // a negative number gets divisor - 1 added before the shift
           bool is_signed = op->getOpcode() == Instruction::SDiv || op->getOpcode() == Instruction::SRem;
           if (is_signed) s.features[k_alu] += 2, s.features[k_alu32] += 1;
-          s.features[op->getOpcode() == Instruction::SDiv || op->getOpcode() == Instruction::UDiv ? k_shift32 : k_logic32] += 1;
+          s.features[op->getOpcode() == Instruction::SDiv || op->getOpcode() == Instruction::UDiv
+                         ? k_shift32
+                         : k_logic32] += 1;
           return;
         }
-        float_operation(i, s, w > 2 && undo_widening(op->getOperand(0)) == op->getOperand(0) ? kLongLongDivide
-                              : op->getOpcode() == Instruction::SDiv || op->getOpcode() == Instruction::SRem
-                                  ? kLongDivide : kUnsignedLongDivide);
+        float_operation(i, s,
+                        w > 2 && undo_widening(op->getOperand(0)) == op->getOperand(0) ? kLongLongDivide
+                        : op->getOpcode() == Instruction::SDiv || op->getOpcode() == Instruction::SRem
+                            ? kLongDivide
+                            : kUnsignedLongDivide);
         return;
-      case Instruction::Shl: case Instruction::LShr: case Instruction::AShr: {
+      case Instruction::Shl:
+      case Instruction::LShr:
+      case Instruction::AShr: {
         auto* n = dyn_cast<ConstantInt>(op->getOperand(1));
         if (op->getType()->isIntegerTy(8) && op->getOpcode() != Instruction::Shl) s.features[k_extend8] += 1;
-        if (w == 1) s.features[k_shift16] += 1;
-        else if (!n) s.features[k_shift32_count] += 4;
-        else if (n->getZExtValue() == 1) s.features[k_shift32_one] += 1;
-        else if (n->getZExtValue() >= 16) s.features[k_shift32_words] += 1;
-        else s.features[k_shift32] += 1;
+        if (w == 1)
+          s.features[k_shift16] += 1;
+        else if (!n)
+          s.features[k_shift32_count] += 4;
+        else if (n->getZExtValue() == 1)
+          s.features[k_shift32_one] += 1;
+        else if (n->getZExtValue() == 2)
+          s.features[k_shift32_one] += 2;
+        else if (n->getZExtValue() >= 16)
+          s.features[k_shift32_words] += 1;
+        else
+          s.features[k_shift32] += 1;
         return;
       }
       default:
-        if (w == 2) s.features[op->isBitwiseLogicOp() ? k_logic32 : k_alu32] += 1;
-        else s.features[k_alu] += w;
+        if (w == 2)
+          s.features[op->isBitwiseLogicOp() ? k_logic32 : k_alu32] += 1;
+        else
+          s.features[k_alu] += w;
+        if (op->getOpcode() == Instruction::And && w == 1)
+          if (auto* mask = dyn_cast<ConstantInt>(op->getOperand(1)); mask && mask->equalsInt(255))
+            return;  // ze
         if (in_place_.count(&i))
           if (auto* bit = dyn_cast<ConstantInt>(op->getOperand(1)))
-            if (bit->getValue().isPowerOf2() || (~bit->getValue()).isPowerOf2()) return;  // bset, bclr, btg
+            if (op->isBitwiseLogicOp() && (bit->getValue().isPowerOf2() || (~bit->getValue()).isPowerOf2()))
+              return;  // bset, bclr, btg
+        if (auto* c = dyn_cast<ConstantInt>(op->getOperand(1)); c && in_place_.count(&i) && w == 1) {
+          // inc, dec, inc2, dec2 know their constant; add takes it from w0
+          if (op->isBitwiseLogicOp() || c->getValue().abs().ugt(2)) s.features[k_alu] += 1;
+          return;
+        }
         constant_operand(op->getOperand(1), s);
         return;
     }
@@ -455,15 +563,20 @@ void Model::terminator(BasicBlock& block, Segment& s) {
   if (isa<ReturnInst>(t)) {
     s.features[k_return_] += 1;
   } else if (auto* sw = dyn_cast<SwitchInst>(t)) {
-    if (sw->getNumCases() >= 5) s.features[k_switch_table] += 1;
-    else s.features[k_switch_case] += sw->getNumCases() * 0.6 + 0.5;
+    if (sw->getNumCases() >= 5)
+      s.features[k_switch_table] += 1;
+    else
+      s.features[k_switch_case] += sw->getNumCases() * 0.6 + 0.5;
   }
   Features edges{};
   flow_.charge(block, edges);
-  if (auto* ret = dyn_cast<ReturnInst>(t); ret && ret->getReturnValue() && isa<PHINode>(ret->getReturnValue())) {
+  if (auto* ret = dyn_cast<ReturnInst>(t);
+      ret && ret->getReturnValue() && isa<PHINode>(ret->getReturnValue())) {
     // calls have driven one of the two out of w0
-    if (kept_.count(ret->getReturnValue())) edges[k_return_move] = words(ret->getReturnValue());
-    else if (!f_.arg_empty() && kept_.count(f_.getArg(0))) edges[k_return_move] = 0;
+    if (kept_.count(ret->getReturnValue()))
+      edges[k_return_move] = words(ret->getReturnValue());
+    else if (!f_.arg_empty() && kept_.count(f_.getArg(0)))
+      edges[k_return_move] = 0;
   }
   Loop* around = loops_.getLoopFor(&block);
   if (around && around->getLoopLatch() == &block && is_unrolled(around)) edges = Features{};

@@ -48,7 +48,8 @@ bool holds_register(const Value* v) {
 
 bool is_program_memory(const GlobalVariable& g) {
   if (g.isConstant()) return true;
-  if (!g.hasLocalLinkage() || !g.getValueType()->isAggregateType() || g.getName().startswith("tp")) return false;
+  if (!g.hasLocalLinkage() || !g.getValueType()->isAggregateType() || g.getName().startswith("tp"))
+    return false;
   SmallVector<const User*, 16> work(g.user_begin(), g.user_end());
   while (!work.empty()) {
     const User* u = work.pop_back_val();
@@ -68,7 +69,8 @@ bool narrow_operand(const Value* v) {
 bool is_narrow_division(const Value* v) {
   auto* op = dyn_cast<BinaryOperator>(v);
   return op && (op->getOpcode() == Instruction::SDiv || op->getOpcode() == Instruction::SRem) &&
-         op->getType()->isIntegerTy(32) && narrow_operand(op->getOperand(0)) && narrow_operand(op->getOperand(1));
+         op->getType()->isIntegerTy(32) && narrow_operand(op->getOperand(0)) &&
+         narrow_operand(op->getOperand(1));
 }
 
 Value* undo_widening(Value* v) {
@@ -88,7 +90,12 @@ bool steps_alone(const GetElementPtrInst& gep) {
   if (!phi || !gep.hasAllConstantIndices() || !is_contained(phi->incoming_values(), &gep)) return false;
   for (const User* u : phi->users()) {
     auto* access = dyn_cast<Instruction>(u);
-    if (access && access->getParent() == gep.getParent() && getLoadStorePointerOperand(access) == phi) return false;
+    if (access && access->getParent() != gep.getParent()) return true;  // the old value lives on
+  }
+  for (const User* u : phi->users()) {
+    auto* access = dyn_cast<Instruction>(u);
+    if (access && access->getParent() == gep.getParent() && getLoadStorePointerOperand(access) == phi)
+      return false;
   }
   return true;
 }
@@ -97,6 +104,38 @@ bool only_for_select(const Instruction& i) {
   if (!isa<BinaryOperator>(i) || !i.hasOneUse()) return false;
   auto* select = dyn_cast<SelectInst>(i.user_back());
   return select && select->getCondition() != &i && select->getParent() == i.getParent();
+}
+
+bool is_byte_wrap(const Instruction& i) {
+  auto* mask = i.getOpcode() == Instruction::And ? dyn_cast<ConstantInt>(i.getOperand(1)) : nullptr;
+  auto* op = mask && mask->equalsInt(255) ? dyn_cast<BinaryOperator>(i.getOperand(0)) : nullptr;
+  return op && any_of(op->operands(), [&](const Value* v) {
+           auto* phi = dyn_cast<PHINode>(v);
+           return phi && is_contained(phi->incoming_values(), &i);
+         });
+}
+
+bool is_induction(const Value* v, const Loop& loop) {
+  for (int steps = 0; steps < 4; ++steps) {
+    auto* wide = dyn_cast<CastInst>(v);
+    auto* op = dyn_cast<BinaryOperator>(v);
+    if (wide && wide->isIntegerCast())
+      v = wide->getOperand(0);
+    else if (op && op->getOpcode() == Instruction::Add && isa<Constant>(op->getOperand(1)))
+      v = op->getOperand(0);
+    else
+      break;
+  }
+  auto* phi = dyn_cast<PHINode>(v);
+  if (!phi || phi->getParent() != loop.getHeader()) return false;
+  for (unsigned n = 0; n < phi->getNumIncomingValues(); ++n) {
+    if (!loop.contains(phi->getIncomingBlock(n))) continue;
+    auto* step = dyn_cast<BinaryOperator>(phi->getIncomingValue(n));
+    if (!step || step->getOpcode() != Instruction::Add || step->getOperand(0) != phi ||
+        !isa<Constant>(step->getOperand(1)))
+      return false;
+  }
+  return true;
 }
 
 }  // namespace cc

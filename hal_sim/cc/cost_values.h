@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What single LLVM values are to the chip: how many words, in a register or not, in which memory.
 #pragma once
+#include "llvm/Analysis/LoopInfo.h"
 #include "llvm/IR/GlobalVariable.h"
 #include "llvm/IR/Instructions.h"
 
@@ -24,6 +25,10 @@ llvm::Value* undo_widening(llvm::Value* v);
 bool is_long_division(const llvm::Value* v);
 /// p++ that no access takes along: [w0++] needs the access before the step.
 bool steps_alone(const llvm::GetElementPtrInst& gep);
+/// x & 255 that only exists because LLVM widened a byte carried round a loop.
+bool is_byte_wrap(const llvm::Instruction& i);
+/// A number that advances by a constant in each round of the loop, widened to an index or not.
+bool is_induction(const llvm::Value* v, const llvm::Loop& loop);
 /// Arithmetic for one arm of a choice: the chip's compiler branches round it.
 bool only_for_select(const llvm::Instruction& i);
 

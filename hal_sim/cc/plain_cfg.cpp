@@ -39,7 +39,8 @@ bool thread_known_conditions(Function& f) {
       if (auto* known = dyn_cast<ConstantInt>(phi->getIncomingValue(n))) {
         BasicBlock* to = br->getSuccessor(known->isZero() ? 1 : 0);
         auto* from = dyn_cast<BranchInst>(phi->getIncomingBlock(n)->getTerminator());
-        if (from && !is_contained(successors(phi->getIncomingBlock(n)), to)) moves.emplace_back(phi->getIncomingBlock(n), to);
+        if (from && !is_contained(successors(phi->getIncomingBlock(n)), to))
+          moves.emplace_back(phi->getIncomingBlock(n), to);
       }
     for (auto& [from, to] : moves) {
       for (PHINode& joined : to->phis()) joined.addIncoming(joined.getIncomingValueForBlock(&block), from);

@@ -107,6 +107,7 @@ TEST(cycles, estimate_is_within_the_published_error) {
   double median = errors[39].first, ninth = errors[70].first, worst = errors.back().first;
   std::printf("cycle estimate: median error %.1f %%, nine in ten within %.1f %%, worst %.1f %% (%s)\n", median * 100, ninth * 100, worst * 100,
               errors.back().second.c_str());
-  EXPECT_LE(median, 0.12);
-  EXPECT_LE(ninth, 0.35);
+  EXPECT_LE(median, 0.04);
+  EXPECT_LE(ninth, 0.15);
+  EXPECT_LE(worst, 0.25);
 }

@@ -13,6 +13,7 @@
 namespace fake {
 
 uint16_t registers[0x800];
+long long event_interval = 0;
 
 namespace {
 std::jmp_buf leave;
@@ -64,12 +65,13 @@ Run Image::run(int stop_at_poll, const std::function<void(int)>& on_poll) {
   running = image_;
   last_poll = stop_at_poll;
   poll_hook = &on_poll;
-  image_->control->budget = kBudget;
+  const long long start = event_interval ? event_interval : kBudget;
+  image_->control->budget = start;
   if (setjmp(leave) == 0) {
     image_->start();
     run.end = "return";
   }
-  run.cycles += kBudget - image_->control->budget;
+  run.cycles += start - image_->control->budget;
   return run;
 }
 
@@ -109,8 +111,11 @@ using fake::current;
 #define EXPORT extern "C" __attribute__((visibility("default"), used))
 EXPORT void tp_event() {
   ++current->events;
-  fake::running->control->budget += 1000000000;
-  current->cycles += 1000000000;
+  long long& budget = fake::running->control->budget;
+  if (-budget > current->latest) current->latest = -budget;
+  const long long more = fake::event_interval ? fake::event_interval - budget : 1000000000;
+  budget += more;
+  current->cycles += more;
 }
 EXPORT void tp_poll(tp_i64) {
   ++current->polls;

@@ -24,6 +24,7 @@ struct Run {
   std::string console;
   long long cycles = 0;        // charged to the budget, delays included
   int polls = 0, events = 0;
+  long long latest = 0;        // cycles by which the host got control too late, at worst
   std::vector<std::pair<long long, long long>> delays;
   std::vector<Access> accesses;
   std::vector<std::string> calls;  // "disi 5", "clrwdt", "idle" ...
@@ -58,6 +59,9 @@ class Image {
 
 /// Register content for tp_sfr_read, 16-bit words by address.
 extern uint16_t registers[0x800];
+
+/// Cycles between two events; 0: no events in a usual run.
+extern long long event_interval;
 
 /// One main.c, compiled; messages in the result.
 cc::BuildResult build(const Folder& folder, const std::string& main_c, const std::string& level = "-O1",

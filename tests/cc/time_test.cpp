@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "fake_host.h"
+#include "hal_sim/cc/cost_params.h"
 
 using namespace fake;
 
@@ -71,22 +72,40 @@ TEST(time, delay_is_kept_at_every_level) {
 }
 
 TEST(time, budget_is_charged_in_small_parts) {
-  // straight soft-float code: one block, thousands of cycles; the host must get control on the way
-  std::string body;
-  for (int i = 0; i < 40; ++i) body += "x = x * 1.5f + y;";
-  Folder folder;
-  auto built = build(folder, "volatile float in = 2; float out; int main(void) { float x = in, y = in;" + body + " out = x; return 0; }");
-  ASSERT_TRUE(built.ok) << text_of(built);
-  Image image(folder.path / "prog.so");
-  auto run = image.run();
-  EXPECT_GT(run.cycles, 40 * 200);
+  // straight code: one block, thousands of cycles; the host must get control on the way, at most one library
+  // routine (a float division is the longest here) late
+  const double one_call[] = {cc::kFloatDiv, 0, cc::kLongDivide};
+  const char* steps[] = {"x = x * 1.5f + y / x;", "n = n * 3 + m; m = m ^ (n >> 2);",
+                         "l = l / (n | 1) + l % 7;"};
+  for (const char* level : {"-O0", "-O1", "-O2"})
+    for (int kind = 0; kind < 3; ++kind) {
+      std::string body;
+      for (int i = 0; i < 60; ++i) body += steps[kind];
+      Folder folder;
+      auto built = build(folder,
+                         "volatile float in = 2; volatile int num = 77; volatile long big = 123456789; float "
+                         "out; long sum;\n"
+                         "int main(void) { float x = in, y = in; int n = num, m = num; long l = big; " +
+                             body + " out = x; sum = l + n + m; return 0; }",
+                         level);
+      ASSERT_TRUE(built.ok) << text_of(built);
+      Image image(folder.path / "prog.so");
+      event_interval = 1;
+      auto run = image.run();
+      event_interval = 0;
+      EXPECT_EQ(run.end, "return");
+      EXPECT_GT(run.cycles, 60 * 4) << level << " " << kind;
+      EXPECT_LE(double(run.latest), 150 + one_call[kind]) << level << " " << kind;
+      EXPECT_GE(run.events * (150 + one_call[kind]), double(run.cycles)) << level << " " << kind;
+    }
 }
 
 TEST(time, division_by_zero_traps_whatever_the_optimiser_knows) {
   for (const char* level : {"-O0", "-O1", "-O2"}) {
     EXPECT_EQ(run_c("volatile int z; int main(void) { return 5 / z; }", level).end, "trap 1") << level;
     EXPECT_EQ(run_c("int main(void) { int z = 0; int r = 5 / z; return r; }", level).end, "trap 1") << level;
-    EXPECT_EQ(run_c("volatile unsigned long z; int main(void) { return (int)(5 % z); }", level).end, "trap 1") << level;
+    EXPECT_EQ(run_c("volatile unsigned long z; int main(void) { return (int)(5 % z); }", level).end, "trap 1")
+        << level;
   }
 }
 
