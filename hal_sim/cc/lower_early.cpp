@@ -21,16 +21,6 @@ namespace {
 
 using namespace llvm;
 
-Function* marker(Module& m, const char* name) {
-  auto* f = cast<Function>(m.getOrInsertFunction(name, FunctionType::get(Type::getVoidTy(m.getContext()), false))
-                               .getCallee());
-  // touches nothing the program can see, yet must stay where it is
-  f->addFnAttr(Attribute::InaccessibleMemOnly);
-  f->addFnAttr(Attribute::NoUnwind);
-  f->addFnAttr(Attribute::WillReturn);
-  return f;
-}
-
 /// One statement of inline assembler -> a call. False when it is not one of the few that are understood.
 bool lower_statement(Unit& unit, IRBuilder<>& b, StringRef text) {
   Module& m = unit.module;
@@ -276,6 +266,16 @@ void keep_empty_loops(Unit& unit) {
 }
 
 }  // namespace
+
+Function* marker(Module& m, const char* name) {
+  auto* f = cast<Function>(m.getOrInsertFunction(name, FunctionType::get(Type::getVoidTy(m.getContext()), false))
+                               .getCallee());
+  // touches nothing the program can see, yet must stay where it is
+  f->addFnAttr(Attribute::InaccessibleMemOnly);
+  f->addFnAttr(Attribute::NoUnwind);
+  f->addFnAttr(Attribute::WillReturn);
+  return f;
+}
 
 void lower_early(Unit& unit) {
   lower_assembler(unit);

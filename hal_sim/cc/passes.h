@@ -26,6 +26,9 @@ inline constexpr const char* kNop = "tp.nop";        // asm("nop"): one cycle, n
 inline constexpr const char* kRound = "tp.round";    // keeps an empty counting loop alive; no cycle
 inline constexpr const char* kFree = "tp.free";      // metadata: instruction exists on the PC only, costs nothing
 
+/// A function of that kind: no effect the program can see, yet its calls stay where they are.
+llvm::Function* marker(llvm::Module& m, const char* name);
+
 /// Inline assembler, refused functions, sections, wide shifts, float to int, division by zero.
 void lower_early(Unit& unit);
 /// Accesses to tp_sfr_XXXX globals become calls to the register host.
