@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The optimiser's passes in our own order. Everything that would turn a loop into something else (idioms, deletion,
-// unrolling, vectors) is absent: the chip's compiler has none of it, and a delay loop must stay a delay.
+// The optimiser's passes in our own order. Everything that would turn a loop into something else (idioms,
+// deletion, unrolling, vectors) is absent: the chip's compiler has none of it, and a delay loop must stay a
+// delay.
 #include "llvm/Analysis/TargetLibraryInfo.h"
 #include "llvm/Analysis/TargetTransformInfo.h"
 #include "llvm/IR/DebugInfoMetadata.h"
@@ -125,8 +126,8 @@ Value* control_field(Module& m, unsigned index) {
   }
   Constant* zero = ConstantInt::get(Type::getInt32Ty(c), 0);
   auto* address = ConstantExpr::getBitCast(g, type->getPointerTo());
-  return ConstantExpr::getInBoundsGetElementPtr(type, address,
-                                                ArrayRef<Constant*>{zero, ConstantInt::get(Type::getInt32Ty(c), index)});
+  return ConstantExpr::getInBoundsGetElementPtr(
+      type, address, ArrayRef<Constant*>{zero, ConstantInt::get(Type::getInt32Ty(c), index)});
 }
 
 bool run_pipeline(Unit& unit) {
