@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// make bench: robot-seconds per wall second in the common workload (docs/performance.md), ours with compiled firmware
-// inside, libenki beside it, turn and turn about in one run. Ratios are what counts; a loaded machine moves both.
+// make bench: robot-seconds per wall second in the common workload (docs/performance.md), ours with compiled
+// firmware inside, libenki beside it, turn and turn about in one run. Ratios are what counts; a loaded
+// machine moves both.
 //
 //   bench [--rounds 5] [--worlds DIR] [N ...]
 #include <algorithm>
@@ -20,7 +21,9 @@ namespace {
 
 using Wall = std::chrono::steady_clock;
 
-double seconds_since(Wall::time_point start) { return std::chrono::duration<double>(Wall::now() - start).count(); }
+double seconds_since(Wall::time_point start) {
+  return std::chrono::duration<double>(Wall::now() - start).count();
+}
 
 // simulated seconds: warm-up and measured; the big scene takes shorter so that a round stays below a minute
 struct Span {
@@ -34,7 +37,9 @@ class Playback final : public sim::RobotMind {
  public:
   explicit Playback(const std::vector<sim::WheelAngles>& angles) : angles_(angles) {}
   void run_until(const sim::Scene&, sim::Clicks) override {}
-  sim::WheelAngles wheel_angles(sim::Clicks) override { return angles_[std::min(next_++, angles_.size() - 1)]; }
+  sim::WheelAngles wheel_angles(sim::Clicks) override {
+    return angles_[std::min(next_++, angles_.size() - 1)];
+  }
   sim::MindReport report() const override { return {}; }
   int proximity_counts(const sim::Scene&, int) override { return 0; }
   std::uint64_t state_hash() const override { return 0; }
@@ -45,8 +50,8 @@ class Playback final : public sim::RobotMind {
 };
 
 struct Ours {
-  double rate = 0;        // robot-seconds per wall second
-  double world_share = 0; // of the time: physics, poses, digest
+  double rate = 0;         // robot-seconds per wall second
+  double world_share = 0;  // of the time: physics, poses, digest
 };
 
 std::unique_ptr<twin::Twin> open(const sim::WorldDesc& world) {
@@ -94,7 +99,8 @@ double run_peer(const sim::WorldDesc& world) {
   constexpr double kStepS = 0.064;
   const Span span = peer_span(static_cast<int>(world.robots.size()));
   bench::EnkiSwarm swarm(world);
-  const int warm = static_cast<int>(span.warm_s / kStepS + 0.5), measured = static_cast<int>(span.measured_s / kStepS + 0.5);
+  const int warm = static_cast<int>(span.warm_s / kStepS + 0.5),
+            measured = static_cast<int>(span.measured_s / kStepS + 0.5);
   for (int i = 0; i < warm; ++i) swarm.control_step();
   const auto start = Wall::now();
   for (int i = 0; i < measured; ++i) swarm.control_step();
@@ -116,17 +122,22 @@ int main(int argc, char** argv) {
   std::string worlds = twin::project_root() + "/bench/worlds";
   std::vector<int> sizes;
   for (int i = 1; i < argc; ++i) {
-    if (!std::strcmp(argv[i], "--rounds") && i + 1 < argc) rounds = std::max(1, std::atoi(argv[++i]));
-    else if (!std::strcmp(argv[i], "--worlds") && i + 1 < argc) worlds = argv[++i];
-    else sizes.push_back(std::atoi(argv[i]));
+    if (!std::strcmp(argv[i], "--rounds") && i + 1 < argc)
+      rounds = std::max(1, std::atoi(argv[++i]));
+    else if (!std::strcmp(argv[i], "--worlds") && i + 1 < argc)
+      worlds = argv[++i];
+    else
+      sizes.push_back(std::atoi(argv[i]));
   }
   if (sizes.empty()) sizes = {1, 5, 10, 100, 1000};
   std::printf("robot-seconds per wall second, medians of %d rounds, ours and Enki in turn\n", rounds);
-  std::printf("%7s %12s %12s %8s %9s %16s %12s\n", "robots", "ours", "Enki", "ratio", "promised", "us/robot-second", "world only");
+  std::printf("%7s %12s %12s %8s %9s %16s %12s\n", "robots", "ours", "Enki", "ratio", "promised",
+              "us/robot-second", "world only");
   double per_robot_100 = 0, per_robot_1000 = 0;
   bool kept = true;
   for (int n : sizes) {
-    const auto loaded = sim::load_world(worlds + "/brait_" + std::to_string(n) + ".toml", {board::epuck_model()});
+    const auto loaded =
+        sim::load_world(worlds + "/brait_" + std::to_string(n) + ".toml", {board::epuck_model()});
     if (!loaded.world) {
       std::fprintf(stderr, "%s\n", loaded.report("bench world").c_str());
       return 2;
@@ -138,8 +149,8 @@ int main(int argc, char** argv) {
       ratios.push_back(ours.back() / peer.back());
     }
     const double rate = median(ours), ratio = median(ratios), world_rate = world_only_rate(*loaded.world);
-    std::printf("%7d %12.0f %12.0f %8.2f %9.0f %16.2f %11.0f%%\n", n, rate, median(peer), ratio, promised(n), 1e6 / rate,
-                100 * rate / world_rate);
+    std::printf("%7d %12.0f %12.0f %8.2f %9.0f %16.2f %11.0f%%\n", n, rate, median(peer), ratio, promised(n),
+                1e6 / rate, 100 * rate / world_rate);
     std::fflush(stdout);
     kept = kept && ratio >= promised(n);
     if (n == 100) per_robot_100 = 1 / rate;

@@ -54,7 +54,8 @@ EnkiSwarm::EnkiSwarm(const sim::WorldDesc& desc)
   };
   for (const auto& box : desc.objects) {
     auto* object = new Enki::PhysicalObject();
-    object->setRectangular(box.size_m.x * kCentimetres, box.size_m.y * kCentimetres, box.size_m.z * kCentimetres, -1);
+    object->setRectangular(box.size_m.x * kCentimetres, box.size_m.y * kCentimetres,
+                           box.size_m.z * kCentimetres, -1);
     place(object, box.pose);
   }
   for (const auto& robot : desc.robots) {

@@ -20,7 +20,8 @@ namespace fs = std::filesystem;
 // a folder as given, or the controller of that name
 std::string controller_folder(const std::string& name) {
   const fs::path known = fs::path(twin::project_root()) / "firmware" / name;
-  if (!fs::exists(name) && name.find('/') == std::string::npos && fs::is_directory(known)) return known.string();
+  if (!fs::exists(name) && name.find('/') == std::string::npos && fs::is_directory(known))
+    return known.string();
   return name;
 }
 
@@ -38,8 +39,9 @@ int build(cc::BuildOptions options) {
   complain(result.warnings);
   complain(result.errors);
   if (!result.ok) return kTestFailed;
-  std::cout << fmt::format("{}: {} bytes of data on the chip (of 8192), {} files compiled, {} unchanged, {:.2f} s\n",
-                           options.output.string(), result.ram_bytes, result.compiled, result.reused, result.seconds);
+  std::cout << fmt::format(
+      "{}: {} bytes of data on the chip (of 8192), {} files compiled, {} unchanged, {:.2f} s\n",
+      options.output.string(), result.ram_bytes, result.compiled, result.reused, result.seconds);
   return kPass;
 }
 
@@ -63,15 +65,18 @@ int cycles(const std::string& name, double period_ms) {
   if (image.empty()) return kBadInput;
   const auto functions = cc::function_costs(image);
   if (functions.empty()) {
-    complain({image + ": cycles: got a file without a cost table, expected an image made by `twinpuck build`"});
+    complain(
+        {image + ": cycles: got a file without a cost table, expected an image made by `twinpuck build`"});
     return kBadInput;
   }
-  std::cout << fmt::format("estimated cycles at 14.7456 MHz, callees included (docs/cycles.md says how good the estimate is)\n"
-                           "{:<32} {:>9} {:>9} {:>9} {:>11} {:>10}  where\n", "function", "min", "mean", "max", "mean (us)",
-                           fmt::format("load/{:g}ms", period_ms));
+  std::cout << fmt::format(
+      "estimated cycles at 14.7456 MHz, callees included (docs/cycles.md says how good the estimate is)\n"
+      "{:<32} {:>9} {:>9} {:>9} {:>11} {:>10}  where\n",
+      "function", "min", "mean", "max", "mean (us)", fmt::format("load/{:g}ms", period_ms));
   for (const auto& f : functions)
-    std::cout << fmt::format("{:<32} {:>9} {:>9} {:>9} {:>11.2f} {:>9.2f}%  {}:{}\n", f.name + (f.is_interrupt ? " (interrupt)" : ""),
-                             count(f.min), count(f.mean), count(f.max), f.mean_us(), 100 * f.cpu_load(period_ms / 1000), f.file, f.line);
+    std::cout << fmt::format("{:<32} {:>9} {:>9} {:>9} {:>11.2f} {:>9.2f}%  {}:{}\n",
+                             f.name + (f.is_interrupt ? " (interrupt)" : ""), count(f.min), count(f.mean),
+                             count(f.max), f.mean_us(), 100 * f.cpu_load(period_ms / 1000), f.file, f.line);
   return kPass;
 }
 
@@ -84,8 +89,8 @@ int check(const std::vector<std::string>& files) {
       exit_code = kBadInput;
       continue;
     }
-    std::cout << fmt::format("{}: good: {} robots, {} objects, {} Hz\n", file, loaded.world->robots.size(), loaded.world->objects.size(),
-                             loaded.world->physics_hz);
+    std::cout << fmt::format("{}: good: {} robots, {} objects, {} Hz\n", file, loaded.world->robots.size(),
+                             loaded.world->objects.size(), loaded.world->physics_hz);
   }
   return exit_code;
 }
@@ -97,7 +102,9 @@ void add_build(CLI::App& app, int& exit_code) {
   auto o = std::make_shared<cc::BuildOptions>();
   verb->add_option("DIR", o->source_dir, "folder with C files, or a controller's name")->required();
   verb->add_option("-o,--output", o->output, "the image to write, a .so")->required();
-  verb->add_option("--opt", o->optimisation, "-O0 -O1 -O2 -Os")->check(CLI::IsMember({"-O0", "-O1", "-O2", "-Os"}))->capture_default_str();
+  verb->add_option("--opt", o->optimisation, "-O0 -O1 -O2 -Os")
+      ->check(CLI::IsMember({"-O0", "-O1", "-O2", "-Os"}))
+      ->capture_default_str();
   verb->add_option("-D", o->defines, "NAME or NAME=value for the preprocessor");
   verb->add_flag("--sanitize", o->sanitize, "address and 16-bit overflow checks");
   verb->add_flag("--coverage", o->coverage, "line counters, for run --coverage");
@@ -116,7 +123,9 @@ void add_cycles(CLI::App& app, int& exit_code) {
   auto name = std::make_shared<std::string>();
   auto period_ms = std::make_shared<double>(10);
   verb->add_option("FILE", *name, "an image, a folder or a controller's name")->required();
-  verb->add_option("--period", *period_ms, "the load column assumes one call every so many ms")->check(CLI::PositiveNumber)->capture_default_str();
+  verb->add_option("--period", *period_ms, "the load column assumes one call every so many ms")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   verb->callback([name, period_ms, &exit_code] { exit_code = cycles(*name, *period_ms); });
 }
 

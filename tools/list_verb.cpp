@@ -33,7 +33,8 @@ void print(const std::string& heading, std::vector<std::pair<std::string, std::s
   std::size_t width = 0;
   for (const auto& r : rows) width = std::max(width, r.first.size());
   std::cout << heading << "\n";
-  for (const auto& [name, text] : rows) std::cout << "  " << name << std::string(width - name.size() + 2, ' ') << text << "\n";
+  for (const auto& [name, text] : rows)
+    std::cout << "  " << name << std::string(width - name.size() + 2, ' ') << text << "\n";
 }
 
 int list_all() {
@@ -47,7 +48,9 @@ int list_all() {
     if (entry.path().extension() == ".toml")
       worlds.emplace_back(entry.path().stem().string(), first_sentence(entry.path()));
   if (controllers.empty() && worlds.empty()) {
-    complain({root.string() + ": list: got no controllers and no worlds, expected a checkout of Twinpuck; set TWINPUCK_ROOT"});
+    complain(
+        {root.string() +
+         ": list: got no controllers and no worlds, expected a checkout of Twinpuck; set TWINPUCK_ROOT"});
     return kNothing;
   }
   print("Controllers (make run FW=...)", controllers);
@@ -58,7 +61,9 @@ int list_all() {
 }  // namespace
 
 void add_list(CLI::App& app, int& exit_code) {
-  app.add_subcommand("list", "List controllers and worlds")->callback([&exit_code] { exit_code = list_all(); });
+  app.add_subcommand("list", "List controllers and worlds")->callback([&exit_code] {
+    exit_code = list_all();
+  });
 }
 
 }  // namespace tools

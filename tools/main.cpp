@@ -19,7 +19,8 @@ std::vector<std::string> known_words(const CLI::App& app) {
   std::vector<std::string> words;
   for (const auto* o : app.get_options())
     for (const auto& name : o->get_lnames()) words.push_back("--" + name);
-  for (const auto* verb : app.get_subcommands([](const CLI::App*) { return true; })) words.push_back(verb->get_name());
+  for (const auto* verb : app.get_subcommands([](const CLI::App*) { return true; }))
+    words.push_back(verb->get_name());
   return words;
 }
 
@@ -36,7 +37,8 @@ int usage_error(const CLI::App& app, const CLI::ParseError& e, int argc, char** 
     if (std::string(e.what()).find(word) == std::string::npos && extras) continue;
     const std::string guess = sim::did_you_mean(word, words);
     line = "command line: unknown word: got '" + word + "', expected an option or verb of `twinpuck" +
-           (at == &app ? "" : " " + at->get_name()) + "`" + (guess.empty() ? "" : "; did you mean '" + guess + "'?");
+           (at == &app ? "" : " " + at->get_name()) + "`" +
+           (guess.empty() ? "" : "; did you mean '" + guess + "'?");
     break;
   }
   std::cerr << line << "\nTry `twinpuck " << (at == &app ? "" : at->get_name() + " ") << "--help`.\n";

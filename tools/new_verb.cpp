@@ -105,9 +105,12 @@ std::string replace_all(std::string text, const std::string& key, const std::str
 
 int make_controller(const std::string& name) {
   const bool good = !name.empty() && std::islower(static_cast<unsigned char>(name[0])) &&
-                    std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::islower(c) || std::isdigit(c) || c == '_'; });
+                    std::all_of(name.begin(), name.end(), [](unsigned char c) {
+                      return std::islower(c) || std::isdigit(c) || c == '_';
+                    });
   if (!good) {
-    complain({"command line: NAME: got '" + name + "', expected lower-case letters, digits and underscores, a letter first"});
+    complain({"command line: NAME: got '" + name +
+              "', expected lower-case letters, digits and underscores, a letter first"});
     return kBadInput;
   }
   const fs::path folder = fs::path(twin::project_root()) / "firmware" / name;
@@ -117,7 +120,8 @@ int make_controller(const std::string& name) {
   }
   std::error_code error;
   fs::create_directories(folder, error);
-  const std::pair<const char*, const char*> files[] = {{"main.c", kMain}, {"README.md", kReadme}, {"test.cpp", kTest}};
+  const std::pair<const char*, const char*> files[] = {
+      {"main.c", kMain}, {"README.md", kReadme}, {"test.cpp", kTest}};
   for (const auto& [file, text] : files) {
     std::ofstream out(folder / file);
     out << replace_all(text, "@NAME@", name);

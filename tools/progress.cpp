@@ -14,7 +14,12 @@ constexpr unsigned kTicksBetweenLooks = 16;  // reading the clock costs more tha
 }  // namespace
 
 Progress::Progress(double goal_s, bool quiet)
-    : goal_s_(goal_s), quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0), start_(Wall::now()), last_(start_), last_heartbeat_(start_) {}
+    : goal_s_(goal_s),
+      quiet_(quiet),
+      terminal_(isatty(STDERR_FILENO) != 0),
+      start_(Wall::now()),
+      last_(start_),
+      last_heartbeat_(start_) {}
 
 bool Progress::is_due() {
   if (++calls_ % kTicksBetweenLooks != 0) return false;
@@ -29,7 +34,8 @@ void Progress::show(double simulated_s) {
   const double wall_s = std::chrono::duration<double>(last_ - start_).count();
   const double factor = wall_s > 0 ? simulated_s / wall_s : 0;
   if (terminal_) {
-    std::fprintf(stderr, "\r%8.1f s of %.0f s simulated, %.1f times real time ", simulated_s, goal_s_, factor);
+    std::fprintf(stderr, "\r%8.1f s of %.0f s simulated, %.1f times real time ", simulated_s, goal_s_,
+                 factor);
     shown_ = true;
   } else if (last_ - last_heartbeat_ >= kHeartbeat) {
     last_heartbeat_ = last_;

@@ -27,12 +27,14 @@ bool can_write(const std::string& path, const char* option, std::vector<std::str
     if (!existed) std::filesystem::remove(path);
     return true;
   }
-  problems.push_back(path + ": " + option + ": got '" + std::strerror(errno) + "', expected a file that can be written");
+  problems.push_back(path + ": " + option + ": got '" + std::strerror(errno) +
+                     "', expected a file that can be written");
   return false;
 }
 
 // the whole text or an error; a file that could not be finished is named
-bool write_text(const std::string& path, const std::string& text, const char* option, std::vector<std::string>& problems) {
+bool write_text(const std::string& path, const std::string& text, const char* option,
+                std::vector<std::string>& problems) {
   std::ofstream out(path, std::ios::binary | std::ios::trunc);
   errno = 0;
   out << text;
@@ -72,14 +74,18 @@ std::string lcov_of(const twin::Twin& twin) {
 
 void add_output_options(CLI::App& verb, OutputArguments& a) {
   verb.add_option("--record", a.record, "CSV of poses, steps, sensors and LEDs");
-  verb.add_option("--record-every", a.record_every_s, "seconds between rows of a robot")->check(CLI::Range(1e-4, 1e6))->capture_default_str();
+  verb.add_option("--record-every", a.record_every_s, "seconds between rows of a robot")
+      ->check(CLI::Range(1e-4, 1e6))
+      ->capture_default_str();
   verb.add_option("--summary", a.summary, "JSON of what the run came to");
   verb.add_option("--picture", a.picture, "PNG or SVG of the world with the robots' ways");
   verb.add_flag("--rays", a.rays, "draw the sensors' rays in the picture");
-  verb.add_option("--coverage", a.coverage, "lcov file of the lines that firmware executed; builds controllers with counters");
+  verb.add_option("--coverage", a.coverage,
+                  "lcov file of the lines that firmware executed; builds controllers with counters");
 }
 
-RunOutputs::RunOutputs(const OutputArguments& arguments, twin::Twin& twin) : arguments_(arguments), twin_(twin) {}
+RunOutputs::RunOutputs(const OutputArguments& arguments, twin::Twin& twin)
+    : arguments_(arguments), twin_(twin) {}
 RunOutputs::~RunOutputs() = default;
 
 bool RunOutputs::open(std::vector<std::string>& problems) {
@@ -119,9 +125,10 @@ void RunOutputs::finish(const Summary& summary, std::vector<std::string>& proble
   if (!a.picture.empty()) {
     sim::PictureOptions options;
     options.sensor_rays = a.rays;
-    options.caption = fmt::format("{:g} s, seed {}, {} robot{}", summary.simulated_s, summary.seed, summary.robots.size(),
-                                  summary.robots.size() == 1 ? "" : "s");
-    const std::string error = sim::write_picture(a.picture, twin_.simulation().scene(), twin_.simulation().minds(), paths_.get(), options);
+    options.caption = fmt::format("{:g} s, seed {}, {} robot{}", summary.simulated_s, summary.seed,
+                                  summary.robots.size(), summary.robots.size() == 1 ? "" : "s");
+    const std::string error = sim::write_picture(a.picture, twin_.simulation().scene(),
+                                                 twin_.simulation().minds(), paths_.get(), options);
     if (!error.empty()) problems.push_back(error);
   }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The files a run leaves behind: recording, summary, picture, coverage. Files are opened before the run, so a bad
-// path costs no simulated second; the recording is whole up to the last line after any crash.
+// The files a run leaves behind: recording, summary, picture, coverage. Files are opened before the run, so a
+// bad path costs no simulated second; the recording is whole up to the last line after any crash.
 #pragma once
 #include <CLI/CLI.hpp>
 #include <memory>
@@ -13,7 +13,7 @@
 namespace sim {
 class CsvRecorder;
 class Trajectories;
-}
+}  // namespace sim
 
 namespace tools {
 

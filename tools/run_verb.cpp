@@ -43,7 +43,8 @@ bool split(const std::vector<std::string>& words, const char* option, std::vecto
   for (const auto& w : words) {
     const auto eq = w.find('=');
     if (eq == std::string::npos || eq == 0 || eq + 1 == w.size()) {
-      complain({"command line: " + std::string(option) + ": got '" + w + "', expected ROBOT=VALUE; ROBOT may be '*'"});
+      complain({"command line: " + std::string(option) + ": got '" + w +
+                "', expected ROBOT=VALUE; ROBOT may be '*'"});
       return false;
     }
     choices.push_back({w.substr(0, eq), w.substr(eq + 1)});
@@ -104,7 +105,8 @@ int run(const RunArguments& arguments) {
   for (int i = 0; i < twin->robots(); ++i)
     for (int port = 1; port <= 2; ++port)
       if (const auto* end = twin->mind(i).board().uart(port).end())
-        std::cerr << twin->world().robots[static_cast<std::size_t>(i)].name << " uart" << port << ": " << end->name() << '\n';
+        std::cerr << twin->world().robots[static_cast<std::size_t>(i)].name << " uart" << port << ": "
+                  << end->name() << '\n';
 
   // the run
   std::signal(SIGINT, [](int) { interrupted = 1; });
@@ -142,8 +144,9 @@ int run(const RunArguments& arguments) {
   if (!arguments.quiet) std::cout << to_text(summary);
   for (const auto& t : summary.traps) std::cerr << to_text(t);
   if (exit_code == kHostTime) {
-    complain({"twinpuck: host time: got " + std::to_string(static_cast<long>(took_s)) + " s, expected at most " +
-              std::to_string(static_cast<long>(arguments.host_limit_s)) + " s; outputs hold what was simulated"});
+    complain({"twinpuck: host time: got " + std::to_string(static_cast<long>(took_s)) +
+              " s, expected at most " + std::to_string(static_cast<long>(arguments.host_limit_s)) +
+              " s; outputs hold what was simulated"});
     return exit_code;
   }
   if (interrupted) return kInterrupted;
@@ -157,17 +160,25 @@ void add_run(CLI::App& app, int& exit_code) {
   auto* verb = app.add_subcommand("run", "Simulate a world");
   auto a = std::make_shared<RunArguments>();
   verb->add_option("WORLD", a->world, "world file, or the name of one in worlds/")->required();
-  verb->add_option("--fw", a->firmware, "ROBOT=FILE: a .so, a folder of C files, or a controller's name; '*' is every robot");
-  verb->add_option("--for", a->seconds, "simulated seconds")->check(CLI::Range(0.0, 1e7))->capture_default_str();
-  verb->add_option("--speed", a->speed, "pace: 1 is real time, max as fast as possible")->capture_default_str();
-  verb->add_option("--seed", a->seed, "the world's seed, 0 or more, instead of the file's")->check(CLI::NonNegativeNumber);
+  verb->add_option("--fw", a->firmware,
+                   "ROBOT=FILE: a .so, a folder of C files, or a controller's name; '*' is every robot");
+  verb->add_option("--for", a->seconds, "simulated seconds")
+      ->check(CLI::Range(0.0, 1e7))
+      ->capture_default_str();
+  verb->add_option("--speed", a->speed, "pace: 1 is real time, max as fast as possible")
+      ->capture_default_str();
+  verb->add_option("--seed", a->seed, "the world's seed, 0 or more, instead of the file's")
+      ->check(CLI::NonNegativeNumber);
   verb->add_option("--threads", a->threads, "threads that run firmware; the result does not depend on it")
-      ->check(CLI::Range(1, 256))->capture_default_str();
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
   verb->add_option("--uart", a->uart1, "ROBOT=none|pty|tcp:PORT|file:PATH: the other end of UART 1");
   verb->add_option("--uart2", a->uart2, "the same for UART 2");
-  verb->add_option("--host-limit", a->host_limit_s, "give up after this many real seconds (exit 124)")->check(CLI::NonNegativeNumber);
+  verb->add_option("--host-limit", a->host_limit_s, "give up after this many real seconds (exit 124)")
+      ->check(CLI::NonNegativeNumber);
   verb->add_option("--opt", a->optimisation, "level for controllers built from source")
-      ->check(CLI::IsMember({"-O0", "-O1", "-O2", "-Os"}))->capture_default_str();
+      ->check(CLI::IsMember({"-O0", "-O1", "-O2", "-Os"}))
+      ->capture_default_str();
   verb->add_flag("--sanitize", a->sanitize, "build controllers with address and 16-bit overflow checks");
   verb->add_flag("-q,--quiet", a->quiet, "no progress and no summary on the terminal");
   add_output_options(*verb, a->outputs);

@@ -65,20 +65,23 @@ Summary summarise(const twin::Twin& twin, double wall_s) {
 }
 
 std::string to_text(const Summary& s) {
-  std::string text = fmt::format("{}: {:.1f} s simulated in {:.2f} s ({:.0f} times real time), seed {}, digest {}\n", s.world, s.simulated_s,
-                                 s.wall_s, s.wall_s > 0 ? s.simulated_s / s.wall_s : 0, s.seed, hex(s.digest));
+  std::string text = fmt::format(
+      "{}: {:.1f} s simulated in {:.2f} s ({:.0f} times real time), seed {}, digest {}\n", s.world,
+      s.simulated_s, s.wall_s, s.wall_s > 0 ? s.simulated_s / s.wall_s : 0, s.seed, hex(s.digest));
   if (!s.robots.empty())
-    text += fmt::format("{:<12} {:>8} {:>8} {:>9} {:>9} {:>11} {:>9} {:>6}\n", "robot", "x (m)", "y (m)", "heading", "path (m)",
-                        "collisions", "wall (s)", "load");
+    text += fmt::format("{:<12} {:>8} {:>8} {:>9} {:>9} {:>11} {:>9} {:>6}\n", "robot", "x (m)", "y (m)",
+                        "heading", "path (m)", "collisions", "wall (s)", "load");
   for (std::size_t i = 0; i < s.robots.size() && i < kRobotsInText; ++i) {
     const auto& r = s.robots[i];
     const double turn = 360.0;
     double heading = r.heading_rad * 180 / 3.14159265358979323846;
     heading -= turn * static_cast<double>(static_cast<long long>(heading / turn));
-    text += fmt::format("{:<12} {:>8.3f} {:>8.3f} {:>5.0f} deg {:>9.3f} {:>11} {:>9.2f} {:>5.0f}%\n", r.name, r.x_m, r.y_m, heading,
-                        r.distance_m, r.collisions, r.longest_wall_touch_s, 100 * r.cpu_load);
+    text += fmt::format("{:<12} {:>8.3f} {:>8.3f} {:>5.0f} deg {:>9.3f} {:>11} {:>9.2f} {:>5.0f}%\n", r.name,
+                        r.x_m, r.y_m, heading, r.distance_m, r.collisions, r.longest_wall_touch_s,
+                        100 * r.cpu_load);
   }
-  if (s.robots.size() > kRobotsInText) text += fmt::format("... and {} more\n", s.robots.size() - kRobotsInText);
+  if (s.robots.size() > kRobotsInText)
+    text += fmt::format("... and {} more\n", s.robots.size() - kRobotsInText);
   return text;
 }
 
@@ -117,8 +120,10 @@ std::string to_json(const Summary& s) {
 std::string to_text(const host::TrapReport& t) {
   std::string text = fmt::format("{}: {}: {}", t.robot, host::trap_name(t.kind), t.message);
   if (t.count > 1) text += fmt::format(" ({} times)", t.count);
-  text += fmt::format("\n  at {}, cycle {}, {:.6f} s\n", t.place.function.empty() ? "an unknown place" : to_string(t.place), t.cycle, t.time_s);
-  for (std::size_t i = 1; i < t.backtrace.size(); ++i) text += fmt::format("  called from {}\n", to_string(t.backtrace[i]));
+  text += fmt::format("\n  at {}, cycle {}, {:.6f} s\n",
+                      t.place.function.empty() ? "an unknown place" : to_string(t.place), t.cycle, t.time_s);
+  for (std::size_t i = 1; i < t.backtrace.size(); ++i)
+    text += fmt::format("  called from {}\n", to_string(t.backtrace[i]));
   return text;
 }
 

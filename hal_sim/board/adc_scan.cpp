@@ -120,7 +120,8 @@ int AdcScan::dark(int sensor, Cycle at) {
   Sample& kept = dark_[static_cast<std::size_t>(sensor)];
   if (at < kept.until) return kept.counts;
   const std::int64_t number = dark_number(sensor, at);
-  if (number >= 0 && number != kept.number) kept.counts = evaluate(sensor, number, false), kept.number = number;
+  if (number >= 0 && number != kept.number)
+    kept.counts = evaluate(sensor, number, false), kept.number = number;
   kept.until = next_sample(at, kScanDarkSlot, 1, pair_of_sensor(sensor));
   return kept.counts;
 }
@@ -129,7 +130,8 @@ int AdcScan::lit(int sensor, Cycle at) {
   Sample& kept = lit_[static_cast<std::size_t>(sensor)];
   if (at < kept.until) return kept.counts;
   const std::int64_t number = lit_number(sensor, at);
-  if (number >= 0 && number != kept.number) kept.counts = evaluate(sensor, number, true), kept.number = number;
+  if (number >= 0 && number != kept.number)
+    kept.counts = evaluate(sensor, number, true), kept.number = number;
   kept.until = next_sample(at, kScanLitSlot, 0, pair_of_sensor(sensor));
   return kept.counts;
 }
@@ -157,7 +159,8 @@ Cycle AdcScan::next_sample(Cycle at, int slot, int shift, int pair) const {
 Cycle AdcScan::horizon(int sensor, Cycle at) {
   dark(sensor, at);
   lit(sensor, at);
-  return std::min(dark_[static_cast<std::size_t>(sensor)].until, lit_[static_cast<std::size_t>(sensor)].until);
+  return std::min(dark_[static_cast<std::size_t>(sensor)].until,
+                  lit_[static_cast<std::size_t>(sensor)].until);
 }
 
 unsigned AdcScan::pulses(Cycle at) const {

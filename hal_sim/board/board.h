@@ -174,7 +174,7 @@ class Board {
   AdcScan scan_;
   BasicProx basic_prox_;
   std::array<Uart, 2> uarts_;
-  mutable Cycle settled_for_ = -1;     // the flash's length is nearly always the same: its exponential, once
+  mutable Cycle settled_for_ = -1;  // the flash's length is nearly always the same: its exponential, once
   mutable double settled_share_ = 0;
   std::uint64_t conversions_ = 0;
 };

@@ -33,7 +33,8 @@ Constant* text(Module& m, StringRef s) {
 }
 
 void add_to_section(Module& m, StringRef section, Constant* value, std::vector<GlobalValue*>& used) {
-  auto* g = new GlobalVariable(m, value->getType(), false, GlobalValue::InternalLinkage, value, section + ".entry");
+  auto* g =
+      new GlobalVariable(m, value->getType(), false, GlobalValue::InternalLinkage, value, section + ".entry");
   g->setSection(section);
   g->setAlignment(Align(8));
   used.push_back(g);
@@ -71,7 +72,8 @@ void count_lines(Function& f, std::vector<GlobalValue*>& used) {
       if (!isa<DbgInfoIntrinsic>(i) && !isa<PHINode>(i) && i.getDebugLoc() && i.getDebugLoc().getLine())
         lines.emplace(i.getDebugLoc().getLine(), cast<DIScope>(i.getDebugLoc().getScope())->getFilename());
     if (lines.empty()) continue;
-    auto* counter = new GlobalVariable(m, i64, false, GlobalValue::InternalLinkage, ConstantInt::get(i64, 0), "tp.count");
+    auto* counter =
+        new GlobalVariable(m, i64, false, GlobalValue::InternalLinkage, ConstantInt::get(i64, 0), "tp.count");
     counter->setSection("tpcov");
     counter->setAlignment(Align(8));
     for (auto& [line, file] : lines) {
@@ -79,11 +81,13 @@ void count_lines(Function& f, std::vector<GlobalValue*>& used) {
       add_to_section(m, "tpcovmap", ConstantStruct::getAnon(fields), used);
     }
     IRBuilder<> b(&*block->getFirstInsertionPt());
-    b.CreateAlignedStore(b.CreateAdd(b.CreateAlignedLoad(i64, counter, Align(8)), b.getInt64(1)), counter, Align(8));
+    b.CreateAlignedStore(b.CreateAdd(b.CreateAlignedLoad(i64, counter, Align(8)), b.getInt64(1)), counter,
+                         Align(8));
   }
 }
 
-/// The way through a function that costs least or most, back edges left out, loops weighed by their trip counts.
+/// The way through a function that costs least or most, back edges left out, loops weighed by their trip
+/// counts.
 struct Way {
   double cycles = -1;
   std::map<std::string, double> calls;
@@ -115,7 +119,8 @@ Way best_way(Function& f, std::map<BasicBlock*, BlockPlan>& plans, bool least) {
   BasicBlock* end = nullptr;
   for (BasicBlock& block : f)
     if (isa<ReturnInst>(block.getTerminator()) && reached.count(&block))
-      if (!end || (least ? reached[&block].first < reached[end].first : reached[&block].first > reached[end].first))
+      if (!end ||
+          (least ? reached[&block].first < reached[end].first : reached[&block].first > reached[end].first))
         end = &block;
   Way way;
   if (!end) return way;
@@ -132,7 +137,8 @@ std::string list_of(const std::map<std::string, double>& calls) {
 }
 
 /// One line for `twinpuck cycles`: own cycles and calls, least, mean and most. Returns the least.
-double describe(Function& f, FunctionAnalysisManager& analyses, const std::vector<Segment>& segments, std::string& out) {
+double describe(Function& f, FunctionAnalysisManager& analyses, const std::vector<Segment>& segments,
+                std::string& out) {
   auto& loops = analyses.getResult<LoopAnalysis>(f);
   auto& dom = analyses.getResult<DominatorTreeAnalysis>(f);
   auto& se = analyses.getResult<ScalarEvolutionAnalysis>(f);
@@ -161,8 +167,10 @@ double describe(Function& f, FunctionAnalysisManager& analyses, const std::vecto
       if (callee->getName() == "tp_delay") {
         auto* rounds = dyn_cast<ConstantInt>(c->getArgOperand(0));
         double each = double(cast<ConstantInt>(c->getArgOperand(1))->getSExtValue());
-        if (rounds) p.cycles += double(rounds->getSExtValue()) * each;
-        else bounded = false, p.cycles += each;
+        if (rounds)
+          p.cycles += double(rounds->getSExtValue()) * each;
+        else
+          bounded = false, p.cycles += each;
       } else if (!callee->getName().startswith("tp_")) {
         p.calls.push_back(callee->getName().str());
       }
@@ -178,9 +186,10 @@ double describe(Function& f, FunctionAnalysisManager& analyses, const std::vecto
   Way least = best_way(f, plans, true), most = best_way(f, plans, false);
   if (!bounded || least.cycles < 0) most.cycles = -1;
   auto* where = f.getSubprogram();
-  out = (f.getName() + "|" + (where ? where->getFilename() : "") + "|" + Twine(where ? where->getLine() : 0)).str() + "|" +
-        std::to_string(least.cycles) + "|" + std::to_string(mean) + "|" + std::to_string(most.cycles) + "|" +
-        list_of(least.calls) + "|" + list_of(mean_calls) + "|" + list_of(most.calls);
+  out = (f.getName() + "|" + (where ? where->getFilename() : "") + "|" + Twine(where ? where->getLine() : 0))
+            .str() +
+        "|" + std::to_string(least.cycles) + "|" + std::to_string(mean) + "|" + std::to_string(most.cycles) +
+        "|" + list_of(least.calls) + "|" + list_of(mean_calls) + "|" + list_of(most.calls);
   return least.cycles;
 }
 
@@ -234,9 +243,12 @@ void account(Unit& unit, const CostPlan& plan) {
   for (const auto& function : plan.functions) {
     auto* where = function.function->getSubprogram();
     if (!where) continue;
-    Constant* fields[] = {text(m, function.function->getName()), text(m, where->getFilename()), ConstantInt::get(i64, where->getLine()),
+    Constant* fields[] = {text(m, function.function->getName()),
+                          text(m, where->getFilename()),
+                          ConstantInt::get(i64, where->getLine()),
                           ConstantExpr::getBitCast(function.function, Type::getInt8PtrTy(m.getContext())),
-                          ConstantInt::get(i64, std::llround(function.least)), ConstantInt::get(i64, std::llround(function.straight))};
+                          ConstantInt::get(i64, std::llround(function.least)),
+                          ConstantInt::get(i64, std::llround(function.straight))};
     add_to_section(m, "tpfunc", ConstantStruct::getAnon(fields), used);
     add_to_section(m, "tpcost", ConstantDataArray::getString(m.getContext(), function.description), used);
     cast<GlobalVariable>(used.back())->setAlignment(Align(1));

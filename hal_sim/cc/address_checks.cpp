@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// --sanitize: before each access a check that it falls inside one object that exists. Globals are registered in
-// section tpobj with a gap behind each; local variables whose address is used are registered while they live; the
-// heap knows its own blocks (runtime/image_sanitize.c).
+// --sanitize: before each access a check that it falls inside one object that exists. Globals are registered
+// in section tpobj with a gap behind each; local variables whose address is used are registered while they
+// live; the heap knows its own blocks (runtime/image_sanitize.c).
 #include "llvm/Analysis/ValueTracking.h"
 #include "llvm/IR/DebugInfoMetadata.h"
 #include "llvm/IR/IRBuilder.h"
@@ -35,7 +35,9 @@ void register_globals(Unit& unit) {
   Type* bytes = Type::getInt8PtrTy(m.getContext());
   std::vector<GlobalVariable*> all;
   for (GlobalVariable& g : m.globals())
-    if (!g.isDeclaration() && !g.getName().startswith("tp") && !g.getName().startswith("llvm.") && !g.hasSection()) all.push_back(&g);
+    if (!g.isDeclaration() && !g.getName().startswith("tp") && !g.getName().startswith("llvm.") &&
+        !g.hasSection())
+      all.push_back(&g);
   std::vector<GlobalValue*> used;
   for (GlobalVariable* g : all) {
     uint64_t size = layout.getTypeAllocSize(g->getValueType());
@@ -44,7 +46,8 @@ void register_globals(Unit& unit) {
       auto* gap = ArrayType::get(Type::getInt8Ty(m.getContext()), kGapBytes);
       Constant* fields[] = {g->getInitializer(), ConstantAggregateZero::get(gap)};
       auto* type = StructType::get(m.getContext(), {g->getValueType(), gap});
-      object = new GlobalVariable(m, type, g->isConstant(), g->getLinkage(), ConstantStruct::get(type, fields), "", g);
+      object = new GlobalVariable(m, type, g->isConstant(), g->getLinkage(),
+                                  ConstantStruct::get(type, fields), "", g);
       object->copyAttributesFrom(g);
       object->takeName(g);
       object->copyMetadata(g, 0);
@@ -54,9 +57,11 @@ void register_globals(Unit& unit) {
     }
     auto* label = ConstantDataArray::getString(m.getContext(), object->getName());
     auto* name = new GlobalVariable(m, label->getType(), true, GlobalValue::PrivateLinkage, label, "tp.name");
-    Constant* fields[] = {ConstantExpr::getBitCast(object, bytes), ConstantInt::get(i64, size), ConstantExpr::getBitCast(name, bytes)};
-    auto* entry = new GlobalVariable(m, StructType::get(bytes, i64, bytes), false, GlobalValue::InternalLinkage,
-                                     ConstantStruct::getAnon(fields), "tpobj.entry");
+    Constant* fields[] = {ConstantExpr::getBitCast(object, bytes), ConstantInt::get(i64, size),
+                          ConstantExpr::getBitCast(name, bytes)};
+    auto* entry =
+        new GlobalVariable(m, StructType::get(bytes, i64, bytes), false, GlobalValue::InternalLinkage,
+                           ConstantStruct::getAnon(fields), "tpobj.entry");
     entry->setSection("tpobj");
     entry->setAlignment(Align(8));
     used.push_back(entry);
@@ -78,7 +83,8 @@ void register_locals(Unit& unit, Function& f) {
   auto enter = m.getOrInsertFunction("tp_image_local_enter", b.getVoidTy(), bytes, b.getInt64Ty());
   auto leave = m.getOrInsertFunction("tp_image_local_leave", b.getVoidTy(), b.getInt64Ty());
   for (AllocaInst* a : locals) {
-    uint64_t size = m.getDataLayout().getTypeAllocSize(a->getAllocatedType()) * cast<ConstantInt>(a->getArraySize())->getZExtValue();
+    uint64_t size = m.getDataLayout().getTypeAllocSize(a->getAllocatedType()) *
+                    cast<ConstantInt>(a->getArraySize())->getZExtValue();
     auto* padded = StructType::get(a->getAllocatedType(), ArrayType::get(b.getInt8Ty(), kGapBytes));
     b.SetInsertPoint(a);
     auto* wide = b.CreateAlloca(padded);
@@ -119,7 +125,8 @@ void check_addresses(Unit& unit) {
     }
   IRBuilder<> b(m.getContext());
   Type* bytes = b.getInt8PtrTy();
-  auto check = m.getOrInsertFunction("tp_image_check", b.getVoidTy(), bytes, b.getInt64Ty(), b.getInt64Ty(), bytes);
+  auto check =
+      m.getOrInsertFunction("tp_image_check", b.getVoidTy(), bytes, b.getInt64Ty(), b.getInt64Ty(), bytes);
   for (auto& [i, pointer] : accesses) {
     const Value* base = getUnderlyingObject(pointer);
     if (base->getName().startswith("tp")) continue;
@@ -127,9 +134,13 @@ void check_addresses(Unit& unit) {
     b.SetInsertPoint(i);
     b.SetCurrentDebugLocation(i->getDebugLoc());
     Value* size;
-    if (auto* mem = dyn_cast<MemIntrinsic>(i)) size = b.CreateZExtOrTrunc(mem->getLength(), b.getInt64Ty());
-    else size = b.getInt64(m.getDataLayout().getTypeStoreSize(isa<LoadInst>(i) ? i->getType() : cast<StoreInst>(i)->getValueOperand()->getType()));
-    bool writes = isa<StoreInst>(i) || (isa<MemIntrinsic>(i) && cast<MemIntrinsic>(i)->getRawDest() == pointer);
+    if (auto* mem = dyn_cast<MemIntrinsic>(i))
+      size = b.CreateZExtOrTrunc(mem->getLength(), b.getInt64Ty());
+    else
+      size = b.getInt64(m.getDataLayout().getTypeStoreSize(
+          isa<LoadInst>(i) ? i->getType() : cast<StoreInst>(i)->getValueOperand()->getType()));
+    bool writes =
+        isa<StoreInst>(i) || (isa<MemIntrinsic>(i) && cast<MemIntrinsic>(i)->getRawDest() == pointer);
     b.CreateCall(check, {b.CreateBitCast(pointer, bytes), size, b.getInt64(writes), where_text(m, *i)});
   }
   for (Function& f : m)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See build.h. Objects of the controller come first; the API and the libc follow as archives of weak symbols, so
-// whatever a program defines itself (wait, getselector, an e_ function) takes the place of ours.
+// See build.h. Objects of the controller come first; the API and the libc follow as archives of weak symbols,
+// so whatever a program defines itself (wait, getselector, an e_ function) takes the place of ours.
 #include "build.h"
 
 #include <unistd.h>
@@ -49,9 +49,9 @@ std::vector<fs::path> files_below(const fs::path& folder, const std::string& ext
 /// Sub-folders of the contract, in the order a flat "e_motors.h" is looked up: the one-timer drivers first.
 std::vector<fs::path> contract_folders(const fs::path& root) {
   std::vector<fs::path> folders = {root};
-  for (const char* sub : {"motor_led/advance_one_timer", "motor_led", "a_d/advance_ad_scan", "a_d", "uart", "utility",
-                          "camera/fast_2_timer", "codec", "bluetooth", "I2C", "fft", "matlab", "acc_gyro",
-                          "motor_led/advance_one_timer/fast_agenda", "contrib/LIS_sensors_turret",
+  for (const char* sub : {"motor_led/advance_one_timer", "motor_led", "a_d/advance_ad_scan", "a_d", "uart",
+                          "utility", "camera/fast_2_timer", "codec", "bluetooth", "I2C", "fft", "matlab",
+                          "acc_gyro", "motor_led/advance_one_timer/fast_agenda", "contrib/LIS_sensors_turret",
                           "contrib/SWIS_com_module", "contrib"})
     folders.push_back(root / sub);
   return folders;
@@ -114,17 +114,20 @@ Plan plan(const BuildOptions& o, const std::vector<fs::path>& sources, bool lint
   for (const auto& folder : {api, cc_dir / "libc/src"})
     for (const auto& s : files_below(folder, ".c")) p.library.push_back({s, library_flags, ""});
 
-  std::string name = o.name.empty() ? fs::absolute(o.source_dir).lexically_normal().filename().string() : o.name;
+  std::string name =
+      o.name.empty() ? fs::absolute(o.source_dir).lexically_normal().filename().string() : o.name;
   std::string image_flags = o.sanitize ? "sanitize" : "";
   if (o.coverage) image_flags += image_flags.empty() ? "coverage" : " coverage";
   p.runtime = {cc_dir / "runtime/image_runtime.c",
-               {"-O1", "-I" + root.string(), "-I" + (cc_dir / "libc/include").string(), "-DTP_IMAGE_NAME=\"" + name + "\"",
-                "-DTP_IMAGE_FLAGS=\"" + image_flags + "\""},
+               {"-O1", "-I" + root.string(), "-I" + (cc_dir / "libc/include").string(),
+                "-DTP_IMAGE_NAME=\"" + name + "\"", "-DTP_IMAGE_FLAGS=\"" + image_flags + "\""},
                ""};
   if (o.coverage) p.runtime.flags.push_back("-DTP_COVERAGE");
   if (o.sanitize)
-    p.library.push_back({cc_dir / "runtime/image_sanitize.c",
-                         {"-O1", "--uncounted", "-I" + root.string(), "-I" + (cc_dir / "libc/include").string()}, ""});
+    p.library.push_back(
+        {cc_dir / "runtime/image_sanitize.c",
+         {"-O1", "--uncounted", "-I" + root.string(), "-I" + (cc_dir / "libc/include").string()},
+         ""});
   return p;
 }
 
@@ -135,7 +138,8 @@ void sort_messages(const std::string& text, BuildResult& result, bool failed) {
   std::vector<std::string>* last = nullptr;
   for (std::string line; std::getline(lines, line);) {
     if (line.empty() || std::regex_match(line, kSummary)) continue;
-    bool is_error = line.find(" error: ") != std::string::npos || line.find("fatal error: ") != std::string::npos;
+    bool is_error =
+        line.find(" error: ") != std::string::npos || line.find("fatal error: ") != std::string::npos;
     bool is_warning = line.find("warning: ") != std::string::npos;
     if (is_error || is_warning) {
       last = is_error ? &result.errors : &result.warnings;
@@ -156,7 +160,8 @@ std::set<std::string> host_exports() {
   static const std::regex kFunction(R"(\b(tp_\w+)\s*\()");
   for (const char* header : {"hal_sim/host/image_abi.h", "hal_sim/host/pins.h"}) {
     std::string text = read_text(root / header);
-    for (std::sregex_iterator it(text.begin(), text.end(), kFunction), end; it != end; ++it) names.insert((*it)[1]);
+    for (std::sregex_iterator it(text.begin(), text.end(), kFunction), end; it != end; ++it)
+      names.insert((*it)[1]);
   }
   std::istringstream lines(read_text(root / "hal_sim/cc/host_exports.def"));
   for (std::string line; std::getline(lines, line);)
@@ -167,7 +172,8 @@ std::set<std::string> host_exports() {
 /// "x.o: in function `f': main.c:12: undefined reference to `g'" -> our grammar.
 void sort_linker_messages(const std::string& text, BuildResult& result) {
   static const std::regex kIn(R"(in function `([^']+)':)");
-  static const std::regex kUndefined(R"(^(?:.*?: )?(?:\.\./)*(\S+?:\d+|\S+\.o:\S+): (?:warning: )?undefined reference to `([^']+)')");
+  static const std::regex kUndefined(
+      R"(^(?:.*?: )?(?:\.\./)*(\S+?:\d+|\S+\.o:\S+): (?:warning: )?undefined reference to `([^']+)')");
   static const std::regex kPlain(R"(undefined reference to `([^']+)')");
   static const std::regex kTwice(R"(multiple definition of `([^']+)'; .*?first defined here)");
   auto exports = host_exports();
@@ -181,9 +187,12 @@ void sort_linker_messages(const std::string& text, BuildResult& result) {
       std::string name = m[1], where;
       if (exports.count(name) || !told.insert(function + " " + name).second) continue;
       if (std::regex_search(line, m, kUndefined)) where = m[1];
-      if (where.rfind(".o:") != std::string::npos || where.empty()) where = function.empty() ? "link" : function + "()";
-      std::string hint = name.rfind("e_", 0) == 0 ? "this function of the e-puck library is not simulated yet, or its name is misspelt"
-                                                  : "is a .c file missing from the folder, or the name misspelt?";
+      if (where.rfind(".o:") != std::string::npos || where.empty())
+        where = function.empty() ? "link" : function + "()";
+      std::string hint =
+          name.rfind("e_", 0) == 0
+              ? "this function of the e-puck library is not simulated yet, or its name is misspelt"
+              : "is a .c file missing from the folder, or the name misspelt?";
       result.errors.push_back(where + ": " + (function.empty() ? "" : function + "() calls ") + name +
                               "(): got no definition, expected one in the project or the library; " + hint);
     } else if (std::regex_search(line, m, kTwice)) {
@@ -197,25 +206,28 @@ void sort_linker_messages(const std::string& text, BuildResult& result) {
   }
 }
 
-void check_main(const std::vector<CompileOutcome>& outcomes, const std::vector<CompileJob>& jobs, const fs::path& folder,
-                BuildResult& result) {
+void check_main(const std::vector<CompileOutcome>& outcomes, const std::vector<CompileJob>& jobs,
+                const fs::path& folder, BuildResult& result) {
   std::vector<std::string> with_main;
   long ram = 0;
   for (size_t i = 0; i < outcomes.size(); ++i) {
     auto elf = read_elf(outcomes[i].object);
     for (const auto& s : elf.symbols) {
-      if (s.name == "main" && s.is_defined && s.is_function) with_main.push_back(jobs[i].source.filename().string());
-      if (s.is_defined && s.is_object && s.is_writable && s.name.rfind("tp", 0) != 0) ram += long(s.is_common ? s.size : s.size);
+      if (s.name == "main" && s.is_defined && s.is_function)
+        with_main.push_back(jobs[i].source.filename().string());
+      if (s.is_defined && s.is_object && s.is_writable && s.name.rfind("tp", 0) != 0)
+        ram += long(s.is_common ? s.size : s.size);
     }
   }
   result.ram_bytes = ram;
   if (with_main.empty())
-    result.errors.push_back(folder.string() + ": main(): got no definition, expected one; is this a controller's folder?");
+    result.errors.push_back(folder.string() +
+                            ": main(): got no definition, expected one; is this a controller's folder?");
   if (with_main.size() > 1) {
     std::string list;
     for (const auto& f : with_main) list += (list.empty() ? "" : ", ") + f;
-    result.errors.push_back(folder.string() + ": main(): got " + std::to_string(with_main.size()) + " definitions (" + list +
-                            "), expected 1; give each program a folder of its own");
+    result.errors.push_back(folder.string() + ": main(): got " + std::to_string(with_main.size()) +
+                            " definitions (" + list + "), expected 1; give each program a folder of its own");
   }
   if (ram > 8192)
     result.warnings.push_back(folder.string() + ": static data: got " + std::to_string(ram) +
@@ -224,8 +236,9 @@ void check_main(const std::vector<CompileOutcome>& outcomes, const std::vector<C
 
 bool archive(const std::vector<CompileOutcome>& objects, const fs::path& path, BuildResult& result) {
   std::string names;
-  for (const auto& o : objects) names += o.object.string() + " " + std::to_string(fs::file_size(o.object)) + " " +
-                                         std::to_string(fs::last_write_time(o.object).time_since_epoch().count()) + "\n";
+  for (const auto& o : objects)
+    names += o.object.string() + " " + std::to_string(fs::file_size(o.object)) + " " +
+             std::to_string(fs::last_write_time(o.object).time_since_epoch().count()) + "\n";
   fs::path list = path.string() + ".list";
   if (fs::exists(path) && read_text(list) == names) return true;
   std::error_code ec;
@@ -252,7 +265,8 @@ BuildResult build_image(const BuildOptions& options) {
   };
   std::error_code ec;
   if (!fs::is_directory(o.source_dir, ec)) {
-    result.errors.push_back(o.source_dir.string() + ": controller: got no such folder, expected one with a main.c");
+    result.errors.push_back(o.source_dir.string() +
+                            ": controller: got no such folder, expected one with a main.c");
     return finish();
   }
   auto sources = o.sources.empty() ? files_below(o.source_dir, ".c") : o.sources;
@@ -283,9 +297,25 @@ BuildResult build_image(const BuildOptions& options) {
   fs::path output = fs::absolute(o.output);
   fs::create_directories(output.parent_path(), ec);
   fs::path half = output.string() + ".half" + std::to_string(getpid());
-  std::vector<std::string> argv = {"ld", "-shared", "-Bsymbolic", "-z", "now", "-z", "relro", "-z", "noexecstack", "-z", "defs",
-                                   "--warn-unresolved-symbols", "--build-id=none", "--hash-style=gnu", "--no-warn-mismatch",
-                                   "-T", (source_root() / "hal_sim/cc/runtime/image.ld").string(), "-o", half.string()};
+  std::vector<std::string> argv = {"ld",
+                                   "-shared",
+                                   "-Bsymbolic",
+                                   "-z",
+                                   "now",
+                                   "-z",
+                                   "relro",
+                                   "-z",
+                                   "noexecstack",
+                                   "-z",
+                                   "defs",
+                                   "--warn-unresolved-symbols",
+                                   "--build-id=none",
+                                   "--hash-style=gnu",
+                                   "--no-warn-mismatch",
+                                   "-T",
+                                   (source_root() / "hal_sim/cc/runtime/image.ld").string(),
+                                   "-o",
+                                   half.string()};
   for (const auto& u : user) argv.push_back(u.object.string());
   argv.push_back(outcomes.back().object.string());
   if (!library.empty()) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // From a folder of firmware C to a loadable image. Spawns twinpuck-cc and ld; links no compiler itself.
-// In: a controller's folder. Out: one .so with the controller, the e_* API, the firmware libc and the runtime.
+// In: a controller's folder. Out: one .so with the controller, the e_* API, the firmware libc and the
+// runtime.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -9,19 +10,19 @@
 namespace cc {
 
 struct BuildOptions {
-  std::filesystem::path source_dir;        ///< every .c below it is compiled
-  std::filesystem::path output;            ///< the image; its folder is created
-  std::string optimisation = "-O1";        ///< -O0 -O1 -O2 -Os
-  bool sanitize = false;                   ///< address and 16-bit overflow checks
-  bool coverage = false;                   ///< line counters
-  bool strict = false;                     ///< more warnings
-  int jobs = 2;                            ///< compilers at once
-  std::string name;                        ///< controller's name; default: the folder's
-  std::filesystem::path cache_dir;         ///< objects kept between builds; default: below the build folder
-  std::vector<std::string> defines;        ///< "NAME=value"
+  std::filesystem::path source_dir;  ///< every .c below it is compiled
+  std::filesystem::path output;      ///< the image; its folder is created
+  std::string optimisation = "-O1";  ///< -O0 -O1 -O2 -Os
+  bool sanitize = false;             ///< address and 16-bit overflow checks
+  bool coverage = false;             ///< line counters
+  bool strict = false;               ///< more warnings
+  int jobs = 2;                      ///< compilers at once
+  std::string name;                  ///< controller's name; default: the folder's
+  std::filesystem::path cache_dir;   ///< objects kept between builds; default: below the build folder
+  std::vector<std::string> defines;  ///< "NAME=value"
   std::vector<std::filesystem::path> include_dirs;  ///< searched before the project's own folders
   std::vector<std::filesystem::path> sources;       ///< instead of every .c of source_dir
-  std::filesystem::path api_dir, include_root;      ///< default: hal_sim/api and firmware/include of this tree
+  std::filesystem::path api_dir, include_root;  ///< default: hal_sim/api and firmware/include of this tree
 };
 
 struct BuildResult {
@@ -36,8 +37,8 @@ struct BuildResult {
 /// Compiles and links. On failure the output file is left as it was.
 BuildResult build_image(const BuildOptions& options);
 
-/// Compiles with strict warnings and looks for what compiles but misbehaves: polled flags that are not volatile,
-/// two drivers on one timer. Writes no image. ok is false when there is an error or a warning.
+/// Compiles with strict warnings and looks for what compiles but misbehaves: polled flags that are not
+/// volatile, two drivers on one timer. Writes no image. ok is false when there is an error or a warning.
 BuildResult lint_folder(const BuildOptions& options);
 
 /// Estimated cycles of one function, its callees included. -1: no bound known.
@@ -46,7 +47,7 @@ struct FunctionCycles {
   int line = 0;
   bool is_interrupt = false;  ///< a handler: entry, context saving and RETFIE are included
   double min = 0, mean = 0, max = 0;
-  double mean_us() const;     ///< at 14.7456 MHz
+  double mean_us() const;  ///< at 14.7456 MHz
   /// Share of the processor when called every `period_s` seconds, 0..1 and above.
   double cpu_load(double period_s) const;
 };

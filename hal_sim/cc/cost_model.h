@@ -17,10 +17,10 @@ using Features = std::array<double, kRuleCount>;
 
 /// A part of a block that runs without a break, and its cost.
 struct Segment {
-  llvm::Instruction* first;      // the budget is charged before it
-  Features features{};           // own cycles
-  double library = 0;            // cycles inside compiler library routines (soft float, 32-bit division)
-  double cycles() const;         // own + library
+  llvm::Instruction* first;  // the budget is charged before it
+  Features features{};       // own cycles
+  double library = 0;        // cycles inside compiler library routines (soft float, 32-bit division)
+  double cycles() const;     // own + library
   double own() const;
 };
 

@@ -51,7 +51,8 @@ ElfFile read_elf(const std::filesystem::path& path) {
   all << in.rdbuf();
   file.bytes = all.str();
   auto* head = at<Elf64_Ehdr>(file.bytes, 0);
-  if (!head || std::memcmp(head->e_ident, ELFMAG, SELFMAG) != 0 || head->e_ident[EI_CLASS] != ELFCLASS64) return file;
+  if (!head || std::memcmp(head->e_ident, ELFMAG, SELFMAG) != 0 || head->e_ident[EI_CLASS] != ELFCLASS64)
+    return file;
   file.ok = true;
   for (unsigned i = 0; i < head->e_shnum; ++i) {
     auto* table = section_header(file.bytes, i);

@@ -29,13 +29,15 @@ std::string without_comments(const std::string& source) {
 std::string forward_declarations(const std::string& messages, const std::string& source) {
   std::set<std::string> names;
   const std::regex conflict("error: conflicting types for '(\\w+)'");
-  for (std::sregex_iterator it(messages.begin(), messages.end(), conflict), end; it != end; ++it) names.insert((*it)[1]);
+  for (std::sregex_iterator it(messages.begin(), messages.end(), conflict), end; it != end; ++it)
+    names.insert((*it)[1]);
   if (names.empty()) return "";
   const std::string text = without_comments(source);
   std::string declarations;
   for (const std::string& name : names) {
-    const std::regex definition("(?:^|[;}\\n])\\s*((?:(?:void|char|short|int|long|unsigned|signed|float|double)\\b[\\s*]*)+)" + name +
-                                "\\s*\\([^;{}]*\\)\\s*\\{");
+    const std::regex definition(
+        "(?:^|[;}\\n])\\s*((?:(?:void|char|short|int|long|unsigned|signed|float|double)\\b[\\s*]*)+)" + name +
+        "\\s*\\([^;{}]*\\)\\s*\\{");
     std::smatch found;
     if (std::regex_search(text, found, definition)) declarations += found[1].str() + " " + name + "();\n";
   }

@@ -120,17 +120,19 @@ class FactConsumer : public ASTConsumer {
       }
     }
   }
-  /// The code generator makes p - q and sizeof(int[n]) as wide as the PC's pointers, whatever ptrdiff_t is. Say so
-  /// in the tree, and narrow the result to the robot's int.
+  /// The code generator makes p - q and sizeof(int[n]) as wide as the PC's pointers, whatever ptrdiff_t is.
+  /// Say so in the tree, and narrow the result to the robot's int.
   void narrow_differences(Stmt* statement) {
     for (Stmt*& child : statement->children()) {
       if (!child) continue;
       narrow_differences(child);
       auto* difference = dyn_cast<BinaryOperator>(child);
-      bool wide = difference && difference->getOpcode() == BO_Sub && difference->getLHS()->getType()->isPointerType() &&
+      bool wide = difference && difference->getOpcode() == BO_Sub &&
+                  difference->getLHS()->getType()->isPointerType() &&
                   difference->getRHS()->getType()->isPointerType();
       auto* trait = dyn_cast<UnaryExprOrTypeTraitExpr>(child);
-      wide = wide || (trait && trait->getKind() == UETT_SizeOf && trait->getTypeOfArgument()->isVariableArrayType());
+      wide = wide ||
+             (trait && trait->getKind() == UETT_SizeOf && trait->getTypeOfArgument()->isVariableArrayType());
       if (!wide) continue;
       auto* expression = cast<Expr>(child);
       QualType narrow = expression->getType();
@@ -164,9 +166,10 @@ class AttributeFilter {
     StringRef bare = name->getName();
     while (bare.startswith("_")) bare = bare.drop_front();
     while (bare.endswith("_")) bare = bare.drop_back();
-    for (const char* known : {"interrupt", "signal", "address", "space", "near", "far", "shadow", "persistent",
-                              "preprologue", "fillupper", "secure", "boot", "sfr", "reverse", "eds", "unordered",
-                              "auto_psv", "no_auto_psv", "keep", "update", "save", "irq", "altirq", "context"})
+    for (const char* known :
+         {"interrupt",   "signal",      "address", "space",  "near", "far",     "shadow", "persistent",
+          "preprologue", "fillupper",   "secure",  "boot",   "sfr",  "reverse", "eds",    "unordered",
+          "auto_psv",    "no_auto_psv", "keep",    "update", "save", "irq",     "altirq", "context"})
       if (bare == known) {
         // the parser takes unknown attributes with any arguments and drops them
         const_cast<Token&>(token).setIdentifierInfo(&pp_.getIdentifierTable().get("tp_ignored"));
@@ -207,17 +210,57 @@ class RobotAction : public EmitLLVMOnlyAction {
 };
 
 std::vector<std::string> clang_arguments(const Options& o) {
-  std::vector<std::string> a = {"/usr/lib/llvm-14/bin/clang", "-c", o.input, "-o", o.output,
-    "--target=x86_64-pc-linux-gnu", "-x", "c", "-std=gnu89", "-fgnu89-inline", "-fcommon", "-fsigned-char",
-    "-fno-strict-aliasing", "-fno-delete-null-pointer-checks", "-fno-finite-loops", "-fno-omit-frame-pointer",
-    "-mno-omit-leaf-frame-pointer", "-fPIC", "-fvisibility=hidden", "-fno-stack-protector", "-fcf-protection=none",
-    "-fno-asynchronous-unwind-tables", "-ffp-contract=off", "-fmath-errno", "-g", "-gdwarf-4", "-fno-short-enums",
-    "-fno-caret-diagnostics", "-Qunused-arguments", "-nostdinc", "-Xclang", "-disable-llvm-passes",
-    "-Wno-unknown-attributes", "-Wno-ignored-attributes", "-Wno-unknown-pragmas", "-Wno-c99-extensions",
-    "-Wno-gnu-binary-literal", "-Wno-main-return-type", "-Wno-builtin-requires-header",
-    "-Wno-incompatible-library-redeclaration", "-Wno-implicit-int", "-Wno-asm-operand-widths", "-Wno-typedef-redefinition",
-    "-Wno-pointer-sign", "-Wno-invalid-source-encoding", "-Wno-nonportable-include-path", "-Wno-comment", "-Wno-empty-body",
-    "-Wno-newline-eof", "-Wno-error=return-type", "-Wno-gnu-designator"};
+  std::vector<std::string> a = {"/usr/lib/llvm-14/bin/clang",
+                                "-c",
+                                o.input,
+                                "-o",
+                                o.output,
+                                "--target=x86_64-pc-linux-gnu",
+                                "-x",
+                                "c",
+                                "-std=gnu89",
+                                "-fgnu89-inline",
+                                "-fcommon",
+                                "-fsigned-char",
+                                "-fno-strict-aliasing",
+                                "-fno-delete-null-pointer-checks",
+                                "-fno-finite-loops",
+                                "-fno-omit-frame-pointer",
+                                "-mno-omit-leaf-frame-pointer",
+                                "-fPIC",
+                                "-fvisibility=hidden",
+                                "-fno-stack-protector",
+                                "-fcf-protection=none",
+                                "-fno-asynchronous-unwind-tables",
+                                "-ffp-contract=off",
+                                "-fmath-errno",
+                                "-g",
+                                "-gdwarf-4",
+                                "-fno-short-enums",
+                                "-fno-caret-diagnostics",
+                                "-Qunused-arguments",
+                                "-nostdinc",
+                                "-Xclang",
+                                "-disable-llvm-passes",
+                                "-Wno-unknown-attributes",
+                                "-Wno-ignored-attributes",
+                                "-Wno-unknown-pragmas",
+                                "-Wno-c99-extensions",
+                                "-Wno-gnu-binary-literal",
+                                "-Wno-main-return-type",
+                                "-Wno-builtin-requires-header",
+                                "-Wno-incompatible-library-redeclaration",
+                                "-Wno-implicit-int",
+                                "-Wno-asm-operand-widths",
+                                "-Wno-typedef-redefinition",
+                                "-Wno-pointer-sign",
+                                "-Wno-invalid-source-encoding",
+                                "-Wno-nonportable-include-path",
+                                "-Wno-comment",
+                                "-Wno-empty-body",
+                                "-Wno-newline-eof",
+                                "-Wno-error=return-type",
+                                "-Wno-gnu-designator"};
   a.push_back(o.level == 0 ? "-O0" : o.for_size ? "-Os" : o.level == 1 ? "-O1" : "-O2");
   if (o.sanitize) {
     a.push_back("-fsanitize=signed-integer-overflow,shift-exponent,array-bounds");
@@ -226,16 +269,19 @@ std::vector<std::string> clang_arguments(const Options& o) {
     a.push_back("-fwrapv");
   }
   if (o.strict || o.lint)
-    for (const char* w : {"-Wall", "-Wextra", "-Wimplicit-function-declaration", "-Wshadow", "-Wwrite-strings",
-                          "-Wfloat-conversion", "-Wshorten-64-to-32", "-Wsign-compare", "-Wno-unused-parameter"})
+    for (const char* w :
+         {"-Wall", "-Wextra", "-Wimplicit-function-declaration", "-Wshadow", "-Wwrite-strings",
+          "-Wfloat-conversion", "-Wshorten-64-to-32", "-Wsign-compare", "-Wno-unused-parameter"})
       a.push_back(w);
   // what XC16 v1.22 for this chip predefines, and nothing of the PC
-  for (const char* d : {"__dsPIC30F__=1", "__dsPIC30F6014A__=1", "dsPIC30F6014A=1", "dsPIC30=1", "__dsPIC30=1", "__dsPIC30__=1", "__C30__=1",
-                        "__C30=1", "C30=1", "__XC16__=1", "__XC16=1", "XC16=1", "__XC__=1", "__XC16_VERSION__=1022",
-                        "__C30_VERSION__=1022", "__C30ELF=1", "__C30ELF__=1", "__HAS_DSP__=1", "__TWINPUCK__=1"})
+  for (const char* d : {"__dsPIC30F__=1", "__dsPIC30F6014A__=1", "dsPIC30F6014A=1", "dsPIC30=1",
+                        "__dsPIC30=1", "__dsPIC30__=1", "__C30__=1", "__C30=1", "C30=1", "__XC16__=1",
+                        "__XC16=1", "XC16=1", "__XC__=1", "__XC16_VERSION__=1022", "__C30_VERSION__=1022",
+                        "__C30ELF=1", "__C30ELF__=1", "__HAS_DSP__=1", "__TWINPUCK__=1"})
     a.push_back(std::string("-D") + d);
-  for (const char* u : {"__x86_64__", "__x86_64", "__amd64__", "__amd64", "__linux__", "__linux", "linux", "__unix__", "__unix",
-                        "unix", "__gnu_linux__", "__LP64__", "_LP64", "__SSE__", "__SSE2__", "__MMX__", "__k8", "__k8__"})
+  for (const char* u : {"__x86_64__", "__x86_64", "__amd64__", "__amd64", "__linux__", "__linux", "linux",
+                        "__unix__", "__unix", "unix", "__gnu_linux__", "__LP64__", "_LP64", "__SSE__",
+                        "__SSE2__", "__MMX__", "__k8", "__k8__"})
     a.push_back(std::string("-U") + u);
   for (const auto& p : o.passed_on) a.push_back(p);
   a.push_back(std::string("-I") + kFallbackRoot);
@@ -277,8 +323,10 @@ std::unique_ptr<llvm::Module> attempt(const Options& options, llvm::LLVMContext&
   // the virtual root must look like a folder, or clang drops it from the include path
   auto memory = llvm::makeIntrusiveRefCnt<llvm::vfs::InMemoryFileSystem>();
   memory->addFile(std::string(kFallbackRoot) + "/.root", 0, llvm::MemoryBuffer::getMemBuffer(""));
-  if (!declarations.empty()) memory->addFile(kDeclarations, 0, llvm::MemoryBuffer::getMemBufferCopy(declarations));
-  auto overlay = llvm::makeIntrusiveRefCnt<llvm::vfs::OverlayFileSystem>(forgiving_file_system(options.fallback, options.project));
+  if (!declarations.empty())
+    memory->addFile(kDeclarations, 0, llvm::MemoryBuffer::getMemBufferCopy(declarations));
+  auto overlay = llvm::makeIntrusiveRefCnt<llvm::vfs::OverlayFileSystem>(
+      forgiving_file_system(options.fallback, options.project));
   overlay->pushOverlay(memory);
   CompilerInstance ci;
   ci.setInvocation(invocation);
@@ -291,14 +339,16 @@ std::unique_ptr<llvm::Module> attempt(const Options& options, llvm::LLVMContext&
 
 }  // namespace
 
-std::unique_ptr<llvm::Module> compile_to_module(const Options& options, llvm::LLVMContext& context, Facts& facts) {
+std::unique_ptr<llvm::Module> compile_to_module(const Options& options, llvm::LLVMContext& context,
+                                                Facts& facts) {
   std::string messages;
   llvm::raw_string_ostream said(messages);
   auto module = attempt(options, context, facts, "", said);
   said.flush();
   if (!module) {
     auto source = llvm::MemoryBuffer::getFile(options.input);
-    const std::string declarations = source ? forward_declarations(messages, (*source)->getBuffer().str()) : "";
+    const std::string declarations =
+        source ? forward_declarations(messages, (*source)->getBuffer().str()) : "";
     if (!declarations.empty()) {
       messages.clear();
       facts = Facts();

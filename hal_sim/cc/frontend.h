@@ -25,7 +25,7 @@ struct Options {
   bool for_size = false;
   bool sanitize = false, coverage = false, strict = false, lint = false, emit_ir = false;
   bool uncounted = false;  // part of the runtime: costs no cycles
-  bool library = false;  // part of the API or libc: definitions are weak, the program's own win
+  bool library = false;    // part of the API or libc: definitions are weak, the program's own win
 };
 
 /// What the syntax tree says and the module no longer does.
@@ -36,6 +36,7 @@ struct Facts {
 };
 
 /// Null after errors (already printed).
-std::unique_ptr<llvm::Module> compile_to_module(const Options& options, llvm::LLVMContext& context, Facts& facts);
+std::unique_ptr<llvm::Module> compile_to_module(const Options& options, llvm::LLVMContext& context,
+                                                Facts& facts);
 
 }  // namespace cc

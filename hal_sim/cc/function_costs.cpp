@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `twinpuck cycles`: puts callees into callers. Input: section .tpcost, a line a function, written by account.cpp.
+// `twinpuck cycles`: puts callees into callers. Input: section .tpcost, a line a function, written by
+// account.cpp.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -13,13 +14,14 @@ namespace cc {
 namespace {
 
 constexpr double kClockHz = 14745600;  // instruction cycles a second [lib: crystal 7.3728 MHz x 8 / 4]
-// entry 4, save and restore of w0-w7, RCOUNT and PSVPAG about 20, RETFIE instead of RETURN 0  [estimated: DS70143 5.7 and gcc 4.5 prologues]
+// entry 4, save and restore of w0-w7, RCOUNT and PSVPAG about 20, RETFIE instead of RETURN 0  [estimated:
+// DS70143 5.7 and gcc 4.5 prologues]
 constexpr double kInterruptCycles = 24;
 
 struct Entry {
   std::string file;
   int line = 0;
-  double cycles[3] = {0, 0, 0};              // least, mean, most; -1 unknown
+  double cycles[3] = {0, 0, 0};  // least, mean, most; -1 unknown
   std::map<std::string, double> calls[3];
   bool done = false;
 };
@@ -47,8 +49,10 @@ void resolve(const std::string& name, std::map<std::string, Entry>& all, std::se
       }
       resolve(callee, all, open);
       double each = found->second.cycles[k];
-      if (k == 2 && (each < 0 || e.cycles[2] < 0)) e.cycles[2] = -1;
-      else if (each > 0) e.cycles[k] += each * count;
+      if (k == 2 && (each < 0 || e.cycles[2] < 0))
+        e.cycles[2] = -1;
+      else if (each > 0)
+        e.cycles[k] += each * count;
     }
   open.erase(name);
   e.done = true;
@@ -57,7 +61,9 @@ void resolve(const std::string& name, std::map<std::string, Entry>& all, std::se
 }  // namespace
 
 double FunctionCycles::mean_us() const { return mean / kClockHz * 1e6; }
-double FunctionCycles::cpu_load(double period_s) const { return period_s > 0 ? mean / kClockHz / period_s : 0; }
+double FunctionCycles::cpu_load(double period_s) const {
+  return period_s > 0 ? mean / kClockHz / period_s : 0;
+}
 
 std::vector<FunctionCycles> function_costs(const std::filesystem::path& image) {
   std::vector<FunctionCycles> result;
@@ -94,7 +100,8 @@ std::vector<FunctionCycles> function_costs(const std::filesystem::path& image) {
     f.min = e.cycles[0] < 0 ? -1 : e.cycles[0] + extra;
     f.mean = e.cycles[1] + extra;
     f.max = e.cycles[2] < 0 ? -1 : e.cycles[2] + extra;
-    if (f.max >= 0) f.mean = std::min(f.mean, f.max);  // the mean assumes ten rounds a loop; the bound may know better
+    if (f.max >= 0)
+      f.mean = std::min(f.mean, f.max);  // the mean assumes ten rounds a loop; the bound may know better
     result.push_back(f);
   }
   return result;

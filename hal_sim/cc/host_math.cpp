@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Mathematics of the firmware's libc, in single precision, exported by the host's executable as tp_m_*. The image
-// charges the cycles (libc/src/math.c); here only the value is made.
+// Mathematics of the firmware's libc, in single precision, exported by the host's executable as tp_m_*. The
+// image charges the cycles (libc/src/math.c); here only the value is made.
 #include <cmath>
 
 #define TP_EXPORT extern "C" __attribute__((visibility("default"), used))

@@ -55,7 +55,9 @@ std::string match_ignoring_case(std::string root, const std::vector<std::string>
 class ForgivingFileSystem : public llvm::vfs::ProxyFileSystem {
  public:
   ForgivingFileSystem(std::vector<std::string> folders, std::string project)
-      : ProxyFileSystem(llvm::vfs::getRealFileSystem()), folders_(std::move(folders)), project_(std::move(project)) {}
+      : ProxyFileSystem(llvm::vfs::getRealFileSystem()),
+        folders_(std::move(folders)),
+        project_(std::move(project)) {}
 
   llvm::ErrorOr<llvm::vfs::Status> status(const llvm::Twine& path) override {
     std::string ours = replaced_copy(path.str());

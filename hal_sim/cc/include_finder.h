@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Header lookup for code written on Windows: any case, backslashes, drive letters, and the e-puck library named
-// by a path that does not exist here ("../../library/motor_led/e_motors.h", "C:\...\h\p30F6014A.h").
+// Header lookup for code written on Windows: any case, backslashes, drive letters, and the e-puck library
+// named by a path that does not exist here ("../../library/motor_led/e_motors.h", "C:\...\h\p30F6014A.h").
 #pragma once
 #include <string>
 #include <vector>
@@ -12,10 +12,11 @@ namespace cc {
 /// Stands last in the include path; what is looked up below it is searched by trailing path components.
 inline constexpr const char* kFallbackRoot = "/twinpuck-fallback";
 
-/// The real file system, forgiving about case and separators in names of header files. `project`: the controller's
-/// own folder. A copy of the e-puck library that lies outside it ("../lib/motor_led/e_led.h") is passed over in
-/// favour of the first fallback folder's header of the same place and name, because our library is what is linked.
-llvm::IntrusiveRefCntPtr<llvm::vfs::FileSystem> forgiving_file_system(std::vector<std::string> fallback_folders,
-                                                                      std::string project);
+/// The real file system, forgiving about case and separators in names of header files. `project`: the
+/// controller's own folder. A copy of the e-puck library that lies outside it ("../lib/motor_led/e_led.h") is
+/// passed over in favour of the first fallback folder's header of the same place and name, because our
+/// library is what is linked.
+llvm::IntrusiveRefCntPtr<llvm::vfs::FileSystem> forgiving_file_system(
+    std::vector<std::string> fallback_folders, std::string project);
 
 }  // namespace cc

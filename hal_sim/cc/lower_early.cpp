@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// First stage after the front end, before any optimiser may reason about the PC's rules: inline assembler by its
-// text, functions that no robot has, division by zero, shifts and conversions defined as on the dsPIC.
+// First stage after the front end, before any optimiser may reason about the PC's rules: inline assembler by
+// its text, functions that no robot has, division by zero, shifts and conversions defined as on the dsPIC.
 #include <regex>
 
 #include "llvm/ADT/StringExtras.h"
@@ -21,16 +21,6 @@ namespace {
 
 using namespace llvm;
 
-Function* marker(Module& m, const char* name) {
-  auto* f = cast<Function>(m.getOrInsertFunction(name, FunctionType::get(Type::getVoidTy(m.getContext()), false))
-                               .getCallee());
-  // touches nothing the program can see, yet must stay where it is
-  f->addFnAttr(Attribute::InaccessibleMemOnly);
-  f->addFnAttr(Attribute::NoUnwind);
-  f->addFnAttr(Attribute::WillReturn);
-  return f;
-}
-
 /// One statement of inline assembler -> a call. False when it is not one of the few that are understood.
 bool lower_statement(Unit& unit, IRBuilder<>& b, StringRef text) {
   Module& m = unit.module;
@@ -50,7 +40,8 @@ bool lower_statement(Unit& unit, IRBuilder<>& b, StringRef text) {
     bool idle = match[1] == "1" || match[1] == "0x1" || match[1] == "idle_mode";
     b.CreateCall(host_function(m, "tp_power_save", none, {i64}), {b.getInt64(idle)});
   } else if (std::regex_match(lower, match, kDisi)) {
-    b.CreateCall(host_function(m, "tp_disi", none, {i64}), {b.getInt64(std::stoll(match[1].str(), nullptr, 0))});
+    b.CreateCall(host_function(m, "tp_disi", none, {i64}),
+                 {b.getInt64(std::stoll(match[1].str(), nullptr, 0))});
   } else {
     return false;
   }
@@ -77,9 +68,11 @@ void lower_assembler(Unit& unit) {
       line = line.trim();
       if (line.empty() || line.startswith(";")) continue;
       if (!lower_statement(unit, b, line))
-        unit.error(call->getDebugLoc(), "inline assembler: got \"" + line +
-                                            "\", expected nop, reset, clrwdt, pwrsav #0, pwrsav #1 or disi #n; write it in C, or run "
-                                            "the program the chip way");
+        unit.error(
+            call->getDebugLoc(),
+            "inline assembler: got \"" + line +
+                "\", expected nop, reset, clrwdt, pwrsav #0, pwrsav #1 or disi #n; write it in C, or run "
+                "the program the chip way");
     }
     if (!call->getType()->isVoidTy()) call->replaceAllUsesWith(UndefValue::get(call->getType()));
     call->eraseFromParent();
@@ -134,14 +127,16 @@ void define_conversions(Unit& unit) {
   for (Function& f : unit.module)
     for (Instruction& i : make_early_inc_range(instructions(f))) {
       auto* cast_to = dyn_cast<CastInst>(&i);
-      if (!cast_to || (cast_to->getOpcode() != Instruction::FPToSI && cast_to->getOpcode() != Instruction::FPToUI))
+      if (!cast_to ||
+          (cast_to->getOpcode() != Instruction::FPToSI && cast_to->getOpcode() != Instruction::FPToUI))
         continue;
       unsigned bits = cast_to->getType()->getIntegerBitWidth();
       bool is_signed = bits < 32 || cast_to->getOpcode() == Instruction::FPToSI;
       IRBuilder<> b(cast_to);
       Type* wide = b.getIntNTy(std::max(bits, 32u));
-      auto* convert = Intrinsic::getDeclaration(&unit.module, is_signed ? Intrinsic::fptosi_sat : Intrinsic::fptoui_sat,
-                                                {wide, cast_to->getOperand(0)->getType()});
+      auto* convert =
+          Intrinsic::getDeclaration(&unit.module, is_signed ? Intrinsic::fptosi_sat : Intrinsic::fptoui_sat,
+                                    {wide, cast_to->getOperand(0)->getType()});
       Value* result = b.CreateCall(convert, {cast_to->getOperand(0)});
       if (bits < 32) result = b.CreateTrunc(result, cast_to->getType());
       cast_to->replaceAllUsesWith(result);
@@ -178,20 +173,23 @@ void trap_divisions(Unit& unit) {
       continue;
     }
     unsigned bits = op->getType()->getIntegerBitWidth();
-    if (bits >= 64 || (op->getOpcode() != Instruction::SDiv && op->getOpcode() != Instruction::SRem)) continue;
+    if (bits >= 64 || (op->getOpcode() != Instruction::SDiv && op->getOpcode() != Instruction::SRem))
+      continue;
     // twice as wide: the one overflow (-32768 / -1) is none there, and truncating wraps it as the chip does
     b.SetInsertPoint(op);
     b.SetCurrentDebugLocation(op->getDebugLoc());
     Type* wide = b.getIntNTy(bits * 2);
     Value* left = b.CreateSExt(op->getOperand(0), wide);
     Value* right = b.CreateSExt(op->getOperand(1), wide);
-    Value* result = op->getOpcode() == Instruction::SDiv ? b.CreateSDiv(left, right) : b.CreateSRem(left, right);
+    Value* result =
+        op->getOpcode() == Instruction::SDiv ? b.CreateSDiv(left, right) : b.CreateSRem(left, right);
     op->replaceAllUsesWith(b.CreateTrunc(result, op->getType()));
     op->eraseFromParent();
   }
 }
 
-/// memcpy with a 16-bit length: the PC's memcpy takes 64 bits. va_start fills the machine's structure already.
+/// memcpy with a 16-bit length: the PC's memcpy takes 64 bits. va_start fills the machine's structure
+/// already.
 void widen_lengths(Unit& unit) {
   for (Function& f : unit.module)
     for (Instruction& i : make_early_inc_range(instructions(f))) {
@@ -200,11 +198,11 @@ void widen_lengths(Unit& unit) {
       IRBuilder<> b(mem);
       Value* length = b.CreateZExt(mem->getLength(), b.getInt64Ty());
       if (auto* copy = dyn_cast<MemCpyInst>(mem))
-        b.CreateMemCpy(copy->getDest(), copy->getDestAlign(), copy->getSource(), copy->getSourceAlign(), length,
-                       copy->isVolatile());
+        b.CreateMemCpy(copy->getDest(), copy->getDestAlign(), copy->getSource(), copy->getSourceAlign(),
+                       length, copy->isVolatile());
       else if (auto* move = dyn_cast<MemMoveInst>(mem))
-        b.CreateMemMove(move->getDest(), move->getDestAlign(), move->getSource(), move->getSourceAlign(), length,
-                        move->isVolatile());
+        b.CreateMemMove(move->getDest(), move->getDestAlign(), move->getSource(), move->getSourceAlign(),
+                        length, move->isVolatile());
       else if (auto* set = dyn_cast<MemSetInst>(mem))
         b.CreateMemSet(set->getDest(), set->getValue(), length, set->getDestAlign(), set->isVolatile());
       else
@@ -215,9 +213,10 @@ void widen_lengths(Unit& unit) {
 
 /// C functions whose symbol the back end also uses, with the PC's widths, get a name of their own.
 void rename_for_c(Unit& unit) {
-  static const char* const kNames[] = {"memcpy", "memset", "memmove", "memcmp", "bcmp", "strlen", "floorf", "ceilf",
-                                       "fmodf", "truncf", "roundf", "rintf", "nearbyintf", "sqrtf", "powf", "sinf", "cosf",
-                                       "expf", "logf", "log10f", "exp2f", "log2f", "fminf", "fmaxf", "fabsf", "copysignf", "ldexpf"};
+  static const char* const kNames[] = {
+      "memcpy", "memset", "memmove", "memcmp",     "bcmp",  "strlen", "floorf", "ceilf",     "fmodf",
+      "truncf", "roundf", "rintf",   "nearbyintf", "sqrtf", "powf",   "sinf",   "cosf",      "expf",
+      "logf",   "log10f", "exp2f",   "log2f",      "fminf", "fmaxf",  "fabsf",  "copysignf", "ldexpf"};
   for (const char* name : kNames)
     if (Function* f = unit.module.getFunction(name)) f->setName(std::string("tp_c_") + name);
 }
@@ -230,16 +229,33 @@ void restore_library_calls(Unit& unit) {
       if (!call || !call->getType()->isFloatTy()) continue;
       const char* name = nullptr;
       switch (call->getIntrinsicID()) {
-        case Intrinsic::floor: name = "floor"; break;
-        case Intrinsic::ceil: name = "ceil"; break;
-        case Intrinsic::trunc: name = "trunc"; break;
-        case Intrinsic::round: name = "round"; break;
+        case Intrinsic::floor:
+          name = "floor";
+          break;
+        case Intrinsic::ceil:
+          name = "ceil";
+          break;
+        case Intrinsic::trunc:
+          name = "trunc";
+          break;
+        case Intrinsic::round:
+          name = "round";
+          break;
         case Intrinsic::rint:
-        case Intrinsic::nearbyint: name = "rint"; break;
-        case Intrinsic::minnum: name = "fmin"; break;
-        case Intrinsic::maxnum: name = "fmax"; break;
-        case Intrinsic::sqrt: name = "sqrt"; break;
-        default: continue;
+        case Intrinsic::nearbyint:
+          name = "rint";
+          break;
+        case Intrinsic::minnum:
+          name = "fmin";
+          break;
+        case Intrinsic::maxnum:
+          name = "fmax";
+          break;
+        case Intrinsic::sqrt:
+          name = "sqrt";
+          break;
+        default:
+          continue;
       }
       IRBuilder<> b(call);
       SmallVector<Type*, 2> types;
@@ -264,9 +280,12 @@ void keep_empty_loops(Unit& unit) {
       bool counts_only = loop->getSubLoops().empty() && loop->getLoopLatch();
       for (BasicBlock* block : loop->blocks())
         for (Instruction& i : *block) {
-          if (auto* store = dyn_cast<StoreInst>(&i)) counts_only &= is_variable(store->getPointerOperand()) && !store->isVolatile();
-          else if (auto* load = dyn_cast<LoadInst>(&i)) counts_only &= is_variable(load->getPointerOperand()) && !load->isVolatile();
-          else if (isa<CallBase>(i) && !isa<DbgInfoIntrinsic>(i)) counts_only &= calls(i, kNop);
+          if (auto* store = dyn_cast<StoreInst>(&i))
+            counts_only &= is_variable(store->getPointerOperand()) && !store->isVolatile();
+          else if (auto* load = dyn_cast<LoadInst>(&i))
+            counts_only &= is_variable(load->getPointerOperand()) && !load->isVolatile();
+          else if (isa<CallBase>(i) && !isa<DbgInfoIntrinsic>(i))
+            counts_only &= calls(i, kNop);
         }
       if (!counts_only) continue;
       IRBuilder<> b(loop->getLoopLatch()->getTerminator());
@@ -276,6 +295,16 @@ void keep_empty_loops(Unit& unit) {
 }
 
 }  // namespace
+
+Function* marker(Module& m, const char* name) {
+  auto* f = cast<Function>(
+      m.getOrInsertFunction(name, FunctionType::get(Type::getVoidTy(m.getContext()), false)).getCallee());
+  // touches nothing the program can see, yet must stay where it is
+  f->addFnAttr(Attribute::InaccessibleMemOnly);
+  f->addFnAttr(Attribute::NoUnwind);
+  f->addFnAttr(Attribute::WillReturn);
+  return f;
+}
 
 void lower_early(Unit& unit) {
   lower_assembler(unit);

@@ -66,8 +66,10 @@ void lower_late(Unit& unit) {
       }
       auto* op = dyn_cast<BinaryOperator>(&i);
       if (!op || !op->getType()->isIntegerTy()) continue;
-      if (op->getOpcode() == Instruction::SDiv || op->getOpcode() == Instruction::SRem) widen_division(op);
-      else if (op->isShift()) define_shift(op);
+      if (op->getOpcode() == Instruction::SDiv || op->getOpcode() == Instruction::SRem)
+        widen_division(op);
+      else if (op->isShift())
+        define_shift(op);
     }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Special-function registers are globals named tp_sfr_XXXX (XXXX: byte address on the chip). Each load and store
-// of such a global becomes a call, so reading U1RXREG or writing LATA has its true side effect.
+// Special-function registers are globals named tp_sfr_XXXX (XXXX: byte address on the chip). Each load and
+// store of such a global becomes a call, so reading U1RXREG or writing LATA has its true side effect.
 #include "llvm/ADT/SmallPtrSet.h"
 #include "llvm/Analysis/ValueTracking.h"
 #include "llvm/IR/IRBuilder.h"
@@ -38,8 +38,10 @@ const Value* base_of(const Value* pointer) {
 Value* chip_address(IRBuilder<>& b, const DataLayout& layout, Value* pointer) {
   Value* offset = b.getInt64(0);
   while (auto* op = dyn_cast<Operator>(pointer)) {
-    if (op->getOpcode() == Instruction::GetElementPtr) offset = b.CreateAdd(offset, EmitGEPOffset(&b, layout, op));
-    else if (op->getOpcode() != Instruction::BitCast) break;
+    if (op->getOpcode() == Instruction::GetElementPtr)
+      offset = b.CreateAdd(offset, EmitGEPOffset(&b, layout, op));
+    else if (op->getOpcode() != Instruction::BitCast)
+      break;
     pointer = op->getOperand(0);
   }
   return b.CreateAdd(offset, b.getInt64(register_address(pointer)));
@@ -65,13 +67,17 @@ void lower_access(Unit& unit, Instruction* i, Value* pointer) {
       word = b.CreateShl(b.CreateZExtOrTrunc(b.CreateTrunc(word, b.getIntNTy(part)), whole), at);
       value = value ? b.CreateOr(value, word) : word;
     }
-    if (type->isIntegerTy()) value = b.CreateZExtOrTrunc(value, type);
-    else value = type->isPointerTy() ? b.CreateIntToPtr(value, type) : b.CreateBitCast(value, type);
+    if (type->isIntegerTy())
+      value = b.CreateZExtOrTrunc(value, type);
+    else
+      value = type->isPointerTy() ? b.CreateIntToPtr(value, type) : b.CreateBitCast(value, type);
     load->replaceAllUsesWith(value);
   } else {
     Value* value = cast<StoreInst>(i)->getValueOperand();
-    if (type->isPointerTy()) value = b.CreatePtrToInt(value, whole);
-    else value = type->isIntegerTy() ? b.CreateZExtOrTrunc(value, whole) : b.CreateBitCast(value, whole);
+    if (type->isPointerTy())
+      value = b.CreatePtrToInt(value, whole);
+    else
+      value = type->isIntegerTy() ? b.CreateZExtOrTrunc(value, whole) : b.CreateBitCast(value, whole);
     for (unsigned at = 0; at < bits; at += 16) {
       unsigned part = bits - at >= 16 ? 16 : 8;
       Value* word = b.CreateZExt(b.CreateTrunc(b.CreateLShr(value, at), b.getIntNTy(part)), i64);
@@ -118,13 +124,17 @@ void lower_registers(Unit& unit) {
     auto named = unit.facts.register_names.find(label.str());
     std::string name = named == unit.facts.register_names.end() ? label.str() : named->second;
     if (where)
-      unit.error(where->getDebugLoc(), "register " + name +
-                                           ": its address is stored or passed on; got a pointer to a register, expected a direct "
-                                           "access by its name");
+      unit.error(where->getDebugLoc(),
+                 "register " + name +
+                     ": its address is stored or passed on; got a pointer to a register, expected a direct "
+                     "access by its name");
     else if (!g.use_empty() && !g.hasInitializer())
       for (const User* user : g.users())
         if (!isa<Instruction>(user) && !user->use_empty()) {
-          unit.error(DebugLoc(), "register " + name + ": its address is the start value of a variable; expected a direct access by its name");
+          unit.error(
+              DebugLoc(),
+              "register " + name +
+                  ": its address is the start value of a variable; expected a direct access by its name");
           break;
         }
   }

@@ -141,8 +141,8 @@ bool is_fresh(const fs::path& deps, FileHashes& hashes) {
   return any;
 }
 
-CompileOutcome compile(const CompileJob& job, const fs::path& compiler, const std::string& salt, const fs::path& cache,
-                       FileHashes& hashes) {
+CompileOutcome compile(const CompileJob& job, const fs::path& compiler, const std::string& salt,
+                       const fs::path& cache, FileHashes& hashes) {
   CompileOutcome outcome;
   std::string key = job.source.string() + "\n" + job.salt + "\n" + salt;
   for (const auto& f : job.flags) key += "\n" + f;
@@ -155,7 +155,8 @@ CompileOutcome compile(const CompileJob& job, const fs::path& compiler, const st
     return outcome;
   }
   std::string half = base.string() + ".half" + std::to_string(getpid());
-  std::vector<std::string> argv = {compiler.string(), "-c", job.source.string(), "-o", half, "--depfile", half + ".d"};
+  std::vector<std::string> argv = {compiler.string(), "-c",       job.source.string(), "-o", half,
+                                   "--depfile",       half + ".d"};
   argv.insert(argv.end(), job.flags.begin(), job.flags.end());
   auto result = run_process(argv);
   outcome.messages = result.output;
@@ -163,7 +164,8 @@ CompileOutcome compile(const CompileJob& job, const fs::path& compiler, const st
   std::error_code ec;
   if (outcome.ok) {
     std::string lines;
-    for (const auto& name : names_of_rule(read_text(half + ".d"))) lines += hashes.of(name) + " " + name + "\n";
+    for (const auto& name : names_of_rule(read_text(half + ".d")))
+      lines += hashes.of(name) + " " + name + "\n";
     write_text(notes, result.output);
     fs::rename(half, outcome.object, ec);
     if (ec || !write_text(deps, lines)) {
@@ -171,7 +173,8 @@ CompileOutcome compile(const CompileJob& job, const fs::path& compiler, const st
       outcome.messages += outcome.object.string() + ": cannot write the object; is the disk full?\n";
     }
   } else if (result.status != 1) {
-    outcome.messages += job.source.string() + ": the compiler stopped with status " + std::to_string(result.status) + "\n";
+    outcome.messages +=
+        job.source.string() + ": the compiler stopped with status " + std::to_string(result.status) + "\n";
   }
   fs::remove(half, ec);
   fs::remove(half + ".d", ec);
@@ -186,12 +189,14 @@ std::vector<CompileOutcome> compile_all(const std::vector<CompileJob>& jobs, con
   fs::create_directories(cache_dir, ec);
   // a rebuilt compiler invalidates everything; its time and size tell
   auto time = fs::last_write_time(compiler, ec).time_since_epoch().count();
-  std::string salt = compiler.string() + " " + std::to_string(time) + " " + std::to_string(fs::file_size(compiler, ec));
+  std::string salt =
+      compiler.string() + " " + std::to_string(time) + " " + std::to_string(fs::file_size(compiler, ec));
   std::vector<CompileOutcome> outcomes(jobs.size());
   FileHashes hashes;
   std::atomic<size_t> next{0};
   auto work = [&] {
-    for (size_t i; (i = next++) < jobs.size();) outcomes[i] = compile(jobs[i], compiler, salt, cache_dir, hashes);
+    for (size_t i; (i = next++) < jobs.size();)
+      outcomes[i] = compile(jobs[i], compiler, salt, cache_dir, hashes);
   };
   std::vector<std::thread> others;
   for (int t = 1; t < parallel && size_t(t) < jobs.size(); ++t) others.emplace_back(work);

@@ -35,7 +35,8 @@ struct CompileOutcome {
 };
 
 /// All jobs, at most `parallel` at once; outcomes in the order of the jobs.
-std::vector<CompileOutcome> compile_all(const std::vector<CompileJob>& jobs, const std::filesystem::path& compiler,
+std::vector<CompileOutcome> compile_all(const std::vector<CompileJob>& jobs,
+                                        const std::filesystem::path& compiler,
                                         const std::filesystem::path& cache_dir, int parallel);
 
 }  // namespace cc

@@ -21,10 +21,14 @@ struct Unit {
   void warning(const llvm::DebugLoc& where, const llvm::Twine& text);
 };
 
-// --- names of the functions stages leave for one another (never called at run time) -------------------------
-inline constexpr const char* kNop = "tp.nop";        // asm("nop"): one cycle, no effect
-inline constexpr const char* kRound = "tp.round";    // keeps an empty counting loop alive; no cycle
-inline constexpr const char* kFree = "tp.free";      // metadata: instruction exists on the PC only, costs nothing
+// --- names of the functions stages leave for one another (never called at run time)
+// -------------------------
+inline constexpr const char* kNop = "tp.nop";      // asm("nop"): one cycle, no effect
+inline constexpr const char* kRound = "tp.round";  // keeps an empty counting loop alive; no cycle
+inline constexpr const char* kFree = "tp.free";  // metadata: instruction exists on the PC only, costs nothing
+
+/// A function of that kind: no effect the program can see, yet its calls stay where they are.
+llvm::Function* marker(llvm::Module& m, const char* name);
 
 /// Inline assembler, refused functions, sections, wide shifts, float to int, division by zero.
 void lower_early(Unit& unit);
@@ -66,7 +70,8 @@ void check_addresses(Unit& unit);
 /// Runs all stages; false after an error. Then the module is ready for the back end.
 bool run_pipeline(Unit& unit);
 
-// --- small tools ---------------------------------------------------------------------------------------------
+// --- small tools
+// ---------------------------------------------------------------------------------------------
 llvm::FunctionCallee host_function(llvm::Module& m, const char* name, llvm::Type* result,
                                    llvm::ArrayRef<llvm::Type*> parameters);
 /// Marks an instruction as costing nothing on the chip.

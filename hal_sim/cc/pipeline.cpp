@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The optimiser's passes in our own order. Everything that would turn a loop into something else (idioms, deletion,
-// unrolling, vectors) is absent: the chip's compiler has none of it, and a delay loop must stay a delay.
+// The optimiser's passes in our own order. Everything that would turn a loop into something else (idioms,
+// deletion, unrolling, vectors) is absent: the chip's compiler has none of it, and a delay loop must stay a
+// delay.
 #include "llvm/Analysis/LoopInfo.h"
 #include "llvm/Analysis/TargetLibraryInfo.h"
 #include "llvm/Analysis/TargetTransformInfo.h"
@@ -82,8 +83,9 @@ void set_llvm_flags() {
   cl::ParseCommandLineOptions(1, argv);
 }
 
-// In a loop without an exit every store to a global may be seen by an interrupt or a debugger, though the optimiser sees
-// no reader. A call that might read anything keeps it from sinking stores to an exit that never comes.
+// In a loop without an exit every store to a global may be seen by an interrupt or a debugger, though the
+// optimiser sees no reader. A call that might read anything keeps it from sinking stores to an exit that
+// never comes.
 constexpr const char* kObserve = "tp.observe";
 
 void keep_endless_loops_visible(Unit& unit, FunctionAnalysisManager& analyses) {
@@ -94,7 +96,8 @@ void keep_endless_loops_visible(Unit& unit, FunctionAnalysisManager& analyses) {
   for (Function& f : m) {
     if (f.isDeclaration()) continue;
     for (Loop* loop : analyses.getResult<LoopAnalysis>(f).getLoopsInPreorder())
-      if (loop->hasNoExitBlocks()) mark_free(CallInst::Create(observe, "", &*loop->getHeader()->getFirstInsertionPt()));
+      if (loop->hasNoExitBlocks())
+        mark_free(CallInst::Create(observe, "", &*loop->getHeader()->getFirstInsertionPt()));
     analyses.invalidate(f, PreservedAnalyses::none());
   }
   if (function->use_empty()) function->eraseFromParent();
@@ -151,8 +154,8 @@ Value* control_field(Module& m, unsigned index) {
   }
   Constant* zero = ConstantInt::get(Type::getInt32Ty(c), 0);
   auto* address = ConstantExpr::getBitCast(g, type->getPointerTo());
-  return ConstantExpr::getInBoundsGetElementPtr(type, address,
-                                                ArrayRef<Constant*>{zero, ConstantInt::get(Type::getInt32Ty(c), index)});
+  return ConstantExpr::getInBoundsGetElementPtr(
+      type, address, ArrayRef<Constant*>{zero, ConstantInt::get(Type::getInt32Ty(c), index)});
 }
 
 bool run_pipeline(Unit& unit) {

@@ -20,14 +20,16 @@ namespace {
 /// Builds instructions that exist on the PC only.
 struct FreeBuilder : IRBuilder<ConstantFolder, IRBuilderCallbackInserter> {
   explicit FreeBuilder(Instruction* before)
-      : IRBuilder(before->getContext(), ConstantFolder(), IRBuilderCallbackInserter([](Instruction* i) { mark_free(i); })) {
+      : IRBuilder(before->getContext(), ConstantFolder(),
+                  IRBuilderCallbackInserter([](Instruction* i) { mark_free(i); })) {
     SetInsertPoint(before);
   }
 };
 
 bool harmless_call(const CallBase& call, const Unit& unit) {
   if (isa<DbgInfoIntrinsic>(call)) return true;
-  if (auto* intrinsic = dyn_cast<IntrinsicInst>(&call)) return !intrinsic->mayWriteToMemory() || intrinsic->isLifetimeStartOrEnd();
+  if (auto* intrinsic = dyn_cast<IntrinsicInst>(&call))
+    return !intrinsic->mayWriteToMemory() || intrinsic->isLifetimeStartOrEnd();
   const Function* callee = call.getCalledFunction();
   return callee && is_poll_safe(callee, unit);
 }
@@ -48,7 +50,8 @@ bool safe_body(const Function& f, const Unit& unit, int depth) {
       const Function* callee = call->getCalledFunction();
       if (!isa<IntrinsicInst>(call)) {
         if (!callee) return false;
-        if (callee->isDeclaration() ? !is_poll_safe(callee, unit) : !safe_body(*callee, unit, depth + 1)) return false;
+        if (callee->isDeclaration() ? !is_poll_safe(callee, unit) : !safe_body(*callee, unit, depth + 1))
+          return false;
       }
     } else if (i.mayWriteToMemory() && !isa<LoadInst>(i)) {
       return false;
@@ -82,8 +85,10 @@ void keep_loop(Unit& unit, Loop* loop) {
       if (g && !g->isConstant() && !load->isVolatile()) {
         load->setVolatile(true);
         if (unit.options.lint || unit.options.strict)
-          unit.warning(load->getDebugLoc(), g->getName() + ": polled in a loop; got a plain variable, expected volatile; "
-                                                          "XC16 reads it once at -O1 and waits for ever");
+          unit.warning(load->getDebugLoc(),
+                       g->getName() +
+                           ": polled in a loop; got a plain variable, expected volatile; "
+                           "XC16 reads it once at -O1 and waits for ever");
       }
     }
     for (Value* v : i->operands()) work.push_back(v);
@@ -102,7 +107,8 @@ bool waits(Loop* loop, DominatorTree& dom, const Unit& unit) {
   for (BasicBlock* block : loop->blocks())
     for (Instruction& i : *block) {
       if (auto* load = dyn_cast<LoadInst>(&i)) {
-        if (load->isVolatile() || isa<GlobalVariable>(getUnderlyingObject(load->getPointerOperand()))) reads = true;
+        if (load->isVolatile() || isa<GlobalVariable>(getUnderlyingObject(load->getPointerOperand())))
+          reads = true;
       } else if (auto* call = dyn_cast<CallBase>(&i)) {
         if (isa<DbgInfoIntrinsic>(call)) continue;
         if (!harmless_call(*call, unit) && !isa<IntrinsicInst>(call)) {
@@ -118,11 +124,12 @@ bool waits(Loop* loop, DominatorTree& dom, const Unit& unit) {
 
 void bump_writes(Module& m, FreeBuilder& b, Value* amount) {
   Value* field = control_field(m, 1);
-  b.CreateAlignedStore(b.CreateAdd(b.CreateAlignedLoad(b.getInt64Ty(), field, Align(8)), amount), field, Align(8));
+  b.CreateAlignedStore(b.CreateAdd(b.CreateAlignedLoad(b.getInt64Ty(), field, Align(8)), amount), field,
+                       Align(8));
 }
 
-void instrument(Unit& unit, Function& f, Loop* loop, DominatorTree& dom, int ordinal, SmallPtrSetImpl<Instruction*>& marked,
-                std::vector<BackEdge>& back_edges) {
+void instrument(Unit& unit, Function& f, Loop* loop, DominatorTree& dom, int ordinal,
+                SmallPtrSetImpl<Instruction*>& marked, std::vector<BackEdge>& back_edges) {
   Module& m = unit.module;
   for (BasicBlock* block : loop->blocks())
     for (Instruction& i : make_early_inc_range(*block)) {
@@ -148,7 +155,8 @@ void instrument(Unit& unit, Function& f, Loop* loop, DominatorTree& dom, int ord
   // the count at the start of this round against the count at its end
   BasicBlock* header = loop->getHeader();
   FreeBuilder start(&*header->getFirstInsertionPt());
-  auto* before = start.CreateAlignedLoad(start.getInt64Ty(), control_field(m, 1), Align(8), /*volatile*/ true);
+  auto* before =
+      start.CreateAlignedLoad(start.getInt64Ty(), control_field(m, 1), Align(8), /*volatile*/ true);
   BasicBlock* latch = loop->getLoopLatch();
   // only when there is a next round: on the edge back to the header
   BasicBlock* edge = SplitEdge(latch, header);

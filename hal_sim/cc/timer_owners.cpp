@@ -38,10 +38,12 @@ std::vector<std::string> timer_conflicts(const std::vector<std::pair<std::string
   for (const auto& [file, text] : texts) {
     for (std::sregex_iterator it(text.begin(), text.end(), kInclude), end; it != end; ++it) {
       std::string name = (*it)[1];
-      std::transform(name.begin(), name.end(), name.begin(), [](char c) { return c == '\\' ? '/' : char(::tolower(c)); });
+      std::transform(name.begin(), name.end(), name.begin(),
+                     [](char c) { return c == '\\' ? '/' : char(::tolower(c)); });
       for (const auto& owner : kOwners) {
         std::string tail = owner.header;
-        if (name.size() < tail.size() || name.compare(name.size() - tail.size(), tail.size(), tail) != 0) continue;
+        if (name.size() < tail.size() || name.compare(name.size() - tail.size(), tail.size(), tail) != 0)
+          continue;
         for (const char* t = owner.timers; *t; ++t) users[*t].emplace(owner.driver, file);
         break;
       }
@@ -56,7 +58,8 @@ std::vector<std::string> timer_conflicts(const std::vector<std::pair<std::string
     if (drivers.size() < 2) continue;
     std::string list, file;
     for (const auto& [driver, where] : drivers) list += (list.empty() ? "" : " and ") + driver, file = where;
-    messages.push_back(file + ": warning: Timer " + timer + ": got two owners (" + list + "), expected one; the later one silences the other");
+    messages.push_back(file + ": warning: Timer " + timer + ": got two owners (" + list +
+                       "), expected one; the later one silences the other");
   }
   return messages;
 }

@@ -20,27 +20,45 @@ bool parse(int argc, char** argv, cc::Options& o) {
   for (int i = 1; i < argc; ++i) {
     StringRef a = argv[i];
     auto value = [&]() -> std::string { return i + 1 < argc ? argv[++i] : ""; };
-    if (a == "-c") continue;
-    else if (a == "-o") o.output = value();
-    else if (a == "-O0") o.level = 0;
-    else if (a == "-O" || a == "-O1") o.level = 1;
-    else if (a == "-O2" || a == "-O3") o.level = 2;
-    else if (a == "-Os") o.level = 2, o.for_size = true;
-    else if (a == "--sanitize") o.sanitize = true;
-    else if (a == "--coverage") o.coverage = true;
-    else if (a == "--strict") o.strict = true;
-    else if (a == "--lint") o.lint = true;
-    else if (a == "--library") o.library = true;
-    else if (a == "--uncounted") o.uncounted = true;
-    else if (a == "--emit-ir") o.emit_ir = true;
-    else if (a == "--project") o.project = value();
-    else if (a == "--depfile") o.depfile = value();
-    else if (a == "--cost-dump") o.cost_dump = value();
-    else if (a == "--fallback") o.fallback.push_back(value());
+    if (a == "-c")
+      continue;
+    else if (a == "-o")
+      o.output = value();
+    else if (a == "-O0")
+      o.level = 0;
+    else if (a == "-O" || a == "-O1")
+      o.level = 1;
+    else if (a == "-O2" || a == "-O3")
+      o.level = 2;
+    else if (a == "-Os")
+      o.level = 2, o.for_size = true;
+    else if (a == "--sanitize")
+      o.sanitize = true;
+    else if (a == "--coverage")
+      o.coverage = true;
+    else if (a == "--strict")
+      o.strict = true;
+    else if (a == "--lint")
+      o.lint = true;
+    else if (a == "--library")
+      o.library = true;
+    else if (a == "--uncounted")
+      o.uncounted = true;
+    else if (a == "--emit-ir")
+      o.emit_ir = true;
+    else if (a == "--project")
+      o.project = value();
+    else if (a == "--depfile")
+      o.depfile = value();
+    else if (a == "--cost-dump")
+      o.cost_dump = value();
+    else if (a == "--fallback")
+      o.fallback.push_back(value());
     else if (a == "-I" || a == "-D" || a == "-U" || a == "-include") {
       o.passed_on.push_back(a.str());
       o.passed_on.push_back(value());
-    } else if (a.startswith("-I") || a.startswith("-D") || a.startswith("-U") || a.startswith("-W") || a.startswith("-g") || a.startswith("-f")) {
+    } else if (a.startswith("-I") || a.startswith("-D") || a.startswith("-U") || a.startswith("-W") ||
+               a.startswith("-g") || a.startswith("-f")) {
       o.passed_on.push_back(a.str());
     } else if (a.startswith("-")) {
       errs() << "twinpuck-cc: command line: got " << a << ", expected a known option\n";
@@ -53,7 +71,8 @@ bool parse(int argc, char** argv, cc::Options& o) {
     }
   }
   if (o.input.empty() || o.output.empty()) {
-    errs() << "usage: twinpuck-cc -c x.c -o x.o [-O0|-O1|-O2|-Os] [-I..] [-D..] [--sanitize] [--coverage] [--strict]\n";
+    errs() << "usage: twinpuck-cc -c x.c -o x.o [-O0|-O1|-O2|-Os] [-I..] [-D..] [--sanitize] [--coverage] "
+              "[--strict]\n";
     return false;
   }
   return true;
@@ -73,9 +92,11 @@ bool emit(Module& m, const cc::Options& o) {
   std::string message;
   const Target* target = TargetRegistry::lookupTarget(m.getTargetTriple(), message);
   TargetOptions options;
-  std::unique_ptr<TargetMachine> machine(target->createTargetMachine(
-      m.getTargetTriple(), "x86-64", "", options, Reloc::PIC_, CodeModel::Small,
-      o.level == 0 ? CodeGenOpt::None : o.level == 1 ? CodeGenOpt::Less : CodeGenOpt::Default));
+  std::unique_ptr<TargetMachine> machine(target->createTargetMachine(m.getTargetTriple(), "x86-64", "",
+                                                                     options, Reloc::PIC_, CodeModel::Small,
+                                                                     o.level == 0   ? CodeGenOpt::None
+                                                                     : o.level == 1 ? CodeGenOpt::Less
+                                                                                    : CodeGenOpt::Default));
   legacy::PassManager passes;
   // floor() is a function of the firmware's libc here, not something the PC may know by name
   TargetLibraryInfoImpl library(Triple(m.getTargetTriple()));

@@ -24,8 +24,10 @@ void tp_poll(tp_i64 loop) { robot().on_poll(loop); }
 void tp_delay(tp_i64 rounds, tp_i64 cycles) { robot().on_delay(rounds, cycles); }
 
 void tp_trap(tp_i64 kind) {
-  static constexpr const char* kSentence[] = {"", "division by zero", "bad address", "stack overflow", "abort() was called"};
-  robot().trap(static_cast<int>(kind), kind >= 1 && kind <= 4 ? kSentence[kind] : host::trap_name(static_cast<int>(kind)));
+  static constexpr const char* kSentence[] = {"", "division by zero", "bad address", "stack overflow",
+                                              "abort() was called"};
+  robot().trap(static_cast<int>(kind),
+               kind >= 1 && kind <= 4 ? kSentence[kind] : host::trap_name(static_cast<int>(kind)));
 }
 void tp_trap_message(tp_i64 kind, const char* message) { robot().trap(static_cast<int>(kind), message); }
 void tp_reset(void) { robot().on_reset(nullptr); }
@@ -37,7 +39,8 @@ tp_i64 tp_sfr_read(tp_i64 address, tp_i64 bits) {
   return robot().registers().read(static_cast<unsigned>(address), static_cast<unsigned>(bits));
 }
 void tp_sfr_write(tp_i64 address, tp_i64 value, tp_i64 bits) {
-  robot().registers().write(static_cast<unsigned>(address), static_cast<std::uint16_t>(value), static_cast<unsigned>(bits));
+  robot().registers().write(static_cast<unsigned>(address), static_cast<std::uint16_t>(value),
+                            static_cast<unsigned>(bits));
 }
 
 tp_i64 tp_rand(void) { return robot().next_rand(); }
@@ -54,6 +57,8 @@ void tp_irq_install(tp_i64 vector, void (*handler)(void), tp_i64 priority, tp_i6
   robot().irq_install(static_cast<int>(vector), handler, static_cast<int>(priority), entry_cycles);
 }
 void tp_irq_at(tp_i64 vector, tp_i64 at) { robot().irq_at(static_cast<int>(vector), at); }
-void tp_background(tp_i64 slot, tp_i64 period, tp_i64 cost) { robot().set_background(static_cast<int>(slot), period, cost); }
+void tp_background(tp_i64 slot, tp_i64 period, tp_i64 cost) {
+  robot().set_background(static_cast<int>(slot), period, cost);
+}
 
 }  // extern "C"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Page faults and arithmetic faults of natively run firmware become traps of that robot. The signal handler only
-// redirects the thread to a recovery stack; the report is made there, in normal context, and the fiber is abandoned.
+// Page faults and arithmetic faults of natively run firmware become traps of that robot. The signal handler
+// only redirects the thread to a recovery stack; the report is made there, in normal context, and the fiber
+// is abandoned.
 #include <pthread.h>
 #include <signal.h>
 #include <ucontext.h>
@@ -48,10 +49,12 @@ std::string describe(const Fault& f) {
   constexpr std::uintptr_t kNullPage = 64 * 1024;
   if (f.kind == TP_TRAP_STACK) return "stack overflow: endless recursion, or local arrays too large";
   if (f.kind == TP_TRAP_MATH) return "arithmetic fault";
-  if (f.kind == TP_TRAP_ILLEGAL) return "illegal instruction: the program ran into a place it can never reach";
+  if (f.kind == TP_TRAP_ILLEGAL)
+    return "illegal instruction: the program ran into a place it can never reach";
   const std::string access = f.is_write ? "write through" : "read through";
   if (f.has_address && f.address < 4096) return access + " a null pointer";
-  if (f.has_address && f.address < kNullPage) return access + " a wild pointer (address " + std::to_string(f.address) + ")";
+  if (f.has_address && f.address < kNullPage)
+    return access + " a wild pointer (address " + std::to_string(f.address) + ")";
   return access + " a wild pointer";
 }
 
@@ -102,7 +105,8 @@ void on_signal(int signal, siginfo_t* info, void* raw) {
   // out of stack anywhere on the firmware's stack
   if (robot && signal == SIGSEGV && robot->fiber().is_in_guard(address)) ours = true;
   if (!ours) {
-    sigaction(signal, &previous[signal], nullptr);  // not firmware: fault again with whoever was there before us
+    sigaction(signal, &previous[signal],
+              nullptr);  // not firmware: fault again with whoever was there before us
     return;
   }
   Fault& f = last_fault;

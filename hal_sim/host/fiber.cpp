@@ -21,14 +21,16 @@ namespace host {
 namespace ctx = boost::context::detail;
 
 namespace {
-constexpr std::size_t kGuardBytes = 64 * 1024;  // wider than any one frame of a controller, so no frame jumps over it
+constexpr std::size_t kGuardBytes =
+    64 * 1024;  // wider than any one frame of a controller, so no frame jumps over it
 }
 
 Fiber::Fiber(std::size_t stack_bytes) {
   const std::size_t page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
   stack_bytes = (stack_bytes + page - 1) / page * page;
   mapping_bytes_ = stack_bytes + kGuardBytes;
-  mapping_ = mmap(nullptr, mapping_bytes_, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  mapping_ = mmap(nullptr, mapping_bytes_, PROT_READ | PROT_WRITE,
+                  MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   CHECK(mapping_ != MAP_FAILED, "no memory for a firmware stack");
   CHECK(mprotect(mapping_, kGuardBytes, PROT_NONE) == 0, "cannot protect a stack's guard pages");
   low_ = reinterpret_cast<std::uintptr_t>(mapping_) + kGuardBytes;
@@ -42,13 +44,16 @@ Fiber::~Fiber() {
   munmap(mapping_, mapping_bytes_);
 }
 
-bool Fiber::is_in_guard(std::uintptr_t address) const { return address < low_ && address + kGuardBytes >= low_; }
+bool Fiber::is_in_guard(std::uintptr_t address) const {
+  return address < low_ && address + kGuardBytes >= low_;
+}
 
 void Fiber::restart(Entry entry, void* argument) {
   entry_ = entry;
   argument_ = argument;
 #if defined(__SANITIZE_ADDRESS__)
-  ASAN_UNPOISON_MEMORY_REGION(reinterpret_cast<void*>(low_), high_ - low_);  // frames that were dropped left poison
+  ASAN_UNPOISON_MEMORY_REGION(reinterpret_cast<void*>(low_),
+                              high_ - low_);  // frames that were dropped left poison
 #endif
 #if defined(__SANITIZE_THREAD__)
   if (tsan_inside_) __tsan_destroy_fiber(tsan_inside_);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A stackful coroutine on Boost.Context: the firmware's own stack. The scheduler enters it, the firmware yields.
-// The stack lies between two guard pages, so running over its end is a page fault that traps.h recognises.
+// A stackful coroutine on Boost.Context: the firmware's own stack. The scheduler enters it, the firmware
+// yields. The stack lies between two guard pages, so running over its end is a page fault that traps.h
+// recognises.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -18,13 +19,15 @@ class Fiber {
   Fiber(const Fiber&) = delete;
   Fiber& operator=(const Fiber&) = delete;
 
-  /// (Re)starts the fiber: the next enter() calls entry(argument) on an empty stack. What was on it is dropped.
+  /// (Re)starts the fiber: the next enter() calls entry(argument) on an empty stack. What was on it is
+  /// dropped.
   void restart(Entry entry, void* argument);
 
   /// Runs the fiber until it yields. Called by the scheduler only.
   void enter();
 
-  /// Goes back to whoever called enter(). Called on the fiber only (or on a recovery stack standing in for it).
+  /// Goes back to whoever called enter(). Called on the fiber only (or on a recovery stack standing in for
+  /// it).
   void yield();
 
   bool is_on_stack(std::uintptr_t address) const { return address >= low_ && address < high_; }

@@ -60,7 +60,8 @@ bool is_whole(const std::string& path) {
   const auto size = static_cast<std::uint64_t>(file.tellg());
   Elf64_Ehdr head;
   file.seekg(0);
-  if (!file.read(reinterpret_cast<char*>(&head), sizeof head) || head.e_phentsize != sizeof(Elf64_Phdr)) return false;
+  if (!file.read(reinterpret_cast<char*>(&head), sizeof head) || head.e_phentsize != sizeof(Elf64_Phdr))
+    return false;
   for (unsigned i = 0; i < head.e_phnum; ++i) {
     Elf64_Phdr segment;
     file.seekg(static_cast<std::streamoff>(head.e_phoff + i * sizeof segment));
@@ -81,7 +82,8 @@ std::string what_is(const std::string& path) {
   if (head[16] == ET_DYN && machine == EM_X86_64 && head[4] == ELFCLASS64)
     return is_whole(path) ? "a shared object of this PC" : "a shared object that has been cut off";
   if (machine == 118) return "an ELF for the dsPIC30F";
-  return "an ELF of another kind (type " + std::to_string(head[16]) + ", machine " + std::to_string(machine) + ")";
+  return "an ELF of another kind (type " + std::to_string(head[16]) + ", machine " + std::to_string(machine) +
+         ")";
 }
 
 }  // namespace
@@ -137,9 +139,11 @@ std::unique_ptr<ImageCopy> Image::load(bool private_file, std::string& error) co
   const auto* image = static_cast<const tp_image*>(dlsym(handle, "tp_image"));
   if (!image || image->magic != TP_IMAGE_MAGIC || image->abi != TP_IMAGE_ABI) {
     error = path_ + ": firmware image: got " +
-            (image && image->magic == TP_IMAGE_MAGIC ? "an image of interface version " + std::to_string(image->abi)
-                                                     : std::string("a shared object without a firmware inside")) +
-            ", expected interface version " + std::to_string(TP_IMAGE_ABI) + "; make it with `twinpuck build DIR -o FILE.so`";
+            (image && image->magic == TP_IMAGE_MAGIC
+                 ? "an image of interface version " + std::to_string(image->abi)
+                 : std::string("a shared object without a firmware inside")) +
+            ", expected interface version " + std::to_string(TP_IMAGE_ABI) +
+            "; make it with `twinpuck build DIR -o FILE.so`";
     dlclose(handle);
     if (fd >= 0) close(fd);
     return nullptr;
@@ -154,7 +158,9 @@ std::shared_ptr<Image> Image::open(const std::string& path, std::string& error) 
     return nullptr;
   }
   if (!S_ISREG(status.st_mode)) {
-    error = path + ": firmware image: got something that is no regular file, expected a .so made by `twinpuck build`";
+    error =
+        path +
+        ": firmware image: got something that is no regular file, expected a .so made by `twinpuck build`";
     return nullptr;
   }
   const std::string kind = what_is(path);

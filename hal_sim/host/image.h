@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A firmware image (.so from `twinpuck build`) in memory. One file may be loaded several times, once per worker
-// thread; robots of one copy share its code and take turns in its data segment.
+// A firmware image (.so from `twinpuck build`) in memory. One file may be loaded several times, once per
+// worker thread; robots of one copy share its code and take turns in its data segment.
 #pragma once
 #include <memory>
 #include <mutex>
@@ -16,8 +16,8 @@ class Symbols;
 /// One loaded copy. Robots bound to it swap their private data in and out of its data segment.
 class ImageCopy {
  public:
-  /// `fd`: the private file the copy was loaded from, -1 if none. It stays open: the dynamic linker tells files apart
-  /// by name, and the name holds the number.
+  /// `fd`: the private file the copy was loaded from, -1 if none. It stays open: the dynamic linker tells
+  /// files apart by name, and the name holds the number.
   ImageCopy(const std::string& path, void* handle, const tp_image* image, int fd);
   ~ImageCopy();
   ImageCopy(const ImageCopy&) = delete;

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT
  * The seam between a firmware image (a .so made by twinpuck-cc) and the host that runs it.
  *
- * Included by C that is compiled with the robot's data model (16-bit int, 32-bit long) and by C++ compiled for
- * the PC. Therefore every quantity that crosses is a tp_i64 (long long: 64 bits on both sides) or a pointer;
- * nothing narrower may be a parameter, a result or a field (float results of tp_m_* excepted: registers agree).
+ * Included by C that is compiled with the robot's data model (16-bit int, 32-bit long) and by C++ compiled
+ * for the PC. Therefore every quantity that crosses is a tp_i64 (long long: 64 bits on both sides) or a
+ * pointer; nothing narrower may be a parameter, a result or a field (float results of tp_m_* excepted:
+ * registers agree).
  *
  * What the image offers: `tp_image` below, found by dlsym.
  * What the image needs: the functions declared here and in pins.h, exported by the host's executable.
@@ -27,16 +28,18 @@ typedef long long tp_i64;
 struct tp_control {
   tp_i64 budget; /* estimated cycles left until the host wants control; compiled code subtracts a block's cost
                     before the block and calls tp_event() when it falls below 0 */
-  tp_i64 writes; /* grows whenever the running loop may have changed anything: the poll detector compares it */
+  tp_i64
+      writes; /* grows whenever the running loop may have changed anything: the poll detector compares it */
 };
 
 /** One function of the image with its cost, for `twinpuck cycles` (array in section "tpfunc"). */
 struct tp_function {
-  const char* name;     /* C name */
-  const char* file;     /* source file as compiled */
-  tp_i64 line;          /* line of the definition */
-  const void* address;  /* entry point */
-  tp_i64 min_cycles;    /* cheapest path through the function, callees' cheapest included when known; -1 unknown */
+  const char* name;    /* C name */
+  const char* file;    /* source file as compiled */
+  tp_i64 line;         /* line of the definition */
+  const void* address; /* entry point */
+  tp_i64
+      min_cycles; /* cheapest path through the function, callees' cheapest included when known; -1 unknown */
   tp_i64 straight_cycles; /* cost of every block once */
 };
 
@@ -47,15 +50,15 @@ struct tp_coverage_line {
   tp_i64* count;
 };
 
-#define TP_VECTORS 54 /* interrupt vectors of the dsPIC30F6014A in natural order [DS70143 table 5-1] */
+#define TP_VECTORS 54     /* interrupt vectors of the dsPIC30F6014A in natural order [DS70143 table 5-1] */
 #define TP_TRAP_VECTORS 4 /* oscillator fail, address error, stack error, math error */
 
 /** The image's self-description: `const struct tp_image tp_image`. */
 struct tp_image {
-  tp_i64 magic; /* TP_IMAGE_MAGIC */
-  tp_i64 abi;   /* TP_IMAGE_ABI */
-  const char* name;     /* controller's name (its folder) */
-  const char* flags;    /* "sanitize", "coverage", "" */
+  tp_i64 magic;      /* TP_IMAGE_MAGIC */
+  tp_i64 abi;        /* TP_IMAGE_ABI */
+  const char* name;  /* controller's name (its folder) */
+  const char* flags; /* "sanitize", "coverage", "" */
   struct tp_control* control;
   void (*start)(void); /* runs the controller's main(); returns when main returns */
   /* private data of a robot: everything writable but the control and coverage sections; start-up values are
@@ -64,8 +67,8 @@ struct tp_image {
   char* data_end;
   char* hole_begin; /* [hole_begin, hole_end) inside data is shared, not private (tpctl, tpcov) */
   char* hole_end;
-  void (*vectors[TP_VECTORS])(void);          /* the controller's _XxxInterrupt functions; 0 where undefined */
-  void (*trap_vectors[TP_TRAP_VECTORS])(void);/* its _OscillatorFail _AddressError _StackError _MathError */
+  void (*vectors[TP_VECTORS])(void); /* the controller's _XxxInterrupt functions; 0 where undefined */
+  void (*trap_vectors[TP_TRAP_VECTORS])(void); /* its _OscillatorFail _AddressError _StackError _MathError */
   const struct tp_function* functions;
   const struct tp_function* functions_end;
   const struct tp_coverage_line* coverage; /* 0 without --coverage */
@@ -86,13 +89,15 @@ void tp_delay(tp_i64 rounds, tp_i64 cycles);
 
 /** A trap found by inserted checks. Does not return. kind: TP_TRAP_*. */
 void tp_trap(tp_i64 kind);
-#define TP_TRAP_MATH 1      /* integer division by zero */
-#define TP_TRAP_ADDRESS 2   /* null, wild or misaligned pointer */
-#define TP_TRAP_STACK 3     /* stack overflow */
-#define TP_TRAP_ABORT 4     /* abort(), failed assert(), exit() with a failure */
-#define TP_TRAP_INTERRUPT 5 /* endless loop with interrupts off, or an enabled interrupt without a handler */
-#define TP_TRAP_ILLEGAL 6   /* illegal instruction, unreachable code reached */
-#define TP_TRAP_SANITIZER 7 /* --sanitize found an overflow or a bad access */
+#define TP_TRAP_MATH 1    /* integer division by zero */
+#define TP_TRAP_ADDRESS 2 /* null, wild or misaligned pointer */
+#define TP_TRAP_STACK 3   /* stack overflow */
+#define TP_TRAP_ABORT 4   /* abort(), failed assert(), exit() with a failure */
+#define TP_TRAP_INTERRUPT                                                                                    \
+  5                           /* endless loop with interrupts off, or an enabled interrupt without a handler \
+                               */
+#define TP_TRAP_ILLEGAL 6     /* illegal instruction, unreachable code reached */
+#define TP_TRAP_SANITIZER 7   /* --sanitize found an overflow or a bad access */
 #define TP_TRAP_UNSIMULATED 8 /* a device or register that is not simulated yet */
 
 /** Same, with a sentence for the report (copied). Does not return. */
@@ -106,11 +111,13 @@ void tp_disi(tp_i64 cycles);
 void tp_power_save(tp_i64 mode);
 void tp_clear_watchdog(void);
 
-/** Access to a special-function register: 16-bit address (even), width 8 or 16 at byte address. Value in the low bits. */
+/** Access to a special-function register: 16-bit address (even), width 8 or 16 at byte address. Value in the
+ * low bits. */
 tp_i64 tp_sfr_read(tp_i64 address, tp_i64 bits);
 void tp_sfr_write(tp_i64 address, tp_i64 value, tp_i64 bits);
 
-/** Per-robot, seeded: next value of rand(), 0..32767; srand. Source: own generator, the libc of XC16 promises no sequence. */
+/** Per-robot, seeded: next value of rand(), 0..32767; srand. Source: own generator, the libc of XC16 promises
+ * no sequence. */
 tp_i64 tp_rand(void);
 void tp_srand(tp_i64 seed);
 

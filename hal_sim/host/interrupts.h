@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The chip's interrupt controller as native firmware meets it: flags that rise at known cycles, enables, priorities,
-// nesting, DISI. Source: DS70143 section 5.
+// The chip's interrupt controller as native firmware meets it: flags that rise at known cycles, enables,
+// priorities, nesting, DISI. Source: DS70143 section 5.
 //
-//   flag rises (due) --> IFS bit --+-- IEC bit set? --+-- priority > CPU's? --+-- not held by DISI? --> handler
+//   flag rises (due) --> IFS bit --+-- IEC bit set? --+-- priority > CPU's? --+-- not held by DISI? -->
+//   handler
 //
 // Modelled: natural order among equals, nesting by priority, NSTDIS, DISI (holds priorities 1 to 6).
 // Not modelled: the alternate vector table; the exact entry latency inside a block (one block at most).
@@ -16,15 +17,16 @@
 namespace host {
 
 struct InterruptSource {
-  Cycle due = kNever;        ///< cycle at which the flag rises next
-  Cycle period = 0;          ///< > 0: after rising, due moves on by this many cycles
-  bool flag = false;         ///< IFS bit
-  bool enabled = false;      ///< IEC bit
-  int priority = 4;          ///< IPC field, 0 (off) to 7
+  Cycle due = kNever;    ///< cycle at which the flag rises next
+  Cycle period = 0;      ///< > 0: after rising, due moves on by this many cycles
+  bool flag = false;     ///< IFS bit
+  bool enabled = false;  ///< IEC bit
+  int priority = 4;      ///< IPC field, 0 (off) to 7
   void (*handler)() = nullptr;
-  bool self_clearing = false; ///< handler of our API: the flag falls on entry; a program's own handler clears it itself
-  Cycle entry_cycles = 0;    ///< latency, context saving and RETFIE
-  Cycle flag_since = 0;      ///< when the flag rose
+  bool self_clearing =
+      false;  ///< handler of our API: the flag falls on entry; a program's own handler clears it itself
+  Cycle entry_cycles = 0;  ///< latency, context saving and RETFIE
+  Cycle flag_since = 0;    ///< when the flag rose
 };
 
 class InterruptController {
@@ -46,7 +48,8 @@ class InterruptController {
   /// Raises every flag that is due at `now` or before.
   void raise_due(Cycle now);
 
-  /// Earliest cycle at which an enabled flag rises, kNever if none. Flags of disabled sources rise too but wake nobody.
+  /// Earliest cycle at which an enabled flag rises, kNever if none. Flags of disabled sources rise too but
+  /// wake nobody.
   Cycle next_due();
 
   /// Vector to serve now, -1 if none: highest priority above `cpu_priority`, lowest number among equals.
@@ -58,10 +61,10 @@ class InterruptController {
  private:
   static constexpr Cycle kUnknown = -1;
   std::array<InterruptSource, TP_VECTORS> sources_;
-  std::uint64_t used_ = 0;      // bit v: somebody has touched vector v; most programs use two or three
-  Cycle next_due_ = kUnknown;   // over enabled sources
-  Cycle next_raise_ = 0;        // over all sources
-  std::uint64_t ready_ = 0;     // bit v: flag and enable of vector v are both set
+  std::uint64_t used_ = 0;     // bit v: somebody has touched vector v; most programs use two or three
+  Cycle next_due_ = kUnknown;  // over enabled sources
+  Cycle next_raise_ = 0;       // over all sources
+  std::uint64_t ready_ = 0;    // bit v: flag and enable of vector v are both set
 };
 
 }  // namespace host

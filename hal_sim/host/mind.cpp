@@ -20,14 +20,16 @@ void FirmwareMind::run_until(const sim::Scene& scene, sim::Clicks end) {
   board_.look_at(&scene);
   board_.exchange(now_);
   // bytes are on their way: whoever waits for them looks again
-  if (robot_ && (board_.uart(1).next_arrival(now_) < kNever || board_.uart(2).next_arrival(now_) < kNever)) robot_->wake();
+  if (robot_ && (board_.uart(1).next_arrival(now_) < kNever || board_.uart(2).next_arrival(now_) < kNever))
+    robot_->wake();
   now_ = cycle_at(end);
   if (robot_) robot_->run_until(now_);
 }
 
 sim::WheelAngles FirmwareMind::wheel_angles(sim::Clicks at) {
   const Cycle cycle = cycle_at(at);
-  return {board_.wheel_angle_rad(board::Wheel::Left, cycle), board_.wheel_angle_rad(board::Wheel::Right, cycle)};
+  return {board_.wheel_angle_rad(board::Wheel::Left, cycle),
+          board_.wheel_angle_rad(board::Wheel::Right, cycle)};
 }
 
 sim::MindReport FirmwareMind::report() const {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What drives an e-puck in the world: its board and, in the native way, its firmware. Joins the world's clock to the
-// robot's own.
+// What drives an e-puck in the world: its board and, in the native way, its firmware. Joins the world's clock
+// to the robot's own.
 #pragma once
 #include <memory>
 
@@ -12,9 +12,10 @@ namespace host {
 
 class FirmwareMind final : public sim::RobotMind {
  public:
-  /// `image` null: a robot that is switched off. `copy`: which loaded copy of the image this robot lives in; robots
-  /// of one copy never run at the same time.
-  FirmwareMind(const board::Setup& setup, RobotSettings settings, std::shared_ptr<Image> image, std::size_t copy);
+  /// `image` null: a robot that is switched off. `copy`: which loaded copy of the image this robot lives in;
+  /// robots of one copy never run at the same time.
+  FirmwareMind(const board::Setup& setup, RobotSettings settings, std::shared_ptr<Image> image,
+               std::size_t copy);
 
   void run_until(const sim::Scene& scene, sim::Clicks end) override;
   sim::WheelAngles wheel_angles(sim::Clicks at) override;

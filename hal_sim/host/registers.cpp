@@ -12,8 +12,8 @@ namespace host {
 
 namespace {
 
-constexpr unsigned kSr = 0x042, kDisicnt = 0x052, kIntcon1 = 0x080, kIntcon2 = 0x082, kIfs0 = 0x084, kIec0 = 0x08C,
-                   kIpc0 = 0x094, kRcon = 0x740;
+constexpr unsigned kSr = 0x042, kDisicnt = 0x052, kIntcon1 = 0x080, kIntcon2 = 0x082, kIfs0 = 0x084,
+                   kIec0 = 0x08C, kIpc0 = 0x094, kRcon = 0x740;
 constexpr std::uint16_t kPor = 1 << 0, kBor = 1 << 1, kSwr = 1 << 6;
 
 // timer 1 stands alone; 2 and 3, 4 and 5 are laid out as pairs
@@ -31,7 +31,8 @@ struct PortBlock {
   unsigned tris;
   char letter;
 };
-constexpr PortBlock kPorts[] = {{0x2C0, 'A'}, {0x2C6, 'B'}, {0x2CC, 'C'}, {0x2D2, 'D'}, {0x2DE, 'F'}, {0x2E4, 'G'}};
+constexpr PortBlock kPorts[] = {{0x2C0, 'A'}, {0x2C6, 'B'}, {0x2CC, 'C'},
+                                {0x2D2, 'D'}, {0x2DE, 'F'}, {0x2E4, 'G'}};
 
 // registers that hold what was written and do nothing else here
 constexpr unsigned kKept[] = {0x032, 0x034, 0x044, 0x0C0, 0x0C2, 0x0C4, 0x0C6, 0x2A8, 0x744, 0x770, 0x772};
@@ -64,10 +65,11 @@ bool is_port(unsigned address, char& letter, board::Board::Register& kind) {
 
 const char* vector_name(int vector) {
   static constexpr const char* kVectors[TP_VECTORS] = {
-      "INT0", "IC1",  "OC1",  "T1",   "IC2",  "OC2", "T2",  "T3",  "SPI1", "U1RX", "U1TX", "ADC", "NVM", "SI2C",
-      "MI2C", "CN",   "INT1", "IC7",  "IC8",  "OC3", "OC4", "T4",  "T5",   "INT2", "U2RX", "U2TX", "SPI2", "C1",
-      "IC3",  "IC4",  "IC5",  "IC6",  "OC5",  "OC6", "OC7", "OC8", "INT3", "INT4", "C2",   "?",    "?",    "DCI",
-      "LVD",  "?",    "?",    "?",    "?",    "?",   "?",   "?",   "?",    "?",    "?",    "?"};
+      "INT0", "IC1",  "OC1",  "T1",   "IC2",  "OC2",  "T2",  "T3",  "SPI1", "U1RX", "U1TX",
+      "ADC",  "NVM",  "SI2C", "MI2C", "CN",   "INT1", "IC7", "IC8", "OC3",  "OC4",  "T4",
+      "T5",   "INT2", "U2RX", "U2TX", "SPI2", "C1",   "IC3", "IC4", "IC5",  "IC6",  "OC5",
+      "OC6",  "OC7",  "OC8",  "INT3", "INT4", "C2",   "?",   "?",   "DCI",  "LVD",  "?",
+      "?",    "?",    "?",    "?",    "?",    "?",    "?",   "?",   "?",    "?"};
   return vector >= 0 && vector < TP_VECTORS ? kVectors[vector] : "?";
 }
 
@@ -91,7 +93,8 @@ void NativeRegisters::refuse(unsigned address, const char* what) const {
   robot_.trap(TP_TRAP_UNSIMULATED, std::string(register_name(address)) + ": " + what);
 }
 
-// --- timers ----------------------------------------------------------------------------------------------------------
+// --- timers
+// ----------------------------------------------------------------------------------------------------------
 
 Cycle NativeRegisters::prescale(const Timer& t) const {
   constexpr Cycle kDivide[] = {1, 8, 64, 256};
@@ -137,7 +140,8 @@ NativeRegisters::Timer* NativeRegisters::timer_at(unsigned address, int& which) 
   return nullptr;
 }
 
-// --- words -----------------------------------------------------------------------------------------------------------
+// --- words
+// -----------------------------------------------------------------------------------------------------------
 
 std::uint16_t NativeRegisters::read_word(unsigned address) {
   auto& interrupts = robot_.interrupts();
@@ -172,17 +176,24 @@ std::uint16_t NativeRegisters::read_word(unsigned address) {
   }
   if (address >= kIpc0 && address < kIpc0 + 22) {
     std::uint16_t word = 0;
-    for (int v = static_cast<int>(address - kIpc0) * 2, field = 0; field < 4 && v + field < TP_VECTORS; ++field)
+    for (int v = static_cast<int>(address - kIpc0) * 2, field = 0; field < 4 && v + field < TP_VECTORS;
+         ++field)
       word |= static_cast<std::uint16_t>(interrupts.source(v + field).priority << (4 * field));
     return word;
   }
   switch (address) {
-    case kSr: return static_cast<std::uint16_t>(std::min(robot_.cpu_priority(), 7) << 5);
-    case kIntcon1: return intcon1_;
-    case kIntcon2: return static_cast<std::uint16_t>(intcon2_ | (robot_.disi_active() ? 1 << 14 : 0));
-    case kDisicnt: return robot_.disi_active() ? 1 : 0;
-    case kRcon: return rcon_;
-    default: break;
+    case kSr:
+      return static_cast<std::uint16_t>(std::min(robot_.cpu_priority(), 7) << 5);
+    case kIntcon1:
+      return intcon1_;
+    case kIntcon2:
+      return static_cast<std::uint16_t>(intcon2_ | (robot_.disi_active() ? 1 << 14 : 0));
+    case kDisicnt:
+      return robot_.disi_active() ? 1 : 0;
+    case kRcon:
+      return rcon_;
+    default:
+      break;
   }
   if (std::find(std::begin(kKept), std::end(kKept), address) != std::end(kKept)) return kept_[address];
   refuse(address, "this register is not simulated yet (see docs/limits.md)");
@@ -201,9 +212,11 @@ void NativeRegisters::write_word(unsigned address, std::uint16_t value) {
     if (address == kTimers[n].pr) {
       t->pr = value;
     } else if (address == kTimers[n].con) {
-      if (value & 0x0002) refuse(address, "an external timer clock (TCS) is not simulated in the native way yet");
+      if (value & 0x0002)
+        refuse(address, "an external timer clock (TCS) is not simulated in the native way yet");
       if (value & 0x0040) refuse(address, "gated timer mode (TGATE) is not simulated in the native way yet");
-      if ((value & 0x0008) && n > 0) refuse(address, "32-bit timer mode (T32) is not simulated in the native way yet");
+      if ((value & 0x0008) && n > 0)
+        refuse(address, "32-bit timer mode (T32) is not simulated in the native way yet");
       t->con = value;
     } else {
       t->count = value;
@@ -227,17 +240,27 @@ void NativeRegisters::write_word(unsigned address, std::uint16_t value) {
     return robot_.changed();
   }
   if (address >= kIpc0 && address < kIpc0 + 22) {
-    for (int v = static_cast<int>(address - kIpc0) * 2, field = 0; field < 4 && v + field < TP_VECTORS; ++field)
+    for (int v = static_cast<int>(address - kIpc0) * 2, field = 0; field < 4 && v + field < TP_VECTORS;
+         ++field)
       interrupts.source(v + field).priority = value >> (4 * field) & 7;
     return robot_.changed();
   }
   switch (address) {
-    case kSr: return robot_.set_cpu_priority(value >> 5 & 7);
-    case kIntcon1: intcon1_ = value; return;
-    case kIntcon2: intcon2_ = value & 0x801F; return;
-    case kDisicnt: return robot_.on_disi(value & 0x3FFF);
-    case kRcon: rcon_ = value; return;
-    default: break;
+    case kSr:
+      return robot_.set_cpu_priority(value >> 5 & 7);
+    case kIntcon1:
+      intcon1_ = value;
+      return;
+    case kIntcon2:
+      intcon2_ = value & 0x801F;
+      return;
+    case kDisicnt:
+      return robot_.on_disi(value & 0x3FFF);
+    case kRcon:
+      rcon_ = value;
+      return;
+    default:
+      break;
   }
   if (std::find(std::begin(kKept), std::end(kKept), address) != std::end(kKept)) {
     kept_[address] = value;
@@ -255,8 +278,9 @@ std::uint16_t NativeRegisters::read(unsigned address, unsigned bits) {
 void NativeRegisters::write(unsigned address, std::uint16_t value, unsigned bits) {
   if (bits > 8) return write_word(address & ~1u, value);
   const std::uint16_t word = read_word(address & ~1u);
-  const std::uint16_t merged = (address & 1) ? static_cast<std::uint16_t>((word & 0x00FF) | (value & 0xFF) << 8)
-                                             : static_cast<std::uint16_t>((word & 0xFF00) | (value & 0xFF));
+  const std::uint16_t merged = (address & 1)
+                                   ? static_cast<std::uint16_t>((word & 0x00FF) | (value & 0xFF) << 8)
+                                   : static_cast<std::uint16_t>((word & 0xFF00) | (value & 0xFF));
   write_word(address & ~1u, merged);
 }
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The special-function registers that natively run firmware may touch beside the e_* API: ports, timers 1 to 5,
-// interrupt control, RCON and SR. Reached through tp_sfr_read / tp_sfr_write.
+// The special-function registers that natively run firmware may touch beside the e_* API: ports, timers 1 to
+// 5, interrupt control, RCON and SR. Reached through tp_sfr_read / tp_sfr_write.
 //
-// Modelled: TRIS/PORT/LAT of all ports (on the board), Timer 1 to 5 with internal clock and prescaler, IFS/IEC/IPC,
-// INTCON1.NSTDIS, INTCON2.DISI, DISICNT, SR.IPL, RCON. Kept but without effect: ADPCFG, CORCON, PSVPAG, TBLPAG,
-// PMD1, PMD2, CNPU1, CNPU2, CNEN1, CNEN2, OSCTUN.
-// Not modelled: gated, external-clock and 32-bit timers, every other peripheral: the first touch is a trap that
-// names the register. Source: DS70143 sections 5, 8 and 9 to 11.
+// Modelled: TRIS/PORT/LAT of all ports (on the board), Timer 1 to 5 with internal clock and prescaler,
+// IFS/IEC/IPC, INTCON1.NSTDIS, INTCON2.DISI, DISICNT, SR.IPL, RCON. Kept but without effect: ADPCFG, CORCON,
+// PSVPAG, TBLPAG, PMD1, PMD2, CNPU1, CNPU2, CNEN1, CNEN2, OSCTUN. Not modelled: gated, external-clock and
+// 32-bit timers, every other peripheral: the first touch is a trap that names the register. Source: DS70143
+// sections 5, 8 and 9 to 11.
 #pragma once
 #include <array>
 #include <cstdint>

@@ -25,16 +25,26 @@ Place culprit(const std::vector<Place>& backtrace) {
 
 const char* trap_name(int kind) {
   switch (kind) {
-    case 0: return "unexpected reset";
-    case TP_TRAP_MATH: return "math error";
-    case TP_TRAP_ADDRESS: return "address error";
-    case TP_TRAP_STACK: return "stack error";
-    case TP_TRAP_ABORT: return "abort";
-    case TP_TRAP_INTERRUPT: return "interrupt trouble";
-    case TP_TRAP_ILLEGAL: return "illegal instruction";
-    case TP_TRAP_SANITIZER: return "sanitizer";
-    case TP_TRAP_UNSIMULATED: return "not simulated";
-    default: return "trap";
+    case 0:
+      return "unexpected reset";
+    case TP_TRAP_MATH:
+      return "math error";
+    case TP_TRAP_ADDRESS:
+      return "address error";
+    case TP_TRAP_STACK:
+      return "stack error";
+    case TP_TRAP_ABORT:
+      return "abort";
+    case TP_TRAP_INTERRUPT:
+      return "interrupt trouble";
+    case TP_TRAP_ILLEGAL:
+      return "illegal instruction";
+    case TP_TRAP_SANITIZER:
+      return "sanitizer";
+    case TP_TRAP_UNSIMULATED:
+      return "not simulated";
+    default:
+      return "trap";
   }
 }
 
@@ -124,7 +134,8 @@ void Robot::run_until(Cycle end) {
   running_robot = outer;
 }
 
-// --- time --------------------------------------------------------------------------------------------------------
+// --- time
+// --------------------------------------------------------------------------------------------------------
 
 void Robot::advance_main(Cycle main) {
   const unsigned __int128 stolen = static_cast<unsigned __int128>(main) * stolen_q32_ + fraction_;
@@ -159,7 +170,8 @@ Cycle Robot::next_disturbance() {
     // a main program that masks a waiting interrupt for ever is found out after a while
     const int waiting = interrupts_.longest_waiting(cpu_priority_, held);
     if (waiting >= 0)
-      next = std::min(next, std::max(now_ + 1, interrupts_.source(waiting).flag_since + kBlockedInterruptCycles));
+      next = std::min(next,
+                      std::max(now_ + 1, interrupts_.source(waiting).flag_since + kBlockedInterruptCycles));
   }
   return next;
 }
@@ -182,14 +194,16 @@ void Robot::set_background(int slot, Cycle period, Cycle cost) {
   background_[static_cast<std::size_t>(slot)] = {period, cost};
   std::uint64_t share = 0;
   for (const auto& b : background_)
-    if (b.period > 0) share += (static_cast<std::uint64_t>(b.cost) << kQ) / static_cast<std::uint64_t>(b.period);
+    if (b.period > 0)
+      share += (static_cast<std::uint64_t>(b.cost) << kQ) / static_cast<std::uint64_t>(b.period);
   share = std::min<std::uint64_t>(share, kOne / 100 * kMostBackgroundPercent);
   stolen_q32_ = static_cast<std::uint64_t>((static_cast<unsigned __int128>(share) << kQ) / (kOne - share));
   note_write();
   give_budget();
 }
 
-// --- interrupts ----------------------------------------------------------------------------------------------------
+// --- interrupts
+// ----------------------------------------------------------------------------------------------------
 
 void Robot::irq_install(int vector, void (*handler)(), int priority, Cycle entry_cycles) {
   auto& s = interrupts_.source(vector);
@@ -228,8 +242,8 @@ void Robot::serve(int vector) {
   }
   if (!handler) {
     trap(TP_TRAP_INTERRUPT, std::string("interrupt ") + vector_name(vector) +
-                                " is enabled and was raised, but the program has no handler _" + vector_name(vector) +
-                                "Interrupt; on the chip the processor resets");
+                                " is enabled and was raised, but the program has no handler _" +
+                                vector_name(vector) + "Interrupt; on the chip the processor resets");
   }
   const int outer = cpu_priority_;
   cpu_priority_ = registers_->nesting_disabled() ? 7 : s.priority;
@@ -248,11 +262,12 @@ void Robot::check_blocked() {
   const int waiting = interrupts_.longest_waiting(cpu_priority_, disi_until_ > now_);
   if (waiting < 0 || now_ - interrupts_.source(waiting).flag_since < kBlockedInterruptCycles) return;
   if (handler_depth_ > 0) return;  // a long handler delays others on the chip too
-  trap(TP_TRAP_INTERRUPT, std::string("interrupts have been off for more than a second while ") + vector_name(waiting) +
-                              " is waiting: an endless loop with interrupts off");
+  trap(TP_TRAP_INTERRUPT, std::string("interrupts have been off for more than a second while ") +
+                              vector_name(waiting) + " is waiting: an endless loop with interrupts off");
 }
 
-// --- what compiled code calls ---------------------------------------------------------------------------------------
+// --- what compiled code calls
+// ---------------------------------------------------------------------------------------
 
 void Robot::on_event() {
   fold();
@@ -413,7 +428,8 @@ std::int64_t Robot::next_rand() {
   return (rand_state_ >> 16) & 0x7FFF;
 }
 
-// --- the end of a program ----------------------------------------------------------------------------------------
+// --- the end of a program
+// ----------------------------------------------------------------------------------------
 
 void Robot::on_reset(const char* unexpected_reason) {
   fold();
@@ -484,7 +500,8 @@ std::vector<Place> Robot::walk(std::uintptr_t pc, std::uintptr_t frame) const {
   const auto add = [&](std::uintptr_t address) {
     if (!copy_.is_code(address)) return;
     Place place = image_->symbols().find(address - copy_.base());
-    if (place.function.rfind("tp_image_", 0) != 0) places.push_back(std::move(place));  // the runtime's own frames say nothing
+    if (place.function.rfind("tp_image_", 0) != 0)
+      places.push_back(std::move(place));  // the runtime's own frames say nothing
   };
   if (pc) add(pc);
   while (places.size() < kMostFrames && fiber_.is_on_stack(frame) && frame % sizeof(void*) == 0 &&
@@ -517,7 +534,8 @@ std::vector<char> Robot::read_variable(const std::string& symbol, std::size_t by
     std::memcpy(value.data(), live, bytes);
   } else {
     const std::size_t hole = static_cast<std::size_t>(image.hole_end - image.hole_begin);
-    const std::size_t offset = static_cast<std::size_t>(live - image.data_begin) - (live >= image.hole_end ? hole : 0);
+    const std::size_t offset =
+        static_cast<std::size_t>(live - image.data_begin) - (live >= image.hole_end ? hole : 0);
     std::memcpy(value.data(), data_.data() + offset, bytes);
   }
   return value;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One robot's processor in the native way: a fiber running compiled firmware, its private data, a cycle clock fed
-// by block costs, and the interrupt controller.
+// One robot's processor in the native way: a fiber running compiled firmware, its private data, a cycle clock
+// fed by block costs, and the interrupt controller.
 //
 //   run_until(end) --enter--> firmware ... tp_event() ... tp_poll() ... --yield--> run_until returns
 //
@@ -26,13 +26,13 @@ class NativeRegisters;
 /// Why a robot stopped or restarted, for reports.
 struct TrapReport {
   std::string robot;
-  int kind = 0;              ///< TP_TRAP_*; 0: an unexpected reset (the robot went on)
-  std::string message;       ///< one sentence
-  Place place;               ///< where in the firmware
-  Cycle cycle = 0;           ///< cycles since power-up
-  double time_s = 0;         ///< world time
+  int kind = 0;                  ///< TP_TRAP_*; 0: an unexpected reset (the robot went on)
+  std::string message;           ///< one sentence
+  Place place;                   ///< where in the firmware
+  Cycle cycle = 0;               ///< cycles since power-up
+  double time_s = 0;             ///< world time
   std::vector<Place> backtrace;  ///< innermost first, at most 16
-  int count = 1;             ///< how often (unexpected resets only)
+  int count = 1;                 ///< how often (unexpected resets only)
 };
 
 /// "division by zero", "address error" ...
@@ -41,7 +41,7 @@ const char* trap_name(int kind);
 /// Every way a robot's processor can be set up.
 struct RobotSettings {
   std::string name;
-  std::uint64_t seed = 0;          ///< of rand()
+  std::uint64_t seed = 0;                ///< of rand()
   std::size_t stack_bytes = 256 * 1024;  ///< PC frames are two to four times the chip's; see docs/limits.md
 };
 
@@ -53,7 +53,8 @@ class Robot final : public Context {
   Robot(const Robot&) = delete;
   Robot& operator=(const Robot&) = delete;
 
-  // --- for the scheduler ------------------------------------------------------------------------------------
+  // --- for the scheduler
+  // ------------------------------------------------------------------------------------
   /// Runs firmware until cycle `end`. Returns at once while the firmware sleeps beyond `end`.
   void run_until(Cycle end);
   /// Something outside changed (a byte came in, the selector was turned): a sleeping wait looks again.
@@ -70,7 +71,8 @@ class Robot final : public Context {
   Cycle idle_cycles() const { return idle_ + (idling_ && !stopped_ && end_ > now_ ? end_ - now_ : 0); }
   /// Share of its life in which it did anything but wait, 0 to 1.
   double cpu_load() const {
-    return lived_cycles() > 0 ? 1 - static_cast<double>(idle_cycles()) / static_cast<double>(lived_cycles()) : 0;
+    return lived_cycles() > 0 ? 1 - static_cast<double>(idle_cycles()) / static_cast<double>(lived_cycles())
+                              : 0;
   }
   std::uint64_t hash() const;
   /// World time of a cycle, for reports.
@@ -79,7 +81,8 @@ class Robot final : public Context {
   /// Value of a global of the firmware by name, for tests and supervisors: its bytes now. Empty when unknown.
   std::vector<char> read_variable(const std::string& symbol, std::size_t bytes) const;
 
-  // --- Context ----------------------------------------------------------------------------------------------
+  // --- Context
+  // ----------------------------------------------------------------------------------------------
   board::Board& board() override { return board_; }
   Cycle now() override;
   void lower_horizon(Cycle at) override {
@@ -94,7 +97,8 @@ class Robot final : public Context {
   void set_background(int slot, Cycle period, Cycle cost) override;
   [[noreturn]] void trap(int kind, std::string_view message) override;
 
-  // --- what the compiler inserts ------------------------------------------------------------------------------
+  // --- what the compiler inserts
+  // ------------------------------------------------------------------------------
   void on_event();
   void on_poll(std::int64_t loop);
   void on_delay(Cycle rounds, Cycle cycles_per_round);
@@ -104,16 +108,21 @@ class Robot final : public Context {
   std::int64_t next_rand();
   void seed_rand(std::int64_t seed) { rand_state_ = static_cast<std::uint32_t>(seed); }
 
-  // --- for the register file ----------------------------------------------------------------------------------
+  // --- for the register file
+  // ----------------------------------------------------------------------------------
   InterruptController& interrupts() { return interrupts_; }
   NativeRegisters& registers() { return *registers_; }
   int cpu_priority() const { return cpu_priority_; }
-  void set_cpu_priority(int priority) { cpu_priority_ = priority; changed(); }
+  void set_cpu_priority(int priority) {
+    cpu_priority_ = priority;
+    changed();
+  }
   bool disi_active() { return now() < disi_until_; }
   /// Interrupt state changed: look for something to deliver as soon as the current block ends.
   void changed();
 
-  // --- for the fault handler ----------------------------------------------------------------------------------
+  // --- for the fault handler
+  // ----------------------------------------------------------------------------------
   bool owns_code(std::uintptr_t pc) const { return copy_.is_code(pc); }
   const Fiber& fiber() const { return fiber_; }
   /// Runs on the recovery stack after a hardware fault; never returns.
@@ -125,18 +134,19 @@ class Robot final : public Context {
   static void enter_firmware(void* self);
   void restart_program();
   void swap_in();
-  void fold();                      // spent budget -> now_
-  void advance_main(Cycle main);    // main-program cycles -> real cycles
+  void fold();                         // spent budget -> now_
+  void advance_main(Cycle main);       // main-program cycles -> real cycles
   Cycle main_until(Cycle real) const;  // most main cycles that end at or before now_ + real
   void give_budget();
-  Cycle next_disturbance();         // when an interrupt or the end of DISI may change the program's course
-  void deliver();                   // due interrupts, in order
+  Cycle next_disturbance();  // when an interrupt or the end of DISI may change the program's course
+  void deliver();            // due interrupts, in order
   void serve(int vector);
-  void pass_window();               // now_ >= end_: let the others run
-  void run_main(Cycle main);        // spends main cycles, delivering on the way
-  void sleep_until(Cycle target, Cycle round);  // a wait that polls every `round` cycles; ends early when disturbed
-  void doze(Cycle until);           // yields; the scheduler comes back at `until` or when something woke the robot
-  void check_blocked();             // endless loop with interrupts off
+  void pass_window();         // now_ >= end_: let the others run
+  void run_main(Cycle main);  // spends main cycles, delivering on the way
+  void sleep_until(Cycle target,
+                   Cycle round);  // a wait that polls every `round` cycles; ends early when disturbed
+  void doze(Cycle until);  // yields; the scheduler comes back at `until` or when something woke the robot
+  void check_blocked();    // endless loop with interrupts off
   [[noreturn]] void stop_with(TrapReport report);
   std::vector<Place> walk(std::uintptr_t pc, std::uintptr_t frame) const;
   TrapReport report_here(int kind, std::string_view message);
@@ -148,31 +158,33 @@ class Robot final : public Context {
   Fiber fiber_;
   std::unique_ptr<NativeRegisters> registers_;
   InterruptController interrupts_;
-  std::vector<char> data_;          // private data while another robot of the copy is live
+  std::vector<char> data_;  // private data while another robot of the copy is live
 
-  Cycle now_ = 0;                   // real cycles, up to the last fold
-  Cycle issued_ = 0;                // budget given at that moment
-  std::uint64_t fraction_ = 0;      // of a cycle, Q32, left over from stretching
-  std::uint64_t stolen_q32_ = 0;    // cycles background handlers take per main cycle, Q32
-  struct Background { Cycle period = 0, cost = 0; };
+  Cycle now_ = 0;                 // real cycles, up to the last fold
+  Cycle issued_ = 0;              // budget given at that moment
+  std::uint64_t fraction_ = 0;    // of a cycle, Q32, left over from stretching
+  std::uint64_t stolen_q32_ = 0;  // cycles background handlers take per main cycle, Q32
+  struct Background {
+    Cycle period = 0, cost = 0;
+  };
   std::vector<Background> background_ = std::vector<Background>(16);
 
-  Cycle end_ = 0;                   // of the window
+  Cycle end_ = 0;  // of the window
   Cycle window_start_ = 0;
   bool stopped_ = false;
   bool reset_asked_ = false;
   bool woken_ = false;
-  bool idling_ = false;             // asleep because it waits, not because a delay loop counts
-  Cycle asleep_until_ = -1;         // the firmware sleeps up to this cycle; -1 awake
+  bool idling_ = false;      // asleep because it waits, not because a delay loop counts
+  Cycle asleep_until_ = -1;  // the firmware sleeps up to this cycle; -1 awake
   Cycle idle_ = 0;
 
   int cpu_priority_ = 0;
   int handler_depth_ = 0;
   Cycle disi_until_ = 0;
-  std::int64_t served_ = 0;         // interrupts so far
+  std::int64_t served_ = 0;  // interrupts so far
 
   Cycle horizon_ = kNever;
-  bool looked_outside_ = false;     // since the last round of a wait
+  bool looked_outside_ = false;  // since the last round of a wait
   std::int64_t poll_loop_ = -1;
   Cycle poll_at_ = 0;
   std::int64_t poll_served_ = 0;
@@ -181,8 +193,8 @@ class Robot final : public Context {
   std::vector<TrapReport> traps_;
 };
 
-/// Installs the fault handlers of this process (SIGSEGV, SIGBUS, SIGFPE, SIGILL) once, and this thread's signal and
-/// recovery stacks. Faults outside firmware go to the handlers that were there before.
+/// Installs the fault handlers of this process (SIGSEGV, SIGBUS, SIGFPE, SIGILL) once, and this thread's
+/// signal and recovery stacks. Faults outside firmware go to the handlers that were there before.
 void catch_faults_on_this_thread();
 
 }  // namespace host

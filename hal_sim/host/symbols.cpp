@@ -34,7 +34,8 @@ bool visit_symbols(Elf* elf, Visit visit) {
 std::string function_symbol(Elf* elf, std::uintptr_t address) {
   std::string found = "?";
   visit_symbols(elf, [&](const char* name, const GElf_Sym& s) {
-    if (GELF_ST_TYPE(s.st_info) != STT_FUNC || address < s.st_value || address >= s.st_value + s.st_size) return false;
+    if (GELF_ST_TYPE(s.st_info) != STT_FUNC || address < s.st_value || address >= s.st_value + s.st_size)
+      return false;
     found = name;
     return true;
   });

@@ -25,7 +25,8 @@ class Symbols {
   /// `address` is relative to the image's load address.
   Place find(std::uintptr_t address) const;
 
-  /// Address (relative to the load address) and size in bytes of a global or static object; false when unknown.
+  /// Address (relative to the load address) and size in bytes of a global or static object; false when
+  /// unknown.
   bool find_object(const std::string& name, std::uintptr_t& address, std::size_t& bytes) const;
 
  private:

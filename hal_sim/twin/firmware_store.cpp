@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// From what a user calls a firmware to an image file: a .so as it is, a folder or a controller's name built first.
+// From what a user calls a firmware to an image file: a .so as it is, a folder or a controller's name built
+// first.
 #include <unistd.h>
 
 #include <climits>
@@ -28,7 +29,8 @@ std::vector<std::string> controller_names() {
   std::vector<std::string> names;
   std::error_code none;
   for (const auto& entry : fs::directory_iterator(fs::path(project_root()) / "firmware", none))
-    if (entry.is_directory() && entry.path().filename() != "include") names.push_back(entry.path().filename().string());
+    if (entry.is_directory() && entry.path().filename() != "include")
+      names.push_back(entry.path().filename().string());
   return names;
 }
 
@@ -47,7 +49,8 @@ fs::path output_for(const fs::path& folder, const Options& options) {
 std::string project_root() {
   if (const char* root = std::getenv("TWINPUCK_ROOT")) return root;
   std::error_code none;
-  for (fs::path at = fs::read_symlink("/proc/self/exe", none).parent_path(); at.has_relative_path(); at = at.parent_path())
+  for (fs::path at = fs::read_symlink("/proc/self/exe", none).parent_path(); at.has_relative_path();
+       at = at.parent_path())
     if (fs::exists(at / "firmware" / "include")) return at.string();
   return TWINPUCK_SOURCE_DIR;
 }
@@ -62,7 +65,8 @@ std::string build_folder() {
 
 std::string provide_image(const std::string& name, const std::string& from_folder, const Options& options,
                           std::vector<std::string>& problems) {
-  fs::path path = fs::path(name).is_absolute() || from_folder.empty() ? fs::path(name) : fs::path(from_folder) / name;
+  fs::path path =
+      fs::path(name).is_absolute() || from_folder.empty() ? fs::path(name) : fs::path(from_folder) / name;
   std::error_code none;
   if (!fs::exists(path, none) && fs::exists(name, none)) path = name;
   if (!fs::exists(path, none) || (fs::is_directory(path, none) && !holds_c(path))) {
@@ -71,8 +75,11 @@ std::string provide_image(const std::string& name, const std::string& from_folde
   }
   if (!fs::exists(path, none)) {
     const std::string guess = sim::did_you_mean(name, controller_names());
-    problems.push_back(name + ": firmware: got a name that is neither a file nor a controller, expected a .so, a folder with C files "
-                       "or a folder under firmware/" + (guess.empty() ? "" : "; did you mean '" + guess + "'?"));
+    problems.push_back(name +
+                       ": firmware: got a name that is neither a file nor a controller, expected a .so, a "
+                       "folder with C files "
+                       "or a folder under firmware/" +
+                       (guess.empty() ? "" : "; did you mean '" + guess + "'?"));
     return "";
   }
   if (!fs::is_directory(path, none)) return path.string();

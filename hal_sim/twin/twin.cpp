@@ -14,7 +14,8 @@ namespace twin {
 namespace {
 
 // what the command line says about a robot, or what the world file says
-std::string chosen(const std::vector<Choice>& choices, const std::string& robot, const std::string& from_world) {
+std::string chosen(const std::vector<Choice>& choices, const std::string& robot,
+                   const std::string& from_world) {
   std::string value = from_world;
   for (const auto& c : choices)
     if (c.robot == robot || c.robot == "*") value = c.value;
@@ -28,13 +29,16 @@ void check_names(const sim::WorldDesc& world, const std::vector<Choice>& choices
   for (const auto& c : choices) {
     if (c.robot == "*" || std::find(names.begin(), names.end(), c.robot) != names.end()) continue;
     const std::string guess = sim::did_you_mean(c.robot, names);
-    problems.push_back("command line: " + std::string(option) + ": got robot '" + c.robot + "', expected a robot of the world" +
+    problems.push_back("command line: " + std::string(option) + ": got robot '" + c.robot +
+                       "', expected a robot of the world" +
                        (guess.empty() ? "" : "; did you mean '" + guess + "'?"));
   }
 }
 
 // where a robot's pseudo-terminal is found: a stable name in the run's folder
-std::string pty_link(const std::string& robot, int port) { return "twinpuck-" + robot + "-uart" + std::to_string(port); }
+std::string pty_link(const std::string& robot, int port) {
+  return "twinpuck-" + robot + "-uart" + std::to_string(port);
+}
 
 // noise settings stay with the world's optics; the board gets what is this robot's own
 board::Setup setup_of(const sim::WorldDesc& world, int index) {
@@ -48,7 +52,8 @@ board::Setup setup_of(const sim::WorldDesc& world, int index) {
   setup.wheel_ratio = {variation.left_wheel_ratio, variation.right_wheel_ratio};
   for (std::size_t i = 0; i < setup.ir_gain.size(); ++i) {
     if (i < variation.sensor_gain.size()) setup.ir_gain[i] = variation.sensor_gain[i];
-    if (i < variation.sensor_offset_counts.size()) setup.ir_offset_counts[i] = variation.sensor_offset_counts[i];
+    if (i < variation.sensor_offset_counts.size())
+      setup.ir_offset_counts[i] = variation.sensor_offset_counts[i];
   }
   setup.clock_ppm = variation.clock_ppm;
   setup.boot_delay_s = variation.boot_delay_s;
@@ -57,7 +62,8 @@ board::Setup setup_of(const sim::WorldDesc& world, int index) {
 
 }  // namespace
 
-std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options, std::vector<std::string>& problems) {
+std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
+                                 std::vector<std::string>& problems) {
   const std::size_t problems_before = problems.size();
   check_names(world, options.firmware, "--fw", problems);
   check_names(world, options.uart1, "--uart", problems);
@@ -83,7 +89,8 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options, s
 
   std::unique_ptr<Twin> twin(new Twin);
   const std::size_t n = world.robots.size();
-  const std::size_t shares = std::max<std::size_t>(1, std::min(n, static_cast<std::size_t>(std::max(1, options.threads))));
+  const std::size_t shares =
+      std::max<std::size_t>(1, std::min(n, static_cast<std::size_t>(std::max(1, options.threads))));
   std::vector<std::unique_ptr<sim::RobotMind>> minds;
   std::size_t share = 0;
   for (std::size_t i = 0; i < n; ++i) {
@@ -91,9 +98,11 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options, s
     while (i >= n * (share + 1) / shares) ++share;
     const auto& robot = world.robots[i];
     const board::Setup setup = setup_of(world, static_cast<int>(i));
-    auto mind = std::make_unique<host::FirmwareMind>(setup, host::RobotSettings{robot.name, setup.seed},
-                                                     firmware[i].empty() ? nullptr : images[firmware[i]], share);
-    const std::string ends[2] = {chosen(options.uart1, robot.name, robot.uart1), chosen(options.uart2, robot.name, robot.uart2)};
+    auto mind =
+        std::make_unique<host::FirmwareMind>(setup, host::RobotSettings{robot.name, setup.seed},
+                                             firmware[i].empty() ? nullptr : images[firmware[i]], share);
+    const std::string ends[2] = {chosen(options.uart1, robot.name, robot.uart1),
+                                 chosen(options.uart2, robot.name, robot.uart2)};
     for (int port = 1; port <= 2; ++port) {
       std::string error;
       auto end = board::open_uart_end(ends[port - 1], pty_link(robot.name, port), error);

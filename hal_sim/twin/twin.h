@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A whole twin: a world, a board and a firmware for every robot in it, ready to step. The command line and the test
-// fixture are two thin users of this class.
+// A whole twin: a world, a board and a firmware for every robot in it, ready to step. The command line and
+// the test fixture are two thin users of this class.
 #pragma once
 #include <functional>
 #include <memory>
@@ -13,18 +13,21 @@
 
 namespace twin {
 
-/// One `--fw` or `--uart`: what a robot gets instead of what the world file says. Robot "*" means every robot.
+/// One `--fw` or `--uart`: what a robot gets instead of what the world file says. Robot "*" means every
+/// robot.
 struct Choice {
   std::string robot;
   std::string value;
 };
 
 struct Options {
-  std::vector<Choice> firmware;  ///< value: a .so, a folder with C files, or the name of a controller under firmware/
-  std::vector<Choice> uart1;     ///< value: none, pty, tcp:PORT or file:PATH
+  std::vector<Choice>
+      firmware;  ///< value: a .so, a folder with C files, or the name of a controller under firmware/
+  std::vector<Choice> uart1;  ///< value: none, pty, tcp:PORT or file:PATH
   std::vector<Choice> uart2;
-  int threads = 1;               ///< 1 or more; results do not depend on it
-  std::string world_folder;      ///< where relative firmware paths of the world file start; empty: the current folder
+  int threads = 1;  ///< 1 or more; results do not depend on it
+  std::string
+      world_folder;  ///< where relative firmware paths of the world file start; empty: the current folder
   std::string optimisation = "-O1";  ///< of controllers that are built from source: -O0 -O1 -O2 -Os
   bool sanitize = false;             ///< ... with address and 16-bit overflow checks
   bool coverage = false;             ///< ... with line counters
@@ -32,15 +35,16 @@ struct Options {
   std::function<void(const std::string&)> tell;
 };
 
-/// Finds the controller that `name` means and builds it when it is source. Returns the path of the image; empty on
-/// failure, with lines appended to `problems`. Builds go to build/controllers/ and are incremental.
+/// Finds the controller that `name` means and builds it when it is source. Returns the path of the image;
+/// empty on failure, with lines appended to `problems`. Builds go to build/controllers/ and are incremental.
 std::string provide_image(const std::string& name, const std::string& from_folder, const Options& options,
                           std::vector<std::string>& problems);
 
 class Twin {
  public:
   /// Joins world and firmware. Null when anything is wrong; every problem is one line in `problems`.
-  static std::unique_ptr<Twin> open(sim::WorldDesc world, const Options& options, std::vector<std::string>& problems);
+  static std::unique_ptr<Twin> open(sim::WorldDesc world, const Options& options,
+                                    std::vector<std::string>& problems);
 
   const sim::WorldDesc& world() const { return simulation_->scene().world(); }
   sim::Simulation& simulation() { return *simulation_; }
@@ -64,7 +68,8 @@ class Twin {
   std::vector<std::shared_ptr<host::Image>> images_;
 };
 
-/// Folder of the project: the one that holds firmware/include. TWINPUCK_ROOT, or found from the executable's place.
+/// Folder of the project: the one that holds firmware/include. TWINPUCK_ROOT, or found from the executable's
+/// place.
 std::string project_root();
 /// Folder of the executables and of everything built from source.
 std::string build_folder();

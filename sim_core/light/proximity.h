@@ -18,8 +18,8 @@ struct ProximityOptics;  ///< rays and tables of every sensor of a world, resolv
 /// One noise-free evaluation of a sensor.
 struct ProximityResponse {
   double value = 0;  ///< table output for the apparent distance (the profile's own unit: counts of 4095)
-  double relative_noise = 0;  ///< standard deviation (gaussian) or half width (uniform) as a fraction of
-                              ///< value; the world file's noise scale is already in it
+  double relative_noise = 0;       ///< standard deviation (gaussian) or half width (uniform) as a fraction of
+                                   ///< value; the world file's noise scale is already in it
   bool uniform_noise = false;      ///< noise law of the sensor
   double apparent_distance_m = 0;  ///< after the colour rule; the table's last row where nothing is seen
 };

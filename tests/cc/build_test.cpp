@@ -24,7 +24,8 @@ TEST(build, a_changed_header_recompiles_who_includes_it) {
   Folder folder;
   folder.file("prog/speed.h", "#define SPEED 3\n");
   folder.file("prog/other.c", "int other(void) { return 1; }");
-  const char* text = "#include <stdio.h>\n#include \"speed.h\"\nint main(void) { printf(\"%d\", SPEED); return 0; }";
+  const char* text =
+      "#include <stdio.h>\n#include \"speed.h\"\nint main(void) { printf(\"%d\", SPEED); return 0; }";
   ASSERT_TRUE(build(folder, text).ok);
   folder.file("prog/speed.h", "#define SPEED 4\n");
   auto again = build(folder, text);
@@ -34,7 +35,9 @@ TEST(build, a_changed_header_recompiles_who_includes_it) {
 }
 
 TEST(build, the_programs_own_function_replaces_the_librarys) {
-  auto run = run_c("#include <stdio.h>\nint abs(int v) { return v + 1000; } int puts(const char *s) { printf(\"mine\"); return 0; }\nint main(void) { puts(\"x\"); return 0; }");
+  auto run = run_c(
+      "#include <stdio.h>\nint abs(int v) { return v + 1000; } int puts(const char *s) { printf(\"mine\"); "
+      "return 0; }\nint main(void) { puts(\"x\"); return 0; }");
   EXPECT_EQ(run.console, "mine");
 }
 
@@ -53,7 +56,8 @@ TEST(build, several_mains_and_none_are_said_clearly) {
   folder.file("prog/second.c", "int main(void) { return 2; }");
   auto two = build(folder, "int main(void) { return 1; }");
   EXPECT_FALSE(two.ok);
-  EXPECT_NE(text_of(two).find("got 2 definitions (main.c, second.c), expected 1"), std::string::npos) << text_of(two);
+  EXPECT_NE(text_of(two).find("got 2 definitions (main.c, second.c), expected 1"), std::string::npos)
+      << text_of(two);
   Folder other;
   auto none = build(other, "int start(void) { return 1; }");
   EXPECT_NE(text_of(none).find("main(): got no definition"), std::string::npos) << text_of(none);
@@ -65,7 +69,9 @@ TEST(build, several_mains_and_none_are_said_clearly) {
 
 TEST(build, sixteen_bit_warnings_are_passed_on) {
   Folder folder;
-  auto built = build(folder, "#include <stdio.h>\nint a = 70000;\nint f(int i) { return i << 16; }\nint main(void) { int i; for (i = 0; i < 100000; i++) printf(\"%ld\", i); return 0; }");
+  auto built = build(folder,
+                     "#include <stdio.h>\nint a = 70000;\nint f(int i) { return i << 16; }\nint main(void) { "
+                     "int i; for (i = 0; i < 100000; i++) printf(\"%ld\", i); return 0; }");
   ASSERT_TRUE(built.ok);
   std::string text = text_of(built);
   EXPECT_NE(text.find("main.c:2"), std::string::npos) << text;
@@ -92,7 +98,9 @@ TEST(build, too_much_data_is_warned_of) {
 
 TEST(lint, finds_plain_flags_and_timer_conflicts) {
   Folder folder;
-  folder.file("prog/main.c", "int flag; void _T5Interrupt(void) { flag = 1; }\n#include \"motor_led/e_motors.h\"\nint main(void) {\n  while (!flag);\n  return 0; }");
+  folder.file("prog/main.c",
+              "int flag; void _T5Interrupt(void) { flag = 1; }\n#include \"motor_led/e_motors.h\"\nint "
+              "main(void) {\n  while (!flag);\n  return 0; }");
   folder.file("prog/motor_led/e_motors.h", "void e_init_motors(void);\n");
   cc::BuildOptions options;
   options.source_dir = folder.path / "prog";
@@ -104,10 +112,12 @@ TEST(lint, finds_plain_flags_and_timer_conflicts) {
 
 TEST(costs, callees_are_included_and_loops_bounded_when_known) {
   Folder folder;
-  auto built = build(folder, "volatile int n, s; __attribute__((noinline)) int leaf(int a) { return a + 1; }\n"
-                             "__attribute__((noinline)) int ten(void) { int i; for (i = 0; i < 10; i++) s = leaf(i); return s; }\n"
-                             "__attribute__((noinline)) void unknown(void) { int i; for (i = 0; i < n; i++) s += i; }\n"
-                             "void _T1Interrupt(void) { s++; }\nint main(void) { ten(); unknown(); return 0; }");
+  auto built = build(
+      folder,
+      "volatile int n, s; __attribute__((noinline)) int leaf(int a) { return a + 1; }\n"
+      "__attribute__((noinline)) int ten(void) { int i; for (i = 0; i < 10; i++) s = leaf(i); return s; }\n"
+      "__attribute__((noinline)) void unknown(void) { int i; for (i = 0; i < n; i++) s += i; }\n"
+      "void _T1Interrupt(void) { s++; }\nint main(void) { ten(); unknown(); return 0; }");
   ASSERT_TRUE(built.ok) << text_of(built);
   double leaf = 0, ten = 0;
   for (const auto& f : cc::function_costs(folder.path / "prog.so")) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The error of the cycle estimate against exact counts of real XC16 code (xc16-cycles/, -O1): recomputed on every
-// run from the sources. What is compared is cycles_own: library routines left out, their CALLs included.
-#include <gtest/gtest.h>
+// The error of the cycle estimate against exact counts of real XC16 code (xc16-cycles/, -O1): recomputed on
+// every run from the sources. What is compared is cycles_own: library routines left out, their CALLs
+// included.
 #include <dlfcn.h>
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
@@ -43,11 +44,13 @@ int rule_named(const std::string& name) {
 }
 
 /// Estimated own cycles of each function of a file while bench_run() ran once; checks the computed value too.
-std::map<std::string, double> estimate(const fs::path& source, const fs::path& work, const std::string& expected) {
+std::map<std::string, double> estimate(const fs::path& source, const fs::path& work,
+                                       const std::string& expected) {
   std::map<std::string, double> cycles;
   fs::path base = work / source.stem();
   std::string o = base.string() + ".o", so = base.string() + ".so", dump = base.string() + ".dump";
-  auto compiled = cc::run_process({std::string(TWINPUCK_BUILD_DIR) + "/twinpuck-cc", "-c", source.string(), "-o", o, "-O1", "-fvisibility=default", "--cost-dump", dump});
+  auto compiled = cc::run_process({std::string(TWINPUCK_BUILD_DIR) + "/twinpuck-cc", "-c", source.string(),
+                                   "-o", o, "-O1", "-fvisibility=default", "--cost-dump", dump});
   EXPECT_EQ(compiled.status, 0) << compiled.output;
   fs::path control = work / "control.c";
   std::ofstream(control) << "struct { long long a, b; } tp_ctl __attribute__((visibility(\"hidden\")));";
@@ -93,20 +96,22 @@ TEST(cycles, estimate_is_within_the_published_error) {
   std::vector<std::pair<double, std::string>> errors;
   for (const auto& row : rows_of(data / "cycles.csv")) {
     if (row.size() < 8 || row[2] != "-O1") continue;
-    if (!estimates.count(row[1])) estimates[row[1]] = estimate(data / "src" / row[1], folder.path, results[row[1]]);
+    if (!estimates.count(row[1]))
+      estimates[row[1]] = estimate(data / "src" / row[1], folder.path, results[row[1]]);
     auto& own = estimates[row[1]];
     bool helper = row[3] == "helper";
     double expected = std::stod(helper ? row[7] : row[6]), got = 0;
     for (const auto& [name, cycles] : own)
       if (helper ? name == row[0] : name != "bench_run") got += cycles;
     errors.emplace_back(std::fabs(got / expected - 1), row[0]);
-    EXPECT_LT(std::max(got / expected, expected / got), 2.0) << row[0] << ": got " << got << ", expected " << expected << " (cycles)";
+    EXPECT_LT(std::max(got / expected, expected / got), 2.0)
+        << row[0] << ": got " << got << ", expected " << expected << " (cycles)";
   }
   std::sort(errors.begin(), errors.end());
   ASSERT_EQ(errors.size(), 78u);
   double median = errors[39].first, ninth = errors[70].first, worst = errors.back().first;
-  std::printf("cycle estimate: median error %.1f %%, nine in ten within %.1f %%, worst %.1f %% (%s)\n", median * 100, ninth * 100, worst * 100,
-              errors.back().second.c_str());
+  std::printf("cycle estimate: median error %.1f %%, nine in ten within %.1f %%, worst %.1f %% (%s)\n",
+              median * 100, ninth * 100, worst * 100, errors.back().second.c_str());
   EXPECT_LE(median, 0.04);
   EXPECT_LE(ninth, 0.15);
   EXPECT_LE(worst, 0.25);

@@ -101,6 +101,10 @@ const Delay kDelays[] = {
      "#include <stdio.h>\nint main(void) { volatile unsigned i = 5000; while (i--); printf(\"%u\", i); "
      "return 0; }",
      5000, 4, 12, "65535"},
+    {"volatile twice",
+     "int led; int main(void) { volatile long i; for (i = 0; i < 4000; i++); led = 1; for (i = 0; i < 1000; "
+     "i++); return 0; }",
+     5000, 9, 16},
     {"volatile nop",
      "void wait(long n) { volatile long i; for (i = 0; i < n; i++) asm(\"nop\"); }\nint main(void) { "
      "wait(5000); return 0; }",
@@ -121,4 +125,22 @@ TEST(delay, every_way_of_waiting_takes_its_time) {
       EXPECT_EQ(run.console, d.console) << d.name << " " << level;
       EXPECT_EQ(run.end, "return") << d.name << " " << level;
     }
+}
+
+TEST(delay, a_volatile_counter_is_jumped_over_too) {
+  for (const char* level : {"-O1", "-O2"}) {
+    auto run = run_c(
+        "#include <stdio.h>\nvoid wait(long n) { volatile long i; for (i = 0; i < n; i++); printf(\"%ld \", "
+        "i); }\n"
+        "int main(void) { volatile unsigned a, b; wait(700000); for (a = 0; a < 5; a++) for (b = 9000; b > "
+        "0; b--) "
+        "asm(\"nop\"); printf(\"%u %u\", a, b); return 0; }",
+        level);
+    EXPECT_EQ(run.console, "700000 5 0") << level;
+    ASSERT_EQ(run.delays.size(), 6u) << level;
+    EXPECT_EQ(run.delays[0].first, 700000) << level;
+    EXPECT_GE(run.delays[0].second, 9) << level;
+    EXPECT_EQ(run.delays[1].first, 9000) << level;
+    EXPECT_GE(run.delays[1].second, 6) << level;
+  }
 }

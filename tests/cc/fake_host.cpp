@@ -31,7 +31,8 @@ constexpr long long kBudget = 1000000000000;
 
 Folder::Folder() {
   static std::atomic<int> count{0};
-  path = std::filesystem::temp_directory_path() / ("twinpuck_cc_" + std::to_string(getpid()) + "_" + std::to_string(count++));
+  path = std::filesystem::temp_directory_path() /
+         ("twinpuck_cc_" + std::to_string(getpid()) + "_" + std::to_string(count++));
   std::filesystem::create_directories(path);
 }
 Folder::~Folder() {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A host without a robot: gives images the tp_* functions, counts what they do, ends a run at a trap, a reset, a
-// return from main or after some polls.
+// A host without a robot: gives images the tp_* functions, counts what they do, ends a run at a trap, a
+// reset, a return from main or after some polls.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -19,12 +19,12 @@ struct Access {
 };
 
 struct Run {
-  std::string end;             // "return", "trap 1", "reset", "poll", "event"
-  std::string message;         // of a trap
+  std::string end;      // "return", "trap 1", "reset", "poll", "event"
+  std::string message;  // of a trap
   std::string console;
-  long long cycles = 0;        // charged to the budget, delays included
+  long long cycles = 0;  // charged to the budget, delays included
   int polls = 0, events = 0;
-  long long latest = 0;        // cycles by which the host got control too late, at worst
+  long long latest = 0;  // cycles by which the host got control too late, at worst
   std::vector<std::pair<long long, long long>> delays;
   std::vector<Access> accesses;
   std::vector<std::string> calls;  // "disi 5", "clrwdt", "idle" ...

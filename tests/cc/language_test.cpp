@@ -34,17 +34,24 @@ TEST(language, variable_arguments_have_the_robots_widths) {
       "long sum(int n, ...) { va_list a, b; long s = 0; va_start(a, n); va_copy(b, a);\n"
       "  while (n--) { s += va_arg(a, int); s += va_arg(a, long); s += (long)va_arg(a, double); }\n"
       "  s += va_arg(b, int); va_end(a); va_end(b); return s; }\n"
-      "int main(void) { printf(\"%ld\", sum(4, -1, 100000L, 1.5, 2, -3L, 2.5, 3, 4L, 3.5, (char)-4, 5L, 4.5f)); return 0; }";
+      "int main(void) { printf(\"%ld\", sum(4, -1, 100000L, 1.5, 2, -3L, 2.5, 3, 4L, 3.5, (char)-4, 5L, "
+      "4.5f)); return 0; }";
   for (const char* level : {"-O0", "-O1", "-O2"}) EXPECT_EQ(run_c(text, level).console, "100015") << level;
 }
 
 TEST(language, structures_and_narrow_values_pass_between_files) {
   Folder folder;
-  folder.file("prog/other.c", "struct s { char a; int b; long c; float d; }; struct s twice(struct s v) { v.a *= 2; v.b *= 2; v.c *= 2; v.d *= 2; return v; }\n"
-                              "char narrow(char c, unsigned char u, int i) { return c + u + i; } float half(v) int v; { return v / 2.0; }\n");
-  auto built = build(folder, "#include <stdio.h>\nstruct s { char a; int b; long c; float d; }; struct s twice(struct s v); char narrow(char, unsigned char, int); float half();\n"
-                             "int main(void) { struct s v = {100, 20000, 100000L, 1.25f}; v = twice(v);\n"
-                             "printf(\"%d %d %ld %.2f %d %.1f\", v.a, v.b, v.c, v.d, narrow(-100, 250, 1), half(7)); return 0; }");
+  folder.file("prog/other.c",
+              "struct s { char a; int b; long c; float d; }; struct s twice(struct s v) { v.a *= 2; v.b *= "
+              "2; v.c *= 2; v.d *= 2; return v; }\n"
+              "char narrow(char c, unsigned char u, int i) { return c + u + i; } float half(v) int v; { "
+              "return v / 2.0; }\n");
+  auto built = build(
+      folder,
+      "#include <stdio.h>\nstruct s { char a; int b; long c; float d; }; struct s twice(struct s v); char "
+      "narrow(char, unsigned char, int); float half();\n"
+      "int main(void) { struct s v = {100, 20000, 100000L, 1.25f}; v = twice(v);\n"
+      "printf(\"%d %d %ld %.2f %d %.1f\", v.a, v.b, v.c, v.d, narrow(-100, 250, 1), half(7)); return 0; }");
   ASSERT_TRUE(built.ok) << text_of(built);
   Image image(folder.path / "prog.so");
   ASSERT_EQ(image.error, "");
@@ -53,8 +60,10 @@ TEST(language, structures_and_narrow_values_pass_between_files) {
 
 TEST(language, image_describes_itself) {
   Folder folder;
-  auto built = build(folder, "int value = 7; int table[100]; const int fixed[3] = {1, 2, 3}; void _T1Interrupt(void) { value++; }\n"
-                             "void _MathError(void) {} int main(void) { return table[value] + fixed[1]; }");
+  auto built = build(
+      folder,
+      "int value = 7; int table[100]; const int fixed[3] = {1, 2, 3}; void _T1Interrupt(void) { value++; }\n"
+      "void _MathError(void) {} int main(void) { return table[value] + fixed[1]; }");
   ASSERT_TRUE(built.ok) << text_of(built);
   EXPECT_GE(built.ram_bytes, 202);
   EXPECT_LE(built.ram_bytes, 220);
@@ -71,6 +80,7 @@ TEST(language, image_describes_itself) {
   const char* control = reinterpret_cast<const char*>(image->control);
   EXPECT_TRUE(control < image->data_begin || control >= image->data_end) << "the budget is not a robot's own";
   bool has_main = false;
-  for (const auto* f = image->functions; f != image->functions_end; ++f) has_main = has_main || std::string(f->name) == "main";
+  for (const auto* f = image->functions; f != image->functions_end; ++f)
+    has_main = has_main || std::string(f->name) == "main";
   EXPECT_TRUE(has_main);
 }

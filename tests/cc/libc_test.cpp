@@ -8,72 +8,105 @@ using namespace fake;
 
 namespace {
 std::string printed(const std::string& body, const std::string& level = "-O1") {
-  return run_c("#include <stdio.h>\n#include <string.h>\n#include <stdlib.h>\n#include <math.h>\n#include <ctype.h>\n#include <setjmp.h>\n"
-               "jmp_buf where; int order(const void *a, const void *b) { return *(const int *)a - *(const int *)b; }\n"
-               "void jump(void) { longjmp(where, 7); }\n"
-               "int main(void) {" + body + " return 0; }", level).console;
+  return run_c(
+             "#include <stdio.h>\n#include <string.h>\n#include <stdlib.h>\n#include <math.h>\n#include "
+             "<ctype.h>\n#include <setjmp.h>\n"
+             "jmp_buf where; int order(const void *a, const void *b) { return *(const int *)a - *(const int "
+             "*)b; }\n"
+             "void jump(void) { longjmp(where, 7); }\n"
+             "int main(void) {" +
+                 body + " return 0; }",
+             level)
+      .console;
 }
 }  // namespace
 
 TEST(libc, printf_formats_integers_of_the_robots_width) {
-  EXPECT_EQ(printed("printf(\"%d %u %x %ld %lu %lx\", -1, -1, -1, -1L, -1L, -1L);"), "-1 65535 ffff -1 4294967295 ffffffff");
-  EXPECT_EQ(printed("printf(\"[%5d][%-5d][%05d][%+d][% d][%.3d]\", 42, 42, 42, 42, 42, 7);"), "[   42][42   ][00042][+42][ 42][007]");
-  EXPECT_EQ(printed("printf(\"%c%s%%%.2s|%5s|%-5s|%*d\", 'a', \"bc\", \"defg\", \"h\", \"i\", 4, 5);"), "abc%de|    h|i    |   5");
-  EXPECT_EQ(printed("printf(\"%#x %#o %X %o %lld\", 255, 8, 0xBEEF, 8, 5000000000LL);"), "0xff 010 BEEF 10 5000000000");
+  EXPECT_EQ(printed("printf(\"%d %u %x %ld %lu %lx\", -1, -1, -1, -1L, -1L, -1L);"),
+            "-1 65535 ffff -1 4294967295 ffffffff");
+  EXPECT_EQ(printed("printf(\"[%5d][%-5d][%05d][%+d][% d][%.3d]\", 42, 42, 42, 42, 42, 7);"),
+            "[   42][42   ][00042][+42][ 42][007]");
+  EXPECT_EQ(printed("printf(\"%c%s%%%.2s|%5s|%-5s|%*d\", 'a', \"bc\", \"defg\", \"h\", \"i\", 4, 5);"),
+            "abc%de|    h|i    |   5");
+  EXPECT_EQ(printed("printf(\"%#x %#o %X %o %lld\", 255, 8, 0xBEEF, 8, 5000000000LL);"),
+            "0xff 010 BEEF 10 5000000000");
   EXPECT_EQ(printed("printf(\"%d %ld\", -32767 - 1, -2147483647L - 1);", "-O0"), "-32768 -2147483648");
 }
 
 TEST(libc, printf_formats_floats) {
-  EXPECT_EQ(printed("printf(\"%f %.2f %8.3f|%-8.1f|%.0f\", 3.5, 2.345f, -1.5, 9.96, 2.5);"), "3.500000 2.35   -1.500|10.0    |2");
+  EXPECT_EQ(printed("printf(\"%f %.2f %8.3f|%-8.1f|%.0f\", 3.5, 2.345f, -1.5, 9.96, 2.5);"),
+            "3.500000 2.35   -1.500|10.0    |2");
   EXPECT_EQ(printed("printf(\"%e %.2E %g %g %g %g\", 12345.0, 0.00123, 100000.0, 1000000.0, 0.0001, 0.5);"),
             "1.234500e+04 1.23E-03 100000 1e+06 0.0001 0.5");
   EXPECT_EQ(printed("printf(\"%f %g %e\", 0.0, 0.0, 0.0);"), "0.000000 0 0.000000e+00");
 }
 
 TEST(libc, sprintf_and_friends_return_lengths) {
-  EXPECT_EQ(printed("char b[8]; int n = snprintf(b, sizeof b, \"%s\", \"0123456789\"); printf(\"%d %s\", n, b); puts(\"\"); putchar('x');"),
+  EXPECT_EQ(printed("char b[8]; int n = snprintf(b, sizeof b, \"%s\", \"0123456789\"); printf(\"%d %s\", n, "
+                    "b); puts(\"\"); putchar('x');"),
             "10 0123456\nx");
   EXPECT_EQ(printed("char b[20]; printf(\"%d\", sprintf(b, \"%d,%ld\", 12, 345678L));"), "9");
 }
 
 TEST(libc, sscanf_reads_the_robots_types) {
-  EXPECT_EQ(printed("int a, h; long l; float f; char w[8], c; int n = sscanf(\"D,-12,70000 2.5 ff word!\", \"%c,%d,%ld %f %x %4s\", &c, &a, &l, &f, &h, w);"
-                    "printf(\"%d %c %d %ld %.1f %d %s\", n, c, a, l, f, h, w);"), "6 D -12 70000 2.5 255 word");
+  EXPECT_EQ(printed("int a, h; long l; float f; char w[8], c; int n = sscanf(\"D,-12,70000 2.5 ff word!\", "
+                    "\"%c,%d,%ld %f %x %4s\", &c, &a, &l, &f, &h, w);"
+                    "printf(\"%d %c %d %ld %.1f %d %s\", n, c, a, l, f, h, w);"),
+            "6 D -12 70000 2.5 255 word");
   EXPECT_EQ(printed("int a = 9; printf(\"%d %d\", sscanf(\"x\", \"%d\", &a), a);"), "0 9");
 }
 
 TEST(libc, strings_and_memory_work_with_16_bit_lengths) {
-  EXPECT_EQ(printed("char b[20] = \"abc\"; strcat(b, \"def\"); strncpy(b + 10, \"xy\", 4); printf(\"%s %d %d %d %s %s\", b, strlen(b), strcmp(\"a\", \"b\") < 0,"
-                    "memcmp(\"ab\", \"ac\", 2) < 0, strchr(b, 'd'), strstr(b, \"cd\"));"), "abcdef 6 1 1 def cdef");
-  EXPECT_EQ(printed("char b[6]; int n = 5; memset(b, 'z', n); b[5] = 0; memmove(b + 1, b, 3); b[0] = 'q'; memcpy(b + 3, \"kl\", (unsigned)(n - 3)); printf(\"%s\", b);"), "qzzkl");
-  EXPECT_EQ(printed("char s[] = \"a,b;c\"; char *p = strtok(s, \",;\"); while (p) { printf(\"<%s>\", p); p = strtok(0, \",;\"); }"), "<a><b><c>");
+  EXPECT_EQ(printed("char b[20] = \"abc\"; strcat(b, \"def\"); strncpy(b + 10, \"xy\", 4); printf(\"%s %d %d "
+                    "%d %s %s\", b, strlen(b), strcmp(\"a\", \"b\") < 0,"
+                    "memcmp(\"ab\", \"ac\", 2) < 0, strchr(b, 'd'), strstr(b, \"cd\"));"),
+            "abcdef 6 1 1 def cdef");
+  EXPECT_EQ(printed("char b[6]; int n = 5; memset(b, 'z', n); b[5] = 0; memmove(b + 1, b, 3); b[0] = 'q'; "
+                    "memcpy(b + 3, \"kl\", (unsigned)(n - 3)); printf(\"%s\", b);"),
+            "qzzkl");
+  EXPECT_EQ(printed("char s[] = \"a,b;c\"; char *p = strtok(s, \",;\"); while (p) { printf(\"<%s>\", p); p = "
+                    "strtok(0, \",;\"); }"),
+            "<a><b><c>");
 }
 
 TEST(libc, memcpy_works_without_a_prototype) {
-  auto run = run_c("int puts(); char a[4], b[4] = \"xyz\"; int main() { memcpy(a, b, sizeof a); puts(a); return 0; }");
+  auto run = run_c(
+      "int puts(); char a[4], b[4] = \"xyz\"; int main() { memcpy(a, b, sizeof a); puts(a); return 0; }");
   EXPECT_EQ(run.console, "xyz\n");
 }
 
 TEST(libc, numbers_are_converted) {
-  EXPECT_EQ(printed("char *e; printf(\"%d %ld %ld %ld %s %.2f %d %ld\", atoi(\" -42x\"), atol(\"70000\"), strtol(\"0x1F\", 0, 0), strtol(\"777z\", &e, 8), e, atof(\"-1.25e1\"), abs(-5), labs(-70000L));"),
-            "-42 70000 31 511 z -12.50 5 70000");
+  EXPECT_EQ(
+      printed(
+          "char *e; printf(\"%d %ld %ld %ld %s %.2f %d %ld\", atoi(\" -42x\"), atol(\"70000\"), "
+          "strtol(\"0x1F\", 0, 0), strtol(\"777z\", &e, 8), e, atof(\"-1.25e1\"), abs(-5), labs(-70000L));"),
+      "-42 70000 31 511 z -12.50 5 70000");
 }
 
 TEST(libc, heap_gives_and_takes) {
-  EXPECT_EQ(printed("int i, ok = 1; char *p[4]; for (i = 0; i < 200; i++) { p[0] = malloc(400); p[1] = malloc(400); p[2] = calloc(10, 4);"
-                    "if (!p[0] || !p[1] || !p[2] || p[2][39]) ok = 0; free(p[1]); p[0] = realloc(p[0], 600); if (!p[0]) ok = 0; free(p[0]); free(p[2]); }"
-                    "printf(\"%d %d\", ok, malloc(4000) == 0);"), "1 1");
+  EXPECT_EQ(printed("int i, ok = 1; char *p[4]; for (i = 0; i < 200; i++) { p[0] = malloc(400); p[1] = "
+                    "malloc(400); p[2] = calloc(10, 4);"
+                    "if (!p[0] || !p[1] || !p[2] || p[2][39]) ok = 0; free(p[1]); p[0] = realloc(p[0], 600); "
+                    "if (!p[0]) ok = 0; free(p[0]); free(p[2]); }"
+                    "printf(\"%d %d\", ok, malloc(4000) == 0);"),
+            "1 1");
 }
 
 TEST(libc, sorting_random_and_jumps) {
-  EXPECT_EQ(printed("int t[6] = {5, -3, 9, 0, 9, -7}, i; qsort(t, 6, sizeof(int), order); for (i = 0; i < 6; i++) printf(\"%d \", t[i]);"), "-7 -3 0 5 9 9 ");
+  EXPECT_EQ(printed("int t[6] = {5, -3, 9, 0, 9, -7}, i; qsort(t, 6, sizeof(int), order); for (i = 0; i < 6; "
+                    "i++) printf(\"%d \", t[i]);"),
+            "-7 -3 0 5 9 9 ");
   EXPECT_EQ(printed("srand(3); printf(\"%d\", rand());"), "1234");
   EXPECT_EQ(printed("int n = setjmp(where); if (n == 0) jump(); printf(\"%d\", n);"), "7");
 }
 
 TEST(libc, mathematics_is_single_precision_under_both_names) {
-  EXPECT_EQ(printed("printf(\"%d %d %.4f %.4f %.4f\", (int)sizeof(sin(1.0)), sin(1.0) == sinf(1.0f), sqrt(2.0), atan2(1.0, -1.0), pow(2.0, 0.5));"), "4 1 1.4142 2.3562 1.4142");
-  EXPECT_EQ(printed("printf(\"%.1f %.1f %.1f %.1f %.2f %d\", floor(-1.5), ceil(1.2), fabs(-2.5), fmod(7.5, 2.0), hypot(3.0, 4.0), (int)round(2.5));"), "-2.0 2.0 2.5 1.5 5.00 3");
+  EXPECT_EQ(printed("printf(\"%d %d %.4f %.4f %.4f\", (int)sizeof(sin(1.0)), sin(1.0) == sinf(1.0f), "
+                    "sqrt(2.0), atan2(1.0, -1.0), pow(2.0, 0.5));"),
+            "4 1 1.4142 2.3562 1.4142");
+  EXPECT_EQ(printed("printf(\"%.1f %.1f %.1f %.1f %.2f %d\", floor(-1.5), ceil(1.2), fabs(-2.5), fmod(7.5, "
+                    "2.0), hypot(3.0, 4.0), (int)round(2.5));"),
+            "-2.0 2.0 2.5 1.5 5.00 3");
   auto with = run_c("#include <math.h>\nvolatile float x = 1; int main(void) { x = sin(x); return 0; }");
   EXPECT_GT(with.cycles, 2000) << "a sine takes about 2200 cycles";
 }
@@ -106,7 +139,8 @@ TEST(libc, what_a_robot_does_not_have_is_refused_by_name_and_line) {
   }
   for (const char* header : {"unistd.h", "pthread.h", "signal.h", "windows.h", "sys/time.h"}) {
     Folder folder;
-    auto built = build(folder, std::string("int a;\n#include <") + header + ">\nint main(void) { return 0; }");
+    auto built =
+        build(folder, std::string("int a;\n#include <") + header + ">\nint main(void) { return 0; }");
     EXPECT_FALSE(built.ok) << header;
     EXPECT_NE(text_of(built).find("main.c:2"), std::string::npos) << text_of(built);
     EXPECT_NE(text_of(built).find(header), std::string::npos) << text_of(built);

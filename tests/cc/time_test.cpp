@@ -16,8 +16,10 @@ TEST(time, endless_empty_loop_polls_each_round) {
 TEST(time, polled_flag_without_volatile_is_read_each_round) {
   for (const char* level : {"-O0", "-O1", "-O2"}) {
     Folder folder;
-    auto built = build(folder, "static int flag; void _T1Interrupt(void) { flag = 1; }\n"
-                               "int main(void) { while (!flag); return 0; }", level);
+    auto built = build(folder,
+                       "static int flag; void _T1Interrupt(void) { flag = 1; }\n"
+                       "int main(void) { while (!flag); return 0; }",
+                       level);
     ASSERT_TRUE(built.ok) << text_of(built);
     Image image(folder.path / "prog.so");
     ASSERT_EQ(image.error, "");
@@ -30,19 +32,25 @@ TEST(time, polled_flag_without_volatile_is_read_each_round) {
 }
 
 TEST(time, a_loop_that_counts_or_stores_is_not_idle) {
-  auto run = run_c("volatile int flag; int n; int main(void) { while (!flag) { n++; if (n == 100) return 0; } }");
+  auto run =
+      run_c("volatile int flag; int n; int main(void) { while (!flag) { n++; if (n == 100) return 0; } }");
   EXPECT_EQ(run.end, "return");
   EXPECT_EQ(run.polls, 0);
 }
 
 TEST(time, storing_the_same_value_again_changes_nothing) {
-  auto run = run_c("volatile int flag; int seen; int main(void) { while (1) { seen = flag; if (seen) return 1; } }", "-O1", 3);
+  auto run =
+      run_c("volatile int flag; int seen; int main(void) { while (1) { seen = flag; if (seen) return 1; } }",
+            "-O1", 3);
   EXPECT_EQ(run.end, "poll");
 }
 
 TEST(time, poll_safe_functions_may_stand_in_a_waiting_loop) {
-  auto run = run_c("volatile int flag; static int ready(int what) { int local[3]; local[what & 1] = flag; return local[0] + what; }\n"
-                   "int main(void) { while (!ready(0)); return 0; }", "-O0", 2);
+  auto run = run_c(
+      "volatile int flag; static int ready(int what) { int local[3]; local[what & 1] = flag; return local[0] "
+      "+ what; }\n"
+      "int main(void) { while (!ready(0)); return 0; }",
+      "-O0", 2);
   EXPECT_EQ(run.end, "poll");
 }
 
@@ -55,8 +63,10 @@ TEST(time, counted_delay_becomes_one_call) {
 }
 
 TEST(time, empty_delay_leaves_the_final_counter) {
-  auto run = run_c("#include <stdio.h>\nint main(void) { unsigned int i, n = 4000; volatile unsigned int m = 300;\n"
-                   "  { unsigned int end = m; for (i = 0; i < end; i++); } printf(\"%u \", i); while (n--); printf(\"%u\", n); return 0; }");
+  auto run = run_c(
+      "#include <stdio.h>\nint main(void) { unsigned int i, n = 4000; volatile unsigned int m = 300;\n"
+      "  { unsigned int end = m; for (i = 0; i < end; i++); } printf(\"%u \", i); while (n--); "
+      "printf(\"%u\", n); return 0; }");
   EXPECT_EQ(run.console, "300 65535");
   ASSERT_EQ(run.delays.size(), 2u);
   EXPECT_EQ(run.delays[0].first, 300);
@@ -65,7 +75,8 @@ TEST(time, empty_delay_leaves_the_final_counter) {
 
 TEST(time, delay_is_kept_at_every_level) {
   for (const char* level : {"-O0", "-O1", "-O2", "-Os"}) {
-    auto run = run_c("int main(void) { int i, j; for (i = 0; i < 10; i++) for (j = 0; j < 1000; j++); return 0; }", level);
+    auto run = run_c(
+        "int main(void) { int i, j; for (i = 0; i < 10; i++) for (j = 0; j < 1000; j++); return 0; }", level);
     EXPECT_GT(run.cycles, 20000) << level;
     EXPECT_LT(run.cycles, 300000) << level;
   }
@@ -127,23 +138,30 @@ TEST(time, register_accesses_go_to_the_register_host) {
 
 TEST(time, polling_a_register_bit_is_idle) {
   registers[0x84] = 0;
-  auto run = run_c("extern volatile struct { unsigned a:3; unsigned T1IF:1; unsigned :12; } IFS0bits __asm__(\"tp_sfr_0084\");\n"
-                   "int main(void) { while (!IFS0bits.T1IF); return 0; }", "-O1", 4);
+  auto run = run_c(
+      "extern volatile struct { unsigned a:3; unsigned T1IF:1; unsigned :12; } IFS0bits "
+      "__asm__(\"tp_sfr_0084\");\n"
+      "int main(void) { while (!IFS0bits.T1IF); return 0; }",
+      "-O1", 4);
   EXPECT_EQ(run.end, "poll");
 }
 
 TEST(time, address_of_a_register_is_refused_by_name) {
   Folder folder;
-  auto built = build(folder, "extern volatile unsigned int LATA __asm__(\"tp_sfr_02C2\");\nvolatile unsigned int *p;\n"
-                             "int main(void) { p = &LATA; return 0; }");
+  auto built =
+      build(folder,
+            "extern volatile unsigned int LATA __asm__(\"tp_sfr_02C2\");\nvolatile unsigned int *p;\n"
+            "int main(void) { p = &LATA; return 0; }");
   EXPECT_FALSE(built.ok);
   EXPECT_NE(text_of(built).find("main.c:3"), std::string::npos) << text_of(built);
   EXPECT_NE(text_of(built).find("register LATA"), std::string::npos) << text_of(built);
 }
 
 TEST(time, known_assembler_is_understood) {
-  auto run = run_c("int main(void) { asm(\"nop\"); __asm__ volatile (\"disi #0x3FFF\"); asm volatile(\"CLRWDT\"); __asm__(\"pwrsav #1\");\n"
-                   "asm(\"pwrsav #0\"); __asm__ volatile (\"reset\"); return 0; }");
+  auto run = run_c(
+      "int main(void) { asm(\"nop\"); __asm__ volatile (\"disi #0x3FFF\"); asm volatile(\"CLRWDT\"); "
+      "__asm__(\"pwrsav #1\");\n"
+      "asm(\"pwrsav #0\"); __asm__ volatile (\"reset\"); return 0; }");
   EXPECT_EQ(run.end, "reset");
   EXPECT_EQ(run.calls, (std::vector<std::string>{"disi 16383", "clrwdt", "idle", "sleep"}));
 }

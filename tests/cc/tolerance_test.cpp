@@ -16,41 +16,61 @@ void compiles(const std::string& text) {
 
 TEST(tolerance, every_spelling_of_an_interrupt_handler) {
   for (const char* attribute :
-       {"__attribute__((__interrupt__, auto_psv))", "__attribute__((interrupt, auto_psv))", "__attribute__((interrupt, auto_psv, shadow))",
-        "__attribute__((interrupt, shadow))", "__attribute__((interrupt, no_auto_psv))", "__attribute__((__interrupt__))", "__attribute__ ((interrupt))",
-        "__attribute__((interrupt(save(a, b)), no_auto_psv))", "__attribute__((__interrupt__(__preprologue__(\"nop\"))))"}) {
+       {"__attribute__((__interrupt__, auto_psv))", "__attribute__((interrupt, auto_psv))",
+        "__attribute__((interrupt, auto_psv, shadow))", "__attribute__((interrupt, shadow))",
+        "__attribute__((interrupt, no_auto_psv))", "__attribute__((__interrupt__))",
+        "__attribute__ ((interrupt))", "__attribute__((interrupt(save(a, b)), no_auto_psv))",
+        "__attribute__((__interrupt__(__preprologue__(\"nop\"))))"}) {
     Folder folder;
-    auto built = build(folder, std::string("int a, b; void ") + attribute + " _T1Interrupt(void) { a++; } int main(void) { return 0; }");
+    auto built = build(folder, std::string("int a, b; void ") + attribute +
+                                   " _T1Interrupt(void) { a++; } int main(void) { return 0; }");
     ASSERT_TRUE(built.ok) << attribute << text_of(built);
     Image image(folder.path / "prog.so");
     EXPECT_NE(image->vectors[3], nullptr);
   }
-  compiles("#define _ISR __attribute__((interrupt))\n#define _ISRFAST __attribute__((interrupt, shadow))\nvoid _ISR _T2Interrupt(void) {} void _ISRFAST _T3Interrupt(void) {}\n"
-           "void __attribute__((interrupt,\n auto_psv))\n_T4Interrupt(void) {} int interrupt = 3; int main(void) { return interrupt; }");
+  compiles(
+      "#define _ISR __attribute__((interrupt))\n#define _ISRFAST __attribute__((interrupt, shadow))\nvoid "
+      "_ISR _T2Interrupt(void) {} void _ISRFAST _T3Interrupt(void) {}\n"
+      "void __attribute__((interrupt,\n auto_psv))\n_T4Interrupt(void) {} int interrupt = 3; int main(void) "
+      "{ return interrupt; }");
 }
 
 TEST(tolerance, data_attributes) {
-  compiles("int __attribute__((near)) a; int b __attribute__((far)); int c[4] __attribute__((space(xmemory), aligned(8)));\n"
-           "int d[4] __attribute__((section(\".ydata, data, ymemory\"), aligned(16))) = {1}; const int e[2] __attribute__((space(auto_psv), aligned(4))) = {1, 2};\n"
-           "int f __attribute__((persistent)); int g __attribute__((address(0x900))); static int h __attribute__((unused)); unsigned char i __attribute__((packed));\n"
-           "int main(void) { d[1] = 2; return a + b + c[0] + d[0] + e[1] + f + g + i; }");
+  compiles(
+      "int __attribute__((near)) a; int b __attribute__((far)); int c[4] __attribute__((space(xmemory), "
+      "aligned(8)));\n"
+      "int d[4] __attribute__((section(\".ydata, data, ymemory\"), aligned(16))) = {1}; const int e[2] "
+      "__attribute__((space(auto_psv), aligned(4))) = {1, 2};\n"
+      "int f __attribute__((persistent)); int g __attribute__((address(0x900))); static int h "
+      "__attribute__((unused)); unsigned char i __attribute__((packed));\n"
+      "int main(void) { d[1] = 2; return a + b + c[0] + d[0] + e[1] + f + g + i; }");
 }
 
 TEST(tolerance, old_c) {
   compiles("main() { undeclared_here(); return 0; } undeclared_here() { int x = 0b1010; return x; }");
   compiles("int add(a, b) int a; int b; { return a + b; } int main() { add(1, 2); }");
-  compiles("void scan(); inline int twice(int v) { return v * 2; } int main() { scan(3); scan(); return twice(2); } void scan(int all) { }");
-  compiles("int shared; int main() { extern int other(); { extern int shared; shared = 2; } for (int i = 0; i < 3; i++) other(); } int other() { }");
+  compiles(
+      "void scan(); inline int twice(int v) { return v * 2; } int main() { scan(3); scan(); return twice(2); "
+      "} void scan(int all) { }");
+  compiles(
+      "int shared; int main() { extern int other(); { extern int shared; shared = 2; } for (int i = 0; i < "
+      "3; i++) other(); } int other() { }");
   compiles("static int tick = 0; void main(void) { int i; i = 3; int late = i; tick = late; while (1); }");
-  compiles("enum { A, B, }; struct p { int x, y; } q = { x: 1, y: 2 }; int t[] = { [2] = 5 }; // comment\nint main() { char *s = \"a\"; unsigned char *u = s; return u[0] + q.x + t[2]; }");
-  compiles("extern int counter; int counter; int counter; int f(void) { return; } int main() { return f() + counter; }");
+  compiles(
+      "enum { A, B, }; struct p { int x, y; } q = { x: 1, y: 2 }; int t[] = { [2] = 5 }; // comment\nint "
+      "main() { char *s = \"a\"; unsigned char *u = s; return u[0] + q.x + t[2]; }");
+  compiles(
+      "extern int counter; int counter; int counter; int f(void) { return; } int main() { return f() + "
+      "counter; }");
 }
 
 TEST(tolerance, common_variables_of_several_files_are_one) {
   Folder folder;
   folder.file("prog/globals.h", "int speed; int table[4];\n");
   folder.file("prog/a.c", "#include \"globals.h\"\nvoid set(void) { speed = 5; table[3] = 7; }");
-  auto built = build(folder, "#include <stdio.h>\n#include \"globals.h\"\nvoid set(void); int main(void) { set(); printf(\"%d %d\", speed, table[3]); return 0; }");
+  auto built = build(folder,
+                     "#include <stdio.h>\n#include \"globals.h\"\nvoid set(void); int main(void) { set(); "
+                     "printf(\"%d %d\", speed, table[3]); return 0; }");
   ASSERT_TRUE(built.ok) << text_of(built);
   Image image(folder.path / "prog.so");
   EXPECT_EQ(image.run().console, "5 7");
@@ -64,11 +84,12 @@ TEST(tolerance, headers_are_found_by_any_case_slash_and_path) {
   folder.file("include/a_d/e_prox.h", "#define PROX 1\n");
   folder.file("prog/Sub/Own.h", "#define OWN 1\n");
   auto use = [&](const std::string& includes, const std::string& value) {
-    auto built = build(folder, includes + "\nint result[" + value + " == 1 ? 1 : -1]; int main(void) { return result[0]; }", "-O1",
-                       [&](cc::BuildOptions& o) {
-                         o.include_root = folder.path / "include";
-                         o.api_dir = folder.path / "none";
-                       });
+    auto built = build(
+        folder, includes + "\nint result[" + value + " == 1 ? 1 : -1]; int main(void) { return result[0]; }",
+        "-O1", [&](cc::BuildOptions& o) {
+          o.include_root = folder.path / "include";
+          o.api_dir = folder.path / "none";
+        });
     EXPECT_TRUE(built.ok) << includes << "\n" << text_of(built);
   };
   for (const char* name : {"<p30F6014A.h>", "\"p30f6014A.h\"", "<p30f6014a.h>", "\"P30F6014A.H\"",
@@ -87,8 +108,15 @@ TEST(tolerance, headers_are_found_by_any_case_slash_and_path) {
 }
 
 TEST(tolerance, predefined_macros_are_the_chips) {
-  compiles("#if !defined(__dsPIC30F__) || !defined(__dsPIC30F6014A__) || !defined(__C30__) || __XC16_VERSION__ < 1000\n#error chip\n#endif\n"
-           "#if defined(__x86_64__) || defined(__linux__) || defined(unix)\n#error pc\n#endif\n#if 32767 + 1 < 0\n#endif\nint main(void) { return 0; }");
-  compiles("#define FCY 14745600UL\n#include <dsp.h>\n#include <libpic30.h>\n#include <limits.h>\n#include <float.h>\n#include <stdint.h>\n#include <stdbool.h>\nfractional t[INT_MAX == 32767 ? 2 : -1]; fractcomplex c;\n"
-           "int main(void) { uint32_t a = UINT32_MAX; bool b = true; __delay32(100); __delay_ms(2); __delay_us(50); return t[0] + c.real + b + (int)a; }");
+  compiles(
+      "#if !defined(__dsPIC30F__) || !defined(__dsPIC30F6014A__) || !defined(__C30__) || __XC16_VERSION__ < "
+      "1000\n#error chip\n#endif\n"
+      "#if defined(__x86_64__) || defined(__linux__) || defined(unix)\n#error pc\n#endif\n#if 32767 + 1 < "
+      "0\n#endif\nint main(void) { return 0; }");
+  compiles(
+      "#define FCY 14745600UL\n#include <dsp.h>\n#include <libpic30.h>\n#include <limits.h>\n#include "
+      "<float.h>\n#include <stdint.h>\n#include <stdbool.h>\nfractional t[INT_MAX == 32767 ? 2 : -1]; "
+      "fractcomplex c;\n"
+      "int main(void) { uint32_t a = UINT32_MAX; bool b = true; __delay32(100); __delay_ms(2); "
+      "__delay_us(50); return t[0] + c.real + b + (int)a; }");
 }

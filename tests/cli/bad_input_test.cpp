@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Bad input, one kind a test: a clear line, the documented exit code, nothing lost. (World files have many more of
-// their own in tests/sim_core/loader_test.cpp.)
+// Bad input, one kind a test: a clear line, the documented exit code, nothing lost. (World files have many
+// more of their own in tests/sim_core/loader_test.cpp.)
 #include <netinet/in.h>
 #include <sys/socket.h>
 
@@ -39,9 +39,11 @@ TEST_P(BadInput, is_refused_with_a_clear_line) {
   write("broken.toml", "this is = = not toml\n");
   write("typo.toml", "twinpuck = 1\n[aren]\nsize = [1, 1]\n");
   write("no_version.toml", "title = \"x\"\n");
-  write("unknown_firmware.toml", "twinpuck = 1\n[arena]\nsize = [1, 1]\n[[robot]]\nname = \"r\"\nfirmware = \"obstakle\"\n");
+  write("unknown_firmware.toml",
+        "twinpuck = 1\n[arena]\nsize = [1, 1]\n[[robot]]\nname = \"r\"\nfirmware = \"obstakle\"\n");
   std::string arguments = bad.arguments;
-  for (std::size_t at; (at = arguments.find('@')) != std::string::npos;) arguments.replace(at, 1, folder.string());
+  for (std::size_t at; (at = arguments.find('@')) != std::string::npos;)
+    arguments.replace(at, 1, folder.string());
   const Said s = twinpuck(arguments);
   EXPECT_EQ(s.exit_code, bad.exit_code) << s.text;
   EXPECT_NE(s.text.find(bad.says), std::string::npos) << s.text;
@@ -52,27 +54,43 @@ INSTANTIATE_TEST_SUITE_P(
     Kind, BadInput,
     ::testing::Values(
         Bad{"no_verb", "", 2, "subcommand"}, Bad{"unknown_verb", "rnu maze", 2, "did you mean 'run'"},
-        Bad{"unknown_option", "run maze --sede 3", 2, "did you mean '--seed'"}, Bad{"no_world", "run", 2, "WORLD"},
-        Bad{"missing_world", "run nowhere.toml", 2, "nowhere.toml"}, Bad{"world_is_a_folder", "run worlds", 2, "worlds"},
-        Bad{"broken_world", "run @/broken.toml", 2, "broken.toml:1:"}, Bad{"unknown_key", "run @/typo.toml", 2, "did you mean"},
+        Bad{"unknown_option", "run maze --sede 3", 2, "did you mean '--seed'"},
+        Bad{"no_world", "run", 2, "WORLD"}, Bad{"missing_world", "run nowhere.toml", 2, "nowhere.toml"},
+        Bad{"world_is_a_folder", "run worlds", 2, "worlds"},
+        Bad{"broken_world", "run @/broken.toml", 2, "broken.toml:1:"},
+        Bad{"unknown_key", "run @/typo.toml", 2, "did you mean"},
         Bad{"no_version", "check @/no_version.toml", 2, "twinpuck"},
         Bad{"unknown_firmware_in_world", "run @/unknown_firmware.toml", 2, "did you mean 'obstacle'"},
         Bad{"missing_firmware", "run maze --fw puck=@/nothing.so", 2, "nothing.so"},
-        Bad{"firmware_is_text", "run maze --fw puck=@/text.so", 2, "no ELF"}, Bad{"firmware_is_empty", "run maze --fw puck=@/empty.so", 2, "empty file"},
+        Bad{"firmware_is_text", "run maze --fw puck=@/text.so", 2, "no ELF"},
+        Bad{"firmware_is_empty", "run maze --fw puck=@/empty.so", 2, "empty file"},
         Bad{"firmware_is_hex", "run maze --fw puck=@/chip.hex", 2, "Intel hex"},
-        Bad{"firmware_of_the_pc", "run maze --fw puck=/lib/x86_64-linux-gnu/libm.so.6", 2, "without a firmware"},
-        Bad{"firmware_for_nobody", "run maze --fw punk=blink", 2, "did you mean 'puck'"}, Bad{"firmware_without_robot", "run maze --fw blink", 2, "ROBOT=VALUE"},
-        Bad{"syntax_error", "run maze --fw puck=@/syntax", 2, "main.c:1"}, Bad{"undefined_function", "run maze --fw puck=@/undefined", 2, "no_such_function"},
-        Bad{"sleep", "run maze --fw puck=@/sleepy", 2, "unistd.h"}, Bad{"time", "run maze --fw puck=@/clock", 2, "time"},
-        Bad{"threads", "run maze --fw puck=@/threads", 2, "pthread.h"}, Bad{"files", "run maze --fw puck=@/files", 2, "fopen"},
-        Bad{"two_mains", "build @/two_mains -o @/x.so", 1, "main"}, Bad{"no_main", "build @/no_main -o @/x.so", 1, "main"},
-        Bad{"assembler", "build @/assembler -o @/x.so", 1, "mov w0, w1"}, Bad{"missing_header", "build @/no_header -o @/x.so", 1, "nowhere.h"},
-        Bad{"folder_without_c", "build @/nothing_here -o @/x.so", 1, "nothing_here"}, Bad{"build_of_nothing", "build @/nowhere -o @/x.so", 2, "does not exist"},
-        Bad{"lint_of_nothing", "lint @/nowhere", 2, "does not exist"}, Bad{"cycles_of_text", "cycles @/text.so", 2, "cost table"},
-        Bad{"negative_time", "run maze --for -1", 2, "--for"}, Bad{"time_is_a_word", "run maze --for long", 2, "--for"},
-        Bad{"bad_speed", "run maze --speed quick", 2, "expected max or a factor"}, Bad{"zero_threads", "run maze --threads 0", 2, "--threads"},
-        Bad{"negative_seed", "run maze --seed -4", 2, "--seed"}, Bad{"bad_uart", "run maze --uart puck=telnet", 2, "telnet"},
-        Bad{"bad_port", "run maze --uart puck=tcp:99999", 2, "99999"}, Bad{"uart_file_nowhere", "run maze --uart puck=file:/nowhere/x", 2, "/nowhere/x"},
+        Bad{"firmware_of_the_pc", "run maze --fw puck=/lib/x86_64-linux-gnu/libm.so.6", 2,
+            "without a firmware"},
+        Bad{"firmware_for_nobody", "run maze --fw punk=blink", 2, "did you mean 'puck'"},
+        Bad{"firmware_without_robot", "run maze --fw blink", 2, "ROBOT=VALUE"},
+        Bad{"syntax_error", "run maze --fw puck=@/syntax", 2, "main.c:1"},
+        Bad{"undefined_function", "run maze --fw puck=@/undefined", 2, "no_such_function"},
+        Bad{"sleep", "run maze --fw puck=@/sleepy", 2, "unistd.h"},
+        Bad{"time", "run maze --fw puck=@/clock", 2, "time"},
+        Bad{"threads", "run maze --fw puck=@/threads", 2, "pthread.h"},
+        Bad{"files", "run maze --fw puck=@/files", 2, "fopen"},
+        Bad{"two_mains", "build @/two_mains -o @/x.so", 1, "main"},
+        Bad{"no_main", "build @/no_main -o @/x.so", 1, "main"},
+        Bad{"assembler", "build @/assembler -o @/x.so", 1, "mov w0, w1"},
+        Bad{"missing_header", "build @/no_header -o @/x.so", 1, "nowhere.h"},
+        Bad{"folder_without_c", "build @/nothing_here -o @/x.so", 1, "nothing_here"},
+        Bad{"build_of_nothing", "build @/nowhere -o @/x.so", 2, "does not exist"},
+        Bad{"lint_of_nothing", "lint @/nowhere", 2, "does not exist"},
+        Bad{"cycles_of_text", "cycles @/text.so", 2, "cost table"},
+        Bad{"negative_time", "run maze --for -1", 2, "--for"},
+        Bad{"time_is_a_word", "run maze --for long", 2, "--for"},
+        Bad{"bad_speed", "run maze --speed quick", 2, "expected max or a factor"},
+        Bad{"zero_threads", "run maze --threads 0", 2, "--threads"},
+        Bad{"negative_seed", "run maze --seed -4", 2, "--seed"},
+        Bad{"bad_uart", "run maze --uart puck=telnet", 2, "telnet"},
+        Bad{"bad_port", "run maze --uart puck=tcp:99999", 2, "99999"},
+        Bad{"uart_file_nowhere", "run maze --uart puck=file:/nowhere/x", 2, "/nowhere/x"},
         Bad{"picture_of_unknown_kind", "run maze --picture @/x.gif", 2, "expected .png or .svg"},
         Bad{"record_nowhere", "run maze --record /nowhere/r.csv", 2, "/nowhere/r.csv"},
         Bad{"summary_nowhere", "run maze --summary /nowhere/s.json", 2, "/nowhere/s.json"},

@@ -20,13 +20,15 @@ TEST_F(Command, help_names_every_verb) {
 }
 
 TEST_F(Command, run_writes_record_summary_and_picture_that_agree) {
-  const Said s = twinpuck("run maze --for 10 --record " + path("r.csv") + " --summary " + path("s.json") + " --picture " + path("p.png") + " -q");
+  const Said s = twinpuck("run maze --for 10 --record " + path("r.csv") + " --summary " + path("s.json") +
+                          " --picture " + path("p.png") + " -q");
   ASSERT_EQ(s.exit_code, 0) << s.text;
   const json summary = json::parse(read(path("s.json")));
   for (const char* key : {"version", "world", "seed", "simulated_s", "wall_s", "speed", "digest", "robots"})
     EXPECT_TRUE(summary.contains(key)) << key;
   const json& robot = summary["robots"][0];
-  for (const char* key : {"name", "firmware", "way", "x_m", "y_m", "heading_rad", "distance_m", "collisions", "cycles", "cpu_load", "traps"})
+  for (const char* key : {"name", "firmware", "way", "x_m", "y_m", "heading_rad", "distance_m", "collisions",
+                          "cycles", "cpu_load", "traps"})
     EXPECT_TRUE(robot.contains(key)) << key;
   EXPECT_EQ(robot["way"], "native");
   EXPECT_EQ(robot["cycles"], 147'456'000);
@@ -34,7 +36,8 @@ TEST_F(Command, run_writes_record_summary_and_picture_that_agree) {
   std::istringstream csv(read(path("r.csv")));
   std::string line, last, header;
   std::getline(csv, header);
-  EXPECT_EQ(header, "time_s,robot,x_m,y_m,heading_rad,left_steps,right_steps,ir0,ir1,ir2,ir3,ir4,ir5,ir6,ir7,leds");
+  EXPECT_EQ(header,
+            "time_s,robot,x_m,y_m,heading_rad,left_steps,right_steps,ir0,ir1,ir2,ir3,ir4,ir5,ir6,ir7,leds");
   int rows = 0;
   while (std::getline(csv, line)) last = line, ++rows;
   EXPECT_NEAR(rows, 1001, 1);
@@ -55,7 +58,8 @@ TEST_F(Command, the_same_run_twice_is_the_same_to_the_byte) {
 
 TEST_F(Command, the_digest_depends_on_the_seed_and_not_on_threads_or_outputs) {
   const auto digest = [&](const std::string& options) {
-    const Said s = twinpuck("run bench/worlds/brait_5.toml --for 3 -q --summary " + path("s.json") + " " + options);
+    const Said s =
+        twinpuck("run bench/worlds/brait_5.toml --for 3 -q --summary " + path("s.json") + " " + options);
     EXPECT_EQ(s.exit_code, 0) << s.text;
     return json::parse(read(path("s.json")))["digest"].get<std::string>();
   };
@@ -67,7 +71,8 @@ TEST_F(Command, the_digest_depends_on_the_seed_and_not_on_threads_or_outputs) {
 
 TEST_F(Command, a_trap_ends_with_exit_code_3_and_says_where) {
   write("bad/main.c", "volatile int zero;\nint main(void) {\n  return 5 / zero;\n}\n");
-  const Said s = twinpuck("run worlds/maze.toml --fw '*=" + path("bad") + "' --for 1 --summary " + path("s.json"));
+  const Said s =
+      twinpuck("run worlds/maze.toml --fw '*=" + path("bad") + "' --for 1 --summary " + path("s.json"));
   EXPECT_EQ(s.exit_code, 3) << s.text;
   EXPECT_NE(s.text.find("division by zero"), std::string::npos) << s.text;
   EXPECT_NE(s.text.find("main.c:3"), std::string::npos) << s.text;
@@ -87,7 +92,9 @@ TEST_F(Command, the_host_time_guard_ends_with_124) {
 }
 
 TEST_F(Command, ctrl_c_ends_with_130_and_keeps_the_outputs) {
-  const Said s = twinpuck("run maze --for 1000 --speed 1 --record " + path("r.csv") + " --summary " + path("s.json"), "timeout --preserve-status -s INT 1");
+  const Said s =
+      twinpuck("run maze --for 1000 --speed 1 --record " + path("r.csv") + " --summary " + path("s.json"),
+               "timeout --preserve-status -s INT 1");
   EXPECT_EQ(s.exit_code, 130) << s.text;
   EXPECT_TRUE(json::accept(read(path("s.json"))));
   EXPECT_EQ(read(path("r.csv")).back(), '\n');
@@ -103,8 +110,11 @@ TEST_F(Command, a_killed_run_leaves_a_readable_recording) {
 }
 
 TEST_F(Command, uart_output_goes_to_a_file) {
-  write("hello/main.c", "#include <uart/e_uart_char.h>\nint main(void) { e_init_uart1(); e_send_uart1_char(\"hello\\r\\n\", 7); while (1); }\n");
-  const Said s = twinpuck("run maze --fw '*=" + path("hello") + "' --uart '*=file:" + path("out.txt") + "' --for 0.5");
+  write("hello/main.c",
+        "#include <uart/e_uart_char.h>\nint main(void) { e_init_uart1(); e_send_uart1_char(\"hello\\r\\n\", "
+        "7); while (1); }\n");
+  const Said s =
+      twinpuck("run maze --fw '*=" + path("hello") + "' --uart '*=file:" + path("out.txt") + "' --for 0.5");
   EXPECT_EQ(s.exit_code, 0) << s.text;
   EXPECT_EQ(read(path("out.txt")), "hello\r\n");
 }
@@ -158,7 +168,8 @@ TEST_F(Command, sanitize_finds_a_16_bit_overflow_and_a_bad_index) {
   Said s = twinpuck("run maze --fw '*=" + path("over") + "' --for 0.1 --sanitize");
   EXPECT_EQ(s.exit_code, 3) << s.text;
   EXPECT_NE(s.text.find("main.c:3"), std::string::npos) << s.text;
-  write("index/main.c", "int table[4], other[4];\nvolatile int i = 4;\nint main(void) {\n  table[i] = 1;\n  while (1);\n}\n");
+  write("index/main.c",
+        "int table[4], other[4];\nvolatile int i = 4;\nint main(void) {\n  table[i] = 1;\n  while (1);\n}\n");
   s = twinpuck("run maze --fw '*=" + path("index") + "' --for 0.1 --sanitize");
   EXPECT_EQ(s.exit_code, 3) << s.text;
   EXPECT_NE(s.text.find("main.c:4"), std::string::npos) << s.text;
@@ -167,13 +178,15 @@ TEST_F(Command, sanitize_finds_a_16_bit_overflow_and_a_bad_index) {
 TEST_F(Command, new_makes_a_controller_that_builds_and_runs) {
   // in a tree of its own, so the checkout stays clean
   fs::create_directories(folder / "root" / "worlds");
-  fs::create_directory_symlink(fs::path(TWINPUCK_SOURCE_DIR) / "firmware" / "include", folder / "include_link");
+  fs::create_directory_symlink(fs::path(TWINPUCK_SOURCE_DIR) / "firmware" / "include",
+                               folder / "include_link");
   fs::create_directories(folder / "root" / "firmware");
   fs::copy(fs::path(TWINPUCK_SOURCE_DIR) / "worlds" / "maze.toml", folder / "root" / "worlds" / "maze.toml");
   const Said made = twinpuck("new my_robot", "TWINPUCK_ROOT=" + path("root"));
   ASSERT_EQ(made.exit_code, 0) << made.text;
   EXPECT_TRUE(fs::exists(folder / "root/firmware/my_robot/test.cpp"));
-  const Said s = twinpuck("run maze --fw '*=" + path("root/firmware/my_robot") + "' --for 5 --summary " + path("s.json"));
+  const Said s = twinpuck("run maze --fw '*=" + path("root/firmware/my_robot") + "' --for 5 --summary " +
+                          path("s.json"));
   EXPECT_EQ(s.exit_code, 0) << s.text;
   EXPECT_GT(json::parse(read(path("s.json")))["robots"][0]["distance_m"].get<double>(), 0.1);
 }

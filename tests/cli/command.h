@@ -25,10 +25,12 @@ inline std::string executable() { return std::string(TWINPUCK_BUILD_DIR) + "/twi
 /// `arguments` go through the shell; the current folder is the project's.
 inline Said twinpuck(const std::string& arguments, const std::string& before = "") {
   Said said;
-  const std::string line = "cd '" TWINPUCK_SOURCE_DIR "' && " + before + " '" + executable() + "' " + arguments + " 2>&1 </dev/null";
+  const std::string line = "cd '" TWINPUCK_SOURCE_DIR "' && " + before + " '" + executable() + "' " +
+                           arguments + " 2>&1 </dev/null";
   FILE* pipe = popen(line.c_str(), "r");
   std::array<char, 4096> buffer;
-  while (const std::size_t n = fread(buffer.data(), 1, buffer.size(), pipe)) said.text.append(buffer.data(), n);
+  while (const std::size_t n = fread(buffer.data(), 1, buffer.size(), pipe))
+    said.text.append(buffer.data(), n);
   const int status = pclose(pipe);
   said.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   return said;
@@ -37,8 +39,10 @@ inline Said twinpuck(const std::string& arguments, const std::string& before = "
 /// A folder of this test's own, empty at the start.
 class CommandTest : public ::testing::Test {
  protected:
-  CommandTest() : folder(fs::path(::testing::TempDir()) / ("twinpuck-" + std::to_string(getpid()) + "-" +
-                                                           ::testing::UnitTest::GetInstance()->current_test_info()->name())) {
+  CommandTest()
+      : folder(fs::path(::testing::TempDir()) /
+               ("twinpuck-" + std::to_string(getpid()) + "-" +
+                ::testing::UnitTest::GetInstance()->current_test_info()->name())) {
     fs::remove_all(folder);
     fs::create_directories(folder);
   }

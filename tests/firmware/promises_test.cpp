@@ -11,7 +11,8 @@ namespace {
 
 class Promise : public FirmwareTest {};
 
-// --- time ------------------------------------------------------------------------------------------------------------
+// --- time
+// ------------------------------------------------------------------------------------------------------------
 
 // the program counts what it does itself, so the tick of the world does not blur what is measured
 const char* const kToggleByAgenda = R"(
@@ -101,10 +102,12 @@ TEST_F(Promise, a_handler_starts_within_20_us_while_main_waits) {
 }
 
 TEST_F(Promise, a_handler_starts_within_20_us_while_main_computes_in_floating_point) {
-  Robot& r = add_robot_with_source(with_main_loop("{ busy = busy * 1.0001 + 0.5 / busy - busy * busy * 0.001 + 1.0 / (busy + 2.0); }"));
+  Robot& r = add_robot_with_source(
+      with_main_loop("{ busy = busy * 1.0001 + 0.5 / busy - busy * busy * 0.001 + 1.0 / (busy + 2.0); }"));
   run_for(2);
   EXPECT_GT(r.variable<std::uint16_t>("times"), 1900);
-  EXPECT_LT(r.variable<std::uint16_t>("worst"), 700) << "cycles; one soft-float call of up to about 600 cycles cannot be cut";
+  EXPECT_LT(r.variable<std::uint16_t>("worst"), 700)
+      << "cycles; one soft-float call of up to about 600 cycles cannot be cut";
 }
 
 TEST_F(Promise, a_thousand_robots_keep_the_same_time_and_their_own_statics) {
@@ -158,7 +161,8 @@ int main(void) {
   EXPECT_NEAR(r.variable("seen"), 99, 1);
 }
 
-// --- motors ------------------------------------------------------------------------------------------------------------
+// --- motors
+// ------------------------------------------------------------------------------------------------------------
 
 const char* const kDrive500 = R"(
 #include <motor_led/advance_one_timer/e_agenda.h>
@@ -208,7 +212,8 @@ TEST_F(Promise, pushed_against_a_wall_the_wheels_turn_and_the_robot_stays) {
   EXPECT_NEAR(x, 0.5 - 0.037, 0.001);
 }
 
-// --- sensors -----------------------------------------------------------------------------------------------------------
+// --- sensors
+// -----------------------------------------------------------------------------------------------------------
 
 const char* const kReadRing = R"(
 #include <a_d/advance_ad_scan/e_ad_conv.h>
@@ -230,7 +235,8 @@ struct TableRow {
   double distance_m, counts;
 };
 // Webots' older table [FRM A3], at the distances of the promise and with its rows in between
-constexpr TableRow kOldTable[] = {{0, 4095}, {.005, 3474}, {.01, 2211}, {.02, 676}, {.03, 306}, {.04, 164}, {.05, 90}, {.06, 56}, {.07, 34}};
+constexpr TableRow kOldTable[] = {{0, 4095},  {.005, 3474}, {.01, 2211}, {.02, 676}, {.03, 306},
+                                  {.04, 164}, {.05, 90},    {.06, 56},   {.07, 34}};
 
 double old_table(double distance_m) {
   for (std::size_t i = 1; i < std::size(kOldTable); ++i)
@@ -258,7 +264,8 @@ TEST_P(Ring, reads_what_the_profile_says) {
   const auto& mount = model.proximity[static_cast<std::size_t>(sensor)];
   Robot& r = add_robot_with_source(kReadRing).at(0, 0, -sim::degrees(mount.yaw_rad));
   const double forward_m = mount.at_m.x * std::cos(mount.yaw_rad) + mount.at_m.y * std::sin(mount.yaw_rad);
-  const double ray_m = distance_m / std::cos(mount.pitch_rad);  // a ray that is pitched up meets the wall later
+  const double ray_m =
+      distance_m / std::cos(mount.pitch_rad);  // a ray that is pitched up meets the wall later
   const double wall_x = forward_m + distance_m;
   const double across = -mount.at_m.x * std::sin(mount.yaw_rad) + mount.at_m.y * std::cos(mount.yaw_rad);
   // sensors sit up to 7 mm inside the rim: for the nearest walls the body, which no ray sees, is made slimmer
@@ -268,7 +275,8 @@ TEST_P(Ring, reads_what_the_profile_says) {
   run_for(0.4);
   // black: the distance looks five times as long (f = 0.2 + 0.8 red)
   const double expected = old_table(black ? ray_m / 0.2 : ray_m);
-  EXPECT_NEAR(r.variables<std::int16_t>("prox", 8)[static_cast<std::size_t>(sensor)], expected, 0.02 * expected + 2);
+  EXPECT_NEAR(r.variables<std::int16_t>("prox", 8)[static_cast<std::size_t>(sensor)], expected,
+              0.02 * expected + 2);
 }
 
 std::vector<RingCase> ring_cases() {
@@ -279,11 +287,13 @@ std::vector<RingCase> ring_cases() {
   return cases;
 }
 INSTANTIATE_TEST_SUITE_P(EverySensor, Ring, ::testing::ValuesIn(ring_cases()), [](const auto& info) {
-  return "ps" + std::to_string(info.param.sensor) + "_" + std::to_string(static_cast<int>(info.param.distance_m * 1000 + 0.5)) + "_mm" +
+  return "ps" + std::to_string(info.param.sensor) + "_" +
+         std::to_string(static_cast<int>(info.param.distance_m * 1000 + 0.5)) + "_mm" +
          (info.param.black ? "_black" : "");
 });
 
-// --- repeatability -------------------------------------------------------------------------------------------------------
+// --- repeatability
+// -------------------------------------------------------------------------------------------------------
 
 class Repeat : public FirmwareTest {};
 
@@ -307,7 +317,8 @@ TEST_F(Repeat, the_digest_does_not_depend_on_threads) {
   EXPECT_EQ(digests[0], digests[2]);
 }
 
-// --- traps of real firmware ------------------------------------------------------------------------------------------------
+// --- traps of real firmware
+// ------------------------------------------------------------------------------------------------
 
 struct Failure {
   const char* name;
@@ -331,7 +342,9 @@ static void nothing(void) {}
 static int deeper(int n) { volatile char frame[60]; frame[0] = n; return deeper(n + 1) + frame[0]; }
 static void fail(void) { )") + f.body + R"( }
 int main(void) { fail(); while (1); }
-)", "bad").at(-0.3, 0);
+)",
+                                     "bad")
+                   .at(-0.3, 0);
   Robot& good = add_robot_with_source(kDrive500, "good").at(0.3, 0);
   run_for(3);
   ASSERT_EQ(bad.traps().size(), 1u);
@@ -348,21 +361,27 @@ int main(void) { fail(); while (1); }
 
 INSTANTIATE_TEST_SUITE_P(
     Way, Failing,
-    ::testing::Values(Failure{"null_pointer", "sink = *pointer;", TP_TRAP_ADDRESS, "null pointer"},
-                      Failure{"write_to_null", "*pointer = 3;", TP_TRAP_ADDRESS, "write through a null pointer"},
-                      Failure{"wild_pointer", "pointer = (int *)0x7654; sink = *pointer;", TP_TRAP_ADDRESS, "wild pointer"},
-                      Failure{"null_function", "void (* volatile f)(void) = 0; f();", TP_TRAP_ADDRESS, "null pointer"},
-                      Failure{"division_by_zero", "sink = 7 / zero;", TP_TRAP_MATH, "division by zero"},
-                      Failure{"remainder_by_zero", "sink = 7L % (long)zero;", TP_TRAP_MATH, "division by zero"},
-                      Failure{"endless_recursion", "sink = deeper(1);", TP_TRAP_STACK, "stack overflow"},
-                      Failure{"large_array", "volatile char big[30000]; int i; for (i = 0; i < 30000; i++) big[i] = i; sink = big[zero]; deeper(0);",
-                              TP_TRAP_STACK, "stack overflow"},
-                      Failure{"interrupts_off", "e_start_agendas_processing(); e_activate_agenda(nothing, 10); while (1) INTERRUPT_OFF();",
-                              TP_TRAP_INTERRUPT, "interrupts off"},
-                      Failure{"priority_7", "e_start_agendas_processing(); e_activate_agenda(nothing, 10); SRbits.IPL = 7; while (1);",
-                              TP_TRAP_INTERRUPT, "interrupts off"},
-                      Failure{"abort", "abort();", TP_TRAP_ABORT, "abort"},
-                      Failure{"no_handler", "T1CON = 0x8000; PR1 = 1000; IEC0bits.T1IE = 1; while (1);", TP_TRAP_INTERRUPT, "_T1Interrupt"}),
+    ::testing::Values(
+        Failure{"null_pointer", "sink = *pointer;", TP_TRAP_ADDRESS, "null pointer"},
+        Failure{"write_to_null", "*pointer = 3;", TP_TRAP_ADDRESS, "write through a null pointer"},
+        Failure{"wild_pointer", "pointer = (int *)0x7654; sink = *pointer;", TP_TRAP_ADDRESS, "wild pointer"},
+        Failure{"null_function", "void (* volatile f)(void) = 0; f();", TP_TRAP_ADDRESS, "null pointer"},
+        Failure{"division_by_zero", "sink = 7 / zero;", TP_TRAP_MATH, "division by zero"},
+        Failure{"remainder_by_zero", "sink = 7L % (long)zero;", TP_TRAP_MATH, "division by zero"},
+        Failure{"endless_recursion", "sink = deeper(1);", TP_TRAP_STACK, "stack overflow"},
+        Failure{"large_array",
+                "volatile char big[30000]; int i; for (i = 0; i < 30000; i++) big[i] = i; sink = big[zero]; "
+                "deeper(0);",
+                TP_TRAP_STACK, "stack overflow"},
+        Failure{"interrupts_off",
+                "e_start_agendas_processing(); e_activate_agenda(nothing, 10); while (1) INTERRUPT_OFF();",
+                TP_TRAP_INTERRUPT, "interrupts off"},
+        Failure{"priority_7",
+                "e_start_agendas_processing(); e_activate_agenda(nothing, 10); SRbits.IPL = 7; while (1);",
+                TP_TRAP_INTERRUPT, "interrupts off"},
+        Failure{"abort", "abort();", TP_TRAP_ABORT, "abort"},
+        Failure{"no_handler", "T1CON = 0x8000; PR1 = 1000; IEC0bits.T1IE = 1; while (1);", TP_TRAP_INTERRUPT,
+                "_T1Interrupt"}),
     [](const auto& info) { return std::string(info.param.name); });
 
 TEST_F(Promise, a_software_reset_restarts_the_program_with_start_values) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Pinned digests: the whole history of a few runs, to the last bit, on any number of threads, at any optimisation
-// level, under any sanitizer. A change here is a change of behaviour: say in the commit what changed and why, and put
-// the number that the failing test prints.
+// Pinned digests: the whole history of a few runs, to the last bit, on any number of threads, at any
+// optimisation level, under any sanitizer. A change here is a change of behaviour: say in the commit what
+// changed and why, and put the number that the failing test prints.
 #include <cstdio>
 
 #include "tests/support/firmware_test.h"
@@ -30,14 +30,16 @@ TEST_P(Golden, run_repeats_to_the_last_bit) {
   expect_no_traps();
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Of, Golden,
-    ::testing::Combine(::testing::Values(Pinned{"maze", "worlds/maze.toml", 20, "?"}, Pinned{"swarm", "worlds/swarm.toml", 5, "?"},
-                                         Pinned{"push", "worlds/push.toml", 10, "?"},
-                                         Pinned{"braitenberg_10", "bench/worlds/brait_10.toml", 5, "?"}),
-                       ::testing::Values(1, 3)),
-    [](const auto& info) {
-      return std::string(std::get<0>(info.param).name) + "_threads_" + std::to_string(std::get<1>(info.param));
-    });
+INSTANTIATE_TEST_SUITE_P(Of, Golden,
+                         ::testing::Combine(::testing::Values(Pinned{"maze", "worlds/maze.toml", 20, "?"},
+                                                              Pinned{"swarm", "worlds/swarm.toml", 5, "?"},
+                                                              Pinned{"push", "worlds/push.toml", 10, "?"},
+                                                              Pinned{"braitenberg_10",
+                                                                     "bench/worlds/brait_10.toml", 5, "?"}),
+                                            ::testing::Values(1, 3)),
+                         [](const auto& info) {
+                           return std::string(std::get<0>(info.param).name) + "_threads_" +
+                                  std::to_string(std::get<1>(info.param));
+                         });
 
 }  // namespace

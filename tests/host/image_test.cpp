@@ -21,7 +21,8 @@ std::string write_file(const std::string& name, const std::string& bytes) {
 }
 
 TEST(Image, a_missing_file_is_named) {
-  EXPECT_EQ(refusal("/nowhere/x.so"), "/nowhere/x.so: firmware image: got 'No such file or directory', expected a readable file");
+  EXPECT_EQ(refusal("/nowhere/x.so"),
+            "/nowhere/x.so: firmware image: got 'No such file or directory', expected a readable file");
 }
 
 TEST(Image, a_folder_is_refused) { EXPECT_NE(refusal("/tmp").find("no regular file"), std::string::npos); }
@@ -39,7 +40,10 @@ TEST(Image, a_hex_file_is_told_from_others) {
 }
 
 TEST(Image, a_dspic_elf_is_told_from_others) {
-  std::string elf("\x7f" "ELF\x01\x01\x01", 7);
+  std::string elf(
+      "\x7f"
+      "ELF\x01\x01\x01",
+      7);
   elf.resize(52);
   elf[16] = 2;
   elf[18] = 118;

@@ -10,11 +10,14 @@ using namespace host_test;
 TEST(Robot, globals_of_a_thousand_robots_of_one_image_stay_private) {
   auto image = open_image("hand_busy");
   std::vector<std::unique_ptr<BenchRobot>> robots;
-  for (int i = 0; i < 1000; ++i) robots.push_back(std::make_unique<BenchRobot>(image, "r" + std::to_string(i)));
+  for (int i = 0; i < 1000; ++i)
+    robots.push_back(std::make_unique<BenchRobot>(image, "r" + std::to_string(i)));
   for (int i = 0; i < 1000; ++i) robots[static_cast<std::size_t>(i)]->robot.run_until(28'800 + 100 * i);
   // a round costs 10 cycles: each robot counts its own, start-up code included
   for (int i = 0; i < 1000; ++i)
-    EXPECT_NEAR(static_cast<double>(robots[static_cast<std::size_t>(i)]->variable("rounds")), (27'800 + 100 * i) / 10, 2) << i;
+    EXPECT_NEAR(static_cast<double>(robots[static_cast<std::size_t>(i)]->variable("rounds")),
+                (27'800 + 100 * i) / 10, 2)
+        << i;
 }
 
 TEST(Robot, a_waiting_robot_costs_no_time) {
@@ -78,8 +81,14 @@ TEST(Robot, background_work_slows_the_main_program_by_its_share) {
 TEST(Robot, robots_of_two_copies_run_at_the_same_time_and_agree) {
   auto image = open_image("hand_ticker");
   BenchRobot a(image, "a", 0), b(image, "b", 1);
-  std::thread one([&] { host::catch_faults_on_this_thread(); a.run(10 * kSecond + 100); });
-  std::thread two([&] { host::catch_faults_on_this_thread(); b.run(10 * kSecond + 100); });
+  std::thread one([&] {
+    host::catch_faults_on_this_thread();
+    a.run(10 * kSecond + 100);
+  });
+  std::thread two([&] {
+    host::catch_faults_on_this_thread();
+    b.run(10 * kSecond + 100);
+  });
   one.join();
   two.join();
   EXPECT_EQ(a.robot.hash(), b.robot.hash());
@@ -87,8 +96,8 @@ TEST(Robot, robots_of_two_copies_run_at_the_same_time_and_agree) {
 }
 
 TEST(Robot, every_copy_of_an_image_has_data_of_its_own) {
-  // symptom: digests changed with three threads. Cause: copies 1 and 2 were loaded from the same /proc/self/fd name,
-  // so the dynamic linker handed out one object twice.
+  // symptom: digests changed with three threads. Cause: copies 1 and 2 were loaded from the same
+  // /proc/self/fd name, so the dynamic linker handed out one object twice.
   auto image = open_image("hand_busy");
   std::vector<const char*> data;
   for (std::size_t i = 0; i < 5; ++i) data.push_back(image->copy(i).description().data_begin);

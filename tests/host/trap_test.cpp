@@ -28,7 +28,8 @@ TEST_P(Trap, stops_that_robot_and_no_other) {
   EXPECT_NE(t.message.find(e.says), std::string::npos) << t.message;
   EXPECT_EQ(t.robot, "bad");
   ASSERT_FALSE(t.backtrace.empty());
-  EXPECT_NE(t.backtrace.back().function.find("firmware_main"), std::string::npos) << to_string(t.backtrace.back());
+  EXPECT_NE(t.backtrace.back().function.find("firmware_main"), std::string::npos)
+      << to_string(t.backtrace.back());
   EXPECT_NE(t.place.file.find("traps.c"), std::string::npos) << to_string(t.place);
   EXPECT_GT(t.place.line, 0);
   EXPECT_GE(t.cycle, 2000);
@@ -36,18 +37,18 @@ TEST_P(Trap, stops_that_robot_and_no_other) {
   EXPECT_GT(good.variable("rounds"), 4'000'000);
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryKind, Trap,
-                         ::testing::Values(Expected{1, TP_TRAP_ADDRESS, "read through a null pointer"},
-                                           Expected{2, TP_TRAP_ADDRESS, "wild pointer"},
-                                           Expected{3, TP_TRAP_ADDRESS, "write through a wild pointer (address 4660)"},
-                                           Expected{4, TP_TRAP_MATH, "division by zero"},
-                                           Expected{6, TP_TRAP_ABORT, "abort"},
-                                           Expected{7, TP_TRAP_INTERRUPT, "endless loop with interrupts off"},
-                                           Expected{8, TP_TRAP_ADDRESS, "null pointer"},
-                                           Expected{9, TP_TRAP_ILLEGAL, "illegal instruction"},
-                                           Expected{10, TP_TRAP_ADDRESS, "write through a null pointer"},
-                                           Expected{11, TP_TRAP_UNSIMULATED, "ADCON1"}),
-                         [](const auto& info) { return "choice_" + std::to_string(info.param.choice); });
+INSTANTIATE_TEST_SUITE_P(
+    EveryKind, Trap,
+    ::testing::Values(Expected{1, TP_TRAP_ADDRESS, "read through a null pointer"},
+                      Expected{2, TP_TRAP_ADDRESS, "wild pointer"},
+                      Expected{3, TP_TRAP_ADDRESS, "write through a wild pointer (address 4660)"},
+                      Expected{4, TP_TRAP_MATH, "division by zero"}, Expected{6, TP_TRAP_ABORT, "abort"},
+                      Expected{7, TP_TRAP_INTERRUPT, "endless loop with interrupts off"},
+                      Expected{8, TP_TRAP_ADDRESS, "null pointer"},
+                      Expected{9, TP_TRAP_ILLEGAL, "illegal instruction"},
+                      Expected{10, TP_TRAP_ADDRESS, "write through a null pointer"},
+                      Expected{11, TP_TRAP_UNSIMULATED, "ADCON1"}),
+    [](const auto& info) { return "choice_" + std::to_string(info.param.choice); });
 
 TEST(TrapOf, endless_recursion_is_a_stack_error) {
   BenchRobot bad(open_image("hand_trap_5"), "bad");
@@ -71,7 +72,8 @@ TEST(TrapOf, returning_from_main_resets_and_is_counted) {
 TEST(TrapOf, a_thousand_trapping_robots_are_all_reported) {
   auto image = open_image("hand_trap_1");
   std::vector<std::unique_ptr<BenchRobot>> robots;
-  for (int i = 0; i < 1000; ++i) robots.push_back(std::make_unique<BenchRobot>(image, "r" + std::to_string(i)));
+  for (int i = 0; i < 1000; ++i)
+    robots.push_back(std::make_unique<BenchRobot>(image, "r" + std::to_string(i)));
   for (auto& r : robots) r->run(28'800);
   for (auto& r : robots) EXPECT_EQ(r->robot.traps().size(), 1u);
 }

@@ -33,7 +33,8 @@ std::string folder_for(const std::string& source) {
 
 }  // namespace
 
-// --- Robot ---------------------------------------------------------------------------------------------------------
+// --- Robot
+// ---------------------------------------------------------------------------------------------------------
 
 Robot& Robot::at(double x_m, double y_m, double heading_deg) {
   desc_.pose = {x_m, y_m, sim::radians(heading_deg)};
@@ -62,7 +63,9 @@ int Robot::proximity(int sensor) const {
   return mind().proximity_counts(test_->twin().simulation().scene(), sensor);
 }
 int Robot::collisions() const { return test_->twin().simulation().touches(index_).collisions; }
-double Robot::longest_wall_touch_s() const { return test_->twin().simulation().touches(index_).longest_wall_touch_s; }
+double Robot::longest_wall_touch_s() const {
+  return test_->twin().simulation().touches(index_).longest_wall_touch_s;
+}
 double Robot::cpu_load() const { return mind().robot()->cpu_load(); }
 cc::FunctionCycles Robot::cost_of(const std::string& function) const {
   for (const auto& f : cc::function_costs(test_->twin().image_path(index_)))
@@ -88,7 +91,8 @@ void Robot::serial_send(int port, const std::string& bytes) {
   serial_[port - 1]->inject(bytes, mind().now());
 }
 
-// --- FirmwareTest ----------------------------------------------------------------------------------------------------
+// --- FirmwareTest
+// ----------------------------------------------------------------------------------------------------
 
 FirmwareTest::FirmwareTest() {
   world.models = {board::epuck_model()};
@@ -185,7 +189,8 @@ std::uint64_t FirmwareTest::digest() const { return twin_ ? twin_->simulation().
 void FirmwareTest::expect_no_traps() const {
   if (!twin_) return;
   for (const auto& t : twin_->traps())
-    ADD_FAILURE() << t.robot << ": " << host::trap_name(t.kind) << ": " << t.message << " at " << to_string(t.place);
+    ADD_FAILURE() << t.robot << ": " << host::trap_name(t.kind) << ": " << t.message << " at "
+                  << to_string(t.place);
 }
 
 }  // namespace firmware_test

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The fixture for firmware tests, hardware-in-the-loop style: a world in a few lines, a robot with a controller,
-// run for so long or until something happens, expect what the robot did. docs/testing.md is the guide.
+// The fixture for firmware tests, hardware-in-the-loop style: a world in a few lines, a robot with a
+// controller, run for so long or until something happens, expect what the robot did. docs/testing.md is the
+// guide.
 //
 //   TEST_F(FirmwareTest, blink_lights_the_ring) {
 //     Robot& robot = add_robot("blink");
@@ -29,27 +30,29 @@ class FirmwareTest;
 /// One robot of a test. Before the first run it collects settings; afterwards it answers questions.
 class Robot {
  public:
-  // --- before the first run -------------------------------------------------------------------------------------
+  // --- before the first run
+  // -------------------------------------------------------------------------------------
   Robot& at(double x_m, double y_m, double heading_deg = 0);
   Robot& selector(int position);
   Robot& battery(double volts);
   sim::RobotDesc& settings() { return desc_; }  ///< everything else a world file can say
 
-  // --- while running ----------------------------------------------------------------------------------------------
+  // --- while running
+  // ----------------------------------------------------------------------------------------------
   double x_m() const { return pose().x_m; }
   double y_m() const { return pose().y_m; }
   double heading_deg() const { return sim::degrees(pose().heading_rad); }
-  double distance_m() const;                 ///< way travelled over the floor
-  std::int64_t left_steps() const;           ///< motor steps since power-up, not wrapped
+  double distance_m() const;        ///< way travelled over the floor
+  std::int64_t left_steps() const;  ///< motor steps since power-up, not wrapped
   std::int64_t right_steps() const;
-  bool led(int number) const;                ///< 0 to 7 the ring, 8 body, 9 front
-  std::uint32_t leds() const;                ///< the same as a mask
-  bool pin(char port, int bit) const;        ///< level of a pin, e.g. ('D', 3): left motor, phase D
-  int proximity(int sensor) const;           ///< what e_get_prox would give, counts
+  bool led(int number) const;          ///< 0 to 7 the ring, 8 body, 9 front
+  std::uint32_t leds() const;          ///< the same as a mask
+  bool pin(char port, int bit) const;  ///< level of a pin, e.g. ('D', 3): left motor, phase D
+  int proximity(int sensor) const;     ///< what e_get_prox would give, counts
   int collisions() const;
   double longest_wall_touch_s() const;
-  double cpu_load() const;                   ///< share of cycles not spent waiting, 0 to 1
-  std::int64_t cycles() const;               ///< instruction cycles since power-up
+  double cpu_load() const;                                   ///< share of cycles not spent waiting, 0 to 1
+  std::int64_t cycles() const;                               ///< instruction cycles since power-up
   std::string uart1_text() const { return serial_text(1); }  ///< everything sent so far
   std::string uart2_text() const { return serial_text(2); }
   void send_uart1(const std::string& bytes) { serial_send(1, bytes); }  ///< arrives at the line's baud rate
@@ -77,7 +80,8 @@ class Robot {
     return values;
   }
 
-  /// Estimated cycles of a function of the firmware, callees included; -1 fields: no bound known (docs/cycles.md).
+  /// Estimated cycles of a function of the firmware, callees included; -1 fields: no bound known
+  /// (docs/cycles.md).
   cc::FunctionCycles cost_of(const std::string& function) const;
 
   const std::vector<host::TrapReport>& traps() const { return mind().robot()->traps(); }
@@ -101,7 +105,8 @@ class FirmwareTest : public ::testing::Test {
   ~FirmwareTest() override;
 
  protected:
-  // --- the world, before the first run ---------------------------------------------------------------------------
+  // --- the world, before the first run
+  // ---------------------------------------------------------------------------
   sim::WorldDesc world;  ///< an empty floor without walls or noise; change anything
   void arena(double width_m, double depth_m);
   /// A fixed wall from one point to another, 10 cm high; colour parts 0 to 1.
@@ -117,7 +122,8 @@ class FirmwareTest : public ::testing::Test {
   Robot& add_robot_with_source(const std::string& c_source, const std::string& name = "");
   Robot& robot(int index) { return *robots_[static_cast<std::size_t>(index)]; }
 
-  // --- running -----------------------------------------------------------------------------------------------------
+  // --- running
+  // -----------------------------------------------------------------------------------------------------
   void run_for(double seconds);
   /// Runs until `done` holds (looked at every tick) or `at_most_s` have passed; false then.
   bool run_until(const std::function<bool()>& done, double at_most_s);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * A firmware image written by hand for the host's own tests: what twinpuck-cc inserts is spelled out here, so a
- * failing host test never is the compiler's fault. Plain gcc, PC data model. */
+ * A firmware image written by hand for the host's own tests: what twinpuck-cc inserts is spelled out here, so
+ * a failing host test never is the compiler's fault. Plain gcc, PC data model. */
 #ifndef FRAME_H
 #define FRAME_H
 #include "hal_sim/host/image_abi.h"
@@ -13,9 +13,9 @@ extern char __start_tpdata[], __stop_tpdata[];
 __attribute__((visibility("hidden"), weak)) struct tp_control tp_ctl;
 
 /* the head of a block that costs n cycles */
-#define BLOCK(n)                                  \
-  do {                                            \
-    if ((tp_ctl.budget -= (n)) < 0) tp_event();   \
+#define BLOCK(n)                                \
+  do {                                          \
+    if ((tp_ctl.budget -= (n)) < 0) tp_event(); \
   } while (0)
 
 void firmware_main(void);

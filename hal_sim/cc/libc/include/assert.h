@@ -4,6 +4,6 @@
 #ifdef NDEBUG
 #define assert(condition) ((void)0)
 #else
-void tp_image_assert(const char *file, int line, const char *text);
+void tp_image_assert(const char* file, int line, const char* text);
 #define assert(condition) ((condition) ? (void)0 : tp_image_assert(__FILE__, __LINE__, #condition))
 #endif

@@ -75,8 +75,8 @@ double copysign(double x, double y);
 float copysignf(float x, float y);
 double ldexp(double x, int e);
 float ldexpf(float x, int e);
-double frexp(double x, int *e);
-float frexpf(float x, int *e);
-double modf(double x, double *whole);
-float modff(float x, float *whole);
+double frexp(double x, int* e);
+float frexpf(float x, int* e);
+double modf(double x, double* whole);
+float modff(float x, float* whole);
 #endif

@@ -5,6 +5,6 @@
 #include <stddef.h>
 typedef long time_t;
 typedef unsigned long clock_t;
-time_t time(time_t *to);
+time_t time(time_t* to);
 clock_t clock(void);
 #endif
