@@ -128,7 +128,9 @@ def check_text(path, text):
         if path.startswith("sim_core/") and re.search(r"e-?puck", line, re.I):
             problem(path, number, "sim_core knows no robot by name: " + line.strip()[:80])
     if path.endswith((".c", ".h", ".cpp", ".py", ".sh", ".cmake", ".s")) or path in ("Makefile", ".ci/run"):
-        if not any("SPDX-License-Identifier: MIT" in line for line in lines[:3]):
+        # the sources of the exact cycle counts stay as they were counted
+        counted = path.startswith("tests/cc/xc16-cycles/src/")
+        if not counted and not any("SPDX-License-Identifier: MIT" in line for line in lines[:3]):
             problem(path, 1, "no SPDX-License-Identifier: MIT in the first three lines")
 
 

@@ -5,27 +5,23 @@
 
 namespace host {
 
-/// Instruction clock: 7.3728 MHz crystal, PLL x8, four clocks an instruction, Hz. [lib:
-/// motor_led/e_epuck_ports.h]
-inline constexpr double kFcyHz = 14'745'600.0;
+/// Instruction clock, Hz: 7.3728 MHz crystal, PLL x8, four clocks an instruction.
+inline constexpr double kFcyHz = 14'745'600.0;  // [lib: motor_led/e_epuck_ports.h]
 
-/// Start-up code before main(): stack, PSV, clearing and filling of data. [assumed: a few hundred words of
-/// data at 2 to 4 cycles each]
-inline constexpr Cycle kStartUpCycles = 1000;
+/// Start-up code before main(): stack, PSV, clearing and filling of data.
+inline constexpr Cycle kStartUpCycles = 1000;  // [assumed: some hundred words of data, 2 to 4 cycles each]
 
 /// Entry of a program's own handler and RETFIE: 4 cycles latency, 8 register pairs saved and restored, 3 to
-/// return. [estimated: DS70143 5.7 and XC16's prologue]
-inline constexpr Cycle kInterruptEntryCycles = 23;
+/// return.
+inline constexpr Cycle kInterruptEntryCycles = 23;  // [estimated: DS70143 5.7 and XC16's prologue]
 
-/// Interrupts blocked for this long by the main program are taken for an endless loop: one second. [assumed:
-/// no e-puck program masks interrupts for as long]
-inline constexpr Cycle kBlockedInterruptCycles = 14'745'600;
+/// Interrupts blocked for this long by the main program are taken for an endless loop: one second.
+inline constexpr Cycle kBlockedInterruptCycles = 14'745'600;  // [assumed: no program masks them for as long]
 
-/// Background handlers never take more than this share of the processor, percent. [assumed: beyond it the
-/// main program starves on the robot as well]
-inline constexpr int kMostBackgroundPercent = 95;
+/// Background handlers never take more than this share of the processor, percent.
+inline constexpr int kMostBackgroundPercent = 95;  // [assumed: beyond it the robot starves as well]
 
-/// Priority at which the math error trap runs. [DS 5.3]
-inline constexpr int kMathErrorPriority = 11;
+/// Priority at which the math error trap runs.
+inline constexpr int kMathErrorPriority = 11;  // [DS 5.3]
 
 }  // namespace host

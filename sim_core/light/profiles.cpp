@@ -59,7 +59,7 @@ std::vector<ResponseRow> argos_table() {
 }
 
 std::vector<ProximityProfile> make_profiles() {
-  // [Webots V6 to R2019a: e-puck DistanceSensor lookupTable]
+  // [Webots V6 to R2019a: the DistanceSensor lookupTable]
   const std::vector<ResponseRow> webots_old{{0, 4095, .005},  {.005, 3474, .037}, {.01, 2211, .071},
                                             {.02, 676, .105}, {.03, 306, .125},   {.04, 164, .206},
                                             {.05, 90, .269},  {.06, 56, .438},    {.07, 34, .704}};

@@ -56,6 +56,13 @@ TEST_F(Command, the_same_run_twice_is_the_same_to_the_byte) {
   EXPECT_EQ(read(path("a.csv")), read(path("b.csv")));
 }
 
+TEST_F(Command, the_readme_shows_the_digest_that_a_run_gives) {
+  const Said s = twinpuck("run worlds/maze.toml --for 60 -q --summary " + path("s.json"));
+  ASSERT_EQ(s.exit_code, 0) << s.text;
+  const std::string digest = json::parse(read(path("s.json")))["digest"];
+  EXPECT_NE(read(TWINPUCK_SOURCE_DIR "/README.md").find("digest " + digest), std::string::npos) << digest;
+}
+
 TEST_F(Command, the_digest_depends_on_the_seed_and_not_on_threads_or_outputs) {
   const auto digest = [&](const std::string& options) {
     const Said s =
