@@ -91,7 +91,7 @@ TEST_F(Command, a_trap_ends_with_exit_code_3_and_says_where) {
 TEST_F(Command, a_real_time_run_is_paced) {
   const Said s = twinpuck("run maze --for 1 --speed 1 --summary " + path("s.json"));
   ASSERT_EQ(s.exit_code, 0) << s.text;
-  EXPECT_NEAR(json::parse(read(path("s.json")))["wall_s"].get<double>(), 1.0, 0.3);
+  EXPECT_NEAR(json::parse(read(path("s.json")))["wall_s"].get<double>(), 1.0, 0.5);
 }
 
 TEST_F(Command, the_host_time_guard_ends_with_124) {
@@ -101,14 +101,14 @@ TEST_F(Command, the_host_time_guard_ends_with_124) {
 TEST_F(Command, ctrl_c_ends_with_130_and_keeps_the_outputs) {
   const Said s =
       twinpuck("run maze --for 1000 --speed 1 --record " + path("r.csv") + " --summary " + path("s.json"),
-               "timeout --preserve-status -s INT 1");
+               "timeout --preserve-status -s INT 4");
   EXPECT_EQ(s.exit_code, 130) << s.text;
   EXPECT_TRUE(json::accept(read(path("s.json"))));
   EXPECT_EQ(read(path("r.csv")).back(), '\n');
 }
 
 TEST_F(Command, a_killed_run_leaves_a_readable_recording) {
-  twinpuck("run maze --for 1000 --speed 20 -q --record " + path("r.csv"), "timeout -s KILL 2");
+  twinpuck("run maze --for 1000 --speed 20 -q --record " + path("r.csv"), "timeout -s KILL 5");
   const std::string csv = read(path("r.csv"));
   EXPECT_GT(csv.size(), 1000u);
   const std::size_t end = csv.rfind('\n');

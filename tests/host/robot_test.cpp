@@ -25,7 +25,7 @@ TEST(Robot, a_waiting_robot_costs_no_time) {
   const auto before = std::chrono::steady_clock::now();
   r.run(1000 * kSecond);
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - before;
-  EXPECT_LT(wall.count(), 0.5);  // 512,000 windows; spinning would take an hour
+  EXPECT_LT(wall.count(), 10);  // 512,000 windows; spinning would take an hour
   EXPECT_EQ(r.robot.cycles(), 1000 * kSecond);
   EXPECT_EQ(r.variable("started"), 42);
 }
