@@ -13,7 +13,7 @@ JOBS   := $(shell nproc)
 CMAKE  := cmake -G Ninja -S .
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build run test view dspic check format bench asan tsan fuzz levels clean
+.PHONY: help setup tool build run test view dspic check format bench asan tsan fuzz levels clean
 
 ## help: this list
 help:
@@ -27,14 +27,23 @@ help:
 setup:
 	@scripts/setup.sh
 
+# configures once; $(1): build folder, $(2): what differs from the usual build
+define configure
+@test -f $(1)/build.ninja || $(CMAKE) -B $(1) $(2) >$(1).log 2>&1 || { cat $(1).log; rm -f $(1).log; exit 1; }; rm -f $(1).log
+endef
+
+# the command and the firmware compiler, without tests
+tool: setup
+	$(call configure,$(BUILD),)
+	@ninja -C $(BUILD) --quiet -j $(JOBS) twinpuck
+
 ## build: build everything for the PC
 build: setup
-	@test -f $(BUILD)/build.ninja || $(CMAKE) -B $(BUILD) -DCMAKE_BUILD_TYPE=Release >$(BUILD).log 2>&1 \
-	  || { cat $(BUILD).log; rm -f $(BUILD).log; exit 1; }; rm -f $(BUILD).log
+	$(call configure,$(BUILD),)
 	@ninja -C $(BUILD) --quiet -j $(JOBS)
 
 ## run: 60 simulated seconds of FW in WORLD: summary, CSV and picture
-run: build
+run: tool
 	@mkdir -p $(OUT)
 	@$(BUILD)/twinpuck build firmware/$(FW) -o $(OUT)/$(FW).so
 	@$(BUILD)/twinpuck run worlds/$(WORLD).toml --fw '*=$(OUT)/$(FW).so' --for 60 --speed max \
@@ -65,7 +74,7 @@ format:
 	@git ls-files '*.h' '*.cpp' | grep -v '^firmware/' | grep -v '^hal_sim/api/' | xargs -r clang-format -i
 
 ## bench: speed for 1 to 1000 robots, beside libenki
-bench: build
+bench: tool
 	@scripts/setup.sh bench
 	@ninja -C $(BUILD) --quiet -j $(JOBS) bench
 	@$(BUILD)/bin/bench $(ARGS)
@@ -91,7 +100,7 @@ fuzz: setup
 	@$$(find $(BUILD)-fuzz -name fuzz_world_loader -type f) -max_total_time=600 -timeout=10 -max_len=4096 $(ARGS) $(BUILD)-fuzz/corpus worlds
 
 ## levels: digests with the simulator at -O0 and -O2 must agree
-levels: build
+levels: tool
 	@scripts/digest_levels.sh $(BUILD)
 
 ## clean: remove everything that was built

@@ -16,9 +16,9 @@
 #include "hal_sim/cc/cost_params.h"
 #include "hal_sim/cc/object_cache.h"
 
-extern "C" __attribute__((visibility("default"), used)) long long tp_bench_counts[4096];
+extern "C" __attribute__((visibility("default"))) long long tp_bench_counts[4096];
 long long tp_bench_counts[4096];
-extern "C" __attribute__((visibility("default"), used)) uint16_t LATG, PORTG, TRISG;
+extern "C" __attribute__((visibility("default"))) uint16_t LATG, PORTG, TRISG;
 uint16_t LATG, PORTG, TRISG;
 
 namespace {
