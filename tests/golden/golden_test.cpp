@@ -30,16 +30,17 @@ TEST_P(Golden, run_repeats_to_the_last_bit) {
   expect_no_traps();
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, Golden,
-                         ::testing::Combine(::testing::Values(Pinned{"maze", "worlds/maze.toml", 20, "97032ed451552a95"},
-                                                              Pinned{"swarm", "worlds/swarm.toml", 5, "431564b25e778997"},
-                                                              Pinned{"push", "worlds/push.toml", 10, "e90a8ded4415e1cc"},
-                                                              Pinned{"braitenberg_10",
-                                                                     "bench/worlds/brait_10.toml", 5, "6d663a2ba2ad6675"}),
-                                            ::testing::Values(1, 3)),
-                         [](const auto& info) {
-                           return std::string(std::get<0>(info.param).name) + "_threads_" +
-                                  std::to_string(std::get<1>(info.param));
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Of, Golden,
+    ::testing::Combine(::testing::Values(Pinned{"maze", "worlds/maze.toml", 20, "97032ed451552a95"},
+                                         Pinned{"swarm", "worlds/swarm.toml", 5, "431564b25e778997"},
+                                         Pinned{"push", "worlds/push.toml", 10, "e90a8ded4415e1cc"},
+                                         Pinned{"braitenberg_10", "bench/worlds/brait_10.toml", 5,
+                                                "6d663a2ba2ad6675"}),
+                       ::testing::Values(1, 3)),
+    [](const auto& info) {
+      return std::string(std::get<0>(info.param).name) + "_threads_" +
+             std::to_string(std::get<1>(info.param));
+    });
 
 }  // namespace
