@@ -11,6 +11,8 @@ filter=${2:-}
 log=$build/tests.log
 passed=0
 failed=0
+# read by sanitized builds only
+export LSAN_OPTIONS="suppressions=$(pwd)/scripts/lsan.supp:print_suppressions=0"
 
 # GoogleTest programs are run one by one, so that the filter reaches single tests
 for program in "$build"/tests/*; do

@@ -90,7 +90,8 @@ void NativeRegisters::note_software_reset() { rcon_ |= kSwr; }
 void NativeRegisters::processor_stopped() { robot_.board().processor_reset(robot_.now()); }
 
 void NativeRegisters::refuse(unsigned address, const char* what) const {
-  robot_.trap(TP_TRAP_UNSIMULATED, std::string(register_name(address)) + ": " + what);
+  robot_.last_words() = std::string(register_name(address)) + ": " + what;
+  robot_.trap(TP_TRAP_UNSIMULATED, robot_.last_words());
 }
 
 // --- timers

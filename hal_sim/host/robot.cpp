@@ -241,9 +241,10 @@ void Robot::serve(int vector) {
     handler = copy_.description().vectors[vector];
   }
   if (!handler) {
-    trap(TP_TRAP_INTERRUPT, std::string("interrupt ") + vector_name(vector) +
-                                " is enabled and was raised, but the program has no handler _" +
-                                vector_name(vector) + "Interrupt; on the chip the processor resets");
+    last_words_ = std::string("interrupt ") + vector_name(vector) +
+                  " is enabled and was raised, but the program has no handler _" + vector_name(vector) +
+                  "Interrupt; on the chip the processor resets";
+    trap(TP_TRAP_INTERRUPT, last_words_);
   }
   const int outer = cpu_priority_;
   cpu_priority_ = registers_->nesting_disabled() ? 7 : s.priority;
@@ -262,8 +263,9 @@ void Robot::check_blocked() {
   const int waiting = interrupts_.longest_waiting(cpu_priority_, disi_until_ > now_);
   if (waiting < 0 || now_ - interrupts_.source(waiting).flag_since < kBlockedInterruptCycles) return;
   if (handler_depth_ > 0) return;  // a long handler delays others on the chip too
-  trap(TP_TRAP_INTERRUPT, std::string("interrupts have been off for more than a second while ") +
-                              vector_name(waiting) + " is waiting: an endless loop with interrupts off");
+  last_words_ = std::string("interrupts have been off for more than a second while ") + vector_name(waiting) +
+                " is waiting: an endless loop with interrupts off";
+  trap(TP_TRAP_INTERRUPT, last_words_);
 }
 
 // --- what compiled code calls

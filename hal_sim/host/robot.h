@@ -108,6 +108,10 @@ class Robot final : public Context {
   std::int64_t next_rand();
   void seed_rand(std::int64_t seed) { rand_state_ = static_cast<std::uint32_t>(seed); }
 
+  /// Where to build the sentence of a trap: the firmware's stack is abandoned, and what lies on it never
+  /// freed.
+  std::string& last_words() { return last_words_; }
+
   // --- for the register file
   // ----------------------------------------------------------------------------------
   InterruptController& interrupts() { return interrupts_; }
@@ -191,6 +195,7 @@ class Robot final : public Context {
 
   std::uint32_t rand_state_ = 1;
   std::vector<TrapReport> traps_;
+  std::string last_words_;
 };
 
 /// Installs the fault handlers of this process (SIGSEGV, SIGBUS, SIGFPE, SIGILL) once, and this thread's

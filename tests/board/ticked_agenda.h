@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "hal_sim/board/stepper.h"
@@ -53,7 +54,8 @@ class Agendas {
   int activate(int function, int cycle) {
     for (Node* n : list_)
       if (n->function == function) return 1;
-    list_.insert(list_.begin(), new Node{static_cast<std::uint16_t>(cycle), 0, true, function});
+    all_.push_back(std::make_unique<Node>(Node{static_cast<std::uint16_t>(cycle), 0, true, function}));
+    list_.insert(list_.begin(), all_.back().get());
     return 1;
   }
   int destroy(int function) {
@@ -165,7 +167,8 @@ class Agendas {
     }
   }
 
-  std::vector<Node*> list_;  // newest first; nodes of this short test program are never freed
+  std::vector<Node*> list_;                 // newest first; nodes of this short test program are never freed
+  std::vector<std::unique_ptr<Node>> all_;  // destroyed nodes too: a walk may still stand on one
   bool running_ = false;
   bool flag_ = false;
   Cycle next_tick_ = 0;
