@@ -21,6 +21,7 @@
 #include "hal_sim/board/agenda_timer.h"
 #include "hal_sim/board/basic_prox.h"
 #include "hal_sim/board/clock.h"
+#include "hal_sim/board/i2c_bus.h"
 #include "hal_sim/board/timer_motors.h"
 #include "hal_sim/board/uart.h"
 #include "hal_sim/host/context.h"
@@ -125,6 +126,9 @@ class Board {
   Stepper& stepper(Wheel wheel, Cycle at);
   /// UART 1 (Bluetooth) or 2 (RS232).
   Uart& uart(int number) { return uarts_[static_cast<std::size_t>(number - 1)]; }
+  /// Camera, motion sensors and turrets hang here.
+  I2cBus& i2c() { return i2c_; }
+  const I2cBus& i2c() const { return i2c_; }
   /// e_init_port(): latches 0, directions as the library wants them. (Its cost is the caller's.)
   void init_ports(Cycle at);
   /// Tick boundary: bytes from outside enter, bytes sent so far go out, old bookkeeping is dropped.
@@ -174,6 +178,7 @@ class Board {
   AdcScan scan_;
   BasicProx basic_prox_;
   std::array<Uart, 2> uarts_;
+  I2cBus i2c_;
   mutable Cycle settled_for_ = -1;  // the flash's length is nearly always the same: its exponential, once
   mutable double settled_share_ = 0;
   std::uint64_t conversions_ = 0;

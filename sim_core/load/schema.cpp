@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The table itself, section by section in the order of docs/world-format.md. Degrees and such become SI here.
 // Longer than 300 lines because it is one table: every key, its limits and its meaning on neighbouring lines.
+// Sections of a room with much to say stand in a file of their own, schema_<room>.cpp.
 #include "sim_core/load/schema.h"
 
 #include <fmt/format.h>
@@ -9,38 +10,10 @@
 #include "sim_core/base/clock.h"
 #include "sim_core/geometry/solid.h"
 #include "sim_core/light/profiles.h"
+#include "sim_core/load/schema_keys.h"
 
 namespace sim {
 namespace {
-
-constexpr double kFar = 1000;     // m: no coordinate or size beyond
-constexpr double kThin = 0.0005;  // m: nothing thinner
-constexpr double kMany = 1e9;
-
-/// Wraps a typed assignment.
-template <typename T, typename F>
-Setter into(F assign) {
-  return [assign](void* target, const Value& v, const WorldDesc&) {
-    assign(*static_cast<T*>(target), v);
-    return std::string();
-  };
-}
-
-/// Same, where the assignment may find something wrong.
-template <typename T, typename F>
-Setter checked(F assign) {
-  return [assign](void* target, const Value& v, const WorldDesc& draft) {
-    return std::string(assign(*static_cast<T*>(target), v, draft));
-  };
-}
-
-Colour colour_of(const Value& v) { return {v.numbers[0], v.numbers[1], v.numbers[2]}; }
-
-std::vector<Vec2> points_of(const Value& v) {
-  std::vector<Vec2> points;
-  for (const std::vector<double>& row : v.rows) points.push_back({row[0], row[1]});
-  return points;
-}
 
 /// The material named, or what to say when there is none.
 std::string find_material(const WorldDesc& draft, const std::string& name, Material& out) {

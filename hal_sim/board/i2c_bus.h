@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// The robot's I2C bus as the processor's master module drives it: start, restart, byte, acknowledge, stop.
+//
+//   e_i2c_* -> tp_i2c_* (host/pins_i2c.h) -> I2cBus -> the devices that answer to the address
+//
+// A byte is 9 bits of 164 cycles at the library's BRG of 150. A byte that nobody acknowledges is lost;
+// reading from nobody gives 0xFF, the level of the released line. Times are the caller's; nothing blocks. Not
+// modelled: clock stretching, arbitration, two devices of one address (the first one attached answers).
+// Source: [DS70143 17], [lib: I2C/], facts restated.
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "hal_sim/board/i2c_device.h"
+
+namespace board {
+
+class I2cBus {
+ public:
+  /// Plugs a device in. Before power-up, or while the bus is idle.
+  void attach(std::unique_ptr<I2cDevice> device);
+  /// Device at an 8-bit address in write form; null: nobody.
+  I2cDevice* find(std::uint8_t address) const;
+  const std::vector<std::unique_ptr<I2cDevice>>& devices() const { return devices_; }
+
+  void start(Cycle at);  ///< also a repeated start
+  /// One byte after a start is the address. False: nobody acknowledged.
+  bool write(std::uint8_t byte, Cycle at);
+  std::uint8_t read(Cycle at);
+  void stop(Cycle at);
+  /// I2CSTAT.P: the bus is idle, or a stop was the last thing on it.
+  bool is_stopped() const { return !open_; }
+
+  void processor_reset(Cycle at);
+  std::uint64_t state_hash() const;
+
+ private:
+  std::vector<std::unique_ptr<I2cDevice>> devices_;
+  I2cDevice* addressed_ = nullptr;
+  bool open_ = false;
+  bool expects_address_ = false;
+};
+
+}  // namespace board

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// What the tables of schema_*.cpp are written with: limits, and wrappers that turn a typed assignment into a
+// Setter.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "sim_core/load/schema.h"
+
+namespace sim {
+
+inline constexpr double kFar = 1000;     // m: no coordinate or size beyond
+inline constexpr double kThin = 0.0005;  // m: nothing thinner
+inline constexpr double kMany = 1e9;
+
+/// Wraps a typed assignment.
+template <typename T, typename F>
+Setter into(F assign) {
+  return [assign](void* target, const Value& v, const WorldDesc&) {
+    assign(*static_cast<T*>(target), v);
+    return std::string();
+  };
+}
+
+/// Same, where the assignment may find something wrong.
+template <typename T, typename F>
+Setter checked(F assign) {
+  return [assign](void* target, const Value& v, const WorldDesc& draft) {
+    return std::string(assign(*static_cast<T*>(target), v, draft));
+  };
+}
+
+inline Colour colour_of(const Value& v) { return {v.numbers[0], v.numbers[1], v.numbers[2]}; }
+
+inline std::vector<Vec2> points_of(const Value& v) {
+  std::vector<Vec2> points;
+  for (const std::vector<double>& row : v.rows) points.push_back({row[0], row[1]});
+  return points;
+}
+
+}  // namespace sim
