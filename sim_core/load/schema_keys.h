@@ -38,4 +38,8 @@ inline std::vector<Vec2> points_of(const Value& v) {
   return points;
 }
 
+/// schema_camera.cpp: [sky], and what a robot says about its camera.
+std::vector<SectionSpec> camera_sections();
+std::vector<KeySpec> robot_camera_keys();
+
 }  // namespace sim
