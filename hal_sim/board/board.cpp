@@ -24,6 +24,7 @@ enum : int { kA, kB, kC, kD, kF, kG };
 constexpr int kRingLedBit[8] = {6, 7, 9, 12, 10, 13, 14, 15};  // [lib: motor_led/e_epuck_ports.h]
 constexpr int kFrontLedBit = 1;                                // [lib: motor_led/e_epuck_ports.h]
 constexpr int kBodyLedBit = 2;                                 // [lib: motor_led/e_epuck_ports.h]
+constexpr int kCameraResetBit = 13;                            // [lib: motor_led/e_epuck_ports.h]
 
 struct Line {
   int port;
@@ -51,6 +52,11 @@ Board::Board(const Setup& setup)
       scan_(*this),
       basic_prox_(*this) {
   for (std::size_t i = 0; i < kPorts; ++i) tris_[i] = kImplemented[i];
+  if (setup.camera != CameraKind::None) {
+    auto sensor = std::make_unique<CameraSensor>(setup.camera);
+    camera_ = std::make_unique<Camera>(*this, *sensor, setup.camera_mount, setup.camera_noise);
+    i2c_.attach(std::move(sensor));
+  }
 }
 
 Board::~Board() = default;
@@ -147,6 +153,7 @@ void Board::port_write(char port, Register reg, std::uint16_t value, Cycle at) {
     if (scan_.is_on() || basic_prox_.is_on()) value = static_cast<std::uint16_t>(value & ~bit(line.bit));
     if (value & ~lat_[i] & bit(line.bit)) line_since_[static_cast<std::size_t>(pair)] = at;
   }
+  if (index == kC && camera_ && lat_[i] & ~value & bit(kCameraResetBit)) camera_->sensor_reset(at);
   if (index == kC && scan_.pulses(at) & 16u) value = static_cast<std::uint16_t>(value & ~(bit(1) | bit(2)));
   lat_[i] = value;
 }
@@ -219,6 +226,7 @@ void Board::processor_reset(Cycle at) {
   basic_prox_.reset(at);
   for (Uart& uart : uarts_) uart.reset(at);
   i2c_.processor_reset(at);
+  if (camera_) camera_->processor_reset();
   requests = Requests{};
   lat_.fill(0);
   for (std::size_t i = 0; i < kPorts; ++i) tris_[i] = kImplemented[i];
@@ -323,7 +331,8 @@ std::uint64_t Board::state_hash(Cycle at) const {
   }
   for (std::size_t i = 0; i < kPorts; ++i) add(lat_[i] | static_cast<std::uint64_t>(tris_[i]) << 16);
   for (const Uart& uart : uarts_) add(uart.state_hash());
-  if (!i2c_.devices().empty()) add(i2c_.state_hash());
+  if (i2c_.was_used()) add(i2c_.state_hash());
+  if (camera_ && camera_->is_used()) add(camera_->state_hash());
   add(static_cast<std::uint64_t>(scan_.interrupts(at)));
   return sim::mix64(sum);
 }

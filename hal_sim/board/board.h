@@ -7,7 +7,7 @@
 //
 // Modelled: port latches, directions and pin levels; two steppers that follow their coils; the library's
 // motor drivers, agenda timer, ADC scan and UARTs in closed form; IR circuit; LEDs; selector; battery.
-// Not modelled: accelerometer, microphones, camera, codec, I2C (each fails loudly in hal_sim/api).
+// Not modelled: accelerometer, microphones, codec (each fails loudly in hal_sim/api).
 //
 // Every method takes the cycle of this robot's clock at which it happens. Cycles never go back between calls
 // that change something. Nothing depends on who looked before: const methods have no side effects, and a
@@ -20,6 +20,7 @@
 #include "hal_sim/board/adc_scan.h"
 #include "hal_sim/board/agenda_timer.h"
 #include "hal_sim/board/basic_prox.h"
+#include "hal_sim/board/camera.h"
 #include "hal_sim/board/clock.h"
 #include "hal_sim/board/i2c_bus.h"
 #include "hal_sim/board/timer_motors.h"
@@ -40,6 +41,11 @@ enum class Revision {
 
 inline constexpr int kRingSensors = 8;
 
+/// Camera of a robot that does not say which one it carries.
+constexpr CameraKind usual_camera(Revision revision) {
+  return revision == Revision::Rev13 ? CameraKind::Po8030d : CameraKind::Po3030k;
+}
+
 /// What distinguishes one robot from another; fixed while it is powered.
 struct Setup {
   int robot = 0;           ///< index in the Scene
@@ -53,6 +59,9 @@ struct Setup {
   double ir_noise_scale = 1.0;                          ///< factor on the profile's relative noise; 0 = none
   double ambient_noise_counts = 0;  ///< standard deviation of every conversion of an IR channel, counts
   double ambient_counts_per_w_m2 = kAmbientCountsPerWm2;  ///< fall of the dark sample with light
+  CameraKind camera = CameraKind::Po3030k;
+  CameraMount camera_mount = CameraMount::Upright;
+  double camera_noise = 1;  ///< factor on the camera's noise; 0 none
   double clock_ppm = 0;     ///< crystal error, parts per million, positive = fast
   double boot_delay_s = 0;  ///< s from the world's beginning to the first instruction
 };
@@ -129,6 +138,9 @@ class Board {
   /// Camera, motion sensors and turrets hang here.
   I2cBus& i2c() { return i2c_; }
   const I2cBus& i2c() const { return i2c_; }
+  /// Null: the robot carries none.
+  Camera* camera() { return camera_.get(); }
+  const Camera* camera() const { return camera_.get(); }
   /// e_init_port(): latches 0, directions as the library wants them. (Its cost is the caller's.)
   void init_ports(Cycle at);
   /// Tick boundary: bytes from outside enter, bytes sent so far go out, old bookkeeping is dropped.
@@ -179,6 +191,7 @@ class Board {
   BasicProx basic_prox_;
   std::array<Uart, 2> uarts_;
   I2cBus i2c_;
+  std::unique_ptr<Camera> camera_;
   mutable Cycle settled_for_ = -1;  // the flash's length is nearly always the same: its exponential, once
   mutable double settled_share_ = 0;
   std::uint64_t conversions_ = 0;

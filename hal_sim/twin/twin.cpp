@@ -55,6 +55,15 @@ board::Setup setup_of(const sim::WorldDesc& world, int index) {
     if (i < variation.sensor_offset_counts.size())
       setup.ir_offset_counts[i] = variation.sensor_offset_counts[i];
   }
+  setup.camera = robot.camera == "none"      ? board::CameraKind::None
+                 : robot.camera == "po3030k" ? board::CameraKind::Po3030k
+                 : robot.camera == "po6030k" ? board::CameraKind::Po6030k
+                 : robot.camera == "po8030d" ? board::CameraKind::Po8030d
+                                             : board::usual_camera(setup.revision);
+  setup.camera_mount = robot.camera_mount == "sideways"   ? board::CameraMount::Sideways
+                       : robot.camera_mount == "inverted" ? board::CameraMount::Inverted
+                                                          : board::CameraMount::Upright;
+  setup.camera_noise = robot.camera_noise;
   setup.clock_ppm = variation.clock_ppm;
   setup.boot_delay_s = variation.boot_delay_s;
   return setup;

@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "sim_core/camera/camera.h"
 #include "sim_core/light/proximity.h"
 
 namespace sim {
@@ -16,6 +17,8 @@ class Scene {
     Clicks at;
   };
   std::function<double(int sensor, Clicks at)> reflection = [](int, Clicks) { return 0.0; };
+  /// What a camera sees in the direction (1 forward, u right, v up).
+  std::function<Light(double u, double v, Clicks at)> light = [](double, double, Clicks) { return Light{}; };
   double irradiance_w_m2 = 0;
   double relative_noise = 0;
   mutable std::vector<Question> asked;
