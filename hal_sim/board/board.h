@@ -23,6 +23,7 @@
 #include "hal_sim/board/camera.h"
 #include "hal_sim/board/clock.h"
 #include "hal_sim/board/i2c_bus.h"
+#include "hal_sim/board/i2c_master.h"
 #include "hal_sim/board/timer_motors.h"
 #include "hal_sim/board/uart.h"
 #include "hal_sim/host/context.h"
@@ -141,7 +142,11 @@ class Board {
   /// Null: the robot carries none.
   Camera* camera() { return camera_.get(); }
   const Camera* camera() const { return camera_.get(); }
-  /// e_init_port(): latches 0, directions as the library wants them. (Its cost is the caller's.)
+  /// The processor's side of the bus.
+  I2cMaster& i2c_master() { return i2c_master_; }
+  const I2cMaster& i2c_master() const { return i2c_master_; }
+  /// e_init_port(): latches 0, directions as the library wants them, the I2C module on. (Its cost is the
+  /// caller's.)
   void init_ports(Cycle at);
   /// Tick boundary: bytes from outside enter, bytes sent so far go out, old bookkeeping is dropped.
   void exchange(Cycle at);
@@ -191,6 +196,7 @@ class Board {
   BasicProx basic_prox_;
   std::array<Uart, 2> uarts_;
   I2cBus i2c_;
+  I2cMaster i2c_master_{i2c_};
   std::unique_ptr<Camera> camera_;
   mutable Cycle settled_for_ = -1;  // the flash's length is nearly always the same: its exponential, once
   mutable double settled_share_ = 0;
