@@ -90,6 +90,7 @@ CameraSensor::CameraSensor(CameraKind kind) : I2cRegisters(kAddress), kind_(kind
 void CameraSensor::reset(Cycle at) {
   for (auto& bank : banks_) bank.fill(0);
   bank_ = 0;
+  hash_ = sim::fold(hash_, std::uint64_t{1});
   ++version_;
   written_at_ = at;
   switch (kind_) {
@@ -149,6 +150,7 @@ bool CameraSensor::write_register(std::uint8_t number, std::uint8_t value, Cycle
     return true;
   }
   banks_[static_cast<std::size_t>(bank_)][number] = value;
+  hash_ = sim::fold(hash_, static_cast<std::uint64_t>(bank_ << 16 | number << 8 | value));
   ++version_;
   written_at_ = at;
   return true;
@@ -158,13 +160,6 @@ std::uint8_t CameraSensor::read_register(std::uint8_t number, Cycle) {
   if (number < 2) return banks_[A][number];
   if (kind_ != CameraKind::Po3030k && number == 3) return static_cast<std::uint8_t>(bank_);
   return banks_[static_cast<std::size_t>(bank_)][number];
-}
-
-std::uint64_t CameraSensor::state_hash() const {
-  std::uint64_t hash = static_cast<std::uint64_t>(bank_);
-  for (const auto& bank : banks_)
-    for (std::uint8_t value : bank) hash = sim::fold(hash, static_cast<std::uint64_t>(value));
-  return hash;
 }
 
 SensorSetup CameraSensor::setup() const {

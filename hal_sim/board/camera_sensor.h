@@ -57,7 +57,7 @@ class CameraSensor final : public I2cRegisters {
   /// Grows with every write; `written_at` is the last one's cycle.
   std::uint64_t version() const { return version_; }
   Cycle written_at() const { return written_at_; }
-  std::uint64_t state_hash() const override;
+  std::uint64_t state_hash() const override { return hash_; }
 
  protected:
   bool write_register(std::uint8_t number, std::uint8_t value, Cycle at) override;
@@ -82,6 +82,7 @@ class CameraSensor final : public I2cRegisters {
   int bank_ = 0;
   std::uint64_t version_ = 0;
   Cycle written_at_ = 0;
+  std::uint64_t hash_ = 0;  // of everything written
 };
 
 }  // namespace board

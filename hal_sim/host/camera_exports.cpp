@@ -36,7 +36,8 @@ tp_i64 tp_camera_take_line(void* to, tp_i64 room) {
   Context& context = Context::current();
   board::Camera* camera = context.board().camera();
   context.note_write();
-  return camera ? camera->take_line(static_cast<std::uint8_t*>(to), static_cast<int>(room), context.now()) : 0;
+  return camera ? camera->take_line(static_cast<std::uint8_t*>(to), static_cast<int>(room), context.now())
+                : 0;
 }
 
 tp_i64 tp_camera_next_line(void) {
