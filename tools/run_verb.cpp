@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "hal_sim/board/epuck_model.h"
+#include "hal_sim/board/part.h"
 #include "hal_sim/twin/twin.h"
 #include "sim_core/load/world_loader.h"
 #include "tools/progress.h"
@@ -84,7 +85,7 @@ int run(const RunArguments& arguments) {
     return kBadInput;
 
   const std::string file = find_world(arguments.world);
-  sim::LoadedWorld loaded = sim::load_world(file, {board::epuck_model()});
+  sim::LoadedWorld loaded = sim::load_world(file, {board::epuck_model()}, board::part_kinds());
   if (!loaded.world) {
     complain({loaded.report(file)});
     return kBadInput;

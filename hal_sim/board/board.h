@@ -16,6 +16,8 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "hal_sim/board/adc_scan.h"
 #include "hal_sim/board/agenda_timer.h"
@@ -23,6 +25,7 @@
 #include "hal_sim/board/clock.h"
 #include "hal_sim/board/i2c_bus.h"
 #include "hal_sim/board/i2c_master.h"
+#include "hal_sim/board/part.h"
 #include "hal_sim/board/timer_motors.h"
 #include "hal_sim/board/uart.h"
 #include "hal_sim/host/context.h"
@@ -133,6 +136,11 @@ class Board {
   /// The processor's side of the bus.
   I2cMaster& i2c_master() { return i2c_master_; }
   const I2cMaster& i2c_master() const { return i2c_master_; }
+  /// Plugs a turret or another part in; before power-up.
+  void plug_in(std::unique_ptr<Part> part);
+  const std::vector<std::unique_ptr<Part>>& parts() const { return parts_; }
+  /// Voltage that a part puts on the analogue input AN`channel`, V; empty: none does.
+  std::optional<double> part_analogue_v(int channel, Cycle at) const;
   /// e_init_port(): latches 0, directions as the library wants them, the I2C module on. (Its cost is the
   /// caller's.)
   void init_ports(Cycle at);
@@ -185,6 +193,7 @@ class Board {
   std::array<Uart, 2> uarts_;
   I2cBus i2c_;
   I2cMaster i2c_master_{i2c_};
+  std::vector<std::unique_ptr<Part>> parts_;
   mutable Cycle settled_for_ = -1;  // the flash's length is nearly always the same: its exponential, once
   mutable double settled_share_ = 0;
   std::uint64_t conversions_ = 0;

@@ -371,11 +371,4 @@ TEST(Loader, defaults_in_the_table_are_the_defaults_of_the_structs) {
   EXPECT_EQ(wall.walls[0].height_m, sim::WallDesc().height_m);
 }
 
-TEST(Loader, the_page_in_docs_is_the_one_the_schema_makes) {
-  std::ifstream in(TWINPUCK_SOURCE_DIR "/docs/world-format.md", std::ios::binary);
-  std::ostringstream page;
-  page << in.rdbuf();
-  EXPECT_EQ(page.str(), sim::world_format_page()) << "run build/world_format_doc docs/world-format.md";
-}
-
 }  // namespace
