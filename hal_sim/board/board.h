@@ -24,6 +24,7 @@
 #include "hal_sim/board/battery.h"
 #include "hal_sim/board/battery_params.h"
 #include "hal_sim/board/clock.h"
+#include "hal_sim/board/data_eeprom.h"
 #include "hal_sim/board/i2c_bus.h"
 #include "hal_sim/board/i2c_master.h"
 #include "hal_sim/board/remote.h"
@@ -159,6 +160,8 @@ class Board {
   void follow_power(Cycle at) { battery_.draw(current_a(at), at); }
   /// The robot is switched off for good: nothing is drawn.
   void switch_off() { battery_.draw(0, 0); }
+  /// Data EEPROM; resets leave it alone.
+  DataEeprom& eeprom() { return eeprom_; }
   /// What somebody does with a remote control.
   RemoteReceiver& remote() { return remote_; }
   const RemoteReceiver& remote() const { return remote_; }
@@ -205,6 +208,7 @@ class Board {
   std::array<Uart, 2> uarts_;
   I2cBus i2c_;
   Battery battery_;
+  DataEeprom eeprom_;
   I2cMaster i2c_master_{i2c_};
   mutable Cycle settled_for_ = -1;  // the flash's length is nearly always the same: its exponential, once
   mutable double settled_share_ = 0;

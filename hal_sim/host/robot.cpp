@@ -240,6 +240,7 @@ void Robot::irq_install(int vector, void (*handler)(), int priority, Cycle entry
   s.entry_cycles = entry_cycles;
   s.self_clearing = true;
   s.flag = false;  // drivers clear the flag before they enable
+  if (vector == TP_V_INT0) interrupts_.refresh_int0(now());  // the library's edge is the falling one
   note_write();
   changed();
 }
