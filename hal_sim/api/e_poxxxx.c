@@ -17,12 +17,14 @@
 #include "camera/fast_2_timer/e_po8030d.h"
 #include "hal_sim/host/pins.h"
 #include "hal_sim/host/pins_camera.h"
+#include "hal_sim/host/pins_eeprom.h"
 #include "motor_led/e_init_port.h"
 #include "p30F6014A.h"
 
 #define PO3030K 0x3030u
 #define PO6030K 0x6030u
 #define PO8030D 0x8030u
+#define MOUNT_WORD 0xFFFE /* last word of the data EEPROM */
 #define UNKNOWN_SENSOR 11 /* answer of config_cam */
 
 #define RESET_BIT 13          /* of port C */
@@ -167,7 +169,7 @@ void e_poxxxx_write_cam_registers(void) {
 int e_poxxxx_get_orientation(void) {
   switch (camera_version) {
     case PO3030K:
-      switch ((int)tp_camera_mount_word() & 3) {
+      switch ((int)tp_eeprom_read(MOUNT_WORD) & 3) {
         case 2:
           return 2;
         case 3:

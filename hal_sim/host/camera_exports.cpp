@@ -45,18 +45,4 @@ tp_i64 tp_camera_next_line(void) {
   return camera ? camera->next_line() : -1;
 }
 
-tp_i64 tp_camera_mount_word(void) {
-  const board::Camera* camera = Context::current().board().camera();
-  if (!camera) return 0xFFFF;
-  switch (camera->mount()) {
-    case board::CameraMount::Upright:
-      return 0xFFFD;
-    case board::CameraMount::Inverted:
-      return 0xFFFE;
-    case board::CameraMount::Sideways:
-      break;
-  }
-  return 0xFFFF;
-}
-
 }  // extern "C"

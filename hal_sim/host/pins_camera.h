@@ -22,9 +22,6 @@ tp_i64 tp_camera_begin_frame(void);
 tp_i64 tp_camera_take_line(void* to, tp_i64 room);
 /** HREF of the next line that is wanted. */
 tp_i64 tp_camera_next_line(void);
-/** Last word of the data EEPROM, 0x7FFFFE: the maker wrote there how the camera sits. Bits 0 and 1: 1
- * upright, 2 inverted, 3 sideways. */
-tp_i64 tp_camera_mount_word(void);
 
 #ifdef __cplusplus
 }

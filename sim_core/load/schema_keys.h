@@ -41,5 +41,7 @@ inline std::vector<Vec2> points_of(const Value& v) {
 /// schema_camera.cpp: [sky], and what a robot says about its camera.
 std::vector<SectionSpec> camera_sections();
 std::vector<KeySpec> robot_camera_keys();
+/// Sections with a file of their own.
+SectionSpec remote_key_section();
 
 }  // namespace sim
