@@ -4,8 +4,8 @@
 // sin = 0.194 m from the lens, 0.224 m from the axle; a column more or less is 14 mm. Touching would be 0.067
 // m.
 #include <cmath>
+#include <random>
 
-#include "sim_core/random/counter_random.h"
 #include "tests/support/firmware_test.h"
 
 using namespace firmware_test;
@@ -30,17 +30,20 @@ TEST_P(CameraFollow, faces_the_ball_keeps_its_distance_and_follows_it) {
   world.seed = seed;
   const char* const cameras[] = {"po3030k", "po6030k", "po8030d"};
   robot(0).settings().camera = cameras[seed % 3];
-  const auto draw = [&](std::uint64_t n, double low, double high) {
-    return low + (high - low) * sim::random_uniform({seed, 0, 99}, n);
+  std::mt19937 random(static_cast<unsigned>(seed));
+  const auto draw = [&](double low, double high) {
+    return low + (high - low) * static_cast<double>(random()) / 4294967296.0;
   };
-  robot(0).at(draw(0, -0.45, -0.2), draw(1, -0.1, 0.3), draw(2, -180, 180));
+  const double x_m = draw(-0.45, -0.2), y_m = draw(-0.1, 0.3);
+  robot(0).at(x_m, y_m, draw(-180, 180));
   run_for(25);
   Where there = to_ball(twin().simulation());
   EXPECT_NEAR(there.distance_m, 0.224, 0.035);
   EXPECT_NEAR(there.bearing_deg, 0, 6);
   EXPECT_TRUE(robot(0).led(8));
 
-  twin().simulation().move(2, {draw(3, -0.3, 0.0), draw(4, -0.1, 0.05), 0});
+  const double to_x_m = draw(-0.3, 0.0);
+  twin().simulation().move(2, {to_x_m, draw(-0.1, 0.05), 0});
   run_for(25);
   there = to_ball(twin().simulation());
   EXPECT_NEAR(there.distance_m, 0.224, 0.035);

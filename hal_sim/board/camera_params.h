@@ -66,8 +66,8 @@ inline constexpr int kLongestGap =
 
 inline constexpr double kReadNoise =
     0.004;  // standard deviation, share of full scale [assumed: one count of 255]
-inline constexpr double kShotNoise = 0.010;  // the same at full scale, with the root of the signal [assumed:
-                                             // small CMOS pixels, 10,000 electrons]
+// the same at full scale, growing with the root of the signal [assumed: 10,000 electrons a pixel]
+inline constexpr double kShotNoise = 0.010;
 
 inline constexpr int kRowsAtOnce =
     4;  // lines that share an instant [measured: 82 us a picture; single lines 250 us]

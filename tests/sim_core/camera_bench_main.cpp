@@ -40,7 +40,7 @@ int main(int argc, char** argv) {
         sum += out[0].r;
       }
     const double s = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-    std::printf("%2d rows at a time: %.1f us of processor time a picture of 40 x 40 (checksum %g)\n", band, 1e6 * s / pictures,
-                sum);
+    std::printf("%2d rows at a time: %.1f us of processor time a picture of 40 x 40 (checksum %g)\n", band,
+                1e6 * s / pictures, sum);
   }
 }
