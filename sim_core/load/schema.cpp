@@ -11,11 +11,10 @@
 #include "sim_core/geometry/solid.h"
 #include "sim_core/light/profiles.h"
 #include "sim_core/load/schema_keys.h"
+#include "sim_core/load/schema_sections.h"
 
 namespace sim {
-namespace {
 
-/// The material named, or what to say when there is none.
 std::string find_material(const WorldDesc& draft, const std::string& name, Material& out) {
   std::string known;
   for (const Material& m : draft.materials) {
@@ -28,6 +27,8 @@ std::string find_material(const WorldDesc& draft, const std::string& name, Mater
   return fmt::format("got \"{}\", expected the name of a [[material]]{}", name,
                      known.empty() ? " (there are none)" : " (" + known + ")");
 }
+
+namespace {
 
 template <typename T>
 std::vector<KeySpec> material_keys() {
@@ -187,6 +188,21 @@ std::vector<KeySpec> variation_keys() {
              &V::clock_spread_ppm),
       number("boot_spread", "s", 0, 3600, "0", "the boot delay grows by a random time from 0 to this",
              &V::boot_spread_s),
+      {"acc_offset", ValueType::Triple, "m/s2", -20, 20, "", "[0, 0, 0]",
+       "added to what the accelerometer feels: forward, left, up", into<V>([](V& t, const Value& v) {
+         t.acc_offset_m_s2 = {v.numbers[0], v.numbers[1], v.numbers[2]};
+       })},
+      number("acc_offset_spread", "m/s2", 0, 20, "0", "standard deviation of a further offset per axis",
+             &V::acc_offset_spread_m_s2),
+      {"gyro_offset", ValueType::Triple, "deg/s", -250, 250, "", "[0, 0, 0]",
+       "added to what the gyroscope feels about these axes", into<V>([](V& t, const Value& v) {
+         t.gyro_offset_rad_s = {radians(v.numbers[0]), radians(v.numbers[1]), radians(v.numbers[2])};
+       })},
+      {"gyro_offset_spread", ValueType::Number, "deg/s", 0, 250, "", "0",
+       "standard deviation of a further offset per axis",
+       into<V>([](V& t, const Value& v) { t.gyro_offset_spread_rad_s = radians(v.number); })},
+      number("motion_noise", "", 0, 100, "1", "factor on the noise of accelerometer and gyroscope; 0 = none",
+             &V::motion_noise_scale),
   };
 }
 
@@ -276,7 +292,13 @@ std::vector<SectionSpec> make_schema() {
                into<F>([](F& f, const Value& v) { f.image = v.text; })},
               {"friction", ValueType::Number, "", 0, 10, "", "1", "factor on the traction of wheels",
                into<F>([](F& f, const Value& v) { f.friction = v.number; })},
+              {"tilt", ValueType::Pair, "deg", -40, 40, "", "[0, 0]",
+               "the whole floor, with all that stands on it, rises by these angles along +x and along +y",
+               into<F>([](F& f, const Value& v) {
+                 f.tilt_x_rad = radians(v.numbers[0]), f.tilt_y_rad = radians(v.numbers[1]);
+               })},
           });
+  s.push_back(ramp_section());
   using L = WallDesc;
   std::vector<KeySpec> wall{
       {"points", ValueType::Points, "m", -kFar, kFar, "", "required",
@@ -409,6 +431,9 @@ std::vector<SectionSpec> make_schema() {
                into<R>([](R& r, const Value& v) { r.pose.heading_rad = radians(v.number); })},
               {"selector", ValueType::Integer, "", 0, 15, "", "0", "position of the selector switch",
                into<R>([](R& r, const Value& v) { r.selector = static_cast<int>(v.integer); })},
+              {"revision", ValueType::Choice, "", 0, 0, "1.1|1.3", "\"1.1\"",
+               "of its hardware; 1.3 has another accelerometer, a gyroscope and a battery channel",
+               into<R>([](R& r, const Value& v) { r.revision = v.text; })},
               {"seed", ValueType::Integer, "", 0, 9e18, "", "",
                "its own seed; otherwise made of the world's seed and its number",
                into<R>([](R& r, const Value& v) { r.seed = static_cast<std::uint64_t>(v.integer); })},
