@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hal_sim/board/accelerometer.h"
+#include "hal_sim/board/lsm330.h"
 #include "sim_core/base/hash.h"
 #include "sim_core/light/proximity.h"
 #include "sim_core/random/counter_random.h"
@@ -51,6 +53,7 @@ Board::Board(const Setup& setup)
       scan_(*this),
       basic_prox_(*this) {
   for (std::size_t i = 0; i < kPorts; ++i) tris_[i] = kImplemented[i];
+  if (setup.revision == Revision::Rev13) i2c_.attach(std::make_unique<Lsm330>(*this));
 }
 
 Board::~Board() = default;
@@ -230,6 +233,7 @@ void Board::set_battery(double volts) { setup_.battery_v = volts; }
 
 void Board::exchange(Cycle at) {
   for (Uart& uart : uarts_) uart.exchange(at);
+  scan_.keep_acc(at);
 }
 
 // --- analogue inputs -------------------------------------------------------------------------------------
@@ -288,7 +292,10 @@ int Board::convert(int channel, Cycle at) {
     if (lit_for < 0 && pulses(at) & (1u << (sensor & 3))) lit_for = 40 * kIrSettleCycles;
     return ir_counts(sensor, at, lit_for, kConversionOffset + conversions_++);
   }
-  if (channel == 7 && setup_.revision == Revision::Rev13) return battery_counts();
+  if (channel >= kAccChannel) {
+    if (setup_.revision == Revision::Rev13) return channel == 7 ? battery_counts() : 0;  // 5 and 6 are open
+    return accelerometer_counts(*this, channel - kAccChannel, at, kConversionOffset + conversions_++);
+  }
   return -1;
 }
 
