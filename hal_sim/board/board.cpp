@@ -211,6 +211,8 @@ void Board::init_ports(Cycle at) {
   connect_steppers(at);
   stepper(Wheel::Left, at).set_coils_only(0);
   stepper(Wheel::Right, at).set_coils_only(0);
+  // the function ends with a question over the bus and leaves the module on, its interrupt off
+  i2c_master_.switch_on(kI2cLibraryBrg, at);
 }
 
 void Board::processor_reset(Cycle at) {
@@ -221,7 +223,7 @@ void Board::processor_reset(Cycle at) {
   scan_.reset(at);
   basic_prox_.reset(at);
   for (Uart& uart : uarts_) uart.reset(at);
-  i2c_.processor_reset(at);
+  i2c_master_.processor_reset(at);
   requests = Requests{};
   lat_.fill(0);
   for (std::size_t i = 0; i < kPorts; ++i) tris_[i] = kImplemented[i];
@@ -330,7 +332,7 @@ std::uint64_t Board::state_hash(Cycle at) const {
   }
   for (std::size_t i = 0; i < kPorts; ++i) add(lat_[i] | static_cast<std::uint64_t>(tris_[i]) << 16);
   for (const Uart& uart : uarts_) add(uart.state_hash());
-  if (!i2c_.devices().empty()) add(i2c_.state_hash());
+  if (!i2c_.devices().empty()) add(i2c_.state_hash() + i2c_master_.state_hash());
   add(static_cast<std::uint64_t>(scan_.interrupts(at)));
   return sim::mix64(sum);
 }

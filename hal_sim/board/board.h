@@ -8,7 +8,7 @@
 // Modelled: port latches, directions and pin levels; two steppers that follow their coils; the library's
 // motor drivers, agenda timer, ADC scan and UARTs in closed form; IR circuit; LEDs; selector; battery.
 // Motion sensors: accelerometer.h (before revision 1.3), lsm330.h (1.3).
-// Not modelled: microphones, camera, codec, I2C (each fails loudly in hal_sim/api).
+// Not modelled: microphones, camera, codec (each fails loudly in hal_sim/api).
 //
 // Every method takes the cycle of this robot's clock at which it happens. Cycles never go back between calls
 // that change something. Nothing depends on who looked before: const methods have no side effects, and a
@@ -23,6 +23,7 @@
 #include "hal_sim/board/basic_prox.h"
 #include "hal_sim/board/clock.h"
 #include "hal_sim/board/i2c_bus.h"
+#include "hal_sim/board/i2c_master.h"
 #include "hal_sim/board/timer_motors.h"
 #include "hal_sim/board/uart.h"
 #include "hal_sim/host/context.h"
@@ -133,7 +134,11 @@ class Board {
   /// Camera, motion sensors and turrets hang here.
   I2cBus& i2c() { return i2c_; }
   const I2cBus& i2c() const { return i2c_; }
-  /// e_init_port(): latches 0, directions as the library wants them. (Its cost is the caller's.)
+  /// The processor's side of the bus.
+  I2cMaster& i2c_master() { return i2c_master_; }
+  const I2cMaster& i2c_master() const { return i2c_master_; }
+  /// e_init_port(): latches 0, directions as the library wants them, the I2C module on. (Its cost is the
+  /// caller's.)
   void init_ports(Cycle at);
   /// Tick boundary: bytes from outside enter, bytes sent so far go out, old bookkeeping is dropped.
   void exchange(Cycle at);
@@ -182,6 +187,7 @@ class Board {
   BasicProx basic_prox_;
   std::array<Uart, 2> uarts_;
   I2cBus i2c_;
+  I2cMaster i2c_master_{i2c_};
   mutable Cycle settled_for_ = -1;  // the flash's length is nearly always the same: its exponential, once
   mutable double settled_share_ = 0;
   std::uint64_t conversions_ = 0;

@@ -93,6 +93,7 @@ void Robot::restart_program() {
   poll_loop_ = -1;
   asleep_until_ = -1;
   idling_ = false;
+  overflowed_ = false;
   reset_asked_ = false;
   registers_->processor_reset();
   now_ += kStartUpCycles;
@@ -271,7 +272,18 @@ void Robot::check_blocked() {
 // --- what compiled code calls
 // ---------------------------------------------------------------------------------------
 
+bool Robot::lend_reserve() {
+  if (!fiber_.open_reserve()) return false;
+  overflowed_ = true;
+  // the next block asks for an event; the time that has passed stays what it is
+  tp_control& control = copy_.control();
+  issued_ -= control.budget + 1;
+  control.budget = -1;
+  return true;
+}
+
 void Robot::on_event() {
+  if (overflowed_) trap(TP_TRAP_STACK, kStackOverflow);
   fold();
   for (;;) {
     deliver();
@@ -280,6 +292,7 @@ void Robot::on_event() {
     pass_window();
   }
   give_budget();
+  if (overflowed_) trap(TP_TRAP_STACK, kStackOverflow);
 }
 
 void Robot::pass_window() {

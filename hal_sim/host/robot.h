@@ -129,6 +129,9 @@ class Robot final : public Context {
   // ----------------------------------------------------------------------------------
   bool owns_code(std::uintptr_t pc) const { return copy_.is_code(pc); }
   const Fiber& fiber() const { return fiber_; }
+  /// Opens the stack's reserve to a host function; the overflow is reported when it has returned. Called by
+  /// the signal handler. False: there is no reserve.
+  bool lend_reserve();
   /// Runs on the recovery stack after a hardware fault; never returns.
   [[noreturn]] void fault(int kind, std::string message, std::uintptr_t pc, std::uintptr_t frame);
 
@@ -178,6 +181,7 @@ class Robot final : public Context {
   bool stopped_ = false;
   bool reset_asked_ = false;
   bool woken_ = false;
+  bool overflowed_ = false;  // the stack's reserve is in use
   bool idling_ = false;      // asleep because it waits, not because a delay loop counts
   Cycle asleep_until_ = -1;  // the firmware sleeps up to this cycle; -1 awake
   Cycle idle_ = 0;
@@ -197,6 +201,8 @@ class Robot final : public Context {
   std::vector<TrapReport> traps_;
   std::string last_words_;
 };
+
+inline constexpr const char* kStackOverflow = "stack overflow: endless recursion, or local arrays too large";
 
 /// Installs the fault handlers of this process (SIGSEGV, SIGBUS, SIGFPE, SIGILL) once, and this thread's
 /// signal and recovery stacks. Faults outside firmware go to the handlers that were there before.
