@@ -6,6 +6,7 @@
 #include "adc_arrays.h"
 
 #include "hal_sim/host/pins.h"
+#include "hal_sim/host/pins_acc.h"
 #include "utility/utility.h"
 
 #define GUMSTIX_POSITION 10  /* selector position that scans the turret's pair too */
@@ -35,6 +36,11 @@ void twinpuck_refresh_adc_counters(void) {
                             ? ACC_COUNTER_MAX
                             : (unsigned char)(updateAccI2CCounter + (unsigned int)news);
   e_last_mic_scan_id = (unsigned int)tp_scan_mic_index();
+  e_last_acc_scan_id = (unsigned int)tp_scan_acc_index();
+}
+
+void twinpuck_refresh_acc(void) {
+  tp_scan_acc_values(e_acc_scan);
   e_last_acc_scan_id = (unsigned int)tp_scan_acc_index();
 }
 

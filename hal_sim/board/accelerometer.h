@@ -13,7 +13,7 @@
 #include <cstdint>
 
 #include "hal_sim/board/motion_params.h"
-#include "sim_core/geometry/ground.h"
+#include "sim_core/world/true_motion.h"
 
 namespace board {
 

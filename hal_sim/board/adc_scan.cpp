@@ -50,6 +50,7 @@ void AdcScan::start(bool micro_only, bool five_pairs, Cycle at) {
   pair_base_ %= pairs_;
   micro_only_ = micro_only;
   on_ = true;
+  ++starts_;
 }
 
 void AdcScan::switch_converter(bool on, Cycle at) {
@@ -66,6 +67,7 @@ void AdcScan::reset(Cycle at) {
   acc_used_ = false;
   acc_ = AccRing{};
   on_ = micro_only_ = false;
+  starts_ = 0;
   pairs_ = 4;
   total_base_ = full_base_ = period_base_ = 0;
   pair_base_ = 0;

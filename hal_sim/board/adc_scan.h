@@ -35,6 +35,8 @@ class AdcScan {
   /// The driver's statics and arrays return to their start values.
   void reset(Cycle at);
 
+  /// Calls of start() since the last reset.
+  int starts() const { return starts_; }
   bool is_on() const { return on_; }
   bool micro_only() const { return micro_only_; }
   Cycle frame_cycles() const { return micro_only_ ? kScanMicroFrameCycles : kScanFrameCycles; }
@@ -105,6 +107,7 @@ class AdcScan {
   const Board& board_;
   bool on_ = false;
   bool micro_only_ = false;
+  int starts_ = 0;
   int pairs_ = 4;
   Cycle anchor_ = 0;              // the current run of frames began here
   std::int64_t total_base_ = 0;   // interrupts before the anchor

@@ -15,7 +15,6 @@ namespace board {
 namespace {
 
 enum : int {
-  kWhoAmI = 0x0F,
   kCtrlRate = 0x20,
   kGyroCtrl4 = 0x23,
   kAccCtrlRange = 0x24,
@@ -25,7 +24,6 @@ enum : int {
   kData = 0x28,
   kDataEnd = 0x2E
 };
-constexpr std::uint8_t kAccWho = 0x40;   // [lib: motor_led/e_init_port.c]
 constexpr std::uint8_t kGyroWho = 0xD4;  // [LSM330 table 75]
 constexpr double kAccRateHz[16] = {0,   3.125, 6.25, 12.5, 25, 50, 100, 400,
                                    800, 1600,  0,    0,    0,  0,  0,   0};  // [LSM330 table 30]
@@ -43,10 +41,10 @@ constexpr double kDegPerRad = 57.29577951308232;
 
 Lsm330::Lsm330(const Board& robot) : robot_(robot) {
   gyro_.gyro = true;
-  acc_.registers[kWhoAmI] = kAccWho;
+  acc_.registers[kLsmWhoAmI] = kLsmAccWho;
   acc_.registers[kCtrlRate] = 0x07;
   acc_.registers[kAccCtrlIncrement] = 0x10;
-  gyro_.registers[kWhoAmI] = kGyroWho;
+  gyro_.registers[kLsmWhoAmI] = kGyroWho;
   gyro_.registers[kCtrlRate] = 0x07;
   gyro_.registers[kGyroTemperature] = kLsmTemperature;
 }
@@ -87,7 +85,7 @@ std::uint8_t Lsm330::read(Cycle at) {
 }
 
 void Lsm330::set(Half& half, int number, std::uint8_t value, Cycle at) {
-  const bool fixed = number == kWhoAmI || number == kStatus || (number >= kData && number < kDataEnd) ||
+  const bool fixed = number == kLsmWhoAmI || number == kStatus || (number >= kData && number < kDataEnd) ||
                      (half.gyro && number == kGyroTemperature);
   if (fixed) return;
   const double rate_before = rate_hz(half);

@@ -29,6 +29,8 @@ inline constexpr double kAccNoiseGPerRtHz = 350e-6;  // [MMA7260QT table 2]
 // --- LSM330 on the I2C bus, revision 1.3 -------------------------------------------------------------------
 inline constexpr unsigned char kLsmAccAddress = 0x3C;    // [lib: acc_gyro/e_lsm330.c]
 inline constexpr unsigned char kLsmGyroAddress = 0xD4;   // [lib: acc_gyro/e_lsm330.c]
+inline constexpr unsigned char kLsmWhoAmI = 0x0F;        // register [lib: motor_led/e_init_port.c]
+inline constexpr unsigned char kLsmAccWho = 0x40;        // what it says [lib: motor_led/e_init_port.c]
 inline constexpr double kLsmAccPerG = 16384;             // counts at +-2 g [lib: a_d/advance_ad_scan/e_acc.h]
 inline constexpr double kLsmGyroPerDps = 1 / 0.00875;    // counts at +-250 deg/s [lib: acc_gyro/e_lsm330.c]
 inline constexpr double kLsmAccNoiseGPerRtHz = 150e-6;   // [LSM330 table 3]

@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "hal_sim/board/board.h"
+#include "hal_sim/board/motion_params.h"
 #include "hal_sim/host/context.h"
 #include "hal_sim/host/pins.h"
 #include "hal_sim/host/pins_acc.h"
@@ -31,6 +32,23 @@ tp_i64 tp_scan_acc_newest(tp_i64 axis) {
   context.lower_horizon(scan.acc_until(now));
   return scan.acc_scan(now)[static_cast<std::size_t>(axis)]
                            [static_cast<std::size_t>(scan.acc_samples(now) % board::kAccSamples)];
+}
+
+tp_i64 tp_scan_starts(void) { return Context::current().board().scan().starts(); }
+
+tp_i64 tp_lsm330_answers(void) {
+  Context& context = Context::current();
+  board::I2cBus& bus = context.board().i2c();
+  const Cycle now = context.now();
+  bus.start(now);
+  bus.write(board::kLsmAccAddress, now);
+  bus.write(board::kLsmWhoAmI, now);
+  bus.start(now);
+  bus.write(board::kLsmAccAddress | 1, now);
+  const bool answers = bus.read(now) == board::kLsmAccWho;
+  bus.stop(now);
+  context.note_write();
+  return answers ? 1 : 0;
 }
 
 void tp_basic_prox_hold(void) {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * Seam B for the accelerometer's part of the ADC scan, and for the drivers that take Timer 1 from the basic
- * proximity driver while they convert. Conventions as in pins.h. Single conversions: tp_convert(5) to (7).
+ * Seam B for the accelerometers: their part of the ADC scan, the question whether there is one on the bus,
+ * and the drivers that take Timer 1 from the basic proximity driver while they convert. Conventions as in
+ * pins.h. Single conversions: tp_convert(5) to (7).
  */
 #ifndef TWINPUCK_HOST_PINS_ACC_H
 #define TWINPUCK_HOST_PINS_ACC_H
@@ -15,6 +16,14 @@ extern "C" {
 void tp_scan_acc_values(void* samples);
 /** Newest sample of axis 0, 1 or 2; 0 before the first. Horizon: the next sample. */
 tp_i64 tp_scan_acc_newest(tp_i64 axis);
+
+/** How often e_init_ad_scan() has run since reset. Horizon: none. */
+tp_i64 tp_scan_starts(void);
+
+/** 1 when the device at 0x3C on the I2C bus says in register 0x0F that it is an LSM330 (0x40). A whole
+ * transaction that takes no time: for e_init_port(), whose cost is its own. Write.
+ * Source: [lib: motor_led/e_init_port.c]. */
+tp_i64 tp_lsm330_answers(void);
 
 /** T1CONbits.TON = 0 and = 1 as the basic accelerometer and microphone drivers set it: the proximity driver
  * stands still in between. The second starts it even after e_stop_prox(). Write.

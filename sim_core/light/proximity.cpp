@@ -310,16 +310,22 @@ double sense_irradiance_w_m2(const Scene& scene, int robot, int sensor, Clicks a
   const SensorMount& mount = world.model_of(world.robots[static_cast<std::size_t>(robot)])
                                  ->proximity[static_cast<std::size_t>(sensor)];
   const SinCos pitch = sin_cos(mount.pitch_rad);
-  const Vec2 axis = pitch.c * frame.turn({s.axis.x, s.axis.y});
+  const Vec2 plan_axis = pitch.c * frame.turn({s.axis.x, s.axis.y});
+  Vec3 from{at_m.x, at_m.y, s.at_m.z}, axis{plan_axis.x, plan_axis.y, pitch.s};
+  if (scene.layout().ground.has_ramps()) {
+    const TiltedFrame tilted(scene, robot, at);
+    from = tilted.to_world(s.at_m);
+    axis = tilted.turn({pitch.c * s.axis.x, pitch.c * s.axis.y, pitch.s});
+  }
   for (const LampDesc& lamp : world.lamps) {
     if (!lamp.on) continue;
-    const Vec3 to{lamp.position_m.x - at_m.x, lamp.position_m.y - at_m.y, lamp.position_m.z - s.at_m.z};
+    const Vec3 to{lamp.position_m.x - from.x, lamp.position_m.y - from.y, lamp.position_m.z - from.z};
     const double d = std::sqrt(to.x * to.x + to.y * to.y + to.z * to.z);
     if (d <= 0) continue;
     const Vec3 dir{to.x / d, to.y / d, to.z / d};
-    const double facing = dir.x * axis.x + dir.y * axis.y + dir.z * pitch.s;
+    const double facing = dir.x * axis.x + dir.y * axis.y + dir.z * axis.z;
     if (facing <= 0) continue;
-    if (scene.cast({{at_m.x, at_m.y, s.at_m.z}, dir}, d, robot, at, nullptr)) continue;
+    if (scene.cast({from, dir}, d, robot, at, nullptr)) continue;
     const std::array<double, 3>& a = lamp.attenuation;
     const double white = (lamp.colour.r + lamp.colour.g + lamp.colour.b) / 3;  // [Webots B3]
     sum += lamp.intensity_w_m2 * white * facing / (a[0] + a[1] * d + a[2] * d * d);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
 #include "hal_sim/board/board.h"
@@ -84,6 +85,22 @@ TEST_F(Lsm330Test, axes_are_forward_left_and_up) {
   EXPECT_EQ(word(0x3C, 1, kSecond), -4096);
   EXPECT_EQ(word(0xD4, 1, kSecond), -3274);
   EXPECT_EQ(word(0xD4, 2, kSecond), 6548);
+}
+
+TEST_F(Lsm330Test, gyroscope_filter_answers_a_jerk_with_its_time_constant) {
+  init();
+  // 1 rad/s from click 0 of second 1 on; the stand-in's tick of 28800 is the step of the sum
+  scene.turn_rad_s = [](sim::Clicks at) { return sim::Vec3{0, 0, at > board::kFcyHz ? 1.0 : 0.0}; };
+  const double tau = board::kFcyHz / (2 * sim::kPi * 30);  // 78227 cycles
+  for (int ticks : {1, 2, 4}) {
+    // the newest sample of 760 a second; it feels what was one tick before, in whole ticks
+    const Cycle at = board::kFcyHz + 28800 * (ticks + 1);
+    const double period = board::kFcyHz / 760.0;
+    const double turning = std::floor(at / period) * period - 28800 - board::kFcyHz;
+    const double answer = 6548.09 * (1 - std::exp(-28800 * std::ceil(turning / 28800) / tau));
+    EXPECT_NEAR(word(0xD4, 2, at), answer, 2) << ticks;
+  }
+  EXPECT_EQ(word(0xD4, 2, 2 * board::kFcyHz), 6548);
 }
 
 TEST_F(Lsm330Test, ranges_and_their_ends) {

@@ -163,6 +163,16 @@ model = "one-eyed"
   EXPECT_NEAR(low.distance_m, (0.54 - eye_m) / kCos, 1e-6);
 }
 
+TEST(Slope, lamp_straight_above_lights_a_sensor_that_looks_uphill) {
+  // a level sensor does not see a lamp above it; nose up by 20 degrees its facing is sin 20
+  const std::string lamp = "[[lamp]]\nposition = [0, 0, 50]\nintensity = 10\n";
+  auto level = cruising(
+      world_of("twinpuck = 1\n[[robot]]\nmodel = \"one-eyed\"\nposition = [-0.037, 0]\n" + lamp), 0, 0);
+  EXPECT_NEAR(sim::sense_irradiance_w_m2(level->scene(), 0, 0, 0), 0, 0.001);
+  auto up = cruising(world_of(on_ramp(0, "model = \"one-eyed\"\nposition = [-0.037, 0]\n") + lamp), 0, 0);
+  EXPECT_NEAR(sim::sense_irradiance_w_m2(up->scene(), 0, 0, 0), 10 * kSin, 0.01);
+}
+
 TEST(Slope, edges_of_a_ramp_stop_robots_on_both_sides) {
   for (const char* engine : {"dynamic", "kinematic"}) {
     const std::string world = "engine = \"" + std::string(engine) + "\"";
