@@ -2,8 +2,8 @@
  * The ADC driver's public variables, shared by the files of the API that fill them.
  *
  * On the robot the interrupt writes them; here they are brought up to date when a function of the driver is
- * called (e_get_prox() its own two entries, e_ad_is_*() and the stopwatch everything). A program that reads
- * them without ever calling one of these sees old values.
+ * called (e_get_prox() its own two entries, e_ad_is_*() and the stopwatch everything), and when a controller
+ * looks at them itself (adc_seen.c).
  * Not modelled: e_mic_scan stays 0.
  */
 #ifndef TWINPUCK_API_ADC_ARRAYS_H
@@ -22,6 +22,9 @@ extern int e_ambient_and_reflected_ir[IR_CHANNELS];
 extern int selector;
 extern unsigned int tickAdcIsr;
 extern unsigned char updateAccI2CCounter;
+
+/** Interrupts that the counters know of. */
+extern unsigned long twinpuck_interrupts_seen;
 
 /** Counters and indices as the interrupt would have left them. */
 void twinpuck_refresh_adc_counters(void);

@@ -34,6 +34,23 @@ tp_i64 tp_scan_acc_newest(tp_i64 axis) {
                            [static_cast<std::size_t>(scan.acc_samples(now) % board::kAccSamples)];
 }
 
+tp_i64 tp_scan_acc_index_until_next(void) {
+  Context& context = Context::current();
+  const board::AdcScan& scan = context.board().scan();
+  const Cycle now = context.now();
+  context.lower_horizon(scan.acc_until(now));
+  return scan.acc_samples(now) % board::kAccSamples;
+}
+
+void tp_scan_ir_values(void* dark, void* lit) {
+  Context& context = Context::current();
+  board::AdcScan& scan = context.board().scan();
+  const Cycle now = context.now();
+  tp_scan_values(dark, lit);
+  for (int sensor = 0; sensor < board::kRingSensors; ++sensor)
+    context.lower_horizon(scan.horizon(sensor, now));
+}
+
 tp_i64 tp_scan_starts(void) { return Context::current().board().scan().starts(); }
 
 tp_i64 tp_lsm330_answers(void) {

@@ -17,6 +17,10 @@ void tp_scan_acc_values(void* samples);
 /** Newest sample of axis 0, 1 or 2; 0 before the first. Horizon: the next sample. */
 tp_i64 tp_scan_acc_newest(tp_i64 axis);
 
+/** tp_scan_acc_index(), and tp_scan_values(). Horizon: the next sample that is filed there. */
+tp_i64 tp_scan_acc_index_until_next(void);
+void tp_scan_ir_values(void* dark, void* lit);
+
 /** How often e_init_ad_scan() has run since reset. Horizon: none. */
 tp_i64 tp_scan_starts(void);
 

@@ -270,6 +270,84 @@ int main(void) {
   expect_no_traps();
 }
 
+// --- the driver's public variables, read by the program itself
+
+TEST_F(Accelerometer, programs_read_the_driver_s_arrays_themselves) {
+  ramp();
+  Robot& r = quiet(add_robot_with_source(R"(
+#include <a_d/advance_ad_scan/e_ad_conv.h>
+#include <motor_led/e_init_port.h>
+extern int e_acc_scan[3][ACC_SAMP_NB];
+extern unsigned int e_last_acc_scan_id, e_last_mic_scan_id;
+extern int e_ambient_ir[10], e_ambient_and_reflected_ir[10];
+extern unsigned int tickAdcIsr;
+int x, y, z, dark, lit, rounds, wraps, ticks;
+static int newest(int scan[3][ACC_SAMP_NB], int axis) { return scan[axis][e_last_acc_scan_id]; }
+int main(void) {
+  e_init_port();
+  e_init_ad_scan(ALL_ADC);
+  while (1) {
+    unsigned int last = e_last_acc_scan_id;
+    tickAdcIsr = 0;
+    while (e_last_acc_scan_id == last);
+    x = e_acc_scan[0][e_last_acc_scan_id];
+    y = newest(e_acc_scan, 1);
+    z = *(e_acc_scan[2] + e_last_acc_scan_id);
+    dark = e_ambient_ir[3];
+    lit = e_ambient_and_reflected_ir[3];
+    while (e_last_mic_scan_id != 0);
+    ticks = tickAdcIsr;
+    while (e_last_mic_scan_id == 0);
+    wraps++;
+    rounds++;
+  }
+}
+)"));
+  r.settings().pose.x_m = 0;
+  box(0, 0.2, 0.1);
+  run_for(0.5);
+  EXPECT_EQ(r.variable("x"), 2048);
+  EXPECT_EQ(r.variable("z"), 2816);
+  EXPECT_EQ(r.variable("dark"), 4095);
+  EXPECT_LE(r.variable("lit"), 4095);
+  // microphones wrap every 100 interrupts of 900 cycles: 163.84 times a second; a round waits for the next
+  // accelerometer sample first, at most 65 interrupts, so most rounds take two wraps or one
+  const int first = r.variable("rounds");
+  run_for(1);
+  EXPECT_GT(r.variable("rounds") - first, 80);
+  EXPECT_LE(r.variable("rounds") - first, 164);
+  EXPECT_GT(r.variable("ticks"), 0);
+  EXPECT_LE(r.variable("ticks"), 166);
+  EXPECT_LT(r.cpu_load(), 0.25) << "both loops wait, from interrupt to interrupt";
+  r.push_to(2, 0, 0);
+  run_for(0.2);
+  EXPECT_EQ(r.variable("y"), 2048 + 263);
+  expect_no_traps();
+}
+
+TEST_F(Accelerometer, a_counter_that_the_program_clears_counts_from_there) {
+  Robot& r = add_robot_with_source(R"(
+#include <a_d/advance_ad_scan/e_ad_conv.h>
+extern unsigned int tickAdcIsr;
+unsigned int before, after;
+int main(void) {
+  long i;
+  e_init_ad_scan(ALL_ADC);
+  tickAdcIsr = 0;
+  before = tickAdcIsr;
+  while (tickAdcIsr < 1000);
+  after = tickAdcIsr;
+  while (1);
+}
+)");
+  // e_init_ad_scan() takes 194 ms; 1000 interrupts of 61.035 us follow
+  run_for(0.194 + 0.055);
+  EXPECT_LE(r.variable("before"), 1);
+  EXPECT_EQ(r.variable("after"), 0) << "not yet";
+  run_for(0.03);
+  EXPECT_EQ(r.variable("after"), 1000);
+}
+
 // --- revision 1.3
 
 TEST_F(Accelerometer, revision_1_3_is_found_on_the_bus_and_reads_the_same_scale) {
