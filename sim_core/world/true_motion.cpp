@@ -10,13 +10,22 @@ namespace sim {
 
 namespace {
 
+constexpr double kLyingM = 0.001;  // a loose object this near to the ground lies on it
+
 const RobotModel& model_of(const Scene& scene, int robot) {
   const WorldDesc& world = scene.world();
   return *world.model_of(world.robots[static_cast<std::size_t>(robot)]);
 }
 
-Footing footing_at(const Scene& scene, int robot, const Pose2& pose) {
-  return robot_footing(scene.layout().ground, model_of(scene, robot), pose);
+Footing footing_at(const Scene& scene, int body, const Pose2& pose) {
+  const Ground& ground = scene.layout().ground;
+  if (body < scene.robots()) return robot_footing(ground, model_of(scene, body), pose);
+  // a loose object: as the engines tilt it; in the air and on other things it stands upright
+  const double base = 0.5 * scene.layout().moving[static_cast<std::size_t>(body)].solid->bound_m;
+  const double z = scene.state(body).z_m;
+  const Footing under = ground.has_ramps() ? ground.footing(pose, base, base) : Footing{};
+  return std::fabs(z - ground.height_m({pose.x_m, pose.y_m})) < kLyingM ? Footing{z, under.slope}
+                                                                        : Footing{z, {}};
 }
 
 Vec3 place(const Scene& scene, int robot, Clicks at) {
@@ -33,9 +42,9 @@ constexpr Vec3 minus(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.
 
 }  // namespace
 
-Stance stance(const Scene& scene, int robot, Clicks at) {
-  const Pose2 pose = scene.pose(robot, at);
-  const Footing under = footing_at(scene, robot, pose);
+Stance stance(const Scene& scene, int body, Clicks at) {
+  const Pose2 pose = scene.pose(body, at);
+  const Footing under = footing_at(scene, body, pose);
   Stance s;
   s.axes = axes_on(under.slope, pose.heading_rad);
   s.origin_m = {pose.x_m, pose.y_m, under.height_m};

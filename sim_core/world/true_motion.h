@@ -16,15 +16,16 @@ namespace sim {
 
 class Scene;
 
-/// How a robot lies on the ground.
+/// How a body lies on the ground.
 struct Stance {
   BodyAxes axes;         ///< in the floor's frame
-  Vec3 origin_m;         ///< of the robot's frame, in the floor's frame
+  Vec3 origin_m;         ///< of the body's frame, in the floor's frame
   double pitch_rad = 0;  ///< nose above the horizontal
   double roll_rad = 0;   ///< left side above the horizontal
 };
 
-Stance stance(const Scene& scene, int robot, Clicks at);
+/// Of a robot or a loose object (robots come first). Solids for rays and contacts stay upright all the same.
+Stance stance(const Scene& scene, int body, Clicks at);
 
 /// Length of a tick: sensors that feel the motion `lag` ago have one value, whenever it is worked out.
 Clicks motion_lag(const Scene& scene);

@@ -197,6 +197,7 @@ TEST(Slope, loose_objects_slide_or_hold_and_rise) {
   run_for(*holds, 1);
   EXPECT_NEAR(holds->pose(1).x_m, 0.2, 0.0005);
   EXPECT_NEAR(holds->state(1).z_m, 0.7 * std::tan(sim::radians(20)), 0.001);
+  EXPECT_NEAR(sim::degrees(sim::stance(holds->scene(), 1, holds->now()).pitch_rad), 20, 1e-6);
   auto slides = cruising(with_box(0.1), 0, 0);
   run_for(*slides, 0.3);
   // g (sin 20 - 0.1 cos 20) cos 20 = 2.287 m/s2 in plan: 0.1029 m
