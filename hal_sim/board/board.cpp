@@ -130,6 +130,7 @@ void Board::port_write(char port, Register reg, std::uint16_t value, Cycle at) {
   if (reg == Register::Tris) {
     tris_[i] = value;
     if (index == kD) connect_steppers(at);
+    for (const auto& part : parts_) part->pins_changed(at);
     return;
   }
   if (index == kD) {
@@ -149,6 +150,7 @@ void Board::port_write(char port, Register reg, std::uint16_t value, Cycle at) {
   }
   if (index == kC && scan_.pulses(at) & 16u) value = static_cast<std::uint16_t>(value & ~(bit(1) | bit(2)));
   lat_[i] = value;
+  for (const auto& part : parts_) part->pins_changed(at);
 }
 
 bool Board::latch_bit(char port, int n, Cycle at) const {
@@ -221,10 +223,10 @@ void Board::processor_reset(Cycle at) {
   basic_prox_.reset(at);
   for (Uart& uart : uarts_) uart.reset(at);
   i2c_master_.processor_reset(at);
-  for (const auto& part : parts_) part->processor_reset(at);
   requests = Requests{};
   lat_.fill(0);
   for (std::size_t i = 0; i < kPorts; ++i) tris_[i] = kImplemented[i];
+  for (const auto& part : parts_) part->processor_reset(at);
 }
 
 void Board::plug_in(std::unique_ptr<Part> part) {
