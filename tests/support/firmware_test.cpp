@@ -79,6 +79,12 @@ void Robot::turn_selector(int position) {
   mind().board().turn_selector(position);
   mind().robot()->wake();
 }
+void Robot::press_key(int key, double hold_s, int address) {
+  const double at_s = test_->now_s();
+  test_->twin();
+  mind().press_key({key, at_s, hold_s, address});
+}
+double Robot::battery_v() const { return mind().board().battery().voltage(mind().now()); }
 void Robot::push_to(double x_m, double y_m, double heading_deg) {
   test_->twin().simulation().move(index_, {x_m, y_m, sim::radians(heading_deg)});
 }
