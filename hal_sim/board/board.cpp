@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hal_sim/board/parts_params.h"
 #include "hal_sim/board/remote_params.h"
 #include "sim_core/base/hash.h"
 #include "sim_core/light/proximity.h"
@@ -257,6 +258,13 @@ std::optional<double> Board::part_analogue_v(int channel, Cycle at) const {
   return std::nullopt;
 }
 
+std::optional<int> Board::part_counts(int channel, Cycle at) const {
+  const auto level_v = part_analogue_v(channel, at);
+  if (!level_v) return std::nullopt;
+  return static_cast<int>(
+      std::clamp(std::floor(*level_v / kPartReferenceV * (kAdcMax + 1)), 0.0, double{kAdcMax}));
+}
+
 void Board::turn_selector(int position) { setup_.selector = position & 15; }
 
 void Board::set_battery(double volts, Cycle at) { battery_.set_voltage(volts, at); }
@@ -321,6 +329,7 @@ int Board::convert(int channel, Cycle at) {
     if (lit_for < 0 && pulses(at) & (1u << (sensor & 3))) lit_for = 40 * kIrSettleCycles;
     return ir_counts(sensor, at, lit_for, kConversionOffset + conversions_++);
   }
+  if (const auto counts = part_counts(channel, at)) return *counts;
   if (channel == 7 && setup_.revision == Revision::Rev13) return battery_counts(at);
   return -1;
 }

@@ -6,6 +6,8 @@
 
 namespace board {
 
+inline constexpr double kPartReferenceV = 3.3;  // of the converter: its supply [FRM A10]
+
 // --- ground sensors ----------------------------------------------------------------------------------------
 inline constexpr int kGroundAddress = 0xC0;       // [lib: program/BTcom/BTcom.c]
 inline constexpr int kGroundFirstCliff = 13;      // register [lib: program/DemoGCtronic-complete/Asercom.c]

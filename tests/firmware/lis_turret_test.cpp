@@ -324,6 +324,8 @@ TEST_F(LisTest, sharp_gives_the_data_sheets_voltage_when_its_first_measurement_i
   run_for(0.03);
   ASSERT_TRUE(board.part_analogue_v(5, r.cycles()));
   EXPECT_NEAR(*board.part_analogue_v(5, r.cycles()), 0.40, 0.003);
+  // 12 bits over 3.3 V: 0.40 V is 496 counts
+  EXPECT_NEAR(twin().mind(0).board().convert(5, r.cycles()), 496, 4);
   // 4 cm before the sensor: 2.65 V; what moved is measured anew every 28.7 ms
   r.push_to(0.26, 0, 0);
   run_for(0.06);
