@@ -151,6 +151,8 @@ class Board {
   const std::vector<std::unique_ptr<Part>>& parts() const { return parts_; }
   /// Voltage that a part puts on the analogue input AN`channel`, V; empty: none does.
   std::optional<double> part_analogue_v(int channel, Cycle at) const;
+  /// The same as converted, counts; whatever samples AN5 to AN7 asks this first.
+  std::optional<int> part_counts(int channel, Cycle at) const;
   /// e_init_port(): latches 0, directions as the library wants them, the I2C module on. (Its cost is the
   /// caller's.)
   void init_ports(Cycle at);
