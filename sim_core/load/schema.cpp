@@ -11,6 +11,7 @@
 #include "sim_core/geometry/solid.h"
 #include "sim_core/light/profiles.h"
 #include "sim_core/load/schema_keys.h"
+#include "sim_core/load/schema_radio.h"
 
 namespace sim {
 namespace {
@@ -378,6 +379,8 @@ std::vector<SectionSpec> make_schema() {
           "and one sensor; the nearest setting counts.",
           proximity_keys<ProximitySettings>([](ProximitySettings& p) -> ProximitySettings& { return p; }));
 
+  add_radio_sections(s);
+
   using R = RobotDesc;
   section("robot", true, "A robot.",
           {
@@ -422,6 +425,8 @@ std::vector<SectionSpec> make_schema() {
               {"slip", ValueType::Number, "", 0, 1, "", "0",
                "part of the wheels' travel that is lost on the floor",
                into<R>([](R& r, const Value& v) { r.slip = v.number; })},
+              {"radio", ValueType::Flag, "", 0, 0, "", "false", "true: it carries the radio turret",
+               into<R>([](R& r, const Value& v) { r.radio = v.flag; })},
               {"uart1", ValueType::Text, "", 0, 0, "", "\"none\"", "none, pty, tcp:PORT or file:PATH",
                checked<R>([](R& r, const Value& v, const WorldDesc&) { return uart_text(v, r.uart1); })},
               {"uart2", ValueType::Text, "", 0, 0, "", "\"none\"", "none, pty, tcp:PORT or file:PATH",
@@ -439,6 +444,7 @@ std::vector<SectionSpec> make_schema() {
   }
   section("robot.sensor", true, "One proximity sensor of this robot; keys as in `[proximity]`.",
           std::move(sensor));
+  add_robot_link_section(s);
   return s;
 }
 
