@@ -49,6 +49,7 @@ class BluetoothModule final : public UartEnd, public sim::LinkPort {
   void deliver(const std::uint8_t* bytes, const Cycle* ends, std::size_t count) override;
   std::size_t collect(std::uint8_t* bytes, std::size_t room, Cycle at) override;
   void on_break(Cycle at) override;
+  bool takes_packets() const override { return to_computer_ && transparent_ && computer_->takes_packets(); }
   std::string name() const override { return computer_ ? computer_->name() : ""; }
 
   // --- the air, between ticks

@@ -23,6 +23,9 @@ class FirmwareMind final : public sim::RobotMind {
   int proximity_counts(const sim::Scene& scene, int index) override;
   std::uint64_t state_hash() const override;
 
+  /// Somebody presses a key of a remote control; not before what has already run.
+  void press_key(const board::KeyPress& key);
+
   board::Board& board() { return board_; }
   const board::Board& board() const { return board_; }
   /// Null when no firmware is loaded.

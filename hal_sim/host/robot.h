@@ -59,12 +59,16 @@ class Robot final : public Context {
   void run_until(Cycle end);
   /// Something outside changed (a byte came in, the selector was turned): a sleeping wait looks again.
   void wake() { woken_ = true; }
+  /// Somebody will press, or presses, a key of a remote control: the receiver's line has a new future.
+  void remote_changed();
   /// Power-up: start-up values, RCON = POR | BOR, cycle 0.
   void power_up();
 
   bool has_stopped() const { return stopped_; }
   const std::vector<TrapReport>& traps() const { return traps_; }
   Cycle cycles() const { return end_; }
+  /// Cycles at the last moment at which the program's own count was added up: the instant of a reset.
+  Cycle settled_now() const { return now_; }
   /// Cycles up to now, or up to where the robot was stopped by a trap.
   Cycle lived_cycles() const { return stopped_ ? now_ : end_; }
   /// Cycles in which the processor only waited (jumped over), a wait that still goes on included.
@@ -124,6 +128,8 @@ class Robot final : public Context {
   bool disi_active() { return now() < disi_until_; }
   /// Interrupt state changed: look for something to deliver as soon as the current block ends.
   void changed();
+  /// INTCON2.INT0EP was written: external interrupt 0 waits for the other edge.
+  void int0_polarity_changed();
 
   // --- for the fault handler
   // ----------------------------------------------------------------------------------
@@ -140,6 +146,7 @@ class Robot final : public Context {
  private:
   static void enter_firmware(void* self);
   void restart_program();
+  void watch_remote();
   void swap_in();
   void fold();                         // spent budget -> now_
   void advance_main(Cycle main);       // main-program cycles -> real cycles

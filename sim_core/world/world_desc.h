@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "sim_core/world/part_desc.h"
 #include "sim_core/world/robot_model.h"
 
 namespace sim {
@@ -87,9 +88,9 @@ enum class RadioModel { LogDistance, Disc };
 /// The radio channel that robots with a radio share.
 struct RadioDesc {
   RadioModel model = RadioModel::LogDistance;
-  /// Where a frame sent at full power is just received. [Cianci et al. 2006: 15 cm to 5 m by attenuation]
+  /// Where a frame sent at full power is just received. [assumed: 15 cm to 5 m, reported for this turret]
   double range_m = 5;
-  double exponent = 3.3;  ///< path loss per decade over 10 dB [from the same span over 50 dB of attenuation]
+  double exponent = 3.3;  ///< path loss per decade over 10 dB [derived: that span over 50 dB of attenuation]
   double fading_db = 2;   ///< standard deviation of the level, drawn per frame and receiver [assumed: a room]
   double loss = 0;        ///< part of the frames within range that is lost for no other reason, 0 to 1
   double capture_db =
@@ -124,6 +125,14 @@ struct LinkEndDesc {
   std::vector<Dropout> dropouts;    ///< of this robot alone, growing
 };
 
+/// A key of a remote control that somebody presses for a robot.
+struct KeyDesc {
+  int code = 0;         ///< 0 to 63
+  double at_s = 0;      ///< s, world time
+  double hold_s = 0.1;  ///< s
+  int address = 0;      ///< 0 to 31
+};
+
 struct RobotDesc {
   std::string name;
   std::string model;     ///< empty: the only or first model the caller knows
@@ -132,17 +141,19 @@ struct RobotDesc {
   int selector = 0;                   ///< 0 to 15
   std::optional<std::uint64_t> seed;  ///< unset: made of the world's seed and the robot's index
   double battery_v = -1;              ///< V; negative: the model's
+  double battery_wh = -1;             ///< Wh when full; negative: the model's
   std::optional<Colour> colour;
   double wheel_noise = 0;  ///< each wheel's travel times U(1 - n, 1 + n), drawn every 1/32 s
   double slip = 0;         ///< fraction of the wheels' travel that is lost on the floor
   std::string uart1 = "none";
   std::string uart2 = "none";
   LinkEndDesc link;
-  bool radio = false;  ///< carries a packet radio
   Variation variation;
   ProximitySettings proximity;
   std::vector<SensorDesc> sensors;
-  int line = 0;  ///< line in the world file; 0 when built in C++
+  std::vector<PartDesc> parts;
+  std::vector<KeyDesc> keys;  ///< presses of remote controls, in any order
+  int line = 0;               ///< line in the world file; 0 when built in C++
 };
 
 enum class ObjectKind { Box, Cylinder, Ball, Polygon };
@@ -219,7 +230,8 @@ struct WorldDesc {
   RadioDesc radio;
   LinkDesc link;
   std::vector<RobotDesc> robots;
-  std::vector<RobotModel> models;  ///< what the caller offers; robots refer to them by name
+  std::vector<RobotModel> models;    ///< what the caller offers; robots refer to them by name
+  std::vector<PartKind> part_kinds;  ///< likewise, for robots' parts
 
   /// The model of a robot; null when there is none of that name.
   const RobotModel* model_of(const RobotDesc& robot) const {

@@ -15,7 +15,7 @@ class RadioFirmware : public FirmwareTest {
   Robot& radio_robot(const std::string& source) {
     Robot& r = add_robot_with_source(
         "#include <p30F6014A.h>\n#include <contrib/SWIS_com_module/ComModule.h>\n" + source);
-    r.settings().radio = true;
+    r.settings().parts.push_back({"radio", {}, 0});
     return r;
   }
   board::RadioTurret& turret(int robot) {
@@ -71,7 +71,7 @@ int main(void) {
   done = 2;
   while (1);
 })");
-  r.settings().radio = false;
+  r.settings().parts.clear();
   ASSERT_TRUE(run_until([&] { return r.variable("done") == 1; }, 1));
   EXPECT_EQ(r.variable("plugged"), 0);
   EXPECT_EQ(r.variable("status"), 0xFF);
@@ -196,7 +196,7 @@ int main(void) {
       sim::RobotDesc r;
       r.name = "r" + std::to_string(i);
       r.firmware = folder;
-      r.radio = true;
+      r.parts.push_back({"radio", {}, 0});
       r.pose = {0.3 * (i % 10), 0.3 * (i / 10), 0};
       w.robots.push_back(r);
     }
