@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One tick, in order: minds run against the frozen scene, wheels turn into travel, bodies move, poses are
-// published, the digest grows.
+// published, messages pass, the digest grows.
 #include "sim_core/simulation.h"
 
 #include <algorithm>
@@ -86,6 +86,7 @@ void Simulation::step() {
   turn_wheels(end);
   const double moved_m = motion_->step(travel_.data(), scene_->neighbours());
   scene_->publish(motion_->bodies(), moved_m);
+  for (const auto& medium : media_) medium->exchange(*scene_, end);
   fold_digest();
 }
 

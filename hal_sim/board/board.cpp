@@ -333,12 +333,11 @@ int Board::convert(int channel, Cycle at) {
     if (lit_for < 0 && pulses(at) & (1u << (sensor & 3))) lit_for = 40 * kIrSettleCycles;
     return ir_counts(sensor, at, lit_for, kConversionOffset + conversions_++);
   }
+  if (const auto counts = part_counts(channel, at)) return *counts;
   if (channel >= kAccChannel) {
     if (setup_.revision == Revision::Rev13) return channel == 7 ? battery_counts(at) : 0;  // 5 and 6 are open
     return accelerometer_counts(*this, channel - kAccChannel, at, kConversionOffset + conversions_++);
   }
-  if (const auto counts = part_counts(channel, at)) return *counts;
-  if (channel == 7 && setup_.revision == Revision::Rev13) return battery_counts(at);
   return -1;
 }
 

@@ -353,6 +353,8 @@ class Reader {
       }
       world_.ramps.push_back(std::move(r));
     });
+    read_one("radio", root, "radio", &world_.radio);
+    read_one("bluetooth", root, "bluetooth", &world_.link);
     read_many("wall", root, "wall", [&](const toml::table& t) {
       WallDesc w;
       w.line = line_of(t);
@@ -380,6 +382,7 @@ class Reader {
       read_table("robot", t, &r);
       read_one("robot.variation", t, "variation", &r.variation);
       read_one("robot.proximity", t, "proximity", &r.proximity);
+      read_one("robot.bluetooth", t, "bluetooth", &r.link);
       read_many("robot.sensor", t, "sensor", [&](const toml::table& st) {
         SensorDesc s;
         read_table("robot.sensor", st, &s);
