@@ -7,6 +7,7 @@
 
 #include "sim_core/camera/camera.h"
 #include "sim_core/light/proximity.h"
+#include "sim_core/world/true_motion.h"
 
 namespace sim {
 
@@ -21,6 +22,8 @@ class Scene {
   std::function<Light(double u, double v, Clicks at)> light = [](double, double, Clicks) { return Light{}; };
   double irradiance_w_m2 = 0;
   double relative_noise = 0;
+  std::function<Vec3(Clicks at)> force_m_s2 = [](Clicks) { return Vec3{0, 0, 9.81}; };
+  std::function<Vec3(Clicks at)> turn_rad_s = [](Clicks) { return Vec3{}; };
   mutable std::vector<Question> asked;
 };
 
