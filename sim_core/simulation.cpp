@@ -23,6 +23,7 @@ std::unique_ptr<Motion> make_motion(const WorldDesc& world, const Layout& layout
   desc.tick_s = 1.0 / world.physics_hz;
   desc.gravity_m_s2 = world.gravity_m_s2;
   desc.fixed = &layout.fixed;
+  desc.ground = &layout.ground;
   for (const Surface& s : layout.fixed_surface) desc.surfaces.push_back({s.friction, s.restitution});
   for (std::size_t i = 0; i < layout.moving.size(); ++i) {
     desc.solids.push_back(layout.moving[i].solid);
@@ -37,6 +38,7 @@ std::unique_ptr<Motion> make_motion(const WorldDesc& world, const Layout& layout
     body.hold_n = m.wheel_friction * world.floor.friction * m.mass_kg * world.gravity_m_s2;
     body.traction_n = std::min(body.hold_n, m.max_push_n);
     body.side_friction = m.side_friction;
+    body.half_base_m = kFootingShare * m.body_radius_m;
     desc.robots.push_back(body);
   }
   for (int object : layout.loose_object) {

@@ -59,6 +59,10 @@ board::Setup setup_of(const sim::WorldDesc& world, int index) {
     if (i < variation.sensor_offset_counts.size())
       setup.ir_offset_counts[i] = variation.sensor_offset_counts[i];
   }
+  if (robot.revision == "1.3") setup.revision = board::Revision::Rev13;
+  setup.acc_offset_m_s2 = variation.acc_offset_m_s2;
+  setup.gyro_offset_rad_s = variation.gyro_offset_rad_s;
+  setup.motion_noise_scale = robot.variation.motion_noise_scale;
   setup.clock_ppm = variation.clock_ppm;
   setup.boot_delay_s = variation.boot_delay_s;
   return setup;

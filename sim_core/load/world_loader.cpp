@@ -341,6 +341,18 @@ class Reader {
         problem(node->source(), "floor.image: got an image but no [arena], expected an arena to lay it in");
     }
     read_one("proximity", root, "proximity", &world_.proximity);
+    read_many("ramp", root, "ramp", [&](const toml::table& t) {
+      RampDesc r;
+      r.line = line_of(t);
+      const std::size_t before = problems_.size();
+      read_table("ramp", t, &r);
+      if (problems_.size() != before) return;
+      if (!t.get("angle") && !t.get("heights")) {
+        problem(t.source(), "ramp: got neither angle nor heights, expected one of them (deg; m)");
+        return;
+      }
+      world_.ramps.push_back(std::move(r));
+    });
     read_one("radio", root, "radio", &world_.radio);
     read_one("bluetooth", root, "bluetooth", &world_.link);
     read_many("wall", root, "wall", [&](const toml::table& t) {

@@ -69,12 +69,17 @@ struct Variation {
   double axle_ratio = 1;  ///< effective over nominal axle
   double clock_ppm = 0;   ///< positive: the robot's clock is fast
   double boot_delay_s = 0;
-  double gain_spread = 0;           ///< standard deviation of a further factor per sensor
-  double offset_spread_counts = 0;  ///< standard deviation, counts
-  double wheel_spread = 0;          ///< standard deviation of a further wheel factor, each side
-  double axle_spread = 0;           ///< standard deviation of a further axle factor
-  double clock_spread_ppm = 0;      ///< standard deviation, ppm
-  double boot_spread_s = 0;         ///< the delay grows by a uniform draw from 0 to this
+  double gain_spread = 0;                     ///< standard deviation of a further factor per sensor
+  double offset_spread_counts = 0;            ///< standard deviation, counts
+  double wheel_spread = 0;                    ///< standard deviation of a further wheel factor, each side
+  double axle_spread = 0;                     ///< standard deviation of a further axle factor
+  double clock_spread_ppm = 0;                ///< standard deviation, ppm
+  double boot_spread_s = 0;                   ///< the delay grows by a uniform draw from 0 to this
+  std::array<double, 3> acc_offset_m_s2{};    ///< added to the accelerometer, robot frame: forward, left, up
+  std::array<double, 3> gyro_offset_rad_s{};  ///< added to the gyroscope, same frame
+  double acc_offset_spread_m_s2 = 0;          ///< standard deviation of a further offset per axis
+  double gyro_offset_spread_rad_s = 0;        ///< standard deviation of a further offset per axis
+  double motion_noise_scale = 1;  ///< factor on the noise of accelerometer and gyroscope; 0 = none
 };
 
 /// Settings of single sensors.
@@ -139,6 +144,7 @@ struct RobotDesc {
   std::string firmware;  ///< name or path as written; may be empty
   Pose2 pose;
   int selector = 0;                   ///< 0 to 15
+  std::string revision;               ///< of the hardware, as written; empty: the model's usual one
   std::optional<std::uint64_t> seed;  ///< unset: made of the world's seed and the robot's index
   double battery_v = -1;              ///< V; negative: the model's
   double battery_wh = -1;             ///< Wh when full; negative: the model's
@@ -201,6 +207,19 @@ struct FloorDesc {
   int image_height = 0;
   std::vector<std::uint8_t> image_rgb;  ///< rows from the north, three bytes a pixel
   double friction = 1.0;                ///< factor on the traction of wheels
+  double tilt_x_rad = 0;                ///< the x axis rises above the horizontal by this angle
+  double tilt_y_rad = 0;                ///< same for the y axis
+};
+
+/// A slope on the floor, or a platform when both ends are equally high.
+struct RampDesc {
+  std::string name;
+  Pose2 pose;             ///< of its middle; heading uphill
+  Vec2 size_m{0.2, 0.2};  ///< in plan, along the heading and across
+  double low_m = 0;       ///< height of its low end
+  double high_m = 0;      ///< height of its high end
+  Material material;
+  int line = 0;
 };
 
 struct LampDesc {
@@ -225,6 +244,7 @@ struct WorldDesc {
   std::vector<Material> materials;
   std::vector<WallDesc> walls;
   std::vector<ObjectDesc> objects;
+  std::vector<RampDesc> ramps;
   std::vector<LampDesc> lamps;
   ProximitySettings proximity;
   RadioDesc radio;
