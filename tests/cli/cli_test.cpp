@@ -27,8 +27,9 @@ TEST_F(Command, run_writes_record_summary_and_picture_that_agree) {
   for (const char* key : {"version", "world", "seed", "simulated_s", "wall_s", "speed", "digest", "robots"})
     EXPECT_TRUE(summary.contains(key)) << key;
   const json& robot = summary["robots"][0];
-  for (const char* key : {"name", "firmware", "way", "x_m", "y_m", "heading_rad", "distance_m", "collisions",
-                          "cycles", "cpu_load", "battery_v", "battery_used_wh", "battery_minutes_left", "traps"})
+  for (const char* key :
+       {"name", "firmware", "way", "x_m", "y_m", "heading_rad", "distance_m", "collisions", "cycles",
+        "cpu_load", "battery_v", "battery_used_wh", "battery_minutes_left", "traps"})
     EXPECT_TRUE(robot.contains(key)) << key;
   EXPECT_EQ(robot["way"], "native");
   EXPECT_EQ(robot["cycles"], 147'456'000);
@@ -231,6 +232,20 @@ TEST_F(Command, new_makes_a_controller_that_builds_and_runs) {
                           path("s.json"));
   EXPECT_EQ(s.exit_code, 0) << s.text;
   EXPECT_GT(json::parse(read(path("s.json")))["robots"][0]["distance_m"].get<double>(), 0.1);
+}
+
+TEST_F(Command, the_summary_counts_radio_packets_where_there_is_a_radio) {
+  ASSERT_EQ(twinpuck("run flock --for 3 -q --summary " + path("s.json")).exit_code, 0);
+  const json radio = json::parse(read(path("s.json")))["radio"];
+  EXPECT_GT(radio["sent"], 0);
+  EXPECT_GT(radio["delivered"], 0);
+  int pairs = 0;
+  for (const char* key :
+       {"delivered", "out_of_range", "by_chance", "by_collision", "while_sending", "switched_off"})
+    pairs += radio[key].get<int>();
+  EXPECT_NEAR(pairs, 9 * radio["sent"].get<int>(), 9 * 10);  // at most one frame a robot is still on its way
+  ASSERT_EQ(twinpuck("run maze --for 0.1 -q --summary " + path("m.json")).exit_code, 0);
+  EXPECT_FALSE(json::parse(read(path("m.json"))).contains("radio"));
 }
 
 }  // namespace
