@@ -16,6 +16,7 @@
 namespace sim {
 
 struct ProximityOptics;  // light/proximity.h: rays and tables of every sensor, resolved once
+class SoundField;        // sound/sound_field.h: what sounds, and where
 
 /// How far back poses are kept, s. [assumed: an ADC scan looks at most 40 ms back]
 inline constexpr double kHistoryS = 0.040;
@@ -74,6 +75,10 @@ class Scene {
   const ProximityOptics* optics() const { return optics_.get(); }
   void attach_optics(std::shared_ptr<const ProximityOptics> optics) { optics_ = std::move(optics); }
 
+  /// The air between sources of sound and ears; null: silence. Set once, as the optics; outlives the scene.
+  const SoundField* sound() const { return sound_; }
+  void attach_sound(const SoundField* sound) { sound_ = sound; }
+
   /// The next tick's states; `moved_m` is the largest distance any body moved.
   void publish(const std::vector<BodyState>& states, double moved_m);
   /// A body was put somewhere else: its history is forgotten, lists are gathered anew.
@@ -98,6 +103,7 @@ class Scene {
   std::vector<Placed> moving_;
   Neighbours neighbours_;
   std::shared_ptr<const ProximityOptics> optics_;
+  const SoundField* sound_ = nullptr;
 };
 
 }  // namespace sim
