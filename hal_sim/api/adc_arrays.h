@@ -4,7 +4,7 @@
  * On the robot the interrupt writes them; here they are brought up to date when a function of the driver is
  * called (e_get_prox() its own two entries, e_ad_is_*() and the stopwatch everything). A program that reads
  * them without ever calling one of these sees old values.
- * Not modelled: e_mic_scan and e_acc_scan stay 0.
+ * Not modelled: e_acc_scan stays 0.
  */
 #ifndef TWINPUCK_API_ADC_ARRAYS_H
 #define TWINPUCK_API_ADC_ARRAYS_H
@@ -25,6 +25,8 @@ extern unsigned char updateAccI2CCounter;
 
 /** Counters and indices as the interrupt would have left them. */
 void twinpuck_refresh_adc_counters(void);
+/** e_mic_scan and its index. Only samples that are new are evaluated. */
+void twinpuck_refresh_mic(void);
 /** One sensor's two entries. */
 void twinpuck_refresh_ir(unsigned int sensor);
 

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * Accelerometer and microphones, basic variants and names of before 2006.
+ * Accelerometer, basic variant and names of before 2006.
  */
 #include "a_d/e_accelerometer.h"
-#include "a_d/e_micro.h"
 #include "unsimulated.h"
 
 #define DEVICE "accelerometer"
@@ -13,8 +12,3 @@ void InitAcc(void);
 void GetAcc(int *x, int *y, int *z);
 UNSIMULATED_VOID(InitAcc, (void))
 UNSIMULATED_VOID(GetAcc, (int *x, int *y, int *z))
-#undef DEVICE
-
-#define DEVICE "microphones"
-UNSIMULATED_VOID(e_init_micro, (void))
-UNSIMULATED_VOID(e_get_micro, (int *m1, int *m2, int *m3))

@@ -10,9 +10,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hal_sim/board/sound_bank.h"
 #include "sim_core/base/hash.h"
 #include "sim_core/light/proximity.h"
 #include "sim_core/random/counter_random.h"
+#include "sim_core/sound/sound_field.h"
 
 namespace board {
 
@@ -38,6 +40,7 @@ constexpr std::uint16_t kRingMask =
 constexpr double kTwoPi = 6.283185307179586;
 constexpr std::uint32_t kAmbientStream = sim::kStreamBoard;          // + sensor
 constexpr std::uint32_t kReflectionStream = sim::kStreamBoard + 16;  // + sensor
+constexpr std::uint32_t kMicrophoneStream = sim::kStreamBoard + 32;  // + microphone
 constexpr std::uint64_t kConversionOffset = std::uint64_t{1}
                                             << 41;  // single conversions, apart from the drivers'
 
@@ -130,6 +133,7 @@ void Board::port_write(char port, Register reg, std::uint16_t value, Cycle at) {
   if (reg == Register::Tris) {
     tris_[i] = value;
     if (index == kD) connect_steppers(at);
+    if (index == kF) codec_.power((lat_[kF] & ~value & bit(0)) != 0, at);
     return;
   }
   if (index == kD) {
@@ -140,6 +144,7 @@ void Board::port_write(char port, Register reg, std::uint16_t value, Cycle at) {
     lat_[i] = value & 0xFF00;
     return;
   }
+  if (index == kF) codec_.power((value & ~tris_[kF] & bit(0)) != 0, at);
   for (int pair = 0; pair < 4; ++pair) {
     const Line line = kEmitter[pair];
     if (line.port != index) continue;
@@ -200,6 +205,7 @@ void Board::init_ports(Cycle at) {
   const std::uint16_t outputs_f = bit(0) | bit(7) | bit(8);
   lat_[kF] = static_cast<std::uint16_t>(lat_[kF] & ~outputs_f);
   tris_[kF] = static_cast<std::uint16_t>((tris_[kF] & ~outputs_f) | bit(1) | bit(6));
+  codec_.power(false, at);
   const std::uint16_t outputs_g = bit(0) | bit(1) | bit(2) | bit(3);
   lat_[kG] = static_cast<std::uint16_t>(lat_[kG] & ~outputs_g);
   tris_[kG] = static_cast<std::uint16_t>((tris_[kG] & ~outputs_g) | bit(6) | bit(7) | bit(8) | bit(9));
@@ -217,6 +223,7 @@ void Board::processor_reset(Cycle at) {
   agendas_.reset(at);
   scan_.reset(at);
   basic_prox_.reset(at);
+  codec_.reset(at);
   for (Uart& uart : uarts_) uart.reset(at);
   i2c_.processor_reset(at);
   requests = Requests{};
@@ -230,6 +237,7 @@ void Board::set_battery(double volts) { setup_.battery_v = volts; }
 
 void Board::exchange(Cycle at) {
   for (Uart& uart : uarts_) uart.exchange(at);
+  codec_.forget(at);
 }
 
 // --- analogue inputs -------------------------------------------------------------------------------------
@@ -271,6 +279,37 @@ int Board::ir_counts(int sensor, Cycle at, Cycle lit_for, std::uint64_t sample) 
   return static_cast<int>(std::clamp(std::floor(kAdcMax - light - reflection + 0.5), 0.0, double{kAdcMax}));
 }
 
+int Board::mic_counts(int microphone, Cycle at, std::uint64_t sample) const {
+  double counts = kMicIdleCounts;
+  if (scene_) {
+    const Place& place = kMicrophone[microphone];
+    counts +=
+        kMicCountsPerPa * sim::sense_sound_pa(*scene_, setup_.robot, {place.x_m, place.y_m, kMicrophoneZM},
+                                              clock_.click_at(at));
+  }
+  if (setup_.mic_noise_counts > 0) {
+    const sim::RandomKey key{setup_.seed, static_cast<std::uint32_t>(setup_.robot),
+                             kMicrophoneStream + static_cast<std::uint32_t>(microphone)};
+    counts += setup_.mic_noise_counts * sim::random_gaussian(key, sample);
+  }
+  return static_cast<int>(std::clamp(std::floor(counts + 0.5), 0.0, double{kAdcMax}));
+}
+
+void Board::publish_sound(sim::SoundField& field, sim::Clicks now) {
+  const Codec::Play& play = codec_.take_news();
+  if (play.count == 0) return field.stop(setup_.robot, now);
+  sim::SpeakerTrack track;
+  track.samples = sound_bank();
+  track.first = play.first;
+  track.count = play.count;
+  track.start_s = sim::to_seconds(clock_.click_at(play.first_at));
+  track.sample_s = static_cast<double>(kCodecSampleCycles) / static_cast<double>(kFcyHz) /
+                   (1 + static_cast<double>(clock_.ppb()) * 1e-9);
+  track.pa_per_unit = kSpeakerFullScalePa / 32768;
+  track.at_m = {kSpeaker.x_m, kSpeaker.y_m, kSpeakerZM};
+  field.play(setup_.robot, track, now);
+}
+
 Cycle Board::line_on_for(int sensor, Cycle at) const {
   const int pair = sensor & 3;
   const Line line = kEmitter[pair];
@@ -288,6 +327,8 @@ int Board::convert(int channel, Cycle at) {
     if (lit_for < 0 && pulses(at) & (1u << (sensor & 3))) lit_for = 40 * kIrSettleCycles;
     return ir_counts(sensor, at, lit_for, kConversionOffset + conversions_++);
   }
+  if (channel >= kMicChannel && channel < kMicChannel + kMicrophones)
+    return mic_counts(channel - kMicChannel, at, kConversionOffset + conversions_++);
   if (channel == 7 && setup_.revision == Revision::Rev13) return battery_counts();
   return -1;
 }
@@ -324,6 +365,7 @@ std::uint64_t Board::state_hash(Cycle at) const {
   for (std::size_t i = 0; i < kPorts; ++i) add(lat_[i] | static_cast<std::uint64_t>(tris_[i]) << 16);
   for (const Uart& uart : uarts_) add(uart.state_hash());
   if (!i2c_.devices().empty()) add(i2c_.state_hash());
+  if (codec_.was_used()) add(codec_.state_hash());
   add(static_cast<std::uint64_t>(scan_.interrupts(at)));
   return sim::mix64(sum);
 }

@@ -7,7 +7,7 @@
 //
 // Modelled: port latches, directions and pin levels; two steppers that follow their coils; the library's
 // motor drivers, agenda timer, ADC scan and UARTs in closed form; IR circuit; LEDs; selector; battery.
-// Not modelled: accelerometer, microphones, camera, codec, I2C (each fails loudly in hal_sim/api).
+// Not modelled: accelerometer, camera, I2C (each fails loudly in hal_sim/api).
 //
 // Every method takes the cycle of this robot's clock at which it happens. Cycles never go back between calls
 // that change something. Nothing depends on who looked before: const methods have no side effects, and a
@@ -21,6 +21,7 @@
 #include "hal_sim/board/agenda_timer.h"
 #include "hal_sim/board/basic_prox.h"
 #include "hal_sim/board/clock.h"
+#include "hal_sim/board/codec.h"
 #include "hal_sim/board/i2c_bus.h"
 #include "hal_sim/board/timer_motors.h"
 #include "hal_sim/board/uart.h"
@@ -28,7 +29,8 @@
 
 namespace sim {
 class Scene;
-}
+class SoundField;
+}  // namespace sim
 
 namespace board {
 
@@ -53,8 +55,9 @@ struct Setup {
   double ir_noise_scale = 1.0;                          ///< factor on the profile's relative noise; 0 = none
   double ambient_noise_counts = 0;  ///< standard deviation of every conversion of an IR channel, counts
   double ambient_counts_per_w_m2 = kAmbientCountsPerWm2;  ///< fall of the dark sample with light
-  double clock_ppm = 0;     ///< crystal error, parts per million, positive = fast
-  double boot_delay_s = 0;  ///< s from the world's beginning to the first instruction
+  double mic_noise_counts = kMicNoiseCounts;  ///< standard deviation of every conversion of a microphone
+  double clock_ppm = 0;                       ///< crystal error, parts per million, positive = fast
+  double boot_delay_s = 0;                    ///< s from the world's beginning to the first instruction
 };
 
 class Board {
@@ -120,6 +123,8 @@ class Board {
   const TimerMotors& timer_motors() const { return timer_motors_; }
   AdcScan& scan() { return scan_; }
   const AdcScan& scan() const { return scan_; }
+  Codec& codec() { return codec_; }
+  const Codec& codec() const { return codec_; }
   BasicProx& basic_prox() { return basic_prox_; }
   const BasicProx& basic_prox() const { return basic_prox_; }
   /// The motor of a wheel, brought to `at`.
@@ -137,9 +142,11 @@ class Board {
   /// Counts of a proximity sensor's phototransistor at `at`, its emitter having been on for `lit_for` cycles
   /// (negative: off). Noise is drawn from `sample`, a number unique to the sample.
   int ir_counts(int sensor, Cycle at, Cycle lit_for, std::uint64_t sample) const;
-  /// Counts of a single conversion of input AN`channel` by a program that runs the converter itself. Sensors
-  /// and battery only; microphones and accelerometer are not simulated (answers -1). Each call is a new
-  /// sample.
+  /// Counts of microphone 0 right, 1 left, 2 back whose sample is held at `at`: 0 to 4095. Noise is drawn
+  /// from `sample`. Linear, all frequencies alike.
+  int mic_counts(int microphone, Cycle at, std::uint64_t sample) const;
+  /// Counts of a single conversion of input AN`channel` by a program that runs the converter itself. The
+  /// accelerometer is not simulated (answers -1). Each call is a new sample.
   int convert(int channel, Cycle at);
   /// Battery as the library's raw value on AN7 (revision 1.3); 0 on others.
   int battery_counts() const;
@@ -152,6 +159,9 @@ class Board {
     std::array<Cycle, 16> background_cost{};
   };
   Requests requests;
+
+  /// Tells the air what the loudspeaker began or ended, at the tick boundary `now`.
+  void publish_sound(sim::SoundField& field, sim::Clicks now);
 
   int selector() const { return setup_.selector; }
   double battery_v() const { return setup_.battery_v; }
@@ -177,6 +187,7 @@ class Board {
   TimerMotors timer_motors_;
   AdcScan scan_;
   BasicProx basic_prox_;
+  Codec codec_;
   std::array<Uart, 2> uarts_;
   I2cBus i2c_;
   mutable Cycle settled_for_ = -1;  // the flash's length is nearly always the same: its exponential, once

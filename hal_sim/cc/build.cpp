@@ -153,13 +153,16 @@ void sort_messages(const std::string& text, BuildResult& result, bool failed) {
   }
 }
 
-/// Everything the host exports: named in the two headers of the seam, and in host_exports.def.
+/// Everything the host exports: named in the headers of the seam, and in host_exports.def.
 std::set<std::string> host_exports() {
   std::set<std::string> names;
   fs::path root = source_root();
   static const std::regex kFunction(R"(\b(tp_\w+)\s*\()");
-  for (const char* header : {"hal_sim/host/image_abi.h", "hal_sim/host/pins.h"}) {
-    std::string text = read_text(root / header);
+  for (const auto& entry : fs::directory_iterator(root / "hal_sim/host")) {
+    const std::string header = entry.path().filename().string();
+    if (header != "image_abi.h" && (header.rfind("pins", 0) != 0 || entry.path().extension() != ".h"))
+      continue;
+    std::string text = read_text(entry.path());
     for (std::sregex_iterator it(text.begin(), text.end(), kFunction), end; it != end; ++it)
       names.insert((*it)[1]);
   }

@@ -376,7 +376,7 @@ tp_i64 tp_convert(tp_i64 channel) {
   const Cycle now = context.now();
   const int counts = context.board().convert(static_cast<int>(channel), now);
   if (counts < 0)
-    context.trap(TP_TRAP_UNSIMULATED, "converter: microphones and accelerometer are not simulated yet");
+    context.trap(TP_TRAP_UNSIMULATED, "converter: the accelerometer is not simulated yet");
   context.lower_horizon(now);
   return counts;
 }

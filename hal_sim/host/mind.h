@@ -22,6 +22,10 @@ class FirmwareMind final : public sim::RobotMind {
   sim::MindReport report() const override;
   int proximity_counts(const sim::Scene& scene, int index) override;
   std::uint64_t state_hash() const override;
+  bool has_sound_news() const override { return board_.codec().has_news(); }
+  void publish_sound(sim::SoundField& field, int, sim::Clicks now) override {
+    board_.publish_sound(field, now);
+  }
 
   board::Board& board() { return board_; }
   const board::Board& board() const { return board_; }

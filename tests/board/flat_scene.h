@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim_core/light/proximity.h"
+#include "sim_core/sound/sound_field.h"
 
 namespace sim {
 
@@ -17,8 +18,17 @@ class Scene {
   };
   std::function<double(int sensor, Clicks at)> reflection = [](int, Clicks) { return 0.0; };
   double irradiance_w_m2 = 0;
+  std::function<double(const Vec3& point_m, Clicks at)> sound_pa;  // what is heard at a point of the robot
   double relative_noise = 0;
   mutable std::vector<Question> asked;
 };
+
+/// What loudspeakers told the air (flat_sound.cpp).
+struct Published {
+  bool plays;
+  Clicks now;
+  SpeakerTrack track;
+};
+std::vector<Published>& flat_sound();
 
 }  // namespace sim
