@@ -7,7 +7,7 @@
 namespace board {
 
 // --- microphones: x forward, y left ------------------------------------------------------------------------
-inline constexpr int kMicrophones = 3;
+inline constexpr int kMicrophones = 3;  // [FRM A8]
 inline constexpr Place kMicrophone[kMicrophones] = {
     {0.008, -0.031},  // 0 right [FRM A8]
     {0.008, 0.031},   // 1 left [FRM A8]
@@ -45,9 +45,8 @@ inline constexpr double kSpeakerZM = 0.035;  // m [assumed: on the top board, be
 inline constexpr double kSpeakerFullScalePa =
     0.0894;  // Pa at 1 m, peak [assumed: a miniature loudspeaker of this size]
 
-// --- processor time
-// ------------------------------------------------------------------------------------------ entry, context
-// and the reading of four samples; the handler's own C is counted besides
+// --- processor time of the codec's interrupt ---------------------------------------------------------------
+// entry, context and the reading of four samples; the handler's own C is counted besides
 inline constexpr Cycle kDciBusyEntryCycles = 65;  // [estimated: 4 entry and exit, 12 saves, 4 samples of 11]
 inline constexpr Cycle kDciIdleIsrCycles = 26;    // [estimated: the same without samples]
 

@@ -8,9 +8,9 @@
 extern "C" {
 #endif
 
-/** Files the microphone samples from number `from` (0: the first since reset) up to now, of these the last 100 at
- * most, into `scan`, three times 100 16-bit words: sample n of microphone m is word 100 m + n % 100. Counts 0 to
- * 4095. Answers how many samples each microphone has made since reset. Horizon: the next. */
+/** Files the microphone samples from number `from` (0: the first since reset) up to now, of these the last
+ * 100 at most, into `scan`, three times 100 16-bit words: sample n of microphone m is word 100 m + n % 100.
+ * Counts 0 to 4095. Answers how many samples each microphone has made since reset. Horizon: the next. */
 tp_i64 tp_mic_scan(void* scan, tp_i64 from);
 
 /** The data converter interface starts; frames of 2048 cycles, four to an interrupt. Write. Source: [lib:
@@ -18,8 +18,8 @@ tp_i64 tp_mic_scan(void* scan, tp_i64 from);
 void tp_codec_start(void);
 /** The codec's registers are written; without AUDIO_ON (latch F0) nothing happens. Write. */
 void tp_codec_configure(void);
-/** `length` samples from `offset` of the library's bank, from the next group of four on, instead of what plays.
- * Write. Source: [lib: codec/e_sub_dci_kickoff.s]. */
+/** `length` samples from `offset` of the library's bank, from the next group of four on, instead of what
+ * plays. Write. Source: [lib: codec/e_sub_dci_kickoff.s]. */
 void tp_codec_play(tp_i64 offset, tp_i64 length);
 /** Silence after the group of four that is on its way. Write. */
 void tp_codec_stop(void);

@@ -148,8 +148,7 @@ TEST_F(Microphones, single_conversions_hear_now) {
   EXPECT_EQ(tp_convert(4), 2048);
 }
 
-// --- codec
-// -------------------------------------------------------------------------------------------------------
+// --- codec ---------------------------------------------------------------------------------------------
 
 struct Speaker : Microphones {
   board::Codec& codec = robot.codec();
@@ -293,8 +292,7 @@ TEST_F(Speaker, state_changes_only_when_it_is_used) {
   EXPECT_NE(robot.state_hash(0), before);
 }
 
-// --- DSP engine
-// ----------------------------------------------------------------------------------------------------
+// --- DSP engine ----------------------------------------------------------------------------------------
 
 struct Dsp : Microphones {
   struct Pair {

@@ -2,7 +2,9 @@
 // The air: levels, distance, delay, Doppler, every kind of source, loudspeakers across tick boundaries, and
 // that no value depends on when it is asked for. Expectations by hand beside each.
 #include <cmath>
+#include <cstdio>
 
+#include "sim_core/record/wav_recorder.h"
 #include "sim_core/sound/sound_field.h"
 #include "sim_core/sound/sound_params.h"
 #include "sim_core/sound/wav_file.h"
@@ -175,8 +177,7 @@ TEST(Sound, a_file_is_played_once_or_again_and_again) {
   EXPECT_EQ(once.pressure_pa(0.401), 0);
 }
 
-// --- WAV
-// ---------------------------------------------------------------------------------------------------------
+// --- WAV -----------------------------------------------------------------------------------------------
 
 std::string wav(int bits, int channels, const std::string& data, int format = 1, int rate = 8000) {
   const auto little = [](int value, int count) {
@@ -228,8 +229,25 @@ TEST(Wav, our_own_header_is_read_back) {
   EXPECT_EQ(sim::wav_header(7200, 2).size(), 44u);
 }
 
-// --- world files
-// ---------------------------------------------------------------------------------------------------
+TEST(Wav, a_recording_is_whole_after_every_append) {
+  const std::string path = ::testing::TempDir() + "/recording.wav";
+  sim::WavRecorder recorder(path, 7200);
+  sim::WavSound out;
+  EXPECT_EQ(sim::read_wav(path, out), "got no samples, expected a \"data\" chunk with at least one");
+  EXPECT_TRUE(recorder.append({16384, -32768}));
+  EXPECT_EQ(sim::read_wav(path, out), "");  // while the recorder still has it open
+  EXPECT_EQ(out.samples, (std::vector<float>{0.5f, -1.0f}));
+  EXPECT_TRUE(recorder.append({8192}));
+  EXPECT_EQ(sim::read_wav(path, out), "");
+  EXPECT_EQ(out.samples, (std::vector<float>{0.5f, -1.0f, 0.25f}));
+  EXPECT_EQ(out.rate_hz, 7200);
+  std::remove(path.c_str());
+  sim::WavRecorder nowhere("/nowhere/at/all.wav", 7200);
+  EXPECT_EQ(nowhere.error(), "/nowhere/at/all.wav: cannot be written: No such file or directory");
+  EXPECT_FALSE(nowhere.append({1}));
+}
+
+// --- world files ---------------------------------------------------------------------------------------
 
 std::string report_of(const std::string& text) {
   return sim::parse_world("twinpuck = 1\n" + text, "w.toml", {puck()}).report("w.toml");
@@ -283,8 +301,7 @@ TEST(SoundInWorlds, mistakes_are_named) {
             "w.toml:5:8: sound.file: cannot be read: No such file or directory");
 }
 
-// --- loudspeakers
-// ---------------------------------------------------------------------------------------------------
+// --- loudspeakers --------------------------------------------------------------------------------------
 
 /// Plays a track from a given instant on, and samples its ears in every tick.
 class Singer : public Cruise {
