@@ -13,7 +13,8 @@ inline constexpr Place kMicrophone[kMicrophones] = {
     {0.008, 0.031},   // 1 left [FRM A8]
     {-0.022, 0.0},    // 2 back [FRM A8]
 };
-inline constexpr double kMicrophoneZM = 0.035;        // m [assumed: on the main board, above the IR sensors]
+inline constexpr double kMicrophoneZM = 0.035;  // m [assumed: on the main board, above the IR sensors]
+// the robot's microphones are taken to be of this kind
 inline constexpr double kMicSensitivityVPa = 0.0794;  // V/Pa, -22 dB, amplifier at full gain [SP0103]
 inline constexpr double kAdcReferenceV = 3.3;  // V, the supply [assumed: the board has one supply, FRM A8]
 inline constexpr double kMicCountsPerPa =
