@@ -4,8 +4,9 @@
 //   upper' = round((a + b) / 2)                   a, b: upper and lower leg
 //   lower' = round((a - b) w / 2)                 w: twiddle factor
 //
-// a - b wraps at 16 bits; products are 1.31 fractions, sums have 40 bits, saturation at 9.31; storing halves,
-// rounds to nearest with ties to even (RND = 0) and saturates to 16 bits (SATDW).
+// a - b wraps at 16 bits; products are 1.31 fractions, sums have 40 bits and saturate at 9.31; storing
+// halves, rounds to nearest with ties to even and saturates to 16 bits: the library runs the engine with
+// CORCON = 0x00F0 [vendor].
 #include <cstdint>
 #include <utility>
 
