@@ -29,7 +29,7 @@ MAY_INCLUDE = {
                       "hal_sim/host/image_abi.h", "hal_sim/host/context.h"],
     "hal_sim/host": ["hal_sim/board", "sim_core/base", "sim_core/time", "sim_core/world/robot_mind.h"],
     "hal_sim/api": ["hal_sim/host/pins", "hal_sim/host/image_abi.h", "firmware/include"],
-    "hal_sim/cc": ["hal_sim/host/image_abi.h", "hal_sim/host/pins.h"],  # its libc calls the host
+    "hal_sim/cc": ["hal_sim/host/image_abi.h", "hal_sim/host/pins"],  # its libc calls the host
     "hal_sim/twin": ["hal_sim/", "sim_core/"],  # ties board, host and world together
     "hal_sim/register": ["hal_sim/host", "hal_sim/board", "dspic30"],
     "hal_sim/chip": ["hal_sim/board", "hal_sim/host", "dspic30", "sim_core/base", "sim_core/world/robot_mind.h"],

@@ -23,6 +23,8 @@ END = "<!-- end of unsimulated functions -->"
 
 # headers without prototypes of the contract, or that only include others
 NO_PROTOTYPES = {"p30F6014A.h"}
+# declared by the original library's headers and contained in none of its versions: not linked there, nor here
+ONLY_DECLARED = {"e_i2cp_read_string", "e_i2cp_write_string"}
 # a header's own variant macro -> (switch, prefix with the switch, prefix without)
 VARIANT_MACROS = {"TP_MOTORS": ("E_MOTORS_TIMER3", "tptimer3_", "tpbasic_"),
                   "TP_PROX": ("E_PROX_TIMER2", "tpt2_", "tpbasic_")}
@@ -124,7 +126,7 @@ def main():
 
     problems = []
     for name, header in sorted(declared.items()):
-        if not defined[name]:
+        if not defined[name] and name not in ONLY_DECLARED:
             problems.append("firmware/include/%s: %s: declared, but nothing in hal_sim/api defines it" % (header, name))
     for name, places in sorted(defined.items()):
         if len(places) > 1:

@@ -33,6 +33,9 @@ for program in "$build"/tests/*; do
     f=1
   fi
   if [ "$f" != 0 ]; then
+    # the end first: whoever shows only part of this shows the reason
+    tail -n 60 "$log"
+    echo "--- all of it:"
     cat "$log"
   fi
   passed=$((passed + p))

@@ -9,9 +9,11 @@
 #include <thread>
 
 #include "hal_sim/board/epuck_model.h"
+#include "hal_sim/board/part.h"
 #include "hal_sim/twin/twin.h"
 #include "sim_core/load/world_loader.h"
 #include "tools/progress.h"
+#include "tools/remote_keys.h"
 #include "tools/run_outputs.h"
 #include "tools/summary.h"
 #include "tools/verbs.h"
@@ -27,7 +29,7 @@ volatile std::sig_atomic_t interrupted = 0;
 
 struct RunArguments {
   std::string world;
-  std::vector<std::string> firmware, uart1, uart2;
+  std::vector<std::string> firmware, uart1, uart2, keys;
   double seconds = 60;
   std::string speed = "max";
   long long seed = -1;
@@ -84,12 +86,20 @@ int run(const RunArguments& arguments) {
     return kBadInput;
 
   const std::string file = find_world(arguments.world);
-  sim::LoadedWorld loaded = sim::load_world(file, {board::epuck_model()});
+  sim::LoadedWorld loaded = sim::load_world(file, {board::epuck_model()}, board::part_kinds());
   if (!loaded.world) {
     complain({loaded.report(file)});
     return kBadInput;
   }
   if (arguments.seed >= 0) loaded.world->seed = static_cast<std::uint64_t>(arguments.seed);
+  std::vector<twin::Choice> keys;
+  if (!split(arguments.keys, "--key", keys)) return kBadInput;
+  for (const auto& key : keys) {
+    const std::string wrong = add_key(key.robot, key.value, loaded.world->robots);
+    if (wrong.empty()) continue;
+    complain({"command line: --key: " + wrong});
+    return kBadInput;
+  }
   options.world_folder = fs::path(file).parent_path().string();
   std::vector<std::string> problems;
   auto twin = twin::Twin::open(std::move(*loaded.world), options, problems);
@@ -172,8 +182,11 @@ void add_run(CLI::App& app, int& exit_code) {
   verb->add_option("--threads", a->threads, "threads that run firmware; the result does not depend on it")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
-  verb->add_option("--uart", a->uart1, "ROBOT=none|pty|tcp:PORT|file:PATH: the other end of UART 1");
+  verb->add_option("--uart", a->uart1, "ROBOT=none|pty|pty:LINK|tcp:PORT|file:PATH: the other end of UART 1");
   verb->add_option("--uart2", a->uart2, "the same for UART 2");
+  verb->add_option("--key", a->keys,
+                   "ROBOT=KEY@TIME[+HOLD]: a remote control's key, 0 to 63 or a name such as VOL_UP, pressed at "
+                   "TIME s for HOLD s (0.1); ADDRESS:KEY for another address than 0");
   verb->add_option("--host-limit", a->host_limit_s, "give up after this many real seconds (exit 124)")
       ->check(CLI::NonNegativeNumber);
   verb->add_option("--opt", a->optimisation, "level for controllers built from source")

@@ -16,6 +16,8 @@ struct RobotSummary {
   std::int64_t left_steps = 0, right_steps = 0;
   std::int64_t cycles = 0;
   double cpu_load = 0;  ///< share of cycles not spent waiting
+  double battery_v = 0, battery_used_wh = 0;
+  double battery_minutes = -1;  ///< until empty at the run's mean current; negative: nothing was drawn
   std::vector<host::TrapReport> traps;
 };
 

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hal_sim/board/remote_params.h"
 #include "hal_sim/board/sound_bank.h"
 #include "sim_core/base/hash.h"
 #include "sim_core/light/proximity.h"
@@ -52,7 +53,8 @@ Board::Board(const Setup& setup)
     : setup_(setup),
       clock_(to_ppb(setup.clock_ppm), sim::from_seconds(setup.boot_delay_s)),
       scan_(*this),
-      basic_prox_(*this) {
+      basic_prox_(*this),
+      battery_(setup.battery_wh, setup.battery_v, kProcessorA + kBluetoothA + kBoardA) {
   for (std::size_t i = 0; i < kPorts; ++i) tris_[i] = kImplemented[i];
 }
 
@@ -118,8 +120,9 @@ std::uint16_t Board::port_read(char port, Register reg, Cycle at) const {
   // levels that the board puts on input pins; open pins read 0, idle serial lines and pull-ups 1
   std::uint16_t level = 0;
   if (index == kF) {
-    level = bit(2) | bit(3) | bit(4) | bit(5) | bit(6);
-    if (setup_.battery_v >= kBatteryLowV) level |= bit(1);
+    level = bit(2) | bit(3) | bit(4) | bit(5);
+    if (battery_.voltage(at) >= kBatteryLowV) level |= bit(1);
+    if (remote_.level(at)) level |= bit(kRemoteBit);
   }
   if (index == kG) level = static_cast<std::uint16_t>((setup_.selector & 15) << 6 | bit(2) | bit(3));
   return static_cast<std::uint16_t>((lat & ~tris) | (level & tris)) & kImplemented[index];
@@ -134,6 +137,7 @@ void Board::port_write(char port, Register reg, std::uint16_t value, Cycle at) {
     tris_[i] = value;
     if (index == kD) connect_steppers(at);
     if (index == kF) codec_.power((lat_[kF] & ~value & bit(0)) != 0, at);
+    follow_power(at);
     return;
   }
   if (index == kD) {
@@ -142,6 +146,7 @@ void Board::port_write(char port, Register reg, std::uint16_t value, Cycle at) {
       if (coils != this->coils(wheel, at)) stepper(wheel, at).energise(coils, at);
     }
     lat_[i] = value & 0xFF00;
+    follow_power(at);
     return;
   }
   if (index == kF) codec_.power((value & ~tris_[kF] & bit(0)) != 0, at);
@@ -153,7 +158,14 @@ void Board::port_write(char port, Register reg, std::uint16_t value, Cycle at) {
     if (value & ~lat_[i] & bit(line.bit)) line_since_[static_cast<std::size_t>(pair)] = at;
   }
   if (index == kC && scan_.pulses(at) & 16u) value = static_cast<std::uint16_t>(value & ~(bit(1) | bit(2)));
+  if (value == lat_[i]) return;
   lat_[i] = value;
+  follow_power(at);
+}
+
+bool Board::output_high(char port, int n) const {
+  const std::size_t i = static_cast<std::size_t>(port_index(port));
+  return (lat_[i] & ~static_cast<unsigned>(tris_[i]) & bit(n)) != 0;
 }
 
 bool Board::latch_bit(char port, int n, Cycle at) const {
@@ -174,8 +186,10 @@ Cycle Board::port_horizon(char port, Cycle at) const {
       return std::min({agendas_.coils_horizon(Wheel::Left, at), agendas_.coils_horizon(Wheel::Right, at),
                        timer_motors_.coils_horizon(Wheel::Left, at),
                        timer_motors_.coils_horizon(Wheel::Right, at)});
-    case kC:
     case kF:
+      return std::min({scan_.pulses_horizon(at), basic_prox_.horizon(at), battery_.below(kBatteryLowV, at),
+                       remote_.next_change(at)});
+    case kC:
     case kG:
       return std::min(scan_.pulses_horizon(at), basic_prox_.horizon(at));
     default:
@@ -214,6 +228,9 @@ void Board::init_ports(Cycle at) {
   connect_steppers(at);
   stepper(Wheel::Left, at).set_coils_only(0);
   stepper(Wheel::Right, at).set_coils_only(0);
+  follow_power(at);
+  // the function ends with a question over the bus and leaves the module on, its interrupt off
+  i2c_master_.switch_on(kI2cLibraryBrg, at);
 }
 
 void Board::processor_reset(Cycle at) {
@@ -225,15 +242,29 @@ void Board::processor_reset(Cycle at) {
   basic_prox_.reset(at);
   codec_.reset(at);
   for (Uart& uart : uarts_) uart.reset(at);
-  i2c_.processor_reset(at);
+  i2c_master_.processor_reset(at);
+  for (const auto& part : parts_) part->processor_reset(at);
   requests = Requests{};
   lat_.fill(0);
   for (std::size_t i = 0; i < kPorts; ++i) tris_[i] = kImplemented[i];
+  follow_power(at);
+}
+
+void Board::plug_in(std::unique_ptr<Part> part) {
+  part->board_ = this;
+  parts_.push_back(std::move(part));
+  parts_.back()->connect();
+}
+
+std::optional<double> Board::part_analogue_v(int channel, Cycle at) const {
+  for (const auto& part : parts_)
+    if (const auto level_v = part->analogue_v(channel, at)) return level_v;
+  return std::nullopt;
 }
 
 void Board::turn_selector(int position) { setup_.selector = position & 15; }
 
-void Board::set_battery(double volts) { setup_.battery_v = volts; }
+void Board::set_battery(double volts, Cycle at) { battery_.set_voltage(volts, at); }
 
 void Board::exchange(Cycle at) {
   for (Uart& uart : uarts_) uart.exchange(at);
@@ -329,14 +360,14 @@ int Board::convert(int channel, Cycle at) {
   }
   if (channel >= kMicChannel && channel < kMicChannel + kMicrophones)
     return mic_counts(channel - kMicChannel, at, kConversionOffset + conversions_++);
-  if (channel == 7 && setup_.revision == Revision::Rev13) return battery_counts();
+  if (channel == 7 && setup_.revision == Revision::Rev13) return battery_counts(at);
   return -1;
 }
 
-int Board::battery_counts() const {
+int Board::battery_counts(Cycle at) const {
   if (setup_.revision != Revision::Rev13) return 0;
   constexpr double kPerVolt = (kBatteryRawAt4V2 - kBatteryRawAt3V4) / (4.2 - 3.4);
-  return static_cast<int>(std::lround(kBatteryRawAt3V4 + (setup_.battery_v - 3.4) * kPerVolt));
+  return static_cast<int>(std::lround(kBatteryRawAt3V4 + (battery_.voltage(at) - 3.4) * kPerVolt));
 }
 
 int Board::proximity_counts(int sensor, Cycle at) const {
@@ -364,8 +395,10 @@ std::uint64_t Board::state_hash(Cycle at) const {
   }
   for (std::size_t i = 0; i < kPorts; ++i) add(lat_[i] | static_cast<std::uint64_t>(tris_[i]) << 16);
   for (const Uart& uart : uarts_) add(uart.state_hash());
-  if (!i2c_.devices().empty()) add(i2c_.state_hash());
   if (codec_.was_used()) add(codec_.state_hash());
+  if (!i2c_.devices().empty()) add(i2c_.state_hash() + i2c_master_.state_hash());
+  for (const auto& part : parts_) add(part->state_hash());
+  if (eeprom_.in_use()) add(eeprom_.state_hash());
   add(static_cast<std::uint64_t>(scan_.interrupts(at)));
   return sim::mix64(sum);
 }

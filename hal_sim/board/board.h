@@ -6,8 +6,9 @@
 //                                             Board <-- sim::sense_proximity, irradiance   (from the Scene)
 //
 // Modelled: port latches, directions and pin levels; two steppers that follow their coils; the library's
-// motor drivers, agenda timer, ADC scan and UARTs in closed form; IR circuit; LEDs; selector; battery.
-// Not modelled: accelerometer, camera, I2C (each fails loudly in hal_sim/api).
+// motor drivers, agenda timer, ADC scan and UARTs in closed form; IR circuit; LEDs; selector; remote
+// control's receiver; battery, fed by what is on. Not modelled: accelerometer, camera (each fails loudly in
+// hal_sim/api).
 //
 // Every method takes the cycle of this robot's clock at which it happens. Cycles never go back between calls
 // that change something. Nothing depends on who looked before: const methods have no side effects, and a
@@ -16,13 +17,21 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "hal_sim/board/adc_scan.h"
 #include "hal_sim/board/agenda_timer.h"
 #include "hal_sim/board/basic_prox.h"
+#include "hal_sim/board/battery.h"
+#include "hal_sim/board/battery_params.h"
 #include "hal_sim/board/clock.h"
 #include "hal_sim/board/codec.h"
+#include "hal_sim/board/data_eeprom.h"
 #include "hal_sim/board/i2c_bus.h"
+#include "hal_sim/board/i2c_master.h"
+#include "hal_sim/board/part.h"
+#include "hal_sim/board/remote.h"
 #include "hal_sim/board/timer_motors.h"
 #include "hal_sim/board/uart.h"
 #include "hal_sim/host/context.h"
@@ -44,10 +53,11 @@ inline constexpr int kRingSensors = 8;
 
 /// What distinguishes one robot from another; fixed while it is powered.
 struct Setup {
-  int robot = 0;           ///< index in the Scene
-  std::uint64_t seed = 1;  ///< of all noise of this robot
-  int selector = 0;        ///< position 0 to 15
-  double battery_v = 4.0;  ///< V, 3.0 to 4.2
+  int robot = 0;                   ///< index in the Scene
+  std::uint64_t seed = 1;          ///< of all noise of this robot
+  int selector = 0;                ///< position 0 to 15
+  double battery_v = 4.0;          ///< V at power-up with nothing but the electronics on, 3.0 to 4.2
+  double battery_wh = kBatteryWh;  ///< Wh, energy of a full battery
   Revision revision = Revision::Analogue;
   std::array<double, 2> wheel_ratio{1.0, 1.0};  ///< true over nominal wheel size, left and right
   std::array<double, kRingSensors> ir_gain{1, 1, 1, 1, 1, 1, 1, 1};  ///< factor on the reflected response
@@ -113,7 +123,7 @@ class Board {
   void processor_reset(Cycle at);
   /// Selector turned by hand (or a test) while running.
   void turn_selector(int position);
-  void set_battery(double volts);
+  void set_battery(double volts, Cycle at);
 
   // --- what the library's drivers keep in the processor, in closed form ----------------------------------
 
@@ -134,7 +144,16 @@ class Board {
   /// Camera, motion sensors and turrets hang here.
   I2cBus& i2c() { return i2c_; }
   const I2cBus& i2c() const { return i2c_; }
-  /// e_init_port(): latches 0, directions as the library wants them. (Its cost is the caller's.)
+  /// The processor's side of the bus.
+  I2cMaster& i2c_master() { return i2c_master_; }
+  const I2cMaster& i2c_master() const { return i2c_master_; }
+  /// Plugs a turret or another part in; before power-up.
+  void plug_in(std::unique_ptr<Part> part);
+  const std::vector<std::unique_ptr<Part>>& parts() const { return parts_; }
+  /// Voltage that a part puts on the analogue input AN`channel`, V; empty: none does.
+  std::optional<double> part_analogue_v(int channel, Cycle at) const;
+  /// e_init_port(): latches 0, directions as the library wants them, the I2C module on. (Its cost is the
+  /// caller's.)
   void init_ports(Cycle at);
   /// Tick boundary: bytes from outside enter, bytes sent so far go out, old bookkeeping is dropped.
   void exchange(Cycle at);
@@ -149,7 +168,18 @@ class Board {
   /// accelerometer is not simulated (answers -1). Each call is a new sample.
   int convert(int channel, Cycle at);
   /// Battery as the library's raw value on AN7 (revision 1.3); 0 on others.
-  int battery_counts() const;
+  int battery_counts(Cycle at) const;
+  const Battery& battery() const { return battery_; }
+  /// Something was switched on or off: the battery's current from `at` on. Whoever changes a device beside
+  /// port_write() calls it. Motors count with the mean of their rhythm.
+  void follow_power(Cycle at) { battery_.draw(current_a(at), at); }
+  /// The robot is switched off for good: nothing is drawn.
+  void switch_off() { battery_.draw(0, 0); }
+  /// Data EEPROM; resets leave it alone.
+  DataEeprom& eeprom() { return eeprom_; }
+  /// What somebody does with a remote control.
+  RemoteReceiver& remote() { return remote_; }
+  const RemoteReceiver& remote() const { return remote_; }
   /// What the exported functions last asked of the host for this board, so that they ask only when it
   /// changed.
   struct Requests {
@@ -164,7 +194,6 @@ class Board {
   void publish_sound(sim::SoundField& field, sim::Clicks now);
 
   int selector() const { return setup_.selector; }
-  double battery_v() const { return setup_.battery_v; }
 
  private:
   static constexpr std::size_t kPorts = 6;  // A B C D F G
@@ -174,9 +203,16 @@ class Board {
   Cycle line_on_for(int sensor, Cycle at) const;
   Stepper stepper_at(Wheel wheel, Cycle at) const;
   void connect_steppers(Cycle at);
+  /// Share of the time for which a wheel's two coils are energised while nothing new is commanded, 0 to 1.
+  double coil_duty(Wheel wheel, Cycle at) const;
+  /// Is the pin an output, and its latch 1?
+  bool output_high(char port, int bit) const;
+  /// What everything that is on draws, A.
+  double current_a(Cycle at) const;
 
   Setup setup_;
   RobotClock clock_;
+  RemoteReceiver remote_{clock_};
   const sim::Scene* scene_ = nullptr;
 
   std::array<std::uint16_t, kPorts> lat_{};  // of D the high byte only: the low one is the coils
@@ -190,6 +226,10 @@ class Board {
   Codec codec_;
   std::array<Uart, 2> uarts_;
   I2cBus i2c_;
+  Battery battery_;
+  DataEeprom eeprom_;
+  I2cMaster i2c_master_{i2c_};
+  std::vector<std::unique_ptr<Part>> parts_;
   mutable Cycle settled_for_ = -1;  // the flash's length is nearly always the same: its exponential, once
   mutable double settled_share_ = 0;
   std::uint64_t conversions_ = 0;

@@ -3,6 +3,7 @@
 // which some models tilt them upwards are part of the profiles, which were measured on walls.
 #include "hal_sim/board/epuck_model.h"
 
+#include "hal_sim/board/battery_params.h"
 #include "hal_sim/board/epuck_params.h"
 
 namespace board {
@@ -19,6 +20,7 @@ sim::RobotModel epuck_model() {
   model.wheel_radius_m = kWheelRadiusM;
   model.axle_m = kAxleM;
   model.steps_per_turn = kStepsPerTurn;
+  model.battery_wh = kBatteryWh;
   for (const SensorPlace& place : kProximity)
     model.proximity.push_back({{place.x_m, place.y_m, kProximityZM}, sim::radians(place.yaw_deg), 0});
   const sim::Colour red{1, 0.1, 0.1}, green{0.1, 1, 0.1};

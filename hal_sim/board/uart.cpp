@@ -132,6 +132,10 @@ void Uart::hand_out(Cycle at) {
   const std::size_t done =
       static_cast<std::size_t>(std::upper_bound(out_ends_.begin(), out_ends_.end(), at) - out_ends_.begin());
   if (done == 0) return;
+  // a packet is full, too old, or followed by a pause
+  if (end_ && end_->takes_packets() && free_at_ > at && done < kPacketBytes &&
+      at - out_ends_.front() < kPacketCycles)
+    return;
   if (end_) end_->deliver(out_bytes_.data(), out_ends_.data(), done);
   out_bytes_.erase(out_bytes_.begin(), out_bytes_.begin() + static_cast<std::ptrdiff_t>(done));
   out_ends_.erase(out_ends_.begin(), out_ends_.begin() + static_cast<std::ptrdiff_t>(done));

@@ -158,11 +158,10 @@ std::set<std::string> host_exports() {
   std::set<std::string> names;
   fs::path root = source_root();
   static const std::regex kFunction(R"(\b(tp_\w+)\s*\()");
-  for (const auto& entry : fs::directory_iterator(root / "hal_sim/host")) {
-    const std::string header = entry.path().filename().string();
-    if (header != "image_abi.h" && (header.rfind("pins", 0) != 0 || entry.path().extension() != ".h"))
-      continue;
-    std::string text = read_text(entry.path());
+  for (const auto& header : files_below(root / "hal_sim/host", ".h")) {
+    const std::string file = header.filename().string();
+    if (file != "image_abi.h" && file.rfind("pins", 0) != 0) continue;
+    std::string text = read_text(header);
     for (std::sregex_iterator it(text.begin(), text.end(), kFunction), end; it != end; ++it)
       names.insert((*it)[1]);
   }

@@ -58,7 +58,9 @@ template <typename Change>
 tp_i64 change_list(Cycle cost, Change change) {
   Context& context = Context::current();
   Board& robot = context.board();
-  const int result = change(robot.agendas(), context.now());
+  const Cycle now = context.now();
+  const int result = change(robot.agendas(), now);
+  robot.follow_power(now);
   context.note_write();
   follow_agendas(context, robot);
   context.spend(cost);
@@ -101,6 +103,7 @@ void tp_coils_write(tp_i64 wheel, tp_i64 coils) {
   Context& context = Context::current();
   const Cycle now = context.now();
   context.board().stepper(wheel_of(wheel), now).energise(static_cast<unsigned>(coils & 15), now);
+  context.board().follow_power(now);
   context.note_write();
 }
 
@@ -215,6 +218,7 @@ void tp_timer_motor_speed(tp_i64 driver, tp_i64 wheel, tp_i64 speed_steps_s) {
   const auto kind = driver == 0 ? TimerMotors::Driver::Basic : TimerMotors::Driver::Timer3;
   robot.timer_motors().set_speed(kind, which, static_cast<int>(speed_steps_s), now,
                                  robot.stepper(which, now));
+  robot.follow_power(now);
   if (kind == TimerMotors::Driver::Basic) {
     const Cycle period = robot.timer_motors().interrupt_period(which);
     request_background(context, robot, which == Wheel::Left ? TP_BG_MOTOR_LEFT : TP_BG_MOTOR_RIGHT, period,
@@ -250,6 +254,7 @@ void tp_scan_start(tp_i64 micro_only, tp_i64 five_pairs) {
   Context& context = Context::current();
   Board& robot = context.board();
   robot.scan().start(micro_only != 0, five_pairs != 0, context.now());
+  robot.follow_power(context.now());
   request_background(context, robot, TP_BG_ADC, robot.scan().frame_cycles(),
                      micro_only ? board::kScanMicroIsrCycles : board::kScanIsrCycles);
   context.note_write();
@@ -259,6 +264,7 @@ void tp_scan_switch(tp_i64 on) {
   Context& context = Context::current();
   Board& robot = context.board();
   robot.scan().switch_converter(on != 0, context.now());
+  robot.follow_power(context.now());
   const Cycle cost = robot.scan().micro_only() ? board::kScanMicroIsrCycles : board::kScanIsrCycles;
   request_background(context, robot, TP_BG_ADC, robot.scan().frame_cycles(), on ? cost : 0);
   context.note_write();
@@ -340,6 +346,7 @@ void tp_basic_prox_start(void) {
   Context& context = Context::current();
   Board& robot = context.board();
   robot.basic_prox().start(context.now());
+  robot.follow_power(context.now());
   // two interrupts a pair, each with two conversions
   request_background(context, robot, TP_BG_PROX, (board::kBasicPulseCycles + board::kBasicRestCycles) / 2,
                      board::kBasicIsrEntryCycles + 2 * board::kReadAdCycles);
@@ -349,6 +356,7 @@ void tp_basic_prox_start(void) {
 void tp_basic_prox_stop(void) {
   Context& context = Context::current();
   context.board().basic_prox().stop(context.now());
+  context.board().follow_power(context.now());
   request_background(context, context.board(), TP_BG_PROX, 0, 0);
   context.note_write();
 }
@@ -430,6 +438,11 @@ tp_i64 tp_revision_1_3(void) {
   return Context::current().board().setup().revision == board::Revision::Rev13 ? 1 : 0;
 }
 
-tp_i64 tp_battery_counts(void) { return Context::current().board().battery_counts(); }
+tp_i64 tp_battery_counts(void) {
+  Context& context = Context::current();
+  const Cycle now = context.now();
+  context.lower_horizon(now);
+  return context.board().battery_counts(now);
+}
 
 }  // extern "C"

@@ -47,7 +47,7 @@ thread_local std::unique_ptr<ThreadStacks> stacks;
 
 std::string describe(const Fault& f) {
   constexpr std::uintptr_t kNullPage = 64 * 1024;
-  if (f.kind == TP_TRAP_STACK) return "stack overflow: endless recursion, or local arrays too large";
+  if (f.kind == TP_TRAP_STACK) return kStackOverflow;
   if (f.kind == TP_TRAP_MATH) return "arithmetic fault";
   if (f.kind == TP_TRAP_ILLEGAL)
     return "illegal instruction: the program ran into a place it can never reach";
@@ -102,6 +102,10 @@ void on_signal(int signal, siginfo_t* info, void* raw) {
   }
   // a jump through a wild function pointer
   if (robot && !ours && signal == SIGSEGV && pc == address) ours = true;
+  // one of the host's functions, called by firmware that has used up its stack: it gets the reserve and goes
+  // on
+  if (robot && !ours && signal == SIGSEGV && robot->fiber().is_in_reserve(address) && robot->lend_reserve())
+    return;
   // out of stack anywhere on the firmware's stack
   if (robot && signal == SIGSEGV && robot->fiber().is_in_guard(address)) ours = true;
   if (!ours) {

@@ -23,17 +23,19 @@ namespace ctx = boost::context::detail;
 namespace {
 constexpr std::size_t kGuardBytes =
     64 * 1024;  // wider than any one frame of a controller, so no frame jumps over it
-}
+constexpr std::size_t kReserveBytes = 512 * 1024;  // ample for the report of a trap, sanitized builds included
+}  // namespace
 
 Fiber::Fiber(std::size_t stack_bytes) {
   const std::size_t page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
   stack_bytes = (stack_bytes + page - 1) / page * page;
-  mapping_bytes_ = stack_bytes + kGuardBytes;
+  mapping_bytes_ = stack_bytes + kReserveBytes + kGuardBytes;
   mapping_ = mmap(nullptr, mapping_bytes_, PROT_READ | PROT_WRITE,
                   MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   CHECK(mapping_ != MAP_FAILED, "no memory for a firmware stack");
-  CHECK(mprotect(mapping_, kGuardBytes, PROT_NONE) == 0, "cannot protect a stack's guard pages");
-  low_ = reinterpret_cast<std::uintptr_t>(mapping_) + kGuardBytes;
+  CHECK(mprotect(mapping_, kGuardBytes + kReserveBytes, PROT_NONE) == 0,
+        "cannot protect a stack's guard pages");
+  low_ = reinterpret_cast<std::uintptr_t>(mapping_) + kGuardBytes + kReserveBytes;
   high_ = reinterpret_cast<std::uintptr_t>(mapping_) + mapping_bytes_;
 }
 
@@ -41,20 +43,41 @@ Fiber::~Fiber() {
 #if defined(__SANITIZE_THREAD__)
   if (tsan_inside_) __tsan_destroy_fiber(tsan_inside_);
 #endif
+#if defined(__SANITIZE_ADDRESS__)
+  // a robot that was stopped by a trap leaves frames behind, and the addresses are soon somebody else's
+  ASAN_UNPOISON_MEMORY_REGION(mapping_, mapping_bytes_);
+#endif
   munmap(mapping_, mapping_bytes_);
 }
 
+std::uintptr_t Fiber::floor() const { return reserve_open_ ? low_ - kReserveBytes : low_; }
+
 bool Fiber::is_in_guard(std::uintptr_t address) const {
-  return address < low_ && address + kGuardBytes >= low_;
+  return address < floor() && address >= reinterpret_cast<std::uintptr_t>(mapping_);
+}
+
+bool Fiber::is_in_reserve(std::uintptr_t address) const {
+  return !reserve_open_ && address < low_ && address + kReserveBytes >= low_;
+}
+
+bool Fiber::open_reserve() {
+  reserve_open_ =
+      mprotect(reinterpret_cast<void*>(low_ - kReserveBytes), kReserveBytes, PROT_READ | PROT_WRITE) == 0;
+  return reserve_open_;
 }
 
 void Fiber::restart(Entry entry, void* argument) {
   entry_ = entry;
   argument_ = argument;
 #if defined(__SANITIZE_ADDRESS__)
-  ASAN_UNPOISON_MEMORY_REGION(reinterpret_cast<void*>(low_),
-                              high_ - low_);  // frames that were dropped left poison
+  // frames that were dropped left poison
+  ASAN_UNPOISON_MEMORY_REGION(reinterpret_cast<void*>(floor()), high_ - floor());
 #endif
+  if (reserve_open_) {
+    CHECK(mprotect(reinterpret_cast<void*>(low_ - kReserveBytes), kReserveBytes, PROT_NONE) == 0,
+          "cannot close a stack's reserve");
+    reserve_open_ = false;
+  }
 #if defined(__SANITIZE_THREAD__)
   if (tsan_inside_) __tsan_destroy_fiber(tsan_inside_);
   tsan_inside_ = __tsan_create_fiber(0);
@@ -77,7 +100,8 @@ void Fiber::trampoline(void* raw) {
 
 void Fiber::enter() {
 #if defined(__SANITIZE_ADDRESS__)
-  __sanitizer_start_switch_fiber(&outside_fake_stack_, reinterpret_cast<void*>(low_), high_ - low_);
+  __sanitizer_start_switch_fiber(&outside_fake_stack_, reinterpret_cast<void*>(low_ - kReserveBytes),
+                                 high_ - low_ + kReserveBytes);
 #endif
 #if defined(__SANITIZE_THREAD__)
   tsan_outside_ = __tsan_get_current_fiber();

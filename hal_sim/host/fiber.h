@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: MIT
 // A stackful coroutine on Boost.Context: the firmware's own stack. The scheduler enters it, the firmware
-// yields. The stack lies between two guard pages, so running over its end is a page fault that traps.h
-// recognises.
+// yields. Running over its end is a page fault, which faults.cpp recognises:
+//
+//   [ guard: never accessible | reserve: opened for the host alone | stack .......... high ]
+//
+// Firmware that reaches into the reserve has overflowed its stack. The host's own functions run on this stack
+// too, when firmware calls them; one that needs the reserve gets it, so that it is never given up half way,
+// and the overflow is reported as soon as it has come back.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -30,18 +35,25 @@ class Fiber {
   /// it).
   void yield();
 
-  bool is_on_stack(std::uintptr_t address) const { return address >= low_ && address < high_; }
-  /// In the guard page below the stack: the stack has overflowed.
+  bool is_on_stack(std::uintptr_t address) const { return address >= floor() && address < high_; }
+  /// Below the stack, where nothing may be accessed: the stack has overflowed.
   bool is_in_guard(std::uintptr_t address) const;
+  /// In the reserve, while it is closed.
+  bool is_in_reserve(std::uintptr_t address) const;
+  /// Lets the host use the reserve until the next restart. Safe in a signal handler. False: the system
+  /// refused.
+  bool open_reserve();
   std::uintptr_t stack_high() const { return high_; }
 
  private:
   static void trampoline(void* self);
+  std::uintptr_t floor() const;  // lowest address that may be accessed now
 
   void* mapping_ = nullptr;
   std::size_t mapping_bytes_ = 0;
   std::uintptr_t low_ = 0;   // lowest usable stack address
   std::uintptr_t high_ = 0;  // one past the highest
+  bool reserve_open_ = false;
   void* inside_ = nullptr;   // saved context of the fiber while it does not run
   void* outside_ = nullptr;  // saved context of the scheduler while it runs
   Entry entry_ = nullptr;

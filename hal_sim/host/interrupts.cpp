@@ -3,11 +3,25 @@
 
 #include <algorithm>
 
+#include "hal_sim/host/pins.h"
+
 namespace host {
 
 void InterruptController::reset() {
   sources_.fill({});
+  next_int0_edge_ = nullptr;
   used_ = 0;
+  touch();
+}
+
+void InterruptController::watch_int0(std::function<Cycle(Cycle)> next_edge, Cycle now) {
+  next_int0_edge_ = std::move(next_edge);
+  refresh_int0(now);
+}
+
+void InterruptController::refresh_int0(Cycle now) {
+  if (!next_int0_edge_) return;
+  source(TP_V_INT0).due = next_int0_edge_(now);
   touch();
 }
 
@@ -24,6 +38,7 @@ void InterruptController::raise_due(Cycle now) {
     else
       s.due = kNever;
   }
+  if (next_int0_edge_ && source(TP_V_INT0).due == kNever) source(TP_V_INT0).due = next_int0_edge_(now);
   touch();
 }
 

@@ -10,6 +10,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <functional>
 
 #include "hal_sim/host/context.h"
 #include "hal_sim/host/image_abi.h"
@@ -45,6 +46,11 @@ class InterruptController {
   /// A source was changed from outside: the cached next due time is wrong now.
   void touch() { next_due_ = kUnknown; }
 
+  /// External interrupt 0 rises at the edges of a line: `next_edge` answers the first one after a cycle.
+  void watch_int0(std::function<Cycle(Cycle)> next_edge, Cycle now);
+  /// The line's future or the polarity has changed.
+  void refresh_int0(Cycle now);
+
   /// Raises every flag that is due at `now` or before.
   void raise_due(Cycle now);
 
@@ -62,6 +68,7 @@ class InterruptController {
   static constexpr Cycle kUnknown = -1;
   std::array<InterruptSource, TP_VECTORS> sources_;
   std::uint64_t used_ = 0;     // bit v: somebody has touched vector v; most programs use two or three
+  std::function<Cycle(Cycle)> next_int0_edge_;
   Cycle next_due_ = kUnknown;  // over enabled sources
   Cycle next_raise_ = 0;       // over all sources
   std::uint64_t ready_ = 0;    // bit v: flag and enable of vector v are both set

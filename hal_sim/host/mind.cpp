@@ -8,7 +8,10 @@ namespace host {
 FirmwareMind::FirmwareMind(const board::Setup& setup, RobotSettings settings, std::shared_ptr<Image> image,
                            std::size_t copy)
     : board_(setup) {
-  if (!image) return;
+  if (!image) {
+    board_.switch_off();
+    return;
+  }
   robot_ = std::make_unique<Robot>(std::move(settings), std::move(image), copy, board_);
   robot_->to_world_s = [this](Cycle at) { return sim::to_seconds(board_.clock().click_at(at)); };
 }
@@ -24,6 +27,11 @@ void FirmwareMind::run_until(const sim::Scene& scene, sim::Clicks end) {
     robot_->wake();
   now_ = cycle_at(end);
   if (robot_) robot_->run_until(now_);
+}
+
+void FirmwareMind::press_key(const board::KeyPress& key) {
+  board_.remote().press(key);
+  if (robot_) robot_->remote_changed();
 }
 
 sim::WheelAngles FirmwareMind::wheel_angles(sim::Clicks at) {

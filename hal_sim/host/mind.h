@@ -27,6 +27,9 @@ class FirmwareMind final : public sim::RobotMind {
     board_.publish_sound(field, now);
   }
 
+  /// Somebody presses a key of a remote control; not before what has already run.
+  void press_key(const board::KeyPress& key);
+
   board::Board& board() { return board_; }
   const board::Board& board() const { return board_; }
   /// Null when no firmware is loaded.

@@ -82,7 +82,7 @@ void NativeRegisters::processor_reset() {
   timers_.fill({});
   intcon1_ = intcon2_ = 0;
   kept_.clear();
-  robot_.board().processor_reset(robot_.cycles());
+  robot_.board().processor_reset(robot_.settled_now());
 }
 
 void NativeRegisters::note_software_reset() { rcon_ |= kSwr; }
@@ -254,7 +254,7 @@ void NativeRegisters::write_word(unsigned address, std::uint16_t value) {
       return;
     case kIntcon2:
       intcon2_ = value & 0x801F;
-      return;
+      return robot_.int0_polarity_changed();
     case kDisicnt:
       return robot_.on_disi(value & 0x3FFF);
     case kRcon:

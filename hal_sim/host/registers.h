@@ -34,6 +34,7 @@ class NativeRegisters {
   std::uint16_t read(unsigned address, unsigned bits);
   void write(unsigned address, std::uint16_t value, unsigned bits);
 
+  bool int0_on_falling_edge() const { return (intcon2_ & 1) != 0; }
   bool nesting_disabled() const { return (intcon1_ & 0x8000) != 0; }
 
  private:

@@ -5,6 +5,8 @@
 #include <cstring>
 
 #include "hal_sim/host/host_params.h"
+#include "hal_sim/board/board.h"
+#include "hal_sim/host/pins.h"
 #include "hal_sim/host/registers.h"
 #include "sim_core/base/check.h"
 
@@ -93,10 +95,35 @@ void Robot::restart_program() {
   poll_loop_ = -1;
   asleep_until_ = -1;
   idling_ = false;
+  overflowed_ = false;
   reset_asked_ = false;
   registers_->processor_reset();
+  watch_remote();
   now_ += kStartUpCycles;
   fiber_.restart(enter_firmware, this);
+}
+
+void Robot::watch_remote() {
+  const board::RemoteReceiver& remote = board_.remote();
+  if (!remote.in_use()) return;
+  // the library waits for falling edges; a program with its own handler says which
+  interrupts_.watch_int0(
+      [this, &remote](Cycle after) {
+        const bool falling =
+            interrupts_.source(TP_V_INT0).self_clearing || registers_->int0_on_falling_edge();
+        return remote.next_edge(after, falling);
+      },
+      now_);
+}
+
+void Robot::remote_changed() {
+  watch_remote();
+  wake();
+}
+
+void Robot::int0_polarity_changed() {
+  interrupts_.refresh_int0(now());
+  changed();
 }
 
 void Robot::enter_firmware(void* raw) {
@@ -212,6 +239,8 @@ void Robot::irq_install(int vector, void (*handler)(), int priority, Cycle entry
   s.priority = priority;
   s.entry_cycles = entry_cycles;
   s.self_clearing = true;
+  s.flag = false;  // drivers clear the flag before they enable
+  if (vector == TP_V_INT0) interrupts_.refresh_int0(now());  // the library's edge is the falling one
   note_write();
   changed();
 }
@@ -271,7 +300,18 @@ void Robot::check_blocked() {
 // --- what compiled code calls
 // ---------------------------------------------------------------------------------------
 
+bool Robot::lend_reserve() {
+  if (!fiber_.open_reserve()) return false;
+  overflowed_ = true;
+  // the next block asks for an event; the time that has passed stays what it is
+  tp_control& control = copy_.control();
+  issued_ -= control.budget + 1;
+  control.budget = -1;
+  return true;
+}
+
 void Robot::on_event() {
+  if (overflowed_) trap(TP_TRAP_STACK, kStackOverflow);
   fold();
   for (;;) {
     deliver();
@@ -280,6 +320,7 @@ void Robot::on_event() {
     pass_window();
   }
   give_budget();
+  if (overflowed_) trap(TP_TRAP_STACK, kStackOverflow);
 }
 
 void Robot::pass_window() {

@@ -59,12 +59,16 @@ class Robot final : public Context {
   void run_until(Cycle end);
   /// Something outside changed (a byte came in, the selector was turned): a sleeping wait looks again.
   void wake() { woken_ = true; }
+  /// Somebody will press, or presses, a key of a remote control: the receiver's line has a new future.
+  void remote_changed();
   /// Power-up: start-up values, RCON = POR | BOR, cycle 0.
   void power_up();
 
   bool has_stopped() const { return stopped_; }
   const std::vector<TrapReport>& traps() const { return traps_; }
   Cycle cycles() const { return end_; }
+  /// Cycles at the last moment at which the program's own count was added up: the instant of a reset.
+  Cycle settled_now() const { return now_; }
   /// Cycles up to now, or up to where the robot was stopped by a trap.
   Cycle lived_cycles() const { return stopped_ ? now_ : end_; }
   /// Cycles in which the processor only waited (jumped over), a wait that still goes on included.
@@ -124,11 +128,16 @@ class Robot final : public Context {
   bool disi_active() { return now() < disi_until_; }
   /// Interrupt state changed: look for something to deliver as soon as the current block ends.
   void changed();
+  /// INTCON2.INT0EP was written: external interrupt 0 waits for the other edge.
+  void int0_polarity_changed();
 
   // --- for the fault handler
   // ----------------------------------------------------------------------------------
   bool owns_code(std::uintptr_t pc) const { return copy_.is_code(pc); }
   const Fiber& fiber() const { return fiber_; }
+  /// Opens the stack's reserve to a host function; the overflow is reported when it has returned. Called by
+  /// the signal handler. False: there is no reserve.
+  bool lend_reserve();
   /// Runs on the recovery stack after a hardware fault; never returns.
   [[noreturn]] void fault(int kind, std::string message, std::uintptr_t pc, std::uintptr_t frame);
 
@@ -137,6 +146,7 @@ class Robot final : public Context {
  private:
   static void enter_firmware(void* self);
   void restart_program();
+  void watch_remote();
   void swap_in();
   void fold();                         // spent budget -> now_
   void advance_main(Cycle main);       // main-program cycles -> real cycles
@@ -178,6 +188,7 @@ class Robot final : public Context {
   bool stopped_ = false;
   bool reset_asked_ = false;
   bool woken_ = false;
+  bool overflowed_ = false;  // the stack's reserve is in use
   bool idling_ = false;      // asleep because it waits, not because a delay loop counts
   Cycle asleep_until_ = -1;  // the firmware sleeps up to this cycle; -1 awake
   Cycle idle_ = 0;
@@ -197,6 +208,8 @@ class Robot final : public Context {
   std::vector<TrapReport> traps_;
   std::string last_words_;
 };
+
+inline constexpr const char* kStackOverflow = "stack overflow: endless recursion, or local arrays too large";
 
 /// Installs the fault handlers of this process (SIGSEGV, SIGBUS, SIGFPE, SIGILL) once, and this thread's
 /// signal and recovery stacks. Faults outside firmware go to the handlers that were there before.

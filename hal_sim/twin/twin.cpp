@@ -5,6 +5,7 @@
 #include <map>
 
 #include "hal_sim/board/epuck_model.h"
+#include "hal_sim/board/part.h"
 #include "hal_sim/board/uart_end.h"
 #include "sim_core/load/world_loader.h"
 #include "sim_core/world/variation.h"
@@ -49,6 +50,7 @@ board::Setup setup_of(const sim::WorldDesc& world, int index) {
   setup.seed = variation.seed;
   setup.selector = robot.selector;
   setup.battery_v = robot.battery_v >= 0 ? robot.battery_v : world.model_of(robot)->battery_v;
+  setup.battery_wh = robot.battery_wh >= 0 ? robot.battery_wh : world.model_of(robot)->battery_wh;
   setup.wheel_ratio = {variation.left_wheel_ratio, variation.right_wheel_ratio};
   for (std::size_t i = 0; i < setup.ir_gain.size(); ++i) {
     if (i < variation.sensor_gain.size()) setup.ir_gain[i] = variation.sensor_gain[i];
@@ -58,6 +60,27 @@ board::Setup setup_of(const sim::WorldDesc& world, int index) {
   setup.clock_ppm = variation.clock_ppm;
   setup.boot_delay_s = variation.boot_delay_s;
   return setup;
+}
+
+// turrets and the like
+void plug_in_parts(const sim::RobotDesc& robot, board::Board& board, std::vector<std::string>& problems) {
+  for (std::size_t i = 0; i < robot.parts.size(); ++i) {
+    const sim::PartDesc& part = robot.parts[i];
+    const board::PartType* type = board::find_part_type(part.kind);
+    if (!type) {
+      problems.push_back("robot '" + robot.name + "': part: got kind '" + part.kind +
+                         "', expected one that the program knows");
+      continue;
+    }
+    board.plug_in(type->make(board::PartSettings(type->kind, part, static_cast<int>(i))));
+  }
+}
+
+// in the order of time: the toggle bit changes from press to press
+void press_keys(host::FirmwareMind& mind, std::vector<sim::KeyDesc> keys) {
+  std::stable_sort(keys.begin(), keys.end(),
+                   [](const sim::KeyDesc& a, const sim::KeyDesc& b) { return a.at_s < b.at_s; });
+  for (const sim::KeyDesc& key : keys) mind.press_key({key.code, key.at_s, key.hold_s, key.address});
 }
 
 }  // namespace
@@ -101,6 +124,7 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
     auto mind =
         std::make_unique<host::FirmwareMind>(setup, host::RobotSettings{robot.name, setup.seed},
                                              firmware[i].empty() ? nullptr : images[firmware[i]], share);
+    plug_in_parts(robot, mind->board(), problems);
     const std::string ends[2] = {chosen(options.uart1, robot.name, robot.uart1),
                                  chosen(options.uart2, robot.name, robot.uart2)};
     for (int port = 1; port <= 2; ++port) {
@@ -110,6 +134,7 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
         problems.push_back("robot '" + robot.name + "': uart" + std::to_string(port) + ": " + error);
       if (end) mind->board().uart(port).connect(std::move(end));
     }
+    press_keys(*mind, robot.keys);
     twin->minds_.push_back(mind.get());
     twin->image_paths_.push_back(firmware[i].empty() ? "" : paths[firmware[i]]);
     minds.push_back(std::move(mind));

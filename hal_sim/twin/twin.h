@@ -23,7 +23,7 @@ struct Choice {
 struct Options {
   std::vector<Choice>
       firmware;  ///< value: a .so, a folder with C files, or the name of a controller under firmware/
-  std::vector<Choice> uart1;  ///< value: none, pty, tcp:PORT or file:PATH
+  std::vector<Choice> uart1;  ///< value: none, pty, pty:LINK, tcp:PORT or file:PATH
   std::vector<Choice> uart2;
   int threads = 1;  ///< 1 or more; results do not depend on it
   std::string

@@ -138,17 +138,18 @@ std::vector<KeySpec> proximity_keys(Get get) {
   };
 }
 
-/// none, pty, tcp:PORT or file:PATH.
+/// none, pty, pty:LINK, tcp:PORT or file:PATH.
 std::string uart_text(const Value& v, std::string& out) {
   const std::string& t = v.text;
-  bool good = t == "none" || t == "pty" || (t.rfind("file:", 0) == 0 && t.size() > 5);
+  bool good = t == "none" || t == "pty" || (t.rfind("file:", 0) == 0 && t.size() > 5) ||
+              (t.rfind("pty:", 0) == 0 && t.size() > 4);
   if (t.rfind("tcp:", 0) == 0 && t.size() > 4 && t.size() <= 9 &&
       t.find_first_not_of("0123456789", 4) == std::string::npos) {
     const int port = std::stoi(t.substr(4));
     good = port >= 1 && port <= 65535;
   }
   if (!good)
-    return fmt::format("got \"{}\", expected none, pty, tcp:PORT with a port of 1 to 65535, or file:PATH", t);
+    return fmt::format("got \"{}\", expected none, pty, pty:LINK, tcp:PORT with a port of 1 to 65535, or file:PATH", t);
   out = t;
   return {};
 }
@@ -413,8 +414,12 @@ std::vector<SectionSpec> make_schema() {
               {"seed", ValueType::Integer, "", 0, 9e18, "", "",
                "its own seed; otherwise made of the world's seed and its number",
                into<R>([](R& r, const Value& v) { r.seed = static_cast<std::uint64_t>(v.integer); })},
-              {"battery", ValueType::Number, "V", 2.5, 5, "", "", "the model's otherwise",
+              {"battery", ValueType::Number, "V", 2.5, 5, "", "",
+               "voltage at the beginning, only the electronics being on; the model's otherwise",
                into<R>([](R& r, const Value& v) { r.battery_v = v.number; })},
+              {"battery_wh", ValueType::Number, "Wh", 1e-3, 1000, "", "",
+               "energy of its battery when full; the model's otherwise",
+               into<R>([](R& r, const Value& v) { r.battery_wh = v.number; })},
               {"colour", ValueType::Colour, "", 0, 1, "", "", "of the body; the model's otherwise",
                into<R>([](R& r, const Value& v) { r.colour = colour_of(v); })},
               {"wheel_noise", ValueType::Number, "", 0, 0.5, "", "0",
@@ -423,9 +428,9 @@ std::vector<SectionSpec> make_schema() {
               {"slip", ValueType::Number, "", 0, 1, "", "0",
                "part of the wheels' travel that is lost on the floor",
                into<R>([](R& r, const Value& v) { r.slip = v.number; })},
-              {"uart1", ValueType::Text, "", 0, 0, "", "\"none\"", "none, pty, tcp:PORT or file:PATH",
+              {"uart1", ValueType::Text, "", 0, 0, "", "\"none\"", "none, pty, pty:LINK, tcp:PORT or file:PATH",
                checked<R>([](R& r, const Value& v, const WorldDesc&) { return uart_text(v, r.uart1); })},
-              {"uart2", ValueType::Text, "", 0, 0, "", "\"none\"", "none, pty, tcp:PORT or file:PATH",
+              {"uart2", ValueType::Text, "", 0, 0, "", "\"none\"", "none, pty, pty:LINK, tcp:PORT or file:PATH",
                checked<R>([](R& r, const Value& v, const WorldDesc&) { return uart_text(v, r.uart2); })},
           });
   section("robot.variation", false, "How this robot differs from its model.", variation_keys());
@@ -440,6 +445,12 @@ std::vector<SectionSpec> make_schema() {
   }
   section("robot.sensor", true, "One proximity sensor of this robot; keys as in `[proximity]`.",
           std::move(sensor));
+  section("robot.part", true,
+          "Something plugged into this robot, such as a turret or a sensor board. The other keys depend on "
+          "the kind.",
+          {{"kind", ValueType::Text, "", 0, 0, "", "required", "which part",
+            into<PartDesc>([](PartDesc& p, const Value& v) { p.kind = v.text; })}});
+  s.push_back(remote_key_section());
   return s;
 }
 

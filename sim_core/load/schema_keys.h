@@ -41,4 +41,7 @@ inline std::vector<Vec2> points_of(const Value& v) {
   return points;
 }
 
+/// Sections with a file of their own.
+SectionSpec remote_key_section();
+
 }  // namespace sim

@@ -45,6 +45,7 @@ struct RobotModel {
   double side_friction = 0.3;   ///< Coulomb coefficient of the body's side
   int steps_per_turn = 1000;    ///< motor full steps of one wheel turn
   double battery_v = 4.0;       ///< when the world file does not say
+  double battery_wh = 5.0;      ///< same, full
   Colour colour{0.2, 0.6, 0.3};
   double ir_reflectance = -1;  ///< 0 to 1; negative: the red part of the colour
   double roughness = 0;        ///< 0 mirror to 1 matt, for the newer colour rule

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "sim_core/world/part_desc.h"
 #include "sim_core/world/robot_model.h"
 
 namespace sim {
@@ -82,6 +83,14 @@ struct SensorDesc {
   ProximitySettings proximity;
 };
 
+/// A key of a remote control that somebody presses for a robot.
+struct KeyDesc {
+  int code = 0;         ///< 0 to 63
+  double at_s = 0;      ///< s, world time
+  double hold_s = 0.1;  ///< s
+  int address = 0;      ///< 0 to 31
+};
+
 struct RobotDesc {
   std::string name;
   std::string model;     ///< empty: the only or first model the caller knows
@@ -90,6 +99,7 @@ struct RobotDesc {
   int selector = 0;                   ///< 0 to 15
   std::optional<std::uint64_t> seed;  ///< unset: made of the world's seed and the robot's index
   double battery_v = -1;              ///< V; negative: the model's
+  double battery_wh = -1;             ///< Wh when full; negative: the model's
   std::optional<Colour> colour;
   double wheel_noise = 0;  ///< each wheel's travel times U(1 - n, 1 + n), drawn every 1/32 s
   double slip = 0;         ///< fraction of the wheels' travel that is lost on the floor
@@ -98,6 +108,8 @@ struct RobotDesc {
   Variation variation;
   ProximitySettings proximity;
   std::vector<SensorDesc> sensors;
+  std::vector<PartDesc> parts;
+  std::vector<KeyDesc> keys;  ///< presses of remote controls, in any order
   int line = 0;  ///< line in the world file; 0 when built in C++
 };
 
@@ -198,7 +210,8 @@ struct WorldDesc {
   std::vector<SoundDesc> sounds;
   ProximitySettings proximity;
   std::vector<RobotDesc> robots;
-  std::vector<RobotModel> models;  ///< what the caller offers; robots refer to them by name
+  std::vector<RobotModel> models;    ///< what the caller offers; robots refer to them by name
+  std::vector<PartKind> part_kinds;  ///< likewise, for robots' parts
 
   /// The model of a robot; null when there is none of that name.
   const RobotModel* model_of(const RobotDesc& robot) const {

@@ -69,7 +69,7 @@ TEST(Pins, selector_battery_and_remote_are_inputs) {
   EXPECT_EQ(robot.port_read('G', Register::Port, 0) >> 6 & 15, 11);
   EXPECT_EQ(robot.port_read('F', Register::Port, 0) >> 1 & 1, 1);  // battery good
   EXPECT_EQ(robot.port_read('F', Register::Port, 0) >> 6 & 1, 1);  // remote receiver idle
-  robot.set_battery(3.3);
+  robot.set_battery(3.3, 0);
   robot.turn_selector(4);
   EXPECT_EQ(robot.port_read('F', Register::Port, 0) >> 1 & 1, 0);
   EXPECT_EQ(robot.port_read('G', Register::Port, 0) >> 6 & 15, 4);
@@ -78,11 +78,11 @@ TEST(Pins, selector_battery_and_remote_are_inputs) {
 TEST(Pins, battery_is_measured_on_revision_1_3_only) {
   board::Setup setup;
   setup.battery_v = 4.2;
-  EXPECT_EQ(Board(setup).battery_counts(), 0);
+  EXPECT_EQ(Board(setup).battery_counts(0), 0);
   setup.revision = board::Revision::Rev13;
-  EXPECT_EQ(Board(setup).battery_counts(), 2560);
+  EXPECT_EQ(Board(setup).battery_counts(0), 2560);
   setup.battery_v = 3.4;
-  EXPECT_EQ(Board(setup).battery_counts(), 2070);
+  EXPECT_EQ(Board(setup).battery_counts(0), 2070);
 }
 
 TEST(Pins, coils_written_directly_turn_the_wheels) {

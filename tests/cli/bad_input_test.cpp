@@ -88,6 +88,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"bad_speed", "run maze --speed quick", 2, "expected max or a factor"},
         Bad{"zero_threads", "run maze --threads 0", 2, "--threads"},
         Bad{"negative_seed", "run maze --seed -4", 2, "--seed"},
+        Bad{"key_without_time", "run maze --key puck=5", 2, "5@1.5"},
         Bad{"bad_uart", "run maze --uart puck=telnet", 2, "telnet"},
         Bad{"bad_port", "run maze --uart puck=tcp:99999", 2, "99999"},
         Bad{"uart_file_nowhere", "run maze --uart puck=file:/nowhere/x", 2, "/nowhere/x"},

@@ -28,11 +28,17 @@ TEST_F(Command, run_writes_record_summary_and_picture_that_agree) {
   for (const char* key : {"version", "world", "seed", "simulated_s", "wall_s", "speed", "digest", "robots"})
     EXPECT_TRUE(summary.contains(key)) << key;
   const json& robot = summary["robots"][0];
-  for (const char* key : {"name", "firmware", "way", "x_m", "y_m", "heading_rad", "distance_m", "collisions",
-                          "cycles", "cpu_load", "traps"})
+  for (const char* key :
+       {"name", "firmware", "way", "x_m", "y_m", "heading_rad", "distance_m", "collisions", "cycles",
+        "cpu_load", "battery_v", "battery_used_wh", "battery_minutes_left", "traps"})
     EXPECT_TRUE(robot.contains(key)) << key;
   EXPECT_EQ(robot["way"], "native");
   EXPECT_EQ(robot["cycles"], 147'456'000);
+  // 10 s at something between the electronics' 0.13 A and four coils' 0.24 A more, at nearly 4 V
+  EXPECT_GT(robot["battery_used_wh"].get<double>(), 0.12 * 3.8 * 10 / 3600);
+  EXPECT_LT(robot["battery_used_wh"].get<double>(), 0.45 * 4.0 * 10 / 3600);
+  EXPECT_LT(robot["battery_v"].get<double>(), 4.0);
+  EXPECT_GT(robot["battery_minutes_left"].get<double>(), 60);
 
   std::istringstream csv(read(path("r.csv")));
   std::string line, last, header;
@@ -139,6 +145,36 @@ TEST_F(Command, a_killed_run_leaves_whole_sound_files) {
   const Said s = twinpuck("run maze --for 0.1 --save-sound " + path("file"));
   EXPECT_EQ(s.exit_code, 2);
   EXPECT_NE(s.text.find("--save-sound: got '"), std::string::npos) << s.text;
+}
+
+TEST_F(Command, keys_of_a_remote_control_arrive) {
+  write("remote/main.c",
+        "#include <motor_led/advance_one_timer/e_agenda.h>\n"
+        "#include <motor_led/advance_one_timer/e_remote_control.h>\n"
+        "#include <motor_led/e_init_port.h>\n#include <stdio.h>\n#include <uart/e_uart_char.h>\n"
+        "int main(void) { int last = -1; e_init_port(); e_init_uart1(); e_init_remote_control();\n"
+        "  e_start_agendas_processing();\n"
+        "  while (1) if (e_get_check() != 2 && e_get_data() * 32 + e_get_address() != last) {\n"
+        "    last = e_get_data() * 32 + e_get_address();\n"
+        "    printf(\"%d/%d \", e_get_data(), e_get_address()); } }\n");
+  const Said s = twinpuck("run empty --fw '*=" + path("remote") + "' --uart '*=file:" + path("out.txt") +
+                          "' --for 2 --key '*=VOL_UP@1.2+0.3' --key puck=5@0.5 --key '*=8:32@1'");
+  EXPECT_EQ(s.exit_code, 0) << s.text;
+  EXPECT_EQ(read(path("out.txt")), "5/0 32/8 16/0 ");
+}
+
+TEST_F(Command, keys_that_make_no_sense_are_refused) {
+  const char* const bad[][2] = {{"pucc=5@1", "did you mean 'puck'"},
+                                {"puck=VOL_UPP@1", "did you mean 'VOL_UP'"},
+                                {"puck=64@1", "0 to 63"},
+                                {"puck=32:1@1", "0 to 31"},
+                                {"puck=1@1+x", "HOLD"},
+                                {"puck=1@soon", "TIME"}};
+  for (const auto& [key, says] : bad) {
+    const Said s = twinpuck("run maze --key '" + std::string(key) + "'");
+    EXPECT_EQ(s.exit_code, 2) << key;
+    EXPECT_NE(s.text.find(says), std::string::npos) << s.text;
+  }
 }
 
 TEST_F(Command, uart_output_goes_to_a_file) {

@@ -384,6 +384,41 @@ INSTANTIATE_TEST_SUITE_P(
                 "_T1Interrupt"}),
     [](const auto& info) { return std::string(info.param.name); });
 
+// the stack's end is met inside functions of the simulator as often as in the program's own code
+TEST_F(Promise, a_stack_that_ends_inside_a_library_function_is_an_overflow) {
+  constexpr int kDepths = 16;
+  for (int i = 0; i < kDepths; ++i) {
+    add_robot_with_source(R"(
+#include <stdio.h>
+#include <motor_led/e_init_port.h>
+#include <motor_led/advance_one_timer/e_agenda.h>
+#include <utility/utility.h>
+static void nothing(void) {}
+static int deeper(int n) {
+  volatile char local[200];
+  local[n & 127] = (char)n;
+  e_activate_agenda(nothing, n);
+  printf("%d", n);
+  return deeper(n + 1) + local[n & 127];
+}
+static int from(int depth) {
+  volatile char pad[40 * depth + 1];
+  pad[0] = 1;
+  return deeper(depth) + pad[0];
+}
+int main(void) { return from(getselector()); }
+)",
+                          "r" + std::to_string(i))
+        .selector(i);
+  }
+  run_for(1);
+  for (int i = 0; i < kDepths; ++i) {
+    ASSERT_EQ(robot(i).traps().size(), 1u);
+    EXPECT_EQ(robot(i).traps().front().kind, TP_TRAP_STACK);
+    EXPECT_EQ(robot(i).traps().front().place.function, "deeper");
+  }
+}
+
 TEST_F(Promise, a_software_reset_restarts_the_program_with_start_values) {
   Robot& r = add_robot_with_source(R"(
 #include <motor_led/e_epuck_ports.h>

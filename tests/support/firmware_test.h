@@ -58,6 +58,9 @@ class Robot {
   void send_uart1(const std::string& bytes) { serial_send(1, bytes); }  ///< arrives at the line's baud rate
   void send_uart2(const std::string& bytes) { serial_send(2, bytes); }
   void turn_selector(int position);
+  /// Somebody presses a key of a remote control now, for `hold_s` seconds: key 0 to 63, address 0 to 31.
+  void press_key(int key, double hold_s = 0.1, int address = 0);
+  double battery_v() const;  ///< V at the terminals
   void push_to(double x_m, double y_m, double heading_deg);  ///< puts the robot somewhere else by hand
 
   /// Value of a global or static variable of the firmware by name (16-bit int by default).

@@ -49,7 +49,7 @@ char e_i2c_stop(void);
 /** Sends one byte, an address (8 bits, write form; +1 to read) or data. */
 char e_i2c_write(char byte);
 
-/** Interrupt of the master module on, off. Other interrupts that were on are remembered and restored. */
+/** Interrupt of the master module on, off. Other interrupts stay as they are. */
 char e_i2c_enable(void);
 char e_i2c_disable(void);
 

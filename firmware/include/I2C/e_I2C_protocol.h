@@ -23,8 +23,8 @@ char e_i2cp_write(char device_add, char reg, char value);
 /** Reads register `reg`, as a signed char; 0xFF (-1) when the device is absent. */
 char e_i2cp_read(char device_add, char reg);
 
-/** Several registers from `start_address` on. Declared by the original library, not contained in its current
- *  version. */
+/** Several registers from `start_address` on. Declared by the original library's header and contained in none
+ *  of its versions (there they are a comment): programs that call them do not link. */
 char e_i2cp_read_string(char device_add, unsigned char read_buffer[], char start_address,
                         char string_length);
 char e_i2cp_write_string(char device_add, unsigned char write_buffer[], char start_address,

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// See battery.h.
+#include "hal_sim/board/battery.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "hal_sim/board/battery_params.h"
+#include "hal_sim/board/epuck_params.h"
+
+namespace board {
+
+namespace {
+
+constexpr int kPoints = static_cast<int>(std::size(kCell));
+
+double seconds(Cycle span) { return static_cast<double>(span) / static_cast<double>(kFcyHz); }
+
+/// Mean of the curve: what a full battery's charge is worth.
+double mean_rest_v() {
+  double sum = 0;
+  for (int i = 1; i < kPoints; ++i)
+    sum += (kCell[i].charge - kCell[i - 1].charge) * (kCell[i].rest_v + kCell[i - 1].rest_v) / 2;
+  return sum;
+}
+
+}  // namespace
+
+double Battery::rest_v(double charge) {
+  int i = 1;
+  while (i < kPoints - 1 && kCell[i].charge < charge) ++i;
+  const CellPoint &a = kCell[i - 1], &b = kCell[i];
+  return std::max(0.0, a.rest_v + (charge - a.charge) * (b.rest_v - a.rest_v) / (b.charge - a.charge));
+}
+
+double Battery::charge_at(double rest_v) {
+  int i = 1;
+  while (i < kPoints - 1 && kCell[i].rest_v < rest_v) ++i;
+  const CellPoint &a = kCell[i - 1], &b = kCell[i];
+  return a.charge + (rest_v - a.rest_v) * (b.charge - a.charge) / (b.rest_v - a.rest_v);
+}
+
+Battery::Battery(double capacity_wh, double volts, double amps)
+    : capacity_as_(capacity_wh * 3600 / mean_rest_v()),
+      amps_(amps),
+      charge_(charge_at(volts + amps * kInnerResistanceOhm)) {}
+
+double Battery::share(Cycle span) const { return amps_ * seconds(span) / capacity_as_; }
+
+double Battery::charge(Cycle at) const { return charge_ - share(at - since_); }
+
+double Battery::voltage(Cycle at) const { return rest_v(charge(at)) - amps_ * kInnerResistanceOhm; }
+
+double Battery::used_wh(Cycle at) const {
+  // the voltage falls so slowly that the mean of both ends is exact enough: 1 % of charge is some 10 mV
+  const double mean_v = (voltage(since_) + voltage(at)) / 2;
+  return (used_j_ + mean_v * amps_ * seconds(at - since_)) / 3600;
+}
+
+double Battery::minutes_left(Cycle at) const {
+  const double drawn_as = drawn_as_ + amps_ * seconds(at - since_);
+  if (drawn_as <= 0 || at <= 0) return -1;
+  return std::max(0.0, charge(at)) * capacity_as_ / (drawn_as / seconds(at)) / 60;
+}
+
+void Battery::draw(double amps, Cycle at) {
+  if (amps == amps_) return;
+  used_j_ = used_wh(at) * 3600;
+  drawn_as_ += amps_ * seconds(at - since_);
+  charge_ = charge(at);
+  since_ = at;
+  amps_ = amps;
+}
+
+void Battery::set_voltage(double volts, Cycle at) {
+  const double amps = amps_;
+  draw(-1, at);  // settles what was drawn
+  amps_ = amps;
+  charge_ = charge_at(volts + amps * kInnerResistanceOhm);
+}
+
+Cycle Battery::below(double volts, Cycle at) const {
+  if (voltage(at) < volts || amps_ <= 0) return host::kNever;
+  const double left = charge(at) - charge_at(volts + amps_ * kInnerResistanceOhm);
+  const double cycles = std::floor(left * capacity_as_ / amps_ * static_cast<double>(kFcyHz));
+  if (cycles >= static_cast<double>(host::kNever / 2)) return host::kNever;
+  // rounding may leave it a cycle off either way
+  Cycle when = at + std::max<Cycle>(1, static_cast<Cycle>(cycles));
+  while (when > at + 1 && voltage(when - 1) < volts) --when;
+  while (voltage(when) >= volts) ++when;
+  return when;
+}
+
+}  // namespace board

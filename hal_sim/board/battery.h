@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// The robot's lithium-ion battery: a voltage that depends on the charge left, behind an inner resistance.
+//
+//   terminal voltage = rest_v(charge) - current * inner resistance      charge falls with the current
+//
+// The current is constant between changes that the board reports, so charge, voltage and the moment at which
+// the low-battery detector falls are closed forms; nothing is ticked, and nothing costs between changes.
+// Modelled: discharge curve, sag under load, energy drawn. Not modelled: temperature, ageing, recovery after a
+// load, self-discharge, the protection circuit (an empty battery goes on at a falling voltage).
+#pragma once
+#include "hal_sim/host/context.h"
+
+namespace board {
+
+using host::Cycle;
+
+class Battery {
+ public:
+  /// `capacity_wh`: energy of a full battery at small currents, above 0. `volts`: at the terminals at cycle 0
+  /// while `amps` flow.
+  Battery(double capacity_wh, double volts, double amps);
+
+  /// From `at` on this current flows, A, 0 or more. `at` not before the last change.
+  void draw(double amps, Cycle at);
+  /// Another battery state, as if charged: terminal voltage at `at` with the present current.
+  void set_voltage(double volts, Cycle at);
+
+  double amps() const { return amps_; }
+  /// V at the terminals.
+  double voltage(Cycle at) const;
+  /// Share of a full battery, 1 full, 0 empty; above 1 and below 0 beyond 4.2 V and 3.0 V.
+  double charge(Cycle at) const;
+  /// Energy that left the terminals since cycle 0, Wh.
+  double used_wh(Cycle at) const;
+  /// Until empty at the mean current so far, minutes, 0 or more; negative when nothing was drawn yet.
+  double minutes_left(Cycle at) const;
+  /// First cycle after `at` at which the voltage is below `volts` when the current stays; kNever when it is
+  /// below already or never gets there.
+  Cycle below(double volts, Cycle at) const;
+
+  /// V at rest for a charge, and back. Linear between the points of the curve and beyond its ends.
+  static double rest_v(double charge);
+  static double charge_at(double rest_v);
+
+ private:
+  /// Charge, as a share, that flows in a span.
+  double share(Cycle span) const;
+
+  double capacity_as_;  // ampere seconds
+  double amps_;
+  Cycle since_ = 0;     // the present current flows since
+  double charge_;       // then
+  double used_j_ = 0;   // joule, up to then
+  double drawn_as_ = 0;  // ampere seconds, up to then
+};
+
+}  // namespace board

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+// A pseudo-terminal as the far end of a robot's serial line: programs open it as they would open the serial
+// port of a Bluetooth connection, set a baud rate (which means nothing here), come and go.
+//
+//   - Raw mode from the start and again after each program: a terminal that echoes would send the robot its own
+//     replies as commands. Our hand on the far side keeps the mode between programs; a program that claimed the
+//     terminal for itself alone does not keep the next one out.
+//   - What the robot says while nobody has the terminal open waits for whoever comes and listens. One who comes
+//     and speaks first gets the answer to that, and not the old words: a Bluetooth link to a robot that has been
+//     on for a while begins silent.
+#include <fcntl.h>
+#include <stdlib.h>
+#include <sys/inotify.h>
+#include <sys/ioctl.h>
+#include <termios.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include "hal_sim/board/uart_programs.h"
+
+namespace board {
+
+namespace {
+
+// what the kernel surely keeps for a terminal that nobody reads
+constexpr std::size_t kMostUnheard = 4000;  // bytes [assumed: below the 4096 of Linux's line discipline]
+
+std::string why() { return std::strerror(errno); }
+
+class PtyEnd : public UartEnd {
+ public:
+  ~PtyEnd() override {
+    if (!link_.empty()) ::unlink(link_.c_str());
+  }
+
+  bool open(const std::string& link, std::string& error) {
+    master_.reset(::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+    if (!master_.valid() || ::grantpt(master_.get()) != 0 || ::unlockpt(master_.get()) != 0) {
+      error = "pty: cannot be opened: " + why();
+      return false;
+    }
+    char path[128];
+    if (::ptsname_r(master_.get(), path, sizeof path) != 0) {
+      error = "pty: has no name: " + why();
+      return false;
+    }
+    path_ = path;
+    slave_.reset(::open(path, O_RDWR | O_NOCTTY | O_CLOEXEC));
+    if (!slave_.valid()) {
+      error = "pty: " + path_ + ": " + why();
+      return false;
+    }
+    make_raw();
+    // who opens and closes it; without this service everybody counts as one program that never leaves
+    watch_.reset(::inotify_init1(IN_NONBLOCK | IN_CLOEXEC));
+    if (watch_.valid() && ::inotify_add_watch(watch_.get(), path, IN_OPEN | IN_CLOSE) < 0) watch_.reset();
+    if (link.empty()) return true;
+    // a link left by an earlier run is replaced; anything else is not ours
+    char old[256];
+    if (::readlink(link.c_str(), old, sizeof old) >= 0) ::unlink(link.c_str());
+    if (::symlink(path, link.c_str()) != 0) {
+      error = "pty: link " + link + ": " + why();
+      return false;
+    }
+    link_ = link;
+    return true;
+  }
+
+  void deliver(const std::uint8_t* bytes, const Cycle*, std::size_t count) override {
+    look_who_is_there();
+    std::size_t room = kMostWaiting - waiting_.size();
+    if (is_alone()) room = kMostUnheard - std::min(kMostUnheard, unheard_ + waiting_.size());
+    waiting_.append(reinterpret_cast<const char*>(bytes), std::min(count, room));
+    write_waiting();
+  }
+
+  std::size_t collect(std::uint8_t* bytes, std::size_t room, Cycle) override {
+    if (!waiting_.empty()) write_waiting();
+    const ssize_t got = ::read(master_.get(), bytes, room);
+    if (got <= 0) return 0;
+    if (unheard_ > 0) {
+      ::tcflush(slave_.get(), TCIFLUSH);
+      waiting_.clear();
+      unheard_ = 0;
+    }
+    return static_cast<std::size_t>(got);
+  }
+
+  bool takes_packets() const override { return true; }
+
+  std::string name() const override { return link_.empty() ? path_ : link_; }
+
+ private:
+  bool is_alone() const { return watch_.valid() && programs_ <= 0; }
+
+  void make_raw() {
+    termios settings{};
+    if (::tcgetattr(slave_.get(), &settings) != 0) return;
+    ::cfmakeraw(&settings);
+    ::cfsetspeed(&settings, B115200);
+    ::tcsetattr(slave_.get(), TCSANOW, &settings);
+    ::ioctl(slave_.get(), TIOCNXCL);
+  }
+
+  void look_who_is_there() {
+    alignas(inotify_event) char events[4096];
+    for (ssize_t got; watch_.valid() && (got = ::read(watch_.get(), events, sizeof events)) > 0;)
+      for (ssize_t at = 0; at < got;) {
+        const auto* event = reinterpret_cast<const inotify_event*>(events + at);
+        if (event->mask & IN_OPEN) ++programs_;
+        if (event->mask & IN_CLOSE) --programs_;
+        at += static_cast<ssize_t>(sizeof(inotify_event) + event->len);
+        if (programs_ <= 0) make_raw();
+      }
+  }
+
+  void write_waiting() {
+    while (!waiting_.empty()) {
+      const ssize_t done = ::write(master_.get(), waiting_.data(), waiting_.size());
+      if (done <= 0) return;
+      if (is_alone()) unheard_ += static_cast<std::size_t>(done);
+      waiting_.erase(0, static_cast<std::size_t>(done));
+    }
+  }
+
+  Descriptor master_, slave_, watch_;
+  std::string path_, link_;
+  std::string waiting_;      // delivered, not yet taken by the kernel
+  int programs_ = 0;         // that have the terminal open
+  std::size_t unheard_ = 0;  // bytes that were said to nobody since somebody last spoke
+};
+
+}  // namespace
+
+std::unique_ptr<UartEnd> open_pty_end(const std::string& link, std::string& error) {
+  auto end = std::make_unique<PtyEnd>();
+  if (end->open(link, error)) return end;
+  return nullptr;
+}
+
+}  // namespace board

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// `--key ROBOT=[ADDRESS:]KEY@TIME[+HOLD]`: key presses of a remote control from the command line.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "sim_core/world/world_desc.h"
+
+namespace tools {
+
+/// Adds a press to the robots of that name ('*': all). Returns what is wrong as "got ..., expected ...", or an
+/// empty string.
+std::string add_key(const std::string& robot, const std::string& press, std::vector<sim::RobotDesc>& robots);
+
+}  // namespace tools
