@@ -2,9 +2,8 @@
  * The ADC driver's public variables, shared by the files of the API that fill them.
  *
  * On the robot the interrupt writes them; here they are brought up to date when a function of the driver is
- * called (e_get_prox() its own two entries, e_ad_is_*() and the stopwatch everything). A program that reads
- * them without ever calling one of these sees old values.
- * Not modelled: e_acc_scan stays 0.
+ * called (e_get_prox() its own two entries, e_ad_is_*() and the stopwatch everything), and when a controller
+ * looks at them itself (adc_seen.c).
  */
 #ifndef TWINPUCK_API_ADC_ARRAYS_H
 #define TWINPUCK_API_ADC_ARRAYS_H
@@ -23,10 +22,17 @@ extern int selector;
 extern unsigned int tickAdcIsr;
 extern unsigned char updateAccI2CCounter;
 
+/** Interrupts that the counters know of. */
+extern unsigned long twinpuck_interrupts_seen;
+
 /** Counters and indices as the interrupt would have left them. */
 void twinpuck_refresh_adc_counters(void);
 /** e_mic_scan and its index. Only samples that are new are evaluated. */
 void twinpuck_refresh_mic(void);
+/** Samples of each microphone that e_mic_scan knows of. */
+extern unsigned long twinpuck_mic_filed;
+/** Accelerometer samples and the index of the newest. */
+void twinpuck_refresh_acc(void);
 /** One sensor's two entries. */
 void twinpuck_refresh_ir(unsigned int sensor);
 

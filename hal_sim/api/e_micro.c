@@ -13,11 +13,11 @@
 /* in the library's object, in none of its headers */
 void e_get_micro_last_values(int micro_id, int *result, unsigned samples_nb);
 
-static unsigned long samples_filed;
+unsigned long twinpuck_mic_filed;
 
 void twinpuck_refresh_mic(void) {
-  samples_filed = (unsigned long)tp_mic_scan(e_mic_scan, samples_filed);
-  e_last_mic_scan_id = (unsigned int)(samples_filed % MIC_SAMP_NB);
+  twinpuck_mic_filed = (unsigned long)tp_mic_scan(e_mic_scan, twinpuck_mic_filed);
+  e_last_mic_scan_id = (unsigned int)(twinpuck_mic_filed % MIC_SAMP_NB);
 }
 
 int e_get_micro(unsigned int micro_id) {

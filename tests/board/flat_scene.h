@@ -7,6 +7,7 @@
 
 #include "sim_core/light/proximity.h"
 #include "sim_core/sound/sound_field.h"
+#include "sim_core/world/true_motion.h"
 
 namespace sim {
 
@@ -20,6 +21,8 @@ class Scene {
   double irradiance_w_m2 = 0;
   std::function<double(const Vec3& point_m, Clicks at)> sound_pa;  // what is heard at a point of the robot
   double relative_noise = 0;
+  std::function<Vec3(Clicks at)> force_m_s2 = [](Clicks) { return Vec3{0, 0, 9.81}; };
+  std::function<Vec3(Clicks at)> turn_rad_s = [](Clicks) { return Vec3{}; };
   mutable std::vector<Question> asked;
 };
 
