@@ -12,6 +12,7 @@
 #include "sim_core/light/proximity.h"
 #include "sim_core/physics/physics_params.h"
 #include "sim_core/random/counter_random.h"
+#include "sim_core/sound/sound_field.h"
 #include "sim_core/world/variation.h"
 
 namespace sim {
@@ -54,10 +55,12 @@ std::unique_ptr<Motion> make_motion(const WorldDesc& world, const Layout& layout
 Simulation::Simulation(const WorldDesc& world, Minds minds, int threads)
     : optics_(make_optics(world)),
       scene_(std::make_unique<Scene>(world, optics_reach_m(*optics_))),
+      sound_(std::make_unique<SoundField>(scene_->world(), scene_->tick_clicks())),
       motion_(make_motion(scene_->world(), scene_->layout())),
       minds_(std::move(minds)) {
   CHECK(minds_.size() == world.robots.size(), "one mind per robot");
   scene_->attach_optics(optics_);
+  scene_->attach_sound(sound_.get());
   const std::size_t n = minds_.size();
   wheels_.resize(n);
   angles_.resize(n);
@@ -87,6 +90,7 @@ void Simulation::step() {
   const double moved_m = motion_->step(travel_.data(), scene_->neighbours());
   scene_->publish(motion_->bodies(), moved_m);
   if (scene_->leds_watched()) publish_leds();
+  publish_sound();
   for (const auto& medium : media_) medium->exchange(*scene_, end);
   fold_digest();
 }
@@ -103,6 +107,7 @@ void Simulation::run_minds(Clicks end) {
       minds_[r]->run_until(*scene_, end);
       angles_[r] = minds_[r]->wheel_angles(end);
       wheels_[r].mind_hash = minds_[r]->state_hash();
+      if (minds_[r]->has_sound_news()) sound_news_.store(true, std::memory_order_relaxed);
     }
   };
   if (!workers_) return run(0, minds_.size());
@@ -139,6 +144,15 @@ void Simulation::turn_wheels(Clicks end) {
     travel_[r] = {left * w.grip, right * w.grip};
     w.last = now;
   }
+}
+
+/// What loudspeakers began or ended in this tick is heard from now on; nothing to do in a silent world.
+void Simulation::publish_sound() {
+  if (sound_news_.exchange(false, std::memory_order_relaxed)) {
+    for (std::size_t r = 0; r < minds_.size(); ++r)
+      if (minds_[r]->has_sound_news()) minds_[r]->publish_sound(*sound_, static_cast<int>(r), scene_->now());
+  }
+  if (sound_->has_voices()) sound_->advance(*scene_);
 }
 
 void Simulation::fold_digest() {

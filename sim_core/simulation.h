@@ -3,6 +3,7 @@
 // In: a WorldDesc (already checked by load/, or built in C++). Out: poses, touches, distances, a digest of
 // the whole state history that does not depend on the number of threads. Nothing throws once it is built.
 #pragma once
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -16,6 +17,7 @@
 
 namespace sim {
 
+class SoundField;
 class WorkerPool;
 
 class Simulation {
@@ -36,6 +38,7 @@ class Simulation {
 
   Clicks now() const { return scene_->now(); }
   const Scene& scene() const { return *scene_; }
+  const SoundField& sound() const { return *sound_; }
   int robots() const { return scene_->robots(); }
   const Minds& minds() const { return minds_; }
   RobotMind& mind(int robot) { return *minds_[static_cast<std::size_t>(robot)]; }
@@ -59,10 +62,13 @@ class Simulation {
   void run_minds(Clicks end);
   void turn_wheels(Clicks end);
   void publish_leds();
+  void publish_sound();
   void fold_digest();
 
   std::shared_ptr<const ProximityOptics> optics_;
   std::unique_ptr<Scene> scene_;
+  std::unique_ptr<SoundField> sound_;
+  std::atomic<bool> sound_news_{false};
   std::unique_ptr<Motion> motion_;
   Minds minds_;
   std::vector<std::unique_ptr<Medium>> media_;

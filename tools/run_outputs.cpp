@@ -82,6 +82,8 @@ void add_output_options(CLI::App& verb, OutputArguments& a) {
   verb.add_option("--save-images", a.images,
                   "folder for every picture that a program gets from its camera (PNG)");
   verb.add_flag("--rays", a.rays, "draw the sensors' rays in the picture");
+  verb.add_option("--save-sound", a.sound_folder,
+                  "folder for what each robot's loudspeaker plays, a WAV file each");
   verb.add_option("--coverage", a.coverage,
                   "lcov file of the lines that firmware executed; builds controllers with counters");
 }
@@ -102,6 +104,10 @@ bool RunOutputs::open(std::vector<std::string>& problems) {
       problems.push_back(a.picture + ": --picture: got the ending '" + kind + "', expected .png or .svg");
     paths_ = std::make_unique<sim::Trajectories>(twin_.robots());
   }
+  if (!a.sound_folder.empty()) {
+    sound_ = std::make_unique<SoundOutput>(a.sound_folder, twin_);
+    sound_->open(problems);
+  }
   if (!a.record.empty() && can_write(a.record, "--record", problems)) {
     recorder_ = std::make_unique<sim::CsvRecorder>(a.record, a.record_every_s);
     if (!recorder_->is_good()) problems.push_back(recorder_->error());
@@ -119,10 +125,12 @@ void RunOutputs::after_tick() {
   const auto& simulation = twin_.simulation();
   if (paths_) paths_->sample(simulation.scene());
   if (recorder_) recorder_->sample(simulation.scene(), simulation.minds());
+  if (sound_) sound_->after_tick();
 }
 
 bool RunOutputs::failed() const {
-  return (recorder_ && !recorder_->is_good()) || (images_ && images_->failed());
+  return (recorder_ && !recorder_->is_good()) || (images_ && images_->failed()) ||
+         (sound_ && !sound_->error().empty());
 }
 
 void RunOutputs::finish(const Summary& summary, std::vector<std::string>& problems) {
@@ -130,6 +138,7 @@ void RunOutputs::finish(const Summary& summary, std::vector<std::string>& proble
   if (recorder_ && !recorder_->flush()) problems.push_back(recorder_->error());
   if (images_ && images_->failed())
     problems.push_back(images_->folder() + ": --save-images: a picture cannot be written");
+  if (sound_ && !sound_->error().empty()) problems.push_back(sound_->error());
   if (!a.summary.empty()) write_text(a.summary, to_json(summary), "--summary", problems);
   if (!a.coverage.empty()) write_text(a.coverage, lcov_of(twin_), "--coverage", problems);
   if (!a.picture.empty()) {

@@ -9,6 +9,7 @@
 
 #include "hal_sim/twin/twin.h"
 #include "tools/saved_images.h"
+#include "tools/sound_output.h"
 #include "tools/summary.h"
 
 namespace sim {
@@ -19,7 +20,7 @@ class Trajectories;
 namespace tools {
 
 struct OutputArguments {
-  std::string record, summary, picture, coverage, images;
+  std::string record, summary, picture, coverage, images, sound_folder;
   double record_every_s = 0.01;
   bool rays = false;
 };
@@ -44,6 +45,7 @@ class RunOutputs {
   std::unique_ptr<sim::CsvRecorder> recorder_;
   std::unique_ptr<sim::Trajectories> paths_;
   std::unique_ptr<SavedImages> images_;
+  std::unique_ptr<SoundOutput> sound_;
 };
 
 }  // namespace tools

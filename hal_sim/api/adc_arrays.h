@@ -4,7 +4,6 @@
  * On the robot the interrupt writes them; here they are brought up to date when a function of the driver is
  * called (e_get_prox() its own two entries, e_ad_is_*() and the stopwatch everything), and when a controller
  * looks at them itself (adc_seen.c).
- * Not modelled: e_mic_scan stays 0.
  */
 #ifndef TWINPUCK_API_ADC_ARRAYS_H
 #define TWINPUCK_API_ADC_ARRAYS_H
@@ -28,6 +27,10 @@ extern unsigned long twinpuck_interrupts_seen;
 
 /** Counters and indices as the interrupt would have left them. */
 void twinpuck_refresh_adc_counters(void);
+/** e_mic_scan and its index. Only samples that are new are evaluated. */
+void twinpuck_refresh_mic(void);
+/** Samples of each microphone that e_mic_scan knows of. */
+extern unsigned long twinpuck_mic_filed;
 /** Accelerometer samples and the index of the newest. */
 void twinpuck_refresh_acc(void);
 /** One sensor's two entries. */

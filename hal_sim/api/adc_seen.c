@@ -7,6 +7,7 @@
 #include "adc_arrays.h"
 #include "hal_sim/host/pins.h"
 #include "hal_sim/host/pins_acc.h"
+#include "hal_sim/host/pins_sound.h"
 
 #define ACC_COUNTER_MAX 64
 #define TICK_COUNTER_MAX 65535u
@@ -36,7 +37,11 @@ void tp_image_see_mic_index(void) {
   e_last_mic_scan_id = (unsigned int)tp_scan_mic_index();
 }
 
-void tp_image_see_mic(void) { tp_image_see_mic_index(); }
+void tp_image_see_mic(void) {
+  if (!tp_scan_starts()) return;
+  twinpuck_mic_filed = (unsigned long)tp_mic_scan(e_mic_scan, twinpuck_mic_filed);
+  e_last_mic_scan_id = (unsigned int)tp_scan_mic_index();
+}
 
 void tp_image_see_acc_index(void) {
   if (tp_scan_starts()) e_last_acc_scan_id = (unsigned int)tp_scan_acc_index_until_next();

@@ -66,12 +66,14 @@ void e_init_ad_scan(unsigned char only_micro) {
 unsigned char e_ad_is_array_filled(void) {
   if (!tp_scan_array_filled()) return 0;
   refresh_all();
+  twinpuck_refresh_mic();
   return 1;
 }
 
 /* the program never runs inside the interrupt, so after the first sample it always sees 1 */
 unsigned char e_ad_is_acquisition_completed(void) {
   refresh_all();
+  twinpuck_refresh_mic();
   return twinpuck_interrupts_seen > 0;
 }
 
@@ -80,4 +82,5 @@ void e_ad_scan_on(void) { tp_scan_switch(1); }
 void e_ad_scan_off(void) {
   tp_scan_switch(0);
   refresh_all();
+  twinpuck_refresh_mic(); /* later the past is forgotten */
 }

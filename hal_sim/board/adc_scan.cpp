@@ -7,6 +7,7 @@
 
 #include "hal_sim/board/accelerometer.h"
 #include "hal_sim/board/board.h"
+#include "hal_sim/board/sound_params.h"
 
 namespace board {
 
@@ -34,6 +35,11 @@ void AdcScan::settle(Cycle at) {
   }
   fill_acc(at);
   const std::int64_t passed = frames(at);
+  if (passed > 0) {
+    runs_.push_back({total_base_, full_base_, anchor_, micro_only_});
+    while (runs_.size() > 1 && runs_[1].first <= total_base_ + passed - kMicSamples)
+      runs_.erase(runs_.begin());
+  }
   total_base_ += passed;
   if (!micro_only_) full_base_ += passed;
   anchor_ = at;
@@ -62,6 +68,8 @@ void AdcScan::switch_converter(bool on, Cycle at) {
 void AdcScan::reset(Cycle at) {
   settle(at);
   noise_base_ += 2 * static_cast<std::uint64_t>(full_base_ / kScanPeriod + 1);
+  mic_noise_base_ += static_cast<std::uint64_t>(total_base_);
+  runs_.clear();
   acc_noise_base_ += static_cast<std::uint64_t>(acc_kept_);
   acc_kept_ = 0;
   acc_used_ = false;
@@ -157,6 +165,25 @@ int AdcScan::peek_lit(int sensor, Cycle at) const {
   const Sample& kept = lit_[static_cast<std::size_t>(sensor)];
   const std::int64_t number = lit_number(sensor, at);
   return number < 0 || number == kept.number ? kept.counts : evaluate(sensor, number, true);
+}
+
+Cycle AdcScan::mic_hold(int microphone, std::int64_t number) const {
+  Run run{total_base_, full_base_, anchor_, micro_only_};
+  for (std::size_t i = runs_.size(); number < run.first && i-- > 0;) run = runs_[i];
+  const std::int64_t frame = number - run.first;
+  if (run.micro_only)
+    return run.anchor + frame * kScanMicroFrameCycles + (microphone * kScanChannelTad + 1) * kScanTadCycles6;
+  // the converter runs faster in frames with more channels
+  const int slot = static_cast<int>((run.full + frame) % kScanPeriod);
+  const Cycle tad = slot == kScanAccSlot                            ? kScanTadCycles6
+                    : slot == kScanLitSlot || slot == kScanDarkSlot ? kScanTadCycles
+                                                                    : kScanTadCycles3;
+  return run.anchor + frame * kScanFrameCycles + (microphone * kScanChannelTad + 1) * tad;
+}
+
+int AdcScan::mic_sample(int microphone, std::int64_t number) const {
+  return board_.mic_counts(microphone, mic_hold(microphone, number),
+                           mic_noise_base_ + static_cast<std::uint64_t>(number));
 }
 
 Cycle AdcScan::next_sample(Cycle at, int slot, int shift, int pair) const {

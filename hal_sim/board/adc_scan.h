@@ -12,11 +12,13 @@
 // Modelled: both rates, stopping and starting the converter, 4 or 5 pairs, the sample before the first flash.
 // Accelerometer samples are kept tick by tick from the first time that a program asks for one; those of
 // before are worked out then, from poses of at most 40 ms ago. Not modelled: the converter's few cycles of
-// rest while the interrupt changes its settings; microphones; turret sensors 8 and 9 (read 0). Source: [lib:
+// rest while the interrupt changes its settings; turret sensors 8 and 9 (read 0), which in their frames come
+// before the microphones. Source: [lib:
 // a_d/advance_ad_scan/e_ad_conv.c], facts restated.
 #pragma once
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "hal_sim/board/epuck_params.h"
 
@@ -67,6 +69,12 @@ class AdcScan {
   /// Cycle before which neither of the two changes.
   Cycle horizon(int sensor, Cycle at);
 
+  /// Counts of the `number`-th microphone sample since reset (from 0), which is one of the last 100. Nothing
+  /// is kept: its instant is known, and the air's pressure at an instant does not change.
+  int mic_sample(int microphone, std::int64_t number) const;
+  /// Cycle at which that sample is held.
+  Cycle mic_hold(int microphone, std::int64_t number) const;
+
   using AccRing = std::array<std::array<std::int16_t, kAccSamples>, 3>;
   /// e_acc_scan at `at`: 0 where nothing was sampled yet. Index 0 is filled last, as in the driver.
   const AccRing& acc_scan(Cycle at);
@@ -93,6 +101,14 @@ class AdcScan {
     Cycle until = 0;  // the next sample of this kind arrives then; 0: not known
   };
 
+  /// A run of frames that is over.
+  struct Run {
+    std::int64_t first = 0;  // number of its first interrupt
+    std::int64_t full = 0;   // ALL_ADC interrupts before it
+    Cycle anchor = 0;
+    bool micro_only = false;
+  };
+
   std::int64_t frames(Cycle at) const { return on_ && at > anchor_ ? (at - anchor_) / frame_cycles() : 0; }
   std::int64_t full_interrupts(Cycle at) const { return full_base_ + (micro_only_ ? 0 : frames(at)); }
   int pair_of_lit(std::int64_t period) const;  // pair whose lit sample arrives in this period
@@ -115,6 +131,8 @@ class AdcScan {
   std::int64_t period_base_ = 0;  // from this period on ...
   int pair_base_ = 0;             // ... pairs count from here
   std::uint64_t noise_base_ = 0;  // samples drawn before the last reset
+  std::uint64_t mic_noise_base_ = 0;
+  std::vector<Run> runs_;  // those that the last 100 microphone samples come from
   std::array<Sample, 10> dark_{};
   std::array<Sample, 10> lit_{};
   AccRing acc_{};

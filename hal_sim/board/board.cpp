@@ -14,9 +14,11 @@
 #include "hal_sim/board/lsm330.h"
 #include "hal_sim/board/parts_params.h"
 #include "hal_sim/board/remote_params.h"
+#include "hal_sim/board/sound_bank.h"
 #include "sim_core/base/hash.h"
 #include "sim_core/light/proximity.h"
 #include "sim_core/random/counter_random.h"
+#include "sim_core/sound/sound_field.h"
 
 namespace board {
 
@@ -43,6 +45,7 @@ constexpr std::uint16_t kRingMask =
 constexpr double kTwoPi = 6.283185307179586;
 constexpr std::uint32_t kAmbientStream = sim::kStreamBoard;          // + sensor
 constexpr std::uint32_t kReflectionStream = sim::kStreamBoard + 16;  // + sensor
+constexpr std::uint32_t kMicrophoneStream = sim::kStreamBoard + 32;  // + microphone
 constexpr std::uint64_t kConversionOffset = std::uint64_t{1}
                                             << 41;  // single conversions, apart from the drivers'
 
@@ -147,6 +150,7 @@ void Board::port_write(char port, Register reg, std::uint16_t value, Cycle at) {
   if (reg == Register::Tris) {
     tris_[i] = value;
     if (index == kD) connect_steppers(at);
+    if (index == kF) codec_.power((lat_[kF] & ~value & bit(0)) != 0, at);
     for (const auto& part : parts_) part->pins_changed(at);
     follow_power(at);
     return;
@@ -160,6 +164,7 @@ void Board::port_write(char port, Register reg, std::uint16_t value, Cycle at) {
     follow_power(at);
     return;
   }
+  if (index == kF) codec_.power((value & ~tris_[kF] & bit(0)) != 0, at);
   for (int pair = 0; pair < 4; ++pair) {
     const Line line = kEmitter[pair];
     if (line.port != index) continue;
@@ -231,6 +236,7 @@ void Board::init_ports(Cycle at) {
   const std::uint16_t outputs_f = bit(0) | bit(7) | bit(8);
   lat_[kF] = static_cast<std::uint16_t>(lat_[kF] & ~outputs_f);
   tris_[kF] = static_cast<std::uint16_t>((tris_[kF] & ~outputs_f) | bit(1) | bit(6));
+  codec_.power(false, at);
   const std::uint16_t outputs_g = bit(0) | bit(1) | bit(2) | bit(3);
   lat_[kG] = static_cast<std::uint16_t>(lat_[kG] & ~outputs_g);
   tris_[kG] = static_cast<std::uint16_t>((tris_[kG] & ~outputs_g) | bit(6) | bit(7) | bit(8) | bit(9));
@@ -251,6 +257,7 @@ void Board::processor_reset(Cycle at) {
   agendas_.reset(at);
   scan_.reset(at);
   basic_prox_.reset(at);
+  codec_.reset(at);
   for (Uart& uart : uarts_) uart.reset(at);
   if (camera_) camera_->processor_reset();
   i2c_master_.processor_reset(at);
@@ -286,6 +293,7 @@ void Board::set_battery(double volts, Cycle at) { battery_.set_voltage(volts, at
 
 void Board::exchange(Cycle at) {
   for (Uart& uart : uarts_) uart.exchange(at);
+  codec_.forget(at);
   scan_.keep_acc(at);
 }
 
@@ -328,6 +336,37 @@ int Board::ir_counts(int sensor, Cycle at, Cycle lit_for, std::uint64_t sample) 
   return static_cast<int>(std::clamp(std::floor(kAdcMax - light - reflection + 0.5), 0.0, double{kAdcMax}));
 }
 
+int Board::mic_counts(int microphone, Cycle at, std::uint64_t sample) const {
+  double counts = kMicIdleCounts;
+  if (scene_) {
+    const Place& place = kMicrophone[microphone];
+    counts +=
+        kMicCountsPerPa * sim::sense_sound_pa(*scene_, setup_.robot, {place.x_m, place.y_m, kMicrophoneZM},
+                                              clock_.click_at(at));
+  }
+  if (setup_.mic_noise_counts > 0) {
+    const sim::RandomKey key{setup_.seed, static_cast<std::uint32_t>(setup_.robot),
+                             kMicrophoneStream + static_cast<std::uint32_t>(microphone)};
+    counts += setup_.mic_noise_counts * sim::random_gaussian(key, sample);
+  }
+  return static_cast<int>(std::clamp(std::floor(counts + 0.5), 0.0, double{kAdcMax}));
+}
+
+void Board::publish_sound(sim::SoundField& field, sim::Clicks now) {
+  const Codec::Play& play = codec_.take_news();
+  if (play.count == 0) return field.stop(setup_.robot, now);
+  sim::SpeakerTrack track;
+  track.samples = sound_bank();
+  track.first = play.first;
+  track.count = play.count;
+  track.start_s = sim::to_seconds(clock_.click_at(play.first_at));
+  track.sample_s = static_cast<double>(kCodecSampleCycles) / static_cast<double>(kFcyHz) /
+                   (1 + static_cast<double>(clock_.ppb()) * 1e-9);
+  track.pa_per_unit = kSpeakerFullScalePa / 32768;
+  track.at_m = {kSpeaker.x_m, kSpeaker.y_m, kSpeakerZM};
+  field.play(setup_.robot, track, now);
+}
+
 Cycle Board::line_on_for(int sensor, Cycle at) const {
   const int pair = sensor & 3;
   const Line line = kEmitter[pair];
@@ -345,6 +384,8 @@ int Board::convert(int channel, Cycle at) {
     if (lit_for < 0 && pulses(at) & (1u << (sensor & 3))) lit_for = 40 * kIrSettleCycles;
     return ir_counts(sensor, at, lit_for, kConversionOffset + conversions_++);
   }
+  if (channel >= kMicChannel && channel < kMicChannel + kMicrophones)
+    return mic_counts(channel - kMicChannel, at, kConversionOffset + conversions_++);
   if (const auto counts = part_counts(channel, at)) return *counts;
   if (channel >= kAccChannel) {
     if (setup_.revision == Revision::Rev13) return channel == 7 ? battery_counts(at) : 0;  // 5 and 6 are open
@@ -386,6 +427,7 @@ std::uint64_t Board::state_hash(Cycle at) const {
   for (const Uart& uart : uarts_) add(uart.state_hash());
   if (i2c_.was_used()) add(i2c_.state_hash() + i2c_master_.state_hash());
   if (camera_ && camera_->is_used()) add(camera_->state_hash());
+  if (codec_.was_used()) add(codec_.state_hash());
   for (const auto& part : parts_) add(part->state_hash());
   if (eeprom_.in_use()) add(eeprom_.state_hash());
   add(static_cast<std::uint64_t>(scan_.interrupts(at)));

@@ -6,10 +6,9 @@
 //                                             Board <-- sim::sense_proximity, irradiance   (from the Scene)
 //
 // Modelled: port latches, directions and pin levels; two steppers that follow their coils; the library's
-// motor drivers, agenda timer, ADC scan and UARTs in closed form; IR circuit; LEDs; selector; remote control's
-// receiver; battery, fed by what is on.
-// Motion sensors: accelerometer.h (before revision 1.3), lsm330.h (1.3).
-// Not modelled: microphones, codec (each fails loudly in hal_sim/api).
+// motor drivers, agenda timer, ADC scan and UARTs in closed form; IR circuit; LEDs; selector; remote
+// control's receiver; battery, fed by what is on. Motion sensors: accelerometer.h (before revision 1.3),
+// lsm330.h (1.3).
 //
 // Every method takes the cycle of this robot's clock at which it happens. Cycles never go back between calls
 // that change something. Nothing depends on who looked before: const methods have no side effects, and a
@@ -28,6 +27,7 @@
 #include "hal_sim/board/battery_params.h"
 #include "hal_sim/board/camera.h"
 #include "hal_sim/board/clock.h"
+#include "hal_sim/board/codec.h"
 #include "hal_sim/board/data_eeprom.h"
 #include "hal_sim/board/i2c_bus.h"
 #include "hal_sim/board/i2c_master.h"
@@ -39,7 +39,8 @@
 
 namespace sim {
 class Scene;
-}
+class SoundField;
+}  // namespace sim
 
 namespace board {
 
@@ -73,11 +74,12 @@ struct Setup {
   CameraKind camera = CameraKind::Po3030k;
   CameraMount camera_mount = CameraMount::Upright;
   double camera_noise = 1;  ///< factor on the camera's noise; 0 none
-  std::array<double, 3> acc_offset_m_s2{};                ///< added to the specific force: forward, left, up
-  std::array<double, 3> gyro_offset_rad_s{};              ///< added to the angular rates about these axes
-  double motion_noise_scale = 1;  ///< factor on the noise of accelerometer and gyroscope
-  double clock_ppm = 0;           ///< crystal error, parts per million, positive = fast
-  double boot_delay_s = 0;        ///< s from the world's beginning to the first instruction
+  double mic_noise_counts = kMicNoiseCounts;  ///< standard deviation of every conversion of a microphone
+  std::array<double, 3> acc_offset_m_s2{};    ///< added to the specific force: forward, left, up
+  std::array<double, 3> gyro_offset_rad_s{};  ///< added to the angular rates about these axes
+  double motion_noise_scale = 1;              ///< factor on the noise of accelerometer and gyroscope
+  double clock_ppm = 0;                       ///< crystal error, parts per million, positive = fast
+  double boot_delay_s = 0;                    ///< s from the world's beginning to the first instruction
 };
 
 class Board {
@@ -143,6 +145,8 @@ class Board {
   const TimerMotors& timer_motors() const { return timer_motors_; }
   AdcScan& scan() { return scan_; }
   const AdcScan& scan() const { return scan_; }
+  Codec& codec() { return codec_; }
+  const Codec& codec() const { return codec_; }
   BasicProx& basic_prox() { return basic_prox_; }
   const BasicProx& basic_prox() const { return basic_prox_; }
   /// The motor of a wheel, brought to `at`.
@@ -174,8 +178,11 @@ class Board {
   /// Counts of a proximity sensor's phototransistor at `at`, its emitter having been on for `lit_for` cycles
   /// (negative: off). Noise is drawn from `sample`, a number unique to the sample.
   int ir_counts(int sensor, Cycle at, Cycle lit_for, std::uint64_t sample) const;
-  /// Counts of a single conversion of input AN`channel` by a program that runs the converter itself. Sensors,
-  /// accelerometer and battery; microphones are not simulated (answers -1). Each call is a new sample.
+  /// Counts of microphone 0 right, 1 left, 2 back whose sample is held at `at`: 0 to 4095. Noise is drawn
+  /// from `sample`. Linear, all frequencies alike.
+  int mic_counts(int microphone, Cycle at, std::uint64_t sample) const;
+  /// Counts of a single conversion of input AN`channel` by a program that runs the converter itself. Each
+  /// call is a new sample; -1: nothing is known of that input.
   int convert(int channel, Cycle at);
   /// Battery as the library's raw value on AN7 (revision 1.3); 0 on others.
   int battery_counts(Cycle at) const;
@@ -199,6 +206,9 @@ class Board {
     std::array<Cycle, 16> background_cost{};
   };
   Requests requests;
+
+  /// Tells the air what the loudspeaker began or ended, at the tick boundary `now`.
+  void publish_sound(sim::SoundField& field, sim::Clicks now);
 
   int selector() const { return setup_.selector; }
 
@@ -230,6 +240,7 @@ class Board {
   TimerMotors timer_motors_;
   AdcScan scan_;
   BasicProx basic_prox_;
+  Codec codec_;
   std::array<Uart, 2> uarts_;
   I2cBus i2c_;
   Battery battery_;

@@ -22,6 +22,10 @@ class FirmwareMind final : public sim::RobotMind {
   sim::MindReport report() const override;
   int proximity_counts(const sim::Scene& scene, int index) override;
   std::uint64_t state_hash() const override;
+  bool has_sound_news() const override { return board_.codec().has_news(); }
+  void publish_sound(sim::SoundField& field, int, sim::Clicks now) override {
+    board_.publish_sound(field, now);
+  }
 
   /// Somebody presses a key of a remote control; not before what has already run.
   void press_key(const board::KeyPress& key);

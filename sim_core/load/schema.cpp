@@ -398,6 +398,7 @@ std::vector<SectionSpec> make_schema() {
           {"on", ValueType::Flag, "", 0, 0, "", "true", "",
            into<P>([](P& p, const Value& v) { p.on = v.flag; })},
       });
+  for (SectionSpec& spec : sound_sections()) s.push_back(std::move(spec));
   section("proximity", false,
           "Proximity sensors of all robots. `[robot.proximity]` and `[[robot.sensor]]` take the same keys "
           "for one robot "

@@ -30,6 +30,9 @@ Setter checked(F assign) {
   };
 }
 
+/// Sections of other files, in the order of the document.
+std::vector<SectionSpec> sound_sections();
+
 inline Colour colour_of(const Value& v) { return {v.numbers[0], v.numbers[1], v.numbers[2]}; }
 
 inline std::vector<Vec2> points_of(const Value& v) {

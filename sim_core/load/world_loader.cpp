@@ -17,6 +17,7 @@
 
 #include "sim_core/load/floor_image.h"
 #include "sim_core/load/schema.h"
+#include "sim_core/sound/wav_file.h"
 
 namespace sim {
 namespace {
@@ -372,7 +373,30 @@ class Reader {
       read_table("lamp", t, &lamp);
       world_.lamps.push_back(std::move(lamp));
     });
+    read_sounds(root);
     read_robots(root);
+  }
+
+  void read_sounds(const toml::table& root) {
+    read_many("sound", root, "sound", [&](const toml::table& t) {
+      SoundDesc sound;
+      sound.line = line_of(t);
+      read_table("sound", t, &sound);
+      if (sound.kind == SoundKind::Wav) {
+        WavSound wav;
+        const toml::node* file = t.get("file");
+        const std::string wrong = file ? read_wav(resolve_path(world_, sound.file), wav)
+                                       : "missing, expected the name of a WAV file, since kind is \"wav\"";
+        if (!wrong.empty()) problem(file ? file->source() : t.source(), "sound.file: " + wrong);
+        sound.samples = std::move(wav.samples);
+        sound.sample_rate_hz = wav.rate_hz;
+      }
+      if (sound.stop_s <= sound.start_s)
+        problem(t.get("stop") ? t.get("stop")->source() : t.source(),
+                fmt::format("sound.stop: got {} s, expected more than the start at {} s", sound.stop_s,
+                            sound.start_s));
+      world_.sounds.push_back(std::move(sound));
+    });
   }
 
   void read_robots(const toml::table& root) {

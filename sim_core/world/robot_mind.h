@@ -12,6 +12,7 @@
 namespace sim {
 
 class Scene;
+class SoundField;
 
 /// Angle each wheel has turned since the world began, rad, forward positive, not wrapped.
 struct WheelAngles {
@@ -43,6 +44,11 @@ class RobotMind {
   /// Proximity reading of sensor `index` as the robot would get it now (counts), for recorders; no side
   /// effects.
   virtual int proximity_counts(const Scene& scene, int index) = 0;
+
+  /// True when the robot's loudspeaker began or ended something since the last publish_sound().
+  virtual bool has_sound_news() const { return false; }
+  /// Tells the field so, at the tick boundary `now`. Called one robot after the other, in their order.
+  virtual void publish_sound(SoundField& field, int robot, Clicks now) {}
 
   /// Everything of the inside that must repeat from run to run, folded into one number, for the world's
   /// digest.

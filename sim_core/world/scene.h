@@ -17,6 +17,7 @@
 namespace sim {
 
 struct ProximityOptics;  // light/proximity.h: rays and tables of every sensor, resolved once
+class SoundField;        // sound/sound_field.h: what sounds, and where
 
 /// How far back poses are kept, s. [assumed: an ADC scan looks at most 40 ms back]
 inline constexpr double kHistoryS = 0.040;
@@ -81,6 +82,9 @@ class Scene {
   void watch_leds() const { leds_watched_.store(true, std::memory_order_relaxed); }
   bool leds_watched() const { return leds_watched_.load(std::memory_order_relaxed); }
   void publish_leds(const std::vector<std::uint32_t>& leds) { leds_ = leds; }
+  /// The air between sources of sound and ears; null: silence. Set once, as the optics; outlives the scene.
+  const SoundField* sound() const { return sound_; }
+  void attach_sound(const SoundField* sound) { sound_ = sound; }
 
   /// The next tick's states; `moved_m` is the largest distance any body moved.
   void publish(const std::vector<BodyState>& states, double moved_m);
@@ -108,6 +112,7 @@ class Scene {
   std::vector<Placed> moving_;
   Neighbours neighbours_;
   std::shared_ptr<const ProximityOptics> optics_;
+  const SoundField* sound_ = nullptr;
 };
 
 }  // namespace sim

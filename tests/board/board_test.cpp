@@ -150,7 +150,6 @@ TEST(Converter, programs_may_flash_and_sample_themselves) {
   EXPECT_EQ(robot.convert(9, 2000 + 5000), 4095);
   robot.latch_bit('F', 7, false, 8000);
   EXPECT_EQ(robot.convert(8, 8001), 4095);
-  EXPECT_EQ(robot.convert(2, 8001), -1);  // microphones: not simulated
   EXPECT_EQ(robot.convert(16, 8001), 0);
 }
 

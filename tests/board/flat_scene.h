@@ -7,6 +7,7 @@
 
 #include "sim_core/camera/camera.h"
 #include "sim_core/light/proximity.h"
+#include "sim_core/sound/sound_field.h"
 #include "sim_core/world/true_motion.h"
 
 namespace sim {
@@ -21,10 +22,19 @@ class Scene {
   /// What a camera sees in the direction (1 forward, u right, v up).
   std::function<Light(double u, double v, Clicks at)> light = [](double, double, Clicks) { return Light{}; };
   double irradiance_w_m2 = 0;
+  std::function<double(const Vec3& point_m, Clicks at)> sound_pa;  // what is heard at a point of the robot
   double relative_noise = 0;
   std::function<Vec3(Clicks at)> force_m_s2 = [](Clicks) { return Vec3{0, 0, 9.81}; };
   std::function<Vec3(Clicks at)> turn_rad_s = [](Clicks) { return Vec3{}; };
   mutable std::vector<Question> asked;
 };
+
+/// What loudspeakers told the air (flat_sound.cpp).
+struct Published {
+  bool plays;
+  Clicks now;
+  SpeakerTrack track;
+};
+std::vector<Published>& flat_sound();
 
 }  // namespace sim

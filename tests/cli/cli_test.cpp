@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The verbs when all goes well, and what they leave behind.
+#include <cstring>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -120,6 +121,30 @@ TEST_F(Command, a_killed_run_leaves_a_readable_recording) {
   const std::size_t end = csv.rfind('\n');
   const std::string last = csv.substr(csv.rfind('\n', end - 1) + 1, end - csv.rfind('\n', end - 1) - 1);
   EXPECT_EQ(std::count(last.begin(), last.end(), ','), 15) << last;
+}
+
+// the header of a WAV file of a run that was killed tells what is there: 44 bytes and two for each sample
+TEST_F(Command, a_killed_run_leaves_whole_sound_files) {
+  write("singer/main.c",
+        "#include <codec/e_sound.h>\n#include <motor_led/e_init_port.h>\nextern int e_dci_unavailable;\n"
+        "int main(void) { e_init_port(); e_init_sound(); while (1) { if (!e_dci_unavailable) "
+        "e_play_sound(0, 2112); } }\n");
+  const std::string run = "run maze --fw '*=" + path("singer") + "' -q --save-sound " + path("sound");
+  EXPECT_EQ(twinpuck(run + " --for 0.5").exit_code, 0);
+  for (int killed = 0; killed < 2; ++killed) {
+    if (killed) twinpuck(run + " --for 1000 --speed 5", "timeout -s KILL 4");
+    const std::string wav = read(path("sound/puck.wav"));
+    ASSERT_GT(wav.size(), 7200u);
+    EXPECT_EQ(wav.substr(0, 4), "RIFF");
+    std::uint32_t bytes = 0;
+    std::memcpy(&bytes, wav.data() + 40, 4);
+    EXPECT_EQ(bytes, wav.size() - 44);
+    EXPECT_NE(wav.find_first_not_of('\0', 44), std::string::npos);
+  }
+  write("file", "");
+  const Said s = twinpuck("run maze --for 0.1 --save-sound " + path("file"));
+  EXPECT_EQ(s.exit_code, 2);
+  EXPECT_NE(s.text.find("--save-sound: got '"), std::string::npos) << s.text;
 }
 
 TEST_F(Command, keys_of_a_remote_control_arrive) {

@@ -24,7 +24,8 @@ int e_get_micro_average(unsigned int micro_id, unsigned int filter_size);
 int e_get_micro_volume(unsigned int micro_id);
 
 /* Also in the library, undeclared as in the original:
- *   void e_get_micro_last_values(int micro_id, int *result, unsigned samples_nb);   copies the newest samples
+ *   void e_get_micro_last_values(int micro_id, int *result, unsigned samples_nb);   copies the oldest
+ *   samples, the oldest last; the whole buffer with MIC_SAMP_NB, nothing beyond
  */
 
 #endif

@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: MIT
+ * The library's transform: 256 points, in place, in natural order, divided by 256.
+ * Source: [lib: fft/e_fft.c], facts restated.
+ */
+#include "fft/e_fft.h"
+
+extern const fractcomplex twiddleFactors[FFT_BLOCK_LENGTH / 2];
+
+void e_doFFT_asm(fractcomplex *sigCmpx) {
+  FFTComplexIP(LOG2_BLOCK_LENGTH, sigCmpx, (fractcomplex *)twiddleFactors, 0);
+  BitReverseComplex(LOG2_BLOCK_LENGTH, sigCmpx);
+}

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// Numbers of microphones, codec and loudspeaker; tags as in epuck_params.h, and
+//   [SP0103]  data sheet of the Knowles SP0103 microphone with amplifier, 2003
+#pragma once
+#include "hal_sim/board/epuck_params.h"
+
+namespace board {
+
+// --- microphones: x forward, y left ------------------------------------------------------------------------
+inline constexpr int kMicrophones = 3;  // [FRM A8]
+inline constexpr Place kMicrophone[kMicrophones] = {
+    {0.008, -0.031},  // 0 right [FRM A8]
+    {0.008, 0.031},   // 1 left [FRM A8]
+    {-0.022, 0.0},    // 2 back [FRM A8]
+};
+inline constexpr double kMicrophoneZM = 0.035;  // m [assumed: on the main board, above the IR sensors]
+// the robot's microphones are taken to be of this kind
+inline constexpr double kMicSensitivityVPa = 0.0794;  // V/Pa, -22 dB, amplifier at full gain [SP0103]
+inline constexpr double kAdcReferenceV = 3.3;  // V, the supply [assumed: the board has one supply, FRM A8]
+inline constexpr double kMicCountsPerPa =
+    kMicSensitivityVPa / kAdcReferenceV * 4096;  // [derived: the two above]
+inline constexpr double kMicIdleCounts =
+    2048;  // [assumed: biased at half the supply; demos expect about 2000]
+// the part's own noise (35 dBA) is a tenth of a count; the converter and the supply of a moving robot add
+// theirs
+inline constexpr double kMicNoiseCounts = 1.5;  // standard deviation [assumed: an ordinary 12-bit converter]
+inline constexpr int kMicChannel = 2;           // AN2 to AN4 [lib: motor_led/e_epuck_ports.h]
+
+// converter clock of a scan of 3, 5 and 6 channels: each gives frames of the same length
+inline constexpr Cycle kScanTadCycles3 = 20;  // ADCS 39 [lib: a_d/advance_ad_scan/e_ad_conv.h]
+inline constexpr Cycle kScanTadCycles6 = 10;  // ADCS 19 [lib: a_d/advance_ad_scan/e_ad_conv.h]
+static_assert(3 * kScanChannelTad * kScanTadCycles3 == kScanFrameCycles);
+static_assert(6 * kScanChannelTad * kScanTadCycles6 == kScanFrameCycles);
+static_assert(3 * kScanChannelTad * kScanTadCycles6 == kScanMicroFrameCycles);
+
+// --- codec and loudspeaker ---------------------------------------------------------------------------------
+inline constexpr Cycle kCodecSampleCycles =
+    2048;                              // 256 bits of 8 cycles: 7200 Hz [lib: codec/e_init_dci_master.s]
+inline constexpr int kCodecGroup = 4;  // samples an interrupt [lib: codec/e_isr_dci.s]
+inline constexpr Cycle kCodecGroupCycles = kCodecGroup * kCodecSampleCycles;
+static_assert(kFcyHz == 7200 * kCodecSampleCycles);
+inline constexpr int kSoundBankSamples = 19044;   // [lib: codec/e_const_sound.s]
+inline constexpr Place kSpeaker = {-0.013, 0.0};  // [FRM A8]
+inline constexpr double kSpeakerZM = 0.035;  // m [assumed: on the top board, beside the microphones' height]
+// a sine at full scale: 90 dB SPL at 10 cm, so 70 dB at 1 m
+inline constexpr double kSpeakerFullScalePa =
+    0.0894;  // Pa at 1 m, peak [assumed: a miniature loudspeaker of this size]
+
+// --- processor time of the codec's interrupt ---------------------------------------------------------------
+// entry, context and the reading of four samples; the handler's own C is counted besides
+inline constexpr Cycle kDciBusyEntryCycles = 65;  // [estimated: 4 entry and exit, 12 saves, 4 samples of 11]
+inline constexpr Cycle kDciIdleIsrCycles = 26;    // [estimated: the same without samples]
+
+}  // namespace board

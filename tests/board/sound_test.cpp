@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: MIT
+// Microphones and codec, electrically: counts, instants of samples, the driver's buffers, groups of four,
+// what the air is told. Expectations by hand beside each.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "hal_sim/board/sound_bank.h"
+#include "hal_sim/board/sound_params.h"
+#include "hal_sim/host/pins_dsp.h"
+#include "hal_sim/host/pins_sound.h"
+#include "tests/board/fake_context.h"
+#include "tests/board/flat_scene.h"
+
+namespace {
+
+using board::Board;
+using board::Cycle;
+
+board::Setup quiet() {
+  board::Setup setup;
+  setup.mic_noise_counts = 0;
+  return setup;
+}
+
+struct Microphones : ::testing::Test {
+  Board robot{quiet()};
+  FakeContext context{robot};
+  sim::Scene scene;
+  Microphones() { robot.look_at(&scene); }
+
+  std::int16_t scan[3][100] = {};
+};
+
+// 79.4 mV/Pa, 3.3 V for 4096 counts: 98.55 counts per Pa around 2048
+TEST_F(Microphones, counts_follow_the_pressure_and_clip) {
+  double pa = 0;
+  scene.sound_pa = [&](const sim::Vec3&, sim::Clicks) { return pa; };
+  EXPECT_EQ(robot.mic_counts(0, 0, 0), 2048);
+  pa = 1;
+  EXPECT_EQ(robot.mic_counts(0, 0, 0), 2147);  // 2048 + 98.6
+  pa = -10;
+  EXPECT_EQ(robot.mic_counts(2, 0, 0), 1062);  // 2048 - 985.5, to the nearest
+  pa = 21;
+  EXPECT_EQ(robot.mic_counts(1, 0, 0), 4095);
+  pa = -21;
+  EXPECT_EQ(robot.mic_counts(1, 0, 0), 0);
+}
+
+TEST_F(Microphones, sit_right_left_and_behind) {
+  std::vector<sim::Vec3> asked;
+  scene.sound_pa = [&](const sim::Vec3& at, sim::Clicks) { return asked.push_back(at), 0.0; };
+  for (int m = 0; m < 3; ++m) robot.mic_counts(m, 0, 0);
+  EXPECT_LT(asked[0].y, -0.03);
+  EXPECT_GT(asked[1].y, 0.03);
+  EXPECT_EQ(asked[0].y, -asked[1].y);
+  EXPECT_LT(asked[2].x, -0.02);
+  EXPECT_EQ(asked[2].y, 0);
+}
+
+TEST_F(Microphones, noise_has_its_size_and_is_the_robots_own) {
+  board::Setup setup = quiet();
+  setup.mic_noise_counts = 20;
+  Board one(setup);
+  setup.robot = 1;
+  Board other(setup);
+  double sum = 0, squares = 0, product = 0;
+  for (std::uint64_t n = 0; n < 10000; ++n) {
+    const double a = one.mic_counts(0, 0, n) - 2048, b = other.mic_counts(0, 0, n) - 2048;
+    EXPECT_EQ(one.mic_counts(0, 500, n) - 2048, a);  // the sample's number decides, not the question
+    sum += a, squares += a * a, product += a * b;
+  }
+  EXPECT_NEAR(sum / 10000, 0, 0.8);
+  EXPECT_NEAR(std::sqrt(squares / 10000), 20, 0.5);
+  EXPECT_NEAR(product / 10000, 0, 15);
+}
+
+// frames of three channels: a TAD of 20 cycles, a channel every 15 TAD, held after 1: cycles 20, 320, 620
+TEST_F(Microphones, samples_are_held_at_the_converters_instants) {
+  std::vector<sim::Clicks> held;
+  scene.sound_pa = [&](const sim::Vec3&, sim::Clicks at) { return held.push_back(at), 0.0; };
+  context.cycle = 5000;
+  tp_scan_start(0, 0);
+  context.cycle = 5000 + 3 * 900;
+  EXPECT_EQ(tp_mic_scan(scan, 0), 3);
+  EXPECT_EQ(context.horizon, 5000 + 4 * 900);
+  EXPECT_EQ(held, (std::vector<sim::Clicks>{5020, 5320, 5620, 5920, 6220, 6520, 6820, 7120, 7420}));
+  // interrupt 3 delivers five channels (TAD 12), 62 six (TAD 10), 63 five again
+  EXPECT_EQ(robot.scan().mic_hold(1, 3), 5000 + 3 * 900 + 16 * 12);
+  EXPECT_EQ(robot.scan().mic_hold(1, 62), 5000 + 62 * 900 + 16 * 10);
+  EXPECT_EQ(robot.scan().mic_hold(2, 63), 5000 + 63 * 900 + 31 * 12);
+  EXPECT_EQ(robot.scan().mic_hold(2, 64), 5000 + 64 * 900 + 31 * 20);
+}
+
+TEST_F(Microphones, alone_they_are_sampled_twice_as_often) {
+  tp_scan_start(1, 0);
+  context.cycle = 1000 * 450;
+  EXPECT_EQ(tp_mic_scan(scan, 1000), 1000);
+  for (int n : {0, 3, 62, 63, 999}) EXPECT_EQ(robot.scan().mic_hold(1, n), n * 450 + 160);
+}
+
+TEST_F(Microphones, only_new_samples_are_evaluated_and_at_most_a_buffer) {
+  int asked = 0;
+  scene.sound_pa = [&](const sim::Vec3&, sim::Clicks at) { return ++asked, static_cast<double>(at) / 1e7; };
+  tp_scan_start(0, 0);
+  context.cycle = 50 * 900;
+  const tp_i64 seen = tp_mic_scan(scan, 0);
+  EXPECT_EQ(asked, 150);
+  context.cycle = 60 * 900;
+  EXPECT_EQ(tp_mic_scan(scan, seen), 60);
+  EXPECT_EQ(asked, 180);
+  tp_mic_scan(scan, 60);
+  EXPECT_EQ(asked, 180);
+  context.cycle = 1230 * 900;
+  EXPECT_EQ(tp_mic_scan(scan, 60), 1230);
+  EXPECT_EQ(asked, 480);
+  // sample 1229 is in place 29, sample 1130, the oldest, in place 30
+  const auto counts = [&](int n) {
+    return static_cast<int>(std::floor(2048.5 + 0.0794 / 3.3 * 4096 * (n * 900 + 20) / 1e7));
+  };
+  EXPECT_EQ(scan[0][29], counts(1229));
+  EXPECT_EQ(scan[0][30], counts(1130));
+}
+
+// stopped after 250 frames, started again 12345 cycles later in the fast mode: the last 100 samples keep
+// their instants on both sides of the gap
+TEST_F(Microphones, samples_before_a_stop_keep_their_instants) {
+  tp_scan_start(0, 0);
+  context.cycle = 250 * 900 + 321;
+  tp_scan_switch(0);
+  EXPECT_EQ(tp_mic_scan(scan, 250), 250);
+  context.cycle += 12345;
+  tp_scan_start(1, 0);
+  const Cycle again = context.cycle;
+  context.cycle += 40 * 450;
+  EXPECT_EQ(tp_mic_scan(scan, 290), 290);
+  EXPECT_EQ(robot.scan().mic_hold(0, 190), 190 * 900 + 20);  // 190 % 65 = 60: three channels
+  EXPECT_EQ(robot.scan().mic_hold(0, 249), 249 * 900 + 20);
+  EXPECT_EQ(robot.scan().mic_hold(0, 250), again + 10);
+  EXPECT_EQ(robot.scan().mic_hold(0, 289), again + 39 * 450 + 10);
+}
+
+TEST_F(Microphones, single_conversions_hear_now) {
+  scene.sound_pa = [&](const sim::Vec3& at, sim::Clicks when) { return when == 777 && at.y > 0 ? 2.0 : 0.0; };
+  context.cycle = 777;
+  EXPECT_EQ(tp_convert(2), 2048);
+  EXPECT_EQ(tp_convert(3), 2245);  // left: 2048 + 197.1
+  EXPECT_EQ(tp_convert(4), 2048);
+}
+
+// --- codec ---------------------------------------------------------------------------------------------
+
+struct Speaker : Microphones {
+  board::Codec& codec = robot.codec();
+  const std::vector<std::int16_t>& bank = *board::sound_bank();
+  void switch_on() {
+    tp_init_ports();
+    tp_latch_write('F', 0, 1);
+    tp_codec_start();
+    tp_codec_configure();
+  }
+};
+
+TEST_F(Speaker, the_bank_has_five_sounds_and_silence_between) {
+  ASSERT_EQ(bank.size(), 19044u);
+  const int offset[] = {0, 2116, 3878, 7294, 11028}, length[] = {2112, 1760, 3412, 3732, 8016};
+  std::vector<bool> sound(bank.size());
+  for (int s = 0; s < 5; ++s) {
+    int peak = 0;
+    for (int i = offset[s]; i < offset[s] + length[s]; ++i) {
+      peak = std::max(peak, std::abs(static_cast<int>(bank[static_cast<std::size_t>(i)])));
+      sound[static_cast<std::size_t>(i)] = true;
+    }
+    EXPECT_NEAR(peak, 24000, 2);
+  }
+  for (std::size_t i = 0; i < bank.size(); ++i) {
+    EXPECT_EQ(bank[i] & 1, 0);
+    if (!sound[i]) {
+      EXPECT_EQ(bank[i], 0) << i;
+    }
+  }
+}
+
+// frames begin at 100: groups at 100 + 8192 k. Played at 20000: the next group is k = 3, at 24676
+TEST_F(Speaker, samples_go_out_in_groups_of_four) {
+  context.cycle = 100;
+  switch_on();
+  context.cycle = 20000;
+  EXPECT_EQ(tp_codec_next_group(), 100 + 3 * 8192);
+  tp_codec_play(2116, 1760);
+  const Cycle begin = 24676;
+  EXPECT_EQ(codec.output(begin - 1), 0);
+  // the pointer moves before it is read: the first sample is number 2117
+  EXPECT_EQ(codec.output(begin), bank[2117]);
+  EXPECT_EQ(codec.output(begin + 2047), bank[2117]);
+  EXPECT_EQ(codec.output(begin + 2048), bank[2118]);
+  EXPECT_EQ(codec.output(begin + 1000 * 2048), bank[3117]);
+  EXPECT_EQ(codec.output(begin + 1759 * 2048), bank[3876]);
+  EXPECT_EQ(codec.output(begin + 1760 * 2048), 0);
+}
+
+TEST_F(Speaker, without_power_or_registers_it_is_silent) {
+  tp_codec_start();
+  tp_codec_configure();  // AUDIO_ON is low
+  tp_codec_play(0, 2112);
+  for (Cycle c = 0; c < 100000; c += 1000) EXPECT_EQ(codec.output(c), 0);
+  EXPECT_FALSE(codec.has_news());
+  tp_latch_write('F', 0, 1);  // an input after reset: nothing happens before the direction is set
+  tp_codec_configure();
+  tp_codec_play(0, 2112);
+  EXPECT_FALSE(codec.has_news());
+  switch_on();
+  tp_codec_play(0, 2112);
+  EXPECT_TRUE(codec.has_news());
+}
+
+TEST_F(Speaker, closing_is_heard_at_once_and_starting_again_replaces) {
+  switch_on();
+  tp_codec_play(7294, 3732);
+  context.cycle = 100000;
+  tp_codec_play(11028, 8016);  // from the group at 106496 on
+  EXPECT_EQ(codec.output(106495), bank[7295 + (106495 - 8192) / 2048]);
+  EXPECT_EQ(codec.output(106496), bank[11029]);
+  context.cycle = 300000;
+  tp_latch_write('F', 0, 0);
+  EXPECT_EQ(codec.output(299999), bank[11029 + (299999 - 106496) / 2048]);
+  EXPECT_EQ(codec.output(300000), 0);
+  codec.forget(299000);
+  EXPECT_EQ(codec.output(299999), bank[11029 + (299999 - 106496) / 2048]);
+  EXPECT_EQ(codec.output(300000), 0);
+}
+
+TEST_F(Speaker, a_stop_lets_the_group_under_way_end) {
+  switch_on();
+  tp_codec_play(11028, 8016);
+  context.cycle = 8192 * 5 + 3000;
+  tp_codec_stop();
+  EXPECT_EQ(codec.output(8192 * 6 - 1), bank[11029 + 19]);  // five groups of four went out
+  EXPECT_EQ(codec.output(8192 * 6), 0);
+}
+
+// the countdown is 16 bits wide and looks for zero: 2110 never meets it, 0 meets it after 65536 samples
+TEST_F(Speaker, lengths_that_are_no_multiple_of_four_never_end) {
+  switch_on();
+  tp_codec_play(0, 2110);
+  EXPECT_EQ(codec.take_news().count, std::int64_t{1} << 40);
+  EXPECT_EQ(codec.output(8192 + 3000 * 2048), bank[3001]);  // on into the next sound
+  EXPECT_EQ(codec.output(8192 + 19043 * Cycle{2048}), 0);   // and past the bank
+  tp_codec_play(0, 0);
+  EXPECT_EQ(codec.take_news().count, 65536);
+  tp_codec_play(0, -4);
+  EXPECT_EQ(codec.take_news().count, 65532);
+}
+
+TEST_F(Speaker, tells_the_air_what_it_plays_in_world_time) {
+  board::Setup setup = quiet();
+  setup.robot = 3;
+  setup.clock_ppm = 100;
+  setup.boot_delay_s = 1;
+  Board late(setup);
+  late.codec().power(true, 0);
+  late.codec().start_dci(0);
+  late.codec().configure();
+  late.codec().play(3878, 3412, 14745600);
+  sim::WorldDesc world;
+  sim::SoundField field(world, 28800);
+  sim::flat_sound().clear();
+  ASSERT_TRUE(late.codec().has_news());
+  late.publish_sound(field, 12345);
+  EXPECT_FALSE(late.codec().has_news());
+  ASSERT_EQ(sim::flat_sound().size(), 1u);
+  const sim::Published& told = sim::flat_sound()[0];
+  EXPECT_TRUE(told.plays);
+  EXPECT_EQ(told.now, 12345);
+  EXPECT_EQ(told.track.first, 3879);
+  EXPECT_EQ(told.track.count, 3412);
+  // 1801 groups of 8192 cycles at 14,747,074.56 Hz, one second after the world began
+  EXPECT_NEAR(told.track.start_s, 1 + 1801 * 8192 / 14747074.56, 2e-7);
+  EXPECT_NEAR(told.track.sample_s, 1 / 7200.72, 1e-12);
+  EXPECT_NEAR(told.track.pa_per_unit * 32768 / std::sqrt(2.0), 0.0632, 1e-4);  // 70 dB at 1 m
+  late.codec().reset(20000000);
+  late.publish_sound(field, 20000);
+  EXPECT_FALSE(sim::flat_sound().back().plays);
+}
+
+TEST_F(Speaker, state_changes_only_when_it_is_used) {
+  const std::uint64_t before = robot.state_hash(0);
+  codec.power(true, 0);
+  codec.power(false, 0);
+  EXPECT_EQ(robot.state_hash(0), before);
+  tp_codec_start();
+  EXPECT_NE(robot.state_hash(0), before);
+}
+
+// --- DSP engine ----------------------------------------------------------------------------------------
+
+struct Dsp : Microphones {
+  struct Pair {
+    std::int16_t real, imag;
+  };
+};
+
+// two points, w = 1 (32767): upper = (3 + 6)/2 = 4.5, a tie, to even: 4; lower = (3 - 6) * 0.99997 / 2 =
+// -1.49995 -> -1
+TEST_F(Dsp, a_butterfly_rounds_ties_to_even) {
+  const Pair one{32767, 0};
+  Pair data[2] = {{3, 5}, {6, 6}};
+  tp_dsp_fft(1, data, &one);
+  EXPECT_EQ(data[0].real, 4);
+  EXPECT_EQ(data[0].imag, 6);  // 5.5 -> 6
+  EXPECT_EQ(data[1].real, -1);
+  EXPECT_EQ(data[1].imag, 0);  // -0.499985
+}
+
+// 20000 - -20000 wraps to -25536 in 16 bits; 20000 + 20000 = 40000 fits the accumulator, halved 20000
+TEST_F(Dsp, differences_wrap_and_sums_do_not) {
+  const Pair one{32767, 0};
+  Pair data[2] = {{20000, 20000}, {-20000, 20000}};
+  tp_dsp_fft(1, data, &one);
+  EXPECT_EQ(data[1].real, -12768);  // -25536 * 0.99997 / 2 = -12767.6
+  EXPECT_EQ(data[0].imag, 20000);
+  EXPECT_EQ(data[0].real, 0);
+}
+
+TEST_F(Dsp, bit_reversal_exchanges_pairs) {
+  Pair data[8];
+  for (std::int16_t i = 0; i < 8; ++i) data[i] = {i, static_cast<std::int16_t>(-i)};
+  tp_dsp_bit_reverse(3, data);
+  const int natural[8] = {0, 4, 2, 6, 1, 5, 3, 7};
+  for (int i = 0; i < 8; ++i) {
+    EXPECT_EQ(data[i].real, natural[i]);
+    EXPECT_EQ(data[i].imag, -natural[i]);
+  }
+  tp_dsp_bit_reverse(0, data);
+  tp_dsp_bit_reverse(30, data);  // nonsense changes nothing
+  EXPECT_EQ(data[1].real, 4);
+}
+
+}  // namespace
