@@ -6,10 +6,9 @@
 //                                             Board <-- sim::sense_proximity, irradiance   (from the Scene)
 //
 // Modelled: port latches, directions and pin levels; two steppers that follow their coils; the library's
-// motor drivers, agenda timer, ADC scan and UARTs in closed form; IR circuit; LEDs; selector; remote control's
-// receiver; battery, fed by what is on.
-// Motion sensors: accelerometer.h (before revision 1.3), lsm330.h (1.3).
-// Not modelled: microphones, codec (each fails loudly in hal_sim/api).
+// motor drivers, agenda timer, ADC scan and UARTs in closed form; IR circuit; LEDs; selector; remote
+// control's receiver; battery, fed by what is on. Motion sensors: accelerometer.h (before revision 1.3),
+// lsm330.h (1.3). Not modelled: microphones, codec (each fails loudly in hal_sim/api).
 //
 // Every method takes the cycle of this robot's clock at which it happens. Cycles never go back between calls
 // that change something. Nothing depends on who looked before: const methods have no side effects, and a
@@ -72,12 +71,12 @@ struct Setup {
   double ambient_counts_per_w_m2 = kAmbientCountsPerWm2;  ///< fall of the dark sample with light
   CameraKind camera = CameraKind::Po3030k;
   CameraMount camera_mount = CameraMount::Upright;
-  double camera_noise = 1;  ///< factor on the camera's noise; 0 none
-  std::array<double, 3> acc_offset_m_s2{};                ///< added to the specific force: forward, left, up
-  std::array<double, 3> gyro_offset_rad_s{};              ///< added to the angular rates about these axes
-  double motion_noise_scale = 1;  ///< factor on the noise of accelerometer and gyroscope
-  double clock_ppm = 0;           ///< crystal error, parts per million, positive = fast
-  double boot_delay_s = 0;        ///< s from the world's beginning to the first instruction
+  double camera_noise = 1;                    ///< factor on the camera's noise; 0 none
+  std::array<double, 3> acc_offset_m_s2{};    ///< added to the specific force: forward, left, up
+  std::array<double, 3> gyro_offset_rad_s{};  ///< added to the angular rates about these axes
+  double motion_noise_scale = 1;              ///< factor on the noise of accelerometer and gyroscope
+  double clock_ppm = 0;                       ///< crystal error, parts per million, positive = fast
+  double boot_delay_s = 0;                    ///< s from the world's beginning to the first instruction
 };
 
 class Board {
