@@ -425,8 +425,10 @@ std::uint64_t Board::state_hash(Cycle at) const {
   }
   for (std::size_t i = 0; i < kPorts; ++i) add(lat_[i] | static_cast<std::uint64_t>(tris_[i]) << 16);
   for (const Uart& uart : uarts_) add(uart.state_hash());
-  if (i2c_.was_used()) add(i2c_.state_hash() + i2c_master_.state_hash());
-  if (camera_ && camera_->is_used()) add(camera_->state_hash());
+  // every robot has a camera on its bus; it counts once a program films
+  const bool films = camera_ && camera_->is_used();
+  if (films || i2c_.devices().size() > (camera_ ? 1u : 0u)) add(i2c_.state_hash() + i2c_master_.state_hash());
+  if (films) add(camera_->state_hash());
   if (codec_.was_used()) add(codec_.state_hash());
   for (const auto& part : parts_) add(part->state_hash());
   if (eeprom_.in_use()) add(eeprom_.state_hash());

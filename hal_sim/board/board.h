@@ -73,7 +73,7 @@ struct Setup {
   double ambient_counts_per_w_m2 = kAmbientCountsPerWm2;  ///< fall of the dark sample with light
   CameraKind camera = CameraKind::Po3030k;
   CameraMount camera_mount = CameraMount::Upright;
-  double camera_noise = 1;  ///< factor on the camera's noise; 0 none
+  double camera_noise = 1;                    ///< factor on the camera's noise; 0 none
   double mic_noise_counts = kMicNoiseCounts;  ///< standard deviation of every conversion of a microphone
   std::array<double, 3> acc_offset_m_s2{};    ///< added to the specific force: forward, left, up
   std::array<double, 3> gyro_offset_rad_s{};  ///< added to the angular rates about these axes
