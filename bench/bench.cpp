@@ -14,6 +14,7 @@
 
 #include "bench/enki_swarm.h"
 #include "hal_sim/board/epuck_model.h"
+#include "hal_sim/board/part.h"
 #include "hal_sim/twin/twin.h"
 #include "sim_core/load/world_loader.h"
 
@@ -136,8 +137,8 @@ int main(int argc, char** argv) {
   double per_robot_100 = 0, per_robot_1000 = 0;
   bool kept = true;
   for (int n : sizes) {
-    const auto loaded =
-        sim::load_world(worlds + "/brait_" + std::to_string(n) + ".toml", {board::epuck_model()});
+    const auto loaded = sim::load_world(worlds + "/brait_" + std::to_string(n) + ".toml",
+                                        {board::epuck_model()}, board::part_kinds());
     if (!loaded.world) {
       std::fprintf(stderr, "%s\n", loaded.report("bench world").c_str());
       return 2;

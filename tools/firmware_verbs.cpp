@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "hal_sim/board/epuck_model.h"
+#include "hal_sim/board/part.h"
 #include "hal_sim/cc/build.h"
 #include "hal_sim/twin/twin.h"
 #include "sim_core/load/world_loader.h"
@@ -83,7 +84,7 @@ int cycles(const std::string& name, double period_ms) {
 int check(const std::vector<std::string>& files) {
   int exit_code = kPass;
   for (const auto& file : files) {
-    const auto loaded = sim::load_world(file, {board::epuck_model()});
+    const auto loaded = sim::load_world(file, {board::epuck_model()}, board::part_kinds());
     if (!loaded.world) {
       complain({loaded.report(file)});
       exit_code = kBadInput;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// twinpuck list: what there is to run: controllers, worlds and proximity profiles.
+// twinpuck list: what there is to run: controllers, worlds and parts of robots.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <vector>
 
+#include "hal_sim/board/part.h"
 #include "hal_sim/twin/twin.h"
 #include "tools/verbs.h"
 
@@ -55,13 +56,16 @@ int list_all() {
   }
   print("Controllers (make run FW=...)", controllers);
   print("Worlds (make run WORLD=...)", worlds);
+  std::vector<std::pair<std::string, std::string>> parts;
+  for (const sim::PartKind& kind : board::part_kinds()) parts.emplace_back(kind.name, kind.doc);
+  print("Parts ([[robot.part]] kind = \"...\" in a world)", parts);
   return kPass;
 }
 
 }  // namespace
 
 void add_list(CLI::App& app, int& exit_code) {
-  app.add_subcommand("list", "List controllers and worlds")->callback([&exit_code] {
+  app.add_subcommand("list", "List controllers, worlds and parts")->callback([&exit_code] {
     exit_code = list_all();
   });
 }

@@ -5,8 +5,8 @@
 //
 // The current is constant between changes that the board reports, so charge, voltage and the moment at which
 // the low-battery detector falls are closed forms; nothing is ticked, and nothing costs between changes.
-// Modelled: discharge curve, sag under load, energy drawn. Not modelled: temperature, ageing, recovery after a
-// load, self-discharge, the protection circuit (an empty battery goes on at a falling voltage).
+// Modelled: discharge curve, sag under load, energy drawn. Not modelled: temperature, ageing, recovery after
+// a load, self-discharge, the protection circuit (an empty battery goes on at a falling voltage).
 #pragma once
 #include "hal_sim/host/context.h"
 
@@ -48,9 +48,9 @@ class Battery {
 
   double capacity_as_;  // ampere seconds
   double amps_;
-  Cycle since_ = 0;     // the present current flows since
-  double charge_;       // then
-  double used_j_ = 0;   // joule, up to then
+  Cycle since_ = 0;      // the present current flows since
+  double charge_;        // then
+  double used_j_ = 0;    // joule, up to then
   double drawn_as_ = 0;  // ampere seconds, up to then
 };
 

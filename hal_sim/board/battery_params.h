@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Numbers of the battery and of what each device draws; tags as in epuck_params.h. Regulators of the e-puck are
-// linear, so a device's current is the battery's. No measured figures of single devices were found: the shares
-// are assumed, and their sum is held against the published endurance (tests/board/battery_test.cpp).
+// Numbers of the battery and of what each device draws; tags as in epuck_params.h. Regulators of the e-puck
+// are linear, so a device's current is the battery's. No measured figures of single devices were found: the
+// shares are assumed, and their sum is held against the published endurance (tests/board/battery_test.cpp).
 #pragma once
 
 namespace board {
 
-inline constexpr double kBatteryWh = 5.0;          // Wh, rested and full to empty [FRM A10]
-inline constexpr double kEnduranceH = 3.0;         // h, driving; sources say 2 to 3 [FRM A10]
+inline constexpr double kBatteryWh = 5.0;           // Wh, rested and full to empty [FRM A10]
+inline constexpr double kEnduranceH = 3.0;          // h, driving; sources say 2 to 3 [FRM A10]
 inline constexpr double kInnerResistanceOhm = 0.2;  // [assumed: small Li-ion cell with protection circuit]
 
 struct CellPoint {
@@ -35,10 +35,10 @@ inline constexpr double kProcessorA = 0.050;  // busy waits draw it too [assumed
 inline constexpr double kBluetoothA = 0.060;  // module with an open link [assumed: class 2 module]
 inline constexpr double kBoardA = 0.020;      // regulators, microphones, accelerometer, receiver [assumed]
 inline constexpr double kCameraA = 0.030;     // while out of reset [assumed: VGA sensor at 15 MHz]
-inline constexpr double kCoilA = 0.060;       // each energised coil [assumed: makes driving last 3 h, FRM A10]
-inline constexpr double kRingLedA = 0.005;    // each [assumed: indicator LED behind a resistor]
-inline constexpr double kBodyLedA = 0.020;    // four green ones together [assumed: as above]
-inline constexpr double kFrontLedA = 0.015;   // [assumed: bright red LED]
+inline constexpr double kCoilA = 0.060;      // each energised coil [assumed: makes driving last 3 h, FRM A10]
+inline constexpr double kRingLedA = 0.005;   // each [assumed: indicator LED behind a resistor]
+inline constexpr double kBodyLedA = 0.020;   // four green ones together [assumed: as above]
+inline constexpr double kFrontLedA = 0.015;  // [assumed: bright red LED]
 inline constexpr double kIrEmitterA = 0.050;  // each, while lit; a line has two [assumed: small IR reflector]
 inline constexpr double kCodecA = 0.020;      // codec and amplifier at rest [assumed: Si3000 class codec]
 

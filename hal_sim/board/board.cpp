@@ -236,10 +236,23 @@ void Board::processor_reset(Cycle at) {
   basic_prox_.reset(at);
   for (Uart& uart : uarts_) uart.reset(at);
   i2c_master_.processor_reset(at);
+  for (const auto& part : parts_) part->processor_reset(at);
   requests = Requests{};
   lat_.fill(0);
   for (std::size_t i = 0; i < kPorts; ++i) tris_[i] = kImplemented[i];
   follow_power(at);
+}
+
+void Board::plug_in(std::unique_ptr<Part> part) {
+  part->board_ = this;
+  parts_.push_back(std::move(part));
+  parts_.back()->connect();
+}
+
+std::optional<double> Board::part_analogue_v(int channel, Cycle at) const {
+  for (const auto& part : parts_)
+    if (const auto level_v = part->analogue_v(channel, at)) return level_v;
+  return std::nullopt;
 }
 
 void Board::turn_selector(int position) { setup_.selector = position & 15; }
@@ -343,6 +356,7 @@ std::uint64_t Board::state_hash(Cycle at) const {
   for (const Uart& uart : uarts_) add(uart.state_hash());
   if (!i2c_.devices().empty()) add(i2c_.state_hash() + i2c_master_.state_hash());
   if (eeprom_.in_use()) add(eeprom_.state_hash());
+  for (const auto& part : parts_) add(part->state_hash());
   add(static_cast<std::uint64_t>(scan_.interrupts(at)));
   return sim::mix64(sum);
 }

@@ -6,9 +6,9 @@
 //                                             Board <-- sim::sense_proximity, irradiance   (from the Scene)
 //
 // Modelled: port latches, directions and pin levels; two steppers that follow their coils; the library's
-// motor drivers, agenda timer, ADC scan and UARTs in closed form; IR circuit; LEDs; selector; remote control's
-// receiver; battery, fed by what is on.
-// Not modelled: accelerometer, microphones, camera, codec (each fails loudly in hal_sim/api).
+// motor drivers, agenda timer, ADC scan and UARTs in closed form; IR circuit; LEDs; selector; remote
+// control's receiver; battery, fed by what is on. Not modelled: accelerometer, microphones, camera, codec
+// (each fails loudly in hal_sim/api).
 //
 // Every method takes the cycle of this robot's clock at which it happens. Cycles never go back between calls
 // that change something. Nothing depends on who looked before: const methods have no side effects, and a
@@ -17,6 +17,8 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "hal_sim/board/adc_scan.h"
 #include "hal_sim/board/agenda_timer.h"
@@ -27,6 +29,7 @@
 #include "hal_sim/board/data_eeprom.h"
 #include "hal_sim/board/i2c_bus.h"
 #include "hal_sim/board/i2c_master.h"
+#include "hal_sim/board/part.h"
 #include "hal_sim/board/remote.h"
 #include "hal_sim/board/timer_motors.h"
 #include "hal_sim/board/uart.h"
@@ -48,10 +51,10 @@ inline constexpr int kRingSensors = 8;
 
 /// What distinguishes one robot from another; fixed while it is powered.
 struct Setup {
-  int robot = 0;           ///< index in the Scene
-  std::uint64_t seed = 1;  ///< of all noise of this robot
-  int selector = 0;        ///< position 0 to 15
-  double battery_v = 4.0;  ///< V at power-up with nothing but the electronics on, 3.0 to 4.2
+  int robot = 0;                   ///< index in the Scene
+  std::uint64_t seed = 1;          ///< of all noise of this robot
+  int selector = 0;                ///< position 0 to 15
+  double battery_v = 4.0;          ///< V at power-up with nothing but the electronics on, 3.0 to 4.2
   double battery_wh = kBatteryWh;  ///< Wh, energy of a full battery
   Revision revision = Revision::Analogue;
   std::array<double, 2> wheel_ratio{1.0, 1.0};  ///< true over nominal wheel size, left and right
@@ -139,6 +142,11 @@ class Board {
   /// The processor's side of the bus.
   I2cMaster& i2c_master() { return i2c_master_; }
   const I2cMaster& i2c_master() const { return i2c_master_; }
+  /// Plugs a turret or another part in; before power-up.
+  void plug_in(std::unique_ptr<Part> part);
+  const std::vector<std::unique_ptr<Part>>& parts() const { return parts_; }
+  /// Voltage that a part puts on the analogue input AN`channel`, V; empty: none does.
+  std::optional<double> part_analogue_v(int channel, Cycle at) const;
   /// e_init_port(): latches 0, directions as the library wants them, the I2C module on. (Its cost is the
   /// caller's.)
   void init_ports(Cycle at);
@@ -210,6 +218,7 @@ class Board {
   Battery battery_;
   DataEeprom eeprom_;
   I2cMaster i2c_master_{i2c_};
+  std::vector<std::unique_ptr<Part>> parts_;
   mutable Cycle settled_for_ = -1;  // the flash's length is nearly always the same: its exponential, once
   mutable double settled_share_ = 0;
   std::uint64_t conversions_ = 0;

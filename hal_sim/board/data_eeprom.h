@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The processor's data EEPROM: 2048 words that survive resets. Blank (0xFFFF) at the beginning of a run.
-// Writing can only clear bits; erasing sets them. Not modelled: wear, and keeping it from one run to the next.
-// Source: [DS70143 7.0], [lib: DataEEPROM.s] for how the library reaches it.
+// Writing can only clear bits; erasing sets them. Not modelled: wear, and keeping it from one run to the
+// next. Source: [DS70143 7.0], [lib: DataEEPROM.s] for how the library reaches it.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -12,7 +12,8 @@ namespace board {
 
 class DataEeprom {
  public:
-  static constexpr unsigned kFirst = 0xF000;  ///< lower half of the address; the upper one is 0x7F [DS70143 3.1]
+  static constexpr unsigned kFirst =
+      0xF000;  ///< lower half of the address; the upper one is 0x7F [DS70143 3.1]
   static constexpr unsigned kWords = 2048;
 
   /// Word at an even address 0xF000 to 0xFFFE.

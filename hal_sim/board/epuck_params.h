@@ -47,8 +47,9 @@ inline constexpr Cycle kScanMicroFrameCycles =
     450;  // MICRO_ONLY, ADCS 19 [lib: a_d/advance_ad_scan/e_ad_conv.c]
 inline constexpr int kScanPeriod =
     65;  // interrupts from one pair to the next [lib: a_d/advance_ad_scan/e_ad_conv.c]
-inline constexpr int kScanLitSlot = 3;        // PULSE_PERIOD - 1 [lib: a_d/advance_ad_scan/e_ad_conv.c]
-inline constexpr int kScanLitInterrupts = 5;  // a flash lasts from slot 63 to 3 [lib: a_d/advance_ad_scan/e_ad_conv.c]
+inline constexpr int kScanLitSlot = 3;  // PULSE_PERIOD - 1 [lib: a_d/advance_ad_scan/e_ad_conv.c]
+inline constexpr int kScanLitInterrupts =
+    5;  // a flash lasts from slot 63 to 3 [lib: a_d/advance_ad_scan/e_ad_conv.c]
 inline constexpr int kScanAccSlot = 62;       // ACC_PROX_PERIOD - 2 [lib: a_d/advance_ad_scan/e_ad_conv.c]
 inline constexpr int kScanDarkSlot = 63;      // ACC_PROX_PERIOD - 1 [lib: a_d/advance_ad_scan/e_ad_conv.c]
 inline constexpr Cycle kScanTadCycles = 12;   // five channels: ADCS 23 [lib: a_d/advance_ad_scan/e_ad_conv.h]
@@ -80,13 +81,13 @@ inline constexpr double kBatteryRawAt3V4 = 2070;  // counts [lib: utility/utilit
 inline constexpr double kBatteryRawAt4V2 = 2560;  // counts [lib: utility/utility.c]
 
 // --- UART ------------------------------------------------------------------------------------------------
-inline constexpr int kUartBitsPerByte = 10;   // 8N1 [lib: uart/e_init_uart1.s]
-inline constexpr int kUartCyclesPerBrg = 16;  // bit = 16 (BRG + 1) cycles [DS70143 18.4]
-inline constexpr int kUart1Brg = 7;           // 115,200 baud exactly [lib: uart/e_init_uart1.s]
-inline constexpr int kUartFifoBytes = 4;      // transmit buffer [DS70143 18.3]
-inline constexpr std::size_t kPacketBytes = 330;  // [assumed: Bluetooth serial profile's usual frame]
+inline constexpr int kUartBitsPerByte = 10;          // 8N1 [lib: uart/e_init_uart1.s]
+inline constexpr int kUartCyclesPerBrg = 16;         // bit = 16 (BRG + 1) cycles [DS70143 18.4]
+inline constexpr int kUart1Brg = 7;                  // 115,200 baud exactly [lib: uart/e_init_uart1.s]
+inline constexpr int kUartFifoBytes = 4;             // transmit buffer [DS70143 18.3]
+inline constexpr std::size_t kPacketBytes = 330;     // [assumed: Bluetooth serial profile's usual frame]
 inline constexpr Cycle kPacketCycles = kFcyHz / 50;  // [assumed: 20 ms, a module's latency]
-inline constexpr int kUartRingBytes = 64;     // receive ring [lib: uart/e_uart1_rx_char.s]
+inline constexpr int kUartRingBytes = 64;            // receive ring [lib: uart/e_uart1_rx_char.s]
 
 // --- body, as the world sees it: x forward, y left, z up, origin between the wheels ----------------------
 inline constexpr double kBodyRadiusM = 0.037;     // m [FRM A1]

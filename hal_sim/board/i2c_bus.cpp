@@ -7,11 +7,14 @@ namespace {
 constexpr std::uint8_t kReleased = 0xFF;  // both lines have pull-ups
 }
 
-void I2cBus::attach(std::unique_ptr<I2cDevice> device) { devices_.push_back(std::move(device)); }
+void I2cBus::attach(std::unique_ptr<I2cDevice> device) {
+  devices_.push_back(device.get());
+  owned_.push_back(std::move(device));
+}
 
 I2cDevice* I2cBus::find(std::uint8_t address) const {
-  for (const auto& device : devices_)
-    if (device->answers_to(address)) return device.get();
+  for (I2cDevice* device : devices_)
+    if (device->answers_to(address)) return device;
   return nullptr;
 }
 
@@ -43,12 +46,12 @@ void I2cBus::stop(Cycle at) {
 
 void I2cBus::processor_reset(Cycle at) {
   stop(at);
-  for (const auto& device : devices_) device->processor_reset(at);
+  for (I2cDevice* device : devices_) device->processor_reset(at);
 }
 
 std::uint64_t I2cBus::state_hash() const {
   std::uint64_t sum = open_;
-  for (const auto& device : devices_) sum = sum * 0x9E3779B97F4A7C15u + device->state_hash();
+  for (const I2cDevice* device : devices_) sum = sum * 0x9E3779B97F4A7C15u + device->state_hash();
   return sum;
 }
 

@@ -20,9 +20,11 @@ class I2cBus {
  public:
   /// Plugs a device in. Before power-up, or while the bus is idle.
   void attach(std::unique_ptr<I2cDevice> device);
+  /// The same for a device that belongs to a part; it must outlive the bus.
+  void attach(I2cDevice& device) { devices_.push_back(&device); }
   /// Device at an 8-bit address in write form; null: nobody.
   I2cDevice* find(std::uint8_t address) const;
-  const std::vector<std::unique_ptr<I2cDevice>>& devices() const { return devices_; }
+  const std::vector<I2cDevice*>& devices() const { return devices_; }
 
   void start(Cycle at);  ///< also a repeated start
   /// One byte after a start is the address. False: nobody acknowledged.
@@ -36,7 +38,8 @@ class I2cBus {
   std::uint64_t state_hash() const;
 
  private:
-  std::vector<std::unique_ptr<I2cDevice>> devices_;
+  std::vector<I2cDevice*> devices_;
+  std::vector<std::unique_ptr<I2cDevice>> owned_;
   I2cDevice* addressed_ = nullptr;
   bool open_ = false;
   bool expects_address_ = false;

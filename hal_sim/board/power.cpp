@@ -48,8 +48,8 @@ double Board::current_a(Cycle at) const {
   for (int sensor = 0; sensor < 4; ++sensor) lines += line_on_for(sensor, at) >= 0 ? 1 : 0;
   if (scan_.is_on() && !scan_.micro_only()) lines += static_cast<double>(kScanLitInterrupts) / kScanPeriod;
   if (basic_prox_.is_on())
-    lines += static_cast<double>(kBasicPulseCycles) /
-             static_cast<double>(kBasicPulseCycles + kBasicRestCycles);
+    lines +=
+        static_cast<double>(kBasicPulseCycles) / static_cast<double>(kBasicPulseCycles + kBasicRestCycles);
   return amps + 2 * kIrEmitterA * lines;
 }
 

@@ -2,12 +2,14 @@
 // A pseudo-terminal as the far end of a robot's serial line: programs open it as they would open the serial
 // port of a Bluetooth connection, set a baud rate (which means nothing here), come and go.
 //
-//   - Raw mode from the start and again after each program: a terminal that echoes would send the robot its own
-//     replies as commands. Our hand on the far side keeps the mode between programs; a program that claimed the
-//     terminal for itself alone does not keep the next one out.
-//   - What the robot says while nobody has the terminal open waits for whoever comes and listens. One who comes
-//     and speaks first gets the answer to that, and not the old words: a Bluetooth link to a robot that has been
-//     on for a while begins silent.
+//   - Raw mode from the start and again after each program: a terminal that echoes would send the robot its
+//   own
+//     replies as commands. Our hand on the far side keeps the mode between programs; a program that claimed
+//     the terminal for itself alone does not keep the next one out.
+//   - What the robot says while nobody has the terminal open waits for whoever comes and listens. One who
+//   comes
+//     and speaks first gets the answer to that, and not the old words: a Bluetooth link to a robot that has
+//     been on for a while begins silent.
 #include <fcntl.h>
 #include <stdlib.h>
 #include <sys/inotify.h>

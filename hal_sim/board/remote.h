@@ -19,10 +19,10 @@ namespace board {
 
 /// Somebody holds a key of a remote control.
 struct KeyPress {
-  int key = 0;         ///< 0 to 63
-  double at_s = 0;     ///< s, world time of the press: the first frame begins
-  double hold_s = 0;   ///< s, 0 or more; a frame that has begun is finished
-  int address = 0;     ///< 0 to 31: the kind of device; 0 is a television
+  int key = 0;        ///< 0 to 63
+  double at_s = 0;    ///< s, world time of the press: the first frame begins
+  double hold_s = 0;  ///< s, 0 or more; a frame that has begun is finished
+  int address = 0;    ///< 0 to 31: the kind of device; 0 is a television
 };
 
 class RemoteReceiver {

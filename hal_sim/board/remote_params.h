@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Numbers of the infrared remote control; tags as in epuck_params.h, and [RC5]: the Philips code as published.
+// Numbers of the infrared remote control; tags as in epuck_params.h, and [RC5]: the Philips code as
+// published.
 #pragma once
 #include "sim_core/base/clock.h"
 
@@ -9,10 +10,10 @@ namespace board {
 inline constexpr std::int64_t kRc5HalfBitNumerator = 65536;  // clicks [RC5]
 inline constexpr std::int64_t kRc5HalfBitDenominator = 5;    // [RC5]
 static_assert(kRc5HalfBitNumerator * 36000 == 32 * sim::kClicksPerSecond * kRc5HalfBitDenominator);
-inline constexpr int kRc5Bits = 14;         // two start bits, toggle, 5 of address, 6 of the key [RC5]
+inline constexpr int kRc5Bits = 14;          // two start bits, toggle, 5 of address, 6 of the key [RC5]
 inline constexpr int kRc5FrameHalves = 128;  // from one frame to the next while a key is held: 113.8 ms [RC5]
-inline constexpr int kRc5MostAddress = 31;  // 5 bits [RC5]
-inline constexpr int kRc5MostKey = 63;      // 6 bits [RC5]
-inline constexpr int kRemoteBit = 6;        // RF6 [lib: motor_led/e_epuck_ports.h]
+inline constexpr int kRc5MostAddress = 31;   // 5 bits [RC5]
+inline constexpr int kRc5MostKey = 63;       // 6 bits [RC5]
+inline constexpr int kRemoteBit = 6;         // RF6 [lib: motor_led/e_epuck_ports.h]
 
 }  // namespace board

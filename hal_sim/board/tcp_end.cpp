@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A TCP server as the far end of a robot's serial line. One program at a time; the next one waits. Bytes that
-// the robot sends while nobody is connected are lost. A program that has said its last word (half-closed) still
-// gets the replies until another one comes.
+// the robot sends while nobody is connected are lost. A program that has said its last word (half-closed)
+// still gets the replies until another one comes.
 #include <arpa/inet.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>

@@ -25,8 +25,8 @@ class UartEnd {
   /// Takes up to `room` bytes that have come from outside by cycle `at`. Returns how many.
   virtual std::size_t collect(std::uint8_t* bytes, std::size_t room, Cycle at) = 0;
 
-  /// A Bluetooth link carries packets: bytes sent without a pause arrive together. True for ends that programs
-  /// talk to, since many take what one read() gives them for the whole reply.
+  /// A Bluetooth link carries packets: bytes sent without a pause arrive together. True for ends that
+  /// programs talk to, since many take what one read() gives them for the whole reply.
   virtual bool takes_packets() const { return false; }
 
   /// How to reach it, for messages: "/tmp/robot0", "tcp:127.0.0.1:5000", "file:out.txt".
@@ -59,7 +59,8 @@ class MemoryEnd : public UartEnd {
 
 /// Opens an end from its description:
 ///   "none"               no end (null)
-///   "pty" "pty:LINK"     a pseudo-terminal; LINK (default `default_link`) is a symbolic link to it, replaced if
+///   "pty" "pty:LINK"     a pseudo-terminal; LINK (default `default_link`) is a symbolic link to it, replaced
+///   if
 ///                        it is an old link, never a file
 ///   "tcp:PORT"           a server on 127.0.0.1; 0 takes any free port; one client at a time
 ///   "file:OUT" "file:OUT,IN"  bytes go to OUT, bytes come from IN at the line's speed

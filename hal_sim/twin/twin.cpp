@@ -5,6 +5,7 @@
 #include <map>
 
 #include "hal_sim/board/epuck_model.h"
+#include "hal_sim/board/part.h"
 #include "hal_sim/board/uart_end.h"
 #include "sim_core/load/world_loader.h"
 #include "sim_core/world/variation.h"
@@ -68,6 +69,20 @@ void press_keys(host::FirmwareMind& mind, std::vector<sim::KeyDesc> keys) {
   for (const sim::KeyDesc& key : keys) mind.press_key({key.code, key.at_s, key.hold_s, key.address});
 }
 
+// turrets and the like
+void plug_in_parts(const sim::RobotDesc& robot, board::Board& board, std::vector<std::string>& problems) {
+  for (std::size_t i = 0; i < robot.parts.size(); ++i) {
+    const sim::PartDesc& part = robot.parts[i];
+    const board::PartType* type = board::find_part_type(part.kind);
+    if (!type) {
+      problems.push_back("robot '" + robot.name + "': part: got kind '" + part.kind +
+                         "', expected one that the program knows");
+      continue;
+    }
+    board.plug_in(type->make(board::PartSettings(type->kind, part, static_cast<int>(i))));
+  }
+}
+
 }  // namespace
 
 std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
@@ -109,6 +124,7 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
     auto mind =
         std::make_unique<host::FirmwareMind>(setup, host::RobotSettings{robot.name, setup.seed},
                                              firmware[i].empty() ? nullptr : images[firmware[i]], share);
+    plug_in_parts(robot, mind->board(), problems);
     const std::string ends[2] = {chosen(options.uart1, robot.name, robot.uart1),
                                  chosen(options.uart2, robot.name, robot.uart2)};
     for (int port = 1; port <= 2; ++port) {

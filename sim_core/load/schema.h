@@ -69,7 +69,10 @@ const SectionSpec& section(const std::string& path);
 /// "number in m, 0.001 to 1000" and the like, for messages and documents.
 std::string expected_text(const KeySpec& key);
 
-/// docs/world-format.md, whole.
-std::string world_format_page();
+/// `[[robot.part]]` of one kind: `kind`, then its own keys. Points into `kind`, which must outlive it.
+SectionSpec part_section(const PartKind& kind);
+
+/// docs/world-format.md, whole. `part_kinds`: the parts to describe.
+std::string world_format_page(const std::vector<PartKind>& part_kinds = {});
 
 }  // namespace sim

@@ -54,6 +54,32 @@ std::string choices_text(const KeySpec& k) {
   return out;
 }
 
+std::string key_row(const KeySpec& k) {
+  const std::string fallback = k.fallback;
+  const std::string range = k.type == ValueType::Choice ? choices_text(k) : has_range(k) ? range_text(k) : "";
+  return fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", k.key,
+                     k.type == ValueType::Choice ? "text" : type_name(k.type), k.unit, range,
+                     fallback == "required" ? "**required**"
+                     : fallback.empty()     ? ""
+                                            : "`" + fallback + "`",
+                     k.doc);
+}
+
+constexpr const char* kKeyTable =
+    "| key | value | unit | range | default | meaning |\n|---|---|---|---|---|---|\n";
+
+/// A table for each kind of part.
+std::string part_pages(const std::vector<PartKind>& kinds) {
+  std::string out;
+  for (const PartKind& kind : kinds) {
+    const SectionSpec spec = part_section(kind);
+    out += fmt::format("\n### `kind = \"{}\"`\n\n{}\n", kind.name, kind.doc);
+    if (spec.keys.size() > 1) out += std::string("\n") + kKeyTable;
+    for (std::size_t i = 1; i < spec.keys.size(); ++i) out += key_row(spec.keys[i]);
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string expected_text(const KeySpec& k) {
@@ -66,7 +92,7 @@ std::string expected_text(const KeySpec& k) {
   return out;
 }
 
-std::string world_format_page() {
+std::string world_format_page(const std::vector<PartKind>& part_kinds) {
   std::string out =
       "# World files\n\n"
       "<!-- Made by build/world_format_doc from sim_core/load/schema.cpp; do not edit. -->\n\n"
@@ -93,20 +119,9 @@ std::string world_format_page() {
            "\n\n" + s.doc + "\n\n";
     if (path == "robot.proximity") continue;
     const std::size_t shown = path == "robot.sensor" ? 1 : s.keys.size();
-    out += "| key | value | unit | range | default | meaning |\n|---|---|---|---|---|---|\n";
-    for (std::size_t i = 0; i < shown; ++i) {
-      const KeySpec& k = s.keys[i];
-      const std::string fallback = k.fallback;
-      const std::string range = k.type == ValueType::Choice ? choices_text(k)
-                                : has_range(k)              ? range_text(k)
-                                                            : "";
-      out += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", k.key,
-                         k.type == ValueType::Choice ? "text" : type_name(k.type), k.unit, range,
-                         fallback == "required" ? "**required**"
-                         : fallback.empty()     ? ""
-                                                : "`" + fallback + "`",
-                         k.doc);
-    }
+    out += kKeyTable;
+    for (std::size_t i = 0; i < shown; ++i) out += key_row(s.keys[i]);
+    if (path == "robot.part") out += part_pages(part_kinds);
   }
   out +=
       "\n## Proximity profiles\n\n| name | rows | range (m) | rays | aperture (deg) | layout | colour rule | "

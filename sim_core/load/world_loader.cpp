@@ -150,9 +150,11 @@ WorldProblem find_stray_character(std::string_view text) {
 
 class Reader {
  public:
-  Reader(const std::string& path, const std::vector<RobotModel>& models) {
+  Reader(const std::string& path, const std::vector<RobotModel>& models,
+         const std::vector<PartKind>& part_kinds) {
     world_.file = path;
     world_.models = models;
+    world_.part_kinds = part_kinds;
   }
 
   LoadedWorld read(std::string_view text) {
@@ -219,7 +221,12 @@ class Reader {
 
   /// Applies every key of a table and names the unknown ones.
   void read_table(const std::string& path, const toml::table& table, void* target) {
-    const SectionSpec& spec = section(path);
+    read_table(section(path), table, target);
+  }
+
+  /// The same by a section that the schema does not hold as a whole.
+  void read_table(const SectionSpec& spec, const toml::table& table, void* target) {
+    const std::string path = spec.path;
     const std::vector<std::string> inner = inner_sections(path);
     const std::string prefix = path.empty() ? "" : path + ".";
     for (const auto& [key, node] : table) {
@@ -383,8 +390,34 @@ class Reader {
         read_table("robot.key", kt, &key);
         r.keys.push_back(key);
       });
+      read_many("robot.part", t, "part", [&](const toml::table& pt) { read_part(pt, r); });
       world_.robots.push_back(std::move(r));
     });
+  }
+
+  /// The keys that a part may have depend on its kind, which is therefore looked at first.
+  void read_part(const toml::table& table, RobotDesc& robot) {
+    PartDesc part;
+    part.line = line_of(table);
+    std::vector<std::string> names;
+    std::string known;
+    const toml::node* written_kind = table.get("kind");
+    const std::string name =
+        written_kind && written_kind->is_string() ? written_kind->as_string()->get() : std::string();
+    for (const PartKind& kind : world_.part_kinds) {
+      if (kind.name == name) {
+        read_table(part_section(kind), table, &part);
+        robot.parts.push_back(std::move(part));
+        return;
+      }
+      names.push_back(kind.name);
+      known += (known.empty() ? "" : ", ") + kind.name;
+    }
+    const std::string meant = did_you_mean(name, names);
+    problem(written_kind ? written_kind->source() : table.source(),
+            fmt::format("robot.part.kind: {}, expected one of {}{}",
+                        written_kind ? "got " + written(*written_kind) : std::string("missing"), known,
+                        meant.empty() ? "" : "; did you mean '" + meant + "'?"));
   }
 
   WorldDesc world_;
@@ -404,7 +437,8 @@ std::string LoadedWorld::report(std::string_view file) const {
   return out;
 }
 
-LoadedWorld load_world(const std::string& path, const std::vector<RobotModel>& models) {
+LoadedWorld load_world(const std::string& path, const std::vector<RobotModel>& models,
+                       const std::vector<PartKind>& part_kinds) {
   std::ifstream in(path, std::ios::binary);
   std::ostringstream text;
   if (in) text << in.rdbuf();
@@ -413,12 +447,12 @@ LoadedWorld load_world(const std::string& path, const std::vector<RobotModel>& m
     out.problems.push_back({0, 0, std::string("cannot be read: ") + std::strerror(errno)});
     return out;
   }
-  return parse_world(text.str(), path, models);
+  return parse_world(text.str(), path, models, part_kinds);
 }
 
-LoadedWorld parse_world(std::string_view text, const std::string& path,
-                        const std::vector<RobotModel>& models) {
-  return Reader(path, models).read(text);
+LoadedWorld parse_world(std::string_view text, const std::string& path, const std::vector<RobotModel>& models,
+                        const std::vector<PartKind>& part_kinds) {
+  return Reader(path, models, part_kinds).read(text);
 }
 
 std::string resolve_path(const WorldDesc& world, const std::string& name) {

@@ -25,11 +25,13 @@ struct LoadedWorld {
 };
 
 /// Reads and checks a file. `models`: the kinds of robot that the caller knows; the first is the default.
-LoadedWorld load_world(const std::string& path, const std::vector<RobotModel>& models);
+/// `part_kinds`: what may be plugged into them.
+LoadedWorld load_world(const std::string& path, const std::vector<RobotModel>& models,
+                       const std::vector<PartKind>& part_kinds = {});
 
 /// Same for text already in memory; `path` serves messages and relative file names.
-LoadedWorld parse_world(std::string_view text, const std::string& path,
-                        const std::vector<RobotModel>& models);
+LoadedWorld parse_world(std::string_view text, const std::string& path, const std::vector<RobotModel>& models,
+                        const std::vector<PartKind>& part_kinds = {});
 
 /// Checks what no single key shows: names, overlaps, sensors that do not exist. Also for worlds built in C++.
 std::vector<WorldProblem> check_world(const WorldDesc& world);

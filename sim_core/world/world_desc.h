@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "sim_core/world/part_desc.h"
 #include "sim_core/world/robot_model.h"
 
 namespace sim {
@@ -108,6 +109,7 @@ struct RobotDesc {
   ProximitySettings proximity;
   std::vector<SensorDesc> sensors;
   std::vector<KeyDesc> keys;  ///< presses of remote controls, in any order
+  std::vector<PartDesc> parts;
   int line = 0;  ///< line in the world file; 0 when built in C++
 };
 
@@ -183,7 +185,8 @@ struct WorldDesc {
   std::vector<LampDesc> lamps;
   ProximitySettings proximity;
   std::vector<RobotDesc> robots;
-  std::vector<RobotModel> models;  ///< what the caller offers; robots refer to them by name
+  std::vector<RobotModel> models;    ///< what the caller offers; robots refer to them by name
+  std::vector<PartKind> part_kinds;  ///< likewise, for robots' parts
 
   /// The model of a robot; null when there is none of that name.
   const RobotModel* model_of(const RobotDesc& robot) const {

@@ -27,8 +27,9 @@ TEST_F(Command, run_writes_record_summary_and_picture_that_agree) {
   for (const char* key : {"version", "world", "seed", "simulated_s", "wall_s", "speed", "digest", "robots"})
     EXPECT_TRUE(summary.contains(key)) << key;
   const json& robot = summary["robots"][0];
-  for (const char* key : {"name", "firmware", "way", "x_m", "y_m", "heading_rad", "distance_m", "collisions",
-                          "cycles", "cpu_load", "battery_v", "battery_used_wh", "battery_minutes_left", "traps"})
+  for (const char* key :
+       {"name", "firmware", "way", "x_m", "y_m", "heading_rad", "distance_m", "collisions", "cycles",
+        "cpu_load", "battery_v", "battery_used_wh", "battery_minutes_left", "traps"})
     EXPECT_TRUE(robot.contains(key)) << key;
   EXPECT_EQ(robot["way"], "native");
   EXPECT_EQ(robot["cycles"], 147'456'000);

@@ -251,16 +251,19 @@ TEST(Loader, every_kind_of_mistake_has_its_sentence) {
       {"[[robot]]\nname = \"a\"\n[[robot]]\nname = \"a\"\nposition = [1, 0]",
        "w.toml:4:1: robot.name: got \"a\" a second time (first on line 2), expected a name of its own"},
       {"[[robot]]\nuart1 = \"tcp:70000\"",
-       "w.toml:3:9: robot.uart1: got \"tcp:70000\", expected none, pty, pty:LINK, tcp:PORT with a port of 1 to 65535, "
+       "w.toml:3:9: robot.uart1: got \"tcp:70000\", expected none, pty, pty:LINK, tcp:PORT with a port of 1 "
+       "to 65535, "
        "or file:PATH"},
       {"[[robot]]\nuart2 = \"usb\"",
-       "w.toml:3:9: robot.uart2: got \"usb\", expected none, pty, pty:LINK, tcp:PORT with a port of 1 to 65535, or "
+       "w.toml:3:9: robot.uart2: got \"usb\", expected none, pty, pty:LINK, tcp:PORT with a port of 1 to "
+       "65535, or "
        "file:PATH"},
       {"[[robot]]\n[[robot.key]]\ncode = 64\ntime = 1",
        "w.toml:4:8: robot.key.code: got 64, expected whole number from 0 to 63"},
       {"[[robot]]\n[[robot.key]]\ncode = 6",
        "w.toml:3:1: robot.key.time: missing, expected number from 0 to 10000000 s"},
-      {"[[robot]]\nbattery_wh = 0", "w.toml:3:14: robot.battery_wh: got 0, expected number from 0.001 to 1000 Wh"},
+      {"[[robot]]\nbattery_wh = 0",
+       "w.toml:3:14: robot.battery_wh: got 0, expected number from 0.001 to 1000 Wh"},
       {"[[robot]]\nbattery = 12", "w.toml:3:11: robot.battery: got 12, expected number from 2.5 to 5 V"},
       {"[[robot]]\nx = 1", "w.toml:3:1: unknown key 'x' in robot"},
       {"[[robot]]\n[robot.variation]\nclock = 3", "w.toml:4:1: unknown key 'clock' in robot.variation"},
@@ -391,13 +394,6 @@ TEST(Loader, defaults_in_the_table_are_the_defaults_of_the_structs) {
   EXPECT_EQ(arena.arena->wall_thickness_m, sim::ArenaDesc().wall_thickness_m);
   const auto wall = world_of("twinpuck = 1\n[[wall]]\npoints = [[0, 0], [1, 0]]\n" + spelled("wall"));
   EXPECT_EQ(wall.walls[0].height_m, sim::WallDesc().height_m);
-}
-
-TEST(Loader, the_page_in_docs_is_the_one_the_schema_makes) {
-  std::ifstream in(TWINPUCK_SOURCE_DIR "/docs/world-format.md", std::ios::binary);
-  std::ostringstream page;
-  page << in.rdbuf();
-  EXPECT_EQ(page.str(), sim::world_format_page()) << "run build/world_format_doc docs/world-format.md";
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "hal_sim/board/epuck_model.h"
+#include "hal_sim/board/part.h"
 #include "sim_core/base/hash.h"
 #include "sim_core/load/world_loader.h"
 
@@ -102,6 +103,7 @@ void Robot::serial_send(int port, const std::string& bytes) {
 
 FirmwareTest::FirmwareTest() {
   world.models = {board::epuck_model()};
+  world.part_kinds = board::part_kinds();
   world.title = "test";
   world.proximity.noise_scale = 0;
 }
@@ -129,7 +131,7 @@ void FirmwareTest::box(double x_m, double y_m, double size_m, double heading_deg
 
 void FirmwareTest::load_world(const std::string& path) {
   const auto file = std::filesystem::path(TWINPUCK_SOURCE_DIR) / path;
-  auto loaded = sim::load_world(file.string(), {board::epuck_model()});
+  auto loaded = sim::load_world(file.string(), {board::epuck_model()}, board::part_kinds());
   ASSERT_TRUE(loaded.world) << loaded.report(path);
   world = *loaded.world;
   robots_.clear();

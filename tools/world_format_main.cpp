@@ -2,10 +2,11 @@
 // Prints docs/world-format.md, or writes it to the file named.
 #include <cstdio>
 
+#include "hal_sim/board/part.h"
 #include "sim_core/load/schema.h"
 
 int main(int argc, char** argv) {
-  const std::string page = sim::world_format_page();
+  const std::string page = sim::world_format_page(board::part_kinds());
   std::FILE* out = argc > 1 ? std::fopen(argv[1], "wb") : stdout;
   if (!out) {
     std::perror(argv[1]);
