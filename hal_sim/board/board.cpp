@@ -355,8 +355,8 @@ std::uint64_t Board::state_hash(Cycle at) const {
   for (std::size_t i = 0; i < kPorts; ++i) add(lat_[i] | static_cast<std::uint64_t>(tris_[i]) << 16);
   for (const Uart& uart : uarts_) add(uart.state_hash());
   if (!i2c_.devices().empty()) add(i2c_.state_hash() + i2c_master_.state_hash());
-  if (eeprom_.in_use()) add(eeprom_.state_hash());
   for (const auto& part : parts_) add(part->state_hash());
+  if (eeprom_.in_use()) add(eeprom_.state_hash());
   add(static_cast<std::uint64_t>(scan_.interrupts(at)));
   return sim::mix64(sum);
 }

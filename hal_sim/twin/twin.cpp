@@ -62,13 +62,6 @@ board::Setup setup_of(const sim::WorldDesc& world, int index) {
   return setup;
 }
 
-// in the order of time: the toggle bit changes from press to press
-void press_keys(host::FirmwareMind& mind, std::vector<sim::KeyDesc> keys) {
-  std::stable_sort(keys.begin(), keys.end(),
-                   [](const sim::KeyDesc& a, const sim::KeyDesc& b) { return a.at_s < b.at_s; });
-  for (const sim::KeyDesc& key : keys) mind.press_key({key.code, key.at_s, key.hold_s, key.address});
-}
-
 // turrets and the like
 void plug_in_parts(const sim::RobotDesc& robot, board::Board& board, std::vector<std::string>& problems) {
   for (std::size_t i = 0; i < robot.parts.size(); ++i) {
@@ -81,6 +74,13 @@ void plug_in_parts(const sim::RobotDesc& robot, board::Board& board, std::vector
     }
     board.plug_in(type->make(board::PartSettings(type->kind, part, static_cast<int>(i))));
   }
+}
+
+// in the order of time: the toggle bit changes from press to press
+void press_keys(host::FirmwareMind& mind, std::vector<sim::KeyDesc> keys) {
+  std::stable_sort(keys.begin(), keys.end(),
+                   [](const sim::KeyDesc& a, const sim::KeyDesc& b) { return a.at_s < b.at_s; });
+  for (const sim::KeyDesc& key : keys) mind.press_key({key.code, key.at_s, key.hold_s, key.address});
 }
 
 }  // namespace

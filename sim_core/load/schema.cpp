@@ -445,12 +445,12 @@ std::vector<SectionSpec> make_schema() {
   }
   section("robot.sensor", true, "One proximity sensor of this robot; keys as in `[proximity]`.",
           std::move(sensor));
-  s.push_back(remote_key_section());
   section("robot.part", true,
           "Something plugged into this robot, such as a turret or a sensor board. The other keys depend on "
           "the kind.",
           {{"kind", ValueType::Text, "", 0, 0, "", "required", "which part",
             into<PartDesc>([](PartDesc& p, const Value& v) { p.kind = v.text; })}});
+  s.push_back(remote_key_section());
   return s;
 }
 

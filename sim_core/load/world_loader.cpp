@@ -385,12 +385,12 @@ class Reader {
         }
         r.sensors.push_back(std::move(s));
       });
+      read_many("robot.part", t, "part", [&](const toml::table& pt) { read_part(pt, r); });
       read_many("robot.key", t, "key", [&](const toml::table& kt) {
         KeyDesc key;
         read_table("robot.key", kt, &key);
         r.keys.push_back(key);
       });
-      read_many("robot.part", t, "part", [&](const toml::table& pt) { read_part(pt, r); });
       world_.robots.push_back(std::move(r));
     });
   }

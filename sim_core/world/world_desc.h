@@ -108,9 +108,9 @@ struct RobotDesc {
   Variation variation;
   ProximitySettings proximity;
   std::vector<SensorDesc> sensors;
-  std::vector<KeyDesc> keys;  ///< presses of remote controls, in any order
   std::vector<PartDesc> parts;
-  int line = 0;  ///< line in the world file; 0 when built in C++
+  std::vector<KeyDesc> keys;  ///< presses of remote controls, in any order
+  int line = 0;               ///< line in the world file; 0 when built in C++
 };
 
 enum class ObjectKind { Box, Cylinder, Ball, Polygon };
