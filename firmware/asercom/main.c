@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * The robot's usual serial command program: a PC on the Bluetooth link commands motors and LEDs and reads every
- * sensor, by lines of text or by short binary sequences. A remote control drives the robot as well.
+ * The robot's usual serial command program: a PC on the Bluetooth link commands motors and LEDs and reads
+ * every sensor, by lines of text or by short binary sequences. A remote control drives the robot as well.
  *
  *   selector 10   commands come from the turret connector (UART 2, 230,400 baud); camera, I2C, sound are the
  *                 turret's

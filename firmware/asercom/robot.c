@@ -73,7 +73,10 @@ void camera_set(int x1, int y1) {
     size = 2 * camera.width * camera.height;
   }
   camera.size = (int)size;
-  if (camera.mode < GREY_SCALE_MODE || camera.mode > YUV_MODE || !in_range(camera.zoom, ARRAY_WIDTH) ||
+  /* windows that the sensor does not have would also leave 16 bits */
+  if (camera.mode < GREY_SCALE_MODE || camera.mode > YUV_MODE ||
+      !in_range(camera.zoom, ARRAY_WIDTH / camera.width) ||
+      !in_range(camera.zoom, ARRAY_HEIGHT / camera.height) ||
       !start_camera(x1, y1))
     camera_default();
 }

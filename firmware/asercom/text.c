@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Text commands: a letter, numbers behind commas, CR or LF. Every reply line ends with CR LF. A number that is
- * missing keeps the value it had in the command before, as people who type have come to expect.
+ * Text commands: a letter, numbers behind commas, CR or LF. Every reply line ends with CR LF. A number that
+ * is missing keeps the value it had in the command before.
  */
 #include <DataEEPROM.h>
 #include <a_d/advance_ad_scan/e_acc.h>
