@@ -90,9 +90,8 @@ static void put_picture(void) {
 }
 
 static void put_ground(void) {
-  int i, values[5];
-  read_ground(values);
-  for (i = 0; i < 5; i++) put_word(values[i]);
+  int i, values[5], count = read_ground(values);
+  for (i = 0; i < count; i++) put_word(values[i]);
 }
 
 static void put_sensors(int (*read)(unsigned int)) {

@@ -102,6 +102,19 @@ TEST_F(Asercom, serves_bluetooth_in_every_position_but_ten) {
 }
 
 // the driver says that a text is sent when its last byte begins; the reset then cuts that byte off
+TEST_F(Asercom, in_position_two_it_is_what_webots_expects) {
+  started(2);
+  EXPECT_EQ(reply("V\n"), "v,Version 1.5.3 November 2016 (Webots)\r\nHW version: FFFF\r\n");
+  EXPECT_EQ(reply(std::string("S\n\0", 3)), "s\r\n");
+  EXPECT_EQ(reply("X,5\r"), "x,11111\r\n");
+  EXPECT_EQ(reply("X,5000\r", 0.6).size(), 4056u - 5 + 4);
+  EXPECT_EQ(reply("M\r", 0.3), "m,-1,-1,-1\r\n");
+  EXPECT_EQ(reply(binary("M") + kEnd, 0.3), std::string(6, '\xFF'));
+  EXPECT_EQ(reply("J,1,52,39,8\rI\r", 1.5), "j\r\ni,1,52,39,8,4056\r\n");
+  EXPECT_EQ(reply(binary("NI") + kEnd, 2).size(), 16u + 3 + 4056);
+  expect_no_traps();
+}
+
 TEST_F(Asercom, reset_begins_again) {
   started(3);
   EXPECT_EQ(reply("R\r", 3), "r\rSelector pos 3\r\n" + kBanner);
@@ -117,7 +130,7 @@ TEST_F(Asercom, cr_or_lf_end_a_line_and_letters_may_be_small) {
   EXPECT_EQ(reply("C\n"), "c,5\r\n");
   EXPECT_EQ(reply("c\r\n"), "c,5\r\n");
   EXPECT_EQ(reply("c\r\n\r\nC\r"), "c,5\r\nc,5\r\n");
-  EXPECT_EQ(reply("x\r"), "z,Command not found\r\n");
+  EXPECT_EQ(reply("x,3\r"), "z,Command not found\r\n");
   EXPECT_EQ(reply("?what,1\r"), "z,Command not found\r\n");
 }
 
@@ -342,8 +355,8 @@ TEST_F(Asercom, help_has_a_line_for_each_command) {
 }
 
 TEST_F(Asercom, selector_is_read_live) {
-  Robot& robot = started(2);
-  EXPECT_EQ(reply("C\r"), "c,2\r\n");
+  Robot& robot = started(4);
+  EXPECT_EQ(reply("C\r"), "c,4\r\n");
   robot.turn_selector(14);
   EXPECT_EQ(reply("C\r"), "c,14\r\n");
 }
