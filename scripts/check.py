@@ -70,7 +70,9 @@ def may_include(path, target):
     """Whether the file may include the project file `target` (a path from the top)."""
     room = room_of(path)
     own = room_of(target)
-    if room.startswith(FREE_ROOMS) or own == room:
+    if room.startswith(FREE_ROOMS) or own == room or re.fullmatch(r"firmware/\w+/test\.cpp", path):
+        return True
+    if room == "firmware" and path.endswith("/test.cpp"):  # a controller's own test is a test
         return True
     if room.startswith("sim_core"):
         if path.count("/") == 1:  # sim_core/simulation.*: the front door of all rooms

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One tick, in order: minds run against the frozen scene, wheels turn into travel, bodies move, poses are
-// published, the digest grows.
+// published, messages pass, the digest grows.
 #include "sim_core/simulation.h"
 
 #include <algorithm>
@@ -23,6 +23,7 @@ std::unique_ptr<Motion> make_motion(const WorldDesc& world, const Layout& layout
   desc.tick_s = 1.0 / world.physics_hz;
   desc.gravity_m_s2 = world.gravity_m_s2;
   desc.fixed = &layout.fixed;
+  desc.ground = &layout.ground;
   for (const Surface& s : layout.fixed_surface) desc.surfaces.push_back({s.friction, s.restitution});
   for (std::size_t i = 0; i < layout.moving.size(); ++i) {
     desc.solids.push_back(layout.moving[i].solid);
@@ -37,6 +38,7 @@ std::unique_ptr<Motion> make_motion(const WorldDesc& world, const Layout& layout
     body.hold_n = m.wheel_friction * world.floor.friction * m.mass_kg * world.gravity_m_s2;
     body.traction_n = std::min(body.hold_n, m.max_push_n);
     body.side_friction = m.side_friction;
+    body.half_base_m = kFootingShare * m.body_radius_m;
     desc.robots.push_back(body);
   }
   for (int object : layout.loose_object) {
@@ -84,6 +86,7 @@ void Simulation::step() {
   turn_wheels(end);
   const double moved_m = motion_->step(travel_.data(), scene_->neighbours());
   scene_->publish(motion_->bodies(), moved_m);
+  for (const auto& medium : media_) medium->exchange(*scene_, end);
   fold_digest();
 }
 

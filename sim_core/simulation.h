@@ -9,6 +9,7 @@
 
 #include "sim_core/base/clock.h"
 #include "sim_core/physics/motion.h"
+#include "sim_core/world/medium.h"
 #include "sim_core/world/robot_mind.h"
 #include "sim_core/world/scene.h"
 #include "sim_core/world/world_desc.h"
@@ -24,6 +25,9 @@ class Simulation {
   ~Simulation();
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
+
+  /// Something that carries messages between the robots from the next tick on; several work in this order.
+  void add(std::unique_ptr<Medium> medium) { media_.push_back(std::move(medium)); }
 
   /// Advances by one tick.
   void step();
@@ -60,6 +64,7 @@ class Simulation {
   std::unique_ptr<Scene> scene_;
   std::unique_ptr<Motion> motion_;
   Minds minds_;
+  std::vector<std::unique_ptr<Medium>> media_;
   std::unique_ptr<WorkerPool> workers_;
 
   struct Wheels {

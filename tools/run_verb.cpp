@@ -114,7 +114,7 @@ int run(const RunArguments& arguments) {
   }
   for (int i = 0; i < twin->robots(); ++i)
     for (int port = 1; port <= 2; ++port)
-      if (const auto* end = twin->mind(i).board().uart(port).end())
+      if (const auto* end = twin->mind(i).board().uart(port).end(); end && !end->name().empty())
         std::cerr << twin->world().robots[static_cast<std::size_t>(i)].name << " uart" << port << ": "
                   << end->name() << '\n';
 

@@ -38,6 +38,7 @@ Summary summarise(const twin::Twin& twin, double wall_s) {
   s.digest = simulation.digest();
   s.simulated_s = sim::to_seconds(simulation.now());
   s.wall_s = wall_s;
+  if (twin.radio()) s.radio = twin.radio()->counters();
   for (int i = 0; i < twin.robots(); ++i) {
     const auto& mind = twin.mind(i);
     RobotSummary r;
@@ -101,6 +102,18 @@ std::string to_json(const Summary& s) {
   j["wall_s"] = s.wall_s;
   j["speed"] = s.wall_s > 0 ? s.simulated_s / s.wall_s : 0.0;
   j["digest"] = hex(s.digest);
+  if (s.radio) {
+    nlohmann::ordered_json radio;
+    radio["sent"] = s.radio->sent;
+    radio["given_up"] = s.radio->given_up;
+    radio["delivered"] = s.radio->delivered;
+    radio["out_of_range"] = s.radio->out_of_range;
+    radio["by_chance"] = s.radio->by_chance;
+    radio["by_collision"] = s.radio->by_collision;
+    radio["while_sending"] = s.radio->while_sending;
+    radio["switched_off"] = s.radio->switched_off;
+    j["radio"] = radio;
+  }
   j["robots"] = nlohmann::ordered_json::array();
   for (const auto& r : s.robots) {
     nlohmann::ordered_json robot;

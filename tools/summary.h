@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a run comes to: for people, and as JSON for programs (the keys are a contract, docs/design.md).
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,7 +27,8 @@ struct Summary {
   std::uint64_t seed = 0, digest = 0;
   double simulated_s = 0, wall_s = 0;
   std::vector<RobotSummary> robots;
-  std::vector<host::TrapReport> traps;  ///< of all robots
+  std::vector<host::TrapReport> traps;      ///< of all robots
+  std::optional<sim::RadioCounters> radio;  ///< when a robot has one
 };
 
 Summary summarise(const twin::Twin& twin, double wall_s);

@@ -112,8 +112,8 @@ void i2c_write(int device, int reg, int value) {
 static void read_words(int reg, int *words, int count) {
   int i;
   for (i = 0; i < count; i++) {
-    unsigned int low = e_i2cp_read((char)GROUND_BOARD, (char)(reg + 2 * i + 1)) & 0xFF;
-    words[i] = (int)((unsigned int)e_i2cp_read((char)GROUND_BOARD, (char)(reg + 2 * i)) << 8 | low);
+    unsigned int high = e_i2cp_read((char)GROUND_BOARD, (char)(reg + 2 * i)) & 0xFF;
+    words[i] = (int)(high << 8 | (e_i2cp_read((char)GROUND_BOARD, (char)(reg + 2 * i + 1)) & 0xFF));
   }
 }
 

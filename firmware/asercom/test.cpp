@@ -411,6 +411,22 @@ TEST_F(Asercom, ground_sensors_that_are_not_there_read_minus_one) {
   EXPECT_EQ(reply(binary("M") + kEnd, 0.3), std::string(10, '\xFF'));
 }
 
+// 3.3 mm above a white floor: 1000 - 700 * 3.3 / 16 = 856 by the published table
+TEST_F(Asercom, ground_sensors_are_read_high_byte_first) {
+  world.floor.colour = {1, 1, 1};
+  sim::PartDesc board;
+  board.kind = "ground-sensors";
+  board.values["noise"].numbers = {0};
+  puck().settings().parts.push_back(board);
+  run_for(3);
+  const std::vector<int> text = numbers_of(reply("M\r", 0.3));
+  ASSERT_EQ(text.size(), 5u);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(text[static_cast<std::size_t>(i)], 856);
+  std::string words;
+  for (int value : text) words += word(value);
+  EXPECT_EQ(reply(binary("M") + kEnd, 0.3), words);
+}
+
 TEST_F(Asercom, i2c_goes_through) {
   started();
   EXPECT_EQ(reply("W,192,3,-5\r"), "w\r\n");
@@ -464,6 +480,34 @@ TEST_F(Asercom, sounds_are_played_or_stopped) {
   for (const char* command : {"T,1\r", "T,5\r", "T,0\r", "T,3\r", "T,9\r"})
     EXPECT_EQ(reply(command, 0.3), "t\r\n") << command;
   EXPECT_EQ(reply("t,2\r", 0.3), "t\r\n");  // a small t is a T as well
+  expect_no_traps();
+}
+
+// --- hardware revision 1.3 ---------------------------------------------------------------------------------
+
+TEST_F(Asercom, revision_1_3_measures_its_battery_rotation_and_temperature) {
+  puck().battery(4.0).settings().revision = "1.3";
+  run_for(4);
+  // 4.0 V are 2437.5 counts; camera and infrared draw some 38 mA more through 0.2 ohm: 5 counts less
+  int counts = 0, percent = 0, length = 0;
+  const std::string battery = reply("b\r");
+  ASSERT_EQ(std::sscanf(battery.c_str(), "b,%d (%d%%)\r\n%n", &counts, &percent, &length), 2) << battery;
+  EXPECT_EQ(static_cast<std::size_t>(length), battery.size());
+  EXPECT_NEAR(counts, 2433, 3);
+  EXPECT_EQ(percent, 100 * (counts - 2070) / 490);
+  EXPECT_NEAR(word_at(reply(binary("b") + kEnd), 0), counts, 1);
+  // at rest: 8.75 mdps a count, so a few hundred counts are a few degrees a second
+  const std::vector<int> rotation = numbers_of(reply("g\r"));
+  ASSERT_EQ(rotation.size(), 3u);
+  for (int axis : rotation) EXPECT_NEAR(axis, 0, 500);
+  const std::string raw = reply(binary("gt") + kEnd);
+  ASSERT_EQ(raw.size(), 7u);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(word_at(raw, 2 * i), 0, 500);
+  // two lines more: rotation and temperature
+  const std::string help = reply("H\r", 0.5);
+  EXPECT_EQ(std::count(help.begin(), help.end(), '\n'), 1 + 27);
+  const std::vector<int> acceleration = numbers_of(reply("A\r"));
+  ASSERT_EQ(acceleration.size(), 3u);
   expect_no_traps();
 }
 

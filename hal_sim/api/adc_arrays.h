@@ -2,9 +2,9 @@
  * The ADC driver's public variables, shared by the files of the API that fill them.
  *
  * On the robot the interrupt writes them; here they are brought up to date when a function of the driver is
- * called (e_get_prox() its own two entries, e_ad_is_*() and the stopwatch everything). A program that reads
- * them without ever calling one of these sees old values.
- * Not modelled: e_mic_scan and e_acc_scan stay 0.
+ * called (e_get_prox() its own two entries, e_ad_is_*() and the stopwatch everything), and when a controller
+ * looks at them itself (adc_seen.c).
+ * Not modelled: e_mic_scan stays 0.
  */
 #ifndef TWINPUCK_API_ADC_ARRAYS_H
 #define TWINPUCK_API_ADC_ARRAYS_H
@@ -23,8 +23,13 @@ extern int selector;
 extern unsigned int tickAdcIsr;
 extern unsigned char updateAccI2CCounter;
 
+/** Interrupts that the counters know of. */
+extern unsigned long twinpuck_interrupts_seen;
+
 /** Counters and indices as the interrupt would have left them. */
 void twinpuck_refresh_adc_counters(void);
+/** Accelerometer samples and the index of the newest. */
+void twinpuck_refresh_acc(void);
 /** One sensor's two entries. */
 void twinpuck_refresh_ir(unsigned int sensor);
 

@@ -6,6 +6,7 @@
 #include "adc_arrays.h"
 
 #include "hal_sim/host/pins.h"
+#include "hal_sim/host/pins_acc.h"
 #include "utility/utility.h"
 
 #define GUMSTIX_POSITION 10  /* selector position that scans the turret's pair too */
@@ -22,19 +23,24 @@ int selector;
 unsigned int tickAdcIsr;
 unsigned char updateAccI2CCounter;
 
-static unsigned long interrupts_seen;
+unsigned long twinpuck_interrupts_seen;
 
 void twinpuck_refresh_adc_counters(void) {
   /* 32 bits: the robot would find anything longer slow */
   unsigned long interrupts = (unsigned long)tp_scan_interrupts();
-  unsigned long news = interrupts - interrupts_seen;
+  unsigned long news = interrupts - twinpuck_interrupts_seen;
   if (news == 0) return;
-  interrupts_seen = interrupts;
+  twinpuck_interrupts_seen = interrupts;
   tickAdcIsr = news > TICK_COUNTER_MAX - tickAdcIsr ? TICK_COUNTER_MAX : tickAdcIsr + (unsigned int)news;
   updateAccI2CCounter = news + updateAccI2CCounter > ACC_COUNTER_MAX
                             ? ACC_COUNTER_MAX
                             : (unsigned char)(updateAccI2CCounter + (unsigned int)news);
   e_last_mic_scan_id = (unsigned int)tp_scan_mic_index();
+  e_last_acc_scan_id = (unsigned int)tp_scan_acc_index();
+}
+
+void twinpuck_refresh_acc(void) {
+  tp_scan_acc_values(e_acc_scan);
   e_last_acc_scan_id = (unsigned int)tp_scan_acc_index();
 }
 
@@ -44,9 +50,9 @@ void twinpuck_refresh_ir(unsigned int sensor) {
 }
 
 static void refresh_all(void) {
-  unsigned long before = interrupts_seen;
+  unsigned long before = twinpuck_interrupts_seen;
   twinpuck_refresh_adc_counters();
-  if (interrupts_seen != before) tp_scan_values(e_ambient_ir, e_ambient_and_reflected_ir);
+  if (twinpuck_interrupts_seen != before) tp_scan_values(e_ambient_ir, e_ambient_and_reflected_ir);
 }
 
 void e_init_ad_scan(unsigned char only_micro) {
@@ -66,7 +72,7 @@ unsigned char e_ad_is_array_filled(void) {
 /* the program never runs inside the interrupt, so after the first sample it always sees 1 */
 unsigned char e_ad_is_acquisition_completed(void) {
   refresh_all();
-  return interrupts_seen > 0;
+  return twinpuck_interrupts_seen > 0;
 }
 
 void e_ad_scan_on(void) { tp_scan_switch(1); }

@@ -1,18 +1,19 @@
 /* SPDX-License-Identifier: MIT
  * Port initialisation, and the question whether this robot is of revision 1.3.
  *
- * Modelled: latches and directions; the time the library spends on starting the I2C bus and asking.
- * Not modelled: the transaction itself; starting accelerometer and gyroscope of revision 1.3 costs time only.
+ * Modelled: latches and directions; the time the library spends on starting the I2C bus and asking, as a sum;
+ * the answer of whatever hangs on the bus. On revision 1.3 the sensors are started over the bus, byte by byte.
  * Source: [lib: motor_led/e_init_port.c], facts restated.
  */
 #include "motor_led/e_init_port.h"
 
+#include "acc_gyro/e_lsm330.h"
 #include "hal_sim/host/pins.h"
+#include "hal_sim/host/pins_acc.h"
 
 /* bus start: three waiting loops of 10,000 rounds; then a read of four bytes at 90 kHz */
 #define I2C_START_CYCLES 300000 /* [estimated: 30,000 rounds of 10 cycles] */
 #define I2C_READ_CYCLES 7000    /* [estimated: 40 bit times of 164 cycles, polling] */
-#define SENSOR_START_CYCLES 40000 /* [estimated: six register writes with their waits] */
 
 /* exported under this name by the library's object */
 unsigned char isPresentFlag;
@@ -20,8 +21,8 @@ unsigned char isPresentFlag;
 void e_init_port(void) {
   tp_init_ports();
   tp_spend(I2C_START_CYCLES + I2C_READ_CYCLES);
-  isPresentFlag = (unsigned char)tp_revision_1_3();
-  if (isPresentFlag) tp_spend(SENSOR_START_CYCLES);
+  isPresentFlag = (unsigned char)tp_lsm330_answers();
+  if (isPresentFlag) initAccAndGyro();
 }
 
 unsigned char isEpuckVersion1_3(void) { return isPresentFlag; }

@@ -2,6 +2,7 @@
  * The names of the library before 2006 (motors.h, led.h, prox.h, ...): the basic variants under other names.
  * Their headers share guards with the later ones, so their prototypes are repeated here.
  */
+#include "a_d/e_accelerometer.h"
 #include "a_d/e_ad_conv.h"
 #include "a_d/e_prox.h"
 #include "motor_led/e_init_port.h"
@@ -27,6 +28,9 @@ void SetFrontLed(unsigned int value) { e_set_front_led(value); }
 void InitProx(void) { e_init_prox(); }
 int GetProx(unsigned int sensor_number) { return e_get_prox(sensor_number); }
 int GetAmbientLight(unsigned int sensor_number) { return e_get_ambient_light(sensor_number); }
+
+void InitAcc(void) { e_init_acc(); }
+void GetAcc(int *x, int *y, int *z) { e_get_acc(x, y, z); }
 
 void InitAd(void) { e_init_ad(); }
 int ReadAd(unsigned int channel) { return e_read_ad(channel); }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "hal_sim/board/accelerometer.h"
 #include "hal_sim/board/board.h"
 
 namespace board {
@@ -18,6 +19,9 @@ Cycle hold_cycles(int sensor) {
   const int channel = sensor < 4 ? 3 : sensor < 8 ? 4 : 9 - sensor;
   return (channel * kScanChannelTad + 1) * kScanTadCycles;
 }
+/// Cycles from the beginning of a six-channel frame to the hold instant of an accelerometer axis.
+constexpr Cycle acc_hold_cycles(int axis) { return ((3 + axis) * kScanChannelTad + 1) * kScanAccTadCycles; }
+static_assert(6 * kScanChannelTad * kScanAccTadCycles == kScanFrameCycles);
 static_assert((3 * kScanChannelTad + 1) * kScanTadCycles == 552);
 static_assert(5 * kScanChannelTad * kScanTadCycles == kScanFrameCycles);
 }  // namespace
@@ -28,6 +32,7 @@ void AdcScan::settle(Cycle at) {
     dark(sensor, at);
     lit(sensor, at);
   }
+  fill_acc(at);
   const std::int64_t passed = frames(at);
   total_base_ += passed;
   if (!micro_only_) full_base_ += passed;
@@ -45,6 +50,7 @@ void AdcScan::start(bool micro_only, bool five_pairs, Cycle at) {
   pair_base_ %= pairs_;
   micro_only_ = micro_only;
   on_ = true;
+  ++starts_;
 }
 
 void AdcScan::switch_converter(bool on, Cycle at) {
@@ -56,7 +62,12 @@ void AdcScan::switch_converter(bool on, Cycle at) {
 void AdcScan::reset(Cycle at) {
   settle(at);
   noise_base_ += 2 * static_cast<std::uint64_t>(full_base_ / kScanPeriod + 1);
+  acc_noise_base_ += static_cast<std::uint64_t>(acc_kept_);
+  acc_kept_ = 0;
+  acc_used_ = false;
+  acc_ = AccRing{};
   on_ = micro_only_ = false;
+  starts_ = 0;
   pairs_ = 4;
   total_base_ = full_base_ = period_base_ = 0;
   pair_base_ = 0;
@@ -161,6 +172,35 @@ Cycle AdcScan::horizon(int sensor, Cycle at) {
   lit(sensor, at);
   return std::min(dark_[static_cast<std::size_t>(sensor)].until,
                   lit_[static_cast<std::size_t>(sensor)].until);
+}
+
+void AdcScan::fill_acc(Cycle at) {
+  const std::int64_t count = acc_samples(at);
+  // what the ring has lost again need not be known
+  for (std::int64_t k = std::max(acc_kept_, count - kAccSamples); k < count; ++k) {
+    const Cycle frame = full_cycle(k * kScanPeriod + kScanAccSlot) - kScanFrameCycles;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Cycle hold = frame + acc_hold_cycles(axis);
+      const bool analogue = board_.setup().revision == Revision::Analogue;
+      const int counts =
+          analogue ? accelerometer_counts(board_, axis, hold, acc_noise_base_ + static_cast<std::uint64_t>(k))
+          : axis == 2 ? board_.battery_counts(hold)
+                      : 0;
+      acc_[static_cast<std::size_t>(axis)][static_cast<std::size_t>((k + 1) % kAccSamples)] =
+          static_cast<std::int16_t>(counts);
+    }
+  }
+  acc_kept_ = count;
+}
+
+const AdcScan::AccRing& AdcScan::acc_scan(Cycle at) {
+  acc_used_ = true;
+  fill_acc(at);
+  return acc_;
+}
+
+Cycle AdcScan::acc_until(Cycle at) const {
+  return on_ && !micro_only_ ? full_cycle(kScanPeriod * acc_samples(at) + kScanAccSlot) : host::kNever;
 }
 
 unsigned AdcScan::pulses(Cycle at) const {

@@ -10,9 +10,10 @@
 // Nothing is ticked: the number of interrupts so far follows from the clock, and a sample is evaluated when
 // somebody asks for it, at the instant at which it was taken. It is then kept, so it never changes.
 // Modelled: both rates, stopping and starting the converter, 4 or 5 pairs, the sample before the first flash.
-// Not modelled: the converter's few cycles of rest while the interrupt changes its settings; microphones;
-// accelerometer; turret sensors 8 and 9 (read 0).
-// Source: [lib: a_d/advance_ad_scan/e_ad_conv.c], facts restated.
+// Accelerometer samples are kept tick by tick from the first time that a program asks for one; those of
+// before are worked out then, from poses of at most 40 ms ago. Not modelled: the converter's few cycles of
+// rest while the interrupt changes its settings; microphones; turret sensors 8 and 9 (read 0). Source: [lib:
+// a_d/advance_ad_scan/e_ad_conv.c], facts restated.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -34,6 +35,8 @@ class AdcScan {
   /// The driver's statics and arrays return to their start values.
   void reset(Cycle at);
 
+  /// Calls of start() since the last reset.
+  int starts() const { return starts_; }
   bool is_on() const { return on_; }
   bool micro_only() const { return micro_only_; }
   Cycle frame_cycles() const { return micro_only_ ? kScanMicroFrameCycles : kScanFrameCycles; }
@@ -64,6 +67,16 @@ class AdcScan {
   /// Cycle before which neither of the two changes.
   Cycle horizon(int sensor, Cycle at);
 
+  using AccRing = std::array<std::array<std::int16_t, kAccSamples>, 3>;
+  /// e_acc_scan at `at`: 0 where nothing was sampled yet. Index 0 is filled last, as in the driver.
+  const AccRing& acc_scan(Cycle at);
+  /// Cycle at which the next accelerometer sample arrives; kNever when none will.
+  Cycle acc_until(Cycle at) const;
+  /// Works out the samples so far, if a program has asked for any before.
+  void keep_acc(Cycle at) {
+    if (acc_used_) fill_acc(at);
+  }
+
   /// IR emitter lines that the scan holds on: bit = pair; bit 4 the turret's (body and front LED).
   unsigned pulses(Cycle at) const;
   /// Next change of pulses().
@@ -89,10 +102,12 @@ class AdcScan {
   Cycle next_sample(Cycle at, int slot, int shift, int pair) const;
   int evaluate(int sensor, std::int64_t period, bool lit_sample) const;
   void settle(Cycle at);
+  void fill_acc(Cycle at);
 
   const Board& board_;
   bool on_ = false;
   bool micro_only_ = false;
+  int starts_ = 0;
   int pairs_ = 4;
   Cycle anchor_ = 0;              // the current run of frames began here
   std::int64_t total_base_ = 0;   // interrupts before the anchor
@@ -102,6 +117,10 @@ class AdcScan {
   std::uint64_t noise_base_ = 0;  // samples drawn before the last reset
   std::array<Sample, 10> dark_{};
   std::array<Sample, 10> lit_{};
+  AccRing acc_{};
+  bool acc_used_ = false;
+  std::int64_t acc_kept_ = 0;         // samples in acc_
+  std::uint64_t acc_noise_base_ = 0;  // samples before the last reset
 };
 
 }  // namespace board

@@ -29,15 +29,27 @@ void BasicProx::start(Cycle at) {
   on_ = true;
 }
 
-void BasicProx::stop(Cycle at) {
+void BasicProx::stop(Cycle at) { hold(at); }
+
+void BasicProx::hold(Cycle at) {
+  if (!on_) return;
+  const Cycle next = horizon(at);
   settle(at);
+  left_ = next - at;
   on_ = false;
+}
+
+void BasicProx::release(Cycle at) {
+  if (on_ || left_ == 0) return;
+  started_ = at + left_ - kBasicPulseCycles;
+  on_ = true;
 }
 
 void BasicProx::reset(Cycle at) {
   settle(at);
   noise_base_ += static_cast<std::uint64_t>(base_) + 1;
   on_ = false;
+  left_ = 0;
   base_ = 0;
   dark_.fill(Sample{});
   reflected_.fill(Sample{});

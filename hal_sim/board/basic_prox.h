@@ -25,6 +25,10 @@ class BasicProx {
   void start(Cycle at);
   /// e_stop_prox(): values stay.
   void stop(Cycle at);
+  /// TON of its timer cleared / set by another driver: the rest of the period under way is kept meanwhile.
+  /// release() starts the timer even if e_stop_prox() had stopped it, as the library's do.
+  void hold(Cycle at);
+  void release(Cycle at);
   void reset(Cycle at);
   bool is_on() const { return on_; }
 
@@ -58,6 +62,7 @@ class BasicProx {
   const Board& board_;
   bool on_ = false;
   Cycle started_ = 0;
+  Cycle left_ = 0;         // of the period under way when the timer was stopped; 0: it never ran
   std::int64_t base_ = 0;  // events before the last start
   std::uint64_t noise_base_ = 0;
   std::array<Sample, 8> dark_{};

@@ -10,6 +10,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hal_sim/board/accelerometer.h"
+#include "hal_sim/board/lsm330.h"
+#include "hal_sim/board/parts_params.h"
 #include "hal_sim/board/remote_params.h"
 #include "sim_core/base/hash.h"
 #include "sim_core/light/proximity.h"
@@ -53,6 +56,7 @@ Board::Board(const Setup& setup)
       basic_prox_(*this),
       battery_(setup.battery_wh, setup.battery_v, kProcessorA + kBluetoothA + kBoardA) {
   for (std::size_t i = 0; i < kPorts; ++i) tris_[i] = kImplemented[i];
+  if (setup.revision == Revision::Rev13) i2c_.attach(std::make_unique<Lsm330>(*this));
 }
 
 Board::~Board() = default;
@@ -133,6 +137,7 @@ void Board::port_write(char port, Register reg, std::uint16_t value, Cycle at) {
   if (reg == Register::Tris) {
     tris_[i] = value;
     if (index == kD) connect_steppers(at);
+    for (const auto& part : parts_) part->pins_changed(at);
     follow_power(at);
     return;
   }
@@ -155,6 +160,7 @@ void Board::port_write(char port, Register reg, std::uint16_t value, Cycle at) {
   if (index == kC && scan_.pulses(at) & 16u) value = static_cast<std::uint16_t>(value & ~(bit(1) | bit(2)));
   if (value == lat_[i]) return;
   lat_[i] = value;
+  for (const auto& part : parts_) part->pins_changed(at);
   follow_power(at);
 }
 
@@ -236,11 +242,11 @@ void Board::processor_reset(Cycle at) {
   basic_prox_.reset(at);
   for (Uart& uart : uarts_) uart.reset(at);
   i2c_master_.processor_reset(at);
-  for (const auto& part : parts_) part->processor_reset(at);
   requests = Requests{};
   lat_.fill(0);
   for (std::size_t i = 0; i < kPorts; ++i) tris_[i] = kImplemented[i];
   follow_power(at);
+  for (const auto& part : parts_) part->processor_reset(at);
 }
 
 void Board::plug_in(std::unique_ptr<Part> part) {
@@ -255,12 +261,20 @@ std::optional<double> Board::part_analogue_v(int channel, Cycle at) const {
   return std::nullopt;
 }
 
+std::optional<int> Board::part_counts(int channel, Cycle at) const {
+  const auto level_v = part_analogue_v(channel, at);
+  if (!level_v) return std::nullopt;
+  return static_cast<int>(
+      std::clamp(std::floor(*level_v / kPartReferenceV * (kAdcMax + 1)), 0.0, double{kAdcMax}));
+}
+
 void Board::turn_selector(int position) { setup_.selector = position & 15; }
 
 void Board::set_battery(double volts, Cycle at) { battery_.set_voltage(volts, at); }
 
 void Board::exchange(Cycle at) {
   for (Uart& uart : uarts_) uart.exchange(at);
+  scan_.keep_acc(at);
 }
 
 // --- analogue inputs -------------------------------------------------------------------------------------
@@ -319,7 +333,11 @@ int Board::convert(int channel, Cycle at) {
     if (lit_for < 0 && pulses(at) & (1u << (sensor & 3))) lit_for = 40 * kIrSettleCycles;
     return ir_counts(sensor, at, lit_for, kConversionOffset + conversions_++);
   }
-  if (channel == 7 && setup_.revision == Revision::Rev13) return battery_counts(at);
+  if (const auto counts = part_counts(channel, at)) return *counts;
+  if (channel >= kAccChannel) {
+    if (setup_.revision == Revision::Rev13) return channel == 7 ? battery_counts(at) : 0;  // 5 and 6 are open
+    return accelerometer_counts(*this, channel - kAccChannel, at, kConversionOffset + conversions_++);
+  }
   return -1;
 }
 

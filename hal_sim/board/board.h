@@ -7,8 +7,8 @@
 //
 // Modelled: port latches, directions and pin levels; two steppers that follow their coils; the library's
 // motor drivers, agenda timer, ADC scan and UARTs in closed form; IR circuit; LEDs; selector; remote
-// control's receiver; battery, fed by what is on. Not modelled: accelerometer, microphones, camera, codec
-// (each fails loudly in hal_sim/api).
+// control's receiver; battery, fed by what is on. Motion sensors: accelerometer.h (before revision 1.3),
+// lsm330.h (1.3). Not modelled: microphones, camera, codec (each fails loudly in hal_sim/api).
 //
 // Every method takes the cycle of this robot's clock at which it happens. Cycles never go back between calls
 // that change something. Nothing depends on who looked before: const methods have no side effects, and a
@@ -63,8 +63,11 @@ struct Setup {
   double ir_noise_scale = 1.0;                          ///< factor on the profile's relative noise; 0 = none
   double ambient_noise_counts = 0;  ///< standard deviation of every conversion of an IR channel, counts
   double ambient_counts_per_w_m2 = kAmbientCountsPerWm2;  ///< fall of the dark sample with light
-  double clock_ppm = 0;     ///< crystal error, parts per million, positive = fast
-  double boot_delay_s = 0;  ///< s from the world's beginning to the first instruction
+  std::array<double, 3> acc_offset_m_s2{};                ///< added to the specific force: forward, left, up
+  std::array<double, 3> gyro_offset_rad_s{};              ///< added to the angular rates about these axes
+  double motion_noise_scale = 1;  ///< factor on the noise of accelerometer and gyroscope
+  double clock_ppm = 0;           ///< crystal error, parts per million, positive = fast
+  double boot_delay_s = 0;        ///< s from the world's beginning to the first instruction
 };
 
 class Board {
@@ -147,6 +150,8 @@ class Board {
   const std::vector<std::unique_ptr<Part>>& parts() const { return parts_; }
   /// Voltage that a part puts on the analogue input AN`channel`, V; empty: none does.
   std::optional<double> part_analogue_v(int channel, Cycle at) const;
+  /// The same as converted, counts; whatever samples AN5 to AN7 asks this first.
+  std::optional<int> part_counts(int channel, Cycle at) const;
   /// e_init_port(): latches 0, directions as the library wants them, the I2C module on. (Its cost is the
   /// caller's.)
   void init_ports(Cycle at);
@@ -156,9 +161,8 @@ class Board {
   /// Counts of a proximity sensor's phototransistor at `at`, its emitter having been on for `lit_for` cycles
   /// (negative: off). Noise is drawn from `sample`, a number unique to the sample.
   int ir_counts(int sensor, Cycle at, Cycle lit_for, std::uint64_t sample) const;
-  /// Counts of a single conversion of input AN`channel` by a program that runs the converter itself. Sensors
-  /// and battery only; microphones and accelerometer are not simulated (answers -1). Each call is a new
-  /// sample.
+  /// Counts of a single conversion of input AN`channel` by a program that runs the converter itself. Sensors,
+  /// accelerometer and battery; microphones are not simulated (answers -1). Each call is a new sample.
   int convert(int channel, Cycle at);
   /// Battery as the library's raw value on AN7 (revision 1.3); 0 on others.
   int battery_counts(Cycle at) const;

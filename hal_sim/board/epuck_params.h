@@ -50,9 +50,11 @@ inline constexpr int kScanPeriod =
 inline constexpr int kScanLitSlot = 3;  // PULSE_PERIOD - 1 [lib: a_d/advance_ad_scan/e_ad_conv.c]
 inline constexpr int kScanLitInterrupts =
     5;  // a flash lasts from slot 63 to 3 [lib: a_d/advance_ad_scan/e_ad_conv.c]
-inline constexpr int kScanAccSlot = 62;       // ACC_PROX_PERIOD - 2 [lib: a_d/advance_ad_scan/e_ad_conv.c]
-inline constexpr int kScanDarkSlot = 63;      // ACC_PROX_PERIOD - 1 [lib: a_d/advance_ad_scan/e_ad_conv.c]
-inline constexpr Cycle kScanTadCycles = 12;   // five channels: ADCS 23 [lib: a_d/advance_ad_scan/e_ad_conv.h]
+inline constexpr int kScanAccSlot = 62;      // ACC_PROX_PERIOD - 2 [lib: a_d/advance_ad_scan/e_ad_conv.c]
+inline constexpr int kScanDarkSlot = 63;     // ACC_PROX_PERIOD - 1 [lib: a_d/advance_ad_scan/e_ad_conv.c]
+inline constexpr Cycle kScanTadCycles = 12;  // five channels: ADCS 23 [lib: a_d/advance_ad_scan/e_ad_conv.h]
+inline constexpr Cycle kScanAccTadCycles =
+    10;                                       // six channels: ADCS 19 [lib: a_d/advance_ad_scan/e_ad_conv.h]
 inline constexpr Cycle kScanChannelTad = 15;  // SAMC 1 + conversion 14 [DS70143 20.7]
 inline constexpr int kMicSamples = 100;       // MIC_SAMP_NB [lib: a_d/advance_ad_scan/e_ad_conv.h]
 inline constexpr int kAccSamples = 50;        // ACC_SAMP_NB [lib: a_d/advance_ad_scan/e_ad_conv.h]

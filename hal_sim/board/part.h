@@ -68,6 +68,10 @@ class Part {
   /// Voltage the part puts on the analogue input AN`channel` at `at`, V; empty: it leaves that input alone.
   virtual std::optional<double> analogue_v(int channel, Cycle at) const { return std::nullopt; }
 
+  /// The processor wrote to a port at `at`: the place to note when a pin changed. Levels:
+  /// board().port_read().
+  virtual void pins_changed(Cycle at) {}
+
   /// The processor was reset. Parts have power of their own, so the default does nothing.
   virtual void processor_reset(Cycle at) {}
 

@@ -23,13 +23,25 @@ void Uart::init_raw(bool enabled, int brg, Cycle at) {
   if (!enabled) raw_count_ = 0;
 }
 
-void Uart::reset(Cycle at) {
-  settle(at);
-  // a byte cut off by the reset never arrives
+void Uart::cut_off(Cycle at) {
   while (!out_ends_.empty() && out_ends_.back() > at) {
     out_ends_.pop_back();
     out_bytes_.pop_back();
   }
+}
+
+void Uart::send_break(Cycle cycles, Cycle at) {
+  settle(at);
+  cut_off(at);
+  enabled_ = false;
+  starts_.fill(at);
+  last_start_ = free_at_ = break_until_ = at + cycles;
+  hash_ = sim::mix64(hash_ ^ static_cast<std::uint64_t>(at));
+}
+
+void Uart::reset(Cycle at) {
+  settle(at);
+  cut_off(at);  // a byte cut off by the reset never arrives
   enabled_ = library_ = overrun_ = false;
   received_count_ = read_count_ = 0;
   raw_count_ = 0;
@@ -142,7 +154,13 @@ void Uart::hand_out(Cycle at) {
 }
 
 void Uart::exchange(Cycle at) {
-  if (!end_ && out_ends_.empty() && on_wire_.empty()) return;
+  if ((!end_ || (end_->idle && break_until_ < 0)) && out_ends_.empty() && on_wire_.empty()) return;
+  if (break_until_ >= 0 && break_until_ <= at) {
+    // what came before the break first
+    hand_out(break_until_);
+    if (end_) end_->on_break(break_until_);
+    break_until_ = -1;
+  }
   hand_out(at);
   settle(at);
   // before the program has set the UART up, nobody outside is made to talk to a deaf robot

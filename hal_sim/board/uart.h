@@ -5,10 +5,10 @@
 //   wire -> shift register -> receive interrupt -> ring of 64 (library), or [ 4 bytes ] without the library
 //
 // A byte's start is known when it is loaded: the end of the byte before, or now. So nothing is ticked.
-// Modelled: transmit buffer, times, bytes lost while disabled, overwriting of unread bytes in the library's
-// ring, 16-bit counters, hardware overrun of four bytes for programs with their own receive interrupt.
-// Not modelled: the transmitter's wait for the next edge of its bit clock (below one bit), framing, parity.
-// Source: [DS70143 18], [lib: uart/], facts restated.
+// Modelled: transmit buffer, break, times, bytes lost while disabled, overwriting of unread bytes in the
+// library's ring, 16-bit counters, hardware overrun of four bytes for programs with their own receive
+// interrupt. Not modelled: the transmitter's wait for the next edge of its bit clock (below one bit),
+// framing, parity. Source: [DS70143 18], [lib: uart/], facts restated.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -40,6 +40,8 @@ class Uart {
   Cycle buffer_empty_at() const { return last_start_; }
   /// Cycle at which the wire falls idle (TRMT).
   Cycle idle_at() const { return free_at_; }
+  /// The transmitter is switched off, bytes that have not left are lost, and the line is low for `cycles`.
+  void send_break(Cycle cycles, Cycle at);
   /// For programs that wait on the buffer: loads as soon as there is room, and says when that is.
   Cycle load_when_room(std::uint8_t byte, Cycle at);
 
@@ -59,7 +61,7 @@ class Uart {
   std::int64_t received(Cycle at);
 
   // --- outside -------------------------------------------------------------------------------------------
-  void connect(std::unique_ptr<UartEnd> end) { end_ = std::move(end); }
+  void connect(std::shared_ptr<UartEnd> end) { end_ = std::move(end); }
   UartEnd* end() const { return end_.get(); }
   /// Tick boundary: what has left goes to the end; what has come starts on the wire, or waits outside until
   /// the UART is enabled.
@@ -71,6 +73,7 @@ class Uart {
  private:
   int waiting(Cycle at) const;
   void settle(Cycle at);
+  void cut_off(Cycle at);
   void hand_out(Cycle at);
 
   struct Arrival {
@@ -100,7 +103,8 @@ class Uart {
   bool overrun_ = false;
   std::int64_t received_ = 0;
 
-  std::unique_ptr<UartEnd> end_;
+  std::shared_ptr<UartEnd> end_;
+  Cycle break_until_ = -1;
   std::uint64_t hash_ = 0;
 };
 

@@ -25,11 +25,19 @@ class UartEnd {
   /// Takes up to `room` bytes that have come from outside by cycle `at`. Returns how many.
   virtual std::size_t collect(std::uint8_t* bytes, std::size_t room, Cycle at) = 0;
 
+  /// The line was held low for longer than a byte; over at cycle `at`. Nothing, on most lines.
+  virtual void on_break(Cycle at) {}
+
+  /// Nothing will come out of collect() by itself: it need not be asked every tick. Written between ticks and
+  /// by the robot's own thread.
+  bool idle = false;
+
   /// A Bluetooth link carries packets: bytes sent without a pause arrive together. True for ends that
   /// programs talk to, since many take what one read() gives them for the whole reply.
   virtual bool takes_packets() const { return false; }
 
-  /// How to reach it, for messages: "/tmp/robot0", "tcp:127.0.0.1:5000", "file:out.txt".
+  /// How to reach it, for messages: "/tmp/robot0", "tcp:127.0.0.1:5000", "file:out.txt"; empty
+  /// when nobody outside can.
   virtual std::string name() const = 0;
 };
 

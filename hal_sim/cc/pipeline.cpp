@@ -2,6 +2,7 @@
 // The optimiser's passes in our own order. Everything that would turn a loop into something else (idioms,
 // deletion, unrolling, vectors) is absent: the chip's compiler has none of it, and a delay loop must stay a
 // delay.
+#include "driver_arrays.h"
 #include "llvm/Analysis/LoopInfo.h"
 #include "llvm/Analysis/TargetLibraryInfo.h"
 #include "llvm/Analysis/TargetTransformInfo.h"
@@ -187,6 +188,7 @@ bool run_pipeline(Unit& unit) {
   };
   lower_early(unit);
   if (unit.failed) return false;
+  refresh_driver_arrays(unit);
   bool optimise = unit.options.level > 0;
   if (optimise) {
     ModulePassManager first;
@@ -195,6 +197,7 @@ bool run_pipeline(Unit& unit) {
   }
   lower_registers(unit);
   if (unit.failed) return false;
+  refresh_driver_arrays(unit);
   if (optimise) {
     keep_polled_flags(unit, fam);
     keep_endless_loops_visible(unit, fam);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Loops that wait. Their back edge asks the host to jump the clock when a whole round changed nothing.
+#include "driver_arrays.h"
 #include "llvm/Analysis/CaptureTracking.h"
 #include "llvm/Analysis/LoopInfo.h"
 #include "llvm/Analysis/ValueTracking.h"
@@ -190,6 +191,7 @@ void instrument(Unit& unit, Function& f, Loop* loop, DominatorTree& dom, int ord
 bool is_poll_safe(const Function* callee, const Unit& unit) {
   StringRef name = callee->getName();
   if (name == kNop || name == kRound || name == "tp_sfr_read" || name == "tp_delay") return true;
+  if (name.startswith(kRefresher)) return true;  // brings up to date what an interrupt has written
   if (unit.facts.poll_safe.count(name.str())) return true;
   return !callee->isDeclaration() && !callee->isInterposable() && safe_body(*callee, unit, 0);
 }

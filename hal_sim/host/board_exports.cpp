@@ -383,8 +383,7 @@ tp_i64 tp_convert(tp_i64 channel) {
   Context& context = Context::current();
   const Cycle now = context.now();
   const int counts = context.board().convert(static_cast<int>(channel), now);
-  if (counts < 0)
-    context.trap(TP_TRAP_UNSIMULATED, "converter: microphones and accelerometer are not simulated yet");
+  if (counts < 0) context.trap(TP_TRAP_UNSIMULATED, "converter: microphones are not simulated yet");
   context.lower_horizon(now);
   return counts;
 }

@@ -135,8 +135,7 @@ void tp_basic_prox_stop(void);
 /** Its newest dark sample / dark minus lit of a sensor 0 to 7, counts. Horizon: its next interrupt. */
 tp_i64 tp_basic_prox_ambient(tp_i64 sensor);
 tp_i64 tp_basic_prox_reflected(tp_i64 sensor);
-/** One conversion of input AN`channel` now, counts; traps TP_TRAP_UNSIMULATED for microphones and
- * accelerometer. */
+/** One conversion of input AN`channel` now, counts; traps TP_TRAP_UNSIMULATED for microphones. */
 tp_i64 tp_convert(tp_i64 channel);
 
 /** UART `number` 1 or 2: enabled at BRG `brg`, the library's receive ring emptied. Write. Source: [lib:

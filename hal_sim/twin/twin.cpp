@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <map>
 
+#include "hal_sim/board/bluetooth_module.h"
 #include "hal_sim/board/epuck_model.h"
 #include "hal_sim/board/part.h"
 #include "hal_sim/board/uart_end.h"
 #include "sim_core/load/world_loader.h"
+#include "sim_core/radio/link_medium.h"
 #include "sim_core/world/variation.h"
 
 namespace twin {
@@ -57,8 +59,23 @@ board::Setup setup_of(const sim::WorldDesc& world, int index) {
     if (i < variation.sensor_offset_counts.size())
       setup.ir_offset_counts[i] = variation.sensor_offset_counts[i];
   }
+  if (robot.revision == "1.3") setup.revision = board::Revision::Rev13;
+  setup.acc_offset_m_s2 = variation.acc_offset_m_s2;
+  setup.gyro_offset_rad_s = variation.gyro_offset_rad_s;
+  setup.motion_noise_scale = robot.variation.motion_noise_scale;
   setup.clock_ppm = variation.clock_ppm;
   setup.boot_delay_s = variation.boot_delay_s;
+  return setup;
+}
+
+board::BluetoothSetup bluetooth_of(const sim::WorldDesc& world, int index) {
+  const sim::LinkEndDesc& link = world.robots[static_cast<std::size_t>(index)].link;
+  board::BluetoothSetup setup;
+  setup.number = link.number >= 0 ? link.number : index + 1;
+  setup.name = link.name.value_or("");
+  setup.pin = link.pin.value_or("");
+  setup.seed = world.seed;
+  setup.timeout_s = world.link.timeout_s;
   return setup;
 }
 
@@ -132,7 +149,15 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
       auto end = board::open_uart_end(ends[port - 1], pty_link(robot.name, port), error);
       if (!error.empty())
         problems.push_back("robot '" + robot.name + "': uart" + std::to_string(port) + ": " + error);
-      if (end) mind->board().uart(port).connect(std::move(end));
+      if (port == 1) {
+        auto module = std::make_shared<board::BluetoothModule>(bluetooth_of(world, static_cast<int>(i)),
+                                                               mind->board().clock(), static_cast<int>(i),
+                                                               std::move(end));
+        twin->bluetooth_.push_back(module);
+        mind->board().uart(1).connect(std::move(module));
+      } else if (end) {
+        mind->board().uart(port).connect(std::move(end));
+      }
     }
     press_keys(*mind, robot.keys);
     twin->minds_.push_back(mind.get());
@@ -142,7 +167,30 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
   if (problems.size() != problems_before) return nullptr;
   for (auto& [name, image] : images) twin->images_.push_back(image);
   twin->simulation_ = std::make_unique<sim::Simulation>(std::move(world), std::move(minds), options.threads);
+  twin->add_media();
   return twin;
+}
+
+// what passes between robots; a world whose robots have nothing of the kind gets nothing
+void Twin::add_media() {
+  std::vector<sim::RadioPort*> radios;
+  for (const auto* mind : minds_)
+    for (board::I2cDevice* device : mind->board().i2c().devices())
+      if (auto* port = dynamic_cast<sim::RadioPort*>(device)) radios.push_back(port);
+  if (!radios.empty()) {
+    auto radio = std::make_unique<sim::RadioMedium>(world().radio, world().seed, std::move(radios));
+    radio_ = radio.get();
+    simulation_->add(std::move(radio));
+  }
+  std::vector<sim::LinkPort*> ends;
+  std::vector<std::vector<sim::Dropout>> dropouts;
+  for (std::size_t i = 0; i < bluetooth_.size(); ++i) {
+    ends.push_back(bluetooth_[i].get());
+    dropouts.push_back(world().robots[i].link.dropouts);
+  }
+  if (!ends.empty())
+    simulation_->add(
+        std::make_unique<sim::LinkMedium>(world().link, world().seed, std::move(ends), std::move(dropouts)));
 }
 
 int Twin::find(const std::string& name) const {

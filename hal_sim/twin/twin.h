@@ -8,8 +8,13 @@
 #include <vector>
 
 #include "hal_sim/host/mind.h"
+#include "sim_core/radio/radio_medium.h"
 #include "sim_core/simulation.h"
 #include "sim_core/world/world_desc.h"
+
+namespace board {
+class BluetoothModule;
+}
 
 namespace twin {
 
@@ -59,13 +64,19 @@ class Twin {
   /// All traps and unexpected resets so far, robot by robot.
   std::vector<host::TrapReport> traps() const;
   const std::vector<std::shared_ptr<host::Image>>& images() const { return images_; }
+  /// The radio channel; null when no robot has a radio.
+  const sim::RadioMedium* radio() const { return radio_; }
+  board::BluetoothModule& bluetooth(int robot) { return *bluetooth_[static_cast<std::size_t>(robot)]; }
 
  private:
   Twin() = default;
+  void add_media();
   std::unique_ptr<sim::Simulation> simulation_;  // owns the minds
   std::vector<host::FirmwareMind*> minds_;
   std::vector<std::string> image_paths_;
   std::vector<std::shared_ptr<host::Image>> images_;
+  const sim::RadioMedium* radio_ = nullptr;                         // the simulation's
+  std::vector<std::shared_ptr<board::BluetoothModule>> bluetooth_;  // one per robot; its UART 1 holds it too
 };
 
 /// Folder of the project: the one that holds firmware/include. TWINPUCK_ROOT, or found from the executable's

@@ -11,6 +11,7 @@
 #include "sim_core/base/check.h"
 #include "sim_core/light/response_curve.h"
 #include "sim_core/world/scene.h"
+#include "sim_core/world/true_motion.h"
 
 namespace sim {
 
@@ -102,8 +103,54 @@ struct RayEnd {
   bool hit;
 };
 
+/// The robot's frame in space, for worlds with ramps: sensors tilt with their robot.
+struct TiltedFrame {
+  Stance stance;
+  TiltedFrame(const Scene& scene, int robot, Clicks at) : stance(sim::stance(scene, robot, at)) {}
+  Vec3 turn(const Vec3& v) const {
+    const BodyAxes& a = stance.axes;
+    return {v.x * a.forward.x + v.y * a.left.x + v.z * a.up.x,
+            v.x * a.forward.y + v.y * a.left.y + v.z * a.up.y,
+            v.x * a.forward.z + v.y * a.left.z + v.z * a.up.z};
+  }
+  Vec3 to_world(const Vec3& v) const {
+    const Vec3 t = turn(v);
+    return {stance.origin_m.x + t.x, stance.origin_m.y + t.y, stance.origin_m.z + t.z};
+  }
+};
+
+/// The same as shoot() in space, ramps included; every ray is tried on every neighbour.
+bool shoot_over_ramps(const Scene& scene, int robot, const SensorOptics& s, Clicks at, RayEnd* ends) {
+  const Surroundings& around = surroundings(scene, robot, at);
+  const TiltedFrame frame(scene, robot, at);
+  const Vec3 from = frame.to_world(s.at_m);
+  bool any = false;
+  for (std::size_t i = 0; i < s.rays.size(); ++i) {
+    RayEnd& end = ends[i] = {s.config.max_range_m(), 1, false};
+    const Ray ray{from, frame.turn(s.rays[i].dir)};
+    for (const Surroundings::Item& item : around.items) {
+      if (!cast_ray(ray, *item.placed, end.distance_m)) continue;
+      end.factor = colour_factor(s.config, *item.surface);
+      end.hit = true;
+    }
+    if (ray.dir.z < -1e-9 && from.z < -ray.dir.z * end.distance_m) {
+      const double d = -from.z / ray.dir.z;
+      end = {d, colour_factor(s.config, scene.floor({from.x + d * ray.dir.x, from.y + d * ray.dir.y})), true};
+    }
+    const int ramp = scene.layout().ground.cast(ray, end.distance_m);
+    if (ramp >= 0) {
+      const Material& material = scene.world().ramps[static_cast<std::size_t>(ramp)].material;
+      end.factor = colour_factor(s.config, surface_of(material));
+      end.hit = true;
+    }
+    any = any || end.hit;
+  }
+  return any;
+}
+
 /// Fills one end per ray; returns false when none met anything.
 bool shoot(const Scene& scene, int robot, const SensorOptics& s, Clicks at, RayEnd* ends) {
+  if (scene.layout().ground.has_ramps()) return shoot_over_ramps(scene, robot, s, at, ends);
   const Surroundings& around = surroundings(scene, robot, at);
   const Frame2& frame = around.frame;
   const double range = s.config.max_range_m();
@@ -247,7 +294,8 @@ std::vector<double> optics_reach_m(const ProximityOptics& optics) { return optic
 ProximityResponse sense_proximity(const Scene& scene, int robot, int sensor, Clicks at) {
   const SensorOptics& s = optics_of(scene, robot, sensor);
   const Neighbours& near = scene.neighbours();
-  if (near.begin(robot) == near.end(robot) && !s.meets_floor) return s.nothing;
+  if (near.begin(robot) == near.end(robot) && !s.meets_floor && !scene.layout().ground.has_ramps())
+    return s.nothing;
   RayEnd ends[kMostRays];
   return shoot(scene, robot, s, at, ends) ? respond(s, ends) : s.nothing;
 }
@@ -262,16 +310,22 @@ double sense_irradiance_w_m2(const Scene& scene, int robot, int sensor, Clicks a
   const SensorMount& mount = world.model_of(world.robots[static_cast<std::size_t>(robot)])
                                  ->proximity[static_cast<std::size_t>(sensor)];
   const SinCos pitch = sin_cos(mount.pitch_rad);
-  const Vec2 axis = pitch.c * frame.turn({s.axis.x, s.axis.y});
+  const Vec2 plan_axis = pitch.c * frame.turn({s.axis.x, s.axis.y});
+  Vec3 from{at_m.x, at_m.y, s.at_m.z}, axis{plan_axis.x, plan_axis.y, pitch.s};
+  if (scene.layout().ground.has_ramps()) {
+    const TiltedFrame tilted(scene, robot, at);
+    from = tilted.to_world(s.at_m);
+    axis = tilted.turn({pitch.c * s.axis.x, pitch.c * s.axis.y, pitch.s});
+  }
   for (const LampDesc& lamp : world.lamps) {
     if (!lamp.on) continue;
-    const Vec3 to{lamp.position_m.x - at_m.x, lamp.position_m.y - at_m.y, lamp.position_m.z - s.at_m.z};
+    const Vec3 to{lamp.position_m.x - from.x, lamp.position_m.y - from.y, lamp.position_m.z - from.z};
     const double d = std::sqrt(to.x * to.x + to.y * to.y + to.z * to.z);
     if (d <= 0) continue;
     const Vec3 dir{to.x / d, to.y / d, to.z / d};
-    const double facing = dir.x * axis.x + dir.y * axis.y + dir.z * pitch.s;
+    const double facing = dir.x * axis.x + dir.y * axis.y + dir.z * axis.z;
     if (facing <= 0) continue;
-    if (scene.cast({{at_m.x, at_m.y, s.at_m.z}, dir}, d, robot, at, nullptr)) continue;
+    if (scene.cast({from, dir}, d, robot, at, nullptr)) continue;
     const std::array<double, 3>& a = lamp.attenuation;
     const double white = (lamp.colour.r + lamp.colour.g + lamp.colour.b) / 3;  // [Webots B3]
     sum += lamp.intensity_w_m2 * white * facing / (a[0] + a[1] * d + a[2] * d * d);
@@ -287,14 +341,14 @@ std::vector<RayTrace> trace_proximity(const Scene& scene, int robot, int sensor,
   const SensorOptics& s = optics_of(scene, robot, sensor);
   RayEnd ends[kMostRays];
   shoot(scene, robot, s, at, ends);
-  const Frame2 frame(scene.pose(robot, at));
-  const Vec2 from = frame.to_world({s.at_m.x, s.at_m.y});
+  const TiltedFrame frame(scene, robot, at);
+  const Vec3 from = frame.to_world(s.at_m);
   std::vector<RayTrace> out;
   for (std::size_t i = 0; i < s.rays.size(); ++i) {
-    const Vec2 dir = frame.turn({s.rays[i].dir.x, s.rays[i].dir.y});
+    const Vec3 dir = frame.turn(s.rays[i].dir);
     const double d = ends[i].distance_m;
-    out.push_back({{from.x, from.y, s.at_m.z},
-                   {from.x + d * dir.x, from.y + d * dir.y, s.at_m.z + d * s.rays[i].dir.z},
+    out.push_back({from,
+                   {from.x + d * dir.x, from.y + d * dir.y, from.z + d * dir.z},
                    d,
                    ends[i].hit,
                    ends[i].factor,

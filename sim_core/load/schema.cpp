@@ -11,11 +11,11 @@
 #include "sim_core/geometry/solid.h"
 #include "sim_core/light/profiles.h"
 #include "sim_core/load/schema_keys.h"
+#include "sim_core/load/schema_radio.h"
+#include "sim_core/load/schema_sections.h"
 
 namespace sim {
-namespace {
 
-/// The material named, or what to say when there is none.
 std::string find_material(const WorldDesc& draft, const std::string& name, Material& out) {
   std::string known;
   for (const Material& m : draft.materials) {
@@ -28,6 +28,8 @@ std::string find_material(const WorldDesc& draft, const std::string& name, Mater
   return fmt::format("got \"{}\", expected the name of a [[material]]{}", name,
                      known.empty() ? " (there are none)" : " (" + known + ")");
 }
+
+namespace {
 
 template <typename T>
 std::vector<KeySpec> material_keys() {
@@ -189,6 +191,21 @@ std::vector<KeySpec> variation_keys() {
              &V::clock_spread_ppm),
       number("boot_spread", "s", 0, 3600, "0", "the boot delay grows by a random time from 0 to this",
              &V::boot_spread_s),
+      {"acc_offset", ValueType::Triple, "m/s2", -20, 20, "", "[0, 0, 0]",
+       "added to what the accelerometer feels: forward, left, up", into<V>([](V& t, const Value& v) {
+         t.acc_offset_m_s2 = {v.numbers[0], v.numbers[1], v.numbers[2]};
+       })},
+      number("acc_offset_spread", "m/s2", 0, 20, "0", "standard deviation of a further offset per axis",
+             &V::acc_offset_spread_m_s2),
+      {"gyro_offset", ValueType::Triple, "deg/s", -250, 250, "", "[0, 0, 0]",
+       "added to what the gyroscope feels about these axes", into<V>([](V& t, const Value& v) {
+         t.gyro_offset_rad_s = {radians(v.numbers[0]), radians(v.numbers[1]), radians(v.numbers[2])};
+       })},
+      {"gyro_offset_spread", ValueType::Number, "deg/s", 0, 250, "", "0",
+       "standard deviation of a further offset per axis",
+       into<V>([](V& t, const Value& v) { t.gyro_offset_spread_rad_s = radians(v.number); })},
+      number("motion_noise", "", 0, 100, "1", "factor on the noise of accelerometer and gyroscope; 0 = none",
+             &V::motion_noise_scale),
   };
 }
 
@@ -278,7 +295,13 @@ std::vector<SectionSpec> make_schema() {
                into<F>([](F& f, const Value& v) { f.image = v.text; })},
               {"friction", ValueType::Number, "", 0, 10, "", "1", "factor on the traction of wheels",
                into<F>([](F& f, const Value& v) { f.friction = v.number; })},
+              {"tilt", ValueType::Pair, "deg", -40, 40, "", "[0, 0]",
+               "the whole floor, with all that stands on it, rises by these angles along +x and along +y",
+               into<F>([](F& f, const Value& v) {
+                 f.tilt_x_rad = radians(v.numbers[0]), f.tilt_y_rad = radians(v.numbers[1]);
+               })},
           });
+  s.push_back(ramp_section());
   using L = WallDesc;
   std::vector<KeySpec> wall{
       {"points", ValueType::Points, "m", -kFar, kFar, "", "required",
@@ -380,59 +403,64 @@ std::vector<SectionSpec> make_schema() {
           "and one sensor; the nearest setting counts.",
           proximity_keys<ProximitySettings>([](ProximitySettings& p) -> ProximitySettings& { return p; }));
 
+  add_radio_sections(s);
+
   using R = RobotDesc;
-  section("robot", true, "A robot.",
-          {
-              {"name", ValueType::Text, "", 0, 0, "", "\"robotN\"", "N counts from 0; names differ",
-               checked<R>([](R& r, const Value& v, const WorldDesc&) {
-                 if (v.text.empty() || v.text.find_first_of(",\"\n\r=") != std::string::npos) {
-                   return fmt::format("got \"{}\", expected a name without comma, quote, = or line break",
-                                      v.text);
-                 }
-                 r.name = v.text;
-                 return std::string();
-               })},
-              {"model", ValueType::Text, "", 0, 0, "", "", "kind of robot; the first that the program knows",
-               checked<R>([](R& r, const Value& v, const WorldDesc& d) {
-                 r.model = v.text;
-                 std::string known;
-                 for (const RobotModel& m : d.models) known += (known.empty() ? "" : ", ") + m.name;
-                 return d.model_of(r)
-                            ? std::string()
-                            : fmt::format("got \"{}\", expected one of the models: {}", v.text, known);
-               })},
-              {"firmware", ValueType::Text, "", 0, 0, "", "\"\"",
-               "controller by name, or a file relative to this one",
-               into<R>([](R& r, const Value& v) { r.firmware = v.text; })},
-              {"position", ValueType::Pair, "m", -kFar, kFar, "", "[0, 0]",
-               "x and y of the middle between its wheels",
-               into<R>([](R& r, const Value& v) { r.pose.x_m = v.numbers[0], r.pose.y_m = v.numbers[1]; })},
-              {"heading", ValueType::Number, "deg", -kMany, kMany, "", "0", "counter-clockwise from +x",
-               into<R>([](R& r, const Value& v) { r.pose.heading_rad = radians(v.number); })},
-              {"selector", ValueType::Integer, "", 0, 15, "", "0", "position of the selector switch",
-               into<R>([](R& r, const Value& v) { r.selector = static_cast<int>(v.integer); })},
-              {"seed", ValueType::Integer, "", 0, 9e18, "", "",
-               "its own seed; otherwise made of the world's seed and its number",
-               into<R>([](R& r, const Value& v) { r.seed = static_cast<std::uint64_t>(v.integer); })},
-              {"battery", ValueType::Number, "V", 2.5, 5, "", "",
-               "voltage at the beginning, only the electronics being on; the model's otherwise",
-               into<R>([](R& r, const Value& v) { r.battery_v = v.number; })},
-              {"battery_wh", ValueType::Number, "Wh", 1e-3, 1000, "", "",
-               "energy of its battery when full; the model's otherwise",
-               into<R>([](R& r, const Value& v) { r.battery_wh = v.number; })},
-              {"colour", ValueType::Colour, "", 0, 1, "", "", "of the body; the model's otherwise",
-               into<R>([](R& r, const Value& v) { r.colour = colour_of(v); })},
-              {"wheel_noise", ValueType::Number, "", 0, 0.5, "", "0",
-               "each wheel's travel times a random factor of 1 - n to 1 + n, drawn anew every 1/32 s",
-               into<R>([](R& r, const Value& v) { r.wheel_noise = v.number; })},
-              {"slip", ValueType::Number, "", 0, 1, "", "0",
-               "part of the wheels' travel that is lost on the floor",
-               into<R>([](R& r, const Value& v) { r.slip = v.number; })},
-              {"uart1", ValueType::Text, "", 0, 0, "", "\"none\"", "none, pty[:LINK], tcp:PORT, file:PATH",
-               checked<R>([](R& r, const Value& v, const WorldDesc&) { return uart_text(v, r.uart1); })},
-              {"uart2", ValueType::Text, "", 0, 0, "", "\"none\"", "none, pty[:LINK], tcp:PORT, file:PATH",
-               checked<R>([](R& r, const Value& v, const WorldDesc&) { return uart_text(v, r.uart2); })},
-          });
+  section(
+      "robot", true, "A robot.",
+      {
+          {"name", ValueType::Text, "", 0, 0, "", "\"robotN\"", "N counts from 0; names differ",
+           checked<R>([](R& r, const Value& v, const WorldDesc&) {
+             if (v.text.empty() || v.text.find_first_of(",\"\n\r=") != std::string::npos) {
+               return fmt::format("got \"{}\", expected a name without comma, quote, = or line break",
+                                  v.text);
+             }
+             r.name = v.text;
+             return std::string();
+           })},
+          {"model", ValueType::Text, "", 0, 0, "", "", "kind of robot; the first that the program knows",
+           checked<R>([](R& r, const Value& v, const WorldDesc& d) {
+             r.model = v.text;
+             std::string known;
+             for (const RobotModel& m : d.models) known += (known.empty() ? "" : ", ") + m.name;
+             return d.model_of(r) ? std::string()
+                                  : fmt::format("got \"{}\", expected one of the models: {}", v.text, known);
+           })},
+          {"firmware", ValueType::Text, "", 0, 0, "", "\"\"",
+           "controller by name, or a file relative to this one",
+           into<R>([](R& r, const Value& v) { r.firmware = v.text; })},
+          {"position", ValueType::Pair, "m", -kFar, kFar, "", "[0, 0]",
+           "x and y of the middle between its wheels",
+           into<R>([](R& r, const Value& v) { r.pose.x_m = v.numbers[0], r.pose.y_m = v.numbers[1]; })},
+          {"heading", ValueType::Number, "deg", -kMany, kMany, "", "0", "counter-clockwise from +x",
+           into<R>([](R& r, const Value& v) { r.pose.heading_rad = radians(v.number); })},
+          {"selector", ValueType::Integer, "", 0, 15, "", "0", "position of the selector switch",
+           into<R>([](R& r, const Value& v) { r.selector = static_cast<int>(v.integer); })},
+          {"revision", ValueType::Choice, "", 0, 0, "1.1|1.3", "\"1.1\"",
+           "of its hardware; 1.3 has another accelerometer, a gyroscope and a battery channel",
+           into<R>([](R& r, const Value& v) { r.revision = v.text; })},
+          {"seed", ValueType::Integer, "", 0, 9e18, "", "",
+           "its own seed; otherwise made of the world's seed and its number",
+           into<R>([](R& r, const Value& v) { r.seed = static_cast<std::uint64_t>(v.integer); })},
+          {"battery", ValueType::Number, "V", 2.5, 5, "", "",
+           "voltage at the beginning, only the electronics being on; the model's otherwise",
+           into<R>([](R& r, const Value& v) { r.battery_v = v.number; })},
+          {"battery_wh", ValueType::Number, "Wh", 1e-3, 1000, "", "",
+           "energy of its battery when full; the model's otherwise",
+           into<R>([](R& r, const Value& v) { r.battery_wh = v.number; })},
+          {"colour", ValueType::Colour, "", 0, 1, "", "", "of the body; the model's otherwise",
+           into<R>([](R& r, const Value& v) { r.colour = colour_of(v); })},
+          {"wheel_noise", ValueType::Number, "", 0, 0.5, "", "0",
+           "each wheel's travel times a random factor of 1 - n to 1 + n, drawn anew every 1/32 s",
+           into<R>([](R& r, const Value& v) { r.wheel_noise = v.number; })},
+          {"slip", ValueType::Number, "", 0, 1, "", "0",
+           "part of the wheels' travel that is lost on the floor",
+           into<R>([](R& r, const Value& v) { r.slip = v.number; })},
+          {"uart1", ValueType::Text, "", 0, 0, "", "\"none\"", "none, pty, pty:LINK, tcp:PORT or file:PATH",
+           checked<R>([](R& r, const Value& v, const WorldDesc&) { return uart_text(v, r.uart1); })},
+          {"uart2", ValueType::Text, "", 0, 0, "", "\"none\"", "none, pty, pty:LINK, tcp:PORT or file:PATH",
+           checked<R>([](R& r, const Value& v, const WorldDesc&) { return uart_text(v, r.uart2); })},
+      });
   section("robot.variation", false, "How this robot differs from its model.", variation_keys());
   section("robot.proximity", false, "Proximity sensors of this robot; keys as in `[proximity]`.",
           proximity_keys<ProximitySettings>([](ProximitySettings& p) -> ProximitySettings& { return p; }));
@@ -445,6 +473,7 @@ std::vector<SectionSpec> make_schema() {
   }
   section("robot.sensor", true, "One proximity sensor of this robot; keys as in `[proximity]`.",
           std::move(sensor));
+  add_robot_link_section(s);
   section("robot.part", true,
           "Something plugged into this robot, such as a turret or a sensor board. The other keys depend on "
           "the kind.",

@@ -29,6 +29,22 @@ void check_names(const WorldDesc& world, std::vector<WorldProblem>& out) {
   }
 }
 
+void check_link_numbers(const WorldDesc& world, std::vector<WorldProblem>& out) {
+  std::map<int, int> lines;
+  for (std::size_t i = 0; i < world.robots.size(); ++i) {
+    const RobotDesc& r = world.robots[i];
+    const int number = r.link.number >= 0 ? r.link.number : static_cast<int>(i) + 1;
+    const auto [it, fresh] = lines.emplace(number, r.line);
+    if (!fresh) {
+      out.push_back(
+          {r.line, 1,
+           fmt::format("robot.bluetooth.number: got {} a second time (first on line {}; robots without one "
+                       "have their place in the file), expected a number of its own",
+                       number, it->second)});
+    }
+  }
+}
+
 void check_models(const WorldDesc& world, std::vector<WorldProblem>& out) {
   for (const RobotDesc& r : world.robots) {
     const RobotModel* model = world.model_of(r);
@@ -92,6 +108,7 @@ std::vector<WorldProblem> check_world(const WorldDesc& world) {
         {0, 0, fmt::format("robot: got {} robots, expected at most {}", world.robots.size(), kMostRobots)});
     return out;
   }
+  check_link_numbers(world, out);
   check_names(world, out);
   check_models(world, out);
   if (out.empty()) check_overlaps(world, out);

@@ -341,6 +341,20 @@ class Reader {
         problem(node->source(), "floor.image: got an image but no [arena], expected an arena to lay it in");
     }
     read_one("proximity", root, "proximity", &world_.proximity);
+    read_many("ramp", root, "ramp", [&](const toml::table& t) {
+      RampDesc r;
+      r.line = line_of(t);
+      const std::size_t before = problems_.size();
+      read_table("ramp", t, &r);
+      if (problems_.size() != before) return;
+      if (!t.get("angle") && !t.get("heights")) {
+        problem(t.source(), "ramp: got neither angle nor heights, expected one of them (deg; m)");
+        return;
+      }
+      world_.ramps.push_back(std::move(r));
+    });
+    read_one("radio", root, "radio", &world_.radio);
+    read_one("bluetooth", root, "bluetooth", &world_.link);
     read_many("wall", root, "wall", [&](const toml::table& t) {
       WallDesc w;
       w.line = line_of(t);
@@ -368,6 +382,7 @@ class Reader {
       read_table("robot", t, &r);
       read_one("robot.variation", t, "variation", &r.variation);
       read_one("robot.proximity", t, "proximity", &r.proximity);
+      read_one("robot.bluetooth", t, "bluetooth", &r.link);
       read_many("robot.sensor", t, "sensor", [&](const toml::table& st) {
         SensorDesc s;
         read_table("robot.sensor", st, &s);

@@ -264,7 +264,13 @@ class DynamicMotion final : public Motion, b2ContactFilter {
     part.body->SetAngularVelocity(static_cast<float>(bodies_[r].spin_rad_s));
     part.ghost->SetLinearVelocity(units(wanted_[r].velocity_m_s));
     part.ghost->SetAngularVelocity(static_cast<float>(wanted_[r].spin_rad_s));
-    const double grip = grip_n(robot, wanted_[r]);
+    double grip = grip_n(robot, wanted_[r]);
+    if (is_sloping()) {
+      const SlopeEffect& slope = slope_of(robot);
+      const double weight_n = desc_.robots[r].mass_kg * desc_.gravity_m_s2;
+      part.body->ApplyForceToCenter(units(weight_n * slope.pull), true);
+      grip *= slope.steep;  // the pull is in plan, so grip must be
+    }
     part.joint->SetMaxForce(static_cast<float>(grip * kUnits));
     part.joint->SetMaxTorque(static_cast<float>(grip * 0.5 * desc_.robots[r].axle_m * kUnits * kUnits));
   }
@@ -322,6 +328,13 @@ class DynamicMotion final : public Motion, b2ContactFilter {
     const std::size_t i = static_cast<std::size_t>(index);
     Part& part = parts_[i];
     const int support = support_[i];
+    SlopeEffect slope;
+    if (is_sloping()) {
+      slope = loose_slope(index);
+      const double grip = desc_.loose[i - desc_.robots.size()].floor_friction * slope.press * slope.steep;
+      // what lies still on a slope that is too steep begins to slide
+      if (support == -2 || length(slope.pull) > grip) part.body->SetAwake(true);
+    }
     if (!part.body->IsAwake()) {
       if (support < 0) return;
       const BodyState& under = bodies_[static_cast<std::size_t>(support)];
@@ -329,7 +342,11 @@ class DynamicMotion final : public Motion, b2ContactFilter {
       part.body->SetAwake(true);
     }
     const LooseBody& l = desc_.loose[i - desc_.robots.size()];
-    const double force = support == -2 ? 0 : l.floor_friction * l.mass_kg * desc_.gravity_m_s2;
+    double force = support == -2 ? 0 : l.floor_friction * l.mass_kg * desc_.gravity_m_s2;
+    if (is_sloping()) {
+      force *= slope.press * slope.steep;
+      part.body->ApplyForceToCenter(units((l.mass_kg * desc_.gravity_m_s2) * slope.pull), false);
+    }
     part.joint->SetMaxForce(static_cast<float>(force * kUnits));
     part.joint->SetMaxTorque(
         static_cast<float>(force * std::sqrt(desc_.solids[i]->gyration_m2()) * kUnits * kUnits));

@@ -24,8 +24,12 @@ class KinematicMotion final : public Motion {
     for (int r = 0; r < robots(); ++r) {
       const RobotBody& body = desc_.robots[static_cast<std::size_t>(r)];
       BodyState& b = bodies_[static_cast<std::size_t>(r)];
-      const double way = 0.5 * (travel[r].left_m + travel[r].right_m);
-      const double turn = (travel[r].right_m - travel[r].left_m) / body.axle_m;
+      double way = 0.5 * (travel[r].left_m + travel[r].right_m);
+      double turn = (travel[r].right_m - travel[r].left_m) / body.axle_m;
+      if (is_sloping()) {
+        way *= slope_of(r).way;
+        turn *= slope_of(r).turn;
+      }
       const Pose2 from = b.pose;
       Pose2 to = way == 0 && turn == 0 ? from : advance(from, way, turn);
       if (neighbours.clearance_m(r) - 2 * most < kSolverMarginM) {

@@ -30,8 +30,59 @@ Motion::Motion(MotionDesc desc) : desc_(std::move(desc)), bodies_(desc_.start) {
   touches_.resize(desc_.robots.size());
   touch_times_.resize(desc_.robots.size());
   support_.assign(bodies_.size(), kOnFloor);
+  sloping_ = desc_.ground && !desc_.ground->is_plain();
+  slopes_.resize(sloping_ ? desc_.robots.size() : 0);
+  for (std::size_t r = 0; r < slopes_.size(); ++r) told_z_m_.push_back(bodies_[r].z_m);
   for (std::size_t i = desc_.robots.size(); i < bodies_.size(); ++i) {
-    if (bodies_[i].z_m > 0) support_[i] = kInAir;
+    if (bodies_[i].z_m > floor_m(static_cast<int>(i))) support_[i] = kInAir;
+  }
+}
+
+double Motion::floor_m(int body) const {
+  if (!sloping_) return 0;
+  const Pose2& p = bodies_[static_cast<std::size_t>(body)].pose;
+  return desc_.ground->height_m({p.x_m, p.y_m});
+}
+
+void Motion::feel_ground() {
+  for (std::size_t r = 0; r < slopes_.size(); ++r) {
+    const RobotBody& body = desc_.robots[r];
+    const Footing under = desc_.ground->footing(bodies_[r].pose, body.half_base_m, 0.5 * body.axle_m);
+    slopes_[r] = slope_effect(under.slope, bodies_[r].pose.heading_rad, desc_.ground->down());
+  }
+}
+
+SlopeEffect Motion::loose_slope(int body) const {
+  const std::size_t i = static_cast<std::size_t>(body);
+  const double base = 0.5 * desc_.solids[i]->bound_m;
+  const Vec2 slope =
+      support_[i] == kOnFloor ? desc_.ground->footing(bodies_[i].pose, base, base).slope : Vec2{};
+  return slope_effect(slope, 0, desc_.ground->down());
+}
+
+/// After a tick's plane motion robots, and objects that lie on the ground, are as high as the ground.
+void Motion::follow_ground() {
+  for (int i = 0; i < static_cast<int>(bodies_.size()); ++i) {
+    const std::size_t b = static_cast<std::size_t>(i);
+    if (i >= robots()) {
+      if (support_[b] != kOnFloor) continue;
+      const double z = floor_m(i);
+      if (z == bodies_[b].z_m) continue;
+      // over an edge it falls
+      if (z < bodies_[b].z_m - kLedgeM) {
+        support_[b] = kInAir;
+        continue;
+      }
+      bodies_[b].z_m = z;
+      heights_changed(i);
+      continue;
+    }
+    const RobotBody& body = desc_.robots[b];
+    const double z = desc_.ground->footing(bodies_[b].pose, body.half_base_m, 0.5 * body.axle_m).height_m;
+    bodies_[b].z_m = z;
+    if (std::fabs(z - told_z_m_[b]) < kLedgeM) continue;
+    told_z_m_[b] = z;
+    heights_changed(i);
   }
 }
 
@@ -40,8 +91,10 @@ double Motion::step(const RimTravel* travel, const Neighbours& neighbours) {
   thread_local std::vector<Vec2> before;
   before.resize(bodies_.size());
   for (std::size_t i = 0; i < bodies_.size(); ++i) before[i] = {bodies_[i].pose.x_m, bodies_[i].pose.y_m};
+  if (sloping_) feel_ground();
   step_plane(travel, neighbours);
   step_heights();
+  if (sloping_ && desc_.ground->has_ramps()) follow_ground();
   double most2 = 0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const Vec2 moved = Vec2{bodies_[i].pose.x_m, bodies_[i].pose.y_m} - before[i];
@@ -57,7 +110,15 @@ Placed Motion::placed(int body) const {
 
 void Motion::move(int body, const Pose2& pose, double z_m) {
   bodies_[static_cast<std::size_t>(body)] = {pose, z_m, {}, 0, 0};
-  if (body >= robots()) support_[static_cast<std::size_t>(body)] = z_m > 0 ? kInAir : kOnFloor;
+  const double floor = floor_m(body);
+  if (body >= robots()) {
+    bodies_[static_cast<std::size_t>(body)].z_m = std::max(z_m, floor);
+    support_[static_cast<std::size_t>(body)] = z_m > floor ? kInAir : kOnFloor;
+  } else if (sloping_) {
+    const RobotBody& robot = desc_.robots[static_cast<std::size_t>(body)];
+    bodies_[static_cast<std::size_t>(body)].z_m =
+        desc_.ground->footing(pose, robot.half_base_m, 0.5 * robot.axle_m).height_m;
+  }
   heights_changed(body);
 }
 
@@ -68,8 +129,12 @@ bool Motion::heights_meet(double z0_a, double z1_a, double z0_b, double z1_b) co
 Motion::Wanted Motion::wanted(int robot, const RimTravel& travel) const {
   const Drive& d = drives_[static_cast<std::size_t>(robot)];
   const BodyState& b = bodies_[static_cast<std::size_t>(robot)];
-  const double speed = 0.5 * (travel.left_m + travel.right_m) * ticks_per_s_;
-  const double spin = (travel.right_m - travel.left_m) * d.spin_per_m;
+  double speed = 0.5 * (travel.left_m + travel.right_m) * ticks_per_s_;
+  double spin = (travel.right_m - travel.left_m) * d.spin_per_m;
+  if (sloping_) {
+    speed *= slope_of(robot).way;
+    spin *= slope_of(robot).turn;
+  }
   if (speed == 0) return {{0, 0}, spin};
   // the direction is taken at the middle of the turn that friction will allow
   const double most = d.driving.spin_rad_s;
@@ -83,10 +148,20 @@ void Motion::drive_freely(int robot, const Wanted& want) {
   const Limits& limits = is_standing(want) ? d.standing : d.driving;
   BodyState& b = bodies_[static_cast<std::size_t>(robot)];
   const double tick_s = desc_.tick_s;
-  b.spin_rad_s += std::clamp(want.spin_rad_s - b.spin_rad_s, -limits.spin_rad_s, limits.spin_rad_s);
-  const Vec2 change = want.velocity_m_s - b.velocity_m_s;
-  const double most = limits.speed_m_s;
-  const double size2 = dot(change, change);
+  double most_spin = limits.spin_rad_s, most = limits.speed_m_s;
+  Vec2 change = want.velocity_m_s - b.velocity_m_s;
+  double size2 = dot(change, change);
+  if (sloping_) {
+    // gravity's pull comes first; grip then does what it can about it, measured along the slope
+    const SlopeEffect& slope = slope_of(robot);
+    b.velocity_m_s = b.velocity_m_s + (desc_.gravity_m_s2 * tick_s) * slope.pull;
+    change = want.velocity_m_s - b.velocity_m_s;
+    const double along = surface_length(slope, change);
+    size2 = along * along;
+    most *= slope.press;
+    most_spin *= slope.press;
+  }
+  b.spin_rad_s += std::clamp(want.spin_rad_s - b.spin_rad_s, -most_spin, most_spin);
   if (size2 <= most * most) {
     b.velocity_m_s = want.velocity_m_s;
   } else {
@@ -175,11 +250,12 @@ void Motion::step_heights() {
     }
     const double bounce = desc_.loose[static_cast<std::size_t>(i - robots())].restitution;
     const double from = b.z_m;
+    const double floor = floor_m(i);
     double to = from + (b.climb_m_s - 0.5 * desc_.gravity_m_s2 * tick_s) * tick_s;
     b.climb_m_s -= desc_.gravity_m_s2 * tick_s;
     int by = kOnFloor;
-    bool landed = to <= 0;
-    if (landed) to = 0;
+    bool landed = to <= floor;
+    if (landed) to = floor;
     int hit = 0;
     int ignored = 0;
     // a body that already shares space (it slid into a stack) is let through; it ends on the floor or on top

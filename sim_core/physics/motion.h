@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Motion engines: wheel travel of every robot in, poses of every moving body out, one tick at a time.
 // Units: m, rad, s, kg, N. Bodies are numbered robots first, then loose objects.
-// Not modelled: tipping, wheels that leave the floor, rolling balls' spin, suspension.
+// On slopes bodies stand on the plane through the ground under them: gravity pulls them along it as far as
+// grip allows (dynamic), way along it is shortened in plan, heights follow. Not modelled: tipping, wheels
+// that leave the floor, rolling balls' spin, suspension.
 #pragma once
 #include <memory>
 #include <vector>
 
+#include "sim_core/geometry/ground.h"
 #include "sim_core/geometry/neighbours.h"
 #include "sim_core/geometry/solid.h"
 
@@ -19,6 +22,7 @@ struct RobotBody {
   double traction_n = 1;        ///< most the turning wheels together can push, N
   double hold_n = 1;            ///< most the standing wheels can hold against a push, N
   double side_friction = 0.3;   ///< Coulomb coefficient of the body's side
+  double half_base_m = 0.03;    ///< it touches sloping ground this far before and behind its origin
 };
 
 /// What a loose object is.
@@ -62,6 +66,7 @@ struct MotionDesc {
   double tick_s = 1.0 / 512;
   double gravity_m_s2 = 9.81;
   const std::vector<Placed>* fixed = nullptr;  ///< must outlive the engine
+  const Ground* ground = nullptr;              ///< must outlive the engine; null: level
   std::vector<FixedSurface> surfaces;          ///< one per fixed solid
   std::vector<const Solid*> solids;            ///< one per moving body; must outlive the engine
   std::vector<RobotBody> robots;
@@ -87,8 +92,16 @@ class Motion {
 
  protected:
   virtual void step_plane(const RimTravel* travel, const Neighbours& neighbours) = 0;
-  /// Called when a loose body's height range changed.
+  /// Called when a body's height range changed.
   virtual void heights_changed(int body) {}
+  /// True where bodies may stand on slopes.
+  bool is_sloping() const { return sloping_; }
+  /// What the ground under a robot does to it now; only when is_sloping().
+  const SlopeEffect& slope_of(int robot) const { return slopes_[static_cast<std::size_t>(robot)]; }
+  /// The same for a loose object, worked out anew.
+  SlopeEffect loose_slope(int body) const;
+  /// Looks at the ground under every robot; before a tick's plane motion, when is_sloping().
+  void feel_ground();
   bool heights_meet(double z0_a, double z1_a, double z0_b, double z1_b) const;
   /// Books this tick's touches of a robot.
   void note_touch(int robot, bool wall, bool anything);
@@ -108,7 +121,8 @@ class Motion {
   /// Most force between wheels and floor now, N.
   double grip_n(int robot, const Wanted& want) const {
     const RobotBody& r = desc_.robots[static_cast<std::size_t>(robot)];
-    return is_standing(want) ? r.hold_n : r.traction_n;
+    const double level_n = is_standing(want) ? r.hold_n : r.traction_n;
+    return sloping_ ? level_n * slope_of(robot).press : level_n;
   }
   /// Moves a robot out of whatever it is inside of: all the way out of fixed solids, half the way out of
   /// robots.
@@ -121,6 +135,8 @@ class Motion {
 
  private:
   void step_heights();
+  void follow_ground();
+  double floor_m(int body) const;
   bool blocked_at(int body, double z_m, int& by) const;
 
   /// What grip allows in one tick, worked out once.
@@ -134,6 +150,9 @@ class Motion {
   };
   std::vector<Drive> drives_;
   double ticks_per_s_ = 0;
+  bool sloping_ = false;
+  std::vector<SlopeEffect> slopes_;  // per robot
+  std::vector<double> told_z_m_;     // per robot: height of the last heights_changed()
 
   struct Touching {
     double wall_gap_s = 1;  // since the last touch

@@ -24,6 +24,9 @@ inline constexpr int kVelocityIterations = 8;  // [Box2D manual: 8 and 3 suggest
 inline constexpr int kPositionIterations = 3;  // [Box2D manual: 8 and 3 suggested]
 /// Falling bodies that land slower than this stay down, m/s.
 inline constexpr double kLandingMS = 0.05;  // [assumed: a bounce of 0.1 mm]
+/// Loose objects fall over steps of the ground that are higher than this, and contacts look at heights anew
+/// when a robot has risen by as much, m.
+inline constexpr double kLedgeM = 0.002;  // [assumed: more than a tick's way down any slope]
 /// How deep solids may be inside each other before libccd's answer counts, m.
 inline constexpr double kRestSlackM = 0.0001;  // [assumed: ten times smaller than any wall]
 /// How often wheel noise is drawn anew, s; independent of the tick rate.

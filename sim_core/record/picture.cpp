@@ -48,6 +48,7 @@ class Painter {
     cairo_translate(cr_, kMarginPx - layout.low_m.x * px_per_m_, kTitlePx + layout.high_m.y * px_per_m_);
     cairo_scale(cr_, px_per_m_, -px_per_m_);
     floor();
+    ramps();
     if (ways_) ways();
     solids();
     if (options_.sensor_rays) rays();
@@ -86,6 +87,48 @@ class Painter {
     pen(1);
     for (double x = std::ceil(low.x / step) * step; x <= high.x; x += step) line({x, low.y}, {x, high.y});
     for (double y = std::ceil(low.y / step) * step; y <= high.y; y += step) line({low.x, y}, {high.x, y});
+  }
+
+  /// Ramps: the higher the darker, contour lines every centimetre, an arrow uphill.
+  void ramps() {
+    for (const RampDesc& r : scene_.world().ramps) {
+      const Frame2 frame(r.pose);
+      const double half_x = 0.5 * r.size_m.x, half_y = 0.5 * r.size_m.y;
+      cairo_pattern_t* shade =
+          cairo_pattern_create_linear(frame.to_world({-half_x, 0}).x, frame.to_world({-half_x, 0}).y,
+                                      frame.to_world({half_x, 0}).x, frame.to_world({half_x, 0}).y);
+      const auto stop = [&](double where, double height_m) {
+        const double dark = 1 - std::min(0.45, 0.08 + 3 * height_m);
+        cairo_pattern_add_color_stop_rgb(shade, where, r.material.colour.r * dark, r.material.colour.g * dark,
+                                         r.material.colour.b * dark);
+      };
+      stop(0, r.low_m);
+      stop(1, r.high_m);
+      cairo_new_path(cr_);
+      for (const Vec2 corner :
+           {Vec2{-half_x, -half_y}, {half_x, -half_y}, {half_x, half_y}, {-half_x, half_y}}) {
+        cairo_line_to(cr_, frame.to_world(corner).x, frame.to_world(corner).y);
+      }
+      cairo_close_path(cr_);
+      cairo_set_source(cr_, shade);
+      cairo_fill(cr_);
+      cairo_pattern_destroy(shade);
+      if (r.high_m <= r.low_m) continue;
+      cairo_set_source_rgba(cr_, 0, 0, 0, 0.3);
+      pen(1);
+      const double rise = (r.high_m - r.low_m) / r.size_m.x;
+      const double step_m = r.high_m - r.low_m > 0.3 ? 0.1 : 0.01;
+      for (double z = std::ceil(r.low_m / step_m + 1e-6) * step_m; z < r.high_m; z += step_m) {
+        const double x = (z - r.low_m) / rise - half_x;
+        line(frame.to_world({x, -half_y}), frame.to_world({x, half_y}));
+      }
+      const double head = 0.25 * std::min(half_x, half_y);
+      cairo_set_source_rgba(cr_, 0, 0, 0, 0.6);
+      pen(2);
+      line(frame.to_world({-0.5 * half_x, 0}), frame.to_world({0.5 * half_x, 0}));
+      line(frame.to_world({0.5 * half_x - head, head}), frame.to_world({0.5 * half_x, 0}));
+      line(frame.to_world({0.5 * half_x - head, -head}), frame.to_world({0.5 * half_x, 0}));
+    }
   }
 
   void floor_image(Vec2 low, Vec2 high) {

@@ -10,6 +10,12 @@
 namespace sim {
 namespace {
 
+constexpr double kKerbM = 0.004;           // height of a ramp's kerb: above any robot's underside
+constexpr double kKerbThicknessM = 0.002;  // thin: it stands on the ramp's own rectangle
+constexpr double kKerbPieceM = 0.02;       // a kerb rises in steps of this length
+constexpr double kBesideM = 0.001;         // where the ground beside an edge is felt
+constexpr double kOpenEdgeM = 0.0015;      // lower steps than this are driven over
+
 /// Shifts a polygon so that its centroid is its origin; returns where the centroid was.
 Vec2 centre_outline(std::vector<Vec2>& corners) {
   double twice = 0;
@@ -102,6 +108,37 @@ Solid solid_of(const ObjectDesc& o, Pose2& pose) {
   return Solid::prism(std::move(corners), 0, o.size_m.z);
 }
 
+/// The sides of a ramp: low walls that rise with it, wherever the ground beside it is lower. Robots below are
+/// stopped by them; for robots on the ramp they end in a kerb, so nobody drives off an edge.
+void add_kerbs(const RampDesc& ramp, std::size_t number, const Ground& ground, Builder& build) {
+  const Frame2 frame(ramp.pose);
+  const double half_x = 0.5 * ramp.size_m.x, half_y = 0.5 * ramp.size_m.y;
+  const Vec2 corners[5] = {
+      {-half_x, -half_y}, {half_x, -half_y}, {half_x, half_y}, {-half_x, half_y}, {-half_x, -half_y}};
+  Surface surface = surface_of(ramp.material);
+  for (int side = 0; side < 4; ++side) {
+    const Vec2 a = corners[side], b = corners[side + 1];
+    const double size = length(b - a);
+    const Vec2 dir = (1 / size) * (b - a);
+    const Vec2 out{dir.y, -dir.x};
+    const int pieces = std::max(1, static_cast<int>(std::ceil(size / kKerbPieceM)));
+    for (int k = 0; k < pieces; ++k) {
+      const Vec2 from = a + (size * k / pieces) * dir, to = a + (size * (k + 1) / pieces) * dir;
+      const Vec2 middle = 0.5 * (from + to);
+      const auto height = [&](Vec2 at) { return ground.height_m(frame.to_world(at)); };
+      const double inside = std::max({height(from - kBesideM * out), height(to - kBesideM * out)});
+      const double outside = height(middle + kBesideM * out);
+      // a ramp over or beside this one that is as high leaves the edge open
+      if (inside - outside < kOpenEdgeM || height(middle - kBesideM * out) - outside < kOpenEdgeM) continue;
+      const Vec2 centre = frame.to_world(middle - 0.5 * kKerbThicknessM * out);
+      const Pose2 pose{centre.x, centre.y, ramp.pose.heading_rad + std::atan2(dir.y, dir.x)};
+      const std::string name = ramp.name.empty() ? std::to_string(number) : "'" + ramp.name + "'";
+      build.fixed(Solid::box(length(to - from), kKerbThicknessM, 0, inside - outside + kKerbM), pose, outside,
+                  surface, "edge of ramp " + name, -1, ramp.line);
+    }
+  }
+}
+
 const char* kind_name(ObjectKind kind) {
   switch (kind) {
     case ObjectKind::Box:
@@ -123,11 +160,21 @@ Surface surface_of(const Material& m) {
           m.restitution};
 }
 
+Footing robot_footing(const Ground& ground, const RobotModel& model, const Pose2& pose) {
+  if (!ground.has_ramps()) return {};
+  return ground.footing(pose, kFootingShare * model.body_radius_m, 0.5 * model.axle_m);
+}
+
 Layout build_layout(const WorldDesc& world) {
   Layout out;
   Builder build(out);
   if (world.arena) add_arena(*world.arena, build);
   for (std::size_t i = 0; i < world.walls.size(); ++i) add_wall(world.walls[i], static_cast<int>(i), build);
+
+  std::vector<Ramp> ramps;
+  for (const RampDesc& r : world.ramps) ramps.push_back({r.pose, r.size_m.x, r.size_m.y, r.low_m, r.high_m});
+  out.ground = Ground(ramps, world.floor.tilt_x_rad, world.floor.tilt_y_rad);
+  for (std::size_t i = 0; i < ramps.size(); ++i) add_kerbs(world.ramps[i], i, out.ground, build);
 
   for (const RobotDesc& r : world.robots) {
     const RobotModel* model = world.model_of(r);
@@ -137,8 +184,8 @@ Layout build_layout(const WorldDesc& world) {
     surface.ir_reflectance = model->ir_reflectance < 0 ? surface.colour.r : model->ir_reflectance;
     surface.roughness = model->roughness;
     surface.friction = model->side_friction;
-    build.moving(Solid::cylinder(model->body_radius_m, model->body_z0_m, model->body_height_m), r.pose, 0,
-                 surface, "robot '" + r.name + "'");
+    build.moving(Solid::cylinder(model->body_radius_m, model->body_z0_m, model->body_height_m), r.pose,
+                 robot_footing(out.ground, *model, r.pose).height_m, surface, "robot '" + r.name + "'");
   }
   for (std::size_t i = 0; i < world.objects.size(); ++i) {
     const ObjectDesc& o = world.objects[i];
@@ -147,7 +194,9 @@ Layout build_layout(const WorldDesc& world) {
     std::string name =
         std::string(kind_name(o.kind)) + (o.name.empty() ? " " + std::to_string(i) : " '" + o.name + "'");
     if (o.movable) {
-      build.moving(std::move(solid), pose, o.z_m, surface_of(o.material), std::move(name));
+      // what stands on a ramp starts there; what was written higher falls
+      const double z = std::max(o.z_m, out.ground.height_m({pose.x_m, pose.y_m}));
+      build.moving(std::move(solid), pose, z, surface_of(o.material), std::move(name));
       out.loose_object.push_back(static_cast<int>(i));
     } else {
       build.fixed(std::move(solid), pose, o.z_m, surface_of(o.material), std::move(name), static_cast<int>(i),
@@ -164,6 +213,11 @@ Layout build_layout(const WorldDesc& world) {
     if (p.solid->kind != SolidKind::Prism) return point(p.frame.at, p.solid->radius_m);
     for (const Vec2& corner : p.solid->outline) point(p.frame.to_world(corner), 0);
   };
+  for (const Ramp& r : ramps) {
+    const double reach = 0.5 * length({r.length_m, r.width_m});
+    low = {std::min(low.x, r.pose.x_m - reach), std::min(low.y, r.pose.y_m - reach)};
+    high = {std::max(high.x, r.pose.x_m + reach), std::max(high.y, r.pose.y_m + reach)};
+  }
   for (const Placed& p : out.fixed) include(p);
   for (const Placed& p : out.moving) include(p);
   if (low.x > high.x) low = {-0.5, -0.5}, high = {0.5, 0.5};

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "sim_core/geometry/ground.h"
 #include "sim_core/geometry/solid.h"
 #include "sim_core/world/world_desc.h"
 
@@ -34,9 +35,16 @@ struct Layout {
   std::vector<Pose2> moving_pose;
   std::vector<Surface> moving_surface;
   std::vector<std::string> moving_name;
+  Ground ground;                  ///< what everything stands on
   std::vector<int> loose_object;  ///< per movable object: index into WorldDesc::objects
   Vec2 low_m, high_m;             ///< what a picture should show: all solids, or 1 m around nothing
 };
+
+/// A robot touches the ground with its wheels and, before and behind, with its underside this far out, as a
+/// part of its radius. [assumed: the lowest parts of a round body lie within its rim]
+inline constexpr double kFootingShare = 0.8;
+/// Ground under a robot at a pose.
+Footing robot_footing(const Ground& ground, const RobotModel& model, const Pose2& pose);
 
 /// The world must be consistent (models known, sizes positive): load/ has seen to that, or a test built it
 /// so.

@@ -40,6 +40,7 @@ struct RobotModel {
   double inertia_kg_m2 = 8.75e-5;  ///< about the vertical axis
   double wheel_radius_m = 0.0205;
   double axle_m = 0.053;        ///< distance between the wheels
+  double shock_s = 0.005;       ///< time over which the elastic body spreads a blow
   double max_push_n = 1e9;      ///< most the drive can push, N; traction may allow less
   double wheel_friction = 1.0;  ///< Coulomb coefficient tyre to floor
   double side_friction = 0.3;   ///< Coulomb coefficient of the body's side

@@ -133,7 +133,15 @@ bool Scene::cast(const Ray& ray, double limit_m, int skip_robot, Clicks at, Scen
     }
     from = to;
   }
-  const double floor_m = ray.dir.z < -1e-9 ? -ray.from.z / ray.dir.z : 1e300;
+  double floor_m = ray.dir.z < -1e-9 ? -ray.from.z / ray.dir.z : 1e300;
+  if (floor_m < 0) floor_m = 1e300;
+  Vec3 floor_normal{0, 0, 1};
+  int ramp = -1;
+  if (layout_.ground.has_ramps()) {
+    double ramp_m = std::min(floor_m, nearest);
+    ramp = layout_.ground.cast(ray, ramp_m, &floor_normal);
+    if (ramp >= 0) floor_m = ramp_m;
+  }
   const bool on_floor = floor_m >= 0 && floor_m < nearest;
   if (what.index < 0 && !on_floor) return false;
   if (!hit) return true;
@@ -141,8 +149,10 @@ bool Scene::cast(const Ray& ray, double limit_m, int skip_robot, Clicks at, Scen
   hit->point_m = {ray.from.x + hit->distance_m * ray.dir.x, ray.from.y + hit->distance_m * ray.dir.y,
                   ray.from.z + hit->distance_m * ray.dir.z};
   hit->floor = on_floor;
-  hit->normal = on_floor ? Vec3{0, 0, 1} : best;
-  hit->surface = on_floor ? floor({hit->point_m.x, hit->point_m.y}) : surface(what);
+  hit->normal = on_floor ? floor_normal : best;
+  hit->surface = !on_floor   ? surface(what)
+                 : ramp >= 0 ? surface_of(world_.ramps[static_cast<std::size_t>(ramp)].material)
+                             : floor({hit->point_m.x, hit->point_m.y});
   hit->robot = !on_floor && what.moving && what.index < robots_ ? what.index : -1;
   return true;
 }

@@ -28,6 +28,10 @@ ResolvedVariation resolve_variation(const WorldDesc& world, int robot) {
   out.axle_ratio = v.axle_ratio * (1 + draw(2, v.axle_spread));
   out.clock_ppm = v.clock_ppm + draw(3, v.clock_spread_ppm);
   out.boot_delay_s = v.boot_delay_s + v.boot_spread_s * random_uniform(key, 4);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    out.acc_offset_m_s2[axis] = v.acc_offset_m_s2[axis] + draw(10 + axis, v.acc_offset_spread_m_s2);
+    out.gyro_offset_rad_s[axis] = v.gyro_offset_rad_s[axis] + draw(13 + axis, v.gyro_offset_spread_rad_s);
+  }
   for (std::size_t s = 0; s < model->proximity.size(); ++s) {
     const double gain = s < v.sensor_gain.size() ? v.sensor_gain[s] : 1.0;
     const double offset = s < v.sensor_offset_counts.size() ? v.sensor_offset_counts[s] : 0.0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What one particular robot is after its random spread has been drawn: plain numbers for boards and physics.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -17,6 +18,8 @@ struct ResolvedVariation {
   double axle_ratio = 1;
   double clock_ppm = 0;
   double boot_delay_s = 0;
+  std::array<double, 3> acc_offset_m_s2{};    ///< robot frame: forward, left, up
+  std::array<double, 3> gyro_offset_rad_s{};  ///< same frame
 };
 
 /// The robot's seed: its own where set, otherwise a mix of the world's seed and its index.

@@ -69,18 +69,65 @@ struct Variation {
   double axle_ratio = 1;  ///< effective over nominal axle
   double clock_ppm = 0;   ///< positive: the robot's clock is fast
   double boot_delay_s = 0;
-  double gain_spread = 0;           ///< standard deviation of a further factor per sensor
-  double offset_spread_counts = 0;  ///< standard deviation, counts
-  double wheel_spread = 0;          ///< standard deviation of a further wheel factor, each side
-  double axle_spread = 0;           ///< standard deviation of a further axle factor
-  double clock_spread_ppm = 0;      ///< standard deviation, ppm
-  double boot_spread_s = 0;         ///< the delay grows by a uniform draw from 0 to this
+  double gain_spread = 0;                     ///< standard deviation of a further factor per sensor
+  double offset_spread_counts = 0;            ///< standard deviation, counts
+  double wheel_spread = 0;                    ///< standard deviation of a further wheel factor, each side
+  double axle_spread = 0;                     ///< standard deviation of a further axle factor
+  double clock_spread_ppm = 0;                ///< standard deviation, ppm
+  double boot_spread_s = 0;                   ///< the delay grows by a uniform draw from 0 to this
+  std::array<double, 3> acc_offset_m_s2{};    ///< added to the accelerometer, robot frame: forward, left, up
+  std::array<double, 3> gyro_offset_rad_s{};  ///< added to the gyroscope, same frame
+  double acc_offset_spread_m_s2 = 0;          ///< standard deviation of a further offset per axis
+  double gyro_offset_spread_rad_s = 0;        ///< standard deviation of a further offset per axis
+  double motion_noise_scale = 1;  ///< factor on the noise of accelerometer and gyroscope; 0 = none
 };
 
 /// Settings of single sensors.
 struct SensorDesc {
   int index = 0;
   ProximitySettings proximity;
+};
+
+enum class RadioModel { LogDistance, Disc };
+
+/// The radio channel that robots with a radio share.
+struct RadioDesc {
+  RadioModel model = RadioModel::LogDistance;
+  /// Where a frame sent at full power is just received. [assumed: 15 cm to 5 m, reported for this turret]
+  double range_m = 5;
+  double exponent = 3.3;  ///< path loss per decade over 10 dB [derived: that span over 50 dB of attenuation]
+  double fading_db = 2;   ///< standard deviation of the level, drawn per frame and receiver [assumed: a room]
+  double loss = 0;        ///< part of the frames within range that is lost for no other reason, 0 to 1
+  double capture_db =
+      3;  ///< the stronger of two frames survives from here on [CC2420 SWRS041: co-channel -3 dB]
+  bool carrier_sense = true;          ///< listen before sending, with random waits
+  std::optional<std::uint64_t> seed;  ///< of fading, loss and waits; unset: the world's
+};
+
+/// A time in which links are lost.
+struct Dropout {
+  double begin_s = 0;
+  double span_s = 0;
+};
+
+/// The short-range serial links between robots, or from a robot to a computer.
+struct LinkDesc {
+  double range_m = 10;       ///< [LMX9838 datasheet: class 2 radio, 10 m]
+  double latency_s = 0.008;  ///< one way [measured: 50 to 100 commands and answers per second on the robot]
+  double bandwidth_bit_s =
+      115200;             /**< per direction [assumed: the modules' serial lines are the narrowest part] */
+  double timeout_s = 20;  ///< silence after which a link is lost [Bluetooth core: supervision timeout]
+  std::vector<Dropout> dropouts;  ///< of every robot, growing
+  double dropout_rate_hz = 0;     ///< further ones by chance, per robot
+  double dropout_span_s = 1;      ///< their length
+};
+
+/// One robot's end of such links.
+struct LinkEndDesc {
+  int number = -1;                  ///< negative: its index in the world plus 1
+  std::optional<std::string> name;  ///< what others find; unset: made of the number by the board
+  std::optional<std::string> pin;   ///< unset: the number, four digits
+  std::vector<Dropout> dropouts;    ///< of this robot alone, growing
 };
 
 /// A key of a remote control that somebody presses for a robot.
@@ -97,6 +144,7 @@ struct RobotDesc {
   std::string firmware;  ///< name or path as written; may be empty
   Pose2 pose;
   int selector = 0;                   ///< 0 to 15
+  std::string revision;               ///< of the hardware, as written; empty: the model's usual one
   std::optional<std::uint64_t> seed;  ///< unset: made of the world's seed and the robot's index
   double battery_v = -1;              ///< V; negative: the model's
   double battery_wh = -1;             ///< Wh when full; negative: the model's
@@ -105,6 +153,7 @@ struct RobotDesc {
   double slip = 0;         ///< fraction of the wheels' travel that is lost on the floor
   std::string uart1 = "none";
   std::string uart2 = "none";
+  LinkEndDesc link;
   Variation variation;
   ProximitySettings proximity;
   std::vector<SensorDesc> sensors;
@@ -158,6 +207,19 @@ struct FloorDesc {
   int image_height = 0;
   std::vector<std::uint8_t> image_rgb;  ///< rows from the north, three bytes a pixel
   double friction = 1.0;                ///< factor on the traction of wheels
+  double tilt_x_rad = 0;                ///< the x axis rises above the horizontal by this angle
+  double tilt_y_rad = 0;                ///< same for the y axis
+};
+
+/// A slope on the floor, or a platform when both ends are equally high.
+struct RampDesc {
+  std::string name;
+  Pose2 pose;             ///< of its middle; heading uphill
+  Vec2 size_m{0.2, 0.2};  ///< in plan, along the heading and across
+  double low_m = 0;       ///< height of its low end
+  double high_m = 0;      ///< height of its high end
+  Material material;
+  int line = 0;
 };
 
 struct LampDesc {
@@ -182,8 +244,11 @@ struct WorldDesc {
   std::vector<Material> materials;
   std::vector<WallDesc> walls;
   std::vector<ObjectDesc> objects;
+  std::vector<RampDesc> ramps;
   std::vector<LampDesc> lamps;
   ProximitySettings proximity;
+  RadioDesc radio;
+  LinkDesc link;
   std::vector<RobotDesc> robots;
   std::vector<RobotModel> models;    ///< what the caller offers; robots refer to them by name
   std::vector<PartKind> part_kinds;  ///< likewise, for robots' parts

@@ -11,6 +11,10 @@ ProximityResponse sense_proximity(const Scene& scene, int, int sensor, Clicks at
   return response;
 }
 
+Clicks motion_lag(const Scene&) { return 28800; }
+Vec3 specific_force_m_s2(const Scene& scene, int, Clicks at) { return scene.force_m_s2(at); }
+Vec3 angular_rate_rad_s(const Scene& scene, int, Clicks at) { return scene.turn_rad_s(at); }
+
 double sense_irradiance_w_m2(const Scene& scene, int, int, Clicks) { return scene.irradiance_w_m2; }
 
 }  // namespace sim

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim_core/light/proximity.h"
+#include "sim_core/world/true_motion.h"
 
 namespace sim {
 
@@ -18,6 +19,8 @@ class Scene {
   std::function<double(int sensor, Clicks at)> reflection = [](int, Clicks) { return 0.0; };
   double irradiance_w_m2 = 0;
   double relative_noise = 0;
+  std::function<Vec3(Clicks at)> force_m_s2 = [](Clicks) { return Vec3{0, 0, 9.81}; };
+  std::function<Vec3(Clicks at)> turn_rad_s = [](Clicks) { return Vec3{}; };
   mutable std::vector<Question> asked;
 };
 

@@ -40,6 +40,11 @@ TEST(Parts, every_kind_has_a_name_of_its_own_and_sensible_defaults) {
   EXPECT_EQ(board::find_part_type("toaster"), nullptr);
 }
 
+TEST(Parts, the_page_about_parts_shows_the_example_as_it_is) {
+  EXPECT_NE(text_of("docs/parts.md").find("```cpp\n" + text_of("hal_sim/board/parts/floor_colour.cpp") + "```\n"),
+            std::string::npos);
+}
+
 class PartTest : public FirmwareTest {
  protected:
   static sim::PartDesc part(const std::string& kind, std::map<std::string, sim::PartValue> values = {}) {
@@ -179,6 +184,38 @@ TEST_F(GroundTest, a_part_that_nobody_knows_is_named) {
   EXPECT_EQ(twin::Twin::open(copy, options, problems), nullptr);
   ASSERT_EQ(problems.size(), 1u);
   EXPECT_EQ(problems[0], "robot 'r': part: got kind 'toaster', expected one that the program knows");
+}
+
+const char* const kReadColour = R"(
+#include <I2C/e_I2C_protocol.h>
+int red, green, blue, brighter, gain, done;
+int main(void) {
+  e_i2cp_init();
+  e_i2cp_enable();
+  red = (unsigned char)e_i2cp_read(0x52, 0);
+  green = (unsigned char)e_i2cp_read(0x52, 1);
+  blue = (unsigned char)e_i2cp_read(0x52, 2);
+  e_i2cp_write(0x52, 3, 2);
+  gain = e_i2cp_read(0x52, 3);
+  brighter = (unsigned char)e_i2cp_read(0x52, 1);
+  done = 1;
+  while (1);
+}
+)";
+
+// 255 * 0.8 = 204, 255 * 0.4 = 102, 255 * 0.2 = 51; gain 2: 204
+TEST_F(PartTest, the_example_reads_the_floor) {
+  world.floor.colour = {0.8, 0.4, 0.2};
+  Robot& r = add_robot_with_source(kReadColour);
+  r.settings().parts.push_back(part("floor-colour", {{"noise", number(0)}}));
+  run_for(0.1);
+  EXPECT_EQ(r.variable("done"), 1);
+  EXPECT_EQ(r.variable("red"), 204);
+  EXPECT_EQ(r.variable("green"), 102);
+  EXPECT_EQ(r.variable("blue"), 51);
+  EXPECT_EQ(r.variable("gain"), 2);
+  EXPECT_EQ(r.variable("brighter"), 204);
+  expect_no_traps();
 }
 
 }  // namespace

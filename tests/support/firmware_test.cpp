@@ -64,6 +64,10 @@ int Robot::proximity(int sensor) const {
   return mind().proximity_counts(test_->twin().simulation().scene(), sensor);
 }
 int Robot::collisions() const { return test_->twin().simulation().touches(index_).collisions; }
+Robot& Robot::bluetooth() {
+  keeps_bluetooth_ = true;
+  return *this;
+}
 double Robot::longest_wall_touch_s() const {
   return test_->twin().simulation().touches(index_).longest_wall_touch_s;
 }
@@ -164,7 +168,7 @@ void FirmwareTest::start() {
   twin_ = twin::Twin::open(world, options, problems);
   if (!twin_) throw std::runtime_error("the test's world cannot start:\n" + all_lines(problems));
   for (auto& r : robots_)
-    for (int port = 1; port <= 2; ++port) {
+    for (int port = r->keeps_bluetooth_ ? 2 : 1; port <= 2; ++port) {
       auto end = std::make_unique<board::MemoryEnd>();
       r->serial_[port - 1] = end.get();
       r->mind().board().uart(port).connect(std::move(end));

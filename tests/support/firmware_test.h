@@ -35,6 +35,8 @@ class Robot {
   Robot& at(double x_m, double y_m, double heading_deg = 0);
   Robot& selector(int position);
   Robot& battery(double volts);
+  /// UART 1 keeps the Bluetooth module, instead of a line that the test holds: for commands and links.
+  Robot& bluetooth();
   sim::RobotDesc& settings() { return desc_; }  ///< everything else a world file can say
 
   // --- while running
@@ -100,6 +102,7 @@ class Robot {
   int index_ = 0;
   sim::RobotDesc desc_;
   board::MemoryEnd* serial_[2] = {nullptr, nullptr};
+  bool keeps_bluetooth_ = false;
 };
 
 class FirmwareTest : public ::testing::Test {

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// The functions of pins_acc.h on the board.
+#include <cstring>
+
+#include "hal_sim/board/board.h"
+#include "hal_sim/board/motion_params.h"
+#include "hal_sim/host/context.h"
+#include "hal_sim/host/pins.h"
+#include "hal_sim/host/pins_acc.h"
+
+using board::Board;
+using board::Cycle;
+using host::Context;
+
+extern "C" {
+
+void tp_scan_acc_values(void* samples) {
+  Context& context = Context::current();
+  board::AdcScan& scan = context.board().scan();
+  const Cycle now = context.now();
+  const board::AdcScan::AccRing& ring = scan.acc_scan(now);
+  static_assert(sizeof ring == 3 * board::kAccSamples * 2, "e_acc_scan's layout");
+  std::memcpy(samples, &ring, sizeof ring);
+  context.lower_horizon(scan.acc_until(now));
+}
+
+tp_i64 tp_scan_acc_newest(tp_i64 axis) {
+  if (axis < 0 || axis > 2) return 0;
+  Context& context = Context::current();
+  board::AdcScan& scan = context.board().scan();
+  const Cycle now = context.now();
+  context.lower_horizon(scan.acc_until(now));
+  return scan.acc_scan(now)[static_cast<std::size_t>(axis)]
+                           [static_cast<std::size_t>(scan.acc_samples(now) % board::kAccSamples)];
+}
+
+tp_i64 tp_scan_acc_index_until_next(void) {
+  Context& context = Context::current();
+  const board::AdcScan& scan = context.board().scan();
+  const Cycle now = context.now();
+  context.lower_horizon(scan.acc_until(now));
+  return scan.acc_samples(now) % board::kAccSamples;
+}
+
+void tp_scan_ir_values(void* dark, void* lit) {
+  Context& context = Context::current();
+  board::AdcScan& scan = context.board().scan();
+  const Cycle now = context.now();
+  tp_scan_values(dark, lit);
+  for (int sensor = 0; sensor < board::kRingSensors; ++sensor)
+    context.lower_horizon(scan.horizon(sensor, now));
+}
+
+tp_i64 tp_scan_starts(void) { return Context::current().board().scan().starts(); }
+
+tp_i64 tp_lsm330_answers(void) {
+  Context& context = Context::current();
+  board::I2cBus& bus = context.board().i2c();
+  const Cycle now = context.now();
+  bus.start(now);
+  bus.write(board::kLsmAccAddress, now);
+  bus.write(board::kLsmWhoAmI, now);
+  bus.start(now);
+  bus.write(board::kLsmAccAddress | 1, now);
+  const bool answers = bus.read(now) == board::kLsmAccWho;
+  bus.stop(now);
+  context.note_write();
+  return answers ? 1 : 0;
+}
+
+void tp_basic_prox_hold(void) {
+  Context& context = Context::current();
+  context.board().basic_prox().hold(context.now());
+  context.note_write();
+}
+
+void tp_basic_prox_release(void) {
+  Context& context = Context::current();
+  Board& robot = context.board();
+  const bool was_on = robot.basic_prox().is_on();
+  robot.basic_prox().release(context.now());
+  if (!was_on && robot.basic_prox().is_on()) {
+    const Cycle period = (board::kBasicPulseCycles + board::kBasicRestCycles) / 2;
+    const Cycle cost = board::kBasicIsrEntryCycles + 2 * board::kReadAdCycles;
+    auto& kept_period = robot.requests.background_period[TP_BG_PROX];
+    auto& kept_cost = robot.requests.background_cost[TP_BG_PROX];
+    if (kept_period != period || kept_cost != cost) context.set_background(TP_BG_PROX, period, cost);
+    kept_period = period;
+    kept_cost = cost;
+  }
+  context.note_write();
+}
+
+}  // extern "C"
