@@ -24,7 +24,8 @@ END = "<!-- end of unsimulated functions -->"
 # headers without prototypes of the contract, or that only include others
 NO_PROTOTYPES = {"p30F6014A.h"}
 # declared by the original library's headers and contained in none of its versions: not linked there, nor here
-ONLY_DECLARED = {"e_i2cp_read_string", "e_i2cp_write_string"}
+ONLY_DECLARED = {"e_i2cp_read_string", "e_i2cp_write_string",
+                 "e_po6030k_set_color_mode", "e_po8030d_set_color_mode"}
 # a header's own variant macro -> (switch, prefix with the switch, prefix without)
 VARIANT_MACROS = {"TP_MOTORS": ("E_MOTORS_TIMER3", "tptimer3_", "tpbasic_"),
                   "TP_PROX": ("E_PROX_TIMER2", "tpt2_", "tpbasic_")}

@@ -86,6 +86,7 @@ void Simulation::step() {
   turn_wheels(end);
   const double moved_m = motion_->step(travel_.data(), scene_->neighbours());
   scene_->publish(motion_->bodies(), moved_m);
+  if (scene_->leds_watched()) publish_leds();
   for (const auto& medium : media_) medium->exchange(*scene_, end);
   fold_digest();
 }
@@ -108,6 +109,13 @@ void Simulation::run_minds(Clicks end) {
   const std::size_t shares = static_cast<std::size_t>(workers_->size());
   workers_->run(
       [&](std::size_t share) { run(minds_.size() * share / shares, minds_.size() * (share + 1) / shares); });
+}
+
+/// Only once a camera watches: most worlds have none.
+void Simulation::publish_leds() {
+  leds_.resize(minds_.size());
+  for (std::size_t r = 0; r < minds_.size(); ++r) leds_[r] = minds_[r]->report().leds;
+  scene_->publish_leds(leds_);
 }
 
 /// Wheel angles become ways of the rims over the floor, noise and slip included.

@@ -58,6 +58,7 @@ class Simulation {
  private:
   void run_minds(Clicks end);
   void turn_wheels(Clicks end);
+  void publish_leds();
   void fold_digest();
 
   std::shared_ptr<const ProximityOptics> optics_;
@@ -81,6 +82,7 @@ class Simulation {
   std::vector<Wheels> wheels_;
   std::vector<WheelAngles> angles_;
   std::vector<RimTravel> travel_;
+  std::vector<std::uint32_t> leds_;
   std::vector<double> distance_m_;
   std::vector<Vec2> last_place_;
   std::uint64_t digest_ = 0;

@@ -79,6 +79,8 @@ void add_output_options(CLI::App& verb, OutputArguments& a) {
       ->capture_default_str();
   verb.add_option("--summary", a.summary, "JSON of what the run came to");
   verb.add_option("--picture", a.picture, "PNG or SVG of the world with the robots' ways");
+  verb.add_option("--save-images", a.images,
+                  "folder for every picture that a program gets from its camera (PNG)");
   verb.add_flag("--rays", a.rays, "draw the sensors' rays in the picture");
   verb.add_option("--coverage", a.coverage,
                   "lcov file of the lines that firmware executed; builds controllers with counters");
@@ -104,6 +106,10 @@ bool RunOutputs::open(std::vector<std::string>& problems) {
     recorder_ = std::make_unique<sim::CsvRecorder>(a.record, a.record_every_s);
     if (!recorder_->is_good()) problems.push_back(recorder_->error());
   }
+  if (!a.images.empty()) {
+    images_ = std::make_unique<SavedImages>(a.images);
+    images_->open(twin_, problems);
+  }
   return problems.size() == before;
 }
 
@@ -115,11 +121,15 @@ void RunOutputs::after_tick() {
   if (recorder_) recorder_->sample(simulation.scene(), simulation.minds());
 }
 
-bool RunOutputs::failed() const { return recorder_ && !recorder_->is_good(); }
+bool RunOutputs::failed() const {
+  return (recorder_ && !recorder_->is_good()) || (images_ && images_->failed());
+}
 
 void RunOutputs::finish(const Summary& summary, std::vector<std::string>& problems) {
   const auto& a = arguments_;
   if (recorder_ && !recorder_->flush()) problems.push_back(recorder_->error());
+  if (images_ && images_->failed())
+    problems.push_back(images_->folder() + ": --save-images: a picture cannot be written");
   if (!a.summary.empty()) write_text(a.summary, to_json(summary), "--summary", problems);
   if (!a.coverage.empty()) write_text(a.coverage, lcov_of(twin_), "--coverage", problems);
   if (!a.picture.empty()) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hal_sim/twin/twin.h"
+#include "tools/saved_images.h"
 #include "tools/summary.h"
 
 namespace sim {
@@ -18,7 +19,7 @@ class Trajectories;
 namespace tools {
 
 struct OutputArguments {
-  std::string record, summary, picture, coverage;
+  std::string record, summary, picture, coverage, images;
   double record_every_s = 0.01;
   bool rays = false;
 };
@@ -42,6 +43,7 @@ class RunOutputs {
   twin::Twin& twin_;
   std::unique_ptr<sim::CsvRecorder> recorder_;
   std::unique_ptr<sim::Trajectories> paths_;
+  std::unique_ptr<SavedImages> images_;
 };
 
 }  // namespace tools

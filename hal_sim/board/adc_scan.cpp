@@ -182,10 +182,12 @@ void AdcScan::fill_acc(Cycle at) {
     for (int axis = 0; axis < 3; ++axis) {
       const Cycle hold = frame + acc_hold_cycles(axis);
       const bool analogue = board_.setup().revision == Revision::Analogue;
-      const int counts =
-          analogue ? accelerometer_counts(board_, axis, hold, acc_noise_base_ + static_cast<std::uint64_t>(k))
-          : axis == 2 ? board_.battery_counts(hold)
-                      : 0;
+      const auto part = board_.part_counts(kAccChannel + axis, hold);  // a turret may take the pin over
+      const int counts = part        ? *part
+                         : analogue  ? accelerometer_counts(board_, axis, hold,
+                                                            acc_noise_base_ + static_cast<std::uint64_t>(k))
+                         : axis == 2 ? board_.battery_counts(hold)
+                                     : 0;
       acc_[static_cast<std::size_t>(axis)][static_cast<std::size_t>((k + 1) % kAccSamples)] =
           static_cast<std::int16_t>(counts);
     }

@@ -28,6 +28,7 @@ enum : int { kA, kB, kC, kD, kF, kG };
 constexpr int kRingLedBit[8] = {6, 7, 9, 12, 10, 13, 14, 15};  // [lib: motor_led/e_epuck_ports.h]
 constexpr int kFrontLedBit = 1;                                // [lib: motor_led/e_epuck_ports.h]
 constexpr int kBodyLedBit = 2;                                 // [lib: motor_led/e_epuck_ports.h]
+constexpr int kCameraResetBit = 13;                            // [lib: motor_led/e_epuck_ports.h]
 
 struct Line {
   int port;
@@ -56,6 +57,15 @@ Board::Board(const Setup& setup)
       basic_prox_(*this),
       battery_(setup.battery_wh, setup.battery_v, kProcessorA + kBluetoothA + kBoardA) {
   for (std::size_t i = 0; i < kPorts; ++i) tris_[i] = kImplemented[i];
+  if (setup.camera != CameraKind::None) {
+    auto sensor = std::make_unique<CameraSensor>(setup.camera);
+    camera_ = std::make_unique<Camera>(*this, *sensor, setup.camera_mount, setup.camera_noise);
+    i2c_.attach(std::move(sensor));
+    // bits 0 and 1: 1 upright, 2 inverted, 3 sideways [lib: camera/fast_2_timer/e_common.c]
+    eeprom_.set_factory_word(setup.camera_mount == CameraMount::Upright    ? 0xFFFD
+                             : setup.camera_mount == CameraMount::Inverted ? 0xFFFE
+                                                                           : 0xFFFF);
+  }
   if (setup.revision == Revision::Rev13) i2c_.attach(std::make_unique<Lsm330>(*this));
 }
 
@@ -157,6 +167,7 @@ void Board::port_write(char port, Register reg, std::uint16_t value, Cycle at) {
     if (scan_.is_on() || basic_prox_.is_on()) value = static_cast<std::uint16_t>(value & ~bit(line.bit));
     if (value & ~lat_[i] & bit(line.bit)) line_since_[static_cast<std::size_t>(pair)] = at;
   }
+  if (index == kC && camera_ && lat_[i] & ~value & bit(kCameraResetBit)) camera_->sensor_reset(at);
   if (index == kC && scan_.pulses(at) & 16u) value = static_cast<std::uint16_t>(value & ~(bit(1) | bit(2)));
   if (value == lat_[i]) return;
   lat_[i] = value;
@@ -241,6 +252,7 @@ void Board::processor_reset(Cycle at) {
   scan_.reset(at);
   basic_prox_.reset(at);
   for (Uart& uart : uarts_) uart.reset(at);
+  if (camera_) camera_->processor_reset();
   i2c_master_.processor_reset(at);
   requests = Requests{};
   lat_.fill(0);
@@ -372,7 +384,8 @@ std::uint64_t Board::state_hash(Cycle at) const {
   }
   for (std::size_t i = 0; i < kPorts; ++i) add(lat_[i] | static_cast<std::uint64_t>(tris_[i]) << 16);
   for (const Uart& uart : uarts_) add(uart.state_hash());
-  if (!i2c_.devices().empty()) add(i2c_.state_hash() + i2c_master_.state_hash());
+  if (i2c_.was_used()) add(i2c_.state_hash() + i2c_master_.state_hash());
+  if (camera_ && camera_->is_used()) add(camera_->state_hash());
   for (const auto& part : parts_) add(part->state_hash());
   if (eeprom_.in_use()) add(eeprom_.state_hash());
   add(static_cast<std::uint64_t>(scan_.interrupts(at)));

@@ -8,7 +8,7 @@
 // Modelled: port latches, directions and pin levels; two steppers that follow their coils; the library's
 // motor drivers, agenda timer, ADC scan and UARTs in closed form; IR circuit; LEDs; selector; remote
 // control's receiver; battery, fed by what is on. Motion sensors: accelerometer.h (before revision 1.3),
-// lsm330.h (1.3). Not modelled: microphones, camera, codec (each fails loudly in hal_sim/api).
+// lsm330.h (1.3). Not modelled: microphones, codec (each fails loudly in hal_sim/api).
 //
 // Every method takes the cycle of this robot's clock at which it happens. Cycles never go back between calls
 // that change something. Nothing depends on who looked before: const methods have no side effects, and a
@@ -25,6 +25,7 @@
 #include "hal_sim/board/basic_prox.h"
 #include "hal_sim/board/battery.h"
 #include "hal_sim/board/battery_params.h"
+#include "hal_sim/board/camera.h"
 #include "hal_sim/board/clock.h"
 #include "hal_sim/board/data_eeprom.h"
 #include "hal_sim/board/i2c_bus.h"
@@ -49,6 +50,11 @@ enum class Revision {
 
 inline constexpr int kRingSensors = 8;
 
+/// Camera of a robot that does not say which one it carries.
+constexpr CameraKind usual_camera(Revision revision) {
+  return revision == Revision::Rev13 ? CameraKind::Po8030d : CameraKind::Po3030k;
+}
+
 /// What distinguishes one robot from another; fixed while it is powered.
 struct Setup {
   int robot = 0;                   ///< index in the Scene
@@ -63,11 +69,14 @@ struct Setup {
   double ir_noise_scale = 1.0;                          ///< factor on the profile's relative noise; 0 = none
   double ambient_noise_counts = 0;  ///< standard deviation of every conversion of an IR channel, counts
   double ambient_counts_per_w_m2 = kAmbientCountsPerWm2;  ///< fall of the dark sample with light
-  std::array<double, 3> acc_offset_m_s2{};                ///< added to the specific force: forward, left, up
-  std::array<double, 3> gyro_offset_rad_s{};              ///< added to the angular rates about these axes
-  double motion_noise_scale = 1;  ///< factor on the noise of accelerometer and gyroscope
-  double clock_ppm = 0;           ///< crystal error, parts per million, positive = fast
-  double boot_delay_s = 0;        ///< s from the world's beginning to the first instruction
+  CameraKind camera = CameraKind::Po3030k;
+  CameraMount camera_mount = CameraMount::Upright;
+  double camera_noise = 1;                    ///< factor on the camera's noise; 0 none
+  std::array<double, 3> acc_offset_m_s2{};    ///< added to the specific force: forward, left, up
+  std::array<double, 3> gyro_offset_rad_s{};  ///< added to the angular rates about these axes
+  double motion_noise_scale = 1;              ///< factor on the noise of accelerometer and gyroscope
+  double clock_ppm = 0;                       ///< crystal error, parts per million, positive = fast
+  double boot_delay_s = 0;                    ///< s from the world's beginning to the first instruction
 };
 
 class Board {
@@ -142,6 +151,9 @@ class Board {
   /// Camera, motion sensors and turrets hang here.
   I2cBus& i2c() { return i2c_; }
   const I2cBus& i2c() const { return i2c_; }
+  /// Null: the robot carries none.
+  Camera* camera() { return camera_.get(); }
+  const Camera* camera() const { return camera_.get(); }
   /// The processor's side of the bus.
   I2cMaster& i2c_master() { return i2c_master_; }
   const I2cMaster& i2c_master() const { return i2c_master_; }
@@ -222,6 +234,7 @@ class Board {
   Battery battery_;
   DataEeprom eeprom_;
   I2cMaster i2c_master_{i2c_};
+  std::unique_ptr<Camera> camera_;
   std::vector<std::unique_ptr<Part>> parts_;
   mutable Cycle settled_for_ = -1;  // the flash's length is nearly always the same: its exponential, once
   mutable double settled_share_ = 0;

@@ -25,8 +25,9 @@ sim::RobotModel epuck_model() {
     model.proximity.push_back({{place.x_m, place.y_m, kProximityZM}, sim::radians(place.yaw_deg), 0});
   const sim::Colour red{1, 0.1, 0.1}, green{0.1, 1, 0.1};
   for (const Place& place : kRingLeds) model.leds.push_back({{place.x_m, place.y_m}, red});
+  for (sim::LedMount& led : model.leds) led.z_m = kRingLedZM, led.spot_m = kRingLedSpotM;
   model.leds.push_back({{kBodyLed.x_m, kBodyLed.y_m}, green});
-  model.leds.push_back({{kFrontLed.x_m, kFrontLed.y_m}, red});
+  model.leds.push_back({{kFrontLed.x_m, kFrontLed.y_m}, red, kFrontLedZM, kFrontLedSpotM});
   return model;
 }
 

@@ -130,6 +130,11 @@ inline constexpr Place kRingLeds[8] = {
 };
 inline constexpr Place kBodyLed = {0.0, 0.0};         // [assumed: the glow fills the transparent body]
 inline constexpr Place kFrontLed = {0.031, -0.0125};  // [FRM A10]
+inline constexpr double kRingLedZM = 0.040;           // m [assumed: the light ring below the top of the body]
+inline constexpr double kRingLedSpotM =
+    0.008;                                    // m [assumed: the ring spreads the light over some millimetres]
+inline constexpr double kFrontLedZM = 0.020;  // m [assumed: beside the camera]
+inline constexpr double kFrontLedSpotM = 0.004;  // m [assumed: a 5 mm lens and its halo]
 
 // --- processor time of the library's interrupt handlers, entry and RETFIE included -----------------------
 inline constexpr Cycle kAgendaIsrCycles = 26;  // empty list [estimated: 4 entry, 14 pushes and pops, 8 body]

@@ -20,6 +20,7 @@ I2cDevice* I2cBus::find(std::uint8_t address) const {
 
 void I2cBus::start(Cycle at) {
   open_ = true;
+  was_used_ = true;
   expects_address_ = true;
 }
 

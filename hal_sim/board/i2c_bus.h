@@ -34,6 +34,9 @@ class I2cBus {
   /// I2CSTAT.P: the bus is idle, or a stop was the last thing on it.
   bool is_stopped() const { return !open_; }
 
+  /// Something was sent since power-up.
+  bool was_used() const { return was_used_; }
+
   void processor_reset(Cycle at);
   std::uint64_t state_hash() const;
 
@@ -43,6 +46,7 @@ class I2cBus {
   I2cDevice* addressed_ = nullptr;
   bool open_ = false;
   bool expects_address_ = false;
+  bool was_used_ = false;
 };
 
 }  // namespace board

@@ -155,7 +155,10 @@ void Robot::run_until(Cycle end) {
   do {
     if (reset_asked_) restart_program();
     swap_in();
+    // what other robots of the copy wrote is no change that this one's loops could see
+    copy_.control().writes = writes_;
     fiber_.enter();
+    writes_ = copy_.control().writes;
   } while (reset_asked_);
   woken_ = false;
   running_robot = outer;

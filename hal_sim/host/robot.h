@@ -198,6 +198,7 @@ class Robot final : public Context {
   Cycle disi_until_ = 0;
   std::int64_t served_ = 0;  // interrupts so far
 
+  std::int64_t writes_ = 0;  // image_abi.h's counter while another robot of the copy runs
   Cycle horizon_ = kNever;
   bool looked_outside_ = false;  // since the last round of a wait
   std::int64_t poll_loop_ = -1;

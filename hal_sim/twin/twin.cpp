@@ -63,6 +63,15 @@ board::Setup setup_of(const sim::WorldDesc& world, int index) {
   setup.acc_offset_m_s2 = variation.acc_offset_m_s2;
   setup.gyro_offset_rad_s = variation.gyro_offset_rad_s;
   setup.motion_noise_scale = robot.variation.motion_noise_scale;
+  setup.camera = robot.camera == "none"      ? board::CameraKind::None
+                 : robot.camera == "po3030k" ? board::CameraKind::Po3030k
+                 : robot.camera == "po6030k" ? board::CameraKind::Po6030k
+                 : robot.camera == "po8030d" ? board::CameraKind::Po8030d
+                                             : board::usual_camera(setup.revision);
+  setup.camera_mount = robot.camera_mount == "sideways"   ? board::CameraMount::Sideways
+                       : robot.camera_mount == "inverted" ? board::CameraMount::Inverted
+                                                          : board::CameraMount::Upright;
+  setup.camera_noise = robot.camera_noise;
   setup.clock_ppm = variation.clock_ppm;
   setup.boot_delay_s = variation.boot_delay_s;
   return setup;

@@ -301,6 +301,7 @@ std::vector<SectionSpec> make_schema() {
                  f.tilt_x_rad = radians(v.numbers[0]), f.tilt_y_rad = radians(v.numbers[1]);
                })},
           });
+  for (SectionSpec& camera : camera_sections()) s.push_back(std::move(camera));
   s.push_back(ramp_section());
   using L = WallDesc;
   std::vector<KeySpec> wall{
@@ -461,6 +462,7 @@ std::vector<SectionSpec> make_schema() {
           {"uart2", ValueType::Text, "", 0, 0, "", "\"none\"", "none, pty, pty:LINK, tcp:PORT or file:PATH",
            checked<R>([](R& r, const Value& v, const WorldDesc&) { return uart_text(v, r.uart2); })},
       });
+  for (KeySpec& key : robot_camera_keys()) s.back().keys.push_back(std::move(key));
   section("robot.variation", false, "How this robot differs from its model.", variation_keys());
   section("robot.proximity", false, "Proximity sensors of this robot; keys as in `[proximity]`.",
           proximity_keys<ProximitySettings>([](ProximitySettings& p) -> ProximitySettings& { return p; }));

@@ -340,6 +340,7 @@ class Reader {
       if (!world_.arena)
         problem(node->source(), "floor.image: got an image but no [arena], expected an arena to lay it in");
     }
+    read_one("sky", root, "sky", &world_.sky);
     read_one("proximity", root, "proximity", &world_.proximity);
     read_many("ramp", root, "ramp", [&](const toml::table& t) {
       RampDesc r;

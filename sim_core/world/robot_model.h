@@ -24,10 +24,13 @@ struct SensorMount {
   double pitch_rad = 0;  ///< above the horizontal
 };
 
-/// A lamp on the robot, for pictures.
+/// A lamp on the robot, for pictures and cameras.
 struct LedMount {
   Vec2 at_m;
   Colour colour{1, 0.1, 0.1};
+  double z_m = 0.035;  ///< height of the spot that cameras see on the body
+  double spot_m =
+      0.006;  ///< its radius; an LED nearer than this to the robot's middle lights the body from inside
 };
 
 struct RobotModel {

@@ -4,6 +4,7 @@
 // methods are safe from any thread while nobody publishes. Heights of falling bodies are those of the last
 // tick.
 #pragma once
+#include <atomic>
 #include <memory>
 #include <vector>
 
@@ -74,6 +75,13 @@ class Scene {
   const ProximityOptics* optics() const { return optics_.get(); }
   void attach_optics(std::shared_ptr<const ProximityOptics> optics) { optics_ = std::move(optics); }
 
+  /// LEDs of a robot at the last tick, bits as in MindReport; 0 as long as nobody watches.
+  std::uint32_t leds(int robot) const { return leds_.empty() ? 0 : leds_[static_cast<std::size_t>(robot)]; }
+  /// From the next tick on LEDs are published. Safe from any thread at any time.
+  void watch_leds() const { leds_watched_.store(true, std::memory_order_relaxed); }
+  bool leds_watched() const { return leds_watched_.load(std::memory_order_relaxed); }
+  void publish_leds(const std::vector<std::uint32_t>& leds) { leds_ = leds; }
+
   /// The next tick's states; `moved_m` is the largest distance any body moved.
   void publish(const std::vector<BodyState>& states, double moved_m);
   /// A body was put somewhere else: its history is forgotten, lists are gathered anew.
@@ -95,6 +103,8 @@ class Scene {
   std::vector<Pose2> history_;  // [body * slots_ + tick % slots_]
   std::vector<double> moved_;   // [tick % slots_]: largest movement of that tick, m
   std::vector<BodyState> states_;
+  std::vector<std::uint32_t> leds_;  // per robot; empty until somebody watches
+  mutable std::atomic<bool> leds_watched_{false};
   std::vector<Placed> moving_;
   Neighbours neighbours_;
   std::shared_ptr<const ProximityOptics> optics_;

@@ -149,8 +149,11 @@ struct RobotDesc {
   double battery_v = -1;              ///< V; negative: the model's
   double battery_wh = -1;             ///< Wh when full; negative: the model's
   std::optional<Colour> colour;
-  double wheel_noise = 0;  ///< each wheel's travel times U(1 - n, 1 + n), drawn every 1/32 s
-  double slip = 0;         ///< fraction of the wheels' travel that is lost on the floor
+  std::string camera;        ///< which one it carries, a name the caller knows; empty: the model's usual one
+  std::string camera_mount;  ///< how it is turned, a name the caller knows; empty: the usual way
+  double camera_noise = 1;   ///< factor on the camera's noise; 0 none
+  double wheel_noise = 0;    ///< each wheel's travel times U(1 - n, 1 + n), drawn every 1/32 s
+  double slip = 0;           ///< fraction of the wheels' travel that is lost on the floor
   std::string uart1 = "none";
   std::string uart2 = "none";
   LinkEndDesc link;
@@ -231,6 +234,12 @@ struct LampDesc {
   bool on = true;
 };
 
+/// What cameras see where nothing stands, and the light that is everywhere for them.
+struct SkyDesc {
+  Colour colour{0.72, 0.80, 0.90};
+  double light_w_m2 = 1.0;  ///< on the floor; proximity sensors do not see it
+};
+
 struct WorldDesc {
   std::string title;
   std::string file;  ///< where it was read from; empty when built in C++
@@ -241,6 +250,7 @@ struct WorldDesc {
   double ambient_w_m2 = 0;
   std::optional<ArenaDesc> arena;
   FloorDesc floor;
+  SkyDesc sky;
   std::vector<Material> materials;
   std::vector<WallDesc> walls;
   std::vector<ObjectDesc> objects;

@@ -17,4 +17,13 @@ Vec3 angular_rate_rad_s(const Scene& scene, int, Clicks at) { return scene.turn_
 
 double sense_irradiance_w_m2(const Scene& scene, int, int, Clicks) { return scene.irradiance_w_m2; }
 
+void render_camera(const Scene& scene, int, const Vec3&, Clicks at, const std::vector<double>& right,
+                   const std::vector<double>& up, std::vector<Light>& out) {
+  out.clear();
+  for (double v : up)
+    for (double u : right) out.push_back(scene.light(u, v, at));
+}
+
+void watch_leds(const Scene&) {}
+
 }  // namespace sim

@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "sim_core/camera/camera.h"
 #include "sim_core/light/proximity.h"
 #include "sim_core/world/true_motion.h"
 
@@ -17,6 +18,8 @@ class Scene {
     Clicks at;
   };
   std::function<double(int sensor, Clicks at)> reflection = [](int, Clicks) { return 0.0; };
+  /// What a camera sees in the direction (1 forward, u right, v up).
+  std::function<Light(double u, double v, Clicks at)> light = [](double, double, Clicks) { return Light{}; };
   double irradiance_w_m2 = 0;
   double relative_noise = 0;
   std::function<Vec3(Clicks at)> force_m_s2 = [](Clicks) { return Vec3{0, 0, 9.81}; };

@@ -234,4 +234,18 @@ TEST_F(Command, new_makes_a_controller_that_builds_and_runs) {
   EXPECT_GT(json::parse(read(path("s.json")))["robots"][0]["distance_m"].get<double>(), 0.1);
 }
 
+TEST_F(Command, the_summary_counts_radio_packets_where_there_is_a_radio) {
+  ASSERT_EQ(twinpuck("run flock --for 3 -q --summary " + path("s.json")).exit_code, 0);
+  const json radio = json::parse(read(path("s.json")))["radio"];
+  EXPECT_GT(radio["sent"], 0);
+  EXPECT_GT(radio["delivered"], 0);
+  int pairs = 0;
+  for (const char* key :
+       {"delivered", "out_of_range", "by_chance", "by_collision", "while_sending", "switched_off"})
+    pairs += radio[key].get<int>();
+  EXPECT_NEAR(pairs, 9 * radio["sent"].get<int>(), 9 * 10);  // at most one frame a robot is still on its way
+  ASSERT_EQ(twinpuck("run maze --for 0.1 -q --summary " + path("m.json")).exit_code, 0);
+  EXPECT_FALSE(json::parse(read(path("m.json"))).contains("radio"));
+}
+
 }  // namespace

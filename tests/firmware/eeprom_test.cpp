@@ -14,7 +14,7 @@ int blank, word, anded, erased, starts, results;
 int row[16], back[16];
 int main(void) {
   int i, value = 0x1234;
-  ReadEE(0x7F, 0xFFFE, &blank, WORD);
+  ReadEE(0x7F, 0xFFFC, &blank, WORD);
   ReadEE(0x7F, 0xF000, &starts, WORD);
   if (starts == -1) { /* blank: the first life */
     value = 7;

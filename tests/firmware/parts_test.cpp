@@ -41,8 +41,9 @@ TEST(Parts, every_kind_has_a_name_of_its_own_and_sensible_defaults) {
 }
 
 TEST(Parts, the_page_about_parts_shows_the_example_as_it_is) {
-  EXPECT_NE(text_of("docs/parts.md").find("```cpp\n" + text_of("hal_sim/board/parts/floor_colour.cpp") + "```\n"),
-            std::string::npos);
+  EXPECT_NE(
+      text_of("docs/parts.md").find("```cpp\n" + text_of("hal_sim/board/parts/floor_colour.cpp") + "```\n"),
+      std::string::npos);
 }
 
 class PartTest : public FirmwareTest {

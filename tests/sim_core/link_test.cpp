@@ -160,4 +160,62 @@ TEST(Link, dropouts_by_chance_take_their_share_of_the_time) {
   EXPECT_NEAR(blocked / (40.0 * ticks), 0.2, 0.03);
 }
 
+std::string complaint(const std::string& toml) {
+  const sim::LoadedWorld loaded = sim::parse_world("twinpuck = 1\n" + toml, "w.toml", {puck()});
+  return loaded.world ? "none" : loaded.report("w.toml");
+}
+
+TEST(Link, keys_of_a_world_file_reach_their_places) {
+  const sim::WorldDesc w = world_of(R"(twinpuck = 1
+[radio]
+model = "disc"
+range = 2.5
+loss = 0.25
+capture = 1000
+carrier_sense = false
+seed = 77
+[bluetooth]
+latency = 0.1
+dropouts = [[1, 2], [5, 0.5]]
+dropout_rate = 0.01
+[[robot]]
+[robot.bluetooth]
+number = 2087
+pin = "77"
+dropouts = [[9, 1]]
+)");
+  EXPECT_EQ(w.radio.model, sim::RadioModel::Disc);
+  EXPECT_EQ(w.radio.range_m, 2.5);
+  EXPECT_EQ(w.radio.loss, 0.25);
+  EXPECT_EQ(w.radio.capture_db, 1000);
+  EXPECT_FALSE(w.radio.carrier_sense);
+  EXPECT_EQ(w.radio.seed, 77u);
+  EXPECT_EQ(w.link.latency_s, 0.1);
+  ASSERT_EQ(w.link.dropouts.size(), 2u);
+  EXPECT_EQ(w.link.dropouts[1].begin_s, 5);
+  EXPECT_EQ(w.link.dropouts[1].span_s, 0.5);
+  EXPECT_EQ(w.link.dropout_rate_hz, 0.01);
+  EXPECT_EQ(w.robots[0].link.number, 2087);
+  EXPECT_EQ(w.robots[0].link.pin, "77");
+  EXPECT_FALSE(w.robots[0].link.name);
+  EXPECT_EQ(w.robots[0].link.dropouts[0].begin_s, 9);
+}
+
+TEST(Link, bad_keys_say_what_is_wrong_and_where) {
+  EXPECT_EQ(complaint("[bluetooth]\ndropouts = [[3, 2], [4, 1]]\n"),
+            "w.toml:3:12: bluetooth.dropouts: got a beginning at 4 s, expected it after the one before has "
+            "ended (5 s)");
+  EXPECT_EQ(complaint("[bluetooth]\ndropouts = [[3, 0]]\n"),
+            "w.toml:3:12: bluetooth.dropouts: got a length of 0 s, expected more than 0");
+  EXPECT_NE(complaint("[radio]\nrange = -1\n").find("w.toml:3:9: radio.range: got -1, expected"),
+            std::string::npos);
+  EXPECT_NE(complaint("[radio]\nmodel = \"disk\"\n").find("did you mean 'disc'?"), std::string::npos);
+  EXPECT_NE(complaint("[[robot]]\n[robot.bluetooth]\npin = \"\"\n").find("expected 1 to 16"),
+            std::string::npos);
+  // the second robot's place in the file is 2, too
+  EXPECT_NE(complaint("[[robot]]\n[robot.bluetooth]\nnumber = 2\n[[robot]]\nposition = [1, 0]\n")
+                .find("w.toml:5:1: robot.bluetooth.number: got 2 a second time (first on line 2"),
+            std::string::npos);
+}
+
 }  // namespace

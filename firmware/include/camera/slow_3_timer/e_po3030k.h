@@ -37,10 +37,10 @@
 #define SPEED_64 0x60
 #define SPEED_128 0x70
 
-/** Selects window, zoom and colours; arguments and result as e_poxxxx_config_cam(). */
+/** Selects window, zoom and colours; arguments and result as e_poxxxx_config_cam(), but lines of any length. */
 int e_po3030k_config_cam(unsigned int sensor_x1, unsigned int sensor_y1, unsigned int sensor_width,
                          unsigned int sensor_height, unsigned int zoom_fact_width,
-                         unsigned int zoom_fact_height, int color_mode);
+                         unsigned int zoom_fact_height, int color_mode) TP_VARIANT(tpslow_, e_po3030k_config_cam);
 
 /** 1 for grey, 2 for RGB565 and YUV, 1 for unknown modes. */
 int e_po3030k_get_bytes_per_pixel(int color_mode);

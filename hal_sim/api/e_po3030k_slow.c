@@ -1,0 +1,95 @@
+/* SPDX-License-Identifier: MIT
+ * The slow driver of three timers: an interrupt for every byte, clocks 16 to 128 times slower than the fast
+ * driver's.
+ *
+ * Modelled: frames, lines and bytes at the slow clock, LED 0 that toggles with every byte taken, the
+ * processor time of the bytes' interrupts (spent at once when a line begins). Not modelled: what happens to
+ * single bytes when the processor is kept from an interrupt. Source: [lib: camera/slow_3_timer/], facts
+ * restated. The settings are those of e_po3030k.c.
+ */
+#include "camera/slow_3_timer/e_po3030k.h"
+
+#include "camera.h"
+#include "hal_sim/host/pins.h"
+#include "hal_sim/host/pins_camera.h"
+
+#define ORIGIN_X 210
+#define ORIGIN_Y 7
+#define PRIORITY 4            /* as after a reset: this driver sets none */
+#define LINE_ENTRY_CYCLES 50  /* [estimated: context, counters, RETFIE] */
+#define FRAME_ENTRY_CYCLES 30 /* [estimated: context, three bits, RETFIE] */
+#define PIXEL_CYCLES 75       /* [estimated: 40 instructions of the byte's interrupt, context] */
+#define LAUNCH_CYCLES 90      /* [estimated: three timers set up] */
+#define LONGEST_LINE 1280     /* 640 pixels of two bytes */
+#define LED0_BIT 6            /* of port A */
+
+static char* next_byte;
+static int ready, row;
+static int rows, columns, bytes_per_pixel = 1, skipped_pixels, skipped_lines;
+static char led_is_off = 1;
+
+static void line_interrupt(void) {
+  static unsigned char line[LONGEST_LINE];
+  int i, count = (int)tp_camera_take_line(line, sizeof line);
+  for (i = 0; i < count; i++) {
+    *next_byte++ = (char)line[i];
+    tp_latch_write('A', LED0_BIT, led_is_off);
+    led_is_off = !led_is_off;
+  }
+  tp_spend((tp_i64)PIXEL_CYCLES * columns * bytes_per_pixel * (1 + skipped_pixels));
+  if (++row == rows)
+    ready = 1;
+  else
+    tp_irq_at(TP_V_T4, tp_camera_next_line());
+}
+
+static void frame_interrupt(void) { tp_irq_at(TP_V_T4, tp_camera_begin_frame()); }
+
+void e_po3030k_launch_capture(char* buf) {
+  tp_spend(LAUNCH_CYCLES);
+  row = 0;
+  next_byte = buf;
+  ready = 0;
+  tp_irq_install(TP_V_T4, line_interrupt, PRIORITY, LINE_ENTRY_CYCLES);
+  tp_irq_install(TP_V_T5, frame_interrupt, PRIORITY, FRAME_ENTRY_CYCLES);
+  tp_irq_at(TP_V_T4, -1);
+  tp_irq_at(TP_V_T5, tp_camera_launch(rows, columns, bytes_per_pixel, skipped_pixels, skipped_lines, 1));
+}
+
+int e_po3030k_is_img_ready(void) { return ready; }
+
+void e_po3030k_apply_timer_config(int pixel_row, int pixel_col, int bpp, int pbp, int bbl) {
+  rows = pixel_row;
+  columns = pixel_col;
+  bytes_per_pixel = bpp;
+  skipped_pixels = pbp;
+  skipped_lines = bbl;
+}
+
+int e_po3030k_config_cam(unsigned int sensor_x1, unsigned int sensor_y1, unsigned int sensor_width,
+                         unsigned int sensor_height, unsigned int zoom_fact_width,
+                         unsigned int zoom_fact_height, int color_mode) {
+  int sampling, speed;
+  sensor_x1 += ORIGIN_X;
+  sensor_y1 += ORIGIN_Y;
+  if (zoom_fact_height < 1 || zoom_fact_width < 1) return -1;
+  if (sensor_x1 + sensor_width > ORIGIN_X + ARRAY_WIDTH) return -1;
+  if (sensor_y1 + sensor_height > ORIGIN_Y + ARRAY_HEIGHT) return -1;
+  if (sensor_width % zoom_fact_width || sensor_height % zoom_fact_height) return -1;
+
+  sampling = sensor_sampling(zoom_fact_width, zoom_fact_height);
+  sensor_y1 -= (unsigned int)sampling;
+  if (e_po3030k_set_color_mode(color_mode)) return -1;
+  speed = sampling == 4 ? SPEED_32 : sampling == 2 ? SPEED_64 : SPEED_128;
+  if (color_mode == GREY_SCALE_MODE) speed = sampling == 4 ? SPEED_16 : sampling == 2 ? SPEED_32 : SPEED_64;
+  e_po3030k_set_speed(speed); /* refuses SPEED_128, so colour without sub-sampling keeps the speed it had */
+  if (e_po3030k_set_sampling_mode(sampling == 4 ? MODE_QQVGA : sampling == 2 ? MODE_QVGA : MODE_VGA))
+    return -1;
+  if (e_po3030k_set_wx(sensor_x1, ORIGIN_X + ARRAY_WIDTH + 1)) return -1;
+  if (e_po3030k_set_wy(sensor_y1, ORIGIN_Y + ARRAY_HEIGHT + 1)) return -1;
+  if (e_po3030k_set_vsync(sensor_y1 - 1, ORIGIN_Y + ARRAY_HEIGHT, sensor_x1 + 1)) return -1;
+  e_po3030k_apply_timer_config((int)(sensor_height / zoom_fact_height), (int)(sensor_width / zoom_fact_width),
+                               e_po3030k_get_bytes_per_pixel(color_mode), (int)zoom_fact_width / sampling - 1,
+                               (int)zoom_fact_height / sampling - 1);
+  return 0;
+}

@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: MIT
+#include "hal_sim/board/camera.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hal_sim/board/board.h"
+#include "hal_sim/board/camera_params.h"
+#include "sim_core/base/hash.h"
+#include "sim_core/random/counter_random.h"
+
+namespace board {
+
+namespace {
+
+constexpr std::uint32_t kCameraStream = sim::kStreamBoard + 40;
+constexpr double kSqrt6 = 2.449489742783178;  // of a triangular draw's half width over its standard deviation
+
+double luma(const sim::Light& l) { return 0.299 * l.r + 0.587 * l.g + 0.114 * l.b; }
+
+/// What the sensor gives back, as a share of full scale, for a count of the gamma table: its inverse.
+double light_of_count(const SensorSetup& s, double count) {
+  for (int i = 11; i >= 0; --i) {
+    const double low = s.gamma[static_cast<std::size_t>(i)];
+    if (count < low && i > 0) continue;
+    const double high = i == 11 ? 255 : s.gamma[static_cast<std::size_t>(i + 1)];
+    const double to = i == 11 ? 256 : kGammaAt[i + 1];
+    if (high <= low) continue;
+    return (kGammaAt[i] + (to - kGammaAt[i]) * (count - low) / (high - low)) / 256;
+  }
+  return count / 255;
+}
+
+}  // namespace
+
+Camera::Camera(Board& board, CameraSensor& sensor, CameraMount mount, double noise)
+    : board_(board), sensor_(sensor), mount_(mount), noise_(noise), exposure_s_(kStartExposureS) {}
+
+// --- frames ----------------------------------------------------------------------------------------------
+
+SensorSetup Camera::setup() const { return sensor_.setup(); }
+
+/// Registers may have changed: frames then start anew with the write.
+void Camera::refresh(Cycle at) {
+  if (seen_version_ == sensor_.version()) return;
+  now_ = sensor_.setup();
+  seen_version_ = sensor_.version();
+  frame_start_ = std::min(at, sensor_.written_at());
+}
+
+Cycle Camera::frame_cycles() const {
+  const SensorSetup s = sensor_.setup();
+  const double line_s = static_cast<double>(s.line_cycles()) / static_cast<double>(kFcyHz);
+  const double lines = s.auto_exposure ? exposure_s_ / line_s : s.exposure_lines;
+  const int integration = static_cast<int>(std::min(lines, static_cast<double>(s.longest_integration)));
+  return Cycle{std::max(s.frame_lines, integration + kIntegrationMargin)} * s.line_cycles();
+}
+
+Cycle Camera::launch(const Request& request, Cycle at) {
+  refresh(at);
+  request_ = request;
+  ++launches_;
+  row_ = 0;
+  rendered_ = 0;
+  picture_.clear();
+  if (const sim::Scene* scene = board_.scene()) sim::watch_leds(*scene);
+  const Cycle frame = frame_cycles();
+  return frame_start_ + ((at - frame_start_) / frame + 1) * frame;
+}
+
+Cycle Camera::begin_frame(Cycle at) {
+  refresh(at);
+  const Cycle frame = frame_cycles();
+  const std::int64_t frames = (at - frame_start_) / frame;
+  const Cycle vsync = frame_start_ + frames * frame;
+  taken_ = now_;
+  make_curve();
+  run_automatics(std::min<std::int64_t>(frames, kLongestGap), vsync);
+  frame_start_ = vsync;
+
+  const double line_s = static_cast<double>(taken_.line_cycles()) / static_cast<double>(kFcyHz);
+  const double seconds = taken_.auto_exposure ? exposure_s_
+                                              : std::min(taken_.exposure_lines,
+                                                         static_cast<double>(taken_.longest_integration)) *
+                                                    line_s * taken_.gain;
+  scale_[0] = seconds * kResponse * (taken_.auto_white ? auto_red_ : taken_.red);
+  scale_[1] = seconds * kResponse * (taken_.auto_white ? 1.0 : taken_.green);
+  scale_[2] = seconds * kResponse * (taken_.auto_white ? auto_blue_ : taken_.blue);
+  plan_line();
+  row_ = 0;
+  rendered_ = 0;
+  picture_.clear();
+  next_line_ = vsync + Cycle{taken_.sub_sampling} * taken_.line_cycles();
+  return next_line_;
+}
+
+/// Which bytes of a line the driver's rhythm picks, and which pixels they need.
+void Camera::plan_line() {
+  line_.clear();
+  columns_.clear();
+  const int bpp = taken_.bytes_per_pixel();
+  const int first = taken_.first_x - (request_.in_step ? taken_.sub_sampling : 0);
+  int last_pixel = -1;
+  for (int column = 0; column < request_.columns; ++column) {
+    for (int part = 0; part < request_.bytes_per_pixel; ++part) {
+      const int turn = column * request_.bytes_per_pixel * (1 + request_.skipped_pixels) + part;
+      const int byte = request_.in_step
+                           ? turn
+                           : static_cast<int>(2 * kMaskCycles * turn / std::max(1, taken_.byte_half_cycles));
+      const int pixel = byte / bpp;
+      if (pixel != last_pixel || columns_.empty()) {
+        columns_.push_back(first + (pixel + 0.5) * taken_.sub_sampling);
+        last_pixel = pixel;
+      }
+      line_.push_back({static_cast<std::uint16_t>(columns_.size() - 1), static_cast<std::uint8_t>(byte % bpp),
+                       (pixel & 1) != 0});
+    }
+  }
+}
+
+// --- light -----------------------------------------------------------------------------------------------
+
+/// Light at places of the array (x along a line, y down the lines), as seen through mirrors, mount and lens.
+/// The result is light_[j * x.size() + i], or light_[i * y.size() + j] when transposed_.
+void Camera::render(const std::vector<double>& x, const std::vector<double>& y, Cycle at) {
+  const sim::Scene* scene = board_.scene();
+  transposed_ = mount_ == CameraMount::Sideways;
+  if (!scene) {
+    light_.assign(x.size() * y.size(), sim::Light{});
+    return;
+  }
+  // the PO6030K shows upright pictures with both mirrors on, the others with both off
+  double sign = sensor_.kind() == CameraKind::Po6030k ? -1 : 1;
+  if (mount_ != CameraMount::Upright) sign = -sign;
+  const double along = (taken_.mirror_columns ? -sign : sign) / kFocalPx;
+  const double down = (taken_.mirror_lines ? -sign : sign) / kFocalPx;
+  right_.clear();
+  up_.clear();
+  if (transposed_) {
+    // turned by a quarter: lines go from right to left, along a line it goes down
+    for (double row : y) right_.push_back((row - 0.5 * kArrayHeight) * down);
+    for (double column : x) up_.push_back((column - 0.5 * kArrayWidth) * along);
+  } else {
+    for (double column : x) right_.push_back((column - 0.5 * kArrayWidth) * along);
+    for (double row : y) up_.push_back(-(row - 0.5 * kArrayHeight) * down);
+  }
+  sim::render_camera(*scene, board_.setup().robot, {kCameraXM, 0, kCameraZM}, board_.clock().click_at(at),
+                     right_, up_, light_);
+}
+
+void Camera::run_automatics(std::int64_t frames, Cycle at) {
+  if (frames <= 0 || (!taken_.auto_exposure && !taken_.auto_white)) return;
+  // a coarse look at the whole array
+  constexpr int kAcross = 16, kDown = 12;
+  columns_.clear();
+  lines_.clear();
+  for (int i = 0; i < kAcross; ++i) columns_.push_back((i + 0.5) * kArrayWidth / kAcross);
+  for (int i = 0; i < kDown; ++i) lines_.push_back((i + 0.5) * kArrayHeight / kDown);
+  render(columns_, lines_, at);
+
+  const double line_s = static_cast<double>(taken_.line_cycles()) / static_cast<double>(kFcyHz);
+  const double shortest_s = kShortestLines * line_s;
+  const double longest_s = taken_.longest_integration * line_s * kLargestGain;
+  const double target = light_of_count(taken_, taken_.target);
+  for (std::int64_t frame = 0; frame < frames; ++frame) {
+    double sum = 0, red = 0, green = 0, blue = 0;
+    for (const sim::Light& l : light_) {
+      const double k = exposure_s_ * kResponse;
+      sum += std::min(1.0, luma(l) * k);
+      const double most = std::max({l.r, l.g, l.b}), least = std::min({l.r, l.g, l.b});
+      if (most <= 0 || most - least > kWhiteChroma * most || most * k >= 1) continue;
+      red += l.r;
+      green += l.g;
+      blue += l.b;
+    }
+    bool changed = false;
+    const double mean = sum / static_cast<double>(light_.size());
+    if (taken_.auto_exposure && std::fabs(mean - target) > kExposureHold * target) {
+      const double wanted =
+          exposure_s_ * std::clamp(target / std::max(mean, 1e-9), 1 / kExposureStep, kExposureStep);
+      const double next = std::clamp(wanted, shortest_s, longest_s);
+      changed = next != exposure_s_;
+      exposure_s_ = next;
+    }
+    if (taken_.auto_white && red > 0 && blue > 0) {
+      const double r =
+          std::clamp(auto_red_ + kWhiteStep * (green / red - auto_red_), kWhiteLeast, kWhiteMost);
+      const double b =
+          std::clamp(auto_blue_ + kWhiteStep * (green / blue - auto_blue_), kWhiteLeast, kWhiteMost);
+      changed = changed || r != auto_red_ || b != auto_blue_;
+      auto_red_ = r;
+      auto_blue_ = b;
+    }
+    if (!changed) break;
+  }
+}
+
+/// Linear share of full scale (in 1024) to counts.
+void Camera::make_curve() {
+  if (curve_version_ == seen_version_) return;
+  curve_version_ = seen_version_;
+  for (int i = 0; i <= 1024; ++i) {
+    const double x = i * 0.25;  // of 256
+    int k = 11;
+    while (k > 0 && x < kGammaAt[k]) --k;
+    const double from = kGammaAt[k], to = k == 11 ? 256 : kGammaAt[k + 1];
+    const double low = now_.gamma[static_cast<std::size_t>(k)],
+                 high = k == 11 ? 255 : now_.gamma[static_cast<std::size_t>(k + 1)];
+    const double count = (low + (high - low) * (x - from) / (to - from)) * now_.contrast + now_.brightness;
+    curve_[static_cast<std::size_t>(i)] =
+        static_cast<std::uint8_t>(std::clamp(std::floor(count + 0.5), 0.0, 255.0));
+  }
+}
+
+/// Light of a pixel to 8 bits a colour. `pixel`: unique among the robot's pixels, names its noise.
+std::array<std::uint8_t, 3> Camera::develop(const sim::Light& light, std::uint64_t pixel) const {
+  const double in[3] = {light.r * scale_[0], light.g * scale_[1], light.b * scale_[2]};
+  std::array<std::uint8_t, 3> out{};
+  const std::uint64_t bits =
+      noise_ > 0 ? sim::random_bits({board_.setup().seed, 0, kCameraStream}, pixel) : 0;
+  std::uint64_t more = bits;
+  for (std::size_t c = 0; c < 3; ++c) {
+    double signal = in[c];
+    if (noise_ > 0) {
+      // two uniform draws of ten bits make a triangular one
+      const double draw = (static_cast<double>((more & 1023) + (more >> 10 & 1023)) + 1) / 1024 - 1;
+      more >>= 20;
+      const double sigma =
+          std::sqrt(kReadNoise * kReadNoise + kShotNoise * kShotNoise * std::min(signal, 1.0));
+      signal += noise_ * kSqrt6 * sigma * draw;
+    }
+    out[c] = curve_[static_cast<std::size_t>(std::clamp(signal, 0.0, 1.0) * 1024 + 0.5)];
+  }
+  return out;
+}
+
+void Camera::render_rows(int first_row, Cycle at) {
+  lines_.clear();
+  rendered_ = std::min(kRowsAtOnce, request_.rows - first_row);
+  first_rendered_ = first_row;
+  for (int row = first_row; row < first_row + rendered_; ++row)
+    lines_.push_back(taken_.first_y + (row * (1 + request_.skipped_lines) + 0.5) * taken_.sub_sampling);
+  render(columns_, lines_, at);
+}
+
+int Camera::take_line(std::uint8_t* to, int room, Cycle at) {
+  if (row_ >= request_.rows) return 0;
+  if (row_ >= first_rendered_ + rendered_ || rendered_ == 0) render_rows(row_, next_line_);
+  const std::size_t row = static_cast<std::size_t>(row_ - first_rendered_);
+  const std::size_t wide = columns_.size(), high = static_cast<std::size_t>(rendered_);
+  const double y = lines_[row];
+  const int count = static_cast<int>(line_.size());
+  std::array<std::uint8_t, 3> rgb{};
+  int developed = -1;
+  for (int i = 0; i < count; ++i) {
+    const Byte& b = line_[static_cast<std::size_t>(i)];
+    if (b.pixel != developed) {
+      developed = b.pixel;
+      const std::size_t p = static_cast<std::size_t>(b.pixel);
+      const double x = columns_[p];
+      // nothing comes out beyond the array
+      const bool inside = x >= 0 && x < kArrayWidth && y >= 0 && y < kArrayHeight;
+      const std::uint64_t number =
+          (static_cast<std::uint64_t>(launches_) << 20) + static_cast<std::uint64_t>(row_) * 1024 + p;
+      rgb = inside ? develop(light_[transposed_ ? p * high + row : row * wide + p], number)
+                   : std::array<std::uint8_t, 3>{};
+    }
+    std::uint8_t value = 0;
+    const double luma_count = 0.299 * rgb[0] + 0.587 * rgb[1] + 0.114 * rgb[2];
+    switch (taken_.format) {
+      case SensorSetup::Format::Grey:
+        value = static_cast<std::uint8_t>(luma_count + 0.5);
+        break;
+      case SensorSetup::Format::Rgb565:
+        value = b.part == 0 ? static_cast<std::uint8_t>((rgb[0] & 0xF8) | rgb[1] >> 5)
+                            : static_cast<std::uint8_t>((rgb[1] << 3 & 0xE0) | rgb[2] >> 3);
+        break;
+      case SensorSetup::Format::Yuv:
+        if (b.part == 0) {
+          value = static_cast<std::uint8_t>(luma_count + 0.5);
+        } else {
+          const double chroma = b.odd ? 0.713 * (rgb[0] - luma_count) : 0.564 * (rgb[2] - luma_count);
+          value = static_cast<std::uint8_t>(std::clamp(std::floor(128.5 + chroma), 0.0, 255.0));
+        }
+        break;
+    }
+    if (i < room) to[i] = value;
+    hash_ = sim::fold(hash_, static_cast<std::uint64_t>(value));
+    if (on_picture) picture_.push_back(value);
+  }
+  ++row_;
+  next_line_ += Cycle{1 + request_.skipped_lines} * taken_.sub_sampling * taken_.line_cycles();
+  if (row_ == request_.rows) {
+    ++pictures_;
+    if (on_picture) on_picture({taken_.format, request_.columns, request_.rows, pictures_, at, picture_});
+  }
+  return count;
+}
+
+void Camera::processor_reset() {
+  row_ = request_.rows = 0;
+  rendered_ = 0;
+  picture_.clear();
+}
+
+void Camera::sensor_reset(Cycle at) {
+  sensor_.reset(at);
+  exposure_s_ = kStartExposureS;
+  auto_red_ = auto_blue_ = 1;
+  if (const sim::Scene* scene = board_.scene()) sim::watch_leds(*scene);
+}
+
+}  // namespace board

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+// The robot's camera: sensor, lens, and the picture on its way into the processor.
+//
+//   CAM_RESET, I2C 0xDC -> CameraSensor (registers) -> SensorSetup
+//   VSYNC, HREF (interrupts of timers 5 and 4) <- frames and lines of SensorSetup's clock
+//   world -> sim::render_camera -> exposure, gains, noise, gamma -> 8 bits -> RGB565, grey, YUV -> data pins
+//
+// Frames follow one another without end; none is computed before a driver takes a line. Lines are rendered at
+// the instant at which they begin, kRowsAtOnce of the driver's lines at a time. The automatics are a loop
+// over frames, evaluated when a frame begins that is captured, for all the frames since the last one, with
+// what the camera sees now:
+//   exposure: times clamp(target / mean, 1/2, 2) per frame, target and mean as light, until within 6 %
+//   white:    red and blue gain a quarter of the way per frame to where nearly grey pixels are grey
+// Not modelled: motion blur, the Bayer pattern, lens distortion and shading, crosstalk of colours, flicker of
+// lamps.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "hal_sim/board/camera_sensor.h"
+#include "sim_core/camera/camera.h"
+
+namespace board {
+
+class Board;
+
+/// How the sensor sits in the robot; e_poxxxx_get_orientation() answers 1, 0, 2.
+enum class CameraMount {
+  Upright,   ///< pictures are upright with the mirrors that e_poxxxx_init_cam() sets
+  Sideways,  ///< then turned by a quarter: lines of the picture run down the scene, the first one at its
+             ///< right
+  Inverted,  ///< turned by a half
+};
+
+/// A picture that a program has just got, for whoever wants to keep it.
+struct CameraPicture {
+  SensorSetup::Format format;
+  int columns, rows;
+  std::int64_t number;              ///< of this robot's completed pictures, from 1
+  Cycle at;                         ///< cycle of its last line
+  std::vector<std::uint8_t> bytes;  ///< what the driver stored
+};
+
+class Camera {
+ public:
+  /// `board` outlives the camera. The sensor belongs to the board's I2C bus.
+  Camera(Board& board, CameraSensor& sensor, CameraMount mount, double noise);
+
+  /// Which bytes of a frame a driver takes.
+  struct Request {
+    int rows = 0, columns = 0;
+    int bytes_per_pixel = 1;
+    int skipped_pixels = 0;  ///< between two that are taken
+    int skipped_lines = 0;   ///< between two that are taken
+    bool in_step = false;    ///< each byte has its own interrupt; false: one byte every kMaskCycles
+  };
+  /// A driver waits for the next frame. Replaces a request before it. Returns the cycle of VSYNC.
+  Cycle launch(const Request& request, Cycle at);
+  /// VSYNC has come: the frame is exposed as the sensor is set now. Returns the cycle of the first line.
+  Cycle begin_frame(Cycle at);
+  /// The next line's bytes: at most `room` are put to `to`; returns how many there are. `at`: its HREF.
+  int take_line(std::uint8_t* to, int room, Cycle at);
+  /// HREF of the line after the one taken last.
+  Cycle next_line() const { return next_line_; }
+
+  Cycle frame_cycles() const;
+  SensorSetup setup() const;
+  double exposure_s() const { return exposure_s_; }
+  CameraMount mount() const { return mount_; }
+  std::int64_t pictures() const { return pictures_; }
+
+  void processor_reset();
+  void sensor_reset(Cycle at);
+  bool is_used() const { return launches_ > 0; }
+  std::uint64_t state_hash() const { return hash_; }
+
+  /// Told every completed picture on the thread that runs the robot.
+  std::function<void(const CameraPicture&)> on_picture;
+
+ private:
+  struct Byte {
+    std::uint16_t pixel;  // index into columns_
+    std::uint8_t part;    // 0 or 1
+    bool odd;             // its place in the line, for YUV
+  };
+  void refresh(Cycle at);
+  void plan_line();
+  void run_automatics(std::int64_t frames, Cycle at);
+  void render(const std::vector<double>& x, const std::vector<double>& y, Cycle at);
+  void make_curve();
+  std::array<std::uint8_t, 3> develop(const sim::Light& light, std::uint64_t pixel) const;
+  void render_rows(int first_row, Cycle at);
+  double gain_of_exposure() const;
+
+  Board& board_;
+  CameraSensor& sensor_;
+  CameraMount mount_;
+  double noise_;
+
+  SensorSetup now_;  // registers as last looked at
+  std::uint64_t seen_version_ = 0;
+  Cycle frame_start_ = 0;  // a VSYNC, from which frames are counted
+  double exposure_s_;
+  double auto_red_ = 1, auto_blue_ = 1;
+
+  Request request_;
+  SensorSetup taken_;     // of the frame being captured
+  double scale_[3] = {};  // light to share of full scale, per colour
+  int row_ = 0;
+  Cycle next_line_ = 0;
+  std::vector<Byte> line_;
+  std::vector<double> columns_;     // array x of the pixels that are taken
+  std::vector<double> lines_;       // scratch: array y
+  std::vector<double> right_, up_;  // scratch: tangents
+  std::vector<sim::Light> light_;
+  bool transposed_ = false;  // light_ holds columns of the scene as rows of the picture
+  int first_rendered_ = 0, rendered_ = 0;
+  std::array<std::uint8_t, 1025> curve_{};  // gamma, contrast, brightness
+  std::uint64_t curve_version_ = 0;
+  std::vector<std::uint8_t> picture_;
+  std::int64_t pictures_ = 0;
+  std::int64_t launches_ = 0;
+  std::uint64_t hash_ = 0;
+};
+
+}  // namespace board

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// The functions of pins_camera.h on the board's camera.
+#include "hal_sim/board/board.h"
+#include "hal_sim/host/context.h"
+#include "hal_sim/host/pins.h"
+#include "hal_sim/host/pins_camera.h"
+
+using host::Context;
+
+extern "C" {
+
+tp_i64 tp_camera_launch(tp_i64 rows, tp_i64 columns, tp_i64 bytes_per_pixel, tp_i64 skipped_pixels,
+                        tp_i64 skipped_lines, tp_i64 in_step) {
+  Context& context = Context::current();
+  board::Camera* camera = context.board().camera();
+  context.note_write();
+  if (!camera || rows < 1) return -1;
+  board::Camera::Request request;
+  request.rows = static_cast<int>(rows);
+  request.columns = static_cast<int>(columns);
+  request.bytes_per_pixel = static_cast<int>(bytes_per_pixel);
+  request.skipped_pixels = static_cast<int>(skipped_pixels);
+  request.skipped_lines = static_cast<int>(skipped_lines);
+  request.in_step = in_step != 0;
+  return camera->launch(request, context.now());
+}
+
+tp_i64 tp_camera_begin_frame(void) {
+  Context& context = Context::current();
+  board::Camera* camera = context.board().camera();
+  context.note_write();
+  return camera ? camera->begin_frame(context.now()) : -1;
+}
+
+tp_i64 tp_camera_take_line(void* to, tp_i64 room) {
+  Context& context = Context::current();
+  board::Camera* camera = context.board().camera();
+  context.note_write();
+  return camera ? camera->take_line(static_cast<std::uint8_t*>(to), static_cast<int>(room), context.now())
+                : 0;
+}
+
+tp_i64 tp_camera_next_line(void) {
+  const board::Camera* camera = Context::current().board().camera();
+  return camera ? camera->next_line() : -1;
+}
+
+}  // extern "C"
