@@ -104,7 +104,7 @@ TEST_F(Asercom, serves_bluetooth_in_every_position_but_ten) {
 // the driver says that a text is sent when its last byte begins; the reset then cuts that byte off
 TEST_F(Asercom, in_position_two_it_is_what_webots_expects) {
   started(2);
-  EXPECT_EQ(reply("V\n"), "v,Version 1.5.3 November 2016 (Webots)\r\nHW version: FFFF\r\n");
+  EXPECT_EQ(reply("V\n"), "v,Version 1.5.3 November 2016 (Webots)\r\nHW version: FFFD\r\n");
   EXPECT_EQ(reply(std::string("S\n\0", 3)), "s\r\n");
   EXPECT_EQ(reply("X,5\r"), "x,11111\r\n");
   EXPECT_EQ(reply("X,5000\r", 0.6).size(), 4056u - 5 + 4);
@@ -336,10 +336,11 @@ TEST_F(Asercom, key_nought_does_nothing_at_power_up) {
 
 // --- words about itself ------------------------------------------------------------------------------------
 
+// the last word of the data EEPROM: 01 in its lowest bits for a camera that stands upright
 TEST_F(Asercom, version_and_hardware) {
   started();
   const std::string v = reply("V\r");
-  EXPECT_EQ(v, "v,Version 1.2.2 August 2008 GCtronic\r\nHW version: FFFF\r\n");
+  EXPECT_EQ(v, "v,Version 1.2.2 August 2008 GCtronic\r\nHW version: FFFD\r\n");
   EXPECT_EQ(v.at(10), '1');  // programs look here
 }
 
