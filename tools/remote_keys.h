@@ -8,8 +8,8 @@
 
 namespace tools {
 
-/// Adds a press to the robots of that name ('*': all). Returns what is wrong as "got ..., expected ...", or an
-/// empty string.
+/// Adds a press to the robots of that name ('*': all). Returns what is wrong as "got ..., expected ...", or
+/// an empty string.
 std::string add_key(const std::string& robot, const std::string& press, std::vector<sim::RobotDesc>& robots);
 
 }  // namespace tools

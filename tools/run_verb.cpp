@@ -184,9 +184,10 @@ void add_run(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   verb->add_option("--uart", a->uart1, "ROBOT=none|pty|pty:LINK|tcp:PORT|file:PATH: the other end of UART 1");
   verb->add_option("--uart2", a->uart2, "the same for UART 2");
-  verb->add_option("--key", a->keys,
-                   "ROBOT=KEY@TIME[+HOLD]: a remote control's key, 0 to 63 or a name such as VOL_UP, pressed at "
-                   "TIME s for HOLD s (0.1); ADDRESS:KEY for another address than 0");
+  verb->add_option(
+      "--key", a->keys,
+      "ROBOT=KEY@TIME[+HOLD]: a remote control's key, 0 to 63 or a name such as VOL_UP, pressed at "
+      "TIME s for HOLD s (0.1); ADDRESS:KEY for another address than 0");
   verb->add_option("--host-limit", a->host_limit_s, "give up after this many real seconds (exit 124)")
       ->check(CLI::NonNegativeNumber);
   verb->add_option("--opt", a->optimisation, "level for controllers built from source")

@@ -75,17 +75,18 @@ std::string to_text(const Summary& s) {
       "{}: {:.1f} s simulated in {:.2f} s ({:.0f} times real time), seed {}, digest {}\n", s.world,
       s.simulated_s, s.wall_s, s.wall_s > 0 ? s.simulated_s / s.wall_s : 0, s.seed, hex(s.digest));
   if (!s.robots.empty())
-    text += fmt::format("{:<12} {:>8} {:>8} {:>9} {:>9} {:>11} {:>9} {:>6} {:>8} {:>9}\n", "robot", "x (m)", "y (m)",
-                        "heading", "path (m)", "collisions", "wall (s)", "load", "used", "left");
+    text += fmt::format("{:<12} {:>8} {:>8} {:>9} {:>9} {:>11} {:>9} {:>6} {:>8} {:>9}\n", "robot", "x (m)",
+                        "y (m)", "heading", "path (m)", "collisions", "wall (s)", "load", "used", "left");
   for (std::size_t i = 0; i < s.robots.size() && i < kRobotsInText; ++i) {
     const auto& r = s.robots[i];
     const double turn = 360.0;
     double heading = r.heading_rad * 180 / 3.14159265358979323846;
     heading -= turn * static_cast<double>(static_cast<long long>(heading / turn));
-    text += fmt::format("{:<12} {:>8.3f} {:>8.3f} {:>5.0f} deg {:>9.3f} {:>11} {:>9.2f} {:>5.0f}% {:>4.0f} mWh {:>5.0f} min\n",
-                        r.name,
-                        r.x_m, r.y_m, heading, r.distance_m, r.collisions, r.longest_wall_touch_s,
-                        100 * r.cpu_load, 1000 * r.battery_used_wh, std::max(0.0, r.battery_minutes));
+    text += fmt::format(
+        "{:<12} {:>8.3f} {:>8.3f} {:>5.0f} deg {:>9.3f} {:>11} {:>9.2f} {:>5.0f}% {:>4.0f} mWh {:>5.0f} "
+        "min\n",
+        r.name, r.x_m, r.y_m, heading, r.distance_m, r.collisions, r.longest_wall_touch_s, 100 * r.cpu_load,
+        1000 * r.battery_used_wh, std::max(0.0, r.battery_minutes));
   }
   if (s.robots.size() > kRobotsInText)
     text += fmt::format("... and {} more\n", s.robots.size() - kRobotsInText);
@@ -131,7 +132,8 @@ std::string to_json(const Summary& s) {
     robot["cpu_load"] = r.cpu_load;
     robot["battery_v"] = r.battery_v;
     robot["battery_used_wh"] = r.battery_used_wh;
-    robot["battery_minutes_left"] = r.battery_minutes >= 0 ? nlohmann::ordered_json(r.battery_minutes) : nullptr;
+    robot["battery_minutes_left"] =
+        r.battery_minutes >= 0 ? nlohmann::ordered_json(r.battery_minutes) : nullptr;
     robot["traps"] = nlohmann::ordered_json::array();
     for (const auto& t : r.traps) robot["traps"].push_back(json_of(t));
     j["robots"].push_back(std::move(robot));

@@ -2,8 +2,9 @@
  * Binary commands: each byte is minus a letter; 0 ends the sequence. Replies are collected in order and sent
  * when the 0 has come. Numbers are 16 bits, low byte first. Unknown bytes are skipped.
  *
- * More than the original: replies that do not fit the buffer together are sent in pieces, and a second picture
- * in a sequence waits for the first. Command 'w' has a buffer of its own and leaves earlier replies alone.
+ * More than the original: replies that do not fit the buffer together are sent in pieces, and a second
+ * picture in a sequence waits for the first. Command 'w' has a buffer of its own and leaves earlier replies
+ * alone.
  */
 #include <a_d/advance_ad_scan/e_acc.h>
 #include <a_d/advance_ad_scan/e_ad_conv.h>
@@ -89,9 +90,8 @@ static void put_picture(void) {
 }
 
 static void put_ground(void) {
-  int i, values[5];
-  read_ground(values);
-  for (i = 0; i < 5; i++) put_word(values[i]);
+  int i, values[5], count = read_ground(values);
+  for (i = 0; i < count; i++) put_word(values[i]);
 }
 
 static void put_sensors(int (*read)(unsigned int)) {

@@ -32,7 +32,7 @@ static __inline__ int link_poll(char *c) {
 /** The next byte; blocks until there is one. */
 char link_get(void);
 
-/** Sends and waits until the last byte is on its way: the buffer may then change. Nothing when length is 0. */
+/** Sends and waits until the last byte is on its way: the buffer may then change. Length 0: nothing. */
 void link_send(const char *bytes, int length);
 
 /** Sends a text, without its terminating zero. */

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT
- * The robot's usual serial command program: a PC on the Bluetooth link commands motors and LEDs and reads every
- * sensor, by lines of text or by short binary sequences. A remote control drives the robot as well.
+ * The robot's usual serial command program: a PC on the Bluetooth link commands motors and LEDs and reads
+ * every sensor, by lines of text or by short binary sequences. A remote control drives the robot as well.
  *
  *   selector 10   commands come from the turret connector (UART 2, 230,400 baud); camera, I2C, sound are the
  *                 turret's
+ *   selector 2    over Bluetooth, in the dialect that Webots expects of a real robot
  *   otherwise     commands come over Bluetooth (UART 1, 115,200 baud)
  *
  * docs/serial.md describes protocol and connection.
@@ -25,6 +26,7 @@
 #include "robot.h"
 
 #define TURRET_POSITION 10
+#define WEBOTS_POSITION 2
 #define REMOTE_SPEED 600 /* steps/s */
 
 static char last_key; /* of the remote control; 0 does nothing until another key was pressed */
@@ -65,6 +67,7 @@ static void start(void) {
   link_text(buffer);
 
   link_open(position == TURRET_POSITION);
+  is_webots = position == WEBOTS_POSITION;
   e_init_motors();
   e_init_remote_control();
   if (!link_is_turret()) {

@@ -14,6 +14,7 @@
 #define CLIFF_WORDS 2   /* registers 13 to 16, high byte first */
 
 char buffer[BUFFER_BYTES + IMAGE_HEADER];
+char is_webots;
 int speed_left, speed_right;
 struct camera camera;
 
@@ -68,12 +69,16 @@ void camera_set(int x1, int y1) {
   long size = (long)camera.width * camera.height;
   camera_finish();
   if (camera.mode != GREY_SCALE_MODE) size *= 2;
-  if (!in_range(camera.width, ARRAY_WIDTH) || !in_range(camera.height, ARRAY_HEIGHT) || size > BUFFER_BYTES) {
+  if (!in_range(camera.width, ARRAY_WIDTH) || !in_range(camera.height, ARRAY_HEIGHT) ||
+      size > (is_webots ? WEBOTS_IMAGE_BYTES : IMAGE_BYTES)) {
     small_colour_picture();
     size = 2 * camera.width * camera.height;
   }
   camera.size = (int)size;
-  if (camera.mode < GREY_SCALE_MODE || camera.mode > YUV_MODE || !in_range(camera.zoom, ARRAY_WIDTH) ||
+  /* windows that the sensor does not have would also leave 16 bits */
+  if (camera.mode < GREY_SCALE_MODE || camera.mode > YUV_MODE ||
+      !in_range(camera.zoom, ARRAY_WIDTH / camera.width) ||
+      !in_range(camera.zoom, ARRAY_HEIGHT / camera.height) ||
       !start_camera(x1, y1))
     camera_default();
 }
@@ -107,14 +112,15 @@ void i2c_write(int device, int reg, int value) {
 static void read_words(int reg, int *words, int count) {
   int i;
   for (i = 0; i < count; i++) {
-    unsigned int low = e_i2cp_read((char)GROUND_BOARD, (char)(reg + 2 * i + 1)) & 0xFF;
-    words[i] = (int)((unsigned int)e_i2cp_read((char)GROUND_BOARD, (char)(reg + 2 * i)) << 8 | low);
+    unsigned int high = e_i2cp_read((char)GROUND_BOARD, (char)(reg + 2 * i)) & 0xFF;
+    words[i] = (int)(high << 8 | (e_i2cp_read((char)GROUND_BOARD, (char)(reg + 2 * i + 1)) & 0xFF));
   }
 }
 
-void read_ground(int values[5]) {
+int read_ground(int values[5]) {
   e_i2cp_enable();
   read_words(0, values, GROUND_WORDS);
-  read_words(CLIFF_REGISTER, values + GROUND_WORDS, CLIFF_WORDS);
+  if (!is_webots) read_words(CLIFF_REGISTER, values + GROUND_WORDS, CLIFF_WORDS);
   e_i2cp_disable();
+  return is_webots ? GROUND_WORDS : GROUND_WORDS + CLIFF_WORDS;
 }

@@ -5,12 +5,18 @@
 #ifndef ASERCOM_ROBOT_H
 #define ASERCOM_ROBOT_H
 
-/* the largest picture, and with it the buffer: nearly half of the robot's memory */
-#define BUFFER_BYTES 3456
+/* the largest picture of either dialect, and with it the buffer: nearly half of the robot's memory */
+#define IMAGE_BYTES 3456
+#define WEBOTS_IMAGE_BYTES (2 * 52 * 39)
+#define BUFFER_BYTES WEBOTS_IMAGE_BYTES
 #define IMAGE_HEADER 3 /* mode, width, height */
 
 /** Command lines and replies; a picture lands here behind what is already in it. */
 extern char buffer[BUFFER_BYTES + IMAGE_HEADER];
+
+/** 1: the dialect that Webots expects of a real robot. It has another version, three ground sensors instead
+ *  of five, larger pictures, and command X. */
+extern char is_webots;
 
 /** Wheel speeds as last ordered, steps/s, not clamped. */
 extern int speed_left, speed_right;
@@ -41,8 +47,9 @@ void camera_capture(char *to);
 /** Waits until the picture that was started is complete; returns at once when none was. */
 void camera_finish(void);
 
-/** Reads the ground sensor board into `values`: left, centre, right, and the two cliff sensors. */
-void read_ground(int values[5]);
+/** Reads the ground sensor board into `values`: left, centre, right, and the two cliff sensors unless the
+ *  dialect is without them. Returns how many. */
+int read_ground(int values[5]);
 
 /** Reads or writes a register of an I2C device. */
 int i2c_read(int device, int reg);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Text commands: a letter, numbers behind commas, CR or LF. Every reply line ends with CR LF. A number that is
- * missing keeps the value it had in the command before, as people who type have come to expect.
+ * Text commands: a letter, numbers behind commas, CR or LF. Every reply line ends with CR LF. A number that
+ * is missing keeps the value it had in the command before.
  */
 #include <DataEEPROM.h>
 #include <a_d/advance_ad_scan/e_acc.h>
@@ -106,21 +106,26 @@ static void send_remote(void) {
   link_text(buffer);
 }
 
-static void send_ground(void) {
-  int v[5];
-  read_ground(v);
-  sprintf(buffer, "m,%d,%d,%d,%d,%d\r\n", v[0], v[1], v[2], v[3], v[4]);
+/* a letter and a line of numbers */
+static void send_numbers(char letter, const int *values, int count) {
+  char *end = buffer;
+  int i;
+  *end++ = letter;
+  for (i = 0; i < count; i++) end += sprintf(end, ",%d", values[i]);
+  strcpy(end, "\r\n");
   link_text(buffer);
+}
+
+static void send_ground(void) {
+  int values[5], count = read_ground(values);
+  send_numbers('m', values, count);
 }
 
 /* letter and a value per sensor */
 static void send_sensors(char letter, int (*read)(unsigned int)) {
-  int i, sensors = link_is_turret() ? TURRET_SENSORS : RING_SENSORS;
-  char *end = buffer;
-  *end++ = letter;
-  for (i = 0; i < sensors; i++) end += sprintf(end, ",%d", read(i));
-  strcpy(end, "\r\n");
-  link_text(buffer);
+  int i, values[TURRET_SENSORS], sensors = link_is_turret() ? TURRET_SENSORS : RING_SENSORS;
+  for (i = 0; i < sensors; i++) values[i] = read(i);
+  send_numbers(letter, values, sensors);
 }
 
 static int proximity(unsigned int sensor) { return e_get_calibrated_prox(sensor); }
@@ -147,7 +152,9 @@ static void send_version(void) {
   static int hardware;
   hardware = 0xFFFF;
   ReadEE(0x7F, 0xFFFE, &hardware, WORD);
-  link_text("v,Version 1.2.2 August 2008 GCtronic\r\n"); /* programs look at the eleventh character */
+  /* programs look at the eleventh character, or at all of it */
+  link_text(is_webots ? "v,Version 1.5.3 November 2016 (Webots)\r\n"
+                      : "v,Version 1.2.2 August 2008 GCtronic\r\n");
   sprintf(buffer, "HW version: %X\r\n", hardware);
   link_text(buffer);
 }
@@ -160,6 +167,19 @@ static void scan_bus(void) {
     sprintf(buffer, "%d: %d\r\n", device, value);
     link_text(buffer);
   }
+}
+
+/* as many ones as asked for: how fast is the link? */
+static void send_ones(void) {
+  static int count;
+  int i;
+  sscanf(buffer, "X,%d", &count);
+  if (count < 0) count = 0;
+  if (count > BUFFER_BYTES - 5) count = BUFFER_BYTES - 5;
+  strcpy(buffer, "x,");
+  for (i = 0; i < count; i++) buffer[2 + i] = '1';
+  strcpy(buffer + 2 + count, "\r\n");
+  link_text(buffer);
 }
 
 /* what the turret's computer has for itself; 1 when the letter was one of these */
@@ -265,6 +285,11 @@ static void obey(void) {
       break;
     case 'V': send_version(); break;
     case 'G': case 'I': case 'J': case 'M': case 'W': case 'Y': case 'Z': break; /* the turret's: no reply */
+    case 'X':
+      if (is_webots) {
+        send_ones();
+        break;
+      } /* else unknown */
     default: link_text("z,Command not found\r\n");
   }
 }

@@ -26,7 +26,8 @@ TEST_P(FollowLight, comes_to_the_lamp_and_stays) {
   puck.settings().variation.gain_spread = 0.1;
   puck.settings().variation.offset_spread_counts = 10;
   puck.settings().variation.wheel_spread = 0.01;
-  ASSERT_TRUE(run_until([&] { return away_m(puck, lamp) < 0.1; }, 30)) << "still " << away_m(puck, lamp) << " m away";
+  ASSERT_TRUE(run_until([&] { return away_m(puck, lamp) < 0.1; }, 30))
+      << "still " << away_m(puck, lamp) << " m away";
   double farthest_m = 0;
   run_until(
       [&] {

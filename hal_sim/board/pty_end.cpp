@@ -2,16 +2,18 @@
 // A pseudo-terminal as the far end of a robot's serial line: programs open it as they would open the serial
 // port of a Bluetooth connection, set a baud rate (which means nothing here), come and go.
 //
-//   - Raw mode from the start and again after each program: a terminal that echoes would send the robot its
-//   own
-//     replies as commands. Our hand on the far side keeps the mode between programs; a program that claimed
-//     the terminal for itself alone does not keep the next one out.
-//   - What the robot says while nobody has the terminal open waits for whoever comes and listens. One who
-//   comes
-//     and speaks first gets the answer to that, and not the old words: a Bluetooth link to a robot that has
-//     been on for a while begins silent.
+// - Raw mode from the start, and again after each program: a terminal that echoes would send the robot its
+//   own replies as commands. Our hand on the far side keeps the mode between programs. One that claimed the
+//   terminal for itself alone does not keep the next one out.
+// - What the robot says while nobody has the terminal open waits for who comes and listens. Who comes and
+//   speaks first gets the answer to that, and not the old words: a Bluetooth link to a robot that has been
+//   on for a while begins silent.
+// - A thread takes what programs write as soon as it is there: many flush a port before each command and
+//   when they close it, and what had not been taken by then would be lost. Robots see it at the next tick.
 #include <fcntl.h>
+#include <poll.h>
 #include <stdlib.h>
+#include <sys/eventfd.h>
 #include <sys/inotify.h>
 #include <sys/ioctl.h>
 #include <termios.h>
@@ -19,6 +21,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <mutex>
+#include <thread>
 
 #include "hal_sim/board/uart_programs.h"
 
@@ -27,6 +31,7 @@ namespace board {
 namespace {
 
 // what the kernel surely keeps for a terminal that nobody reads
+constexpr std::size_t kMostHeard = 65536;   // bytes [assumed: above, a sender is slowed down]
 constexpr std::size_t kMostUnheard = 4000;  // bytes [assumed: below the 4096 of Linux's line discipline]
 
 std::string why() { return std::strerror(errno); }
@@ -35,6 +40,10 @@ class PtyEnd : public UartEnd {
  public:
   ~PtyEnd() override {
     if (!link_.empty()) ::unlink(link_.c_str());
+    if (!listener_.joinable()) return;
+    const std::uint64_t one = 1;
+    while (::write(stop_.get(), &one, sizeof one) < 0 && errno == EINTR) continue;
+    listener_.join();
   }
 
   bool open(const std::string& link, std::string& error) {
@@ -58,6 +67,12 @@ class PtyEnd : public UartEnd {
     // who opens and closes it; without this service everybody counts as one program that never leaves
     watch_.reset(::inotify_init1(IN_NONBLOCK | IN_CLOEXEC));
     if (watch_.valid() && ::inotify_add_watch(watch_.get(), path, IN_OPEN | IN_CLOSE) < 0) watch_.reset();
+    stop_.reset(::eventfd(0, EFD_CLOEXEC));
+    if (!stop_.valid()) {
+      error = "pty: no event descriptor: " + why();
+      return false;
+    }
+    listener_ = std::thread([this] { listen(); });
     if (link.empty()) return true;
     // a link left by an earlier run is replaced; anything else is not ours
     char old[256];
@@ -80,14 +95,19 @@ class PtyEnd : public UartEnd {
 
   std::size_t collect(std::uint8_t* bytes, std::size_t room, Cycle) override {
     if (!waiting_.empty()) write_waiting();
-    const ssize_t got = ::read(master_.get(), bytes, room);
-    if (got <= 0) return 0;
-    if (unheard_ > 0) {
+    std::size_t count;
+    {
+      std::lock_guard<std::mutex> hold(heard_lock_);
+      count = std::min(room, heard_.size());
+      std::memcpy(bytes, heard_.data(), count);
+      heard_.erase(0, count);
+    }
+    if (count > 0 && unheard_ > 0) {
       ::tcflush(slave_.get(), TCIFLUSH);
       waiting_.clear();
       unheard_ = 0;
     }
-    return static_cast<std::size_t>(got);
+    return count;
   }
 
   bool takes_packets() const override { return true; }
@@ -127,7 +147,31 @@ class PtyEnd : public UartEnd {
     }
   }
 
-  Descriptor master_, slave_, watch_;
+  // the thread: from the terminal to heard_
+  void listen() {
+    pollfd watched[2] = {{master_.get(), POLLIN, 0}, {stop_.get(), POLLIN, 0}};
+    while (::poll(watched, 2, -1) >= 0 || errno == EINTR) {
+      if (watched[1].revents != 0) return;
+      // a program that sends faster than the line carries waits, as flow control makes it wait
+      char bytes[4096];
+      const ssize_t got = has_room() ? ::read(master_.get(), bytes, sizeof bytes) : 0;
+      if (got <= 0) {
+        ::usleep(2000);
+        continue;
+      }
+      std::lock_guard<std::mutex> hold(heard_lock_);
+      heard_.append(bytes, static_cast<std::size_t>(got));
+    }
+  }
+  bool has_room() {
+    std::lock_guard<std::mutex> hold(heard_lock_);
+    return heard_.size() < kMostHeard;
+  }
+
+  Descriptor master_, slave_, watch_, stop_;
+  std::thread listener_;
+  std::mutex heard_lock_;
+  std::string heard_;  // said by programs, not yet taken by the robot's line
   std::string path_, link_;
   std::string waiting_;      // delivered, not yet taken by the kernel
   int programs_ = 0;         // that have the terminal open

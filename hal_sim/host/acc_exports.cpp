@@ -57,6 +57,11 @@ tp_i64 tp_lsm330_answers(void) {
   Context& context = Context::current();
   board::I2cBus& bus = context.board().i2c();
   const Cycle now = context.now();
+  context.note_write();
+  // where nobody would answer the bus stays as it is: unused
+  bool anybody = false;
+  for (const auto* device : bus.devices()) anybody = anybody || device->answers_to(board::kLsmAccAddress);
+  if (!anybody) return 0;
   bus.start(now);
   bus.write(board::kLsmAccAddress, now);
   bus.write(board::kLsmWhoAmI, now);

@@ -67,7 +67,7 @@ class InterruptController {
  private:
   static constexpr Cycle kUnknown = -1;
   std::array<InterruptSource, TP_VECTORS> sources_;
-  std::uint64_t used_ = 0;     // bit v: somebody has touched vector v; most programs use two or three
+  std::uint64_t used_ = 0;  // bit v: somebody has touched vector v; most programs use two or three
   std::function<Cycle(Cycle)> next_int0_edge_;
   Cycle next_due_ = kUnknown;  // over enabled sources
   Cycle next_raise_ = 0;       // over all sources

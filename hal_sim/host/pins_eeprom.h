@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * The data EEPROM as the API sees it: words at even addresses 0xF000 to 0xFFFE (of page 0x7F). Conventions as in
- * pins.h. Nothing here blocks; the time that erasing and writing take is the caller's to spend.
+ * The data EEPROM as the API sees it: words at even addresses 0xF000 to 0xFFFE (of page 0x7F). Conventions as
+ * in pins.h. Nothing here blocks; the time that erasing and writing take is the caller's to spend.
  */
 #ifndef TWINPUCK_HOST_PINS_EEPROM_H
 #define TWINPUCK_HOST_PINS_EEPROM_H

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cstring>
 
-#include "hal_sim/host/host_params.h"
 #include "hal_sim/board/board.h"
+#include "hal_sim/host/host_params.h"
 #include "hal_sim/host/pins.h"
 #include "hal_sim/host/registers.h"
 #include "sim_core/base/check.h"
@@ -242,7 +242,7 @@ void Robot::irq_install(int vector, void (*handler)(), int priority, Cycle entry
   s.priority = priority;
   s.entry_cycles = entry_cycles;
   s.self_clearing = true;
-  s.flag = false;  // drivers clear the flag before they enable
+  s.flag = false;                                            // drivers clear the flag before they enable
   if (vector == TP_V_INT0) interrupts_.refresh_int0(now());  // the library's edge is the falling one
   note_write();
   changed();

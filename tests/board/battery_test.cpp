@@ -22,7 +22,7 @@ TEST(Battery, curve_is_linear_between_its_points_both_ways) {
   EXPECT_DOUBLE_EQ(Battery::rest_v(1), 4.2);
   EXPECT_DOUBLE_EQ(Battery::rest_v(0), 3.0);
   EXPECT_DOUBLE_EQ(Battery::rest_v(0.5), 3.82);
-  EXPECT_NEAR(Battery::rest_v(0.95), 4.13, 1e-12);   // half-way from 4.06 to 4.20
+  EXPECT_NEAR(Battery::rest_v(0.95), 4.13, 1e-12);    // half-way from 4.06 to 4.20
   EXPECT_NEAR(Battery::rest_v(0.025), 3.225, 1e-12);  // half-way from 3.00 to 3.45
   EXPECT_NEAR(Battery::charge_at(4.13), 0.95, 1e-12);
   EXPECT_NEAR(Battery::charge_at(3.4), 0.05 * 0.4 / 0.45, 1e-12);

@@ -146,6 +146,19 @@ TEST_F(Pty, who_speaks_first_gets_the_answer_and_not_the_old_words) {
   ::close(fd);
 }
 
+// many programs flush before each command: what came a moment before is heard all the same
+TEST_F(Pty, flushing_does_not_take_back_what_was_said) {
+  const int fd = open();
+  for (int i = 0; i < 20; ++i) {
+    ::tcflush(fd, TCIOFLUSH);
+    ASSERT_EQ(::write(fd, "S\r", 2), 2);
+    ::usleep(20000);  // the robot has not looked yet
+  }
+  ::tcflush(fd, TCIOFLUSH);
+  ::close(fd);
+  EXPECT_EQ(heard(*end, 40).size(), 40u);
+}
+
 TEST_F(Pty, programs_come_and_go) {
   for (int i = 0; i < 3; ++i) {
     const int fd = open();

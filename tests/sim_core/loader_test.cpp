@@ -251,16 +251,19 @@ TEST(Loader, every_kind_of_mistake_has_its_sentence) {
       {"[[robot]]\nname = \"a\"\n[[robot]]\nname = \"a\"\nposition = [1, 0]",
        "w.toml:4:1: robot.name: got \"a\" a second time (first on line 2), expected a name of its own"},
       {"[[robot]]\nuart1 = \"tcp:70000\"",
-       "w.toml:3:9: robot.uart1: got \"tcp:70000\", expected none, pty, pty:LINK, tcp:PORT with a port of 1 to 65535, "
+       "w.toml:3:9: robot.uart1: got \"tcp:70000\", expected none, pty, pty:LINK, tcp:PORT with a port of 1 "
+       "to 65535, "
        "or file:PATH"},
       {"[[robot]]\nuart2 = \"usb\"",
-       "w.toml:3:9: robot.uart2: got \"usb\", expected none, pty, pty:LINK, tcp:PORT with a port of 1 to 65535, or "
+       "w.toml:3:9: robot.uart2: got \"usb\", expected none, pty, pty:LINK, tcp:PORT with a port of 1 to "
+       "65535, or "
        "file:PATH"},
       {"[[robot]]\n[[robot.key]]\ncode = 64\ntime = 1",
        "w.toml:4:8: robot.key.code: got 64, expected whole number from 0 to 63"},
       {"[[robot]]\n[[robot.key]]\ncode = 6",
        "w.toml:3:1: robot.key.time: missing, expected number from 0 to 10000000 s"},
-      {"[[robot]]\nbattery_wh = 0", "w.toml:3:14: robot.battery_wh: got 0, expected number from 0.001 to 1000 Wh"},
+      {"[[robot]]\nbattery_wh = 0",
+       "w.toml:3:14: robot.battery_wh: got 0, expected number from 0.001 to 1000 Wh"},
       {"[[robot]]\nbattery = 12", "w.toml:3:11: robot.battery: got 12, expected number from 2.5 to 5 V"},
       {"[[robot]]\nx = 1", "w.toml:3:1: unknown key 'x' in robot"},
       {"[[robot]]\n[robot.variation]\nclock = 3", "w.toml:4:1: unknown key 'clock' in robot.variation"},

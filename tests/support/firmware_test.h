@@ -62,7 +62,7 @@ class Robot {
   void turn_selector(int position);
   /// Somebody presses a key of a remote control now, for `hold_s` seconds: key 0 to 63, address 0 to 31.
   void press_key(int key, double hold_s = 0.1, int address = 0);
-  double battery_v() const;  ///< V at the terminals
+  double battery_v() const;                                  ///< V at the terminals
   void push_to(double x_m, double y_m, double heading_deg);  ///< puts the robot somewhere else by hand
 
   /// Value of a global or static variable of the firmware by name (16-bit int by default).
