@@ -2,9 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Holds firmware/include (the contract) against hal_sim/api (what implements it).
 
-    scripts/check_contract.py            exit 1 unless every prototype has exactly one definition and
-                                         docs/limits.md lists exactly the functions that are not simulated
-    scripts/check_contract.py --write    bring the list in docs/limits.md up to date
+    scripts/check_contract.py            exit 1 unless every prototype has exactly one definition
 
 A prototype's linker name is its own name, or that with the prefix its header gives it (TP_VARIANT). A definition
 takes the linker name of the first header that its file includes and that declares it, as the compiler does.
@@ -17,9 +15,6 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 INCLUDE = ROOT / "firmware/include"
 API = ROOT / "hal_sim/api"
-LIMITS = ROOT / "docs/limits.md"
-BEGIN = "<!-- unsimulated functions: written by scripts/check_contract.py --write -->"
-END = "<!-- end of unsimulated functions -->"
 
 # headers without prototypes of the contract, or that only include others
 NO_PROTOTYPES = {"p30F6014A.h"}
@@ -67,11 +62,10 @@ def read_contract():
 
 DEFINITION = re.compile(r"^(?!static\b|typedef\b|struct\s+\w+\s*\{)(?:[A-Za-z_]\w*[\s*]+)+?(\w+)\s*"
                         r"\((?:[^(){};]|\([^()]*\))*\)\s*\{", re.M)
-UNSIMULATED = re.compile(r"^UNSIMULATED(_VOID|_STRUCT)?\(\s*(?:[\w ]+,\s*)?(\w+),\s*\(", re.M)
 
 
 def definitions(source, contract):
-    """Linker names defined by one file of the API: [(linker name, line, device or None)]."""
+    """Linker names defined by one file of the API: [(linker name, line)]."""
     raw = source.read_text()
     prefixes = {}
     switches = set()
@@ -88,27 +82,12 @@ def definitions(source, contract):
     code = re.sub(r"^[ \t]*#(?:[^\n]*\\\n)*[^\n]*", blank, text, flags=re.M)
     for match in DEFINITION.finditer(code):
         name = match.group(1)
-        found.append((prefixes.get(name, "") + name, text.count("\n", 0, match.start()) + 1, None))
-    devices = [(m.start(), m.group(1)) for m in re.finditer(r'^#define DEVICE "([^"]*)"', text, flags=re.M)]
-    for match in UNSIMULATED.finditer(code):
-        name = match.group(2)
-        device = [d for at, d in devices if at < match.start()][-1]
-        found.append((prefixes.get(name, "") + name, text.count("\n", 0, match.start()) + 1, device))
+        found.append((prefixes.get(name, "") + name, text.count("\n", 0, match.start()) + 1))
     return found
 
 
-def limits_list(unsimulated):
-    """Markdown: one line a device, names in the order of the sources."""
-    lines = [BEGIN, "", "| not simulated yet | functions |", "|---|---|"]
-    for device in sorted(unsimulated):
-        names = ", ".join("`%s`" % re.sub(r"^tpbasic_", "", n) + (" (basic)" if n.startswith("tpbasic_") else "")
-                          for n in unsimulated[device])
-        lines.append("| %s | %s |" % (device, names))
-    return "\n".join(lines + ["", END])
-
-
 def main():
-    if sys.argv[1:] not in ([], ["--write"]):
+    if sys.argv[1:]:
         print(__doc__.strip(), file=sys.stderr)
         return 2
     contract = read_contract()
@@ -118,12 +97,9 @@ def main():
             for prefix in choices.values():
                 declared.setdefault(prefix + name, header)
     defined = collections.defaultdict(list)
-    unsimulated = collections.defaultdict(list)
     for source in sorted(API.glob("*.c")):
-        for name, line, device in definitions(source, contract):
+        for name, line in definitions(source, contract):
             defined[name].append("%s:%d" % (source.relative_to(ROOT), line))
-            if device:
-                unsimulated[device].append(name)
 
     problems = []
     for name, header in sorted(declared.items()):
@@ -133,20 +109,9 @@ def main():
         if len(places) > 1:
             problems.append("%s: %s: defined again, first in %s" % (places[1], name, places[0]))
 
-    text = LIMITS.read_text()
-    head, _, rest = text.partition(BEGIN)
-    _, _, tail = rest.partition(END)
-    wanted = head + limits_list(unsimulated) + tail
-    if sys.argv[1:] == ["--write"]:
-        LIMITS.write_text(wanted)
-    elif wanted != text:
-        problems.append("docs/limits.md: the list of functions not simulated yet is out of date; "
-                        "run scripts/check_contract.py --write")
     for problem in problems:
         print(problem)
-    total = sum(len(names) for names in unsimulated.values())
-    print("contract: %d linker names declared, %d not simulated yet, %d problems"
-          % (len(declared), total, len(problems)))
+    print("contract: %d linker names declared, %d problems" % (len(declared), len(problems)))
     return 1 if problems else 0
 
 

@@ -23,7 +23,8 @@ namespace ctx = boost::context::detail;
 namespace {
 constexpr std::size_t kGuardBytes =
     64 * 1024;  // wider than any one frame of a controller, so no frame jumps over it
-constexpr std::size_t kReserveBytes = 512 * 1024;  // ample for the report of a trap, sanitized builds included
+constexpr std::size_t kReserveBytes =
+    512 * 1024;  // ample for the report of a trap, sanitized builds included
 }  // namespace
 
 Fiber::Fiber(std::size_t stack_bytes) {

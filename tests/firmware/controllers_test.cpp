@@ -145,14 +145,15 @@ TEST_F(FirmwareTest, bench_braitenberg_cruises_at_8_cm_per_second) {
 // --- the contract as controllers meet it
 // ------------------------------------------------------------------------
 
-TEST_F(FirmwareTest, an_unsimulated_device_stops_the_robot_by_name) {
-  Robot& camera = add_robot_with_source(
-      "#include <camera/fast_2_timer/e_poxxxx.h>\n"
-      "int main(void) { e_poxxxx_init_cam(); while (1); }\n");
+TEST_F(FirmwareTest, a_register_that_is_not_simulated_stops_its_robot_by_name) {
+  Robot& driver = add_robot_with_source(
+      "#include <p30F6014A.h>\n"
+      "int main(void) { DCICON1 = 1; while (1); }\n");
   Robot& other = add_robot("blink").at(0.5, 0);
   run_for(0.5);
-  ASSERT_EQ(camera.traps().size(), 1u);
-  EXPECT_EQ(camera.traps()[0].message, "e_poxxxx_init_cam: the camera is not simulated yet");
+  ASSERT_EQ(driver.traps().size(), 1u);
+  EXPECT_EQ(driver.traps()[0].kind, TP_TRAP_UNSIMULATED);
+  EXPECT_NE(driver.traps()[0].message.find("DCICON1"), std::string::npos) << driver.traps()[0].message;
   EXPECT_TRUE(other.traps().empty());
 }
 

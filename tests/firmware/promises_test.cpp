@@ -438,17 +438,6 @@ int main(void) {
   expect_no_traps();
 }
 
-TEST_F(Promise, a_function_whose_device_is_missing_names_itself) {
-  Robot& r = add_robot_with_source(R"(
-#include <a_d/advance_ad_scan/e_acc.h>
-int main(void) { e_get_acc(0); while (1); }
-)");
-  run_for(0.1);
-  ASSERT_EQ(r.traps().size(), 1u);
-  EXPECT_EQ(r.traps().front().kind, TP_TRAP_UNSIMULATED);
-  EXPECT_NE(r.traps().front().message.find("e_get_acc"), std::string::npos);
-}
-
 TEST_F(Promise, zero_robots_are_a_world_too) {
   arena(1, 1);
   run_for(1);
