@@ -81,13 +81,13 @@ bench: tool
 
 ## asan: all tests under the address and undefined-behaviour sanitizers
 asan: setup
-	@$(CMAKE) -B $(BUILD)-asan -DCMAKE_CXX_FLAGS_RELEASE="-O1 -g1" -DTWINPUCK_SANITIZE=address,undefined >/dev/null
+	@$(CMAKE) -B $(BUILD)-asan -DTWINPUCK_OPTIMISE="-O1 -g1" -DTWINPUCK_SANITIZE=address,undefined >/dev/null
 	@ninja -C $(BUILD)-asan --quiet -j $(JOBS)
 	@scripts/run_tests.sh $(BUILD)-asan '$(T)'
 
 ## tsan: all tests under the thread sanitizer
 tsan: setup
-	@$(CMAKE) -B $(BUILD)-tsan -DCMAKE_CXX_FLAGS_RELEASE="-O1 -g1" -DTWINPUCK_SANITIZE=thread >/dev/null
+	@$(CMAKE) -B $(BUILD)-tsan -DTWINPUCK_OPTIMISE="-O1 -g1" -DTWINPUCK_SANITIZE=thread >/dev/null
 	@ninja -C $(BUILD)-tsan --quiet -j $(JOBS)
 	@scripts/run_tests.sh $(BUILD)-tsan '$(T)'
 

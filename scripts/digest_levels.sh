@@ -5,7 +5,7 @@
 #   scripts/digest_levels.sh BUILD_FOLDER     BUILD_FOLDER: the usual build (-O2); build-o0 is made beside it
 set -eu
 build=$1
-cmake -G Ninja -S . -B build-o0 -DCMAKE_CXX_FLAGS_RELEASE="-O0 -g1" >/dev/null
+cmake -G Ninja -S . -B build-o0 -DTWINPUCK_OPTIMISE="-O0 -g1" >/dev/null
 ninja -C build-o0 --quiet twinpuck
 failed=0
 for run in "worlds/maze.toml 20" "worlds/swarm.toml 5" "worlds/push.toml 10" "bench/worlds/brait_100.toml 2"; do
