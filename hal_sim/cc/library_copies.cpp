@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See library_copies.h. The names are those of the library's C sources, of 2006 to 2017; its assembler sources
-// are never compiled.
+// See library_copies.h. The names are those of the library's C sources, of 2006 to 2017; its assembler
+// sources are never compiled.
 #include "library_copies.h"
 
 #include <algorithm>
@@ -13,29 +13,59 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kLibrarySources[] = {
-    "a_d/advance_ad_scan/e_acc.c", "a_d/advance_ad_scan/e_ad_conv.c", "a_d/advance_ad_scan/e_micro.c",
-    "a_d/advance_ad_scan/e_prox.c", "a_d/e_accelerometer.c", "a_d/e_ad_conv.c", "a_d/e_micro.c",
-    "a_d/e_prox.c", "a_d/e_prox_timer2.c", "acc_gyro/e_lsm330.c", "bluetooth/e_bluetooth.c",
-    "camera/fast_2_timer/e_calc.c", "camera/fast_2_timer/e_calc_po3030.c",
-    "camera/fast_2_timer/e_calc_po3030k.c", "camera/fast_2_timer/e_calc_po6030k.c",
-    "camera/fast_2_timer/e_calc_po8030d.c", "camera/fast_2_timer/e_common.c",
-    "camera/fast_2_timer/e_po3030k_registers.c", "camera/fast_2_timer/e_po6030k_registers.c",
-    "camera/fast_2_timer/e_po8030d_registers.c", "camera/fast_2_timer/e_registers.c",
-    "camera/fast_2_timer/e_timers.c", "camera/slow_3_timer/e_calc.c", "camera/slow_3_timer/e_registers.c",
-    "camera/slow_3_timer/e_timers.c", "codec/e_sound.c", "contrib/LIS_sensors_turret/e_devantech.c",
-    "contrib/LIS_sensors_turret/e_sensext.c", "contrib/LIS_sensors_turret/e_sharp.c",
-    "contrib/SWIS_com_module/ComModule.c", "fft/e_fft.c", "fft/e_input_signal.c", "fft/e_twiddle_factors.c",
-    "I2C/e_I2C_master_module.c", "I2C/e_I2C_protocol.c", "matlab/matlab.c",
-    "motor_led/advance_one_timer/e_agenda.c", "motor_led/advance_one_timer/e_led.c",
-    "motor_led/advance_one_timer/e_motors.c", "motor_led/advance_one_timer/e_remote_control.c",
+    "a_d/advance_ad_scan/e_acc.c",
+    "a_d/advance_ad_scan/e_ad_conv.c",
+    "a_d/advance_ad_scan/e_micro.c",
+    "a_d/advance_ad_scan/e_prox.c",
+    "a_d/e_accelerometer.c",
+    "a_d/e_ad_conv.c",
+    "a_d/e_micro.c",
+    "a_d/e_prox.c",
+    "a_d/e_prox_timer2.c",
+    "acc_gyro/e_lsm330.c",
+    "bluetooth/e_bluetooth.c",
+    "camera/fast_2_timer/e_calc.c",
+    "camera/fast_2_timer/e_calc_po3030.c",
+    "camera/fast_2_timer/e_calc_po3030k.c",
+    "camera/fast_2_timer/e_calc_po6030k.c",
+    "camera/fast_2_timer/e_calc_po8030d.c",
+    "camera/fast_2_timer/e_common.c",
+    "camera/fast_2_timer/e_po3030k_registers.c",
+    "camera/fast_2_timer/e_po6030k_registers.c",
+    "camera/fast_2_timer/e_po8030d_registers.c",
+    "camera/fast_2_timer/e_registers.c",
+    "camera/fast_2_timer/e_timers.c",
+    "camera/slow_3_timer/e_calc.c",
+    "camera/slow_3_timer/e_registers.c",
+    "camera/slow_3_timer/e_timers.c",
+    "codec/e_sound.c",
+    "contrib/LIS_sensors_turret/e_devantech.c",
+    "contrib/LIS_sensors_turret/e_sensext.c",
+    "contrib/LIS_sensors_turret/e_sharp.c",
+    "contrib/SWIS_com_module/ComModule.c",
+    "fft/e_fft.c",
+    "fft/e_input_signal.c",
+    "fft/e_twiddle_factors.c",
+    "I2C/e_I2C_master_module.c",
+    "I2C/e_I2C_protocol.c",
+    "matlab/matlab.c",
+    "motor_led/advance_one_timer/e_agenda.c",
+    "motor_led/advance_one_timer/e_led.c",
+    "motor_led/advance_one_timer/e_motors.c",
+    "motor_led/advance_one_timer/e_remote_control.c",
     "motor_led/advance_one_timer/fast_agenda/e_agenda_fast.c",
-    "motor_led/advance_one_timer/fast_agenda/e_led.c", "motor_led/advance_one_timer/fast_agenda/e_motors.c",
-    "motor_led/e_init_port.c", "motor_led/e_led.c", "motor_led/e_motors.c", "motor_led/e_motors_timer3.c",
+    "motor_led/advance_one_timer/fast_agenda/e_led.c",
+    "motor_led/advance_one_timer/fast_agenda/e_motors.c",
+    "motor_led/e_init_port.c",
+    "motor_led/e_led.c",
+    "motor_led/e_motors.c",
+    "motor_led/e_motors_timer3.c",
     "utility/utility.c",
 };
 
 std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return char(std::tolower(c)); });
   return text;
 }
 
@@ -43,8 +73,8 @@ bool ends_with(const std::string& text, const std::string& tail) {
   return text.size() >= tail.size() && text.compare(text.size() - tail.size(), tail.size(), tail) == 0;
 }
 
-/// The library's path at the end of `below` (a path below the project's folder), "" for none. Longest first, so
-/// that "a_d/e_prox.c" is not found in "advance_ad_scan/e_prox.c".
+/// The library's path at the end of `below` (a path below the project's folder), "" for none. Longest first,
+/// so that "a_d/e_prox.c" is not found in "advance_ad_scan/e_prox.c".
 std::string library_place(const std::string& below) {
   std::string best;
   for (const char* path : kLibrarySources)
@@ -116,7 +146,8 @@ std::string library_copies_message(const fs::path& project, const LibraryCopies&
   if (copies.replaced.size() > kShown)
     list += " and " + std::to_string(copies.replaced.size() - kShown) + " more";
   return project.string() + ": copy of the e-puck library: got " + list +
-         ", expected no drivers of the hardware in the project; Twinpuck's own library is used in their place, "
+         ", expected no drivers of the hardware in the project; Twinpuck's own library is used in their "
+         "place, "
          "changes made in them have no effect";
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Copies of the e-puck library inside a project. Many projects carry the library along, whole or in parts. Its
-// drivers reach hardware that the native way has no registers for (converter, codec, I2C, camera), partly in
-// assembler, and a whole copy holds several variants of one function; so Twinpuck's own library takes the place
-// of such files, and the build says so.
+// Copies of the e-puck library inside a project. Many projects carry the library along, whole or in parts.
+// Its drivers reach hardware that the native way has no registers for (converter, codec, I2C, camera), partly
+// in assembler, and a whole copy holds several variants of one function; so Twinpuck's own library takes the
+// place of such files, and the build says so.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -16,9 +16,10 @@ struct LibraryCopies {
   std::vector<std::filesystem::path> roots;     ///< folders that hold a copy in the library's own folders
 };
 
-/// Splits a project's sources. Left out are files that lie below the project's folder where the library has them
-/// (a_d/e_prox.c, codec/e_sound.c ...), and files that have only the name of a library's file and cannot work
-/// here: they name a register that is not simulated, contain assembler, or belong to the camera's driver.
+/// Splits a project's sources. Left out are files that lie below the project's folder where the library has
+/// them (a_d/e_prox.c, codec/e_sound.c ...), and files that have only the name of a library's file and cannot
+/// work here: they name a register that is not simulated, contain assembler, or belong to the camera's
+/// driver.
 LibraryCopies find_library_copies(const std::filesystem::path& project,
                                   const std::vector<std::filesystem::path>& sources);
 

@@ -15,11 +15,14 @@ const char* kUsesBoth =
 TEST(library_copies, a_whole_copy_gives_way_to_ours_and_the_build_says_so) {
   Folder folder;
   // both variants of a driver under one name, which could not be linked together, and one in assembler
-  folder.file("prog/library/motor_led/e_motors.c", "void e_init_motors(void) {} void e_set_speed_left(int v) {}");
+  folder.file("prog/library/motor_led/e_motors.c",
+              "void e_init_motors(void) {} void e_set_speed_left(int v) {}");
   folder.file("prog/library/motor_led/advance_one_timer/e_motors.c",
               "void e_init_motors(void) {} void e_set_speed_left(int v) {}");
-  folder.file("prog/library/codec/e_sound.c", "void e_close_sound(void) { __asm__ volatile(\"clr _e_flag\"); }");
-  folder.file("prog/library/motor_led/advance_one_timer/e_motors.h", "#error a header of the copy was read\n");
+  folder.file("prog/library/codec/e_sound.c",
+              "void e_close_sound(void) { __asm__ volatile(\"clr _e_flag\"); }");
+  folder.file("prog/library/motor_led/advance_one_timer/e_motors.h",
+              "#error a header of the copy was read\n");
   auto built = build(folder, kUsesBoth);
   EXPECT_TRUE(built.ok) << text_of(built);
   ASSERT_EQ(built.warnings.size(), 1u) << text_of(built);
