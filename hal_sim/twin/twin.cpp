@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "hal_sim/twin/twin.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 
@@ -88,6 +90,17 @@ board::BluetoothSetup bluetooth_of(const sim::WorldDesc& world, int index) {
   return setup;
 }
 
+// first address at which two devices of the bus would answer; -1 when there is none
+int shared_address(const board::I2cBus& bus) {
+  for (int address = 0; address < 256; address += 2) {
+    int answers = 0;
+    for (const auto& device : bus.devices())
+      answers += device->answers_to(static_cast<std::uint8_t>(address));
+    if (answers > 1) return address;
+  }
+  return -1;
+}
+
 // turrets and the like
 void plug_in_parts(const sim::RobotDesc& robot, board::Board& board, std::vector<std::string>& problems) {
   for (std::size_t i = 0; i < robot.parts.size(); ++i) {
@@ -99,6 +112,15 @@ void plug_in_parts(const sim::RobotDesc& robot, board::Board& board, std::vector
       continue;
     }
     board.plug_in(type->make(board::PartSettings(type->kind, part, static_cast<int>(i))));
+    const int address = shared_address(board.i2c());
+    if (address >= 0) {
+      problems.push_back(
+          fmt::format("robot '{}': part '{}': got I2C address 0x{:02X}, which another device of this robot "
+                      "has, expected one of "
+                      "its own; leave one of them out",
+                      robot.name, part.kind, address));
+      return;
+    }
   }
 }
 

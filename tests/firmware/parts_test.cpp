@@ -3,6 +3,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "hal_sim/board/epuck_model.h"
 #include "hal_sim/board/part.h"
 #include "sim_core/load/schema.h"
 #include "sim_core/load/world_loader.h"
@@ -44,6 +45,24 @@ TEST(Parts, the_page_about_parts_shows_the_example_as_it_is) {
   EXPECT_NE(
       text_of("docs/parts.md").find("```cpp\n" + text_of("hal_sim/board/parts/floor_colour.cpp") + "```\n"),
       std::string::npos);
+}
+
+TEST(Parts, two_of_one_address_are_refused) {
+  sim::WorldDesc world;
+  world.models = {board::epuck_model()};
+  sim::RobotDesc robot;
+  robot.name = "puck";
+  robot.parts.resize(2);
+  robot.parts[0].kind = "ground-sensors";
+  robot.parts[1].kind = "compass";
+  world.robots.push_back(robot);
+  std::vector<std::string> problems;
+  EXPECT_EQ(twin::Twin::open(world, {}, problems), nullptr);
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_EQ(problems[0],
+            "robot 'puck': part 'compass': got I2C address 0xC0, which another device of this robot has, "
+            "expected one "
+            "of its own; leave one of them out");
 }
 
 class PartTest : public FirmwareTest {
