@@ -28,67 +28,77 @@
 /* one hardware timer */
 struct timer {
   tp_i64 vector;
-  unsigned int period;  /* PR register */
-  unsigned char shift;  /* prescaler as a power of two: 0, 3, 6, 8 */
+  unsigned int period; /* PR register */
+  unsigned char shift; /* prescaler as a power of two: 0, 3, 6, 8 */
   char running;
-  char pending;         /* matched, interrupt not served yet */
-  unsigned int count;   /* TMR register while stopped */
-  tp_i64 started;       /* cycle at which it was started with that count */
+  char pending;       /* matched, interrupt not served yet */
+  unsigned int count; /* TMR register while stopped */
+  tp_i64 started;     /* cycle at which it was started with that count */
+  tp_i64 served;      /* cycle of the latest interrupt since then */
 };
 
 static struct AgendaList tasks;
-static struct timer timers[TIMERS] = {
-    {TP_V_T1, 65535u, 0, 0, 0, 0, 0}, {TP_V_T2, 65535u, 0, 0, 0, 0, 0}, {TP_V_T3, 65535u, 0, 0, 0, 0, 0}};
+static struct timer timers[TIMERS] = {{TP_V_T1, 65535u, 0, 0, 0, 0, 0, 0},
+                                      {TP_V_T2, 65535u, 0, 0, 0, 0, 0, 0},
+                                      {TP_V_T3, 65535u, 0, 0, 0, 0, 0, 0}};
 
 /* --- timers ------------------------------------------------------------------------------------------- */
 
-static tp_i64 counts_since_start(const struct timer *t) { return (tp_now() - t->started) >> t->shift; }
-
-/* cycle of the next match; a count beyond the period first runs through 16 bits */
-static void request_match(struct timer *t) {
+/* counts from the start to the first match; a count beyond the period first runs through 16 bits */
+static tp_i64 first_match(const struct timer* t) {
   tp_i64 to_go = (tp_i64)t->period + 1 - t->count;
-  if (tasks.speed[t - timers] == 0) {
-    tp_irq_at(t->vector, -1); /* a timer whose tasks all rest */
-    return;
-  }
-  if (to_go <= 0) to_go += 65536;
-  tp_irq_at(t->vector, t->started + (to_go << t->shift));
+  return to_go <= 0 ? to_go + 65536 : to_go;
 }
 
-static void start_timer(struct timer *t) {
+/* matches between the start and the cycle `at`, and the count that the timer then has */
+static tp_i64 matches_until(const struct timer* t, tp_i64 at, unsigned int* count) {
+  tp_i64 counts = (at - t->started) >> t->shift, first = first_match(t);
+  if (counts < first) {
+    *count = (unsigned int)(t->count + counts);
+    return 0;
+  }
+  counts -= first;
+  *count = (unsigned int)(counts % ((tp_i64)t->period + 1));
+  return 1 + counts / ((tp_i64)t->period + 1);
+}
+
+static void request_matches(struct timer* t) {
+  if (tasks.speed[t - timers] == 0)
+    tp_irq_at(t->vector, -1); /* a timer whose tasks all rest */
+  else
+    tp_irq_every(t->vector, t->started + (first_match(t) << t->shift), ((tp_i64)t->period + 1) << t->shift);
+}
+
+static void start_timer(struct timer* t) {
   if (t->running) return;
   t->running = 1;
-  t->started = tp_now();
+  t->started = t->served = tp_now();
   if (t->pending)
     tp_irq_at(t->vector, t->started);
   else
-    request_match(t);
+    request_matches(t);
 }
 
-static void stop_timer(struct timer *t) {
-  tp_i64 count;
+static void stop_timer(struct timer* t) {
+  unsigned int count, then;
   if (!t->running) return;
-  count = t->count + counts_since_start(t);
   /* another handler held up this one: the count has gone on from 0, the flag stays */
-  if (t->count <= t->period && count > t->period && tasks.speed[t - timers] > 0) {
-    count -= (tp_i64)t->period + 1;
+  if (matches_until(t, tp_now(), &count) > matches_until(t, t->served, &then) && tasks.speed[t - timers] > 0)
     t->pending = 1;
-  }
-  t->count = (unsigned int)count;
+  t->count = count;
   t->running = 0;
   tp_irq_at(t->vector, -1);
 }
 
+/* runs up to 10,000 times a second and is charged like the robot's: no arithmetic with cycles in here */
 static void serve(int index) {
-  struct timer *t = &timers[index];
-  Agenda *task;
-  /* the counter went on from 0 at the match */
-  if (!t->pending) {
-    t->started += ((tp_i64)t->period + 1 - t->count) << t->shift;
-    t->count = 0;
+  struct timer* t = &timers[index];
+  Agenda* task;
+  t->served = tp_now();
+  if (t->pending) {
+    t->pending = 0;
+    request_matches(t);
   }
-  t->pending = 0;
-  request_match(t);
   if (tasks.timers_in_use[index] == 0 || tasks.speed[index] == 0) return;
   for (task = tasks.agendas[index]; task; task = task->next) {
     if (task->activate != 1 || task->cycle == 0) continue;
@@ -106,7 +116,7 @@ static void serve_timer3(void) { serve(2); }
 
 static void configure(int index) {
   static void (*const handlers[TIMERS])(void) = {serve_timer1, serve_timer2, serve_timer3};
-  struct timer *t = &timers[index];
+  struct timer* t = &timers[index];
   stop_timer(t);
   t->shift = 0;
   t->count = 0;
@@ -117,7 +127,9 @@ static void configure(int index) {
 
 /* period of a timer in units of 0.1 ms, with the smallest prescaler that holds it */
 static void set_period(int index, unsigned int units) {
-  struct timer *t = &timers[index];
+  struct timer* t = &timers[index];
+  char was_running = t->running;
+  stop_timer(t);
   if (units > LONGEST) {
     float parts = units / (float)LONGEST;
     unsigned int whole = (unsigned int)parts;
@@ -127,7 +139,7 @@ static void set_period(int index, unsigned int units) {
   /* below 44 units the library leaves the prescaler of before, which is 1 after configuring */
   t->shift = units > 2864 ? 8 : units > 358 ? 6 : units >= 44 ? 3 : 0;
   t->period = (unsigned int)((unsigned long)(UNIT_CYCLES * units) >> t->shift);
-  if (t->running) request_match(t);
+  if (was_running) start_timer(t);
 }
 
 static unsigned int common_divisor(unsigned int a, unsigned int b) {
@@ -148,7 +160,7 @@ static int free_timer(void) {
 }
 
 /* the busy timer whose period shares most with the cycle; else the one with the longest period */
-static int shared_timer(unsigned int cycle, unsigned int *divisor) {
+static int shared_timer(unsigned int cycle, unsigned int* divisor) {
   int i, best = NO_TIMER;
   *divisor = 1;
   for (i = 0; i < TIMERS; i++) {
@@ -164,7 +176,7 @@ static int shared_timer(unsigned int cycle, unsigned int *divisor) {
   return best;
 }
 
-static void place(Agenda *task) {
+static void place(Agenda* task) {
   unsigned int divisor = task->cycle;
   int timer = free_timer();
   if (timer != NO_TIMER)
@@ -178,8 +190,8 @@ static void place(Agenda *task) {
   tasks.timers_in_use[timer]++;
 }
 
-static Agenda *new_task(void (*func)(void), unsigned cycle) {
-  Agenda *task = malloc(sizeof(Agenda));
+static Agenda* new_task(void (*func)(void), unsigned cycle) {
+  Agenda* task = malloc(sizeof(Agenda));
   if (!task) tp_trap_message(TP_TRAP_ABORT, "e_activate_agenda: no memory left for a task");
   task->cycle = cycle;
   task->counter = 0;
@@ -190,10 +202,10 @@ static Agenda *new_task(void (*func)(void), unsigned cycle) {
 }
 
 /* takes the task of `func` out of a list; null if it is not there */
-static Agenda *unlink_task(Agenda **list, void (*func)(void)) {
+static Agenda* unlink_task(Agenda** list, void (*func)(void)) {
   for (; *list; list = &(*list)->next)
     if ((*list)->function == func) {
-      Agenda *task = *list;
+      Agenda* task = *list;
       *list = task->next;
       task->next = 0;
       return task;
@@ -201,14 +213,14 @@ static Agenda *unlink_task(Agenda **list, void (*func)(void)) {
   return 0;
 }
 
-static Agenda *find_in(Agenda *list, void (*func)(void)) {
+static Agenda* find_in(Agenda* list, void (*func)(void)) {
   while (list && list->function != func) list = list->next;
   return list;
 }
 
-static Agenda *find_task(void (*func)(void)) {
+static Agenda* find_task(void (*func)(void)) {
   int i;
-  Agenda *task = find_in(tasks.waiting, func);
+  Agenda* task = find_in(tasks.waiting, func);
   for (i = 0; i < TIMERS && !task; i++) task = find_in(tasks.agendas[i], func);
   return task;
 }
@@ -245,7 +257,7 @@ void e_end_agendas_processing(int timer) {
 }
 
 void e_activate_agenda(void (*func)(void), unsigned cycle) {
-  Agenda *task = new_task(func, cycle);
+  Agenda* task = new_task(func, cycle);
   e_end_agendas_processing(0);
   if (cycle > 0) {
     place(task);
@@ -257,7 +269,7 @@ void e_activate_agenda(void (*func)(void), unsigned cycle) {
 }
 
 void e_activate_motors(void (*func1)(void), void (*func2)(void)) {
-  Agenda *first = new_task(func1, 0);
+  Agenda* first = new_task(func1, 0);
   int i, timer = 0;
   e_end_agendas_processing(0);
   /* a timer without tasks, else the one with the fewest, whose tasks move elsewhere */
@@ -265,10 +277,10 @@ void e_activate_motors(void (*func1)(void), void (*func2)(void)) {
     if (tasks.timers_in_use[i] < tasks.timers_in_use[timer]) timer = i;
   tasks.motors = (char)timer;
   if (tasks.timers_in_use[timer] > 0) {
-    Agenda *task = tasks.agendas[timer];
+    Agenda* task = tasks.agendas[timer];
     tasks.agendas[timer] = 0;
     while (task) {
-      Agenda *next = task->next;
+      Agenda* next = task->next;
       place(task);
       task = next;
     }
@@ -285,7 +297,7 @@ void e_activate_motors(void (*func1)(void), void (*func2)(void)) {
 }
 
 int e_set_motor_speed(void (*func)(void), unsigned cycle) {
-  Agenda *task;
+  Agenda* task;
   unsigned int other;
   if (tasks.motors < 0) return AG_NOT_FOUND;
   task = find_in(tasks.agendas[(int)tasks.motors], func);
@@ -301,7 +313,7 @@ int e_set_motor_speed(void (*func)(void), unsigned cycle) {
 int e_destroy_agenda(void (*func)(void)) {
   int i;
   for (i = 0; i < TIMERS; i++) {
-    Agenda *task = unlink_task(&tasks.agendas[i], func);
+    Agenda* task = unlink_task(&tasks.agendas[i], func);
     if (!task) continue;
     free(task);
     tasks.timers_in_use[i]--;
@@ -311,7 +323,7 @@ int e_destroy_agenda(void (*func)(void)) {
 }
 
 int e_set_agenda_cycle(void (*func)(void), unsigned cycle) {
-  Agenda *task = 0;
+  Agenda* task = 0;
   int i;
   e_end_agendas_processing(0);
   if (cycle > 0 && (task = unlink_task(&tasks.waiting, func)) != 0) {
@@ -341,21 +353,21 @@ int e_set_agenda_cycle(void (*func)(void), unsigned cycle) {
 }
 
 int e_reset_agenda(void (*func)(void)) {
-  Agenda *task = find_task(func);
+  Agenda* task = find_task(func);
   if (!task) return AG_NOT_FOUND;
   task->counter = 0;
   return EXIT_OK;
 }
 
 int e_pause_agenda(void (*func)(void)) {
-  Agenda *task = find_task(func);
+  Agenda* task = find_task(func);
   if (!task) return AG_NOT_FOUND;
   task->activate = 0;
   return EXIT_OK;
 }
 
 int e_restart_agenda(void (*func)(void)) {
-  Agenda *task = find_task(func);
+  Agenda* task = find_task(func);
   if (!task) return AG_NOT_FOUND;
   task->activate = 1;
   return EXIT_OK;

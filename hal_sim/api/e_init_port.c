@@ -26,3 +26,4 @@ void e_init_port(void) {
 }
 
 unsigned char isEpuckVersion1_3(void) { return isPresentFlag; }
+unsigned char isEpuckVersion1_1(void) { return isPresentFlag; }

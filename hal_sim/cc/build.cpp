@@ -15,6 +15,7 @@
 #include <sstream>
 
 #include "elf_reader.h"
+#include "library_copies.h"
 #include "object_cache.h"
 #include "timer_owners.h"
 
@@ -69,7 +70,7 @@ std::string common_salt(const std::vector<fs::path>& headers) {
   return content_hash(names);
 }
 
-Plan plan(const BuildOptions& o, const std::vector<fs::path>& sources, bool lint) {
+Plan plan(const BuildOptions& o, const LibraryCopies& copies, bool lint) {
   fs::path root = source_root(), cc_dir = root / "hal_sim/cc";
   fs::path include_root = o.include_root.empty() ? root / "firmware/include" : o.include_root;
   fs::path api = o.api_dir.empty() ? root / "hal_sim/api" : o.api_dir;
@@ -96,6 +97,10 @@ Plan plan(const BuildOptions& o, const std::vector<fs::path>& sources, bool lint
   user_include.push_back(o.source_dir.string());
   user_include.push_back("--project");
   user_include.push_back(fs::weakly_canonical(o.source_dir).string());
+  for (const auto& r : copies.roots) {
+    user_include.push_back("--copy");
+    user_include.push_back(r.string());
+  }
   library_include.push_back("-I" + root.string());
 
   Plan p;
@@ -106,7 +111,7 @@ Plan plan(const BuildOptions& o, const std::vector<fs::path>& sources, bool lint
   if (lint) flags.push_back("--lint");
   for (const auto& d : o.defines) flags.push_back("-D" + d);
   flags.insert(flags.end(), user_include.begin(), user_include.end());
-  for (const auto& s : sources) p.user.push_back({s, flags, common_salt(headers)});
+  for (const auto& s : copies.kept) p.user.push_back({s, flags, common_salt(headers)});
 
   std::vector<std::string> library_flags = mode;
   library_flags.push_back("--library");
@@ -278,7 +283,10 @@ BuildResult build_image(const BuildOptions& options) {
   }
   if (o.cache_dir.empty()) o.cache_dir = build_root() / "firmware-cache";
   o.cache_dir = fs::absolute(o.cache_dir);
-  Plan p = plan(o, sources, false);
+  const LibraryCopies copies = find_library_copies(o.source_dir, sources);
+  if (const std::string told = library_copies_message(o.source_dir, copies); !told.empty())
+    result.warnings.push_back(told);
+  Plan p = plan(o, copies, false);
   fs::path compiler = build_root() / "twinpuck-cc";
   std::vector<CompileJob> all = p.user;
   all.insert(all.end(), p.library.begin(), p.library.end());
@@ -350,7 +358,7 @@ BuildResult lint_folder(const BuildOptions& options) {
     return result;
   }
   if (o.cache_dir.empty()) o.cache_dir = build_root() / "firmware-cache";
-  Plan p = plan(o, sources, true);
+  Plan p = plan(o, find_library_copies(o.source_dir, sources), true);
   auto outcomes = compile_all(p.user, build_root() / "twinpuck-cc", o.cache_dir, std::max(1, o.jobs));
   for (const auto& outcome : outcomes) sort_messages(outcome.messages, result, !outcome.ok);
   std::vector<std::pair<std::string, std::string>> texts;

@@ -54,10 +54,11 @@ std::string match_ignoring_case(std::string root, const std::vector<std::string>
 
 class ForgivingFileSystem : public llvm::vfs::ProxyFileSystem {
  public:
-  ForgivingFileSystem(std::vector<std::string> folders, std::string project)
+  ForgivingFileSystem(std::vector<std::string> folders, std::string project, std::vector<std::string> copies)
       : ProxyFileSystem(llvm::vfs::getRealFileSystem()),
         folders_(std::move(folders)),
-        project_(std::move(project)) {}
+        project_(std::move(project)),
+        copies_(std::move(copies)) {}
 
   llvm::ErrorOr<llvm::vfs::Status> status(const llvm::Twine& path) override {
     std::string ours = replaced_copy(path.str());
@@ -85,14 +86,19 @@ class ForgivingFileSystem : public llvm::vfs::ProxyFileSystem {
   }
 
  private:
-  /// Our header for a copy of the library outside the project, "" for anything else.
+  /// Our header for a copy of the library outside the project or in one of `copies_`, "" for anything else.
   std::string replaced_copy(const std::string& path) const {
     if (project_.empty() || folders_.empty() || !StringRef(path).endswith_insensitive(".h")) return "";
     llvm::SmallString<256> plain(path);
     llvm::sys::fs::make_absolute(plain);
     llvm::sys::path::remove_dots(plain, /*remove_dot_dot=*/true);
-    for (const std::string& inside : {project_, folders_.front()})
-      if (plain.str().startswith(inside + "/")) return "";
+    if (plain.str().startswith(folders_.front() + "/")) return "";
+    if (StringRef name = llvm::sys::path::filename(plain); name.startswith_insensitive("p30f"))
+      return match_ignoring_case(folders_.front(), {name.str()}, 0);
+    for (const std::string& copy : copies_)
+      if (plain.str().startswith(copy + "/"))
+        return match_ignoring_case(folders_.front(), components(plain.str().substr(copy.size()).str()), 0);
+    if (plain.str().startswith(project_ + "/")) return "";
     auto parts = components(plain.str().str());
     if (parts.size() < 2) return "";
     // folder and name, so that a header that merely has a library's name stays the project's
@@ -128,13 +134,15 @@ class ForgivingFileSystem : public llvm::vfs::ProxyFileSystem {
 
   std::vector<std::string> folders_;
   std::string project_;
+  std::vector<std::string> copies_;
 };
 
 }  // namespace
 
 llvm::IntrusiveRefCntPtr<llvm::vfs::FileSystem> forgiving_file_system(std::vector<std::string> folders,
-                                                                      std::string project) {
-  return new ForgivingFileSystem(std::move(folders), std::move(project));
+                                                                      std::string project,
+                                                                      std::vector<std::string> copies) {
+  return new ForgivingFileSystem(std::move(folders), std::move(project), std::move(copies));
 }
 
 }  // namespace cc

@@ -48,6 +48,8 @@ bool parse(int argc, char** argv, cc::Options& o) {
       o.emit_ir = true;
     else if (a == "--project")
       o.project = value();
+    else if (a == "--copy")
+      o.copies.push_back(value());
     else if (a == "--depfile")
       o.depfile = value();
     else if (a == "--cost-dump")

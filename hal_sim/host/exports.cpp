@@ -57,6 +57,9 @@ void tp_irq_install(tp_i64 vector, void (*handler)(void), tp_i64 priority, tp_i6
   robot().irq_install(static_cast<int>(vector), handler, static_cast<int>(priority), entry_cycles);
 }
 void tp_irq_at(tp_i64 vector, tp_i64 at) { robot().irq_at(static_cast<int>(vector), at); }
+void tp_irq_every(tp_i64 vector, tp_i64 first, tp_i64 period) {
+  robot().irq_every(static_cast<int>(vector), first, period);
+}
 void tp_background(tp_i64 slot, tp_i64 period, tp_i64 cost) {
   robot().set_background(static_cast<int>(slot), period, cost);
 }

@@ -31,6 +31,8 @@ void tp_wait_until(tp_i64 at);
 void tp_irq_install(tp_i64 vector, void (*handler)(void), tp_i64 priority, tp_i64 entry_cycles);
 /** The vector's flag rises at cycle `at` (replaces an earlier request); at < 0 cancels. */
 void tp_irq_at(tp_i64 vector, tp_i64 at);
+/** The same at `first` and every `period` cycles from then on, as a timer does. */
+void tp_irq_every(tp_i64 vector, tp_i64 first, tp_i64 period);
 #define TP_V_INT0 0
 #define TP_V_T1 3
 #define TP_V_T2 6

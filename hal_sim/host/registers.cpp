@@ -13,7 +13,7 @@ namespace host {
 namespace {
 
 constexpr unsigned kSr = 0x042, kDisicnt = 0x052, kIntcon1 = 0x080, kIntcon2 = 0x082, kIfs0 = 0x084,
-                   kIec0 = 0x08C, kIpc0 = 0x094, kRcon = 0x740;
+                   kIec0 = 0x08C, kIpc0 = 0x094, kI2ccon = 0x206, kRcon = 0x740;
 constexpr std::uint16_t kPor = 1 << 0, kBor = 1 << 1, kSwr = 1 << 6;
 
 // timer 1 stands alone; 2 and 3, 4 and 5 are laid out as pairs
@@ -193,6 +193,8 @@ std::uint16_t NativeRegisters::read_word(unsigned address) {
       return robot_.disi_active() ? 1 : 0;
     case kRcon:
       return rcon_;
+    case kI2ccon:  // of a bus that the library drives: is it on
+      return robot_.board().i2c_master().is_on() ? 0x9000 : 0x1000;
     default:
       break;
   }
@@ -260,6 +262,10 @@ void NativeRegisters::write_word(unsigned address, std::uint16_t value) {
     case kRcon:
       rcon_ = value;
       return;
+    case kI2ccon:  // switching off, so that an extension can be the bus's master, is all a program may do
+                   // itself
+      if (value & 0x803F) refuse(address, "the I2C bus can be used through the library's functions only");
+      return robot_.board().i2c_master().switch_off(now);
     default:
       break;
   }

@@ -248,7 +248,10 @@ void Robot::irq_install(int vector, void (*handler)(), int priority, Cycle entry
   changed();
 }
 
-void Robot::irq_at(int vector, Cycle at) {
+void Robot::irq_at(int vector, Cycle at) { irq_every(vector, at, 0); }
+
+void Robot::irq_every(int vector, Cycle at, Cycle period) {
+  interrupts_.source(vector).period = period;
   interrupts_.source(vector).due = at < 0 ? kNever : at;
   if (at < 0) interrupts_.source(vector).flag = false;
   changed();

@@ -98,6 +98,7 @@ class Robot final : public Context {
   void wait_until(Cycle at) override;
   void irq_install(int vector, void (*handler)(), int priority, Cycle entry_cycles) override;
   void irq_at(int vector, Cycle at) override;
+  void irq_every(int vector, Cycle first, Cycle period);  ///< period 0: once
   void set_background(int slot, Cycle period, Cycle cost) override;
   [[noreturn]] void trap(int kind, std::string_view message) override;
 

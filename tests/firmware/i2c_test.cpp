@@ -247,4 +247,30 @@ TEST_F(I2cApi, a_handler_of_the_same_priority_waits_in_vain) {
   expect_no_traps();
 }
 
+// a program that leaves the bus to an extension: the one thing done with the module's register
+TEST_F(I2cApi, the_module_can_be_switched_off_by_its_register) {
+  Robot& r = add_robot_with_source(R"(
+#include <p30F6014A.h>
+#include <I2C/e_I2C_protocol.h>
+int before, after, done;
+int main(void) {
+  e_i2cp_init();
+  e_i2cp_enable();
+  e_i2cp_write(0x42, 3, 7);
+  before = I2CCONbits.I2CEN;
+  I2CCONbits.I2CEN = 0;
+  after = I2CCONbits.I2CEN;
+  done = 1;
+  while (1);
+}
+)");
+  Memory& memory = plug();
+  run_for(0.2);
+  EXPECT_EQ(memory.held[3], 7);
+  EXPECT_EQ(r.variable("before"), 1);
+  EXPECT_EQ(r.variable("after"), 0);
+  EXPECT_EQ(r.variable("done"), 1);
+  expect_no_traps();
+}
+
 }  // namespace

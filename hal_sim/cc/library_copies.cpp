@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+// See library_copies.h. The names are those of the library's C sources, of 2006 to 2017; its assembler
+// sources are never compiled.
+#include "library_copies.h"
+
+#include <algorithm>
+#include <regex>
+
+#include "object_cache.h"
+
+namespace cc {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* kLibrarySources[] = {
+    "a_d/advance_ad_scan/e_acc.c",
+    "a_d/advance_ad_scan/e_ad_conv.c",
+    "a_d/advance_ad_scan/e_micro.c",
+    "a_d/advance_ad_scan/e_prox.c",
+    "a_d/e_accelerometer.c",
+    "a_d/e_ad_conv.c",
+    "a_d/e_micro.c",
+    "a_d/e_prox.c",
+    "a_d/e_prox_timer2.c",
+    "acc_gyro/e_lsm330.c",
+    "bluetooth/e_bluetooth.c",
+    "camera/fast_2_timer/e_calc.c",
+    "camera/fast_2_timer/e_calc_po3030.c",
+    "camera/fast_2_timer/e_calc_po3030k.c",
+    "camera/fast_2_timer/e_calc_po6030k.c",
+    "camera/fast_2_timer/e_calc_po8030d.c",
+    "camera/fast_2_timer/e_common.c",
+    "camera/fast_2_timer/e_po3030k_registers.c",
+    "camera/fast_2_timer/e_po6030k_registers.c",
+    "camera/fast_2_timer/e_po8030d_registers.c",
+    "camera/fast_2_timer/e_registers.c",
+    "camera/fast_2_timer/e_timers.c",
+    "camera/slow_3_timer/e_calc.c",
+    "camera/slow_3_timer/e_registers.c",
+    "camera/slow_3_timer/e_timers.c",
+    "codec/e_sound.c",
+    "contrib/LIS_sensors_turret/e_devantech.c",
+    "contrib/LIS_sensors_turret/e_sensext.c",
+    "contrib/LIS_sensors_turret/e_sharp.c",
+    "contrib/SWIS_com_module/ComModule.c",
+    "fft/e_fft.c",
+    "fft/e_input_signal.c",
+    "fft/e_twiddle_factors.c",
+    "I2C/e_I2C_master_module.c",
+    "I2C/e_I2C_protocol.c",
+    "matlab/matlab.c",
+    "motor_led/advance_one_timer/e_agenda.c",
+    "motor_led/advance_one_timer/e_led.c",
+    "motor_led/advance_one_timer/e_motors.c",
+    "motor_led/advance_one_timer/e_remote_control.c",
+    "motor_led/advance_one_timer/fast_agenda/e_agenda_fast.c",
+    "motor_led/advance_one_timer/fast_agenda/e_led.c",
+    "motor_led/advance_one_timer/fast_agenda/e_motors.c",
+    "motor_led/e_init_port.c",
+    "motor_led/e_led.c",
+    "motor_led/e_motors.c",
+    "motor_led/e_motors_timer3.c",
+    "utility/utility.c",
+};
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return char(std::tolower(c)); });
+  return text;
+}
+
+bool ends_with(const std::string& text, const std::string& tail) {
+  return text.size() >= tail.size() && text.compare(text.size() - tail.size(), tail.size(), tail) == 0;
+}
+
+/// The library's path at the end of `below` (a path below the project's folder), "" for none. Longest first,
+/// so that "a_d/e_prox.c" is not found in "advance_ad_scan/e_prox.c".
+std::string library_place(const std::string& below) {
+  std::string best;
+  for (const char* path : kLibrarySources)
+    if (ends_with("/" + below, "/" + lower(path)) && std::string(path).size() > best.size()) best = path;
+  return best;
+}
+
+bool has_library_name(const std::string& name) {
+  for (const char* path : kLibrarySources)
+    if (lower(fs::path(path).filename().string()) == name) return true;
+  return false;
+}
+
+std::string without_comments(const std::string& text) {
+  static const std::regex kComment(R"(/\*[^*]*\*+(?:[^/*][^*]*\*+)*/|//[^\n]*)");
+  return std::regex_replace(text, kComment, " ");
+}
+
+/// Whether a flat copy does what only the chip can: see limits.md, "The processor, native way".
+bool needs_the_chip(const std::string& name, const std::string& text) {
+  static const std::regex kCamera(R"(e_(calc|registers|timers|common|po\d+[kd]_registers|calc_po\w+)\.c)");
+  static const std::regex kCameraText(R"(po(3030k|6030k|8030d|xxxx))", std::regex::icase);
+  if (std::regex_match(name, kCamera) && std::regex_search(text, kCameraText)) return true;
+  static const std::regex kChip(
+      R"(\b(ADCON[1-3]|ADCHS|ADCSSL|ADCBUF[0-9A-F]|DCICON[1-3]|TSCON|RSCON|RXBUF[0-3]|TXBUF[0-3]|)"
+      R"(I2C(CON|STAT|TRN|RCV|BRG)|U[12](MODE|STA|BRG|TXREG|RXREG)|SPI[12](STAT|CON|BUF))(bits)?\b|)"
+      R"(\b__builtin_(tbl|psv)|\b(asm|__asm__)\s*(volatile\s*)?\(\s*"\s*(?!nop|reset|clrwdt|pwrsav|disi))",
+      std::regex::icase);
+  return std::regex_search(without_comments(text), kChip);
+}
+
+}  // namespace
+
+LibraryCopies find_library_copies(const fs::path& project, const std::vector<fs::path>& sources) {
+  LibraryCopies copies;
+  const fs::path folder = fs::weakly_canonical(project);
+  for (const auto& source : sources) {
+    const fs::path whole = fs::weakly_canonical(source);
+    const std::string below = whole.lexically_relative(folder).generic_string();
+    const std::string place = library_place(lower(below));
+    if (!place.empty()) {
+      std::string root = whole.string();
+      root.resize(root.size() - place.size());
+      while (root.size() > 1 && root.back() == '/') root.pop_back();
+      if (std::find(copies.roots.begin(), copies.roots.end(), fs::path(root)) == copies.roots.end())
+        copies.roots.push_back(root);
+      copies.replaced.push_back(source);
+      continue;
+    }
+    const std::string name = lower(whole.filename().string());
+    const bool left_out = has_library_name(name) && needs_the_chip(name, read_text(source));
+    (left_out ? copies.replaced : copies.kept).push_back(source);
+  }
+  // "utility/utility.c" alone may be anybody's
+  if (copies.replaced.size() == 1 && lower(copies.replaced.front().filename().string()) == "utility.c") {
+    copies.kept = sources;
+    copies.replaced.clear();
+    copies.roots.clear();
+  }
+  return copies;
+}
+
+std::string library_copies_message(const fs::path& project, const LibraryCopies& copies) {
+  if (copies.replaced.empty()) return "";
+  std::string list;
+  constexpr std::size_t kShown = 4;
+  for (std::size_t i = 0; i < copies.replaced.size() && i < kShown; ++i)
+    list += (i ? ", " : "") + copies.replaced[i].lexically_relative(project).generic_string();
+  if (copies.replaced.size() > kShown)
+    list += " and " + std::to_string(copies.replaced.size() - kShown) + " more";
+  return project.string() + ": copy of the e-puck library: got " + list +
+         ", expected no drivers of the hardware in the project; Twinpuck's own library is used in their "
+         "place, "
+         "changes made in them have no effect";
+}
+
+}  // namespace cc

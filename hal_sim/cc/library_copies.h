@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// Copies of the e-puck library inside a project. Many projects carry the library along, whole or in parts.
+// Its drivers reach hardware that the native way has no registers for (converter, codec, I2C, camera), partly
+// in assembler, and a whole copy holds several variants of one function; so Twinpuck's own library takes the
+// place of such files, and the build says so.
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace cc {
+
+struct LibraryCopies {
+  std::vector<std::filesystem::path> kept;      ///< sources to compile, in the order given
+  std::vector<std::filesystem::path> replaced;  ///< sources that are left out
+  std::vector<std::filesystem::path> roots;     ///< folders that hold a copy in the library's own folders
+};
+
+/// Splits a project's sources. Left out are files that lie below the project's folder where the library has
+/// them (a_d/e_prox.c, codec/e_sound.c ...), and files that have only the name of a library's file and cannot
+/// work here: they name a register that is not simulated, contain assembler, or belong to the camera's
+/// driver.
+LibraryCopies find_library_copies(const std::filesystem::path& project,
+                                  const std::vector<std::filesystem::path>& sources);
+
+/// The line that tells of it; "" when nothing was left out.
+std::string library_copies_message(const std::filesystem::path& project, const LibraryCopies& copies);
+
+}  // namespace cc

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// Projects that carry the e-puck library along: whole, in parts, or as single files beside main.c.
+#include <gtest/gtest.h>
+
+#include "fake_host.h"
+
+using namespace fake;
+
+namespace {
+const char* kUsesBoth =
+    "#include <p30F6014A.h>\n#include \"library/motor_led/advance_one_timer/e_motors.h\"\n"
+    "int main(void) { e_init_motors(); e_set_speed_left(100); return 0; }";
+}
+
+TEST(library_copies, a_whole_copy_gives_way_to_ours_and_the_build_says_so) {
+  Folder folder;
+  // both variants of a driver under one name, which could not be linked together, and one in assembler
+  folder.file("prog/library/motor_led/e_motors.c",
+              "void e_init_motors(void) {} void e_set_speed_left(int v) {}");
+  folder.file("prog/library/motor_led/advance_one_timer/e_motors.c",
+              "void e_init_motors(void) {} void e_set_speed_left(int v) {}");
+  folder.file("prog/library/codec/e_sound.c",
+              "void e_close_sound(void) { __asm__ volatile(\"clr _e_flag\"); }");
+  folder.file("prog/library/motor_led/advance_one_timer/e_motors.h",
+              "#error a header of the copy was read\n");
+  auto built = build(folder, kUsesBoth);
+  EXPECT_TRUE(built.ok) << text_of(built);
+  ASSERT_EQ(built.warnings.size(), 1u) << text_of(built);
+  EXPECT_NE(built.warnings[0].find("library/codec/e_sound.c"), std::string::npos) << built.warnings[0];
+  EXPECT_NE(built.warnings[0].find("Twinpuck's own library is used"), std::string::npos) << built.warnings[0];
+}
+
+TEST(library_copies, a_flat_copy_stays_unless_it_needs_registers_that_are_not_there) {
+  Folder folder;
+  folder.file("prog/e_motors.c", "int copies_here; void e_init_motors(void) { copies_here = 1; }");
+  folder.file("prog/e_ad_conv.c",
+              "#include <p30F6014A.h>\nvoid e_init_ad_scan(unsigned char a) { int *p = (int *)&ADCBUF0; "
+              "ADCON1 = *p; }");
+  // e_led.c speaks of a register in a comment only; copies_here links only if e_motors.c was compiled
+  folder.file("prog/e_led.c", "/* never touches\n * ADCON1 */ void e_led_clear(void) {} int leds_here;");
+  auto built = build(folder,
+                     "extern int copies_here, leds_here;\nvoid e_init_ad_scan(unsigned char);\n"
+                     "int main(void) { e_init_ad_scan(0); return copies_here + leds_here; }");
+  EXPECT_TRUE(built.ok) << text_of(built);
+  ASSERT_EQ(built.warnings.size(), 1u) << text_of(built);
+  EXPECT_NE(built.warnings[0].find("got e_ad_conv.c, expected"), std::string::npos) << built.warnings[0];
+}
+
+TEST(library_copies, files_that_only_resemble_the_librarys_are_compiled) {
+  Folder folder;
+  folder.file("prog/utility/utility.c", "int mine(void) { return 1; }");
+  folder.file("prog/my_e_sound.c", "int also_mine(void) { return 2; }");
+  folder.file("prog/e_timers.c", "int e_timer(void) { return 4; }");  // a camera's only when it speaks of one
+  auto built = build(folder,
+                     "#include <stdio.h>\nint mine(void); int also_mine(void); int e_timer(void);\n"
+                     "int main(void) { printf(\"%d\", mine() + also_mine() + e_timer()); return 0; }");
+  ASSERT_TRUE(built.ok) << text_of(built);
+  EXPECT_TRUE(built.warnings.empty()) << text_of(built);
+  EXPECT_EQ(Image(folder.path / "prog.so").run().console, "7");
+}
+
+TEST(library_copies, the_chips_header_is_always_ours) {
+  Folder folder;
+  folder.file("prog/inc/p30f6014A.h", "extern volatile unsigned char TBLPAG;\n#define PORTA 3\n");
+  auto built = build(folder,
+                     "#include \"inc/p30f6014A.h\"\n#include <motor_led/e_epuck_ports.h>\n"
+                     "int main(void) { TBLPAG = 1; return PORTA; }");
+  EXPECT_TRUE(built.ok) << text_of(built);
+}

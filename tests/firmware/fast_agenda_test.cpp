@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// The fast agenda beside the other drivers of a program: what its interrupts leave to the main program.
+#include "tests/support/firmware_test.h"
+
+using namespace firmware_test;
+
+namespace {
+
+class FastAgenda : public FirmwareTest {};
+
+// While the motors rest, their timer interrupts every 0.1 ms for nothing. The interrupt walks a list of two
+// tasks, some hundred of 1474 cycles; with the converter's tenth more than half is left to the main program.
+TEST_F(FastAgenda, main_program_gets_most_of_the_time_beside_motors_and_converter) {
+  Robot& r = add_robot_with_source(R"(
+#include <p30F6014A.h>
+#include <motor_led/e_init_port.h>
+#include <motor_led/advance_one_timer/fast_agenda/e_agenda_fast.h>
+#include <motor_led/advance_one_timer/fast_agenda/e_motors.h>
+#include <a_d/advance_ad_scan/e_ad_conv.h>
+volatile int tenths;
+long alone, beside;
+static void tick(void) { tenths++; }
+static long work_for(unsigned int ticks) {
+  long rounds = 0;
+  volatile int sink = 0;
+  TMR5 = 0;
+  while (TMR5 < ticks) { sink++; rounds++; }
+  return rounds;
+}
+int main(void) {
+  e_init_port();
+  T5CON = 0; PR5 = 0xFFFF; T5CONbits.TCKPS = 3; T5CONbits.TON = 1; /* 17.36 us a tick */
+  alone = work_for(5760);
+  e_init_ad_scan(ALL_ADC);
+  e_configure_timer(0);
+  e_start_timer_processing(0);
+  e_start_agendas_processing();
+  e_init_motors();
+  e_activate_agenda(tick, 1000);
+  tenths = 0;
+  beside = work_for(57600);
+  while (1);
+}
+)");
+  run_for(2.0);
+  EXPECT_GT(r.variable<std::int32_t>("alone"), 1000);
+  EXPECT_GT(r.variable<std::int32_t>("beside"), 5 * r.variable<std::int32_t>("alone"));  // of 10
+  EXPECT_GE(r.variable("tenths"), 10);
+  expect_no_traps();
+}
+
+// the period stays right over stops in between, and pausing keeps the count
+TEST_F(FastAgenda, periods_are_exact_over_stops_of_the_timer) {
+  Robot& r = add_robot_with_source(R"(
+#include <motor_led/e_init_port.h>
+#include <motor_led/advance_one_timer/fast_agenda/e_agenda_fast.h>
+volatile int fast, slow;
+static void quick(void) { fast++; }
+static void lazy(void) { slow++; }
+int main(void) {
+  int i;
+  e_init_port();
+  e_configure_timer(0);
+  e_start_agendas_processing();
+  e_activate_agenda(quick, 20);
+  for (i = 0; i < 50; i++) { e_end_agendas_processing(0); e_start_timer_processing(0); }
+  e_activate_agenda(lazy, 250);
+  while (1);
+}
+)");
+  run_for(0.1);
+  const int fast = r.variable("fast"), slow = r.variable("slow");
+  run_for(1.0);
+  EXPECT_NEAR(r.variable("fast") - fast, 500, 1);
+  EXPECT_NEAR(r.variable("slow") - slow, 40, 1);
+  expect_no_traps();
+}
+
+}  // namespace
