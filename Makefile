@@ -79,16 +79,19 @@ bench: tool
 	@ninja -C $(BUILD) --quiet -j $(JOBS) bench
 	@$(BUILD)/bin/bench $(ARGS)
 
-## asan: all tests under the address and undefined-behaviour sanitizers
+# the tests that run the simulator in their own process: the compiler's and the command's start others
+SANITIZED = board_test sim_core_test host_test golden_test firmware_test
+
+## asan: the simulator's tests under the address and undefined-behaviour sanitizers
 asan: setup
 	@$(CMAKE) -B $(BUILD)-asan -DTWINPUCK_OPTIMISE="-O1 -g1" -DTWINPUCK_SANITIZE=address,undefined >/dev/null
-	@ninja -C $(BUILD)-asan --quiet -j $(JOBS)
+	@ninja -C $(BUILD)-asan --quiet -j $(JOBS) $(SANITIZED)
 	@scripts/run_tests.sh $(BUILD)-asan '$(T)'
 
-## tsan: all tests under the thread sanitizer
+## tsan: the simulator's tests under the thread sanitizer
 tsan: setup
 	@$(CMAKE) -B $(BUILD)-tsan -DTWINPUCK_OPTIMISE="-O1 -g1" -DTWINPUCK_SANITIZE=thread >/dev/null
-	@ninja -C $(BUILD)-tsan --quiet -j $(JOBS)
+	@ninja -C $(BUILD)-tsan --quiet -j $(JOBS) $(SANITIZED)
 	@scripts/run_tests.sh $(BUILD)-tsan '$(T)'
 
 ## fuzz: ten minutes of broken world files against the loader
