@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * What the files of the camera share: how much of the zoom the sensor does itself, and the driver's mask.
+ * What the files of the camera share: how much of the zoom the sensor does itself, which windows fit, the
+ * driver's mask, and the registers of the two sensors that keep them in banks.
  */
 #ifndef TWINPUCK_API_CAMERA_H
 #define TWINPUCK_API_CAMERA_H
@@ -18,5 +19,21 @@ static inline int sensor_sampling(unsigned int zoom_width, unsigned int zoom_hei
 static inline int camera_bytes_per_pixel(int color_mode) {
   return color_mode == 1 || color_mode == 2 ? 2 : 1;
 }
+
+/** Whether a window whose first pixel is (x, y) of the sensor ends before `right` and `bottom`, and its size
+ * is a multiple of the zoom. */
+static inline int camera_window_fits(unsigned int x, unsigned int y, unsigned int width, unsigned int height,
+                                     unsigned int zoom_width, unsigned int zoom_height, unsigned int right,
+                                     unsigned int bottom) {
+  return zoom_height >= 1 && zoom_width >= 1 && x + width <= right && y + height <= bottom &&
+         width % zoom_width == 0 && height % zoom_height == 0;
+}
+
+#define CAMERA_BANK_REGISTER 3
+/** PO6030K and PO8030D: chooses a bank; with it, writes or reads one register there. Each is a bus transfer
+ * or two. */
+void twinpuck_camera_set_bank(unsigned char bank);
+void twinpuck_camera_write(unsigned char bank, unsigned char reg, unsigned char value);
+unsigned char twinpuck_camera_read(unsigned char bank, unsigned char reg);
 
 #endif

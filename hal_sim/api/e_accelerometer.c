@@ -5,7 +5,7 @@
 #include "a_d/e_accelerometer.h"
 
 #include "a_d/e_ad_conv.h"
-#include "hal_sim/host/pins_acc.h"
+#include "hal_sim/host/pins.h"
 
 #define CHANNEL_X 5
 #define CHANNEL_Y 6

@@ -72,10 +72,9 @@ int e_po3030k_config_cam(unsigned int sensor_x1, unsigned int sensor_y1, unsigne
   int sampling, speed;
   sensor_x1 += ORIGIN_X;
   sensor_y1 += ORIGIN_Y;
-  if (zoom_fact_height < 1 || zoom_fact_width < 1) return -1;
-  if (sensor_x1 + sensor_width > ORIGIN_X + ARRAY_WIDTH) return -1;
-  if (sensor_y1 + sensor_height > ORIGIN_Y + ARRAY_HEIGHT) return -1;
-  if (sensor_width % zoom_fact_width || sensor_height % zoom_fact_height) return -1;
+  if (!camera_window_fits(sensor_x1, sensor_y1, sensor_width, sensor_height, zoom_fact_width, zoom_fact_height,
+                          ORIGIN_X + ARRAY_WIDTH, ORIGIN_Y + ARRAY_HEIGHT))
+    return -1;
 
   sampling = sensor_sampling(zoom_fact_width, zoom_fact_height);
   sensor_y1 -= (unsigned int)sampling;

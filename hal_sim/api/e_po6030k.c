@@ -6,38 +6,24 @@
  */
 #include "camera/fast_2_timer/e_po6030k.h"
 
-#include "I2C/e_I2C_protocol.h"
 #include "camera.h"
 
 #define ORIGIN_X 80
 #define ORIGIN_Y 8
 #define BLANK_X 64 /* of the origin, before which no window begins */
 #define IRQ_PIXELS 1
-#define BANK_REGISTER 3
 
 /* in the library's object, not in its header */
 unsigned char e_po6030k_read_register(unsigned char bank, unsigned char reg);
 
-void e_po6030k_set_bank(unsigned char bank) {
-  e_i2cp_enable();
-  e_i2cp_write((char)CAMERA_ADDRESS, BANK_REGISTER, (char)bank);
-  e_i2cp_disable();
-}
+void e_po6030k_set_bank(unsigned char bank) { twinpuck_camera_set_bank(bank); }
 
 void e_po6030k_write_register(unsigned char bank, unsigned char reg, unsigned char value) {
-  e_po6030k_set_bank(bank);
-  e_i2cp_enable();
-  e_i2cp_write((char)CAMERA_ADDRESS, (char)reg, (char)value);
-  e_i2cp_disable();
+  twinpuck_camera_write(bank, reg, value);
 }
 
 unsigned char e_po6030k_read_register(unsigned char bank, unsigned char reg) {
-  unsigned char value;
-  e_po6030k_set_bank(bank);
-  e_i2cp_enable();
-  value = (unsigned char)e_i2cp_read((char)CAMERA_ADDRESS, (char)reg);
-  e_i2cp_disable();
-  return value;
+  return twinpuck_camera_read(bank, reg);
 }
 
 int e_po6030k_get_bytes_per_pixel(int color_mode) { return camera_bytes_per_pixel(color_mode); }
@@ -97,10 +83,9 @@ int e_po6030k_config_cam(unsigned int sensor_x1, unsigned int sensor_y1, unsigne
   unsigned char mode, speed;
   sensor_x1 += ORIGIN_X - BLANK_X;
   sensor_y1 += ORIGIN_Y;
-  if (zoom_fact_height < 1 || zoom_fact_width < 1) return -1;
-  if (sensor_x1 + sensor_width > ORIGIN_X + ARRAY_WIDTH) return -1;
-  if (sensor_y1 + sensor_height > ORIGIN_Y + ARRAY_HEIGHT) return -1;
-  if (sensor_width % zoom_fact_width || sensor_height % zoom_fact_height) return -1;
+  if (!camera_window_fits(sensor_x1, sensor_y1, sensor_width, sensor_height, zoom_fact_width, zoom_fact_height,
+                          ORIGIN_X + ARRAY_WIDTH, ORIGIN_Y + ARRAY_HEIGHT))
+    return -1;
 
   sampling = (unsigned int)sensor_sampling(zoom_fact_width, zoom_fact_height);
   mode = sampling == 4 ? PO_6030_MODE_QQVGA : sampling == 2 ? PO_6030_MODE_QVGA : PO_6030_MODE_VGA;

@@ -12,35 +12,22 @@
 #include "camera.h"
 
 #define IRQ_PIXELS 1
-#define BANK_REGISTER 3
 
 /* in the library's object, not in its header */
 unsigned char e_po8030d_read_register(unsigned char bank, unsigned char reg);
 int enablePO8030();
 
-void e_po8030d_set_bank(unsigned char bank) {
-  e_i2cp_enable();
-  e_i2cp_write((char)CAMERA_ADDRESS, BANK_REGISTER, (char)bank);
-  e_i2cp_disable();
-}
+void e_po8030d_set_bank(unsigned char bank) { twinpuck_camera_set_bank(bank); }
 
 void e_po8030d_write_register(unsigned char bank, unsigned char reg, unsigned char value) {
-  e_po8030d_set_bank(bank);
-  e_i2cp_enable();
-  e_i2cp_write((char)CAMERA_ADDRESS, (char)reg, (char)value);
-  e_i2cp_disable();
+  twinpuck_camera_write(bank, reg, value);
 }
 
 unsigned char e_po8030d_read_register(unsigned char bank, unsigned char reg) {
-  unsigned char value;
-  e_po8030d_set_bank(bank);
-  e_i2cp_enable();
-  value = (unsigned char)e_i2cp_read((char)CAMERA_ADDRESS, (char)reg);
-  e_i2cp_disable();
-  return value;
+  return twinpuck_camera_read(bank, reg);
 }
 
-int testWriteReg(unsigned char bank) { return e_po8030d_read_register(bank, BANK_REGISTER); }
+int testWriteReg(unsigned char bank) { return e_po8030d_read_register(bank, CAMERA_BANK_REGISTER); }
 
 int enablePO8030() {
   unsigned char pads = e_po8030d_read_register(BANK_A, 0x5B);

@@ -79,7 +79,7 @@ int accelerometer_counts(const Board& robot, int axis, Cycle at, std::uint64_t s
     const double noise_g = kAccNoiseGPerRtHz * std::sqrt(0.25 * kTwoPi * pole_hz);
     g += robot.setup().motion_noise_scale * noise_g * sim::random_gaussian(key, sample);
   }
-  constexpr double kRail = kAccRailV / kAdcVolts * (kAdcMax + 1);
+  constexpr double kRail = kAccRailV / kAdcReferenceV * (kAdcMax + 1);
   const double output = std::clamp(kAccZeroCounts + kAccCountsPerG * g, kRail, kAdcMax + 1 - kRail);
   return static_cast<int>(std::clamp(std::floor(output + 0.5), 0.0, double{kAdcMax}));
 }

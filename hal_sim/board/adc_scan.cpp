@@ -21,8 +21,11 @@ Cycle hold_cycles(int sensor) {
   return (channel * kScanChannelTad + 1) * kScanTadCycles;
 }
 /// Cycles from the beginning of a six-channel frame to the hold instant of an accelerometer axis.
-constexpr Cycle acc_hold_cycles(int axis) { return ((3 + axis) * kScanChannelTad + 1) * kScanAccTadCycles; }
-static_assert(6 * kScanChannelTad * kScanAccTadCycles == kScanFrameCycles);
+constexpr Cycle acc_hold_cycles(int axis) { return ((3 + axis) * kScanChannelTad + 1) * kScanTadCycles6; }
+// converter clocks of scans of 3, 5 and 6 channels give frames of one length
+static_assert(3 * kScanChannelTad * kScanTadCycles3 == kScanFrameCycles);
+static_assert(6 * kScanChannelTad * kScanTadCycles6 == kScanFrameCycles);
+static_assert(3 * kScanChannelTad * kScanTadCycles6 == kScanMicroFrameCycles);
 static_assert((3 * kScanChannelTad + 1) * kScanTadCycles == 552);
 static_assert(5 * kScanChannelTad * kScanTadCycles == kScanFrameCycles);
 }  // namespace
@@ -208,13 +211,10 @@ void AdcScan::fill_acc(Cycle at) {
     const Cycle frame = full_cycle(k * kScanPeriod + kScanAccSlot) - kScanFrameCycles;
     for (int axis = 0; axis < 3; ++axis) {
       const Cycle hold = frame + acc_hold_cycles(axis);
-      const bool analogue = board_.setup().revision == Revision::Analogue;
-      const auto part = board_.part_counts(kAccChannel + axis, hold);  // a turret may take the pin over
-      const int counts = part        ? *part
-                         : analogue  ? accelerometer_counts(board_, axis, hold,
-                                                            acc_noise_base_ + static_cast<std::uint64_t>(k))
-                         : axis == 2 ? board_.battery_counts(hold)
-                                     : 0;
+      const auto other = board_.counts_of_others(kAccChannel + axis, hold);
+      const int counts =
+          other ? *other
+                : accelerometer_counts(board_, axis, hold, acc_noise_base_ + static_cast<std::uint64_t>(k));
       acc_[static_cast<std::size_t>(axis)][static_cast<std::size_t>((k + 1) % kAccSamples)] =
           static_cast<std::int16_t>(counts);
     }

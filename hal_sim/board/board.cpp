@@ -30,7 +30,6 @@ enum : int { kA, kB, kC, kD, kF, kG };
 constexpr int kRingLedBit[8] = {6, 7, 9, 12, 10, 13, 14, 15};  // [lib: motor_led/e_epuck_ports.h]
 constexpr int kFrontLedBit = 1;                                // [lib: motor_led/e_epuck_ports.h]
 constexpr int kBodyLedBit = 2;                                 // [lib: motor_led/e_epuck_ports.h]
-constexpr int kCameraResetBit = 13;                            // [lib: motor_led/e_epuck_ports.h]
 
 struct Line {
   int port;
@@ -150,9 +149,7 @@ void Board::port_write(char port, Register reg, std::uint16_t value, Cycle at) {
   if (reg == Register::Tris) {
     tris_[i] = value;
     if (index == kD) connect_steppers(at);
-    if (index == kF) codec_.power((lat_[kF] & ~value & bit(0)) != 0, at);
-    for (const auto& part : parts_) part->pins_changed(at);
-    follow_power(at);
+    outputs_changed(at);
     return;
   }
   if (index == kD) {
@@ -164,7 +161,6 @@ void Board::port_write(char port, Register reg, std::uint16_t value, Cycle at) {
     follow_power(at);
     return;
   }
-  if (index == kF) codec_.power((value & ~tris_[kF] & bit(0)) != 0, at);
   for (int pair = 0; pair < 4; ++pair) {
     const Line line = kEmitter[pair];
     if (line.port != index) continue;
@@ -176,6 +172,11 @@ void Board::port_write(char port, Register reg, std::uint16_t value, Cycle at) {
   if (index == kC && scan_.pulses(at) & 16u) value = static_cast<std::uint16_t>(value & ~(bit(1) | bit(2)));
   if (value == lat_[i]) return;
   lat_[i] = value;
+  outputs_changed(at);
+}
+
+void Board::outputs_changed(Cycle at) {
+  codec_.power(output_high('F', kCodecOnBit), at);
   for (const auto& part : parts_) part->pins_changed(at);
   follow_power(at);
 }
@@ -230,10 +231,10 @@ std::uint32_t Board::leds(Cycle at) const {
 void Board::init_ports(Cycle at) {
   lat_[kA] = static_cast<std::uint16_t>(lat_[kA] & ~kRingMask);
   tris_[kA] = static_cast<std::uint16_t>(tris_[kA] & ~kRingMask);
-  const std::uint16_t outputs_c = bit(kFrontLedBit) | bit(kBodyLedBit) | bit(13);
+  const std::uint16_t outputs_c = bit(kFrontLedBit) | bit(kBodyLedBit) | bit(kCameraResetBit);
   lat_[kC] = static_cast<std::uint16_t>(lat_[kC] & ~outputs_c);
   tris_[kC] = static_cast<std::uint16_t>(tris_[kC] & ~outputs_c);
-  const std::uint16_t outputs_f = bit(0) | bit(7) | bit(8);
+  const std::uint16_t outputs_f = bit(kCodecOnBit) | bit(7) | bit(8);
   lat_[kF] = static_cast<std::uint16_t>(lat_[kF] & ~outputs_f);
   tris_[kF] = static_cast<std::uint16_t>((tris_[kF] & ~outputs_f) | bit(1) | bit(6));
   codec_.power(false, at);
@@ -280,11 +281,12 @@ std::optional<double> Board::part_analogue_v(int channel, Cycle at) const {
   return std::nullopt;
 }
 
-std::optional<int> Board::part_counts(int channel, Cycle at) const {
-  const auto level_v = part_analogue_v(channel, at);
-  if (!level_v) return std::nullopt;
-  return static_cast<int>(
-      std::clamp(std::floor(*level_v / kPartReferenceV * (kAdcMax + 1)), 0.0, double{kAdcMax}));
+std::optional<int> Board::counts_of_others(int channel, Cycle at) const {
+  if (const auto level_v = part_analogue_v(channel, at))
+    return static_cast<int>(
+        std::clamp(std::floor(*level_v / kAdcReferenceV * (kAdcMax + 1)), 0.0, double{kAdcMax}));
+  if (setup_.revision == Revision::Analogue || channel < kAccChannel) return std::nullopt;
+  return channel == 7 ? battery_counts(at) : 0;  // 5 and 6 are open
 }
 
 void Board::turn_selector(int position) { setup_.selector = position & 15; }
@@ -386,9 +388,8 @@ int Board::convert(int channel, Cycle at) {
   }
   if (channel >= kMicChannel && channel < kMicChannel + kMicrophones)
     return mic_counts(channel - kMicChannel, at, kConversionOffset + conversions_++);
-  if (const auto counts = part_counts(channel, at)) return *counts;
+  if (const auto counts = counts_of_others(channel, at)) return *counts;
   if (channel >= kAccChannel) {
-    if (setup_.revision == Revision::Rev13) return channel == 7 ? battery_counts(at) : 0;  // 5 and 6 are open
     return accelerometer_counts(*this, channel - kAccChannel, at, kConversionOffset + conversions_++);
   }
   return -1;

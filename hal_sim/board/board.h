@@ -167,8 +167,9 @@ class Board {
   const std::vector<std::unique_ptr<Part>>& parts() const { return parts_; }
   /// Voltage that a part puts on the analogue input AN`channel`, V; empty: none does.
   std::optional<double> part_analogue_v(int channel, Cycle at) const;
-  /// The same as converted, counts; whatever samples AN5 to AN7 asks this first.
-  std::optional<int> part_counts(int channel, Cycle at) const;
+  /// Counts on AN`channel` where something else than the analogue accelerometer is connected: a part, or what
+  /// revision 1.3 has there. Empty: the accelerometer's. Whatever samples AN5 to AN7 asks this first.
+  std::optional<int> counts_of_others(int channel, Cycle at) const;
   /// e_init_port(): latches 0, directions as the library wants them, the I2C module on. (Its cost is the
   /// caller's.)
   void init_ports(Cycle at);
@@ -222,6 +223,8 @@ class Board {
   void connect_steppers(Cycle at);
   /// Share of the time for which a wheel's two coils are energised while nothing new is commanded, 0 to 1.
   double coil_duty(Wheel wheel, Cycle at) const;
+  /// Tells whoever looks at pins that a latch or a direction has changed.
+  void outputs_changed(Cycle at);
   /// Is the pin an output, and its latch 1?
   bool output_high(char port, int bit) const;
   /// What everything that is on draws, A.

@@ -53,8 +53,9 @@ inline constexpr int kScanLitInterrupts =
 inline constexpr int kScanAccSlot = 62;      // ACC_PROX_PERIOD - 2 [lib: a_d/advance_ad_scan/e_ad_conv.c]
 inline constexpr int kScanDarkSlot = 63;     // ACC_PROX_PERIOD - 1 [lib: a_d/advance_ad_scan/e_ad_conv.c]
 inline constexpr Cycle kScanTadCycles = 12;  // five channels: ADCS 23 [lib: a_d/advance_ad_scan/e_ad_conv.h]
-inline constexpr Cycle kScanAccTadCycles =
-    10;                                       // six channels: ADCS 19 [lib: a_d/advance_ad_scan/e_ad_conv.h]
+inline constexpr Cycle kScanTadCycles3 =
+    20;  // three channels: ADCS 39 [lib: a_d/advance_ad_scan/e_ad_conv.h]
+inline constexpr Cycle kScanTadCycles6 = 10;  // six channels: ADCS 19 [lib: a_d/advance_ad_scan/e_ad_conv.h]
 inline constexpr Cycle kScanChannelTad = 15;  // SAMC 1 + conversion 14 [DS70143 20.7]
 inline constexpr int kMicSamples = 100;       // MIC_SAMP_NB [lib: a_d/advance_ad_scan/e_ad_conv.h]
 inline constexpr int kAccSamples = 50;        // ACC_SAMP_NB [lib: a_d/advance_ad_scan/e_ad_conv.h]
@@ -70,7 +71,8 @@ inline constexpr Cycle kBasicIsrEntryCycles =
     24;  // interrupt to first e_read_ad [estimated: context, switch]
 
 // --- IR circuit ------------------------------------------------------------------------------------------
-inline constexpr int kAdcMax = 4095;  // 12 bits [DS70143 20.0]
+inline constexpr int kAdcMax = 4095;           // 12 bits [DS70143 20.0]
+inline constexpr double kAdcReferenceV = 3.3;  // V, the converter's supply and reference [FRM A10]
 // a dim room (0.5 W/m2) then reads about 3900, as robots do, and leaves the range to the reflection
 inline constexpr double kAmbientCountsPerWm2 =
     400.0;  // [assumed: typical dark readings of 3500 to 4000, FRM A4]
@@ -81,6 +83,10 @@ inline constexpr Cycle kIrSettleCycles =
 inline constexpr double kBatteryLowV = 3.4;       // BATT_LOW detector [FRM A10]
 inline constexpr double kBatteryRawAt3V4 = 2070;  // counts [lib: utility/utility.c]
 inline constexpr double kBatteryRawAt4V2 = 2560;  // counts [lib: utility/utility.c]
+
+// --- pins that several devices look at -------------------------------------------------------------------
+inline constexpr int kCameraResetBit = 13;  // of port C, 1 = out of reset [lib: motor_led/e_epuck_ports.h]
+inline constexpr int kCodecOnBit = 0;       // of port F, 1 = on [lib: motor_led/e_epuck_ports.h]
 
 // --- UART ------------------------------------------------------------------------------------------------
 inline constexpr int kUartBitsPerByte = 10;          // 8N1 [lib: uart/e_init_uart1.s]

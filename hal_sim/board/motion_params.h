@@ -20,7 +20,6 @@ inline constexpr double kStandardGravityMS2 =
 inline constexpr int kAccChannel = 5;           // x on AN5, then y and z [lib: motor_led/e_epuck_ports.h]
 inline constexpr double kAccCountsPerG = 768;   // GRAVITY [lib: a_d/advance_ad_scan/e_acc.h]
 inline constexpr double kAccZeroCounts = 2048;  // 0 g is half the supply [lib: a_d/advance_ad_scan/e_acc.c]
-inline constexpr double kAdcVolts = 3.3;        // supply and reference [FRM A10]
 inline constexpr double kAccRailV = 0.25;  // the output ends this far from both supplies [MMA7260QT table 2]
 inline constexpr double kAccPoleXyHz = 350;          // [MMA7260QT table 2]
 inline constexpr double kAccPoleZHz = 150;           // [MMA7260QT table 2]

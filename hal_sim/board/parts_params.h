@@ -6,8 +6,6 @@
 
 namespace board {
 
-inline constexpr double kPartReferenceV = 3.3;  // of the converter: its supply [FRM A10]
-
 // --- ground sensors ----------------------------------------------------------------------------------------
 inline constexpr int kGroundAddress = 0xC0;       // [lib: program/BTcom/BTcom.c]
 inline constexpr int kGroundFirstCliff = 13;      // register [lib: program/DemoGCtronic-complete/Asercom.c]
@@ -37,7 +35,6 @@ inline constexpr int kRangerSteps = 256;                     // of the range reg
 inline constexpr double kRangerStepM = 0.043;                // range a step [SRF08]
 inline constexpr double kRangerReachM = 6;                   // farthest object detected [SRF08]
 inline constexpr double kRangerNearestM = 0.03;              // nearest object told apart [SRF08]
-inline constexpr double kSoundMS = 343;                      // m/s, air at 20 degrees [assumed: a room]
 inline constexpr double kUsPerCm = 58;              // there and back, as the firmware divides [SRF08]
 inline constexpr double kUsPerInch = 148;           // there and back, as the firmware divides [SRF08]
 inline constexpr double kRangerHalfBeamRad = 0.48;  // 27.5 degrees to -6 dB [SRF08]

@@ -14,8 +14,6 @@ namespace board {
 namespace {
 
 constexpr std::uint32_t kRing = 0xFF, kBody = 0x100, kFront = 0x200;  // of leds()
-constexpr int kCameraResetBit = 13;  // RC13, 1 = out of reset [lib: motor_led/e_epuck_ports.h]
-constexpr int kCodecOnBit = 0;       // RF0 [lib: motor_led/e_epuck_ports.h]
 
 int ones(unsigned word) { return __builtin_popcount(word); }
 

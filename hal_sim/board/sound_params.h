@@ -16,22 +16,14 @@ inline constexpr Place kMicrophone[kMicrophones] = {
 inline constexpr double kMicrophoneZM = 0.035;  // m [assumed: on the main board, above the IR sensors]
 // the robot's microphones are taken to be of this kind
 inline constexpr double kMicSensitivityVPa = 0.0794;  // V/Pa, -22 dB, amplifier at full gain [SP0103]
-inline constexpr double kAdcReferenceV = 3.3;  // V, the supply [assumed: the board has one supply, FRM A8]
 inline constexpr double kMicCountsPerPa =
-    kMicSensitivityVPa / kAdcReferenceV * 4096;  // [derived: the two above]
+    kMicSensitivityVPa / kAdcReferenceV * (kAdcMax + 1);  // [derived: sensitivity and converter]
 inline constexpr double kMicIdleCounts =
     2048;  // [assumed: biased at half the supply; demos expect about 2000]
 // the part's own noise (35 dBA) is a tenth of a count; the converter and the supply of a moving robot add
 // theirs
 inline constexpr double kMicNoiseCounts = 1.5;  // standard deviation [assumed: an ordinary 12-bit converter]
 inline constexpr int kMicChannel = 2;           // AN2 to AN4 [lib: motor_led/e_epuck_ports.h]
-
-// converter clock of a scan of 3, 5 and 6 channels: each gives frames of the same length
-inline constexpr Cycle kScanTadCycles3 = 20;  // ADCS 39 [lib: a_d/advance_ad_scan/e_ad_conv.h]
-inline constexpr Cycle kScanTadCycles6 = 10;  // ADCS 19 [lib: a_d/advance_ad_scan/e_ad_conv.h]
-static_assert(3 * kScanChannelTad * kScanTadCycles3 == kScanFrameCycles);
-static_assert(6 * kScanChannelTad * kScanTadCycles6 == kScanFrameCycles);
-static_assert(3 * kScanChannelTad * kScanTadCycles6 == kScanMicroFrameCycles);
 
 // --- codec and loudspeaker ---------------------------------------------------------------------------------
 inline constexpr Cycle kCodecSampleCycles =

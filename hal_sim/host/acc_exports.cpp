@@ -8,7 +8,6 @@
 #include "hal_sim/host/pins.h"
 #include "hal_sim/host/pins_acc.h"
 
-using board::Board;
 using board::Cycle;
 using host::Context;
 
@@ -58,10 +57,7 @@ tp_i64 tp_lsm330_answers(void) {
   board::I2cBus& bus = context.board().i2c();
   const Cycle now = context.now();
   context.note_write();
-  // where nobody would answer the bus stays as it is: unused
-  bool anybody = false;
-  for (const auto* device : bus.devices()) anybody = anybody || device->answers_to(board::kLsmAccAddress);
-  if (!anybody) return 0;
+  if (!bus.find(board::kLsmAccAddress)) return 0;  // where nobody would answer the bus stays as it is: unused
   bus.start(now);
   bus.write(board::kLsmAccAddress, now);
   bus.write(board::kLsmWhoAmI, now);
@@ -71,29 +67,6 @@ tp_i64 tp_lsm330_answers(void) {
   bus.stop(now);
   context.note_write();
   return answers ? 1 : 0;
-}
-
-void tp_basic_prox_hold(void) {
-  Context& context = Context::current();
-  context.board().basic_prox().hold(context.now());
-  context.note_write();
-}
-
-void tp_basic_prox_release(void) {
-  Context& context = Context::current();
-  Board& robot = context.board();
-  const bool was_on = robot.basic_prox().is_on();
-  robot.basic_prox().release(context.now());
-  if (!was_on && robot.basic_prox().is_on()) {
-    const Cycle period = (board::kBasicPulseCycles + board::kBasicRestCycles) / 2;
-    const Cycle cost = board::kBasicIsrEntryCycles + 2 * board::kReadAdCycles;
-    auto& kept_period = robot.requests.background_period[TP_BG_PROX];
-    auto& kept_cost = robot.requests.background_cost[TP_BG_PROX];
-    if (kept_period != period || kept_cost != cost) context.set_background(TP_BG_PROX, period, cost);
-    kept_period = period;
-    kept_cost = cost;
-  }
-  context.note_write();
 }
 
 }  // extern "C"

@@ -32,6 +32,12 @@ void request_background(Context& context, Board& robot, int slot, Cycle period, 
   context.set_background(slot, period, cost);
 }
 
+/// Two interrupts a pair, each with two conversions.
+void charge_basic_prox(Context& context, Board& robot) {
+  request_background(context, robot, TP_BG_PROX, (board::kBasicPulseCycles + board::kBasicRestCycles) / 2,
+                     board::kBasicIsrEntryCycles + 2 * board::kReadAdCycles);
+}
+
 /// After a change to agendas: the next interrupt, and the time the handler steals.
 void follow_agendas(Context& context, Board& robot) {
   board::AgendaTimer& agendas = robot.agendas();
@@ -347,9 +353,22 @@ void tp_basic_prox_start(void) {
   Board& robot = context.board();
   robot.basic_prox().start(context.now());
   robot.follow_power(context.now());
-  // two interrupts a pair, each with two conversions
-  request_background(context, robot, TP_BG_PROX, (board::kBasicPulseCycles + board::kBasicRestCycles) / 2,
-                     board::kBasicIsrEntryCycles + 2 * board::kReadAdCycles);
+  charge_basic_prox(context, robot);
+  context.note_write();
+}
+
+void tp_basic_prox_hold(void) {
+  Context& context = Context::current();
+  context.board().basic_prox().hold(context.now());
+  context.note_write();
+}
+
+void tp_basic_prox_release(void) {
+  Context& context = Context::current();
+  Board& robot = context.board();
+  const bool was_on = robot.basic_prox().is_on();
+  robot.basic_prox().release(context.now());
+  if (!was_on && robot.basic_prox().is_on()) charge_basic_prox(context, robot);
   context.note_write();
 }
 

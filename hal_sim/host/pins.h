@@ -134,6 +134,11 @@ void tp_scan_values(void* dark, void* lit);
 /** The basic proximity driver starts / stops. Write. Source: [lib: a_d/e_prox.c]. */
 void tp_basic_prox_start(void);
 void tp_basic_prox_stop(void);
+/** T1CONbits.TON = 0 and = 1 as the basic accelerometer and microphone drivers set it: the proximity driver
+ * stands still in between. The second starts it even after e_stop_prox(). Write.
+ * Source: [lib: a_d/e_accelerometer.c]. */
+void tp_basic_prox_hold(void);
+void tp_basic_prox_release(void);
 /** Its newest dark sample / dark minus lit of a sensor 0 to 7, counts. Horizon: its next interrupt. */
 tp_i64 tp_basic_prox_ambient(tp_i64 sensor);
 tp_i64 tp_basic_prox_reflected(tp_i64 sensor);

@@ -29,12 +29,6 @@ tp_i64 tp_scan_starts(void);
  * Source: [lib: motor_led/e_init_port.c]. */
 tp_i64 tp_lsm330_answers(void);
 
-/** T1CONbits.TON = 0 and = 1 as the basic accelerometer and microphone drivers set it: the proximity driver
- * stands still in between. The second starts it even after e_stop_prox(). Write.
- * Source: [lib: a_d/e_accelerometer.c]. */
-void tp_basic_prox_hold(void);
-void tp_basic_prox_release(void);
-
 #ifdef __cplusplus
 }
 #endif

@@ -16,6 +16,7 @@
 #include "hal_sim/board/part.h"
 #include "hal_sim/board/parts_params.h"
 #include "sim_core/light/proximity.h"
+#include "sim_core/sound/sound_params.h"
 #include "sim_core/world/scene.h"
 
 namespace board {
@@ -72,7 +73,7 @@ class UltrasonicRanger final : public Part, public I2cRegisters {
     result_ = 0;
     if (range_m < 0) return;
     range_m += noise_m_ * sim::random_gaussian(random(0), rangings_);
-    const double flight_us = 2e6 * std::max(range_m, kRangerNearestM) / kSoundMS;
+    const double flight_us = 2e6 * std::max(range_m, kRangerNearestM) / sim::kSoundSpeedMs;
     const double unit_us = command == kRangerUs ? 1 : command == kRangerCm ? kUsPerCm : kUsPerInch;
     result_ = static_cast<int>(std::min(flight_us / unit_us, 65535.0));
   }
