@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "sim_core/geometry/axes.h"
 #include "sim_core/world/part_desc.h"
 #include "sim_core/world/robot_model.h"
 
@@ -140,6 +141,7 @@ struct KeyDesc {
 
 struct RobotDesc {
   std::string name;
+  std::string def;       ///< second name, by which supervisors may look it up; may be empty
   std::string model;     ///< empty: the only or first model the caller knows
   std::string firmware;  ///< name or path as written; may be empty
   Pose2 pose;
@@ -171,6 +173,7 @@ enum class ObjectKind { Box, Cylinder, Ball, Polygon };
 struct ObjectDesc {
   ObjectKind kind = ObjectKind::Box;
   std::string name;
+  std::string def;              ///< second name, by which supervisors may look it up; may be empty
   Vec3 size_m{0.1, 0.1, 0.1};   ///< box: x, y, z; otherwise only z counts (height)
   double radius_m = 0.05;       ///< cylinder and ball
   std::vector<Vec2> corners_m;  ///< polygon, in its own frame
@@ -264,6 +267,22 @@ struct SoundDesc {
   int line = 0;
 };
 
+/// What programs written for Webots' interfaces find; the robots' own library does not look at it.
+struct WebotsDesc {
+  double time_step_s = 0.032;    ///< basic time step of the world [Webots: WorldInfo.basicTimeStep]
+  double speed_unit_rad_s = -1;  ///< rad/s per unit of differential_wheels_set_speed; negative: the usual one
+  std::string sensor_order;      ///< how proximity and light sensors are numbered, a name the caller knows
+  Axes axes = Axes::Enu;         ///< of positions and rotations that programs are told
+};
+
+/// A program attached to the world.
+struct SupervisorDesc {
+  std::string name;
+  std::string program;  ///< name or path as written
+  double period_s = 0;  ///< how often it runs when it does not say so itself; 0: every tick
+  int line = 0;
+};
+
 struct WorldDesc {
   std::string title;
   std::string file;  ///< where it was read from; empty when built in C++
@@ -285,6 +304,8 @@ struct WorldDesc {
   RadioDesc radio;
   LinkDesc link;
   std::vector<RobotDesc> robots;
+  WebotsDesc webots;
+  std::vector<SupervisorDesc> supervisors;
   std::vector<RobotModel> models;    ///< what the caller offers; robots refer to them by name
   std::vector<PartKind> part_kinds;  ///< likewise, for robots' parts
 

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// The axes of older worlds of other simulators: NUE, x to the right, y up, z towards the reader; a robot at
+// angle 0 looks along -z. Ours are ENU: x east, y north, z up; heading 0 looks along +x.
+#pragma once
+#include "sim_core/geometry/pose.h"
+
+namespace sim {
+
+enum class Axes { Enu, Nue };
+
+/// A point or direction of a NUE world in ours, and back; m.
+constexpr Vec3 from_nue(Vec3 p) { return {p.x, -p.z, p.y}; }
+constexpr Vec3 to_nue(Vec3 p) { return {p.x, p.z, -p.y}; }
+
+/// Heading of a robot that a NUE world turned by `angle_rad` about its upward y axis, and back; rad.
+constexpr double heading_from_nue(double angle_rad) { return angle_rad + kPi / 2; }
+constexpr double angle_to_nue(double heading_rad) { return heading_rad - kPi / 2; }
+
+}  // namespace sim
