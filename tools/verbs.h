@@ -12,7 +12,7 @@ enum Exit {
   kPass = 0,
   kTestFailed = 1,     ///< a test or assertion failed; `build`, `check`, `lint`: the input has errors
   kBadInput = 2,       ///< usage or bad input, nothing ran
-  kTrapped = 3,        ///< a firmware trapped or was reset unexpectedly
+  kTrapped = 3,        ///< a firmware trapped or was reset unexpectedly; a supervisor crashed
   kTimeOut = 4,        ///< virtual time-out or no progress
   kNothing = 5,        ///< nothing was selected
   kInternal = 6,       ///< internal error

@@ -48,6 +48,7 @@ std::vector<KeySpec> object_keys(ObjectKind kind, std::vector<KeySpec> shape) {
   std::vector<KeySpec> keys{
       {"name", ValueType::Text, "", 0, 0, "", "", "shown in messages and pictures",
        into<T>([](T& o, const Value& v) { o.name = v.text; })},
+      def_key<T>(),
       {"position", ValueType::Pair, "m", -kFar, kFar, "", kind == ObjectKind::Polygon ? "[0, 0]" : "required",
        kind == ObjectKind::Polygon ? "x and y of the origin of its points" : "x and y of its middle",
        into<T>([](T& o, const Value& v) { o.pose.x_m = v.numbers[0], o.pose.y_m = v.numbers[1]; })},
@@ -451,6 +452,7 @@ std::vector<SectionSpec> make_schema() {
              r.name = v.text;
              return std::string();
            })},
+          def_key<R>(),
           {"model", ValueType::Text, "", 0, 0, "", "", "kind of robot; the first that the program knows",
            checked<R>([](R& r, const Value& v, const WorldDesc& d) {
              r.model = v.text;
@@ -509,6 +511,7 @@ std::vector<SectionSpec> make_schema() {
           {{"kind", ValueType::Text, "", 0, 0, "", "required", "which part",
             into<PartDesc>([](PartDesc& p, const Value& v) { p.kind = v.text; })}});
   s.push_back(remote_key_section());
+  s.push_back(supervisor_section());
   return s;
 }
 
