@@ -17,13 +17,15 @@ constexpr double kTableStepM = 0.005;
 
 struct Point {
   double counts, noise_counts;
-  bool uniform;
 };
+
+/// What the converter leaves of a reading in the dark.
+double within(double counts) { return std::clamp(counts, 0.0, 4095.0); }
 
 Point at(const CurveRequest& q, const sim::FlatWall& wall, double distance_m) {
   const sim::ProximityResponse r = wall.at(distance_m);
   const double seen = r.value * q.gain;
-  return {seen + q.offset_counts, std::fabs(seen * r.relative_noise), r.uniform_noise};
+  return {within(seen + q.offset_counts), std::fabs(seen * r.relative_noise)};
 }
 
 double longest_m(const std::vector<CurveRequest>& requests) {
@@ -66,7 +68,8 @@ sim::CurveLine curve_line(const CurveRequest& q, const sim::Surface& surface) {
   for (int i = 0; i <= points; ++i) {
     const double d = end * i / points;
     const Point p = at(q, wall, d);
-    line.points.push_back({d, p.counts, p.counts - p.noise_counts, p.counts + p.noise_counts});
+    line.points.push_back(
+        {d, p.counts, within(p.counts - p.noise_counts), within(p.counts + p.noise_counts)});
   }
   if (wall.factor() == 1 && q.config.rays == 1 && q.gain == 1 && q.offset_counts == 0 &&
       q.config.table.size() <= 20)

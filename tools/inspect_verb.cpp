@@ -88,6 +88,7 @@ int show_reading(const InspectArguments& a, const SensorReport& report, const si
   if (!a.picture.empty()) {
     CurveRequest plain = own;
     plain.gain = 1, plain.offset_counts = 0;
+    if (!plain.config.rays_answer_singly) plain.config.rays = 1, plain.config.aperture_rad = 0;  // the table
     sim::SensorPictureOptions options;
     options.title = fmt::format("{}, sensor {} at {:g} s", report.robot, report.sensor, report.at_s);
     options.caption =
@@ -157,17 +158,17 @@ int inspect_world(const InspectArguments& a) {
   while (simulation.now() < sim::from_seconds(a.at_s)) simulation.step();
   const sim::Scene& scene = simulation.scene();
   if (a.sensor >= 0) {
-    const SensorReport report = report_sensor(*twin, file, robot, a.sensor);
+    const SensorReport report = report_sensor(*twin, a.world, robot, a.sensor);
     std::cout << (a.json ? to_json(report).dump(2) + "\n" : to_text(report));
     return show_reading(a, report, scene);
   }
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   std::string text =
-      fmt::format("{}: robot {} at {:.4g} s, without noise; --sensor N explains one\n", file,
+      fmt::format("{}: robot {} at {:.4g} s, without noise; --sensor N explains one\n", a.world,
                   scene.world().robots[static_cast<std::size_t>(robot)].name, sim::to_seconds(scene.now())) +
       overview_head();
   for (int s = 0; s < sensors; ++s) {
-    const SensorReport report = report_sensor(*twin, file, robot, s);
+    const SensorReport report = report_sensor(*twin, a.world, robot, s);
     text += overview_line(report);
     all.push_back(to_json(report));
   }
@@ -179,6 +180,11 @@ int inspect(const InspectArguments& a) {
   for (const double part : a.colour)
     if (part < 0 || part > 1)
       return wrong(fmt::format("--colour: got {}, expected three numbers from 0 to 1", part));
+  for (const auto& [option, file] : {std::pair{"--picture", &a.picture}, {"--plot", &a.plot}}) {
+    const std::string kind = fs::path(*file).extension().string();
+    if (!file->empty() && kind != ".png" && kind != ".svg")
+      return wrong(fmt::format("{}: got '{}', expected a name that ends in .png or .svg", option, *file));
+  }
   if (!a.world.empty()) return inspect_world(a);
   if (a.profile.empty())
     return wrong("inspect: got no world, expected a WORLD, or --profile NAME for curves");

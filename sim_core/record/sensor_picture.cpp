@@ -246,6 +246,7 @@ class Plan {
     const Vec3& o = reading_.at_m;
     ink(cr_, colour, 0.95);
     cairo_set_line_width(cr_, width);
+    cairo_new_path(cr_);  // text leaves a point behind
     to({o.x + from_m * r.dir.x, o.y + from_m * r.dir.y});
     to({o.x + to_m * r.dir.x, o.y + to_m * r.dir.y});
     cairo_stroke(cr_);
@@ -292,12 +293,14 @@ class Plan {
   double radius_m_, axle_m_, wheel_m_, px_per_m_;
 };
 
-/// Heights: way over the floor across, height up; one scale for both.
+/// Heights: way over the floor across, height up.
 void draw_side(cairo_t* cr, Panel panel, const ProximityExplanation& reading, const RobotModel& model) {
   const double range = reading.config.max_range_m();
   panel.left = -0.012, panel.right = range * 1.05;
   panel.bottom = -0.004;
-  panel.top = panel.bottom + (panel.right - panel.left) * panel.height / panel.width;
+  panel.top = model.body_height_m + 0.004;
+  for (const RayExplanation& r : reading.rays)
+    panel.top = std::max(panel.top, reading.at_m.z + range * r.dir.z + 0.004);
   panel.grid(cr, "mm over the floor", "height, mm", 8, 5, 1000, 1000);
   cairo_save(cr);
   cairo_rectangle(cr, panel.x, panel.y, panel.width, panel.height);
@@ -368,9 +371,9 @@ std::string write_curve_plot(const std::string& path, const std::vector<CurveLin
     for (std::size_t i = 0; i < lines.size(); ++i) draw_curve(cr, panel, lines[i], kLineColours[i % 6]);
     double y = panel.y + 26;
     for (std::size_t i = 0; i < lines.size(); ++i, y += 22)
-      legend(cr, panel.x + panel.width - 250, y, kLineColours[i % 6], lines[i].name);
+      legend(cr, panel.x + panel.width - 275, y, kLineColours[i % 6], lines[i].name);
     cairo_set_source_rgb(cr, 0.3, 0.3, 0.3);
-    text(cr, options.band, panel.x + panel.width - 250, y, 12);
+    text(cr, options.band, panel.x + panel.width - 275, y, 12);
   });
 }
 
