@@ -120,7 +120,8 @@ std::vector<KeySpec> proximity_keys(Get get) {
        "the same in radians, as Webots worlds write it",
        to([](P& p, const Value& v) { p.aperture_rad = v.number; })},
       {"gaussian_width", ValueType::Number, "", 0, 1000, "", "1",
-       "a ray at angle t weighs exp(-(t / (aperture * width))^2); 0 leaves only the ray on the axis",
+       "a ray at angle t weighs exp(-(t / (aperture * width))^2); 0 leaves only the ray on the axis (the "
+       "innermost where none lies there), and is told",
        to([](P& p, const Value& v) { p.gaussian_width = v.number; })},
       {"layout", ValueType::Choice, "", 0, 0, "cone|fan", "", "rays on cones (Webots) or side by side (Enki)",
        to([](P& p, const Value& v) { p.layout = v.text == "fan" ? RayLayout::Fan : RayLayout::Cone; })},
