@@ -107,14 +107,16 @@ std::string to_text(const StepResult& result, bool times) {
     for (const TrialResult& t : result.trials) kept += keeps_bounds(t);
     text = fmt::format("{} of {} {}", kept, result.trials.size(), step.says);
   }
-  for (const Shown& shown : step.shown) {
-    if (shown.measure == Measure::Speed && !times) continue;
-    if (!step.by_world) {
-      const std::string one = figure(result, shown, "");
-      if (!one.empty()) text += ", " + one;
-      continue;
+  const std::vector<std::string> all{""};
+  for (const std::string& world : step.by_world ? step.worlds : all) {
+    std::string figures;
+    for (const Shown& shown : step.shown) {
+      if (shown.measure == Measure::Speed && !times) continue;
+      const std::string one = figure(result, shown, world);
+      if (!one.empty()) figures += (figures.empty() ? "" : ", ") + one;
     }
-    for (const std::string& world : step.worlds) text += ", " + world + " " + figure(result, shown, world);
+    if (figures.empty()) continue;
+    text += world.empty() ? ", " + figures : fmt::format(" [{}: {}]", world, figures);
   }
   return text;
 }
