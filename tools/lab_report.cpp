@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 namespace tools {
@@ -96,7 +97,11 @@ bool is_passed(const StepResult& result) {
 std::string to_text(const StepResult& result, bool times) {
   const LabStep& step = *result.step;
   if (!result.problem.empty()) return result.problem;
-  if (step.kind == LabStep::Kind::Answer) return "docs/lab-answers.md#" + step.answer;
+  if (step.kind == LabStep::Kind::Answer) {
+    std::string anchor = step.answer;
+    for (char& c : anchor) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return "docs/lab-answers.md#" + anchor;
+  }
   std::string text = step.says;
   if (step.kind == LabStep::Kind::Runs && step.noise_scales.size() > 1) {
     text = step.says + " by noise scale:";

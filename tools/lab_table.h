@@ -24,6 +24,8 @@ enum class Measure {
   DetectionM,    ///< farthest wall of the world's material that is not read as nothing, m
   CentreWeight,  ///< of the ray on the axis, 0 to 1
   OuterWeight,   ///< of one of the others
+  Restarts,      ///< times that somebody put an object into the air, more than 5 cm up at once
+  RestartM,      ///< lowest height of its underside right after that, m
   Straightness,  ///< square of the correlation between distance and value: 1 for a linear sensor
   Count
 };
