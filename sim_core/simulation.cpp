@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "sim_core/base/check.h"
-#include "sim_core/base/hash.h"
 #include "sim_core/base/worker_pool.h"
 #include "sim_core/light/proximity.h"
 #include "sim_core/physics/physics_params.h"
@@ -96,6 +95,10 @@ Simulation::Simulation(const WorldDesc& world, Minds minds, int threads)
 Simulation::~Simulation() = default;
 
 void Simulation::step() {
+  if (attendant_ && !attended_) {
+    attended_ = true;
+    attendant_->before_first_tick();
+  }
   const Clicks end = scene_->now() + scene_->tick_clicks();
   run_minds(end);
   turn_wheels(end);
@@ -105,6 +108,7 @@ void Simulation::step() {
   publish_sound();
   for (const auto& medium : media_) medium->exchange(*scene_, end);
   fold_digest();
+  if (attendant_) attendant_->after_tick();
 }
 
 void Simulation::run_until(Clicks at) {
@@ -195,6 +199,40 @@ void Simulation::move(int body, const Pose2& pose, double z_m) {
   motion_->move(body, pose, z_m);
   if (body < robots()) last_place_[static_cast<std::size_t>(body)] = {pose.x_m, pose.y_m};
   scene_->relocate(body, motion_->bodies()[static_cast<std::size_t>(body)]);
+}
+
+void Simulation::set_velocity(int body, Vec2 velocity_m_s, double spin_rad_s, double climb_m_s) {
+  motion_->set_velocity(body, velocity_m_s, spin_rad_s, climb_m_s);
+  scene_->set_state(body, motion_->bodies()[static_cast<std::size_t>(body)]);
+}
+
+void Simulation::set_colour(const Candidate& what, const Colour& colour) {
+  scene_->set_colour(what, colour);
+  note_intervention(static_cast<std::uint64_t>(what.index) * 2 + what.moving);
+  digest_ = fold(fold(fold(digest_, colour.r), colour.g), colour.b);
+}
+
+void Simulation::set_lamp(int lamp, bool on, double intensity_w_m2, Vec3 position_m) {
+  scene_->set_lamp(lamp, on, intensity_w_m2, position_m);
+  note_intervention(static_cast<std::uint64_t>(lamp) * 2 + on);
+  digest_ = fold(fold(digest_, intensity_w_m2), position_m.x);
+  digest_ = fold(fold(digest_, position_m.y), position_m.z);
+}
+
+void Simulation::set_proximity_noise(int robot, double scale) {
+  scene_->set_proximity_noise(robot, scale);
+  optics_ = make_optics(scene_->world());
+  scene_->attach_optics(optics_);
+  note_intervention(static_cast<std::uint64_t>(robot));
+  digest_ = fold(digest_, scale);
+}
+
+void Simulation::set_wheel_noise(int robot, double half_width) {
+  Wheels& w = wheels_[static_cast<std::size_t>(robot)];
+  w.noise = half_width;
+  w.noise_index = -1;
+  note_intervention(static_cast<std::uint64_t>(robot));
+  digest_ = fold(digest_, half_width);
 }
 
 }  // namespace sim

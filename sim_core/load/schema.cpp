@@ -48,6 +48,7 @@ std::vector<KeySpec> object_keys(ObjectKind kind, std::vector<KeySpec> shape) {
   std::vector<KeySpec> keys{
       {"name", ValueType::Text, "", 0, 0, "", "", "shown in messages and pictures",
        into<T>([](T& o, const Value& v) { o.name = v.text; })},
+      def_key<T>(),
       {"position", ValueType::Pair, "m", -kFar, kFar, "", kind == ObjectKind::Polygon ? "[0, 0]" : "required",
        kind == ObjectKind::Polygon ? "x and y of the origin of its points" : "x and y of its middle",
        into<T>([](T& o, const Value& v) { o.pose.x_m = v.numbers[0], o.pose.y_m = v.numbers[1]; })},
@@ -119,7 +120,8 @@ std::vector<KeySpec> proximity_keys(Get get) {
        "the same in radians, as Webots worlds write it",
        to([](P& p, const Value& v) { p.aperture_rad = v.number; })},
       {"gaussian_width", ValueType::Number, "", 0, 1000, "", "1",
-       "a ray at angle t weighs exp(-(t / (aperture * width))^2); 0 leaves only the ray on the axis",
+       "a ray at angle t weighs exp(-(t / (aperture * width))^2); 0 leaves only the ray on the axis (the "
+       "innermost where none lies there), and is told",
        to([](P& p, const Value& v) { p.gaussian_width = v.number; })},
       {"layout", ValueType::Choice, "", 0, 0, "cone|fan", "", "rays on cones (Webots) or side by side (Enki)",
        to([](P& p, const Value& v) { p.layout = v.text == "fan" ? RayLayout::Fan : RayLayout::Cone; })},
@@ -451,6 +453,7 @@ std::vector<SectionSpec> make_schema() {
              r.name = v.text;
              return std::string();
            })},
+          def_key<R>(),
           {"model", ValueType::Text, "", 0, 0, "", "", "kind of robot; the first that the program knows",
            checked<R>([](R& r, const Value& v, const WorldDesc& d) {
              r.model = v.text;
@@ -509,6 +512,7 @@ std::vector<SectionSpec> make_schema() {
           {{"kind", ValueType::Text, "", 0, 0, "", "required", "which part",
             into<PartDesc>([](PartDesc& p, const Value& v) { p.kind = v.text; })}});
   s.push_back(remote_key_section());
+  s.push_back(supervisor_section());
   return s;
 }
 

@@ -52,6 +52,15 @@ class DynamicMotion final : public Motion, b2ContactFilter {
     part.body->SetAwake(true);
   }
 
+  void set_velocity(int body, Vec2 velocity_m_s, double spin_rad_s, double climb_m_s) override {
+    Motion::set_velocity(body, velocity_m_s, spin_rad_s, climb_m_s);
+    Part& part = parts_[static_cast<std::size_t>(body)];
+    if (!part.body) return;
+    part.body->SetLinearVelocity(units(velocity_m_s));
+    part.body->SetAngularVelocity(static_cast<float>(spin_rad_s));
+    part.body->SetAwake(true);
+  }
+
  protected:
   void step_plane(const RimTravel* travel, const Neighbours& neighbours) override {
     const double tick_s = desc_.tick_s;

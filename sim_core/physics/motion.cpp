@@ -85,6 +85,16 @@ void Motion::move(int body, const Pose2& pose, double z_m) {
   heights_changed(body);
 }
 
+void Motion::set_velocity(int body, Vec2 velocity_m_s, double spin_rad_s, double climb_m_s) {
+  BodyState& b = bodies_[static_cast<std::size_t>(body)];
+  b.velocity_m_s = velocity_m_s;
+  b.spin_rad_s = spin_rad_s;
+  if (body < robots()) return;
+  int& support = support_[static_cast<std::size_t>(body)];
+  if (climb_m_s > 0) support = kInAir;
+  b.climb_m_s = support == kInAir ? climb_m_s : 0;
+}
+
 bool Motion::heights_meet(double z0_a, double z1_a, double z0_b, double z1_b) const {
   return std::min(z1_a, z1_b) - std::max(z0_a, z0_b) > kHeightOverlapM;
 }

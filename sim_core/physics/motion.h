@@ -92,6 +92,10 @@ class Motion {
   Placed placed(int body) const;
   /// Puts a body somewhere else, at rest.
   virtual void move(int body, const Pose2& pose, double z_m);
+  /// Gives a body another speed, m/s and rad/s; robots and objects on the floor keep it as long as grip
+  /// allows. A loose object with an upward speed leaves what it stands on. Engines without forces ignore the
+  /// plane part.
+  virtual void set_velocity(int body, Vec2 velocity_m_s, double spin_rad_s, double climb_m_s);
 
  protected:
   /// has_heights: false where everything stands on a level floor and is endlessly high. loose_moves: whether
