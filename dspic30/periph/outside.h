@@ -87,6 +87,9 @@ class Outside {
   /// Counts of AN`channel` (0 to 15) against AVDD and AVSS, 0 to 4095, held at `at`. Asked once per
   /// conversion and in order, so that noise may be drawn per call.
   virtual int analogue_counts(int channel, Cycle at) { return 0; }
+  /// The chip's supply, V, for the low-voltage detector; asked when it is switched on and at
+  /// outside_changed().
+  virtual double supply_v(Cycle at) { return 3.3; }
 
   // --- UART 1 and 2
   // -----------------------------------------------------------------------------------------
