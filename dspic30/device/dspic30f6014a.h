@@ -41,7 +41,8 @@ struct Configuration {
 
 class Dspic30f6014a {
  public:
-  /// `outside` and `sink` (may be null) outlive the chip. Powers up at cycle 0.
+  /// `outside` and `sink` (may be null) outlive the chip. Powers up at cycle 0, and so asks and tells
+  /// `outside` already here.
   explicit Dspic30f6014a(Outside& outside, DiagnosticSink* sink = nullptr,
                          const Configuration& configuration = {});
   ~Dspic30f6014a();

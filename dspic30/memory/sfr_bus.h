@@ -37,6 +37,8 @@ class SfrBus {
   void attach(SfrOwner& owner, unsigned first, unsigned last);
   /// These bits exist but no model follows them.
   void mark_unmodelled(unsigned address, std::uint16_t bits);
+  /// Writes reach the owner with all their bits: keys of an unlock sequence.
+  void take_all_bits(unsigned address) { slots_[address / 2].implemented = 0xFFFF; }
   /// PMD: the registers of [first, last] are switched off or on.
   void set_disabled(unsigned first, unsigned last, bool disabled);
   /// Power-on: nothing has been written.

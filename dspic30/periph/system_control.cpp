@@ -25,6 +25,7 @@ constexpr double kLvdVolts[] = {0, 0, 0, 0, 2.5, 2.7, 2.8, 3.0, 3.3, 3.5, 3.6, 3
 
 void SystemControl::attach() {
   f_.bus.attach(*this, kRcon, kOsctun);
+  f_.bus.take_all_bits(kOsccon);
   f_.bus.mark_unmodelled(kOsctun, 0x000F);
   slot_ = f_.events.add(*this, 0, std::uint64_t{1} << irq::Lvd, true);
 }

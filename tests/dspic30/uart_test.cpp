@@ -265,11 +265,11 @@ TEST_F(Uart, switching_off_forgets_everything) {
   arrive('x', 1001);
   b.chip.run_to(3000);
   b.write("U1TXREG", 'y', 3000);
-  b.write("U1MODE", 0, 3001);
+  b.write("U1MODE", 0, 3000);  // before it has reached the shift register
   b.write("U1MODE", 0x8000, 3100);
   EXPECT_EQ(b.read("U1STA", 3101) & 0x0FFF, 0x0110u);
   b.chip.run_to(9000);
-  EXPECT_TRUE(b.outside.sent.empty() || b.outside.sent[0].word == 'y');
+  EXPECT_TRUE(b.outside.sent.empty());
   EXPECT_EQ(b.read("U1RXREG", 9000), 0u);
 }
 
