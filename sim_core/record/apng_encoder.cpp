@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Animated PNG [PNG-3 11.3.6]: a frame holds the rectangle in which it differs from the one before. The end
+// Animated PNG [PNG-3 11.3.6]: a frame holds what differs from the one before. The end
 // chunk is written after each frame and overwritten by the next, and the number of frames is kept up to date,
 // so the file is whole at any time.
 #include <zlib.h>
@@ -42,7 +42,7 @@ class ApngEncoder : public FrameEncoder {
     Bytes size;
     put32(size, static_cast<std::uint32_t>(width));
     put32(size, static_cast<std::uint32_t>(height));
-    size.insert(size.end(), {8, 2, 0, 0, 0});  // eight bits a channel, RGB
+    size.insert(size.end(), {8, 6, 0, 0, 0});  // eight bits a channel, RGBA
     put_chunk(head, "IHDR", size);
     file_.append(head);
     control_at_ = file_.size();
@@ -53,6 +53,7 @@ class ApngEncoder : public FrameEncoder {
     if (frames_ >= kMostFrames) return file_.fail("got too many frames for an animated PNG, expected fewer");
     Box box{0, 0, width_, height_};
     if (frames_) box = changed(pixels, stride_px);
+    const std::vector<std::uint32_t> before = last_;
     last_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
     for (int y = 0; y < height_; ++y)
       std::copy_n(pixels + static_cast<std::ptrdiff_t>(y) * stride_px, width_,
@@ -63,15 +64,15 @@ class ApngEncoder : public FrameEncoder {
       put32(frame, static_cast<std::uint32_t>(v));
     put16(frame, 1);  // a frame lasts 1 / frames_per_s
     put16(frame, static_cast<std::uint32_t>(frames_per_s_));
-    frame.insert(frame.end(), {0, 0});  // stays, replaces what is under it
+    frame.insert(frame.end(), {0, 1});  // stays, lies over what is there
     Bytes out;
     put_chunk(out, "fcTL", frame);
     if (frames_ == 0) {
-      put_chunk(out, "IDAT", packed(box));
+      put_chunk(out, "IDAT", packed(box, before));
     } else {
       Bytes data;
       put32(data, sequence_++);
-      const Bytes rows = packed(box);
+      const Bytes rows = packed(box, before);
       data.insert(data.end(), rows.begin(), rows.end());
       put_chunk(out, "fdAT", data);
     }
@@ -113,17 +114,22 @@ class ApngEncoder : public FrameEncoder {
     return box.right ? box : Box{0, 0, 1, 1};
   }
 
-  /// Rows of the last frame, unfiltered: drawings have even areas.
-  Bytes packed(const Box& box) const {
+  /// Rows of the last frame, unfiltered: drawings have even areas. What has not changed is transparent.
+  Bytes packed(const Box& box, const std::vector<std::uint32_t>& before) const {
     Bytes rows;
-    rows.reserve(static_cast<std::size_t>((3 * (box.right - box.left) + 1) * (box.bottom - box.top)));
+    rows.reserve(static_cast<std::size_t>((4 * (box.right - box.left) + 1) * (box.bottom - box.top)));
     for (int y = box.top; y < box.bottom; ++y) {
       rows.push_back(0);
       for (int x = box.left; x < box.right; ++x) {
-        const std::uint32_t c = last_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
-                                      static_cast<std::size_t>(x)];
-        rows.insert(rows.end(), {static_cast<std::uint8_t>(c >> 16), static_cast<std::uint8_t>(c >> 8),
-                                 static_cast<std::uint8_t>(c)});
+        const std::size_t at =
+            static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+        const std::uint32_t c = last_[at];
+        if (!before.empty() && !((c ^ before[at]) & 0xffffff)) {
+          rows.insert(rows.end(), {0, 0, 0, 0});
+        } else {
+          rows.insert(rows.end(), {static_cast<std::uint8_t>(c >> 16), static_cast<std::uint8_t>(c >> 8),
+                                   static_cast<std::uint8_t>(c), 255});
+        }
       }
     }
     uLongf size = compressBound(static_cast<uLong>(rows.size()));

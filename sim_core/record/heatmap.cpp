@@ -169,7 +169,7 @@ std::string write_heatmap(const std::string& path, const Heatmap& heatmap, const
     draw_title(cr, scene, options.caption, kMarginPx);
     const double foot_y = kTitlePx + place.height_px() + kFootPx - 30;
     draw_scale_bar(cr, place, kMarginPx, foot_y);
-    colour_bar(cr, scale, fmt::format("of the time, per {:g} cm cell", 100 * side),
+    colour_bar(cr, scale, fmt::format("of all robots' time, in a cell of {:g} cm", 100 * side),
                kMarginPx + kScaleBarRoomPx + 20, foot_y);
   });
 }

@@ -141,6 +141,11 @@ void MapPainter::trails(const Trails& trails) {
 void MapPainter::rays() {
   pen(1.2);
   cairo_set_line_cap(cr_, CAIRO_LINE_CAP_BUTT);
+  // beyond the map there is text
+  cairo_save(cr_);
+  cairo_rectangle(cr_, place_.low_m.x, place_.low_m.y, place_.high_m.x - place_.low_m.x,
+                  place_.high_m.y - place_.low_m.y);
+  cairo_clip(cr_);
   for (int r = 0; r < scene_.robots(); ++r) {
     const RobotModel* model = scene_.world().model_of(scene_.world().robots[static_cast<std::size_t>(r)]);
     for (int s = 0; s < static_cast<int>(model->proximity.size()); ++s) {
@@ -163,6 +168,7 @@ void MapPainter::rays() {
       }
     }
   }
+  cairo_restore(cr_);
 }
 
 void MapPainter::robots(const Minds& minds) {
