@@ -93,7 +93,7 @@ void PictureOutputs::open(std::vector<std::string>& problems) {
   options.trail_s = a.film_trail_s;
   options.sensor_rays = a.rays;
   film_ = std::make_unique<sim::Film>(a.film, twin_.simulation().scene(), options);
-  if (!film_->error().empty()) problems.push_back(film_->error());
+  // a disk that is full already ends the run at its first tick, as one that fills up does later
 }
 
 void PictureOutputs::before_run() { sample(); }

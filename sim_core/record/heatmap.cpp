@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kMarginPx = 28, kTitlePx = 62, kFootPx = 66, kNarrowestPx = 520;
 constexpr double kBarPx = 220;     // length of the colour bar
-constexpr double kDecades = 1e-4;  // of the greatest share: what is less has the lowest colour
+constexpr double kDecades = 1e-3;  // of the top of the scale: what is less has the lowest colour
 
 /// Eleven even steps of viridis (public domain, S. van der Walt and N. Smith).
 constexpr std::uint32_t kViridis[] = {0x440154, 0x482475, 0x414487, 0x355f8d, 0x2a788e, 0x21918c,
@@ -26,7 +26,7 @@ constexpr std::uint32_t kViridis[] = {0x440154, 0x482475, 0x414487, 0x355f8d, 0x
 /// What the colours stand for.
 struct HeatScale {
   bool linear;
-  double low = 0, high = 1;  // shares
+  double low = kDecades, high = 1;  // shares; low: of the logarithmic scale
   HeatScale(const Heatmap& heatmap, bool linear_) : linear(linear_) {
     std::int64_t most = 0, least = 0;
     for (const Heatmap::Cell& c : heatmap.cells()) {
@@ -37,10 +37,14 @@ struct HeatScale {
     const double all = static_cast<double>(heatmap.total_ticks());
     high = static_cast<double>(most) / all;
     if (linear) return;
-    // whole orders of magnitude, at least one
-    high = std::pow(10, std::ceil(std::log10(high) - 1e-9));
+    // up to the next 1, 2 or 5 times a power of ten; at least one order of magnitude
+    double top = high;
+    const double decade = std::pow(10, std::floor(std::log10(high) + 1e-9));
+    for (double round : {10.0, 5.0, 2.0, 1.0})
+      if (high <= round * decade * (1 + 1e-9)) top = round * decade;
+    high = top;
     low = std::max(static_cast<double>(least) / all, kDecades * high);
-    low = std::min(std::pow(10, std::floor(std::log10(low) + 1e-9)), high / 10);
+    low = std::min(low, high / 10);
   }
   double part(double share) const {
     return linear ? share / high : std::log(std::max(share, low) / low) / std::log(high / low);
@@ -70,14 +74,18 @@ void colour_bar(cairo_t* cr, const HeatScale& scale, const std::string& meaning,
   if (scale.linear) {
     for (double part : {0.0, 0.5, 1.0}) tick(part * scale.high);
   } else {
-    for (double share = scale.low; share < 1.5 * scale.high; share *= 10) tick(share);
+    tick(scale.high);
+    // powers of ten below it that leave room for its number
+    for (double share = std::pow(10, std::floor(std::log10(scale.high) + 1e-9)); share >= 0.999 * scale.low;
+         share /= 10)
+      if (kBarPx * (1 - scale.part(share)) > 44) tick(share);
   }
   draw_text(cr, meaning, x + kBarPx + 34, y, 13);
 }
 
 std::string write_csv(const std::string& path, const Heatmap& heatmap, double tick_s) {
-  std::ofstream out(path, std::ios::binary | std::ios::trunc);
   errno = 0;
+  std::ofstream out(path, std::ios::binary | std::ios::trunc);
   out << "x_m,y_m,time_s,share\n";
   for (const Heatmap::Cell& c : heatmap.cells()) {
     out << fmt::format("{:.6g},{:.6g},{:.6f},{:.9f}\n", (c.column + 0.5) * heatmap.cell_m(),
