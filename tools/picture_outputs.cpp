@@ -103,10 +103,18 @@ void PictureOutputs::after_tick() {
   if (heatmap_) heatmap_->sample(twin_.simulation().scene());
 }
 
+void PictureOutputs::lift_pen(int robot) {
+  if (paths_) paths_->lift_pen(robot);
+  if (film_) film_->lift_pen(robot);
+}
+
 void PictureOutputs::sample() {
   const auto& simulation = twin_.simulation();
   if (paths_) paths_->sample(simulation.scene());
-  if (film_) film_->sample(simulation.scene(), simulation.minds(), labels_);
+  if (!film_) return;
+  std::vector<sim::PictureLabel> labels;
+  if (labels_ && film_->is_due(simulation.now())) labels = labels_();
+  film_->sample(simulation.scene(), simulation.minds(), labels);
 }
 
 bool PictureOutputs::failed() const { return film_ && !film_->error().empty(); }
@@ -120,7 +128,7 @@ void PictureOutputs::finish(const Summary& summary, std::vector<std::string>& pr
     sim::PictureOptions options;
     options.sensor_rays = a.rays;
     options.caption = caption;
-    options.labels = labels_;
+    if (labels_) options.labels = labels_();
     const std::string error =
         sim::write_picture(a.picture, simulation.scene(), simulation.minds(), paths_.get(), options);
     if (!error.empty()) problems.push_back(error);

@@ -2,6 +2,7 @@
 // What a run leaves behind to look at: --picture, --heatmap, --film and their options.
 #pragma once
 #include <CLI/CLI.hpp>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -36,8 +37,10 @@ class PictureOutputs {
   void open(std::vector<std::string>& problems);
   void before_run();
   void after_tick();
-  /// Text laid over the picture, and over the film from its next frame on.
-  void set_labels(std::vector<sim::PictureLabel> labels) { labels_ = std::move(labels); }
+  /// Where text laid over the picture and each frame comes from; asked when one is drawn.
+  void set_labels(std::function<std::vector<sim::PictureLabel>()> labels) { labels_ = std::move(labels); }
+  /// A robot was put somewhere else: its line is broken there.
+  void lift_pen(int robot);
   /// The film was lost (disk full): the run should end.
   bool failed() const;
   void finish(const Summary& summary, std::vector<std::string>& problems);
@@ -47,7 +50,7 @@ class PictureOutputs {
 
   const PictureArguments arguments_;
   twin::Twin& twin_;
-  std::vector<sim::PictureLabel> labels_;
+  std::function<std::vector<sim::PictureLabel>()> labels_;
   std::unique_ptr<sim::Trajectories> paths_;
   std::unique_ptr<sim::Heatmap> heatmap_;
   std::unique_ptr<sim::Film> film_;

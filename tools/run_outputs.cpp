@@ -71,8 +71,8 @@ void add_output_options(CLI::App& verb, OutputArguments& a) {
   add_picture_options(verb, a.pictures);
 }
 
-RunOutputs::RunOutputs(const OutputArguments& arguments, twin::Twin& twin)
-    : arguments_(arguments), twin_(twin), pictures_(arguments.pictures, twin) {}
+RunOutputs::RunOutputs(const OutputArguments& arguments, twin::Twin& twin, const supervisor::Team* team)
+    : arguments_(arguments), twin_(twin), team_(team), pictures_(arguments.pictures, twin) {}
 RunOutputs::~RunOutputs() = default;
 
 bool RunOutputs::open(std::vector<std::string>& problems) {
@@ -97,11 +97,14 @@ bool RunOutputs::open(std::vector<std::string>& problems) {
 }
 
 void RunOutputs::before_run() {
+  if (team_) pictures_.set_labels([this] { return team_->labels(); });
   sample();
   pictures_.before_run();
 }
 
 void RunOutputs::after_tick() {
+  if (team_)
+    for (int robot : team_->moved_robots()) pictures_.lift_pen(robot);
   sample();
   pictures_.after_tick();
 }

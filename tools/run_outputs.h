@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hal_sim/twin/twin.h"
+#include "supervisor/team.h"
 #include "tools/picture_outputs.h"
 #include "tools/saved_images.h"
 #include "tools/sound_output.h"
@@ -29,7 +30,8 @@ void add_output_options(CLI::App& verb, OutputArguments& arguments);
 
 class RunOutputs {
  public:
-  RunOutputs(const OutputArguments& arguments, twin::Twin& twin);
+  /// `team` may be null; its labels are shown in the picture.
+  RunOutputs(const OutputArguments& arguments, twin::Twin& twin, const supervisor::Team* team = nullptr);
   ~RunOutputs();
   /// Opens what can be opened; false and one line per problem otherwise.
   bool open(std::vector<std::string>& problems);
@@ -38,14 +40,13 @@ class RunOutputs {
   /// An output was lost (disk full): the run should end.
   bool failed() const;
   void finish(const Summary& summary, std::vector<std::string>& problems);
-  /// Whoever writes over pictures and films.
-  PictureOutputs& pictures() { return pictures_; }
 
  private:
   void sample();
 
   const OutputArguments arguments_;
   twin::Twin& twin_;
+  const supervisor::Team* team_;
   std::unique_ptr<sim::CsvRecorder> recorder_;
   std::unique_ptr<SavedImages> images_;
   std::unique_ptr<SoundOutput> sound_;

@@ -77,8 +77,11 @@ class ApngEncoder : public FrameEncoder {
       put_chunk(out, "fdAT", data);
     }
     const std::int64_t end = file_.size() + static_cast<std::int64_t>(out.size());
-    put_chunk(out, "IEND", {});
-    file_.append(out);
+    Bytes last;
+    put_chunk(last, "IEND", {});
+    out.insert(out.end(), last.begin(), last.end());
+    file_.append(out, frames_ ? last : Bytes());
+    if (!error().empty()) return;
     file_.set_size(end);
     ++frames_;
     file_.write_at(control_at_, control());

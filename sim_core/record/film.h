@@ -32,6 +32,10 @@ class Film {
   /// Call before the first step and after every step. Draws the frames that are due, the first one at the
   /// first call.
   void sample(const Scene& scene, const Minds& minds, const std::vector<PictureLabel>& labels = {});
+  /// Whether sample() at `now` will draw, and so show its labels.
+  bool is_due(Clicks now) const { return time_of(frame_) <= now; }
+  /// A robot was put somewhere else: its trail is broken there.
+  void lift_pen(int robot) { trails_.lift_pen(robot); }
   /// Length and index are put in; until then the file holds what was filmed so far.
   void finish();
 

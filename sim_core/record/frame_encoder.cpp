@@ -30,9 +30,16 @@ void FilmFile::write_at(std::int64_t at, const std::vector<std::uint8_t>& bytes)
   }
 }
 
-void FilmFile::append(const std::vector<std::uint8_t>& bytes) {
+void FilmFile::append(const std::vector<std::uint8_t>& bytes, const std::vector<std::uint8_t>& end) {
+  const bool was_good = error_.empty();
   write_at(size_, bytes);
-  size_ += static_cast<std::int64_t>(bytes.size());
+  if (error_.empty()) {
+    size_ += static_cast<std::int64_t>(bytes.size());
+  } else if (was_good && file_ >= 0) {
+    // a device cannot be cut, and the first error is known already
+    const bool cut = ::ftruncate(file_, size_) == 0;
+    if (cut && !end.empty() && ::pwrite(file_, end.data(), end.size(), size_) < 0) fail("its end is lost");
+  }
 }
 
 void FilmFile::close() {

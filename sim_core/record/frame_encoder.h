@@ -19,7 +19,8 @@ class FilmFile {
   FilmFile& operator=(const FilmFile&) = delete;
   /// Writes all of it, or notes why not.
   void write_at(std::int64_t at, const std::vector<std::uint8_t>& bytes);
-  void append(const std::vector<std::uint8_t>& bytes);
+  /// All of it or, when that fails, nothing of it; `end` is what the file then ends with.
+  void append(const std::vector<std::uint8_t>& bytes, const std::vector<std::uint8_t>& end = {});
   /// Bytes so far: where append() writes.
   std::int64_t size() const { return size_; }
   /// Cuts off or goes on: where append() writes from now on.

@@ -41,8 +41,9 @@ void Trails::sample(const Scene& scene) {
     while (trail.size() > 1 && trail[1].when < scene.now() - span_) trail.pop_front();
     if (trail.size() >= kMostInTrail) trail.pop_front();
     const double moved = trail.empty() ? 0 : length(at - trail.back().at_m);
-    if (trail.empty() || moved >= kPointM)
-      trail.push_back({at, scene.now(), trail.empty() || moved > kJumpM});
+    const bool lifted = trail.empty() || moved > kJumpM || lifted_[r];
+    if (lifted || moved >= kPointM) trail.push_back({at, scene.now(), lifted});
+    lifted_[r] = false;
   }
 }
 

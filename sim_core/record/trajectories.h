@@ -43,9 +43,12 @@ class Trajectories {
 class Trails {
  public:
   /// `span`: how far back a trail reaches, clicks; 0: no trails.
-  Trails(int robots, Clicks span) : span_(span), trails_(static_cast<std::size_t>(robots)) {}
+  Trails(int robots, Clicks span)
+      : span_(span), trails_(static_cast<std::size_t>(robots)), lifted_(trails_.size()) {}
   /// Call before the first step and after every step.
   void sample(const Scene& scene);
+  /// A robot was put somewhere else: its line is broken there. Jumps of more than kJumpM are seen anyway.
+  void lift_pen(int robot) { lifted_[static_cast<std::size_t>(robot)] = true; }
   struct Point {
     Vec2 at_m;
     Clicks when = 0;
@@ -58,6 +61,7 @@ class Trails {
  private:
   Clicks span_;
   std::vector<std::deque<Point>> trails_;
+  std::vector<bool> lifted_;  // before the next point
 };
 
 }  // namespace sim

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Films: that what is read back is what was drawn, when frames are taken, and what is in a file that was
 // never finished.
+#include <sys/resource.h>
 #include <sys/stat.h>
 
 #include <array>
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -88,6 +90,29 @@ TEST(FrameEncoder, a_webm_is_read_back_in_its_colours) {
   expect_squares(film, 40);  // pure red loses a little, edges ring
   EXPECT_TRUE(film.has_index);
   EXPECT_NEAR(film.duration_s, 0.6, 1e-9);  // six frames of 0.1 s
+}
+
+TEST(FrameEncoder, a_disk_that_fills_up_leaves_what_was_filmed) {
+  // no file above 8 KB; the signal would end the program before it can say so
+  rlimit before{}, little{};
+  ::getrlimit(RLIMIT_FSIZE, &before);
+  little = before;
+  little.rlim_cur = 8192;
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  for (const bool webm : {true, false}) {
+    const std::string path = scratch(webm ? "little.webm" : "little.apng");
+    auto encoder = (webm ? sim::make_webm_encoder : sim::make_apng_encoder)(path, 64, 48, 10);
+    ::setrlimit(RLIMIT_FSIZE, &little);
+    int frames = 0;
+    for (; frames < 100'000 && encoder->error().empty(); ++frames)
+      encoder->add(square_at(frames % 6).data(), 64);
+    ::setrlimit(RLIMIT_FSIZE, &before);
+    EXPECT_EQ(encoder->error(), path + ": cannot be written: File too large");
+    const Read read = webm ? film_test::read_webm(path) : film_test::read_apng(path);
+    EXPECT_EQ(read.error, "");
+    EXPECT_EQ(static_cast<int>(read.rgb.size()), frames - 1);  // all but the one that did not fit
+  }
+  std::signal(SIGXFSZ, handler);
 }
 
 TEST(Film, frames_are_taken_at_exact_times_whatever_the_tick) {
