@@ -60,6 +60,7 @@ int main(int argc, char** argv) {
   tools::add_cycles(app, exit_code);
   tools::add_new(app, exit_code);
   tools::add_list(app, exit_code);
+  tools::add_import(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& e) {
