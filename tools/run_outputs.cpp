@@ -88,8 +88,8 @@ void add_output_options(CLI::App& verb, OutputArguments& a) {
                   "lcov file of the lines that firmware executed; builds controllers with counters");
 }
 
-RunOutputs::RunOutputs(const OutputArguments& arguments, twin::Twin& twin)
-    : arguments_(arguments), twin_(twin) {}
+RunOutputs::RunOutputs(const OutputArguments& arguments, twin::Twin& twin, const supervisor::Team* team)
+    : arguments_(arguments), twin_(twin), team_(team) {}
 RunOutputs::~RunOutputs() = default;
 
 bool RunOutputs::open(std::vector<std::string>& problems) {
@@ -123,6 +123,8 @@ void RunOutputs::before_run() { after_tick(); }
 
 void RunOutputs::after_tick() {
   const auto& simulation = twin_.simulation();
+  if (paths_ && team_)
+    for (int robot : team_->moved_robots()) paths_->lift_pen(robot);
   if (paths_) paths_->sample(simulation.scene());
   if (recorder_) recorder_->sample(simulation.scene(), simulation.minds());
   if (sound_) sound_->after_tick();
@@ -144,6 +146,7 @@ void RunOutputs::finish(const Summary& summary, std::vector<std::string>& proble
   if (!a.picture.empty()) {
     sim::PictureOptions options;
     options.sensor_rays = a.rays;
+    if (team_) options.labels = team_->labels();
     options.caption = fmt::format("{:g} s, seed {}, {} robot{}", summary.simulated_s, summary.seed,
                                   summary.robots.size(), summary.robots.size() == 1 ? "" : "s");
     const std::string error = sim::write_picture(a.picture, twin_.simulation().scene(),

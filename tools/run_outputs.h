@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hal_sim/twin/twin.h"
+#include "supervisor/team.h"
 #include "tools/saved_images.h"
 #include "tools/sound_output.h"
 #include "tools/summary.h"
@@ -29,7 +30,8 @@ void add_output_options(CLI::App& verb, OutputArguments& arguments);
 
 class RunOutputs {
  public:
-  RunOutputs(const OutputArguments& arguments, twin::Twin& twin);
+  /// `team` may be null; its labels are shown in the picture.
+  RunOutputs(const OutputArguments& arguments, twin::Twin& twin, const supervisor::Team* team = nullptr);
   ~RunOutputs();
   /// Opens what can be opened; false and one line per problem otherwise.
   bool open(std::vector<std::string>& problems);
@@ -42,6 +44,7 @@ class RunOutputs {
  private:
   const OutputArguments arguments_;
   twin::Twin& twin_;
+  const supervisor::Team* team_;
   std::unique_ptr<sim::CsvRecorder> recorder_;
   std::unique_ptr<sim::Trajectories> paths_;
   std::unique_ptr<SavedImages> images_;

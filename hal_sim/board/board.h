@@ -35,6 +35,7 @@
 #include "hal_sim/board/remote.h"
 #include "hal_sim/board/timer_motors.h"
 #include "hal_sim/board/uart.h"
+#include "hal_sim/board/virtual_devices.h"
 #include "hal_sim/host/context.h"
 
 namespace sim {
@@ -81,6 +82,23 @@ struct Setup {
   double clock_ppm = 0;                       ///< crystal error, parts per million, positive = fast
   double boot_delay_s = 0;                    ///< s from the world's beginning to the first instruction
 };
+
+/// One conversion of a proximity sensor's phototransistor, before any noise.
+struct IrConversion {
+  double irradiance_w_m2 = 0;    ///< W/m2, lamps and ambient light
+  double light_counts = 0;       ///< counts that this light pulls the sample below darkness
+  double reflection_counts = 0;  ///< counts that the flash adds to that, this sensor's gain included
+  double relative_noise = 0;     ///< of the reflection: standard deviation, or half width when uniform; the
+                                 ///< board's own noise scale is not in it
+  bool uniform_noise = false;
+  double offset_counts = 0;  ///< of a lit sample
+  double settled = 1;        ///< part of the flash that the phototransistor has followed, 0 to 1
+  /// Without noise, not rounded and not held within the converter's range.
+  double counts() const { return kAdcMax - light_counts - (reflection_counts + offset_counts) * settled; }
+};
+
+/// What the converter makes of a level given in counts: rounded, 0 to 4095.
+int adc_counts(double level);
 
 class Board {
  public:
@@ -176,6 +194,8 @@ class Board {
   /// Tick boundary: bytes from outside enter, bytes sent so far go out, old bookkeeping is dropped.
   void exchange(Cycle at);
 
+  /// The same sample without noise: what a conversion is made of. `lit_for` as below.
+  IrConversion ir_conversion(int sensor, Cycle at, Cycle lit_for) const;
   /// Counts of a proximity sensor's phototransistor at `at`, its emitter having been on for `lit_for` cycles
   /// (negative: off). Noise is drawn from `sample`, a number unique to the sample.
   int ir_counts(int sensor, Cycle at, Cycle lit_for, std::uint64_t sample) const;
@@ -195,6 +215,9 @@ class Board {
   void switch_off() { battery_.draw(0, 0); }
   /// Data EEPROM; resets leave it alone.
   DataEeprom& eeprom() { return eeprom_; }
+  /// Sensors that supervisors define.
+  VirtualDevices& virtual_devices() { return virtual_devices_; }
+  const VirtualDevices& virtual_devices() const { return virtual_devices_; }
   /// What somebody does with a remote control.
   RemoteReceiver& remote() { return remote_; }
   const RemoteReceiver& remote() const { return remote_; }
@@ -248,6 +271,7 @@ class Board {
   I2cBus i2c_;
   Battery battery_;
   DataEeprom eeprom_;
+  VirtualDevices virtual_devices_;
   I2cMaster i2c_master_{i2c_};
   std::unique_ptr<Camera> camera_;
   std::vector<std::unique_ptr<Part>> parts_;
