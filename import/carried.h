@@ -13,7 +13,6 @@ namespace wbt {
 struct Carried {
   sim::WorldDesc world;
   std::vector<std::string> info;         ///< WorldInfo's own words
-  bool planar = false;                   ///< engine "planar"
   std::string arena_from, floor_from;    ///< which nodes they were
   std::string profile;                   ///< of [proximity]; empty: none is written
   std::vector<std::string> object_from;  ///< one per object

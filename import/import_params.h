@@ -40,6 +40,8 @@ inline constexpr sim::Colour kRed{0.60, 0.30, 0.25};        // [assumed: bricks]
 // what counts as what
 inline constexpr double kUprightZ = 0.9995;       // [assumed: 1.8 degrees off the vertical is upright]
 inline constexpr double kFlatM = 0.0015;          // [assumed: lower things are marks on the floor]
+inline constexpr double kGapM = 0.002;            // [assumed: fixed bodies so near the floor stand on it]
+inline constexpr double kTouchM = 0.0005;         // [assumed: movable ones likewise]
 inline constexpr double kFloorSideM = 0.25;       // [assumed: a floor is at least so wide]
 inline constexpr double kFloorBelowM = 0.06;      // [assumed: a robot begins at most so high above its floor]
 inline constexpr double kFloorAboveM = 0.03;      // [assumed: or with its origin so deep in it]
@@ -57,11 +59,12 @@ inline constexpr double kGravityMax = 100;     // [world-format]
 inline constexpr double kLightMax = 10000;     // [world-format]
 
 // bounds of the importer itself
-inline constexpr int kMostVisits = 200'000;  // [assumed: nodes looked at, USE counted each time]
-inline constexpr int kMostBodies = 5000;     // [assumed: larger worlds are of no use here]
-inline constexpr int kMostLines = 1000;      // [assumed: nobody reads more]
-inline constexpr int kMostFaces = 400;       // [assumed: of one mesh; more make its hull]
-inline constexpr int kMostPoints = 20'000;   // [assumed: of one mesh]
-inline constexpr int kMostRepairs = 40;      // [assumed: things that begin inside each other]
+inline constexpr int kMostVisits = 200'000;   // [assumed: nodes looked at, USE counted each time]
+inline constexpr int kMostBodies = 5000;      // [assumed: larger worlds are of no use here]
+inline constexpr int kMostLines = 1000;       // [assumed: nobody reads more]
+inline constexpr int kMostCommentLines = 60;  // [assumed: in the world file; all of them go to stderr]
+inline constexpr int kMostFaces = 400;        // [assumed: of one mesh; more make its hull]
+inline constexpr int kMostPoints = 20'000;    // [assumed: of one mesh]
+inline constexpr int kMostRepairs = 40;       // [assumed: things that begin inside each other]
 
 }  // namespace wbt

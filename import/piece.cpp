@@ -90,15 +90,28 @@ std::optional<Piece> prism(std::vector<Vec2> hull, double z_low, double z_high) 
     const Vec2 at = 0.5 * (u0 + u1) * u + 0.5 * (v0 + v1) * v;
     return box(at, {u1 - u0, sheet ? kSheetM : v1 - v0}, std::atan2(u.y, u.x), z_low, z_high);
   }
-  while (hull.size() > kMostCorners) {  // every other corner goes
-    std::vector<Vec2> fewer;
-    for (std::size_t i = 0; i < hull.size(); i += 2) fewer.push_back(hull[i]);
-    hull = fewer;
+  // corners that do nothing go: the flattest first, and as many as there are too many of
+  const double close = 0.002 * (u1 - u0);
+  while (hull.size() > 3) {
+    std::size_t flattest = 0;
+    double least = 1e300;
+    for (std::size_t i = 0; i < hull.size(); ++i) {
+      const Vec2 a = hull[(i + hull.size() - 1) % hull.size()], b = hull[(i + 1) % hull.size()];
+      const double off = std::abs(sim::cross(b - a, hull[i] - a)) / std::max(sim::length(b - a), 1e-12);
+      if (off < least) least = off, flattest = i;
+    }
+    if (least > close && hull.size() <= kMostCorners) break;
+    hull.erase(hull.begin() + static_cast<std::ptrdiff_t>(flattest));
   }
   Piece out;
   out.kind = ObjectKind::Polygon;
   for (const Vec2 p : hull) out.at = out.at + (1.0 / static_cast<double>(hull.size())) * p;
-  for (const Vec2 p : hull) out.corners.push_back(p - out.at);
+  for (const Vec2 p : hull)  // as they will be written: rounding must not dent the outline
+    out.corners.push_back(
+        {std::round((p.x - out.at.x) * 1e5) / 1e5, std::round((p.y - out.at.y) * 1e5) / 1e5});
+  out.corners = convex_hull(std::move(out.corners));
+  if (out.corners.size() < 3)
+    return box(out.at, {u1 - u0, std::max(v1 - v0, kSheetM)}, std::atan2(u.y, u.x), z_low, z_high);
   out.z_low = z_low;
   out.z_high = z_high;
   out.volume_m3 = std::abs(area_of(hull)) * (z_high - z_low);

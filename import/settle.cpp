@@ -64,7 +64,7 @@ class Settler {
     const auto& robots = scene_.robots;
     const auto still =
         std::count_if(robots.begin(), robots.end(), [](const FoundRobot& r) { return r.kinematic; });
-    out_.planar = scene_.planar;
+    if (scene_.planar) out_.world.engine = sim::Engine::Planar;
     if (still == 0 || scene_.planar) return;
     out_.world.engine = sim::Engine::Kinematic;
     if (still < static_cast<long>(robots.size())) {
@@ -248,11 +248,13 @@ class Settler {
         report_.add(p.line, title, "a coloured patch of the floor", "draw it in [floor] image");
       return;
     }
+    if (b.untouched && !b.movable)
+      return report_.add(b.line, title, "only cameras notice it (it has no boundingObject)");
     if (p.endless_floor && p.z_high - p.z_low < kFlatM)
       return report_.add(p.line, title, "a flat sheet above the floor");
     if (!p.approximation.empty() && !(p.ramp && !b.movable))
       report_.add(p.line, title, "its exact shape", p.approximation);
-    if (p.ramp && !b.movable && ramp(b, p)) return;
+    if (p.ramp && !b.movable && !scene_.planar && ramp(b, p)) return;
     if (p.ramp && !b.movable) report_.add(p.line, title, "its exact shape", p.approximation);
     sim::ObjectDesc o;
     o.kind = p.kind;
@@ -262,7 +264,7 @@ class Settler {
     o.movable = b.movable;
     double low = p.z_low - floor_z_, high = p.z_high - floor_z_;
     if (b.movable && low < 0) high -= low, low = 0;
-    if (low < 1e-5) {
+    if (low < (b.movable ? kTouchM : kGapM)) {
       if (p.kind == ObjectKind::Ball && low < -0.001)
         report_.add(p.line, title, "that it is sunk into the floor", "it lies on the floor");
       low = 0;

@@ -19,9 +19,16 @@ std::string num(double x, int digits = 4) {
   return s == "-0.0" ? "0.0" : s;
 }
 
-std::string pair(double x, double y) { return fmt::format("[{}, {}]", num(x), num(y)); }
+// a place or a measure, to 0.1 mm
+std::string metres(double x) {
+  std::string s = fmt::format("{:.4f}", x);
+  while (s.back() == '0' && s[s.size() - 2] != '.') s.pop_back();
+  return s == "-0.0" ? "0.0" : s;
+}
+
+std::string pair(double x, double y) { return fmt::format("[{}, {}]", metres(x), metres(y)); }
 std::string three(double x, double y, double z) {
-  return fmt::format("[{}, {}, {}]", num(x), num(y), num(z));
+  return fmt::format("[{}, {}, {}]", metres(x), metres(y), metres(z));
 }
 std::string colour(const sim::Colour& c) {
   return fmt::format("[{}, {}, {}]", num(c.r, 3), num(c.g, 3), num(c.b, 3));
@@ -38,7 +45,7 @@ std::string quoted(const std::string& text) {
 
 std::string degrees(double rad) {
   const double d = std::remainder(sim::degrees(rad), 360.0);
-  return num(std::abs(d + 180) < 1e-9 ? 180 : d, 2);
+  return metres(std::round((std::abs(d + 180) < 1e-9 ? 180 : d) * 100) / 100);
 }
 
 class Writer {
@@ -51,9 +58,15 @@ class Writer {
     if (!report.empty()) {
       line("#");
       line("# Not carried:");
-      for (const Remark& r : report)
+      for (const Remark& r : report) {
+        if (&r - report.data() == kMostCommentLines) {
+          line(fmt::format("#   and {} more: run the import again to see them",
+                           report.size() - kMostCommentLines));
+          break;
+        }
         line("#   " + (r.line > 0 ? fmt::format("line {}: ", r.line) : std::string()) +
              printable(r.text, 400));
+      }
     }
     if (!c_.cosmetic.empty()) {
       std::string list;
@@ -101,7 +114,7 @@ class Writer {
   void world() {
     const sim::WorldDesc usual;
     std::vector<std::pair<std::string, std::string>> keys;
-    if (c_.planar)
+    if (w_.engine == sim::Engine::Planar)
       keys.push_back({"engine", "\"planar\""});
     else if (w_.engine == sim::Engine::Kinematic)
       keys.push_back({"engine", "\"kinematic\""});
@@ -147,11 +160,11 @@ class Writer {
       const sim::ArenaDesc plain, &a = *w_.arena;
       section("[arena]", c_.arena_from);
       key("size", pair(a.size_m.x, a.size_m.y));
-      if (num(a.centre_m.x) != "0.0" || num(a.centre_m.y) != "0.0")
+      if (metres(a.centre_m.x) != "0.0" || metres(a.centre_m.y) != "0.0")
         key("centre", pair(a.centre_m.x, a.centre_m.y));
-      if (a.wall_height_m != plain.wall_height_m) key("wall_height", num(a.wall_height_m));
+      if (a.wall_height_m != plain.wall_height_m) key("wall_height", metres(a.wall_height_m));
       if (a.wall_height_m > 0) {
-        if (a.wall_thickness_m != plain.wall_thickness_m) key("wall_thickness", num(a.wall_thickness_m));
+        if (a.wall_thickness_m != plain.wall_thickness_m) key("wall_thickness", metres(a.wall_thickness_m));
         surface(a.material);
       }
     }
@@ -185,9 +198,9 @@ class Writer {
     for (const Vec2 p : d.points_m) points += (points.empty() ? "" : ", ") + pair(p.x, p.y);
     key("points", "[" + points + "]");
     if (d.closed) key("closed", "true");
-    key("thickness", num(d.thickness_m));
-    key("height", num(d.height_m));
-    if (d.z_m > 0) key("z", num(d.z_m));
+    key("thickness", metres(d.thickness_m));
+    key("height", metres(d.height_m));
+    if (d.z_m > 0) key("z", metres(d.z_m));
     surface(d.material);
   }
 
@@ -198,18 +211,19 @@ class Writer {
     if (!o.name.empty()) key("name", quoted(o.name));
     if (!o.def.empty()) key("def", quoted(o.def));
     key("position", pair(o.pose.x_m, o.pose.y_m));
-    if (num(o.z_m) != "0.0") key("z", num(o.z_m));
+    if (metres(o.z_m) != "0.0") key("z", metres(o.z_m));
     if (o.kind == sim::ObjectKind::Box) key("size", three(o.size_m.x, o.size_m.y, o.size_m.z));
     if (o.kind == sim::ObjectKind::Cylinder || o.kind == sim::ObjectKind::Ball)
-      key("radius", num(o.radius_m));
+      key("radius", metres(o.radius_m));
     if (o.kind == sim::ObjectKind::Polygon) {
       std::string points;
       for (const Vec2 p : o.corners_m)
-        points += fmt::format("{}[{}, {}]", points.empty() ? "" : ", ", num(p.x, 5), num(p.y, 5));
+        points += fmt::format("{}[{}, {}]", points.empty() ? "" : ", ", fmt::format("{:.5f}", p.x),
+                              fmt::format("{:.5f}", p.y));
       key("points", "[" + points + "]");
     }
     if (o.kind == sim::ObjectKind::Cylinder || o.kind == sim::ObjectKind::Polygon)
-      key("height", num(o.size_m.z));
+      key("height", metres(o.size_m.z));
     const bool round = o.kind == sim::ObjectKind::Cylinder || o.kind == sim::ObjectKind::Ball;
     if (degrees(o.pose.heading_rad) != "0.0" && (!round || o.movable))
       key("heading", degrees(o.pose.heading_rad));
@@ -229,7 +243,8 @@ class Writer {
     key("position", three(l.position_m.x, l.position_m.y, l.position_m.z));
     key("intensity", num(l.intensity_w_m2));
     if (l.attenuation[0] != 1 || l.attenuation[1] != 0 || l.attenuation[2] != 0)
-      key("attenuation", three(l.attenuation[0], l.attenuation[1], l.attenuation[2]));
+      key("attenuation",
+          fmt::format("[{}, {}, {}]", num(l.attenuation[0]), num(l.attenuation[1]), num(l.attenuation[2])));
     if (l.colour.r != 1 || l.colour.g != 1 || l.colour.b != 1) key("colour", colour(l.colour));
     if (!l.on) key("on", "false");
   }
@@ -287,6 +302,8 @@ class Writer {
       key("kind", quoted(d.kind));
       if (d.channel) key("channel", fmt::format("{}", *d.channel));
       if (d.range_m) key("range", num(*d.range_m));
+      if (d.baud_rate_bit_s) key("baud_rate", num(*d.baud_rate_bit_s));
+      if (d.infra_red) key("infra_red", "true");
     }
   }
 

@@ -152,6 +152,7 @@ void Walk::visit(const Node& n, const Affine& frame, int depth) {
     b.type = t;
     b.def = n.def;
     b.line = n.line;
+    b.untouched = true;
     gather(n, frame, depth, b.pieces, nullptr, false);
     add_body(std::move(b));
   } else if (known_proto(n, frame, depth)) {
@@ -331,11 +332,7 @@ void Walk::solid(const Node& n, const Affine& frame, int depth) {
     b.pieces = std::move(touched);
   } else {
     b.pieces = std::move(shown);
-    const bool stands = std::any_of(b.pieces.begin(), b.pieces.end(), [](const Piece& p) {
-      return p.z_high - p.z_low > kFlatM && !p.endless_floor;
-    });
-    if (stands && n.field("children") && !b.robot_like)
-      report_.add(n, "that robots pass through it (it has no boundingObject)", "it stands in their way");
+    b.untouched = true;
   }
   add_body(std::move(b));
 }

@@ -178,7 +178,10 @@ void Walk::proto_fields(const Node& n, FoundRobot& out) {
     } else if (f.name == "emitter_channel" || f.name == "receiver_channel") {
       const std::string kind = f.name.substr(0, f.name.find('_'));
       const double channel = f.numbers.empty() ? 1 : f.numbers[0];
-      out.devices.push_back({kind, kind, static_cast<int>(std::clamp(channel, -1.0, 1e6)), {}});
+      Device talks;
+      talks.name = talks.kind = kind;
+      talks.channel = static_cast<int>(std::clamp(channel, -1.0, 32767.0));
+      out.devices.push_back(talks);
     } else if (f.name == "distance_sensor_numberOfRays") {
       if (!f.numbers.empty() && f.numbers[0] != 1)
         out.proximity.rays = static_cast<int>(std::clamp(f.numbers[0], 1.0, 100.0));
@@ -296,20 +299,26 @@ void Walk::device(const Node& n, FoundRobot& out, int depth) {
   } kDevices[] = {{"GPS", "gps", "gps"},
                   {"Compass", "compass", "compass"},
                   {"Gyro", "gyro", "gyro"},
+                  {"InertialUnit", "inertial", "inertial unit"},
                   {"Emitter", "emitter", "emitter"},
-                  {"Receiver", "receiver", "receiver"},
-                  {"Speaker", "speaker", "speaker"},
-                  {"DistanceSensor", "distance", "distance sensor"}};
+                  {"Receiver", "receiver", "receiver"}};
   for (const auto& d : kDevices) {
     if (n.type != d.type) continue;
-    Device made{n.text("name", d.name), d.kind, {}, {}};
+    Device made;
+    made.name = n.text("name", d.name);
+    made.kind = d.kind;
     const bool talks = n.type == "Emitter" || n.type == "Receiver";
     if (talks) {
-      made.channel = static_cast<int>(std::clamp(n.number("channel", 0), -1.0, 1e6));
+      made.channel = static_cast<int>(std::clamp(n.number("channel", 0), -1.0, 32767.0));
       if (n.number("range", -1) > 0) made.range_m = std::min(n.number("range", -1), kFarthestM);
       const std::string type = n.text("type", "radio");
-      if (type != "radio") report_.add(n, "type \"" + printable(type) + "\"", "radio");
-      for (const char* limit : {"baudRate", "aperture", "signalStrengthNoise", "directionNoise"}) {
+      if (type == "infra-red" && n.type == "Emitter")
+        made.infra_red = true;
+      else if (type != "radio" && type != "infra-red")
+        report_.add(n, "type \"" + printable(type) + "\"", "radio");
+      if (n.type == "Emitter" && n.number("baudRate", -1) >= 1)
+        made.baud_rate_bit_s = std::min(n.number("baudRate", -1), 1e9);
+      for (const char* limit : {"aperture", "signalStrengthNoise", "directionNoise"}) {
         if (n.number(limit, -1) > 0) report_.add(n, *n.field(limit), "no such limit here");
       }
     } else {

@@ -61,11 +61,8 @@ int main(int argc, char** argv) {
   tools::add_new(app, exit_code);
   tools::add_inspect(app, exit_code);
   tools::add_list(app, exit_code);
-<<<<<<< HEAD
   tools::add_import(app, exit_code);
-=======
   tools::add_lab(app, exit_code);
->>>>>>> main
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& e) {
