@@ -379,7 +379,7 @@ class Settler {
     r.firmware = program(f.controller, f.line, f.type, "firmware");
     if (f.controller.empty() && f.by_proto)
       report_.add(f.line, f.type, "the controller that its PROTO names", "no firmware");
-    r.wheel_noise = f.slip_noise;
+    if (f.slip_noise > 0) r.wheels.noise = f.slip_noise;
     r.camera_mount = f.camera_mount;
     if (f.battery_wh) r.battery_wh = *f.battery_wh;
     r.proximity = f.proximity;

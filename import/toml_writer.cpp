@@ -279,7 +279,7 @@ class Writer {
     key("position", pair(r.pose.x_m, r.pose.y_m));
     key("heading", degrees(r.pose.heading_rad));
     if (r.battery_wh > 0) key("battery_wh", num(r.battery_wh));
-    if (r.wheel_noise > 0) key("wheel_noise", num(r.wheel_noise));
+    if (r.wheels.noise) key("wheel_noise", num(*r.wheels.noise));
     if (!r.camera_mount.empty()) key("camera_mount", quoted(r.camera_mount));
     const bool own = r.proximity.table || r.proximity.type == sim::SensorType::Generic || r.proximity.rays ||
                      r.proximity.aperture_rad || r.proximity.gaussian_width;
