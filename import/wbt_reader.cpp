@@ -326,8 +326,8 @@ class Reader {
       lexer_.take();
       while (!is_mark("]")) element(f, depth);
       lexer_.take();
-    } else if (t.kind == Kind::Number) {
-      while (lexer_.now().kind == Kind::Number) element(f, depth);
+    } else if (t.kind == Kind::Number || is_word("IS")) {  // numbers and filled-in ones may be mixed
+      while (lexer_.now().kind == Kind::Number || is_word("IS")) element(f, depth);
     } else {
       element(f, depth);
     }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // libFuzzer target: any bytes are either a list of errors or a world that our loader accepts.
-// Build: cmake -S . -B build-fuzz -DCMAKE_C_COMPILER=clang-14 -DCMAKE_CXX_COMPILER=clang++-14 -DTWINPUCK_FUZZ=ON
-// Run:   build-fuzz/fuzz_wbt_import -max_total_time=600 -dict=tests/import/wbt.dict CORPUS tests/import/worlds
+// Build: cmake -S . -B build-fuzz -DCMAKE_C_COMPILER=clang-14 -DCMAKE_CXX_COMPILER=clang++-14
+// -DTWINPUCK_FUZZ=ON Run:   build-fuzz/fuzz_wbt_import -max_total_time=600 -dict=tests/import/wbt.dict CORPUS
+// tests/import/worlds
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -32,7 +33,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (r.text.empty()) std::abort();
   }
   if (!made.errors.empty()) return 0;
-  const sim::LoadedWorld loaded = sim::parse_world(made.toml, "/nonexistent/fuzz.toml", {options.model}, parts());
+  const sim::LoadedWorld loaded =
+      sim::parse_world(made.toml, "/nonexistent/fuzz.toml", {options.model}, parts());
   if (!loaded.world) {
     std::fprintf(stderr, "%s\n%s\n", made.toml.c_str(), loaded.report("fuzz.toml").c_str());
     std::abort();
