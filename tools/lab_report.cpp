@@ -36,7 +36,7 @@ std::string words(Measure m, double value, const char* how) {
   if (unit == "m" && value < 0.1) unit = "mm", value *= 1000;
   const std::string number = m == Measure::Speed          ? fmt::format("{:.0f}", value)
                              : value == std::round(value) ? fmt::format("{:.0f}", value)
-                             : unit.empty()               ? fmt::format("{:.4f}", value)
+                             : unit.empty()               ? fmt::format("{:.4g}", value)
                                                           : fmt::format("{:.2f}", value);
   return fmt::format("{}{}{} {}{}{}", how, *how ? " " : "", name, number, unit.empty() ? "" : " ", unit);
 }
