@@ -128,6 +128,13 @@ int run(const RunArguments& arguments) {
   const auto wall_s = [&] { return std::chrono::duration<double>(Wall::now() - start).count(); };
   int exit_code = kPass;
   outputs.before_run();
+  for (int i = 0; i < twin->robots() && !arguments.quiet; ++i) {
+    const std::string name = twin->world().robots[static_cast<std::size_t>(i)].name;
+    twin->mind(i).board().virtual_devices().on_console = [name, &progress](const std::string& line) {
+      progress.clear();
+      std::cout << name << ": " << line << '\n';
+    };
+  }
   while (simulation.now() < end) {
     simulation.step();
     outputs.after_tick();
@@ -146,6 +153,7 @@ int run(const RunArguments& arguments) {
   }
   const double took_s = wall_s();
   progress.finish();
+  twin->flush_console();
   for (int i = 0; i < twin->robots(); ++i) twin->mind(i).board().exchange(twin->mind(i).now());
 
   const Summary summary = summarise(*twin, took_s);

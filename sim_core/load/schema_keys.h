@@ -46,5 +46,8 @@ std::vector<SectionSpec> camera_sections();
 std::vector<KeySpec> robot_camera_keys();
 /// Sections with a file of their own.
 SectionSpec remote_key_section();
+/// schema_webots.cpp
+SectionSpec webots_section();
+SectionSpec robot_device_section();
 
 }  // namespace sim
