@@ -43,7 +43,9 @@ int list_all() {
   std::vector<std::pair<std::string, std::string>> controllers, worlds;
   std::error_code none;
   for (const auto& entry : fs::directory_iterator(root / "firmware", none))
-    if (fs::exists(entry.path() / "main.c"))
+    // Webots' controllers have their folder's name
+    if (fs::exists(entry.path() / "main.c") ||
+        fs::exists(entry.path() / (entry.path().filename().string() + ".c")))
       controllers.emplace_back(entry.path().filename().string(), first_sentence(entry.path() / "README.md"));
   for (const auto& entry : fs::directory_iterator(root / "worlds", none))
     if (entry.path().extension() == ".toml")

@@ -60,6 +60,7 @@ std::vector<fs::path> contract_folders(const fs::path& root) {
 
 struct Plan {
   std::vector<CompileJob> user, library;
+  std::vector<CompileJob> webots;  // linked with programs for Webots' interfaces only
   CompileJob runtime;
 };
 
@@ -118,6 +119,8 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, bool lint) {
   library_flags.insert(library_flags.end(), library_include.begin(), library_include.end());
   for (const auto& folder : {api, cc_dir / "libc/src"})
     for (const auto& s : files_below(folder, ".c")) p.library.push_back({s, library_flags, ""});
+  for (const auto& folder : {root / "firmware/webots", cc_dir / "libc/webots"})
+    for (const auto& s : files_below(folder, ".c")) p.webots.push_back({s, library_flags, ""});
 
   std::string name =
       o.name.empty() ? fs::absolute(o.source_dir).lexically_normal().filename().string() : o.name;
@@ -134,6 +137,20 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, bool lint) {
          {"-O1", "--uncounted", "-I" + root.string(), "-I" + (cc_dir / "libc/include").string()},
          ""});
   return p;
+}
+
+/// Whether a program is written for Webots' interfaces: one of its files, or a header of its own, says so.
+bool names_webots(const std::vector<CompileJob>& user) {
+  static const std::regex kInclude(R"(#\s*include\s*[<"](webots|device)[/\\])");
+  std::set<fs::path> folders;
+  for (const auto& job : user) {
+    if (std::regex_search(read_text(job.source), kInclude)) return true;
+    folders.insert(job.source.parent_path());
+  }
+  for (const auto& folder : folders)
+    for (const auto& header : files_below(folder, ".h"))
+      if (std::regex_search(read_text(header), kInclude)) return true;
+  return false;
 }
 
 /// Splits what a compiler printed into errors and warnings; notes stay with the line before them.
@@ -196,8 +213,13 @@ void sort_linker_messages(const std::string& text, BuildResult& result) {
       if (std::regex_search(line, m, kUndefined)) where = m[1];
       if (where.rfind(".o:") != std::string::npos || where.empty())
         where = function.empty() ? "link" : function + "()";
+      static const std::regex kWebots(
+          R"((wb_|wbu_|supervisor_|robot_|camera_|speaker_|display_|servo_|connector_|pen_|differential_wheels_).*)");
       std::string hint =
-          name.rfind("e_", 0) == 0
+          std::regex_match(name, kWebots)
+              ? "a controller runs on the robot and has not this function of Webots; docs/webots.md lists "
+                "what there is, and supervisors are programs of their own"
+          : name.rfind("e_", 0) == 0
               ? "this function of the e-puck library is not simulated yet, or its name is misspelt"
               : "is a .c file missing from the folder, or the name misspelt?";
       result.errors.push_back(where + ": " + (function.empty() ? "" : function + "() calls ") + name +
@@ -288,6 +310,8 @@ BuildResult build_image(const BuildOptions& options) {
     result.warnings.push_back(told);
   Plan p = plan(o, copies, false);
   fs::path compiler = build_root() / "twinpuck-cc";
+  if (!names_webots(p.user)) p.webots.clear();
+  p.library.insert(p.library.begin(), p.webots.begin(), p.webots.end());
   std::vector<CompileJob> all = p.user;
   all.insert(all.end(), p.library.begin(), p.library.end());
   all.push_back(p.runtime);

@@ -407,6 +407,7 @@ std::vector<SectionSpec> make_schema() {
           proximity_keys<ProximitySettings>([](ProximitySettings& p) -> ProximitySettings& { return p; }));
 
   add_radio_sections(s);
+  s.push_back(webots_section());
 
   using R = RobotDesc;
   section(
@@ -486,6 +487,7 @@ std::vector<SectionSpec> make_schema() {
             into<PartDesc>([](PartDesc& p, const Value& v) { p.kind = v.text; })}});
   s.push_back(remote_key_section());
   s.push_back(supervisor_section());
+  s.push_back(robot_device_section());
   return s;
 }
 

@@ -12,7 +12,8 @@
 
 #include "robot_types.h"
 
-#ifdef __TWINPUCK__
+#if defined(__TWINPUCK__) && !defined(TP_WEBOTS_PROGRAM)
+#define TP_WEBOTS_PROGRAM
 /* as in webots/robot.h */
 __attribute__((weak)) const char tp_webots_program = 1;
 #endif

@@ -14,7 +14,8 @@
 #include "nodes.h"
 #include "types.h"
 
-#ifdef __TWINPUCK__
+#if defined(__TWINPUCK__) && !defined(TP_WEBOTS_PROGRAM)
+#define TP_WEBOTS_PROGRAM
 /* says to the C library of the image whom it serves: printf() goes to the simulator's console, and when
    main() returns the program has ended, as in Webots */
 __attribute__((weak)) const char tp_webots_program = 1;

@@ -14,9 +14,13 @@ __attribute__((preserve_most, noinline)) void tp_image_event(void)
 
 extern int main(void);
 
+/* defined by programs written for Webots' interfaces, in which a main() that returns has ended */
+extern const char tp_webots_program __attribute__((weak));
+
 static void tp_image_start(void)
 {
   main();
+  while (&tp_webots_program) tp_power_save(1); /* the robot's interrupts go on */
 }
 
 /* the linker script puts these around the image's data and tables */
