@@ -43,10 +43,20 @@ std::unique_ptr<Motion> make_motion(const WorldDesc& world, const Layout& layout
   }
   for (int object : layout.loose_object) {
     const ObjectDesc& o = world.objects[static_cast<std::size_t>(object)];
-    desc.loose.push_back({o.mass_kg, o.floor_friction, o.material.friction, o.material.restitution});
+    const bool rolls = o.kind == ObjectKind::Ball;
+    desc.loose.push_back({o.mass_kg, rolls ? o.rolling_friction : o.floor_friction, o.material.friction,
+                          o.material.restitution, rolls});
   }
-  return world.engine == Engine::Dynamic ? make_dynamic_motion(std::move(desc))
-                                         : make_kinematic_motion(std::move(desc));
+  for (const RampDesc& ramp : world.ramps) desc.ramp_restitution.push_back(ramp.material.restitution);
+  switch (world.engine) {
+    case Engine::Kinematic:
+      return make_kinematic_motion(std::move(desc));
+    case Engine::Planar:
+      return make_planar_motion(std::move(desc));
+    case Engine::Dynamic:
+      break;
+  }
+  return make_dynamic_motion(std::move(desc));
 }
 
 }  // namespace
@@ -71,8 +81,10 @@ Simulation::Simulation(const WorldDesc& world, Minds minds, int threads)
     Wheels& w = wheels_[r];
     // a wheel's own size is the board's business: it tells angles of nominal wheels
     w.left_radius_m = w.right_radius_m = scene_->world().model_of(robot)->wheel_radius_m;
-    w.noise = robot.wheel_noise;
-    w.grip = 1 - robot.slip;
+    const WheelSettings &own = robot.wheels, &common = scene_->world().wheels;
+    w.noise = own.noise.value_or(common.noise.value_or(0));
+    w.grip = 1 - own.slip.value_or(common.slip.value_or(0));
+    w.gaussian = own.noise_law.value_or(common.noise_law.value_or(NoiseLaw::Uniform)) == NoiseLaw::Gaussian;
     w.seed = robot_seed(scene_->world(), static_cast<int>(r));
     last_place_[r] = {robot.pose.x_m, robot.pose.y_m};
   }
@@ -138,9 +150,15 @@ void Simulation::turn_wheels(Clicks end) {
     if (w.noise > 0) {
       if (noise_index != w.noise_index) {
         const auto counter = static_cast<std::uint64_t>(noise_index);
+        const auto draw = [&](std::uint32_t stream) {
+          const RandomKey key{w.seed, 0, stream};
+          // a wheel never turns against its motor
+          return w.gaussian ? std::max(0.0, 1 + w.noise * random_gaussian(key, counter))
+                            : 1 + w.noise * random_signed(key, counter);
+        };
         w.noise_index = noise_index;
-        w.left_factor = 1 + w.noise * random_signed({w.seed, 0, kStreamWheelLeft}, counter);
-        w.right_factor = 1 + w.noise * random_signed({w.seed, 0, kStreamWheelRight}, counter);
+        w.left_factor = draw(kStreamWheelLeft);
+        w.right_factor = draw(kStreamWheelRight);
       }
       left *= w.left_factor;
       right *= w.right_factor;

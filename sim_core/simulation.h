@@ -96,7 +96,8 @@ class Simulation {
   struct Wheels {
     double left_radius_m = 0;
     double right_radius_m = 0;
-    double noise = 0;  // half width of the factor on the travel
+    double noise = 0;       // half width or standard deviation of the factor on the travel
+    bool gaussian = false;  // which of them
     double grip = 1;   // 1 - slip
     std::uint64_t seed = 0;
     WheelAngles last;

@@ -11,6 +11,7 @@
 #include "hal_sim/board/epuck_model.h"
 #include "hal_sim/board/part.h"
 #include "hal_sim/twin/twin.h"
+#include "sim_core/light/profiles.h"
 #include "sim_core/load/world_loader.h"
 #include "supervisor/team.h"
 #include "tools/progress.h"
@@ -55,13 +56,6 @@ bool split(const std::vector<std::string>& words, const char* option, std::vecto
   return true;
 }
 
-// a world may be named as `make run` does: maze for worlds/maze.toml
-std::string find_world(const std::string& name) {
-  if (fs::exists(name)) return name;
-  const fs::path known = fs::path(twin::project_root()) / "worlds" / (name + ".toml");
-  return name.find('/') == std::string::npos && fs::exists(known) ? known.string() : name;
-}
-
 bool parse_speed(const std::string& text, double& factor) {
   if (text == "max") {
     factor = 0;
@@ -101,6 +95,8 @@ int run(const RunArguments& arguments) {
     complain({"command line: --key: " + wrong});
     return kBadInput;
   }
+  if (!arguments.quiet)
+    for (const std::string& notice : sim::proximity_notices(*loaded.world)) std::cerr << notice << '\n';
   options.world_folder = fs::path(file).parent_path().string();
   std::vector<std::string> problems;
   auto twin = twin::Twin::open(std::move(*loaded.world), options, problems);
@@ -184,6 +180,12 @@ int run(const RunArguments& arguments) {
 }
 
 }  // namespace
+
+std::string find_world(const std::string& name) {
+  if (fs::exists(name)) return name;
+  const fs::path known = fs::path(twin::project_root()) / "worlds" / (name + ".toml");
+  return name.find('/') == std::string::npos && fs::exists(known) ? known.string() : name;
+}
 
 void add_run(CLI::App& app, int& exit_code) {
   auto* verb = app.add_subcommand("run", "Simulate a world");

@@ -29,6 +29,11 @@ void add_lint(CLI::App& app, int& exit_code);
 void add_cycles(CLI::App& app, int& exit_code);
 void add_new(CLI::App& app, int& exit_code);
 void add_list(CLI::App& app, int& exit_code);
+void add_inspect(CLI::App& app, int& exit_code);
+
+/// A world may be named as `make run` does: maze for worlds/maze.toml.
+std::string find_world(const std::string& name);
+void add_lab(CLI::App& app, int& exit_code);
 
 /// Writes each problem on a line of its own to stderr.
 void complain(const std::vector<std::string>& problems);
