@@ -34,6 +34,10 @@ MAY_INCLUDE = {
     "hal_sim/register": ["hal_sim/host", "hal_sim/board", "dspic30"],
     "hal_sim/chip": ["hal_sim/board", "hal_sim/host", "dspic30", "sim_core/base", "sim_core/world/robot_mind.h"],
     "hal_dspic": ["firmware/include"],
+    "supervisor": ["hal_sim/", "sim_core/"],  # a whole twin, seen from outside
+    # linked into supervisors' programs, which see nothing but supervisor.h
+    "supervisor/webots": ["supervisor/include", "firmware/include"],
+    "supervisor/programs": ["supervisor/include", "firmware/include"],
     "firmware": ["tests/support/firmware_test.h"],  # a controller brings its own test.cpp
 }
 # packages and the only room that may include them
@@ -61,6 +65,8 @@ def committed_files():
 
 def room_of(path):
     parts = path.split("/")
+    if path.startswith(("supervisor/webots/", "supervisor/programs/")):
+        return "/".join(parts[:2])
     if parts[0] in ("sim_core", "dspic30", "hal_sim") and len(parts) > 2:
         return "/".join(parts[:2])
     return parts[0]
@@ -70,7 +76,8 @@ def may_include(path, target):
     """Whether the file may include the project file `target` (a path from the top)."""
     room = room_of(path)
     own = room_of(target)
-    if room.startswith(FREE_ROOMS) or own == room or re.fullmatch(r"firmware/[^/]+/test\.cpp", path):
+    if room.startswith(FREE_ROOMS) or own == room or \
+            re.fullmatch(r"(firmware|supervisor/programs)/[^/]+/test\.cpp", path):
         return True  # a controller's own test is a test
     if room.startswith("sim_core"):
         if path.count("/") == 1:  # sim_core/simulation.*: the front door of all rooms

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT
  * Soccer player: gets behind the ball and drives it towards the goal. It is blind for ball and field; a camera
  * above, the supervisor soccer, tells it where everything is by writing the variables below. The selector is its
- * place in the team: 0 keeper, 1 attacker, 2 second attacker. Its own sensors keep it off walls and players.
+ * place in the team: 0 keeper, 1 and 2 attackers. Its own sensors keep it off walls and players.
  */
 #include <math.h>
+#include <stdlib.h>
 
 #include <a_d/advance_ad_scan/e_ad_conv.h>
 #include <a_d/advance_ad_scan/e_prox.h>
@@ -18,15 +19,18 @@
 #define TURN 500           /* steps/s for a radian of error */
 #define TOUCH 56           /* mm from middle to middle when the ball touches the robot */
 #define NEAR 600           /* counts: about 2 cm */
-#define STUCK_PERIODS 40   /* without a way of 5 mm */
+#define STUCK_PERIODS 12   /* at least so many without a way of 5 mm, up to six times as many by chance */
 #define BACK_PERIODS 18
+#define AIM 120            /* mm: it shoots somewhere between the posts, 180 mm off the middle */
 
 /* what the camera sees, mm and milliradians in the field's frame: the goal to shoot at lies at (goal_x, 0) */
 volatile int playing;
+volatile int nearest; /* of the two attackers of its team, to the ball */
 volatile int my_x, my_y, my_heading;
 volatile int ball_x, ball_y;
 volatile int goal_x;
 
+static int aim_y;
 static volatile int control_due;
 
 static void control_tick(void) { control_due = 1; }
@@ -65,7 +69,7 @@ static int go_to(float x, float y) {
 
 /* Behind the ball it pushes; elsewhere it goes round. `far`: how far behind it waits. */
 static int attack(void) {
-  float gx = goal_x - ball_x, gy = 0.0f - ball_y;
+  float gx = goal_x - ball_x, gy = aim_y - ball_y;
   float length = sqrtf(gx * gx + gy * gy);
   float rx = my_x - ball_x, ry = my_y - ball_y, along, side;
   if (length < 1.0f) length = 1.0f;
@@ -90,7 +94,7 @@ static int keep(void) {
 }
 
 static void control(void) {
-  static int still, back, seen_x, seen_y;
+  static int still, back, seen_x, seen_y, patience = STUCK_PERIODS;
   int role = getselector() % 3;
   int wants;
   if (!playing) {
@@ -106,10 +110,10 @@ static void control(void) {
   }
   if (role == 0)
     wants = keep();
-  else if (role == 1 || (long)ball_x * goal_x < 0)
+  else if (nearest)
     wants = attack();
-  else
-    wants = go_to(goal_x > 0 ? -150 : 150, ball_y * 0.6f);
+  else /* behind the other, and to one side */
+    wants = go_to(ball_x + (goal_x > 0 ? -250 : 250), ball_y * 0.4f + (ball_y > 0 ? -120 : 120));
 
   /* somebody else in front: the ball itself is lower than the sensors' beam is wide, and to be pushed */
   {
@@ -126,9 +130,12 @@ static void control(void) {
     seen_x = my_x;
     seen_y = my_y;
     still = 0;
-  } else if (++still > STUCK_PERIODS) {
+  } else if (++still > patience) {
+    /* a duel: who gives way first lets the other push on, so both do it at some time of their own */
     still = 0;
     back = BACK_PERIODS;
+    patience = STUCK_PERIODS + rand() % (5 * STUCK_PERIODS);
+    aim_y = rand() % (2 * AIM) - AIM;
   }
 }
 

@@ -225,9 +225,6 @@ class Board {
   void switch_off() { battery_.draw(0, 0); }
   /// Data EEPROM; resets leave it alone.
   DataEeprom& eeprom() { return eeprom_; }
-  /// Sensors that supervisors define.
-  VirtualDevices& virtual_devices() { return virtual_devices_; }
-  const VirtualDevices& virtual_devices() const { return virtual_devices_; }
   /// What somebody does with a remote control.
   RemoteReceiver& remote() { return remote_; }
   const RemoteReceiver& remote() const { return remote_; }
@@ -281,7 +278,6 @@ class Board {
   I2cBus i2c_;
   Battery battery_;
   DataEeprom eeprom_;
-  VirtualDevices virtual_devices_;
   I2cMaster i2c_master_{i2c_};
   std::unique_ptr<Camera> camera_;
   std::vector<std::unique_ptr<Part>> parts_;

@@ -180,7 +180,7 @@ INSTANTIATE_TEST_SUITE_P(
     Kinds, CrashTest,
     ::testing::Values(Crash{"null", "*nowhere = 1;", "(SIGSEGV) at main ("},
                       Crash{"wild_argument", "sv_get_pose(0, (sv_pose*)8);", "(SIGSEGV) at main ("},
-                      Crash{"division", "return 1 / zero;", "(SIGFPE) at main ("},
+                      Crash{"division", "return 7 / zero;", "(SIGFPE) at main ("},
                       Crash{"abort", "abort();", "(SIGABRT)"},
                       Crash{"assertion", "assert(zero);", "(SIGABRT)"},
                       Crash{"exception", "throw std::runtime_error(\"no ball\");", "nobody caught: no ball"},
@@ -278,7 +278,7 @@ TEST_F(SupervisorTest, a_function_that_supervisors_do_not_have_is_named) {
 TEST_F(SupervisorTest, tracks_leave_out_moves_by_hand) {
   const auto file = std::filesystem::path(TWINPUCK_BUILD_DIR) / "tests" / "tracks.csv";
   add_robot_with_source(kIdle);
-  world.objects.push_back(ball_at(0, 0, 0));
+  world.objects.push_back(ball_at(0.5, 0, 0));
   add_supervisor_with_source(R"(
     #include <supervisor.hpp>
     int main() {
@@ -303,7 +303,7 @@ TEST_F(SupervisorTest, tracks_leave_out_moves_by_hand) {
   std::getline(in, head);
   std::getline(in, first);
   EXPECT_EQ(head, "time_s,thing,x_m,y_m,z_m,heading_rad");
-  EXPECT_EQ(first, "0.000000,ball,0.000000,0.000000,0.000000,0.000000");
+  EXPECT_EQ(first, "0.000000,ball,0.500000,0.000000,0.000000,0.000000");
 }
 
 TEST_F(SupervisorTest, a_picture_at_a_chosen_moment) {
