@@ -49,7 +49,7 @@ volatile struct state state = {9, 5, -2, {0x1234}, {{1, 100000L}, {-2, -100000L}
 static volatile int hidden = 77;
 volatile int* pointer = &count;
 static void tick(void) { static volatile int inside = 12; inside++; }
-int main(void) { tick(); tick(); while (1) count = count; }
+int main(void) { tick(); tick(); while (1) { count = count; hidden = hidden; } }
 )";
 
 TEST_F(SupervisorRobotsTest, variables_of_every_width) {
