@@ -21,7 +21,8 @@
 #define NEAR 600           /* counts: about 2 cm */
 #define STUCK_PERIODS 12   /* at least so many without a way of 5 mm, up to six times as many by chance */
 #define BACK_PERIODS 18
-#define AIM 120            /* mm: it shoots somewhere between the posts, 180 mm off the middle */
+#define REACH 60           /* mm: a keeper leaves its corners open */
+#define AIM 130            /* mm: it shoots somewhere between the posts, 180 mm off the middle */
 
 /* what the camera sees, mm and milliradians in the field's frame: the goal to shoot at lies at (goal_x, 0) */
 volatile int playing;
@@ -87,9 +88,9 @@ static int attack(void) {
 }
 
 static int keep(void) {
-  float y = ball_y > 130 ? 130 : ball_y < -130 ? -130 : ball_y;
+  float y = ball_y > REACH ? REACH : ball_y < -REACH ? -REACH : ball_y;
   /* a ball that comes near is shot away */
-  if (abs(ball_x + goal_x) < 250 && abs(ball_y) < 250) return attack();
+  if (abs(ball_x - my_x) < 120 && abs(ball_y - my_y) < 120) return attack();
   return go_to(goal_x > 0 ? -660 : 660, y);
 }
 

@@ -14,7 +14,7 @@ constexpr double kGoalLineM = 0.75;   // m: a ball whose middle is beyond is in 
 constexpr double kGoalWidthM = 0.36;  // m
 constexpr double kDropM = 0.10;       // m: height from which the ball falls
 constexpr double kPauseS = 2.0;       // s between a goal and the next kick-off
-constexpr double kDeadS = 12;         // s without the ball moving kDeadM: it is dropped anew
+constexpr double kDeadS = 8;          // s without the ball moving kDeadM: it is dropped anew
 constexpr double kDeadM = 0.05;       // m
 constexpr int kTeam = 3;              // players; the first three of the world shoot at the goal in the east
 
@@ -60,15 +60,13 @@ void show_score() {
   sv::label(1, text, 0.88, 0.01, 0.05, 0x202020);
 }
 
-void drop(sv::Thing& ball) {
-  // a hair off the middle, or two teams that mirror each other would play for ever without a goal
-  ball.put({0.02 * (sv::random() - 0.5), 0.2 * (sv::random() - 0.5), kDropM, 0});
-}
-
 void kick_off(sv::Thing& ball) {
   for (int number = 0; number < sv_robots(); ++number) sv::Robot(number).reset();
-  drop(ball);
+  ball.put({0, 0, kDropM, 0});
 }
+
+// somewhere, so that one team is nearer
+void drop(sv::Thing& ball) { ball.put({0.8 * (sv::random() - 0.5), 0.6 * (sv::random() - 0.5), kDropM, 0}); }
 
 }  // namespace
 
