@@ -231,7 +231,7 @@ TEST_F(SupervisorRobotsTest, colours_and_noise_reach_the_sensors) {
   sim::ObjectDesc box;
   box.name = "box";
   box.size_m = {0.1, 0.3, 0.1};
-  box.pose = {0.12, 0, 0};  // its face is 0.07 m from the middle, about 3.5 cm from the rim
+  box.pose = {0.10, 0, 0};  // its face is 2 cm from the sensors at x = 0.03, 2.1 cm along their rays at 17 degrees
   world.objects.push_back(box);
   world.proximity.profile = "webots-old";
   add_supervisor_with_source(std::string(kHead) + R"(
@@ -241,7 +241,7 @@ TEST_F(SupervisorRobotsTest, colours_and_noise_reach_the_sensors) {
       const int white = r.proximity(0);
       sv::Thing("box").colour(0, 0, 1);
       const int blue = r.proximity(0);  // factor 0.2: five times as far, beyond the table's 7 cm
-      EXPECT(white > 150 && blue < 40);
+      EXPECT(white > 550 && white < 700 && blue == 34);  // 676 at 2 cm, 491 at 2.5 cm; 34 from 7 cm on
       double rgb[3];
       EXPECT(sv_get_colour(sv_find("box"), rgb) == 0 && rgb[2] == 1 && rgb[0] == 0);
       EXPECT(sv_set_colour(sv_find("box"), 0, 0, 1.5) == -1);
