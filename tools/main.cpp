@@ -61,6 +61,7 @@ int main(int argc, char** argv) {
   tools::add_new(app, exit_code);
   tools::add_inspect(app, exit_code);
   tools::add_list(app, exit_code);
+  tools::add_import(app, exit_code);
   tools::add_lab(app, exit_code);
   try {
     app.parse(argc, argv);
