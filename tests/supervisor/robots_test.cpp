@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What supervisors see and change of robots: devices, firmware's variables, virtual sensors, messages, lamps,
 // colours, noise; and that each change is in the world's digest.
+#include "sim_core/light/proximity.h"
 #include "tests/support/firmware_test.h"
 
 namespace {
@@ -231,7 +232,8 @@ TEST_F(SupervisorRobotsTest, colours_and_noise_reach_the_sensors) {
   sim::ObjectDesc box;
   box.name = "box";
   box.size_m = {0.1, 0.3, 0.1};
-  box.pose = {0.10, 0, 0};  // its face is 2 cm from the sensors at x = 0.03, 2.1 cm along their rays at 17 degrees
+  box.pose = {0.10, 0,
+              0};  // its face is 2 cm from the sensors at x = 0.03, 2.1 cm along their rays at 17 degrees
   world.objects.push_back(box);
   world.proximity.profile = "webots-old";
   add_supervisor_with_source(std::string(kHead) + R"(
@@ -374,6 +376,67 @@ TEST_F(SupervisorRobotsTest, digests_see_what_supervisors_do_and_repeat) {
     EXPECT_NE(once, nothing) << deed;
     EXPECT_EQ(once, digest_with(deed, 2)) << deed;
   }
+}
+
+// --- the same without a program: what Simulation offers to whoever attends it
+
+TEST_F(SupervisorRobotsTest, lamps_and_noise_count_from_the_next_sample_on) {
+  sim::LampDesc lamp;
+  lamp.position_m = {1, 0, 0.5};
+  world.lamps.push_back(lamp);
+  sim::ObjectDesc box;
+  box.pose = {0.10, 0, 0};
+  box.size_m = {0.1, 0.3, 0.02};  // lower than the sensors: the lamp shines over it
+  world.objects.push_back(box);
+  add_robot_with_source("int main(void) { while (1) ; }");
+  world.proximity.profile = "webots-old";
+  run_for(0.01);
+  sim::Simulation& simulation = twin().simulation();
+  const auto light = [&] { return sim::sense_irradiance_w_m2(simulation.scene(), 0, 0, simulation.now()); };
+  const double before = light();
+  EXPECT_GT(before, 0);
+  simulation.set_lamp(0, true, 2, lamp.position_m);
+  EXPECT_DOUBLE_EQ(light(), 2 * before);
+  simulation.set_lamp(0, false, 2, lamp.position_m);
+  EXPECT_EQ(light(), 0);
+  const auto noise = [&] {
+    return sim::sense_proximity(simulation.scene(), 0, 2, simulation.now()).relative_noise;
+  };
+  EXPECT_EQ(noise(), 0);  // the fixture's worlds have none
+  simulation.set_proximity_noise(0, 1);
+  EXPECT_DOUBLE_EQ(noise(), 0.704);  // sensor 2 sees nothing: the last row of the table
+  simulation.set_proximity_noise(0, 2);
+  EXPECT_DOUBLE_EQ(noise(), 2 * 0.704);
+}
+
+TEST_F(SupervisorRobotsTest, engines_take_the_velocities_that_they_know) {
+  const auto way_after = [](sim::Engine engine, double climb_m_s) {
+    struct Run : FirmwareTest {
+      void TestBody() override {}
+      sim::BodyState go(sim::Engine its_engine, double its_climb_m_s) {
+        world.engine = its_engine;
+        sim::ObjectDesc box;
+        box.movable = true;
+        box.pose = {0.5, 0, 0};
+        world.objects.push_back(box);
+        add_robot_with_source("int main(void) { while (1) ; }");
+        run_for(0.01);
+        twin().simulation().set_velocity(1, {0.5, 0}, 0, its_climb_m_s);
+        run_for(0.02);
+        return twin().simulation().state(1);
+      }
+    } run;
+    return run.go(engine, climb_m_s);
+  };
+  // 0.5 m/s for 20 ms against friction of 0.5 g: 10 mm - 1 mm, give or take a tick
+  EXPECT_NEAR(way_after(sim::Engine::Dynamic, 0).pose.x_m, 0.509, 0.0015);
+  EXPECT_NEAR(way_after(sim::Engine::Planar, 0).pose.x_m, 0.509, 0.0015);
+  EXPECT_EQ(way_after(sim::Engine::Kinematic, 0).pose.x_m, 0.5);
+  EXPECT_EQ(way_after(sim::Engine::Kinematic, 0).velocity_m_s.x, 0);
+  // thrown up at 1 m/s: 20 mm - 2 mm
+  EXPECT_NEAR(way_after(sim::Engine::Dynamic, 1).z_m, 0.018, 0.002);
+  EXPECT_NEAR(way_after(sim::Engine::Kinematic, 1).z_m, 0.018, 0.002);
+  EXPECT_EQ(way_after(sim::Engine::Planar, 1).z_m, 0);
 }
 
 }  // namespace
