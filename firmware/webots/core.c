@@ -27,6 +27,7 @@
 #define RING 8
 #define LEDS 10
 #define GROUND 3
+#define MOST_WARNINGS 20
 #define GROUND_ADDRESS ((char)0xC0) /* [Webots: libepuck, ground sensors] */
 
 static struct webots_device devices[WEBOTS_MOST_DEVICES];
@@ -187,6 +188,15 @@ static void add_ground_sensors(void) {
   for (i = 0; i < GROUND; i++) webots_add(kNames[i], WB_NODE_DISTANCE_SENSOR, i, WEBOTS_GROUND);
 }
 
+/* programs repeat their mistakes every step */
+static int too_many(void) {
+  static unsigned char told;
+  if (told > MOST_WARNINGS) return 1;
+  if (told++ < MOST_WARNINGS) return 0;
+  printf("Warning: there are more warnings of this kind, which are not shown\n");
+  return 1;
+}
+
 unsigned short webots_find(const char* name, const char* function) {
   const char* wanted = name;
   char ground[4];
@@ -204,6 +214,7 @@ unsigned short webots_find(const char* name, const char* function) {
     if (strcmp(devices[i].name, wanted) == 0) return (unsigned short)(i + 1);
   if (twin_virtual_sensor(name, &value) && add_extra(name, WB_NODE_DISTANCE_SENSOR, 0, WEBOTS_VIRTUAL))
     return (unsigned short)device_count;
+  if (too_many()) return 0;
   printf("Warning: %s(): got device \"%s\", expected one that this robot has\n", function, name);
   return 0;
 }
@@ -248,7 +259,9 @@ void webots_enable(struct webots_device* device, int period, void (*sample)(stru
   device->elapsed = 0;
 }
 
-void webots_warn(const char* function, const char* what) { printf("Warning: %s(): %s\n", function, what); }
+void webots_warn(const char* function, const char* what) {
+  if (!too_many()) printf("Warning: %s(): %s\n", function, what);
+}
 
 void webots_robot_axes(float forward, float left, float up, float* xyz) {
   if (twin_nue()) {

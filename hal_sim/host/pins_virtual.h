@@ -25,6 +25,9 @@ void tp_virtual_robot_name(char* name, tp_i64 size);
 /** Seconds of a calendar that begins at a moment of the robot's own, made of its seed. Horizon: now. */
 tp_i64 tp_virtual_calendar_s(void);
 
+/** Memory of the robot's own outside its data, for a heap; always the same address for the same size. */
+char* tp_virtual_heap(tp_i64 bytes);
+
 /** Device `index` from 0 of those that [[robot.device]] lists, and its name: 0 there is none, or a kind. */
 tp_i64 tp_virtual_device(tp_i64 index, char* name, tp_i64 size);
 #define TP_DEVICE_GPS 1

@@ -19,7 +19,9 @@ extern const char tp_webots_program __attribute__((weak));
 
 static void tp_image_start(void)
 {
-  main();
+  /* a PC's program looks at its arguments; the robot has none to give */
+  static char *arguments[2] = {(char *)"e-puck", 0};
+  ((int (*)(int, char **))main)(1, arguments);
   while (&tp_webots_program) tp_power_save(1); /* the robot's interrupts go on */
 }
 
