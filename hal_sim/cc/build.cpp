@@ -164,6 +164,7 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, bool lint) {
                 "-DTP_IMAGE_NAME=\"" + name + "\"", "-DTP_IMAGE_FLAGS=\"" + image_flags + "\""},
                ""};
   if (o.coverage) p.runtime.flags.push_back("-DTP_COVERAGE");
+  if (p.is_webots) p.runtime.flags.push_back("-DTP_WEBOTS");
   if (o.sanitize)
     p.library.push_back(
         {cc_dir / "runtime/image_sanitize.c",
