@@ -80,19 +80,28 @@ bool names_webots(const std::vector<fs::path>& sources, const std::vector<fs::pa
   return false;
 }
 
-/// Sources that no other one includes: Webots compiles a controller's own file alone, so programs for it
-/// include further ones as text.
-std::vector<fs::path> without_included(const std::vector<fs::path>& sources) {
-  static const std::regex kInclude(R"(#\s*include\s*"([^"]+\.c)\")");
-  std::set<fs::path> included;
+/// Sources of a program for Webots, which compiles the file with the controller's name alone: not those that
+/// another one includes as text, and not further programs that lie beside it.
+std::vector<fs::path> webots_sources(const fs::path& folder, const std::vector<fs::path>& sources) {
+  static const std::regex kInclude(R"(#\s*include\s*"([^"]+\.c)\")"), kMain(R"(\bmain\s*\()");
+  const std::string own = fs::weakly_canonical(folder).filename().string();
+  std::set<fs::path> left_out;
+  bool has_own_main = false;
+  std::vector<fs::path> others;
   for (const auto& source : sources) {
     const std::string text = read_text(source);
     for (std::sregex_iterator it(text.begin(), text.end(), kInclude), end; it != end; ++it)
-      included.insert(fs::weakly_canonical(source.parent_path() / (*it)[1].str()));
+      left_out.insert(fs::weakly_canonical(source.parent_path() / (*it)[1].str()));
+    if (!std::regex_search(text, kMain)) continue;
+    if (source.stem() == own)
+      has_own_main = true;
+    else
+      others.push_back(fs::weakly_canonical(source));
   }
+  if (has_own_main) left_out.insert(others.begin(), others.end());
   std::vector<fs::path> kept;
   for (const auto& source : sources)
-    if (!included.count(fs::weakly_canonical(source))) kept.push_back(source);
+    if (!left_out.count(fs::weakly_canonical(source))) kept.push_back(source);
   return kept.empty() ? sources : kept;
 }
 
@@ -142,7 +151,7 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, bool lint) {
   if (lint) flags.push_back("--lint");
   for (const auto& d : o.defines) flags.push_back("-D" + d);
   flags.insert(flags.end(), user_include.begin(), user_include.end());
-  for (const auto& s : p.is_webots ? without_included(copies.kept) : copies.kept)
+  for (const auto& s : p.is_webots ? webots_sources(o.source_dir, copies.kept) : copies.kept)
     p.user.push_back({s, flags, common_salt(headers)});
 
   std::vector<std::string> library_flags = mode;
