@@ -27,7 +27,11 @@ TEST_F(LabExample, drives_a_slight_curve_and_prints_a_line_a_step) {
   EXPECT_NEAR(r.left_steps() - left, 4.0 * 322.6, 15);
   EXPECT_NEAR(r.right_steps() - right, 4.0 * 256.4, 12);
   EXPECT_NEAR(r.console().size() - lines, 4000 / 64, 1);  // run() returned 64
-  for (const std::string& line : r.console()) EXPECT_EQ(line, "v=0");
+  // nothing is near: the table's last row at most, 34 counts of the old profile
+  for (const std::string& line : r.console()) {
+    ASSERT_EQ(line.substr(0, 2), "v=");
+    EXPECT_LT(std::stoi(line.substr(2)), 100);
+  }
   expect_no_traps();
 }
 

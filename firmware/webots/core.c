@@ -28,6 +28,7 @@
 #define LEDS 10
 #define GROUND 3
 #define MOST_WARNINGS 20
+#define NOBODY 0xFF /* what the bus reads where nothing answers: its lines are high */
 #define GROUND_ADDRESS ((char)0xC0) /* [Webots: libepuck, ground sensors] */
 
 static struct webots_device devices[WEBOTS_MOST_DEVICES];
@@ -174,17 +175,15 @@ static void add_devices(void) {
 static void add_ground_sensors(void) {
   static const char* const kNames[GROUND] = {"gs0", "gs1", "gs2"};
   static unsigned char asked;
-  char answers;
+  unsigned char high;
   int i;
   if (asked) return;
   asked = 1;
   e_i2cp_init();
   e_i2cp_enable();
-  answers = e_i2c_start();
-  answers &= e_i2c_write(GROUND_ADDRESS);
-  e_i2c_stop();
+  high = (unsigned char)e_i2cp_read(GROUND_ADDRESS, 0); /* of the left one's counts, about 1000 at most */
   e_i2cp_disable();
-  if (!answers) return;
+  if (high == NOBODY) return;
   for (i = 0; i < GROUND; i++) webots_add(kNames[i], WB_NODE_DISTANCE_SENSOR, i, WEBOTS_GROUND);
 }
 
