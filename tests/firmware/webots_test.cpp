@@ -407,6 +407,27 @@ std::string errors_of(const std::string& source) {
   return all;
 }
 
+// the file that is named as the folder is the program; one that it includes as text is part of it, another
+// program beside it is not
+TEST(WebotsSources, the_file_named_as_the_folder_is_the_program) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "twinpuck_webots_sources";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "twinpuck_webots_sources.c")
+      << "#include <webots/robot.h>\n#include \"part.c\"\nint main() { for (int i = 0; i < part(); i++) ; "
+         "for (int "
+         "i = 0; i < 2; i++) ; return 0; }\n";
+  std::ofstream(folder / "part.c") << "int part() { return 3; }\n";
+  std::ofstream(folder / "older.c")
+      << "#include <webots/robot.h>\nint part() { return 4; }\nint main() { return 0; }\n";
+  std::ofstream(folder / "helper.c") << "int helper() { return 5; }\n";
+  cc::BuildOptions options;
+  options.source_dir = folder;
+  options.output = folder / "out.so";
+  const cc::BuildResult result = cc::build_image(options);
+  EXPECT_TRUE(result.ok) << (result.errors.empty() ? "" : result.errors[0]);
+}
+
 TEST(WebotsRefused, functions_of_supervisors_are_refused_by_name_with_a_hint) {
   const std::string errors = errors_of(
       "#include <webots/robot.h>\n#include <webots/supervisor.h>\n"

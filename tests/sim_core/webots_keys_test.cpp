@@ -61,7 +61,8 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Mistake{"[webots]\nsensor_order = \"labs\"\n", "w.toml:3:16: webots.sensor_order: got \"labs\""},
         Mistake{"[webots]\ntime_step = 32\n", "webots.time_step: got 32"},
-        Mistake{"[webots]\nspeed = 0.1\n", "unknown key 'speed' in webots; did you mean 'speed_unit'?"},
+        Mistake{"[webots]\nspeedunit = 0.1\n",
+                "unknown key 'speedunit' in webots; did you mean 'speed_unit'?"},
         Mistake{"[[robot]]\nposition = [0, 0]\n[[robot.device]]\nkind = \"gps\"\n",
                 "robot.device.name: missing"},
         Mistake{"[[robot]]\nposition = [0, 0]\n[[robot.device]]\nname = \"a\"\nkind = \"radar\"\n",
