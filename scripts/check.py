@@ -35,14 +35,15 @@ MAY_INCLUDE = {
     "hal_sim/register": ["hal_sim/host", "hal_sim/board", "dspic30"],
     "hal_sim/chip": ["hal_sim/board", "hal_sim/host", "dspic30", "sim_core/base", "sim_core/world/robot_mind.h"],
     "hal_dspic": ["firmware/include"],
+    "import": ["sim_core/geometry", "sim_core/world", "sim_core/load"],  # it knows e-pucks by their nodes only
     "firmware": ["tests/support/firmware_test.h"],  # a controller brings its own test.cpp
 }
 # packages and the only room that may include them
 PACKAGE_ROOMS = {
     "box2d/": ["sim_core/physics"], "ccd/": ["sim_core/geometry"], "boost/": ["hal_sim/host"],
-    "toml++/": ["sim_core/load"], "CLI/": ["tools"], "llvm/": ["hal_sim/cc"], "clang/": ["hal_sim/cc"],
+    "toml++/": ["sim_core/load", "tools"], "CLI/": ["tools"], "llvm/": ["hal_sim/cc"], "clang/": ["hal_sim/cc"],
     "cairo": ["sim_core/record", "sim_core/load", "tools"], "enki/": ["bench"], "gelf.h": ["hal_sim", "dspic30"],
-    "libelf.h": ["hal_sim", "dspic30"],
+    "libelf.h": ["hal_sim", "dspic30"], "vpx/": ["sim_core/record"], "zlib.h": ["sim_core/record"], "jpeglib.h": ["import"],
 }
 FREE_ROOMS = ("tools", "tests", "bench")  # may include anything
 VERBATIM = {"firmware/e-puck/e-puck.c"}  # kept byte for byte as the lab's text prints it

@@ -9,6 +9,7 @@
 #include "hal_sim/board/part.h"
 #include "hal_sim/cc/build.h"
 #include "hal_sim/twin/twin.h"
+#include "sim_core/light/profiles.h"
 #include "sim_core/load/world_loader.h"
 #include "tools/verbs.h"
 
@@ -92,6 +93,8 @@ int check(const std::vector<std::string>& files) {
     }
     std::cout << fmt::format("{}: good: {} robots, {} objects, {} Hz\n", file, loaded.world->robots.size(),
                              loaded.world->objects.size(), loaded.world->physics_hz);
+    for (const std::string& notice : sim::proximity_notices(*loaded.world))
+      std::cout << file << ": " << notice << '\n';
   }
   return exit_code;
 }

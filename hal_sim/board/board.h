@@ -88,6 +88,23 @@ struct Setup {
   std::vector<sim::DeviceDesc> devices;       ///< that only programs for Webots' interfaces know
 };
 
+/// One conversion of a proximity sensor's phototransistor, before any noise.
+struct IrConversion {
+  double irradiance_w_m2 = 0;    ///< W/m2, lamps and ambient light
+  double light_counts = 0;       ///< counts that this light pulls the sample below darkness
+  double reflection_counts = 0;  ///< counts that the flash adds to that, this sensor's gain included
+  double relative_noise = 0;     ///< of the reflection: standard deviation, or half width when uniform; the
+                                 ///< board's own noise scale is not in it
+  bool uniform_noise = false;
+  double offset_counts = 0;  ///< of a lit sample
+  double settled = 1;        ///< part of the flash that the phototransistor has followed, 0 to 1
+  /// Without noise, not rounded and not held within the converter's range.
+  double counts() const { return kAdcMax - light_counts - (reflection_counts + offset_counts) * settled; }
+};
+
+/// What the converter makes of a level given in counts: rounded, 0 to 4095.
+int adc_counts(double level);
+
 class Board {
  public:
   explicit Board(const Setup& setup);
@@ -187,6 +204,8 @@ class Board {
   /// Tick boundary: bytes from outside enter, bytes sent so far go out, old bookkeeping is dropped.
   void exchange(Cycle at);
 
+  /// The same sample without noise: what a conversion is made of. `lit_for` as below.
+  IrConversion ir_conversion(int sensor, Cycle at, Cycle lit_for) const;
   /// Counts of a proximity sensor's phototransistor at `at`, its emitter having been on for `lit_for` cycles
   /// (negative: off). Noise is drawn from `sample`, a number unique to the sample.
   int ir_counts(int sensor, Cycle at, Cycle lit_for, std::uint64_t sample) const;

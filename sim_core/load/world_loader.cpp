@@ -376,6 +376,12 @@ class Reader {
     });
     read_sounds(root);
     read_robots(root);
+    read_many("supervisor", root, "supervisor", [&](const toml::table& t) {
+      SupervisorDesc s;
+      s.line = line_of(t);
+      read_table("supervisor", t, &s);
+      world_.supervisors.push_back(std::move(s));
+    });
   }
 
   void read_sounds(const toml::table& root) {

@@ -33,15 +33,15 @@ extern "C" {
 #define SV_ALL (-2)  /* every robot, where a function allows it */
 
 #if defined(__GNUC__)
-#define SV_PRINTF(format, first) __attribute__((format(printf, format, first)))
+#define SV_PRINTF(text, first) __attribute__((format(printf, text, first)))
 #else
-#define SV_PRINTF(format, first)
+#define SV_PRINTF(text, first)
 #endif
 
 /* --- time, chance, the end ------------------------------------------------------------------------------ */
 
-/** Lets the world go on for `seconds`, at least one tick, at most up to the end of the run; 0: for this
- *  program's period (the world file's `period`, one tick if it says nothing). Returns the seconds that have
+/** Lets the world go on for `seconds`, at least one tick, at most up to the end of the run; 0: up to
+ *  this program's next period (the world file's `period`, one tick if it says nothing). Returns the seconds that have
  *  passed, or -1 when the run is over: the program has one more go, in which it may look and write files, and
  *  should return from main. */
 double sv_step(double seconds);
@@ -51,6 +51,9 @@ double sv_time(void);
 double sv_tick(void);
 /** Period of this program, s. */
 double sv_period(void);
+/** Time step and axes (0 ENU, 1 NUE) that the world's [webots] gives to programs written for Webots; s. */
+double sv_webots_time_step(void);
+int sv_webots_axes(void);
 /** Another period for sv_step(0), s; 0: every tick. */
 int sv_set_period(double seconds);
 /** Uniform in [0, 1), made of the world's seed and this program's place in the world: the same in every run. */
@@ -91,6 +94,10 @@ int sv_robots(void);
 int sv_things(void);
 /** Name of a thing as the world file has it; "" when it has none. */
 const char* sv_thing_name(int thing);
+/** From its underside to its top, m. */
+double sv_height(int thing);
+/** What the world file says that the robot runs; "" for nothing. */
+const char* sv_firmware(int robot);
 /** 1: it can move (robots and movable objects). */
 int sv_is_movable(int thing);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// supervisor.h for C++: things as objects, mistakes as exceptions. Units and meanings are those of supervisor.h.
+// supervisor.h for C++: things as objects, mistakes as exceptions. Units and meanings are those of
+// supervisor.h.
 //
 //   sv::Robot alice("alice");
 //   while (sv::step(0.1)) {

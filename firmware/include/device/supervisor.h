@@ -6,11 +6,11 @@
 #ifndef DEVICE_SUPERVISOR_H
 #define DEVICE_SUPERVISOR_H
 
+#include "robot_types.h"
+
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-typedef struct DeviceNodeStruct *NodeRef;
 
 /* which numbers of a field: those chosen stand packed, in this order, in the array of floats */
 #define SUPERVISOR_FIELD_TRANSLATION_X 0x01

@@ -7,15 +7,11 @@
 #ifndef WEBOTS_SUPERVISOR_H
 #define WEBOTS_SUPERVISOR_H
 
-#include <stdbool.h>
-#include <webots/types.h>
+#include "types.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-typedef struct WbNodeStructPrivate *WbNodeRef;
-typedef struct WbFieldStructPrivate *WbFieldRef;
 
 typedef enum {
 	WB_SUPERVISOR_SIMULATION_MODE_PAUSE = 0,
@@ -79,8 +75,9 @@ void wb_supervisor_node_reset_physics(WbNodeRef node);
 /** A robot's program begins anew. */
 void wb_supervisor_node_restart_controller(WbNodeRef node);
 
-/* --- fields: translation, rotation, name, controller, customData, recognitionColors, baseColor of robots and
- * objects; location, intensity, on, color of lamps; children of the root --- */
+/* --- fields: translation, rotation, name, customData, recognitionColors, baseColor of robots and objects;
+ * controller of robots; location, intensity, on of lamps; children of the root. customData stays with this
+ * program: no firmware sees it --- */
 WbFieldRef wb_supervisor_node_get_field(WbNodeRef node, const char *field_name);
 const char *wb_supervisor_field_get_name(WbFieldRef field);
 WbFieldType wb_supervisor_field_get_type(WbFieldRef field);
