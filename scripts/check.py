@@ -28,7 +28,8 @@ MAY_INCLUDE = {
                       "sim_core/radio", "sim_core/random", "sim_core/time", "hal_sim/host/pins",
                       "hal_sim/host/image_abi.h", "hal_sim/host/context.h"],
     "hal_sim/host": ["hal_sim/board", "sim_core/base", "sim_core/time", "sim_core/world/robot_mind.h"],
-    "hal_sim/api": ["hal_sim/host/pins", "hal_sim/host/image_abi.h", "firmware/include"],
+    "hal_sim/api": ["hal_sim/host/pins", "hal_sim/host/image_abi.h", "firmware/include",
+                    "firmware/webots/simulator.h"],  # what Webots' interfaces take from the simulator
     "hal_sim/cc": ["hal_sim/host/image_abi.h", "hal_sim/host/pins"],  # its libc calls the host
     "hal_sim/twin": ["hal_sim/", "sim_core/"],  # ties board, host and world together
     "hal_sim/register": ["hal_sim/host", "hal_sim/board", "dspic30"],
@@ -49,6 +50,7 @@ PACKAGE_ROOMS = {
     "libelf.h": ["hal_sim", "dspic30"], "vpx/": ["sim_core/record"], "zlib.h": ["sim_core/record"], "jpeglib.h": ["import"],
 }
 FREE_ROOMS = ("tools", "tests", "bench")  # may include anything
+VERBATIM = {"firmware/e-puck/e-puck.c"}  # kept byte for byte as the lab's text prints it
 GENERATED = {"firmware/include/p30F6014A.h"}
 
 problems = []
@@ -138,7 +140,7 @@ def check_text(path, text):
     if path.endswith((".c", ".h", ".cpp", ".py", ".sh", ".cmake", ".s")) or path in ("Makefile", ".ci/run"):
         # the sources of the exact cycle counts stay as they were counted
         counted = path.startswith("tests/cc/xc16-cycles/src/")
-        if not counted and not any("SPDX-License-Identifier: MIT" in line for line in lines[:3]):
+        if path not in VERBATIM and not counted and not any("SPDX-License-Identifier: MIT" in line for line in lines[:3]):
             problem(path, 1, "no SPDX-License-Identifier: MIT in the first three lines")
 
 
