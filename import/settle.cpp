@@ -84,7 +84,9 @@ class Settler {
     if (p.ramp && !p.endless_floor) return false;
     if (scene_.robots.empty())
       return p.endless_floor || (p.z_high - p.z_low < kFlatM && std::abs(p.z_high) < kFlatM);
-    return std::any_of(scene_.robots.begin(), scene_.robots.end(), [&](const FoundRobot& r) {
+    const auto some = scene_.robots.begin() +
+                      std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(scene_.robots.size()), 50);
+    return std::any_of(scene_.robots.begin(), some, [&](const FoundRobot& r) {
       return p.covers({r.pose.x_m, r.pose.y_m}) && p.z_high > r.z_m - kFloorBelowM &&
              p.z_high < r.z_m + kFloorAboveM;
     });
@@ -256,12 +258,16 @@ class Settler {
       report_.add(p.line, title, "its exact shape", p.approximation);
     if (p.ramp && !b.movable && !scene_.planar && ramp(b, p)) return;
     if (p.ramp && !b.movable) report_.add(p.line, title, "its exact shape", p.approximation);
+    if (static_cast<int>(out_.world.objects.size()) >= kMostBodies)
+      return report_.add(p.line, title, fmt::format("more than {} objects", kMostBodies));
     sim::ObjectDesc o;
     o.kind = p.kind;
     o.name = clean(b.name);
     o.def = clean(b.def);
     o.pose = {p.at.x, p.at.y, p.heading_rad};
-    o.movable = b.movable;
+    o.movable = b.movable && movable_ < kMostMovable;
+    if (b.movable && ++movable_ > kMostMovable)
+      report_.add(p.line, title, fmt::format("more than {} movable objects", kMostMovable), "it is fixed");
     double low = p.z_low - floor_z_, high = p.z_high - floor_z_;
     if (b.movable && low < 0) high -= low, low = 0;
     if (low < (b.movable ? kTouchM : kGapM)) {
@@ -396,8 +402,6 @@ class Settler {
     if (std::abs(above) > kFloorBelowM)
       report_.add(f.line, f.type, fmt::format("that it begins {:.2f} m above the floor", above),
                   "it stands on the floor");
-    if (static_cast<int>(out_.world.robots.size()) >= kMostRobots)
-      return report_.add(f.line, f.type, fmt::format("more than {} robots", kMostRobots));
     out_.world.robots.push_back(r);
     out_.robot_from.push_back(from(f.type, "", f.def, f.line));
     out_.robot_parts.push_back(f.parts);
@@ -426,7 +430,7 @@ class Settler {
     out_.supervisor_from.push_back(from("Supervisor", "", f.def, f.line));
   }
 
-  static constexpr int kMostRobots = 2000;
+  int movable_ = 0;
   const Scene& scene_;
   const Options& options_;
   Report& report_;
