@@ -311,12 +311,11 @@ class Settler {
       r.pose.x_m += lost / 2 * std::cos(r.pose.heading_rad);
       r.pose.y_m += lost / 2 * std::sin(r.pose.heading_rad);
       r.size_m.x -= lost;
-      r.low_m = 0;
-    } else if (r.low_m > 1e-6) {
+    } else if (r.low_m > kTouchM) {
       report_.add(p.line, b.type, fmt::format("a step of {:.1f} mm at its low end", 1000 * r.low_m),
                   "it begins on the floor");
-      r.low_m = 0;
     }
+    r.low_m = 0;
     if (r.size_m.x < 0.01 || r.size_m.y < 0.01 || std::max(r.size_m.x, r.size_m.y) > kFarthestM ||
         std::max(std::abs(r.pose.x_m), std::abs(r.pose.y_m)) > kFarthestM ||
         std::atan2(r.high_m, r.size_m.x) > kSteepestRampRad)
