@@ -67,6 +67,7 @@ check: setup
 	@scripts/check.py
 	@scripts/check_contract.py
 	@scripts/gen_sfr_header.py --check
+	@scripts/gen_sfr_table.py --check
 
 ## format: format C++ sources in place
 format:

@@ -40,7 +40,7 @@ double run_ours(const sim::WorldDesc& world) {
   const int n = static_cast<int>(world.robots.size());
   const Span span = our_span(n);
   auto twin = bench::open_twin(world);
-  return n * bench::timed_speed(twin->simulation(), span.warm_s, span.measured_s);
+  return n * bench::timed_speed(twin->simulation(), span.warm_s, span.measured_s).wall;
 }
 
 // the same motion once more with the minds' work taken out
@@ -49,7 +49,7 @@ double world_only_rate(const sim::WorldDesc& world) {
   const Span span = our_span(n);
   const bench::WheelTrack track = bench::track_wheels(world, span.warm_s + span.measured_s);
   auto played = bench::play_back(world, track);
-  return n * bench::timed_speed(*played, span.warm_s, span.measured_s);
+  return n * bench::timed_speed(*played, span.warm_s, span.measured_s).wall;
 }
 
 double run_peer(const sim::WorldDesc& world) {

@@ -170,14 +170,18 @@ int compare_engines(const std::string& worlds, int rounds) {
     return 2;
   }
   std::printf(
-      "simulated seconds per wall second, controller obstacle, medians of %d rounds, engines in turn;\n"
-      "world only: the same motion without firmware and boards; conduct in %.0f s, per robot and minute\n",
+      "simulated seconds per second, controller obstacle, medians of %d rounds, engines in turn\n"
+      "wall: by the clock; processor: per second of processor time, the clock of an idle machine; world "
+      "only: the\n"
+      "same motion without firmware and boards, processor time; the rest in %.0f s, per robot and minute; "
+      "pushed:\n"
+      "both discs, all together\n",
       rounds, kObservedS);
-  std::printf("%7s %-10s %9s %11s %10s %11s %10s %13s %10s\n", "robots", "engine", "speed", "world only",
-              "way m", "collisions", "touch s", "longest wall", "pushed m");
+  std::printf("%6s %-9s %7s %9s %10s %7s %10s %8s %12s %8s\n", "robots", "engine", "wall", "processor",
+              "world only", "way m", "collisions", "touch s", "longest wall", "pushed m");
   bool faster = true;
   for (const int n : {1, 5, 10}) {
-    std::vector<double> speed[3], world_speed[3];
+    std::vector<double> wall[3], speed[3], world_speed[3];
     std::vector<WheelTrack> tracks;
     for (const NamedEngine& e : kEngines) {
       tracks.push_back(track_wheels(first_robots(*loaded.world, n, e.engine), kMeasuredS + 1));
@@ -186,15 +190,17 @@ int compare_engines(const std::string& worlds, int rounds) {
       for (int k = 0; k < 3; ++k) {
         const sim::WorldDesc world = first_robots(*loaded.world, n, kEngines[k].engine);
         auto twin = open_twin(world);
-        speed[k].push_back(timed_speed(twin->simulation(), 1, kMeasuredS));
+        const Speed whole = timed_speed(twin->simulation(), 1, kMeasuredS);
+        wall[k].push_back(whole.wall);
+        speed[k].push_back(whole.processor);
         auto played = play_back(world, tracks[static_cast<std::size_t>(k)]);
-        world_speed[k].push_back(timed_speed(*played, 1, kMeasuredS));
+        world_speed[k].push_back(timed_speed(*played, 1, kMeasuredS).processor);
       }
     }
     for (int k = 0; k < 3; ++k) {
       const Conduct c = observe(first_robots(*loaded.world, n, kEngines[k].engine));
-      std::printf("%7d %-10s %9.0f %11.0f %10.2f %11.1f %10.2f %13.2f %10.3f\n", n, kEngines[k].name,
-                  median(speed[k]), median(world_speed[k]), c.way_m, c.collisions, c.touch_s,
+      std::printf("%6d %-9s %7.0f %9.0f %10.0f %7.2f %10.1f %8.2f %12.2f %8.3f\n", n, kEngines[k].name,
+                  median(wall[k]), median(speed[k]), median(world_speed[k]), c.way_m, c.collisions, c.touch_s,
                   c.longest_wall_s, c.pushed_m);
       std::fflush(stdout);
     }

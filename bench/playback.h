@@ -17,7 +17,11 @@ std::unique_ptr<twin::Twin> open_twin(const sim::WorldDesc& world);
 WheelTrack track_wheels(const sim::WorldDesc& world, double seconds);
 /// The same motion with the minds' work taken out; `track` must outlive it.
 std::unique_ptr<sim::Simulation> play_back(const sim::WorldDesc& world, const WheelTrack& track);
-/// Simulated seconds per wall second, after `warm_s` simulated seconds.
-double timed_speed(sim::Simulation& simulation, double warm_s, double measured_s);
+/// Simulated seconds per second, after `warm_s` simulated seconds.
+struct Speed {
+  double wall = 0;
+  double processor = 0;  ///< per second of processor time: what the wall clock shows on an idle machine
+};
+Speed timed_speed(sim::Simulation& simulation, double warm_s, double measured_s);
 
 }  // namespace bench

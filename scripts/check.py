@@ -42,7 +42,7 @@ PACKAGE_ROOMS = {
     "box2d/": ["sim_core/physics"], "ccd/": ["sim_core/geometry"], "boost/": ["hal_sim/host"],
     "toml++/": ["sim_core/load", "tools"], "CLI/": ["tools"], "llvm/": ["hal_sim/cc"], "clang/": ["hal_sim/cc"],
     "cairo": ["sim_core/record", "sim_core/load", "tools"], "enki/": ["bench"], "gelf.h": ["hal_sim", "dspic30"],
-    "libelf.h": ["hal_sim", "dspic30"], "jpeglib.h": ["import"],
+    "libelf.h": ["hal_sim", "dspic30"], "vpx/": ["sim_core/record"], "zlib.h": ["sim_core/record"], "jpeglib.h": ["import"],
 }
 FREE_ROOMS = ("tools", "tests", "bench")  # may include anything
 GENERATED = {"firmware/include/p30F6014A.h"}

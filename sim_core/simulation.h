@@ -98,7 +98,7 @@ class Simulation {
     double right_radius_m = 0;
     double noise = 0;       // half width or standard deviation of the factor on the travel
     bool gaussian = false;  // which of them
-    double grip = 1;   // 1 - slip
+    double grip = 1;        // 1 - slip
     std::uint64_t seed = 0;
     WheelAngles last;
     double left_factor = 1, right_factor = 1;

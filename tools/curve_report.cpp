@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hal_sim/board/epuck_params.h"
 #include "sim_core/light/proximity.h"
 
 namespace tools {
@@ -20,7 +21,7 @@ struct Point {
 };
 
 /// What the converter leaves of a reading in the dark.
-double within(double counts) { return std::clamp(counts, 0.0, 4095.0); }
+double within(double counts) { return std::clamp(counts, 0.0, double{board::kAdcMax}); }
 
 Point at(const CurveRequest& q, const sim::FlatWall& wall, double distance_m) {
   const sim::ProximityResponse r = wall.at(distance_m);

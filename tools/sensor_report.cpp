@@ -16,7 +16,7 @@ constexpr double kTwoSided95 = 1.96;  // standard deviations that hold 95 of 100
 
 double mm(double metres) { return 1000 * metres; }
 double volts(double counts) {
-  return std::clamp(counts, 0.0, 4095.0) * board::kAdcReferenceV / board::kAdcMax;
+  return std::clamp(counts, 0.0, double{board::kAdcMax}) * board::kAdcReferenceV / board::kAdcMax;
 }
 
 std::string side(double bearing_rad) {

@@ -9,7 +9,7 @@ namespace {
 class Braitenberg2b : public LightVehicle {};
 
 TEST_P(Braitenberg2b, arrives_accelerating) {
-  Robot& vehicle = start("braitenberg_2b", GetParam());
+  Robot& vehicle = start("braitenberg_2b", GetParam(), 0.7);
   run_for(0.5);
   const auto seen = watch(vehicle, 20);
   const auto arrived =

@@ -9,7 +9,7 @@ namespace {
 class Braitenberg3a : public LightVehicle {};
 
 TEST_P(Braitenberg3a, stops_in_front_of_the_lamp) {
-  Robot& vehicle = start("braitenberg_3a", GetParam());
+  Robot& vehicle = start("braitenberg_3a", GetParam(), 0.7);
   run_for(0.5);
   const auto seen = watch(vehicle, 30);
   EXPECT_GT(seen.front().speed_steps_s, 200);

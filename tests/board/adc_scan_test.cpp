@@ -325,7 +325,7 @@ TEST(IrCircuit, a_conversion_taken_apart_adds_up_to_its_counts) {
   EXPECT_NEAR(lit.settled, 1, 2e-5);   // exp(-282 / 25)
   EXPECT_NEAR(lit.counts(), 4095 - 200 - 1210, 0.02);
   // one time constant: 63.2 % of it
-  EXPECT_NEAR(robot.ir_conversion(3, 0, 369).counts(), 4095 - 200 - 0.6321 * 1210, 0.5);
+  EXPECT_NEAR(robot.ir_conversion(3, 0, board::kIrSettleCycles).counts(), 4095 - 200 - 0.6321 * 1210, 0.5);
   scene.relative_noise = 0;
   EXPECT_EQ(robot.ir_counts(3, 0, flash, 7), board::adc_counts(lit.counts()));
 }

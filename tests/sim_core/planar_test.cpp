@@ -2,6 +2,7 @@
 // The planar engine: wheels exactly, no overlap, pushing by hand-made rules, no heights.
 #include <cmath>
 
+#include "sim_core/physics/plan_contact.h"
 #include "tests/sim_core/fixture.h"
 
 using namespace sim_test;
@@ -230,6 +231,46 @@ TEST(Planar, a_crowd_repeats_on_any_number_of_threads_and_nobody_overlaps) {
     }
     EXPECT_EQ(digests[0], digests[1]) << robots;
     EXPECT_GT(deepest, -0.0005) << robots;
+  }
+}
+
+TEST(Planar, a_yard_full_of_boxes_and_balls_stays_sound) {
+  // twelve robots drive curves through thirty things in a square metre
+  for (int hz : {96, 512}) {
+    std::string text = "[arena]\nsize = [1, 1]\n";
+    for (int i = 0; i < 42; ++i) {
+      const std::string at = "position = [" + std::to_string(-0.42 + 0.14 * (i % 7)) + ", " +
+                             std::to_string(-0.4 + 0.16 * (i / 7)) +
+                             "]\nheading = " + std::to_string(i * 37) + "\n";
+      if (i % 7 % 3 == 1) {
+        text += "[[robot]]\n" + at;
+      } else if (i % 2) {
+        text += "[[ball]]\nradius = 0.02\nmovable = true\nmass = 0.02\nrestitution = 0.5\n" + at;
+      } else {
+        text += "[[box]]\nsize = [0.06, 0.04, 0.05]\nmovable = true\nmass = 0.05\n" + at;
+      }
+    }
+    auto s = simulation_of(planar(text, hz),
+                           [](int r) { return std::make_unique<Cruise>(6 - 0.1 * r, 5 + 0.1 * r); });
+    double deepest = 0, fastest = 0;
+    for (int second = 0; second < 10; ++second) {
+      run_for(*s, 1);
+      std::vector<sim::Placed> all;
+      for (int b = 0; b < 42; ++b) all.push_back(s->scene().placed(b, s->now()));
+      for (int a = 0; a < 42; ++a) {
+        ASSERT_LT(std::fabs(s->pose(a).x_m), 0.5) << "inside the walls";
+        ASSERT_LT(std::fabs(s->pose(a).y_m), 0.5) << "inside the walls";
+        fastest = std::max(fastest, sim::length(s->state(a).velocity_m_s));
+        for (int b = a + 1; b < 42; ++b) {
+          deepest = std::max(deepest, sim::plan_contact(all[a], all[b]).depth_m);
+        }
+        for (const sim::Placed& wall : s->scene().layout().fixed) {
+          deepest = std::max(deepest, sim::plan_contact(all[a], wall).depth_m);
+        }
+      }
+    }
+    EXPECT_LT(deepest, 0.0002) << hz;  // a contact keeps 0.05 mm
+    EXPECT_LT(fastest, 0.4) << hz;     // a ball may leave a robot at 1.5 times its 0.12 m/s, and be hit again
   }
 }
 

@@ -19,17 +19,15 @@ struct Glimpse {
 
 class LightVehicle : public FirmwareTest, public ::testing::WithParamInterface<int> {
  protected:
-  static constexpr double kStartM = 0.5;
-
-  /// Start number 0 to 7: half a metre from the lamp, all around it, the nose 6 to 30 degrees off to either
+  /// Start number 0 to 7: so far from the lamp, all around it, the nose 6 to 30 degrees off to either
   /// side.
-  Robot& start(const std::string& firmware, int number) {
+  Robot& start(const std::string& firmware, int number, double away_m) {
     constexpr double kOff[8] = {-30, -22, -14, -6, 6, 14, 22, 30};
     load_world("worlds/braitenberg.toml");
     world.seed = static_cast<std::uint64_t>(number) + 1;
     const double bearing = sim::radians(45.0 * number);
     Robot& vehicle = robot(0);
-    vehicle.at(kStartM * std::cos(bearing), kStartM * std::sin(bearing),
+    vehicle.at(away_m * std::cos(bearing), away_m * std::sin(bearing),
                45.0 * number + 180 + kOff[number % 8]);
     vehicle.settings().firmware = firmware;
     vehicle.settings().variation.wheel_spread = 0.01;

@@ -1,0 +1,359 @@
+// SPDX-License-Identifier: MIT
+#include "dspic30/device/dspic30f6014a.h"
+
+#include <algorithm>
+
+#include "dspic30/device/claims.h"
+#include "dspic30/periph/adc.h"
+#include "dspic30/periph/capture_compare.h"
+#include "dspic30/periph/dci.h"
+#include "dspic30/periph/external_interrupts.h"
+#include "dspic30/periph/i2c.h"
+#include "dspic30/periph/kept_registers.h"
+#include "dspic30/periph/nvm.h"
+#include "dspic30/periph/ports.h"
+#include "dspic30/periph/spi.h"
+#include "dspic30/periph/system_control.h"
+#include "dspic30/periph/timers.h"
+#include "dspic30/periph/uart.h"
+
+namespace dspic {
+
+namespace {
+
+constexpr unsigned kIfs0 = 0x084, kIec0 = 0x08C, kIpc0 = 0x094, kAdcon1 = 0x2A0, kAdpcfg = 0x2A8,
+                   kFirstPort = 0x2C0, kLastPort = 0x2E8, kBsram = 0x750, kSsram = 0x752, kPmd1 = 0x770,
+                   kPmd2 = 0x772, kPmd3 = 0x774;
+
+}  // namespace
+
+struct Dspic30f6014a::Parts {
+  Parts(Outside& outside, DiagnosticSink* sink, const Configuration& c)
+      : configuration(c),
+        diagnostics(sink),
+        bus(diagnostics, c.warn_uninitialised),
+        interrupts(diagnostics),
+        fabric{outside, bus, events, interrupts, ports, diagnostics, c.fcy_hz},
+        ports(fabric, c.synchronised_ports),
+        timers(fabric),
+        adc(fabric, timers),
+        uarts{Uart(fabric, 1), Uart(fabric, 2)},
+        i2c(fabric),
+        dci(fabric),
+        external(fabric, adc),
+        change(fabric),
+        capture(fabric, timers),
+        compare(fabric, timers),
+        spis{Spi(fabric, 1), Spi(fabric, 2)},
+        system(fabric, c.fosc, c.fwdt),
+        nvm(fabric),
+        cans{Can(fabric, 1), Can(fabric, 2)},
+        cpu(fabric),
+        plain(fabric),
+        claims(diagnostics) {
+    cpu.attach();
+    interrupts.attach(bus);
+    change.attach();
+    timers.attach();
+    capture.attach();
+    compare.attach();
+    i2c.attach();
+    for (Uart& u : uarts) u.attach();
+    for (Spi& s : spis) s.attach();
+    dci.attach();
+    adc.attach();
+    ports.attach();
+    external.attach();
+    for (Can& c : cans) c.attach();
+    system.attach();
+    plain.attach(kBsram, kSsram);
+    nvm.attach();
+    plain.attach(kPmd1, kPmd3);
+    bus.mark_unmodelled(kBsram, 0x0007);
+    bus.mark_unmodelled(kSsram, 0x0007);
+  }
+
+  Configuration configuration;
+  Diagnostics diagnostics;
+  SfrBus bus;
+  Events events;
+  Interrupts interrupts;
+  Fabric fabric;
+  Ports ports;
+  Timers timers;
+  Adc adc;
+  std::array<Uart, 2> uarts;
+  I2c i2c;
+  Dci dci;
+  ExternalInterrupts external;
+  ChangeNotification change;
+  InputCapture capture;
+  OutputCompare compare;
+  std::array<Spi, 2> spis;
+  SystemControl system;
+  Nvm nvm;
+  std::array<Can, 2> cans;
+  CpuRegisters cpu;
+  PlainRegisters plain;
+  Claims claims;
+
+  void switch_modules(std::uint16_t pmd1, std::uint16_t pmd2, Cycle now);
+  std::uint16_t pmd1 = 0, pmd2 = 0;
+};
+
+// A module that is switched off forgets everything and answers 0.
+void Dspic30f6014a::Parts::switch_modules(std::uint16_t next1, std::uint16_t next2, Cycle now) {
+  const auto turned = [&](std::uint16_t before, std::uint16_t next, int bit) {
+    return ((before ^ next) >> bit & 1) != 0;
+  };
+  const auto range = [&](std::uint16_t next, int bit, unsigned first, unsigned last) {
+    bus.set_disabled(first, last, (next >> bit & 1) != 0);
+  };
+  struct Module {
+    int bit;
+    unsigned first, last;
+  };
+  static constexpr Module kModules[] = {
+      {0, 0x280, 0x2A6},  {0, 0x2AA, 0x2AA},  {1, 0x300, 0x39A},  {2, 0x3C0, 0x45A},  {3, 0x220, 0x224},
+      {4, 0x226, 0x22A},  {5, 0x20C, 0x214},  {6, 0x216, 0x21E},  {7, 0x200, 0x20A},  {8, 0x240, 0x25E},
+      {11, 0x100, 0x104}, {12, 0x106, 0x106}, {12, 0x10C, 0x10C}, {12, 0x110, 0x110}, {13, 0x108, 0x10A},
+      {13, 0x10E, 0x10E}, {13, 0x112, 0x112}, {14, 0x114, 0x114}, {14, 0x11A, 0x11A}, {14, 0x11E, 0x11E},
+      {15, 0x116, 0x118}, {15, 0x11C, 0x11C}, {15, 0x120, 0x120}};
+  for (const Module& m : kModules)
+    if (turned(pmd1, next1, m.bit)) {
+      // what a module does must end before its registers fall silent
+      for (unsigned a = m.first; a <= m.last; a += 2)
+        if (const SfrInfo* info = sfr_info(a); info && (next1 >> m.bit & 1))
+          bus.write(a, info->reset, 16, now);
+      range(next1, m.bit, m.first, m.last);
+    }
+  for (int bit = 0; bit < 16; ++bit) {
+    if (!turned(pmd2, next2, bit)) continue;
+    const auto n = static_cast<unsigned>(bit & 7);
+    const unsigned first = bit < 8 ? 0x180 + 6 * n : 0x140 + 4 * n;
+    const unsigned last = bit < 8 ? first + 4 : first + 2;
+    if (next2 >> bit & 1) bus.write(last, 0, 16, now);
+    range(next2, bit, first, last);
+  }
+  pmd1 = next1;
+  pmd2 = next2;
+}
+
+Dspic30f6014a::Dspic30f6014a(Outside& outside, DiagnosticSink* sink, const Configuration& configuration)
+    : parts_(std::make_unique<Parts>(outside, sink, configuration)) {
+  reset(ResetKind::PowerOn, 0);
+}
+
+Dspic30f6014a::~Dspic30f6014a() = default;
+
+void Dspic30f6014a::reset(ResetKind kind, Cycle now) {
+  Parts& p = *parts_;
+  p.events.run_to(now);
+  if (kind == ResetKind::PowerOn) p.bus.forget_writes();
+  p.switch_modules(0, 0, now);
+  p.interrupts.reset(now);
+  p.ports.reset(now);
+  p.timers.reset(now);
+  p.adc.reset(now);
+  for (Uart& u : p.uarts) u.reset(now);
+  p.i2c.reset(now);
+  p.dci.reset(now);
+  p.external.reset(now);
+  p.change.reset(now);
+  p.capture.reset(now);
+  p.compare.reset(now);
+  for (Spi& s : p.spis) s.reset(now);
+  p.nvm.reset(now);
+  for (Can& c : p.cans) c.reset();
+  p.cpu.reset();
+  p.plain.reset();
+  p.claims.clear();
+  p.system.reset(kind, now);
+}
+
+// --- registers --------------------------------------------------------------------------------------------
+
+std::uint16_t Dspic30f6014a::read(unsigned address, unsigned bits, Cycle now) {
+  Parts& p = *parts_;
+  p.events.run_to(now);
+  return p.bus.read(address, bits, now);
+}
+
+void Dspic30f6014a::write(unsigned address, std::uint16_t value, unsigned bits, Cycle now) {
+  Parts& p = *parts_;
+  p.events.run_to(now);
+  const unsigned word = address & ~1u;
+  // inputs held up to now saw the pins as they were
+  if ((word >= kFirstPort && word <= kLastPort) || word == kAdpcfg) p.adc.advance(now);
+  p.claims.note_write(word, now);
+  const std::uint64_t enabled_before = p.interrupts.enabled_mask();
+  p.bus.write(address, value, bits, now);
+  if (word == kAdcon1) p.external.converter_changed(now);
+  if (word >= kIec0 && word < kIpc0)
+    p.claims.note_enabled(p.interrupts.enabled_mask() & ~enabled_before, now);
+  if (word == kPmd1 || word == kPmd2) p.switch_modules(p.plain.word(kPmd1), p.plain.word(kPmd2), now);
+}
+
+std::uint16_t Dspic30f6014a::peek(unsigned address, Cycle now) {
+  run_to(now);
+  return parts_->bus.peek(address, now);
+}
+
+Cycle Dspic30f6014a::horizon(unsigned address, Cycle now) {
+  Parts& p = *parts_;
+  p.events.run_to(now);
+  const unsigned word = address & ~1u;
+  Cycle until = p.bus.horizon(word, now);
+  if (word >= kIfs0 && word < kIec0)
+    until = p.events.next_for(std::uint64_t{0xFFFF} << 8 * (word - kIfs0), false);
+  return std::max(until, now + 1);
+}
+
+const char* Dspic30f6014a::register_name(unsigned address) {
+  const SfrInfo* info = sfr_info(address);
+  return info ? info->name : nullptr;
+}
+
+int Dspic30f6014a::register_address(const std::string& name) {
+  const SfrInfo* info = sfr_named(name);
+  return info ? info->address : -1;
+}
+
+// --- time -------------------------------------------------------------------------------------------------
+
+void Dspic30f6014a::run_to(Cycle now) {
+  Parts& p = *parts_;
+  p.events.run_to(now);
+  p.adc.advance(now);
+  p.dci.advance(now);
+}
+
+Cycle Dspic30f6014a::next_event(Cycle now) {
+  Parts& p = *parts_;
+  p.events.run_to(now);
+  // a flag is seen one cycle after it is set
+  Cycle next = p.events.next_for(p.interrupts.enabled_mask(), false) + 1;
+  next = std::min(next, p.events.next_for(0, true));
+  next = std::min(next, p.interrupts.next_change(now));
+  return next >= kNever ? kNever : std::max(next, now + 1);
+}
+
+void Dspic30f6014a::outside_changed(Cycle now) {
+  Parts& p = *parts_;
+  run_to(now);
+  p.timers.outside_changed(now);
+  p.external.outside_changed(now);
+  p.change.outside_changed(now);
+  p.capture.outside_changed(now);
+  p.system.outside_changed(now);
+}
+
+void Dspic30f6014a::uart_receive(int uart, const UartFrame& frame) {
+  parts_->uarts[static_cast<std::size_t>(uart - 1)].receive(frame, frame.start);
+}
+
+// --- interrupts -------------------------------------------------------------------------------------------
+
+int Dspic30f6014a::pending(Cycle now) { return pending(now, parts_->interrupts.level()); }
+
+int Dspic30f6014a::pending(Cycle now, int cpu_level) {
+  parts_->events.run_to(now);
+  return parts_->interrupts.pending(now, cpu_level);
+}
+
+InterruptEntry Dspic30f6014a::enter_interrupt(int vector, Cycle now) {
+  return parts_->interrupts.enter(vector, now);
+}
+Cycle Dspic30f6014a::return_from_interrupt(Cycle now) { return parts_->interrupts.leave(now); }
+int Dspic30f6014a::cpu_level() const { return parts_->interrupts.level(); }
+void Dspic30f6014a::set_cpu_level(int level, Cycle now) { parts_->interrupts.set_level(level, now); }
+int Dspic30f6014a::nesting() const { return parts_->interrupts.nesting(); }
+void Dspic30f6014a::disi(unsigned count, Cycle now) { parts_->interrupts.disi(count, now); }
+bool Dspic30f6014a::disi_active(Cycle now) const { return parts_->interrupts.disi_active(now); }
+void Dspic30f6014a::raise_trap(Trap trap, Cycle now) { parts_->interrupts.raise_trap(trap, now); }
+
+bool Dspic30f6014a::has_flag(int vector, Cycle now) {
+  parts_->events.run_to(now);
+  return vector >= kFirstIrqVector && parts_->interrupts.flag(vector - kFirstIrqVector);
+}
+
+bool Dspic30f6014a::is_enabled(int vector) const {
+  return vector >= kFirstIrqVector && parts_->interrupts.enabled(vector - kFirstIrqVector);
+}
+
+int Dspic30f6014a::priority(int vector) const {
+  return vector >= kFirstIrqVector ? parts_->interrupts.priority(vector - kFirstIrqVector) : 15 - vector;
+}
+
+Cycle Dspic30f6014a::flag_since(int vector) const {
+  return vector >= kFirstIrqVector ? parts_->interrupts.since(vector - kFirstIrqVector) : 0;
+}
+
+// --- instructions -----------------------------------------------------------------------------------------
+
+void Dspic30f6014a::clear_watchdog(Cycle now) {
+  parts_->events.run_to(now);
+  parts_->system.clear_watchdog(now);
+}
+
+void Dspic30f6014a::power_save(bool sleep, Cycle now) {
+  parts_->events.run_to(now);
+  parts_->system.power_save(sleep, now);
+}
+
+bool Dspic30f6014a::wakes(Cycle now) {
+  parts_->events.run_to(now);
+  return parts_->interrupts.wakes();
+}
+
+std::optional<ResetKind> Dspic30f6014a::reset_due(Cycle now) {
+  parts_->events.run_to(now);
+  if (parts_->system.watchdog_bit()) return ResetKind::Watchdog;
+  return parts_->interrupts.reset_due();
+}
+
+Cycle Dspic30f6014a::stalled_until() const { return parts_->nvm.stalled_until(); }
+
+std::uint16_t Dspic30f6014a::table_read(unsigned program_address, Cycle now) {
+  parts_->events.run_to(now);
+  return parts_->nvm.table_read(program_address);
+}
+
+void Dspic30f6014a::table_write(unsigned program_address, std::uint16_t value, Cycle now) {
+  parts_->events.run_to(now);
+  parts_->nvm.table_write(program_address, value);
+}
+
+std::array<std::uint16_t, Dspic30f6014a::kEepromWords>& Dspic30f6014a::eeprom() {
+  return parts_->nvm.eeprom();
+}
+
+// --- diagnosis --------------------------------------------------------------------------------------------
+
+Diagnostics& Dspic30f6014a::diagnostics() { return parts_->diagnostics; }
+
+std::int64_t Dspic30f6014a::uart_overruns(int uart) {
+  return parts_->uarts[static_cast<std::size_t>(uart - 1)].overruns();
+}
+
+std::int64_t Dspic30f6014a::missed_interrupts(int vector) {
+  return vector >= kFirstIrqVector ? parts_->interrupts.missed(vector - kFirstIrqVector) : 0;
+}
+
+std::int64_t Dspic30f6014a::served_interrupts(int vector) const { return parts_->interrupts.served(vector); }
+
+void Dspic30f6014a::set_author(const char* author) { parts_->claims.set_author(author); }
+
+std::uint64_t Dspic30f6014a::state_hash(Cycle now) {
+  run_to(now);
+  std::uint64_t h = 0xCBF29CE484222325u;
+  const auto add = [&h](std::uint64_t v) { h = (h ^ v) * 0x100000001B3u; };
+  for (const SfrInfo* info = sfr_begin(); info != sfr_end(); ++info)
+    add(parts_->bus.peek(info->address, now));
+  for (const Uart& u : parts_->uarts) add(u.state_hash());
+  add(static_cast<std::uint64_t>(parts_->interrupts.level()));
+  for (const std::uint16_t word : parts_->nvm.eeprom()) add(word);
+  return h;
+}
+
+}  // namespace dspic

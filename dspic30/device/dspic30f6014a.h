@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+// The dsPIC30F6014A without its processor core: all peripherals, their registers and the interrupt
+// controller, at one virtual time. Firmware that runs natively (the register way) and a model of the core
+// (the chip way) use it alike.
+//
+//   program --read/write--> SfrBus --> peripherals --flags--> interrupt controller --pending--> program
+//                                        |  ^
+//                                        v  |  Outside: pins, volts, bytes
+//
+// Nothing is ticked: every peripheral knows its next instant, and reads between two instants are closed
+// forms. Times in instruction cycles (memory/cycle.h); `now` never goes back from one call to the next. One
+// object is used by one thread at a time. Deterministic: the same calls give the same answers.
+//
+// Not modelled as a whole: the processor core, program memory, Sleep and Idle beyond the wake-up condition,
+// other clocks than the configured one. Each file of periph/ says what it leaves out. Source: DS70143,
+// DS70046.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "dspic30/memory/cycle.h"
+#include "dspic30/memory/diagnosis.h"
+#include "dspic30/periph/outside.h"
+#include "dspic30/periph/vectors.h"
+
+namespace dspic {
+
+/// Configuration words and what else is fixed while the chip is powered. Defaults are the e-puck's.
+struct Configuration {
+  std::uint16_t fosc = 0xFFE6;  ///< XT with PLL x8, no clock switching
+  std::uint16_t fwdt = 0x7FFF;  ///< watchdog off, postscalers 1:512 and 1:16 when RCON.SWDTEN turns it on
+  double fcy_hz = 14745600;     ///< instruction cycles a second: for times given in seconds, baud rates
+  /// True: a read of PORTx gives the levels of one cycle before, as on silicon (the chip way). False: those
+  /// of `now`; right when the instants of accesses are estimates.
+  bool synchronised_ports = false;
+  bool warn_uninitialised = false;  ///< report reads of registers with an undefined power-on value
+};
+
+class Dspic30f6014a {
+ public:
+  /// `outside` and `sink` (may be null) outlive the chip. Powers up at cycle 0, and so asks and tells
+  /// `outside` already here.
+  explicit Dspic30f6014a(Outside& outside, DiagnosticSink* sink = nullptr,
+                         const Configuration& configuration = {});
+  ~Dspic30f6014a();
+  Dspic30f6014a(const Dspic30f6014a&) = delete;
+  Dspic30f6014a& operator=(const Dspic30f6014a&) = delete;
+
+  /// Registers to their reset values, RCON told why, pins to inputs. EEPROM and diagnoses stay.
+  void reset(ResetKind kind, Cycle now);
+
+  // --- registers
+  // --------------------------------------------------------------------------------------------
+
+  /// Byte address 0x000 to 0x7FF; bits 8 or 16 (a word access ignores address bit 0; the address error of an
+  /// odd one is the core's). Result in the low bits. Addresses with nothing behind them read 0.
+  std::uint16_t read(unsigned address, unsigned bits, Cycle now);
+  void write(unsigned address, std::uint16_t value, unsigned bits, Cycle now);
+  /// The register's value as a debugger shows it: no FIFO moves, no flag falls, no latch is loaded.
+  std::uint16_t peek(unsigned address, Cycle now);
+  /// Until when a read of that register gives the same value, if the program writes nothing and no interrupt
+  /// handler runs: > now, kNever if it cannot change by itself. Never too late; may be too early.
+  Cycle horizon(unsigned address, Cycle now);
+  /// "T2CON"; nullptr where nothing is. And its address; -1 for unknown names.
+  static const char* register_name(unsigned address);
+  static int register_address(const std::string& name);
+
+  // --- time
+  // -------------------------------------------------------------------------------------------------
+
+  /// Everything that happens up to and in cycle `now` has happened. Call it before the outside changes.
+  void run_to(Cycle now);
+  /// Earliest cycle >= now + 1 at which pending() or reset_due() may answer something new, or an output pin
+  /// changes by itself; kNever if none. Never too late; may be too early.
+  Cycle next_event(Cycle now);
+  /// Answers of the outside (edges to come, levels) are no longer what they were, from `now` on.
+  void outside_changed(Cycle now);
+  /// A word arrives at UART 1 or 2; frame.start not before the end of the one before (else it is moved
+  /// there). May be told ahead of time.
+  void uart_receive(int uart, const UartFrame& frame);
+
+  // --- interrupts
+  // -------------------------------------------------------------------------------------------
+
+  /// Vector to serve at the instruction boundary before cycle `now`; kNoVector if none. A flag set in cycle f
+  /// is seen from the boundary f + 1 on. Highest priority above the CPU's level, lowest vector among equals.
+  int pending(Cycle now);
+  /// The same for a CPU level of the caller's, 0 to 15.
+  int pending(Cycle now, int cpu_level);
+  /// The handler of `vector` starts at the boundary before `now`: raises the CPU level, remembers the old
+  /// one.
+  InterruptEntry enter_interrupt(int vector, Cycle now);
+  /// RETFIE executes in cycle `now`: the level of before. Returns the cycle of the next instruction.
+  Cycle return_from_interrupt(Cycle now);
+  /// SR.IPL, and IPL3 above 7. Levels 0 to 7 can be set (unless INTCON1.NSTDIS).
+  int cpu_level() const;
+  void set_cpu_level(int level, Cycle now);
+  /// Handlers entered and not yet left.
+  int nesting() const;
+  /// DISI #count executes in cycle `now`: priorities 1 to 6 wait for count + 1 cycles. Also a write of
+  /// DISICNT.
+  void disi(unsigned count, Cycle now);
+  bool disi_active(Cycle now) const;
+  /// A trap of the core: sets its INTCON1 flag. A hard trap during another one asks for a reset instead.
+  void raise_trap(Trap trap, Cycle now);
+  bool has_flag(int vector, Cycle now);
+  bool is_enabled(int vector) const;
+  int priority(int vector) const;
+  /// Cycle at which the flag was set last.
+  Cycle flag_since(int vector) const;
+
+  // --- instructions that peripherals know of
+  // ----------------------------------------------------------------
+
+  void clear_watchdog(Cycle now);
+  /// PWRSAV #0 (Sleep) or #1 (Idle): sets RCON.SLEEP or IDLE, clears the watchdog. Peripherals go on here.
+  void power_save(bool sleep, Cycle now);
+  /// An enabled interrupt's flag is set, whatever its priority: the processor wakes.
+  bool wakes(Cycle now);
+  /// A reset that the chip itself wants (watchdog, trap conflict); the caller answers with reset().
+  std::optional<ResetKind> reset_due(Cycle now);
+  /// Flash programming holds the processor up to this cycle; <= now otherwise.
+  Cycle stalled_until() const;
+
+  // --- data EEPROM
+  // ------------------------------------------------------------------------------------------
+
+  static constexpr int kEepromWords = 2048;
+  static constexpr unsigned kEepromBase = 0x7FF000;  ///< program address of word 0; words are 2 apart
+  /// TBLRDL at a program address inside the EEPROM; 0 elsewhere.
+  std::uint16_t table_read(unsigned program_address, Cycle now);
+  /// TBLWTL: loads a write latch and NVMADR, NVMADRU.
+  void table_write(unsigned program_address, std::uint16_t value, Cycle now);
+  std::array<std::uint16_t, kEepromWords>& eeprom();
+
+  // --- diagnosis
+  // --------------------------------------------------------------------------------------------
+
+  Diagnostics& diagnostics();
+  /// Words lost by receive overruns of UART 1 or 2 since power-up.
+  std::int64_t uart_overruns(int uart);
+  /// Events that found their enabled flag still set, since power-up.
+  std::int64_t missed_interrupts(int vector);
+  std::int64_t served_interrupts(int vector) const;
+  /// Whose code the following writes belong to (a file or driver; the pointer is kept, compared by text;
+  /// null: nobody). Two authors that set up one resource are reported.
+  void set_author(const char* author);
+  /// Hash of all registers and FIFOs, for determinism checks. Not cheap.
+  std::uint64_t state_hash(Cycle now);
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace dspic

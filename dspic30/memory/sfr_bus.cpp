@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include "dspic30/memory/sfr_bus.h"
+
+#include <cstdio>
+#include <string>
+
+namespace dspic {
+
+namespace {
+
+std::string hex(unsigned value) {
+  char text[16];
+  std::snprintf(text, sizeof text, "0x%04X", value);
+  return text;
+}
+
+}  // namespace
+
+void SfrBus::attach(SfrOwner& owner, unsigned first, unsigned last) {
+  for (unsigned a = first; a <= last; a += 2) {
+    const SfrInfo* info = sfr_info(a);
+    if (info) slots_[a / 2] = {&owner, info, info->implemented, 0, false, !info->defined};
+  }
+}
+
+void SfrBus::mark_unmodelled(unsigned address, std::uint16_t bits) { slots_[address / 2].unmodelled |= bits; }
+
+void SfrBus::set_disabled(unsigned first, unsigned last, bool disabled) {
+  for (unsigned a = first; a <= last; a += 2) slots_[a / 2].disabled = disabled;
+}
+
+void SfrBus::forget_writes() {
+  for (Slot& slot : slots_) slot.undefined = slot.info && !slot.info->defined;
+}
+
+std::uint16_t SfrBus::read(unsigned address, unsigned bits, Cycle now) {
+  if (address >= kSfrBytes) return 0;
+  Slot& slot = slots_[address / 2];
+  if (!slot.owner || slot.disabled) return 0;
+  if (slot.undefined && warn_uninitialised_) {
+    slot.undefined = false;
+    diagnostics_.report(Cause::UninitialisedRead, slot.info->name,
+                        std::string(slot.info->name) +
+                            " is read before it was written; after power-on it holds anything (here 0)",
+                        now);
+  }
+  const std::uint16_t word = slot.owner->read(address & ~1u, now);
+  if (bits > 8) return word;
+  return (address & 1) ? word >> 8 : word & 0xFF;
+}
+
+void SfrBus::write(unsigned address, std::uint16_t value, unsigned bits, Cycle now) {
+  ++writes_;
+  if (address >= kSfrBytes) return;
+  Slot& slot = slots_[address / 2];
+  if (!slot.owner) {
+    diagnostics_.report(Cause::UnimplementedAddress, hex(address),
+                        hex(address) + ": no register of this chip; the write is ignored", now);
+    return;
+  }
+  if (slot.disabled) return;
+  std::uint16_t lanes = 0xFFFF;
+  if (bits <= 8) {
+    lanes = (address & 1) ? 0xFF00 : 0x00FF;
+    value = static_cast<std::uint16_t>((address & 1) ? value << 8 : value & 0xFF);
+  }
+  slot.undefined = false;
+  value &= slot.implemented;
+  if (value & slot.unmodelled) warn(slot, value & slot.unmodelled, now);
+  slot.owner->write(address & ~1u, value, lanes, now);
+}
+
+void SfrBus::warn(Slot& slot, std::uint16_t bits, Cycle now) {
+  for (int bit = 0; bit < 16; ++bit) {
+    if (!(bits >> bit & 1)) continue;
+    const std::string name = sfr_bit_name(*slot.info, bit);
+    diagnostics_.report(Cause::UnmodelledBit, name, name + ": not modelled; the bit is kept and does nothing",
+                        now);
+  }
+}
+
+std::uint16_t SfrBus::peek(unsigned address, Cycle now) const {
+  if (address >= kSfrBytes) return 0;
+  const Slot& slot = slots_[address / 2];
+  return slot.owner && !slot.disabled ? slot.owner->peek(address & ~1u, now) : 0;
+}
+
+Cycle SfrBus::horizon(unsigned address, Cycle now) const {
+  if (address >= kSfrBytes) return kNever;
+  const Slot& slot = slots_[address / 2];
+  return slot.owner && !slot.disabled ? slot.owner->horizon(address & ~1u, now) : kNever;
+}
+
+}  // namespace dspic

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// The register space 0x000 to 0x7FF: which peripheral owns an address, byte lanes, implemented bits.
+//
+// Modelled: unimplemented bits and addresses read 0 and ignore writes; byte accesses touch one lane;
+// registers of a module switched off by its PMD bit read 0 and ignore writes. A bit that exists and that no
+// model follows is kept and reported once by name when it is set. Not modelled: the address error of an odd
+// word access (the core's).
+#pragma once
+#include <array>
+#include <cstdint>
+
+#include "dspic30/memory/cycle.h"
+#include "dspic30/memory/diagnosis.h"
+#include "dspic30/memory/sfr_table.h"
+
+namespace dspic {
+
+/// A peripheral, seen from the bus. Addresses are even byte addresses.
+class SfrOwner {
+ public:
+  virtual ~SfrOwner() = default;
+  virtual std::uint16_t read(unsigned address, Cycle now) = 0;
+  /// `lanes` 0xFFFF, 0x00FF or 0xFF00: bits that are written. Bits of `value` that do not exist are 0.
+  virtual void write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycle now) = 0;
+  /// read() without side effects.
+  virtual std::uint16_t peek(unsigned address, Cycle now) const = 0;
+  /// Until when a read gives the same value, > now.
+  virtual Cycle horizon(unsigned address, Cycle now) const { return kNever; }
+};
+
+class SfrBus {
+ public:
+  SfrBus(Diagnostics& diagnostics, bool warn_uninitialised)
+      : diagnostics_(diagnostics), warn_uninitialised_(warn_uninitialised) {}
+
+  /// The owner answers for all registers of [first, last].
+  void attach(SfrOwner& owner, unsigned first, unsigned last);
+  /// These bits exist but no model follows them.
+  void mark_unmodelled(unsigned address, std::uint16_t bits);
+  /// Writes reach the owner with all their bits: keys of an unlock sequence.
+  void take_all_bits(unsigned address) { slots_[address / 2].implemented = 0xFFFF; }
+  /// PMD: the registers of [first, last] are switched off or on.
+  void set_disabled(unsigned first, unsigned last, bool disabled);
+  /// Power-on: nothing has been written.
+  void forget_writes();
+
+  std::uint16_t read(unsigned address, unsigned bits, Cycle now);
+  void write(unsigned address, std::uint16_t value, unsigned bits, Cycle now);
+  std::uint16_t peek(unsigned address, Cycle now) const;
+  Cycle horizon(unsigned address, Cycle now) const;
+  /// Writes so far: two writes are consecutive when this differs by one.
+  std::int64_t writes() const { return writes_; }
+
+ private:
+  struct Slot {
+    SfrOwner* owner = nullptr;
+    const SfrInfo* info = nullptr;
+    std::uint16_t implemented = 0;
+    std::uint16_t unmodelled = 0;
+    bool disabled = false;
+    bool undefined = false;  // not written since power-on, and not defined then
+  };
+  void warn(Slot& slot, std::uint16_t bits, Cycle now);
+
+  Diagnostics& diagnostics_;
+  bool warn_uninitialised_;
+  std::array<Slot, kSfrBytes / 2> slots_{};
+  std::int64_t writes_ = 0;
+};
+
+}  // namespace dspic

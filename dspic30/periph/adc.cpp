@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: MIT
+#include "dspic30/periph/adc.h"
+
+#include <algorithm>
+#include <string>
+
+namespace dspic {
+
+namespace {
+
+constexpr unsigned kBuffer = 0x280, kCon1 = 0x2A0, kCon2 = 0x2A2, kCon3 = 0x2A4, kChs = 0x2A6, kCssl = 0x2AA;
+constexpr std::uint16_t kDone = 0x0001, kSamp = 0x0002, kAdon = 0x8000, kBufs = 0x0080, kCscna = 0x0400,
+                        kAlts = 0x0001, kBufm = 0x0002, kAdrc = 0x0080;
+constexpr int kConversionTads = 14;       // [DS70046 18.6]
+constexpr int kManualStartTads = 1;       // between clearing SAMP and the conversion [?]
+constexpr Cycle kEndToFlag = 1;           // [?]
+constexpr double kRcTadSeconds = 1.2e-6;  // ADRC = 1 [?]
+constexpr int kSoftware = 0, kInt0 = 1, kTimer3 = 2, kAutomatic = 7;
+
+}  // namespace
+
+void Adc::attach() {
+  f_.bus.attach(*this, kBuffer, kChs);
+  f_.bus.attach(*this, kCssl, kCssl);
+  f_.bus.mark_unmodelled(kCon1, 0x2000);
+  f_.bus.mark_unmodelled(kCon2, 0xE000);
+  f_.bus.mark_unmodelled(kChs, 0x1010);
+  slot_ = f_.events.add(*this, 0, std::uint64_t{1} << irq::Adc, false);
+  timers_.listen(*this);
+}
+
+void Adc::reset(Cycle now) {
+  con1_ = con2_ = con3_ = chs_ = cssl_ = 0;
+  buffer_.fill(0);
+  sampling_ = converting_ = false;
+  flag_at_ = kNever;
+  restart_sequence();
+  f_.events.set(slot_, kNever);
+}
+
+Adc::Half Adc::tad() const {
+  if (con3_ & kAdrc) return static_cast<Half>(2 * kRcTadSeconds * f_.fcy_hz);
+  return (con3_ & 63) + 1;
+}
+
+// --- the sequence -----------------------------------------------------------------------------------------
+
+void Adc::restart_sequence() {
+  pointer_ = count_ = 0;
+  upper_half_ = mux_b_ = false;
+  scan_at_ = cssl_ ? __builtin_ctz(cssl_) : -1;
+}
+
+int Adc::channel() const {
+  if (mux_b_) return chs_ >> 8 & 15;
+  if ((con2_ & kCscna) && scan_at_ >= 0) return scan_at_;
+  return chs_ & 15;
+}
+
+void Adc::next_channel() {
+  const bool was_scanned = !mux_b_;
+  if (con2_ & kAlts) mux_b_ = !mux_b_;
+  if (!(con2_ & kCscna) || !was_scanned || !cssl_) return;
+  const auto above =
+      static_cast<std::uint16_t>(scan_at_ >= 15 || scan_at_ < 0 ? 0 : cssl_ & (0xFFFEu << scan_at_));
+  scan_at_ = __builtin_ctz(above ? above : cssl_);
+}
+
+void Adc::start_sampling(Half at) {
+  sampling_ = true;
+  con1_ |= kSamp;
+  sampling_since_ = at;
+  timers_.want_matches(3, ssrc() == kTimer3, at / 2);
+}
+
+void Adc::hold(Half at, Half conversion_start) {
+  const int input = channel();
+  const Cycle instant = at / 2;
+  check_channel(input, instant);
+  held_ = std::clamp(f_.outside.analogue_counts(input, instant), 0, 4095);
+  sampling_ = false;
+  converting_ = true;
+  con1_ &= static_cast<std::uint16_t>(~(kSamp | kDone));
+  conversion_end_ = conversion_start + kConversionTads * tad();
+}
+
+void Adc::finish() {
+  buffer_[static_cast<std::size_t>(pointer_)] = formatted(held_);
+  converting_ = false;
+  con1_ |= kDone;
+  pointer_ = (pointer_ + 1) & 15;
+  next_channel();
+  if (++count_ >= per_interrupt()) {
+    flag_at_ = up(conversion_end_) + kEndToFlag;
+    count_ = 0;
+    upper_half_ = (con2_ & kBufm) && !upper_half_;
+    pointer_ = upper_half_ ? 8 : 0;
+    mux_b_ = false;
+    scan_at_ = cssl_ ? __builtin_ctz(cssl_) : -1;
+  }
+  if (asam()) start_sampling(conversion_end_);
+}
+
+std::uint16_t Adc::formatted(int counts) const {
+  switch (con1_ >> 8 & 3) {
+    case 1:
+      return static_cast<std::uint16_t>(counts - 2048);
+    case 2:
+      return static_cast<std::uint16_t>(counts << 4);
+    case 3:
+      return static_cast<std::uint16_t>((counts ^ 0x800) << 4);
+    default:
+      return static_cast<std::uint16_t>(counts);
+  }
+}
+
+Adc::Half Adc::next_stage() const {
+  if (converting_) return conversion_end_;
+  if (sampling_ && ssrc() == kAutomatic) return sampling_since_ + sample_time();
+  return 2 * kNever;
+}
+
+void Adc::advance(Cycle now) {
+  if (!on()) return;
+  // a stage that ends within a cycle is over in the next one
+  for (Half stage = next_stage(); up(stage) <= now; stage = next_stage()) {
+    if (converting_)
+      finish();
+    else
+      hold(stage, stage);
+  }
+}
+
+void Adc::schedule(Cycle now) {
+  Cycle at = kNever;
+  const Half cycle = sample_time() + kConversionTads * tad();
+  if (on() && (converting_ || (sampling_ && ssrc() == kAutomatic))) {
+    const bool runs_on = asam() && ssrc() == kAutomatic;
+    const Half first = converting_ ? conversion_end_ : sampling_since_ + cycle;
+    // a stage at which nobody looks needs no event of its own
+    at = runs_on ? up(first + (std::max(1, per_interrupt() - count_) - 1) * cycle) : up(first);
+    at = std::max(at + kEndToFlag, now + 1);
+  }
+  f_.events.set(slot_, std::min(at, flag_at_));
+}
+
+void Adc::on_event(int id, Cycle at) {
+  advance(at - kEndToFlag);  // what ended in the cycle before raises the flag now
+  if (flag_at_ <= at) {
+    f_.interrupts.raise(irq::Adc, at);
+    flag_at_ = kNever;
+  }
+  schedule(at);
+}
+
+void Adc::timer_matched(int timer, Cycle at) {
+  if (timer != 3 || !sampling_ || ssrc() != kTimer3) return;
+  hold(2 * at, 2 * at);
+  schedule(at);
+}
+
+void Adc::int0_edge(Cycle at) {
+  if (!sampling_ || ssrc() != kInt0) return;
+  hold(2 * at, 2 * at);
+  schedule(at);
+}
+
+// --- registers --------------------------------------------------------------------------------------------
+
+std::uint16_t Adc::read(unsigned address, Cycle now) {
+  advance(now);
+  return peek(address, now);
+}
+
+std::uint16_t Adc::peek(unsigned address, Cycle now) const {
+  switch (address) {
+    case kCon1:
+      return con1_;
+    case kCon2:
+      return static_cast<std::uint16_t>(con2_ | (upper_half_ ? kBufs : 0));
+    case kCon3:
+      return con3_;
+    case kChs:
+      return chs_;
+    case kCssl:
+      return cssl_;
+    default:
+      return buffer_[(address - kBuffer) / 2];
+  }
+}
+
+void Adc::changed_while_on(unsigned address, Cycle now) {
+  const std::string name = sfr_info(address)->name;
+  f_.diagnostics.report(
+      Cause::ChangedWhileOn, name,
+      name +
+          " is changed while ADCON1.ADON = 1; the manual forbids it, and what the converter "
+          "does then is not known",
+      now);
+}
+
+void Adc::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycle now) {
+  advance(now);
+  const Half at = 2 * (now + 1);
+  switch (address) {
+    case kCon1: {
+      const std::uint16_t before = con1_, wanted = merge_lanes(con1_, value, lanes);
+      con1_ = static_cast<std::uint16_t>((wanted & ~(kSamp | kDone)) | (before & kSamp) |
+                                         (before & wanted & kDone));
+      timers_.want_matches(3, on() && ssrc() == kTimer3, now);
+      if (!(wanted & kAdon)) {
+        sampling_ = converting_ = false;
+        con1_ &= static_cast<std::uint16_t>(~kSamp);
+        restart_sequence();
+        break;
+      }
+      if (!(before & kAdon)) restart_sequence();
+      const bool asked = (wanted & kSamp) && !(before & kSamp);
+      if (!sampling_ && !converting_ && (asked || asam()))
+        start_sampling(at);
+      else if (sampling_ && (before & kSamp) && !(wanted & kSamp) && ssrc() == kSoftware)
+        hold(at, at + kManualStartTads * tad());
+      break;
+    }
+    case kCon2:
+      if (on() && ((con2_ ^ value) & lanes & ~kBufs)) changed_while_on(address, now);
+      con2_ = merge_lanes(con2_, value, lanes) & static_cast<std::uint16_t>(~kBufs);
+      if (!(con2_ & kBufm)) upper_half_ = false;
+      break;
+    case kCon3:
+      if (on() && ((con3_ ^ value) & lanes)) changed_while_on(address, now);
+      con3_ = merge_lanes(con3_, value, lanes);
+      break;
+    case kChs:
+      chs_ = merge_lanes(chs_, value, lanes);
+      break;
+    case kCssl:
+      if (on() && ((cssl_ ^ value) & lanes)) changed_while_on(address, now);
+      cssl_ = merge_lanes(cssl_, value, lanes);
+      if (count_ == 0 || !on()) scan_at_ = cssl_ ? __builtin_ctz(cssl_) : -1;
+      break;
+    default:
+      break;  // results are read-only
+  }
+  schedule(now);
+}
+
+Cycle Adc::horizon(unsigned address, Cycle now) const {
+  if (!on() || address == kCon3 || address == kChs || address == kCssl) return kNever;
+  const Half stage = next_stage();
+  return stage >= kNever ? kNever : std::max(now + 1, up(stage));
+}
+
+void Adc::check_channel(int channel, Cycle at) {
+  if (complained_ >> channel & 1) return;
+  const bool output = f_.ports.is_output({Port::B, channel});
+  if (f_.ports.is_analogue(channel) && !output) return;
+  complained_ |= static_cast<std::uint16_t>(1 << channel);
+  const std::string n = std::to_string(channel);
+  const std::string why = output ? "TRISB.TRISB" + n + " = 0 makes its pin an output"
+                                 : "ADPCFG.PCFG" + n + " = 1 makes it a digital input";
+  f_.diagnostics.report(Cause::AnalogueDigital, "AN" + n, "AN" + n + " is converted, but " + why, at);
+}
+
+}  // namespace dspic

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// The 12-bit converter: ADCON1, 2, 3, ADCHS, ADCSSL, ADCBUF0 to F.
+//
+//   SAMP=1 --sampling--> trigger: SAMP=0, held --14 TAD--> ADCBUF[n], DONE=1 --every SMPI+1--> ADIF
+//     ^------------- ASAM ------------------------------'
+//
+// Modelled: scan and single channel, ALTS, SSRC 0 (software), 1 (INT0), 2 (timer 3), 7 (after SAMC), ASAM,
+// SMPI, BUFM with BUFS, FORM, ADON at any moment, TAD in half cycles, ADRC as a fixed period. The input is
+// held at the end of sampling and asked for at that instant. Conversions within one interrupt's period are
+// worked out together. Not modelled: VCFG and CH0NA/CH0NB (AVDD, AVSS), ADSIDL, settling of the input,
+// invalid results of too short a sampling time. Source: DS70143 section 20, DS70046 section 18; [?] ADIF one
+// cycle after the end, one TAD between clearing SAMP and the conversion, scan position when SMPI+1 differs
+// from the number of inputs.
+#pragma once
+#include <array>
+#include <cstdint>
+
+#include "dspic30/periph/timers.h"
+
+namespace dspic {
+
+class Adc final : public SfrOwner, public EventOwner, public TimerListener {
+ public:
+  Adc(const Fabric& fabric, Timers& timers) : f_(fabric), timers_(timers) {}
+  void attach();
+  void reset(Cycle now);
+  /// Inputs held up to `now` have been asked for: before pins or the outside change.
+  void advance(Cycle now);
+  /// Edge of INT0's active polarity.
+  void int0_edge(Cycle at);
+  bool wants_int0() const { return sampling_ && ssrc() == 1; }
+
+  std::uint16_t read(unsigned address, Cycle now) override;
+  void write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycle now) override;
+  std::uint16_t peek(unsigned address, Cycle now) const override;
+  Cycle horizon(unsigned address, Cycle now) const override;
+  void on_event(int id, Cycle at) override;
+  void timer_matched(int timer, Cycle at) override;
+
+ private:
+  // half cycles: TAD may be an odd number of them
+  using Half = std::int64_t;
+  static Cycle up(Half h) { return (h + 1) / 2; }
+  Half tad() const;
+  Half sample_time() const { return (con3_ >> 8 & 31) * tad(); }
+  int ssrc() const { return con1_ >> 5 & 7; }
+  bool asam() const { return (con1_ & 0x0004) != 0; }
+  bool on() const { return (con1_ & 0x8000) != 0; }
+  int per_interrupt() const { return (con2_ >> 2 & 15) + 1; }
+
+  void start_sampling(Half at);
+  void hold(Half at, Half conversion_start);
+  void finish();
+  void restart_sequence();
+  int channel() const;
+  void next_channel();
+  std::uint16_t formatted(int counts) const;
+  Half next_stage() const;
+  void schedule(Cycle now);
+  void check_channel(int channel, Cycle at);
+  void changed_while_on(unsigned address, Cycle now);
+
+  Fabric f_;
+  Timers& timers_;
+  int slot_ = -1;
+  std::uint16_t con1_ = 0, con2_ = 0, con3_ = 0, chs_ = 0, cssl_ = 0;
+  std::array<std::uint16_t, 16> buffer_{};
+  bool sampling_ = false, converting_ = false;
+  Half sampling_since_ = 0;
+  Half conversion_end_ = 0;
+  Cycle flag_at_ = kNever;  // of a sequence that is complete
+  int held_ = 0;            // counts
+  int pointer_ = 0;         // next ADCBUF
+  int count_ = 0;           // conversions since the last interrupt
+  bool upper_half_ = false;
+  int scan_at_ = -1;  // input of ADCSSL in turn
+  bool mux_b_ = false;
+  std::uint16_t complained_ = 0;  // channels
+};
+
+}  // namespace dspic

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: MIT
+#include "dspic30/periph/i2c.h"
+
+#include <cmath>
+#include <string>
+
+namespace dspic {
+
+namespace {
+
+constexpr unsigned kRcv = 0x200, kTrn = 0x202, kBrg = 0x204, kCon = 0x206, kStat = 0x208, kAdd = 0x20A;
+constexpr std::uint16_t kSen = 0x01, kRsen = 0x02, kPen = 0x04, kRcen = 0x08, kAcken = 0x10, kAckdt = 0x20,
+                        kOperations = 0x1F;
+constexpr std::uint16_t kTbf = 0x0001, kRbf = 0x0002, kS = 0x0008, kP = 0x0010, kI2cov = 0x0040,
+                        kIwcol = 0x0080, kTrstat = 0x4000, kAckstat = 0x8000;
+constexpr double kFixedHz = 1111111;  // I2CBRG = FCY/FSCL - FCY/1,111,111 - 1 [DS70046 21.4]
+// half SCL periods of each operation [?]
+constexpr Cycle kStartHalves = 2, kRestartHalves = 4, kStopHalves = 3, kByteHalves = 16, kBitHalves = 2;
+constexpr Pin kScl{Port::G, 2}, kSda{Port::G, 3};
+
+}  // namespace
+
+void I2c::attach() {
+  f_.bus.attach(*this, kRcv, kAdd);
+  // I2CSIDL, SCLREL is 1 after reset, IPMIEN, A10M, GCEN, STREN; slew rate and levels of the pins (DISSLW,
+  // SMEN) have no digital effect
+  f_.bus.mark_unmodelled(kCon, 0x2CC0);
+  f_.bus.mark_unmodelled(kAdd, 0x03FF);
+  slot_ = f_.events.add(*this, 0, std::uint64_t{1} << irq::MasterI2c, false);
+}
+
+void I2c::reset(Cycle now) {
+  con_ = 0x1000;
+  stat_ = brg_ = add_ = 0;
+  rcv_ = 0;
+  trn_ = 0xFF;
+  operation_ = Operation::None;
+  answered_ = false;
+  f_.events.set(slot_, kNever);
+}
+
+Cycle I2c::scl() const { return brg_ + 1 + static_cast<Cycle>(std::lround(f_.fcy_hz / kFixedHz)); }
+
+void I2c::begin(Operation operation, Cycle half_periods, Cycle now) {
+  operation_ = operation;
+  answered_ = false;
+  end_ = now + (half_periods * scl() + 1) / 2;
+  f_.events.set(slot_, end_);
+}
+
+void I2c::refuse(const char* what, Cycle now) {
+  stat_ |= kIwcol;
+  f_.diagnostics.report(Cause::I2cMisuse, "I2CSTAT.IWCOL",
+                        std::string("I2C: ") + what +
+                            " is asked for while another operation is under way; it is "
+                            "ignored and I2CSTAT.IWCOL set",
+                        now);
+}
+
+void I2c::request(std::uint16_t bits, Cycle now) {
+  if (!bits) return;
+  if (operation_ != Operation::None) return refuse("an operation", now);
+  if (bits & (bits - 1)) bits &= static_cast<std::uint16_t>(-bits);  // the lowest alone
+  con_ |= bits;
+  switch (bits) {
+    case kSen:
+      return begin(Operation::Start, kStartHalves, now);
+    case kRsen:
+      return begin(Operation::Restart, kRestartHalves, now);
+    case kPen:
+      return begin(Operation::Stop, kStopHalves, now);
+    case kRcen:
+      return begin(Operation::Receive, kByteHalves, now);
+    default:
+      return begin(Operation::Acknowledge, kBitHalves, now);
+  }
+}
+
+void I2c::on_event(int id, Cycle at) {
+  Cycle stretched = 0;
+  if (!answered_) {
+    answered_ = true;
+    if (operation_ == Operation::Transmit) {
+      const I2cReply reply = f_.outside.i2c_write(trn_, at);
+      acknowledged_ = reply.acknowledged;
+      stretched = reply.stretched;
+    } else if (operation_ == Operation::Receive) {
+      const I2cReply reply = f_.outside.i2c_read(at);
+      byte_ = reply.byte;
+      stretched = reply.stretched;
+    }
+  }
+  if (stretched > 0) {
+    end_ = at + stretched;
+    f_.events.set(slot_, end_);
+    return;
+  }
+  finish(at);
+}
+
+void I2c::finish(Cycle at) {
+  switch (operation_) {
+    case Operation::Start:
+    case Operation::Restart:
+      stat_ = static_cast<std::uint16_t>((stat_ | kS) & ~kP);
+      f_.outside.i2c_start(operation_ == Operation::Restart, at);
+      break;
+    case Operation::Stop:
+      stat_ = static_cast<std::uint16_t>((stat_ | kP) & ~kS);
+      f_.outside.i2c_stop(at);
+      break;
+    case Operation::Receive:
+      if (stat_ & kRbf) {
+        stat_ |= kI2cov;
+      } else {
+        rcv_ = byte_;
+        stat_ |= kRbf;
+      }
+      break;
+    case Operation::Acknowledge:
+      f_.outside.i2c_acknowledge(!(con_ & kAckdt), at);
+      break;
+    case Operation::Transmit:
+      stat_ =
+          static_cast<std::uint16_t>((stat_ & ~(kTbf | kTrstat | kAckstat)) | (acknowledged_ ? 0 : kAckstat));
+      break;
+    case Operation::None:
+      return;
+  }
+  con_ &= static_cast<std::uint16_t>(~kOperations);
+  operation_ = Operation::None;
+  f_.interrupts.raise(irq::MasterI2c, at);
+}
+
+std::uint16_t I2c::read(unsigned address, Cycle now) {
+  if (address == kRcv) stat_ &= static_cast<std::uint16_t>(~kRbf);
+  return peek(address, now);
+}
+
+std::uint16_t I2c::peek(unsigned address, Cycle now) const {
+  switch (address) {
+    case kRcv:
+      return rcv_;
+    case kTrn:
+      return trn_;
+    case kBrg:
+      return brg_;
+    case kCon:
+      return con_;
+    case kStat:
+      // the buffer is empty after the eighth bit, while the ninth is under way
+      if (operation_ == Operation::Transmit && !answered_ && now >= end_ - scl())
+        return static_cast<std::uint16_t>(stat_ & ~kTbf);
+      return stat_;
+    default:
+      return add_;
+  }
+}
+
+void I2c::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycle now) {
+  switch (address) {
+    case kTrn:
+      if (!(lanes & 0xFF)) break;
+      if (!on()) {
+        f_.diagnostics.report(Cause::I2cMisuse, "I2CCON.I2CEN",
+                              "I2CTRN is written while I2CCON.I2CEN = 0; nothing is sent", now);
+        trn_ = static_cast<std::uint8_t>(value);
+      } else if (operation_ != Operation::None) {
+        refuse("a byte", now);
+      } else {
+        trn_ = static_cast<std::uint8_t>(value);
+        stat_ |= kTbf | kTrstat;
+        begin(Operation::Transmit, kByteHalves + kBitHalves, now);
+      }
+      break;
+    case kBrg:
+      brg_ = merge_lanes(brg_, value, lanes);
+      break;
+    case kCon: {
+      const bool was_on = on();
+      const std::uint16_t wanted = merge_lanes(con_, value, lanes);
+      const auto fresh = static_cast<std::uint16_t>(wanted & kOperations & ~con_);
+      // a bit under way cannot be taken back
+      con_ = static_cast<std::uint16_t>((wanted & ~kOperations) | (con_ & kOperations));
+      if (!on()) {
+        con_ &= static_cast<std::uint16_t>(~kOperations);
+        stat_ = 0;
+        operation_ = Operation::None;
+        f_.events.set(slot_, kNever);
+        if (was_on) {
+          f_.ports.release(kScl, now + 1);
+          f_.ports.release(kSda, now + 1);
+        }
+        if (fresh)
+          f_.diagnostics.report(Cause::I2cMisuse, "I2CCON.I2CEN",
+                                "an I2C operation is asked for while I2CCON.I2CEN = 0; nothing happens", now);
+        break;
+      }
+      if (!was_on) {
+        f_.ports.own_input(kScl, now + 1);  // open drain: the outside gives the level
+        f_.ports.own_input(kSda, now + 1);
+      }
+      request(fresh, now);
+      break;
+    }
+    case kStat: {
+      const auto kept = static_cast<std::uint16_t>(~(kIwcol | kI2cov) | merge_lanes(stat_, value, lanes));
+      stat_ &= kept;
+      break;
+    }
+    case kAdd:
+      add_ = merge_lanes(add_, value, lanes);
+      break;
+    default:
+      break;
+  }
+}
+
+Cycle I2c::horizon(unsigned address, Cycle now) const {
+  if (operation_ == Operation::None || address == kBrg || address == kAdd || address == kTrn) return kNever;
+  const Cycle eighth = end_ - scl();
+  if (address == kStat && operation_ == Operation::Transmit && !answered_ && eighth > now) return eighth;
+  return end_;
+}
+
+}  // namespace dspic

@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: MIT
+#include "dspic30/periph/interrupts.h"
+
+#include <algorithm>
+#include <string>
+
+#include "dspic30/periph/fabric.h"
+
+namespace dspic {
+
+namespace {
+
+constexpr unsigned kIntcon1 = 0x080, kIntcon2 = 0x082, kIfs0 = 0x084, kIec0 = 0x08C, kIpc0 = 0x094,
+                   kInttreg = 0x0B0;
+constexpr int kDefaultPriority = 4;
+// a write that follows the read of the same flags within this many cycles is the second half of one
+// instruction
+constexpr Cycle kReadModifyWrite = 3;
+// returns in a row with the flag untouched before it is taken for a mistake
+constexpr int kUnclearedReturns = 2;
+// levels of traps 1 to 4; a hard trap has 13 or 14
+constexpr int kTrapLevel[] = {0, 14, 13, 12, 11};
+constexpr int kHardLevel = 13;
+
+}  // namespace
+
+const char* vector_name(int vector) {
+  static constexpr const char* kNames[kVectors] = {"?",
+                                                   "OscillatorFail",
+                                                   "AddressError",
+                                                   "StackError",
+                                                   "MathError",
+                                                   "?",
+                                                   "?",
+                                                   "?",
+                                                   "INT0",
+                                                   "IC1",
+                                                   "OC1",
+                                                   "T1",
+                                                   "IC2",
+                                                   "OC2",
+                                                   "T2",
+                                                   "T3",
+                                                   "SPI1",
+                                                   "U1RX",
+                                                   "U1TX",
+                                                   "ADC",
+                                                   "NVM",
+                                                   "SI2C",
+                                                   "MI2C",
+                                                   "CN",
+                                                   "INT1",
+                                                   "IC7",
+                                                   "IC8",
+                                                   "OC3",
+                                                   "OC4",
+                                                   "T4",
+                                                   "T5",
+                                                   "INT2",
+                                                   "U2RX",
+                                                   "U2TX",
+                                                   "SPI2",
+                                                   "C1",
+                                                   "IC3",
+                                                   "IC4",
+                                                   "IC5",
+                                                   "IC6",
+                                                   "OC5",
+                                                   "OC6",
+                                                   "OC7",
+                                                   "OC8",
+                                                   "INT3",
+                                                   "INT4",
+                                                   "C2",
+                                                   "?",
+                                                   "?",
+                                                   "DCI",
+                                                   "LVD",
+                                                   "?",
+                                                   "?",
+                                                   "?",
+                                                   "?",
+                                                   "?",
+                                                   "?",
+                                                   "?",
+                                                   "?",
+                                                   "?",
+                                                   "?",
+                                                   "?"};
+  return vector >= 0 && vector < kVectors ? kNames[vector] : "?";
+}
+
+void Interrupts::attach(SfrBus& bus) {
+  bus.attach(*this, kIntcon1, kInttreg);
+  bus.mark_unmodelled(kIntcon1, 0x0700);
+}
+
+void Interrupts::reset(Cycle now) {
+  ifs_ = iec_ = 0;
+  at_priority_.fill(0);
+  for (int i = 0; i < kIrqs; ++i) {
+    priority_[static_cast<std::size_t>(i)] = kDefaultPriority;
+    at_priority_[kDefaultPriority] |= std::uint64_t{1} << i;
+  }
+  since_.fill(now);
+  newest_ = -1;
+  flags_read_.fill(-kReadModifyWrite - 1);
+  intcon1_ = intcon2_ = 0;
+  last_vector_ = last_level_ = 0;
+  level_ = 0;
+  stack_.clear();
+  disi_until_ = 0;
+  resumed_ = -1;
+  reset_due_.reset();
+  uncleared_.fill(0);
+}
+
+// --- flags -------------------------------------------------------------------------------------------------
+
+void Interrupts::raise(int irq, Cycle at, bool is_event) {
+  if (flag(irq)) {
+    if (is_event) note_missed(irq, 1, at);
+    return;
+  }
+  ifs_ |= std::uint64_t{1} << irq;
+  since_[static_cast<std::size_t>(irq)] = at;
+  newest_ = std::max(newest_, at);
+}
+
+void Interrupts::note_missed(int irq, std::int64_t events, Cycle at) {
+  if (events <= 0 || !enabled(irq)) return;
+  auto& missed = missed_[static_cast<std::size_t>(irq)];
+  if (missed == 0) {
+    const std::string name = vector_name(kFirstIrqVector + irq);
+    diagnostics_.report(Cause::MissedInterrupt, name,
+                        name +
+                            ": an event came while its flag was still set and enabled; the handler runs "
+                            "once for several (too slow, or held off too long)",
+                        at);
+  }
+  missed += events;
+}
+
+void Interrupts::write_flags(int word, std::uint16_t value, std::uint16_t lanes, Cycle now) {
+  const int shift = 16 * word;
+  const auto mask = static_cast<std::uint64_t>(lanes) << shift;
+  std::uint64_t wanted = (ifs_ & ~mask) | ((static_cast<std::uint64_t>(value) << shift) & mask);
+  std::uint64_t cleared = ifs_ & ~wanted;
+  // what the hardware set after the program's read is not in the value that it writes back
+  const Cycle read = flags_read_[static_cast<std::size_t>(word)];
+  if (cleared && newest_ > read && now - read <= kReadModifyWrite) {
+    for (std::uint64_t rest = cleared; rest; rest &= rest - 1) {
+      const int i = __builtin_ctzll(rest);
+      if (since_[static_cast<std::size_t>(i)] > read) wanted |= std::uint64_t{1} << i;
+    }
+    cleared = ifs_ & ~wanted;
+  }
+  const std::uint64_t set = wanted & ~ifs_;
+  ifs_ = wanted;
+  for (std::uint64_t rest = set; rest; rest &= rest - 1)
+    since_[static_cast<std::size_t>(__builtin_ctzll(rest))] = now + 1;
+  if (set) newest_ = std::max(newest_, now + 1);
+  for (std::uint64_t rest = cleared; rest; rest &= rest - 1) {
+    const int i = __builtin_ctzll(rest);
+    for (Frame& frame : stack_)
+      if (frame.vector == kFirstIrqVector + i) frame.cleared = true;
+    uncleared_[static_cast<std::size_t>(i)] = 0;
+    if (FlagListener* listener = listeners_[static_cast<std::size_t>(i)]) listener->flag_cleared(i, now);
+  }
+}
+
+void Interrupts::set_priority(int irq, int priority) {
+  auto& now = priority_[static_cast<std::size_t>(irq)];
+  at_priority_[now] &= ~(std::uint64_t{1} << irq);
+  now = static_cast<std::uint8_t>(priority);
+  at_priority_[now] |= std::uint64_t{1} << irq;
+}
+
+// --- acceptance --------------------------------------------------------------------------------------------
+
+int Interrupts::pending(Cycle now, int cpu_level) const {
+  if (intcon1_ & 0x001E) {
+    for (int trap = 1; trap <= 4; ++trap)
+      if ((intcon1_ >> trap & 1) && kTrapLevel[trap] > cpu_level) return trap;
+  }
+  std::uint64_t ready = ifs_ & iec_;
+  if (!ready) return kNoVector;
+  if (newest_ >= now) {  // a flag is seen one cycle after it is set
+    for (std::uint64_t rest = ready; rest; rest &= rest - 1) {
+      const int i = __builtin_ctzll(rest);
+      if (since_[static_cast<std::size_t>(i)] >= now) ready &= ~(std::uint64_t{1} << i);
+    }
+  }
+  int lowest = cpu_level + 1;
+  if (disi_active(now)) lowest = std::max(lowest, 7);
+  if (now <= resumed_) lowest = std::max(lowest, resumed_level_ + 1);
+  for (int level = 7; level >= lowest; --level)
+    if (const std::uint64_t here = ready & at_priority_[static_cast<std::size_t>(level)])
+      return kFirstIrqVector + __builtin_ctzll(here);
+  return kNoVector;
+}
+
+Cycle Interrupts::next_change(Cycle now) const {
+  Cycle next = kNever;
+  const std::uint64_t ready = ifs_ & iec_ & ~at_priority_[0];
+  if (!ready) return next;
+  if (newest_ >= now) {
+    for (std::uint64_t rest = ready; rest; rest &= rest - 1) {
+      const Cycle since = since_[static_cast<std::size_t>(__builtin_ctzll(rest))];
+      if (since >= now) next = std::min(next, since + 1);
+    }
+  }
+  if (disi_active(now)) next = std::min(next, disi_until_);
+  if (now <= resumed_) next = std::min(next, resumed_ + 1);
+  return std::max(next, now + 1);
+}
+
+InterruptEntry Interrupts::enter(int vector, Cycle now) {
+  InterruptEntry entry;
+  entry.vector = vector;
+  if (vector < kFirstIrqVector)
+    entry.level = kTrapLevel[vector];
+  else
+    entry.level = nesting_disabled() ? 7 : priority(vector - kFirstIrqVector);
+  entry.address = ((intcon2_ & 0x8000) ? 0x84u : 0x04u) + 2 * static_cast<unsigned>(vector);
+  entry.first_instruction = now + kInterruptEntryCycles;
+  stack_.push_back({vector, level_, false, now});
+  level_ = entry.level;
+  last_vector_ = static_cast<std::uint16_t>(vector);
+  last_level_ = static_cast<std::uint16_t>(entry.level);
+  ++served_[static_cast<std::size_t>(vector)];
+  return entry;
+}
+
+Cycle Interrupts::leave(Cycle now) {
+  if (stack_.empty()) return now + kInterruptReturnCycles;
+  const Frame frame = stack_.back();
+  stack_.pop_back();
+  if (frame.vector >= kFirstIrqVector) check_cleared(frame, now);
+  resumed_ = now + kInterruptReturnCycles;
+  resumed_level_ = std::min(level_, 7);
+  level_ = frame.outer_level;
+  return resumed_;
+}
+
+void Interrupts::check_cleared(const Frame& frame, Cycle now) {
+  const int i = frame.vector - kFirstIrqVector;
+  if (frame.cleared || !flag(i) || !enabled(i) || since(i) > frame.entered) return;
+  if (++uncleared_[static_cast<std::size_t>(i)] != kUnclearedReturns) return;
+  const std::string name = vector_name(frame.vector);
+  const std::string bit = sfr_bit_name(*sfr_info(kIfs0 + 2 * static_cast<unsigned>(i / 16)), i % 16);
+  diagnostics_.report(Cause::FlagNeverCleared, name,
+                      "_" + name + "Interrupt returns without clearing " + bit +
+                          ", so it is entered again at once and the main program hardly runs",
+                      now);
+}
+
+void Interrupts::set_level(int level, Cycle now) {
+  if (!nesting_disabled()) level_ = level;
+}
+
+void Interrupts::raise_trap(Trap trap, Cycle now) {
+  const int number = static_cast<int>(trap), level = kTrapLevel[number];
+  const bool hard_pending = (intcon1_ & 0x0006) != 0;
+  if (level >= kHardLevel && (level_ >= level || hard_pending)) {
+    diagnostics_.report(Cause::TrapConflict, vector_name(number),
+                        std::string(vector_name(number)) + ": a hard trap during another one resets the chip",
+                        now);
+    reset_due_ = ResetKind::TrapConflict;
+  }
+  intcon1_ |= static_cast<std::uint16_t>(1 << number);
+}
+
+// --- registers ---------------------------------------------------------------------------------------------
+
+std::uint16_t Interrupts::read(unsigned address, Cycle now) {
+  if (address >= kIfs0 && address < kIec0) flags_read_[(address - kIfs0) / 2] = now;
+  return peek(address, now);
+}
+
+std::uint16_t Interrupts::peek(unsigned address, Cycle now) const {
+  if (address == kIntcon1) return intcon1_;
+  if (address == kIntcon2) return static_cast<std::uint16_t>(intcon2_ | (disi_active(now) ? 0x4000 : 0));
+  if (address == kInttreg) return static_cast<std::uint16_t>(last_vector_ | last_level_ << 8);
+  if (address < kIec0) return static_cast<std::uint16_t>(ifs_ >> 8 * (address - kIfs0));
+  if (address < kIpc0) return static_cast<std::uint16_t>(iec_ >> 8 * (address - kIec0));
+  std::uint16_t word = 0;
+  const int first = static_cast<int>(address - kIpc0) * 2;
+  const std::uint16_t fields = sfr_info(address)->implemented;
+  for (int f = 0; f < 4; ++f)
+    if (fields >> 4 * f & 7) word |= static_cast<std::uint16_t>(priority(first + f) << 4 * f);
+  return word;
+}
+
+void Interrupts::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycle now) {
+  if (address == kIntcon1) {
+    intcon1_ = merge_lanes(intcon1_, value, lanes);
+  } else if (address == kIntcon2) {
+    const std::uint16_t before = intcon2_;
+    intcon2_ = merge_lanes(intcon2_, value, lanes) & 0x801F;
+    for (int n = 0; n < 5; ++n) {  // the other edge counts from now on
+      constexpr int kExternal[] = {irq::Int0, irq::Int1, irq::Int2, irq::Int3, irq::Int4};
+      FlagListener* listener = listeners_[static_cast<std::size_t>(kExternal[n])];
+      if (((before ^ intcon2_) >> n & 1) && listener && !flag(kExternal[n]))
+        listener->flag_cleared(kExternal[n], now);
+    }
+  } else if (address >= kIfs0 && address < kIec0) {
+    write_flags(static_cast<int>(address - kIfs0) / 2, value, lanes, now);
+  } else if (address >= kIec0 && address < kIpc0) {
+    const int shift = 8 * static_cast<int>(address - kIec0);
+    const auto mask = static_cast<std::uint64_t>(lanes) << shift;
+    iec_ = (iec_ & ~mask) | ((static_cast<std::uint64_t>(value) << shift) & mask);
+  } else if (address >= kIpc0 && address < kInttreg) {
+    const int first = static_cast<int>(address - kIpc0) * 2;
+    for (int f = 0; f < 4; ++f)
+      if ((lanes >> 4 * f & 7) && first + f < kIrqs) set_priority(first + f, value >> 4 * f & 7);
+  }
+}
+
+Cycle Interrupts::horizon(unsigned address, Cycle now) const {
+  // flags: the chip adds the instants of the sources
+  if (address == kIntcon2 && disi_active(now)) return disi_until_;
+  return kNever;
+}
+
+}  // namespace dspic

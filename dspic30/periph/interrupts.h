@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// Interrupt controller: IFS, IEC, IPC, INTCON1, INTCON2, INTTREG, DISICNT and the CPU's level.
+//
+//   flag --+-- IEC --+-- IPC > CPU level --+-- not held by DISI --> pending()
+//
+// Modelled: priorities 0 to 7, natural order among equals, nesting, NSTDIS, DISI (holds 1 to 6), traps 11 to
+// 14 with their flags, hard-trap conflict, alternate vector table, acceptance one cycle after the flag, one
+// instruction between RETFIE and the next acceptance, a flag set by hardware between the read and the write
+// of one read-modify-write survives. Not modelled: INTTREG.VHOLD, IRQTOCPU and TMODE; the accumulator traps'
+// causes (the core raises MathError itself). Source: DS70143 section 8, DS70046 section 6.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "dspic30/memory/sfr_bus.h"
+#include "dspic30/periph/vectors.h"
+
+namespace dspic {
+
+/// A source that counts for itself while its flag is set hears when software clears it.
+class FlagListener {
+ public:
+  virtual ~FlagListener() = default;
+  virtual void flag_cleared(int irq, Cycle now) = 0;
+};
+
+class Interrupts final : public SfrOwner {
+ public:
+  explicit Interrupts(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+  void attach(SfrBus& bus);
+  void reset(Cycle now);
+  void listen(int irq, FlagListener& listener) { listeners_[static_cast<std::size_t>(irq)] = &listener; }
+
+  // --- for peripherals
+  /// The flag is set at `at`. `is_event`: one raise stands for one event, so that a second one is a loss.
+  void raise(int irq, Cycle at, bool is_event = true);
+  /// Events that passed unseen while the flag was set; for sources that did not raise() them one by one.
+  void note_missed(int irq, std::int64_t events, Cycle at);
+  bool flag(int irq) const { return (ifs_ >> irq & 1) != 0; }
+  bool enabled(int irq) const { return (iec_ >> irq & 1) != 0; }
+  std::uint64_t enabled_mask() const { return iec_; }
+  int priority(int irq) const { return priority_[static_cast<std::size_t>(irq)]; }
+  Cycle since(int irq) const { return since_[static_cast<std::size_t>(irq)]; }
+  /// 1: external interrupt n waits for the falling edge.
+  bool falling_edge(int n) const { return (intcon2_ >> n & 1) != 0; }
+
+  // --- for the processor
+  int pending(Cycle now, int cpu_level) const;
+  /// Earliest cycle > now at which pending() changes without a new flag.
+  Cycle next_change(Cycle now) const;
+  InterruptEntry enter(int vector, Cycle now);
+  Cycle leave(Cycle now);
+  int level() const { return level_; }
+  void set_level(int level, Cycle now);
+  int nesting() const { return static_cast<int>(stack_.size()); }
+  void disi(unsigned count, Cycle now) { disi_until_ = now + 1 + static_cast<Cycle>(count & 0x3FFF); }
+  bool disi_active(Cycle now) const { return now < disi_until_; }
+  Cycle disi_until() const { return disi_until_; }
+  void raise_trap(Trap trap, Cycle now);
+  bool nesting_disabled() const { return (intcon1_ & 0x8000) != 0; }
+  bool wakes() const { return (ifs_ & iec_ & ~at_priority_[0]) != 0; }
+  std::optional<ResetKind> reset_due() const { return reset_due_; }
+
+  std::int64_t missed(int irq) const { return missed_[static_cast<std::size_t>(irq)]; }
+  std::int64_t served(int vector) const { return served_[static_cast<std::size_t>(vector)]; }
+
+  // --- SfrOwner
+  std::uint16_t read(unsigned address, Cycle now) override;
+  void write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycle now) override;
+  std::uint16_t peek(unsigned address, Cycle now) const override;
+  Cycle horizon(unsigned address, Cycle now) const override;
+
+ private:
+  struct Frame {
+    int vector;
+    int outer_level;
+    bool cleared;  // software cleared the flag since
+    Cycle entered;
+  };
+  void write_flags(int word, std::uint16_t value, std::uint16_t lanes, Cycle now);
+  void set_priority(int irq, int priority);
+  void check_cleared(const Frame& frame, Cycle now);
+
+  Diagnostics& diagnostics_;
+  std::array<FlagListener*, kIrqs> listeners_{};
+  std::uint64_t ifs_ = 0, iec_ = 0;
+  std::array<std::uint64_t, 8> at_priority_{};  // bit i: IRQ i has this priority
+  std::array<std::uint8_t, kIrqs> priority_{};
+  std::array<Cycle, kIrqs> since_{};
+  Cycle newest_ = -1;  // latest of since_
+  std::array<Cycle, 4> flags_read_{};
+  std::uint16_t intcon1_ = 0, intcon2_ = 0;
+  std::uint16_t last_vector_ = 0, last_level_ = 0;
+  int level_ = 0;
+  std::vector<Frame> stack_;
+  Cycle disi_until_ = 0;
+  Cycle resumed_ = -1;     // first instruction after RETFIE
+  int resumed_level_ = 0;  // level of the handler that ended there
+  std::optional<ResetKind> reset_due_;
+
+  std::array<std::int64_t, kIrqs> missed_{};
+  std::array<std::int64_t, kVectors> served_{};
+  std::array<int, kIrqs> uncleared_{};
+};
+
+}  // namespace dspic

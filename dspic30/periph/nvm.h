@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// Self-programming: NVMCON, NVMADR, NVMADRU, NVMKEY, and the data EEPROM.
+//
+//   TBLWT -> latches, NVMADR     NVMCON = operation, WREN     NVMKEY 0x55 0xAA     WR = 1 --2 ms--> WR = 0,
+//   NVMIF
+//
+// Modelled: erase and write of one EEPROM word or row, erase of all, programming that only clears bits, the
+// unlock sequence (the two keys and WR, no other register written in between), WR held while busy, a second
+// operation refused. Flash operations take their time and hold the processor; program memory is the core's
+// and stays as it is. Not modelled: WRERR by a reset in between beyond setting it, code protection, wear.
+// Source: DS70046 section 5; [?] 2 ms for each operation.
+#pragma once
+#include <array>
+#include <cstdint>
+
+#include "dspic30/periph/fabric.h"
+
+namespace dspic {
+
+inline constexpr int kEepromWordCount = 2048;
+inline constexpr unsigned kEepromStart = 0x7FF000;
+
+class Nvm final : public SfrOwner, public EventOwner {
+ public:
+  explicit Nvm(const Fabric& fabric) : f_(fabric) { eeprom_.fill(0xFFFF); }
+  void attach();
+  void reset(Cycle now);
+  std::uint16_t table_read(unsigned program_address) const;
+  void table_write(unsigned program_address, std::uint16_t value);
+  std::array<std::uint16_t, kEepromWordCount>& eeprom() { return eeprom_; }
+  const std::array<std::uint16_t, kEepromWordCount>& eeprom() const { return eeprom_; }
+  /// A flash operation holds the processor until here.
+  Cycle stalled_until() const { return stalled_until_; }
+  Cycle operation_cycles() const;
+
+  std::uint16_t read(unsigned address, Cycle now) override { return peek(address, now); }
+  void write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycle now) override;
+  std::uint16_t peek(unsigned address, Cycle now) const override;
+  Cycle horizon(unsigned address, Cycle now) const override;
+  void on_event(int id, Cycle at) override;
+
+ private:
+  static constexpr int kRowWords = 16;
+  static bool in_eeprom(unsigned address) {
+    return address >= kEepromStart && address < kEepromStart + 2 * kEepromWordCount;
+  }
+  int word_index() const;
+  void begin(Cycle now);
+
+  Fabric f_;
+  int slot_ = -1;
+  std::uint16_t con_ = 0, adr_ = 0, adru_ = 0;
+  std::array<std::uint16_t, kRowWords> latches_{};
+  int key_step_ = 0;
+  std::int64_t key_write_ = 0;
+  Cycle stalled_until_ = 0;
+  std::array<std::uint16_t, kEepromWordCount> eeprom_{};
+};
+
+}  // namespace dspic

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT
+#include "dspic30/periph/ports.h"
+
+#include <string>
+
+namespace dspic {
+
+namespace {
+
+constexpr unsigned kAdpcfg = 0x2A8;
+constexpr unsigned kBase[kPorts] = {0x2C0, 0x2C6, 0x2CC, 0x2D2, 0x2DE, 0x2E4};
+enum Kind : unsigned { Tris = 0, PortPins = 2, Lat = 4 };
+// writes to an input's latch before it is taken for a mistake: start-up code may set latches before
+// directions
+constexpr int kVainWrites = 3;
+
+Port port_at(unsigned address) {
+  int p = kPorts - 1;
+  while (address < kBase[p]) --p;
+  return static_cast<Port>(p);
+}
+
+std::string pin_name(const char* prefix, Port port, int bit) {
+  return std::string(prefix) + kPortLetters[static_cast<int>(port)] + std::to_string(bit);
+}
+
+}  // namespace
+
+void Ports::attach() {
+  for (int p = 0; p < kPorts; ++p) {
+    f_.bus.attach(*this, kBase[p], kBase[p] + 4);
+    ports_[static_cast<std::size_t>(p)].implemented = sfr_info(kBase[p])->implemented;
+  }
+  f_.bus.attach(*this, kAdpcfg, kAdpcfg);
+}
+
+void Ports::reset(Cycle now) {
+  adpcfg_ = 0;
+  for (int p = 0; p < kPorts; ++p) {
+    State& s = ports_[static_cast<std::size_t>(p)];
+    s.tris = s.implemented;
+    s.lat = 0;
+    s.owned_out = s.owned_in = s.owned_levels = s.pull_ups = 0;
+    s.vain_writes.fill(0);
+    s.levels = s.driven = s.old_levels = s.old_driven = 0;
+    s.changed = now - 2;
+    s.last_read = 0;
+    f_.outside.pins_driven(static_cast<Port>(p), 0, 0, 0, now);
+  }
+}
+
+void Ports::watch(Pin pin, PinListener& listener) {
+  state(pin.port).watched |= static_cast<std::uint16_t>(1 << pin.bit);
+  watches_.push_back({pin, &listener});
+}
+
+void Ports::own_output(Pin pin, bool level, Cycle at) {
+  State& s = state(pin.port);
+  const auto bit = static_cast<std::uint16_t>(1 << pin.bit);
+  s.owned_out |= bit;
+  s.owned_in &= static_cast<std::uint16_t>(~bit);
+  s.owned_levels = static_cast<std::uint16_t>(level ? s.owned_levels | bit : s.owned_levels & ~bit);
+  publish(pin.port, at);
+}
+
+void Ports::own_input(Pin pin, Cycle at) {
+  State& s = state(pin.port);
+  const auto bit = static_cast<std::uint16_t>(1 << pin.bit);
+  s.owned_in |= bit;
+  s.owned_out &= static_cast<std::uint16_t>(~bit);
+  publish(pin.port, at);
+}
+
+void Ports::release(Pin pin, Cycle at) {
+  State& s = state(pin.port);
+  const auto bit = static_cast<std::uint16_t>(1 << pin.bit);
+  if (!((s.owned_in | s.owned_out) & bit)) return;
+  s.owned_in &= static_cast<std::uint16_t>(~bit);
+  s.owned_out &= static_cast<std::uint16_t>(~bit);
+  publish(pin.port, at);
+}
+
+std::uint16_t Ports::combine(Port port, std::uint16_t levels, std::uint16_t driven, Cycle at) const {
+  const State& s = state(port);
+  if ((driven & s.implemented) == s.implemented) return levels & s.implemented;
+  const PinLevels out = f_.outside.pin_levels(port, at);
+  const auto free = static_cast<std::uint16_t>((out.levels & out.driven) | (s.pull_ups & ~out.driven));
+  return static_cast<std::uint16_t>(((levels & driven) | (free & ~driven)) & s.implemented);
+}
+
+std::uint16_t Ports::pins(Port port, Cycle at) const {
+  const State& s = state(port);
+  if (synchronised_ && at <= s.changed) return combine(port, s.old_levels, s.old_driven, at);
+  return combine(port, s.levels, s.driven, at);
+}
+
+std::uint16_t Ports::digital(Port port, std::uint16_t pins) const {
+  return port == Port::B ? static_cast<std::uint16_t>(pins & adpcfg_) : pins;
+}
+
+std::int64_t Ports::edges(Pin pin, Edge edge, Cycle after, Cycle until) const {
+  if (is_output(pin) || until <= after) return 0;
+  return f_.outside.edges(pin, edge, after, until);
+}
+
+Cycle Ports::nth_edge(Pin pin, Edge edge, Cycle after, std::int64_t n) const {
+  return is_output(pin) ? kNever : f_.outside.nth_edge(pin, edge, after, n);
+}
+
+void Ports::publish(Port port, Cycle at) {
+  State& s = state(port);
+  const auto now_driven = driven(s);
+  const auto now_levels =
+      static_cast<std::uint16_t>(((s.lat & ~s.owned_out) | (s.owned_levels & s.owned_out)) & now_driven);
+  if (now_driven == s.driven && now_levels == s.levels) return;
+  const std::uint16_t driven_before = s.driven, levels_before = s.levels;
+  if (at != s.changed) {
+    s.old_driven = driven_before;
+    s.old_levels = levels_before;
+  }
+  s.changed = at;
+  s.driven = now_driven;
+  s.levels = now_levels;
+  std::uint16_t before = 0;
+  const std::uint16_t touched =
+      static_cast<std::uint16_t>(((driven_before ^ now_driven) | (levels_before ^ now_levels)) & s.watched);
+  if (touched) before = combine(port, levels_before, driven_before, at);
+  f_.outside.pins_driven(port, now_levels, now_driven, s.owned_out, at);
+  if (!touched) return;
+  const auto edges =
+      static_cast<std::uint16_t>((before ^ combine(port, now_levels, now_driven, at)) & touched);
+  if (!edges) return;
+  for (const Watch& w : watches_)
+    if (w.pin.port == port && (edges >> w.pin.bit & 1))
+      w.listener->own_edge(w.pin, before >> w.pin.bit & 1 ? Edge::Falling : Edge::Rising, at);
+}
+
+void Ports::count_vain(Port port, std::uint16_t bits, Cycle now) {
+  State& s = state(port);
+  bits &= static_cast<std::uint16_t>(s.tris & ~s.owned_in & ~s.owned_out);
+  for (int bit = 0; bits; ++bit, bits >>= 1) {
+    if (!(bits & 1)) continue;
+    auto& writes = s.vain_writes[static_cast<std::size_t>(bit)];
+    if (writes < kVainWrites && ++writes == kVainWrites) {
+      const std::string tris = pin_name("TRIS", port, bit);
+      f_.diagnostics.report(Cause::InputDriven, tris,
+                            pin_name("LAT", port, bit) + " is written again and again, but " + tris +
+                                " = 1 makes the pin an input: nothing reaches it",
+                            now);
+    }
+  }
+}
+
+std::uint16_t Ports::read(unsigned address, Cycle now) {
+  if (address == kAdpcfg) return adpcfg_;
+  const Port port = port_at(address);
+  State& s = state(port);
+  if (address != kBase[static_cast<int>(port)] + PortPins) return peek(address, now);
+  const std::uint16_t levels = pins(port, now);
+  s.last_read = levels;
+  if (port == Port::B && (s.tris & ~adpcfg_)) {
+    const auto blind =
+        static_cast<std::uint16_t>(f_.outside.pin_levels(port, now).driven & s.tris & ~adpcfg_);
+    for (int bit = 0; bit < 16; ++bit)
+      if (blind >> bit & 1)
+        f_.diagnostics.report(Cause::DigitalAnalogue, "ADPCFG.PCFG" + std::to_string(bit),
+                              pin_name("PORT", port, bit) + " reads 0 whatever the pin does: ADPCFG.PCFG" +
+                                  std::to_string(bit) + " = 0 makes it analogue",
+                              now);
+  }
+  return digital(port, levels);
+}
+
+std::uint16_t Ports::peek(unsigned address, Cycle now) const {
+  if (address == kAdpcfg) return adpcfg_;
+  const Port port = port_at(address);
+  const State& s = state(port);
+  switch (address - kBase[static_cast<int>(port)]) {
+    case Tris:
+      return s.tris;
+    case Lat:
+      return s.lat;
+    default:
+      return digital(port, pins(port, now));
+  }
+}
+
+void Ports::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycle now) {
+  if (address == kAdpcfg) {
+    adpcfg_ = merge_lanes(adpcfg_, value, lanes);
+    return;
+  }
+  const Port port = port_at(address);
+  State& s = state(port);
+  const unsigned kind = address - kBase[static_cast<int>(port)];
+  if (kind == Tris) {
+    s.tris = merge_lanes(s.tris, value, lanes);
+    const auto outputs = static_cast<std::uint16_t>(~s.tris);
+    for (int bit = 0; bit < 16; ++bit)
+      if (outputs >> bit & 1) s.vain_writes[static_cast<std::size_t>(bit)] = 0;
+  } else {
+    const std::uint16_t next = merge_lanes(s.lat, value, lanes);
+    const std::uint16_t inputs = s.tris & lanes;
+    if (inputs) {
+      // writing back what was read from the pins is half of a bit operation on another pin
+      const std::uint16_t base = kind == Lat ? s.lat : digital(port, pins(port, now));
+      if (const auto vain = static_cast<std::uint16_t>((value ^ base) & inputs)) count_vain(port, vain, now);
+    }
+    s.lat = next;
+  }
+  publish(port, now + 1);
+}
+
+Cycle Ports::horizon(unsigned address, Cycle now) const {
+  if (address == kAdpcfg) return kNever;
+  const Port port = port_at(address);
+  if (address != kBase[static_cast<int>(port)] + PortPins) return kNever;
+  const State& s = state(port);
+  if (synchronised_ && s.changed >= now) return s.changed + 1;
+  if ((s.driven & s.implemented) == s.implemented) return kNever;
+  return f_.outside.next_change(port, now);
+}
+
+}  // namespace dspic

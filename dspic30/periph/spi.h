@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// SPI 1 or 2 as master: SPIxSTAT, SPIxCON, SPIxBUF.
+//
+// Modelled: 8 and 16 bits, both prescalers, SPITBF, SPIRBF, SPIROV, flag, pins. A word reaches the outside
+// when it is complete. Not modelled: slave mode (MSTEN = 0), framed mode (FRMEN, SPIFSD), SSEN, SPISIDL; CKE,
+// CKP and SMP have no effect on whole words. Source: DS70143 section 16.
+#pragma once
+#include <cstdint>
+
+#include "dspic30/periph/ports.h"
+
+namespace dspic {
+
+class Spi final : public SfrOwner, public EventOwner {
+ public:
+  Spi(const Fabric& fabric, int number) : f_(fabric), number_(number), base_(number == 1 ? 0x220 : 0x226) {}
+  void attach();
+  void reset(Cycle now);
+
+  std::uint16_t read(unsigned address, Cycle now) override;
+  void write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycle now) override;
+  std::uint16_t peek(unsigned address, Cycle now) const override;
+  Cycle horizon(unsigned address, Cycle now) const override;
+  void on_event(int id, Cycle at) override;
+
+ private:
+  bool on() const { return (stat_ & 0x8000) != 0; }
+  int bits() const { return (con_ & 0x0400) ? 16 : 8; }
+  Cycle clock() const;
+  void start(Cycle now);
+
+  Fabric f_;
+  int number_;
+  unsigned base_;
+  int slot_ = -1;
+  std::uint16_t stat_ = 0, con_ = 0;
+  std::uint16_t waiting_ = 0, shifting_ = 0, received_ = 0;
+  bool has_waiting_ = false, is_shifting_ = false;
+};
+
+}  // namespace dspic

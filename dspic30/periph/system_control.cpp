@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "dspic30/periph/system_control.h"
+
+#include <cmath>
+
+namespace dspic {
+
+namespace {
+
+constexpr unsigned kRcon = 0x740, kOsccon = 0x742, kOsctun = 0x744;
+constexpr std::uint16_t kPor = 1 << 0, kBor = 1 << 1, kIdle = 1 << 2, kSleep = 1 << 3, kWdto = 1 << 4,
+                        kSwdten = 1 << 5, kSwr = 1 << 6, kExtr = 1 << 7, kLvdl = 0x0F00, kLvden = 1 << 12,
+                        kBgst = 1 << 13, kIopuwr = 1 << 14, kTrapr = 1 << 15;
+constexpr std::uint16_t kDefaultLvdl = 0x0500;
+constexpr std::uint16_t kOswen = 0x0001, kCf = 0x0008, kLock = 0x0020;
+constexpr std::uint16_t kUnlockLow[] = {0x46, 0x57}, kUnlockHigh[] = {0x78, 0x9A};
+constexpr int kPllSource = 7;
+// postscaler A, and the shortest time-out: 256 periods of 128 kHz [DS70143 21.5]
+constexpr int kPostscaleA[] = {1, 8, 64, 512};
+constexpr double kWatchdogSeconds = 0.002;
+// V by LVDL; 0 for settings below those that the chip has, 15 is an input pin [DS70143 table 24-10]
+constexpr double kLvdVolts[] = {0, 0, 0, 0, 2.5, 2.7, 2.8, 3.0, 3.3, 3.5, 3.6, 3.8, 4.0, 4.2, 4.5, 0};
+
+}  // namespace
+
+void SystemControl::attach() {
+  f_.bus.attach(*this, kRcon, kOsctun);
+  f_.bus.take_all_bits(kOsccon);
+  f_.bus.mark_unmodelled(kOsctun, 0x000F);
+  slot_ = f_.events.add(*this, 0, std::uint64_t{1} << irq::Lvd, true);
+}
+
+Cycle SystemControl::watchdog_period() const {
+  const int a = kPostscaleA[fwdt_ >> 4 & 3], b = (fwdt_ & 15) + 1;
+  return static_cast<Cycle>(std::llround(kWatchdogSeconds * f_.fcy_hz * a * b));
+}
+
+void SystemControl::reset(ResetKind kind, Cycle now) {
+  bitten_ = false;
+  const auto kept = static_cast<std::uint16_t>(rcon_ & ~(kSwdten | kLvden | kBgst | kLvdl));
+  switch (kind) {
+    case ResetKind::PowerOn:
+      rcon_ = kPor | kBor;
+      break;
+    case ResetKind::BrownOut:
+      rcon_ = kept | kBor;
+      break;
+    case ResetKind::Pin:
+      rcon_ = kept | kExtr;
+      break;
+    case ResetKind::Instruction:
+      rcon_ = kept | kSwr;
+      break;
+    case ResetKind::Watchdog:
+      rcon_ = kept | kWdto;
+      break;
+    case ResetKind::IllegalOpcode:
+      rcon_ = kept | kIopuwr;
+      break;
+    case ResetKind::TrapConflict:
+      rcon_ = kept | kTrapr;
+      break;
+  }
+  rcon_ |= kDefaultLvdl;
+  osctun_ = 0;
+  const int source = fosc_ >> 8 & 7;
+  osccon_ = static_cast<std::uint16_t>(source << 12 | source << 8 | (source == kPllSource ? kLock : 0));
+  low_ = high_ = Lock{};
+  clear_watchdog(now);
+}
+
+void SystemControl::clear_watchdog(Cycle now) {
+  f_.events.set(slot_, watchdog_runs() ? now + watchdog_period() : kNever);
+}
+
+void SystemControl::power_save(bool sleep, Cycle now) {
+  rcon_ |= sleep ? kSleep : kIdle;
+  clear_watchdog(now);
+}
+
+void SystemControl::on_event(int id, Cycle at) {
+  bitten_ = true;
+  f_.diagnostics.report(Cause::WatchdogReset, "RCON.WDTO",
+                        "the watchdog was not cleared in time (ClrWdt()); the chip resets with RCON.WDTO = 1",
+                        at);
+}
+
+void SystemControl::watch_supply(Cycle now) {
+  if (!(rcon_ & kLvden)) return;
+  const double limit = kLvdVolts[(rcon_ & kLvdl) >> 8];
+  if (limit > 0 && f_.outside.supply_v(now) < limit) f_.interrupts.raise(irq::Lvd, now + 1, false);
+}
+
+std::uint16_t SystemControl::peek(unsigned address, Cycle now) const {
+  if (address == kRcon) return rcon_;
+  return address == kOsccon ? osccon_ : osctun_;
+}
+
+void SystemControl::write_osccon(std::uint16_t value, std::uint16_t lanes, Cycle now) {
+  const bool is_low = lanes == 0x00FF, is_high = lanes == 0xFF00;
+  const auto byte = static_cast<std::uint16_t>(is_high ? value >> 8 : value & 0xFF);
+  Lock& lock = is_high ? high_ : low_;
+  const std::uint16_t* keys = is_high ? kUnlockHigh : kUnlockLow;
+  const bool follows = lock.at_write + 1 == f_.bus.writes();
+  if (is_low || is_high) {
+    if (lock.step == 2 && follows) {
+      const std::uint16_t writable = is_high ? 0x0700 : 0x00C3;
+      const std::uint16_t clear_only = is_high ? 0 : kCf;
+      osccon_ = static_cast<std::uint16_t>((osccon_ & ~writable) | (value & writable));
+      if (!(value & clear_only)) osccon_ &= static_cast<std::uint16_t>(~clear_only);
+      if (osccon_ & (kOswen | 0x00C2))
+        f_.diagnostics.report(
+            Cause::UnmodelledBit, "OSCCON",
+            "OSCCON: clock switching, postscaler and the 32 kHz oscillator are not modelled; the "
+            "clock stays as configured",
+            now);
+      osccon_ &= static_cast<std::uint16_t>(~kOswen);
+      lock.step = 0;
+      return;
+    }
+    const int step = follows ? lock.step : 0;
+    lock.step = byte == keys[step < 2 ? step : 0] ? (step < 2 ? step : 0) + 1 : 0;
+    lock.at_write = f_.bus.writes();
+    if (lock.step > 0) return;
+  }
+  f_.diagnostics.report(
+      Cause::NotUnlocked, "OSCCON",
+      "OSCCON is written without its unlock sequence (OSCCONH: 0x78, 0x9A; OSCCONL: 0x46, 0x57; as "
+      "bytes, one after the other); nothing happens",
+      now);
+}
+
+void SystemControl::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycle now) {
+  if (address == kOsccon) return write_osccon(value, lanes, now);
+  if (address == kOsctun) {
+    osctun_ = merge_lanes(osctun_, value, lanes);
+    return;
+  }
+  const bool ran = watchdog_runs();
+  const std::uint16_t before = rcon_;
+  rcon_ = static_cast<std::uint16_t>((merge_lanes(rcon_, value, lanes) & ~kBgst));
+  if (rcon_ & kLvden) rcon_ |= kBgst;  // the reference is ready at once
+  if (watchdog_runs() != ran) clear_watchdog(now);
+  if ((rcon_ & (kLvden | kLvdl)) != (before & (kLvden | kLvdl))) watch_supply(now);
+}
+
+}  // namespace dspic

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// Resets, watchdog, oscillator and low-voltage detector: RCON, OSCCON, OSCTUN.
+//
+// Modelled: what each reset leaves in RCON, sticky bits, watchdog with both postscalers by FWDT or
+// RCON.SWDTEN, unlock sequences of OSCCON's two bytes, COSC from FOSC, LVDL thresholds with BGST and LVDIF,
+// RCON.SLEEP and IDLE. Not modelled: another clock than the configured one (OSWEN is kept and clears itself),
+// the postscaler POST, the fail-safe monitor, LPOSCEN, tuning, start-up times. Source: DS70143 sections 7,
+// 21; DS70046 sections 7 to 9;
+// [?] OSCCON and LVDL after a reset.
+#pragma once
+#include <cstdint>
+#include <optional>
+
+#include "dspic30/periph/fabric.h"
+
+namespace dspic {
+
+class SystemControl final : public SfrOwner, public EventOwner {
+ public:
+  SystemControl(const Fabric& fabric, std::uint16_t fosc, std::uint16_t fwdt)
+      : f_(fabric), fosc_(fosc), fwdt_(fwdt) {}
+  void attach();
+  void reset(ResetKind kind, Cycle now);
+  void outside_changed(Cycle now) { watch_supply(now); }
+  void clear_watchdog(Cycle now);
+  void power_save(bool sleep, Cycle now);
+  bool watchdog_bit() const { return bitten_; }
+  /// Cycles from a clear to the time-out.
+  Cycle watchdog_period() const;
+  bool watchdog_runs() const { return (fwdt_ & 0x8000) || (rcon_ & 0x0020); }
+
+  std::uint16_t read(unsigned address, Cycle now) override { return peek(address, now); }
+  void write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycle now) override;
+  std::uint16_t peek(unsigned address, Cycle now) const override;
+  void on_event(int id, Cycle at) override;
+
+ private:
+  void write_osccon(std::uint16_t value, std::uint16_t lanes, Cycle now);
+  void watch_supply(Cycle now);
+
+  Fabric f_;
+  std::uint16_t fosc_, fwdt_;
+  int slot_ = -1;
+  std::uint16_t rcon_ = 0, osccon_ = 0, osctun_ = 0;
+  bool bitten_ = false;
+  // how far each byte's unlock sequence has come, and at which write of the bus
+  struct Lock {
+    int step = 0;
+    std::int64_t at_write = 0;
+  } low_, high_;
+};
+
+}  // namespace dspic

@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: MIT
+#include "dspic30/periph/uart.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+namespace dspic {
+
+namespace {
+
+constexpr unsigned kMode = 0, kSta = 2, kTxReg = 4, kRxReg = 6;
+constexpr std::uint16_t kUarten = 0x8000, kAltio = 0x0400, kLpback = 0x0040;
+constexpr std::uint16_t kUtxisel = 0x8000, kUtxbrk = 0x0800, kUtxen = 0x0400, kUtxbf = 0x0200, kTrmt = 0x0100,
+                        kAdden = 0x0020, kRidle = 0x0010, kPerr = 0x0008, kFerr = 0x0004, kOerr = 0x0002,
+                        kUrxda = 0x0001;
+constexpr std::uint16_t kControls = kUtxisel | kUtxbrk | kUtxen | 0x00C0 | kAdden;
+constexpr Cycle kWriteToShift = 1;
+// rates that the other end may be set to
+constexpr double kRates[] = {300,   600,   1200,  2400,   4800,   9600,   14400,  19200,  28800,
+                             38400, 57600, 76800, 115200, 230400, 250000, 460800, 500000, 921600};
+constexpr double kWorstRateError = 0.02;
+
+}  // namespace
+
+Uart::Uart(const Fabric& fabric, int number)
+    : f_(fabric),
+      number_(number),
+      base_(number == 1 ? 0x20C : 0x216),
+      tx_irq_(number == 1 ? irq::U1Tx : irq::U2Tx),
+      rx_irq_(number == 1 ? irq::U1Rx : irq::U2Rx) {}
+
+void Uart::attach() {
+  f_.bus.attach(*this, base_, base_ + 8);
+  f_.bus.mark_unmodelled(base_ + kMode, 0x20A0);  // USIDL, WAKE, ABAUD
+  slot_tx_ = f_.events.add(*this, Transmit, std::uint64_t{1} << tx_irq_, true);
+  slot_rx_ = f_.events.add(*this, Receive, std::uint64_t{1} << rx_irq_, false);
+}
+
+void Uart::reset(Cycle now) {
+  mode_ = sta_ = brg_ = 0;
+  out_.count = in_.count = 0;
+  busy_until_ = epoch_ = now;
+  break_since_ = -1;
+  rate_checked_ = false;
+  f_.events.set(slot_tx_, kNever);
+  schedule_receive(now);
+}
+
+std::string Uart::name(const char* suffix) const { return "U" + std::to_string(number_) + suffix; }
+
+Cycle Uart::align(Cycle at) const {
+  const Cycle step = sixteenth(), over = (at - epoch_) % step;
+  return over == 0 ? at : at + step - over;
+}
+
+UartFrame Uart::format(std::uint16_t word, Cycle start) const {
+  UartFrame frame;
+  const int format = mode_ >> 1 & 3;
+  frame.data_bits = format == 3 ? 9 : 8;
+  frame.parity = format == 1 ? Parity::Even : format == 2 ? Parity::Odd : Parity::None;
+  frame.stop_bits = (mode_ & 1) ? 2 : 1;
+  frame.word = static_cast<std::uint16_t>(word & (format == 3 ? 0x1FF : 0xFF));
+  frame.start = start;
+  frame.bit = bit();
+  return frame;
+}
+
+// --- out --------------------------------------------------------------------------------------------------
+
+void Uart::schedule_transmit(Cycle now) {
+  const bool waits = transmits() && out_.count > 0 && break_since_ < 0;
+  f_.events.set(slot_tx_, waits ? std::max(busy_until_, now + kWriteToShift) : kNever);
+}
+
+void Uart::move_to_shift_register(Cycle at) {
+  check_rate(at);
+  // straight after a stop bit there is no gap
+  const UartFrame frame = format(out_.pop(), at == busy_until_ && at > epoch_ ? at : align(at));
+  busy_until_ = frame.end();
+  if (!(sta_ & kUtxisel) || out_.count == 0) f_.interrupts.raise(tx_irq_, at, false);
+  f_.outside.uart_sent(number_, frame);
+  if (mode_ & kLpback) enqueue(frame, at);
+  schedule_transmit(at);
+}
+
+// --- in ---------------------------------------------------------------------------------------------------
+
+void Uart::receive(const UartFrame& frame, Cycle now) {
+  const bool looped = (mode_ & kLpback) && enabled();
+  if (!looped) enqueue(frame, now);
+}
+
+void Uart::enqueue(UartFrame frame, Cycle now) {
+  frame.start = std::max({frame.start, line_free_, now});
+  line_free_ = frame.end();
+  line_.push_back(frame);
+  if (line_.size() == 1) schedule_receive(now);
+}
+
+Cycle Uart::transfer_time(const UartFrame& frame) const {
+  const UartFrame own = format(0, align(frame.start));
+  const int stop = 1 + own.data_bits + (own.parity != Parity::None ? 1 : 0);
+  return own.start + stop * bit() + bit() / 2;
+}
+
+void Uart::schedule_receive(Cycle now) {
+  Cycle at = kNever;
+  if (!line_.empty()) at = enabled() ? transfer_time(line_.front()) : line_.front().end();
+  f_.events.set(slot_rx_, std::max(at, now));
+}
+
+void Uart::take_in(const UartFrame& frame, Cycle at) {
+  check_rate(frame.start);
+  const UartFrame own = format(0, align(frame.start));
+  const auto sample = [&](int index) { return frame.level(own.start + index * bit() + bit() / 2); };
+  if (sample(0)) return;  // too short for a start bit
+  Received received{0, false, false};
+  int at_bit = 1;
+  bool ones = false;
+  for (int i = 0; i < own.data_bits; ++i)
+    if (sample(at_bit++)) {
+      received.word |= static_cast<std::uint16_t>(1 << i);
+      ones = !ones;
+    }
+  if (own.parity != Parity::None) {
+    const bool parity = sample(at_bit++);
+    received.parity_error = parity != (own.parity == Parity::Even ? ones : !ones);
+  }
+  received.frame_error = !sample(at_bit);
+  if (received.frame_error && !frame.broken)
+    f_.diagnostics.report(
+        Cause::UartFrameError, name("STA.FERR"),
+        name("RX") + ": a word came without its stop bit; the two ends differ in rate or format", at);
+  if ((sta_ & kAdden) && own.data_bits == 9 && !(received.word & 0x100)) return;
+  if (sta_ & kOerr) {  // blocked
+    ++overruns_;
+    return;
+  }
+  if (in_.full()) {
+    sta_ |= kOerr;
+    ++overruns_;
+    f_.diagnostics.report(Cause::UartOverrun, name("STA.OERR"),
+                          name("RX") + ": a fifth word came while four waited in " + name("RXREG") +
+                              "; it is lost, and reception stops until " + name("STA.OERR") + " is cleared",
+                          at);
+    return;
+  }
+  in_.push(received);
+  const int select = sta_ >> 6 & 3;
+  const std::size_t needed = select == 3 ? 4 : select == 2 ? 3 : 1;
+  if (in_.count >= needed) f_.interrupts.raise(rx_irq_, at, false);
+}
+
+void Uart::on_event(int id, Cycle at) {
+  if (id == Transmit) return move_to_shift_register(at);
+  const UartFrame frame = line_.front();
+  line_.pop_front();
+  if (enabled() && transfer_time(frame) <= at) take_in(frame, at);
+  schedule_receive(at);
+}
+
+// --- registers --------------------------------------------------------------------------------------------
+
+std::uint16_t Uart::read(unsigned address, Cycle now) {
+  if (address - base_ != kRxReg || in_.count == 0) return peek(address, now);
+  return in_.pop().word;
+}
+
+std::uint16_t Uart::peek(unsigned address, Cycle now) const {
+  switch (address - base_) {
+    case kMode:
+      return mode_;
+    case kSta: {
+      std::uint16_t word = sta_;
+      if (out_.full()) word |= kUtxbf;
+      if (out_.count == 0 && now >= busy_until_) word |= kTrmt;
+      const bool receiving = enabled() && !line_.empty() && line_.front().start <= now;
+      if (!receiving) word |= kRidle;
+      if (in_.count) {
+        word |= kUrxda;
+        if (in_.words[0].parity_error) word |= kPerr;
+        if (in_.words[0].frame_error) word |= kFerr;
+      }
+      return word;
+    }
+    case kTxReg:
+      return 0;
+    case kRxReg:
+      return in_.count ? in_.words[0].word : 0;
+    default:
+      return brg_;
+  }
+}
+
+void Uart::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycle now) {
+  switch (address - base_) {
+    case kMode: {
+      const bool was_enabled = enabled();
+      mode_ = merge_lanes(mode_, value, lanes);
+      if (enabled() != was_enabled)
+        set_enabled(enabled(), now);
+      else if (enabled())
+        own_pins(now + 1);
+      schedule_receive(now);
+      break;
+    }
+    case kSta: {
+      const std::uint16_t before = sta_, wanted = merge_lanes(sta_, value, lanes);
+      sta_ = static_cast<std::uint16_t>((wanted & kControls) | (before & wanted & kOerr));
+      if (!enabled()) sta_ &= static_cast<std::uint16_t>(~(kUtxen | kUtxbrk));
+      if ((before & kOerr) && !(sta_ & kOerr)) in_.count = 0;
+      if (!(before & kUtxen) && (sta_ & kUtxen)) f_.interrupts.raise(tx_irq_, now + 1, false);
+      if (!(before & kUtxbrk) && (sta_ & kUtxbrk)) break_since_ = std::max(now + 1, busy_until_);
+      if ((before & kUtxbrk) && !(sta_ & kUtxbrk) && break_since_ >= 0) {
+        UartFrame low = format(0, break_since_);
+        low.broken = true;
+        const Cycle length = now + 1 - break_since_;
+        if (length > 0) {
+          low.bit = std::max<Cycle>(1, length / low.bits());
+          f_.outside.uart_sent(number_, low);
+          busy_until_ = std::max(busy_until_, low.end());
+        }
+        break_since_ = -1;
+      }
+      if ((before ^ sta_) & kUtxen) own_pins(now + 1);
+      schedule_transmit(now);
+      break;
+    }
+    case kTxReg:
+      if ((lanes & 0xFF) && !out_.full()) {
+        out_.push(value & 0x1FF);
+        if (out_.count == 1) schedule_transmit(now);
+      }
+      break;
+    case kRxReg:
+      break;
+    default:
+      brg_ = merge_lanes(brg_, value, lanes);
+      epoch_ = now + 1;
+      rate_checked_ = false;
+      schedule_receive(now);
+      break;
+  }
+}
+
+void Uart::set_enabled(bool on, Cycle now) {
+  out_.count = in_.count = 0;
+  sta_ &= static_cast<std::uint16_t>(~(kUtxen | kUtxbrk | kOerr));
+  break_since_ = -1;
+  busy_until_ = epoch_ = now + 1;
+  rate_checked_ = false;
+  f_.events.set(slot_tx_, kNever);
+  if (on)  // the middle of a word is no start bit
+    while (!line_.empty() && line_.front().start <= now) line_.pop_front();
+  own_pins(now + 1);
+}
+
+void Uart::own_pins(Cycle at) {
+  const Pin rx = number_ == 1 ? Pin{Port::F, 2} : Pin{Port::F, 4};
+  const Pin tx = number_ == 1 ? Pin{Port::F, 3} : Pin{Port::F, 5};
+  const Pin other_rx{Port::C, 14}, other_tx{Port::C, 13};
+  const bool alternate = number_ == 1 && (mode_ & kAltio);
+  const Pin in = alternate ? other_rx : rx, out = alternate ? other_tx : tx;
+  if (number_ == 1) {
+    f_.ports.release(alternate ? rx : other_rx, at);
+    f_.ports.release(alternate ? tx : other_tx, at);
+  }
+  if (enabled())
+    f_.ports.own_input(in, at);
+  else
+    f_.ports.release(in, at);
+  if (transmits())
+    f_.ports.own_output(out, true, at);
+  else
+    f_.ports.release(out, at);
+}
+
+void Uart::check_rate(Cycle at) {
+  if (rate_checked_) return;
+  rate_checked_ = true;
+  const double rate = f_.fcy_hz / static_cast<double>(bit());
+  double nearest = kRates[0];
+  for (const double r : kRates)
+    if (std::fabs(std::log(rate / r)) < std::fabs(std::log(rate / nearest))) nearest = r;
+  const double error = rate / nearest - 1;
+  if (std::fabs(error) <= kWorstRateError) return;
+  char text[160];
+  std::snprintf(text, sizeof text, "%s = %d gives %.0f baud, %+.1f %% from the nearest usual rate, %.0f",
+                name("BRG").c_str(), brg_, rate, 100 * error, nearest);
+  f_.diagnostics.report(Cause::BaudError, name("BRG"), text, at);
+}
+
+Cycle Uart::horizon(unsigned address, Cycle now) const {
+  const unsigned r = address - base_;
+  if (r != kSta && r != kRxReg) return kNever;
+  Cycle next = f_.events.when(slot_rx_);
+  if (r == kSta) {
+    next = std::min(next, f_.events.when(slot_tx_));
+    if (busy_until_ > now) next = std::min(next, busy_until_);
+    if (!line_.empty() && line_.front().start > now) next = std::min(next, line_.front().start);
+  }
+  return next;
+}
+
+std::uint64_t Uart::state_hash() const {
+  std::uint64_t h = 0x9E3779B97F4A7C15u * static_cast<std::uint64_t>(busy_until_ + 1);
+  const auto add = [&h](std::uint64_t v) { h = (h ^ v) * 0x100000001B3u; };
+  add(out_.count);
+  for (std::size_t i = 0; i < out_.count; ++i) add(out_.words[i]);
+  add(in_.count);
+  for (std::size_t i = 0; i < in_.count; ++i) add(in_.words[i].word);
+  for (const UartFrame& f : line_) add(static_cast<std::uint64_t>(f.start) * 512 + f.word);
+  return h;
+}
+
+}  // namespace dspic

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// UART 1 or 2: UxMODE, UxSTA, UxTXREG, UxRXREG, UxBRG.
+//
+//   UxTXREG -> FIFO of 4 -> shift register -> TX       RX -> shift register -> FIFO of 4 -> UxRXREG
+//
+// Modelled: 8 and 9 bits, parity, stop bits, both FIFOs, TXIF and RXIF in all modes, TRMT, UTXBF, RIDLE, OERR
+// with a blocked receiver, PERR and FERR per word, address detection, break both ways, loop-back, alternate
+// pins. A word on the line is sampled in the middle of the receiver's own bits, so wrong rates and formats
+// are received as on the chip. Not modelled: WAKE, ABAUD, USIDL, a second start edge inside one word's frame,
+// breaking off a word that is on its way out. Source: DS70143 section 18, DS70046 section 19; [?] phase of
+// the first start bit, TXIF when UTXEN is set.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <deque>
+
+#include "dspic30/periph/ports.h"
+
+namespace dspic {
+
+class Uart final : public SfrOwner, public EventOwner {
+ public:
+  Uart(const Fabric& fabric, int number);
+  void attach();
+  void reset(Cycle now);
+  /// A word comes in; frame.start may lie in the future.
+  void receive(const UartFrame& frame, Cycle now);
+  std::int64_t overruns() const { return overruns_; }
+  std::uint64_t state_hash() const;
+
+  std::uint16_t read(unsigned address, Cycle now) override;
+  void write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycle now) override;
+  std::uint16_t peek(unsigned address, Cycle now) const override;
+  Cycle horizon(unsigned address, Cycle now) const override;
+  void on_event(int id, Cycle at) override;
+
+ private:
+  static constexpr std::size_t kFifoWords = 4;
+  struct Received {
+    std::uint16_t word;
+    bool parity_error, frame_error;
+  };
+  template <class T>
+  struct Fifo {
+    std::array<T, kFifoWords> words{};
+    std::size_t count = 0;
+    bool full() const { return count == kFifoWords; }
+    void push(T w) { words[count++] = w; }
+    T pop() {
+      T first = words[0];
+      for (std::size_t i = 1; i < count; ++i) words[i - 1] = words[i];
+      --count;
+      return first;
+    }
+  };
+  enum : int { Transmit, Receive };
+
+  bool enabled() const { return (mode_ & 0x8000) != 0; }
+  bool transmits() const { return enabled() && (sta_ & 0x0400); }
+  Cycle sixteenth() const { return Cycle{brg_} + 1; }
+  Cycle bit() const { return 16 * sixteenth(); }
+  Cycle align(Cycle at) const;
+  UartFrame format(std::uint16_t word, Cycle start) const;
+  Cycle transfer_time(const UartFrame& frame) const;
+  void move_to_shift_register(Cycle at);
+  void schedule_transmit(Cycle now);
+  void schedule_receive(Cycle now);
+  void enqueue(UartFrame frame, Cycle now);
+  void take_in(const UartFrame& frame, Cycle at);
+  void set_enabled(bool on, Cycle now);
+  void own_pins(Cycle at);
+  void check_rate(Cycle at);
+  std::string name(const char* suffix) const;
+
+  Fabric f_;
+  int number_;
+  unsigned base_;
+  int tx_irq_, rx_irq_;
+  int slot_tx_ = -1, slot_rx_ = -1;
+  std::uint16_t mode_ = 0, brg_ = 0;
+  std::uint16_t sta_ = 0;  // control bits and OERR; the rest is worked out
+  Cycle epoch_ = 0;        // of the baud counter
+  Fifo<std::uint16_t> out_;
+  Cycle busy_until_ = 0;  // the shift register
+  Cycle break_since_ = -1;
+  Fifo<Received> in_;
+  std::deque<UartFrame> line_;  // to come, or under way
+  Cycle line_free_ = 0;
+  bool rate_checked_ = false;
+  std::int64_t overruns_ = 0;
+};
+
+}  // namespace dspic
