@@ -30,7 +30,8 @@ inline constexpr double kArenaWallHeightM = 0.1;      // [Webots: RectangleArena
 inline constexpr double kArenaWallThicknessM = 0.01;  // [Webots: RectangleArena.wallThickness]
 
 // pictures that only Webots has
-inline constexpr sim::Colour kWood{0.60, 0.45, 0.30};       // [assumed: pine and parquet]
+inline constexpr sim::Colour kWood{0.60, 0.45, 0.30};     // [assumed: pine and parquet]
+inline constexpr sim::Colour kParquet{0.78, 0.68, 0.54};  // [assumed: light, so that boxes of wood stand out]
 inline constexpr sim::Colour kCardboard{0.65, 0.52, 0.38};  // [assumed: brown cardboard]
 inline constexpr sim::Colour kMetal{0.80, 0.80, 0.80};      // [assumed: brushed aluminium]
 inline constexpr sim::Colour kStone{0.55, 0.55, 0.55};      // [assumed: concrete, stone, asphalt]
