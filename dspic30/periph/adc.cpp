@@ -34,6 +34,8 @@ void Adc::reset(Cycle now) {
   buffer_.fill(0);
   sampling_ = converting_ = false;
   flag_at_ = kNever;
+  if (wants_timer_) timers_.want_matches(3, false, now);
+  wants_timer_ = false;
   restart_sequence();
   f_.events.set(slot_, kNever);
 }
@@ -70,7 +72,6 @@ void Adc::start_sampling(Half at) {
   sampling_ = true;
   con1_ |= kSamp;
   sampling_since_ = at;
-  timers_.want_matches(3, ssrc() == kTimer3, at / 2);
 }
 
 void Adc::hold(Half at, Half conversion_start) {
@@ -133,8 +134,8 @@ void Adc::advance(Cycle now) {
 
 void Adc::schedule(Cycle now) {
   Cycle at = kNever;
-  const Half cycle = sample_time() + kConversionTads * tad();
   if (on() && (converting_ || (sampling_ && ssrc() == kAutomatic))) {
+    const Half cycle = sample_time() + kConversionTads * tad();
     const bool runs_on = asam() && ssrc() == kAutomatic;
     const Half first = converting_ ? conversion_end_ : sampling_since_ + cycle;
     // a stage at which nobody looks needs no event of its own
@@ -207,7 +208,10 @@ void Adc::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
       const std::uint16_t before = con1_, wanted = merge_lanes(con1_, value, lanes);
       con1_ = static_cast<std::uint16_t>((wanted & ~(kSamp | kDone)) | (before & kSamp) |
                                          (before & wanted & kDone));
-      timers_.want_matches(3, on() && ssrc() == kTimer3, now);
+      if (const bool waits = on() && ssrc() == kTimer3; waits != wants_timer_) {
+        wants_timer_ = waits;
+        timers_.want_matches(3, waits, now);
+      }
       if (!(wanted & kAdon)) {
         sampling_ = converting_ = false;
         con1_ &= static_cast<std::uint16_t>(~kSamp);

@@ -75,6 +75,7 @@ class Adc final : public SfrOwner, public EventOwner, public TimerListener {
   bool upper_half_ = false;
   int scan_at_ = -1;  // input of ADCSSL in turn
   bool mux_b_ = false;
+  bool wants_timer_ = false;
   std::uint16_t complained_ = 0;  // channels
 };
 
