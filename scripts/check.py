@@ -6,7 +6,8 @@
 
 Rules: who may include whom (docs/architecture.md) · sim_core knows no robot by name · every number of a
 *_params.h names its one source (docs/sources.md) · no file above 700 lines, no file above 1 MB, no path of
-somebody's machine, an SPDX line in every source · dspic30 uses the standard library only · C++ formatted by .clang-format.
+somebody's machine, an SPDX line in every source · dspic30 uses the standard
+library only · C++ formatted by .clang-format.
 """
 import pathlib
 import re

@@ -246,7 +246,7 @@ void Dspic30f6014a::outside_changed(Cycle now) {
 }
 
 void Dspic30f6014a::uart_receive(int uart, const UartFrame& frame) {
-  parts_->uarts[static_cast<std::size_t>(uart - 1)].receive(frame, frame.start);
+  parts_->uarts[static_cast<std::size_t>(uart - 1)].receive(frame);
 }
 
 // --- interrupts -------------------------------------------------------------------------------------------

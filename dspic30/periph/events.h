@@ -45,7 +45,10 @@ class Events {
 
   void run_to(Cycle now) {
     while (next_ <= now) serve();
+    reached_ = std::max(reached_, now);
   }
+  /// Everything up to here has happened.
+  Cycle reached() const { return reached_; }
 
   /// Earliest instant at which the processor may notice something: a slot that acts outwards, or one cycle
   /// after a slot that may set one of these flags.
@@ -95,6 +98,7 @@ class Events {
   std::uint64_t active_ = 0;  // slots whose instant is known
   int count_ = 0;
   Cycle next_ = kNever;
+  Cycle reached_ = 0;
 };
 
 }  // namespace dspic
