@@ -6,7 +6,8 @@
 
 Rules: who may include whom (docs/architecture.md) · sim_core knows no robot by name · every number of a
 *_params.h names its one source (docs/sources.md) · no file above 700 lines, no file above 1 MB, no path of
-somebody's machine, an SPDX line in every source · C++ formatted by .clang-format.
+somebody's machine, an SPDX line in every source · dspic30 uses the standard
+library only · C++ formatted by .clang-format.
 """
 import pathlib
 import re
@@ -105,6 +106,9 @@ def check_includes(path, text):
         target = match.group(2)
         if (ROOT / target).exists() and "/" in target and not may_include(path, target):
             problem(path, number, "%s may not include %s" % (room_of(path), target))
+        if path.startswith("dspic30/") and match.group(1) == "<" and re.search(r"[./]", target):
+            if not (path.startswith("dspic30/load/") and target in ("gelf.h", "libelf.h")):
+                problem(path, number, "dspic30 uses the standard library only, not <%s>" % target)
         for package, rooms in PACKAGE_ROOMS.items():
             if match.group(1) == "<" and target.startswith(package):
                 if not path.startswith(tuple(rooms)) and not path.startswith(FREE_ROOMS):
