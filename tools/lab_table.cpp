@@ -15,9 +15,9 @@ namespace tools {
 namespace {
 
 constexpr const char* kMeasureNames[kMeasures] = {
-    "standstill_s", "wall_touch_s",  "touch_s",      "collisions",  "distance_m",
-    "escape_s",     "slip_m",        "speed",        "rows",        "range_m",
-    "detection_m",  "centre_weight", "outer_weight", "straightness"};
+    "standstill_s", "wall_touch_s", "touch_s",   "collisions",  "distance_m",  "escape_s",
+    "slip_m",       "speed",        "rows",      "range_m",     "detection_m", "centre_weight",
+    "outer_weight", "restarts",     "restart_m", "straightness"};
 
 class Reader {
  public:

@@ -18,12 +18,14 @@ enum class Measure {
   DistanceM,     ///< way over the floor, m; laziest robot
   EscapeS,       ///< when the last robot left the region, s; infinite: not in time
   SlipM,         ///< way that the wheels turned and the robot did not make, m; worst robot
-  Speed,         ///< simulated s per s of the PC's clock
+  Speed,         ///< simulated s per s of processor time, one thread
   Rows,          ///< of the sensor's lookup table
   RangeM,        ///< last distance of the table, m
   DetectionM,    ///< farthest wall of the world's material that is not read as nothing, m
   CentreWeight,  ///< of the ray on the axis, 0 to 1
   OuterWeight,   ///< of one of the others
+  Restarts,      ///< times that somebody put an object into the air, more than 5 cm up at once
+  RestartM,      ///< lowest height of its underside right after that, m
   Straightness,  ///< square of the correlation between distance and value: 1 for a linear sensor
   Count
 };

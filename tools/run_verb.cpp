@@ -156,9 +156,9 @@ int run(const RunArguments& arguments) {
   }
   const double took_s = wall_s();
   progress.finish();
+  twin->flush_console();
   team->finish();
   if (team->has_ended() && !(arguments.quiet && team->outcome().code == 0)) complain({team->outcome().text});
-  twin->flush_console();
   for (int i = 0; i < twin->robots(); ++i) twin->mind(i).board().exchange(twin->mind(i).now());
 
   const Summary summary = summarise(*twin, took_s);

@@ -16,9 +16,10 @@
 
 static char taken[2 * PIXELS];
 static unsigned char shown[4 * PIXELS];
-static unsigned char is_on, has_picture;
+static unsigned char is_on;
 
 static void start(void) {
+  int i;
   if (is_on) return;
   is_on = 1;
   e_poxxxx_init_cam(); /* clears the ports: motors go on with their next step */
@@ -27,6 +28,7 @@ static void start(void) {
                       ROWS * ZOOM, ZOOM, ZOOM, RGB_565_MODE);
   e_poxxxx_write_cam_registers();
   e_poxxxx_launch_capture(taken);
+  for (i = 3; i < 4 * PIXELS; i += 4) shown[i] = 255; /* black, until there is a picture */
 }
 
 /* the newest picture that is whole, if there is a new one */
@@ -44,7 +46,6 @@ static void sample(struct webots_device* device) {
     to[2] = (unsigned char)(red << 3 | red >> 2);
     to[3] = 255;
   }
-  has_picture = 1;
   e_poxxxx_launch_capture(taken);
 }
 
@@ -64,7 +65,7 @@ int wb_camera_get_sampling_period(WbDeviceTag tag) {
   return d ? d->period : 0;
 }
 const unsigned char* wb_camera_get_image(WbDeviceTag tag) {
-  return camera(tag, "wb_camera_get_image") && has_picture ? shown : 0;
+  return camera(tag, "wb_camera_get_image") && is_on ? shown : 0;
 }
 int wb_camera_get_width(WbDeviceTag tag) { return (void)tag, COLUMNS; }
 int wb_camera_get_height(WbDeviceTag tag) { return (void)tag, ROWS; }
@@ -74,7 +75,7 @@ double wb_camera_get_near(WbDeviceTag tag) { return (void)tag, 0; }
 void camera_enable(DeviceTag tag, int ms) { wb_camera_enable(tag, ms); }
 void camera_disable(DeviceTag tag) { wb_camera_disable(tag); }
 unsigned char* camera_get_image(DeviceTag tag) {
-  return camera(tag, "camera_get_image") && has_picture ? shown : 0;
+  return camera(tag, "camera_get_image") && is_on ? shown : 0;
 }
 int camera_get_width(DeviceTag tag) { return (void)tag, COLUMNS; }
 int camera_get_height(DeviceTag tag) { return (void)tag, ROWS; }

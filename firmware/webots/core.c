@@ -27,6 +27,8 @@
 #define RING 8
 #define LEDS 10
 #define GROUND 3
+#define MOST_WARNINGS 20
+#define NOBODY 0xFF /* what the bus reads where nothing answers: its lines are high */
 #define GROUND_ADDRESS ((char)0xC0) /* [Webots: libepuck, ground sensors] */
 
 static struct webots_device devices[WEBOTS_MOST_DEVICES];
@@ -173,18 +175,25 @@ static void add_devices(void) {
 static void add_ground_sensors(void) {
   static const char* const kNames[GROUND] = {"gs0", "gs1", "gs2"};
   static unsigned char asked;
-  char answers;
+  unsigned char high;
   int i;
   if (asked) return;
   asked = 1;
   e_i2cp_init();
   e_i2cp_enable();
-  answers = e_i2c_start();
-  answers &= e_i2c_write(GROUND_ADDRESS);
-  e_i2c_stop();
+  high = (unsigned char)e_i2cp_read(GROUND_ADDRESS, 0); /* of the left one's counts, about 1000 at most */
   e_i2cp_disable();
-  if (!answers) return;
+  if (high == NOBODY) return;
   for (i = 0; i < GROUND; i++) webots_add(kNames[i], WB_NODE_DISTANCE_SENSOR, i, WEBOTS_GROUND);
+}
+
+/* programs repeat their mistakes every step */
+static int too_many(void) {
+  static unsigned char told;
+  if (told > MOST_WARNINGS) return 1;
+  if (told++ < MOST_WARNINGS) return 0;
+  printf("Warning: there are more warnings of this kind, which are not shown\n");
+  return 1;
 }
 
 unsigned short webots_find(const char* name, const char* function) {
@@ -204,6 +213,7 @@ unsigned short webots_find(const char* name, const char* function) {
     if (strcmp(devices[i].name, wanted) == 0) return (unsigned short)(i + 1);
   if (twin_virtual_sensor(name, &value) && add_extra(name, WB_NODE_DISTANCE_SENSOR, 0, WEBOTS_VIRTUAL))
     return (unsigned short)device_count;
+  if (too_many()) return 0;
   printf("Warning: %s(): got device \"%s\", expected one that this robot has\n", function, name);
   return 0;
 }
@@ -248,7 +258,9 @@ void webots_enable(struct webots_device* device, int period, void (*sample)(stru
   device->elapsed = 0;
 }
 
-void webots_warn(const char* function, const char* what) { printf("Warning: %s(): %s\n", function, what); }
+void webots_warn(const char* function, const char* what) {
+  if (!too_many()) printf("Warning: %s(): %s\n", function, what);
+}
 
 void webots_robot_axes(float forward, float left, float up, float* xyz) {
   if (twin_nue()) {

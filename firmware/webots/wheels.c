@@ -98,6 +98,7 @@ static float limited(float rad_s) {
 }
 
 void webots_wheel_speed(int wheel, float rad_s) {
+  if (isnan(rad_s)) return; /* of a sensor that had no value yet */
   wheels[wheel].target = INFINITY;
   wheels[wheel].speed = wheels[wheel].velocity = limited(rad_s);
   command(wheel, to_steps_s(wheels[wheel].speed));

@@ -18,8 +18,9 @@
 
 namespace board {
 
-inline constexpr int kPacketQueueBytes = 4096;  // of an emitter or a receiver [assumed: holds any usual message]
-inline constexpr int kPacketOverhead = 8;       // bytes a packet takes beside its own [assumed: length, channel]
+inline constexpr int kPacketQueueBytes =
+    4096;                                  // of an emitter or a receiver [assumed: holds any usual message]
+inline constexpr int kPacketOverhead = 8;  // bytes a packet takes beside its own [assumed: length, channel]
 
 class PacketDevices final : public sim::PacketPort {
  public:

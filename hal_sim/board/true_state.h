@@ -14,11 +14,11 @@ using host::Cycle;
 
 /// In the axes that the world file chose ([webots] axes).
 struct TrueState {
-  sim::Vec3 position_m;      ///< of the robot's middle on the floor
-  sim::Vec3 velocity_m_s;    ///< of the last tick
-  sim::Vec3 north;           ///< unit, in the robot's axes
-  sim::Vec3 attitude_rad;    ///< roll, pitch, yaw; 0, 0, 0 is level along the world's x (enu) or -z (nue)
-  sim::Vec3 rates_rad_s;     ///< in the robot's axes
+  sim::Vec3 position_m;    ///< of the robot's middle on the floor
+  sim::Vec3 velocity_m_s;  ///< of the last tick
+  sim::Vec3 north;         ///< unit, in the robot's axes
+  sim::Vec3 attitude_rad;  ///< roll, pitch, yaw; 0, 0, 0 is level along the world's x (enu) or -z (nue)
+  sim::Vec3 rates_rad_s;   ///< in the robot's axes
 };
 
 /// At `at`; all zero where there is no world.
@@ -26,7 +26,8 @@ TrueState true_state(const Board& board, Cycle at);
 
 /// Number of the robot or movable object with that def or name; -1: there is none.
 int find_body(const Board& board, const std::string& name);
-/// Where that body is, in the world file's axes; the angle about the upward axis, 0 as above, rad, not wrapped.
+/// Where that body is, in the world file's axes; the angle about the upward axis, 0 as above, rad, not
+/// wrapped.
 void true_pose(const Board& board, int body, Cycle at, sim::Vec3& position_m, double& angle_rad);
 
 }  // namespace board

@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace board {
 
@@ -26,6 +27,13 @@ class VirtualDevices {
   /// Called with every line that firmware writes to the simulator's console, without its newline; may be
   /// empty.
   std::function<void(const std::string&)> on_console;
+
+  /// Memory for malloc() of programs written for PCs, which are not sparing with it; made when it is first
+  /// asked for, and the robot's for life.
+  char* heap(std::size_t bytes) {
+    if (heap_.size() < bytes) heap_.resize(bytes);
+    return heap_.data();
+  }
 
   // --- the console
   // ----------------------------------------------------------------------------------------------
@@ -62,6 +70,7 @@ class VirtualDevices {
 
   std::map<std::string, double> sensors_;
   std::string text_;
+  std::vector<char> heap_;
   std::atomic<bool>* somebody_writes_ = nullptr;
 };
 

@@ -60,7 +60,7 @@ std::vector<fs::path> contract_folders(const fs::path& root) {
 
 struct Plan {
   std::vector<CompileJob> user, library;
-  std::vector<CompileJob> webots;  // linked with programs for Webots' interfaces only
+  bool is_webots = false;  // a program for Webots' interfaces, with the library behind them
   CompileJob runtime;
 };
 
@@ -69,6 +69,40 @@ std::string common_salt(const std::vector<fs::path>& headers) {
   std::string names;
   for (const auto& h : headers) names += h.string() + "\n";
   return content_hash(names);
+}
+
+/// Whether a program is written for Webots' interfaces: one of its files, or a header of its own, says so.
+bool names_webots(const std::vector<fs::path>& sources, const std::vector<fs::path>& headers) {
+  static const std::regex kInclude(R"(#\s*include\s*[<"](webots|device)[/\\])");
+  for (const auto* list : {&sources, &headers})
+    for (const auto& file : *list)
+      if (std::regex_search(read_text(file), kInclude)) return true;
+  return false;
+}
+
+/// Sources of a program for Webots, which compiles the file with the controller's name alone: not those that
+/// another one includes as text, and not further programs that lie beside it.
+std::vector<fs::path> webots_sources(const fs::path& folder, const std::vector<fs::path>& sources) {
+  static const std::regex kInclude(R"(#\s*include\s*"([^"]+\.c)\")"), kMain(R"(\bmain\s*\()");
+  const std::string own = fs::weakly_canonical(folder).filename().string();
+  std::set<fs::path> left_out;
+  bool has_own_main = false;
+  std::vector<fs::path> others;
+  for (const auto& source : sources) {
+    const std::string text = read_text(source);
+    for (std::sregex_iterator it(text.begin(), text.end(), kInclude), end; it != end; ++it)
+      left_out.insert(fs::weakly_canonical(source.parent_path() / (*it)[1].str()));
+    if (!std::regex_search(text, kMain)) continue;
+    if (source.stem() == own)
+      has_own_main = true;
+    else
+      others.push_back(fs::weakly_canonical(source));
+  }
+  if (has_own_main) left_out.insert(others.begin(), others.end());
+  std::vector<fs::path> kept;
+  for (const auto& source : sources)
+    if (!left_out.count(fs::weakly_canonical(source))) kept.push_back(source);
+  return kept.empty() ? sources : kept;
 }
 
 Plan plan(const BuildOptions& o, const LibraryCopies& copies, bool lint) {
@@ -108,19 +142,27 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, bool lint) {
   std::vector<std::string> flags = mode;
   if (o.sanitize) flags.push_back("--sanitize");
   if (o.coverage) flags.push_back("--coverage");
+  p.is_webots = names_webots(copies.kept, headers);
+  if (p.is_webots) {
+    flags.push_back("--webots");
+    flags.push_back("-I" + (cc_dir / "libc/webots/include").string());
+  }
   if (o.strict) flags.push_back("--strict");
   if (lint) flags.push_back("--lint");
   for (const auto& d : o.defines) flags.push_back("-D" + d);
   flags.insert(flags.end(), user_include.begin(), user_include.end());
-  for (const auto& s : copies.kept) p.user.push_back({s, flags, common_salt(headers)});
+  for (const auto& s : p.is_webots ? webots_sources(o.source_dir, copies.kept) : copies.kept)
+    p.user.push_back({s, flags, common_salt(headers)});
 
   std::vector<std::string> library_flags = mode;
   library_flags.push_back("--library");
   library_flags.insert(library_flags.end(), library_include.begin(), library_include.end());
+  // first, since some take the place of a file of the libc
+  if (p.is_webots)  // first: some take the place of a file of the libc
+    for (const auto& folder : {root / "firmware/webots", cc_dir / "libc/webots"})
+      for (const auto& s : files_below(folder, ".c")) p.library.push_back({s, library_flags, ""});
   for (const auto& folder : {api, cc_dir / "libc/src"})
     for (const auto& s : files_below(folder, ".c")) p.library.push_back({s, library_flags, ""});
-  for (const auto& folder : {root / "firmware/webots", cc_dir / "libc/webots"})
-    for (const auto& s : files_below(folder, ".c")) p.webots.push_back({s, library_flags, ""});
 
   std::string name =
       o.name.empty() ? fs::absolute(o.source_dir).lexically_normal().filename().string() : o.name;
@@ -131,26 +173,13 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, bool lint) {
                 "-DTP_IMAGE_NAME=\"" + name + "\"", "-DTP_IMAGE_FLAGS=\"" + image_flags + "\""},
                ""};
   if (o.coverage) p.runtime.flags.push_back("-DTP_COVERAGE");
+  if (p.is_webots) p.runtime.flags.push_back("-DTP_WEBOTS");
   if (o.sanitize)
     p.library.push_back(
         {cc_dir / "runtime/image_sanitize.c",
          {"-O1", "--uncounted", "-I" + root.string(), "-I" + (cc_dir / "libc/include").string()},
          ""});
   return p;
-}
-
-/// Whether a program is written for Webots' interfaces: one of its files, or a header of its own, says so.
-bool names_webots(const std::vector<CompileJob>& user) {
-  static const std::regex kInclude(R"(#\s*include\s*[<"](webots|device)[/\\])");
-  std::set<fs::path> folders;
-  for (const auto& job : user) {
-    if (std::regex_search(read_text(job.source), kInclude)) return true;
-    folders.insert(job.source.parent_path());
-  }
-  for (const auto& folder : folders)
-    for (const auto& header : files_below(folder, ".h"))
-      if (std::regex_search(read_text(header), kInclude)) return true;
-  return false;
 }
 
 /// Splits what a compiler printed into errors and warnings; notes stay with the line before them.
@@ -310,8 +339,6 @@ BuildResult build_image(const BuildOptions& options) {
     result.warnings.push_back(told);
   Plan p = plan(o, copies, false);
   fs::path compiler = build_root() / "twinpuck-cc";
-  if (!names_webots(p.user)) p.webots.clear();
-  p.library.insert(p.library.begin(), p.webots.begin(), p.webots.end());
   std::vector<CompileJob> all = p.user;
   all.insert(all.end(), p.library.begin(), p.library.end());
   all.push_back(p.runtime);

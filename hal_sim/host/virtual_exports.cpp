@@ -79,6 +79,10 @@ tp_i64 tp_virtual_calendar_s(void) {
   return kCalendarBegins + begins + robot.clock().click_at(now) / sim::kClicksPerSecond;
 }
 
+char* tp_virtual_heap(tp_i64 bytes) {
+  return this_board().virtual_devices().heap(static_cast<std::size_t>(bytes));
+}
+
 tp_i64 tp_virtual_device(tp_i64 index, char* name, tp_i64 size) {
   const std::vector<sim::DeviceDesc>& devices = this_board().setup().devices;
   if (index < 0 || index >= static_cast<tp_i64>(devices.size())) return 0;

@@ -165,9 +165,10 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
   std::map<std::string, std::string> paths;
   std::map<std::string, std::shared_ptr<host::Image>> images;
   std::vector<std::string> firmware;
-  for (const auto& robot : world.robots) {
+  for (auto& robot : world.robots) {
     const std::string name = chosen(options.firmware, robot.name, robot.firmware);
     firmware.push_back(name);
+    robot.firmware = name;  // what it runs, for pictures and supervisors
     if (name.empty() || paths.count(name)) continue;
     std::string& path = paths[name];
     path = provide_image(name, options.world_folder, options, problems);

@@ -513,8 +513,8 @@ std::vector<SectionSpec> make_schema() {
           {{"kind", ValueType::Text, "", 0, 0, "", "required", "which part",
             into<PartDesc>([](PartDesc& p, const Value& v) { p.kind = v.text; })}});
   s.push_back(remote_key_section());
-  s.push_back(supervisor_section());
   s.push_back(robot_device_section());
+  s.push_back(supervisor_section());
   return s;
 }
 

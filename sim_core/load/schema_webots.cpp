@@ -45,8 +45,10 @@ SectionSpec robot_device_section() {
                  d.name = v.text;
                  return std::string();
                })},
-              {"kind", ValueType::Choice, "", 0, 0, "gps|compass|inertial|gyro|emitter|receiver|distance", "required",
-               "gps, compass, inertial, gyro: the truth, without noise; distance: a virtual sensor, whose value a "
+              {"kind", ValueType::Choice, "", 0, 0, "gps|compass|inertial|gyro|emitter|receiver|distance",
+               "required",
+               "gps, compass, inertial, gyro: the truth, without noise; distance: a virtual sensor, whose "
+               "value a "
                "supervisor sets",
                into<D>([](D& d, const Value& v) {
                  d.kind = v.text == "compass"    ? DeviceKind::Compass

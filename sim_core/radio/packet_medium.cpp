@@ -46,8 +46,9 @@ void PacketMedium::exchange(const Scene& scene, Clicks now) {
       if (packet.baud_rate_bit_s > 0) {
         // one after the other; a packet that is not through yet keeps those behind it back
         Clicks& free_at = port->free_at_[packet.emitter];
-        const Clicks out = std::max(packet.at, free_at) +
-                           from_seconds(8.0 * static_cast<double>(packet.bytes.size()) / packet.baud_rate_bit_s);
+        const Clicks out =
+            std::max(packet.at, free_at) +
+            from_seconds(8.0 * static_cast<double>(packet.bytes.size()) / packet.baud_rate_bit_s);
         const bool queue = std::any_of(waiting.begin(), waiting.end(),
                                        [&](const Packet& w) { return w.emitter == packet.emitter; });
         if (queue || out > now) {
@@ -67,7 +68,8 @@ void PacketMedium::exchange(const Scene& scene, Clicks now) {
   if (some_wait) somebody_sends_.store(true, std::memory_order_relaxed);
 }
 
-void PacketMedium::deliver(const Scene& scene, const PacketPort& from, const Packet& packet, Clicks now) const {
+void PacketMedium::deliver(const Scene& scene, const PacketPort& from, const Packet& packet,
+                           Clicks now) const {
   for (PacketPort* to : ports_) {
     if (to == &from || !to->listens(packet.channel)) continue;
     ReceivedPacket received;
@@ -80,8 +82,7 @@ void PacketMedium::deliver(const Scene& scene, const PacketPort& from, const Pac
       const double distance_m = std::sqrt(way.x * way.x + way.y * way.y + way.z * way.z);
       if (packet.range_m >= 0 && distance_m > packet.range_m) continue;
       if (distance_m > 0) {
-        if (packet.infra_red &&
-            is_hidden(scene, from.robot, to->robot, {-way.x, -way.y, -way.z}, distance_m))
+        if (packet.infra_red && is_hidden(scene, from.robot, to->robot, {-way.x, -way.y, -way.z}, distance_m))
           continue;
         const Vec2 local = Frame2(scene.state(to->robot).pose).turn_back({way.x, way.y});
         received.direction = {local.x / distance_m, local.y / distance_m, way.z / distance_m};

@@ -26,8 +26,8 @@ struct Packet {
   double range_m = -1;  ///< negative: unlimited
   bool infra_red = false;
   std::vector<std::uint8_t> bytes;
-  Clicks at = 0;              ///< when it was sent; set by the sender
-  int emitter = 0;            ///< which of the end's emitters: each sends one packet after the other
+  Clicks at = 0;                ///< when it was sent; set by the sender
+  int emitter = 0;              ///< which of the end's emitters: each sends one packet after the other
   double baud_rate_bit_s = -1;  ///< negative: unlimited; 8 bits a byte
 };
 

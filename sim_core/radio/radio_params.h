@@ -14,9 +14,8 @@ inline constexpr std::uint32_t kStreamRadioLoss = 49;
 inline constexpr std::uint32_t kStreamRadioWait = 50;
 inline constexpr std::uint32_t kStreamLinkDropout = 51;
 
-/// Height of infra-red emitters and receivers of packets over a robot's origin. [Webots: E-puck.proto, the
-/// height of the proximity sensors]
-inline constexpr double kPacketInfraRedHeightM = 0.033;
+/// Height of infra-red devices for packets over a robot's origin, m. [assumed: half a small robot]
+inline constexpr double kPacketInfraRedHeightM = 0.025;
 
 /// One octet at 250 kbit/s: 32 us. [CC2420 SWRS041 p.1: effective data rate 250 kbps]
 inline constexpr double kRadioOctetS = 8 / 250e3;

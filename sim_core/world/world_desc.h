@@ -137,11 +137,11 @@ enum class DeviceKind { Gps, Compass, Inertial, Gyro, Emitter, Receiver, Distanc
 struct DeviceDesc {
   std::string name;
   DeviceKind kind = DeviceKind::Gps;
-  int channel = 1;                 ///< of emitters and receivers; -1: all
-  double range_m = -1;             ///< of emitters; negative: unlimited
-  double baud_rate_bit_s = -1;     ///< of emitters; negative: unlimited
-  bool infra_red = false;          ///< of emitters: a free line of sight is needed
-  int line = 0;                    ///< line in the world file; 0 when built in C++
+  int channel = 1;              ///< of emitters and receivers; -1: all
+  double range_m = -1;          ///< of emitters; negative: unlimited
+  double baud_rate_bit_s = -1;  ///< of emitters; negative: unlimited
+  bool infra_red = false;       ///< of emitters: a free line of sight is needed
+  int line = 0;                 ///< line in the world file; 0 when built in C++
 };
 
 /// A key of a remote control that somebody presses for a robot.
@@ -185,7 +185,7 @@ struct RobotDesc {
   std::vector<PartDesc> parts;
   std::vector<KeyDesc> keys;  ///< presses of remote controls, in any order
   std::vector<DeviceDesc> devices;
-  int line = 0;               ///< line in the world file; 0 when built in C++
+  int line = 0;  ///< line in the world file; 0 when built in C++
 };
 
 enum class ObjectKind { Box, Cylinder, Ball, Polygon };

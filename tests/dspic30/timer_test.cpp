@@ -61,8 +61,8 @@ TEST_P(Prescale, period_is_pr_plus_one_ticks) {
   }
 }
 INSTANTIATE_TEST_SUITE_P(All, Prescale,
-                         ::testing::Values(std::pair{0, Cycle{1}}, std::pair{1, Cycle{8}}, std::pair{2, Cycle{64}},
-                                           std::pair{3, Cycle{256}}));
+                         ::testing::Values(std::pair{0, Cycle{1}}, std::pair{1, Cycle{8}},
+                                           std::pair{2, Cycle{64}}, std::pair{3, Cycle{256}}));
 
 TEST(Timer, pair_of_32_bits_counts_through_and_flags_the_high_timer) {
   Bench b;
@@ -90,7 +90,7 @@ TEST(Timer, writing_the_low_half_writes_both) {
 
 TEST(Timer, stopping_keeps_the_count_and_clears_the_prescaler) {
   Bench b;
-  b.write("T1CON", 0x8010, 0);      // 1:8 from cycle 1
+  b.write("T1CON", 0x8010, 0);       // 1:8 from cycle 1
   b.write("T1CON", 0x0010, 1 + 20);  // 2 ticks and 5 cycles
   EXPECT_EQ(b.read("TMR1", 500), 2u);
   b.write("T1CON", 0x8010, 600);

@@ -1,21 +1,10 @@
 /* SPDX-License-Identifier: MIT
  * Firmware libc: the printf family. int arguments have 16 bits, %ld 32, %f and friends print a single-precision
- * number. printf() itself goes to UART 1; that of programs
- * written for Webots' interfaces to the simulator's console. */
+ * number. printf() itself goes to the host's console, which is UART 1. */
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 #include "hal_sim/host/image_abi.h"
-#include "hal_sim/host/pins_virtual.h"
-
-/* defined by programs written for Webots' interfaces: their text goes to the simulator's console */
-extern const char tp_webots_program __attribute__((weak));
-
-static void to_console(const char *bytes, unsigned int n)
-{
-  if (&tp_webots_program) tp_virtual_console(bytes, n);
-  else tp_console(bytes, n);
-}
 
 struct sink {
   char *at, *end;      /* memory, or 0 */
@@ -35,7 +24,7 @@ static void put(struct sink *s, char c)
     if (s->at < s->end) *s->at++ = c;
   } else {
     s->line[s->filled++] = c;
-    if (s->filled == sizeof s->line) to_console(s->line, s->filled), s->filled = 0;
+    if (s->filled == sizeof s->line) tp_console(s->line, s->filled), s->filled = 0;
   }
 }
 
@@ -276,7 +265,7 @@ int vprintf(const char *format, va_list list)
   struct sink s;
   s.at = s.end = 0, s.count = 0, s.filled = 0;
   format_into(&s, format, list);
-  if (s.filled) to_console(s.line, s.filled);
+  if (s.filled) tp_console(s.line, s.filled);
   return (int)s.count;
 }
 
@@ -290,21 +279,21 @@ int snprintf(char *to, size_t size, const char *format, ...) FORWARD(vsnprintf(t
 
 int fputs(const char *s, FILE *to)
 {
-  to_console(s, strlen(s));
+  tp_console(s, strlen(s));
   return 0;
 }
 
 int puts(const char *s)
 {
   fputs(s, tp_stdout);
-  to_console("\n", 1);
+  tp_console("\n", 1);
   return 0;
 }
 
 int putchar(int c)
 {
   char one = (char)c;
-  to_console(&one, 1);
+  tp_console(&one, 1);
   return c;
 }
 

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Firmware libc: numbers, sorting, leaving. exit(0) and a return from main restart the program on the robot
- * (a program written for Webots' interfaces has ended then);
+ * Firmware libc: numbers, sorting, leaving. exit(0) and a return from main restart the program on the robot;
  * exit(n) and abort() are traps here, so nobody mistakes them for a quiet end. */
 #include <stdlib.h>
 #include <ctype.h>
@@ -121,18 +120,6 @@ void *bsearch(const void *key, const void *base, size_t n, size_t bytes, int (*c
     else n /= 2;
   }
   return 0;
-}
-
-/* as in image_runtime.c */
-extern const char tp_webots_program __attribute__((weak));
-
-void exit(int status)
-{
-  while (status == 0 && &tp_webots_program) tp_power_save(1);
-  if (status == 0) tp_reset();
-  tp_trap_message(TP_TRAP_ABORT, "exit() with a failure");
-  for (;;) {
-  }
 }
 
 void abort(void)
