@@ -4,6 +4,7 @@
 // machine moves both.
 //
 //   bench [--rounds 5] [--worlds DIR] [N ...]
+//   bench --engines [--rounds 5] [--worlds DIR]      the three motion engines instead (engines.cpp)
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -12,7 +13,9 @@
 #include <string>
 #include <vector>
 
+#include "bench/engines.h"
 #include "bench/enki_swarm.h"
+#include "bench/playback.h"
 #include "hal_sim/board/epuck_model.h"
 #include "hal_sim/board/part.h"
 #include "hal_sim/twin/twin.h"
@@ -33,67 +36,20 @@ struct Span {
 Span our_span(int robots) { return robots >= 1000 ? Span{1, 5} : Span{1, 20}; }
 Span peer_span(int robots) { return robots >= 1000 ? Span{0.192, 0.768} : Span{1, 20}; }
 
-// wheel angles of an earlier run, played back: the world's share of the time, without firmware and sensors
-class Playback final : public sim::RobotMind {
- public:
-  explicit Playback(const std::vector<sim::WheelAngles>& angles) : angles_(angles) {}
-  void run_until(const sim::Scene&, sim::Clicks) override {}
-  sim::WheelAngles wheel_angles(sim::Clicks) override {
-    return angles_[std::min(next_++, angles_.size() - 1)];
-  }
-  sim::MindReport report() const override { return {}; }
-  int proximity_counts(const sim::Scene&, int) override { return 0; }
-  std::uint64_t state_hash() const override { return 0; }
-
- private:
-  const std::vector<sim::WheelAngles>& angles_;
-  std::size_t next_ = 0;
-};
-
-struct Ours {
-  double rate = 0;         // robot-seconds per wall second
-  double world_share = 0;  // of the time: physics, poses, digest
-};
-
-std::unique_ptr<twin::Twin> open(const sim::WorldDesc& world) {
-  std::vector<std::string> problems;
-  twin::Options options;
-  auto twin = twin::Twin::open(world, options, problems);
-  for (const auto& p : problems) std::fprintf(stderr, "%s\n", p.c_str());
-  if (!twin) std::exit(2);
-  return twin;
-}
-
 double run_ours(const sim::WorldDesc& world) {
   const int n = static_cast<int>(world.robots.size());
   const Span span = our_span(n);
-  auto twin = open(world);
-  twin->simulation().run_until(sim::from_seconds(span.warm_s));
-  const auto start = Wall::now();
-  twin->simulation().run_until(sim::from_seconds(span.warm_s + span.measured_s));
-  return n * span.measured_s / seconds_since(start);
+  auto twin = bench::open_twin(world);
+  return n * bench::timed_speed(twin->simulation(), span.warm_s, span.measured_s).wall;
 }
 
 // the same motion once more with the minds' work taken out
 double world_only_rate(const sim::WorldDesc& world) {
   const int n = static_cast<int>(world.robots.size());
   const Span span = our_span(n);
-  std::vector<std::vector<sim::WheelAngles>> angles(world.robots.size());
-  {
-    auto twin = open(world);
-    while (twin->simulation().now() < sim::from_seconds(span.warm_s + span.measured_s)) {
-      twin->simulation().step();
-      for (int r = 0; r < n; ++r)
-        angles[static_cast<std::size_t>(r)].push_back(twin->mind(r).wheel_angles(twin->simulation().now()));
-    }
-  }
-  std::vector<std::unique_ptr<sim::RobotMind>> minds;
-  for (const auto& a : angles) minds.push_back(std::make_unique<Playback>(a));
-  sim::Simulation simulation(world, std::move(minds), 1);
-  simulation.run_until(sim::from_seconds(span.warm_s));
-  const auto start = Wall::now();
-  simulation.run_until(sim::from_seconds(span.warm_s + span.measured_s));
-  return n * span.measured_s / seconds_since(start);
+  const bench::WheelTrack track = bench::track_wheels(world, span.warm_s + span.measured_s);
+  auto played = bench::play_back(world, track);
+  return n * bench::timed_speed(*played, span.warm_s, span.measured_s).wall;
 }
 
 double run_peer(const sim::WorldDesc& world) {
@@ -122,14 +78,18 @@ int main(int argc, char** argv) {
   int rounds = 5;
   std::string worlds = twin::project_root() + "/bench/worlds";
   std::vector<int> sizes;
+  bool engines = false;
   for (int i = 1; i < argc; ++i) {
     if (!std::strcmp(argv[i], "--rounds") && i + 1 < argc)
       rounds = std::max(1, std::atoi(argv[++i]));
     else if (!std::strcmp(argv[i], "--worlds") && i + 1 < argc)
       worlds = argv[++i];
+    else if (!std::strcmp(argv[i], "--engines"))
+      engines = true;
     else
       sizes.push_back(std::atoi(argv[i]));
   }
+  if (engines) return bench::compare_engines(worlds, rounds);
   if (sizes.empty()) sizes = {1, 5, 10, 100, 1000};
   std::printf("robot-seconds per wall second, medians of %d rounds, ours and Enki in turn\n", rounds);
   std::printf("%7s %12s %12s %8s %9s %16s %12s\n", "robots", "ours", "Enki", "ratio", "promised",

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "sim_core/base/check.h"
-#include "sim_core/base/hash.h"
 #include "sim_core/base/worker_pool.h"
 #include "sim_core/light/proximity.h"
 #include "sim_core/physics/physics_params.h"
@@ -44,10 +43,20 @@ std::unique_ptr<Motion> make_motion(const WorldDesc& world, const Layout& layout
   }
   for (int object : layout.loose_object) {
     const ObjectDesc& o = world.objects[static_cast<std::size_t>(object)];
-    desc.loose.push_back({o.mass_kg, o.floor_friction, o.material.friction, o.material.restitution});
+    const bool rolls = o.kind == ObjectKind::Ball;
+    desc.loose.push_back({o.mass_kg, rolls ? o.rolling_friction : o.floor_friction, o.material.friction,
+                          o.material.restitution, rolls});
   }
-  return world.engine == Engine::Dynamic ? make_dynamic_motion(std::move(desc))
-                                         : make_kinematic_motion(std::move(desc));
+  for (const RampDesc& ramp : world.ramps) desc.ramp_restitution.push_back(ramp.material.restitution);
+  switch (world.engine) {
+    case Engine::Kinematic:
+      return make_kinematic_motion(std::move(desc));
+    case Engine::Planar:
+      return make_planar_motion(std::move(desc));
+    case Engine::Dynamic:
+      break;
+  }
+  return make_dynamic_motion(std::move(desc));
 }
 
 }  // namespace
@@ -72,8 +81,10 @@ Simulation::Simulation(const WorldDesc& world, Minds minds, int threads)
     Wheels& w = wheels_[r];
     // a wheel's own size is the board's business: it tells angles of nominal wheels
     w.left_radius_m = w.right_radius_m = scene_->world().model_of(robot)->wheel_radius_m;
-    w.noise = robot.wheel_noise;
-    w.grip = 1 - robot.slip;
+    const WheelSettings &own = robot.wheels, &common = scene_->world().wheels;
+    w.noise = own.noise.value_or(common.noise.value_or(0));
+    w.grip = 1 - own.slip.value_or(common.slip.value_or(0));
+    w.gaussian = own.noise_law.value_or(common.noise_law.value_or(NoiseLaw::Uniform)) == NoiseLaw::Gaussian;
     w.seed = robot_seed(scene_->world(), static_cast<int>(r));
     last_place_[r] = {robot.pose.x_m, robot.pose.y_m};
   }
@@ -84,6 +95,10 @@ Simulation::Simulation(const WorldDesc& world, Minds minds, int threads)
 Simulation::~Simulation() = default;
 
 void Simulation::step() {
+  if (attendant_ && !attended_) {
+    attended_ = true;
+    attendant_->before_first_tick();
+  }
   const Clicks end = scene_->now() + scene_->tick_clicks();
   run_minds(end);
   turn_wheels(end);
@@ -93,6 +108,7 @@ void Simulation::step() {
   publish_sound();
   for (const auto& medium : media_) medium->exchange(*scene_, end);
   fold_digest();
+  if (attendant_) attendant_->after_tick();
 }
 
 void Simulation::run_until(Clicks at) {
@@ -134,9 +150,15 @@ void Simulation::turn_wheels(Clicks end) {
     if (w.noise > 0) {
       if (noise_index != w.noise_index) {
         const auto counter = static_cast<std::uint64_t>(noise_index);
+        const auto draw = [&](std::uint32_t stream) {
+          const RandomKey key{w.seed, 0, stream};
+          // a wheel never turns against its motor
+          return w.gaussian ? std::max(0.0, 1 + w.noise * random_gaussian(key, counter))
+                            : 1 + w.noise * random_signed(key, counter);
+        };
         w.noise_index = noise_index;
-        w.left_factor = 1 + w.noise * random_signed({w.seed, 0, kStreamWheelLeft}, counter);
-        w.right_factor = 1 + w.noise * random_signed({w.seed, 0, kStreamWheelRight}, counter);
+        w.left_factor = draw(kStreamWheelLeft);
+        w.right_factor = draw(kStreamWheelRight);
       }
       left *= w.left_factor;
       right *= w.right_factor;
@@ -177,6 +199,40 @@ void Simulation::move(int body, const Pose2& pose, double z_m) {
   motion_->move(body, pose, z_m);
   if (body < robots()) last_place_[static_cast<std::size_t>(body)] = {pose.x_m, pose.y_m};
   scene_->relocate(body, motion_->bodies()[static_cast<std::size_t>(body)]);
+}
+
+void Simulation::set_velocity(int body, Vec2 velocity_m_s, double spin_rad_s, double climb_m_s) {
+  motion_->set_velocity(body, velocity_m_s, spin_rad_s, climb_m_s);
+  scene_->set_state(body, motion_->bodies()[static_cast<std::size_t>(body)]);
+}
+
+void Simulation::set_colour(const Candidate& what, const Colour& colour) {
+  scene_->set_colour(what, colour);
+  note_intervention(static_cast<std::uint64_t>(what.index) * 2 + what.moving);
+  digest_ = fold(fold(fold(digest_, colour.r), colour.g), colour.b);
+}
+
+void Simulation::set_lamp(int lamp, bool on, double intensity_w_m2, Vec3 position_m) {
+  scene_->set_lamp(lamp, on, intensity_w_m2, position_m);
+  note_intervention(static_cast<std::uint64_t>(lamp) * 2 + on);
+  digest_ = fold(fold(digest_, intensity_w_m2), position_m.x);
+  digest_ = fold(fold(digest_, position_m.y), position_m.z);
+}
+
+void Simulation::set_proximity_noise(int robot, double scale) {
+  scene_->set_proximity_noise(robot, scale);
+  optics_ = make_optics(scene_->world());
+  scene_->attach_optics(optics_);
+  note_intervention(static_cast<std::uint64_t>(robot));
+  digest_ = fold(digest_, scale);
+}
+
+void Simulation::set_wheel_noise(int robot, double half_width) {
+  Wheels& w = wheels_[static_cast<std::size_t>(robot)];
+  w.noise = half_width;
+  w.noise_index = -1;
+  note_intervention(static_cast<std::uint64_t>(robot));
+  digest_ = fold(digest_, half_width);
 }
 
 }  // namespace sim

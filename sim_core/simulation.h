@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "sim_core/base/clock.h"
+#include "sim_core/base/hash.h"
 #include "sim_core/physics/motion.h"
+#include "sim_core/world/attendant.h"
 #include "sim_core/world/medium.h"
 #include "sim_core/world/robot_mind.h"
 #include "sim_core/world/scene.h"
@@ -55,8 +57,23 @@ class Simulation {
   /// Hash of every tick's poses, wheel angles and minds since the world began.
   std::uint64_t digest() const { return digest_; }
 
-  /// Puts a body somewhere else, at rest; part of the history that the digest sees.
+  /// Who is called between ticks; null: nobody. Outlives the simulation or takes itself away.
+  void attend(Attendant* attendant) { attendant_ = attendant; }
+
+  // Changes by hand, between ticks only; each becomes part of the history that the digest sees.
+  /// Puts a body somewhere else, at rest.
   void move(int body, const Pose2& pose, double z_m = 0);
+  /// Gives a body another speed (physics/motion.h).
+  void set_velocity(int body, Vec2 velocity_m_s, double spin_rad_s, double climb_m_s);
+  /// Colour of a body or a fixed solid (world/layout.h); proximity sensors see its red part.
+  void set_colour(const Candidate& what, const Colour& colour);
+  void set_lamp(int lamp, bool on, double intensity_w_m2, Vec3 position_m);
+  /// Factor on the noise of a robot's proximity sensors; 0 none.
+  void set_proximity_noise(int robot, double scale);
+  /// Half width of the factor on a robot's wheel travel; 0 none.
+  void set_wheel_noise(int robot, double half_width);
+  /// Anything else that somebody from outside changed, as a number that differs when the change does.
+  void note_intervention(std::uint64_t what) { digest_ = fold(digest_, what); }
 
  private:
   void run_minds(Clicks end);
@@ -72,13 +89,16 @@ class Simulation {
   std::unique_ptr<Motion> motion_;
   Minds minds_;
   std::vector<std::unique_ptr<Medium>> media_;
+  Attendant* attendant_ = nullptr;
+  bool attended_ = false;  // the attendant has been told that the world begins
   std::unique_ptr<WorkerPool> workers_;
 
   struct Wheels {
     double left_radius_m = 0;
     double right_radius_m = 0;
-    double noise = 0;  // half width of the factor on the travel
-    double grip = 1;   // 1 - slip
+    double noise = 0;       // half width or standard deviation of the factor on the travel
+    bool gaussian = false;  // which of them
+    double grip = 1;        // 1 - slip
     std::uint64_t seed = 0;
     WheelAngles last;
     double left_factor = 1, right_factor = 1;

@@ -59,7 +59,10 @@ int main(int argc, char** argv) {
   tools::add_lint(app, exit_code);
   tools::add_cycles(app, exit_code);
   tools::add_new(app, exit_code);
+  tools::add_inspect(app, exit_code);
   tools::add_list(app, exit_code);
+  tools::add_import(app, exit_code);
+  tools::add_lab(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& e) {

@@ -2,7 +2,6 @@
 #include "tools/run_outputs.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
@@ -11,26 +10,11 @@
 #include <map>
 
 #include "sim_core/record/csv_recorder.h"
-#include "sim_core/record/picture.h"
+#include "tools/output_folder.h"
 
 namespace tools {
 
 namespace {
-
-// a file that cannot be written is found out before the run
-bool can_write(const std::string& path, const char* option, std::vector<std::string>& problems) {
-  if (path.empty()) return true;
-  const bool existed = std::filesystem::exists(path);
-  std::ofstream out(path, std::ios::app);
-  if (out) {
-    out.close();
-    if (!existed) std::filesystem::remove(path);
-    return true;
-  }
-  problems.push_back(path + ": " + option + ": got '" + std::strerror(errno) +
-                     "', expected a file that can be written");
-  return false;
-}
 
 // the whole text or an error; a file that could not be finished is named
 bool write_text(const std::string& path, const std::string& text, const char* option,
@@ -78,32 +62,24 @@ void add_output_options(CLI::App& verb, OutputArguments& a) {
       ->check(CLI::Range(1e-4, 1e6))
       ->capture_default_str();
   verb.add_option("--summary", a.summary, "JSON of what the run came to");
-  verb.add_option("--picture", a.picture, "PNG or SVG of the world with the robots' ways");
   verb.add_option("--save-images", a.images,
                   "folder for every picture that a program gets from its camera (PNG)");
-  verb.add_flag("--rays", a.rays, "draw the sensors' rays in the picture");
   verb.add_option("--save-sound", a.sound_folder,
                   "folder for what each robot's loudspeaker plays, a WAV file each");
   verb.add_option("--coverage", a.coverage,
                   "lcov file of the lines that firmware executed; builds controllers with counters");
+  add_picture_options(verb, a.pictures);
 }
 
-RunOutputs::RunOutputs(const OutputArguments& arguments, twin::Twin& twin)
-    : arguments_(arguments), twin_(twin) {}
+RunOutputs::RunOutputs(const OutputArguments& arguments, twin::Twin& twin, const supervisor::Team* team)
+    : arguments_(arguments), twin_(twin), team_(team), pictures_(arguments.pictures, twin) {}
 RunOutputs::~RunOutputs() = default;
 
 bool RunOutputs::open(std::vector<std::string>& problems) {
   const std::size_t before = problems.size();
   const auto& a = arguments_;
   can_write(a.summary, "--summary", problems);
-  can_write(a.picture, "--picture", problems);
   can_write(a.coverage, "--coverage", problems);
-  if (!a.picture.empty()) {
-    const std::string kind = std::filesystem::path(a.picture).extension();
-    if (kind != ".png" && kind != ".svg")
-      problems.push_back(a.picture + ": --picture: got the ending '" + kind + "', expected .png or .svg");
-    paths_ = std::make_unique<sim::Trajectories>(twin_.robots());
-  }
   if (!a.sound_folder.empty()) {
     sound_ = std::make_unique<SoundOutput>(a.sound_folder, twin_);
     sound_->open(problems);
@@ -116,21 +92,32 @@ bool RunOutputs::open(std::vector<std::string>& problems) {
     images_ = std::make_unique<SavedImages>(a.images);
     images_->open(twin_, problems);
   }
+  pictures_.open(problems);
   return problems.size() == before;
 }
 
-void RunOutputs::before_run() { after_tick(); }
+void RunOutputs::before_run() {
+  if (team_) pictures_.set_labels([this] { return team_->labels(); });
+  sample();
+  pictures_.before_run();
+}
 
 void RunOutputs::after_tick() {
+  if (team_)
+    for (int robot : team_->moved_robots()) pictures_.lift_pen(robot);
+  sample();
+  pictures_.after_tick();
+}
+
+void RunOutputs::sample() {
   const auto& simulation = twin_.simulation();
-  if (paths_) paths_->sample(simulation.scene());
   if (recorder_) recorder_->sample(simulation.scene(), simulation.minds());
   if (sound_) sound_->after_tick();
 }
 
 bool RunOutputs::failed() const {
   return (recorder_ && !recorder_->is_good()) || (images_ && images_->failed()) ||
-         (sound_ && !sound_->error().empty());
+         (sound_ && !sound_->error().empty()) || pictures_.failed();
 }
 
 void RunOutputs::finish(const Summary& summary, std::vector<std::string>& problems) {
@@ -141,15 +128,7 @@ void RunOutputs::finish(const Summary& summary, std::vector<std::string>& proble
   if (sound_ && !sound_->error().empty()) problems.push_back(sound_->error());
   if (!a.summary.empty()) write_text(a.summary, to_json(summary), "--summary", problems);
   if (!a.coverage.empty()) write_text(a.coverage, lcov_of(twin_), "--coverage", problems);
-  if (!a.picture.empty()) {
-    sim::PictureOptions options;
-    options.sensor_rays = a.rays;
-    options.caption = fmt::format("{:g} s, seed {}, {} robot{}", summary.simulated_s, summary.seed,
-                                  summary.robots.size(), summary.robots.size() == 1 ? "" : "s");
-    const std::string error = sim::write_picture(a.picture, twin_.simulation().scene(),
-                                                 twin_.simulation().minds(), paths_.get(), options);
-    if (!error.empty()) problems.push_back(error);
-  }
+  pictures_.finish(summary, problems);
 }
 
 }  // namespace tools

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The files a run leaves behind: recording, summary, picture, coverage. Files are opened before the run, so a
-// bad path costs no simulated second; the recording is whole up to the last line after any crash.
+// The files a run leaves behind: recording, summary, coverage, pictures, sounds. Files are opened before the
+// run, so a bad path costs no simulated second; the recording is whole up to the last line after any crash.
 #pragma once
 #include <CLI/CLI.hpp>
 #include <memory>
@@ -8,28 +8,30 @@
 #include <vector>
 
 #include "hal_sim/twin/twin.h"
+#include "supervisor/team.h"
+#include "tools/picture_outputs.h"
 #include "tools/saved_images.h"
 #include "tools/sound_output.h"
 #include "tools/summary.h"
 
 namespace sim {
 class CsvRecorder;
-class Trajectories;
 }  // namespace sim
 
 namespace tools {
 
 struct OutputArguments {
-  std::string record, summary, picture, coverage, images, sound_folder;
+  std::string record, summary, coverage, images, sound_folder;
   double record_every_s = 0.01;
-  bool rays = false;
+  PictureArguments pictures;
 };
 
 void add_output_options(CLI::App& verb, OutputArguments& arguments);
 
 class RunOutputs {
  public:
-  RunOutputs(const OutputArguments& arguments, twin::Twin& twin);
+  /// `team` may be null; its labels are shown in the picture.
+  RunOutputs(const OutputArguments& arguments, twin::Twin& twin, const supervisor::Team* team = nullptr);
   ~RunOutputs();
   /// Opens what can be opened; false and one line per problem otherwise.
   bool open(std::vector<std::string>& problems);
@@ -40,12 +42,15 @@ class RunOutputs {
   void finish(const Summary& summary, std::vector<std::string>& problems);
 
  private:
+  void sample();
+
   const OutputArguments arguments_;
   twin::Twin& twin_;
+  const supervisor::Team* team_;
   std::unique_ptr<sim::CsvRecorder> recorder_;
-  std::unique_ptr<sim::Trajectories> paths_;
   std::unique_ptr<SavedImages> images_;
   std::unique_ptr<SoundOutput> sound_;
+  PictureOutputs pictures_;
 };
 
 }  // namespace tools

@@ -11,7 +11,9 @@
 #include "hal_sim/board/epuck_model.h"
 #include "hal_sim/board/part.h"
 #include "hal_sim/twin/twin.h"
+#include "sim_core/light/profiles.h"
 #include "sim_core/load/world_loader.h"
+#include "supervisor/team.h"
 #include "tools/progress.h"
 #include "tools/remote_keys.h"
 #include "tools/run_outputs.h"
@@ -29,7 +31,7 @@ volatile std::sig_atomic_t interrupted = 0;
 
 struct RunArguments {
   std::string world;
-  std::vector<std::string> firmware, uart1, uart2, keys;
+  std::vector<std::string> firmware, uart1, uart2, keys, supervisors;
   double seconds = 60;
   std::string speed = "max";
   long long seed = -1;
@@ -52,13 +54,6 @@ bool split(const std::vector<std::string>& words, const char* option, std::vecto
     choices.push_back({w.substr(0, eq), w.substr(eq + 1)});
   }
   return true;
-}
-
-// a world may be named as `make run` does: maze for worlds/maze.toml
-std::string find_world(const std::string& name) {
-  if (fs::exists(name)) return name;
-  const fs::path known = fs::path(twin::project_root()) / "worlds" / (name + ".toml");
-  return name.find('/') == std::string::npos && fs::exists(known) ? known.string() : name;
 }
 
 bool parse_speed(const std::string& text, double& factor) {
@@ -100,6 +95,8 @@ int run(const RunArguments& arguments) {
     complain({"command line: --key: " + wrong});
     return kBadInput;
   }
+  if (!arguments.quiet)
+    for (const std::string& notice : sim::proximity_notices(*loaded.world)) std::cerr << notice << '\n';
   options.world_folder = fs::path(file).parent_path().string();
   std::vector<std::string> problems;
   auto twin = twin::Twin::open(std::move(*loaded.world), options, problems);
@@ -107,7 +104,12 @@ int run(const RunArguments& arguments) {
     complain(problems);
     return kBadInput;
   }
-  RunOutputs outputs(arguments.outputs, *twin);
+  auto team = supervisor::Team::open(*twin, options, arguments.supervisors, problems);
+  if (!team) {
+    complain(problems);
+    return kBadInput;
+  }
+  RunOutputs outputs(arguments.outputs, *twin, team.get());
   if (!outputs.open(problems)) {
     complain(problems);
     return kBadInput;
@@ -127,8 +129,16 @@ int run(const RunArguments& arguments) {
   const auto start = Wall::now();
   const auto wall_s = [&] { return std::chrono::duration<double>(Wall::now() - start).count(); };
   int exit_code = kPass;
+  team->before_first_tick();
   outputs.before_run();
-  while (simulation.now() < end) {
+  for (int i = 0; i < twin->robots() && !arguments.quiet; ++i) {
+    const std::string name = twin->world().robots[static_cast<std::size_t>(i)].name;
+    twin->mind(i).board().virtual_devices().on_console = [name, &progress](const std::string& line) {
+      progress.clear();
+      std::cout << name << ": " << line << '\n';
+    };
+  }
+  while (simulation.now() < end && !team->has_ended()) {
     simulation.step();
     outputs.after_tick();
     if (interrupted || outputs.failed()) break;
@@ -146,6 +156,9 @@ int run(const RunArguments& arguments) {
   }
   const double took_s = wall_s();
   progress.finish();
+  twin->flush_console();
+  team->finish();
+  if (team->has_ended() && !(arguments.quiet && team->outcome().code == 0)) complain({team->outcome().text});
   for (int i = 0; i < twin->robots(); ++i) twin->mind(i).board().exchange(twin->mind(i).now());
 
   const Summary summary = summarise(*twin, took_s);
@@ -161,10 +174,18 @@ int run(const RunArguments& arguments) {
   }
   if (interrupted) return kInterrupted;
   if (!problems.empty() || outputs.failed()) return kInvalidRun;
+  if (team->outcome().crashed) return kTrapped;
+  if (team->outcome().code != 0) return kTestFailed;
   return summary.traps.empty() ? kPass : kTrapped;
 }
 
 }  // namespace
+
+std::string find_world(const std::string& name) {
+  if (fs::exists(name)) return name;
+  const fs::path known = fs::path(twin::project_root()) / "worlds" / (name + ".toml");
+  return name.find('/') == std::string::npos && fs::exists(known) ? known.string() : name;
+}
 
 void add_run(CLI::App& app, int& exit_code) {
   auto* verb = app.add_subcommand("run", "Simulate a world");
@@ -184,6 +205,9 @@ void add_run(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   verb->add_option("--uart", a->uart1, "ROBOT=none|pty|pty:LINK|tcp:PORT|file:PATH: the other end of UART 1");
   verb->add_option("--uart2", a->uart2, "the same for UART 2");
+  verb->add_option(
+      "--supervisor", a->supervisors,
+      "a program attached to the world: a C or C++ file, a folder, or one of supervisor/programs/");
   verb->add_option(
       "--key", a->keys,
       "ROBOT=KEY@TIME[+HOLD]: a remote control's key, 0 to 63 or a name such as VOL_UP, pressed at "

@@ -4,10 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 
 #include "sim_core/record/image_file.h"
+#include "tools/output_folder.h"
 
 namespace tools {
 
@@ -51,20 +50,13 @@ std::vector<std::uint8_t> decode_picture(const board::CameraPicture& picture) {
 }
 
 bool SavedImages::open(twin::Twin& twin, std::vector<std::string>& problems) {
-  std::error_code error;
-  std::filesystem::create_directories(folder_, error);
-  if (error || !std::filesystem::is_directory(folder_)) {
-    problems.push_back(folder_ + ": --save-images: got '" + (error ? error.message() : "a file") +
-                       "', expected a folder, or a place where one can be made");
-    return false;
-  }
+  if (!make_output_folder(folder_, "--save-images", problems)) return false;
   for (int r = 0; r < twin.robots(); ++r) {
     board::Camera* camera = twin.mind(r).board().camera();
     if (!camera) continue;
-    std::string name = twin.world().robots[static_cast<std::size_t>(r)].name;
-    std::replace(name.begin(), name.end(), '/', '_');
-    camera->on_picture = [this, name](const board::CameraPicture& picture) {
-      const std::string path = fmt::format("{}/{}_{:06}.png", folder_, name, picture.number);
+    const std::string file = output_file(folder_, twin.world(), r);
+    camera->on_picture = [this, file](const board::CameraPicture& picture) {
+      const std::string path = fmt::format("{}_{:06}.png", file, picture.number);
       if (!sim::write_png(path, picture.columns, picture.rows, decode_picture(picture)).empty())
         failed_ = true;
     };

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "tools/sound_output.h"
 
-#include <algorithm>
-#include <filesystem>
-
 #include "hal_sim/board/sound_params.h"
 #include "sim_core/record/wav_recorder.h"
+#include "tools/output_folder.h"
 
 namespace tools {
 
@@ -21,21 +19,7 @@ SoundOutput::SoundOutput(std::string folder, twin::Twin& twin) : folder_(std::mo
 SoundOutput::~SoundOutput() = default;
 
 bool SoundOutput::open(std::vector<std::string>& problems) {
-  std::error_code error;
-  std::filesystem::create_directories(folder_, error);
-  if (!error && std::filesystem::is_directory(folder_)) return true;
-  problems.push_back(folder_ + ": --save-sound: got '" + (error ? error.message() : "Not a directory") +
-                     "', expected a folder that can be created");
-  return false;
-}
-
-std::string SoundOutput::file_of(int robot) const {
-  std::string name = twin_.world().robots[static_cast<std::size_t>(robot)].name;
-  if (name.find('/') != std::string::npos || name[0] == '.') {
-    std::replace(name.begin(), name.end(), '/', '_');
-    name = std::to_string(robot) + "_" + name;
-  }
-  return folder_ + "/" + name + ".wav";
+  return make_output_folder(folder_, "--save-sound", problems);
 }
 
 void SoundOutput::after_tick() {
@@ -46,7 +30,7 @@ void SoundOutput::after_tick() {
     if (!robot.codec().was_used()) continue;
     auto& file = files_[static_cast<std::size_t>(r)];
     if (!file) {
-      file = std::make_unique<sim::WavRecorder>(file_of(r), kRateHz);
+      file = std::make_unique<sim::WavRecorder>(output_file(folder_, twin_.world(), r) + ".wav", kRateHz);
       file->append(std::vector<std::int16_t>(static_cast<std::size_t>(next_)));
     }
     samples_.clear();

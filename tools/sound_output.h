@@ -26,8 +26,6 @@ class SoundOutput {
   const std::string& error() const { return error_; }
 
  private:
-  std::string file_of(int robot) const;
-
   std::string folder_;
   twin::Twin& twin_;
   std::int64_t next_ = 0;  // sample number

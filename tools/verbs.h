@@ -12,7 +12,7 @@ enum Exit {
   kPass = 0,
   kTestFailed = 1,     ///< a test or assertion failed; `build`, `check`, `lint`: the input has errors
   kBadInput = 2,       ///< usage or bad input, nothing ran
-  kTrapped = 3,        ///< a firmware trapped or was reset unexpectedly
+  kTrapped = 3,        ///< a firmware trapped or was reset unexpectedly; a supervisor crashed
   kTimeOut = 4,        ///< virtual time-out or no progress
   kNothing = 5,        ///< nothing was selected
   kInternal = 6,       ///< internal error
@@ -29,6 +29,12 @@ void add_lint(CLI::App& app, int& exit_code);
 void add_cycles(CLI::App& app, int& exit_code);
 void add_new(CLI::App& app, int& exit_code);
 void add_list(CLI::App& app, int& exit_code);
+void add_import(CLI::App& app, int& exit_code);
+void add_inspect(CLI::App& app, int& exit_code);
+
+/// A world may be named as `make run` does: maze for worlds/maze.toml.
+std::string find_world(const std::string& name);
+void add_lab(CLI::App& app, int& exit_code);
 
 /// Writes each problem on a line of its own to stderr.
 void complain(const std::vector<std::string>& problems);

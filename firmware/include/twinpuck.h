@@ -19,4 +19,13 @@
 #define TP_POLL
 #endif
 
+/* around prototypes that supervisor programs in C++ include as well */
+#ifdef __cplusplus
+#define TP_C_BEGIN extern "C" {
+#define TP_C_END }
+#else
+#define TP_C_BEGIN
+#define TP_C_END
+#endif
+
 #endif

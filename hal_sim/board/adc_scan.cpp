@@ -30,6 +30,10 @@ static_assert((3 * kScanChannelTad + 1) * kScanTadCycles == 552);
 static_assert(5 * kScanChannelTad * kScanTadCycles == kScanFrameCycles);
 }  // namespace
 
+Cycle scan_flash_cycles(int sensor) {
+  return (kScanLitSlot + kScanPeriod - kScanDarkSlot - 1) * kScanFrameCycles + hold_cycles(sensor);
+}
+
 void AdcScan::settle(Cycle at) {
   // samples so far must not depend on frame times that are about to be forgotten
   for (int sensor = 0; sensor < kRingSensors; ++sensor) {

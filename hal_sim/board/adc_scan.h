@@ -26,6 +26,9 @@ namespace board {
 
 class Board;
 
+/// Cycles for which the emitter of a ring sensor has been on when its lit sample is held.
+Cycle scan_flash_cycles(int sensor);
+
 class AdcScan {
  public:
   explicit AdcScan(const Board& board) : board_(board) {}

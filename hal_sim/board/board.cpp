@@ -301,41 +301,54 @@ void Board::exchange(Cycle at) {
 
 // --- analogue inputs -------------------------------------------------------------------------------------
 
-int Board::ir_counts(int sensor, Cycle at, Cycle lit_for, std::uint64_t sample) const {
+int adc_counts(double level) {
+  return static_cast<int>(std::clamp(std::floor(level + 0.5), 0.0, double{kAdcMax}));
+}
+
+IrConversion Board::ir_conversion(int sensor, Cycle at, Cycle lit_for) const {
   const std::size_t i = static_cast<std::size_t>(sensor);
-  const std::uint32_t robot = static_cast<std::uint32_t>(setup_.robot);
-  double light = 0;       // counts below darkness
-  double reflection = 0;  // counts
+  IrConversion c;
   if (scene_) {
     const sim::Clicks when = clock_.click_at(at);
-    light = sim::sense_irradiance_w_m2(*scene_, setup_.robot, sensor, when) * setup_.ambient_counts_per_w_m2;
+    c.irradiance_w_m2 = sim::sense_irradiance_w_m2(*scene_, setup_.robot, sensor, when);
     if (lit_for >= 0) {
       const sim::ProximityResponse seen = sim::sense_proximity(*scene_, setup_.robot, sensor, when);
-      reflection = seen.value * setup_.ir_gain[i];
-      if (seen.relative_noise > 0 && setup_.ir_noise_scale > 0) {
-        const sim::RandomKey key{setup_.seed, robot, kReflectionStream + static_cast<std::uint32_t>(sensor)};
-        const double noise =
-            seen.uniform_noise ? sim::random_signed(key, sample) : sim::random_gaussian(key, sample);
-        reflection *= 1.0 + noise * seen.relative_noise * setup_.ir_noise_scale;
-      }
+      c.reflection_counts = seen.value * setup_.ir_gain[i];
+      c.relative_noise = seen.relative_noise;
+      c.uniform_noise = seen.uniform_noise;
     }
   }
+  c.light_counts = c.irradiance_w_m2 * setup_.ambient_counts_per_w_m2;
   if (lit_for >= 0) {
-    reflection += setup_.ir_offset_counts[i];
+    c.offset_counts = setup_.ir_offset_counts[i];
     // the phototransistor follows the flash with one time constant; after 300 us nothing is missing
     if (lit_for < 40 * kIrSettleCycles) {
       if (lit_for != settled_for_) {
         settled_for_ = lit_for;
         settled_share_ = 1.0 - std::exp(-static_cast<double>(lit_for) / static_cast<double>(kIrSettleCycles));
       }
-      reflection *= settled_share_;
+      c.settled = settled_share_;
     }
   }
+  return c;
+}
+
+int Board::ir_counts(int sensor, Cycle at, Cycle lit_for, std::uint64_t sample) const {
+  const std::uint32_t robot = static_cast<std::uint32_t>(setup_.robot);
+  const IrConversion c = ir_conversion(sensor, at, lit_for);
+  double light = c.light_counts, reflection = c.reflection_counts;
+  if (c.relative_noise > 0 && setup_.ir_noise_scale > 0) {
+    const sim::RandomKey key{setup_.seed, robot, kReflectionStream + static_cast<std::uint32_t>(sensor)};
+    const double noise =
+        c.uniform_noise ? sim::random_signed(key, sample) : sim::random_gaussian(key, sample);
+    reflection *= 1.0 + noise * c.relative_noise * setup_.ir_noise_scale;
+  }
+  if (lit_for >= 0) reflection = (reflection + c.offset_counts) * c.settled;
   if (setup_.ambient_noise_counts > 0) {
     const sim::RandomKey key{setup_.seed, robot, kAmbientStream + static_cast<std::uint32_t>(sensor)};
     light += setup_.ambient_noise_counts * sim::random_gaussian(key, sample);
   }
-  return static_cast<int>(std::clamp(std::floor(kAdcMax - light - reflection + 0.5), 0.0, double{kAdcMax}));
+  return adc_counts(kAdcMax - light - reflection);
 }
 
 int Board::mic_counts(int microphone, Cycle at, std::uint64_t sample) const {

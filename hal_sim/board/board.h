@@ -18,6 +18,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "hal_sim/board/adc_scan.h"
@@ -31,10 +32,12 @@
 #include "hal_sim/board/data_eeprom.h"
 #include "hal_sim/board/i2c_bus.h"
 #include "hal_sim/board/i2c_master.h"
+#include "hal_sim/board/packet_devices.h"
 #include "hal_sim/board/part.h"
 #include "hal_sim/board/remote.h"
 #include "hal_sim/board/timer_motors.h"
 #include "hal_sim/board/uart.h"
+#include "hal_sim/board/virtual_devices.h"
 #include "hal_sim/host/context.h"
 
 namespace sim {
@@ -80,7 +83,27 @@ struct Setup {
   double motion_noise_scale = 1;              ///< factor on the noise of accelerometer and gyroscope
   double clock_ppm = 0;                       ///< crystal error, parts per million, positive = fast
   double boot_delay_s = 0;                    ///< s from the world's beginning to the first instruction
+  std::string name;                           ///< in the world
+  sim::WebotsDesc webots;                     ///< of the world
+  std::vector<sim::DeviceDesc> devices;       ///< that only programs for Webots' interfaces know
 };
+
+/// One conversion of a proximity sensor's phototransistor, before any noise.
+struct IrConversion {
+  double irradiance_w_m2 = 0;    ///< W/m2, lamps and ambient light
+  double light_counts = 0;       ///< counts that this light pulls the sample below darkness
+  double reflection_counts = 0;  ///< counts that the flash adds to that, this sensor's gain included
+  double relative_noise = 0;     ///< of the reflection: standard deviation, or half width when uniform; the
+                                 ///< board's own noise scale is not in it
+  bool uniform_noise = false;
+  double offset_counts = 0;  ///< of a lit sample
+  double settled = 1;        ///< part of the flash that the phototransistor has followed, 0 to 1
+  /// Without noise, not rounded and not held within the converter's range.
+  double counts() const { return kAdcMax - light_counts - (reflection_counts + offset_counts) * settled; }
+};
+
+/// What the converter makes of a level given in counts: rounded, 0 to 4095.
+int adc_counts(double level);
 
 class Board {
  public:
@@ -162,6 +185,11 @@ class Board {
   /// The processor's side of the bus.
   I2cMaster& i2c_master() { return i2c_master_; }
   const I2cMaster& i2c_master() const { return i2c_master_; }
+  /// Emitters and receivers of packets, and sensors that a supervisor defines: for programs written for
+  /// Webots' interfaces.
+  PacketDevices& packets() { return packets_; }
+  VirtualDevices& virtual_devices() { return virtual_; }
+  const VirtualDevices& virtual_devices() const { return virtual_; }
   /// Plugs a turret or another part in; before power-up.
   void plug_in(std::unique_ptr<Part> part);
   const std::vector<std::unique_ptr<Part>>& parts() const { return parts_; }
@@ -176,6 +204,8 @@ class Board {
   /// Tick boundary: bytes from outside enter, bytes sent so far go out, old bookkeeping is dropped.
   void exchange(Cycle at);
 
+  /// The same sample without noise: what a conversion is made of. `lit_for` as below.
+  IrConversion ir_conversion(int sensor, Cycle at, Cycle lit_for) const;
   /// Counts of a proximity sensor's phototransistor at `at`, its emitter having been on for `lit_for` cycles
   /// (negative: off). Noise is drawn from `sample`, a number unique to the sample.
   int ir_counts(int sensor, Cycle at, Cycle lit_for, std::uint64_t sample) const;
@@ -254,6 +284,8 @@ class Board {
   mutable Cycle settled_for_ = -1;  // the flash's length is nearly always the same: its exponential, once
   mutable double settled_share_ = 0;
   std::uint64_t conversions_ = 0;
+  PacketDevices packets_{clock_, setup_.robot, setup_.devices};
+  VirtualDevices virtual_;
 };
 
 }  // namespace board

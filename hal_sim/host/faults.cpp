@@ -31,6 +31,7 @@ struct Fault {
   bool is_write = false, has_address = false;
 };
 thread_local Fault last_fault;
+thread_local FaultGuest* guest = nullptr;
 
 constexpr std::size_t kSignalStackBytes = 64 * 1024;
 constexpr std::size_t kRecoveryStackBytes = 256 * 1024;
@@ -108,6 +109,7 @@ void on_signal(int signal, siginfo_t* info, void* raw) {
     return;
   // out of stack anywhere on the firmware's stack
   if (robot && signal == SIGSEGV && robot->fiber().is_in_guard(address)) ours = true;
+  if (!robot && guest && guest->take(signal, raw, info->si_code == SI_KERNEL ? 0 : address)) return;
   if (!ours) {
     sigaction(signal, &previous[signal],
               nullptr);  // not firmware: fault again with whoever was there before us
@@ -128,6 +130,8 @@ void on_signal(int signal, siginfo_t* info, void* raw) {
 }
 
 }  // namespace
+
+void set_fault_guest(FaultGuest* now) { guest = now; }
 
 void catch_faults_on_this_thread() {
   static std::once_flag once;

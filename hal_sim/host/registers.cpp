@@ -14,7 +14,7 @@ namespace {
 
 constexpr unsigned kSr = 0x042, kDisicnt = 0x052, kIntcon1 = 0x080, kIntcon2 = 0x082, kIfs0 = 0x084,
                    kIec0 = 0x08C, kIpc0 = 0x094, kI2ccon = 0x206, kRcon = 0x740;
-constexpr std::uint16_t kPor = 1 << 0, kBor = 1 << 1, kSwr = 1 << 6;
+constexpr std::uint16_t kPor = 1 << 0, kBor = 1 << 1, kSwr = 1 << 6, kExtr = 1 << 7;
 
 // timer 1 stands alone; 2 and 3, 4 and 5 are laid out as pairs
 struct TimerRegisters {
@@ -86,6 +86,7 @@ void NativeRegisters::processor_reset() {
 }
 
 void NativeRegisters::note_software_reset() { rcon_ |= kSwr; }
+void NativeRegisters::note_reset_button() { rcon_ |= kExtr; }
 
 void NativeRegisters::processor_stopped() { robot_.board().processor_reset(robot_.now()); }
 

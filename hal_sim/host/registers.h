@@ -28,6 +28,7 @@ class NativeRegisters {
   void power_up();         ///< everything at power-on reset values, RCON = POR | BOR
   void processor_reset();  ///< same, but RCON keeps what a software reset keeps
   void note_software_reset();
+  void note_reset_button();
   void processor_stopped();  ///< a trapped robot: motors and drivers off
 
   /// Byte address, width 8 or 16; result in the low bits. Unmodelled registers trap.

@@ -577,17 +577,36 @@ std::vector<char> Robot::read_variable(const std::string& symbol, std::size_t by
   if (!image_->symbols().find_object(symbol, address, size)) return {};
   bytes = bytes == 0 ? size : std::min(bytes, size);
   std::vector<char> value(bytes);
-  const char* live = reinterpret_cast<const char*>(copy_.base() + address);
-  const tp_image& image = copy_.description();
-  if (copy_.owner == this || live < image.data_begin || live >= image.data_end) {
-    std::memcpy(value.data(), live, bytes);
-  } else {
-    const std::size_t hole = static_cast<std::size_t>(image.hole_end - image.hole_begin);
-    const std::size_t offset =
-        static_cast<std::size_t>(live - image.data_begin) - (live >= image.hole_end ? hole : 0);
-    std::memcpy(value.data(), data_.data() + offset, bytes);
-  }
+  read_memory(address, value.data(), bytes);
   return value;
+}
+
+char* Robot::place_of(std::uintptr_t address) const {
+  char* live = reinterpret_cast<char*>(copy_.base() + address);
+  const tp_image& image = copy_.description();
+  if (copy_.owner == this || live < image.data_begin || live >= image.data_end) return live;
+  const std::size_t hole = static_cast<std::size_t>(image.hole_end - image.hole_begin);
+  const std::size_t offset =
+      static_cast<std::size_t>(live - image.data_begin) - (live >= image.hole_end ? hole : 0);
+  return const_cast<char*>(data_.data()) + offset;
+}
+
+void Robot::read_memory(std::uintptr_t address, void* to, std::size_t bytes) const {
+  std::memcpy(to, place_of(address), bytes);
+}
+
+void Robot::write_memory(std::uintptr_t address, const void* from, std::size_t bytes) {
+  std::memcpy(place_of(address), from, bytes);
+  ++writes_;
+  wake();
+}
+
+void Robot::restart() {
+  registers_->note_reset_button();
+  stopped_ = false;
+  now_ = std::max(now_, end_);
+  reset_asked_ = true;
+  wake();
 }
 
 }  // namespace host

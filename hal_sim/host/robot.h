@@ -84,6 +84,15 @@ class Robot final : public Context {
   const std::string& name() const { return settings_.name; }
   /// Value of a global of the firmware by name, for tests and supervisors: its bytes now. Empty when unknown.
   std::vector<char> read_variable(const std::string& symbol, std::size_t bytes) const;
+  /// Bytes of the program's data now, whoever's data is live; `address` relative to the load address. Between
+  /// windows only.
+  void read_memory(std::uintptr_t address, void* to, std::size_t bytes) const;
+  /// Changes them, as a debugger would; a wait looks again.
+  void write_memory(std::uintptr_t address, const void* from, std::size_t bytes);
+  const Symbols& symbols() const { return image_->symbols(); }
+  /// The reset button: the program begins anew at the end of the last window, also after a trap. Between
+  /// windows only. Traps stay reported.
+  void restart();
 
   // --- Context
   // ----------------------------------------------------------------------------------------------
@@ -147,6 +156,7 @@ class Robot final : public Context {
  private:
   static void enter_firmware(void* self);
   void restart_program();
+  char* place_of(std::uintptr_t address) const;  // where this robot's value of a variable is now
   void watch_remote();
   void swap_in();
   void fold();                         // spent budget -> now_
@@ -212,6 +222,17 @@ class Robot final : public Context {
 };
 
 inline constexpr const char* kStackOverflow = "stack overflow: endless recursion, or local arrays too large";
+
+/// Other native code that a thread runs between the robots' turns and that answers for its own faults.
+class FaultGuest {
+ public:
+  virtual ~FaultGuest() = default;
+  /// In the signal handler: a fault of `signal` at `address` (0 unknown) was not firmware's. True: `context`
+  /// (ucontext_t) was changed to go on elsewhere.
+  virtual bool take(int signal, void* context, std::uintptr_t address) = 0;
+};
+/// The guest that runs on this thread now; null: none.
+void set_fault_guest(FaultGuest* guest);
 
 /// Installs the fault handlers of this process (SIGSEGV, SIGBUS, SIGFPE, SIGILL) once, and this thread's
 /// signal and recovery stacks. Faults outside firmware go to the handlers that were there before.

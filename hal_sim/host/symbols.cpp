@@ -99,6 +99,17 @@ Place Symbols::find(std::uintptr_t address) const {
   return place;
 }
 
+const Variable* Symbols::find_variable(const std::string& expression, std::string& error) const {
+  std::lock_guard<std::mutex> lock(reading);
+  const auto known = variables_.find(expression);
+  if (known != variables_.end()) return &known->second;
+  if (!reader_) reader_ = std::make_unique<Reader>(path_);
+  Variable found;
+  error = host::find_variable(reader_->dwarf, expression, found);
+  if (!error.empty()) return nullptr;
+  return &variables_.emplace(expression, found).first->second;
+}
+
 bool Symbols::find_object(const std::string& name, std::uintptr_t& address, std::size_t& bytes) const {
   std::lock_guard<std::mutex> lock(reading);
   if (!reader_) reader_ = std::make_unique<Reader>(path_);

@@ -2,8 +2,11 @@
 // From an address in a firmware image to function, file and line, by the image's own debug information.
 #pragma once
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
+
+#include "hal_sim/host/variables.h"
 
 namespace host {
 
@@ -25,6 +28,10 @@ class Symbols {
   /// `address` is relative to the image's load address.
   Place find(std::uintptr_t address) const;
 
+  /// A variable, array element or struct member, by the debug information (host/variables.h); null, with
+  /// `error` saying why, when there is none. Remembered.
+  const Variable* find_variable(const std::string& expression, std::string& error) const;
+
   /// Address (relative to the load address) and size in bytes of a global or static object; false when
   /// unknown.
   bool find_object(const std::string& name, std::uintptr_t& address, std::size_t& bytes) const;
@@ -33,6 +40,7 @@ class Symbols {
   struct Reader;
   std::string path_;
   mutable std::unique_ptr<Reader> reader_;
+  mutable std::map<std::string, Variable> variables_;
 };
 
 }  // namespace host

@@ -2,6 +2,8 @@
 // The tables themselves, each with its source, and the placement of rays.
 #include "sim_core/light/profiles.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -114,6 +116,7 @@ ProximityConfig resolve_proximity(const WorldDesc& world, int robot, int sensor)
   const ProximityProfile* profile = find_profile(inherit(&S::profile, levels, std::string(kDefaultProfile)));
   CHECK(profile, "profiles are checked when a world is loaded");
   ProximityConfig c;
+  c.profile = profile->name;
   // a table stands for a profile: whichever of the two is named at the nearest level counts
   c.table = profile->table;
   c.rays_answer_singly = profile->rays_answer_singly;
@@ -121,12 +124,13 @@ ProximityConfig resolve_proximity(const WorldDesc& world, int robot, int sensor)
     if (!level || (!level->table && !level->profile)) continue;
     if (level->table) {
       c.table = *level->table;
+      c.profile.clear();
       c.rays_answer_singly = false;
     }
     break;
   }
   c.type = inherit(&S::type, levels, SensorType::InfraRed);
-  c.rays = inherit(&S::rays, levels, profile->rays);
+  c.rays = c.rays_written = inherit(&S::rays, levels, profile->rays);
   c.aperture_rad = inherit(&S::aperture_rad, levels, profile->aperture_rad);
   c.gaussian_width = inherit(&S::gaussian_width, levels, 1.0);
   c.layout = inherit(&S::layout, levels, profile->layout);
@@ -138,6 +142,13 @@ ProximityConfig resolve_proximity(const WorldDesc& world, int robot, int sensor)
   return c;
 }
 
+ProximityConfig config_of(const ProximityProfile& profile) {
+  WorldDesc world;
+  world.proximity.profile = profile.name;
+  world.robots.emplace_back();
+  return resolve_proximity(world, 0, 0);
+}
+
 std::vector<RayPlan> plan_rays(int rays, double aperture_rad, double gaussian_width, RayLayout layout) {
   struct Place {
     double azimuth_rad, fraction;
@@ -147,10 +158,10 @@ std::vector<RayPlan> plan_rays(int rays, double aperture_rad, double gaussian_wi
     for (int k = 0; k < count; ++k) places.push_back({2 * kPi * k / count, fraction});
   };
   if (layout == RayLayout::Fan) {
-    // left to right in the plane; azimuth 0 is to the left
+    // left to right in the plane
     for (int k = 0; k < rays; ++k) {
       const double f = rays == 1 ? 0 : 1 - 2.0 * k / (rays - 1);
-      places.push_back({f >= 0 ? 0 : kPi, std::fabs(f)});
+      places.push_back({f >= 0 ? -kPi / 2 : kPi / 2, std::fabs(f)});
     }
   } else if (rays == 1) {
     places.push_back({0, 0});
@@ -187,7 +198,9 @@ std::vector<RayPlan> plan_rays(int rays, double aperture_rad, double gaussian_wi
     RayPlan plan;
     plan.off_axis_rad = 0.5 * p.fraction * aperture_rad;
     const double side = std::sin(plan.off_axis_rad);
-    plan.dir = {std::cos(plan.off_axis_rad), side * std::cos(p.azimuth_rad), side * std::sin(p.azimuth_rad)};
+    plan.azimuth_rad = p.azimuth_rad;
+    plan.dir = {std::cos(plan.off_axis_rad), -side * std::sin(p.azimuth_rad), side * std::cos(p.azimuth_rad)};
+    if (std::fabs(plan.dir.y) < 1e-15) plan.dir.y = 0;
     if (std::fabs(plan.dir.z) < 1e-15) plan.dir.z = 0;
     const double spread = aperture_rad * gaussian_width;
     const double reach = plan.off_axis_rad == 0 ? 0 : plan.off_axis_rad / spread;
@@ -195,9 +208,95 @@ std::vector<RayPlan> plan_rays(int rays, double aperture_rad, double gaussian_wi
     total += plan.weight;
     plans.push_back(plan);
   }
-  // a width of 0 leaves only the ray on the axis; where there is none, all count alike
-  for (RayPlan& plan : plans) plan.weight = total > 0 ? plan.weight / total : 1.0 / static_cast<double>(rays);
+  if (total > 0) {
+    for (RayPlan& plan : plans) plan.weight /= total;
+    return plans;
+  }
+  // nothing has any weight left: those nearest to the axis are what a shrinking width tends to
+  double inner_rad = kPi, share = 0;
+  for (const RayPlan& plan : plans) inner_rad = std::min(inner_rad, plan.off_axis_rad);
+  for (const RayPlan& plan : plans) share += plan.off_axis_rad <= inner_rad + 1e-12 ? 1 : 0;
+  for (RayPlan& plan : plans) plan.weight = plan.off_axis_rad <= inner_rad + 1e-12 ? 1 / share : 0;
   return plans;
+}
+
+namespace {
+
+/// What is odd about one sensor; empty: nothing.
+std::string notice_of(const ProximityConfig& c) {
+  if (c.rays < c.rays_written)
+    return fmt::format("aperture is 0: one ray on the axis instead of {}", c.rays_written);
+  if (c.rays == 1 || c.rays_answer_singly) return {};
+  int alive = 0;
+  bool on_axis = false;
+  for (const RayPlan& plan : plan_rays(c.rays, c.aperture_rad, c.gaussian_width, c.layout)) {
+    if (plan.weight == 0) continue;
+    ++alive;
+    on_axis = on_axis || plan.off_axis_rad == 0;
+  }
+  const bool zero = c.gaussian_width == 0;
+  if (alive == c.rays && !(zero && !on_axis)) return {};
+  const std::string width = zero ? std::string("gaussian_width is 0")
+                                 : fmt::format("gaussian_width {} is next to nothing", c.gaussian_width);
+  if (alive == 1)
+    return fmt::format("{}: only the ray on the axis counts, the weight of the other {} is 0", width,
+                       c.rays - 1);
+  return fmt::format("{}: none of the {} rays lies on the axis, the {} nearest to it count alike", width,
+                     c.rays, alive);
+}
+
+/// "sensors 0 to 3, 7"
+std::string sensor_list(const std::vector<int>& sensors) {
+  std::string text = sensors.size() == 1 ? "sensor " : "sensors ";
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    std::size_t last = i;
+    while (last + 1 < sensors.size() && sensors[last + 1] == sensors[last] + 1) ++last;
+    if (i > 0) text += ", ";
+    text += fmt::format("{}", sensors[i]);
+    if (last > i) text += fmt::format("{}{}", last > i + 1 ? " to " : ", ", sensors[last]);
+    i = last;
+  }
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string> proximity_notices(const WorldDesc& world) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> found;  // notice and whom it concerns
+  for (int r = 0; r < static_cast<int>(world.robots.size()); ++r) {
+    const RobotDesc& robot = world.robots[static_cast<std::size_t>(r)];
+    const RobotModel* model = world.model_of(robot);
+    if (!model) continue;
+    std::vector<std::pair<std::string, std::vector<int>>> mine;
+    for (int i = 0; i < static_cast<int>(model->proximity.size()); ++i) {
+      const std::string text = notice_of(resolve_proximity(world, r, i));
+      if (text.empty()) continue;
+      const auto same =
+          std::find_if(mine.begin(), mine.end(), [&](const auto& m) { return m.first == text; });
+      if (same == mine.end()) {
+        mine.push_back({text, {i}});
+      } else {
+        same->second.push_back(i);
+      }
+    }
+    for (const auto& [text, sensors] : mine) {
+      const std::string key = sensor_list(sensors) + ": " + text;
+      const auto same =
+          std::find_if(found.begin(), found.end(), [&](const auto& f) { return f.first == key; });
+      if (same == found.end()) {
+        found.push_back({key, {robot.name}});
+      } else {
+        same->second.push_back(robot.name);
+      }
+    }
+  }
+  std::vector<std::string> out;
+  for (const auto& [text, robots] : found) {
+    const std::string who = robots.size() == 1 ? "robot " + robots[0]
+                                               : fmt::format("{} robots, {} first", robots.size(), robots[0]);
+    out.push_back("note: " + who + ", " + text);
+  }
+  return out;
 }
 
 ResponseRow look_up(const std::vector<ResponseRow>& table, double distance_m) {

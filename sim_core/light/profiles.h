@@ -33,9 +33,11 @@ inline constexpr const char* kDefaultProfile = "inverse-square";
 
 /// Settings of one sensor with nothing left open.
 struct ProximityConfig {
+  std::string profile;             ///< its name; empty: the sensor has a table of its own
   std::vector<ResponseRow> table;  ///< sorted by distance, at least two rows
   SensorType type = SensorType::InfraRed;
   int rays = 1;
+  int rays_written = 1;  ///< as asked for; an aperture of 0 leaves one
   double aperture_rad = 0;
   double gaussian_width = 1;
   RayLayout layout = RayLayout::Cone;
@@ -49,16 +51,25 @@ struct ProximityConfig {
 /// Inherits from the sensor's settings, then the robot's, then the world's, then the profile.
 ProximityConfig resolve_proximity(const WorldDesc& world, int robot, int sensor);
 
-/// One ray of a sensor in the sensor's own frame (x along its axis).
+/// A profile's settings as a sensor has them that nobody edited.
+ProximityConfig config_of(const ProximityProfile& profile);
+
+/// One ray of a sensor in the sensor's own frame (x along its axis, y to the left, z up).
 struct RayPlan {
   Vec3 dir;           ///< unit
   double weight = 1;  ///< all weights add up to 1
   double off_axis_rad = 0;
+  double azimuth_rad = 0;  ///< around the axis: 0 up, growing to the right, seen along the axis
 };
 
 /// Where the rays of a sensor go. [Webots] placement for cones (one ray on the axis, further ones on cones up
-/// to half the aperture); fans spread evenly over the aperture in the plane.
+/// to half the aperture, the first of each cone above the axis); fans spread evenly over the aperture in the
+/// plane. A width of 0, or one so small that every weight vanishes, leaves the rays nearest to the axis: the
+/// one on it, or, with 2, 3 and 9 rays and even fans, the innermost ones alike.
 std::vector<RayPlan> plan_rays(int rays, double aperture_rad, double gaussian_width, RayLayout layout);
+
+/// What is odd about the sensors of a world, a line each, such as rays that do not count. Not errors.
+std::vector<std::string> proximity_notices(const WorldDesc& world);
 
 /// Value and relative noise at a distance: linear between rows, clamped beyond the ends.
 ResponseRow look_up(const std::vector<ResponseRow>& table, double distance_m);

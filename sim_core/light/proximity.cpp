@@ -222,9 +222,7 @@ ProximityResponse respond(const SensorOptics& s, const RayEnd* ends) {
 
 constexpr std::size_t kMostRays = 100;  // limit of the world format
 
-std::unique_ptr<SensorOptics> make_sensor(const WorldDesc& world, int robot, int sensor,
-                                          const SensorMount& mount) {
-  const ProximityConfig config = resolve_proximity(world, robot, sensor);
+std::unique_ptr<SensorOptics> make_sensor(const ProximityConfig& config, const SensorMount& mount) {
   auto s = std::make_unique<SensorOptics>(
       SensorOptics{config, ResponseCurve(config.table), mount.at_m, {}, 0, 1, false, false, {}, {}});
   // sensor frame to robot frame: pitch up about the sensor's left axis, then yaw
@@ -277,7 +275,7 @@ std::shared_ptr<const ProximityOptics> make_optics(const WorldDesc& world) {
       double reach = model->body_radius_m;
       for (int i = 0; i < static_cast<int>(model->proximity.size()); ++i) {
         const SensorMount& mount = model->proximity[static_cast<std::size_t>(i)];
-        optics->sensors.push_back(make_sensor(world, robot, i, mount));
+        optics->sensors.push_back(make_sensor(resolve_proximity(world, robot, i), mount));
         reach = std::max(reach,
                          length({mount.at_m.x, mount.at_m.y}) + optics->sensors.back()->config.max_range_m());
       }
@@ -300,10 +298,33 @@ ProximityResponse sense_proximity(const Scene& scene, int robot, int sensor, Cli
   return shoot(scene, robot, s, at, ends) ? respond(s, ends) : s.nothing;
 }
 
-double sense_irradiance_w_m2(const Scene& scene, int robot, int sensor, Clicks at) {
+FlatWall::FlatWall(const ProximityConfig& config, const Surface& surface)
+    : sensor_(make_sensor(config, {})), factor_(colour_factor(config, surface)) {}
+
+FlatWall::~FlatWall() = default;
+
+ProximityResponse FlatWall::at(double distance_m) const {
+  const double range = sensor_->config.max_range_m();
+  RayEnd ends[kMostRays];
+  bool any = false;
+  for (std::size_t i = 0; i < sensor_->rays.size(); ++i) {
+    const double d = distance_m * sensor_->rays[i].slant;
+    const bool hit = d < range;
+    ends[i] = hit ? RayEnd{d, factor_, true} : RayEnd{range, 1, false};
+    any = any || hit;
+  }
+  return any ? respond(*sensor_, ends) : sensor_->nothing;
+}
+
+namespace {
+
+/// Where a sensor is and where it looks, for light.
+struct Eye {
+  Vec3 from, axis;
+};
+
+Eye eye_of(const Scene& scene, int robot, int sensor, Clicks at) {
   const WorldDesc& world = scene.world();
-  double sum = world.ambient_w_m2;
-  if (world.lamps.empty()) return sum;
   const SensorOptics& s = optics_of(scene, robot, sensor);
   const Frame2& frame = surroundings(scene, robot, at).frame;
   const Vec2 at_m = frame.to_world({s.at_m.x, s.at_m.y});
@@ -311,26 +332,53 @@ double sense_irradiance_w_m2(const Scene& scene, int robot, int sensor, Clicks a
                                  ->proximity[static_cast<std::size_t>(sensor)];
   const SinCos pitch = sin_cos(mount.pitch_rad);
   const Vec2 plan_axis = pitch.c * frame.turn({s.axis.x, s.axis.y});
-  Vec3 from{at_m.x, at_m.y, s.at_m.z}, axis{plan_axis.x, plan_axis.y, pitch.s};
+  Eye eye{{at_m.x, at_m.y, s.at_m.z}, {plan_axis.x, plan_axis.y, pitch.s}};
   if (scene.layout().ground.has_ramps()) {
     const TiltedFrame tilted(scene, robot, at);
-    from = tilted.to_world(s.at_m);
-    axis = tilted.turn({pitch.c * s.axis.x, pitch.c * s.axis.y, pitch.s});
+    eye.from = tilted.to_world(s.at_m);
+    eye.axis = tilted.turn({pitch.c * s.axis.x, pitch.c * s.axis.y, pitch.s});
   }
-  for (const LampDesc& lamp : world.lamps) {
-    if (!lamp.on) continue;
-    const Vec3 to{lamp.position_m.x - from.x, lamp.position_m.y - from.y, lamp.position_m.z - from.z};
-    const double d = std::sqrt(to.x * to.x + to.y * to.y + to.z * to.z);
-    if (d <= 0) continue;
-    const Vec3 dir{to.x / d, to.y / d, to.z / d};
-    const double facing = dir.x * axis.x + dir.y * axis.y + dir.z * axis.z;
-    if (facing <= 0) continue;
-    if (scene.cast({from, dir}, d, robot, at, nullptr)) continue;
-    const std::array<double, 3>& a = lamp.attenuation;
-    const double white = (lamp.colour.r + lamp.colour.g + lamp.colour.b) / 3;  // [Webots B3]
-    sum += lamp.intensity_w_m2 * white * facing / (a[0] + a[1] * d + a[2] * d * d);
-  }
+  return eye;
+}
+
+/// [Webots B3] intensity times the cosine to the sensor's axis, attenuated, mean of the colours; bodies
+/// block.
+LampShare share_of(const Scene& scene, const LampDesc& lamp, const Eye& eye, int robot, Clicks at) {
+  LampShare share;
+  share.from_m = eye.from;
+  share.on = lamp.on;
+  const Vec3 to{lamp.position_m.x - eye.from.x, lamp.position_m.y - eye.from.y,
+                lamp.position_m.z - eye.from.z};
+  const double d = share.distance_m = std::sqrt(to.x * to.x + to.y * to.y + to.z * to.z);
+  const std::array<double, 3>& a = lamp.attenuation;
+  share.divisor = a[0] + a[1] * d + a[2] * d * d;
+  share.white = (lamp.colour.r + lamp.colour.g + lamp.colour.b) / 3;
+  if (d <= 0) return share;
+  const Vec3 dir{to.x / d, to.y / d, to.z / d};
+  share.facing = dir.x * eye.axis.x + dir.y * eye.axis.y + dir.z * eye.axis.z;
+  if (!lamp.on || share.facing <= 0) return share;
+  share.blocked = scene.cast({eye.from, dir}, d, robot, at, nullptr);
+  if (!share.blocked) share.w_m2 = lamp.intensity_w_m2 * share.white * share.facing / share.divisor;
+  return share;
+}
+
+}  // namespace
+
+double sense_irradiance_w_m2(const Scene& scene, int robot, int sensor, Clicks at) {
+  const WorldDesc& world = scene.world();
+  double sum = world.ambient_w_m2;
+  if (world.lamps.empty()) return sum;
+  const Eye eye = eye_of(scene, robot, sensor, at);
+  for (const LampDesc& lamp : world.lamps)
+    if (lamp.on) sum += share_of(scene, lamp, eye, robot, at).w_m2;
   return sum;
+}
+
+std::vector<LampShare> trace_light(const Scene& scene, int robot, int sensor, Clicks at) {
+  std::vector<LampShare> shares;
+  const Eye eye = eye_of(scene, robot, sensor, at);
+  for (const LampDesc& lamp : scene.world().lamps) shares.push_back(share_of(scene, lamp, eye, robot, at));
+  return shares;
 }
 
 const ProximityConfig& proximity_config(const Scene& scene, int robot, int sensor) {

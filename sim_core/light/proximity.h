@@ -13,6 +13,8 @@
 namespace sim {
 
 class Scene;
+struct Surface;
+struct SensorOptics;     ///< rays and table of one sensor
 struct ProximityOptics;  ///< rays and tables of every sensor of a world, resolved once
 
 /// One noise-free evaluation of a sensor.
@@ -29,8 +31,38 @@ struct ProximityResponse {
 /// called from any thread, but for one robot from one thread at a time (each robot keeps a cache).
 ProximityResponse sense_proximity(const Scene& scene, int robot, int sensor, Clicks at);
 
+/// What a sensor answers to an endless flat wall across its axis, without a scene: what response curves show.
+class FlatWall {
+ public:
+  FlatWall(const ProximityConfig& config, const Surface& surface);
+  ~FlatWall();
+  FlatWall(const FlatWall&) = delete;
+  FlatWall& operator=(const FlatWall&) = delete;
+  /// `distance_m` along the axis, 0 or more. A ray that would meet the wall beyond the range misses it.
+  ProximityResponse at(double distance_m) const;
+  /// Colour factor f of the wall's surface.
+  double factor() const { return factor_; }
+
+ private:
+  std::unique_ptr<const SensorOptics> sensor_;
+  double factor_;
+};
+
 /// Irradiance from lamps and ambient light on the same sensor, W/m2, occlusion by bodies included.
 double sense_irradiance_w_m2(const Scene& scene, int robot, int sensor, Clicks at);
+
+/// One lamp's part in that irradiance.
+struct LampShare {
+  double distance_m = 0;
+  double facing = 0;   ///< cosine between the sensor's axis and the direction to the lamp
+  double divisor = 1;  ///< attenuation a + b d + c d2
+  double white = 1;    ///< mean of the lamp's colour
+  bool on = true;
+  bool blocked = false;  ///< something stands in between; only looked for where the light would count
+  double w_m2 = 0;
+  Vec3 from_m;  ///< the sensor
+};
+std::vector<LampShare> trace_light(const Scene& scene, int robot, int sensor, Clicks at);
 
 /// Settings of one sensor after inheritance.
 const ProximityConfig& proximity_config(const Scene& scene, int robot, int sensor);

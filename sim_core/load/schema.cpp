@@ -48,6 +48,7 @@ std::vector<KeySpec> object_keys(ObjectKind kind, std::vector<KeySpec> shape) {
   std::vector<KeySpec> keys{
       {"name", ValueType::Text, "", 0, 0, "", "", "shown in messages and pictures",
        into<T>([](T& o, const Value& v) { o.name = v.text; })},
+      def_key<T>(),
       {"position", ValueType::Pair, "m", -kFar, kFar, "", kind == ObjectKind::Polygon ? "[0, 0]" : "required",
        kind == ObjectKind::Polygon ? "x and y of the origin of its points" : "x and y of its middle",
        into<T>([](T& o, const Value& v) { o.pose.x_m = v.numbers[0], o.pose.y_m = v.numbers[1]; })},
@@ -119,7 +120,8 @@ std::vector<KeySpec> proximity_keys(Get get) {
        "the same in radians, as Webots worlds write it",
        to([](P& p, const Value& v) { p.aperture_rad = v.number; })},
       {"gaussian_width", ValueType::Number, "", 0, 1000, "", "1",
-       "a ray at angle t weighs exp(-(t / (aperture * width))^2); 0 leaves only the ray on the axis",
+       "a ray at angle t weighs exp(-(t / (aperture * width))^2); 0 leaves only the ray on the axis (the "
+       "innermost where none lies there), and is told",
        to([](P& p, const Value& v) { p.gaussian_width = v.number; })},
       {"layout", ValueType::Choice, "", 0, 0, "cone|fan", "", "rays on cones (Webots) or side by side (Enki)",
        to([](P& p, const Value& v) { p.layout = v.text == "fan" ? RayLayout::Fan : RayLayout::Cone; })},
@@ -137,6 +139,25 @@ std::vector<KeySpec> proximity_keys(Get get) {
       {"noise_scale", ValueType::Number, "", 0, 1000, "", "1",
        "factor on the table's noise; 0 switches it off",
        to([](P& p, const Value& v) { p.noise_scale = v.number; })},
+  };
+}
+
+/// What robots have for themselves or from the world.
+template <typename T>
+std::vector<KeySpec> wheel_keys(const char* none, const char* usual_law) {
+  return {
+      {"wheel_noise", ValueType::Number, "", 0, 0.5, "", none,
+       "random part of each wheel's travel, drawn anew every 1/32 s; a robot without one has the "
+       "world's",
+       into<T>([](T& t, const Value& v) { t.wheels.noise = v.number; })},
+      {"wheel_noise_law", ValueType::Choice, "", 0, 0, "uniform|gaussian", usual_law,
+       "what `wheel_noise` is: half width (factors of 1 - n to 1 + n) or standard deviation",
+       into<T>([](T& t, const Value& v) {
+         t.wheels.noise_law = v.text == "uniform" ? NoiseLaw::Uniform : NoiseLaw::Gaussian;
+       })},
+      {"slip", ValueType::Number, "", 0, 1, "", none,
+       "part of the wheels' travel that is lost on the floor; a robot without one has the world's",
+       into<T>([](T& t, const Value& v) { t.wheels.slip = v.number; })},
   };
 }
 
@@ -223,31 +244,36 @@ std::vector<SectionSpec> make_schema() {
               {"title", ValueType::Text, "", 0, 0, "", "\"\"", "shown in pictures and lists",
                into<W>([](W& w, const Value& v) { w.title = v.text; })},
           });
-  section("world", false, "Physics and chance.",
-          {
-              {"physics_hz", ValueType::Integer, "Hz", 32, 4096, "", "512",
-               "ticks per second; must divide 14,745,600: 96, 128, 256, 512, 1024 and others",
-               checked<W>([](W& w, const Value& v, const WorldDesc&) {
-                 if (kClicksPerSecond % v.integer != 0) {
-                   return fmt::format("got {} Hz, expected a divisor of {} such as 96, 128, 256, 512, 1024",
-                                      v.integer, kClicksPerSecond);
-                 }
-                 w.physics_hz = static_cast<int>(v.integer);
-                 return std::string();
-               })},
-              {"engine", ValueType::Choice, "", 0, 0, "dynamic|kinematic", "\"dynamic\"",
-               "dynamic: traction, slip, pushing; kinematic: no forces, robots stop at contacts",
-               into<W>([](W& w, const Value& v) {
-                 w.engine = v.text == "dynamic" ? Engine::Dynamic : Engine::Kinematic;
-               })},
-              {"gravity", ValueType::Number, "m/s2", 0.01, 100, "", "9.81", "downwards",
-               into<W>([](W& w, const Value& v) { w.gravity_m_s2 = v.number; })},
-              {"seed", ValueType::Integer, "", 0, 9e18, "", "1", "of all that is left to chance",
-               into<W>([](W& w, const Value& v) { w.seed = static_cast<std::uint64_t>(v.integer); })},
-              {"ambient", ValueType::Number, "W/m2", 0, 10000, "", "0",
-               "light that reaches every sensor from everywhere",
-               into<W>([](W& w, const Value& v) { w.ambient_w_m2 = v.number; })},
-          });
+  section(
+      "world", false, "Physics and chance.",
+      {
+          {"physics_hz", ValueType::Integer, "Hz", 32, 4096, "", "512",
+           "ticks per second; must divide 14,745,600: 96, 128, 256, 512, 1024 and others",
+           checked<W>([](W& w, const Value& v, const WorldDesc&) {
+             if (kClicksPerSecond % v.integer != 0) {
+               return fmt::format("got {} Hz, expected a divisor of {} such as 96, 128, 256, 512, 1024",
+                                  v.integer, kClicksPerSecond);
+             }
+             w.physics_hz = static_cast<int>(v.integer);
+             return std::string();
+           })},
+          {"engine", ValueType::Choice, "", 0, 0, "dynamic|kinematic|planar", "\"dynamic\"",
+           "dynamic: traction, slip, pushing, falling; kinematic: no forces, robots stop at contacts; "
+           "planar: two dimensions, wheels never slip, movable objects are pushed, no heights (engines.md)",
+           into<W>([](W& w, const Value& v) {
+             w.engine = v.text == "dynamic"     ? Engine::Dynamic
+                        : v.text == "kinematic" ? Engine::Kinematic
+                                                : Engine::Planar;
+           })},
+          {"gravity", ValueType::Number, "m/s2", 0.01, 100, "", "9.81", "downwards",
+           into<W>([](W& w, const Value& v) { w.gravity_m_s2 = v.number; })},
+          {"seed", ValueType::Integer, "", 0, 9e18, "", "1", "of all that is left to chance",
+           into<W>([](W& w, const Value& v) { w.seed = static_cast<std::uint64_t>(v.integer); })},
+          {"ambient", ValueType::Number, "W/m2", 0, 10000, "", "0",
+           "light that reaches every sensor from everywhere",
+           into<W>([](W& w, const Value& v) { w.ambient_w_m2 = v.number; })},
+      });
+  for (KeySpec& k : wheel_keys<W>("0", "\"uniform\"")) s.back().keys.push_back(std::move(k));
   using M = Material;
   section("material", true, "How a surface looks and feels. Walls and objects refer to it by name.",
           {
@@ -352,7 +378,14 @@ std::vector<SectionSpec> make_schema() {
                                           o.size_m = {v.numbers[0], v.numbers[1], v.numbers[2]};
                                         })}}));
   section("cylinder", true, "An upright cylinder.", object_keys<O>(ObjectKind::Cylinder, {radius, height}));
-  section("ball", true, "A ball.", object_keys<O>(ObjectKind::Ball, {radius}));
+  section("ball", true, "A ball.",
+          object_keys<O>(
+              ObjectKind::Ball,
+              {radius,
+               {"rolling_friction", ValueType::Number, "", 0, 10, "", "0.02",
+                "of a movable one: what slows it as it rolls, as a part of its weight; counts instead of "
+                "`friction`",
+                into<O>([](O& o, const Value& v) { o.rolling_friction = v.number; })}}));
   section("polygon", true, "An upright prism over a convex outline.",
           object_keys<O>(
               ObjectKind::Polygon,
@@ -406,6 +439,7 @@ std::vector<SectionSpec> make_schema() {
           proximity_keys<ProximitySettings>([](ProximitySettings& p) -> ProximitySettings& { return p; }));
 
   add_radio_sections(s);
+  s.push_back(webots_section());
 
   using R = RobotDesc;
   section(
@@ -420,6 +454,7 @@ std::vector<SectionSpec> make_schema() {
              r.name = v.text;
              return std::string();
            })},
+          def_key<R>(),
           {"model", ValueType::Text, "", 0, 0, "", "", "kind of robot; the first that the program knows",
            checked<R>([](R& r, const Value& v, const WorldDesc& d) {
              r.model = v.text;
@@ -452,17 +487,12 @@ std::vector<SectionSpec> make_schema() {
            into<R>([](R& r, const Value& v) { r.battery_wh = v.number; })},
           {"colour", ValueType::Colour, "", 0, 1, "", "", "of the body; the model's otherwise",
            into<R>([](R& r, const Value& v) { r.colour = colour_of(v); })},
-          {"wheel_noise", ValueType::Number, "", 0, 0.5, "", "0",
-           "each wheel's travel times a random factor of 1 - n to 1 + n, drawn anew every 1/32 s",
-           into<R>([](R& r, const Value& v) { r.wheel_noise = v.number; })},
-          {"slip", ValueType::Number, "", 0, 1, "", "0",
-           "part of the wheels' travel that is lost on the floor",
-           into<R>([](R& r, const Value& v) { r.slip = v.number; })},
           {"uart1", ValueType::Text, "", 0, 0, "", "\"none\"", "none, pty, pty:LINK, tcp:PORT or file:PATH",
            checked<R>([](R& r, const Value& v, const WorldDesc&) { return uart_text(v, r.uart1); })},
           {"uart2", ValueType::Text, "", 0, 0, "", "\"none\"", "none, pty, pty:LINK, tcp:PORT or file:PATH",
            checked<R>([](R& r, const Value& v, const WorldDesc&) { return uart_text(v, r.uart2); })},
       });
+  for (KeySpec& key : wheel_keys<R>("", "")) s.back().keys.push_back(std::move(key));
   for (KeySpec& key : robot_camera_keys()) s.back().keys.push_back(std::move(key));
   section("robot.variation", false, "How this robot differs from its model.", variation_keys());
   section("robot.proximity", false, "Proximity sensors of this robot; keys as in `[proximity]`.",
@@ -483,6 +513,8 @@ std::vector<SectionSpec> make_schema() {
           {{"kind", ValueType::Text, "", 0, 0, "", "required", "which part",
             into<PartDesc>([](PartDesc& p, const Value& v) { p.kind = v.text; })}});
   s.push_back(remote_key_section());
+  s.push_back(robot_device_section());
+  s.push_back(supervisor_section());
   return s;
 }
 

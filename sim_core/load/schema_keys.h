@@ -33,6 +33,20 @@ Setter checked(F assign) {
 /// Sections of other files, in the order of the document.
 std::vector<SectionSpec> sound_sections();
 
+/// The second name of robots and objects.
+template <typename T>
+KeySpec def_key() {
+  return {"def",
+          ValueType::Text,
+          "",
+          0,
+          0,
+          "",
+          "",
+          "second name, by which supervisors may look it up",
+          into<T>([](T& t, const Value& v) { t.def = v.text; })};
+}
+
 inline Colour colour_of(const Value& v) { return {v.numbers[0], v.numbers[1], v.numbers[2]}; }
 
 inline std::vector<Vec2> points_of(const Value& v) {
@@ -46,5 +60,9 @@ std::vector<SectionSpec> camera_sections();
 std::vector<KeySpec> robot_camera_keys();
 /// Sections with a file of their own.
 SectionSpec remote_key_section();
+/// schema_webots.cpp
+SectionSpec webots_section();
+SectionSpec robot_device_section();
+SectionSpec supervisor_section();  ///< schema_supervisor.cpp
 
 }  // namespace sim

@@ -67,10 +67,38 @@ void check_models(const WorldDesc& world, std::vector<WorldProblem>& out) {
   }
 }
 
+/// The planar engine knows one level floor. Bodies above each other are found by check_overlaps().
+void check_planar(const WorldDesc& world, std::vector<WorldProblem>& out) {
+  if (world.engine != Engine::Planar) return;
+  if (!world.ramps.empty()) {
+    out.push_back({world.ramps.front().line, 1,
+                   "ramp: got a ramp with the planar engine, expected none; engines dynamic and kinematic "
+                   "know heights"});
+  }
+  if (world.floor.tilt_x_rad != 0 || world.floor.tilt_y_rad != 0) {
+    out.push_back(
+        {0, 0,
+         fmt::format("floor.tilt: got [{:.4g}, {:.4g}] deg with the planar engine, expected [0, 0]; "
+                     "engines dynamic and kinematic know heights",
+                     degrees(world.floor.tilt_x_rad), degrees(world.floor.tilt_y_rad))});
+  }
+}
+
 /// Robots and movable objects must not begin inside anything. Fixed solids may cross each other: that is how
 /// walls are built.
 void check_overlaps(const WorldDesc& world, std::vector<WorldProblem>& out) {
-  const Layout layout = build_layout(world);
+  const bool flat = world.engine == Engine::Planar;
+  Layout layout = build_layout(world);
+  if (flat) {
+    // in two dimensions everything stands on the floor and is as high as anything else
+    for (Solid& s : layout.solids) {
+      if (s.kind == SolidKind::Ball) s.kind = SolidKind::Cylinder;
+      s.z0_m = 0, s.z1_m = 1;
+    }
+    for (std::vector<Placed>* all : {&layout.moving, &layout.fixed}) {
+      for (Placed& p : *all) p.z_m = 0;
+    }
+  }
   std::vector<double> bounds;
   for (const Placed& p : layout.moving) bounds.push_back(p.solid->bound_m);
   Neighbours near(layout.fixed, bounds, 0, {});
@@ -92,9 +120,10 @@ void check_overlaps(const WorldDesc& world, std::vector<WorldProblem>& out) {
       const std::string& name = c.moving ? layout.moving_name[other] : layout.fixed_name[other];
       const int their_line = c.moving ? line_of(other) : layout.fixed_line[other];
       out.push_back({line_of(i), 1,
-                     fmt::format("{}: got position [{:.4g}, {:.4g}] m inside {}{}, expected free room",
+                     fmt::format("{}: got position [{:.4g}, {:.4g}] m inside {}{}, expected free room{}",
                                  layout.moving_name[i], me.frame.at.x, me.frame.at.y, name,
-                                 their_line > 0 ? fmt::format(" (line {})", their_line) : std::string())});
+                                 their_line > 0 ? fmt::format(" (line {})", their_line) : std::string(),
+                                 flat ? " (the planar engine knows no heights)" : "")});
     }
   }
 }
@@ -111,6 +140,7 @@ std::vector<WorldProblem> check_world(const WorldDesc& world) {
   check_link_numbers(world, out);
   check_names(world, out);
   check_models(world, out);
+  check_planar(world, out);
   if (out.empty()) check_overlaps(world, out);
   return out;
 }

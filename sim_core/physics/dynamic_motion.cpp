@@ -32,7 +32,7 @@ b2Vec2 units(Vec2 v) { return {units(v.x), units(v.y)}; }
 
 class DynamicMotion final : public Motion, b2ContactFilter {
  public:
-  explicit DynamicMotion(MotionDesc desc) : Motion(std::move(desc)), world_(b2Vec2(0, 0)) {
+  explicit DynamicMotion(MotionDesc desc) : Motion(std::move(desc), true, true), world_(b2Vec2(0, 0)) {
     world_.SetContinuousPhysics(false);  // at a few mm per tick nothing tunnels
     world_.SetContactFilter(this);
     b2BodyDef def;
@@ -49,6 +49,15 @@ class DynamicMotion final : public Motion, b2ContactFilter {
     place(body);
     part.body->SetLinearVelocity({0, 0});
     part.body->SetAngularVelocity(0);
+    part.body->SetAwake(true);
+  }
+
+  void set_velocity(int body, Vec2 velocity_m_s, double spin_rad_s, double climb_m_s) override {
+    Motion::set_velocity(body, velocity_m_s, spin_rad_s, climb_m_s);
+    Part& part = parts_[static_cast<std::size_t>(body)];
+    if (!part.body) return;
+    part.body->SetLinearVelocity(units(velocity_m_s));
+    part.body->SetAngularVelocity(static_cast<float>(spin_rad_s));
     part.body->SetAwake(true);
   }
 
@@ -100,6 +109,11 @@ class DynamicMotion final : public Motion, b2ContactFilter {
     if (!part.body) return;
     for (b2Fixture* f = part.body->GetFixtureList(); f; f = f->GetNext()) f->Refilter();
     part.body->SetAwake(true);
+  }
+
+  void velocity_changed(int body) override {
+    parts_[static_cast<std::size_t>(body)].body->SetLinearVelocity(
+        units(bodies_[static_cast<std::size_t>(body)].velocity_m_s));
   }
 
  private:
@@ -229,6 +243,7 @@ class DynamicMotion final : public Motion, b2ContactFilter {
     data.center.SetZero();
     data.I = static_cast<float>(inertia * kUnits * kUnits);
     part.body->SetMassData(&data);
+    part.body->SetLinearVelocity(units(bodies_[i].velocity_m_s));
     place(index);
 
     def.type = b2_kinematicBody;
@@ -331,9 +346,10 @@ class DynamicMotion final : public Motion, b2ContactFilter {
     SlopeEffect slope;
     if (is_sloping()) {
       slope = loose_slope(index);
-      const double grip = desc_.loose[i - desc_.robots.size()].floor_friction * slope.press * slope.steep;
+      if (loose(index).rolls && support == kOnFloor) slope.pull = kRollingShare * slope.pull;
+      const double grip = loose(index).floor_friction * slope.press * slope.steep;
       // what lies still on a slope that is too steep begins to slide
-      if (support == -2 || length(slope.pull) > grip) part.body->SetAwake(true);
+      if (support == kInAir || length(slope.pull) > grip) part.body->SetAwake(true);
     }
     if (!part.body->IsAwake()) {
       if (support < 0) return;
@@ -342,7 +358,7 @@ class DynamicMotion final : public Motion, b2ContactFilter {
       part.body->SetAwake(true);
     }
     const LooseBody& l = desc_.loose[i - desc_.robots.size()];
-    double force = support == -2 ? 0 : l.floor_friction * l.mass_kg * desc_.gravity_m_s2;
+    double force = support == kInAir ? 0 : l.floor_friction * l.mass_kg * desc_.gravity_m_s2;
     if (is_sloping()) {
       force *= slope.press * slope.steep;
       part.body->ApplyForceToCenter(units((l.mass_kg * desc_.gravity_m_s2) * slope.pull), false);

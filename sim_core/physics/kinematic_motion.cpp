@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The engine without forces: a robot follows its wheels exactly (half the turn, the way, half the turn) and
-// stops short of whatever it would enter; it can still turn on the spot and drive away. Loose objects do not
-// move.
+// stops short of whatever it would enter; it can still turn on the spot and drive away. Loose objects fall
+// and bounce straight up and down (heights.cpp), onto robots too; they do not move in the plane, and drop
+// when the robot under them drives away.
 #include <algorithm>
 #include <cmath>
 
@@ -13,7 +14,7 @@ namespace {
 
 class KinematicMotion final : public Motion {
  public:
-  using Motion::Motion;
+  explicit KinematicMotion(MotionDesc desc) : Motion(std::move(desc), true, false) {}
 
  protected:
   void step_plane(const RimTravel* travel, const Neighbours& neighbours) override {

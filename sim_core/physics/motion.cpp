@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT
-// What both engines share: wheels to wanted speeds, free motion, heights (falling and resting, by libccd),
-// touches.
+// What the engines share: wheels to wanted speeds, free motion, touches. Heights: heights.cpp.
 #include "sim_core/physics/motion.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "sim_core/base/check.h"
-#include "sim_core/geometry/overlap.h"
 #include "sim_core/physics/physics_params.h"
 
 namespace sim {
-namespace {
-constexpr int kOnFloor = -1, kInAir = -2, kOnFixed = -3;
-}
 
-Motion::Motion(MotionDesc desc) : desc_(std::move(desc)), bodies_(desc_.start) {
+Motion::Motion(MotionDesc desc, bool has_heights, bool loose_moves)
+    : desc_(std::move(desc)),
+      bodies_(desc_.start),
+      before_(bodies_.size()),
+      has_heights_(has_heights),
+      loose_moves_(loose_moves) {
   CHECK(bodies_.size() == desc_.solids.size() && bodies_.size() == desc_.robots.size() + desc_.loose.size(),
         "one start, one solid and one description per moving body");
   CHECK(desc_.surfaces.size() == desc_.fixed->size(), "one surface per fixed solid");
@@ -30,18 +30,16 @@ Motion::Motion(MotionDesc desc) : desc_(std::move(desc)), bodies_(desc_.start) {
   touches_.resize(desc_.robots.size());
   touch_times_.resize(desc_.robots.size());
   support_.assign(bodies_.size(), kOnFloor);
-  sloping_ = desc_.ground && !desc_.ground->is_plain();
+  sloping_ = has_heights_ && desc_.ground && !desc_.ground->is_plain();
+  fall_m_s2_ = sloping_ ? -desc_.ground->down().z * desc_.gravity_m_s2 : desc_.gravity_m_s2;
+  if (!has_heights_) {
+    for (BodyState& b : bodies_) b.z_m = b.climb_m_s = 0;
+  }
   slopes_.resize(sloping_ ? desc_.robots.size() : 0);
   for (std::size_t r = 0; r < slopes_.size(); ++r) told_z_m_.push_back(bodies_[r].z_m);
   for (std::size_t i = desc_.robots.size(); i < bodies_.size(); ++i) {
     if (bodies_[i].z_m > floor_m(static_cast<int>(i))) support_[i] = kInAir;
   }
-}
-
-double Motion::floor_m(int body) const {
-  if (!sloping_) return 0;
-  const Pose2& p = bodies_[static_cast<std::size_t>(body)].pose;
-  return desc_.ground->height_m({p.x_m, p.y_m});
 }
 
 void Motion::feel_ground() {
@@ -52,52 +50,16 @@ void Motion::feel_ground() {
   }
 }
 
-SlopeEffect Motion::loose_slope(int body) const {
-  const std::size_t i = static_cast<std::size_t>(body);
-  const double base = 0.5 * desc_.solids[i]->bound_m;
-  const Vec2 slope =
-      support_[i] == kOnFloor ? desc_.ground->footing(bodies_[i].pose, base, base).slope : Vec2{};
-  return slope_effect(slope, 0, desc_.ground->down());
-}
-
-/// After a tick's plane motion robots, and objects that lie on the ground, are as high as the ground.
-void Motion::follow_ground() {
-  for (int i = 0; i < static_cast<int>(bodies_.size()); ++i) {
-    const std::size_t b = static_cast<std::size_t>(i);
-    if (i >= robots()) {
-      if (support_[b] != kOnFloor) continue;
-      const double z = floor_m(i);
-      if (z == bodies_[b].z_m) continue;
-      // over an edge it falls
-      if (z < bodies_[b].z_m - kLedgeM) {
-        support_[b] = kInAir;
-        continue;
-      }
-      bodies_[b].z_m = z;
-      heights_changed(i);
-      continue;
-    }
-    const RobotBody& body = desc_.robots[b];
-    const double z = desc_.ground->footing(bodies_[b].pose, body.half_base_m, 0.5 * body.axle_m).height_m;
-    bodies_[b].z_m = z;
-    if (std::fabs(z - told_z_m_[b]) < kLedgeM) continue;
-    told_z_m_[b] = z;
-    heights_changed(i);
-  }
-}
-
 double Motion::step(const RimTravel* travel, const Neighbours& neighbours) {
   // the largest move is found against the last poses, so that it includes every correction
-  thread_local std::vector<Vec2> before;
-  before.resize(bodies_.size());
-  for (std::size_t i = 0; i < bodies_.size(); ++i) before[i] = {bodies_[i].pose.x_m, bodies_[i].pose.y_m};
+  for (std::size_t i = 0; i < bodies_.size(); ++i) before_[i] = {bodies_[i].pose.x_m, bodies_[i].pose.y_m};
   if (sloping_) feel_ground();
   step_plane(travel, neighbours);
-  step_heights();
+  if (has_heights_) step_heights();
   if (sloping_ && desc_.ground->has_ramps()) follow_ground();
   double most2 = 0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const Vec2 moved = Vec2{bodies_[i].pose.x_m, bodies_[i].pose.y_m} - before[i];
+    const Vec2 moved = Vec2{bodies_[i].pose.x_m, bodies_[i].pose.y_m} - before_[i];
     most2 = std::max(most2, dot(moved, moved));
   }
   return std::sqrt(most2);
@@ -109,7 +71,8 @@ Placed Motion::placed(int body) const {
 }
 
 void Motion::move(int body, const Pose2& pose, double z_m) {
-  bodies_[static_cast<std::size_t>(body)] = {pose, z_m, {}, 0, 0};
+  bodies_[static_cast<std::size_t>(body)] = {pose, has_heights_ ? z_m : 0, {}, 0, 0};
+  if (!has_heights_) return;
   const double floor = floor_m(body);
   if (body >= robots()) {
     bodies_[static_cast<std::size_t>(body)].z_m = std::max(z_m, floor);
@@ -120,6 +83,19 @@ void Motion::move(int body, const Pose2& pose, double z_m) {
         desc_.ground->footing(pose, robot.half_base_m, 0.5 * robot.axle_m).height_m;
   }
   heights_changed(body);
+}
+
+void Motion::set_velocity(int body, Vec2 velocity_m_s, double spin_rad_s, double climb_m_s) {
+  BodyState& b = bodies_[static_cast<std::size_t>(body)];
+  const bool loose = body >= robots();
+  if (!loose || loose_moves_) {
+    b.velocity_m_s = velocity_m_s;
+    b.spin_rad_s = spin_rad_s;
+  }
+  if (!loose || !has_heights_) return;
+  int& support = support_[static_cast<std::size_t>(body)];
+  if (climb_m_s > 0) support = kInAir;
+  b.climb_m_s = support == kInAir ? climb_m_s : 0;
 }
 
 bool Motion::heights_meet(double z0_a, double z1_a, double z0_b, double z1_b) const {
@@ -179,6 +155,7 @@ void Motion::note_touch(int robot, bool wall, bool anything) {
   now.any_gap_s = anything ? 0 : std::min(1.0, now.any_gap_s + tick_s);
   now.wall_gap_s = wall ? 0 : std::min(1.0, now.wall_gap_s + tick_s);
   if (anything && now.any_s == 0) ++report.collisions;
+  if (anything) report.touch_s += tick_s;
   now.any_s = now.any_gap_s < kTouchGapS ? now.any_s + tick_s : 0;
   report.wall_touch_s = now.wall_gap_s < kTouchGapS ? report.wall_touch_s + tick_s : 0;
   report.longest_touch_s = std::max(report.longest_touch_s, now.any_s);
@@ -206,76 +183,6 @@ void Motion::push_out(int robot, const Neighbours& neighbours) {
     BodyState& they = bodies_[static_cast<std::size_t>(c->index)];
     they.pose.x_m -= part * out.x;
     they.pose.y_m -= part * out.y;
-  }
-}
-
-bool Motion::blocked_at(int body, double z_m, int& by) const {
-  Placed me = placed(body);
-  me.z_m = z_m;
-  const auto meets = [&](const Placed& other) {
-    const Vec2 gap = other.frame.at - me.frame.at;
-    const double reach = other.solid->bound_m + me.solid->bound_m;
-    return dot(gap, gap) <= reach * reach && other.z_m + other.solid->z1_m > z_m &&
-           overlaps(me, other, kRestSlackM);
-  };
-  for (const Placed& other : *desc_.fixed) {
-    if (meets(other)) {
-      by = kOnFixed;
-      return true;
-    }
-  }
-  for (int other = 0; other < static_cast<int>(bodies_.size()); ++other) {
-    if (other != body && meets(placed(other))) {
-      by = other;
-      return true;
-    }
-  }
-  return false;
-}
-
-void Motion::step_heights() {
-  const double tick_s = desc_.tick_s;
-  for (int i = robots(); i < static_cast<int>(bodies_.size()); ++i) {
-    int& support = support_[static_cast<std::size_t>(i)];
-    if (support == kOnFloor) continue;
-    BodyState& b = bodies_[static_cast<std::size_t>(i)];
-    // still carried? then it stays; a supporter that moved away lets it fall
-    if (support != kInAir) {
-      int by = 0;
-      if (blocked_at(i, b.z_m - 3 * kRestSlackM, by)) {
-        support = by;
-        continue;
-      }
-      support = kInAir;
-    }
-    const double bounce = desc_.loose[static_cast<std::size_t>(i - robots())].restitution;
-    const double from = b.z_m;
-    const double floor = floor_m(i);
-    double to = from + (b.climb_m_s - 0.5 * desc_.gravity_m_s2 * tick_s) * tick_s;
-    b.climb_m_s -= desc_.gravity_m_s2 * tick_s;
-    int by = kOnFloor;
-    bool landed = to <= floor;
-    if (landed) to = floor;
-    int hit = 0;
-    int ignored = 0;
-    // a body that already shares space (it slid into a stack) is let through; it ends on the floor or on top
-    if (b.climb_m_s < 0 && blocked_at(i, to, hit) && !blocked_at(i, from, ignored)) {
-      double above = from, below = to;
-      for (int round = 0; round < 24; ++round) {
-        const double middle = 0.5 * (above + below);
-        (blocked_at(i, middle, ignored) ? below : above) = middle;
-      }
-      to = above;
-      by = hit;
-      landed = true;
-    }
-    b.z_m = to;
-    if (landed) {
-      const double up = -bounce * b.climb_m_s;
-      b.climb_m_s = up > kLandingMS ? up : 0;
-      support = up > kLandingMS ? kInAir : by;
-    }
-    heights_changed(i);
   }
 }
 

@@ -22,8 +22,12 @@ inline constexpr double kTouchGapS = 0.02;  // [assumed: two of the slowest tick
 /// Solver iterations for speeds and positions.
 inline constexpr int kVelocityIterations = 8;  // [Box2D manual: 8 and 3 suggested]
 inline constexpr int kPositionIterations = 3;  // [Box2D manual: 8 and 3 suggested]
-/// Falling bodies that land slower than this stay down, m/s.
-inline constexpr double kLandingMS = 0.05;  // [assumed: a bounce of 0.1 mm]
+/// Bodies that meet something more slowly than this do not bounce, m/s.
+inline constexpr double kLeastBounceMS = 0.01;  // [Webots: ContactProperties.bounceVelocity]
+/// Bounces of one body within a tick before it counts as lying.
+inline constexpr int kMostBouncesPerTick = 256;  // [assumed: twice those of 32 Hz, restitution 1, 80 m/s2]
+/// Part of gravity's pull that makes a ball roll down a slope; the rest goes into its spin.
+inline constexpr double kRollingShare = 5.0 / 7;  // [derived: a solid ball, inertia 2/5 m r2]
 /// Loose objects fall over steps of the ground that are higher than this, and contacts look at heights anew
 /// when a robot has risen by as much, m.
 inline constexpr double kLedgeM = 0.002;  // [assumed: more than a tick's way down any slope]

@@ -2,34 +2,16 @@
 // Pictures of a world and of what happened in it, by cairo: PNG or SVG by the file's extension.
 // North is up. Robots at their last poses, one trajectory each, a scale bar, a legend.
 #pragma once
+#include <cstdint>
 #include <string>
 #include <vector>
 
-#include "sim_core/base/clock.h"
-#include "sim_core/geometry/pose.h"
+#include "sim_core/record/trajectories.h"
 #include "sim_core/world/robot_mind.h"
 
 namespace sim {
 
-/// Collects every robot's way; drops points in between when there are very many.
-class Trajectories {
- public:
-  explicit Trajectories(int robots) : ways_(static_cast<std::size_t>(robots)) {}
-  /// Call before the first step and after every step; keeps a point when a robot has moved by 1 mm.
-  void sample(const Scene& scene);
-  /// A robot was put somewhere else: its line is broken there.
-  void lift_pen(int robot);
-  struct Way {
-    std::vector<Vec2> points_m;
-    std::vector<std::size_t> breaks;  ///< indices of points where a new line begins
-  };
-  const std::vector<Way>& ways() const { return ways_; }
-
- private:
-  std::vector<Way> ways_;
-};
-
-/// Text laid over a picture, such as a score.
+/// Text laid over a picture, such as a score. Lines are separated by \n.
 struct PictureLabel {
   int id = 0;  ///< a later label of the same id replaces an earlier one
   std::string text;

@@ -194,8 +194,9 @@ Layout build_layout(const WorldDesc& world) {
     std::string name =
         std::string(kind_name(o.kind)) + (o.name.empty() ? " " + std::to_string(i) : " '" + o.name + "'");
     if (o.movable) {
-      // what stands on a ramp starts there; what was written higher falls
-      const double z = std::max(o.z_m, out.ground.height_m({pose.x_m, pose.y_m}));
+      // what stands on a ramp starts there; what was written higher falls, or lies down where nothing is high
+      const double ground_m = out.ground.height_m({pose.x_m, pose.y_m});
+      const double z = world.engine == Engine::Planar ? ground_m : std::max(o.z_m, ground_m);
       build.moving(std::move(solid), pose, z, surface_of(o.material), std::move(name));
       out.loose_object.push_back(static_cast<int>(i));
     } else {

@@ -178,6 +178,34 @@ void Scene::relocate(int body, const BodyState& state) {
   regather();
 }
 
+void Scene::set_state(int body, const BodyState& state) {
+  states_[static_cast<std::size_t>(body)] = state;
+  ++version_;
+}
+
+void Scene::set_colour(const Candidate& what, const Colour& colour) {
+  Surface& surface =
+      (what.moving ? layout_.moving_surface : layout_.fixed_surface)[static_cast<std::size_t>(what.index)];
+  surface.colour = colour;
+  surface.ir_reflectance = colour.r;
+  ++version_;
+}
+
+void Scene::set_lamp(int lamp, bool on, double intensity_w_m2, Vec3 position_m) {
+  LampDesc& l = world_.lamps[static_cast<std::size_t>(lamp)];
+  l.on = on;
+  l.intensity_w_m2 = intensity_w_m2;
+  l.position_m = position_m;
+  ++version_;
+}
+
+void Scene::set_proximity_noise(int robot, double scale) {
+  RobotDesc& r = world_.robots[static_cast<std::size_t>(robot)];
+  r.proximity.noise_scale = scale;
+  for (SensorDesc& sensor : r.sensors) sensor.proximity.noise_scale = scale;
+  ++version_;
+}
+
 void Scene::regather() {
   for (std::size_t i = 0; i < moving_.size(); ++i) {
     moving_[i].z_m = states_[i].z_m;

@@ -91,6 +91,16 @@ class Scene {
   /// A body was put somewhere else: its history is forgotten, lists are gathered anew.
   void relocate(int body, const BodyState& state);
 
+  // Changes by hand, between ticks only; Simulation's methods of these names book them.
+  /// A body has another speed from now on.
+  void set_state(int body, const BodyState& state);
+  /// Another colour; proximity sensors see its red part.
+  void set_colour(const Candidate& what, const Colour& colour);
+  void set_lamp(int lamp, bool on, double intensity_w_m2, Vec3 position_m);
+  /// Factor on the noise of a robot's proximity sensors, whatever single sensors said. The optics must be
+  /// made anew.
+  void set_proximity_noise(int robot, double scale);
+
  private:
   void regather();
 

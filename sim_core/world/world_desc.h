@@ -15,7 +15,7 @@
 
 namespace sim {
 
-enum class Engine { Dynamic, Kinematic };
+enum class Engine { Dynamic, Kinematic, Planar };
 
 /// How surfaces look to light.
 struct Material {
@@ -131,12 +131,33 @@ struct LinkEndDesc {
   std::vector<Dropout> dropouts;    ///< of this robot alone, growing
 };
 
+enum class DeviceKind { Gps, Compass, Inertial, Gyro, Emitter, Receiver, Distance };
+
+/// A device that programs written for Webots' interfaces find on a robot by its name.
+struct DeviceDesc {
+  std::string name;
+  DeviceKind kind = DeviceKind::Gps;
+  int channel = 1;              ///< of emitters and receivers; -1: all
+  double range_m = -1;          ///< of emitters; negative: unlimited
+  double baud_rate_bit_s = -1;  ///< of emitters; negative: unlimited
+  bool infra_red = false;       ///< of emitters: a free line of sight is needed
+  int line = 0;                 ///< line in the world file; 0 when built in C++
+};
+
 /// A key of a remote control that somebody presses for a robot.
 struct KeyDesc {
   int code = 0;         ///< 0 to 63
   double at_s = 0;      ///< s, world time
   double hold_s = 0.1;  ///< s
   int address = 0;      ///< 0 to 31
+};
+
+/// What happens between the motors and the floor, as written: what is not set is inherited (robot from
+/// world).
+struct WheelSettings {
+  std::optional<double> noise;  ///< random part of each wheel's travel, drawn anew every 1/32 s; 0: none
+  std::optional<NoiseLaw> noise_law;  ///< noise is a half width (uniform, usual) or a standard deviation
+  std::optional<double> slip;         ///< fraction of the wheels' travel that is lost on the floor; 0: none
 };
 
 struct RobotDesc {
@@ -154,8 +175,7 @@ struct RobotDesc {
   std::string camera;        ///< which one it carries, a name the caller knows; empty: the model's usual one
   std::string camera_mount;  ///< how it is turned, a name the caller knows; empty: the usual way
   double camera_noise = 1;   ///< factor on the camera's noise; 0 none
-  double wheel_noise = 0;    ///< each wheel's travel times U(1 - n, 1 + n), drawn every 1/32 s
-  double slip = 0;           ///< fraction of the wheels' travel that is lost on the floor
+  WheelSettings wheels;      ///< what is not set is the world's
   std::string uart1 = "none";
   std::string uart2 = "none";
   LinkEndDesc link;
@@ -164,7 +184,8 @@ struct RobotDesc {
   std::vector<SensorDesc> sensors;
   std::vector<PartDesc> parts;
   std::vector<KeyDesc> keys;  ///< presses of remote controls, in any order
-  int line = 0;               ///< line in the world file; 0 when built in C++
+  std::vector<DeviceDesc> devices;
+  int line = 0;  ///< line in the world file; 0 when built in C++
 };
 
 enum class ObjectKind { Box, Cylinder, Ball, Polygon };
@@ -181,7 +202,10 @@ struct ObjectDesc {
   double z_m = 0;  ///< underside above the floor; movable ones fall from there
   bool movable = false;
   double mass_kg = 0.1;
-  double floor_friction = 0.5;  ///< of movable ones, against whatever they stand on
+  double floor_friction = 0.5;  ///< of movable ones, against whatever they stand on; balls roll instead
+  /// Of a ball: what slows it as it rolls, as a part of its weight. [assumed: hard ball on a table, 0.005 to
+  /// 0.03]
+  double rolling_friction = 0.02;
   Material material;
   int line = 0;
 };
@@ -301,6 +325,7 @@ struct WorldDesc {
   std::vector<LampDesc> lamps;
   std::vector<SoundDesc> sounds;
   ProximitySettings proximity;
+  WheelSettings wheels;
   RadioDesc radio;
   LinkDesc link;
   std::vector<RobotDesc> robots;

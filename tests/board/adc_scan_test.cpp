@@ -277,6 +277,59 @@ TEST(IrCircuit, more_light_gives_lower_counts_and_the_ends_clamp) {
   EXPECT_EQ(robot.ir_counts(2, 0, 1'000'000, 0), 0);
 }
 
+TEST(IrCircuit, uniform_noise_fills_its_half_width_and_no_more) {
+  sim::Scene scene;
+  scene.reflection = [](int, sim::Clicks) { return 1000.0; };
+  scene.relative_noise = 0.2;
+  scene.uniform_noise = true;
+  board::Setup setup;
+  board::Board robot(setup);
+  robot.look_at(&scene);
+  double sum = 0, squares = 0, least = 4095, most = 0;
+  constexpr int kCount = 4000;
+  for (int i = 0; i < kCount; ++i) {
+    const double reading = 4095 - robot.ir_counts(0, 0, 1'000'000, static_cast<std::uint64_t>(i));
+    sum += reading, squares += reading * reading;
+    least = std::min(least, reading), most = std::max(most, reading);
+  }
+  const double mean = sum / kCount;
+  EXPECT_GE(least, 800);
+  EXPECT_LE(most, 1200);
+  EXPECT_LT(least, 805);
+  EXPECT_GT(most, 1195);
+  EXPECT_NEAR(mean, 1000, 6);
+  EXPECT_NEAR(std::sqrt(squares / kCount - mean * mean), 200 / std::sqrt(3.0), 4);
+}
+
+TEST(IrCircuit, a_conversion_taken_apart_adds_up_to_its_counts) {
+  sim::Scene scene;
+  scene.irradiance_w_m2 = 0.5;
+  scene.reflection = [](int, sim::Clicks) { return 1000.0; };
+  scene.relative_noise = 0.1;
+  board::Setup setup;
+  setup.ir_gain[3] = 1.2;
+  setup.ir_offset_counts[3] = 10;
+  board::Board robot(setup);
+  robot.look_at(&scene);
+  const board::IrConversion dark = robot.ir_conversion(3, 0, -1);
+  EXPECT_EQ(dark.light_counts, 200);  // 0.5 W/m2 x 400
+  EXPECT_EQ(dark.reflection_counts, 0);
+  EXPECT_EQ(dark.counts(), 4095 - 200);
+  // the flash lasts four whole frames and the hold instant of its channel: 4 x 900 + 552 cycles, 282 us
+  const board::Cycle flash = board::scan_flash_cycles(3);
+  EXPECT_EQ(flash, 4 * 900 + 552);
+  EXPECT_EQ(board::scan_flash_cycles(4), 4 * 900 + (4 * 15 + 1) * 12);
+  const board::IrConversion lit = robot.ir_conversion(3, 0, flash);
+  EXPECT_EQ(lit.reflection_counts, 1200);
+  EXPECT_EQ(lit.relative_noise, 0.1);  // told, and not drawn
+  EXPECT_NEAR(lit.settled, 1, 2e-5);   // exp(-282 / 25)
+  EXPECT_NEAR(lit.counts(), 4095 - 200 - 1210, 0.02);
+  // one time constant: 63.2 % of it
+  EXPECT_NEAR(robot.ir_conversion(3, 0, board::kIrSettleCycles).counts(), 4095 - 200 - 0.6321 * 1210, 0.5);
+  scene.relative_noise = 0;
+  EXPECT_EQ(robot.ir_counts(3, 0, flash, 7), board::adc_counts(lit.counts()));
+}
+
 // --- basic driver ----------------------------------------------------------------------------------------
 
 TEST(BasicProx, closed_form_equals_the_ticked_state_machine) {

@@ -8,6 +8,7 @@ ProximityResponse sense_proximity(const Scene& scene, int, int sensor, Clicks at
   ProximityResponse response;
   response.value = scene.reflection(sensor, at);
   response.relative_noise = scene.relative_noise;
+  response.uniform_noise = scene.uniform_noise;
   return response;
 }
 

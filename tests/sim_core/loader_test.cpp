@@ -139,7 +139,7 @@ struct Broken {
 };
 
 const char* const kUnknownBoxKeys =
-    " (keys: size, name, position, z, heading, movable, mass, friction, material, colour, restitution)";
+    " (keys: size, name, def, position, z, heading, movable, mass, friction, material, colour, restitution)";
 
 TEST(Loader, every_kind_of_mistake_has_its_sentence) {
   const Broken cases[] = {
@@ -151,9 +151,10 @@ TEST(Loader, every_kind_of_mistake_has_its_sentence) {
       {"[world]\nphysics_hz = 96.0",
        "w.toml:3:14: world.physics_hz: got 96.0, expected whole number from 32 to 4096 Hz"},
       {"[world]\nengine = \"dynamics\"",
-       "w.toml:3:10: world.engine: got \"dynamics\", expected one of dynamic, kinematic; did you mean "
+       "w.toml:3:10: world.engine: got \"dynamics\", expected one of dynamic, kinematic, planar; did you "
+       "mean "
        "'dynamic'?"},
-      {"[world]\nengine = 3", "w.toml:3:10: world.engine: got 3, expected one of dynamic, kinematic"},
+      {"[world]\nengine = 3", "w.toml:3:10: world.engine: got 3, expected one of dynamic, kinematic, planar"},
       {"[world]\ngravity = -9.81",
        "w.toml:3:11: world.gravity: got -9.81, expected number from 0.01 to 100 m/s2"},
       {"[world]\ngravity = nan",
@@ -165,7 +166,8 @@ TEST(Loader, every_kind_of_mistake_has_its_sentence) {
        "w.toml:3:11: world.ambient: got \"sun\", expected number from 0 to 10000 W/m2"},
       {"[world]\nphysicshz = 96",
        "w.toml:3:1: unknown key 'physicshz' in world; did you mean 'physics_hz'? (keys: physics_hz, engine, "
-       "gravity, seed, ambient)"},
+       "gravity, seed, ambient, "
+       "wheel_noise, wheel_noise_law, slip)"},
       {"title = 5", "w.toml:2:9: title: got 5, expected text in quotes"},
       {"world = 3", "w.toml:2:9: world: got 3, expected a table, written [world]"},
       {"[[arena]]\nsize = [1, 1]",
@@ -220,6 +222,15 @@ TEST(Loader, every_kind_of_mistake_has_its_sentence) {
       {"[[box]]\nposition = [0, 0]\nxyzzy = true", "w.toml:4:1: unknown key 'xyzzy' in box"},
       {"[[cylinder]]\nposition = [0, 0]",
        "w.toml:2:1: cylinder.radius: missing, expected number from 0.0005 to 1000 m"},
+      {"[world]\nwheel_noise_law = \"normal\"",
+       "w.toml:3:19: world.wheel_noise_law: got \"normal\", expected one of uniform, gaussian"},
+      {"[world]\nslip = 1.5", "w.toml:3:8: world.slip: got 1.5, expected number from 0 to 1"},
+      {"[world]\nengine = \"flat\"",
+       "w.toml:3:10: world.engine: got \"flat\", expected one of dynamic, kinematic, planar"},
+      {"[[ball]]\nposition = [0, 0]\nradius = 1\nrolling_friction = -1",
+       "w.toml:5:20: ball.rolling_friction: got -1, expected number from 0 to 10"},
+      {"[[box]]\nposition = [0, 0]\nrolling_friction = 1",
+       "w.toml:4:1: unknown key 'rolling_friction' in box"},
       {"[[ball]]\nposition = [0, 0]\nradius = -1",
        "w.toml:4:10: ball.radius: got -1, expected number from 0.0005 to 1000 m"},
       {"[[polygon]]\npoints = [[0, 0], [1, 0]]",
@@ -351,12 +362,57 @@ TEST(Loader, bodies_above_one_another_do_not_overlap) {
 }
 
 TEST(Loader, worlds_of_the_repository_are_good) {
-  for (const char* name : {"worlds/maze", "worlds/arena", "worlds/empty", "worlds/corridor", "worlds/wall",
-                           "worlds/u_obstacle", "worlds/u_obstacle_black", "worlds/lamp", "worlds/push",
-                           "worlds/swarm", "bench/worlds/brait_1", "bench/worlds/brait_5",
-                           "bench/worlds/brait_10", "bench/worlds/brait_100", "bench/worlds/brait_1000"}) {
+  for (const char* name : {"worlds/maze",
+                           "worlds/arena",
+                           "worlds/empty",
+                           "worlds/corridor",
+                           "worlds/wall",
+                           "worlds/u_obstacle",
+                           "worlds/u_obstacle_black",
+                           "worlds/u_obstacle_white",
+                           "worlds/myobstacle",
+                           "worlds/obstacle",
+                           "worlds/multi_obstacle",
+                           "worlds/pillars",
+                           "worlds/corners",
+                           "worlds/lamp",
+                           "worlds/push",
+                           "worlds/swarm",
+                           "bench/worlds/brait_1",
+                           "bench/worlds/brait_5",
+                           "bench/worlds/brait_10",
+                           "bench/worlds/brait_100",
+                           "bench/worlds/brait_1000"}) {
     const std::string file = std::string(TWINPUCK_SOURCE_DIR "/") + name + ".toml";
     EXPECT_EQ(sim::load_world(file, {puck()}).report(file), "");
+  }
+}
+
+TEST(Loader, the_labs_worlds_of_three_engines_differ_in_the_engine_alone) {
+  const auto read = [](const std::string& name) {
+    std::ifstream in(TWINPUCK_SOURCE_DIR "/worlds/" + name + ".toml");
+    std::string text, engine;
+    for (std::string line; std::getline(in, line);) {
+      if (line.rfind("engine = ", 0) == 0) engine = line.substr(9);
+      const bool names_it =
+          line.rfind("engine", 0) == 0 || line.rfind("title", 0) == 0 || line.rfind("#", 0) == 0;
+      if (!names_it) text += line + "\n";
+    }
+    return std::make_pair(engine, text);
+  };
+  for (const char* number : {"", "_5", "_10"}) {
+    const auto dynamic = read(std::string("epuck") + number);
+    const auto kinematic = read(std::string("epuck_no_physics") + number);
+    const auto planar = read(std::string("epuck_2d") + number);
+    EXPECT_EQ(dynamic.first, "\"dynamic\"");
+    EXPECT_EQ(kinematic.first, "\"kinematic\"");
+    EXPECT_EQ(planar.first, "\"planar\"");
+    EXPECT_EQ(dynamic.second, kinematic.second);
+    EXPECT_EQ(dynamic.second, planar.second);
+    for (const char* stem : {"epuck", "epuck_no_physics", "epuck_2d"}) {
+      const std::string file = std::string(TWINPUCK_SOURCE_DIR "/worlds/") + stem + number + ".toml";
+      EXPECT_EQ(sim::load_world(file, {puck()}).report(file), "");
+    }
   }
 }
 
@@ -382,7 +438,7 @@ TEST(Loader, defaults_in_the_table_are_the_defaults_of_the_structs) {
   EXPECT_EQ(a.floor.colour.b, b.floor.colour.b);
   EXPECT_EQ(a.floor.friction, b.floor.friction);
   EXPECT_EQ(a.robots[0].uart1, b.robots[0].uart1);
-  EXPECT_EQ(a.robots[0].slip, b.robots[0].slip);
+  EXPECT_EQ(a.robots[0].wheels.slip, b.robots[0].wheels.slip);
   EXPECT_EQ(a.robots[0].variation.axle_ratio, b.robots[0].variation.axle_ratio);
   const auto box = world_of("twinpuck = 1\n[[box]]\nposition = [0, 0]\n" + spelled("box"));
   const auto plain = world_of("twinpuck = 1\n[[box]]\nposition = [0, 0]\n");

@@ -15,7 +15,7 @@ const char* const kFree = R"(twinpuck = 1
 constexpr double kHalfTurn = sim::kPi;
 
 TEST(Motion, straight_way_on_free_floor_is_the_wheels_way) {
-  for (const char* engine : {"dynamic", "kinematic"}) {
+  for (const char* engine : {"dynamic", "kinematic", "planar"}) {
     for (int hz : {96, 128, 256, 512, 1024}) {
       const auto world = world_of("twinpuck = 1\n[world]\nengine = \"" + std::string(engine) +
                                   "\"\nphysics_hz = " + std::to_string(hz) + "\n[[robot]]\nheading = 30\n");
@@ -38,7 +38,7 @@ TEST(Motion, turning_on_the_spot_follows_the_axle) {
 }
 
 TEST(Motion, a_circle_closes) {
-  for (const char* engine : {"dynamic", "kinematic"}) {
+  for (const char* engine : {"dynamic", "kinematic", "planar"}) {
     auto s = cruising(
         world_of("twinpuck = 1\n[world]\nengine = \"" + std::string(engine) + "\"\n[[robot]]\n"), 2, 4);
     // spin = (4 - 2) * 0.0205 / 0.053 = 0.7736 rad/s: once round in 8.122 s; radius 0.0795 m
@@ -50,7 +50,7 @@ TEST(Motion, a_circle_closes) {
 }
 
 TEST(Motion, pushed_against_a_wall_the_robot_stays) {
-  for (const char* engine : {"dynamic", "kinematic"}) {
+  for (const char* engine : {"dynamic", "kinematic", "planar"}) {
     for (int hz : {96, 512}) {
       auto s = cruising(world_of("twinpuck = 1\n[world]\nengine = \"" + std::string(engine) +
                                  "\"\nphysics_hz = " + std::to_string(hz) +
@@ -106,6 +106,57 @@ TEST(Motion, slip_and_wheel_noise_change_the_way) {
   run_for(*noisy, 10);
   EXPECT_NE(noisy->pose(0).y_m, 0);
   EXPECT_NEAR(noisy->distance_m(0), 0.6440, 0.03);
+}
+
+TEST(Motion, wheel_settings_of_the_world_are_inherited_and_a_robots_own_count_more) {
+  auto s = cruising(world_of("twinpuck = 1\n[world]\nslip = 0.25\nwheel_noise = 0.2\n"
+                             "[[robot]]\nwheel_noise = 0\n"
+                             "[[robot]]\nposition = [0, 1]\nslip = 0\nwheel_noise = 0\n"
+                             "[[robot]]\nposition = [0, 2]\n"),
+                    kHalfTurn, kHalfTurn);
+  run_for(*s, 10);
+  EXPECT_NEAR(s->distance_m(0), 0.75 * 0.6440, 0.003);
+  EXPECT_EQ(s->pose(0).heading_rad, 0);
+  EXPECT_NEAR(s->distance_m(1), 0.6440, 0.003);
+  EXPECT_NE(s->pose(2).heading_rad, 0);
+}
+
+/// Ways of both wheels in each period of 1/32 s, over the way without noise, in the planar engine (exact).
+std::vector<double> wheel_factors(const std::string& keys) {
+  auto s = cruising(
+      world_of("twinpuck = 1\n[world]\nengine = \"planar\"\nphysics_hz = 32\n" + keys + "[[robot]]\n"), 1, 1);
+  std::vector<double> factors;
+  for (int tick = 0; tick < 2000; ++tick) {
+    const sim::BodyState before = s->state(0);
+    s->step();
+    const sim::Vec2 way{s->pose(0).x_m - before.pose.x_m, s->pose(0).y_m - before.pose.y_m};
+    const double turn = 0.5 * (s->pose(0).heading_rad - before.pose.heading_rad) * 0.053;
+    factors.push_back((sim::length(way) - turn) * 32 / 0.0205);
+    factors.push_back((sim::length(way) + turn) * 32 / 0.0205);
+  }
+  return factors;
+}
+
+TEST(Motion, wheel_noise_is_uniform_or_gaussian) {
+  for (const bool gaussian : {false, true}) {
+    const std::vector<double> f = wheel_factors(
+        gaussian ? "wheel_noise = 0.1\nwheel_noise_law = \"gaussian\"\n" : "wheel_noise = 0.1\n");
+    double sum = 0, squares = 0, furthest = 0;
+    for (double x : f) {
+      sum += x - 1, squares += (x - 1) * (x - 1);
+      furthest = std::max(furthest, std::fabs(x - 1));
+    }
+    const double n = static_cast<double>(f.size());  // 4000 draws: the mean is good to 0.1 / 63
+    EXPECT_NEAR(sum / n, 0, 0.005) << gaussian;
+    // standard deviation 0.1, or that of a uniform law of half width 0.1: 0.1 / sqrt 3
+    EXPECT_NEAR(std::sqrt(squares / n), gaussian ? 0.1 : 0.05774, 0.004) << gaussian;
+    if (gaussian) {
+      EXPECT_GT(furthest, 0.25);
+    } else {
+      EXPECT_LE(furthest, 0.1 + 1e-9);
+      EXPECT_GT(furthest, 0.099);
+    }
+  }
 }
 
 TEST(Motion, a_bar_above_the_robot_does_not_stop_it) {

@@ -20,14 +20,14 @@ std::string all_lines(const std::vector<std::string>& lines) {
 }
 
 // a controller written in a test gets a folder of its own, named after its content
-std::string folder_for(const std::string& source) {
-  std::uint64_t h = source.size();
+std::string folder_for(const std::string& source, const std::string& language = "c") {
+  std::uint64_t h = source.size() + (language == "c" ? 0 : 1);
   for (unsigned char c : source) h = sim::mix64(h ^ c);
   char name[32];
   std::snprintf(name, sizeof name, "t%016llx", static_cast<unsigned long long>(h));
   const std::filesystem::path folder = std::filesystem::path(TWINPUCK_BUILD_DIR) / "tests" / "inline" / name;
   std::filesystem::create_directories(folder);
-  const std::filesystem::path file = folder / "main.c";
+  const std::filesystem::path file = folder / ("main." + language);
   if (!std::filesystem::exists(file)) std::ofstream(file) << source;
   return folder.string();
 }
@@ -82,6 +82,10 @@ std::int64_t Robot::cycles() const { return mind().now(); }
 void Robot::turn_selector(int position) {
   mind().board().turn_selector(position);
   mind().robot()->wake();
+}
+void Robot::define_sensor(const std::string& name, double value) {
+  test_->twin();
+  mind().board().virtual_devices().set(name, value);
 }
 void Robot::press_key(int key, double hold_s, int address) {
   const double at_s = test_->now_s();
@@ -161,12 +165,35 @@ Robot& FirmwareTest::add_robot_with_source(const std::string& c_source, const st
   return add_robot(folder_for(c_source), name);
 }
 
+void FirmwareTest::add_supervisor(const std::string& program, double period_s) {
+  sim::SupervisorDesc desc;
+  desc.program = program;
+  desc.name = "supervisor" + std::to_string(world.supervisors.size());
+  desc.period_s = period_s;
+  world.supervisors.push_back(desc);
+}
+
+void FirmwareTest::add_supervisor_with_source(const std::string& source, const std::string& language,
+                                              double period_s) {
+  add_supervisor(folder_for(source, language), period_s);
+}
+
 void FirmwareTest::start() {
   world.robots.clear();
   for (const auto& r : robots_) world.robots.push_back(r->desc_);
   std::vector<std::string> problems;
   twin_ = twin::Twin::open(world, options, problems);
   if (!twin_) throw std::runtime_error("the test's world cannot start:\n" + all_lines(problems));
+  for (auto& r : robots_) {
+    Robot* robot = r.get();
+    robot->mind().board().virtual_devices().on_console = [robot](const std::string& line) {
+      robot->console_.push_back(line);
+    };
+  }
+  if (!world.supervisors.empty()) {
+    team_ = supervisor::Team::open(*twin_, options, {}, problems);
+    if (!team_) throw std::runtime_error("the test's supervisors cannot start:\n" + all_lines(problems));
+  }
   for (auto& r : robots_)
     for (int port = r->keeps_bluetooth_ ? 2 : 1; port <= 2; ++port) {
       auto end = std::make_unique<board::MemoryEnd>();
@@ -182,17 +209,29 @@ twin::Twin& FirmwareTest::twin() {
 
 void FirmwareTest::run_for(double seconds) {
   auto& s = twin().simulation();
-  s.run_until(s.now() + sim::from_seconds(seconds));
+  const sim::Clicks end = s.now() + sim::from_seconds(seconds);
+  while (s.now() < end && !(team_ && team_->has_ended())) s.step();
 }
 
 bool FirmwareTest::run_until(const std::function<bool()>& done, double at_most_s) {
   auto& s = twin().simulation();
   const sim::Clicks end = s.now() + sim::from_seconds(at_most_s);
   while (!done()) {
-    if (s.now() >= end) return false;
+    if (s.now() >= end || (team_ && team_->has_ended())) return false;
     s.step();
   }
   return true;
+}
+
+supervisor::Team& FirmwareTest::team() {
+  twin();
+  if (!team_) throw std::runtime_error("the test's world has no supervisor");
+  return *team_;
+}
+
+const supervisor::Outcome& FirmwareTest::finish() {
+  team().finish();
+  return team().outcome();
 }
 
 double FirmwareTest::now_s() const { return twin_ ? sim::to_seconds(twin_->simulation().now()) : 0; }

@@ -22,6 +22,7 @@
 #include "hal_sim/board/uart_end.h"
 #include "hal_sim/cc/build.h"
 #include "hal_sim/twin/twin.h"
+#include "supervisor/team.h"
 
 namespace firmware_test {
 
@@ -59,6 +60,10 @@ class Robot {
   std::string uart2_text() const { return serial_text(2); }
   void send_uart1(const std::string& bytes) { serial_send(1, bytes); }  ///< arrives at the line's baud rate
   void send_uart2(const std::string& bytes) { serial_send(2, bytes); }
+  /// Lines that a program for Webots' interfaces wrote to the simulator's console so far.
+  const std::vector<std::string>& console() const { return console_; }
+  /// A virtual sensor, as a supervisor defines it.
+  void define_sensor(const std::string& name, double value);
   void turn_selector(int position);
   /// Somebody presses a key of a remote control now, for `hold_s` seconds: key 0 to 63, address 0 to 31.
   void press_key(int key, double hold_s = 0.1, int address = 0);
@@ -102,6 +107,7 @@ class Robot {
   int index_ = 0;
   sim::RobotDesc desc_;
   board::MemoryEnd* serial_[2] = {nullptr, nullptr};
+  std::vector<std::string> console_;
   bool keeps_bluetooth_ = false;
 };
 
@@ -126,6 +132,12 @@ class FirmwareTest : public ::testing::Test {
   Robot& add_robot(const std::string& firmware, const std::string& name = "");
   /// A robot with a controller written in the test itself.
   Robot& add_robot_with_source(const std::string& c_source, const std::string& name = "");
+  /// A supervisor: a name under supervisor/programs/, a file or a folder (docs/supervisor.md). Runs stop when
+  /// it ends them.
+  void add_supervisor(const std::string& program, double period_s = 0);
+  /// A supervisor written in the test itself; "cpp" or "c".
+  void add_supervisor_with_source(const std::string& source, const std::string& language = "cpp",
+                                  double period_s = 0);
   Robot& robot(int index) { return *robots_[static_cast<std::size_t>(index)]; }
 
   // --- running
@@ -136,6 +148,10 @@ class FirmwareTest : public ::testing::Test {
   double now_s() const;
   std::uint64_t digest() const;
   void expect_no_traps() const;
+  /// The world's supervisors; started on first use.
+  supervisor::Team& team();
+  /// The run is over: every supervisor has its last go. How they ended it.
+  const supervisor::Outcome& finish();
   /// Number of threads, extra flags for twinpuck-cc; before the first run.
   twin::Options options;
   twin::Twin& twin();
@@ -146,6 +162,7 @@ class FirmwareTest : public ::testing::Test {
 
   std::vector<std::unique_ptr<Robot>> robots_;
   std::unique_ptr<twin::Twin> twin_;
+  std::unique_ptr<supervisor::Team> team_;
 };
 
 }  // namespace firmware_test

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// Worlds of Webots V5.0 to R2025 with e-pucks in them, turned into our world files. docs/import.md says what
+// is carried and how.
+#pragma once
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "import/wbt_node.h"
+#include "sim_core/world/world_desc.h"
+
+namespace wbt {
+
+struct Options {
+  std::string file;    ///< name of the world, for messages
+  std::string folder;  ///< where it lies; empty: no other file (pictures, PROTOs, controllers) is looked at
+  std::string out_folder;         ///< where the result will lie, for relative names
+  bool without_firmware = false;  ///< robots get no controller
+  /// Whether the project has a controller of that name; may be empty.
+  std::function<bool(const std::string&)> has_firmware;
+  sim::RobotModel model;  ///< of an e-puck, to see whether it begins inside something
+};
+
+struct Imported {
+  std::string toml;            ///< the world file; empty when there are errors
+  std::vector<Remark> report;  ///< what was not carried, by line
+  std::vector<Remark> errors;  ///< what is wrong with the .wbt file
+  int robots = 0;
+  int objects = 0;
+};
+
+/// `text`: a .wbt file. Never fails but by `errors`; time and memory are bounded for any input.
+Imported import_world(std::string_view text, const Options& options);
+
+}  // namespace wbt

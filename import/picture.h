@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// The average colour of a picture file.
+#pragma once
+#include <optional>
+#include <string>
+
+#include "sim_core/world/robot_model.h"
+
+namespace wbt {
+
+/// Of a PNG or JPEG file; nothing when it cannot be read.
+std::optional<sim::Colour> average_colour(const std::string& file);
+
+}  // namespace wbt

@@ -1,0 +1,450 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "import/carried.h"
+
+namespace wbt {
+namespace {
+
+namespace fs = std::filesystem;
+using sim::ObjectKind;
+
+std::string from(const std::string& type, const std::string& name, const std::string& def, int line) {
+  std::string out = printable(type);
+  if (!name.empty()) out += " \"" + printable(name) + "\"";
+  if (!def.empty()) out += ", DEF " + printable(def);
+  return fmt::format("{}, line {}", out, line);
+}
+
+// names in our files: no control characters, not endless
+std::string clean(const std::string& text) { return printable(text, 80); }
+
+// a name as our files may hold it, or empty
+std::string relative_name(const std::string& file, const Options& o) {
+  std::error_code error;
+  const fs::path p = fs::relative(file, o.out_folder.empty() ? "." : o.out_folder, error);
+  return error || p.empty() ? file : p.string();
+}
+
+class Settler {
+ public:
+  Settler(const Scene& s, const Options& o, Report& r) : scene_(s), options_(o), report_(r) {}
+
+  Carried carried() {
+    out_.cosmetic = scene_.cosmetic;
+    out_.info = scene_.info;
+    sim::WorldDesc& w = out_.world;
+    w.title = clean(scene_.title);
+    w.models = {options_.model};
+    w.webots.time_step_s = scene_.time_step_s;
+    w.webots.axes = scene_.nue ? sim::Axes::Nue : sim::Axes::Enu;
+    if (scene_.gravity_m_s2) w.gravity_m_s2 = *scene_.gravity_m_s2;
+    if (scene_.seed) w.seed = *scene_.seed;
+    if (scene_.sky) w.sky.colour = *scene_.sky;
+    if (!scene_.robots.empty()) {
+      out_.profile = scene_.new_sensors ? "webots-new" : "webots-old";
+      if (scene_.uniform_noise) w.proximity.noise_law = sim::NoiseLaw::Uniform;
+    }
+    engine();
+    find_floor();
+    for (const FoundArena& a : scene_.arenas) arena(a);
+    for (std::size_t b = 0; b < scene_.bodies.size(); ++b) body(b);
+    for (const FoundLamp& l : scene_.lamps) lamp(l);
+    for (const FoundRobot& r : scene_.robots) robot(r);
+    for (const FoundSupervisor& s : scene_.supervisors) supervisor(s);
+    return std::move(out_);
+  }
+
+ private:
+  void engine() {
+    const auto& robots = scene_.robots;
+    const auto still =
+        std::count_if(robots.begin(), robots.end(), [](const FoundRobot& r) { return r.kinematic; });
+    if (scene_.planar) out_.world.engine = sim::Engine::Planar;
+    if (still == 0 || scene_.planar) return;
+    out_.world.engine = sim::Engine::Kinematic;
+    if (still < static_cast<long>(robots.size())) {
+      for (const FoundRobot& r : robots) {
+        if (!r.kinematic)
+          report_.add(r.line, r.type, "physics beside kinematic robots", "all robots are kinematic");
+      }
+    }
+  }
+
+  // a body's face that robots can stand on, as high as they stand
+  bool is_floor(const Piece& p, bool movable) const {
+    if (movable || p.kind == ObjectKind::Ball || p.kind == ObjectKind::Cylinder) return false;
+    const auto [low, high] = std::minmax(p.size.x, p.size.y);
+    if (p.kind == ObjectKind::Box && low < kFloorSideM) return false;
+    if (p.area() < kFloorSideM * kFloorSideM) return false;
+    if (p.ramp && !p.endless_floor) return false;
+    if (scene_.robots.empty())
+      return p.endless_floor || (p.z_high - p.z_low < kFlatM && std::abs(p.z_high) < kFlatM);
+    const auto some = scene_.robots.begin() +
+                      std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(scene_.robots.size()), 50);
+    return std::any_of(scene_.robots.begin(), some, [&](const FoundRobot& r) {
+      return p.covers({r.pose.x_m, r.pose.y_m}) && p.z_high > r.z_m - kFloorBelowM &&
+             p.z_high < r.z_m + kFloorAboveM;
+    });
+  }
+
+  void find_floor() {
+    if (!scene_.arenas.empty()) {
+      floor_z_ = scene_.arenas.front().z_m;
+      have_floor_ = true;
+      return;
+    }
+    double best = 0;
+    for (const Body& b : scene_.bodies) {
+      for (const Piece& p : b.pieces) {
+        if (p.area() > best && is_floor(p, b.movable)) {
+          best = p.area();
+          floor_z_ = p.z_high;
+          floor_ = &p;
+          floor_body_ = &b;
+        }
+      }
+    }
+    if (!floor_) {
+      if (!scene_.robots.empty()) floor_z_ = scene_.robots.front().z_m;
+      if (std::abs(floor_z_) < kFloorBelowM) floor_z_ = 0;
+      report_.add(0, "floor", "nothing flat lies under the robots", "an endless floor");
+      return;
+    }
+    have_floor_ = true;
+    // floors are often laid of several pieces: the rectangle around those of the same height
+    double x0 = 1e300, x1 = -1e300, y0 = 1e300, y1 = -1e300;
+    int parts = 0;
+    for (const Body& b : scene_.bodies) {
+      for (const Piece& p : b.pieces) {
+        if (&p != floor_ && !(std::abs(p.z_high - floor_z_) < kFlatM && !b.movable && p.area() > 0.25 * best))
+          continue;
+        ++parts;
+        for (const Vec2 c : p.outline()) {
+          x0 = std::min(x0, c.x), x1 = std::max(x1, c.x), y0 = std::min(y0, c.y), y1 = std::max(y1, c.y);
+        }
+      }
+    }
+    sim::ArenaDesc a;
+    a.size_m = {std::clamp(x1 - x0, 0.01, kFarthestM), std::clamp(y1 - y0, 0.01, kFarthestM)};
+    a.centre_m = {(x0 + x1) / 2, (y0 + y1) / 2};
+    a.wall_height_m = 0;
+    if (std::max(std::abs(a.centre_m.x), std::abs(a.centre_m.y)) > kFarthestM) return;
+    out_.world.arena = a;
+    out_.world.floor.colour = floor_->surface.colour;
+    out_.floor_from = from(floor_body_->type, floor_body_->name, floor_body_->def, floor_body_->line);
+    out_.arena_from = out_.floor_from + (parts > 1 ? fmt::format(" and {} more pieces", parts - 1) : "");
+    if (parts == 1 && floor_->area() < 0.99 * a.size_m.x * a.size_m.y)
+      report_.add(floor_->line, "floor", "its outline", "the rectangle around it");
+  }
+
+  void arena(const FoundArena& a) {
+    const std::string source = from(a.type, "", "", a.line);
+    const bool sensible = a.size.x >= 0.01 && a.size.y >= 0.01 && a.size.x <= kFarthestM &&
+                          a.size.y <= kFarthestM &&
+                          std::max(std::abs(a.at.x), std::abs(a.at.y)) <= kFarthestM && std::isfinite(a.z_m);
+    if (!sensible) return report_.add(a.line, a.type, "its measures make no sense");
+    const double height = std::isfinite(a.wall_height_m) ? std::clamp(a.wall_height_m, 0.0, kFarthestM) : 0;
+    const double thickness = std::clamp(a.wall_thickness_m, kLeastM, 10.0);
+    const double quarter = a.heading_rad / (sim::kPi / 2);
+    const bool straight = std::abs(quarter - std::round(quarter)) < 1e-3;
+    const bool turned = static_cast<long>(std::round(quarter)) % 2 != 0;
+    const Vec2 size = turned ? Vec2{a.size.y, a.size.x} : a.size;
+    if (!out_.world.arena && (straight || a.round)) {
+      sim::ArenaDesc d;
+      d.size_m = size;
+      d.centre_m = a.at;
+      d.wall_height_m = a.round ? 0 : height;
+      d.wall_thickness_m = thickness;
+      if (a.walls) d.material.colour = a.walls->colour, d.material.roughness = a.walls->roughness;
+      out_.world.arena = d;
+      out_.arena_from = source;
+      if (a.floor) out_.world.floor.colour = a.floor->colour;
+      if (!a.image.empty() && !options_.folder.empty()) {
+        out_.world.floor.image = relative_name(a.image, options_);
+        if (printable(out_.world.floor.image, 10000) != out_.world.floor.image)
+          out_.world.floor.image.clear();
+      }
+      if (!a.round) return;
+    } else if (!straight && !out_.world.arena && a.floor) {
+      out_.world.floor.colour = a.floor->colour;
+    }
+    if (height <= 0) {
+      if (out_.arena_from != source)
+        report_.add(a.line, a.type, "a second floor, or one that lies askew", "the floor goes on");
+      return;
+    }
+    sim::WallDesc w;
+    w.closed = true;
+    w.height_m = std::max(height, kLeastM);
+    w.thickness_m = thickness;
+    w.z_m = std::clamp(a.z_m - floor_z_, 0.0, kFarthestM);
+    if (a.walls) w.material.colour = a.walls->colour;
+    const double hx = a.size.x / 2 + thickness / 2, hy = a.size.y / 2 + thickness / 2;
+    const double c = std::cos(a.heading_rad), s = std::sin(a.heading_rad);
+    const int corners = a.round ? 36 : 4;
+    for (int i = 0; i < corners; ++i) {
+      const double t = 2 * sim::kPi * i / corners;
+      const Vec2 p = a.round ? Vec2{hx * std::cos(t), hx * std::sin(t)}
+                             : Vec2{i == 0 || i == 3 ? -hx : hx, i < 2 ? -hy : hy};
+      w.points_m.push_back(a.at + Vec2{c * p.x - s * p.y, s * p.x + c * p.y});
+    }
+    out_.world.walls.push_back(w);
+    out_.wall_from.push_back(source);
+  }
+
+  const Contact* contact_of(const std::string& material) const {
+    const Contact* fallback = nullptr;
+    for (const Contact& c : scene_.contacts) {
+      const bool touches = c.one == material || c.other == material;
+      if (touches && (c.one == "default" || c.other == "default")) return &c;
+      if (touches && !fallback) fallback = &c;
+    }
+    return fallback;
+  }
+
+  void body(std::size_t index) {
+    const Body& b = scene_.bodies[index];
+    const std::string title = (b.def.empty() ? "" : b.def + " ") + b.type;
+    std::vector<Piece> pieces;
+    for (const Piece& p : b.pieces) {
+      const double side = std::max({std::abs(p.at.x), std::abs(p.at.y), p.size.x, p.size.y, p.radius_m});
+      if (!(side <= kFarthestM) || !(std::abs(p.z_low) <= kFarthestM) ||
+          !(std::abs(p.z_high) <= kFarthestM)) {
+        report_.add(p.line, title, "larger or further away than a world of ours may be");
+        continue;
+      }
+      pieces.push_back(p);
+    }
+    if (b.movable && pieces.size() > 1) {
+      std::vector<Vec3> points;
+      double volume = 0;
+      for (const Piece& p : pieces) {
+        for (const Vec2 c : p.outline())
+          points.push_back({c.x, c.y, p.z_low}), points.push_back({c.x, c.y, p.z_high});
+        volume += p.volume_m3;
+      }
+      auto hull = hull_piece(points);
+      if (!hull) return report_.add(b.line, title, "has no extent");
+      hull->surface = pieces.front().surface;
+      hull->volume_m3 = volume;
+      report_.add(b.line, title, fmt::format("that it is made of {} pieces", pieces.size()),
+                  "the upright prism around them");
+      pieces = {*hull};
+    }
+    for (Piece& p : pieces) place(b, p, title);
+  }
+
+  void place(const Body& b, Piece& p, const std::string& title) {
+    const bool in_floor = have_floor_ && p.z_high <= floor_z_ + kFlatM;
+    if (!b.movable && in_floor) {
+      const bool is_part = &b == floor_body_;
+      const bool differs = std::abs(p.surface.colour.r - out_.world.floor.colour.r) > 0.02 ||
+                           std::abs(p.surface.colour.g - out_.world.floor.colour.g) > 0.02 ||
+                           std::abs(p.surface.colour.b - out_.world.floor.colour.b) > 0.02;
+      if (!is_part && p.z_high > floor_z_ - kFlatM && differs)
+        report_.add(p.line, title, "a coloured patch of the floor", "draw it in [floor] image");
+      return;
+    }
+    if (b.untouched && !b.movable)
+      return report_.add(b.line, title, "only cameras notice it (it has no boundingObject)");
+    if (p.endless_floor && p.z_high - p.z_low < kFlatM)
+      return report_.add(p.line, title, "a flat sheet above the floor");
+    if (!p.approximation.empty() && !(p.ramp && !b.movable))
+      report_.add(p.line, title, "its exact shape", p.approximation);
+    if (p.ramp && !b.movable && !scene_.planar && ramp(b, p)) return;
+    if (p.ramp && !b.movable) report_.add(p.line, title, "its exact shape", p.approximation);
+    if (static_cast<int>(out_.world.objects.size()) >= kMostBodies)
+      return report_.add(p.line, title, fmt::format("more than {} objects", kMostBodies));
+    sim::ObjectDesc o;
+    o.kind = p.kind;
+    o.name = clean(b.name);
+    o.def = clean(b.def);
+    o.pose = {p.at.x, p.at.y, p.heading_rad};
+    o.movable = b.movable && movable_ < kMostMovable;
+    if (b.movable && ++movable_ > kMostMovable)
+      report_.add(p.line, title, fmt::format("more than {} movable objects", kMostMovable), "it is fixed");
+    double low = p.z_low - floor_z_, high = p.z_high - floor_z_;
+    if (b.movable && low < 0) high -= low, low = 0;
+    if (low < (b.movable ? kTouchM : kGapM)) {
+      if (p.kind == ObjectKind::Ball && low < -0.001)
+        report_.add(p.line, title, "that it is sunk into the floor", "it lies on the floor");
+      low = 0;
+    }
+    o.z_m = low;
+    o.size_m = {std::max(p.size.x, kLeastM), std::max(p.size.y, kLeastM), std::max(high - low, kLeastM)};
+    o.radius_m = std::max(p.radius_m, kLeastM);
+    o.corners_m = p.corners;
+    o.material.colour = p.surface.colour;
+    o.material.roughness = p.surface.roughness;
+    if (const Contact* c = contact_of(b.contact)) {
+      if (c->friction >= 0) o.floor_friction = std::clamp(c->friction, 0.0, 10.0);
+      o.material.restitution = std::clamp(c->bounce, 0.0, 1.0);
+    } else if (p.kind == ObjectKind::Ball && b.movable) {
+      o.material.restitution = kContactBounce;
+    }
+    if (b.movable) {
+      const double mass = b.mass_kg > 0         ? b.mass_kg
+                          : b.density_kg_m3 > 0 ? b.density_kg_m3 * p.volume_m3
+                                                : kDensityKgM3 * p.volume_m3;
+      o.mass_kg = std::clamp(mass, kLightestKg, kHeaviestKg);
+      if (!(mass >= kLightestKg && mass <= kHeaviestKg))
+        report_.add(b.line, title, "its mass", fmt::format("{:.4g} kg", o.mass_kg));
+    }
+    out_.world.objects.push_back(o);
+    out_.object_from.push_back(from(b.type, b.name, b.def, b.line));
+  }
+
+  // a slope that begins at the floor, cut off where it would go under it
+  bool ramp(const Body& b, const Piece& p) {
+    sim::RampDesc r = *p.ramp;
+    r.low_m -= floor_z_;
+    r.high_m -= floor_z_;
+    if (r.high_m < kFlatM || r.low_m > 0.01 || r.high_m > 10) return false;
+    if (r.low_m < 0) {
+      const double share = r.high_m / (r.high_m - r.low_m);
+      const double lost = (1 - share) * r.size_m.x;
+      r.pose.x_m += lost / 2 * std::cos(r.pose.heading_rad);
+      r.pose.y_m += lost / 2 * std::sin(r.pose.heading_rad);
+      r.size_m.x -= lost;
+    } else if (r.low_m > kTouchM) {
+      report_.add(p.line, b.type, fmt::format("a step of {:.1f} mm at its low end", 1000 * r.low_m),
+                  "it begins on the floor");
+    }
+    r.low_m = 0;
+    if (r.size_m.x < 0.01 || r.size_m.y < 0.01 || std::max(r.size_m.x, r.size_m.y) > kFarthestM ||
+        std::max(std::abs(r.pose.x_m), std::abs(r.pose.y_m)) > kFarthestM ||
+        std::atan2(r.high_m, r.size_m.x) > kSteepestRampRad)
+      return false;
+    r.name = clean(b.name);
+    r.material.colour = p.surface.colour;
+    out_.world.ramps.push_back(r);
+    out_.ramp_from.push_back(from(b.type, b.name, b.def, b.line));
+    return true;
+  }
+
+  void lamp(const FoundLamp& l) {
+    out_.world.ambient_w_m2 = std::min(kLightMax, out_.world.ambient_w_m2 + l.ambient_w_m2);
+    if (!(l.lamp.intensity_w_m2 > 0)) return;
+    sim::LampDesc d = l.lamp;
+    d.name = clean(d.name);
+    d.position_m.z -= floor_z_;
+    if (!(std::abs(d.position_m.z) <= kFarthestM)) return report_.add(l.line, l.type, "too far away");
+    out_.world.lamps.push_back(d);
+    out_.lamp_from.push_back(from(l.type, "", d.name, l.line));
+  }
+
+  // the controller's own sources beside the world, a controller of the project, or just its name
+  std::string program(const std::string& name, int line, const std::string& type, const char* what) {
+    if (name.empty() || name == "void" || name == "<none>" || name == "<extern>" || name == "<generic>") {
+      if (name == "<extern>" || name == "<generic>")
+        report_.add(line, type, "controller \"" + name + "\"", std::string("no ") + what);
+      return {};
+    }
+    const std::string plain = clean(name);
+    if (options_.without_firmware) return {};
+    if (!options_.folder.empty() && plain == name && name.find('/') == std::string::npos && name != "..") {
+      const fs::path folder = fs::path(options_.folder) / ".." / "controllers" / name;
+      std::error_code error;
+      std::set<std::string> kinds;
+      for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
+        kinds.insert(at->path().extension().string());
+      const bool c_program = kinds.count(".c") > 0 || kinds.count(".cpp") > 0 || kinds.count(".cc") > 0;
+      if (c_program) return relative_name(folder.lexically_normal().string(), options_);
+      const char* language = kinds.count(".py")     ? "Python"
+                             : kinds.count(".java") ? "Java"
+                             : kinds.count(".m")    ? "MATLAB"
+                             : kinds.count(".bsg")  ? "BotStudio"
+                                                    : nullptr;
+      if (language && !(options_.has_firmware && options_.has_firmware(name))) {
+        report_.add(line, type, fmt::format("controller \"{}\", a {} program", plain, language),
+                    fmt::format("its name is kept; write it in C as {}/{}", what, plain));
+        return plain;
+      }
+    }
+    if (!options_.folder.empty() && !(options_.has_firmware && options_.has_firmware(name)))
+      report_.add(line, type, fmt::format("controller \"{}\", whose sources are not beside the world", plain),
+                  fmt::format("its name is kept; put it into {}/{}", what, plain));
+    return plain;
+  }
+
+  void robot(const FoundRobot& f) {
+    sim::RobotDesc r;
+    r.name = clean(f.name).empty() ? "robot" : clean(f.name);
+    const std::string plain = r.name;
+    for (int i = 2; !names_.insert(r.name).second; ++i) r.name = fmt::format("{} {}", plain, i);
+    if (r.name != plain)
+      report_.add(f.line, f.type, fmt::format("the name \"{}\" a second time", plain), "\"" + r.name + "\"");
+    r.def = clean(f.def);
+    r.pose = f.pose;
+    r.firmware = program(f.controller, f.line, f.type, "firmware");
+    if (f.controller.empty() && f.by_proto)
+      report_.add(f.line, f.type, "the controller that its PROTO names", "no firmware");
+    if (f.slip_noise > 0) r.wheels.noise = f.slip_noise;
+    r.camera_mount = f.camera_mount;
+    if (f.battery_wh) r.battery_wh = *f.battery_wh;
+    r.proximity = f.proximity;
+    r.sensors = f.sensors;
+    if (f.speed_unit_rad_s) {
+      double& unit = out_.world.webots.speed_unit_rad_s;
+      if (unit > 0 && std::abs(unit - *f.speed_unit_rad_s) > 1e-9)
+        report_.add(f.line, f.type, "a second speedUnit",
+                    fmt::format("that of the first robot, {:g} rad/s", unit));
+      else
+        unit = *f.speed_unit_rad_s;
+    }
+    const double above = f.z_m - floor_z_;
+    if (std::abs(above) > kFloorBelowM)
+      report_.add(f.line, f.type, fmt::format("that it begins {:.2f} m above the floor", above),
+                  "it stands on the floor");
+    out_.world.robots.push_back(r);
+    out_.robot_from.push_back(from(f.type, "", f.def, f.line));
+    out_.robot_parts.push_back(f.parts);
+    // devices of one name: the first counts
+    std::vector<Device> devices;
+    for (Device d : f.devices) {
+      d.name = clean(d.name);
+      const bool twice =
+          std::any_of(devices.begin(), devices.end(), [&](const Device& o) { return o.name == d.name; });
+      if (twice || d.name.empty())
+        report_.add(f.line, f.type, fmt::format("a second device \"{}\"", d.name));
+      else
+        devices.push_back(d);
+    }
+    out_.robot_devices.push_back(devices);
+  }
+
+  void supervisor(const FoundSupervisor& f) {
+    sim::SupervisorDesc s;
+    s.name = clean(f.name);
+    const std::string plain = s.name;
+    for (int i = 2; !names_.insert(s.name).second; ++i) s.name = fmt::format("{} {}", plain, i);
+    s.program = program(f.controller, f.line, "Supervisor", "program");
+    if (s.program.empty()) return;
+    out_.world.supervisors.push_back(s);
+    out_.supervisor_from.push_back(from("Supervisor", "", f.def, f.line));
+  }
+
+  int movable_ = 0;
+  const Scene& scene_;
+  const Options& options_;
+  Report& report_;
+  Carried out_;
+  double floor_z_ = 0;
+  bool have_floor_ = false;
+  const Piece* floor_ = nullptr;
+  const Body* floor_body_ = nullptr;
+  std::set<std::string> names_;
+};
+
+}  // namespace
+
+Carried settle(const Scene& scene, const Options& options, Report& report) {
+  return Settler(scene, options, report).carried();
+}
+
+}  // namespace wbt

@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: MIT
+// Writes the world file as somebody would by hand: what differs from the defaults, in the order of
+// docs/world-format.md, with the name and line of the node that each part was.
+#include <fmt/format.h>
+
+#include <map>
+
+#include "import/carried.h"
+
+namespace wbt {
+namespace {
+
+// short and without needless zeros: 0.1 mm, or five digits of small numbers
+std::string num(double x, int digits = 4) {
+  if (x != 0 && std::abs(x) < 0.01 && digits < 9) digits = 6;
+  std::string s = fmt::format("{:.{}f}", x, digits);
+  while (s.find('.') != std::string::npos && s.back() == '0') s.pop_back();
+  if (s.back() == '.') s += "0";
+  return s == "-0.0" ? "0.0" : s;
+}
+
+// a place or a measure, to 0.1 mm
+std::string metres(double x) {
+  std::string s = fmt::format("{:.4f}", x);
+  while (s.back() == '0' && s[s.size() - 2] != '.') s.pop_back();
+  return s == "-0.0" ? "0.0" : s;
+}
+
+std::string pair(double x, double y) { return fmt::format("[{}, {}]", metres(x), metres(y)); }
+std::string three(double x, double y, double z) {
+  return fmt::format("[{}, {}, {}]", metres(x), metres(y), metres(z));
+}
+std::string colour(const sim::Colour& c) {
+  return fmt::format("[{}, {}, {}]", num(c.r, 3), num(c.g, 3), num(c.b, 3));
+}
+
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c >= ' ' && c < 127 ? c : '?';
+  }
+  return out + "\"";
+}
+
+std::string degrees(double rad) {
+  const double d = std::remainder(sim::degrees(rad), 360.0);
+  return metres(std::round((std::abs(d + 180) < 1e-9 ? 180 : d) * 100) / 100);
+}
+
+class Writer {
+ public:
+  explicit Writer(const Carried& c) : c_(c), w_(c.world) {}
+
+  std::string text(const Options& options, const std::vector<Remark>& report, const std::string& version) {
+    line("# Made by `twinpuck import` from " + printable(options.file, 200) + " (Webots " + version + ").");
+    for (const std::string& i : c_.info) comment(i);
+    if (!report.empty()) {
+      line("#");
+      line("# Not carried:");
+      for (const Remark& r : report) {
+        if (&r - report.data() == kMostCommentLines) {
+          line(fmt::format("#   and {} more: run the import again to see them",
+                           report.size() - kMostCommentLines));
+          break;
+        }
+        line("#   " + (r.line > 0 ? fmt::format("line {}: ", r.line) : std::string()) +
+             printable(r.text, 400));
+      }
+    }
+    if (!c_.cosmetic.empty()) {
+      std::string list;
+      for (std::size_t i = 0; i < std::min<std::size_t>(c_.cosmetic.size(), 8); ++i)
+        list += (i ? ", " : "") + printable(c_.cosmetic[i]);
+      line("# Left out, nothing here depends on it: " + list + ".");
+    }
+    line("twinpuck = 1");
+    if (!w_.title.empty()) key("title", quoted(w_.title));
+    world();
+    materials();
+    arena();
+    for (std::size_t i = 0; i < w_.ramps.size(); ++i) ramp(i);
+    for (std::size_t i = 0; i < w_.walls.size(); ++i) wall(i);
+    for (std::size_t i = 0; i < w_.objects.size(); ++i) object(i);
+    for (std::size_t i = 0; i < w_.lamps.size(); ++i) lamp(i);
+    if (!c_.profile.empty()) {
+      section("[proximity]", "readings as Webots " + version + " computes them");
+      key("profile", quoted(c_.profile));
+      if (w_.proximity.noise_law) key("noise_law", "\"uniform\"");
+    }
+    webots();
+    for (std::size_t i = 0; i < w_.robots.size(); ++i) robot(i);
+    for (std::size_t i = 0; i < w_.supervisors.size(); ++i) {
+      section("[[supervisor]]", c_.supervisor_from[i]);
+      key("name", quoted(w_.supervisors[i].name));
+      key("program", quoted(w_.supervisors[i].program));
+    }
+    return out_;
+  }
+
+ private:
+  void line(const std::string& s) { out_ += s + "\n"; }
+  void comment(const std::string& s) {
+    const std::string p = printable(s, 1000);
+    for (std::size_t at = 0; at < p.size(); at += 105) line("# " + p.substr(at, 105));
+  }
+  void section(const std::string& head, const std::string& from) {
+    line("");
+    if (!from.empty()) line("# " + printable(from, 200));
+    line(head);
+  }
+  void key(const std::string& k, const std::string& v) { line(k + " = " + v); }
+
+  void world() {
+    const sim::WorldDesc usual;
+    std::vector<std::pair<std::string, std::string>> keys;
+    if (w_.engine == sim::Engine::Planar)
+      keys.push_back({"engine", "\"planar\""});
+    else if (w_.engine == sim::Engine::Kinematic)
+      keys.push_back({"engine", "\"kinematic\""});
+    if (std::abs(w_.gravity_m_s2 - usual.gravity_m_s2) > 1e-6)
+      keys.push_back({"gravity", num(w_.gravity_m_s2)});
+    if (w_.seed != usual.seed) keys.push_back({"seed", fmt::format("{}", w_.seed)});
+    if (w_.ambient_w_m2 > 0) keys.push_back({"ambient", num(w_.ambient_w_m2)});
+    if (keys.empty()) return;
+    section("[world]", "");
+    for (const auto& [k, v] : keys) key(k, v);
+  }
+
+  static std::string surface_key(const sim::Material& m) {
+    return fmt::format("{} {}", colour(m.colour), num(m.roughness, 3));
+  }
+
+  void materials() {
+    // roughness has no key on the objects themselves
+    const auto add = [&](const sim::Material& m) {
+      if (!(m.roughness > 0) || names_.count(surface_key(m))) return;
+      const std::string name = fmt::format("surface {}", names_.size() + 1);
+      names_[surface_key(m)] = name;
+      section("[[material]]", "");
+      key("name", quoted(name));
+      key("colour", colour(m.colour));
+      key("roughness", num(m.roughness, 3));
+    };
+    if (w_.arena) add(w_.arena->material);
+    for (const auto& o : w_.objects) add(o.material);
+  }
+
+  void surface(const sim::Material& m) {
+    const auto named = names_.find(surface_key(m));
+    if (m.roughness > 0 && named != names_.end())
+      key("material", quoted(named->second));
+    else if (m.colour.r != 1 || m.colour.g != 1 || m.colour.b != 1)
+      key("colour", colour(m.colour));
+  }
+
+  void arena() {
+    const sim::WorldDesc usual;
+    if (w_.arena) {
+      const sim::ArenaDesc plain, &a = *w_.arena;
+      section("[arena]", c_.arena_from);
+      key("size", pair(a.size_m.x, a.size_m.y));
+      if (metres(a.centre_m.x) != "0.0" || metres(a.centre_m.y) != "0.0")
+        key("centre", pair(a.centre_m.x, a.centre_m.y));
+      if (a.wall_height_m != plain.wall_height_m) key("wall_height", metres(a.wall_height_m));
+      if (a.wall_height_m > 0) {
+        if (a.wall_thickness_m != plain.wall_thickness_m) key("wall_thickness", metres(a.wall_thickness_m));
+        surface(a.material);
+      }
+    }
+    const sim::FloorDesc& f = w_.floor;
+    if (!f.image.empty() || colour(f.colour) != colour(usual.floor.colour)) {
+      section("[floor]", c_.floor_from);
+      key("colour", colour(f.colour));
+      if (!f.image.empty()) key("image", quoted(f.image));
+    }
+    if (colour(w_.sky.colour) != colour(usual.sky.colour)) {
+      section("[sky]", "");
+      key("colour", colour(w_.sky.colour));
+    }
+  }
+
+  void ramp(std::size_t i) {
+    const sim::RampDesc& r = w_.ramps[i];
+    section("[[ramp]]", c_.ramp_from[i]);
+    if (!r.name.empty()) key("name", quoted(r.name));
+    key("position", pair(r.pose.x_m, r.pose.y_m));
+    key("size", pair(r.size_m.x, r.size_m.y));
+    if (degrees(r.pose.heading_rad) != "0.0") key("heading", degrees(r.pose.heading_rad));
+    key("heights", pair(r.low_m, r.high_m));
+    surface(r.material);
+  }
+
+  void wall(std::size_t i) {
+    const sim::WallDesc& d = w_.walls[i];
+    section("[[wall]]", c_.wall_from[i]);
+    std::string points;
+    for (const Vec2 p : d.points_m) points += (points.empty() ? "" : ", ") + pair(p.x, p.y);
+    key("points", "[" + points + "]");
+    if (d.closed) key("closed", "true");
+    key("thickness", metres(d.thickness_m));
+    key("height", metres(d.height_m));
+    if (d.z_m > 0) key("z", metres(d.z_m));
+    surface(d.material);
+  }
+
+  void object(std::size_t i) {
+    const sim::ObjectDesc& o = w_.objects[i];
+    const char* heads[] = {"[[box]]", "[[cylinder]]", "[[ball]]", "[[polygon]]"};
+    section(heads[static_cast<int>(o.kind)], c_.object_from[i]);
+    if (!o.name.empty()) key("name", quoted(o.name));
+    if (!o.def.empty()) key("def", quoted(o.def));
+    key("position", pair(o.pose.x_m, o.pose.y_m));
+    if (metres(o.z_m) != "0.0") key("z", metres(o.z_m));
+    if (o.kind == sim::ObjectKind::Box) key("size", three(o.size_m.x, o.size_m.y, o.size_m.z));
+    if (o.kind == sim::ObjectKind::Cylinder || o.kind == sim::ObjectKind::Ball)
+      key("radius", metres(o.radius_m));
+    if (o.kind == sim::ObjectKind::Polygon) {
+      std::string points;
+      for (const Vec2 p : o.corners_m)
+        points += fmt::format("{}[{}, {}]", points.empty() ? "" : ", ", fmt::format("{:.5f}", p.x),
+                              fmt::format("{:.5f}", p.y));
+      key("points", "[" + points + "]");
+    }
+    if (o.kind == sim::ObjectKind::Cylinder || o.kind == sim::ObjectKind::Polygon)
+      key("height", metres(o.size_m.z));
+    const bool round = o.kind == sim::ObjectKind::Cylinder || o.kind == sim::ObjectKind::Ball;
+    if (degrees(o.pose.heading_rad) != "0.0" && (!round || o.movable))
+      key("heading", degrees(o.pose.heading_rad));
+    if (o.movable) {
+      key("movable", "true");
+      key("mass", num(o.mass_kg));
+      if (o.floor_friction != 0.5) key("friction", num(o.floor_friction));
+    }
+    surface(o.material);
+    if (o.material.restitution > 0) key("restitution", num(o.material.restitution));
+  }
+
+  void lamp(std::size_t i) {
+    const sim::LampDesc& l = w_.lamps[i];
+    section("[[lamp]]", c_.lamp_from[i]);
+    if (!l.name.empty()) key("name", quoted(l.name));
+    key("position", three(l.position_m.x, l.position_m.y, l.position_m.z));
+    key("intensity", num(l.intensity_w_m2));
+    if (l.attenuation[0] != 1 || l.attenuation[1] != 0 || l.attenuation[2] != 0)
+      key("attenuation",
+          fmt::format("[{}, {}, {}]", num(l.attenuation[0]), num(l.attenuation[1]), num(l.attenuation[2])));
+    if (l.colour.r != 1 || l.colour.g != 1 || l.colour.b != 1) key("colour", colour(l.colour));
+    if (!l.on) key("on", "false");
+  }
+
+  void webots() {
+    section("[webots]", "what programs written for Webots find");
+    key("time_step", num(w_.webots.time_step_s));
+    if (w_.webots.speed_unit_rad_s > 0) key("speed_unit", num(w_.webots.speed_unit_rad_s, 6));
+    if (w_.webots.axes == sim::Axes::Nue) key("axes", "\"nue\"");
+  }
+
+  void proximity(const sim::ProximitySettings& p) {
+    if (p.table) {
+      std::string rows;
+      for (const auto& r : *p.table)
+        rows += fmt::format("{}[{}, {}, {}]", rows.empty() ? "" : ", ", num(r.distance_m, 7), num(r.value),
+                            num(r.relative_noise, 5));
+      key("table", "[" + rows + "]");
+    }
+    if (p.type == sim::SensorType::Generic) key("type", "\"generic\"");
+    if (p.rays) key("rays", fmt::format("{}", *p.rays));
+    if (p.aperture_rad) key("aperture_rad", num(*p.aperture_rad));
+    if (p.gaussian_width) key("gaussian_width", num(*p.gaussian_width));
+  }
+
+  void robot(std::size_t i) {
+    const sim::RobotDesc& r = w_.robots[i];
+    section("[[robot]]", c_.robot_from[i]);
+    key("name", quoted(r.name));
+    if (!r.def.empty()) key("def", quoted(r.def));
+    key("firmware", quoted(r.firmware));
+    key("position", pair(r.pose.x_m, r.pose.y_m));
+    key("heading", degrees(r.pose.heading_rad));
+    if (r.battery_wh > 0) key("battery_wh", num(r.battery_wh));
+    if (r.wheels.noise) key("wheel_noise", num(*r.wheels.noise));
+    if (!r.camera_mount.empty()) key("camera_mount", quoted(r.camera_mount));
+    const bool own = r.proximity.table || r.proximity.type == sim::SensorType::Generic || r.proximity.rays ||
+                     r.proximity.aperture_rad || r.proximity.gaussian_width;
+    if (own) {
+      line("[robot.proximity]");
+      proximity(r.proximity);
+    }
+    for (const sim::SensorDesc& s : r.sensors) {
+      line("[[robot.sensor]]");
+      key("index", fmt::format("{}", s.index));
+      proximity(s.proximity);
+    }
+    for (const std::string& part : c_.robot_parts[i]) {
+      line("[[robot.part]]");
+      key("kind", quoted(part));
+    }
+    for (const Device& d : c_.robot_devices[i]) {
+      line("[[robot.device]]");
+      key("name", quoted(d.name));
+      key("kind", quoted(d.kind));
+      if (d.channel) key("channel", fmt::format("{}", *d.channel));
+      if (d.range_m) key("range", num(*d.range_m));
+      if (d.baud_rate_bit_s) key("baud_rate", num(*d.baud_rate_bit_s));
+      if (d.infra_red) key("infra_red", "true");
+    }
+  }
+
+  const Carried& c_;
+  const sim::WorldDesc& w_;
+  std::string out_;
+  std::map<std::string, std::string> names_;
+};
+
+}  // namespace
+
+std::string write_toml(const Carried& c, const Options& options, const std::vector<Remark>& report,
+                       const std::string& version) {
+  return Writer(c).text(options, report, version);
+}
+
+}  // namespace wbt

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// Goes through the nodes of a world and sorts what it meets into a Scene: which node is a body, a robot, a
+// floor, a lamp. Knows the PROTOs that come with Webots by name, and unfolds those that lie beside the world.
+#pragma once
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "import/import.h"
+#include "import/scene.h"
+#include "import/surface.h"
+#include "import/wbt_reader.h"
+
+namespace wbt {
+
+class Walk {
+ public:
+  Walk(const WorldText& text, const Options& options, Report& report);
+
+  /// Everything; call once.
+  Scene scene();
+
+ private:
+  // walk.cpp: which node is what
+  void visit(const Node& n, const Affine& frame, int depth);
+  void children(const Node& n, const char* field, const Affine& frame, int depth);
+  void world_info(const Node& n);
+  void solid(const Node& n, const Affine& frame, int depth);
+  void gather(const Node& n, const Affine& frame, int depth, std::vector<Piece>& out, const Surface* paint,
+              bool nested_solids);
+  void add_body(Body body);
+  void lamp(const Node& n, const Affine& frame);
+  void background(const Node& n);
+  bool afford(const Node& n);
+  Affine inside(const Node& n, const Affine& frame) const;
+  NodePtr unfolded(const Node& n);
+
+  // walk_proto.cpp: PROTOs known by name
+  bool known_proto(const Node& n, const Affine& frame, int depth);
+  void arena(const Node& n, const Affine& frame);
+  void floor_proto(const Node& n, const Affine& frame);
+  void circle_arena(const Node& n, const Affine& frame);
+  void wall_proto(const Node& n, const Affine& frame);
+  void block_proto(const Node& n, const Affine& frame);
+  void by_measures(const Node& n, const Affine& frame);
+  void known_fields(const Node& n, const std::set<std::string>& carried);
+
+  // walk_robot.cpp: robots
+  void robot(const Node& n, const Affine& frame, int depth);
+  void epuck(const Node& n, const Affine& frame, bool by_proto);
+  void plain_fields(const Node& n, FoundRobot& out);
+  void proto_fields(const Node& n, FoundRobot& out);
+  void slot(const Node& n, const char* field, FoundRobot& out);
+  void device(const Node& n, FoundRobot& out, int depth);
+  void collect(const Node& n, const std::set<std::string>& types, std::vector<const Node*>& out, int depth);
+  void sensors(const std::vector<const Node*>& nodes, FoundRobot& out);
+  bool is_plain_epuck(const Node& n);
+
+  const WorldText& text_;
+  const Options& options_;
+  Report& report_;
+  Surfaces surfaces_;
+  Scene scene_;
+  Affine world_;       // from the file's axes to ours
+  bool z_up_ = false;  // shapes and robots of R2022 on
+  int visits_ = 0;
+  int pieces_ = 0;
+  bool exhausted_ = false;
+  std::size_t budget_ = kMostNodes;  // of PROTOs to be unfolded
+  std::map<std::string, Proto> files_;
+  std::set<std::string> missing_;
+  std::vector<NodePtr> kept_;  // unfolded nodes
+};
+
+/// True when the type is an e-puck by its name: E-puck, EPuck, E-puck2, EPuckNoPhysics, EPuckSound.
+bool is_epuck_name(const std::string& type);
+
+}  // namespace wbt

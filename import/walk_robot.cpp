@@ -1,0 +1,351 @@
+// SPDX-License-Identifier: MIT
+// E-pucks, as PROTO and as plain nodes, and robots that are none.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "import/walk.h"
+
+namespace wbt {
+namespace {
+
+// fields of the PROTO that change nothing a firmware can find out
+const std::set<std::string> kSilent{"window",
+                                    "robotWindow",
+                                    "camera_windowPosition",
+                                    "camera_pixelSize",
+                                    "display_windowPosition",
+                                    "camera_antiAliasing",
+                                    "synchronization",
+                                    "translation",
+                                    "rotation",
+                                    "name",
+                                    "controller",
+                                    "model",
+                                    "description",
+                                    "showWindow",
+                                    "remoteControl",
+                                    "locked",
+                                    "selfCollision",
+                                    "translationStep",
+                                    "rotationStep",
+                                    "children",
+                                    "boundingObject",
+                                    "physics",
+                                    "data"};
+
+int ps_index(const std::string& name) {
+  return name.size() == 3 && name.compare(0, 2, "ps") == 0 && name[2] >= '0' && name[2] <= '7' ? name[2] - '0'
+                                                                                               : -1;
+}
+
+bool between(double x, double low, double high) { return x >= low && x <= high; }
+
+bool same(const sim::ProximitySettings& a, const sim::ProximitySettings& b) {
+  const auto rows = [](const sim::ProximitySettings& s) {
+    std::vector<double> out;
+    if (s.table) {
+      for (const auto& r : *s.table) out.insert(out.end(), {r.distance_m, r.value, r.relative_noise});
+    }
+    return out;
+  };
+  return rows(a) == rows(b) && a.type == b.type && a.rays == b.rays && a.aperture_rad == b.aperture_rad &&
+         a.gaussian_width == b.gaussian_width;
+}
+
+}  // namespace
+
+void Walk::collect(const Node& n, const std::set<std::string>& types, std::vector<const Node*>& out,
+                   int depth) {
+  if (depth > 2 * kDeepestNode || !afford(n)) return;
+  if (types.count(n.type)) out.push_back(&n);
+  for (const char* f : {"children", "endPoint", "device"}) {
+    const Field* list = n.field(f);
+    for (std::size_t i = 0; list && i < list->nodes.size(); ++i)
+      collect(*list->nodes[i], types, out, depth + 1);
+  }
+}
+
+bool Walk::is_plain_epuck(const Node& n) {
+  std::vector<const Node*> found;
+  collect(n, {"DistanceSensor", "E-puckDistanceSensor", "EPuck_DistanceSensor", "RotationalMotor"}, found, 0);
+  int rings = 0, motors = 0;
+  for (const Node* d : found) {
+    if (d->type == "RotationalMotor")
+      ++motors;
+    else if (ps_index(d->text("name")) >= 0 || d->field("id"))
+      ++rings;
+  }
+  if (n.type == "DifferentialWheels")
+    return rings >= 6 || (between(n.number("axleLength", 0.1), kAxleMinM, kAxleMaxM) &&
+                          between(n.number("wheelRadius", 0.01), kWheelRadiusMinM, kWheelRadiusMaxM));
+  return rings >= 6 && motors >= 2;
+}
+
+void Walk::robot(const Node& n, const Affine& frame, int depth) {
+  if (is_plain_epuck(n)) {
+    // `frame` is its place already
+    Node placed = n;
+    placed.fields.erase(std::remove_if(placed.fields.begin(), placed.fields.end(),
+                                       [](const Field& f) {
+                                         return f.name == "translation" || f.name == "rotation" ||
+                                                f.name == "scale";
+                                       }),
+                        placed.fields.end());
+    return epuck(placed, frame, false);
+  }
+  const std::string controller = n.text("controller");
+  const bool runs =
+      !controller.empty() && controller != "void" && controller != "<none>" && controller != "<generic>";
+  if (n.type == "Supervisor" || n.truth("supervisor", false)) {
+    FoundSupervisor s;
+    s.name = n.text("name", "supervisor");
+    s.def = n.def;
+    s.controller = runs ? controller : "";
+    s.line = n.line;
+    if (runs)
+      scene_.supervisors.push_back(s);
+    else
+      report_.add(n, "a supervisor without a controller of its own");
+    std::vector<const Node*> devices;
+    collect(n, {"Emitter", "Receiver", "Display", "Camera"}, devices, 0);
+    for (const Node* d : devices) {
+      if (d->type == "Display" || d->type == "Camera") report_.add(*d, "a device of a supervisor");
+    }
+  } else {
+    report_.add(n, "a robot that is no e-puck",
+                runs ? "its body stands there without its controller \"" + printable(controller) + "\""
+                     : "its body stands there");
+  }
+  solid(n, frame, depth);
+}
+
+void Walk::epuck(const Node& n, const Affine& frame, bool by_proto) {
+  if (static_cast<int>(scene_.robots.size()) >= kMostRobots)
+    return report_.add(n, fmt::format("more than {} robots", kMostRobots));
+  FoundRobot out;
+  out.type = n.type;
+  out.by_proto = by_proto;
+  out.def = n.def;
+  out.line = n.line;
+  out.name = n.text("name", by_proto ? "e-puck" : "");
+  out.controller = n.text("controller", by_proto ? "" : "void");
+  const Affine place = inside(n, frame);
+  const Vec3 ahead = place.turn(z_up_ ? Vec3{1, 0, 0} : Vec3{0, 0, -1});
+  const Vec3 up = place.turn(z_up_ ? Vec3{0, 0, 1} : Vec3{0, 1, 0});
+  if (!is_finite(place.at) || !is_finite(ahead) ||
+      std::max({std::abs(place.at.x), std::abs(place.at.y)}) > kFarthestM)
+    return report_.add(n, "its place makes no sense");
+  out.pose = {place.at.x, place.at.y, std::hypot(ahead.x, ahead.y) > 1e-6 ? std::atan2(ahead.y, ahead.x) : 0};
+  out.z_m = place.at.z;
+  if (!(up.z > 0.9 * length(up))) report_.add(n, "that it lies on its side", "it stands");
+  const std::string lower = n.type;
+  if (lower.find("NoPhysics") != std::string::npos || n.truth("kinematic", false)) out.kinematic = true;
+  if (!by_proto && !n.field("physics")) out.kinematic = true;
+  if (by_proto)
+    proto_fields(n, out);
+  else
+    plain_fields(n, out);
+  const std::string data = n.text("customData", n.text("data"));
+  if (!data.empty()) report_.add(n, "customData \"" + printable(data) + "\"", "firmware gets no text");
+  const Field* arguments = n.field("controllerArgs");
+  if (arguments && !arguments->strings.empty() && !arguments->strings.front().empty())
+    report_.add(n, *arguments, "arguments of the controller",
+                "firmware has none; the selector switch may serve");
+  if (n.truth("supervisor", false))
+    report_.add(n, "that this robot is a supervisor too", "attach a program as [[supervisor]] to the world");
+  if (const Field* battery = n.field("battery")) {
+    if (battery->numbers.size() >= 2 && battery->numbers[1] > 0) {
+      out.battery_wh = std::clamp(battery->numbers[1] / 3600, 0.001, 1000.0);
+      if (battery->numbers[0] < 0.99 * battery->numbers[1])
+        report_.add(n, *battery, "that it is not full", "it is full");
+    }
+  }
+  scene_.robots.push_back(std::move(out));
+}
+
+void Walk::proto_fields(const Node& n, FoundRobot& out) {
+  if (text_.year == 0) out.speed_unit_rad_s = kProtoSpeedUnitRadS;
+  if (n.number("version", 1) == 2 || n.text("version") == "2" || n.type.find('2') != std::string::npos)
+    report_.add(n, "that it is an e-puck 2 (faster motors, time of flight, Wi-Fi)", "an e-puck");
+  for (const Field& f : n.fields) {
+    if (kSilent.count(f.name) || f.name == "kinematic" || f.name == "customData" ||
+        f.name == "controllerArgs" || f.name == "supervisor" || f.name == "battery" || f.name == "version")
+      continue;
+    if (f.name == "groundSensorsSlot") {
+      if (!f.nodes.empty()) out.parts.push_back("ground-sensors");
+    } else if (f.name == "turretSlot" || f.name == "bodySlot" || f.name == "extensionSlot" ||
+               f.name == "slot") {
+      slot(n, f.name.c_str(), out);
+    } else if (f.name == "emitter_channel" || f.name == "receiver_channel") {
+      const std::string kind = f.name.substr(0, f.name.find('_'));
+      const double channel = f.numbers.empty() ? 1 : f.numbers[0];
+      Device talks;
+      talks.name = talks.kind = kind;
+      talks.channel = static_cast<int>(std::clamp(channel, -1.0, 32767.0));
+      out.devices.push_back(talks);
+    } else if (f.name == "distance_sensor_numberOfRays") {
+      if (!f.numbers.empty() && f.numbers[0] != 1)
+        out.proximity.rays = static_cast<int>(std::clamp(f.numbers[0], 1.0, 100.0));
+    } else if (f.name == "camera_rotation") {
+      const double angle = std::abs(std::remainder(n.number("camera_rotation", 0, 3), 2 * sim::kPi));
+      const bool about_view = std::abs(n.number("camera_rotation", 0, z_up_ ? 0 : 2)) > 0.9;
+      if (about_view && std::abs(angle - sim::kPi / 2) < 0.1)
+        out.camera_mount = "sideways";
+      else if (about_view && angle > sim::kPi - 0.1)
+        out.camera_mount = "inverted";
+      else if (angle > 1e-6)
+        report_.add(n, f, "another line of sight", "the camera looks ahead");
+    } else if (f.name.rfind("camera_", 0) == 0) {
+      const double usual = f.name == "camera_fieldOfView" ? 0.84
+                           : f.name == "camera_width"     ? 52
+                           : f.name == "camera_height"    ? 39
+                                                          : 0;
+      if (!f.numbers.empty() && f.numbers[0] != usual)
+        report_.add(n, f, "a setting of Webots' camera",
+                    "the real camera's optics; firmware chooses the window");
+    } else {
+      report_.add(n, f, "no such thing on this robot");
+    }
+  }
+}
+
+void Walk::plain_fields(const Node& n, FoundRobot& out) {
+  if (n.type == "DifferentialWheels") {
+    const bool old = text_.year == 0 && text_.major < 6;
+    out.speed_unit_rad_s = n.number("speedUnit", old ? kOldNodeSpeedUnitRadS : kNodeSpeedUnitRadS);
+    if (!(*out.speed_unit_rad_s > 0)) out.speed_unit_rad_s.reset();
+    // only the kinematic mode knows it
+    if (out.kinematic) out.slip_noise = std::clamp(n.number("slipNoise", kNodeSlipNoise), 0.0, 0.5);
+    if (n.number("encoderNoise", -1) > 0)
+      report_.add(n, *n.field("encoderNoise"), "noise of encoders", "firmware counts exact steps");
+  }
+  std::vector<const Node*> found;
+  collect(n,
+          {"DistanceSensor", "E-puckDistanceSensor", "EPuck_DistanceSensor", "E-puckGroundSensors",
+           "EPuck_GroundSensorsModule", "GPS", "Compass", "Gyro", "Emitter", "Receiver", "Lidar",
+           "InertialUnit", "Display", "TouchSensor", "Radar", "RangeFinder", "Pen", "Gripper"},
+          found, 0);
+  std::vector<const Node*> ring, ground;
+  for (const Node* d : found) {
+    if (ps_index(d->text("name")) >= 0)
+      ring.push_back(d);
+    else if (d->type.find("Ground") != std::string::npos || d->text("name").rfind("gs", 0) == 0)
+      ground.push_back(d);
+    else if (d->type.find("DistanceSensor") == std::string::npos || !d->field("id"))
+      device(*d, out, 0);
+  }
+  if (!ground.empty()) out.parts.push_back("ground-sensors");
+  sensors(ring, out);
+}
+
+void Walk::sensors(const std::vector<const Node*>& nodes, FoundRobot& out) {
+  for (const Node* d : nodes) {
+    if (d->type != "DistanceSensor") continue;
+    sim::SensorDesc s;
+    s.index = ps_index(d->text("name"));
+    sim::ProximitySettings& p = s.proximity;
+    if (const Field* table = d->field("lookupTable")) {
+      std::vector<sim::ResponseRow> rows;
+      for (std::size_t i = 0; i + 2 < std::min(table->numbers.size(), 3 * kMostRows + 3); i += 3)
+        rows.push_back({table->numbers[i], table->numbers[i + 1], std::max(0.0, table->numbers[i + 2])});
+      std::sort(rows.begin(), rows.end(), [](const sim::ResponseRow& a, const sim::ResponseRow& b) {
+        return a.distance_m < b.distance_m;
+      });
+      bool good = rows.size() >= 2;
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        good = good && rows[i].distance_m >= 0 && rows[i].distance_m <= 1e6 && rows[i].value >= 0 &&
+               rows[i].value <= 1e6 && rows[i].relative_noise <= 1e6 &&
+               (i == 0 || rows[i].distance_m > rows[i - 1].distance_m + 1e-7);
+      }
+      if (good && rows.size() <= kMostRows)
+        p.table = rows;
+      else
+        report_.add(*d, *table, "a table with fewer than two rows, or without order", "the profile's");
+    }
+    const std::string type = d->text("type", "generic");
+    p.type = type == "generic" ? sim::SensorType::Generic : sim::SensorType::InfraRed;
+    if (type != "generic" && type != "infra-red")
+      report_.add(*d, "type \"" + printable(type) + "\"", "infra-red");
+    if (d->field("numberOfRays"))
+      p.rays = static_cast<int>(std::clamp(d->number("numberOfRays", 1), 1.0, 100.0));
+    if (d->field("aperture")) p.aperture_rad = std::clamp(d->number("aperture", 0), 0.0, 3.1415);
+    if (d->field("gaussianWidth")) p.gaussian_width = std::clamp(d->number("gaussianWidth", 1), 0.0, 1000.0);
+    if (d->number("resolution", -1) > 0)
+      report_.add(*d, *d->field("resolution"), "a resolution", "that of the ADC");
+    if (std::none_of(out.sensors.begin(), out.sensors.end(),
+                     [&](const auto& o) { return o.index == s.index; }))
+      out.sensors.push_back(std::move(s));
+  }
+  std::sort(out.sensors.begin(), out.sensors.end(),
+            [](const auto& a, const auto& b) { return a.index < b.index; });
+  const bool alike = out.sensors.size() == 8 &&
+                     std::all_of(out.sensors.begin(), out.sensors.end(), [&](const sim::SensorDesc& s) {
+                       return same(s.proximity, out.sensors.front().proximity);
+                     });
+  if (alike) {
+    out.proximity = out.sensors.front().proximity;
+    out.sensors.clear();
+  }
+}
+
+void Walk::slot(const Node& n, const char* field, FoundRobot& out) {
+  const Field* f = n.field(field);
+  for (std::size_t i = 0; f && i < f->nodes.size(); ++i) device(*f->nodes[i], out, 0);
+}
+
+void Walk::device(const Node& n, FoundRobot& out, int depth) {
+  if (depth > kDeepestNode || !afford(n)) return;
+  const struct {
+    const char *type, *kind, *name;
+  } kDevices[] = {{"GPS", "gps", "gps"},
+                  {"Compass", "compass", "compass"},
+                  {"Gyro", "gyro", "gyro"},
+                  {"InertialUnit", "inertial", "inertial unit"},
+                  {"Emitter", "emitter", "emitter"},
+                  {"Receiver", "receiver", "receiver"}};
+  for (const auto& d : kDevices) {
+    if (n.type != d.type) continue;
+    Device made;
+    made.name = n.text("name", d.name);
+    made.kind = d.kind;
+    const bool talks = n.type == "Emitter" || n.type == "Receiver";
+    if (talks) {
+      made.channel = static_cast<int>(std::clamp(n.number("channel", 0), -1.0, 32767.0));
+      if (n.number("range", -1) > 0) made.range_m = std::min(n.number("range", -1), kFarthestM);
+      const std::string type = n.text("type", "radio");
+      if (type == "infra-red" && n.type == "Emitter")
+        made.infra_red = true;
+      else if (type != "radio" && type != "infra-red")
+        report_.add(n, "type \"" + printable(type) + "\"", "radio");
+      if (n.type == "Emitter" && n.number("baudRate", -1) >= 1)
+        made.baud_rate_bit_s = std::min(n.number("baudRate", -1), 1e9);
+      for (const char* limit : {"aperture", "signalStrengthNoise", "directionNoise"}) {
+        if (n.number(limit, -1) > 0) report_.add(n, *n.field(limit), "no such limit here");
+      }
+    } else {
+      for (const char* less : {"accuracy", "resolution", "lookupTable", "noise"}) {
+        const Field* f = n.field(less);
+        if (f && !f->numbers.empty() && (f->numbers.size() > 1 || f->numbers[0] > 0))
+          report_.add(n, *f, "a setting of Webots' device", "the device's own");
+      }
+    }
+    out.devices.push_back(made);
+    return;
+  }
+  if (n.type == "Group" || n.type == "Transform" || n.type == "Pose" || n.type == "Solid") {
+    const Field* f = n.field("children");
+    bool shapes = false;
+    for (std::size_t i = 0; f && i < f->nodes.size(); ++i) {
+      if (f->nodes[i]->type == "Shape")
+        shapes = true;
+      else
+        device(*f->nodes[i], out, depth + 1);
+    }
+    if (shapes) report_.add(n, "the shape of what the robot carries");
+  } else if (n.type != "Shape") {
+    report_.add(n, "a device that this robot does not have");
+  }
+}
+
+}  // namespace wbt

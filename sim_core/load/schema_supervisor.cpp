@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// [[supervisor]]: programs attached to the world.
+#include "sim_core/load/schema_keys.h"
+
+namespace sim {
+
+SectionSpec supervisor_section() {
+  using S = SupervisorDesc;
+  return {"supervisor",
+          true,
+          "A program of the PC that watches and changes the world between ticks (docs/supervisor.md). "
+          "Several run "
+          "in the order of the file.",
+          {
+              {"name", ValueType::Text, "", 0, 0, "", "", "shown in messages; without it the program's",
+               into<S>([](S& s, const Value& v) { s.name = v.text; })},
+              {"program", ValueType::Text, "", 0, 0, "", "required",
+               "a C or C++ file, a folder of such, a shared object, or the name of a folder in "
+               "supervisor/programs/; relative to this file",
+               checked<S>([](S& s, const Value& v, const WorldDesc&) {
+                 s.program = v.text;
+                 return std::string(v.text.empty() ? "got \"\", expected the name of a program" : "");
+               })},
+              {"period", ValueType::Number, "s", 0, 1e6, "", "0",
+               "how often it runs when it does not say so itself; 0: every tick",
+               into<S>([](S& s, const Value& v) { s.period_s = v.number; })},
+          }};
+}
+
+}  // namespace sim

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#include "sim_core/record/canvas.h"
+
+#include <cairo-svg.h>
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace sim {
+namespace {
+
+void font(cairo_t* cr, double size_px, bool bold) {
+  cairo_select_font_face(cr, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
+                         bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(cr, size_px);
+}
+
+void ink(cairo_t* cr, std::uint32_t rgb, double alpha) {
+  cairo_set_source_rgba(cr, (rgb >> 16 & 255) / 255.0, (rgb >> 8 & 255) / 255.0, (rgb & 255) / 255.0, alpha);
+}
+
+/// Bytes of the character that begins at `at`, 0 when there is none. Overlong forms and surrogates are none.
+std::size_t character_bytes(const std::string& s, std::size_t at) {
+  const auto byte = [&](std::size_t i) { return i < s.size() ? static_cast<unsigned char>(s[i]) : 0u; };
+  const unsigned first = byte(at);
+  const std::size_t n = first < 0x80                     ? 1
+                        : first >= 0xC2 && first <= 0xDF ? 2
+                        : first >= 0xE0 && first <= 0xEF ? 3
+                        : first >= 0xF0 && first <= 0xF4 ? 4
+                                                         : 0;
+  for (std::size_t i = 1; i < n; ++i)
+    if (byte(at + i) >> 6 != 2) return 0;
+  const unsigned second = byte(at + 1);
+  const bool bad = (first == 0xE0 && second < 0xA0) || (first == 0xED && second > 0x9F) ||
+                   (first == 0xF0 && second < 0x90) || (first == 0xF4 && second > 0x8F);
+  return bad ? 0 : n;
+}
+
+}  // namespace
+
+Canvas::Canvas(int width_px, int height_px)
+    : width_px_(width_px),
+      height_px_(height_px),
+      surface_(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_px, height_px)),
+      cr_(cairo_create(surface_)) {
+  cairo_set_source_rgb(cr_, 1, 1, 1);
+  cairo_paint(cr_);
+}
+
+Canvas::~Canvas() {
+  cairo_destroy(cr_);
+  cairo_surface_destroy(surface_);
+}
+
+const std::uint32_t* Canvas::pixels() const {
+  cairo_surface_flush(surface_);
+  return reinterpret_cast<const std::uint32_t*>(cairo_image_surface_get_data(surface_));
+}
+
+int Canvas::stride_px() const { return cairo_image_surface_get_stride(surface_) / 4; }
+
+std::string Canvas::error() const {
+  const cairo_status_t status = cairo_status(cr_);
+  return status == CAIRO_STATUS_SUCCESS ? std::string() : cairo_status_to_string(status);
+}
+
+bool ends_with(const std::string& path, const char* ending) {
+  const std::string e = ending;
+  return path.size() > e.size() && path.compare(path.size() - e.size(), e.size(), e) == 0;
+}
+
+std::string write_drawing(const std::string& path, double width_px, double height_px,
+                          const std::function<void(cairo_t*)>& draw) {
+  const bool svg = ends_with(path, ".svg");
+  cairo_surface_t* surface =
+      svg ? cairo_svg_surface_create(path.c_str(), width_px, height_px)
+          : cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(std::ceil(width_px)),
+                                       static_cast<int>(std::ceil(height_px)));
+  cairo_t* cr = cairo_create(surface);
+  cairo_set_source_rgb(cr, 1, 1, 1);
+  cairo_paint(cr);
+  draw(cr);
+  cairo_status_t status = cairo_status(cr);
+  cairo_destroy(cr);
+  if (status == CAIRO_STATUS_SUCCESS && !svg) status = cairo_surface_write_to_png(surface, path.c_str());
+  cairo_surface_finish(surface);
+  if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_status(surface);
+  cairo_surface_destroy(surface);
+  return status == CAIRO_STATUS_SUCCESS
+             ? std::string()
+             : fmt::format("{}: cannot be written: {}", path, cairo_status_to_string(status));
+}
+
+std::string valid_utf8(const std::string& text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t n = character_bytes(text, i);
+    if (n) {
+      out.append(text, i, n);
+    } else {
+      out += "\xEF\xBF\xBD";
+    }
+    i += n ? n : 1;
+  }
+  return out;
+}
+
+void draw_text(cairo_t* cr, const std::string& text, double x, double y, double size_px, bool bold) {
+  font(cr, size_px, bold);
+  cairo_move_to(cr, x, y);
+  cairo_show_text(cr, valid_utf8(text).c_str());
+  cairo_new_path(cr);  // text leaves its end as the current point
+}
+
+double text_width_px(cairo_t* cr, const std::string& text, double size_px, bool bold) {
+  font(cr, size_px, bold);
+  cairo_text_extents_t e;
+  cairo_text_extents(cr, valid_utf8(text).c_str(), &e);
+  return e.x_advance;
+}
+
+void draw_outlined_text(cairo_t* cr, const std::string& text, double x, double y, double size_px,
+                        std::uint32_t rgb, std::uint32_t outline_rgb, double alpha) {
+  font(cr, size_px, true);
+  cairo_move_to(cr, x, y);
+  cairo_text_path(cr, valid_utf8(text).c_str());
+  cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
+  cairo_set_line_width(cr, std::fmax(2, 0.16 * size_px));
+  ink(cr, outline_rgb, 0.85 * alpha);
+  cairo_stroke_preserve(cr);
+  ink(cr, rgb, alpha);
+  cairo_fill(cr);
+}
+
+}  // namespace sim

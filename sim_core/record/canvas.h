@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// What everything is drawn on, by cairo: pixels in memory, a PNG or an SVG file; and text on it. Lengths in
+// pixels (SVG units) from the upper left corner.
+#pragma once
+#include <cairo.h>
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+namespace sim {
+
+/// Pixels in memory.
+class Canvas {
+ public:
+  /// White. Sides 1 to 32767 px.
+  Canvas(int width_px, int height_px);
+  ~Canvas();
+  Canvas(const Canvas&) = delete;
+  Canvas& operator=(const Canvas&) = delete;
+
+  cairo_t* cr() const { return cr_; }
+  int width_px() const { return width_px_; }
+  int height_px() const { return height_px_; }
+  /// 0x00RRGGBB, rows from the top; valid until the next stroke.
+  const std::uint32_t* pixels() const;
+  /// Pixels from one row to the next.
+  int stride_px() const;
+  /// Empty, or what went wrong with the drawing.
+  std::string error() const;
+
+ private:
+  int width_px_, height_px_;
+  cairo_surface_t* surface_;
+  cairo_t* cr_;
+};
+
+/// Draws into a file: PNG or SVG by its ending. Returns an empty string, or "FILE: what is wrong".
+std::string write_drawing(const std::string& path, double width_px, double height_px,
+                          const std::function<void(cairo_t*)>& draw);
+/// Whether `path` ends in `ending`, with something before it.
+bool ends_with(const std::string& path, const char* ending);
+
+/// Text with its baseline at y. Bytes that are no UTF-8 become U+FFFD.
+void draw_text(cairo_t* cr, const std::string& text, double x, double y, double size_px, bool bold = false);
+double text_width_px(cairo_t* cr, const std::string& text, double size_px, bool bold = false);
+/// The same with an outline in another colour, readable on any ground. Colours 0xRRGGBB.
+void draw_outlined_text(cairo_t* cr, const std::string& text, double x, double y, double size_px,
+                        std::uint32_t rgb, std::uint32_t outline_rgb, double alpha);
+/// cairo takes nothing but UTF-8.
+std::string valid_utf8(const std::string& text);
+
+}  // namespace sim

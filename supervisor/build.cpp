@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+#include "supervisor/build.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "hal_sim/twin/twin.h"
+#include "sim_core/base/hash.h"
+#include "sim_core/load/world_loader.h"
+
+extern char** environ;
+
+namespace supervisor {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const char* const kCompiler = "gcc";  // by a file's ending it compiles C or C++
+
+fs::path programs_folder() { return fs::path(twin::project_root()) / "supervisor" / "programs"; }
+
+bool is_source(const fs::path& file) {
+  const std::string kind = file.extension();
+  return kind == ".c" || kind == ".cpp" || kind == ".cc" || kind == ".cxx";
+}
+
+std::vector<fs::path> files_in(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code none;
+  for (const auto& entry : fs::recursive_directory_iterator(folder, none))
+    if (entry.is_regular_file()) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::string content_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+std::uint64_t hash_of(std::uint64_t h, const std::string& bytes) {
+  for (unsigned char c : bytes) h = sim::fold(h, std::uint64_t{c});
+  return sim::fold(h, std::uint64_t{bytes.size()});
+}
+
+/// What a shared object depends on beside its own folder: headers, and the library that is linked to it.
+std::uint64_t hash_of_ours(const fs::path& library) {
+  std::uint64_t h = 0;
+  const fs::path root = twin::project_root();
+  for (const char* folder : {"supervisor/include", "firmware/include/webots", "firmware/include/device"})
+    for (const fs::path& file : files_in(root / folder)) h = hash_of(h, content_of(file));
+  return hash_of(h, content_of(library));
+}
+
+/// Runs a command; its stdout and stderr become lines. False: it failed.
+bool run(const std::vector<std::string>& words, std::vector<std::string>& lines) {
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) {
+    lines.push_back(std::string("pipe: ") + std::strerror(errno));
+    return false;
+  }
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, ends[1], 1);
+  posix_spawn_file_actions_adddup2(&actions, ends[1], 2);
+  std::vector<char*> argv;
+  for (const std::string& w : words) argv.push_back(const_cast<char*>(w.c_str()));
+  argv.push_back(nullptr);
+  pid_t child = 0;
+  const int wrong = posix_spawnp(&child, argv[0], &actions, nullptr, argv.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  close(ends[1]);
+  std::string text;
+  char buffer[4096];
+  for (ssize_t n; wrong == 0 && (n = read(ends[0], buffer, sizeof buffer)) > 0;)
+    text.append(buffer, static_cast<std::size_t>(n));
+  close(ends[0]);
+  if (wrong != 0) {
+    lines.push_back(fmt::format("{}: got '{}', expected a C and C++ compiler; run scripts/setup.sh", argv[0],
+                                std::strerror(wrong)));
+    return false;
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+fs::path find(const std::string& name, const std::string& from_folder) {
+  std::error_code none;
+  const fs::path here =
+      fs::path(name).is_absolute() || from_folder.empty() ? fs::path(name) : fs::path(from_folder) / name;
+  const bool plain = name.find('/') == std::string::npos;
+  for (const fs::path& path : {here, fs::path(name)})
+    if (fs::is_regular_file(path, none) || (fs::is_directory(path, none) && is_program_folder(path.string())))
+      return path;
+  if (plain && fs::is_directory(programs_folder() / name, none)) return programs_folder() / name;
+  return fs::exists(here, none) ? here : fs::path();
+}
+
+}  // namespace
+
+bool is_program_folder(const std::string& folder) {
+  std::error_code none;
+  if (fs::equivalent(fs::weakly_canonical(folder, none).parent_path(), programs_folder(), none)) return true;
+  for (const fs::path& file : files_in(folder)) {
+    if (!is_source(file)) continue;
+    const std::string text = content_of(file);
+    for (const char* header : {"supervisor.h>", "supervisor.hpp>", "supervisor.h\"", "supervisor.hpp\""})
+      if (text.find(header) != std::string::npos) return true;
+  }
+  return false;
+}
+
+std::string provide_program(const std::string& name, const std::string& from_folder,
+                            const std::function<void(const std::string&)>& tell,
+                            std::vector<std::string>& problems) {
+  const fs::path path = find(name, from_folder);
+  if (path.empty()) {
+    std::vector<std::string> known;
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(programs_folder(), none))
+      known.push_back(entry.path().filename());
+    const std::string guess = sim::did_you_mean(name, known);
+    problems.push_back(name +
+                       ": supervisor: got a name that is neither a file nor a folder, expected a .so, a C or "
+                       "C++ file, a folder of such, or one under supervisor/programs/" +
+                       (guess.empty() ? "" : "; did you mean '" + guess + "'?"));
+    return "";
+  }
+  if (path.extension() == ".so") return path.string();
+  const bool folder = fs::is_directory(path);
+  std::vector<fs::path> sources;
+  std::uint64_t h = 1;
+  for (const fs::path& file : folder ? files_in(path) : std::vector<fs::path>{path}) {
+    h = hash_of(hash_of(h, file.string()), content_of(file));
+    if (is_source(file) && file.filename() != "test.cpp") sources.push_back(file);
+  }
+  if (sources.empty()) {
+    problems.push_back(
+        path.string() +
+        ": supervisor: got no C or C++ source, expected a .so, a .c or .cpp file, or a folder of such");
+    return "";
+  }
+  const fs::path library = fs::path(twin::build_folder()) / "libsupervisor_webots.a";
+  const fs::path root = twin::project_root();
+  std::vector<std::string> command{
+      kCompiler, "-shared", "-fPIC", "-g", "-O1", "-Wall", "-fno-omit-frame-pointer", "-ffp-contract=off",
+      // two programs share nothing, and what ends a process ends only the program
+      "-fno-gnu-unique", "-Wl,-Bsymbolic"};
+  for (const char* symbol : {"exit", "_exit", "_Exit", "quick_exit", "rand", "srand", "random", "srandom",
+                             "drand48", "srand48", "time", "gettimeofday", "clock"})
+    command.push_back(std::string("-Wl,--wrap=") + symbol);
+  command.push_back("-I" + (folder                       ? path
+                            : path.parent_path().empty() ? fs::path(".")
+                                                         : path.parent_path())
+                               .string());
+  command.push_back("-I" + (root / "supervisor" / "include").string());
+  command.push_back("-idirafter");
+  command.push_back((root / "firmware" / "include").string());
+  for (const std::string& word : command) h = hash_of(h, word);
+  h = sim::fold(h, hash_of_ours(library));
+  const fs::path cache = fs::path(twin::build_folder()) / "supervisors";
+  const std::string stem = (folder ? fs::weakly_canonical(path).filename() : path.stem()).string();
+  const fs::path output = cache / fmt::format("{}-{:016x}.so", stem, h);
+  if (fs::exists(output)) return output.string();
+
+  std::error_code none;
+  fs::create_directories(cache, none);
+  const fs::path draft = fmt::format("{}.{}", output.string(), getpid());
+  for (const fs::path& source : sources) command.push_back(source.string());
+  for (const char* word : {"-o", draft.c_str(), library.c_str(), "-lstdc++", "-lm"}) command.push_back(word);
+  std::vector<std::string> lines;
+  const bool good = run(command, lines);
+  if (!good) {
+    problems.push_back(path.string() + ": supervisor: does not compile:");
+    problems.insert(problems.end(), lines.begin(), lines.end());
+    fs::remove(draft, none);
+    return "";
+  }
+  if (tell)
+    for (const std::string& line : lines) tell(line);
+  fs::rename(draft, output, none);
+  if (none) {
+    problems.push_back(output.string() + ": supervisor: cannot be written: " + none.message());
+    return "";
+  }
+  return output.string();
+}
+
+}  // namespace supervisor

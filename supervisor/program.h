@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// One supervisor's program in memory: a private copy of its shared object, its main() on a fiber of its own.
+// It runs only when run() is called and comes back when it waits, ends or crashes. What ends a process
+// (exit(), abort(), a signal, an exception that nobody catches) ends this program only. Not caught: an
+// endless loop that never steps, threads of its own, exec.
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hal_sim/host/fiber.h"
+#include "hal_sim/host/robot.h"
+#include "hal_sim/host/symbols.h"
+
+namespace supervisor {
+
+class Program final : host::FaultGuest {
+ public:
+  enum class State { Waiting, Done, Crashed };
+
+  /// Loads `path` once more. Null, with a line in `problems`, when it is no program. `owner` is what
+  /// current() answers while it runs.
+  static std::unique_ptr<Program> open(const std::string& path, const std::string& name, void* owner,
+                                       std::vector<std::string>& problems);
+  ~Program() override;
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+
+  /// Lets it go on until it waits or is over. Nothing when it is over.
+  void run();
+  State state() const { return state_; }
+  /// What main() returned or exit() was given; only when Done.
+  int exit_status() const { return exit_status_; }
+  /// True: it was exit() and not main's end.
+  bool has_exited() const { return exited_; }
+  /// What happened and where; only when Crashed.
+  const std::string& crash() const { return crash_; }
+
+  /// The owner of the program that runs on this thread; null outside of programs.
+  static void* current();
+  /// Called by the program: back to whoever called run().
+  static void wait();
+  /// Called by the program instead of exit().
+  [[noreturn]] static void exit(int status);
+
+ private:
+  Program(std::string path, std::string name, void* owner);
+  static void enter(void* self);
+  [[noreturn]] static void land();
+  bool take(int signal, void* context, std::uintptr_t address) override;
+  [[noreturn]] void leave(State state);
+  [[noreturn]] void crash_with(std::string what, std::uintptr_t pc, std::uintptr_t frame);
+  bool is_code(std::uintptr_t pc) const { return pc >= code_begin_ && pc < code_end_; }
+  std::string place_of(std::uintptr_t pc, std::uintptr_t frame) const;
+
+  std::string path_, name_;
+  void* owner_;
+  void* handle_ = nullptr;
+  int fd_ = -1;
+  int (*main_)(int, char**, char**) = nullptr;
+  std::uintptr_t base_ = 0, code_begin_ = 0, code_end_ = 0;
+  host::Fiber fiber_;
+  host::Symbols symbols_;
+  State state_ = State::Waiting;
+  int exit_status_ = 0;
+  bool exited_ = false;
+  std::string crash_;
+  struct Fault {
+    int signal = 0;
+    std::uintptr_t pc = 0, frame = 0, address = 0;
+  } fault_;
+
+  friend struct AbortHandler;
+};
+
+}  // namespace supervisor

@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: MIT
+// Small worlds of Webots, one per feature, and what must stand in ours. Expectations are worked out by hand
+// from the .wbt text.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "hal_sim/board/epuck_model.h"
+#include "hal_sim/board/part.h"
+#include "import/import.h"
+#include "sim_core/load/world_loader.h"
+
+namespace {
+
+constexpr double kDeg = sim::kPi / 180;
+
+struct Result {
+  wbt::Imported made;
+  sim::WorldDesc world;
+
+  /// Whether one line of the report says all of these.
+  bool reports(int line, std::initializer_list<const char*> words) const {
+    for (const wbt::Remark& r : made.report) {
+      bool all = line == 0 || r.line == line;
+      for (const char* w : words) all = all && r.text.find(w) != std::string::npos;
+      if (all) return true;
+    }
+    return false;
+  }
+  std::string all_reports() const {
+    std::string out;
+    for (const wbt::Remark& r : made.report) out += std::to_string(r.line) + ": " + r.text + "\n";
+    return out;
+  }
+  bool has(const std::string& text) const { return made.toml.find(text) != std::string::npos; }
+};
+
+Result import(const std::string& text, const std::string& folder = "") {
+  wbt::Options options;
+  options.file = "test.wbt";
+  options.folder = folder;
+  options.out_folder = folder;
+  options.model = board::epuck_model();
+  Result out;
+  out.made = wbt::import_world(text, options);
+  EXPECT_TRUE(out.made.errors.empty()) << out.made.errors.front().text;
+  const auto loaded =
+      sim::parse_world(out.made.toml, folder + "/test.toml", {board::epuck_model()}, board::part_kinds());
+  EXPECT_TRUE(loaded.world.has_value()) << loaded.report("test.toml") << "\n" << out.made.toml;
+  if (loaded.world) out.world = *loaded.world;
+  return out;
+}
+
+const std::string kOld = "#VRML_SIM V6.0 utf8\n";
+const std::string kNew = "#VRML_SIM R2023b utf8\n";
+
+TEST(Import, both_axis_conventions_give_the_same_world) {
+  // a box 0.3 m to the right and 0.2 m further away, turned by 30 degrees; a robot that looks to the left
+  const Result a = import(kOld + R"(
+Solid { children [ DEF S Shape { geometry Plane { size 2 1 } } ] boundingObject USE S }
+Solid {
+  translation 0.3 0.05 -0.2
+  rotation 0 1 0 0.5235988
+  children [ DEF B Shape { geometry Box { size 0.2 0.1 0.04 } } ]
+  boundingObject USE B
+}
+EPuck { translation -0.5 0 0.1 rotation 0 1 0 1.5707963 controller "blink" }
+)");
+  const Result b = import(kNew + R"(
+Solid { children [ DEF S Shape { geometry Plane { size 2 1 } } ] boundingObject USE S }
+Solid {
+  translation 0.3 0.2 0.05
+  rotation 0 0 1 0.5235988
+  children [ DEF B Shape { geometry Box { size 0.2 0.04 0.1 } } ]
+  boundingObject USE B
+}
+E-puck { translation -0.5 -0.1 0 rotation 0 0 1 3.1415927 controller "blink" name "e-puck" }
+)");
+  for (const Result* r : {&a, &b}) {
+    ASSERT_TRUE(r->world.arena.has_value());
+    EXPECT_NEAR(r->world.arena->size_m.x, 2, 1e-6);
+    EXPECT_NEAR(r->world.arena->size_m.y, 1, 1e-6);
+    EXPECT_EQ(r->world.arena->wall_height_m, 0);
+    ASSERT_EQ(r->world.objects.size(), 1u) << r->made.toml;
+    const sim::ObjectDesc& o = r->world.objects[0];
+    EXPECT_NEAR(o.pose.x_m, 0.3, 1e-6);
+    EXPECT_NEAR(o.pose.y_m, 0.2, 1e-6);
+    EXPECT_NEAR(o.pose.heading_rad, 30 * kDeg, 1e-4);
+    EXPECT_NEAR(o.size_m.x, 0.2, 1e-6);
+    EXPECT_NEAR(o.size_m.y, 0.04, 1e-6);
+    EXPECT_NEAR(o.size_m.z, 0.1, 1e-6);
+    EXPECT_EQ(o.z_m, 0);
+    EXPECT_FALSE(o.movable);
+    ASSERT_EQ(r->world.robots.size(), 1u);
+    EXPECT_NEAR(r->world.robots[0].pose.x_m, -0.5, 1e-6);
+    EXPECT_NEAR(r->world.robots[0].pose.y_m, -0.1, 1e-6);
+    EXPECT_NEAR(std::abs(r->world.robots[0].pose.heading_rad), sim::kPi, 1e-4);
+    EXPECT_EQ(r->world.robots[0].firmware, "blink");
+  }
+  EXPECT_TRUE(a.has("axes = \"nue\""));
+  EXPECT_FALSE(b.has("axes = "));
+}
+
+TEST(Import, the_years_between_are_told_by_their_field_or_by_their_turns) {
+  const char* const rest =
+      "\nSolid { translation 0.3 0.05 0.4 rotation 0 1 0 0.1 boundingObject Box { size 0.1 0.1 0.1 } }\n";
+  const Result said =
+      import("#VRML_SIM R2021a utf8\nWorldInfo { coordinateSystem \"NUE\" }" + std::string(rest));
+  const Result guessed = import("#VRML_SIM R2021a utf8\nWorldInfo { }" + std::string(rest));
+  for (const Result* r : {&said, &guessed}) {
+    ASSERT_EQ(r->world.objects.size(), 1u);
+    EXPECT_NEAR(r->world.objects[0].pose.y_m, -0.4, 1e-6);
+  }
+  const Result up = import(
+      "#VRML_SIM R2021b utf8\nWorldInfo { }\nSolid { translation 0.3 0.4 0.05 rotation 0 0 1 0.1 "
+      "boundingObject Box { "
+      "size 0.1 0.1 0.1 } }\n");
+  ASSERT_EQ(up.world.objects.size(), 1u);
+  EXPECT_NEAR(up.world.objects[0].pose.y_m, 0.4, 1e-6);
+}
+
+TEST(Import, cylinders_stand_on_y_before_2022_and_on_z_since) {
+  const Result a =
+      import(kOld + "Solid { translation 0 0.1 0 boundingObject Cylinder { radius 0.05 height 0.2 } }");
+  const Result b =
+      import(kNew + "Solid { translation 0 0 0.1 boundingObject Cylinder { radius 0.05 height 0.2 } }");
+  for (const Result* r : {&a, &b}) {
+    ASSERT_EQ(r->world.objects.size(), 1u);
+    EXPECT_EQ(r->world.objects[0].kind, sim::ObjectKind::Cylinder);
+    EXPECT_NEAR(r->world.objects[0].radius_m, 0.05, 1e-6);
+    EXPECT_NEAR(r->world.objects[0].size_m.z, 0.2, 1e-6);
+  }
+}
+
+TEST(Import, transforms_within_each_other_add_up_and_scale) {
+  // the inner shift of 0.1 along x is doubled and turned by 90 degrees: (1, 0.2)
+  const Result r = import(kNew + R"(
+Transform {
+  translation 1 0 0
+  rotation 0 0 1 1.5707963
+  scale 2 2 2
+  children [ Solid { translation 0.1 0 0.05 boundingObject Box { size 0.1 0.05 0.1 } } ]
+}
+)");
+  ASSERT_EQ(r.world.objects.size(), 1u);
+  const sim::ObjectDesc& o = r.world.objects[0];
+  EXPECT_NEAR(o.pose.x_m, 1, 1e-6);
+  EXPECT_NEAR(o.pose.y_m, 0.2, 1e-6);
+  EXPECT_NEAR(o.size_m.x, 0.1, 1e-6);  // written along the axes: 0.05 doubled along x, 0.1 doubled along y
+  EXPECT_NEAR(o.size_m.y, 0.2, 1e-6);
+  EXPECT_NEAR(o.size_m.z, 0.2, 1e-6);
+  EXPECT_NEAR(o.pose.heading_rad, 0, 1e-6);
+}
+
+TEST(Import, world_settings_are_carried) {
+  const Result r = import(kOld + R"(
+WorldInfo { title "a \"lab\"" info [ "by us" ] basicTimeStep 16 gravity 0 -3.7 0 }
+Background { skyColor [ 0.4 0.7 1 ] }
+EPuck { }
+)");
+  EXPECT_EQ(r.world.title, "a \"lab\"");
+  EXPECT_NEAR(r.world.gravity_m_s2, 3.7, 1e-9);
+  EXPECT_NEAR(r.world.webots.time_step_s, 0.016, 1e-9);
+  EXPECT_NEAR(r.world.webots.speed_unit_rad_s, 0.00628, 1e-9);
+  EXPECT_EQ(r.world.webots.axes, sim::Axes::Nue);
+  EXPECT_NEAR(r.world.sky.colour.g, 0.7, 1e-9);
+  EXPECT_EQ(r.world.proximity.profile, "webots-old");
+  EXPECT_EQ(r.world.proximity.noise_law, sim::NoiseLaw::Uniform);
+  EXPECT_TRUE(r.has("# by us"));
+  EXPECT_EQ(import(kOld + "WorldInfo { fast2d \"enki\" }\nEPuck { }").world.engine, sim::Engine::Planar);
+  EXPECT_EQ(import(kOld + "EPuckNoPhysics { }").world.engine, sim::Engine::Kinematic);
+  EXPECT_EQ(import(kNew + "E-puck { kinematic TRUE }").world.engine, sim::Engine::Kinematic);
+  EXPECT_EQ(import(kNew + "E-puck { }").world.proximity.profile, "webots-new");
+}
+
+TEST(Import, arenas_and_known_blocks) {
+  const Result r = import(kNew + R"(
+RectangleArena { floorSize 2 1.5 wallHeight 0.05 wallThickness 0.02 }
+WoodenBox { translation 0.5 0.2 0.05 size 0.1 0.1 0.1 }
+CardboardBox { translation -0.5 0.2 0.1 size 0.2 0.2 0.2 mass 1.5 }
+DEF GOAL Obstacle { translation 0 -0.5 0.025 color 0 0 1 }
+Wall { translation 0 0.5 0 size 0.1 0.4 0.3 }
+E-puck { }
+)");
+  ASSERT_TRUE(r.world.arena);
+  EXPECT_NEAR(r.world.arena->size_m.x, 2, 1e-9);
+  EXPECT_NEAR(r.world.arena->size_m.y, 1.5, 1e-9);
+  EXPECT_NEAR(r.world.arena->wall_height_m, 0.05, 1e-9);
+  EXPECT_NEAR(r.world.arena->wall_thickness_m, 0.02, 1e-9);
+  ASSERT_EQ(r.world.objects.size(), 4u) << r.made.toml;
+  std::map<sim::ObjectKind, int> kinds;
+  for (const auto& o : r.world.objects) {
+    ++kinds[o.kind];
+    EXPECT_EQ(o.z_m, 0);
+    EXPECT_EQ(o.movable, o.mass_kg == 1.5);
+    if (o.kind == sim::ObjectKind::Cylinder) {
+      EXPECT_NEAR(o.radius_m, 0.04, 1e-9);
+      EXPECT_EQ(o.def, "GOAL");
+      EXPECT_EQ(o.material.colour.b, 1);
+    }
+  }
+  EXPECT_EQ(kinds[sim::ObjectKind::Box], 3);
+  EXPECT_TRUE(r.made.report.empty() || !r.reports(0, {"RectangleArena"})) << r.all_reports();
+}
+
+TEST(Import, an_arena_that_lies_askew_becomes_walls) {
+  const Result r = import(kNew + "RectangleArena { rotation 0 0 1 0.5 floorSize 1 1 }\n");
+  EXPECT_FALSE(r.world.arena);
+  ASSERT_EQ(r.world.walls.size(), 1u);
+  EXPECT_TRUE(r.world.walls[0].closed);
+  EXPECT_EQ(r.world.walls[0].points_m.size(), 4u);
+  // middle line at 0.505 m from the middle along both of its own axes
+  EXPECT_NEAR(sim::length(r.world.walls[0].points_m[0]), 0.505 * std::sqrt(2.0), 1e-3);
+}
+
+TEST(Import, physics_makes_things_movable_and_gives_them_mass) {
+  const Result r = import(kNew + R"(
+RectangleArena { floorSize 3 3 }
+Solid { translation 0 0 0.05 boundingObject Box { size 0.1 0.1 0.1 } physics Physics { density -1 mass 0.2 } }
+Solid { translation 0.5 0 0.05 boundingObject Box { size 0.1 0.1 0.1 } physics Physics { density 500 } }
+DEF BALL Solid { translation 0 1 0.3 contactMaterial "rubber" boundingObject Sphere { radius 0.02 } physics Physics { density -1 mass 0.01 } }
+WorldInfo { contactProperties [ ContactProperties { material1 "rubber" coulombFriction [ 0.7 ] bounce 0.8 } ] }
+)");
+  ASSERT_EQ(r.world.objects.size(), 3u);
+  EXPECT_NEAR(r.world.objects[0].mass_kg, 0.2, 1e-9);
+  EXPECT_NEAR(r.world.objects[1].mass_kg, 0.5, 1e-9);  // 500 kg/m3 times a litre
+  const sim::ObjectDesc& ball = r.world.objects[2];
+  EXPECT_EQ(ball.kind, sim::ObjectKind::Ball);
+  EXPECT_TRUE(ball.movable);
+  EXPECT_NEAR(ball.z_m, 0.28, 1e-6);
+  EXPECT_EQ(ball.def, "BALL");
+  EXPECT_NEAR(ball.floor_friction, 0.7, 1e-9);
+  EXPECT_NEAR(ball.material.restitution, 0.8, 1e-9);
+}
+
+TEST(Import, what_has_no_bounding_object_is_left_out_by_name) {
+  const Result r = import(kNew +
+                          "RectangleArena { }\nSolid {\n translation 0 0 0.1\n children [ Shape { geometry "
+                          "Box { size 0.1 0.1 0.1 } } ]\n}\n");
+  EXPECT_EQ(r.world.objects.size(), 0u);
+  EXPECT_TRUE(r.reports(3, {"Solid", "not carried", "no boundingObject"})) << r.all_reports();
+}
+
+TEST(Import, a_tilted_board_becomes_a_ramp_cut_off_at_the_floor) {
+  // 1 m long, 10 degrees, its middle at the height where half of it is under the floor
+  const Result r = import(kNew + R"(
+RectangleArena { floorSize 4 4 }
+Solid { translation 0 0 -0.005 rotation 0 1 0 -0.1745329 boundingObject Box { size 1 0.4 0.01 } }
+)");
+  ASSERT_EQ(r.world.ramps.size(), 1u) << r.all_reports();
+  const sim::RampDesc& ramp = r.world.ramps[0];
+  EXPECT_NEAR(ramp.low_m, 0, 1e-9);
+  EXPECT_NEAR(ramp.high_m, 0.5 * std::sin(10 * kDeg), 2e-4);
+  EXPECT_NEAR(ramp.size_m.x, 0.5 * std::cos(10 * kDeg), 2e-3);
+  EXPECT_NEAR(ramp.size_m.y, 0.4, 1e-6);
+  EXPECT_NEAR(ramp.pose.heading_rad, 0, 1e-6);
+  EXPECT_NEAR(ramp.pose.x_m, 0.25 * std::cos(10 * kDeg), 2e-3);
+}
+
+TEST(Import, meshes_become_prisms_and_hollow_ones_their_walls) {
+  const Result r = import(kNew + R"(
+RectangleArena { floorSize 4 4 }
+Solid {
+  boundingObject IndexedFaceSet {
+    coord Coordinate { point [ 0 0 0, 0.2 0 0, 0 0.2 0, 0 0 0.1, 0.2 0 0.1, 0 0.2 0.1 ] }
+    coordIndex [ 0, 2, 1, -1, 3, 4, 5, -1, 0, 1, 4, 3, -1, 1, 2, 5, 4, -1, 2, 0, 3, 5, -1 ]
+  }
+}
+Solid {
+  boundingObject IndexedFaceSet {
+    coord Coordinate { point [ 1 1 0, 2 1 0, 2 1 0.2, 1 1 0.2, 1 2 0, 1 2 0.2 ] }
+    coordIndex [ 0, 1, 2, 3, -1, 0, 3, 5, 4, -1 ]
+  }
+}
+)");
+  ASSERT_EQ(r.world.objects.size(), 3u) << r.made.toml;
+  int walls = 0;  // the loader lists kind by kind
+  for (const sim::ObjectDesc& o : r.world.objects) {
+    if (o.kind == sim::ObjectKind::Polygon) {
+      EXPECT_EQ(o.corners_m.size(), 3u);
+      EXPECT_NEAR(o.size_m.z, 0.1, 1e-6);
+      continue;
+    }
+    ++walls;
+    EXPECT_EQ(o.kind, sim::ObjectKind::Box);
+    EXPECT_NEAR(std::max(o.size_m.x, o.size_m.y), 1, 1e-6);
+    EXPECT_NEAR(std::min(o.size_m.x, o.size_m.y), 0.002, 1e-6);
+    EXPECT_NEAR(o.size_m.z, 0.2, 1e-6);
+  }
+  EXPECT_EQ(walls, 2);
+}
+
+TEST(Import, use_repeats_what_def_named) {
+  const Result r = import(kOld + R"(
+Solid { translation 0.5 0.05 0 children [ DEF W Shape { appearance Appearance { material Material { diffuseColor 1 0.5 0.25 } } geometry Box { size 0.02 0.1 1 } } ] boundingObject USE W }
+Solid { translation -0.5 0.05 0 children [ USE W ] boundingObject USE W }
+Solid { children [ USE NOBODY ] }
+)");
+  ASSERT_EQ(r.world.objects.size(), 2u);
+  for (const auto& o : r.world.objects) {
+    EXPECT_NEAR(o.size_m.y, 1, 1e-6);
+    EXPECT_NEAR(o.material.colour.g, 0.5, 1e-6);
+  }
+  EXPECT_TRUE(r.reports(5, {"USE NOBODY", "no DEF"})) << r.all_reports();
+}
+
+TEST(Import, lights_become_lamps_and_ambient_light) {
+  const Result r = import(kOld + R"(
+PointLight { location 0.2 0.6 -0.5 intensity 0.6 ambientIntensity 0.5 attenuation 1 0 0 }
+DEF SUN DirectionalLight { direction 0 -1 0 intensity 0.8 }
+PointLight { location 0 1 0 on FALSE }
+EPuck { }
+)");
+  ASSERT_EQ(r.world.lamps.size(), 3u);
+  EXPECT_NEAR(r.world.lamps[0].position_m.y, 0.5, 1e-6);
+  EXPECT_NEAR(r.world.lamps[0].position_m.z, 0.6, 1e-6);
+  EXPECT_NEAR(r.world.lamps[0].intensity_w_m2, 0.6, 1e-9);
+  EXPECT_NEAR(r.world.ambient_w_m2, 0.5, 1e-9);
+  EXPECT_GT(r.world.lamps[1].position_m.z, 100);
+  EXPECT_NEAR(r.world.lamps[1].position_m.x, 0, 1e-6);
+  EXPECT_FALSE(r.world.lamps[2].on);
+}
+
+}  // namespace

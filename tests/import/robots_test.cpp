@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: MIT
+// E-pucks of all kinds, supervisors, and worlds that are broken or hostile.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+
+#include "hal_sim/board/epuck_model.h"
+#include "hal_sim/board/part.h"
+#include "import/import.h"
+#include "sim_core/load/world_loader.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+wbt::Imported raw(const std::string& text, const std::string& folder = "") {
+  wbt::Options options;
+  options.file = "test.wbt";
+  options.folder = folder;
+  options.out_folder = folder;
+  options.model = board::epuck_model();
+  return wbt::import_world(text, options);
+}
+
+sim::WorldDesc world_of(const wbt::Imported& made) {
+  const auto loaded =
+      sim::parse_world(made.toml, "/nonexistent/test.toml", {board::epuck_model()}, board::part_kinds());
+  EXPECT_TRUE(loaded.world.has_value()) << loaded.report("test.toml") << "\n" << made.toml;
+  return loaded.world ? *loaded.world : sim::WorldDesc{};
+}
+
+bool reports(const wbt::Imported& made, int line, const std::string& words) {
+  for (const wbt::Remark& r : made.report) {
+    if ((line == 0 || r.line == line) && r.text.find(words) != std::string::npos) return true;
+  }
+  return false;
+}
+
+const std::string kOld = "#VRML_SIM V6.0 utf8\n";
+const std::string kNew = "#VRML_SIM R2023b utf8\n";
+
+TEST(ImportRobots, slots_and_channels_become_parts_and_devices) {
+  const auto made = raw(kNew + R"(E-puck {
+  name "left"
+  emitter_channel 3
+  groundSensorsSlot [ E-puckGroundSensors { } ]
+  turretSlot [
+    GPS { }
+    Pose { children [ Compass { name "north" } ] }
+    Emitter { name "loud" channel 7 range 0.5 type "infra-red" }
+    Lidar { }
+  ]
+  customData "blue"
+  camera_width 64
+})");
+  const auto world = world_of(made);
+  ASSERT_EQ(world.robots.size(), 1u);
+  ASSERT_EQ(world.robots[0].parts.size(), 1u);
+  EXPECT_EQ(world.robots[0].parts[0].kind, "ground-sensors");
+  const auto& toml = made.toml;
+  EXPECT_NE(toml.find("name = \"emitter\"\nkind = \"emitter\"\nchannel = 3\n"), std::string::npos) << toml;
+  EXPECT_NE(toml.find("name = \"gps\"\nkind = \"gps\"\n"), std::string::npos);
+  EXPECT_NE(toml.find("name = \"north\"\nkind = \"compass\"\n"), std::string::npos);
+  EXPECT_NE(toml.find("name = \"loud\"\nkind = \"emitter\"\nchannel = 7\nrange = 0.5\ninfra_red = true\n"),
+            std::string::npos);
+  EXPECT_TRUE(reports(made, 10, "Lidar: not carried"));
+  EXPECT_TRUE(reports(made, 2, "customData \"blue\""));
+  EXPECT_TRUE(reports(made, 13, "camera_width"));
+}
+
+TEST(ImportRobots, plain_nodes_that_are_an_e_puck_bring_their_sensors) {
+  std::string sensors;
+  for (int i = 0; i < 8; ++i)
+    sensors += "DistanceSensor { name \"ps" + std::to_string(i) +
+               "\" lookupTable [ 0 4095 0.005 0.07 34 0.7 ] type \"infra-red\" numberOfRays 4 aperture " +
+               (i == 5 ? "0.6" : "0.3") + " gaussianWidth 1 }\n";
+  const auto made =
+      raw(kOld + "DEF ONE DifferentialWheels {\n translation 0.1 0 0.2\n children [\n" + sensors +
+          " GPS { }\n ]\n name \"one\"\n controller \"obstacle\"\n axleLength 0.052\n wheelRadius 0.0205\n "
+          "speedUnit 0.1\n slipNoise 0.2\n}\n");
+  const auto world = world_of(made);
+  ASSERT_EQ(world.robots.size(), 1u);
+  const sim::RobotDesc& r = world.robots[0];
+  EXPECT_EQ(r.name, "one");
+  EXPECT_EQ(r.def, "ONE");
+  EXPECT_NEAR(r.pose.x_m, 0.1, 1e-6);
+  EXPECT_NEAR(r.pose.y_m, -0.2, 1e-6);
+  EXPECT_NEAR(r.pose.heading_rad, sim::kPi / 2, 1e-4);  // along -z, away from the reader
+  EXPECT_EQ(world.engine, sim::Engine::Kinematic);      // it has no Physics
+  EXPECT_NEAR(world.webots.speed_unit_rad_s, 0.1, 1e-9);
+  ASSERT_TRUE(r.wheels.noise);
+  EXPECT_NEAR(*r.wheels.noise, 0.2, 1e-9);
+  ASSERT_EQ(r.sensors.size(), 8u);  // one of them differs
+  EXPECT_NEAR(*r.sensors[5].proximity.aperture_rad, 0.6, 1e-6);
+  EXPECT_NEAR(*r.sensors[4].proximity.aperture_rad, 0.3, 1e-6);
+  ASSERT_TRUE(r.sensors[0].proximity.table);
+  EXPECT_EQ(r.sensors[0].proximity.table->size(), 2u);
+  EXPECT_NEAR(r.sensors[0].proximity.table->at(1).relative_noise, 0.7, 1e-9);
+  EXPECT_EQ(*r.sensors[0].proximity.rays, 4);
+}
+
+TEST(ImportRobots, other_robots_stand_there_and_supervisors_run) {
+  const auto made = raw(kNew + R"(RectangleArena { floorSize 3 3 }
+Robot { translation 1 0 0.05 name "feeder" controller "food" boundingObject Box { size 0.1 0.1 0.1 } }
+DEF REF Robot { name "referee" controller "soccer_supervisor" supervisor TRUE }
+E-puck { controller "a" }
+E-puck { translation 0.5 0.5 0 controller "a" }
+)");
+  const auto world = world_of(made);
+  EXPECT_EQ(world.robots.size(), 2u);
+  EXPECT_EQ(world.robots[1].name, "e-puck 2");
+  EXPECT_TRUE(reports(made, 6, "\"e-puck\" a second time"));
+  ASSERT_EQ(world.objects.size(), 1u);
+  EXPECT_EQ(world.objects[0].name, "feeder");
+  EXPECT_TRUE(reports(made, 3, "controller \"food\""));
+  ASSERT_EQ(world.supervisors.size(), 1u);
+  EXPECT_EQ(world.supervisors[0].name, "referee");
+  EXPECT_EQ(world.supervisors[0].program, "soccer_supervisor");
+}
+
+TEST(ImportRobots, a_robot_inside_a_wall_steps_aside_and_says_so) {
+  const auto made = raw(kNew + R"(RectangleArena { floorSize 2 2 }
+Solid { translation 0 0 0.05 boundingObject Box { size 0.1 0.1 0.1 } }
+E-puck { translation 0.04 0 0 }
+)");
+  const auto world = world_of(made);
+  ASSERT_EQ(world.robots.size(), 1u);
+  EXPECT_GE(std::hypot(world.robots[0].pose.x_m, world.robots[0].pose.y_m), 0.087 - 1e-3);
+  EXPECT_TRUE(reports(made, 0, "inside something"));
+}
+
+TEST(ImportRobots, sources_beside_the_world_are_named_by_their_folder) {
+  const fs::path top = fs::path(::testing::TempDir()) / ("twinpuck-import-" + std::to_string(getpid()));
+  fs::create_directories(top / "worlds");
+  fs::create_directories(top / "controllers" / "mine");
+  fs::create_directories(top / "controllers" / "snake");
+  fs::create_directories(top / "protos");
+  std::ofstream(top / "controllers" / "mine" / "mine.c") << "int main() { return 0; }\n";
+  std::ofstream(top / "controllers" / "snake" / "snake.py") << "pass\n";
+  std::ofstream(top / "protos" / "Block.proto") << kNew + R"(PROTO Block [
+  field SFVec3f translation 0 0 0
+  field SFFloat{0.1, 0.2} length 0.1
+  field MFNode more [ ]
+] {
+  Solid { translation IS translation boundingObject Box { size %{= fields.length.value }% 0.02 0.1 } }
+})";
+  const auto made = raw(kNew + R"(EXTERNPROTO "../protos/Block.proto"
+PROTO Post [ field SFVec3f translation 0 0 0 ] { Solid { translation IS translation boundingObject Cylinder { radius 0.01 height 0.1 } } }
+E-puck { controller "mine" }
+E-puck { name "b" translation 0 1 0 controller "snake" }
+E-puck { name "c" translation 0 -1 0 controller "gone" }
+Block { translation 1 0 0.05 length 0.3 }
+Post { translation -1 0 0.05 }
+Strange { translation 2 0 0 }
+)",
+                        (top / "worlds").string());
+  const auto world = world_of(made);
+  fs::remove_all(top);
+  ASSERT_EQ(world.robots.size(), 3u);
+  EXPECT_EQ(world.robots[0].firmware, "../controllers/mine");
+  EXPECT_EQ(world.robots[1].firmware, "snake");
+  EXPECT_TRUE(reports(made, 5, "a Python program"));
+  EXPECT_TRUE(reports(made, 6, "\"gone\", whose sources are not beside the world"));
+  ASSERT_EQ(world.objects.size(), 2u) << made.toml;
+  EXPECT_NEAR(world.objects[0].size_m.x, 0.3, 1e-6);
+  EXPECT_NEAR(world.objects[0].pose.x_m, 1, 1e-6);
+  EXPECT_EQ(world.objects[1].kind, sim::ObjectKind::Cylinder);
+  EXPECT_TRUE(reports(made, 9, "Strange: not carried: a node that is not known here"));
+}
+
+TEST(ImportRobots, without_firmware_no_controller_is_named) {
+  wbt::Options options;
+  options.without_firmware = true;
+  options.model = board::epuck_model();
+  const auto made = wbt::import_world(kNew + "E-puck { controller \"mine\" }\n", options);
+  EXPECT_NE(made.toml.find("firmware = \"\""), std::string::npos);
+}
+
+TEST(ImportErrors, name_their_place) {
+  const struct {
+    std::string text;
+    int line, column;
+    const char* says;
+  } kBad[] = {
+      {"<!doctype html>", 1, 1, "expected `#VRML_SIM`"},
+      {"", 1, 1, "expected `#VRML_SIM`"},
+      {kNew + "Solid {\n  translation 0 0\n", 4, 1, "got the end of the file"},
+      {kNew + "Solid {\n  name \"open\n}", 3, 8, "ends in a quote"},
+      {kNew + "Solid {\n  size ]\n}", 3, 8, "got ']', expected a value"},
+      {kNew + "{ }", 2, 1, "expected a node"},
+      {kNew + "Solid 3", 2, 7, "expected '{'"},
+  };
+  for (const auto& b : kBad) {
+    const auto made = raw(b.text);
+    ASSERT_EQ(made.errors.size(), 1u) << b.text;
+    EXPECT_EQ(made.errors[0].line, b.line) << b.text;
+    EXPECT_EQ(made.errors[0].column, b.column) << b.text;
+    EXPECT_NE(made.errors[0].text.find(b.says), std::string::npos) << made.errors[0].text;
+    EXPECT_TRUE(made.toml.empty());
+  }
+}
+
+TEST(ImportErrors, hostile_worlds_end_soon) {
+  // nodes without end
+  std::string deep = kNew;
+  for (int i = 0; i < 100000; ++i) deep += "Group { children [ ";
+  EXPECT_EQ(raw(deep).errors.size(), 1u);
+  // forty doublings by USE: a million million shapes
+  std::string laughs = kNew + "DEF A0 Shape { geometry Box { size 0.1 0.1 0.1 } }\n";
+  for (int i = 1; i <= 40; ++i) {
+    const std::string before = "USE A" + std::to_string(i - 1);
+    laughs += "DEF A" + std::to_string(i) + " Group { children [ " + before + " " + before + " ] }\n";
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_TRUE(raw(laughs).errors.empty());
+  // a PROTO that is made of itself twice
+  EXPECT_TRUE(raw(kNew + "PROTO P [ ] { Group { children [ P { } P { } ] } }\nP { }\n").errors.empty());
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
+  // numbers that are none
+  world_of(raw(kNew + "Solid { translation 1e300 -1e300 1e9 boundingObject Box { size 1e300 0 -1 } }\nE-puck "
+                      "{ translation 1e99 0 0 }\n"
+                      "PointLight { location 1e30 0 0 }\nRectangleArena { floorSize -1 1e20 }\n"));
+}
+
+}  // namespace

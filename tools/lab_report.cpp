@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include "tools/lab_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+namespace tools {
+
+namespace {
+
+bool keeps_bounds(const TrialResult& t) {
+  if (!t.ran) return false;
+  for (const Bound& b : t.trial.step->bounds) {
+    const double v = t.measures[b.measure];
+    if (!(v >= b.low && v <= b.high)) return false;  // not a number: not kept
+  }
+  return true;
+}
+
+bool is_of(const TrialResult& t, double noise_scale) {
+  return std::isnan(noise_scale) || t.trial.noise_scale == noise_scale;
+}
+
+// "wall_touch_s" 0.312 -> "wall touch 0.31 s"
+std::string words(Measure m, double value, const char* how) {
+  std::string name = measure_name(m), unit;
+  for (const char* ending : {"_s", "_m"})
+    if (name.size() > 2 && name.compare(name.size() - 2, 2, ending) == 0) {
+      unit = ending + 1;
+      name.resize(name.size() - 2);
+    }
+  std::replace(name.begin(), name.end(), '_', ' ');
+  if (unit == "m" && value < 0.1) unit = "mm", value *= 1000;
+  const std::string number = m == Measure::Speed          ? fmt::format("{:.0f}", value)
+                             : value == std::round(value) ? fmt::format("{:.0f}", value)
+                             : unit.empty()               ? fmt::format("{:.4g}", value)
+                                                          : fmt::format("{:.2f}", value);
+  return fmt::format("{}{}{} {}{}{}", how, *how ? " " : "", name, number, unit.empty() ? "" : " ", unit);
+}
+
+constexpr const char* kHow[] = {"max", "min", "mean", "median"};
+
+double one_of(std::vector<double> v, Shown::How how) {
+  std::sort(v.begin(), v.end());
+  double sum = 0;
+  for (double x : v) sum += x;
+  switch (how) {
+    case Shown::How::Max:
+      return v.back();
+    case Shown::How::Min:
+      return v.front();
+    case Shown::How::Mean:
+      return sum / static_cast<double>(v.size());
+    case Shown::How::Median:
+      return v[v.size() / 2];
+  }
+  return sum;
+}
+
+// one figure, of all trials or of one world's
+std::string figure(const StepResult& r, const Shown& shown, const std::string& world) {
+  std::vector<double> values;
+  for (const TrialResult& t : r.trials)
+    if (t.ran && (world.empty() || t.trial.world == world) && std::isfinite(t.measures[shown.measure]))
+      values.push_back(t.measures[shown.measure]);
+  if (values.empty()) return "";
+  const char* how = values.size() > 1 ? kHow[static_cast<int>(shown.how)] : "";
+  return words(shown.measure, one_of(std::move(values), shown.how), how);
+}
+
+}  // namespace
+
+double share_of(const StepResult& result, double noise_scale) {
+  int all = 0, kept = 0;
+  for (const TrialResult& t : result.trials)
+    if (is_of(t, noise_scale)) ++all, kept += keeps_bounds(t);
+  return all ? static_cast<double>(kept) / all : 0;
+}
+
+bool is_passed(const StepResult& result) {
+  if (!result.problem.empty()) return false;
+  const LabStep& step = *result.step;
+  if (step.kind == LabStep::Kind::Answer) return true;
+  for (const TrialResult& t : result.trials)
+    if (!t.ran) return false;
+  for (std::size_t i = 0; i < step.shares.size(); ++i) {
+    const double scale = step.shares.size() > 1 ? step.noise_scales[i] : std::nan("");
+    const double share = share_of(result, scale);
+    if (share < step.shares[i].low || share > step.shares[i].high) return false;
+  }
+  return true;
+}
+
+std::string to_text(const StepResult& result, bool times) {
+  const LabStep& step = *result.step;
+  if (!result.problem.empty()) return result.problem;
+  if (step.kind == LabStep::Kind::Answer) {
+    std::string anchor = step.answer;
+    for (char& c : anchor) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return "docs/lab-answers.md#" + anchor;
+  }
+  std::string text = step.says;
+  if (step.kind == LabStep::Kind::Runs && step.noise_scales.size() > 1) {
+    text = step.says + " by noise scale:";
+    for (double scale : step.noise_scales)
+      text += fmt::format(" {:g}: {:.0f} %", scale, 100 * share_of(result, scale));
+  } else if (step.kind == LabStep::Kind::Runs) {
+    int kept = 0;
+    for (const TrialResult& t : result.trials) kept += keeps_bounds(t);
+    text = fmt::format("{} of {} {}", kept, result.trials.size(), step.says);
+  }
+  const std::vector<std::string> all{""};
+  for (const std::string& world : step.by_world ? step.worlds : all) {
+    std::string figures;
+    for (const Shown& shown : step.shown) {
+      if (shown.measure == Measure::Speed && !times) continue;
+      const std::string one = figure(result, shown, world);
+      if (!one.empty()) figures += (figures.empty() ? "" : ", ") + one;
+    }
+    if (figures.empty()) continue;
+    text += world.empty() ? ", " + figures : fmt::format(" [{}: {}]", world, figures);
+  }
+  return text;
+}
+
+std::string lab_csv_header() {
+  std::string line = "exercise,world,firmware,noise_scale,seed,kept";
+  for (std::size_t i = 0; i < kMeasures; ++i)
+    line += std::string(",") + measure_name(static_cast<Measure>(i));
+  return line + "\n";
+}
+
+std::string lab_csv(const std::string& exercise, const StepResult& result) {
+  std::string text;
+  for (const TrialResult& t : result.trials) {
+    text += fmt::format("{},{},{},{},{},{}", exercise, t.trial.world, t.trial.step->firmware,
+                        std::isnan(t.trial.noise_scale) ? "" : fmt::format("{:g}", t.trial.noise_scale),
+                        t.trial.seed, keeps_bounds(t) ? 1 : 0);
+    for (double v : t.measures.value) text += std::isnan(v) ? "," : fmt::format(",{:.6g}", v);
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace tools

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+#include "tools/picture_outputs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "sim_core/record/film.h"
+#include "sim_core/record/heatmap.h"
+#include "tools/output_folder.h"
+
+namespace tools {
+
+namespace {
+
+// a kind of file is found out before the run
+void check_ending(const std::string& path, const char* option, const std::vector<const char*>& endings,
+                  std::vector<std::string>& problems) {
+  const std::string ending = std::filesystem::path(path).extension();
+  if (std::find(endings.begin(), endings.end(), ending) != endings.end()) return;
+  std::string expected;
+  for (std::size_t i = 0; i < endings.size(); ++i)
+    expected += (i == 0 ? "" : i + 1 < endings.size() ? ", " : " or ") + std::string(endings[i]);
+  problems.push_back(path + ": " + option + ": got the ending '" + ending + "', expected " + expected);
+}
+
+}  // namespace
+
+void add_picture_options(CLI::App& verb, PictureArguments& a) {
+  verb.add_option("--picture", a.picture, "PNG or SVG of the world with the robots' ways");
+  verb.add_flag(
+      "--rays", a.rays,
+      "draw the sensors' rays in picture and film: red up to what they met, orange as much farther as "
+      "a dark colour lets it seem, green beyond");
+  verb.add_option("--heatmap", a.heatmaps,
+                  "where the robots spent their time: a PNG or SVG with a colour bar, or a CSV of cells")
+      ->allow_extra_args(false);
+  verb.add_option("--heatmap-cell", a.heatmap_cell_m, "side of a cell (m)")
+      ->check(CLI::Range(1e-3, 100.0))
+      ->capture_default_str();
+  verb.add_option("--heatmap-scale", a.heatmap_scale, "colours by orders of magnitude or in proportion")
+      ->check(CLI::IsMember({"log", "linear"}))
+      ->capture_default_str();
+  verb.add_option("--film", a.film, "WebM (.webm) or animated PNG (.png, .apng) of the run");
+  verb.add_option("--film-fps", a.film_fps, "frames in a second of film")
+      ->check(CLI::Range(1, 100))
+      ->capture_default_str();
+  verb.add_option("--film-speed", a.film_speed, "simulated seconds in a second of film")
+      ->check(CLI::Range(1e-3, 1e5))
+      ->capture_default_str();
+  verb.add_option("--film-size", a.film_size_px, "longer side of the film (pixels)")
+      ->check(CLI::Range(160, 4096))
+      ->capture_default_str();
+  verb.add_option("--film-trail", a.film_trail_s, "simulated seconds of way behind each robot; 0: none")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
+}
+
+PictureOutputs::PictureOutputs(const PictureArguments& arguments, twin::Twin& twin)
+    : arguments_(arguments), twin_(twin) {}
+PictureOutputs::~PictureOutputs() = default;
+
+void PictureOutputs::open(std::vector<std::string>& problems) {
+  const auto& a = arguments_;
+  std::vector<std::string> files = a.heatmaps;
+  if (!a.picture.empty()) {
+    check_ending(a.picture, "--picture", {".png", ".svg"}, problems);
+    can_write(a.picture, "--picture", problems);
+    files.push_back(a.picture);
+    paths_ = std::make_unique<sim::Trajectories>(twin_.robots());
+  }
+  for (const auto& file : a.heatmaps) {
+    check_ending(file, "--heatmap", {".png", ".svg", ".csv"}, problems);
+    can_write(file, "--heatmap", problems);
+    if (!heatmap_) heatmap_ = std::make_unique<sim::Heatmap>(twin_.robots(), a.heatmap_cell_m);
+  }
+  if (!a.film.empty()) {
+    check_ending(a.film, "--film", {".webm", ".png", ".apng"}, problems);
+    can_write(a.film, "--film", problems);
+    files.push_back(a.film);
+  }
+  std::sort(files.begin(), files.end());
+  const auto twice = std::adjacent_find(files.begin(), files.end());
+  if (twice != files.end())
+    problems.push_back(*twice + ": got two outputs for this file, expected one; give them different names");
+  // the film's file is begun, and emptied, only when nothing else is wrong
+  if (a.film.empty() || !problems.empty()) return;
+  sim::FilmOptions options;
+  options.frames_per_s = a.film_fps;
+  options.speed = a.film_speed;
+  options.size_px = a.film_size_px;
+  options.trail_s = a.film_trail_s;
+  options.sensor_rays = a.rays;
+  film_ = std::make_unique<sim::Film>(a.film, twin_.simulation().scene(), options);
+  // a disk that is full already ends the run at its first tick, as one that fills up does later
+}
+
+void PictureOutputs::before_run() { sample(); }
+
+void PictureOutputs::after_tick() {
+  sample();
+  if (heatmap_) heatmap_->sample(twin_.simulation().scene());
+}
+
+void PictureOutputs::lift_pen(int robot) {
+  if (paths_) paths_->lift_pen(robot);
+  if (film_) film_->lift_pen(robot);
+}
+
+void PictureOutputs::sample() {
+  const auto& simulation = twin_.simulation();
+  if (paths_) paths_->sample(simulation.scene());
+  if (!film_) return;
+  std::vector<sim::PictureLabel> labels;
+  if (labels_ && film_->is_due(simulation.now())) labels = labels_();
+  film_->sample(simulation.scene(), simulation.minds(), labels);
+}
+
+bool PictureOutputs::failed() const { return film_ && !film_->error().empty(); }
+
+void PictureOutputs::finish(const Summary& summary, std::vector<std::string>& problems) {
+  const auto& a = arguments_;
+  const auto& simulation = twin_.simulation();
+  const std::string caption = fmt::format("{:g} s, seed {}, {} robot{}", summary.simulated_s, summary.seed,
+                                          summary.robots.size(), summary.robots.size() == 1 ? "" : "s");
+  if (!a.picture.empty()) {
+    sim::PictureOptions options;
+    options.sensor_rays = a.rays;
+    options.caption = caption;
+    if (labels_) options.labels = labels_();
+    const std::string error =
+        sim::write_picture(a.picture, simulation.scene(), simulation.minds(), paths_.get(), options);
+    if (!error.empty()) problems.push_back(error);
+  }
+  for (const auto& file : a.heatmaps) {
+    sim::HeatmapOptions options;
+    options.linear = a.heatmap_scale == "linear";
+    options.caption = caption;
+    const std::string error = sim::write_heatmap(file, *heatmap_, simulation.scene(), options);
+    if (!error.empty()) problems.push_back(error);
+  }
+  if (film_) {
+    film_->finish();
+    if (!film_->error().empty()) problems.push_back(film_->error());
+  }
+}
+
+}  // namespace tools
