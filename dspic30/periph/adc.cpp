@@ -187,6 +187,9 @@ std::uint16_t Adc::peek(unsigned address, Cycle now) const {
 }
 
 void Adc::changed_while_on(unsigned address, Cycle now) {
+  const auto bit = static_cast<std::uint16_t>(1 << (address - kCon1) / 2);
+  if (changed_told_ & bit) return;
+  changed_told_ |= bit;
   const std::string name = sfr_info(address)->name;
   f_.diagnostics.report(
       Cause::ChangedWhileOn, name,

@@ -80,7 +80,8 @@ class Adc final : public SfrOwner, public EventOwner, public TimerListener {
   int scan_at_ = -1;  // input of ADCSSL in turn
   bool mux_b_ = false;
   bool wants_timer_ = false;
-  std::uint16_t complained_ = 0;  // channels
+  std::uint16_t complained_ = 0;    // channels
+  std::uint16_t changed_told_ = 0;  // registers from ADCON1 on
 };
 
 }  // namespace dspic

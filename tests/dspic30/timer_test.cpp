@@ -175,6 +175,22 @@ TEST(Timer, camera_driver_gets_its_interrupt_after_one_edge) {
   EXPECT_EQ(b.flag_rises(irq::T5, 5101), 205002);  // the next edge takes it to 0, the third to 1
 }
 
+// its line interrupt: TMR4 = 0, PR4 = 1, and the handler clears TMR4: one interrupt for each edge of HREF
+TEST(Timer, camera_driver_gets_one_interrupt_a_line) {
+  Bench b;
+  b.outside.clock({Port::C, 3}, 10000, 2000, 1200, 20);
+  b.write("PR4", 1, 10);
+  b.write("T4CON", 0x8002, 10);
+  Cycle from = 11;
+  for (int line = 0; line < 10; ++line) {
+    const Cycle flag = b.flag_rises(irq::T4, from);
+    EXPECT_EQ(flag, 10000 + 2000 * line + 2);
+    b.clear_flag(irq::T4, flag + 10);
+    b.write("TMR4", 0, flag + 12);
+    from = flag + 13;
+  }
+}
+
 TEST(Timer, external_clock_with_prescaler) {
   Bench b;
   b.outside.clock({Port::C, 14}, 100, 10, 5, 1000);  // T1CK
