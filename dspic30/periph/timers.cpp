@@ -238,6 +238,7 @@ void Timers::on_event(int id, Cycle at) {
     return schedule(id, at);
   }
   if (u.pending_flag == at) u.pending_flag = kNever;
+  if (u.mode == Mode::External) settle(id, at, at);  // edges are counted from here on
   f_.interrupts.raise(flag_of(id), at);
   for (TimerListener* l : listeners_) l->timer_matched(u.wide ? id + 1 : id, at);
   schedule(id, at);
