@@ -21,7 +21,7 @@ constexpr Pin kClockPins[kTimers] = {{Port::C, 14}, {Port::C, 1}, {Port::C, 2}, 
 constexpr std::uint16_t kTon = 0x8000, kTgate = 0x0040, kT32 = 0x0008, kTcs = 0x0002;
 constexpr Cycle kPrescale[] = {1, 8, 64, 256};
 constexpr Cycle kEdgeToTick = 1;   // synchroniser of TxCK
-constexpr Cycle kMatchToFlag = 1;  // [DS70046 12.4]
+constexpr Cycle kMatchToFlag = 1;  // [chip P2]
 
 // which register of which timer
 enum class What { Tmr, Pr, Con, Hold };
