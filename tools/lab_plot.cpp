@@ -64,7 +64,7 @@ std::string plot_shares(const std::string& file, const StepResult& result) {
   text(c, (kLeft + kWidth - kRight) / 2, kHeight - 20, "noise scale of the proximity sensors", 0.5);
   text(c, kLeft, kTop - 15,
        fmt::format("{} in {}: runs that {} within {:g} s, of {:g} each", step.firmware, step.worlds[0],
-                   step.says, step.seconds, runs),
+                   step.says, result.trials[0].trial.seconds, runs),
        0);
   cairo_set_source_rgb(c, 0.1, 0.35, 0.7);
   cairo_set_line_width(c, 2);

@@ -67,7 +67,7 @@ struct LabStep {
   std::string says;                 ///< what a run that keeps the bounds has done
   std::vector<std::string> worlds;  ///< files in worlds/, without ending
   std::string firmware;             ///< for every robot; empty: as the world says
-  double seconds = 60;
+  double seconds = 60, full_seconds = 60;
   int quick_seeds = 1, full_seeds = 1;
   std::vector<double> noise_scales;  ///< of the proximity sensors; empty: as the world says
   std::vector<Span> shares;          ///< of runs that keep the bounds; one for all, or one per noise scale

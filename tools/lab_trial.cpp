@@ -146,10 +146,11 @@ class Lifts {
   std::vector<double> heights_m_;
 };
 
-void run(twin::Twin& twin, supervisor::Team& team, const LabStep& step, Measures& m) {
+void run(twin::Twin& twin, supervisor::Team& team, const Trial& trial, Measures& m) {
+  const LabStep& step = *trial.step;
   auto& simulation = twin.simulation();
+  Lifts lifts(simulation);  // sees the kick-off
   team.before_first_tick();
-  Lifts lifts(simulation);
   std::vector<Watch> watches;
   for (int i = 0; i < twin.robots(); ++i) {
     const auto* model = twin.world().model_of(twin.world().robots[static_cast<std::size_t>(i)]);
@@ -157,7 +158,7 @@ void run(twin::Twin& twin, supervisor::Team& team, const LabStep& step, Measures
                          2 * sim::kPi * model->wheel_radius_m / model->steps_per_turn);
   }
   const double cpu_before_s = cpu_s();
-  const sim::Clicks end = sim::from_seconds(step.seconds);
+  const sim::Clicks end = sim::from_seconds(trial.seconds);
   const auto all_out = [&] {
     return !step.region.empty() && std::all_of(watches.begin(), watches.end(),
                                                [](const Watch& w) { return std::isfinite(w.escape_s); });
@@ -269,7 +270,7 @@ bool run_trial(const Trial& trial, Measures& measures, std::vector<std::string>&
   if (!twin) return false;
   const auto team = supervisor::Team::open(*twin, options, {}, problems);
   if (!team) return false;
-  run(*twin, *team, step, measures);
+  run(*twin, *team, trial, measures);
   if (team->outcome().code != 0) problems.push_back(file + ": supervisor: " + team->outcome().text);
   for (const auto& trap : twin->traps()) problems.push_back(to_text(trap));
   return twin->traps().empty() && team->outcome().code == 0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // twinpuck lab: one line an exercise, the same however many processes, and honest about what fails.
+#include <algorithm>
 #include <sstream>
+#include <vector>
 
 #include "tests/cli/command.h"
 
@@ -26,8 +28,8 @@ TEST_F(Lab, every_exercise_of_the_lab_has_a_line_and_passes) {
   std::istringstream lines(s.text);
   std::vector<std::string> ids;
   for (std::string line; std::getline(lines, line);) ids.push_back(line.substr(0, line.find(' ')));
-  for (const char* id : {"I1", "S2", "I3", "S4", "S5", "Q6", "Q7", "I8", "Q9", "S10", "S11", "S12", "I13",
-                         "S14", "S15", "Q17"})
+  for (const char* id : {"e-puck", "I1", "S2", "I3", "S4", "S5", "Q6", "Q7", "I8", "Q9", "S10", "S11", "S12",
+                         "I13", "S14", "S15", "S16", "Q17"})
     EXPECT_NE(std::find(ids.begin(), ids.end(), id), ids.end()) << id;
 }
 
@@ -63,7 +65,7 @@ TEST_F(Lab, a_bound_that_is_not_kept_fails_with_exit_code_1) {
 }
 
 TEST_F(Lab, mistakes_are_named_with_their_place) {
-  EXPECT_NE(twinpuck("lab I2").text.find("got 'I2', expected one of I1 S2 I3"), std::string::npos);
+  EXPECT_NE(twinpuck("lab I2").text.find("got 'I2', expected one of e-puck I1 S2 I3"), std::string::npos);
   EXPECT_EQ(twinpuck("lab I2").exit_code, 2);
   const Said key = twinpuck("lab --table " + table("at_mots = { standstill_s = 1 }\n"));
   EXPECT_EQ(key.exit_code, 2);

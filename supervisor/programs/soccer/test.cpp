@@ -13,7 +13,7 @@ class SoccerTest : public FirmwareTest {
  protected:
   void SetUp() override {
     load_world("worlds/soccer.toml");
-    world.seed = 2;  // a match in which somebody scores early
+    world.seed = 2;                                 // a match in which somebody scores early
     ball_ = static_cast<int>(world.robots.size());  // the only movable object
     team().say = [](const std::string&) {};
   }
