@@ -11,7 +11,7 @@ namespace {
 constexpr unsigned kBuffer = 0x280, kCon1 = 0x2A0, kCon2 = 0x2A2, kCon3 = 0x2A4, kChs = 0x2A6, kCssl = 0x2AA;
 constexpr std::uint16_t kDone = 0x0001, kSamp = 0x0002, kAdon = 0x8000, kBufs = 0x0080, kCscna = 0x0400,
                         kAlts = 0x0001, kBufm = 0x0002, kAdrc = 0x0080;
-constexpr int kConversionTads = 14;       // [DS70046 18.6]
+constexpr int kConversionTads = 14;       // [chip P4]
 constexpr int kManualStartTads = 1;       // between clearing SAMP and the conversion [?]
 constexpr Cycle kEndToFlag = 1;           // [?]
 constexpr double kRcTadSeconds = 1.2e-6;  // ADRC = 1 [?]

@@ -8,9 +8,8 @@
 // SMPI, BUFM with BUFS, FORM, ADON at any moment, TAD in half cycles, ADRC as a fixed period. The input is
 // held at the end of sampling and asked for at that instant. Conversions within one interrupt's period are
 // worked out together. Not modelled: VCFG and CH0NA/CH0NB (AVDD, AVSS), ADSIDL, settling of the input,
-// invalid results of too short a sampling time. Source: DS70143 section 20, DS70046 section 18; [?] ADIF one
-// cycle after the end, one TAD between clearing SAMP and the conversion, scan position when SMPI+1 differs
-// from the number of inputs.
+// invalid results of too short a sampling time. Source: [chip P4]; [?] ADIF one cycle after the end, one TAD
+// between clearing SAMP and the conversion, scan position when SMPI+1 differs from the number of inputs.
 #pragma once
 #include <array>
 #include <cstdint>

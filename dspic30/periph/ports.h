@@ -9,7 +9,7 @@
 // drain) by a peripheral, pull-ups, analogue pins of port B that read 0, edges that the chip makes itself on
 // a pin which another peripheral watches, the one-cycle read synchroniser where asked for. Not modelled:
 // contention with the outside (the chip wins), levels of serial lines bit by bit (owned pins read high).
-// Source: DS70143 section 6.
+// Source: [chip P1].
 #pragma once
 #include <array>
 #include <cstdint>
