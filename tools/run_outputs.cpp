@@ -69,10 +69,11 @@ void add_output_options(CLI::App& verb, OutputArguments& a) {
   verb.add_option("--coverage", a.coverage,
                   "lcov file of the lines that firmware executed; builds controllers with counters");
   add_picture_options(verb, a.pictures);
+  add_trace_options(verb, a.traces);
 }
 
 RunOutputs::RunOutputs(const OutputArguments& arguments, twin::Twin& twin, const supervisor::Team* team)
-    : arguments_(arguments), twin_(twin), team_(team), pictures_(arguments.pictures, twin) {}
+    : arguments_(arguments), twin_(twin), team_(team), pictures_(arguments.pictures, twin), traces_(arguments.traces, twin) {}
 RunOutputs::~RunOutputs() = default;
 
 bool RunOutputs::open(std::vector<std::string>& problems) {
@@ -93,6 +94,7 @@ bool RunOutputs::open(std::vector<std::string>& problems) {
     images_->open(twin_, problems);
   }
   pictures_.open(problems);
+  traces_.open(problems);
   return problems.size() == before;
 }
 
@@ -107,6 +109,7 @@ void RunOutputs::after_tick() {
     for (int robot : team_->moved_robots()) pictures_.lift_pen(robot);
   sample();
   pictures_.after_tick();
+  traces_.after_tick();
 }
 
 void RunOutputs::sample() {
@@ -117,7 +120,7 @@ void RunOutputs::sample() {
 
 bool RunOutputs::failed() const {
   return (recorder_ && !recorder_->is_good()) || (images_ && images_->failed()) ||
-         (sound_ && !sound_->error().empty()) || pictures_.failed();
+         (sound_ && !sound_->error().empty()) || pictures_.failed() || traces_.failed();
 }
 
 void RunOutputs::finish(const Summary& summary, std::vector<std::string>& problems) {
@@ -129,6 +132,7 @@ void RunOutputs::finish(const Summary& summary, std::vector<std::string>& proble
   if (!a.summary.empty()) write_text(a.summary, to_json(summary), "--summary", problems);
   if (!a.coverage.empty()) write_text(a.coverage, lcov_of(twin_), "--coverage", problems);
   pictures_.finish(summary, problems);
+  traces_.finish(problems);
 }
 
 }  // namespace tools

@@ -13,6 +13,7 @@
 #include "tools/saved_images.h"
 #include "tools/sound_output.h"
 #include "tools/summary.h"
+#include "tools/trace_outputs.h"
 
 namespace sim {
 class CsvRecorder;
@@ -24,6 +25,7 @@ struct OutputArguments {
   std::string record, summary, coverage, images, sound_folder;
   double record_every_s = 0.01;
   PictureArguments pictures;
+  TraceArguments traces;
 };
 
 void add_output_options(CLI::App& verb, OutputArguments& arguments);
@@ -51,6 +53,7 @@ class RunOutputs {
   std::unique_ptr<SavedImages> images_;
   std::unique_ptr<SoundOutput> sound_;
   PictureOutputs pictures_;
+  TraceOutputs traces_;
 };
 
 }  // namespace tools

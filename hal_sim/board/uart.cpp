@@ -63,6 +63,7 @@ bool Uart::load(std::uint8_t byte, Cycle at) {
   starts_[static_cast<std::size_t>(newest_)] = last_start_;
   out_bytes_.push_back(byte);
   out_ends_.push_back(free_at_);
+  if (watch_) watch_->frame(number_, true, byte, last_start_, free_at_);
   ++sent_;
   hash_ = sim::mix64(hash_ ^ (byte | static_cast<std::uint64_t>(free_at_) << 8));
   return true;
@@ -174,6 +175,7 @@ void Uart::exchange(Cycle at) {
     for (std::size_t i = 0; i < count; ++i) {
       wire_free_at_ = std::max(wire_free_at_, at) + byte_cycles();
       on_wire_.push_back({bytes[i], wire_free_at_});
+      if (watch_) watch_->frame(number_, false, bytes[i], wire_free_at_ - byte_cycles(), wire_free_at_);
     }
   }
 }

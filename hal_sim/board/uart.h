@@ -21,6 +21,15 @@
 
 namespace board {
 
+/// Told of every byte that goes over a UART's two lines, as soon as it is known to come: for traces.
+class UartWatch {
+ public:
+  virtual ~UartWatch() = default;
+  /// UART 1 or 2; `sent` by the robot or received; from the start bit's beginning to the stop bit's end. A
+  /// sent byte that a reset or a break cuts off was reported all the same.
+  virtual void frame(int uart, bool sent, std::uint8_t byte, Cycle start, Cycle end) = 0;
+};
+
 class Uart {
  public:
   /// e_init_uartN(): enabled at BRG `brg`, ring emptied.
@@ -63,6 +72,11 @@ class Uart {
   // --- outside -------------------------------------------------------------------------------------------
   void connect(std::shared_ptr<UartEnd> end) { end_ = std::move(end); }
   UartEnd* end() const { return end_.get(); }
+  /// Null: nobody looks. `number` is told back.
+  void watch(UartWatch* watch, int number) {
+    watch_ = watch;
+    number_ = number;
+  }
   /// Tick boundary: what has left goes to the end; what has come starts on the wire, or waits outside until
   /// the UART is enabled.
   void exchange(Cycle at);
@@ -104,6 +118,8 @@ class Uart {
   std::int64_t received_ = 0;
 
   std::shared_ptr<UartEnd> end_;
+  UartWatch* watch_ = nullptr;
+  int number_ = 0;
   Cycle break_until_ = -1;
   std::uint64_t hash_ = 0;
 };

@@ -174,6 +174,7 @@ const void* tp_agenda_next(void) {
   const void* function = context.board().agendas().next(divided_by_zero);
   if (divided_by_zero)
     context.trap(TP_TRAP_MATH, "motor agenda: 10000 / 0 (speed 0 with a power-save half pending)");
+  context.callback(function);
   return function;
 }
 

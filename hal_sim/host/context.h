@@ -39,6 +39,8 @@ class Context {
   virtual void irq_install(int vector, void (*handler)(), int priority, Cycle entry_cycles) = 0;
   virtual void irq_at(int vector, Cycle at) = 0;  ///< at < 0 cancels
   virtual void set_background(int slot, Cycle period, Cycle cost) = 0;
+  /// An agenda's function is called next; null: none in this interrupt. For traces.
+  virtual void callback(const void*) {}
 
   /// A trap of the running firmware; does not return. kind: TP_TRAP_*.
   [[noreturn]] virtual void trap(int kind, std::string_view message) = 0;

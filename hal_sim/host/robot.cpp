@@ -83,6 +83,7 @@ void Robot::power_up() {
 }
 
 void Robot::restart_program() {
+  if (observer_) observer_->ended(now_);
   data_ = copy_.start_values();
   if (copy_.owner == this) copy_.owner = nullptr;
   interrupts_.reset();
@@ -189,7 +190,9 @@ void Robot::fold() {
 Cycle Robot::now() {
   const Cycle main = issued_ - copy_.control().budget;
   const unsigned __int128 stolen = static_cast<unsigned __int128>(main) * stolen_q32_ + fraction_;
-  return now_ + main + static_cast<Cycle>(stolen >> kQ);
+  const Cycle at = now_ + main + static_cast<Cycle>(stolen >> kQ);
+  if (observer_) observer_->reached(at);
+  return at;
 }
 
 Cycle Robot::next_disturbance() {
@@ -209,6 +212,7 @@ Cycle Robot::next_disturbance() {
 void Robot::give_budget() {
   Cycle until = std::min(end_, next_disturbance());
   if (interrupts_.select(cpu_priority_, disi_until_ > now_) >= 0) until = now_;
+  if (observer_) until = std::min(until, now_ + observer_->look_every);
   issued_ = until > now_ ? main_until(until - now_) : 0;
   copy_.control().budget = issued_;
 }
@@ -268,6 +272,9 @@ void Robot::deliver() {
 
 void Robot::serve(int vector) {
   auto& s = interrupts_.source(vector);
+  if (observer_)
+    observer_->handler_begins(vector, s.flag_since, now_,
+                              now_ + (s.self_clearing ? s.entry_cycles : kInterruptEntryCycles));
   void (*handler)() = s.handler;
   if (s.self_clearing) {
     s.flag = false;
@@ -289,6 +296,7 @@ void Robot::serve(int vector) {
   handler();
   --handler_depth_;
   fold();
+  if (observer_) observer_->handler_ends(now_);
   cpu_priority_ = outer;
   ++served_;
   note_write();
@@ -319,6 +327,7 @@ bool Robot::lend_reserve() {
 void Robot::on_event() {
   if (overflowed_) trap(TP_TRAP_STACK, kStackOverflow);
   fold();
+  if (observer_) observer_->reached(now_);
   for (;;) {
     deliver();
     check_blocked();
@@ -425,18 +434,22 @@ void Robot::sleep_until(Cycle target, Cycle round) {
       if (woken_) {
         woken_ = false;
         const Cycle at = end_of_round(std::max(window_start_, now_));
-        idle_ += at - now_;
-        now_ = at;
+        idle_to(at);
         break;
       }
       continue;
     }
     if (stop > now_) {
-      idle_ += stop - now_;
-      now_ = stop;
+      idle_to(stop);
     }
   }
   deliver();
+}
+
+void Robot::idle_to(Cycle at) {
+  if (observer_) observer_->waited(now_, at, handler_depth_);
+  idle_ += at - now_;
+  now_ = at;
 }
 
 void Robot::on_disi(Cycle cycles) {
@@ -463,8 +476,7 @@ void Robot::on_power_save() {
       continue;
     }
     if (stop > now_) {
-      idle_ += stop - now_;
-      now_ = stop;
+      idle_to(stop);
     }
   }
   give_budget();
@@ -475,6 +487,25 @@ std::int64_t Robot::next_rand() {
   rand_state_ = rand_state_ * 1103515245u + 12345u;
   note_write();
   return (rand_state_ >> 16) & 0x7FFF;
+}
+
+// --- for observers
+// ---------------------------------------------------------------------------------------------------
+
+bool Robot::interrupt_flag(int vector, Cycle at) const {
+  const InterruptSource& s = interrupts_.source(vector);
+  return (s.flag && s.flag_since <= at) || s.due <= at;
+}
+
+Cycle Robot::next_interrupt_flag(int vector, Cycle at) const {
+  const InterruptSource& s = interrupts_.source(vector);
+  if (s.flag && s.flag_since > at) return s.flag_since;
+  return s.due > at ? s.due : kNever;
+}
+
+void Robot::callback(const void* function) {
+  if (observer_)
+    observer_->callback(function ? reinterpret_cast<std::uintptr_t>(function) - copy_.base() : 0, now());
 }
 
 // --- the end of a program
@@ -534,6 +565,7 @@ void Robot::fault(int kind, std::string message, std::uintptr_t pc, std::uintptr
 }
 
 void Robot::stop_with(TrapReport report) {
+  if (observer_) observer_->ended(now_);
   traps_.push_back(std::move(report));
   stopped_ = true;
   registers_->processor_stopped();

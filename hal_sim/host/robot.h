@@ -17,6 +17,7 @@
 #include "hal_sim/host/fiber.h"
 #include "hal_sim/host/image.h"
 #include "hal_sim/host/interrupts.h"
+#include "hal_sim/host/observer.h"
 #include "hal_sim/host/symbols.h"
 
 namespace host {
@@ -94,6 +95,17 @@ class Robot final : public Context {
   /// windows only. Traps stay reported.
   void restart();
 
+  // --- for whoever writes its course down
+  // ----------------------------------------------------------------------
+  /// Null: nobody. Between windows only; outlives the robot or is taken away.
+  void observe(Observer* observer) { observer_ = observer; }
+  /// The flag of an interrupt at `at`, not before what has already run; and the first cycle after `at` at
+  /// which it rises by itself, kNever if none.
+  bool interrupt_flag(int vector, Cycle at) const;
+  Cycle next_interrupt_flag(int vector, Cycle at) const;
+  /// Asleep in a wait that has not ended yet.
+  bool is_waiting() const { return idling_ && !stopped_; }
+
   // --- Context
   // ----------------------------------------------------------------------------------------------
   board::Board& board() override { return board_; }
@@ -109,6 +121,7 @@ class Robot final : public Context {
   void irq_at(int vector, Cycle at) override;
   void irq_every(int vector, Cycle first, Cycle period);  ///< period 0: once
   void set_background(int slot, Cycle period, Cycle cost) override;
+  void callback(const void* function) override;
   [[noreturn]] void trap(int kind, std::string_view message) override;
 
   // --- what the compiler inserts
@@ -166,6 +179,7 @@ class Robot final : public Context {
   Cycle next_disturbance();  // when an interrupt or the end of DISI may change the program's course
   void deliver();            // due interrupts, in order
   void serve(int vector);
+  void idle_to(Cycle at);     // jumps over a wait
   void pass_window();         // now_ >= end_: let the others run
   void run_main(Cycle main);  // spends main cycles, delivering on the way
   void sleep_until(Cycle target,
@@ -216,6 +230,7 @@ class Robot final : public Context {
   Cycle poll_at_ = 0;
   std::int64_t poll_served_ = 0;
 
+  Observer* observer_ = nullptr;
   std::uint32_t rand_state_ = 1;
   std::vector<TrapReport> traps_;
   std::string last_words_;

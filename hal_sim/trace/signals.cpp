@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+#include "hal_sim/trace/signals.h"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+
+#include "hal_sim/board/epuck_params.h"
+#include "hal_sim/board/remote_params.h"
+#include "hal_sim/host/image_abi.h"
+#include "hal_sim/host/registers.h"
+#include "sim_core/load/world_loader.h"
+
+namespace trace {
+
+namespace {
+
+constexpr const char* kPorts = "ABCDFG";
+constexpr const char* kLines[] = {"TX1", "RX1", "TX2", "RX2"};
+constexpr int kMostElements = 256;
+
+struct Named {
+  const char* name;
+  const char* group;
+  Source source;
+  int index;
+  int shift;
+  int width;
+};
+
+// names of e_epuck_ports.h
+constexpr Named kNamed[] = {
+    {"LED0", "leds", Source::Lights, 0, 0, 1},
+    {"LED1", "leds", Source::Lights, 0, 1, 1},
+    {"LED2", "leds", Source::Lights, 0, 2, 1},
+    {"LED3", "leds", Source::Lights, 0, 3, 1},
+    {"LED4", "leds", Source::Lights, 0, 4, 1},
+    {"LED5", "leds", Source::Lights, 0, 5, 1},
+    {"LED6", "leds", Source::Lights, 0, 6, 1},
+    {"LED7", "leds", Source::Lights, 0, 7, 1},
+    {"BODY_LED", "leds", Source::Lights, 0, 8, 1},
+    {"FRONT_LED", "leds", Source::Lights, 0, 9, 1},
+    {"MOTOR1_PHA", "motors", Source::Lat, 'D', 0, 1},
+    {"MOTOR1_PHB", "motors", Source::Lat, 'D', 1, 1},
+    {"MOTOR1_PHC", "motors", Source::Lat, 'D', 2, 1},
+    {"MOTOR1_PHD", "motors", Source::Lat, 'D', 3, 1},
+    {"MOTOR2_PHA", "motors", Source::Lat, 'D', 4, 1},
+    {"MOTOR2_PHB", "motors", Source::Lat, 'D', 5, 1},
+    {"MOTOR2_PHC", "motors", Source::Lat, 'D', 6, 1},
+    {"MOTOR2_PHD", "motors", Source::Lat, 'D', 7, 1},
+    {"left_coils", "motors", Source::Lat, 'D', 0, 4},
+    {"right_coils", "motors", Source::Lat, 'D', 4, 4},
+    {"left_steps", "motors", Source::Steps, 0, 0, 32},
+    {"right_steps", "motors", Source::Steps, 1, 0, 32},
+    {"PULSE_IR0", "pins", Source::Lat, 'F', 7, 1},
+    {"PULSE_IR1", "pins", Source::Lat, 'F', 8, 1},
+    {"PULSE_IR2", "pins", Source::Lat, 'G', 0, 1},
+    {"PULSE_IR3", "pins", Source::Lat, 'G', 1, 1},
+    {"AUDIO_ON", "pins", Source::Lat, 'F', board::kCodecOnBit, 1},
+    {"CAM_RESET", "pins", Source::Lat, 'C', board::kCameraResetBit, 1},
+    {"REMOTE", "pins", Source::Port, 'F', board::kRemoteBit, 1},
+    {"BATT_LOW", "pins", Source::Port, 'F', 1, 1},
+};
+
+Signal signal(std::string group, std::string name, Source source, int index, int shift, int width) {
+  Signal s;
+  s.group = std::move(group);
+  s.name = std::move(name);
+  s.source.kind = source;
+  s.source.index = index;
+  s.shift = shift;
+  s.width = width;
+  return s;
+}
+
+// LATA, PORTB3, TRISD, RA6; false: not a port
+bool port_signal(const std::string& name, Signal& out) {
+  struct Form {
+    const char* prefix;
+    Source source;
+    bool pin;
+  };
+  for (const Form& form : {Form{"LAT", Source::Lat, false}, Form{"PORT", Source::Port, false},
+                           Form{"TRIS", Source::Tris, false}, Form{"R", Source::Port, true}}) {
+    const std::string prefix = form.prefix;
+    if (name.rfind(prefix, 0) != 0 || name.size() <= prefix.size()) continue;
+    const char letter = name[prefix.size()];
+    if (std::string(kPorts).find(letter) == std::string::npos) continue;
+    const std::string number = name.substr(prefix.size() + 1);
+    if (number.empty() && !form.pin) {
+      out = signal("pins", name, form.source, letter, 0, 16);
+      return true;
+    }
+    if (number.empty() || number.size() > 2 || number.find_first_not_of("0123456789") != std::string::npos)
+      continue;
+    const int bit = std::atoi(number.c_str());
+    if (bit > 15 || number != std::to_string(bit)) continue;
+    out = signal("pins", name, form.source, letter, bit, 1);
+    return true;
+  }
+  return false;
+}
+
+// a number, or the numbers of an array
+std::string add_variable(const std::string& name, const host::Robot& robot, std::vector<Signal>& out) {
+  std::string error;
+  const host::Variable* v = robot.symbols().find_variable(name, error);
+  if (!v) return error.empty() ? "got '" + name + "', expected a variable" : error;
+  if (v->kind == host::Variable::Kind::Aggregate) {
+    for (int i = 0; i < kMostElements; ++i) {
+      const std::string element = name + "[" + std::to_string(i) + "]";
+      if (!robot.symbols().find_variable(element, error)) {
+        if (i > 0) return "";
+        return "got '" + name + "', a struct, expected one of its members";
+      }
+      const std::string wrong = add_variable(element, robot, out);
+      if (!wrong.empty()) return wrong;
+      if (out.size() >= kMostElements) return "";
+    }
+    return "";
+  }
+  Signal s = signal("variables", name, Source::Variable, 0, 0,
+                    v->bits > 0 ? v->bits : static_cast<int>(v->bytes) * 8);
+  if (s.width > 64) return "got '" + name + "', which is wider than 64 bits, expected a number";
+  s.source.variable = *v;
+  s.real = v->kind == host::Variable::Kind::Float;
+  if (s.real) s.width = 64;
+  out.push_back(std::move(s));
+  return "";
+}
+
+}  // namespace
+
+std::vector<Signal> find_signals(const std::string& name, const host::Robot* robot, std::string& error) {
+  error.clear();
+  for (const Named& n : kNamed)
+    if (name == n.name) return {signal(n.group, n.name, n.source, n.index, n.shift, n.width)};
+  Signal port;
+  if (port_signal(name, port)) return {port};
+  for (int line = 0; line < 4; ++line)
+    if (name == kLines[line])
+      return {signal("uart", name, Source::WireByte, line, 0, 8),
+              signal("uart", name + "_busy", Source::WireBusy, line, 0, 1)};
+  for (int v = 0; v < TP_VECTORS; ++v)
+    if (name == host::vector_name(v) && name != "?")
+      return {signal("interrupts", name + "_flag", Source::Flag, v, 0, 1),
+              signal("interrupts", name + "_service", Source::Service, v, 0, 1)};
+  std::vector<Signal> found;
+  std::string wrong = "no firmware";
+  if (robot) {
+    wrong = add_variable(name, *robot, found);
+    if (wrong.empty()) return found;
+  }
+  // the nearest of the names that are no variables
+  std::vector<std::string> known;
+  for (const Named& n : kNamed) known.push_back(n.name);
+  for (const char* line : kLines) known.push_back(line);
+  for (int v = 0; v < TP_VECTORS; ++v) known.push_back(host::vector_name(v));
+  for (const char* p = kPorts; *p; ++p)
+    for (const char* kind : {"LAT", "PORT", "TRIS"}) known.push_back(std::string(kind) + *p);
+  const std::string guess = sim::did_you_mean(name, known);
+  error = fmt::format("got '{}', expected a pin, a port, an interrupt, a UART's line or a variable ({}){}",
+                      name, wrong, guess.empty() ? "" : "; did you mean '" + guess + "'?");
+  return {};
+}
+
+const std::vector<std::string>& usual_signals() {
+  static const std::vector<std::string> kUsual{
+      "LED0",       "LED1",        "LED2",       "LED3",       "LED4",       "LED5",
+      "LED6",       "LED7",        "BODY_LED",   "FRONT_LED",  "MOTOR1_PHA", "MOTOR1_PHB",
+      "MOTOR1_PHC", "MOTOR1_PHD",  "MOTOR2_PHA", "MOTOR2_PHB", "MOTOR2_PHC", "MOTOR2_PHD",
+      "left_steps", "right_steps", "PULSE_IR0",  "PULSE_IR1",  "PULSE_IR2",  "PULSE_IR3",
+      "AUDIO_ON",   "TX1",         "RX1",        "TX2",        "RX2"};
+  return kUsual;
+}
+
+}  // namespace trace

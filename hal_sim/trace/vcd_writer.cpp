@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+#include "hal_sim/trace/vcd_writer.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+
+namespace trace {
+
+namespace {
+
+// room for the comment and the last time stamp of a file that is cut
+constexpr std::int64_t kEndBytes = 200;
+
+// printable characters, lowest digit first
+std::string code_of(std::size_t number) {
+  std::string code;
+  do {
+    code += static_cast<char>('!' + number % 94);
+    number /= 94;
+  } while (number > 0);
+  return code;
+}
+
+// no blanks, and no characters that viewers take for a hierarchy or a range of bits
+std::string plain(const std::string& name) {
+  std::string out;
+  for (const char c : name) {
+    if (c == '[')
+      out += '(';
+    else if (c == ']')
+      out += ')';
+    else
+      out += c > ' ' && c < 127 && c != '.' && c != '$' && c != '\\' ? c : '_';
+  }
+  return out;
+}
+
+}  // namespace
+
+std::int64_t to_ns(sim::Clicks at) {
+  const auto ns = static_cast<__int128>(at) * 1'000'000'000 + sim::kClicksPerSecond / 2;
+  return static_cast<std::int64_t>(ns / sim::kClicksPerSecond);
+}
+
+VcdWriter::VcdWriter(std::string path, const std::vector<Scope>& scopes, Window window)
+    : path_(std::move(path)), window_(window) {
+  file_ = std::fopen(path_.c_str(), "wb");
+  if (!file_) {
+    error_ = path_ + ": --vcd: cannot be written: " + std::strerror(errno);
+    return;
+  }
+  pending_ = "$version twinpuck $end\n$timescale 1 ns $end\n";
+  for (const Scope& scope : scopes) {
+    pending_ += "$scope module " + plain(scope.name) + " $end\n";
+    std::string group;
+    for (const Signal& signal : scope.signals) {
+      if (signal.group != group) {
+        if (!group.empty()) pending_ += "$upscope $end\n";
+        group = signal.group;
+        pending_ += "$scope module " + group + " $end\n";
+      }
+      Line line;
+      line.code = code_of(lines_.size());
+      line.width = signal.width;
+      line.real = signal.real;
+      const std::string range =
+          signal.width > 1 && !signal.real ? fmt::format(" [{}:0]", signal.width - 1) : "";
+      pending_ += fmt::format("$var {} {} {} {}{} $end\n", signal.real ? "real" : "wire", signal.width,
+                              line.code, plain(signal.name), range);
+      lines_.push_back(std::move(line));
+    }
+    if (!group.empty()) pending_ += "$upscope $end\n";
+    pending_ += "$upscope $end\n";
+  }
+  pending_ += "$enddefinitions $end\n";
+  flush();
+}
+
+VcdWriter::~VcdWriter() {
+  if (file_) std::fclose(file_);
+}
+
+void VcdWriter::arrive(sim::Clicks at) {
+  // all changes at the window's first instant belong to the values that it begins with
+  if (!armed_ && at > window_.from) {
+    armed_ = true;
+    const bool holds = window_.trigger < 0 ||
+                       (lines_[static_cast<std::size_t>(window_.trigger)].known &&
+                        lines_[static_cast<std::size_t>(window_.trigger)].value == window_.trigger_value);
+    if (holds && state_ == State::Before) begin(window_.from);
+  }
+  if (at > window_.to && state_ == State::Writing) end(window_.to, "");
+  if (at > window_.to) state_ = State::Done;
+}
+
+void VcdWriter::change(sim::Clicks at, int signal, std::uint64_t value) {
+  if (is_done()) return;
+  arrive(at);
+  Line& line = lines_[static_cast<std::size_t>(signal)];
+  line.known = true;
+  line.value = value;
+  if (state_ == State::Before) {
+    if (armed_ && signal == window_.trigger && value == window_.trigger_value) begin(at);
+    return;
+  }
+  if (state_ != State::Writing) return;
+  const std::size_t before = pending_.size();
+  const std::int64_t stamped = stamped_ns_;
+  stamp(at);
+  write_value(line);
+  if (bytes_ + static_cast<std::int64_t>(pending_.size()) + kEndBytes > window_.most_bytes) {
+    pending_.resize(before);
+    stamped_ns_ = stamped;
+    cut_ = true;
+    end(at, fmt::format("$comment the file would grow beyond --vcd-max-mb at {} ns $end\n", to_ns(at)));
+  }
+}
+
+void VcdWriter::begin(sim::Clicks at) {
+  state_ = State::Writing;
+  stamp(at);
+  pending_ += "$dumpvars\n";
+  for (const Line& line : lines_) write_value(line);
+  pending_ += "$end\n";
+}
+
+void VcdWriter::end(sim::Clicks at, const std::string& comment) {
+  stamp(at);
+  pending_ += comment;
+  state_ = State::Done;
+  flush();
+}
+
+void VcdWriter::stamp(sim::Clicks at) {
+  const std::int64_t ns = to_ns(at);
+  if (ns <= stamped_ns_) return;
+  stamped_ns_ = ns;
+  pending_ += fmt::format("#{}\n", ns);
+}
+
+void VcdWriter::write_value(const Line& line) {
+  if (line.real) {
+    double value = 0;
+    std::memcpy(&value, &line.value, sizeof value);
+    pending_ += fmt::format("r{:.16g} {}\n", value, line.code);
+    return;
+  }
+  if (line.width == 1) {
+    pending_ += !line.known ? "x" : line.value ? "1" : "0";
+    pending_ += line.code + "\n";
+    return;
+  }
+  pending_ += line.known ? fmt::format("b{:b} {}\n", line.value, line.code) : "bx " + line.code + "\n";
+}
+
+void VcdWriter::tick(sim::Clicks now) {
+  if (is_done()) return;
+  arrive(now);
+  flush();
+}
+
+void VcdWriter::finish(sim::Clicks now) {
+  if (!file_) return;
+  if (!is_done()) {
+    arrive(now + (armed_ ? 0 : 1));
+    if (state_ == State::Writing) end(now, "");
+  }
+  flush();
+  if (std::fclose(file_) != 0 && error_.empty())
+    error_ = path_ + ": --vcd: cannot be written: " + std::strerror(errno);
+  file_ = nullptr;
+}
+
+void VcdWriter::flush() {
+  if (pending_.empty() || !file_) return;
+  bytes_ += static_cast<std::int64_t>(pending_.size());
+  if (std::fwrite(pending_.data(), 1, pending_.size(), file_) != pending_.size() || std::fflush(file_) != 0) {
+    error_ = path_ + ": --vcd: cannot be written: " + std::strerror(errno);
+    state_ = State::Done;
+  }
+  pending_.clear();
+}
+
+}  // namespace trace
