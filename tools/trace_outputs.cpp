@@ -13,6 +13,7 @@ namespace tools {
 namespace {
 
 constexpr double kBytesPerMb = 1e6;
+constexpr sim::Clicks kCounterClicks = sim::kClicksPerSecond / 100;  // from one point of a curve to the next
 
 bool is_same(const trace::Signal& a, const trace::Signal& b) {
   return a.group == b.group && a.name == b.name;
@@ -32,6 +33,11 @@ void add_trace_options(CLI::App& verb, TraceArguments& a) {
   verb.add_option("--vcd-to", a.to_s, "last second of the window")->check(CLI::NonNegativeNumber);
   verb.add_option("--vcd-trigger", a.trigger,
                   "ROBOT:SIGNAL=VALUE: the window begins when the signal has the value");
+  verb.add_option("--trace", a.timeline,
+                  "time line of main program, interrupts, agendas and counters (JSON for ui.perfetto.dev)");
+  verb.add_option("--trace-max-mb", a.most_timeline_mb, "the time line ends before it is larger")
+      ->check(CLI::Range(0.001, 1e6))
+      ->capture_default_str();
   verb.add_option("--vcd-max-mb", a.most_mb, "the dump ends before it is larger")
       ->check(CLI::Range(0.001, 1e6))
       ->capture_default_str();
@@ -149,15 +155,15 @@ bool TraceOutputs::choose(std::vector<std::vector<trace::Signal>>& signals, trac
 bool TraceOutputs::open(std::vector<std::string>& problems) {
   const auto& a = arguments_;
   const std::size_t before = problems.size();
-  if (a.vcd.empty()) {
-    if (!a.signals.empty() || !a.trigger.empty())
-      problems.push_back("command line: --vcd-signals: got signals without a file, expected --vcd FILE too");
-    return problems.size() == before;
-  }
+  if (a.vcd.empty() && (!a.signals.empty() || !a.trigger.empty()))
+    problems.push_back("command line: --vcd-signals: got signals without a file, expected --vcd FILE too");
+  if (problems.size() != before || (a.vcd.empty() && a.timeline.empty())) return problems.size() == before;
   std::vector<std::vector<trace::Signal>> signals(static_cast<std::size_t>(twin_.robots()));
   trace::Window window;
   if (!a.vcd.empty() && (!choose(signals, window, problems) || !can_write(a.vcd, "--vcd", problems)))
     return false;
+  if (!can_write(a.timeline, "--trace", problems)) return false;
+  const bool spans = !a.timeline.empty();
   std::vector<trace::VcdWriter::Scope> scopes;
   int first = 0;
   for (int r = 0; r < twin_.robots(); ++r) {
@@ -165,15 +171,22 @@ bool TraceOutputs::open(std::vector<std::string>& problems) {
     const int count = static_cast<int>(mine.size());
     if (count > 0) scopes.push_back({twin_.world().robots[static_cast<std::size_t>(r)].name, mine});
     auto& mind = twin_.mind(r);
-    if (count > 0)
+    if (count > 0 || spans)
       traced_.push_back(
           {r, first,
-           std::make_unique<trace::RobotTrace>(mind.board(), mind.robot(), std::move(mine), false)});
+           std::make_unique<trace::RobotTrace>(mind.board(), mind.robot(), std::move(mine), spans)});
     first += count;
   }
   if (!a.vcd.empty()) {
     vcd_ = std::make_unique<trace::VcdWriter>(a.vcd, scopes, window);
     if (!vcd_->error().empty()) problems.push_back(vcd_->error());
+  }
+  if (spans) {
+    timeline_ = std::make_unique<trace::TimelineWriter>(
+        a.timeline, static_cast<std::int64_t>(a.most_timeline_mb * kBytesPerMb));
+    if (!timeline_->error().empty()) problems.push_back(timeline_->error());
+    for (const Traced& t : traced_)
+      timeline_->add_robot(t.robot, twin_.world().robots[static_cast<std::size_t>(t.robot)].name);
   }
   return problems.size() == before;
 }
@@ -190,7 +203,49 @@ void TraceOutputs::after_tick() {
   }
   write_changes(complete);
   if (vcd_) vcd_->tick(complete);
-  if (vcd_ && vcd_->is_done()) traced_.clear();
+  write_spans();
+  write_counters(twin_.simulation().now());
+  if (timeline_) timeline_->flush();
+  release();
+}
+
+// nobody is observed for files that are full or over
+void TraceOutputs::release() {
+  if ((!vcd_ || vcd_->is_done()) && (!timeline_ || timeline_->is_done())) traced_.clear();
+}
+
+void TraceOutputs::write_spans() {
+  for (Traced& t : traced_) {
+    auto& spans = t.trace->spans();
+    auto& mind = twin_.mind(t.robot);
+    if (timeline_)
+      for (const trace::Span& span : spans)
+        timeline_->span(t.robot, span, mind.board().clock(),
+                        mind.robot() ? &mind.robot()->symbols() : nullptr);
+    spans.clear();
+  }
+}
+
+void TraceOutputs::write_counters(sim::Clicks now) {
+  if (!timeline_ || now < next_count_) return;
+  next_count_ = now + kCounterClicks;
+  for (Traced& t : traced_) {
+    auto& mind = twin_.mind(t.robot);
+    if (const host::Robot* robot = mind.robot()) {
+      const host::Cycle lived = robot->lived_cycles() - t.counted_cycles;
+      const host::Cycle idle = robot->idle_cycles() - t.counted_idle;
+      t.counted_cycles += lived;
+      t.counted_idle += idle;
+      const double load = lived > 0 ? 1 - static_cast<double>(idle) / static_cast<double>(lived) : 0;
+      timeline_->counter(t.robot, now, "cpu load", "percent", 100 * std::clamp(load, 0.0, 1.0));
+    }
+    auto& board = mind.board();
+    timeline_->counter(t.robot, now, "UART bytes sent", "bytes",
+                       static_cast<double>(board.uart(1).sent() + board.uart(2).sent()));
+    timeline_->counter(t.robot, now, "UART bytes received", "bytes",
+                       static_cast<double>(t.trace->received()));
+    timeline_->counter(t.robot, now, "battery", "V", board.battery().voltage(mind.now()));
+  }
 }
 
 void TraceOutputs::write_changes(sim::Clicks before) {
@@ -206,15 +261,23 @@ void TraceOutputs::write_changes(sim::Clicks before) {
     if (vcd_) vcd_->change(w.change.at, w.signal, w.change.value);
 }
 
-bool TraceOutputs::failed() const { return vcd_ && !vcd_->error().empty(); }
+bool TraceOutputs::failed() const {
+  return (vcd_ && !vcd_->error().empty()) || (timeline_ && !timeline_->error().empty());
+}
 
 void TraceOutputs::finish(std::vector<std::string>& problems) {
   for (Traced& t : traced_) t.trace->finish(twin_.mind(t.robot).now());
   const sim::Clicks now = twin_.simulation().now();
   write_changes(now);
-  if (!vcd_) return;
-  vcd_->finish(now);
-  if (!vcd_->error().empty()) problems.push_back(vcd_->error());
+  write_spans();
+  if (vcd_) {
+    vcd_->finish(now);
+    if (!vcd_->error().empty()) problems.push_back(vcd_->error());
+  }
+  if (timeline_) {
+    timeline_->finish();
+    if (!timeline_->error().empty()) problems.push_back(timeline_->error());
+  }
   traced_.clear();
 }
 

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include "hal_sim/trace/timeline_writer.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "hal_sim/host/registers.h"
+#include "hal_sim/trace/vcd_writer.h"
+
+namespace trace {
+
+namespace {
+
+enum Track { kMain = 1, kInterrupts = 2, kAgendas = 3 };
+constexpr std::int64_t kEndBytes = 200;
+
+std::string json_text(const std::string& text) {
+  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+std::string micros(std::int64_t ns) { return fmt::format("{}.{:03}", ns / 1000, ns % 1000); }
+
+}  // namespace
+
+TimelineWriter::TimelineWriter(std::string path, std::int64_t most_bytes)
+    : path_(std::move(path)), most_bytes_(most_bytes) {
+  file_ = std::fopen(path_.c_str(), "wb");
+  if (!file_) {
+    error_ = path_ + ": --trace: cannot be written: " + std::strerror(errno);
+    return;
+  }
+  pending_ = "[\n";
+  flush();
+}
+
+TimelineWriter::~TimelineWriter() {
+  if (file_) std::fclose(file_);
+}
+
+void TimelineWriter::add(const std::string& event) {
+  if (done_) return;
+  if (bytes_ + static_cast<std::int64_t>(pending_.size() + event.size()) + kEndBytes > most_bytes_) {
+    done_ = true;
+    pending_ += std::string(first_ ? "" : ",\n") +
+                R"({"name":"the file would grow beyond --trace-max-mb","ph":"M","pid":0})";
+    first_ = false;
+    return;
+  }
+  // the comma comes before the event, so that what is there can be closed at any line's end
+  if (!first_) pending_ += ",\n";
+  first_ = false;
+  pending_ += event;
+}
+
+void TimelineWriter::add_robot(int robot, const std::string& name) {
+  const auto label = [&](const char* what, int track, const std::string& text) {
+    add(fmt::format(R"({{"name":"{}","ph":"M","pid":{},"tid":{},"args":{{"name":{}}}}})", what, robot, track,
+                    json_text(text)));
+  };
+  label("process_name", 0, name);
+  label("thread_name", kMain, "main program");
+  label("thread_name", kInterrupts, "interrupts");
+  label("thread_name", kAgendas, "agendas");
+}
+
+void TimelineWriter::span(int robot, const Span& span, const board::RobotClock& clock,
+                          const host::Symbols* symbols) {
+  std::string name, args;
+  Track track = kMain;
+  const auto ns = [&](host::Cycle at) { return to_ns(clock.click_at(at)); };
+  switch (span.kind) {
+    case Span::Kind::Busy:
+      name = "busy";
+      break;
+    case Span::Kind::Waiting:
+      name = "waiting";
+      break;
+    case Span::Kind::HandlerWaiting:
+      name = "waiting";
+      track = kInterrupts;
+      break;
+    case Span::Kind::Handler:
+      name = host::vector_name(span.vector);
+      track = kInterrupts;
+      args = fmt::format(R"(,"first_instruction_us":{},"interrupted_handlers":{})", micros(ns(span.first)),
+                         span.depth);
+      if (span.flagged >= 0)
+        args += fmt::format(R"(,"flag_us":{},"latency_cycles":{})", micros(ns(span.flagged)),
+                            span.first - span.flagged);
+      break;
+    case Span::Kind::Callback: {
+      track = kAgendas;
+      std::string& known = names_[{robot, span.function}];
+      if (known.empty() && symbols) known = symbols->find(span.function).function;
+      if (known.empty()) known = fmt::format("{:#x}", span.function);
+      name = known;
+      break;
+    }
+  }
+  const std::int64_t begin = ns(span.begin);
+  add(fmt::format(R"({{"name":{},"ph":"X","pid":{},"tid":{},"ts":{},"dur":{},"args":{{"cycles":{}{}}}}})",
+                  json_text(name), robot, static_cast<int>(track), micros(begin), micros(ns(span.end) - begin),
+                  span.end - span.begin, args));
+}
+
+void TimelineWriter::counter(int robot, sim::Clicks at, const char* name, const char* unit, double value) {
+  add(fmt::format(R"({{"name":"{}","ph":"C","pid":{},"ts":{},"args":{{"{}":{:.6g}}}}})", name, robot,
+                  micros(to_ns(at)), unit, value));
+}
+
+void TimelineWriter::flush() {
+  if (pending_.empty() || !file_) return;
+  bytes_ += static_cast<std::int64_t>(pending_.size());
+  if (std::fwrite(pending_.data(), 1, pending_.size(), file_) != pending_.size() || std::fflush(file_) != 0) {
+    error_ = path_ + ": --trace: cannot be written: " + std::strerror(errno);
+    done_ = true;
+  }
+  pending_.clear();
+}
+
+void TimelineWriter::finish() {
+  if (!file_) return;
+  pending_ += "\n]\n";
+  flush();
+  if (std::fclose(file_) != 0 && error_.empty())
+    error_ = path_ + ": --trace: cannot be written: " + std::strerror(errno);
+  file_ = nullptr;
+}
+
+}  // namespace trace

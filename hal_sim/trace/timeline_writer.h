@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// A time line for Perfetto and chrome://tracing (Trace Event Format, the JSON array): a process for every
+// robot with tracks for its main program, interrupts and agendas, and counters. Times are microseconds of
+// world time with three decimals. An event a line; what is complete goes to the file at every tick, and
+// viewers accept an array without its end, so that a file is readable up to there after any crash.
+#pragma once
+#include <cstdint>
+#include <cstdio>
+#include <map>
+#include <string>
+
+#include "hal_sim/board/clock.h"
+#include "hal_sim/trace/robot_trace.h"
+
+namespace trace {
+
+class TimelineWriter {
+ public:
+  /// `most_bytes`: the file ends before it is larger.
+  TimelineWriter(std::string path, std::int64_t most_bytes);
+  ~TimelineWriter();
+  TimelineWriter(const TimelineWriter&) = delete;
+  TimelineWriter& operator=(const TimelineWriter&) = delete;
+
+  /// Names the tracks of a robot.
+  void add_robot(int robot, const std::string& name);
+  /// `symbols` names callbacks; null: by address.
+  void span(int robot, const Span& span, const board::RobotClock& clock, const host::Symbols* symbols);
+  /// One point of a curve named `name`; `unit` names the value.
+  void counter(int robot, sim::Clicks at, const char* name, const char* unit, double value);
+  /// What was told so far goes to the file.
+  void flush();
+  void finish();
+
+  bool is_done() const { return done_; }
+  const std::string& error() const { return error_; }
+
+ private:
+  void add(const std::string& event);
+
+  std::string path_;
+  std::FILE* file_ = nullptr;
+  std::string error_;
+  std::string pending_;
+  std::int64_t bytes_ = 0;
+  std::int64_t most_bytes_;
+  bool done_ = false;
+  bool first_ = true;
+  std::map<std::pair<int, std::uintptr_t>, std::string> names_;
+};
+
+}  // namespace trace

@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: MIT
+// --vcd and --trace: files that strict readers take, changes at the cycles at which they happen. Times in the
+// expectations are worked out from the timers' periods at 14,745,600 cycles a second.
+#include <cmath>
+#include <csignal>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "tests/cli/command.h"
+
+using namespace cli_test;
+using nlohmann::json;
+
+namespace {
+
+constexpr double kCycleNs = 1e9 / 14'745'600;
+
+// what a strict reader gets from a dump: the changes of every signal by its full name
+struct Dump {
+  using Changes = std::vector<std::pair<long long, std::string>>;  // ns, value as written
+  std::map<std::string, Changes> signals;
+  long long first_ns = -1, last_ns = -1;
+  std::string comment;
+};
+
+// fails the test at the first token that the standard does not allow where it stands
+Dump parse(const std::string& text) {
+  Dump dump;
+  std::map<std::string, std::string> names;  // code -> full name
+  std::map<std::string, int> widths;
+  std::vector<std::string> scopes;
+  std::istringstream in(text);
+  std::string word;
+  bool defined = false;
+  const auto expect_end = [&] {
+    in >> word;
+    EXPECT_EQ(word, "$end");
+  };
+  while (in >> word) {
+    if (word == "$version" || word == "$timescale" || word == "$comment") {
+      std::string body, w;
+      while (in >> w && w != "$end") body += w + " ";
+      EXPECT_EQ(w, "$end");
+      if (word == "$timescale") EXPECT_EQ(body, "1 ns ");
+      if (word == "$comment") dump.comment = body;
+    } else if (word == "$scope") {
+      std::string kind, name;
+      in >> kind >> name;
+      EXPECT_EQ(kind, "module");
+      scopes.push_back(name);
+      expect_end();
+    } else if (word == "$upscope") {
+      EXPECT_FALSE(scopes.empty());
+      scopes.pop_back();
+      expect_end();
+    } else if (word == "$var") {
+      EXPECT_FALSE(defined);
+      std::string kind, code, name, rest;
+      int width;
+      in >> kind >> width >> code >> name >> rest;
+      EXPECT_TRUE(kind == "wire" || kind == "real") << kind;
+      if (rest != "$end") {
+        EXPECT_EQ(rest, "[" + std::to_string(width - 1) + ":0]");
+        expect_end();
+      }
+      std::string full;
+      for (const auto& s : scopes) full += s + "/";
+      EXPECT_TRUE(names.emplace(code, full + name).second) << "code twice: " << code;
+      widths[code] = kind == "real" ? 0 : width;
+      dump.signals[full + name];
+    } else if (word == "$enddefinitions") {
+      expect_end();
+      EXPECT_TRUE(scopes.empty());
+      defined = true;
+    } else if (word == "$dumpvars" || word == "$end") {
+      EXPECT_TRUE(defined);
+    } else if (word[0] == '#') {
+      const long long ns = std::stoll(word.substr(1));
+      EXPECT_GT(ns, dump.last_ns) << "time does not grow";
+      if (dump.first_ns < 0) dump.first_ns = ns;
+      dump.last_ns = ns;
+    } else {
+      EXPECT_GE(dump.last_ns, 0) << "a value before any time";
+      std::string value, code;
+      if (word[0] == 'b' || word[0] == 'r') {
+        value = word.substr(1);
+        in >> code;
+        EXPECT_EQ(widths[code] == 0, word[0] == 'r');
+      } else {
+        EXPECT_TRUE(word[0] == '0' || word[0] == '1' || word[0] == 'x') << word;
+        value = word.substr(0, 1);
+        code = word.substr(1);
+        EXPECT_EQ(widths[code], 1);
+      }
+      const auto name = names.find(code);
+      if (name == names.end()) {
+        ADD_FAILURE() << "unknown code in " << word;
+        return dump;
+      }
+      if (widths[code] > 0) EXPECT_LE(static_cast<int>(value.size()), widths[code]);
+      dump.signals[name->second].emplace_back(dump.last_ns, value);
+    }
+  }
+  EXPECT_TRUE(defined);
+  return dump;
+}
+
+class Traces : public CommandTest {
+ protected:
+  Traces() {
+    write("world.toml",
+          "twinpuck = 1\n[[robot]]\nname = \"puck\"\n[[robot]]\nname = \"two\"\nat = [0.5, 0.5]\n");
+    write("busy/main.c",
+          "#include <p30F6014A.h>\n"
+          "#include <motor_led/e_init_port.h>\n"
+          "#include <motor_led/advance_one_timer/e_agenda.h>\n"
+          "#include <motor_led/advance_one_timer/e_motors.h>\n"
+          "#include <uart/e_uart_char.h>\n"
+          "int count;\n"
+          "double half;\n"
+          "int pair[2] = {3, -4};\n"
+          "volatile unsigned int ticks;\n"
+          "void __attribute__((interrupt, auto_psv)) _T1Interrupt(void) { IFS0bits.T1IF = 0; ticks++; }\n"
+          "static void beat(void) {\n"
+          "  volatile int i;\n"
+          "  count++; half = count * 0.5; pair[1]--;\n"
+          "  for (i = 0; i < 2000; i++);\n" /* far longer than T1's period */
+          "}\n"
+          "int main(void) {\n"
+          "  e_init_port(); e_init_uart1(); e_init_motors(); e_start_agendas_processing();\n"
+          "  e_activate_agenda(beat, 500);\n"
+          "  e_set_speed_right(500); e_set_speed_left(-250);\n"
+          "  IPC0bits.T1IP = 6; PR1 = 4999; T1CON = 0x8000; IEC0bits.T1IE = 1;\n"
+          "  e_send_uart1_char(\"AB\", 2);\n"
+          "  while (1);\n"
+          "}\n");
+  }
+  Said run(const std::string& options, const std::string& before = "") const {
+    return twinpuck("run " + path("world.toml") + " -q --fw 'puck=" + path("busy") + "' " + options, before);
+  }
+};
+
+TEST_F(Traces, blink_toggles_at_every_thousandth_agenda_tick) {
+  const Said s = twinpuck("run empty --fw '*=blink' -q --for 0.65 --vcd " + path("b.vcd"));
+  ASSERT_EQ(s.exit_code, 0) << s.text;
+  const Dump dump = parse(read(path("b.vcd")));
+  const auto& led = dump.signals.at("puck/leds/LED0");
+  ASSERT_EQ(led.size(), 7u);  // off at 0, then one each 0.1 s
+  EXPECT_EQ(led[0], (std::pair<long long, std::string>{0, "0"}));
+  for (std::size_t i = 2; i < led.size(); ++i) {
+    EXPECT_EQ(led[i].second, i % 2 ? "1" : "0");
+    EXPECT_NEAR(static_cast<double>(led[i].first - led[i - 1].first), 1000 * 1475 * kCycleNs, 1.01);
+  }
+  EXPECT_EQ(dump.signals.at("puck/leds/LED1").size(), 1u);
+  EXPECT_EQ(dump.last_ns, 650'390'625);  // the tick after 0.65 s: 333 of 512 a second
+}
+
+TEST_F(Traces, coils_variables_interrupts_and_bytes_have_their_times) {
+  const Said s =
+      run("--for 0.5 --vcd " + path("t.vcd") +
+          " --vcd-signals puck:right_coils,puck:right_steps,puck:left_steps,puck:count,puck:half,puck:pair,"
+          "puck:T1,puck:TX1,puck:LATD --trace " +
+          path("t.json"));
+  ASSERT_EQ(s.exit_code, 0) << s.text;
+  const Dump dump = parse(read(path("t.vcd")));
+
+  // 500 steps/s: 20 ticks of 1475 cycles; coils off after 15 of them (power save)
+  const auto& coils = dump.signals.at("puck/motors/right_coils");
+  const std::vector<std::string> kPhases{"1010", "110", "101", "1001"};
+  ASSERT_GT(coils.size(), 400u);
+  std::size_t phase = 9;
+  for (std::size_t i = 100; i < 300; ++i) {
+    if (coils[i].second == "0") {
+      EXPECT_NEAR(static_cast<double>(coils[i].first - coils[i - 1].first), 15 * 1475 * kCycleNs, 1.01);
+      EXPECT_NEAR(static_cast<double>(coils[i + 1].first - coils[i - 1].first), 20 * 1475 * kCycleNs, 1.01);
+      continue;
+    }
+    const std::size_t now = static_cast<std::size_t>(
+        std::find(kPhases.begin(), kPhases.end(), coils[i].second) - kPhases.begin());
+    ASSERT_LT(now, 4u) << coils[i].second;
+    if (phase < 4) EXPECT_EQ(now, (phase + 1) % 4);
+    phase = now;
+  }
+  // about 0.5 s of 499.85 and of -249.9 steps/s, which is 32 bits of two's complement
+  const auto steps = std::stoul(dump.signals.at("puck/motors/right_steps").back().second, nullptr, 2);
+  EXPECT_NEAR(static_cast<double>(steps), 249, 3);
+  const auto left = dump.signals.at("puck/motors/left_steps").back().second;
+  ASSERT_EQ(left.size(), 32u);
+  EXPECT_NEAR(static_cast<double>(static_cast<std::int32_t>(std::stoul(left, nullptr, 2))), -124, 3);
+
+  // the agenda of 500 ticks: 50.015 ms; 9 of them
+  const auto& count = dump.signals.at("puck/variables/count");
+  ASSERT_EQ(count.size(), 10u);
+  for (std::size_t i = 2; i < count.size(); ++i) {
+    EXPECT_EQ(std::stoul(count[i].second, nullptr, 2), i);
+    EXPECT_NEAR(static_cast<double>(count[i].first - count[i - 1].first), 500 * 1475 * kCycleNs,
+                200 * kCycleNs);  // variables are looked at every 100 cycles
+  }
+  EXPECT_EQ(dump.signals.at("puck/variables/half").back().second, "4.5");
+  EXPECT_EQ(dump.signals.at("puck/variables/pair(0)").back().second, "11");
+  EXPECT_EQ(dump.signals.at("puck/variables/pair(1)").back().second, "1111111111110011");  // -4 - 9 = -13
+
+  // timer 1: a flag every 5000 cycles, its handler after that
+  const auto& flag = dump.signals.at("puck/interrupts/T1_flag");
+  std::vector<long long> rises;
+  for (const auto& [ns, value] : flag)
+    if (value == "1") rises.push_back(ns);
+  ASSERT_GT(rises.size(), 1000u);
+  EXPECT_NEAR(static_cast<double>(rises[1000] - rises[500]), 500 * 5000 * kCycleNs, 1.01);
+
+  // 115,200 baud: 1280 cycles a byte
+  const auto& busy = dump.signals.at("puck/uart/TX1_busy");
+  ASSERT_EQ(busy.size(), 3u);
+  EXPECT_NEAR(static_cast<double>(busy[2].first - busy[1].first), 2 * 1280 * kCycleNs, 1.01);
+  const auto& byte = dump.signals.at("puck/uart/TX1");
+  ASSERT_EQ(byte.size(), 3u);
+  EXPECT_EQ(byte[1].second, "1000001");
+  EXPECT_EQ(byte[2].second, "1000010");
+
+  // the time line: T1 nested within T2, whose callback is beat
+  const json events = json::parse(read(path("t.json")));
+  int nested = 0, beats = 0;
+  std::set<std::string> counters;
+  for (const json& e : events) {
+    if (e["ph"] == "C") counters.insert(e["name"]);
+    if (e["ph"] != "X") continue;
+    EXPECT_GE(e["dur"].get<double>(), 0);
+    if (e["name"] == "beat") ++beats;
+    if (e["name"] != "T1") continue;
+    const auto& args = e["args"];
+    EXPECT_GE(args["latency_cycles"].get<int>(), 0);
+    nested += args["interrupted_handlers"] == 1;
+  }
+  EXPECT_EQ(beats, 9);
+  EXPECT_GE(nested, 9);
+  for (const char* name : {"cpu load", "battery", "UART bytes sent", "UART bytes received"})
+    EXPECT_TRUE(counters.count(name)) << name;
+}
+
+TEST_F(Traces, do_not_depend_on_threads_nor_change_the_run) {
+  const std::string common = "--fw 'two=blink' --for 0.3 --summary ";
+  for (const char* threads : {"1", "3"})
+    ASSERT_EQ(run(common + path(std::string(threads) + ".s") + " --threads " + threads + " --vcd " +
+                  path(std::string(threads) + ".vcd") + " --vcd-signals '*:LED0,puck:count' --trace " +
+                  path(std::string(threads) + ".json"))
+                  .exit_code,
+              0);
+  ASSERT_EQ(run(common + path("0.s")).exit_code, 0);
+  EXPECT_EQ(read(path("1.vcd")), read(path("3.vcd")));
+  EXPECT_EQ(read(path("1.json")), read(path("3.json")));
+  EXPECT_EQ(json::parse(read(path("0.s")))["digest"], json::parse(read(path("1.s")))["digest"]);
+  EXPECT_EQ(parse(read(path("1.vcd"))).signals.at("two/leds/LED0").size(), 3u);
+}
+
+TEST_F(Traces, a_window_and_a_trigger_bound_the_dump) {
+  ASSERT_EQ(run("--for 0.3 --vcd-from 0.1 --vcd-to 0.2 --vcd-signals puck:right_coils --vcd " + path("w.vcd"))
+                .exit_code,
+            0);
+  const Dump window = parse(read(path("w.vcd")));
+  EXPECT_EQ(window.first_ns, 100'000'000);
+  EXPECT_EQ(window.last_ns, 200'000'000);
+  // the third beat, after 150 ms, starts it
+  ASSERT_EQ(run("--for 0.3 --vcd-trigger puck:count=3 --vcd-signals puck:right_coils --vcd " + path("c.vcd"))
+                .exit_code,
+            0);
+  const Dump triggered = parse(read(path("c.vcd")));
+  EXPECT_NEAR(static_cast<double>(triggered.first_ns), 150e6 + 21e6, 21e6);
+  EXPECT_EQ(triggered.signals.at("puck/variables/count").front().second, "11");
+}
+
+TEST_F(Traces, a_full_dump_ends_cleanly) {
+  ASSERT_EQ(run("--for 1 --vcd-max-mb 0.01 --vcd " + path("c.vcd")).exit_code, 0);
+  const std::string text = read(path("c.vcd"));
+  EXPECT_LE(text.size(), 10'000u);
+  EXPECT_GT(text.size(), 9'000u);
+  EXPECT_NE(parse(text).comment.find("--vcd-max-mb"), std::string::npos);
+}
+
+TEST_F(Traces, a_killed_run_leaves_files_that_can_be_read) {
+  run("--for 100000 --vcd " + path("k.vcd") + " --vcd-max-mb 100000 --trace " + path("k.json"),
+      "timeout -s KILL 4");
+  const Dump dump = parse(read(path("k.vcd")));
+  EXPECT_GT(dump.last_ns, 0);
+  const std::string text = read(path("k.json"));
+  ASSERT_GT(text.size(), 1000u);
+  EXPECT_NO_THROW(EXPECT_GT(json::parse(text + "]").size(), 10u));
+}
+
+TEST_F(Traces, wrong_requests_are_refused_before_the_run) {
+  const auto refused = [&](const std::string& options, const char* what) {
+    const Said s = run(options);
+    EXPECT_EQ(s.exit_code, 2) << options;
+    EXPECT_NE(s.text.find(what), std::string::npos) << s.text;
+  };
+  refused("--vcd " + path("x") + " --vcd-signals puck:LDE0", "did you mean 'LED0'?");
+  refused("--vcd " + path("x") + " --vcd-signals puk:LED0", "did you mean 'puck'?");
+  refused("--vcd " + path("x") + " --vcd-signals LED0", "expected ROBOT:SIGNAL");
+  refused("--vcd " + path("x") + " --vcd-trigger puck:LED0=on", "expected a number");
+  refused("--vcd-signals puck:LED0", "expected --vcd FILE too");
+  refused("--vcd " + path("no/such/folder/x.vcd"), "--vcd: ");
+  refused("--trace " + path("no/such/folder/x.json"), "--trace: ");
+}
+
+}  // namespace
