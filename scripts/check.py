@@ -31,7 +31,7 @@ MAY_INCLUDE = {
     "hal_sim/api": ["hal_sim/host/pins", "hal_sim/host/image_abi.h", "firmware/include"],
     "hal_sim/cc": ["hal_sim/host/image_abi.h", "hal_sim/host/pins"],  # its libc calls the host
     "hal_sim/twin": ["hal_sim/", "sim_core/"],  # ties board, host and world together
-    "hal_sim/register": ["hal_sim/host", "hal_sim/board", "dspic30"],
+    "hal_sim/register": ["hal_sim/host", "hal_sim/chip", "hal_sim/board", "dspic30"],
     "hal_sim/chip": ["hal_sim/board", "hal_sim/host", "dspic30", "sim_core/base", "sim_core/world/robot_mind.h"],
     "hal_dspic": ["firmware/include"],
     "import": ["sim_core/geometry", "sim_core/world", "sim_core/load"],  # it knows e-pucks by their nodes only

@@ -32,7 +32,7 @@ void Adc::attach() {
 void Adc::reset(Cycle now) {
   con1_ = con2_ = con3_ = chs_ = cssl_ = 0;
   buffer_.fill(0);
-  sampling_ = converting_ = false;
+  sampling_ = converting_ = cruising_ = false;
   flag_at_ = kNever;
   restart_sequence();
   f_.events.set(slot_, kNever);
@@ -46,6 +46,7 @@ Adc::Half Adc::tad() const {
 // --- the sequence -----------------------------------------------------------------------------------------
 
 void Adc::restart_sequence() {
+  begun_ = false;
   pointer_ = count_ = 0;
   upper_half_ = mux_b_ = false;
   scan_at_ = cssl_ ? __builtin_ctz(cssl_) : -1;
@@ -70,6 +71,12 @@ void Adc::start_sampling(Half at) {
   sampling_ = true;
   con1_ |= kSamp;
   sampling_since_ = at;
+  if (begun_ && count_ == 0 && is_regular()) {
+    cruising_ = true;
+    sequence_start_ = cruise_start_ = at;
+    result_of_.fill(-1);
+    return;
+  }
   timers_.want_matches(3, ssrc() == kTimer3, at / 2);
 }
 
@@ -97,6 +104,7 @@ void Adc::finish() {
     pointer_ = upper_half_ ? 8 : 0;
     mux_b_ = false;
     scan_at_ = cssl_ ? __builtin_ctz(cssl_) : -1;
+    begun_ = true;
   }
   if (asam()) start_sampling(conversion_end_);
 }
@@ -114,6 +122,54 @@ std::uint16_t Adc::formatted(int counts) const {
   }
 }
 
+// --- cruising ---------------------------------------------------------------------------------------------
+
+Adc::Half Adc::conversion_time() const { return kConversionTads * tad(); }
+
+bool Adc::is_regular() const {
+  return on() && asam() && ssrc() == kAutomatic && !(con2_ & (kAlts | kBufm)) && sample_time() > 0 &&
+         f_.outside.analogue_is_function_of_time();
+}
+
+/// Input of the n-th conversion of a sequence.
+int Adc::scanned_channel(int turn) const {
+  if (!(con2_ & kCscna) || !cssl_) return chs_ & 15;
+  std::uint16_t left = cssl_;
+  for (int i = turn % __builtin_popcount(cssl_); i > 0; --i) left &= static_cast<std::uint16_t>(left - 1);
+  return __builtin_ctz(left);
+}
+
+void Adc::cruise(Cycle now) {
+  const Half length = sequence();
+  if (sequence_start_ + length > 2 * now) return;
+  sequence_start_ += (2 * now - sequence_start_) / length * length;
+  flag_at_ = up(sequence_start_) + kEndToFlag;
+}
+
+/// Back to single stages, as if there had never been anything else.
+void Adc::stop_cruising(Cycle now) {
+  if (!cruising_) return;
+  cruise(now);
+  for (int slot = 0; slot < per_interrupt(); ++slot)
+    buffer_[static_cast<std::size_t>(slot)] = static_cast<std::uint16_t>(cruised_result(slot, now));
+  cruising_ = false;
+  restart_sequence();
+  con1_ |= kDone;
+  start_sampling(sequence_start_);
+  advance(now);
+}
+
+int Adc::cruised_result(int slot, Cycle now) const {
+  const auto s = static_cast<std::size_t>(slot);
+  if (slot >= per_interrupt()) return buffer_[s];
+  const bool done = sequence_start_ + (slot + 1) * cycle() <= 2 * now;
+  const Half start = done ? sequence_start_ : sequence_start_ - sequence();
+  if (start < cruise_start_) return buffer_[s];
+  const Half held = start + slot * cycle() + sample_time();
+  if (result_of_[s] == held) return buffer_[s];
+  return formatted(std::clamp(f_.outside.analogue_counts(scanned_channel(slot), held / 2), 0, 4095));
+}
+
 Adc::Half Adc::next_stage() const {
   if (converting_) return conversion_end_;
   if (sampling_ && ssrc() == kAutomatic) return sampling_since_ + sample_time();
@@ -122,17 +178,23 @@ Adc::Half Adc::next_stage() const {
 
 void Adc::advance(Cycle now) {
   if (!on()) return;
+  if (cruising_) return cruise(now);
   // a stage that ends within a cycle is over in the next one
-  for (Half stage = next_stage(); up(stage) <= now; stage = next_stage()) {
+  for (Half stage = next_stage(); !cruising_ && up(stage) <= now; stage = next_stage()) {
     if (converting_)
       finish();
     else
       hold(stage, stage);
   }
+  if (cruising_) cruise(now);
 }
 
 void Adc::schedule(Cycle now) {
   Cycle at = kNever;
+  if (cruising_) {
+    at = std::max(up(sequence_start_ + sequence()) + kEndToFlag, now + 1);
+    return f_.events.set(slot_, std::min(at, flag_at_));
+  }
   const Half cycle = sample_time() + kConversionTads * tad();
   if (on() && (converting_ || (sampling_ && ssrc() == kAutomatic))) {
     const bool runs_on = asam() && ssrc() == kAutomatic;
@@ -169,13 +231,26 @@ void Adc::int0_edge(Cycle at) {
 
 std::uint16_t Adc::read(unsigned address, Cycle now) {
   advance(now);
-  return peek(address, now);
+  const std::uint16_t word = peek(address, now);
+  if (cruising_ && address < kCon1) {
+    const int slot = static_cast<int>(address - kBuffer) / 2;
+    const bool done = sequence_start_ + (slot + 1) * cycle() <= 2 * now;
+    const Half start = done ? sequence_start_ : sequence_start_ - sequence();
+    if (slot < per_interrupt() && start >= cruise_start_) {
+      buffer_[static_cast<std::size_t>(slot)] = word;
+      result_of_[static_cast<std::size_t>(slot)] = start + slot * cycle() + sample_time();
+    }
+  }
+  return word;
 }
 
 std::uint16_t Adc::peek(unsigned address, Cycle now) const {
   switch (address) {
-    case kCon1:
-      return con1_;
+    case kCon1: {
+      if (!cruising_) return con1_;
+      const bool samples = (2 * now - sequence_start_) % cycle() < sample_time();
+      return static_cast<std::uint16_t>((con1_ & ~(kSamp | kDone)) | (samples ? kSamp | kDone : 0));
+    }
     case kCon2:
       return static_cast<std::uint16_t>(con2_ | (upper_half_ ? kBufs : 0));
     case kCon3:
@@ -185,6 +260,8 @@ std::uint16_t Adc::peek(unsigned address, Cycle now) const {
     case kCssl:
       return cssl_;
     default:
+      if (cruising_)
+        return static_cast<std::uint16_t>(cruised_result(static_cast<int>(address - kBuffer) / 2, now));
       return buffer_[(address - kBuffer) / 2];
   }
 }
@@ -201,6 +278,7 @@ void Adc::changed_while_on(unsigned address, Cycle now) {
 
 void Adc::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycle now) {
   advance(now);
+  stop_cruising(now);
   const Half at = 2 * (now + 1);
   switch (address) {
     case kCon1: {
@@ -247,6 +325,10 @@ void Adc::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
 
 Cycle Adc::horizon(unsigned address, Cycle now) const {
   if (!on() || address == kCon3 || address == kChs || address == kCssl) return kNever;
+  if (cruising_) {
+    const Half r = (2 * now - sequence_start_) % cycle();
+    return std::max(now + 1, up(2 * now + (r < sample_time() ? sample_time() : cycle()) - r));
+  }
   const Half stage = next_stage();
   return stage >= kNever ? kNever : std::max(now + 1, up(stage));
 }

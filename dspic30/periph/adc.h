@@ -8,9 +8,10 @@
 // SMPI, BUFM with BUFS, FORM, ADON at any moment, TAD in half cycles, ADRC as a fixed period. The input is
 // held at the end of sampling and asked for at that instant. Conversions within one interrupt's period are
 // worked out together. Not modelled: VCFG and CH0NA/CH0NB (AVDD, AVSS), ADSIDL, settling of the input,
-// invalid results of too short a sampling time. Source: DS70143 section 20, DS70046 section 18; [?] ADIF one
-// cycle after the end, one TAD between clearing SAMP and the conversion, scan position when SMPI+1 differs
-// from the number of inputs.
+// invalid results of too short a sampling time. A converter that samples, converts and scans by itself
+// cruises: nothing is done per conversion, and a result is worked out when it is read. Source: DS70143
+// section 20, DS70046 section 18; [?] ADIF one cycle after the end, one TAD between clearing SAMP and the
+// conversion, scan position when SMPI+1 differs from the number of inputs.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -48,6 +49,16 @@ class Adc final : public SfrOwner, public EventOwner, public TimerListener {
   bool on() const { return (con1_ & 0x8000) != 0; }
   int per_interrupt() const { return (con2_ >> 2 & 15) + 1; }
 
+  /// Does the converter run by itself, each sequence as the one before?
+  bool is_regular() const;
+  Half cycle() const { return sample_time() + conversion_time(); }
+  Half conversion_time() const;
+  Half sequence() const { return per_interrupt() * cycle(); }
+  void cruise(Cycle now);
+  void stop_cruising(Cycle now);
+  int cruised_result(int slot, Cycle now) const;
+  int scanned_channel(int turn) const;
+
   void start_sampling(Half at);
   void hold(Half at, Half conversion_start);
   void finish();
@@ -76,6 +87,11 @@ class Adc final : public SfrOwner, public EventOwner, public TimerListener {
   int scan_at_ = -1;  // input of ADCSSL in turn
   bool mux_b_ = false;
   std::uint16_t complained_ = 0;  // channels
+  bool begun_ = false;            // a whole sequence was done stage by stage since the converter was set up
+  bool cruising_ = false;
+  Half sequence_start_ = 0;                   // while cruising: of the sequence under way
+  Half cruise_start_ = 0;                     // of the first one
+  mutable std::array<Half, 16> result_of_{};  // instant at which what stands in the buffer was held
 };
 
 }  // namespace dspic
