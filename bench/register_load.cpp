@@ -7,6 +7,7 @@
 #include <ctime>
 #include <vector>
 
+#include "dspic30/device/dspic30f6014a.h"
 #include "hal_sim/board/epuck_model.h"
 #include "hal_sim/board/part.h"
 #include "hal_sim/twin/twin.h"

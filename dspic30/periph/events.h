@@ -2,6 +2,7 @@
 // The instants at which peripherals do something by themselves: one slot each, served in order of time, equal
 // times in order of the slots. What happens between two instants is a closed form of its owner.
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -27,23 +28,26 @@ class Events {
 
   void set(int slot, Cycle at) {
     const auto s = static_cast<std::size_t>(slot);
-    const Cycle before = when_[s];
-    if (before == at) return;
+    if (when_[s] == at) return;
     when_[s] = at;
-    if (at < next_)
-      next_ = at;
-    else if (before == next_)
-      refresh();
+    const std::uint64_t bit = std::uint64_t{1} << s;
+    if (at >= kNever)
+      active_ &= ~bit;
+    else
+      active_ |= bit;
+    refresh();
   }
   Cycle when(int slot) const { return when_[static_cast<std::size_t>(slot)]; }
   Cycle next() const { return next_; }
 
   void run_to(Cycle now) {
     while (next_ <= now) {
-      std::size_t first = 0;
-      while (when_[first] != next_) ++first;
+      std::uint64_t left = active_;
+      while (when_[static_cast<std::size_t>(__builtin_ctzll(left))] != next_) left &= left - 1;
+      const auto first = static_cast<std::size_t>(__builtin_ctzll(left));
       const Cycle at = next_;
       when_[first] = kNever;
+      active_ &= ~(std::uint64_t{1} << first);
       refresh();
       slots_[first].owner->on_event(slots_[first].id, at);
     }
@@ -52,17 +56,18 @@ class Events {
   /// Earliest instant of a slot that may set one of these flags, or that acts outwards.
   Cycle next_for(std::uint64_t irqs, bool outward) const {
     Cycle next = kNever;
-    for (std::size_t s = 0; s < slots_.size(); ++s)
+    for (std::uint64_t left = active_; left; left &= left - 1) {
+      const auto s = static_cast<std::size_t>(__builtin_ctzll(left));
       if (when_[s] < next && ((slots_[s].irqs & irqs) || (outward && slots_[s].outward))) next = when_[s];
+    }
     return next;
   }
 
  private:
   void refresh() {
-    Cycle next = kNever;
-    for (const Cycle at : when_)
-      if (at < next) next = at;
-    next_ = next;
+    next_ = kNever;
+    for (std::uint64_t left = active_; left; left &= left - 1)
+      next_ = std::min(next_, when_[static_cast<std::size_t>(__builtin_ctzll(left))]);
   }
   struct Slot {
     EventOwner* owner;
@@ -71,7 +76,8 @@ class Events {
     bool outward;
   };
   std::vector<Cycle> when_;
-  std::vector<Slot> slots_;
+  std::vector<Slot> slots_;   // at most 64
+  std::uint64_t active_ = 0;  // bit s: slot s has an instant
   Cycle next_ = kNever;
 };
 

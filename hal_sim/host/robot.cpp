@@ -270,8 +270,8 @@ void Robot::serve(int vector) {
     trap(TP_TRAP_INTERRUPT, last_words_);
   }
   now_ = entry.first_instruction;
-  give_budget();
   ++handler_depth_;
+  give_budget();
   handler();
   --handler_depth_;
   fold();

@@ -44,7 +44,7 @@ struct RobotSettings {
   std::string name;
   std::uint64_t seed = 0;                ///< of rand()
   std::size_t stack_bytes = 256 * 1024;  ///< PC frames are two to four times the chip's; see docs/limits.md
-  ProcessorFactory processor;            ///< empty: the native way
+  ProcessorFactory processor{};          ///< empty: the native way
 };
 
 class Robot final : public Context {

@@ -163,6 +163,7 @@ host::Processor::Entry ChipProcessor::enter(int vector, Cycle now) {
   const int number =
       vector >= host::kTrapVector ? vector - host::kTrapVector + 1 : vector + dspic::kFirstIrqVector;
   const dspic::InterruptEntry entry = chip_->enter_interrupt(number, at(now));
+  watched_reads_ = 0;  // whatever waits looks again afterwards
   return {nullptr, entry.first_instruction + kSavingCycles};
 }
 

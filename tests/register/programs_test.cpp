@@ -275,6 +275,8 @@ int main(void)
 )"));
   sim::PartDesc part;
   part.kind = "ground-sensors";
+  world.floor.colour = {1, 1, 1};
+  world.floor.ir_reflectance = -1;
   robot.settings().parts.push_back(part);
   run_for(0.1);
   EXPECT_EQ(robot.variable("answered"), 3);
