@@ -72,9 +72,7 @@ void Adc::start_sampling(Half at) {
   con1_ |= kSamp;
   sampling_since_ = at;
   if (begun_ && count_ == 0 && is_regular()) {
-    cruising_ = true;
-    sequence_start_ = cruise_start_ = at;
-    result_of_.fill(-1);
+    start_cruising(at);
     return;
   }
   timers_.want_matches(3, ssrc() == kTimer3, at / 2);
@@ -131,43 +129,55 @@ bool Adc::is_regular() const {
          f_.outside.analogue_is_function_of_time();
 }
 
-/// Input of the n-th conversion of a sequence.
-int Adc::scanned_channel(int turn) const {
-  if (!(con2_ & kCscna) || !cssl_) return chs_ & 15;
-  std::uint16_t left = cssl_;
-  for (int i = turn % __builtin_popcount(cssl_); i > 0; --i) left &= static_cast<std::uint16_t>(left - 1);
-  return __builtin_ctz(left);
+void Adc::start_cruising(Half at) {
+  cruising_ = true;
+  cruise_.sample = sample_time();
+  cruise_.cycle = cruise_.sample + conversion_time();
+  cruise_.count = per_interrupt();
+  cruise_.sequence = cruise_.count * cruise_.cycle;
+  cruise_.first = cruise_.start = at;
+  const std::uint16_t scanned = (con2_ & kCscna) ? cssl_ : 0;
+  std::uint16_t left = scanned;
+  for (int i = 0; i < cruise_.count; ++i) {
+    if (!left) left = scanned;
+    cruise_.channel[static_cast<std::size_t>(i)] =
+        static_cast<std::uint8_t>(scanned ? __builtin_ctz(left) : chs_ & 15);
+    left &= static_cast<std::uint16_t>(left - 1);
+  }
+  result_of_.fill(-1);
 }
 
 void Adc::cruise(Cycle now) {
-  const Half length = sequence();
-  if (sequence_start_ + length > 2 * now) return;
-  sequence_start_ += (2 * now - sequence_start_) / length * length;
-  flag_at_ = up(sequence_start_) + kEndToFlag;
+  if (cruise_.start + cruise_.sequence > 2 * now) return;
+  cruise_.start += (2 * now - cruise_.start) / cruise_.sequence * cruise_.sequence;
+  flag_at_ = up(cruise_.start) + kEndToFlag;
 }
 
 /// Back to single stages, as if there had never been anything else.
 void Adc::stop_cruising(Cycle now) {
   if (!cruising_) return;
   cruise(now);
-  for (int slot = 0; slot < per_interrupt(); ++slot)
-    buffer_[static_cast<std::size_t>(slot)] = static_cast<std::uint16_t>(cruised_result(slot, now));
+  for (int slot = 0; slot < cruise_.count; ++slot)
+    buffer_[static_cast<std::size_t>(slot)] = cruised_result(slot, held_instant(slot, now));
   cruising_ = false;
   restart_sequence();
   con1_ |= kDone;
-  start_sampling(sequence_start_);
+  start_sampling(cruise_.start);
   advance(now);
 }
 
-int Adc::cruised_result(int slot, Cycle now) const {
+Adc::Half Adc::held_instant(int slot, Cycle now) const {
+  if (slot >= cruise_.count) return -1;
+  const Half in_sequence = slot * cruise_.cycle;
+  const bool done = cruise_.start + in_sequence + cruise_.cycle <= 2 * now;
+  const Half start = done ? cruise_.start : cruise_.start - cruise_.sequence;
+  return start < cruise_.first ? -1 : start + in_sequence + cruise_.sample;
+}
+
+std::uint16_t Adc::cruised_result(int slot, Half held) const {
   const auto s = static_cast<std::size_t>(slot);
-  if (slot >= per_interrupt()) return buffer_[s];
-  const bool done = sequence_start_ + (slot + 1) * cycle() <= 2 * now;
-  const Half start = done ? sequence_start_ : sequence_start_ - sequence();
-  if (start < cruise_start_) return buffer_[s];
-  const Half held = start + slot * cycle() + sample_time();
-  if (result_of_[s] == held) return buffer_[s];
-  return formatted(std::clamp(f_.outside.analogue_counts(scanned_channel(slot), held / 2), 0, 4095));
+  if (held < 0 || result_of_[s] == held) return buffer_[s];
+  return formatted(std::clamp(f_.outside.analogue_counts(cruise_.channel[s], held / 2), 0, 4095));
 }
 
 Adc::Half Adc::next_stage() const {
@@ -192,7 +202,7 @@ void Adc::advance(Cycle now) {
 void Adc::schedule(Cycle now) {
   Cycle at = kNever;
   if (cruising_) {
-    at = std::max(up(sequence_start_ + sequence()) + kEndToFlag, now + 1);
+    at = std::max(up(cruise_.start + cruise_.sequence) + kEndToFlag, now + 1);
     return f_.events.set(slot_, std::min(at, flag_at_));
   }
   const Half cycle = sample_time() + kConversionTads * tad();
@@ -231,15 +241,13 @@ void Adc::int0_edge(Cycle at) {
 
 std::uint16_t Adc::read(unsigned address, Cycle now) {
   advance(now);
-  const std::uint16_t word = peek(address, now);
-  if (cruising_ && address < kCon1) {
-    const int slot = static_cast<int>(address - kBuffer) / 2;
-    const bool done = sequence_start_ + (slot + 1) * cycle() <= 2 * now;
-    const Half start = done ? sequence_start_ : sequence_start_ - sequence();
-    if (slot < per_interrupt() && start >= cruise_start_) {
-      buffer_[static_cast<std::size_t>(slot)] = word;
-      result_of_[static_cast<std::size_t>(slot)] = start + slot * cycle() + sample_time();
-    }
+  if (!cruising_ || address >= kCon1) return peek(address, now);
+  const auto slot = static_cast<int>(address - kBuffer) / 2;
+  const Half held = held_instant(slot, now);
+  const std::uint16_t word = cruised_result(slot, held);
+  if (held >= 0) {
+    buffer_[static_cast<std::size_t>(slot)] = word;
+    result_of_[static_cast<std::size_t>(slot)] = held;
   }
   return word;
 }
@@ -248,7 +256,7 @@ std::uint16_t Adc::peek(unsigned address, Cycle now) const {
   switch (address) {
     case kCon1: {
       if (!cruising_) return con1_;
-      const bool samples = (2 * now - sequence_start_) % cycle() < sample_time();
+      const bool samples = (2 * now - cruise_.start) % cruise_.cycle < cruise_.sample;
       return static_cast<std::uint16_t>((con1_ & ~(kSamp | kDone)) | (samples ? kSamp | kDone : 0));
     }
     case kCon2:
@@ -260,8 +268,10 @@ std::uint16_t Adc::peek(unsigned address, Cycle now) const {
     case kCssl:
       return cssl_;
     default:
-      if (cruising_)
-        return static_cast<std::uint16_t>(cruised_result(static_cast<int>(address - kBuffer) / 2, now));
+      if (cruising_) {
+        const auto slot = static_cast<int>(address - kBuffer) / 2;
+        return cruised_result(slot, held_instant(slot, now));
+      }
       return buffer_[(address - kBuffer) / 2];
   }
 }
@@ -326,8 +336,8 @@ void Adc::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
 Cycle Adc::horizon(unsigned address, Cycle now) const {
   if (!on() || address == kCon3 || address == kChs || address == kCssl) return kNever;
   if (cruising_) {
-    const Half r = (2 * now - sequence_start_) % cycle();
-    return std::max(now + 1, up(2 * now + (r < sample_time() ? sample_time() : cycle()) - r));
+    const Half r = (2 * now - cruise_.start) % cruise_.cycle;
+    return std::max(now + 1, up(2 * now + (r < cruise_.sample ? cruise_.sample : cruise_.cycle) - r));
   }
   const Half stage = next_stage();
   return stage >= kNever ? kNever : std::max(now + 1, up(stage));

@@ -51,13 +51,13 @@ class Adc final : public SfrOwner, public EventOwner, public TimerListener {
 
   /// Does the converter run by itself, each sequence as the one before?
   bool is_regular() const;
-  Half cycle() const { return sample_time() + conversion_time(); }
   Half conversion_time() const;
-  Half sequence() const { return per_interrupt() * cycle(); }
+  void start_cruising(Half at);
   void cruise(Cycle now);
   void stop_cruising(Cycle now);
-  int cruised_result(int slot, Cycle now) const;
-  int scanned_channel(int turn) const;
+  /// Instant at which what a slot of the buffer holds at `now` was held; -1: before the cruise, or never.
+  Half held_instant(int slot, Cycle now) const;
+  std::uint16_t cruised_result(int slot, Half held) const;
 
   void start_sampling(Half at);
   void hold(Half at, Half conversion_start);
@@ -89,9 +89,14 @@ class Adc final : public SfrOwner, public EventOwner, public TimerListener {
   std::uint16_t complained_ = 0;  // channels
   bool begun_ = false;            // a whole sequence was done stage by stage since the converter was set up
   bool cruising_ = false;
-  Half sequence_start_ = 0;                   // while cruising: of the sequence under way
-  Half cruise_start_ = 0;                     // of the first one
-  mutable std::array<Half, 16> result_of_{};  // instant at which what stands in the buffer was held
+  struct {
+    Half sample = 0, cycle = 1, sequence = 1;  // sampling; one conversion with it; all of a sequence
+    int count = 0;                             // conversions in a sequence
+    std::array<std::uint8_t, 16> channel{};
+    Half first = 0;  // start of the first sequence
+    Half start = 0;  // of the one under way
+  } cruise_;
+  std::array<Half, 16> result_of_{};  // instant at which what stands in the buffer was held
 };
 
 }  // namespace dspic

@@ -167,7 +167,7 @@ int BoardOutside::analogue_counts(int channel, Cycle at) {
     if (const auto counts = board_.counts_of_others(channel, at)) return *counts;
     return board::accelerometer_counts(board_, channel - kFirstAcc, at, sample);
   }
-  if (channel >= kFirstMic) return board_.mic_counts(channel - kFirstMic, at, sample);
+  if (channel >= kFirstMic) return board_.mic_counts_fast(channel - kFirstMic, at, sample);
   return board_.counts_of_others(channel, at).value_or(0);
 }
 
