@@ -15,12 +15,15 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 INCLUDE = ROOT / "firmware/include"
 API = ROOT / "hal_sim/api"
+WEBOTS = ROOT / "firmware/webots"  # the library behind webots/ and device/, on top of the API
 
 # headers without prototypes of the contract, or that only include others
-NO_PROTOTYPES = {"p30F6014A.h"}
+NO_PROTOTYPES = {"p30F6014A.h",
+                 "supervisor.h"}  # of programs of the PC: supervisor/ defines them; a few are firmware's as well
 # declared by the original library's headers and contained in none of its versions: not linked there, nor here
 ONLY_DECLARED = {"e_i2cp_read_string", "e_i2cp_write_string",
-                 "e_po6030k_set_color_mode", "e_po8030d_set_color_mode"}
+                 "e_po6030k_set_color_mode", "e_po8030d_set_color_mode",
+                 "speaker_emit_sample"}  # the robot plays stored sounds only: refused when a program is linked
 # a header's own variant macro -> (switch, prefix with the switch, prefix without)
 VARIANT_MACROS = {"TP_MOTORS": ("E_MOTORS_TIMER3", "tptimer3_", "tpbasic_"),
                   "TP_PROX": ("E_PROX_TIMER2", "tpt2_", "tpbasic_")}
@@ -97,14 +100,14 @@ def main():
             for prefix in choices.values():
                 declared.setdefault(prefix + name, header)
     defined = collections.defaultdict(list)
-    for source in sorted(API.glob("*.c")):
+    for source in sorted(API.glob("*.c")) + sorted(WEBOTS.glob("*.c")):
         for name, line in definitions(source, contract):
             defined[name].append("%s:%d" % (source.relative_to(ROOT), line))
 
     problems = []
     for name, header in sorted(declared.items()):
         if not defined[name] and name not in ONLY_DECLARED:
-            problems.append("firmware/include/%s: %s: declared, but nothing in hal_sim/api defines it" % (header, name))
+            problems.append("firmware/include/%s: %s: declared, but nothing in hal_sim/api or firmware/webots defines it" % (header, name))
     for name, places in sorted(defined.items()):
         if len(places) > 1:
             problems.append("%s: %s: defined again, first in %s" % (places[1], name, places[0]))

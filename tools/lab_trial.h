@@ -16,10 +16,12 @@ struct Trial {
   std::string world;
   std::string image;       ///< of the firmware, built; empty: as the world says
   double noise_scale = 0;  ///< not a number: as the world says
+  double seconds = 60;     ///< simulated, at most
   std::uint64_t seed = 1;
 };
 
-/// Runs it. False, with lines in `problems`, when it could not run or a firmware trapped.
-bool run_trial(const Trial& trial, Measures& measures, std::vector<std::string>& problems);
+/// Runs it. False, with lines in `problems`, when it could not run or a firmware trapped. `said`: the last
+/// line of a supervisor of the world.
+bool run_trial(const Trial& trial, Measures& measures, std::string& said, std::vector<std::string>& problems);
 
 }  // namespace tools

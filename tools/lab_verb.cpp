@@ -43,24 +43,26 @@ bool build_images(const std::vector<const LabExercise*>& chosen, std::map<std::s
   return problems.empty();
 }
 
-std::vector<TrialResult> trials_of(const LabStep& step, int seeds, const std::string& image) {
+std::vector<TrialResult> trials_of(const LabStep& step, int seeds, double seconds, const std::string& image) {
   std::vector<TrialResult> all;
   const std::vector<double> as_written{std::nan("")};
   const auto& scales = step.noise_scales.empty() ? as_written : step.noise_scales;
   for (const std::string& world : step.worlds)
     for (double scale : scales)
       for (int seed = 1; seed <= (step.kind == LabStep::Kind::Sensor ? 1 : seeds); ++seed)
-        all.push_back({{&step, world, image, scale, static_cast<std::uint64_t>(seed)}, false, {}, {}});
+        all.push_back(
+            {{&step, world, image, scale, seconds, static_cast<std::uint64_t>(seed)}, false, {}, "", {}});
   return all;
 }
 
-void run_one(TrialResult& t) { t.ran = run_trial(t.trial, t.measures, t.problems); }
+void run_one(TrialResult& t) { t.ran = run_trial(t.trial, t.measures, t.said, t.problems); }
 
 // what a child process tells of one trial; its problems go to stderr at once
 struct Told {
   std::size_t index;
   bool ran;
   Measures measures;
+  char said[96];
 };
 
 void run_in_processes(std::vector<TrialResult>& trials, int jobs) {
@@ -76,7 +78,8 @@ void run_in_processes(std::vector<TrialResult>& trials, int jobs) {
            i += static_cast<std::size_t>(jobs)) {
         run_one(trials[i]);
         complain(trials[i].problems);
-        const Told told{i, trials[i].ran, trials[i].measures};
+        Told told{i, trials[i].ran, trials[i].measures, ""};
+        trials[i].said.copy(told.said, sizeof told.said - 1);
         if (write(ends[1], &told, sizeof told) != sizeof told) _exit(kInternal);
       }
       _exit(0);
@@ -94,6 +97,7 @@ void run_in_processes(std::vector<TrialResult>& trials, int jobs) {
       got = 0;
       trials[told.index].ran = told.ran;
       trials[told.index].measures = told.measures;
+      trials[told.index].said = told.said;
     }
     close(end);
     int status;
@@ -113,7 +117,8 @@ StepResult run_step(const LabStep& step, const LabArguments& a,
   }
   const int seeds = a.seeds > 0 ? a.seeds : a.full ? step.full_seeds : step.quick_seeds;
   const auto image = images.find(step.firmware);
-  result.trials = trials_of(step, seeds, image == images.end() ? "" : image->second);
+  result.trials = trials_of(step, seeds, a.full ? step.full_seconds : step.seconds,
+                            image == images.end() ? "" : image->second);
   bool timed = false;
   for (const Shown& s : step.shown) timed = timed || s.measure == Measure::Speed;
   if (a.jobs > 1 && !timed) {

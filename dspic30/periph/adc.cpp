@@ -11,7 +11,7 @@ namespace {
 constexpr unsigned kBuffer = 0x280, kCon1 = 0x2A0, kCon2 = 0x2A2, kCon3 = 0x2A4, kChs = 0x2A6, kCssl = 0x2AA;
 constexpr std::uint16_t kDone = 0x0001, kSamp = 0x0002, kAdon = 0x8000, kBufs = 0x0080, kCscna = 0x0400,
                         kAlts = 0x0001, kBufm = 0x0002, kAdrc = 0x0080;
-constexpr int kConversionTads = 14;       // [DS70046 18.6]
+constexpr int kConversionTads = 14;       // [chip P4]
 constexpr int kManualStartTads = 1;       // between clearing SAMP and the conversion [?]
 constexpr Cycle kEndToFlag = 1;           // [?]
 constexpr double kRcTadSeconds = 1.2e-6;  // ADRC = 1 [?]
@@ -31,16 +31,20 @@ void Adc::attach() {
 
 void Adc::reset(Cycle now) {
   con1_ = con2_ = con3_ = chs_ = cssl_ = 0;
+  set_times();
   buffer_.fill(0);
   sampling_ = converting_ = cruising_ = false;
   flag_at_ = kNever;
+  if (wants_timer_) timers_.want_matches(3, false, now);
+  wants_timer_ = false;
   restart_sequence();
   f_.events.set(slot_, kNever);
 }
 
-Adc::Half Adc::tad() const {
-  if (con3_ & kAdrc) return static_cast<Half>(2 * kRcTadSeconds * f_.fcy_hz);
-  return (con3_ & 63) + 1;
+void Adc::set_times() {
+  tad_ = (con3_ & kAdrc) ? static_cast<Half>(2 * kRcTadSeconds * f_.fcy_hz) : (con3_ & 63) + 1;
+  sample_time_ = (con3_ >> 8 & 31) * tad_;
+  conversion_time_ = kConversionTads * tad_;
 }
 
 // --- the sequence -----------------------------------------------------------------------------------------
@@ -75,7 +79,6 @@ void Adc::start_sampling(Half at) {
     start_cruising(at);
     return;
   }
-  timers_.want_matches(3, ssrc() == kTimer3, at / 2);
 }
 
 void Adc::hold(Half at, Half conversion_start) {
@@ -86,7 +89,7 @@ void Adc::hold(Half at, Half conversion_start) {
   sampling_ = false;
   converting_ = true;
   con1_ &= static_cast<std::uint16_t>(~(kSamp | kDone));
-  conversion_end_ = conversion_start + kConversionTads * tad();
+  conversion_end_ = conversion_start + conversion_time_;
 }
 
 void Adc::finish() {
@@ -122,17 +125,15 @@ std::uint16_t Adc::formatted(int counts) const {
 
 // --- cruising ---------------------------------------------------------------------------------------------
 
-Adc::Half Adc::conversion_time() const { return kConversionTads * tad(); }
-
 bool Adc::is_regular() const {
-  return on() && asam() && ssrc() == kAutomatic && !(con2_ & (kAlts | kBufm)) && sample_time() > 0 &&
+  return on() && asam() && ssrc() == kAutomatic && !(con2_ & (kAlts | kBufm)) && sample_time_ > 0 &&
          f_.outside.analogue_is_function_of_time();
 }
 
 void Adc::start_cruising(Half at) {
   cruising_ = true;
-  cruise_.sample = sample_time();
-  cruise_.cycle = cruise_.sample + conversion_time();
+  cruise_.sample = sample_time_;
+  cruise_.cycle = cruise_.sample + conversion_time_;
   cruise_.count = per_interrupt();
   cruise_.sequence = cruise_.count * cruise_.cycle;
   cruise_.first = cruise_.start = at;
@@ -180,12 +181,6 @@ std::uint16_t Adc::cruised_result(int slot, Half held) const {
   return formatted(std::clamp(f_.outside.analogue_counts(cruise_.channel[s], held / 2), 0, 4095));
 }
 
-Adc::Half Adc::next_stage() const {
-  if (converting_) return conversion_end_;
-  if (sampling_ && ssrc() == kAutomatic) return sampling_since_ + sample_time();
-  return 2 * kNever;
-}
-
 void Adc::advance(Cycle now) {
   if (!on()) return;
   if (cruising_) return cruise(now);
@@ -205,8 +200,8 @@ void Adc::schedule(Cycle now) {
     at = std::max(up(cruise_.start + cruise_.sequence) + kEndToFlag, now + 1);
     return f_.events.set(slot_, std::min(at, flag_at_));
   }
-  const Half cycle = sample_time() + kConversionTads * tad();
   if (on() && (converting_ || (sampling_ && ssrc() == kAutomatic))) {
+    const Half cycle = sample_time_ + conversion_time_;
     const bool runs_on = asam() && ssrc() == kAutomatic;
     const Half first = converting_ ? conversion_end_ : sampling_since_ + cycle;
     // a stage at which nobody looks needs no event of its own
@@ -277,6 +272,9 @@ std::uint16_t Adc::peek(unsigned address, Cycle now) const {
 }
 
 void Adc::changed_while_on(unsigned address, Cycle now) {
+  const auto bit = static_cast<std::uint16_t>(1 << (address - kCon1) / 2);
+  if (changed_told_ & bit) return;
+  changed_told_ |= bit;
   const std::string name = sfr_info(address)->name;
   f_.diagnostics.report(
       Cause::ChangedWhileOn, name,
@@ -295,7 +293,10 @@ void Adc::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
       const std::uint16_t before = con1_, wanted = merge_lanes(con1_, value, lanes);
       con1_ = static_cast<std::uint16_t>((wanted & ~(kSamp | kDone)) | (before & kSamp) |
                                          (before & wanted & kDone));
-      timers_.want_matches(3, on() && ssrc() == kTimer3, now);
+      if (const bool waits = on() && ssrc() == kTimer3; waits != wants_timer_) {
+        wants_timer_ = waits;
+        timers_.want_matches(3, waits, now);
+      }
       if (!(wanted & kAdon)) {
         sampling_ = converting_ = false;
         con1_ &= static_cast<std::uint16_t>(~kSamp);
@@ -307,7 +308,7 @@ void Adc::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
       if (!sampling_ && !converting_ && (asked || asam()))
         start_sampling(at);
       else if (sampling_ && (before & kSamp) && !(wanted & kSamp) && ssrc() == kSoftware)
-        hold(at, at + kManualStartTads * tad());
+        hold(at, at + kManualStartTads * tad_);
       break;
     }
     case kCon2:
@@ -318,6 +319,7 @@ void Adc::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
     case kCon3:
       if (on() && ((con3_ ^ value) & lanes)) changed_while_on(address, now);
       con3_ = merge_lanes(con3_, value, lanes);
+      set_times();
       break;
     case kChs:
       chs_ = merge_lanes(chs_, value, lanes);
@@ -344,9 +346,8 @@ Cycle Adc::horizon(unsigned address, Cycle now) const {
 }
 
 void Adc::check_channel(int channel, Cycle at) {
-  if (complained_ >> channel & 1) return;
   const bool output = f_.ports.is_output({Port::B, channel});
-  if (f_.ports.is_analogue(channel) && !output) return;
+  if ((f_.ports.is_analogue(channel) && !output) || (complained_ >> channel & 1)) return;
   complained_ |= static_cast<std::uint16_t>(1 << channel);
   const std::string n = std::to_string(channel);
   const std::string why = output ? "TRISB.TRISB" + n + " = 0 makes its pin an output"

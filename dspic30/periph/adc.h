@@ -9,9 +9,9 @@
 // held at the end of sampling and asked for at that instant. Conversions within one interrupt's period are
 // worked out together. Not modelled: VCFG and CH0NA/CH0NB (AVDD, AVSS), ADSIDL, settling of the input,
 // invalid results of too short a sampling time. A converter that samples, converts and scans by itself
-// cruises: nothing is done per conversion, and a result is worked out when it is read. Source: DS70143
-// section 20, DS70046 section 18; [?] ADIF one cycle after the end, one TAD between clearing SAMP and the
-// conversion, scan position when SMPI+1 differs from the number of inputs.
+// cruises: nothing is done per conversion, and a result is worked out when it is read. Source: [chip P4]; [?]
+// ADIF one cycle after the end, one TAD between clearing SAMP and the conversion, scan position when SMPI+1
+// differs from the number of inputs.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -42,8 +42,7 @@ class Adc final : public SfrOwner, public EventOwner, public TimerListener {
   // half cycles: TAD may be an odd number of them
   using Half = std::int64_t;
   static Cycle up(Half h) { return (h + 1) / 2; }
-  Half tad() const;
-  Half sample_time() const { return (con3_ >> 8 & 31) * tad(); }
+  void set_times();
   int ssrc() const { return con1_ >> 5 & 7; }
   bool asam() const { return (con1_ & 0x0004) != 0; }
   bool on() const { return (con1_ & 0x8000) != 0; }
@@ -51,7 +50,6 @@ class Adc final : public SfrOwner, public EventOwner, public TimerListener {
 
   /// Does the converter run by itself, each sequence as the one before?
   bool is_regular() const;
-  Half conversion_time() const;
   void start_cruising(Half at);
   void cruise(Cycle now);
   void stop_cruising(Cycle now);
@@ -66,7 +64,11 @@ class Adc final : public SfrOwner, public EventOwner, public TimerListener {
   int channel() const;
   void next_channel();
   std::uint16_t formatted(int counts) const;
-  Half next_stage() const;
+  Half next_stage() const {
+    if (converting_) return conversion_end_;
+    if (sampling_ && ssrc() == 7) return sampling_since_ + sample_time_;
+    return 2 * kNever;
+  }
   void schedule(Cycle now);
   void check_channel(int channel, Cycle at);
   void changed_while_on(unsigned address, Cycle now);
@@ -76,6 +78,7 @@ class Adc final : public SfrOwner, public EventOwner, public TimerListener {
   int slot_ = -1;
   std::uint16_t con1_ = 0, con2_ = 0, con3_ = 0, chs_ = 0, cssl_ = 0;
   std::array<std::uint16_t, 16> buffer_{};
+  Half tad_ = 1, sample_time_ = 0, conversion_time_ = 0;  // of ADCON3
   bool sampling_ = false, converting_ = false;
   Half sampling_since_ = 0;
   Half conversion_end_ = 0;
@@ -86,8 +89,10 @@ class Adc final : public SfrOwner, public EventOwner, public TimerListener {
   bool upper_half_ = false;
   int scan_at_ = -1;  // input of ADCSSL in turn
   bool mux_b_ = false;
-  std::uint16_t complained_ = 0;  // channels
-  bool begun_ = false;            // a whole sequence was done stage by stage since the converter was set up
+  bool wants_timer_ = false;
+  std::uint16_t complained_ = 0;    // channels
+  std::uint16_t changed_told_ = 0;  // registers from ADCON1 on
+  bool begun_ = false;              // a whole sequence was done stage by stage since the converter was set up
   bool cruising_ = false;
   struct {
     Half sample = 0, cycle = 1, sequence = 1;  // sampling; one conversion with it; all of a sequence

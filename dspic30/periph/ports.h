@@ -9,7 +9,7 @@
 // drain) by a peripheral, pull-ups, analogue pins of port B that read 0, edges that the chip makes itself on
 // a pin which another peripheral watches, the one-cycle read synchroniser where asked for. Not modelled:
 // contention with the outside (the chip wins), levels of serial lines bit by bit (owned pins read high).
-// Source: DS70143 section 6.
+// Source: [chip P1].
 #pragma once
 #include <array>
 #include <cstdint>
@@ -79,6 +79,7 @@ class Ports final : public SfrOwner {
     return static_cast<std::uint16_t>(((~s.tris & ~s.owned_in) | s.owned_out) & s.implemented);
   }
   void publish(Port port, Cycle at);
+  void look_for_blind_pins(Cycle now);
   void count_vain(Port port, std::uint16_t bits, Cycle now);
   /// Levels of the pins of `wanted`; the others' are anything. Asks the outside only when it decides one.
   std::uint16_t combine(Port port, std::uint16_t levels, std::uint16_t driven, Cycle at,
@@ -89,6 +90,7 @@ class Ports final : public SfrOwner {
   bool synchronised_;
   std::array<State, kPorts> ports_{};
   std::uint16_t adpcfg_ = 0;
+  std::uint16_t blind_told_ = 0;  // pins of port B whose analogue setting has been reported
   std::vector<Watch> watches_;
 };
 

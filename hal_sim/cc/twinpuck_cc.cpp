@@ -42,6 +42,8 @@ bool parse(int argc, char** argv, cc::Options& o) {
       o.lint = true;
     else if (a == "--register")
       o.register_way = true;
+    else if (a == "--webots")
+      o.webots = true;
     else if (a == "--library")
       o.library = true;
     else if (a == "--uncounted")
