@@ -102,6 +102,7 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, bool lint) {
     user_include.push_back(r.string());
   }
   library_include.push_back("-I" + root.string());
+  library_include.push_back("-I" + api.string());  // its hal.h, for hal_common
 
   Plan p;
   std::vector<std::string> flags = mode;
@@ -116,7 +117,10 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, bool lint) {
   std::vector<std::string> library_flags = mode;
   library_flags.push_back("--library");
   library_flags.insert(library_flags.end(), library_include.begin(), library_include.end());
-  for (const auto& folder : {api, cc_dir / "libc/src"})
+  std::vector<fs::path> library_folders = {api, cc_dir / "libc/src"};
+  // the half of the library that needs no pins, for a HAL that has the other half
+  if (fs::exists(api / "hal.h")) library_folders.push_back(root / "hal_common");
+  for (const auto& folder : library_folders)
     for (const auto& s : files_below(folder, ".c")) p.library.push_back({s, library_flags, ""});
 
   std::string name =

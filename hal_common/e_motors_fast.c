@@ -6,7 +6,7 @@
  */
 #include "motor_led/advance_one_timer/fast_agenda/e_motors.h"
 
-#include "hal_sim/host/pins.h"
+#include "hal.h"
 #include "motor_led/advance_one_timer/fast_agenda/e_agenda_fast.h"
 
 #define LEFT 0
@@ -31,13 +31,13 @@ static int magnitude(int value) { return value < 0 ? -value : value; }
 /* one firing: a step, or in power save the coils off. Returns the cycle it asks for, -1 for none. */
 static int fire(struct wheel *w, int which, int count, int turn) {
   if (w->phase_on && magnitude(w->speed) < POWER_SAVE_BELOW) {
-    tp_coils_write(which, 0);
+    hal_coils(which, 0);
     w->phase_on = 0;
     return SPEED_UNIT / magnitude(w->speed) - SPEED_UNIT / POWER_SAVE_SPEED;
   }
   w->steps += count;
   w->phase = (w->phase + turn) & 3;
-  tp_coils_write(which, coils[w->phase]);
+  hal_coils(which, coils[w->phase]);
   if (magnitude(w->speed) >= POWER_SAVE_BELOW) return -1;
   w->phase_on = 1;
   return SPEED_UNIT / POWER_SAVE_SPEED;
@@ -65,13 +65,13 @@ static int limited(int speed) {
 }
 
 void e_set_speed_left(int motor_speed) {
-  tp_coils_write(LEFT, 0);
+  hal_coils(LEFT, 0);
   left.speed = limited(motor_speed);
   e_set_motor_speed(run_left, left.speed == 0 ? 0 : SPEED_UNIT / magnitude(left.speed));
 }
 
 void e_set_speed_right(int motor_speed) {
-  tp_coils_write(RIGHT, 0);
+  hal_coils(RIGHT, 0);
   right.speed = limited(motor_speed);
   e_set_agenda_cycle(run_right, right.speed == 0 ? 0 : SPEED_UNIT / magnitude(right.speed));
 }

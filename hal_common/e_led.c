@@ -5,7 +5,7 @@
 #include "motor_led/advance_one_timer/e_led.h"
 
 #include "motor_led/advance_one_timer/e_agenda.h"
-#include "leds.h"
+#include "hal.h"
 
 void e_set_led(unsigned int led_number, unsigned int value) {
   unsigned int led;
@@ -22,9 +22,9 @@ void e_led_clear(void) {
   for (led = 0; led < RING_LEDS; led++) set_ring(led, 0);
 }
 
-void e_set_body_led(unsigned int value) { set_pin('C', BODY_PIN, value); }
+void e_set_body_led(unsigned int value) { set_body(value); }
 
-void e_set_front_led(unsigned int value) { set_pin('C', FRONT_PIN, value); }
+void e_set_front_led(unsigned int value) { set_front(value); }
 
 #define TOGGLE 2
 

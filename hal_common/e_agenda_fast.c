@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * Fast agenda: tasks spread over Timers 1 to 3, each timer running at the greatest common divisor of its
- * tasks' cycles, one timer reserved for the two motor tasks. Rare; so its interrupts are not evaluated in
- * closed form but delivered one by one, and this file is plain event-driven C.
+ * tasks' cycles, one timer reserved for the two motor tasks. The timers themselves are each HAL's (fast_timers.h).
  *
  *   task of cycle 0 -> waiting list       new task -> a free timer, else the one with the best common divisor
  *
@@ -15,90 +14,19 @@
 
 #include <stdlib.h>
 
-#include "hal_sim/host/pins.h"
+#include "hal.h"
 
 #define EXIT_OK 1
 #define TIMERS 3
 #define NO_TIMER (-1)
 #define UNIT_CYCLES 1474.56 /* 0.1 ms [lib: motor_led/advance_one_timer/fast_agenda/e_agenda_fast.c] */
 #define LONGEST 11459u      /* units that the largest prescaler can hold [lib: the same file] */
-#define TIMER_PRIORITY 4
-#define TIMER_ENTRY_CYCLES 30 /* [estimated: entry 4, context 20, RETFIE 3, flag] */
-
-/* one hardware timer */
-struct timer {
-  tp_i64 vector;
-  unsigned int period; /* PR register */
-  unsigned char shift; /* prescaler as a power of two: 0, 3, 6, 8 */
-  char running;
-  char pending;       /* matched, interrupt not served yet */
-  unsigned int count; /* TMR register while stopped */
-  tp_i64 started;     /* cycle at which it was started with that count */
-  tp_i64 served;      /* cycle of the latest interrupt since then */
-};
 
 static struct AgendaList tasks;
-static struct timer timers[TIMERS] = {{TP_V_T1, 65535u, 0, 0, 0, 0, 0, 0},
-                                      {TP_V_T2, 65535u, 0, 0, 0, 0, 0, 0},
-                                      {TP_V_T3, 65535u, 0, 0, 0, 0, 0, 0}};
 
-/* --- timers ------------------------------------------------------------------------------------------- */
-
-/* counts from the start to the first match; a count beyond the period first runs through 16 bits */
-static tp_i64 first_match(const struct timer* t) {
-  tp_i64 to_go = (tp_i64)t->period + 1 - t->count;
-  return to_go <= 0 ? to_go + 65536 : to_go;
-}
-
-/* matches between the start and the cycle `at`, and the count that the timer then has */
-static tp_i64 matches_until(const struct timer* t, tp_i64 at, unsigned int* count) {
-  tp_i64 counts = (at - t->started) >> t->shift, first = first_match(t);
-  if (counts < first) {
-    *count = (unsigned int)(t->count + counts);
-    return 0;
-  }
-  counts -= first;
-  *count = (unsigned int)(counts % ((tp_i64)t->period + 1));
-  return 1 + counts / ((tp_i64)t->period + 1);
-}
-
-static void request_matches(struct timer* t) {
-  if (tasks.speed[t - timers] == 0)
-    tp_irq_at(t->vector, -1); /* a timer whose tasks all rest */
-  else
-    tp_irq_every(t->vector, t->started + (first_match(t) << t->shift), ((tp_i64)t->period + 1) << t->shift);
-}
-
-static void start_timer(struct timer* t) {
-  if (t->running) return;
-  t->running = 1;
-  t->started = t->served = tp_now();
-  if (t->pending)
-    tp_irq_at(t->vector, t->started);
-  else
-    request_matches(t);
-}
-
-static void stop_timer(struct timer* t) {
-  unsigned int count, then;
-  if (!t->running) return;
-  /* another handler held up this one: the count has gone on from 0, the flag stays */
-  if (matches_until(t, tp_now(), &count) > matches_until(t, t->served, &then) && tasks.speed[t - timers] > 0)
-    t->pending = 1;
-  t->count = count;
-  t->running = 0;
-  tp_irq_at(t->vector, -1);
-}
-
-/* runs up to 10,000 times a second and is charged like the robot's: no arithmetic with cycles in here */
-static void serve(int index) {
-  struct timer* t = &timers[index];
+/* one interrupt of a timer: counts its tasks on, and runs those that are due */
+static void run_tasks(int index) {
   Agenda* task;
-  t->served = tp_now();
-  if (t->pending) {
-    t->pending = 0;
-    request_matches(t);
-  }
   if (tasks.timers_in_use[index] == 0 || tasks.speed[index] == 0) return;
   for (task = tasks.agendas[index]; task; task = task->next) {
     if (task->activate != 1 || task->cycle == 0) continue;
@@ -110,26 +38,13 @@ static void serve(int index) {
   }
 }
 
-static void serve_timer1(void) { serve(0); }
-static void serve_timer2(void) { serve(1); }
-static void serve_timer3(void) { serve(2); }
-
-static void configure(int index) {
-  static void (*const handlers[TIMERS])(void) = {serve_timer1, serve_timer2, serve_timer3};
-  struct timer* t = &timers[index];
-  stop_timer(t);
-  t->shift = 0;
-  t->count = 0;
-  t->pending = 0;
-  t->period = (unsigned int)UNIT_CYCLES;
-  tp_irq_install(t->vector, handlers[index], TIMER_PRIORITY, TIMER_ENTRY_CYCLES);
-}
+#include "fast_timers.h"
 
 /* period of a timer in units of 0.1 ms, with the smallest prescaler that holds it */
 static void set_period(int index, unsigned int units) {
-  struct timer* t = &timers[index];
-  char was_running = t->running;
-  stop_timer(t);
+  char was_running = timer_runs(index);
+  unsigned char shift;
+  stop_timer(index);
   if (units > LONGEST) {
     float parts = units / (float)LONGEST;
     unsigned int whole = (unsigned int)parts;
@@ -137,9 +52,9 @@ static void set_period(int index, unsigned int units) {
   }
   tasks.speed[index] = units;
   /* below 44 units the library leaves the prescaler of before, which is 1 after configuring */
-  t->shift = units > 2864 ? 8 : units > 358 ? 6 : units >= 44 ? 3 : 0;
-  t->period = (unsigned int)((unsigned long)(UNIT_CYCLES * units) >> t->shift);
-  if (was_running) start_timer(t);
+  shift = units > 2864 ? 8 : units > 358 ? 6 : units >= 44 ? 3 : 0;
+  write_period(index, shift, (unsigned int)((unsigned long)(UNIT_CYCLES * units) >> shift));
+  if (was_running) start_timer(index);
 }
 
 static unsigned int common_divisor(unsigned int a, unsigned int b) {
@@ -192,7 +107,7 @@ static void place(Agenda* task) {
 
 static Agenda* new_task(void (*func)(void), unsigned cycle) {
   Agenda* task = malloc(sizeof(Agenda));
-  if (!task) tp_trap_message(TP_TRAP_ABORT, "e_activate_agenda: no memory left for a task");
+  if (!task) hal_out_of_memory("e_activate_agenda: no memory left for a task");
   task->cycle = cycle;
   task->counter = 0;
   task->activate = 0;
@@ -247,13 +162,13 @@ void e_configure_timer(int timer) {
 void e_start_timer_processing(int timer) {
   int i;
   for (i = 0; i < TIMERS; i++)
-    if ((timer == 0 || timer == i + 1) && tasks.timers_in_use[i] > 0) start_timer(&timers[i]);
+    if ((timer == 0 || timer == i + 1) && tasks.timers_in_use[i] > 0) start_timer(i);
 }
 
 void e_end_agendas_processing(int timer) {
   int i;
   for (i = 0; i < TIMERS; i++)
-    if (timer == 0 || timer == i + 1) stop_timer(&timers[i]);
+    if (timer == 0 || timer == i + 1) stop_timer(i);
 }
 
 void e_activate_agenda(void (*func)(void), unsigned cycle) {

@@ -13,8 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "hal_sim/host/pins.h"
-#include "hal_sim/host/pins_bluetooth.h"
+#include "hal.h"
 #include "uart/e_uart_char.h"
 
 #define START 0x02
@@ -38,10 +37,6 @@
 #define INQUIRY_S 5
 #define NOBODY_FOUND 99
 #define LAST_ANSWERED_FILTER 1
-
-/* the wait of e_bt_exit_tranparent_mode(): 14,746 rounds, each a conversion and a comparison of floats
- * [estimated: 60 and 35 cycles, 7 for the counter] */
-#define BREAK_CYCLES (14746LL * 102)
 
 unsigned char e_bt_local_paired_device[6 * PAIRED];
 struct BtDevice e_bt_present_device[FOUND];
@@ -172,8 +167,7 @@ char e_bt_tranparent_mode(void) {
 }
 
 void e_bt_exit_tranparent_mode(void) {
-  tp_uart_break(1, BREAK_CYCLES);
-  tp_wait_until(tp_now() + BREAK_CYCLES);
+  hal_uart1_break();
   e_init_uart1();
 }
 

@@ -4,21 +4,13 @@
  */
 #include "a_d/advance_ad_scan/e_micro.h"
 
-#include "adc_arrays.h"
-#include "hal_sim/host/pins_sound.h"
+#include "hal.h"
 
 #define MICROPHONES 3
 #define ABOVE_ALL_SAMPLES 4999 /* where the search for the lowest sample starts */
 
 /* in the library's object, in none of its headers */
 void e_get_micro_last_values(int micro_id, int *result, unsigned samples_nb);
-
-unsigned long twinpuck_mic_filed;
-
-void twinpuck_refresh_mic(void) {
-  twinpuck_mic_filed = (unsigned long)tp_mic_scan(e_mic_scan, twinpuck_mic_filed);
-  e_last_mic_scan_id = (unsigned int)(twinpuck_mic_filed % MIC_SAMP_NB);
-}
 
 int e_get_micro(unsigned int micro_id) {
   twinpuck_refresh_mic();

@@ -12,9 +12,7 @@
 #include <stdlib.h>
 
 #include "acc_gyro/e_lsm330.h"
-#include "adc_arrays.h"
-#include "hal_sim/host/pins_acc.h"
-#include "leds.h"
+#include "hal.h"
 #include "motor_led/e_init_port.h"
 
 #define REFRESH_INTERRUPTS 64  /* where updateAccI2CCounter stops */
@@ -38,7 +36,7 @@ static int shown_angle;
 static int to_analogue_scale(int value) { return (value >> 4) - (value >> 6); }
 
 static void refresh_lsm330(void) {
-  unsigned int starts = (unsigned int)tp_scan_starts();
+  unsigned int starts = hal_scan_starts();
   if (starts != scan_starts_seen) {
     scan_starts_seen = starts;
     centre_z = 0;
@@ -60,9 +58,9 @@ int e_get_acc(unsigned int captor) {
     }
   }
   switch (captor) {
-    case ACCX_BUFFER: return (int)tp_scan_acc_newest(ACCX_BUFFER) - centre_x;
-    case ACCY_BUFFER: return (int)tp_scan_acc_newest(ACCY_BUFFER) - centre_y;
-    case ACCZ_BUFFER: return (int)tp_scan_acc_newest(ACCZ_BUFFER) - centre_z;
+    case ACCX_BUFFER: return hal_acc_newest(ACCX_BUFFER) - centre_x;
+    case ACCY_BUFFER: return hal_acc_newest(ACCY_BUFFER) - centre_y;
+    case ACCZ_BUFFER: return hal_acc_newest(ACCZ_BUFFER) - centre_z;
     default: return (int)ANGLE_ERROR;
   }
 }

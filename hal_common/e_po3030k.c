@@ -11,7 +11,7 @@
 
 #include "I2C/e_I2C_protocol.h"
 #include "camera.h"
-#include "hal_sim/host/pins.h"
+#include "hal.h"
 #include "motor_led/e_init_port.h"
 
 #define ORIGIN_X 210
@@ -23,8 +23,6 @@
 #define FORMAT_RGB565 0x08
 #define FORMAT_YUV 0x02
 #define POINTER_SIZE 2 /* what sizeof gives for an array parameter on the robot */
-#define RESET_BIT 13
-#define RESET_LOOP_CYCLES 500 /* [estimated: 100 rounds of a counted loop with a nop] */
 
 /* places in the table; registers whose numbers follow one another have one name */
 enum {
@@ -247,11 +245,7 @@ int e_po3030k_config_cam(unsigned int sensor_x1, unsigned int sensor_y1, unsigne
 void e_po3030k_init_cam(void) {
   e_init_port();
   e_i2cp_init();
-  tp_latch_write('C', RESET_BIT, 1);
-  tp_latch_write('C', RESET_BIT, 0);
-  tp_spend(RESET_LOOP_CYCLES);
-  tp_latch_write('C', RESET_BIT, 1);
-  tp_spend(RESET_LOOP_CYCLES);
+  hal_camera_reset();
 }
 
 /* --- light and colour --------------------------------------------------------------------------------- */

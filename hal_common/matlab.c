@@ -12,7 +12,7 @@
 /* The driver sends from the caller's memory. Each call waits for the one before, so only the end mark, a
  * constant,
    may still be on its way when the variables of this function die. */
-static void send(char *kind, char *data, int bytes) {
+static void send(const char *kind, char *data, int bytes) {
   e_send_uart1_char(kind, 1);
   e_send_uart1_char((char *)&bytes, sizeof(int));
   e_send_uart1_char(data, bytes);

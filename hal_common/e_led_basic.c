@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * LEDs, basic variant: "all" toggles each LED by itself.
  */
-#include "leds.h"
+#include "hal.h"
 #include "motor_led/e_led.h"
 
 void e_set_led(unsigned int led_number, unsigned int value) {
@@ -18,6 +18,6 @@ void e_led_clear(void) {
   for (led = 0; led < RING_LEDS; led++) set_ring(led, 0);
 }
 
-void e_set_body_led(unsigned int value) { set_pin('C', BODY_PIN, value); }
+void e_set_body_led(unsigned int value) { set_body(value); }
 
-void e_set_front_led(unsigned int value) { set_pin('C', FRONT_PIN, value); }
+void e_set_front_led(unsigned int value) { set_front(value); }

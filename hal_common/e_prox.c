@@ -4,12 +4,10 @@
  */
 #include "a_d/advance_ad_scan/e_prox.h"
 
-#include "adc_arrays.h"
-#include "hal_sim/host/pins.h"
+#include "hal.h"
 
 #define CALIBRATION_ROUNDS 100
-/* after each reading: 1000 rounds of an empty loop over a long [estimated: 10 cycles a round] */
-#define CALIBRATION_PAUSE_CYCLES 10000
+#define CALIBRATION_PAUSE_ROUNDS 1000 /* after each reading */
 
 static int free_space[IR_CHANNELS];
 
@@ -43,7 +41,7 @@ void e_calibrate_ir() {
   for (round = 0; round < CALIBRATION_ROUNDS; round++)
     for (sensor = 0; sensor < IR_CHANNELS; sensor++) {
       sum[sensor] += e_get_prox(sensor);
-      tp_spend(CALIBRATION_PAUSE_CYCLES);
+      hal_pause(CALIBRATION_PAUSE_ROUNDS);
     }
   for (sensor = 0; sensor < IR_CHANNELS; sensor++)
     free_space[sensor] = (int)((float)sum[sensor] / CALIBRATION_ROUNDS);

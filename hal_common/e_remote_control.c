@@ -13,13 +13,9 @@
  */
 #include "motor_led/advance_one_timer/e_remote_control.h"
 
-#include "hal_sim/host/pins.h"
-#include "hal_sim/host/pins_remote.h"
-#include "leds.h"
+#include "hal.h"
 #include "motor_led/advance_one_timer/e_agenda.h"
 
-#define INT0_PRIORITY 4      /* reset value of IPC0 [DS70143 5.2] */
-#define INT0_ENTRY_CYCLES 30 /* [estimated: entry 4, context 20, RETFIE 3] */
 #define TO_START_BIT 21      /* ticks of 0.1 ms */
 #define TO_TOGGLE 9
 #define TO_NEXT_BIT 18
@@ -32,15 +28,15 @@ static signed char bit = -1;
 static unsigned char toggle_so_far, address_so_far, data_so_far;
 static unsigned char check = 2, address, data;
 
-static void serve_int0(void) {
-  tp_irq_install(TP_V_INT0, 0, INT0_PRIORITY, INT0_ENTRY_CYCLES);
+void twinpuck_remote_edge(void) {
+  hal_remote_disarm();
   address_so_far = data_so_far = 0;
   bit = -1;
   e_activate_agenda(e_read_remote_control, TO_START_BIT);
 }
 
 void e_init_remote_control(void) {
-  tp_irq_install(TP_V_INT0, serve_int0, INT0_PRIORITY, INT0_ENTRY_CYCLES);
+  hal_remote_arm();
 }
 
 static void arm_again(void) {
@@ -50,7 +46,7 @@ static void arm_again(void) {
 }
 
 void e_read_remote_control(void) {
-  unsigned char level = (unsigned char)tp_remote_level();
+  unsigned char level = hal_remote_level();
   if (bit < 0) {
     if (level) {
       arm_again(); /* not a start bit: noise */
