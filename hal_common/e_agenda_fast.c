@@ -70,8 +70,9 @@ static unsigned int common_divisor(unsigned int a, unsigned int b) {
 
 static int free_timer(void) {
   int i;
-  for (i = 0; i < TIMERS && tasks.timers_in_use[i] > 0; i++) continue;
-  return i < TIMERS && tasks.motors != i ? i : NO_TIMER;
+  for (i = 0; i < TIMERS; i++)
+    if (tasks.timers_in_use[i] == 0) return tasks.motors != i ? i : NO_TIMER;
+  return NO_TIMER;
 }
 
 /* the busy timer whose period shares most with the cycle; else the one with the longest period */
@@ -133,11 +134,17 @@ static Agenda* find_in(Agenda* list, void (*func)(void)) {
   return list;
 }
 
-static Agenda* find_task(void (*func)(void)) {
+/* the timer that serves the task of `func` */
+static int timer_of(void (*func)(void)) {
   int i;
-  Agenda* task = find_in(tasks.waiting, func);
-  for (i = 0; i < TIMERS && !task; i++) task = find_in(tasks.agendas[i], func);
-  return task;
+  for (i = 0; i < TIMERS; i++)
+    if (find_in(tasks.agendas[i], func)) return i;
+  return NO_TIMER;
+}
+
+static Agenda* find_task(void (*func)(void)) {
+  int timer = timer_of(func);
+  return find_in(timer == NO_TIMER ? tasks.waiting : tasks.agendas[timer], func);
 }
 
 /* --- the API ------------------------------------------------------------------------------------------ */
@@ -238,7 +245,7 @@ int e_destroy_agenda(void (*func)(void)) {
 }
 
 int e_set_agenda_cycle(void (*func)(void), unsigned cycle) {
-  Agenda* task = 0;
+  Agenda* task;
   int i;
   e_end_agendas_processing(0);
   if (cycle > 0 && (task = unlink_task(&tasks.waiting, func)) != 0) {
@@ -247,12 +254,12 @@ int e_set_agenda_cycle(void (*func)(void), unsigned cycle) {
     e_start_timer_processing(0);
     return EXIT_OK;
   }
-  for (i = 0; i < TIMERS && !task; i++) task = find_in(tasks.agendas[i], func);
-  if (!task) {
+  i = timer_of(func);
+  if (i == NO_TIMER) {
     e_start_timer_processing(0);
     return AG_NOT_FOUND;
   }
-  i--;
+  task = find_in(tasks.agendas[i], func);
   if (cycle == 0) {
     unlink_task(&tasks.agendas[i], func);
     tasks.timers_in_use[i]--;

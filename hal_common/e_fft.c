@@ -7,6 +7,7 @@
 extern const fractcomplex twiddleFactors[FFT_BLOCK_LENGTH / 2];
 
 void e_doFFT_asm(fractcomplex *sigCmpx) {
-  FFTComplexIP(LOG2_BLOCK_LENGTH, sigCmpx, (fractcomplex *)twiddleFactors, 0);
+  FFTComplexIP(LOG2_BLOCK_LENGTH, sigCmpx, (fractcomplex *)__builtin_psvoffset(twiddleFactors),
+               (int)__builtin_psvpage(twiddleFactors));
   BitReverseComplex(LOG2_BLOCK_LENGTH, sigCmpx);
 }

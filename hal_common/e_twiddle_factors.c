@@ -6,7 +6,13 @@
  */
 #include "fft/e_fft.h"
 
-const fractcomplex twiddleFactors[FFT_BLOCK_LENGTH / 2] = {
+#ifdef __TWINPUCK__
+#define IN_PROGRAM_MEMORY
+#else
+#define IN_PROGRAM_MEMORY __attribute__((__space__(auto_psv), __aligned__(FFT_BLOCK_LENGTH * 2)))
+#endif
+
+const fractcomplex IN_PROGRAM_MEMORY twiddleFactors[FFT_BLOCK_LENGTH / 2] = {
     {32767, 0}, {32758, -804}, {32729, -1608}, {32679, -2411}, {32610, -3212}, {32522, -4011},
     {32413, -4808}, {32286, -5602}, {32138, -6393}, {31972, -7180}, {31786, -7962}, {31581, -8740},
     {31357, -9512}, {31114, -10279}, {30852, -11039}, {30572, -11793}, {30274, -12540}, {29957, -13279},
