@@ -30,7 +30,8 @@ inline constexpr double kArenaWallHeightM = 0.1;      // [Webots: RectangleArena
 inline constexpr double kArenaWallThicknessM = 0.01;  // [Webots: RectangleArena.wallThickness]
 
 // pictures that only Webots has
-inline constexpr sim::Colour kWood{0.60, 0.45, 0.30};       // [assumed: pine and parquet]
+inline constexpr sim::Colour kWood{0.60, 0.45, 0.30};     // [assumed: pine and parquet]
+inline constexpr sim::Colour kParquet{0.78, 0.68, 0.54};  // [assumed: light, so that boxes of wood stand out]
 inline constexpr sim::Colour kCardboard{0.65, 0.52, 0.38};  // [assumed: brown cardboard]
 inline constexpr sim::Colour kMetal{0.80, 0.80, 0.80};      // [assumed: brushed aluminium]
 inline constexpr sim::Colour kStone{0.55, 0.55, 0.55};      // [assumed: concrete, stone, asphalt]
@@ -59,12 +60,18 @@ inline constexpr double kGravityMax = 100;     // [world-format]
 inline constexpr double kLightMax = 10000;     // [world-format]
 
 // bounds of the importer itself
-inline constexpr int kMostVisits = 200'000;   // [assumed: nodes looked at, USE counted each time]
-inline constexpr int kMostBodies = 5000;      // [assumed: larger worlds are of no use here]
-inline constexpr int kMostLines = 1000;       // [assumed: nobody reads more]
-inline constexpr int kMostCommentLines = 60;  // [assumed: in the world file; all of them go to stderr]
-inline constexpr int kMostFaces = 400;        // [assumed: of one mesh; more make its hull]
-inline constexpr int kMostPoints = 20'000;    // [assumed: of one mesh]
-inline constexpr int kMostRepairs = 40;       // [assumed: things that begin inside each other]
+inline constexpr int kMostVisits = 200'000;    // [assumed: nodes looked at, USE counted each time]
+inline constexpr int kMostBodies = 5000;       // [assumed: larger worlds are of no use here]
+inline constexpr int kMostPieces = 20'000;     // [assumed: of all bodies]
+inline constexpr int kMostRobots = 1000;       // [assumed: as the one above]
+inline constexpr int kMostMovable = 500;       // [assumed: as the one above]
+inline constexpr int kMostContacts = 200;      // [assumed: as the one above]
+inline constexpr int kMostNeighbours = 300;    // [assumed: a robot among more has no room]
+inline constexpr std::size_t kMostRows = 100;  // [assumed: of a lookup table; Webots' have 10]
+inline constexpr int kMostLines = 1000;        // [assumed: nobody reads more]
+inline constexpr int kMostCommentLines = 60;   // [assumed: in the world file; all of them go to stderr]
+inline constexpr int kMostFaces = 400;         // [assumed: of one mesh; more make its hull]
+inline constexpr int kMostPoints = 20'000;     // [assumed: of one mesh]
+inline constexpr int kMostRepairs = 40;        // [assumed: things that begin inside each other]
 
 }  // namespace wbt

@@ -51,6 +51,7 @@ sim::WorldDesc neighbourhood(const sim::WorldDesc& all, std::size_t robot) {
 
 bool step_aside(sim::WorldDesc& all, std::size_t robot) {
   sim::WorldDesc w = neighbourhood(all, robot);
+  if (static_cast<int>(w.objects.size() + w.robots.size()) > kMostNeighbours) return false;
   const sim::Pose2 begin = w.robots[0].pose;
   const int line = w.robots[0].line;
   for (const double r : {0.01, 0.02, 0.04, 0.06, 0.08, 0.12, 0.16, 0.2, 0.3, 0.4}) {

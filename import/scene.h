@@ -19,8 +19,8 @@ struct Body {
   double mass_kg = 0;  ///< of a movable one; 0 or less: by density
   double density_kg_m3 = kDensityKgM3;
   std::string contact = "default";  ///< material of WorldInfo.contactProperties
-  bool robot_like = false;           ///< a Robot node that is no e-puck
-  bool untouched = false;            ///< without boundingObject: neither wheels nor distance sensors notice it
+  bool robot_like = false;          ///< a Robot node that is no e-puck
+  bool untouched = false;           ///< without boundingObject: neither wheels nor distance sensors notice it
 };
 
 struct Device {

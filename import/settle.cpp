@@ -84,7 +84,9 @@ class Settler {
     if (p.ramp && !p.endless_floor) return false;
     if (scene_.robots.empty())
       return p.endless_floor || (p.z_high - p.z_low < kFlatM && std::abs(p.z_high) < kFlatM);
-    return std::any_of(scene_.robots.begin(), scene_.robots.end(), [&](const FoundRobot& r) {
+    const auto some = scene_.robots.begin() +
+                      std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(scene_.robots.size()), 50);
+    return std::any_of(scene_.robots.begin(), some, [&](const FoundRobot& r) {
       return p.covers({r.pose.x_m, r.pose.y_m}) && p.z_high > r.z_m - kFloorBelowM &&
              p.z_high < r.z_m + kFloorAboveM;
     });
@@ -256,12 +258,16 @@ class Settler {
       report_.add(p.line, title, "its exact shape", p.approximation);
     if (p.ramp && !b.movable && !scene_.planar && ramp(b, p)) return;
     if (p.ramp && !b.movable) report_.add(p.line, title, "its exact shape", p.approximation);
+    if (static_cast<int>(out_.world.objects.size()) >= kMostBodies)
+      return report_.add(p.line, title, fmt::format("more than {} objects", kMostBodies));
     sim::ObjectDesc o;
     o.kind = p.kind;
     o.name = clean(b.name);
     o.def = clean(b.def);
     o.pose = {p.at.x, p.at.y, p.heading_rad};
-    o.movable = b.movable;
+    o.movable = b.movable && movable_ < kMostMovable;
+    if (b.movable && ++movable_ > kMostMovable)
+      report_.add(p.line, title, fmt::format("more than {} movable objects", kMostMovable), "it is fixed");
     double low = p.z_low - floor_z_, high = p.z_high - floor_z_;
     if (b.movable && low < 0) high -= low, low = 0;
     if (low < (b.movable ? kTouchM : kGapM)) {
@@ -305,12 +311,11 @@ class Settler {
       r.pose.x_m += lost / 2 * std::cos(r.pose.heading_rad);
       r.pose.y_m += lost / 2 * std::sin(r.pose.heading_rad);
       r.size_m.x -= lost;
-      r.low_m = 0;
-    } else if (r.low_m > 1e-6) {
+    } else if (r.low_m > kTouchM) {
       report_.add(p.line, b.type, fmt::format("a step of {:.1f} mm at its low end", 1000 * r.low_m),
                   "it begins on the floor");
-      r.low_m = 0;
     }
+    r.low_m = 0;
     if (r.size_m.x < 0.01 || r.size_m.y < 0.01 || std::max(r.size_m.x, r.size_m.y) > kFarthestM ||
         std::max(std::abs(r.pose.x_m), std::abs(r.pose.y_m)) > kFarthestM ||
         std::atan2(r.high_m, r.size_m.x) > kSteepestRampRad)
@@ -396,8 +401,6 @@ class Settler {
     if (std::abs(above) > kFloorBelowM)
       report_.add(f.line, f.type, fmt::format("that it begins {:.2f} m above the floor", above),
                   "it stands on the floor");
-    if (static_cast<int>(out_.world.robots.size()) >= kMostRobots)
-      return report_.add(f.line, f.type, fmt::format("more than {} robots", kMostRobots));
     out_.world.robots.push_back(r);
     out_.robot_from.push_back(from(f.type, "", f.def, f.line));
     out_.robot_parts.push_back(f.parts);
@@ -426,7 +429,7 @@ class Settler {
     out_.supervisor_from.push_back(from("Supervisor", "", f.def, f.line));
   }
 
-  static constexpr int kMostRobots = 2000;
+  int movable_ = 0;
   const Scene& scene_;
   const Options& options_;
   Report& report_;

@@ -28,10 +28,11 @@ std::optional<sim::Colour> named(std::string name) {
   const struct {
     const char* word;
     sim::Colour colour;
-  } kKnown[] = {{"parquet", kWood},  {"wood", kWood},       {"pine", kWood},       {"cardboard", kCardboard},
-                {"grass", kGreen},   {"brick", kRed},       {"stone", kStone},     {"concrete", kStone},
-                {"asphalt", kStone}, {"pavement", kStone},  {"roughcast", kStone}, {"metal", kMetal},
-                {"steel", kMetal},   {"aluminium", kMetal}, {"tile", kMetal}};
+  } kKnown[] = {{"parquet", kParquet},     {"wood", kWood},       {"pine", kWood},
+                {"cardboard", kCardboard}, {"grass", kGreen},     {"brick", kRed},
+                {"stone", kStone},         {"concrete", kStone},  {"asphalt", kStone},
+                {"pavement", kStone},      {"roughcast", kStone}, {"metal", kMetal},
+                {"steel", kMetal},         {"aluminium", kMetal}, {"tile", kMetal}};
   for (const auto& k : kKnown) {
     if (name.find(k.word) != std::string::npos) return k.colour;
   }

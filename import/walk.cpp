@@ -104,9 +104,10 @@ Scene Walk::scene() {
 }
 
 bool Walk::afford(const Node& n) {
-  if (++visits_ == kMostVisits)
-    report_.add(n, fmt::format("more than {} nodes, USE counted each time", kMostVisits));
-  return visits_ < kMostVisits;
+  if (++visits_ < kMostVisits) return true;
+  if (!exhausted_) report_.add(n, fmt::format("more than {} nodes, USE counted each time", kMostVisits));
+  exhausted_ = true;
+  return false;
 }
 
 Affine Walk::inside(const Node& n, const Affine& frame) const {
@@ -183,6 +184,7 @@ void Walk::world_info(const Node& n) {
     report_.add(n, *n.field("physics"), "a physics plug-in", "the engines of Twinpuck");
   if (const Field* list = n.field("contactProperties")) {
     for (const NodePtr& c : list->nodes) {
+      if (scene_.contacts.size() == kMostContacts) break;
       Contact out;
       out.one = c->text("material1", "default");
       out.other = c->text("material2", "default");
@@ -258,13 +260,18 @@ void Walk::gather(const Node& n, const Affine& frame, int depth, std::vector<Pie
   } else if (is_geometry(n.type)) {
     const Node* coord = n.node("coord");
     const Field* points = coord ? coord->field("point") : n.field("height");
-    visits_ += points ? static_cast<int>(points->numbers.size() / 60) : 0;
+    // what is long to look at counts as many nodes
+    double numbers = points ? static_cast<double>(points->numbers.size()) : 0;
+    if (const Field* index = n.field("coordIndex")) numbers += static_cast<double>(index->numbers.size());
+    if (n.type == "ElevationGrid") numbers += 1e4;
+    if (n.type == "Extrusion") numbers += 1e4;
+    visits_ += static_cast<int>(std::min(numbers / 60, 1e6));
     std::string why;
     std::vector<Piece> made = pieces_of(n, frame, z_up_, why);
     if (!why.empty()) report_.add(n, why);
     for (Piece& p : made) {
       if (paint) p.surface = *paint;
-      if (out.size() < kMostBodies) out.push_back(std::move(p));
+      if (++pieces_ <= kMostPieces) out.push_back(std::move(p));
     }
   } else if (is_group(n.type) || (nested_solids && is_solid(n.type))) {
     const Affine here = inside(n, frame);

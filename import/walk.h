@@ -65,6 +65,8 @@ class Walk {
   Affine world_;       // from the file's axes to ours
   bool z_up_ = false;  // shapes and robots of R2022 on
   int visits_ = 0;
+  int pieces_ = 0;
+  bool exhausted_ = false;
   std::size_t budget_ = kMostNodes;  // of PROTOs to be unfolded
   std::map<std::string, Proto> files_;
   std::set<std::string> missing_;

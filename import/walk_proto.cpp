@@ -94,7 +94,7 @@ void Walk::arena(const Node& n, const Affine& frame) {
          std::clamp(n.number("wallColor", 1, 2), 0.0, 1.0)},
         0};
   if (!a.walls) a.walls = Surface{kMetal, 0};
-  if (!a.floor) a.floor = Surface{kWood, 0};
+  if (!a.floor) a.floor = Surface{kParquet, 0};
   known_fields(
       n, {"floorSize", "floorTileSize", "floorAppearance", "floorTextureUrl", "wallHeight", "wallThickness",
           "wallAppearance", "wallColor", "wallTileSize", "contactMaterial", "wallTextureUrl"});
@@ -112,7 +112,7 @@ void Walk::circle_arena(const Node& n, const Affine& frame) {
   a.round = true;
   a.wall_height_m = n.number("wallHeight", kArenaWallHeightM);
   a.wall_thickness_m = n.number("wallThickness", kArenaWallThicknessM);
-  a.floor = n.node("floorAppearance") ? surfaces_.of(n.node("floorAppearance")) : Surface{kWood, 0};
+  a.floor = n.node("floorAppearance") ? surfaces_.of(n.node("floorAppearance")) : Surface{kParquet, 0};
   a.walls = n.node("wallAppearance") ? surfaces_.of(n.node("wallAppearance")) : Surface{kMetal, 0};
   scene_.arenas.push_back(a);
 }
@@ -127,7 +127,7 @@ void Walk::floor_proto(const Node& n, const Affine& frame) {
   a.size = {std::abs(n.number("size", 10, 0)), std::abs(n.number("size", 10, 1))};
   a.heading_rad = std::atan2(frame.axes[0].y, frame.axes[0].x);
   const Node* look = n.node("appearance");
-  a.floor = look ? surfaces_.of(look) : Surface{kWood, 0};
+  a.floor = look ? surfaces_.of(look) : Surface{kParquet, 0};
   if (n.type == "CheckeredFloor") report_.add(n, "its checkered pattern", "the colour of parquet");
   scene_.arenas.push_back(a);
 }

@@ -121,6 +121,8 @@ void Walk::robot(const Node& n, const Affine& frame, int depth) {
 }
 
 void Walk::epuck(const Node& n, const Affine& frame, bool by_proto) {
+  if (static_cast<int>(scene_.robots.size()) >= kMostRobots)
+    return report_.add(n, fmt::format("more than {} robots", kMostRobots));
   FoundRobot out;
   out.type = n.type;
   out.by_proto = by_proto;
@@ -245,7 +247,7 @@ void Walk::sensors(const std::vector<const Node*>& nodes, FoundRobot& out) {
     sim::ProximitySettings& p = s.proximity;
     if (const Field* table = d->field("lookupTable")) {
       std::vector<sim::ResponseRow> rows;
-      for (std::size_t i = 0; i + 2 < table->numbers.size(); i += 3)
+      for (std::size_t i = 0; i + 2 < std::min(table->numbers.size(), 3 * kMostRows + 3); i += 3)
         rows.push_back({table->numbers[i], table->numbers[i + 1], std::max(0.0, table->numbers[i + 2])});
       std::sort(rows.begin(), rows.end(), [](const sim::ResponseRow& a, const sim::ResponseRow& b) {
         return a.distance_m < b.distance_m;
@@ -256,7 +258,7 @@ void Walk::sensors(const std::vector<const Node*>& nodes, FoundRobot& out) {
                rows[i].value <= 1e6 && rows[i].relative_noise <= 1e6 &&
                (i == 0 || rows[i].distance_m > rows[i - 1].distance_m + 1e-7);
       }
-      if (good && rows.size() <= 100)
+      if (good && rows.size() <= kMostRows)
         p.table = rows;
       else
         report_.add(*d, *table, "a table with fewer than two rows, or without order", "the profile's");

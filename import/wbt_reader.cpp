@@ -67,11 +67,18 @@ std::string shown(const Token& t) {
 
 std::string unescaped(std::string_view text) {
   std::string out;
-  for (std::size_t i = 0; i < text.size(); ++i) {
+  for (std::size_t i = 0; i < text.size() && out.size() < kLongestText; ++i) {
     if (text[i] == '\\' && i + 1 < text.size()) ++i;
     out += text[i];
   }
   return out;
+}
+
+// what a copy of a field costs, in nodes
+std::size_t size_of(const Field& f) {
+  std::size_t letters = 0;
+  for (const std::string& s : f.strings) letters += s.size() + 32;
+  return 1 + f.numbers.size() / 16 + letters / 64 + f.nodes.size() / 8;
 }
 
 class Lexer {
@@ -305,19 +312,26 @@ class Reader {
     out->line = line_ > 0 ? line_ : lexer_.now().line;
     out->type = word("the type of a node");
     mark("{", "'{' behind the type of a node");
-    if (++used_ > budget_) fail(first, fmt::format("at most {} nodes", budget_));
+    spend(1, first);
     while (!is_mark("}")) {
       const bool hidden = is_word("hidden");
       if (hidden) lexer_.take();
       Field f;
       f.line = line_ > 0 ? line_ : lexer_.now().line;
       f.name = word("the name of a field, or '}'");
+      spend(1, first);
+      if (out->fields.size() == kMostFields) fail(first, fmt::format("at most {} fields", kMostFields));
       value(f, depth + 1);
       if (!hidden) out->fields.push_back(std::move(f));
     }
     lexer_.take();
     if (!out->def.empty()) defs_[out->def] = out;
     return out;
+  }
+
+  void spend(std::size_t cost, const Token& at) {
+    used_ += cost;
+    if (used_ > budget_) fail(at, fmt::format("at most {} nodes and fields", budget_));
   }
 
   void value(Field& f, int depth) {
@@ -339,6 +353,7 @@ class Reader {
       f.numbers.push_back(lexer_.take().number);
     } else if (t.kind == Kind::Text) {
       f.strings.push_back(unescaped(lexer_.take().text));
+      spend(f.strings.back().size() / 64, t);
     } else if (is_word("TRUE") || is_word("FALSE")) {
       f.truth = lexer_.take().text == "TRUE";
     } else if (is_word("IS")) {
@@ -347,8 +362,7 @@ class Reader {
       for (std::size_t i = 0; values_ && i < values_->size(); ++i) {
         const Field& given = (*values_)[i];
         if (given.name != name) continue;
-        used_ += given.numbers.size() / 16 + given.strings.size() / 4 + given.nodes.size();
-        if (used_ > budget_) fail(t, fmt::format("at most {} nodes", budget_));
+        spend(size_of(given), t);
         f.numbers.insert(f.numbers.end(), given.numbers.begin(), given.numbers.end());
         f.strings.insert(f.strings.end(), given.strings.begin(), given.strings.end());
         f.nodes.insert(f.nodes.end(), given.nodes.begin(), given.nodes.end());
@@ -431,6 +445,10 @@ NodePtr unfold(const Proto& proto, const Node& instance, std::size_t& budget) {
   for (Field& v : values) {
     if (const Field* given = instance.field(v.name)) v = *given;
   }
+  std::size_t copied = 0;
+  for (const Field& v : values) copied += size_of(v);
+  if (copied >= budget) return budget = 0, nullptr;
+  budget -= copied;
   try {
     Reader reader(proto.body, budget);
     const NodePtr out = reader.body(values, instance.line);

@@ -13,9 +13,11 @@
 
 namespace wbt {
 
-inline constexpr int kDeepestNode = 60;                 // nodes in nodes; worlds have about 15
-inline constexpr std::size_t kMostNodes = 400'000;      // in one file with all its PROTOs unfolded
-inline constexpr std::size_t kLongestFile = 64u << 20;  // bytes
+inline constexpr int kDeepestNode = 60;               // nodes in nodes; worlds have about 15
+inline constexpr std::size_t kMostNodes = 1'000'000;  // and fields, in one file with all its PROTOs unfolded
+inline constexpr std::size_t kMostFields = 200;       // of one node
+inline constexpr std::size_t kLongestText = 4096;     // characters; the rest is dropped
+inline constexpr std::size_t kLongestFile = 32u << 20;  // bytes
 
 /// A PROTO: its fields' defaults and the text of its body.
 struct Proto {

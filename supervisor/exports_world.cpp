@@ -159,7 +159,8 @@ int sv_get_velocity(int thing, struct sv_velocity* velocity) {
 int sv_set_pose(int thing, const struct sv_pose* pose) {
   Member& me = asking();
   if (!supervisor::is_movable(me, "sv_set_pose", thing) ||
-      !is_finite(me, "sv_set_pose", {pose->x, pose->y, pose->heading}) ||
+      !is_finite(me, "sv_set_pose", {pose->x, pose->y}) ||
+      !supervisor::in_range(me, "sv_set_pose", "heading", pose->heading, -1e9, 1e9, "rad") ||
       !supervisor::in_range(me, "sv_set_pose", "z", pose->z, 0, kFar, "m"))
     return -1;
   me.team.simulation().move(me.team.things().body(thing), {pose->x, pose->y, pose->heading}, pose->z);

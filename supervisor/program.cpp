@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "supervisor/program.h"
 
+#include <cxxabi.h>
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <link.h>
@@ -10,6 +11,7 @@
 #include <ucontext.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <mutex>
@@ -239,7 +241,16 @@ void Program::crash_with(std::string what, std::uintptr_t pc, std::uintptr_t fra
 std::string Program::place_of(std::uintptr_t pc, std::uintptr_t frame) const {
   // the innermost frame that is the program's own; frames are linked through the frame pointer
   for (int depth = 0; depth < 32; ++depth) {
-    if (is_code(pc)) return " at " + to_string(symbols_.find(pc - base_));
+    if (is_code(pc)) {
+      host::Place place = symbols_.find(pc - base_);
+      const std::string symbol = place.function.substr(0, place.function.find('.'));
+      int wrong = 0;
+      if (char* readable = abi::__cxa_demangle(symbol.c_str(), nullptr, nullptr, &wrong)) {
+        place.function = readable;
+        std::free(readable);
+      }
+      return " at " + to_string(place);
+    }
     if (frame % sizeof(void*) != 0 || !fiber_.is_on_stack(frame) ||
         !fiber_.is_on_stack(frame + 2 * sizeof(void*) - 1))
       break;

@@ -119,6 +119,7 @@ std::unique_ptr<Team> Team::open(twin::Twin& twin, const twin::Options& options,
     member.program = Program::open(paths[i], member.name, &member, problems);
   }
   if (problems.size() != before) return nullptr;
+  for (const auto& member : team->members_) twin.packets().add(*member);
   if (!team->members_.empty()) twin.simulation().attend(team.get());
   return team;
 }

@@ -104,7 +104,8 @@ class Member final : public sim::PacketPort {
 
 class Team final : public sim::Attendant {
  public:
-  /// The supervisors of the twin's world, compiled and loaded, and attached to its simulation. Null when
+  /// The supervisors of the twin's world, compiled and loaded, and attached to its simulation, which must not
+  /// step any more once the team is gone. Null when
   /// anything is wrong; every problem is one line. A world without supervisors gives a team of none. `extra`:
   /// programs of the command line.
   static std::unique_ptr<Team> open(twin::Twin& twin, const twin::Options& options,

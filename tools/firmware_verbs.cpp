@@ -11,6 +11,7 @@
 #include "hal_sim/twin/twin.h"
 #include "sim_core/light/profiles.h"
 #include "sim_core/load/world_loader.h"
+#include "supervisor/build.h"
 #include "tools/verbs.h"
 
 namespace tools {
@@ -34,7 +35,35 @@ bool is_folder(const std::string& folder, const char* verb) {
   return false;
 }
 
+/// A supervisor's program is the PC's compiler's business.
+int build_supervisor(const std::string& name, const fs::path& output) {
+  std::vector<std::string> problems;
+  const std::string made = supervisor::provide_program(
+      name, "", [](const std::string& line) { std::cerr << line << '\n'; }, problems);
+  complain(problems);
+  if (made.empty()) return kTestFailed;
+  std::error_code wrong;
+  if (!output.empty()) fs::copy_file(made, output, fs::copy_options::overwrite_existing, wrong);
+  if (wrong) {
+    complain({output.string() + ": -o: cannot be written: " + wrong.message()});
+    return kBadInput;
+  }
+  std::cout << (output.empty() ? made : output.string()) << ": a supervisor's program\n";
+  return kPass;
+}
+
 int build(cc::BuildOptions options) {
+  const std::string given = options.source_dir.string();
+  if (!fs::is_directory(controller_folder(given)) ||
+      supervisor::is_program_folder(controller_folder(given))) {
+    const fs::path known = fs::path(twin::project_root()) / "supervisor" / "programs" / given;
+    if (fs::exists(given) || (given.find('/') == std::string::npos && fs::is_directory(known)))
+      return build_supervisor(given, options.output);
+  }
+  if (options.output.empty()) {
+    complain({"command line: -o: missing, expected the image to write, a .so"});
+    return kBadInput;
+  }
   options.source_dir = controller_folder(options.source_dir.string());
   if (!is_folder(options.source_dir.string(), "build")) return kBadInput;
   const auto result = cc::build_image(options);
@@ -102,10 +131,12 @@ int check(const std::vector<std::string>& files) {
 }  // namespace
 
 void add_build(CLI::App& app, int& exit_code) {
-  auto* verb = app.add_subcommand("build", "Compile a folder of firmware into an image for this PC");
+  auto* verb =
+      app.add_subcommand("build", "Compile a folder of firmware into an image for this PC, or a supervisor");
   auto o = std::make_shared<cc::BuildOptions>();
-  verb->add_option("DIR", o->source_dir, "folder with C files, or a controller's name")->required();
-  verb->add_option("-o,--output", o->output, "the image to write, a .so")->required();
+  verb->add_option("DIR", o->source_dir, "folder with C files, or a controller's or supervisor's name")
+      ->required();
+  verb->add_option("-o,--output", o->output, "the image to write, a .so; needed for firmware");
   verb->add_option("--opt", o->optimisation, "-O0 -O1 -O2 -Os")
       ->check(CLI::IsMember({"-O0", "-O1", "-O2", "-Os"}))
       ->capture_default_str();

@@ -63,11 +63,12 @@ std::string plot_shares(const std::string& file, const StepResult& result) {
     text(c, x_of(scale), kHeight - kBottom + 22, fmt::format("{:g}", scale), 0.5);
   text(c, (kLeft + kWidth - kRight) / 2, kHeight - 20, "noise scale of the proximity sensors", 0.5);
   text(c, kLeft, kTop - 15,
-       fmt::format("{}: {} that {} within {:g} s, of {:g} runs each", step.worlds[0], step.firmware,
-                   step.says, step.seconds, runs),
+       fmt::format("{} in {}: runs that {} within {:g} s, of {:g} each", step.firmware, step.worlds[0],
+                   step.says, result.trials[0].trial.seconds, runs),
        0);
   cairo_set_source_rgb(c, 0.1, 0.35, 0.7);
   cairo_set_line_width(c, 2);
+  cairo_new_path(c);  // text has left a point behind
   for (double scale : step.noise_scales) cairo_line_to(c, x_of(scale), y_of(share_of(result, scale)));
   cairo_stroke(c);
   for (double scale : step.noise_scales) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 namespace tools {
@@ -35,7 +36,7 @@ std::string words(Measure m, double value, const char* how) {
   if (unit == "m" && value < 0.1) unit = "mm", value *= 1000;
   const std::string number = m == Measure::Speed          ? fmt::format("{:.0f}", value)
                              : value == std::round(value) ? fmt::format("{:.0f}", value)
-                             : unit.empty()               ? fmt::format("{:.4f}", value)
+                             : unit.empty()               ? fmt::format("{:.4g}", value)
                                                           : fmt::format("{:.2f}", value);
   return fmt::format("{}{}{} {}{}{}", how, *how ? " " : "", name, number, unit.empty() ? "" : " ", unit);
 }
@@ -96,7 +97,11 @@ bool is_passed(const StepResult& result) {
 std::string to_text(const StepResult& result, bool times) {
   const LabStep& step = *result.step;
   if (!result.problem.empty()) return result.problem;
-  if (step.kind == LabStep::Kind::Answer) return "docs/lab-answers.md#" + step.answer;
+  if (step.kind == LabStep::Kind::Answer) {
+    std::string anchor = step.answer;
+    for (char& c : anchor) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return "docs/lab-answers.md#" + anchor;
+  }
   std::string text = step.says;
   if (step.kind == LabStep::Kind::Runs && step.noise_scales.size() > 1) {
     text = step.says + " by noise scale:";
@@ -107,14 +112,16 @@ std::string to_text(const StepResult& result, bool times) {
     for (const TrialResult& t : result.trials) kept += keeps_bounds(t);
     text = fmt::format("{} of {} {}", kept, result.trials.size(), step.says);
   }
-  for (const Shown& shown : step.shown) {
-    if (shown.measure == Measure::Speed && !times) continue;
-    if (!step.by_world) {
-      const std::string one = figure(result, shown, "");
-      if (!one.empty()) text += ", " + one;
-      continue;
+  const std::vector<std::string> all{""};
+  for (const std::string& world : step.by_world ? step.worlds : all) {
+    std::string figures;
+    for (const Shown& shown : step.shown) {
+      if (shown.measure == Measure::Speed && !times) continue;
+      const std::string one = figure(result, shown, world);
+      if (!one.empty()) figures += (figures.empty() ? "" : ", ") + one;
     }
-    for (const std::string& world : step.worlds) text += ", " + world + " " + figure(result, shown, world);
+    if (figures.empty()) continue;
+    text += world.empty() ? ", " + figures : fmt::format(" [{}: {}]", world, figures);
   }
   return text;
 }

@@ -15,9 +15,9 @@ namespace tools {
 namespace {
 
 constexpr const char* kMeasureNames[kMeasures] = {
-    "standstill_s", "wall_touch_s",  "touch_s",      "collisions",  "distance_m",
-    "escape_s",     "slip_m",        "speed",        "rows",        "range_m",
-    "detection_m",  "centre_weight", "outer_weight", "straightness"};
+    "standstill_s", "wall_touch_s", "touch_s",   "collisions",  "distance_m",  "escape_s",
+    "slip_m",       "speed",        "rows",      "range_m",     "detection_m", "centre_weight",
+    "outer_weight", "restarts",     "restart_m", "straightness"};
 
 class Reader {
  public:
@@ -161,7 +161,11 @@ class Reader {
     if (s.kind != LabStep::Kind::Answer && s.worlds.empty())
       problem(t, "step: got no worlds, expected one or more");
     s.firmware = text(t, "firmware");
-    s.seconds = number(t, "seconds", 60);
+    s.seconds = s.full_seconds = number(t, "seconds", 60);
+    if (t["seconds"].is_array()) {
+      const Span both = span(t, "seconds", {60, 60});
+      s.seconds = both.low, s.full_seconds = both.high;
+    }
     const auto seeds = numbers(t, "seeds", 2);
     if (seeds.size() == 2)
       s.quick_seeds = static_cast<int>(seeds[0]), s.full_seeds = static_cast<int>(seeds[1]);

@@ -18,12 +18,14 @@ enum class Measure {
   DistanceM,     ///< way over the floor, m; laziest robot
   EscapeS,       ///< when the last robot left the region, s; infinite: not in time
   SlipM,         ///< way that the wheels turned and the robot did not make, m; worst robot
-  Speed,         ///< simulated s per s of the PC's clock
+  Speed,         ///< simulated s per s of processor time, one thread
   Rows,          ///< of the sensor's lookup table
   RangeM,        ///< last distance of the table, m
   DetectionM,    ///< farthest wall of the world's material that is not read as nothing, m
   CentreWeight,  ///< of the ray on the axis, 0 to 1
   OuterWeight,   ///< of one of the others
+  Restarts,      ///< times that somebody put an object into the air, more than 5 cm up at once
+  RestartM,      ///< lowest height of its underside right after that, m
   Straightness,  ///< square of the correlation between distance and value: 1 for a linear sensor
   Count
 };
@@ -65,7 +67,7 @@ struct LabStep {
   std::string says;                 ///< what a run that keeps the bounds has done
   std::vector<std::string> worlds;  ///< files in worlds/, without ending
   std::string firmware;             ///< for every robot; empty: as the world says
-  double seconds = 60;
+  double seconds = 60, full_seconds = 60;
   int quick_seeds = 1, full_seeds = 1;
   std::vector<double> noise_scales;  ///< of the proximity sensors; empty: as the world says
   std::vector<Span> shares;          ///< of runs that keep the bounds; one for all, or one per noise scale

@@ -2,8 +2,8 @@
 #include "tools/lab_trial.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <filesystem>
 
 #include "hal_sim/board/epuck_model.h"
@@ -14,16 +14,18 @@
 #include "sim_core/random/counter_random.h"
 #include "sim_core/world/layout.h"
 #include "sim_core/world/scene.h"
+#include "supervisor/team.h"
 #include "tools/summary.h"
 
 namespace tools {
 
 namespace {
 
-constexpr double kProgressM = 0.02;                 // what counts as progress
-constexpr double kStartClearanceM = 0.01;           // free room around a robot that starts at random
-constexpr int kMostTries = 10000;                   // places tried for one robot
-constexpr std::uint32_t kStreamStart = 50;          // below the boards' streams
+constexpr double kProgressM = 0.02;         // what counts as progress
+constexpr double kStartClearanceM = 0.01;   // free room around a robot that starts at random
+constexpr int kMostTries = 10000;           // places tried for one robot
+constexpr std::uint32_t kStreamStart = 50;  // below the boards' streams
+constexpr double kLiftM = 0.05;
 constexpr double kSlipWindowS = 1, kSlipM = 0.002;  // less than this in a window is rounding of whole steps
 
 double uniform(const sim::RandomKey& key, std::uint64_t counter, Span span) {
@@ -71,6 +73,13 @@ bool place_robots(sim::WorldDesc& world, const Start& start) {
   return true;
 }
 
+// what this process has had of the processor: on an idle PC as much as passes, on a busy one less
+double cpu_s() {
+  timespec t;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
 // follows one robot through its run
 class Watch {
  public:
@@ -111,26 +120,58 @@ class Watch {
   std::int64_t last_steps_ = 0;
 };
 
-void run(twin::Twin& twin, const LabStep& step, Measures& m) {
+// objects that somebody lifts while the world runs
+class Lifts {
+ public:
+  explicit Lifts(const sim::Simulation& simulation) : simulation_(simulation) { look(); }
+
+  void look() {
+    const int bodies = static_cast<int>(simulation_.scene().layout().moving.size());
+    heights_m_.resize(static_cast<std::size_t>(bodies));
+    for (int body = simulation_.robots(); body < bodies; ++body) {
+      double& before_m = heights_m_[static_cast<std::size_t>(body)];
+      const double z_m = simulation_.state(body).z_m;
+      if (began_ && z_m > before_m + kLiftM) ++restarts, restart_m = std::min(restart_m, z_m);
+      before_m = z_m;
+    }
+    began_ = true;
+  }
+
+  int restarts = 0;
+  double restart_m = std::numeric_limits<double>::infinity();
+
+ private:
+  const sim::Simulation& simulation_;
+  bool began_ = false;
+  std::vector<double> heights_m_;
+};
+
+void run(twin::Twin& twin, supervisor::Team& team, const Trial& trial, Measures& m) {
+  const LabStep& step = *trial.step;
   auto& simulation = twin.simulation();
+  Lifts lifts(simulation);  // sees the kick-off
+  team.before_first_tick();
   std::vector<Watch> watches;
   for (int i = 0; i < twin.robots(); ++i) {
     const auto* model = twin.world().model_of(twin.world().robots[static_cast<std::size_t>(i)]);
     watches.emplace_back(simulation, i, step.region,
                          2 * sim::kPi * model->wheel_radius_m / model->steps_per_turn);
   }
-  const auto start = std::chrono::steady_clock::now();
-  const sim::Clicks end = sim::from_seconds(step.seconds);
+  const double cpu_before_s = cpu_s();
+  const sim::Clicks end = sim::from_seconds(trial.seconds);
   const auto all_out = [&] {
     return !step.region.empty() && std::all_of(watches.begin(), watches.end(),
                                                [](const Watch& w) { return std::isfinite(w.escape_s); });
   };
-  while (simulation.now() < end && !all_out()) {
+  while (simulation.now() < end && !all_out() && !team.has_ended()) {
     simulation.step();
     for (Watch& w : watches) w.look();
+    lifts.look();
   }
-  const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  m[Measure::Speed] = sim::to_seconds(simulation.now()) / wall_s;
+  team.finish();
+  m[Measure::Restarts] = lifts.restarts;
+  m[Measure::RestartM] = lifts.restart_m;
+  m[Measure::Speed] = sim::to_seconds(simulation.now()) / (cpu_s() - cpu_before_s);
   m[Measure::StandstillS] = m[Measure::WallTouchS] = m[Measure::TouchS] = m[Measure::Collisions] = 0;
   m[Measure::EscapeS] = m[Measure::SlipM] = 0;
   m[Measure::DistanceM] = std::numeric_limits<double>::infinity();
@@ -227,9 +268,12 @@ bool run_trial(const Trial& trial, Measures& measures, std::vector<std::string>&
   if (!trial.image.empty()) options.firmware = {{"*", trial.image}};
   auto twin = twin::Twin::open(std::move(world), options, problems);
   if (!twin) return false;
-  run(*twin, step, measures);
+  const auto team = supervisor::Team::open(*twin, options, {}, problems);
+  if (!team) return false;
+  run(*twin, *team, trial, measures);
+  if (team->outcome().code != 0) problems.push_back(file + ": supervisor: " + team->outcome().text);
   for (const auto& trap : twin->traps()) problems.push_back(to_text(trap));
-  return twin->traps().empty();
+  return twin->traps().empty() && team->outcome().code == 0;
 }
 
 }  // namespace tools

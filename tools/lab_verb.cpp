@@ -43,14 +43,15 @@ bool build_images(const std::vector<const LabExercise*>& chosen, std::map<std::s
   return problems.empty();
 }
 
-std::vector<TrialResult> trials_of(const LabStep& step, int seeds, const std::string& image) {
+std::vector<TrialResult> trials_of(const LabStep& step, int seeds, double seconds, const std::string& image) {
   std::vector<TrialResult> all;
   const std::vector<double> as_written{std::nan("")};
   const auto& scales = step.noise_scales.empty() ? as_written : step.noise_scales;
   for (const std::string& world : step.worlds)
     for (double scale : scales)
       for (int seed = 1; seed <= (step.kind == LabStep::Kind::Sensor ? 1 : seeds); ++seed)
-        all.push_back({{&step, world, image, scale, static_cast<std::uint64_t>(seed)}, false, {}, {}});
+        all.push_back(
+            {{&step, world, image, scale, seconds, static_cast<std::uint64_t>(seed)}, false, {}, {}});
   return all;
 }
 
@@ -113,7 +114,8 @@ StepResult run_step(const LabStep& step, const LabArguments& a,
   }
   const int seeds = a.seeds > 0 ? a.seeds : a.full ? step.full_seeds : step.quick_seeds;
   const auto image = images.find(step.firmware);
-  result.trials = trials_of(step, seeds, image == images.end() ? "" : image->second);
+  result.trials = trials_of(step, seeds, a.full ? step.full_seconds : step.seconds,
+                            image == images.end() ? "" : image->second);
   bool timed = false;
   for (const Shown& s : step.shown) timed = timed || s.measure == Measure::Speed;
   if (a.jobs > 1 && !timed) {

@@ -40,14 +40,18 @@ void print(const std::string& heading, std::vector<std::pair<std::string, std::s
 
 int list_all() {
   const fs::path root = twin::project_root();
-  std::vector<std::pair<std::string, std::string>> controllers, worlds;
+  std::vector<std::pair<std::string, std::string>> controllers, worlds, supervisors;
   std::error_code none;
   for (const auto& entry : fs::directory_iterator(root / "firmware", none))
-    if (fs::exists(entry.path() / "main.c"))
+    // Webots' controllers have their folder's name
+    if (fs::exists(entry.path() / "main.c") ||
+        fs::exists(entry.path() / (entry.path().filename().string() + ".c")))
       controllers.emplace_back(entry.path().filename().string(), first_sentence(entry.path() / "README.md"));
   for (const auto& entry : fs::directory_iterator(root / "worlds", none))
     if (entry.path().extension() == ".toml")
       worlds.emplace_back(entry.path().stem().string(), first_sentence(entry.path()));
+  for (const auto& entry : fs::directory_iterator(root / "supervisor" / "programs", none))
+    supervisors.emplace_back(entry.path().filename().string(), first_sentence(entry.path() / "README.md"));
   if (controllers.empty() && worlds.empty()) {
     complain(
         {root.string() +
@@ -56,6 +60,7 @@ int list_all() {
   }
   print("Controllers (make run FW=...)", controllers);
   print("Worlds (make run WORLD=...)", worlds);
+  print("Supervisors (twinpuck run WORLD --supervisor ...)", supervisors);
   std::vector<std::pair<std::string, std::string>> parts;
   for (const sim::PartKind& kind : board::part_kinds()) parts.emplace_back(kind.name, kind.doc);
   print("Parts ([[robot.part]] kind = \"...\" in a world)", parts);
@@ -65,7 +70,7 @@ int list_all() {
 }  // namespace
 
 void add_list(CLI::App& app, int& exit_code) {
-  app.add_subcommand("list", "List controllers, worlds and parts")->callback([&exit_code] {
+  app.add_subcommand("list", "List controllers, worlds, supervisors and parts")->callback([&exit_code] {
     exit_code = list_all();
   });
 }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <vector>
 
 #include "hal_sim/twin/twin.h"
 #include "tools/verbs.h"
@@ -97,13 +98,42 @@ TEST_F(@NAME@, drives_and_keeps_off_the_wall) {
 }
 )";
 
+const char* const kSupervisor = R"(/* SPDX-License-Identifier: MIT
+ * @NAME@: ends the run once every robot has driven half a metre, or as failed when one has touched something. A
+ * start for your own supervisor; docs/supervisor.md is the guide. */
+#include <supervisor.h>
+
+int main(void)
+{
+  while (sv_step(0.1) >= 0) {
+    int robot, there = 0;
+
+    for (robot = 0; robot < sv_robots(); robot++) {
+      if (sv_collisions(robot) > 0)
+        sv_end(1, "%s touched something", sv_thing_name(robot));
+      there += sv_distance(robot) > 0.5;
+    }
+    if (there == sv_robots())
+      sv_end(0, "all there after %.1f s", sv_time());
+  }
+  return 0;
+}
+)";
+
+const char* const kSupervisorReadme = R"(# @NAME@
+
+Ends the run once every robot has driven half a metre. Made by `twinpuck new --supervisor`.
+
+    build/twinpuck run maze --supervisor @NAME@
+)";
+
 std::string replace_all(std::string text, const std::string& key, const std::string& value) {
   for (std::size_t at = text.find(key); at != std::string::npos; at = text.find(key, at + value.size()))
     text.replace(at, key.size(), value);
   return text;
 }
 
-int make_controller(const std::string& name) {
+int make(const std::string& name, bool supervisor) {
   const bool good = !name.empty() && std::islower(static_cast<unsigned char>(name[0])) &&
                     std::all_of(name.begin(), name.end(), [](unsigned char c) {
                       return std::islower(c) || std::isdigit(c) || c == '_';
@@ -113,22 +143,30 @@ int make_controller(const std::string& name) {
               "', expected lower-case letters, digits and underscores, a letter first"});
     return kBadInput;
   }
-  const fs::path folder = fs::path(twin::project_root()) / "firmware" / name;
+  const std::string room = supervisor ? "supervisor/programs" : "firmware";
+  const char* const what = supervisor ? "new supervisor" : "new controller";
+  const fs::path folder = fs::path(twin::project_root()) / room / name;
   if (fs::exists(folder)) {
-    complain({folder.string() + ": new controller: got a folder that exists, expected a new name"});
+    complain({folder.string() + ": " + what + ": got a folder that exists, expected a new name"});
     return kBadInput;
   }
   std::error_code error;
   fs::create_directories(folder, error);
-  const std::pair<const char*, const char*> files[] = {
+  std::vector<std::pair<std::string, const char*>> files{
       {"main.c", kMain}, {"README.md", kReadme}, {"test.cpp", kTest}};
+  if (supervisor) files = {{name + ".c", kSupervisor}, {"README.md", kSupervisorReadme}};
   for (const auto& [file, text] : files) {
     std::ofstream out(folder / file);
     out << replace_all(text, "@NAME@", name);
     if (!out.flush()) {
-      complain({(folder / file).string() + ": new controller: cannot write the file"});
+      complain({(folder / file).string() + ": " + what + ": cannot write the file"});
       return kBadInput;
     }
+  }
+  if (supervisor) {
+    std::cout << "Made supervisor/programs/" << name << ".\n  build/twinpuck run maze --supervisor " << name
+              << "\n";
+    return kPass;
   }
   std::cout << "Made firmware/" << name << " with main.c, README.md and test.cpp.\n"
             << "  make run FW=" << name << "\n  make test T=" << name << "\n";
@@ -138,10 +176,13 @@ int make_controller(const std::string& name) {
 }  // namespace
 
 void add_new(CLI::App& app, int& exit_code) {
-  auto* verb = app.add_subcommand("new", "Make a new controller that builds, runs and passes its own test");
+  auto* verb = app.add_subcommand(
+      "new", "Make a new controller, or a supervisor, that builds and runs, to start from");
   auto name = std::make_shared<std::string>();
-  verb->add_option("NAME", *name, "its name: a folder under firmware/")->required();
-  verb->callback([name, &exit_code] { exit_code = make_controller(*name); });
+  verb->add_option("NAME", *name, "its name: a folder under firmware/ or supervisor/programs/")->required();
+  auto supervisor = std::make_shared<bool>(false);
+  verb->add_flag("--supervisor", *supervisor, "a supervisor instead of a controller");
+  verb->callback([name, supervisor, &exit_code] { exit_code = make(*name, *supervisor); });
 }
 
 }  // namespace tools

@@ -44,6 +44,12 @@ void Progress::show(double simulated_s) {
   std::fflush(stderr);
 }
 
+void Progress::clear() {
+  finish();
+  if (shown_) std::fflush(stderr);
+  shown_ = false;
+}
+
 void Progress::finish() {
   if (shown_) std::fprintf(stderr, "\r%70s\r", "");
 }

@@ -13,6 +13,8 @@ class Progress {
   bool is_due();
   void show(double simulated_s);
   void finish();
+  /// Something else is about to be written to the terminal.
+  void clear();
 
  private:
   using Wall = std::chrono::steady_clock;

@@ -131,6 +131,13 @@ int run(const RunArguments& arguments) {
   int exit_code = kPass;
   team->before_first_tick();
   outputs.before_run();
+  for (int i = 0; i < twin->robots() && !arguments.quiet; ++i) {
+    const std::string name = twin->world().robots[static_cast<std::size_t>(i)].name;
+    twin->mind(i).board().virtual_devices().on_console = [name, &progress](const std::string& line) {
+      progress.clear();
+      std::cout << name << ": " << line << '\n';
+    };
+  }
   while (simulation.now() < end && !team->has_ended()) {
     simulation.step();
     outputs.after_tick();
@@ -149,6 +156,7 @@ int run(const RunArguments& arguments) {
   }
   const double took_s = wall_s();
   progress.finish();
+  twin->flush_console();
   team->finish();
   if (team->has_ended() && !(arguments.quiet && team->outcome().code == 0)) complain({team->outcome().text});
   for (int i = 0; i < twin->robots(); ++i) twin->mind(i).board().exchange(twin->mind(i).now());

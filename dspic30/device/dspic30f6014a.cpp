@@ -204,8 +204,7 @@ Cycle Dspic30f6014a::horizon(unsigned address, Cycle now) {
   p.events.run_to(now);
   const unsigned word = address & ~1u;
   Cycle until = p.bus.horizon(word, now);
-  if (word >= kIfs0 && word < kIec0)
-    until = p.events.next_for(std::uint64_t{0xFFFF} << 8 * (word - kIfs0), false);
+  if (word >= kIfs0 && word < kIec0) until = p.events.next_for(std::uint64_t{0xFFFF} << 8 * (word - kIfs0));
   return std::max(until, now + 1);
 }
 
@@ -231,10 +230,8 @@ void Dspic30f6014a::run_to(Cycle now) {
 Cycle Dspic30f6014a::next_event(Cycle now) {
   Parts& p = *parts_;
   p.events.run_to(now);
-  // a flag is seen one cycle after it is set
-  Cycle next = p.events.next_for(p.interrupts.enabled_mask(), false) + 1;
-  next = std::min(next, p.events.next_for(0, true));
-  next = std::min(next, p.interrupts.next_change(now));
+  const Cycle next =
+      std::min(p.events.next_notice(p.interrupts.enabled_mask()), p.interrupts.next_change(now));
   return next >= kNever ? kNever : std::max(next, now + 1);
 }
 
@@ -249,7 +246,7 @@ void Dspic30f6014a::outside_changed(Cycle now) {
 }
 
 void Dspic30f6014a::uart_receive(int uart, const UartFrame& frame) {
-  parts_->uarts[static_cast<std::size_t>(uart - 1)].receive(frame, frame.start);
+  parts_->uarts[static_cast<std::size_t>(uart - 1)].receive(frame);
 }
 
 // --- interrupts -------------------------------------------------------------------------------------------

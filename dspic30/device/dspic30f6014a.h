@@ -78,8 +78,8 @@ class Dspic30f6014a {
   Cycle next_event(Cycle now);
   /// Answers of the outside (edges to come, levels) are no longer what they were, from `now` on.
   void outside_changed(Cycle now);
-  /// A word arrives at UART 1 or 2; frame.start not before the end of the one before (else it is moved
-  /// there). May be told ahead of time.
+  /// A word arrives at UART 1 or 2. Words are told in their order and may be told ahead of time; one that
+  /// begins in the past, or before the end of the one before, is moved to the next free instant.
   void uart_receive(int uart, const UartFrame& frame);
 
   // --- interrupts

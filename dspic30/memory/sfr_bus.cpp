@@ -71,6 +71,7 @@ void SfrBus::write(unsigned address, std::uint16_t value, unsigned bits, Cycle n
 }
 
 void SfrBus::warn(Slot& slot, std::uint16_t bits, Cycle now) {
+  slot.unmodelled &= static_cast<std::uint16_t>(~bits);
   for (int bit = 0; bit < 16; ++bit) {
     if (!(bits >> bit & 1)) continue;
     const std::string name = sfr_bit_name(*slot.info, bit);

@@ -56,7 +56,7 @@ class SfrBus {
     SfrOwner* owner = nullptr;
     const SfrInfo* info = nullptr;
     std::uint16_t implemented = 0;
-    std::uint16_t unmodelled = 0;
+    std::uint16_t unmodelled = 0;  // and not reported yet
     bool disabled = false;
     bool undefined = false;  // not written since power-on, and not defined then
   };

@@ -31,16 +31,20 @@ void Adc::attach() {
 
 void Adc::reset(Cycle now) {
   con1_ = con2_ = con3_ = chs_ = cssl_ = 0;
+  set_times();
   buffer_.fill(0);
   sampling_ = converting_ = false;
   flag_at_ = kNever;
+  if (wants_timer_) timers_.want_matches(3, false, now);
+  wants_timer_ = false;
   restart_sequence();
   f_.events.set(slot_, kNever);
 }
 
-Adc::Half Adc::tad() const {
-  if (con3_ & kAdrc) return static_cast<Half>(2 * kRcTadSeconds * f_.fcy_hz);
-  return (con3_ & 63) + 1;
+void Adc::set_times() {
+  tad_ = (con3_ & kAdrc) ? static_cast<Half>(2 * kRcTadSeconds * f_.fcy_hz) : (con3_ & 63) + 1;
+  sample_time_ = (con3_ >> 8 & 31) * tad_;
+  conversion_time_ = kConversionTads * tad_;
 }
 
 // --- the sequence -----------------------------------------------------------------------------------------
@@ -70,7 +74,6 @@ void Adc::start_sampling(Half at) {
   sampling_ = true;
   con1_ |= kSamp;
   sampling_since_ = at;
-  timers_.want_matches(3, ssrc() == kTimer3, at / 2);
 }
 
 void Adc::hold(Half at, Half conversion_start) {
@@ -81,7 +84,7 @@ void Adc::hold(Half at, Half conversion_start) {
   sampling_ = false;
   converting_ = true;
   con1_ &= static_cast<std::uint16_t>(~(kSamp | kDone));
-  conversion_end_ = conversion_start + kConversionTads * tad();
+  conversion_end_ = conversion_start + conversion_time_;
 }
 
 void Adc::finish() {
@@ -114,12 +117,6 @@ std::uint16_t Adc::formatted(int counts) const {
   }
 }
 
-Adc::Half Adc::next_stage() const {
-  if (converting_) return conversion_end_;
-  if (sampling_ && ssrc() == kAutomatic) return sampling_since_ + sample_time();
-  return 2 * kNever;
-}
-
 void Adc::advance(Cycle now) {
   if (!on()) return;
   // a stage that ends within a cycle is over in the next one
@@ -133,8 +130,8 @@ void Adc::advance(Cycle now) {
 
 void Adc::schedule(Cycle now) {
   Cycle at = kNever;
-  const Half cycle = sample_time() + kConversionTads * tad();
   if (on() && (converting_ || (sampling_ && ssrc() == kAutomatic))) {
+    const Half cycle = sample_time_ + conversion_time_;
     const bool runs_on = asam() && ssrc() == kAutomatic;
     const Half first = converting_ ? conversion_end_ : sampling_since_ + cycle;
     // a stage at which nobody looks needs no event of its own
@@ -190,6 +187,9 @@ std::uint16_t Adc::peek(unsigned address, Cycle now) const {
 }
 
 void Adc::changed_while_on(unsigned address, Cycle now) {
+  const auto bit = static_cast<std::uint16_t>(1 << (address - kCon1) / 2);
+  if (changed_told_ & bit) return;
+  changed_told_ |= bit;
   const std::string name = sfr_info(address)->name;
   f_.diagnostics.report(
       Cause::ChangedWhileOn, name,
@@ -207,7 +207,10 @@ void Adc::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
       const std::uint16_t before = con1_, wanted = merge_lanes(con1_, value, lanes);
       con1_ = static_cast<std::uint16_t>((wanted & ~(kSamp | kDone)) | (before & kSamp) |
                                          (before & wanted & kDone));
-      timers_.want_matches(3, on() && ssrc() == kTimer3, now);
+      if (const bool waits = on() && ssrc() == kTimer3; waits != wants_timer_) {
+        wants_timer_ = waits;
+        timers_.want_matches(3, waits, now);
+      }
       if (!(wanted & kAdon)) {
         sampling_ = converting_ = false;
         con1_ &= static_cast<std::uint16_t>(~kSamp);
@@ -219,7 +222,7 @@ void Adc::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
       if (!sampling_ && !converting_ && (asked || asam()))
         start_sampling(at);
       else if (sampling_ && (before & kSamp) && !(wanted & kSamp) && ssrc() == kSoftware)
-        hold(at, at + kManualStartTads * tad());
+        hold(at, at + kManualStartTads * tad_);
       break;
     }
     case kCon2:
@@ -230,6 +233,7 @@ void Adc::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
     case kCon3:
       if (on() && ((con3_ ^ value) & lanes)) changed_while_on(address, now);
       con3_ = merge_lanes(con3_, value, lanes);
+      set_times();
       break;
     case kChs:
       chs_ = merge_lanes(chs_, value, lanes);
@@ -252,9 +256,8 @@ Cycle Adc::horizon(unsigned address, Cycle now) const {
 }
 
 void Adc::check_channel(int channel, Cycle at) {
-  if (complained_ >> channel & 1) return;
   const bool output = f_.ports.is_output({Port::B, channel});
-  if (f_.ports.is_analogue(channel) && !output) return;
+  if ((f_.ports.is_analogue(channel) && !output) || (complained_ >> channel & 1)) return;
   complained_ |= static_cast<std::uint16_t>(1 << channel);
   const std::string n = std::to_string(channel);
   const std::string why = output ? "TRISB.TRISB" + n + " = 0 makes its pin an output"

@@ -41,8 +41,7 @@ class Adc final : public SfrOwner, public EventOwner, public TimerListener {
   // half cycles: TAD may be an odd number of them
   using Half = std::int64_t;
   static Cycle up(Half h) { return (h + 1) / 2; }
-  Half tad() const;
-  Half sample_time() const { return (con3_ >> 8 & 31) * tad(); }
+  void set_times();
   int ssrc() const { return con1_ >> 5 & 7; }
   bool asam() const { return (con1_ & 0x0004) != 0; }
   bool on() const { return (con1_ & 0x8000) != 0; }
@@ -55,7 +54,11 @@ class Adc final : public SfrOwner, public EventOwner, public TimerListener {
   int channel() const;
   void next_channel();
   std::uint16_t formatted(int counts) const;
-  Half next_stage() const;
+  Half next_stage() const {
+    if (converting_) return conversion_end_;
+    if (sampling_ && ssrc() == 7) return sampling_since_ + sample_time_;
+    return 2 * kNever;
+  }
   void schedule(Cycle now);
   void check_channel(int channel, Cycle at);
   void changed_while_on(unsigned address, Cycle now);
@@ -65,6 +68,7 @@ class Adc final : public SfrOwner, public EventOwner, public TimerListener {
   int slot_ = -1;
   std::uint16_t con1_ = 0, con2_ = 0, con3_ = 0, chs_ = 0, cssl_ = 0;
   std::array<std::uint16_t, 16> buffer_{};
+  Half tad_ = 1, sample_time_ = 0, conversion_time_ = 0;  // of ADCON3
   bool sampling_ = false, converting_ = false;
   Half sampling_since_ = 0;
   Half conversion_end_ = 0;
@@ -75,7 +79,9 @@ class Adc final : public SfrOwner, public EventOwner, public TimerListener {
   bool upper_half_ = false;
   int scan_at_ = -1;  // input of ADCSSL in turn
   bool mux_b_ = false;
-  std::uint16_t complained_ = 0;  // channels
+  bool wants_timer_ = false;
+  std::uint16_t complained_ = 0;    // channels
+  std::uint16_t changed_told_ = 0;  // registers from ADCON1 on
 };
 
 }  // namespace dspic

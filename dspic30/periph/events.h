@@ -2,8 +2,9 @@
 // The instants at which peripherals do something by themselves: one slot each, served in order of time, equal
 // times in order of the slots. What happens between two instants is a closed form of its owner.
 #pragma once
+#include <algorithm>
+#include <array>
 #include <cstdint>
-#include <vector>
 
 #include "dspic30/memory/cycle.h"
 
@@ -18,11 +19,13 @@ class EventOwner {
 
 class Events {
  public:
+  static constexpr int kMostSlots = 64;
+
   /// `irqs`: bit i if the event may set the flag of IRQ i; `outward`: it may move a pin or ask for a reset.
   int add(EventOwner& owner, int id, std::uint64_t irqs, bool outward) {
-    when_.push_back(kNever);
-    slots_.push_back({&owner, id, irqs, outward});
-    return static_cast<int>(when_.size()) - 1;
+    slots_[static_cast<std::size_t>(count_)] = {&owner, id, irqs, outward};
+    when_[static_cast<std::size_t>(count_)] = kNever;
+    return count_++;
   }
 
   void set(int slot, Cycle at) {
@@ -30,6 +33,8 @@ class Events {
     const Cycle before = when_[s];
     if (before == at) return;
     when_[s] = at;
+    const std::uint64_t bit = std::uint64_t{1} << s;
+    active_ = at < kNever ? active_ | bit : active_ & ~bit;
     if (at < next_)
       next_ = at;
     else if (before == next_)
@@ -39,40 +44,61 @@ class Events {
   Cycle next() const { return next_; }
 
   void run_to(Cycle now) {
-    while (next_ <= now) {
-      std::size_t first = 0;
-      while (when_[first] != next_) ++first;
-      const Cycle at = next_;
-      when_[first] = kNever;
-      refresh();
-      slots_[first].owner->on_event(slots_[first].id, at);
-    }
+    while (next_ <= now) serve();
+    reached_ = std::max(reached_, now);
   }
+  /// Everything up to here has happened.
+  Cycle reached() const { return reached_; }
 
-  /// Earliest instant of a slot that may set one of these flags, or that acts outwards.
-  Cycle next_for(std::uint64_t irqs, bool outward) const {
+  /// Earliest instant at which the processor may notice something: a slot that acts outwards, or one cycle
+  /// after a slot that may set one of these flags.
+  Cycle next_notice(std::uint64_t irqs) const {
     Cycle next = kNever;
-    for (std::size_t s = 0; s < slots_.size(); ++s)
-      if (when_[s] < next && ((slots_[s].irqs & irqs) || (outward && slots_[s].outward))) next = when_[s];
+    for (std::uint64_t rest = active_; rest; rest &= rest - 1) {
+      const auto s = static_cast<std::size_t>(__builtin_ctzll(rest));
+      const bool outward = slots_[s].outward;
+      if (outward || (slots_[s].irqs & irqs)) next = std::min(next, when_[s] + (outward ? 0 : 1));
+    }
+    return next;
+  }
+  /// Earliest instant of a slot that may set one of these flags.
+  Cycle next_for(std::uint64_t irqs) const {
+    Cycle next = kNever;
+    for (std::uint64_t rest = active_; rest; rest &= rest - 1) {
+      const auto s = static_cast<std::size_t>(__builtin_ctzll(rest));
+      if (slots_[s].irqs & irqs) next = std::min(next, when_[s]);
+    }
     return next;
   }
 
  private:
   void refresh() {
-    Cycle next = kNever;
-    for (const Cycle at : when_)
-      if (at < next) next = at;
-    next_ = next;
+    next_ = kNever;
+    for (std::uint64_t rest = active_; rest; rest &= rest - 1)
+      next_ = std::min(next_, when_[static_cast<std::size_t>(__builtin_ctzll(rest))]);
   }
+  void serve() {
+    std::uint64_t rest = active_;
+    while (when_[static_cast<std::size_t>(__builtin_ctzll(rest))] != next_) rest &= rest - 1;
+    const int slot = __builtin_ctzll(rest);
+    const Cycle at = next_;
+    const Slot& first = slots_[static_cast<std::size_t>(slot)];
+    set(slot, kNever);
+    first.owner->on_event(first.id, at);
+  }
+
   struct Slot {
-    EventOwner* owner;
-    int id;
-    std::uint64_t irqs;
-    bool outward;
+    EventOwner* owner = nullptr;
+    int id = 0;
+    std::uint64_t irqs = 0;
+    bool outward = false;
   };
-  std::vector<Cycle> when_;
-  std::vector<Slot> slots_;
+  std::array<Cycle, kMostSlots> when_{};
+  std::array<Slot, kMostSlots> slots_{};
+  std::uint64_t active_ = 0;  // slots whose instant is known
+  int count_ = 0;
   Cycle next_ = kNever;
+  Cycle reached_ = 0;
 };
 
 }  // namespace dspic

@@ -71,6 +71,20 @@ void ExternalInterrupts::flag_cleared(int irq, Cycle now) {
   }
 }
 
+// what lies further back than the synchroniser has been dealt with
+void ExternalInterrupts::forget_before(int n, Cycle now) {
+  auto& seen = seen_[static_cast<std::size_t>(n)];
+  seen = std::max(seen, now - kEdgeToFlag);
+}
+
+void ExternalInterrupts::edge_chosen(int irq, Cycle now) {
+  for (int n = 0; n < kLines; ++n) {
+    if (kFlags[n] != irq) continue;
+    forget_before(n, now);
+    schedule(n, now);
+  }
+}
+
 void ExternalInterrupts::own_edge(Pin pin, Edge made, Cycle at) {
   for (int n = 0; n < kLines; ++n) {
     if (kPins[n].port != pin.port || kPins[n].bit != pin.bit || made != edge(n)) continue;
@@ -83,12 +97,15 @@ void ExternalInterrupts::converter_changed(Cycle now) {
   const bool waits = adc_.wants_int0();
   if (waits == adc_waits_) return;
   adc_waits_ = waits;
-  if (waits) seen_[0] = std::max(seen_[0], now - kEdgeToFlag);
+  if (waits) forget_before(0, now);
   schedule(0, now);
 }
 
 void ExternalInterrupts::outside_changed(Cycle now) {
-  for (int n = 0; n < kLines; ++n) schedule(n, now);
+  for (int n = 0; n < kLines; ++n) {
+    if (!f_.interrupts.flag(kFlags[n])) forget_before(n, now);
+    schedule(n, now);
+  }
 }
 
 // --- change notification ----------------------------------------------------------------------------------

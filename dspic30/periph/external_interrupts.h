@@ -25,12 +25,14 @@ class ExternalInterrupts final : public EventOwner, public FlagListener, public 
 
   void on_event(int id, Cycle at) override;
   void flag_cleared(int irq, Cycle now) override;
+  void edge_chosen(int irq, Cycle now) override;
   void own_edge(Pin pin, Edge edge, Cycle at) override;
 
  private:
   static constexpr int kLines = 5;
   Edge edge(int n) const { return f_.interrupts.falling_edge(n) ? Edge::Falling : Edge::Rising; }
   void schedule(int n, Cycle now);
+  void forget_before(int n, Cycle now);
 
   Fabric f_;
   Adc& adc_;

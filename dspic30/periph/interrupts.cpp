@@ -301,8 +301,7 @@ void Interrupts::write(unsigned address, std::uint16_t value, std::uint16_t lane
     for (int n = 0; n < 5; ++n) {  // the other edge counts from now on
       constexpr int kExternal[] = {irq::Int0, irq::Int1, irq::Int2, irq::Int3, irq::Int4};
       FlagListener* listener = listeners_[static_cast<std::size_t>(kExternal[n])];
-      if (((before ^ intcon2_) >> n & 1) && listener && !flag(kExternal[n]))
-        listener->flag_cleared(kExternal[n], now);
+      if (((before ^ intcon2_) >> n & 1) && listener) listener->edge_chosen(kExternal[n], now);
     }
   } else if (address >= kIfs0 && address < kIec0) {
     write_flags(static_cast<int>(address - kIfs0) / 2, value, lanes, now);

@@ -24,6 +24,8 @@ class FlagListener {
  public:
   virtual ~FlagListener() = default;
   virtual void flag_cleared(int irq, Cycle now) = 0;
+  /// INTCON2.INTxEP of this source was changed.
+  virtual void edge_chosen(int irq, Cycle now) {}
 };
 
 class Interrupts final : public SfrOwner {

@@ -151,6 +151,21 @@ void Ports::count_vain(Port port, std::uint16_t bits, Cycle now) {
   }
 }
 
+// pins whose level somebody outside drives, and which the program cannot see
+void Ports::look_for_blind_pins(Cycle now) {
+  const std::uint16_t inputs = state(Port::B).tris & static_cast<std::uint16_t>(~adpcfg_ & ~blind_told_);
+  const std::uint16_t blind = f_.outside.pin_levels(Port::B, now).driven & inputs;
+  blind_told_ |= blind;
+  for (int bit = 0; bit < 16; ++bit) {
+    if (!(blind >> bit & 1)) continue;
+    const std::string config = "ADPCFG.PCFG" + std::to_string(bit);
+    f_.diagnostics.report(Cause::DigitalAnalogue, config,
+                          pin_name("PORT", Port::B, bit) + " reads 0 whatever the pin does: " + config +
+                              " = 0 makes it analogue",
+                          now);
+  }
+}
+
 std::uint16_t Ports::read(unsigned address, Cycle now) {
   if (address == kAdpcfg) return adpcfg_;
   const Port port = port_at(address);
@@ -158,16 +173,7 @@ std::uint16_t Ports::read(unsigned address, Cycle now) {
   if (address != kBase[static_cast<int>(port)] + PortPins) return peek(address, now);
   const std::uint16_t levels = pins(port, now);
   s.last_read = levels;
-  if (port == Port::B && (s.tris & ~adpcfg_)) {
-    const auto blind =
-        static_cast<std::uint16_t>(f_.outside.pin_levels(port, now).driven & s.tris & ~adpcfg_);
-    for (int bit = 0; bit < 16; ++bit)
-      if (blind >> bit & 1)
-        f_.diagnostics.report(Cause::DigitalAnalogue, "ADPCFG.PCFG" + std::to_string(bit),
-                              pin_name("PORT", port, bit) + " reads 0 whatever the pin does: ADPCFG.PCFG" +
-                                  std::to_string(bit) + " = 0 makes it analogue",
-                              now);
-  }
+  if (port == Port::B && (s.tris & ~adpcfg_ & ~blind_told_)) look_for_blind_pins(now);
   return digital(port, levels);
 }
 

@@ -79,6 +79,7 @@ class Ports final : public SfrOwner {
     return static_cast<std::uint16_t>(((~s.tris & ~s.owned_in) | s.owned_out) & s.implemented);
   }
   void publish(Port port, Cycle at);
+  void look_for_blind_pins(Cycle now);
   void count_vain(Port port, std::uint16_t bits, Cycle now);
   std::uint16_t combine(Port port, std::uint16_t levels, std::uint16_t driven, Cycle at) const;
   std::uint16_t digital(Port port, std::uint16_t pins) const;
@@ -87,6 +88,7 @@ class Ports final : public SfrOwner {
   bool synchronised_;
   std::array<State, kPorts> ports_{};
   std::uint16_t adpcfg_ = 0;
+  std::uint16_t blind_told_ = 0;  // pins of port B whose analogue setting has been reported
   std::vector<Watch> watches_;
 };
 

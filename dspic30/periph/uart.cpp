@@ -87,9 +87,9 @@ void Uart::move_to_shift_register(Cycle at) {
 
 // --- in ---------------------------------------------------------------------------------------------------
 
-void Uart::receive(const UartFrame& frame, Cycle now) {
+void Uart::receive(const UartFrame& frame) {
   const bool looped = (mode_ & kLpback) && enabled();
-  if (!looped) enqueue(frame, now);
+  if (!looped) enqueue(frame, f_.events.reached());
 }
 
 void Uart::enqueue(UartFrame frame, Cycle now) {

@@ -18,8 +18,8 @@
 #define LIMIT 900          /* steps/s, what the motors can do */
 
 /* percent of a step/s for each count of a sensor; sensor 0 is front right, then clockwise */
-static const int left_weight[SENSORS] = {-120, -80, -20, 0, 0, 20, 50, -40};
-static const int right_weight[SENSORS] = {-40, 50, 20, 0, 0, -20, -80, -120};
+static const int left_weight[SENSORS] = {-100, -100, -10, 0, 0, 10, 70, 0};
+static const int right_weight[SENSORS] = {0, 70, 10, 0, 0, -10, -100, -100};
 
 static volatile int control_due;
 
@@ -32,7 +32,7 @@ static int limited(long speed) {
 }
 
 static void control(void) {
-  long left = 0, right = 0; /* long: 120 x 4095 does not fit 16 bits */
+  long left = 0, right = 0; /* long: 100 x 4095 does not fit 16 bits */
   int sensor;
   for (sensor = 0; sensor < SENSORS; sensor++) {
     int reading = e_get_prox(sensor);

@@ -5,6 +5,9 @@
  * the end of a wall dead ahead. When something comes near it turns on the spot, away from the nearer side, until the
  * way is free: a round robot that turns on the spot touches nothing. It turns some more then, because an edge
  * that has just left one ray may stand in the gap of 28 degrees before the next.
+ *
+ * In a dead end no way is as free as it would like. Two things get it out: a turn that follows soon upon the last one
+ * goes on the same way round, and the longer it has turned, the less it asks for.
  */
 #include <a_d/advance_ad_scan/e_ad_conv.h>
 #include <a_d/advance_ad_scan/e_prox.h>
@@ -21,6 +24,8 @@
 #define SWING_PERIODS 10   /* control periods to one side */
 #define SPIN 300           /* steps/s: 83 degrees a second */
 #define FREE_PERIODS 11    /* control periods the way must be free before a turn ends: 29 degrees */
+#define PATIENCE 16        /* control periods of turning after which it asks for one free period less */
+#define MEMORY 60          /* control periods forward after which a turn is a new one */
 
 #define FRONT_NEAR 130 /* counts: about 45 mm, white wall */
 #define FRONT_FREE 110
@@ -51,8 +56,8 @@ static int closeness(int front, int front_limit, int side, int side_limit) {
 }
 
 static void control(void) {
-  static int state = FORWARD;
-  static int swing_phase, free_periods;
+  static int state = FORWARD, turn = TURN_LEFT;
+  static int swing_phase, forward_periods = MEMORY, turn_periods, free_periods;
   int front_limit = state == FORWARD ? FRONT_NEAR : FRONT_FREE;
   int side_limit = state == FORWARD ? SIDE_NEAR : SIDE_FREE;
   int right = closeness(0, front_limit, 1, side_limit);
@@ -61,9 +66,20 @@ static void control(void) {
   /* once begun, a turn keeps its direction: in a corner the nearer side changes all the time */
   if (left >= 100 || right >= 100) {
     free_periods = 0;
-    if (state == FORWARD) state = left > right ? TURN_RIGHT : TURN_LEFT;
-  } else if (++free_periods > FREE_PERIODS) {
+    if (state == FORWARD && forward_periods >= MEMORY) {
+      turn = left > right ? TURN_RIGHT : TURN_LEFT;
+      turn_periods = 0;
+    }
+    state = turn;
+  } else if (state != FORWARD && ++free_periods > FREE_PERIODS - turn_periods / PATIENCE) {
     state = FORWARD;
+    forward_periods = 0;
+  }
+
+  if (state == FORWARD) {
+    if (forward_periods < MEMORY) forward_periods++;
+  } else {
+    turn_periods++;
   }
 
   if (state == TURN_LEFT) {

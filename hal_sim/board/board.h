@@ -18,6 +18,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "hal_sim/board/adc_scan.h"
@@ -31,6 +32,7 @@
 #include "hal_sim/board/data_eeprom.h"
 #include "hal_sim/board/i2c_bus.h"
 #include "hal_sim/board/i2c_master.h"
+#include "hal_sim/board/packet_devices.h"
 #include "hal_sim/board/part.h"
 #include "hal_sim/board/remote.h"
 #include "hal_sim/board/timer_motors.h"
@@ -81,6 +83,9 @@ struct Setup {
   double motion_noise_scale = 1;              ///< factor on the noise of accelerometer and gyroscope
   double clock_ppm = 0;                       ///< crystal error, parts per million, positive = fast
   double boot_delay_s = 0;                    ///< s from the world's beginning to the first instruction
+  std::string name;                           ///< in the world
+  sim::WebotsDesc webots;                     ///< of the world
+  std::vector<sim::DeviceDesc> devices;       ///< that only programs for Webots' interfaces know
 };
 
 /// One conversion of a proximity sensor's phototransistor, before any noise.
@@ -180,6 +185,11 @@ class Board {
   /// The processor's side of the bus.
   I2cMaster& i2c_master() { return i2c_master_; }
   const I2cMaster& i2c_master() const { return i2c_master_; }
+  /// Emitters and receivers of packets, and sensors that a supervisor defines: for programs written for
+  /// Webots' interfaces.
+  PacketDevices& packets() { return packets_; }
+  VirtualDevices& virtual_devices() { return virtual_; }
+  const VirtualDevices& virtual_devices() const { return virtual_; }
   /// Plugs a turret or another part in; before power-up.
   void plug_in(std::unique_ptr<Part> part);
   const std::vector<std::unique_ptr<Part>>& parts() const { return parts_; }
@@ -215,9 +225,6 @@ class Board {
   void switch_off() { battery_.draw(0, 0); }
   /// Data EEPROM; resets leave it alone.
   DataEeprom& eeprom() { return eeprom_; }
-  /// Sensors that supervisors define.
-  VirtualDevices& virtual_devices() { return virtual_devices_; }
-  const VirtualDevices& virtual_devices() const { return virtual_devices_; }
   /// What somebody does with a remote control.
   RemoteReceiver& remote() { return remote_; }
   const RemoteReceiver& remote() const { return remote_; }
@@ -271,13 +278,14 @@ class Board {
   I2cBus i2c_;
   Battery battery_;
   DataEeprom eeprom_;
-  VirtualDevices virtual_devices_;
   I2cMaster i2c_master_{i2c_};
   std::unique_ptr<Camera> camera_;
   std::vector<std::unique_ptr<Part>> parts_;
   mutable Cycle settled_for_ = -1;  // the flash's length is nearly always the same: its exponential, once
   mutable double settled_share_ = 0;
   std::uint64_t conversions_ = 0;
+  PacketDevices packets_{clock_, setup_.robot, setup_.devices};
+  VirtualDevices virtual_;
 };
 
 }  // namespace board

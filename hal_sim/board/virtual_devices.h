@@ -3,10 +3,13 @@
 // hal_sim/host/pins_virtual.h, and the numbers and lines that firmware tells in return. Set between ticks, so
 // firmware sees a new value from the next tick on.
 #pragma once
+#include <algorithm>
+#include <atomic>
 #include <functional>
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace board {
 
@@ -25,8 +28,50 @@ class VirtualDevices {
   /// empty.
   std::function<void(const std::string&)> on_console;
 
+  /// Memory for malloc() of programs written for PCs, which are not sparing with it; made when it is first
+  /// asked for, and the robot's for life.
+  char* heap(std::size_t bytes) {
+    if (heap_.size() < bytes) heap_.resize(bytes);
+    return heap_.data();
+  }
+
+  // --- the console
+  // ----------------------------------------------------------------------------------------------
+  /// From the robot's own thread: text of firmware, on its way to on_console.
+  void write(const char* text, std::size_t length) {
+    if (text_.size() < kMostText) text_.append(text, length);
+    if (somebody_writes_) somebody_writes_->store(true, std::memory_order_relaxed);
+  }
+  /// Between ticks: hands over what is complete; a long line in pieces.
+  void deliver() { deliver_lines(kLongestLine); }
+  /// At the end of a run: the rest as well.
+  void deliver_rest() { deliver_lines(0); }
+  /// Raised by write(): so that nobody need ask every robot at every tick.
+  void tell(std::atomic<bool>* somebody_writes) { somebody_writes_ = somebody_writes; }
+
  private:
+  static constexpr std::size_t kLongestLine = 1000;   // characters
+  static constexpr std::size_t kMostText = 1u << 20;  // of one tick; more is lost
+
+  void deliver_lines(std::size_t longest) {
+    std::size_t begin = 0;
+    while (begin < text_.size()) {
+      const std::size_t end = text_.find('\n', begin);
+      if (end == std::string::npos && text_.size() - begin <= longest) break;
+      std::string line = text_.substr(begin, end == std::string::npos ? end : end - begin);
+      // a form feed clears Webots' console; a carriage return belongs to the line's end
+      line.erase(std::remove_if(line.begin(), line.end(), [](char c) { return c == '\f' || c == '\r'; }),
+                 line.end());
+      if (on_console) on_console(line);
+      begin = end == std::string::npos ? text_.size() : end + 1;
+    }
+    text_.erase(0, begin);
+  }
+
   std::map<std::string, double> sensors_;
+  std::string text_;
+  std::vector<char> heap_;
+  std::atomic<bool>* somebody_writes_ = nullptr;
 };
 
 }  // namespace board

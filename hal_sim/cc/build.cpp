@@ -60,6 +60,7 @@ std::vector<fs::path> contract_folders(const fs::path& root) {
 
 struct Plan {
   std::vector<CompileJob> user, library;
+  bool is_webots = false;  // a program for Webots' interfaces, with the library behind them
   CompileJob runtime;
 };
 
@@ -68,6 +69,40 @@ std::string common_salt(const std::vector<fs::path>& headers) {
   std::string names;
   for (const auto& h : headers) names += h.string() + "\n";
   return content_hash(names);
+}
+
+/// Whether a program is written for Webots' interfaces: one of its files, or a header of its own, says so.
+bool names_webots(const std::vector<fs::path>& sources, const std::vector<fs::path>& headers) {
+  static const std::regex kInclude(R"(#\s*include\s*[<"](webots|device)[/\\])");
+  for (const auto* list : {&sources, &headers})
+    for (const auto& file : *list)
+      if (std::regex_search(read_text(file), kInclude)) return true;
+  return false;
+}
+
+/// Sources of a program for Webots, which compiles the file with the controller's name alone: not those that
+/// another one includes as text, and not further programs that lie beside it.
+std::vector<fs::path> webots_sources(const fs::path& folder, const std::vector<fs::path>& sources) {
+  static const std::regex kInclude(R"(#\s*include\s*"([^"]+\.c)\")"), kMain(R"(\bmain\s*\()");
+  const std::string own = fs::weakly_canonical(folder).filename().string();
+  std::set<fs::path> left_out;
+  bool has_own_main = false;
+  std::vector<fs::path> others;
+  for (const auto& source : sources) {
+    const std::string text = read_text(source);
+    for (std::sregex_iterator it(text.begin(), text.end(), kInclude), end; it != end; ++it)
+      left_out.insert(fs::weakly_canonical(source.parent_path() / (*it)[1].str()));
+    if (!std::regex_search(text, kMain)) continue;
+    if (source.stem() == own)
+      has_own_main = true;
+    else
+      others.push_back(fs::weakly_canonical(source));
+  }
+  if (has_own_main) left_out.insert(others.begin(), others.end());
+  std::vector<fs::path> kept;
+  for (const auto& source : sources)
+    if (!left_out.count(fs::weakly_canonical(source))) kept.push_back(source);
+  return kept.empty() ? sources : kept;
 }
 
 Plan plan(const BuildOptions& o, const LibraryCopies& copies, bool lint) {
@@ -108,15 +143,25 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, bool lint) {
   std::vector<std::string> flags = mode;
   if (o.sanitize) flags.push_back("--sanitize");
   if (o.coverage) flags.push_back("--coverage");
+  p.is_webots = names_webots(copies.kept, headers);
+  if (p.is_webots) {
+    flags.push_back("--webots");
+    flags.push_back("-I" + (cc_dir / "libc/webots/include").string());
+  }
   if (o.strict) flags.push_back("--strict");
   if (lint) flags.push_back("--lint");
   for (const auto& d : o.defines) flags.push_back("-D" + d);
   flags.insert(flags.end(), user_include.begin(), user_include.end());
-  for (const auto& s : copies.kept) p.user.push_back({s, flags, common_salt(headers)});
+  for (const auto& s : p.is_webots ? webots_sources(o.source_dir, copies.kept) : copies.kept)
+    p.user.push_back({s, flags, common_salt(headers)});
 
   std::vector<std::string> library_flags = mode;
   library_flags.push_back("--library");
   library_flags.insert(library_flags.end(), library_include.begin(), library_include.end());
+  // first, since some take the place of a file of the libc
+  if (p.is_webots)
+    for (const auto& folder : {root / "firmware/webots", cc_dir / "libc/webots"})
+      for (const auto& s : files_below(folder, ".c")) p.library.push_back({s, library_flags, ""});
   std::vector<fs::path> library_folders = {api, cc_dir / "libc/src"};
   // the half of the library that needs no pins, for a HAL that has the other half
   if (fs::exists(api / "hal.h")) library_folders.push_back(root / "hal_common");
@@ -132,6 +177,7 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, bool lint) {
                 "-DTP_IMAGE_NAME=\"" + name + "\"", "-DTP_IMAGE_FLAGS=\"" + image_flags + "\""},
                ""};
   if (o.coverage) p.runtime.flags.push_back("-DTP_COVERAGE");
+  if (p.is_webots) p.runtime.flags.push_back("-DTP_WEBOTS");
   if (o.sanitize)
     p.library.push_back(
         {cc_dir / "runtime/image_sanitize.c",
@@ -200,8 +246,13 @@ void sort_linker_messages(const std::string& text, BuildResult& result) {
       if (std::regex_search(line, m, kUndefined)) where = m[1];
       if (where.rfind(".o:") != std::string::npos || where.empty())
         where = function.empty() ? "link" : function + "()";
+      static const std::regex kWebots(
+          R"((wb_|wbu_|supervisor_|robot_|camera_|speaker_|display_|servo_|connector_|pen_|differential_wheels_).*)");
       std::string hint =
-          name.rfind("e_", 0) == 0
+          std::regex_match(name, kWebots)
+              ? "a controller runs on the robot and has not this function of Webots; docs/webots.md lists "
+                "what there is, and supervisors are programs of their own"
+          : name.rfind("e_", 0) == 0
               ? "this function of the e-puck library is not simulated yet, or its name is misspelt"
               : "is a .c file missing from the folder, or the name misspelt?";
       result.errors.push_back(where + ": " + (function.empty() ? "" : function + "() calls ") + name +

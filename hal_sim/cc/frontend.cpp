@@ -63,7 +63,7 @@ void set_robot_model(TargetInfo& t) {
 /// Refuses headers of an operating system, and writes down every file read.
 class IncludeWatch : public PPCallbacks {
  public:
-  explicit IncludeWatch(CompilerInstance& ci) : ci_(ci) {}
+  IncludeWatch(CompilerInstance& ci, bool webots) : ci_(ci), webots_(webots) {}
   bool FileNotFound(StringRef name, SmallVectorImpl<char>&) override {
     missing_ = name.str();
     return false;
@@ -71,6 +71,7 @@ class IncludeWatch : public PPCallbacks {
   void InclusionDirective(SourceLocation, const Token&, StringRef name, bool, CharSourceRange range,
                           const FileEntry* file, StringRef, StringRef, const Module*,
                           SrcMgr::CharacteristicKind) override {
+    if (webots_ && file) return;  // the library behind Webots' interfaces has some of them
     if (const char* instead = refused_header(name)) {
       auto& d = ci_.getDiagnostics();
       d.Report(range.getBegin(), d.getCustomDiagID(DiagnosticsEngine::Fatal,
@@ -81,6 +82,7 @@ class IncludeWatch : public PPCallbacks {
 
  private:
   CompilerInstance& ci_;
+  bool webots_;
   std::string missing_;
 };
 
@@ -185,14 +187,15 @@ class AttributeFilter {
 
 class RobotAction : public EmitLLVMOnlyAction {
  public:
-  RobotAction(llvm::LLVMContext& context, Facts& facts) : EmitLLVMOnlyAction(&context), facts_(facts) {}
+  RobotAction(llvm::LLVMContext& context, Facts& facts, bool webots)
+      : EmitLLVMOnlyAction(&context), facts_(facts), webots_(webots) {}
   bool BeginInvocation(CompilerInstance& ci) override {
     set_robot_model(ci.getTarget());
     return EmitLLVMOnlyAction::BeginInvocation(ci);
   }
   bool BeginSourceFileAction(CompilerInstance& ci) override {
     auto& pp = ci.getPreprocessor();
-    pp.addPPCallbacks(std::make_unique<IncludeWatch>(ci));
+    pp.addPPCallbacks(std::make_unique<IncludeWatch>(ci, webots_));
     filter_ = std::make_shared<AttributeFilter>(pp);
     pp.setTokenWatcher([f = filter_](const Token& token) { (*f)(token); });
     return EmitLLVMOnlyAction::BeginSourceFileAction(ci);
@@ -206,6 +209,7 @@ class RobotAction : public EmitLLVMOnlyAction {
 
  private:
   Facts& facts_;
+  bool webots_;
   std::shared_ptr<AttributeFilter> filter_;
 };
 
@@ -218,7 +222,7 @@ std::vector<std::string> clang_arguments(const Options& o) {
                                 "--target=x86_64-pc-linux-gnu",
                                 "-x",
                                 "c",
-                                "-std=gnu89",
+                                o.webots ? "-std=gnu11" : "-std=gnu89",
                                 "-fgnu89-inline",
                                 "-fcommon",
                                 "-fsigned-char",
@@ -332,7 +336,7 @@ std::unique_ptr<llvm::Module> attempt(const Options& options, llvm::LLVMContext&
   ci.setInvocation(invocation);
   ci.createDiagnostics(new TextDiagnosticPrinter(out, &invocation->getDiagnosticOpts()));
   ci.setFileManager(new FileManager(FileSystemOptions(), overlay));
-  RobotAction action(context, facts);
+  RobotAction action(context, facts, options.webots);
   if (!ci.ExecuteAction(action)) return nullptr;
   return action.takeModule();
 }

@@ -26,6 +26,7 @@ struct Options {
   bool for_size = false;
   bool sanitize = false, coverage = false, strict = false, lint = false, emit_ir = false;
   bool uncounted = false;  // part of the runtime: costs no cycles
+  bool webots = false;     // written for Webots' interfaces: C of today, and a calendar
   bool library = false;    // part of the API or libc: definitions are weak, the program's own win
 };
 

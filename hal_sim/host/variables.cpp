@@ -3,6 +3,7 @@
 
 #include <dwarf.h>
 #include <elfutils/libdw.h>
+#include <gelf.h>
 
 #include <cmath>
 #include <cstring>
@@ -40,28 +41,52 @@ bool type_of(Dwarf_Die* die, Dwarf_Die* type) {
   return dwarf_peel_type(type, type) == 0;
 }
 
-/// Collects the variables of that name in a unit and its functions.
+/// The function of a static whose own entry lost its name, which clang does to functions that are inlined
+/// everywhere: the symbol is called FUNCTION.NAME.
+std::string function_of(Dwarf_Die* die, const std::string& name, std::uintptr_t address) {
+  Elf* elf = dwarf_getelf(dwarf_cu_getdwarf(die->cu));
+  Elf_Scn* section = nullptr;
+  while (elf && (section = elf_nextscn(elf, section))) {
+    GElf_Shdr header;
+    if (!gelf_getshdr(section, &header) || header.sh_type != SHT_SYMTAB || header.sh_entsize == 0) continue;
+    Elf_Data* data = elf_getdata(section, nullptr);
+    for (std::size_t i = 0; i < header.sh_size / header.sh_entsize; ++i) {
+      GElf_Sym symbol;
+      if (!gelf_getsym(data, static_cast<int>(i), &symbol) || symbol.st_value != address) continue;
+      const std::string whole = elf_strptr(elf, header.sh_link, symbol.st_name);
+      const std::size_t dot = whole.find('.');
+      if (dot != std::string::npos && whole.compare(dot + 1, name.size(), name) == 0)
+        return whole.substr(0, dot);
+    }
+  }
+  return "?";
+}
+
+/// Collects the variables of that name in a unit and its functions. `function`: "" outside of all, "?"
+/// unknown.
 void search(Dwarf_Die* parent, const std::string& file, const std::string& function, Search& s) {
   Dwarf_Die die;
   if (dwarf_child(parent, &die) != 0) return;
   do {
     const int tag = dwarf_tag(&die);
     if (tag == DW_TAG_subprogram) {
-      search(&die, file, name_of(&die), s);
+      search(&die, file, name_of(&die).empty() ? "?" : name_of(&die), s);
     } else if (tag == DW_TAG_lexical_block) {
       search(&die, file, function, s);
     } else if (tag == DW_TAG_variable && name_of(&die) == s.name && dwarf_hasattr(&die, DW_AT_location)) {
-      const bool in_scope =
-          s.scope.empty() || s.scope == function || s.scope == base_name(file) ||
-          (file.size() > s.scope.size() &&
-           file.compare(file.size() - s.scope.size() - 1, std::string::npos, "/" + s.scope) == 0);
       Dwarf_Attribute location;
       Dwarf_Op* ops = nullptr;
       size_t count = 0;
       // locals have no fixed place
-      if (in_scope && dwarf_attr(&die, DW_AT_location, &location) &&
-          dwarf_getlocation(&location, &ops, &count) == 0 && count > 0 && ops[0].atom == DW_OP_addr)
-        s.found.push_back({die, file, function, dwarf_hasattr(&die, DW_AT_external) != 0});
+      if (!dwarf_attr(&die, DW_AT_location, &location) || dwarf_getlocation(&location, &ops, &count) != 0 ||
+          count == 0 || ops[0].atom != DW_OP_addr)
+        continue;
+      const std::string inside = function == "?" ? function_of(&die, s.name, ops[0].number) : function;
+      const bool in_scope =
+          s.scope.empty() || s.scope == inside || s.scope == base_name(file) ||
+          (file.size() > s.scope.size() &&
+           file.compare(file.size() - s.scope.size() - 1, std::string::npos, "/" + s.scope) == 0);
+      if (in_scope) s.found.push_back({die, file, inside, dwarf_hasattr(&die, DW_AT_external) != 0});
     }
   } while (dwarf_siblingof(&die, &die) == 0);
 }

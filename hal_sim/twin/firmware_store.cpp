@@ -29,7 +29,7 @@ std::vector<std::string> controller_names() {
   std::vector<std::string> names;
   std::error_code none;
   for (const auto& entry : fs::directory_iterator(fs::path(project_root()) / "firmware", none))
-    if (entry.is_directory() && entry.path().filename() != "include")
+    if (entry.is_directory() && entry.path().filename() != "include" && entry.path().filename() != "webots")
       names.push_back(entry.path().filename().string());
   return names;
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <map>
 
 #include "hal_sim/board/bluetooth_module.h"
@@ -74,6 +75,9 @@ board::Setup setup_of(const sim::WorldDesc& world, int index) {
                        : robot.camera_mount == "inverted" ? board::CameraMount::Inverted
                                                           : board::CameraMount::Upright;
   setup.camera_noise = robot.camera_noise;
+  setup.name = robot.name;
+  setup.webots = world.webots;
+  setup.devices = robot.devices;
   setup.clock_ppm = variation.clock_ppm;
   setup.boot_delay_s = variation.boot_delay_s;
   return setup;
@@ -124,6 +128,22 @@ void plug_in_parts(const sim::RobotDesc& robot, board::Board& board, std::vector
   }
 }
 
+/// Text of firmware goes to whoever listens between ticks, robot by robot.
+class ConsoleMedium final : public sim::Medium {
+ public:
+  explicit ConsoleMedium(std::vector<board::VirtualDevices*> robots) : robots_(std::move(robots)) {
+    for (board::VirtualDevices* robot : robots_) robot->tell(&somebody_writes_);
+  }
+  void exchange(const sim::Scene&, sim::Clicks) override {
+    if (!somebody_writes_.exchange(false, std::memory_order_relaxed)) return;
+    for (board::VirtualDevices* robot : robots_) robot->deliver();
+  }
+
+ private:
+  std::vector<board::VirtualDevices*> robots_;
+  std::atomic<bool> somebody_writes_{false};
+};
+
 // in the order of time: the toggle bit changes from press to press
 void press_keys(host::FirmwareMind& mind, std::vector<sim::KeyDesc> keys) {
   std::stable_sort(keys.begin(), keys.end(),
@@ -145,9 +165,10 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
   std::map<std::string, std::string> paths;
   std::map<std::string, std::shared_ptr<host::Image>> images;
   std::vector<std::string> firmware;
-  for (const auto& robot : world.robots) {
+  for (auto& robot : world.robots) {
     const std::string name = chosen(options.firmware, robot.name, robot.firmware);
     firmware.push_back(name);
+    robot.firmware = name;  // what it runs, for pictures and supervisors
     if (name.empty() || paths.count(name)) continue;
     std::string& path = paths[name];
     path = provide_image(name, options.world_folder, options, problems);
@@ -222,6 +243,19 @@ void Twin::add_media() {
   if (!ends.empty())
     simulation_->add(
         std::make_unique<sim::LinkMedium>(world().link, world().seed, std::move(ends), std::move(dropouts)));
+  auto packets = std::make_unique<sim::PacketMedium>();
+  std::vector<board::VirtualDevices*> consoles;
+  for (host::FirmwareMind* mind : minds_) {
+    packets->add(mind->board().packets());
+    consoles.push_back(&mind->board().virtual_devices());
+  }
+  packets_ = packets.get();
+  simulation_->add(std::move(packets));
+  simulation_->add(std::make_unique<ConsoleMedium>(std::move(consoles)));
+}
+
+void Twin::flush_console() {
+  for (host::FirmwareMind* mind : minds_) mind->board().virtual_devices().deliver_rest();
 }
 
 int Twin::find(const std::string& name) const {

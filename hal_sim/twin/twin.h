@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hal_sim/host/mind.h"
+#include "sim_core/radio/packet_medium.h"
 #include "sim_core/radio/radio_medium.h"
 #include "sim_core/simulation.h"
 #include "sim_core/world/world_desc.h"
@@ -66,6 +67,10 @@ class Twin {
   const std::vector<std::shared_ptr<host::Image>>& images() const { return images_; }
   /// The radio channel; null when no robot has a radio.
   const sim::RadioMedium* radio() const { return radio_; }
+  /// The channels of emitters and receivers; supervisors add their own end.
+  sim::PacketMedium& packets() { return *packets_; }
+  /// At the end of a run: lines that firmware has begun and not ended go to the console.
+  void flush_console();
   board::BluetoothModule& bluetooth(int robot) { return *bluetooth_[static_cast<std::size_t>(robot)]; }
 
  private:
@@ -75,6 +80,7 @@ class Twin {
   std::vector<host::FirmwareMind*> minds_;
   std::vector<std::string> image_paths_;
   std::vector<std::shared_ptr<host::Image>> images_;
+  sim::PacketMedium* packets_ = nullptr;                            // the simulation's
   const sim::RadioMedium* radio_ = nullptr;                         // the simulation's
   std::vector<std::shared_ptr<board::BluetoothModule>> bluetooth_;  // one per robot; its UART 1 holds it too
 };

@@ -439,6 +439,7 @@ std::vector<SectionSpec> make_schema() {
           proximity_keys<ProximitySettings>([](ProximitySettings& p) -> ProximitySettings& { return p; }));
 
   add_radio_sections(s);
+  s.push_back(webots_section());
 
   using R = RobotDesc;
   section(
@@ -512,6 +513,7 @@ std::vector<SectionSpec> make_schema() {
           {{"kind", ValueType::Text, "", 0, 0, "", "required", "which part",
             into<PartDesc>([](PartDesc& p, const Value& v) { p.kind = v.text; })}});
   s.push_back(remote_key_section());
+  s.push_back(robot_device_section());
   s.push_back(supervisor_section());
   return s;
 }

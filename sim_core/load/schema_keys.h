@@ -60,6 +60,9 @@ std::vector<SectionSpec> camera_sections();
 std::vector<KeySpec> robot_camera_keys();
 /// Sections with a file of their own.
 SectionSpec remote_key_section();
+/// schema_webots.cpp
+SectionSpec webots_section();
+SectionSpec robot_device_section();
 SectionSpec supervisor_section();  ///< schema_supervisor.cpp
 
 }  // namespace sim

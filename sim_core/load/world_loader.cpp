@@ -357,6 +357,7 @@ class Reader {
     });
     read_one("radio", root, "radio", &world_.radio);
     read_one("bluetooth", root, "bluetooth", &world_.link);
+    read_one("webots", root, "webots", &world_.webots);
     read_many("wall", root, "wall", [&](const toml::table& t) {
       WallDesc w;
       w.line = line_of(t);
@@ -436,6 +437,18 @@ class Reader {
         KeyDesc key;
         read_table("robot.key", kt, &key);
         r.keys.push_back(key);
+      });
+      read_many("robot.device", t, "device", [&](const toml::table& dt) {
+        DeviceDesc device;
+        device.line = line_of(dt);
+        read_table("robot.device", dt, &device);
+        for (const DeviceDesc& other : r.devices) {
+          if (other.name == device.name)
+            problem(dt.source(),
+                    fmt::format("robot.device.name: got \"{}\" a second time, expected each device once",
+                                device.name));
+        }
+        r.devices.push_back(std::move(device));
       });
       world_.robots.push_back(std::move(r));
     });

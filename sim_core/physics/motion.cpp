@@ -87,9 +87,12 @@ void Motion::move(int body, const Pose2& pose, double z_m) {
 
 void Motion::set_velocity(int body, Vec2 velocity_m_s, double spin_rad_s, double climb_m_s) {
   BodyState& b = bodies_[static_cast<std::size_t>(body)];
-  b.velocity_m_s = velocity_m_s;
-  b.spin_rad_s = spin_rad_s;
-  if (body < robots()) return;
+  const bool loose = body >= robots();
+  if (!loose || loose_moves_) {
+    b.velocity_m_s = velocity_m_s;
+    b.spin_rad_s = spin_rad_s;
+  }
+  if (!loose || !has_heights_) return;
   int& support = support_[static_cast<std::size_t>(body)];
   if (climb_m_s > 0) support = kInAir;
   b.climb_m_s = support == kInAir ? climb_m_s : 0;

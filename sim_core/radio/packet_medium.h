@@ -9,6 +9,7 @@
 #include <atomic>
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <vector>
 
 #include "sim_core/base/clock.h"
@@ -25,7 +26,9 @@ struct Packet {
   double range_m = -1;  ///< negative: unlimited
   bool infra_red = false;
   std::vector<std::uint8_t> bytes;
-  Clicks at = 0;  ///< when it was sent; set by the sender
+  Clicks at = 0;                ///< when it was sent; set by the sender
+  int emitter = 0;              ///< which of the end's emitters: each sends one packet after the other
+  double baud_rate_bit_s = -1;  ///< negative: unlimited; 8 bits a byte
 };
 
 /// The same as a receiver finds it.
@@ -46,6 +49,8 @@ class PacketPort {
   virtual bool listens(int channel) const = 0;
   /// Between ticks, in order of sender and time.
   virtual void on_packet(const ReceivedPacket& packet) = 0;
+  /// Between ticks: the last bit of a packet of this end is out, whoever hears it. Its queue has room again.
+  virtual void on_left(const Packet&) {}
 
   /// From the port's own thread, in order of time.
   void send(Packet packet) {
@@ -59,6 +64,7 @@ class PacketPort {
   friend class PacketMedium;
   std::deque<Packet> outbox_;
   std::atomic<bool>* somebody_sends_ = nullptr;
+  std::map<int, Clicks> free_at_;  // of each emitter with a baud rate: end of its last packet
 };
 
 /// Costs nothing while nobody sends.
@@ -69,6 +75,8 @@ class PacketMedium final : public Medium {
   void exchange(const Scene& scene, Clicks now) override;
 
  private:
+  void deliver(const Scene& scene, const PacketPort& from, const Packet& packet, Clicks now) const;
+
   std::vector<PacketPort*> ports_;
   std::atomic<bool> somebody_sends_{false};
 };

@@ -14,6 +14,9 @@ inline constexpr std::uint32_t kStreamRadioLoss = 49;
 inline constexpr std::uint32_t kStreamRadioWait = 50;
 inline constexpr std::uint32_t kStreamLinkDropout = 51;
 
+/// Height of infra-red devices for packets over a robot's origin, m. [assumed: half a small robot]
+inline constexpr double kPacketInfraRedHeightM = 0.025;
+
 /// One octet at 250 kbit/s: 32 us. [CC2420 SWRS041 p.1: effective data rate 250 kbps]
 inline constexpr double kRadioOctetS = 8 / 250e3;
 /// Preamble 4, start delimiter 1, length 1. [CC2420 SWRS041 fig. 17: synchronisation header and PHY header]

@@ -131,6 +131,19 @@ struct LinkEndDesc {
   std::vector<Dropout> dropouts;    ///< of this robot alone, growing
 };
 
+enum class DeviceKind { Gps, Compass, Inertial, Gyro, Emitter, Receiver, Distance };
+
+/// A device that programs written for Webots' interfaces find on a robot by its name.
+struct DeviceDesc {
+  std::string name;
+  DeviceKind kind = DeviceKind::Gps;
+  int channel = 1;              ///< of emitters and receivers; -1: all
+  double range_m = -1;          ///< of emitters; negative: unlimited
+  double baud_rate_bit_s = -1;  ///< of emitters; negative: unlimited
+  bool infra_red = false;       ///< of emitters: a free line of sight is needed
+  int line = 0;                 ///< line in the world file; 0 when built in C++
+};
+
 /// A key of a remote control that somebody presses for a robot.
 struct KeyDesc {
   int code = 0;         ///< 0 to 63
@@ -171,7 +184,8 @@ struct RobotDesc {
   std::vector<SensorDesc> sensors;
   std::vector<PartDesc> parts;
   std::vector<KeyDesc> keys;  ///< presses of remote controls, in any order
-  int line = 0;               ///< line in the world file; 0 when built in C++
+  std::vector<DeviceDesc> devices;
+  int line = 0;  ///< line in the world file; 0 when built in C++
 };
 
 enum class ObjectKind { Box, Cylinder, Ball, Polygon };

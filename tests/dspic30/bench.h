@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A chip on a bench: registers by name, pins as lists of levels, and everything that leaves the chip written down.
+// A chip on a bench: registers by name, pins as lists of levels, and everything that leaves the chip written
+// down.
 #pragma once
 #include <gtest/gtest.h>
 
@@ -102,7 +103,8 @@ struct Notes : dspic::DiagnosticSink {
   std::vector<dspic::Diagnosis> all;
   void report(const dspic::Diagnosis& d) override { all.push_back(d); }
   int count(dspic::Cause cause) const {
-    return static_cast<int>(std::count_if(all.begin(), all.end(), [&](const auto& d) { return d.cause == cause; }));
+    return static_cast<int>(
+        std::count_if(all.begin(), all.end(), [&](const auto& d) { return d.cause == cause; }));
   }
 };
 

@@ -35,7 +35,8 @@ TEST(InputCapture, takes_the_timer_at_the_edge) {
 }
 
 TEST(InputCapture, modes_choose_their_edges) {
-  const std::pair<unsigned, Cycle> cases[] = {{1, 1000}, {2, 1200}, {3, 1000}, {4, 1000 + 3 * 500}, {5, 1000 + 15 * 500}};
+  const std::pair<unsigned, Cycle> cases[] = {
+      {1, 1000}, {2, 1200}, {3, 1000}, {4, 1000 + 3 * 500}, {5, 1000 + 15 * 500}};
   for (const auto& [mode, edge] : cases) {
     Bench b;
     b.outside.clock({Port::D, 9}, 1000, 500, 200, 20);
@@ -107,7 +108,8 @@ TEST(OutputCompare, pwm_reloads_its_duty_at_the_period) {
   b.chip.run_to(1100);
   b.write("OC1RS", 600, 1100);
   b.chip.run_to(3000);
-  const std::vector<std::pair<Cycle, bool>> expected = {{1002, true}, {1302, false}, {2002, true}, {2602, false}};
+  const std::vector<std::pair<Cycle, bool>> expected = {
+      {1002, true}, {1302, false}, {2002, true}, {2602, false}};
   EXPECT_EQ(edges(b, 0, 500), expected);
   EXPECT_EQ(b.read("OC1R", 3000), 600u);
   b.write("OC1R", 5, 3001);  // read-only

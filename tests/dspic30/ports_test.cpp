@@ -124,7 +124,8 @@ TEST(Ports, bit_operations_beside_moving_inputs_are_no_mistake) {
   EXPECT_EQ(b.notes.count(Cause::InputDriven), 0);
 }
 
-// --- INT0 to INT4 --------------------------------------------------------------------------------------------
+// --- INT0 to INT4
+// --------------------------------------------------------------------------------------------
 
 TEST(ExternalInterrupt, flag_comes_two_cycles_after_its_edge) {
   Bench b;

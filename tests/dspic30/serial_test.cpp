@@ -54,10 +54,10 @@ TEST_F(I2c, status_follows_a_transmission) {
   control(0x01);
   EXPECT_EQ(b.read("I2CSTAT", now) & 0x18, 0x08u);  // S
   b.write("I2CTRN", 0x42, now);
-  EXPECT_EQ(b.read("I2CSTAT", now + 1) & 0x4001, 0x4001u);             // TRSTAT, TBF
-  EXPECT_EQ(b.read("I2CSTAT", now + 8 * 164 - 1) & 0x4001, 0x4001u);   // eight bits
-  EXPECT_EQ(b.read("I2CSTAT", now + 8 * 164) & 0x4001, 0x4000u);       // TBF falls
-  EXPECT_EQ(b.read("I2CSTAT", now + 9 * 164) & 0xC001, 0x8000u);       // ACKSTAT: nobody
+  EXPECT_EQ(b.read("I2CSTAT", now + 1) & 0x4001, 0x4001u);            // TRSTAT, TBF
+  EXPECT_EQ(b.read("I2CSTAT", now + 8 * 164 - 1) & 0x4001, 0x4001u);  // eight bits
+  EXPECT_EQ(b.read("I2CSTAT", now + 8 * 164) & 0x4001, 0x4000u);      // TBF falls
+  EXPECT_EQ(b.read("I2CSTAT", now + 9 * 164) & 0xC001, 0x8000u);      // ACKSTAT: nobody
   now += 9 * 164;
   control(0x04);
   EXPECT_EQ(b.read("I2CSTAT", now) & 0x18, 0x10u);  // P
@@ -156,7 +156,9 @@ TEST_F(Dci, what_was_loaded_before_goes_out_first) {
 }
 
 TEST_F(Dci, received_words_and_status) {
-  b.outside.codec_answer = [n = 0](std::uint16_t) mutable { return static_cast<std::uint16_t>(0x3000 + n++); };
+  b.outside.codec_answer = [n = 0](std::uint16_t) mutable {
+    return static_cast<std::uint16_t>(0x3000 + n++);
+  };
   start(99);
   for (unsigned i = 0; i < 4; ++i) b.write("TXBUF" + std::to_string(i), 0, 200);
   const Cycle full = 108 + 3 * 2048 + 128;
@@ -237,7 +239,8 @@ TEST(Spi, byte_takes_eight_clocks) {
   EXPECT_EQ(b.read("SPI1STAT", 122) & 3, 0u);
 }
 
-// PPRE = 1 (16:1), SPRE = 4 (4:1): 64 cycles a bit, 1024 for 16 bits; the second word waits, unread ones overflow
+// PPRE = 1 (16:1), SPRE = 4 (4:1): 64 cycles a bit, 1024 for 16 bits; the second word waits, unread ones
+// overflow
 TEST(Spi, words_queue_and_overflow) {
   Bench b;
   b.write("SPI2CON", 0x0420 | 4 << 2 | 1, 0);

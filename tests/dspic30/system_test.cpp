@@ -16,9 +16,10 @@ TEST(Reset, rcon_tells_why) {
   Bench b;
   EXPECT_EQ(b.read("RCON", 0) & 0xF0FF, 0x0003u);
   b.write("RCON", 0, 1);
-  const std::pair<ResetKind, unsigned> kinds[] = {{ResetKind::Instruction, 0x0040},  {ResetKind::Pin, 0x0080},
-                                                  {ResetKind::Watchdog, 0x0010},     {ResetKind::BrownOut, 0x0002},
-                                                  {ResetKind::IllegalOpcode, 0x4000}, {ResetKind::TrapConflict, 0x8000}};
+  const std::pair<ResetKind, unsigned> kinds[] = {
+      {ResetKind::Instruction, 0x0040},   {ResetKind::Pin, 0x0080},
+      {ResetKind::Watchdog, 0x0010},      {ResetKind::BrownOut, 0x0002},
+      {ResetKind::IllegalOpcode, 0x4000}, {ResetKind::TrapConflict, 0x8000}};
   unsigned sticky = 0;
   Cycle now = 10;
   for (const auto& [kind, bit] : kinds) {
@@ -112,7 +113,7 @@ TEST(Oscillator, bytes_need_their_unlock_sequence) {
 
 TEST(LowVoltage, flag_rises_below_the_chosen_threshold) {
   Bench b;
-  b.write("RCON", 0x1000 | 7 << 8, 1);  // 3.0 V
+  b.write("RCON", 0x1000 | 7 << 8, 1);             // 3.0 V
   EXPECT_EQ(b.read("RCON", 2) & 0x2000, 0x2000u);  // BGST
   EXPECT_FALSE(b.flag(irq::Lvd, 10));
   b.outside.supply = 2.9;

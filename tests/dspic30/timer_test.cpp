@@ -61,8 +61,8 @@ TEST_P(Prescale, period_is_pr_plus_one_ticks) {
   }
 }
 INSTANTIATE_TEST_SUITE_P(All, Prescale,
-                         ::testing::Values(std::pair{0, Cycle{1}}, std::pair{1, Cycle{8}}, std::pair{2, Cycle{64}},
-                                           std::pair{3, Cycle{256}}));
+                         ::testing::Values(std::pair{0, Cycle{1}}, std::pair{1, Cycle{8}},
+                                           std::pair{2, Cycle{64}}, std::pair{3, Cycle{256}}));
 
 TEST(Timer, pair_of_32_bits_counts_through_and_flags_the_high_timer) {
   Bench b;
@@ -90,7 +90,7 @@ TEST(Timer, writing_the_low_half_writes_both) {
 
 TEST(Timer, stopping_keeps_the_count_and_clears_the_prescaler) {
   Bench b;
-  b.write("T1CON", 0x8010, 0);      // 1:8 from cycle 1
+  b.write("T1CON", 0x8010, 0);       // 1:8 from cycle 1
   b.write("T1CON", 0x0010, 1 + 20);  // 2 ticks and 5 cycles
   EXPECT_EQ(b.read("TMR1", 500), 2u);
   b.write("T1CON", 0x8010, 600);
@@ -173,6 +173,22 @@ TEST(Timer, camera_driver_gets_its_interrupt_after_one_edge) {
   EXPECT_EQ(b.flag_rises(irq::T5, 11), 5002);
   b.clear_flag(irq::T5, 5100);
   EXPECT_EQ(b.flag_rises(irq::T5, 5101), 205002);  // the next edge takes it to 0, the third to 1
+}
+
+// its line interrupt: TMR4 = 0, PR4 = 1, and the handler clears TMR4: one interrupt for each edge of HREF
+TEST(Timer, camera_driver_gets_one_interrupt_a_line) {
+  Bench b;
+  b.outside.clock({Port::C, 3}, 10000, 2000, 1200, 20);
+  b.write("PR4", 1, 10);
+  b.write("T4CON", 0x8002, 10);
+  Cycle from = 11;
+  for (int line = 0; line < 10; ++line) {
+    const Cycle flag = b.flag_rises(irq::T4, from);
+    EXPECT_EQ(flag, 10000 + 2000 * line + 2);
+    b.clear_flag(irq::T4, flag + 10);
+    b.write("TMR4", 0, flag + 12);
+    from = flag + 13;
+  }
 }
 
 TEST(Timer, external_clock_with_prescaler) {

@@ -56,7 +56,7 @@ TEST_F(Uart, fifo_of_four_and_shift_register_hold_five) {
     b.write("U1TXREG", '0' + i, 101 + i);
   }
   EXPECT_EQ(b.read("U1STA", 110) & 0x200, 0x200u);  // UTXBF
-  b.write("U1TXREG", 'x', 111);                    // ignored
+  b.write("U1TXREG", 'x', 111);                     // ignored
   b.chip.run_to(20000);
   ASSERT_EQ(b.outside.sent.size(), 5u);
   EXPECT_EQ(b.outside.sent[4].word, '4');
@@ -246,9 +246,11 @@ TEST_F(Uart, small_rate_error_is_tolerated) {
   EXPECT_EQ(b.notes.count(dspic::Cause::UartFrameError), 0);
 }
 
-// BRG 95 gives 9600 baud exactly; 100: 9124 baud, 5 % low; 23 gives 38400; 15: 57600; 10: 83782, 9 % off 76800
+// BRG 95 gives 9600 baud exactly; 100: 9124 baud, 5 % low; 23 gives 38400; 15: 57600; 10: 83782, 9 % off
+// 76800
 TEST_F(Uart, rate_more_than_two_percent_off_is_named) {
-  const std::pair<unsigned, int> cases[] = {{95, 0}, {100, 1}, {23, 0}, {7, 0}, {3, 0}, {1, 0}, {0, 0}, {10, 1}};
+  const std::pair<unsigned, int> cases[] = {{95, 0}, {100, 1}, {23, 0}, {7, 0},
+                                            {3, 0},  {1, 0},   {0, 0},  {10, 1}};
   for (const auto& [brg, reports] : cases) {
     Bench fresh;
     fresh.write("U1BRG", brg, 0);

@@ -32,7 +32,7 @@ TEST_P(Golden, run_repeats_to_the_last_bit) {
 
 INSTANTIATE_TEST_SUITE_P(
     Of, Golden,
-    ::testing::Combine(::testing::Values(Pinned{"maze", "worlds/maze.toml", 20, "97032ed451552a95"},
+    ::testing::Combine(::testing::Values(Pinned{"maze", "worlds/maze.toml", 20, "0ef9d5005524ac57"},
                                          Pinned{"swarm", "worlds/swarm.toml", 5, "431564b25e778997"},
                                          Pinned{"push", "worlds/push.toml", 10, "9447a08d4c4e4202"},
                                          Pinned{"braitenberg_10", "bench/worlds/brait_10.toml", 5,

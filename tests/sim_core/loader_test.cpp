@@ -362,12 +362,57 @@ TEST(Loader, bodies_above_one_another_do_not_overlap) {
 }
 
 TEST(Loader, worlds_of_the_repository_are_good) {
-  for (const char* name : {"worlds/maze", "worlds/arena", "worlds/empty", "worlds/corridor", "worlds/wall",
-                           "worlds/u_obstacle", "worlds/u_obstacle_black", "worlds/lamp", "worlds/push",
-                           "worlds/swarm", "bench/worlds/brait_1", "bench/worlds/brait_5",
-                           "bench/worlds/brait_10", "bench/worlds/brait_100", "bench/worlds/brait_1000"}) {
+  for (const char* name : {"worlds/maze",
+                           "worlds/arena",
+                           "worlds/empty",
+                           "worlds/corridor",
+                           "worlds/wall",
+                           "worlds/u_obstacle",
+                           "worlds/u_obstacle_black",
+                           "worlds/u_obstacle_white",
+                           "worlds/myobstacle",
+                           "worlds/obstacle",
+                           "worlds/multi_obstacle",
+                           "worlds/pillars",
+                           "worlds/corners",
+                           "worlds/lamp",
+                           "worlds/push",
+                           "worlds/swarm",
+                           "bench/worlds/brait_1",
+                           "bench/worlds/brait_5",
+                           "bench/worlds/brait_10",
+                           "bench/worlds/brait_100",
+                           "bench/worlds/brait_1000"}) {
     const std::string file = std::string(TWINPUCK_SOURCE_DIR "/") + name + ".toml";
     EXPECT_EQ(sim::load_world(file, {puck()}).report(file), "");
+  }
+}
+
+TEST(Loader, the_labs_worlds_of_three_engines_differ_in_the_engine_alone) {
+  const auto read = [](const std::string& name) {
+    std::ifstream in(TWINPUCK_SOURCE_DIR "/worlds/" + name + ".toml");
+    std::string text, engine;
+    for (std::string line; std::getline(in, line);) {
+      if (line.rfind("engine = ", 0) == 0) engine = line.substr(9);
+      const bool names_it =
+          line.rfind("engine", 0) == 0 || line.rfind("title", 0) == 0 || line.rfind("#", 0) == 0;
+      if (!names_it) text += line + "\n";
+    }
+    return std::make_pair(engine, text);
+  };
+  for (const char* number : {"", "_5", "_10"}) {
+    const auto dynamic = read(std::string("epuck") + number);
+    const auto kinematic = read(std::string("epuck_no_physics") + number);
+    const auto planar = read(std::string("epuck_2d") + number);
+    EXPECT_EQ(dynamic.first, "\"dynamic\"");
+    EXPECT_EQ(kinematic.first, "\"kinematic\"");
+    EXPECT_EQ(planar.first, "\"planar\"");
+    EXPECT_EQ(dynamic.second, kinematic.second);
+    EXPECT_EQ(dynamic.second, planar.second);
+    for (const char* stem : {"epuck", "epuck_no_physics", "epuck_2d"}) {
+      const std::string file = std::string(TWINPUCK_SOURCE_DIR "/worlds/") + stem + number + ".toml";
+      EXPECT_EQ(sim::load_world(file, {puck()}).report(file), "");
+    }
   }
 }
 

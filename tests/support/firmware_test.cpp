@@ -83,6 +83,10 @@ void Robot::turn_selector(int position) {
   mind().board().turn_selector(position);
   mind().robot()->wake();
 }
+void Robot::define_sensor(const std::string& name, double value) {
+  test_->twin();
+  mind().board().virtual_devices().set(name, value);
+}
 void Robot::press_key(int key, double hold_s, int address) {
   const double at_s = test_->now_s();
   test_->twin();
@@ -180,6 +184,12 @@ void FirmwareTest::start() {
   std::vector<std::string> problems;
   twin_ = twin::Twin::open(world, options, problems);
   if (!twin_) throw std::runtime_error("the test's world cannot start:\n" + all_lines(problems));
+  for (auto& r : robots_) {
+    Robot* robot = r.get();
+    robot->mind().board().virtual_devices().on_console = [robot](const std::string& line) {
+      robot->console_.push_back(line);
+    };
+  }
   if (!world.supervisors.empty()) {
     team_ = supervisor::Team::open(*twin_, options, {}, problems);
     if (!team_) throw std::runtime_error("the test's supervisors cannot start:\n" + all_lines(problems));

@@ -60,6 +60,10 @@ class Robot {
   std::string uart2_text() const { return serial_text(2); }
   void send_uart1(const std::string& bytes) { serial_send(1, bytes); }  ///< arrives at the line's baud rate
   void send_uart2(const std::string& bytes) { serial_send(2, bytes); }
+  /// Lines that a program for Webots' interfaces wrote to the simulator's console so far.
+  const std::vector<std::string>& console() const { return console_; }
+  /// A virtual sensor, as a supervisor defines it.
+  void define_sensor(const std::string& name, double value);
   void turn_selector(int position);
   /// Somebody presses a key of a remote control now, for `hold_s` seconds: key 0 to 63, address 0 to 31.
   void press_key(int key, double hold_s = 0.1, int address = 0);
@@ -103,6 +107,7 @@ class Robot {
   int index_ = 0;
   sim::RobotDesc desc_;
   board::MemoryEnd* serial_[2] = {nullptr, nullptr};
+  std::vector<std::string> console_;
   bool keeps_bluetooth_ = false;
 };
 

@@ -17,6 +17,11 @@ void accelerometer_disable(DeviceTag tag);
 /** x, y, z in m/s2, axes as in webots/accelerometer.h. Valid until the
  *  next step; zeros before the first period is over. Does not block. */
 const float* accelerometer_get_values(DeviceTag tag);
+
+/** Parts of such values. */
+#define accelerometer_value_x(values) ((values)[0])
+#define accelerometer_value_y(values) ((values)[1])
+#define accelerometer_value_z(values) ((values)[2])
 TP_C_END
 
 #endif

@@ -14,7 +14,8 @@ TP_C_BEGIN
 void camera_enable(DeviceTag tag, int ms);
 void camera_disable(DeviceTag tag);
 
-/** Rows from the top, 4 bytes a pixel: blue, green, red, 255. Null before the first. Does not block. */
+/** Rows from the top, 4 bytes a pixel: blue, green, red, 255. Black before the first,
+ * null when the camera is not enabled. Does not block. */
 unsigned char* camera_get_image(DeviceTag tag);
 
 /** Pixels: 52 and 39. */

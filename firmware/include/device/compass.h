@@ -17,6 +17,11 @@ void compass_disable(DeviceTag tag);
 /** Unit vector to the north, as in webots/compass.h. Valid until the
  *  next step; zeros before the first period is over. Does not block. */
 const float* compass_get_values(DeviceTag tag);
+
+/** Parts of such values. */
+#define compass_value_x(values) ((values)[0])
+#define compass_value_y(values) ((values)[1])
+#define compass_value_z(values) ((values)[2])
 TP_C_END
 
 #endif

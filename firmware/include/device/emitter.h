@@ -12,7 +12,7 @@ TP_C_BEGIN
 /** Sends `size` bytes as one packet. Returns 1, or 0 when the queue is full. Does not block. */
 int emitter_send_packet(DeviceTag tag, const void* data, int size);
 
-/** Before 5.1.10: fill the buffer of 4096 bytes, then send its first `size` bytes. */
+/** Before 5.1.10: fill the buffer of 1024 bytes, then send its first `size` bytes. */
 void* emitter_get_buffer(DeviceTag tag);
 int emitter_send(DeviceTag tag, int size);
 

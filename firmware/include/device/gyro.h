@@ -17,6 +17,11 @@ void gyro_disable(DeviceTag tag);
 /** Angular rates about x, y, z, scaled as in webots/gyro.h. Valid until the
  *  next step; zeros before the first period is over. Does not block. */
 const float* gyro_get_values(DeviceTag tag);
+
+/** Parts of such values. */
+#define gyro_value_x(values) ((values)[0])
+#define gyro_value_y(values) ((values)[1])
+#define gyro_value_z(values) ((values)[2])
 TP_C_END
 
 #endif

@@ -12,11 +12,6 @@
 
 #include "robot_types.h"
 
-#ifdef __TWINPUCK__
-/* as in webots/robot.h */
-__attribute__((weak)) const char tp_webots_program = 1;
-#endif
-
 #define ROBOT_MODE_SIMULATION 0
 #define ROBOT_MODE_CROSS_COMPILATION 1
 #define ROBOT_MODE_REMOTE_CONTROL 2

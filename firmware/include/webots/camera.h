@@ -19,7 +19,8 @@ void wb_camera_enable(WbDeviceTag tag, int sampling_period);
 void wb_camera_disable(WbDeviceTag tag);
 int wb_camera_get_sampling_period(WbDeviceTag tag);
 
-/** Rows from the top, 4 bytes a pixel: blue, green, red, 255. Null before the first. Does not block. */
+/** Rows from the top, 4 bytes a pixel: blue, green, red, 255. Black before the first,
+ * null when the camera is not enabled. Does not block. */
 const unsigned char* wb_camera_get_image(WbDeviceTag tag);
 
 /** Pixels: 52 and 39. */

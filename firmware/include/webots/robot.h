@@ -14,12 +14,6 @@
 #include "nodes.h"
 #include "types.h"
 
-#ifdef __TWINPUCK__
-/* says to the C library of the image whom it serves: printf() goes to the simulator's console, and when
-   main() returns the program has ended, as in Webots */
-__attribute__((weak)) const char tp_webots_program = 1;
-#endif
-
 typedef enum { WB_MODE_SIMULATION = 0, WB_MODE_CROSS_COMPILATION, WB_MODE_REMOTE_CONTROL } WbRobotMode;
 
 TP_C_BEGIN

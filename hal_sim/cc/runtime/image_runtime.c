@@ -12,12 +12,26 @@ __attribute__((preserve_most, noinline)) void tp_image_event(void)
   tp_event();
 }
 
+#ifndef TP_IMAGE_NAME
+#define TP_IMAGE_NAME ""
+#endif
+
 extern int main(void);
 
+#ifdef TP_WEBOTS
+/* a program for Webots' interfaces looks at its arguments, and has ended when main() returns */
+static void tp_image_start(void)
+{
+  static char *arguments[2] = {(char *)TP_IMAGE_NAME, 0};
+  ((int (*)(int, char **))main)(1, arguments);
+  for (;;) tp_power_save(1); /* the robot's interrupts go on */
+}
+#else
 static void tp_image_start(void)
 {
   main();
 }
+#endif
 
 /* the linker script puts these around the image's data and tables */
 extern char tp_data_begin[], tp_data_end[];
@@ -39,9 +53,6 @@ VECTORS(H)
 H(_OscillatorFail) H(_AddressError) H(_StackError) H(_MathError)
 
 #define A(name) name,
-#ifndef TP_IMAGE_NAME
-#define TP_IMAGE_NAME ""
-#endif
 #ifndef TP_IMAGE_FLAGS
 #define TP_IMAGE_FLAGS ""
 #endif

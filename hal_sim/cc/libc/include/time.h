@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Firmware libc: types only. A robot has no calendar; calling time() or clock() is refused at build. */
+ * Firmware libc: types only. A robot has no calendar; calling time() or clock() is refused at build, but for
+ * programs written for Webots' interfaces, whose calendar is simulated. */
 #ifndef TP_LIBC_TIME_H
 #define TP_LIBC_TIME_H
 #include <stddef.h>
@@ -7,4 +8,6 @@ typedef long time_t;
 typedef unsigned long clock_t;
 time_t time(time_t* to);
 clock_t clock(void);
+#define CLOCKS_PER_SEC 1000000L
+double difftime(time_t later, time_t earlier);
 #endif

@@ -122,14 +122,6 @@ void *bsearch(const void *key, const void *base, size_t n, size_t bytes, int (*c
   return 0;
 }
 
-void exit(int status)
-{
-  if (status == 0) tp_reset();
-  tp_trap_message(TP_TRAP_ABORT, "exit() with a failure");
-  for (;;) {
-  }
-}
-
 void abort(void)
 {
   tp_trap_message(TP_TRAP_ABORT, "abort()");

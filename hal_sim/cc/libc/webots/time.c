@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: MIT
+ * Calendar and processor time for programs written for Webots' interfaces, which call srand(time(NULL)). Simulated
+ * seconds from a moment that is made of the robot's seed: other robots and other seeds have other moments, and
+ * a run repeats. Other firmware does not link with these: a robot has no calendar.
+ */
+#include <time.h>
+#include "hal_sim/host/pins.h"
+#include "hal_sim/host/pins_virtual.h"
+
+#define CYCLES_PER_SECOND 14745600 /* nominal [lib: motor_led/e_epuck_ports.h] */
+
+time_t time(time_t *to)
+{
+  time_t now = (time_t)tp_virtual_calendar_s();
+  if (to) *to = now;
+  return now;
+}
+
+double difftime(time_t later, time_t earlier) { return (double)(later - earlier); }
+
+clock_t clock(void) { return (clock_t)(tp_now() * CLOCKS_PER_SEC / CYCLES_PER_SECOND); }

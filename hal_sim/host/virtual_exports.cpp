@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: MIT
+// The functions of pins_virtual.h on the board.
+#include <algorithm>
+#include <cstring>
+
+#include "hal_sim/board/board.h"
+#include "hal_sim/board/true_state.h"
+#include "hal_sim/host/context.h"
+#include "hal_sim/host/pins.h"
+#include "hal_sim/host/pins_virtual.h"
+#include "sim_core/base/hash.h"
+
+using board::Board;
+using host::Context;
+
+namespace {
+
+constexpr tp_i64 kCalendarBegins = 1000000000;  // 2001-09-09 in seconds of 1970 [assumed: any past moment]
+constexpr tp_i64 kCalendarSpread = 100000000;   // three years
+
+Board& this_board() { return Context::current().board(); }
+
+void copy_name(const std::string& name, char* to, tp_i64 size) {
+  if (size <= 0) return;
+  const std::size_t n = std::min(name.size(), static_cast<std::size_t>(size - 1));
+  std::memcpy(to, name.data(), n);
+  to[n] = 0;
+}
+
+void put(const sim::Vec3& v, float* to) {
+  to[0] = static_cast<float>(v.x);
+  to[1] = static_cast<float>(v.y);
+  to[2] = static_cast<float>(v.z);
+}
+
+board::TrueState truth() {
+  Context& context = Context::current();
+  const host::Cycle now = context.now();
+  context.lower_horizon(now);
+  return board::true_state(context.board(), now);
+}
+
+bool is_emitter(tp_i64 e) { return e >= 0 && e < this_board().packets().emitters(); }
+bool is_receiver(tp_i64 r) { return r >= 0 && r < this_board().packets().receivers(); }
+
+const sim::ReceivedPacket* head_of(tp_i64 r) {
+  return is_receiver(r) ? this_board().packets().head(static_cast<int>(r)) : nullptr;
+}
+
+}  // namespace
+
+extern "C" {
+
+void tp_virtual_console(const char* bytes, tp_i64 length) {
+  Context::current().note_write();
+  if (length > 0) this_board().virtual_devices().write(bytes, static_cast<std::size_t>(length));
+}
+
+tp_i64 tp_virtual_time_step_us(void) {
+  return static_cast<tp_i64>(this_board().setup().webots.time_step_s * 1e6 + 0.5);
+}
+
+void tp_virtual_speed_unit(float* unit) {
+  *unit = static_cast<float>(std::max(0.0, this_board().setup().webots.speed_unit_rad_s));
+}
+
+tp_i64 tp_virtual_lab_order(void) { return this_board().setup().webots.sensor_order == "lab" ? 1 : 0; }
+
+tp_i64 tp_virtual_nue(void) { return this_board().setup().webots.axes == sim::Axes::Nue ? 1 : 0; }
+
+void tp_virtual_robot_name(char* name, tp_i64 size) { copy_name(this_board().setup().name, name, size); }
+
+tp_i64 tp_virtual_calendar_s(void) {
+  Context& context = Context::current();
+  const host::Cycle now = context.now();
+  context.lower_horizon(now);
+  const Board& robot = context.board();
+  const auto begins = static_cast<tp_i64>(sim::mix64(robot.setup().seed) % std::uint64_t{kCalendarSpread});
+  return kCalendarBegins + begins + robot.clock().click_at(now) / sim::kClicksPerSecond;
+}
+
+char* tp_virtual_heap(tp_i64 bytes) {
+  return this_board().virtual_devices().heap(static_cast<std::size_t>(bytes));
+}
+
+tp_i64 tp_virtual_device(tp_i64 index, char* name, tp_i64 size) {
+  const std::vector<sim::DeviceDesc>& devices = this_board().setup().devices;
+  if (index < 0 || index >= static_cast<tp_i64>(devices.size())) return 0;
+  const sim::DeviceDesc& device = devices[static_cast<std::size_t>(index)];
+  copy_name(device.name, name, size);
+  switch (device.kind) {
+    case sim::DeviceKind::Gps:
+      return TP_DEVICE_GPS;
+    case sim::DeviceKind::Compass:
+      return TP_DEVICE_COMPASS;
+    case sim::DeviceKind::Inertial:
+      return TP_DEVICE_INERTIAL;
+    case sim::DeviceKind::Gyro:
+      return TP_DEVICE_GYRO;
+    case sim::DeviceKind::Emitter:
+      return TP_DEVICE_EMITTER;
+    case sim::DeviceKind::Receiver:
+      return TP_DEVICE_RECEIVER;
+    case sim::DeviceKind::Distance:
+      return TP_DEVICE_DISTANCE;
+  }
+  return 0;
+}
+
+tp_i64 tp_virtual_sensor(const char* name, float* value) {
+  Context& context = Context::current();
+  context.lower_horizon(context.now());
+  const auto found = context.board().virtual_devices().get(name);
+  if (!found) return 0;
+  *value = static_cast<float>(*found);
+  return 1;
+}
+
+void tp_virtual_position(float* xyz, float* velocity) {
+  const board::TrueState state = truth();
+  put(state.position_m, xyz);
+  put(state.velocity_m_s, velocity);
+}
+void tp_virtual_north(float* xyz) { put(truth().north, xyz); }
+void tp_virtual_attitude(float* angles) { put(truth().attitude_rad, angles); }
+void tp_virtual_rates(float* xyz) { put(truth().rates_rad_s, xyz); }
+
+tp_i64 tp_virtual_find(const char* name) { return board::find_body(this_board(), name) + 1; }
+
+void tp_virtual_pose_of(tp_i64 found, float* xyz, float* angle) {
+  Context& context = Context::current();
+  const host::Cycle now = context.now();
+  context.lower_horizon(now);
+  sim::Vec3 position;
+  double angle_rad = 0;
+  board::true_pose(context.board(), static_cast<int>(found) - 1, now, position, angle_rad);
+  put(position, xyz);
+  *angle = static_cast<float>(angle_rad);
+}
+
+tp_i64 tp_emitter_find(const char* name) {
+  const board::PacketDevices& packets = this_board().packets();
+  for (int e = 0; e < packets.emitters(); ++e)
+    if (packets.emitter_name(e) == name) return e;
+  return -1;
+}
+
+tp_i64 tp_emitter_send(tp_i64 emitter, const void* data, tp_i64 bytes) {
+  Context& context = Context::current();
+  context.note_write();
+  if (!is_emitter(emitter) || bytes < 0 || bytes > board::kPacketQueueBytes) return 0;
+  return context.board().packets().send(static_cast<int>(emitter), static_cast<const std::uint8_t*>(data),
+                                        static_cast<int>(bytes), context.now())
+             ? 1
+             : 0;
+}
+
+tp_i64 tp_emitter_channel(tp_i64 emitter) {
+  return is_emitter(emitter) ? this_board().packets().emitter_channel(static_cast<int>(emitter)) : 0;
+}
+void tp_emitter_set_channel(tp_i64 emitter, tp_i64 channel) {
+  Context::current().note_write();
+  if (is_emitter(emitter))
+    this_board().packets().set_emitter_channel(static_cast<int>(emitter), static_cast<int>(channel));
+}
+void tp_emitter_range(tp_i64 emitter, float* range) {
+  *range = is_emitter(emitter)
+               ? static_cast<float>(this_board().packets().emitter_range_m(static_cast<int>(emitter)))
+               : -1;
+}
+void tp_emitter_set_range(tp_i64 emitter, const float* range) {
+  Context::current().note_write();
+  if (is_emitter(emitter)) this_board().packets().set_emitter_range_m(static_cast<int>(emitter), *range);
+}
+
+tp_i64 tp_receiver_find(const char* name) {
+  const board::PacketDevices& packets = this_board().packets();
+  for (int r = 0; r < packets.receivers(); ++r)
+    if (packets.receiver_name(r) == name) return r;
+  return -1;
+}
+
+void tp_receiver_switch(tp_i64 receiver, tp_i64 on) {
+  Context::current().note_write();
+  if (is_receiver(receiver)) this_board().packets().switch_receiver(static_cast<int>(receiver), on != 0);
+}
+void tp_receiver_latch(tp_i64 receiver) {
+  Context::current().note_write();
+  if (is_receiver(receiver)) this_board().packets().latch(static_cast<int>(receiver));
+}
+tp_i64 tp_receiver_visible(tp_i64 receiver) {
+  return is_receiver(receiver) ? this_board().packets().visible(static_cast<int>(receiver)) : 0;
+}
+tp_i64 tp_receiver_size(tp_i64 receiver) {
+  const sim::ReceivedPacket* packet = head_of(receiver);
+  return packet ? static_cast<tp_i64>(packet->bytes.size()) : 0;
+}
+const void* tp_receiver_data(tp_i64 receiver) {
+  const sim::ReceivedPacket* packet = head_of(receiver);
+  return packet ? packet->bytes.data() : nullptr;
+}
+void tp_receiver_origin(tp_i64 receiver, float* strength, float* direction) {
+  const sim::ReceivedPacket* packet = head_of(receiver);
+  *strength = packet ? static_cast<float>(packet->strength) : 0;
+  const sim::Vec3 way = packet ? packet->direction : sim::Vec3{};
+  put(tp_virtual_nue() ? sim::Vec3{-way.y, way.z, -way.x} : way, direction);
+}
+void tp_receiver_drop(tp_i64 receiver) {
+  Context::current().note_write();
+  if (is_receiver(receiver)) this_board().packets().drop(static_cast<int>(receiver));
+}
+tp_i64 tp_receiver_channel(tp_i64 receiver) {
+  return is_receiver(receiver) ? this_board().packets().receiver_channel(static_cast<int>(receiver)) : 0;
+}
+void tp_receiver_set_channel(tp_i64 receiver, tp_i64 channel) {
+  Context::current().note_write();
+  if (is_receiver(receiver))
+    this_board().packets().set_receiver_channel(static_cast<int>(receiver), static_cast<int>(channel));
+}
+
+}  // extern "C"

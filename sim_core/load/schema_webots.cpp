@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// [webots] and [[robot.device]]: what programs written for Webots' interfaces find (docs/webots.md).
+#include <fmt/format.h>
+
+#include "sim_core/load/schema_keys.h"
+
+namespace sim {
+
+SectionSpec webots_section() {
+  using W = WebotsDesc;
+  return {"webots",
+          false,
+          "What programs written for Webots' interfaces find, docs/webots.md. Others do not notice it.",
+          {
+              {"time_step", ValueType::Number, "s", 0.001, 10, "", "0.032",
+               "basic time step that programs are told; it does not change the world's own tick",
+               into<W>([](W& w, const Value& v) { w.time_step_s = v.number; })},
+              {"speed_unit", ValueType::Number, "rad/s", 1e-6, 1000, "", "",
+               "of one unit of `differential_wheels_set_speed`; 0.00628 otherwise: 1000 is a turn a second. "
+               "Worlds of 2005 and 2006 used 0.1",
+               into<W>([](W& w, const Value& v) { w.speed_unit_rad_s = v.number; })},
+              {"sensor_order", ValueType::Choice, "", 0, 0, "product|lab", "\"product\"",
+               "numbers of `ps0` to `ps7` and `ls0` to `ls7`. product: clockwise from the front right; lab: "
+               "clockwise from the left, the rear ones last",
+               into<W>([](W& w, const Value& v) { w.sensor_order = v.text; })},
+              {"axes", ValueType::Choice, "", 0, 0, "enu|nue", "\"enu\"",
+               "of positions and directions that programs are told. enu: x east, y north, z up (R2022 and "
+               "later); nue: x to the right, y up, z towards the reader (before)",
+               into<W>([](W& w, const Value& v) { w.axes = v.text == "nue" ? Axes::Nue : Axes::Enu; })},
+          }};
+}
+
+SectionSpec robot_device_section() {
+  using D = DeviceDesc;
+  return {"robot.device",
+          true,
+          "A device that this robot does not have in truth and that programs written for Webots' interfaces "
+          "find by its name. `emitter` and `receiver` of channel 1 are there without being written; writing "
+          "them changes them.",
+          {
+              {"name", ValueType::Text, "", 0, 0, "", "required", "by which programs ask for it",
+               checked<D>([](D& d, const Value& v, const WorldDesc&) {
+                 if (v.text.empty() || v.text.size() > 31)
+                   return fmt::format("got {} characters, expected 1 to 31", v.text.size());
+                 d.name = v.text;
+                 return std::string();
+               })},
+              {"kind", ValueType::Choice, "", 0, 0, "gps|compass|inertial|gyro|emitter|receiver|distance",
+               "required",
+               "gps, compass, inertial, gyro: the truth, without noise; distance: a virtual sensor, whose "
+               "value a "
+               "supervisor sets",
+               into<D>([](D& d, const Value& v) {
+                 d.kind = v.text == "compass"    ? DeviceKind::Compass
+                          : v.text == "inertial" ? DeviceKind::Inertial
+                          : v.text == "gyro"     ? DeviceKind::Gyro
+                          : v.text == "emitter"  ? DeviceKind::Emitter
+                          : v.text == "receiver" ? DeviceKind::Receiver
+                          : v.text == "distance" ? DeviceKind::Distance
+                                                 : DeviceKind::Gps;
+               })},
+              {"channel", ValueType::Integer, "", -1, 32767, "", "1",
+               "of an emitter or receiver when the program begins; -1 is all",
+               into<D>([](D& d, const Value& v) { d.channel = static_cast<int>(v.integer); })},
+              {"range", ValueType::Number, "m", -1, kFar, "", "-1",
+               "of an emitter, and the most that the program may set; -1 is unlimited",
+               checked<D>([](D& d, const Value& v, const WorldDesc&) {
+                 if (v.number < 0 && v.number != -1)
+                   return fmt::format("got {} m, expected -1 (unlimited), or 0 and above", v.number);
+                 d.range_m = v.number;
+                 return std::string();
+               })},
+              {"baud_rate", ValueType::Number, "bit/s", -1, 1e9, "", "-1",
+               "of an emitter, 8 bits a byte; -1 is unlimited",
+               checked<D>([](D& d, const Value& v, const WorldDesc&) {
+                 if (v.number < 1 && v.number != -1)
+                   return fmt::format("got {} bit/s, expected -1 (unlimited), or 1 and above", v.number);
+                 d.baud_rate_bit_s = v.number;
+                 return std::string();
+               })},
+              {"infra_red", ValueType::Flag, "", 0, 0, "", "false",
+               "of an emitter: packets need a free line of sight",
+               into<D>([](D& d, const Value& v) { d.infra_red = v.flag; })},
+          }};
+}
+
+}  // namespace sim
