@@ -65,7 +65,11 @@ int e_po6030k_set_wx(unsigned int start, unsigned int stop) {
   return 0;
 }
 
-int e_po6030k_set_wy(unsigned int start, unsigned int stop) { return 0; }
+int e_po6030k_set_wy(unsigned int start, unsigned int stop) {
+  (void)start;
+  (void)stop;
+  return 0;
+}
 
 int e_po6030k_set_vsync(unsigned int start, unsigned int stop) {
   if (start >= stop || stop > 499) return -1;

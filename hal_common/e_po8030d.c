@@ -81,7 +81,11 @@ int e_po8030d_set_wx(unsigned int start, unsigned int stop) {
   return 0;
 }
 
-int e_po8030d_set_wy(unsigned int start, unsigned int stop) { return 0; }
+int e_po8030d_set_wy(unsigned int start, unsigned int stop) {
+  (void)start;
+  (void)stop;
+  return 0;
+}
 
 int e_po8030d_set_vsync(unsigned int start, unsigned int stop) {
   if (start >= stop || stop > 515) return -1;

@@ -12,7 +12,8 @@
 #define IN_PROGRAM_MEMORY __attribute__((__space__(prog)))
 #endif
 
-static const int IN_PROGRAM_MEMORY samples[HAL_BANK_SAMPLES] = {
+/* two halves: the compiler's largest object is below 32 KB */
+static const int IN_PROGRAM_MEMORY first_half[HAL_BANK_SAMPLES / 2] = {
     1420, -1826, -4932, -2608, -4886, 1674, 6218, 3584, 6738, 1640, -4862, -3750, -5524, -1846, 1346, -830,
     1522, 2856, 6922, 7458, 4440, -2664, -8862, -10378, -7158, 882, 2642, 4532, 2558, -128, -1106, 5066, 490,
     1566, -640, -8248, 1538, 3182, 4944, 10240, 2952, 734, -162, -2720, -1160, -10, -5106, 742, 954, 4022,
@@ -588,6 +589,9 @@ static const int IN_PROGRAM_MEMORY samples[HAL_BANK_SAMPLES] = {
     4390, -4710, -4942, -3172, -1646, 822, 1618, -610, 426, 438, 362, 2186, 1242, 142, -226, -1492, -1984,
     -48, -720, -252, 356, -1882, -382, 2064, 3330, 5144, 4054, -6014, -12026, -16892, -18472, 6318, 20512,
     13828, 10632, 1138, -5596, -4198, -2860, -1346, 1554, 1146, -540, 1244, 128, 462, 1952, 382, -108, 118,
+};
+
+static const int IN_PROGRAM_MEMORY second_half[HAL_BANK_SAMPLES / 2] = {
     -1450, -1370, 350, -970, -532, 212, -2278, 228, 2562, 3240, 5562, 3028, -7152, -12444, -17390, -17310,
     9794, 19968, 13182, 10118, -10, -5660, -4030, -2618, -1704, 2200, 700, -24, 1522, 182, 88, 1686, -92,
     -428, 860, -1424, -734, 282, -1324, -914, 238, -2442, 146, 2800, 2998, 5486, 3594, -6632, -12196, -16640,
@@ -1179,16 +1183,23 @@ static const int IN_PROGRAM_MEMORY samples[HAL_BANK_SAMPLES] = {
 
 #ifdef __TWINPUCK__
 
-int hal_bank_sample(unsigned int index) { return index < HAL_BANK_SAMPLES ? samples[index] : 0; }
+int hal_bank_sample(unsigned int index) {
+  if (index >= HAL_BANK_SAMPLES) return 0;
+  return index < HAL_BANK_SAMPLES / 2 ? first_half[index] : second_half[index - HAL_BANK_SAMPLES / 2];
+}
 
 #else
 
 /* an instruction word holds one sample in its lower 16 bits, and takes two addresses */
 int hal_bank_sample(unsigned int index) {
-  unsigned long at = __builtin_tbladdress(samples) + 2 * (unsigned long)index;
+  unsigned long at;
   unsigned int saved = TBLPAG;
   int sample;
   if (index >= HAL_BANK_SAMPLES) return 0;
+  if (index < HAL_BANK_SAMPLES / 2)
+    at = __builtin_tbladdress(first_half) + 2 * (unsigned long)index;
+  else
+    at = __builtin_tbladdress(second_half) + 2 * (unsigned long)(index - HAL_BANK_SAMPLES / 2);
   TBLPAG = (unsigned int)(at >> 16);
   sample = (int)__builtin_tblrdl((unsigned int)at);
   TBLPAG = saved;

@@ -23,31 +23,44 @@ inline std::string sound_samples_source() {
       "#define IN_PROGRAM_MEMORY __attribute__((__space__(prog)))\n"
       "#endif\n"
       "\n"
-      "static const int IN_PROGRAM_MEMORY samples[HAL_BANK_SAMPLES] = {\n";
-  std::string line = "   ";
-  for (const std::int16_t sample : *board::sound_bank()) {
-    const std::string number = " " + std::to_string(sample) + ",";
-    if (line.size() + number.size() > 110) {
-      text += line + "\n";
-      line = "   ";
+      "/* two halves: the compiler's largest object is below 32 KB */\n";
+  const auto& bank = *board::sound_bank();
+  const std::size_t half = bank.size() / 2;
+  for (std::size_t part = 0; part < 2; ++part) {
+    text += part ? "\nstatic const int IN_PROGRAM_MEMORY second_half[HAL_BANK_SAMPLES / 2] = {\n"
+                 : "static const int IN_PROGRAM_MEMORY first_half[HAL_BANK_SAMPLES / 2] = {\n";
+    std::string line = "   ";
+    for (std::size_t i = part * half; i < (part + 1) * half; ++i) {
+      const std::string number = " " + std::to_string(bank[i]) + ",";
+      if (line.size() + number.size() > 110) {
+        text += line + "\n";
+        line = "   ";
+      }
+      line += number;
     }
-    line += number;
+    text += line + "\n};\n";
   }
-  text += line + "\n};\n";
   text +=
       "\n"
       "#ifdef __TWINPUCK__\n"
       "\n"
-      "int hal_bank_sample(unsigned int index) { return index < HAL_BANK_SAMPLES ? samples[index] : 0; }\n"
+      "int hal_bank_sample(unsigned int index) {\n"
+      "  if (index >= HAL_BANK_SAMPLES) return 0;\n"
+      "  return index < HAL_BANK_SAMPLES / 2 ? first_half[index] : second_half[index - HAL_BANK_SAMPLES / 2];\n"
+      "}\n"
       "\n"
       "#else\n"
       "\n"
       "/* an instruction word holds one sample in its lower 16 bits, and takes two addresses */\n"
       "int hal_bank_sample(unsigned int index) {\n"
-      "  unsigned long at = __builtin_tbladdress(samples) + 2 * (unsigned long)index;\n"
+      "  unsigned long at;\n"
       "  unsigned int saved = TBLPAG;\n"
       "  int sample;\n"
       "  if (index >= HAL_BANK_SAMPLES) return 0;\n"
+      "  if (index < HAL_BANK_SAMPLES / 2)\n"
+      "    at = __builtin_tbladdress(first_half) + 2 * (unsigned long)index;\n"
+      "  else\n"
+      "    at = __builtin_tbladdress(second_half) + 2 * (unsigned long)(index - HAL_BANK_SAMPLES / 2);\n"
       "  TBLPAG = (unsigned int)(at >> 16);\n"
       "  sample = (int)__builtin_tblrdl((unsigned int)at);\n"
       "  TBLPAG = saved;\n"
