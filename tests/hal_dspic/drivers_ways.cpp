@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The drivers for the chip at work: the same firmware, world and expectations in the native way (hal_sim/api, closed
-// forms) and in the register way (hal_dspic on the models of the chip). Expectations are worked out from the library's
-// numbers, not taken from either way.
+// The drivers for the chip at work: the same firmware, world and expectations in the native way (hal_sim/api,
+// closed forms) and in the register way (hal_dspic on the models of the chip). Expectations are worked out
+// from the library's numbers, not taken from either way.
 #include <cmath>
 
 #include "tests/support/firmware_test.h"
@@ -120,7 +120,8 @@ int main(void) {
   expect_no_traps();
 }
 
-// --- LEDs, selector ------------------------------------------------------------------------------------------
+// --- LEDs, selector
+// ------------------------------------------------------------------------------------------
 
 TEST_P(Ways, leds_and_selector) {
   Robot& robot = add_robot_with_source(R"(
@@ -136,14 +137,16 @@ int main(void) {
   e_set_body_led(1);
   while (1);
 }
-)").selector(11);
+)")
+                     .selector(11);
   run_for(0.5);
   EXPECT_EQ(robot.variable("position"), 11);
   EXPECT_EQ(robot.leds(), (1u << 3) | (1u << 4) | (1u << 8));
   expect_no_traps();
 }
 
-// --- serial lines ----------------------------------------------------------------------------------------------
+// --- serial lines
+// ----------------------------------------------------------------------------------------------
 
 TEST_P(Ways, serial_lines_echo_what_they_get) {
   Robot& robot = add_robot_with_source(R"(
@@ -170,7 +173,8 @@ int main(void) {
   expect_no_traps();
 }
 
-// --- the scan ----------------------------------------------------------------------------------------------------
+// --- the scan
+// ----------------------------------------------------------------------------------------------------
 
 // 65 frames of 900 cycles: an accelerometer sample every 3.967 ms, 49 of them before e_init_ad_scan returns
 TEST_P(Ways, scan_fills_its_arrays_at_the_librarys_rate) {
@@ -199,7 +203,8 @@ int main(void) {
     elapsed = getDiffTimeMs();
   }
 }
-)").at(0.5, 0.045, -90);  // 45 mm from the wall, which it faces
+)")
+                     .at(0.5, 0.045, -90);  // 45 mm from the wall, which it faces
   for (int i = 0; i < 100 && !robot.variable("started"); ++i) run_for(0.01);
   run_for(1.0);
   // 1 s is 16384 frames of 0.061 ms by the library's reckoning, less the frames in which the list changes
@@ -227,7 +232,8 @@ int main(void) {
   e_init_prox();
   while (1) for (i = 0; i < 8; i++) prox[i] = e_get_prox(i);
 }
-)").at(0.5, 0.045, -90);
+)")
+                     .at(0.5, 0.045, -90);
   run_for(0.5);
   const auto prox = robot.variables("prox", 8);
   EXPECT_GT(prox[0], 300);
@@ -236,7 +242,8 @@ int main(void) {
   expect_no_traps();
 }
 
-// --- camera, codec, EEPROM, transform ------------------------------------------------------------------------------
+// --- camera, codec, EEPROM, transform
+// ------------------------------------------------------------------------------
 
 TEST_P(Ways, camera_takes_a_picture) {
   arena(1, 1);
@@ -256,7 +263,8 @@ int main(void) {
     pictures++;
   }
 }
-)").at(0.5, 0.2, -90);
+)")
+                     .at(0.5, 0.2, -90);
   run_for(2.0);
   EXPECT_EQ(robot.variable("id"), 0x3030);
   EXPECT_EQ(robot.variable("answer"), 0);

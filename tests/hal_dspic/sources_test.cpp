@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The sources of the drivers for the chip: each compiles with 16-bit int and no warning, and the generated one is what
-// its generator writes.
+// The sources of the drivers for the chip: each compiles with 16-bit int and no warning, and the generated
+// one is what its generator writes.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -27,11 +27,12 @@ std::vector<fs::path> sources() {
 /// What twinpuck-cc says to one file of the library, warnings as strict as it has them.
 std::string compile(const fs::path& source) {
   const std::string root = TWINPUCK_SOURCE_DIR, include = root + "/firmware/include";
-  std::string line = std::string(TWINPUCK_BUILD_DIR) + "/twinpuck-cc -O1 --library --strict -o /dev/null -I" + root +
-                     "/hal_dspic -I" + root;
-  for (const char* folder : {"", "/motor_led/advance_one_timer", "/motor_led", "/a_d/advance_ad_scan", "/a_d", "/uart",
-                             "/utility", "/camera/fast_2_timer", "/codec", "/bluetooth", "/I2C", "/fft", "/matlab",
-                             "/acc_gyro", "/contrib/LIS_sensors_turret", "/contrib/SWIS_com_module"})
+  std::string line = std::string(TWINPUCK_BUILD_DIR) + "/twinpuck-cc -O1 --library --strict -o /dev/null -I" +
+                     root + "/hal_dspic -I" + root;
+  for (const char* folder :
+       {"", "/motor_led/advance_one_timer", "/motor_led", "/a_d/advance_ad_scan", "/a_d", "/uart", "/utility",
+        "/camera/fast_2_timer", "/codec", "/bluetooth", "/I2C", "/fft", "/matlab", "/acc_gyro",
+        "/contrib/LIS_sensors_turret", "/contrib/SWIS_com_module"})
     line += " -I" + include + folder;
   line += " -I" + root + "/hal_sim/cc/libc/include '" + source.string() + "' 2>&1";
   FILE* pipe = popen(line.c_str(), "r");
