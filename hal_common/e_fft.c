@@ -4,7 +4,13 @@
  */
 #include "fft/e_fft.h"
 
-extern const fractcomplex twiddleFactors[FFT_BLOCK_LENGTH / 2];
+#ifdef __TWINPUCK__
+#define IN_PROGRAM_MEMORY
+#else
+#define IN_PROGRAM_MEMORY __attribute__((__space__(auto_psv), __aligned__(FFT_BLOCK_LENGTH * 2)))
+#endif
+
+extern const fractcomplex IN_PROGRAM_MEMORY twiddleFactors[FFT_BLOCK_LENGTH / 2];
 
 void e_doFFT_asm(fractcomplex *sigCmpx) {
   FFTComplexIP(LOG2_BLOCK_LENGTH, sigCmpx, (fractcomplex *)__builtin_psvoffset(twiddleFactors),

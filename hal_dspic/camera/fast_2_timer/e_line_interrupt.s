@@ -20,14 +20,14 @@ __T4Interrupt:
         mov     #CAMERA_BYTE, w2        ; 5
         repeat  #8                      ; 6
         nop                             ; 7 to 15
-byte:
+next_byte:
         mov.b   [w0++], w3              ; 16
         btsc    w3, #1                  ; 17, and 18 for the skip
         bra     line_end
         btsc    w3, #0                  ; 19, and 20 for the skip
         mov.b   [w2], [w1++]            ; 20
         nop                             ; 21
-        bra     byte                    ; 22, 23; the next byte begins at 24
+        bra     next_byte                  ; 22, 23; the next byte begins at 24
 line_end:
         mov     w1, __poxxxx_buffer
         mov     __poxxxx_current_row, w0
