@@ -69,10 +69,11 @@ static unsigned int common_divisor(unsigned int a, unsigned int b) {
 /* --- choice of a timer -------------------------------------------------------------------------------- */
 
 static int free_timer(void) {
-  int i;
-  for (i = 0; i < TIMERS; i++)
-    if (tasks.timers_in_use[i] == 0) return tasks.motors != i ? i : NO_TIMER;
-  return NO_TIMER;
+  int i = tasks.timers_in_use[0] == 0   ? 0
+          : tasks.timers_in_use[1] == 0 ? 1
+          : tasks.timers_in_use[2] == 0 ? 2
+                                        : NO_TIMER;
+  return tasks.motors == i ? NO_TIMER : i;
 }
 
 /* the busy timer whose period shares most with the cycle; else the one with the longest period */
@@ -136,10 +137,9 @@ static Agenda* find_in(Agenda* list, void (*func)(void)) {
 
 /* the timer that serves the task of `func` */
 static int timer_of(void (*func)(void)) {
-  int i;
-  for (i = 0; i < TIMERS; i++)
-    if (find_in(tasks.agendas[i], func)) return i;
-  return NO_TIMER;
+  if (find_in(tasks.agendas[0], func)) return 0;
+  if (find_in(tasks.agendas[1], func)) return 1;
+  return find_in(tasks.agendas[2], func) ? 2 : NO_TIMER;
 }
 
 static Agenda* find_task(void (*func)(void)) {
