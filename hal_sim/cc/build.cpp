@@ -137,10 +137,9 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, bool lint) {
     user_include.push_back(r.string());
   }
   library_include.push_back("-I" + root.string());
-  if (o.register_way) {
-    library_include.push_back("-I" + api.string());
+  library_include.push_back("-I" + api.string());  // its hal.h, for hal_common
+  if (o.register_way)
     for (auto* list : {&user_include, &library_include}) list->push_back("--register");
-  }
 
   Plan p;
   std::vector<std::string> flags = mode;
@@ -162,10 +161,13 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, bool lint) {
   library_flags.push_back("--library");
   library_flags.insert(library_flags.end(), library_include.begin(), library_include.end());
   // first, since some take the place of a file of the libc
-  if (p.is_webots)  // first: some take the place of a file of the libc
+  if (p.is_webots)
     for (const auto& folder : {root / "firmware/webots", cc_dir / "libc/webots"})
       for (const auto& s : files_below(folder, ".c")) p.library.push_back({s, library_flags, ""});
-  for (const auto& folder : {api, cc_dir / "libc/src"})
+  std::vector<fs::path> library_folders = {api, cc_dir / "libc/src"};
+  // the half of the library that needs no pins, for a HAL that has the other half
+  if (fs::exists(api / "hal.h")) library_folders.push_back(root / "hal_common");
+  for (const auto& folder : library_folders)
     for (const auto& s : files_below(folder, ".c")) p.library.push_back({s, library_flags, ""});
 
   std::string name =
