@@ -31,6 +31,18 @@ static struct wheel left, right;
 void run_left_motor(void);
 void run_right_motor(void);
 
+/* the agenda whose callback runs (e_agenda.c) */
+extern Agenda *volatile hal_running_agenda;
+
+/* the next half's cycle; without a search when the motor's own agenda is the one that runs */
+static void set_half(void (*self)(void), int cycle) {
+  Agenda *agenda = hal_running_agenda;
+  if (agenda && agenda->function == self)
+    agenda->cycle = (unsigned int)cycle;
+  else
+    e_set_agenda_cycle(self, cycle);
+}
+
 static int magnitude(int value) { return value < 0 ? -value : value; }
 
 static void fire(struct wheel *w, int which, int count, int turn, void (*self)(void)) {
@@ -38,7 +50,7 @@ static void fire(struct wheel *w, int which, int count, int turn, void (*self)(v
   if (w->phase_on && speed < POWER_SAVE_BELOW) {
     hal_coils(which, 0);
     w->phase_on = 0;
-    e_set_agenda_cycle(self, SPEED_UNIT / speed - SPEED_UNIT / POWER_SAVE_SPEED);
+    set_half(self, SPEED_UNIT / speed - SPEED_UNIT / POWER_SAVE_SPEED);
     return;
   }
   w->steps += count;
@@ -46,7 +58,7 @@ static void fire(struct wheel *w, int which, int count, int turn, void (*self)(v
   hal_coils(which, hal_phase_coils[w->phase]);
   if (speed >= POWER_SAVE_BELOW) return;
   w->phase_on = 1;
-  e_set_agenda_cycle(self, SPEED_UNIT / POWER_SAVE_SPEED);
+  set_half(self, SPEED_UNIT / POWER_SAVE_SPEED);
 }
 
 void run_left_motor(void) {
