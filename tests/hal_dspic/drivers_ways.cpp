@@ -178,7 +178,7 @@ int main(void) {
 
 // 65 frames of 900 cycles: an accelerometer sample every 3.967 ms, 49 of them before e_init_ad_scan returns
 TEST_P(Ways, scan_fills_its_arrays_at_the_librarys_rate) {
-  arena(1, 1);
+  wall(0.056, -0.2, 0.056, 0.2);  // some 20 mm before it
   Robot& robot = add_robot_with_source(R"(
 #include <motor_led/e_init_port.h>
 #include <a_d/advance_ad_scan/e_ad_conv.h>
@@ -221,7 +221,7 @@ int main(void) {
 }
 
 TEST_P(Ways, basic_proximity_sees_the_wall) {
-  arena(1, 1);
+  wall(0.056, -0.2, 0.056, 0.2);
   Robot& robot = add_robot_with_source(R"(
 #include <motor_led/e_init_port.h>
 #include <a_d/e_prox.h>
@@ -246,7 +246,8 @@ int main(void) {
 // ------------------------------------------------------------------------------
 
 TEST_P(Ways, camera_takes_a_picture) {
-  arena(1, 1);
+  wall(0.2, -0.3, 0.2, 0, {0, 0, 0});
+  wall(0.2, 0, 0.2, 0.3, {1, 1, 1});
   Robot& robot = add_robot_with_source(R"(
 #include <motor_led/e_init_port.h>
 #include <camera/fast_2_timer/e_poxxxx.h>
@@ -270,10 +271,10 @@ int main(void) {
   EXPECT_EQ(robot.variable("answer"), 0);
   EXPECT_GE(robot.variable("pictures"), 4);
   const auto picture = robot.variables<std::uint8_t>("picture", 800);
-  // floor below, wall above: not all of one grey
+  // a black wall on one side, a white one on the other
   int lowest = 255, highest = 0;
   for (const int p : picture) lowest = std::min(lowest, p), highest = std::max(highest, p);
-  EXPECT_GT(highest - lowest, 20);
+  EXPECT_GT(highest - lowest, 60);
   expect_no_traps();
 }
 
