@@ -81,14 +81,14 @@ TEST_P(Ways, agenda_motors_step_at_the_librarys_rates) {
 #include <motor_led/e_init_port.h>
 #include <motor_led/advance_one_timer/e_agenda.h>
 #include <motor_led/advance_one_timer/e_motors.h>
-int left, right;
+int left_steps, right_steps;
 int main(void) {
   e_init_port();
   e_start_agendas_processing();
   e_init_motors();
   e_set_speed_left(300);
   e_set_speed_right(-1000);
-  while (1) { left = e_get_steps_left(); right = e_get_steps_right(); }
+  while (1) { left_steps = e_get_steps_left(); right_steps = e_get_steps_right(); }
 }
 )");
   run_for(0.5);
@@ -96,8 +96,8 @@ int main(void) {
   run_for(2.0);
   EXPECT_NEAR(double(robot.left_steps() - l), 605.9, 2);
   EXPECT_NEAR(double(robot.right_steps() - r), -1999.3, 2);
-  EXPECT_NEAR(robot.variable("left"), double(robot.left_steps()), 2);
-  EXPECT_NEAR(robot.variable("right"), double(robot.right_steps()), 2);
+  EXPECT_NEAR(robot.variable("left_steps"), double(robot.left_steps()), 2);
+  EXPECT_NEAR(robot.variable("right_steps"), double(robot.right_steps()), 2);
   expect_no_traps();
 }
 
@@ -178,7 +178,7 @@ int main(void) {
 
 // 65 frames of 900 cycles: an accelerometer sample every 3.967 ms, 49 of them before e_init_ad_scan returns
 TEST_P(Ways, scan_fills_its_arrays_at_the_librarys_rate) {
-  wall(0.056, -0.2, 0.056, 0.2);  // some 20 mm before it
+  wall(0.05, -0.2, 0.05, 0.2);  // a centimetre before it
   Robot& robot = add_robot_with_source(R"(
 #include <motor_led/e_init_port.h>
 #include <a_d/advance_ad_scan/e_ad_conv.h>
@@ -221,7 +221,7 @@ int main(void) {
 }
 
 TEST_P(Ways, basic_proximity_sees_the_wall) {
-  wall(0.056, -0.2, 0.056, 0.2);
+  wall(0.05, -0.2, 0.05, 0.2);
   Robot& robot = add_robot_with_source(R"(
 #include <motor_led/e_init_port.h>
 #include <a_d/e_prox.h>
