@@ -203,8 +203,7 @@ int main(void) {
     elapsed = getDiffTimeMs();
   }
 }
-)")
-                     .at(0.5, 0.045, -90);  // 45 mm from the wall, which it faces
+)");
   for (int i = 0; i < 100 && !robot.variable("started"); ++i) run_for(0.01);
   run_for(1.0);
   // 1 s is 16384 frames of 0.061 ms by the library's reckoning, less the frames in which the list changes
@@ -232,8 +231,7 @@ int main(void) {
   e_init_prox();
   while (1) for (i = 0; i < 8; i++) prox[i] = e_get_prox(i);
 }
-)")
-                     .at(0.5, 0.045, -90);
+)");
   run_for(0.5);
   const auto prox = robot.variables("prox", 8);
   EXPECT_GT(prox[0], 300);
@@ -264,8 +262,7 @@ int main(void) {
     pictures++;
   }
 }
-)")
-                     .at(0.5, 0.2, -90);
+)");
   run_for(2.0);
   EXPECT_EQ(robot.variable("id"), 0x3030);
   EXPECT_EQ(robot.variable("answer"), 0);
