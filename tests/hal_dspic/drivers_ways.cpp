@@ -275,6 +275,40 @@ int main(void) {
   expect_no_traps();
 }
 
+// Two bytes a pixel: a line that is read a byte too early or late has its colours' halves exchanged. A red
+// wall is RRRRRGGG GGGBBBBB with more red than anything else, in every pixel.
+TEST_P(Ways, camera_takes_colours_in_step_with_the_bytes) {
+  wall(0.15, -0.4, 0.15, 0.4, {0.9, 0.05, 0.05});
+  Robot& robot = add_robot_with_source(R"(
+#include <motor_led/e_init_port.h>
+#include <camera/fast_2_timer/e_poxxxx.h>
+char picture[800];
+int pictures;
+int main(void) {
+  e_init_port();
+  e_poxxxx_init_cam();
+  e_poxxxx_config_cam(160, 240, 320, 80, 16, 4, RGB_565_MODE);
+  e_poxxxx_write_cam_registers();
+  while (1) {
+    e_poxxxx_launch_capture(picture);
+    while (!e_poxxxx_is_img_ready());
+    pictures++;
+  }
+}
+)");
+  run_for(2.0);
+  ASSERT_GE(robot.variable("pictures"), 2);
+  const auto picture = robot.variables<std::uint8_t>("picture", 800);
+  int red_ones = 0;
+  for (int i = 0; i < 400; ++i) {
+    const int red = picture[2 * i] >> 3, green = (picture[2 * i] & 7) << 2 | picture[2 * i + 1] >> 6;
+    const int blue = picture[2 * i + 1] & 31;
+    if (red > green + 3 && red > blue + 3) ++red_ones;
+  }
+  EXPECT_GT(red_ones, 300);
+  expect_no_traps();
+}
+
 // 1800 interrupts a second of four samples: 2112 samples last 293 ms
 TEST_P(Ways, codec_plays_a_sound_to_its_end) {
   Robot& robot = add_robot_with_source(R"(
