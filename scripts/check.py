@@ -34,7 +34,7 @@ MAY_INCLUDE = {
     "hal_common": ["firmware/include"],
     "hal_sim/cc": ["hal_sim/host/image_abi.h", "hal_sim/host/pins"],  # its libc calls the host
     "hal_sim/twin": ["hal_sim/", "sim_core/"],  # ties board, host and world together
-    "hal_sim/register": ["hal_sim/host", "hal_sim/board", "dspic30"],
+    "hal_sim/register": ["hal_sim/host", "hal_sim/chip", "hal_sim/board", "dspic30"],
     "hal_sim/chip": ["hal_sim/board", "hal_sim/host", "dspic30", "sim_core/base", "sim_core/world/robot_mind.h"],
     "hal_dspic": ["firmware/include", "hal_common"],
     "supervisor": ["hal_sim/", "sim_core/"],  # a whole twin, seen from outside

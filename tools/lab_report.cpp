@@ -123,6 +123,8 @@ std::string to_text(const StepResult& result, bool times) {
     if (figures.empty()) continue;
     text += world.empty() ? ", " + figures : fmt::format(" [{}: {}]", world, figures);
   }
+  for (const TrialResult& t : result.trials)
+    if (!t.said.empty()) text += ", \"" + t.said + "\"";
   return text;
 }
 

@@ -12,6 +12,7 @@ struct TrialResult {
   Trial trial;
   bool ran = false;
   Measures measures;
+  std::string said;  ///< by a supervisor, at last
   std::vector<std::string> problems;
 };
 

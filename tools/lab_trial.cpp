@@ -238,7 +238,8 @@ void measure_sensor(const sim::WorldDesc& world, Measures& m) {
 
 }  // namespace
 
-bool run_trial(const Trial& trial, Measures& measures, std::vector<std::string>& problems) {
+bool run_trial(const Trial& trial, Measures& measures, std::string& said,
+               std::vector<std::string>& problems) {
   const LabStep& step = *trial.step;
   const std::string file =
       (std::filesystem::path(twin::project_root()) / "worlds" / (trial.world + ".toml")).string();
@@ -270,6 +271,11 @@ bool run_trial(const Trial& trial, Measures& measures, std::vector<std::string>&
   if (!twin) return false;
   const auto team = supervisor::Team::open(*twin, options, {}, problems);
   if (!team) return false;
+  // "NAME TIME s: TEXT"
+  team->say = [&said](const std::string& line) {
+    const auto colon = line.find(": ");
+    said = line.substr(colon == std::string::npos ? 0 : colon + 2);
+  };
   run(*twin, *team, trial, measures);
   if (team->outcome().code != 0) problems.push_back(file + ": supervisor: " + team->outcome().text);
   for (const auto& trap : twin->traps()) problems.push_back(to_text(trap));

@@ -20,7 +20,8 @@ struct Trial {
   std::uint64_t seed = 1;
 };
 
-/// Runs it. False, with lines in `problems`, when it could not run or a firmware trapped.
-bool run_trial(const Trial& trial, Measures& measures, std::vector<std::string>& problems);
+/// Runs it. False, with lines in `problems`, when it could not run or a firmware trapped. `said`: the last
+/// line of a supervisor of the world.
+bool run_trial(const Trial& trial, Measures& measures, std::string& said, std::vector<std::string>& problems);
 
 }  // namespace tools

@@ -51,17 +51,18 @@ std::vector<TrialResult> trials_of(const LabStep& step, int seeds, double second
     for (double scale : scales)
       for (int seed = 1; seed <= (step.kind == LabStep::Kind::Sensor ? 1 : seeds); ++seed)
         all.push_back(
-            {{&step, world, image, scale, seconds, static_cast<std::uint64_t>(seed)}, false, {}, {}});
+            {{&step, world, image, scale, seconds, static_cast<std::uint64_t>(seed)}, false, {}, "", {}});
   return all;
 }
 
-void run_one(TrialResult& t) { t.ran = run_trial(t.trial, t.measures, t.problems); }
+void run_one(TrialResult& t) { t.ran = run_trial(t.trial, t.measures, t.said, t.problems); }
 
 // what a child process tells of one trial; its problems go to stderr at once
 struct Told {
   std::size_t index;
   bool ran;
   Measures measures;
+  char said[96];
 };
 
 void run_in_processes(std::vector<TrialResult>& trials, int jobs) {
@@ -77,7 +78,8 @@ void run_in_processes(std::vector<TrialResult>& trials, int jobs) {
            i += static_cast<std::size_t>(jobs)) {
         run_one(trials[i]);
         complain(trials[i].problems);
-        const Told told{i, trials[i].ran, trials[i].measures};
+        Told told{i, trials[i].ran, trials[i].measures, ""};
+        trials[i].said.copy(told.said, sizeof told.said - 1);
         if (write(ends[1], &told, sizeof told) != sizeof told) _exit(kInternal);
       }
       _exit(0);
@@ -95,6 +97,7 @@ void run_in_processes(std::vector<TrialResult>& trials, int jobs) {
       got = 0;
       trials[told.index].ran = told.ran;
       trials[told.index].measures = told.measures;
+      trials[told.index].said = told.said;
     }
     close(end);
     int status;

@@ -12,8 +12,8 @@
 // object is used by one thread at a time. Deterministic: the same calls give the same answers.
 //
 // Not modelled as a whole: the processor core, program memory, Sleep and Idle beyond the wake-up condition,
-// other clocks than the configured one. Each file of periph/ says what it leaves out. Source: DS70143,
-// DS70046.
+// other clocks than the configured one. Each file of periph/ says what it leaves out. Source: [chip C],
+// [chip P], see docs/sources.md.
 #pragma once
 #include <array>
 #include <cstdint>

@@ -11,7 +11,7 @@ constexpr unsigned kIc = 0x140, kOc = 0x180;
 constexpr int kIcFlags[] = {irq::Ic1, irq::Ic2, irq::Ic3, irq::Ic4, irq::Ic5, irq::Ic6, irq::Ic7, irq::Ic8};
 constexpr int kOcFlags[] = {irq::Oc1, irq::Oc2, irq::Oc3, irq::Oc4, irq::Oc5, irq::Oc6, irq::Oc7, irq::Oc8};
 constexpr Cycle kEdgeToCapture = 1;  // synchroniser
-constexpr Cycle kMatchToPin = 1;     // [DS70046 14.3]
+constexpr Cycle kMatchToPin = 1;     // [chip P9]
 enum Mode : int { Off, LowToHigh, HighToLow, Toggle, SinglePulse, Pulses, Pwm, PwmFault };
 
 Pin capture_pin(int n) { return {Port::D, 8 + n}; }

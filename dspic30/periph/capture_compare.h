@@ -4,7 +4,7 @@
 // Modelled: capture on every, falling, rising, fourth and sixteenth rising edge, four-deep FIFO, ICI, ICBNE,
 // ICOV; compare modes 1 to 6 with OCxR, OCxRS, pin levels and flags, PWM reloading at the period. Not
 // modelled: ICM = 7 (wake-up), ICSIDL, OCSIDL; OCM = 7's fault input (behaves as 6), ABAUD routing, capture
-// of edges that the chip makes itself, and captures of a 32-bit pair. Source: DS70143 sections 11, 12.
+// of edges that the chip makes itself, and captures of a 32-bit pair. Source: [chip P9], pins [DS70286C].
 #pragma once
 #include <array>
 #include <cstdint>

@@ -8,8 +8,8 @@
 // Modelled: bit clock, words, frames, slots, buffers, RFUL, TMPTY, ROV, TUNF, SLOT, UNFM, DJST, DLOOP. Words
 // are worked out at the transfers, each with the instant of its own end. Not modelled: clock or frame sync
 // from outside (CSCKD, COFSD), I2S and AC-Link framing (COFSM), CSCKE and CSDOM (no digital effect on words),
-// DCISIDL; DCIEN = 0 stops at once and not at the end of the frame. Source: DS70143 section 19, DS70046
-// section 22; [?] delay from DCIEN to the first frame, when ROV and TUNF clear.
+// DCISIDL; DCIEN = 0 stops at once and not at the end of the frame. Source: [chip P7]; [?] delay from DCIEN
+// to the first frame, when ROV and TUNF clear.
 #pragma once
 #include <array>
 #include <cstdint>

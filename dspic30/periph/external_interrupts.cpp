@@ -17,7 +17,7 @@ constexpr Pin kCnPins[] = {{Port::C, 14}, {Port::C, 13}, {Port::B, 0},  {Port::B
                            {Port::G, 8},  {Port::G, 9},  {Port::B, 15}, {Port::D, 4}, {Port::D, 5},
                            {Port::D, 6},  {Port::D, 7},  {Port::F, 4},  {Port::F, 5}, {Port::D, 13},
                            {Port::D, 14}, {Port::D, 15}, {Port::A, 6},  {Port::A, 7}};
-constexpr int kCnInputs = 24;  // [DS70143 table 1-1]
+constexpr int kCnInputs = 24;  // [DS70286C], the 80-pin chip of the same layout
 
 }  // namespace
 

@@ -4,8 +4,8 @@
 // Modelled: edge by INTCON2.INTxEP, edges that the chip makes itself on such a pin, CN enables and pull-ups,
 // CNIF when an enabled pin comes to differ from what was last read of its port. While an INTx flag is set its
 // edges are counted only when the flag is cleared. Not modelled: pulses shorter than a cycle; CNIF again
-// while a mismatch lasts. Source: DS70143 sections 6, 8; [?] two cycles from edge to flag, the reference of
-// the comparison.
+// while a mismatch lasts. Source: [chip P3], pins [DS70286C]; [?] two cycles from edge to flag, the
+// reference of the comparison.
 #pragma once
 #include <array>
 #include <cstdint>

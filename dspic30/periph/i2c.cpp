@@ -13,7 +13,7 @@ constexpr std::uint16_t kSen = 0x01, kRsen = 0x02, kPen = 0x04, kRcen = 0x08, kA
                         kOperations = 0x1F;
 constexpr std::uint16_t kTbf = 0x0001, kRbf = 0x0002, kS = 0x0008, kP = 0x0010, kI2cov = 0x0040,
                         kIwcol = 0x0080, kTrstat = 0x4000, kAckstat = 0x8000;
-constexpr double kFixedHz = 1111111;  // I2CBRG = FCY/FSCL - FCY/1,111,111 - 1 [DS70046 21.4]
+constexpr double kFixedHz = 1111111;  // I2CBRG = FCY/FSCL - FCY/1,111,111 - 1 [chip P6]
 // half SCL periods of each operation [?]
 constexpr Cycle kStartHalves = 2, kRestartHalves = 4, kStopHalves = 3, kByteHalves = 16, kBitHalves = 2;
 constexpr Pin kScl{Port::G, 2}, kSda{Port::G, 3};

@@ -7,7 +7,7 @@
 // 14 with their flags, hard-trap conflict, alternate vector table, acceptance one cycle after the flag, one
 // instruction between RETFIE and the next acceptance, a flag set by hardware between the read and the write
 // of one read-modify-write survives. Not modelled: INTTREG.VHOLD, IRQTOCPU and TMODE; the accumulator traps'
-// causes (the core raises MathError itself). Source: DS70143 section 8, DS70046 section 6.
+// causes (the core raises MathError itself). Source: [chip C11].
 #pragma once
 #include <array>
 #include <cstdint>

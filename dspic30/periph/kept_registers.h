@@ -8,7 +8,7 @@
 //   Can: CAN 1 and 2. REQOP is mirrored into OPMODE; no message is sent or received.
 //   PlainRegisters: BSRAM, SSRAM, PMD1 to 3 (their effect is the chip's).
 //
-// Source: DS70143 tables 3-3, 17-1; peripherals' facts, section 10.
+// Source: [chip P10], [chip C2].
 #pragma once
 #include <array>
 #include <cstdint>

@@ -8,7 +8,7 @@
 // unlock sequence (the two keys and WR, no other register written in between), WR held while busy, a second
 // operation refused. Flash operations take their time and hold the processor; program memory is the core's
 // and stays as it is. Not modelled: WRERR by a reset in between beyond setting it, code protection, wear.
-// Source: DS70046 section 5; [?] 2 ms for each operation.
+// Source: [chip C18]; [?] 2 ms for each operation.
 #pragma once
 #include <array>
 #include <cstdint>

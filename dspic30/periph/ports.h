@@ -9,7 +9,7 @@
 // drain) by a peripheral, pull-ups, analogue pins of port B that read 0, edges that the chip makes itself on
 // a pin which another peripheral watches, the one-cycle read synchroniser where asked for. Not modelled:
 // contention with the outside (the chip wins), levels of serial lines bit by bit (owned pins read high).
-// Source: DS70143 section 6.
+// Source: [chip P1].
 #pragma once
 #include <array>
 #include <cstdint>
@@ -81,7 +81,9 @@ class Ports final : public SfrOwner {
   void publish(Port port, Cycle at);
   void look_for_blind_pins(Cycle now);
   void count_vain(Port port, std::uint16_t bits, Cycle now);
-  std::uint16_t combine(Port port, std::uint16_t levels, std::uint16_t driven, Cycle at) const;
+  /// Levels of the pins of `wanted`; the others' are anything. Asks the outside only when it decides one.
+  std::uint16_t combine(Port port, std::uint16_t levels, std::uint16_t driven, Cycle at,
+                        std::uint16_t wanted = 0xFFFF) const;
   std::uint16_t digital(Port port, std::uint16_t pins) const;
 
   Fabric f_;

@@ -3,7 +3,7 @@
 //
 // Modelled: 8 and 16 bits, both prescalers, SPITBF, SPIRBF, SPIROV, flag, pins. A word reaches the outside
 // when it is complete. Not modelled: slave mode (MSTEN = 0), framed mode (FRMEN, SPIFSD), SSEN, SPISIDL; CKE,
-// CKP and SMP have no effect on whole words. Source: DS70143 section 16.
+// CKP and SMP have no effect on whole words. Source: [chip P8], pins [DS70286C].
 #pragma once
 #include <cstdint>
 

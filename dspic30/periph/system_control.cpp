@@ -15,10 +15,10 @@ constexpr std::uint16_t kDefaultLvdl = 0x0500;
 constexpr std::uint16_t kOswen = 0x0001, kCf = 0x0008, kLock = 0x0020;
 constexpr std::uint16_t kUnlockLow[] = {0x46, 0x57}, kUnlockHigh[] = {0x78, 0x9A};
 constexpr int kPllSource = 7;
-// postscaler A, and the shortest time-out: 256 periods of 128 kHz [DS70143 21.5]
+// postscaler A, and the shortest time-out: 256 periods of 128 kHz [chip C16]
 constexpr int kPostscaleA[] = {1, 8, 64, 512};
 constexpr double kWatchdogSeconds = 0.002;
-// V by LVDL; 0 for settings below those that the chip has, 15 is an input pin [DS70143 table 24-10]
+// V by LVDL, the least value of a sister chip [DS70138G 23-10]; 0: not usable, 15 is an input pin
 constexpr double kLvdVolts[] = {0, 0, 0, 0, 2.5, 2.7, 2.8, 3.0, 3.3, 3.5, 3.6, 3.8, 4.0, 4.2, 4.5, 0};
 
 }  // namespace

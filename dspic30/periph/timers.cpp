@@ -21,7 +21,7 @@ constexpr Pin kClockPins[kTimers] = {{Port::C, 14}, {Port::C, 1}, {Port::C, 2}, 
 constexpr std::uint16_t kTon = 0x8000, kTgate = 0x0040, kT32 = 0x0008, kTcs = 0x0002;
 constexpr Cycle kPrescale[] = {1, 8, 64, 256};
 constexpr Cycle kEdgeToTick = 1;   // synchroniser of TxCK
-constexpr Cycle kMatchToFlag = 1;  // [DS70046 12.4]
+constexpr Cycle kMatchToFlag = 1;  // [chip P2]
 
 // which register of which timer
 enum class What { Tmr, Pr, Con, Hold };
@@ -238,6 +238,7 @@ void Timers::on_event(int id, Cycle at) {
     return schedule(id, at);
   }
   if (u.pending_flag == at) u.pending_flag = kNever;
+  if (u.mode == Mode::External) settle(id, at, at);  // edges are counted from here on
   f_.interrupts.raise(flag_of(id), at);
   for (TimerListener* l : listeners_) l->timer_matched(u.wide ? id + 1 : id, at);
   schedule(id, at);

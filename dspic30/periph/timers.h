@@ -8,7 +8,8 @@
 // matches are events, and not even those while the flag is still set and nobody else listens. Not modelled:
 // TSIDL, LPOSCEN's crystal, the difference of T1's asynchronous mode, edges faster than TCY/2. Times: a write
 // in cycle t acts from t + 1; a tick that makes TMR == PR sets the flag one cycle later; an external edge
-// ticks one cycle after it. Source: DS70143 section 9, DS70046 section 12; [?] flag phase with prescalers.
+// ticks one cycle after it. Source: [chip P2], pins of T2CK and T3CK [DS70286C]; [?] flag phase with
+// prescalers.
 #pragma once
 #include <array>
 #include <cstdint>

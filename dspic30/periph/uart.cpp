@@ -128,7 +128,8 @@ void Uart::take_in(const UartFrame& frame, Cycle at) {
     const bool parity = sample(at_bit++);
     received.parity_error = parity != (own.parity == Parity::Even ? ones : !ones);
   }
-  received.frame_error = !sample(at_bit);
+  // with two stop bits both must be high
+  received.frame_error = !sample(at_bit) || (own.stop_bits == 2 && !sample(at_bit + 1));
   if (received.frame_error && !frame.broken)
     f_.diagnostics.report(
         Cause::UartFrameError, name("STA.FERR"),

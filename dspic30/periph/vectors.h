@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Numbers and names of the chip's interrupt and trap vectors, and its kinds of reset. [DS70143 table 8-1]
+// Numbers and names of the chip's interrupt and trap vectors, and its kinds of reset. [chip C11]
 #pragma once
 #include <cstdint>
 
@@ -64,8 +64,8 @@ enum : int {
 const char* vector_name(int vector);
 
 /// Cycles between the last instruction before a handler and the handler's first one, and of RETFIE. From the
-/// cycle in which a flag is set to the handler's first instruction: one more. [DS70143 8.4; core facts: doubt
-/// 1]
+/// cycle in which a flag is set to the handler's first instruction: one more. [chip C11],
+/// doubt 1 there
 inline constexpr Cycle kInterruptEntryCycles = 3;
 inline constexpr Cycle kInterruptReturnCycles = 3;
 

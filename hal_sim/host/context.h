@@ -40,6 +40,9 @@ class Context {
   virtual void irq_at(int vector, Cycle at) = 0;  ///< at < 0 cancels
   virtual void set_background(int slot, Cycle period, Cycle cost) = 0;
 
+  /// Text that the program prints, put out by the processor's own means. False: there are none.
+  virtual bool print(const char*, std::int64_t) { return false; }
+
   /// A trap of the running firmware; does not return. kind: TP_TRAP_*.
   [[noreturn]] virtual void trap(int kind, std::string_view message) = 0;
 };

@@ -25,6 +25,7 @@ class Scene {
   std::function<double(const Vec3& point_m, Clicks at)> sound_pa;  // what is heard at a point of the robot
   double relative_noise = 0;
   bool uniform_noise = false;
+  Pose2 pose(int body, Clicks at) const;  ///< always the origin: true positions are tested in whole worlds
   std::function<Vec3(Clicks at)> force_m_s2 = [](Clicks) { return Vec3{0, 0, 9.81}; };
   std::function<Vec3(Clicks at)> turn_rad_s = [](Clicks) { return Vec3{}; };
   mutable std::vector<Question> asked;

@@ -255,23 +255,25 @@ std::string document() {
   std::string text =
       "# Timing of the chip's models\n\n"
       "Instruction cycles (67.8 ns on the e-puck), measured on the models of `dspic30/` and held against "
-      "the\n"
-      "documents: data sheet DS70143 and family manual DS70046, as restated in the formula. Written by\n"
-      "`build/tests/chip_timing_doc docs/chip-timing.md`; `dspic30_test` compares every row and this file. "
-      "Rows\n"
-      "without a doubt are exact. Owner: whoever changes a model.\n";
+      "numbers worked\n"
+      "out by hand from our notes on the chip. The notes restate the data sheet DS70143 and the family "
+      "manual DS70046,\n"
+      "which were not read again for this page; nothing here has been measured on a chip. Rows without a "
+      "doubt are\n"
+      "those that the notes give without one. Written by `build/tests/chip_timing_doc docs/chip-timing.md`;\n"
+      "`dspic30_test` compares every row and this file. Owner: whoever changes a model.\n";
   std::string part;
   for (const Case& c : cases()) {
     if (c.part != part) {
       part = c.part;
-      text += "\n## " + part + "\n\n| what | document | model | formula | doubt |\n|---|---|---|---|---|\n";
+      text += "\n## " + part + "\n\n| what | notes | model | formula | doubt |\n|---|---|---|---|---|\n";
     }
     text += "| " + c.what + " | " + std::to_string(c.document) + " | " + std::to_string(c.measure()) + " | " +
             c.formula + " | " + c.doubt + " |\n";
   }
   text +=
       "\n## Other doubts\n\n"
-      "What the documents leave open and the models had to choose:\n\n"
+      "What the notes leave open and the models had to choose:\n\n"
       "- The first tick comes a whole prescale period after the cycle that follows the write of TON.\n"
       "- TMR = PR made by a write of TMR or PR while the timer runs sets the flag, once.\n"
       "- An edge on TxCK ticks one cycle later, on INTx it sets the flag two cycles later, on ICx it "

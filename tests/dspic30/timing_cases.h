@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Every timing of the chip that the documents give as a number, and how the models are asked for theirs. One
-// list for the test and for docs/chip-timing.md.
+// Every timing of the chip that the notes on the chip give as a number, and how the models are asked for
+// theirs. One list for the test and for docs/chip-timing.md.
 #pragma once
 #include <functional>
 #include <string>
@@ -13,9 +13,9 @@ namespace timing {
 struct Case {
   std::string part;       ///< "Timers", "Converter" ...: heading of the document
   std::string what;       ///< what is measured, with its settings
-  dspic::Cycle document;  ///< cycles by the formula of the document, worked out here
-  std::string formula;    ///< of the document
-  std::string doubt;      ///< empty: exact. Else why the document's number is not certain
+  dspic::Cycle document;  ///< cycles by the formula of the notes, worked out here
+  std::string formula;    ///< of the notes
+  std::string doubt;      ///< empty: exact. Else why the number is not certain
   std::function<dspic::Cycle()> measure;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every row of docs/chip-timing.md: the models give the documents' cycles, and the page says so.
+// Every row of docs/chip-timing.md: the models give the cycles of the notes, and the page says so.
 #include "tests/dspic30/timing_cases.h"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 
 namespace {
 
-TEST(Timing, models_give_the_cycles_of_the_documents) {
+TEST(Timing, models_give_the_cycles_of_the_notes) {
   for (const timing::Case& c : timing::cases())
     EXPECT_EQ(c.measure(), c.document) << c.part << ": " << c.what;
 }

@@ -179,6 +179,24 @@ TEST_F(Uart, nine_bits_and_two_stop_bits) {
   EXPECT_EQ(b.outside.sent[0].end(), 105 + 12 * 128);
 }
 
+// nine bits and parity into a receiver of eight bits and two stop bits: bit 8 lies where the first stop bit
+// should be, the parity bit where the second should. Word 0x100: even parity sends 1, odd 0
+TEST_F(Uart, both_of_two_stop_bits_must_be_high) {
+  open(0x8001);
+  UartFrame f;
+  f.data_bits = 9;
+  f.word = 0x100;
+  f.parity = dspic::Parity::Even;
+  f.start = 1001;
+  b.chip.uart_receive(1, f);
+  EXPECT_EQ(b.read("U1STA", 3000) & 0x5, 0x1u);
+  b.read("U1RXREG", 3000);
+  f.parity = dspic::Parity::Odd;
+  f.start = 5001;
+  b.chip.uart_receive(1, f);
+  EXPECT_EQ(b.read("U1STA", 8000) & 0x5, 0x5u);
+}
+
 TEST_F(Uart, address_detection_drops_data_words) {
   open(0x8006, 0x0020);  // 9 bits, ADDEN
   UartFrame f;
