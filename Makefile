@@ -72,7 +72,7 @@ check: setup
 ## format: format C++ sources in place
 format:
 	@scripts/setup.sh check
-	@git ls-files '*.h' '*.cpp' | grep -v '^firmware/' | grep -v '^hal_sim/api/' | xargs -r clang-format -i
+	@git ls-files '*.h' '*.cpp' | grep -v '^firmware/' | grep -v '^hal_sim/api/' | grep -v '^hal_dspic/' | grep -v '^hal_common/' | xargs -r clang-format -i
 
 ## bench: speed for 1 to 1000 robots, beside libenki
 bench: tool
@@ -81,7 +81,7 @@ bench: tool
 	@$(BUILD)/bin/bench $(ARGS)
 
 # the tests that run the simulator in their own process: the compiler's and the command's start others
-SANITIZED = dspic30_test board_test sim_core_test host_test golden_test firmware_test
+SANITIZED = board_test sim_core_test dspic30_test import_test host_test supervisor_test golden_test firmware_test
 
 ## asan: the simulator's tests under the address and undefined-behaviour sanitizers
 asan: setup

@@ -5,6 +5,7 @@
 //
 //   bench [--rounds 5] [--worlds DIR] [N ...]
 //   bench --engines [--rounds 5] [--worlds DIR]      the three motion engines instead (engines.cpp)
+//   bench --register [--rounds 5]                     one robot of the register way (register_load.cpp)
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -16,6 +17,7 @@
 #include "bench/engines.h"
 #include "bench/enki_swarm.h"
 #include "bench/playback.h"
+#include "bench/register_load.h"
 #include "hal_sim/board/epuck_model.h"
 #include "hal_sim/board/part.h"
 #include "hal_sim/twin/twin.h"
@@ -78,7 +80,7 @@ int main(int argc, char** argv) {
   int rounds = 5;
   std::string worlds = twin::project_root() + "/bench/worlds";
   std::vector<int> sizes;
-  bool engines = false;
+  bool engines = false, registers = false;
   for (int i = 1; i < argc; ++i) {
     if (!std::strcmp(argv[i], "--rounds") && i + 1 < argc)
       rounds = std::max(1, std::atoi(argv[++i]));
@@ -86,9 +88,12 @@ int main(int argc, char** argv) {
       worlds = argv[++i];
     else if (!std::strcmp(argv[i], "--engines"))
       engines = true;
+    else if (!std::strcmp(argv[i], "--register"))
+      registers = true;
     else
       sizes.push_back(std::atoi(argv[i]));
   }
+  if (registers) return bench::measure_register_way(rounds);
   if (engines) return bench::compare_engines(worlds, rounds);
   if (sizes.empty()) sizes = {1, 5, 10, 100, 1000};
   std::printf("robot-seconds per wall second, medians of %d rounds, ours and Enki in turn\n", rounds);

@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Holds firmware/include (the contract) against hal_sim/api (what implements it).
+"""Holds firmware/include (the contract) against what implements it: hal_common with hal_sim/api (the native way), and
+hal_common with hal_dspic (the chip).
 
-    scripts/check_contract.py            exit 1 unless every prototype has exactly one definition
+    scripts/check_contract.py            exit 1 unless every prototype has exactly one definition in each way
 
 A prototype's linker name is its own name, or that with the prefix its header gives it (TP_VARIANT). A definition
-takes the linker name of the first header that its file includes and that declares it, as the compiler does.
+takes the linker name of the first header that its file includes and that declares it, as the compiler does. What
+webots/, device/ and twinpuck/ declare is the simulator's own and not asked of the chip.
 """
 import collections
 import pathlib
@@ -14,7 +16,9 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 INCLUDE = ROOT / "firmware/include"
+COMMON = ROOT / "hal_common"
 API = ROOT / "hal_sim/api"
+CHIP = ROOT / "hal_dspic"
 WEBOTS = ROOT / "firmware/webots"  # the library behind webots/ and device/, on top of the API
 
 # headers without prototypes of the contract, or that only include others
@@ -70,6 +74,9 @@ DEFINITION = re.compile(r"^(?!static\b|typedef\b|struct\s+\w+\s*\{)(?:[A-Za-z_]\
 def definitions(source, contract):
     """Linker names defined by one file of the API: [(linker name, line)]."""
     raw = source.read_text()
+    # drivers written once for two units lie in a header beside their files
+    own = [source.parent / name for name in re.findall(r'^#\s*include\s+"([\w.]+)"', raw, flags=re.M)]
+    raw += "".join("\n" + header.read_text() for header in own if header.is_file())
     prefixes = {}
     switches = set()
     for directive, what in re.findall(r"^#\s*(include|define)\s+[\"<]?([\w./-]+)", raw, flags=re.M):
@@ -99,22 +106,29 @@ def main():
         for name, choices in names.items():
             for prefix in choices.values():
                 declared.setdefault(prefix + name, header)
-    defined = collections.defaultdict(list)
-    for source in sorted(API.glob("*.c")) + sorted(WEBOTS.glob("*.c")):
-        for name, line in definitions(source, contract):
-            defined[name].append("%s:%d" % (source.relative_to(ROOT), line))
-
     problems = []
-    for name, header in sorted(declared.items()):
-        if not defined[name] and name not in ONLY_DECLARED:
-            problems.append("firmware/include/%s: %s: declared, but nothing in hal_sim/api or firmware/webots defines it" % (header, name))
-    for name, places in sorted(defined.items()):
-        if len(places) > 1:
-            problems.append("%s: %s: defined again, first in %s" % (places[1], name, places[0]))
+    ways = [("native way", sorted(COMMON.glob("*.c")) + sorted(API.glob("*.c")) + sorted(WEBOTS.glob("*.c")), ()),
+            ("chip", sorted(COMMON.glob("*.c")) + sorted(CHIP.rglob("*.c")), ("webots/", "device/", "twinpuck/"))]
+    counts = []
+    for way, sources, not_asked in ways:
+        defined = collections.defaultdict(list)
+        for source in sources:
+            for name, line in definitions(source, contract):
+                defined[name].append("%s:%d" % (source.relative_to(ROOT), line))
+        asked = {name: header for name, header in declared.items()
+                 if name not in ONLY_DECLARED and not header.startswith(not_asked)}
+        for name, header in sorted(asked.items()):
+            if not defined[name]:
+                problems.append("firmware/include/%s: %s: declared, but nothing of the %s defines it" % (header, name, way))
+        for name, places in sorted(defined.items()):
+            # two drivers of one unit each have a handler; a program links one of them
+            if len(places) > 1 and name in declared:
+                problems.append("%s: %s: defined again, first in %s" % (places[1], name, places[0]))
+        counts.append("%s %d of %d" % (way, sum(1 for name in asked if defined[name]), len(asked)))
 
     for problem in problems:
         print(problem)
-    print("contract: %d linker names declared, %d problems" % (len(declared), len(problems)))
+    print("contract: %d linker names declared; defined: %s; %d problems" % (len(declared), ", ".join(counts), len(problems)))
     return 1 if problems else 0
 
 

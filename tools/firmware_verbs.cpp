@@ -141,9 +141,16 @@ void add_build(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({"-O0", "-O1", "-O2", "-Os"}))
       ->capture_default_str();
   verb->add_option("-D", o->defines, "NAME or NAME=value for the preprocessor");
+  auto way = std::make_shared<std::string>("native");
+  verb->add_option("--way", *way, "native: the library's functions; register: the chip's registers")
+      ->check(CLI::IsMember({"native", "register"}))
+      ->capture_default_str();
   verb->add_flag("--sanitize", o->sanitize, "address and 16-bit overflow checks");
   verb->add_flag("--coverage", o->coverage, "line counters, for run --coverage");
-  verb->callback([o, &exit_code] { exit_code = build(*o); });
+  verb->callback([o, way, &exit_code] {
+    o->register_way = *way == "register";
+    exit_code = build(*o);
+  });
 }
 
 void add_lint(CLI::App& app, int& exit_code) {

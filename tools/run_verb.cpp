@@ -37,7 +37,7 @@ struct RunArguments {
   long long seed = -1;
   int threads = 1;
   double host_limit_s = 0;
-  std::string optimisation = "-O1";
+  std::string optimisation = "-O1", way;
   bool sanitize = false, quiet = false;
   OutputArguments outputs;
 };
@@ -73,6 +73,7 @@ int run(const RunArguments& arguments) {
   twin::Options options;
   options.threads = arguments.threads;
   options.optimisation = arguments.optimisation;
+  options.way = arguments.way;
   options.sanitize = arguments.sanitize;
   options.coverage = !arguments.outputs.coverage.empty();
   options.tell = [](const std::string& line) { std::cerr << line << '\n'; };
@@ -166,6 +167,9 @@ int run(const RunArguments& arguments) {
   complain(problems);
   if (!arguments.quiet) std::cout << to_text(summary);
   for (const auto& t : summary.traps) std::cerr << to_text(t);
+  if (!arguments.quiet)
+    for (const auto& r : summary.robots)
+      for (const std::string& notice : r.notices) std::cerr << r.name << ": " << notice << '\n';
   if (exit_code == kHostTime) {
     complain({"twinpuck: host time: got " + std::to_string(static_cast<long>(took_s)) +
               " s, expected at most " + std::to_string(static_cast<long>(arguments.host_limit_s)) +
@@ -217,6 +221,10 @@ void add_run(CLI::App& app, int& exit_code) {
   verb->add_option("--opt", a->optimisation, "level for controllers built from source")
       ->check(CLI::IsMember({"-O0", "-O1", "-O2", "-Os"}))
       ->capture_default_str();
+  verb->add_option(
+          "--way", a->way,
+          "native or register, for all robots whose controller is built from source; else the world's")
+      ->check(CLI::IsMember({"native", "register"}));
   verb->add_flag("--sanitize", a->sanitize, "build controllers with address and 16-bit overflow checks");
   verb->add_flag("-q,--quiet", a->quiet, "no progress and no summary on the terminal");
   add_output_options(*verb, a->outputs);

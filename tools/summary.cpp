@@ -44,7 +44,7 @@ Summary summarise(const twin::Twin& twin, double wall_s) {
     RobotSummary r;
     r.name = twin.world().robots[static_cast<std::size_t>(i)].name;
     r.firmware = twin.image_path(i);
-    r.way = mind.robot() ? "native" : "none";
+    r.way = mind.robot() ? mind.robot()->processor().way() : "none";
     const auto& pose = simulation.pose(i);
     r.x_m = pose.x_m;
     r.y_m = pose.y_m;
@@ -63,6 +63,7 @@ Summary summarise(const twin::Twin& twin, double wall_s) {
     if (mind.robot()) {
       r.cpu_load = mind.robot()->cpu_load();
       r.traps = mind.robot()->traps();
+      r.notices = mind.robot()->processor().notices();
       s.traps.insert(s.traps.end(), r.traps.begin(), r.traps.end());
     }
     s.robots.push_back(std::move(r));
@@ -136,6 +137,7 @@ std::string to_json(const Summary& s) {
         r.battery_minutes >= 0 ? nlohmann::ordered_json(r.battery_minutes) : nullptr;
     robot["traps"] = nlohmann::ordered_json::array();
     for (const auto& t : r.traps) robot["traps"].push_back(json_of(t));
+    if (!r.notices.empty()) robot["notices"] = r.notices;
     j["robots"].push_back(std::move(robot));
   }
   return j.dump(2) + "\n";

@@ -20,6 +20,7 @@ struct RobotSummary {
   double battery_v = 0, battery_used_wh = 0;
   double battery_minutes = -1;  ///< until empty at the run's mean current; negative: nothing was drawn
   std::vector<host::TrapReport> traps;
+  std::vector<std::string> notices;  ///< what the models of the chip have to say about the program
 };
 
 struct Summary {

@@ -33,7 +33,7 @@ void Adc::reset(Cycle now) {
   con1_ = con2_ = con3_ = chs_ = cssl_ = 0;
   set_times();
   buffer_.fill(0);
-  sampling_ = converting_ = false;
+  sampling_ = converting_ = cruising_ = false;
   flag_at_ = kNever;
   if (wants_timer_) timers_.want_matches(3, false, now);
   wants_timer_ = false;
@@ -50,6 +50,7 @@ void Adc::set_times() {
 // --- the sequence -----------------------------------------------------------------------------------------
 
 void Adc::restart_sequence() {
+  begun_ = false;
   pointer_ = count_ = 0;
   upper_half_ = mux_b_ = false;
   scan_at_ = cssl_ ? __builtin_ctz(cssl_) : -1;
@@ -74,6 +75,10 @@ void Adc::start_sampling(Half at) {
   sampling_ = true;
   con1_ |= kSamp;
   sampling_since_ = at;
+  if (begun_ && count_ == 0 && is_regular()) {
+    start_cruising(at);
+    return;
+  }
 }
 
 void Adc::hold(Half at, Half conversion_start) {
@@ -100,6 +105,7 @@ void Adc::finish() {
     pointer_ = upper_half_ ? 8 : 0;
     mux_b_ = false;
     scan_at_ = cssl_ ? __builtin_ctz(cssl_) : -1;
+    begun_ = true;
   }
   if (asam()) start_sampling(conversion_end_);
 }
@@ -117,19 +123,83 @@ std::uint16_t Adc::formatted(int counts) const {
   }
 }
 
+// --- cruising ---------------------------------------------------------------------------------------------
+
+bool Adc::is_regular() const {
+  return on() && asam() && ssrc() == kAutomatic && !(con2_ & (kAlts | kBufm)) && sample_time_ > 0 &&
+         f_.outside.analogue_is_function_of_time();
+}
+
+void Adc::start_cruising(Half at) {
+  cruising_ = true;
+  cruise_.sample = sample_time_;
+  cruise_.cycle = cruise_.sample + conversion_time_;
+  cruise_.count = per_interrupt();
+  cruise_.sequence = cruise_.count * cruise_.cycle;
+  cruise_.first = cruise_.start = at;
+  const std::uint16_t scanned = (con2_ & kCscna) ? cssl_ : 0;
+  std::uint16_t left = scanned;
+  for (int i = 0; i < cruise_.count; ++i) {
+    if (!left) left = scanned;
+    cruise_.channel[static_cast<std::size_t>(i)] =
+        static_cast<std::uint8_t>(scanned ? __builtin_ctz(left) : chs_ & 15);
+    left &= static_cast<std::uint16_t>(left - 1);
+  }
+  result_of_.fill(-1);
+}
+
+void Adc::cruise(Cycle now) {
+  if (cruise_.start + cruise_.sequence > 2 * now) return;
+  cruise_.start += (2 * now - cruise_.start) / cruise_.sequence * cruise_.sequence;
+  flag_at_ = up(cruise_.start) + kEndToFlag;
+}
+
+/// Back to single stages, as if there had never been anything else.
+void Adc::stop_cruising(Cycle now) {
+  if (!cruising_) return;
+  cruise(now);
+  for (int slot = 0; slot < cruise_.count; ++slot)
+    buffer_[static_cast<std::size_t>(slot)] = cruised_result(slot, held_instant(slot, now));
+  cruising_ = false;
+  restart_sequence();
+  con1_ |= kDone;
+  start_sampling(cruise_.start);
+  advance(now);
+}
+
+Adc::Half Adc::held_instant(int slot, Cycle now) const {
+  if (slot >= cruise_.count) return -1;
+  const Half in_sequence = slot * cruise_.cycle;
+  const bool done = cruise_.start + in_sequence + cruise_.cycle <= 2 * now;
+  const Half start = done ? cruise_.start : cruise_.start - cruise_.sequence;
+  return start < cruise_.first ? -1 : start + in_sequence + cruise_.sample;
+}
+
+std::uint16_t Adc::cruised_result(int slot, Half held) const {
+  const auto s = static_cast<std::size_t>(slot);
+  if (held < 0 || result_of_[s] == held) return buffer_[s];
+  return formatted(std::clamp(f_.outside.analogue_counts(cruise_.channel[s], held / 2), 0, 4095));
+}
+
 void Adc::advance(Cycle now) {
   if (!on()) return;
+  if (cruising_) return cruise(now);
   // a stage that ends within a cycle is over in the next one
-  for (Half stage = next_stage(); up(stage) <= now; stage = next_stage()) {
+  for (Half stage = next_stage(); !cruising_ && up(stage) <= now; stage = next_stage()) {
     if (converting_)
       finish();
     else
       hold(stage, stage);
   }
+  if (cruising_) cruise(now);
 }
 
 void Adc::schedule(Cycle now) {
   Cycle at = kNever;
+  if (cruising_) {
+    at = std::max(up(cruise_.start + cruise_.sequence) + kEndToFlag, now + 1);
+    return f_.events.set(slot_, std::min(at, flag_at_));
+  }
   if (on() && (converting_ || (sampling_ && ssrc() == kAutomatic))) {
     const Half cycle = sample_time_ + conversion_time_;
     const bool runs_on = asam() && ssrc() == kAutomatic;
@@ -166,13 +236,24 @@ void Adc::int0_edge(Cycle at) {
 
 std::uint16_t Adc::read(unsigned address, Cycle now) {
   advance(now);
-  return peek(address, now);
+  if (!cruising_ || address >= kCon1) return peek(address, now);
+  const auto slot = static_cast<int>(address - kBuffer) / 2;
+  const Half held = held_instant(slot, now);
+  const std::uint16_t word = cruised_result(slot, held);
+  if (held >= 0) {
+    buffer_[static_cast<std::size_t>(slot)] = word;
+    result_of_[static_cast<std::size_t>(slot)] = held;
+  }
+  return word;
 }
 
 std::uint16_t Adc::peek(unsigned address, Cycle now) const {
   switch (address) {
-    case kCon1:
-      return con1_;
+    case kCon1: {
+      if (!cruising_) return con1_;
+      const bool samples = (2 * now - cruise_.start) % cruise_.cycle < cruise_.sample;
+      return static_cast<std::uint16_t>((con1_ & ~(kSamp | kDone)) | (samples ? kSamp | kDone : 0));
+    }
     case kCon2:
       return static_cast<std::uint16_t>(con2_ | (upper_half_ ? kBufs : 0));
     case kCon3:
@@ -182,6 +263,10 @@ std::uint16_t Adc::peek(unsigned address, Cycle now) const {
     case kCssl:
       return cssl_;
     default:
+      if (cruising_) {
+        const auto slot = static_cast<int>(address - kBuffer) / 2;
+        return cruised_result(slot, held_instant(slot, now));
+      }
       return buffer_[(address - kBuffer) / 2];
   }
 }
@@ -201,6 +286,7 @@ void Adc::changed_while_on(unsigned address, Cycle now) {
 
 void Adc::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycle now) {
   advance(now);
+  stop_cruising(now);
   const Half at = 2 * (now + 1);
   switch (address) {
     case kCon1: {
@@ -251,6 +337,10 @@ void Adc::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
 
 Cycle Adc::horizon(unsigned address, Cycle now) const {
   if (!on() || address == kCon3 || address == kChs || address == kCssl) return kNever;
+  if (cruising_) {
+    const Half r = (2 * now - cruise_.start) % cruise_.cycle;
+    return std::max(now + 1, up(2 * now + (r < cruise_.sample ? cruise_.sample : cruise_.cycle) - r));
+  }
   const Half stage = next_stage();
   return stage >= kNever ? kNever : std::max(now + 1, up(stage));
 }

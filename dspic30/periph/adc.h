@@ -8,8 +8,10 @@
 // SMPI, BUFM with BUFS, FORM, ADON at any moment, TAD in half cycles, ADRC as a fixed period. The input is
 // held at the end of sampling and asked for at that instant. Conversions within one interrupt's period are
 // worked out together. Not modelled: VCFG and CH0NA/CH0NB (AVDD, AVSS), ADSIDL, settling of the input,
-// invalid results of too short a sampling time. Source: [chip P4]; [?] ADIF one cycle after the end, one TAD
-// between clearing SAMP and the conversion, scan position when SMPI+1 differs from the number of inputs.
+// invalid results of too short a sampling time. A converter that samples, converts and scans by itself
+// cruises: nothing is done per conversion, and a result is worked out when it is read. Source: [chip P4]; [?]
+// ADIF one cycle after the end, one TAD between clearing SAMP and the conversion, scan position when SMPI+1
+// differs from the number of inputs.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -46,6 +48,15 @@ class Adc final : public SfrOwner, public EventOwner, public TimerListener {
   bool on() const { return (con1_ & 0x8000) != 0; }
   int per_interrupt() const { return (con2_ >> 2 & 15) + 1; }
 
+  /// Does the converter run by itself, each sequence as the one before?
+  bool is_regular() const;
+  void start_cruising(Half at);
+  void cruise(Cycle now);
+  void stop_cruising(Cycle now);
+  /// Instant at which what a slot of the buffer holds at `now` was held; -1: before the cruise, or never.
+  Half held_instant(int slot, Cycle now) const;
+  std::uint16_t cruised_result(int slot, Half held) const;
+
   void start_sampling(Half at);
   void hold(Half at, Half conversion_start);
   void finish();
@@ -81,6 +92,16 @@ class Adc final : public SfrOwner, public EventOwner, public TimerListener {
   bool wants_timer_ = false;
   std::uint16_t complained_ = 0;    // channels
   std::uint16_t changed_told_ = 0;  // registers from ADCON1 on
+  bool begun_ = false;              // a whole sequence was done stage by stage since the converter was set up
+  bool cruising_ = false;
+  struct {
+    Half sample = 0, cycle = 1, sequence = 1;  // sampling; one conversion with it; all of a sequence
+    int count = 0;                             // conversions in a sequence
+    std::array<std::uint8_t, 16> channel{};
+    Half first = 0;  // start of the first sequence
+    Half start = 0;  // of the one under way
+  } cruise_;
+  std::array<Half, 16> result_of_{};  // instant at which what stands in the buffer was held
 };
 
 }  // namespace dspic

@@ -87,6 +87,10 @@ class Outside {
   /// Counts of AN`channel` (0 to 15) against AVDD and AVSS, 0 to 4095, held at `at`. Asked once per
   /// conversion and in order, so that noise may be drawn per call.
   virtual int analogue_counts(int channel, Cycle at) { return 0; }
+  /// True: analogue_counts() depends on channel and instant alone, noise and pins at that instant included,
+  /// whenever and however often it is asked, for the last conversions of every channel. Then a converter that
+  /// scans by itself asks only for results that somebody reads.
+  virtual bool analogue_is_function_of_time() const { return false; }
   /// The chip's supply, V, for the low-voltage detector; asked when it is switched on and at
   /// outside_changed().
   virtual double supply_v(Cycle at) { return 3.3; }

@@ -80,9 +80,10 @@ void Ports::release(Pin pin, Cycle at) {
   publish(pin.port, at);
 }
 
-std::uint16_t Ports::combine(Port port, std::uint16_t levels, std::uint16_t driven, Cycle at) const {
+std::uint16_t Ports::combine(Port port, std::uint16_t levels, std::uint16_t driven, Cycle at,
+                             std::uint16_t wanted) const {
   const State& s = state(port);
-  if ((driven & s.implemented) == s.implemented) return levels & s.implemented;
+  if (!(wanted & s.implemented & ~driven)) return levels & s.implemented;
   const PinLevels out = f_.outside.pin_levels(port, at);
   const auto free = static_cast<std::uint16_t>((out.levels & out.driven) | (s.pull_ups & ~out.driven));
   return static_cast<std::uint16_t>(((levels & driven) | (free & ~driven)) & s.implemented);
@@ -124,11 +125,11 @@ void Ports::publish(Port port, Cycle at) {
   std::uint16_t before = 0;
   const std::uint16_t touched =
       static_cast<std::uint16_t>(((driven_before ^ now_driven) | (levels_before ^ now_levels)) & s.watched);
-  if (touched) before = combine(port, levels_before, driven_before, at);
+  if (touched) before = combine(port, levels_before, driven_before, at, touched);
   f_.outside.pins_driven(port, now_levels, now_driven, s.owned_out, at);
   if (!touched) return;
   const auto edges =
-      static_cast<std::uint16_t>((before ^ combine(port, now_levels, now_driven, at)) & touched);
+      static_cast<std::uint16_t>((before ^ combine(port, now_levels, now_driven, at, touched)) & touched);
   if (!edges) return;
   for (const Watch& w : watches_)
     if (w.pin.port == port && (edges >> w.pin.bit & 1))

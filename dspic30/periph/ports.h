@@ -81,7 +81,9 @@ class Ports final : public SfrOwner {
   void publish(Port port, Cycle at);
   void look_for_blind_pins(Cycle now);
   void count_vain(Port port, std::uint16_t bits, Cycle now);
-  std::uint16_t combine(Port port, std::uint16_t levels, std::uint16_t driven, Cycle at) const;
+  /// Levels of the pins of `wanted`; the others' are anything. Asks the outside only when it decides one.
+  std::uint16_t combine(Port port, std::uint16_t levels, std::uint16_t driven, Cycle at,
+                        std::uint16_t wanted = 0xFFFF) const;
   std::uint16_t digital(Port port, std::uint16_t pins) const;
 
   Fabric f_;

@@ -43,6 +43,41 @@
 #define Idle() { __asm__ volatile("pwrsav #1"); }
 #define Reset() { __asm__ volatile("reset"); }
 
+/* --- what XC16 has as built-in functions ---------------------------------------------------------------- */
+#define __builtin_nop() __asm__ volatile("nop")
+#define __builtin_clrwdt() __asm__ volatile("clrwdt")
+#define __builtin_pwrsav(mode) tp_power_save(mode)
+#define __builtin_disi(cycles) tp_disi(cycles)
+#define __builtin_software_breakpoint() __asm__ volatile("nop")
+#define __builtin_get_isr_state() ((unsigned)SRbits.IPL)
+#define __builtin_set_isr_state(state) (SRbits.IPL = (state))
+#define __builtin_disable_interrupts() (SRbits.IPL = 7)
+#define __builtin_enable_interrupts() (SRbits.IPL = 0)
+/* the two keys and the value must follow one another */
+#define __builtin_write_OSCCONL(value) do { ((volatile unsigned char *)&OSCCON)[0] = 0x46; \
+  ((volatile unsigned char *)&OSCCON)[0] = 0x57; ((volatile unsigned char *)&OSCCON)[0] = (value); } while (0)
+#define __builtin_write_OSCCONH(value) do { ((volatile unsigned char *)&OSCCON)[1] = 0x78; \
+  ((volatile unsigned char *)&OSCCON)[1] = 0x9A; ((volatile unsigned char *)&OSCCON)[1] = (value); } while (0)
+#define __builtin_write_NVM() do { NVMKEY = 0x55; NVMKEY = 0xAA; NVMCONbits.WR = 1; __builtin_nop(); \
+  __builtin_nop(); } while (0)
+/* table instructions reach the data EEPROM, pages 0x7F */
+#define __builtin_tblrdl(offset) ((unsigned)tp_table_read((long long)TBLPAG << 16 | (unsigned)(offset)))
+#define __builtin_tblwtl(offset, value) \
+  tp_table_write((long long)TBLPAG << 16 | (unsigned)(offset), (unsigned)(value))
+#define __builtin_btg(pointer, bit) (*(pointer) ^= 1u << (bit))
+#define __builtin_mulss(a, b) ((long)(int)(a) * (int)(b))
+#define __builtin_muluu(a, b) ((unsigned long)(unsigned)(a) * (unsigned)(b))
+#define __builtin_mulsu(a, b) ((long)(int)(a) * (long)(unsigned)(b))
+#define __builtin_mulus(a, b) ((long)(unsigned)(a) * (long)(int)(b))
+#define __builtin_divsd(a, b) ((int)((long)(a) / (int)(b)))
+#define __builtin_divud(a, b) ((unsigned)((unsigned long)(a) / (unsigned)(b)))
+#define __builtin_modsd(a, b) ((int)((long)(a) % (int)(b)))
+#define __builtin_modud(a, b) ((unsigned)((unsigned long)(a) % (unsigned)(b)))
+extern void tp_disi(long long cycles);
+extern void tp_power_save(long long mode);
+extern long long tp_table_read(long long address);
+extern void tp_table_write(long long address, long long value);
+
 /* --- priority of the running program, 0 to 7: interrupts at or below it wait ---------------------------- */
 #define SET_CPU_IPL(ipl) { SRbits.IPL = (ipl); }
 #define SET_AND_SAVE_CPU_IPL(save_to, ipl) { save_to = SRbits.IPL; SRbits.IPL = (ipl); }

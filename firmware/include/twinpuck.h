@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * What the contract's headers need to serve two compilers: twinpuck-cc (which defines __TWINPUCK__) and
- * Microchip's XC16, for which both macros are empty. Controllers never need this file.
+ * Microchip's XC16. Controllers never need this file.
  */
 #ifndef TWINPUCK_H
 #define TWINPUCK_H
@@ -15,7 +15,8 @@
 /** A second form of a function that had no argument in older versions of the library: both calls compile. */
 #define TP_OLDER_CALL static __inline__ __attribute__((overloadable, unused))
 #else
-#define TP_VARIANT(prefix, name)
+/* the same labels with hal_dspic, as one archive of all variants; C names begin with an underscore in assembler */
+#define TP_VARIANT(prefix, name) __asm__("_" #prefix #name)
 #define TP_POLL
 #endif
 

@@ -4,9 +4,7 @@
  * robot that work is the interrupt's, which is charged by itself. Names with tp_image_ are not counted.
  * A program whose scan was never started keeps its variables.
  */
-#include "adc_arrays.h"
-#include "hal_sim/host/pins.h"
-#include "hal_sim/host/pins_acc.h"
+#include "hal.h"
 #include "hal_sim/host/pins_sound.h"
 
 #define ACC_COUNTER_MAX 64

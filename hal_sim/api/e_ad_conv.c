@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: MIT
  * The ADC scan, usual variant. Schedule and samples are the board's (hal_sim/board/adc_scan.h); see
- * adc_arrays.h for the driver's public variables.
+ * hal.h for the driver's public variables.
  * Source: [lib: a_d/advance_ad_scan/e_ad_conv.c], facts restated.
  */
-#include "adc_arrays.h"
-
-#include "hal_sim/host/pins.h"
-#include "hal_sim/host/pins_acc.h"
+#include "hal.h"
+#include "hal_sim/host/pins_sound.h"
 #include "utility/utility.h"
 
 #define GUMSTIX_POSITION 10  /* selector position that scans the turret's pair too */
@@ -47,6 +45,13 @@ void twinpuck_refresh_acc(void) {
 void twinpuck_refresh_ir(unsigned int sensor) {
   e_ambient_ir[sensor] = (int)tp_scan_dark(sensor);
   e_ambient_and_reflected_ir[sensor] = (int)tp_scan_lit(sensor);
+}
+
+unsigned long twinpuck_mic_filed;
+
+void twinpuck_refresh_mic(void) {
+  twinpuck_mic_filed = (unsigned long)tp_mic_scan(e_mic_scan, twinpuck_mic_filed);
+  e_last_mic_scan_id = (unsigned int)(twinpuck_mic_filed % MIC_SAMP_NB);
 }
 
 static void refresh_all(void) {

@@ -1,17 +1,14 @@
 /* SPDX-License-Identifier: MIT
- * Delay, selector, battery, stopwatch.
+ * Delay, selector, battery voltage.
  * Source: [lib: utility/utility.c], facts restated.
  */
 #include "utility/utility.h"
 
-#include "adc_arrays.h"
 #include "hal_sim/host/pins.h"
 #include "motor_led/e_init_port.h"
 
 #define ROUND_CYCLES 10 /* a round of an empty loop over a long [estimated: load, add, store, compare] */
 #define SELECTOR_PIN 6  /* RG6 to RG9 */
-#define BATTERY_EMPTY 2070 /* counts at 3.4 V */
-#define BATTERY_RANGE 490  /* counts from there to 4.2 V */
 
 void wait(long num) {
   if (num > 0) tp_spend((tp_i64)num * ROUND_CYCLES);
@@ -23,25 +20,4 @@ int getselector() { return (int)(tp_pins_read('G') >> SELECTOR_PIN & 15); }
 unsigned int getBatteryValueRaw() {
   if (!isEpuckVersion1_3() || tp_scan_acc_samples() == 0) return 0;
   return (unsigned int)tp_battery_counts();
-}
-
-unsigned int getBatteryValuePercentage() {
-  if (!isEpuckVersion1_3()) return 0;
-  return (unsigned int)(100 * (float)((int)getBatteryValueRaw() - BATTERY_EMPTY) / (float)BATTERY_RANGE);
-}
-
-void resetTime(void) {
-  twinpuck_refresh_adc_counters();
-  tickAdcIsr = 0;
-}
-
-float getDiffTimeMs(void) {
-  twinpuck_refresh_adc_counters();
-  return (float)tickAdcIsr * (float)ADC_ISR_PERIOD_MS;
-}
-
-float getDiffTimeMsAndReset(void) {
-  float elapsed_ms = getDiffTimeMs();
-  tickAdcIsr = 0;
-  return elapsed_ms;
 }

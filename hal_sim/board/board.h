@@ -212,6 +212,10 @@ class Board {
   /// Counts of microphone 0 right, 1 left, 2 back whose sample is held at `at`: 0 to 4095. Noise is drawn
   /// from `sample`. Linear, all frequencies alike.
   int mic_counts(int microphone, Cycle at, std::uint64_t sample) const;
+  /// The same with the noise drawn from a sum of 64 coins, spread evenly between two results: a fifth of the
+  /// time, for processors that convert a microphone 50,000 times a second. Tails end at 8 standard
+  /// deviations.
+  int mic_counts_fast(int microphone, Cycle at, std::uint64_t sample) const;
   /// Counts of a single conversion of input AN`channel` by a program that runs the converter itself. Each
   /// call is a new sample; -1: nothing is known of that input.
   int convert(int channel, Cycle at);
@@ -246,6 +250,8 @@ class Board {
  private:
   static constexpr std::size_t kPorts = 6;  // A B C D F G
   static int port_index(char port);
+  /// Counts of a microphone without noise.
+  double mic_level(int microphone, Cycle at) const;
   unsigned pulses(Cycle at) const;
   /// Cycles for which the emitter line of a sensor has been on by its latch alone; -1 when off.
   Cycle line_on_for(int sensor, Cycle at) const;
@@ -284,6 +290,7 @@ class Board {
   mutable Cycle settled_for_ = -1;  // the flash's length is nearly always the same: its exponential, once
   mutable double settled_share_ = 0;
   std::uint64_t conversions_ = 0;
+  std::uint64_t mic_noise_key_ = 0;
   PacketDevices packets_{clock_, setup_.robot, setup_.devices};
   VirtualDevices virtual_;
 };

@@ -297,6 +297,12 @@ int Camera::take_line(std::uint8_t* to, int room, Cycle at) {
   return count;
 }
 
+void Camera::seek(int row) {
+  next_line_ += Cycle{row - row_} * (1 + request_.skipped_lines) * taken_.sub_sampling * taken_.line_cycles();
+  if (row < first_rendered_ || row > first_rendered_ + rendered_) rendered_ = 0;
+  row_ = row;
+}
+
 void Camera::processor_reset() {
   row_ = request_.rows = 0;
   rendered_ = 0;

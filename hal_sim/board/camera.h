@@ -66,6 +66,13 @@ class Camera {
   Cycle next_line() const { return next_line_; }
 
   Cycle frame_cycles() const;
+  /// A VSYNC from which frames are counted, as the sensor is set at `at`.
+  Cycle frame_origin(Cycle at) {
+    refresh(at);
+    return frame_start_;
+  }
+  /// The next line taken is line `row` of the request, whatever came before.
+  void seek(int row);
   SensorSetup setup() const;
   double exposure_s() const { return exposure_s_; }
   CameraMount mount() const { return mount_; }

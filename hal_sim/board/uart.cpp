@@ -141,6 +141,31 @@ std::int64_t Uart::received(Cycle at) {
   return received_;
 }
 
+void Uart::put_on_wire(std::uint8_t byte, Cycle end) {
+  last_start_ = end - byte_cycles();
+  free_at_ = end;
+  out_bytes_.push_back(byte);
+  out_ends_.push_back(end);
+  ++sent_;
+  hash_ = sim::mix64(hash_ ^ (byte | static_cast<std::uint64_t>(end) << 8));
+}
+
+void Uart::break_on_wire(Cycle end) {
+  free_at_ = break_until_ = end;
+  hash_ = sim::mix64(hash_ ^ static_cast<std::uint64_t>(end));
+}
+
+bool Uart::take_from_wire(std::uint8_t& byte, Cycle& start) {
+  if (on_wire_.empty()) return false;
+  const Arrival arrival = on_wire_.front();
+  on_wire_.pop_front();
+  byte = arrival.byte;
+  start = arrival.at - byte_cycles();
+  ++received_;
+  hash_ = sim::mix64(hash_ ^ (arrival.byte | static_cast<std::uint64_t>(arrival.at) << 8 | 1ull << 63));
+  return true;
+}
+
 void Uart::hand_out(Cycle at) {
   const std::size_t done =
       static_cast<std::size_t>(std::upper_bound(out_ends_.begin(), out_ends_.end(), at) - out_ends_.begin());

@@ -80,6 +80,20 @@ class Uart {
   /// Tick boundary: what has left goes to the end; what has come starts on the wire, or waits outside until
   /// the UART is enabled.
   void exchange(Cycle at);
+  // --- a chip's own UART on the wire (the register way) ---------------------------------------------------
+  /// Follows the chip's switch and rate; bytes come in at that rate.
+  void follow_chip(bool enabled, int brg) {
+    enabled_ = enabled;
+    library_ = false;
+    brg_ = brg & 0xFFFF;
+  }
+  /// A byte leaves the chip, its stop bit over at `end`; not before the one before.
+  void put_on_wire(std::uint8_t byte, Cycle end);
+  /// The chip holds the line low until `end`.
+  void break_on_wire(Cycle end);
+  /// Takes the next byte that is on its way to the chip and says when its start bit begins. False: none is.
+  bool take_from_wire(std::uint8_t& byte, Cycle& start);
+
   /// Bytes sent since power-up.
   std::int64_t sent() const { return sent_; }
   std::uint64_t state_hash() const { return hash_; }

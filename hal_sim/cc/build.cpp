@@ -108,7 +108,7 @@ std::vector<fs::path> webots_sources(const fs::path& folder, const std::vector<f
 Plan plan(const BuildOptions& o, const LibraryCopies& copies, bool lint) {
   fs::path root = source_root(), cc_dir = root / "hal_sim/cc";
   fs::path include_root = o.include_root.empty() ? root / "firmware/include" : o.include_root;
-  fs::path api = o.api_dir.empty() ? root / "hal_sim/api" : o.api_dir;
+  fs::path api = o.api_dir.empty() ? root / (o.register_way ? "hal_dspic" : "hal_sim/api") : o.api_dir;
   std::vector<std::string> mode = {o.optimisation};
   std::vector<std::string> library_include, user_include;
   for (const auto& d : o.include_dirs) user_include.push_back("-I" + d.string());
@@ -137,6 +137,9 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, bool lint) {
     user_include.push_back(r.string());
   }
   library_include.push_back("-I" + root.string());
+  library_include.push_back("-I" + api.string());  // its hal.h, for hal_common
+  if (o.register_way)
+    for (auto* list : {&user_include, &library_include}) list->push_back("--register");
 
   Plan p;
   std::vector<std::string> flags = mode;
@@ -158,16 +161,20 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, bool lint) {
   library_flags.push_back("--library");
   library_flags.insert(library_flags.end(), library_include.begin(), library_include.end());
   // first, since some take the place of a file of the libc
-  if (p.is_webots)  // first: some take the place of a file of the libc
+  if (p.is_webots)
     for (const auto& folder : {root / "firmware/webots", cc_dir / "libc/webots"})
       for (const auto& s : files_below(folder, ".c")) p.library.push_back({s, library_flags, ""});
-  for (const auto& folder : {api, cc_dir / "libc/src"})
+  std::vector<fs::path> library_folders = {api, cc_dir / "libc/src"};
+  // the half of the library that needs no pins, for a HAL that has the other half
+  if (fs::exists(api / "hal.h")) library_folders.push_back(root / "hal_common");
+  for (const auto& folder : library_folders)
     for (const auto& s : files_below(folder, ".c")) p.library.push_back({s, library_flags, ""});
 
   std::string name =
       o.name.empty() ? fs::absolute(o.source_dir).lexically_normal().filename().string() : o.name;
   std::string image_flags = o.sanitize ? "sanitize" : "";
   if (o.coverage) image_flags += image_flags.empty() ? "coverage" : " coverage";
+  if (o.register_way) image_flags += image_flags.empty() ? "register" : " register";
   p.runtime = {cc_dir / "runtime/image_runtime.c",
                {"-O1", "-I" + root.string(), "-I" + (cc_dir / "libc/include").string(),
                 "-DTP_IMAGE_NAME=\"" + name + "\"", "-DTP_IMAGE_FLAGS=\"" + image_flags + "\""},
@@ -334,7 +341,11 @@ BuildResult build_image(const BuildOptions& options) {
   }
   if (o.cache_dir.empty()) o.cache_dir = build_root() / "firmware-cache";
   o.cache_dir = fs::absolute(o.cache_dir);
-  const LibraryCopies copies = find_library_copies(o.source_dir, sources);
+  LibraryCopies copies;
+  if (o.register_way)
+    copies.kept = sources;  // drivers that a project brings along reach the registers they were written for
+  else
+    copies = find_library_copies(o.source_dir, sources);
   if (const std::string told = library_copies_message(o.source_dir, copies); !told.empty())
     result.warnings.push_back(told);
   Plan p = plan(o, copies, false);

@@ -16,13 +16,15 @@ struct BuildOptions {
   bool sanitize = false;             ///< address and 16-bit overflow checks
   bool coverage = false;             ///< line counters
   bool strict = false;               ///< more warnings
+  bool register_way = false;         ///< for the models of the chip: hal_dspic's drivers, registers for all
   int jobs = 2;                      ///< compilers at once
   std::string name;                  ///< controller's name; default: the folder's
   std::filesystem::path cache_dir;   ///< objects kept between builds; default: below the build folder
   std::vector<std::string> defines;  ///< "NAME=value"
   std::vector<std::filesystem::path> include_dirs;  ///< searched before the project's own folders
   std::vector<std::filesystem::path> sources;       ///< instead of every .c of source_dir
-  std::filesystem::path api_dir, include_root;  ///< default: hal_sim/api and firmware/include of this tree
+  std::filesystem::path api_dir,
+      include_root;  ///< default: hal_sim/api (register way: hal_dspic) and firmware/include of this tree
 };
 
 struct BuildResult {

@@ -25,9 +25,10 @@ struct Options {
   int level = 1;                       // 0, 1, 2
   bool for_size = false;
   bool sanitize = false, coverage = false, strict = false, lint = false, emit_ir = false;
-  bool uncounted = false;  // part of the runtime: costs no cycles
-  bool webots = false;     // written for Webots' interfaces: C of today, and a calendar
-  bool library = false;    // part of the API or libc: definitions are weak, the program's own win
+  bool uncounted = false;     // part of the runtime: costs no cycles
+  bool webots = false;        // written for Webots' interfaces: C of today, and a calendar
+  bool register_way = false;  // the library reaches registers; nothing of it is evaluated by the host
+  bool library = false;       // part of the API or libc: definitions are weak, the program's own win
 };
 
 /// What the syntax tree says and the module no longer does.

@@ -103,7 +103,7 @@ const Instruction* escape_of(const Value* v, SmallPtrSetImpl<const Value*>& seen
 
 }  // namespace
 
-void lower_registers(Unit& unit) {
+void lower_register_accesses(Unit& unit) {
   for (Function& f : unit.module) {
     std::vector<std::pair<Instruction*, Value*>> accesses;
     for (Instruction& i : instructions(f)) {
@@ -114,6 +114,10 @@ void lower_registers(Unit& unit) {
     }
     for (auto& [i, pointer] : accesses) lower_access(unit, i, pointer);
   }
+}
+
+void lower_registers(Unit& unit) {
+  lower_register_accesses(unit);
   for (GlobalVariable& g : make_early_inc_range(unit.module.globals())) {
     if (register_address(&g) < 0) continue;
     g.removeDeadConstantUsers();

@@ -32,6 +32,9 @@ llvm::Function* marker(llvm::Module& m, const char* name);
 
 /// Inline assembler, refused functions, sections, wide shifts, float to int, division by zero.
 void lower_early(Unit& unit);
+/// The accesses whose register is plain already. Before the optimiser, so that it cannot choose between two
+/// registers by their addresses.
+void lower_register_accesses(Unit& unit);
 /// Accesses to tp_sfr_XXXX globals become calls to the register host.
 void lower_registers(Unit& unit);
 /// A flag that only an interrupt can change is read afresh in the loop that polls it.

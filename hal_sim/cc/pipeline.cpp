@@ -190,6 +190,7 @@ bool run_pipeline(Unit& unit) {
   if (unit.failed) return false;
   refresh_driver_arrays(unit);
   bool optimise = unit.options.level > 0;
+  if (unit.options.register_way) lower_register_accesses(unit);
   if (optimise) {
     ModulePassManager first;
     first.addPass(createModuleToFunctionPassAdaptor(tidy()));

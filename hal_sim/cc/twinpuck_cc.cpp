@@ -40,6 +40,8 @@ bool parse(int argc, char** argv, cc::Options& o) {
       o.strict = true;
     else if (a == "--lint")
       o.lint = true;
+    else if (a == "--register")
+      o.register_way = true;
     else if (a == "--webots")
       o.webots = true;
     else if (a == "--library")

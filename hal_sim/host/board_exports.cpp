@@ -446,6 +446,7 @@ tp_i64 tp_uart_take(tp_i64 number) {
 /* image_abi.h: printf() waits for room in UART 1's buffer byte by byte, as XC16's does */
 void tp_console(const char* bytes, tp_i64 length) {
   Context& context = Context::current();
+  if (context.print(bytes, length)) return;
   board::Uart& uart = context.board().uart(1);
   context.note_write();
   for (tp_i64 i = 0; i < length; ++i)

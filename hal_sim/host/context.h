@@ -42,6 +42,9 @@ class Context {
   /// An agenda's function is called next; null: none in this interrupt. For traces.
   virtual void callback(const void*) {}
 
+  /// Text that the program prints, put out by the processor's own means. False: there are none.
+  virtual bool print(const char*, std::int64_t) { return false; }
+
   /// A trap of the running firmware; does not return. kind: TP_TRAP_*.
   [[noreturn]] virtual void trap(int kind, std::string_view message) = 0;
 };

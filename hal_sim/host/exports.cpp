@@ -3,7 +3,6 @@
 #include <string>
 
 #include "hal_sim/host/pins.h"
-#include "hal_sim/host/registers.h"
 #include "hal_sim/host/robot.h"
 #include "sim_core/base/check.h"
 
@@ -32,15 +31,24 @@ void tp_trap(tp_i64 kind) {
 void tp_trap_message(tp_i64 kind, const char* message) { robot().trap(static_cast<int>(kind), message); }
 void tp_reset(void) { robot().on_reset(nullptr); }
 void tp_disi(tp_i64 cycles) { robot().on_disi(cycles); }
-void tp_power_save(tp_i64) { robot().on_power_save(); }
-void tp_clear_watchdog(void) { robot().note_write(); }
+void tp_power_save(tp_i64 mode) { robot().on_power_save(mode == 0); }
+void tp_clear_watchdog(void) { robot().clear_watchdog(); }
 
 tp_i64 tp_sfr_read(tp_i64 address, tp_i64 bits) {
-  return robot().registers().read(static_cast<unsigned>(address), static_cast<unsigned>(bits));
+  return robot().read_register(static_cast<unsigned>(address), static_cast<unsigned>(bits));
 }
 void tp_sfr_write(tp_i64 address, tp_i64 value, tp_i64 bits) {
-  robot().registers().write(static_cast<unsigned>(address), static_cast<std::uint16_t>(value),
-                            static_cast<unsigned>(bits));
+  robot().write_register(static_cast<unsigned>(address), static_cast<std::uint16_t>(value),
+                         static_cast<unsigned>(bits));
+}
+
+tp_i64 tp_table_read(tp_i64 address) {
+  Robot& r = robot();
+  return r.processor().table_read(static_cast<unsigned>(address), r.now());
+}
+void tp_table_write(tp_i64 address, tp_i64 value) {
+  Robot& r = robot();
+  r.processor().table_write(static_cast<unsigned>(address), static_cast<std::uint16_t>(value), r.now());
 }
 
 tp_i64 tp_rand(void) { return robot().next_rand(); }

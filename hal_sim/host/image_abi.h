@@ -58,7 +58,7 @@ struct tp_image {
   tp_i64 magic;      /* TP_IMAGE_MAGIC */
   tp_i64 abi;        /* TP_IMAGE_ABI */
   const char* name;  /* controller's name (its folder) */
-  const char* flags; /* "sanitize", "coverage", "" */
+  const char* flags; /* words: "sanitize", "coverage", "register" */
   struct tp_control* control;
   void (*start)(void); /* runs the controller's main(); returns when main returns */
   /* private data of a robot: everything writable but the control and coverage sections; start-up values are
@@ -115,6 +115,10 @@ void tp_clear_watchdog(void);
  * low bits. */
 tp_i64 tp_sfr_read(tp_i64 address, tp_i64 bits);
 void tp_sfr_write(tp_i64 address, tp_i64 value, tp_i64 bits);
+
+/** TBLRDL and TBLWTL at a 24-bit program address: the data EEPROM. */
+tp_i64 tp_table_read(tp_i64 address);
+void tp_table_write(tp_i64 address, tp_i64 value);
 
 /** Per-robot, seeded: next value of rand(), 0..32767; srand. Source: own generator, the libc of XC16 promises
  * no sequence. */

@@ -25,6 +25,7 @@ void FirmwareMind::run_until(const sim::Scene& scene, sim::Clicks end) {
   // bytes are on their way: whoever waits for them looks again
   if (robot_ && (board_.uart(1).next_arrival(now_) < kNever || board_.uart(2).next_arrival(now_) < kNever))
     robot_->wake();
+  if (robot_) robot_->begin_window(now_);
   now_ = cycle_at(end);
   if (robot_) robot_->run_until(now_);
 }

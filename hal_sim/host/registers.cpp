@@ -5,6 +5,7 @@
 #include <string>
 
 #include "hal_sim/board/board.h"
+#include "hal_sim/host/native_processor.h"
 #include "hal_sim/host/pins.h"
 #include "hal_sim/host/robot.h"
 
@@ -33,6 +34,10 @@ struct PortBlock {
 };
 constexpr PortBlock kPorts[] = {{0x2C0, 'A'}, {0x2C6, 'B'}, {0x2CC, 'C'},
                                 {0x2D2, 'D'}, {0x2DE, 'F'}, {0x2E4, 'G'}};
+
+constexpr const char* kOtherWay =
+    "the native way, in which the library's functions drive the hardware, has no model of this register; "
+    "build the program with --way register (docs/register-way.md)";
 
 // registers that hold what was written and do nothing else here
 constexpr unsigned kKept[] = {0x032, 0x034, 0x044, 0x0C0, 0x0C2, 0x0C4, 0x0C6, 0x2A8, 0x744, 0x770, 0x772};
@@ -95,6 +100,11 @@ void NativeRegisters::refuse(unsigned address, const char* what) const {
   robot_.trap(TP_TRAP_UNSIMULATED, robot_.last_words());
 }
 
+void NativeRegisters::refuse_table() const {
+  robot_.trap(TP_TRAP_UNSIMULATED,
+              "table instructions (__builtin_tblrdl ...) need the register way: build with --way register");
+}
+
 // --- timers
 // ----------------------------------------------------------------------------------------------------------
 
@@ -120,7 +130,7 @@ void NativeRegisters::settle(Timer& t, Cycle at) {
 
 void NativeRegisters::schedule(int number) {
   Timer& t = timers_[static_cast<std::size_t>(number)];
-  auto& source = robot_.interrupts().source(kTimers[number].vector);
+  auto& source = processor_.interrupts().source(kTimers[number].vector);
   if (!runs(t)) {
     source.due = kNever;
     source.period = 0;
@@ -146,7 +156,7 @@ NativeRegisters::Timer* NativeRegisters::timer_at(unsigned address, int& which) 
 // -----------------------------------------------------------------------------------------------------------
 
 std::uint16_t NativeRegisters::read_word(unsigned address) {
-  auto& interrupts = robot_.interrupts();
+  auto& interrupts = processor_.interrupts();
   const Cycle now = robot_.now();
   char letter;
   board::Board::Register kind;
@@ -185,13 +195,13 @@ std::uint16_t NativeRegisters::read_word(unsigned address) {
   }
   switch (address) {
     case kSr:
-      return static_cast<std::uint16_t>(std::min(robot_.cpu_priority(), 7) << 5);
+      return static_cast<std::uint16_t>(std::min(processor_.cpu_level(), 7) << 5);
     case kIntcon1:
       return intcon1_;
     case kIntcon2:
-      return static_cast<std::uint16_t>(intcon2_ | (robot_.disi_active() ? 1 << 14 : 0));
+      return static_cast<std::uint16_t>(intcon2_ | (processor_.disi_active(now) ? 1 << 14 : 0));
     case kDisicnt:
-      return robot_.disi_active() ? 1 : 0;
+      return processor_.disi_active(now) ? 1 : 0;
     case kRcon:
       return rcon_;
     case kI2ccon:  // of a bus that the library drives: is it on
@@ -200,11 +210,11 @@ std::uint16_t NativeRegisters::read_word(unsigned address) {
       break;
   }
   if (std::find(std::begin(kKept), std::end(kKept), address) != std::end(kKept)) return kept_[address];
-  refuse(address, "this register is not simulated yet (see docs/limits.md)");
+  refuse(address, kOtherWay);
 }
 
 void NativeRegisters::write_word(unsigned address, std::uint16_t value) {
-  auto& interrupts = robot_.interrupts();
+  auto& interrupts = processor_.interrupts();
   const Cycle now = robot_.now();
   robot_.note_write();
   char letter;
@@ -217,10 +227,11 @@ void NativeRegisters::write_word(unsigned address, std::uint16_t value) {
       t->pr = value;
     } else if (address == kTimers[n].con) {
       if (value & 0x0002)
-        refuse(address, "an external timer clock (TCS) is not simulated in the native way yet");
-      if (value & 0x0040) refuse(address, "gated timer mode (TGATE) is not simulated in the native way yet");
+        refuse(address, "an external timer clock (TCS) needs the register way: build with --way register");
+      if (value & 0x0040)
+        refuse(address, "gated timer mode (TGATE) needs the register way: build with --way register");
       if ((value & 0x0008) && n > 0)
-        refuse(address, "32-bit timer mode (T32) is not simulated in the native way yet");
+        refuse(address, "32-bit timer mode (T32) needs the register way: build with --way register");
       t->con = value;
     } else {
       t->count = value;
@@ -251,13 +262,15 @@ void NativeRegisters::write_word(unsigned address, std::uint16_t value) {
   }
   switch (address) {
     case kSr:
-      return robot_.set_cpu_priority(value >> 5 & 7);
+      processor_.set_cpu_level(value >> 5 & 7, now);
+      return robot_.changed();
     case kIntcon1:
       intcon1_ = value;
       return;
     case kIntcon2:
       intcon2_ = value & 0x801F;
-      return robot_.int0_polarity_changed();
+      processor_.int0_polarity_changed(now);
+      return robot_.changed();
     case kDisicnt:
       return robot_.on_disi(value & 0x3FFF);
     case kRcon:
@@ -274,7 +287,7 @@ void NativeRegisters::write_word(unsigned address, std::uint16_t value) {
     kept_[address] = value;
     return;
   }
-  refuse(address, "this register is not simulated yet (see docs/limits.md)");
+  refuse(address, kOtherWay);
 }
 
 std::uint16_t NativeRegisters::read(unsigned address, unsigned bits) {

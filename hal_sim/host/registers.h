@@ -17,13 +17,11 @@
 namespace host {
 
 class Robot;
-
-/// "T1", "U1RX", ... of an interrupt vector in natural order; "?" for reserved ones.
-const char* vector_name(int vector);
+class NativeProcessor;
 
 class NativeRegisters {
  public:
-  explicit NativeRegisters(Robot& robot) : robot_(robot) {}
+  NativeRegisters(Robot& robot, NativeProcessor& processor) : robot_(robot), processor_(processor) {}
 
   void power_up();         ///< everything at power-on reset values, RCON = POR | BOR
   void processor_reset();  ///< same, but RCON keeps what a software reset keeps
@@ -34,6 +32,9 @@ class NativeRegisters {
   /// Byte address, width 8 or 16; result in the low bits. Unmodelled registers trap.
   std::uint16_t read(unsigned address, unsigned bits);
   void write(unsigned address, std::uint16_t value, unsigned bits);
+
+  /// A table instruction in a program of the native way: a trap that says what to do.
+  [[noreturn]] void refuse_table() const;
 
   bool int0_on_falling_edge() const { return (intcon2_ & 1) != 0; }
   bool nesting_disabled() const { return (intcon1_ & 0x8000) != 0; }
@@ -58,6 +59,7 @@ class NativeRegisters {
   void schedule(int number);
 
   Robot& robot_;
+  NativeProcessor& processor_;
   std::array<Timer, 5> timers_;
   std::uint16_t rcon_ = 0;
   std::uint16_t intcon1_ = 0;

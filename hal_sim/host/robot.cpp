@@ -6,8 +6,8 @@
 
 #include "hal_sim/board/board.h"
 #include "hal_sim/host/host_params.h"
+#include "hal_sim/host/native_processor.h"
 #include "hal_sim/host/pins.h"
-#include "hal_sim/host/registers.h"
 #include "sim_core/base/check.h"
 
 namespace host {
@@ -62,8 +62,14 @@ Robot::Robot(RobotSettings settings, std::shared_ptr<Image> image, std::size_t c
       image_(std::move(image)),
       copy_(image_->copy(copy)),
       board_(board),
-      fiber_(settings_.stack_bytes),
-      registers_(std::make_unique<NativeRegisters>(*this)) {
+      fiber_(settings_.stack_bytes) {
+  if (settings_.processor) {
+    processor_ = settings_.processor(*this);
+  } else {
+    auto native = std::make_unique<NativeProcessor>(*this);
+    native_ = native.get();
+    processor_ = std::move(native);
+  }
   power_up();
 }
 
@@ -72,8 +78,8 @@ Robot::~Robot() {
 }
 
 void Robot::power_up() {
-  registers_->power_up();
   now_ = 0;
+  processor_->power_up();
   end_ = 0;
   idle_ = 0;
   stopped_ = false;
@@ -86,45 +92,28 @@ void Robot::restart_program() {
   if (observer_) observer_->ended(now_);
   data_ = copy_.start_values();
   if (copy_.owner == this) copy_.owner = nullptr;
-  interrupts_.reset();
   std::fill(background_.begin(), background_.end(), Background{});
   stolen_q32_ = 0;
-  cpu_priority_ = 0;
   handler_depth_ = 0;
-  disi_until_ = 0;
   horizon_ = kNever;
   poll_loop_ = -1;
   asleep_until_ = -1;
   idling_ = false;
   overflowed_ = false;
   reset_asked_ = false;
-  registers_->processor_reset();
-  watch_remote();
+  processor_->reset(now_);
   now_ += kStartUpCycles;
   fiber_.restart(enter_firmware, this);
 }
 
-void Robot::watch_remote() {
-  const board::RemoteReceiver& remote = board_.remote();
-  if (!remote.in_use()) return;
-  // the library waits for falling edges; a program with its own handler says which
-  interrupts_.watch_int0(
-      [this, &remote](Cycle after) {
-        const bool falling =
-            interrupts_.source(TP_V_INT0).self_clearing || registers_->int0_on_falling_edge();
-        return remote.next_edge(after, falling);
-      },
-      now_);
+NativeProcessor& Robot::native() {
+  CHECK(native_, "a function of the native way was called in the register way");
+  return *native_;
 }
 
 void Robot::remote_changed() {
-  watch_remote();
+  processor_->remote_changed(now_);
   wake();
-}
-
-void Robot::int0_polarity_changed() {
-  interrupts_.refresh_int0(now());
-  changed();
 }
 
 void Robot::enter_firmware(void* raw) {
@@ -149,7 +138,7 @@ void Robot::run_until(Cycle end) {
   window_start_ = end_;
   end_ = end;
   if (stopped_ || end <= window_start_) return;
-  if (asleep_until_ > end && !woken_) return;
+  if (asleep_until_ > end && !woken_) return processor_->end_window(end);
   std::lock_guard<std::mutex> turn(copy_.turn);
   Robot* outer = running_robot;
   running_robot = this;
@@ -163,6 +152,7 @@ void Robot::run_until(Cycle end) {
   } while (reset_asked_);
   woken_ = false;
   running_robot = outer;
+  if (!stopped_) processor_->end_window(end);
 }
 
 // --- time
@@ -196,29 +186,25 @@ Cycle Robot::now() {
 }
 
 Cycle Robot::next_disturbance() {
-  Cycle next = interrupts_.next_due();
-  const bool held = disi_until_ > now_;
-  if (held) next = std::min(next, disi_until_);
-  if (handler_depth_ == 0 && (held || cpu_priority_ > 0)) {
+  Cycle next = processor_->quiet_until(now_);
+  if (handler_depth_ == 0) {
     // a main program that masks a waiting interrupt for ever is found out after a while
-    const int waiting = interrupts_.longest_waiting(cpu_priority_, held);
-    if (waiting >= 0)
-      next = std::min(next,
-                      std::max(now_ + 1, interrupts_.source(waiting).flag_since + kBlockedInterruptCycles));
+    const Processor::Waiting waiting = processor_->longest_waiting(now_);
+    if (waiting.vector >= 0)
+      next = std::min(next, std::max(now_ + 1, waiting.since + kBlockedInterruptCycles));
   }
   return next;
 }
 
 void Robot::give_budget() {
   Cycle until = std::min(end_, next_disturbance());
-  if (interrupts_.select(cpu_priority_, disi_until_ > now_) >= 0) until = now_;
   if (observer_) until = std::min(until, now_ + observer_->look_every);
   issued_ = until > now_ ? main_until(until - now_) : 0;
   copy_.control().budget = issued_;
 }
 
 void Robot::changed() {
-  interrupts_.touch();
+  if (native_) native_->interrupts().touch();
   fold();
   give_budget();
 }
@@ -240,14 +226,15 @@ void Robot::set_background(int slot, Cycle period, Cycle cost) {
 // ----------------------------------------------------------------------------------------------------
 
 void Robot::irq_install(int vector, void (*handler)(), int priority, Cycle entry_cycles) {
-  auto& s = interrupts_.source(vector);
+  auto& s = native().interrupts().source(vector);
   s.handler = handler;
   s.enabled = handler != nullptr;
   s.priority = priority;
   s.entry_cycles = entry_cycles;
   s.self_clearing = true;
-  s.flag = false;                                            // drivers clear the flag before they enable
-  if (vector == TP_V_INT0) interrupts_.refresh_int0(now());  // the library's edge is the falling one
+  s.flag = false;  // drivers clear the flag before they enable
+  if (vector == TP_V_INT0)
+    native_->interrupts().refresh_int0(now());  // the library's edge is the falling one
   note_write();
   changed();
 }
@@ -255,59 +242,58 @@ void Robot::irq_install(int vector, void (*handler)(), int priority, Cycle entry
 void Robot::irq_at(int vector, Cycle at) { irq_every(vector, at, 0); }
 
 void Robot::irq_every(int vector, Cycle at, Cycle period) {
-  interrupts_.source(vector).period = period;
-  interrupts_.source(vector).due = at < 0 ? kNever : at;
-  if (at < 0) interrupts_.source(vector).flag = false;
+  auto& s = native().interrupts().source(vector);
+  s.period = period;
+  s.due = at < 0 ? kNever : at;
+  if (at < 0) s.flag = false;
   changed();
 }
 
 void Robot::deliver() {
   for (;;) {
-    interrupts_.raise_due(now_);
-    const int vector = interrupts_.select(cpu_priority_, disi_until_ > now_);
-    if (vector < 0) break;
+    const int vector = processor_->select(now_);
+    if (vector == kNoVector) break;
+    if (vector == kResetDue) on_reset(processor_->why_reset());
     serve(vector);
   }
 }
 
 void Robot::serve(int vector) {
-  auto& s = interrupts_.source(vector);
-  if (observer_)
-    observer_->handler_begins(vector, s.flag_since, now_,
-                              now_ + (s.self_clearing ? s.entry_cycles : kInterruptEntryCycles));
-  void (*handler)() = s.handler;
-  if (s.self_clearing) {
-    s.flag = false;
-    interrupts_.touch();
-  } else {
-    handler = copy_.description().vectors[vector];
-  }
+  const Cycle flagged = observer_ && native_ ? native_->interrupts().source(vector).flag_since : Cycle{-1};
+  if (observer_) observer_->reached(now_);
+  const Processor::Entry entry = processor_->enter(vector, now_);
+  if (observer_) observer_->handler_begins(vector, flagged, now_, entry.first_instruction);
+  const tp_image& image = copy_.description();
+  void (*handler)() = entry.handler;
+  if (!handler)
+    handler = vector >= kTrapVector ? image.trap_vectors[vector - kTrapVector] : image.vectors[vector];
   if (!handler) {
-    last_words_ = std::string("interrupt ") + vector_name(vector) +
-                  " is enabled and was raised, but the program has no handler _" + vector_name(vector) +
-                  "Interrupt; on the chip the processor resets";
+    static constexpr const char* kTraps[] = {"OscillatorFail", "AddressError", "StackError", "MathError"};
+    const std::string name =
+        vector >= kTrapVector ? kTraps[vector - kTrapVector] : std::string(vector_name(vector)) + "Interrupt";
+    last_words_ = "interrupt " + name.substr(0, name.rfind("Interrupt")) +
+                  " is enabled and was raised, but the program has no handler _" + name +
+                  "; on the chip the processor resets";
     trap(TP_TRAP_INTERRUPT, last_words_);
   }
-  const int outer = cpu_priority_;
-  cpu_priority_ = registers_->nesting_disabled() ? 7 : s.priority;
-  now_ += s.self_clearing ? s.entry_cycles : kInterruptEntryCycles;
-  give_budget();
+  now_ = entry.first_instruction;
   ++handler_depth_;
+  give_budget();
   handler();
   --handler_depth_;
   fold();
   if (observer_) observer_->handler_ends(now_);
-  cpu_priority_ = outer;
+  now_ = processor_->leave(now_);
   ++served_;
   note_write();
 }
 
 void Robot::check_blocked() {
-  const int waiting = interrupts_.longest_waiting(cpu_priority_, disi_until_ > now_);
-  if (waiting < 0 || now_ - interrupts_.source(waiting).flag_since < kBlockedInterruptCycles) return;
   if (handler_depth_ > 0) return;  // a long handler delays others on the chip too
-  last_words_ = std::string("interrupts have been off for more than a second while ") + vector_name(waiting) +
-                " is waiting: an endless loop with interrupts off";
+  const Processor::Waiting waiting = processor_->longest_waiting(now_);
+  if (waiting.vector < 0 || now_ - waiting.since < kBlockedInterruptCycles) return;
+  last_words_ = std::string("interrupts have been off for more than a second while ") +
+                vector_name(waiting.vector) + " is waiting: an endless loop with interrupts off";
   trap(TP_TRAP_INTERRUPT, last_words_);
 }
 
@@ -358,9 +344,9 @@ void Robot::run_main(Cycle main) {
     check_blocked();
     const Cycle before = now_;
     const std::uint64_t fraction = fraction_;
+    const Cycle disturbed = next_disturbance();
     advance_main(main);
     const Cycle finish = now_;
-    const Cycle disturbed = next_disturbance();
     if (finish <= std::min(disturbed, end_)) return;
     now_ = before;
     fraction_ = fraction;
@@ -412,6 +398,7 @@ void Robot::on_poll(std::int64_t loop) {
   poll_served_ = served_;
   horizon_ = kNever;
   looked_outside_ = false;
+  processor_->watch_reads(now_);
   give_budget();
 }
 
@@ -454,20 +441,20 @@ void Robot::idle_to(Cycle at) {
 
 void Robot::on_disi(Cycle cycles) {
   fold();
-  disi_until_ = std::max(disi_until_, now_ + cycles);
-  if (cycles <= 2) disi_until_ = now_ + cycles;  // INTERRUPT_ON() writes a short count over a long one
+  processor_->disi(cycles, now_);
   note_write();
   deliver();
   check_blocked();
   give_budget();
 }
 
-void Robot::on_power_save() {
+void Robot::on_power_save(bool sleep) {
   fold();
-  const std::int64_t before = served_;
-  while (served_ == before) {
+  processor_->power_save(sleep, now_);
+  for (;;) {
+    const bool awake = processor_->wakes(now_);
     deliver();
-    if (served_ != before) break;
+    if (awake) break;
     const Cycle stop = next_disturbance();
     if (stop > end_) {
       idling_ = true;
@@ -493,12 +480,16 @@ std::int64_t Robot::next_rand() {
 // ---------------------------------------------------------------------------------------------------
 
 bool Robot::interrupt_flag(int vector, Cycle at) const {
-  const InterruptSource& s = interrupts_.source(vector);
+  if (!native_) return false;
+  const InterruptController& controller = native_->interrupts();
+  const InterruptSource& s = controller.source(vector);
   return (s.flag && s.flag_since <= at) || s.due <= at;
 }
 
 Cycle Robot::next_interrupt_flag(int vector, Cycle at) const {
-  const InterruptSource& s = interrupts_.source(vector);
+  if (!native_) return kNever;
+  const InterruptController& controller = native_->interrupts();
+  const InterruptSource& s = controller.source(vector);
   if (s.flag && s.flag_since > at) return s.flag_since;
   return s.due > at ? s.due : kNever;
 }
@@ -513,7 +504,7 @@ void Robot::callback(const void* function) {
 
 void Robot::on_reset(const char* unexpected_reason) {
   fold();
-  registers_->note_software_reset();
+  processor_->note_reset(ResetCause::Instruction);
   if (unexpected_reason) {
     if (!traps_.empty() && traps_.back().kind == 0 && traps_.back().message == unexpected_reason)
       ++traps_.back().count;
@@ -541,9 +532,9 @@ TrapReport Robot::report_here(int kind, std::string_view message) {
 void Robot::trap(int kind, std::string_view message) {
   fold();
   const tp_image& image = copy_.description();
-  if (kind == TP_TRAP_MATH && image.trap_vectors[3] && cpu_priority_ < kMathErrorPriority) {
+  if (kind == TP_TRAP_MATH && image.trap_vectors[3] && processor_->cpu_level() < kMathErrorPriority) {
     // the program has its own _MathError: it may reset or report; the division itself cannot be resumed
-    cpu_priority_ = kMathErrorPriority;
+    processor_->set_cpu_level(kMathErrorPriority, now_);
     give_budget();
     image.trap_vectors[3]();
     fold();
@@ -568,7 +559,7 @@ void Robot::stop_with(TrapReport report) {
   if (observer_) observer_->ended(now_);
   traps_.push_back(std::move(report));
   stopped_ = true;
-  registers_->processor_stopped();
+  processor_->stop(now_);
   fiber_.yield();
   CHECK(false, "a stopped robot went on");
   std::abort();
@@ -634,7 +625,7 @@ void Robot::write_memory(std::uintptr_t address, const void* from, std::size_t b
 }
 
 void Robot::restart() {
-  registers_->note_reset_button();
+  processor_->note_reset(ResetCause::Button);
   stopped_ = false;
   now_ = std::max(now_, end_);
   reset_asked_ = true;

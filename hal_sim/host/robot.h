@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// One robot's processor in the native way: a fiber running compiled firmware, its private data, a cycle clock
-// fed by block costs, and the interrupt controller.
+// One robot's processor: a fiber running compiled firmware, its private data, a cycle clock fed by block
+// costs, and the delivery of interrupts. Registers and interrupt controller are a Processor (processor.h):
+// those of the native way, or the models of the chip.
 //
 //   run_until(end) --enter--> firmware ... tp_event() ... tp_poll() ... --yield--> run_until returns
 //
@@ -16,13 +17,13 @@
 #include "hal_sim/host/context.h"
 #include "hal_sim/host/fiber.h"
 #include "hal_sim/host/image.h"
-#include "hal_sim/host/interrupts.h"
 #include "hal_sim/host/observer.h"
+#include "hal_sim/host/processor.h"
 #include "hal_sim/host/symbols.h"
 
 namespace host {
 
-class NativeRegisters;
+class NativeProcessor;
 
 /// Why a robot stopped or restarted, for reports.
 struct TrapReport {
@@ -44,6 +45,7 @@ struct RobotSettings {
   std::string name;
   std::uint64_t seed = 0;                ///< of rand()
   std::size_t stack_bytes = 256 * 1024;  ///< PC frames are two to four times the chip's; see docs/limits.md
+  ProcessorFactory processor{};          ///< empty: the native way
 };
 
 class Robot final : public Context {
@@ -99,6 +101,8 @@ class Robot final : public Context {
   // ----------------------------------------------------------------------
   /// Null: nobody. Between windows only; outlives the robot or is taken away.
   void observe(Observer* observer) { observer_ = observer; }
+  /// Does it run in the native way, where interrupt_flag() answers? In the register way it is false.
+  bool knows_flags() const { return native_ != nullptr; }
   /// The flag of an interrupt at `at`, not before what has already run; and the first cycle after `at` at
   /// which it rises by itself, kNever if none.
   bool interrupt_flag(int vector, Cycle at) const;
@@ -119,9 +123,10 @@ class Robot final : public Context {
   void wait_until(Cycle at) override;
   void irq_install(int vector, void (*handler)(), int priority, Cycle entry_cycles) override;
   void irq_at(int vector, Cycle at) override;
-  void irq_every(int vector, Cycle first, Cycle period);  ///< period 0: once
+  void irq_every(int vector, Cycle first, Cycle period);  ///< period 0: once; native way only
   void set_background(int slot, Cycle period, Cycle cost) override;
   void callback(const void* function) override;
+  bool print(const char* bytes, std::int64_t length) override { return processor_->print(bytes, length); }
   [[noreturn]] void trap(int kind, std::string_view message) override;
 
   // --- what the compiler inserts
@@ -131,7 +136,7 @@ class Robot final : public Context {
   void on_delay(Cycle rounds, Cycle cycles_per_round);
   [[noreturn]] void on_reset(const char* unexpected_reason);
   void on_disi(Cycle cycles);
-  void on_power_save();
+  void on_power_save(bool sleep);
   std::int64_t next_rand();
   void seed_rand(std::int64_t seed) { rand_state_ = static_cast<std::uint32_t>(seed); }
 
@@ -139,20 +144,26 @@ class Robot final : public Context {
   /// freed.
   std::string& last_words() { return last_words_; }
 
-  // --- for the register file
+  // --- for the registers
   // ----------------------------------------------------------------------------------
-  InterruptController& interrupts() { return interrupts_; }
-  NativeRegisters& registers() { return *registers_; }
-  int cpu_priority() const { return cpu_priority_; }
-  void set_cpu_priority(int priority) {
-    cpu_priority_ = priority;
-    changed();
-  }
-  bool disi_active() { return now() < disi_until_; }
+  Processor& processor() { return *processor_; }
+  const Processor& processor() const { return *processor_; }
   /// Interrupt state changed: look for something to deliver as soon as the current block ends.
   void changed();
-  /// INTCON2.INT0EP was written: external interrupt 0 waits for the other edge.
-  void int0_polarity_changed();
+  /// Tick boundary, before run_until().
+  void begin_window(Cycle now) {
+    if (!stopped_ && processor_->begin_window(now)) wake();
+  }
+  std::uint16_t read_register(unsigned address, unsigned bits) {
+    return processor_->read(address, bits, now());
+  }
+  void write_register(unsigned address, std::uint16_t value, unsigned bits) {
+    processor_->write(address, value, bits, now());
+  }
+  void clear_watchdog() {
+    processor_->clear_watchdog(now());
+    note_write();
+  }
 
   // --- for the fault handler
   // ----------------------------------------------------------------------------------
@@ -170,12 +181,12 @@ class Robot final : public Context {
   static void enter_firmware(void* self);
   void restart_program();
   char* place_of(std::uintptr_t address) const;  // where this robot's value of a variable is now
-  void watch_remote();
   void swap_in();
   void fold();                         // spent budget -> now_
   void advance_main(Cycle main);       // main-program cycles -> real cycles
   Cycle main_until(Cycle real) const;  // most main cycles that end at or before now_ + real
   void give_budget();
+  NativeProcessor& native();
   Cycle next_disturbance();  // when an interrupt or the end of DISI may change the program's course
   void deliver();            // due interrupts, in order
   void serve(int vector);
@@ -195,9 +206,9 @@ class Robot final : public Context {
   ImageCopy& copy_;
   board::Board& board_;
   Fiber fiber_;
-  std::unique_ptr<NativeRegisters> registers_;
-  InterruptController interrupts_;
-  std::vector<char> data_;  // private data while another robot of the copy is live
+  std::unique_ptr<Processor> processor_;
+  NativeProcessor* native_ = nullptr;  // processor_, or null in the register way
+  std::vector<char> data_;             // private data while another robot of the copy is live
 
   Cycle now_ = 0;                 // real cycles, up to the last fold
   Cycle issued_ = 0;              // budget given at that moment
@@ -218,9 +229,7 @@ class Robot final : public Context {
   Cycle asleep_until_ = -1;  // the firmware sleeps up to this cycle; -1 awake
   Cycle idle_ = 0;
 
-  int cpu_priority_ = 0;
   int handler_depth_ = 0;
-  Cycle disi_until_ = 0;
   std::int64_t served_ = 0;  // interrupts so far
 
   std::int64_t writes_ = 0;  // image_abi.h's counter while another robot of the copy runs

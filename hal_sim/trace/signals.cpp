@@ -8,7 +8,7 @@
 #include "hal_sim/board/epuck_params.h"
 #include "hal_sim/board/remote_params.h"
 #include "hal_sim/host/image_abi.h"
-#include "hal_sim/host/registers.h"
+#include "hal_sim/host/processor.h"
 #include "sim_core/load/world_loader.h"
 
 namespace trace {
@@ -142,9 +142,11 @@ std::vector<Signal> find_signals(const std::string& name, const host::Robot* rob
       return {signal("uart", name, Source::WireByte, line, 0, 8),
               signal("uart", name + "_busy", Source::WireBusy, line, 0, 1)};
   for (int v = 0; v < TP_VECTORS; ++v)
-    if (name == host::vector_name(v) && name != "?")
-      return {signal("interrupts", name + "_flag", Source::Flag, v, 0, 1),
-              signal("interrupts", name + "_service", Source::Service, v, 0, 1)};
+    if (name == host::vector_name(v) && name != "?") {
+      const Signal service = signal("interrupts", name + "_service", Source::Service, v, 0, 1);
+      if (robot && !robot->knows_flags()) return {service};
+      return {signal("interrupts", name + "_flag", Source::Flag, v, 0, 1), service};
+    }
   std::vector<Signal> found;
   std::string wrong = "no firmware";
   if (robot) {

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "hal_sim/host/registers.h"
+#include "hal_sim/host/processor.h"
 #include "hal_sim/trace/vcd_writer.h"
 
 namespace trace {
@@ -83,7 +83,7 @@ void TimelineWriter::span(int robot, const Span& span, const board::RobotClock& 
       track = kInterrupts;
       break;
     case Span::Kind::Handler:
-      name = host::vector_name(span.vector);
+      name = span.vector < host::kTrapVector ? host::vector_name(span.vector) : "trap";
       track = kInterrupts;
       args = fmt::format(R"(,"first_instruction_us":{},"interrupted_handlers":{})", micros(ns(span.first)),
                          span.depth);

@@ -40,7 +40,8 @@ fs::path output_for(const fs::path& folder, const Options& options) {
   for (unsigned char c : fs::weakly_canonical(folder).string()) h = sim::mix64(h ^ c);
   char tag[20];
   std::snprintf(tag, sizeof tag, "-%08x", static_cast<unsigned>(h));
-  const char* kind = options.sanitize ? "-sanitize" : options.coverage ? "-coverage" : "";
+  std::string kind = options.sanitize ? "-sanitize" : options.coverage ? "-coverage" : "";
+  if (options.way == "register") kind += "-register";
   return fs::path(build_folder()) / "controllers" / (folder.filename().string() + tag + kind + ".so");
 }
 
@@ -93,6 +94,7 @@ std::string provide_image(const std::string& name, const std::string& from_folde
   build.optimisation = options.optimisation;
   build.sanitize = options.sanitize;
   build.coverage = options.coverage;
+  build.register_way = options.way == "register";
   const cc::BuildResult result = cc::build_image(build);
   if (options.tell && (result.compiled > 0 || !result.ok))
     for (const auto& w : result.warnings) options.tell(w);

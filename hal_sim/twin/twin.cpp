@@ -11,6 +11,7 @@
 #include "hal_sim/board/epuck_model.h"
 #include "hal_sim/board/part.h"
 #include "hal_sim/board/uart_end.h"
+#include "hal_sim/register/chip_processor.h"
 #include "sim_core/load/world_loader.h"
 #include "sim_core/radio/link_medium.h"
 #include "sim_core/world/variation.h"
@@ -167,15 +168,24 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
   std::vector<std::string> firmware;
   for (auto& robot : world.robots) {
     const std::string name = chosen(options.firmware, robot.name, robot.firmware);
-    firmware.push_back(name);
+    Options of_robot = options;
+    if (of_robot.way.empty()) of_robot.way = robot.way;
+    const std::string key = name.empty() ? name : of_robot.way + ":" + name;
+    firmware.push_back(key);
     robot.firmware = name;  // what it runs, for pictures and supervisors
-    if (name.empty() || paths.count(name)) continue;
-    std::string& path = paths[name];
-    path = provide_image(name, options.world_folder, options, problems);
+    if (name.empty() || paths.count(key)) continue;
+    std::string& path = paths[key];
+    path = provide_image(name, options.world_folder, of_robot, problems);
     if (path.empty()) continue;
     std::string error;
-    images[name] = host::Image::open(path, error);
-    if (!images[name]) problems.push_back(error);
+    images[key] = host::Image::open(path, error);
+    if (!images[key]) {
+      problems.push_back(error);
+    } else if (of_robot.way == "register" &&
+               !register_way::wants_chip(images[key]->copy(0).description().flags)) {
+      problems.push_back("robot '" + robot.name + "': way: got register, but " + path +
+                         " was built for the native way, expected an image of twinpuck build --way register");
+    }
   }
   if (problems.size() != problems_before) return nullptr;
 
@@ -190,9 +200,13 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
     while (i >= n * (share + 1) / shares) ++share;
     const auto& robot = world.robots[i];
     const board::Setup setup = setup_of(world, static_cast<int>(i));
-    auto mind =
-        std::make_unique<host::FirmwareMind>(setup, host::RobotSettings{robot.name, setup.seed},
-                                             firmware[i].empty() ? nullptr : images[firmware[i]], share);
+    const auto image = firmware[i].empty() ? nullptr : images[firmware[i]];
+    host::RobotSettings settings;
+    settings.name = robot.name;
+    settings.seed = setup.seed;
+    if (image && register_way::wants_chip(image->copy(0).description().flags))
+      settings.processor = [](host::Robot& r) { return std::make_unique<register_way::ChipProcessor>(r); };
+    auto mind = std::make_unique<host::FirmwareMind>(setup, std::move(settings), image, share);
     plug_in_parts(robot, mind->board(), problems);
     const std::string ends[2] = {chosen(options.uart1, robot.name, robot.uart1),
                                  chosen(options.uart2, robot.name, robot.uart2)};

@@ -165,6 +165,7 @@ struct RobotDesc {
   std::string def;       ///< second name, by which supervisors may look it up; may be empty
   std::string model;     ///< empty: the only or first model the caller knows
   std::string firmware;  ///< name or path as written; may be empty
+  std::string way;       ///< how it runs, a name the caller knows; empty: the usual one
   Pose2 pose;
   int selector = 0;                   ///< 0 to 15
   std::string revision;               ///< of the hardware, as written; empty: the model's usual one

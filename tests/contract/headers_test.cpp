@@ -15,6 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path kInclude = fs::path(TWINPUCK_SOURCE_DIR) / "firmware/include";
+const fs::path kLibc = fs::path(TWINPUCK_SOURCE_DIR) / "hal_sim/cc/libc/include";
 const fs::path kScratch = fs::path(TWINPUCK_BUILD_DIR) / "tests/contract";
 
 /// Compiles a text as firmware. The compiler's messages end up in the failure message.
@@ -23,8 +24,8 @@ void expect_compiles(const std::string& name, const std::string& source) {
   const fs::path file = kScratch / (name + ".c"), messages = kScratch / (name + ".txt");
   std::ofstream(file) << source;
   const std::string command = std::string(TWINPUCK_BUILD_DIR) + "/twinpuck-cc " + file.string() + " -I" +
-                              kInclude.string() + " -o " + (kScratch / (name + ".o")).string() + " >" +
-                              messages.string() + " 2>&1";
+                              kInclude.string() + " -I" + kLibc.string() + " -o " +
+                              (kScratch / (name + ".o")).string() + " >" + messages.string() + " 2>&1";
   const int status = std::system(command.c_str());
   std::ifstream in(messages);
   EXPECT_EQ(status, 0) << std::string(std::istreambuf_iterator<char>(in), {});

@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: MIT
+ * LEDs, basic variant: "all" toggles each LED by itself.
+ */
+#include "hal.h"
+#include "motor_led/e_led.h"
+
+void e_set_led(unsigned int led_number, unsigned int value) {
+  unsigned int led;
+  if (led_number < RING_LEDS) {
+    set_ring(led_number, value);
+    return;
+  }
+  for (led = 0; led < RING_LEDS; led++) set_ring(led, value);
+}
+
+void e_led_clear(void) {
+  unsigned int led;
+  for (led = 0; led < RING_LEDS; led++) set_ring(led, 0);
+}
+
+void e_set_body_led(unsigned int value) { set_body(value); }
+
+void e_set_front_led(unsigned int value) { set_front(value); }

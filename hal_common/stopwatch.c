@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: MIT
+ * The stopwatch that counts interrupts of the ADC scan. Source: [lib: utility/utility.c], facts restated.
+ */
+#include "hal.h"
+#include "utility/utility.h"
+
+void resetTime(void) {
+  twinpuck_refresh_adc_counters();
+  tickAdcIsr = 0;
+}
+
+float getDiffTimeMs(void) {
+  twinpuck_refresh_adc_counters();
+  return (float)tickAdcIsr * (float)ADC_ISR_PERIOD_MS;
+}
+
+float getDiffTimeMsAndReset(void) {
+  float elapsed_ms = getDiffTimeMs();
+  tickAdcIsr = 0;
+  return elapsed_ms;
+}

@@ -1,0 +1,211 @@
+/* SPDX-License-Identifier: MIT
+ * The ADC scan: the converter walks through its channels by itself and interrupts once a frame, 900 cycles after the
+ * one before (450 with MICRO_ONLY). Frames count from 0 to 64:
+ *
+ *   frame   2: the next one holds the pair too        61: the next one holds the accelerometer too
+ *           3: lit pair arrives, IR LED off,          62: accelerometer arrives; the next one holds the pair
+ *              next pair                              63: dark pair arrives, IR LED on
+ *   all others: three microphones
+ *
+ * Channels are converted in the order of their numbers, so microphones (AN2 to AN4) come first, except before the
+ * turret's pair (AN0, AN1), which joins the scan at selector position 10.
+ * The converter must stand while its list changes. It is stopped in the five frames of 65 in which the list changes
+ * and runs on in the others, so that the rate stays within 0.5 % of 16384 Hz.
+ * Source: [lib: a_d/advance_ad_scan/e_ad_conv.c], facts restated; [DS70143 20].
+ */
+#include "hal.h"
+#include "utility/utility.h"
+
+#define GUMSTIX_POSITION 10
+#define GUMSTIX_PAIR 4
+#define GUMSTIX_PRIORITY 6
+#define ACC_COUNTER_MAX 64
+#define TICK_COUNTER_MAX 65535u
+
+#define LAST_FRAME 64
+#define LIST_PAIR_LIT 2
+#define TAKE_PAIR_LIT 3
+#define LIST_ACC 61
+#define TAKE_ACC 62
+#define TAKE_PAIR_DARK 63
+
+#define MIC_CHANNELS 0x001Cu
+#define ACC_CHANNELS 0x00E0u
+#define TURRET_CHANNELS 0x0003u
+#define RING_PAIR(pair) (0x1100u << (pair))
+
+#define AUTO_CONVERT 0x00E4 /* SSRC 7: after the sampling time; ASAM: sample again at once; whole numbers */
+#define SCAN_INPUTS 0x0400  /* CSCNA */
+#define SAMPLING_TAD 0x0100 /* SAMC 1 */
+
+int e_mic_scan[3][MIC_SAMP_NB];
+int e_acc_scan[3][ACC_SAMP_NB];
+unsigned int e_last_mic_scan_id;
+unsigned int e_last_acc_scan_id;
+int e_ambient_ir[IR_CHANNELS];
+int e_ambient_and_reflected_ir[IR_CHANNELS];
+int selector;
+unsigned int tickAdcIsr;
+unsigned char updateAccI2CCounter;
+unsigned int hal_starts;
+
+static volatile unsigned char is_filled;
+static volatile unsigned char is_completed;
+static unsigned char is_micro_only;
+static unsigned char frame;
+static unsigned char pair;
+static unsigned char pairs = 4;
+
+/** What the next frames convert: `count` channels, at a clock that makes the frame 900 cycles long. */
+static void list_channels(unsigned int channels, unsigned int count, unsigned int clock) {
+  ADCON1bits.ADON = 0;
+  ADCSSL = channels;
+  ADCON2 = SCAN_INPUTS | (count - 1) << 2;
+  ADCON3 = SAMPLING_TAD | clock;
+  ADCON1bits.ADON = 1;
+}
+
+static void list_microphones(void) { list_channels(MIC_CHANNELS, 3, ADCS_3_CHAN); }
+
+static void list_pair(void) {
+  if (pair == GUMSTIX_PAIR)
+    list_channels(MIC_CHANNELS | TURRET_CHANNELS, 5, ADCS_5_CHAN);
+  else
+    list_channels(MIC_CHANNELS | RING_PAIR(pair), 5, ADCS_5_CHAN);
+}
+
+static void light_pair(void) {
+  switch (pair) {
+    case 0: PULSE_IR0 = 1; break;
+    case 1: PULSE_IR1 = 1; break;
+    case 2: PULSE_IR2 = 1; break;
+    case 3: PULSE_IR3 = 1; break;
+    default:
+      FRONT_LED = 1;
+      BODY_LED = 1;
+  }
+}
+
+static void darken_pair(void) {
+  switch (pair) {
+    case 0: PULSE_IR0 = 0; break;
+    case 1: PULSE_IR1 = 0; break;
+    case 2: PULSE_IR2 = 0; break;
+    case 3: PULSE_IR3 = 0; break;
+    default:
+      FRONT_LED = 0;
+      BODY_LED = 0;
+  }
+}
+
+/* sensors 0 to 3 and their partners 4 to 7; the turret's 8 is on AN1, 9 on AN0 */
+static void file_pair(int *samples, int lower, int higher) {
+  if (pair == GUMSTIX_PAIR) {
+    samples[8] = higher;
+    samples[9] = lower;
+  } else {
+    samples[pair] = lower;
+    samples[pair + 4] = higher;
+  }
+}
+
+/* The five frames in which something besides the microphones arrives or the list changes. Results first: the next frame
+ * begins to overwrite them 150 cycles later. */
+static void __attribute__((__noinline__)) serve_special_frame(void) {
+  int fourth = (int)ADCBUF3, fifth = (int)ADCBUF4, sixth = (int)ADCBUF5;
+  unsigned int newest;
+  if (pair == GUMSTIX_PAIR && frame != TAKE_ACC) {
+    fourth = (int)ADCBUF0;
+    fifth = (int)ADCBUF1;
+  }
+  switch (frame) {
+    case LIST_PAIR_LIT:
+      list_pair();
+      break;
+    case TAKE_PAIR_LIT:
+      list_microphones();
+      file_pair(e_ambient_and_reflected_ir, fourth, fifth);
+      darken_pair();
+      pair = pair + 1 < pairs ? pair + 1 : 0;
+      break;
+    case LIST_ACC:
+      list_channels(MIC_CHANNELS | ACC_CHANNELS, 6, ADCS_6_CHAN);
+      break;
+    case TAKE_ACC:
+      list_pair();
+      newest = e_last_acc_scan_id + 1 < ACC_SAMP_NB ? e_last_acc_scan_id + 1 : 0;
+      e_acc_scan[0][newest] = fourth;
+      e_acc_scan[1][newest] = fifth;
+      e_acc_scan[2][newest] = sixth;
+      e_last_acc_scan_id = newest;
+      break;
+    case TAKE_PAIR_DARK:
+      list_microphones();
+      file_pair(e_ambient_ir, fourth, fifth);
+      light_pair();
+      break;
+    default:
+      break;
+  }
+}
+
+void __attribute__((__interrupt__, __auto_psv__)) _ADCInterrupt(void) {
+  unsigned int place = e_last_mic_scan_id;
+  int *samples = &e_mic_scan[0][place];
+  IFS0bits.ADIF = 0;
+  is_completed = 0;
+  is_filled = 0;
+  if (pair == GUMSTIX_PAIR && (frame == TAKE_PAIR_LIT || frame == TAKE_PAIR_DARK)) {
+    samples[0] = (int)ADCBUF2;
+    samples[MIC_SAMP_NB] = (int)ADCBUF3;
+    samples[2 * MIC_SAMP_NB] = (int)ADCBUF4;
+  } else {
+    samples[0] = (int)ADCBUF0;
+    samples[MIC_SAMP_NB] = (int)ADCBUF1;
+    samples[2 * MIC_SAMP_NB] = (int)ADCBUF2;
+  }
+  if (!is_micro_only) {
+    if (frame >= LIST_ACC || (frame & 0xFE) == LIST_PAIR_LIT) serve_special_frame();
+    frame = frame < LAST_FRAME ? frame + 1 : 0;
+  }
+  if (++place < MIC_SAMP_NB) {
+    e_last_mic_scan_id = place;
+  } else {
+    e_last_mic_scan_id = 0;
+    is_filled = 1;
+  }
+  if (tickAdcIsr < TICK_COUNTER_MAX) tickAdcIsr++;
+  if (updateAccI2CCounter < ACC_COUNTER_MAX) updateAccI2CCounter++;
+  is_completed = 1;
+}
+
+void e_init_ad_scan(unsigned char only_micro) {
+  ADCON1 = 0;
+  IEC0bits.ADIE = 0;
+  selector = getselector();
+  hal_starts++;
+  is_micro_only = only_micro == MICRO_ONLY;
+  pairs = selector == GUMSTIX_POSITION ? 5 : 4;
+  if (pair >= pairs) pair = 0;
+  ADPCFG = selector == GUMSTIX_POSITION ? 0x0000 : 0x0003; /* AN0 and AN1 are the debugger's otherwise */
+  if (selector == GUMSTIX_POSITION) IPC2bits.ADIP = GUMSTIX_PRIORITY;
+  ADCHS = 0;
+  ADCON1 = AUTO_CONVERT;
+  IFS0bits.ADIF = 0;
+  IEC0bits.ADIE = 1;
+  if (is_micro_only)
+    list_channels(MIC_CHANNELS, 3, ADCS_6_CHAN); /* twice as fast */
+  else
+    list_microphones();
+  /* until the accelerometer's buffer has been filled once */
+  if (!is_micro_only)
+    while (*(volatile unsigned int *)&e_last_acc_scan_id < ACC_SAMP_NB - 1) continue;
+}
+
+unsigned char e_ad_is_array_filled(void) { return is_filled; }
+
+unsigned char e_ad_is_acquisition_completed(void) { return is_completed; }
+
+void e_ad_scan_on(void) { ADCON1bits.ADON = 1; }
+
+void e_ad_scan_off(void) { ADCON1bits.ADON = 0; }

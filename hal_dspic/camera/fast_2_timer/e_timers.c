@@ -1,0 +1,102 @@
+/* SPDX-License-Identifier: MIT
+ * The fast camera driver of two timers that count the camera's edges.
+ *
+ *   VSYNC -> timer 5 -> interrupt: timer 4 on        HREF -> timer 4 -> interrupt: copies one line's bytes
+ *
+ * A byte of a line is on the pins for 8 cycles, so the copying is counted by cycles: e_line_interrupt.s. Its C twin is
+ * here, for the register way: it takes each byte at the instant at which the assembler would.
+ * Priority 6: nothing but the camera's own interrupts may delay a line.
+ * Source: [lib: camera/fast_2_timer/e_timers.c, e_interrupt.s], facts restated.
+ */
+#include "camera/fast_2_timer/e_poxxxx.h"
+
+#include "camera_line.h"
+#include "hal.h"
+#include "hal_common/camera.h"
+
+#define COUNT_EDGES 0x0002 /* external clock, prescaler 1 */
+#define TAKE 1
+#define SKIP 0
+#define END_OF_LINE 2
+
+/* the driver's public variables; the line's interrupt works on them */
+char *_poxxxx_buffer;
+volatile int _poxxxx_img_ready;
+int _poxxxx_current_row;
+int _poxxxx_row;
+char _poxxxx_line_conf[LINE_CONF_SIZE];
+
+static int skipped_lines;
+
+void __attribute__((__interrupt__, __auto_psv__)) _T5Interrupt(void) {
+  IFS1bits.T5IF = 0;
+  T5CONbits.TON = 0;
+  /* the first line counts at once, then every (skipped + 1)-th */
+  TMR4 = (unsigned int)skipped_lines;
+  PR4 = (unsigned int)skipped_lines + 1;
+  IFS1bits.T4IF = 0;
+  IEC1bits.T4IE = 1;
+  T4CONbits.TON = 1;
+}
+
+#ifdef __TWINPUCK__
+
+/* the clock of the register way, and a wait for it */
+long long tp_now(void);
+void tp_wait_until(long long cycle);
+void tp_image_copy_line(void);
+
+#define TWIN_ENTRY_CYCLES 5 /* that the C handler has taken by then and the assembler has not */
+
+/* names with tp_image_ are not charged: the time that this takes is the waits' */
+void tp_image_copy_line(void) {
+  long long at = tp_now() + LINE_FIRST_SAMPLE - TWIN_ENTRY_CYCLES;
+  const char *mask = _poxxxx_line_conf;
+  char *to = _poxxxx_buffer;
+  for (; *mask != END_OF_LINE; mask++, at += LINE_BYTE_CYCLES) {
+    if (*mask != TAKE) continue;
+    tp_wait_until(at);
+    *to++ = (char)(PORTD >> 8);
+  }
+  tp_wait_until(at);
+  _poxxxx_buffer = to;
+}
+
+void __attribute__((__interrupt__, __auto_psv__)) _T4Interrupt(void) {
+  IFS1bits.T4IF = 0;
+  TMR4 = 0;
+  tp_image_copy_line();
+  if (++_poxxxx_current_row == _poxxxx_row) {
+    T4CONbits.TON = 0;
+    _poxxxx_img_ready = 1;
+  }
+}
+
+#endif
+
+void e_poxxxx_launch_capture(char *buf) {
+  T4CON = COUNT_EDGES;
+  T5CON = COUNT_EDGES;
+  _poxxxx_current_row = 0;
+  _poxxxx_buffer = buf;
+  _poxxxx_img_ready = 0;
+  TMR5 = 0;
+  PR5 = 1;
+  IFS1bits.T4IF = 0;
+  IFS1bits.T5IF = 0;
+  IEC1bits.T5IE = 1;
+  T5CONbits.TON = 1;
+}
+
+int e_poxxxx_is_img_ready(void) { return _poxxxx_img_ready; }
+
+int e_poxxxx_apply_timer_config(int pixel_row, int pixel_col, int bpp, int pbp, int bbl) {
+  int i, j, at = 0;
+  if ((unsigned int)(pixel_col * bpp * (1 + pbp) + 1) > LINE_CONF_SIZE) return -1;
+  for (i = 0; i < pixel_col; i++)
+    for (j = 0; j < bpp * (1 + pbp); j++) _poxxxx_line_conf[at++] = j < bpp ? TAKE : SKIP;
+  _poxxxx_line_conf[at] = END_OF_LINE;
+  skipped_lines = bbl;
+  _poxxxx_row = pixel_row;
+  return 0;
+}

@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: MIT
+ * The fast camera driver of two timers.
+ *
+ *   VSYNC -> timer 5 -> interrupt: timer 4 on          HREF -> timer 4 -> interrupt: copies one line's bytes
+ *
+ * Modelled: both interrupts at their instants and priority (6), the time a line's copying takes (8 cycles a
+ * byte, taken or skipped, as the library's loop). Not modelled: an interrupt that comes late takes the same bytes; on
+ * the robot it takes later ones. Source: [lib: camera/fast_2_timer/e_timers.c, e_interrupt.s], facts restated.
+ */
+#include "camera/fast_2_timer/e_poxxxx.h"
+
+#include "hal_common/camera.h"
+#include "hal_sim/host/pins.h"
+#include "hal_sim/host/pins_camera.h"
+
+#define PRIORITY 6
+#define MASK_CYCLES 8         /* a byte of the line, taken or skipped */
+#define LINE_ENTRY_CYCLES 26  /* [estimated: entry, shadow registers, set-up, end of line, RETFIE] */
+#define FRAME_ENTRY_CYCLES 30 /* [estimated: context, three bits, RETFIE] */
+#define LAUNCH_CYCLES 60      /* [estimated: two timers set up] */
+#define TAKE 1
+#define SKIP 0
+#define END_OF_LINE 2
+
+/* the driver's public variables */
+char* _poxxxx_buffer;
+int _poxxxx_img_ready;
+int _poxxxx_current_row;
+int _poxxxx_row;
+char _poxxxx_line_conf[LINE_CONF_SIZE];
+
+static int columns, bytes_per_pixel, skipped_pixels, skipped_lines;
+
+static void line_interrupt(void) {
+  static unsigned char line[LINE_CONF_SIZE];
+  unsigned char* to = (unsigned char*)_poxxxx_buffer;
+  int count = (int)tp_camera_take_line(line, sizeof line);
+  int i;
+  for (i = 0; i < count; i++) *to++ = line[i];
+  _poxxxx_buffer = (char*)to;
+  /* the bytes between those that are taken take as long */
+  tp_spend((tp_i64)MASK_CYCLES * columns * bytes_per_pixel * skipped_pixels);
+  if (++_poxxxx_current_row == _poxxxx_row)
+    _poxxxx_img_ready = 1;
+  else
+    tp_irq_at(TP_V_T4, tp_camera_next_line());
+}
+
+static void frame_interrupt(void) { tp_irq_at(TP_V_T4, tp_camera_begin_frame()); }
+
+void e_poxxxx_launch_capture(char* buf) {
+  tp_spend(LAUNCH_CYCLES);
+  _poxxxx_current_row = 0;
+  _poxxxx_buffer = buf;
+  _poxxxx_img_ready = 0;
+  tp_irq_install(TP_V_T4, line_interrupt, PRIORITY, LINE_ENTRY_CYCLES);
+  tp_irq_install(TP_V_T5, frame_interrupt, PRIORITY, FRAME_ENTRY_CYCLES);
+  tp_irq_at(TP_V_T4, -1);
+  tp_irq_at(TP_V_T5,
+            tp_camera_launch(_poxxxx_row, columns, bytes_per_pixel, skipped_pixels, skipped_lines, 0));
+}
+
+int e_poxxxx_is_img_ready(void) { return _poxxxx_img_ready; }
+
+int e_poxxxx_apply_timer_config(int pixel_row, int pixel_col, int bpp, int pbp, int bbl) {
+  int i, j, at = 0;
+  if ((unsigned int)(pixel_col * bpp * (1 + pbp) + 1) > LINE_CONF_SIZE) return -1;
+  for (i = 0; i < pixel_col; i++)
+    for (j = 0; j < bpp * (1 + pbp); j++) _poxxxx_line_conf[at++] = j < bpp ? TAKE : SKIP;
+  _poxxxx_line_conf[at] = END_OF_LINE;
+  columns = pixel_col;
+  bytes_per_pixel = bpp;
+  skipped_pixels = pbp;
+  skipped_lines = bbl;
+  _poxxxx_row = pixel_row;
+  return 0;
+}

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+// Pins [lib: motor_led/e_epuck_ports.h], facts restated: RF1 battery good, RF6 remote receiver, RF2 and RF4
+// serial lines in, RG2 RG3 I2C, RG6 to RG9 selector; camera: camera_pins.h.
+#include "hal_sim/chip/board_outside.h"
+
+#include <algorithm>
+
+#include "hal_sim/board/accelerometer.h"
+
+namespace chip {
+
+namespace {
+
+using board::Board;
+using dspic::Port;
+
+constexpr std::uint16_t bit(int n) { return static_cast<std::uint16_t>(1u << n); }
+constexpr std::uint16_t kSelector = 0x03C0, kI2cLines = 0x000C, kSerialIn = 0x0014, kBattery = 0x0002,
+                        kRemote = 0x0040, kCameraData = 0xFF00;
+constexpr std::uint16_t kCameraClocks =
+    static_cast<std::uint16_t>(1 << CameraPins::Href | 1 << CameraPins::Vsync | 1 << CameraPins::Pclk);
+constexpr std::uint16_t kEmitter[4] = {0x0080, 0x0100, 0x0001, 0x0002};  // RF7 RF8 RG0 RG1
+constexpr int kFirstIr = 8, kFirstMic = 2, kFirstAcc = 5;
+constexpr std::uint64_t kSampleOffset = std::uint64_t{1} << 42;  // numbers of noise, apart from the drivers'
+constexpr unsigned kUartMode[2] = {0x20C, 0x216}, kUartBrg[2] = {0x214, 0x21E};
+constexpr std::uint16_t kUartEnabled = 0x8000;
+
+}  // namespace
+
+BoardOutside::BoardOutside(Board& board) : board_(board), camera_(board), selector_(board.selector()) {
+  tris_.fill(0xFFFF);
+}
+
+bool BoardOutside::begin_window(dspic::Dspic30f6014a& chip, Cycle now) {
+  bool news = false;
+  for (int n = 1; n <= 2; ++n) {
+    board::Uart& uart = board_.uart(n);
+    dspic::UartFrame frame;
+    std::uint8_t byte = 0;
+    while (uart.take_from_wire(byte, frame.start)) {
+      frame.word = byte;
+      frame.start = std::max(frame.start, now);
+      frame.bit = uart.byte_cycles() / board::kUartBitsPerByte;
+      chip.uart_receive(n, frame);
+      news = true;
+    }
+  }
+  if (selector_ != board_.selector() || camera_.take_news()) {
+    selector_ = board_.selector();
+    chip.outside_changed(now);
+    news = true;
+  }
+  return news;
+}
+
+void BoardOutside::end_window(dspic::Dspic30f6014a& chip, Cycle now) {
+  for (int n = 1; n <= 2; ++n)
+    board_.uart(n).follow_chip((chip.peek(kUartMode[n - 1], now) & kUartEnabled) != 0,
+                               chip.peek(kUartBrg[n - 1], now));
+}
+
+void BoardOutside::fill_eeprom(dspic::Dspic30f6014a& chip) const {
+  for (unsigned i = 0; i < board::DataEeprom::kWords; ++i)
+    chip.eeprom()[i] = board_.eeprom().read(board::DataEeprom::kFirst + 2 * i);
+}
+
+// --- pins ------------------------------------------------------------------------------------------------
+
+void BoardOutside::pins_driven(Port port, std::uint16_t levels, std::uint16_t driven,
+                               std::uint16_t by_peripheral, Cycle at) {
+  const auto p = static_cast<std::size_t>(port);
+  const char letter = dspic::kPortLetters[p];
+  // serial lines are followed word by word; the board sees them as pins that nobody drives
+  const std::uint16_t serial = port == Port::D ? 0 : by_peripheral;
+  const auto tris = static_cast<std::uint16_t>(~(driven & ~serial));
+  const auto lat = static_cast<std::uint16_t>(levels & ~serial);
+  // directions first: coils that are switched on together with their pins pull the rotor
+  if (tris != tris_[p]) board_.port_write(letter, Board::Register::Tris, tris, at);
+  if (lat != levels_[p]) board_.port_write(letter, Board::Register::Lat, lat, at);
+  tris_[p] = tris;
+  levels_[p] = lat;
+  if (port == Port::F || port == Port::G) follow_emitters(port, at);
+}
+
+void BoardOutside::follow_emitters(Port port, Cycle at) {
+  const auto p = static_cast<std::size_t>(port);
+  const int first = port == Port::F ? 0 : 2;
+  for (int i = first; i < first + 2; ++i) {
+    Emitter& e = emitters_[static_cast<std::size_t>(i)];
+    const bool is_on = (levels_[p] & ~tris_[p] & kEmitter[i]) != 0;
+    if (is_on == e.is_on) continue;
+    e.is_on = is_on;
+    e.changed[static_cast<std::size_t>(e.changes++ % Emitter::kRemembered)] = at;
+  }
+}
+
+Cycle BoardOutside::lit_for(int sensor, Cycle at) const {
+  const Emitter& e = emitters_[static_cast<std::size_t>(sensor & 3)];
+  bool is_on = e.is_on;
+  const int oldest = std::max(0, e.changes - Emitter::kRemembered);
+  for (int i = e.changes - 1; i >= oldest; --i, is_on = !is_on) {
+    const Cycle changed = e.changed[static_cast<std::size_t>(i % Emitter::kRemembered)];
+    if (changed <= at) return is_on ? at - changed : -1;
+  }
+  return is_on ? at : -1;
+}
+
+dspic::PinLevels BoardOutside::pin_levels(Port port, Cycle at) {
+  switch (port) {
+    case Port::C:
+      return {camera_.levels(at), board_.camera() ? kCameraClocks : std::uint16_t{0}};
+    case Port::D:
+      return {static_cast<std::uint16_t>(camera_.data(at) << 8),
+              board_.camera() ? kCameraData : std::uint16_t{0}};
+    case Port::F: {
+      std::uint16_t levels = kSerialIn;
+      if (board_.battery().voltage(at) >= board::kBatteryLowV) levels |= kBattery;
+      if (board_.remote().level(at)) levels |= kRemote;
+      return {levels, static_cast<std::uint16_t>(kSerialIn | kBattery | kRemote)};
+    }
+    case Port::G:
+      return {static_cast<std::uint16_t>((board_.selector() & 15) << 6 | kI2cLines),
+              static_cast<std::uint16_t>(kSelector | kI2cLines)};
+    default:
+      return {};
+  }
+}
+
+Cycle BoardOutside::next_change(Port port, Cycle after) {
+  switch (port) {
+    case Port::C:
+      return camera_.next_change(after);
+    case Port::D:
+      return camera_.next_byte(after);
+    case Port::F:
+      return std::min(board_.battery().below(board::kBatteryLowV, after), board_.remote().next_change(after));
+    default:
+      return dspic::kNever;
+  }
+}
+
+std::int64_t BoardOutside::edges(dspic::Pin pin, dspic::Edge edge, Cycle after, Cycle until) {
+  if (pin.port == Port::C)
+    return CameraPins::has(pin.bit) ? camera_.edges(pin.bit, edge == dspic::Edge::Rising, after, until) : 0;
+  if (pin.port == Port::D) return 0;
+  return Outside::edges(pin, edge, after, until);
+}
+
+Cycle BoardOutside::nth_edge(dspic::Pin pin, dspic::Edge edge, Cycle after, std::int64_t n) {
+  if (pin.port == Port::C)
+    return CameraPins::has(pin.bit) ? camera_.nth_edge(pin.bit, edge == dspic::Edge::Rising, after, n)
+                                    : dspic::kNever;
+  if (pin.port == Port::F && pin.bit == 6 && n == 1)
+    return board_.remote().next_edge(after, edge == dspic::Edge::Falling);
+  if (pin.port == Port::D) return dspic::kNever;
+  return Outside::nth_edge(pin, edge, after, n);
+}
+
+// --- analogue, serial ------------------------------------------------------------------------------------
+
+int BoardOutside::analogue_counts(int channel, Cycle at) {
+  // one number per instant: a result is the same whenever it is asked for
+  const std::uint64_t sample = kSampleOffset + static_cast<std::uint64_t>(at);
+  if (channel >= kFirstIr)
+    return board_.ir_counts(channel - kFirstIr, at, lit_for(channel - kFirstIr, at), sample);
+  if (channel >= kFirstAcc) {
+    if (const auto counts = board_.counts_of_others(channel, at)) return *counts;
+    return board::accelerometer_counts(board_, channel - kFirstAcc, at, sample);
+  }
+  if (channel >= kFirstMic) return board_.mic_counts_fast(channel - kFirstMic, at, sample);
+  return board_.counts_of_others(channel, at).value_or(0);
+}
+
+void BoardOutside::uart_sent(int uart, const dspic::UartFrame& frame) {
+  if (frame.broken)
+    board_.uart(uart).break_on_wire(frame.end());
+  else
+    board_.uart(uart).put_on_wire(static_cast<std::uint8_t>(frame.word), frame.end());
+}
+
+void BoardOutside::i2c_start(bool, Cycle at) { board_.i2c().start(at); }
+
+dspic::I2cReply BoardOutside::i2c_write(std::uint8_t byte, Cycle at) {
+  return {board_.i2c().write(byte, at), 0xFF, 0};
+}
+
+dspic::I2cReply BoardOutside::i2c_read(Cycle at) { return {true, board_.i2c().read(at), 0}; }
+
+void BoardOutside::i2c_stop(Cycle at) { board_.i2c().stop(at); }
+
+}  // namespace chip

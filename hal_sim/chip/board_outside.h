@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// The board as the pins of the dsPIC30F6014A see it: dspic::Outside on one board::Board. Whoever runs the
+// models of the chip (the register way, later the chip way) puts this between chip and board.
+//
+//   pins_driven -> Board::port_write: coils, LEDs, IR emitters, codec and camera reset
+//   pin_levels  <- selector, battery detector, remote receiver, idle serial lines, camera clocks and data
+//   analogue    <- IR phototransistors, microphones, accelerometer or battery, what parts put there
+//   UART words <-> Uart ends; I2C <-> the board's bus
+//
+// Not modelled: what the DCI module sends to the codec; serial lines level by level; levels of port B's pins
+// (they are analogue inputs); a far end with a rate of its own: it follows the robot's, 8 bits, no parity.
+#pragma once
+#include <array>
+#include <cstdint>
+
+#include "dspic30/device/dspic30f6014a.h"
+#include "dspic30/periph/outside.h"
+#include "hal_sim/board/board.h"
+#include "hal_sim/chip/camera_pins.h"
+
+namespace chip {
+
+using dspic::Cycle;
+
+class BoardOutside final : public dspic::Outside {
+ public:
+  /// `board` outlives this.
+  explicit BoardOutside(board::Board& board);
+
+  /// Tick boundary, after Board::exchange(): words from outside start on their lines; what somebody did by
+  /// hand (selector) reaches the chip. True: there was any such thing.
+  bool begin_window(dspic::Dspic30f6014a& chip, Cycle now);
+  /// The board's UARTs learn rate and switch of the chip's.
+  void end_window(dspic::Dspic30f6014a& chip, Cycle now);
+  /// What the robot's maker and earlier programs left in the data EEPROM.
+  void fill_eeprom(dspic::Dspic30f6014a& chip) const;
+
+  void pins_driven(dspic::Port port, std::uint16_t levels, std::uint16_t driven, std::uint16_t by_peripheral,
+                   Cycle at) override;
+  dspic::PinLevels pin_levels(dspic::Port port, Cycle at) override;
+  Cycle next_change(dspic::Port port, Cycle after) override;
+  std::int64_t edges(dspic::Pin pin, dspic::Edge edge, Cycle after, Cycle until) override;
+  Cycle nth_edge(dspic::Pin pin, dspic::Edge edge, Cycle after, std::int64_t n) override;
+  int analogue_counts(int channel, Cycle at) override;
+  bool analogue_is_function_of_time() const override { return true; }
+  void uart_sent(int uart, const dspic::UartFrame& frame) override;
+  void i2c_start(bool repeated, Cycle at) override;
+  dspic::I2cReply i2c_write(std::uint8_t byte, Cycle at) override;
+  dspic::I2cReply i2c_read(Cycle at) override;
+  void i2c_stop(Cycle at) override;
+
+ private:
+  /// When the IR emitters of one line went on and off: results of the converter are asked for later.
+  struct Emitter {
+    static constexpr int kRemembered = 16;
+    std::array<Cycle, kRemembered> changed{};
+    int changes = 0;
+    bool is_on = false;
+  };
+  /// Cycles for which the emitter beside a sensor has been on at `at`; -1: it was off.
+  Cycle lit_for(int sensor, Cycle at) const;
+  void follow_emitters(dspic::Port port, Cycle at);
+
+  board::Board& board_;
+  CameraPins camera_;
+  std::array<Emitter, 4> emitters_;
+  std::array<std::uint16_t, dspic::kPorts> levels_{};
+  std::array<std::uint16_t, dspic::kPorts> tris_{};
+  int selector_;
+};
+
+}  // namespace chip

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// The camera's clock and data pins for a processor that takes pictures by itself: RC4 VSYNC, RC3 HREF,
+// RC14 pixel clock, RD8 to RD15 data.
+//
+//   VSYNC  _|~|______________________________________|~|___     one frame
+//   HREF   ______|~~~~~~|__|~~~~~~|__ ... |~~~~~~|_________     one line each, its bytes while it is high
+//
+// All edges are closed forms of the sensor's clock, so nothing is ticked; a picture is rendered when its data
+// pins are read, lines at once. Modelled: frame, line and byte periods of the sensor's registers, the byte on
+// the pins at any cycle. Not modelled: VSYNC's true width (half a line here), set-up times, the data between
+// lines (0). Rendered lines are complete, so pictures cost more than those of the native way.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "hal_sim/board/board.h"
+
+namespace chip {
+
+using host::Cycle;
+
+class CameraPins {
+ public:
+  enum Bit { Href = 3, Vsync = 4, Pclk = 14 };
+
+  explicit CameraPins(board::Board& board) : board_(board) {}
+
+  static bool has(int bit) { return bit == Href || bit == Vsync || bit == Pclk; }
+  /// Levels of the three pins of port C.
+  std::uint16_t levels(Cycle at);
+  /// Byte on RD8 to RD15.
+  std::uint8_t data(Cycle at);
+  /// First change of HREF or VSYNC after `after`, or of the pixel clock; kNever without a camera.
+  Cycle next_change(Cycle after);
+  Cycle next_byte(Cycle after);
+  std::int64_t edges(int bit, bool rising, Cycle after, Cycle until);
+  Cycle nth_edge(int bit, bool rising, Cycle after, std::int64_t n);
+  /// The sensor's registers or the length of its frames have changed since the last call: edges told before
+  /// are not true any more.
+  bool take_news();
+
+ private:
+  struct Frames {
+    Cycle start = 0, length = 1;
+    Cycle first = 0, line = 1;  // HREF of line 0 after the frame's start; between two lines
+    Cycle high = 0;             // HREF is high
+    std::int64_t lines = 0, bytes = 0;
+    Cycle byte_half_cycles = 16;
+  };
+  /// Edges at or before `at`, counted from Frames::start.
+  std::int64_t count(int bit, bool rising, Cycle at) const;
+  Cycle instant(int bit, bool rising, std::int64_t index) const;
+  bool refresh(Cycle at);
+
+  board::Board& board_;
+  Frames f_;
+  std::uint64_t version_ = 0;
+  Cycle told_start_ = -1, told_length_ = -1;
+  Cycle captured_ = -1;  // start of the frame that the camera was asked for
+  std::int64_t line_ = -1;
+  std::vector<std::uint8_t> bytes_;
+};
+
+}  // namespace chip

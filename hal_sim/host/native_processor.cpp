@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "hal_sim/host/native_processor.h"
+
+#include <algorithm>
+
+#include "hal_sim/board/board.h"
+#include "hal_sim/host/host_params.h"
+#include "hal_sim/host/pins.h"
+#include "hal_sim/host/robot.h"
+
+namespace host {
+
+void NativeProcessor::reset(Cycle now) {
+  interrupts_.reset();
+  cpu_level_ = 0;
+  disi_until_ = 0;
+  outer_levels_.clear();
+  registers_.processor_reset();
+  watch_remote(now);
+}
+
+void NativeProcessor::note_reset(ResetCause cause) {
+  if (cause == ResetCause::Instruction) registers_.note_software_reset();
+  if (cause == ResetCause::Button) registers_.note_reset_button();
+}
+
+void NativeProcessor::watch_remote(Cycle now) {
+  const board::RemoteReceiver& remote = robot_.board().remote();
+  if (!remote.in_use()) return;
+  // the library waits for falling edges; a program with its own handler says which
+  interrupts_.watch_int0(
+      [this, &remote](Cycle after) {
+        const bool falling = interrupts_.source(TP_V_INT0).self_clearing || registers_.int0_on_falling_edge();
+        return remote.next_edge(after, falling);
+      },
+      now);
+}
+
+Cycle NativeProcessor::quiet_until(Cycle now) {
+  Cycle next = interrupts_.next_due();
+  const bool held = disi_until_ > now;
+  if (interrupts_.select(cpu_level_, held) >= 0) return now;
+  if (held) next = std::min(next, disi_until_);
+  return next;
+}
+
+Processor::Entry NativeProcessor::enter(int vector, Cycle now) {
+  InterruptSource& s = interrupts_.source(vector);
+  if (s.self_clearing) {
+    s.flag = false;
+    interrupts_.touch();
+  }
+  outer_levels_.push_back(cpu_level_);
+  cpu_level_ = registers_.nesting_disabled() ? 7 : s.priority;
+  return {s.self_clearing ? s.handler : nullptr,
+          now + (s.self_clearing ? s.entry_cycles : kInterruptEntryCycles)};
+}
+
+Cycle NativeProcessor::leave(Cycle now) {
+  cpu_level_ = outer_levels_.back();
+  outer_levels_.pop_back();
+  return now;
+}
+
+Processor::Waiting NativeProcessor::longest_waiting(Cycle now) {
+  const int vector = interrupts_.longest_waiting(cpu_level_, disi_until_ > now);
+  if (vector < 0) return {};
+  return {vector, interrupts_.source(vector).flag_since};
+}
+
+void NativeProcessor::disi(Cycle cycles, Cycle now) {
+  disi_until_ = std::max(disi_until_, now + cycles);
+  if (cycles <= 2) disi_until_ = now + cycles;  // INTERRUPT_ON() writes a short count over a long one
+}
+
+}  // namespace host

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// The processor of the native way: the library's drivers run as closed forms on the board, and what is left
+// of the chip is registers.h and interrupts.h.
+#pragma once
+#include <vector>
+
+#include "hal_sim/host/interrupts.h"
+#include "hal_sim/host/processor.h"
+#include "hal_sim/host/registers.h"
+
+namespace host {
+
+class NativeProcessor final : public Processor {
+ public:
+  explicit NativeProcessor(Robot& robot) : robot_(robot), registers_(robot, *this) {}
+
+  const char* way() const override { return "native"; }
+  void power_up() override { registers_.power_up(); }
+  void reset(Cycle now) override;
+  void note_reset(ResetCause cause) override;
+  void stop(Cycle now) override { registers_.processor_stopped(); }
+  void remote_changed(Cycle now) override { watch_remote(now); }
+
+  std::uint16_t read(unsigned address, unsigned bits, Cycle) override {
+    return registers_.read(address, bits);
+  }
+  void write(unsigned address, std::uint16_t value, unsigned bits, Cycle) override {
+    registers_.write(address, value, bits);
+  }
+
+  std::uint16_t table_read(unsigned, Cycle) override { registers_.refuse_table(); }
+  void table_write(unsigned, std::uint16_t, Cycle) override { registers_.refuse_table(); }
+
+  int select(Cycle now) override {
+    interrupts_.raise_due(now);
+    return interrupts_.select(cpu_level_, disi_until_ > now);
+  }
+  Cycle quiet_until(Cycle now) override;
+  Entry enter(int vector, Cycle now) override;
+  Cycle leave(Cycle now) override;
+  int cpu_level() const override { return cpu_level_; }
+  void set_cpu_level(int level, Cycle) override { cpu_level_ = level; }
+  Waiting longest_waiting(Cycle now) override;
+  void disi(Cycle cycles, Cycle now) override;
+  bool wakes(Cycle now) override { return select(now) >= 0; }
+
+  InterruptController& interrupts() { return interrupts_; }
+  bool disi_active(Cycle now) const { return now < disi_until_; }
+  /// INTCON2.INT0EP was written: external interrupt 0 waits for the other edge.
+  void int0_polarity_changed(Cycle now) { interrupts_.refresh_int0(now); }
+
+ private:
+  void watch_remote(Cycle now);
+
+  Robot& robot_;
+  InterruptController interrupts_;
+  NativeRegisters registers_;
+  int cpu_level_ = 0;
+  Cycle disi_until_ = 0;
+  std::vector<int> outer_levels_;
+};
+
+}  // namespace host

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// What a Robot asks of its processor's registers and interrupt controller. Two answers exist:
+// NativeProcessor, which holds the little that programs touch beside the e_* library, and
+// register_way::ChipProcessor, which runs the models of the whole chip.
+//
+// Times are cycles of the robot's clock and never go back from one call to the next. Vectors are numbered as
+// the image's (image_abi.h): 0 to TP_VECTORS - 1 in natural order; kTrapVector + n are the core's traps.
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hal_sim/host/context.h"
+
+namespace dspic {
+class Dspic30f6014a;
+}
+
+namespace host {
+
+class Robot;
+
+inline constexpr int kNoVector = -1;
+inline constexpr int kResetDue = -2;      ///< the processor resets itself: why_reset() says why
+inline constexpr int kTrapVector = 1000;  ///< + 0 oscillator fail, 1 address, 2 stack, 3 math error
+
+enum class ResetCause { PowerUp, Instruction, Button };
+
+/// "T1", "U1RX", ... of an interrupt vector in natural order; "?" for reserved ones.
+const char* vector_name(int vector);
+
+class Processor {
+ public:
+  virtual ~Processor() = default;
+
+  /// "native" or "register".
+  virtual const char* way() const = 0;
+
+  // --- life
+  virtual void power_up() = 0;
+  /// Registers to their reset values; RCON tells the causes noted since the last one.
+  virtual void reset(Cycle now) = 0;
+  virtual void note_reset(ResetCause cause) = 0;
+  /// The program was stopped by a trap: pins are released, drivers and motors are off.
+  virtual void stop(Cycle now) = 0;
+  /// Tick boundary, before the program goes on: what came from outside is on its way now. True: a waiting
+  /// program should look again.
+  virtual bool begin_window(Cycle now) { return false; }
+  /// Everything that happens by itself up to `now` has happened.
+  virtual void end_window(Cycle now) {}
+  /// Somebody presses a key of the remote control: its line has a new future.
+  virtual void remote_changed(Cycle now) = 0;
+
+  // --- registers
+  /// Byte address, 8 or 16 bits; result in the low bits.
+  virtual std::uint16_t read(unsigned address, unsigned bits, Cycle now) = 0;
+  virtual void write(unsigned address, std::uint16_t value, unsigned bits, Cycle now) = 0;
+  /// TBLRDL and TBLWTL at a 24-bit program address: data EEPROM.
+  virtual std::uint16_t table_read(unsigned program_address, Cycle now) = 0;
+  virtual void table_write(unsigned program_address, std::uint16_t value, Cycle now) = 0;
+  /// A loop waits from `now` on: the following reads say how long their value stays.
+  virtual void watch_reads(Cycle now) {}
+  /// Text that the program prints. False: the caller puts it out itself.
+  virtual bool print(const char* bytes, std::int64_t length) { return false; }
+
+  // --- interrupts
+  /// Vector to serve at the instruction boundary before `now`, kNoVector or kResetDue.
+  virtual int select(Cycle now) = 0;
+  virtual const char* why_reset() const { return "the processor resets"; }
+  /// First cycle at which select() may answer something else than kNoVector; `now` when it does already.
+  virtual Cycle quiet_until(Cycle now) = 0;
+  struct Entry {
+    void (*handler)() = nullptr;  ///< null: the program's own, by its vector
+    Cycle first_instruction = 0;
+  };
+  virtual Entry enter(int vector, Cycle now) = 0;
+  /// The handler returns; answers the cycle of the next instruction.
+  virtual Cycle leave(Cycle now) = 0;
+  virtual int cpu_level() const = 0;
+  virtual void set_cpu_level(int level, Cycle now) = 0;
+  /// A flag that is set and enabled but cannot be served now, and since when; vector kNoVector if none.
+  struct Waiting {
+    int vector = kNoVector;
+    Cycle since = 0;
+  };
+  virtual Waiting longest_waiting(Cycle now) = 0;
+
+  // --- instructions
+  virtual void disi(Cycle cycles, Cycle now) = 0;
+  virtual void clear_watchdog(Cycle now) {}
+  virtual void power_save(bool sleep, Cycle now) {}
+  /// Does an interrupt end Sleep or Idle at `now`?
+  virtual bool wakes(Cycle now) = 0;
+
+  virtual std::uint64_t state_hash(Cycle now) { return 0; }
+  /// What the models have to say about the program, a sentence each, in order of time.
+  virtual const std::vector<std::string>& notices() const {
+    static const std::vector<std::string> none;
+    return none;
+  }
+  /// The chip behind it; null in the native way.
+  virtual dspic::Dspic30f6014a* chip() { return nullptr; }
+};
+
+/// Makes the processor of a robot that is being set up.
+using ProcessorFactory = std::function<std::unique_ptr<Processor>(Robot&)>;
+
+}  // namespace host

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// The register way's processor: every register access and every interrupt of a compiled program goes to the
+// models of the dsPIC30F6014A, on the same board and world as the native way.
+//
+//   compiled C --tp_sfr_read/write--> ChipProcessor --> dspic::Dspic30f6014a <--> chip::BoardOutside -->
+//   Board
+//
+// Time is the Robot's: estimated costs of blocks, plus what the chip adds (interrupt entry and RETFIE). A
+// loop that polls registers is jumped over to the chip's horizon of what it has read.
+// Modelled: everything dspic30/ models. Not modelled: configuration words of the program (always the
+// e-puck's), Sleep's stopped clocks, wait states; see docs/limits.md, "The register way".
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dspic30/device/dspic30f6014a.h"
+#include "hal_sim/chip/board_outside.h"
+#include "hal_sim/host/processor.h"
+#include "hal_sim/host/robot.h"
+
+namespace register_way {
+
+using host::Cycle;
+
+/// Does an image of these flags (tp_image.flags) want this processor?
+bool wants_chip(const char* image_flags);
+
+class ChipProcessor final : public host::Processor, public dspic::DiagnosticSink {
+ public:
+  /// `robot` owns this.
+  explicit ChipProcessor(host::Robot& robot);
+
+  const char* way() const override { return "register"; }
+  void power_up() override;
+  void reset(Cycle now) override;
+  void note_reset(host::ResetCause cause) override;
+  void stop(Cycle now) override;
+  bool begin_window(Cycle now) override;
+  void end_window(Cycle now) override;
+  void remote_changed(Cycle now) override;
+
+  std::uint16_t read(unsigned address, unsigned bits, Cycle now) override;
+  void write(unsigned address, std::uint16_t value, unsigned bits, Cycle now) override;
+  std::uint16_t table_read(unsigned program_address, Cycle now) override;
+  void table_write(unsigned program_address, std::uint16_t value, Cycle now) override;
+  void watch_reads(Cycle now) override { watched_reads_ = kWatchedReads; }
+  bool print(const char* bytes, std::int64_t length) override;
+
+  int select(Cycle now) override;
+  const char* why_reset() const override { return why_reset_; }
+  Cycle quiet_until(Cycle now) override;
+  Entry enter(int vector, Cycle now) override;
+  Cycle leave(Cycle now) override;
+  int cpu_level() const override { return chip_->cpu_level(); }
+  void set_cpu_level(int level, Cycle now) override { chip_->set_cpu_level(level, at(now)); }
+  Waiting longest_waiting(Cycle now) override;
+
+  void disi(Cycle cycles, Cycle now) override { chip_->disi(static_cast<unsigned>(cycles), at(now)); }
+  void clear_watchdog(Cycle now) override { chip_->clear_watchdog(at(now)); }
+  void power_save(bool sleep, Cycle now) override { chip_->power_save(sleep, at(now)); }
+  bool wakes(Cycle now) override;
+
+  std::uint64_t state_hash(Cycle now) override { return chip_->state_hash(at(now)); }
+  dspic::Dspic30f6014a* chip() override { return chip_.get(); }
+  const std::vector<std::string>& notices() const override { return notices_; }
+  void report(const dspic::Diagnosis& diagnosis) override;
+
+ private:
+  /// Rounds of a waiting loop with more reads than this are not jumped over.
+  static constexpr int kWatchedReads = 64;
+
+  /// The chip's clock never goes back, whatever the caller's instant.
+  Cycle at(Cycle now) {
+    if (now > latest_) latest_ = now;
+    return latest_;
+  }
+
+  host::Robot& robot_;
+  chip::BoardOutside outside_;
+  std::unique_ptr<dspic::Dspic30f6014a> chip_;
+  dspic::ResetKind next_reset_ = dspic::ResetKind::PowerOn;
+  const char* why_reset_ = "";
+  Cycle latest_ = 0;
+  int watched_reads_ = 0;
+  std::vector<std::string> notices_;
+};
+
+}  // namespace register_way

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+// What holds in the native way holds here: traps stop one robot, runs repeat, robots of one image are apart,
+// and both ways live in one world.
+#include "tests/register/register_fixture.h"
+
+namespace register_test {
+namespace {
+
+// selector position as step; waits without reading registers
+const std::string kStepper = program(R"(
+static int getstep(void) { return PORTG >> 6 & 15; }
+unsigned int count;
+void _ISR _T1Interrupt(void) { _T1IF = 0; LED0 = !LED0; count += getstep(); }
+int main(void)
+{
+  LED0_dir = 0;
+  PR1 = 575;
+  T1CON = 0x8030;
+  _T1IE = 1;
+  while (1);
+}
+)");
+
+TEST_F(RegisterTest, robots_of_one_image_have_chips_of_their_own) {
+  Robot& one = add_robot_with_source(kStepper).selector(1);
+  Robot& three = add_robot_with_source(kStepper).at(0.5, 0).selector(3);
+  run_for(0.505);
+  EXPECT_EQ(one.variable<std::uint16_t>("count"), 50);
+  EXPECT_EQ(three.variable<std::uint16_t>("count"), 150);
+  three.turn_selector(0);
+  run_for(0.1);
+  EXPECT_EQ(one.variable<std::uint16_t>("count"), 60);
+  EXPECT_EQ(three.variable<std::uint16_t>("count"), 150);
+  expect_no_traps();
+}
+
+TEST_F(RegisterTest, a_native_and_a_register_robot_in_one_world) {
+  options.way = "";
+  Robot& reg = add_robot_with_source(kStepper).selector(2);
+  reg.settings().way = "register";
+  Robot& native = add_robot("blink").at(0.5, 0);
+  run_for(0.505);
+  EXPECT_EQ(reg.variable<std::uint16_t>("count"), 100);
+  EXPECT_STREQ(processor(0).way(), "register");
+  EXPECT_STREQ(processor(1).way(), "native");
+  EXPECT_GT(native.cycles(), 0);
+  expect_no_traps();
+}
+
+TEST_F(RegisterTest, runs_repeat_whatever_the_number_of_threads) {
+  std::uint64_t digests[2];
+  for (int run = 0; run < 2; ++run) {
+    struct Run : RegisterTest {
+      void TestBody() override {}
+      std::uint64_t digest_with(int threads) {
+        options.threads = threads;
+        for (int i = 0; i < 4; ++i) add_robot_with_source(kStepper).at(0.3 * i, 0).selector(i + 1);
+        run_for(0.3);
+        return digest();
+      }
+    } other;
+    digests[run] = other.digest_with(run == 0 ? 1 : 3);
+  }
+  EXPECT_EQ(digests[0], digests[1]);
+}
+
+TEST_F(RegisterTest, traps_stop_their_robot_alone) {
+  Robot& bad = add_robot_with_source(program(R"(
+volatile int zero;
+int result;
+int main(void) { LED1_dir = 0; LED1 = 1; result = 5 / zero; while (1); }
+)"));
+  Robot& deep = add_robot_with_source(program(R"(
+int depth(int n) { volatile char room[200]; room[0] = n; return depth(n + 1) + room[0]; }
+int main(void) { return depth(0); }
+)"))
+                    .at(0.3, 0);
+  Robot& good = add_robot_with_source(kStepper).at(0.6, 0).selector(1);
+  run_for(0.505);
+  ASSERT_EQ(bad.traps().size(), 1u);
+  EXPECT_NE(bad.traps()[0].message.find("division by zero"), std::string::npos);
+  EXPECT_FALSE(bad.led(1));  // its pins are released
+  ASSERT_EQ(deep.traps().size(), 1u);
+  EXPECT_NE(deep.traps()[0].message.find("stack overflow"), std::string::npos);
+  EXPECT_EQ(good.variable<std::uint16_t>("count"), 50);
+}
+
+TEST_F(RegisterTest, an_endless_loop_with_interrupts_off_is_found) {
+  Robot& robot = add_robot_with_source(program(R"(
+void _ISR _T1Interrupt(void) { _T1IF = 0; }
+int main(void)
+{
+  PR1 = 575; T1CON = 0x8030; _T1IE = 1;
+  SET_CPU_IPL(7);
+  while (1);
+}
+)"));
+  run_for(1.5);
+  ASSERT_EQ(robot.traps().size(), 1u);
+  EXPECT_NE(robot.traps()[0].message.find("T1"), std::string::npos) << robot.traps()[0].message;
+}
+
+TEST_F(RegisterTest, an_enabled_interrupt_without_handler_is_named) {
+  Robot& robot = add_robot_with_source(program(R"(
+int main(void) { PR3 = 1000; T3CON = 0x8000; _T3IE = 1; while (1); }
+)"));
+  run_for(0.1);
+  ASSERT_EQ(robot.traps().size(), 1u);
+  EXPECT_NE(robot.traps()[0].message.find("_T3Interrupt"), std::string::npos) << robot.traps()[0].message;
+}
+
+TEST_F(RegisterTest, a_flag_that_is_never_cleared_is_named) {
+  add_robot_with_source(program(R"(
+void _ISR _T1Interrupt(void) { LATA ^= 0x40; }
+int main(void) { PR1 = 10000; T1CON = 0x8000; _T1IE = 1; while (1); }
+)"));
+  run_for(0.05);
+  ASSERT_FALSE(processor().notices().empty());
+  EXPECT_NE(processor().notices()[0].find("T1IF"), std::string::npos) << processor().notices()[0];
+}
+
+TEST_F(RegisterTest, the_watchdog_resets_a_program_that_forgets_it) {
+  Robot& robot = add_robot_with_source(program(R"(
+int main(void)
+{
+  if (RCONbits.WDTO) { LED2_dir = 0; LED2 = 1; while (1); }
+  RCONbits.SWDTEN = 1;
+  while (1);
+}
+)"));
+  run_for(0.5);
+  EXPECT_FALSE(robot.led(2));
+  // 512 x 16 x 2 ms = 16 s
+  run_for(17);
+  EXPECT_TRUE(robot.led(2));
+}
+
+TEST_F(RegisterTest, the_native_way_names_the_register_way) {
+  options.way = "native";
+  Robot& robot = add_robot_with_source(program("int main(void) { ADCON1 = 0x8000; while (1); }\n"));
+  run_for(0.05);
+  ASSERT_EQ(robot.traps().size(), 1u);
+  EXPECT_NE(robot.traps()[0].message.find("ADCON1"), std::string::npos);
+  EXPECT_NE(robot.traps()[0].message.find("--way register"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace register_test
