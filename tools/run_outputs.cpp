@@ -73,7 +73,11 @@ void add_output_options(CLI::App& verb, OutputArguments& a) {
 }
 
 RunOutputs::RunOutputs(const OutputArguments& arguments, twin::Twin& twin, const supervisor::Team* team)
-    : arguments_(arguments), twin_(twin), team_(team), pictures_(arguments.pictures, twin), traces_(arguments.traces, twin) {}
+    : arguments_(arguments),
+      twin_(twin),
+      team_(team),
+      pictures_(arguments.pictures, twin),
+      traces_(arguments.traces, twin) {}
 RunOutputs::~RunOutputs() = default;
 
 bool RunOutputs::open(std::vector<std::string>& problems) {

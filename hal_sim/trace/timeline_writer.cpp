@@ -102,8 +102,8 @@ void TimelineWriter::span(int robot, const Span& span, const board::RobotClock& 
   }
   const std::int64_t begin = ns(span.begin);
   add(fmt::format(R"({{"name":{},"ph":"X","pid":{},"tid":{},"ts":{},"dur":{},"args":{{"cycles":{}{}}}}})",
-                  json_text(name), robot, static_cast<int>(track), micros(begin), micros(ns(span.end) - begin),
-                  span.end - span.begin, args));
+                  json_text(name), robot, static_cast<int>(track), micros(begin),
+                  micros(ns(span.end) - begin), span.end - span.begin, args));
 }
 
 void TimelineWriter::counter(int robot, sim::Clicks at, const char* name, const char* unit, double value) {
