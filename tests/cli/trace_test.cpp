@@ -111,7 +111,7 @@ class Traces : public CommandTest {
  protected:
   Traces() {
     write("world.toml",
-          "twinpuck = 1\n[[robot]]\nname = \"puck\"\n[[robot]]\nname = \"two\"\nat = [0.5, 0.5]\n");
+          "twinpuck = 1\n[[robot]]\nname = \"puck\"\n[[robot]]\nname = \"two\"\nposition = [0.5, 0.5]\n");
     write("busy/main.c",
           "#include <p30F6014A.h>\n"
           "#include <motor_led/e_init_port.h>\n"
