@@ -194,12 +194,16 @@ TEST_F(Traces, coils_variables_interrupts_and_bytes_have_their_times) {
   }
   EXPECT_EQ(intervals, 100);
   EXPECT_GE(exact, 90);  // 0.2 s: four beats, at most two intervals each
-  // about 0.5 s of 499.85 and of -249.9 steps/s, which is 32 bits of two's complement
-  const auto steps = std::stoul(dump.signals.at("puck/motors/right_steps").back().second, nullptr, 2);
-  EXPECT_NEAR(static_cast<double>(steps), 249, 3);
-  const auto left = dump.signals.at("puck/motors/left_steps").back().second;
-  ASSERT_EQ(left.size(), 32u);
-  EXPECT_NEAR(static_cast<double>(static_cast<std::int32_t>(std::stoul(left, nullptr, 2))), -124, 3);
+  // a step each 20 ticks forward, each 40 ticks backward (32 bits of two's complement), from the first one on
+  const auto steps_since = [&](const Dump::Changes& steps, int ticks) {
+    return 1 + static_cast<double>(dump.last_ns - steps[1].first) / (ticks * 1475 * kCycleNs);
+  };
+  const auto& right = dump.signals.at("puck/motors/right_steps");
+  EXPECT_NEAR(static_cast<double>(std::stoul(right.back().second, nullptr, 2)), steps_since(right, 20), 1.01);
+  const auto& left = dump.signals.at("puck/motors/left_steps");
+  ASSERT_EQ(left.back().second.size(), 32u);
+  EXPECT_NEAR(static_cast<double>(static_cast<std::int32_t>(std::stoul(left.back().second, nullptr, 2))),
+              -steps_since(left, 40), 1.01);
 
   // the agenda of 500 ticks: 50.015 ms; 9 of them
   const auto& count = dump.signals.at("puck/variables/count");
