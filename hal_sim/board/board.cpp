@@ -156,14 +156,10 @@ void Board::port_write(char port, Register reg, std::uint16_t value, Cycle at) {
     return;
   }
   if (index == kD) {
+    if (tris_[kD] & 0xFF) note_vain_writes(kD, value ^ port_read('D', Register::Lat, at), at);
     for (Wheel wheel : {Wheel::Left, Wheel::Right}) {
       const unsigned coils = (value >> (wheel == Wheel::Left ? 0 : 4)) & 15u;
-      if (coils != this->coils(wheel, at)) {
-        if (tris_[kD] & 0xFF)
-          note_vain_writes(kD, static_cast<std::uint16_t>((value ^ port_read('D', Register::Lat, at)) & 0xFF),
-                           at);
-        stepper(wheel, at).energise(coils, at);
-      }
+      if (coils != this->coils(wheel, at)) stepper(wheel, at).energise(coils, at);
     }
     lat_[i] = value & 0xFF00;
     follow_power(at);

@@ -19,10 +19,10 @@ constexpr struct {
   int bit;
   const char* pin;
   const char* name;
-} kLines[4] = {{4, 7, "LATF.7", "pulse_IR0"},
-               {4, 8, "LATF.8", "pulse_IR1"},
-               {5, 0, "LATG.0", "pulse_IR2"},
-               {5, 1, "LATG.1", "pulse_IR3"}};  // [lib: motor_led/e_epuck_ports.h]
+} kLines[4] = {{4, 7, "LATF7", "pulse_IR0"},
+               {4, 8, "LATF8", "pulse_IR1"},
+               {5, 0, "LATG0", "pulse_IR2"},
+               {5, 1, "LATG1", "pulse_IR3"}};  // [lib: motor_led/e_epuck_ports.h]
 // pins that lead to something on the board that a program drives [lib: motor_led/e_epuck_ports.h]
 constexpr std::uint16_t kDriven[6] = {0xF6C0, 0, 0x2006, 0x00FF, 0x0181, 0x0003};
 
@@ -74,7 +74,7 @@ std::vector<Diagnosis> Board::diagnoses(Cycle at) const {
   std::vector<Diagnosis> all;
   for (const Wheel wheel : {Wheel::Left, Wheel::Right}) {
     const StepperFaults faults = stepper_at(wheel, at).faults(at);
-    const std::string pins = wheel == Wheel::Left ? "LATD.0-3" : "LATD.4-7";
+    const std::string pins = wheel == Wheel::Left ? "LATD0-3" : "LATD4-7";
     const char* motor = wheel == Wheel::Left ? "left motor" : "right motor";
     add(all, faults.jumps, "lost steps", pins,
         text("the %s's coil pattern jumps by two phases: the rotor does not follow and the step is lost",
@@ -110,8 +110,8 @@ std::vector<Diagnosis> Board::diagnoses(Cycle at) const {
     for (std::size_t n = 0; n < 16; ++n) {
       const std::int64_t count = vain_writes_[port].count[n];
       if (count < kVainWrites) continue;
-      all.push_back({"input driven", text("TRIS%c.%zu", kLetters[port], n),
-                     text("LAT%c.%zu is written again and again, but TRIS%c.%zu = 1 makes the pin an input: "
+      all.push_back({"input driven", text("TRIS%c%zu", kLetters[port], n),
+                     text("LAT%c%zu is written again and again, but TRIS%c%zu = 1 makes the pin an input: "
                           "nothing reaches it",
                           kLetters[port], n, kLetters[port], n),
                      "clear the TRIS bit, or call e_init_port() first", vain_writes_[port].first[n], 0,

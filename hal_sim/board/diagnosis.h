@@ -11,7 +11,7 @@ namespace board {
 
 struct Diagnosis {
   std::string cause;       ///< "lost steps", "UART overrun", ...: the first column of docs/diagnoses.md
-  std::string place;       ///< pins, register, bit or vector: "LATD.0-3", "U1STA.OERR", "T2"
+  std::string place;       ///< pins, register, bit or vector: "LATD0-3", "U1STA.OERR", "T2"
   std::string message;     ///< one sentence without a full stop
   std::string hint;        ///< what to do; empty when the sentence says it
   host::Cycle first = 0;   ///< cycle of the robot's clock at which it happened first
