@@ -83,8 +83,7 @@ static void set_directions(void) {
 static unsigned char sensor_answers(void) {
   char identity = 0;
   char fine;
-  e_i2c_init();
-  e_i2c_enable();
+  e_i2c_reset();
   fine = e_i2c_start();
   fine &= e_i2c_write(ACC_ADDRESS);
   fine &= e_i2c_write(WHO_AM_I);

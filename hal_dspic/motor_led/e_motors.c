@@ -20,7 +20,7 @@ struct wheel {
   unsigned char phase;
 };
 
-static struct wheel left, right;
+static struct wheel left_wheel, right_wheel;
 
 void e_init_motors(void) { e_init_port(); }
 
@@ -33,18 +33,18 @@ static void step(struct wheel *w, int which, int count, int turn) {
 
 void __attribute__((__interrupt__, __auto_psv__)) _T5Interrupt(void) {
   IFS1bits.T5IF = 0;
-  if (left.speed > 0)
-    step(&left, LEFT, 1, -1);
+  if (left_wheel.speed > 0)
+    step(&left_wheel, LEFT, 1, -1);
   else
-    step(&left, LEFT, -1, 1);
+    step(&left_wheel, LEFT, -1, 1);
 }
 
 void __attribute__((__interrupt__, __auto_psv__)) _T4Interrupt(void) {
   IFS1bits.T4IF = 0;
-  if (right.speed < 0)
-    step(&right, RIGHT, -1, -1);
+  if (right_wheel.speed < 0)
+    step(&right_wheel, RIGHT, -1, -1);
   else
-    step(&right, RIGHT, 1, 1);
+    step(&right_wheel, RIGHT, 1, 1);
 }
 
 /* the period register; the magnitude of -32768 does not fit */
@@ -60,7 +60,7 @@ void e_set_speed_left(int motor_speed) {
     return;
   }
   T5CONbits.TON = 0;
-  left.speed = motor_speed;
+  left_wheel.speed = motor_speed;
   T5CON = 0;
   T5CONbits.TCKPS = PRESCALE_256;
   TMR5 = 0;
@@ -77,7 +77,7 @@ void e_set_speed_right(int motor_speed) {
     return;
   }
   T4CONbits.TON = 0;
-  right.speed = motor_speed;
+  right_wheel.speed = motor_speed;
   T4CON = 0;
   T4CONbits.TCKPS = PRESCALE_256;
   TMR4 = 0;
@@ -88,10 +88,10 @@ void e_set_speed_right(int motor_speed) {
 }
 
 /* a word is read and written by one instruction */
-int e_get_steps_left(void) { return left.steps; }
+int e_get_steps_left(void) { return left_wheel.steps; }
 
-int e_get_steps_right(void) { return right.steps; }
+int e_get_steps_right(void) { return right_wheel.steps; }
 
-void e_set_steps_left(int set_steps) { left.steps = set_steps; }
+void e_set_steps_left(int set_steps) { left_wheel.steps = set_steps; }
 
-void e_set_steps_right(int set_steps) { right.steps = set_steps; }
+void e_set_steps_right(int set_steps) { right_wheel.steps = set_steps; }

@@ -24,7 +24,7 @@ struct wheel {
   unsigned char phase;
 };
 
-static struct wheel left, right;
+static struct wheel left_wheel, right_wheel;
 
 static int magnitude(int value) { return value < 0 ? -value : value; }
 
@@ -43,14 +43,14 @@ static void tick(struct wheel *w, int which, int count, int turn) {
 
 void __attribute__((__interrupt__, __auto_psv__)) _T3Interrupt(void) {
   IFS0bits.T3IF = 0;
-  if (left.speed > 0)
-    tick(&left, LEFT, 1, -1);
+  if (left_wheel.speed > 0)
+    tick(&left_wheel, LEFT, 1, -1);
   else
-    tick(&left, LEFT, -1, 1);
-  if (right.speed < 0)
-    tick(&right, RIGHT, -1, -1);
+    tick(&left_wheel, LEFT, -1, 1);
+  if (right_wheel.speed < 0)
+    tick(&right_wheel, RIGHT, -1, -1);
   else
-    tick(&right, RIGHT, 1, 1);
+    tick(&right_wheel, RIGHT, 1, 1);
 }
 
 void e_init_motors(void) {
@@ -59,7 +59,7 @@ void e_init_motors(void) {
   T3CONbits.TCKPS = PRESCALE_256;
   TMR3 = 0;
   PR3 = TICK_COUNTS;
-  left.speed = right.speed = 0;
+  left_wheel.speed = right_wheel.speed = 0;
   IFS0bits.T3IF = 0;
   IEC0bits.T3IE = 1;
   T3CONbits.TON = 1;
@@ -73,14 +73,14 @@ static void set_speed(struct wheel *w, int speed) {
   w->speed = speed;
 }
 
-void e_set_speed_left(int motor_speed) { set_speed(&left, motor_speed); }
+void e_set_speed_left(int motor_speed) { set_speed(&left_wheel, motor_speed); }
 
-void e_set_speed_right(int motor_speed) { set_speed(&right, motor_speed); }
+void e_set_speed_right(int motor_speed) { set_speed(&right_wheel, motor_speed); }
 
-int e_get_steps_left(void) { return left.steps; }
+int e_get_steps_left(void) { return left_wheel.steps; }
 
-int e_get_steps_right(void) { return right.steps; }
+int e_get_steps_right(void) { return right_wheel.steps; }
 
-void e_set_steps_left(int set_steps) { left.steps = set_steps; }
+void e_set_steps_left(int set_steps) { left_wheel.steps = set_steps; }
 
-void e_set_steps_right(int set_steps) { right.steps = set_steps; }
+void e_set_steps_right(int set_steps) { right_wheel.steps = set_steps; }

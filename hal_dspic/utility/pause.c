@@ -11,5 +11,6 @@ void hal_pause(unsigned int rounds) {
     NOP();
     NOP();
     NOP();
+    NOP();
   }
 }

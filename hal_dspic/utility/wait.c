@@ -10,5 +10,7 @@ void wait(long num) {
   for (i = 0; i < num; i++) {
     NOP();
     NOP();
+    NOP();
+    NOP();
   }
 }

@@ -189,6 +189,4 @@ dspic::I2cReply BoardOutside::i2c_read(Cycle at) { return {true, board_.i2c().re
 
 void BoardOutside::i2c_stop(Cycle at) { board_.i2c().stop(at); }
 
-std::uint16_t BoardOutside::dci_word(int slot, std::uint16_t transmitted, int bits, Cycle end) { return 0; }
-
 }  // namespace chip

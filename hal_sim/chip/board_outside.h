@@ -5,11 +5,10 @@
 //   pins_driven -> Board::port_write: coils, LEDs, IR emitters, codec and camera reset
 //   pin_levels  <- selector, battery detector, remote receiver, idle serial lines, camera clocks and data
 //   analogue    <- IR phototransistors, microphones, accelerometer or battery, what parts put there
-//   UART words <-> Uart ends; I2C <-> the board's bus; DCI words -> Codec
+//   UART words <-> Uart ends; I2C <-> the board's bus
 //
-// Not modelled: serial lines level by level; levels of port B's pins (they are analogue inputs); wires
-// between UART format and the far end: it follows the robot's rate, 8 bits, no parity; recording by the
-// codec.
+// Not modelled: what the DCI module sends to the codec; serial lines level by level; levels of port B's pins
+// (they are analogue inputs); a far end with a rate of its own: it follows the robot's, 8 bits, no parity.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -49,7 +48,6 @@ class BoardOutside final : public dspic::Outside {
   dspic::I2cReply i2c_write(std::uint8_t byte, Cycle at) override;
   dspic::I2cReply i2c_read(Cycle at) override;
   void i2c_stop(Cycle at) override;
-  std::uint16_t dci_word(int slot, std::uint16_t transmitted, int bits, Cycle end) override;
 
  private:
   /// When the IR emitters of one line went on and off: results of the converter are asked for later.

@@ -34,7 +34,7 @@ struct Options {
   int threads = 1;  ///< 1 or more; results do not depend on it
   std::string
       world_folder;  ///< where relative firmware paths of the world file start; empty: the current folder
-  std::string way;  ///< of controllers built from source, all robots: native or register; empty: the world's
+  std::string way;   ///< of controllers built from source, all robots: native or register; empty: the world's
   std::string optimisation = "-O1";  ///< of controllers that are built from source: -O0 -O1 -O2 -Os
   bool sanitize = false;             ///< ... with address and 16-bit overflow checks
   bool coverage = false;             ///< ... with line counters

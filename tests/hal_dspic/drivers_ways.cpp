@@ -81,14 +81,14 @@ TEST_P(Ways, agenda_motors_step_at_the_librarys_rates) {
 #include <motor_led/e_init_port.h>
 #include <motor_led/advance_one_timer/e_agenda.h>
 #include <motor_led/advance_one_timer/e_motors.h>
-int left, right;
+int left_steps, right_steps;
 int main(void) {
   e_init_port();
   e_start_agendas_processing();
   e_init_motors();
   e_set_speed_left(300);
   e_set_speed_right(-1000);
-  while (1) { left = e_get_steps_left(); right = e_get_steps_right(); }
+  while (1) { left_steps = e_get_steps_left(); right_steps = e_get_steps_right(); }
 }
 )");
   run_for(0.5);
@@ -96,8 +96,8 @@ int main(void) {
   run_for(2.0);
   EXPECT_NEAR(double(robot.left_steps() - l), 605.9, 2);
   EXPECT_NEAR(double(robot.right_steps() - r), -1999.3, 2);
-  EXPECT_NEAR(robot.variable("left"), double(robot.left_steps()), 2);
-  EXPECT_NEAR(robot.variable("right"), double(robot.right_steps()), 2);
+  EXPECT_NEAR(robot.variable("left_steps"), double(robot.left_steps()), 2);
+  EXPECT_NEAR(robot.variable("right_steps"), double(robot.right_steps()), 2);
   expect_no_traps();
 }
 
@@ -178,7 +178,7 @@ int main(void) {
 
 // 65 frames of 900 cycles: an accelerometer sample every 3.967 ms, 49 of them before e_init_ad_scan returns
 TEST_P(Ways, scan_fills_its_arrays_at_the_librarys_rate) {
-  arena(1, 1);
+  wall(0.05, -0.2, 0.05, 0.2);  // a centimetre before it
   Robot& robot = add_robot_with_source(R"(
 #include <motor_led/e_init_port.h>
 #include <a_d/advance_ad_scan/e_ad_conv.h>
@@ -203,8 +203,7 @@ int main(void) {
     elapsed = getDiffTimeMs();
   }
 }
-)")
-                     .at(0.5, 0.045, -90);  // 45 mm from the wall, which it faces
+)");
   for (int i = 0; i < 100 && !robot.variable("started"); ++i) run_for(0.01);
   run_for(1.0);
   // 1 s is 16384 frames of 0.061 ms by the library's reckoning, less the frames in which the list changes
@@ -221,7 +220,7 @@ int main(void) {
 }
 
 TEST_P(Ways, basic_proximity_sees_the_wall) {
-  arena(1, 1);
+  wall(0.05, -0.2, 0.05, 0.2);
   Robot& robot = add_robot_with_source(R"(
 #include <motor_led/e_init_port.h>
 #include <a_d/e_prox.h>
@@ -232,8 +231,7 @@ int main(void) {
   e_init_prox();
   while (1) for (i = 0; i < 8; i++) prox[i] = e_get_prox(i);
 }
-)")
-                     .at(0.5, 0.045, -90);
+)");
   run_for(0.5);
   const auto prox = robot.variables("prox", 8);
   EXPECT_GT(prox[0], 300);
@@ -246,7 +244,8 @@ int main(void) {
 // ------------------------------------------------------------------------------
 
 TEST_P(Ways, camera_takes_a_picture) {
-  arena(1, 1);
+  wall(0.2, -0.3, 0.2, 0, {0, 0, 0});
+  wall(0.2, 0, 0.2, 0.3, {1, 1, 1});
   Robot& robot = add_robot_with_source(R"(
 #include <motor_led/e_init_port.h>
 #include <camera/fast_2_timer/e_poxxxx.h>
@@ -263,17 +262,50 @@ int main(void) {
     pictures++;
   }
 }
-)")
-                     .at(0.5, 0.2, -90);
+)");
   run_for(2.0);
   EXPECT_EQ(robot.variable("id"), 0x3030);
   EXPECT_EQ(robot.variable("answer"), 0);
   EXPECT_GE(robot.variable("pictures"), 4);
   const auto picture = robot.variables<std::uint8_t>("picture", 800);
-  // floor below, wall above: not all of one grey
+  // a black wall on one side, a white one on the other
   int lowest = 255, highest = 0;
   for (const int p : picture) lowest = std::min(lowest, p), highest = std::max(highest, p);
-  EXPECT_GT(highest - lowest, 20);
+  EXPECT_GT(highest - lowest, 60);
+  expect_no_traps();
+}
+
+// Two bytes a pixel: a line that is read a byte too early or late has its colours' halves exchanged. A red
+// wall is RRRRRGGG GGGBBBBB with more red than anything else, in every pixel.
+TEST_P(Ways, camera_takes_colours_in_step_with_the_bytes) {
+  wall(0.15, -0.4, 0.15, 0.4, {0.9, 0.05, 0.05});
+  Robot& robot = add_robot_with_source(R"(
+#include <motor_led/e_init_port.h>
+#include <camera/fast_2_timer/e_poxxxx.h>
+char picture[800];
+int pictures;
+int main(void) {
+  e_init_port();
+  e_poxxxx_init_cam();
+  e_poxxxx_config_cam(160, 240, 320, 80, 16, 4, RGB_565_MODE);
+  e_poxxxx_write_cam_registers();
+  while (1) {
+    e_poxxxx_launch_capture(picture);
+    while (!e_poxxxx_is_img_ready());
+    pictures++;
+  }
+}
+)");
+  run_for(2.0);
+  ASSERT_GE(robot.variable("pictures"), 2);
+  const auto picture = robot.variables<std::uint8_t>("picture", 800);
+  int red_ones = 0;
+  for (int i = 0; i < 400; ++i) {
+    const int red = picture[2 * i] >> 3, green = (picture[2 * i] & 7) << 2 | picture[2 * i + 1] >> 6;
+    const int blue = picture[2 * i + 1] & 31;
+    if (red > green + 3 && red > blue + 3) ++red_ones;
+  }
+  EXPECT_GT(red_ones, 300);
   expect_no_traps();
 }
 

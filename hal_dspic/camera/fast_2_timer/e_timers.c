@@ -46,9 +46,11 @@ long long tp_now(void);
 void tp_wait_until(long long cycle);
 void tp_image_copy_line(void);
 
+#define TWIN_ENTRY_CYCLES 5 /* that the C handler has taken by then and the assembler has not */
+
 /* names with tp_image_ are not charged: the time that this takes is the waits' */
 void tp_image_copy_line(void) {
-  long long at = tp_now() + LINE_FIRST_SAMPLE;
+  long long at = tp_now() + LINE_FIRST_SAMPLE - TWIN_ENTRY_CYCLES;
   const char *mask = _poxxxx_line_conf;
   char *to = _poxxxx_buffer;
   for (; *mask != END_OF_LINE; mask++, at += LINE_BYTE_CYCLES) {

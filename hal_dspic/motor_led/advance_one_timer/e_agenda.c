@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * Agendas, usual variant: Timer 2 every 1475 cycles (100.03 us), priority 4, newest agenda first.
  *
- * The main program edits the list while the interrupt walks it, so edits run at priority 4. Callbacks edit it too,
- * from inside the walk: the walk keeps what it needs (`running`, `following`) where the edits can correct it. In the
+ * The main program edits the list while the interrupt walks it, so edits hold it off. Callbacks edit it too,
+ * from inside the walk: the walk keeps what it needs (`hal_running_agenda`, `following`) where the edits can correct it. In the
  * original an agenda that destroys itself is written to after it was freed; here it is not.
  * Source: [lib: motor_led/advance_one_timer/e_agenda.c], facts restated.
  */
@@ -14,18 +14,29 @@
 
 #define EXIT_OK 1
 #define TICK_COUNTS 1474 /* 0.1 ms are 1474.56 cycles, truncated; the period is one more */
-#define TIMER_PRIORITY 4
 
-/* list edits wait for no tick, and no tick comes into them; a caller of higher priority keeps it */
-#define HOLD_TICKS(saved)                                        \
-  do {                                                           \
-    saved = SRbits.IPL;                                          \
-    if (saved < TIMER_PRIORITY) SRbits.IPL = TIMER_PRIORITY;     \
-  } while (0)
-#define RELEASE_TICKS(saved) SRbits.IPL = (unsigned int)(saved)
+/* While the list and the heap change, neither the tick nor the remote control's edge may come; they wait. Everything else
+ * goes on: malloc() takes long, and the converter's interrupt must not wait for it. */
+struct held {
+  unsigned char tick, edge;
+};
+
+static struct held hold(void) {
+  struct held before;
+  before.tick = IEC0bits.T2IE;
+  before.edge = IEC0bits.INT0IE;
+  IEC0bits.T2IE = 0;
+  IEC0bits.INT0IE = 0;
+  return before;
+}
+
+static void release(struct held before) {
+  if (before.tick) IEC0bits.T2IE = 1;
+  if (before.edge) IEC0bits.INT0IE = 1;
+}
 
 static Agenda *volatile agendas;
-static Agenda *volatile running;   /* whose callback runs; null when that agenda has been destroyed */
+Agenda *volatile hal_running_agenda; /* whose callback runs; null when that agenda has been destroyed */
 static Agenda *volatile following; /* next one of the walk */
 
 void __attribute__((__interrupt__, __auto_psv__)) _T2Interrupt(void) {
@@ -36,10 +47,10 @@ void __attribute__((__interrupt__, __auto_psv__)) _T2Interrupt(void) {
     if (agenda->activate != 1 || agenda->cycle == 0) continue;
     agenda->counter++;
     if ((unsigned int)agenda->counter < agenda->cycle) continue;
-    running = agenda;
+    hal_running_agenda = agenda;
     agenda->function();
-    if (running) running->counter = 0;
-    running = 0;
+    if (hal_running_agenda) hal_running_agenda->counter = 0;
+    hal_running_agenda = 0;
   }
 }
 
@@ -72,20 +83,21 @@ static Agenda *new_agenda(void (*func)(void), int cycle) {
 
 int e_activate_agenda(void (*func)(void), int cycle) {
   Agenda *agenda;
-  int saved;
+  struct held before;
   if (find(func)) return AG_ALREADY_CREATED;
-  HOLD_TICKS(saved);
+  before = hold();
   agenda = new_agenda(func, cycle);
   agenda->next = agendas;
   agendas = agenda;
-  RELEASE_TICKS(saved);
+  release(before);
   return EXIT_OK;
 }
 
 int e_destroy_agenda(void (*func)(void)) {
   Agenda *doomed, *before;
-  int saved, result = AG_NOT_FOUND;
-  HOLD_TICKS(saved);
+  struct held enabled;
+  int result = AG_NOT_FOUND;
+  enabled = hold();
   doomed = find(func);
   if (doomed) {
     if (agendas == doomed) {
@@ -94,12 +106,12 @@ int e_destroy_agenda(void (*func)(void)) {
       for (before = agendas; before->next != doomed; before = before->next) continue;
       before->next = doomed->next;
     }
-    if (running == doomed) running = 0;
+    if (hal_running_agenda == doomed) hal_running_agenda = 0;
     if (following == doomed) following = doomed->next;
     free(doomed);
     result = EXIT_OK;
   }
-  RELEASE_TICKS(saved);
+  release(enabled);
   return result;
 }
 

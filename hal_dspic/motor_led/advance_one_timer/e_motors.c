@@ -25,11 +25,23 @@ struct wheel {
   char phase_on; /* power save: the next call switches the coils off */
 };
 
-static struct wheel left, right;
+static struct wheel left_wheel, right_wheel;
 
 /* the agendas' functions; visible, since programs pause or re-time them */
 void run_left_motor(void);
 void run_right_motor(void);
+
+/* the agenda whose callback runs (e_agenda.c) */
+extern Agenda *volatile hal_running_agenda;
+
+/* the next half's cycle; without a search when the motor's own agenda is the one that runs */
+static void set_half(void (*self)(void), int cycle) {
+  Agenda *agenda = hal_running_agenda;
+  if (agenda && agenda->function == self)
+    agenda->cycle = (unsigned int)cycle;
+  else
+    e_set_agenda_cycle(self, cycle);
+}
 
 static int magnitude(int value) { return value < 0 ? -value : value; }
 
@@ -38,7 +50,7 @@ static void fire(struct wheel *w, int which, int count, int turn, void (*self)(v
   if (w->phase_on && speed < POWER_SAVE_BELOW) {
     hal_coils(which, 0);
     w->phase_on = 0;
-    e_set_agenda_cycle(self, SPEED_UNIT / speed - SPEED_UNIT / POWER_SAVE_SPEED);
+    set_half(self, SPEED_UNIT / speed - SPEED_UNIT / POWER_SAVE_SPEED);
     return;
   }
   w->steps += count;
@@ -46,21 +58,21 @@ static void fire(struct wheel *w, int which, int count, int turn, void (*self)(v
   hal_coils(which, hal_phase_coils[w->phase]);
   if (speed >= POWER_SAVE_BELOW) return;
   w->phase_on = 1;
-  e_set_agenda_cycle(self, SPEED_UNIT / POWER_SAVE_SPEED);
+  set_half(self, SPEED_UNIT / POWER_SAVE_SPEED);
 }
 
 void run_left_motor(void) {
-  if (left.speed > 0)
-    fire(&left, LEFT, 1, -1, run_left_motor);
+  if (left_wheel.speed > 0)
+    fire(&left_wheel, LEFT, 1, -1, run_left_motor);
   else
-    fire(&left, LEFT, -1, 1, run_left_motor);
+    fire(&left_wheel, LEFT, -1, 1, run_left_motor);
 }
 
 void run_right_motor(void) {
-  if (right.speed < 0)
-    fire(&right, RIGHT, -1, -1, run_right_motor);
+  if (right_wheel.speed < 0)
+    fire(&right_wheel, RIGHT, -1, -1, run_right_motor);
   else
-    fire(&right, RIGHT, 1, 1, run_right_motor);
+    fire(&right_wheel, RIGHT, 1, 1, run_right_motor);
 }
 
 void e_init_motors(void) {
@@ -81,9 +93,9 @@ static void set_speed(struct wheel *w, int which, int speed, void (*run)(void)) 
   }
 }
 
-void e_set_speed_left(int motor_speed) { set_speed(&left, LEFT, motor_speed, run_left_motor); }
+void e_set_speed_left(int motor_speed) { set_speed(&left_wheel, LEFT, motor_speed, run_left_motor); }
 
-void e_set_speed_right(int motor_speed) { set_speed(&right, RIGHT, motor_speed, run_right_motor); }
+void e_set_speed_right(int motor_speed) { set_speed(&right_wheel, RIGHT, motor_speed, run_right_motor); }
 
 void e_set_speed(int linear_speed, int angular_speed) {
   /* magnitudes and sums wrap at 16 bits */
@@ -94,10 +106,10 @@ void e_set_speed(int linear_speed, int angular_speed) {
   e_set_speed_right((int)((unsigned int)linear_speed + (unsigned int)angular_speed));
 }
 
-int e_get_steps_left() { return left.steps; }
+int e_get_steps_left() { return left_wheel.steps; }
 
-int e_get_steps_right() { return right.steps; }
+int e_get_steps_right() { return right_wheel.steps; }
 
-void e_set_steps_left(int steps_left) { left.steps = steps_left; }
+void e_set_steps_left(int steps_left) { left_wheel.steps = steps_left; }
 
-void e_set_steps_right(int steps_right) { right.steps = steps_right; }
+void e_set_steps_right(int steps_right) { right_wheel.steps = steps_right; }
