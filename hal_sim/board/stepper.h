@@ -87,7 +87,13 @@ class Stepper {
     motion_.from = static_cast<double>(motion_.steps - direction);
     motion_.moved_at = motion_.stepped_at = motion_.pulled_at = last;
     motion_.move = move;
+    const Cycle ready = motion_.ready_at + (count - 1) * kPullOutCycles;
+    motion_.ready_at = ready > last ? ready : last;
     before_ = motion_;
+    before_.steps -= direction;
+    before_.from -= direction;
+    before_.moved_at = before_.stepped_at = before_.pulled_at = last - move;
+    motion_.ready_at += kPullOutCycles;
     coils_ = coils;
     changed_at_ = last;
   }

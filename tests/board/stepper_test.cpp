@@ -98,7 +98,7 @@ TEST(Stepper, rotor_follows_within_the_time_it_has) {
 std::int64_t steps_after_a_second_at(int steps_s) {
   Stepper s = connected(+1);
   for (int n = 1; n <= steps_s; ++n) s.energise(kPhaseCoils[n & 3], n * board::kFcyHz / steps_s);
-  EXPECT_EQ(s.faults(board::kFcyHz).jumps.count, 0);
+  EXPECT_EQ(s.lost() > 0, steps_s > 1100);
   return s.steps();
 }
 
