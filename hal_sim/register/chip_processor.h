@@ -63,11 +63,10 @@ class ChipProcessor final : public host::Processor, public dspic::DiagnosticSink
 
   std::uint64_t state_hash(Cycle now) override { return chip_->state_hash(at(now)); }
   dspic::Dspic30f6014a* chip() override { return chip_.get(); }
-  std::vector<board::Diagnosis> diagnoses() const override;
+  const std::vector<std::string>& notices() const override { return notices_; }
   void report(const dspic::Diagnosis& diagnosis) override;
 
  private:
-  std::int64_t count_of(const dspic::Diagnosis& diagnosis) const;
   /// Rounds of a waiting loop with more reads than this are not jumped over.
   static constexpr int kWatchedReads = 64;
 
@@ -84,7 +83,7 @@ class ChipProcessor final : public host::Processor, public dspic::DiagnosticSink
   const char* why_reset_ = "";
   Cycle latest_ = 0;
   int watched_reads_ = 0;
-  std::vector<dspic::Diagnosis> diagnoses_;
+  std::vector<std::string> notices_;
 };
 
 }  // namespace register_way
