@@ -19,6 +19,8 @@ extern "C" {
 #endif
 
 typedef long long tp_i64;
+/* a float of the robot's memory, whose words begin at even addresses */
+typedef float tp_f32 __attribute__((aligned(2)));
 
 #define TP_IMAGE_MAGIC 0x54575049 /* "TWPI": tells an image from any other .so */
 #define TP_IMAGE_ABI 1            /* raised whenever a line of this file changes its meaning */

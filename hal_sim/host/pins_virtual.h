@@ -17,7 +17,7 @@ void tp_virtual_console(const char* bytes, tp_i64 length);
 /** Settings of [webots]: time step in us; speed unit in rad/s at `unit`, 0 the usual one; 1 when sensors are
  * numbered as in the lab; 1 when axes are nue. Horizon: none. */
 tp_i64 tp_virtual_time_step_us(void);
-void tp_virtual_speed_unit(float* unit);
+void tp_virtual_speed_unit(tp_f32* unit);
 tp_i64 tp_virtual_lab_order(void);
 tp_i64 tp_virtual_nue(void);
 /** The robot's name, cut to `size` characters with the 0. */
@@ -39,18 +39,18 @@ tp_i64 tp_virtual_device(tp_i64 index, char* name, tp_i64 size);
 #define TP_DEVICE_DISTANCE 7
 
 /** Value of the sensor that a supervisor defined under that name; 0: it has not. Horizon: now. */
-tp_i64 tp_virtual_sensor(const char* name, float* value);
+tp_i64 tp_virtual_sensor(const char* name, tp_f32* value);
 
 /** Truth, three numbers each, axes of the world file; m, m/s, unit vector, rad (roll, pitch, yaw), rad/s.
  * Horizon: now. */
-void tp_virtual_position(float* xyz, float* velocity);
-void tp_virtual_north(float* xyz);
-void tp_virtual_attitude(float* angles);
-void tp_virtual_rates(float* xyz);
+void tp_virtual_position(tp_f32* xyz, tp_f32* velocity);
+void tp_virtual_north(tp_f32* xyz);
+void tp_virtual_attitude(tp_f32* angles);
+void tp_virtual_rates(tp_f32* xyz);
 /** The same for a robot or movable object with that name or def, in world axes: position and heading (of a
  * nue world the angle about its y axis). 0: nothing of the name. */
 tp_i64 tp_virtual_find(const char* name);
-void tp_virtual_pose_of(tp_i64 found, float* xyz, float* angle);
+void tp_virtual_pose_of(tp_i64 found, tp_f32* xyz, tp_f32* angle);
 
 /** Emitters and receivers by number from 0; -1 when there is none of the name. */
 tp_i64 tp_emitter_find(const char* name);
@@ -59,8 +59,8 @@ tp_i64 tp_emitter_send(tp_i64 emitter, const void* data, tp_i64 bytes);
 tp_i64 tp_emitter_channel(tp_i64 emitter);
 void tp_emitter_set_channel(tp_i64 emitter, tp_i64 channel);
 /** m; negative: unlimited. */
-void tp_emitter_range(tp_i64 emitter, float* range);
-void tp_emitter_set_range(tp_i64 emitter, const float* range);
+void tp_emitter_range(tp_i64 emitter, tp_f32* range);
+void tp_emitter_set_range(tp_i64 emitter, const tp_f32* range);
 
 tp_i64 tp_receiver_find(const char* name);
 void tp_receiver_switch(tp_i64 receiver, tp_i64 on);
@@ -71,7 +71,7 @@ void tp_receiver_latch(tp_i64 receiver);
 tp_i64 tp_receiver_visible(tp_i64 receiver);
 tp_i64 tp_receiver_size(tp_i64 receiver);
 const void* tp_receiver_data(tp_i64 receiver);
-void tp_receiver_origin(tp_i64 receiver, float* strength, float* direction);
+void tp_receiver_origin(tp_i64 receiver, tp_f32* strength, tp_f32* direction);
 void tp_receiver_drop(tp_i64 receiver);
 tp_i64 tp_receiver_channel(tp_i64 receiver);
 void tp_receiver_set_channel(tp_i64 receiver, tp_i64 channel);

@@ -27,7 +27,7 @@ void copy_name(const std::string& name, char* to, tp_i64 size) {
   to[n] = 0;
 }
 
-void put(const sim::Vec3& v, float* to) {
+void put(const sim::Vec3& v, tp_f32* to) {
   to[0] = static_cast<float>(v.x);
   to[1] = static_cast<float>(v.y);
   to[2] = static_cast<float>(v.z);
@@ -60,7 +60,7 @@ tp_i64 tp_virtual_time_step_us(void) {
   return static_cast<tp_i64>(this_board().setup().webots.time_step_s * 1e6 + 0.5);
 }
 
-void tp_virtual_speed_unit(float* unit) {
+void tp_virtual_speed_unit(tp_f32* unit) {
   *unit = static_cast<float>(std::max(0.0, this_board().setup().webots.speed_unit_rad_s));
 }
 
@@ -107,7 +107,7 @@ tp_i64 tp_virtual_device(tp_i64 index, char* name, tp_i64 size) {
   return 0;
 }
 
-tp_i64 tp_virtual_sensor(const char* name, float* value) {
+tp_i64 tp_virtual_sensor(const char* name, tp_f32* value) {
   Context& context = Context::current();
   context.lower_horizon(context.now());
   const auto found = context.board().virtual_devices().get(name);
@@ -116,18 +116,18 @@ tp_i64 tp_virtual_sensor(const char* name, float* value) {
   return 1;
 }
 
-void tp_virtual_position(float* xyz, float* velocity) {
+void tp_virtual_position(tp_f32* xyz, tp_f32* velocity) {
   const board::TrueState state = truth();
   put(state.position_m, xyz);
   put(state.velocity_m_s, velocity);
 }
-void tp_virtual_north(float* xyz) { put(truth().north, xyz); }
-void tp_virtual_attitude(float* angles) { put(truth().attitude_rad, angles); }
-void tp_virtual_rates(float* xyz) { put(truth().rates_rad_s, xyz); }
+void tp_virtual_north(tp_f32* xyz) { put(truth().north, xyz); }
+void tp_virtual_attitude(tp_f32* angles) { put(truth().attitude_rad, angles); }
+void tp_virtual_rates(tp_f32* xyz) { put(truth().rates_rad_s, xyz); }
 
 tp_i64 tp_virtual_find(const char* name) { return board::find_body(this_board(), name) + 1; }
 
-void tp_virtual_pose_of(tp_i64 found, float* xyz, float* angle) {
+void tp_virtual_pose_of(tp_i64 found, tp_f32* xyz, tp_f32* angle) {
   Context& context = Context::current();
   const host::Cycle now = context.now();
   context.lower_horizon(now);
@@ -163,12 +163,12 @@ void tp_emitter_set_channel(tp_i64 emitter, tp_i64 channel) {
   if (is_emitter(emitter))
     this_board().packets().set_emitter_channel(static_cast<int>(emitter), static_cast<int>(channel));
 }
-void tp_emitter_range(tp_i64 emitter, float* range) {
+void tp_emitter_range(tp_i64 emitter, tp_f32* range) {
   *range = is_emitter(emitter)
                ? static_cast<float>(this_board().packets().emitter_range_m(static_cast<int>(emitter)))
                : -1;
 }
-void tp_emitter_set_range(tp_i64 emitter, const float* range) {
+void tp_emitter_set_range(tp_i64 emitter, const tp_f32* range) {
   Context::current().note_write();
   if (is_emitter(emitter)) this_board().packets().set_emitter_range_m(static_cast<int>(emitter), *range);
 }
@@ -199,7 +199,7 @@ const void* tp_receiver_data(tp_i64 receiver) {
   const sim::ReceivedPacket* packet = head_of(receiver);
   return packet ? packet->bytes.data() : nullptr;
 }
-void tp_receiver_origin(tp_i64 receiver, float* strength, float* direction) {
+void tp_receiver_origin(tp_i64 receiver, tp_f32* strength, tp_f32* direction) {
   const sim::ReceivedPacket* packet = head_of(receiver);
   *strength = packet ? static_cast<float>(packet->strength) : 0;
   const sim::Vec3 way = packet ? packet->direction : sim::Vec3{};
