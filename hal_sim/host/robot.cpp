@@ -587,6 +587,14 @@ std::vector<Place> Robot::walk(std::uintptr_t pc, std::uintptr_t frame) const {
   return places;
 }
 
+std::vector<board::Diagnosis> Robot::diagnoses() const {
+  std::vector<board::Diagnosis> all = processor_->diagnoses();
+  for (board::Diagnosis& d : board_.diagnoses(lived_cycles())) all.push_back(std::move(d));
+  for (board::Diagnosis& d : all) d.first_s = to_world_s ? to_world_s(d.first) : 0;
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  return all;
+}
+
 std::uint64_t Robot::hash() const {
   std::uint64_t h = static_cast<std::uint64_t>(now_) * 0x9E3779B97F4A7C15u;
   h ^= static_cast<std::uint64_t>(served_) + (h << 6) + (h >> 2);
