@@ -7,8 +7,9 @@ namespace board {
 
 // the library asks for up to 1000 steps/s and gets them, e-pucks lose steps above; a tenth is left for jitter
 inline constexpr Cycle kPullOutCycles = kFcyHz / 1100;  // per step [assumed: from FRM A1, 1000 steps/s hold]
-// patterns that pass while a driver changes coil after coil do not move a rotor
-inline constexpr Cycle kPatternCycles = kFcyHz / 20'000;  // [assumed: 50 us, a hundredth of a step's swing]
+// patterns that pass while a driver changes coil after coil (some us) do not move a rotor: in 50 us a rotor
+// that needs 1 ms for a step has turned by (0.05)^2 of it, and the pattern that follows decides
+inline constexpr Cycle kPatternCycles = kFcyHz / 20'000;  // [assumed: a quarter of a per cent of a step]
 // the slowest step that anybody drives with coils on is tens of ms
 inline constexpr Cycle kRestCycles = kFcyHz;  // 1 s without a step [assumed: well above a slow driver's step]
 // the library's flash lasts 0.3 to 0.35 ms

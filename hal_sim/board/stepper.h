@@ -7,8 +7,11 @@
 // might go either way); no coil or a single coil: the gear holds. The rotor follows a step at constant speed
 // during the time it has (the expected period, at most kRotorMoveCycles), so it is never ahead of the
 // pattern, and a constant step rate gives a constant rim speed. Pull-out: a rotor that is more than one step
-// of kPullOutCycles behind loses the next one. A pattern of less than kPatternCycles does not pull.
-// Not modelled: half steps and single-coil drive, pull-out at high load, ringing.
+// of kPullOutCycles behind loses the next one. A pattern that another one follows within kPatternCycles does
+// not pull. One that is switched off early does: the library's drivers switch all coils off whenever a speed
+// is set, often within a step, and count that step.
+// Not modelled: half steps and single-coil drive, pull-out at high load, ringing, steps that a real rotor
+// does not finish because its coils were on for too short.
 //
 // Steps that were lost and coils that heat the motor are counted (faults()); copies count for themselves.
 #pragma once
@@ -66,12 +69,12 @@ class Stepper {
   /// The pins change. `move`: time the rotor may take for a step.
   void energise(unsigned coils, Cycle at, Cycle move = kRotorMoveCycles) {
     look_back(at);
-    if (coils != coils_ && at - motion_.stepped_at < kPatternCycles) motion_ = before_;
     coils_ = coils;
     changed_at_ = at;
     if (!connected_) return;
     for (int phase = 0; phase < 4; ++phase) {
       if (coils != kPhaseCoils[phase]) continue;
+      if (phase != rotor_phase() && at - motion_.stepped_at < kPatternCycles) motion_ = before_;
       const int ahead = (phase - rotor_phase()) & 3;
       if (ahead == 1) step(forward_, at, move);
       if (ahead == 3) step(-forward_, at, move);

@@ -312,6 +312,17 @@ bool Robot::lend_reserve() {
 
 void Robot::on_event() {
   if (overflowed_) trap(TP_TRAP_STACK, kStackOverflow);
+  if (!native_) {
+    // a block may be a division of 500 cycles: an interrupt comes within it, and the rest of it afterwards
+    const Cycle undisturbed = issued_, rest = -copy_.control().budget;
+    issued_ = copy_.control().budget = 0;
+    advance_main(undisturbed);
+    run_main(rest);
+    if (observer_) observer_->reached(now_);
+    give_budget();
+    if (overflowed_) trap(TP_TRAP_STACK, kStackOverflow);
+    return;
+  }
   fold();
   if (observer_) observer_->reached(now_);
   for (;;) {
