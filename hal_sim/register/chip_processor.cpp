@@ -73,8 +73,6 @@ const char* hint_for(dspic::Cause cause) {
       return "write the unlock sequence directly before, with interrupts off";
     case Cause::I2cMisuse:
       return "wait until SEN, RSEN, PEN, RCEN, ACKEN and I2CSTAT.TRSTAT are 0";
-    case Cause::TwoAuthors:
-      return "the later one silences the other: use one of the two drivers";
     case Cause::WatchdogReset:
       return "call ClrWdt() in the main loop, or leave RCON.SWDTEN 0";
     case Cause::TrapConflict:
