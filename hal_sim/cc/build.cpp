@@ -348,6 +348,10 @@ BuildResult build_image(const BuildOptions& options) {
     copies = find_library_copies(o.source_dir, sources);
   if (const std::string told = library_copies_message(o.source_dir, copies); !told.empty())
     result.warnings.push_back(told);
+  std::vector<std::pair<std::string, std::string>> texts;
+  for (const auto& s : o.register_way ? find_library_copies(o.source_dir, sources).kept : copies.kept)
+    texts.emplace_back(s.filename().string(), read_text(s));
+  result.conflicts = timer_conflicts(texts);
   Plan p = plan(o, copies, false);
   fs::path compiler = build_root() / "twinpuck-cc";
   std::vector<CompileJob> all = p.user;

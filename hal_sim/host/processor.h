@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "hal_sim/board/diagnosis.h"
 #include "hal_sim/host/context.h"
 
 namespace dspic {
@@ -95,11 +96,8 @@ class Processor {
   virtual bool wakes(Cycle now) = 0;
 
   virtual std::uint64_t state_hash(Cycle now) { return 0; }
-  /// What the models have to say about the program, a sentence each, in order of time.
-  virtual const std::vector<std::string>& notices() const {
-    static const std::vector<std::string> none;
-    return none;
-  }
+  /// What the models have to say about the program so far, in order of time.
+  virtual std::vector<board::Diagnosis> diagnoses() const { return {}; }
   /// The chip behind it; null in the native way.
   virtual dspic::Dspic30f6014a* chip() { return nullptr; }
 };

@@ -312,6 +312,17 @@ bool Robot::lend_reserve() {
 
 void Robot::on_event() {
   if (overflowed_) trap(TP_TRAP_STACK, kStackOverflow);
+  if (!native_) {
+    // a block may be a division of 500 cycles: an interrupt comes within it, and the rest of it afterwards
+    const Cycle undisturbed = issued_, rest = -copy_.control().budget;
+    issued_ = copy_.control().budget = 0;
+    advance_main(undisturbed);
+    run_main(rest);
+    if (observer_) observer_->reached(now_);
+    give_budget();
+    if (overflowed_) trap(TP_TRAP_STACK, kStackOverflow);
+    return;
+  }
   fold();
   if (observer_) observer_->reached(now_);
   for (;;) {
@@ -585,6 +596,14 @@ std::vector<Place> Robot::walk(std::uintptr_t pc, std::uintptr_t frame) const {
     frame = link[0];
   }
   return places;
+}
+
+std::vector<board::Diagnosis> Robot::diagnoses() const {
+  std::vector<board::Diagnosis> all = processor_->diagnoses();
+  for (board::Diagnosis& d : board_.diagnoses(lived_cycles())) all.push_back(std::move(d));
+  for (board::Diagnosis& d : all) d.first_s = to_world_s ? to_world_s(d.first) : 0;
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  return all;
 }
 
 std::uint64_t Robot::hash() const {

@@ -69,6 +69,8 @@ class Robot final : public Context {
 
   bool has_stopped() const { return stopped_; }
   const std::vector<TrapReport>& traps() const { return traps_; }
+  /// What board and chip have to say about the program so far, in order of time. Between windows only.
+  std::vector<board::Diagnosis> diagnoses() const;
   Cycle cycles() const { return end_; }
   /// Cycles at the last moment at which the program's own count was added up: the instant of a reset.
   Cycle settled_now() const { return now_; }

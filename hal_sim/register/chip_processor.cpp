@@ -41,6 +41,48 @@ const char* reason_of(dspic::ResetKind kind) {
   }
 }
 
+/// What to do about it; empty where the message says so.
+const char* hint_for(dspic::Cause cause) {
+  using dspic::Cause;
+  switch (cause) {
+    case Cause::UnmodelledBit:
+      return "the robot may do something here that the twin does not; see docs/limits.md";
+    case Cause::UnimplementedAddress:
+      return "is the header the dsPIC30F6014A's?";
+    case Cause::UninitialisedRead:
+      return "write it first";
+    case Cause::UartOverrun:
+      return "read UxRXREG in the receive interrupt until URXDA is 0, and clear UxSTA.OERR";
+    case Cause::UartFrameError:
+      return "compare baud rate, parity and stop bits of both ends";
+    case Cause::BaudError:
+      return "UxBRG = FCY / (16 baud) - 1 with FCY = 14745600 Hz: 7 for 115200, 95 for 9600";
+    case Cause::MissedInterrupt:
+      return "make the handler shorter, raise its priority, or allow nesting (INTCON1.NSTDIS = 0)";
+    case Cause::FlagNeverCleared:
+      return "clear the flag in the handler";
+    case Cause::InputDriven:
+      return "clear the TRIS bit, or call e_init_port() first";
+    case Cause::AnalogueDigital:
+      return "clear the channel's ADPCFG bit and set its TRIS bit";
+    case Cause::DigitalAnalogue:
+      return "set the ADPCFG bit";
+    case Cause::ChangedWhileOn:
+      return "clear ADCON1.ADON first";
+    case Cause::NotUnlocked:
+      return "write the unlock sequence directly before, with interrupts off";
+    case Cause::I2cMisuse:
+      return "wait until SEN, RSEN, PEN, RCEN, ACKEN and I2CSTAT.TRSTAT are 0";
+    case Cause::TwoAuthors:
+      return "the later one silences the other: use one of the two drivers";
+    case Cause::WatchdogReset:
+      return "call ClrWdt() in the main loop, or leave RCON.SWDTEN 0";
+    case Cause::TrapConflict:
+      return "";
+  }
+  return "";
+}
+
 }  // namespace
 
 bool wants_chip(const char* image_flags) { return image_flags && std::strstr(image_flags, "register"); }
@@ -81,10 +123,25 @@ void ChipProcessor::end_window(Cycle now) {
 
 void ChipProcessor::remote_changed(Cycle now) { chip_->outside_changed(at(now)); }
 
-void ChipProcessor::report(const dspic::Diagnosis& d) {
-  char when[48];
-  std::snprintf(when, sizeof when, " (%.6f s)", static_cast<double>(d.cycle) / host::kFcyHz);
-  notices_.push_back(std::string(dspic::cause_name(d.cause)) + ": " + d.message + when);
+void ChipProcessor::report(const dspic::Diagnosis& d) { diagnoses_.push_back(d); }
+
+std::vector<board::Diagnosis> ChipProcessor::diagnoses() const {
+  std::vector<board::Diagnosis> all;
+  for (const dspic::Diagnosis& d : diagnoses_) {
+    board::Diagnosis one{dspic::cause_name(d.cause), d.place, d.message, hint_for(d.cause), d.cycle};
+    one.count = count_of(d);
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
+// some causes are counted elsewhere, each time; the report comes once
+std::int64_t ChipProcessor::count_of(const dspic::Diagnosis& d) const {
+  if (d.cause == dspic::Cause::MissedInterrupt)
+    for (int v = dspic::kFirstIrqVector; v < dspic::kVectors; ++v)
+      if (d.place == dspic::vector_name(v)) return chip_->missed_interrupts(v);
+  if (d.cause == dspic::Cause::UartOverrun) return chip_->uart_overruns(d.place[1] - '0');
+  return chip_->diagnostics().count(d.cause, d.place);
 }
 
 // --- registers --------------------------------------------------------------------------------------------

@@ -63,10 +63,11 @@ class ChipProcessor final : public host::Processor, public dspic::DiagnosticSink
 
   std::uint64_t state_hash(Cycle now) override { return chip_->state_hash(at(now)); }
   dspic::Dspic30f6014a* chip() override { return chip_.get(); }
-  const std::vector<std::string>& notices() const override { return notices_; }
+  std::vector<board::Diagnosis> diagnoses() const override;
   void report(const dspic::Diagnosis& diagnosis) override;
 
  private:
+  std::int64_t count_of(const dspic::Diagnosis& diagnosis) const;
   /// Rounds of a waiting loop with more reads than this are not jumped over.
   static constexpr int kWatchedReads = 64;
 
@@ -83,7 +84,7 @@ class ChipProcessor final : public host::Processor, public dspic::DiagnosticSink
   const char* why_reset_ = "";
   Cycle latest_ = 0;
   int watched_reads_ = 0;
-  std::vector<std::string> notices_;
+  std::vector<dspic::Diagnosis> diagnoses_;
 };
 
 }  // namespace register_way
