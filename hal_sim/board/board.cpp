@@ -48,6 +48,8 @@ constexpr std::uint32_t kMicrophoneStream = sim::kStreamBoard + 32;  // + microp
 constexpr std::uint64_t kConversionOffset = std::uint64_t{1}
                                             << 41;  // single conversions, apart from the drivers'
 
+constexpr std::int64_t kOpenEnd = std::int64_t{1} << 40;  // samples of a sound whose end is not known
+
 std::int64_t to_ppb(double ppm) { return static_cast<std::int64_t>(std::llround(ppm * 1000.0)); }
 
 }  // namespace
@@ -395,17 +397,33 @@ int Board::mic_counts(int microphone, Cycle at, std::uint64_t sample) const {
 }
 
 void Board::publish_sound(sim::SoundField& field, sim::Clicks now) {
+  sim::SpeakerTrack track;
+  const auto sample_s = [&](Cycle cycles) {
+    return static_cast<double>(cycles) / static_cast<double>(kFcyHz) /
+           (1 + static_cast<double>(clock_.ppb()) * 1e-9);
+  };
+  track.pa_per_unit = kSpeakerFullScalePa / 32768;
+  track.at_m = {kSpeaker.x_m, kSpeaker.y_m, kSpeakerZM};
+  if (codec_.line().was_used()) {
+    const CodecLine::Stretch* heard = codec_.line().publish();
+    if (!heard) on_air_.reset();
+    if (!heard) return field.stop(setup_.robot, now);
+    if (heard->published == on_air_) return;  // the air has it, and sees what has been added
+    on_air_ = heard->published;
+    track.samples = heard->published;
+    track.count = kOpenEnd;
+    track.sample_s = sample_s(heard->period);
+    // what is put out within a tick is known after it: everything leaves a tick and a sample late
+    track.start_s = sim::to_seconds(clock_.click_at(heard->first_at) + field.tick()) + track.sample_s;
+    return field.play(setup_.robot, track, now);
+  }
   const Codec::Play& play = codec_.take_news();
   if (play.count == 0) return field.stop(setup_.robot, now);
-  sim::SpeakerTrack track;
   track.samples = sound_bank();
   track.first = play.first;
   track.count = play.count;
   track.start_s = sim::to_seconds(clock_.click_at(play.first_at));
-  track.sample_s = static_cast<double>(kCodecSampleCycles) / static_cast<double>(kFcyHz) /
-                   (1 + static_cast<double>(clock_.ppb()) * 1e-9);
-  track.pa_per_unit = kSpeakerFullScalePa / 32768;
-  track.at_m = {kSpeaker.x_m, kSpeaker.y_m, kSpeakerZM};
+  track.sample_s = sample_s(kCodecSampleCycles);
   field.play(setup_.robot, track, now);
 }
 

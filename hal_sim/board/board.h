@@ -316,6 +316,7 @@ class Board {
   mutable double settled_share_ = 0;
   std::uint64_t conversions_ = 0;
   std::uint64_t mic_noise_key_ = 0;
+  std::shared_ptr<const std::vector<std::int16_t>> on_air_;  // samples of the codec's line that the air plays
   PacketDevices packets_{clock_, setup_.robot, setup_.devices};
   VirtualDevices virtual_;
 };

@@ -36,6 +36,7 @@ struct Facts {
   std::map<std::string, std::string> register_names;  // "tp_sfr_02C2" -> "LATA"
   std::set<std::string> poll_safe;                    // functions with annotate("tp_poll")
   std::set<std::string> interrupts;                   // functions with the interrupt attribute
+  std::map<std::string, unsigned> configuration;      // "fosc", "fwdt": words given by #pragma config
 };
 
 /// Null after errors (already printed).

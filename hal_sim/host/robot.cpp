@@ -7,6 +7,7 @@
 #include "hal_sim/board/board.h"
 #include "hal_sim/host/host_params.h"
 #include "hal_sim/host/native_processor.h"
+#include "hal_sim/host/oscillator.h"
 #include "hal_sim/host/pins.h"
 #include "sim_core/base/check.h"
 
@@ -120,6 +121,10 @@ void Robot::enter_firmware(void* raw) {
   auto* self = static_cast<Robot*>(raw);
   self->pass_window();
   self->give_budget();
+  if (const void* fosc = self->copy_.description().fosc) {
+    self->last_words_ = clock_problem(*static_cast<const std::uint16_t*>(fosc));
+    if (!self->last_words_.empty()) self->trap(TP_TRAP_UNSIMULATED, self->last_words_);
+  }
   self->copy_.description().start();
   self->on_reset("main() returned, so the start-up code resets the processor");
 }

@@ -95,6 +95,8 @@ class Robot final : public Context {
   /// Changes them, as a debugger would; a wait looks again.
   void write_memory(std::uintptr_t address, const void* from, std::size_t bytes);
   const Symbols& symbols() const { return image_->symbols(); }
+  /// The loaded image's description of itself.
+  const tp_image& image() const { return copy_.description(); }
   /// The reset button: the program begins anew at the end of the last window, also after a trap. Between
   /// windows only. Traps stay reported.
   void restart();

@@ -7,6 +7,7 @@
 
 #include "hal_sim/host/host_params.h"
 #include "hal_sim/host/image_abi.h"
+#include "hal_sim/host/oscillator.h"
 #include "hal_sim/register/register_params.h"
 
 namespace register_way {
@@ -93,7 +94,14 @@ ChipProcessor::ChipProcessor(host::Robot& robot) : robot_(robot), outside_(robot
 
 void ChipProcessor::power_up() {
   latest_ = 0;
-  chip_ = std::make_unique<dspic::Dspic30f6014a>(outside_, this);
+  dspic::Configuration configuration;
+  const tp_image& image = robot_.image();
+  if (image.fosc) {
+    configuration.fosc = *static_cast<const std::uint16_t*>(image.fosc);
+    configuration.fcy_hz *= host::clock_factor(configuration.fosc);
+  }
+  if (image.fwdt) configuration.fwdt = *static_cast<const std::uint16_t*>(image.fwdt);
+  chip_ = std::make_unique<dspic::Dspic30f6014a>(outside_, this, configuration);
   outside_.fill_eeprom(*chip_);
   next_reset_ = dspic::ResetKind::PowerOn;
 }

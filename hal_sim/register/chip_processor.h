@@ -7,8 +7,8 @@
 //
 // Time is the Robot's: estimated costs of blocks, plus what the chip adds (interrupt entry and RETFIE). A
 // loop that polls registers is jumped over to the chip's horizon of what it has read.
-// Modelled: everything dspic30/ models. Not modelled: configuration words of the program (always the
-// e-puck's), Sleep's stopped clocks, wait states; see docs/limits.md, "The register way".
+// Modelled: everything dspic30/ models, the program's configuration words FOSC and FWDT. Not modelled: the
+// other words, Sleep's stopped clocks, wait states; see docs/limits.md, "The register way".
 #pragma once
 #include <memory>
 #include <string>
