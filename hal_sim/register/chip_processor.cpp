@@ -7,13 +7,14 @@
 
 #include "hal_sim/host/host_params.h"
 #include "hal_sim/host/image_abi.h"
+#include "hal_sim/host/observer.h"
 #include "hal_sim/register/register_params.h"
 
 namespace register_way {
 
 namespace {
 
-constexpr unsigned kU1Mode = 0x20C, kU1Sta = 0x20E, kU1TxReg = 0x210;
+constexpr unsigned kU1Mode = 0x20C, kU1Sta = 0x20E, kU1TxReg = 0x210, kIfs0 = 0x084;
 constexpr std::uint16_t kUartEnabled = 0x8000, kTransmitEnabled = 0x0400, kBufferFull = 0x0200;
 
 /// Reading it moves a FIFO or lowers a flag, so a loop that does has changed something.
@@ -53,6 +54,7 @@ void ChipProcessor::power_up() {
   latest_ = 0;
   chip_ = std::make_unique<dspic::Dspic30f6014a>(outside_, this);
   outside_.fill_eeprom(*chip_);
+  observe(observer_);
   next_reset_ = dspic::ResetKind::PowerOn;
 }
 
@@ -184,5 +186,27 @@ host::Processor::Waiting ChipProcessor::longest_waiting(Cycle now) {
 }
 
 bool ChipProcessor::wakes(Cycle now) { return chip_->wakes(at(now)); }
+
+// --- observers --------------------------------------------------------------------------------------------
+
+// at the observer's own instants, which may lie before the latest of the program
+bool ChipProcessor::flag(int vector, Cycle at) {
+  return chip_->has_flag(vector + dspic::kFirstIrqVector, at);
+}
+
+Cycle ChipProcessor::next_flag(int vector, Cycle at) {
+  return chip_->horizon(kIfs0 + 2 * static_cast<unsigned>(vector / 16), at);
+}
+
+Cycle ChipProcessor::flag_since(int vector) {
+  return vector >= host::kTrapVector ? -1 : chip_->flag_since(vector + dspic::kFirstIrqVector);
+}
+
+void ChipProcessor::observe(host::Observer* observer) {
+  observer_ = observer;
+  chip_->watch(observer ? this : nullptr);
+}
+
+void ChipProcessor::about_to_change(Cycle at) { observer_->about_to_change(at); }
 
 }  // namespace register_way
