@@ -264,7 +264,7 @@ void Robot::deliver() {
 }
 
 void Robot::serve(int vector) {
-  const Cycle flagged = observer_ && native_ ? native_->interrupts().source(vector).flag_since : Cycle{-1};
+  const Cycle flagged = observer_ ? processor_->flag_since(vector) : Cycle{-1};
   if (observer_) observer_->reached(now_);
   const Processor::Entry entry = processor_->enter(vector, now_);
   if (observer_) observer_->handler_begins(vector, flagged, now_, entry.first_instruction);
@@ -494,21 +494,6 @@ std::int64_t Robot::next_rand() {
 
 // --- for observers
 // ---------------------------------------------------------------------------------------------------
-
-bool Robot::interrupt_flag(int vector, Cycle at) const {
-  if (!native_) return false;
-  const InterruptController& controller = native_->interrupts();
-  const InterruptSource& s = controller.source(vector);
-  return (s.flag && s.flag_since <= at) || s.due <= at;
-}
-
-Cycle Robot::next_interrupt_flag(int vector, Cycle at) const {
-  if (!native_) return kNever;
-  const InterruptController& controller = native_->interrupts();
-  const InterruptSource& s = controller.source(vector);
-  if (s.flag && s.flag_since > at) return s.flag_since;
-  return s.due > at ? s.due : kNever;
-}
 
 void Robot::callback(const void* function) {
   if (observer_)

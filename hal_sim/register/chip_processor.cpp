@@ -7,6 +7,7 @@
 
 #include "hal_sim/host/host_params.h"
 #include "hal_sim/host/image_abi.h"
+#include "hal_sim/host/observer.h"
 #include "hal_sim/host/oscillator.h"
 #include "hal_sim/register/register_params.h"
 
@@ -14,7 +15,7 @@ namespace register_way {
 
 namespace {
 
-constexpr unsigned kU1Mode = 0x20C, kU1Sta = 0x20E, kU1TxReg = 0x210;
+constexpr unsigned kU1Mode = 0x20C, kU1Sta = 0x20E, kU1TxReg = 0x210, kIfs0 = 0x084;
 constexpr std::uint16_t kUartEnabled = 0x8000, kTransmitEnabled = 0x0400, kBufferFull = 0x0200;
 
 /// Reading it moves a FIFO or lowers a flag, so a loop that does has changed something.
@@ -90,7 +91,8 @@ bool wants_chip(const char* image_flags) { return image_flags && std::strstr(ima
 
 ChipProcessor::ChipProcessor(host::Robot& robot) : robot_(robot), outside_(robot.board()) {}
 
-// --- life -------------------------------------------------------------------------------------------------
+// --- life
+// -------------------------------------------------------------------------------------------------
 
 void ChipProcessor::power_up() {
   latest_ = 0;
@@ -103,6 +105,7 @@ void ChipProcessor::power_up() {
   if (image.fwdt) configuration.fwdt = *static_cast<const std::uint16_t*>(image.fwdt);
   chip_ = std::make_unique<dspic::Dspic30f6014a>(outside_, this, configuration);
   outside_.fill_eeprom(*chip_);
+  observe(observer_);
   next_reset_ = dspic::ResetKind::PowerOn;
 }
 
@@ -152,7 +155,8 @@ std::int64_t ChipProcessor::count_of(const dspic::Diagnosis& d) const {
   return chip_->diagnostics().count(d.cause, d.place);
 }
 
-// --- registers --------------------------------------------------------------------------------------------
+// --- registers
+// --------------------------------------------------------------------------------------------
 
 std::uint16_t ChipProcessor::read(unsigned address, unsigned bits, Cycle now) {
   const Cycle t = at(now);
@@ -204,7 +208,8 @@ bool ChipProcessor::print(const char* bytes, std::int64_t length) {
   return true;
 }
 
-// --- interrupts -------------------------------------------------------------------------------------------
+// --- interrupts
+// -------------------------------------------------------------------------------------------
 
 int ChipProcessor::select(Cycle now) {
   const Cycle t = at(now);
@@ -249,5 +254,28 @@ host::Processor::Waiting ChipProcessor::longest_waiting(Cycle now) {
 }
 
 bool ChipProcessor::wakes(Cycle now) { return chip_->wakes(at(now)); }
+
+// --- observers
+// --------------------------------------------------------------------------------------------
+
+// at the observer's own instants, which may lie before the latest of the program
+bool ChipProcessor::flag(int vector, Cycle at) {
+  return chip_->has_flag(vector + dspic::kFirstIrqVector, at);
+}
+
+Cycle ChipProcessor::next_flag(int vector, Cycle at) {
+  return chip_->horizon(kIfs0 + 2 * static_cast<unsigned>(vector / 16), at);
+}
+
+Cycle ChipProcessor::flag_since(int vector) {
+  return vector >= host::kTrapVector ? -1 : chip_->flag_since(vector + dspic::kFirstIrqVector);
+}
+
+void ChipProcessor::observe(host::Observer* observer) {
+  observer_ = observer;
+  chip_->watch(observer ? this : nullptr);
+}
+
+void ChipProcessor::about_to_change(Cycle at) { observer_->about_to_change(at); }
 
 }  // namespace register_way
