@@ -75,6 +75,9 @@ const char* hint_for(dspic::Cause cause) {
       return "write the unlock sequence directly before, with interrupts off";
     case Cause::I2cMisuse:
       return "wait until SEN, RSEN, PEN, RCEN, ACKEN and I2CSTAT.TRSTAT are 0";
+    case Cause::CodecRate:
+      return "choose the divider N1 and multiplier M1 in the codec's registers 3 and 4 for the rate of the "
+             "DCI's frames";
     case Cause::TwoAuthors:
       return "the later one silences the other: use one of the two drivers";
     case Cause::WatchdogReset:
