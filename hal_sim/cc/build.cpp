@@ -80,6 +80,16 @@ bool names_webots(const std::vector<fs::path>& sources, const std::vector<fs::pa
   return false;
 }
 
+/// Whether a program takes the address of a register anywhere: then its files may pass it on.
+bool takes_register_addresses(const std::vector<fs::path>& sources, const std::vector<fs::path>& headers) {
+  static const std::regex kAddress(
+      R"([=(,{\[?:]\s*&\s*(ADC|PORT|LAT|TRIS|TMR|PR\d|T\dCON|IFS|IEC|IPC|INTCON|U[12]|I2C|DCI|TSCON|RSCON|[RT]XBUF|SPI|OC\d|IC\d|RCON|CN)[A-Z0-9]*(bits)?\b)");
+  for (const auto* list : {&sources, &headers})
+    for (const auto& file : *list)
+      if (std::regex_search(read_text(file), kAddress)) return true;
+  return false;
+}
+
 /// Sources of a program for Webots, which compiles the file with the controller's name alone: not those that
 /// another one includes as text, and not further programs that lie beside it.
 std::vector<fs::path> webots_sources(const fs::path& folder, const std::vector<fs::path>& sources) {
@@ -152,6 +162,8 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, bool lint) {
   }
   if (o.strict) flags.push_back("--strict");
   if (lint) flags.push_back("--lint");
+  if (o.register_way && takes_register_addresses(copies.kept, headers))
+    flags.push_back("--register-pointers");
   for (const auto& d : o.defines) flags.push_back("-D" + d);
   flags.insert(flags.end(), user_include.begin(), user_include.end());
   for (const auto& s : p.is_webots ? webots_sources(o.source_dir, copies.kept) : copies.kept)
@@ -364,6 +376,8 @@ BuildResult build_image(const BuildOptions& options) {
     texts.emplace_back(s.filename().string(), read_text(s));
   result.conflicts = timer_conflicts(texts);
   Plan p = plan(o, copies, false);
+  if (p.is_webots) own = p.user.size();
+  for (std::size_t i = own; i < p.user.size(); ++i) p.user[i].flags.push_back("--weak");
   fs::path compiler = build_root() / "twinpuck-cc";
   std::vector<CompileJob> all = p.user;
   all.insert(all.end(), p.library.begin(), p.library.end());
@@ -371,7 +385,7 @@ BuildResult build_image(const BuildOptions& options) {
   auto outcomes = compile_all(all, compiler, o.cache_dir, std::max(1, o.jobs));
   bool ok = true;
   for (size_t i = 0; i < outcomes.size(); ++i) {
-    if (!outcomes[i].ok && i >= own && i < p.user.size() && !p.is_webots) {
+    if (!outcomes[i].ok && i >= own && i < p.user.size()) {
       // a copy of the library holds files that the project never compiled
       result.warnings.push_back(p.user[i].source.string() +
                                 ": does not compile and is left out, as a file of a copy of the library: " +
@@ -383,7 +397,6 @@ BuildResult build_image(const BuildOptions& options) {
     ++(outcomes[i].reused ? result.reused : result.compiled);
   }
   if (!ok) return finish();
-  if (p.is_webots) own = p.user.size();
   std::vector<CompileOutcome> user(outcomes.begin(), outcomes.begin() + long(own));
   std::vector<CompileOutcome> members(outcomes.begin() + long(own), outcomes.begin() + long(p.user.size()));
   members.erase(std::remove_if(members.begin(), members.end(), [](const auto& m) { return !m.ok; }),

@@ -218,7 +218,7 @@ void lower_register_accesses(Unit& unit) {
 }
 
 void open_register_space(Unit& unit) {
-  bool by_pointer = false;
+  bool by_pointer = unit.options.by_pointer;
   for (GlobalVariable& g : make_early_inc_range(unit.module.globals())) {
     const int address = register_address(&g);
     if (address < 0) continue;

@@ -236,7 +236,7 @@ bool run_pipeline(Unit& unit) {
   }
   lower_late(unit);
   if (unit.options.sanitize) check_addresses(unit);
-  if (unit.options.library) make_weak(unit);
+  if (unit.options.library || unit.options.weak) make_weak(unit);
   return !unit.failed;
 }
 

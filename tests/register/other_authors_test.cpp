@@ -132,9 +132,8 @@ int main(void)
   EXPECT_EQ(robot.variable<std::uint16_t>("flags"), 0x8F1E);
   EXPECT_EQ(robot.variables<std::uint8_t>("bytes", 2), (std::vector<std::uint8_t>{0xFF, 0}));
   EXPECT_TRUE(robot.led(0));
-  for (const auto& n : processor().notices()) std::cout << n << "\n";
-  // 14746 cycles: a millisecond, in the 100 of which some went by before
-  EXPECT_NEAR(robot.variable<std::uint16_t>("ticks"), 99, 1);
+  // 14746 cycles are a millisecond, of which the start-up took some
+  EXPECT_NEAR(robot.variable<std::uint16_t>("ticks"), now_s() * 1000, 1.5);
   expect_no_traps();
 }
 
@@ -203,7 +202,7 @@ int main(void) {
   EXPECT_EQ(robot.variable("passed"), 1);
   run_for(0.1);
   EXPECT_EQ(robot.variable("passed"), 2);
-  EXPECT_EQ(robot.variable<std::uint16_t>("seen"), 999);
+  EXPECT_NEAR(robot.variable<std::uint16_t>("seen"), 1000, 1);
   expect_no_traps();
 }
 
@@ -225,6 +224,53 @@ int main(void)
 )"));
   run_for(6.5);
   EXPECT_EQ(robot.variable("twice"), 3);
+  expect_no_traps();
+}
+
+// as the library's I2C driver: a start is made only after a stop, which no start has seen yet; the failure makes
+// the program send a stop, reset the module and try again. PO3030K: device 0xDC, register 0 holds 0x30
+TEST_F(RegisterTest, an_i2c_driver_that_waits_for_a_stop_before_its_first_start) {
+  Robot& robot = add_robot_with_source(program(R"(
+volatile char mode;
+unsigned char id;
+int tries;
+void __attribute__((__interrupt__, auto_psv)) _MI2CInterrupt(void) { IFS0bits.MI2CIF = 0; mode = 0; }
+static int done(void) { long i; for (i = 10000; i; i--) if (!mode) return 1; return 0; }
+static void reset(void)
+{
+  I2CCONbits.I2CEN = 0;
+  I2CBRG = 150;
+  I2CCONbits.I2CEN = 1;
+  IFS0bits.MI2CIF = 0;
+  IEC0bits.MI2CIE = 1;
+}
+static int start(void) { mode = 1; if (!I2CSTATbits.P) return 0; I2CCONbits.SEN = 1; return done(); }
+static int restart(void) { mode = 1; if (!I2CSTATbits.S) return 0; I2CCONbits.RSEN = 1; return done(); }
+static int put(int byte) { mode = 1; I2CTRN = byte; return done(); }
+static int get(void) { mode = 1; I2CCONbits.RCEN = 1; if (!done()) return 0; id = I2CRCV; return 1; }
+static int stop(void) { mode = 1; I2CCONbits.PEN = 1; return done(); }
+int main(void)
+{
+  int good = 0;
+  reset();
+  while (!good && tries < 5) {
+    good = start();
+    good &= put(0xDC);
+    good &= put(0);
+    good &= restart();
+    good &= put(0xDD);
+    good &= get();
+    mode = 1; I2CCONbits.ACKDT = 1; I2CCONbits.ACKEN = 1; done();
+    stop();
+    tries++;
+    if (!good) reset();
+  }
+  while (1);
+}
+)"));
+  run_for(0.5);
+  EXPECT_EQ(robot.variable("tries"), 2);
+  EXPECT_EQ(robot.variable<std::uint8_t>("id"), 0x30);
   expect_no_traps();
 }
 
@@ -306,7 +352,7 @@ int main(void)
                               rest))
                    .at(0.5, 0);
   run_for(0.1);
-  EXPECT_NEAR(fast.variable<std::uint16_t>("ticks"), 200, 1);
+  EXPECT_NEAR(fast.variable<std::uint16_t>("ticks"), now_s() * 2000, 1.5);
   EXPECT_FALSE(fast.led(0));
   EXPECT_TRUE(dog.led(0));
 }
