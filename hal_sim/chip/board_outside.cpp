@@ -169,13 +169,14 @@ Cycle BoardOutside::nth_edge(dspic::Pin pin, dspic::Edge edge, Cycle after, std:
 int BoardOutside::analogue_counts(int channel, Cycle at) {
   // one number per instant: a result is the same whenever it is asked for
   const std::uint64_t sample = kSampleOffset + static_cast<std::uint64_t>(at);
+  if (channel >= kFirstMic && channel < kFirstAcc)
+    return board_.mic_counts_fast(channel - kFirstMic, at, sample);
   if (channel >= kFirstIr)
     return board_.ir_counts(channel - kFirstIr, at, lit_for(channel - kFirstIr, at), sample);
   if (channel >= kFirstAcc) {
     if (const auto counts = board_.counts_of_others(channel, at)) return *counts;
     return board::accelerometer_counts(board_, channel - kFirstAcc, at, sample);
   }
-  if (channel >= kFirstMic) return board_.mic_counts_fast(channel - kFirstMic, at, sample);
   return board_.counts_of_others(channel, at).value_or(0);
 }
 
