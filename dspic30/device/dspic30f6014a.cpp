@@ -94,6 +94,12 @@ struct Dspic30f6014a::Parts {
   CpuRegisters cpu;
   PlainRegisters plain;
 
+  // apart from the usual read, which then keeps nothing on the stack
+  __attribute__((noinline)) std::uint16_t read_after_events(unsigned address, unsigned bits, Cycle now) {
+    events.run_to(now);
+    return bus.read(address, bits, now);
+  }
+  void write_beyond(unsigned address, std::uint16_t value, unsigned bits, Cycle now);
   void switch_modules(std::uint16_t pmd1, std::uint16_t pmd2, Cycle now);
   std::uint16_t pmd1 = 0, pmd2 = 0;
 };
@@ -171,19 +177,31 @@ void Dspic30f6014a::reset(ResetKind kind, Cycle now) {
 
 std::uint16_t Dspic30f6014a::read(unsigned address, unsigned bits, Cycle now) {
   Parts& p = *parts_;
+  if (p.events.next() <= now) return p.read_after_events(address, bits, now);
   p.events.run_to(now);
   return p.bus.read(address, bits, now);
 }
 
-void Dspic30f6014a::write(unsigned address, std::uint16_t value, unsigned bits, Cycle now) {
+Cycle Dspic30f6014a::write(unsigned address, std::uint16_t value, unsigned bits, Cycle now) {
   Parts& p = *parts_;
   p.events.run_to(now);
+  p.events.forget_changes();
+  p.interrupts.forget_stir();
+  if (address >= kIfs0 && address < kIec0)  // a handler lowers its flag: the most frequent write
+    p.bus.write(address, value, bits, now);
+  else
+    p.write_beyond(address, value, bits, now);
+  return p.interrupts.stirred() || p.events.was_put_off() ? 0 : p.events.earliest();
+}
+
+// what a write means to others than the register's owner
+void Dspic30f6014a::Parts::write_beyond(unsigned address, std::uint16_t value, unsigned bits, Cycle now) {
   const unsigned word = address & ~1u;
   // inputs held up to now saw the pins as they were
-  if ((word >= kFirstPort && word <= kLastPort) || word == kAdpcfg) p.adc.advance(now);
-  p.bus.write(address, value, bits, now);
-  if (word == kAdcon1) p.external.converter_changed(now);
-  if (word == kPmd1 || word == kPmd2) p.switch_modules(p.plain.word(kPmd1), p.plain.word(kPmd2), now);
+  if ((word >= kFirstPort && word <= kLastPort) || word == kAdpcfg) adc.advance(now);
+  bus.write(address, value, bits, now);
+  if (word == kAdcon1) external.converter_changed(now);
+  if (word == kPmd1 || word == kPmd2) switch_modules(plain.word(kPmd1), plain.word(kPmd2), now);
 }
 
 std::uint16_t Dspic30f6014a::peek(unsigned address, Cycle now) {
@@ -219,6 +237,10 @@ void Dspic30f6014a::run_to(Cycle now) {
   p.dci.advance(now);
 }
 
+void Dspic30f6014a::run_events(Cycle now) { parts_->events.run_to(now); }
+
+void Dspic30f6014a::watch(EventWatch* watch) { parts_->events.watch(watch); }
+
 Cycle Dspic30f6014a::next_event(Cycle now) {
   Parts& p = *parts_;
   p.events.run_to(now);
@@ -243,6 +265,20 @@ void Dspic30f6014a::uart_receive(int uart, const UartFrame& frame) {
 
 // --- interrupts -------------------------------------------------------------------------------------------
 
+Outlook Dspic30f6014a::look(Cycle now) {
+  Parts& p = *parts_;
+  p.events.run_to(now);
+  Outlook outlook;
+  outlook.level = p.interrupts.level();
+  outlook.disi = p.interrupts.disi_active(now);
+  outlook.vector = p.interrupts.pending(now, outlook.level);
+  outlook.reset_due = p.system.watchdog_bit() || p.interrupts.reset_due().has_value();
+  if (outlook.vector != kNoVector) return outlook;
+  outlook.quiet_until = std::max(
+      now + 1, std::min(p.events.next_notice(p.interrupts.enabled_mask()), p.interrupts.next_change(now)));
+  return outlook;
+}
+
 int Dspic30f6014a::pending(Cycle now) { return pending(now, parts_->interrupts.level()); }
 
 int Dspic30f6014a::pending(Cycle now, int cpu_level) {
@@ -254,6 +290,12 @@ InterruptEntry Dspic30f6014a::enter_interrupt(int vector, Cycle now) {
   return parts_->interrupts.enter(vector, now);
 }
 Cycle Dspic30f6014a::return_from_interrupt(Cycle now) { return parts_->interrupts.leave(now); }
+
+Cycle Dspic30f6014a::calm_until(Cycle now, int served) {
+  Parts& p = *parts_;
+  if (!p.interrupts.has_no_other(served) || p.events.next() <= now) return 0;
+  return p.events.next_notice(p.interrupts.enabled_mask());
+}
 int Dspic30f6014a::cpu_level() const { return parts_->interrupts.level(); }
 void Dspic30f6014a::set_cpu_level(int level, Cycle now) { parts_->interrupts.set_level(level, now); }
 int Dspic30f6014a::nesting() const { return parts_->interrupts.nesting(); }

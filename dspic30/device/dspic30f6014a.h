@@ -28,6 +28,8 @@
 
 namespace dspic {
 
+class EventWatch;
+
 /// Configuration words and what else is fixed while the chip is powered. Defaults are the e-puck's.
 struct Configuration {
   std::uint16_t fosc = 0xFFE6;  ///< XT with PLL x8, no clock switching
@@ -37,6 +39,15 @@ struct Configuration {
   /// of `now`; right when the instants of accesses are estimates.
   bool synchronised_ports = false;
   bool warn_uninitialised = false;  ///< report reads of registers with an undefined power-on value
+};
+
+/// What the processor has to do at an instruction boundary, and when to ask again.
+struct Outlook {
+  int vector = kNoVector;  ///< to serve now
+  int level = 0;           ///< the CPU's
+  bool disi = false;       ///< priorities 1 to 6 are held off
+  bool reset_due = false;  ///< reset_due() says which
+  Cycle quiet_until = 0;   ///< next_event()
 };
 
 class Dspic30f6014a {
@@ -58,7 +69,9 @@ class Dspic30f6014a {
   /// Byte address 0x000 to 0x7FF; bits 8 or 16 (a word access ignores address bit 0; the address error of an
   /// odd one is the core's). Result in the low bits. Addresses with nothing behind them read 0.
   std::uint16_t read(unsigned address, unsigned bits, Cycle now);
-  void write(unsigned address, std::uint16_t value, unsigned bits, Cycle now);
+  /// Returns the instant with which whoever remembers look().quiet_until or calm_until() has to compare it:
+  /// the earlier one of both is true now; 0: ask look() again.
+  Cycle write(unsigned address, std::uint16_t value, unsigned bits, Cycle now);
   /// The register's value as a debugger shows it: no FIFO moves, no flag falls, no latch is loaded.
   std::uint16_t peek(unsigned address, Cycle now);
   /// Until when a read of that register gives the same value, if the program writes nothing and no interrupt
@@ -73,6 +86,11 @@ class Dspic30f6014a {
 
   /// Everything that happens up to and in cycle `now` has happened. Call it before the outside changes.
   void run_to(Cycle now);
+  /// What has instants of its own has happened up to `now`; closed forms can still be peeked at in between.
+  void run_events(Cycle now);
+  /// Whoever draws registers over time; hears of every such instant. Null: nobody. Outlives the chip or is
+  /// taken away; changes nothing.
+  void watch(EventWatch* watch);
   /// Earliest cycle >= now + 1 at which pending() or reset_due() may answer something new, or an output pin
   /// changes by itself; kNever if none. Never too late; may be too early.
   Cycle next_event(Cycle now);
@@ -85,6 +103,8 @@ class Dspic30f6014a {
   // --- interrupts
   // -------------------------------------------------------------------------------------------
 
+  /// pending(), reset_due() and next_event() at once, for a host that asks again only when it must.
+  Outlook look(Cycle now);
   /// Vector to serve at the instruction boundary before cycle `now`; kNoVector if none. A flag set in cycle f
   /// is seen from the boundary f + 1 on. Highest priority above the CPU's level, lowest vector among equals.
   int pending(Cycle now);
@@ -95,6 +115,9 @@ class Dspic30f6014a {
   InterruptEntry enter_interrupt(int vector, Cycle now);
   /// RETFIE executes in cycle `now`: the level of before. Returns the cycle of the next instruction.
   Cycle return_from_interrupt(Cycle now);
+  /// next_event(), if no flag but that of the vector whose handler runs at `now` is set and enabled, and
+  /// nothing has happened up to `now` that is not known already; else 0: ask look(). Cheaper than that.
+  Cycle calm_until(Cycle now, int served = kNoVector);
   /// SR.IPL, and IPL3 above 7. Levels 0 to 7 can be set (unless INTCON1.NSTDIS).
   int cpu_level() const;
   void set_cpu_level(int level, Cycle now);

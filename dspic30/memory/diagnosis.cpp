@@ -35,6 +35,8 @@ const char* cause_name(Cause cause) {
       return "I2C misuse";
     case Cause::WatchdogReset:
       return "watchdog reset";
+    case Cause::CodecRate:
+      return "codec rate";
     case Cause::TrapConflict:
       return "trap conflict";
   }

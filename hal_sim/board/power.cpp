@@ -20,7 +20,7 @@ int ones(unsigned word) { return __builtin_popcount(word); }
 }  // namespace
 
 double Board::coil_duty(Wheel wheel, Cycle at) const {
-  const Stepper motor = stepper_at(wheel, at);
+  const Stepper& motor = agendas_.stepper_at(wheel, at);  // of a timer's train: connected, and driven, alike
   if (!motor.connected()) return 0;
   if (timer_motors_.drives(wheel)) return 1;  // these drivers leave the coils on from step to step
   if (agendas_.firing_period(wheel) == 0) return ones(motor.coils()) / 2.0;

@@ -7,14 +7,15 @@
 //
 // Time is the Robot's: estimated costs of blocks, plus what the chip adds (interrupt entry and RETFIE). A
 // loop that polls registers is jumped over to the chip's horizon of what it has read.
-// Modelled: everything dspic30/ models. Not modelled: configuration words of the program (always the
-// e-puck's), Sleep's stopped clocks, wait states; see docs/limits.md, "The register way".
+// Modelled: everything dspic30/ models, the program's configuration words FOSC and FWDT. Not modelled: the
+// other words, Sleep's stopped clocks, wait states; see docs/limits.md, "The register way".
 #pragma once
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "dspic30/device/dspic30f6014a.h"
+#include "dspic30/periph/events.h"
 #include "hal_sim/chip/board_outside.h"
 #include "hal_sim/host/processor.h"
 #include "hal_sim/host/robot.h"
@@ -26,7 +27,7 @@ using host::Cycle;
 /// Does an image of these flags (tp_image.flags) want this processor?
 bool wants_chip(const char* image_flags);
 
-class ChipProcessor final : public host::Processor, public dspic::DiagnosticSink {
+class ChipProcessor final : public host::Processor, public dspic::DiagnosticSink, private dspic::EventWatch {
  public:
   /// `robot` owns this.
   explicit ChipProcessor(host::Robot& robot);
@@ -47,11 +48,10 @@ class ChipProcessor final : public host::Processor, public dspic::DiagnosticSink
   void watch_reads(Cycle now) override { watched_reads_ = kWatchedReads; }
   bool print(const char* bytes, std::int64_t length) override;
 
-  int select(Cycle now) override;
+  Outlook look(Cycle now) override;
   const char* why_reset() const override { return why_reset_; }
-  Cycle quiet_until(Cycle now) override;
   Entry enter(int vector, Cycle now) override;
-  Cycle leave(Cycle now) override;
+  Return leave(Cycle now) override;
   int cpu_level() const override { return chip_->cpu_level(); }
   void set_cpu_level(int level, Cycle now) override { chip_->set_cpu_level(level, at(now)); }
   Waiting longest_waiting(Cycle now) override;
@@ -61,6 +61,11 @@ class ChipProcessor final : public host::Processor, public dspic::DiagnosticSink
   void power_save(bool sleep, Cycle now) override { chip_->power_save(sleep, at(now)); }
   bool wakes(Cycle now) override;
 
+  bool flag(int vector, Cycle at) override;
+  Cycle next_flag(int vector, Cycle at) override;
+  Cycle flag_since(int vector) override;
+  void observe(host::Observer* observer) override;
+
   std::uint64_t state_hash(Cycle now) override { return chip_->state_hash(at(now)); }
   dspic::Dspic30f6014a* chip() override { return chip_.get(); }
   std::vector<board::Diagnosis> diagnoses() const override;
@@ -68,6 +73,10 @@ class ChipProcessor final : public host::Processor, public dspic::DiagnosticSink
 
  private:
   std::int64_t count_of(const dspic::Diagnosis& diagnosis) const;
+  void about_to_change(Cycle at) override;
+
+  /// read() of a register that a read changes, or within a loop that waits.
+  std::uint16_t read_closely(unsigned address, unsigned bits, Cycle t);
   /// Rounds of a waiting loop with more reads than this are not jumped over.
   static constexpr int kWatchedReads = 64;
 
@@ -83,6 +92,7 @@ class ChipProcessor final : public host::Processor, public dspic::DiagnosticSink
   dspic::ResetKind next_reset_ = dspic::ResetKind::PowerOn;
   const char* why_reset_ = "";
   Cycle latest_ = 0;
+  host::Observer* observer_ = nullptr;
   int watched_reads_ = 0;
   std::vector<dspic::Diagnosis> diagnoses_;
 };
