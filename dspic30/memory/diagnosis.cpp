@@ -37,6 +37,8 @@ const char* cause_name(Cause cause) {
       return "two authors";
     case Cause::WatchdogReset:
       return "watchdog reset";
+    case Cause::CodecRate:
+      return "codec rate";
     case Cause::TrapConflict:
       return "trap conflict";
   }

@@ -29,6 +29,7 @@ enum class Cause : std::uint8_t {
   I2cMisuse,             ///< an operation was asked for while another was under way (IWCOL), or I2CEN is 0
   TwoAuthors,            ///< two drivers set up one timer, converter, vector or serial module
   WatchdogReset,         ///< the watchdog was not cleared in time
+  CodecRate,             ///< the codec's own sample rate is not that of the frames it gets
   TrapConflict,          ///< a hard trap met another one
 };
 

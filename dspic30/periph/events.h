@@ -17,6 +17,14 @@ class EventOwner {
   virtual void on_event(int id, Cycle at) = 0;
 };
 
+/// Hears of every instant before anything happens in it: whoever draws registers over time.
+class EventWatch {
+ public:
+  virtual ~EventWatch() = default;
+  /// The chip changes by itself in cycle `at`; all that changed before is in place. May peek, not change.
+  virtual void about_to_change(Cycle at) = 0;
+};
+
 class Events {
  public:
   static constexpr int kMostSlots = 64;
@@ -54,6 +62,8 @@ class Events {
     if (next_ <= now) serve_to(now);
     reached_ = std::max(reached_, now);
   }
+  /// Null: nobody.
+  void watch(EventWatch* watch) { watch_ = watch; }
   /// What next_notice(), asked before with the same flags, answers now is the earlier one of its last answer
   /// and earliest(), if nothing has happened since forget_changes() but what was set; was_put_off(): it may
   /// be later.
@@ -109,6 +119,7 @@ class Events {
     const int slot = __builtin_ctzll(rest);
     const Cycle at = next_;
     const Slot& first = slots_[static_cast<std::size_t>(slot)];
+    if (watch_) watch_->about_to_change(at);
     set(slot, kNever);
     first.owner->on_event(first.id, at);
   }
@@ -127,6 +138,7 @@ class Events {
   int count_ = 0;
   Cycle next_ = kNever;
   Cycle reached_ = 0;
+  EventWatch* watch_ = nullptr;
   Cycle earliest_ = kNever;
   bool put_off_ = false;
 };

@@ -48,6 +48,8 @@ constexpr std::uint32_t kMicrophoneStream = sim::kStreamBoard + 32;  // + microp
 constexpr std::uint64_t kConversionOffset = std::uint64_t{1}
                                             << 41;  // single conversions, apart from the drivers'
 
+constexpr std::int64_t kOpenEnd = std::int64_t{1} << 40;  // samples of a sound whose end is not known
+
 std::int64_t to_ppb(double ppm) { return static_cast<std::int64_t>(std::llround(ppm * 1000.0)); }
 
 }  // namespace
@@ -107,8 +109,8 @@ unsigned Board::coils(Wheel wheel, Cycle at) const {
 }
 
 void Board::connect_steppers(Cycle at) {
-  stepper(Wheel::Left, at).connect((tris_[kD] & 0x0F) == 0);
-  stepper(Wheel::Right, at).connect((tris_[kD] & 0xF0) == 0);
+  stepper(Wheel::Left, at).connect((tris_[kD] & 0x0F) == 0, at);
+  stepper(Wheel::Right, at).connect((tris_[kD] & 0xF0) == 0, at);
 }
 
 // --- ports -----------------------------------------------------------------------------------------------
@@ -149,12 +151,14 @@ void Board::port_write(char port, Register reg, std::uint16_t value, Cycle at) {
   const std::size_t i = static_cast<std::size_t>(index);
   value &= kImplemented[index];
   if (reg == Register::Tris) {
+    note_pulses(i, lat_[i], value, at);
     tris_[i] = value;
     if (index == kD) connect_steppers(at);
     outputs_changed(at);
     return;
   }
   if (index == kD) {
+    if (tris_[kD] & 0xFF) note_vain_writes(kD, value ^ port_read('D', Register::Lat, at), at);
     for (Wheel wheel : {Wheel::Left, Wheel::Right}) {
       const unsigned coils = (value >> (wheel == Wheel::Left ? 0 : 4)) & 15u;
       if (coils != this->coils(wheel, at)) stepper(wheel, at).energise(coils, at);
@@ -173,6 +177,8 @@ void Board::port_write(char port, Register reg, std::uint16_t value, Cycle at) {
   if (index == kC && camera_ && lat_[i] & ~value & bit(kCameraResetBit)) camera_->sensor_reset(at);
   if (index == kC && scan_.pulses(at) & 16u) value = static_cast<std::uint16_t>(value & ~(bit(1) | bit(2)));
   if (value == lat_[i]) return;
+  note_pulses(i, value, tris_[i], at);
+  note_vain_writes(i, value ^ lat_[i], at);
   lat_[i] = value;
   outputs_changed(at);
 }
@@ -265,6 +271,7 @@ void Board::processor_reset(Cycle at) {
   if (camera_) camera_->processor_reset();
   i2c_master_.processor_reset(at);
   requests = Requests{};
+  for (std::size_t i = 0; i < kPorts; ++i) note_pulses(i, 0, tris_[i], at);
   lat_.fill(0);
   for (std::size_t i = 0; i < kPorts; ++i) tris_[i] = kImplemented[i];
   follow_power(at);
@@ -389,17 +396,33 @@ int Board::mic_counts(int microphone, Cycle at, std::uint64_t sample) const {
 }
 
 void Board::publish_sound(sim::SoundField& field, sim::Clicks now) {
+  sim::SpeakerTrack track;
+  const auto sample_s = [&](Cycle cycles) {
+    return static_cast<double>(cycles) / static_cast<double>(kFcyHz) /
+           (1 + static_cast<double>(clock_.ppb()) * 1e-9);
+  };
+  track.pa_per_unit = kSpeakerFullScalePa / 32768;
+  track.at_m = {kSpeaker.x_m, kSpeaker.y_m, kSpeakerZM};
+  if (codec_.line().was_used()) {
+    const CodecLine::Stretch* heard = codec_.line().publish();
+    if (!heard) on_air_.reset();
+    if (!heard) return field.stop(setup_.robot, now);
+    if (heard->published == on_air_) return;  // the air has it, and sees what has been added
+    on_air_ = heard->published;
+    track.samples = heard->published;
+    track.count = kOpenEnd;
+    track.sample_s = sample_s(heard->period);
+    // what is put out within a tick is known after it: everything leaves a tick and a sample late
+    track.start_s = sim::to_seconds(clock_.click_at(heard->first_at) + field.tick()) + track.sample_s;
+    return field.play(setup_.robot, track, now);
+  }
   const Codec::Play& play = codec_.take_news();
   if (play.count == 0) return field.stop(setup_.robot, now);
-  sim::SpeakerTrack track;
   track.samples = sound_bank();
   track.first = play.first;
   track.count = play.count;
   track.start_s = sim::to_seconds(clock_.click_at(play.first_at));
-  track.sample_s = static_cast<double>(kCodecSampleCycles) / static_cast<double>(kFcyHz) /
-                   (1 + static_cast<double>(clock_.ppb()) * 1e-9);
-  track.pa_per_unit = kSpeakerFullScalePa / 32768;
-  track.at_m = {kSpeaker.x_m, kSpeaker.y_m, kSpeakerZM};
+  track.sample_s = sample_s(kCodecSampleCycles);
   field.play(setup_.robot, track, now);
 }
 

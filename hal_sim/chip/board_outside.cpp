@@ -4,6 +4,8 @@
 #include "hal_sim/chip/board_outside.h"
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 
 #include "hal_sim/board/accelerometer.h"
 
@@ -24,11 +26,16 @@ constexpr int kFirstIr = 8, kFirstMic = 2, kFirstAcc = 5;
 constexpr std::uint64_t kSampleOffset = std::uint64_t{1} << 42;  // numbers of noise, apart from the drivers'
 constexpr unsigned kUartMode[2] = {0x20C, 0x216}, kUartBrg[2] = {0x214, 0x21E};
 constexpr std::uint16_t kUartEnabled = 0x8000;
+constexpr unsigned kDciCon3 = 0x244;
+constexpr double kCodecRateTolerance = 0.01;
+
+std::string hertz(double rate) { return std::to_string(std::lround(rate)); }
 
 }  // namespace
 
 BoardOutside::BoardOutside(Board& board) : board_(board), camera_(board), selector_(board.selector()) {
   tris_.fill(0xFFFF);
+  board_.leave_inputs_to_others();
 }
 
 bool BoardOutside::begin_window(dspic::Dspic30f6014a& chip, Cycle now) {
@@ -57,6 +64,7 @@ void BoardOutside::end_window(dspic::Dspic30f6014a& chip, Cycle now) {
   for (int n = 1; n <= 2; ++n)
     board_.uart(n).follow_chip((chip.peek(kUartMode[n - 1], now) & kUartEnabled) != 0,
                                chip.peek(kUartBrg[n - 1], now));
+  if (board_.codec().line().take_activity()) follow_codec(chip, now);
 }
 
 void BoardOutside::fill_eeprom(dspic::Dspic30f6014a& chip) const {
@@ -179,7 +187,7 @@ void BoardOutside::uart_sent(int uart, const dspic::UartFrame& frame) {
     board_.uart(uart).put_on_wire(static_cast<std::uint8_t>(frame.word), frame.end());
 }
 
-void BoardOutside::i2c_start(bool, Cycle at) { board_.i2c().start(at); }
+void BoardOutside::i2c_start(bool repeated, Cycle at) { board_.i2c().start(at, repeated); }
 
 dspic::I2cReply BoardOutside::i2c_write(std::uint8_t byte, Cycle at) {
   return {board_.i2c().write(byte, at), 0xFF, 0};
@@ -188,5 +196,26 @@ dspic::I2cReply BoardOutside::i2c_write(std::uint8_t byte, Cycle at) {
 dspic::I2cReply BoardOutside::i2c_read(Cycle at) { return {true, board_.i2c().read(at), 0}; }
 
 void BoardOutside::i2c_stop(Cycle at) { board_.i2c().stop(at); }
+
+// --- codec -----------------------------------------------------------------------------------------------
+
+// the codec looks at the word that begins a frame; those of other slots are for other devices on the line
+std::uint16_t BoardOutside::dci_word(int slot, std::uint16_t transmitted, int bits, Cycle end) {
+  if (slot != 0) return 0;
+  const auto word = static_cast<std::uint16_t>(transmitted << (16 - bits));
+  return static_cast<std::uint16_t>(board_.codec().line().word(word, end) >> (16 - bits));
+}
+
+void BoardOutside::follow_codec(dspic::Dspic30f6014a& chip, Cycle now) {
+  board::CodecLine& line = board_.codec().line();
+  line.set_bit_clock(2 * (Cycle{chip.peek(kDciCon3, now) & 0x0FFF} + 1));
+  if (!line.is_heard()) return;
+  const double by_registers = line.register_rate_hz(), by_frames = line.frame_rate_hz();
+  if (std::abs(by_registers - by_frames) <= kCodecRateTolerance * by_frames) return;
+  chip.diagnostics().report(dspic::Cause::CodecRate, "codec",
+                            "codec: its registers 3 and 4 and the bit clock give " + hertz(by_registers) +
+                                " samples a second, frames come " + hertz(by_frames) + " times a second",
+                            now);
+}
 
 }  // namespace chip

@@ -74,6 +74,8 @@ class Robot final : public Context {
 
   bool has_stopped() const { return stopped_; }
   const std::vector<TrapReport>& traps() const { return traps_; }
+  /// What board and chip have to say about the program so far, in order of time. Between windows only.
+  std::vector<board::Diagnosis> diagnoses() const;
   Cycle cycles() const { return end_; }
   /// Cycles at the last moment at which the program's own count was added up: the instant of a reset.
   Cycle settled_now() const { return now_; }
@@ -98,6 +100,8 @@ class Robot final : public Context {
   /// Changes them, as a debugger would; a wait looks again.
   void write_memory(std::uintptr_t address, const void* from, std::size_t bytes);
   const Symbols& symbols() const { return image_->symbols(); }
+  /// The loaded image's description of itself.
+  const tp_image& image() const { return copy_.description(); }
   /// The reset button: the program begins anew at the end of the last window, also after a trap. Between
   /// windows only. Traps stay reported.
   void restart();
@@ -107,14 +111,12 @@ class Robot final : public Context {
   /// Null: nobody. Between windows only; outlives the robot or is taken away.
   void observe(Observer* observer) {
     observer_ = observer;
+    processor_->observe(observer);
     has_plain_clock_ = !observer_ && stolen_q32_ == 0;
   }
-  /// Does it run in the native way, where interrupt_flag() answers? In the register way it is false.
-  bool knows_flags() const { return native_ != nullptr; }
-  /// The flag of an interrupt at `at`, not before what has already run; and the first cycle after `at` at
-  /// which it rises by itself, kNever if none.
-  bool interrupt_flag(int vector, Cycle at) const;
-  Cycle next_interrupt_flag(int vector, Cycle at) const;
+  /// The chip's models, in the register way; null in the native way.
+  dspic::Dspic30f6014a* chip() { return processor_->chip(); }
+  bool has_chip() const { return native_ == nullptr; }
   /// Asleep in a wait that has not ended yet.
   bool is_waiting() const { return idling_ && !stopped_; }
 

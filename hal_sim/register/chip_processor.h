@@ -7,14 +7,15 @@
 //
 // Time is the Robot's: estimated costs of blocks, plus what the chip adds (interrupt entry and RETFIE). A
 // loop that polls registers is jumped over to the chip's horizon of what it has read.
-// Modelled: everything dspic30/ models. Not modelled: configuration words of the program (always the
-// e-puck's), Sleep's stopped clocks, wait states; see docs/limits.md, "The register way".
+// Modelled: everything dspic30/ models, the program's configuration words FOSC and FWDT. Not modelled: the
+// other words, Sleep's stopped clocks, wait states; see docs/limits.md, "The register way".
 #pragma once
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "dspic30/device/dspic30f6014a.h"
+#include "dspic30/periph/events.h"
 #include "hal_sim/chip/board_outside.h"
 #include "hal_sim/host/processor.h"
 #include "hal_sim/host/robot.h"
@@ -26,7 +27,7 @@ using host::Cycle;
 /// Does an image of these flags (tp_image.flags) want this processor?
 bool wants_chip(const char* image_flags);
 
-class ChipProcessor final : public host::Processor, public dspic::DiagnosticSink {
+class ChipProcessor final : public host::Processor, public dspic::DiagnosticSink, private dspic::EventWatch {
  public:
   /// `robot` owns this.
   explicit ChipProcessor(host::Robot& robot);
@@ -60,12 +61,20 @@ class ChipProcessor final : public host::Processor, public dspic::DiagnosticSink
   void power_save(bool sleep, Cycle now) override { chip_->power_save(sleep, at(now)); }
   bool wakes(Cycle now) override;
 
+  bool flag(int vector, Cycle at) override;
+  Cycle next_flag(int vector, Cycle at) override;
+  Cycle flag_since(int vector) override;
+  void observe(host::Observer* observer) override;
+
   std::uint64_t state_hash(Cycle now) override { return chip_->state_hash(at(now)); }
   dspic::Dspic30f6014a* chip() override { return chip_.get(); }
-  const std::vector<std::string>& notices() const override { return notices_; }
+  std::vector<board::Diagnosis> diagnoses() const override;
   void report(const dspic::Diagnosis& diagnosis) override;
 
  private:
+  std::int64_t count_of(const dspic::Diagnosis& diagnosis) const;
+  void about_to_change(Cycle at) override;
+
   /// read() of a register that a read changes, or within a loop that waits.
   std::uint16_t read_closely(unsigned address, unsigned bits, Cycle t);
   /// Rounds of a waiting loop with more reads than this are not jumped over.
@@ -83,8 +92,9 @@ class ChipProcessor final : public host::Processor, public dspic::DiagnosticSink
   dspic::ResetKind next_reset_ = dspic::ResetKind::PowerOn;
   const char* why_reset_ = "";
   Cycle latest_ = 0;
+  host::Observer* observer_ = nullptr;
   int watched_reads_ = 0;
-  std::vector<std::string> notices_;
+  std::vector<dspic::Diagnosis> diagnoses_;
 };
 
 }  // namespace register_way

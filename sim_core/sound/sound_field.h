@@ -50,6 +50,8 @@ class SoundField {
   /// True when nothing can be heard anywhere.
   bool is_silent() const { return sources_.empty() && voices_.empty(); }
   const std::vector<SoundSource>& sources() const { return sources_; }
+  /// From one publication to the next.
+  Clicks tick() const { return tick_; }
 
   /// Pressure at a place of the world at an instant, Pa.
   double pressure_pa(const Vec3& place_m, double at_s) const;
