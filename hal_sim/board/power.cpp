@@ -15,7 +15,11 @@ namespace {
 
 constexpr std::uint32_t kRing = 0xFF, kBody = 0x100, kFront = 0x200;  // of leds()
 
-int ones(unsigned word) { return __builtin_popcount(word); }
+int ones(unsigned word) {
+  int n = 0;
+  for (; word; word &= word - 1) ++n;
+  return n;
+}
 
 }  // namespace
 

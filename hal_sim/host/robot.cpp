@@ -204,7 +204,8 @@ Cycle Robot::next_disturbance() {
 void Robot::give_budget() {
   Cycle until = std::min(end_, next_disturbance());
   if (observer_) until = std::min(until, now_ + observer_->look_every);
-  issued_ = until > now_ ? main_until(until - now_) : 0;
+  issued_ = std::max<Cycle>(0, until - now_);
+  if (stolen_q32_ != 0 && issued_ > 0) issued_ = main_until(issued_);
   control_.budget = issued_;
 }
 
