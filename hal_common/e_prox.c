@@ -38,11 +38,14 @@ void e_calibrate_ir() {
     free_space[sensor] = 0;
     sum[sensor] = 0;
   }
-  for (round = 0; round < CALIBRATION_ROUNDS; round++)
-    for (sensor = 0; sensor < IR_CHANNELS; sensor++) {
+  for (round = 0; round < CALIBRATION_ROUNDS; round++) {
+    /* as a for-loop, XC16's -O2 begins one element before the arrays and warns */
+    sensor = 0;
+    do {
       sum[sensor] += e_get_prox(sensor);
       hal_pause(CALIBRATION_PAUSE_ROUNDS);
-    }
+    } while (++sensor < IR_CHANNELS);
+  }
   for (sensor = 0; sensor < IR_CHANNELS; sensor++)
     free_space[sensor] = (int)((float)sum[sensor] / CALIBRATION_ROUNDS);
 }

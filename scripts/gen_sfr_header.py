@@ -14,6 +14,8 @@ import pathlib
 import re
 import sys
 
+import generated
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 TABLE = ROOT / "dspic30/device/sfr.csv"
 HEADER = ROOT / "firmware/include/p30F6014A.h"
@@ -234,20 +236,5 @@ def generate():
     return "\n".join(out) + "\n"
 
 
-def main():
-    text = generate()
-    if sys.argv[1:] == ["--check"]:
-        if not HEADER.exists() or HEADER.read_text() != text:
-            print("%s: differs from what %s gives; run scripts/gen_sfr_header.py"
-                  % (HEADER.relative_to(ROOT), TABLE.relative_to(ROOT)))
-            return 1
-        return 0
-    if sys.argv[1:]:
-        print(__doc__.strip(), file=sys.stderr)
-        return 2
-    HEADER.write_text(text)
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(generated.main(__doc__, "scripts/gen_sfr_header.py", TABLE, HEADER, generate))

@@ -227,6 +227,10 @@ void Dspic30f6014a::run_to(Cycle now) {
   p.dci.advance(now);
 }
 
+void Dspic30f6014a::run_events(Cycle now) { parts_->events.run_to(now); }
+
+void Dspic30f6014a::watch(EventWatch* watch) { parts_->events.watch(watch); }
+
 Cycle Dspic30f6014a::next_event(Cycle now) {
   Parts& p = *parts_;
   p.events.run_to(now);

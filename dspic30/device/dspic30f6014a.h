@@ -28,6 +28,8 @@
 
 namespace dspic {
 
+class EventWatch;
+
 /// Configuration words and what else is fixed while the chip is powered. Defaults are the e-puck's.
 struct Configuration {
   std::uint16_t fosc = 0xFFE6;  ///< XT with PLL x8, no clock switching
@@ -73,6 +75,11 @@ class Dspic30f6014a {
 
   /// Everything that happens up to and in cycle `now` has happened. Call it before the outside changes.
   void run_to(Cycle now);
+  /// What has instants of its own has happened up to `now`; closed forms can still be peeked at in between.
+  void run_events(Cycle now);
+  /// Whoever draws registers over time; hears of every such instant. Null: nobody. Outlives the chip or is
+  /// taken away; changes nothing.
+  void watch(EventWatch* watch);
   /// Earliest cycle >= now + 1 at which pending() or reset_due() may answer something new, or an output pin
   /// changes by itself; kNever if none. Never too late; may be too early.
   Cycle next_event(Cycle now);

@@ -17,6 +17,14 @@ class EventOwner {
   virtual void on_event(int id, Cycle at) = 0;
 };
 
+/// Hears of every instant before anything happens in it: whoever draws registers over time.
+class EventWatch {
+ public:
+  virtual ~EventWatch() = default;
+  /// The chip changes by itself in cycle `at`; all that changed before is in place. May peek, not change.
+  virtual void about_to_change(Cycle at) = 0;
+};
+
 class Events {
  public:
   static constexpr int kMostSlots = 64;
@@ -47,6 +55,8 @@ class Events {
     while (next_ <= now) serve();
     reached_ = std::max(reached_, now);
   }
+  /// Null: nobody.
+  void watch(EventWatch* watch) { watch_ = watch; }
   /// Everything up to here has happened.
   Cycle reached() const { return reached_; }
 
@@ -83,6 +93,7 @@ class Events {
     const int slot = __builtin_ctzll(rest);
     const Cycle at = next_;
     const Slot& first = slots_[static_cast<std::size_t>(slot)];
+    if (watch_) watch_->about_to_change(at);
     set(slot, kNever);
     first.owner->on_event(first.id, at);
   }
@@ -99,6 +110,7 @@ class Events {
   int count_ = 0;
   Cycle next_ = kNever;
   Cycle reached_ = 0;
+  EventWatch* watch_ = nullptr;
 };
 
 }  // namespace dspic

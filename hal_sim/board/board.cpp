@@ -109,8 +109,8 @@ std::int64_t Board::steps(Wheel wheel, Cycle at) const { return stepper_at(wheel
 unsigned Board::coils(Wheel wheel, Cycle at) const { return stepper_at(wheel, at).coils(); }
 
 void Board::connect_steppers(Cycle at) {
-  stepper(Wheel::Left, at).connect((tris_[kD] & 0x0F) == 0);
-  stepper(Wheel::Right, at).connect((tris_[kD] & 0xF0) == 0);
+  stepper(Wheel::Left, at).connect((tris_[kD] & 0x0F) == 0, at);
+  stepper(Wheel::Right, at).connect((tris_[kD] & 0xF0) == 0, at);
 }
 
 // --- ports -----------------------------------------------------------------------------------------------
@@ -151,12 +151,14 @@ void Board::port_write(char port, Register reg, std::uint16_t value, Cycle at) {
   const std::size_t i = static_cast<std::size_t>(index);
   value &= kImplemented[index];
   if (reg == Register::Tris) {
+    note_pulses(i, lat_[i], value, at);
     tris_[i] = value;
     if (index == kD) connect_steppers(at);
     outputs_changed(at);
     return;
   }
   if (index == kD) {
+    if (tris_[kD] & 0xFF) note_vain_writes(kD, value ^ port_read('D', Register::Lat, at), at);
     for (Wheel wheel : {Wheel::Left, Wheel::Right}) {
       const unsigned coils = (value >> (wheel == Wheel::Left ? 0 : 4)) & 15u;
       if (coils != this->coils(wheel, at)) stepper(wheel, at).energise(coils, at);
@@ -175,6 +177,8 @@ void Board::port_write(char port, Register reg, std::uint16_t value, Cycle at) {
   if (index == kC && camera_ && lat_[i] & ~value & bit(kCameraResetBit)) camera_->sensor_reset(at);
   if (index == kC && scan_.pulses(at) & 16u) value = static_cast<std::uint16_t>(value & ~(bit(1) | bit(2)));
   if (value == lat_[i]) return;
+  note_pulses(i, value, tris_[i], at);
+  note_vain_writes(i, value ^ lat_[i], at);
   lat_[i] = value;
   outputs_changed(at);
 }
@@ -267,6 +271,7 @@ void Board::processor_reset(Cycle at) {
   if (camera_) camera_->processor_reset();
   i2c_master_.processor_reset(at);
   requests = Requests{};
+  for (std::size_t i = 0; i < kPorts; ++i) note_pulses(i, 0, tris_[i], at);
   lat_.fill(0);
   for (std::size_t i = 0; i < kPorts; ++i) tris_[i] = kImplemented[i];
   follow_power(at);

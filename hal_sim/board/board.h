@@ -30,6 +30,7 @@
 #include "hal_sim/board/clock.h"
 #include "hal_sim/board/codec.h"
 #include "hal_sim/board/data_eeprom.h"
+#include "hal_sim/board/diagnosis.h"
 #include "hal_sim/board/i2c_bus.h"
 #include "hal_sim/board/i2c_master.h"
 #include "hal_sim/board/packet_devices.h"
@@ -160,6 +161,14 @@ class Board {
   void turn_selector(int position);
   void set_battery(double volts, Cycle at);
 
+  // --- checks ---------------------------------------------------------------------------------------------
+
+  /// What the program makes of the board that an e-puck would not do for it, or would suffer from; up to
+  /// `at`, in no order. Costs nothing while nobody asks.
+  std::vector<Diagnosis> diagnoses(Cycle at) const;
+  /// Somebody else watches for latches of pins that are inputs (the models of the chip).
+  void leave_inputs_to_others() { watches_inputs_ = false; }
+
   // --- what the library's drivers keep in the processor, in closed form ----------------------------------
 
   AgendaTimer& agendas() { return agendas_; }
@@ -261,6 +270,9 @@ class Board {
   double coil_duty(Wheel wheel, Cycle at) const;
   /// Tells whoever looks at pins that a latch or a direction has changed.
   void outputs_changed(Cycle at);
+  /// Lines whose latch or direction changes from what they are now: how long have they been on?
+  void note_pulses(std::size_t port, std::uint16_t new_lat, std::uint16_t new_tris, Cycle at);
+  void note_vain_writes(std::size_t port, std::uint16_t changed, Cycle at);
   /// Is the pin an output, and its latch 1?
   bool output_high(char port, int bit) const;
   /// What everything that is on draws, A.
@@ -274,6 +286,19 @@ class Board {
   std::array<std::uint16_t, kPorts> lat_{};  // of D the high byte only: the low one is the coils
   std::array<std::uint16_t, kPorts> tris_{};
   std::array<Cycle, 4> line_since_{};  // when the latch of an emitter line was last set
+  std::array<Cycle, 4> lit_since_{};   // when its pin last went high
+  struct LongPulse {
+    std::int64_t count = 0;
+    Cycle first = 0;
+    Cycle longest = 0;
+  };
+  std::array<LongPulse, 4> long_pulses_{};
+  struct VainWrites {
+    std::array<std::int64_t, 16> count{};
+    std::array<Cycle, 16> first{};
+  };
+  std::array<VainWrites, kPorts> vain_writes_{};
+  bool watches_inputs_ = true;
 
   AgendaTimer agendas_;
   TimerMotors timer_motors_;

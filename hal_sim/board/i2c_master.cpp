@@ -45,7 +45,7 @@ void I2cMaster::settle(Cycle at) {
   switch (operation_) {
     case Operation::Start:
     case Operation::Restart:
-      bus_.start(over_at_);
+      bus_.start(over_at_, operation_ == Operation::Restart);
       started_ = true;
       break;
     case Operation::Stop:

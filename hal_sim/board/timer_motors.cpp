@@ -26,7 +26,8 @@ void StepTrain::advance_to(Cycle at, Stepper& stepper) {
     phase = (phase + toward * stepper.forward()) & 3;
     stepper.energise(kPhaseCoils[phase], next, move);
     next += period;
-    regular = stepper.is_at(phase) ? regular + 1 : 0;
+    // too fast for the motor: it has to be asked each time
+    regular = stepper.is_at(phase) && period >= kPullOutCycles ? regular + 1 : 0;
   }
   if (next > at) return;
   const std::int64_t count = (at - next) / period + 1;

@@ -146,6 +146,7 @@ void Uart::put_on_wire(std::uint8_t byte, Cycle end) {
   free_at_ = end;
   out_bytes_.push_back(byte);
   out_ends_.push_back(end);
+  if (watch_) watch_->frame(number_, true, byte, last_start_, end);
   ++sent_;
   hash_ = sim::mix64(hash_ ^ (byte | static_cast<std::uint64_t>(end) << 8));
 }

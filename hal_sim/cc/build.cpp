@@ -371,6 +371,10 @@ BuildResult build_image(const BuildOptions& options) {
   }
   if (const std::string told = library_copies_message(o.source_dir, copies); !told.empty())
     result.warnings.push_back(told);
+  std::vector<std::pair<std::string, std::string>> texts;
+  for (const auto& s : o.register_way ? find_library_copies(o.source_dir, sources).kept : copies.kept)
+    texts.emplace_back(s.filename().string(), read_text(s));
+  result.conflicts = timer_conflicts(texts);
   Plan p = plan(o, copies, false);
   if (p.is_webots) own = p.user.size();
   for (std::size_t i = own; i < p.user.size(); ++i) p.user[i].flags.push_back("--weak");

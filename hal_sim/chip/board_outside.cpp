@@ -35,6 +35,7 @@ std::string hertz(double rate) { return std::to_string(std::lround(rate)); }
 
 BoardOutside::BoardOutside(Board& board) : board_(board), camera_(board), selector_(board.selector()) {
   tris_.fill(0xFFFF);
+  board_.leave_inputs_to_others();
 }
 
 bool BoardOutside::begin_window(dspic::Dspic30f6014a& chip, Cycle now) {
@@ -185,7 +186,7 @@ void BoardOutside::uart_sent(int uart, const dspic::UartFrame& frame) {
     board_.uart(uart).put_on_wire(static_cast<std::uint8_t>(frame.word), frame.end());
 }
 
-void BoardOutside::i2c_start(bool, Cycle at) { board_.i2c().start(at); }
+void BoardOutside::i2c_start(bool repeated, Cycle at) { board_.i2c().start(at, repeated); }
 
 dspic::I2cReply BoardOutside::i2c_write(std::uint8_t byte, Cycle at) {
   return {board_.i2c().write(byte, at), 0xFF, 0};

@@ -73,4 +73,15 @@ void NativeProcessor::disi(Cycle cycles, Cycle now) {
   if (cycles <= 2) disi_until_ = now + cycles;  // INTERRUPT_ON() writes a short count over a long one
 }
 
+bool NativeProcessor::flag(int vector, Cycle at) {
+  const InterruptSource& s = interrupts_.source(vector);
+  return (s.flag && s.flag_since <= at) || s.due <= at;
+}
+
+Cycle NativeProcessor::next_flag(int vector, Cycle at) {
+  const InterruptSource& s = interrupts_.source(vector);
+  if (s.flag && s.flag_since > at) return s.flag_since;
+  return s.due > at ? s.due : kNever;
+}
+
 }  // namespace host

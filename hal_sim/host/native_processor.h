@@ -44,6 +44,10 @@ class NativeProcessor final : public Processor {
   void disi(Cycle cycles, Cycle now) override;
   bool wakes(Cycle now) override { return select(now) >= 0; }
 
+  bool flag(int vector, Cycle at) override;
+  Cycle next_flag(int vector, Cycle at) override;
+  Cycle flag_since(int vector) override { return interrupts_.source(vector).flag_since; }
+
   InterruptController& interrupts() { return interrupts_; }
   bool disi_active(Cycle now) const { return now < disi_until_; }
   /// INTCON2.INT0EP was written: external interrupt 0 waits for the other edge.

@@ -16,6 +16,9 @@ class Observer {
   /// The program's time has come to `at`. What it changed before is in place, what it changes at `at` is not:
   /// whatever the board evaluates in closed form can still be asked for any cycle since the last call.
   virtual void reached(Cycle at) = 0;
+  /// The chip changes by itself in cycle `at`, which may lie before the program's time: what changed before
+  /// is in place. Told in order of time.
+  virtual void about_to_change(Cycle at) {}
   /// The processor leaves what it did at `entry` for the handler of `vector`, whose flag rose at `flagged`
   /// (-1 unknown) and whose first instruction comes at `first`.
   virtual void handler_begins(int vector, Cycle flagged, Cycle entry, Cycle first) = 0;

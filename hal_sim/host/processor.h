@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "hal_sim/board/diagnosis.h"
 #include "hal_sim/host/context.h"
 
 namespace dspic {
@@ -21,6 +22,7 @@ class Dspic30f6014a;
 namespace host {
 
 class Robot;
+class Observer;
 
 inline constexpr int kNoVector = -1;
 inline constexpr int kResetDue = -2;      ///< the processor resets itself: why_reset() says why
@@ -94,12 +96,18 @@ class Processor {
   /// Does an interrupt end Sleep or Idle at `now`?
   virtual bool wakes(Cycle now) = 0;
 
+  // --- for whoever writes its course down; no change of course
+  /// The flag of an interrupt at `at`, not before what has already run; the first cycle after `at` at which
+  /// it may change by itself, kNever if none; when it rose last, -1 unknown.
+  virtual bool flag(int vector, Cycle at) = 0;
+  virtual Cycle next_flag(int vector, Cycle at) = 0;
+  virtual Cycle flag_since(int vector) = 0;
+  /// Told of what happens by itself, as Robot::observe() says.
+  virtual void observe(Observer* observer) {}
+
   virtual std::uint64_t state_hash(Cycle now) { return 0; }
-  /// What the models have to say about the program, a sentence each, in order of time.
-  virtual const std::vector<std::string>& notices() const {
-    static const std::vector<std::string> none;
-    return none;
-  }
+  /// What the models have to say about the program so far, in order of time.
+  virtual std::vector<board::Diagnosis> diagnoses() const { return {}; }
   /// The chip behind it; null in the native way.
   virtual dspic::Dspic30f6014a* chip() { return nullptr; }
 };

@@ -264,7 +264,7 @@ void Robot::deliver() {
 }
 
 void Robot::serve(int vector) {
-  const Cycle flagged = observer_ && native_ ? native_->interrupts().source(vector).flag_since : Cycle{-1};
+  const Cycle flagged = observer_ ? processor_->flag_since(vector) : Cycle{-1};
   if (observer_) observer_->reached(now_);
   const Processor::Entry entry = processor_->enter(vector, now_);
   if (observer_) observer_->handler_begins(vector, flagged, now_, entry.first_instruction);
@@ -317,6 +317,17 @@ bool Robot::lend_reserve() {
 
 void Robot::on_event() {
   if (overflowed_) trap(TP_TRAP_STACK, kStackOverflow);
+  if (!native_) {
+    // a block may be a division of 500 cycles: an interrupt comes within it, and the rest of it afterwards
+    const Cycle undisturbed = issued_, rest = -copy_.control().budget;
+    issued_ = copy_.control().budget = 0;
+    advance_main(undisturbed);
+    run_main(rest);
+    if (observer_) observer_->reached(now_);
+    give_budget();
+    if (overflowed_) trap(TP_TRAP_STACK, kStackOverflow);
+    return;
+  }
   fold();
   if (observer_) observer_->reached(now_);
   for (;;) {
@@ -484,21 +495,6 @@ std::int64_t Robot::next_rand() {
 // --- for observers
 // ---------------------------------------------------------------------------------------------------
 
-bool Robot::interrupt_flag(int vector, Cycle at) const {
-  if (!native_) return false;
-  const InterruptController& controller = native_->interrupts();
-  const InterruptSource& s = controller.source(vector);
-  return (s.flag && s.flag_since <= at) || s.due <= at;
-}
-
-Cycle Robot::next_interrupt_flag(int vector, Cycle at) const {
-  if (!native_) return kNever;
-  const InterruptController& controller = native_->interrupts();
-  const InterruptSource& s = controller.source(vector);
-  if (s.flag && s.flag_since > at) return s.flag_since;
-  return s.due > at ? s.due : kNever;
-}
-
 void Robot::callback(const void* function) {
   if (observer_)
     observer_->callback(function ? reinterpret_cast<std::uintptr_t>(function) - copy_.base() : 0, now());
@@ -590,6 +586,14 @@ std::vector<Place> Robot::walk(std::uintptr_t pc, std::uintptr_t frame) const {
     frame = link[0];
   }
   return places;
+}
+
+std::vector<board::Diagnosis> Robot::diagnoses() const {
+  std::vector<board::Diagnosis> all = processor_->diagnoses();
+  for (board::Diagnosis& d : board_.diagnoses(lived_cycles())) all.push_back(std::move(d));
+  for (board::Diagnosis& d : all) d.first_s = to_world_s ? to_world_s(d.first) : 0;
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  return all;
 }
 
 std::uint64_t Robot::hash() const {

@@ -69,6 +69,8 @@ class Robot final : public Context {
 
   bool has_stopped() const { return stopped_; }
   const std::vector<TrapReport>& traps() const { return traps_; }
+  /// What board and chip have to say about the program so far, in order of time. Between windows only.
+  std::vector<board::Diagnosis> diagnoses() const;
   Cycle cycles() const { return end_; }
   /// Cycles at the last moment at which the program's own count was added up: the instant of a reset.
   Cycle settled_now() const { return now_; }
@@ -102,13 +104,13 @@ class Robot final : public Context {
   // --- for whoever writes its course down
   // ----------------------------------------------------------------------
   /// Null: nobody. Between windows only; outlives the robot or is taken away.
-  void observe(Observer* observer) { observer_ = observer; }
-  /// Does it run in the native way, where interrupt_flag() answers? In the register way it is false.
-  bool knows_flags() const { return native_ != nullptr; }
-  /// The flag of an interrupt at `at`, not before what has already run; and the first cycle after `at` at
-  /// which it rises by itself, kNever if none.
-  bool interrupt_flag(int vector, Cycle at) const;
-  Cycle next_interrupt_flag(int vector, Cycle at) const;
+  void observe(Observer* observer) {
+    observer_ = observer;
+    processor_->observe(observer);
+  }
+  /// The chip's models, in the register way; null in the native way.
+  dspic::Dspic30f6014a* chip() { return processor_->chip(); }
+  bool has_chip() const { return native_ == nullptr; }
   /// Asleep in a wait that has not ended yet.
   bool is_waiting() const { return idling_ && !stopped_; }
 

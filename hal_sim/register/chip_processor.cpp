@@ -7,6 +7,7 @@
 
 #include "hal_sim/host/host_params.h"
 #include "hal_sim/host/image_abi.h"
+#include "hal_sim/host/observer.h"
 #include "hal_sim/host/oscillator.h"
 #include "hal_sim/register/register_params.h"
 
@@ -14,7 +15,7 @@ namespace register_way {
 
 namespace {
 
-constexpr unsigned kU1Mode = 0x20C, kU1Sta = 0x20E, kU1TxReg = 0x210;
+constexpr unsigned kU1Mode = 0x20C, kU1Sta = 0x20E, kU1TxReg = 0x210, kIfs0 = 0x084;
 constexpr std::uint16_t kUartEnabled = 0x8000, kTransmitEnabled = 0x0400, kBufferFull = 0x0200;
 
 /// Reading it moves a FIFO or lowers a flag, so a loop that does has changed something.
@@ -42,13 +43,59 @@ const char* reason_of(dspic::ResetKind kind) {
   }
 }
 
+/// What to do about it; empty where the message says so.
+const char* hint_for(dspic::Cause cause) {
+  using dspic::Cause;
+  switch (cause) {
+    case Cause::UnmodelledBit:
+      return "the robot may do something here that the twin does not; see docs/limits.md";
+    case Cause::UnimplementedAddress:
+      return "is the header the dsPIC30F6014A's?";
+    case Cause::UninitialisedRead:
+      return "write it first";
+    case Cause::UartOverrun:
+      return "read UxRXREG in the receive interrupt until URXDA is 0, and clear UxSTA.OERR";
+    case Cause::UartFrameError:
+      return "compare baud rate, parity and stop bits of both ends";
+    case Cause::BaudError:
+      return "UxBRG = FCY / (16 baud) - 1 with FCY = 14745600 Hz: 7 for 115200, 95 for 9600";
+    case Cause::MissedInterrupt:
+      return "make the handler shorter, raise its priority, or allow nesting (INTCON1.NSTDIS = 0)";
+    case Cause::FlagNeverCleared:
+      return "clear the flag in the handler";
+    case Cause::InputDriven:
+      return "clear the TRIS bit, or call e_init_port() first";
+    case Cause::AnalogueDigital:
+      return "clear the channel's ADPCFG bit and set its TRIS bit";
+    case Cause::DigitalAnalogue:
+      return "set the ADPCFG bit";
+    case Cause::ChangedWhileOn:
+      return "clear ADCON1.ADON first";
+    case Cause::NotUnlocked:
+      return "write the unlock sequence directly before, with interrupts off";
+    case Cause::I2cMisuse:
+      return "wait until SEN, RSEN, PEN, RCEN, ACKEN and I2CSTAT.TRSTAT are 0";
+    case Cause::CodecRate:
+      return "choose the divider N1 and multiplier M1 in the codec's registers 3 and 4 for the rate of the "
+             "DCI's frames";
+    case Cause::TwoAuthors:
+      return "the later one silences the other: use one of the two drivers";
+    case Cause::WatchdogReset:
+      return "call ClrWdt() in the main loop, or leave RCON.SWDTEN 0";
+    case Cause::TrapConflict:
+      return "";
+  }
+  return "";
+}
+
 }  // namespace
 
 bool wants_chip(const char* image_flags) { return image_flags && std::strstr(image_flags, "register"); }
 
 ChipProcessor::ChipProcessor(host::Robot& robot) : robot_(robot), outside_(robot.board()) {}
 
-// --- life -------------------------------------------------------------------------------------------------
+// --- life
+// -------------------------------------------------------------------------------------------------
 
 void ChipProcessor::power_up() {
   latest_ = 0;
@@ -61,6 +108,7 @@ void ChipProcessor::power_up() {
   if (image.fwdt) configuration.fwdt = *static_cast<const std::uint16_t*>(image.fwdt);
   chip_ = std::make_unique<dspic::Dspic30f6014a>(outside_, this, configuration);
   outside_.fill_eeprom(*chip_);
+  observe(observer_);
   next_reset_ = dspic::ResetKind::PowerOn;
 }
 
@@ -89,13 +137,29 @@ void ChipProcessor::end_window(Cycle now) {
 
 void ChipProcessor::remote_changed(Cycle now) { chip_->outside_changed(at(now)); }
 
-void ChipProcessor::report(const dspic::Diagnosis& d) {
-  char when[48];
-  std::snprintf(when, sizeof when, " (%.6f s)", static_cast<double>(d.cycle) / host::kFcyHz);
-  notices_.push_back(std::string(dspic::cause_name(d.cause)) + ": " + d.message + when);
+void ChipProcessor::report(const dspic::Diagnosis& d) { diagnoses_.push_back(d); }
+
+std::vector<board::Diagnosis> ChipProcessor::diagnoses() const {
+  std::vector<board::Diagnosis> all;
+  for (const dspic::Diagnosis& d : diagnoses_) {
+    board::Diagnosis one{dspic::cause_name(d.cause), d.place, d.message, hint_for(d.cause), d.cycle};
+    one.count = count_of(d);
+    all.push_back(std::move(one));
+  }
+  return all;
 }
 
-// --- registers --------------------------------------------------------------------------------------------
+// some causes are counted elsewhere, each time; the report comes once
+std::int64_t ChipProcessor::count_of(const dspic::Diagnosis& d) const {
+  if (d.cause == dspic::Cause::MissedInterrupt)
+    for (int v = dspic::kFirstIrqVector; v < dspic::kVectors; ++v)
+      if (d.place == dspic::vector_name(v)) return chip_->missed_interrupts(v);
+  if (d.cause == dspic::Cause::UartOverrun) return chip_->uart_overruns(d.place[1] - '0');
+  return chip_->diagnostics().count(d.cause, d.place);
+}
+
+// --- registers
+// --------------------------------------------------------------------------------------------
 
 std::uint16_t ChipProcessor::read(unsigned address, unsigned bits, Cycle now) {
   const Cycle t = at(now);
@@ -147,7 +211,8 @@ bool ChipProcessor::print(const char* bytes, std::int64_t length) {
   return true;
 }
 
-// --- interrupts -------------------------------------------------------------------------------------------
+// --- interrupts
+// -------------------------------------------------------------------------------------------
 
 int ChipProcessor::select(Cycle now) {
   const Cycle t = at(now);
@@ -192,5 +257,28 @@ host::Processor::Waiting ChipProcessor::longest_waiting(Cycle now) {
 }
 
 bool ChipProcessor::wakes(Cycle now) { return chip_->wakes(at(now)); }
+
+// --- observers
+// --------------------------------------------------------------------------------------------
+
+// at the observer's own instants, which may lie before the latest of the program
+bool ChipProcessor::flag(int vector, Cycle at) {
+  return chip_->has_flag(vector + dspic::kFirstIrqVector, at);
+}
+
+Cycle ChipProcessor::next_flag(int vector, Cycle at) {
+  return chip_->horizon(kIfs0 + 2 * static_cast<unsigned>(vector / 16), at);
+}
+
+Cycle ChipProcessor::flag_since(int vector) {
+  return vector >= host::kTrapVector ? -1 : chip_->flag_since(vector + dspic::kFirstIrqVector);
+}
+
+void ChipProcessor::observe(host::Observer* observer) {
+  observer_ = observer;
+  chip_->watch(observer ? this : nullptr);
+}
+
+void ChipProcessor::about_to_change(Cycle at) { observer_->about_to_change(at); }
 
 }  // namespace register_way

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "dspic30/device/dspic30f6014a.h"
+#include "dspic30/periph/events.h"
 #include "hal_sim/chip/board_outside.h"
 #include "hal_sim/host/processor.h"
 #include "hal_sim/host/robot.h"
@@ -26,7 +27,7 @@ using host::Cycle;
 /// Does an image of these flags (tp_image.flags) want this processor?
 bool wants_chip(const char* image_flags);
 
-class ChipProcessor final : public host::Processor, public dspic::DiagnosticSink {
+class ChipProcessor final : public host::Processor, public dspic::DiagnosticSink, private dspic::EventWatch {
  public:
   /// `robot` owns this.
   explicit ChipProcessor(host::Robot& robot);
@@ -61,12 +62,20 @@ class ChipProcessor final : public host::Processor, public dspic::DiagnosticSink
   void power_save(bool sleep, Cycle now) override { chip_->power_save(sleep, at(now)); }
   bool wakes(Cycle now) override;
 
+  bool flag(int vector, Cycle at) override;
+  Cycle next_flag(int vector, Cycle at) override;
+  Cycle flag_since(int vector) override;
+  void observe(host::Observer* observer) override;
+
   std::uint64_t state_hash(Cycle now) override { return chip_->state_hash(at(now)); }
   dspic::Dspic30f6014a* chip() override { return chip_.get(); }
-  const std::vector<std::string>& notices() const override { return notices_; }
+  std::vector<board::Diagnosis> diagnoses() const override;
   void report(const dspic::Diagnosis& diagnosis) override;
 
  private:
+  std::int64_t count_of(const dspic::Diagnosis& diagnosis) const;
+  void about_to_change(Cycle at) override;
+
   /// Rounds of a waiting loop with more reads than this are not jumped over.
   static constexpr int kWatchedReads = 64;
 
@@ -82,8 +91,9 @@ class ChipProcessor final : public host::Processor, public dspic::DiagnosticSink
   dspic::ResetKind next_reset_ = dspic::ResetKind::PowerOn;
   const char* why_reset_ = "";
   Cycle latest_ = 0;
+  host::Observer* observer_ = nullptr;
   int watched_reads_ = 0;
-  std::vector<std::string> notices_;
+  std::vector<dspic::Diagnosis> diagnoses_;
 };
 
 }  // namespace register_way

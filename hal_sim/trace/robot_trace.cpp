@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "dspic30/device/dspic30f6014a.h"
+
 namespace trace {
 
 using host::Cycle;
@@ -20,6 +22,12 @@ std::uint64_t lowest(std::uint64_t value, int width) {
   return width >= 64 ? value : value & ((std::uint64_t{1} << width) - 1);
 }
 
+// TMR1 to TMR5: a tick may be a cycle
+bool runs_freely(int address) {
+  const char* name = dspic::Dspic30f6014a::register_name(static_cast<unsigned>(address));
+  return std::strncmp(name, "TMR", 3) == 0 && name[4] == 0;
+}
+
 }  // namespace
 
 RobotTrace::RobotTrace(board::Board& board, host::Robot* robot, std::vector<Signal> signals, bool spans)
@@ -34,6 +42,7 @@ RobotTrace::RobotTrace(board::Board& board, host::Robot* robot, std::vector<Sign
     }
     at->signals.push_back(static_cast<int>(i));
     if (source.kind == Source::Variable) look_every = kVariableCycles;
+    if (source.kind == Source::Register && runs_freely(source.index)) shows_counters_ = true;
   }
   shown_.assign(signals_.size(), 0);
   for (int number : {1, 2}) board_.uart(number).watch(this, number);
@@ -49,12 +58,25 @@ RobotTrace::~RobotTrace() {
 
 void RobotTrace::reached(Cycle at) {
   if (at <= last_ || signals_.empty()) return;
+  // what the chip does by itself before `at` comes back in about_to_change(). No further than the window: of
+  // what comes from outside later nothing is known yet
+  if (robot_ && robot_->has_chip()) robot_->chip()->run_events(std::min(at - 1, robot_->cycles()));
+  show_until(at);
+}
+
+void RobotTrace::about_to_change(Cycle at) {
+  if (at > last_ && !signals_.empty()) show_until(at);
+}
+
+void RobotTrace::show_until(Cycle at) {
   sample(last_);
   for (Cycle t = next_change(last_); t < at; t = next_change(t)) sample(t);
+  if (shows_counters_ && at - 1 > last_) sample(at - 1);
   last_ = at;
 }
 
 void RobotTrace::sample(Cycle at) {
+  last_ = at;
   const sim::Clicks when = board_.clock().click_at(at);
   for (Sampled& s : sampled_) {
     const std::uint64_t value = value_of(s.source, at);
@@ -88,7 +110,7 @@ std::uint64_t RobotTrace::value_of(const SignalSource& source, Cycle at) {
     case Source::Steps:
       return static_cast<std::uint64_t>(board_.steps(static_cast<board::Wheel>(source.index), at));
     case Source::Flag:
-      return robot_ && robot_->interrupt_flag(source.index, at);
+      return robot_ && robot_->processor().flag(source.index, at);
     case Source::Service:
       return std::any_of(open_.begin(), open_.end(),
                          [&](const Span& open) { return open.vector == source.index; });
@@ -100,6 +122,8 @@ std::uint64_t RobotTrace::value_of(const SignalSource& source, Cycle at) {
       if (busy) wire_byte_[index] = frames.front().byte;
       return source.kind == Source::WireBusy ? busy : wire_byte_[index];
     }
+    case Source::Register:
+      return robot_->chip()->peek(static_cast<unsigned>(source.index), at);
     case Source::Variable: {
       char bytes[16] = {};
       robot_->read_memory(source.variable.address, bytes, std::min(source.variable.bytes, sizeof bytes));
@@ -135,7 +159,7 @@ Cycle RobotTrace::next_change(Cycle at) {
         port('D');
         break;
       case Source::Flag:
-        if (robot_) next = std::min(next, robot_->next_interrupt_flag(s.source.index, at));
+        if (robot_) next = std::min(next, robot_->processor().next_flag(s.source.index, at));
         break;
       case Source::WireByte:
       case Source::WireBusy:
@@ -146,6 +170,10 @@ Cycle RobotTrace::next_change(Cycle at) {
             break;
           }
         }
+        break;
+      case Source::Register:
+        if (!runs_freely(s.source.index))
+          next = std::min(next, robot_->chip()->horizon(static_cast<unsigned>(s.source.index), at));
         break;
       case Source::Tris:
       case Source::Service:

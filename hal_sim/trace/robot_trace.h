@@ -6,7 +6,10 @@
 //
 // Pins that the board evaluates in closed form (coils, IR pulses) are asked at each cycle at which they can
 // change, so a change has its exact cycle. Variables have none: they are looked at whenever the program calls
-// the library or the host, at interrupts, and every kVariableCycles of running code.
+// the library or the host, at interrupts, and every kVariableCycles of running code. Registers of the chip
+// are peeked at wherever they can change: after the program's accesses, at every instant of a peripheral and
+// where a closed form changes (its horizon). Counters that run freely (TMRx) would be a change a tick: they
+// are looked at in the cycles before and at those instants.
 // In: calls on the thread that runs the robot. Out: take_*() between ticks. One robot each; nothing shared.
 #pragma once
 #include <array>
@@ -63,6 +66,7 @@ class RobotTrace final : public host::Observer, public board::UartWatch {
   std::int64_t received() const { return received_; }
 
   void reached(host::Cycle at) override;
+  void about_to_change(host::Cycle at) override;
   void handler_begins(int vector, host::Cycle flagged, host::Cycle entry, host::Cycle first) override;
   void handler_ends(host::Cycle at) override;
   void callback(std::uintptr_t function, host::Cycle at) override;
@@ -80,6 +84,7 @@ class RobotTrace final : public host::Observer, public board::UartWatch {
     std::uint8_t byte;
     host::Cycle start, end;
   };
+  void show_until(host::Cycle at);
   void sample(host::Cycle at);
   std::uint64_t value_of(const SignalSource& source, host::Cycle at);
   host::Cycle next_change(host::Cycle at);
@@ -90,6 +95,7 @@ class RobotTrace final : public host::Observer, public board::UartWatch {
   host::Robot* robot_;
   std::vector<Signal> signals_;
   bool keeps_spans_;
+  bool shows_counters_ = false;  // that run freely
   std::vector<Sampled> sampled_;
   std::vector<std::uint64_t> shown_;  // a signal's value as last reported
   bool begun_ = false;

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
+#include <sstream>
 
+#include "dspic30/memory/sfr_table.h"
 #include "hal_sim/board/epuck_params.h"
 #include "hal_sim/board/remote_params.h"
 #include "hal_sim/host/image_abi.h"
@@ -73,6 +75,44 @@ Signal signal(std::string group, std::string name, Source source, int index, int
   return s;
 }
 
+// T2CON; T2CON.TCKPS, T2CONbits.TCKPS. False: no register of the chip; or no field of it, with a sentence.
+bool register_signal(const std::string& name, Signal& out, std::string& error) {
+  const auto dot = name.find('.');
+  std::string word = name.substr(0, dot);
+  if (dot != std::string::npos && word.size() > 4 && word.compare(word.size() - 4, 4, "bits") == 0)
+    word.resize(word.size() - 4);
+  const dspic::SfrInfo* info = dspic::sfr_named(word);
+  if (!info) return false;
+  out = signal("registers", word, Source::Register, info->address, 0, 16);
+  if (dot == std::string::npos) return true;
+  std::istringstream fields(info->fields);
+  std::string field, known;
+  while (fields >> field) {
+    const auto first = field.find(':'), second = field.find(':', first + 1);
+    known += (known.empty() ? "" : ", ") + field.substr(0, first);
+    if (field.substr(0, first) != name.substr(dot + 1)) continue;
+    out.name = word + "." + field.substr(0, first);
+    out.shift = std::atoi(field.c_str() + first + 1);
+    out.width = std::atoi(field.c_str() + second + 1);
+    return true;
+  }
+  error = "got '" + name + "', expected a field of " + word +
+          (known.empty() ? ", which has none" : ", one of " + known);
+  return false;
+}
+
+// the same bits of the chip's own register
+void take_from_chip(Signal& port) {
+  const char* kind = nullptr;
+  if (port.source.kind == Source::Lat) kind = "LAT";
+  if (port.source.kind == Source::Port) kind = "PORT";
+  if (port.source.kind == Source::Tris) kind = "TRIS";
+  if (!kind) return;
+  const dspic::SfrInfo* info = dspic::sfr_named(std::string(kind) + static_cast<char>(port.source.index));
+  port.source.kind = Source::Register;
+  port.source.index = info->address;
+}
+
 // LATA, PORTB3, TRISD, RA6; false: not a port
 bool port_signal(const std::string& name, Signal& out) {
   struct Form {
@@ -133,20 +173,34 @@ std::string add_variable(const std::string& name, const host::Robot& robot, std:
 
 std::vector<Signal> find_signals(const std::string& name, const host::Robot* robot, std::string& error) {
   error.clear();
+  const bool has_chip = robot && robot->has_chip();
   for (const Named& n : kNamed)
-    if (name == n.name) return {signal(n.group, n.name, n.source, n.index, n.shift, n.width)};
+    if (name == n.name) {
+      Signal pin = signal(n.group, n.name, n.source, n.index, n.shift, n.width);
+      if (has_chip) take_from_chip(pin);
+      return {pin};
+    }
   Signal port;
-  if (port_signal(name, port)) return {port};
+  if (port_signal(name, port)) {
+    if (has_chip) take_from_chip(port);
+    return {port};
+  }
   for (int line = 0; line < 4; ++line)
     if (name == kLines[line])
       return {signal("uart", name, Source::WireByte, line, 0, 8),
               signal("uart", name + "_busy", Source::WireBusy, line, 0, 1)};
   for (int v = 0; v < TP_VECTORS; ++v)
-    if (name == host::vector_name(v) && name != "?") {
-      const Signal service = signal("interrupts", name + "_service", Source::Service, v, 0, 1);
-      if (robot && !robot->knows_flags()) return {service};
-      return {signal("interrupts", name + "_flag", Source::Flag, v, 0, 1), service};
-    }
+    if (name == host::vector_name(v) && name != "?")
+      return {signal("interrupts", name + "_flag", Source::Flag, v, 0, 1),
+              signal("interrupts", name + "_service", Source::Service, v, 0, 1)};
+  Signal word;
+  if (register_signal(name, word, error)) {
+    if (has_chip) return {word};
+    error =
+        "got '" + name + "', a register, which is drawn in the register way only; expected --way register";
+    return {};
+  }
+  if (!error.empty()) return {};
   std::vector<Signal> found;
   std::string wrong = "no firmware";
   if (robot) {
@@ -160,9 +214,12 @@ std::vector<Signal> find_signals(const std::string& name, const host::Robot* rob
   for (int v = 0; v < TP_VECTORS; ++v) known.push_back(host::vector_name(v));
   for (const char* p = kPorts; *p; ++p)
     for (const char* kind : {"LAT", "PORT", "TRIS"}) known.push_back(std::string(kind) + *p);
+  if (has_chip)
+    for (const dspic::SfrInfo* r = dspic::sfr_begin(); r != dspic::sfr_end(); ++r) known.push_back(r->name);
   const std::string guess = sim::did_you_mean(name, known);
-  error = fmt::format("got '{}', expected a pin, a port, an interrupt, a UART's line or a variable ({}){}",
-                      name, wrong, guess.empty() ? "" : "; did you mean '" + guess + "'?");
+  error = fmt::format(
+      "got '{}', expected a pin, a port, a register, an interrupt, a UART's line or a variable ({}){}", name,
+      wrong, guess.empty() ? "" : "; did you mean '" + guess + "'?");
   return {};
 }
 

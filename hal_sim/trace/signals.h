@@ -6,10 +6,11 @@
 //   MOTOR1_PHA..D (left), MOTOR2_PHA..D (right), left_coils, right_coils, left_steps, right_steps
 //   PULSE_IR0..3, AUDIO_ON, CAM_RESET, REMOTE, BATT_LOW
 //   T1, ADC, U1RX ...                   an interrupt: its flag and whether its handler is open
+//   T2CON, TMR2, ADCBUF3, IFS0 ...      a register of the chip; T2CON.TCKPS, IFS0bits.T2IF: one of its fields
 //   TX1, RX1, TX2, RX2                  the byte on the wire, and whether there is one
 //   anything else                       a variable of the firmware (hal_sim/host/variables.h)
 //
-// Not there: registers other than the ports'.
+// In the register way ports are the chip's, and so are all its registers; the native way has ports only.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -21,11 +22,11 @@
 namespace trace {
 
 /// What a value is read from; `index` of SignalSource says which of them.
-enum class Source { Lat, Port, Tris, Lights, Steps, Flag, Service, WireByte, WireBusy, Variable };
+enum class Source { Lat, Port, Tris, Lights, Steps, Flag, Service, WireByte, WireBusy, Variable, Register };
 
 struct SignalSource {
   Source kind = Source::Lat;
-  int index = 0;            ///< port letter, wheel (0 left), vector, or line (TX1 RX1 TX2 RX2)
+  int index = 0;            ///< port letter, wheel (0 left), vector, line (TX1 RX1 TX2 RX2) or address
   host::Variable variable;  ///< of Source::Variable
 
   bool operator==(const SignalSource& other) const {
@@ -37,7 +38,7 @@ struct SignalSource {
 
 /// One line of a picture: some bits of a source.
 struct Signal {
-  std::string group;  ///< "pins", "motors", "interrupts", "uart", "variables"
+  std::string group;  ///< "pins", "motors", "interrupts", "uart", "variables", "registers"
   std::string name;
   SignalSource source;
   int shift = 0;

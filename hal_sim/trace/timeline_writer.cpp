@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -44,8 +45,10 @@ void TimelineWriter::add(const std::string& event) {
   if (done_) return;
   if (bytes_ + static_cast<std::int64_t>(pending_.size() + event.size()) + kEndBytes > most_bytes_) {
     done_ = true;
-    pending_ += std::string(first_ ? "" : ",\n") +
-                R"({"name":"the file would grow beyond --trace-max-mb","ph":"M","pid":0})";
+    // an instant of all robots, where the last event ends
+    pending_ += fmt::format(
+        R"({}{{"name":"the file would grow beyond --trace-max-mb","ph":"i","s":"g","pid":0,"tid":0,"ts":{}}})",
+        first_ ? "" : ",\n", micros(latest_ns_));
     first_ = false;
     return;
   }
@@ -101,6 +104,7 @@ void TimelineWriter::span(int robot, const Span& span, const board::RobotClock& 
     }
   }
   const std::int64_t begin = ns(span.begin);
+  latest_ns_ = std::max(latest_ns_, ns(span.end));
   add(fmt::format(R"({{"name":{},"ph":"X","pid":{},"tid":{},"ts":{},"dur":{},"args":{{"cycles":{}{}}}}})",
                   json_text(name), robot, static_cast<int>(track), micros(begin),
                   micros(ns(span.end) - begin), span.end - span.begin, args));

@@ -44,6 +44,7 @@ class TimelineWriter {
   std::string pending_;
   std::int64_t bytes_ = 0;
   std::int64_t most_bytes_;
+  std::int64_t latest_ns_ = 0;  // end of the last slice
   bool done_ = false;
   bool first_ = true;
   std::map<std::pair<int, std::uintptr_t>, std::string> names_;

@@ -3,109 +3,17 @@
 // expectations are worked out from the timers' periods at 14,745,600 cycles a second.
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 
 #include "tests/cli/command.h"
+#include "tests/cli/timeline_reader.h"
+#include "tests/cli/vcd_reader.h"
 
 using namespace cli_test;
 using nlohmann::json;
 
 namespace {
-
-constexpr double kCycleNs = 1e9 / 14'745'600;
-
-// what a strict reader gets from a dump: the changes of every signal by its full name
-struct Dump {
-  using Changes = std::vector<std::pair<long long, std::string>>;  // ns, value as written
-  std::map<std::string, Changes> signals;
-  long long first_ns = -1, last_ns = -1;
-  std::string comment;
-};
-
-// fails the test at the first token that the standard does not allow where it stands
-Dump parse(const std::string& text) {
-  Dump dump;
-  std::map<std::string, std::string> names;  // code -> full name
-  std::map<std::string, int> widths;
-  std::vector<std::string> scopes;
-  std::istringstream in(text);
-  std::string word;
-  bool defined = false;
-  const auto expect_end = [&] {
-    in >> word;
-    EXPECT_EQ(word, "$end");
-  };
-  while (in >> word) {
-    if (word == "$version" || word == "$timescale" || word == "$comment") {
-      std::string body, w;
-      while (in >> w && w != "$end") body += w + " ";
-      EXPECT_EQ(w, "$end");
-      if (word == "$timescale") EXPECT_EQ(body, "1 ns ");
-      if (word == "$comment") dump.comment = body;
-    } else if (word == "$scope") {
-      std::string kind, name;
-      in >> kind >> name;
-      EXPECT_EQ(kind, "module");
-      scopes.push_back(name);
-      expect_end();
-    } else if (word == "$upscope") {
-      EXPECT_FALSE(scopes.empty());
-      scopes.pop_back();
-      expect_end();
-    } else if (word == "$var") {
-      EXPECT_FALSE(defined);
-      std::string kind, code, name, rest;
-      int width;
-      in >> kind >> width >> code >> name >> rest;
-      EXPECT_TRUE(kind == "wire" || kind == "real") << kind;
-      if (rest != "$end") {
-        EXPECT_EQ(rest, "[" + std::to_string(width - 1) + ":0]");
-        expect_end();
-      }
-      std::string full;
-      for (const auto& s : scopes) full += s + "/";
-      EXPECT_TRUE(names.emplace(code, full + name).second) << "code twice: " << code;
-      widths[code] = kind == "real" ? 0 : width;
-      dump.signals[full + name];
-    } else if (word == "$enddefinitions") {
-      expect_end();
-      EXPECT_TRUE(scopes.empty());
-      defined = true;
-    } else if (word == "$dumpvars" || word == "$end") {
-      EXPECT_TRUE(defined);
-    } else if (word[0] == '#') {
-      const long long ns = std::stoll(word.substr(1));
-      EXPECT_GT(ns, dump.last_ns) << "time does not grow";
-      if (dump.first_ns < 0) dump.first_ns = ns;
-      dump.last_ns = ns;
-    } else {
-      EXPECT_GE(dump.last_ns, 0) << "a value before any time";
-      std::string value, code;
-      if (word[0] == 'b' || word[0] == 'r') {
-        value = word.substr(1);
-        in >> code;
-        EXPECT_EQ(widths[code] == 0, word[0] == 'r');
-      } else {
-        EXPECT_TRUE(word[0] == '0' || word[0] == '1' || word[0] == 'x') << word;
-        value = word.substr(0, 1);
-        code = word.substr(1);
-        EXPECT_EQ(widths[code], 1);
-      }
-      const auto name = names.find(code);
-      if (name == names.end()) {
-        ADD_FAILURE() << "unknown code in " << word;
-        return dump;
-      }
-      if (widths[code] > 0) EXPECT_LE(static_cast<int>(value.size()), widths[code]);
-      dump.signals[name->second].emplace_back(dump.last_ns, value);
-    }
-  }
-  EXPECT_TRUE(defined);
-  return dump;
-}
 
 class Traces : public CommandTest {
  protected:
@@ -236,6 +144,7 @@ TEST_F(Traces, coils_variables_interrupts_and_bytes_have_their_times) {
 
   // the time line: T1 nested within T2, whose callback is beat
   const json events = json::parse(read(path("t.json")));
+  check_timeline(events);
   int nested = 0, beats = 0;
   std::set<std::string> counters;
   for (const json& e : events) {
@@ -293,6 +202,16 @@ TEST_F(Traces, a_full_dump_ends_cleanly) {
   EXPECT_NE(parse(text).comment.find("--vcd-max-mb"), std::string::npos);
 }
 
+TEST_F(Traces, a_full_time_line_ends_cleanly) {
+  ASSERT_EQ(run("--for 1 --trace-max-mb 0.01 --trace " + path("c.json")).exit_code, 0);
+  const std::string text = read(path("c.json"));
+  EXPECT_LE(text.size(), 10'000u);
+  EXPECT_GT(text.size(), 9'000u);
+  const json events = json::parse(text);
+  check_timeline(events);
+  EXPECT_NE(events.back()["name"].get<std::string>().find("--trace-max-mb"), std::string::npos);
+}
+
 TEST_F(Traces, a_killed_run_leaves_files_that_can_be_read) {
   twinpuck("run empty --fw '*=blink' -q --for 1000000 --vcd-max-mb 100000 --vcd " + path("k.vcd") +
                " --trace " + path("k.json"),
@@ -301,7 +220,10 @@ TEST_F(Traces, a_killed_run_leaves_files_that_can_be_read) {
   EXPECT_GT(dump.last_ns, 0);
   const std::string text = read(path("k.json"));
   ASSERT_GT(text.size(), 1000u);
-  EXPECT_NO_THROW(EXPECT_GT(json::parse(text + "]").size(), 10u));
+  json events;
+  EXPECT_NO_THROW(events = json::parse(text + "]"));
+  EXPECT_GT(events.size(), 10u);
+  check_timeline(events);
 }
 
 TEST_F(Traces, wrong_requests_are_refused_before_the_run) {

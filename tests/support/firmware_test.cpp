@@ -237,6 +237,18 @@ const supervisor::Outcome& FirmwareTest::finish() {
 double FirmwareTest::now_s() const { return twin_ ? sim::to_seconds(twin_->simulation().now()) : 0; }
 std::uint64_t FirmwareTest::digest() const { return twin_ ? twin_->simulation().digest() : 0; }
 
+std::string Robot::diagnoses_text() const {
+  std::string text;
+  for (const auto& d : diagnoses())
+    text += d.place + ": " + d.cause + ": " + d.message + "; " + d.hint + "\n";
+  return text;
+}
+
+void FirmwareTest::expect_no_diagnoses() const {
+  if (!twin_) return;
+  for (const auto& robot : robots_) EXPECT_EQ(robot->diagnoses_text(), "");
+}
+
 void FirmwareTest::expect_no_traps() const {
   if (!twin_) return;
   for (const auto& t : twin_->traps())
