@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "dspic30/device/claims.h"
 #include "dspic30/periph/adc.h"
 #include "dspic30/periph/capture_compare.h"
 #include "dspic30/periph/dci.h"
@@ -21,7 +20,7 @@ namespace dspic {
 
 namespace {
 
-constexpr unsigned kIfs0 = 0x084, kIec0 = 0x08C, kIpc0 = 0x094, kAdcon1 = 0x2A0, kAdpcfg = 0x2A8,
+constexpr unsigned kIfs0 = 0x084, kIec0 = 0x08C, kAdcon1 = 0x2A0, kAdpcfg = 0x2A8,
                    kFirstPort = 0x2C0, kLastPort = 0x2E8, kBsram = 0x750, kSsram = 0x752, kPmd1 = 0x770,
                    kPmd2 = 0x772, kPmd3 = 0x774;
 
@@ -49,8 +48,7 @@ struct Dspic30f6014a::Parts {
         nvm(fabric),
         cans{Can(fabric, 1), Can(fabric, 2)},
         cpu(fabric),
-        plain(fabric),
-        claims(diagnostics) {
+        plain(fabric) {
     cpu.attach();
     interrupts.attach(bus);
     change.attach();
@@ -95,7 +93,6 @@ struct Dspic30f6014a::Parts {
   std::array<Can, 2> cans;
   CpuRegisters cpu;
   PlainRegisters plain;
-  Claims claims;
 
   // apart from the usual read, which then keeps nothing on the stack
   __attribute__((noinline)) std::uint16_t read_after_events(unsigned address, unsigned bits, Cycle now) {
@@ -173,7 +170,6 @@ void Dspic30f6014a::reset(ResetKind kind, Cycle now) {
   for (Can& c : p.cans) c.reset();
   p.cpu.reset();
   p.plain.reset();
-  p.claims.clear();
   p.system.reset(kind, now);
 }
 
@@ -191,7 +187,6 @@ Cycle Dspic30f6014a::write(unsigned address, std::uint16_t value, unsigned bits,
   p.events.run_to(now);
   p.events.forget_changes();
   p.interrupts.forget_stir();
-  p.claims.note_write(address & ~1u, now);
   if (address >= kIfs0 && address < kIec0)  // a handler lowers its flag: the most frequent write
     p.bus.write(address, value, bits, now);
   else
@@ -204,10 +199,8 @@ void Dspic30f6014a::Parts::write_beyond(unsigned address, std::uint16_t value, u
   const unsigned word = address & ~1u;
   // inputs held up to now saw the pins as they were
   if ((word >= kFirstPort && word <= kLastPort) || word == kAdpcfg) adc.advance(now);
-  const std::uint64_t enabled_before = interrupts.enabled_mask();
   bus.write(address, value, bits, now);
   if (word == kAdcon1) external.converter_changed(now);
-  if (word >= kIec0 && word < kIpc0) claims.note_enabled(interrupts.enabled_mask() & ~enabled_before, now);
   if (word == kPmd1 || word == kPmd2) switch_modules(plain.word(kPmd1), plain.word(kPmd2), now);
 }
 
@@ -379,8 +372,6 @@ std::int64_t Dspic30f6014a::missed_interrupts(int vector) {
 }
 
 std::int64_t Dspic30f6014a::served_interrupts(int vector) const { return parts_->interrupts.served(vector); }
-
-void Dspic30f6014a::set_author(const char* author) { parts_->claims.set_author(author); }
 
 std::uint64_t Dspic30f6014a::state_hash(Cycle now) {
   run_to(now);

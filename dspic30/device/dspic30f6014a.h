@@ -168,9 +168,6 @@ class Dspic30f6014a {
   /// Events that found their enabled flag still set, since power-up.
   std::int64_t missed_interrupts(int vector);
   std::int64_t served_interrupts(int vector) const;
-  /// Whose code the following writes belong to (a file or driver; the pointer is kept, compared by text;
-  /// null: nobody). Two authors that set up one resource are reported.
-  void set_author(const char* author);
   /// Hash of all registers and FIFOs, for determinism checks. Not cheap.
   std::uint64_t state_hash(Cycle now);
 

@@ -79,8 +79,6 @@ const char* hint_for(dspic::Cause cause) {
     case Cause::CodecRate:
       return "choose the divider N1 and multiplier M1 in the codec's registers 3 and 4 for the rate of the "
              "DCI's frames";
-    case Cause::TwoAuthors:
-      return "the later one silences the other: use one of the two drivers";
     case Cause::WatchdogReset:
       return "call ClrWdt() in the main loop, or leave RCON.SWDTEN 0";
     case Cause::TrapConflict:
