@@ -78,10 +78,8 @@ Board::Board(const Setup& setup)
 Board::~Board() = default;
 
 int Board::port_index(char port) {
-  constexpr char kLetters[] = "ABCDFG";
-  for (int i = 0; i < static_cast<int>(kPorts); ++i)
-    if (kLetters[i] == port) return i;
-  return -1;
+  constexpr signed char kIndex[] = {0, 1, 2, 3, -1, 4, 5};  // A B C D, no E, F G
+  return port >= 'A' && port <= 'G' ? kIndex[port - 'A'] : -1;
 }
 
 // --- motors ----------------------------------------------------------------------------------------------
@@ -106,7 +104,9 @@ double Board::wheel_angle_rad(Wheel wheel, Cycle at) const {
 
 std::int64_t Board::steps(Wheel wheel, Cycle at) const { return stepper_at(wheel, at).steps(); }
 
-unsigned Board::coils(Wheel wheel, Cycle at) const { return stepper_at(wheel, at).coils(); }
+unsigned Board::coils(Wheel wheel, Cycle at) const {
+  return timer_motors_.drives(wheel) ? stepper_at(wheel, at).coils() : agendas_.stepper_at(wheel, at).coils();
+}
 
 void Board::connect_steppers(Cycle at) {
   stepper(Wheel::Left, at).connect((tris_[kD] & 0x0F) == 0, at);
@@ -224,9 +224,9 @@ Cycle Board::port_horizon(char port, Cycle at) const {
 }
 
 std::uint32_t Board::leds(Cycle at) const {
-  const unsigned ring = lat_[kA] & ~static_cast<unsigned>(tris_[kA]);
+  const unsigned ring = lat_[kA] & ~static_cast<unsigned>(tris_[kA]) & kRingMask;
   std::uint32_t mask = 0;
-  for (int led = 0; led < 8; ++led)
+  for (int led = 0; ring && led < 8; ++led)
     if (ring & bit(kRingLedBit[led])) mask |= 1u << led;
   unsigned other = lat_[kC];
   if (scan_.pulses(at) & 16u) other |= bit(kFrontLedBit) | bit(kBodyLedBit);
@@ -310,10 +310,6 @@ void Board::exchange(Cycle at) {
 
 // --- analogue inputs -------------------------------------------------------------------------------------
 
-int adc_counts(double level) {
-  return static_cast<int>(std::clamp(std::floor(level + 0.5), 0.0, double{kAdcMax}));
-}
-
 IrConversion Board::ir_conversion(int sensor, Cycle at, Cycle lit_for) const {
   const std::size_t i = static_cast<std::size_t>(sensor);
   IrConversion c;
@@ -361,29 +357,32 @@ int Board::ir_counts(int sensor, Cycle at, Cycle lit_for, std::uint64_t sample) 
 }
 
 double Board::mic_level(int microphone, Cycle at) const {
-  double counts = kMicIdleCounts;
-  if (scene_) {
-    const Place& place = kMicrophone[microphone];
-    counts +=
-        kMicCountsPerPa * sim::sense_sound_pa(*scene_, setup_.robot, {place.x_m, place.y_m, kMicrophoneZM},
-                                              clock_.click_at(at));
-  }
-  return counts;
+  if (!scene_ || !sim::has_sound(*scene_)) return kMicIdleCounts;
+  const Place& place = kMicrophone[microphone];
+  return kMicIdleCounts + kMicCountsPerPa * sim::sense_sound_pa(*scene_, setup_.robot,
+                                                                {place.x_m, place.y_m, kMicrophoneZM},
+                                                                clock_.click_at(at));
+}
+
+__attribute__((always_inline)) inline int Board::with_mic_noise(double counts, int microphone,
+                                                                std::uint64_t sample) const {
+  if (setup_.mic_noise_counts <= 0) return adc_counts(counts);
+  // 64 coins: mean 32, standard deviation 4
+  const std::uint64_t bits =
+      sim::mix64(mic_noise_key_ ^ (sample << 2 | static_cast<std::uint64_t>(microphone)));
+  std::uint64_t ones = bits - ((bits >> 1) & 0x5555555555555555u);
+  ones = (ones & 0x3333333333333333u) + ((ones >> 2) & 0x3333333333333333u);
+  ones = ((ones + (ones >> 4)) & 0x0F0F0F0F0F0F0F0Fu) * 0x0101010101010101u >> 56;
+  // both below 2^63: no correction for unsigned words is needed
+  const double between =
+      static_cast<double>(static_cast<std::int64_t>(bits * 0x9E3779B97F4A7C15u >> 40)) * 0x1p-24 - 0.5;
+  return adc_counts(counts + setup_.mic_noise_counts * 0.25 *
+                                 (static_cast<double>(static_cast<std::int64_t>(ones)) - 32 + between));
 }
 
 int Board::mic_counts_fast(int microphone, Cycle at, std::uint64_t sample) const {
-  double counts = mic_level(microphone, at);
-  if (setup_.mic_noise_counts > 0) {
-    // 64 coins: mean 32, standard deviation 4
-    const std::uint64_t bits =
-        sim::mix64(mic_noise_key_ ^ (sample << 2 | static_cast<std::uint64_t>(microphone)));
-    std::uint64_t ones = bits - ((bits >> 1) & 0x5555555555555555u);
-    ones = (ones & 0x3333333333333333u) + ((ones >> 2) & 0x3333333333333333u);
-    ones = ((ones + (ones >> 4)) & 0x0F0F0F0F0F0F0F0Fu) * 0x0101010101010101u >> 56;
-    const double between = static_cast<double>(bits * 0x9E3779B97F4A7C15u >> 40) * 0x1p-24 - 0.5;
-    counts += setup_.mic_noise_counts * 0.25 * (static_cast<double>(ones) - 32 + between);
-  }
-  return adc_counts(counts);
+  if (scene_ && sim::has_sound(*scene_)) return with_mic_noise(mic_level(microphone, at), microphone, sample);
+  return with_mic_noise(kMicIdleCounts, microphone, sample);
 }
 
 int Board::mic_counts(int microphone, Cycle at, std::uint64_t sample) const {

@@ -104,7 +104,11 @@ struct IrConversion {
 };
 
 /// What the converter makes of a level given in counts: rounded, 0 to 4095.
-int adc_counts(double level);
+inline int adc_counts(double level) {
+  level += 0.5;
+  if (!(level >= 1)) return 0;
+  return level < kAdcMax ? static_cast<int>(level) : kAdcMax;
+}
 
 class Board {
  public:
@@ -261,6 +265,8 @@ class Board {
   static int port_index(char port);
   /// Counts of a microphone without noise.
   double mic_level(int microphone, Cycle at) const;
+  /// Counts of the converter, the noise of mic_counts_fast() added.
+  int with_mic_noise(double counts, int microphone, std::uint64_t sample) const;
   unsigned pulses(Cycle at) const;
   /// Cycles for which the emitter line of a sensor has been on by its latch alone; -1 when off.
   Cycle line_on_for(int sensor, Cycle at) const;

@@ -66,8 +66,9 @@ class Stepper {
   }
   bool connected() const { return connected_; }
 
-  /// The pins change. `move`: time the rotor may take for a step.
-  void energise(unsigned coils, Cycle at, Cycle move = kRotorMoveCycles) {
+  /// The pins change. `move`: time the rotor may take for a step; 0 when the next step is not known: as long
+  /// as since the last one.
+  void energise(unsigned coils, Cycle at, Cycle move = 0) {
     look_back(at);
     coils_ = coils;
     changed_at_ = at;
@@ -130,6 +131,7 @@ class Stepper {
   void step(int direction, Cycle at, Cycle move) {
     if (motion_.ready_at - at > kPullOutCycles) return faults_.too_fast.note(at);
     before_ = motion_;
+    if (move <= 0) move = at - motion_.stepped_at;
     motion_.from = position(at);
     motion_.steps += direction;
     motion_.moved_at = motion_.stepped_at = at;

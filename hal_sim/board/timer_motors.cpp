@@ -21,10 +21,10 @@ void StepTrain::advance_to(Cycle at, Stepper& stepper) {
   const int toward = direction(stepper);
   const Cycle move = std::min(period, kRotorMoveCycles);
   // step by step until driver, rotor and rhythm agree, then all at once
-  for (int regular = 0; next <= at && regular < 2;) {
+  for (int regular = 0; next <= at && regular < 3;) {
     commanded += toward;
     phase = (phase + toward * stepper.forward()) & 3;
-    stepper.energise(kPhaseCoils[phase], next, move);
+    stepper.energise(kPhaseCoils[phase], next);
     next += period;
     // too fast for the motor: it has to be asked each time
     regular = stepper.is_at(phase) && period >= kPullOutCycles ? regular + 1 : 0;

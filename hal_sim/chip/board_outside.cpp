@@ -21,6 +21,7 @@ constexpr std::uint16_t kSelector = 0x03C0, kI2cLines = 0x000C, kSerialIn = 0x00
                         kRemote = 0x0040, kCameraData = 0xFF00;
 constexpr std::uint16_t kCameraClocks =
     static_cast<std::uint16_t>(1 << CameraPins::Href | 1 << CameraPins::Vsync | 1 << CameraPins::Pclk);
+constexpr std::uint16_t kSerialOut[2] = {0x0008, 0x0020};                // RF3 RF5
 constexpr std::uint16_t kEmitter[4] = {0x0080, 0x0100, 0x0001, 0x0002};  // RF7 RF8 RG0 RG1
 constexpr int kFirstIr = 8, kFirstMic = 2, kFirstAcc = 5;
 constexpr std::uint64_t kSampleOffset = std::uint64_t{1} << 42;  // numbers of noise, apart from the drivers'
@@ -88,6 +89,19 @@ void BoardOutside::pins_driven(Port port, std::uint16_t levels, std::uint16_t dr
   tris_[p] = tris;
   levels_[p] = lat;
   if (port == Port::F || port == Port::G) follow_emitters(port, at);
+  if (port == Port::F) follow_breaks(static_cast<std::uint16_t>(driven & ~by_peripheral & ~levels), at);
+}
+
+// a port that holds the line low where its module has let go: whoever listens takes more than a word for a
+// break
+void BoardOutside::follow_breaks(std::uint16_t low, Cycle at) {
+  for (int n = 1; n <= 2; ++n) {
+    Cycle& since = low_since_[static_cast<std::size_t>(n - 1)];
+    const bool is_low = (low & kSerialOut[n - 1]) != 0;
+    if (is_low == (since >= 0)) continue;
+    if (!is_low && at - since > board_.uart(n).byte_cycles()) board_.uart(n).break_on_wire(at);
+    since = is_low ? at : -1;
+  }
 }
 
 void BoardOutside::follow_emitters(Port port, Cycle at) {
@@ -169,13 +183,14 @@ Cycle BoardOutside::nth_edge(dspic::Pin pin, dspic::Edge edge, Cycle after, std:
 int BoardOutside::analogue_counts(int channel, Cycle at) {
   // one number per instant: a result is the same whenever it is asked for
   const std::uint64_t sample = kSampleOffset + static_cast<std::uint64_t>(at);
+  if (channel >= kFirstMic && channel < kFirstAcc)
+    return board_.mic_counts_fast(channel - kFirstMic, at, sample);
   if (channel >= kFirstIr)
     return board_.ir_counts(channel - kFirstIr, at, lit_for(channel - kFirstIr, at), sample);
   if (channel >= kFirstAcc) {
     if (const auto counts = board_.counts_of_others(channel, at)) return *counts;
     return board::accelerometer_counts(board_, channel - kFirstAcc, at, sample);
   }
-  if (channel >= kFirstMic) return board_.mic_counts_fast(channel - kFirstMic, at, sample);
   return board_.counts_of_others(channel, at).value_or(0);
 }
 

@@ -63,12 +63,14 @@ class BoardOutside final : public dspic::Outside {
   /// Cycles for which the emitter beside a sensor has been on at `at`; -1: it was off.
   Cycle lit_for(int sensor, Cycle at) const;
   void follow_emitters(dspic::Port port, Cycle at);
+  void follow_breaks(std::uint16_t low, Cycle at);
 
   board::Board& board_;
   CameraPins camera_;
   std::array<Emitter, 4> emitters_;
   std::array<std::uint16_t, dspic::kPorts> levels_{};
   std::array<std::uint16_t, dspic::kPorts> tris_{};
+  std::array<Cycle, 2> low_since_{-1, -1};  // a serial line held low by its port; -1: it is not
   int selector_;
 };
 

@@ -19,7 +19,7 @@ constexpr unsigned kU1Mode = 0x20C, kU1Sta = 0x20E, kU1TxReg = 0x210, kIfs0 = 0x
 constexpr std::uint16_t kUartEnabled = 0x8000, kTransmitEnabled = 0x0400, kBufferFull = 0x0200;
 
 /// Reading it moves a FIFO or lowers a flag, so a loop that does has changed something.
-bool has_side_effect(unsigned address) {
+constexpr bool has_side_effect(unsigned address) {
   switch (address & ~1u) {
     case 0x200:  // I2CRCV
     case 0x212:  // U1RXREG
@@ -31,6 +31,7 @@ bool has_side_effect(unsigned address) {
       return address >= 0x140 && address < 0x160;  // input capture buffers
   }
 }
+constexpr unsigned kFirstWithSideEffect = 0x140, kLastWithSideEffect = 0x22B;
 
 const char* reason_of(dspic::ResetKind kind) {
   switch (kind) {
@@ -78,8 +79,6 @@ const char* hint_for(dspic::Cause cause) {
     case Cause::CodecRate:
       return "choose the divider N1 and multiplier M1 in the codec's registers 3 and 4 for the rate of the "
              "DCI's frames";
-    case Cause::TwoAuthors:
-      return "the later one silences the other: use one of the two drivers";
     case Cause::WatchdogReset:
       return "call ClrWdt() in the main loop, or leave RCON.SWDTEN 0";
     case Cause::TrapConflict:
@@ -163,6 +162,13 @@ std::int64_t ChipProcessor::count_of(const dspic::Diagnosis& d) const {
 
 std::uint16_t ChipProcessor::read(unsigned address, unsigned bits, Cycle now) {
   const Cycle t = at(now);
+  const bool may_change_it = address >= kFirstWithSideEffect && address <= kLastWithSideEffect;
+  if (may_change_it || watched_reads_ > 0) return read_closely(address, bits, t);
+  robot_.lower_horizon(t);
+  return chip_->read(address, bits, t);
+}
+
+std::uint16_t ChipProcessor::read_closely(unsigned address, unsigned bits, Cycle t) {
   const std::uint16_t value = chip_->read(address, bits, t);
   if (has_side_effect(address)) {
     robot_.note_write();
@@ -178,9 +184,9 @@ std::uint16_t ChipProcessor::read(unsigned address, unsigned bits, Cycle now) {
 }
 
 void ChipProcessor::write(unsigned address, std::uint16_t value, unsigned bits, Cycle now) {
-  chip_->write(address, value, bits, at(now));
+  const Cycle calm = chip_->write(address, value, bits, at(now));
   robot_.note_write();
-  robot_.changed();
+  robot_.calm_until(calm, latest_);
   const Cycle stalled = chip_->stalled_until();
   if (stalled > latest_) robot_.spend(stalled - latest_);
 }
@@ -214,22 +220,19 @@ bool ChipProcessor::print(const char* bytes, std::int64_t length) {
 // --- interrupts
 // -------------------------------------------------------------------------------------------
 
-int ChipProcessor::select(Cycle now) {
-  const Cycle t = at(now);
-  const int vector = chip_->pending(t);
-  if (const auto reset = chip_->reset_due(t)) {
-    next_reset_ = *reset;
-    why_reset_ = reason_of(*reset);
-    return host::kResetDue;
+host::Processor::Outlook ChipProcessor::look(Cycle now) {
+  const dspic::Outlook chip = chip_->look(at(now));
+  Outlook outlook{host::kNoVector, chip.level > 0 || chip.disi, chip.quiet_until};
+  if (chip.reset_due) {
+    next_reset_ = *chip_->reset_due(latest_);
+    why_reset_ = reason_of(next_reset_);
+    outlook.vector = host::kResetDue;
+  } else if (chip.vector >= dspic::kFirstIrqVector) {
+    outlook.vector = chip.vector - dspic::kFirstIrqVector;
+  } else if (chip.vector != dspic::kNoVector) {
+    outlook.vector = host::kTrapVector + chip.vector - 1;
   }
-  if (vector >= dspic::kFirstIrqVector) return vector - dspic::kFirstIrqVector;
-  return vector == dspic::kNoVector ? host::kNoVector : host::kTrapVector + vector - 1;
-}
-
-Cycle ChipProcessor::quiet_until(Cycle now) {
-  const Cycle t = at(now);
-  if (chip_->pending(t) != dspic::kNoVector) return now;
-  return chip_->next_event(t);
+  return outlook;
 }
 
 host::Processor::Entry ChipProcessor::enter(int vector, Cycle now) {
@@ -237,10 +240,14 @@ host::Processor::Entry ChipProcessor::enter(int vector, Cycle now) {
       vector >= host::kTrapVector ? vector - host::kTrapVector + 1 : vector + dspic::kFirstIrqVector;
   const dspic::InterruptEntry entry = chip_->enter_interrupt(number, at(now));
   watched_reads_ = 0;  // whatever waits looks again afterwards
-  return {nullptr, entry.first_instruction + kSavingCycles};
+  const Cycle first = entry.first_instruction + kSavingCycles;
+  return {nullptr, first, chip_->calm_until(first, number)};
 }
 
-Cycle ChipProcessor::leave(Cycle now) { return chip_->return_from_interrupt(at(now)); }
+host::Processor::Return ChipProcessor::leave(Cycle now) {
+  const Cycle next = chip_->return_from_interrupt(at(now));
+  return {next, chip_->calm_until(next)};
+}
 
 host::Processor::Waiting ChipProcessor::longest_waiting(Cycle now) {
   const Cycle t = at(now);

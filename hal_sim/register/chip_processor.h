@@ -48,11 +48,10 @@ class ChipProcessor final : public host::Processor, public dspic::DiagnosticSink
   void watch_reads(Cycle now) override { watched_reads_ = kWatchedReads; }
   bool print(const char* bytes, std::int64_t length) override;
 
-  int select(Cycle now) override;
+  Outlook look(Cycle now) override;
   const char* why_reset() const override { return why_reset_; }
-  Cycle quiet_until(Cycle now) override;
   Entry enter(int vector, Cycle now) override;
-  Cycle leave(Cycle now) override;
+  Return leave(Cycle now) override;
   int cpu_level() const override { return chip_->cpu_level(); }
   void set_cpu_level(int level, Cycle now) override { chip_->set_cpu_level(level, at(now)); }
   Waiting longest_waiting(Cycle now) override;
@@ -76,6 +75,8 @@ class ChipProcessor final : public host::Processor, public dspic::DiagnosticSink
   std::int64_t count_of(const dspic::Diagnosis& diagnosis) const;
   void about_to_change(Cycle at) override;
 
+  /// read() of a register that a read changes, or within a loop that waits.
+  std::uint16_t read_closely(unsigned address, unsigned bits, Cycle t);
   /// Rounds of a waiting loop with more reads than this are not jumped over.
   static constexpr int kWatchedReads = 64;
 

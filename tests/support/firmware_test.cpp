@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/support/firmware_test.h"
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
@@ -114,6 +115,8 @@ FirmwareTest::FirmwareTest() {
   world.part_kinds = board::part_kinds();
   world.title = "test";
   world.proximity.noise_scale = 0;
+  // the same tests in the other way: TWINPUCK_WAY=register
+  if (const char* way = std::getenv("TWINPUCK_WAY")) options.way = way;
 }
 FirmwareTest::~FirmwareTest() = default;
 
