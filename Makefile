@@ -81,7 +81,7 @@ bench: tool
 	@$(BUILD)/bin/bench $(ARGS)
 
 # the tests that run the simulator in their own process: the compiler's and the command's start others
-SANITIZED = board_test sim_core_test dspic30_test import_test host_test golden_test firmware_test
+SANITIZED = board_test sim_core_test dspic30_test import_test host_test golden_test supervisor_test firmware_test
 
 ## asan: the simulator's tests under the address and undefined-behaviour sanitizers
 asan: setup

@@ -16,6 +16,7 @@
 
 #include "bench/engines.h"
 #include "bench/enki_swarm.h"
+#include "bench/median.h"
 #include "bench/playback.h"
 #include "bench/register_load.h"
 #include "hal_sim/board/epuck_model.h"
@@ -66,11 +67,6 @@ double run_peer(const sim::WorldDesc& world) {
   return static_cast<double>(world.robots.size()) * measured * kStepS / seconds_since(start);
 }
 
-double median(std::vector<double> v) {
-  std::sort(v.begin(), v.end());
-  return v[v.size() / 2];
-}
-
 // what the issue of the native twin promises against Enki
 double promised(int robots) { return robots >= 1000 ? 25 : robots >= 100 ? 5 : robots >= 5 ? 1 : 0; }
 
@@ -114,9 +110,10 @@ int main(int argc, char** argv) {
       peer.push_back(run_peer(*loaded.world));
       ratios.push_back(ours.back() / peer.back());
     }
-    const double rate = median(ours), ratio = median(ratios), world_rate = world_only_rate(*loaded.world);
-    std::printf("%7d %12.0f %12.0f %8.2f %9.0f %16.2f %11.0f%%\n", n, rate, median(peer), ratio, promised(n),
-                1e6 / rate, 100 * rate / world_rate);
+    const double rate = bench::median(ours), ratio = bench::median(ratios),
+                 world_rate = world_only_rate(*loaded.world);
+    std::printf("%7d %12.0f %12.0f %8.2f %9.0f %16.2f %11.0f%%\n", n, rate, bench::median(peer), ratio,
+                promised(n), 1e6 / rate, 100 * rate / world_rate);
     std::fflush(stdout);
     kept = kept && ratio >= promised(n);
     if (n == 100) per_robot_100 = 1 / rate;

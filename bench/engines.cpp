@@ -10,10 +10,12 @@
 #include <memory>
 #include <vector>
 
+#include "bench/median.h"
 #include "bench/playback.h"
 #include "hal_sim/board/epuck_model.h"
 #include "hal_sim/board/part.h"
 #include "sim_core/load/world_loader.h"
+#include "tests/support/cruise.h"
 
 namespace bench {
 namespace {
@@ -60,22 +62,6 @@ Conduct observe(const sim::WorldDesc& world) {
   return c;
 }
 
-/// Wheels at constant speeds, rad/s.
-class Cruise final : public sim::RobotMind {
- public:
-  Cruise(double left_rad_s, double right_rad_s) : left_(left_rad_s), right_(right_rad_s) {}
-  void run_until(const sim::Scene&, sim::Clicks) override {}
-  sim::WheelAngles wheel_angles(sim::Clicks at) override {
-    return {left_ * sim::to_seconds(at), right_ * sim::to_seconds(at)};
-  }
-  sim::MindReport report() const override { return {}; }
-  int proximity_counts(const sim::Scene&, int) override { return 0; }
-  std::uint64_t state_hash() const override { return 0; }
-
- private:
-  double left_, right_;
-};
-
 /// A scene of a few lines with one engine; robot 0 drives at `rad_s` on both wheels, others stand.
 std::unique_ptr<sim::Simulation> scene(const NamedEngine& engine, const std::string& text, double rad_s) {
   const auto loaded =
@@ -87,7 +73,7 @@ std::unique_ptr<sim::Simulation> scene(const NamedEngine& engine, const std::str
   }
   std::vector<std::unique_ptr<sim::RobotMind>> minds;
   for (std::size_t r = 0; r < loaded.world->robots.size(); ++r) {
-    minds.push_back(std::make_unique<Cruise>(r ? 0 : rad_s, r ? 0 : rad_s));
+    minds.push_back(std::make_unique<sim_test::Cruise>(r ? 0 : rad_s, r ? 0 : rad_s));
   }
   return std::make_unique<sim::Simulation>(*loaded.world, std::move(minds));
 }
@@ -154,11 +140,6 @@ void print_behaviour() {
   print_row("top of the first bounce from 100 mm, restitution 0.5",
             [](const NamedEngine& e) { return highest_after_mm(e, 0.15, 0.3); });
   print_row("top of the second bounce", [](const NamedEngine& e) { return highest_after_mm(e, 0.29, 0.35); });
-}
-
-double median(std::vector<double> v) {
-  std::sort(v.begin(), v.end());
-  return v[v.size() / 2];
 }
 
 }  // namespace

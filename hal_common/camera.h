@@ -29,6 +29,22 @@ static inline int camera_window_fits(unsigned int x, unsigned int y, unsigned in
          width % zoom_width == 0 && height % zoom_height == 0;
 }
 
+/* the mask's marks, a byte each: e_line_interrupt.s knows them too */
+#define SKIP 0
+#define TAKE 1
+#define END_OF_LINE 2
+
+/** Fills the mask (LINE_CONF_SIZE bytes) for `pixels` of `bytes` each, with `skipped` pixels left out after each.
+ * -1: too long for it, nothing changed. */
+static inline int camera_fill_line_conf(char *mask, int pixels, int bytes, int skipped) {
+  int i, j;
+  if ((unsigned int)(pixels * bytes * (1 + skipped) + 1) > LINE_CONF_SIZE) return -1;
+  for (i = 0; i < pixels; i++)
+    for (j = 0; j < bytes * (1 + skipped); j++) *mask++ = j < bytes ? TAKE : SKIP;
+  *mask = END_OF_LINE;
+  return 0;
+}
+
 #define CAMERA_BANK_REGISTER 3
 /** PO6030K and PO8030D: chooses a bank; with it, writes or reads one register there. Each is a bus transfer
  * or two. */

@@ -283,12 +283,17 @@ void Walk::gather(const Node& n, const Affine& frame, int depth, std::vector<Pie
   }
 }
 
-void Walk::solid(const Node& n, const Affine& frame, int depth) {
+Body Walk::body_of(const Node& n) {
   Body b;
   b.type = n.type;
   b.name = n.text("name");
   b.def = n.def;
   b.line = n.line;
+  return b;
+}
+
+void Walk::solid(const Node& n, const Affine& frame, int depth) {
+  Body b = body_of(n);
   b.contact = n.text("contactMaterial", "default");
   b.robot_like = is_robot(n.type);
   if (const Node* physics = n.node("physics")) {

@@ -26,6 +26,7 @@ class Walk {
   void visit(const Node& n, const Affine& frame, int depth);
   void children(const Node& n, const char* field, const Affine& frame, int depth);
   void world_info(const Node& n);
+  static Body body_of(const Node& n);  ///< with its names and line
   void solid(const Node& n, const Affine& frame, int depth);
   void gather(const Node& n, const Affine& frame, int depth, std::vector<Piece>& out, const Surface* paint,
               bool nested_solids);

@@ -60,12 +60,21 @@ bool Walk::known_proto(const Node& n, const Affine& frame, int depth) {
   return false;
 }
 
-void Walk::arena(const Node& n, const Affine& frame) {
+namespace {
+
+FoundArena arena_at(const Node& n, const Affine& frame) {
   FoundArena a;
   a.type = n.type;
   a.line = n.line;
   a.at = {frame.at.x, frame.at.y};
   a.z_m = frame.at.z;
+  return a;
+}
+
+}  // namespace
+
+void Walk::arena(const Node& n, const Affine& frame) {
+  FoundArena a = arena_at(n, frame);
   a.size = {std::abs(n.number("floorSize", kArenaSizeM, 0)), std::abs(n.number("floorSize", kArenaSizeM, 1))};
   a.heading_rad = std::atan2(frame.axes[0].y, frame.axes[0].x);
   if (std::hypot(frame.axes[0].x, frame.axes[0].y) < 0.99) a.heading_rad = 0;
@@ -102,11 +111,7 @@ void Walk::arena(const Node& n, const Affine& frame) {
 }
 
 void Walk::circle_arena(const Node& n, const Affine& frame) {
-  FoundArena a;
-  a.type = n.type;
-  a.line = n.line;
-  a.at = {frame.at.x, frame.at.y};
-  a.z_m = frame.at.z;
+  FoundArena a = arena_at(n, frame);
   const double r = std::abs(n.number("radius", 1));
   a.size = {2 * r, 2 * r};
   a.round = true;
@@ -119,11 +124,7 @@ void Walk::circle_arena(const Node& n, const Affine& frame) {
 
 void Walk::floor_proto(const Node& n, const Affine& frame) {
   if (n.type == "UnevenTerrain") return report_.add(n, "uneven ground", "flat ground");
-  FoundArena a;
-  a.type = n.type;
-  a.line = n.line;
-  a.at = {frame.at.x, frame.at.y};
-  a.z_m = frame.at.z;
+  FoundArena a = arena_at(n, frame);
   a.size = {std::abs(n.number("size", 10, 0)), std::abs(n.number("size", 10, 1))};
   a.heading_rad = std::atan2(frame.axes[0].y, frame.axes[0].x);
   const Node* look = n.node("appearance");
@@ -140,11 +141,7 @@ void Walk::wall_proto(const Node& n, const Affine& frame) {
   box.fields.push_back({"size", n.line, {size.x, size.y, size.z}, {}, {}, {}});
   Affine middle = frame;
   middle.at = frame.place(z_up_ ? Vec3{0, 0, size.z / 2} : Vec3{0, size.y / 2, 0});
-  Body b;
-  b.type = n.type;
-  b.name = n.text("name");
-  b.def = n.def;
-  b.line = n.line;
+  Body b = body_of(n);
   std::string why;
   b.pieces = pieces_of(box, middle, z_up_, why);
   if (!why.empty()) report_.add(n, why);
@@ -180,15 +177,9 @@ void Walk::block_proto(const Node& n, const Affine& frame) {
   }
   Affine place = frame;
   // blocks that are not placed lie on the ground
-  if (!n.field("translation"))
+  if (!n.field("translation") || !known->at_middle)
     place.at = frame.place(z_up_ ? Vec3{0, 0, height / 2} : Vec3{0, height / 2, 0});
-  else if (!known->at_middle)
-    place.at = frame.place(z_up_ ? Vec3{0, 0, height / 2} : Vec3{0, height / 2, 0});
-  Body b;
-  b.type = n.type;
-  b.name = n.text("name");
-  b.def = n.def;
-  b.line = n.line;
+  Body b = body_of(n);
   b.contact = n.text("contactMaterial", "default");
   b.mass_kg = n.number("mass", 0);
   b.movable = b.mass_kg > 0;
@@ -230,11 +221,7 @@ void Walk::by_measures(const Node& n, const Affine& frame) {
   for (const char* f : {"size", "radius", "height"}) {
     if (n.field(f)) shape.fields.push_back(*n.field(f));
   }
-  Body b;
-  b.type = n.type;
-  b.name = n.text("name");
-  b.def = n.def;
-  b.line = n.line;
+  Body b = body_of(n);
   std::string why;
   b.pieces = pieces_of(shape, inside(n, frame), z_up_, why);
   if (!why.empty()) report_.add(n, why);

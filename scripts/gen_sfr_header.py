@@ -14,6 +14,8 @@ import pathlib
 import re
 import sys
 
+import generated
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 TABLE = ROOT / "dspic30/device/sfr.csv"
 HEADER = ROOT / "firmware/include/p30F6014A.h"
@@ -110,10 +112,11 @@ extern void tp_table_write(long long address, long long value);
 #define SET_AND_SAVE_CPU_IPL(save_to, ipl) { save_to = SRbits.IPL; SRbits.IPL = (ipl); }
 #define RESTORE_CPU_IPL(saved_to) { SRbits.IPL = (saved_to); }
 
-/* --- configuration words: accepted, checked for known names, otherwise ignored. The simulated robot always
- *     runs as the e-puck does: crystal x 8 PLL, watchdog and brown-out reset off. ------------------------ */
-#define _FOSC(value) extern char tp_config_fosc[sizeof(value)];
-#define _FWDT(value) extern char tp_config_fwdt[sizeof(value)];
+/* --- configuration words. _FWDT switches the watchdog on and sets its postscalers (register way); an _FOSC
+ *     that does not give 14.7456 million instructions a second from the robot's crystal stops the robot with a
+ *     message. The others are accepted, checked for known names, and have no effect. --------------------- */
+#define _FOSC(value) __attribute__((weak)) const unsigned int tp_config_fosc = (value);
+#define _FWDT(value) __attribute__((weak)) const unsigned int tp_config_fwdt = (value);
 #define _FBORPOR(value) extern char tp_config_fborpor[sizeof(value)];
 #define _FBS(value) extern char tp_config_fbs[sizeof(value)];
 #define _FSS(value) extern char tp_config_fss[sizeof(value)];
@@ -233,20 +236,5 @@ def generate():
     return "\n".join(out) + "\n"
 
 
-def main():
-    text = generate()
-    if sys.argv[1:] == ["--check"]:
-        if not HEADER.exists() or HEADER.read_text() != text:
-            print("%s: differs from what %s gives; run scripts/gen_sfr_header.py"
-                  % (HEADER.relative_to(ROOT), TABLE.relative_to(ROOT)))
-            return 1
-        return 0
-    if sys.argv[1:]:
-        print(__doc__.strip(), file=sys.stderr)
-        return 2
-    HEADER.write_text(text)
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(generated.main(__doc__, "scripts/gen_sfr_header.py", TABLE, HEADER, generate))

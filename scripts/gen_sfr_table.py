@@ -12,6 +12,8 @@ import pathlib
 import re
 import sys
 
+import generated
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 TABLE = ROOT / "dspic30/device/sfr.csv"
 ROWS = ROOT / "dspic30/memory/sfr_rows.inc"
@@ -50,20 +52,5 @@ def generate():
     return head + "\n".join(rows) + "\n"
 
 
-def main():
-    text = generate()
-    if sys.argv[1:] == ["--check"]:
-        if not ROWS.exists() or ROWS.read_text() != text:
-            print("%s: differs from what %s gives; run scripts/gen_sfr_table.py"
-                  % (ROWS.relative_to(ROOT), TABLE.relative_to(ROOT)))
-            return 1
-        return 0
-    if sys.argv[1:]:
-        print(__doc__.strip(), file=sys.stderr)
-        return 2
-    ROWS.write_text(text)
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(generated.main(__doc__, "scripts/gen_sfr_table.py", TABLE, ROWS, generate))

@@ -3,13 +3,9 @@
 
 #include <cxxabi.h>
 #include <dlfcn.h>
-#include <fcntl.h>
-#include <link.h>
 #include <pthread.h>
 #include <signal.h>
-#include <sys/mman.h>
 #include <ucontext.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <cstring>
@@ -54,34 +50,6 @@ const char* signal_words(int signal) {
   }
 }
 
-int private_copy_of(const std::string& path) {
-  const int from = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (from < 0) return -1;
-  const int to = memfd_create("twinpuck-supervisor", MFD_CLOEXEC);
-  char buffer[65536];
-  for (ssize_t n; (n = read(from, buffer, sizeof buffer)) > 0;)
-    if (write(to, buffer, static_cast<std::size_t>(n)) != n) break;
-  close(from);
-  return to;
-}
-
-struct CodeRange {
-  std::uintptr_t probe, base, begin, end;
-};
-
-int find_code(dl_phdr_info* info, std::size_t, void* raw) {
-  auto& range = *static_cast<CodeRange*>(raw);
-  for (int i = 0; i < info->dlpi_phnum; ++i) {
-    const auto& segment = info->dlpi_phdr[i];
-    const std::uintptr_t begin = info->dlpi_addr + segment.p_vaddr;
-    if (segment.p_type != PT_LOAD || !(segment.p_flags & PF_X)) continue;
-    if (range.probe < begin || range.probe >= begin + segment.p_memsz) continue;
-    range = {range.probe, info->dlpi_addr, begin, begin + segment.p_memsz};
-    return 1;
-  }
-  return 0;
-}
-
 #if defined(__SANITIZE_ADDRESS__)
 __attribute__((no_sanitize("address"))) void tell_sanitizer() {
   ASAN_UNPOISON_MEMORY_REGION(recovery_stack(), kRecoveryBytes);
@@ -117,19 +85,14 @@ struct AbortHandler {
 Program::Program(std::string path, std::string name, void* owner)
     : path_(std::move(path)), name_(std::move(name)), owner_(owner), fiber_(kStackBytes), symbols_(path_) {}
 
-Program::~Program() {
-  if (handle_) dlclose(handle_);
-  if (fd_ >= 0) close(fd_);
-}
+Program::~Program() = default;
 
 std::unique_ptr<Program> Program::open(const std::string& path, const std::string& name, void* owner,
                                        std::vector<std::string>& problems) {
   std::unique_ptr<Program> p(new Program(path, name, owner));
-  // every program has globals of its own: the dynamic linker must take each for another file
-  p->fd_ = private_copy_of(path);
-  p->handle_ = dlopen(("/proc/self/fd/" + std::to_string(p->fd_)).c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (!p->handle_) {
-    std::string why = dlerror();
+  std::string why;
+  p->object_ = host::SharedObject::open(path, true, why);
+  if (!p->object_) {
     const std::size_t symbol = why.find("undefined symbol: ");
     if (symbol != std::string::npos)
       why = "a call of " + why.substr(symbol + 18) + ", which supervisors do not have";
@@ -137,16 +100,12 @@ std::unique_ptr<Program> Program::open(const std::string& path, const std::strin
                        ", expected a program of supervisor.h or of Webots' supervisor functions");
     return nullptr;
   }
-  p->main_ = reinterpret_cast<int (*)(int, char**, char**)>(dlsym(p->handle_, "main"));
-  CodeRange range{reinterpret_cast<std::uintptr_t>(p->main_), 0, 0, 0};
-  if (!p->main_ || !dl_iterate_phdr(find_code, &range)) {
+  p->main_ = reinterpret_cast<int (*)(int, char**, char**)>(p->object_->symbol("main"));
+  if (!p->main_ || !p->object_->locate(reinterpret_cast<std::uintptr_t>(p->main_))) {
     problems.push_back(path + ": supervisor '" + name +
                        "': got a shared object without main(), expected a program");
     return nullptr;
   }
-  p->base_ = range.base;
-  p->code_begin_ = range.begin;
-  p->code_end_ = range.end;
   Dl_info own;
   if (dladdr(reinterpret_cast<void*>(p->main_), &own) &&
       std::strstr(own.dli_fname, "/proc/self/fd/") == nullptr) {
@@ -242,7 +201,7 @@ std::string Program::place_of(std::uintptr_t pc, std::uintptr_t frame) const {
   // the innermost frame that is the program's own; frames are linked through the frame pointer
   for (int depth = 0; depth < 32; ++depth) {
     if (is_code(pc)) {
-      host::Place place = symbols_.find(pc - base_);
+      host::Place place = symbols_.find(pc - object_->base());
       const std::string symbol = place.function.substr(0, place.function.find('.'));
       int wrong = 0;
       if (char* readable = abi::__cxa_demangle(symbol.c_str(), nullptr, nullptr, &wrong)) {

@@ -11,6 +11,7 @@
 
 #include "hal_sim/host/fiber.h"
 #include "hal_sim/host/robot.h"
+#include "hal_sim/host/shared_object.h"
 #include "hal_sim/host/symbols.h"
 
 namespace supervisor {
@@ -51,15 +52,13 @@ class Program final : host::FaultGuest {
   bool take(int signal, void* context, std::uintptr_t address) override;
   [[noreturn]] void leave(State state);
   [[noreturn]] void crash_with(std::string what, std::uintptr_t pc, std::uintptr_t frame);
-  bool is_code(std::uintptr_t pc) const { return pc >= code_begin_ && pc < code_end_; }
+  bool is_code(std::uintptr_t pc) const { return object_->is_code(pc); }
   std::string place_of(std::uintptr_t pc, std::uintptr_t frame) const;
 
   std::string path_, name_;
   void* owner_;
-  void* handle_ = nullptr;
-  int fd_ = -1;
+  std::unique_ptr<host::SharedObject> object_;
   int (*main_)(int, char**, char**) = nullptr;
-  std::uintptr_t base_ = 0, code_begin_ = 0, code_end_ = 0;
   host::Fiber fiber_;
   host::Symbols symbols_;
   State state_ = State::Waiting;

@@ -147,4 +147,15 @@ std::string lab_csv(const std::string& exercise, const StepResult& result) {
   return text;
 }
 
+sim::SharePlot share_plot(const StepResult& result) {
+  const LabStep& step = *result.step;
+  const int runs = static_cast<int>(result.trials.size() / step.noise_scales.size());
+  sim::SharePlot plot;
+  plot.title = fmt::format("{} in {}: runs that {} within {:g} s, of {} each", step.firmware, step.worlds[0],
+                           step.says, result.trials[0].trial.seconds, runs);
+  plot.across = "noise scale of the proximity sensors";
+  for (const double scale : step.noise_scales) plot.points.push_back({scale, share_of(result, scale), runs});
+  return plot;
+}
+
 }  // namespace tools

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "sim_core/record/share_plot.h"
 #include "tools/lab_trial.h"
 
 namespace tools {
@@ -34,7 +35,7 @@ std::string lab_csv_header();
 /// A line per trial.
 std::string lab_csv(const std::string& exercise, const StepResult& result);
 
-/// Share against noise scale, drawn by cairo as PNG; an error line or an empty string.
-std::string plot_shares(const std::string& file, const StepResult& result);
+/// Share against noise scale, for a step with several.
+sim::SharePlot share_plot(const StepResult& result);
 
 }  // namespace tools

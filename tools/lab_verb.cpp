@@ -174,7 +174,7 @@ int lab(const LabArguments& a) {
       line += (line.empty() ? "" : "; ") + to_text(result, !a.no_times);
       if (csv.is_open()) csv << lab_csv(e->id, result);
       if (!a.plot.empty() && step.noise_scales.size() > 1) {
-        const std::string wrong = plot_shares(a.plot, result);
+        const std::string wrong = sim::write_share_plot(a.plot, share_plot(result));
         if (!wrong.empty()) problems.push_back(wrong);
         ++plots;
       }
@@ -207,7 +207,7 @@ void add_lab(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
   verb->add_option("--csv", a->csv, "file for every run's measures");
-  verb->add_option("--plot", a->plot, "PNG of the share against the noise scale (S15)");
+  verb->add_option("--plot", a->plot, "PNG or SVG of the share against the noise scale (S15)");
   verb->add_flag("--no-times", a->no_times, "leave out what depends on the PC: same text every time");
   verb->add_option("--table", a->table, "another table than docs/lab.toml");
   verb->callback([a, &exit_code] { exit_code = lab(*a); });

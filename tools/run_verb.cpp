@@ -38,7 +38,7 @@ struct RunArguments {
   int threads = 1;
   double host_limit_s = 0;
   std::string optimisation = "-O1", way;
-  bool sanitize = false, quiet = false;
+  bool sanitize = false, quiet = false, strict = false;
   OutputArguments outputs;
 };
 
@@ -167,9 +167,12 @@ int run(const RunArguments& arguments) {
   complain(problems);
   if (!arguments.quiet) std::cout << to_text(summary);
   for (const auto& t : summary.traps) std::cerr << to_text(t);
-  if (!arguments.quiet)
-    for (const auto& r : summary.robots)
-      for (const std::string& notice : r.notices) std::cerr << r.name << ": " << notice << '\n';
+  bool is_clean = true;
+  for (const auto& r : summary.robots)
+    for (const auto& d : r.diagnoses) {
+      is_clean = false;
+      if (!arguments.quiet || arguments.strict) std::cerr << to_text(r.name, d) << '\n';
+    }
   if (exit_code == kHostTime) {
     complain({"twinpuck: host time: got " + std::to_string(static_cast<long>(took_s)) +
               " s, expected at most " + std::to_string(static_cast<long>(arguments.host_limit_s)) +
@@ -180,7 +183,8 @@ int run(const RunArguments& arguments) {
   if (!problems.empty() || outputs.failed()) return kInvalidRun;
   if (team->outcome().crashed) return kTrapped;
   if (team->outcome().code != 0) return kTestFailed;
-  return summary.traps.empty() ? kPass : kTrapped;
+  if (!summary.traps.empty()) return kTrapped;
+  return arguments.strict && !is_clean ? kTestFailed : kPass;
 }
 
 }  // namespace
@@ -207,6 +211,8 @@ void add_run(CLI::App& app, int& exit_code) {
   verb->add_option("--threads", a->threads, "threads that run firmware; the result does not depend on it")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
+  verb->add_flag("--strict", a->strict,
+                 "exit code 1 when board or chip have anything to say about a program (docs/diagnoses.md)");
   verb->add_option("--uart", a->uart1, "ROBOT=none|pty|pty:LINK|tcp:PORT|file:PATH: the other end of UART 1");
   verb->add_option("--uart2", a->uart2, "the same for UART 2");
   verb->add_option(

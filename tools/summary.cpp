@@ -28,6 +28,17 @@ nlohmann::ordered_json json_of(const host::TrapReport& t) {
   return j;
 }
 
+nlohmann::ordered_json json_of(const board::Diagnosis& d) {
+  nlohmann::ordered_json j;
+  j["cause"] = d.cause;
+  j["place"] = d.place;
+  j["message"] = d.message;
+  j["hint"] = d.hint;
+  j["first_s"] = d.first_s;
+  j["count"] = d.count;
+  return j;
+}
+
 }  // namespace
 
 Summary summarise(const twin::Twin& twin, double wall_s) {
@@ -63,7 +74,7 @@ Summary summarise(const twin::Twin& twin, double wall_s) {
     if (mind.robot()) {
       r.cpu_load = mind.robot()->cpu_load();
       r.traps = mind.robot()->traps();
-      r.notices = mind.robot()->processor().notices();
+      r.diagnoses = mind.robot()->diagnoses();
       s.traps.insert(s.traps.end(), r.traps.begin(), r.traps.end());
     }
     s.robots.push_back(std::move(r));
@@ -137,10 +148,17 @@ std::string to_json(const Summary& s) {
         r.battery_minutes >= 0 ? nlohmann::ordered_json(r.battery_minutes) : nullptr;
     robot["traps"] = nlohmann::ordered_json::array();
     for (const auto& t : r.traps) robot["traps"].push_back(json_of(t));
-    if (!r.notices.empty()) robot["notices"] = r.notices;
+    robot["diagnoses"] = nlohmann::ordered_json::array();
+    for (const auto& d : r.diagnoses) robot["diagnoses"].push_back(json_of(d));
     j["robots"].push_back(std::move(robot));
   }
   return j.dump(2) + "\n";
+}
+
+std::string to_text(const std::string& robot, const board::Diagnosis& d) {
+  return fmt::format("robot '{}' {:.6f} s: {}: {}: {}{}{}{}", robot, d.first_s, d.place, d.cause, d.message,
+                     d.count > 1 ? fmt::format(" ({} times)", d.count) : "", d.hint.empty() ? "" : "; ",
+                     d.hint);
 }
 
 std::string to_text(const host::TrapReport& t) {

@@ -20,7 +20,7 @@ struct RobotSummary {
   double battery_v = 0, battery_used_wh = 0;
   double battery_minutes = -1;  ///< until empty at the run's mean current; negative: nothing was drawn
   std::vector<host::TrapReport> traps;
-  std::vector<std::string> notices;  ///< what the models of the chip have to say about the program
+  std::vector<board::Diagnosis> diagnoses;  ///< docs/diagnoses.md
 };
 
 struct Summary {
@@ -37,5 +37,7 @@ std::string to_text(const Summary& summary);
 std::string to_json(const Summary& summary);
 /// A report of a few lines: what, who, where, when, back-trace.
 std::string to_text(const host::TrapReport& trap);
+/// One line: who, when, where, what, what to do.
+std::string to_text(const std::string& robot, const board::Diagnosis& diagnosis);
 
 }  // namespace tools

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "dspic30/device/claims.h"
 #include "dspic30/periph/adc.h"
 #include "dspic30/periph/capture_compare.h"
 #include "dspic30/periph/dci.h"
@@ -21,7 +20,7 @@ namespace dspic {
 
 namespace {
 
-constexpr unsigned kIfs0 = 0x084, kIec0 = 0x08C, kIpc0 = 0x094, kAdcon1 = 0x2A0, kAdpcfg = 0x2A8,
+constexpr unsigned kIfs0 = 0x084, kIec0 = 0x08C, kAdcon1 = 0x2A0, kAdpcfg = 0x2A8,
                    kFirstPort = 0x2C0, kLastPort = 0x2E8, kBsram = 0x750, kSsram = 0x752, kPmd1 = 0x770,
                    kPmd2 = 0x772, kPmd3 = 0x774;
 
@@ -49,8 +48,7 @@ struct Dspic30f6014a::Parts {
         nvm(fabric),
         cans{Can(fabric, 1), Can(fabric, 2)},
         cpu(fabric),
-        plain(fabric),
-        claims(diagnostics) {
+        plain(fabric) {
     cpu.attach();
     interrupts.attach(bus);
     change.attach();
@@ -95,8 +93,13 @@ struct Dspic30f6014a::Parts {
   std::array<Can, 2> cans;
   CpuRegisters cpu;
   PlainRegisters plain;
-  Claims claims;
 
+  // apart from the usual read, which then keeps nothing on the stack
+  __attribute__((noinline)) std::uint16_t read_after_events(unsigned address, unsigned bits, Cycle now) {
+    events.run_to(now);
+    return bus.read(address, bits, now);
+  }
+  void write_beyond(unsigned address, std::uint16_t value, unsigned bits, Cycle now);
   void switch_modules(std::uint16_t pmd1, std::uint16_t pmd2, Cycle now);
   std::uint16_t pmd1 = 0, pmd2 = 0;
 };
@@ -167,7 +170,6 @@ void Dspic30f6014a::reset(ResetKind kind, Cycle now) {
   for (Can& c : p.cans) c.reset();
   p.cpu.reset();
   p.plain.reset();
-  p.claims.clear();
   p.system.reset(kind, now);
 }
 
@@ -175,23 +177,31 @@ void Dspic30f6014a::reset(ResetKind kind, Cycle now) {
 
 std::uint16_t Dspic30f6014a::read(unsigned address, unsigned bits, Cycle now) {
   Parts& p = *parts_;
+  if (p.events.next() <= now) return p.read_after_events(address, bits, now);
   p.events.run_to(now);
   return p.bus.read(address, bits, now);
 }
 
-void Dspic30f6014a::write(unsigned address, std::uint16_t value, unsigned bits, Cycle now) {
+Cycle Dspic30f6014a::write(unsigned address, std::uint16_t value, unsigned bits, Cycle now) {
   Parts& p = *parts_;
   p.events.run_to(now);
+  p.events.forget_changes();
+  p.interrupts.forget_stir();
+  if (address >= kIfs0 && address < kIec0)  // a handler lowers its flag: the most frequent write
+    p.bus.write(address, value, bits, now);
+  else
+    p.write_beyond(address, value, bits, now);
+  return p.interrupts.stirred() || p.events.was_put_off() ? 0 : p.events.earliest();
+}
+
+// what a write means to others than the register's owner
+void Dspic30f6014a::Parts::write_beyond(unsigned address, std::uint16_t value, unsigned bits, Cycle now) {
   const unsigned word = address & ~1u;
   // inputs held up to now saw the pins as they were
-  if ((word >= kFirstPort && word <= kLastPort) || word == kAdpcfg) p.adc.advance(now);
-  p.claims.note_write(word, now);
-  const std::uint64_t enabled_before = p.interrupts.enabled_mask();
-  p.bus.write(address, value, bits, now);
-  if (word == kAdcon1) p.external.converter_changed(now);
-  if (word >= kIec0 && word < kIpc0)
-    p.claims.note_enabled(p.interrupts.enabled_mask() & ~enabled_before, now);
-  if (word == kPmd1 || word == kPmd2) p.switch_modules(p.plain.word(kPmd1), p.plain.word(kPmd2), now);
+  if ((word >= kFirstPort && word <= kLastPort) || word == kAdpcfg) adc.advance(now);
+  bus.write(address, value, bits, now);
+  if (word == kAdcon1) external.converter_changed(now);
+  if (word == kPmd1 || word == kPmd2) switch_modules(plain.word(kPmd1), plain.word(kPmd2), now);
 }
 
 std::uint16_t Dspic30f6014a::peek(unsigned address, Cycle now) {
@@ -255,6 +265,20 @@ void Dspic30f6014a::uart_receive(int uart, const UartFrame& frame) {
 
 // --- interrupts -------------------------------------------------------------------------------------------
 
+Outlook Dspic30f6014a::look(Cycle now) {
+  Parts& p = *parts_;
+  p.events.run_to(now);
+  Outlook outlook;
+  outlook.level = p.interrupts.level();
+  outlook.disi = p.interrupts.disi_active(now);
+  outlook.vector = p.interrupts.pending(now, outlook.level);
+  outlook.reset_due = p.system.watchdog_bit() || p.interrupts.reset_due().has_value();
+  if (outlook.vector != kNoVector) return outlook;
+  outlook.quiet_until = std::max(
+      now + 1, std::min(p.events.next_notice(p.interrupts.enabled_mask()), p.interrupts.next_change(now)));
+  return outlook;
+}
+
 int Dspic30f6014a::pending(Cycle now) { return pending(now, parts_->interrupts.level()); }
 
 int Dspic30f6014a::pending(Cycle now, int cpu_level) {
@@ -266,6 +290,12 @@ InterruptEntry Dspic30f6014a::enter_interrupt(int vector, Cycle now) {
   return parts_->interrupts.enter(vector, now);
 }
 Cycle Dspic30f6014a::return_from_interrupt(Cycle now) { return parts_->interrupts.leave(now); }
+
+Cycle Dspic30f6014a::calm_until(Cycle now, int served) {
+  Parts& p = *parts_;
+  if (!p.interrupts.has_no_other(served) || p.events.next() <= now) return 0;
+  return p.events.next_notice(p.interrupts.enabled_mask());
+}
 int Dspic30f6014a::cpu_level() const { return parts_->interrupts.level(); }
 void Dspic30f6014a::set_cpu_level(int level, Cycle now) { parts_->interrupts.set_level(level, now); }
 int Dspic30f6014a::nesting() const { return parts_->interrupts.nesting(); }
@@ -342,8 +372,6 @@ std::int64_t Dspic30f6014a::missed_interrupts(int vector) {
 }
 
 std::int64_t Dspic30f6014a::served_interrupts(int vector) const { return parts_->interrupts.served(vector); }
-
-void Dspic30f6014a::set_author(const char* author) { parts_->claims.set_author(author); }
 
 std::uint64_t Dspic30f6014a::state_hash(Cycle now) {
   run_to(now);

@@ -41,6 +41,15 @@ struct Configuration {
   bool warn_uninitialised = false;  ///< report reads of registers with an undefined power-on value
 };
 
+/// What the processor has to do at an instruction boundary, and when to ask again.
+struct Outlook {
+  int vector = kNoVector;  ///< to serve now
+  int level = 0;           ///< the CPU's
+  bool disi = false;       ///< priorities 1 to 6 are held off
+  bool reset_due = false;  ///< reset_due() says which
+  Cycle quiet_until = 0;   ///< next_event()
+};
+
 class Dspic30f6014a {
  public:
   /// `outside` and `sink` (may be null) outlive the chip. Powers up at cycle 0, and so asks and tells
@@ -60,7 +69,9 @@ class Dspic30f6014a {
   /// Byte address 0x000 to 0x7FF; bits 8 or 16 (a word access ignores address bit 0; the address error of an
   /// odd one is the core's). Result in the low bits. Addresses with nothing behind them read 0.
   std::uint16_t read(unsigned address, unsigned bits, Cycle now);
-  void write(unsigned address, std::uint16_t value, unsigned bits, Cycle now);
+  /// Returns the instant with which whoever remembers look().quiet_until or calm_until() has to compare it:
+  /// the earlier one of both is true now; 0: ask look() again.
+  Cycle write(unsigned address, std::uint16_t value, unsigned bits, Cycle now);
   /// The register's value as a debugger shows it: no FIFO moves, no flag falls, no latch is loaded.
   std::uint16_t peek(unsigned address, Cycle now);
   /// Until when a read of that register gives the same value, if the program writes nothing and no interrupt
@@ -92,6 +103,8 @@ class Dspic30f6014a {
   // --- interrupts
   // -------------------------------------------------------------------------------------------
 
+  /// pending(), reset_due() and next_event() at once, for a host that asks again only when it must.
+  Outlook look(Cycle now);
   /// Vector to serve at the instruction boundary before cycle `now`; kNoVector if none. A flag set in cycle f
   /// is seen from the boundary f + 1 on. Highest priority above the CPU's level, lowest vector among equals.
   int pending(Cycle now);
@@ -102,6 +115,9 @@ class Dspic30f6014a {
   InterruptEntry enter_interrupt(int vector, Cycle now);
   /// RETFIE executes in cycle `now`: the level of before. Returns the cycle of the next instruction.
   Cycle return_from_interrupt(Cycle now);
+  /// next_event(), if no flag but that of the vector whose handler runs at `now` is set and enabled, and
+  /// nothing has happened up to `now` that is not known already; else 0: ask look(). Cheaper than that.
+  Cycle calm_until(Cycle now, int served = kNoVector);
   /// SR.IPL, and IPL3 above 7. Levels 0 to 7 can be set (unless INTCON1.NSTDIS).
   int cpu_level() const;
   void set_cpu_level(int level, Cycle now);
@@ -152,9 +168,6 @@ class Dspic30f6014a {
   /// Events that found their enabled flag still set, since power-up.
   std::int64_t missed_interrupts(int vector);
   std::int64_t served_interrupts(int vector) const;
-  /// Whose code the following writes belong to (a file or driver; the pointer is kept, compared by text;
-  /// null: nobody). Two authors that set up one resource are reported.
-  void set_author(const char* author);
   /// Hash of all registers and FIFOs, for determinism checks. Not cheap.
   std::uint64_t state_hash(Cycle now);
 

@@ -33,10 +33,10 @@ const char* cause_name(Cause cause) {
       return "not unlocked";
     case Cause::I2cMisuse:
       return "I2C misuse";
-    case Cause::TwoAuthors:
-      return "two authors";
     case Cause::WatchdogReset:
       return "watchdog reset";
+    case Cause::CodecRate:
+      return "codec rate";
     case Cause::TrapConflict:
       return "trap conflict";
   }

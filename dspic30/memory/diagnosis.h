@@ -27,8 +27,8 @@ enum class Cause : std::uint8_t {
   ChangedWhileOn,        ///< converter set-up written while ADON = 1, which the manual forbids
   NotUnlocked,           ///< OSCCON or NVMCON.WR written without its unlock sequence; nothing happened
   I2cMisuse,             ///< an operation was asked for while another was under way (IWCOL), or I2CEN is 0
-  TwoAuthors,            ///< two drivers set up one timer, converter, vector or serial module
   WatchdogReset,         ///< the watchdog was not cleared in time
+  CodecRate,             ///< the codec's own sample rate is not that of the frames it gets
   TrapConflict,          ///< a hard trap met another one
 };
 

@@ -20,21 +20,30 @@ void SfrBus::attach(SfrOwner& owner, unsigned first, unsigned last) {
   for (unsigned a = first; a <= last; a += 2) {
     const SfrInfo* info = sfr_info(a);
     if (info) slots_[a / 2] = {&owner, info, info->implemented, 0, false, !info->defined};
+    find_reader(a);
   }
+}
+
+void SfrBus::find_reader(unsigned address) {
+  const Slot& slot = slots_[address / 2];
+  readers_[address / 2] = slot.disabled || warn_uninitialised_ ? nullptr : slot.owner;
 }
 
 void SfrBus::mark_unmodelled(unsigned address, std::uint16_t bits) { slots_[address / 2].unmodelled |= bits; }
 
 void SfrBus::set_disabled(unsigned first, unsigned last, bool disabled) {
-  for (unsigned a = first; a <= last; a += 2) slots_[a / 2].disabled = disabled;
+  for (unsigned a = first; a <= last; a += 2) {
+    slots_[a / 2].disabled = disabled;
+    find_reader(a);
+  }
 }
 
 void SfrBus::forget_writes() {
   for (Slot& slot : slots_) slot.undefined = slot.info && !slot.info->defined;
 }
 
-std::uint16_t SfrBus::read(unsigned address, unsigned bits, Cycle now) {
-  if (address >= kSfrBytes) return 0;
+// a byte, nothing, or perhaps the first read of a register that holds anything
+std::uint16_t SfrBus::read_slowly(unsigned address, unsigned bits, Cycle now) {
   Slot& slot = slots_[address / 2];
   if (!slot.owner || slot.disabled) return 0;
   if (slot.undefined && warn_uninitialised_) {
@@ -49,25 +58,9 @@ std::uint16_t SfrBus::read(unsigned address, unsigned bits, Cycle now) {
   return (address & 1) ? word >> 8 : word & 0xFF;
 }
 
-void SfrBus::write(unsigned address, std::uint16_t value, unsigned bits, Cycle now) {
-  ++writes_;
-  if (address >= kSfrBytes) return;
-  Slot& slot = slots_[address / 2];
-  if (!slot.owner) {
-    diagnostics_.report(Cause::UnimplementedAddress, hex(address),
-                        hex(address) + ": no register of this chip; the write is ignored", now);
-    return;
-  }
-  if (slot.disabled) return;
-  std::uint16_t lanes = 0xFFFF;
-  if (bits <= 8) {
-    lanes = (address & 1) ? 0xFF00 : 0x00FF;
-    value = static_cast<std::uint16_t>((address & 1) ? value << 8 : value & 0xFF);
-  }
-  slot.undefined = false;
-  value &= slot.implemented;
-  if (value & slot.unmodelled) warn(slot, value & slot.unmodelled, now);
-  slot.owner->write(address & ~1u, value, lanes, now);
+void SfrBus::warn_of_hole(unsigned address, Cycle now) {
+  diagnostics_.report(Cause::UnimplementedAddress, hex(address),
+                      hex(address) + ": no register of this chip; the write is ignored", now);
 }
 
 void SfrBus::warn(Slot& slot, std::uint16_t bits, Cycle now) {

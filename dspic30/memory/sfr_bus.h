@@ -44,8 +44,30 @@ class SfrBus {
   /// Power-on: nothing has been written.
   void forget_writes();
 
-  std::uint16_t read(unsigned address, unsigned bits, Cycle now);
-  void write(unsigned address, std::uint16_t value, unsigned bits, Cycle now);
+  std::uint16_t read(unsigned address, unsigned bits, Cycle now) {
+    if (address >= kSfrBytes) return 0;
+    SfrOwner* owner = readers_[address / 2];
+    if (!owner || bits <= 8) return read_slowly(address, bits, now);
+    return owner->read(address & ~1u, now);
+  }
+
+  void write(unsigned address, std::uint16_t value, unsigned bits, Cycle now) {
+    ++writes_;
+    if (address >= kSfrBytes) return;
+    Slot& slot = slots_[address / 2];
+    if (!slot.owner) return warn_of_hole(address, now);
+    if (slot.disabled) return;
+    std::uint16_t lanes = 0xFFFF;
+    if (bits <= 8) {
+      lanes = (address & 1) ? 0xFF00 : 0x00FF;
+      value = static_cast<std::uint16_t>((address & 1) ? value << 8 : value & 0xFF);
+    }
+    slot.undefined = false;
+    value &= slot.implemented;
+    if (value & slot.unmodelled) warn(slot, value & slot.unmodelled, now);
+    slot.owner->write(address & ~1u, value, lanes, now);
+  }
+
   std::uint16_t peek(unsigned address, Cycle now) const;
   Cycle horizon(unsigned address, Cycle now) const;
   /// Writes so far: two writes are consecutive when this differs by one.
@@ -61,10 +83,14 @@ class SfrBus {
     bool undefined = false;  // not written since power-on, and not defined then
   };
   void warn(Slot& slot, std::uint16_t bits, Cycle now);
+  std::uint16_t read_slowly(unsigned address, unsigned bits, Cycle now);
+  void find_reader(unsigned address);
+  void warn_of_hole(unsigned address, Cycle now);
 
   Diagnostics& diagnostics_;
   bool warn_uninitialised_;
   std::array<Slot, kSfrBytes / 2> slots_{};
+  std::array<SfrOwner*, kSfrBytes / 2> readers_{};  // the owner where a word is read without further ado
   std::int64_t writes_ = 0;
 };
 

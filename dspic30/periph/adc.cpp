@@ -110,7 +110,7 @@ void Adc::finish() {
   if (asam()) start_sampling(conversion_end_);
 }
 
-std::uint16_t Adc::formatted(int counts) const {
+inline std::uint16_t Adc::formatted(int counts) const {
   switch (con1_ >> 8 & 3) {
     case 1:
       return static_cast<std::uint16_t>(counts - 2048);
@@ -149,8 +149,10 @@ void Adc::start_cruising(Half at) {
 }
 
 void Adc::cruise(Cycle now) {
-  if (cruise_.start + cruise_.sequence > 2 * now) return;
-  cruise_.start += (2 * now - cruise_.start) / cruise_.sequence * cruise_.sequence;
+  const Half since = 2 * now - cruise_.start;
+  if (since < cruise_.sequence) return;
+  cruise_.start +=
+      since < 2 * cruise_.sequence ? cruise_.sequence : since / cruise_.sequence * cruise_.sequence;
   flag_at_ = up(cruise_.start) + kEndToFlag;
 }
 
@@ -159,7 +161,7 @@ void Adc::stop_cruising(Cycle now) {
   if (!cruising_) return;
   cruise(now);
   for (int slot = 0; slot < cruise_.count; ++slot)
-    buffer_[static_cast<std::size_t>(slot)] = cruised_result(slot, held_instant(slot, now));
+    buffer_[static_cast<std::size_t>(slot)] = slot_now(slot, now);
   cruising_ = false;
   restart_sequence();
   con1_ |= kDone;
@@ -175,10 +177,14 @@ Adc::Half Adc::held_instant(int slot, Cycle now) const {
   return start < cruise_.first ? -1 : start + in_sequence + cruise_.sample;
 }
 
-std::uint16_t Adc::cruised_result(int slot, Half held) const {
+inline std::uint16_t Adc::cruised_result(int channel, Half held) const {
+  return formatted(std::clamp(f_.outside.analogue_counts(channel, held / 2), 0, 4095));
+}
+
+std::uint16_t Adc::slot_now(int slot, Cycle now) const {
   const auto s = static_cast<std::size_t>(slot);
-  if (held < 0 || result_of_[s] == held) return buffer_[s];
-  return formatted(std::clamp(f_.outside.analogue_counts(cruise_.channel[s], held / 2), 0, 4095));
+  const Half held = held_instant(slot, now);
+  return held < 0 || result_of_[s] == held ? buffer_[s] : cruised_result(cruise_.channel[s], held);
 }
 
 void Adc::advance(Cycle now) {
@@ -235,16 +241,17 @@ void Adc::int0_edge(Cycle at) {
 // --- registers --------------------------------------------------------------------------------------------
 
 std::uint16_t Adc::read(unsigned address, Cycle now) {
-  advance(now);
-  if (!cruising_ || address >= kCon1) return peek(address, now);
-  const auto slot = static_cast<int>(address - kBuffer) / 2;
-  const Half held = held_instant(slot, now);
-  const std::uint16_t word = cruised_result(slot, held);
-  if (held >= 0) {
-    buffer_[static_cast<std::size_t>(slot)] = word;
-    result_of_[static_cast<std::size_t>(slot)] = held;
+  if (!cruising_ || address >= kCon1) {
+    advance(now);
+    return peek(address, now);
   }
-  return word;
+  if (cruise_.start + cruise_.sequence <= 2 * now) cruise(now);
+  const auto slot = static_cast<int>(address - kBuffer) / 2;
+  const auto s = static_cast<std::size_t>(slot);
+  const Half held = held_instant(slot, now);
+  if (held < 0 || result_of_[s] == held) return buffer_[s];
+  result_of_[s] = held;
+  return buffer_[s] = cruised_result(cruise_.channel[s], held);
 }
 
 std::uint16_t Adc::peek(unsigned address, Cycle now) const {
@@ -264,8 +271,7 @@ std::uint16_t Adc::peek(unsigned address, Cycle now) const {
       return cssl_;
     default:
       if (cruising_) {
-        const auto slot = static_cast<int>(address - kBuffer) / 2;
-        return cruised_result(slot, held_instant(slot, now));
+        return slot_now(static_cast<int>(address - kBuffer) / 2, now);
       }
       return buffer_[(address - kBuffer) / 2];
   }

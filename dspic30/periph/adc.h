@@ -55,7 +55,9 @@ class Adc final : public SfrOwner, public EventOwner, public TimerListener {
   void stop_cruising(Cycle now);
   /// Instant at which what a slot of the buffer holds at `now` was held; -1: before the cruise, or never.
   Half held_instant(int slot, Cycle now) const;
-  std::uint16_t cruised_result(int slot, Half held) const;
+  std::uint16_t cruised_result(int channel, Half held) const;
+  /// What a slot of the buffer holds at `now`.
+  std::uint16_t slot_now(int slot, Cycle now) const;
 
   void start_sampling(Half at);
   void hold(Half at, Half conversion_start);

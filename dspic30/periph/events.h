@@ -31,7 +31,8 @@ class Events {
 
   /// `irqs`: bit i if the event may set the flag of IRQ i; `outward`: it may move a pin or ask for a reset.
   int add(EventOwner& owner, int id, std::uint64_t irqs, bool outward) {
-    slots_[static_cast<std::size_t>(count_)] = {&owner, id, irqs, outward};
+    slots_[static_cast<std::size_t>(count_)] = {&owner, id, irqs};
+    outward_ |= static_cast<std::uint64_t>(outward) << count_;
     when_[static_cast<std::size_t>(count_)] = kNever;
     return count_++;
   }
@@ -43,6 +44,12 @@ class Events {
     when_[s] = at;
     const std::uint64_t bit = std::uint64_t{1} << s;
     active_ = at < kNever ? active_ | bit : active_ & ~bit;
+    if (noticed_ & bit) {
+      if (at < before)
+        earliest_ = std::min(earliest_, at + delay(slot));
+      else
+        put_off_ = true;
+    }
     if (at < next_)
       next_ = at;
     else if (before == next_)
@@ -52,22 +59,31 @@ class Events {
   Cycle next() const { return next_; }
 
   void run_to(Cycle now) {
-    while (next_ <= now) serve();
+    if (next_ <= now) serve_to(now);
     reached_ = std::max(reached_, now);
   }
   /// Null: nobody.
   void watch(EventWatch* watch) { watch_ = watch; }
+  /// What next_notice(), asked before with the same flags, answers now is the earlier one of its last answer
+  /// and earliest(), if nothing has happened since forget_changes() but what was set; was_put_off(): it may
+  /// be later.
+  Cycle earliest() const { return earliest_; }
+  bool was_put_off() const { return put_off_; }
+  void forget_changes() {
+    earliest_ = kNever;
+    put_off_ = false;
+  }
   /// Everything up to here has happened.
   Cycle reached() const { return reached_; }
 
   /// Earliest instant at which the processor may notice something: a slot that acts outwards, or one cycle
   /// after a slot that may set one of these flags.
-  Cycle next_notice(std::uint64_t irqs) const {
+  Cycle next_notice(std::uint64_t irqs) {
+    if (irqs != noticed_irqs_) find_noticed(irqs);
     Cycle next = kNever;
-    for (std::uint64_t rest = active_; rest; rest &= rest - 1) {
-      const auto s = static_cast<std::size_t>(__builtin_ctzll(rest));
-      const bool outward = slots_[s].outward;
-      if (outward || (slots_[s].irqs & irqs)) next = std::min(next, when_[s] + (outward ? 0 : 1));
+    for (std::uint64_t rest = active_ & noticed_; rest; rest &= rest - 1) {
+      const int s = __builtin_ctzll(rest);
+      next = std::min(next, when_[static_cast<std::size_t>(s)] + delay(s));
     }
     return next;
   }
@@ -82,10 +98,20 @@ class Events {
   }
 
  private:
+  Cycle delay(int slot) const { return static_cast<Cycle>(~outward_ >> slot & 1); }
+  void find_noticed(std::uint64_t irqs) {
+    noticed_irqs_ = irqs;
+    noticed_ = outward_;
+    for (int s = 0; s < count_; ++s)
+      if (slots_[static_cast<std::size_t>(s)].irqs & irqs) noticed_ |= std::uint64_t{1} << s;
+  }
   void refresh() {
     next_ = kNever;
     for (std::uint64_t rest = active_; rest; rest &= rest - 1)
       next_ = std::min(next_, when_[static_cast<std::size_t>(__builtin_ctzll(rest))]);
+  }
+  __attribute__((noinline)) void serve_to(Cycle now) {
+    while (next_ <= now) serve();
   }
   void serve() {
     std::uint64_t rest = active_;
@@ -102,15 +128,19 @@ class Events {
     EventOwner* owner = nullptr;
     int id = 0;
     std::uint64_t irqs = 0;
-    bool outward = false;
   };
   std::array<Cycle, kMostSlots> when_{};
   std::array<Slot, kMostSlots> slots_{};
-  std::uint64_t active_ = 0;  // slots whose instant is known
+  std::uint64_t active_ = 0;   // slots whose instant is known
+  std::uint64_t outward_ = 0;  // slots that act outwards
+  // of next_notice(), for the flags of its last call; at the beginning for none
+  std::uint64_t noticed_ = 0, noticed_irqs_ = ~std::uint64_t{0};
   int count_ = 0;
   Cycle next_ = kNever;
   Cycle reached_ = 0;
   EventWatch* watch_ = nullptr;
+  Cycle earliest_ = kNever;
+  bool put_off_ = false;
 };
 
 }  // namespace dspic

@@ -7,8 +7,9 @@
 // Modelled: all master operations with their times, ACKSTAT, TRSTAT, TBF, RBF, I2COV, IWCOL, S, P, clock
 // stretching as the outside reports it, pins taken from the ports. Kept without effect: slave mode (I2CADD,
 // STREN, GCEN, A10M, IPMIEN, SCLREL), DISSLW, SMEN, I2CSIDL. Not modelled: collisions (BCL), other masters.
-// An operation reaches the outside when it is complete. Source: [chip P6]; [?] lengths of start, restart,
-// stop and the fixed part of the SCL period.
+// An operation reaches the outside when it is complete. S and P stay when the module is switched off: drivers
+// that start only while P is set, and reset the module after a failure, work on the robot [lib: I2C/].
+// Source: [chip P6]; [?] lengths of start, restart, stop and the fixed part of the SCL period.
 #pragma once
 #include <cstdint>
 

@@ -18,8 +18,7 @@ constexpr int kDefaultPriority = 4;
 constexpr Cycle kReadModifyWrite = 3;
 // returns in a row with the flag untouched before it is taken for a mistake
 constexpr int kUnclearedReturns = 2;
-// levels of traps 1 to 4; a hard trap has 13 or 14
-constexpr int kTrapLevel[] = {0, 14, 13, 12, 11};
+// of a hard trap, 13 or 14
 constexpr int kHardLevel = 13;
 
 }  // namespace
@@ -125,6 +124,7 @@ void Interrupts::raise(int irq, Cycle at, bool is_event) {
   ifs_ |= std::uint64_t{1} << irq;
   since_[static_cast<std::size_t>(irq)] = at;
   newest_ = std::max(newest_, at);
+  stirred_ = true;
 }
 
 void Interrupts::note_missed(int irq, std::int64_t events, Cycle at) {
@@ -159,7 +159,10 @@ void Interrupts::write_flags(int word, std::uint16_t value, std::uint16_t lanes,
   ifs_ = wanted;
   for (std::uint64_t rest = set; rest; rest &= rest - 1)
     since_[static_cast<std::size_t>(__builtin_ctzll(rest))] = now + 1;
-  if (set) newest_ = std::max(newest_, now + 1);
+  if (set) {
+    newest_ = std::max(newest_, now + 1);
+    stirred_ = true;
+  }
   for (std::uint64_t rest = cleared; rest; rest &= rest - 1) {
     const int i = __builtin_ctzll(rest);
     for (Frame& frame : stack_)
@@ -178,71 +181,6 @@ void Interrupts::set_priority(int irq, int priority) {
 
 // --- acceptance --------------------------------------------------------------------------------------------
 
-int Interrupts::pending(Cycle now, int cpu_level) const {
-  if (intcon1_ & 0x001E) {
-    for (int trap = 1; trap <= 4; ++trap)
-      if ((intcon1_ >> trap & 1) && kTrapLevel[trap] > cpu_level) return trap;
-  }
-  std::uint64_t ready = ifs_ & iec_;
-  if (!ready) return kNoVector;
-  if (newest_ >= now) {  // a flag is seen one cycle after it is set
-    for (std::uint64_t rest = ready; rest; rest &= rest - 1) {
-      const int i = __builtin_ctzll(rest);
-      if (since_[static_cast<std::size_t>(i)] >= now) ready &= ~(std::uint64_t{1} << i);
-    }
-  }
-  int lowest = cpu_level + 1;
-  if (disi_active(now)) lowest = std::max(lowest, 7);
-  if (now <= resumed_) lowest = std::max(lowest, resumed_level_ + 1);
-  for (int level = 7; level >= lowest; --level)
-    if (const std::uint64_t here = ready & at_priority_[static_cast<std::size_t>(level)])
-      return kFirstIrqVector + __builtin_ctzll(here);
-  return kNoVector;
-}
-
-Cycle Interrupts::next_change(Cycle now) const {
-  Cycle next = kNever;
-  const std::uint64_t ready = ifs_ & iec_ & ~at_priority_[0];
-  if (!ready) return next;
-  if (newest_ >= now) {
-    for (std::uint64_t rest = ready; rest; rest &= rest - 1) {
-      const Cycle since = since_[static_cast<std::size_t>(__builtin_ctzll(rest))];
-      if (since >= now) next = std::min(next, since + 1);
-    }
-  }
-  if (disi_active(now)) next = std::min(next, disi_until_);
-  if (now <= resumed_) next = std::min(next, resumed_ + 1);
-  return std::max(next, now + 1);
-}
-
-InterruptEntry Interrupts::enter(int vector, Cycle now) {
-  InterruptEntry entry;
-  entry.vector = vector;
-  if (vector < kFirstIrqVector)
-    entry.level = kTrapLevel[vector];
-  else
-    entry.level = nesting_disabled() ? 7 : priority(vector - kFirstIrqVector);
-  entry.address = ((intcon2_ & 0x8000) ? 0x84u : 0x04u) + 2 * static_cast<unsigned>(vector);
-  entry.first_instruction = now + kInterruptEntryCycles;
-  stack_.push_back({vector, level_, false, now});
-  level_ = entry.level;
-  last_vector_ = static_cast<std::uint16_t>(vector);
-  last_level_ = static_cast<std::uint16_t>(entry.level);
-  ++served_[static_cast<std::size_t>(vector)];
-  return entry;
-}
-
-Cycle Interrupts::leave(Cycle now) {
-  if (stack_.empty()) return now + kInterruptReturnCycles;
-  const Frame frame = stack_.back();
-  stack_.pop_back();
-  if (frame.vector >= kFirstIrqVector) check_cleared(frame, now);
-  resumed_ = now + kInterruptReturnCycles;
-  resumed_level_ = std::min(level_, 7);
-  level_ = frame.outer_level;
-  return resumed_;
-}
-
 void Interrupts::check_cleared(const Frame& frame, Cycle now) {
   const int i = frame.vector - kFirstIrqVector;
   if (frame.cleared || !flag(i) || !enabled(i) || since(i) > frame.entered) return;
@@ -256,11 +194,12 @@ void Interrupts::check_cleared(const Frame& frame, Cycle now) {
 }
 
 void Interrupts::set_level(int level, Cycle now) {
+  stirred_ = true;
   if (!nesting_disabled()) level_ = level;
 }
 
 void Interrupts::raise_trap(Trap trap, Cycle now) {
-  const int number = static_cast<int>(trap), level = kTrapLevel[number];
+  const int number = static_cast<int>(trap), level = trap_level(number);
   const bool hard_pending = (intcon1_ & 0x0006) != 0;
   if (level >= kHardLevel && (level_ >= level || hard_pending)) {
     diagnostics_.report(Cause::TrapConflict, vector_name(number),
@@ -269,13 +208,15 @@ void Interrupts::raise_trap(Trap trap, Cycle now) {
     reset_due_ = ResetKind::TrapConflict;
   }
   intcon1_ |= static_cast<std::uint16_t>(1 << number);
+  stirred_ = true;
 }
 
 // --- registers ---------------------------------------------------------------------------------------------
 
 std::uint16_t Interrupts::read(unsigned address, Cycle now) {
-  if (address >= kIfs0 && address < kIec0) flags_read_[(address - kIfs0) / 2] = now;
-  return peek(address, now);
+  if (address < kIfs0 || address >= kIec0) return peek(address, now);
+  flags_read_[(address - kIfs0) / 2] = now;
+  return static_cast<std::uint16_t>(ifs_ >> 8 * (address - kIfs0));
 }
 
 std::uint16_t Interrupts::peek(unsigned address, Cycle now) const {
@@ -293,6 +234,9 @@ std::uint16_t Interrupts::peek(unsigned address, Cycle now) const {
 }
 
 void Interrupts::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycle now) {
+  if (address >= kIfs0 && address < kIec0)
+    return write_flags(static_cast<int>(address - kIfs0) / 2, value, lanes, now);
+  stirred_ = true;
   if (address == kIntcon1) {
     intcon1_ = merge_lanes(intcon1_, value, lanes);
   } else if (address == kIntcon2) {
@@ -303,8 +247,6 @@ void Interrupts::write(unsigned address, std::uint16_t value, std::uint16_t lane
       FlagListener* listener = listeners_[static_cast<std::size_t>(kExternal[n])];
       if (((before ^ intcon2_) >> n & 1) && listener) listener->edge_chosen(kExternal[n], now);
     }
-  } else if (address >= kIfs0 && address < kIec0) {
-    write_flags(static_cast<int>(address - kIfs0) / 2, value, lanes, now);
   } else if (address >= kIec0 && address < kIpc0) {
     const int shift = 8 * static_cast<int>(address - kIec0);
     const auto mask = static_cast<std::uint64_t>(lanes) << shift;

@@ -9,6 +9,7 @@
 // of one read-modify-write survives. Not modelled: INTTREG.VHOLD, IRQTOCPU and TMODE; the accumulator traps'
 // causes (the core raises MathError itself). Source: [chip C11].
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -27,6 +28,9 @@ class FlagListener {
   /// INTCON2.INTxEP of this source was changed.
   virtual void edge_chosen(int irq, Cycle now) {}
 };
+
+/// Level of trap 1 to 4 [chip C11].
+constexpr int trap_level(int trap) { return 15 - trap; }
 
 class Interrupts final : public SfrOwner {
  public:
@@ -57,13 +61,26 @@ class Interrupts final : public SfrOwner {
   int level() const { return level_; }
   void set_level(int level, Cycle now);
   int nesting() const { return static_cast<int>(stack_.size()); }
-  void disi(unsigned count, Cycle now) { disi_until_ = now + 1 + static_cast<Cycle>(count & 0x3FFF); }
+  void disi(unsigned count, Cycle now) {
+    disi_until_ = now + 1 + static_cast<Cycle>(count & 0x3FFF);
+    stirred_ = true;
+  }
   bool disi_active(Cycle now) const { return now < disi_until_; }
   Cycle disi_until() const { return disi_until_; }
   void raise_trap(Trap trap, Cycle now);
   bool nesting_disabled() const { return (intcon1_ & 0x8000) != 0; }
+  /// Is neither a trap nor an enabled flag set but that of `vector`?
+  bool has_no_other(int vector) const {
+    std::uint64_t ready = ifs_ & iec_;
+    if (vector >= kFirstIrqVector) ready &= ~(std::uint64_t{1} << (vector - kFirstIrqVector));
+    return !ready && !(intcon1_ & 0x001E);
+  }
   bool wakes() const { return (ifs_ & iec_ & ~at_priority_[0]) != 0; }
-  std::optional<ResetKind> reset_due() const { return reset_due_; }
+  const std::optional<ResetKind>& reset_due() const { return reset_due_; }
+  /// Did anything happen since forget_stir() after which pending() may answer a vector, or next_change()
+  /// earlier? A flag that falls is no such thing.
+  bool stirred() const { return stirred_; }
+  void forget_stir() { stirred_ = false; }
 
   std::int64_t missed(int irq) const { return missed_[static_cast<std::size_t>(irq)]; }
   std::int64_t served(int vector) const { return served_[static_cast<std::size_t>(vector)]; }
@@ -101,10 +118,78 @@ class Interrupts final : public SfrOwner {
   Cycle resumed_ = -1;     // first instruction after RETFIE
   int resumed_level_ = 0;  // level of the handler that ended there
   std::optional<ResetKind> reset_due_;
+  bool stirred_ = false;
 
   std::array<std::int64_t, kIrqs> missed_{};
   std::array<std::int64_t, kVectors> served_{};
   std::array<int, kIrqs> uncleared_{};
 };
+
+// --- acceptance, asked after everything that may change it ------------------------------------------------
+
+inline int Interrupts::pending(Cycle now, int cpu_level) const {
+  if (intcon1_ & 0x001E) {
+    for (int trap = 1; trap <= 4; ++trap)
+      if ((intcon1_ >> trap & 1) && trap_level(trap) > cpu_level) return trap;
+  }
+  std::uint64_t ready = ifs_ & iec_;
+  if (!ready) return kNoVector;
+  if (newest_ >= now) {  // a flag is seen one cycle after it is set
+    for (std::uint64_t rest = ready; rest; rest &= rest - 1) {
+      const int i = __builtin_ctzll(rest);
+      if (since_[static_cast<std::size_t>(i)] >= now) ready &= ~(std::uint64_t{1} << i);
+    }
+  }
+  int lowest = cpu_level + 1;
+  if (disi_active(now)) lowest = std::max(lowest, 7);
+  if (now <= resumed_) lowest = std::max(lowest, resumed_level_ + 1);
+  for (int level = 7; level >= lowest; --level)
+    if (const std::uint64_t here = ready & at_priority_[static_cast<std::size_t>(level)])
+      return kFirstIrqVector + __builtin_ctzll(here);
+  return kNoVector;
+}
+
+inline Cycle Interrupts::next_change(Cycle now) const {
+  Cycle next = kNever;
+  const std::uint64_t ready = ifs_ & iec_ & ~at_priority_[0];
+  if (!ready) return next;
+  if (newest_ >= now) {
+    for (std::uint64_t rest = ready; rest; rest &= rest - 1) {
+      const Cycle since = since_[static_cast<std::size_t>(__builtin_ctzll(rest))];
+      if (since >= now) next = std::min(next, since + 1);
+    }
+  }
+  if (disi_active(now)) next = std::min(next, disi_until_);
+  if (now <= resumed_) next = std::min(next, resumed_ + 1);
+  return std::max(next, now + 1);
+}
+
+inline InterruptEntry Interrupts::enter(int vector, Cycle now) {
+  InterruptEntry entry;
+  entry.vector = vector;
+  if (vector < kFirstIrqVector)
+    entry.level = trap_level(vector);
+  else
+    entry.level = nesting_disabled() ? 7 : priority(vector - kFirstIrqVector);
+  entry.address = ((intcon2_ & 0x8000) ? 0x84u : 0x04u) + 2 * static_cast<unsigned>(vector);
+  entry.first_instruction = now + kInterruptEntryCycles;
+  stack_.push_back({vector, level_, false, now});
+  level_ = entry.level;
+  last_vector_ = static_cast<std::uint16_t>(vector);
+  last_level_ = static_cast<std::uint16_t>(entry.level);
+  ++served_[static_cast<std::size_t>(vector)];
+  return entry;
+}
+
+inline Cycle Interrupts::leave(Cycle now) {
+  if (stack_.empty()) return now + kInterruptReturnCycles;
+  const Frame frame = stack_.back();
+  stack_.pop_back();
+  if (frame.vector >= kFirstIrqVector && !frame.cleared) check_cleared(frame, now);
+  resumed_ = now + kInterruptReturnCycles;
+  resumed_level_ = std::min(level_, 7);
+  level_ = frame.outer_level;
+  return resumed_;
+}
 
 }  // namespace dspic

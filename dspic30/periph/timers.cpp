@@ -2,6 +2,7 @@
 #include "dspic30/periph/timers.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace dspic {
 
@@ -19,9 +20,9 @@ constexpr unsigned kHold23 = 0x108, kHold45 = 0x116;
 constexpr int kFlags[kTimers] = {irq::T1, irq::T2, irq::T3, irq::T4, irq::T5};
 constexpr Pin kClockPins[kTimers] = {{Port::C, 14}, {Port::C, 1}, {Port::C, 2}, {Port::C, 3}, {Port::C, 4}};
 constexpr std::uint16_t kTon = 0x8000, kTgate = 0x0040, kT32 = 0x0008, kTcs = 0x0002;
-constexpr Cycle kPrescale[] = {1, 8, 64, 256};
-constexpr Cycle kEdgeToTick = 1;   // synchroniser of TxCK
-constexpr Cycle kMatchToFlag = 1;  // [chip P2]
+constexpr int kPrescaleBits[] = {0, 3, 6, 8};  // 1, 8, 64, 256
+constexpr Cycle kEdgeToTick = 1;               // synchroniser of TxCK
+constexpr Cycle kMatchToFlag = 1;              // [chip P2]
 
 // which register of which timer
 enum class What { Tmr, Pr, Con, Hold };
@@ -93,7 +94,7 @@ std::int64_t Timers::clocks(int timer, Cycle at) const {
 
 Cycle Timers::tick_instant(int timer, std::int64_t n) const {
   const Unit& u = unit(timer);
-  const std::int64_t edges = n * u.prescale - u.residue;
+  const std::int64_t edges = (n << u.prescale_bits) - u.residue;
   switch (u.mode) {
     case Mode::Internal:
       return u.base + edges;
@@ -142,6 +143,20 @@ Cycle Timers::next_flag(int timer, Cycle after) const {
   return std::min(next, tick >= kNever ? kNever : tick + kMatchToFlag);
 }
 
+Cycle Timers::next_internal(int timer, Cycle after) {
+  Unit& u = unit(timer);
+  if (after < u.next && after >= u.next_from) return u.next;
+  if (u.next > 0 && after == u.next && u.pending_flag == kNever && u.pr != 0) {
+    u.next += (Cycle{u.pr} + 1) << u.prescale_bits;  // the match after this one
+  } else {
+    u.next = next_flag(timer, after);
+    // what a rewritten counter still owes comes at no regular distance
+    if (u.pending_flag < kNever) return std::exchange(u.next, -1);
+  }
+  u.next_from = after;
+  return u.next;
+}
+
 std::uint32_t Timers::count(int timer, Cycle at) const {
   const Unit& u = unit(timer);
   if (u.slave) return unit(timer - 1).wide ? count(timer - 1, at) >> 16 : u.count;
@@ -172,9 +187,10 @@ void Timers::settle(int timer, Cycle at, Cycle done) {
   const Cycle flag = next_flag(timer, done);
   u.pending_flag = flag <= at + kMatchToFlag ? flag : kNever;
   const std::int64_t all = clocks(timer, at);
-  u.count = after_ticks(u, all / u.prescale);
-  u.residue = all % u.prescale;
+  u.count = after_ticks(u, all >> u.prescale_bits);
+  u.residue = all & (u.prescale() - 1);
   u.base = std::max(u.base, at);
+  u.next = -1;
 }
 
 void Timers::configure(int timer, Cycle at) {
@@ -186,9 +202,10 @@ void Timers::configure(int timer, Cycle at) {
     u.mode = Mode::External;
   else
     u.mode = (u.con & kTgate) ? Mode::Gated : Mode::Internal;
-  u.prescale = kPrescale[u.con >> 4 & 3];
+  u.prescale_bits = kPrescaleBits[u.con >> 4 & 3];
+  u.next = -1;
   u.pr = u.wide ? u.pr16 | std::uint32_t{unit(timer + 1).pr16} << 16 : u.pr16;
-  u.residue = std::min(u.residue, u.prescale - 1);
+  u.residue = std::min(u.residue, u.prescale() - 1);
   if (u.mode == Mode::Stopped || before == Mode::Stopped) u.residue = 0;
   if (u.mode == Mode::Gated) u.gate_high = f_.ports.level(clock_pin(timer), at);
 }
@@ -205,8 +222,9 @@ void Timers::schedule(int timer, Cycle now) {
   } else if (f_.interrupts.flag(flag_of(timer)) && !u.wanted) {
     u.lazy = true;
     u.lazy_since = now;
+    if (u.mode == Mode::Internal) next_internal(timer, now);  // for count_missed()
   } else {
-    at = next_flag(timer, now);
+    at = u.mode == Mode::Internal ? next_internal(timer, now) : next_flag(timer, now);
   }
   f_.events.set(u.slot, at);
 }
@@ -214,6 +232,10 @@ void Timers::schedule(int timer, Cycle now) {
 void Timers::count_missed(int timer, Cycle now) {
   Unit& u = unit(timer);
   if (!u.lazy) return;
+  if (u.lazy_since >= u.next_from && now < u.next) {
+    u.lazy_since = now;
+    return;
+  }
   std::int64_t missed = matches_by(timer, now) - matches_by(timer, u.lazy_since);
   if (u.pending_flag > u.lazy_since && u.pending_flag <= now) ++missed;
   f_.interrupts.note_missed(flag_of(timer), missed, now);
@@ -226,6 +248,14 @@ void Timers::tell_changed(int timer, Cycle at) {
 
 void Timers::on_event(int id, Cycle at) {
   Unit& u = unit(id);
+  if (u.mode == Mode::Internal && !u.wanted && u.pending_flag == kNever) {
+    // a period is over, and the next one is an event once the program has lowered the flag
+    f_.interrupts.raise(flag_of(id), at);
+    u.lazy = true;
+    u.lazy_since = at;
+    next_internal(id, at);
+    return;
+  }
   if (u.mode == Mode::Gated) {
     if (u.pending_flag == at) f_.interrupts.raise(flag_of(id), at);
     const bool at_edge = u.gate_edge == at;
@@ -240,16 +270,18 @@ void Timers::on_event(int id, Cycle at) {
   if (u.pending_flag == at) u.pending_flag = kNever;
   if (u.mode == Mode::External) settle(id, at, at);  // edges are counted from here on
   f_.interrupts.raise(flag_of(id), at);
-  for (TimerListener* l : listeners_) l->timer_matched(u.wide ? id + 1 : id, at);
+  if (u.wanted)
+    for (TimerListener* l : listeners_) l->timer_matched(u.wide ? id + 1 : id, at);
   schedule(id, at);
 }
 
 void Timers::flag_cleared(int irq, Cycle now) {
-  for (int t = 1; t <= kTimers; ++t) {
-    if (unit(t).slave || flag_of(t) != irq) continue;
-    count_missed(t, now);
-    schedule(t, now);
-  }
+  int t = 1;
+  while (t < kTimers && kFlags[t - 1] != irq) ++t;
+  if (unit(t).slave) --t;
+  if (flag_of(t) != irq) return;  // of the low half of a pair
+  count_missed(t, now);
+  schedule(t, now);
 }
 
 void Timers::want_matches(int timer, bool wanted, Cycle now) {
@@ -277,7 +309,7 @@ void Timers::own_edge(Pin pin, Edge edge, Cycle at) {
     if (u.mode == Mode::External && edge == Edge::Rising) {
       settle(t, at, at - 1);
       const std::uint32_t before = u.count;
-      if (++u.residue == u.prescale) {
+      if (++u.residue == u.prescale()) {
         u.count = after_ticks(u, 1);
         u.residue = 0;
         if (u.count == u.pr && before != u.pr) u.pending_flag = at + kEdgeToTick + kMatchToFlag;

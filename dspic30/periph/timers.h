@@ -67,15 +67,19 @@ class Timers final : public SfrOwner, public EventOwner, public FlagListener, pu
     std::uint32_t count = 0;  // at cycle `base`
     std::uint32_t pr = 0xFFFF;
     Cycle base = 0;
-    Cycle prescale = 1;
-    Cycle residue = 0;  // clock edges that the prescaler holds at `base`
+    int prescale_bits = 0;  // of 1, 8, 64, 256
+    Cycle residue = 0;      // clock edges that the prescaler holds at `base`
     bool gate_high = false;
     Cycle gate_edge = kNever;     // of the gate, next
     Cycle pending_flag = kNever;  // of a match whose counter has been rewritten meanwhile
     bool wanted = false;
     bool lazy = false;     // matches are not events now, but counted when the flag is cleared
     Cycle lazy_since = 0;  // last flag instant that was an event
+    Cycle next = -1;       // next_flag() of any cycle from next_from on and before this; -1 unknown
+    Cycle next_from = 0;
     int slot = -1;
+
+    Cycle prescale() const { return Cycle{1} << prescale_bits; }
   };
 
   Unit& unit(int timer) { return units_[static_cast<std::size_t>(timer - 1)]; }
@@ -85,12 +89,14 @@ class Timers final : public SfrOwner, public EventOwner, public FlagListener, pu
   std::uint32_t top(const Unit& u) const { return u.wide ? 0xFFFFFFFFu : 0xFFFFu; }
 
   std::int64_t clocks(int timer, Cycle at) const;  // clock edges since base, residue included
-  std::int64_t ticks(int timer, Cycle at) const { return clocks(timer, at) / unit(timer).prescale; }
+  std::int64_t ticks(int timer, Cycle at) const { return clocks(timer, at) >> unit(timer).prescale_bits; }
   Cycle tick_instant(int timer, std::int64_t n) const;  // of the n-th tick since base
   std::uint32_t after_ticks(const Unit& u, std::int64_t n) const;
   std::int64_t ticks_to(const Unit& u, std::uint32_t value) const;  // 0 < result, or -1
   std::int64_t matches_by(int timer, Cycle flag_at) const;          // flags at or before that cycle
   Cycle next_flag(int timer, Cycle after) const;
+  /// The same for a timer on the chip's clock, remembered.
+  Cycle next_internal(int timer, Cycle after);
   /// The counter's state moves to `at`; flags up to `done` have been told.
   void settle(int timer, Cycle at, Cycle done);
   void configure(int timer, Cycle at);

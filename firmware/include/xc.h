@@ -4,5 +4,7 @@
 #ifndef __TWINPUCK__
 #include_next <xc.h>
 #else
+#include <stdint.h>
+
 #include "p30F6014A.h"
 #endif

@@ -121,6 +121,11 @@ void e_init_codec_slave(void) {
 
   DCICON1bits.DCIEN = 0;
   DCICON2 = PLAY_FRAMES;
+  /* what the buffers hold goes out when the module is switched on: silence, not the last control word */
+  TXBUF0 = 0;
+  TXBUF1 = 0;
+  TXBUF2 = 0;
+  TXBUF3 = 0;
   IFS2bits.DCIIF = 0;
   IPC10bits.DCIIP = PRIORITY;
   IEC2bits.DCIIE = 1;

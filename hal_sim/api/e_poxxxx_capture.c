@@ -18,9 +18,6 @@
 #define LINE_ENTRY_CYCLES 26  /* [estimated: entry, shadow registers, set-up, end of line, RETFIE] */
 #define FRAME_ENTRY_CYCLES 30 /* [estimated: context, three bits, RETFIE] */
 #define LAUNCH_CYCLES 60      /* [estimated: two timers set up] */
-#define TAKE 1
-#define SKIP 0
-#define END_OF_LINE 2
 
 /* the driver's public variables */
 char* _poxxxx_buffer;
@@ -63,11 +60,7 @@ void e_poxxxx_launch_capture(char* buf) {
 int e_poxxxx_is_img_ready(void) { return _poxxxx_img_ready; }
 
 int e_poxxxx_apply_timer_config(int pixel_row, int pixel_col, int bpp, int pbp, int bbl) {
-  int i, j, at = 0;
-  if ((unsigned int)(pixel_col * bpp * (1 + pbp) + 1) > LINE_CONF_SIZE) return -1;
-  for (i = 0; i < pixel_col; i++)
-    for (j = 0; j < bpp * (1 + pbp); j++) _poxxxx_line_conf[at++] = j < bpp ? TAKE : SKIP;
-  _poxxxx_line_conf[at] = END_OF_LINE;
+  if (camera_fill_line_conf(_poxxxx_line_conf, pixel_col, bpp, pbp)) return -1;
   columns = pixel_col;
   bytes_per_pixel = bpp;
   skipped_pixels = pbp;

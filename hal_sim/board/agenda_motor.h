@@ -71,7 +71,7 @@ class AgendaMotor {
     const int direction = step_direction();
     commanded += direction;
     phase = (phase + direction * stepper.forward()) & 3;
-    stepper.energise(kPhaseCoils[phase], at, move_cycles());
+    stepper.energise(kPhaseCoils[phase], at);
     if (magnitude < kPowerSaveBelow) {
       phase_on = true;
       set_cycle(kPowerSaveTicks);
@@ -134,8 +134,9 @@ class AgendaMotor {
   void disturb() { regular_ = 0; }
 
  private:
-  /// Firings in a row after which every step has had the time to finish, so that periods can be added up.
-  static constexpr int kRegularFirings = 3;
+  /// Firings in a row after which every step has had the time to finish, so that periods can be added up: two
+  /// steps that came a period after the one before.
+  static constexpr int kRegularFirings = 6;
   int regular_ = 0;
 
   /// left: forward only for v > 0; right: backward only for v < 0

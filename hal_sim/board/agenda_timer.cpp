@@ -52,6 +52,7 @@ void AgendaTimer::start(Cycle at) {
   line_.late_tick = walking_ ? tick : -1;
   line_.origin = at - tick * kAgendaTickCycles;
   running_ = true;
+  for (AgendaMotor& m : motors_) m.disturb();
   find_next_fire();
 }
 
@@ -112,6 +113,11 @@ void AgendaTimer::settle(Node& node, std::int64_t tick) {
   count.tick = tick;
 }
 
+/// The rhythm of a motor's node is another one from now on.
+void AgendaTimer::disturb(const Node& node) {
+  if (node.kind != Kind::User) motor(wheel_of(node.kind)).disturb();
+}
+
 AgendaMotor& AgendaTimer::bring(Wheel wheel, std::int64_t tick) {
   const std::size_t i = static_cast<std::size_t>(wheel);
   AgendaMotor& m = motors_[i];
@@ -150,6 +156,7 @@ int AgendaTimer::activate(Function function, int cycle, Cycle at) {
     motor_serial_[static_cast<int>(wheel)] = node.serial;
     has_node_[static_cast<int>(wheel)] = true;
   }
+  disturb(node);
   AgendaCount& count = node.kind == Kind::User ? node.count : motor(wheel_of(node.kind)).count;
   count = AgendaCount{static_cast<std::uint16_t>(cycle), 0, true, done};
   nodes_.push_back(node);
@@ -175,7 +182,7 @@ int AgendaTimer::set_cycle(Function function, int cycle, Cycle at) {
   if (!node) return kNotFound;
   settle(*node, done_tick(node->serial, at));
   count_of(*node).cycle = static_cast<std::uint16_t>(cycle);
-  if (node->kind != Kind::User) motor(wheel_of(node->kind)).disturb();
+  disturb(*node);
   if (!walking_) find_next_fire();
   return kDone;
 }
@@ -185,6 +192,7 @@ int AgendaTimer::reset_count(Function function, Cycle at) {
   if (!node) return kNotFound;
   settle(*node, done_tick(node->serial, at));
   count_of(*node).counter = 0;
+  disturb(*node);
   if (!walking_) find_next_fire();
   return kDone;
 }
@@ -203,6 +211,7 @@ int AgendaTimer::restart(Function function, Cycle at) {
   if (!node) return kNotFound;
   settle(*node, done_tick(node->serial, at));
   count_of(*node).active = true;
+  disturb(*node);
   if (!walking_) find_next_fire();
   return kDone;
 }
@@ -288,6 +297,7 @@ void AgendaTimer::begin(Cycle at) {
     line_.origin += lost * kAgendaTickCycles;
     line_.late_tick = walk_tick_;
     line_.late_cycle = at;
+    for (AgendaMotor& m : motors_) m.disturb();
   }
   walking_ = true;
   walk_serial_ = kBeforeAll;
@@ -347,6 +357,7 @@ void AgendaTimer::finish(Cycle at) {
       line_.origin += (since - 1) * kAgendaTickCycles;
       line_.late_tick = walk_tick_ + 1;
       line_.late_cycle = at;
+      for (AgendaMotor& m : motors_) m.disturb();
     }
   }
   find_next_fire();

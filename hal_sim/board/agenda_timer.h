@@ -111,6 +111,7 @@ class AgendaTimer {
   std::int64_t done_tick(std::uint32_t serial, Cycle at) const;
   void settle(Node& node, std::int64_t tick);
   void settle_motors(std::int64_t tick);
+  void disturb(const Node& node);
   /// The motor itself, brought to `tick`.
   AgendaMotor& bring(Wheel wheel, std::int64_t tick);
   std::uint32_t serial_of(Wheel wheel) const { return motor_serial_[static_cast<int>(wheel)]; }

@@ -44,7 +44,8 @@ double Battery::charge_at(double rest_v) {
 Battery::Battery(double capacity_wh, double volts, double amps)
     : capacity_as_(capacity_wh * 3600 / mean_rest_v()),
       amps_(amps),
-      charge_(charge_at(volts + amps * kInnerResistanceOhm)) {}
+      charge_(charge_at(volts + amps * kInnerResistanceOhm)),
+      rest_v_(rest_v(charge_)) {}
 
 double Battery::share(Cycle span) const { return amps_ * seconds(span) / capacity_as_; }
 
@@ -54,7 +55,11 @@ double Battery::voltage(Cycle at) const { return rest_v(charge(at)) - amps_ * kI
 
 double Battery::used_wh(Cycle at) const {
   // the voltage falls so slowly that the mean of both ends is exact enough: 1 % of charge is some 10 mV
-  const double mean_v = (voltage(since_) + voltage(at)) / 2;
+  return used_wh(at, voltage(at));
+}
+
+double Battery::used_wh(Cycle at, double volts) const {
+  const double mean_v = (rest_v_ - amps_ * kInnerResistanceOhm + volts) / 2;
   return (used_j_ + mean_v * amps_ * seconds(at - since_)) / 3600;
 }
 
@@ -66,9 +71,11 @@ double Battery::minutes_left(Cycle at) const {
 
 void Battery::draw(double amps, Cycle at) {
   if (amps == amps_) return;
-  used_j_ = used_wh(at) * 3600;
+  const double charge_now = charge(at), rest_now_v = rest_v(charge_now);
+  used_j_ = used_wh(at, rest_now_v - amps_ * kInnerResistanceOhm) * 3600;
   drawn_as_ += amps_ * seconds(at - since_);
-  charge_ = charge(at);
+  charge_ = charge_now;
+  rest_v_ = rest_now_v;
   since_ = at;
   amps_ = amps;
 }
@@ -78,6 +85,7 @@ void Battery::set_voltage(double volts, Cycle at) {
   draw(-1, at);  // settles what was drawn
   amps_ = amps;
   charge_ = charge_at(volts + amps * kInnerResistanceOhm);
+  rest_v_ = rest_v(charge_);
 }
 
 Cycle Battery::below(double volts, Cycle at) const {

@@ -45,11 +45,14 @@ class Battery {
  private:
   /// Charge, as a share, that flows in a span.
   double share(Cycle span) const;
+  /// used_wh() where the terminal voltage at `at` is known.
+  double used_wh(Cycle at, double volts) const;
 
   double capacity_as_;  // ampere seconds
   double amps_;
   Cycle since_ = 0;      // the present current flows since
   double charge_;        // then
+  double rest_v_;        // of that charge
   double used_j_ = 0;    // joule, up to then
   double drawn_as_ = 0;  // ampere seconds, up to then
 };

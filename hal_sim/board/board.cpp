@@ -48,6 +48,8 @@ constexpr std::uint32_t kMicrophoneStream = sim::kStreamBoard + 32;  // + microp
 constexpr std::uint64_t kConversionOffset = std::uint64_t{1}
                                             << 41;  // single conversions, apart from the drivers'
 
+constexpr std::int64_t kOpenEnd = std::int64_t{1} << 40;  // samples of a sound whose end is not known
+
 std::int64_t to_ppb(double ppm) { return static_cast<std::int64_t>(std::llround(ppm * 1000.0)); }
 
 }  // namespace
@@ -76,10 +78,8 @@ Board::Board(const Setup& setup)
 Board::~Board() = default;
 
 int Board::port_index(char port) {
-  constexpr char kLetters[] = "ABCDFG";
-  for (int i = 0; i < static_cast<int>(kPorts); ++i)
-    if (kLetters[i] == port) return i;
-  return -1;
+  constexpr signed char kIndex[] = {0, 1, 2, 3, -1, 4, 5};  // A B C D, no E, F G
+  return port >= 'A' && port <= 'G' ? kIndex[port - 'A'] : -1;
 }
 
 // --- motors ----------------------------------------------------------------------------------------------
@@ -104,11 +104,13 @@ double Board::wheel_angle_rad(Wheel wheel, Cycle at) const {
 
 std::int64_t Board::steps(Wheel wheel, Cycle at) const { return stepper_at(wheel, at).steps(); }
 
-unsigned Board::coils(Wheel wheel, Cycle at) const { return stepper_at(wheel, at).coils(); }
+unsigned Board::coils(Wheel wheel, Cycle at) const {
+  return timer_motors_.drives(wheel) ? stepper_at(wheel, at).coils() : agendas_.stepper_at(wheel, at).coils();
+}
 
 void Board::connect_steppers(Cycle at) {
-  stepper(Wheel::Left, at).connect((tris_[kD] & 0x0F) == 0);
-  stepper(Wheel::Right, at).connect((tris_[kD] & 0xF0) == 0);
+  stepper(Wheel::Left, at).connect((tris_[kD] & 0x0F) == 0, at);
+  stepper(Wheel::Right, at).connect((tris_[kD] & 0xF0) == 0, at);
 }
 
 // --- ports -----------------------------------------------------------------------------------------------
@@ -149,12 +151,14 @@ void Board::port_write(char port, Register reg, std::uint16_t value, Cycle at) {
   const std::size_t i = static_cast<std::size_t>(index);
   value &= kImplemented[index];
   if (reg == Register::Tris) {
+    note_pulses(i, lat_[i], value, at);
     tris_[i] = value;
     if (index == kD) connect_steppers(at);
     outputs_changed(at);
     return;
   }
   if (index == kD) {
+    if (tris_[kD] & 0xFF) note_vain_writes(kD, value ^ port_read('D', Register::Lat, at), at);
     for (Wheel wheel : {Wheel::Left, Wheel::Right}) {
       const unsigned coils = (value >> (wheel == Wheel::Left ? 0 : 4)) & 15u;
       if (coils != this->coils(wheel, at)) stepper(wheel, at).energise(coils, at);
@@ -173,6 +177,8 @@ void Board::port_write(char port, Register reg, std::uint16_t value, Cycle at) {
   if (index == kC && camera_ && lat_[i] & ~value & bit(kCameraResetBit)) camera_->sensor_reset(at);
   if (index == kC && scan_.pulses(at) & 16u) value = static_cast<std::uint16_t>(value & ~(bit(1) | bit(2)));
   if (value == lat_[i]) return;
+  note_pulses(i, value, tris_[i], at);
+  note_vain_writes(i, value ^ lat_[i], at);
   lat_[i] = value;
   outputs_changed(at);
 }
@@ -218,9 +224,9 @@ Cycle Board::port_horizon(char port, Cycle at) const {
 }
 
 std::uint32_t Board::leds(Cycle at) const {
-  const unsigned ring = lat_[kA] & ~static_cast<unsigned>(tris_[kA]);
+  const unsigned ring = lat_[kA] & ~static_cast<unsigned>(tris_[kA]) & kRingMask;
   std::uint32_t mask = 0;
-  for (int led = 0; led < 8; ++led)
+  for (int led = 0; ring && led < 8; ++led)
     if (ring & bit(kRingLedBit[led])) mask |= 1u << led;
   unsigned other = lat_[kC];
   if (scan_.pulses(at) & 16u) other |= bit(kFrontLedBit) | bit(kBodyLedBit);
@@ -265,6 +271,7 @@ void Board::processor_reset(Cycle at) {
   if (camera_) camera_->processor_reset();
   i2c_master_.processor_reset(at);
   requests = Requests{};
+  for (std::size_t i = 0; i < kPorts; ++i) note_pulses(i, 0, tris_[i], at);
   lat_.fill(0);
   for (std::size_t i = 0; i < kPorts; ++i) tris_[i] = kImplemented[i];
   follow_power(at);
@@ -302,10 +309,6 @@ void Board::exchange(Cycle at) {
 }
 
 // --- analogue inputs -------------------------------------------------------------------------------------
-
-int adc_counts(double level) {
-  return static_cast<int>(std::clamp(std::floor(level + 0.5), 0.0, double{kAdcMax}));
-}
 
 IrConversion Board::ir_conversion(int sensor, Cycle at, Cycle lit_for) const {
   const std::size_t i = static_cast<std::size_t>(sensor);
@@ -354,29 +357,32 @@ int Board::ir_counts(int sensor, Cycle at, Cycle lit_for, std::uint64_t sample) 
 }
 
 double Board::mic_level(int microphone, Cycle at) const {
-  double counts = kMicIdleCounts;
-  if (scene_) {
-    const Place& place = kMicrophone[microphone];
-    counts +=
-        kMicCountsPerPa * sim::sense_sound_pa(*scene_, setup_.robot, {place.x_m, place.y_m, kMicrophoneZM},
-                                              clock_.click_at(at));
-  }
-  return counts;
+  if (!scene_ || !sim::has_sound(*scene_)) return kMicIdleCounts;
+  const Place& place = kMicrophone[microphone];
+  return kMicIdleCounts + kMicCountsPerPa * sim::sense_sound_pa(*scene_, setup_.robot,
+                                                                {place.x_m, place.y_m, kMicrophoneZM},
+                                                                clock_.click_at(at));
+}
+
+__attribute__((always_inline)) inline int Board::with_mic_noise(double counts, int microphone,
+                                                                std::uint64_t sample) const {
+  if (setup_.mic_noise_counts <= 0) return adc_counts(counts);
+  // 64 coins: mean 32, standard deviation 4
+  const std::uint64_t bits =
+      sim::mix64(mic_noise_key_ ^ (sample << 2 | static_cast<std::uint64_t>(microphone)));
+  std::uint64_t ones = bits - ((bits >> 1) & 0x5555555555555555u);
+  ones = (ones & 0x3333333333333333u) + ((ones >> 2) & 0x3333333333333333u);
+  ones = ((ones + (ones >> 4)) & 0x0F0F0F0F0F0F0F0Fu) * 0x0101010101010101u >> 56;
+  // both below 2^63: no correction for unsigned words is needed
+  const double between =
+      static_cast<double>(static_cast<std::int64_t>(bits * 0x9E3779B97F4A7C15u >> 40)) * 0x1p-24 - 0.5;
+  return adc_counts(counts + setup_.mic_noise_counts * 0.25 *
+                                 (static_cast<double>(static_cast<std::int64_t>(ones)) - 32 + between));
 }
 
 int Board::mic_counts_fast(int microphone, Cycle at, std::uint64_t sample) const {
-  double counts = mic_level(microphone, at);
-  if (setup_.mic_noise_counts > 0) {
-    // 64 coins: mean 32, standard deviation 4
-    const std::uint64_t bits =
-        sim::mix64(mic_noise_key_ ^ (sample << 2 | static_cast<std::uint64_t>(microphone)));
-    std::uint64_t ones = bits - ((bits >> 1) & 0x5555555555555555u);
-    ones = (ones & 0x3333333333333333u) + ((ones >> 2) & 0x3333333333333333u);
-    ones = ((ones + (ones >> 4)) & 0x0F0F0F0F0F0F0F0Fu) * 0x0101010101010101u >> 56;
-    const double between = static_cast<double>(bits * 0x9E3779B97F4A7C15u >> 40) * 0x1p-24 - 0.5;
-    counts += setup_.mic_noise_counts * 0.25 * (static_cast<double>(ones) - 32 + between);
-  }
-  return adc_counts(counts);
+  if (scene_ && sim::has_sound(*scene_)) return with_mic_noise(mic_level(microphone, at), microphone, sample);
+  return with_mic_noise(kMicIdleCounts, microphone, sample);
 }
 
 int Board::mic_counts(int microphone, Cycle at, std::uint64_t sample) const {
@@ -390,17 +396,33 @@ int Board::mic_counts(int microphone, Cycle at, std::uint64_t sample) const {
 }
 
 void Board::publish_sound(sim::SoundField& field, sim::Clicks now) {
+  sim::SpeakerTrack track;
+  const auto sample_s = [&](Cycle cycles) {
+    return static_cast<double>(cycles) / static_cast<double>(kFcyHz) /
+           (1 + static_cast<double>(clock_.ppb()) * 1e-9);
+  };
+  track.pa_per_unit = kSpeakerFullScalePa / 32768;
+  track.at_m = {kSpeaker.x_m, kSpeaker.y_m, kSpeakerZM};
+  if (codec_.line().was_used()) {
+    const CodecLine::Stretch* heard = codec_.line().publish();
+    if (!heard) on_air_.reset();
+    if (!heard) return field.stop(setup_.robot, now);
+    if (heard->published == on_air_) return;  // the air has it, and sees what has been added
+    on_air_ = heard->published;
+    track.samples = heard->published;
+    track.count = kOpenEnd;
+    track.sample_s = sample_s(heard->period);
+    // what is put out within a tick is known after it: everything leaves a tick and a sample late
+    track.start_s = sim::to_seconds(clock_.click_at(heard->first_at) + field.tick()) + track.sample_s;
+    return field.play(setup_.robot, track, now);
+  }
   const Codec::Play& play = codec_.take_news();
   if (play.count == 0) return field.stop(setup_.robot, now);
-  sim::SpeakerTrack track;
   track.samples = sound_bank();
   track.first = play.first;
   track.count = play.count;
   track.start_s = sim::to_seconds(clock_.click_at(play.first_at));
-  track.sample_s = static_cast<double>(kCodecSampleCycles) / static_cast<double>(kFcyHz) /
-                   (1 + static_cast<double>(clock_.ppb()) * 1e-9);
-  track.pa_per_unit = kSpeakerFullScalePa / 32768;
-  track.at_m = {kSpeaker.x_m, kSpeaker.y_m, kSpeakerZM};
+  track.sample_s = sample_s(kCodecSampleCycles);
   field.play(setup_.robot, track, now);
 }
 

@@ -30,6 +30,7 @@
 #include "hal_sim/board/clock.h"
 #include "hal_sim/board/codec.h"
 #include "hal_sim/board/data_eeprom.h"
+#include "hal_sim/board/diagnosis.h"
 #include "hal_sim/board/i2c_bus.h"
 #include "hal_sim/board/i2c_master.h"
 #include "hal_sim/board/packet_devices.h"
@@ -103,7 +104,11 @@ struct IrConversion {
 };
 
 /// What the converter makes of a level given in counts: rounded, 0 to 4095.
-int adc_counts(double level);
+inline int adc_counts(double level) {
+  level += 0.5;
+  if (!(level >= 1)) return 0;
+  return level < kAdcMax ? static_cast<int>(level) : kAdcMax;
+}
 
 class Board {
  public:
@@ -159,6 +164,14 @@ class Board {
   /// Selector turned by hand (or a test) while running.
   void turn_selector(int position);
   void set_battery(double volts, Cycle at);
+
+  // --- checks ---------------------------------------------------------------------------------------------
+
+  /// What the program makes of the board that an e-puck would not do for it, or would suffer from; up to
+  /// `at`, in no order. Costs nothing while nobody asks.
+  std::vector<Diagnosis> diagnoses(Cycle at) const;
+  /// Somebody else watches for latches of pins that are inputs (the models of the chip).
+  void leave_inputs_to_others() { watches_inputs_ = false; }
 
   // --- what the library's drivers keep in the processor, in closed form ----------------------------------
 
@@ -252,6 +265,8 @@ class Board {
   static int port_index(char port);
   /// Counts of a microphone without noise.
   double mic_level(int microphone, Cycle at) const;
+  /// Counts of the converter, the noise of mic_counts_fast() added.
+  int with_mic_noise(double counts, int microphone, std::uint64_t sample) const;
   unsigned pulses(Cycle at) const;
   /// Cycles for which the emitter line of a sensor has been on by its latch alone; -1 when off.
   Cycle line_on_for(int sensor, Cycle at) const;
@@ -261,6 +276,9 @@ class Board {
   double coil_duty(Wheel wheel, Cycle at) const;
   /// Tells whoever looks at pins that a latch or a direction has changed.
   void outputs_changed(Cycle at);
+  /// Lines whose latch or direction changes from what they are now: how long have they been on?
+  void note_pulses(std::size_t port, std::uint16_t new_lat, std::uint16_t new_tris, Cycle at);
+  void note_vain_writes(std::size_t port, std::uint16_t changed, Cycle at);
   /// Is the pin an output, and its latch 1?
   bool output_high(char port, int bit) const;
   /// What everything that is on draws, A.
@@ -274,6 +292,19 @@ class Board {
   std::array<std::uint16_t, kPorts> lat_{};  // of D the high byte only: the low one is the coils
   std::array<std::uint16_t, kPorts> tris_{};
   std::array<Cycle, 4> line_since_{};  // when the latch of an emitter line was last set
+  std::array<Cycle, 4> lit_since_{};   // when its pin last went high
+  struct LongPulse {
+    std::int64_t count = 0;
+    Cycle first = 0;
+    Cycle longest = 0;
+  };
+  std::array<LongPulse, 4> long_pulses_{};
+  struct VainWrites {
+    std::array<std::int64_t, 16> count{};
+    std::array<Cycle, 16> first{};
+  };
+  std::array<VainWrites, kPorts> vain_writes_{};
+  bool watches_inputs_ = true;
 
   AgendaTimer agendas_;
   TimerMotors timer_motors_;
@@ -291,6 +322,7 @@ class Board {
   mutable double settled_share_ = 0;
   std::uint64_t conversions_ = 0;
   std::uint64_t mic_noise_key_ = 0;
+  std::shared_ptr<const std::vector<std::int16_t>> on_air_;  // samples of the codec's line that the air plays
   PacketDevices packets_{clock_, setup_.robot, setup_.devices};
   VirtualDevices virtual_;
 };

@@ -15,7 +15,8 @@ using host::Cycle;
 
 class RobotClock {
  public:
-  /// `ppb`: parts per billion the robot's clock is fast (positive) or slow; |ppb| at most 100,000,000.
+  /// `ppb`: parts per billion the robot's clock is fast (positive) or slow; above
+  /// -1,000,000,000; 1,000,000,000 is twice as fast.
   /// `boot_clicks`: world time at which cycle 0 begins; not negative.
   explicit RobotClock(std::int64_t ppb = 0, sim::Clicks boot_clicks = 0)
       : ppb_(ppb), boot_clicks_(boot_clicks) {}

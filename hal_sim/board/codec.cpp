@@ -29,6 +29,7 @@ void Codec::begin(const Play& play) {
 void Codec::power(bool on, Cycle at) {
   if (on == powered_) return;
   powered_ = on;
+  line_.power(on);
   if (!on && configured_ && plays_.back().count > 0) begin({at, at, 0, 0});
   configured_ = configured_ && on;
 }
@@ -60,10 +61,12 @@ void Codec::stop(Cycle at) {
 void Codec::reset(Cycle at) {
   if (plays_.back().count > 0) begin({at, at, 0, 0});
   powered_ = configured_ = false;
+  line_.power(false);
   dci_since_ = -1;
 }
 
 int Codec::output(Cycle at) const {
+  if (line_.was_used()) return line_.output(at);
   const Play* now = &plays_.front();
   for (const Play& play : plays_)
     if (play.from <= at) now = &play;
@@ -77,6 +80,7 @@ int Codec::output(Cycle at) const {
 }
 
 void Codec::forget(Cycle at) {
+  line_.forget(at);
   std::size_t old = 0;
   while (old + 1 < plays_.size() && plays_[old + 1].from <= at) ++old;
   plays_.erase(plays_.begin(), plays_.begin() + static_cast<std::ptrdiff_t>(old));
@@ -92,6 +96,7 @@ std::uint64_t Codec::state_hash() const {
   std::uint64_t h = sim::fold(1, static_cast<std::uint64_t>(last.first_at));
   h = sim::fold(h, static_cast<std::uint64_t>(last.first));
   h = sim::fold(h, static_cast<std::uint64_t>(last.count));
+  if (line_.was_used()) h = sim::fold(h, line_.state_hash());
   return sim::fold(
       h, static_cast<std::uint64_t>(dci_since_) << 2 | (configured_ ? 2u : 0u) | (powered_ ? 1u : 0u));
 }

@@ -10,12 +10,14 @@
 // Modelled: 7200 samples a second in groups of four, the driver's pointer that is moved before it is read (so
 // a sound lacks its first sample and has one more at its end), the lowest bit cleared, lengths that are no
 // multiple of four and never end, silence without e_init_sound() or after e_close_sound(). Not modelled: the
-// codec's filters and volume registers, recording, programs that write DCI registers themselves. Source:
-// [lib: codec/], facts restated; samples are our own (sound_bank.h).
+// codec's filters, recording. Programs whose DCI is a model of the chip (the register way) reach the codec
+// word by word instead: codec_line.h. Source: [lib: codec/], facts restated; samples are our own
+// (sound_bank.h).
 #pragma once
 #include <cstdint>
 #include <vector>
 
+#include "hal_sim/board/codec_line.h"
 #include "hal_sim/board/sound_params.h"
 
 namespace board {
@@ -51,10 +53,14 @@ class Codec {
   /// What went on before `at` will not be asked for any more.
   void forget(Cycle at);
 
-  /// True from the first start_dci() on.
-  bool was_used() const { return used_; }
+  /// The codec at the end of a modelled DCI. What leaves here is a robot's either way.
+  CodecLine& line() { return line_; }
+  const CodecLine& line() const { return line_; }
+
+  /// True from the first start_dci(), or the first word of the line, on.
+  bool was_used() const { return used_ || line_.was_used(); }
   /// Something began or ended since the last time the news was taken.
-  bool has_news() const { return news_; }
+  bool has_news() const { return news_ || line_.has_news(); }
   /// What plays now, or will from the next group on.
   const Play& take_news();
   std::uint64_t state_hash() const;
@@ -62,6 +68,7 @@ class Codec {
  private:
   void begin(const Play& play);
 
+  CodecLine line_;
   bool powered_ = false;
   bool configured_ = false;
   bool used_ = false;

@@ -143,14 +143,15 @@ inline constexpr double kFrontLedZM = 0.020;  // m [assumed: beside the camera]
 inline constexpr double kFrontLedSpotM = 0.004;  // m [assumed: a 5 mm lens and its halo]
 
 // --- processor time of the library's interrupt handlers, entry and RETFIE included -----------------------
-inline constexpr Cycle kAgendaIsrCycles = 26;  // empty list [estimated: 4 entry, 14 pushes and pops, 8 body]
+// of the usual variants: what the drivers' own handlers (hal_dspic) take in the register way, trace by trace
+inline constexpr Cycle kAgendaIsrCycles = 35;  // empty list [estimated: cost model on hal_dspic's handler]
 inline constexpr Cycle kAgendaNodeCycles =
-    14;  // one node that does not fire [estimated: instructions of the loop]
+    16;  // one node that does not fire [estimated: cost model on hal_dspic's handler]
 inline constexpr Cycle kMotorStepCycles =
-    60;  // one firing [estimated: call, branch, 4 bit writes, set_cycle]
+    120;  // one firing, on or off [estimated: cost model on hal_dspic's handler]
 inline constexpr Cycle kScanIsrCycles =
-    92;  // [estimated: context 20, reconfiguration 30, 3 copies, counters]
-inline constexpr Cycle kScanMicroIsrCycles = 58;  // [estimated: context 20, 3 copies, counters]
+    117;  // mean of 65 frames [estimated: cost model on hal_dspic's handler]
+inline constexpr Cycle kScanMicroIsrCycles = 84;  // [estimated: cost model on hal_dspic's handler]
 inline constexpr Cycle kBasicMotorIsrCycles =
     34;                                        // [estimated: shadow context, counter, phase, 4 bit writes]
 inline constexpr Cycle kTimer3IsrCycles = 40;  // [estimated: context, two counters, coil clearing]

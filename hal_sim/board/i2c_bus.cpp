@@ -18,7 +18,8 @@ I2cDevice* I2cBus::find(std::uint8_t address) const {
   return nullptr;
 }
 
-void I2cBus::start(Cycle at) {
+void I2cBus::start(Cycle at, bool repeated) {
+  if (open_ && !repeated && unstopped_++ == 0) first_unstopped_ = at;
   open_ = true;
   expects_address_ = true;
 }

@@ -26,7 +26,10 @@ class I2cBus {
   I2cDevice* find(std::uint8_t address) const;
   const std::vector<I2cDevice*>& devices() const { return devices_; }
 
-  void start(Cycle at);  ///< also a repeated start
+  void start(Cycle at, bool repeated = false);
+  /// Starts that were no repeated ones although nobody had stopped the bus, and when the first one came.
+  std::int64_t unstopped() const { return unstopped_; }
+  Cycle first_unstopped() const { return first_unstopped_; }
   /// One byte after a start is the address. False: nobody acknowledged.
   bool write(std::uint8_t byte, Cycle at);
   std::uint8_t read(Cycle at);
@@ -43,6 +46,8 @@ class I2cBus {
   I2cDevice* addressed_ = nullptr;
   bool open_ = false;
   bool expects_address_ = false;
+  std::int64_t unstopped_ = 0;
+  Cycle first_unstopped_ = 0;
 };
 
 }  // namespace board

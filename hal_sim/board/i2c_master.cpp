@@ -4,14 +4,20 @@
 namespace board {
 
 namespace {
-int bits_of(I2cMaster::Operation operation) {
+int half_bits_of(I2cMaster::Operation operation) {
   switch (operation) {
     case I2cMaster::Operation::Read:
-      return kI2cByteBits;
+      return kI2cByteHalves;
     case I2cMaster::Operation::Write:
-      return kI2cAcknowledgedBits;
+      return kI2cAcknowledgedHalves;
+    case I2cMaster::Operation::Start:
+      return kI2cStartHalves;
+    case I2cMaster::Operation::Restart:
+      return kI2cRestartHalves;
+    case I2cMaster::Operation::Stop:
+      return kI2cStopHalves;
     default:
-      return kI2cConditionBits;
+      return kI2cAcknowledgeHalves;
   }
 }
 }  // namespace
@@ -35,7 +41,7 @@ Cycle I2cMaster::begin(Operation operation, std::uint8_t byte, Cycle at) {
   pending_ = true;
   operation_ = operation;
   byte_ = byte;
-  over_at_ = at + bits_of(operation) * bit_cycles_;
+  over_at_ = at + (half_bits_of(operation) * bit_cycles_ + 1) / 2;
   return over_at_;
 }
 
@@ -45,7 +51,7 @@ void I2cMaster::settle(Cycle at) {
   switch (operation_) {
     case Operation::Start:
     case Operation::Restart:
-      bus_.start(over_at_);
+      bus_.start(over_at_, operation_ == Operation::Restart);
       started_ = true;
       break;
     case Operation::Stop:

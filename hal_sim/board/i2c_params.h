@@ -7,9 +7,12 @@ namespace board {
 
 inline constexpr int kI2cLibraryBrg = 150;   // I2CBRG [lib: I2C/e_I2C_master_module.c]
 inline constexpr Cycle kI2cEdgeCycles = 13;  // FCY / 1,111,111 Hz, the edges' share of a bit [DS70143 17.12]
-inline constexpr int kI2cByteBits = 8;       // a byte received, acknowledge apart [DS70143 17.12]
-inline constexpr int kI2cAcknowledgedBits = 9;  // a byte sent, acknowledge included [DS70143 17.12]
-// start, repeated start, stop and acknowledge are counted as a bit each
-inline constexpr int kI2cConditionBits = 1;  // [estimated: two to three half bits each]
+// half bits of each operation
+inline constexpr int kI2cByteHalves = 16;          // a byte received, acknowledge apart [DS70143 17.12]
+inline constexpr int kI2cAcknowledgedHalves = 18;  // a byte sent, acknowledge included [DS70143 17.12]
+inline constexpr int kI2cAcknowledgeHalves = 2;    // [DS70143 17.12]
+inline constexpr int kI2cStartHalves = 2;          // [estimated: as dspic30/periph/i2c.cpp]
+inline constexpr int kI2cRestartHalves = 4;        // [estimated: as dspic30/periph/i2c.cpp]
+inline constexpr int kI2cStopHalves = 3;           // [estimated: as dspic30/periph/i2c.cpp]
 
 }  // namespace board

@@ -15,12 +15,16 @@ namespace {
 
 constexpr std::uint32_t kRing = 0xFF, kBody = 0x100, kFront = 0x200;  // of leds()
 
-int ones(unsigned word) { return __builtin_popcount(word); }
+int ones(unsigned word) {
+  int n = 0;
+  for (; word; word &= word - 1) ++n;
+  return n;
+}
 
 }  // namespace
 
 double Board::coil_duty(Wheel wheel, Cycle at) const {
-  const Stepper motor = stepper_at(wheel, at);
+  const Stepper& motor = agendas_.stepper_at(wheel, at);  // of a timer's train: connected, and driven, alike
   if (!motor.connected()) return 0;
   if (timer_motors_.drives(wheel)) return 1;  // these drivers leave the coils on from step to step
   if (agendas_.firing_period(wheel) == 0) return ones(motor.coils()) / 2.0;

@@ -6,16 +6,38 @@
 // Modelled: a pattern one phase away from the rotor pulls it one step; two phases away: the step is lost (it
 // might go either way); no coil or a single coil: the gear holds. The rotor follows a step at constant speed
 // during the time it has (the expected period, at most kRotorMoveCycles), so it is never ahead of the
-// pattern, and a constant step rate gives a constant rim speed.
-// Not modelled: half steps and single-coil drive, pull-out at high load or speed, ringing.
+// pattern, and a constant step rate gives a constant rim speed. Pull-out: a rotor that is more than one step
+// of kPullOutCycles behind loses the next one. A pattern that another one follows within kPatternCycles does
+// not pull. One that is switched off early does: the library's drivers switch all coils off whenever a speed
+// is set, often within a step, and count that step.
+// Not modelled: half steps and single-coil drive, pull-out at high load, ringing, steps that a real rotor
+// does not finish because its coils were on for too short.
+//
+// Steps that were lost and coils that heat the motor are counted (faults()); copies count for themselves.
 #pragma once
 #include <cstdint>
 
+#include "hal_sim/board/checks_params.h"
 #include "hal_sim/board/epuck_params.h"
 
 namespace board {
 
 inline constexpr unsigned kPhaseCoils[4] = {0xA, 0x6, 0x5, 0x9};  // bit 0 = A [lib: motor_led/e_motors.c]
+
+/// What a motor would not do for its driver; each with the cycle of its first time.
+struct StepperFaults {
+  struct Fault {
+    std::int64_t count = 0;
+    Cycle first = 0;
+    void note(Cycle at) {
+      if (count++ == 0) first = at;
+    }
+  };
+  Fault jumps;     ///< the pattern jumped by two phases: step lost
+  Fault too_fast;  ///< the pattern went on before the rotor had come near: step lost
+  Fault opposed;  ///< both ends of a coil high together: the coil is without current, no pattern of the motor
+  Fault held;     ///< both coils energised for kRestCycles without a step
+};
 
 class Stepper {
  public:
@@ -26,67 +48,112 @@ class Stepper {
   /// Coils A to D in bits 0 to 3.
   unsigned coils() const { return coils_; }
   /// Full steps of the wheel, forward positive.
-  std::int64_t steps() const { return steps_; }
-  std::int64_t lost() const { return lost_; }
+  std::int64_t steps() const { return motion_.steps; }
+  std::int64_t lost() const { return faults_.jumps.count + faults_.too_fast.count; }
+  /// Up to `at`, coils that are held at this moment included.
+  StepperFaults faults(Cycle at) const {
+    Stepper now = *this;
+    now.look_back(at);
+    return now.faults_;
+  }
   /// Is the rotor where a driver holding `phase` believes it to be?
   bool is_at(int phase) const { return connected_ && rotor_phase() == (phase & 3); }
 
   /// Do the four pins drive the coils (outputs), or do they float (inputs, as after a reset)?
-  void connect(bool driven) { connected_ = driven; }
+  void connect(bool driven, Cycle at = 0) {
+    if (driven && !connected_) changed_at_ = at;
+    connected_ = driven;
+  }
   bool connected() const { return connected_; }
 
-  /// The pins change. `move`: time the rotor may take for a step.
-  void energise(unsigned coils, Cycle at, Cycle move = kRotorMoveCycles) {
+  /// The pins change. `move`: time the rotor may take for a step; 0 when the next step is not known: as long
+  /// as since the last one.
+  void energise(unsigned coils, Cycle at, Cycle move = 0) {
+    look_back(at);
     coils_ = coils;
+    changed_at_ = at;
     if (!connected_) return;
     for (int phase = 0; phase < 4; ++phase) {
       if (coils != kPhaseCoils[phase]) continue;
+      if (phase != rotor_phase() && at - motion_.stepped_at < kPatternCycles) motion_ = before_;
       const int ahead = (phase - rotor_phase()) & 3;
       if (ahead == 1) step(forward_, at, move);
       if (ahead == 3) step(-forward_, at, move);
-      if (ahead == 2) ++lost_;
+      if (ahead == 2) (at - motion_.pulled_at < kPullOutCycles ? faults_.too_fast : faults_.jumps).note(at);
+      motion_.pulled_at = at;
     }
   }
 
   /// `count` > 0 regular steps at once, all in wheel direction `direction`, the last one at `last`, each of
   /// which had time to finish before the next. The caller guarantees that rotor and driver agree.
   void turn(std::int64_t count, int direction, Cycle last, Cycle move, unsigned coils) {
-    steps_ += count * direction;
-    from_ = static_cast<double>(steps_ - direction);
-    moved_at_ = last;
-    move_ = move;
+    motion_.steps += count * direction;
+    motion_.from = static_cast<double>(motion_.steps - direction);
+    motion_.moved_at = motion_.stepped_at = motion_.pulled_at = last;
+    motion_.move = move;
+    const Cycle ready = motion_.ready_at + (count - 1) * kPullOutCycles;
+    motion_.ready_at = ready > last ? ready : last;
+    before_ = motion_;
+    before_.steps -= direction;
+    before_.from -= direction;
+    before_.moved_at = before_.stepped_at = before_.pulled_at = last - move;
+    motion_.ready_at += kPullOutCycles;
     coils_ = coils;
+    changed_at_ = last;
   }
 
   void set_coils_only(unsigned coils) { coils_ = coils; }
 
   /// Rotor position in steps of the wheel, forward positive.
   double position(Cycle at) const {
-    const Cycle since = at - moved_at_;
-    const double target = static_cast<double>(steps_);
-    if (since >= move_) return target;
-    if (since <= 0) return from_;
-    return from_ + (target - from_) * (static_cast<double>(since) / static_cast<double>(move_));
+    const Cycle since = at - motion_.moved_at;
+    const double target = static_cast<double>(motion_.steps);
+    if (since >= motion_.move) return target;
+    if (since <= 0) return motion_.from;
+    return motion_.from +
+           (target - motion_.from) * (static_cast<double>(since) / static_cast<double>(motion_.move));
   }
 
  private:
-  int rotor_phase() const { return static_cast<int>(steps_ * forward_) & 3; }
+  /// What a pattern that turns out too short takes back.
+  struct Motion {
+    std::int64_t steps = 0;
+    double from = 0;                     // position when the last step began
+    Cycle moved_at = 0;                  // when it began
+    Cycle move = 0;                      // how long it takes
+    Cycle stepped_at = -kPatternCycles;  // when a pattern last pulled the rotor on
+    Cycle pulled_at = -kPullOutCycles;   // when the last pattern of the motor began
+    Cycle ready_at = 0;                  // a rotor at its fastest has done all its steps
+  };
+
+  int rotor_phase() const { return static_cast<int>(motion_.steps * forward_) & 3; }
 
   void step(int direction, Cycle at, Cycle move) {
-    from_ = position(at);
-    steps_ += direction;
-    moved_at_ = at;
-    move_ = move < kRotorMoveCycles ? move : kRotorMoveCycles;
+    if (motion_.ready_at - at > kPullOutCycles) return faults_.too_fast.note(at);
+    before_ = motion_;
+    if (move <= 0) move = at - motion_.stepped_at;
+    motion_.from = position(at);
+    motion_.steps += direction;
+    motion_.moved_at = motion_.stepped_at = at;
+    motion_.move = move < kRotorMoveCycles ? move : kRotorMoveCycles;
+    motion_.ready_at = (motion_.ready_at > at ? motion_.ready_at : at) + kPullOutCycles;
+  }
+
+  /// The pattern that ends at `at`: has it heated the motor for nothing?
+  void look_back(Cycle at) {
+    if (!connected_ || coils_ == 0) return;
+    const bool opposed = (coils_ & 3) == 3 || (coils_ & 12) == 12;
+    if (opposed && at - changed_at_ >= kPatternCycles) faults_.opposed.note(changed_at_);
+    const bool both = (coils_ & 3) != 0 && (coils_ & 12) != 0;
+    if (both && !opposed && at - changed_at_ >= kRestCycles) faults_.held.note(changed_at_);
   }
 
   int forward_;
   bool connected_ = false;
   unsigned coils_ = 0;
-  std::int64_t steps_ = 0;
-  std::int64_t lost_ = 0;
-  double from_ = 0;     // position when the last step began
-  Cycle moved_at_ = 0;  // when it began
-  Cycle move_ = 0;      // how long it takes
+  Cycle changed_at_ = 0;  // when the present pattern began
+  Motion motion_, before_;
+  StepperFaults faults_;
 };
 
 }  // namespace board

@@ -21,12 +21,13 @@ void StepTrain::advance_to(Cycle at, Stepper& stepper) {
   const int toward = direction(stepper);
   const Cycle move = std::min(period, kRotorMoveCycles);
   // step by step until driver, rotor and rhythm agree, then all at once
-  for (int regular = 0; next <= at && regular < 2;) {
+  for (int regular = 0; next <= at && regular < 3;) {
     commanded += toward;
     phase = (phase + toward * stepper.forward()) & 3;
-    stepper.energise(kPhaseCoils[phase], next, move);
+    stepper.energise(kPhaseCoils[phase], next);
     next += period;
-    regular = stepper.is_at(phase) ? regular + 1 : 0;
+    // too fast for the motor: it has to be asked each time
+    regular = stepper.is_at(phase) && period >= kPullOutCycles ? regular + 1 : 0;
   }
   if (next > at) return;
   const std::int64_t count = (at - next) / period + 1;

@@ -80,6 +80,16 @@ bool names_webots(const std::vector<fs::path>& sources, const std::vector<fs::pa
   return false;
 }
 
+/// Whether a program takes the address of a register anywhere: then its files may pass it on.
+bool takes_register_addresses(const std::vector<fs::path>& sources, const std::vector<fs::path>& headers) {
+  static const std::regex kAddress(
+      R"([=(,{\[?:)]\s*&\s*(ADC|PORT|LAT|TRIS|TMR|PR\d|T\dCON|IFS|IEC|IPC|INTCON|U[12]|I2C|DCI|TSCON|RSCON|[RT]XBUF|SPI|OC\d|IC\d|RCON|CN)[A-Z0-9]*(bits)?\b)");
+  for (const auto* list : {&sources, &headers})
+    for (const auto& file : *list)
+      if (std::regex_search(read_text(file), kAddress)) return true;
+  return false;
+}
+
 /// Sources of a program for Webots, which compiles the file with the controller's name alone: not those that
 /// another one includes as text, and not further programs that lie beside it.
 std::vector<fs::path> webots_sources(const fs::path& folder, const std::vector<fs::path>& sources) {
@@ -152,6 +162,8 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, bool lint) {
   }
   if (o.strict) flags.push_back("--strict");
   if (lint) flags.push_back("--lint");
+  if (o.register_way && takes_register_addresses(copies.kept, headers))
+    flags.push_back("--register-pointers");
   for (const auto& d : o.defines) flags.push_back("-D" + d);
   flags.insert(flags.end(), user_include.begin(), user_include.end());
   for (const auto& s : p.is_webots ? webots_sources(o.source_dir, copies.kept) : copies.kept)
@@ -164,6 +176,10 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, bool lint) {
   if (p.is_webots)
     for (const auto& folder : {root / "firmware/webots", cc_dir / "libc/webots"})
       for (const auto& s : files_below(folder, ".c")) p.library.push_back({s, library_flags, ""});
+  // what exists in the simulator alone has one form for both ways
+  if (o.register_way)
+    for (const char* name : {"virtual.c", "webots_simulator.c"})
+      p.library.push_back({root / "hal_sim/api" / name, library_flags, ""});
   std::vector<fs::path> library_folders = {api, cc_dir / "libc/src"};
   // the half of the library that needs no pins, for a HAL that has the other half
   if (fs::exists(api / "hal.h")) library_folders.push_back(root / "hal_common");
@@ -342,13 +358,26 @@ BuildResult build_image(const BuildOptions& options) {
   if (o.cache_dir.empty()) o.cache_dir = build_root() / "firmware-cache";
   o.cache_dir = fs::absolute(o.cache_dir);
   LibraryCopies copies;
-  if (o.register_way)
-    copies.kept = sources;  // drivers that a project brings along reach the registers they were written for
-  else
+  std::size_t own = 0;  // of p.user, what is not a member of a copy of the library
+  if (o.register_way) {
+    // drivers that a project brings along reach the registers they were written for
+    const LibraryCopies split = find_library_members(o.source_dir, sources);
+    own = split.kept.size();
+    copies.kept = split.kept;
+    copies.kept.insert(copies.kept.end(), split.replaced.begin(), split.replaced.end());
+  } else {
     copies = find_library_copies(o.source_dir, sources);
+    own = copies.kept.size();
+  }
   if (const std::string told = library_copies_message(o.source_dir, copies); !told.empty())
     result.warnings.push_back(told);
+  std::vector<std::pair<std::string, std::string>> texts;
+  for (const auto& s : o.register_way ? find_library_copies(o.source_dir, sources).kept : copies.kept)
+    texts.emplace_back(s.filename().string(), read_text(s));
+  result.conflicts = timer_conflicts(texts);
   Plan p = plan(o, copies, false);
+  if (p.is_webots) own = p.user.size();
+  for (std::size_t i = own; i < p.user.size(); ++i) p.user[i].flags.push_back("--weak");
   fs::path compiler = build_root() / "twinpuck-cc";
   std::vector<CompileJob> all = p.user;
   all.insert(all.end(), p.library.begin(), p.library.end());
@@ -356,12 +385,22 @@ BuildResult build_image(const BuildOptions& options) {
   auto outcomes = compile_all(all, compiler, o.cache_dir, std::max(1, o.jobs));
   bool ok = true;
   for (size_t i = 0; i < outcomes.size(); ++i) {
+    if (!outcomes[i].ok && i >= own && i < p.user.size()) {
+      // a copy of the library holds files that the project never compiled
+      result.warnings.push_back(p.user[i].source.string() +
+                                ": does not compile and is left out, as a file of a copy of the library: " +
+                                outcomes[i].messages.substr(0, outcomes[i].messages.find('\n')));
+      continue;
+    }
     sort_messages(outcomes[i].messages, result, !outcomes[i].ok);
     ok = ok && outcomes[i].ok;
     ++(outcomes[i].reused ? result.reused : result.compiled);
   }
   if (!ok) return finish();
-  std::vector<CompileOutcome> user(outcomes.begin(), outcomes.begin() + long(p.user.size()));
+  std::vector<CompileOutcome> user(outcomes.begin(), outcomes.begin() + long(own));
+  std::vector<CompileOutcome> members(outcomes.begin() + long(own), outcomes.begin() + long(p.user.size()));
+  members.erase(std::remove_if(members.begin(), members.end(), [](const auto& m) { return !m.ok; }),
+                members.end());
   std::vector<CompileOutcome> library(outcomes.begin() + long(p.user.size()), outcomes.end() - 1);
   check_main(user, p.user, o.source_dir, result);
   if (!result.errors.empty()) return finish();
@@ -390,11 +429,12 @@ BuildResult build_image(const BuildOptions& options) {
                                    half.string()};
   for (const auto& u : user) argv.push_back(u.object.string());
   argv.push_back(outcomes.back().object.string());
-  if (!library.empty()) {
+  for (const auto* list : {&members, &library}) {
+    if (list->empty()) continue;
     std::string key;
-    for (const auto& l : library) key += l.object.filename().string();
+    for (const auto& l : *list) key += l.object.filename().string();
     fs::path lib = o.cache_dir / ("library-" + content_hash(key) + ".a");
-    if (!archive(library, lib, result)) return finish();
+    if (!archive(*list, lib, result)) return finish();
     argv.push_back(lib.string());
   }
   auto link = run_process(argv);

@@ -29,11 +29,12 @@ struct BuildOptions {
 
 struct BuildResult {
   bool ok = false;
-  std::vector<std::string> errors;    ///< "file:line: what: got X, expected Y; hint"
-  std::vector<std::string> warnings;  ///< same grammar; 16-bit warnings of the compiler included
-  int compiled = 0, reused = 0;       ///< translation units compiled now, taken from the cache
-  long ram_bytes = 0;                 ///< estimate of static data on the chip
-  double seconds = 0;                 ///< wall time of this build
+  std::vector<std::string> errors;     ///< "file:line: what: got X, expected Y; hint"
+  std::vector<std::string> conflicts;  ///< two drivers with one timer or vector; found at each build
+  std::vector<std::string> warnings;   ///< same grammar; 16-bit warnings of the compiler included
+  int compiled = 0, reused = 0;        ///< translation units compiled now, taken from the cache
+  long ram_bytes = 0;                  ///< estimate of static data on the chip
+  double seconds = 0;                  ///< wall time of this build
 };
 
 /// Compiles and links. On failure the output file is left as it was.

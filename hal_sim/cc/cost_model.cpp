@@ -41,6 +41,7 @@ class Model {
   void run(std::vector<Segment>& out);
 
  private:
+  bool changes_register(const CallBase& read) const;
   void instruction(Instruction& i, Segment& s);
   void terminator(BasicBlock& block, Segment& s);
   void address(Value* pointer, Segment& s, bool is_word);
@@ -583,6 +584,17 @@ void Model::terminator(BasicBlock& block, Segment& s) {
   for (int r = 0; r < kRuleCount; ++r) s.features[r] += edges[r];
 }
 
+/// Reads a register that the next call writes back: `IFS0bits.T2IF = 0` is one instruction, so no time passes
+/// in between, in which the hardware might set another bit.
+bool Model::changes_register(const CallBase& read) const {
+  if (!calls(read, "tp_sfr_read")) return false;
+  for (const Instruction* i = read.getNextNode(); i; i = i->getNextNode()) {
+    if (!isa<CallBase>(i) || isa<IntrinsicInst>(i)) continue;
+    return calls(*i, "tp_sfr_write") && cast<CallBase>(i)->getArgOperand(0) == read.getArgOperand(0);
+  }
+  return false;
+}
+
 void Model::run(std::vector<Segment>& out) {
   bool entry = true;
   if (level_ > 0) live_words();
@@ -630,7 +642,8 @@ void Model::run(std::vector<Segment>& out) {
         instruction(i, s);
       }
       auto* c = dyn_cast<CallBase>(&i);
-      if (c && !isa<IntrinsicInst>(c) && !calls(i, kNop) && !calls(i, kRound)) after_call = true;
+      if (c && !isa<IntrinsicInst>(c) && !calls(i, kNop) && !calls(i, kRound) && !changes_register(*c))
+        after_call = true;
     }
     out.push_back(s);
   }

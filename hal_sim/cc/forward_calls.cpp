@@ -37,9 +37,17 @@ std::string forward_declarations(const std::string& messages, const std::string&
   for (const std::string& name : names) {
     const std::regex definition(
         "(?:^|[;}\\n])\\s*((?:(?:void|char|short|int|long|unsigned|signed|float|double)\\b[\\s*]*)+)" + name +
-        "\\s*\\([^;{}]*\\)\\s*\\{");
+        "\\s*\\(([^;{}()]*)\\)\\s*\\{");
+    // parameters narrower than an int agree with a full prototype only
+    static const std::regex narrow(
+        R"(\s*((void|char|short|int|long|unsigned|signed|float|double)\b[\s*]*)+\w*\s*(,\s*((void|char|short|int|long|unsigned|signed|float|double)\b[\s*]*)+\w*\s*)*)");
+    static const std::regex short_parameter(R"(\b(char|short|float)\b[^*,]*(,|$))");
     std::smatch found;
-    if (std::regex_search(text, found, definition)) declarations += found[1].str() + " " + name + "();\n";
+    if (!std::regex_search(text, found, definition)) continue;
+    const std::string parameters = found[2].str();
+    const bool is_full =
+        std::regex_match(parameters, narrow) && std::regex_search(parameters, short_parameter);
+    declarations += found[1].str() + " " + name + "(" + (is_full ? parameters : "") + ");\n";
   }
   return declarations;
 }

@@ -185,6 +185,37 @@ class AttributeFilter {
   int depth_ = 0;
 };
 
+/// #pragma config NAME = VALUE, ...: settings of the configuration words; the values have the names of the
+/// device header's macros, each a mask that clears what the choice clears.
+class ConfigPragma : public PragmaHandler {
+ public:
+  explicit ConfigPragma(Facts& facts) : PragmaHandler("config"), facts_(facts) {}
+  void HandlePragma(Preprocessor& pp, PragmaIntroducer, Token&) override {
+    Token t;
+    for (pp.LexUnexpandedToken(t); t.isAnyIdentifier(); pp.LexUnexpandedToken(t)) {
+      const StringRef setting = t.getIdentifierInfo()->getName();
+      pp.LexUnexpandedToken(t);
+      if (t.isNot(tok::equal)) return;
+      pp.LexUnexpandedToken(t);
+      const char* word = setting == "FOSFPR" || setting == "FCKSMEN"                    ? "fosc"
+                         : setting == "WDT" || setting == "FWPSA" || setting == "FWPSB" ? "fwdt"
+                                                                                        : nullptr;
+      const MacroInfo* macro = t.isAnyIdentifier() ? pp.getMacroInfo(t.getIdentifierInfo()) : nullptr;
+      unsigned mask = 0;
+      if (word && macro && macro->getNumTokens() == 1 &&
+          !StringRef(pp.getSpelling(macro->getReplacementToken(0))).getAsInteger(0, mask)) {
+        auto [place, is_new] = facts_.configuration.emplace(word, mask);
+        if (!is_new) place->second &= mask;
+      }
+      pp.LexUnexpandedToken(t);
+      if (t.isNot(tok::comma)) return;
+    }
+  }
+
+ private:
+  Facts& facts_;
+};
+
 class RobotAction : public EmitLLVMOnlyAction {
  public:
   RobotAction(llvm::LLVMContext& context, Facts& facts, bool webots)
@@ -196,6 +227,7 @@ class RobotAction : public EmitLLVMOnlyAction {
   bool BeginSourceFileAction(CompilerInstance& ci) override {
     auto& pp = ci.getPreprocessor();
     pp.addPPCallbacks(std::make_unique<IncludeWatch>(ci, webots_));
+    pp.AddPragmaHandler(new ConfigPragma(facts_));
     filter_ = std::make_shared<AttributeFilter>(pp);
     pp.setTokenWatcher([f = filter_](const Token& token) { (*f)(token); });
     return EmitLLVMOnlyAction::BeginSourceFileAction(ci);

@@ -28,6 +28,8 @@ struct Options {
   bool uncounted = false;     // part of the runtime: costs no cycles
   bool webots = false;        // written for Webots' interfaces: C of today, and a calendar
   bool register_way = false;  // the library reaches registers; nothing of it is evaluated by the host
+  bool by_pointer = false;    // the program hands pointers to registers from file to file
+  bool weak = false;          // a file of a copy of the library: of two definitions the first wins
   bool library = false;       // part of the API or libc: definitions are weak, the program's own win
 };
 
@@ -36,6 +38,7 @@ struct Facts {
   std::map<std::string, std::string> register_names;  // "tp_sfr_02C2" -> "LATA"
   std::set<std::string> poll_safe;                    // functions with annotate("tp_poll")
   std::set<std::string> interrupts;                   // functions with the interrupt attribute
+  std::map<std::string, unsigned> configuration;      // "fosc", "fwdt": words given by #pragma config
 };
 
 /// Null after errors (already printed).

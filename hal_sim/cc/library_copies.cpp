@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <regex>
+#include <set>
+#include <tuple>
 
 #include "object_cache.h"
 
@@ -135,6 +137,44 @@ LibraryCopies find_library_copies(const fs::path& project, const std::vector<fs:
     copies.roots.clear();
   }
   return copies;
+}
+
+LibraryCopies find_library_members(const fs::path& project, const std::vector<fs::path>& sources) {
+  LibraryCopies split;
+  for (const fs::path& source : sources)
+    (has_library_name(lower(source.filename().string())) ? split.replaced : split.kept).push_back(source);
+  // a project that has nothing of its own is no project of copies
+  static const std::regex kMain(R"(\bmain\s*\()");
+  for (std::size_t i = 0; i < split.replaced.size();) {
+    if (std::regex_search(without_comments(read_text(split.replaced[i])), kMain)) {
+      split.kept.push_back(split.replaced[i]);
+      split.replaced.erase(split.replaced.begin() + static_cast<std::ptrdiff_t>(i));
+    } else {
+      ++i;
+    }
+  }
+  std::set<std::string> included;  // last two parts of every #include: "a_d/e_prox.h", "e_led.h"
+  static const std::regex kInclude(R"(#\s*include\s*[<"]([^>"]+)[>"])");
+  for (const fs::path& source : split.kept) {
+    const std::string text = without_comments(read_text(source));
+    for (std::sregex_iterator it(text.begin(), text.end(), kInclude), end; it != end; ++it) {
+      std::string name = lower((*it)[1]);
+      std::replace(name.begin(), name.end(), '\\', '/');
+      included.insert((fs::path(name).parent_path().filename() / fs::path(name).filename()).generic_string());
+    }
+  }
+  const auto rank = [&](const fs::path& source) {
+    const std::string below = lower(source.lexically_relative(project).generic_string());
+    fs::path header = fs::path(below).replace_extension(".h");
+    const bool is_wanted =
+        included.count((header.parent_path().filename() / header.filename()).generic_string()) > 0;
+    const bool is_advanced = below.find("advance") != std::string::npos;
+    const auto depth = std::count(below.begin(), below.end(), '/');
+    return std::make_tuple(!is_wanted, !is_advanced, depth, below);
+  };
+  std::sort(split.replaced.begin(), split.replaced.end(),
+            [&](const fs::path& a, const fs::path& b) { return rank(a) < rank(b); });
+  return split;
 }
 
 std::string library_copies_message(const fs::path& project, const LibraryCopies& copies) {

@@ -21,64 +21,6 @@ namespace {
 
 using namespace llvm;
 
-/// One statement of inline assembler -> a call. False when it is not one of the few that are understood.
-bool lower_statement(Unit& unit, IRBuilder<>& b, StringRef text) {
-  Module& m = unit.module;
-  Type* i64 = b.getInt64Ty();
-  Type* none = b.getVoidTy();
-  std::string lower = text.lower();
-  std::smatch match;
-  static const std::regex kDisi(R"(disi\s+#\s*(0x[0-9a-f]+|[0-9]+))");
-  static const std::regex kPwrsav(R"(pwrsav\s+#\s*(0|1|0x0|0x1|sleep_mode|idle_mode))");
-  if (lower == "nop") {
-    b.CreateCall(marker(m, kNop));
-  } else if (lower == "reset") {
-    b.CreateCall(host_function(m, "tp_reset", none, {}));
-  } else if (lower == "clrwdt") {
-    b.CreateCall(host_function(m, "tp_clear_watchdog", none, {}));
-  } else if (std::regex_match(lower, match, kPwrsav)) {
-    bool idle = match[1] == "1" || match[1] == "0x1" || match[1] == "idle_mode";
-    b.CreateCall(host_function(m, "tp_power_save", none, {i64}), {b.getInt64(idle)});
-  } else if (std::regex_match(lower, match, kDisi)) {
-    b.CreateCall(host_function(m, "tp_disi", none, {i64}),
-                 {b.getInt64(std::stoll(match[1].str(), nullptr, 0))});
-  } else {
-    return false;
-  }
-  return true;
-}
-
-void lower_assembler(Unit& unit) {
-  Module& m = unit.module;
-  if (!StringRef(m.getModuleInlineAsm()).trim().empty()) {
-    unit.error(DebugLoc(), Twine(m.getSourceFileName()) + ": assembler outside functions: got \"" +
-                               StringRef(m.getModuleInlineAsm()).trim() + "\"; native firmware is C only");
-  }
-  std::vector<CallBase*> all;
-  for (Function& f : m)
-    for (Instruction& i : instructions(f))
-      if (auto* call = dyn_cast<CallBase>(&i))
-        if (call->isInlineAsm()) all.push_back(call);
-  for (CallBase* call : all) {
-    std::string text = cast<InlineAsm>(call->getCalledOperand())->getAsmString();
-    IRBuilder<> b(call);
-    SmallVector<StringRef, 4> lines;
-    SplitString(text, lines, "\n;");
-    for (StringRef line : lines) {
-      line = line.trim();
-      if (line.empty() || line.startswith(";")) continue;
-      if (!lower_statement(unit, b, line))
-        unit.error(
-            call->getDebugLoc(),
-            "inline assembler: got \"" + line +
-                "\", expected nop, reset, clrwdt, pwrsav #0, pwrsav #1 or disi #n; write it in C, or run "
-                "the program the chip way");
-    }
-    if (!call->getType()->isVoidTy()) call->replaceAllUsesWith(UndefValue::get(call->getType()));
-    call->eraseFromParent();
-  }
-}
-
 void refuse_functions(Unit& unit) {
   for (Function& f : unit.module) {
     if (!f.isDeclaration() || f.use_empty()) continue;
@@ -296,6 +238,18 @@ void keep_empty_loops(Unit& unit) {
   }
 }
 
+/// What _FOSC() and _FWDT() of the device header make, for words given by #pragma config.
+void define_configuration(Unit& unit) {
+  for (const auto& [word, value] : unit.facts.configuration) {
+    const std::string name = "tp_config_" + word;
+    if (unit.module.getNamedGlobal(name)) continue;
+    Type* type = Type::getInt16Ty(unit.module.getContext());
+    auto* g = new GlobalVariable(unit.module, type, true, GlobalValue::WeakAnyLinkage,
+                                 ConstantInt::get(type, value), name);
+    g->setVisibility(GlobalValue::HiddenVisibility);
+  }
+}
+
 }  // namespace
 
 Function* marker(Module& m, const char* name) {
@@ -311,6 +265,7 @@ Function* marker(Module& m, const char* name) {
 void lower_early(Unit& unit) {
   lower_assembler(unit);
   refuse_functions(unit);
+  define_configuration(unit);
   drop_sections(unit);
   define_shifts(unit);
   define_conversions(unit);

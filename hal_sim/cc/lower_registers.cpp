@@ -6,6 +6,7 @@
 #include "llvm/IR/IRBuilder.h"
 #include "llvm/IR/InstIterator.h"
 #include "llvm/IR/Operator.h"
+#include "llvm/Transforms/Utils/BasicBlockUtils.h"
 #include "llvm/Transforms/Utils/Local.h"
 #include "passes.h"
 
@@ -13,6 +14,9 @@ namespace cc {
 namespace {
 
 using namespace llvm;
+
+// special-function registers as bytes of the data space: what follows the working registers [DS70143 3.2]
+constexpr std::uint64_t kFirstRegister = 0x20, kRegistersEnd = 0x800;
 
 /// Byte address of the register a global stands for, or -1.
 int register_address(const Value* v) {
@@ -34,8 +38,28 @@ const Value* base_of(const Value* pointer) {
   return pointer;
 }
 
-/// Address on the chip as an i64 value.
-Value* chip_address(IRBuilder<>& b, const DataLayout& layout, Value* pointer) {
+/// Whether a pointer means a register whichever way control came: the optimiser merges accesses of several
+/// branches to one by a chosen pointer.
+bool is_register_pointer(const Value* pointer, SmallPtrSetImpl<const Value*>& seen) {
+  const Value* base = base_of(pointer);
+  if (register_address(base) >= 0 || !seen.insert(base).second) return true;
+  if (auto* phi = dyn_cast<PHINode>(base))
+    return all_of(phi->incoming_values(), [&](const Use& v) { return is_register_pointer(v.get(), seen); });
+  if (auto* choice = dyn_cast<SelectInst>(base))
+    return is_register_pointer(choice->getTrueValue(), seen) &&
+           is_register_pointer(choice->getFalseValue(), seen);
+  return false;
+}
+
+bool is_register_pointer(const Value* pointer) {
+  if (!isa<Operator>(pointer) && !isa<GlobalVariable>(pointer)) return false;
+  SmallPtrSet<const Value*, 8> seen;
+  return is_register_pointer(pointer, seen);
+}
+
+/// Address on the chip as an i64 value; `made` holds the choices between registers that are numbers already.
+Value* chip_address(IRBuilder<>& b, const DataLayout& layout, Value* pointer,
+                    DenseMap<Value*, Value*>& made) {
   Value* offset = b.getInt64(0);
   while (auto* op = dyn_cast<Operator>(pointer)) {
     if (op->getOpcode() == Instruction::GetElementPtr)
@@ -44,47 +68,114 @@ Value* chip_address(IRBuilder<>& b, const DataLayout& layout, Value* pointer) {
       break;
     pointer = op->getOperand(0);
   }
-  return b.CreateAdd(offset, b.getInt64(register_address(pointer)));
+  Value*& number = made[pointer];
+  if (auto* phi = dyn_cast<PHINode>(pointer); phi && !number) {
+    auto* chosen = PHINode::Create(b.getInt64Ty(), phi->getNumIncomingValues(), "", phi);
+    mark_free(chosen);
+    number = chosen;
+    for (unsigned i = 0; i < phi->getNumIncomingValues(); ++i) {
+      IRBuilder<> at(phi->getIncomingBlock(i)->getTerminator());
+      chosen->addIncoming(chip_address(at, layout, phi->getIncomingValue(i), made), phi->getIncomingBlock(i));
+    }
+    return b.CreateAdd(offset, chosen);
+  }
+  if (auto* choice = dyn_cast<SelectInst>(pointer); choice && !number) {
+    IRBuilder<> at(choice);
+    Value* one = chip_address(at, layout, choice->getTrueValue(), made);
+    Value* other = chip_address(at, layout, choice->getFalseValue(), made);
+    Value* chosen = at.CreateSelect(choice->getCondition(), one, other);
+    made[pointer] = chosen;
+    return b.CreateAdd(offset, chosen);
+  }
+  return b.CreateAdd(offset, number ? number : b.getInt64(register_address(pointer)));
 }
 
-void lower_access(Unit& unit, Instruction* i, Value* pointer) {
+/// The value of `type` that registers at `address` (i64) hold. Wider than a register: low word first, as the
+/// compiler of the chip does.
+Value* read_registers(Unit& unit, IRBuilder<>& b, Value* address, Type* type) {
   Module& m = unit.module;
-  IRBuilder<> b(i);
   Type* i64 = b.getInt64Ty();
   auto read = host_function(m, "tp_sfr_read", i64, {i64, i64});
-  auto write = host_function(m, "tp_sfr_write", b.getVoidTy(), {i64, i64, i64});
-  auto* load = dyn_cast<LoadInst>(i);
-  Type* type = load ? load->getType() : cast<StoreInst>(i)->getValueOperand()->getType();
   unsigned bits = m.getDataLayout().getTypeSizeInBits(type);
-  Value* address = chip_address(b, m.getDataLayout(), pointer);
   Type* whole = b.getIntNTy((bits + 7) / 8 * 8);
-  if (load) {
-    // wider than a register: low word first, as the compiler of the chip does
-    Value* value = nullptr;
-    for (unsigned at = 0; at < bits; at += 16) {
-      unsigned part = bits - at >= 16 ? 16 : 8;
-      Value* word = b.CreateCall(read, {b.CreateAdd(address, b.getInt64(at / 8)), b.getInt64(part)});
-      word = b.CreateShl(b.CreateZExtOrTrunc(b.CreateTrunc(word, b.getIntNTy(part)), whole), at);
-      value = value ? b.CreateOr(value, word) : word;
-    }
-    if (type->isIntegerTy())
-      value = b.CreateZExtOrTrunc(value, type);
-    else
-      value = type->isPointerTy() ? b.CreateIntToPtr(value, type) : b.CreateBitCast(value, type);
-    load->replaceAllUsesWith(value);
+  Value* value = nullptr;
+  for (unsigned at = 0; at < bits; at += 16) {
+    unsigned part = bits - at >= 16 ? 16 : 8;
+    Value* word = b.CreateCall(read, {b.CreateAdd(address, b.getInt64(at / 8)), b.getInt64(part)});
+    word = b.CreateShl(b.CreateZExtOrTrunc(b.CreateTrunc(word, b.getIntNTy(part)), whole), at);
+    value = value ? b.CreateOr(value, word) : word;
+  }
+  if (type->isIntegerTy()) return b.CreateZExtOrTrunc(value, type);
+  return type->isPointerTy() ? b.CreateIntToPtr(value, type) : b.CreateBitCast(value, type);
+}
+
+void write_registers(Unit& unit, IRBuilder<>& b, Value* address, Value* value) {
+  Module& m = unit.module;
+  Type* i64 = b.getInt64Ty();
+  auto write = host_function(m, "tp_sfr_write", b.getVoidTy(), {i64, i64, i64});
+  Type* type = value->getType();
+  unsigned bits = m.getDataLayout().getTypeSizeInBits(type);
+  Type* whole = b.getIntNTy((bits + 7) / 8 * 8);
+  if (type->isPointerTy())
+    value = b.CreatePtrToInt(value, whole);
+  else
+    value = type->isIntegerTy() ? b.CreateZExtOrTrunc(value, whole) : b.CreateBitCast(value, whole);
+  for (unsigned at = 0; at < bits; at += 16) {
+    unsigned part = bits - at >= 16 ? 16 : 8;
+    Value* word = b.CreateZExt(b.CreateTrunc(b.CreateLShr(value, at), b.getIntNTy(part)), i64);
+    b.CreateCall(write, {b.CreateAdd(address, b.getInt64(at / 8)), word, b.getInt64(part)});
+  }
+}
+
+void lower_access(Unit& unit, Instruction* i, Value* pointer, DenseMap<Value*, Value*>& made) {
+  IRBuilder<> b(i);
+  Value* address = chip_address(b, unit.module.getDataLayout(), pointer, made);
+  if (auto* load = dyn_cast<LoadInst>(i))
+    load->replaceAllUsesWith(read_registers(unit, b, address, load->getType()));
+  else
+    write_registers(unit, b, address, cast<StoreInst>(i)->getValueOperand());
+  i->eraseFromParent();
+}
+
+/// An access by a pointer that may point to a register: its value decides. Registers lie where they lie on
+/// the chip, and where a PC has no memory; the lowest addresses, the working registers, stay null pointers.
+void lower_either(Unit& unit, Instruction* i, Value* pointer) {
+  IRBuilder<> b(i);
+  auto free = [](Value* v) {
+    if (auto* made = dyn_cast<Instruction>(v)) mark_free(made);
+    return v;
+  };
+  Value* address = free(b.CreatePtrToInt(pointer, b.getInt64Ty()));
+  Value* offset = free(b.CreateSub(address, b.getInt64(kFirstRegister)));
+  Value* inside = free(b.CreateICmpULT(offset, b.getInt64(kRegistersEnd - kFirstRegister)));
+  Instruction *chip = nullptr, *memory = nullptr;
+  SplitBlockAndInsertIfThenElse(inside, i, &chip, &memory);
+  mark_free(chip->getParent()->getSinglePredecessor()->getTerminator());
+  mark_free(chip);
+  mark_free(memory);
+  IRBuilder<> on_chip(chip);
+  on_chip.SetCurrentDebugLocation(i->getDebugLoc());
+  Instruction* plain = i->clone();
+  plain->insertBefore(memory);
+  if (auto* load = dyn_cast<LoadInst>(i)) {
+    Value* value = read_registers(unit, on_chip, address, load->getType());
+    auto* phi = PHINode::Create(load->getType(), 2, "", i);
+    phi->addIncoming(value, chip->getParent());
+    phi->addIncoming(plain, memory->getParent());
+    mark_free(phi);
+    load->replaceAllUsesWith(phi);
   } else {
-    Value* value = cast<StoreInst>(i)->getValueOperand();
-    if (type->isPointerTy())
-      value = b.CreatePtrToInt(value, whole);
-    else
-      value = type->isIntegerTy() ? b.CreateZExtOrTrunc(value, whole) : b.CreateBitCast(value, whole);
-    for (unsigned at = 0; at < bits; at += 16) {
-      unsigned part = bits - at >= 16 ? 16 : 8;
-      Value* word = b.CreateZExt(b.CreateTrunc(b.CreateLShr(value, at), b.getIntNTy(part)), i64);
-      b.CreateCall(write, {b.CreateAdd(address, b.getInt64(at / 8)), word, b.getInt64(part)});
-    }
+    write_registers(unit, on_chip, address, cast<StoreInst>(i)->getValueOperand());
   }
   i->eraseFromParent();
+}
+
+/// A constant that is a register's address written as a number.
+bool is_numeric_register(const Value* pointer) {
+  auto* e = dyn_cast<ConstantExpr>(pointer->stripPointerCasts());
+  if (!e || e->getOpcode() != Instruction::IntToPtr) return false;
+  auto* number = dyn_cast<ConstantInt>(e->getOperand(0));
+  return number && number->getValue().uge(kFirstRegister) && number->getValue().ult(kRegistersEnd);
 }
 
 /// Where the address of a register goes anywhere but into an access.
@@ -110,10 +201,50 @@ void lower_register_accesses(Unit& unit) {
       Value* pointer = nullptr;
       if (auto* load = dyn_cast<LoadInst>(&i)) pointer = load->getPointerOperand();
       if (auto* store = dyn_cast<StoreInst>(&i)) pointer = store->getPointerOperand();
-      if (pointer && register_address(base_of(pointer)) >= 0) accesses.emplace_back(&i, pointer);
+      if (pointer && is_register_pointer(pointer)) accesses.emplace_back(&i, pointer);
     }
-    for (auto& [i, pointer] : accesses) lower_access(unit, i, pointer);
+    DenseMap<Value*, Value*> made;
+    for (auto& [i, pointer] : accesses) lower_access(unit, i, pointer, made);
+    std::vector<WeakTrackingVH> replaced;
+    for (auto& [pointer, number] : made)
+      if (isa<Instruction>(pointer)) replaced.emplace_back(pointer);
+    for (WeakTrackingVH& pointer : replaced) {
+      if (auto* phi = dyn_cast_or_null<PHINode>(static_cast<Value*>(pointer)))
+        RecursivelyDeleteDeadPHINode(phi);
+      else if (pointer)
+        RecursivelyDeleteTriviallyDeadInstructions(static_cast<Value*>(pointer));
+    }
   }
+}
+
+void open_register_space(Unit& unit) {
+  bool by_pointer = unit.options.by_pointer;
+  for (GlobalVariable& g : make_early_inc_range(unit.module.globals())) {
+    const int address = register_address(&g);
+    if (address < 0) continue;
+    g.removeDeadConstantUsers();
+    if (g.use_empty()) continue;
+    auto* number = ConstantInt::get(Type::getInt64Ty(g.getContext()), std::uint64_t(address));
+    g.replaceAllUsesWith(ConstantExpr::getIntToPtr(number, g.getType()));
+    by_pointer = true;
+  }
+  std::vector<std::pair<Instruction*, Value*>> accesses;
+  for (Function& f : unit.module)
+    for (Instruction& i : instructions(f)) {
+      for (const Value* operand : i.operands())
+        by_pointer |= operand->getType()->isPointerTy() && is_numeric_register(getUnderlyingObject(operand));
+      Value* pointer = nullptr;
+      Type* type = nullptr;
+      if (auto* load = dyn_cast<LoadInst>(&i)) pointer = load->getPointerOperand(), type = load->getType();
+      if (auto* store = dyn_cast<StoreInst>(&i))
+        pointer = store->getPointerOperand(), type = store->getValueOperand()->getType();
+      if (!pointer || !type->isIntegerTy() || type->getIntegerBitWidth() > 32) continue;
+      const Value* object = getUnderlyingObject(pointer);
+      if (isa<AllocaInst>(object) || isa<GlobalVariable>(object)) continue;
+      accesses.emplace_back(&i, pointer);
+    }
+  if (by_pointer)
+    for (auto& [i, pointer] : accesses) lower_either(unit, i, pointer);
 }
 
 void lower_registers(Unit& unit) {

@@ -190,7 +190,13 @@ bool run_pipeline(Unit& unit) {
   if (unit.failed) return false;
   refresh_driver_arrays(unit);
   bool optimise = unit.options.level > 0;
-  if (unit.options.register_way) lower_register_accesses(unit);
+  keep_shared_variables(unit, fam);
+  fam.clear();
+  if (unit.options.register_way) {
+    lower_register_accesses(unit);
+    open_register_space(unit);
+    fam.clear();
+  }
   if (optimise) {
     ModulePassManager first;
     first.addPass(createModuleToFunctionPassAdaptor(tidy()));
@@ -230,7 +236,7 @@ bool run_pipeline(Unit& unit) {
   }
   lower_late(unit);
   if (unit.options.sanitize) check_addresses(unit);
-  if (unit.options.library) make_weak(unit);
+  if (unit.options.library || unit.options.weak) make_weak(unit);
   return !unit.failed;
 }
 

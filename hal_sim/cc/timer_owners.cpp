@@ -15,6 +15,22 @@ struct Owner {
   const char* timers;  // digits
 };
 
+// drivers of which a program may use a part: what it must call to have the interrupt
+struct Caller {
+  const char* function;
+  const char* driver;
+  const char* vectors[2];
+};
+
+constexpr Caller kCallers[] = {
+    {"e_init_ad_scan", "the ADC scan", {"ADC", nullptr}},
+    {"e_init_uart1", "the driver of UART 1", {"U1RX", "U1TX"}},
+    {"e_init_uart2", "the driver of UART 2", {"U2RX", "U2TX"}},
+    {"e_i2c_enable", "the I2C driver", {"MI2C", nullptr}},
+    {"e_init_sound", "the codec's driver", {"DCI", nullptr}},
+    {"e_init_remote_control", "the remote control's driver", {"INT0", nullptr}},
+};
+
 constexpr Owner kOwners[] = {
     {"motor_led/advance_one_timer/fast_agenda/e_agenda_fast.h", "the fast agenda", "123"},
     {"motor_led/advance_one_timer/e_agenda.h", "the agenda", "2"},
@@ -33,8 +49,9 @@ constexpr Owner kOwners[] = {
 
 std::vector<std::string> timer_conflicts(const std::vector<std::pair<std::string, std::string>>& texts) {
   static const std::regex kInclude(R"(^[ \t]*#[ \t]*include[ \t]*[<"]([^>"]+)[>"])", std::regex::multiline);
-  static const std::regex kHandler(R"(\b_T([1-5])Interrupt\s*\()");
-  std::map<char, std::map<std::string, std::string>> users;  // timer -> driver -> file
+  static const std::regex kHandler(R"(\bvoid\b[^;{}]*?\b_([A-Z0-9]+)Interrupt\s*\([^;{}]*\)[^;{}]*\{)");
+  static const std::regex kCall(R"(\b(e_[a-z0-9_]+)\s*\()");
+  std::map<std::string, std::map<std::string, std::string>> users;  // vector -> driver -> file
   for (const auto& [file, text] : texts) {
     for (std::sregex_iterator it(text.begin(), text.end(), kInclude), end; it != end; ++it) {
       std::string name = (*it)[1];
@@ -44,22 +61,28 @@ std::vector<std::string> timer_conflicts(const std::vector<std::pair<std::string
         std::string tail = owner.header;
         if (name.size() < tail.size() || name.compare(name.size() - tail.size(), tail.size(), tail) != 0)
           continue;
-        for (const char* t = owner.timers; *t; ++t) users[*t].emplace(owner.driver, file);
+        for (const char* t = owner.timers; *t; ++t) users[std::string("T") + *t].emplace(owner.driver, file);
         break;
       }
     }
     for (std::sregex_iterator it(text.begin(), text.end(), kHandler), end; it != end; ++it)
-      users[(*it)[1].str()[0]].emplace("the program's own _T" + (*it)[1].str() + "Interrupt", file);
+      users[(*it)[1]].emplace("the program's own _" + (*it)[1].str() + "Interrupt in " + file, file);
+    for (std::sregex_iterator it(text.begin(), text.end(), kCall), end; it != end; ++it)
+      for (const Caller& caller : kCallers)
+        if (caller.function == (*it)[1].str())
+          for (const char* vector : caller.vectors)
+            if (vector) users[vector].emplace(caller.driver, file);
   }
   std::vector<std::string> messages;
-  for (auto& [timer, drivers] : users) {
+  for (auto& [vector, drivers] : users) {
     // the agenda and the agenda motors share Timer 2 on purpose
-    drivers.size() > 1 ? drivers.erase(timer == '2' ? "the agenda motors" : "") : 0;
+    drivers.size() > 1 ? drivers.erase(vector == "T2" ? "the agenda motors" : "") : 0;
     if (drivers.size() < 2) continue;
     std::string list, file;
     for (const auto& [driver, where] : drivers) list += (list.empty() ? "" : " and ") + driver, file = where;
-    messages.push_back(file + ": warning: Timer " + timer + ": got two owners (" + list +
-                       "), expected one; the later one silences the other");
+    const bool is_timer = vector.size() == 2 && vector[0] == 'T';
+    messages.push_back(file + ": warning: " + (is_timer ? "Timer " + vector.substr(1) : "vector " + vector) +
+                       ": got two owners (" + list + "), expected one; the later one silences the other");
   }
   return messages;
 }

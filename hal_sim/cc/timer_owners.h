@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which driver of the e-puck library owns which timer, and which pairs cannot live in one program.
+// Which driver of the e-puck library owns which timer and interrupt vector, and which pairs cannot live in
+// one program.
 #pragma once
 #include <string>
 #include <utility>
@@ -7,7 +8,8 @@
 
 namespace cc {
 
-/// One message per timer claimed twice. texts: file name, content.
+/// One message per timer or vector claimed twice. texts: file name, content; of the program's own files, not
+/// of library sources that it brings along.
 std::vector<std::string> timer_conflicts(const std::vector<std::pair<std::string, std::string>>& texts);
 
 }  // namespace cc

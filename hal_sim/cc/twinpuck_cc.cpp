@@ -46,6 +46,10 @@ bool parse(int argc, char** argv, cc::Options& o) {
       o.webots = true;
     else if (a == "--library")
       o.library = true;
+    else if (a == "--register-pointers")
+      o.by_pointer = true;
+    else if (a == "--weak")
+      o.weak = true;
     else if (a == "--uncounted")
       o.uncounted = true;
     else if (a == "--emit-ir")

@@ -4,6 +4,8 @@
 #include "hal_sim/chip/board_outside.h"
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 
 #include "hal_sim/board/accelerometer.h"
 
@@ -19,16 +21,22 @@ constexpr std::uint16_t kSelector = 0x03C0, kI2cLines = 0x000C, kSerialIn = 0x00
                         kRemote = 0x0040, kCameraData = 0xFF00;
 constexpr std::uint16_t kCameraClocks =
     static_cast<std::uint16_t>(1 << CameraPins::Href | 1 << CameraPins::Vsync | 1 << CameraPins::Pclk);
+constexpr std::uint16_t kSerialOut[2] = {0x0008, 0x0020};                // RF3 RF5
 constexpr std::uint16_t kEmitter[4] = {0x0080, 0x0100, 0x0001, 0x0002};  // RF7 RF8 RG0 RG1
 constexpr int kFirstIr = 8, kFirstMic = 2, kFirstAcc = 5;
 constexpr std::uint64_t kSampleOffset = std::uint64_t{1} << 42;  // numbers of noise, apart from the drivers'
 constexpr unsigned kUartMode[2] = {0x20C, 0x216}, kUartBrg[2] = {0x214, 0x21E};
 constexpr std::uint16_t kUartEnabled = 0x8000;
+constexpr unsigned kDciCon3 = 0x244;
+constexpr double kCodecRateTolerance = 0.01;
+
+std::string hertz(double rate) { return std::to_string(std::lround(rate)); }
 
 }  // namespace
 
 BoardOutside::BoardOutside(Board& board) : board_(board), camera_(board), selector_(board.selector()) {
   tris_.fill(0xFFFF);
+  board_.leave_inputs_to_others();
 }
 
 bool BoardOutside::begin_window(dspic::Dspic30f6014a& chip, Cycle now) {
@@ -57,6 +65,7 @@ void BoardOutside::end_window(dspic::Dspic30f6014a& chip, Cycle now) {
   for (int n = 1; n <= 2; ++n)
     board_.uart(n).follow_chip((chip.peek(kUartMode[n - 1], now) & kUartEnabled) != 0,
                                chip.peek(kUartBrg[n - 1], now));
+  if (board_.codec().line().take_activity()) follow_codec(chip, now);
 }
 
 void BoardOutside::fill_eeprom(dspic::Dspic30f6014a& chip) const {
@@ -80,6 +89,19 @@ void BoardOutside::pins_driven(Port port, std::uint16_t levels, std::uint16_t dr
   tris_[p] = tris;
   levels_[p] = lat;
   if (port == Port::F || port == Port::G) follow_emitters(port, at);
+  if (port == Port::F) follow_breaks(static_cast<std::uint16_t>(driven & ~by_peripheral & ~levels), at);
+}
+
+// a port that holds the line low where its module has let go: whoever listens takes more than a word for a
+// break
+void BoardOutside::follow_breaks(std::uint16_t low, Cycle at) {
+  for (int n = 1; n <= 2; ++n) {
+    Cycle& since = low_since_[static_cast<std::size_t>(n - 1)];
+    const bool is_low = (low & kSerialOut[n - 1]) != 0;
+    if (is_low == (since >= 0)) continue;
+    if (!is_low && at - since > board_.uart(n).byte_cycles()) board_.uart(n).break_on_wire(at);
+    since = is_low ? at : -1;
+  }
 }
 
 void BoardOutside::follow_emitters(Port port, Cycle at) {
@@ -161,13 +183,14 @@ Cycle BoardOutside::nth_edge(dspic::Pin pin, dspic::Edge edge, Cycle after, std:
 int BoardOutside::analogue_counts(int channel, Cycle at) {
   // one number per instant: a result is the same whenever it is asked for
   const std::uint64_t sample = kSampleOffset + static_cast<std::uint64_t>(at);
+  if (channel >= kFirstMic && channel < kFirstAcc)
+    return board_.mic_counts_fast(channel - kFirstMic, at, sample);
   if (channel >= kFirstIr)
     return board_.ir_counts(channel - kFirstIr, at, lit_for(channel - kFirstIr, at), sample);
   if (channel >= kFirstAcc) {
     if (const auto counts = board_.counts_of_others(channel, at)) return *counts;
     return board::accelerometer_counts(board_, channel - kFirstAcc, at, sample);
   }
-  if (channel >= kFirstMic) return board_.mic_counts_fast(channel - kFirstMic, at, sample);
   return board_.counts_of_others(channel, at).value_or(0);
 }
 
@@ -178,7 +201,7 @@ void BoardOutside::uart_sent(int uart, const dspic::UartFrame& frame) {
     board_.uart(uart).put_on_wire(static_cast<std::uint8_t>(frame.word), frame.end());
 }
 
-void BoardOutside::i2c_start(bool, Cycle at) { board_.i2c().start(at); }
+void BoardOutside::i2c_start(bool repeated, Cycle at) { board_.i2c().start(at, repeated); }
 
 dspic::I2cReply BoardOutside::i2c_write(std::uint8_t byte, Cycle at) {
   return {board_.i2c().write(byte, at), 0xFF, 0};
@@ -187,5 +210,26 @@ dspic::I2cReply BoardOutside::i2c_write(std::uint8_t byte, Cycle at) {
 dspic::I2cReply BoardOutside::i2c_read(Cycle at) { return {true, board_.i2c().read(at), 0}; }
 
 void BoardOutside::i2c_stop(Cycle at) { board_.i2c().stop(at); }
+
+// --- codec -----------------------------------------------------------------------------------------------
+
+// the codec looks at the word that begins a frame; those of other slots are for other devices on the line
+std::uint16_t BoardOutside::dci_word(int slot, std::uint16_t transmitted, int bits, Cycle end) {
+  if (slot != 0) return 0;
+  const auto word = static_cast<std::uint16_t>(transmitted << (16 - bits));
+  return static_cast<std::uint16_t>(board_.codec().line().word(word, end) >> (16 - bits));
+}
+
+void BoardOutside::follow_codec(dspic::Dspic30f6014a& chip, Cycle now) {
+  board::CodecLine& line = board_.codec().line();
+  line.set_bit_clock(2 * (Cycle{chip.peek(kDciCon3, now) & 0x0FFF} + 1));
+  if (!line.is_heard()) return;
+  const double by_registers = line.register_rate_hz(), by_frames = line.frame_rate_hz();
+  if (std::abs(by_registers - by_frames) <= kCodecRateTolerance * by_frames) return;
+  chip.diagnostics().report(dspic::Cause::CodecRate, "codec",
+                            "codec: its registers 3 and 4 and the bit clock give " + hertz(by_registers) +
+                                " samples a second, frames come " + hertz(by_frames) + " times a second",
+                            now);
+}
 
 }  // namespace chip

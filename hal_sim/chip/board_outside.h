@@ -5,9 +5,9 @@
 //   pins_driven -> Board::port_write: coils, LEDs, IR emitters, codec and camera reset
 //   pin_levels  <- selector, battery detector, remote receiver, idle serial lines, camera clocks and data
 //   analogue    <- IR phototransistors, microphones, accelerometer or battery, what parts put there
-//   UART words <-> Uart ends; I2C <-> the board's bus
+//   UART words <-> Uart ends; I2C <-> the board's bus; DCI words -> the codec
 //
-// Not modelled: what the DCI module sends to the codec; serial lines level by level; levels of port B's pins
+// Not modelled: serial lines level by level; levels of port B's pins
 // (they are analogue inputs); a far end with a rate of its own: it follows the robot's, 8 bits, no parity.
 #pragma once
 #include <array>
@@ -48,8 +48,11 @@ class BoardOutside final : public dspic::Outside {
   dspic::I2cReply i2c_write(std::uint8_t byte, Cycle at) override;
   dspic::I2cReply i2c_read(Cycle at) override;
   void i2c_stop(Cycle at) override;
+  std::uint16_t dci_word(int slot, std::uint16_t transmitted, int bits, Cycle end) override;
 
  private:
+  /// The codec's clocks: the bit clock, and whether it agrees with the codec's registers.
+  void follow_codec(dspic::Dspic30f6014a& chip, Cycle now);
   /// When the IR emitters of one line went on and off: results of the converter are asked for later.
   struct Emitter {
     static constexpr int kRemembered = 16;
@@ -60,12 +63,14 @@ class BoardOutside final : public dspic::Outside {
   /// Cycles for which the emitter beside a sensor has been on at `at`; -1: it was off.
   Cycle lit_for(int sensor, Cycle at) const;
   void follow_emitters(dspic::Port port, Cycle at);
+  void follow_breaks(std::uint16_t low, Cycle at);
 
   board::Board& board_;
   CameraPins camera_;
   std::array<Emitter, 4> emitters_;
   std::array<std::uint16_t, dspic::kPorts> levels_{};
   std::array<std::uint16_t, dspic::kPorts> tris_{};
+  std::array<Cycle, 2> low_since_{-1, -1};  // a serial line held low by its port; -1: it is not
   int selector_;
 };
 

@@ -24,4 +24,10 @@ inline constexpr int kMostBackgroundPercent = 95;  // [assumed: beyond it the ro
 /// Priority at which the math error trap runs.
 inline constexpr int kMathErrorPriority = 11;  // [DS 5.3]
 
+// clocks that a program may choose by its configuration word
+inline constexpr double kCrystalHz = 7372800;     // [lib: motor_led/e_epuck_ports.h]
+inline constexpr double kFrcHz = 7370000;         // fast internal oscillator [DS70143 20.2]
+inline constexpr double kLprcHz = 512000;         // slow internal oscillator [DS70143 20.2]
+inline constexpr double kClockTolerance = 0.001;  // [assumed: FRC times 8 is 0.04 % off and does as well]
+
 }  // namespace host

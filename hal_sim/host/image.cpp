@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "hal_sim/host/image.h"
 
-#include <dlfcn.h>
 #include <elf.h>
-#include <fcntl.h>
-#include <link.h>
-#include <sys/mman.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
@@ -19,40 +14,6 @@
 namespace host {
 
 namespace {
-
-struct CodeRange {
-  std::uintptr_t base, begin, end;
-};
-
-// the loaded object's executable segment
-int find_code(dl_phdr_info* info, size_t, void* out_and_probe) {
-  auto& [range, probe] = *static_cast<std::pair<CodeRange, std::uintptr_t>*>(out_and_probe);
-  for (int i = 0; i < info->dlpi_phnum; ++i) {
-    const auto& segment = info->dlpi_phdr[i];
-    const std::uintptr_t begin = info->dlpi_addr + segment.p_vaddr;
-    if (segment.p_type != PT_LOAD || probe < begin || probe >= begin + segment.p_memsz) continue;
-    range.base = info->dlpi_addr;
-    for (int k = 0; k < info->dlpi_phnum; ++k)
-      if (info->dlpi_phdr[k].p_type == PT_LOAD && (info->dlpi_phdr[k].p_flags & PF_X)) {
-        range.begin = info->dlpi_addr + info->dlpi_phdr[k].p_vaddr;
-        range.end = range.begin + info->dlpi_phdr[k].p_memsz;
-      }
-    return 1;
-  }
-  return 0;
-}
-
-// a copy of the file that the dynamic linker takes for a different one
-int private_copy_of(const std::string& path) {
-  const int from = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  const int to = memfd_create("twinpuck-image", MFD_CLOEXEC);
-  char buffer[65536];
-  ssize_t n;
-  while ((n = read(from, buffer, sizeof buffer)) > 0)
-    if (write(to, buffer, static_cast<size_t>(n)) != n) break;
-  close(from);
-  return to;
-}
 
 // do all segments lie inside the file? (the dynamic linker maps them unseen and would fault)
 bool is_whole(const std::string& path) {
@@ -88,23 +49,14 @@ std::string what_is(const std::string& path) {
 
 }  // namespace
 
-ImageCopy::ImageCopy(const std::string& path, void* handle, const tp_image* image, int fd)
-    : path_(path), handle_(handle), image_(image), fd_(fd) {
+ImageCopy::ImageCopy(std::string path, std::unique_ptr<SharedObject> object, const tp_image* image)
+    : path_(std::move(path)), object_(std::move(object)), image_(image) {
   const std::size_t whole = static_cast<std::size_t>(image->data_end - image->data_begin);
   const std::size_t hole = static_cast<std::size_t>(image->hole_end - image->hole_begin);
   private_bytes_ = whole - hole;
   start_values_.resize(private_bytes_);
   copy_out(start_values_.data());
-  std::pair<CodeRange, std::uintptr_t> query{{0, 0, 0}, reinterpret_cast<std::uintptr_t>(image)};
-  dl_iterate_phdr(find_code, &query);
-  base_ = query.first.base;
-  code_begin_ = query.first.begin;
-  code_end_ = query.first.end;
-}
-
-ImageCopy::~ImageCopy() {
-  dlclose(handle_);
-  if (fd_ >= 0) close(fd_);
+  object_->locate(reinterpret_cast<std::uintptr_t>(image));
 }
 
 void ImageCopy::copy_out(char* to) const {
@@ -125,20 +77,14 @@ Image::Image(std::string path) : path_(std::move(path)), symbols_(std::make_uniq
 Image::~Image() = default;
 
 std::unique_ptr<ImageCopy> Image::load(bool private_file, std::string& error) const {
-  int fd = -1;
-  std::string name = path_.find('/') == std::string::npos ? "./" + path_ : path_;
-  if (private_file) {
-    fd = private_copy_of(path_);
-    name = "/proc/self/fd/" + std::to_string(fd);
-  }
-  void* handle = dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (!handle) {
-    if (fd >= 0) close(fd);
-    error = path_ + ": firmware image: got '" + dlerror() +
+  std::string why;
+  auto object = SharedObject::open(path_, private_file, why);
+  if (!object) {
+    error = path_ + ": firmware image: got '" + why +
             "', expected a .so made by `twinpuck build`; build it again with this version";
     return nullptr;
   }
-  const auto* image = static_cast<const tp_image*>(dlsym(handle, "tp_image"));
+  const auto* image = static_cast<const tp_image*>(object->symbol("tp_image"));
   if (!image || image->magic != TP_IMAGE_MAGIC || image->abi != TP_IMAGE_ABI) {
     error = path_ + ": firmware image: got " +
             (image && image->magic == TP_IMAGE_MAGIC
@@ -146,11 +92,9 @@ std::unique_ptr<ImageCopy> Image::load(bool private_file, std::string& error) co
                  : std::string("a shared object without a firmware inside")) +
             ", expected interface version " + std::to_string(TP_IMAGE_ABI) +
             "; make it with `twinpuck build DIR -o FILE.so`";
-    dlclose(handle);
-    if (fd >= 0) close(fd);
     return nullptr;
   }
-  return std::make_unique<ImageCopy>(path_, handle, image, fd);
+  return std::make_unique<ImageCopy>(path_, std::move(object), image);
 }
 
 std::shared_ptr<Image> Image::open(const std::string& path, std::string& error) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hal_sim/host/image_abi.h"
+#include "hal_sim/host/shared_object.h"
 
 namespace host {
 
@@ -16,10 +17,7 @@ class Symbols;
 /// One loaded copy. Robots bound to it swap their private data in and out of its data segment.
 class ImageCopy {
  public:
-  /// `fd`: the private file the copy was loaded from, -1 if none. It stays open: the dynamic linker tells
-  /// files apart by name, and the name holds the number.
-  ImageCopy(const std::string& path, void* handle, const tp_image* image, int fd);
-  ~ImageCopy();
+  ImageCopy(std::string path, std::unique_ptr<SharedObject> object, const tp_image* image);
   ImageCopy(const ImageCopy&) = delete;
   ImageCopy& operator=(const ImageCopy&) = delete;
 
@@ -32,9 +30,9 @@ class ImageCopy {
   void copy_out(char* to) const;         ///< live data -> a robot's own copy
   void copy_in(const char* from) const;  ///< a robot's own copy -> live data
 
-  bool is_code(std::uintptr_t address) const { return address >= code_begin_ && address < code_end_; }
+  bool is_code(std::uintptr_t address) const { return object_->is_code(address); }
   /// Load address: address in the file = address in memory - base().
-  std::uintptr_t base() const { return base_; }
+  std::uintptr_t base() const { return object_->base(); }
   const std::string& path() const { return path_; }
 
   const void* owner = nullptr;  ///< the robot whose data is live; null: start-up values or nobody's
@@ -42,12 +40,10 @@ class ImageCopy {
 
  private:
   std::string path_;
-  void* handle_;
+  std::unique_ptr<SharedObject> object_;
   const tp_image* image_;
-  int fd_;
   std::size_t private_bytes_;
   std::vector<char> start_values_;
-  std::uintptr_t base_ = 0, code_begin_ = 0, code_end_ = 0;
 };
 
 /// All copies of one firmware file.

@@ -23,7 +23,7 @@ typedef long long tp_i64;
 typedef float tp_f32 __attribute__((aligned(2)));
 
 #define TP_IMAGE_MAGIC 0x54575049 /* "TWPI": tells an image from any other .so */
-#define TP_IMAGE_ABI 1            /* raised whenever a line of this file changes its meaning */
+#define TP_IMAGE_ABI 2            /* raised whenever a line of this file changes its meaning */
 
 /** Shared by compiled code and host, never part of a robot's private data. One per loaded copy of the image.
  *  Section "tpctl"; the compiler pass knows the two offsets. */
@@ -75,6 +75,9 @@ struct tp_image {
   const struct tp_function* functions_end;
   const struct tp_coverage_line* coverage; /* 0 without --coverage */
   const struct tp_coverage_line* coverage_end;
+  /* configuration words of the program, 16 bits each; 0 where it has none */
+  const void* fosc;
+  const void* fwdt;
 };
 
 /** Budget spent: the host delivers what is due and gives a new budget, or lets other robots run meanwhile. */

@@ -3,11 +3,23 @@
 
 #include <algorithm>
 
+#include "hal_sim/host/oscillator.h"
+
 namespace host {
+
+namespace {
+/// The robot as the program's configuration words make it: its clock's rate is theirs.
+board::Setup configured(board::Setup setup, Image* image, std::size_t copy) {
+  const void* fosc = image ? image->copy(copy).description().fosc : nullptr;
+  const double factor = fosc ? clock_factor(*static_cast<const std::uint16_t*>(fosc)) : 1;
+  if (factor != 1) setup.clock_ppm = ((1 + setup.clock_ppm * 1e-6) * factor - 1) * 1e6;
+  return setup;
+}
+}  // namespace
 
 FirmwareMind::FirmwareMind(const board::Setup& setup, RobotSettings settings, std::shared_ptr<Image> image,
                            std::size_t copy)
-    : board_(setup) {
+    : board_(configured(setup, image.get(), copy)) {
   if (!image) {
     board_.switch_off();
     return;

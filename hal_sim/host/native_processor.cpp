@@ -36,12 +36,12 @@ void NativeProcessor::watch_remote(Cycle now) {
       now);
 }
 
-Cycle NativeProcessor::quiet_until(Cycle now) {
-  Cycle next = interrupts_.next_due();
+Processor::Outlook NativeProcessor::look(Cycle now) {
+  interrupts_.raise_due(now);
   const bool held = disi_until_ > now;
-  if (interrupts_.select(cpu_level_, held) >= 0) return now;
-  if (held) next = std::min(next, disi_until_);
-  return next;
+  Outlook outlook{interrupts_.select(cpu_level_, held), held || cpu_level_ > 0, interrupts_.next_due()};
+  if (held) outlook.quiet_until = std::min(outlook.quiet_until, disi_until_);
+  return outlook;
 }
 
 Processor::Entry NativeProcessor::enter(int vector, Cycle now) {
@@ -56,10 +56,10 @@ Processor::Entry NativeProcessor::enter(int vector, Cycle now) {
           now + (s.self_clearing ? s.entry_cycles : kInterruptEntryCycles)};
 }
 
-Cycle NativeProcessor::leave(Cycle now) {
+Processor::Return NativeProcessor::leave(Cycle now) {
   cpu_level_ = outer_levels_.back();
   outer_levels_.pop_back();
-  return now;
+  return {now};
 }
 
 Processor::Waiting NativeProcessor::longest_waiting(Cycle now) {

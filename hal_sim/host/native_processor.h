@@ -31,18 +31,14 @@ class NativeProcessor final : public Processor {
   std::uint16_t table_read(unsigned, Cycle) override { registers_.refuse_table(); }
   void table_write(unsigned, std::uint16_t, Cycle) override { registers_.refuse_table(); }
 
-  int select(Cycle now) override {
-    interrupts_.raise_due(now);
-    return interrupts_.select(cpu_level_, disi_until_ > now);
-  }
-  Cycle quiet_until(Cycle now) override;
+  Outlook look(Cycle now) override;
   Entry enter(int vector, Cycle now) override;
-  Cycle leave(Cycle now) override;
+  Return leave(Cycle now) override;
   int cpu_level() const override { return cpu_level_; }
   void set_cpu_level(int level, Cycle) override { cpu_level_ = level; }
   Waiting longest_waiting(Cycle now) override;
   void disi(Cycle cycles, Cycle now) override;
-  bool wakes(Cycle now) override { return select(now) >= 0; }
+  bool wakes(Cycle now) override { return look(now).vector >= 0; }
 
   bool flag(int vector, Cycle at) override;
   Cycle next_flag(int vector, Cycle at) override;

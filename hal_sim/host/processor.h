@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "hal_sim/board/diagnosis.h"
 #include "hal_sim/host/context.h"
 
 namespace dspic {
@@ -67,18 +68,27 @@ class Processor {
   virtual bool print(const char* bytes, std::int64_t length) { return false; }
 
   // --- interrupts
-  /// Vector to serve at the instruction boundary before `now`, kNoVector or kResetDue.
-  virtual int select(Cycle now) = 0;
+  struct Outlook {
+    int vector = kNoVector;  ///< to serve at the instruction boundary before `now`; kNoVector, kResetDue
+    bool may_wait = false;   ///< level or DISI may hold a flag off: longest_waiting() is worth asking
+    Cycle quiet_until = 0;   ///< with kNoVector: until then look() answers the same, > now
+  };
+  /// Its answer stays true until its instant, whatever the program reads and whatever time passes. Not after
+  /// a write (ChipProcessor tells Robot::calm_until, NativeProcessor Robot::changed), enter() or leave().
+  virtual Outlook look(Cycle now) = 0;
   virtual const char* why_reset() const { return "the processor resets"; }
-  /// First cycle at which select() may answer something else than kNoVector; `now` when it does already.
-  virtual Cycle quiet_until(Cycle now) = 0;
   struct Entry {
     void (*handler)() = nullptr;  ///< null: the program's own, by its vector
     Cycle first_instruction = 0;
+    Cycle quiet_until = 0;  ///< no other vector can be served before; 0: ask look()
   };
   virtual Entry enter(int vector, Cycle now) = 0;
-  /// The handler returns; answers the cycle of the next instruction.
-  virtual Cycle leave(Cycle now) = 0;
+  struct Return {
+    Cycle next_instruction = 0;
+    Cycle quiet_until = 0;  ///< nothing waits, and nothing can be served before; 0: ask look()
+  };
+  /// The handler returns.
+  virtual Return leave(Cycle now) = 0;
   virtual int cpu_level() const = 0;
   virtual void set_cpu_level(int level, Cycle now) = 0;
   /// A flag that is set and enabled but cannot be served now, and since when; vector kNoVector if none.
@@ -105,11 +115,8 @@ class Processor {
   virtual void observe(Observer* observer) {}
 
   virtual std::uint64_t state_hash(Cycle now) { return 0; }
-  /// What the models have to say about the program, a sentence each, in order of time.
-  virtual const std::vector<std::string>& notices() const {
-    static const std::vector<std::string> none;
-    return none;
-  }
+  /// What the models have to say about the program so far, in order of time.
+  virtual std::vector<board::Diagnosis> diagnoses() const { return {}; }
   /// The chip behind it; null in the native way.
   virtual dspic::Dspic30f6014a* chip() { return nullptr; }
 };

@@ -7,16 +7,13 @@
 #include "hal_sim/board/board.h"
 #include "hal_sim/host/host_params.h"
 #include "hal_sim/host/native_processor.h"
+#include "hal_sim/host/oscillator.h"
 #include "hal_sim/host/pins.h"
 #include "sim_core/base/check.h"
 
 namespace host {
 
 namespace {
-thread_local Robot* running_robot = nullptr;
-constexpr unsigned kQ = 32;
-constexpr std::uint64_t kOne = std::uint64_t{1} << kQ;
-
 // the innermost frame of the program itself: what our API and libc do inside is the caller's doing
 Place culprit(const std::vector<Place>& backtrace) {
   for (const Place& place : backtrace)
@@ -50,17 +47,16 @@ const char* trap_name(int kind) {
   }
 }
 
-Robot* Robot::running() { return running_robot; }
-
 Context& Context::current() {
-  CHECK(running_robot, "a firmware function was called outside firmware");
-  return *running_robot;
+  CHECK(detail::running_robot, "a firmware function was called outside firmware");
+  return *detail::running_robot;
 }
 
 Robot::Robot(RobotSettings settings, std::shared_ptr<Image> image, std::size_t copy, board::Board& board)
     : settings_(std::move(settings)),
       image_(std::move(image)),
       copy_(image_->copy(copy)),
+      control_(copy_.control()),
       board_(board),
       fiber_(settings_.stack_bytes) {
   if (settings_.processor) {
@@ -94,7 +90,10 @@ void Robot::restart_program() {
   if (copy_.owner == this) copy_.owner = nullptr;
   std::fill(background_.begin(), background_.end(), Background{});
   stolen_q32_ = 0;
+  has_plain_clock_ = !observer_;
   handler_depth_ = 0;
+  calm_until_ = 0;
+  may_wait_ = false;
   horizon_ = kNever;
   poll_loop_ = -1;
   asleep_until_ = -1;
@@ -113,6 +112,7 @@ NativeProcessor& Robot::native() {
 
 void Robot::remote_changed() {
   processor_->remote_changed(now_);
+  calm_until_ = 0;
   wake();
 }
 
@@ -120,6 +120,10 @@ void Robot::enter_firmware(void* raw) {
   auto* self = static_cast<Robot*>(raw);
   self->pass_window();
   self->give_budget();
+  if (const void* fosc = self->copy_.description().fosc) {
+    self->last_words_ = clock_problem(*static_cast<const std::uint16_t*>(fosc));
+    if (!self->last_words_.empty()) self->trap(TP_TRAP_UNSIMULATED, self->last_words_);
+  }
   self->copy_.description().start();
   self->on_reset("main() returned, so the start-up code resets the processor");
 }
@@ -140,28 +144,38 @@ void Robot::run_until(Cycle end) {
   if (stopped_ || end <= window_start_) return;
   if (asleep_until_ > end && !woken_) return processor_->end_window(end);
   std::lock_guard<std::mutex> turn(copy_.turn);
-  Robot* outer = running_robot;
-  running_robot = this;
+  Robot* outer = detail::running_robot;
+  detail::running_robot = this;
   do {
     if (reset_asked_) restart_program();
     swap_in();
     // what other robots of the copy wrote is no change that this one's loops could see
-    copy_.control().writes = writes_;
+    control_.writes = writes_;
     fiber_.enter();
-    writes_ = copy_.control().writes;
+    writes_ = control_.writes;
   } while (reset_asked_);
   woken_ = false;
-  running_robot = outer;
+  detail::running_robot = outer;
   if (!stopped_) processor_->end_window(end);
 }
 
 // --- time
 // --------------------------------------------------------------------------------------------------------
 
-void Robot::advance_main(Cycle main) {
+Cycle Robot::now_and_tell() {
+  const Cycle main = issued_ - control_.budget;
   const unsigned __int128 stolen = static_cast<unsigned __int128>(main) * stolen_q32_ + fraction_;
-  now_ += main + static_cast<Cycle>(stolen >> kQ);
-  fraction_ = static_cast<std::uint64_t>(stolen) & (kOne - 1);
+  const Cycle at = now_ + main + static_cast<Cycle>(stolen >> kQ);
+  if (observer_) observer_->reached(at);
+  return at;
+}
+
+std::uint16_t Robot::read_and_tell(unsigned address, unsigned bits) {
+  return processor_->read(address, bits, now_and_tell());
+}
+
+void Robot::write_and_tell(unsigned address, std::uint16_t value, unsigned bits) {
+  processor_->write(address, value, bits, now_and_tell());
 }
 
 Cycle Robot::main_until(Cycle real) const {
@@ -170,42 +184,41 @@ Cycle Robot::main_until(Cycle real) const {
   return static_cast<Cycle>(whole / (kOne + stolen_q32_));
 }
 
-void Robot::fold() {
-  tp_control& control = copy_.control();
-  advance_main(issued_ - control.budget);
-  issued_ = 0;
-  control.budget = 0;
-}
-
-Cycle Robot::now() {
-  const Cycle main = issued_ - copy_.control().budget;
-  const unsigned __int128 stolen = static_cast<unsigned __int128>(main) * stolen_q32_ + fraction_;
-  const Cycle at = now_ + main + static_cast<Cycle>(stolen >> kQ);
-  if (observer_) observer_->reached(at);
-  return at;
+int Robot::look() {
+  const Processor::Outlook outlook = processor_->look(now_);
+  calm_until_ = outlook.vector == kNoVector ? outlook.quiet_until : now_;
+  may_wait_ = outlook.may_wait;
+  if (may_wait_ && handler_depth_ == 0) {
+    // a main program that masks a waiting interrupt for ever is found out after a while
+    const Processor::Waiting waiting = processor_->longest_waiting(now_);
+    if (waiting.vector >= 0) calm_until_ = std::min(calm_until_, waiting.since + kBlockedInterruptCycles);
+  }
+  return outlook.vector;
 }
 
 Cycle Robot::next_disturbance() {
-  Cycle next = processor_->quiet_until(now_);
-  if (handler_depth_ == 0) {
-    // a main program that masks a waiting interrupt for ever is found out after a while
-    const Processor::Waiting waiting = processor_->longest_waiting(now_);
-    if (waiting.vector >= 0)
-      next = std::min(next, std::max(now_ + 1, waiting.since + kBlockedInterruptCycles));
-  }
-  return next;
+  if (now_ < calm_until_) return calm_until_;
+  return look() == kNoVector ? std::max(calm_until_, now_ + 1) : now_;
 }
 
 void Robot::give_budget() {
   Cycle until = std::min(end_, next_disturbance());
   if (observer_) until = std::min(until, now_ + observer_->look_every);
-  issued_ = until > now_ ? main_until(until - now_) : 0;
-  copy_.control().budget = issued_;
+  issued_ = std::max<Cycle>(0, until - now_);
+  if (stolen_q32_ != 0 && issued_ > 0) issued_ = main_until(issued_);
+  control_.budget = issued_;
 }
 
 void Robot::changed() {
   if (native_) native_->interrupts().touch();
+  calm_until_ = 0;
   fold();
+  give_budget();
+}
+
+void Robot::lower_calm(Cycle at) {
+  fold();
+  calm_until_ = at;
   give_budget();
 }
 
@@ -218,6 +231,7 @@ void Robot::set_background(int slot, Cycle period, Cycle cost) {
       share += (static_cast<std::uint64_t>(b.cost) << kQ) / static_cast<std::uint64_t>(b.period);
   share = std::min<std::uint64_t>(share, kOne / 100 * kMostBackgroundPercent);
   stolen_q32_ = static_cast<std::uint64_t>((static_cast<unsigned __int128>(share) << kQ) / (kOne - share));
+  has_plain_clock_ = !observer_ && stolen_q32_ == 0;
   note_write();
   give_budget();
 }
@@ -249,13 +263,13 @@ void Robot::irq_every(int vector, Cycle at, Cycle period) {
   changed();
 }
 
-void Robot::deliver() {
-  for (;;) {
-    const int vector = processor_->select(now_);
-    if (vector == kNoVector) break;
+void Robot::deliver_now() {
+  do {
+    const int vector = look();
+    if (vector == kNoVector) return;
     if (vector == kResetDue) on_reset(processor_->why_reset());
     serve(vector);
-  }
+  } while (now_ >= calm_until_);
 }
 
 void Robot::serve(int vector) {
@@ -278,18 +292,22 @@ void Robot::serve(int vector) {
   }
   now_ = entry.first_instruction;
   ++handler_depth_;
+  calm_until_ = entry.quiet_until;
   give_budget();
   handler();
   --handler_depth_;
   fold();
   if (observer_) observer_->handler_ends(now_);
-  now_ = processor_->leave(now_);
+  const Processor::Return back = processor_->leave(now_);
+  now_ = back.next_instruction;
+  calm_until_ = back.quiet_until;
+  may_wait_ = false;  // or the next look() says so
   ++served_;
   note_write();
 }
 
-void Robot::check_blocked() {
-  if (handler_depth_ > 0) return;  // a long handler delays others on the chip too
+// not within a handler: a long one delays others on the chip too
+void Robot::stop_if_blocked() {
   const Processor::Waiting waiting = processor_->longest_waiting(now_);
   if (waiting.vector < 0 || now_ - waiting.since < kBlockedInterruptCycles) return;
   last_words_ = std::string("interrupts have been off for more than a second while ") +
@@ -304,14 +322,24 @@ bool Robot::lend_reserve() {
   if (!fiber_.open_reserve()) return false;
   overflowed_ = true;
   // the next block asks for an event; the time that has passed stays what it is
-  tp_control& control = copy_.control();
-  issued_ -= control.budget + 1;
-  control.budget = -1;
+  issued_ -= control_.budget + 1;
+  control_.budget = -1;
   return true;
 }
 
 void Robot::on_event() {
   if (overflowed_) trap(TP_TRAP_STACK, kStackOverflow);
+  if (!native_) {
+    // a block may be a division of 500 cycles: an interrupt comes within it, and the rest of it afterwards
+    const Cycle undisturbed = issued_, rest = -copy_.control().budget;
+    issued_ = copy_.control().budget = 0;
+    advance_main(undisturbed);
+    run_main(rest);
+    if (observer_) observer_->reached(now_);
+    give_budget();
+    if (overflowed_) trap(TP_TRAP_STACK, kStackOverflow);
+    return;
+  }
   fold();
   if (observer_) observer_->reached(now_);
   for (;;) {
@@ -442,6 +470,7 @@ void Robot::idle_to(Cycle at) {
 void Robot::on_disi(Cycle cycles) {
   fold();
   processor_->disi(cycles, now_);
+  calm_until_ = 0;
   note_write();
   deliver();
   check_blocked();
@@ -451,6 +480,7 @@ void Robot::on_disi(Cycle cycles) {
 void Robot::on_power_save(bool sleep) {
   fold();
   processor_->power_save(sleep, now_);
+  calm_until_ = 0;
   for (;;) {
     const bool awake = processor_->wakes(now_);
     deliver();
@@ -520,6 +550,7 @@ void Robot::trap(int kind, std::string_view message) {
   if (kind == TP_TRAP_MATH && image.trap_vectors[3] && processor_->cpu_level() < kMathErrorPriority) {
     // the program has its own _MathError: it may reset or report; the division itself cannot be resumed
     processor_->set_cpu_level(kMathErrorPriority, now_);
+    calm_until_ = 0;
     give_budget();
     image.trap_vectors[3]();
     fold();
@@ -570,6 +601,14 @@ std::vector<Place> Robot::walk(std::uintptr_t pc, std::uintptr_t frame) const {
     frame = link[0];
   }
   return places;
+}
+
+std::vector<board::Diagnosis> Robot::diagnoses() const {
+  std::vector<board::Diagnosis> all = processor_->diagnoses();
+  for (board::Diagnosis& d : board_.diagnoses(lived_cycles())) all.push_back(std::move(d));
+  for (board::Diagnosis& d : all) d.first_s = to_world_s ? to_world_s(d.first) : 0;
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  return all;
 }
 
 std::uint64_t Robot::hash() const {

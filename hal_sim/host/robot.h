@@ -24,6 +24,11 @@
 namespace host {
 
 class NativeProcessor;
+class Robot;
+
+namespace detail {
+inline thread_local Robot* running_robot = nullptr;  // Robot::running()
+}
 
 /// Why a robot stopped or restarted, for reports.
 struct TrapReport {
@@ -69,6 +74,8 @@ class Robot final : public Context {
 
   bool has_stopped() const { return stopped_; }
   const std::vector<TrapReport>& traps() const { return traps_; }
+  /// What board and chip have to say about the program so far, in order of time. Between windows only.
+  std::vector<board::Diagnosis> diagnoses() const;
   Cycle cycles() const { return end_; }
   /// Cycles at the last moment at which the program's own count was added up: the instant of a reset.
   Cycle settled_now() const { return now_; }
@@ -93,6 +100,8 @@ class Robot final : public Context {
   /// Changes them, as a debugger would; a wait looks again.
   void write_memory(std::uintptr_t address, const void* from, std::size_t bytes);
   const Symbols& symbols() const { return image_->symbols(); }
+  /// The loaded image's description of itself.
+  const tp_image& image() const { return copy_.description(); }
   /// The reset button: the program begins anew at the end of the last window, also after a trap. Between
   /// windows only. Traps stay reported.
   void restart();
@@ -103,6 +112,7 @@ class Robot final : public Context {
   void observe(Observer* observer) {
     observer_ = observer;
     processor_->observe(observer);
+    has_plain_clock_ = !observer_ && stolen_q32_ == 0;
   }
   /// The chip's models, in the register way; null in the native way.
   dspic::Dspic30f6014a* chip() { return processor_->chip(); }
@@ -113,12 +123,12 @@ class Robot final : public Context {
   // --- Context
   // ----------------------------------------------------------------------------------------------
   board::Board& board() override { return board_; }
-  Cycle now() override;
+  Cycle now() override { return has_plain_clock_ ? now_ + issued_ - control_.budget : now_and_tell(); }
   void lower_horizon(Cycle at) override {
     if (at < horizon_) horizon_ = at;
     looked_outside_ = true;
   }
-  void note_write() override { ++copy_.control().writes; }
+  void note_write() override { ++control_.writes; }
   void spend(Cycle cycles) override;
   void wait_until(Cycle at) override;
   void irq_install(int vector, void (*handler)(), int priority, Cycle entry_cycles) override;
@@ -150,18 +160,29 @@ class Robot final : public Context {
   const Processor& processor() const { return *processor_; }
   /// Interrupt state changed: look for something to deliver as soon as the current block ends.
   void changed();
+  /// At `now` the program did something after which an interrupt may be served from `at` on, and not before
+  /// unless that was known already; 0: not known.
+  void calm_until(Cycle at, Cycle now) {
+    if (now >= calm_until_) at = 0;
+    if (at < calm_until_ || at == 0) lower_calm(at);
+  }
   /// Tick boundary, before run_until().
   void begin_window(Cycle now) {
-    if (!stopped_ && processor_->begin_window(now)) wake();
+    if (stopped_ || !processor_->begin_window(now)) return;
+    calm_until_ = 0;
+    wake();
   }
   std::uint16_t read_register(unsigned address, unsigned bits) {
-    return processor_->read(address, bits, now());
+    if (!has_plain_clock_) return read_and_tell(address, bits);
+    return processor_->read(address, bits, now_ + issued_ - control_.budget);
   }
   void write_register(unsigned address, std::uint16_t value, unsigned bits) {
-    processor_->write(address, value, bits, now());
+    if (!has_plain_clock_) return write_and_tell(address, value, bits);
+    processor_->write(address, value, bits, now_ + issued_ - control_.budget);
   }
   void clear_watchdog() {
     processor_->clear_watchdog(now());
+    calm_until_ = 0;
     note_write();
   }
 
@@ -175,20 +196,47 @@ class Robot final : public Context {
   /// Runs on the recovery stack after a hardware fault; never returns.
   [[noreturn]] void fault(int kind, std::string message, std::uintptr_t pc, std::uintptr_t frame);
 
-  static Robot* running();  ///< on this thread; null outside firmware
+  /// On this thread; null outside firmware.
+  static Robot* running() { return detail::running_robot; }
 
  private:
+  static constexpr unsigned kQ = 32;  // of stolen_q32_
+  static constexpr std::uint64_t kOne = std::uint64_t{1} << kQ;
+
   static void enter_firmware(void* self);
   void restart_program();
   char* place_of(std::uintptr_t address) const;  // where this robot's value of a variable is now
   void swap_in();
-  void fold();                         // spent budget -> now_
-  void advance_main(Cycle main);       // main-program cycles -> real cycles
+  void fold() {  // spent budget -> now_
+    advance_main(issued_ - control_.budget);
+    issued_ = 0;
+    control_.budget = 0;
+  }
+  void advance_main(Cycle main)  // main-program cycles -> real cycles
+  {
+    if (stolen_q32_ == 0) {
+      now_ += main;
+      return;
+    }
+    const unsigned __int128 stolen = static_cast<unsigned __int128>(main) * stolen_q32_ + fraction_;
+    now_ += main + static_cast<Cycle>(stolen >> kQ);
+    fraction_ = static_cast<std::uint64_t>(stolen) & (kOne - 1);
+  }
+  // while cycles are stolen or somebody observes
+  Cycle now_and_tell();
+  std::uint16_t read_and_tell(unsigned address, unsigned bits);
+  void write_and_tell(unsigned address, std::uint16_t value, unsigned bits);
   Cycle main_until(Cycle real) const;  // most main cycles that end at or before now_ + real
   void give_budget();
   NativeProcessor& native();
+  int look();                // the vector to serve now; kNoVector: calm_until_ is known afterwards
   Cycle next_disturbance();  // when an interrupt or the end of DISI may change the program's course
-  void deliver();            // due interrupts, in order
+  void lower_calm(Cycle at);
+  // due interrupts, in order
+  void deliver() {
+    if (now_ >= calm_until_) deliver_now();
+  }
+  void deliver_now();
   void serve(int vector);
   void idle_to(Cycle at);     // jumps over a wait
   void pass_window();         // now_ >= end_: let the others run
@@ -196,7 +244,11 @@ class Robot final : public Context {
   void sleep_until(Cycle target,
                    Cycle round);  // a wait that polls every `round` cycles; ends early when disturbed
   void doze(Cycle until);  // yields; the scheduler comes back at `until` or when something woke the robot
-  void check_blocked();    // endless loop with interrupts off
+  // endless loop with interrupts off; after deliver()
+  void check_blocked() {
+    if (may_wait_ && handler_depth_ == 0) stop_if_blocked();
+  }
+  void stop_if_blocked();
   [[noreturn]] void stop_with(TrapReport report);
   std::vector<Place> walk(std::uintptr_t pc, std::uintptr_t frame) const;
   TrapReport report_here(int kind, std::string_view message);
@@ -204,6 +256,7 @@ class Robot final : public Context {
   RobotSettings settings_;
   std::shared_ptr<Image> image_;
   ImageCopy& copy_;
+  tp_control& control_;  // of copy_
   board::Board& board_;
   Fiber fiber_;
   std::unique_ptr<Processor> processor_;
@@ -214,6 +267,7 @@ class Robot final : public Context {
   Cycle issued_ = 0;              // budget given at that moment
   std::uint64_t fraction_ = 0;    // of a cycle, Q32, left over from stretching
   std::uint64_t stolen_q32_ = 0;  // cycles background handlers take per main cycle, Q32
+  bool has_plain_clock_ = true;   // nothing is stolen, and nobody observes
   struct Background {
     Cycle period = 0, cost = 0;
   };
@@ -229,6 +283,10 @@ class Robot final : public Context {
   Cycle asleep_until_ = -1;  // the firmware sleeps up to this cycle; -1 awake
   Cycle idle_ = 0;
 
+  // nothing can be served or found blocked before; <= now_: unknown. The program is interrupted at the end of
+  // the first block beyond it, so it is exact, not merely early enough
+  Cycle calm_until_ = 0;
+  bool may_wait_ = false;  // a flag may be held off; as calm_until_
   int handler_depth_ = 0;
   std::int64_t served_ = 0;  // interrupts so far
 

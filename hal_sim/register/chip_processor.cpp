@@ -8,6 +8,7 @@
 #include "hal_sim/host/host_params.h"
 #include "hal_sim/host/image_abi.h"
 #include "hal_sim/host/observer.h"
+#include "hal_sim/host/oscillator.h"
 #include "hal_sim/register/register_params.h"
 
 namespace register_way {
@@ -18,7 +19,7 @@ constexpr unsigned kU1Mode = 0x20C, kU1Sta = 0x20E, kU1TxReg = 0x210, kIfs0 = 0x
 constexpr std::uint16_t kUartEnabled = 0x8000, kTransmitEnabled = 0x0400, kBufferFull = 0x0200;
 
 /// Reading it moves a FIFO or lowers a flag, so a loop that does has changed something.
-bool has_side_effect(unsigned address) {
+constexpr bool has_side_effect(unsigned address) {
   switch (address & ~1u) {
     case 0x200:  // I2CRCV
     case 0x212:  // U1RXREG
@@ -30,6 +31,7 @@ bool has_side_effect(unsigned address) {
       return address >= 0x140 && address < 0x160;  // input capture buffers
   }
 }
+constexpr unsigned kFirstWithSideEffect = 0x140, kLastWithSideEffect = 0x22B;
 
 const char* reason_of(dspic::ResetKind kind) {
   switch (kind) {
@@ -42,17 +44,68 @@ const char* reason_of(dspic::ResetKind kind) {
   }
 }
 
+/// What to do about it; empty where the message says so.
+const char* hint_for(dspic::Cause cause) {
+  using dspic::Cause;
+  switch (cause) {
+    case Cause::UnmodelledBit:
+      return "the robot may do something here that the twin does not; see docs/limits.md";
+    case Cause::UnimplementedAddress:
+      return "is the header the dsPIC30F6014A's?";
+    case Cause::UninitialisedRead:
+      return "write it first";
+    case Cause::UartOverrun:
+      return "read UxRXREG in the receive interrupt until URXDA is 0, and clear UxSTA.OERR";
+    case Cause::UartFrameError:
+      return "compare baud rate, parity and stop bits of both ends";
+    case Cause::BaudError:
+      return "UxBRG = FCY / (16 baud) - 1 with FCY = 14745600 Hz: 7 for 115200, 95 for 9600";
+    case Cause::MissedInterrupt:
+      return "make the handler shorter, raise its priority, or allow nesting (INTCON1.NSTDIS = 0)";
+    case Cause::FlagNeverCleared:
+      return "clear the flag in the handler";
+    case Cause::InputDriven:
+      return "clear the TRIS bit, or call e_init_port() first";
+    case Cause::AnalogueDigital:
+      return "clear the channel's ADPCFG bit and set its TRIS bit";
+    case Cause::DigitalAnalogue:
+      return "set the ADPCFG bit";
+    case Cause::ChangedWhileOn:
+      return "clear ADCON1.ADON first";
+    case Cause::NotUnlocked:
+      return "write the unlock sequence directly before, with interrupts off";
+    case Cause::I2cMisuse:
+      return "wait until SEN, RSEN, PEN, RCEN, ACKEN and I2CSTAT.TRSTAT are 0";
+    case Cause::CodecRate:
+      return "choose the divider N1 and multiplier M1 in the codec's registers 3 and 4 for the rate of the "
+             "DCI's frames";
+    case Cause::WatchdogReset:
+      return "call ClrWdt() in the main loop, or leave RCON.SWDTEN 0";
+    case Cause::TrapConflict:
+      return "";
+  }
+  return "";
+}
+
 }  // namespace
 
 bool wants_chip(const char* image_flags) { return image_flags && std::strstr(image_flags, "register"); }
 
 ChipProcessor::ChipProcessor(host::Robot& robot) : robot_(robot), outside_(robot.board()) {}
 
-// --- life -------------------------------------------------------------------------------------------------
+// --- life
+// -------------------------------------------------------------------------------------------------
 
 void ChipProcessor::power_up() {
   latest_ = 0;
-  chip_ = std::make_unique<dspic::Dspic30f6014a>(outside_, this);
+  dspic::Configuration configuration;
+  const tp_image& image = robot_.image();
+  if (image.fosc) {
+    configuration.fosc = *static_cast<const std::uint16_t*>(image.fosc);
+    configuration.fcy_hz *= host::clock_factor(configuration.fosc);
+  }
+  if (image.fwdt) configuration.fwdt = *static_cast<const std::uint16_t*>(image.fwdt);
+  chip_ = std::make_unique<dspic::Dspic30f6014a>(outside_, this, configuration);
   outside_.fill_eeprom(*chip_);
   observe(observer_);
   next_reset_ = dspic::ResetKind::PowerOn;
@@ -83,16 +136,39 @@ void ChipProcessor::end_window(Cycle now) {
 
 void ChipProcessor::remote_changed(Cycle now) { chip_->outside_changed(at(now)); }
 
-void ChipProcessor::report(const dspic::Diagnosis& d) {
-  char when[48];
-  std::snprintf(when, sizeof when, " (%.6f s)", static_cast<double>(d.cycle) / host::kFcyHz);
-  notices_.push_back(std::string(dspic::cause_name(d.cause)) + ": " + d.message + when);
+void ChipProcessor::report(const dspic::Diagnosis& d) { diagnoses_.push_back(d); }
+
+std::vector<board::Diagnosis> ChipProcessor::diagnoses() const {
+  std::vector<board::Diagnosis> all;
+  for (const dspic::Diagnosis& d : diagnoses_) {
+    board::Diagnosis one{dspic::cause_name(d.cause), d.place, d.message, hint_for(d.cause), d.cycle};
+    one.count = count_of(d);
+    all.push_back(std::move(one));
+  }
+  return all;
 }
 
-// --- registers --------------------------------------------------------------------------------------------
+// some causes are counted elsewhere, each time; the report comes once
+std::int64_t ChipProcessor::count_of(const dspic::Diagnosis& d) const {
+  if (d.cause == dspic::Cause::MissedInterrupt)
+    for (int v = dspic::kFirstIrqVector; v < dspic::kVectors; ++v)
+      if (d.place == dspic::vector_name(v)) return chip_->missed_interrupts(v);
+  if (d.cause == dspic::Cause::UartOverrun) return chip_->uart_overruns(d.place[1] - '0');
+  return chip_->diagnostics().count(d.cause, d.place);
+}
+
+// --- registers
+// --------------------------------------------------------------------------------------------
 
 std::uint16_t ChipProcessor::read(unsigned address, unsigned bits, Cycle now) {
   const Cycle t = at(now);
+  const bool may_change_it = address >= kFirstWithSideEffect && address <= kLastWithSideEffect;
+  if (may_change_it || watched_reads_ > 0) return read_closely(address, bits, t);
+  robot_.lower_horizon(t);
+  return chip_->read(address, bits, t);
+}
+
+std::uint16_t ChipProcessor::read_closely(unsigned address, unsigned bits, Cycle t) {
   const std::uint16_t value = chip_->read(address, bits, t);
   if (has_side_effect(address)) {
     robot_.note_write();
@@ -108,9 +184,9 @@ std::uint16_t ChipProcessor::read(unsigned address, unsigned bits, Cycle now) {
 }
 
 void ChipProcessor::write(unsigned address, std::uint16_t value, unsigned bits, Cycle now) {
-  chip_->write(address, value, bits, at(now));
+  const Cycle calm = chip_->write(address, value, bits, at(now));
   robot_.note_write();
-  robot_.changed();
+  robot_.calm_until(calm, latest_);
   const Cycle stalled = chip_->stalled_until();
   if (stalled > latest_) robot_.spend(stalled - latest_);
 }
@@ -141,24 +217,22 @@ bool ChipProcessor::print(const char* bytes, std::int64_t length) {
   return true;
 }
 
-// --- interrupts -------------------------------------------------------------------------------------------
+// --- interrupts
+// -------------------------------------------------------------------------------------------
 
-int ChipProcessor::select(Cycle now) {
-  const Cycle t = at(now);
-  const int vector = chip_->pending(t);
-  if (const auto reset = chip_->reset_due(t)) {
-    next_reset_ = *reset;
-    why_reset_ = reason_of(*reset);
-    return host::kResetDue;
+host::Processor::Outlook ChipProcessor::look(Cycle now) {
+  const dspic::Outlook chip = chip_->look(at(now));
+  Outlook outlook{host::kNoVector, chip.level > 0 || chip.disi, chip.quiet_until};
+  if (chip.reset_due) {
+    next_reset_ = *chip_->reset_due(latest_);
+    why_reset_ = reason_of(next_reset_);
+    outlook.vector = host::kResetDue;
+  } else if (chip.vector >= dspic::kFirstIrqVector) {
+    outlook.vector = chip.vector - dspic::kFirstIrqVector;
+  } else if (chip.vector != dspic::kNoVector) {
+    outlook.vector = host::kTrapVector + chip.vector - 1;
   }
-  if (vector >= dspic::kFirstIrqVector) return vector - dspic::kFirstIrqVector;
-  return vector == dspic::kNoVector ? host::kNoVector : host::kTrapVector + vector - 1;
-}
-
-Cycle ChipProcessor::quiet_until(Cycle now) {
-  const Cycle t = at(now);
-  if (chip_->pending(t) != dspic::kNoVector) return now;
-  return chip_->next_event(t);
+  return outlook;
 }
 
 host::Processor::Entry ChipProcessor::enter(int vector, Cycle now) {
@@ -166,10 +240,14 @@ host::Processor::Entry ChipProcessor::enter(int vector, Cycle now) {
       vector >= host::kTrapVector ? vector - host::kTrapVector + 1 : vector + dspic::kFirstIrqVector;
   const dspic::InterruptEntry entry = chip_->enter_interrupt(number, at(now));
   watched_reads_ = 0;  // whatever waits looks again afterwards
-  return {nullptr, entry.first_instruction + kSavingCycles};
+  const Cycle first = entry.first_instruction + kSavingCycles;
+  return {nullptr, first, chip_->calm_until(first, number)};
 }
 
-Cycle ChipProcessor::leave(Cycle now) { return chip_->return_from_interrupt(at(now)); }
+host::Processor::Return ChipProcessor::leave(Cycle now) {
+  const Cycle next = chip_->return_from_interrupt(at(now));
+  return {next, chip_->calm_until(next)};
+}
 
 host::Processor::Waiting ChipProcessor::longest_waiting(Cycle now) {
   const Cycle t = at(now);
@@ -187,7 +265,8 @@ host::Processor::Waiting ChipProcessor::longest_waiting(Cycle now) {
 
 bool ChipProcessor::wakes(Cycle now) { return chip_->wakes(at(now)); }
 
-// --- observers --------------------------------------------------------------------------------------------
+// --- observers
+// --------------------------------------------------------------------------------------------
 
 // at the observer's own instants, which may lie before the latest of the program
 bool ChipProcessor::flag(int vector, Cycle at) {

@@ -7,8 +7,8 @@
 //
 // Time is the Robot's: estimated costs of blocks, plus what the chip adds (interrupt entry and RETFIE). A
 // loop that polls registers is jumped over to the chip's horizon of what it has read.
-// Modelled: everything dspic30/ models. Not modelled: configuration words of the program (always the
-// e-puck's), Sleep's stopped clocks, wait states; see docs/limits.md, "The register way".
+// Modelled: everything dspic30/ models, the program's configuration words FOSC and FWDT. Not modelled: the
+// other words, Sleep's stopped clocks, wait states; see docs/limits.md, "The register way".
 #pragma once
 #include <memory>
 #include <string>
@@ -48,11 +48,10 @@ class ChipProcessor final : public host::Processor, public dspic::DiagnosticSink
   void watch_reads(Cycle now) override { watched_reads_ = kWatchedReads; }
   bool print(const char* bytes, std::int64_t length) override;
 
-  int select(Cycle now) override;
+  Outlook look(Cycle now) override;
   const char* why_reset() const override { return why_reset_; }
-  Cycle quiet_until(Cycle now) override;
   Entry enter(int vector, Cycle now) override;
-  Cycle leave(Cycle now) override;
+  Return leave(Cycle now) override;
   int cpu_level() const override { return chip_->cpu_level(); }
   void set_cpu_level(int level, Cycle now) override { chip_->set_cpu_level(level, at(now)); }
   Waiting longest_waiting(Cycle now) override;
@@ -69,12 +68,15 @@ class ChipProcessor final : public host::Processor, public dspic::DiagnosticSink
 
   std::uint64_t state_hash(Cycle now) override { return chip_->state_hash(at(now)); }
   dspic::Dspic30f6014a* chip() override { return chip_.get(); }
-  const std::vector<std::string>& notices() const override { return notices_; }
+  std::vector<board::Diagnosis> diagnoses() const override;
   void report(const dspic::Diagnosis& diagnosis) override;
 
  private:
+  std::int64_t count_of(const dspic::Diagnosis& diagnosis) const;
   void about_to_change(Cycle at) override;
 
+  /// read() of a register that a read changes, or within a loop that waits.
+  std::uint16_t read_closely(unsigned address, unsigned bits, Cycle t);
   /// Rounds of a waiting loop with more reads than this are not jumped over.
   static constexpr int kWatchedReads = 64;
 
@@ -92,7 +94,7 @@ class ChipProcessor final : public host::Processor, public dspic::DiagnosticSink
   Cycle latest_ = 0;
   host::Observer* observer_ = nullptr;
   int watched_reads_ = 0;
-  std::vector<std::string> notices_;
+  std::vector<dspic::Diagnosis> diagnoses_;
 };
 
 }  // namespace register_way

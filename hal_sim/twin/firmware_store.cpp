@@ -98,6 +98,8 @@ std::string provide_image(const std::string& name, const std::string& from_folde
   const cc::BuildResult result = cc::build_image(build);
   if (options.tell && (result.compiled > 0 || !result.ok))
     for (const auto& w : result.warnings) options.tell(w);
+  if (options.tell)
+    for (const auto& c : result.conflicts) options.tell(c);
   if (!result.ok) {
     problems.insert(problems.end(), result.errors.begin(), result.errors.end());
     return "";

@@ -2,13 +2,12 @@
 // Everything is drawn in pixels; each panel maps its own quantities to its own rectangle.
 #include "sim_core/record/sensor_picture.h"
 
-#include <cairo-svg.h>
-#include <cairo.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "sim_core/record/canvas.h"
 #include "sim_core/world/scene.h"
 
 namespace sim {
@@ -18,45 +17,11 @@ constexpr double kLineColours[6][3] = {{.122, .467, .706}, {.839, .153, .157}, {
                                        {.580, .404, .741}, {1.0, .498, .055},  {.35, .35, .35}};
 constexpr double kSeen[3] = {0.85, 0.1, 0.1}, kLonger[3] = {1.0, 0.55, 0.0}, kFree[3] = {0.1, 0.6, 0.2};
 
-bool ends_with(const std::string& s, const std::string& end) {
-  return s.size() > end.size() && s.compare(s.size() - end.size(), end.size(), end) == 0;
-}
-
-/// Opens a surface, lets `draw` paint on white, writes the file.
-template <typename Draw>
-std::string write(const std::string& path, int width, int height, Draw draw) {
-  const bool svg = ends_with(path, ".svg");
-  if (!svg && !ends_with(path, ".png"))
+std::string write(const std::string& path, int width_px, int height_px,
+                  const std::function<void(cairo_t*)>& draw) {
+  if (!ends_with(path, ".svg") && !ends_with(path, ".png"))
     return fmt::format("{}: picture: got this extension, expected .png or .svg", path);
-  cairo_surface_t* surface = svg ? cairo_svg_surface_create(path.c_str(), width, height)
-                                 : cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);
-  cairo_t* cr = cairo_create(surface);
-  cairo_set_source_rgb(cr, 1, 1, 1);
-  cairo_paint(cr);
-  draw(cr);
-  cairo_status_t status = cairo_status(cr);
-  cairo_destroy(cr);
-  if (status == CAIRO_STATUS_SUCCESS && !svg) status = cairo_surface_write_to_png(surface, path.c_str());
-  cairo_surface_finish(surface);
-  if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_status(surface);
-  cairo_surface_destroy(surface);
-  if (status == CAIRO_STATUS_SUCCESS) return {};
-  return fmt::format("{}: cannot be written: {}", path, cairo_status_to_string(status));
-}
-
-void text(cairo_t* cr, const std::string& s, double x, double y, double size, bool bold = false) {
-  cairo_select_font_face(cr, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
-                         bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
-  cairo_set_font_size(cr, size);
-  cairo_move_to(cr, x, y);
-  cairo_show_text(cr, s.c_str());
-}
-
-double text_width(cairo_t* cr, const std::string& s, double size) {
-  cairo_set_font_size(cr, size);
-  cairo_text_extents_t extents;
-  cairo_text_extents(cr, s.c_str(), &extents);
-  return extents.x_advance;
+  return write_drawing(path, width_px, height_px, draw);
 }
 
 /// 1, 2 or 5 times a power of ten, so that at most about `most` of them fit into `span`.
@@ -84,18 +49,18 @@ struct Panel {
          v += step_x) {
       rule(cr, px(v / unit_across), y, px(v / unit_across), y + height);
       const std::string label = fmt::format("{:g}", std::fabs(v) < 1e-9 ? 0 : v);
-      text(cr, label, px(v / unit_across) - text_width(cr, label, 12) / 2, y + height + 16, 12);
+      draw_text(cr, label, px(v / unit_across) - text_width_px(cr, label, 12) / 2, y + height + 16, 12);
     }
     const double step_y = round_step((top - bottom) * unit_up, ticks_up);
     for (double v = std::ceil(bottom * unit_up / step_y - 1e-9) * step_y; v <= top * unit_up + 1e-9;
          v += step_y) {
       rule(cr, x, py(v / unit_up), x + width, py(v / unit_up));
       const std::string label = fmt::format("{:g}", std::fabs(v) < 1e-9 ? 0 : v);
-      text(cr, label, x - 6 - text_width(cr, label, 12), py(v / unit_up) + 4, 12);
+      draw_text(cr, label, x - 6 - text_width_px(cr, label, 12), py(v / unit_up) + 4, 12);
     }
     cairo_set_source_rgb(cr, 0.1, 0.1, 0.1);
-    text(cr, across, x + width - text_width(cr, across, 13), y + height + 34, 13);
-    text(cr, up, x - 6, y - 8, 13);
+    draw_text(cr, across, x + width - text_width_px(cr, across, 13), y + height + 34, 13);
+    draw_text(cr, up, x - 6, y - 8, 13);
     cairo_rectangle(cr, x, y, width, height);
     cairo_stroke(cr);
   }
@@ -269,8 +234,8 @@ class Plan {
       if (reading_.rays.size() > 12) continue;
       const double beyond = range + 0.004;
       cairo_set_source_rgb(cr_, 0.1, 0.1, 0.1);
-      text(cr_, fmt::format("{}", i), box_.px(reading_.at_m.x + beyond * r.dir.x) - 4,
-           box_.py(reading_.at_m.y + beyond * r.dir.y) + 4, 12, true);
+      draw_text(cr_, fmt::format("{}", i), box_.px(reading_.at_m.x + beyond * r.dir.x) - 4,
+                box_.py(reading_.at_m.y + beyond * r.dir.y) + 4, 12, true);
     }
   }
 
@@ -281,7 +246,7 @@ class Plan {
     cairo_move_to(cr_, x, y);
     cairo_line_to(cr_, x + 0.01 * px_per_m_, y);
     cairo_stroke(cr_);
-    text(cr_, "10 mm", x, y - 7, 12);
+    draw_text(cr_, "10 mm", x, y - 7, 12);
   }
 
   cairo_t* cr_;
@@ -350,13 +315,13 @@ void legend(cairo_t* cr, double x, double y, const double (&colour)[3], const st
   cairo_line_to(cr, x + 22, y - 4);
   cairo_stroke(cr);
   cairo_set_source_rgb(cr, 0.1, 0.1, 0.1);
-  text(cr, words, x + 28, y, 13);
+  draw_text(cr, words, x + 28, y, 13);
 }
 
 void headline(cairo_t* cr, const std::string& title, const std::string& caption) {
   cairo_set_source_rgb(cr, 0.1, 0.1, 0.1);
-  text(cr, title, 24, 28, 18, true);
-  text(cr, caption, 24, 50, 13);
+  draw_text(cr, title, 24, 28, 18, true);
+  draw_text(cr, caption, 24, 50, 13);
 }
 
 }  // namespace
@@ -373,7 +338,7 @@ std::string write_curve_plot(const std::string& path, const std::vector<CurveLin
     for (std::size_t i = 0; i < lines.size(); ++i, y += 22)
       legend(cr, panel.x + panel.width - 275, y, kLineColours[i % 6], lines[i].name);
     cairo_set_source_rgb(cr, 0.3, 0.3, 0.3);
-    text(cr, options.band, panel.x + panel.width - 275, y, 12);
+    draw_text(cr, options.band, panel.x + panel.width - 275, y, 12);
   });
 }
 
@@ -405,10 +370,10 @@ std::string write_sensor_picture(const std::string& path, const Scene& scene, in
     cairo_stroke(cr);
     cairo_arc(cr, px, py, 5, 0, 2 * kPi);
     cairo_fill(cr);
-    text(cr,
-         fmt::format("{:.4g} counts at {:.4g} mm", reading.response.value,
-                     1000 * reading.response.apparent_distance_m),
-         std::min(px + 10, panel.x + panel.width - 170), py - 8, 13);
+    draw_text(cr,
+              fmt::format("{:.4g} counts at {:.4g} mm", reading.response.value,
+                          1000 * reading.response.apparent_distance_m),
+              std::min(px + 10, panel.x + panel.width - 170), py - 8, 13);
   });
 }
 

@@ -23,10 +23,9 @@
 #include "sim_core/base/clock.h"
 #include "sim_core/geometry/pose.h"
 #include "sim_core/sound/sound_source.h"
+#include "sim_core/world/scene.h"
 
 namespace sim {
-
-class Scene;
 
 /// What a loudspeaker plays: samples at even distances of time, linear in between, silence before and after.
 struct SpeakerTrack {
@@ -51,6 +50,8 @@ class SoundField {
   /// True when nothing can be heard anywhere.
   bool is_silent() const { return sources_.empty() && voices_.empty(); }
   const std::vector<SoundSource>& sources() const { return sources_; }
+  /// From one publication to the next.
+  Clicks tick() const { return tick_; }
 
   /// Pressure at a place of the world at an instant, Pa.
   double pressure_pa(const Vec3& place_m, double at_s) const;
@@ -90,6 +91,6 @@ class SoundField {
 double sense_sound_pa(const Scene& scene, int robot, const Vec3& point_m, Clicks at);
 
 /// False when sense_sound_pa() is 0 everywhere.
-bool has_sound(const Scene& scene);
+inline bool has_sound(const Scene& scene) { return scene.sound() && !scene.sound()->is_silent(); }
 
 }  // namespace sim

@@ -3,10 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 namespace {
 
 using board::kPhaseCoils;
 using board::Stepper;
+
+constexpr board::Cycle kStep = board::kFcyHz / 100;  // 100 steps/s
 
 Stepper connected(int forward) {
   Stepper s(forward);
@@ -24,20 +28,22 @@ TEST(Stepper, coil_patterns_are_those_of_the_robot) {
 
 TEST(Stepper, right_wheel_goes_forward_with_growing_phase_and_left_with_falling) {
   Stepper right = connected(+1), left = connected(-1);
-  for (int phase : {0, 1, 2, 3, 0, 1}) right.energise(kPhaseCoils[phase], 0);
-  for (int phase : {0, 3, 2, 1, 0, 3}) left.energise(kPhaseCoils[phase], 0);
+  board::Cycle at = 0;
+  for (int phase : {0, 1, 2, 3, 0, 1}) right.energise(kPhaseCoils[phase], at += kStep);
+  for (int phase : {0, 3, 2, 1, 0, 3}) left.energise(kPhaseCoils[phase], at += kStep);
   EXPECT_EQ(right.steps(), 5);
   EXPECT_EQ(left.steps(), 5);
-  for (int phase : {0, 3}) right.energise(kPhaseCoils[phase], 0);
+  for (int phase : {0, 3}) right.energise(kPhaseCoils[phase], at += kStep);
   EXPECT_EQ(right.steps(), 3);
 }
 
 TEST(Stepper, two_phases_at_once_lose_the_step) {
   Stepper s = connected(+1);
-  s.energise(kPhaseCoils[2], 0);
+  s.energise(kPhaseCoils[2], kStep);
   EXPECT_EQ(s.steps(), 0);
   EXPECT_EQ(s.lost(), 1);
-  s.energise(kPhaseCoils[3], 0);  // the rotor is still at 0: one back
+  EXPECT_EQ(s.faults(kStep).jumps.first, kStep);
+  s.energise(kPhaseCoils[3], 2 * kStep);  // the rotor is still at 0: one back
   EXPECT_EQ(s.steps(), -1);
 }
 
@@ -66,7 +72,7 @@ TEST(Stepper, follows_pins_that_are_written_one_by_one) {
     const unsigned want = kPhaseCoils[n & 3];
     for (int bit = 0; bit < 4; ++bit) {
       pins = (pins & ~(1u << bit)) | (want & (1u << bit));
-      s.energise(pins, n * 1000 + bit);
+      s.energise(pins, n * kStep + bit);
     }
     EXPECT_EQ(s.steps(), n);
   }
@@ -74,16 +80,69 @@ TEST(Stepper, follows_pins_that_are_written_one_by_one) {
 
 TEST(Stepper, rotor_follows_within_the_time_it_has) {
   Stepper s = connected(+1);
-  s.energise(kPhaseCoils[1], 1000, 400);
-  EXPECT_DOUBLE_EQ(s.position(1000), 0.0);
-  EXPECT_DOUBLE_EQ(s.position(1100), 0.25);
-  EXPECT_DOUBLE_EQ(s.position(1400), 1.0);
-  EXPECT_DOUBLE_EQ(s.position(9999), 1.0);
+  s.energise(kPhaseCoils[1], 100000, 40000);
+  EXPECT_DOUBLE_EQ(s.position(100000), 0.0);
+  EXPECT_DOUBLE_EQ(s.position(110000), 0.25);
+  EXPECT_DOUBLE_EQ(s.position(140000), 1.0);
+  EXPECT_DOUBLE_EQ(s.position(199999), 1.0);
   // a next step before the first is complete starts where the rotor is
-  s.energise(kPhaseCoils[2], 2000, 400);
-  s.energise(kPhaseCoils[3], 2200, 400);
-  EXPECT_DOUBLE_EQ(s.position(2200), 1.5);
-  EXPECT_DOUBLE_EQ(s.position(2600), 3.0);
+  s.energise(kPhaseCoils[2], 200000, 40000);
+  s.energise(kPhaseCoils[3], 220000, 40000);
+  EXPECT_DOUBLE_EQ(s.position(220000), 1.5);
+  EXPECT_DOUBLE_EQ(s.position(260000), 3.0);
+}
+
+// --- what a motor does not do
+// -------------------------------------------------------------------------------
+
+std::int64_t steps_after_a_second_at(int steps_s) {
+  Stepper s = connected(+1);
+  for (int n = 1; n <= steps_s; ++n) s.energise(kPhaseCoils[n & 3], n * board::kFcyHz / steps_s);
+  EXPECT_EQ(s.lost() > 0, steps_s > 1100);
+  return s.steps();
+}
+
+TEST(Stepper, follows_1000_steps_a_second_and_not_2000) {
+  EXPECT_EQ(steps_after_a_second_at(1000), 1000);
+  EXPECT_LT(std::abs(steps_after_a_second_at(2000)), 1000);
+  EXPECT_LT(std::abs(steps_after_a_second_at(50000)), 10);
+}
+
+TEST(Stepper, one_early_step_is_caught_up) {
+  Stepper s = connected(+1);
+  s.energise(kPhaseCoils[1], kStep);
+  s.energise(kPhaseCoils[2], kStep + board::kPullOutCycles / 2);
+  s.energise(kPhaseCoils[3], kStep + 2 * board::kPullOutCycles);
+  EXPECT_EQ(s.steps(), 3);
+  EXPECT_EQ(s.lost(), 0);
+}
+
+// 1010 to 0101 pin by pin passes a neighbour's pattern for microseconds: that does not pull
+TEST(Stepper, patterns_that_only_pass_do_not_pull) {
+  Stepper s = connected(+1);
+  s.energise(0b1010, kStep);
+  s.energise(0b1011, 2 * kStep);
+  s.energise(0b1001, 2 * kStep + 2);
+  s.energise(0b1101, 2 * kStep + 4);
+  s.energise(0b0101, 2 * kStep + 6);
+  EXPECT_EQ(s.steps(), 0);
+  EXPECT_EQ(s.faults(2 * kStep + 6).jumps.count, 1);
+  EXPECT_EQ(s.faults(2 * kStep + 6).opposed.count, 0);
+}
+
+TEST(Stepper, coils_held_for_a_second_and_opposed_ends_are_counted) {
+  Stepper s = connected(+1);
+  s.energise(0b1010, kStep);
+  EXPECT_EQ(s.faults(kStep + board::kRestCycles - 1).held.count, 0);
+  EXPECT_EQ(s.faults(kStep + board::kRestCycles).held.count, 1);
+  EXPECT_EQ(s.faults(kStep + 5 * board::kRestCycles).held.first, kStep);
+  s.energise(0, kStep + 2 * board::kRestCycles);
+  s.energise(0b0011, 3 * board::kRestCycles);
+  s.energise(0, 4 * board::kRestCycles);
+  const board::StepperFaults faults = s.faults(9 * board::kRestCycles);
+  EXPECT_EQ(faults.held.count, 1);
+  EXPECT_EQ(faults.opposed.count, 1);
+  EXPECT_EQ(faults.opposed.first, 3 * board::kRestCycles);
 }
 
 }  // namespace

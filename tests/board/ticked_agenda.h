@@ -155,12 +155,7 @@ class Agendas {
       m.steps = static_cast<std::int16_t>(m.steps + (m.speed < 0 ? -1 : 1));
     }
     m.phase = (m.phase + turn + 4) % 4;
-    // time the rotor has: the period of this speed
-    Cycle ticks = magnitude > 0 ? 10000 / magnitude : 0;
-    if (magnitude >= 601) with(self, [&](Node& n) { ticks = n.cycle; });
-    Cycle move = ticks * kTick;
-    if (move == 0 || move > board::kRotorMoveCycles) move = board::kRotorMoveCycles;
-    m.stepper.energise(board::kPhaseCoils[m.phase], at, move);
+    m.stepper.energise(board::kPhaseCoils[m.phase], at);
     if (magnitude < 601) {
       m.phase_on = true;
       set_cycle(self, 10000 / 650);

@@ -86,18 +86,18 @@ struct Ticked {
   bool timer3 = false;
   int counter = 9999, reload = 9999;
 
-  void step(Cycle at, Cycle move) {
+  void step(Cycle at) {
     const int turn = is_left ? (speed > 0 ? -1 : 1) : (speed < 0 ? -1 : 1);
     steps += is_left ? -turn : turn;
     phase = (phase + turn + 4) % 4;
-    motor.energise(board::kPhaseCoils[phase], at, move);
+    motor.energise(board::kPhaseCoils[phase], at);
   }
   void run(Cycle until) {
     while (on && next <= until) {
       const Cycle at = next;
       next += period;
       if (!timer3) {
-        step(at, period);
+        step(at);
         continue;
       }
       if (speed != 0)
@@ -106,7 +106,7 @@ struct Ticked {
         motor.set_coils_only(0);
       if (counter <= 0) {
         counter = reload;
-        step(at, reload * 1536);
+        step(at);
       }
     }
   }

@@ -110,6 +110,26 @@ TEST(lint, finds_plain_flags_and_timer_conflicts) {
   EXPECT_NE(text_of(result).find("Timer 5: got two owners"), std::string::npos) << text_of(result);
 }
 
+TEST(build, two_owners_of_a_vector_are_named_at_each_start) {
+  Folder folder;
+  const std::string program =
+      "void e_init_ad_scan(unsigned char); void e_init_uart1(void);\n"
+      "void _U2RXInterrupt(void) {}\n"
+      "void __attribute__((interrupt, no_auto_psv)) _ADCInterrupt(void) {}\n"
+      "int main(void) { e_init_ad_scan(0); e_init_uart1(); return 0; }\n";
+  for (int start = 0; start < 2; ++start) {
+    const auto built = build(folder, program);
+    ASSERT_EQ(built.conflicts.size(), 1u) << text_of(built);
+    EXPECT_NE(built.conflicts[0].find("vector ADC: got two owners"), std::string::npos) << built.conflicts[0];
+    EXPECT_NE(built.conflicts[0].find("the ADC scan"), std::string::npos) << built.conflicts[0];
+    EXPECT_NE(built.conflicts[0].find("_ADCInterrupt"), std::string::npos) << built.conflicts[0];
+  }
+  EXPECT_TRUE(build(folder,
+                    "void e_init_ad_scan(unsigned char);\n"
+                    "int main(void) { e_init_ad_scan(0); return 0; }")
+                  .conflicts.empty());
+}
+
 TEST(costs, callees_are_included_and_loops_bounded_when_known) {
   Folder folder;
   auto built = build(

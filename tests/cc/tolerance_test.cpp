@@ -12,6 +12,11 @@ void compiles(const std::string& text) {
   auto built = build(folder, text);
   EXPECT_TRUE(built.ok) << text << "\n" << text_of(built);
 }
+void compiles_at(const std::string& level, const std::string& text) {
+  Folder folder;
+  auto built = build(folder, text, level);
+  EXPECT_TRUE(built.ok) << level << "\n" << text << "\n" << text_of(built);
+}
 }  // namespace
 
 TEST(tolerance, every_spelling_of_an_interrupt_handler) {
@@ -33,6 +38,21 @@ TEST(tolerance, every_spelling_of_an_interrupt_handler) {
       "_ISR _T2Interrupt(void) {} void _ISRFAST _T3Interrupt(void) {}\n"
       "void __attribute__((interrupt,\n auto_psv))\n_T4Interrupt(void) {} int interrupt = 3; int main(void) "
       "{ return interrupt; }");
+}
+
+// the optimiser makes one access of several by choosing between the registers' addresses
+TEST(tolerance, registers_chosen_by_a_switch_or_a_condition) {
+  for (const char* level : {"-O0", "-O1", "-O2", "-Os"})
+    compiles_at(
+        level,
+        "#include \"p30F6014A.h\"\n"
+        "unsigned int port(int n) { switch (n) { case 0: return PORTA; case 1: return PORTC; case 2: "
+        "return PORTF; default: return PORTG; } }\n"
+        "void put(int n, unsigned int v) { switch (n) { case 0: LATA = v; break; case 1: LATC = v; break; "
+        "default: LATG = v; } }\n"
+        "int key(int n) { return n ? PORTFbits.RF6 : PORTGbits.RG6; }\n"
+        "int wait(int n) { while (!(n ? _T1IF : _T2IF)); return n ? TMR1 : TMR2; }\n"
+        "int main(void) { put(port(1), port(2)); return key(3) + wait(1); }");
 }
 
 TEST(tolerance, data_attributes) {
@@ -119,4 +139,12 @@ TEST(tolerance, predefined_macros_are_the_chips) {
       "fractcomplex c;\n"
       "int main(void) { uint32_t a = UINT32_MAX; bool b = true; __delay32(100); __delay_ms(2); "
       "__delay_us(50); return t[0] + c.real + b + (int)a; }");
+}
+
+// called before its definition, and its parameter is narrower than an int
+TEST(tolerance, functions_used_before_their_definition_may_take_shorts) {
+  compiles(
+      "int main(void) { put(3); mix(1, 'a', 2.5); return 0; }\n"
+      "void put(unsigned short value) { volatile unsigned short v = value; }\n"
+      "void mix(int n, char c, float x) { volatile float y = n + c + x; }\n");
 }

@@ -95,6 +95,24 @@ TEST_F(Command, a_trap_ends_with_exit_code_3_and_says_where) {
   EXPECT_EQ(trap["line"], 3);
 }
 
+TEST_F(Command, strict_makes_diagnoses_an_error) {
+  write("floating/main.c",
+        "#include <motor_led/e_epuck_ports.h>\n"
+        "int main(void) { long i; while (1) { LATAbits.LATA6 ^= 1; for (i = 0; i < 1000; i++); } }\n");
+  const std::string run = "run maze --for 0.1 --fw '*=" + path("floating") + "' ";
+  const Said relaxed = twinpuck(run + "--summary " + path("s.json"));
+  EXPECT_EQ(relaxed.exit_code, 0) << relaxed.text;
+  EXPECT_NE(relaxed.text.find("s: TRISA6: input driven: LATA6"), std::string::npos) << relaxed.text;
+  EXPECT_NE(relaxed.text.find("e_init_port()"), std::string::npos) << relaxed.text;
+  const std::string json = read(path("s.json"));
+  EXPECT_NE(json.find("\"cause\": \"input driven\""), std::string::npos) << json;
+  EXPECT_NE(json.find("\"place\": \"TRISA6\""), std::string::npos) << json;
+  const Said strict = twinpuck(run + "--strict -q");
+  EXPECT_EQ(strict.exit_code, 1) << strict.text;
+  EXPECT_NE(strict.text.find("input driven"), std::string::npos) << strict.text;
+  EXPECT_EQ(twinpuck("run maze --for 0.1 --strict -q").exit_code, 0);
+}
+
 TEST_F(Command, a_real_time_run_is_paced) {
   const Said s = twinpuck("run maze --for 1 --speed 1 --summary " + path("s.json"));
   ASSERT_EQ(s.exit_code, 0) << s.text;

@@ -89,31 +89,6 @@ TEST(Bus, names_and_addresses) {
   EXPECT_EQ(dspic::sfr_bit_name(*dspic::sfr_info(0x104), 5), "T1CON.TCKPS");
 }
 
-TEST(Bus, two_authors_of_one_timer_are_named) {
-  Bench b;
-  b.chip.set_author("e_motors.c");
-  b.write("PR4", 100, 1);
-  b.write("T4CON", 0x8000, 2);
-  b.write("LATD", 1, 3);
-  b.chip.set_author("e_po3030k.c");
-  b.write("LATD", 2, 4);  // pins are shared on purpose
-  b.write("TMR4", 0, 5);
-  EXPECT_EQ(b.notes.count(Cause::TwoAuthors), 0);
-  b.write("T4CON", 0x0002, 6);
-  ASSERT_EQ(b.notes.count(Cause::TwoAuthors), 1);
-  EXPECT_EQ(b.notes.all[0].place, "T4");
-  EXPECT_NE(b.notes.all[0].message.find("e_motors.c"), std::string::npos);
-  EXPECT_NE(b.notes.all[0].message.find("e_po3030k.c"), std::string::npos);
-  b.chip.set_author("e_motors.c");
-  b.enable(dspic::irq::T4, 7);
-  b.chip.set_author("main.c");
-  b.clear("IEC1", 0x20, 8);  // switching off is everybody's right
-  EXPECT_EQ(b.notes.count(Cause::TwoAuthors), 1);
-  b.enable(dspic::irq::T4, 9);
-  EXPECT_EQ(b.notes.count(Cause::TwoAuthors), 2);
-  EXPECT_EQ(b.notes.all[1].place, "vector T4");
-}
-
 TEST(Bus, same_calls_give_the_same_state) {
   const auto run = [] {
     Bench b;

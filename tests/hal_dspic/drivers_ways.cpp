@@ -385,4 +385,75 @@ int main(void) {
   expect_no_traps();
 }
 
+// --- what has no test elsewhere that runs in both ways (tests/firmware/both_ways.txt) ----------------------
+
+// on a level floor x and y are in the middle of 12 bits, z 768 counts above it; AN5 to AN7
+TEST_P(Ways, basic_converter_reads_single_channels) {
+  Robot& robot = add_robot_with_source(R"(
+#include <motor_led/e_init_port.h>
+#include <a_d/e_ad_conv.h>
+int x, y, z;
+int main(void) {
+  e_init_port();
+  e_init_ad();
+  x = e_read_ad(5);
+  y = e_read_ad(6);
+  z = e_read_ad(7);
+  while (1);
+}
+)");
+  run_for(0.1);
+  EXPECT_NEAR(robot.variable("x"), 2048, 2);
+  EXPECT_NEAR(robot.variable("y"), 2048, 2);
+  EXPECT_NEAR(robot.variable("z"), 2048 + 768, 2);
+  expect_no_traps();
+}
+
+// the fast variant's agenda counts in 0.1 ms: 1000 is a change each tenth of a second, all LEDs at once
+TEST_P(Ways, fast_variants_leds_blink) {
+  Robot& robot = add_robot_with_source(R"(
+#include <motor_led/e_init_port.h>
+#include <motor_led/advance_one_timer/fast_agenda/e_agenda_fast.h>
+#include <motor_led/advance_one_timer/fast_agenda/e_led.h>
+int main(void) {
+  e_init_port();
+  e_start_agendas_processing();
+  e_set_body_led(1);
+  e_start_led_blinking(1000);
+  while (1);
+}
+)");
+  run_for(0.05);
+  int changes = 0;
+  for (bool last = robot.led(0); now_s() < 2.05;) {
+    run_for(0.01);
+    if (robot.led(0) != last) ++changes, last = robot.led(0);
+    EXPECT_EQ(robot.led(0), robot.led(5));
+  }
+  EXPECT_NEAR(changes, 20, 1);
+  EXPECT_TRUE(robot.led(8));
+  expect_no_traps();
+}
+
+// 1474560 cycles are 0.1 s; the port's initialisation takes 21 ms
+TEST_P(Ways, delays_last_their_cycles) {
+  Robot& robot = add_robot_with_source(R"(
+#include <motor_led/e_init_port.h>
+#include <motor_led/e_epuck_ports.h>
+#include <libpic30.h>
+int main(void) {
+  e_init_port();
+  LED0 = 1;
+  __delay32(1474560);
+  LED0 = 0;
+  while (1);
+}
+)");
+  ASSERT_TRUE(run_until([&] { return robot.led(0); }, 0.1));
+  const double lit_s = now_s();
+  ASSERT_TRUE(run_until([&] { return !robot.led(0); }, 0.2));
+  EXPECT_NEAR(now_s() - lit_s, 0.1, 0.003);  // looked at every 2 ms
+  expect_no_traps();
+}
+
 }  // namespace

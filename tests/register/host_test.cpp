@@ -115,8 +115,8 @@ void _ISR _T1Interrupt(void) { LATA ^= 0x40; }
 int main(void) { PR1 = 10000; T1CON = 0x8000; _T1IE = 1; while (1); }
 )"));
   run_for(0.05);
-  ASSERT_FALSE(processor().notices().empty());
-  EXPECT_NE(processor().notices()[0].find("T1IF"), std::string::npos) << processor().notices()[0];
+  EXPECT_NE(this->robot(0).diagnoses_text().find("T1IF"), std::string::npos)
+      << this->robot(0).diagnoses_text();
 }
 
 TEST_F(RegisterTest, the_watchdog_resets_a_program_that_forgets_it) {

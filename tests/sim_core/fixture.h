@@ -12,6 +12,7 @@
 #include "sim_core/light/proximity.h"
 #include "sim_core/load/world_loader.h"
 #include "sim_core/simulation.h"
+#include "tests/support/cruise.h"
 
 namespace sim_test {
 
@@ -33,22 +34,6 @@ inline sim::RobotModel one_eyed() {
   m.proximity = {{{0.037, 0, 0.025}, 0, 0}};
   return m;
 }
-
-/// Wheels turn at constant speeds.
-class Cruise : public sim::RobotMind {
- public:
-  Cruise(double left_rad_s, double right_rad_s) : left_(left_rad_s), right_(right_rad_s) {}
-  void run_until(const sim::Scene&, sim::Clicks) override {}
-  sim::WheelAngles wheel_angles(sim::Clicks at) override {
-    return {left_ * sim::to_seconds(at), right_ * sim::to_seconds(at)};
-  }
-  sim::MindReport report() const override { return {}; }
-  int proximity_counts(const sim::Scene&, int) override { return 0; }
-  std::uint64_t state_hash() const override { return 0; }
-
- private:
-  double left_, right_;
-};
 
 /// The peers' Braitenberg controller, every 64 ms: eight readings at four instants, two speeds.
 class Braitenberg : public sim::RobotMind {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Programs of supervisor.h: turns, time, chance, things, what a crash does, two copies of one program.
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
+#include "hal_sim/host/shared_object.h"
 #include "tests/support/firmware_test.h"
 
 namespace {
@@ -326,6 +328,28 @@ TEST_F(SupervisorTest, a_picture_at_a_chosen_moment) {
   EXPECT_GT(std::filesystem::file_size(file), 500u);
   ASSERT_EQ(team().labels().size(), 1u);
   EXPECT_EQ(team().labels()[0].text, "2 : 1");
+}
+
+// an inline variable keeps code in memory for good; the next program must not be taken for it
+TEST(SharedObjectTest, code_that_stays_does_not_stand_for_the_next_file) {
+  const auto folder = std::filesystem::path(TWINPUCK_BUILD_DIR) / "tests" / "inline";
+  std::filesystem::create_directories(folder);
+  for (const int number : {10, 20}) {
+    const auto source = folder / ("stays" + std::to_string(number) + ".cpp");
+    std::ofstream(source) << "struct S { static inline int n; }; int main() { S::n++; return " << number
+                          << "; }";
+    // a shared object that a user brings, compiled without what provide_program() adds
+    const std::string file = source.string() + ".so";
+    ASSERT_EQ(std::system(("g++ -shared -fPIC -o '" + file + "' '" + source.string() + "'").c_str()), 0);
+    std::string error;
+    const auto object = host::SharedObject::open(file, true, error);
+    ASSERT_TRUE(object) << error;
+    const auto number_of = reinterpret_cast<int (*)()>(object->symbol("main"));
+    ASSERT_TRUE(object->locate(reinterpret_cast<std::uintptr_t>(number_of)));
+    EXPECT_TRUE(object->is_code(reinterpret_cast<std::uintptr_t>(number_of)));
+    EXPECT_FALSE(object->is_code(object->base()));
+    EXPECT_EQ(number_of(), number);
+  }
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/support/firmware_test.h"
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
@@ -114,6 +115,8 @@ FirmwareTest::FirmwareTest() {
   world.part_kinds = board::part_kinds();
   world.title = "test";
   world.proximity.noise_scale = 0;
+  // the same tests in the other way: TWINPUCK_WAY=register
+  if (const char* way = std::getenv("TWINPUCK_WAY")) options.way = way;
 }
 FirmwareTest::~FirmwareTest() = default;
 
@@ -236,6 +239,18 @@ const supervisor::Outcome& FirmwareTest::finish() {
 
 double FirmwareTest::now_s() const { return twin_ ? sim::to_seconds(twin_->simulation().now()) : 0; }
 std::uint64_t FirmwareTest::digest() const { return twin_ ? twin_->simulation().digest() : 0; }
+
+std::string Robot::diagnoses_text() const {
+  std::string text;
+  for (const auto& d : diagnoses())
+    text += d.place + ": " + d.cause + ": " + d.message + "; " + d.hint + "\n";
+  return text;
+}
+
+void FirmwareTest::expect_no_diagnoses() const {
+  if (!twin_) return;
+  for (const auto& robot : robots_) EXPECT_EQ(robot->diagnoses_text(), "");
+}
 
 void FirmwareTest::expect_no_traps() const {
   if (!twin_) return;

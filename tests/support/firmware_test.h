@@ -95,6 +95,10 @@ class Robot {
   cc::FunctionCycles cost_of(const std::string& function) const;
 
   const std::vector<host::TrapReport>& traps() const { return mind().robot()->traps(); }
+  /// What board and chip have to say about the firmware so far (docs/diagnoses.md).
+  std::vector<board::Diagnosis> diagnoses() const { return mind().robot()->diagnoses(); }
+  /// The same, a line each: "place: cause: message; hint".
+  std::string diagnoses_text() const;
 
  private:
   friend class FirmwareTest;
@@ -148,6 +152,8 @@ class FirmwareTest : public ::testing::Test {
   double now_s() const;
   std::uint64_t digest() const;
   void expect_no_traps() const;
+  /// No diagnosis of any robot.
+  void expect_no_diagnoses() const;
   /// The world's supervisors; started on first use.
   supervisor::Team& team();
   /// The run is over: every supervisor has its last go. How they ended it.

@@ -15,9 +15,6 @@
 #include "hal_common/camera.h"
 
 #define COUNT_EDGES 0x0002 /* external clock, prescaler 1 */
-#define TAKE 1
-#define SKIP 0
-#define END_OF_LINE 2
 
 /* the driver's public variables; the line's interrupt works on them */
 char *_poxxxx_buffer;
@@ -91,11 +88,7 @@ void e_poxxxx_launch_capture(char *buf) {
 int e_poxxxx_is_img_ready(void) { return _poxxxx_img_ready; }
 
 int e_poxxxx_apply_timer_config(int pixel_row, int pixel_col, int bpp, int pbp, int bbl) {
-  int i, j, at = 0;
-  if ((unsigned int)(pixel_col * bpp * (1 + pbp) + 1) > LINE_CONF_SIZE) return -1;
-  for (i = 0; i < pixel_col; i++)
-    for (j = 0; j < bpp * (1 + pbp); j++) _poxxxx_line_conf[at++] = j < bpp ? TAKE : SKIP;
-  _poxxxx_line_conf[at] = END_OF_LINE;
+  if (camera_fill_line_conf(_poxxxx_line_conf, pixel_col, bpp, pbp)) return -1;
   skipped_lines = bbl;
   _poxxxx_row = pixel_row;
   return 0;

@@ -52,6 +52,9 @@ extern const struct tp_coverage_line tp_coverage_begin[], tp_coverage_end[];
 VECTORS(H)
 H(_OscillatorFail) H(_AddressError) H(_StackError) H(_MathError)
 
+/* _FOSC() and _FWDT() of p30F6014A.h */
+extern const unsigned int tp_config_fosc __attribute__((weak)), tp_config_fwdt __attribute__((weak));
+
 #define A(name) name,
 #ifndef TP_IMAGE_FLAGS
 #define TP_IMAGE_FLAGS ""
@@ -65,8 +68,9 @@ __attribute__((visibility("default"), aligned(64))) const struct tp_image tp_ima
   { _OscillatorFail, _AddressError, _StackError, _MathError },
   tp_functions_begin, tp_functions_end,
 #ifdef TP_COVERAGE
-  tp_coverage_begin, tp_coverage_end
+  tp_coverage_begin, tp_coverage_end,
 #else
-  0, 0
+  0, 0,
 #endif
+  &tp_config_fosc, &tp_config_fwdt
 };

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+// Checks of the board: what a program does to motors, emitters and pins that no register knows to be wrong.
+// Counters are kept where things happen anyway (stepper.h, changes of pins); sentences are made when asked
+// for.
+#include <algorithm>
+#include <cstdarg>
+#include <cstdio>
+
+#include "hal_sim/board/board.h"
+#include "hal_sim/board/checks_params.h"
+
+namespace board {
+
+namespace {
+
+constexpr char kLetters[] = "ABCDFG";
+constexpr struct {
+  std::size_t port;
+  int bit;
+  const char* pin;
+  const char* name;
+} kLines[4] = {{4, 7, "LATF7", "pulse_IR0"},
+               {4, 8, "LATF8", "pulse_IR1"},
+               {5, 0, "LATG0", "pulse_IR2"},
+               {5, 1, "LATG1", "pulse_IR3"}};  // [lib: motor_led/e_epuck_ports.h]
+// pins that lead to something on the board that a program drives [lib: motor_led/e_epuck_ports.h]
+constexpr std::uint16_t kDriven[6] = {0xF6C0, 0, 0x2006, 0x00FF, 0x0181, 0x0003};
+
+std::string text(const char* format, ...) __attribute__((format(printf, 1, 2)));
+std::string text(const char* format, ...) {
+  char room[240];
+  va_list values;
+  va_start(values, format);
+  std::vsnprintf(room, sizeof room, format, values);
+  va_end(values);
+  return room;
+}
+
+double ms(Cycle cycles) { return 1000.0 * static_cast<double>(cycles) / static_cast<double>(kFcyHz); }
+
+void add(std::vector<Diagnosis>& all, const StepperFaults::Fault& fault, const char* cause,
+         const std::string& place, const std::string& message, const char* hint) {
+  if (fault.count == 0) return;
+  all.push_back({cause, place, message, hint, fault.first, 0, fault.count});
+}
+
+}  // namespace
+
+void Board::note_pulses(std::size_t port, std::uint16_t new_lat, std::uint16_t new_tris, Cycle at) {
+  const auto before = static_cast<std::uint16_t>(lat_[port] & ~tris_[port]);
+  const auto ended = static_cast<std::uint16_t>(before & ~(new_lat & ~new_tris));
+  const auto begun = static_cast<std::uint16_t>(~before & new_lat & ~new_tris);
+  for (std::size_t line = 0; line < 4; ++line) {
+    if (kLines[line].port != port) continue;
+    const unsigned bit = 1u << kLines[line].bit;
+    if (begun & bit) lit_since_[line] = at;
+    if (!(ended & bit) || at - lit_since_[line] < kLongPulseCycles) continue;
+    LongPulse& p = long_pulses_[line];
+    if (p.count++ == 0) p.first = lit_since_[line];
+    p.longest = std::max(p.longest, at - lit_since_[line]);
+  }
+}
+
+void Board::note_vain_writes(std::size_t port, std::uint16_t changed, Cycle at) {
+  if (!watches_inputs_) return;
+  unsigned vain = changed & tris_[port] & kDriven[port];
+  for (; vain; vain &= vain - 1) {
+    const auto n = static_cast<std::size_t>(__builtin_ctz(vain));
+    if (vain_writes_[port].count[n]++ == 0) vain_writes_[port].first[n] = at;
+  }
+}
+
+std::vector<Diagnosis> Board::diagnoses(Cycle at) const {
+  std::vector<Diagnosis> all;
+  for (const Wheel wheel : {Wheel::Left, Wheel::Right}) {
+    const StepperFaults faults = stepper_at(wheel, at).faults(at);
+    const std::string pins = wheel == Wheel::Left ? "LATD0-3" : "LATD4-7";
+    const char* motor = wheel == Wheel::Left ? "left motor" : "right motor";
+    add(all, faults.jumps, "lost steps", pins,
+        text("the %s's coil pattern jumps by two phases: the rotor does not follow and the step is lost",
+             motor),
+        "go through the patterns 1010, 0110, 0101, 1001 (D C B A) one after the other");
+    add(all, faults.too_fast, "steps too fast", pins,
+        text("the %s is stepped faster than %.0f steps/s: the rotor does not follow and steps are lost",
+             motor, static_cast<double>(kFcyHz / kPullOutCycles)),
+        "e-pucks hold 1000 steps/s; check the timer's period and prescaler");
+    add(all, faults.opposed, "opposed coil ends", pins,
+        text("both ends of a coil of the %s are high: no current flows in it", motor),
+        "one of A and B and one of C and D are high at a time");
+    add(all, faults.held, "coils energised at rest", pins,
+        text("both coils of the %s stay on for more than %.0f ms without a step and draw %.0f mA", motor,
+             ms(kRestCycles), 1000 * 2 * kCoilA),
+        "switch the four pins off while the motor rests");
+  }
+  for (std::size_t line = 0; line < 4; ++line) {
+    LongPulse p = long_pulses_[line];
+    const std::size_t port = kLines[line].port;
+    const bool is_lit = lat_[port] & ~tris_[port] & 1u << kLines[line].bit;
+    if (is_lit && at - lit_since_[line] >= kLongPulseCycles) {
+      if (p.count++ == 0) p.first = lit_since_[line];
+      p.longest = std::max(p.longest, at - lit_since_[line]);
+    }
+    if (p.count == 0) continue;
+    all.push_back({"IR pulse too long", kLines[line].pin,
+                   text("%s stays high for %.1f ms: its two IR emitters draw %.0f mA all the time",
+                        kLines[line].name, ms(p.longest), 1000 * 2 * kIrEmitterA),
+                   "lower the pulse after the lit sample, 0.3 ms after it rose", p.first, 0, p.count});
+  }
+  for (std::size_t port = 0; port < kPorts; ++port)
+    for (std::size_t n = 0; n < 16; ++n) {
+      const std::int64_t count = vain_writes_[port].count[n];
+      if (count < kVainWrites) continue;
+      all.push_back({"input driven", text("TRIS%c%zu", kLetters[port], n),
+                     text("LAT%c%zu is written again and again, but TRIS%c%zu = 1 makes the pin an input: "
+                          "nothing reaches it",
+                          kLetters[port], n, kLetters[port], n),
+                     "clear the TRIS bit, or call e_init_port() first", vain_writes_[port].first[n], 0,
+                     count});
+    }
+  if (i2c_.unstopped() > 0)
+    all.push_back({"I2C bus not stopped", "I2CCON.PEN",
+                   "a transfer begins although the one before was not ended by a stop condition",
+                   "end each transfer with I2CCON.PEN (e_i2c_stop()), or go on with RSEN",
+                   i2c_.first_unstopped(), 0, i2c_.unstopped()});
+  return all;
+}
+
+}  // namespace board
