@@ -20,22 +20,32 @@ void SfrBus::attach(SfrOwner& owner, unsigned first, unsigned last) {
   for (unsigned a = first; a <= last; a += 2) {
     const SfrInfo* info = sfr_info(a);
     if (info) slots_[a / 2] = {&owner, info, info->implemented, 0, false, !info->defined};
+    find_reader(a);
   }
+}
+
+void SfrBus::find_reader(unsigned address) {
+  const Slot& slot = slots_[address / 2];
+  readers_[address / 2] = slot.disabled || warn_uninitialised_ ? nullptr : slot.owner;
 }
 
 void SfrBus::mark_unmodelled(unsigned address, std::uint16_t bits) { slots_[address / 2].unmodelled |= bits; }
 
 void SfrBus::set_disabled(unsigned first, unsigned last, bool disabled) {
-  for (unsigned a = first; a <= last; a += 2) slots_[a / 2].disabled = disabled;
+  for (unsigned a = first; a <= last; a += 2) {
+    slots_[a / 2].disabled = disabled;
+    find_reader(a);
+  }
 }
 
 void SfrBus::forget_writes() {
   for (Slot& slot : slots_) slot.undefined = slot.info && !slot.info->defined;
 }
 
-// a byte, or the first read of a register that holds anything
+// a byte, nothing, or perhaps the first read of a register that holds anything
 std::uint16_t SfrBus::read_slowly(unsigned address, unsigned bits, Cycle now) {
   Slot& slot = slots_[address / 2];
+  if (!slot.owner || slot.disabled) return 0;
   if (slot.undefined && warn_uninitialised_) {
     slot.undefined = false;
     diagnostics_.report(Cause::UninitialisedRead, slot.info->name,

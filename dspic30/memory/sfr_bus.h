@@ -46,10 +46,9 @@ class SfrBus {
 
   std::uint16_t read(unsigned address, unsigned bits, Cycle now) {
     if (address >= kSfrBytes) return 0;
-    Slot& slot = slots_[address / 2];
-    if (!slot.owner || slot.disabled) return 0;
-    if (bits <= 8 || (slot.undefined && warn_uninitialised_)) return read_slowly(address, bits, now);
-    return slot.owner->read(address & ~1u, now);
+    SfrOwner* owner = readers_[address / 2];
+    if (!owner || bits <= 8) return read_slowly(address, bits, now);
+    return owner->read(address & ~1u, now);
   }
 
   void write(unsigned address, std::uint16_t value, unsigned bits, Cycle now) {
@@ -85,11 +84,13 @@ class SfrBus {
   };
   void warn(Slot& slot, std::uint16_t bits, Cycle now);
   std::uint16_t read_slowly(unsigned address, unsigned bits, Cycle now);
+  void find_reader(unsigned address);
   void warn_of_hole(unsigned address, Cycle now);
 
   Diagnostics& diagnostics_;
   bool warn_uninitialised_;
   std::array<Slot, kSfrBytes / 2> slots_{};
+  std::array<SfrOwner*, kSfrBytes / 2> readers_{};  // the owner where a word is read without further ado
   std::int64_t writes_ = 0;
 };
 

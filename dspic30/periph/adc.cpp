@@ -110,7 +110,7 @@ void Adc::finish() {
   if (asam()) start_sampling(conversion_end_);
 }
 
-std::uint16_t Adc::formatted(int counts) const {
+inline std::uint16_t Adc::formatted(int counts) const {
   switch (con1_ >> 8 & 3) {
     case 1:
       return static_cast<std::uint16_t>(counts - 2048);
@@ -177,7 +177,7 @@ Adc::Half Adc::held_instant(int slot, Cycle now) const {
   return start < cruise_.first ? -1 : start + in_sequence + cruise_.sample;
 }
 
-std::uint16_t Adc::cruised_result(int channel, Half held) const {
+inline std::uint16_t Adc::cruised_result(int channel, Half held) const {
   return formatted(std::clamp(f_.outside.analogue_counts(channel, held / 2), 0, 4095));
 }
 
@@ -218,6 +218,13 @@ void Adc::schedule(Cycle now) {
 }
 
 void Adc::on_event(int id, Cycle at) {
+  const Half end = cruise_.start + cruise_.sequence;
+  if (cruising_ && flag_at_ == kNever && up(end) + kEndToFlag == at) {
+    // one sequence as the one before: what the rest of this function and schedule() come to
+    cruise_.start = end;
+    f_.interrupts.raise(irq::Adc, at);
+    return f_.events.set(slot_, up(end + cruise_.sequence) + kEndToFlag);
+  }
   advance(at - kEndToFlag);  // what ended in the cycle before raises the flag now
   if (flag_at_ <= at) {
     f_.interrupts.raise(irq::Adc, at);

@@ -164,4 +164,32 @@ inline Cycle Interrupts::next_change(Cycle now) const {
   return std::max(next, now + 1);
 }
 
+inline InterruptEntry Interrupts::enter(int vector, Cycle now) {
+  InterruptEntry entry;
+  entry.vector = vector;
+  if (vector < kFirstIrqVector)
+    entry.level = trap_level(vector);
+  else
+    entry.level = nesting_disabled() ? 7 : priority(vector - kFirstIrqVector);
+  entry.address = ((intcon2_ & 0x8000) ? 0x84u : 0x04u) + 2 * static_cast<unsigned>(vector);
+  entry.first_instruction = now + kInterruptEntryCycles;
+  stack_.push_back({vector, level_, false, now});
+  level_ = entry.level;
+  last_vector_ = static_cast<std::uint16_t>(vector);
+  last_level_ = static_cast<std::uint16_t>(entry.level);
+  ++served_[static_cast<std::size_t>(vector)];
+  return entry;
+}
+
+inline Cycle Interrupts::leave(Cycle now) {
+  if (stack_.empty()) return now + kInterruptReturnCycles;
+  const Frame frame = stack_.back();
+  stack_.pop_back();
+  if (frame.vector >= kFirstIrqVector && !frame.cleared) check_cleared(frame, now);
+  resumed_ = now + kInterruptReturnCycles;
+  resumed_level_ = std::min(level_, 7);
+  level_ = frame.outer_level;
+  return resumed_;
+}
+
 }  // namespace dspic

@@ -248,6 +248,14 @@ void Timers::tell_changed(int timer, Cycle at) {
 
 void Timers::on_event(int id, Cycle at) {
   Unit& u = unit(id);
+  if (u.mode == Mode::Internal && !u.wanted && u.pending_flag == kNever) {
+    // a period is over, and the next one is an event once the program has lowered the flag
+    f_.interrupts.raise(flag_of(id), at);
+    u.lazy = true;
+    u.lazy_since = at;
+    next_internal(id, at);
+    return;
+  }
   if (u.mode == Mode::Gated) {
     if (u.pending_flag == at) f_.interrupts.raise(flag_of(id), at);
     const bool at_edge = u.gate_edge == at;

@@ -364,12 +364,8 @@ double Board::mic_level(int microphone, Cycle at) const {
                                                                 clock_.click_at(at));
 }
 
-int Board::mic_counts_fast(int microphone, Cycle at, std::uint64_t sample) const {
-  if (scene_ && sim::has_sound(*scene_)) return with_mic_noise(mic_level(microphone, at), microphone, sample);
-  return with_mic_noise(kMicIdleCounts, microphone, sample);
-}
-
-int Board::with_mic_noise(double counts, int microphone, std::uint64_t sample) const {
+__attribute__((always_inline)) inline int Board::with_mic_noise(double counts, int microphone,
+                                                                std::uint64_t sample) const {
   if (setup_.mic_noise_counts <= 0) return adc_counts(counts);
   // 64 coins: mean 32, standard deviation 4
   const std::uint64_t bits =
@@ -382,6 +378,11 @@ int Board::with_mic_noise(double counts, int microphone, std::uint64_t sample) c
       static_cast<double>(static_cast<std::int64_t>(bits * 0x9E3779B97F4A7C15u >> 40)) * 0x1p-24 - 0.5;
   return adc_counts(counts + setup_.mic_noise_counts * 0.25 *
                                  (static_cast<double>(static_cast<std::int64_t>(ones)) - 32 + between));
+}
+
+int Board::mic_counts_fast(int microphone, Cycle at, std::uint64_t sample) const {
+  if (scene_ && sim::has_sound(*scene_)) return with_mic_noise(mic_level(microphone, at), microphone, sample);
+  return with_mic_noise(kMicIdleCounts, microphone, sample);
 }
 
 int Board::mic_counts(int microphone, Cycle at, std::uint64_t sample) const {

@@ -15,7 +15,11 @@ namespace {
 
 constexpr std::uint32_t kRing = 0xFF, kBody = 0x100, kFront = 0x200;  // of leds()
 
-int ones(unsigned word) { return __builtin_popcount(word); }
+int ones(unsigned word) {
+  int n = 0;
+  for (; word; word &= word - 1) ++n;
+  return n;
+}
 
 }  // namespace
 
@@ -35,7 +39,7 @@ double Board::current_a(Cycle at) const {
   for (Wheel wheel : {Wheel::Left, Wheel::Right}) amps += 2 * kCoilA * coil_duty(wheel, at);
 
   const std::uint32_t lit = leds(at);
-  amps += kRingLedA * ones(lit & kRing);
+  if (lit & kRing) amps += kRingLedA * ones(lit & kRing);
   if (lit & kBody) amps += kBodyLedA;
   if (lit & kFront) amps += kFrontLedA;
   if (output_high('C', kCameraResetBit)) amps += kCameraA;

@@ -32,12 +32,13 @@ inline constexpr Cycle kCodecSampleCycles =
 inline constexpr int kCodecGroup = 4;  // samples an interrupt [lib: codec/e_isr_dci.s]
 inline constexpr Cycle kCodecGroupCycles = kCodecGroup * kCodecSampleCycles;
 static_assert(kFcyHz == 7200 * kCodecSampleCycles);
-inline constexpr int kSoundBankSamples = 19044;   // [lib: codec/e_const_sound.s]
+inline constexpr int kSoundBankSamples = 19044;  // [lib: codec/e_const_sound.s]
 // the codec's registers and clock
 inline constexpr double kCodecVolumeStepDb = 1.5;     // dB, digital volume [SI3000]
 inline constexpr int kCodecVolume0Db = 0x17;          // its setting for 0 dB [SI3000]
 inline constexpr double kCodecAttenuationStepDb = 6;  // dB, before the loudspeakers [SI3000]
-inline constexpr double kCodecOversampling = 1024;    // PLL output over sample rate, besides its divider [SI3000]
+inline constexpr double kCodecOversampling =
+    1024;                                         // PLL output over sample rate, besides its divider [SI3000]
 inline constexpr Place kSpeaker = {-0.013, 0.0};  // [FRM A8]
 inline constexpr double kSpeakerZM = 0.035;  // m [assumed: on the top board, beside the microphones' height]
 // a sine at full scale: 90 dB SPL at 10 cm, so 70 dB at 1 m

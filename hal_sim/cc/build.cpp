@@ -83,7 +83,7 @@ bool names_webots(const std::vector<fs::path>& sources, const std::vector<fs::pa
 /// Whether a program takes the address of a register anywhere: then its files may pass it on.
 bool takes_register_addresses(const std::vector<fs::path>& sources, const std::vector<fs::path>& headers) {
   static const std::regex kAddress(
-      R"([=(,{\[?:]\s*&\s*(ADC|PORT|LAT|TRIS|TMR|PR\d|T\dCON|IFS|IEC|IPC|INTCON|U[12]|I2C|DCI|TSCON|RSCON|[RT]XBUF|SPI|OC\d|IC\d|RCON|CN)[A-Z0-9]*(bits)?\b)");
+      R"([=(,{\[?:)]\s*&\s*(ADC|PORT|LAT|TRIS|TMR|PR\d|T\dCON|IFS|IEC|IPC|INTCON|U[12]|I2C|DCI|TSCON|RSCON|[RT]XBUF|SPI|OC\d|IC\d|RCON|CN)[A-Z0-9]*(bits)?\b)");
   for (const auto* list : {&sources, &headers})
     for (const auto& file : *list)
       if (std::regex_search(read_text(file), kAddress)) return true;

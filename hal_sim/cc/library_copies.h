@@ -26,7 +26,8 @@ LibraryCopies find_library_copies(const std::filesystem::path& project,
 /// The register way runs such files, as the robot's linker would run the library's archive: only those that
 /// something asks for. Splits sources into the program's own (`kept`) and members (`replaced`). A whole copy
 /// holds several variants of one function: those whose header the program includes come first, then the
-/// library's usual choice, the advanced ones; of two files of one name the one nearer to the project's folder.
+/// library's usual choice, the advanced ones; of two files of one name the one nearer to the project's
+/// folder.
 LibraryCopies find_library_members(const std::filesystem::path& project,
                                    const std::vector<std::filesystem::path>& sources);
 

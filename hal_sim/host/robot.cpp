@@ -185,6 +185,7 @@ Cycle Robot::main_until(Cycle real) const {
 }
 
 int Robot::look() {
+  ++looks_;
   const Processor::Outlook outlook = processor_->look(now_);
   calm_until_ = outlook.vector == kNoVector ? outlook.quiet_until : now_;
   may_wait_ = outlook.may_wait;
@@ -204,7 +205,8 @@ Cycle Robot::next_disturbance() {
 void Robot::give_budget() {
   Cycle until = std::min(end_, next_disturbance());
   if (observer_) until = std::min(until, now_ + observer_->look_every);
-  issued_ = until > now_ ? main_until(until - now_) : 0;
+  issued_ = std::max<Cycle>(0, until - now_);
+  if (stolen_q32_ != 0 && issued_ > 0) issued_ = main_until(issued_);
   control_.budget = issued_;
 }
 

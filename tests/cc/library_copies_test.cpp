@@ -67,3 +67,38 @@ TEST(library_copies, the_chips_header_is_always_ours) {
                      "int main(void) { TBLPAG = 1; return PORTA; }");
   EXPECT_TRUE(built.ok) << text_of(built);
 }
+
+// --- the register way: a copy is an archive of the project's own drivers
+// ------------------------------------
+
+// two variants of one function, of which the program includes a header; the chosen one counts
+TEST(library_members, the_variant_whose_header_the_program_includes_is_linked) {
+  for (const std::string chosen : {"a_d/e_accelerometer", "a_d/advance_ad_scan/e_acc"}) {
+    Folder folder;
+    folder.file("prog/lib/a_d/e_accelerometer.c", "int which = 1; int e_get_acc(int axis) { return which; }");
+    folder.file("prog/lib/a_d/e_accelerometer.h", "int e_get_acc(int axis);");
+    folder.file("prog/lib/a_d/advance_ad_scan/e_acc.c",
+                "int which = 2; int e_get_acc(int axis) { return which; }");
+    folder.file("prog/lib/a_d/advance_ad_scan/e_acc.h", "int e_get_acc(int axis);");
+    const int expected = chosen == "a_d/e_accelerometer" ? 1 : 2;
+    auto built = build(folder,
+                       "#include \"lib/" + chosen + ".h\"\nint main(void) { while (e_get_acc(0) == " +
+                           std::to_string(expected) + "); return 0; }",
+                       "-O1", [](cc::BuildOptions& o) { o.register_way = true; });
+    ASSERT_TRUE(built.ok) << text_of(built);
+    Image image(folder.path / "prog.so");
+    EXPECT_EQ(image.run().end, "poll") << chosen;  // it waits for ever
+  }
+}
+
+// a file that nobody asks for need not even compile, and of two files of one name one is enough
+TEST(library_members, files_that_do_not_compile_are_left_out_with_a_warning) {
+  Folder folder;
+  folder.file("prog/motor_led/e_motors.c", "int e_init_motors(void) { return 7; }");
+  folder.file("prog/old/e_motors.c", "int e_init_motors(void) { return nobody_declared_this; }");
+  auto built = build(folder, "int e_init_motors(void); int main(void) { return e_init_motors(); }", "-O1",
+                     [](cc::BuildOptions& o) { o.register_way = true; });
+  EXPECT_TRUE(built.ok) << text_of(built);
+  EXPECT_NE(text_of(built).find("old/e_motors.c: does not compile and is left out"), std::string::npos)
+      << text_of(built);
+}

@@ -140,3 +140,11 @@ TEST(tolerance, predefined_macros_are_the_chips) {
       "int main(void) { uint32_t a = UINT32_MAX; bool b = true; __delay32(100); __delay_ms(2); "
       "__delay_us(50); return t[0] + c.real + b + (int)a; }");
 }
+
+// called before its definition, and its parameter is narrower than an int
+TEST(tolerance, functions_used_before_their_definition_may_take_shorts) {
+  compiles(
+      "int main(void) { put(3); mix(1, 'a', 2.5); return 0; }\n"
+      "void put(unsigned short value) { volatile unsigned short v = value; }\n"
+      "void mix(int n, char c, float x) { volatile float y = n + c + x; }\n");
+}

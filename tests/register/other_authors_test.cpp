@@ -227,8 +227,8 @@ int main(void)
   expect_no_traps();
 }
 
-// as the library's I2C driver: a start is made only after a stop, which no start has seen yet; the failure makes
-// the program send a stop, reset the module and try again. PO3030K: device 0xDC, register 0 holds 0x30
+// as the library's I2C driver: a start is made only after a stop, which no start has seen yet; the failure
+// makes the program send a stop, reset the module and try again. PO3030K: device 0xDC, register 0 holds 0x30
 TEST_F(RegisterTest, an_i2c_driver_that_waits_for_a_stop_before_its_first_start) {
   Robot& robot = add_robot_with_source(program(R"(
 volatile char mode;
@@ -272,6 +272,75 @@ int main(void)
   EXPECT_EQ(robot.variable("tries"), 2);
   EXPECT_EQ(robot.variable<std::uint8_t>("id"), 0x30);
   expect_no_traps();
+}
+
+// settings and functions under the names of the vendor's peripheral library: 28800 ticks of 256 cycles are
+// half a second
+TEST_F(RegisterTest, the_peripheral_librarys_names_set_timers_converter_and_uart) {
+  Robot& robot = add_robot_with_source(R"(
+#include <xc.h>
+#include <adc12.h>
+#include <timer.h>
+#include <uart.h>
+uint8_t halves;
+unsigned int counts, con3;
+void __attribute__((interrupt, no_auto_psv)) _T1Interrupt(void) { IFS0bits.T1IF = 0; halves++; WriteUART1('t'); }
+int main(void)
+{
+  OpenUART1(UART_EN & UART_IDLE_CON & UART_DIS_WAKE & UART_DIS_LOOPBACK & UART_DIS_ABAUD & UART_NO_PAR_8BIT &
+                UART_1STOPBIT,
+            UART_INT_TX_BUF_EMPTY & UART_TX_PIN_NORMAL & UART_TX_ENABLE & UART_INT_RX_CHAR & UART_ADR_DETECT_DIS &
+                UART_RX_OVERRUN_CLEAR,
+            7);
+  putsUART1((unsigned int *) "hello ");
+  ADPCFG = 0;
+  ADCHS = 2;
+  ADCON3 = ADC_SAMPLE_TIME_0 & ADC_CONV_CLK_SYSTEM & ADC_CONV_CLK_10Tcy;
+  ADCON2 = ADC_VREF_AVDD_AVSS & ADC_SCAN_OFF & ADC_SAMPLES_PER_INT_1 & ADC_ALT_BUF_OFF & ADC_ALT_INPUT_OFF;
+  ADCON1 = ADC_MODULE_ON & ADC_IDLE_STOP & ADC_FORMAT_INTG & ADC_CLK_MANUAL & ADC_AUTO_SAMPLING_OFF & ADC_SAMP_OFF;
+  con3 = ADCON3;
+  ADCON1bits.SAMP = 1;
+  __delay32(100);
+  ADCON1bits.SAMP = 0;
+  while (!ADCON1bits.DONE);
+  counts = ADCBUF0;
+  ConfigIntTimer1(T1_INT_PRIOR_5 & T1_INT_ON);
+  OpenTimer1(T1_ON & T1_GATE_OFF & T1_PS_1_256 & T1_SYNC_EXT_OFF & T1_SOURCE_INT, 28799);
+  while (1);
+}
+)");
+  run_for(1.25);
+  EXPECT_EQ(robot.variable<std::uint8_t>("halves"), 2);
+  EXPECT_EQ(robot.uart1_text(), "hello tt");
+  EXPECT_EQ(robot.variable<std::uint16_t>("con3"), 19);  // TAD = 20 halves of a cycle
+  EXPECT_NEAR(robot.variable<std::uint16_t>("counts"), 2048, 10);
+  expect_no_traps();
+}
+
+// as schedulers do that give every process a stack of its own by moving W15
+TEST_F(RegisterTest, a_jump_into_a_function_that_has_returned_stops_the_robot) {
+  Robot& robot = add_robot_with_source(program(R"(
+#include <setjmp.h>
+static jmp_buf place;
+int came;
+static void deep(int n)
+{
+  volatile char room[40];
+  room[0] = n;
+  if (n) deep(n - 1);
+  else if (setjmp(place)) came++;
+  room[1] = n;
+}
+int main(void)
+{
+  deep(5);
+  longjmp(place, 1);
+  return came;
+}
+)"));
+  run_for(0.02);
+  ASSERT_EQ(robot.traps().size(), 1u);
+  EXPECT_NE(robot.traps()[0].message.find("longjmp()"), std::string::npos) << robot.traps()[0].message;
 }
 
 // --- configuration words -----------------------------------------------------------------------------------
@@ -326,7 +395,7 @@ int main(void)
   EXPECT_NEAR(twice.variable<std::uint16_t>("ticks"), 4000, 1);
   EXPECT_NEAR(half.variable<std::uint16_t>("ticks"), 1000, 1);
   EXPECT_NEAR(internal.variable<std::uint16_t>("ticks"), 2000, 1);
-  for (const auto& n : processor(1).notices()) EXPECT_EQ(n.find("baud"), std::string::npos) << n;
+  EXPECT_EQ(twice.diagnoses_text().find("baud"), std::string::npos) << twice.diagnoses_text();
   expect_no_traps();
 }
 

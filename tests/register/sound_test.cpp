@@ -184,15 +184,15 @@ int main(void)
 // before the module is switched on go out at once; what the handler loads at the first interrupt follows four
 // frames later, and zeros between
 TEST_F(Sound, own_handler_plays_a_square_wave) {
-  Robot& robot = add_robot_with_source(own_codec("0x5F", "0x0DEF"));
+  Robot& player = add_robot_with_source(own_codec("0x5F", "0x0DEF"));
   const Speech heard = listen(0, 0.1);
   ASSERT_GT(heard.samples.size(), 500u);
   for (std::size_t i = 10; i < 400; ++i)
     EXPECT_EQ(heard.samples[i], heard.samples[i - 2] == 8000 ? -8000 : 8000) << i;
-  const int before = robot.variable<std::uint16_t>("interrupts");
+  const int before = player.variable<std::uint16_t>("interrupts");
   run_for(1);
-  EXPECT_NEAR(robot.variable<std::uint16_t>("interrupts") - before, 1800, 1);
-  for (const auto& n : processor().notices()) EXPECT_EQ(n.find("codec rate"), std::string::npos) << n;
+  EXPECT_NEAR(player.variable<std::uint16_t>("interrupts") - before, 1800, 1);
+  EXPECT_EQ(robot(0).diagnoses_text().find("codec"), std::string::npos) << robot(0).diagnoses_text();
   expect_no_traps();
 }
 
@@ -215,16 +215,15 @@ TEST_F(Sound, frames_at_another_rate_than_the_codecs_are_told) {
   ASSERT_GT(heard.samples.size(), 200u);
   for (std::size_t i = 10; i < 200; ++i)
     EXPECT_EQ(heard.samples[i], heard.samples[i - 2] == 8000 ? -8000 : 8000) << i;
-  const auto& notices = processor().notices();
-  ASSERT_FALSE(notices.empty());
-  EXPECT_NE(notices[0].find("7200 samples a second, frames come 14400"), std::string::npos) << notices[0];
-  // multiplied by 40 instead of 20, both agree
+  EXPECT_NE(robot(0).diagnoses_text().find("7200 samples a second, frames come 14400"), std::string::npos)
+      << robot(0).diagnoses_text();
 }
 
+// multiplied by 40 instead of 20
 TEST_F(Sound, the_multiplier_register_doubles_the_codecs_rate) {
   add_robot_with_source(own_codec("0x5F", "0x0CEF", "0x27"));
   ASSERT_GT(listen(0, 0.05, 1024).samples.size(), 200u);
-  for (const auto& n : processor().notices()) EXPECT_EQ(n.find("codec rate"), std::string::npos) << n;
+  EXPECT_EQ(robot(0).diagnoses_text().find("codec"), std::string::npos) << robot(0).diagnoses_text();
 }
 
 // heard by another robot's microphones for longer than the samples that are kept (8192 are 1.1 s): no gap
