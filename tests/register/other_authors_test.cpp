@@ -317,6 +317,32 @@ int main(void)
   expect_no_traps();
 }
 
+// as schedulers do that give every process a stack of its own by moving W15
+TEST_F(RegisterTest, a_jump_into_a_function_that_has_returned_stops_the_robot) {
+  Robot& robot = add_robot_with_source(program(R"(
+#include <setjmp.h>
+static jmp_buf place;
+int came;
+static void deep(int n)
+{
+  volatile char room[40];
+  room[0] = n;
+  if (n) deep(n - 1);
+  else if (setjmp(place)) came++;
+  room[1] = n;
+}
+int main(void)
+{
+  deep(5);
+  longjmp(place, 1);
+  return came;
+}
+)"));
+  run_for(0.02);
+  ASSERT_EQ(robot.traps().size(), 1u);
+  EXPECT_NE(robot.traps()[0].message.find("longjmp()"), std::string::npos) << robot.traps()[0].message;
+}
+
 // --- configuration words -----------------------------------------------------------------------------------
 
 std::string configured(const std::string& words, const std::string& rest) {
