@@ -24,6 +24,8 @@ def used(report, kind):
 def functions(listing):
     """{name: (bytes of its own frame, [names it calls], calls through a pointer?)}"""
     found = {}
+    # the disassembler names targets in other sections only; the others are addresses
+    starts = {int(a, 16): n for a, n in re.findall(r"^([0-9a-f]+) <([^>.][^>]*)>:", listing, re.M)}
     name = None
     for line in listing.splitlines():
         head = re.match(r"^[0-9a-f]+ <([^>]+)>:", line)
@@ -46,8 +48,11 @@ def functions(listing):
         call = re.match(r"r?call\S*\s+(.*)", code)
         if call:
             target = re.search(r"<([^>+]+)>", line)
+            address = re.match(r"0x([0-9a-f]+)", call.group(1))
             if target:
                 entry[1].append(target.group(1))
+            elif address and int(address.group(1), 16) in starts:
+                entry[1].append(starts[int(address.group(1), 16)])
             else:
                 entry[2] = True
     return found
@@ -76,8 +81,8 @@ def main():
         print("size: the linker's report has no totals; see %s" % sys.argv[1])
         return 0
     print("flash  %6d of %d bytes (%d %%)" % (flash, flash_bytes, 100 * flash // flash_bytes))
-    print("RAM    %6d of %d bytes (%d %%), and %d for the heap" % (data, ram_bytes, 100 * data // ram_bytes, heap_bytes))
-    left = ram_bytes - data - heap_bytes
+    print("RAM    %6d of %d bytes (%d %%), %d of them the heap" % (data, ram_bytes, 100 * data // ram_bytes, heap_bytes))
+    left = ram_bytes - data  # the linker counts the heap as data
     fits = flash <= flash_bytes and left > 0
     table = functions(listing)
     if "_main" in table:

@@ -20,9 +20,9 @@ namespace dspic {
 
 namespace {
 
-constexpr unsigned kIfs0 = 0x084, kIec0 = 0x08C, kAdcon1 = 0x2A0, kAdpcfg = 0x2A8,
-                   kFirstPort = 0x2C0, kLastPort = 0x2E8, kBsram = 0x750, kSsram = 0x752, kPmd1 = 0x770,
-                   kPmd2 = 0x772, kPmd3 = 0x774;
+constexpr unsigned kIfs0 = 0x084, kIec0 = 0x08C, kAdcon1 = 0x2A0, kAdpcfg = 0x2A8, kFirstPort = 0x2C0,
+                   kLastPort = 0x2E8, kBsram = 0x750, kSsram = 0x752, kPmd1 = 0x770, kPmd2 = 0x772,
+                   kPmd3 = 0x774;
 
 }  // namespace
 

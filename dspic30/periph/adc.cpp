@@ -218,6 +218,13 @@ void Adc::schedule(Cycle now) {
 }
 
 void Adc::on_event(int id, Cycle at) {
+  const Half end = cruise_.start + cruise_.sequence;
+  if (cruising_ && flag_at_ == kNever && up(end) + kEndToFlag == at) {
+    // one sequence as the one before: what the rest of this function and schedule() come to
+    cruise_.start = end;
+    f_.interrupts.raise(irq::Adc, at);
+    return f_.events.set(slot_, up(end + cruise_.sequence) + kEndToFlag);
+  }
   advance(at - kEndToFlag);  // what ended in the cycle before raises the flag now
   if (flag_at_ <= at) {
     f_.interrupts.raise(irq::Adc, at);

@@ -39,7 +39,7 @@ double Board::current_a(Cycle at) const {
   for (Wheel wheel : {Wheel::Left, Wheel::Right}) amps += 2 * kCoilA * coil_duty(wheel, at);
 
   const std::uint32_t lit = leds(at);
-  amps += kRingLedA * ones(lit & kRing);
+  if (lit & kRing) amps += kRingLedA * ones(lit & kRing);
   if (lit & kBody) amps += kBodyLedA;
   if (lit & kFront) amps += kFrontLedA;
   if (output_high('C', kCameraResetBit)) amps += kCameraA;

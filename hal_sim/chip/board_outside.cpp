@@ -185,13 +185,14 @@ int BoardOutside::analogue_counts(int channel, Cycle at) {
   const std::uint64_t sample = kSampleOffset + static_cast<std::uint64_t>(at);
   if (channel >= kFirstMic && channel < kFirstAcc)
     return board_.mic_counts_fast(channel - kFirstMic, at, sample);
+  return beside_microphones(channel, at, sample);
+}
+
+int BoardOutside::beside_microphones(int channel, Cycle at, std::uint64_t sample) {
   if (channel >= kFirstIr)
     return board_.ir_counts(channel - kFirstIr, at, lit_for(channel - kFirstIr, at), sample);
-  if (channel >= kFirstAcc) {
-    if (const auto counts = board_.counts_of_others(channel, at)) return *counts;
-    return board::accelerometer_counts(board_, channel - kFirstAcc, at, sample);
-  }
-  return board_.counts_of_others(channel, at).value_or(0);
+  if (const auto counts = board_.counts_of_others(channel, at)) return *counts;
+  return channel >= kFirstAcc ? board::accelerometer_counts(board_, channel - kFirstAcc, at, sample) : 0;
 }
 
 void BoardOutside::uart_sent(int uart, const dspic::UartFrame& frame) {

@@ -60,6 +60,8 @@ class BoardOutside final : public dspic::Outside {
     int changes = 0;
     bool is_on = false;
   };
+  /// analogue_counts() of every other channel.
+  int beside_microphones(int channel, Cycle at, std::uint64_t sample);
   /// Cycles for which the emitter beside a sensor has been on at `at`; -1: it was off.
   Cycle lit_for(int sensor, Cycle at) const;
   void follow_emitters(dspic::Port port, Cycle at);

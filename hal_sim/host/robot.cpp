@@ -185,6 +185,7 @@ Cycle Robot::main_until(Cycle real) const {
 }
 
 int Robot::look() {
+  ++looks_;
   const Processor::Outlook outlook = processor_->look(now_);
   calm_until_ = outlook.vector == kNoVector ? outlook.quiet_until : now_;
   may_wait_ = outlook.may_wait;

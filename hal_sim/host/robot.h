@@ -27,8 +27,9 @@ class NativeProcessor;
 class Robot;
 
 namespace detail {
-inline thread_local Robot* running_robot = nullptr;  // Robot::running()
-}
+// Robot::running(); in the executable itself, so no function needs to be asked for its place
+__attribute__((tls_model("initial-exec"))) inline thread_local Robot* running_robot = nullptr;
+}  // namespace detail
 
 /// Why a robot stopped or restarted, for reports.
 struct TrapReport {
@@ -119,6 +120,10 @@ class Robot final : public Context {
   bool has_chip() const { return native_ == nullptr; }
   /// Asleep in a wait that has not ended yet.
   bool is_waiting() const { return idling_ && !stopped_; }
+  /// Handlers that have returned, and how often the processor was asked what to do next, since the robot was
+  /// made: what an interrupt costs, in a number that no other work on the machine changes.
+  std::int64_t interrupts_served() const { return served_; }
+  std::int64_t looks() const { return looks_; }
 
   // --- Context
   // ----------------------------------------------------------------------------------------------
@@ -289,6 +294,7 @@ class Robot final : public Context {
   bool may_wait_ = false;  // a flag may be held off; as calm_until_
   int handler_depth_ = 0;
   std::int64_t served_ = 0;  // interrupts so far
+  std::int64_t looks_ = 0;   // look() so far
 
   std::int64_t writes_ = 0;  // image_abi.h's counter while another robot of the copy runs
   Cycle horizon_ = kNever;

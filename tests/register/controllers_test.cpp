@@ -2,7 +2,8 @@
 // The controllers of the repository in both ways: the library's functions as closed forms, and the drivers of
 // the real robot on the models of the chip. Same world, same seed, no noise: after 30 seconds without contact
 // the robots stand within 1 cm of one another, have shown the same LEDs and sent the same bytes, and neither
-// board nor chip has anything to say about them.
+// board nor chip has anything to say about them. The wall stands where no reading comes within a count of
+// obstacle's threshold at the end of a swing: there one way would turn a control period before the other.
 #include <cmath>
 
 #include "tests/register/register_fixture.h"
@@ -12,7 +13,8 @@ namespace {
 
 struct Course {
   const char* controller;
-  const char* where = "floor";  // "floor", "wall" (a long one, 0.6 m away), "lamp" (far off), or a world file
+  const char* where =
+      "floor";  // "floor", "wall" (a long one, 0.64 m away), "lamp" (far off), or a world file
   int selector = 0;
   double seconds = 30;
 };
@@ -59,7 +61,7 @@ class Controllers : public ::testing::TestWithParam<Course> {
           robot(0).settings().firmware = c.controller;
           return robot(0).selector(c.selector);
         }
-        if (where == "wall") wall(0.6, -2, 0.6, 2);
+        if (where == "wall") wall(0.64, -2, 0.64, 2);
         if (where == "lamp") {
           sim::LampDesc lamp;
           lamp.position_m = {1.8, 1.3, 0.3};

@@ -21,6 +21,19 @@ int main(void)
 }
 )");
 
+// The speed of the register way rests on not asking the chip for its next instant where nothing can have
+// changed it: once to find the vector of an interrupt is enough, and once more where two meet. A write of the
+// handler, its return and the rounds of the waiting main program used to ask eleven times.
+TEST_F(RegisterTest, an_interrupt_costs_the_chip_one_question_or_two) {
+  add_robot(std::string(TWINPUCK_SOURCE_DIR) + "/bench/firmware/register_load");
+  run_for(0.2);
+  const host::Robot& robot = *twin().mind(0).robot();
+  // 16384 Hz and 10 kHz for 0.2 s
+  EXPECT_NEAR(static_cast<double>(robot.interrupts_served()), 5277, 60);
+  EXPECT_LT(static_cast<double>(robot.looks()) / static_cast<double>(robot.interrupts_served()), 2.0);
+  expect_no_traps();
+}
+
 TEST_F(RegisterTest, robots_of_one_image_have_chips_of_their_own) {
   Robot& one = add_robot_with_source(kStepper).selector(1);
   Robot& three = add_robot_with_source(kStepper).at(0.5, 0).selector(3);
