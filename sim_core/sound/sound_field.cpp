@@ -118,4 +118,6 @@ double sense_sound_pa(const Scene& scene, int robot, const Vec3& point_m, Clicks
   return field->pressure_pa(placed_at(pose, point_m), to_seconds(at));
 }
 
+bool has_sound(const Scene& scene) { return scene.sound() && !scene.sound()->is_silent(); }
+
 }  // namespace sim

@@ -23,9 +23,10 @@
 #include "sim_core/base/clock.h"
 #include "sim_core/geometry/pose.h"
 #include "sim_core/sound/sound_source.h"
-#include "sim_core/world/scene.h"
 
 namespace sim {
+
+class Scene;
 
 /// What a loudspeaker plays: samples at even distances of time, linear in between, silence before and after.
 struct SpeakerTrack {
@@ -91,6 +92,6 @@ class SoundField {
 double sense_sound_pa(const Scene& scene, int robot, const Vec3& point_m, Clicks at);
 
 /// False when sense_sound_pa() is 0 everywhere.
-inline bool has_sound(const Scene& scene) { return scene.sound() && !scene.sound()->is_silent(); }
+bool has_sound(const Scene& scene);
 
 }  // namespace sim

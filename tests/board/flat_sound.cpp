@@ -10,6 +10,8 @@ double sense_sound_pa(const Scene& scene, int, const Vec3& point_m, Clicks at) {
   return scene.sound_pa ? scene.sound_pa(point_m, at) : 0;
 }
 
+bool has_sound(const Scene& scene) { return scene.sound_pa != nullptr; }
+
 SoundField::SoundField(const WorldDesc&, Clicks tick) : tick_(tick), tick_s_(to_seconds(tick)) {}
 void SoundField::play(int, const SpeakerTrack& track, Clicks now) {
   flat_sound().push_back({true, now, track});

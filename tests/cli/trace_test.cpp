@@ -97,7 +97,9 @@ TEST_F(Traces, coils_variables_interrupts_and_bytes_have_their_times) {
     const std::size_t now = static_cast<std::size_t>(
         std::find(kPhases.begin(), kPhases.end(), coils[i].second) - kPhases.begin());
     ASSERT_LT(now, 4u) << coils[i].second;
-    if (phase < 4) EXPECT_EQ(now, (phase + 1) % 4);
+    if (phase < 4) {
+      EXPECT_EQ(now, (phase + 1) % 4);
+    }
     phase = now;
   }
   EXPECT_EQ(intervals, 100);
