@@ -184,7 +184,7 @@ void I2c::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
       con_ = static_cast<std::uint16_t>((wanted & ~kOperations) | (con_ & kOperations));
       if (!on()) {
         con_ &= static_cast<std::uint16_t>(~kOperations);
-        stat_ &= kS | kP;
+        stat_ &= kP;  // a start is over; a stop stays seen: the library waits for it before its first start
         operation_ = Operation::None;
         f_.events.set(slot_, kNever);
         if (was_on) {

@@ -64,7 +64,7 @@ TEST_F(I2c, operations_take_their_bits) {
   EXPECT_EQ(run(Op::Refuse), 164);
   EXPECT_EQ(run(Op::Restart), 2 * 164);
   EXPECT_EQ(run(Op::Stop), 3 * 82);  // half bits, as the chip's module
-  master().switch_on(20, now);  // 21 + 13
+  master().switch_on(20, now);       // 21 + 13
   EXPECT_EQ(run(Op::Start), 34);
 }
 
