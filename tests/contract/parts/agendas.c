@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: MIT
+ * Agendas: cycles of 0.1 ms, pause, restart, answers. */
+#include "say.h"
+#include <motor_led/advance_one_timer/e_agenda.h>
+
+static volatile int calls, others;
+static void count(void) { calls++; }
+static void count_others(void) { others++; }
+
+int main(void) {
+  begin();
+  e_start_agendas_processing();
+  say("new", e_activate_agenda(count, 100));
+  e_activate_agenda(count_others, 0);
+  pause_ms(500);
+  say("calls", calls);
+  say("never", others);
+  say("faster", e_set_agenda_cycle(count, 50));
+  e_reset_agenda(count);
+  calls = 0;
+  pause_ms(500);
+  say("calls", calls);
+  e_pause_agenda(count);
+  calls = 0;
+  pause_ms(100);
+  say("paused", calls);
+  e_restart_agenda(count);
+  pause_ms(100);
+  say("restarted", calls);
+  say("destroyed", e_destroy_agenda(count));
+  say("unknown", e_destroy_agenda(count));
+  end();
+}
