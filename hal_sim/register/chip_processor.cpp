@@ -93,8 +93,7 @@ bool wants_chip(const char* image_flags) { return image_flags && std::strstr(ima
 
 ChipProcessor::ChipProcessor(host::Robot& robot) : robot_(robot), outside_(robot.board()) {}
 
-// --- life
-// -------------------------------------------------------------------------------------------------
+// --- life -----------------------------------------------------------------------------------------------
 
 void ChipProcessor::power_up() {
   latest_ = 0;
@@ -157,8 +156,7 @@ std::int64_t ChipProcessor::count_of(const dspic::Diagnosis& d) const {
   return chip_->diagnostics().count(d.cause, d.place);
 }
 
-// --- registers
-// --------------------------------------------------------------------------------------------
+// --- registers ------------------------------------------------------------------------------------------
 
 std::uint16_t ChipProcessor::read(unsigned address, unsigned bits, Cycle now) {
   const Cycle t = at(now);
@@ -217,8 +215,7 @@ bool ChipProcessor::print(const char* bytes, std::int64_t length) {
   return true;
 }
 
-// --- interrupts
-// -------------------------------------------------------------------------------------------
+// --- interrupts -----------------------------------------------------------------------------------------
 
 host::Processor::Outlook ChipProcessor::look(Cycle now) {
   const dspic::Outlook chip = chip_->look(at(now));
@@ -265,8 +262,7 @@ host::Processor::Waiting ChipProcessor::longest_waiting(Cycle now) {
 
 bool ChipProcessor::wakes(Cycle now) { return chip_->wakes(at(now)); }
 
-// --- observers
-// --------------------------------------------------------------------------------------------
+// --- observers ------------------------------------------------------------------------------------------
 
 // at the observer's own instants, which may lie before the latest of the program
 bool ChipProcessor::flag(int vector, Cycle at) {

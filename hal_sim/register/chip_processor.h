@@ -2,8 +2,7 @@
 // The register way's processor: every register access and every interrupt of a compiled program goes to the
 // models of the dsPIC30F6014A, on the same board and world as the native way.
 //
-//   compiled C --tp_sfr_read/write--> ChipProcessor --> dspic::Dspic30f6014a <--> chip::BoardOutside -->
-//   Board
+//   compiled C --tp_sfr_read/write--> ChipProcessor --> Dspic30f6014a <--> chip::BoardOutside --> Board
 //
 // Time is the Robot's: estimated costs of blocks, plus what the chip adds (interrupt entry and RETFIE). A
 // loop that polls registers is jumped over to the chip's horizon of what it has read.

@@ -63,44 +63,6 @@ int main(void) { e_init_port(); e_init_sound(); e_play_sound(2116, 1760); while 
   expect_no_traps();
 }
 
-// the second robot, 20 cm away: 0.0894 Pa x 24000/32768 / 0.2 m = 0.33 Pa peak, 32 counts; the player's own
-// loudspeaker is 9 to 37 mm from its microphones
-TEST_P(SoundWays, robots_hear_one_another) {
-  const std::string listener = R"(
-#include <a_d/advance_ad_scan/e_ad_conv.h>
-#include <a_d/advance_ad_scan/e_micro.h>
-#include <codec/e_sound.h>
-#include <motor_led/e_init_port.h>
-int loudest[3];
-int main(void) {
-  int m;
-  e_init_port();
-  SOUND
-  e_init_ad_scan(MICRO_ONLY);
-  while (!e_ad_is_array_filled());
-  while (1) {
-    for (m = 0; m < 3; m++) {
-      int v = e_get_micro_volume(m);
-      if (v > loudest[m]) loudest[m] = v;
-    }
-  }
-})";
-  const auto with = [&](const char* what) {
-    std::string s = listener;
-    return s.replace(s.find("SOUND"), 5, what);
-  };
-  Robot& player = add_robot_with_source(with("e_init_sound(); e_play_sound(11028, 8016);"), "player");
-  Robot& ear = add_robot_with_source(with(""), "ear").at(0.2, 0, 180);
-  run_for(0.6);
-  expect_no_traps();
-  const auto heard = ear.variables("loudest", 3), own = player.variables("loudest", 3);
-  for (std::size_t m = 0; m < 3; ++m) {
-    EXPECT_GT(heard[m], 30);
-    EXPECT_LT(heard[m], 90);
-    EXPECT_GT(own[m], 4 * heard[m]);
-  }
-}
-
 TEST_P(SoundWays, a_closed_codec_is_silent_at_once) {
   add_robot_with_source(R"(
 #include <codec/e_sound.h>
