@@ -15,6 +15,9 @@ inline constexpr Cycle kStartUpCycles = 1000;  // [assumed: some hundred words o
 /// return.
 inline constexpr Cycle kInterruptEntryCycles = 23;  // [estimated: DS70143 5.7 and XC16's prologue]
 
+/// From the interrupt that ends Idle to the next instruction, in cycles.
+inline constexpr Cycle kWakeCycles = 3;  // [assumed: the family manual names 2 to 4]
+
 /// Interrupts blocked for this long by the main program are taken for an endless loop: one second.
 inline constexpr Cycle kBlockedInterruptCycles = 14'745'600;  // [assumed: no program masks them for as long]
 

@@ -483,9 +483,12 @@ void Robot::on_power_save(bool sleep) {
   processor_->power_save(sleep, now_);
   calm_until_ = 0;
   for (;;) {
-    const bool awake = processor_->wakes(now_);
+    if (processor_->wakes(now_)) {
+      idle_to(now_ + kWakeCycles);  // a program of nothing but Idle() lives on this time
+      deliver();
+      break;
+    }
     deliver();
-    if (awake) break;
     const Cycle stop = next_disturbance();
     if (stop > end_) {
       idling_ = true;
