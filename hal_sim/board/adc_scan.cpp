@@ -77,7 +77,7 @@ void AdcScan::reset(Cycle at) {
   noise_base_ += 2 * static_cast<std::uint64_t>(full_base_ / kScanPeriod + 1);
   mic_noise_base_ += static_cast<std::uint64_t>(total_base_);
   runs_.clear();
-  acc_noise_base_ += static_cast<std::uint64_t>(acc_kept_);
+  acc_noise_base_ += static_cast<std::uint64_t>(full_base_ / kScanPeriod + 1);
   acc_kept_ = 0;
   acc_used_ = false;
   acc_ = AccRing{};
