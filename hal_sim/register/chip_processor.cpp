@@ -243,8 +243,8 @@ host::Processor::Entry ChipProcessor::enter(int vector, Cycle now) {
       vector >= host::kTrapVector ? vector - host::kTrapVector + 1 : vector + dspic::kFirstIrqVector;
   const dspic::InterruptEntry entry = chip_->enter_interrupt(number, at(now));
   watched_reads_ = 0;  // whatever waits looks again afterwards
-  const Cycle first = entry.first_instruction + kSavingCycles;
-  return {nullptr, first, chip_->calm_until(first, number)};
+  const Cycle first = entry.first_instruction;
+  return {nullptr, first, chip_->calm_until(first, number), kSavingCycles};
 }
 
 host::Processor::Return ChipProcessor::leave(Cycle now) {
