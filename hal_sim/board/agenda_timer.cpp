@@ -366,15 +366,19 @@ void AgendaTimer::finish(Cycle at) {
 // --- costs and digest ------------------------------------------------------------------------------------
 
 Cycle AgendaTimer::idle_tick_cost() const {
-  return kAgendaIsrCycles + kAgendaNodeCycles * static_cast<Cycle>(nodes_.size());
+  Cycle cost = kAgendaIsrCycles + (nodes_.empty() ? 0 : kAgendaListCycles);
+  for (const Node& node : nodes_)
+    cost += kAgendaNodeCycles + (count_of(node).counts() ? kAgendaCountCycles : 0);
+  return cost;
 }
 
-Cycle AgendaTimer::firing_period(Wheel wheel) const {
+AgendaTimer::Load AgendaTimer::firing(Wheel wheel) const {
   const AgendaMotor& m = motor(wheel);
-  if (!running_ || !m.count.counts() || m.speed == 0) return 0;
+  if (!running_ || !m.count.counts() || m.speed == 0) return {};
   const int magnitude = std::abs(m.speed);
-  const Cycle ticks = magnitude < kPowerSaveBelow ? kSpeedUnit / magnitude / 2 : m.count.cycle;
-  return ticks * kAgendaTickCycles;
+  if (magnitude < kPowerSaveBelow)
+    return {kSpeedUnit / magnitude * kAgendaTickCycles, 2 * kMotorHalfStepCycles};
+  return {m.count.cycle * kAgendaTickCycles, kMotorStepCycles};
 }
 
 std::uint64_t AgendaTimer::state_sum(Cycle at) const {

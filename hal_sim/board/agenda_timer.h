@@ -86,8 +86,11 @@ class AgendaTimer {
   std::int64_t ticks_at(Cycle at) const;
   /// Estimated processor cycles of a tick that fires nothing.
   Cycle idle_tick_cost() const;
-  /// Estimated cycles between two motor firings of this wheel; 0 when it does not fire.
-  Cycle firing_period(Wheel wheel) const;
+  /// What a running motor's agenda costs: `cost` processor cycles every `period`; period 0: it does not fire.
+  struct Load {
+    Cycle period = 0, cost = 0;
+  };
+  Load firing(Wheel wheel) const;
   /// The state at `at` as a sum of products, for a hash: the caller mixes it.
   std::uint64_t state_sum(Cycle at) const;
 

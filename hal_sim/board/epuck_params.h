@@ -148,14 +148,15 @@ inline constexpr double kFrontLedSpotM = 0.004;  // m [assumed: a 5 mm lens and 
 
 // --- processor time of the library's interrupt handlers, entry and RETFIE included -----------------------
 // of the usual variants: what the drivers' own handlers (hal_dspic) take in the register way, trace by trace
-inline constexpr Cycle kAgendaIsrCycles = 35;  // empty list [estimated: cost model on hal_dspic's handler]
-inline constexpr Cycle kAgendaNodeCycles =
-    16;  // one node that does not fire [estimated: cost model on hal_dspic's handler]
-inline constexpr Cycle kMotorStepCycles =
-    120;  // one firing, on or off [estimated: cost model on hal_dspic's handler]
-inline constexpr Cycle kScanIsrCycles =
-    117;  // mean of 65 frames [estimated: cost model on hal_dspic's handler]
-inline constexpr Cycle kScanMicroIsrCycles = 84;  // [estimated: cost model on hal_dspic's handler]
+// [measured: share of a delay loop that they take in the register way]
+inline constexpr Cycle kAgendaIsrCycles = 35;        // empty list
+inline constexpr Cycle kAgendaListCycles = -2;       // a list with nodes
+inline constexpr Cycle kAgendaNodeCycles = 13;       // one node
+inline constexpr Cycle kAgendaCountCycles = 5;       // one that counts
+inline constexpr Cycle kMotorHalfStepCycles = 125;   // coils on or off, the next half's cycle
+inline constexpr Cycle kMotorStepCycles = 108;       // coils on to stay
+inline constexpr Cycle kScanRoundIsrCycles = 7499;   // 65 frames
+inline constexpr Cycle kScanMicroIsrCycles = 83;     // a frame
 inline constexpr Cycle kBasicMotorIsrCycles =
     34;                                        // [estimated: shadow context, counter, phase, 4 bit writes]
 inline constexpr Cycle kTimer3IsrCycles = 40;  // [estimated: context, two counters, coil clearing]

@@ -38,6 +38,16 @@ void charge_basic_prox(Context& context, Board& robot) {
                      board::kBasicIsrEntryCycles + 2 * board::kReadAdCycles);
 }
 
+/// The converter's handler, if it runs.
+void charge_scan(Context& context, Board& robot, bool on) {
+  if (robot.scan().micro_only())
+    request_background(context, robot, TP_BG_ADC, board::kScanMicroFrameCycles,
+                       on ? board::kScanMicroIsrCycles : 0);
+  else
+    request_background(context, robot, TP_BG_ADC, board::kScanPeriod * board::kScanFrameCycles,
+                       on ? board::kScanRoundIsrCycles : 0);
+}
+
 /// After a change to agendas: the next interrupt, and the time the handler steals.
 void follow_agendas(Context& context, Board& robot) {
   board::AgendaTimer& agendas = robot.agendas();
@@ -51,11 +61,11 @@ void follow_agendas(Context& context, Board& robot) {
   request_background(context, robot, TP_BG_AGENDA, board::kAgendaTickCycles,
                      agendas.is_running() ? agendas.idle_tick_cost() : 0);
   for (Wheel wheel : {Wheel::Left, Wheel::Right}) {
-    const Cycle period = agendas.firing_period(wheel);
+    const auto [period, cost] = agendas.firing(wheel);
     // the drivers with their own timers use the same slots; a wheel has one driver
     if (period > 0 || !robot.timer_motors().drives(wheel))
       request_background(context, robot, wheel == Wheel::Left ? TP_BG_MOTOR_LEFT : TP_BG_MOTOR_RIGHT, period,
-                         period > 0 ? board::kMotorStepCycles : 0);
+                         cost);
   }
 }
 
@@ -262,8 +272,7 @@ void tp_scan_start(tp_i64 micro_only, tp_i64 five_pairs) {
   Board& robot = context.board();
   robot.scan().start(micro_only != 0, five_pairs != 0, context.now());
   robot.follow_power(context.now());
-  request_background(context, robot, TP_BG_ADC, robot.scan().frame_cycles(),
-                     micro_only ? board::kScanMicroIsrCycles : board::kScanIsrCycles);
+  charge_scan(context, robot, true);
   context.note_write();
 }
 
@@ -272,8 +281,7 @@ void tp_scan_switch(tp_i64 on) {
   Board& robot = context.board();
   robot.scan().switch_converter(on != 0, context.now());
   robot.follow_power(context.now());
-  const Cycle cost = robot.scan().micro_only() ? board::kScanMicroIsrCycles : board::kScanIsrCycles;
-  request_background(context, robot, TP_BG_ADC, robot.scan().frame_cycles(), on ? cost : 0);
+  charge_scan(context, robot, on != 0);
   context.note_write();
 }
 
