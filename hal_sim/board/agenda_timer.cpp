@@ -90,6 +90,12 @@ AgendaTimer::Node* AgendaTimer::find(Function function) {
   return nullptr;
 }
 
+int AgendaTimer::nodes_passed(Function function) const {
+  int passed = 0;
+  for (std::size_t i = nodes_.size(); i-- > 0 && nodes_[i].function != function;) ++passed;
+  return passed;
+}
+
 AgendaCount& AgendaTimer::count_of(Node& node) {
   return node.kind == Kind::User ? node.count : motor(wheel_of(node.kind)).count;
 }

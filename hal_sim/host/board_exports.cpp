@@ -17,9 +17,17 @@ using board::Wheel;
 using host::Context;
 
 // processor time of library functions whose work happens on this side
-constexpr Cycle kSetSpeedCycles = 70;  // [estimated: 4 bit writes, one 18-cycle division, list search, store]
-constexpr Cycle kListSearchCycles = 30;  // [estimated: call, two nodes compared, store]
-constexpr Cycle kActivateCycles = 120;   // [estimated: list search, malloc of one node, five stores]
+// [measured: register way] beside what TAKES() of the functions that call says
+constexpr Cycle kSetSpeedCycles = 85;   // speed 0
+constexpr Cycle kDivisionCycles = 21;   // any other speed
+constexpr Cycle kListSearchCycles = 11;  // agenda found at once
+constexpr Cycle kSetCycleCycles = 7;
+constexpr Cycle kNodePassedCycles = 10;
+constexpr Cycle kKnownCycles = 13;     // activated although it is there
+constexpr Cycle kActivateCycles = 103; // malloc() and all
+constexpr Cycle kNodeOfListCycles = 16;
+constexpr Cycle kDestroyCycles = 42;
+constexpr Cycle kFreeCycles = 32;
 
 Wheel wheel_of(tp_i64 wheel) { return wheel == 0 ? Wheel::Left : Wheel::Right; }
 
@@ -67,6 +75,10 @@ void follow_agendas(Context& context, Board& robot) {
       request_background(context, robot, wheel == Wheel::Left ? TP_BG_MOTOR_LEFT : TP_BG_MOTOR_RIGHT, period,
                          cost);
   }
+}
+
+Cycle search_cost(const void* function, Cycle found_at_once = kListSearchCycles) {
+  return found_at_once + kNodePassedCycles * Context::current().board().agendas().nodes_passed(function);
 }
 
 /// Shape of every change of the agenda list.
@@ -140,35 +152,41 @@ void tp_agenda_stop(void) {
 }
 
 tp_i64 tp_agenda_activate(const void* function, tp_i64 cycle) {
-  return change_list(kActivateCycles, [&](board::AgendaTimer& agendas, Cycle now) {
+  const board::AgendaTimer& list = Context::current().board().agendas();
+  const Cycle cost = list.has(function) ? kKnownCycles + kNodePassedCycles * list.nodes_passed(function)
+                                        : kActivateCycles + kNodeOfListCycles * list.nodes_passed(function);
+  return change_list(cost, [&](board::AgendaTimer& agendas, Cycle now) {
     return agendas.activate(function, static_cast<int>(cycle), now);
   });
 }
 
 tp_i64 tp_agenda_destroy(const void* function) {
-  return change_list(kActivateCycles,
+  const board::AgendaTimer& list = Context::current().board().agendas();
+  const Cycle cost = kDestroyCycles + kNodePassedCycles * list.nodes_passed(function) +
+                     (list.has(function) ? kFreeCycles : 0);
+  return change_list(cost,
                      [&](board::AgendaTimer& agendas, Cycle now) { return agendas.destroy(function, now); });
 }
 
 tp_i64 tp_agenda_set_cycle(const void* function, tp_i64 cycle) {
-  return change_list(kListSearchCycles, [&](board::AgendaTimer& agendas, Cycle now) {
+  return change_list(search_cost(function, kSetCycleCycles), [&](board::AgendaTimer& agendas, Cycle now) {
     return agendas.set_cycle(function, static_cast<int>(cycle), now);
   });
 }
 
 tp_i64 tp_agenda_reset(const void* function) {
-  return change_list(kListSearchCycles, [&](board::AgendaTimer& agendas, Cycle now) {
+  return change_list(search_cost(function), [&](board::AgendaTimer& agendas, Cycle now) {
     return agendas.reset_count(function, now);
   });
 }
 
 tp_i64 tp_agenda_pause(const void* function) {
-  return change_list(kListSearchCycles,
+  return change_list(search_cost(function),
                      [&](board::AgendaTimer& agendas, Cycle now) { return agendas.pause(function, now); });
 }
 
 tp_i64 tp_agenda_restart(const void* function) {
-  return change_list(kListSearchCycles,
+  return change_list(search_cost(function),
                      [&](board::AgendaTimer& agendas, Cycle now) { return agendas.restart(function, now); });
 }
 
@@ -204,7 +222,10 @@ void tp_motor_agenda(tp_i64 wheel, const void* function) {
 }
 
 void tp_motor_speed(tp_i64 wheel, tp_i64 speed_steps_s) {
-  change_list(kSetSpeedCycles, [&](board::AgendaTimer& agendas, Cycle now) {
+  const int passed = Context::current().board().agendas().nodes_passed(wheel_of(wheel));
+  const Cycle cost =
+      kSetSpeedCycles + kNodePassedCycles * passed + (speed_steps_s == 0 ? 0 : kDivisionCycles);
+  change_list(cost, [&](board::AgendaTimer& agendas, Cycle now) {
     agendas.set_speed(wheel_of(wheel), static_cast<int>(speed_steps_s), now);
     return 1;
   });
