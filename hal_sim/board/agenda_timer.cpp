@@ -4,6 +4,7 @@
 #include "hal_sim/board/agenda_timer.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "sim_core/base/hash.h"
 
@@ -307,6 +308,7 @@ void AgendaTimer::begin(Cycle at) {
   }
   walking_ = true;
   walk_serial_ = kBeforeAll;
+  walk_cost_ = 0;
   in_callback_ = false;
 }
 
@@ -330,6 +332,7 @@ AgendaTimer::Function AgendaTimer::next(bool& divided_by_zero) {
     }
     settle(*node, walk_tick_ - 1);
     walk_serial_ = node->serial;
+    walk_cost_ += cost_of(*node);
     if (!needs_handler(*node)) {
       settle(*node, walk_tick_);
       continue;
@@ -371,11 +374,23 @@ void AgendaTimer::finish(Cycle at) {
 
 // --- costs and digest ------------------------------------------------------------------------------------
 
-Cycle AgendaTimer::idle_tick_cost() const {
+Cycle AgendaTimer::cost_of(const Node& node) const {
+  return kAgendaNodeCycles + (count_of(node).counts() ? kAgendaCountCycles : 0);
+}
+
+Cycle AgendaTimer::take_walk_cost() { return std::exchange(walk_cost_, 0); }
+
+AgendaTimer::Load AgendaTimer::quiet_ticks() const {
+  if (!running_) return {};
   Cycle cost = kAgendaIsrCycles + (nodes_.empty() ? 0 : kAgendaListCycles);
-  for (const Node& node : nodes_)
-    cost += kAgendaNodeCycles + (count_of(node).counts() ? kAgendaCountCycles : 0);
-  return cost;
+  constexpr Cycle kTicks = 1 << 20;
+  Cycle quiet = kTicks;  // of these
+  for (const Node& node : nodes_) {
+    const AgendaCount& count = count_of(node);
+    cost += cost_of(node);
+    if (count.counts() && needs_handler(node)) quiet -= quiet / count.cycle;
+  }
+  return {kTicks * kAgendaTickCycles, quiet * cost};
 }
 
 AgendaTimer::Load AgendaTimer::firing(Wheel wheel) const {

@@ -23,6 +23,8 @@ constexpr Cycle kDivisionCycles = 21;   // any other speed
 constexpr Cycle kListSearchCycles = 11;  // agenda found at once
 constexpr Cycle kSetCycleCycles = 7;
 constexpr Cycle kNodePassedCycles = 10;
+constexpr Cycle kStartCycles = 20;
+constexpr Cycle kReturnCycles = 6;  // from the end of the list to RETFIE
 constexpr Cycle kKnownCycles = 13;     // activated although it is there
 constexpr Cycle kActivateCycles = 103; // malloc() and all
 constexpr Cycle kNodeOfListCycles = 16;
@@ -66,8 +68,8 @@ void follow_agendas(Context& context, Board& robot) {
     robot.requests.agenda_interrupt = wanted;
     context.irq_at(TP_V_T2, wanted);
   }
-  request_background(context, robot, TP_BG_AGENDA, board::kAgendaTickCycles,
-                     agendas.is_running() ? agendas.idle_tick_cost() : 0);
+  const board::AgendaTimer::Load quiet = agendas.quiet_ticks();
+  request_background(context, robot, TP_BG_AGENDA, quiet.period, quiet.cost);
   for (Wheel wheel : {Wheel::Left, Wheel::Right}) {
     const auto [period, cost] = agendas.firing(wheel);
     // the drivers with their own timers use the same slots; a wheel has one driver
@@ -138,7 +140,8 @@ void tp_coils_write(tp_i64 wheel, tp_i64 coils) {
 // --- agendas ---------------------------------------------------------------------------------------------
 
 void tp_agenda_start(void) {
-  change_list(20, [](board::AgendaTimer& agendas, Cycle now) {
+  Context::current().spend(kStartCycles);  // the timer is switched on last
+  change_list(0, [](board::AgendaTimer& agendas, Cycle now) {
     agendas.start(now);
     return 1;
   });
@@ -200,6 +203,7 @@ const void* tp_agenda_next(void) {
   Context& context = Context::current();
   bool divided_by_zero = false;
   const void* function = context.board().agendas().next(divided_by_zero);
+  context.spend(context.board().agendas().take_walk_cost());
   if (divided_by_zero)
     context.trap(TP_TRAP_MATH, "motor agenda: 10000 / 0 (speed 0 with a power-save half pending)");
   context.callback(function);
@@ -208,6 +212,7 @@ const void* tp_agenda_next(void) {
 
 void tp_agenda_end(void) {
   Context& context = Context::current();
+  context.spend(kReturnCycles);
   Board& robot = context.board();
   robot.agendas().finish(context.now());
   robot.requests.agenda_interrupt = Board::Requests::kUnknown;  // the request was used up
