@@ -52,7 +52,7 @@ static inline void set_ring(unsigned int led, unsigned int value) {
 /* --- time --------------------------------------------------------------------------------------------- */
 
 /** Rounds of an empty loop over a long [estimated: 10 cycles each]. */
-#define hal_pause(rounds) tp_spend((tp_i64)(rounds) * 10)
+#define hal_pause(rounds) tp_spend(((tp_i64)(rounds) * 10 + 5))
 
 /* --- converter ---------------------------------------------------------------------------------------- */
 
