@@ -11,6 +11,9 @@
 /** Blocks for `cycles` instruction cycles, at least 12; interrupts go on. */
 void __delay32(unsigned long cycles);
 
+/** 1 or 2: the UART that printf() and its like write to. */
+extern int __C30_UART;
+
 #define __delay_ms(d) __delay32((unsigned long)((d) * (FCY) / 1000.0))
 #define __delay_us(d) __delay32((unsigned long)((d) * (FCY) / 1000000.0))
 

@@ -69,7 +69,6 @@ inline constexpr Refusal kRefusedFunctions[] = {
     {"open", "send data over uart/e_uart_char.h; a robot has no files"},
     {"close", "send data over uart/e_uart_char.h; a robot has no files"},
     {"read", "use e_getchar_uart1() of uart/e_uart_char.h; a robot has no files"},
-    {"write", "use e_send_uart1_char() of uart/e_uart_char.h; a robot has no files"},
     {"scanf", "use e_getchar_uart1() and sscanf(); nobody types at a robot's keyboard"},
     {"getchar", "use e_getchar_uart1(); nobody types at a robot's keyboard"},
     {"gets", "use e_getchar_uart1(); nobody types at a robot's keyboard"},

@@ -130,8 +130,8 @@ void tp_table_write(tp_i64 address, tp_i64 value);
 tp_i64 tp_rand(void);
 void tp_srand(tp_i64 seed);
 
-/** printf() of firmware: goes to UART1 as XC16's does (UART1, no init needed in our model). */
-void tp_console(const char* bytes, tp_i64 length);
+/** printf() of firmware: goes to UART `uart`, 1 or 2, as XC16's does; the UART needs no set-up. */
+void tp_console(const char* bytes, tp_i64 length, tp_i64 uart);
 
 #ifdef __cplusplus
 }

@@ -65,7 +65,7 @@ class Processor {
   /// A loop waits from `now` on: the following reads say how long their value stays.
   virtual void watch_reads(Cycle now) {}
   /// Text that the program prints. False: the caller puts it out itself.
-  virtual bool print(const char* bytes, std::int64_t length) { return false; }
+  virtual bool print(const char* bytes, std::int64_t length, int uart) { return false; }
 
   // --- interrupts
   struct Outlook {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Firmware libc: formatted text; printf() goes to UART 1 as XC16's does. There are no files. */
+ * Firmware libc: formatted text; printf() ends in write(), which sends to the UART that __C30_UART names,
+ * as with XC16. There are no files. */
 #ifndef TP_LIBC_STDIO_H
 #define TP_LIBC_STDIO_H
 #include <stdarg.h>
@@ -26,4 +27,6 @@ int putchar(int c);
 int fputc(int c, FILE* to);
 int putc(int c, FILE* to);
 int fflush(FILE* to);
+/* 1 or 2: the UART that printf() and its like write to */
+extern int __C30_UART;
 #endif
