@@ -334,12 +334,36 @@ struct Program {
   }
 };
 
+/// Of several main() that which lies nearest to the folder is the program's; folders of the others, such as the
+/// examples of a library that a project carries along, are there for whatever asks for them.
+void leave_out_other_programs(Program& program, const fs::path& folder, BuildResult& result) {
+  std::vector<std::pair<std::ptrdiff_t, fs::path>> mains;  // depth, file
+  for (const fs::path& source : program.sources)
+    if (defines_main(source)) {
+      const fs::path below = source.lexically_relative(folder);
+      mains.emplace_back(std::distance(below.begin(), below.end()), source);
+    }
+  std::sort(mains.begin(), mains.end());
+  if (mains.size() < 2 || mains[0].first == mains[1].first) return;
+  for (std::size_t i = 1; i < mains.size(); ++i)
+    for (const fs::path& source : program.sources)
+      if (const fs::path home = mains[i].second.parent_path();
+          std::mismatch(home.begin(), home.end(), source.begin(), source.end()).first == home.end())
+        program.unlisted.insert(source);
+  result.warnings.push_back(folder.string() + ": main(): got " + std::to_string(mains.size()) +
+                            " definitions, expected 1; " + mains[0].second.lexically_relative(folder).string() +
+                            " is taken, and of the folders of the others what it asks for");
+}
+
 Program program_of(const BuildOptions& o, BuildResult& result) {
   Program program;
   program.sources = o.sources.empty() ? files_below(o.source_dir, ".c") : o.sources;
   if (!o.sources.empty() || names_webots(program.sources, files_below(o.source_dir, ".h"))) return program;
   const auto project = find_mplab_project(o.source_dir);
-  if (!project) return program;
+  if (!project) {
+    leave_out_other_programs(program, o.source_dir, result);
+    return program;
+  }
   program.include_dirs = project->include_dirs;
   std::set<fs::path> listed;
   for (const fs::path& source : project->sources) listed.insert(fs::weakly_canonical(source));
@@ -434,7 +458,7 @@ BuildResult build_image(const BuildOptions& options) {
       // a copy of the library holds files that the project never compiled
       result.warnings.push_back(
           p.user[i].source.string() + ": does not compile and is left out, as " +
-          (program.unlisted.count(p.user[i].source) ? "the project does not list it: "
+          (program.unlisted.count(p.user[i].source) ? "it is no part of the program: "
                                                     : "a file of a copy of the library: ") +
           outcomes[i].messages.substr(0, outcomes[i].messages.find('\n')));
       continue;

@@ -29,7 +29,8 @@ constexpr long long kTrapUnsimulated = 8;  // TP_TRAP_UNSIMULATED of image_abi.h
 /// those of the header; a variable that the file does not know is somebody else's, of 16 bits.
 GlobalVariable* named(Unit& unit, StringRef name) {
   Module& m = unit.module;
-  name.consume_front("_");
+  // registers go by their names with and without the underscore of C
+  const bool is_of_c = name.consume_front("_");
   Type* word = Type::getInt16Ty(m.getContext());
   const auto external = [&](const std::string& label) {
     if (auto* g = m.getNamedGlobal(label)) return g;
@@ -44,14 +45,14 @@ GlobalVariable* named(Unit& unit, StringRef name) {
     known.consume_back("bits");
     if (known == plain) return external("\1" + label);
   }
-  if (m.getFunction(name)) return nullptr;
+  if (!is_of_c || m.getFunction(name)) return nullptr;
   return external(name.str());
 }
 
 /// Loads, changes and stores one byte or word.
 bool lower_in_place(Unit& unit, IRBuilder<>& b, const std::string& text) {
   static const std::regex kForm(
-      R"((clr|setm|inc|inc2|dec|dec2|com|neg|bset|bclr|btg)(\.b|\.w)?\s+(_\w+)\s*(?:\+\s*(\d+))?\s*(?:,\s*#\s*(0x[0-9a-f]+|\d+))?)",
+      R"((clr|setm|inc|inc2|dec|dec2|com|neg|bset|bclr|btg)(\.b|\.w)?\s+([a-z_]\w*)\s*(?:\+\s*(\d+))?\s*(?:,\s*#\s*(0x[0-9a-f]+|\d+))?)",
       std::regex::icase);
   std::smatch match;
   if (!std::regex_match(text, match, kForm)) return false;
@@ -96,8 +97,9 @@ bool lower_statement(Unit& unit, IRBuilder<>& b, StringRef text) {
   std::smatch match;
   static const std::regex kDisi(R"(disi\s+#\s*(0x[0-9a-f]+|[0-9]+))");
   static const std::regex kRepeat(R"(repeat\s+#\s*(0x[0-9a-f]+|[0-9]+))");
+  static const std::regex kBreak(R"(\.pword\s+0xda4000)");  // of a debugger; nothing without one
   static const std::regex kPwrsav(R"(pwrsav\s+#\s*(0|1|0x0|0x1|sleep_mode|idle_mode))");
-  if (lower == "nop") {
+  if (lower == "nop" || std::regex_match(lower, kBreak)) {
     b.CreateCall(marker(m, kNop));
   } else if (lower == "reset") {
     b.CreateCall(host_function(m, "tp_reset", none, {}));
@@ -162,10 +164,10 @@ void lower_assembler(Unit& unit) {
     std::string text = cast<InlineAsm>(call->getCalledOperand())->getAsmString();
     IRBuilder<> b(call);
     SmallVector<StringRef, 4> lines;
-    SplitString(text, lines, "\n;");
+    SplitString(text, lines, "\n");
     for (StringRef line : lines) {
-      line = line.trim();
-      if (line.empty() || line.startswith(";")) continue;
+      line = line.split(';').first.trim();  // what follows is a comment
+      if (line.empty()) continue;
       if (refused == call->getFunction() || lower_statement(unit, b, line)) continue;
       refuse(unit, b, call, line);
       if (!unit.failed) refused = call->getFunction();

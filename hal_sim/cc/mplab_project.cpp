@@ -91,11 +91,6 @@ Listed read_configurations(const std::string& text) {
   return listed;
 }
 
-bool defines_main(const fs::path& source) {
-  static const std::regex kMain(R"(\bmain\s*\([^;{)]*\)\s*\{)");
-  return std::regex_search(without_comments(read_text(source)), kMain);
-}
-
 /// A project and its home: the folder that its relative paths start from.
 std::optional<MplabProject> read_project(const fs::path& file, const fs::path& home) {
   const std::string text = read_text(file);
@@ -122,6 +117,11 @@ std::optional<MplabProject> read_project(const fs::path& file, const fs::path& h
 }
 
 }  // namespace
+
+bool defines_main(const fs::path& source) {
+  static const std::regex kMain(R"(\bmain\s*\([^;{)]*\)\s*\{)");
+  return std::regex_search(without_comments(read_text(source)), kMain);
+}
 
 std::optional<MplabProject> find_mplab_project(const fs::path& folder) {
   const fs::path home = fs::absolute(folder).lexically_normal();

@@ -21,4 +21,7 @@ struct MplabProject {
 /// The project of `folder`: the only one of which a listed file has a main(). None: there is none, or several.
 std::optional<MplabProject> find_mplab_project(const std::filesystem::path& folder);
 
+/// Whether a C file has a main() of its own.
+bool defines_main(const std::filesystem::path& source);
+
 }  // namespace cc

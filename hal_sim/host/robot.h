@@ -212,6 +212,7 @@ class Robot final : public Context {
 
   static void enter_firmware(void* self);
   void restart_program();
+  void program_eeprom();
   char* place_of(std::uintptr_t address) const;  // where this robot's value of a variable is now
   void swap_in();
   void fold() {  // spent budget -> now_

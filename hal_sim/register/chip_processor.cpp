@@ -16,6 +16,7 @@ namespace register_way {
 namespace {
 
 constexpr unsigned kU1Mode = 0x20C, kU2Mode = 0x216, kIfs0 = 0x084;
+constexpr unsigned kAlternateTable = 0x80;  // of vectors, in program memory
 constexpr std::uint16_t kUartEnabled = 0x8000, kTransmitEnabled = 0x0400, kBufferFull = 0x0200;
 
 /// Reading it moves a FIFO or lowers a flag, so a loop that does has changed something.
@@ -237,7 +238,7 @@ host::Processor::Entry ChipProcessor::enter(int vector, Cycle now) {
   const dspic::InterruptEntry entry = chip_->enter_interrupt(number, at(now));
   watched_reads_ = 0;  // whatever waits looks again afterwards
   const Cycle first = entry.first_instruction + kSavingCycles;
-  return {nullptr, first, chip_->calm_until(first, number)};
+  return {nullptr, first, chip_->calm_until(first, number), entry.address >= kAlternateTable};
 }
 
 host::Processor::Return ChipProcessor::leave(Cycle now) {

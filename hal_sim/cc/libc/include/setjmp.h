@@ -6,7 +6,7 @@ typedef struct {
   void* state[5];
   int value;
 } jmp_buf[1];
-void tp_image_longjmp(void* state, int* value, int v) __attribute__((noreturn));
+void tp_image_longjmp(void* __state, int* __value, int __v) __attribute__((noreturn));
 #define setjmp(b) (__builtin_setjmp((b)->state) ? (b)->value : 0)
 #define longjmp(b, v) tp_image_longjmp((b)->state, &(b)->value, v)
 #endif
