@@ -17,7 +17,7 @@ extern int __C30_UART;
 /** A place in program memory or data EEPROM. */
 typedef unsigned long _prog_addressT;
 #define _init_prog_address(place, object) \
-  ((place) = (_prog_addressT)__builtin_tblpage(object) << 16 | __builtin_tbloffset(object))
+  ((place) = (_prog_addressT)__builtin_tblpage(&(object)) << 16 | __builtin_tbloffset(&(object)))
 
 /** Copies `bytes` bytes from program memory or data EEPROM; returns the place behind them. */
 _prog_addressT _memcpy_p2d16(void *to, _prog_addressT from, unsigned int bytes);

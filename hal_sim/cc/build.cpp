@@ -133,6 +133,10 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, bool lint,
     user_include.push_back("-I" + d.string());
     library_include.push_back("-I" + d.string());
   }
+  // "motor/speed.h" below a folder that the project's makefile names: the folder above the header's
+  for (const auto& d : own)
+    if (const fs::path above = d.parent_path(); d != o.source_dir)
+      if (std::find(own.begin(), own.end(), above) == own.end()) user_include.push_back("-I" + above.string());
   for (const auto& d : project_include_dirs) user_include.push_back("-I" + d.string());
   for (auto* list : {&user_include, &library_include}) {
     list->push_back("-I" + (cc_dir / "libc/include").string());

@@ -11,15 +11,15 @@ typedef struct tp_file FILE;
 extern FILE* const tp_stdout;
 #define stdout tp_stdout
 #define stderr tp_stdout
-int printf(const char* __format, ...) __attribute__((format(printf, 1, 2)));
+int printf(const char* __format, ...) __attribute__((__format__(__printf__, 1, 2)));
 int vprintf(const char* __format, va_list __list);
-int fprintf(FILE* __to, const char* __format, ...) __attribute__((format(printf, 2, 3)));
+int fprintf(FILE* __to, const char* __format, ...) __attribute__((__format__(__printf__, 2, 3)));
 int vfprintf(FILE* __to, const char* __format, va_list __list);
-int sprintf(char* __to, const char* __format, ...) __attribute__((format(printf, 2, 3)));
-int snprintf(char* __to, size_t __size, const char* __format, ...) __attribute__((format(printf, 3, 4)));
+int sprintf(char* __to, const char* __format, ...) __attribute__((__format__(__printf__, 2, 3)));
+int snprintf(char* __to, size_t __size, const char* __format, ...) __attribute__((__format__(__printf__, 3, 4)));
 int vsprintf(char* __to, const char* __format, va_list __list);
 int vsnprintf(char* __to, size_t __size, const char* __format, va_list __list);
-int sscanf(const char* __s, const char* __format, ...) __attribute__((format(scanf, 2, 3)));
+int sscanf(const char* __s, const char* __format, ...) __attribute__((__format__(__scanf__, 2, 3)));
 int vsscanf(const char* __s, const char* __format, va_list __list);
 int puts(const char* __s);
 int fputs(const char* __s, FILE* __to);

@@ -31,8 +31,8 @@ void srand(unsigned int __seed);
 void qsort(void* __first, size_t __n, size_t __bytes, int (*__compare)(const void*, const void*));
 void* bsearch(const void* __key, const void* __first, size_t __n, size_t __bytes,
               int (*__compare)(const void*, const void*));
-void exit(int __status) __attribute__((noreturn));
-void abort(void) __attribute__((noreturn));
+void exit(int __status) __attribute__((__noreturn__));
+void abort(void) __attribute__((__noreturn__));
 int atexit(void (*__function)(void));
 char* itoa(char* __to, int __value, int __base);
 #endif

@@ -3,9 +3,13 @@
  * section tpeedata (_EEDATA, space(eedata)) lie in the EEPROM, in their order from its first word on. Everything
  * else has a program address of its own by which it is read, two bytes to an address as psv data on the chip; not
  * modelled: the window into program memory through pointers that are made of numbers (PSVPAG). */
-#include <DataEEPROM.h>
-#include <libpic30.h>
 #include "hal_sim/host/image_abi.h"
+
+/* of libpic30.h and DataEEPROM.h */
+typedef unsigned long _prog_addressT;
+enum { kRowBytes = 32, kWord = 1, kRow = 16 };
+int EraseEE(int page, int offset, int size);
+int WriteEE(int *words, int page, int offset, int size);
 
 extern const char tp_text_begin[], tp_data_end[];     /* the linker script */
 extern const char tp_eedata_begin[], tp_eedata_end[];
@@ -39,9 +43,9 @@ _prog_addressT _memcpy_p2d16(void *to, _prog_addressT from, unsigned int bytes)
 }
 
 /* the functions of the library for one word or one row wait until it is done */
-static int size_of(int bytes) { return bytes == _EE_ROW ? ROW : WORD; }
+static int size_of(int bytes) { return bytes == kRowBytes ? kRow : kWord; }
 
 void _erase_eedata(_prog_addressT at, int bytes) { EraseEE((int)(at >> 16), (int)at, size_of(bytes)); }
-void _write_eedata_word(_prog_addressT at, int word) { WriteEE(&word, (int)(at >> 16), (int)at, WORD); }
-void _write_eedata_row(_prog_addressT at, int *words) { WriteEE(words, (int)(at >> 16), (int)at, ROW); }
+void _write_eedata_word(_prog_addressT at, int word) { WriteEE(&word, (int)(at >> 16), (int)at, kWord); }
+void _write_eedata_row(_prog_addressT at, int *words) { WriteEE(words, (int)(at >> 16), (int)at, kRow); }
 void _wait_eedata(void) {}
