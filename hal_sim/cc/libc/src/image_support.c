@@ -12,12 +12,23 @@ void tp_image_assert(const char *file, int line, const char *text)
   tp_trap_message(TP_TRAP_ABORT, message);
 }
 
+/* state: five words of __builtin_setjmp(), the first of them the frame, and who called the function of that frame,
+ * which stands above the frame's first word, that of the frame before */
+int tp_image_note_caller(void *state)
+{
+  ((void **)state)[5] = ((void ***)state)[0][1];
+  return 0;
+}
+
 void tp_image_longjmp(void *state, int *value, int v)
 {
-  volatile char here = 0;
+  void *own[5], **target = ((void ***)state)[0], **frame;
+  __builtin_setjmp(own);
+  frame = own[0];
   *value = v ? v : 1;
-  /* the frame that called setjmp() must still be there: above ours, for stacks grow downwards */
-  if (((void **)state)[2] < (void *)&here)
+  /* the function that called setjmp() must be one of those that led here */
+  while (frame < target && (void **)frame[0] > frame) frame = frame[0];
+  if (frame != target || target[1] != ((void **)state)[5])
     tp_trap_message(TP_TRAP_UNSIMULATED,
                     "longjmp() to a function that has returned, or to a place that setjmp() has not set; programs that "
                     "exchange stacks so (processes, coroutines) run on the robot only");
