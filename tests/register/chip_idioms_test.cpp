@@ -274,6 +274,44 @@ int main(void)
   expect_no_traps();
 }
 
+// the unlock sequences of the manuals: OSCCON takes a byte after two keys, NVMCON.WR is set after two keys
+TEST_F(RegisterTest, assembler_moves_keys_through_working_registers) {
+  Robot& robot = add_robot_with_source(program(R"(
+int copied, kept = 7, word = 0x1234;
+unsigned oscillator, started, after;
+int main(void)
+{
+  asm volatile ("mov #0x46, w0 \n"
+                "mov #0x57, w1 \n"
+                "mov #_OSCCON,w2 \n"
+                "mov.b w0, [w2] \n"
+                "mov.b w1, [w2] \n"
+                "bset.b [w2],#1;");
+  oscillator = OSCCON;
+  asm("mov _word, W3");
+  asm("push W3");
+  asm("mov #5, W3");
+  asm("mov.b W3, W0");  /* the upper half stays */
+  asm("pop W3");
+  asm("mov W3, _copied");
+  NVMADRU = 0x7F;
+  NVMADR = 0xF000;
+  NVMCON = 0x4044;  /* erase a word */
+  __asm__ volatile("disi #5\n mov #0x55,W0\n mov W0,NVMKEY\n mov #0xAA,W1\n mov W1,NVMKEY\n bset NVMCON,#WR\n nop\n nop");
+  started = NVMCON;
+  while (NVMCONbits.WR);
+  after = NVMCON;
+  while (1);
+}
+)"));
+  run_for(0.05);
+  EXPECT_EQ(robot.variable<std::uint16_t>("oscillator") & 2, 2);  // LPOSCEN
+  EXPECT_EQ(robot.variable("copied"), 0x1234);
+  EXPECT_EQ(robot.variable<std::uint16_t>("started") & 0x8000, 0x8000);
+  EXPECT_EQ(robot.variable<std::uint16_t>("after") & 0xA000, 0);  // WR, WRERR
+  expect_no_traps();
+}
+
 // CN1 is RC13, beside the camera's pins: their edges are none of its business
 TEST_F(RegisterTest, change_notification_does_not_follow_pins_that_it_does_not_watch) {
   Robot& robot = add_robot_with_source(program(R"(

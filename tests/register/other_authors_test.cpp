@@ -145,7 +145,7 @@ extern int go;
 void __attribute__((interrupt, no_auto_psv)) _T5Interrupt(void)
 {
   __asm__ volatile("push.d w0");
-  __asm__ volatile("mov _PORTD,w1");
+  __asm__ volatile("swap w1");
   IFS1bits.T5IF = 0;
   __asm__ volatile("pop.d w0");
 }
