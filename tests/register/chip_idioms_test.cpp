@@ -238,7 +238,7 @@ TEST_F(RegisterTest, time_counts_cycles_in_timers_2_and_3) {
   Robot& robot = add_robot_with_source(program(R"(
 #include <time.h>
 #include <libpic30.h>
-long first, later, again;
+long first, later, again, ticks;
 int main(void)
 {
   time_t t;
@@ -246,6 +246,7 @@ int main(void)
   __delay32(1000000);
   later = time(&t);
   again = t;
+  ticks = clock() - later;
   while (1);
 }
 )"));
@@ -253,6 +254,8 @@ int main(void)
   EXPECT_LT(robot.variable<std::int32_t>("first"), 20);
   EXPECT_NEAR(robot.variable<std::int32_t>("later"), 1000000, 100);
   EXPECT_EQ(robot.variable<std::int32_t>("again"), robot.variable<std::int32_t>("later"));
+  EXPECT_GT(robot.variable<std::int32_t>("ticks"), 0);
+  EXPECT_LT(robot.variable<std::int32_t>("ticks"), 200);
   expect_no_traps();
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Firmware libc: a robot has no calendar. time() counts cycles in the register way; in the native way it and clock()
+ * Firmware libc: a robot has no calendar. time() and clock() count cycles in the register way; in the native way they
  * are refused at build, but for programs written for Webots' interfaces, whose calendar is simulated. */
 #ifndef TP_LIBC_TIME_H
 #define TP_LIBC_TIME_H
