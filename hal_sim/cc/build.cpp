@@ -136,7 +136,8 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, bool lint,
   // "motor/speed.h" below a folder that the project's makefile names: the folder above the header's
   for (const auto& d : own)
     if (const fs::path above = d.parent_path(); d != o.source_dir)
-      if (std::find(own.begin(), own.end(), above) == own.end()) user_include.push_back("-I" + above.string());
+      if (std::find(own.begin(), own.end(), above) == own.end())
+        user_include.push_back("-I" + above.string());
   for (const auto& d : project_include_dirs) user_include.push_back("-I" + d.string());
   for (auto* list : {&user_include, &library_include}) {
     list->push_back("-I" + (cc_dir / "libc/include").string());
@@ -327,8 +328,8 @@ struct Program {
   std::vector<fs::path> sources, include_dirs;
   std::set<fs::path> unlisted;
 
-  /// The `own` first files to compile are the program's, the others members of a library: unlisted ones become
-  /// the last of them. How many are own now.
+  /// The `own` first files to compile are the program's, the others members of a library: unlisted ones
+  /// become the last of them. How many are own now.
   std::size_t order(LibraryCopies& copies, std::size_t own) const {
     const auto is_listed = [this](const fs::path& source) { return !unlisted.count(source); };
     const auto first = copies.kept.begin();
@@ -338,8 +339,8 @@ struct Program {
   }
 };
 
-/// Of several main() that which lies nearest to the folder is the program's; folders of the others, such as the
-/// examples of a library that a project carries along, are there for whatever asks for them.
+/// Of several main() that which lies nearest to the folder is the program's; folders of the others, such as
+/// the examples of a library that a project carries along, are there for whatever asks for them.
 void leave_out_other_programs(Program& program, const fs::path& folder, BuildResult& result) {
   std::vector<std::pair<std::ptrdiff_t, fs::path>> mains;  // depth, file
   for (const fs::path& source : program.sources)
@@ -355,7 +356,8 @@ void leave_out_other_programs(Program& program, const fs::path& folder, BuildRes
           std::mismatch(home.begin(), home.end(), source.begin(), source.end()).first == home.end())
         program.unlisted.insert(source);
   result.warnings.push_back(folder.string() + ": main(): got " + std::to_string(mains.size()) +
-                            " definitions, expected 1; " + mains[0].second.lexically_relative(folder).string() +
+                            " definitions, expected 1; " +
+                            mains[0].second.lexically_relative(folder).string() +
                             " is taken, and of the folders of the others what it asks for");
 }
 
@@ -379,9 +381,9 @@ Program program_of(const BuildOptions& o, BuildResult& result) {
     if (!is_library_source(source)) program.sources.push_back(source);
   if (!program.unlisted.empty() || program.sources.size() > in_folder)
     result.warnings.push_back(
-        project->file.string() + ": project: lists " +
-        std::to_string(in_folder - program.unlisted.size()) + " of the folder's " + std::to_string(in_folder) +
-        " C files and " + std::to_string(program.sources.size() - in_folder) +
+        project->file.string() + ": project: lists " + std::to_string(in_folder - program.unlisted.size()) +
+        " of the folder's " + std::to_string(in_folder) + " C files and " +
+        std::to_string(program.sources.size() - in_folder) +
         " elsewhere; files that it does not list are linked only where something asks for them");
   return program;
 }
@@ -460,11 +462,11 @@ BuildResult build_image(const BuildOptions& options) {
   for (size_t i = 0; i < outcomes.size(); ++i) {
     if (!outcomes[i].ok && i >= own && i < p.user.size()) {
       // a copy of the library holds files that the project never compiled
-      result.warnings.push_back(
-          p.user[i].source.string() + ": does not compile and is left out, as " +
-          (program.unlisted.count(p.user[i].source) ? "it is no part of the program: "
-                                                    : "a file of a copy of the library: ") +
-          outcomes[i].messages.substr(0, outcomes[i].messages.find('\n')));
+      result.warnings.push_back(p.user[i].source.string() + ": does not compile and is left out, as " +
+                                (program.unlisted.count(p.user[i].source)
+                                     ? "it is no part of the program: "
+                                     : "a file of a copy of the library: ") +
+                                outcomes[i].messages.substr(0, outcomes[i].messages.find('\n')));
       continue;
     }
     sort_messages(outcomes[i].messages, result, !outcomes[i].ok);

@@ -202,12 +202,14 @@ class AttributeFilter {
   /// What follows a token in its file, without blanks, brackets and underscores.
   const char* text_behind(const Token& token) const {
     const auto& sources = pp_.getSourceManager();
-    const char* at = sources.getCharacterData(sources.getSpellingLoc(token.getLocation())) + token.getLength();
+    const char* at =
+        sources.getCharacterData(sources.getSpellingLoc(token.getLocation())) + token.getLength();
     while (*at == ' ' || *at == '\t' || *at == '(' || *at == '_') ++at;
     return at;
   }
 
-  /// space(eedata) is a section of the image, sfr(0x2C4) and address(0x2C4) a register's; "" for other attributes.
+  /// space(eedata) is a section of the image, sfr(0x2C4) and address(0x2C4) a register's; "" for other
+  /// attributes.
   std::string section_for(StringRef attribute, const Token& token) const {
     const StringRef argument = text_behind(token);
     if (attribute == "space") return argument.startswith("eedata") ? "\"tpeedata\"" : "";

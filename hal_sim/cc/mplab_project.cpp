@@ -55,7 +55,8 @@ fs::path resolve(const fs::path& home, std::string text) {
 }
 
 /// The values of "key=value" lines of one section.
-std::vector<std::string> values_of(const std::string& text, const std::string& section, const std::string& key) {
+std::vector<std::string> values_of(const std::string& text, const std::string& section,
+                                   const std::string& key) {
   std::vector<std::string> values;
   std::istringstream lines(text);
   bool is_inside = false;
@@ -63,7 +64,8 @@ std::vector<std::string> values_of(const std::string& text, const std::string& s
     while (!line.empty() && std::isspace(static_cast<unsigned char>(line.back()))) line.pop_back();
     if (line.rfind("[", 0) == 0) is_inside = line == "[" + section + "]";
     const std::size_t sign = line.find('=');
-    if (is_inside && sign != std::string::npos && line.rfind(key, 0) == 0) values.push_back(line.substr(sign + 1));
+    if (is_inside && sign != std::string::npos && line.rfind(key, 0) == 0)
+      values.push_back(line.substr(sign + 1));
   }
   return values;
 }
@@ -85,7 +87,8 @@ Listed read_configurations(const std::string& text) {
   for (std::sregex_iterator it(text.begin(), text.end(), kExcluded), end; it != end; ++it)
     excluded.push_back((*it)[1]);
   for (std::sregex_iterator it(text.begin(), text.end(), kItem), end; it != end; ++it)
-    if (std::find(excluded.begin(), excluded.end(), (*it)[1]) == excluded.end()) listed.files.push_back((*it)[1]);
+    if (std::find(excluded.begin(), excluded.end(), (*it)[1]) == excluded.end())
+      listed.files.push_back((*it)[1]);
   for (std::sregex_iterator it(text.begin(), text.end(), kInclude), end; it != end; ++it)
     listed.include_dirs.push_back((*it)[1]);
   return listed;
@@ -94,7 +97,8 @@ Listed read_configurations(const std::string& text) {
 /// A project and its home: the folder that its relative paths start from.
 std::optional<MplabProject> read_project(const fs::path& file, const fs::path& home) {
   const std::string text = read_text(file);
-  const Listed listed = lower(file.extension().string()) == ".mcp" ? read_mcp(text) : read_configurations(text);
+  const Listed listed =
+      lower(file.extension().string()) == ".mcp" ? read_mcp(text) : read_configurations(text);
   MplabProject project{file, {}, {}};
   bool has_main = false;
   std::error_code ec;

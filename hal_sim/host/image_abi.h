@@ -81,8 +81,9 @@ struct tp_image {
   /* its _AltXxxInterrupt functions, for INTCON2.ALTIVT = 1 */
   void (*alternate_vectors[TP_VECTORS])(void);
   void (*alternate_trap_vectors[TP_TRAP_VECTORS])(void);
-  void (*default_vector)(void); /* its _DefaultInterrupt, for every vector without a function of its own; or 0 */
-  const char* eedata_begin;     /* what data EEPROM holds from its first word on when the robot is delivered */
+  void (*default_vector)(
+      void);                /* its _DefaultInterrupt, for every vector without a function of its own; or 0 */
+  const char* eedata_begin; /* what data EEPROM holds from its first word on when the robot is delivered */
   const char* eedata_end;
 };
 

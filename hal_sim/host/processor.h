@@ -80,7 +80,7 @@ class Processor {
   struct Entry {
     void (*handler)() = nullptr;  ///< null: the program's own, by its vector
     Cycle first_instruction = 0;
-    Cycle quiet_until = 0;  ///< no other vector can be served before; 0: ask look()
+    Cycle quiet_until = 0;   ///< no other vector can be served before; 0: ask look()
     bool alternate = false;  ///< by the alternate vector table
   };
   virtual Entry enter(int vector, Cycle now) = 0;

@@ -74,7 +74,8 @@ Robot::Robot(RobotSettings settings, std::shared_ptr<Image> image, std::size_t c
 void Robot::program_eeprom() {
   const tp_image& image = copy_.description();
   unsigned address = board::DataEeprom::kFirst;
-  for (const char* at = image.eedata_begin; at + 1 < image.eedata_end && address <= 0xFFFE; at += 2, address += 2) {
+  for (const char* at = image.eedata_begin; at + 1 < image.eedata_end && address <= 0xFFFE;
+       at += 2, address += 2) {
     std::uint16_t word;
     std::memcpy(&word, at, sizeof word);
     board_.eeprom().erase(address);
@@ -304,8 +305,7 @@ void Robot::serve(int vector) {
         vector >= kTrapVector ? kTraps[vector - kTrapVector] : std::string(vector_name(vector)) + "Interrupt";
     last_words_ = "interrupt " + name.substr(0, name.rfind("Interrupt")) +
                   " is enabled and was raised, but the program has no handler _" +
-                  (entry.alternate ? "Alt" : "") + name +
-                  "; on the chip the processor resets";
+                  (entry.alternate ? "Alt" : "") + name + "; on the chip the processor resets";
     trap(TP_TRAP_INTERRUPT, last_words_);
   }
   now_ = entry.first_instruction;

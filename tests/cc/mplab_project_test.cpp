@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Folders as they lie in public repositories: with a project file of MPLAB, with more than one program, with headers
-// that only the project's settings find.
+// Folders as they lie in public repositories: with a project file of MPLAB, with more than one program, with
+// headers that only the project's settings find.
 #include <gtest/gtest.h>
 
 #include "fake_host.h"
@@ -16,7 +16,6 @@ cc::BuildResult build_folder(const Folder& folder, const std::string& name = "pr
   cc::BuildOptions options;
   options.source_dir = folder.path / name;
   options.output = folder.path / "out.so";
-  options.cache_dir = folder.path / "cache";
   return cc::build_image(options);
 }
 
@@ -108,7 +107,8 @@ TEST(mplab_project, without_one_the_main_nearest_to_the_folder_is_the_programs) 
   ASSERT_TRUE(built.ok) << text_of(built);
   EXPECT_EQ(said(folder), "8");
   ASSERT_EQ(built.warnings.size(), 1u) << text_of(built);
-  EXPECT_NE(built.warnings[0].find("main(): got 2 definitions, expected 1; main.c is taken"), std::string::npos);
+  EXPECT_NE(built.warnings[0].find("main(): got 2 definitions, expected 1; main.c is taken"),
+            std::string::npos);
 }
 
 TEST(mplab_project, a_header_is_found_from_the_folder_above_its_own) {
@@ -125,12 +125,14 @@ TEST(mplab_project, a_header_is_found_from_the_folder_above_its_own) {
 TEST(mplab_project, headers_of_the_libc_use_no_name_of_the_program) {
   Folder folder;
   std::string names;
-  for (const char* name : {"a", "b", "c", "e", "n", "s", "v", "x", "y", "to", "from", "key", "end", "base", "list",
-                           "size", "set", "value", "old", "first", "block", "format", "number", "state", "status"})
+  for (const char* name : {"a",   "b",     "c",     "e",      "n",      "s",     "v",     "x",   "y",
+                           "to",  "from",  "key",   "end",    "base",   "list",  "size",  "set", "value",
+                           "old", "first", "block", "format", "number", "state", "status"})
     names += std::string("#define ") + name + " 5 + 5\n";
-  auto built = build(folder, names +
-                                 "#include <string.h>\n#include <stdlib.h>\n#include <stdio.h>\n#include <math.h>\n"
-                                 "#include <ctype.h>\n#include <setjmp.h>\n#include <assert.h>\n#include <time.h>\n"
-                                 "int main(void) { return 0; }");
+  auto built =
+      build(folder, names +
+                        "#include <string.h>\n#include <stdlib.h>\n#include <stdio.h>\n#include <math.h>\n"
+                        "#include <ctype.h>\n#include <setjmp.h>\n#include <assert.h>\n#include <time.h>\n"
+                        "int main(void) { return 0; }");
   EXPECT_TRUE(built.ok) << text_of(built);
 }

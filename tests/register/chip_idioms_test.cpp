@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What programs for this family of chips do with the compiler's own means: standard output, data EEPROM, tables in
-// program memory, the second vector table, registers by attribute, blocks of registers, assembler.
+// What programs for this family of chips do with the compiler's own means: standard output, data EEPROM,
+// tables in program memory, the second vector table, registers by attribute, blocks of registers, assembler.
 // Expectations from the documents of chip and compiler.
 #include <chrono>
 

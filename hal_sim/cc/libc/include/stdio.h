@@ -16,7 +16,8 @@ int vprintf(const char* __format, va_list __list);
 int fprintf(FILE* __to, const char* __format, ...) __attribute__((__format__(__printf__, 2, 3)));
 int vfprintf(FILE* __to, const char* __format, va_list __list);
 int sprintf(char* __to, const char* __format, ...) __attribute__((__format__(__printf__, 2, 3)));
-int snprintf(char* __to, size_t __size, const char* __format, ...) __attribute__((__format__(__printf__, 3, 4)));
+int snprintf(char* __to, size_t __size, const char* __format, ...)
+    __attribute__((__format__(__printf__, 3, 4)));
 int vsprintf(char* __to, const char* __format, va_list __list);
 int vsnprintf(char* __to, size_t __size, const char* __format, va_list __list);
 int sscanf(const char* __s, const char* __format, ...) __attribute__((__format__(__scanf__, 2, 3)));
