@@ -312,6 +312,7 @@ void Robot::serve(int vector) {
   ++handler_depth_;
   calm_until_ = entry.quiet_until;
   give_budget();
+  control_.budget -= entry.saving;
   handler();
   --handler_depth_;
   fold();

@@ -107,6 +107,7 @@ void ChipProcessor::power_up() {
   if (image.fwdt) configuration.fwdt = *static_cast<const std::uint16_t*>(image.fwdt);
   chip_ = std::make_unique<dspic::Dspic30f6014a>(outside_, this, configuration);
   outside_.fill_eeprom(*chip_);
+  reset_board();
   observe(observer_);
   next_reset_ = dspic::ResetKind::PowerOn;
 }
@@ -114,8 +115,13 @@ void ChipProcessor::power_up() {
 void ChipProcessor::reset(Cycle now) {
   chip_->reset(next_reset_, at(now));
   next_reset_ = dspic::ResetKind::Instruction;
-  robot_.board().processor_reset(latest_);
+  reset_board();
   watched_reads_ = 0;
+}
+
+void ChipProcessor::reset_board() {
+  robot_.board().processor_reset(latest_);
+  outside_.processor_reset();
 }
 
 void ChipProcessor::note_reset(host::ResetCause cause) {
@@ -124,7 +130,7 @@ void ChipProcessor::note_reset(host::ResetCause cause) {
 
 void ChipProcessor::stop(Cycle now) {
   chip_->reset(dspic::ResetKind::Pin, at(now));
-  robot_.board().processor_reset(latest_);
+  reset_board();
 }
 
 bool ChipProcessor::begin_window(Cycle now) { return outside_.begin_window(*chip_, at(now)); }
@@ -237,8 +243,8 @@ host::Processor::Entry ChipProcessor::enter(int vector, Cycle now) {
       vector >= host::kTrapVector ? vector - host::kTrapVector + 1 : vector + dspic::kFirstIrqVector;
   const dspic::InterruptEntry entry = chip_->enter_interrupt(number, at(now));
   watched_reads_ = 0;  // whatever waits looks again afterwards
-  const Cycle first = entry.first_instruction + kSavingCycles;
-  return {nullptr, first, chip_->calm_until(first, number), entry.address >= kAlternateTable};
+  const Cycle first = entry.first_instruction;
+  return {nullptr, first, chip_->calm_until(first, number), kSavingCycles, entry.address >= kAlternateTable};
 }
 
 host::Processor::Return ChipProcessor::leave(Cycle now) {
