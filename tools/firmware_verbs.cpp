@@ -67,6 +67,7 @@ int build(cc::BuildOptions options) {
   options.source_dir = controller_folder(options.source_dir.string());
   if (!is_folder(options.source_dir.string(), "build")) return kBadInput;
   const auto result = cc::build_image(options);
+  complain(result.conflicts);
   complain(result.warnings);
   complain(result.errors);
   if (!result.ok) return kTestFailed;

@@ -137,8 +137,8 @@ void ChangeNotification::schedule(Cycle now) {
   Cycle next = kNever;
   if (enabled_)
     for (int p = 0; p < kPorts; ++p)
-      if (watched(static_cast<Port>(p)))
-        next = std::min(next, f_.outside.next_change(static_cast<Port>(p), now));
+      if (const std::uint16_t pins = watched(static_cast<Port>(p)))
+        next = std::min(next, f_.outside.next_change(static_cast<Port>(p), pins, now));
   f_.events.set(slot_, next);
 }
 

@@ -74,9 +74,9 @@ class Outside {
                            Cycle at) {}
   /// Levels at `at`, those of clocks included.
   virtual PinLevels pin_levels(Port port, Cycle at) { return {}; }
-  /// First cycle after `after` at which pin_levels(port) may differ; kNever if it stays. Pixel clocks may be
-  /// left out when edges() and nth_edge() know them.
-  virtual Cycle next_change(Port port, Cycle after) { return kNever; }
+  /// First cycle after `after` at which pin_levels(port) may differ in one of `pins`, a bit each; kNever if
+  /// they stay. Pixel clocks may be left out when edges() and nth_edge() know them.
+  virtual Cycle next_change(Port port, std::uint16_t pins, Cycle after) { return kNever; }
   /// Edges of one pin in (after, until]. By default counted with next_change(); override for fast clocks.
   virtual std::int64_t edges(Pin pin, Edge edge, Cycle after, Cycle until);
   /// Instant of the n-th (1 = first) edge after `after`; kNever if it does not come as far as is known.

@@ -250,7 +250,8 @@ void Uart::set_enabled(bool on, Cycle now) {
   out_.count = in_.count = 0;
   sta_ &= static_cast<std::uint16_t>(~(kUtxen | kUtxbrk | kOerr));
   break_since_ = -1;
-  busy_until_ = epoch_ = now + 1;
+  busy_until_ = now;  // nothing is being sent: TRMT stays 1
+  epoch_ = now + 1;
   rate_checked_ = false;
   f_.events.set(slot_tx_, kNever);
   if (on)  // the middle of a word is no start bit

@@ -33,6 +33,8 @@ float Fract2Float(fractional aVal);
 /** `factPage` of twiddle factors that lie in data memory; any other number: in program memory (takes longer). */
 #define COEFFS_IN_DATA 0xFF00
 /* place of a constant in program memory: constants have one address here */
+#undef __builtin_psvoffset
+#undef __builtin_psvpage
 #define __builtin_psvoffset(object) (object)
 #define __builtin_psvpage(object) 0
 

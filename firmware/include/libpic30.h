@@ -11,6 +11,27 @@
 /** Blocks for `cycles` instruction cycles, at least 12; interrupts go on. */
 void __delay32(unsigned long cycles);
 
+/** 1 or 2: the UART that printf() and its like write to. */
+extern int __C30_UART;
+
+/** A place in program memory or data EEPROM. */
+typedef unsigned long _prog_addressT;
+#define _init_prog_address(place, object) \
+  ((place) = (_prog_addressT)__builtin_tblpage(&(object)) << 16 | __builtin_tbloffset(&(object)))
+
+/** Copies `bytes` bytes from program memory or data EEPROM; returns the place behind them. */
+_prog_addressT _memcpy_p2d16(void *to, _prog_addressT from, unsigned int bytes);
+
+#define _EE_WORD 2
+#define _EE_ROW 32
+
+/** Erases (to 0xFFFF) or writes a word or a row (_EE_WORD, _EE_ROW bytes) of data EEPROM, about 2 ms. */
+void _erase_eedata(_prog_addressT place, int bytes);
+void _write_eedata_word(_prog_addressT place, int word);
+void _write_eedata_row(_prog_addressT place, int *words);
+/** Returns when erasing or writing is done. */
+void _wait_eedata(void);
+
 #define __delay_ms(d) __delay32((unsigned long)((d) * (FCY) / 1000.0))
 #define __delay_us(d) __delay32((unsigned long)((d) * (FCY) / 1000000.0))
 

@@ -34,7 +34,7 @@
 #define _XDATA(alignment) __attribute__((aligned(alignment)))
 #define _YBSS(alignment) __attribute__((aligned(alignment)))
 #define _YDATA(alignment) __attribute__((aligned(alignment)))
-#define _EEDATA(alignment) __attribute__((aligned(alignment)))
+#define _EEDATA(alignment) __attribute__((section("tpeedata"), aligned(alignment)))
 
 /* --- single instructions -------------------------------------------------------------------------------- */
 #define Nop() { __asm__ volatile("nop"); }
@@ -61,7 +61,11 @@
 #define __builtin_write_NVM() do { NVMKEY = 0x55; NVMKEY = 0xAA; NVMCONbits.WR = 1; __builtin_nop(); \
   __builtin_nop(); } while (0)
 /* table instructions reach the data EEPROM, pages 0x7F */
-#define __builtin_tblrdl(offset) ((unsigned)tp_table_read((long long)TBLPAG << 16 | (unsigned)(offset)))
+#define __builtin_tblrdl(offset) tp_image_table_read((unsigned long)TBLPAG << 16 | (unsigned)(offset))
+#define __builtin_tblpage(object) ((unsigned)(tp_image_program_address(object) >> 16))
+#define __builtin_tbloffset(object) ((unsigned)tp_image_program_address(object))
+#define __builtin_psvpage(object) ((unsigned)(tp_image_program_address(object) >> 15))
+#define __builtin_psvoffset(object) ((unsigned)tp_image_program_address(object) | 0x8000u)
 #define __builtin_tblwtl(offset, value) \
   tp_table_write((long long)TBLPAG << 16 | (unsigned)(offset), (unsigned)(value))
 #define __builtin_btg(pointer, bit) (*(pointer) ^= 1u << (bit))
@@ -75,7 +79,8 @@
 #define __builtin_modud(a, b) ((unsigned)((unsigned long)(a) % (unsigned)(b)))
 extern void tp_disi(long long cycles);
 extern void tp_power_save(long long mode);
-extern long long tp_table_read(long long address);
+extern unsigned tp_image_table_read(unsigned long program_address);
+extern unsigned long tp_image_program_address(const volatile void *object);
 extern void tp_table_write(long long address, long long value);
 
 /* --- priority of the running program, 0 to 7: interrupts at or below it wait ---------------------------- */

@@ -16,6 +16,7 @@
 
 #include "elf_reader.h"
 #include "library_copies.h"
+#include "mplab_project.h"
 #include "object_cache.h"
 #include "timer_owners.h"
 
@@ -115,7 +116,8 @@ std::vector<fs::path> webots_sources(const fs::path& folder, const std::vector<f
   return kept.empty() ? sources : kept;
 }
 
-Plan plan(const BuildOptions& o, const LibraryCopies& copies, bool lint) {
+Plan plan(const BuildOptions& o, const LibraryCopies& copies, bool lint,
+          const std::vector<fs::path>& project_include_dirs = {}) {
   fs::path root = source_root(), cc_dir = root / "hal_sim/cc";
   fs::path include_root = o.include_root.empty() ? root / "firmware/include" : o.include_root;
   fs::path api = o.api_dir.empty() ? root / (o.register_way ? "hal_dspic" : "hal_sim/api") : o.api_dir;
@@ -131,6 +133,12 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, bool lint) {
     user_include.push_back("-I" + d.string());
     library_include.push_back("-I" + d.string());
   }
+  // "motor/speed.h" below a folder that the project's makefile names: the folder above the header's
+  for (const auto& d : own)
+    if (const fs::path above = d.parent_path(); d != o.source_dir)
+      if (std::find(own.begin(), own.end(), above) == own.end())
+        user_include.push_back("-I" + above.string());
+  for (const auto& d : project_include_dirs) user_include.push_back("-I" + d.string());
   for (auto* list : {&user_include, &library_include}) {
     list->push_back("-I" + (cc_dir / "libc/include").string());
     list->push_back("--fallback");
@@ -315,6 +323,71 @@ void check_main(const std::vector<CompileOutcome>& outcomes, const std::vector<C
                               " (bytes), expected at most 8192 (bytes); it would not fit the chip's RAM");
 }
 
+/// The C files of a program. Those that its project file does not list are there for whatever asks for them.
+struct Program {
+  std::vector<fs::path> sources, include_dirs;
+  std::set<fs::path> unlisted;
+
+  /// The `own` first files to compile are the program's, the others members of a library: unlisted ones
+  /// become the last of them. How many are own now.
+  std::size_t order(LibraryCopies& copies, std::size_t own) const {
+    const auto is_listed = [this](const fs::path& source) { return !unlisted.count(source); };
+    const auto first = copies.kept.begin();
+    const auto still_own = std::count_if(first, first + std::ptrdiff_t(own), is_listed);
+    std::stable_partition(first, copies.kept.end(), is_listed);
+    return std::size_t(still_own);
+  }
+};
+
+/// Of several main() that which lies nearest to the folder is the program's; folders of the others, such as
+/// the examples of a library that a project carries along, are there for whatever asks for them.
+void leave_out_other_programs(Program& program, const fs::path& folder, BuildResult& result) {
+  std::vector<std::pair<std::ptrdiff_t, fs::path>> mains;  // depth, file
+  for (const fs::path& source : program.sources)
+    if (defines_main(source)) {
+      const fs::path below = source.lexically_relative(folder);
+      mains.emplace_back(std::distance(below.begin(), below.end()), source);
+    }
+  std::sort(mains.begin(), mains.end());
+  if (mains.size() < 2 || mains[0].first == mains[1].first) return;
+  for (std::size_t i = 1; i < mains.size(); ++i)
+    for (const fs::path& source : program.sources)
+      if (const fs::path home = mains[i].second.parent_path();
+          std::mismatch(home.begin(), home.end(), source.begin(), source.end()).first == home.end())
+        program.unlisted.insert(source);
+  result.warnings.push_back(folder.string() + ": main(): got " + std::to_string(mains.size()) +
+                            " definitions, expected 1; " +
+                            mains[0].second.lexically_relative(folder).string() +
+                            " is taken, and of the folders of the others what it asks for");
+}
+
+Program program_of(const BuildOptions& o, BuildResult& result) {
+  Program program;
+  program.sources = o.sources.empty() ? files_below(o.source_dir, ".c") : o.sources;
+  if (!o.sources.empty() || names_webots(program.sources, files_below(o.source_dir, ".h"))) return program;
+  const auto project = find_mplab_project(o.source_dir);
+  if (!project) {
+    leave_out_other_programs(program, o.source_dir, result);
+    return program;
+  }
+  program.include_dirs = project->include_dirs;
+  std::set<fs::path> listed;
+  for (const fs::path& source : project->sources) listed.insert(fs::weakly_canonical(source));
+  for (const fs::path& source : program.sources)
+    if (!listed.erase(fs::weakly_canonical(source))) program.unlisted.insert(source);
+  // what lies elsewhere and is the library's is ours to bring
+  const std::size_t in_folder = program.sources.size();
+  for (const fs::path& source : listed)
+    if (!is_library_source(source)) program.sources.push_back(source);
+  if (!program.unlisted.empty() || program.sources.size() > in_folder)
+    result.warnings.push_back(
+        project->file.string() + ": project: lists " + std::to_string(in_folder - program.unlisted.size()) +
+        " of the folder's " + std::to_string(in_folder) + " C files and " +
+        std::to_string(program.sources.size() - in_folder) +
+        " elsewhere; files that it does not list are linked only where something asks for them");
+  return program;
+}
+
 bool archive(const std::vector<CompileOutcome>& objects, const fs::path& path, BuildResult& result) {
   std::string names;
   for (const auto& o : objects)
@@ -350,7 +423,8 @@ BuildResult build_image(const BuildOptions& options) {
                             ": controller: got no such folder, expected one with a main.c");
     return finish();
   }
-  auto sources = o.sources.empty() ? files_below(o.source_dir, ".c") : o.sources;
+  Program program = program_of(o, result);
+  const auto& sources = program.sources;
   if (sources.empty()) {
     result.errors.push_back(o.source_dir.string() + ": controller: got no .c file, expected at least one");
     return finish();
@@ -369,13 +443,14 @@ BuildResult build_image(const BuildOptions& options) {
     copies = find_library_copies(o.source_dir, sources);
     own = copies.kept.size();
   }
+  own = program.order(copies, own);
   if (const std::string told = library_copies_message(o.source_dir, copies); !told.empty())
     result.warnings.push_back(told);
   std::vector<std::pair<std::string, std::string>> texts;
   for (const auto& s : o.register_way ? find_library_copies(o.source_dir, sources).kept : copies.kept)
-    texts.emplace_back(s.filename().string(), read_text(s));
+    if (!program.unlisted.count(s)) texts.emplace_back(s.filename().string(), read_text(s));
   result.conflicts = timer_conflicts(texts);
-  Plan p = plan(o, copies, false);
+  Plan p = plan(o, copies, false, program.include_dirs);
   if (p.is_webots) own = p.user.size();
   for (std::size_t i = own; i < p.user.size(); ++i) p.user[i].flags.push_back("--weak");
   fs::path compiler = build_root() / "twinpuck-cc";
@@ -387,8 +462,10 @@ BuildResult build_image(const BuildOptions& options) {
   for (size_t i = 0; i < outcomes.size(); ++i) {
     if (!outcomes[i].ok && i >= own && i < p.user.size()) {
       // a copy of the library holds files that the project never compiled
-      result.warnings.push_back(p.user[i].source.string() +
-                                ": does not compile and is left out, as a file of a copy of the library: " +
+      result.warnings.push_back(p.user[i].source.string() + ": does not compile and is left out, as " +
+                                (program.unlisted.count(p.user[i].source)
+                                     ? "it is no part of the program: "
+                                     : "a file of a copy of the library: ") +
                                 outcomes[i].messages.substr(0, outcomes[i].messages.find('\n')));
       continue;
     }

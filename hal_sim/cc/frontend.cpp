@@ -3,6 +3,10 @@
 // clang for x86 would refuse (the interrupt attribute above all) is neutralised here, token by token.
 #include "frontend.h"
 
+#include <cstdio>
+#include <cstdlib>
+#include <set>
+
 #include "clang/AST/ASTConsumer.h"
 #include "clang/AST/ASTContext.h"
 #include "clang/AST/Attr.h"
@@ -112,6 +116,7 @@ class FactConsumer : public ASTConsumer {
  private:
   void note(Decl* decl) {
     if (auto* var = dyn_cast<VarDecl>(decl)) {
+      make_register(var);
       if (auto* label = var->getAttr<AsmLabelAttr>())
         if (label->getLabel().startswith("tp_sfr_"))
           facts_.register_names.emplace(label->getLabel().str(), var->getNameAsString());
@@ -121,6 +126,14 @@ class FactConsumer : public ASTConsumer {
         if (note->getAnnotation() == "tp_interrupt") facts_.interrupts.insert(function->getNameAsString());
       }
     }
+  }
+  /// A variable that the program puts into a register's place is that register.
+  void make_register(VarDecl* var) {
+    auto* section = var->getAttr<SectionAttr>();
+    if (!section || !section->getName().startswith("tp_sfr_")) return;
+    var->addAttr(AsmLabelAttr::CreateImplicit(*context_, section->getName(), /*IsLiteralLabel*/ true));
+    var->dropAttr<SectionAttr>();
+    var->setStorageClass(SC_Extern);
   }
   /// The code generator makes p - q and sizeof(int[n]) as wide as the PC's pointers, whatever ptrdiff_t is.
   /// Say so in the tree, and narrow the result to the robot's int.
@@ -162,12 +175,18 @@ class AttributeFilter {
     if (token.is(tok::l_paren)) ++depth_;
     if (token.is(tok::r_paren) && --depth_ <= 0) armed_ = false;
     if (token.is(tok::eof)) armed_ = false;
+    if (depth_ == 3 && token.is(tok::numeric_constant)) return name_section(token);
     if (!token.is(tok::identifier) && !token.isAnyIdentifier()) return;
     const IdentifierInfo* name = token.getIdentifierInfo();
-    if (!name || depth_ != 2) return;
-    StringRef bare = name->getName();
-    while (bare.startswith("_")) bare = bare.drop_front();
-    while (bare.endswith("_")) bare = bare.drop_back();
+    if (!name) return;
+    const StringRef bare = name->getName().trim('_');
+    if (depth_ == 3 && bare == "eedata") return name_section(token);
+    if (depth_ != 2) return;
+    section_ = section_for(bare, token);
+    if (!section_.empty()) {
+      const_cast<Token&>(token).setIdentifierInfo(&pp_.getIdentifierTable().get("section"));
+      return;
+    }
     for (const char* known :
          {"interrupt",   "signal",      "address", "space",  "near", "far",     "shadow", "persistent",
           "preprologue", "fillupper",   "secure",  "boot",   "sfr",  "reverse", "eds",    "unordered",
@@ -180,9 +199,44 @@ class AttributeFilter {
   }
 
  private:
+  /// What follows a token in its file, without blanks, brackets and underscores.
+  const char* text_behind(const Token& token) const {
+    const auto& sources = pp_.getSourceManager();
+    const char* at =
+        sources.getCharacterData(sources.getSpellingLoc(token.getLocation())) + token.getLength();
+    while (*at == ' ' || *at == '\t' || *at == '(' || *at == '_') ++at;
+    return at;
+  }
+
+  /// space(eedata) is a section of the image, sfr(0x2C4) and address(0x2C4) a register's; "" for other
+  /// attributes.
+  std::string section_for(StringRef attribute, const Token& token) const {
+    const StringRef argument = text_behind(token);
+    if (attribute == "space") return argument.startswith("eedata") ? "\"tpeedata\"" : "";
+    if (attribute != "sfr" && attribute != "address") return "";
+    const unsigned long address = std::strtoul(argument.data(), nullptr, 0);
+    if (address == 0 || address >= kRegistersEnd) return "";
+    char name[24];
+    std::snprintf(name, sizeof name, "\"tp_sfr_%04lX\"", address);
+    return name;
+  }
+  /// Makes the attribute's argument the name of its section.
+  void name_section(const Token& token) {
+    if (section_.empty()) return;
+    const std::string& kept = *names_.insert(section_).first;
+    auto& argument = const_cast<Token&>(token);
+    argument.setKind(tok::string_literal);
+    argument.setLiteralData(kept.data());
+    argument.setLength(unsigned(kept.size()));
+    section_.clear();
+  }
+
+  static constexpr unsigned long kRegistersEnd = 0x800;  // of special-function registers, bytes
   Preprocessor& pp_;
   bool armed_ = false;
   int depth_ = 0;
+  std::string section_;  // of the attribute that is being read
+  std::set<std::string> names_;
 };
 
 /// #pragma config NAME = VALUE, ...: settings of the configuration words; the values have the names of the

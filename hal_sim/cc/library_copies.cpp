@@ -90,11 +90,6 @@ bool has_library_name(const std::string& name) {
   return false;
 }
 
-std::string without_comments(const std::string& text) {
-  static const std::regex kComment(R"(/\*[^*]*\*+(?:[^/*][^*]*\*+)*/|//[^\n]*)");
-  return std::regex_replace(text, kComment, " ");
-}
-
 /// Whether a flat copy does what only the chip can: see limits.md, "The processor, native way".
 bool needs_the_chip(const std::string& name, const std::string& text) {
   static const std::regex kCamera(R"(e_(calc|registers|timers|common|po\d+[kd]_registers|calc_po\w+)\.c)");
@@ -109,6 +104,15 @@ bool needs_the_chip(const std::string& name, const std::string& text) {
 }
 
 }  // namespace
+
+std::string without_comments(const std::string& text) {
+  static const std::regex kComment(R"(/\*[^*]*\*+(?:[^/*][^*]*\*+)*/|//[^\n]*)");
+  return std::regex_replace(text, kComment, " ");
+}
+
+bool is_library_source(const fs::path& source) {
+  return !library_place(lower(source.generic_string())).empty();
+}
 
 LibraryCopies find_library_copies(const fs::path& project, const std::vector<fs::path>& sources) {
   LibraryCopies copies;

@@ -31,6 +31,11 @@ LibraryCopies find_library_copies(const std::filesystem::path& project,
 LibraryCopies find_library_members(const std::filesystem::path& project,
                                    const std::vector<std::filesystem::path>& sources);
 
+/// Whether a file has the place of one of the library's: its folder and its name.
+bool is_library_source(const std::filesystem::path& source);
+
+std::string without_comments(const std::string& text);
+
 /// The line that tells of it; "" when nothing was left out.
 std::string library_copies_message(const std::filesystem::path& project, const LibraryCopies& copies);
 

@@ -28,6 +28,8 @@ void refuse_functions(Unit& unit) {
     if (!instead) continue;
     // programs for Webots' interfaces have a calendar, which the simulator keeps
     if (unit.options.webots && (f.getName() == "time" || f.getName() == "clock")) continue;
+    // the robot's count cycles in a pair of timers
+    if (unit.options.register_way && (f.getName() == "time" || f.getName() == "clock")) continue;
     for (User* user : f.users()) {
       // a call without prototype goes through a cast of the function
       while (isa<Constant>(user) && !user->use_empty()) user = user->user_back();

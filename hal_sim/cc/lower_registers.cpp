@@ -5,6 +5,7 @@
 #include "llvm/Analysis/ValueTracking.h"
 #include "llvm/IR/IRBuilder.h"
 #include "llvm/IR/InstIterator.h"
+#include "llvm/IR/IntrinsicInst.h"
 #include "llvm/IR/Operator.h"
 #include "llvm/Transforms/Utils/BasicBlockUtils.h"
 #include "llvm/Transforms/Utils/Local.h"
@@ -170,6 +171,25 @@ void lower_either(Unit& unit, Instruction* i, Value* pointer) {
   i->eraseFromParent();
 }
 
+/// memcpy(), memmove() and memset() by pointers that may point to registers: the libc's functions for that.
+void lower_block(Unit& unit, MemIntrinsic* block) {
+  IRBuilder<> b(block);
+  Type *i64 = b.getInt64Ty(), *pointer = b.getInt8PtrTy(), *none = b.getVoidTy();
+  Value* length = b.CreateZExtOrTrunc(block->getLength(), i64);
+  if (auto* copy = dyn_cast<MemTransferInst>(block))
+    b.CreateCall(host_function(unit.module, "tp_image_copy", none, {pointer, pointer, i64}),
+                 {copy->getRawDest(), copy->getRawSource(), length});
+  else
+    b.CreateCall(host_function(unit.module, "tp_image_fill", none, {pointer, i64, i64}),
+                 {block->getRawDest(), b.CreateZExt(cast<MemSetInst>(block)->getValue(), i64), length});
+  block->eraseFromParent();
+}
+
+bool is_own_memory(const Value* pointer) {
+  const Value* object = getUnderlyingObject(pointer);
+  return isa<AllocaInst>(object) || isa<GlobalVariable>(object);
+}
+
 /// A constant that is a register's address written as a number.
 bool is_numeric_register(const Value* pointer) {
   auto* e = dyn_cast<ConstantExpr>(pointer->stripPointerCasts());
@@ -229,8 +249,14 @@ void open_register_space(Unit& unit) {
     by_pointer = true;
   }
   std::vector<std::pair<Instruction*, Value*>> accesses;
+  std::vector<MemIntrinsic*> blocks;
   for (Function& f : unit.module)
     for (Instruction& i : instructions(f)) {
+      if (auto* block = dyn_cast<MemIntrinsic>(&i)) {
+        auto* copy = dyn_cast<MemTransferInst>(block);
+        if (!is_own_memory(block->getRawDest()) || (copy && !is_own_memory(copy->getRawSource())))
+          blocks.push_back(block);
+      }
       for (const Value* operand : i.operands())
         by_pointer |= operand->getType()->isPointerTy() && is_numeric_register(getUnderlyingObject(operand));
       Value* pointer = nullptr;
@@ -238,13 +264,13 @@ void open_register_space(Unit& unit) {
       if (auto* load = dyn_cast<LoadInst>(&i)) pointer = load->getPointerOperand(), type = load->getType();
       if (auto* store = dyn_cast<StoreInst>(&i))
         pointer = store->getPointerOperand(), type = store->getValueOperand()->getType();
-      if (!pointer || !type->isIntegerTy() || type->getIntegerBitWidth() > 32) continue;
-      const Value* object = getUnderlyingObject(pointer);
-      if (isa<AllocaInst>(object) || isa<GlobalVariable>(object)) continue;
+      if (!pointer || !type->isIntegerTy() || type->getIntegerBitWidth() > 64) continue;
+      if (is_own_memory(pointer)) continue;
       accesses.emplace_back(&i, pointer);
     }
-  if (by_pointer)
-    for (auto& [i, pointer] : accesses) lower_either(unit, i, pointer);
+  if (!by_pointer) return;
+  for (auto& [i, pointer] : accesses) lower_either(unit, i, pointer);
+  for (MemIntrinsic* block : blocks) lower_block(unit, block);
 }
 
 void lower_registers(Unit& unit) {

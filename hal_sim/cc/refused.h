@@ -32,8 +32,10 @@ inline constexpr Refusal kRefusedHeaders[] = {
 };
 
 inline constexpr Refusal kRefusedFunctions[] = {
-    {"time", "count with an agenda, or resetTime() and getDiffTimeMs() of utility.h"},
-    {"clock", "count with an agenda, or resetTime() and getDiffTimeMs() of utility.h"},
+    {"time",
+     "count with an agenda, or resetTime() and getDiffTimeMs() of utility.h; the register way has it"},
+    {"clock",
+     "count with an agenda, or resetTime() and getDiffTimeMs() of utility.h; the register way has it"},
     {"gettimeofday", "count with an agenda, or resetTime() and getDiffTimeMs() of utility.h"},
     {"clock_gettime", "count with an agenda, or resetTime() and getDiffTimeMs() of utility.h"},
     {"localtime", "a robot has no calendar; count with an agenda"},
@@ -69,7 +71,6 @@ inline constexpr Refusal kRefusedFunctions[] = {
     {"open", "send data over uart/e_uart_char.h; a robot has no files"},
     {"close", "send data over uart/e_uart_char.h; a robot has no files"},
     {"read", "use e_getchar_uart1() of uart/e_uart_char.h; a robot has no files"},
-    {"write", "use e_send_uart1_char() of uart/e_uart_char.h; a robot has no files"},
     {"scanf", "use e_getchar_uart1() and sscanf(); nobody types at a robot's keyboard"},
     {"getchar", "use e_getchar_uart1(); nobody types at a robot's keyboard"},
     {"gets", "use e_getchar_uart1(); nobody types at a robot's keyboard"},

@@ -169,12 +169,12 @@ dspic::PinLevels BoardOutside::pin_levels(Port port, Cycle at) {
   }
 }
 
-Cycle BoardOutside::next_change(Port port, Cycle after) {
+Cycle BoardOutside::next_change(Port port, std::uint16_t pins, Cycle after) {
   switch (port) {
     case Port::C:
-      return camera_.next_change(after);
+      return camera_.next_change(pins, after);
     case Port::D:
-      return camera_.next_byte(after);
+      return pins & CameraPins::kData ? camera_.next_byte(after) : dspic::kNever;
     case Port::F:
       return std::min(board_.battery().below(board::kBatteryLowV, after), board_.remote().next_change(after));
     default:

@@ -40,7 +40,7 @@ class BoardOutside final : public dspic::Outside {
   /// The processor was reset: noise is drawn on with new numbers.
   void processor_reset() { ++flashes_.begun; }
   dspic::PinLevels pin_levels(dspic::Port port, Cycle at) override;
-  Cycle next_change(dspic::Port port, Cycle after) override;
+  Cycle next_change(dspic::Port port, std::uint16_t pins, Cycle after) override;
   std::int64_t edges(dspic::Pin pin, dspic::Edge edge, Cycle after, Cycle until) override;
   Cycle nth_edge(dspic::Pin pin, dspic::Edge edge, Cycle after, std::int64_t n) override;
   int analogue_counts(int channel, Cycle at) override;

@@ -84,11 +84,11 @@ Cycle CameraPins::nth_edge(int bit, bool rising, Cycle after, std::int64_t n) {
   return instant(bit, rising, count(bit, rising, after) + n - 1);
 }
 
-Cycle CameraPins::next_change(Cycle after) {
-  if (!refresh(after)) return host::kNever;
+Cycle CameraPins::next_change(std::uint16_t pins, Cycle after) {
   Cycle next = host::kNever;
   for (const int bit : {Href, Vsync, Pclk})
-    for (const bool rising : {false, true}) next = std::min(next, nth_edge(bit, rising, after, 1));
+    if (pins >> bit & 1)
+      for (const bool rising : {false, true}) next = std::min(next, nth_edge(bit, rising, after, 1));
   return next;
 }
 

@@ -25,13 +25,14 @@ class CameraPins {
 
   explicit CameraPins(board::Board& board) : board_(board) {}
 
+  static constexpr std::uint16_t kData = 0xFF00;  ///< of port D
   static bool has(int bit) { return bit == Href || bit == Vsync || bit == Pclk; }
   /// Levels of the three pins of port C.
   std::uint16_t levels(Cycle at);
   /// Byte on RD8 to RD15.
   std::uint8_t data(Cycle at);
   /// First change of HREF or VSYNC after `after`, or of the pixel clock; kNever without a camera.
-  Cycle next_change(Cycle after);
+  Cycle next_change(std::uint16_t pins, Cycle after);
   Cycle next_byte(Cycle after);
   std::int64_t edges(int bit, bool rising, Cycle after, Cycle until);
   Cycle nth_edge(int bit, bool rising, Cycle after, std::int64_t n);

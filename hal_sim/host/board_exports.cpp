@@ -477,11 +477,11 @@ tp_i64 tp_uart_take(tp_i64 number) {
   return byte;
 }
 
-/* image_abi.h: printf() waits for room in UART 1's buffer byte by byte, as XC16's does */
-void tp_console(const char* bytes, tp_i64 length) {
+/* image_abi.h: printf() waits for room in the UART's buffer byte by byte, as XC16's does */
+void tp_console(const char* bytes, tp_i64 length, tp_i64 number) {
   Context& context = Context::current();
-  if (context.print(bytes, length)) return;
-  board::Uart& uart = context.board().uart(1);
+  if (context.print(bytes, length, static_cast<int>(number))) return;
+  board::Uart& uart = context.board().uart(number == 2 ? 2 : 1);
   context.note_write();
   for (tp_i64 i = 0; i < length; ++i)
     context.wait_until(uart.load_when_room(static_cast<std::uint8_t>(bytes[i]), context.now()));

@@ -43,7 +43,7 @@ class Context {
   virtual void callback(const void*) {}
 
   /// Text that the program prints, put out by the processor's own means. False: there are none.
-  virtual bool print(const char*, std::int64_t) { return false; }
+  virtual bool print(const char*, std::int64_t, int) { return false; }
 
   /// A trap of the running firmware; does not return. kind: TP_TRAP_*.
   [[noreturn]] virtual void trap(int kind, std::string_view message) = 0;

@@ -23,7 +23,7 @@ typedef long long tp_i64;
 typedef float tp_f32 __attribute__((aligned(2)));
 
 #define TP_IMAGE_MAGIC 0x54575049 /* "TWPI": tells an image from any other .so */
-#define TP_IMAGE_ABI 2            /* raised whenever a line of this file changes its meaning */
+#define TP_IMAGE_ABI 3            /* raised whenever a line of this file changes its meaning */
 
 /** Shared by compiled code and host, never part of a robot's private data. One per loaded copy of the image.
  *  Section "tpctl"; the compiler pass knows the two offsets. */
@@ -78,6 +78,13 @@ struct tp_image {
   /* configuration words of the program, 16 bits each; 0 where it has none */
   const void* fosc;
   const void* fwdt;
+  /* its _AltXxxInterrupt functions, for INTCON2.ALTIVT = 1 */
+  void (*alternate_vectors[TP_VECTORS])(void);
+  void (*alternate_trap_vectors[TP_TRAP_VECTORS])(void);
+  void (*default_vector)(
+      void);                /* its _DefaultInterrupt, for every vector without a function of its own; or 0 */
+  const char* eedata_begin; /* what data EEPROM holds from its first word on when the robot is delivered */
+  const char* eedata_end;
 };
 
 /** Budget spent: the host delivers what is due and gives a new budget, or lets other robots run meanwhile. */
@@ -130,8 +137,8 @@ void tp_table_write(tp_i64 address, tp_i64 value);
 tp_i64 tp_rand(void);
 void tp_srand(tp_i64 seed);
 
-/** printf() of firmware: goes to UART1 as XC16's does (UART1, no init needed in our model). */
-void tp_console(const char* bytes, tp_i64 length);
+/** printf() of firmware: goes to UART `uart`, 1 or 2, as XC16's does; the UART needs no set-up. */
+void tp_console(const char* bytes, tp_i64 length, tp_i64 uart);
 
 #ifdef __cplusplus
 }

@@ -65,7 +65,7 @@ class Processor {
   /// A loop waits from `now` on: the following reads say how long their value stays.
   virtual void watch_reads(Cycle now) {}
   /// Text that the program prints. False: the caller puts it out itself.
-  virtual bool print(const char* bytes, std::int64_t length) { return false; }
+  virtual bool print(const char* bytes, std::int64_t length, int uart) { return false; }
 
   // --- interrupts
   struct Outlook {
@@ -80,8 +80,9 @@ class Processor {
   struct Entry {
     void (*handler)() = nullptr;  ///< null: the program's own, by its vector
     Cycle first_instruction = 0;
-    Cycle quiet_until = 0;  ///< no other vector can be served before; 0: ask look()
-    Cycle saving = 0;       ///< what the handler itself needs to save registers; others may come within
+    Cycle quiet_until = 0;   ///< no other vector can be served before; 0: ask look()
+    Cycle saving = 0;        ///< what the handler itself needs to save registers; others may come within
+    bool alternate = false;  ///< by the alternate vector table
   };
   virtual Entry enter(int vector, Cycle now) = 0;
   struct Return {

@@ -66,7 +66,21 @@ Robot::Robot(RobotSettings settings, std::shared_ptr<Image> image, std::size_t c
     native_ = native.get();
     processor_ = std::move(native);
   }
+  program_eeprom();
   power_up();
+}
+
+/// The programmer writes the data EEPROM with the program; from then on only the program changes it.
+void Robot::program_eeprom() {
+  const tp_image& image = copy_.description();
+  unsigned address = board::DataEeprom::kFirst;
+  for (const char* at = image.eedata_begin; at + 1 < image.eedata_end && address <= 0xFFFE;
+       at += 2, address += 2) {
+    std::uint16_t word;
+    std::memcpy(&word, at, sizeof word);
+    board_.eeprom().erase(address);
+    board_.eeprom().write(address, word);
+  }
 }
 
 Robot::~Robot() {
@@ -280,15 +294,18 @@ void Robot::serve(int vector) {
   if (observer_) observer_->handler_begins(vector, flagged, now_, entry.first_instruction);
   const tp_image& image = copy_.description();
   void (*handler)() = entry.handler;
-  if (!handler)
-    handler = vector >= kTrapVector ? image.trap_vectors[vector - kTrapVector] : image.vectors[vector];
+  if (!handler && vector >= kTrapVector)
+    handler = (entry.alternate ? image.alternate_trap_vectors : image.trap_vectors)[vector - kTrapVector];
+  else if (!handler)
+    handler = (entry.alternate ? image.alternate_vectors : image.vectors)[vector];
+  if (!handler) handler = image.default_vector;
   if (!handler) {
     static constexpr const char* kTraps[] = {"OscillatorFail", "AddressError", "StackError", "MathError"};
     const std::string name =
         vector >= kTrapVector ? kTraps[vector - kTrapVector] : std::string(vector_name(vector)) + "Interrupt";
     last_words_ = "interrupt " + name.substr(0, name.rfind("Interrupt")) +
-                  " is enabled and was raised, but the program has no handler _" + name +
-                  "; on the chip the processor resets";
+                  " is enabled and was raised, but the program has no handler _" +
+                  (entry.alternate ? "Alt" : "") + name + "; on the chip the processor resets";
     trap(TP_TRAP_INTERRUPT, last_words_);
   }
   now_ = entry.first_instruction;

@@ -141,7 +141,9 @@ class Robot final : public Context {
   void irq_every(int vector, Cycle first, Cycle period);  ///< period 0: once; native way only
   void set_background(int slot, Cycle period, Cycle cost) override;
   void callback(const void* function) override;
-  bool print(const char* bytes, std::int64_t length) override { return processor_->print(bytes, length); }
+  bool print(const char* bytes, std::int64_t length, int uart) override {
+    return processor_->print(bytes, length, uart);
+  }
   [[noreturn]] void trap(int kind, std::string_view message) override;
 
   // --- what the compiler inserts
@@ -210,6 +212,7 @@ class Robot final : public Context {
 
   static void enter_firmware(void* self);
   void restart_program();
+  void program_eeprom();
   char* place_of(std::uintptr_t address) const;  // where this robot's value of a variable is now
   void swap_in();
   void fold() {  // spent budget -> now_

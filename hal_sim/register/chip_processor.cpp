@@ -15,7 +15,8 @@ namespace register_way {
 
 namespace {
 
-constexpr unsigned kU1Mode = 0x20C, kU1Sta = 0x20E, kU1TxReg = 0x210, kIfs0 = 0x084;
+constexpr unsigned kU1Mode = 0x20C, kU2Mode = 0x216, kIfs0 = 0x084;
+constexpr unsigned kAlternateTable = 0x80;  // of vectors, in program memory
 constexpr std::uint16_t kUartEnabled = 0x8000, kTransmitEnabled = 0x0400, kBufferFull = 0x0200;
 
 /// Reading it moves a FIFO or lowers a flag, so a loop that does has changed something.
@@ -205,18 +206,17 @@ void ChipProcessor::table_write(unsigned program_address, std::uint16_t value, C
 }
 
 // XC16's write(): UART 1 is switched on if nobody has done so, and every character waits for room
-bool ChipProcessor::print(const char* bytes, std::int64_t length) {
+bool ChipProcessor::print(const char* bytes, std::int64_t length, int uart) {
+  const unsigned mode = uart == 2 ? kU2Mode : kU1Mode, sta = mode + 2, tx_reg = mode + 4;
   const auto poll = [this](unsigned address) {
     Cycle t = at(robot_.now());
     return chip_->peek(address, t);
   };
-  if (!(poll(kU1Mode) & kUartEnabled)) {
-    write(kU1Mode, kUartEnabled, 16, robot_.now());
-    write(kU1Sta, kTransmitEnabled, 16, robot_.now());
-  }
+  if (!(poll(mode) & kUartEnabled)) write(mode, kUartEnabled, 16, robot_.now());
+  if (!(poll(sta) & kTransmitEnabled)) write(sta, poll(sta) | kTransmitEnabled, 16, robot_.now());
   for (std::int64_t i = 0; i < length; ++i) {
-    while (poll(kU1Sta) & kBufferFull) robot_.wait_until(chip_->horizon(kU1Sta, latest_));
-    write(kU1TxReg, static_cast<std::uint8_t>(bytes[i]), 16, robot_.now());
+    while (poll(sta) & kBufferFull) robot_.wait_until(chip_->horizon(sta, latest_));
+    write(tx_reg, static_cast<std::uint8_t>(bytes[i]), 16, robot_.now());
   }
   return true;
 }
@@ -244,7 +244,7 @@ host::Processor::Entry ChipProcessor::enter(int vector, Cycle now) {
   const dspic::InterruptEntry entry = chip_->enter_interrupt(number, at(now));
   watched_reads_ = 0;  // whatever waits looks again afterwards
   const Cycle first = entry.first_instruction;
-  return {nullptr, first, chip_->calm_until(first, number), kSavingCycles};
+  return {nullptr, first, chip_->calm_until(first, number), kSavingCycles, entry.address >= kAlternateTable};
 }
 
 host::Processor::Return ChipProcessor::leave(Cycle now) {

@@ -45,7 +45,7 @@ class ChipProcessor final : public host::Processor, public dspic::DiagnosticSink
   std::uint16_t table_read(unsigned program_address, Cycle now) override;
   void table_write(unsigned program_address, std::uint16_t value, Cycle now) override;
   void watch_reads(Cycle now) override { watched_reads_ = kWatchedReads; }
-  bool print(const char* bytes, std::int64_t length) override;
+  bool print(const char* bytes, std::int64_t length, int uart) override;
 
   Outlook look(Cycle now) override;
   const char* why_reset() const override { return why_reset_; }

@@ -148,7 +148,7 @@ TEST_F(Exports, transmit_interrupt_follows_the_last_loaded_byte) {
 
 // 8 bytes: one in the shift register, four wait; the eighth is accepted when the fourth moves on
 TEST_F(Exports, printf_waits_for_room) {
-  tp_console("12345678", 8);
+  tp_console("12345678", 8, 1);
   EXPECT_EQ(context.cycle, 3 * 1280);
   EXPECT_EQ(robot.uart(1).idle_at(), 8 * 1280);
 }

@@ -148,5 +148,7 @@ EXPORT void tp_sfr_write(tp_i64 address, tp_i64 value, tp_i64 bits) {
 }
 EXPORT tp_i64 tp_rand() { return 1234; }
 EXPORT void tp_srand(tp_i64 seed) { current->calls.push_back("srand " + std::to_string(seed)); }
-EXPORT void tp_console(const char* bytes, tp_i64 length) { current->console.append(bytes, size_t(length)); }
+EXPORT void tp_console(const char* bytes, tp_i64 length, tp_i64) {
+  current->console.append(bytes, size_t(length));
+}
 EXPORT void tp_spend(tp_i64 cycles) { current->cycles += cycles; }

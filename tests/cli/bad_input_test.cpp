@@ -33,7 +33,7 @@ TEST_P(BadInput, is_refused_with_a_clear_line) {
   write("two_mains/a.c", "int main(void) { while (1); }\n");
   write("two_mains/b.c", "int main(void) { while (1); }\n");
   write("no_main/a.c", "int x;\n");
-  write("assembler/main.c", "int main(void) { asm(\"mov w0, w1\"); while (1); }\n");
+  write("assembler/main.c", "int main(void) { asm(\"add w0, w1, w2\"); while (1); }\n");
   write("no_header/main.c", "#include \"nowhere.h\"\nint main(void) { while (1); }\n");
   write("nothing_here/readme.txt", "no C\n");
   write("broken.toml", "this is = = not toml\n");
@@ -77,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"files", "run maze --fw puck=@/files", 2, "fopen"},
         Bad{"two_mains", "build @/two_mains -o @/x.so", 1, "main"},
         Bad{"no_main", "build @/no_main -o @/x.so", 1, "main"},
-        Bad{"assembler", "build @/assembler -o @/x.so", 1, "mov w0, w1"},
+        Bad{"assembler", "build @/assembler -o @/x.so", 1, "add w0, w1, w2"},
         Bad{"missing_header", "build @/no_header -o @/x.so", 1, "nowhere.h"},
         Bad{"folder_without_c", "build @/nothing_here -o @/x.so", 1, "nothing_here"},
         Bad{"build_of_nothing", "build @/nowhere -o @/x.so", 2, "does not exist"},

@@ -302,6 +302,13 @@ TEST_F(Uart, pins_belong_to_the_uart_while_it_is_on) {
   EXPECT_EQ(b.outside.driven.back().driven, 0);
 }
 
+// nothing is sent yet: U1STA keeps its reset value, as long as UTXEN is not set
+TEST_F(Uart, transmitter_is_empty_from_the_cycle_in_which_it_is_switched_on) {
+  b.write("U1MODE", 0x8000, 50);
+  EXPECT_EQ(b.read("U1STA", 50), 0x0110);
+  EXPECT_EQ(b.read("U1STA", 51), 0x0110);
+}
+
 TEST_F(Uart, wait_for_trmt_knows_when_to_look_again) {
   open();
   b.write("U1TXREG", 1, 100);

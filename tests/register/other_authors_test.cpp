@@ -145,7 +145,7 @@ extern int go;
 void __attribute__((interrupt, no_auto_psv)) _T5Interrupt(void)
 {
   __asm__ volatile("push.d w0");
-  __asm__ volatile("mov _PORTD,w1");
+  __asm__ volatile("swap w1");
   IFS1bits.T5IF = 0;
   __asm__ volatile("pop.d w0");
 }
@@ -338,6 +338,51 @@ int main(void)
   return came;
 }
 )"));
+  run_for(0.02);
+  ASSERT_EQ(robot.traps().size(), 1u);
+  EXPECT_NE(robot.traps()[0].message.find("longjmp()"), std::string::npos) << robot.traps()[0].message;
+}
+
+// leaves a place behind, then calls `call`
+std::string jump_after(const std::string& call) {
+  return program(R"(
+#include <setjmp.h>
+static jmp_buf place;
+int came, sum;
+static void __attribute__((noinline)) leave(int n)
+{
+  volatile char room[40];
+  room[0] = n;
+  if (n && setjmp(place)) came++;
+  if (!n) longjmp(place, 1);
+  room[1] = n;
+}
+static void __attribute__((noinline)) deeper(int n)
+{
+  volatile char room[20];
+  room[0] = n;
+  if (n) deeper(n - 1);
+  else longjmp(place, 1);
+  room[1] = n;
+}
+int main(void)
+{
+  leave(1);
+  )" + call + R"(;
+  return came;
+}
+)");
+}
+
+TEST_F(RegisterTest, a_jump_to_a_place_that_other_functions_use_now_stops_the_robot) {
+  Robot& robot = add_robot_with_source(jump_after("deeper(9)"));
+  run_for(0.02);
+  ASSERT_EQ(robot.traps().size(), 1u);
+  EXPECT_NE(robot.traps()[0].message.find("longjmp()"), std::string::npos) << robot.traps()[0].message;
+}
+
+TEST_F(RegisterTest, a_jump_to_a_place_of_the_same_function_in_another_call_stops_the_robot) {
+  Robot& robot = add_robot_with_source(jump_after("leave(0)"));
   run_for(0.02);
   ASSERT_EQ(robot.traps().size(), 1u);
   EXPECT_NE(robot.traps()[0].message.find("longjmp()"), std::string::npos) << robot.traps()[0].message;

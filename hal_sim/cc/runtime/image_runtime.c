@@ -35,6 +35,7 @@ static void tp_image_start(void)
 
 /* the linker script puts these around the image's data and tables */
 extern char tp_data_begin[], tp_data_end[];
+extern const char tp_eedata_begin[], tp_eedata_end[];
 extern const struct tp_function tp_functions_begin[], tp_functions_end[];
 extern const struct tp_coverage_line tp_coverage_begin[], tp_coverage_end[];
 
@@ -51,6 +52,22 @@ extern const struct tp_coverage_line tp_coverage_begin[], tp_coverage_end[];
   X(_Interrupt48) X(_Interrupt49) X(_Interrupt50) X(_Interrupt51) X(_Interrupt52) X(_Interrupt53)
 VECTORS(H)
 H(_OscillatorFail) H(_AddressError) H(_StackError) H(_MathError)
+/* those of the alternate table */
+#define ALTERNATE_VECTORS(X) \
+  X(_AltINT0Interrupt) X(_AltIC1Interrupt) X(_AltOC1Interrupt) X(_AltT1Interrupt) X(_AltIC2Interrupt) \
+  X(_AltOC2Interrupt) X(_AltT2Interrupt) X(_AltT3Interrupt) X(_AltSPI1Interrupt) X(_AltU1RXInterrupt) \
+  X(_AltU1TXInterrupt) X(_AltADCInterrupt) X(_AltNVMInterrupt) X(_AltSI2CInterrupt) X(_AltMI2CInterrupt) \
+  X(_AltCNInterrupt) X(_AltINT1Interrupt) X(_AltIC7Interrupt) X(_AltIC8Interrupt) X(_AltOC3Interrupt) \
+  X(_AltOC4Interrupt) X(_AltT4Interrupt) X(_AltT5Interrupt) X(_AltINT2Interrupt) X(_AltU2RXInterrupt) \
+  X(_AltU2TXInterrupt) X(_AltSPI2Interrupt) X(_AltC1Interrupt) X(_AltIC3Interrupt) X(_AltIC4Interrupt) \
+  X(_AltIC5Interrupt) X(_AltIC6Interrupt) X(_AltOC5Interrupt) X(_AltOC6Interrupt) X(_AltOC7Interrupt) \
+  X(_AltOC8Interrupt) X(_AltINT3Interrupt) X(_AltINT4Interrupt) X(_AltC2Interrupt) X(_AltPWMInterrupt) \
+  X(_AltQEIInterrupt) X(_AltDCIInterrupt) X(_AltLVDInterrupt) X(_AltFLTAInterrupt) X(_AltFLTBInterrupt) \
+  X(_AltInterrupt45) X(_AltInterrupt46) X(_AltInterrupt47) X(_AltInterrupt48) X(_AltInterrupt49) \
+  X(_AltInterrupt50) X(_AltInterrupt51) X(_AltInterrupt52) X(_AltInterrupt53)
+ALTERNATE_VECTORS(H)
+H(_AltOscillatorFail) H(_AltAddressError) H(_AltStackError) H(_AltMathError)
+H(_DefaultInterrupt)
 
 /* _FOSC() and _FWDT() of p30F6014A.h */
 extern const unsigned int tp_config_fosc __attribute__((weak)), tp_config_fwdt __attribute__((weak));
@@ -72,5 +89,9 @@ __attribute__((visibility("default"), aligned(64))) const struct tp_image tp_ima
 #else
   0, 0,
 #endif
-  &tp_config_fosc, &tp_config_fwdt
+  &tp_config_fosc, &tp_config_fwdt,
+  { ALTERNATE_VECTORS(A) },
+  { _AltOscillatorFail, _AltAddressError, _AltStackError, _AltMathError },
+  _DefaultInterrupt,
+  tp_eedata_begin, tp_eedata_end
 };

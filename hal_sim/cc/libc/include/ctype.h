@@ -2,17 +2,17 @@
  * Firmware libc: kinds of characters (ASCII). */
 #ifndef TP_LIBC_CTYPE_H
 #define TP_LIBC_CTYPE_H
-int isalpha(int c);
-int isdigit(int c);
-int isalnum(int c);
-int isxdigit(int c);
-int isspace(int c);
-int isupper(int c);
-int islower(int c);
-int isprint(int c);
-int isgraph(int c);
-int iscntrl(int c);
-int ispunct(int c);
-int toupper(int c);
-int tolower(int c);
+int isalpha(int __c);
+int isdigit(int __c);
+int isalnum(int __c);
+int isxdigit(int __c);
+int isspace(int __c);
+int isupper(int __c);
+int islower(int __c);
+int isprint(int __c);
+int isgraph(int __c);
+int iscntrl(int __c);
+int ispunct(int __c);
+int toupper(int __c);
+int tolower(int __c);
 #endif

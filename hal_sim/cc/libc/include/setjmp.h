@@ -3,10 +3,12 @@
 #ifndef TP_LIBC_SETJMP_H
 #define TP_LIBC_SETJMP_H
 typedef struct {
-  void* state[5];
-  int value;
+  void* __state[5];
+  void* __caller; /* of the function that called setjmp() */
+  int __value;
 } jmp_buf[1];
-void tp_image_longjmp(void* state, int* value, int v) __attribute__((noreturn));
-#define setjmp(b) (__builtin_setjmp((b)->state) ? (b)->value : 0)
-#define longjmp(b, v) tp_image_longjmp((b)->state, &(b)->value, v)
+void tp_image_longjmp(void* __state, int* __value, int __v) __attribute__((__noreturn__));
+int tp_image_note_caller(void* __state);
+#define setjmp(b) (__builtin_setjmp((b)->__state) ? (b)->__value : tp_image_note_caller((b)->__state))
+#define longjmp(b, v) tp_image_longjmp((b)->__state, &(b)->__value, v)
 #endif

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Firmware libc: formatted text; printf() goes to UART 1 as XC16's does. There are no files. */
+ * Firmware libc: formatted text; printf() ends in write(), which sends to the UART that __C30_UART names,
+ * as with XC16. There are no files. */
 #ifndef TP_LIBC_STDIO_H
 #define TP_LIBC_STDIO_H
 #include <stdarg.h>
@@ -10,20 +11,23 @@ typedef struct tp_file FILE;
 extern FILE* const tp_stdout;
 #define stdout tp_stdout
 #define stderr tp_stdout
-int printf(const char* format, ...) __attribute__((format(printf, 1, 2)));
-int vprintf(const char* format, va_list list);
-int fprintf(FILE* to, const char* format, ...) __attribute__((format(printf, 2, 3)));
-int vfprintf(FILE* to, const char* format, va_list list);
-int sprintf(char* to, const char* format, ...) __attribute__((format(printf, 2, 3)));
-int snprintf(char* to, size_t size, const char* format, ...) __attribute__((format(printf, 3, 4)));
-int vsprintf(char* to, const char* format, va_list list);
-int vsnprintf(char* to, size_t size, const char* format, va_list list);
-int sscanf(const char* s, const char* format, ...) __attribute__((format(scanf, 2, 3)));
-int vsscanf(const char* s, const char* format, va_list list);
-int puts(const char* s);
-int fputs(const char* s, FILE* to);
-int putchar(int c);
-int fputc(int c, FILE* to);
-int putc(int c, FILE* to);
-int fflush(FILE* to);
+int printf(const char* __format, ...) __attribute__((__format__(__printf__, 1, 2)));
+int vprintf(const char* __format, va_list __list);
+int fprintf(FILE* __to, const char* __format, ...) __attribute__((__format__(__printf__, 2, 3)));
+int vfprintf(FILE* __to, const char* __format, va_list __list);
+int sprintf(char* __to, const char* __format, ...) __attribute__((__format__(__printf__, 2, 3)));
+int snprintf(char* __to, size_t __size, const char* __format, ...)
+    __attribute__((__format__(__printf__, 3, 4)));
+int vsprintf(char* __to, const char* __format, va_list __list);
+int vsnprintf(char* __to, size_t __size, const char* __format, va_list __list);
+int sscanf(const char* __s, const char* __format, ...) __attribute__((__format__(__scanf__, 2, 3)));
+int vsscanf(const char* __s, const char* __format, va_list __list);
+int puts(const char* __s);
+int fputs(const char* __s, FILE* __to);
+int putchar(int __c);
+int fputc(int __c, FILE* __to);
+int putc(int __c, FILE* __to);
+int fflush(FILE* __to);
+/* 1 or 2: the UART that printf() and its like write to */
+extern int __C30_UART;
 #endif

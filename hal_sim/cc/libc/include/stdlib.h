@@ -12,27 +12,27 @@ typedef struct {
 typedef struct {
   long quot, rem;
 } ldiv_t;
-void* malloc(size_t bytes);
-void* calloc(size_t n, size_t bytes);
-void* realloc(void* old, size_t bytes);
-void free(void* block);
-int atoi(const char* s);
-long atol(const char* s);
-double atof(const char* s);
-long strtol(const char* s, char** end, int base);
-unsigned long strtoul(const char* s, char** end, int base);
-double strtod(const char* s, char** end);
-int abs(int v);
-long labs(long v);
-div_t div(int a, int b);
-ldiv_t ldiv(long a, long b);
+void* malloc(size_t __bytes);
+void* calloc(size_t __n, size_t __bytes);
+void* realloc(void* __old, size_t __bytes);
+void free(void* __block);
+int atoi(const char* __s);
+long atol(const char* __s);
+double atof(const char* __s);
+long strtol(const char* __s, char** __end, int __base);
+unsigned long strtoul(const char* __s, char** __end, int __base);
+double strtod(const char* __s, char** __end);
+int abs(int __v);
+long labs(long __v);
+div_t div(int __a, int __b);
+ldiv_t ldiv(long __a, long __b);
 int rand(void);
-void srand(unsigned int seed);
-void qsort(void* first, size_t n, size_t bytes, int (*compare)(const void*, const void*));
-void* bsearch(const void* key, const void* first, size_t n, size_t bytes,
-              int (*compare)(const void*, const void*));
-void exit(int status) __attribute__((noreturn));
-void abort(void) __attribute__((noreturn));
-int atexit(void (*function)(void));
-char* itoa(char* to, int value, int base);
+void srand(unsigned int __seed);
+void qsort(void* __first, size_t __n, size_t __bytes, int (*__compare)(const void*, const void*));
+void* bsearch(const void* __key, const void* __first, size_t __n, size_t __bytes,
+              int (*__compare)(const void*, const void*));
+void exit(int __status) __attribute__((__noreturn__));
+void abort(void) __attribute__((__noreturn__));
+int atexit(void (*__function)(void));
+char* itoa(char* __to, int __value, int __base);
 #endif

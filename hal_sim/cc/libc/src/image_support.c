@@ -12,16 +12,59 @@ void tp_image_assert(const char *file, int line, const char *text)
   tp_trap_message(TP_TRAP_ABORT, message);
 }
 
+/* state: five words of __builtin_setjmp(), the first of them the frame, and who called the function of that frame,
+ * which stands above the frame's first word, that of the frame before */
+int tp_image_note_caller(void *state)
+{
+  ((void **)state)[5] = ((void ***)state)[0][1];
+  return 0;
+}
+
 void tp_image_longjmp(void *state, int *value, int v)
 {
-  volatile char here = 0;
+  void *own[5], **target = ((void ***)state)[0], **frame;
+  __builtin_setjmp(own);
+  frame = own[0];
   *value = v ? v : 1;
-  /* the frame that called setjmp() must still be there: above ours, for stacks grow downwards */
-  if (((void **)state)[2] < (void *)&here)
+  /* the function that called setjmp() must be one of those that led here */
+  while (frame < target && (void **)frame[0] > frame) frame = frame[0];
+  if (frame != target || target[1] != ((void **)state)[5])
     tp_trap_message(TP_TRAP_UNSIMULATED,
                     "longjmp() to a function that has returned, or to a place that setjmp() has not set; programs that "
                     "exchange stacks so (processes, coroutines) run on the robot only");
   __builtin_longjmp(state, 1);
+}
+
+/* addresses below are registers or nothing, as they are on the chip */
+enum { kRegistersEnd = 0x800 };
+
+static int is_register(const volatile char *at) { return (unsigned long long)at < kRegistersEnd; }
+
+static char load_byte(const volatile char *at)
+{
+  return is_register(at) ? (char)tp_sfr_read((tp_i64)at, 8) : *at;
+}
+
+static void store_byte(volatile char *at, char value)
+{
+  if (is_register(at)) tp_sfr_write((tp_i64)at, (unsigned char)value, 8);
+  else *at = value;
+}
+
+/* as the library's memcpy() and memset(), byte after byte, with registers at either end */
+void tp_image_copy(char *to, const char *from, tp_i64 n)
+{
+  tp_i64 i;
+  if (to > from)
+    for (i = n - 1; i >= 0; i--) store_byte(to + i, load_byte(from + i));
+  else
+    for (i = 0; i < n; i++) store_byte(to + i, load_byte(from + i));
+}
+
+void tp_image_fill(char *to, tp_i64 value, tp_i64 n)
+{
+  tp_i64 i;
+  for (i = 0; i < n; i++) store_byte(to + i, (char)value);
 }
 
 void __delay32(unsigned long cycles) { tp_spend(cycles); }

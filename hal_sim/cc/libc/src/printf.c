@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * Firmware libc: the printf family. int arguments have 16 bits, %ld 32, %f and friends print a single-precision
- * number. printf() itself goes to the host's console, which is UART 1. */
+ * number. printf() and its like end in write(), which a program may replace by its own, as with XC16; ours sends to
+ * the UART that __C30_UART names. */
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -13,6 +14,17 @@ struct sink {
   unsigned int filled;
 };
 
+int __C30_UART = 1;
+
+enum { kStdout = 1 };
+
+int write(int handle, void *bytes, unsigned int length);
+int write(int handle, void *bytes, unsigned int length)
+{
+  tp_console(bytes, length, __C30_UART);
+  return (int)length;
+}
+
 struct tp_file { int unused; };
 static struct tp_file console;
 FILE *const tp_stdout = &console;
@@ -24,7 +36,7 @@ static void put(struct sink *s, char c)
     if (s->at < s->end) *s->at++ = c;
   } else {
     s->line[s->filled++] = c;
-    if (s->filled == sizeof s->line) tp_console(s->line, s->filled), s->filled = 0;
+    if (s->filled == sizeof s->line) write(kStdout, s->line, s->filled), s->filled = 0;
   }
 }
 
@@ -265,7 +277,7 @@ int vprintf(const char *format, va_list list)
   struct sink s;
   s.at = s.end = 0, s.count = 0, s.filled = 0;
   format_into(&s, format, list);
-  if (s.filled) tp_console(s.line, s.filled);
+  if (s.filled) write(kStdout, s.line, s.filled);
   return (int)s.count;
 }
 
@@ -279,21 +291,21 @@ int snprintf(char *to, size_t size, const char *format, ...) FORWARD(vsnprintf(t
 
 int fputs(const char *s, FILE *to)
 {
-  tp_console(s, strlen(s));
+  write(kStdout, (void *)s, strlen(s));
   return 0;
 }
 
 int puts(const char *s)
 {
   fputs(s, tp_stdout);
-  tp_console("\n", 1);
+  write(kStdout, "\n", 1);
   return 0;
 }
 
 int putchar(int c)
 {
   char one = (char)c;
-  tp_console(&one, 1);
+  write(kStdout, &one, 1);
   return c;
 }
 

@@ -4,4 +4,4 @@
 #include "hal_sim/host/image_abi.h"
 #include "hal_sim/host/pins_virtual.h"
 
-void tp_console(const char *bytes, tp_i64 length) { tp_virtual_console(bytes, length); }
+void tp_console(const char *bytes, tp_i64 length, tp_i64 uart) { tp_virtual_console(bytes, length); }

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+// Folders as they lie in public repositories: with a project file of MPLAB, with more than one program, with
+// headers that only the project's settings find.
+#include <gtest/gtest.h>
+
+#include "fake_host.h"
+
+using namespace fake;
+
+namespace {
+
+const char* kMain =
+    "#include <stdio.h>\nint part(void);\nint main(void) { printf(\"%d\", part()); return 0; }";
+
+cc::BuildResult build_folder(const Folder& folder, const std::string& name = "prog") {
+  cc::BuildOptions options;
+  options.source_dir = folder.path / name;
+  options.output = folder.path / "out.so";
+  return cc::build_image(options);
+}
+
+std::string said(const Folder& folder) { return Image(folder.path / "out.so").run().console; }
+
+std::string mcp(const std::string& files, const std::string& include = "") {
+  return "[HEADER]\r\ndevice=dsPIC30F6014A\r\n[PATH_INFO]\r\ndir_src=\r\ndir_inc=" + include +
+         "\r\n[FILE_SUBFOLDERS]\r\nfile_000=.\r\n[FILE_INFO]\r\n" + files + "[SUITE_INFO]\r\n";
+}
+
+}  // namespace
+
+TEST(mplab_project, files_that_the_project_does_not_list_are_left_alone) {
+  Folder folder;
+  folder.file("prog/main.c", kMain);
+  folder.file("prog/part.c", "int part(void) { return 1; }");
+  folder.file("prog/part_old.c", "int part(void) { return 2; }");
+  folder.file("prog/tries/main.c", "int main(void) { return 5; }");
+  folder.file("prog/broken.c", "this was never finished");
+  folder.file("prog/robot.mcp", mcp("file_000=MAIN.C\r\nfile_001=part.c\r\nfile_002=part.h\r\n"));
+  auto built = build_folder(folder);
+  ASSERT_TRUE(built.ok) << text_of(built);
+  EXPECT_EQ(said(folder), "1");
+  EXPECT_NE(text_of(built).find("robot.mcp: project: lists 2 of the folder's 5 C files and 0 elsewhere"),
+            std::string::npos)
+      << text_of(built);
+}
+
+TEST(mplab_project, what_the_project_forgets_is_linked_where_it_is_asked_for) {
+  Folder folder;
+  folder.file("prog/main.c", kMain);
+  folder.file("prog/new/part.c", "int part(void) { return 3; }");
+  folder.file("prog/robot.mcp", mcp("file_000=main.c\r\n"));
+  auto built = build_folder(folder);
+  ASSERT_TRUE(built.ok) << text_of(built);
+  EXPECT_EQ(said(folder), "3");
+}
+
+// the path on the author's PC ends in folders that lie beside the project
+TEST(mplab_project, files_and_headers_elsewhere_are_found_by_the_end_of_their_path) {
+  Folder folder;
+  folder.file("robots/Task A/main.c", std::string("#include \"tools/part.h\"\n") + kMain);
+  folder.file("robots/shared/tools/part.h", "#define PART 4\n");
+  folder.file("robots/shared/tools/part.c", "#include \"part.h\"\nint part(void) { return PART; }");
+  folder.file("robots/Task A/A.mcp",
+              mcp("file_000=main.c\r\nfile_001=C:\\Users\\me\\robots\\shared\\Tools\\part.c\r\n",
+                  "C:\\Program Files\\C30\\h;C:\\Users\\me\\robots\\shared"));
+  auto built = build_folder(folder, "robots/Task A");
+  ASSERT_TRUE(built.ok) << text_of(built);
+  EXPECT_EQ(said(folder), "4");
+}
+
+TEST(mplab_project, a_project_of_mplab_x_lists_files_from_its_own_folder) {
+  Folder folder;
+  folder.file("prog/main.c", kMain);
+  folder.file("prog/part.c", "int part(void) { return 6; }");
+  folder.file("prog/other.c", "int part(void) { return 7; }");
+  folder.file("prog/robot.X/nbproject/configurations.xml",
+              "<logicalFolder><itemPath>../main.c</itemPath><itemPath>../part.c</itemPath>"
+              "<itemPath>../other.c</itemPath></logicalFolder>"
+              "<item path=\"../other.c\" ex=\"true\" overriding=\"false\"></item>");
+  auto built = build_folder(folder);
+  ASSERT_TRUE(built.ok) << text_of(built);
+  EXPECT_EQ(said(folder), "6");
+  built = build_folder(folder, "prog/robot.X");
+  ASSERT_TRUE(built.ok) << text_of(built);
+  EXPECT_EQ(said(folder), "6");
+}
+
+TEST(mplab_project, two_projects_of_different_programs_decide_nothing) {
+  Folder folder;
+  folder.file("prog/main.c", kMain);
+  folder.file("prog/second.c", "int main(void) { return 5; }");
+  folder.file("prog/part.c", "int part(void) { return 1; }");
+  folder.file("prog/a.mcp", mcp("file_000=main.c\r\nfile_001=part.c\r\n"));
+  folder.file("prog/b.mcp", mcp("file_000=second.c\r\n"));
+  auto built = build_folder(folder);
+  EXPECT_FALSE(built.ok);
+  EXPECT_NE(text_of(built).find("main(): got 2 definitions"), std::string::npos) << text_of(built);
+}
+
+TEST(mplab_project, without_one_the_main_nearest_to_the_folder_is_the_programs) {
+  Folder folder;
+  folder.file("prog/main.c", kMain);
+  folder.file("prog/library/part.c", "int part(void) { return 8; }");
+  folder.file("prog/library/demo/main.c", "int demo; int main(void) { return 5; }");
+  folder.file("prog/library/demo/part.c", "int part(void) { return 9; }");
+  auto built = build_folder(folder);
+  ASSERT_TRUE(built.ok) << text_of(built);
+  EXPECT_EQ(said(folder), "8");
+  ASSERT_EQ(built.warnings.size(), 1u) << text_of(built);
+  EXPECT_NE(built.warnings[0].find("main(): got 2 definitions, expected 1; main.c is taken"),
+            std::string::npos);
+}
+
+TEST(mplab_project, a_header_is_found_from_the_folder_above_its_own) {
+  Folder folder;
+  folder.file("prog/app/main.c", std::string("#include \"tools/part.h\"\n") + kMain);
+  folder.file("prog/source/tools/part.h", "#define PART 4\n");
+  folder.file("prog/source/tools/part.c", "#include \"part.h\"\nint part(void) { return PART; }");
+  auto built = build_folder(folder);
+  ASSERT_TRUE(built.ok) << text_of(built);
+  EXPECT_EQ(said(folder), "4");
+}
+
+// short names that a program has given a meaning to before it includes the library's headers
+TEST(mplab_project, headers_of_the_libc_use_no_name_of_the_program) {
+  Folder folder;
+  std::string names;
+  for (const char* name : {"a",   "b",     "c",     "e",      "n",      "s",     "v",     "x",   "y",
+                           "to",  "from",  "key",   "end",    "base",   "list",  "size",  "set", "value",
+                           "old", "first", "block", "format", "number", "state", "status"})
+    names += std::string("#define ") + name + " 5 + 5\n";
+  auto built =
+      build(folder, names +
+                        "#include <string.h>\n#include <stdlib.h>\n#include <stdio.h>\n#include <math.h>\n"
+                        "#include <ctype.h>\n#include <setjmp.h>\n#include <assert.h>\n#include <time.h>\n"
+                        "int main(void) { return 0; }");
+  EXPECT_TRUE(built.ok) << text_of(built);
+}
