@@ -41,7 +41,17 @@ class Interrupts final : public SfrOwner {
 
   // --- for peripherals
   /// The flag is set at `at`. `is_event`: one raise stands for one event, so that a second one is a loss.
-  void raise(int irq, Cycle at, bool is_event = true);
+  void raise(int irq, Cycle at, bool is_event = true) {
+    const std::uint64_t bit = std::uint64_t{1} << irq;
+    if (ifs_ & bit) {
+      if (is_event) note_missed(irq, 1, at);
+      return;
+    }
+    ifs_ |= bit;
+    since_[static_cast<std::size_t>(irq)] = at;
+    newest_ = std::max(newest_, at);
+    stirred_ = true;
+  }
   /// Events that passed unseen while the flag was set; for sources that did not raise() them one by one.
   void note_missed(int irq, std::int64_t events, Cycle at);
   bool flag(int irq) const { return (ifs_ >> irq & 1) != 0; }
@@ -82,6 +92,14 @@ class Interrupts final : public SfrOwner {
   bool stirred() const { return stirred_; }
   void forget_stir() { stirred_ = false; }
 
+  // --- flags of IFS0 to 2, what handlers touch most
+  std::uint16_t read_flags(int word, Cycle now) {
+    flags_read_[static_cast<std::size_t>(word)] = now;
+    return static_cast<std::uint16_t>(ifs_ >> 16 * word);
+  }
+  /// `value` holds bits that exist.
+  void write_flags(int word, std::uint16_t value, std::uint16_t lanes, Cycle now);
+
   std::int64_t missed(int irq) const { return missed_[static_cast<std::size_t>(irq)]; }
   std::int64_t served(int vector) const { return served_[static_cast<std::size_t>(vector)]; }
 
@@ -98,7 +116,8 @@ class Interrupts final : public SfrOwner {
     bool cleared;  // software cleared the flag since
     Cycle entered;
   };
-  void write_flags(int word, std::uint16_t value, std::uint16_t lanes, Cycle now);
+  std::uint64_t younger_than(Cycle read, std::uint64_t flags) const;
+  void set_by_program(std::uint64_t flags, Cycle now);
   void set_priority(int irq, int priority);
   void check_cleared(const Frame& frame, Cycle now);
 
@@ -143,6 +162,10 @@ inline int Interrupts::pending(Cycle now, int cpu_level) const {
   int lowest = cpu_level + 1;
   if (disi_active(now)) lowest = std::max(lowest, 7);
   if (now <= resumed_) lowest = std::max(lowest, resumed_level_ + 1);
+  if (!(ready & (ready - 1))) {  // the usual case: one
+    const int i = __builtin_ctzll(ready | std::uint64_t{1} << 63);
+    return ready && priority(i) >= lowest && priority(i) > 0 ? kFirstIrqVector + i : kNoVector;
+  }
   for (int level = 7; level >= lowest; --level)
     if (const std::uint64_t here = ready & at_priority_[static_cast<std::size_t>(level)])
       return kFirstIrqVector + __builtin_ctzll(here);
@@ -162,6 +185,32 @@ inline Cycle Interrupts::next_change(Cycle now) const {
   if (disi_active(now)) next = std::min(next, disi_until_);
   if (now <= resumed_) next = std::min(next, resumed_ + 1);
   return std::max(next, now + 1);
+}
+
+// a write that follows the read of the same flags within this many cycles is the second half of one
+// instruction
+inline constexpr Cycle kReadModifyWrite = 3;
+
+inline void Interrupts::write_flags(int word, std::uint16_t value, std::uint16_t lanes, Cycle now) {
+  const int shift = 16 * word;
+  const auto mask = static_cast<std::uint64_t>(lanes) << shift;
+  std::uint64_t wanted = (ifs_ & ~mask) | ((static_cast<std::uint64_t>(value) << shift) & mask);
+  std::uint64_t cleared = ifs_ & ~wanted;
+  // what the hardware set after the program's read is not in the value that it writes back
+  const Cycle read = flags_read_[static_cast<std::size_t>(word)];
+  if (cleared && newest_ > read && now - read <= kReadModifyWrite) {
+    wanted |= younger_than(read, cleared);
+    cleared = ifs_ & ~wanted;
+  }
+  if (const std::uint64_t set = wanted & ~ifs_) set_by_program(set, now);
+  ifs_ = wanted;
+  for (; cleared; cleared &= cleared - 1) {
+    const int i = __builtin_ctzll(cleared);
+    for (Frame& frame : stack_)
+      if (frame.vector == kFirstIrqVector + i) frame.cleared = true;
+    uncleared_[static_cast<std::size_t>(i)] = 0;
+    if (FlagListener* listener = listeners_[static_cast<std::size_t>(i)]) listener->flag_cleared(i, now);
+  }
 }
 
 inline InterruptEntry Interrupts::enter(int vector, Cycle now) {

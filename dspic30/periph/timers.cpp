@@ -24,6 +24,15 @@ constexpr int kPrescaleBits[] = {0, 3, 6, 8};  // 1, 8, 64, 256
 constexpr Cycle kEdgeToTick = 1;               // synchroniser of TxCK
 constexpr Cycle kMatchToFlag = 1;              // [chip P2]
 
+/// Timer whose own flag an IRQ is.
+constexpr std::array<std::uint8_t, kIrqs> timers_by_flag() {
+  std::array<std::uint8_t, kIrqs> timers{};
+  for (int t = 1; t <= kTimers; ++t)
+    timers[static_cast<std::size_t>(kFlags[t - 1])] = static_cast<std::uint8_t>(t);
+  return timers;
+}
+constexpr std::array<std::uint8_t, kIrqs> kTimerOfFlag = timers_by_flag();
+
 // which register of which timer
 enum class What { Tmr, Pr, Con, Hold };
 struct Register {
@@ -253,7 +262,12 @@ void Timers::on_event(int id, Cycle at) {
     f_.interrupts.raise(flag_of(id), at);
     u.lazy = true;
     u.lazy_since = at;
-    next_internal(id, at);
+    if (at == u.next && u.pr != 0) {  // as next_internal() has it
+      u.next += (Cycle{u.pr} + 1) << u.prescale_bits;
+      u.next_from = at;
+    } else {
+      next_internal(id, at);
+    }
     return;
   }
   if (u.mode == Mode::Gated) {
@@ -276,10 +290,17 @@ void Timers::on_event(int id, Cycle at) {
 }
 
 void Timers::flag_cleared(int irq, Cycle now) {
-  int t = 1;
-  while (t < kTimers && kFlags[t - 1] != irq) ++t;
+  int t = kTimerOfFlag[static_cast<std::size_t>(irq)];
   if (unit(t).slave) --t;
   if (flag_of(t) != irq) return;  // of the low half of a pair
+  Unit& u = unit(t);
+  if (u.lazy && u.mode == Mode::Internal && u.pending_flag == kNever && !u.wanted && now < u.next &&
+      u.lazy_since >= u.next_from) {
+    // the usual case: lowered within the period, so nothing was missed and the next match is known
+    u.lazy = false;
+    u.lazy_since = now;
+    return f_.events.set(u.slot, u.next);
+  }
   count_missed(t, now);
   schedule(t, now);
 }
