@@ -97,12 +97,18 @@ struct ChipParts {
   // --- registers; as Dspic30f6014a has them
   std::uint16_t read(unsigned address, unsigned bits, Cycle now) {
     events.run_to(now);
-    SfrOwner* const owner = bits > 8 ? bus.reader(address) : nullptr;
-    if (owner == &adc && address < Adc::kBufferEnd)
-      return adc.read_result(static_cast<int>(address - Adc::kBuffer) / 2, now);
-    if (owner == &interrupts && is_flags(address)) return interrupts.read_flags(flag_word(address), now);
     return bus.read(address, bits, now);
   }
+  /// Is read_result() the same as read()?
+  bool is_result(unsigned address, unsigned bits, Cycle now) const {
+    return address - Adc::kBuffer < Adc::kBufferEnd - Adc::kBuffer && bits > 8 && events.next() > now &&
+           bus.reader(address) == &adc;
+  }
+  std::uint16_t read_result(unsigned address, Cycle now) {
+    events.pass_to(now);
+    return adc.read_result(static_cast<int>(address - Adc::kBuffer) / 2, now);
+  }
+
   Cycle write(unsigned address, std::uint16_t value, unsigned bits, Cycle now) {
     begin_write(now);
     store(address, value, bits, now);
@@ -113,9 +119,23 @@ struct ChipParts {
     const std::uint16_t old = read(address, 16, now);
     return write(address, static_cast<std::uint16_t>((old & keep) ^ flip), 16, now);
   }
+  /// Is modify_flags() the same as modify()?
+  bool are_flags(unsigned address, Cycle now) const {
+    return is_flags(address) && events.next() > now && bus.reader(address) == &interrupts;
+  }
+  Cycle modify_flags(unsigned address, std::uint16_t keep, std::uint16_t flip, Cycle now) {
+    const int word = flag_word(address);
+    events.pass_to(now);
+    events.forget_changes();
+    interrupts.forget_stir();
+    const std::uint16_t old = interrupts.read_flags(word, now);
+    const SfrBus::Store store = bus.accept(address, static_cast<std::uint16_t>((old & keep) ^ flip), 16, now);
+    interrupts.write_flags(word, store.value, 0xFFFF, now);
+    return end_write();
+  }
 
   // --- interrupts
-  Outlook look(Cycle now) {
+  __attribute__((always_inline)) Outlook look(Cycle now) {
     events.run_to(now);
     Outlook outlook;
     outlook.level = interrupts.level();
@@ -127,7 +147,7 @@ struct ChipParts {
         now + 1, std::min(events.next_notice(interrupts.enabled_mask()), interrupts.next_change(now)));
     return outlook;
   }
-  Cycle calm_until(Cycle now, int served = kNoVector) {
+  __attribute__((always_inline)) Cycle calm_until(Cycle now, int served = kNoVector) {
     if (!interrupts.has_no_other(served) || events.next() <= now) return 0;
     return events.next_notice(interrupts.enabled_mask());
   }

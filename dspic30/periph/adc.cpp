@@ -197,9 +197,13 @@ void Adc::on_event(int id, Cycle at) {
   if (cruising_ && flag_at_ == kNever && up(end) + kEndToFlag == at) {
     // one sequence as the one before: what the rest of this function and schedule() come to
     cruise_.start = end;
-    f_.interrupts.raise(irq::Adc, at);
-    return f_.events.set(slot_, up(end + cruise_.sequence) + kEndToFlag);
+    f_.events.repeat(slot_, up(end + cruise_.sequence) + kEndToFlag);
+    return f_.interrupts.raise(irq::Adc, at);
   }
+  irregular_event(at);
+}
+
+void Adc::irregular_event(Cycle at) {
   advance(at - kEndToFlag);  // what ended in the cycle before raises the flag now
   if (flag_at_ <= at) {
     f_.interrupts.raise(irq::Adc, at);
@@ -221,6 +225,11 @@ void Adc::int0_edge(Cycle at) {
 }
 
 // --- registers --------------------------------------------------------------------------------------------
+
+std::uint16_t Adc::read_irregularly(int slot, Cycle now) {
+  advance(now);
+  return cruising_ ? slot_now(slot, now) : buffer_[static_cast<std::size_t>(slot)];
+}
 
 std::uint16_t Adc::read(unsigned address, Cycle now) {
   if (address < kBufferEnd) return read_result(static_cast<int>(address - kBuffer) / 2, now);

@@ -42,6 +42,7 @@ class Adc final : public SfrOwner, public EventOwner, public TimerListener {
   static constexpr unsigned kBuffer = 0x280, kBufferEnd = 0x2A0;  ///< ADCBUF0 to F
   /// read() of ADCBUF`slot`.
   std::uint16_t read_result(int slot, Cycle now);
+  __attribute__((noinline)) std::uint16_t read_irregularly(int slot, Cycle now);
   std::uint16_t read(unsigned address, Cycle now) override;
   void write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycle now) override;
   std::uint16_t peek(unsigned address, Cycle now) const override;
@@ -64,6 +65,7 @@ class Adc final : public SfrOwner, public EventOwner, public TimerListener {
   void start_cruising(Half at);
   void cruise(Cycle now);
   void advance_by_stages(Cycle now);
+  __attribute__((noinline)) void irregular_event(Cycle at);
   void stop_cruising(Cycle now);
   /// Instant at which what a slot of the buffer holds at `now` was held; -1: before the cruise, or never.
   Half held_instant(int slot, Cycle now) const;
@@ -146,12 +148,9 @@ inline Adc::Half Adc::held_instant(int slot, Cycle now) const {
   return start < cruise_.first ? -1 : start + cruise_.held[s];
 }
 
-inline std::uint16_t Adc::read_result(int slot, Cycle now) {
+__attribute__((always_inline)) inline std::uint16_t Adc::read_result(int slot, Cycle now) {
   const auto s = static_cast<std::size_t>(slot);
-  if (!cruising_) {
-    advance(now);
-    return cruising_ ? slot_now(slot, now) : buffer_[s];
-  }
+  if (!cruising_) return read_irregularly(slot, now);
   if (cruise_.start + cruise_.sequence <= 2 * now) cruise(now);
   const Half held = held_instant(slot, now);
   if (held < 0 || result_of_[s] == held) return buffer_[s];

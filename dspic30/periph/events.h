@@ -65,6 +65,20 @@ class Events {
     if (next_ <= now) serve_to(now);
     reached_ = std::max(reached_, now);
   }
+  /// run_to() where it is already known that next() > now.
+  void pass_to(Cycle now) { reached_ = std::max(reached_, now); }
+  /// set() by a slot's own on_event() to an instant after the present one.
+  void repeat(int slot, Cycle at) {
+    const auto s = static_cast<std::size_t>(slot);
+    const std::uint64_t bit = std::uint64_t{1} << s;
+    when_[s] = at;
+    active_ |= bit;
+    if (noticed_ & bit) {
+      earliest_ = std::min(earliest_, at + delay(slot));
+      notice_ = std::min(notice_, at + delay(slot));
+    }
+    next_ = std::min(next_, at);
+  }
   /// Null: nobody.
   void watch(EventWatch* watch) { watch_ = watch; }
   /// What next_notice(), asked before with the same flags, answers now is the earlier one of its last answer
@@ -126,22 +140,24 @@ class Events {
     if (watch_) watch_->about_to_change(at);
     // the first slot of this instant, and what comes after it
     std::size_t slot = kMostSlots;
-    Cycle next = kNever;
+    Cycle next = kNever, notice = kNever;
     for (std::uint64_t rest = active_; rest; rest &= rest - 1) {
-      const auto s = static_cast<std::size_t>(__builtin_ctzll(rest));
-      if (when_[s] == at && slot == kMostSlots)
-        slot = s;
-      else
-        next = std::min(next, when_[s]);
+      const int s = __builtin_ctzll(rest);
+      const Cycle when = when_[static_cast<std::size_t>(s)];
+      if (when == at && slot == kMostSlots) {
+        slot = static_cast<std::size_t>(s);
+        continue;
+      }
+      next = std::min(next, when);
+      if (noticed_ >> s & 1) notice = std::min(notice, when + delay(s));
     }
-    next_ = next;
     const std::uint64_t bit = std::uint64_t{1} << slot;
+    next_ = next;
+    notice_ = notice;
+    notice_known_ = true;
+    put_off_ |= (noticed_ & bit) != 0;
     when_[slot] = kNever;
     active_ &= ~bit;
-    if (noticed_ & bit) {
-      put_off_ = true;
-      notice_known_ = false;
-    }
     slots_[slot].owner->on_event(slots_[slot].id, at);
   }
 

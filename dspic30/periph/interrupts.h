@@ -115,7 +115,9 @@ class Interrupts final : public SfrOwner {
     int outer_level;
     bool cleared;  // software cleared the flag since
     Cycle entered;
+    Frame(int v, int outer, Cycle at) : vector(v), outer_level(outer), cleared(false), entered(at) {}
   };
+  int pending_in_general(Cycle now, int cpu_level) const;
   std::uint64_t younger_than(Cycle read, std::uint64_t flags) const;
   void set_by_program(std::uint64_t flags, Cycle now);
   void set_priority(int irq, int priority);
@@ -146,13 +148,21 @@ class Interrupts final : public SfrOwner {
 
 // --- acceptance, asked after everything that may change it ------------------------------------------------
 
-inline int Interrupts::pending(Cycle now, int cpu_level) const {
-  if (intcon1_ & 0x001E) {
-    for (int trap = 1; trap <= 4; ++trap)
-      if ((intcon1_ >> trap & 1) && trap_level(trap) > cpu_level) return trap;
-  }
-  std::uint64_t ready = ifs_ & iec_;
+__attribute__((always_inline)) inline int Interrupts::pending(Cycle now, int cpu_level) const {
+  const std::uint64_t ready = ifs_ & iec_;
+  if (intcon1_ & 0x001E) return pending_in_general(now, cpu_level);
   if (!ready) return kNoVector;
+  // the usual case: one flag, seen already, nothing that holds it off for a moment
+  if ((ready & (ready - 1)) || newest_ >= now || disi_active(now) || now <= resumed_)
+    return pending_in_general(now, cpu_level);
+  const int i = __builtin_ctzll(ready);
+  return priority(i) > cpu_level ? kFirstIrqVector + i : kNoVector;
+}
+
+inline int Interrupts::pending_in_general(Cycle now, int cpu_level) const {
+  for (int trap = 1; trap <= 4; ++trap)
+    if ((intcon1_ >> trap & 1) && trap_level(trap) > cpu_level) return trap;
+  std::uint64_t ready = ifs_ & iec_;
   if (newest_ >= now) {  // a flag is seen one cycle after it is set
     for (std::uint64_t rest = ready; rest; rest &= rest - 1) {
       const int i = __builtin_ctzll(rest);
@@ -162,10 +172,6 @@ inline int Interrupts::pending(Cycle now, int cpu_level) const {
   int lowest = cpu_level + 1;
   if (disi_active(now)) lowest = std::max(lowest, 7);
   if (now <= resumed_) lowest = std::max(lowest, resumed_level_ + 1);
-  if (!(ready & (ready - 1))) {  // the usual case: one
-    const int i = __builtin_ctzll(ready | std::uint64_t{1} << 63);
-    return ready && priority(i) >= lowest && priority(i) > 0 ? kFirstIrqVector + i : kNoVector;
-  }
   for (int level = 7; level >= lowest; --level)
     if (const std::uint64_t here = ready & at_priority_[static_cast<std::size_t>(level)])
       return kFirstIrqVector + __builtin_ctzll(here);
@@ -191,7 +197,8 @@ inline Cycle Interrupts::next_change(Cycle now) const {
 // instruction
 inline constexpr Cycle kReadModifyWrite = 3;
 
-inline void Interrupts::write_flags(int word, std::uint16_t value, std::uint16_t lanes, Cycle now) {
+__attribute__((always_inline)) inline void Interrupts::write_flags(int word, std::uint16_t value,
+                                                                   std::uint16_t lanes, Cycle now) {
   const int shift = 16 * word;
   const auto mask = static_cast<std::uint64_t>(lanes) << shift;
   std::uint64_t wanted = (ifs_ & ~mask) | ((static_cast<std::uint64_t>(value) << shift) & mask);
@@ -213,7 +220,7 @@ inline void Interrupts::write_flags(int word, std::uint16_t value, std::uint16_t
   }
 }
 
-inline InterruptEntry Interrupts::enter(int vector, Cycle now) {
+__attribute__((always_inline)) inline InterruptEntry Interrupts::enter(int vector, Cycle now) {
   InterruptEntry entry;
   entry.vector = vector;
   if (vector < kFirstIrqVector)
@@ -222,7 +229,7 @@ inline InterruptEntry Interrupts::enter(int vector, Cycle now) {
     entry.level = nesting_disabled() ? 7 : priority(vector - kFirstIrqVector);
   entry.address = ((intcon2_ & 0x8000) ? 0x84u : 0x04u) + 2 * static_cast<unsigned>(vector);
   entry.first_instruction = now + kInterruptEntryCycles;
-  stack_.push_back({vector, level_, false, now});
+  stack_.emplace_back(vector, level_, now);
   level_ = entry.level;
   last_vector_ = static_cast<std::uint16_t>(vector);
   last_level_ = static_cast<std::uint16_t>(entry.level);
@@ -230,7 +237,7 @@ inline InterruptEntry Interrupts::enter(int vector, Cycle now) {
   return entry;
 }
 
-inline Cycle Interrupts::leave(Cycle now) {
+__attribute__((always_inline)) inline Cycle Interrupts::leave(Cycle now) {
   if (stack_.empty()) return now + kInterruptReturnCycles;
   const Frame frame = stack_.back();
   stack_.pop_back();

@@ -259,7 +259,6 @@ void Timers::on_event(int id, Cycle at) {
   Unit& u = unit(id);
   if (u.mode == Mode::Internal && !u.wanted && u.pending_flag == kNever) {
     // a period is over, and the next one is an event once the program has lowered the flag
-    f_.interrupts.raise(flag_of(id), at);
     u.lazy = true;
     u.lazy_since = at;
     if (at == u.next && u.pr != 0) {  // as next_internal() has it
@@ -268,8 +267,13 @@ void Timers::on_event(int id, Cycle at) {
     } else {
       next_internal(id, at);
     }
-    return;
+    return f_.interrupts.raise(flag_of(id), at);
   }
+  irregular_event(id, at);
+}
+
+void Timers::irregular_event(int id, Cycle at) {
+  Unit& u = unit(id);
   if (u.mode == Mode::Gated) {
     if (u.pending_flag == at) f_.interrupts.raise(flag_of(id), at);
     const bool at_edge = u.gate_edge == at;
@@ -301,8 +305,12 @@ void Timers::flag_cleared(int irq, Cycle now) {
     u.lazy_since = now;
     return f_.events.set(u.slot, u.next);
   }
-  count_missed(t, now);
-  schedule(t, now);
+  catch_up(t, now);
+}
+
+void Timers::catch_up(int timer, Cycle now) {
+  count_missed(timer, now);
+  schedule(timer, now);
 }
 
 void Timers::want_matches(int timer, bool wanted, Cycle now) {

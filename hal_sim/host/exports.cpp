@@ -41,6 +41,10 @@ void tp_sfr_write(tp_i64 address, tp_i64 value, tp_i64 bits) {
   robot().write_register(static_cast<unsigned>(address), static_cast<std::uint16_t>(value),
                          static_cast<unsigned>(bits));
 }
+void tp_sfr_modify(tp_i64 address, tp_i64 keep, tp_i64 flip) {
+  robot().modify_register(static_cast<unsigned>(address), static_cast<std::uint16_t>(keep),
+                          static_cast<std::uint16_t>(flip));
+}
 
 tp_i64 tp_table_read(tp_i64 address) {
   Robot& r = robot();

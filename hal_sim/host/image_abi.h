@@ -23,7 +23,7 @@ typedef long long tp_i64;
 typedef float tp_f32 __attribute__((aligned(2)));
 
 #define TP_IMAGE_MAGIC 0x54575049 /* "TWPI": tells an image from any other .so */
-#define TP_IMAGE_ABI 2            /* raised whenever a line of this file changes its meaning */
+#define TP_IMAGE_ABI 3            /* raised whenever a line of this file changes its meaning */
 
 /** Shared by compiled code and host, never part of a robot's private data. One per loaded copy of the image.
  *  Section "tpctl"; the compiler pass knows the two offsets. */
@@ -120,6 +120,8 @@ void tp_clear_watchdog(void);
  * low bits. */
 tp_i64 tp_sfr_read(tp_i64 address, tp_i64 bits);
 void tp_sfr_write(tp_i64 address, tp_i64 value, tp_i64 bits);
+/** A word becomes (word & keep) ^ flip: tp_sfr_read() and tp_sfr_write() with nothing in between. */
+void tp_sfr_modify(tp_i64 address, tp_i64 keep, tp_i64 flip);
 
 /** TBLRDL and TBLWTL at a 24-bit program address: the data EEPROM. */
 tp_i64 tp_table_read(tp_i64 address);

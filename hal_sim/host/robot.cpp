@@ -178,6 +178,11 @@ void Robot::write_and_tell(unsigned address, std::uint16_t value, unsigned bits)
   processor_->write(address, value, bits, now_and_tell());
 }
 
+void Robot::modify_in_two(unsigned address, std::uint16_t keep, std::uint16_t flip) {
+  const std::uint16_t old = read_register(address, 16);
+  write_register(address, static_cast<std::uint16_t>((old & keep) ^ flip), 16);
+}
+
 Cycle Robot::main_until(Cycle real) const {
   if (stolen_q32_ == 0) return real;
   const unsigned __int128 whole = (static_cast<unsigned __int128>(real) << kQ) - fraction_;
@@ -187,6 +192,11 @@ Cycle Robot::main_until(Cycle real) const {
 int Robot::look() {
   ++looks_;
   const Processor::Outlook outlook = processor_->look(now_);
+  note_outlook(outlook);
+  return outlook.vector;
+}
+
+void Robot::note_outlook(const Processor::Outlook& outlook) {
   calm_until_ = outlook.vector == kNoVector ? outlook.quiet_until : now_;
   may_wait_ = outlook.may_wait;
   if (may_wait_ && handler_depth_ == 0) {
@@ -194,7 +204,6 @@ int Robot::look() {
     const Processor::Waiting waiting = processor_->longest_waiting(now_);
     if (waiting.vector >= 0) calm_until_ = std::min(calm_until_, waiting.since + kBlockedInterruptCycles);
   }
-  return outlook.vector;
 }
 
 Cycle Robot::next_disturbance() {
@@ -202,7 +211,7 @@ Cycle Robot::next_disturbance() {
   return look() == kNoVector ? std::max(calm_until_, now_ + 1) : now_;
 }
 
-void Robot::give_budget() {
+void Robot::give_budget_anew() {
   Cycle until = std::min(end_, next_disturbance());
   if (observer_) until = std::min(until, now_ + observer_->look_every);
   issued_ = std::max<Cycle>(0, until - now_);
@@ -266,31 +275,40 @@ void Robot::irq_every(int vector, Cycle at, Cycle period) {
 
 void Robot::deliver_now() {
   do {
-    const int vector = look();
-    if (vector == kNoVector) return;
-    if (vector == kResetDue) on_reset(processor_->why_reset());
-    serve(vector);
+    if (observer_) {
+      const int vector = look();
+      if (vector == kNoVector) return;
+      if (vector == kResetDue) on_reset(processor_->why_reset());
+      serve_told(vector);
+      continue;
+    }
+    ++looks_;
+    Processor::Entry entry;
+    const Processor::Outlook outlook = processor_->take(now_, entry);
+    if (outlook.vector >= 0) {
+      handle(outlook.vector, entry);
+      continue;
+    }
+    note_outlook(outlook);
+    if (outlook.vector == kNoVector) return;
+    on_reset(processor_->why_reset());
   } while (now_ >= calm_until_);
 }
 
-void Robot::serve(int vector) {
-  const Cycle flagged = observer_ ? processor_->flag_since(vector) : Cycle{-1};
-  if (observer_) observer_->reached(now_);
+void Robot::serve_told(int vector) {
+  const Cycle flagged = processor_->flag_since(vector);
+  observer_->reached(now_);
   const Processor::Entry entry = processor_->enter(vector, now_);
-  if (observer_) observer_->handler_begins(vector, flagged, now_, entry.first_instruction);
+  observer_->handler_begins(vector, flagged, now_, entry.first_instruction);
+  handle(vector, entry);
+}
+
+void Robot::handle(int vector, const Processor::Entry& entry) {
   const tp_image& image = copy_.description();
   void (*handler)() = entry.handler;
   if (!handler)
     handler = vector >= kTrapVector ? image.trap_vectors[vector - kTrapVector] : image.vectors[vector];
-  if (!handler) {
-    static constexpr const char* kTraps[] = {"OscillatorFail", "AddressError", "StackError", "MathError"};
-    const std::string name =
-        vector >= kTrapVector ? kTraps[vector - kTrapVector] : std::string(vector_name(vector)) + "Interrupt";
-    last_words_ = "interrupt " + name.substr(0, name.rfind("Interrupt")) +
-                  " is enabled and was raised, but the program has no handler _" + name +
-                  "; on the chip the processor resets";
-    trap(TP_TRAP_INTERRUPT, last_words_);
-  }
+  if (!handler) miss_handler(vector);
   now_ = entry.first_instruction;
   ++handler_depth_;
   calm_until_ = entry.quiet_until;
@@ -305,6 +323,16 @@ void Robot::serve(int vector) {
   may_wait_ = false;  // or the next look() says so
   ++served_;
   note_write();
+}
+
+void Robot::miss_handler(int vector) {
+  static constexpr const char* kTraps[] = {"OscillatorFail", "AddressError", "StackError", "MathError"};
+  const std::string name =
+      vector >= kTrapVector ? kTraps[vector - kTrapVector] : std::string(vector_name(vector)) + "Interrupt";
+  last_words_ = "interrupt " + name.substr(0, name.rfind("Interrupt")) +
+                " is enabled and was raised, but the program has no handler _" + name +
+                "; on the chip the processor resets";
+  trap(TP_TRAP_INTERRUPT, last_words_);
 }
 
 // not within a handler: a long one delays others on the chip too

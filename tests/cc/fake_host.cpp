@@ -146,6 +146,10 @@ EXPORT void tp_sfr_write(tp_i64 address, tp_i64 value, tp_i64 bits) {
   current->accesses.push_back({address, value, bits, true});
   if (bits == 16) fake::registers[address & 0x7ff] = uint16_t(value);
 }
+EXPORT void tp_sfr_modify(tp_i64 address, tp_i64 keep, tp_i64 flip) {
+  ++current->modified;
+  tp_sfr_write(address, (tp_sfr_read(address, 16) & keep) ^ flip, 16);
+}
 EXPORT tp_i64 tp_rand() { return 1234; }
 EXPORT void tp_srand(tp_i64 seed) { current->calls.push_back("srand " + std::to_string(seed)); }
 EXPORT void tp_console(const char* bytes, tp_i64 length) { current->console.append(bytes, size_t(length)); }

@@ -27,6 +27,7 @@ struct Run {
   long long latest = 0;  // cycles by which the host got control too late, at worst
   std::vector<std::pair<long long, long long>> delays;
   std::vector<Access> accesses;
+  int modified = 0;  // registers read, changed and written back by one call; both stand in `accesses`
   std::vector<std::string> calls;  // "disi 5", "clrwdt", "idle" ...
 };
 
