@@ -116,6 +116,8 @@ struct ChipParts {
   }
   /// What stands in a word becomes (old & keep) ^ flip: read and write by one instruction.
   Cycle modify(unsigned address, std::uint16_t keep, std::uint16_t flip, Cycle now) {
+    const int port = Ports::latch_at(address);
+    if (port >= 0 && bus.reader(address) == &ports) return modify_latch(port, address, keep, flip, now);
     const std::uint16_t old = read(address, 16, now);
     return write(address, static_cast<std::uint16_t>((old & keep) ^ flip), 16, now);
   }
@@ -161,6 +163,7 @@ struct ChipParts {
   static bool is_flags(unsigned address) { return address - kIfs0 < kIec0 - kIfs0; }
   static int flag_word(unsigned address) { return static_cast<int>(address - kIfs0) / 2; }
 
+  Cycle modify_latch(int port, unsigned address, std::uint16_t keep, std::uint16_t flip, Cycle now);
   void begin_write(Cycle now) {
     events.run_to(now);
     events.forget_changes();

@@ -92,12 +92,23 @@ Cycle Dspic30f6014a::write(unsigned address, std::uint16_t value, unsigned bits,
   return parts_->write(address, value, bits, now);
 }
 
+Cycle ChipParts::modify_latch(int port, unsigned address, std::uint16_t keep, std::uint16_t flip, Cycle now) {
+  begin_write(now);
+  const auto value = static_cast<std::uint16_t>((ports.latch(port) & keep) ^ flip);
+  const SfrBus::Store store = bus.accept(address, value, 16, now);
+  adc.advance(now);
+  ports.write_latch(port, store.value, now);
+  return end_write();
+}
+
 void ChipParts::write_beyond(unsigned address, std::uint16_t value, unsigned bits, Cycle now) {
   const unsigned word = address & ~1u;
   const SfrBus::Store store = bus.accept(address, value, bits, now);
   if (!store.owner) return;
   if ((word >= kFirstPort && word <= kLastPort) || word == kAdpcfg) {
     adc.advance(now);  // inputs held up to now saw the pins as they were
+    const int latch = Ports::latch_at(word);
+    if (latch >= 0 && store.lanes == 0xFFFF) return ports.write_latch(latch, store.value, now);
     return ports.write(word, store.value, store.lanes, now);
   }
   store.owner->write(word, store.value, store.lanes, now);

@@ -210,7 +210,11 @@ void ChipProcessor::modify(unsigned address, std::uint16_t keep, std::uint16_t f
 }
 
 void ChipProcessor::modify_other(unsigned address, std::uint16_t keep, std::uint16_t flip, Cycle t) {
-  const std::uint16_t old = read_other(address, 16, t);
+  if (!may_change_it(address) && watched_reads_ == 0) {
+    robot_.lower_horizon(t);
+    return wrote(parts_->modify(address, keep, flip, t));
+  }
+  const std::uint16_t old = read_closely(address, 16, t);
   wrote(parts_->write(address, static_cast<std::uint16_t>((old & keep) ^ flip), 16, t));
 }
 
