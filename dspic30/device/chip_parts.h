@@ -143,12 +143,14 @@ struct ChipParts {
     outlook.level = interrupts.level();
     outlook.disi = interrupts.disi_active(now);
     outlook.vector = interrupts.pending(now, outlook.level);
-    outlook.reset_due = system.watchdog_bit() || interrupts.reset_due().has_value();
+    outlook.reset_due = is_reset_due();
     if (outlook.vector != kNoVector) return outlook;
     outlook.quiet_until = std::max(
         now + 1, std::min(events.next_notice(interrupts.enabled_mask()), interrupts.next_change(now)));
     return outlook;
   }
+  bool is_reset_due() const { return system.watchdog_bit() || interrupts.reset_due().has_value(); }
+  Cycle next_notice() { return events.next_notice(interrupts.enabled_mask()); }
   __attribute__((always_inline)) Cycle calm_until(Cycle now, int served = kNoVector) {
     if (!interrupts.has_no_other(served) || events.next() <= now) return 0;
     return events.next_notice(interrupts.enabled_mask());

@@ -64,6 +64,26 @@ class Interrupts final : public SfrOwner {
 
   // --- for the processor
   int pending(Cycle now, int cpu_level) const;
+  /// IRQ that pending() names where it is the only enabled one whose flag is set, and nothing holds it off
+  /// for a moment; -1: pending() knows.
+  int sole_pending(Cycle now) const {
+    const std::uint64_t ready = ifs_ & iec_;
+    if (!ready || (ready & (ready - 1)) || newest_ >= now || disi_active(now) || now <= resumed_ ||
+        (intcon1_ & 0x001E))
+      return -1;
+    const int i = __builtin_ctzll(ready);
+    return priority(i) > level_ ? i : -1;
+  }
+  /// enter() for that one; its handler's first instruction.
+  Cycle enter_sole(int irq, Cycle now) {
+    const int level = nesting_disabled() ? 7 : priority(irq), vector = kFirstIrqVector + irq;
+    stack_.emplace_back(vector, level_, now);
+    level_ = level;
+    last_vector_ = static_cast<std::uint16_t>(vector);
+    last_level_ = static_cast<std::uint16_t>(level);
+    ++served_[static_cast<std::size_t>(vector)];
+    return now + kInterruptEntryCycles;
+  }
   /// Earliest cycle > now at which pending() changes without a new flag.
   Cycle next_change(Cycle now) const;
   InterruptEntry enter(int vector, Cycle now);
@@ -117,7 +137,6 @@ class Interrupts final : public SfrOwner {
     Cycle entered;
     Frame(int v, int outer, Cycle at) : vector(v), outer_level(outer), cleared(false), entered(at) {}
   };
-  int pending_in_general(Cycle now, int cpu_level) const;
   std::uint64_t younger_than(Cycle read, std::uint64_t flags) const;
   void set_by_program(std::uint64_t flags, Cycle now);
   void set_priority(int irq, int priority);
@@ -148,21 +167,13 @@ class Interrupts final : public SfrOwner {
 
 // --- acceptance, asked after everything that may change it ------------------------------------------------
 
-__attribute__((always_inline)) inline int Interrupts::pending(Cycle now, int cpu_level) const {
-  const std::uint64_t ready = ifs_ & iec_;
-  if (intcon1_ & 0x001E) return pending_in_general(now, cpu_level);
-  if (!ready) return kNoVector;
-  // the usual case: one flag, seen already, nothing that holds it off for a moment
-  if ((ready & (ready - 1)) || newest_ >= now || disi_active(now) || now <= resumed_)
-    return pending_in_general(now, cpu_level);
-  const int i = __builtin_ctzll(ready);
-  return priority(i) > cpu_level ? kFirstIrqVector + i : kNoVector;
-}
-
-inline int Interrupts::pending_in_general(Cycle now, int cpu_level) const {
-  for (int trap = 1; trap <= 4; ++trap)
-    if ((intcon1_ >> trap & 1) && trap_level(trap) > cpu_level) return trap;
+inline int Interrupts::pending(Cycle now, int cpu_level) const {
+  if (intcon1_ & 0x001E) {
+    for (int trap = 1; trap <= 4; ++trap)
+      if ((intcon1_ >> trap & 1) && trap_level(trap) > cpu_level) return trap;
+  }
   std::uint64_t ready = ifs_ & iec_;
+  if (!ready) return kNoVector;
   if (newest_ >= now) {  // a flag is seen one cycle after it is set
     for (std::uint64_t rest = ready; rest; rest &= rest - 1) {
       const int i = __builtin_ctzll(rest);

@@ -20,6 +20,7 @@ extern "C" {
 
 void tp_event(void) { robot().on_event(); }
 void tp_poll(tp_i64 loop) { robot().on_poll(loop); }
+void tp_rest(tp_i64 loop) { robot().on_rest(loop); }
 void tp_delay(tp_i64 rounds, tp_i64 cycles) { robot().on_delay(rounds, cycles); }
 
 void tp_trap(tp_i64 kind) {

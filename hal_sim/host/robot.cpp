@@ -449,18 +449,34 @@ void Robot::on_poll(std::int64_t loop) {
   fold();
   const bool same = loop == poll_loop_ && served_ == poll_served_;
   const Cycle round = now_ - poll_at_;
-  if (same && round > 0 && horizon_ > now_) sleep_until(horizon_, round);
-  poll_loop_ = loop;
-  poll_at_ = now_;
-  poll_served_ = served_;
-  horizon_ = kNever;
-  looked_outside_ = false;
+  if (same && round > 0 && horizon_ > now_) sleep_until(horizon_, round, now_);
+  note_poll(loop);
   processor_->watch_reads(now_);
   give_budget();
 }
 
-void Robot::sleep_until(Cycle target, Cycle round) {
-  const Cycle start = now_;
+// on_poll() and the rounds between two of them at once, as long as nothing but handlers happens: after a
+// handler one round is done, finds nothing, and the loop sleeps on
+void Robot::on_rest(std::int64_t loop) {
+  fold();
+  if (loop == poll_loop_ && served_ == poll_served_ && has_plain_clock_ && handler_depth_ == 0) {
+    const Cycle round = now_ - poll_at_;
+    while (round > 0 && !may_wait_ && now_ < calm_until_ && calm_until_ <= end_) {
+      const Cycle start = now_;
+      idle_ += calm_until_ - now_;
+      now_ = calm_until_;
+      deliver_now();
+      const bool served = served_ != poll_served_;
+      if (!served) sleep_until(kNever, round, start);
+      note_poll(loop);
+      if (!served || now_ + round > std::min(end_, calm_until_)) return give_budget();
+      now_ += round;
+    }
+  }
+  on_poll(loop);
+}
+
+void Robot::sleep_until(Cycle target, Cycle round, Cycle start) {
   // the program notices a change at the end of the round in which it happens
   const auto end_of_round = [&](Cycle at) { return start + (at - start + round - 1) / round * round; };
   if (target < kNever) target = end_of_round(target);

@@ -149,6 +149,7 @@ class Robot final : public Context {
   // ------------------------------------------------------------------------------
   void on_event();
   void on_poll(std::int64_t loop);
+  void on_rest(std::int64_t loop);
   void on_delay(Cycle rounds, Cycle cycles_per_round);
   [[noreturn]] void on_reset(const char* unexpected_reason);
   void on_disi(Cycle cycles);
@@ -260,8 +261,15 @@ class Robot final : public Context {
   void idle_to(Cycle at);     // jumps over a wait
   void pass_window();         // now_ >= end_: let the others run
   void run_main(Cycle main);  // spends main cycles, delivering on the way
-  void sleep_until(Cycle target,
-                   Cycle round);  // a wait that polls every `round` cycles; ends early when disturbed
+  // a wait since `start` that polls every `round` cycles; ends early when disturbed
+  void sleep_until(Cycle target, Cycle round, Cycle start);
+  void note_poll(std::int64_t loop) {
+    poll_loop_ = loop;
+    poll_at_ = now_;
+    poll_served_ = served_;
+    horizon_ = kNever;
+    looked_outside_ = false;
+  }
   void doze(Cycle until);  // yields; the scheduler comes back at `until` or when something woke the robot
   // endless loop with interrupts off; after deliver()
   void check_blocked() {

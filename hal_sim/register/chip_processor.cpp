@@ -268,8 +268,20 @@ void ChipProcessor::note_reset_due() {
 }
 
 host::Processor::Outlook ChipProcessor::take(Cycle now, Entry& entry) {
-  const dspic::Outlook chip = parts_->look(at(now));
-  if (chip.vector != dspic::kNoVector && !chip.reset_due) entry = enter_at(chip.vector, latest_);
+  const Cycle t = at(now);
+  dspic::ChipParts& p = *parts_;
+  p.events.run_to(t);
+  const int irq = p.interrupts.sole_pending(t);
+  if (irq < 0 || p.is_reset_due()) return take_in_general(t, entry);
+  watched_reads_ = 0;  // whatever waits looks again afterwards
+  const Cycle first = p.interrupts.enter_sole(irq, t) + kSavingCycles;
+  entry = {nullptr, first, p.events.next() <= first ? 0 : p.next_notice()};
+  return {irq, true, 0};
+}
+
+host::Processor::Outlook ChipProcessor::take_in_general(Cycle t, Entry& entry) {
+  const dspic::Outlook chip = parts_->look(t);
+  if (chip.vector != dspic::kNoVector && !chip.reset_due) entry = enter_at(chip.vector, t);
   return outlook_of(chip);
 }
 

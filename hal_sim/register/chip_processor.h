@@ -85,6 +85,7 @@ class ChipProcessor final : public host::Processor, public dspic::DiagnosticSink
   __attribute__((noinline)) void modify_other(unsigned address, std::uint16_t keep, std::uint16_t flip,
                                               Cycle t);
   __attribute__((noinline)) void note_reset_due();
+  __attribute__((noinline)) Outlook take_in_general(Cycle t, Entry& entry);
   static bool may_change_it(unsigned address);
   Outlook outlook_of(const dspic::Outlook& chip);
   Entry enter_at(int number, Cycle t);

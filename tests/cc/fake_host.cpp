@@ -123,6 +123,10 @@ EXPORT void tp_poll(tp_i64) {
   if (*fake::poll_hook) (*fake::poll_hook)(current->polls);
   if (current->polls >= fake::last_poll) fake::stop("poll");
 }
+EXPORT void tp_rest(tp_i64 loop) {
+  ++current->rests;
+  tp_poll(loop);
+}
 EXPORT void tp_delay(tp_i64 rounds, tp_i64 cycles) {
   current->delays.emplace_back(rounds, cycles);
   current->cycles += rounds * cycles;

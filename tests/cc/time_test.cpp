@@ -136,6 +136,17 @@ TEST(time, register_accesses_go_to_the_register_host) {
   }
 }
 
+TEST(time, an_endless_loop_rests_if_nothing_stands_in_it) {
+  for (const char* level : {"-O1", "-O2"}) {
+    EXPECT_EQ(run_c("int main(void) { while (1); }", level, 3).rests, 3) << level;
+    EXPECT_EQ(run_c("int main(void) { for (;;) asm(\"nop\"); }", level, 3).rests, 3) << level;
+    auto asking = run_c("volatile int stop; int main(void) { while (!stop); return 0; }", level, 3);
+    EXPECT_EQ(asking.polls, 3) << level;
+    EXPECT_EQ(asking.rests, 0) << level;
+    EXPECT_EQ(run_c("volatile int seen; int main(void) { while (1) seen; }", level, 3).rests, 0) << level;
+  }
+}
+
 TEST(time, a_change_of_a_register_is_one_call_and_the_same_two_accesses) {
   const std::string head =
       "extern volatile unsigned int LATD __asm__(\"tp_sfr_02D6\"), IFS0 __asm__(\"tp_sfr_0084\");\n"
