@@ -104,9 +104,9 @@ struct ChipParts {
     return address - Adc::kBuffer < Adc::kBufferEnd - Adc::kBuffer && bits > 8 && events.next() > now &&
            bus.reader(address) == &adc;
   }
-  std::uint16_t read_result(unsigned address, Cycle now) {
+  __attribute__((always_inline)) std::uint16_t read_result(unsigned address, Cycle now) {
     events.pass_to(now);
-    return adc.read_result(static_cast<int>(address - Adc::kBuffer) / 2, now);
+    return adc.read_result(static_cast<int>((address - Adc::kBuffer) / 2), now);
   }
 
   Cycle write(unsigned address, std::uint16_t value, unsigned bits, Cycle now) {
@@ -125,14 +125,15 @@ struct ChipParts {
   bool are_flags(unsigned address, Cycle now) const {
     return is_flags(address) && events.next() > now && bus.reader(address) == &interrupts;
   }
-  Cycle modify_flags(unsigned address, std::uint16_t keep, std::uint16_t flip, Cycle now) {
+  __attribute__((always_inline)) Cycle modify_flags(unsigned address, std::uint16_t keep, std::uint16_t flip,
+                                                    Cycle now) {
     const int word = flag_word(address);
     events.pass_to(now);
     events.forget_changes();
     interrupts.forget_stir();
     const std::uint16_t old = interrupts.read_flags(word, now);
-    const SfrBus::Store store = bus.accept(address, static_cast<std::uint16_t>((old & keep) ^ flip), 16, now);
-    interrupts.write_flags(word, store.value, 0xFFFF, now);
+    const std::uint16_t value = bus.accept_plain(address, static_cast<std::uint16_t>((old & keep) ^ flip));
+    interrupts.write_flags(word, value, 0xFFFF, now);
     return end_write();
   }
 
@@ -163,7 +164,7 @@ struct ChipParts {
                             kFirstPort = 0x2C0, kLastPort = 0x2E8, kBsram = 0x750, kSsram = 0x752,
                             kPmd1 = 0x770, kPmd2 = 0x772, kPmd3 = 0x774;
   static bool is_flags(unsigned address) { return address - kIfs0 < kIec0 - kIfs0; }
-  static int flag_word(unsigned address) { return static_cast<int>(address - kIfs0) / 2; }
+  static int flag_word(unsigned address) { return static_cast<int>((address - kIfs0) / 2); }
 
   Cycle modify_latch(int port, unsigned address, std::uint16_t keep, std::uint16_t flip, Cycle now);
   void begin_write(Cycle now) {

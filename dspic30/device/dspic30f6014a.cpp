@@ -95,9 +95,9 @@ Cycle Dspic30f6014a::write(unsigned address, std::uint16_t value, unsigned bits,
 Cycle ChipParts::modify_latch(int port, unsigned address, std::uint16_t keep, std::uint16_t flip, Cycle now) {
   begin_write(now);
   const auto value = static_cast<std::uint16_t>((ports.latch(port) & keep) ^ flip);
-  const SfrBus::Store store = bus.accept(address, value, 16, now);
+  const std::uint16_t stored = bus.accept_plain(address, value);
   adc.advance(now);
-  ports.write_latch(port, store.value, now);
+  ports.write_latch(port, stored, now);
   return end_write();
 }
 

@@ -64,6 +64,14 @@ class SfrBus {
     SfrOwner* owner;
     std::uint16_t value, lanes;
   };
+  /// accept() of a word at an even address that reader() has an owner for, and of which all bits are
+  /// modelled: the bits that exist.
+  std::uint16_t accept_plain(unsigned address, std::uint16_t value) {
+    ++writes_;
+    Slot& slot = slots_[address / 2];
+    slot.undefined = false;
+    return value & slot.implemented;
+  }
   Store accept(unsigned address, std::uint16_t value, unsigned bits, Cycle now) {
     ++writes_;
     if (address >= kSfrBytes) return {nullptr, 0, 0};

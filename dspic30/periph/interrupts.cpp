@@ -151,11 +151,10 @@ void Interrupts::set_priority(int irq, int priority) {
 
 // --- acceptance --------------------------------------------------------------------------------------------
 
-void Interrupts::check_cleared(const Frame& frame, Cycle now) {
-  const int i = frame.vector - kFirstIrqVector;
-  if (frame.cleared || !flag(i) || !enabled(i) || since(i) > frame.entered) return;
+void Interrupts::check_cleared(int i, Cycle entered, Cycle now) {
+  if (!flag(i) || !enabled(i) || since(i) > entered) return;
   if (++uncleared_[static_cast<std::size_t>(i)] != kUnclearedReturns) return;
-  const std::string name = vector_name(frame.vector);
+  const std::string name = vector_name(kFirstIrqVector + i);
   const std::string bit = sfr_bit_name(*sfr_info(kIfs0 + 2 * static_cast<unsigned>(i / 16)), i % 16);
   diagnostics_.report(Cause::FlagNeverCleared, name,
                       "_" + name + "Interrupt returns without clearing " + bit +

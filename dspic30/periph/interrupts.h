@@ -140,7 +140,7 @@ class Interrupts final : public SfrOwner {
   std::uint64_t younger_than(Cycle read, std::uint64_t flags) const;
   void set_by_program(std::uint64_t flags, Cycle now);
   void set_priority(int irq, int priority);
-  void check_cleared(const Frame& frame, Cycle now);
+  __attribute__((noinline)) void check_cleared(int irq, Cycle entered, Cycle now);
 
   Diagnostics& diagnostics_;
   std::array<FlagListener*, kIrqs> listeners_{};
@@ -250,13 +250,14 @@ __attribute__((always_inline)) inline InterruptEntry Interrupts::enter(int vecto
 
 __attribute__((always_inline)) inline Cycle Interrupts::leave(Cycle now) {
   if (stack_.empty()) return now + kInterruptReturnCycles;
-  const Frame frame = stack_.back();
-  stack_.pop_back();
-  if (frame.vector >= kFirstIrqVector && !frame.cleared) check_cleared(frame, now);
+  const Frame& frame = stack_.back();
   resumed_ = now + kInterruptReturnCycles;
   resumed_level_ = std::min(level_, 7);
   level_ = frame.outer_level;
-  return resumed_;
+  if (frame.vector >= kFirstIrqVector && !frame.cleared)
+    check_cleared(frame.vector - kFirstIrqVector, frame.entered, now);
+  stack_.pop_back();
+  return now + kInterruptReturnCycles;
 }
 
 }  // namespace dspic
