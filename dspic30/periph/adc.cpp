@@ -197,7 +197,7 @@ void Adc::on_event(int id, Cycle at) {
   if (cruising_ && flag_at_ == kNever && up(end) + kEndToFlag == at) {
     // one sequence as the one before: what the rest of this function and schedule() come to
     cruise_.start = end;
-    f_.events.repeat(slot_, up(end + cruise_.sequence) + kEndToFlag);
+    f_.events.fill(slot_, up(end + cruise_.sequence) + kEndToFlag);
     return f_.interrupts.raise(irq::Adc, at);
   }
   irregular_event(at);

@@ -67,8 +67,8 @@ class Events {
   }
   /// run_to() where it is already known that next() > now.
   void pass_to(Cycle now) { reached_ = std::max(reached_, now); }
-  /// set() by a slot's own on_event() to an instant after the present one.
-  void repeat(int slot, Cycle at) {
+  /// set() of a slot that is empty, as in its own on_event(), to an instant that comes.
+  void fill(int slot, Cycle at) {
     const auto s = static_cast<std::size_t>(slot);
     const std::uint64_t bit = std::uint64_t{1} << s;
     when_[s] = at;

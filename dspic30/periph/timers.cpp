@@ -303,7 +303,7 @@ void Timers::flag_cleared(int irq, Cycle now) {
     // the usual case: lowered within the period, so nothing was missed and the next match is known
     u.lazy = false;
     u.lazy_since = now;
-    return f_.events.set(u.slot, u.next);
+    return f_.events.fill(u.slot, u.next);
   }
   catch_up(t, now);
 }

@@ -216,11 +216,10 @@ void Board::write_coils(std::uint16_t value, Cycle at) {
 }
 
 void Board::write_emitters(std::size_t port, std::uint16_t value, Cycle at) {
+  const unsigned risen = value & ~static_cast<unsigned>(lat_[port]);
+  for (std::size_t pair = port == kF ? 0 : 2, end = pair + 2; pair < end; ++pair)
+    if (risen & bit(kEmitter[pair].bit)) line_since_[pair] = at;
   note_pulses(port, value, tris_[port], at);
-  for (std::size_t pair = 0; pair < 4; ++pair)
-    if (static_cast<std::size_t>(kEmitter[pair].port) == port &&
-        value & ~lat_[port] & bit(kEmitter[pair].bit))
-      line_since_[pair] = at;
   lat_[port] = value;
   // all else draws what it drew
   const int lines = __builtin_popcount(static_cast<unsigned>(lat_[kF] & ~tris_[kF] & kEmitterMask[kF])) +
