@@ -2,6 +2,9 @@
  * Radio flock: five times a second every robot tells all others by radio which way it drives, and turns towards
  * the mean of what it heard. Nobody leads; after half a minute all drive the same way.
  *
+ * They share the channel by time: a period has 16 slots, and a robot speaks in the one that its selector says. All at
+ * once, half of the packets would collide, and of those that arrive in a row the module keeps one.
+ *
  * A robot has no compass: it counts its wheels' steps from a direction that its selector tells, 22.5 degrees a
  * position, counter-clockwise from the world's x axis. Set the switch to how the robot stands.
  */
@@ -16,22 +19,45 @@
 
 #define EVERYBODY 0xFFFF
 #define FULL_POWER 1
-#define CONTROL_PERIOD 2000   /* agenda ticks of 0.1 ms */
+#define SLOT 125              /* agenda ticks of 0.1 ms */
+#define SLOTS 16              /* to a control period of 200 ms */
 #define CRUISE 300            /* steps/s */
 #define MOST_TURN 200         /* steps/s of each wheel */
 #define STEPS_PER_TURN 2585L  /* right minus left: 2 pi x 53 mm / 0.1288 mm */
 #define NEAR 200              /* counts: about 3 cm from another robot */
 
 /* angles are bytes: 256 make a turn, and differences wrap by themselves */
-static volatile int control_due;
-static long sum;  /* of the others' directions against ours */
-static int heard; /* since the last control step */
+static volatile int slot, slot_due;
+static volatile int turned; /* steps, right minus left, when the slot began */
+static volatile int heard;  /* since the last control step */
+static volatile int turn;   /* steps/s of each wheel towards the mean of what was heard */
+static long sum;            /* of the others' directions against ours */
 
-static void control_tick(void) { control_due = 1; }
+/* In the interrupt, so that readings and speeds have their time, however long the main loop waits for the turret. */
+static void steer(void) {
+  int right = e_get_calibrated_prox(0) + e_get_calibrated_prox(1);
+  int left = e_get_calibrated_prox(7) + e_get_calibrated_prox(6);
+  int wanted = turn;
+  if (right > NEAR || left > NEAR) wanted = right > left ? MOST_TURN : -MOST_TURN; /* keep clear first */
+  e_set_speed(CRUISE, wanted);
+  e_set_body_led(heard > 0);
+}
+
+static void next_slot(void) {
+  slot = (slot + 1) % SLOTS;
+  slot_due = 1;
+  turned = (int)((unsigned int)e_get_steps_right() - (unsigned int)e_get_steps_left());
+  if (slot == 0) steer();
+}
 
 static unsigned char direction(void) {
-  int turned = (int)((unsigned int)e_get_steps_right() - (unsigned int)e_get_steps_left());
   return (unsigned char)(16 * getselector() + turned * 256L / STEPS_PER_TURN);
+}
+
+static int limited(long wanted) {
+  if (wanted > MOST_TURN) return MOST_TURN;
+  if (wanted < -MOST_TURN) return -MOST_TURN;
+  return (int)wanted;
 }
 
 static void listen(void) {
@@ -40,17 +66,7 @@ static void listen(void) {
   if (!IsPacketReady(packet, &size) || size != 1) return;
   sum += (signed char)(packet[0] - direction());
   heard++;
-}
-
-static void steer(void) {
-  int turn = heard > 0 ? (int)(3 * sum / (heard + 1)) : 0;
-  int right = e_get_calibrated_prox(0) + e_get_calibrated_prox(1);
-  int left = e_get_calibrated_prox(7) + e_get_calibrated_prox(6);
-  if (turn > MOST_TURN) turn = MOST_TURN;
-  if (turn < -MOST_TURN) turn = -MOST_TURN;
-  if (right > NEAR || left > NEAR) turn = right > left ? MOST_TURN : -MOST_TURN; /* keep clear first */
-  e_set_speed(CRUISE, turn);
-  e_set_body_led(heard > 0);
+  turn = limited(3 * sum / (heard + 1));
 }
 
 int main(void) {
@@ -61,14 +77,16 @@ int main(void) {
   e_init_ad_scan(ALL_ADC);
   e_calibrate_ir();
   InitComModule(COM_MODULE_DEFAULT_GROUP, 0, COM_MODULE_HW_ATTENUATOR_0DB, FULL_POWER);
-  e_activate_agenda(control_tick, CONTROL_PERIOD);
+  e_activate_agenda(next_slot, SLOT);
   while (1) {
+    if (slot_due) {
+      slot_due = 0;
+      if (slot == 0) sum = heard = turn = 0;
+      if (slot == getselector()) {
+        own = direction();
+        SendPacket(COM_MODULE_DEFAULT_GROUP, EVERYBODY, &own, 1);
+      }
+    }
     listen();
-    if (!control_due) continue;
-    control_due = 0;
-    steer();
-    sum = heard = 0;
-    own = direction();
-    SendPacket(COM_MODULE_DEFAULT_GROUP, EVERYBODY, &own, 1);
   }
 }

@@ -7,6 +7,7 @@
  */
 #include "motor_led/advance_one_timer/e_motors.h"
 
+#include "hal_sim/api/takes.h"
 #include "hal_sim/host/pins.h"
 #include "motor_led/advance_one_timer/e_agenda.h"
 
@@ -46,10 +47,10 @@ void e_set_speed(int linear_speed, int angular_speed) {
   e_set_speed_right((int)((unsigned int)linear_speed + (unsigned int)angular_speed));
 }
 
-int e_get_steps_left() { return (int)(tp_motor_steps(LEFT) - left_zero); }
+TAKES(4) int e_get_steps_left() { return (int)(tp_motor_steps(LEFT) - left_zero); }
 
-int e_get_steps_right() { return (int)(tp_motor_steps(RIGHT) - right_zero); }
+TAKES(4) int e_get_steps_right() { return (int)(tp_motor_steps(RIGHT) - right_zero); }
 
-void e_set_steps_left(int steps_left) { left_zero = tp_motor_steps(LEFT) - steps_left; }
+TAKES(4) void e_set_steps_left(int steps_left) { left_zero = tp_motor_steps(LEFT) - steps_left; }
 
-void e_set_steps_right(int steps_right) { right_zero = tp_motor_steps(RIGHT) - steps_right; }
+TAKES(4) void e_set_steps_right(int steps_right) { right_zero = tp_motor_steps(RIGHT) - steps_right; }

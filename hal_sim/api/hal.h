@@ -34,7 +34,12 @@ static inline void set_pin(char port, unsigned char pin, unsigned int value) {
   tp_latch_write(port, pin, level);
 }
 
-static inline void set_ring(unsigned int led, unsigned int value) { set_pin('A', ring_pin[led], value); }
+#define RING_SWITCH_CYCLES 10 /* the driver's choice among eight pins [measured: register way] */
+
+static inline void set_ring(unsigned int led, unsigned int value) {
+  tp_spend(RING_SWITCH_CYCLES);
+  set_pin('A', ring_pin[led], value);
+}
 
 #define set_front(value) set_pin('C', FRONT_PIN, value)
 #define set_body(value) set_pin('C', BODY_PIN, value)
@@ -47,7 +52,7 @@ static inline void set_ring(unsigned int led, unsigned int value) { set_pin('A',
 /* --- time --------------------------------------------------------------------------------------------- */
 
 /** Rounds of an empty loop over a long [estimated: 10 cycles each]. */
-#define hal_pause(rounds) tp_spend((tp_i64)(rounds) * 10)
+#define hal_pause(rounds) tp_spend(((tp_i64)(rounds) * 10 + 5))
 
 /* --- converter ---------------------------------------------------------------------------------------- */
 

@@ -31,7 +31,8 @@ static_assert(5 * kScanChannelTad * kScanTadCycles == kScanFrameCycles);
 }  // namespace
 
 Cycle scan_flash_cycles(int sensor) {
-  return (kScanLitSlot + kScanPeriod - kScanDarkSlot - 1) * kScanFrameCycles + hold_cycles(sensor);
+  return (kScanLitSlot + kScanPeriod - kScanDarkSlot - 1) * kScanFrameCycles + hold_cycles(sensor) +
+         kScanLitLateCycles - kScanLightCycles;
 }
 
 void AdcScan::settle(Cycle at) {
@@ -77,7 +78,7 @@ void AdcScan::reset(Cycle at) {
   noise_base_ += 2 * static_cast<std::uint64_t>(full_base_ / kScanPeriod + 1);
   mic_noise_base_ += static_cast<std::uint64_t>(total_base_);
   runs_.clear();
-  acc_noise_base_ += static_cast<std::uint64_t>(acc_kept_);
+  acc_noise_base_ += static_cast<std::uint64_t>(full_base_ / kScanPeriod + 1);
   acc_kept_ = 0;
   acc_used_ = false;
   acc_ = AccRing{};
@@ -123,21 +124,21 @@ std::int64_t AdcScan::newest(std::int64_t interrupts, int slot, int shift, int p
 }
 
 std::int64_t AdcScan::dark_number(int sensor, Cycle at) const {
-  return newest(full_interrupts(at), kScanDarkSlot, 1, pair_of_sensor(sensor));
+  return newest(full_interrupts(at - kScanFileCycles), kScanDarkSlot, 1, pair_of_sensor(sensor));
 }
 
 std::int64_t AdcScan::lit_number(int sensor, Cycle at) const {
-  return newest(full_interrupts(at), kScanLitSlot, 0, pair_of_sensor(sensor));
+  return newest(full_interrupts(at - kScanLitLateCycles - kScanFileCycles), kScanLitSlot, 0,
+                pair_of_sensor(sensor));
 }
 
 int AdcScan::evaluate(int sensor, std::int64_t period, bool lit_sample) const {
   if (sensor >= kRingSensors) return 0;
   const std::int64_t interrupt = period * kScanPeriod + (lit_sample ? kScanLitSlot : kScanDarkSlot);
-  const Cycle at = full_cycle(interrupt) - kScanFrameCycles + hold_cycles(sensor);
+  const Cycle at =
+      full_cycle(interrupt) - kScanFrameCycles + hold_cycles(sensor) + (lit_sample ? kScanLitLateCycles : 0);
   // the LED was switched on at the dark interrupt of the period before; in the very first period nobody did
-  Cycle lit_for = -1;
-  if (lit_sample && period > 0)
-    lit_for = at - full_cycle(interrupt - kScanLitSlot - kScanPeriod + kScanDarkSlot);
+  const Cycle lit_for = lit_sample && period > 0 ? scan_flash_cycles(sensor) : -1;
   const std::uint64_t number = noise_base_ + 2 * static_cast<std::uint64_t>(period) + (lit_sample ? 1 : 0);
   return board_.ir_counts(sensor, at, lit_for, number);
 }
@@ -195,10 +196,11 @@ int AdcScan::mic_sample(int microphone, std::int64_t number) const {
 
 Cycle AdcScan::next_sample(Cycle at, int slot, int shift, int pair) const {
   if (!on_ || micro_only_) return host::kNever;
+  const Cycle filed = kScanFileCycles + (slot == kScanLitSlot ? kScanLitLateCycles : 0);
   // first period whose interrupt in this slot is still to come, then on to the one that serves the pair
-  std::int64_t period = (full_interrupts(at) + kScanPeriod - 1 - slot) / kScanPeriod;
+  std::int64_t period = (full_interrupts(at - filed) + kScanPeriod - 1 - slot) / kScanPeriod;
   period += (pair - pair_of_lit(period + shift) + pairs_) % pairs_;
-  return full_cycle(period * kScanPeriod + slot);
+  return full_cycle(period * kScanPeriod + slot) + filed;
 }
 
 Cycle AdcScan::horizon(int sensor, Cycle at) {

@@ -4,6 +4,7 @@
 #include "hal_sim/board/agenda_timer.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "sim_core/base/hash.h"
 
@@ -88,6 +89,12 @@ AgendaTimer::Node* AgendaTimer::find(Function function) {
   for (Node& node : nodes_)
     if (node.function == function) return &node;
   return nullptr;
+}
+
+int AgendaTimer::nodes_passed(Function function) const {
+  int passed = 0;
+  for (std::size_t i = nodes_.size(); i-- > 0 && nodes_[i].function != function;) ++passed;
+  return passed;
 }
 
 AgendaCount& AgendaTimer::count_of(Node& node) {
@@ -301,6 +308,7 @@ void AgendaTimer::begin(Cycle at) {
   }
   walking_ = true;
   walk_serial_ = kBeforeAll;
+  walk_cost_ = 0;
   in_callback_ = false;
 }
 
@@ -324,6 +332,7 @@ AgendaTimer::Function AgendaTimer::next(bool& divided_by_zero) {
     }
     settle(*node, walk_tick_ - 1);
     walk_serial_ = node->serial;
+    walk_cost_ += cost_of(*node);
     if (!needs_handler(*node)) {
       settle(*node, walk_tick_);
       continue;
@@ -365,16 +374,32 @@ void AgendaTimer::finish(Cycle at) {
 
 // --- costs and digest ------------------------------------------------------------------------------------
 
-Cycle AgendaTimer::idle_tick_cost() const {
-  return kAgendaIsrCycles + kAgendaNodeCycles * static_cast<Cycle>(nodes_.size());
+Cycle AgendaTimer::cost_of(const Node& node) const {
+  return kAgendaNodeCycles + (count_of(node).counts() ? kAgendaCountCycles : 0);
 }
 
-Cycle AgendaTimer::firing_period(Wheel wheel) const {
+Cycle AgendaTimer::take_walk_cost() { return std::exchange(walk_cost_, 0); }
+
+AgendaTimer::Load AgendaTimer::quiet_ticks() const {
+  if (!running_) return {};
+  Cycle cost = kAgendaIsrCycles + (nodes_.empty() ? 0 : kAgendaListCycles);
+  constexpr Cycle kTicks = 1 << 20;
+  Cycle quiet = kTicks;  // of these
+  for (const Node& node : nodes_) {
+    const AgendaCount& count = count_of(node);
+    cost += cost_of(node);
+    if (count.counts() && needs_handler(node)) quiet -= quiet / count.cycle;
+  }
+  return {kTicks * kAgendaTickCycles, quiet * cost};
+}
+
+AgendaTimer::Load AgendaTimer::firing(Wheel wheel) const {
   const AgendaMotor& m = motor(wheel);
-  if (!running_ || !m.count.counts() || m.speed == 0) return 0;
+  if (!running_ || !m.count.counts() || m.speed == 0) return {};
   const int magnitude = std::abs(m.speed);
-  const Cycle ticks = magnitude < kPowerSaveBelow ? kSpeedUnit / magnitude / 2 : m.count.cycle;
-  return ticks * kAgendaTickCycles;
+  if (magnitude < kPowerSaveBelow)
+    return {kSpeedUnit / magnitude * kAgendaTickCycles, 2 * kMotorHalfStepCycles};
+  return {m.count.cycle * kAgendaTickCycles, kMotorStepCycles};
 }
 
 std::uint64_t AgendaTimer::state_sum(Cycle at) const {

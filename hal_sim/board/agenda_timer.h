@@ -83,16 +83,27 @@ class AgendaTimer {
   /// The next callback of this tick, in list order, or null when the list's end is reached. `divided_by_zero`
   /// is set when a motor's firing trapped; the walk is then over.
   Function next(bool& divided_by_zero);
+  /// Processor cycles that the walk has taken since this was asked last.
+  Cycle take_walk_cost();
   /// The handler returns.
   void finish(Cycle at);
   bool is_walking() const { return walking_; }
 
+  /// Nodes that a search for this function passes before it finds its own: those added later; all when it has none.
+  int nodes_passed(Function function) const;
+  bool has(Function function) const { return nodes_passed(function) < static_cast<int>(nodes_.size()); }
+  int nodes_passed(Wheel wheel) const { return nodes_passed(motor_functions_[static_cast<int>(wheel)]); }
+
   /// Ticks processed by `at`.
   std::int64_t ticks_at(Cycle at) const;
-  /// Estimated processor cycles of a tick that fires nothing.
-  Cycle idle_tick_cost() const;
-  /// Estimated cycles between two motor firings of this wheel; 0 when it does not fire.
-  Cycle firing_period(Wheel wheel) const;
+  /// `cost` processor cycles every `period`; period 0: nothing.
+  struct Load {
+    Cycle period = 0, cost = 0;
+  };
+  /// Ticks that call no function of the program. Those that do are run and charged one by one.
+  Load quiet_ticks() const;
+  /// What a running motor's agenda adds.
+  Load firing(Wheel wheel) const;
   /// The state at `at` as a sum of products, for a hash: the caller mixes it.
   std::uint64_t state_sum(Cycle at) const;
 
@@ -124,6 +135,7 @@ class AgendaTimer {
   const AgendaMotor& motor_at(Wheel wheel, Cycle at) const;
   /// Does this node need the handler when it fires?
   bool needs_handler(const Node& node) const;
+  Cycle cost_of(const Node& node) const;
   void find_next_fire();
 
   TickLine line_;
@@ -143,6 +155,7 @@ class AgendaTimer {
   bool walking_ = false;
   std::int64_t walk_tick_ = 0;
   std::uint32_t walk_serial_ = 0;  // node being processed; those above are done
+  Cycle walk_cost_ = 0;
   bool in_callback_ = false;
 };
 

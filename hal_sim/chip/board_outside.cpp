@@ -26,7 +26,22 @@ constexpr std::uint16_t kEmitter[4] = {0x0080, 0x0100, 0x0001, 0x0002};  // RF7 
 constexpr std::uint16_t kSerialOuts = 0x0028;
 constexpr std::uint16_t kEmitters[dspic::kPorts] = {0, 0, 0, 0, 0x0180, 0x0003};
 constexpr int kFirstIr = 8, kFirstMic = 2, kFirstAcc = 5;
-constexpr std::uint64_t kSampleOffset = std::uint64_t{1} << 42;  // numbers of noise, apart from the drivers'
+
+// Both ways draw the same noise for the same sample. The native way numbers the samples of the library's drivers by
+// flashes; here a conversion is one of those when it falls where they convert: so many cycles after the beginning of
+// its flash, or after the end of the last one [measured: register way, 4219 to 4891, 53285 to 53475, 30305 to 30671,
+// 52181 to 52491].
+struct Window {
+  Cycle from, to;
+  constexpr bool holds(Cycle since) const { return since >= from && since < to; }
+};
+constexpr Window kLibraryFlash{3900, 5200}, kScanDark{53000, 53800}, kBasicDark{30000, 31000},
+    kScanAcc{51900, 52800};
+
+constexpr std::uint64_t kSampleOffset = std::uint64_t{1} << 42;  // apart from the drivers' numbers
+/// A result is the same whenever it is asked for: one number per instant.
+constexpr std::uint64_t of_instant(Cycle at) { return kSampleOffset + static_cast<std::uint64_t>(at); }
+
 constexpr unsigned kUartMode[2] = {0x20C, 0x216}, kUartBrg[2] = {0x214, 0x21E};
 constexpr std::uint16_t kUartEnabled = 0x8000;
 constexpr unsigned kDciCon3 = 0x244;
@@ -119,6 +134,12 @@ void BoardOutside::follow_emitters(Port port, Cycle at) {
     if (is_on == e.is_on) continue;
     e.is_on = is_on;
     e.changed[static_cast<std::size_t>(e.changes++ % Emitter::kRemembered)] = at;
+    if (is_on) {
+      flashes_.on[static_cast<std::size_t>(flashes_.switched_on++ % Flashes::kRemembered)] = at;
+      ++flashes_.begun;
+    } else {
+      flashes_.off[static_cast<std::size_t>(flashes_.ended++ % Flashes::kRemembered)] = at;
+    }
   }
 }
 
@@ -186,19 +207,45 @@ Cycle BoardOutside::nth_edge(dspic::Pin pin, dspic::Edge edge, Cycle after, std:
 
 // --- analogue, serial ------------------------------------------------------------------------------------
 
-int BoardOutside::analogue_counts(int channel, Cycle at) {
-  // one number per instant: a result is the same whenever it is asked for
-  const std::uint64_t sample = kSampleOffset + static_cast<std::uint64_t>(at);
-  if (channel >= kFirstMic && channel < kFirstAcc)
-    return board_.mic_counts_fast(channel - kFirstMic, at, sample);
-  return beside_microphones(channel, at, sample);
+BoardOutside::Since BoardOutside::since_flash(Cycle at) const {
+  Since since{static_cast<std::uint64_t>(flashes_.begun), -1};
+  const std::int64_t on_known = std::max<std::int64_t>(0, flashes_.switched_on - Flashes::kRemembered);
+  for (std::int64_t i = flashes_.switched_on - 1;
+       i >= on_known && flashes_.on[static_cast<std::size_t>(i % Flashes::kRemembered)] > at; --i)
+    --since.flashes;
+  const std::int64_t off_known = std::max<std::int64_t>(0, flashes_.ended - Flashes::kRemembered);
+  for (std::int64_t i = flashes_.ended - 1; i >= off_known && since.dark < 0; --i)
+    since.dark = at - flashes_.off[static_cast<std::size_t>(i % Flashes::kRemembered)];
+  return since;
 }
 
-int BoardOutside::beside_microphones(int channel, Cycle at, std::uint64_t sample) {
-  if (channel >= kFirstIr)
-    return board_.ir_counts(channel - kFirstIr, at, lit_for(channel - kFirstIr, at), sample);
+std::uint64_t BoardOutside::ir_sample(Cycle at, Cycle lit) const {
+  const Since since = since_flash(at);
+  if (kLibraryFlash.holds(lit)) return 2 * since.flashes + 1;
+  if (lit < 0 && (kScanDark.holds(since.dark) || kBasicDark.holds(since.dark))) return 2 * since.flashes;
+  return of_instant(at);
+}
+
+std::uint64_t BoardOutside::acc_sample(Cycle at) const {
+  const Since since = since_flash(at);
+  return kScanAcc.holds(since.dark) ? since.flashes : of_instant(at);
+}
+
+int BoardOutside::analogue_counts(int channel, Cycle at) {
+  if (channel >= kFirstMic && channel < kFirstAcc)
+    return board_.mic_counts_fast(channel - kFirstMic, at, of_instant(at));
+  return beside_microphones(channel, at);
+}
+
+int BoardOutside::beside_microphones(int channel, Cycle at) {
+  if (channel >= kFirstIr) {
+    const Cycle lit = lit_for(channel - kFirstIr, at);
+    return board_.ir_counts(channel - kFirstIr, at, lit, ir_sample(at, lit));
+  }
   if (const auto counts = board_.counts_of_others(channel, at)) return *counts;
-  return channel >= kFirstAcc ? board::accelerometer_counts(board_, channel - kFirstAcc, at, sample) : 0;
+  return channel >= kFirstAcc
+             ? board::accelerometer_counts(board_, channel - kFirstAcc, at, acc_sample(at))
+             : 0;
 }
 
 void BoardOutside::uart_sent(int uart, const dspic::UartFrame& frame) {

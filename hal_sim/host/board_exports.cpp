@@ -17,9 +17,19 @@ using board::Wheel;
 using host::Context;
 
 // processor time of library functions whose work happens on this side
-constexpr Cycle kSetSpeedCycles = 70;  // [estimated: 4 bit writes, one 18-cycle division, list search, store]
-constexpr Cycle kListSearchCycles = 30;  // [estimated: call, two nodes compared, store]
-constexpr Cycle kActivateCycles = 120;   // [estimated: list search, malloc of one node, five stores]
+// [measured: register way] beside what TAKES() of the functions that call says
+constexpr Cycle kSetSpeedCycles = 85;   // speed 0
+constexpr Cycle kDivisionCycles = 21;   // any other speed
+constexpr Cycle kListSearchCycles = 11;  // agenda found at once
+constexpr Cycle kSetCycleCycles = 7;
+constexpr Cycle kNodePassedCycles = 10;
+constexpr Cycle kStartCycles = 20;
+constexpr Cycle kReturnCycles = 6;  // from the end of the list to RETFIE
+constexpr Cycle kKnownCycles = 13;     // activated although it is there
+constexpr Cycle kActivateCycles = 103; // malloc() and all
+constexpr Cycle kNodeOfListCycles = 16;
+constexpr Cycle kDestroyCycles = 42;
+constexpr Cycle kFreeCycles = 32;
 
 Wheel wheel_of(tp_i64 wheel) { return wheel == 0 ? Wheel::Left : Wheel::Right; }
 
@@ -38,6 +48,16 @@ void charge_basic_prox(Context& context, Board& robot) {
                      board::kBasicIsrEntryCycles + 2 * board::kReadAdCycles);
 }
 
+/// The converter's handler, if it runs.
+void charge_scan(Context& context, Board& robot, bool on) {
+  if (robot.scan().micro_only())
+    request_background(context, robot, TP_BG_ADC, board::kScanMicroFrameCycles,
+                       on ? board::kScanMicroIsrCycles : 0);
+  else
+    request_background(context, robot, TP_BG_ADC, board::kScanPeriod * board::kScanFrameCycles,
+                       on ? board::kScanRoundIsrCycles : 0);
+}
+
 /// After a change to agendas: the next interrupt, and the time the handler steals.
 void follow_agendas(Context& context, Board& robot) {
   board::AgendaTimer& agendas = robot.agendas();
@@ -48,15 +68,19 @@ void follow_agendas(Context& context, Board& robot) {
     robot.requests.agenda_interrupt = wanted;
     context.irq_at(TP_V_T2, wanted);
   }
-  request_background(context, robot, TP_BG_AGENDA, board::kAgendaTickCycles,
-                     agendas.is_running() ? agendas.idle_tick_cost() : 0);
+  const board::AgendaTimer::Load quiet = agendas.quiet_ticks();
+  request_background(context, robot, TP_BG_AGENDA, quiet.period, quiet.cost);
   for (Wheel wheel : {Wheel::Left, Wheel::Right}) {
-    const Cycle period = agendas.firing_period(wheel);
+    const auto [period, cost] = agendas.firing(wheel);
     // the drivers with their own timers use the same slots; a wheel has one driver
     if (period > 0 || !robot.timer_motors().drives(wheel))
       request_background(context, robot, wheel == Wheel::Left ? TP_BG_MOTOR_LEFT : TP_BG_MOTOR_RIGHT, period,
-                         period > 0 ? board::kMotorStepCycles : 0);
+                         cost);
   }
+}
+
+Cycle search_cost(const void* function, Cycle found_at_once = kListSearchCycles) {
+  return found_at_once + kNodePassedCycles * Context::current().board().agendas().nodes_passed(function);
 }
 
 /// Shape of every change of the agenda list.
@@ -116,7 +140,8 @@ void tp_coils_write(tp_i64 wheel, tp_i64 coils) {
 // --- agendas ---------------------------------------------------------------------------------------------
 
 void tp_agenda_start(void) {
-  change_list(20, [](board::AgendaTimer& agendas, Cycle now) {
+  Context::current().spend(kStartCycles);  // the timer is switched on last
+  change_list(0, [](board::AgendaTimer& agendas, Cycle now) {
     agendas.start(now);
     return 1;
   });
@@ -130,35 +155,41 @@ void tp_agenda_stop(void) {
 }
 
 tp_i64 tp_agenda_activate(const void* function, tp_i64 cycle) {
-  return change_list(kActivateCycles, [&](board::AgendaTimer& agendas, Cycle now) {
+  const board::AgendaTimer& list = Context::current().board().agendas();
+  const Cycle cost = list.has(function) ? kKnownCycles + kNodePassedCycles * list.nodes_passed(function)
+                                        : kActivateCycles + kNodeOfListCycles * list.nodes_passed(function);
+  return change_list(cost, [&](board::AgendaTimer& agendas, Cycle now) {
     return agendas.activate(function, static_cast<int>(cycle), now);
   });
 }
 
 tp_i64 tp_agenda_destroy(const void* function) {
-  return change_list(kActivateCycles,
+  const board::AgendaTimer& list = Context::current().board().agendas();
+  const Cycle cost = kDestroyCycles + kNodePassedCycles * list.nodes_passed(function) +
+                     (list.has(function) ? kFreeCycles : 0);
+  return change_list(cost,
                      [&](board::AgendaTimer& agendas, Cycle now) { return agendas.destroy(function, now); });
 }
 
 tp_i64 tp_agenda_set_cycle(const void* function, tp_i64 cycle) {
-  return change_list(kListSearchCycles, [&](board::AgendaTimer& agendas, Cycle now) {
+  return change_list(search_cost(function, kSetCycleCycles), [&](board::AgendaTimer& agendas, Cycle now) {
     return agendas.set_cycle(function, static_cast<int>(cycle), now);
   });
 }
 
 tp_i64 tp_agenda_reset(const void* function) {
-  return change_list(kListSearchCycles, [&](board::AgendaTimer& agendas, Cycle now) {
+  return change_list(search_cost(function), [&](board::AgendaTimer& agendas, Cycle now) {
     return agendas.reset_count(function, now);
   });
 }
 
 tp_i64 tp_agenda_pause(const void* function) {
-  return change_list(kListSearchCycles,
+  return change_list(search_cost(function),
                      [&](board::AgendaTimer& agendas, Cycle now) { return agendas.pause(function, now); });
 }
 
 tp_i64 tp_agenda_restart(const void* function) {
-  return change_list(kListSearchCycles,
+  return change_list(search_cost(function),
                      [&](board::AgendaTimer& agendas, Cycle now) { return agendas.restart(function, now); });
 }
 
@@ -172,6 +203,7 @@ const void* tp_agenda_next(void) {
   Context& context = Context::current();
   bool divided_by_zero = false;
   const void* function = context.board().agendas().next(divided_by_zero);
+  context.spend(context.board().agendas().take_walk_cost());
   if (divided_by_zero)
     context.trap(TP_TRAP_MATH, "motor agenda: 10000 / 0 (speed 0 with a power-save half pending)");
   context.callback(function);
@@ -180,6 +212,7 @@ const void* tp_agenda_next(void) {
 
 void tp_agenda_end(void) {
   Context& context = Context::current();
+  context.spend(kReturnCycles);
   Board& robot = context.board();
   robot.agendas().finish(context.now());
   robot.requests.agenda_interrupt = Board::Requests::kUnknown;  // the request was used up
@@ -194,7 +227,10 @@ void tp_motor_agenda(tp_i64 wheel, const void* function) {
 }
 
 void tp_motor_speed(tp_i64 wheel, tp_i64 speed_steps_s) {
-  change_list(kSetSpeedCycles, [&](board::AgendaTimer& agendas, Cycle now) {
+  const int passed = Context::current().board().agendas().nodes_passed(wheel_of(wheel));
+  const Cycle cost =
+      kSetSpeedCycles + kNodePassedCycles * passed + (speed_steps_s == 0 ? 0 : kDivisionCycles);
+  change_list(cost, [&](board::AgendaTimer& agendas, Cycle now) {
     agendas.set_speed(wheel_of(wheel), static_cast<int>(speed_steps_s), now);
     return 1;
   });
@@ -262,8 +298,7 @@ void tp_scan_start(tp_i64 micro_only, tp_i64 five_pairs) {
   Board& robot = context.board();
   robot.scan().start(micro_only != 0, five_pairs != 0, context.now());
   robot.follow_power(context.now());
-  request_background(context, robot, TP_BG_ADC, robot.scan().frame_cycles(),
-                     micro_only ? board::kScanMicroIsrCycles : board::kScanIsrCycles);
+  charge_scan(context, robot, true);
   context.note_write();
 }
 
@@ -272,8 +307,7 @@ void tp_scan_switch(tp_i64 on) {
   Board& robot = context.board();
   robot.scan().switch_converter(on != 0, context.now());
   robot.follow_power(context.now());
-  const Cycle cost = robot.scan().micro_only() ? board::kScanMicroIsrCycles : board::kScanIsrCycles;
-  request_background(context, robot, TP_BG_ADC, robot.scan().frame_cycles(), on ? cost : 0);
+  charge_scan(context, robot, on != 0);
   context.note_write();
 }
 

@@ -83,6 +83,7 @@ class Processor {
     void (*handler)() = nullptr;  ///< null: the program's own, by its vector
     Cycle first_instruction = 0;
     Cycle quiet_until = 0;  ///< no other vector can be served before; 0: ask look()
+    Cycle saving = 0;       ///< what the handler itself needs to save registers; others may come within
   };
   virtual Entry enter(int vector, Cycle now) = 0;
   /// look(), and enter() at once where there is a vector to serve.

@@ -313,6 +313,7 @@ void Robot::handle(int vector, const Processor::Entry& entry) {
   ++handler_depth_;
   calm_until_ = entry.quiet_until;
   give_budget();
+  control_.budget -= entry.saving;
   handler();
   --handler_depth_;
   fold();

@@ -108,6 +108,7 @@ void ChipProcessor::power_up() {
   chip_ = std::make_unique<dspic::Dspic30f6014a>(outside_, this, configuration);
   parts_ = &chip_->parts();
   outside_.fill_eeprom(*chip_);
+  reset_board();
   observe(observer_);
   next_reset_ = dspic::ResetKind::PowerOn;
 }
@@ -115,8 +116,13 @@ void ChipProcessor::power_up() {
 void ChipProcessor::reset(Cycle now) {
   chip_->reset(next_reset_, at(now));
   next_reset_ = dspic::ResetKind::Instruction;
-  robot_.board().processor_reset(latest_);
+  reset_board();
   watched_reads_ = 0;
+}
+
+void ChipProcessor::reset_board() {
+  robot_.board().processor_reset(latest_);
+  outside_.processor_reset();
 }
 
 void ChipProcessor::note_reset(host::ResetCause cause) {
@@ -125,7 +131,7 @@ void ChipProcessor::note_reset(host::ResetCause cause) {
 
 void ChipProcessor::stop(Cycle now) {
   chip_->reset(dspic::ResetKind::Pin, at(now));
-  robot_.board().processor_reset(latest_);
+  reset_board();
 }
 
 bool ChipProcessor::begin_window(Cycle now) { return outside_.begin_window(*chip_, at(now)); }
@@ -274,8 +280,8 @@ host::Processor::Outlook ChipProcessor::take(Cycle now, Entry& entry) {
   const int irq = p.interrupts.sole_pending(t);
   if (irq < 0 || p.is_reset_due()) return take_in_general(t, entry);
   watched_reads_ = 0;  // whatever waits looks again afterwards
-  const Cycle first = p.interrupts.enter_sole(irq, t) + kSavingCycles;
-  entry = {nullptr, first, p.events.next() <= first ? 0 : p.next_notice()};
+  const Cycle first = p.interrupts.enter_sole(irq, t);
+  entry = {nullptr, first, p.events.next() <= first ? 0 : p.next_notice(), kSavingCycles};
   return {irq, true, 0};
 }
 
@@ -287,8 +293,8 @@ host::Processor::Outlook ChipProcessor::take_in_general(Cycle t, Entry& entry) {
 
 __attribute__((always_inline)) inline host::Processor::Entry ChipProcessor::enter_at(int number, Cycle t) {
   watched_reads_ = 0;  // whatever waits looks again afterwards
-  const Cycle first = parts_->interrupts.enter(number, t).first_instruction + kSavingCycles;
-  return {nullptr, first, parts_->calm_until(first, number)};
+  const Cycle first = parts_->interrupts.enter(number, t).first_instruction;
+  return {nullptr, first, parts_->calm_until(first, number), kSavingCycles};
 }
 
 host::Processor::Entry ChipProcessor::enter(int vector, Cycle now) {
