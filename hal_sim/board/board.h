@@ -315,7 +315,7 @@ class Board {
   };
   std::array<VainWrites, kPorts> vain_writes_{};
   bool watches_inputs_ = true;
-  bool hears_ = false;            // something sounds in the scene
+  bool hears_ = false;                                              // something sounds in the scene
   double beside_emitters_a_ = kProcessorA + kBluetoothA + kBoardA;  // at the last follow_power()
 
   AgendaTimer agendas_;

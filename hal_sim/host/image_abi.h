@@ -88,8 +88,8 @@ void tp_event(void);
  *  would find exactly what this one found. */
 void tp_poll(tp_i64 loop);
 
-/** tp_poll() of a loop without an end in which nothing stands: only interrupts happen any more, and each round
- *  takes as long as the one before. */
+/** tp_poll() of a loop without an end in which nothing stands: only interrupts happen any more, and each
+ * round takes as long as the one before. */
 void tp_rest(tp_i64 loop);
 
 /** A counted delay loop that does nothing: `rounds` rounds (0 or more) of `cycles` each. Interrupts are
