@@ -84,10 +84,7 @@ int Board::port_index(char port) {
   return port >= 'A' && port <= 'G' ? kIndex[port - 'A'] : -1;
 }
 
-void Board::look_at(const sim::Scene* scene) {
-  scene_ = scene;
-  hears_ = scene && sim::has_sound(*scene);
-}
+void Board::find_sound() { may_hear_ = scene_ && sim::has_sound(*scene_); }
 
 // --- motors ----------------------------------------------------------------------------------------------
 
@@ -423,7 +420,7 @@ __attribute__((always_inline)) inline int Board::with_mic_noise(double counts, i
 }
 
 int Board::mic_counts_fast(int microphone, Cycle at, std::uint64_t sample) const {
-  if (hears_) return mic_counts_in_sound(microphone, at, sample);
+  if (may_hear_) return mic_counts_in_sound(microphone, at, sample);
   return with_mic_noise(kMicIdleCounts, microphone, sample);
 }
 

@@ -123,7 +123,10 @@ class Board {
   // --- the world ------------------------------------------------------------------------------------------
 
   /// The frozen scene that sensors see until the next call; null: a dark void. Called before each run window.
-  void look_at(const sim::Scene* scene);
+  void look_at(const sim::Scene* scene) {
+    scene_ = scene;
+    if (!watches_inputs_) find_sound();
+  }
   const sim::Scene* scene() const { return scene_; }
 
   /// Angle the wheel has turned since power-up, rad, forward positive, wheel ratio included. The rotor needs
@@ -268,6 +271,7 @@ class Board {
   static int port_index(char port);
   /// Counts of a microphone without noise.
   double mic_level(int microphone, Cycle at) const;
+  void find_sound();
   __attribute__((noinline)) int mic_counts_in_sound(int microphone, Cycle at, std::uint64_t sample) const;
   /// Counts of the converter, the noise of mic_counts_fast() added.
   int with_mic_noise(double counts, int microphone, std::uint64_t sample) const;
@@ -315,7 +319,8 @@ class Board {
   };
   std::array<VainWrites, kPorts> vain_writes_{};
   bool watches_inputs_ = true;
-  bool hears_ = false;                                              // something sounds in the scene
+  bool may_hear_ =
+      true;  // false: nothing sounds in the scene, found out once a tick for the models of the chip
   double beside_emitters_a_ = kProcessorA + kBluetoothA + kBoardA;  // at the last follow_power()
 
   AgendaTimer agendas_;
