@@ -38,8 +38,10 @@ Cycle scan_flash_cycles(int sensor) {
 void AdcScan::settle(Cycle at) {
   // samples so far must not depend on frame times that are about to be forgotten
   for (int sensor = 0; sensor < kRingSensors; ++sensor) {
-    dark(sensor, at);
-    lit(sensor, at);
+    const auto i = static_cast<std::size_t>(sensor);
+    const std::int64_t count = full_interrupts(at);
+    keep(dark_[i], sensor, newest(count, kScanDarkSlot, 1, pair_of_sensor(sensor)), false);
+    keep(lit_[i], sensor, newest(count, kScanLitSlot, 0, pair_of_sensor(sensor)), true);
   }
   fill_acc(at);
   const std::int64_t passed = frames(at);
@@ -143,12 +145,16 @@ int AdcScan::evaluate(int sensor, std::int64_t period, bool lit_sample) const {
   return board_.ir_counts(sensor, at, lit_for, number);
 }
 
+void AdcScan::keep(Sample& kept, int sensor, std::int64_t number, bool lit_sample) const {
+  if (number < 0 || number == kept.number) return;
+  kept.counts = evaluate(sensor, number, lit_sample);
+  kept.number = number;
+}
+
 int AdcScan::dark(int sensor, Cycle at) {
   Sample& kept = dark_[static_cast<std::size_t>(sensor)];
   if (at < kept.until) return kept.counts;
-  const std::int64_t number = dark_number(sensor, at);
-  if (number >= 0 && number != kept.number)
-    kept.counts = evaluate(sensor, number, false), kept.number = number;
+  keep(kept, sensor, dark_number(sensor, at), false);
   kept.until = next_sample(at, kScanDarkSlot, 1, pair_of_sensor(sensor));
   return kept.counts;
 }
@@ -156,9 +162,7 @@ int AdcScan::dark(int sensor, Cycle at) {
 int AdcScan::lit(int sensor, Cycle at) {
   Sample& kept = lit_[static_cast<std::size_t>(sensor)];
   if (at < kept.until) return kept.counts;
-  const std::int64_t number = lit_number(sensor, at);
-  if (number >= 0 && number != kept.number)
-    kept.counts = evaluate(sensor, number, true), kept.number = number;
+  keep(kept, sensor, lit_number(sensor, at), true);
   kept.until = next_sample(at, kScanLitSlot, 0, pair_of_sensor(sensor));
   return kept.counts;
 }

@@ -120,6 +120,7 @@ class AdcScan {
   /// Cycle after `at` at which the next sample arrives in `slot` for `pair`; kNever when none will.
   Cycle next_sample(Cycle at, int slot, int shift, int pair) const;
   int evaluate(int sensor, std::int64_t period, bool lit_sample) const;
+  void keep(Sample& kept, int sensor, std::int64_t number, bool lit_sample) const;
   void settle(Cycle at);
   void fill_acc(Cycle at);
 

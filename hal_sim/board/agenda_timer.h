@@ -89,7 +89,8 @@ class AgendaTimer {
   void finish(Cycle at);
   bool is_walking() const { return walking_; }
 
-  /// Nodes that a search for this function passes before it finds its own: those added later; all when it has none.
+  /// Nodes that a search for this function passes before it finds its own: those added later; all when it has
+  /// none.
   int nodes_passed(Function function) const;
   bool has(Function function) const { return nodes_passed(function) < static_cast<int>(nodes_.size()); }
   int nodes_passed(Wheel wheel) const { return nodes_passed(motor_functions_[static_cast<int>(wheel)]); }

@@ -50,12 +50,14 @@ inline constexpr int kScanPeriod =
 inline constexpr int kScanLitSlot = 3;  // PULSE_PERIOD - 1 [lib: a_d/advance_ad_scan/e_ad_conv.c]
 inline constexpr int kScanLitInterrupts =
     5;  // a flash lasts from slot 63 to 3 [lib: a_d/advance_ad_scan/e_ad_conv.c]
-inline constexpr int kScanAccSlot = 62;      // ACC_PROX_PERIOD - 2 [lib: a_d/advance_ad_scan/e_ad_conv.c]
-inline constexpr int kScanDarkSlot = 63;     // ACC_PROX_PERIOD - 1 [lib: a_d/advance_ad_scan/e_ad_conv.c]
-// The converter stands while its list changes, and slots 3 to 36 come late for it; the handler needs its time.
+inline constexpr int kScanAccSlot = 62;   // ACC_PROX_PERIOD - 2 [lib: a_d/advance_ad_scan/e_ad_conv.c]
+inline constexpr int kScanDarkSlot = 63;  // ACC_PROX_PERIOD - 1 [lib: a_d/advance_ad_scan/e_ad_conv.c]
+// The converter stands while its list changes, and slots 3 to 36 come late for it; the handler needs its
+// time.
 inline constexpr Cycle kScanLitLateCycles = 230;  // slot 3 after its multiple of 900 [measured: register way]
 inline constexpr Cycle kScanLightCycles = 163;    // end of a dark frame to IR LED on [measured: register way]
-inline constexpr Cycle kScanFileCycles = 117;     // end of a frame to its pair in the array [measured: register way]
+inline constexpr Cycle kScanFileCycles =
+    117;  // end of a frame to its pair in the array [measured: register way]
 inline constexpr Cycle kScanTadCycles = 12;  // five channels: ADCS 23 [lib: a_d/advance_ad_scan/e_ad_conv.h]
 inline constexpr Cycle kScanTadCycles3 =
     20;  // three channels: ADCS 39 [lib: a_d/advance_ad_scan/e_ad_conv.h]
@@ -149,14 +151,14 @@ inline constexpr double kFrontLedSpotM = 0.004;  // m [assumed: a 5 mm lens and 
 // --- processor time of the library's interrupt handlers, entry and RETFIE included -----------------------
 // of the usual variants: what the drivers' own handlers (hal_dspic) take in the register way, trace by trace
 // [measured: share of a delay loop that they take in the register way]
-inline constexpr Cycle kAgendaIsrCycles = 35;        // empty list
-inline constexpr Cycle kAgendaListCycles = -2;       // a list with nodes
-inline constexpr Cycle kAgendaNodeCycles = 13;       // one node
-inline constexpr Cycle kAgendaCountCycles = 5;       // one that counts
-inline constexpr Cycle kMotorHalfStepCycles = 125;   // coils on or off, the next half's cycle
-inline constexpr Cycle kMotorStepCycles = 108;       // coils on to stay
-inline constexpr Cycle kScanRoundIsrCycles = 7499;   // 65 frames
-inline constexpr Cycle kScanMicroIsrCycles = 83;     // a frame
+inline constexpr Cycle kAgendaIsrCycles = 35;       // empty list
+inline constexpr Cycle kAgendaListCycles = -2;      // a list with nodes
+inline constexpr Cycle kAgendaNodeCycles = 13;      // one node
+inline constexpr Cycle kAgendaCountCycles = 5;      // one that counts
+inline constexpr Cycle kMotorHalfStepCycles = 125;  // coils on or off, the next half's cycle
+inline constexpr Cycle kMotorStepCycles = 108;      // coils on to stay
+inline constexpr Cycle kScanRoundIsrCycles = 7499;  // 65 frames
+inline constexpr Cycle kScanMicroIsrCycles = 83;    // a frame
 inline constexpr Cycle kBasicMotorIsrCycles =
     34;                                        // [estimated: shadow context, counter, phase, 4 bit writes]
 inline constexpr Cycle kTimer3IsrCycles = 40;  // [estimated: context, two counters, coil clearing]

@@ -27,10 +27,10 @@ constexpr std::uint16_t kSerialOuts = 0x0028;
 constexpr std::uint16_t kEmitters[dspic::kPorts] = {0, 0, 0, 0, 0x0180, 0x0003};
 constexpr int kFirstIr = 8, kFirstMic = 2, kFirstAcc = 5;
 
-// Both ways draw the same noise for the same sample. The native way numbers the samples of the library's drivers by
-// flashes; here a conversion is one of those when it falls where they convert: so many cycles after the beginning of
-// its flash, or after the end of the last one [measured: register way, 4219 to 4891, 53285 to 53475, 30305 to 30671,
-// 52181 to 52491].
+// Both ways draw the same noise for the same sample. The native way numbers the samples of the library's
+// drivers by flashes; here a conversion is one of those when it falls where they convert: so many cycles
+// after the beginning of its flash, or after the end of the last one [measured: register way, 4219 to 4891,
+// 53285 to 53475, 30305 to 30671, 52181 to 52491].
 struct Window {
   Cycle from, to;
   constexpr bool holds(Cycle since) const { return since >= from && since < to; }
@@ -243,9 +243,8 @@ int BoardOutside::beside_microphones(int channel, Cycle at) {
     return board_.ir_counts(channel - kFirstIr, at, lit, ir_sample(at, lit));
   }
   if (const auto counts = board_.counts_of_others(channel, at)) return *counts;
-  return channel >= kFirstAcc
-             ? board::accelerometer_counts(board_, channel - kFirstAcc, at, acc_sample(at))
-             : 0;
+  return channel >= kFirstAcc ? board::accelerometer_counts(board_, channel - kFirstAcc, at, acc_sample(at))
+                              : 0;
 }
 
 void BoardOutside::uart_sent(int uart, const dspic::UartFrame& frame) {

@@ -75,8 +75,8 @@ class BoardOutside final : public dspic::Outside {
     Cycle dark = -1;  ///< -1: none has ended
   };
   Since since_flash(Cycle at) const;
-  /// The noise's number of a conversion: that of the native way where the library's drivers convert, else one of
-  /// its instant. `lit` as lit_for().
+  /// The noise's number of a conversion: that of the native way where the library's drivers convert, else one
+  /// of its instant. `lit` as lit_for().
   std::uint64_t ir_sample(Cycle at, Cycle lit) const;
   std::uint64_t acc_sample(Cycle at) const;
   /// analogue_counts() of every channel that is no microphone's.

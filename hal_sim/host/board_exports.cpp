@@ -18,15 +18,15 @@ using host::Context;
 
 // processor time of library functions whose work happens on this side
 // [measured: register way] beside what TAKES() of the functions that call says
-constexpr Cycle kSetSpeedCycles = 85;   // speed 0
-constexpr Cycle kDivisionCycles = 21;   // any other speed
+constexpr Cycle kSetSpeedCycles = 85;    // speed 0
+constexpr Cycle kDivisionCycles = 21;    // any other speed
 constexpr Cycle kListSearchCycles = 11;  // agenda found at once
 constexpr Cycle kSetCycleCycles = 7;
 constexpr Cycle kNodePassedCycles = 10;
 constexpr Cycle kStartCycles = 20;
-constexpr Cycle kReturnCycles = 6;  // from the end of the list to RETFIE
-constexpr Cycle kKnownCycles = 13;     // activated although it is there
-constexpr Cycle kActivateCycles = 103; // malloc() and all
+constexpr Cycle kReturnCycles = 6;      // from the end of the list to RETFIE
+constexpr Cycle kKnownCycles = 13;      // activated although it is there
+constexpr Cycle kActivateCycles = 103;  // malloc() and all
 constexpr Cycle kNodeOfListCycles = 16;
 constexpr Cycle kDestroyCycles = 42;
 constexpr Cycle kFreeCycles = 32;

@@ -17,6 +17,9 @@ using board::Board;
 using board::Cycle;
 
 constexpr Cycle kFrame = 900;
+// of the driver [measured: register way]: slot 3 comes late, the handler files a pair, and switches an LED
+constexpr Cycle kLate = 230, kFiled = 117, kLight = 163;
+constexpr Cycle kSettled = kLate + kFiled;  // after an interrupt: its samples can be seen
 
 /// A scene whose reflection tells sensor and time, so that a value reveals when it was taken.
 void make_telling(sim::Scene& scene) {
@@ -47,10 +50,10 @@ class TickedScan {
     if (counter_ == 63) {
       sample(dark, at, -1);
       pulses = 1u << pair_;
-      lit_at_ = at;
+      lit_at_ = at + kLight;
     }
     if (counter_ == 3) {
-      sample(lit, at, pulses ? lit_at_ : -1);
+      sample(lit, at + kLate, pulses ? lit_at_ : -1);
       pulses = 0;
       pair_ = pair_ == 3 ? (five_pairs_ ? 4 : 0) : pair_ == 4 ? 0 : pair_ + 1;
     }
@@ -107,20 +110,21 @@ TEST_P(Scan, closed_form_equals_the_ticked_interrupt) {
     if (HasFatalFailure()) return;
     ASSERT_EQ(robot.scan().next_interrupt(at - 1), at);
     want.interrupt(at);
-    expect_equal(robot, want, at);
+    const Cycle seen = at + kSettled;
+    expect_equal(robot, want, seen);
     if (HasFatalFailure()) return;
     // somebody who reads now and then gets the same values
     if (random() % 5 == 0) {
       const int sensor = static_cast<int>(random() % 8);
-      ASSERT_EQ(reader.scan().dark(sensor, at), want.dark[sensor]);
-      ASSERT_EQ(reader.scan().lit(sensor, at), want.lit[sensor]);
+      ASSERT_EQ(reader.scan().dark(sensor, seen), want.dark[sensor]);
+      ASSERT_EQ(reader.scan().lit(sensor, seen), want.lit[sensor]);
       // and the horizon never lies beyond the next change
-      const Cycle horizon = reader.scan().horizon(sensor, at);
-      ASSERT_GT(horizon, at);
+      const Cycle horizon = reader.scan().horizon(sensor, seen);
+      ASSERT_GT(horizon, seen);
       ASSERT_EQ(reader.scan().peek_dark(sensor, horizon - 1), want.dark[sensor]);
       ASSERT_EQ(reader.scan().peek_lit(sensor, horizon - 1), want.lit[sensor]);
-      ASSERT_TRUE(reader.scan().dark_number(sensor, horizon) != reader.scan().dark_number(sensor, at) ||
-                  reader.scan().lit_number(sensor, horizon) != reader.scan().lit_number(sensor, at));
+      ASSERT_TRUE(reader.scan().dark_number(sensor, horizon) != reader.scan().dark_number(sensor, seen) ||
+                  reader.scan().lit_number(sensor, horizon) != reader.scan().lit_number(sensor, seen));
     }
   }
 }
@@ -141,8 +145,10 @@ TEST(AdcScan, survives_stops_and_starts_in_the_middle_of_anything) {
     const Cycle anchor = now;
     const int frames = static_cast<int>(random() % 90);
     for (int i = 1; i <= frames; ++i) want.interrupt(anchor + i * kFrame);
-    now = anchor + frames * kFrame + static_cast<Cycle>(random() % kFrame);
-    expect_equal(robot, want, now);
+    const auto part = static_cast<Cycle>(random() % kFrame);
+    now = anchor + frames * kFrame + part;
+    // what is under way when the converter is stopped is filed all the same
+    if (part >= kSettled) expect_equal(robot, want, now);
     if (HasFatalFailure()) return;
     if (random() % 2) {
       robot.scan().switch_converter(false, now);
@@ -170,7 +176,9 @@ TEST(AdcScan, refreshes_each_sensor_63_times_a_second) {
   }
 }
 
-// a flash lasts 5 interrupts = 305 us; its samples are taken 282 and 294 us after it began
+// a flash lasts 5 interrupts = 305 us; its samples are taken 282 and 294 us after the interrupt that began
+// it, and 230 cycles = 15.6 us more, by which the converter is late then. They are filed 117 cycles after
+// their frame.
 TEST(AdcScan, flash_and_sample_instants) {
   sim::Scene scene;
   Board robot{board::Setup{}};
@@ -183,11 +191,13 @@ TEST(AdcScan, flash_and_sample_instants) {
   EXPECT_EQ(robot.scan().pulses(on + 5 * kFrame), 0u);
   EXPECT_EQ(robot.scan().pulses_horizon(on), on + 5 * kFrame);
   scene.asked.clear();
-  robot.scan().lit(1, on + 5 * kFrame);
-  robot.scan().lit(5, on + 5 * kFrame);
+  robot.scan().lit(1, on + 5 * kFrame + kLate + kFiled - 1);
+  ASSERT_EQ(scene.asked.size(), 0u);
+  robot.scan().lit(1, on + 5 * kFrame + kLate + kFiled);
+  robot.scan().lit(5, on + 5 * kFrame + kLate + kFiled);
   ASSERT_EQ(scene.asked.size(), 2u);
-  EXPECT_NEAR(static_cast<double>(scene.asked[0].at - on) / 14.7456, 282, 1);
-  EXPECT_NEAR(static_cast<double>(scene.asked[1].at - on) / 14.7456, 294, 1);
+  EXPECT_NEAR(static_cast<double>(scene.asked[0].at - on) / 14.7456, 282 + 15.6, 1);
+  EXPECT_NEAR(static_cast<double>(scene.asked[1].at - on) / 14.7456, 294 + 15.6, 1);
 }
 
 TEST(AdcScan, initialisation_takes_194_ms) {
@@ -315,14 +325,16 @@ TEST(IrCircuit, a_conversion_taken_apart_adds_up_to_its_counts) {
   EXPECT_EQ(dark.light_counts, 200);  // 0.5 W/m2 x 400
   EXPECT_EQ(dark.reflection_counts, 0);
   EXPECT_EQ(dark.counts(), 4095 - 200);
-  // the flash lasts four whole frames and the hold instant of its channel: 4 x 900 + 552 cycles, 282 us
+  // the flash lasts four whole frames and the hold instant of its channel: 4 x 900 + 552 cycles, 282 us; the
+  // LED is switched 163 cycles after its interrupt, and the frames come 230 late while the converter's list
+  // changes: 286 us
   const board::Cycle flash = board::scan_flash_cycles(3);
-  EXPECT_EQ(flash, 4 * 900 + 552);
-  EXPECT_EQ(board::scan_flash_cycles(4), 4 * 900 + (4 * 15 + 1) * 12);
+  EXPECT_EQ(flash, 4 * 900 + 552 + kLate - 163);
+  EXPECT_EQ(board::scan_flash_cycles(4), 4 * 900 + (4 * 15 + 1) * 12 + kLate - 163);
   const board::IrConversion lit = robot.ir_conversion(3, 0, flash);
   EXPECT_EQ(lit.reflection_counts, 1200);
   EXPECT_EQ(lit.relative_noise, 0.1);  // told, and not drawn
-  EXPECT_NEAR(lit.settled, 1, 2e-5);   // exp(-282 / 25)
+  EXPECT_NEAR(lit.settled, 1, 2e-5);   // exp(-286 / 25)
   EXPECT_NEAR(lit.counts(), 4095 - 200 - 1210, 0.02);
   // one time constant: 63.2 % of it
   EXPECT_NEAR(robot.ir_conversion(3, 0, board::kIrSettleCycles).counts(), 4095 - 200 - 0.6321 * 1210, 0.5);
