@@ -3,109 +3,18 @@
 
 #include <algorithm>
 
-#include "dspic30/periph/adc.h"
-#include "dspic30/periph/capture_compare.h"
-#include "dspic30/periph/dci.h"
-#include "dspic30/periph/external_interrupts.h"
-#include "dspic30/periph/i2c.h"
-#include "dspic30/periph/kept_registers.h"
-#include "dspic30/periph/nvm.h"
-#include "dspic30/periph/ports.h"
-#include "dspic30/periph/spi.h"
-#include "dspic30/periph/system_control.h"
-#include "dspic30/periph/timers.h"
-#include "dspic30/periph/uart.h"
+#include "dspic30/device/chip_parts.h"
 
 namespace dspic {
 
 namespace {
 
-constexpr unsigned kIfs0 = 0x084, kIec0 = 0x08C, kAdcon1 = 0x2A0, kAdpcfg = 0x2A8, kFirstPort = 0x2C0,
-                   kLastPort = 0x2E8, kBsram = 0x750, kSsram = 0x752, kPmd1 = 0x770, kPmd2 = 0x772,
-                   kPmd3 = 0x774;
+constexpr unsigned kIfs0 = 0x084, kIec0 = 0x08C;
 
 }  // namespace
 
-struct Dspic30f6014a::Parts {
-  Parts(Outside& outside, DiagnosticSink* sink, const Configuration& c)
-      : configuration(c),
-        diagnostics(sink),
-        bus(diagnostics, c.warn_uninitialised),
-        interrupts(diagnostics),
-        fabric{outside, bus, events, interrupts, ports, diagnostics, c.fcy_hz},
-        ports(fabric, c.synchronised_ports),
-        timers(fabric),
-        adc(fabric, timers),
-        uarts{Uart(fabric, 1), Uart(fabric, 2)},
-        i2c(fabric),
-        dci(fabric),
-        external(fabric, adc),
-        change(fabric),
-        capture(fabric, timers),
-        compare(fabric, timers),
-        spis{Spi(fabric, 1), Spi(fabric, 2)},
-        system(fabric, c.fosc, c.fwdt),
-        nvm(fabric),
-        cans{Can(fabric, 1), Can(fabric, 2)},
-        cpu(fabric),
-        plain(fabric) {
-    cpu.attach();
-    interrupts.attach(bus);
-    change.attach();
-    timers.attach();
-    capture.attach();
-    compare.attach();
-    i2c.attach();
-    for (Uart& u : uarts) u.attach();
-    for (Spi& s : spis) s.attach();
-    dci.attach();
-    adc.attach();
-    ports.attach();
-    external.attach();
-    for (Can& c : cans) c.attach();
-    system.attach();
-    plain.attach(kBsram, kSsram);
-    nvm.attach();
-    plain.attach(kPmd1, kPmd3);
-    bus.mark_unmodelled(kBsram, 0x0007);
-    bus.mark_unmodelled(kSsram, 0x0007);
-  }
-
-  Configuration configuration;
-  Diagnostics diagnostics;
-  SfrBus bus;
-  Events events;
-  Interrupts interrupts;
-  Fabric fabric;
-  Ports ports;
-  Timers timers;
-  Adc adc;
-  std::array<Uart, 2> uarts;
-  I2c i2c;
-  Dci dci;
-  ExternalInterrupts external;
-  ChangeNotification change;
-  InputCapture capture;
-  OutputCompare compare;
-  std::array<Spi, 2> spis;
-  SystemControl system;
-  Nvm nvm;
-  std::array<Can, 2> cans;
-  CpuRegisters cpu;
-  PlainRegisters plain;
-
-  // apart from the usual read, which then keeps nothing on the stack
-  __attribute__((noinline)) std::uint16_t read_after_events(unsigned address, unsigned bits, Cycle now) {
-    events.run_to(now);
-    return bus.read(address, bits, now);
-  }
-  void write_beyond(unsigned address, std::uint16_t value, unsigned bits, Cycle now);
-  void switch_modules(std::uint16_t pmd1, std::uint16_t pmd2, Cycle now);
-  std::uint16_t pmd1 = 0, pmd2 = 0;
-};
-
 // A module that is switched off forgets everything and answers 0.
-void Dspic30f6014a::Parts::switch_modules(std::uint16_t next1, std::uint16_t next2, Cycle now) {
+void ChipParts::switch_modules(std::uint16_t next1, std::uint16_t next2, Cycle now) {
   const auto turned = [&](std::uint16_t before, std::uint16_t next, int bit) {
     return ((before ^ next) >> bit & 1) != 0;
   };
@@ -143,14 +52,14 @@ void Dspic30f6014a::Parts::switch_modules(std::uint16_t next1, std::uint16_t nex
 }
 
 Dspic30f6014a::Dspic30f6014a(Outside& outside, DiagnosticSink* sink, const Configuration& configuration)
-    : parts_(std::make_unique<Parts>(outside, sink, configuration)) {
+    : parts_(std::make_unique<ChipParts>(outside, sink, configuration)) {
   reset(ResetKind::PowerOn, 0);
 }
 
 Dspic30f6014a::~Dspic30f6014a() = default;
 
 void Dspic30f6014a::reset(ResetKind kind, Cycle now) {
-  Parts& p = *parts_;
+  ChipParts& p = *parts_;
   p.events.run_to(now);
   if (kind == ResetKind::PowerOn) p.bus.forget_writes();
   p.switch_modules(0, 0, now);
@@ -176,30 +85,33 @@ void Dspic30f6014a::reset(ResetKind kind, Cycle now) {
 // --- registers --------------------------------------------------------------------------------------------
 
 std::uint16_t Dspic30f6014a::read(unsigned address, unsigned bits, Cycle now) {
-  Parts& p = *parts_;
-  if (p.events.next() <= now) return p.read_after_events(address, bits, now);
-  p.events.run_to(now);
-  return p.bus.read(address, bits, now);
+  return parts_->read(address, bits, now);
 }
 
 Cycle Dspic30f6014a::write(unsigned address, std::uint16_t value, unsigned bits, Cycle now) {
-  Parts& p = *parts_;
-  p.events.run_to(now);
-  p.events.forget_changes();
-  p.interrupts.forget_stir();
-  if (address >= kIfs0 && address < kIec0)  // a handler lowers its flag: the most frequent write
-    p.bus.write(address, value, bits, now);
-  else
-    p.write_beyond(address, value, bits, now);
-  return p.interrupts.stirred() || p.events.was_put_off() ? 0 : p.events.earliest();
+  return parts_->write(address, value, bits, now);
 }
 
-// what a write means to others than the register's owner
-void Dspic30f6014a::Parts::write_beyond(unsigned address, std::uint16_t value, unsigned bits, Cycle now) {
+Cycle ChipParts::modify_latch(int port, unsigned address, std::uint16_t keep, std::uint16_t flip, Cycle now) {
+  begin_write(now);
+  const auto value = static_cast<std::uint16_t>((ports.latch(port) & keep) ^ flip);
+  const std::uint16_t stored = bus.accept_plain(address, value);
+  adc.advance(now);
+  ports.write_latch(port, stored, now);
+  return end_write();
+}
+
+void ChipParts::write_beyond(unsigned address, std::uint16_t value, unsigned bits, Cycle now) {
   const unsigned word = address & ~1u;
-  // inputs held up to now saw the pins as they were
-  if ((word >= kFirstPort && word <= kLastPort) || word == kAdpcfg) adc.advance(now);
-  bus.write(address, value, bits, now);
+  const SfrBus::Store store = bus.accept(address, value, bits, now);
+  if (!store.owner) return;
+  if ((word >= kFirstPort && word <= kLastPort) || word == kAdpcfg) {
+    adc.advance(now);  // inputs held up to now saw the pins as they were
+    const int latch = Ports::latch_at(word);
+    if (latch >= 0 && store.lanes == 0xFFFF) return ports.write_latch(latch, store.value, now);
+    return ports.write(word, store.value, store.lanes, now);
+  }
+  store.owner->write(word, store.value, store.lanes, now);
   if (word == kAdcon1) external.converter_changed(now);
   if (word == kPmd1 || word == kPmd2) switch_modules(plain.word(kPmd1), plain.word(kPmd2), now);
 }
@@ -210,7 +122,7 @@ std::uint16_t Dspic30f6014a::peek(unsigned address, Cycle now) {
 }
 
 Cycle Dspic30f6014a::horizon(unsigned address, Cycle now) {
-  Parts& p = *parts_;
+  ChipParts& p = *parts_;
   p.events.run_to(now);
   const unsigned word = address & ~1u;
   Cycle until = p.bus.horizon(word, now);
@@ -231,7 +143,7 @@ int Dspic30f6014a::register_address(const std::string& name) {
 // --- time -------------------------------------------------------------------------------------------------
 
 void Dspic30f6014a::run_to(Cycle now) {
-  Parts& p = *parts_;
+  ChipParts& p = *parts_;
   p.events.run_to(now);
   p.adc.advance(now);
   p.dci.advance(now);
@@ -242,7 +154,7 @@ void Dspic30f6014a::run_events(Cycle now) { parts_->events.run_to(now); }
 void Dspic30f6014a::watch(EventWatch* watch) { parts_->events.watch(watch); }
 
 Cycle Dspic30f6014a::next_event(Cycle now) {
-  Parts& p = *parts_;
+  ChipParts& p = *parts_;
   p.events.run_to(now);
   const Cycle next =
       std::min(p.events.next_notice(p.interrupts.enabled_mask()), p.interrupts.next_change(now));
@@ -250,7 +162,7 @@ Cycle Dspic30f6014a::next_event(Cycle now) {
 }
 
 void Dspic30f6014a::outside_changed(Cycle now) {
-  Parts& p = *parts_;
+  ChipParts& p = *parts_;
   run_to(now);
   p.timers.outside_changed(now);
   p.external.outside_changed(now);
@@ -265,19 +177,7 @@ void Dspic30f6014a::uart_receive(int uart, const UartFrame& frame) {
 
 // --- interrupts -------------------------------------------------------------------------------------------
 
-Outlook Dspic30f6014a::look(Cycle now) {
-  Parts& p = *parts_;
-  p.events.run_to(now);
-  Outlook outlook;
-  outlook.level = p.interrupts.level();
-  outlook.disi = p.interrupts.disi_active(now);
-  outlook.vector = p.interrupts.pending(now, outlook.level);
-  outlook.reset_due = p.system.watchdog_bit() || p.interrupts.reset_due().has_value();
-  if (outlook.vector != kNoVector) return outlook;
-  outlook.quiet_until = std::max(
-      now + 1, std::min(p.events.next_notice(p.interrupts.enabled_mask()), p.interrupts.next_change(now)));
-  return outlook;
-}
+Outlook Dspic30f6014a::look(Cycle now) { return parts_->look(now); }
 
 int Dspic30f6014a::pending(Cycle now) { return pending(now, parts_->interrupts.level()); }
 
@@ -291,11 +191,7 @@ InterruptEntry Dspic30f6014a::enter_interrupt(int vector, Cycle now) {
 }
 Cycle Dspic30f6014a::return_from_interrupt(Cycle now) { return parts_->interrupts.leave(now); }
 
-Cycle Dspic30f6014a::calm_until(Cycle now, int served) {
-  Parts& p = *parts_;
-  if (!p.interrupts.has_no_other(served) || p.events.next() <= now) return 0;
-  return p.events.next_notice(p.interrupts.enabled_mask());
-}
+Cycle Dspic30f6014a::calm_until(Cycle now, int served) { return parts_->calm_until(now, served); }
 int Dspic30f6014a::cpu_level() const { return parts_->interrupts.level(); }
 void Dspic30f6014a::set_cpu_level(int level, Cycle now) { parts_->interrupts.set_level(level, now); }
 int Dspic30f6014a::nesting() const { return parts_->interrupts.nesting(); }

@@ -29,6 +29,7 @@
 namespace dspic {
 
 class EventWatch;
+struct ChipParts;
 
 /// Configuration words and what else is fixed while the chip is powered. Defaults are the e-puck's.
 struct Configuration {
@@ -171,9 +172,11 @@ class Dspic30f6014a {
   /// Hash of all registers and FIFOs, for determinism checks. Not cheap.
   std::uint64_t state_hash(Cycle now);
 
+  /// For a host that includes chip_parts.h.
+  ChipParts& parts() { return *parts_; }
+
  private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
+  std::unique_ptr<ChipParts> parts_;
 };
 
 }  // namespace dspic

@@ -51,12 +51,36 @@ class SfrBus {
     return owner->read(address & ~1u, now);
   }
 
+  /// Who answers a read of the word at `address` without further ado; null: read() knows.
+  SfrOwner* reader(unsigned address) const { return address < kSfrBytes ? readers_[address / 2] : nullptr; }
+
   void write(unsigned address, std::uint16_t value, unsigned bits, Cycle now) {
+    const Store store = accept(address, value, bits, now);
+    if (store.owner) store.owner->write(address & ~1u, store.value, store.lanes, now);
+  }
+
+  /// The bus's half of write(); whoever calls it gives the rest to the owner. No owner: nothing to do.
+  struct Store {
+    SfrOwner* owner;
+    std::uint16_t value, lanes;
+  };
+  /// accept() of a word at an even address that reader() has an owner for, and of which all bits are
+  /// modelled: the bits that exist.
+  std::uint16_t accept_plain(unsigned address, std::uint16_t value) {
     ++writes_;
-    if (address >= kSfrBytes) return;
     Slot& slot = slots_[address / 2];
-    if (!slot.owner) return warn_of_hole(address, now);
-    if (slot.disabled) return;
+    slot.undefined = false;
+    return value & slot.implemented;
+  }
+  Store accept(unsigned address, std::uint16_t value, unsigned bits, Cycle now) {
+    ++writes_;
+    if (address >= kSfrBytes) return {nullptr, 0, 0};
+    Slot& slot = slots_[address / 2];
+    if (!slot.owner) {
+      warn_of_hole(address, now);
+      return {nullptr, 0, 0};
+    }
+    if (slot.disabled) return {nullptr, 0, 0};
     std::uint16_t lanes = 0xFFFF;
     if (bits <= 8) {
       lanes = (address & 1) ? 0xFF00 : 0x00FF;
@@ -65,7 +89,7 @@ class SfrBus {
     slot.undefined = false;
     value &= slot.implemented;
     if (value & slot.unmodelled) warn(slot, value & slot.unmodelled, now);
-    slot.owner->write(address & ~1u, value, lanes, now);
+    return {slot.owner, value, lanes};
   }
 
   std::uint16_t peek(unsigned address, Cycle now) const;

@@ -8,7 +8,7 @@ namespace dspic {
 
 namespace {
 
-constexpr unsigned kBuffer = 0x280, kCon1 = 0x2A0, kCon2 = 0x2A2, kCon3 = 0x2A4, kChs = 0x2A6, kCssl = 0x2AA;
+constexpr unsigned kCon1 = 0x2A0, kCon2 = 0x2A2, kCon3 = 0x2A4, kChs = 0x2A6, kCssl = 0x2AA;
 constexpr std::uint16_t kDone = 0x0001, kSamp = 0x0002, kAdon = 0x8000, kBufs = 0x0080, kCscna = 0x0400,
                         kAlts = 0x0001, kBufm = 0x0002, kAdrc = 0x0080;
 constexpr int kConversionTads = 14;       // [chip P4]
@@ -110,19 +110,6 @@ void Adc::finish() {
   if (asam()) start_sampling(conversion_end_);
 }
 
-inline std::uint16_t Adc::formatted(int counts) const {
-  switch (con1_ >> 8 & 3) {
-    case 1:
-      return static_cast<std::uint16_t>(counts - 2048);
-    case 2:
-      return static_cast<std::uint16_t>(counts << 4);
-    case 3:
-      return static_cast<std::uint16_t>((counts ^ 0x800) << 4);
-    default:
-      return static_cast<std::uint16_t>(counts);
-  }
-}
-
 // --- cruising ---------------------------------------------------------------------------------------------
 
 bool Adc::is_regular() const {
@@ -144,6 +131,8 @@ void Adc::start_cruising(Half at) {
     cruise_.channel[static_cast<std::size_t>(i)] =
         static_cast<std::uint8_t>(scanned ? __builtin_ctz(left) : chs_ & 15);
     left &= static_cast<std::uint16_t>(left - 1);
+    cruise_.held[static_cast<std::size_t>(i)] = i * cruise_.cycle + cruise_.sample;
+    cruise_.done[static_cast<std::size_t>(i)] = (i + 1) * cruise_.cycle;
   }
   result_of_.fill(-1);
 }
@@ -169,27 +158,13 @@ void Adc::stop_cruising(Cycle now) {
   advance(now);
 }
 
-Adc::Half Adc::held_instant(int slot, Cycle now) const {
-  if (slot >= cruise_.count) return -1;
-  const Half in_sequence = slot * cruise_.cycle;
-  const bool done = cruise_.start + in_sequence + cruise_.cycle <= 2 * now;
-  const Half start = done ? cruise_.start : cruise_.start - cruise_.sequence;
-  return start < cruise_.first ? -1 : start + in_sequence + cruise_.sample;
-}
-
-inline std::uint16_t Adc::cruised_result(int channel, Half held) const {
-  return formatted(std::clamp(f_.outside.analogue_counts(channel, held / 2), 0, 4095));
-}
-
 std::uint16_t Adc::slot_now(int slot, Cycle now) const {
   const auto s = static_cast<std::size_t>(slot);
   const Half held = held_instant(slot, now);
   return held < 0 || result_of_[s] == held ? buffer_[s] : cruised_result(cruise_.channel[s], held);
 }
 
-void Adc::advance(Cycle now) {
-  if (!on()) return;
-  if (cruising_) return cruise(now);
+void Adc::advance_by_stages(Cycle now) {
   // a stage that ends within a cycle is over in the next one
   for (Half stage = next_stage(); !cruising_ && up(stage) <= now; stage = next_stage()) {
     if (converting_)
@@ -222,9 +197,13 @@ void Adc::on_event(int id, Cycle at) {
   if (cruising_ && flag_at_ == kNever && up(end) + kEndToFlag == at) {
     // one sequence as the one before: what the rest of this function and schedule() come to
     cruise_.start = end;
-    f_.interrupts.raise(irq::Adc, at);
-    return f_.events.set(slot_, up(end + cruise_.sequence) + kEndToFlag);
+    f_.events.fill(slot_, up(end + cruise_.sequence) + kEndToFlag);
+    return f_.interrupts.raise(irq::Adc, at);
   }
+  irregular_event(at);
+}
+
+void Adc::irregular_event(Cycle at) {
   advance(at - kEndToFlag);  // what ended in the cycle before raises the flag now
   if (flag_at_ <= at) {
     f_.interrupts.raise(irq::Adc, at);
@@ -247,18 +226,15 @@ void Adc::int0_edge(Cycle at) {
 
 // --- registers --------------------------------------------------------------------------------------------
 
+std::uint16_t Adc::read_irregularly(int slot, Cycle now) {
+  advance(now);
+  return cruising_ ? slot_now(slot, now) : buffer_[static_cast<std::size_t>(slot)];
+}
+
 std::uint16_t Adc::read(unsigned address, Cycle now) {
-  if (!cruising_ || address >= kCon1) {
-    advance(now);
-    return peek(address, now);
-  }
-  if (cruise_.start + cruise_.sequence <= 2 * now) cruise(now);
-  const auto slot = static_cast<int>(address - kBuffer) / 2;
-  const auto s = static_cast<std::size_t>(slot);
-  const Half held = held_instant(slot, now);
-  if (held < 0 || result_of_[s] == held) return buffer_[s];
-  result_of_[s] = held;
-  return buffer_[s] = cruised_result(cruise_.channel[s], held);
+  if (address < kBufferEnd) return read_result(static_cast<int>(address - kBuffer) / 2, now);
+  advance(now);
+  return peek(address, now);
 }
 
 std::uint16_t Adc::peek(unsigned address, Cycle now) const {

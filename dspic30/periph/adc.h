@@ -13,6 +13,7 @@
 // ADIF one cycle after the end, one TAD between clearing SAMP and the conversion, scan position when SMPI+1
 // differs from the number of inputs.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -26,11 +27,22 @@ class Adc final : public SfrOwner, public EventOwner, public TimerListener {
   void attach();
   void reset(Cycle now);
   /// Inputs held up to `now` have been asked for: before pins or the outside change.
-  void advance(Cycle now);
+  void advance(Cycle now) {
+    if (!on()) return;
+    if (cruising_) {
+      if (2 * now - cruise_.start >= cruise_.sequence) cruise(now);
+    } else {
+      advance_by_stages(now);
+    }
+  }
   /// Edge of INT0's active polarity.
   void int0_edge(Cycle at);
   bool wants_int0() const { return sampling_ && ssrc() == 1; }
 
+  static constexpr unsigned kBuffer = 0x280, kBufferEnd = 0x2A0;  ///< ADCBUF0 to F
+  /// read() of ADCBUF`slot`.
+  std::uint16_t read_result(int slot, Cycle now);
+  __attribute__((noinline)) std::uint16_t read_irregularly(int slot, Cycle now);
   std::uint16_t read(unsigned address, Cycle now) override;
   void write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycle now) override;
   std::uint16_t peek(unsigned address, Cycle now) const override;
@@ -52,6 +64,8 @@ class Adc final : public SfrOwner, public EventOwner, public TimerListener {
   bool is_regular() const;
   void start_cruising(Half at);
   void cruise(Cycle now);
+  void advance_by_stages(Cycle now);
+  __attribute__((noinline)) void irregular_event(Cycle at);
   void stop_cruising(Cycle now);
   /// Instant at which what a slot of the buffer holds at `now` was held; -1: before the cruise, or never.
   Half held_instant(int slot, Cycle now) const;
@@ -100,10 +114,48 @@ class Adc final : public SfrOwner, public EventOwner, public TimerListener {
     Half sample = 0, cycle = 1, sequence = 1;  // sampling; one conversion with it; all of a sequence
     int count = 0;                             // conversions in a sequence
     std::array<std::uint8_t, 16> channel{};
-    Half first = 0;  // start of the first sequence
-    Half start = 0;  // of the one under way
+    std::array<Half, 16> held{}, done{};  // instants of a slot within its sequence
+    Half first = 0;                       // start of the first sequence
+    Half start = 0;                       // of the one under way
   } cruise_;
   std::array<Half, 16> result_of_{};  // instant at which what stands in the buffer was held
 };
+
+// --- results of a cruise, what handlers read most ---------------------------------------------------------
+
+inline std::uint16_t Adc::formatted(int counts) const {
+  switch (con1_ >> 8 & 3) {
+    case 1:
+      return static_cast<std::uint16_t>(counts - 2048);
+    case 2:
+      return static_cast<std::uint16_t>(counts << 4);
+    case 3:
+      return static_cast<std::uint16_t>((counts ^ 0x800) << 4);
+    default:
+      return static_cast<std::uint16_t>(counts);
+  }
+}
+
+inline std::uint16_t Adc::cruised_result(int channel, Half held) const {
+  return formatted(std::clamp(f_.outside.analogue_counts(channel, held / 2), 0, 4095));
+}
+
+inline Adc::Half Adc::held_instant(int slot, Cycle now) const {
+  if (slot >= cruise_.count) return -1;
+  const auto s = static_cast<std::size_t>(slot);
+  const bool done = cruise_.start + cruise_.done[s] <= 2 * now;
+  const Half start = done ? cruise_.start : cruise_.start - cruise_.sequence;
+  return start < cruise_.first ? -1 : start + cruise_.held[s];
+}
+
+__attribute__((always_inline)) inline std::uint16_t Adc::read_result(int slot, Cycle now) {
+  const auto s = static_cast<std::size_t>(slot);
+  if (!cruising_) return read_irregularly(slot, now);
+  if (cruise_.start + cruise_.sequence <= 2 * now) cruise(now);
+  const Half held = held_instant(slot, now);
+  if (held < 0 || result_of_[s] == held) return buffer_[s];
+  result_of_[s] = held;
+  return buffer_[s] = cruised_result(cruise_.channel[s], held);
+}
 
 }  // namespace dspic

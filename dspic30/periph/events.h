@@ -45,10 +45,13 @@ class Events {
     const std::uint64_t bit = std::uint64_t{1} << s;
     active_ = at < kNever ? active_ | bit : active_ & ~bit;
     if (noticed_ & bit) {
-      if (at < before)
+      if (at < before) {
         earliest_ = std::min(earliest_, at + delay(slot));
-      else
+        notice_ = std::min(notice_, at + delay(slot));
+      } else {
         put_off_ = true;
+        notice_known_ &= notice_ != before + delay(slot);
+      }
     }
     if (at < next_)
       next_ = at;
@@ -61,6 +64,20 @@ class Events {
   void run_to(Cycle now) {
     if (next_ <= now) serve_to(now);
     reached_ = std::max(reached_, now);
+  }
+  /// run_to() where it is already known that next() > now.
+  void pass_to(Cycle now) { reached_ = std::max(reached_, now); }
+  /// set() of a slot that is empty, as in its own on_event(), to an instant that comes.
+  void fill(int slot, Cycle at) {
+    const auto s = static_cast<std::size_t>(slot);
+    const std::uint64_t bit = std::uint64_t{1} << s;
+    when_[s] = at;
+    active_ |= bit;
+    if (noticed_ & bit) {
+      earliest_ = std::min(earliest_, at + delay(slot));
+      notice_ = std::min(notice_, at + delay(slot));
+    }
+    next_ = std::min(next_, at);
   }
   /// Null: nobody.
   void watch(EventWatch* watch) { watch_ = watch; }
@@ -80,12 +97,8 @@ class Events {
   /// after a slot that may set one of these flags.
   Cycle next_notice(std::uint64_t irqs) {
     if (irqs != noticed_irqs_) find_noticed(irqs);
-    Cycle next = kNever;
-    for (std::uint64_t rest = active_ & noticed_; rest; rest &= rest - 1) {
-      const int s = __builtin_ctzll(rest);
-      next = std::min(next, when_[static_cast<std::size_t>(s)] + delay(s));
-    }
-    return next;
+    if (!notice_known_) find_notice();
+    return notice_;
   }
   /// Earliest instant of a slot that may set one of these flags.
   Cycle next_for(std::uint64_t irqs) const {
@@ -104,6 +117,15 @@ class Events {
     noticed_ = outward_;
     for (int s = 0; s < count_; ++s)
       if (slots_[static_cast<std::size_t>(s)].irqs & irqs) noticed_ |= std::uint64_t{1} << s;
+    notice_known_ = false;
+  }
+  void find_notice() {
+    notice_known_ = true;
+    notice_ = kNever;
+    for (std::uint64_t rest = active_ & noticed_; rest; rest &= rest - 1) {
+      const int s = __builtin_ctzll(rest);
+      notice_ = std::min(notice_, when_[static_cast<std::size_t>(s)] + delay(s));
+    }
   }
   void refresh() {
     next_ = kNever;
@@ -114,14 +136,29 @@ class Events {
     while (next_ <= now) serve();
   }
   void serve() {
-    std::uint64_t rest = active_;
-    while (when_[static_cast<std::size_t>(__builtin_ctzll(rest))] != next_) rest &= rest - 1;
-    const int slot = __builtin_ctzll(rest);
     const Cycle at = next_;
-    const Slot& first = slots_[static_cast<std::size_t>(slot)];
     if (watch_) watch_->about_to_change(at);
-    set(slot, kNever);
-    first.owner->on_event(first.id, at);
+    // the first slot of this instant, and what comes after it
+    std::size_t slot = kMostSlots;
+    Cycle next = kNever, notice = kNever;
+    for (std::uint64_t rest = active_; rest; rest &= rest - 1) {
+      const int s = __builtin_ctzll(rest);
+      const Cycle when = when_[static_cast<std::size_t>(s)];
+      if (when == at && slot == kMostSlots) {
+        slot = static_cast<std::size_t>(s);
+        continue;
+      }
+      next = std::min(next, when);
+      if (noticed_ >> s & 1) notice = std::min(notice, when + delay(s));
+    }
+    const std::uint64_t bit = std::uint64_t{1} << slot;
+    next_ = next;
+    notice_ = notice;
+    notice_known_ = true;
+    put_off_ |= (noticed_ & bit) != 0;
+    when_[slot] = kNever;
+    active_ &= ~bit;
+    slots_[slot].owner->on_event(slots_[slot].id, at);
   }
 
   struct Slot {
@@ -135,6 +172,8 @@ class Events {
   std::uint64_t outward_ = 0;  // slots that act outwards
   // of next_notice(), for the flags of its last call; at the beginning for none
   std::uint64_t noticed_ = 0, noticed_irqs_ = ~std::uint64_t{0};
+  Cycle notice_ = kNever;  // its answer, while it is known
+  bool notice_known_ = false;
   int count_ = 0;
   Cycle next_ = kNever;
   Cycle reached_ = 0;

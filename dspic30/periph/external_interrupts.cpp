@@ -121,6 +121,7 @@ void ChangeNotification::attach() {
 void ChangeNotification::reset(Cycle now) {
   enabled_ = pull_ups_ = 0;
   levels_.fill(0);
+  f_.ports.set_hearing(*this, false);
   f_.events.set(slot_, kNever);
   f_.events.set(flag_slot_, kNever);
 }
@@ -191,6 +192,7 @@ void ChangeNotification::write(unsigned address, std::uint16_t value, std::uint1
       f_.ports.set_pull_ups(static_cast<Port>(p), pull[static_cast<std::size_t>(p)]);
     return;
   }
+  f_.ports.set_hearing(*this, enabled_ != 0);
   // a newly watched pin starts from its present level
   for (int n = 0; n < kCnInputs; ++n)
     if ((enabled_ & ~before) >> n & 1) {

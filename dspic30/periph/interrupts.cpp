@@ -13,9 +13,6 @@ namespace {
 constexpr unsigned kIntcon1 = 0x080, kIntcon2 = 0x082, kIfs0 = 0x084, kIec0 = 0x08C, kIpc0 = 0x094,
                    kInttreg = 0x0B0;
 constexpr int kDefaultPriority = 4;
-// a write that follows the read of the same flags within this many cycles is the second half of one
-// instruction
-constexpr Cycle kReadModifyWrite = 3;
 // returns in a row with the flag untouched before it is taken for a mistake
 constexpr int kUnclearedReturns = 2;
 // of a hard trap, 13 or 14
@@ -116,17 +113,6 @@ void Interrupts::reset(Cycle now) {
 
 // --- flags -------------------------------------------------------------------------------------------------
 
-void Interrupts::raise(int irq, Cycle at, bool is_event) {
-  if (flag(irq)) {
-    if (is_event) note_missed(irq, 1, at);
-    return;
-  }
-  ifs_ |= std::uint64_t{1} << irq;
-  since_[static_cast<std::size_t>(irq)] = at;
-  newest_ = std::max(newest_, at);
-  stirred_ = true;
-}
-
 void Interrupts::note_missed(int irq, std::int64_t events, Cycle at) {
   if (events <= 0 || !enabled(irq)) return;
   auto& missed = missed_[static_cast<std::size_t>(irq)];
@@ -141,35 +127,19 @@ void Interrupts::note_missed(int irq, std::int64_t events, Cycle at) {
   missed += events;
 }
 
-void Interrupts::write_flags(int word, std::uint16_t value, std::uint16_t lanes, Cycle now) {
-  const int shift = 16 * word;
-  const auto mask = static_cast<std::uint64_t>(lanes) << shift;
-  std::uint64_t wanted = (ifs_ & ~mask) | ((static_cast<std::uint64_t>(value) << shift) & mask);
-  std::uint64_t cleared = ifs_ & ~wanted;
-  // what the hardware set after the program's read is not in the value that it writes back
-  const Cycle read = flags_read_[static_cast<std::size_t>(word)];
-  if (cleared && newest_ > read && now - read <= kReadModifyWrite) {
-    for (std::uint64_t rest = cleared; rest; rest &= rest - 1) {
-      const int i = __builtin_ctzll(rest);
-      if (since_[static_cast<std::size_t>(i)] > read) wanted |= std::uint64_t{1} << i;
-    }
-    cleared = ifs_ & ~wanted;
+std::uint64_t Interrupts::younger_than(Cycle read, std::uint64_t flags) const {
+  std::uint64_t younger = 0;
+  for (; flags; flags &= flags - 1) {
+    const int i = __builtin_ctzll(flags);
+    if (since_[static_cast<std::size_t>(i)] > read) younger |= std::uint64_t{1} << i;
   }
-  const std::uint64_t set = wanted & ~ifs_;
-  ifs_ = wanted;
-  for (std::uint64_t rest = set; rest; rest &= rest - 1)
-    since_[static_cast<std::size_t>(__builtin_ctzll(rest))] = now + 1;
-  if (set) {
-    newest_ = std::max(newest_, now + 1);
-    stirred_ = true;
-  }
-  for (std::uint64_t rest = cleared; rest; rest &= rest - 1) {
-    const int i = __builtin_ctzll(rest);
-    for (Frame& frame : stack_)
-      if (frame.vector == kFirstIrqVector + i) frame.cleared = true;
-    uncleared_[static_cast<std::size_t>(i)] = 0;
-    if (FlagListener* listener = listeners_[static_cast<std::size_t>(i)]) listener->flag_cleared(i, now);
-  }
+  return younger;
+}
+
+void Interrupts::set_by_program(std::uint64_t flags, Cycle now) {
+  for (; flags; flags &= flags - 1) since_[static_cast<std::size_t>(__builtin_ctzll(flags))] = now + 1;
+  newest_ = std::max(newest_, now + 1);
+  stirred_ = true;
 }
 
 void Interrupts::set_priority(int irq, int priority) {
@@ -181,11 +151,10 @@ void Interrupts::set_priority(int irq, int priority) {
 
 // --- acceptance --------------------------------------------------------------------------------------------
 
-void Interrupts::check_cleared(const Frame& frame, Cycle now) {
-  const int i = frame.vector - kFirstIrqVector;
-  if (frame.cleared || !flag(i) || !enabled(i) || since(i) > frame.entered) return;
+void Interrupts::check_cleared(int i, Cycle entered, Cycle now) {
+  if (!flag(i) || !enabled(i) || since(i) > entered) return;
   if (++uncleared_[static_cast<std::size_t>(i)] != kUnclearedReturns) return;
-  const std::string name = vector_name(frame.vector);
+  const std::string name = vector_name(kFirstIrqVector + i);
   const std::string bit = sfr_bit_name(*sfr_info(kIfs0 + 2 * static_cast<unsigned>(i / 16)), i % 16);
   diagnostics_.report(Cause::FlagNeverCleared, name,
                       "_" + name + "Interrupt returns without clearing " + bit +
@@ -215,8 +184,7 @@ void Interrupts::raise_trap(Trap trap, Cycle now) {
 
 std::uint16_t Interrupts::read(unsigned address, Cycle now) {
   if (address < kIfs0 || address >= kIec0) return peek(address, now);
-  flags_read_[(address - kIfs0) / 2] = now;
-  return static_cast<std::uint16_t>(ifs_ >> 8 * (address - kIfs0));
+  return read_flags(static_cast<int>(address - kIfs0) / 2, now);
 }
 
 std::uint16_t Interrupts::peek(unsigned address, Cycle now) const {

@@ -41,7 +41,17 @@ class Interrupts final : public SfrOwner {
 
   // --- for peripherals
   /// The flag is set at `at`. `is_event`: one raise stands for one event, so that a second one is a loss.
-  void raise(int irq, Cycle at, bool is_event = true);
+  void raise(int irq, Cycle at, bool is_event = true) {
+    const std::uint64_t bit = std::uint64_t{1} << irq;
+    if (ifs_ & bit) {
+      if (is_event) note_missed(irq, 1, at);
+      return;
+    }
+    ifs_ |= bit;
+    since_[static_cast<std::size_t>(irq)] = at;
+    newest_ = std::max(newest_, at);
+    stirred_ = true;
+  }
   /// Events that passed unseen while the flag was set; for sources that did not raise() them one by one.
   void note_missed(int irq, std::int64_t events, Cycle at);
   bool flag(int irq) const { return (ifs_ >> irq & 1) != 0; }
@@ -54,6 +64,26 @@ class Interrupts final : public SfrOwner {
 
   // --- for the processor
   int pending(Cycle now, int cpu_level) const;
+  /// IRQ that pending() names where it is the only enabled one whose flag is set, and nothing holds it off
+  /// for a moment; -1: pending() knows.
+  int sole_pending(Cycle now) const {
+    const std::uint64_t ready = ifs_ & iec_;
+    if (!ready || (ready & (ready - 1)) || newest_ >= now || disi_active(now) || now <= resumed_ ||
+        (intcon1_ & 0x001E))
+      return -1;
+    const int i = __builtin_ctzll(ready);
+    return priority(i) > level_ ? i : -1;
+  }
+  /// enter() for that one; its handler's first instruction.
+  Cycle enter_sole(int irq, Cycle now) {
+    const int level = nesting_disabled() ? 7 : priority(irq), vector = kFirstIrqVector + irq;
+    stack_.emplace_back(vector, level_, now);
+    level_ = level;
+    last_vector_ = static_cast<std::uint16_t>(vector);
+    last_level_ = static_cast<std::uint16_t>(level);
+    ++served_[static_cast<std::size_t>(vector)];
+    return now + kInterruptEntryCycles;
+  }
   /// Earliest cycle > now at which pending() changes without a new flag.
   Cycle next_change(Cycle now) const;
   InterruptEntry enter(int vector, Cycle now);
@@ -82,6 +112,14 @@ class Interrupts final : public SfrOwner {
   bool stirred() const { return stirred_; }
   void forget_stir() { stirred_ = false; }
 
+  // --- flags of IFS0 to 2, what handlers touch most
+  std::uint16_t read_flags(int word, Cycle now) {
+    flags_read_[static_cast<std::size_t>(word)] = now;
+    return static_cast<std::uint16_t>(ifs_ >> 16 * word);
+  }
+  /// `value` holds bits that exist.
+  void write_flags(int word, std::uint16_t value, std::uint16_t lanes, Cycle now);
+
   std::int64_t missed(int irq) const { return missed_[static_cast<std::size_t>(irq)]; }
   std::int64_t served(int vector) const { return served_[static_cast<std::size_t>(vector)]; }
 
@@ -97,10 +135,12 @@ class Interrupts final : public SfrOwner {
     int outer_level;
     bool cleared;  // software cleared the flag since
     Cycle entered;
+    Frame(int v, int outer, Cycle at) : vector(v), outer_level(outer), cleared(false), entered(at) {}
   };
-  void write_flags(int word, std::uint16_t value, std::uint16_t lanes, Cycle now);
+  std::uint64_t younger_than(Cycle read, std::uint64_t flags) const;
+  void set_by_program(std::uint64_t flags, Cycle now);
   void set_priority(int irq, int priority);
-  void check_cleared(const Frame& frame, Cycle now);
+  __attribute__((noinline)) void check_cleared(int irq, Cycle entered, Cycle now);
 
   Diagnostics& diagnostics_;
   std::array<FlagListener*, kIrqs> listeners_{};
@@ -164,7 +204,34 @@ inline Cycle Interrupts::next_change(Cycle now) const {
   return std::max(next, now + 1);
 }
 
-inline InterruptEntry Interrupts::enter(int vector, Cycle now) {
+// a write that follows the read of the same flags within this many cycles is the second half of one
+// instruction
+inline constexpr Cycle kReadModifyWrite = 3;
+
+__attribute__((always_inline)) inline void Interrupts::write_flags(int word, std::uint16_t value,
+                                                                   std::uint16_t lanes, Cycle now) {
+  const int shift = 16 * word;
+  const auto mask = static_cast<std::uint64_t>(lanes) << shift;
+  std::uint64_t wanted = (ifs_ & ~mask) | ((static_cast<std::uint64_t>(value) << shift) & mask);
+  std::uint64_t cleared = ifs_ & ~wanted;
+  // what the hardware set after the program's read is not in the value that it writes back
+  const Cycle read = flags_read_[static_cast<std::size_t>(word)];
+  if (cleared && newest_ > read && now - read <= kReadModifyWrite) {
+    wanted |= younger_than(read, cleared);
+    cleared = ifs_ & ~wanted;
+  }
+  if (const std::uint64_t set = wanted & ~ifs_) set_by_program(set, now);
+  ifs_ = wanted;
+  for (; cleared; cleared &= cleared - 1) {
+    const int i = __builtin_ctzll(cleared);
+    for (Frame& frame : stack_)
+      if (frame.vector == kFirstIrqVector + i) frame.cleared = true;
+    uncleared_[static_cast<std::size_t>(i)] = 0;
+    if (FlagListener* listener = listeners_[static_cast<std::size_t>(i)]) listener->flag_cleared(i, now);
+  }
+}
+
+__attribute__((always_inline)) inline InterruptEntry Interrupts::enter(int vector, Cycle now) {
   InterruptEntry entry;
   entry.vector = vector;
   if (vector < kFirstIrqVector)
@@ -173,7 +240,7 @@ inline InterruptEntry Interrupts::enter(int vector, Cycle now) {
     entry.level = nesting_disabled() ? 7 : priority(vector - kFirstIrqVector);
   entry.address = ((intcon2_ & 0x8000) ? 0x84u : 0x04u) + 2 * static_cast<unsigned>(vector);
   entry.first_instruction = now + kInterruptEntryCycles;
-  stack_.push_back({vector, level_, false, now});
+  stack_.emplace_back(vector, level_, now);
   level_ = entry.level;
   last_vector_ = static_cast<std::uint16_t>(vector);
   last_level_ = static_cast<std::uint16_t>(entry.level);
@@ -181,15 +248,16 @@ inline InterruptEntry Interrupts::enter(int vector, Cycle now) {
   return entry;
 }
 
-inline Cycle Interrupts::leave(Cycle now) {
+__attribute__((always_inline)) inline Cycle Interrupts::leave(Cycle now) {
   if (stack_.empty()) return now + kInterruptReturnCycles;
-  const Frame frame = stack_.back();
-  stack_.pop_back();
-  if (frame.vector >= kFirstIrqVector && !frame.cleared) check_cleared(frame, now);
+  const Frame& frame = stack_.back();
   resumed_ = now + kInterruptReturnCycles;
   resumed_level_ = std::min(level_, 7);
   level_ = frame.outer_level;
-  return resumed_;
+  if (frame.vector >= kFirstIrqVector && !frame.cleared)
+    check_cleared(frame.vector - kFirstIrqVector, frame.entered, now);
+  stack_.pop_back();
+  return now + kInterruptReturnCycles;
 }
 
 }  // namespace dspic

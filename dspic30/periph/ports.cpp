@@ -8,17 +8,10 @@ namespace dspic {
 namespace {
 
 constexpr unsigned kAdpcfg = 0x2A8;
-constexpr unsigned kBase[kPorts] = {0x2C0, 0x2C6, 0x2CC, 0x2D2, 0x2DE, 0x2E4};
 enum Kind : unsigned { Tris = 0, PortPins = 2, Lat = 4 };
 // writes to an input's latch before it is taken for a mistake: start-up code may set latches before
 // directions
 constexpr int kVainWrites = 3;
-
-Port port_at(unsigned address) {
-  int p = kPorts - 1;
-  while (address < kBase[p]) --p;
-  return static_cast<Port>(p);
-}
 
 std::string pin_name(const char* prefix, Port port, int bit) {
   return std::string(prefix) + kPortLetters[static_cast<int>(port)] + std::to_string(bit);
@@ -28,8 +21,8 @@ std::string pin_name(const char* prefix, Port port, int bit) {
 
 void Ports::attach() {
   for (int p = 0; p < kPorts; ++p) {
-    f_.bus.attach(*this, kBase[p], kBase[p] + 4);
-    ports_[static_cast<std::size_t>(p)].implemented = sfr_info(kBase[p])->implemented;
+    f_.bus.attach(*this, kBases[p], kBases[p] + 4);
+    ports_[static_cast<std::size_t>(p)].implemented = sfr_info(kBases[p])->implemented;
   }
   f_.bus.attach(*this, kAdpcfg, kAdpcfg);
 }
@@ -45,13 +38,25 @@ void Ports::reset(Cycle now) {
     s.levels = s.driven = s.old_levels = s.old_driven = 0;
     s.changed = now - 2;
     s.last_read = 0;
+    find_plain_outputs(s);
     f_.outside.pins_driven(static_cast<Port>(p), 0, 0, 0, now);
   }
 }
 
 void Ports::watch(Pin pin, PinListener& listener) {
-  state(pin.port).watched |= static_cast<std::uint16_t>(1 << pin.bit);
+  State& s = state(pin.port);
+  s.watched |= static_cast<std::uint16_t>(1 << pin.bit);
+  s.heard |= static_cast<std::uint16_t>(1 << pin.bit);
   watches_.push_back({pin, &listener});
+}
+
+void Ports::set_hearing(const PinListener& listener, bool hears) {
+  for (State& s : ports_) s.heard = 0;
+  for (Watch& w : watches_) {
+    if (w.listener == &listener) w.hears = hears;
+    if (w.hears) state(w.pin.port).heard |= static_cast<std::uint16_t>(1 << w.pin.bit);
+  }
+  for (State& s : ports_) find_plain_outputs(s);
 }
 
 void Ports::own_output(Pin pin, bool level, Cycle at) {
@@ -113,20 +118,14 @@ void Ports::publish(Port port, Cycle at) {
   const auto now_driven = driven(s);
   const auto now_levels =
       static_cast<std::uint16_t>(((s.lat & ~s.owned_out) | (s.owned_levels & s.owned_out)) & now_driven);
-  if (now_driven == s.driven && now_levels == s.levels) return;
   const std::uint16_t driven_before = s.driven, levels_before = s.levels;
-  if (at != s.changed) {
-    s.old_driven = driven_before;
-    s.old_levels = levels_before;
-  }
-  s.changed = at;
-  s.driven = now_driven;
-  s.levels = now_levels;
+  const bool changes = now_driven != driven_before || now_levels != levels_before;
   std::uint16_t before = 0;
   const std::uint16_t touched =
       static_cast<std::uint16_t>(((driven_before ^ now_driven) | (levels_before ^ now_levels)) & s.watched);
   if (touched) before = combine(port, levels_before, driven_before, at, touched);
-  f_.outside.pins_driven(port, now_levels, now_driven, s.owned_out, at);
+  if (changes) put_out(port, now_levels, now_driven, at);
+  find_plain_outputs(s);
   if (!touched) return;
   const auto edges =
       static_cast<std::uint16_t>((before ^ combine(port, now_levels, now_driven, at, touched)) & touched);
@@ -169,9 +168,9 @@ void Ports::look_for_blind_pins(Cycle now) {
 
 std::uint16_t Ports::read(unsigned address, Cycle now) {
   if (address == kAdpcfg) return adpcfg_;
-  const Port port = port_at(address);
+  const Port port = port_of(address);
   State& s = state(port);
-  if (address != kBase[static_cast<int>(port)] + PortPins) return peek(address, now);
+  if (address != kBases[static_cast<int>(port)] + PortPins) return peek(address, now);
   const std::uint16_t levels = pins(port, now);
   s.last_read = levels;
   if (port == Port::B && (s.tris & ~adpcfg_ & ~blind_told_)) look_for_blind_pins(now);
@@ -180,9 +179,9 @@ std::uint16_t Ports::read(unsigned address, Cycle now) {
 
 std::uint16_t Ports::peek(unsigned address, Cycle now) const {
   if (address == kAdpcfg) return adpcfg_;
-  const Port port = port_at(address);
+  const Port port = port_of(address);
   const State& s = state(port);
-  switch (address - kBase[static_cast<int>(port)]) {
+  switch (address - kBases[static_cast<int>(port)]) {
     case Tris:
       return s.tris;
     case Lat:
@@ -197,9 +196,9 @@ void Ports::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cy
     adpcfg_ = merge_lanes(adpcfg_, value, lanes);
     return;
   }
-  const Port port = port_at(address);
+  const Port port = port_of(address);
   State& s = state(port);
-  const unsigned kind = address - kBase[static_cast<int>(port)];
+  const unsigned kind = address - kBases[static_cast<int>(port)];
   if (kind == Tris) {
     s.tris = merge_lanes(s.tris, value, lanes);
     const auto outputs = static_cast<std::uint16_t>(~s.tris);
@@ -220,8 +219,8 @@ void Ports::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cy
 
 Cycle Ports::horizon(unsigned address, Cycle now) const {
   if (address == kAdpcfg) return kNever;
-  const Port port = port_at(address);
-  if (address != kBase[static_cast<int>(port)] + PortPins) return kNever;
+  const Port port = port_of(address);
+  if (address != kBases[static_cast<int>(port)] + PortPins) return kNever;
   const State& s = state(port);
   if (synchronised_ && s.changed >= now) return s.changed + 1;
   if ((s.driven & s.implemented) == s.implemented) return kNever;

@@ -32,6 +32,8 @@ class Ports final : public SfrOwner {
   void attach();
   void reset(Cycle now);
   void watch(Pin pin, PinListener& listener);
+  /// Whether a listener hears anything at present; at first it does.
+  void set_hearing(const PinListener& listener, bool hears);
 
   // --- for peripherals; effective from cycle `at`
   void own_output(Pin pin, bool level, Cycle at);
@@ -50,19 +52,45 @@ class Ports final : public SfrOwner {
   std::uint16_t last_read(Port port) const { return state(port).last_read; }
   void note_read(Port port, Cycle now) { state(port).last_read = pins(port, now); }
 
+  /// Port whose LAT register is at `address`; -1: none.
+  static int latch_at(unsigned address) {
+    static constexpr signed char kLatchAt[] = {-1, -1, 0,  -1, -1, 1,  -1, -1, 2,  -1, -1,
+                                               3,  -1, -1, -1, -1, -1, 4,  -1, -1, 5};
+    const unsigned word = (address - kFirst) / 2;
+    return word < sizeof kLatchAt ? kLatchAt[word] : -1;
+  }
+  std::uint16_t latch(int port) const { return ports_[static_cast<std::size_t>(port)].lat; }
+  /// write() of a LAT register, all of it.
+  void write_latch(int port, std::uint16_t next, Cycle now) {
+    State& s = ports_[static_cast<std::size_t>(port)];
+    const auto changed = static_cast<std::uint16_t>(next ^ s.lat);
+    if (!changed) return;
+    if (changed & ~s.plain_outputs) return write(kBases[port] + 4, next, 0xFFFF, now);
+    s.lat = next;
+    put_out(static_cast<Port>(port), static_cast<std::uint16_t>(s.levels ^ changed), s.driven, now + 1);
+  }
+
   std::uint16_t read(unsigned address, Cycle now) override;
   void write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycle now) override;
   std::uint16_t peek(unsigned address, Cycle now) const override;
   Cycle horizon(unsigned address, Cycle now) const override;
 
  private:
+  static Port port_of(unsigned address) {
+    int p = kPorts - 1;
+    while (address < kBases[p]) --p;
+    return static_cast<Port>(p);
+  }
+  static constexpr unsigned kFirst = 0x2C0;
+  static constexpr unsigned kBases[kPorts] = {0x2C0, 0x2C6, 0x2CC, 0x2D2, 0x2DE, 0x2E4};
   struct State {
     std::uint16_t implemented = 0;
+    std::uint16_t plain_outputs = 0;  // outputs that are the latch's alone, and that nobody watches
     std::uint16_t tris = 0, lat = 0;
     std::uint16_t owned_out = 0, owned_in = 0, owned_levels = 0;
     std::uint16_t pull_ups = 0;
     std::uint16_t last_read = 0;
-    std::uint16_t watched = 0;
+    std::uint16_t watched = 0, heard = 0;  // heard: watched by somebody who does something about it now
     // what the outside was told last, and before that
     std::uint16_t levels = 0, driven = 0;
     std::uint16_t old_levels = 0, old_driven = 0;
@@ -72,6 +100,7 @@ class Ports final : public SfrOwner {
   struct Watch {
     Pin pin;
     PinListener* listener;
+    bool hears = true;
   };
   State& state(Port port) { return ports_[static_cast<std::size_t>(port)]; }
   const State& state(Port port) const { return ports_[static_cast<std::size_t>(port)]; }
@@ -79,6 +108,20 @@ class Ports final : public SfrOwner {
     return static_cast<std::uint16_t>(((~s.tris & ~s.owned_in) | s.owned_out) & s.implemented);
   }
   void publish(Port port, Cycle at);
+  void put_out(Port port, std::uint16_t levels, std::uint16_t driven_now, Cycle at) {
+    State& s = state(port);
+    if (at != s.changed) {
+      s.old_driven = s.driven;
+      s.old_levels = s.levels;
+    }
+    s.changed = at;
+    s.driven = driven_now;
+    s.levels = levels;
+    f_.outside.pins_driven(port, levels, driven_now, s.owned_out, at);
+  }
+  static void find_plain_outputs(State& s) {
+    s.plain_outputs = static_cast<std::uint16_t>(s.driven & ~s.owned_out & ~s.heard);
+  }
   void look_for_blind_pins(Cycle now);
   void count_vain(Port port, std::uint16_t bits, Cycle now);
   /// Levels of the pins of `wanted`; the others' are anything. Asks the outside only when it decides one.

@@ -24,6 +24,15 @@ constexpr int kPrescaleBits[] = {0, 3, 6, 8};  // 1, 8, 64, 256
 constexpr Cycle kEdgeToTick = 1;               // synchroniser of TxCK
 constexpr Cycle kMatchToFlag = 1;              // [chip P2]
 
+/// Timer whose own flag an IRQ is.
+constexpr std::array<std::uint8_t, kIrqs> timers_by_flag() {
+  std::array<std::uint8_t, kIrqs> timers{};
+  for (int t = 1; t <= kTimers; ++t)
+    timers[static_cast<std::size_t>(kFlags[t - 1])] = static_cast<std::uint8_t>(t);
+  return timers;
+}
+constexpr std::array<std::uint8_t, kIrqs> kTimerOfFlag = timers_by_flag();
+
 // which register of which timer
 enum class What { Tmr, Pr, Con, Hold };
 struct Register {
@@ -250,12 +259,21 @@ void Timers::on_event(int id, Cycle at) {
   Unit& u = unit(id);
   if (u.mode == Mode::Internal && !u.wanted && u.pending_flag == kNever) {
     // a period is over, and the next one is an event once the program has lowered the flag
-    f_.interrupts.raise(flag_of(id), at);
     u.lazy = true;
     u.lazy_since = at;
-    next_internal(id, at);
-    return;
+    if (at == u.next && u.pr != 0) {  // as next_internal() has it
+      u.next += (Cycle{u.pr} + 1) << u.prescale_bits;
+      u.next_from = at;
+    } else {
+      next_internal(id, at);
+    }
+    return f_.interrupts.raise(flag_of(id), at);
   }
+  irregular_event(id, at);
+}
+
+void Timers::irregular_event(int id, Cycle at) {
+  Unit& u = unit(id);
   if (u.mode == Mode::Gated) {
     if (u.pending_flag == at) f_.interrupts.raise(flag_of(id), at);
     const bool at_edge = u.gate_edge == at;
@@ -276,12 +294,23 @@ void Timers::on_event(int id, Cycle at) {
 }
 
 void Timers::flag_cleared(int irq, Cycle now) {
-  int t = 1;
-  while (t < kTimers && kFlags[t - 1] != irq) ++t;
+  int t = kTimerOfFlag[static_cast<std::size_t>(irq)];
   if (unit(t).slave) --t;
   if (flag_of(t) != irq) return;  // of the low half of a pair
-  count_missed(t, now);
-  schedule(t, now);
+  Unit& u = unit(t);
+  if (u.lazy && u.mode == Mode::Internal && u.pending_flag == kNever && !u.wanted && now < u.next &&
+      u.lazy_since >= u.next_from) {
+    // the usual case: lowered within the period, so nothing was missed and the next match is known
+    u.lazy = false;
+    u.lazy_since = now;
+    return f_.events.fill(u.slot, u.next);
+  }
+  catch_up(t, now);
+}
+
+void Timers::catch_up(int timer, Cycle now) {
+  count_missed(timer, now);
+  schedule(timer, now);
 }
 
 void Timers::want_matches(int timer, bool wanted, Cycle now) {

@@ -102,6 +102,9 @@ class Timers final : public SfrOwner, public EventOwner, public FlagListener, pu
   void configure(int timer, Cycle at);
   void schedule(int timer, Cycle now);
   void count_missed(int timer, Cycle now);
+  // apart from the usual course of a timer on the chip's clock, which then keeps little on the stack
+  __attribute__((noinline)) void irregular_event(int id, Cycle at);
+  __attribute__((noinline)) void catch_up(int timer, Cycle now);
   void tell_changed(int timer, Cycle at);
 
   Fabric f_;

@@ -30,6 +30,20 @@ double mean_rest_v() {
 double Battery::rest_v(double charge) {
   int i = 1;
   while (i < kPoints - 1 && kCell[i].charge < charge) ++i;
+  return between(i, charge);
+}
+
+// rest_v(), looked for where it was last time: charge falls slowly
+double Battery::rest_v_near(double charge) {
+  const bool here = kCell[near_].charge >= charge && (near_ == 1 || kCell[near_ - 1].charge < charge);
+  if (!here) {
+    near_ = 1;
+    while (near_ < kPoints - 1 && kCell[near_].charge < charge) ++near_;
+  }
+  return between(near_, charge);
+}
+
+double Battery::between(int i, double charge) {
   const CellPoint &a = kCell[i - 1], &b = kCell[i];
   return std::max(0.0, a.rest_v + (charge - a.charge) * (b.rest_v - a.rest_v) / (b.charge - a.charge));
 }
@@ -71,7 +85,7 @@ double Battery::minutes_left(Cycle at) const {
 
 void Battery::draw(double amps, Cycle at) {
   if (amps == amps_) return;
-  const double charge_now = charge(at), rest_now_v = rest_v(charge_now);
+  const double charge_now = charge(at), rest_now_v = rest_v_near(charge_now);
   used_j_ = used_wh(at, rest_now_v - amps_ * kInnerResistanceOhm) * 3600;
   drawn_as_ += amps_ * seconds(at - since_);
   charge_ = charge_now;

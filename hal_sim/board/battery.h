@@ -43,6 +43,8 @@ class Battery {
   static double charge_at(double rest_v);
 
  private:
+  static double between(int point, double charge);
+  double rest_v_near(double charge);
   /// Charge, as a share, that flows in a span.
   double share(Cycle span) const;
   /// used_wh() where the terminal voltage at `at` is known.
@@ -55,6 +57,7 @@ class Battery {
   double rest_v_;        // of that charge
   double used_j_ = 0;    // joule, up to then
   double drawn_as_ = 0;  // ampere seconds, up to then
+  int near_ = 1;         // point of the curve above the charge
 };
 
 }  // namespace board

@@ -38,6 +38,8 @@ struct Line {
 constexpr Line kEmitter[4] = {{kF, 7}, {kF, 8}, {kG, 0}, {kG, 1}};  // [lib: motor_led/e_epuck_ports.h]
 
 constexpr std::uint16_t bit(int n) { return static_cast<std::uint16_t>(1u << n); }
+constexpr std::uint16_t kEmitterMask[] = {0, 0, 0, 0, bit(7) | bit(8), bit(0) | bit(1)};  // as kEmitter
+constexpr int kOnes[16] = {0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};
 constexpr std::uint16_t kRingMask =
     bit(6) | bit(7) | bit(9) | bit(10) | bit(12) | bit(13) | bit(14) | bit(15);
 
@@ -81,6 +83,8 @@ int Board::port_index(char port) {
   constexpr signed char kIndex[] = {0, 1, 2, 3, -1, 4, 5};  // A B C D, no E, F G
   return port >= 'A' && port <= 'G' ? kIndex[port - 'A'] : -1;
 }
+
+void Board::find_sound() { may_hear_ = scene_ && sim::has_sound(*scene_); }
 
 // --- motors ----------------------------------------------------------------------------------------------
 
@@ -157,6 +161,11 @@ void Board::port_write(char port, Register reg, std::uint16_t value, Cycle at) {
     outputs_changed(at);
     return;
   }
+  if (is_led_by_pins()) {
+    if (index == kD) return write_coils(value, at);
+    if (value == lat_[i]) return;
+    if (!((value ^ lat_[i]) & ~kEmitterMask[i])) return write_emitters(i, value, at);
+  }
   if (index == kD) {
     if (tris_[kD] & 0xFF) note_vain_writes(kD, value ^ port_read('D', Register::Lat, at), at);
     for (Wheel wheel : {Wheel::Left, Wheel::Right}) {
@@ -181,6 +190,38 @@ void Board::port_write(char port, Register reg, std::uint16_t value, Cycle at) {
   note_vain_writes(i, value ^ lat_[i], at);
   lat_[i] = value;
   outputs_changed(at);
+}
+
+// a robot whose drivers are its own program, on the models of the chip
+bool Board::is_led_by_pins() const {
+  return !watches_inputs_ && !scan_.is_on() && !basic_prox_.is_on() && parts_.empty() &&
+         agendas_.rests(Wheel::Left) && agendas_.rests(Wheel::Right) && !timer_motors_.drives(Wheel::Left) &&
+         !timer_motors_.drives(Wheel::Right);
+}
+
+void Board::write_coils(std::uint16_t value, Cycle at) {
+  bool same_current = true;
+  for (const Wheel wheel : {Wheel::Left, Wheel::Right}) {
+    const unsigned coils = (value >> (wheel == Wheel::Left ? 0 : 4)) & 15u;
+    Stepper& motor = agendas_.stepper_by_pins(wheel);
+    if (coils == motor.coils()) continue;
+    same_current &= kOnes[coils] == kOnes[motor.coils()];
+    motor.energise(coils, at);
+  }
+  lat_[kD] = value & 0xFF00;
+  if (!same_current) follow_power(at);
+}
+
+void Board::write_emitters(std::size_t port, std::uint16_t value, Cycle at) {
+  const unsigned risen = value & ~static_cast<unsigned>(lat_[port]);
+  for (std::size_t pair = port == kF ? 0 : 2, end = pair + 2; pair < end; ++pair)
+    if (risen & bit(kEmitter[pair].bit)) line_since_[pair] = at;
+  note_pulses(port, value, tris_[port], at);
+  lat_[port] = value;
+  // all else draws what it drew
+  const int lines = __builtin_popcount(static_cast<unsigned>(lat_[kF] & ~tris_[kF] & kEmitterMask[kF])) +
+                    __builtin_popcount(static_cast<unsigned>(lat_[kG] & ~tris_[kG] & kEmitterMask[kG]));
+  battery_.draw(beside_emitters_a_ + 2 * kIrEmitterA * lines, at);
 }
 
 void Board::outputs_changed(Cycle at) {
@@ -373,16 +414,18 @@ __attribute__((always_inline)) inline int Board::with_mic_noise(double counts, i
   std::uint64_t ones = bits - ((bits >> 1) & 0x5555555555555555u);
   ones = (ones & 0x3333333333333333u) + ((ones >> 2) & 0x3333333333333333u);
   ones = ((ones + (ones >> 4)) & 0x0F0F0F0F0F0F0F0Fu) * 0x0101010101010101u >> 56;
-  // both below 2^63: no correction for unsigned words is needed
-  const double between =
-      static_cast<double>(static_cast<std::int64_t>(bits * 0x9E3779B97F4A7C15u >> 40)) * 0x1p-24 - 0.5;
-  return adc_counts(counts + setup_.mic_noise_counts * 0.25 *
-                                 (static_cast<double>(static_cast<std::int64_t>(ones)) - 32 + between));
+  // below 2^63: no correction for unsigned words is needed; 31 bits, so nothing is rounded
+  const auto level = static_cast<std::int64_t>(ones << 24 | bits * 0x9E3779B97F4A7C15u >> 40);
+  return adc_counts(counts + setup_.mic_noise_counts * 0.25 * (static_cast<double>(level) * 0x1p-24 - 32.5));
 }
 
 int Board::mic_counts_fast(int microphone, Cycle at, std::uint64_t sample) const {
-  if (scene_ && sim::has_sound(*scene_)) return with_mic_noise(mic_level(microphone, at), microphone, sample);
+  if (may_hear_) return mic_counts_in_sound(microphone, at, sample);
   return with_mic_noise(kMicIdleCounts, microphone, sample);
+}
+
+int Board::mic_counts_in_sound(int microphone, Cycle at, std::uint64_t sample) const {
+  return with_mic_noise(mic_level(microphone, at), microphone, sample);
 }
 
 int Board::mic_counts(int microphone, Cycle at, std::uint64_t sample) const {

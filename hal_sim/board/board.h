@@ -123,7 +123,10 @@ class Board {
   // --- the world ------------------------------------------------------------------------------------------
 
   /// The frozen scene that sensors see until the next call; null: a dark void. Called before each run window.
-  void look_at(const sim::Scene* scene) { scene_ = scene; }
+  void look_at(const sim::Scene* scene) {
+    scene_ = scene;
+    if (!watches_inputs_) find_sound();
+  }
   const sim::Scene* scene() const { return scene_; }
 
   /// Angle the wheel has turned since power-up, rad, forward positive, wheel ratio included. The rotor needs
@@ -237,7 +240,10 @@ class Board {
   const Battery& battery() const { return battery_; }
   /// Something was switched on or off: the battery's current from `at` on. Whoever changes a device beside
   /// port_write() calls it. Motors count with the mean of their rhythm.
-  void follow_power(Cycle at) { battery_.draw(current_a(at), at); }
+  void follow_power(Cycle at) {
+    beside_emitters_a_ = beside_emitters_a(at);
+    battery_.draw(beside_emitters_a_ + emitters_a(at), at);
+  }
   /// The robot is switched off for good: nothing is drawn.
   void switch_off() { battery_.draw(0, 0); }
   /// Data EEPROM; resets leave it alone.
@@ -265,6 +271,8 @@ class Board {
   static int port_index(char port);
   /// Counts of a microphone without noise.
   double mic_level(int microphone, Cycle at) const;
+  void find_sound();
+  __attribute__((noinline)) int mic_counts_in_sound(int microphone, Cycle at, std::uint64_t sample) const;
   /// Counts of the converter, the noise of mic_counts_fast() added.
   int with_mic_noise(double counts, int microphone, std::uint64_t sample) const;
   unsigned pulses(Cycle at) const;
@@ -281,8 +289,14 @@ class Board {
   void note_vain_writes(std::size_t port, std::uint16_t changed, Cycle at);
   /// Is the pin an output, and its latch 1?
   bool output_high(char port, int bit) const;
-  /// What everything that is on draws, A.
-  double current_a(Cycle at) const;
+  /// What everything that is on draws, A: the IR emitters, and all else.
+  double emitters_a(Cycle at) const;
+  double beside_emitters_a(Cycle at) const;
+  /// Nothing but pins moves coils and emitters: no driver in closed form runs, no part hears of pins.
+  bool is_led_by_pins() const;
+  void write_coils(std::uint16_t value, Cycle at);
+  /// Latch of a port of which only emitter lines change.
+  void write_emitters(std::size_t port, std::uint16_t value, Cycle at);
 
   Setup setup_;
   RobotClock clock_;
@@ -305,6 +319,9 @@ class Board {
   };
   std::array<VainWrites, kPorts> vain_writes_{};
   bool watches_inputs_ = true;
+  bool may_hear_ =
+      true;  // false: nothing sounds in the scene, found out once a tick for the models of the chip
+  double beside_emitters_a_ = kProcessorA + kBluetoothA + kBoardA;  // at the last follow_power()
 
   AgendaTimer agendas_;
   TimerMotors timer_motors_;

@@ -47,14 +47,18 @@ void add(std::vector<Diagnosis>& all, const StepperFaults::Fault& fault, const c
 }  // namespace
 
 void Board::note_pulses(std::size_t port, std::uint16_t new_lat, std::uint16_t new_tris, Cycle at) {
-  const auto before = static_cast<std::uint16_t>(lat_[port] & ~tris_[port]);
-  const auto ended = static_cast<std::uint16_t>(before & ~(new_lat & ~new_tris));
-  const auto begun = static_cast<std::uint16_t>(~before & new_lat & ~new_tris);
-  for (std::size_t line = 0; line < 4; ++line) {
-    if (kLines[line].port != port) continue;
+  if (port < kLines[0].port) return;
+  const unsigned before = lat_[port] & ~static_cast<unsigned>(tris_[port]);
+  const unsigned after = new_lat & ~static_cast<unsigned>(new_tris);
+  const std::size_t first = port == kLines[0].port ? 0 : 2;
+  for (std::size_t line = first; line < first + 2; ++line) {
     const unsigned bit = 1u << kLines[line].bit;
-    if (begun & bit) lit_since_[line] = at;
-    if (!(ended & bit) || at - lit_since_[line] < kLongPulseCycles) continue;
+    if (!((before ^ after) & bit)) continue;
+    if (after & bit) {
+      lit_since_[line] = at;
+      continue;
+    }
+    if (at - lit_since_[line] < kLongPulseCycles) continue;
     LongPulse& p = long_pulses_[line];
     if (p.count++ == 0) p.first = lit_since_[line];
     p.longest = std::max(p.longest, at - lit_since_[line]);

@@ -34,7 +34,7 @@ double Board::coil_duty(Wheel wheel, Cycle at) const {
   return period > 0 ? std::min(1.0, static_cast<double>(kPowerSaveTicks) / period) : 0;
 }
 
-double Board::current_a(Cycle at) const {
+double Board::beside_emitters_a(Cycle at) const {
   double amps = kProcessorA + kBluetoothA + kBoardA;
   for (Wheel wheel : {Wheel::Left, Wheel::Right}) amps += 2 * kCoilA * coil_duty(wheel, at);
 
@@ -44,15 +44,18 @@ double Board::current_a(Cycle at) const {
   if (lit & kFront) amps += kFrontLedA;
   if (output_high('C', kCameraResetBit)) amps += kCameraA;
   if (output_high('F', kCodecOnBit)) amps += kCodecA;
+  return amps;
+}
 
-  // emitters: the drivers' flashes by their mean, lines that a program holds by their latch
+// the drivers' flashes by their mean, lines that a program holds by their latch
+double Board::emitters_a(Cycle at) const {
   double lines = 0;
   for (int sensor = 0; sensor < 4; ++sensor) lines += line_on_for(sensor, at) >= 0 ? 1 : 0;
   if (scan_.is_on() && !scan_.micro_only()) lines += static_cast<double>(kScanLitInterrupts) / kScanPeriod;
   if (basic_prox_.is_on())
     lines +=
         static_cast<double>(kBasicPulseCycles) / static_cast<double>(kBasicPulseCycles + kBasicRestCycles);
-  return amps + 2 * kIrEmitterA * lines;
+  return 2 * kIrEmitterA * lines;
 }
 
 }  // namespace board

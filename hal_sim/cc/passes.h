@@ -74,6 +74,8 @@ CostPlan plan_costs(Unit& unit, llvm::FunctionAnalysisManager& analyses);
 void instrument_polls(Unit& unit, llvm::FunctionAnalysisManager& analyses);
 /// Budget, function table, coverage.
 void account(Unit& unit, const CostPlan& plan);
+/// A register read, changed and written back at one instant is one call.
+void fuse_registers(Unit& unit);
 /// What x86 would trap on or define otherwise: INT16_MIN / -1, shifts by 16 and more.
 void lower_late(Unit& unit);
 /// --sanitize: every access checked against the objects that exist.

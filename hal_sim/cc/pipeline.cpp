@@ -234,6 +234,7 @@ bool run_pipeline(Unit& unit) {
     fam.clear();
     account(unit, costs);
   }
+  fuse_registers(unit);
   lower_late(unit);
   if (unit.options.sanitize) check_addresses(unit);
   if (unit.options.library || unit.options.weak) make_weak(unit);

@@ -124,7 +124,21 @@ struct BackEdge {
   Instruction* terminator;  // of the block on the edge back to the header
   Value* same;              // nothing changed in this round
   Value* id;
+  bool rests;  // the loop has no end and nothing in it
 };
+
+/// `while (1);`: not even a question.
+bool rests(const Loop* loop, const Unit& unit) {
+  if (!loop->hasNoExitBlocks() || unit.options.coverage) return false;
+  for (const BasicBlock* block : loop->blocks())
+    for (const Instruction& i : *block) {
+      const auto* branch = dyn_cast<BranchInst>(&i);
+      if (!isa<DbgInfoIntrinsic>(i) && !calls(i, kNop) && !calls(i, kRound) &&
+          !(branch && branch->isUnconditional()))
+        return false;
+    }
+  return true;
+}
 
 bool waits(Loop* loop, DominatorTree& dom, const Unit& unit) {
   BasicBlock* latch = loop->getLoopLatch();
@@ -172,11 +186,12 @@ void instrument(Unit& unit, Function& f, Loop* loop, DominatorTree& dom, int ord
         }
       } else if (auto* call = dyn_cast<CallBase>(&i)) {
         bool harmless = harmless_call(*call, unit) || (isa<IntrinsicInst>(call) && !call->mayWriteToMemory());
-        if (harmless || calls(i, "tp_trap") || calls(i, "tp_poll")) continue;
+        if (harmless || calls(i, "tp_trap") || calls(i, "tp_poll") || calls(i, "tp_rest")) continue;
         FreeBuilder b(call);
         bump_writes(m, b, b.getInt64(1));
       }
     }
+  const bool resting = rests(loop, unit);
   // the count at the start of this round against the count at its end
   BasicBlock* header = loop->getHeader();
   FreeBuilder start(&*header->getFirstInsertionPt());
@@ -207,7 +222,7 @@ void instrument(Unit& unit, Function& f, Loop* loop, DominatorTree& dom, int ord
   MD5::MD5Result result;
   hash.final(result);
   Value* id = b.getInt64(result.low() >> 1);
-  back_edges.push_back({edge->getTerminator(), same, id});
+  back_edges.push_back({edge->getTerminator(), same, id, resting});
 }
 
 }  // namespace
@@ -254,13 +269,14 @@ void instrument_polls(Unit& unit, FunctionAnalysisManager& analyses) {
     for (Loop* loop : loops.getLoopsInPreorder())
       if (loop->getLoopLatch() && waits(loop, dom, unit)) chosen.push_back(loop);
     for (Loop* loop : chosen) instrument(unit, f, loop, dom, ordinal++, marked, back_edges);
-    for (auto& [terminator, same, id] : back_edges) {
+    for (auto& [terminator, same, id, rests] : back_edges) {
       Instruction* then = SplitBlockAndInsertIfThen(same, terminator, false);
       mark_free(then->getParent()->getSinglePredecessor()->getTerminator());
       mark_free(then);
       IRBuilder<> b(then);
       b.SetCurrentDebugLocation(terminator->getDebugLoc());
-      auto* call = b.CreateCall(host_function(unit.module, "tp_poll", b.getVoidTy(), {b.getInt64Ty()}), {id});
+      const char* name = rests ? "tp_rest" : "tp_poll";
+      auto* call = b.CreateCall(host_function(unit.module, name, b.getVoidTy(), {b.getInt64Ty()}), {id});
       mark_free(call);
     }
   }

@@ -23,6 +23,8 @@ constexpr std::uint16_t kCameraClocks =
     static_cast<std::uint16_t>(1 << CameraPins::Href | 1 << CameraPins::Vsync | 1 << CameraPins::Pclk);
 constexpr std::uint16_t kSerialOut[2] = {0x0008, 0x0020};                // RF3 RF5
 constexpr std::uint16_t kEmitter[4] = {0x0080, 0x0100, 0x0001, 0x0002};  // RF7 RF8 RG0 RG1
+constexpr std::uint16_t kSerialOuts = 0x0028;
+constexpr std::uint16_t kEmitters[dspic::kPorts] = {0, 0, 0, 0, 0x0180, 0x0003};
 constexpr int kFirstIr = 8, kFirstMic = 2, kFirstAcc = 5;
 
 // Both ways draw the same noise for the same sample. The native way numbers the samples of the library's
@@ -98,18 +100,22 @@ void BoardOutside::pins_driven(Port port, std::uint16_t levels, std::uint16_t dr
   const std::uint16_t serial = port == Port::D ? 0 : by_peripheral;
   const auto tris = static_cast<std::uint16_t>(~(driven & ~serial));
   const auto lat = static_cast<std::uint16_t>(levels & ~serial);
+  const auto lit_before = static_cast<std::uint16_t>(levels_[p] & ~tris_[p]);
   // directions first: coils that are switched on together with their pins pull the rotor
   if (tris != tris_[p]) board_.port_write(letter, Board::Register::Tris, tris, at);
   if (lat != levels_[p]) board_.port_write(letter, Board::Register::Lat, lat, at);
   tris_[p] = tris;
   levels_[p] = lat;
-  if (port == Port::F || port == Port::G) follow_emitters(port, at);
-  if (port == Port::F) follow_breaks(static_cast<std::uint16_t>(driven & ~by_peripheral & ~levels), at);
+  if ((lit_before ^ (lat & ~tris)) & kEmitters[p]) follow_emitters(port, at);
+  if (port != Port::F) return;
+  const auto low = static_cast<std::uint16_t>(driven & ~by_peripheral & ~levels & kSerialOuts);
+  if (low != low_lines_) follow_breaks(low, at);
 }
 
 // a port that holds the line low where its module has let go: whoever listens takes more than a word for a
 // break
 void BoardOutside::follow_breaks(std::uint16_t low, Cycle at) {
+  low_lines_ = low;
   for (int n = 1; n <= 2; ++n) {
     Cycle& since = low_since_[static_cast<std::size_t>(n - 1)];
     const bool is_low = (low & kSerialOut[n - 1]) != 0;

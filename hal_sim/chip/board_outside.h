@@ -93,6 +93,7 @@ class BoardOutside final : public dspic::Outside {
   std::array<std::uint16_t, dspic::kPorts> levels_{};
   std::array<std::uint16_t, dspic::kPorts> tris_{};
   std::array<Cycle, 2> low_since_{-1, -1};  // a serial line held low by its port; -1: it is not
+  std::uint16_t low_lines_ = 0;             // those lines, as pins
   int selector_;
 };
 

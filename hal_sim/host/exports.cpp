@@ -20,6 +20,7 @@ extern "C" {
 
 void tp_event(void) { robot().on_event(); }
 void tp_poll(tp_i64 loop) { robot().on_poll(loop); }
+void tp_rest(tp_i64 loop) { robot().on_rest(loop); }
 void tp_delay(tp_i64 rounds, tp_i64 cycles) { robot().on_delay(rounds, cycles); }
 
 void tp_trap(tp_i64 kind) {
@@ -40,6 +41,10 @@ tp_i64 tp_sfr_read(tp_i64 address, tp_i64 bits) {
 void tp_sfr_write(tp_i64 address, tp_i64 value, tp_i64 bits) {
   robot().write_register(static_cast<unsigned>(address), static_cast<std::uint16_t>(value),
                          static_cast<unsigned>(bits));
+}
+void tp_sfr_modify(tp_i64 address, tp_i64 keep, tp_i64 flip) {
+  robot().modify_register(static_cast<unsigned>(address), static_cast<std::uint16_t>(keep),
+                          static_cast<std::uint16_t>(flip));
 }
 
 tp_i64 tp_table_read(tp_i64 address) {

@@ -95,6 +95,10 @@ void tp_event(void);
  *  would find exactly what this one found. */
 void tp_poll(tp_i64 loop);
 
+/** tp_poll() of a loop without an end in which nothing stands: only interrupts happen any more, and each
+ * round takes as long as the one before. */
+void tp_rest(tp_i64 loop);
+
 /** A counted delay loop that does nothing: `rounds` rounds (0 or more) of `cycles` each. Interrupts are
  *  delivered inside. */
 void tp_delay(tp_i64 rounds, tp_i64 cycles);
@@ -127,6 +131,8 @@ void tp_clear_watchdog(void);
  * low bits. */
 tp_i64 tp_sfr_read(tp_i64 address, tp_i64 bits);
 void tp_sfr_write(tp_i64 address, tp_i64 value, tp_i64 bits);
+/** A word becomes (word & keep) ^ flip: tp_sfr_read() and tp_sfr_write() with nothing in between. */
+void tp_sfr_modify(tp_i64 address, tp_i64 keep, tp_i64 flip);
 
 /** TBLRDL and TBLWTL at a 24-bit program address: the data EEPROM. */
 tp_i64 tp_table_read(tp_i64 address);

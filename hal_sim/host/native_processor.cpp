@@ -84,4 +84,15 @@ Cycle NativeProcessor::next_flag(int vector, Cycle at) {
   return s.due > at ? s.due : kNever;
 }
 
+void NativeProcessor::modify(unsigned address, std::uint16_t keep, std::uint16_t flip, Cycle) {
+  const std::uint16_t old = registers_.read(address, 16);
+  registers_.write(address, static_cast<std::uint16_t>((old & keep) ^ flip), 16);
+}
+
+host::Processor::Outlook NativeProcessor::take(Cycle now, Entry& entry) {
+  const Outlook outlook = look(now);
+  if (outlook.vector >= 0) entry = enter(outlook.vector, now);
+  return outlook;
+}
+
 }  // namespace host

@@ -28,10 +28,13 @@ class NativeProcessor final : public Processor {
     registers_.write(address, value, bits);
   }
 
+  void modify(unsigned address, std::uint16_t keep, std::uint16_t flip, Cycle) override;
+
   std::uint16_t table_read(unsigned, Cycle) override { registers_.refuse_table(); }
   void table_write(unsigned, std::uint16_t, Cycle) override { registers_.refuse_table(); }
 
   Outlook look(Cycle now) override;
+  Outlook take(Cycle now, Entry& entry) override;
   Entry enter(int vector, Cycle now) override;
   Return leave(Cycle now) override;
   int cpu_level() const override { return cpu_level_; }

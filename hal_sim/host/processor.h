@@ -59,6 +59,8 @@ class Processor {
   /// Byte address, 8 or 16 bits; result in the low bits.
   virtual std::uint16_t read(unsigned address, unsigned bits, Cycle now) = 0;
   virtual void write(unsigned address, std::uint16_t value, unsigned bits, Cycle now) = 0;
+  /// A word becomes (what is read & keep) ^ flip: both halves of an instruction that changes a register.
+  virtual void modify(unsigned address, std::uint16_t keep, std::uint16_t flip, Cycle now) = 0;
   /// TBLRDL and TBLWTL at a 24-bit program address: data EEPROM.
   virtual std::uint16_t table_read(unsigned program_address, Cycle now) = 0;
   virtual void table_write(unsigned program_address, std::uint16_t value, Cycle now) = 0;
@@ -85,6 +87,8 @@ class Processor {
     bool alternate = false;  ///< by the alternate vector table
   };
   virtual Entry enter(int vector, Cycle now) = 0;
+  /// look(), and enter() at once where there is a vector to serve.
+  virtual Outlook take(Cycle now, Entry& entry) = 0;
   struct Return {
     Cycle next_instruction = 0;
     Cycle quiet_until = 0;  ///< nothing waits, and nothing can be served before; 0: ask look()

@@ -13,40 +13,6 @@
 
 namespace host {
 
-namespace {
-// the innermost frame of the program itself: what our API and libc do inside is the caller's doing
-Place culprit(const std::vector<Place>& backtrace) {
-  for (const Place& place : backtrace)
-    if (place.line > 0 && place.file.find("hal_sim/") == std::string::npos) return place;
-  return backtrace.empty() ? Place{} : backtrace.front();
-}
-}  // namespace
-
-const char* trap_name(int kind) {
-  switch (kind) {
-    case 0:
-      return "unexpected reset";
-    case TP_TRAP_MATH:
-      return "math error";
-    case TP_TRAP_ADDRESS:
-      return "address error";
-    case TP_TRAP_STACK:
-      return "stack error";
-    case TP_TRAP_ABORT:
-      return "abort";
-    case TP_TRAP_INTERRUPT:
-      return "interrupt trouble";
-    case TP_TRAP_ILLEGAL:
-      return "illegal instruction";
-    case TP_TRAP_SANITIZER:
-      return "sanitizer";
-    case TP_TRAP_UNSIMULATED:
-      return "not simulated";
-    default:
-      return "trap";
-  }
-}
-
 Context& Context::current() {
   CHECK(detail::running_robot, "a firmware function was called outside firmware");
   return *detail::running_robot;
@@ -192,6 +158,11 @@ void Robot::write_and_tell(unsigned address, std::uint16_t value, unsigned bits)
   processor_->write(address, value, bits, now_and_tell());
 }
 
+void Robot::modify_in_two(unsigned address, std::uint16_t keep, std::uint16_t flip) {
+  const std::uint16_t old = read_register(address, 16);
+  write_register(address, static_cast<std::uint16_t>((old & keep) ^ flip), 16);
+}
+
 Cycle Robot::main_until(Cycle real) const {
   if (stolen_q32_ == 0) return real;
   const unsigned __int128 whole = (static_cast<unsigned __int128>(real) << kQ) - fraction_;
@@ -201,6 +172,11 @@ Cycle Robot::main_until(Cycle real) const {
 int Robot::look() {
   ++looks_;
   const Processor::Outlook outlook = processor_->look(now_);
+  note_outlook(outlook);
+  return outlook.vector;
+}
+
+void Robot::note_outlook(const Processor::Outlook& outlook) {
   calm_until_ = outlook.vector == kNoVector ? outlook.quiet_until : now_;
   may_wait_ = outlook.may_wait;
   if (may_wait_ && handler_depth_ == 0) {
@@ -208,7 +184,6 @@ int Robot::look() {
     const Processor::Waiting waiting = processor_->longest_waiting(now_);
     if (waiting.vector >= 0) calm_until_ = std::min(calm_until_, waiting.since + kBlockedInterruptCycles);
   }
-  return outlook.vector;
 }
 
 Cycle Robot::next_disturbance() {
@@ -216,7 +191,7 @@ Cycle Robot::next_disturbance() {
   return look() == kNoVector ? std::max(calm_until_, now_ + 1) : now_;
 }
 
-void Robot::give_budget() {
+void Robot::give_budget_anew() {
   Cycle until = std::min(end_, next_disturbance());
   if (observer_) until = std::min(until, now_ + observer_->look_every);
   issued_ = std::max<Cycle>(0, until - now_);
@@ -280,18 +255,35 @@ void Robot::irq_every(int vector, Cycle at, Cycle period) {
 
 void Robot::deliver_now() {
   do {
-    const int vector = look();
-    if (vector == kNoVector) return;
-    if (vector == kResetDue) on_reset(processor_->why_reset());
-    serve(vector);
+    if (observer_) {
+      const int vector = look();
+      if (vector == kNoVector) return;
+      if (vector == kResetDue) on_reset(processor_->why_reset());
+      serve_told(vector);
+      continue;
+    }
+    ++looks_;
+    Processor::Entry entry;
+    const Processor::Outlook outlook = processor_->take(now_, entry);
+    if (outlook.vector >= 0) {
+      handle(outlook.vector, entry);
+      continue;
+    }
+    note_outlook(outlook);
+    if (outlook.vector == kNoVector) return;
+    on_reset(processor_->why_reset());
   } while (now_ >= calm_until_);
 }
 
-void Robot::serve(int vector) {
-  const Cycle flagged = observer_ ? processor_->flag_since(vector) : Cycle{-1};
-  if (observer_) observer_->reached(now_);
+void Robot::serve_told(int vector) {
+  const Cycle flagged = processor_->flag_since(vector);
+  observer_->reached(now_);
   const Processor::Entry entry = processor_->enter(vector, now_);
-  if (observer_) observer_->handler_begins(vector, flagged, now_, entry.first_instruction);
+  observer_->handler_begins(vector, flagged, now_, entry.first_instruction);
+  handle(vector, entry);
+}
+
+void Robot::handle(int vector, const Processor::Entry& entry) {
   const tp_image& image = copy_.description();
   void (*handler)() = entry.handler;
   if (!handler && vector >= kTrapVector)
@@ -299,15 +291,7 @@ void Robot::serve(int vector) {
   else if (!handler)
     handler = (entry.alternate ? image.alternate_vectors : image.vectors)[vector];
   if (!handler) handler = image.default_vector;
-  if (!handler) {
-    static constexpr const char* kTraps[] = {"OscillatorFail", "AddressError", "StackError", "MathError"};
-    const std::string name =
-        vector >= kTrapVector ? kTraps[vector - kTrapVector] : std::string(vector_name(vector)) + "Interrupt";
-    last_words_ = "interrupt " + name.substr(0, name.rfind("Interrupt")) +
-                  " is enabled and was raised, but the program has no handler _" +
-                  (entry.alternate ? "Alt" : "") + name + "; on the chip the processor resets";
-    trap(TP_TRAP_INTERRUPT, last_words_);
-  }
+  if (!handler) miss_handler(vector, entry.alternate);
   now_ = entry.first_instruction;
   ++handler_depth_;
   calm_until_ = entry.quiet_until;
@@ -323,6 +307,16 @@ void Robot::serve(int vector) {
   may_wait_ = false;  // or the next look() says so
   ++served_;
   note_write();
+}
+
+void Robot::miss_handler(int vector, bool alternate) {
+  static constexpr const char* kTraps[] = {"OscillatorFail", "AddressError", "StackError", "MathError"};
+  const std::string name =
+      vector >= kTrapVector ? kTraps[vector - kTrapVector] : std::string(vector_name(vector)) + "Interrupt";
+  last_words_ = "interrupt " + name.substr(0, name.rfind("Interrupt")) +
+                " is enabled and was raised, but the program has no handler _" + (alternate ? "Alt" : "") +
+                name + "; on the chip the processor resets";
+  trap(TP_TRAP_INTERRUPT, last_words_);
 }
 
 // not within a handler: a long one delays others on the chip too
@@ -439,18 +433,34 @@ void Robot::on_poll(std::int64_t loop) {
   fold();
   const bool same = loop == poll_loop_ && served_ == poll_served_;
   const Cycle round = now_ - poll_at_;
-  if (same && round > 0 && horizon_ > now_) sleep_until(horizon_, round);
-  poll_loop_ = loop;
-  poll_at_ = now_;
-  poll_served_ = served_;
-  horizon_ = kNever;
-  looked_outside_ = false;
+  if (same && round > 0 && horizon_ > now_) sleep_until(horizon_, round, now_);
+  note_poll(loop);
   processor_->watch_reads(now_);
   give_budget();
 }
 
-void Robot::sleep_until(Cycle target, Cycle round) {
-  const Cycle start = now_;
+// on_poll() and the rounds between two of them at once, as long as nothing but handlers happens: after a
+// handler one round is done, finds nothing, and the loop sleeps on
+void Robot::on_rest(std::int64_t loop) {
+  fold();
+  if (loop == poll_loop_ && served_ == poll_served_ && has_plain_clock_ && handler_depth_ == 0) {
+    const Cycle round = now_ - poll_at_;
+    while (round > 0 && !may_wait_ && now_ < calm_until_ && calm_until_ <= end_) {
+      const Cycle start = now_;
+      idle_ += calm_until_ - now_;
+      now_ = calm_until_;
+      deliver_now();
+      const bool served = served_ != poll_served_;
+      if (!served) sleep_until(kNever, round, start);
+      note_poll(loop);
+      if (!served || now_ + round > std::min(end_, calm_until_)) return give_budget();
+      now_ += round;
+    }
+  }
+  on_poll(loop);
+}
+
+void Robot::sleep_until(Cycle target, Cycle round, Cycle start) {
   // the program notices a change at the end of the round in which it happens
   const auto end_of_round = [&](Cycle at) { return start + (at - start + round - 1) / round * round; };
   if (target < kNever) target = end_of_round(target);
@@ -534,148 +544,6 @@ std::int64_t Robot::next_rand() {
 void Robot::callback(const void* function) {
   if (observer_)
     observer_->callback(function ? reinterpret_cast<std::uintptr_t>(function) - copy_.base() : 0, now());
-}
-
-// --- the end of a program
-// ----------------------------------------------------------------------------------------
-
-void Robot::on_reset(const char* unexpected_reason) {
-  fold();
-  processor_->note_reset(ResetCause::Instruction);
-  if (unexpected_reason) {
-    if (!traps_.empty() && traps_.back().kind == 0 && traps_.back().message == unexpected_reason)
-      ++traps_.back().count;
-    else
-      traps_.push_back(report_here(0, unexpected_reason));
-  }
-  reset_asked_ = true;
-  fiber_.yield();
-  CHECK(false, "a reset robot went on");
-  std::abort();
-}
-
-TrapReport Robot::report_here(int kind, std::string_view message) {
-  TrapReport report;
-  report.robot = settings_.name;
-  report.kind = kind;
-  report.message = std::string(message);
-  report.cycle = now_;
-  report.time_s = to_world_s ? to_world_s(now_) : static_cast<double>(now_) / kFcyHz;
-  report.backtrace = walk(0, reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0)));
-  report.place = culprit(report.backtrace);
-  return report;
-}
-
-void Robot::trap(int kind, std::string_view message) {
-  fold();
-  const tp_image& image = copy_.description();
-  if (kind == TP_TRAP_MATH && image.trap_vectors[3] && processor_->cpu_level() < kMathErrorPriority) {
-    // the program has its own _MathError: it may reset or report; the division itself cannot be resumed
-    processor_->set_cpu_level(kMathErrorPriority, now_);
-    calm_until_ = 0;
-    give_budget();
-    image.trap_vectors[3]();
-    fold();
-  }
-  stop_with(report_here(kind, message));
-}
-
-void Robot::fault(int kind, std::string message, std::uintptr_t pc, std::uintptr_t frame) {
-  fold();
-  TrapReport report;
-  report.robot = settings_.name;
-  report.kind = kind;
-  report.message = std::move(message);
-  report.cycle = now_;
-  report.time_s = to_world_s ? to_world_s(now_) : static_cast<double>(now_) / kFcyHz;
-  report.backtrace = walk(pc, frame);
-  report.place = culprit(report.backtrace);
-  stop_with(std::move(report));
-}
-
-void Robot::stop_with(TrapReport report) {
-  if (observer_) observer_->ended(now_);
-  traps_.push_back(std::move(report));
-  stopped_ = true;
-  processor_->stop(now_);
-  fiber_.yield();
-  CHECK(false, "a stopped robot went on");
-  std::abort();
-}
-
-// frames are linked through the frame pointer, which twinpuck-cc keeps
-std::vector<Place> Robot::walk(std::uintptr_t pc, std::uintptr_t frame) const {
-  constexpr std::size_t kMostFrames = 16;
-  std::vector<Place> places;
-  const auto add = [&](std::uintptr_t address) {
-    if (!copy_.is_code(address)) return;
-    Place place = image_->symbols().find(address - copy_.base());
-    if (place.function.rfind("tp_image_", 0) != 0)
-      places.push_back(std::move(place));  // the runtime's own frames say nothing
-  };
-  if (pc) add(pc);
-  while (places.size() < kMostFrames && fiber_.is_on_stack(frame) && frame % sizeof(void*) == 0 &&
-         fiber_.is_on_stack(frame + 2 * sizeof(void*) - 1)) {
-    std::uintptr_t link[2];
-    std::memcpy(link, reinterpret_cast<const void*>(frame), sizeof link);
-    if (link[1]) add(link[1] - 1);
-    if (link[0] <= frame) break;
-    frame = link[0];
-  }
-  return places;
-}
-
-std::vector<board::Diagnosis> Robot::diagnoses() const {
-  std::vector<board::Diagnosis> all = processor_->diagnoses();
-  for (board::Diagnosis& d : board_.diagnoses(lived_cycles())) all.push_back(std::move(d));
-  for (board::Diagnosis& d : all) d.first_s = to_world_s ? to_world_s(d.first) : 0;
-  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  return all;
-}
-
-std::uint64_t Robot::hash() const {
-  std::uint64_t h = static_cast<std::uint64_t>(now_) * 0x9E3779B97F4A7C15u;
-  h ^= static_cast<std::uint64_t>(served_) + (h << 6) + (h >> 2);
-  h ^= static_cast<std::uint64_t>(traps_.size()) + (h << 6) + (h >> 2);
-  return h;
-}
-
-std::vector<char> Robot::read_variable(const std::string& symbol, std::size_t bytes) const {
-  std::uintptr_t address = 0;
-  std::size_t size = 0;
-  if (!image_->symbols().find_object(symbol, address, size)) return {};
-  bytes = bytes == 0 ? size : std::min(bytes, size);
-  std::vector<char> value(bytes);
-  read_memory(address, value.data(), bytes);
-  return value;
-}
-
-char* Robot::place_of(std::uintptr_t address) const {
-  char* live = reinterpret_cast<char*>(copy_.base() + address);
-  const tp_image& image = copy_.description();
-  if (copy_.owner == this || live < image.data_begin || live >= image.data_end) return live;
-  const std::size_t hole = static_cast<std::size_t>(image.hole_end - image.hole_begin);
-  const std::size_t offset =
-      static_cast<std::size_t>(live - image.data_begin) - (live >= image.hole_end ? hole : 0);
-  return const_cast<char*>(data_.data()) + offset;
-}
-
-void Robot::read_memory(std::uintptr_t address, void* to, std::size_t bytes) const {
-  std::memcpy(to, place_of(address), bytes);
-}
-
-void Robot::write_memory(std::uintptr_t address, const void* from, std::size_t bytes) {
-  std::memcpy(place_of(address), from, bytes);
-  ++writes_;
-  wake();
-}
-
-void Robot::restart() {
-  processor_->note_reset(ResetCause::Button);
-  stopped_ = false;
-  now_ = std::max(now_, end_);
-  reset_asked_ = true;
-  wake();
 }
 
 }  // namespace host

@@ -8,6 +8,7 @@
 // Time: compiled code subtracts estimated cycles from a budget; the host adds what background handlers steal
 // (docs/design.md, "Time"). A robot that sleeps in a wait costs nothing until something can happen.
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -150,6 +151,7 @@ class Robot final : public Context {
   // ------------------------------------------------------------------------------
   void on_event();
   void on_poll(std::int64_t loop);
+  void on_rest(std::int64_t loop);
   void on_delay(Cycle rounds, Cycle cycles_per_round);
   [[noreturn]] void on_reset(const char* unexpected_reason);
   void on_disi(Cycle cycles);
@@ -182,6 +184,10 @@ class Robot final : public Context {
   std::uint16_t read_register(unsigned address, unsigned bits) {
     if (!has_plain_clock_) return read_and_tell(address, bits);
     return processor_->read(address, bits, now_ + issued_ - control_.budget);
+  }
+  void modify_register(unsigned address, std::uint16_t keep, std::uint16_t flip) {
+    if (!has_plain_clock_) return modify_in_two(address, keep, flip);
+    processor_->modify(address, keep, flip, now_ + issued_ - control_.budget);
   }
   void write_register(unsigned address, std::uint16_t value, unsigned bits) {
     if (!has_plain_clock_) return write_and_tell(address, value, bits);
@@ -234,10 +240,17 @@ class Robot final : public Context {
   Cycle now_and_tell();
   std::uint16_t read_and_tell(unsigned address, unsigned bits);
   void write_and_tell(unsigned address, std::uint16_t value, unsigned bits);
+  void modify_in_two(unsigned address, std::uint16_t keep, std::uint16_t flip);
   Cycle main_until(Cycle real) const;  // most main cycles that end at or before now_ + real
-  void give_budget();
+  void give_budget() {
+    if (now_ >= calm_until_ || !has_plain_clock_) return give_budget_anew();
+    issued_ = std::max<Cycle>(0, std::min(end_, calm_until_) - now_);
+    control_.budget = issued_;
+  }
+  void give_budget_anew();
   NativeProcessor& native();
-  int look();                // the vector to serve now; kNoVector: calm_until_ is known afterwards
+  int look();  // the vector to serve now; kNoVector: calm_until_ is known afterwards
+  void note_outlook(const Processor::Outlook& outlook);
   Cycle next_disturbance();  // when an interrupt or the end of DISI may change the program's course
   void lower_calm(Cycle at);
   // due interrupts, in order
@@ -245,12 +258,21 @@ class Robot final : public Context {
     if (now_ >= calm_until_) deliver_now();
   }
   void deliver_now();
-  void serve(int vector);
+  void serve_told(int vector);  // for an observer
+  void handle(int vector, const Processor::Entry& entry);
+  [[noreturn]] void miss_handler(int vector, bool alternate);
   void idle_to(Cycle at);     // jumps over a wait
   void pass_window();         // now_ >= end_: let the others run
   void run_main(Cycle main);  // spends main cycles, delivering on the way
-  void sleep_until(Cycle target,
-                   Cycle round);  // a wait that polls every `round` cycles; ends early when disturbed
+  // a wait since `start` that polls every `round` cycles; ends early when disturbed
+  void sleep_until(Cycle target, Cycle round, Cycle start);
+  void note_poll(std::int64_t loop) {
+    poll_loop_ = loop;
+    poll_at_ = now_;
+    poll_served_ = served_;
+    horizon_ = kNever;
+    looked_outside_ = false;
+  }
   void doze(Cycle until);  // yields; the scheduler comes back at `until` or when something woke the robot
   // endless loop with interrupts off; after deliver()
   void check_blocked() {

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include "dspic30/device/chip_parts.h"
 #include "hal_sim/host/host_params.h"
 #include "hal_sim/host/image_abi.h"
 #include "hal_sim/host/observer.h"
@@ -106,6 +107,7 @@ void ChipProcessor::power_up() {
   }
   if (image.fwdt) configuration.fwdt = *static_cast<const std::uint16_t*>(image.fwdt);
   chip_ = std::make_unique<dspic::Dspic30f6014a>(outside_, this, configuration);
+  parts_ = &chip_->parts();
   outside_.fill_eeprom(*chip_);
   reset_board();
   observe(observer_);
@@ -165,12 +167,21 @@ std::int64_t ChipProcessor::count_of(const dspic::Diagnosis& d) const {
 
 // --- registers ------------------------------------------------------------------------------------------
 
+inline bool ChipProcessor::may_change_it(unsigned address) {
+  return address - kFirstWithSideEffect <= kLastWithSideEffect - kFirstWithSideEffect;
+}
+
 std::uint16_t ChipProcessor::read(unsigned address, unsigned bits, Cycle now) {
   const Cycle t = at(now);
-  const bool may_change_it = address >= kFirstWithSideEffect && address <= kLastWithSideEffect;
-  if (may_change_it || watched_reads_ > 0) return read_closely(address, bits, t);
+  if (watched_reads_ > 0 || !parts_->is_result(address, bits, t)) return read_other(address, bits, t);
   robot_.lower_horizon(t);
-  return chip_->read(address, bits, t);
+  return parts_->read_result(address, t);
+}
+
+std::uint16_t ChipProcessor::read_other(unsigned address, unsigned bits, Cycle t) {
+  if (may_change_it(address) || watched_reads_ > 0) return read_closely(address, bits, t);
+  robot_.lower_horizon(t);
+  return parts_->read(address, bits, t);
 }
 
 std::uint16_t ChipProcessor::read_closely(unsigned address, unsigned bits, Cycle t) {
@@ -188,12 +199,30 @@ std::uint16_t ChipProcessor::read_closely(unsigned address, unsigned bits, Cycle
   return value;
 }
 
-void ChipProcessor::write(unsigned address, std::uint16_t value, unsigned bits, Cycle now) {
-  const Cycle calm = chip_->write(address, value, bits, at(now));
+inline void ChipProcessor::wrote(Cycle calm) {
   robot_.note_write();
   robot_.calm_until(calm, latest_);
-  const Cycle stalled = chip_->stalled_until();
-  if (stalled > latest_) robot_.spend(stalled - latest_);
+  if (const Cycle stalled = parts_->nvm.stalled_until(); stalled > latest_) robot_.spend(stalled - latest_);
+}
+
+void ChipProcessor::write(unsigned address, std::uint16_t value, unsigned bits, Cycle now) {
+  wrote(parts_->write(address, value, bits, at(now)));
+}
+
+void ChipProcessor::modify(unsigned address, std::uint16_t keep, std::uint16_t flip, Cycle now) {
+  const Cycle t = at(now);
+  if (watched_reads_ > 0 || !parts_->are_flags(address, t)) return modify_other(address, keep, flip, t);
+  robot_.lower_horizon(t);
+  wrote(parts_->modify_flags(address, keep, flip, t));
+}
+
+void ChipProcessor::modify_other(unsigned address, std::uint16_t keep, std::uint16_t flip, Cycle t) {
+  if (!may_change_it(address) && watched_reads_ == 0) {
+    robot_.lower_horizon(t);
+    return wrote(parts_->modify(address, keep, flip, t));
+  }
+  const std::uint16_t old = read_closely(address, 16, t);
+  wrote(parts_->write(address, static_cast<std::uint16_t>((old & keep) ^ flip), 16, t));
 }
 
 std::uint16_t ChipProcessor::table_read(unsigned program_address, Cycle now) {
@@ -223,12 +252,13 @@ bool ChipProcessor::print(const char* bytes, std::int64_t length, int uart) {
 
 // --- interrupts -----------------------------------------------------------------------------------------
 
-host::Processor::Outlook ChipProcessor::look(Cycle now) {
-  const dspic::Outlook chip = chip_->look(at(now));
+host::Processor::Outlook ChipProcessor::look(Cycle now) { return outlook_of(parts_->look(at(now))); }
+
+__attribute__((always_inline)) inline host::Processor::Outlook ChipProcessor::outlook_of(
+    const dspic::Outlook& chip) {
   Outlook outlook{host::kNoVector, chip.level > 0 || chip.disi, chip.quiet_until};
   if (chip.reset_due) {
-    next_reset_ = *chip_->reset_due(latest_);
-    why_reset_ = reason_of(next_reset_);
+    note_reset_due();
     outlook.vector = host::kResetDue;
   } else if (chip.vector >= dspic::kFirstIrqVector) {
     outlook.vector = chip.vector - dspic::kFirstIrqVector;
@@ -238,18 +268,45 @@ host::Processor::Outlook ChipProcessor::look(Cycle now) {
   return outlook;
 }
 
+void ChipProcessor::note_reset_due() {
+  next_reset_ = *chip_->reset_due(latest_);
+  why_reset_ = reason_of(next_reset_);
+}
+
+host::Processor::Outlook ChipProcessor::take(Cycle now, Entry& entry) {
+  const Cycle t = at(now);
+  dspic::ChipParts& p = *parts_;
+  p.events.run_to(t);
+  const int irq = p.interrupts.sole_pending(t);
+  if (irq < 0 || p.is_reset_due()) return take_in_general(t, entry);
+  watched_reads_ = 0;  // whatever waits looks again afterwards
+  const Cycle first = p.interrupts.enter_sole(irq, t);
+  entry = {nullptr, first, p.events.next() <= first ? 0 : p.next_notice(), kSavingCycles};
+  return {irq, true, 0};
+}
+
+host::Processor::Outlook ChipProcessor::take_in_general(Cycle t, Entry& entry) {
+  const dspic::Outlook chip = parts_->look(t);
+  if (chip.vector != dspic::kNoVector && !chip.reset_due) entry = enter_at(chip.vector, t);
+  return outlook_of(chip);
+}
+
+__attribute__((always_inline)) inline host::Processor::Entry ChipProcessor::enter_at(int number, Cycle t) {
+  watched_reads_ = 0;  // whatever waits looks again afterwards
+  const dspic::InterruptEntry entry = parts_->interrupts.enter(number, t);
+  const Cycle first = entry.first_instruction;
+  return {nullptr, first, parts_->calm_until(first, number), kSavingCycles, entry.address >= kAlternateTable};
+}
+
 host::Processor::Entry ChipProcessor::enter(int vector, Cycle now) {
   const int number =
       vector >= host::kTrapVector ? vector - host::kTrapVector + 1 : vector + dspic::kFirstIrqVector;
-  const dspic::InterruptEntry entry = chip_->enter_interrupt(number, at(now));
-  watched_reads_ = 0;  // whatever waits looks again afterwards
-  const Cycle first = entry.first_instruction;
-  return {nullptr, first, chip_->calm_until(first, number), kSavingCycles, entry.address >= kAlternateTable};
+  return enter_at(number, at(now));
 }
 
 host::Processor::Return ChipProcessor::leave(Cycle now) {
-  const Cycle next = chip_->return_from_interrupt(at(now));
-  return {next, chip_->calm_until(next)};
+  const Cycle next = parts_->interrupts.leave(at(now));
+  return {next, parts_->calm_until(next)};
 }
 
 host::Processor::Waiting ChipProcessor::longest_waiting(Cycle now) {

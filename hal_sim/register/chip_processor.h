@@ -42,12 +42,14 @@ class ChipProcessor final : public host::Processor, public dspic::DiagnosticSink
 
   std::uint16_t read(unsigned address, unsigned bits, Cycle now) override;
   void write(unsigned address, std::uint16_t value, unsigned bits, Cycle now) override;
+  void modify(unsigned address, std::uint16_t keep, std::uint16_t flip, Cycle now) override;
   std::uint16_t table_read(unsigned program_address, Cycle now) override;
   void table_write(unsigned program_address, std::uint16_t value, Cycle now) override;
   void watch_reads(Cycle now) override { watched_reads_ = kWatchedReads; }
   bool print(const char* bytes, std::int64_t length, int uart) override;
 
   Outlook look(Cycle now) override;
+  Outlook take(Cycle now, Entry& entry) override;
   const char* why_reset() const override { return why_reset_; }
   Entry enter(int vector, Cycle now) override;
   Return leave(Cycle now) override;
@@ -80,6 +82,17 @@ class ChipProcessor final : public host::Processor, public dspic::DiagnosticSink
   /// Rounds of a waiting loop with more reads than this are not jumped over.
   static constexpr int kWatchedReads = 64;
 
+  __attribute__((noinline)) std::uint16_t read_other(unsigned address, unsigned bits, Cycle t);
+  __attribute__((noinline)) void modify_other(unsigned address, std::uint16_t keep, std::uint16_t flip,
+                                              Cycle t);
+  __attribute__((noinline)) void note_reset_due();
+  __attribute__((noinline)) Outlook take_in_general(Cycle t, Entry& entry);
+  static bool may_change_it(unsigned address);
+  Outlook outlook_of(const dspic::Outlook& chip);
+  Entry enter_at(int number, Cycle t);
+  /// A write has happened at latest_; `calm`: what the chip said of it.
+  void wrote(Cycle calm);
+
   /// The chip's clock never goes back, whatever the caller's instant.
   Cycle at(Cycle now) {
     if (now > latest_) latest_ = now;
@@ -89,6 +102,7 @@ class ChipProcessor final : public host::Processor, public dspic::DiagnosticSink
   host::Robot& robot_;
   chip::BoardOutside outside_;
   std::unique_ptr<dspic::Dspic30f6014a> chip_;
+  dspic::ChipParts* parts_ = nullptr;  // of chip_
   dspic::ResetKind next_reset_ = dspic::ResetKind::PowerOn;
   const char* why_reset_ = "";
   Cycle latest_ = 0;

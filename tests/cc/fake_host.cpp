@@ -123,6 +123,10 @@ EXPORT void tp_poll(tp_i64) {
   if (*fake::poll_hook) (*fake::poll_hook)(current->polls);
   if (current->polls >= fake::last_poll) fake::stop("poll");
 }
+EXPORT void tp_rest(tp_i64 loop) {
+  ++current->rests;
+  tp_poll(loop);
+}
 EXPORT void tp_delay(tp_i64 rounds, tp_i64 cycles) {
   current->delays.emplace_back(rounds, cycles);
   current->cycles += rounds * cycles;
@@ -145,6 +149,10 @@ EXPORT tp_i64 tp_sfr_read(tp_i64 address, tp_i64 bits) {
 EXPORT void tp_sfr_write(tp_i64 address, tp_i64 value, tp_i64 bits) {
   current->accesses.push_back({address, value, bits, true});
   if (bits == 16) fake::registers[address & 0x7ff] = uint16_t(value);
+}
+EXPORT void tp_sfr_modify(tp_i64 address, tp_i64 keep, tp_i64 flip) {
+  ++current->modified;
+  tp_sfr_write(address, (tp_sfr_read(address, 16) & keep) ^ flip, 16);
 }
 EXPORT tp_i64 tp_rand() { return 1234; }
 EXPORT void tp_srand(tp_i64 seed) { current->calls.push_back("srand " + std::to_string(seed)); }

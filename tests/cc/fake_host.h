@@ -24,9 +24,11 @@ struct Run {
   std::string console;
   long long cycles = 0;  // charged to the budget, delays included
   int polls = 0, events = 0;
+  int rests = 0;         // polls of endless loops without anything in them
   long long latest = 0;  // cycles by which the host got control too late, at worst
   std::vector<std::pair<long long, long long>> delays;
   std::vector<Access> accesses;
+  int modified = 0;  // registers read, changed and written back by one call; both stand in `accesses`
   std::vector<std::string> calls;  // "disi 5", "clrwdt", "idle" ...
 };
 

@@ -136,6 +136,53 @@ TEST(time, register_accesses_go_to_the_register_host) {
   }
 }
 
+TEST(time, an_endless_loop_rests_if_nothing_stands_in_it) {
+  for (const char* level : {"-O1", "-O2"}) {
+    EXPECT_EQ(run_c("int main(void) { while (1); }", level, 3).rests, 3) << level;
+    EXPECT_EQ(run_c("int main(void) { for (;;) asm(\"nop\"); }", level, 3).rests, 3) << level;
+    auto asking = run_c("volatile int stop; int main(void) { while (!stop); return 0; }", level, 3);
+    EXPECT_EQ(asking.polls, 3) << level;
+    EXPECT_EQ(asking.rests, 0) << level;
+    EXPECT_EQ(run_c("volatile int seen; int main(void) { while (1) seen; }", level, 3).rests, 0) << level;
+  }
+}
+
+TEST(time, a_change_of_a_register_is_one_call_and_the_same_two_accesses) {
+  const std::string head =
+      "extern volatile unsigned int LATD __asm__(\"tp_sfr_02D6\"), IFS0 __asm__(\"tp_sfr_0084\");\n"
+      "typedef struct { unsigned a:3; unsigned b:1; unsigned :12; } BITS;\n"
+      "extern volatile BITS IFS0bits __asm__(\"tp_sfr_0084\");\n"
+      "unsigned char phase = 0xA; unsigned word = 0x0F0F, seen;\n";
+  struct Case {
+    const char* text;
+    long long before, after;  // of LATD
+    int calls;
+  };
+  const Case cases[] = {{"LATD &= 0xFF00;", 0x1234, 0x1200, 1},
+                        {"LATD |= 0x00F1;", 0x1234, 0x12F5, 1},
+                        {"LATD ^= 0xFFFF;", 0x1234, 0xEDCB, 1},
+                        {"LATD = (LATD & 0xFFF0) | phase;", 0x1234, 0x123A, 1},
+                        {"LATD = (LATD & ~word) | (word & 0x3333);", 0x1234, 0x1333, 1},
+                        {"LATD = ((LATD | word) ^ 0x8001) & 0x8FFF;", 0x1234, 0x8F3E, 1},
+                        // sums are no such change; nor is a value that is used again, or written elsewhere
+                        {"LATD += 1;", 0x1234, 0x1235, 0},
+                        {"LATD = seen = LATD & 0x00FF;", 0x1234, 0x0034, 0},
+                        {"LATD = IFS0 & 0xFFF0;", 0x1234, 0x5670, 0}};
+  for (const Case& c : cases) {
+    registers[0x2d6] = static_cast<uint16_t>(c.before);
+    registers[0x84] = 0x5678;
+    auto run = run_c(head + "int main(void) { " + c.text + " return 0; }");
+    EXPECT_EQ(registers[0x2d6], c.after) << c.text;
+    EXPECT_EQ(run.modified, c.calls) << c.text;
+    ASSERT_EQ(run.accesses.size(), 2u) << c.text;
+    EXPECT_FALSE(run.accesses[0].is_write) << c.text;
+    EXPECT_TRUE(run.accesses[1].is_write) << c.text;
+  }
+  registers[0x84] = 0x5678;
+  EXPECT_EQ(run_c(head + "int main(void) { IFS0bits.b = 0; return 0; }").modified, 1);
+  EXPECT_EQ(registers[0x84], 0x5670);
+}
+
 TEST(time, polling_a_register_bit_is_idle) {
   registers[0x84] = 0;
   auto run = run_c(

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+// All parts of the chip, and the calls that a host makes at every access and interrupt, inline. Whoever runs
+// firmware may include this beside dspic30f6014a.h and call them on Dspic30f6014a::parts(): the same answers
+// as that class gives, without the way there. Everything else talks to Dspic30f6014a.
+//
+// The bus knows who answers for an address; flags and the converter's results, which handlers touch most, are
+// then asked without a virtual call.
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "dspic30/device/dspic30f6014a.h"
+#include "dspic30/periph/adc.h"
+#include "dspic30/periph/capture_compare.h"
+#include "dspic30/periph/dci.h"
+#include "dspic30/periph/external_interrupts.h"
+#include "dspic30/periph/i2c.h"
+#include "dspic30/periph/kept_registers.h"
+#include "dspic30/periph/nvm.h"
+#include "dspic30/periph/ports.h"
+#include "dspic30/periph/spi.h"
+#include "dspic30/periph/system_control.h"
+#include "dspic30/periph/timers.h"
+#include "dspic30/periph/uart.h"
+
+namespace dspic {
+
+struct ChipParts {
+  ChipParts(Outside& outside, DiagnosticSink* sink, const Configuration& c)
+      : configuration(c),
+        diagnostics(sink),
+        bus(diagnostics, c.warn_uninitialised),
+        interrupts(diagnostics),
+        fabric{outside, bus, events, interrupts, ports, diagnostics, c.fcy_hz},
+        ports(fabric, c.synchronised_ports),
+        timers(fabric),
+        adc(fabric, timers),
+        uarts{Uart(fabric, 1), Uart(fabric, 2)},
+        i2c(fabric),
+        dci(fabric),
+        external(fabric, adc),
+        change(fabric),
+        capture(fabric, timers),
+        compare(fabric, timers),
+        spis{Spi(fabric, 1), Spi(fabric, 2)},
+        system(fabric, c.fosc, c.fwdt),
+        nvm(fabric),
+        cans{Can(fabric, 1), Can(fabric, 2)},
+        cpu(fabric),
+        plain(fabric) {
+    cpu.attach();
+    interrupts.attach(bus);
+    change.attach();
+    timers.attach();
+    capture.attach();
+    compare.attach();
+    i2c.attach();
+    for (Uart& u : uarts) u.attach();
+    for (Spi& s : spis) s.attach();
+    dci.attach();
+    adc.attach();
+    ports.attach();
+    external.attach();
+    for (Can& c : cans) c.attach();
+    system.attach();
+    plain.attach(kBsram, kSsram);
+    nvm.attach();
+    plain.attach(kPmd1, kPmd3);
+    bus.mark_unmodelled(kBsram, 0x0007);
+    bus.mark_unmodelled(kSsram, 0x0007);
+  }
+
+  Configuration configuration;
+  Diagnostics diagnostics;
+  SfrBus bus;
+  Events events;
+  Interrupts interrupts;
+  Fabric fabric;
+  Ports ports;
+  Timers timers;
+  Adc adc;
+  std::array<Uart, 2> uarts;
+  I2c i2c;
+  Dci dci;
+  ExternalInterrupts external;
+  ChangeNotification change;
+  InputCapture capture;
+  OutputCompare compare;
+  std::array<Spi, 2> spis;
+  SystemControl system;
+  Nvm nvm;
+  std::array<Can, 2> cans;
+  CpuRegisters cpu;
+  PlainRegisters plain;
+
+  // --- registers; as Dspic30f6014a has them
+  std::uint16_t read(unsigned address, unsigned bits, Cycle now) {
+    events.run_to(now);
+    return bus.read(address, bits, now);
+  }
+  /// Is read_result() the same as read()?
+  bool is_result(unsigned address, unsigned bits, Cycle now) const {
+    return address - Adc::kBuffer < Adc::kBufferEnd - Adc::kBuffer && bits > 8 && events.next() > now &&
+           bus.reader(address) == &adc;
+  }
+  __attribute__((always_inline)) std::uint16_t read_result(unsigned address, Cycle now) {
+    events.pass_to(now);
+    return adc.read_result(static_cast<int>((address - Adc::kBuffer) / 2), now);
+  }
+
+  Cycle write(unsigned address, std::uint16_t value, unsigned bits, Cycle now) {
+    begin_write(now);
+    store(address, value, bits, now);
+    return end_write();
+  }
+  /// What stands in a word becomes (old & keep) ^ flip: read and write by one instruction.
+  Cycle modify(unsigned address, std::uint16_t keep, std::uint16_t flip, Cycle now) {
+    const int port = Ports::latch_at(address);
+    if (port >= 0 && bus.reader(address) == &ports) return modify_latch(port, address, keep, flip, now);
+    const std::uint16_t old = read(address, 16, now);
+    return write(address, static_cast<std::uint16_t>((old & keep) ^ flip), 16, now);
+  }
+  /// Is modify_flags() the same as modify()?
+  bool are_flags(unsigned address, Cycle now) const {
+    return is_flags(address) && events.next() > now && bus.reader(address) == &interrupts;
+  }
+  __attribute__((always_inline)) Cycle modify_flags(unsigned address, std::uint16_t keep, std::uint16_t flip,
+                                                    Cycle now) {
+    const int word = flag_word(address);
+    events.pass_to(now);
+    events.forget_changes();
+    interrupts.forget_stir();
+    const std::uint16_t old = interrupts.read_flags(word, now);
+    const std::uint16_t value = bus.accept_plain(address, static_cast<std::uint16_t>((old & keep) ^ flip));
+    interrupts.write_flags(word, value, 0xFFFF, now);
+    return end_write();
+  }
+
+  // --- interrupts
+  __attribute__((always_inline)) Outlook look(Cycle now) {
+    events.run_to(now);
+    Outlook outlook;
+    outlook.level = interrupts.level();
+    outlook.disi = interrupts.disi_active(now);
+    outlook.vector = interrupts.pending(now, outlook.level);
+    outlook.reset_due = is_reset_due();
+    if (outlook.vector != kNoVector) return outlook;
+    outlook.quiet_until = std::max(
+        now + 1, std::min(events.next_notice(interrupts.enabled_mask()), interrupts.next_change(now)));
+    return outlook;
+  }
+  bool is_reset_due() const { return system.watchdog_bit() || interrupts.reset_due().has_value(); }
+  Cycle next_notice() { return events.next_notice(interrupts.enabled_mask()); }
+  __attribute__((always_inline)) Cycle calm_until(Cycle now, int served = kNoVector) {
+    if (!interrupts.has_no_other(served) || events.next() <= now) return 0;
+    return events.next_notice(interrupts.enabled_mask());
+  }
+
+  void switch_modules(std::uint16_t next1, std::uint16_t next2, Cycle now);
+
+ private:
+  static constexpr unsigned kIfs0 = 0x084, kIec0 = 0x08C, kAdcon1 = 0x2A0, kAdpcfg = 0x2A8,
+                            kFirstPort = 0x2C0, kLastPort = 0x2E8, kBsram = 0x750, kSsram = 0x752,
+                            kPmd1 = 0x770, kPmd2 = 0x772, kPmd3 = 0x774;
+  static bool is_flags(unsigned address) { return address - kIfs0 < kIec0 - kIfs0; }
+  static int flag_word(unsigned address) { return static_cast<int>((address - kIfs0) / 2); }
+
+  Cycle modify_latch(int port, unsigned address, std::uint16_t keep, std::uint16_t flip, Cycle now);
+  void begin_write(Cycle now) {
+    events.run_to(now);
+    events.forget_changes();
+    interrupts.forget_stir();
+  }
+  Cycle end_write() const { return interrupts.stirred() || events.was_put_off() ? 0 : events.earliest(); }
+  void store(unsigned address, std::uint16_t value, unsigned bits, Cycle now) {
+    if (!is_flags(address)) return write_beyond(address, value, bits, now);
+    const SfrBus::Store store = bus.accept(address, value, bits, now);
+    if (store.owner) interrupts.write_flags(flag_word(address), store.value, store.lanes, now);
+  }
+  /// What a write means to others than the register's owner.
+  void write_beyond(unsigned address, std::uint16_t value, unsigned bits, Cycle now);
+  std::uint16_t pmd1 = 0, pmd2 = 0;
+};
+
+}  // namespace dspic
