@@ -10,6 +10,7 @@
 #define GUMSTIX_POSITION 10  /* selector position that scans the turret's pair too */
 #define ACC_COUNTER_MAX 64   /* where updateAccI2CCounter stops */
 #define TICK_COUNTER_MAX 65535u
+#define SET_UP_CYCLES 45     /* registers of the converter [measured: register way] */
 
 int e_mic_scan[3][MIC_SAMP_NB];
 int e_acc_scan[3][ACC_SAMP_NB];
@@ -62,6 +63,7 @@ static void refresh_all(void) {
 
 void e_init_ad_scan(unsigned char only_micro) {
   selector = getselector();
+  tp_spend(SET_UP_CYCLES);
   tp_scan_start(only_micro == MICRO_ONLY, selector == GUMSTIX_POSITION);
   /* blocks until the accelerometer's buffer is full once */
   if (only_micro != MICRO_ONLY) tp_wait_until(tp_scan_filled_at());

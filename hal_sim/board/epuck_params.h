@@ -157,7 +157,7 @@ inline constexpr Cycle kAgendaNodeCycles = 13;      // one node
 inline constexpr Cycle kAgendaCountCycles = 5;      // one that counts
 inline constexpr Cycle kMotorHalfStepCycles = 125;  // coils on or off, the next half's cycle
 inline constexpr Cycle kMotorStepCycles = 108;      // coils on to stay
-inline constexpr Cycle kScanRoundIsrCycles = 7499;  // 65 frames
+inline constexpr Cycle kScanRoundIsrCycles = 7518;  // 65 frames, beside agendas, in the first 4 s
 inline constexpr Cycle kScanMicroIsrCycles = 83;    // a frame
 inline constexpr Cycle kBasicMotorIsrCycles =
     34;                                        // [estimated: shadow context, counter, phase, 4 bit writes]
