@@ -57,6 +57,7 @@ class Interrupts final : public SfrOwner {
   bool flag(int irq) const { return (ifs_ >> irq & 1) != 0; }
   bool enabled(int irq) const { return (iec_ >> irq & 1) != 0; }
   std::uint64_t enabled_mask() const { return iec_; }
+  bool uses_alternate_table() const { return (intcon2_ & 0x8000) != 0; }  ///< INTCON2.ALTIVT
   int priority(int irq) const { return priority_[static_cast<std::size_t>(irq)]; }
   Cycle since(int irq) const { return since_[static_cast<std::size_t>(irq)]; }
   /// 1: external interrupt n waits for the falling edge.
@@ -238,7 +239,7 @@ __attribute__((always_inline)) inline InterruptEntry Interrupts::enter(int vecto
     entry.level = trap_level(vector);
   else
     entry.level = nesting_disabled() ? 7 : priority(vector - kFirstIrqVector);
-  entry.address = ((intcon2_ & 0x8000) ? 0x84u : 0x04u) + 2 * static_cast<unsigned>(vector);
+  entry.address = (uses_alternate_table() ? 0x84u : 0x04u) + 2 * static_cast<unsigned>(vector);
   entry.first_instruction = now + kInterruptEntryCycles;
   stack_.emplace_back(vector, level_, now);
   level_ = entry.level;

@@ -17,7 +17,6 @@ namespace register_way {
 namespace {
 
 constexpr unsigned kU1Mode = 0x20C, kU2Mode = 0x216, kIfs0 = 0x084;
-constexpr unsigned kAlternateTable = 0x80;  // of vectors, in program memory
 constexpr std::uint16_t kUartEnabled = 0x8000, kTransmitEnabled = 0x0400, kBufferFull = 0x0200;
 
 /// Reading it moves a FIFO or lowers a flag, so a loop that does has changed something.
@@ -281,7 +280,8 @@ host::Processor::Outlook ChipProcessor::take(Cycle now, Entry& entry) {
   if (irq < 0 || p.is_reset_due()) return take_in_general(t, entry);
   watched_reads_ = 0;  // whatever waits looks again afterwards
   const Cycle first = p.interrupts.enter_sole(irq, t);
-  entry = {nullptr, first, p.events.next() <= first ? 0 : p.next_notice(), kSavingCycles};
+  entry = {nullptr, first, p.events.next() <= first ? 0 : p.next_notice(), kSavingCycles,
+           p.interrupts.uses_alternate_table()};
   return {irq, true, 0};
 }
 
@@ -293,9 +293,9 @@ host::Processor::Outlook ChipProcessor::take_in_general(Cycle t, Entry& entry) {
 
 __attribute__((always_inline)) inline host::Processor::Entry ChipProcessor::enter_at(int number, Cycle t) {
   watched_reads_ = 0;  // whatever waits looks again afterwards
-  const dspic::InterruptEntry entry = parts_->interrupts.enter(number, t);
-  const Cycle first = entry.first_instruction;
-  return {nullptr, first, parts_->calm_until(first, number), kSavingCycles, entry.address >= kAlternateTable};
+  const Cycle first = parts_->interrupts.enter(number, t).first_instruction;
+  return {nullptr, first, parts_->calm_until(first, number), kSavingCycles,
+          parts_->interrupts.uses_alternate_table()};
 }
 
 host::Processor::Entry ChipProcessor::enter(int vector, Cycle now) {

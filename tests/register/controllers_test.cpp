@@ -39,6 +39,7 @@ class Controllers : public ::testing::TestWithParam<Course> {
       Seen go(const Course& c, const char* chosen_way) {
         options.way = chosen_way;
         Robot& robot = place(c);
+        world.proximity.noise_scale.reset();  // the profile's own
         Seen seen;
         for (int i = 0; i < 100 * c.seconds; ++i) {
           run_for(0.01);
