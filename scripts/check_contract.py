@@ -28,16 +28,19 @@ NO_PROTOTYPES = {"p30F6014A.h",
 ONLY_DECLARED = {"e_i2cp_read_string", "e_i2cp_write_string",
                  "e_po6030k_set_color_mode", "e_po8030d_set_color_mode",
                  "speaker_emit_sample"}  # the robot plays stored sounds only: refused when a program is linked
+# of the vendor's libpic30 on the chip, of hal_sim/cc/libc/src/program_memory.c here
+VENDORS_LIBRARY = {"_erase_eedata", "_memcpy_p2d16", "_wait_eedata", "_write_eedata_row", "_write_eedata_word"}
 # a header's own variant macro -> (switch, prefix with the switch, prefix without)
 VARIANT_MACROS = {"TP_MOTORS": ("E_MOTORS_TIMER3", "tptimer3_", "tpbasic_"),
                   "TP_PROX": ("E_PROX_TIMER2", "tpt2_", "tpbasic_")}
 
 
 def plain(text):
-    """C without comments and preprocessor lines."""
+    """C without comments, preprocessor lines and TAKES()."""
     text = re.sub(r"/\*.*?\*/", " ", text, flags=re.S)
     text = re.sub(r"//[^\n]*", " ", text)
-    return re.sub(r"^[ \t]*#(?:[^\n]*\\\n)*[^\n]*", "", text, flags=re.M)
+    text = re.sub(r"^[ \t]*#(?:[^\n]*\\\n)*[^\n]*", "", text, flags=re.M)
+    return re.sub(r"\bTAKES\(\d+\)", "", text)
 
 
 PROTOTYPE = re.compile(r"(?:^|[;}])\s*(?:TP_POLL\s+|extern\s+)*(?:[A-Za-z_]\w*[\s*]+)+?(\w+)\s*"
@@ -116,7 +119,7 @@ def main():
             for name, line in definitions(source, contract):
                 defined[name].append("%s:%d" % (source.relative_to(ROOT), line))
         asked = {name: header for name, header in declared.items()
-                 if name not in ONLY_DECLARED and not header.startswith(not_asked)}
+                 if name not in ONLY_DECLARED | VENDORS_LIBRARY and not header.startswith(not_asked)}
         for name, header in sorted(asked.items()):
             if not defined[name]:
                 problems.append("firmware/include/%s: %s: declared, but nothing of the %s defines it" % (header, name, way))
