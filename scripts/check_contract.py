@@ -36,11 +36,10 @@ VARIANT_MACROS = {"TP_MOTORS": ("E_MOTORS_TIMER3", "tptimer3_", "tpbasic_"),
 
 
 def plain(text):
-    """C without comments, preprocessor lines and TAKES()."""
+    """C without comments and preprocessor lines."""
     text = re.sub(r"/\*.*?\*/", " ", text, flags=re.S)
     text = re.sub(r"//[^\n]*", " ", text)
-    text = re.sub(r"^[ \t]*#(?:[^\n]*\\\n)*[^\n]*", "", text, flags=re.M)
-    return re.sub(r"\bTAKES\(\d+\)", "", text)
+    return re.sub(r"^[ \t]*#(?:[^\n]*\\\n)*[^\n]*", "", text, flags=re.M)
 
 
 PROTOTYPE = re.compile(r"(?:^|[;}])\s*(?:TP_POLL\s+|extern\s+)*(?:[A-Za-z_]\w*[\s*]+)+?(\w+)\s*"
@@ -89,7 +88,7 @@ def definitions(source, contract):
             chosen = next((p for switch, p in choices.items() if switch in switches), choices[None])
             prefixes.setdefault(name, chosen)
     found = []
-    text = re.sub(r"__attribute__\(\(\w+\)\)\s*", "", raw)
+    text = re.sub(r"__attribute__\(\(\w+\)\)\s*|\bTAKES\(\d+\)\s*", "", raw)
     blank = lambda match: re.sub(r"[^\n]", " ", match.group(0))  # keeps line numbers
     text = re.sub(r"/\*.*?\*/", blank, text, flags=re.S)
     code = re.sub(r"^[ \t]*#(?:[^\n]*\\\n)*[^\n]*", blank, text, flags=re.M)
