@@ -130,28 +130,24 @@ void BoardOutside::follow_emitters(Port port, Cycle at) {
   const int first = port == Port::F ? 0 : 2;
   for (int i = first; i < first + 2; ++i) {
     Emitter& e = emitters_[static_cast<std::size_t>(i)];
-    const bool is_on = (levels_[p] & ~tris_[p] & kEmitter[i]) != 0;
-    if (is_on == e.is_on) continue;
-    e.is_on = is_on;
-    e.changed[static_cast<std::size_t>(e.changes++ % Emitter::kRemembered)] = at;
-    if (is_on) {
-      flashes_.on[static_cast<std::size_t>(flashes_.switched_on++ % Flashes::kRemembered)] = at;
-      ++flashes_.begun;
-    } else {
-      flashes_.off[static_cast<std::size_t>(flashes_.ended++ % Flashes::kRemembered)] = at;
-    }
+    if (((levels_[p] & ~tris_[p] & kEmitter[i]) != 0) != e.is_on()) e.change(at);
   }
+}
+
+int BoardOutside::Emitter::changes_by(Cycle at) const {
+  int n = changes;
+  while (when(n - 1) > at) --n;
+  return n;
+}
+
+Cycle BoardOutside::Emitter::when(int n) const {
+  return n < 0 || n < changes - kRemembered ? -1 : changed[static_cast<std::size_t>(n % kRemembered)];
 }
 
 Cycle BoardOutside::lit_for(int sensor, Cycle at) const {
   const Emitter& e = emitters_[static_cast<std::size_t>(sensor & 3)];
-  bool is_on = e.is_on;
-  const int oldest = std::max(0, e.changes - Emitter::kRemembered);
-  for (int i = e.changes - 1; i >= oldest; --i, is_on = !is_on) {
-    const Cycle changed = e.changed[static_cast<std::size_t>(i % Emitter::kRemembered)];
-    if (changed <= at) return is_on ? at - changed : -1;
-  }
-  return is_on ? at : -1;
+  const int changes = e.changes_by(at);
+  return changes % 2 != 0 ? at - std::max<Cycle>(0, e.when(changes - 1)) : -1;
 }
 
 dspic::PinLevels BoardOutside::pin_levels(Port port, Cycle at) {
@@ -208,14 +204,14 @@ Cycle BoardOutside::nth_edge(dspic::Pin pin, dspic::Edge edge, Cycle after, std:
 // --- analogue, serial ------------------------------------------------------------------------------------
 
 BoardOutside::Since BoardOutside::since_flash(Cycle at) const {
-  Since since{static_cast<std::uint64_t>(flashes_.begun), -1};
-  const std::int64_t on_known = std::max<std::int64_t>(0, flashes_.switched_on - Flashes::kRemembered);
-  for (std::int64_t i = flashes_.switched_on - 1;
-       i >= on_known && flashes_.on[static_cast<std::size_t>(i % Flashes::kRemembered)] > at; --i)
-    --since.flashes;
-  const std::int64_t off_known = std::max<std::int64_t>(0, flashes_.ended - Flashes::kRemembered);
-  for (std::int64_t i = flashes_.ended - 1; i >= off_known && since.dark < 0; --i)
-    since.dark = at - flashes_.off[static_cast<std::size_t>(i % Flashes::kRemembered)];
+  Since since{resets_, -1};
+  Cycle darkened = -1;
+  for (const Emitter& e : emitters_) {
+    const int changes = e.changes_by(at);
+    since.flashes += static_cast<std::uint64_t>((changes + 1) / 2);
+    darkened = std::max(darkened, e.when(changes / 2 * 2 - 1));
+  }
+  if (darkened >= 0) since.dark = at - darkened;
   return since;
 }
 

@@ -38,7 +38,7 @@ class BoardOutside final : public dspic::Outside {
   void pins_driven(dspic::Port port, std::uint16_t levels, std::uint16_t driven, std::uint16_t by_peripheral,
                    Cycle at) override;
   /// The processor was reset: noise is drawn on with new numbers.
-  void processor_reset() { ++flashes_.begun; }
+  void processor_reset() { ++resets_; }
   dspic::PinLevels pin_levels(dspic::Port port, Cycle at) override;
   Cycle next_change(dspic::Port port, std::uint16_t pins, Cycle after) override;
   std::int64_t edges(dspic::Pin pin, dspic::Edge edge, Cycle after, Cycle until) override;
@@ -55,19 +55,19 @@ class BoardOutside final : public dspic::Outside {
  private:
   /// The codec's clocks: the bit clock, and whether it agrees with the codec's registers.
   void follow_codec(dspic::Dspic30f6014a& chip, Cycle now);
-  /// When the IR emitters of one line went on and off: results of the converter are asked for later.
+  /// When the IR emitters of one line went on and off, in turns: results of the converter are asked for
+  /// later.
   struct Emitter {
     static constexpr int kRemembered = 16;
     std::array<Cycle, kRemembered> changed{};
     int changes = 0;
-    bool is_on = false;
-  };
-  /// All emitters' flashes: beginnings and the last end before an instant, to number samples by.
-  struct Flashes {
-    static constexpr int kRemembered = 16;
-    std::array<Cycle, kRemembered> on{}, off{};
-    std::int64_t begun = 0, ended = 0;
-    std::int64_t switched_on = 0;  ///< `begun` without what resets add
+
+    bool is_on() const { return changes % 2 != 0; }
+    void change(Cycle at) { changed[static_cast<std::size_t>(changes++ % kRemembered)] = at; }
+    /// Changes up to `at`, not fewer than those that are forgotten.
+    int changes_by(Cycle at) const;
+    /// When change `n` came, from 0; -1: there was none, or it is forgotten.
+    Cycle when(int n) const;
   };
   /// What a sample of a sensor is numbered by: flashes begun before `at`, cycles since the last one ended.
   struct Since {
@@ -89,7 +89,7 @@ class BoardOutside final : public dspic::Outside {
   board::Board& board_;
   CameraPins camera_;
   std::array<Emitter, 4> emitters_;
-  Flashes flashes_;
+  std::uint64_t resets_ = 0;
   std::array<std::uint16_t, dspic::kPorts> levels_{};
   std::array<std::uint16_t, dspic::kPorts> tris_{};
   std::array<Cycle, 2> low_since_{-1, -1};  // a serial line held low by its port; -1: it is not
