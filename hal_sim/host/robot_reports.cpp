@@ -93,7 +93,9 @@ void Robot::trap(int kind, std::string_view message) {
 
 void Robot::fault(int kind, std::string message, std::uintptr_t pc, std::uintptr_t frame) {
   fold();
-  stop_with(report_at(kind, message, pc, frame));
+  TrapReport report = report_at(kind, {}, pc, frame);
+  report.message = std::move(message);  // moved, not copied: this stack is abandoned, nothing on it is freed
+  stop_with(std::move(report));
 }
 
 void Robot::stop_with(TrapReport report) {
