@@ -282,7 +282,7 @@ class Robot final : public Context {
   [[noreturn]] void stop_with(TrapReport report);
   std::vector<Place> walk(std::uintptr_t pc, std::uintptr_t frame) const;
   TrapReport report_here(int kind, std::string_view message);
-  TrapReport report_at(int kind, std::string_view message, std::uintptr_t pc, std::uintptr_t frame) const;
+  TrapReport report_at(int kind, std::string message, std::uintptr_t pc, std::uintptr_t frame) const;
 
   RobotSettings settings_;
   std::shared_ptr<Image> image_;

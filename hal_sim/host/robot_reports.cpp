@@ -61,15 +61,15 @@ void Robot::on_reset(const char* unexpected_reason) {
 }
 
 TrapReport Robot::report_here(int kind, std::string_view message) {
-  return report_at(kind, message, 0, reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0)));
+  return report_at(kind, std::string(message), 0,
+                   reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0)));
 }
 
-TrapReport Robot::report_at(int kind, std::string_view message, std::uintptr_t pc,
-                            std::uintptr_t frame) const {
+TrapReport Robot::report_at(int kind, std::string message, std::uintptr_t pc, std::uintptr_t frame) const {
   TrapReport report;
   report.robot = settings_.name;
   report.kind = kind;
-  report.message = std::string(message);
+  report.message = std::move(message);
   report.cycle = now_;
   report.time_s = to_world_s ? to_world_s(now_) : static_cast<double>(now_) / kFcyHz;
   report.backtrace = walk(pc, frame);
@@ -93,9 +93,8 @@ void Robot::trap(int kind, std::string_view message) {
 
 void Robot::fault(int kind, std::string message, std::uintptr_t pc, std::uintptr_t frame) {
   fold();
-  TrapReport report = report_at(kind, {}, pc, frame);
-  report.message = std::move(message);  // moved, not copied: this stack is abandoned, nothing on it is freed
-  stop_with(std::move(report));
+  // moved, not copied: this stack is abandoned, nothing on it is freed
+  stop_with(report_at(kind, std::move(message), pc, frame));
 }
 
 void Robot::stop_with(TrapReport report) {
