@@ -16,6 +16,7 @@ title = "braitenberg {n}"
 
 [world]
 physics_hz = 96
+interrupts = "spread"
 
 [arena]
 size = [{side}, {side}]

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "hal_sim/board/accelerometer.h"
+#include "hal_sim/board/agenda_timer.h"
 #include "hal_sim/board/board.h"
 #include "hal_sim/board/sound_params.h"
 
@@ -28,6 +29,43 @@ static_assert(6 * kScanChannelTad * kScanTadCycles6 == kScanFrameCycles);
 static_assert(3 * kScanChannelTad * kScanTadCycles6 == kScanMicroFrameCycles);
 static_assert((3 * kScanChannelTad + 1) * kScanTadCycles == 552);
 static_assert(5 * kScanChannelTad * kScanTadCycles == kScanFrameCycles);
+
+constexpr Cycle kRoundCycles = kScanPeriod * kScanFrameCycles;
+/// Handlers of a period: when they are called, what they take, and what those before a slot take together.
+struct Round {
+  Cycle at[kScanPeriod];
+  Cycle cycles[kScanPeriod];
+  Cycle before[kScanPeriod + 1];
+};
+constexpr Round make_round() {
+  Round r{};
+  for (int slot = 0; slot < kScanPeriod; ++slot) {
+    const ScanHandler handler = scan_handler(slot);
+    r.at[slot] = (slot + 1) * kScanFrameCycles + handler.late;
+    r.cycles[slot] = handler.cycles;
+    r.before[slot + 1] = r.before[slot] + handler.cycles;
+  }
+  return r;
+}
+constexpr Round kRound = make_round();
+static_assert(kRound.at[kScanPeriod - 1] == kRoundCycles);
+
+/// Calls of a round during which the converter stands.
+constexpr int kStops = 6;
+struct Stop {
+  int slot;
+  Cycle at;  // after the round's beginning
+};
+struct StopsOfRound {
+  Stop of[kStops];
+};
+constexpr StopsOfRound make_stops() {
+  constexpr int slots[kStops] = {2, 3, 32, 61, 62, 63};
+  StopsOfRound stops{};
+  for (int i = 0; i < kStops; ++i) stops.of[i] = {slots[i], kRound.at[slots[i]]};
+  return stops;
+}
+constexpr StopsOfRound kStopsOfRound = make_stops();
 }  // namespace
 
 Cycle scan_flash_cycles(int sensor) {
@@ -53,6 +91,8 @@ void AdcScan::settle(Cycle at) {
   total_base_ += passed;
   if (!micro_only_) full_base_ += passed;
   anchor_ = at;
+  noted_stops_ = 0;
+  find_round();
   for (auto* samples : {&dark_, &lit_})
     for (Sample& s : *samples) s.until = 0;
 }
@@ -89,6 +129,7 @@ void AdcScan::reset(Cycle at) {
   pairs_ = 4;
   total_base_ = full_base_ = period_base_ = 0;
   pair_base_ = 0;
+  find_round();
   dark_.fill(Sample{});
   lit_.fill(Sample{});
 }
@@ -107,6 +148,122 @@ Cycle AdcScan::next_interrupt(Cycle at) const {
 
 Cycle AdcScan::interrupt_cycle(std::int64_t count) const {
   return on_ ? anchor_ + (count - total_base_) * frame_cycles() : host::kNever;
+}
+
+// Interrupt number 0 of the round in which this run of frames began would have come one frame after this.
+void AdcScan::find_round() {
+  first_slot_ = static_cast<int>(full_base_ % kScanPeriod);
+  round_ = anchor_ + kScanStartCycles - (first_slot_ > 0 ? kRound.at[first_slot_ - 1] : 0);
+}
+
+/// Of the first call from `at` on.
+inline AdcScan::Place AdcScan::place(Cycle at) const {
+  const Cycle start = anchor_ + kScanStartCycles;
+  if (micro_only_) return {at > start ? (at - start - 1) / kScanMicroFrameCycles : 0, 0};
+  if (at <= start) return {0, first_slot_};
+  const std::uint64_t since = static_cast<std::uint64_t>(at - round_);
+  const std::uint64_t round = since / kRoundCycles;
+  const std::uint32_t rest = static_cast<std::uint32_t>(since - round * kRoundCycles);
+  Place p{static_cast<std::int64_t>(round), static_cast<int>(rest / kScanFrameCycles)};
+  if (p.slot > 0 && kRound.at[p.slot - 1] >= rest) --p.slot;
+  if (kRound.at[p.slot] < rest) p = after(p);
+  if (p.round == 0 && p.slot < first_slot_) p.slot = first_slot_;
+  return p;
+}
+
+Cycle AdcScan::cycles_before(Cycle at) const {
+  if (!on_) return 0;
+  const Place p = place(at);
+  if (micro_only_) return p.round * kScanMicroIsrCycles;
+  return p.round * kRound.before[kScanPeriod] + kRound.before[p.slot];
+}
+
+AdcScan::Call AdcScan::call(Place p) const {
+  if (micro_only_)
+    return {anchor_ + kScanStartCycles + (p.round + 1) * kScanMicroFrameCycles, kScanMicroIsrCycles};
+  return {round_ + p.round * kRoundCycles + kRound.at[p.slot], kRound.cycles[p.slot]};
+}
+
+AdcScan::Place AdcScan::after(Place p) const {
+  if (micro_only_ || ++p.slot == kScanPeriod) p = {p.round + 1, 0};
+  return p;
+}
+
+AdcScan::Call AdcScan::call_before(Place p) const {
+  if (micro_only_) return p.round > 0 ? call({p.round - 1, 0}) : Call{};
+  if (p.slot > (p.round > 0 ? 0 : first_slot_)) return call({p.round, p.slot - 1});
+  return p.round > 0 ? call({p.round - 1, kScanPeriod - 1}) : Call{};
+}
+
+std::uint64_t AdcScan::share_q32() const {
+  if (!on_) return 0;
+  const Cycle cycles = micro_only_ ? kScanMicroIsrCycles : kRound.before[kScanPeriod];
+  const Cycle of = micro_only_ ? kScanMicroFrameCycles : kRoundCycles;
+  return (static_cast<std::uint64_t>(cycles) << 32) / static_cast<std::uint64_t>(of);
+}
+
+AdcScan::Call AdcScan::last_call(Cycle at) const { return on_ ? call_before(place(at)) : Call{}; }
+
+Cycle AdcScan::next_call(Cycle at) const { return on_ ? call(place(at)).at : host::kNever; }
+
+Cycle AdcScan::done(Cycle from, Cycle work) const {
+  return on_ ? done(place(from), from + work) : from + work;
+}
+
+Cycle AdcScan::done(Place next, Cycle end) const {
+  for (Call c = call(next); c.at < end; c = call(next)) {
+    end += c.cycles;
+    next = after(next);
+  }
+  return end;
+}
+
+Cycle AdcScan::served(Cycle asked, Cycle work) const {
+  if (!on_) return asked + work;
+  const Place next = place(asked);
+  if (micro_only_ || next.slot == 0 || asked - round_ <= kRound.at[first_slot_]) {
+    const Call before = call_before(next);
+    return done(next, std::max(asked, before.at + before.cycles) + work);
+  }
+  // the usual case, without so many questions
+  const Cycle round = round_ + next.round * kRoundCycles;
+  const Cycle free = round + kRound.at[next.slot - 1] + kRound.cycles[next.slot - 1];
+  const Cycle end = std::max(asked, free) + work;
+  return end <= round + kRound.at[next.slot] ? end : done(next, end);
+}
+
+AdcScan::Delays AdcScan::delays(const AgendaTimer& ticks, Cycle at) const {
+  Delays found{noted_stops_, 0};
+  if (!on_ || micro_only_ || !ticks.is_running()) return found;
+  for (;;) {
+    // the next stop that has to wait: each kind comes once a round, at a phase that it keeps
+    std::int64_t next = -1;
+    Cycle limit = at, delay = 0;
+    for (int kind = 0; kind < kStops; ++kind) {
+      std::int64_t round = (found.stops - kind + kStops - 1) / kStops;
+      if (kStopsOfRound.of[kind].slot < first_slot_) round = std::max<std::int64_t>(round, 1);
+      Cycle call = round_ + found.cycles + round * kRoundCycles + kStopsOfRound.of[kind].at;
+      if (call >= limit) continue;
+      Cycle since = ticks.since_tick(call);
+      if (!ticks.may_delay(since)) continue;
+      const std::int64_t rounds = (limit - 1 - call) / kRoundCycles;
+      const AgendaTimer::Wait wait = ticks.first_wait(call, since, rounds);
+      if (wait.cycles == 0) continue;
+      next = (round + wait.round) * kStops + kind;
+      limit = call + wait.round * kRoundCycles;
+      delay = wait.cycles;
+    }
+    if (next < 0) break;
+    found.stops = next + 1;
+    found.cycles += delay;
+  }
+  const Cycle since = at - round_ - found.cycles;
+  if (since <= kStopsOfRound.of[0].at) return found;
+  const std::int64_t round = since / kRoundCycles;
+  int kind = 0;
+  while (kind < kStops && round * kRoundCycles + kStopsOfRound.of[kind].at < since) ++kind;
+  found.stops = round * kStops + kind;
+  return found;
 }
 
 Cycle AdcScan::first_fill(Cycle at) const {

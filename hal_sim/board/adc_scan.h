@@ -16,6 +16,7 @@
 // before the microphones. Source: [lib:
 // a_d/advance_ad_scan/e_ad_conv.c], facts restated.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -24,6 +25,7 @@
 
 namespace board {
 
+class AgendaTimer;
 class Board;
 
 /// Cycles for which the emitter of a ring sensor has been on when its lit sample is held.
@@ -56,6 +58,42 @@ class AdcScan {
   Cycle next_interrupt(Cycle at) const;
   /// Cycle of the interrupt that completes the `count`-th microphone sample from power-up on.
   Cycle interrupt_cycle(std::int64_t count) const;
+
+  // --- the time that its handler takes from the program -----------------------------------------------------
+  /// A call of a handler: when it is asked for, and how long it takes. None: `at` below 0, 0 cycles.
+  struct Call {
+    Cycle at = -host::kNever, cycles = 0;
+  };
+  /// Cycles of the calls asked for in [from, to), neither before the last start() or switch_converter().
+  Cycle handler_cycles(Cycle from, Cycle to) const { return cycles_before(to) - cycles_before(from); }
+  /// What they take of each cycle on average, as a fraction of 2^32.
+  std::uint64_t share_q32() const;
+  /// The newest call before `at`.
+  Call last_call(Cycle at) const;
+  /// When the first call from `at` on is asked for; kNever.
+  Cycle next_call(Cycle at) const;
+  /// `at`, or when the next handler's turn comes after the call that runs then.
+  Cycle free_from(Cycle at) const {
+    const Call call = last_call(at);
+    return std::max(at, call.at + call.cycles);
+  }
+  /// When `work` cycles of another handler, begun at `from`, are done that calls interrupt.
+  Cycle done(Cycle from, Cycle work) const;
+  /// The same of a handler that is asked for at `asked`: free_from() and done().
+  Cycle served(Cycle asked, Cycle work) const;
+  /// Calls that must wait for a cycle or two, because the processor is on its way into Timer 2's handler or out
+  /// of it; where the converter stands meanwhile, everything after comes as much later.
+  struct Delays {
+    std::int64_t stops = 0;  ///< of the converter, looked at so far
+    Cycle cycles = 0;        ///< of these delays since the last note()
+  };
+  /// Up to `at`; `ticks` settled no later than the last note().
+  Delays delays(const AgendaTimer& ticks, Cycle at) const;
+  void note(const Delays& d) {
+    noted_stops_ = d.stops;
+    round_ += d.cycles;
+  }
+
   /// First cycle from `at` on at which the accelerometer index is 49: where e_init_ad_scan() returns.
   Cycle first_fill(Cycle at) const;
 
@@ -114,6 +152,18 @@ class AdcScan {
 
   std::int64_t frames(Cycle at) const { return on_ && at > anchor_ ? (at - anchor_) / frame_cycles() : 0; }
   std::int64_t full_interrupts(Cycle at) const { return full_base_ + (micro_only_ ? 0 : frames(at)); }
+  /// A call: round since round_, and slot in it; MICRO_ONLY: its number and 0.
+  struct Place {
+    std::int64_t round;
+    int slot;
+  };
+  Place place(Cycle at) const;
+  Place after(Place p) const;
+  Call call(Place p) const;
+  Call call_before(Place p) const;
+  Cycle done(Place next, Cycle end) const;
+  void find_round();
+  Cycle cycles_before(Cycle at) const;
   int pair_of_lit(std::int64_t period) const;  // pair whose lit sample arrives in this period
   std::int64_t newest(std::int64_t interrupts, int slot, int shift, int pair) const;
   Cycle full_cycle(std::int64_t interrupt) const;  // of ALL_ADC interrupt number (from 0)
@@ -130,6 +180,10 @@ class AdcScan {
   int starts_ = 0;
   int pairs_ = 4;
   Cycle anchor_ = 0;              // the current run of frames began here
+  // calls of the handler, counted in rounds
+  Cycle round_ = 0;
+  int first_slot_ = 0;            // of the first round: this run's
+  std::int64_t noted_stops_ = 0;  // of the converter, since round_
   std::int64_t total_base_ = 0;   // interrupts before the anchor
   std::int64_t full_base_ = 0;    // of these, in ALL_ADC mode: the driver's slot counter
   std::int64_t period_base_ = 0;  // from this period on ...

@@ -50,81 +50,136 @@ class AgendaMotor {
 
   AgendaCount count;           ///< its node; count.active stays false while no node exists
   Stepper stepper;             ///< the motor itself
-  int speed = 0;               ///< steps/s, clamped
   int phase = 0;               ///< the driver's idea of the rotor
   bool phase_on = false;       ///< power save: the next firing switches the coils off
   std::int64_t commanded = 0;  ///< steps counted by the driver, not wrapped
 
-  /// Does the next firing divide by zero? (speed 0 with a cycle set by hand, in the off half)
-  bool next_fire_traps() const { return speed == 0 && phase_on; }
+  /// steps/s, clamped
+  int speed() const { return speed_; }
+  void set_speed(int speed) {
+    speed_ = speed;
+    magnitude_ = std::abs(speed);
+    save_period_ = speed == 0 ? 0 : kSpeedUnit / magnitude_;
+  }
 
-  /// What the agenda's function does once, at cycle `at`. False: it divided by zero.
-  bool fire(Cycle at) {
-    const int magnitude = std::abs(speed);
-    if (phase_on && magnitude < kPowerSaveBelow) {
+  bool saves_power() const { return magnitude_ < kPowerSaveBelow; }
+
+  /// What the agenda's function does once. `pins_at`: from the cycles between its call and its last change of
+  /// a pin to the cycle of that. False: it divided by zero.
+  template <typename PinsAt>
+  bool fire(const PinsAt& pins_at) {
+    if (phase_on && saves_power()) {
       stepper.set_coils_only(0);
       phase_on = false;
-      if (magnitude == 0) return false;
-      set_cycle(kSpeedUnit / magnitude - kPowerSaveTicks);
+      if (speed_ == 0) return false;
+      set_cycle(save_period_ - kPowerSaveTicks);
       return true;
     }
     const int direction = step_direction();
     commanded += direction;
     phase = (phase + direction * stepper.forward()) & 3;
-    stepper.energise(kPhaseCoils[phase], at);
-    if (magnitude < kPowerSaveBelow) {
+    stepper.energise(kPhaseCoils[phase], pins_at(pin_cycles(stepper.coils(), kPhaseCoils[phase])));
+    if (saves_power()) {
       phase_on = true;
       set_cycle(kPowerSaveTicks);
     }
     return true;
   }
 
-  /// Processes all ticks up to `tick`. Speed 0 is stepped by the caller, firing by firing.
-  void advance_to(std::int64_t tick, const TickLine& line) {
+  /// Processes all ticks up to `tick`. `pins_at(n, cycles)`: when a firing of tick n changes its last pin,
+  /// `cycles` after its call. Speed 0 is stepped by the caller, firing by firing.
+  template <typename PinsAt>
+  void advance_to(std::int64_t tick, const TickLine& line, const PinsAt& pins_at) {
     if (tick <= count.tick) return;
-    if (!count.counts() || speed == 0) {
+    if (!count.counts() || speed_ == 0) {
       count_idle(tick);
       return;
     }
-    // firing by firing until driver, rotor and rhythm agree; then only up to the next one
-    do {
+    const auto fire_at = [&](std::int64_t fire_tick) {
+      count.tick = fire_tick;
+      fire([&](Cycle cycles) { return pins_at(fire_tick, cycles); });
+      count.counter = 0;
+    };
+    // firing by firing until driver, rotor and rhythm agree
+    while (regular_ < kRegularFirings) {
       const std::int64_t fire_tick = count.tick + count.ticks_to_fire();
       if (fire_tick > tick) {
         count_idle(tick);
         return;
       }
-      count.tick = fire_tick;
-      fire(line.cycle_of(fire_tick));
-      count.counter = 0;
+      fire_at(fire_tick);
       regular_ = stepper.is_at(phase) && fire_tick > line.late_tick ? regular_ + 1 : 0;
-    } while (regular_ < kRegularFirings);
-    regular_ = kRegularFirings;
-    // whole periods at once; each ends in the state it began with
-    const std::int64_t period = full_period();
-    const std::int64_t periods = (tick - count.tick) / period;
-    if (periods > 0) {
-      const int direction = step_direction();
-      const std::int64_t end = count.tick + periods * period;
-      const std::int64_t last_step = phase_on_is_new() ? end : end - kPowerSaveTicks;
-      commanded += periods * direction;
-      phase = static_cast<int>((phase + periods * direction * stepper.forward()) & 3);
-      stepper.turn(periods, direction, line.cycle_of(last_step), move_cycles(),
-                   phase_on_is_new() ? kPhaseCoils[phase] : 0u);
-      count.tick = end;
     }
-    while (count.tick + count.ticks_to_fire() <= tick) {
-      count.tick += count.ticks_to_fire();
-      fire(line.cycle_of(count.tick));
+    // then all steps up to the last one at once: one every period
+    const std::int64_t period = full_period(), last_firing = count.tick - count.counter;
+    const std::int64_t before_first = phase_on_is_new() ? last_firing : last_firing - kPowerSaveTicks;
+    const std::int64_t steps = quotient(tick - before_first, period);
+    if (steps > 0) {
+      const int direction = step_direction(), turned = direction * stepper.forward();
+      const std::int64_t last_step = before_first + steps * period;
+      commanded += steps * direction;
+      phase = static_cast<int>((phase + steps * turned) & 3);
+      const auto step_pins = [&](int back) {
+        const unsigned coils = kPhaseCoils[(phase - back * turned) & 3];
+        const unsigned old = saves_power() ? 0 : kPhaseCoils[(phase - (back + 1) * turned) & 3];
+        return pins_at(last_step - back * period, pin_cycles(old, coils));
+      };
+      const Cycle last = step_pins(0), before = steps > 1 ? step_pins(1) : stepper.stepped_at();
+      stepper.turn(steps, direction, last, last - before, kPhaseCoils[phase]);
+      count.tick = last_step;
       count.counter = 0;
+      if (saves_power()) {
+        phase_on = true;
+        set_cycle(kPowerSaveTicks);
+      }
     }
+    if (count.tick + count.ticks_to_fire() <= tick) fire_at(count.tick + count.ticks_to_fire());
     count_idle(tick);
+  }
+
+  /// Firings at ticks after the one processed last, up to `tick`; without a command.
+  std::int64_t firings_until(std::int64_t tick) const {
+    if (!count.counts() || speed_ == 0) return 0;
+    const std::int64_t first = count.tick + count.ticks_to_fire();
+    if (tick < first) return 0;
+    const std::int64_t after = tick - first, period = full_period(), whole = quotient(after, period);
+    if (!saves_power()) return whole + 1;
+    return whole * 2 + (after - whole * period >= second_half() ? 2 : 1);
+  }
+  /// What the processor spends on a firing: a step, or the coils' switching off.
+  Cycle step_cycles() const {
+    const Cycle left = stepper.forward() < 0 ? kMotorLeftCycles : 0;
+    return left + (saves_power() ? kMotorHalfStepCycles
+                                 : kMotorStepCycles + (phase_on ? kMotorOldHalfCycles : 0));
+  }
+  Cycle off_cycles() const {
+    return kMotorOffCycles + (stepper.forward() < 0 ? 2 * kMotorLeftCycles : 0);
+  }
+  /// Of a step and what belongs to it; ticks from one to the next.
+  Cycle period_cycles() const { return saves_power() ? step_cycles() + off_cycles() : step_cycles(); }
+  std::int64_t full_period() const { return saves_power() ? save_period_ : count.cycle; }
+  /// The same of the firing at this tick, which comes later than the one processed last; 0 for none.
+  Cycle firing_cycles(std::int64_t tick) const {
+    const std::int64_t after = tick - count.tick - count.ticks_to_fire();
+    if (after < 0 || !count.counts() || speed_ == 0) return 0;
+    const std::int64_t period = full_period(), into = after - quotient(after, period) * period;
+    if (into == 0) return saves_power() && phase_on ? off_cycles() : step_cycles();
+    if (!saves_power() || into != second_half()) return 0;
+    return phase_on ? step_cycles() : off_cycles();
+  }
+  /// What `count` firings take, the `first` after the one processed last.
+  Cycle cycles_of(std::int64_t first, std::int64_t count) const {
+    if (!saves_power()) return count * step_cycles();
+    const bool begins_off = phase_on == ((first & 1) == 0);
+    return count / 2 * (step_cycles() + off_cycles()) +
+           (count % 2 == 0 ? 0 : begins_off ? off_cycles() : step_cycles());
   }
 
   /// Tick of the next step (not coil-off), or -1 if there is none without a command.
   std::int64_t next_step_tick() const {
-    if (!count.counts() || speed == 0) return -1;
+    if (!count.counts() || speed_ == 0) return -1;
     std::int64_t next = count.tick + count.ticks_to_fire();
-    if (phase_on && std::abs(speed) < kPowerSaveBelow) next += kSpeedUnit / std::abs(speed) - kPowerSaveTicks;
+    if (phase_on && saves_power()) next += save_period_ - kPowerSaveTicks;
     return next;
   }
 
@@ -138,27 +193,31 @@ class AgendaMotor {
   /// steps that came a period after the one before.
   static constexpr int kRegularFirings = 6;
   int regular_ = 0;
+  int speed_ = 0, magnitude_ = 0;
+  int save_period_ = 0;  // ticks from step to step in power save
 
   /// left: forward only for v > 0; right: backward only for v < 0
   int step_direction() const {
-    if (stepper.forward() < 0) return speed > 0 ? 1 : -1;
-    return speed < 0 ? -1 : 1;
+    if (stepper.forward() < 0) return speed_ > 0 ? 1 : -1;
+    return speed_ < 0 ? -1 : 1;
   }
-  /// Time the rotor has for a step.
-  Cycle move_cycles() const {
-    const int magnitude = std::abs(speed);
-    const Cycle ticks = magnitude >= kPowerSaveBelow ? count.cycle
-                        : magnitude > 0              ? kSpeedUnit / magnitude
-                                                     : 0;
-    const Cycle cycles = ticks * kAgendaTickCycles;
-    return cycles > 0 && cycles < kRotorMoveCycles ? cycles : kRotorMoveCycles;
+  /// Of numbers that are small nearly always: a short division takes half the time.
+  static std::int64_t quotient(std::int64_t ticks, std::int64_t period) {
+    if (static_cast<std::uint64_t>(ticks) >> 32) return ticks / period;
+    return static_cast<std::uint32_t>(ticks) / static_cast<std::uint32_t>(period);
   }
-  std::int64_t full_period() const {
-    const int magnitude = std::abs(speed);
-    return magnitude < kPowerSaveBelow ? kSpeedUnit / magnitude : count.cycle;
-  }
+  /// Power save: ticks from the next firing, which sets the cycle for it, to the one after.
+  std::int64_t second_half() const { return phase_on ? full_period() - kPowerSaveTicks : kPowerSaveTicks; }
   /// In a regular rhythm: was the last firing a step (true) or the coils' switching off?
-  bool phase_on_is_new() const { return std::abs(speed) >= kPowerSaveBelow || phase_on; }
+  bool phase_on_is_new() const { return !saves_power() || phase_on; }
+  /// From the function's call to its last change of a pin.
+  Cycle pin_cycles(unsigned from, unsigned to) const {
+    int last = 3;
+    while (last > 0 && ((from ^ to) >> last & 1) == 0) --last;
+    return kMotorPinCycles[last] + ((from >> last & 1) != 0 ? kMotorPinClearedCycles : 0) +
+           (phase_on && !saves_power() ? kMotorOldHalfCycles : 0) -
+           (stepper.forward() < 0 ? kMotorPinsLeftSooner : 0);
+  }
 
   void count_idle(std::int64_t tick) {
     if (count.counts()) count.counter = static_cast<std::uint16_t>(count.counter + (tick - count.tick));

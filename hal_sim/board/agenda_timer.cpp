@@ -21,8 +21,8 @@ std::int64_t floor_div(std::int64_t a, std::int64_t b) {
 }
 }  // namespace
 
-AgendaTimer::AgendaTimer()
-    : motors_{AgendaMotor(-1), AgendaMotor(+1)}, ahead_{AgendaMotor(-1), AgendaMotor(+1)} {
+AgendaTimer::AgendaTimer(const AdcScan* scan)
+    : scan_(scan), motors_{AgendaMotor(-1), AgendaMotor(+1)}, ahead_{AgendaMotor(-1), AgendaMotor(+1)} {
   nodes_.reserve(8);
   for (AgendaMotor& m : motors_) m.count.active = false;
 }
@@ -81,6 +81,7 @@ void AgendaTimer::reset(Cycle at) {
   stopped_tick_ = 0;
   next_fire_ = -1;
   last_serial_ = 0;
+  find_costs();
 }
 
 // --- the list --------------------------------------------------------------------------------------------
@@ -106,7 +107,7 @@ const AgendaCount& AgendaTimer::count_of(const Node& node) const {
 }
 
 bool AgendaTimer::needs_handler(const Node& node) const {
-  return node.kind == Kind::User || motor(wheel_of(node.kind)).speed == 0;
+  return node.kind == Kind::User || motor(wheel_of(node.kind)).speed() == 0;
 }
 
 void AgendaTimer::settle(Node& node, std::int64_t tick) {
@@ -125,12 +126,19 @@ void AgendaTimer::disturb(const Node& node) {
   if (node.kind != Kind::User) motor(wheel_of(node.kind)).disturb();
 }
 
+// A motor whose node comes later in the list waits for the other one's firings: these must still be known.
 AgendaMotor& AgendaTimer::bring(Wheel wheel, std::int64_t tick) {
+  const Wheel other = wheel == Wheel::Left ? Wheel::Right : Wheel::Left;
+  if (walks_before(wheel, other)) bring_alone(other, tick);
+  return bring_alone(wheel, tick);
+}
+
+AgendaMotor& AgendaTimer::bring_alone(Wheel wheel, std::int64_t tick) {
   const std::size_t i = static_cast<std::size_t>(wheel);
   AgendaMotor& m = motors_[i];
   if (has_ahead_[i] && ahead_[i].count.tick <= tick) m = ahead_[i];
   has_ahead_[i] = false;
-  m.advance_to(tick, line_);
+  m.advance_to(tick, line_, [&](std::int64_t t, Cycle cycles) { return pins_at(wheel, t, cycles); });
   return m;
 }
 
@@ -141,6 +149,7 @@ void AgendaTimer::settle_motors(std::int64_t tick) {
 }
 
 void AgendaTimer::find_next_fire() {
+  find_costs();
   next_fire_ = -1;
   for (const Node& node : nodes_) {
     const AgendaCount& count = count_of(node);
@@ -231,18 +240,19 @@ void AgendaTimer::name_motor(Wheel wheel, Function function) {
 
 void AgendaTimer::set_speed(Wheel wheel, int speed, Cycle at) {
   AgendaMotor& m = bring(wheel, done_tick(serial_of(wheel), at));
-  const bool was_handled = m.count.counts() && m.speed == 0;
+  const bool was_handled = m.count.counts() && m.speed() == 0;
   m.stepper.set_coils_only(0);
   m.disturb();
-  m.speed = std::clamp(speed, -kMaxSpeed, kMaxSpeed);
-  if (has_node_[static_cast<int>(wheel)]) m.set_cycle(m.speed == 0 ? 0 : kSpeedUnit / std::abs(m.speed));
+  m.set_speed(std::clamp(speed, -kMaxSpeed, kMaxSpeed));
+  if (has_node_[static_cast<int>(wheel)]) m.set_cycle(m.speed() == 0 ? 0 : kSpeedUnit / std::abs(m.speed()));
   // a motor that runs, or stands without a cycle, needs no interrupt
   if (was_handled && !walking_) find_next_fire();
+  find_costs();
 }
 
 bool AgendaTimer::run_motor(Wheel wheel, Cycle at) {
   AgendaMotor& m = bring(wheel, done_tick(serial_of(wheel), at));
-  const bool fine = m.fire(at);
+  const bool fine = m.fire([at](Cycle) { return at; });
   m.disturb();
   if (!walking_) find_next_fire();
   return fine;
@@ -251,14 +261,14 @@ bool AgendaTimer::run_motor(Wheel wheel, Cycle at) {
 const AgendaMotor& AgendaTimer::motor_at(Wheel wheel, Cycle at) const {
   const std::size_t i = static_cast<std::size_t>(wheel);
   const AgendaMotor& m = motors_[i];
-  if (!m.count.counts() || m.speed == 0) return m;
+  if (!m.count.counts() || m.speed() == 0) return m;
   const std::int64_t tick = done_tick(motor_serial_[i], at);
   if (!has_ahead_[i] || ahead_[i].count.tick > tick) {
     if (tick < m.count.tick + m.count.ticks_to_fire()) return m;
     ahead_[i] = m;
     has_ahead_[i] = true;
   }
-  ahead_[i].advance_to(tick, line_);
+  ahead_[i].advance_to(tick, line_, [&](std::int64_t t, Cycle cycles) { return pins_at(wheel, t, cycles); });
   return ahead_[i];
 }
 
@@ -283,7 +293,7 @@ Cycle AgendaTimer::steps_horizon(Wheel wheel, Cycle at) const {
 Cycle AgendaTimer::coils_horizon(Wheel wheel, Cycle at) const {
   if (!running_ && !walking_) return host::kNever;
   const AgendaMotor& m = motor_at(wheel, at);
-  if (!m.count.counts() || m.speed == 0) return host::kNever;
+  if (!m.count.counts() || m.speed() == 0) return host::kNever;
   return line_.cycle_of(m.count.tick + m.count.ticks_to_fire());
 }
 
@@ -312,8 +322,9 @@ void AgendaTimer::begin(Cycle at) {
   in_callback_ = false;
 }
 
-AgendaTimer::Function AgendaTimer::next(bool& divided_by_zero) {
+AgendaTimer::Function AgendaTimer::next(bool& divided_by_zero, Cycle at) {
   divided_by_zero = false;
+  walk_at_ = at;
   if (!walking_) return nullptr;
   // the callback has returned: its counter is zeroed now, whatever it did itself
   if (in_callback_) {
@@ -334,7 +345,10 @@ AgendaTimer::Function AgendaTimer::next(bool& divided_by_zero) {
     walk_serial_ = node->serial;
     walk_cost_ += cost_of(*node);
     if (!needs_handler(*node)) {
+      const AgendaMotor& m = motor(wheel_of(node->kind));
+      const Cycle firing = m.firing_cycles(walk_tick_);
       settle(*node, walk_tick_);
+      walk_cost_ += firing;
       continue;
     }
     AgendaCount& count = count_of(*node);
@@ -346,7 +360,8 @@ AgendaTimer::Function AgendaTimer::next(bool& divided_by_zero) {
       in_callback_ = true;
       return node->function;
     }
-    divided_by_zero = !motor(wheel_of(node->kind)).fire(line_.cycle_of(walk_tick_));
+    AgendaMotor& m = motor(wheel_of(node->kind));
+    divided_by_zero = !m.fire([&](Cycle cycles) { return pins_at(wheel_of(node->kind), walk_tick_, cycles); });
     count.counter = 0;
     if (divided_by_zero) return nullptr;
   }
@@ -380,26 +395,118 @@ Cycle AgendaTimer::cost_of(const Node& node) const {
 
 Cycle AgendaTimer::take_walk_cost() { return std::exchange(walk_cost_, 0); }
 
-AgendaTimer::Load AgendaTimer::quiet_ticks() const {
-  if (!running_) return {};
-  Cycle cost = kAgendaIsrCycles + (nodes_.empty() ? 0 : kAgendaListCycles);
-  constexpr Cycle kTicks = 1 << 20;
-  Cycle quiet = kTicks;  // of these
+void AgendaTimer::find_costs() {
+  tick_cycles_ = kAgendaIsrCycles + (nodes_.empty() ? 0 : kAgendaListCycles);
+  way_to_[0] = way_to_[1] = 0;
   for (const Node& node : nodes_) {
-    const AgendaCount& count = count_of(node);
-    cost += cost_of(node);
-    if (count.counts() && needs_handler(node)) quiet -= quiet / count.cycle;
+    const Cycle cycles = cost_of(node);
+    tick_cycles_ += cycles;
+    for (Wheel wheel : {Wheel::Left, Wheel::Right})
+      if (node.serial >= serial_of(wheel)) way_to_[static_cast<std::size_t>(wheel)] += cycles;
   }
-  return {kTicks * kAgendaTickCycles, quiet * cost};
+  if (scan_) find_moments();
 }
 
-AgendaTimer::Load AgendaTimer::firing(Wheel wheel) const {
-  const AgendaMotor& m = motor(wheel);
-  if (!running_ || !m.count.counts() || m.speed == 0) return {};
-  const int magnitude = std::abs(m.speed);
-  if (magnitude < kPowerSaveBelow)
-    return {kSpeedUnit / magnitude * kAgendaTickCycles, 2 * kMotorHalfStepCycles};
-  return {m.count.cycle * kAgendaTickCycles, kMotorStepCycles};
+// Firings that a tick may hold: none or one of either motor, a step or the coils' switching off.
+void AgendaTimer::find_moments() {
+  const std::array<Cycle, 6> key{tick_cycles_, motors_[0].step_cycles(), motors_[1].step_cycles(),
+                                 motors_[0].saves_power(), motors_[1].saves_power(), 0};
+  if (key == moments_key_) return;
+  moments_key_ = key;
+  moment_count_ = 0;
+  delayed_phases_ = 0;
+  const auto add = [&](Cycle since) {
+    for (int i = 0; i < moment_count_; ++i)
+      if (moments_[i] == since) return;
+    moments_[moment_count_++] = static_cast<std::int16_t>(since);
+    delayed_phases_ |= 1u << since % kPhaseCycles;
+  };
+  for (Cycle since = 1; since <= kEntryCycles; ++since) add(since);
+  const auto kinds = [](const AgendaMotor& m) {
+    return std::array<Cycle, 3>{0, m.step_cycles(), m.saves_power() ? m.off_cycles() : 0};
+  };
+  for (const Cycle one : kinds(motors_[0]))
+    for (const Cycle other : kinds(motors_[1]))
+      for (Cycle left = 0; left < kExitCycles; ++left) add(tick_cycles_ - kExitCycles + one + other + left);
+}
+
+Cycle AgendaTimer::firing_cycles(std::int64_t from, std::int64_t to) const {
+  Cycle cycles = 0;
+  for (const AgendaMotor& m : motors_) {
+    const std::int64_t until = m.firings_until(to);
+    if (until == 0) continue;
+    const std::int64_t before = m.firings_until(from);
+    cycles += m.cycles_of(before, until - before);
+  }
+  return cycles;
+}
+
+Cycle AgendaTimer::handler_cycles(Cycle from, Cycle to) const {
+  if (!running_ || walking_) return 0;
+  const std::int64_t first = ticks_at(from - 1), last = ticks_at(to - 1);
+  return first == last ? 0 : (last - first) * tick_cycles_ + firing_cycles(first, last);
+}
+
+std::uint64_t AgendaTimer::share_q32() const {
+  if (!running_) return 0;
+  const auto share = [](Cycle cycles, std::int64_t ticks) {
+    return (static_cast<std::uint64_t>(cycles) << 32) / static_cast<std::uint64_t>(ticks * kAgendaTickCycles);
+  };
+  std::uint64_t sum = share(tick_cycles_, 1);
+  for (const AgendaMotor& m : motors_)
+    if (m.count.counts() && m.speed() != 0) sum += share(m.period_cycles(), m.full_period());
+  return sum;
+}
+
+Cycle AgendaTimer::last_call(Cycle at) const {
+  const std::int64_t tick = ticks_at(at - 1);
+  return running_ && !walking_ && tick > 0 ? line_.cycle_of(tick) : -1;
+}
+
+Cycle AgendaTimer::next_call(Cycle at) const {
+  return running_ && !walking_ ? line_.cycle_of(ticks_at(at - 1) + 1) : host::kNever;
+}
+
+AgendaTimer::Wait AgendaTimer::first_wait(Cycle at, Cycle since, std::int64_t rounds) const {
+  // a round moves an interrupt by 39 of the 59 phases of a tick; 56 rounds move it by one
+  constexpr Cycle kPhases = kAgendaTickCycles / kPhaseCycles;
+  constexpr Cycle kRoundCycles = kScanPeriod * kScanFrameCycles, kRoundsAPhase = 56;
+  static_assert(kRoundCycles * kRoundsAPhase % kAgendaTickCycles == kPhaseCycles);
+  Wait first{rounds + 1, 0};
+  for (int i = 0; i < moment_count_; ++i) {
+    const Cycle ahead = moments_[i] - since;
+    if (ahead % kPhaseCycles != 0) continue;
+    const Cycle phases = ahead / kPhaseCycles;
+    std::int64_t round = (phases < 0 ? phases + kPhases : phases) * kRoundsAPhase % kPhases;
+    for (; round < first.round; round += kPhases) {
+      const Cycle wait = wait_at(at + round * kRoundCycles, moments_[i]);
+      if (wait > 0) first = {round, wait};
+    }
+  }
+  return first;
+}
+
+Cycle AgendaTimer::wait_at(Cycle at, Cycle since) const {
+  if (since <= kEntryCycles) return kEntryCycles + 1 - since;
+  const std::int64_t tick = ticks_at(at);
+  const Cycle left = since - (tick_cycles_ - kExitCycles) - motors_[0].firing_cycles(tick) -
+                     motors_[1].firing_cycles(tick);
+  return left >= 0 && left < kExitCycles ? kExitCycles - left : 0;
+}
+
+Cycle AgendaTimer::pins_at(Wheel wheel, std::int64_t tick, Cycle cycles) const {
+  if (!scan_) return line_.cycle_of(tick);
+  Cycle from = walk_at_;
+  if (walking_ && tick == walk_tick_) {
+    cycles += walk_cost_;
+  } else {
+    const Wheel other = wheel == Wheel::Left ? Wheel::Right : Wheel::Left;
+    from = line_.cycle_of(tick);
+    cycles += kAgendaEntryCycles + way_to_[static_cast<std::size_t>(wheel)];
+    if (walks_before(other, wheel)) cycles += motor(other).firing_cycles(tick);
+    return scan_->served(from, cycles - kPinBlockCycles) + kPinBlockCycles;
+  }
+  return scan_->done(from, cycles - kPinBlockCycles) + kPinBlockCycles;
 }
 
 std::uint64_t AgendaTimer::state_sum(Cycle at) const {
@@ -415,7 +522,7 @@ std::uint64_t AgendaTimer::state_sum(Cycle at) const {
     add(static_cast<std::uint64_t>(m.stepper.steps()));
     add(static_cast<std::uint64_t>(m.commanded));
     add(m.stepper.coils() | static_cast<std::uint64_t>(m.phase) << 8 |
-        static_cast<std::uint64_t>(m.speed + kMaxSpeed) << 16 | (m.phase_on ? 1ull << 40 : 0));
+        static_cast<std::uint64_t>(m.speed() + kMaxSpeed) << 16 | (m.phase_on ? 1ull << 40 : 0));
   }
   for (const Node& node : nodes_) add(node.count.cycle | std::uint64_t{node.serial} << 16);
   return sum;

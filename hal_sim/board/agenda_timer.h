@@ -10,15 +10,20 @@
 // A handler that takes longer than a tick delays the following tick to its end and loses the others, as the
 // processor with its single pending flag does; motors lose them too.
 //
+// A motor's pins change when the handler comes to them: after the nodes that were added later, the other
+// motor's firing if that is one of them, and the converter's handlers that come meanwhile.
+//
 // Modelled: list order, counters that survive speed and cycle changes, pause, restart, reset, destroy from
 // within callbacks, lost ticks, division by zero in the power-save half.
 // Not modelled: a list edited while the interrupt walks it (the robot races); use of freed nodes; ticks lost
-// to other interrupts while no user agenda is due; the few microseconds of interrupt latency.
+// to other interrupts while no user agenda is due, or delayed by other handlers than the converter's.
 // Source: [lib: motor_led/advance_one_timer/e_agenda.c], facts restated.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <vector>
 
+#include "hal_sim/board/adc_scan.h"
 #include "hal_sim/board/agenda_motor.h"
 
 namespace board {
@@ -30,7 +35,9 @@ class AgendaTimer {
   /// Identifies an agenda: the address of its C function. Only compared, never followed here.
   using Function = const void*;
 
-  AgendaTimer();
+  /// `scan`: whose handler interrupts that of the agendas; null: motors' pins change at their ticks, whatever
+  /// handlers do.
+  explicit AgendaTimer(const AdcScan* scan = nullptr);
 
   // --- the timer -----------------------------------------------------------------------------------------
   /// Timer 2 starts from 0: the first tick is one period later.
@@ -57,7 +64,7 @@ class AgendaTimer {
   void set_speed(Wheel wheel, int speed, Cycle at);
   /// run_left_motor() called as a function, from wherever. False: division by zero.
   bool run_motor(Wheel wheel, Cycle at);
-  int speed(Wheel wheel) const { return motor(wheel).speed; }
+  int speed(Wheel wheel) const { return motor(wheel).speed(); }
   /// The driver's step counter, not wrapped.
   std::int64_t commanded_steps(Wheel wheel, Cycle at) const;
   /// Cycle before which the step counter keeps its value without a command.
@@ -81,8 +88,8 @@ class AgendaTimer {
   /// The handler starts. Must be called at or after next_interrupt().
   void begin(Cycle at);
   /// The next callback of this tick, in list order, or null when the list's end is reached. `divided_by_zero`
-  /// is set when a motor's firing trapped; the walk is then over.
-  Function next(bool& divided_by_zero);
+  /// is set when a motor's firing trapped; the walk is then over. `at`: now.
+  Function next(bool& divided_by_zero, Cycle at);
   /// Processor cycles that the walk has taken since this was asked last.
   Cycle take_walk_cost();
   /// The handler returns.
@@ -97,14 +104,31 @@ class AgendaTimer {
 
   /// Ticks processed by `at`.
   std::int64_t ticks_at(Cycle at) const;
-  /// `cost` processor cycles every `period`; period 0: nothing.
-  struct Load {
-    Cycle period = 0, cost = 0;
+  /// Cycles that the ticks in [from, to) take which call no function of the program; those that do are run and
+  /// charged one by one. 0 during a walk.
+  Cycle handler_cycles(Cycle from, Cycle to) const;
+  /// What all of them take of each cycle on average, as a fraction of 2^32.
+  std::uint64_t share_q32() const;
+  /// When the newest of them before `at` came; below 0: none.
+  Cycle last_call(Cycle at) const;
+  Cycle next_call(Cycle at) const;
+  /// Cycles from a tick to `at`, an instant after the first.
+  Cycle since_tick(Cycle at) const { return (at - line_.origin) % kAgendaTickCycles; }
+  /// An interrupt of a higher level that must wait because the processor is on its way into the handler or
+  /// out of it.
+  struct Wait {
+    std::int64_t round = 0;
+    Cycle cycles = 0;  ///< 0: none must
   };
-  /// Ticks that call no function of the program. Those that do are run and charged one by one.
-  Load quiet_ticks() const;
-  /// What a running motor's agenda adds.
-  Load firing(Wheel wheel) const;
+  /// Of interrupts asked for at `at`, `since` after a tick, and then once a round of the scan, `rounds` times
+  /// more: the first that must wait. Not before the last settle().
+  Wait first_wait(Cycle at, Cycle since, std::int64_t rounds) const;
+  /// False: none must at `since` plus multiples of kPhaseCycles.
+  bool may_delay(Cycle since) const { return (delayed_phases_ >> (since % kPhaseCycles) & 1) != 0; }
+  /// Brings the motors to `at`: whatever changes how long handlers take, or delay each other, comes after.
+  void settle(Cycle at) { settle_motors(walking_ ? -1 : ticks_at(at)); }
+  /// Does the driver step this wheel on and on?
+  bool runs(Wheel wheel) const { return running_ && motor(wheel).count.counts() && motor(wheel).speed() != 0; }
   /// The state at `at` as a sum of products, for a hash: the caller mixes it.
   std::uint64_t state_sum(Cycle at) const;
 
@@ -137,8 +161,18 @@ class AgendaTimer {
   /// Does this node need the handler when it fires?
   bool needs_handler(const Node& node) const;
   Cycle cost_of(const Node& node) const;
+  void find_costs();
+  void find_moments();
+  Cycle wait_at(Cycle at, Cycle since) const;
+  /// Firings of both motors in the ticks after `from` up to `to`, and what they take.
+  Cycle firing_cycles(std::int64_t from, std::int64_t to) const;
+  /// When the firing of a motor at `tick` changes its last pin, `cycles` after its function's call.
+  Cycle pins_at(Wheel wheel, std::int64_t tick, Cycle cycles) const;
+  bool walks_before(Wheel first, Wheel second) const { return serial_of(first) > serial_of(second); }
+  AgendaMotor& bring_alone(Wheel wheel, std::int64_t tick);
   void find_next_fire();
 
+  const AdcScan* scan_;
   TickLine line_;
   bool running_ = false;
   std::int64_t stopped_tick_ = 0;  // ticks processed while not running
@@ -152,11 +186,20 @@ class AgendaTimer {
   std::uint32_t motor_serial_[2] = {0, 0};
   std::uint32_t last_serial_ = 0;
 
+  Cycle tick_cycles_ = kAgendaIsrCycles;  // of a tick at which nothing fires
+  // moments after a tick at which another interrupt may have to wait
+  std::int16_t moments_[kEntryCycles + 9 * kExitCycles] = {};
+  int moment_count_ = 0;
+  std::array<Cycle, 6> moments_key_{};  // what they were found for
+  std::uint32_t delayed_phases_ = 0;    // may_delay()'s bits
+  Cycle way_to_[2] = {0, 0};              // from the list's head to the motors' functions
+
   std::int64_t next_fire_ = -1;  // next tick that needs the handler, -1 none
   bool walking_ = false;
   std::int64_t walk_tick_ = 0;
   std::uint32_t walk_serial_ = 0;  // node being processed; those above are done
-  Cycle walk_cost_ = 0;
+  Cycle walk_cost_ = 0;            // of the nodes since walk_at_
+  Cycle walk_at_ = 0;
   bool in_callback_ = false;
 };
 

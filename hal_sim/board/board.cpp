@@ -59,6 +59,7 @@ std::int64_t to_ppb(double ppm) { return static_cast<std::int64_t>(std::llround(
 Board::Board(const Setup& setup)
     : setup_(setup),
       clock_(to_ppb(setup.clock_ppm), sim::from_seconds(setup.boot_delay_s)),
+      agendas_(setup.spread_handlers ? nullptr : &scan_),
       scan_(*this),
       basic_prox_(*this),
       battery_(setup.battery_wh, setup.battery_v, kProcessorA + kBluetoothA + kBoardA) {
@@ -347,6 +348,17 @@ void Board::exchange(Cycle at) {
   for (Uart& uart : uarts_) uart.exchange(at);
   codec_.forget(at);
   scan_.keep_acc(at);
+  if (at - handlers_settled_ >= kSettleCycles) settle_handlers(at);
+}
+
+// The motors first: their steps so far were delayed by calls as these were known.
+void Board::settle_handlers(Cycle at) {
+  if (agendas_.is_walking()) return;
+  handlers_settled_ = at;
+  if (setup_.spread_handlers) return agendas_.settle(at);
+  const AdcScan::Delays delays = scan_.delays(agendas_, at);
+  agendas_.settle(at);
+  scan_.note(delays);
 }
 
 // --- analogue inputs -------------------------------------------------------------------------------------

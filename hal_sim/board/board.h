@@ -31,6 +31,7 @@
 #include "hal_sim/board/codec.h"
 #include "hal_sim/board/data_eeprom.h"
 #include "hal_sim/board/diagnosis.h"
+#include "hal_sim/board/handlers.h"
 #include "hal_sim/board/i2c_bus.h"
 #include "hal_sim/board/i2c_master.h"
 #include "hal_sim/board/packet_devices.h"
@@ -83,6 +84,7 @@ struct Setup {
   std::array<double, 3> gyro_offset_rad_s{};  ///< added to the angular rates about these axes
   double motion_noise_scale = 1;              ///< factor on the noise of accelerometer and gyroscope
   double clock_ppm = 0;                       ///< crystal error, parts per million, positive = fast
+  bool spread_handlers = false;               ///< what handlers() take is spread evenly over the program
   double boot_delay_s = 0;                    ///< s from the world's beginning to the first instruction
   std::string name;                           ///< in the world
   sim::WebotsDesc webots;                     ///< of the world
@@ -182,6 +184,10 @@ class Board {
   const AgendaTimer& agendas() const { return agendas_; }
   TimerMotors& timer_motors() { return timer_motors_; }
   const TimerMotors& timer_motors() const { return timer_motors_; }
+  /// What the handlers of both take from the program.
+  /// Before any change to when they come or what they take.
+  void settle_handlers(Cycle at);
+  Handlers handlers() const { return {scan_, agendas_}; }
   AdcScan& scan() { return scan_; }
   const AdcScan& scan() const { return scan_; }
   Codec& codec() { return codec_; }
@@ -324,6 +330,7 @@ class Board {
   double beside_emitters_a_ = kProcessorA + kBluetoothA + kBoardA;  // at the last follow_power()
 
   AgendaTimer agendas_;
+  Cycle handlers_settled_ = 0;
   TimerMotors timer_motors_;
   AdcScan scan_;
   BasicProx basic_prox_;

@@ -39,6 +39,9 @@ inline constexpr int kStepsPerTurn = 1000;  // 20 steps a turn, gear 50:1 [FRM A
 // a loaded 20-step motor settles within a few ms of a step; 4 ms keeps speeds from 250 steps/s smooth
 inline constexpr Cycle kRotorMoveCycles =
     4 * kFcyHz / 1000;  // [assumed: settling time of a small PM stepper]
+/// A rotor this near to its place has arrived when the next step comes, so that a regular rhythm whose steps
+/// wait some microseconds for other handlers has no memory.
+inline constexpr double kRotorThereSteps = 0.05;  // [assumed: twice what such waits make at 1000 steps/s]
 
 // --- ADC scan --------------------------------------------------------------------------------------------
 inline constexpr Cycle kScanFrameCycles =
@@ -155,9 +158,51 @@ inline constexpr Cycle kAgendaIsrCycles = 35;       // empty list
 inline constexpr Cycle kAgendaListCycles = -2;      // a list with nodes
 inline constexpr Cycle kAgendaNodeCycles = 13;      // one node
 inline constexpr Cycle kAgendaCountCycles = 5;      // one that counts
-inline constexpr Cycle kMotorHalfStepCycles = 125;  // coils on or off, the next half's cycle
-inline constexpr Cycle kMotorStepCycles = 108;      // coils on to stay
-inline constexpr Cycle kScanRoundIsrCycles = 7518;  // 65 frames, beside agendas, in the first 4 s
+inline constexpr Cycle kMotorHalfStepCycles = 123;  // coils on, the next half's cycle
+inline constexpr Cycle kMotorOffCycles = 125;       // coils off, the next half's cycle
+inline constexpr Cycle kMotorStepCycles = 107;      // coils on to stay
+inline constexpr Cycle kMotorLeftCycles = 1;        // more for the left one; 2 for coils off
+inline constexpr Cycle kMotorOldHalfCycles = 3;     // more of a step to stay when a half was left over
+inline constexpr int kAgendaPriority = 4;           // reset value of IPC1 [DS70143 5.2]
+inline constexpr int kScanPriority = 5;             // [lib: a_d/advance_ad_scan/e_ad_conv.c]
+inline constexpr Cycle kAgendaEntryCycles = 19;     // Timer 2's flag to the first node
+/// From the call of a motor's function to the last pin of a new pattern, by that pin: A, B, C, D.
+inline constexpr Cycle kMotorPinCycles[4] = {58, 67, 81, 90};
+inline constexpr Cycle kMotorPinClearedCycles = 1;  // more when that goes low
+inline constexpr Cycle kMotorPinsLeftSooner = 1;    // of the left motor's function
+inline constexpr Cycle kScanStartCycles = 15;  // from the converter's being switched on to its first frame
+/// A round of the scan and a tick are multiples of this, so what is asked for once a round keeps its phase.
+inline constexpr Cycle kPhaseCycles = 25;
+static_assert(kScanPeriod * kScanFrameCycles % kPhaseCycles == 0 && kAgendaTickCycles % kPhaseCycles == 0);
+/// How long what two handlers do to each other may be left undone: bookkeeping, no time of the robot's.
+inline constexpr Cycle kSettleCycles = 1'000'000;  // [assumed: a few cycles' delay more or less by then]
+inline constexpr Cycle kPinBlockCycles = 2;  // before a pin changes: an interrupt comes too late to delay it
+inline constexpr Cycle kEntryCycles = 2;  // of an interrupt in which no other is taken [register way]
+inline constexpr Cycle kExitCycles = 3;   // RETFIE [DS70157]
+/// One frame of the scan: how much later than evenly its interrupt comes, and what the handler takes.
+struct ScanHandler {
+  Cycle late, cycles;
+};
+/// By slot: the converter stands while its list changes (slots 3, 4, 33, 62 to 64), and catches that up with
+/// short frames (5 to 32).
+constexpr ScanHandler scan_handler(int slot) {
+  // [measured: trace of the register way, 4 s]
+  const Cycle late = slot < 3    ? 0
+                     : slot == 3 ? 115
+                     : slot < 33 ? 199 - ((slot - 4) * 45 + 1) / 2
+                     : slot < 62 ? -320
+                     : slot < 64 ? -217 + (slot - 62) * 112
+                                 : 0;
+  const Cycle cycles = slot == 2    ? 170
+                       : slot == 3  ? 206
+                       : slot == 32 ? 165
+                       : slot == 61 ? 154
+                       : slot == 62 ? 186
+                       : slot == 63 ? 201
+                       : slot == 64 ? 117
+                                    : 109;
+  return {late, cycles};
+}
 inline constexpr Cycle kScanMicroIsrCycles = 83;    // a frame
 inline constexpr Cycle kBasicMotorIsrCycles =
     34;                                        // [estimated: shadow context, counter, phase, 4 bit writes]

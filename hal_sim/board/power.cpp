@@ -27,7 +27,7 @@ double Board::coil_duty(Wheel wheel, Cycle at) const {
   const Stepper& motor = agendas_.stepper_at(wheel, at);  // of a timer's train: connected, and driven, alike
   if (!motor.connected()) return 0;
   if (timer_motors_.drives(wheel)) return 1;  // these drivers leave the coils on from step to step
-  if (agendas_.firing(wheel).period == 0) return ones(motor.coils()) / 2.0;
+  if (!agendas_.runs(wheel)) return ones(motor.coils()) / 2.0;
   const int magnitude = std::abs(agendas_.speed(wheel));
   if (magnitude >= kPowerSaveBelow) return 1;
   const int period = magnitude > 0 ? kSpeedUnit / magnitude : 0;

@@ -49,6 +49,8 @@ class Stepper {
   unsigned coils() const { return coils_; }
   /// Full steps of the wheel, forward positive.
   std::int64_t steps() const { return motion_.steps; }
+  /// When a pattern last pulled the rotor on.
+  Cycle stepped_at() const { return motion_.stepped_at; }
   std::int64_t lost() const { return faults_.jumps.count + faults_.too_fast.count; }
   /// Up to `at`, coils that are held at this moment included.
   StepperFaults faults(Cycle at) const {
@@ -84,19 +86,20 @@ class Stepper {
     }
   }
 
-  /// `count` > 0 regular steps at once, all in wheel direction `direction`, the last one at `last`, each of
-  /// which had time to finish before the next. The caller guarantees that rotor and driver agree.
-  void turn(std::int64_t count, int direction, Cycle last, Cycle move, unsigned coils) {
+  /// `count` > 0 regular steps at once, all in wheel direction `direction`, the last one at `last`, `interval`
+  /// after the one before; each had time to finish before the next. The caller guarantees that rotor and
+  /// driver agree.
+  void turn(std::int64_t count, int direction, Cycle last, Cycle interval, unsigned coils) {
     motion_.steps += count * direction;
     motion_.from = static_cast<double>(motion_.steps - direction);
     motion_.moved_at = motion_.stepped_at = motion_.pulled_at = last;
-    motion_.move = move;
+    motion_.move = interval < kRotorMoveCycles ? interval : kRotorMoveCycles;
     const Cycle ready = motion_.ready_at + (count - 1) * kPullOutCycles;
     motion_.ready_at = ready > last ? ready : last;
     before_ = motion_;
     before_.steps -= direction;
     before_.from -= direction;
-    before_.moved_at = before_.stepped_at = before_.pulled_at = last - move;
+    before_.moved_at = before_.stepped_at = before_.pulled_at = last - interval;
     motion_.ready_at += kPullOutCycles;
     coils_ = coils;
     changed_at_ = last;
@@ -133,6 +136,9 @@ class Stepper {
     before_ = motion_;
     if (move <= 0) move = at - motion_.stepped_at;
     motion_.from = position(at);
+    const double missing = static_cast<double>(motion_.steps) - motion_.from;
+    if (missing < kRotorThereSteps && missing > -kRotorThereSteps)
+      motion_.from = static_cast<double>(motion_.steps);
     motion_.steps += direction;
     motion_.moved_at = motion_.stepped_at = at;
     motion_.move = move < kRotorMoveCycles ? move : kRotorMoveCycles;

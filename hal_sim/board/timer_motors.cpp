@@ -19,7 +19,6 @@ void StepTrain::advance_to(Cycle at, Stepper& stepper) {
   }
   if (!running) return;
   const int toward = direction(stepper);
-  const Cycle move = std::min(period, kRotorMoveCycles);
   // step by step until driver, rotor and rhythm agree, then all at once
   for (int regular = 0; next <= at && regular < 3;) {
     commanded += toward;
@@ -33,7 +32,7 @@ void StepTrain::advance_to(Cycle at, Stepper& stepper) {
   const std::int64_t count = (at - next) / period + 1;
   commanded += count * toward;
   phase = static_cast<int>((phase + count * toward * stepper.forward()) & 3);
-  stepper.turn(count, toward, next + (count - 1) * period, move, kPhaseCoils[phase]);
+  stepper.turn(count, toward, next + (count - 1) * period, period, kPhaseCoils[phase]);
   next += count * period;
 }
 

@@ -48,17 +48,7 @@ void charge_basic_prox(Context& context, Board& robot) {
                      board::kBasicIsrEntryCycles + 2 * board::kReadAdCycles);
 }
 
-/// The converter's handler, if it runs.
-void charge_scan(Context& context, Board& robot, bool on) {
-  if (robot.scan().micro_only())
-    request_background(context, robot, TP_BG_ADC, board::kScanMicroFrameCycles,
-                       on ? board::kScanMicroIsrCycles : 0);
-  else
-    request_background(context, robot, TP_BG_ADC, board::kScanPeriod * board::kScanFrameCycles,
-                       on ? board::kScanRoundIsrCycles : 0);
-}
-
-/// After a change to agendas: the next interrupt, and the time the handler steals.
+/// After a change to agendas: the next interrupt.
 void follow_agendas(Context& context, Board& robot) {
   board::AgendaTimer& agendas = robot.agendas();
   if (agendas.is_walking()) return;  // tp_agenda_end() follows
@@ -67,15 +57,6 @@ void follow_agendas(Context& context, Board& robot) {
   if (wanted != robot.requests.agenda_interrupt) {
     robot.requests.agenda_interrupt = wanted;
     context.irq_at(TP_V_T2, wanted);
-  }
-  const board::AgendaTimer::Load quiet = agendas.quiet_ticks();
-  request_background(context, robot, TP_BG_AGENDA, quiet.period, quiet.cost);
-  for (Wheel wheel : {Wheel::Left, Wheel::Right}) {
-    const auto [period, cost] = agendas.firing(wheel);
-    // the drivers with their own timers use the same slots; a wheel has one driver
-    if (period > 0 || !robot.timer_motors().drives(wheel))
-      request_background(context, robot, wheel == Wheel::Left ? TP_BG_MOTOR_LEFT : TP_BG_MOTOR_RIGHT, period,
-                         cost);
   }
 }
 
@@ -88,7 +69,8 @@ template <typename Change>
 tp_i64 change_list(Cycle cost, Change change) {
   Context& context = Context::current();
   Board& robot = context.board();
-  const Cycle now = context.now();
+  const Cycle now = context.settle();
+  robot.settle_handlers(now);
   const int result = change(robot.agendas(), now);
   robot.follow_power(now);
   context.note_write();
@@ -195,14 +177,17 @@ tp_i64 tp_agenda_restart(const void* function) {
 
 void tp_agenda_begin(void) {
   Context& context = Context::current();
-  context.board().agendas().begin(context.now());
+  const Cycle now = context.settle();
+  context.board().settle_handlers(now);
+  context.board().agendas().begin(now);
   context.note_write();
+  context.spend(0);
 }
 
 const void* tp_agenda_next(void) {
   Context& context = Context::current();
   bool divided_by_zero = false;
-  const void* function = context.board().agendas().next(divided_by_zero);
+  const void* function = context.board().agendas().next(divided_by_zero, context.settle());
   context.spend(context.board().agendas().take_walk_cost());
   if (divided_by_zero)
     context.trap(TP_TRAP_MATH, "motor agenda: 10000 / 0 (speed 0 with a power-save half pending)");
@@ -214,10 +199,11 @@ void tp_agenda_end(void) {
   Context& context = Context::current();
   context.spend(kReturnCycles);
   Board& robot = context.board();
-  robot.agendas().finish(context.now());
+  robot.agendas().finish(context.settle());
   robot.requests.agenda_interrupt = Board::Requests::kUnknown;  // the request was used up
   context.note_write();
   follow_agendas(context, robot);
+  context.spend(0);
 }
 
 // --- motors ----------------------------------------------------------------------------------------------
@@ -239,9 +225,12 @@ void tp_motor_speed(tp_i64 wheel, tp_i64 speed_steps_s) {
 void tp_motor_run(tp_i64 wheel) {
   Context& context = Context::current();
   Board& robot = context.board();
-  const bool fine = robot.agendas().run_motor(wheel_of(wheel), context.now());
+  const Cycle now = context.settle();
+  robot.settle_handlers(now);
+  const bool fine = robot.agendas().run_motor(wheel_of(wheel), now);
   context.note_write();
   follow_agendas(context, robot);
+  context.spend(0);
   if (!fine) context.trap(TP_TRAP_MATH, "motor agenda: 10000 / 0 (speed 0 with a power-save half pending)");
 }
 
@@ -296,19 +285,23 @@ void tp_timer3_motors_start(void) {
 void tp_scan_start(tp_i64 micro_only, tp_i64 five_pairs) {
   Context& context = Context::current();
   Board& robot = context.board();
-  robot.scan().start(micro_only != 0, five_pairs != 0, context.now());
-  robot.follow_power(context.now());
-  charge_scan(context, robot, true);
+  const Cycle now = context.settle();
+  robot.settle_handlers(now);
+  robot.scan().start(micro_only != 0, five_pairs != 0, now);
+  robot.follow_power(now);
   context.note_write();
+  context.spend(0);
 }
 
 void tp_scan_switch(tp_i64 on) {
   Context& context = Context::current();
   Board& robot = context.board();
-  robot.scan().switch_converter(on != 0, context.now());
-  robot.follow_power(context.now());
-  charge_scan(context, robot, on != 0);
+  const Cycle now = context.settle();
+  robot.settle_handlers(now);
+  robot.scan().switch_converter(on != 0, now);
+  robot.follow_power(now);
   context.note_write();
+  context.spend(0);
 }
 
 tp_i64 tp_scan_filled_at(void) {

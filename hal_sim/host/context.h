@@ -35,6 +35,9 @@ class Context {
   /// Spends cycles; delivers interrupts; may let other robots run.
   virtual void spend(Cycle cycles) = 0;
   virtual void wait_until(Cycle at) = 0;
+  /// Settles the time so far, before a change to what board().handlers() say; spend() must follow the change,
+  /// with 0 if there is nothing to spend. Returns now.
+  virtual Cycle settle() = 0;
 
   virtual void irq_install(int vector, void (*handler)(), int priority, Cycle entry_cycles) = 0;
   virtual void irq_at(int vector, Cycle at) = 0;  ///< at < 0 cancels

@@ -50,8 +50,6 @@ void tp_irq_every(tp_i64 vector, tp_i64 first, tp_i64 period);
 /** Work of a closed-form interrupt handler that steals `cost` cycles every `period` cycles from the program.
  *  slot 0..15 (TP_BG_*); cost 0 ends it. */
 void tp_background(tp_i64 slot, tp_i64 period, tp_i64 cost);
-#define TP_BG_AGENDA 0
-#define TP_BG_ADC 1
 #define TP_BG_MOTOR_LEFT 2
 #define TP_BG_MOTOR_RIGHT 3
 #define TP_BG_PROX 4

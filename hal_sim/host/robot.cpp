@@ -69,8 +69,8 @@ void Robot::restart_program() {
   data_ = copy_.start_values();
   if (copy_.owner == this) copy_.owner = nullptr;
   std::fill(background_.begin(), background_.end(), Background{});
-  stolen_q32_ = 0;
-  has_plain_clock_ = !observer_;
+  background_share_q32_ = 0;
+  note_clock();
   handler_depth_ = 0;
   calm_until_ = 0;
   may_wait_ = false;
@@ -121,6 +121,7 @@ void Robot::swap_in() {
 void Robot::run_until(Cycle end) {
   window_start_ = end_;
   end_ = end;
+  quiet_until_ = 0;
   if (stopped_ || end <= window_start_) return;
   if (asleep_until_ > end && !woken_) return processor_->end_window(end);
   std::lock_guard<std::mutex> turn(copy_.turn);
@@ -142,10 +143,52 @@ void Robot::run_until(Cycle end) {
 // --- time
 // --------------------------------------------------------------------------------------------------------
 
+void Robot::find_quiet() const {
+  quiet_until_ = has_handlers_ ? board_.handlers().next(now_, processor_->cpu_level()) : kNever;
+}
+
+Cycle Robot::after(Cycle main, std::uint64_t& fraction) const {
+  if (stolen_q32_ == 0 && is_quiet(main)) return now_ + main;
+  if (stolen_q32_ != 0) {
+    const unsigned __int128 stolen = static_cast<unsigned __int128>(main) * stolen_q32_ + fraction;
+    main += static_cast<Cycle>(stolen >> kQ);
+    fraction = static_cast<std::uint64_t>(stolen) & (kOne - 1);
+  }
+  return has_handlers_ ? board_.handlers().done(now_, main, processor_->cpu_level()) : now_ + main;
+}
+
+Cycle Robot::main_until(Cycle at) const {
+  const Cycle real = has_handlers_ ? board_.handlers().work(now_, at, processor_->cpu_level()) : at - now_;
+  if (stolen_q32_ == 0) return real;
+  const unsigned __int128 whole = (static_cast<unsigned __int128>(real) << kQ) - fraction_;
+  return static_cast<Cycle>(whole / (kOne + stolen_q32_));
+}
+
+void Robot::note_clock() {
+  quiet_until_ = 0;
+  const bool spread = board_.setup().spread_handlers;
+  has_handlers_ = native_ && !spread && board_.handlers().come();
+  const std::uint64_t handlers = native_ && spread ? board_.handlers().share_q32() : 0;
+  const std::uint64_t share =
+      std::min<std::uint64_t>(handlers + background_share_q32_, kOne / 100 * kMostBackgroundPercent);
+  stolen_q32_ =
+      share == 0
+          ? 0
+          : static_cast<std::uint64_t>((static_cast<unsigned __int128>(share) << kQ) / (kOne - share));
+  has_plain_clock_ = !observer_ && stolen_q32_ == 0 && !has_handlers_;
+}
+
+Cycle Robot::settle() {
+  fold();
+  quiet_until_ = 0;
+  settled_ = true;
+  return now_;
+}
+
 Cycle Robot::now_and_tell() {
+  std::uint64_t fraction = fraction_;
   const Cycle main = issued_ - control_.budget;
-  const unsigned __int128 stolen = static_cast<unsigned __int128>(main) * stolen_q32_ + fraction_;
-  const Cycle at = now_ + main + static_cast<Cycle>(stolen >> kQ);
+  const Cycle at = after(main, fraction);
   if (observer_) observer_->reached(at);
   return at;
 }
@@ -161,12 +204,6 @@ void Robot::write_and_tell(unsigned address, std::uint16_t value, unsigned bits)
 void Robot::modify_in_two(unsigned address, std::uint16_t keep, std::uint16_t flip) {
   const std::uint16_t old = read_register(address, 16);
   write_register(address, static_cast<std::uint16_t>((old & keep) ^ flip), 16);
-}
-
-Cycle Robot::main_until(Cycle real) const {
-  if (stolen_q32_ == 0) return real;
-  const unsigned __int128 whole = (static_cast<unsigned __int128>(real) << kQ) - fraction_;
-  return static_cast<Cycle>(whole / (kOne + stolen_q32_));
 }
 
 int Robot::look() {
@@ -194,8 +231,13 @@ Cycle Robot::next_disturbance() {
 void Robot::give_budget_anew() {
   Cycle until = std::min(end_, next_disturbance());
   if (observer_) until = std::min(until, now_ + observer_->look_every);
-  issued_ = std::max<Cycle>(0, until - now_);
-  if (stolen_q32_ != 0 && issued_ > 0) issued_ = main_until(issued_);
+  if (has_handlers_ && stolen_q32_ == 0 && until > now_) {
+    // up to the next handler: what comes after it is not worth counting yet
+    if (quiet_until_ <= now_) find_quiet();
+    issued_ = std::min(until, quiet_until_) - now_;
+  } else {
+    issued_ = until > now_ ? main_until(until) : 0;
+  }
   control_.budget = issued_;
 }
 
@@ -215,13 +257,11 @@ void Robot::lower_calm(Cycle at) {
 void Robot::set_background(int slot, Cycle period, Cycle cost) {
   fold();
   background_[static_cast<std::size_t>(slot)] = {period, cost};
-  std::uint64_t share = 0;
+  background_share_q32_ = 0;
   for (const auto& b : background_)
     if (b.period > 0)
-      share += (static_cast<std::uint64_t>(b.cost) << kQ) / static_cast<std::uint64_t>(b.period);
-  share = std::min<std::uint64_t>(share, kOne / 100 * kMostBackgroundPercent);
-  stolen_q32_ = static_cast<std::uint64_t>((static_cast<unsigned __int128>(share) << kQ) / (kOne - share));
-  has_plain_clock_ = !observer_ && stolen_q32_ == 0;
+      background_share_q32_ += (static_cast<std::uint64_t>(b.cost) << kQ) / static_cast<std::uint64_t>(b.period);
+  note_clock();
   note_write();
   give_budget();
 }
@@ -284,6 +324,8 @@ void Robot::serve_told(int vector) {
 }
 
 void Robot::handle(int vector, const Processor::Entry& entry) {
+  const Cycle asked = now_;
+  quiet_until_ = 0;  // another level
   const tp_image& image = copy_.description();
   void (*handler)() = entry.handler;
   if (!handler && vector >= kTrapVector)
@@ -293,6 +335,11 @@ void Robot::handle(int vector, const Processor::Entry& entry) {
   if (!handler) handler = image.default_vector;
   if (!handler) miss_handler(vector, entry.alternate);
   now_ = entry.first_instruction;
+  if (has_handlers_) {
+    const Cycle entering = now_ - asked;
+    const board::Handlers others = board_.handlers();
+    now_ = others.done(others.free_from(asked, processor_->cpu_level()), entering, processor_->cpu_level());
+  }
   ++handler_depth_;
   calm_until_ = entry.quiet_until;
   give_budget();
@@ -301,6 +348,7 @@ void Robot::handle(int vector, const Processor::Entry& entry) {
   --handler_depth_;
   fold();
   if (observer_) observer_->handler_ends(now_);
+  quiet_until_ = 0;
   const Processor::Return back = processor_->leave(now_);
   now_ = back.next_instruction;
   calm_until_ = back.quiet_until;
@@ -383,19 +431,18 @@ void Robot::run_main(Cycle main) {
   while (true) {
     deliver();
     check_blocked();
-    const Cycle before = now_;
-    const std::uint64_t fraction = fraction_;
     const Cycle disturbed = next_disturbance();
-    advance_main(main);
-    const Cycle finish = now_;
-    if (finish <= std::min(disturbed, end_)) return;
-    now_ = before;
-    fraction_ = fraction;
-    if (std::min(disturbed, finish) > end_) {
-      doze(std::min(disturbed, finish));
+    std::uint64_t fraction = fraction_;
+    const Cycle finish = after(main, fraction), next = std::min(disturbed, finish);
+    if (finish <= std::min(disturbed, end_)) {
+      advance_main(main);
+      return;
+    }
+    if (next > end_) {
+      doze(next);
       continue;
     }
-    const Cycle part = std::min(main, main_until(disturbed - now_));
+    const Cycle part = std::min(main, main_until(disturbed));
     advance_main(part);
     main -= part;
     now_ = std::max(now_, disturbed);
@@ -404,6 +451,10 @@ void Robot::run_main(Cycle main) {
 
 void Robot::spend(Cycle cycles) {
   fold();
+  if (settled_) {
+    settled_ = false;
+    note_clock();
+  }
   run_main(cycles);
   give_budget();
 }
@@ -432,7 +483,7 @@ void Robot::wait_until(Cycle at) {
 void Robot::on_poll(std::int64_t loop) {
   fold();
   const bool same = loop == poll_loop_ && served_ == poll_served_;
-  const Cycle round = now_ - poll_at_;
+  const Cycle round = main_ - poll_main_;
   if (same && round > 0 && horizon_ > now_) sleep_until(horizon_, round, now_);
   note_poll(loop);
   processor_->watch_reads(now_);
@@ -444,7 +495,7 @@ void Robot::on_poll(std::int64_t loop) {
 void Robot::on_rest(std::int64_t loop) {
   fold();
   if (loop == poll_loop_ && served_ == poll_served_ && has_plain_clock_ && handler_depth_ == 0) {
-    const Cycle round = now_ - poll_at_;
+    const Cycle round = main_ - poll_main_;
     while (round > 0 && !may_wait_ && now_ < calm_until_ && calm_until_ <= end_) {
       const Cycle start = now_;
       idle_ += calm_until_ - now_;
@@ -462,7 +513,12 @@ void Robot::on_rest(std::int64_t loop) {
 
 void Robot::sleep_until(Cycle target, Cycle round, Cycle start) {
   // the program notices a change at the end of the round in which it happens
-  const auto end_of_round = [&](Cycle at) { return start + (at - start + round - 1) / round * round; };
+  const int level = has_handlers_ ? processor_->cpu_level() : 0;
+  const auto end_of_round = [&](Cycle at) {
+    const Cycle work = has_handlers_ ? board_.handlers().work(start, at, level) : at - start;
+    const Cycle rounds = (work + round - 1) / round * round;
+    return has_handlers_ ? std::max(at, board_.handlers().done(start, rounds, level)) : start + rounds;
+  };
   if (target < kNever) target = end_of_round(target);
   while (now_ < target) {
     deliver();

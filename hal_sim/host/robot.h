@@ -5,7 +5,8 @@
 //
 //   run_until(end) --enter--> firmware ... tp_event() ... tp_poll() ... --yield--> run_until returns
 //
-// Time: compiled code subtracts estimated cycles from a budget; the host adds what background handlers steal
+// Time: compiled code subtracts estimated cycles from a budget; the host adds what handlers take that are not
+// run: those of the board's closed forms when they come (hal_sim/board/handlers.h), others evenly spread
 // (docs/design.md, "Time"). A robot that sleeps in a wait costs nothing until something can happen.
 #pragma once
 #include <algorithm>
@@ -114,7 +115,7 @@ class Robot final : public Context {
   void observe(Observer* observer) {
     observer_ = observer;
     processor_->observe(observer);
-    has_plain_clock_ = !observer_ && stolen_q32_ == 0;
+    note_clock();
   }
   /// The chip's models, in the register way; null in the native way.
   dspic::Dspic30f6014a* chip() { return processor_->chip(); }
@@ -137,6 +138,7 @@ class Robot final : public Context {
   void note_write() override { ++control_.writes; }
   void spend(Cycle cycles) override;
   void wait_until(Cycle at) override;
+  Cycle settle() override;
   void irq_install(int vector, void (*handler)(), int priority, Cycle entry_cycles) override;
   void irq_at(int vector, Cycle at) override;
   void irq_every(int vector, Cycle first, Cycle period);  ///< period 0: once; native way only
@@ -222,26 +224,29 @@ class Robot final : public Context {
   char* place_of(std::uintptr_t address) const;  // where this robot's value of a variable is now
   void swap_in();
   void fold() {  // spent budget -> now_
-    advance_main(issued_ - control_.budget);
+    if (issued_ != control_.budget) advance_main(issued_ - control_.budget);
     issued_ = 0;
     control_.budget = 0;
   }
-  void advance_main(Cycle main)  // main-program cycles -> real cycles
-  {
-    if (stolen_q32_ == 0) {
-      now_ += main;
-      return;
-    }
-    const unsigned __int128 stolen = static_cast<unsigned __int128>(main) * stolen_q32_ + fraction_;
-    now_ += main + static_cast<Cycle>(stolen >> kQ);
-    fraction_ = static_cast<std::uint64_t>(stolen) & (kOne - 1);
+  // program cycles -> cycles of the clock
+  void advance_main(Cycle main) {
+    main_ += main;
+    now_ = has_plain_clock_ ? now_ + main : after(main, fraction_);
   }
-  // while cycles are stolen or somebody observes
+  Cycle after(Cycle main, std::uint64_t& fraction) const;
+  // no handler comes in these cycles
+  bool is_quiet(Cycle main) const {
+    if (quiet_until_ <= now_) find_quiet();
+    return now_ + main <= quiet_until_;
+  }
+  void find_quiet() const;
+  void note_clock();
+  // while handlers take cycles or somebody observes
   Cycle now_and_tell();
   std::uint16_t read_and_tell(unsigned address, unsigned bits);
   void write_and_tell(unsigned address, std::uint16_t value, unsigned bits);
   void modify_in_two(unsigned address, std::uint16_t keep, std::uint16_t flip);
-  Cycle main_until(Cycle real) const;  // most main cycles that end at or before now_ + real
+  Cycle main_until(Cycle at) const;  // most program cycles that end at or before `at`
   void give_budget() {
     if (now_ >= calm_until_ || !has_plain_clock_) return give_budget_anew();
     issued_ = std::max<Cycle>(0, std::min(end_, calm_until_) - now_);
@@ -268,7 +273,7 @@ class Robot final : public Context {
   void sleep_until(Cycle target, Cycle round, Cycle start);
   void note_poll(std::int64_t loop) {
     poll_loop_ = loop;
-    poll_at_ = now_;
+    poll_main_ = main_;
     poll_served_ = served_;
     horizon_ = kNever;
     looked_outside_ = false;
@@ -298,10 +303,15 @@ class Robot final : public Context {
   Cycle issued_ = 0;              // budget given at that moment
   std::uint64_t fraction_ = 0;    // of a cycle, Q32, left over from stretching
   std::uint64_t stolen_q32_ = 0;  // cycles background handlers take per main cycle, Q32
-  bool has_plain_clock_ = true;   // nothing is stolen, and nobody observes
+  bool settled_ = false;          // settle() was called, and spend() not yet
+  bool has_handlers_ = false;     // the board's closed forms take cycles
+  bool has_plain_clock_ = true;   // neither, and nobody observes
+  mutable Cycle quiet_until_ = 0;  // none of them comes before; <= now_: unknown
+  Cycle main_ = 0;                // cycles of the program itself so far, up to the last fold
   struct Background {
     Cycle period = 0, cost = 0;
   };
+  std::uint64_t background_share_q32_ = 0;  // of all of them
   std::vector<Background> background_ = std::vector<Background>(16);
 
   Cycle end_ = 0;  // of the window
@@ -326,7 +336,7 @@ class Robot final : public Context {
   Cycle horizon_ = kNever;
   bool looked_outside_ = false;  // since the last round of a wait
   std::int64_t poll_loop_ = -1;
-  Cycle poll_at_ = 0;
+  Cycle poll_main_ = 0;
   std::int64_t poll_served_ = 0;
 
   Observer* observer_ = nullptr;

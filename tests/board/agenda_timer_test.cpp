@@ -147,12 +147,12 @@ TEST(AgendaMotors, speed_zero_with_a_cycle_set_by_hand_divides_by_zero) {
   EXPECT_EQ(d.timer.next_interrupt(), 5 * kTick);
   bool trap = false;
   d.timer.begin(5 * kTick);
-  EXPECT_EQ(d.timer.next(trap), nullptr);
+  EXPECT_EQ(d.timer.next(trap, 0), nullptr);
   EXPECT_FALSE(trap);
   d.timer.finish(5 * kTick);
   EXPECT_EQ(d.timer.next_interrupt(), 20 * kTick);  // 15 ticks on, then 10000 / 0
   d.timer.begin(20 * kTick);
-  d.timer.next(trap);
+  d.timer.next(trap, 0);
   EXPECT_TRUE(trap);
 }
 
@@ -165,9 +165,9 @@ TEST(Agendas, newest_runs_first_and_counters_survive_a_new_cycle) {
   EXPECT_EQ(timer.next_interrupt(), 10 * kTick);
   bool trap;
   timer.begin(10 * kTick);
-  EXPECT_EQ(timer.next(trap), &user_b);
-  EXPECT_EQ(timer.next(trap), &user_a);
-  EXPECT_EQ(timer.next(trap), nullptr);
+  EXPECT_EQ(timer.next(trap, 0), &user_b);
+  EXPECT_EQ(timer.next(trap, 0), &user_a);
+  EXPECT_EQ(timer.next(trap, 0), nullptr);
   timer.finish(10 * kTick + 500);
   // 7 ticks counted; a cycle of 5 fires at the very next tick
   timer.set_cycle(&user_a, 5, 17 * kTick + 3);
@@ -180,8 +180,8 @@ TEST(Agendas, a_long_callback_loses_ticks_but_one_is_remembered) {
   timer.start(0);
   bool trap;
   timer.begin(10 * kTick);
-  timer.next(trap);
-  timer.next(trap);
+  timer.next(trap, 0);
+  timer.next(trap, 0);
   timer.finish(14 * kTick + 100);  // ticks 11 to 14 came: 11 is remembered and runs now, three are lost
   EXPECT_EQ(timer.ticks_at(14 * kTick + 100), 11);
   EXPECT_EQ(timer.ticks_at(15 * kTick), 12);
@@ -359,7 +359,7 @@ class Twin {
     while (closed_.next_interrupt() <= std::max(until, now)) {
       Cycle at = std::max(closed_.next_interrupt(), now);
       closed_.begin(at);
-      while (const void* f = closed_.next(trapped_)) {
+      while (const void* f = closed_.next(trapped_, at)) {
         const int function = f == &user_a ? 0 : f == &user_b ? 1 : 2;
         closed_log_.push_back({function, at});
         const Script script = script_of(function, static_cast<int>(closed_log_.size()));

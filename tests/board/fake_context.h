@@ -18,6 +18,7 @@ class FakeContext : public host::Context {
   void lower_horizon(host::Cycle at) override { horizon = std::min(horizon, at); }
   void note_write() override { ++writes; }
   void spend(host::Cycle cycles) override { spent += cycles; }
+  host::Cycle settle() override { return cycle; }
   void wait_until(host::Cycle at) override { cycle = std::max(cycle, at); }
   void irq_install(int vector, void (*handler)(), int, host::Cycle) override { handlers[vector] = handler; }
   void irq_at(int vector, host::Cycle at) override { requested[vector] = at; }
