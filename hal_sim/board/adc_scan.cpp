@@ -161,12 +161,12 @@ inline AdcScan::Place AdcScan::place(Cycle at) const {
   const Cycle start = anchor_ + kScanStartCycles;
   if (micro_only_) return {at > start ? (at - start - 1) / kScanMicroFrameCycles : 0, 0};
   if (at <= start) return {0, first_slot_};
-  const std::uint64_t since = static_cast<std::uint64_t>(at - round_);
-  const std::uint64_t round = since / kRoundCycles;
-  const std::uint32_t rest = static_cast<std::uint32_t>(since - round * kRoundCycles);
+  const std::uint64_t before = static_cast<std::uint64_t>(at - round_ - 1);  // the first call beyond this
+  const std::uint64_t round = before / kRoundCycles;
+  const Cycle rest = static_cast<Cycle>(before - round * kRoundCycles);
   Place p{static_cast<std::int64_t>(round), static_cast<int>(rest / kScanFrameCycles)};
-  if (p.slot > 0 && kRound.at[p.slot - 1] >= rest) --p.slot;
-  if (kRound.at[p.slot] < rest) p = after(p);
+  if (p.slot > 0 && kRound.at[p.slot - 1] > rest) --p.slot;
+  if (kRound.at[p.slot] <= rest) p = after(p);
   if (p.round == 0 && p.slot < first_slot_) p.slot = first_slot_;
   return p;
 }
