@@ -52,6 +52,7 @@ void AgendaTimer::start(Cycle at) {
   line_.late_cycle = line_.cycle_of(tick);
   line_.late_tick = walking_ ? tick : -1;
   line_.origin = at - tick * kAgendaTickCycles;
+  started_tick_ = tick;
   running_ = true;
   for (AgendaMotor& m : motors_) m.disturb();
   find_next_fire();
@@ -78,7 +79,7 @@ void AgendaTimer::reset(Cycle at) {
   nodes_.clear();
   line_ = TickLine{};
   running_ = walking_ = in_callback_ = false;
-  stopped_tick_ = 0;
+  stopped_tick_ = started_tick_ = 0;
   next_fire_ = -1;
   last_serial_ = 0;
   find_costs();
@@ -126,10 +127,11 @@ void AgendaTimer::disturb(const Node& node) {
   if (node.kind != Kind::User) motor(wheel_of(node.kind)).disturb();
 }
 
-// A motor whose node comes later in the list waits for the other one's firings: these must still be known.
+// A motor whose node comes later in the list waits for the other one's firings: these must still be known. In a walk
+// they have been charged already, and its own turn is still to come.
 AgendaMotor& AgendaTimer::bring(Wheel wheel, std::int64_t tick) {
   const Wheel other = wheel == Wheel::Left ? Wheel::Right : Wheel::Left;
-  if (walks_before(wheel, other)) bring_alone(other, tick);
+  if (!walking_ && walks_before(wheel, other)) bring_alone(other, tick);
   return bring_alone(wheel, tick);
 }
 
@@ -443,8 +445,8 @@ Cycle AgendaTimer::firing_cycles(std::int64_t from, std::int64_t to) const {
 
 Cycle AgendaTimer::handler_cycles(Cycle from, Cycle to) const {
   if (!running_ || walking_) return 0;
-  const std::int64_t first = ticks_at(from - 1), last = ticks_at(to - 1);
-  return first == last ? 0 : (last - first) * tick_cycles_ + firing_cycles(first, last);
+  const std::int64_t first = std::max(ticks_at(from - 1), started_tick_), last = ticks_at(to - 1);
+  return last <= first ? 0 : (last - first) * tick_cycles_ + firing_cycles(first, last);
 }
 
 std::uint64_t AgendaTimer::share_q32() const {
@@ -460,11 +462,12 @@ std::uint64_t AgendaTimer::share_q32() const {
 
 Cycle AgendaTimer::last_call(Cycle at) const {
   const std::int64_t tick = ticks_at(at - 1);
-  return running_ && !walking_ && tick > 0 ? line_.cycle_of(tick) : -1;
+  return running_ && !walking_ && tick > started_tick_ ? line_.cycle_of(tick) : -1;
 }
 
 Cycle AgendaTimer::next_call(Cycle at) const {
-  return running_ && !walking_ ? line_.cycle_of(ticks_at(at - 1) + 1) : host::kNever;
+  return running_ && !walking_ ? line_.cycle_of(std::max(ticks_at(at - 1), started_tick_) + 1)
+                               : host::kNever;
 }
 
 AgendaTimer::Wait AgendaTimer::first_wait(Cycle at, Cycle since, std::int64_t rounds) const {

@@ -175,6 +175,7 @@ class AgendaTimer {
   const AdcScan* scan_;
   TickLine line_;
   bool running_ = false;
+  std::int64_t started_tick_ = 0;  // the first call is that of the tick after this
   std::int64_t stopped_tick_ = 0;  // ticks processed while not running
   std::vector<Node> nodes_;        // oldest first; the list is walked from the back
   AgendaMotor motors_[2];

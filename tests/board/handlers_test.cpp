@@ -130,7 +130,7 @@ TEST(Handlers, a_step_waits_for_the_converters_handler) {
   robot.agendas().start(step_tick - 10 * kTick);
   robot.agendas().set_speed(Wheel::Right, 1000, step_tick - 10 * kTick);
   robot.port_write('D', Board::Register::Tris, 0, 0);
-  const Cycle pins = 99 + 19 + 18 + 90 + 1;  // entry, the node, D goes low last
+  const Cycle pins = 99 + 19 + 18 + 81;  // entry, the node, and B and C go high
   EXPECT_EQ(robot.agendas().stepper_at(Wheel::Right, step_tick + kTick).stepped_at(), step_tick + pins);
   // without the scan it does not wait
   setup.spread_handlers = true;
