@@ -4,13 +4,14 @@
  * Source: [lib: a_d/advance_ad_scan/e_ad_conv.c], facts restated.
  */
 #include "hal.h"
+#include "hal_sim/api/takes.h"
 #include "hal_sim/host/pins_sound.h"
 #include "utility/utility.h"
 
 #define GUMSTIX_POSITION 10  /* selector position that scans the turret's pair too */
 #define ACC_COUNTER_MAX 64   /* where updateAccI2CCounter stops */
 #define TICK_COUNTER_MAX 65535u
-#define SET_UP_CYCLES 45     /* registers of the converter [measured: register way] */
+#define SET_UP_CYCLES 97     /* registers of the converter [measured: register way] */
 
 int e_mic_scan[3][MIC_SAMP_NB];
 int e_acc_scan[3][ACC_SAMP_NB];
@@ -55,7 +56,7 @@ void twinpuck_refresh_mic(void) {
   e_last_mic_scan_id = (unsigned int)(twinpuck_mic_filed % MIC_SAMP_NB);
 }
 
-static void refresh_all(void) {
+TAKES(0) static void refresh_all(void) {
   unsigned long before = twinpuck_interrupts_seen;
   twinpuck_refresh_adc_counters();
   if (twinpuck_interrupts_seen != before) tp_scan_values(e_ambient_ir, e_ambient_and_reflected_ir);
@@ -84,9 +85,9 @@ unsigned char e_ad_is_acquisition_completed(void) {
   return twinpuck_interrupts_seen > 0;
 }
 
-void e_ad_scan_on(void) { tp_scan_switch(1); }
+TAKES(13) void e_ad_scan_on(void) { tp_scan_switch(1); }
 
-void e_ad_scan_off(void) {
+TAKES(9) void e_ad_scan_off(void) {
   tp_scan_switch(0);
   refresh_all();
   twinpuck_refresh_mic(); /* later the past is forgotten */

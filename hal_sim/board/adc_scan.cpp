@@ -271,7 +271,7 @@ Cycle AdcScan::first_fill(Cycle at) const {
   const std::int64_t have = acc_samples(at);
   const std::int64_t missing = (2 * kAccSamples - 1 - have % kAccSamples) % kAccSamples;
   if (missing == 0) return at;
-  return full_cycle(kScanPeriod * (have + missing - 1) + kScanAccSlot);
+  return full_cycle(kScanPeriod * (have + missing - 1) + kScanAccSlot) - kScanAccSoonerCycles;
 }
 
 /// Newest period whose interrupt in `slot` has come and that serves `pair`; a value below 0 if none.
@@ -396,7 +396,8 @@ const AdcScan::AccRing& AdcScan::acc_scan(Cycle at) {
 }
 
 Cycle AdcScan::acc_until(Cycle at) const {
-  return on_ && !micro_only_ ? full_cycle(kScanPeriod * acc_samples(at) + kScanAccSlot) : host::kNever;
+  if (!on_ || micro_only_) return host::kNever;
+  return full_cycle(kScanPeriod * acc_samples(at) + kScanAccSlot) - kScanAccSoonerCycles;
 }
 
 unsigned AdcScan::pulses(Cycle at) const {

@@ -52,7 +52,7 @@ class AdcScan {
   std::int64_t interrupts(Cycle at) const { return total_base_ + frames(at); }
   /// Accelerometer samples so far.
   std::int64_t acc_samples(Cycle at) const {
-    return (full_interrupts(at) + kScanPeriod - 1 - kScanAccSlot) / kScanPeriod;
+    return (full_interrupts(at + kScanAccSoonerCycles) + kScanPeriod - 1 - kScanAccSlot) / kScanPeriod;
   }
   /// Cycle of the next interrupt; kNever when the converter is off.
   Cycle next_interrupt(Cycle at) const;

@@ -58,6 +58,8 @@ inline constexpr int kScanDarkSlot = 63;  // ACC_PROX_PERIOD - 1 [lib: a_d/advan
 // The converter stands while its list changes, and slots 3 to 36 come late for it; the handler needs its
 // time.
 inline constexpr Cycle kScanLitLateCycles = 230;  // slot 3 after its multiple of 900 [measured: register way]
+inline constexpr Cycle kScanAccSoonerCycles =
+    32;  // slot 62's samples in the array before its multiple of 900 [measured: register way]
 inline constexpr Cycle kScanLightCycles = 163;    // end of a dark frame to IR LED on [measured: register way]
 inline constexpr Cycle kScanFileCycles =
     117;  // end of a frame to its pair in the array [measured: register way]
