@@ -16,19 +16,30 @@ namespace {
 /// `pair` of a sensor: 0 and 4 share an emitter line, and so on; 8 and 9 are the turret's.
 int pair_of_sensor(int sensor) { return sensor >= 8 ? 4 : sensor & 3; }
 
-/// Cycles from the beginning of a five-channel frame to the hold instant of a sensor's channel.
-Cycle hold_cycles(int sensor) {
-  const int channel = sensor < 4 ? 3 : sensor < 8 ? 4 : 9 - sensor;
-  return (channel * kScanChannelTad + 1) * kScanTadCycles;
+/// A frame's channels and converter clock; the latter in halves of a cycle.
+struct Frame {
+  int channels;
+  Cycle half_tad;
+};
+constexpr Frame frame_of(int slot) {
+  if (slot == kScanLitSlot || slot == kScanDarkSlot) return {5, 2 * kScanTadCycles};
+  if (slot == kScanAccSlot) return {6, 2 * kScanTadCycles6};
+  return {3, 2 * kScanTadCycles3 - (slot > 4 && slot < 33 ? 1 : 0)};
 }
-/// Cycles from the beginning of a six-channel frame to the hold instant of an accelerometer axis.
-constexpr Cycle acc_hold_cycles(int axis) { return ((3 + axis) * kScanChannelTad + 1) * kScanTadCycles6; }
+constexpr Frame kMicroFrame{3, 2 * kScanTadCycles6};
+/// Cycles from a channel's hold instant to the end of its frame.
+constexpr Cycle hold_to_end(Frame f, int channel) {
+  return (((f.channels - channel) * kScanChannelTad - 1) * f.half_tad + 1) / 2;
+}
+Cycle hold_to_end(int sensor) {
+  return hold_to_end(frame_of(kScanLitSlot), sensor < 4 ? 3 : sensor < 8 ? 4 : 9 - sensor);
+}
 // converter clocks of scans of 3, 5 and 6 channels give frames of one length
 static_assert(3 * kScanChannelTad * kScanTadCycles3 == kScanFrameCycles);
 static_assert(6 * kScanChannelTad * kScanTadCycles6 == kScanFrameCycles);
 static_assert(3 * kScanChannelTad * kScanTadCycles6 == kScanMicroFrameCycles);
-static_assert((3 * kScanChannelTad + 1) * kScanTadCycles == 552);
 static_assert(5 * kScanChannelTad * kScanTadCycles == kScanFrameCycles);
+static_assert(hold_to_end(frame_of(kScanLitSlot), 3) == 348);
 
 constexpr Cycle kRoundCycles = kScanPeriod * kScanFrameCycles;
 /// Handlers of a period: when they are called, what they take, and what those before a slot take together.
@@ -69,8 +80,8 @@ constexpr StopsOfRound kStopsOfRound = make_stops();
 }  // namespace
 
 Cycle scan_flash_cycles(int sensor) {
-  return (kScanLitSlot + kScanPeriod - kScanDarkSlot - 1) * kScanFrameCycles + hold_cycles(sensor) +
-         kScanLitLateCycles - kScanLightCycles;
+  return kRoundCycles + kRound.at[kScanLitSlot] - kRound.at[kScanDarkSlot] - kScanLightCycles -
+         hold_to_end(sensor);
 }
 
 void AdcScan::settle(Cycle at) {
@@ -81,18 +92,16 @@ void AdcScan::settle(Cycle at) {
     keep(dark_[i], sensor, newest(count, kScanDarkSlot, 1, pair_of_sensor(sensor)), false);
     keep(lit_[i], sensor, newest(count, kScanLitSlot, 0, pair_of_sensor(sensor)), true);
   }
-  fill_acc(at);
+  fill_acc(acc_samples_of(full_interrupts(at)));
   const std::int64_t passed = frames(at);
   if (passed > 0) {
-    runs_.push_back({total_base_, full_base_, anchor_, micro_only_});
+    runs_.push_back({total_base_, full_base_, round_, micro_only_});
     while (runs_.size() > 1 && runs_[1].first <= total_base_ + passed - kMicSamples)
       runs_.erase(runs_.begin());
   }
   total_base_ += passed;
   if (!micro_only_) full_base_ += passed;
-  anchor_ = at;
-  noted_stops_ = 0;
-  find_round();
+  find_round(at);
   for (auto* samples : {&dark_, &lit_})
     for (Sample& s : *samples) s.until = 0;
 }
@@ -105,6 +114,7 @@ void AdcScan::start(bool micro_only, bool five_pairs, Cycle at) {
   pairs_ = five_pairs ? 5 : 4;
   pair_base_ %= pairs_;
   micro_only_ = micro_only;
+  find_round(at);
   on_ = true;
   ++starts_;
 }
@@ -129,7 +139,7 @@ void AdcScan::reset(Cycle at) {
   pairs_ = 4;
   total_base_ = full_base_ = period_base_ = 0;
   pair_base_ = 0;
-  find_round();
+  find_round(at);
   dark_.fill(Sample{});
   lit_.fill(Sample{});
 }
@@ -139,28 +149,34 @@ int AdcScan::pair_of_lit(std::int64_t period) const {
 }
 
 Cycle AdcScan::full_cycle(std::int64_t interrupt) const {
-  return anchor_ + (interrupt - full_base_ + 1) * kScanFrameCycles;
+  return call({interrupt / kScanPeriod - full_base_ / kScanPeriod, static_cast<int>(interrupt % kScanPeriod)})
+      .at;
 }
 
-Cycle AdcScan::next_interrupt(Cycle at) const {
-  return on_ ? anchor_ + (frames(at) + 1) * frame_cycles() : host::kNever;
+std::int64_t AdcScan::frames(Cycle at) const {
+  if (!on_) return 0;
+  const Place next = place(at + 1);
+  return micro_only_ ? next.round : next.round * kScanPeriod + next.slot - first_slot_;
 }
 
 Cycle AdcScan::interrupt_cycle(std::int64_t count) const {
-  return on_ ? anchor_ + (count - total_base_) * frame_cycles() : host::kNever;
+  if (!on_) return host::kNever;
+  const std::int64_t number = count - total_base_ - 1;
+  return micro_only_ ? call({number, 0}).at : full_cycle(full_base_ + number);
 }
 
-// Interrupt number 0 of the round in which this run of frames began would have come one frame after this.
-void AdcScan::find_round() {
+// The round in which this run of frames began would have begun then.
+void AdcScan::find_round(Cycle at) {
+  noted_stops_ = 0;
   first_slot_ = static_cast<int>(full_base_ % kScanPeriod);
-  round_ = anchor_ + kScanStartCycles - (first_slot_ > 0 ? kRound.at[first_slot_ - 1] : 0);
+  round_ = at + kScanStartCycles;
+  if (!micro_only_ && first_slot_ > 0) round_ -= kRound.at[first_slot_ - 1];
 }
 
 /// Of the first call from `at` on.
 inline AdcScan::Place AdcScan::place(Cycle at) const {
-  const Cycle start = anchor_ + kScanStartCycles;
-  if (micro_only_) return {at > start ? (at - start - 1) / kScanMicroFrameCycles : 0, 0};
-  if (at <= start) return {0, first_slot_};
+  if (micro_only_) return {at > round_ ? (at - round_ - 1) / kScanMicroFrameCycles : 0, 0};
+  if (at <= round_) return {0, first_slot_};
   const std::uint64_t before = static_cast<std::uint64_t>(at - round_ - 1);  // the first call beyond this
   const std::uint64_t round = before / kRoundCycles;
   const Cycle rest = static_cast<Cycle>(before - round * kRoundCycles);
@@ -180,7 +196,7 @@ Cycle AdcScan::cycles_before(Cycle at) const {
 
 AdcScan::Call AdcScan::call(Place p) const {
   if (micro_only_)
-    return {anchor_ + kScanStartCycles + (p.round + 1) * kScanMicroFrameCycles, kScanMicroIsrCycles};
+    return {round_ + (p.round + 1) * kScanMicroFrameCycles, kScanMicroIsrCycles};
   return {round_ + p.round * kRoundCycles + kRound.at[p.slot], kRound.cycles[p.slot]};
 }
 
@@ -271,7 +287,8 @@ Cycle AdcScan::first_fill(Cycle at) const {
   const std::int64_t have = acc_samples(at);
   const std::int64_t missing = (2 * kAccSamples - 1 - have % kAccSamples) % kAccSamples;
   if (missing == 0) return at;
-  return full_cycle(kScanPeriod * (have + missing - 1) + kScanAccSlot) - kScanAccSoonerCycles;
+  const Cycle filled = full_cycle(kScanPeriod * (have + missing - 1) + kScanAccSlot);
+  return filled + kRound.cycles[kScanAccSlot];
 }
 
 /// Newest period whose interrupt in `slot` has come and that serves `pair`; a value below 0 if none.
@@ -287,15 +304,13 @@ std::int64_t AdcScan::dark_number(int sensor, Cycle at) const {
 }
 
 std::int64_t AdcScan::lit_number(int sensor, Cycle at) const {
-  return newest(full_interrupts(at - kScanLitLateCycles - kScanFileCycles), kScanLitSlot, 0,
-                pair_of_sensor(sensor));
+  return newest(full_interrupts(at - kScanFileCycles), kScanLitSlot, 0, pair_of_sensor(sensor));
 }
 
 int AdcScan::evaluate(int sensor, std::int64_t period, bool lit_sample) const {
   if (sensor >= kRingSensors) return 0;
   const std::int64_t interrupt = period * kScanPeriod + (lit_sample ? kScanLitSlot : kScanDarkSlot);
-  const Cycle at =
-      full_cycle(interrupt) - kScanFrameCycles + hold_cycles(sensor) + (lit_sample ? kScanLitLateCycles : 0);
+  const Cycle at = full_cycle(interrupt) - hold_to_end(sensor);
   // the LED was switched on at the dark interrupt of the period before; in the very first period nobody did
   const Cycle lit_for = lit_sample && period > 0 ? scan_flash_cycles(sensor) : -1;
   const std::uint64_t number = noise_base_ + 2 * static_cast<std::uint64_t>(period) + (lit_sample ? 1 : 0);
@@ -337,17 +352,15 @@ int AdcScan::peek_lit(int sensor, Cycle at) const {
 }
 
 Cycle AdcScan::mic_hold(int microphone, std::int64_t number) const {
-  Run run{total_base_, full_base_, anchor_, micro_only_};
+  Run run{total_base_, full_base_, round_, micro_only_};
   for (std::size_t i = runs_.size(); number < run.first && i-- > 0;) run = runs_[i];
   const std::int64_t frame = number - run.first;
   if (run.micro_only)
-    return run.anchor + frame * kScanMicroFrameCycles + (microphone * kScanChannelTad + 1) * kScanTadCycles6;
-  // the converter runs faster in frames with more channels
-  const int slot = static_cast<int>((run.full + frame) % kScanPeriod);
-  const Cycle tad = slot == kScanAccSlot                            ? kScanTadCycles6
-                    : slot == kScanLitSlot || slot == kScanDarkSlot ? kScanTadCycles
-                                                                    : kScanTadCycles3;
-  return run.anchor + frame * kScanFrameCycles + (microphone * kScanChannelTad + 1) * tad;
+    return run.round + (frame + 1) * kScanMicroFrameCycles - hold_to_end(kMicroFrame, microphone);
+  const std::int64_t from_round = run.full % kScanPeriod + frame;
+  const int slot = static_cast<int>(from_round % kScanPeriod);
+  return run.round + from_round / kScanPeriod * kRoundCycles + kRound.at[slot] -
+         hold_to_end(frame_of(slot), microphone);
 }
 
 int AdcScan::mic_sample(int microphone, std::int64_t number) const {
@@ -357,11 +370,10 @@ int AdcScan::mic_sample(int microphone, std::int64_t number) const {
 
 Cycle AdcScan::next_sample(Cycle at, int slot, int shift, int pair) const {
   if (!on_ || micro_only_) return host::kNever;
-  const Cycle filed = kScanFileCycles + (slot == kScanLitSlot ? kScanLitLateCycles : 0);
   // first period whose interrupt in this slot is still to come, then on to the one that serves the pair
-  std::int64_t period = (full_interrupts(at - filed) + kScanPeriod - 1 - slot) / kScanPeriod;
+  std::int64_t period = (full_interrupts(at - kScanFileCycles) + kScanPeriod - 1 - slot) / kScanPeriod;
   period += (pair - pair_of_lit(period + shift) + pairs_) % pairs_;
-  return full_cycle(period * kScanPeriod + slot) + filed;
+  return full_cycle(period * kScanPeriod + slot) + kScanFileCycles;
 }
 
 Cycle AdcScan::horizon(int sensor, Cycle at) {
@@ -371,13 +383,12 @@ Cycle AdcScan::horizon(int sensor, Cycle at) {
                   lit_[static_cast<std::size_t>(sensor)].until);
 }
 
-void AdcScan::fill_acc(Cycle at) {
-  const std::int64_t count = acc_samples(at);
+void AdcScan::fill_acc(std::int64_t count) {
   // what the ring has lost again need not be known
   for (std::int64_t k = std::max(acc_kept_, count - kAccSamples); k < count; ++k) {
-    const Cycle frame = full_cycle(k * kScanPeriod + kScanAccSlot) - kScanFrameCycles;
+    const Cycle end = full_cycle(k * kScanPeriod + kScanAccSlot);
     for (int axis = 0; axis < 3; ++axis) {
-      const Cycle hold = frame + acc_hold_cycles(axis);
+      const Cycle hold = end - hold_to_end(frame_of(kScanAccSlot), 3 + axis);
       const auto other = board_.counts_of_others(kAccChannel + axis, hold);
       const int counts =
           other ? *other
@@ -391,17 +402,17 @@ void AdcScan::fill_acc(Cycle at) {
 
 const AdcScan::AccRing& AdcScan::acc_scan(Cycle at) {
   acc_used_ = true;
-  fill_acc(at);
+  fill_acc(acc_samples(at));
   return acc_;
 }
 
 Cycle AdcScan::acc_until(Cycle at) const {
   if (!on_ || micro_only_) return host::kNever;
-  return full_cycle(kScanPeriod * acc_samples(at) + kScanAccSlot) - kScanAccSoonerCycles;
+  return full_cycle(kScanPeriod * acc_samples(at) + kScanAccSlot) + kScanFileCycles;
 }
 
 unsigned AdcScan::pulses(Cycle at) const {
-  const std::int64_t count = full_interrupts(at);
+  const std::int64_t count = full_interrupts(at - kScanLightCycles);
   if (count <= kScanDarkSlot) return 0;
   const std::int64_t last = count - 1;
   const int slot = static_cast<int>(last % kScanPeriod);
@@ -413,12 +424,12 @@ unsigned AdcScan::pulses(Cycle at) const {
 
 Cycle AdcScan::pulses_horizon(Cycle at) const {
   if (!on_ || micro_only_) return host::kNever;
-  const std::int64_t count = full_interrupts(at);
+  const std::int64_t count = full_interrupts(at - kScanLightCycles);
   const int slot = static_cast<int>(count % kScanPeriod);  // of the next interrupt
   const int wait = slot <= kScanLitSlot    ? kScanLitSlot - slot
                    : slot <= kScanDarkSlot ? kScanDarkSlot - slot
                                            : kScanPeriod - slot + kScanLitSlot;
-  return full_cycle(count + wait);
+  return full_cycle(count + wait) + kScanLightCycles;
 }
 
 }  // namespace board

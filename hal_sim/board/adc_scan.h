@@ -4,17 +4,17 @@
 //   slot (interrupts since the start mod 65):   3  lit pair arrives, IR LED off, next pair
 //                                              62  accelerometer arrives
 //                                              63  dark pair arrives, IR LED on
-//   every interrupt: 3 microphones. One frame = 900 cycles (450 with MICRO_ONLY).
+//   every interrupt: 3 microphones. 65 frames = 58500 cycles (450 each with MICRO_ONLY); single ones are longer
+//   or shorter, because the converter stands while its list changes (scan_handler())
 //   a pair's samples are the 4th and 5th channel of the frame that ends at its interrupt
 //
 // Nothing is ticked: the number of interrupts so far follows from the clock, and a sample is evaluated when
 // somebody asks for it, at the instant at which it was taken. It is then kept, so it never changes.
 // Modelled: both rates, stopping and starting the converter, 4 or 5 pairs, the sample before the first flash.
 // Accelerometer samples are kept tick by tick from the first time that a program asks for one; those of
-// before are worked out then, from poses of at most 40 ms ago. Not modelled: the converter's few cycles of
-// rest while the interrupt changes its settings; turret sensors 8 and 9 (read 0), which in their frames come
-// before the microphones. Source: [lib:
-// a_d/advance_ad_scan/e_ad_conv.c], facts restated.
+// before are worked out then, from poses of at most 40 ms ago. Not modelled: turret sensors 8 and 9 (read 0),
+// which in their frames come before the microphones.
+// Source: [lib: a_d/advance_ad_scan/e_ad_conv.c], facts restated.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -46,16 +46,13 @@ class AdcScan {
   int starts() const { return starts_; }
   bool is_on() const { return on_; }
   bool micro_only() const { return micro_only_; }
-  Cycle frame_cycles() const { return micro_only_ ? kScanMicroFrameCycles : kScanFrameCycles; }
 
   /// Interrupts so far, in both modes.
   std::int64_t interrupts(Cycle at) const { return total_base_ + frames(at); }
   /// Accelerometer samples so far.
-  std::int64_t acc_samples(Cycle at) const {
-    return (full_interrupts(at + kScanAccSoonerCycles) + kScanPeriod - 1 - kScanAccSlot) / kScanPeriod;
-  }
+  std::int64_t acc_samples(Cycle at) const { return acc_samples_of(full_interrupts(at - kScanFileCycles)); }
   /// Cycle of the next interrupt; kNever when the converter is off.
-  Cycle next_interrupt(Cycle at) const;
+  Cycle next_interrupt(Cycle at) const { return next_call(at + 1); }
   /// Cycle of the interrupt that completes the `count`-th microphone sample from power-up on.
   Cycle interrupt_cycle(std::int64_t count) const;
 
@@ -94,7 +91,7 @@ class AdcScan {
     round_ += d.cycles;
   }
 
-  /// First cycle from `at` on at which the accelerometer index is 49: where e_init_ad_scan() returns.
+  /// When a program sees first, from `at` on, that the accelerometer index is 49: e_init_ad_scan() returns.
   Cycle first_fill(Cycle at) const;
 
   /// e_ambient_ir[sensor] and e_ambient_and_reflected_ir[sensor] at `at`; 0 before the first sample. Keeps
@@ -123,7 +120,7 @@ class AdcScan {
   Cycle acc_until(Cycle at) const;
   /// Works out the samples so far, if a program has asked for any before.
   void keep_acc(Cycle at) {
-    if (acc_used_) fill_acc(at);
+    if (acc_used_) fill_acc(acc_samples(at));
   }
 
   /// IR emitter lines that the scan holds on: bit = pair; bit 4 the turret's (body and front LED).
@@ -146,11 +143,15 @@ class AdcScan {
   struct Run {
     std::int64_t first = 0;  // number of its first interrupt
     std::int64_t full = 0;   // ALL_ADC interrupts before it
-    Cycle anchor = 0;
+    Cycle round = 0;         // round_
     bool micro_only = false;
   };
 
-  std::int64_t frames(Cycle at) const { return on_ && at > anchor_ ? (at - anchor_) / frame_cycles() : 0; }
+  /// Of the present run.
+  std::int64_t frames(Cycle at) const;
+  static std::int64_t acc_samples_of(std::int64_t full_interrupts) {
+    return (full_interrupts + kScanPeriod - 1 - kScanAccSlot) / kScanPeriod;
+  }
   std::int64_t full_interrupts(Cycle at) const { return full_base_ + (micro_only_ ? 0 : frames(at)); }
   /// A call: round since round_, and slot in it; MICRO_ONLY: its number and 0.
   struct Place {
@@ -162,7 +163,7 @@ class AdcScan {
   Call call(Place p) const;
   Call call_before(Place p) const;
   Cycle done(Place next, Cycle end) const;
-  void find_round();
+  void find_round(Cycle at);
   Cycle cycles_before(Cycle at) const;
   int pair_of_lit(std::int64_t period) const;  // pair whose lit sample arrives in this period
   std::int64_t newest(std::int64_t interrupts, int slot, int shift, int pair) const;
@@ -172,17 +173,15 @@ class AdcScan {
   int evaluate(int sensor, std::int64_t period, bool lit_sample) const;
   void keep(Sample& kept, int sensor, std::int64_t number, bool lit_sample) const;
   void settle(Cycle at);
-  void fill_acc(Cycle at);
+  void fill_acc(std::int64_t count);
 
   const Board& board_;
   bool on_ = false;
   bool micro_only_ = false;
   int starts_ = 0;
   int pairs_ = 4;
-  Cycle anchor_ = 0;              // the current run of frames began here
-  // calls of the handler, counted in rounds
-  Cycle round_ = 0;
-  int first_slot_ = 0;            // of the first round: this run's
+  Cycle round_ = 0;               // calls of this run are counted in rounds from here on
+  int first_slot_ = 0;            // of the first round
   std::int64_t noted_stops_ = 0;  // of the converter, since round_
   std::int64_t total_base_ = 0;   // interrupts before the anchor
   std::int64_t full_base_ = 0;    // of these, in ALL_ADC mode: the driver's slot counter

@@ -55,15 +55,9 @@ inline constexpr int kScanLitInterrupts =
     5;  // a flash lasts from slot 63 to 3 [lib: a_d/advance_ad_scan/e_ad_conv.c]
 inline constexpr int kScanAccSlot = 62;   // ACC_PROX_PERIOD - 2 [lib: a_d/advance_ad_scan/e_ad_conv.c]
 inline constexpr int kScanDarkSlot = 63;  // ACC_PROX_PERIOD - 1 [lib: a_d/advance_ad_scan/e_ad_conv.c]
-// The converter stands while its list changes, and slots 3 to 36 come late for it; the handler needs its
-// time.
-inline constexpr Cycle kScanLitLateCycles = 230;  // slot 3 after its multiple of 900 [measured: register way]
-inline constexpr Cycle kScanAccSoonerCycles =
-    32;  // slot 62's samples in the array before its multiple of 900 [measured: register way]
-inline constexpr Cycle kScanLightCycles = 163;    // end of a dark frame to IR LED on [measured: register way]
-inline constexpr Cycle kScanFileCycles =
-    117;  // end of a frame to its pair in the array [measured: register way]
-inline constexpr Cycle kScanTadCycles = 12;  // five channels: ADCS 23 [lib: a_d/advance_ad_scan/e_ad_conv.h]
+inline constexpr Cycle kScanLightCycles = 153;  // end of a frame to IR LED switched [measured: register way]
+inline constexpr Cycle kScanFileCycles = 117;  // end of a frame to samples in the array [measured: register way]
+inline constexpr Cycle kScanTadCycles = 12;    // five channels: ADCS 23 [lib: a_d/advance_ad_scan/e_ad_conv.h]
 inline constexpr Cycle kScanTadCycles3 =
     20;  // three channels: ADCS 39 [lib: a_d/advance_ad_scan/e_ad_conv.h]
 inline constexpr Cycle kScanTadCycles6 = 10;  // six channels: ADCS 19 [lib: a_d/advance_ad_scan/e_ad_conv.h]
