@@ -11,7 +11,10 @@
 #define GUMSTIX_POSITION 10  /* selector position that scans the turret's pair too */
 #define ACC_COUNTER_MAX 64   /* where updateAccI2CCounter stops */
 #define TICK_COUNTER_MAX 65535u
-#define SET_UP_CYCLES 97     /* registers of the converter [measured: register way] */
+/* registers of the converter; after its start; the last look at the buffer's index [measured: register way] */
+#define SET_UP_CYCLES 91
+#define STARTED_CYCLES 24
+#define FILLED_CYCLES 7
 
 int e_mic_scan[3][MIC_SAMP_NB];
 int e_acc_scan[3][ACC_SAMP_NB];
@@ -62,12 +65,16 @@ TAKES(0) static void refresh_all(void) {
   if (twinpuck_interrupts_seen != before) tp_scan_values(e_ambient_ir, e_ambient_and_reflected_ir);
 }
 
-void e_init_ad_scan(unsigned char only_micro) {
+TAKES(0) void e_init_ad_scan(unsigned char only_micro) {
   selector = getselector();
   tp_spend(SET_UP_CYCLES);
   tp_scan_start(only_micro == MICRO_ONLY, selector == GUMSTIX_POSITION);
-  /* blocks until the accelerometer's buffer is full once */
-  if (only_micro != MICRO_ONLY) tp_wait_until(tp_scan_filled_at());
+  if (only_micro == MICRO_ONLY) {
+    tp_spend(STARTED_CYCLES);
+  } else { /* blocks until the accelerometer's buffer is full once */
+    tp_wait_until(tp_scan_filled_at());
+    tp_spend(FILLED_CYCLES);
+  }
   refresh_all();
 }
 

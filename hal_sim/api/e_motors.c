@@ -27,7 +27,7 @@ void run_left_motor(void) { tp_motor_run(LEFT); }
 
 void run_right_motor(void) { tp_motor_run(RIGHT); }
 
-TAKES(0) void e_init_motors(void) {
+TAKES(5) void e_init_motors(void) {
   tp_motor_agenda(LEFT, (const void *)run_left_motor);
   tp_motor_agenda(RIGHT, (const void *)run_right_motor);
   e_activate_agenda(run_left_motor, 0);

@@ -29,7 +29,7 @@ constexpr Frame frame_of(int slot) {
 constexpr Frame kMicroFrame{3, 2 * kScanTadCycles6};
 /// Cycles from a channel's hold instant to the end of its frame.
 constexpr Cycle hold_to_end(Frame f, int channel) {
-  return (((f.channels - channel) * kScanChannelTad - 1) * f.half_tad + 1) / 2;
+  return (((f.channels - channel) * kScanChannelTad - 1) * f.half_tad + 1) / 2 + kScanFlagCycles;
 }
 Cycle hold_to_end(int sensor) {
   return hold_to_end(frame_of(kScanLitSlot), sensor < 4 ? 3 : sensor < 8 ? 4 : 9 - sensor);
@@ -39,7 +39,7 @@ static_assert(3 * kScanChannelTad * kScanTadCycles3 == kScanFrameCycles);
 static_assert(6 * kScanChannelTad * kScanTadCycles6 == kScanFrameCycles);
 static_assert(3 * kScanChannelTad * kScanTadCycles6 == kScanMicroFrameCycles);
 static_assert(5 * kScanChannelTad * kScanTadCycles == kScanFrameCycles);
-static_assert(hold_to_end(frame_of(kScanLitSlot), 3) == 348);
+static_assert(hold_to_end(frame_of(kScanLitSlot), 3) == 349);
 
 constexpr Cycle kRoundCycles = kScanPeriod * kScanFrameCycles;
 /// Handlers of a period: when they are called, what they take, and what those before a slot take together.
@@ -190,14 +190,15 @@ inline AdcScan::Place AdcScan::place(Cycle at) const {
 Cycle AdcScan::cycles_before(Cycle at) const {
   if (!on_) return 0;
   const Place p = place(at);
-  if (micro_only_) return p.round * kScanMicroIsrCycles;
-  return p.round * kRound.before[kScanPeriod] + kRound.before[p.slot];
+  const Cycle wraps = number(p) / kMicSamples * kScanWrapCycles;
+  if (micro_only_) return p.round * kScanMicroIsrCycles + wraps;
+  return p.round * kRound.before[kScanPeriod] + kRound.before[p.slot] + wraps;
 }
 
 AdcScan::Call AdcScan::call(Place p) const {
-  if (micro_only_)
-    return {round_ + (p.round + 1) * kScanMicroFrameCycles, kScanMicroIsrCycles};
-  return {round_ + p.round * kRoundCycles + kRound.at[p.slot], kRound.cycles[p.slot]};
+  const Cycle wrap = is_wrap(p) ? kScanWrapCycles : 0;
+  if (micro_only_) return {round_ + (p.round + 1) * kScanMicroFrameCycles, kScanMicroIsrCycles + wrap};
+  return {round_ + p.round * kRoundCycles + kRound.at[p.slot], kRound.cycles[p.slot] + wrap};
 }
 
 AdcScan::Place AdcScan::after(Place p) const {
@@ -237,49 +238,32 @@ Cycle AdcScan::done(Place next, Cycle end) const {
 Cycle AdcScan::served(Cycle asked, Cycle work) const {
   if (!on_) return asked + work;
   const Place next = place(asked);
-  if (micro_only_ || next.slot == 0 || asked - round_ <= kRound.at[first_slot_]) {
-    const Call before = call_before(next);
-    return done(next, std::max(asked, before.at + before.cycles) + work);
-  }
-  // the usual case, without so many questions
-  const Cycle round = round_ + next.round * kRoundCycles;
-  const Cycle free = round + kRound.at[next.slot - 1] + kRound.cycles[next.slot - 1];
-  const Cycle end = std::max(asked, free) + work;
-  return end <= round + kRound.at[next.slot] ? end : done(next, end);
+  return done(next, free_from(call_before(next), asked) + work);
 }
 
-AdcScan::Delays AdcScan::delays(const AgendaTimer& ticks, Cycle at) const {
-  Delays found{noted_stops_, 0};
-  if (!on_ || micro_only_ || !ticks.is_running()) return found;
-  for (;;) {
-    // the next stop that has to wait: each kind comes once a round, at a phase that it keeps
-    std::int64_t next = -1;
-    Cycle limit = at, delay = 0;
-    for (int kind = 0; kind < kStops; ++kind) {
-      std::int64_t round = (found.stops - kind + kStops - 1) / kStops;
-      if (kStopsOfRound.of[kind].slot < first_slot_) round = std::max<std::int64_t>(round, 1);
-      Cycle call = round_ + found.cycles + round * kRoundCycles + kStopsOfRound.of[kind].at;
-      if (call >= limit) continue;
-      Cycle since = ticks.since_tick(call);
-      if (!ticks.may_delay(since)) continue;
-      const std::int64_t rounds = (limit - 1 - call) / kRoundCycles;
-      const AgendaTimer::Wait wait = ticks.first_wait(call, since, rounds);
-      if (wait.cycles == 0) continue;
-      next = (round + wait.round) * kStops + kind;
-      limit = call + wait.round * kRoundCycles;
-      delay = wait.cycles;
-    }
-    if (next < 0) break;
-    found.stops = next + 1;
-    found.cycles += delay;
+AdcScan::Delay AdcScan::next_delay(const AgendaTimer& ticks, Cycle until) const {
+  Delay first{noted_stops_, until, 0};
+  if (!on_ || micro_only_ || !ticks.is_running()) return first;
+  // each kind of stop comes once a round, at a phase that it keeps
+  for (int kind = 0; kind < kStops; ++kind) {
+    std::int64_t round = (noted_stops_ - kind + kStops - 1) / kStops;
+    if (kStopsOfRound.of[kind].slot < first_slot_) round = std::max<std::int64_t>(round, 1);
+    const Cycle call = round_ + round * kRoundCycles + kStopsOfRound.of[kind].at;
+    if (call >= first.at) continue;
+    const Cycle since = ticks.since_tick(call);
+    if (!ticks.may_delay(since)) continue;
+    const AgendaTimer::Wait wait = ticks.first_wait(call, since, (first.at - 1 - call) / kRoundCycles);
+    if (wait.cycles == 0) continue;
+    first = {(round + wait.round) * kStops + kind + 1, call + wait.round * kRoundCycles, wait.cycles};
   }
-  const Cycle since = at - round_ - found.cycles;
-  if (since <= kStopsOfRound.of[0].at) return found;
+  if (first.cycles > 0) return first;
+  const Cycle since = until - round_;
+  if (since <= kStopsOfRound.of[0].at) return first;
   const std::int64_t round = since / kRoundCycles;
   int kind = 0;
   while (kind < kStops && round * kRoundCycles + kStopsOfRound.of[kind].at < since) ++kind;
-  found.stops = round * kStops + kind;
-  return found;
+  first.stops = round * kStops + kind;
+  return first;
 }
 
 Cycle AdcScan::first_fill(Cycle at) const {

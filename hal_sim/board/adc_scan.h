@@ -70,23 +70,21 @@ class AdcScan {
   /// When the first call from `at` on is asked for; kNever.
   Cycle next_call(Cycle at) const;
   /// `at`, or when the next handler's turn comes after the call that runs then.
-  Cycle free_from(Cycle at) const {
-    const Call call = last_call(at);
-    return std::max(at, call.at + call.cycles);
-  }
+  Cycle free_from(Cycle at) const { return free_from(last_call(at), at); }
   /// When `work` cycles of another handler, begun at `from`, are done that calls interrupt.
   Cycle done(Cycle from, Cycle work) const;
   /// The same of a handler that is asked for at `asked`: free_from() and done().
   Cycle served(Cycle asked, Cycle work) const;
-  /// Calls that must wait for a cycle or two, because the processor is on its way into Timer 2's handler or out
-  /// of it; where the converter stands meanwhile, everything after comes as much later.
-  struct Delays {
+  /// A call that must wait for a cycle or two, because the processor is on its way into Timer 2's handler or out
+  /// of it, while the converter stands: everything after comes as much later.
+  struct Delay {
     std::int64_t stops = 0;  ///< of the converter, looked at so far
-    Cycle cycles = 0;        ///< of these delays since the last note()
+    Cycle at = 0;            ///< when the call is asked for
+    Cycle cycles = 0;        ///< 0: none
   };
-  /// Up to `at`; `ticks` settled no later than the last note().
-  Delays delays(const AgendaTimer& ticks, Cycle at) const;
-  void note(const Delays& d) {
+  /// The first since the last note() and before `until`; `ticks` settled no later than that.
+  Delay next_delay(const AgendaTimer& ticks, Cycle until) const;
+  void note(const Delay& d) {
     noted_stops_ = d.stops;
     round_ += d.cycles;
   }
@@ -159,6 +157,14 @@ class AdcScan {
     int slot;
   };
   Place place(Cycle at) const;
+  /// Of interrupts since reset, in either mode.
+  std::int64_t number(Place p) const {
+    return total_base_ + (micro_only_ ? p.round : p.round * kScanPeriod + p.slot - first_slot_);
+  }
+  bool is_wrap(Place p) const { return number(p) % kMicSamples == kMicSamples - 1; }
+  static Cycle free_from(Call before, Cycle at) {
+    return at < before.at + before.cycles ? before.at + before.cycles + kChainCycles : at;
+  }
   Place after(Place p) const;
   Call call(Place p) const;
   Call call_before(Place p) const;

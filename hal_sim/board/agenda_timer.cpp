@@ -53,7 +53,7 @@ void AgendaTimer::start(Cycle at) {
   line_.late_tick = walking_ ? tick : -1;
   line_.origin = at - tick * kAgendaTickCycles;
   started_tick_ = tick;
-  running_ = true;
+  running_ = enabled_ = true;
   for (AgendaMotor& m : motors_) m.disturb();
   find_next_fire();
 }
@@ -78,7 +78,7 @@ void AgendaTimer::reset(Cycle at) {
   }
   nodes_.clear();
   line_ = TickLine{};
-  running_ = walking_ = in_callback_ = false;
+  running_ = enabled_ = walking_ = in_callback_ = false;
   stopped_tick_ = started_tick_ = 0;
   next_fire_ = -1;
   last_serial_ = 0;

@@ -45,6 +45,8 @@ class AgendaTimer {
   /// Timer 2 stops; nothing counts until the next start.
   void stop(Cycle at);
   bool is_running() const { return running_; }
+  /// Has it ever been started since the last reset: is its interrupt enabled?
+  bool is_enabled() const { return enabled_; }
   /// Processor reset: list, statics and timer as after loading; wheels keep their position and lose their
   /// current.
   void reset(Cycle at);
@@ -174,7 +176,7 @@ class AgendaTimer {
 
   const AdcScan* scan_;
   TickLine line_;
-  bool running_ = false;
+  bool running_ = false, enabled_ = false;
   std::int64_t started_tick_ = 0;  // the first call is that of the tick after this
   std::int64_t stopped_tick_ = 0;  // ticks processed while not running
   std::vector<Node> nodes_;        // oldest first; the list is walked from the back

@@ -356,9 +356,12 @@ void Board::settle_handlers(Cycle at) {
   if (agendas_.is_walking()) return;
   handlers_settled_ = at;
   if (setup_.spread_handlers) return agendas_.settle(at);
-  const AdcScan::Delays delays = scan_.delays(agendas_, at);
-  agendas_.settle(at);
-  scan_.note(delays);
+  AdcScan::Delay delay;
+  do {
+    delay = scan_.next_delay(agendas_, at);
+    agendas_.settle(delay.at);
+    scan_.note(delay);
+  } while (delay.cycles > 0);
 }
 
 // --- analogue inputs -------------------------------------------------------------------------------------

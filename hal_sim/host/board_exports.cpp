@@ -18,18 +18,20 @@ using host::Context;
 
 // processor time of library functions whose work happens on this side
 // [measured: register way] beside what TAKES() of the functions that call says
-constexpr Cycle kSetSpeedCycles = 85;    // speed 0
+constexpr Cycle kSetSpeedCycles = 81;    // speed 0
 constexpr Cycle kDivisionCycles = 21;    // any other speed
 constexpr Cycle kListSearchCycles = 11;  // agenda found at once
 constexpr Cycle kSetCycleCycles = 7;
 constexpr Cycle kNodePassedCycles = 10;
 constexpr Cycle kStartCycles = 20;
 constexpr Cycle kReturnCycles = 6;      // from the end of the list to RETFIE
-constexpr Cycle kKnownCycles = 16;      // activated although it is there
+constexpr Cycle kKnownCycles = 13;      // activated although it is there
 constexpr Cycle kActivateCycles = 103;  // malloc() and all
-constexpr Cycle kNodeOfListCycles = 16;
-constexpr Cycle kDestroyCycles = 42;
-constexpr Cycle kFreeCycles = 32;
+constexpr Cycle kNodeOfListCycles = 12;
+constexpr Cycle kDestroyCycles = 46;
+constexpr Cycle kDestroyPassedCycles = 8;
+constexpr Cycle kFreeCycles = 35;
+constexpr Cycle kHoldCycles = 9;  // more of both when Timer 2's interrupt is to be enabled again
 
 Wheel wheel_of(tp_i64 wheel) { return wheel == 0 ? Wheel::Left : Wheel::Right; }
 
@@ -63,6 +65,8 @@ void follow_agendas(Context& context, Board& robot) {
 Cycle search_cost(const void* function, Cycle found_at_once = kListSearchCycles) {
   return found_at_once + kNodePassedCycles * Context::current().board().agendas().nodes_passed(function);
 }
+
+Cycle hold_cost(const board::AgendaTimer& list) { return list.is_enabled() ? kHoldCycles : 0; }
 
 /// Shape of every change of the agenda list.
 template <typename Change>
@@ -138,8 +142,10 @@ void tp_agenda_stop(void) {
 
 tp_i64 tp_agenda_activate(const void* function, tp_i64 cycle) {
   const board::AgendaTimer& list = Context::current().board().agendas();
-  const Cycle cost = list.has(function) ? kKnownCycles + kNodePassedCycles * list.nodes_passed(function)
-                                        : kActivateCycles + kNodeOfListCycles * list.nodes_passed(function);
+  const int passed = list.nodes_passed(function);
+  const Cycle cost = list.has(function)
+                         ? kKnownCycles + kNodePassedCycles * passed
+                         : kActivateCycles + kNodeOfListCycles * passed + hold_cost(list);
   return change_list(cost, [&](board::AgendaTimer& agendas, Cycle now) {
     return agendas.activate(function, static_cast<int>(cycle), now);
   });
@@ -147,8 +153,8 @@ tp_i64 tp_agenda_activate(const void* function, tp_i64 cycle) {
 
 tp_i64 tp_agenda_destroy(const void* function) {
   const board::AgendaTimer& list = Context::current().board().agendas();
-  const Cycle cost = kDestroyCycles + kNodePassedCycles * list.nodes_passed(function) +
-                     (list.has(function) ? kFreeCycles : 0);
+  const Cycle cost = kDestroyCycles + kDestroyPassedCycles * list.nodes_passed(function) +
+                     (list.has(function) ? kFreeCycles : 0) + hold_cost(list);
   return change_list(cost,
                      [&](board::AgendaTimer& agendas, Cycle now) { return agendas.destroy(function, now); });
 }
