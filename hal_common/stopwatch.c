@@ -6,7 +6,7 @@
 
 void resetTime(void) {
   twinpuck_refresh_adc_counters();
-  tickAdcIsr = 0;
+  hal_restart_ticks();
 }
 
 float getDiffTimeMs(void) {
@@ -16,6 +16,6 @@ float getDiffTimeMs(void) {
 
 float getDiffTimeMsAndReset(void) {
   float elapsed_ms = getDiffTimeMs();
-  tickAdcIsr = 0;
+  hal_restart_ticks();
   return elapsed_ms;
 }

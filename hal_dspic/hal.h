@@ -54,6 +54,8 @@ void hal_pause(unsigned int rounds);
 #define hal_acc_newest(axis) (e_acc_scan[axis][e_last_acc_scan_id])
 #define hal_scan_starts() (hal_starts)
 extern unsigned int hal_starts;
+/** The counter of interrupts begins anew. */
+#define hal_restart_ticks() (tickAdcIsr = 0)
 
 /* --- remote control ----------------------------------------------------------------------------------- */
 

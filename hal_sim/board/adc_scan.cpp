@@ -137,7 +137,7 @@ void AdcScan::reset(Cycle at) {
   on_ = micro_only_ = false;
   starts_ = 0;
   pairs_ = 4;
-  total_base_ = full_base_ = period_base_ = 0;
+  total_base_ = full_base_ = period_base_ = ticks_base_ = 0;
   pair_base_ = 0;
   find_round(at);
   dark_.fill(Sample{});
@@ -190,15 +190,16 @@ inline AdcScan::Place AdcScan::place(Cycle at) const {
 Cycle AdcScan::cycles_before(Cycle at) const {
   if (!on_) return 0;
   const Place p = place(at);
-  const Cycle wraps = number(p) / kMicSamples * kScanWrapCycles;
-  if (micro_only_) return p.round * kScanMicroIsrCycles + wraps;
-  return p.round * kRound.before[kScanPeriod] + kRound.before[p.slot] + wraps;
+  const Cycle more = number(p) / kMicSamples * kScanWrapCycles -
+                     std::max<std::int64_t>(0, uncounted(p)) * kScanTickCycles;
+  if (micro_only_) return p.round * kScanMicroIsrCycles + more;
+  return p.round * kRound.before[kScanPeriod] + kRound.before[p.slot] + more;
 }
 
 AdcScan::Call AdcScan::call(Place p) const {
-  const Cycle wrap = is_wrap(p) ? kScanWrapCycles : 0;
-  if (micro_only_) return {round_ + (p.round + 1) * kScanMicroFrameCycles, kScanMicroIsrCycles + wrap};
-  return {round_ + p.round * kRoundCycles + kRound.at[p.slot], kRound.cycles[p.slot] + wrap};
+  const Cycle more = (is_wrap(p) ? kScanWrapCycles : 0) - (uncounted(p) >= 0 ? kScanTickCycles : 0);
+  if (micro_only_) return {round_ + (p.round + 1) * kScanMicroFrameCycles, kScanMicroIsrCycles + more};
+  return {round_ + p.round * kRoundCycles + kRound.at[p.slot], kRound.cycles[p.slot] + more};
 }
 
 AdcScan::Place AdcScan::after(Place p) const {

@@ -42,6 +42,9 @@ class AdcScan {
   /// The driver's statics and arrays return to their start values.
   void reset(Cycle at);
 
+  /// The driver's counter of interrupts is set to 0.
+  void restart_ticks(Cycle at) { ticks_base_ = interrupts(at); }
+
   /// Calls of start() since the last reset.
   int starts() const { return starts_; }
   bool is_on() const { return on_; }
@@ -161,6 +164,8 @@ class AdcScan {
   std::int64_t number(Place p) const {
     return total_base_ + (micro_only_ ? p.round : p.round * kScanPeriod + p.slot - first_slot_);
   }
+  /// Of these, those that found the counter of interrupts at its end; below 0: it still counts.
+  std::int64_t uncounted(Place p) const { return number(p) - ticks_base_ - kScanTicksMost; }
   bool is_wrap(Place p) const { return number(p) % kMicSamples == kMicSamples - 1; }
   static Cycle free_from(Call before, Cycle at) {
     return at < before.at + before.cycles ? before.at + before.cycles + kChainCycles : at;
@@ -189,7 +194,8 @@ class AdcScan {
   Cycle round_ = 0;               // calls of this run are counted in rounds from here on
   int first_slot_ = 0;            // of the first round
   std::int64_t noted_stops_ = 0;  // of the converter, since round_
-  std::int64_t total_base_ = 0;   // interrupts before the anchor
+  std::int64_t ticks_base_ = 0;   // interrupts before the counter of interrupts stood at 0
+  std::int64_t total_base_ = 0;   // interrupts before this run
   std::int64_t full_base_ = 0;    // of these, in ALL_ADC mode: the driver's slot counter
   std::int64_t period_base_ = 0;  // from this period on ...
   int pair_base_ = 0;             // ... pairs count from here

@@ -202,6 +202,8 @@ constexpr ScanHandler scan_handler(int slot) {
   return {late, cycles};
 }
 inline constexpr Cycle kScanWrapCycles = 3;  // more where the microphones' arrays begin anew [register way]
+inline constexpr Cycle kScanTickCycles = 1;  // less where the counter of interrupts has stopped [register way]
+inline constexpr std::int64_t kScanTicksMost = 65535;  // [lib: a_d/advance_ad_scan/e_ad_conv.c]
 inline constexpr Cycle kScanMicroIsrCycles = 83;    // a frame
 inline constexpr Cycle kBasicMotorIsrCycles =
     34;                                        // [estimated: shadow context, counter, phase, 4 bit writes]

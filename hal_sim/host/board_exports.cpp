@@ -323,6 +323,12 @@ tp_i64 tp_scan_interrupts(void) {
   return scan.interrupts(now);
 }
 
+void tp_scan_restart_ticks(void) {
+  Context& context = Context::current();
+  context.board().scan().restart_ticks(context.settle());
+  context.spend(0);
+}
+
 tp_i64 tp_scan_array_filled(void) {
   Context& context = Context::current();
   const board::AdcScan& scan = context.board().scan();

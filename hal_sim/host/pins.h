@@ -113,6 +113,8 @@ void tp_scan_switch(tp_i64 on);
 tp_i64 tp_scan_filled_at(void);
 /** Interrupts since reset. Horizon: the next one. */
 tp_i64 tp_scan_interrupts(void);
+/** The driver's counter of interrupts, which stays at 65535, is set to 0. */
+void tp_scan_restart_ticks(void);
 /** 1 between the interrupt that wrapped the microphone index and the next. Horizon: its next change. */
 tp_i64 tp_scan_array_filled(void);
 /** The driver's indices: next microphone sample 0 to 99, newest accelerometer sample 0 to 49. Horizon: none.
