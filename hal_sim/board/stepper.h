@@ -107,15 +107,9 @@ class Stepper {
 
   void set_coils_only(unsigned coils) { coils_ = coils; }
 
-  /// Rotor position in steps of the wheel, forward positive.
-  double position(Cycle at) const {
-    const Cycle since = at - motion_.moved_at;
-    const double target = static_cast<double>(motion_.steps);
-    if (since >= motion_.move) return target;
-    if (since <= 0) return motion_.from;
-    return motion_.from +
-           (target - motion_.from) * (static_cast<double>(since) / static_cast<double>(motion_.move));
-  }
+  /// Rotor position in steps of the wheel, forward positive; also shortly before the last step, when the driver's
+  /// handler has been called that is about to make it.
+  double position(Cycle at) const { return (at < motion_.moved_at ? before_ : motion_).position(at); }
 
  private:
   /// What a pattern that turns out too short takes back.
@@ -127,6 +121,14 @@ class Stepper {
     Cycle stepped_at = -kPatternCycles;  // when a pattern last pulled the rotor on
     Cycle pulled_at = -kPullOutCycles;   // when the last pattern of the motor began
     Cycle ready_at = 0;                  // a rotor at its fastest has done all its steps
+
+    double position(Cycle at) const {
+      const Cycle since = at - moved_at;
+      const double target = static_cast<double>(steps);
+      if (since >= move) return target;
+      if (since <= 0) return from;
+      return from + (target - from) * (static_cast<double>(since) / static_cast<double>(move));
+    }
   };
 
   int rotor_phase() const { return static_cast<int>(motion_.steps * forward_) & 3; }
