@@ -124,8 +124,8 @@ class AgendaMotor {
         const unsigned old = saves_power() ? 0 : kPhaseCoils[(phase - (back + 1) * turned) & 3];
         return pins_at(last_step - back * period, pin_cycles(old, coils));
       };
-      const Cycle last = step_pins(0), before = steps > 1 ? step_pins(1) : stepper.stepped_at();
-      stepper.turn(steps, direction, last, last - before, kPhaseCoils[phase]);
+      const Cycle last = step_pins(0), before = steps > 1 ? step_pins(1) : 0;
+      stepper.turn(steps, direction, last, before, steps > 2 ? step_pins(2) : 0, kPhaseCoils[phase]);
       count.tick = last_step;
       count.counter = 0;
       if (saves_power()) {

@@ -15,6 +15,7 @@
 //
 // Steps that were lost and coils that heat the motor are counted (faults()); copies count for themselves.
 #pragma once
+#include <algorithm>
 #include <cstdint>
 
 #include "hal_sim/board/checks_params.h"
@@ -86,21 +87,18 @@ class Stepper {
     }
   }
 
-  /// `count` > 0 regular steps at once, all in wheel direction `direction`, the last one at `last`, `interval`
-  /// after the one before; each had time to finish before the next. The caller guarantees that rotor and
-  /// driver agree.
-  void turn(std::int64_t count, int direction, Cycle last, Cycle interval, unsigned coils) {
-    motion_.steps += count * direction;
-    motion_.from = static_cast<double>(motion_.steps - direction);
-    motion_.moved_at = motion_.stepped_at = motion_.pulled_at = last;
-    motion_.move = interval < kRotorMoveCycles ? interval : kRotorMoveCycles;
-    const Cycle ready = motion_.ready_at + (count - 1) * kPullOutCycles;
-    motion_.ready_at = ready > last ? ready : last;
+  /// `count` > 0 regular steps at once, all in wheel direction `direction`, the last one at `last`; `before` and
+  /// `earlier`: when the two before it came, of which only those within the count are looked at. Each had time
+  /// to finish before the next. The caller guarantees that rotor and driver agree.
+  void turn(std::int64_t count, int direction, Cycle last, Cycle before, Cycle earlier, unsigned coils) {
+    if (count > 1) {
+      const Cycle since = count > 2 ? earlier : motion_.stepped_at;
+      motion_.steps += (count - 2) * direction;
+      motion_.ready_at += (count - 2) * kPullOutCycles;
+      turn_once(direction, before, since);
+    }
     before_ = motion_;
-    before_.steps -= direction;
-    before_.from -= direction;
-    before_.moved_at = before_.stepped_at = before_.pulled_at = last - interval;
-    motion_.ready_at += kPullOutCycles;
+    turn_once(direction, last, motion_.stepped_at);
     coils_ = coils;
     changed_at_ = last;
   }
@@ -130,6 +128,14 @@ class Stepper {
       return from + (target - from) * (static_cast<double>(since) / static_cast<double>(move));
     }
   };
+
+  void turn_once(int direction, Cycle at, Cycle since) {
+    motion_.from = static_cast<double>(motion_.steps);
+    motion_.steps += direction;
+    motion_.moved_at = motion_.stepped_at = motion_.pulled_at = at;
+    motion_.move = std::min(at - since, kRotorMoveCycles);
+    motion_.ready_at = std::max(motion_.ready_at, at) + kPullOutCycles;
+  }
 
   int rotor_phase() const { return static_cast<int>(motion_.steps * forward_) & 3; }
 

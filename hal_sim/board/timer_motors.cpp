@@ -32,7 +32,8 @@ void StepTrain::advance_to(Cycle at, Stepper& stepper) {
   const std::int64_t count = (at - next) / period + 1;
   commanded += count * toward;
   phase = static_cast<int>((phase + count * toward * stepper.forward()) & 3);
-  stepper.turn(count, toward, next + (count - 1) * period, period, kPhaseCoils[phase]);
+  const Cycle last = next + (count - 1) * period;
+  stepper.turn(count, toward, last, last - period, last - 2 * period, kPhaseCoils[phase]);
   next += count * period;
 }
 
