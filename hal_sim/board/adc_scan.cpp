@@ -257,14 +257,28 @@ AdcScan::Delay AdcScan::next_delay(const AgendaTimer& ticks, Cycle until) const 
     if (wait.cycles == 0) continue;
     first = {(round + wait.round) * kStops + kind + 1, call + wait.round * kRoundCycles, wait.cycles};
   }
-  if (first.cycles > 0) return first;
-  const Cycle since = until - round_;
-  if (since <= kStopsOfRound.of[0].at) return first;
+  if (first.cycles == 0) first.stops = stops_before(until);
+  return first;
+}
+
+AdcScan::Delay AdcScan::delay_at_exit(Cycle at) const {
+  Delay delay{noted_stops_, at, 0};
+  if (!on_ || micro_only_) return delay;
+  delay.stops = stops_before(at);
+  const Stop& stop = kStopsOfRound.of[delay.stops % kStops];
+  const Cycle call = round_ + delay.stops / kStops * kRoundCycles + stop.at;
+  if (delay.stops < kStops && stop.slot < first_slot_) return delay;
+  if (call < at + kExitCycles) delay = {delay.stops + 1, call, at + kExitCycles - call};
+  return delay;
+}
+
+std::int64_t AdcScan::stops_before(Cycle at) const {
+  const Cycle since = at - round_;
+  if (since <= kStopsOfRound.of[0].at) return noted_stops_;
   const std::int64_t round = since / kRoundCycles;
   int kind = 0;
   while (kind < kStops && round * kRoundCycles + kStopsOfRound.of[kind].at < since) ++kind;
-  first.stops = round * kStops + kind;
-  return first;
+  return round * kStops + kind;
 }
 
 Cycle AdcScan::first_fill(Cycle at) const {

@@ -87,6 +87,8 @@ class AdcScan {
   };
   /// The first since the last note() and before `until`; `ticks` settled no later than that.
   Delay next_delay(const AgendaTimer& ticks, Cycle until) const;
+  /// That of a call that comes during a RETFIE at `at`; calls since the last note() did not wait.
+  Delay delay_at_exit(Cycle at) const;
   void note(const Delay& d) {
     noted_stops_ = d.stops;
     round_ += d.cycles;
@@ -175,6 +177,7 @@ class AdcScan {
   Call call_before(Place p) const;
   Cycle done(Place next, Cycle end) const;
   void find_round(Cycle at);
+  std::int64_t stops_before(Cycle at) const;
   Cycle cycles_before(Cycle at) const;
   int pair_of_lit(std::int64_t period) const;  // pair whose lit sample arrives in this period
   std::int64_t newest(std::int64_t interrupts, int slot, int shift, int pair) const;

@@ -364,6 +364,12 @@ void Board::settle_handlers(Cycle at) {
   } while (delay.cycles > 0);
 }
 
+void Board::handler_left(Cycle at) {
+  if (setup_.spread_handlers) return;
+  agendas_.settle(at);
+  scan_.note(scan_.delay_at_exit(at));
+}
+
 // --- analogue inputs -------------------------------------------------------------------------------------
 
 IrConversion Board::ir_conversion(int sensor, Cycle at, Cycle lit_for) const {

@@ -187,6 +187,8 @@ class Board {
   /// What the handlers of both take from the program.
   /// Before any change to when they come or what they take.
   void settle_handlers(Cycle at);
+  /// A handler that was run comes to its RETFIE, during which nothing interrupts.
+  void handler_left(Cycle at);
   Handlers handlers() const { return {scan_, agendas_}; }
   AdcScan& scan() { return scan_; }
   const AdcScan& scan() const { return scan_; }

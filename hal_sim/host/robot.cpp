@@ -349,6 +349,7 @@ void Robot::handle(int vector, const Processor::Entry& entry) {
   fold();
   if (observer_) observer_->handler_ends(now_);
   quiet_until_ = 0;
+  if (has_handlers_) board_.handler_left(now_);
   const Processor::Return back = processor_->leave(now_);
   now_ = back.next_instruction;
   calm_until_ = back.quiet_until;

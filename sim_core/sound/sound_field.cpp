@@ -114,7 +114,7 @@ double sense_sound_pa(const Scene& scene, int robot, const Vec3& point_m, Clicks
   const SoundField* field = scene.sound();
   if (!field || field->is_silent()) return 0;
   // a pose of the tick that is running is not known yet
-  const Pose2 pose = scene.pose(robot, std::max<Clicks>(0, at - scene.tick_clicks()));
+  const Pose2 pose = scene.pose_on_way(robot, std::max<Clicks>(0, at - scene.tick_clicks()));
   return field->pressure_pa(placed_at(pose, point_m), to_seconds(at));
 }
 

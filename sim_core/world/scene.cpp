@@ -35,33 +35,40 @@ Scene::Scene(const WorldDesc& world, std::vector<double> reach_m)
   for (std::size_t i = 0; i < states_.size(); ++i) {
     states_[i].pose = layout_.moving_pose[i];
     states_[i].z_m = layout_.moving[i].z_m;
-    std::fill_n(history_.begin() + static_cast<std::ptrdiff_t>(i) * slots_, slots_, states_[i].pose);
+    std::fill_n(history_.begin() + static_cast<std::ptrdiff_t>(i) * slots_, slots_, past(states_[i]));
   }
   regather();
 }
 
-Pose2 Scene::pose(int body, Clicks at) const {
-  const std::size_t i = static_cast<std::size_t>(body);
-  const Clicks last = now();
-  if (at >= last) {
-    const BodyState& b = states_[i];
-    if (at == last) return b.pose;
-    const double ahead_s = to_seconds(at - last);
-    return {b.pose.x_m + b.velocity_m_s.x * ahead_s, b.pose.y_m + b.velocity_m_s.y * ahead_s,
-            b.pose.heading_rad + b.spin_rad_s * ahead_s};
-  }
-  const Pose2* ring = history_.data() + i * static_cast<std::size_t>(slots_);
-  // count back to the tick at or before `at`: usually one or two; slots from before the world began hold its
-  // start
+int Scene::slot_before(Clicks at, Clicks* start) const {
+  // count back: usually one or two; slots from before the world began hold its start
   int slot = last_slot_;
-  Clicks start = last;
-  for (int back = 1; back < slots_ && start > at; ++back) {
+  *start = now();
+  for (int back = 1; back < slots_ && *start > at; ++back) {
     slot = slot == 0 ? slots_ - 1 : slot - 1;
-    start -= tick_clicks_;
+    *start -= tick_clicks_;
   }
-  const Pose2& a = ring[slot];
-  if (at <= start) return a;
-  const Pose2& b = ring[slot + 1 == slots_ ? 0 : slot + 1];
+  return slot;
+}
+
+Pose2 Scene::pose(int body, Clicks at) const {
+  Clicks start;
+  const int slot = slot_before(at, &start);
+  const Past& b = history_[static_cast<std::size_t>(body) * static_cast<std::size_t>(slots_) +
+                           static_cast<std::size_t>(slot)];
+  if (at <= start) return b.pose;
+  const double ahead_s = to_seconds(at - start);
+  return {b.pose.x_m + b.velocity_m_s.x * ahead_s, b.pose.y_m + b.velocity_m_s.y * ahead_s,
+          b.pose.heading_rad + b.spin_rad_s * ahead_s};
+}
+
+Pose2 Scene::pose_on_way(int body, Clicks at) const {
+  Clicks start;
+  const int slot = slot_before(at, &start);
+  const Past* ring = history_.data() + static_cast<std::size_t>(body) * static_cast<std::size_t>(slots_);
+  const Pose2& a = ring[slot].pose;
+  if (at <= start || start == now()) return a;
+  const Pose2& b = ring[slot + 1 == slots_ ? 0 : slot + 1].pose;
   const double f = static_cast<double>(at - start) * per_tick_;
   return {a.x_m + f * (b.x_m - a.x_m), a.y_m + f * (b.y_m - a.y_m),
           a.heading_rad + f * (b.heading_rad - a.heading_rad)};
@@ -162,11 +169,8 @@ void Scene::publish(const std::vector<BodyState>& states, double moved_m) {
   ++tick_;
   ++version_;
   last_slot_ = last_slot_ + 1 == slots_ ? 0 : last_slot_ + 1;
-  const std::size_t slot = static_cast<std::size_t>(last_slot_);
-  for (std::size_t i = 0; i < states_.size(); ++i) {
-    history_[i * static_cast<std::size_t>(slots_) + slot] = states_[i].pose;
-  }
-  moved_[slot] = moved_m;
+  for (std::size_t i = 0; i < states_.size(); ++i) note_state(i);
+  moved_[static_cast<std::size_t>(last_slot_)] = moved_m;
   if (neighbours_.note_motion(moved_m)) regather();
 }
 
@@ -174,12 +178,14 @@ void Scene::relocate(int body, const BodyState& state) {
   const std::size_t i = static_cast<std::size_t>(body);
   states_[i] = state;
   ++version_;
-  std::fill_n(history_.begin() + static_cast<std::ptrdiff_t>(i) * slots_, slots_, state.pose);
+  std::fill_n(history_.begin() + static_cast<std::ptrdiff_t>(i) * slots_, slots_, Past{state.pose, {}, 0});
+  note_state(i);
   regather();
 }
 
 void Scene::set_state(int body, const BodyState& state) {
   states_[static_cast<std::size_t>(body)] = state;
+  note_state(static_cast<std::size_t>(body));
   ++version_;
 }
 

@@ -55,9 +55,11 @@ class Scene {
 
   /// State at the last tick.
   const BodyState& state(int body) const { return states_[static_cast<std::size_t>(body)]; }
-  /// Pose at an instant: between ticks interpolated, after the last one carried on with its velocity, before
-  /// the oldest kept one that one.
+  /// Pose at an instant: that of the tick before, carried on with its velocity; before the oldest kept one that
+  /// one. The same whenever it is asked for, at that instant or later.
   Pose2 pose(int body, Clicks at) const;
+  /// Pose on the way between two ticks, known once the later one has come; after the last tick its pose.
+  Pose2 pose_on_way(int body, Clicks at) const;
   /// Same with the solid, ready for rays. Headings of round bodies are left out.
   Placed placed(int body, Clicks at) const;
 
@@ -102,7 +104,20 @@ class Scene {
   void set_proximity_noise(int robot, double scale);
 
  private:
+  /// A body at a past tick.
+  struct Past {
+    Pose2 pose;
+    Vec2 velocity_m_s;
+    double spin_rad_s = 0;
+  };
+  static Past past(const BodyState& b) { return {b.pose, b.velocity_m_s, b.spin_rad_s}; }
+
+  void note_state(std::size_t body) {
+    history_[body * static_cast<std::size_t>(slots_) + static_cast<std::size_t>(last_slot_)] = past(states_[body]);
+  }
   void regather();
+  /// Slot of the newest tick at or before `at`, or of the oldest kept one; `start`: its instant.
+  int slot_before(Clicks at, Clicks* start) const;
 
   WorldDesc world_;
   Layout layout_;
@@ -114,7 +129,7 @@ class Scene {
   int slots_;                   // poses kept per body
   int last_slot_ = 0;           // where the last tick's poses are
   double per_tick_;             // 1 / tick_clicks_
-  std::vector<Pose2> history_;  // [body * slots_ + tick % slots_]
+  std::vector<Past> history_;   // [body * slots_ + tick % slots_]
   std::vector<double> moved_;   // [tick % slots_]: largest movement of that tick, m
   std::vector<BodyState> states_;
   std::vector<std::uint32_t> leds_;  // per robot; empty until somebody watches

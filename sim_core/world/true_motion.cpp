@@ -29,12 +29,12 @@ Footing footing_at(const Scene& scene, int body, const Pose2& pose) {
 }
 
 Vec3 place(const Scene& scene, int robot, Clicks at) {
-  const Pose2 pose = scene.pose(robot, at);
+  const Pose2 pose = scene.pose_on_way(robot, at);
   return {pose.x_m, pose.y_m, footing_at(scene, robot, pose).height_m};
 }
 
 BodyAxes axes_at(const Scene& scene, int robot, Clicks at) {
-  const Pose2 pose = scene.pose(robot, at);
+  const Pose2 pose = scene.pose_on_way(robot, at);
   return axes_on(footing_at(scene, robot, pose).slope, pose.heading_rad);
 }
 
