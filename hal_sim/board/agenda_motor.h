@@ -146,33 +146,33 @@ class AgendaMotor {
     if (!saves_power()) return whole + 1;
     return whole * 2 + (after - whole * period >= second_half() ? 2 : 1);
   }
-  /// What the processor spends on a firing: a step, or the coils' switching off.
+  /// What the processor spends on a firing: a step, to a phase at which it is least, or the coils' switching off.
   Cycle step_cycles() const {
-    const Cycle left = stepper.forward() < 0 ? kMotorLeftCycles : 0;
-    return left + (saves_power() ? kMotorHalfStepCycles
-                                 : kMotorStepCycles + (phase_on ? kMotorOldHalfCycles : 0));
+    return (saves_power() ? kMotorHalfStepCycles : kMotorStepCycles + (phase_on ? kMotorOldHalfCycles : 0)) -
+           (is_left() ? kMotorLeftStepLess : 0) + turn_cycles();
   }
-  Cycle off_cycles() const {
-    return kMotorOffCycles + (stepper.forward() < 0 ? 2 * kMotorLeftCycles : 0);
+  Cycle off_cycles() const { return kMotorOffCycles + (is_left() ? kMotorLeftOffMore : 0) + turn_cycles(); }
+  /// More of a step to phase 1 or 2.
+  Cycle long_step_more() const { return is_left() ? kMotorLongStepMore : 0; }
+  /// Of a step and what belongs to it, on average; ticks from one to the next.
+  Cycle period_cycles() const {
+    return step_cycles() + long_step_more() / 2 + (saves_power() ? off_cycles() : 0);
   }
-  /// Of a step and what belongs to it; ticks from one to the next.
-  Cycle period_cycles() const { return saves_power() ? step_cycles() + off_cycles() : step_cycles(); }
   std::int64_t full_period() const { return saves_power() ? save_period_ : count.cycle; }
   /// The same of the firing at this tick, which comes later than the one processed last; 0 for none.
   Cycle firing_cycles(std::int64_t tick) const {
     const std::int64_t after = tick - count.tick - count.ticks_to_fire();
     if (after < 0 || !count.counts() || speed_ == 0) return 0;
-    const std::int64_t period = full_period(), into = after - quotient(after, period) * period;
-    if (into == 0) return saves_power() && phase_on ? off_cycles() : step_cycles();
-    if (!saves_power() || into != second_half()) return 0;
-    return phase_on ? step_cycles() : off_cycles();
+    const std::int64_t period = full_period(), whole = quotient(after, period), into = after - whole * period;
+    if (into == 0) return cycles_of(saves_power() ? 2 * whole : whole, 1);
+    return saves_power() && into == second_half() ? cycles_of(2 * whole + 1, 1) : 0;
   }
-  /// What `count` firings take, the `first` after the one processed last.
-  Cycle cycles_of(std::int64_t first, std::int64_t count) const {
-    if (!saves_power()) return count * step_cycles();
-    const bool begins_off = phase_on == ((first & 1) == 0);
-    return count / 2 * (step_cycles() + off_cycles()) +
-           (count % 2 == 0 ? 0 : begins_off ? off_cycles() : step_cycles());
+  /// What `number` firings take, the `first` after the one processed last.
+  Cycle cycles_of(std::int64_t first, std::int64_t number) const {
+    const std::int64_t before = steps_in(first), steps = steps_in(first + number) - before;
+    Cycle cycles = steps * step_cycles() + (number - steps) * off_cycles();
+    if (is_left()) cycles += (long_steps(before + steps) - long_steps(before)) * kMotorLongStepMore;
+    return cycles;
   }
 
   /// Tick of the next step (not coil-off), or -1 if there is none without a command.
@@ -196,6 +196,21 @@ class AgendaMotor {
   int speed_ = 0, magnitude_ = 0;
   int save_period_ = 0;  // ticks from step to step in power save
 
+  bool is_left() const { return stepper.forward() < 0; }
+  /// More of a firing whose steps lower the phase.
+  Cycle turn_cycles() const { return step_direction() * stepper.forward() < 0 ? kMotorTurnMore : 0; }
+  /// Steps among the next `firings`.
+  std::int64_t steps_in(std::int64_t firings) const {
+    return !saves_power() ? firings : phase_on ? firings / 2 : (firings + 1) / 2;
+  }
+  /// Of the next `steps`, those to phase 1 or 2.
+  std::int64_t long_steps(std::int64_t steps) const {
+    const int turn = step_direction() * stepper.forward();
+    std::int64_t sum = steps / 4 * 2;
+    for (std::int64_t i = steps / 4 * 4 + 1; i <= steps; ++i) sum += is_long(phase + static_cast<int>(i & 3) * turn);
+    return sum;
+  }
+  static bool is_long(int phase) { return ((phase + 1) & 2) != 0; }
   /// left: forward only for v > 0; right: backward only for v < 0
   int step_direction() const {
     if (stepper.forward() < 0) return speed_ > 0 ? 1 : -1;

@@ -411,8 +411,8 @@ void AgendaTimer::find_costs() {
 
 // Firings that a tick may hold: none or one of either motor, a step or the coils' switching off.
 void AgendaTimer::find_moments() {
-  const std::array<Cycle, 6> key{tick_cycles_, motors_[0].step_cycles(), motors_[1].step_cycles(),
-                                 motors_[0].saves_power(), motors_[1].saves_power(), 0};
+  const std::array<Cycle, 5> key{tick_cycles_, motors_[0].step_cycles(), motors_[1].step_cycles(),
+                                 motors_[0].saves_power(), motors_[1].saves_power()};
   if (key == moments_key_) return;
   moments_key_ = key;
   moment_count_ = 0;
@@ -425,7 +425,8 @@ void AgendaTimer::find_moments() {
   };
   for (Cycle since = 1; since <= kEntryCycles; ++since) add(since);
   const auto kinds = [](const AgendaMotor& m) {
-    return std::array<Cycle, 3>{0, m.step_cycles(), m.saves_power() ? m.off_cycles() : 0};
+    return std::array<Cycle, 4>{0, m.step_cycles(), m.step_cycles() + m.long_step_more(),
+                                m.saves_power() ? m.off_cycles() : 0};
   };
   for (const Cycle one : kinds(motors_[0]))
     for (const Cycle other : kinds(motors_[1]))

@@ -191,9 +191,9 @@ class AgendaTimer {
 
   Cycle tick_cycles_ = kAgendaIsrCycles;  // of a tick at which nothing fires
   // moments after a tick at which another interrupt may have to wait
-  std::int16_t moments_[kEntryCycles + 9 * kExitCycles] = {};
+  std::int16_t moments_[kEntryCycles + 16 * kExitCycles] = {};
   int moment_count_ = 0;
-  std::array<Cycle, 6> moments_key_{};  // what they were found for
+  std::array<Cycle, 5> moments_key_{};  // what they were found for
   std::uint32_t delayed_phases_ = 0;    // may_delay()'s bits
   Cycle way_to_[2] = {0, 0};              // from the list's head to the motors' functions
 
