@@ -149,8 +149,8 @@ int AdcScan::pair_of_lit(std::int64_t period) const {
 }
 
 Cycle AdcScan::full_cycle(std::int64_t interrupt) const {
-  return call({interrupt / kScanPeriod - full_base_ / kScanPeriod, static_cast<int>(interrupt % kScanPeriod)})
-      .at;
+  const std::int64_t period = interrupt / kScanPeriod;
+  return round_ + (period - full_base_ / kScanPeriod) * kRoundCycles + kRound.at[interrupt - period * kScanPeriod];
 }
 
 std::int64_t AdcScan::frames(Cycle at) const {
@@ -325,16 +325,18 @@ void AdcScan::keep(Sample& kept, int sensor, std::int64_t number, bool lit_sampl
 int AdcScan::dark(int sensor, Cycle at) {
   Sample& kept = dark_[static_cast<std::size_t>(sensor)];
   if (at < kept.until) return kept.counts;
-  keep(kept, sensor, dark_number(sensor, at), false);
-  kept.until = next_sample(at, kScanDarkSlot, 1, pair_of_sensor(sensor));
+  const std::int64_t filed = full_interrupts(at - kScanFileCycles);
+  keep(kept, sensor, newest(filed, kScanDarkSlot, 1, pair_of_sensor(sensor)), false);
+  kept.until = next_sample(filed, kScanDarkSlot, 1, pair_of_sensor(sensor));
   return kept.counts;
 }
 
 int AdcScan::lit(int sensor, Cycle at) {
   Sample& kept = lit_[static_cast<std::size_t>(sensor)];
   if (at < kept.until) return kept.counts;
-  keep(kept, sensor, lit_number(sensor, at), true);
-  kept.until = next_sample(at, kScanLitSlot, 0, pair_of_sensor(sensor));
+  const std::int64_t filed = full_interrupts(at - kScanFileCycles);
+  keep(kept, sensor, newest(filed, kScanLitSlot, 0, pair_of_sensor(sensor)), true);
+  kept.until = next_sample(filed, kScanLitSlot, 0, pair_of_sensor(sensor));
   return kept.counts;
 }
 
@@ -367,10 +369,10 @@ int AdcScan::mic_sample(int microphone, std::int64_t number) const {
                            mic_noise_base_ + static_cast<std::uint64_t>(number));
 }
 
-Cycle AdcScan::next_sample(Cycle at, int slot, int shift, int pair) const {
+Cycle AdcScan::next_sample(std::int64_t filed, int slot, int shift, int pair) const {
   if (!on_ || micro_only_) return host::kNever;
   // first period whose interrupt in this slot is still to come, then on to the one that serves the pair
-  std::int64_t period = (full_interrupts(at - kScanFileCycles) + kScanPeriod - 1 - slot) / kScanPeriod;
+  std::int64_t period = (filed + kScanPeriod - 1 - slot) / kScanPeriod;
   period += (pair - pair_of_lit(period + shift) + pairs_) % pairs_;
   return full_cycle(period * kScanPeriod + slot) + kScanFileCycles;
 }

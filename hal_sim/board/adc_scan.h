@@ -89,6 +89,10 @@ class AdcScan {
   Delay next_delay(const AgendaTimer& ticks, Cycle until) const;
   /// That of a call that comes during a RETFIE at `at`; calls since the last note() did not wait.
   Delay delay_at_exit(Cycle at) const;
+  /// Calls before `at` did not wait.
+  void pass(Cycle at) {
+    if (on_ && !micro_only_) noted_stops_ = stops_before(at);
+  }
   void note(const Delay& d) {
     noted_stops_ = d.stops;
     round_ += d.cycles;
@@ -182,8 +186,8 @@ class AdcScan {
   int pair_of_lit(std::int64_t period) const;  // pair whose lit sample arrives in this period
   std::int64_t newest(std::int64_t interrupts, int slot, int shift, int pair) const;
   Cycle full_cycle(std::int64_t interrupt) const;  // of ALL_ADC interrupt number (from 0)
-  /// Cycle after `at` at which the next sample arrives in `slot` for `pair`; kNever when none will.
-  Cycle next_sample(Cycle at, int slot, int shift, int pair) const;
+  /// When the next sample is filed of `slot` and `pair`, after `filed` interrupts; kNever when none will.
+  Cycle next_sample(std::int64_t filed, int slot, int shift, int pair) const;
   int evaluate(int sensor, std::int64_t period, bool lit_sample) const;
   void keep(Sample& kept, int sensor, std::int64_t number, bool lit_sample) const;
   void settle(Cycle at);

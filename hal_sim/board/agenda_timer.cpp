@@ -140,8 +140,15 @@ AgendaMotor& AgendaTimer::bring_alone(Wheel wheel, std::int64_t tick) {
   AgendaMotor& m = motors_[i];
   if (has_ahead_[i] && ahead_[i].count.tick <= tick) m = ahead_[i];
   has_ahead_[i] = false;
-  m.advance_to(tick, line_, [&](std::int64_t t, Cycle cycles) { return pins_at(wheel, t, cycles); });
+  advance(m, wheel, tick);
   return m;
+}
+
+void AgendaTimer::advance(AgendaMotor& m, Wheel wheel, std::int64_t tick) const {
+  if (scan_)
+    m.advance_to(tick, line_, [&](std::int64_t t, Cycle cycles) { return pins_at(wheel, t, cycles); });
+  else
+    m.advance_to(tick, line_, [&](std::int64_t t, Cycle) { return line_.cycle_of(t); });
 }
 
 void AgendaTimer::settle_motors(std::int64_t tick) {
@@ -270,7 +277,7 @@ const AgendaMotor& AgendaTimer::motor_at(Wheel wheel, Cycle at) const {
     ahead_[i] = m;
     has_ahead_[i] = true;
   }
-  ahead_[i].advance_to(tick, line_, [&](std::int64_t t, Cycle cycles) { return pins_at(wheel, t, cycles); });
+  advance(ahead_[i], wheel, tick);
   return ahead_[i];
 }
 

@@ -172,6 +172,7 @@ class AgendaTimer {
   Cycle pins_at(Wheel wheel, std::int64_t tick, Cycle cycles) const;
   bool walks_before(Wheel first, Wheel second) const { return serial_of(first) > serial_of(second); }
   AgendaMotor& bring_alone(Wheel wheel, std::int64_t tick);
+  void advance(AgendaMotor& m, Wheel wheel, std::int64_t tick) const;
   void find_next_fire();
 
   const AdcScan* scan_;

@@ -8,6 +8,7 @@
 #include "hal_sim/board/board.h"
 
 #include <algorithm>
+#include <utility>
 #include <cmath>
 
 #include "hal_sim/board/accelerometer.h"
@@ -307,6 +308,7 @@ void Board::processor_reset(Cycle at) {
   timer_motors_.reset();
   agendas_.reset(at);
   scan_.reset(at);
+  next_delay_ = -1;
   basic_prox_.reset(at);
   codec_.reset(at);
   for (Uart& uart : uarts_) uart.reset(at);
@@ -348,14 +350,24 @@ void Board::exchange(Cycle at) {
   for (Uart& uart : uarts_) uart.exchange(at);
   codec_.forget(at);
   scan_.keep_acc(at);
-  if (at - handlers_settled_ >= kSettleCycles) settle_handlers(at);
+  if (!setup_.spread_handlers && !agendas_.is_walking() && at > next_delay(at)) settle_handlers(at);
+}
+
+// What makes a handler wait depends on the motors' rhythm, which lasts until the next command.
+Cycle Board::next_delay(Cycle at) {
+  if (next_delay_ < 0) next_delay_ = scan_.next_delay(agendas_, at + kLookAheadCycles).at;
+  return next_delay_;
 }
 
 // The motors first: their steps so far were delayed by calls as these were known.
 void Board::settle_handlers(Cycle at) {
+  const Cycle no_delay_until = std::exchange(next_delay_, -1);
   if (agendas_.is_walking()) return;
-  handlers_settled_ = at;
-  if (setup_.spread_handlers) return agendas_.settle(at);
+  if (setup_.spread_handlers || at <= no_delay_until) {
+    agendas_.settle(at);
+    scan_.pass(at);
+    return;
+  }
   AdcScan::Delay delay;
   do {
     delay = scan_.next_delay(agendas_, at);
@@ -365,7 +377,7 @@ void Board::settle_handlers(Cycle at) {
 }
 
 void Board::handler_left(Cycle at) {
-  if (setup_.spread_handlers) return;
+  next_delay_ = -1;
   agendas_.settle(at);
   scan_.note(scan_.delay_at_exit(at));
 }

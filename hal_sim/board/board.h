@@ -275,6 +275,7 @@ class Board {
   int selector() const { return setup_.selector; }
 
  private:
+  Cycle next_delay(Cycle at);
   static constexpr std::size_t kPorts = 6;  // A B C D F G
   static int port_index(char port);
   /// Counts of a microphone without noise.
@@ -332,7 +333,7 @@ class Board {
   double beside_emitters_a_ = kProcessorA + kBluetoothA + kBoardA;  // at the last follow_power()
 
   AgendaTimer agendas_;
-  Cycle handlers_settled_ = 0;
+  Cycle next_delay_ = -1;  // before it no handler of the scan waits for Timer 2's; below 0: unknown
   TimerMotors timer_motors_;
   AdcScan scan_;
   BasicProx basic_prox_;

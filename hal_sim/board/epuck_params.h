@@ -174,8 +174,8 @@ inline constexpr Cycle kScanStartCycles = 15;  // from the converter's being swi
 /// A round of the scan and a tick are multiples of this, so what is asked for once a round keeps its phase.
 inline constexpr Cycle kPhaseCycles = 25;
 static_assert(kScanPeriod * kScanFrameCycles % kPhaseCycles == 0 && kAgendaTickCycles % kPhaseCycles == 0);
-/// How long what two handlers do to each other may be left undone: bookkeeping, no time of the robot's.
-inline constexpr Cycle kSettleCycles = 0;  // [assumed: a few cycles' delay more or less by then]
+/// How far ahead such waits are looked for: bookkeeping, no time of the robot's.
+inline constexpr Cycle kLookAheadCycles = 1'000'000;  // [assumed: programs command motors more often]
 inline constexpr Cycle kPinBlockCycles = 2;  // before a pin changes: an interrupt comes too late to delay it
 inline constexpr Cycle kEntryCycles = 2;  // of an interrupt in which no other is taken [register way]
 inline constexpr Cycle kExitCycles = 3;   // RETFIE [DS70157]

@@ -149,11 +149,7 @@ void Robot::find_quiet() const {
 
 Cycle Robot::after(Cycle main, std::uint64_t& fraction) const {
   if (stolen_q32_ == 0 && is_quiet(main)) return now_ + main;
-  if (stolen_q32_ != 0) {
-    const unsigned __int128 stolen = static_cast<unsigned __int128>(main) * stolen_q32_ + fraction;
-    main += static_cast<Cycle>(stolen >> kQ);
-    fraction = static_cast<std::uint64_t>(stolen) & (kOne - 1);
-  }
+  if (stolen_q32_ != 0) main = stretched(main, fraction);
   return has_handlers_ ? board_.handlers().done(now_, main, processor_->cpu_level()) : now_ + main;
 }
 

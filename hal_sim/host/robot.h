@@ -231,7 +231,16 @@ class Robot final : public Context {
   // program cycles -> cycles of the clock
   void advance_main(Cycle main) {
     main_ += main;
-    now_ = has_plain_clock_ ? now_ + main : after(main, fraction_);
+    if (has_handlers_)
+      now_ = after(main, fraction_);
+    else
+      now_ += stolen_q32_ == 0 ? main : stretched(main, fraction_);
+  }
+  // with the share that spread handlers take
+  Cycle stretched(Cycle main, std::uint64_t& fraction) const {
+    const unsigned __int128 stolen = static_cast<unsigned __int128>(main) * stolen_q32_ + fraction;
+    fraction = static_cast<std::uint64_t>(stolen) & (kOne - 1);
+    return main + static_cast<Cycle>(stolen >> kQ);
   }
   Cycle after(Cycle main, std::uint64_t& fraction) const;
   // no handler comes in these cycles
