@@ -34,7 +34,7 @@ static inline void set_pin(char port, unsigned char pin, unsigned int value) {
   tp_latch_write(port, pin, level);
 }
 
-#define RING_SWITCH_CYCLES 7 /* the driver's choice among eight pins [measured: register way] */
+#define RING_SWITCH_CYCLES 10 /* the driver's choice among eight pins [measured: register way] */
 
 static inline void set_ring(unsigned int led, unsigned int value) {
   tp_spend(RING_SWITCH_CYCLES);

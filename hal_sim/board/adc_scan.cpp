@@ -59,6 +59,12 @@ constexpr Round make_round() {
   return r;
 }
 constexpr Round kRound = make_round();
+constexpr Cycle longest_call() {
+  Cycle most = 0;
+  for (const Cycle c : kRound.cycles) most = c > most ? c : most;
+  return most + kScanWrapCycles;
+}
+constexpr Cycle kLongestCall = longest_call();
 static_assert(kRound.at[kScanPeriod - 1] == kRoundCycles);
 
 /// Calls of a round during which the converter stands.
@@ -148,9 +154,12 @@ int AdcScan::pair_of_lit(std::int64_t period) const {
   return static_cast<int>((pair_base_ + (period - period_base_) % pairs_ + pairs_) % pairs_);
 }
 
+/// When a call is asked for, not with MICRO_ONLY.
+inline Cycle AdcScan::cycle_of(Place p) const { return round_ + p.round * kRoundCycles + kRound.at[p.slot]; }
+
 Cycle AdcScan::full_cycle(std::int64_t interrupt) const {
   const std::int64_t period = interrupt / kScanPeriod;
-  return round_ + (period - full_base_ / kScanPeriod) * kRoundCycles + kRound.at[interrupt - period * kScanPeriod];
+  return cycle_of({period - first_period_, static_cast<int>(interrupt - period * kScanPeriod)});
 }
 
 std::int64_t AdcScan::frames(Cycle at) const {
@@ -168,6 +177,7 @@ Cycle AdcScan::interrupt_cycle(std::int64_t count) const {
 // The round in which this run of frames began would have begun then.
 void AdcScan::find_round(Cycle at) {
   noted_stops_ = 0;
+  first_period_ = full_base_ / kScanPeriod;
   first_slot_ = static_cast<int>(full_base_ % kScanPeriod);
   round_ = at + kScanStartCycles;
   if (!micro_only_ && first_slot_ > 0) round_ -= kRound.at[first_slot_ - 1];
@@ -190,8 +200,8 @@ inline AdcScan::Place AdcScan::place(Cycle at) const {
 Cycle AdcScan::cycles_before(Cycle at) const {
   if (!on_) return 0;
   const Place p = place(at);
-  const Cycle more = number(p) / kMicSamples * kScanWrapCycles -
-                     std::max<std::int64_t>(0, uncounted(p)) * kScanTickCycles;
+  const Cycle more =
+      number(p) / kMicSamples * kScanWrapCycles - std::max<std::int64_t>(0, uncounted(p)) * kScanTickCycles;
   if (micro_only_) return p.round * kScanMicroIsrCycles + more;
   return p.round * kRound.before[kScanPeriod] + kRound.before[p.slot] + more;
 }
@@ -199,7 +209,7 @@ Cycle AdcScan::cycles_before(Cycle at) const {
 AdcScan::Call AdcScan::call(Place p) const {
   const Cycle more = (is_wrap(p) ? kScanWrapCycles : 0) - (uncounted(p) >= 0 ? kScanTickCycles : 0);
   if (micro_only_) return {round_ + (p.round + 1) * kScanMicroFrameCycles, kScanMicroIsrCycles + more};
-  return {round_ + p.round * kRoundCycles + kRound.at[p.slot], kRound.cycles[p.slot] + more};
+  return {cycle_of(p), kRound.cycles[p.slot] + more};
 }
 
 AdcScan::Place AdcScan::after(Place p) const {
@@ -239,7 +249,11 @@ Cycle AdcScan::done(Place next, Cycle end) const {
 Cycle AdcScan::served(Cycle asked, Cycle work) const {
   if (!on_) return asked + work;
   const Place next = place(asked);
-  return done(next, free_from(call_before(next), asked) + work);
+  // calls are far apart: the usual one needs neither the length of the one before nor that of the next
+  const bool apart =
+      !micro_only_ && next.slot > 0 && asked - cycle_of({next.round, next.slot - 1}) > kLongestCall;
+  const Cycle end = (apart ? asked : free_from(call_before(next), asked)) + work;
+  return !micro_only_ && cycle_of(next) >= end ? end : done(next, end);
 }
 
 AdcScan::Delay AdcScan::next_delay(const AgendaTimer& ticks, Cycle until) const {

@@ -4,9 +4,9 @@
 //   slot (interrupts since the start mod 65):   3  lit pair arrives, IR LED off, next pair
 //                                              62  accelerometer arrives
 //                                              63  dark pair arrives, IR LED on
-//   every interrupt: 3 microphones. 65 frames = 58500 cycles (450 each with MICRO_ONLY); single ones are longer
-//   or shorter, because the converter stands while its list changes (scan_handler())
-//   a pair's samples are the 4th and 5th channel of the frame that ends at its interrupt
+//   every interrupt: 3 microphones. 65 frames = 58500 cycles (450 each with MICRO_ONLY); single ones are
+//   longer or shorter, because the converter stands while its list changes (scan_handler()) a pair's samples
+//   are the 4th and 5th channel of the frame that ends at its interrupt
 //
 // Nothing is ticked: the number of interrupts so far follows from the clock, and a sample is evaluated when
 // somebody asks for it, at the instant at which it was taken. It is then kept, so it never changes.
@@ -59,7 +59,8 @@ class AdcScan {
   /// Cycle of the interrupt that completes the `count`-th microphone sample from power-up on.
   Cycle interrupt_cycle(std::int64_t count) const;
 
-  // --- the time that its handler takes from the program -----------------------------------------------------
+  // --- the time that its handler takes from the program
+  // -----------------------------------------------------
   /// A call of a handler: when it is asked for, and how long it takes. None: `at` below 0, 0 cycles.
   struct Call {
     Cycle at = -host::kNever, cycles = 0;
@@ -78,8 +79,8 @@ class AdcScan {
   Cycle done(Cycle from, Cycle work) const;
   /// The same of a handler that is asked for at `asked`: free_from() and done().
   Cycle served(Cycle asked, Cycle work) const;
-  /// A call that must wait for a cycle or two, because the processor is on its way into Timer 2's handler or out
-  /// of it, while the converter stands: everything after comes as much later.
+  /// A call that must wait for a cycle or two, because the processor is on its way into Timer 2's handler or
+  /// out of it, while the converter stands: everything after comes as much later.
   struct Delay {
     std::int64_t stops = 0;  ///< of the converter, looked at so far
     Cycle at = 0;            ///< when the call is asked for
@@ -177,6 +178,7 @@ class AdcScan {
     return at < before.at + before.cycles ? before.at + before.cycles + kChainCycles : at;
   }
   Place after(Place p) const;
+  Cycle cycle_of(Place p) const;
   Call call(Place p) const;
   Call call_before(Place p) const;
   Cycle done(Place next, Cycle end) const;
@@ -198,15 +200,16 @@ class AdcScan {
   bool micro_only_ = false;
   int starts_ = 0;
   int pairs_ = 4;
-  Cycle round_ = 0;               // calls of this run are counted in rounds from here on
-  int first_slot_ = 0;            // of the first round
-  std::int64_t noted_stops_ = 0;  // of the converter, since round_
-  std::int64_t ticks_base_ = 0;   // interrupts before the counter of interrupts stood at 0
-  std::int64_t total_base_ = 0;   // interrupts before this run
-  std::int64_t full_base_ = 0;    // of these, in ALL_ADC mode: the driver's slot counter
-  std::int64_t period_base_ = 0;  // from this period on ...
-  int pair_base_ = 0;             // ... pairs count from here
-  std::uint64_t noise_base_ = 0;  // samples drawn before the last reset
+  Cycle round_ = 0;                // calls of this run are counted in rounds from here on
+  std::int64_t first_period_ = 0;  // of the first round
+  int first_slot_ = 0;             // in it
+  std::int64_t noted_stops_ = 0;   // of the converter, since round_
+  std::int64_t ticks_base_ = 0;    // interrupts before the counter of interrupts stood at 0
+  std::int64_t total_base_ = 0;    // interrupts before this run
+  std::int64_t full_base_ = 0;     // of these, in ALL_ADC mode: the driver's slot counter
+  std::int64_t period_base_ = 0;   // from this period on ...
+  int pair_base_ = 0;              // ... pairs count from here
+  std::uint64_t noise_base_ = 0;   // samples drawn before the last reset
   std::uint64_t mic_noise_base_ = 0;
   std::vector<Run> runs_;  // those that the last 100 microphone samples come from
   std::array<Sample, 10> dark_{};

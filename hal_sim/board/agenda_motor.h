@@ -146,7 +146,8 @@ class AgendaMotor {
     if (!saves_power()) return whole + 1;
     return whole * 2 + (after - whole * period >= second_half() ? 2 : 1);
   }
-  /// What the processor spends on a firing: a step, to a phase at which it is least, or the coils' switching off.
+  /// What the processor spends on a firing: a step, to a phase at which it is least, or the coils' switching
+  /// off.
   Cycle step_cycles() const {
     return (saves_power() ? kMotorHalfStepCycles : kMotorStepCycles + (phase_on ? kMotorOldHalfCycles : 0)) -
            (is_left() ? kMotorLeftStepLess : 0) + turn_cycles();
@@ -207,7 +208,8 @@ class AgendaMotor {
   std::int64_t long_steps(std::int64_t steps) const {
     const int turn = step_direction() * stepper.forward();
     std::int64_t sum = steps / 4 * 2;
-    for (std::int64_t i = steps / 4 * 4 + 1; i <= steps; ++i) sum += is_long(phase + static_cast<int>(i & 3) * turn);
+    for (std::int64_t i = steps / 4 * 4 + 1; i <= steps; ++i)
+      sum += is_long(phase + static_cast<int>(i & 3) * turn);
     return sum;
   }
   static bool is_long(int phase) { return ((phase + 1) & 2) != 0; }

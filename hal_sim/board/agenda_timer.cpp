@@ -127,8 +127,8 @@ void AgendaTimer::disturb(const Node& node) {
   if (node.kind != Kind::User) motor(wheel_of(node.kind)).disturb();
 }
 
-// A motor whose node comes later in the list waits for the other one's firings: these must still be known. In a walk
-// they have been charged already, and its own turn is still to come.
+// A motor whose node comes later in the list waits for the other one's firings: these must still be known. In
+// a walk they have been charged already, and its own turn is still to come.
 AgendaMotor& AgendaTimer::bring(Wheel wheel, std::int64_t tick) {
   const Wheel other = wheel == Wheel::Left ? Wheel::Right : Wheel::Left;
   if (!walking_ && walks_before(wheel, other)) bring_alone(other, tick);
@@ -249,14 +249,17 @@ void AgendaTimer::name_motor(Wheel wheel, Function function) {
 
 void AgendaTimer::set_speed(Wheel wheel, int speed, Cycle at) {
   AgendaMotor& m = bring(wheel, done_tick(serial_of(wheel), at));
-  const bool was_handled = m.count.counts() && m.speed() == 0;
+  const bool counted = m.count.counts(), was_handled = counted && m.speed() == 0;
   m.stepper.set_coils_only(0);
   m.disturb();
   m.set_speed(std::clamp(speed, -kMaxSpeed, kMaxSpeed));
   if (has_node_[static_cast<int>(wheel)]) m.set_cycle(m.speed() == 0 ? 0 : kSpeedUnit / std::abs(m.speed()));
   // a motor that runs, or stands without a cycle, needs no interrupt
   if (was_handled && !walking_) find_next_fire();
-  find_costs();
+  if (m.count.counts() != counted)
+    find_costs();
+  else if (scan_)
+    find_moments();
 }
 
 bool AgendaTimer::run_motor(Wheel wheel, Cycle at) {
@@ -370,7 +373,8 @@ AgendaTimer::Function AgendaTimer::next(bool& divided_by_zero, Cycle at) {
       return node->function;
     }
     AgendaMotor& m = motor(wheel_of(node->kind));
-    divided_by_zero = !m.fire([&](Cycle cycles) { return pins_at(wheel_of(node->kind), walk_tick_, cycles); });
+    divided_by_zero =
+        !m.fire([&](Cycle cycles) { return pins_at(wheel_of(node->kind), walk_tick_, cycles); });
     count.counter = 0;
     if (divided_by_zero) return nullptr;
   }
@@ -474,8 +478,7 @@ Cycle AgendaTimer::last_call(Cycle at) const {
 }
 
 Cycle AgendaTimer::next_call(Cycle at) const {
-  return running_ && !walking_ ? line_.cycle_of(std::max(ticks_at(at - 1), started_tick_) + 1)
-                               : host::kNever;
+  return running_ && !walking_ ? line_.cycle_of(std::max(ticks_at(at - 1), started_tick_) + 1) : host::kNever;
 }
 
 AgendaTimer::Wait AgendaTimer::first_wait(Cycle at, Cycle since, std::int64_t rounds) const {
@@ -500,8 +503,8 @@ AgendaTimer::Wait AgendaTimer::first_wait(Cycle at, Cycle since, std::int64_t ro
 Cycle AgendaTimer::wait_at(Cycle at, Cycle since) const {
   if (since <= kEntryCycles) return kEntryCycles + 1 - since;
   const std::int64_t tick = ticks_at(at);
-  const Cycle left = since - (tick_cycles_ - kExitCycles) - motors_[0].firing_cycles(tick) -
-                     motors_[1].firing_cycles(tick);
+  const Cycle left =
+      since - (tick_cycles_ - kExitCycles) - motors_[0].firing_cycles(tick) - motors_[1].firing_cycles(tick);
   return left >= 0 && left < kExitCycles ? kExitCycles - left : 0;
 }
 

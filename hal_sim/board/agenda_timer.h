@@ -106,8 +106,8 @@ class AgendaTimer {
 
   /// Ticks processed by `at`.
   std::int64_t ticks_at(Cycle at) const;
-  /// Cycles that the ticks in [from, to) take which call no function of the program; those that do are run and
-  /// charged one by one. 0 during a walk.
+  /// Cycles that the ticks in [from, to) take which call no function of the program; those that do are run
+  /// and charged one by one. 0 during a walk.
   Cycle handler_cycles(Cycle from, Cycle to) const;
   /// What all of them take of each cycle on average, as a fraction of 2^32.
   std::uint64_t share_q32() const;
@@ -130,7 +130,9 @@ class AgendaTimer {
   /// Brings the motors to `at`: whatever changes how long handlers take, or delay each other, comes after.
   void settle(Cycle at) { settle_motors(walking_ ? -1 : ticks_at(at)); }
   /// Does the driver step this wheel on and on?
-  bool runs(Wheel wheel) const { return running_ && motor(wheel).count.counts() && motor(wheel).speed() != 0; }
+  bool runs(Wheel wheel) const {
+    return running_ && motor(wheel).count.counts() && motor(wheel).speed() != 0;
+  }
   /// The state at `at` as a sum of products, for a hash: the caller mixes it.
   std::uint64_t state_sum(Cycle at) const;
 
@@ -196,7 +198,7 @@ class AgendaTimer {
   int moment_count_ = 0;
   std::array<Cycle, 5> moments_key_{};  // what they were found for
   std::uint32_t delayed_phases_ = 0;    // may_delay()'s bits
-  Cycle way_to_[2] = {0, 0};              // from the list's head to the motors' functions
+  Cycle way_to_[2] = {0, 0};            // from the list's head to the motors' functions
 
   std::int64_t next_fire_ = -1;  // next tick that needs the handler, -1 none
   bool walking_ = false;

@@ -8,8 +8,8 @@
 #include "hal_sim/board/board.h"
 
 #include <algorithm>
-#include <utility>
 #include <cmath>
+#include <utility>
 
 #include "hal_sim/board/accelerometer.h"
 #include "hal_sim/board/lsm330.h"
@@ -362,8 +362,8 @@ Cycle Board::next_delay(Cycle at) {
 // The motors first: their steps so far were delayed by calls as these were known.
 void Board::settle_handlers(Cycle at) {
   const Cycle no_delay_until = std::exchange(next_delay_, -1);
-  if (agendas_.is_walking()) return;
-  if (setup_.spread_handlers || at <= no_delay_until) {
+  if (agendas_.is_walking() || setup_.spread_handlers) return;
+  if (at <= no_delay_until) {
     agendas_.settle(at);
     scan_.pass(at);
     return;

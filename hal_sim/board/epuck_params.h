@@ -53,15 +53,16 @@ inline constexpr int kScanPeriod =
 inline constexpr int kScanLitSlot = 3;  // PULSE_PERIOD - 1 [lib: a_d/advance_ad_scan/e_ad_conv.c]
 inline constexpr int kScanLitInterrupts =
     5;  // a flash lasts from slot 63 to 3 [lib: a_d/advance_ad_scan/e_ad_conv.c]
-inline constexpr int kScanAccSlot = 62;   // ACC_PROX_PERIOD - 2 [lib: a_d/advance_ad_scan/e_ad_conv.c]
-inline constexpr int kScanDarkSlot = 63;  // ACC_PROX_PERIOD - 1 [lib: a_d/advance_ad_scan/e_ad_conv.c]
+inline constexpr int kScanAccSlot = 62;         // ACC_PROX_PERIOD - 2 [lib: a_d/advance_ad_scan/e_ad_conv.c]
+inline constexpr int kScanDarkSlot = 63;        // ACC_PROX_PERIOD - 1 [lib: a_d/advance_ad_scan/e_ad_conv.c]
 inline constexpr Cycle kScanLightCycles = 152;  // end of a frame to IR LED switched [measured: register way]
-inline constexpr Cycle kScanFileCycles = 117;  // end of a frame to samples in the array [measured: register way]
-inline constexpr Cycle kScanTadCycles = 12;    // five channels: ADCS 23 [lib: a_d/advance_ad_scan/e_ad_conv.h]
+inline constexpr Cycle kScanFileCycles =
+    117;  // end of a frame to samples in the array [measured: register way]
+inline constexpr Cycle kScanTadCycles = 12;  // five channels: ADCS 23 [lib: a_d/advance_ad_scan/e_ad_conv.h]
 inline constexpr Cycle kScanTadCycles3 =
     20;  // three channels: ADCS 39 [lib: a_d/advance_ad_scan/e_ad_conv.h]
 inline constexpr Cycle kScanTadCycles6 = 10;  // six channels: ADCS 19 [lib: a_d/advance_ad_scan/e_ad_conv.h]
-inline constexpr Cycle kScanFlagCycles = 1;    // end of the last conversion to the interrupt [register way]
+inline constexpr Cycle kScanFlagCycles = 1;   // end of the last conversion to the interrupt [register way]
 inline constexpr Cycle kScanChannelTad = 15;  // SAMC 1 + conversion 14 [DS70143 20.7]
 inline constexpr int kMicSamples = 100;       // MIC_SAMP_NB [lib: a_d/advance_ad_scan/e_ad_conv.h]
 inline constexpr int kAccSamples = 50;        // ACC_SAMP_NB [lib: a_d/advance_ad_scan/e_ad_conv.h]
@@ -161,11 +162,11 @@ inline constexpr Cycle kMotorStepCycles = 107;      // coils on to stay
 inline constexpr Cycle kMotorLeftStepLess = 1;      // of the left one's step
 inline constexpr Cycle kMotorLeftOffMore = 1;       // of its coils' switching off
 inline constexpr Cycle kMotorLongStepMore = 2;      // of its step to a phase with coil C on
-inline constexpr Cycle kMotorTurnMore = 1;          // where steps lower the phase: left forward, right backward
-inline constexpr Cycle kMotorOldHalfCycles = 3;     // more of a step to stay when a half was left over
-inline constexpr int kAgendaPriority = 4;           // reset value of IPC1 [DS70143 5.2]
-inline constexpr int kScanPriority = 5;             // [lib: a_d/advance_ad_scan/e_ad_conv.c]
-inline constexpr Cycle kAgendaEntryCycles = 19;     // Timer 2's flag to the first node
+inline constexpr Cycle kMotorTurnMore = 1;       // where steps lower the phase: left forward, right backward
+inline constexpr Cycle kMotorOldHalfCycles = 3;  // more of a step to stay when a half was left over
+inline constexpr int kAgendaPriority = 4;        // reset value of IPC1 [DS70143 5.2]
+inline constexpr int kScanPriority = 5;          // [lib: a_d/advance_ad_scan/e_ad_conv.c]
+inline constexpr Cycle kAgendaEntryCycles = 19;  // Timer 2's flag to the first node
 /// From the call of a motor's function to the last pin of a new pattern, by that pin: A, B, C, D.
 inline constexpr Cycle kMotorPinCycles[4] = {59, 68, 82, 91};
 inline constexpr Cycle kMotorPinClearedCycles = 1;  // more when that goes low
@@ -177,9 +178,9 @@ static_assert(kScanPeriod * kScanFrameCycles % kPhaseCycles == 0 && kAgendaTickC
 /// How far ahead such waits are looked for: bookkeeping, no time of the robot's.
 inline constexpr Cycle kLookAheadCycles = 1'000'000;  // [assumed: programs command motors more often]
 inline constexpr Cycle kPinBlockCycles = 2;  // before a pin changes: an interrupt comes too late to delay it
-inline constexpr Cycle kEntryCycles = 2;  // of an interrupt in which no other is taken [register way]
-inline constexpr Cycle kExitCycles = 3;   // RETFIE [DS70157]
-inline constexpr Cycle kChainCycles = 1;  // from one handler to another that waits [register way]
+inline constexpr Cycle kEntryCycles = 2;     // of an interrupt in which no other is taken [register way]
+inline constexpr Cycle kExitCycles = 3;      // RETFIE [DS70157]
+inline constexpr Cycle kChainCycles = 1;     // from one handler to another that waits [register way]
 /// One frame of the scan: how much later than evenly its interrupt comes, and what the handler takes.
 struct ScanHandler {
   Cycle late, cycles;
@@ -205,9 +206,10 @@ constexpr ScanHandler scan_handler(int slot) {
   return {late, cycles};
 }
 inline constexpr Cycle kScanWrapCycles = 3;  // more where the microphones' arrays begin anew [register way]
-inline constexpr Cycle kScanTickCycles = 1;  // less where the counter of interrupts has stopped [register way]
+inline constexpr Cycle kScanTickCycles =
+    1;  // less where the counter of interrupts has stopped [register way]
 inline constexpr std::int64_t kScanTicksMost = 65535;  // [lib: a_d/advance_ad_scan/e_ad_conv.c]
-inline constexpr Cycle kScanMicroIsrCycles = 83;    // a frame
+inline constexpr Cycle kScanMicroIsrCycles = 83;       // a frame
 inline constexpr Cycle kBasicMotorIsrCycles =
     34;                                        // [estimated: shadow context, counter, phase, 4 bit writes]
 inline constexpr Cycle kTimer3IsrCycles = 40;  // [estimated: context, two counters, coil clearing]

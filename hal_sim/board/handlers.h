@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The handlers that the native way does not run: the converter's and Timer 2's quiet ticks. When they come and
-// what they take is known in closed form, so the program's own cycles become cycles of the clock, and back, as if
-// each of them had interrupted it:
+// The handlers that the native way does not run: the converter's and Timer 2's quiet ticks. When they come
+// and what they take is known in closed form, so the program's own cycles become cycles of the clock, and
+// back, as if each of them had interrupted it:
 //
-//   program  ====      =======    ==    clock: `work` cycles begun at `from` end where work and the calls that
-//   handlers     [adc]        [t2]      came before are done
+//   program  ====      =======    ==    clock: `work` cycles begun at `from` end where work and the calls
+//   that handlers     [adc]        [t2]      came before are done
 //
 // Modelled: both handlers' times, the motors' firings in them, the converter's that interrupts Timer 2's.
 // Not modelled: handlers that wait for one of the same or a higher level which runs for real.

@@ -87,9 +87,9 @@ class Stepper {
     }
   }
 
-  /// `count` > 0 regular steps at once, all in wheel direction `direction`, the last one at `last`; `before` and
-  /// `earlier`: when the two before it came, of which only those within the count are looked at. Each had time
-  /// to finish before the next. The caller guarantees that rotor and driver agree.
+  /// `count` > 0 regular steps at once, all in wheel direction `direction`, the last one at `last`; `before`
+  /// and `earlier`: when the two before it came, of which only those within the count are looked at. Each had
+  /// time to finish before the next. The caller guarantees that rotor and driver agree.
   void turn(std::int64_t count, int direction, Cycle last, Cycle before, Cycle earlier, unsigned coils) {
     if (count > 1) {
       const Cycle since = count > 2 ? earlier : motion_.stepped_at;
@@ -105,8 +105,8 @@ class Stepper {
 
   void set_coils_only(unsigned coils) { coils_ = coils; }
 
-  /// Rotor position in steps of the wheel, forward positive; also shortly before the last step, when the driver's
-  /// handler has been called that is about to make it.
+  /// Rotor position in steps of the wheel, forward positive; also shortly before the last step, when the
+  /// driver's handler has been called that is about to make it.
   double position(Cycle at) const { return (at < motion_.moved_at ? before_ : motion_).position(at); }
 
  private:

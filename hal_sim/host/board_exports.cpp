@@ -143,9 +143,8 @@ void tp_agenda_stop(void) {
 tp_i64 tp_agenda_activate(const void* function, tp_i64 cycle) {
   const board::AgendaTimer& list = Context::current().board().agendas();
   const int passed = list.nodes_passed(function);
-  const Cycle cost = list.has(function)
-                         ? kKnownCycles + kNodePassedCycles * passed
-                         : kActivateCycles + kNodeOfListCycles * passed + hold_cost(list);
+  const Cycle cost = list.has(function) ? kKnownCycles + kNodePassedCycles * passed
+                                        : kActivateCycles + kNodeOfListCycles * passed + hold_cost(list);
   return change_list(cost, [&](board::AgendaTimer& agendas, Cycle now) {
     return agendas.activate(function, static_cast<int>(cycle), now);
   });

@@ -168,9 +168,8 @@ void Robot::note_clock() {
   const std::uint64_t share =
       std::min<std::uint64_t>(handlers + background_share_q32_, kOne / 100 * kMostBackgroundPercent);
   stolen_q32_ =
-      share == 0
-          ? 0
-          : static_cast<std::uint64_t>((static_cast<unsigned __int128>(share) << kQ) / (kOne - share));
+      share == 0 ? 0
+                 : static_cast<std::uint64_t>((static_cast<unsigned __int128>(share) << kQ) / (kOne - share));
   has_plain_clock_ = !observer_ && stolen_q32_ == 0 && !has_handlers_;
 }
 
@@ -256,7 +255,8 @@ void Robot::set_background(int slot, Cycle period, Cycle cost) {
   background_share_q32_ = 0;
   for (const auto& b : background_)
     if (b.period > 0)
-      background_share_q32_ += (static_cast<std::uint64_t>(b.cost) << kQ) / static_cast<std::uint64_t>(b.period);
+      background_share_q32_ +=
+          (static_cast<std::uint64_t>(b.cost) << kQ) / static_cast<std::uint64_t>(b.period);
   note_clock();
   note_write();
   give_budget();
@@ -502,7 +502,7 @@ void Robot::on_rest(std::int64_t loop) {
       if (!served) sleep_until(kNever, round, start);
       note_poll(loop);
       if (!served || now_ + round > std::min(end_, calm_until_)) return give_budget();
-      now_ += round;
+      advance_main(round);
     }
   }
   on_poll(loop);

@@ -308,15 +308,15 @@ class Robot final : public Context {
   NativeProcessor* native_ = nullptr;  // processor_, or null in the register way
   std::vector<char> data_;             // private data while another robot of the copy is live
 
-  Cycle now_ = 0;                 // real cycles, up to the last fold
-  Cycle issued_ = 0;              // budget given at that moment
-  std::uint64_t fraction_ = 0;    // of a cycle, Q32, left over from stretching
-  std::uint64_t stolen_q32_ = 0;  // cycles background handlers take per main cycle, Q32
-  bool settled_ = false;          // settle() was called, and spend() not yet
-  bool has_handlers_ = false;     // the board's closed forms take cycles
-  bool has_plain_clock_ = true;   // neither, and nobody observes
+  Cycle now_ = 0;                  // real cycles, up to the last fold
+  Cycle issued_ = 0;               // budget given at that moment
+  std::uint64_t fraction_ = 0;     // of a cycle, Q32, left over from stretching
+  std::uint64_t stolen_q32_ = 0;   // cycles background handlers take per main cycle, Q32
+  bool settled_ = false;           // settle() was called, and spend() not yet
+  bool has_handlers_ = false;      // the board's closed forms take cycles
+  bool has_plain_clock_ = true;    // neither, and nobody observes
   mutable Cycle quiet_until_ = 0;  // none of them comes before; <= now_: unknown
-  Cycle main_ = 0;                // cycles of the program itself so far, up to the last fold
+  Cycle main_ = 0;                 // cycles of the program itself so far, up to the last fold
   struct Background {
     Cycle period = 0, cost = 0;
   };

@@ -44,7 +44,7 @@ int Scene::slot_before(Clicks at, Clicks* start) const {
   // count back: usually one or two; slots from before the world began hold its start
   int slot = last_slot_;
   *start = now();
-  for (int back = 1; back < slots_ && *start > at; ++back) {
+  for (int back = 1; back<slots_&& * start> at; ++back) {
     slot = slot == 0 ? slots_ - 1 : slot - 1;
     *start -= tick_clicks_;
   }

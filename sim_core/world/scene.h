@@ -55,8 +55,8 @@ class Scene {
 
   /// State at the last tick.
   const BodyState& state(int body) const { return states_[static_cast<std::size_t>(body)]; }
-  /// Pose at an instant: that of the tick before, carried on with its velocity; before the oldest kept one that
-  /// one. The same whenever it is asked for, at that instant or later.
+  /// Pose at an instant: that of the tick before, carried on with its velocity; before the oldest kept one
+  /// that one. The same whenever it is asked for, at that instant or later.
   Pose2 pose(int body, Clicks at) const;
   /// Pose on the way between two ticks, known once the later one has come; after the last tick its pose.
   Pose2 pose_on_way(int body, Clicks at) const;
@@ -113,7 +113,8 @@ class Scene {
   static Past past(const BodyState& b) { return {b.pose, b.velocity_m_s, b.spin_rad_s}; }
 
   void note_state(std::size_t body) {
-    history_[body * static_cast<std::size_t>(slots_) + static_cast<std::size_t>(last_slot_)] = past(states_[body]);
+    history_[body * static_cast<std::size_t>(slots_) + static_cast<std::size_t>(last_slot_)] =
+        past(states_[body]);
   }
   void regather();
   /// Slot of the newest tick at or before `at`, or of the oldest kept one; `start`: its instant.
@@ -126,11 +127,11 @@ class Scene {
   double tick_s_;
   Clicks tick_ = 0;
   std::uint64_t version_ = 1;
-  int slots_;                   // poses kept per body
-  int last_slot_ = 0;           // where the last tick's poses are
-  double per_tick_;             // 1 / tick_clicks_
-  std::vector<Past> history_;   // [body * slots_ + tick % slots_]
-  std::vector<double> moved_;   // [tick % slots_]: largest movement of that tick, m
+  int slots_;                  // poses kept per body
+  int last_slot_ = 0;          // where the last tick's poses are
+  double per_tick_;            // 1 / tick_clicks_
+  std::vector<Past> history_;  // [body * slots_ + tick % slots_]
+  std::vector<double> moved_;  // [tick % slots_]: largest movement of that tick, m
   std::vector<BodyState> states_;
   std::vector<std::uint32_t> leds_;  // per robot; empty until somebody watches
   mutable std::atomic<bool> leds_watched_{false};

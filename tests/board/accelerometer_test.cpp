@@ -10,6 +10,7 @@
 #include "hal_sim/host/pins_acc.h"
 #include "tests/board/fake_context.h"
 #include "tests/board/flat_scene.h"
+#include "tests/board/scan_times.h"
 
 namespace {
 
@@ -109,13 +110,15 @@ TEST(AccScan, samples_are_taken_every_65_interrupts_in_a_six_channel_frame) {
   };
   robot.scan().start(false, false, 0);
   const auto expected = [](int sample, int channel, double pole_hz) {
-    // interrupt 65 k + 62 (from 0) ends the frame that began 900 cycles before; channels of 15 TAD of 10
-    const double hold = 900.0 * (65 * sample + 62) + (15 * channel + 1) * 10;
+    // interrupt 65 k + 62 (from 0) ends a frame of six channels of 15 TAD of 10, held after the first
+    const double end = static_cast<double>(scan_times::calls(0, 63)[62].at) + 58500.0 * sample;
+    const double hold = end - ((6 - channel) * 15 - 1) * 10 - 1;
     const double tau = board::kFcyHz / (2 * sim::kPi * pole_hz);
     return 2048 + (hold - 28800 - tau) / 1000;
   };
-  EXPECT_EQ(robot.scan().acc_until(0), 900 * 63);
-  const Cycle after = 900 * (65 * 3 + 63) + 5;
+  const Cycle first = scan_times::calls(0, 63)[62].at + scan_times::kFiled;
+  EXPECT_EQ(robot.scan().acc_until(0), first);
+  const Cycle after = first + 3 * 58500 + 5;
   const board::AdcScan::AccRing ring = robot.scan().acc_scan(after);
   EXPECT_EQ(robot.scan().acc_samples(after), 4);
   for (int k = 0; k < 4; ++k) {
@@ -126,7 +129,7 @@ TEST(AccScan, samples_are_taken_every_65_interrupts_in_a_six_channel_frame) {
   }
   EXPECT_EQ(ring[0][0], 0);
   EXPECT_EQ(ring[0][5], 0);
-  EXPECT_EQ(robot.scan().acc_until(after), 900 * (65 * 4 + 63));
+  EXPECT_EQ(robot.scan().acc_until(after), first + 4 * 58500);
 }
 
 TEST(AccScan, a_sample_has_one_value_however_often_it_is_read) {
@@ -151,11 +154,12 @@ TEST(AccScan, pins_give_the_newest_sample_and_its_horizon) {
   FakeContext host(robot);
   robot.scan().start(false, false, 0);
   EXPECT_EQ(tp_scan_acc_newest(2), 0) << "before the first sample";
-  EXPECT_EQ(host.horizon, 900 * 63);
-  host.cycle = 900 * 63;
+  const Cycle first = scan_times::calls(0, 63)[62].at + scan_times::kFiled;
+  EXPECT_EQ(host.horizon, first);
+  host.cycle = first;
   host.horizon = host::kNever;
   EXPECT_EQ(tp_scan_acc_newest(2), 2816);
-  EXPECT_EQ(host.horizon, 900 * (63 + 65));
+  EXPECT_EQ(host.horizon, first + 58500);
   std::int16_t samples[3][50];
   tp_scan_acc_values(samples);
   EXPECT_EQ(samples[0][1], 2048);

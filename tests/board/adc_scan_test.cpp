@@ -10,6 +10,7 @@
 
 #include "hal_sim/board/board.h"
 #include "tests/board/flat_scene.h"
+#include "tests/board/scan_times.h"
 
 namespace {
 
@@ -17,9 +18,9 @@ using board::Board;
 using board::Cycle;
 
 constexpr Cycle kFrame = 900;
-// of the driver [measured: register way]: slot 3 comes late, the handler files a pair, and switches an LED
-constexpr Cycle kLate = 230, kFiled = 117, kLight = 163;
-constexpr Cycle kSettled = kLate + kFiled;  // after an interrupt: its samples can be seen
+using scan_times::kFiled;
+using scan_times::kLight;
+constexpr Cycle kSettled = kLight;  // after an interrupt: its samples can be seen, and its LED
 
 /// A scene whose reflection tells sensor and time, so that a value reveals when it was taken.
 void make_telling(sim::Scene& scene) {
@@ -39,7 +40,7 @@ class TickedScan {
   int mic_index = 0, acc_index = 0;
   bool filled = false;
 
-  /// The interrupt at cycle `at`, whose frame began 900 cycles before.
+  /// The interrupt at cycle `at`.
   void interrupt(Cycle at) {
     filled = false;
     if (++mic_index >= 100) {
@@ -53,7 +54,7 @@ class TickedScan {
       lit_at_ = at + kLight;
     }
     if (counter_ == 3) {
-      sample(lit, at + kLate, pulses ? lit_at_ : -1);
+      sample(lit, at, pulses ? lit_at_ : -1);
       pulses = 0;
       pair_ = pair_ == 3 ? (five_pairs_ ? 4 : 0) : pair_ == 4 ? 0 : pair_ + 1;
     }
@@ -64,8 +65,7 @@ class TickedScan {
   void sample(int* into, Cycle at, Cycle lit_at) {
     if (pair_ == 4) return;
     for (int half = 0; half < 2; ++half) {
-      // channels of a five-channel frame last 180 cycles; the signal is held after 12 of them
-      const Cycle when = at - kFrame + (3 + half) * 180 + 12;
+      const Cycle when = at - (half ? scan_times::kFifth : scan_times::kFourth);
       const int sensor = pair_ + 4 * half;
       into[sensor] = robot_.ir_counts(sensor, when, lit_at < 0 ? -1 : when - lit_at, 0);
     }
@@ -103,8 +103,8 @@ TEST_P(Scan, closed_form_equals_the_ticked_interrupt) {
   robot.scan().start(false, five, start);
   reader.scan().start(false, five, start);
   std::mt19937 random(7);
-  for (int i = 0; i < 3000; ++i) {
-    const Cycle at = start + (i + 1) * kFrame;
+  for (const scan_times::Call& call : scan_times::calls(start, 3000)) {
+    const Cycle at = call.at;
     // just before the interrupt nothing has changed yet
     expect_equal(robot, want, at - 1);
     if (HasFatalFailure()) return;
@@ -139,14 +139,18 @@ TEST(AdcScan, survives_stops_and_starts_in_the_middle_of_anything) {
   TickedScan want(robot, false);
   std::mt19937 random(11);
   Cycle now = 100;
+  int slot = 0;
   robot.scan().start(false, false, now);
   for (int round = 0; round < 300; ++round) {
     // some frames, and a part of one that is lost
-    const Cycle anchor = now;
-    const int frames = static_cast<int>(random() % 90);
-    for (int i = 1; i <= frames; ++i) want.interrupt(anchor + i * kFrame);
-    const auto part = static_cast<Cycle>(random() % kFrame);
-    now = anchor + frames * kFrame + part;
+    now += 15;
+    for (auto frames = random() % 90; frames > 0; --frames) {
+      now += scan_times::frame_of(slot);
+      slot = (slot + 1) % 65;
+      want.interrupt(now);
+    }
+    const auto part = static_cast<Cycle>(random() % 870);
+    now += part;
     // what is under way when the converter is stopped is filed all the same
     if (part >= kSettled) expect_equal(robot, want, now);
     if (HasFatalFailure()) return;
@@ -176,28 +180,29 @@ TEST(AdcScan, refreshes_each_sensor_63_times_a_second) {
   }
 }
 
-// a flash lasts 5 interrupts = 305 us; its samples are taken 282 and 294 us after the interrupt that began
-// it, and 230 cycles = 15.6 us more, by which the converter is late then. They are filed 117 cycles after
-// their frame.
+// a flash lasts 5 interrupts and the stops of the converter between them: 4720 cycles; its samples are taken
+// 349 and 169 cycles before the end of the last. They are filed 117 cycles after it.
 TEST(AdcScan, flash_and_sample_instants) {
   sim::Scene scene;
   Board robot{board::Setup{}};
   robot.look_at(&scene);
   robot.scan().start(false, false, 0);
-  const Cycle on = 64 * kFrame;  // interrupt number 63 (from 0): the second pair's LED
+  const auto calls = scan_times::calls(0, 70);
+  const Cycle on = calls[63].at + kLight, end = calls[68].at, off = end + kLight;  // the second pair's LED
+  EXPECT_EQ(off - on, 4720);
   EXPECT_EQ(robot.scan().pulses(on - 1), 0u);
   EXPECT_EQ(robot.scan().pulses(on), 2u);
-  EXPECT_EQ(robot.scan().pulses(on + 5 * kFrame - 1), 2u);
-  EXPECT_EQ(robot.scan().pulses(on + 5 * kFrame), 0u);
-  EXPECT_EQ(robot.scan().pulses_horizon(on), on + 5 * kFrame);
+  EXPECT_EQ(robot.scan().pulses(off - 1), 2u);
+  EXPECT_EQ(robot.scan().pulses(off), 0u);
+  EXPECT_EQ(robot.scan().pulses_horizon(on), off);
   scene.asked.clear();
-  robot.scan().lit(1, on + 5 * kFrame + kLate + kFiled - 1);
+  robot.scan().lit(1, end + kFiled - 1);
   ASSERT_EQ(scene.asked.size(), 0u);
-  robot.scan().lit(1, on + 5 * kFrame + kLate + kFiled);
-  robot.scan().lit(5, on + 5 * kFrame + kLate + kFiled);
+  robot.scan().lit(1, end + kFiled);
+  robot.scan().lit(5, end + kFiled);
   ASSERT_EQ(scene.asked.size(), 2u);
-  EXPECT_NEAR(static_cast<double>(scene.asked[0].at - on) / 14.7456, 282 + 15.6, 1);
-  EXPECT_NEAR(static_cast<double>(scene.asked[1].at - on) / 14.7456, 294 + 15.6, 1);
+  EXPECT_EQ(scene.asked[0].at, end - 349);
+  EXPECT_EQ(scene.asked[1].at, end - 169);
 }
 
 TEST(AdcScan, initialisation_takes_194_ms) {
@@ -205,8 +210,9 @@ TEST(AdcScan, initialisation_takes_194_ms) {
   robot.scan().start(false, false, 0);
   const Cycle filled = robot.scan().first_fill(0);
   EXPECT_NEAR(static_cast<double>(filled) / 14745.6, 194.3, 0.1);
-  EXPECT_EQ(robot.scan().acc_samples(filled - 1), 48);
-  EXPECT_EQ(robot.scan().acc_samples(filled), 49);
+  // at the end of the handler, which takes 186 cycles
+  EXPECT_EQ(robot.scan().acc_samples(filled - 186 + kFiled - 1), 48);
+  EXPECT_EQ(robot.scan().acc_samples(filled - 186 + kFiled), 49);
   EXPECT_EQ(robot.scan().first_fill(filled), filled);
 }
 
@@ -216,7 +222,8 @@ TEST(AdcScan, microphones_alone_run_twice_as_fast) {
   Board robot{board::Setup{}};
   robot.look_at(&scene);
   robot.scan().start(true, false, 0);
-  EXPECT_EQ(robot.scan().interrupts(14'745'600), 32768);
+  EXPECT_EQ(robot.scan().interrupts(14'745'600 + 14), 32767);
+  EXPECT_EQ(robot.scan().interrupts(14'745'600 + 15), 32768);
   EXPECT_EQ(robot.scan().dark(0, 14'745'600), 0);
   EXPECT_EQ(robot.scan().acc_samples(14'745'600), 0);
   EXPECT_EQ(robot.scan().first_fill(500), 500);  // returns at once
@@ -325,12 +332,10 @@ TEST(IrCircuit, a_conversion_taken_apart_adds_up_to_its_counts) {
   EXPECT_EQ(dark.light_counts, 200);  // 0.5 W/m2 x 400
   EXPECT_EQ(dark.reflection_counts, 0);
   EXPECT_EQ(dark.counts(), 4095 - 200);
-  // the flash lasts four whole frames and the hold instant of its channel: 4 x 900 + 552 cycles, 282 us; the
-  // LED is switched 163 cycles after its interrupt, and the frames come 230 late while the converter's list
-  // changes: 286 us
+  // from the LED's switching to the hold of the fourth channel: 286 us
   const board::Cycle flash = board::scan_flash_cycles(3);
-  EXPECT_EQ(flash, 4 * 900 + 552 + kLate - 163);
-  EXPECT_EQ(board::scan_flash_cycles(4), 4 * 900 + (4 * 15 + 1) * 12 + kLate - 163);
+  EXPECT_EQ(flash, 4720 - kLight - 349);
+  EXPECT_EQ(board::scan_flash_cycles(4), 4720 - kLight - 169);
   const board::IrConversion lit = robot.ir_conversion(3, 0, flash);
   EXPECT_EQ(lit.reflection_counts, 1200);
   EXPECT_EQ(lit.relative_noise, 0.1);  // told, and not drawn

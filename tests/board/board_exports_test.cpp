@@ -5,6 +5,7 @@
 #include "hal_sim/host/pins.h"
 #include "tests/board/fake_context.h"
 #include "tests/board/flat_scene.h"
+#include "tests/board/scan_times.h"
 
 FakeContext* FakeContext::running = nullptr;
 
@@ -38,11 +39,11 @@ TEST_F(Exports, motors_alone_ask_for_no_interrupt) {
   init_motors();
   tp_motor_speed(0, 700);
   EXPECT_EQ(context.requested.count(TP_V_T2), 0u);
-  // every tick is quiet: 35 cycles, 13 for each of two nodes less 2, and 5 for the one that counts; a firing of
-  // the left motor takes 107 + 1 more
+  // every tick is quiet: 35 cycles, 13 for each of two nodes less 2, and 5 for the one that counts; the first
+  // firing of the left motor, to phase 3, takes 107 more
   const Cycle quiet = 35 - 2 + 2 * 13 + 5;
   EXPECT_EQ(robot.handlers().done(0, 13 * kTick - 12 * quiet, 0), 13 * kTick);
-  EXPECT_EQ(robot.handlers().done(13 * kTick + 1, kTick, 0), 14 * kTick + 1 + quiet + 108);
+  EXPECT_EQ(robot.handlers().done(13 * kTick + 1, kTick, 0), 14 * kTick + 1 + quiet + 107);
   tp_agenda_stop();
   EXPECT_EQ(robot.handlers().done(context.cycle, 1000, 0), context.cycle + 1000);
 }
@@ -104,12 +105,13 @@ TEST_F(Exports, division_by_zero_in_a_motor_agenda_traps) {
 TEST_F(Exports, array_filled_lasts_one_interrupt) {
   tp_scan_start(0, 0);
   EXPECT_EQ(tp_scan_array_filled(), 0);
-  EXPECT_EQ(context.horizon, 100 * 900);
-  context.cycle = 100 * 900;
+  const auto calls = scan_times::calls(0, 101);
+  EXPECT_EQ(context.horizon, calls[99].at);
+  context.cycle = calls[99].at;
   context.horizon = host::kNever;
   EXPECT_EQ(tp_scan_array_filled(), 1);
-  EXPECT_EQ(context.horizon, 101 * 900);
-  context.cycle = 101 * 900;
+  EXPECT_EQ(context.horizon, calls[100].at);
+  context.cycle = calls[100].at;
   EXPECT_EQ(tp_scan_array_filled(), 0);
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hal_sim/board/board.h"
+#include "tests/board/scan_times.h"
 
 namespace {
 
@@ -19,37 +20,7 @@ using board::Wheel;
 constexpr Cycle kTick = board::kAgendaTickCycles;
 const char left_motor = 0, right_motor = 0;
 
-struct Call {
-  Cycle at, cycles;
-};
-
-/// The scan's calls of a run that began at `start`, written out: slot by slot, cycles since the call before.
-std::vector<Call> scan_calls(Cycle start, int count) {
-  std::vector<Call> calls;
-  Cycle at = start + 15;
-  for (int i = 0; i < count; ++i) {
-    const int slot = i % 65;
-    // a stop before slots 3, 4, 33, 62, 63 and 64; frames 5 to 32 are 22.5 cycles shorter
-    if (slot == 3) at += 1015;
-    else if (slot == 4) at += 984;
-    else if (slot == 33) at += 1011;
-    else if (slot == 62) at += 1003;
-    else if (slot == 63) at += 1012;
-    else if (slot == 64) at += 1005;
-    else if (slot >= 5 && slot <= 32) at += slot % 2 == 1 ? 877 : 878;
-    else at += 900;
-    const Cycle cycles = slot == 2    ? 170
-                         : slot == 3  ? 206
-                         : slot == 32 ? 165
-                         : slot == 61 ? 154
-                         : slot == 62 ? 186
-                         : slot == 63 ? 201
-                         : slot == 64 ? 117
-                                      : 109;
-    calls.push_back({at, cycles});
-  }
-  return calls;
-}
+using scan_times::Call;
 
 /// Cycle by cycle: a program that is interrupted.
 Cycle walk(const std::vector<Call>& calls, Cycle from, Cycle work) {
@@ -71,7 +42,7 @@ TEST(Handlers, the_scan_interrupts_when_its_frames_end) {
   board::Setup setup;
   Board robot(setup);
   robot.scan().start(false, false, 1234);
-  const auto calls = scan_calls(1234, 700);
+  const auto calls = scan_times::calls(1234, 700);
   for (std::size_t i = 1; i < calls.size(); ++i) {
     EXPECT_EQ(robot.scan().next_call(calls[i - 1].at + 1), calls[i].at) << i;
     EXPECT_EQ(robot.scan().last_call(calls[i].at + 1).at, calls[i].at) << i;
@@ -100,12 +71,13 @@ TEST(Handlers, both_together_take_what_each_takes) {
   robot.agendas().start(100);
   robot.scan().start(false, false, 500);
   robot.settle_handlers(500);
-  robot.agendas().set_speed(Wheel::Left, 800, 500);  // every 12 ticks
+  robot.agendas().set_speed(Wheel::Left, 800, 500);   // every 12 ticks
   robot.agendas().set_speed(Wheel::Right, 200, 500);  // 15 ticks on, 35 off
-  std::vector<Call> calls = scan_calls(500, 700);
+  std::vector<Call> calls = scan_times::calls(500, 700);
   for (int tick = 1; tick < 400; ++tick) {
     Cycle cycles = 35 - 2 + 2 * (13 + 5);
-    if (tick % 12 == 0) cycles += 107 + 1;
+    // the left motor's phase falls from 0: 2 more to phases 1 and 2, with coil C on
+    if (tick % 12 == 0) cycles += 107 + (tick / 12 % 4 == 2 || tick / 12 % 4 == 3 ? 2 : 0);
     if (tick >= 50 && (tick - 50) % 50 == 0) cycles += 123;
     if (tick >= 65 && (tick - 65) % 50 == 0) cycles += 125;
     calls.push_back({100 + tick * kTick, cycles});
@@ -126,11 +98,11 @@ TEST(Handlers, a_step_waits_for_the_converters_handler) {
   robot.agendas().activate(&right_motor, 0, 0);
   robot.scan().start(false, false, 0);
   // the tick at which the wheel steps comes 10 cycles after a frame's end: 109 - 10 cycles to wait
-  const Cycle step_tick = scan_calls(0, 20)[18].at + 10;
+  const Cycle step_tick = scan_times::calls(0, 20)[18].at + 10;
   robot.agendas().start(step_tick - 10 * kTick);
   robot.agendas().set_speed(Wheel::Right, 1000, step_tick - 10 * kTick);
   robot.port_write('D', Board::Register::Tris, 0, 0);
-  const Cycle pins = 99 + 19 + 18 + 81;  // entry, the node, and B and C go high
+  const Cycle pins = 99 + 1 + 19 + 18 + 82;  // the wait, entry, the node, and B and C go high
   EXPECT_EQ(robot.agendas().stepper_at(Wheel::Right, step_tick + kTick).stepped_at(), step_tick + pins);
   // without the scan it does not wait
   setup.spread_handlers = true;
@@ -150,7 +122,7 @@ TEST(Handlers, frames_slip_when_the_converter_waits_for_the_ticks_handler) {
   // the call of slot 2 comes one cycle after a tick: two cycles of the entry are left
   const Cycle start = 100 * kTick + 1 - 15 - 2700;
   robot.scan().start(false, false, start);
-  const Cycle fourth = scan_calls(start, 4)[3].at;
+  const Cycle fourth = scan_times::calls(start, 4)[3].at;
   EXPECT_EQ(robot.scan().next_call(fourth - 10), fourth);
   robot.settle_handlers(fourth - 500);
   EXPECT_EQ(robot.scan().next_call(fourth - 10), fourth + 2);

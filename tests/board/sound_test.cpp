@@ -11,6 +11,7 @@
 #include "hal_sim/host/pins_sound.h"
 #include "tests/board/fake_context.h"
 #include "tests/board/flat_scene.h"
+#include "tests/board/scan_times.h"
 
 namespace {
 
@@ -81,22 +82,25 @@ TEST_F(Microphones, samples_are_held_at_the_converters_instants) {
   scene.sound_pa = [&](const sim::Vec3&, sim::Clicks at) { return held.push_back(at), 0.0; };
   context.cycle = 5000;
   tp_scan_start(0, 0);
-  context.cycle = 5000 + 3 * 900;
+  const auto calls = scan_times::calls(5000, 65);
+  context.cycle = calls[2].at;
   EXPECT_EQ(tp_mic_scan(scan, 0), 3);
-  EXPECT_EQ(context.horizon, 5000 + 4 * 900);
-  EXPECT_EQ(held, (std::vector<sim::Clicks>{5020, 5320, 5620, 5920, 6220, 6520, 6820, 7120, 7420}));
-  // interrupt 3 delivers five channels (TAD 12), 62 six (TAD 10), 63 five again
-  EXPECT_EQ(robot.scan().mic_hold(1, 3), 5000 + 3 * 900 + 16 * 12);
-  EXPECT_EQ(robot.scan().mic_hold(1, 62), 5000 + 62 * 900 + 16 * 10);
-  EXPECT_EQ(robot.scan().mic_hold(2, 63), 5000 + 63 * 900 + 31 * 12);
-  EXPECT_EQ(robot.scan().mic_hold(2, 64), 5000 + 64 * 900 + 31 * 20);
+  EXPECT_EQ(context.horizon, calls[3].at);
+  // three channels of 15 TAD of 20, held after the first; the flag a cycle after the end
+  EXPECT_EQ(held, (std::vector<sim::Clicks>{5034, 5334, 5634, 5934, 6234, 6534, 6834, 7134, 7434}));
+  // interrupt 3 delivers five channels (TAD 12), 62 six (TAD 10), 63 five again; 10 three at TAD 19.5
+  EXPECT_EQ(robot.scan().mic_hold(1, 3), calls[3].at - (4 * 15 - 1) * 12 - 1);
+  EXPECT_EQ(robot.scan().mic_hold(0, 10), calls[10].at - 44 * 39 / 2 - 1);
+  EXPECT_EQ(robot.scan().mic_hold(1, 62), calls[62].at - (5 * 15 - 1) * 10 - 1);
+  EXPECT_EQ(robot.scan().mic_hold(2, 63), calls[63].at - (3 * 15 - 1) * 12 - 1);
+  EXPECT_EQ(robot.scan().mic_hold(2, 64), calls[64].at - (15 - 1) * 20 - 1);
 }
 
 TEST_F(Microphones, alone_they_are_sampled_twice_as_often) {
   tp_scan_start(1, 0);
-  context.cycle = 1000 * 450;
+  context.cycle = 15 + 1000 * 450;
   EXPECT_EQ(tp_mic_scan(scan, 1000), 1000);
-  for (int n : {0, 3, 62, 63, 999}) EXPECT_EQ(robot.scan().mic_hold(1, n), n * 450 + 160);
+  for (int n : {0, 3, 62, 63, 999}) EXPECT_EQ(robot.scan().mic_hold(1, n), 15 + (n + 1) * 450 - 29 * 10 - 1);
 }
 
 TEST_F(Microphones, only_new_samples_are_evaluated_and_at_most_a_buffer) {
@@ -132,12 +136,13 @@ TEST_F(Microphones, samples_before_a_stop_keep_their_instants) {
   context.cycle += 12345;
   tp_scan_start(1, 0);
   const Cycle again = context.cycle;
-  context.cycle += 40 * 450;
+  context.cycle += 15 + 40 * 450;
   EXPECT_EQ(tp_mic_scan(scan, 290), 290);
-  EXPECT_EQ(robot.scan().mic_hold(0, 190), 190 * 900 + 20);  // 190 % 65 = 60: three channels
-  EXPECT_EQ(robot.scan().mic_hold(0, 249), 249 * 900 + 20);
-  EXPECT_EQ(robot.scan().mic_hold(0, 250), again + 10);
-  EXPECT_EQ(robot.scan().mic_hold(0, 289), again + 39 * 450 + 10);
+  const auto calls = scan_times::calls(0, 250);
+  EXPECT_EQ(robot.scan().mic_hold(0, 190), calls[190].at - 44 * 20 - 1);  // 190 % 65 = 60: three channels
+  EXPECT_EQ(robot.scan().mic_hold(0, 249), calls[249].at - 44 * 20 - 1);  // 54
+  EXPECT_EQ(robot.scan().mic_hold(0, 250), again + 15 + 450 - 44 * 10 - 1);
+  EXPECT_EQ(robot.scan().mic_hold(0, 289), again + 15 + 40 * 450 - 44 * 10 - 1);
 }
 
 TEST_F(Microphones, single_conversions_hear_now) {

@@ -166,7 +166,7 @@ TEST(Loader, every_kind_of_mistake_has_its_sentence) {
        "w.toml:3:11: world.ambient: got \"sun\", expected number from 0 to 10000 W/m2"},
       {"[world]\nphysicshz = 96",
        "w.toml:3:1: unknown key 'physicshz' in world; did you mean 'physics_hz'? (keys: physics_hz, engine, "
-       "gravity, seed, ambient, "
+       "gravity, seed, ambient, interrupts, "
        "wheel_noise, wheel_noise_law, slip)"},
       {"title = 5", "w.toml:2:9: title: got 5, expected text in quotes"},
       {"world = 3", "w.toml:2:9: world: got 3, expected a table, written [world]"},
