@@ -59,8 +59,7 @@ class AdcScan {
   /// Cycle of the interrupt that completes the `count`-th microphone sample from power-up on.
   Cycle interrupt_cycle(std::int64_t count) const;
 
-  // --- the time that its handler takes from the program
-  // -----------------------------------------------------
+  // --- the time that its handler takes from the program ----------------------------------------------
   /// A call of a handler: when it is asked for, and how long it takes. None: `at` below 0, 0 cycles.
   struct Call {
     Cycle at = -host::kNever, cycles = 0;
