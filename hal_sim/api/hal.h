@@ -23,26 +23,13 @@
 /* --- LEDs --------------------------------------------------------------------------------------------- */
 
 #define RING_LEDS 8
-#define FRONT_PIN 1
-#define BODY_PIN 2
-
-static const unsigned char ring_pin[RING_LEDS] = {6, 7, 9, 12, 10, 13, 14, 15};
-
-/** A pin of port A or C to bit 0 of `value`; above 1 toggles. */
-static inline void set_pin(char port, unsigned char pin, unsigned int value) {
-  tp_i64 level = value > 1 ? !tp_latch_read(port, pin) : value & 1;
-  tp_latch_write(port, pin, level);
-}
-
-#define RING_SWITCH_CYCLES 10 /* the driver's choice among eight pins [measured: register way] */
-
-static inline void set_ring(unsigned int led, unsigned int value) {
-  tp_spend(RING_SWITCH_CYCLES);
-  set_pin('A', ring_pin[led], value);
-}
-
-#define set_front(value) set_pin('C', FRONT_PIN, value)
-#define set_body(value) set_pin('C', BODY_PIN, value)
+/** A ring LED, or the pin of another, to 0 or 1; above 1 toggles. */
+void hal_set_ring(unsigned int led, unsigned int value);
+void hal_set_front(unsigned int value);
+void hal_set_body(unsigned int value);
+#define set_ring(led, value) hal_set_ring(led, value)
+#define set_front(value) hal_set_front(value)
+#define set_body(value) hal_set_body(value)
 
 /* --- motors ------------------------------------------------------------------------------------------- */
 

@@ -20,6 +20,7 @@ using host::Context;
 // [measured: register way] beside what TAKES() of the functions that call says
 constexpr Cycle kSetSpeedCycles = 81;    // speed 0
 constexpr Cycle kDivisionCycles = 21;    // any other speed
+constexpr Cycle kSpeedReturnCycles = 12;  // of these, after the new speed holds [estimated]
 constexpr Cycle kListSearchCycles = 11;  // agenda found at once
 constexpr Cycle kSetCycleCycles = 7;
 constexpr Cycle kNodePassedCycles = 10;
@@ -221,7 +222,9 @@ void tp_motor_speed(tp_i64 wheel, tp_i64 speed_steps_s) {
   const int passed = Context::current().board().agendas().nodes_passed(wheel_of(wheel));
   const Cycle cost =
       kSetSpeedCycles + kNodePassedCycles * passed + (speed_steps_s == 0 ? 0 : kDivisionCycles);
-  change_list(cost, [&](board::AgendaTimer& agendas, Cycle now) {
+  // the agenda's cycle is set last
+  Context::current().spend(cost - kSpeedReturnCycles);
+  change_list(kSpeedReturnCycles, [&](board::AgendaTimer& agendas, Cycle now) {
     agendas.set_speed(wheel_of(wheel), static_cast<int>(speed_steps_s), now);
     return 1;
   });

@@ -345,7 +345,10 @@ void Robot::handle(int vector, const Processor::Entry& entry) {
   fold();
   if (observer_) observer_->handler_ends(now_);
   quiet_until_ = 0;
-  if (has_handlers_) board_.handler_left(now_);
+  if (has_handlers_) {
+    board_.handler_left(now_);
+    now_ += board::kExitCycles;
+  }
   const Processor::Return back = processor_->leave(now_);
   now_ = back.next_instruction;
   calm_until_ = back.quiet_until;
@@ -519,7 +522,10 @@ void Robot::sleep_until(Cycle target, Cycle round, Cycle start) {
   if (target < kNever) target = end_of_round(target);
   while (now_ < target) {
     deliver();
-    if (now_ != start && served_ != poll_served_) break;  // a handler ran: look again
+    if (now_ != start && served_ != poll_served_) {  // a handler ran: look again, after the round that it interrupted
+      if (has_handlers_) advance_main(round);
+      break;
+    }
     check_blocked();
     const Cycle stop = std::min(target, next_disturbance());
     if (stop >= kNever && handler_depth_ > 0 && !looked_outside_)
