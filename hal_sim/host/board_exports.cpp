@@ -18,10 +18,10 @@ using host::Context;
 
 // processor time of library functions whose work happens on this side
 // [measured: register way] beside what TAKES() of the functions that call says
-constexpr Cycle kSetSpeedCycles = 81;    // speed 0
-constexpr Cycle kDivisionCycles = 21;    // any other speed
+constexpr Cycle kSetSpeedCycles = 81;     // speed 0
+constexpr Cycle kDivisionCycles = 21;     // any other speed
 constexpr Cycle kSpeedReturnCycles = 12;  // of these, after the new speed holds [estimated]
-constexpr Cycle kListSearchCycles = 11;  // agenda found at once
+constexpr Cycle kListSearchCycles = 11;   // agenda found at once
 constexpr Cycle kSetCycleCycles = 7;
 constexpr Cycle kNodePassedCycles = 10;
 constexpr Cycle kStartCycles = 20;

@@ -522,7 +522,8 @@ void Robot::sleep_until(Cycle target, Cycle round, Cycle start) {
   if (target < kNever) target = end_of_round(target);
   while (now_ < target) {
     deliver();
-    if (now_ != start && served_ != poll_served_) {  // a handler ran: look again, after the round that it interrupted
+    if (now_ != start &&
+        served_ != poll_served_) {  // a handler ran: look again, after the round that it interrupted
       if (has_handlers_) advance_main(round);
       break;
     }
