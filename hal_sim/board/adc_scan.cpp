@@ -4,6 +4,7 @@
 #include "hal_sim/board/adc_scan.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "hal_sim/board/accelerometer.h"
 #include "hal_sim/board/agenda_timer.h"
@@ -59,30 +60,15 @@ constexpr Round make_round() {
   return r;
 }
 constexpr Round kRound = make_round();
-constexpr Cycle longest_call() {
-  Cycle most = 0;
-  for (const Cycle c : kRound.cycles) most = c > most ? c : most;
-  return most + kScanWrapCycles;
-}
-constexpr Cycle kLongestCall = longest_call();
+constexpr Cycle kLongestCall =
+    *std::max_element(std::begin(kRound.cycles), std::end(kRound.cycles)) + kScanWrapCycles;
 static_assert(kRound.at[kScanPeriod - 1] == kRoundCycles);
 
-/// Calls of a round during which the converter stands.
-constexpr int kStops = 6;
-struct Stop {
-  int slot;
-  Cycle at;  // after the round's beginning
-};
-struct StopsOfRound {
-  Stop of[kStops];
-};
-constexpr StopsOfRound make_stops() {
-  constexpr int slots[kStops] = {2, 3, 32, 61, 62, 63};
-  StopsOfRound stops{};
-  for (int i = 0; i < kStops; ++i) stops.of[i] = {slots[i], kRound.at[slots[i]]};
-  return stops;
-}
-constexpr StopsOfRound kStopsOfRound = make_stops();
+/// Slots in whose calls the converter stands.
+constexpr int kStopSlots[] = {2, 3, 32, 61, 62, 63};
+constexpr int kStops = static_cast<int>(std::size(kStopSlots));
+/// When such a call comes, after the round's beginning.
+constexpr Cycle stop_at(int kind) { return kRound.at[kStopSlots[kind]]; }
 }  // namespace
 
 Cycle scan_flash_cycles(int sensor) {
@@ -262,8 +248,8 @@ AdcScan::Delay AdcScan::next_delay(const AgendaTimer& ticks, Cycle until) const 
   // each kind of stop comes once a round, at a phase that it keeps
   for (int kind = 0; kind < kStops; ++kind) {
     std::int64_t round = (noted_stops_ - kind + kStops - 1) / kStops;
-    if (kStopsOfRound.of[kind].slot < first_slot_) round = std::max<std::int64_t>(round, 1);
-    const Cycle call = round_ + round * kRoundCycles + kStopsOfRound.of[kind].at;
+    if (kStopSlots[kind] < first_slot_) round = std::max<std::int64_t>(round, 1);
+    const Cycle call = round_ + round * kRoundCycles + stop_at(kind);
     if (call >= first.at) continue;
     const Cycle since = ticks.since_tick(call);
     if (!ticks.may_delay(since)) continue;
@@ -279,19 +265,19 @@ AdcScan::Delay AdcScan::delay_at_exit(Cycle at) const {
   Delay delay{noted_stops_, at, 0};
   if (!on_ || micro_only_) return delay;
   delay.stops = stops_before(at);
-  const Stop& stop = kStopsOfRound.of[delay.stops % kStops];
-  const Cycle call = round_ + delay.stops / kStops * kRoundCycles + stop.at;
-  if (delay.stops < kStops && stop.slot < first_slot_) return delay;
+  const int kind = static_cast<int>(delay.stops % kStops);
+  const Cycle call = round_ + delay.stops / kStops * kRoundCycles + stop_at(kind);
+  if (delay.stops < kStops && kStopSlots[kind] < first_slot_) return delay;
   if (call < at + kExitCycles) delay = {delay.stops + 1, call, at + kExitCycles - call};
   return delay;
 }
 
 std::int64_t AdcScan::stops_before(Cycle at) const {
   const Cycle since = at - round_;
-  if (since <= kStopsOfRound.of[0].at) return noted_stops_;
+  if (since <= stop_at(0)) return noted_stops_;
   const std::int64_t round = since / kRoundCycles;
   int kind = 0;
-  while (kind < kStops && round * kRoundCycles + kStopsOfRound.of[kind].at < since) ++kind;
+  while (kind < kStops && round * kRoundCycles + stop_at(kind) < since) ++kind;
   return round * kStops + kind;
 }
 

@@ -510,17 +510,12 @@ Cycle AgendaTimer::wait_at(Cycle at, Cycle since) const {
 
 Cycle AgendaTimer::pins_at(Wheel wheel, std::int64_t tick, Cycle cycles) const {
   if (!scan_) return line_.cycle_of(tick);
-  Cycle from = walk_at_;
-  if (walking_ && tick == walk_tick_) {
-    cycles += walk_cost_;
-  } else {
-    const Wheel other = wheel == Wheel::Left ? Wheel::Right : Wheel::Left;
-    from = line_.cycle_of(tick);
-    cycles += kAgendaEntryCycles + way_to_[static_cast<std::size_t>(wheel)];
-    if (walks_before(other, wheel)) cycles += motor(other).firing_cycles(tick);
-    return scan_->served(from, cycles - kPinBlockCycles) + kPinBlockCycles;
-  }
-  return scan_->done(from, cycles - kPinBlockCycles) + kPinBlockCycles;
+  cycles -= kPinBlockCycles;
+  if (walking_ && tick == walk_tick_) return scan_->done(walk_at_, cycles + walk_cost_) + kPinBlockCycles;
+  const Wheel other = wheel == Wheel::Left ? Wheel::Right : Wheel::Left;
+  cycles += kAgendaEntryCycles + way_to_[static_cast<std::size_t>(wheel)];
+  if (walks_before(other, wheel)) cycles += motor(other).firing_cycles(tick);
+  return scan_->served(line_.cycle_of(tick), cycles) + kPinBlockCycles;
 }
 
 std::uint64_t AgendaTimer::state_sum(Cycle at) const {

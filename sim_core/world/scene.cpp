@@ -43,11 +43,12 @@ Scene::Scene(const WorldDesc& world, std::vector<double> reach_m)
 int Scene::slot_before(Clicks at, Clicks* start) const {
   // count back: usually one or two; slots from before the world began hold its start
   int slot = last_slot_;
-  *start = now();
-  for (int back = 1; back<slots_&& * start> at; ++back) {
+  Clicks tick = now();
+  for (int back = 1; back < slots_ && tick > at; ++back) {
     slot = slot == 0 ? slots_ - 1 : slot - 1;
-    *start -= tick_clicks_;
+    tick -= tick_clicks_;
   }
+  *start = tick;
   return slot;
 }
 

@@ -45,57 +45,6 @@ const Call kCallsTried[] = {
     {"getselector", "sink = getselector();", 10},
 };
 
-class FunctionCosts : public RegisterTest {
- protected:
-  std::vector<double> cycles(const char* way) {
-    std::ostringstream text;
-    text
-        << "#include <a_d/advance_ad_scan/e_ad_conv.h>\n#include <a_d/advance_ad_scan/e_acc.h>\n"
-           "#include <a_d/advance_ad_scan/e_micro.h>\n#include <a_d/advance_ad_scan/e_prox.h>\n"
-           "#include <motor_led/advance_one_timer/e_agenda.h>\n#include "
-           "<motor_led/advance_one_timer/e_led.h>\n"
-           "#include <motor_led/advance_one_timer/e_motors.h>\n#include <motor_led/e_epuck_ports.h>\n"
-           "#include <motor_led/e_init_port.h>\n#include <uart/e_uart_char.h>\n#include <utility/utility.h>\n"
-           "volatile int sink, done; unsigned int took[40];\n"
-           "static void first(void) {}\nstatic void second(void) {}\nstatic void third(void) {}\n"
-           "static void __attribute__((noinline)) nothing(int i) { sink = i; }\n";
-    int n = 0;
-    for (const Call& c : kCallsTried)
-      text << "static void __attribute__((noinline)) f" << n++ << "(int i) { " << c.code << " }\n";
-    text << "static void measure(int which, void (*f)(int)) { int i; TMR4 = 0; T4CONbits.TON = 1;\n"
-            " for (i = 0; i < 1000; i++) f(i);\n T4CONbits.TON = 0; took[which] = TMR4; }\n"
-            "int main(void) { e_init_port(); e_start_agendas_processing(); e_init_motors(); e_init_uart1();\n"
-            " e_init_ad_scan(ALL_ADC); e_activate_agenda(first, 0); e_activate_agenda(second, 0);\n"
-            " e_end_agendas_processing(); e_ad_scan_off(); T4CON = 0; T4CONbits.TCKPS = 2; PR4 = 0xFFFF;\n"
-            " measure(39, nothing);\n";
-    for (int i = 0; i < n; ++i) text << " measure(" << i << ", f" << i << ");\n";
-    text << " done = 1; for (;;); }\n";
-    options.way = way;
-    Robot& robot = add_robot_with_source(text.str());
-    for (int i = 0; i < 40 && robot.variable("done") == 0; ++i) run_for(0.1);
-    EXPECT_EQ(robot.variable("done"), 1) << way;
-    std::vector<double> result;
-    for (std::uint16_t counts : robot.variables<std::uint16_t>("took", 40))
-      result.push_back(counts * kCount / kCalls);
-    return result;
-  }
-};
-
-TEST_F(FunctionCosts, a_call_costs_the_same_in_both_ways) {
-  const std::vector<double> chip = cycles("register");
-  struct Native : FunctionCosts {
-    void TestBody() override {}
-    using FunctionCosts::cycles;
-  } twin;
-  const std::vector<double> native = twin.cycles("native");
-  EXPECT_NEAR(native[39], chip[39], 0.1) << "a call that stores its argument";
-  for (std::size_t i = 0; i < std::size(kCallsTried); ++i) {
-    EXPECT_GT(chip[i], 5) << kCallsTried[i].name;
-    EXPECT_NEAR(native[i], chip[i], std::max(kCallsTried[i].tolerance, 0.07 * chip[i]))
-        << kCallsTried[i].name;
-  }
-}
-
 /// Calls that a program makes once, at its start. What they cost is the phase between the handlers of Timer 2
 /// and of the converter from then on.
 const Call kSetUpTried[] = {
@@ -120,45 +69,84 @@ const Call kSetUpTried[] = {
     {"wait, 1000 rounds", "wait(1000);"},
 };
 
-class SetUpCosts : public RegisterTest {
- protected:
-  /// In cycles; of a call that takes longer than Timer 4 counts, the last 16 bits.
-  std::vector<int> cycles(const char* way) {
-    std::ostringstream text;
-    text << "#include <a_d/advance_ad_scan/e_ad_conv.h>\n#include <motor_led/advance_one_timer/e_agenda.h>\n"
-            "#include <motor_led/advance_one_timer/e_motors.h>\n#include <motor_led/e_epuck_ports.h>\n"
-            "#include <motor_led/e_init_port.h>\n#include <uart/e_uart_char.h>\n"
-            "#include <a_d/advance_ad_scan/e_prox.h>\n#include <utility/utility.h>\n"
-            "volatile int done; unsigned int took[30];\n"
-            "static void first(void) {}\nstatic void second(void) {}\nstatic void third(void) {}\n"
-            "static void __attribute__((noinline)) nothing(void) {}\n";
-    int n = 0;
-    for (const Call& c : kSetUpTried)
-      text << "static void __attribute__((noinline)) f" << n++ << "(void) { " << c.code << " }\n";
-    text << "static void __attribute__((noinline)) measure(int which, void (*f)(void)) { TMR4 = 0;\n"
-            " T4CONbits.TON = 1; f(); T4CONbits.TON = 0; took[which] = TMR4; }\n"
-            "int main(void) { T4CON = 0; PR4 = 0xFFFF; measure(29, nothing);\n";
-    for (int i = 0; i < n; ++i) text << " measure(" << i << ", f" << i << ");\n";
-    text << " done = 1; for (;;); }\n";
-    options.way = way;
-    Robot& robot = add_robot_with_source(text.str());
-    for (int i = 0; i < 40 && robot.variable("done") == 0; ++i) run_for(0.1);
-    EXPECT_EQ(robot.variable("done"), 1) << way;
-    std::vector<int> result;
-    for (std::uint16_t counts : robot.variables<std::uint16_t>("took", 30)) result.push_back(counts);
-    return result;
-  }
+/// A program that makes calls one by one, and how it measures each.
+struct Trial {
+  const Call* calls;
+  std::size_t count;
+  const char* parameter;  // of the functions that make them
+  const char* nothing;    // body of one that makes none
+  const char* measure;    // body of the function that has one made and leaves its count in took[which]
+  const char* set_up;
 };
 
-TEST_F(SetUpCosts, setting_up_costs_the_same_in_both_ways) {
-  const std::vector<int> chip = cycles("register");
-  struct Native : SetUpCosts {
+constexpr std::size_t kNothing = 39;  // place of the call of nothing; the others have their own
+
+/// What Timer 4 has counted for each call, in this way of running the program.
+std::vector<std::uint16_t> counts_of(const Trial& trial, const std::string& way) {
+  struct Run : RegisterTest {
     void TestBody() override {}
-    using SetUpCosts::cycles;
-  } twin;
-  const std::vector<int> native = twin.cycles("native");
-  EXPECT_EQ(native[29], chip[29]) << "a call of nothing";
-  for (std::size_t i = 0; i < std::size(kSetUpTried); ++i) {
+    std::vector<std::uint16_t> go(const Trial& t, const std::string& chosen_way) {
+      std::ostringstream text;
+      text << "#include <a_d/advance_ad_scan/e_ad_conv.h>\n#include <a_d/advance_ad_scan/e_acc.h>\n"
+              "#include <a_d/advance_ad_scan/e_micro.h>\n#include <a_d/advance_ad_scan/e_prox.h>\n"
+              "#include <motor_led/advance_one_timer/e_agenda.h>\n"
+              "#include <motor_led/advance_one_timer/e_led.h>\n"
+              "#include <motor_led/advance_one_timer/e_motors.h>\n#include <motor_led/e_epuck_ports.h>\n"
+              "#include <motor_led/e_init_port.h>\n#include <uart/e_uart_char.h>\n"
+              "#include <utility/utility.h>\n"
+              "#define APART static void __attribute__((noinline))\n"
+              "volatile int sink, done; unsigned int took[40];\n"
+              "static void first(void) {}\nstatic void second(void) {}\nstatic void third(void) {}\n"
+           << "APART nothing(" << t.parameter << ") { " << t.nothing << " }\n";
+      for (std::size_t i = 0; i < t.count; ++i)
+        text << "APART f" << i << "(" << t.parameter << ") { " << t.calls[i].code << " }\n";
+      text << "APART measure(int which, void (*f)(" << t.parameter << ")) { " << t.measure << " }\n"
+           << "int main(void) { " << t.set_up << " PR4 = 0xFFFF; measure(" << kNothing << ", nothing);\n";
+      for (std::size_t i = 0; i < t.count; ++i) text << " measure(" << i << ", f" << i << ");\n";
+      text << " done = 1; for (;;); }\n";
+      options.way = chosen_way;
+      Robot& robot = add_robot_with_source(text.str());
+      for (int i = 0; i < 40 && robot.variable("done") == 0; ++i) run_for(0.1);
+      EXPECT_EQ(robot.variable("done"), 1) << chosen_way;
+      return robot.variables<std::uint16_t>("took", 40);
+    }
+  } one;
+  return one.go(trial, way);
+}
+
+TEST(FunctionCosts, a_call_costs_the_same_in_both_ways) {
+  const Trial trial{
+      kCallsTried,
+      std::size(kCallsTried),
+      "int i",
+      "sink = i;",
+      "int i; TMR4 = 0; T4CONbits.TON = 1; for (i = 0; i < 1000; i++) f(i); T4CONbits.TON = 0; took[which] = "
+      "TMR4;",
+      "e_init_port(); e_start_agendas_processing(); e_init_motors(); e_init_uart1(); e_init_ad_scan(ALL_ADC);"
+      " e_activate_agenda(first, 0); e_activate_agenda(second, 0); e_end_agendas_processing();"
+      " e_ad_scan_off(); T4CON = 0; T4CONbits.TCKPS = 2;"};
+  const auto chip_counts = counts_of(trial, "register"), native_counts = counts_of(trial, "native");
+  const auto cycles = [](std::uint16_t counts) { return counts * kCount / kCalls; };
+  EXPECT_NEAR(cycles(native_counts[kNothing]), cycles(chip_counts[kNothing]), 0.1)
+      << "a call that stores its argument";
+  for (std::size_t i = 0; i < trial.count; ++i) {
+    const double chip = cycles(chip_counts[i]), native = cycles(native_counts[i]);
+    EXPECT_GT(chip, 5) << kCallsTried[i].name;
+    EXPECT_NEAR(native, chip, std::max(kCallsTried[i].tolerance, 0.07 * chip)) << kCallsTried[i].name;
+  }
+}
+
+// in cycles; of a call that takes longer than Timer 4 counts, the last 16 bits
+TEST(SetUpCosts, setting_up_costs_the_same_in_both_ways) {
+  const Trial trial{kSetUpTried,
+                    std::size(kSetUpTried),
+                    "void",
+                    "",
+                    "TMR4 = 0; T4CONbits.TON = 1; f(); T4CONbits.TON = 0; took[which] = TMR4;",
+                    "T4CON = 0;"};
+  const auto chip = counts_of(trial, "register"), native = counts_of(trial, "native");
+  EXPECT_EQ(native[kNothing], chip[kNothing]) << "a call of nothing";
+  for (std::size_t i = 0; i < trial.count; ++i) {
     EXPECT_GT(chip[i], 5) << kSetUpTried[i].name;
     EXPECT_NEAR(native[i], chip[i], kSetUpTried[i].tolerance) << kSetUpTried[i].name;
   }
