@@ -23,7 +23,7 @@
 /* --- LEDs --------------------------------------------------------------------------------------------- */
 
 #define RING_LEDS 8
-/** A ring LED, or the pin of another, to 0 or 1; above 1 toggles. */
+/** A ring LED, the front LED, the body's: 0 or 1; above 1 toggles. */
 void hal_set_ring(unsigned int led, unsigned int value);
 void hal_set_front(unsigned int value);
 void hal_set_body(unsigned int value);

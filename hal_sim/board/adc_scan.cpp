@@ -42,7 +42,6 @@ static_assert(3 * kScanChannelTad * kScanTadCycles6 == kScanMicroFrameCycles);
 static_assert(5 * kScanChannelTad * kScanTadCycles == kScanFrameCycles);
 static_assert(hold_to_end(frame_of(kScanLitSlot), 3) == 349);
 
-constexpr Cycle kRoundCycles = kScanPeriod * kScanFrameCycles;
 /// Handlers of a period: when they are called, what they take, and what those before a slot take together.
 struct Round {
   Cycle at[kScanPeriod];
@@ -62,7 +61,7 @@ constexpr Round make_round() {
 constexpr Round kRound = make_round();
 constexpr Cycle kLongestCall =
     *std::max_element(std::begin(kRound.cycles), std::end(kRound.cycles)) + kScanWrapCycles;
-static_assert(kRound.at[kScanPeriod - 1] == kRoundCycles);
+static_assert(kRound.at[kScanPeriod - 1] == kScanRoundCycles);
 
 /// Slots in whose calls the converter stands.
 constexpr int kStopSlots[] = {2, 3, 32, 61, 62, 63};
@@ -72,7 +71,7 @@ constexpr Cycle stop_at(int kind) { return kRound.at[kStopSlots[kind]]; }
 }  // namespace
 
 Cycle scan_flash_cycles(int sensor) {
-  return kRoundCycles + kRound.at[kScanLitSlot] - kRound.at[kScanDarkSlot] - kScanLightCycles -
+  return kScanRoundCycles + kRound.at[kScanLitSlot] - kRound.at[kScanDarkSlot] - kScanLightCycles -
          hold_to_end(sensor);
 }
 
@@ -141,7 +140,9 @@ int AdcScan::pair_of_lit(std::int64_t period) const {
 }
 
 /// When a call is asked for, not with MICRO_ONLY.
-inline Cycle AdcScan::cycle_of(Place p) const { return round_ + p.round * kRoundCycles + kRound.at[p.slot]; }
+inline Cycle AdcScan::cycle_of(Place p) const {
+  return round_ + p.round * kScanRoundCycles + kRound.at[p.slot];
+}
 
 Cycle AdcScan::full_cycle(std::int64_t interrupt) const {
   const std::int64_t period = interrupt / kScanPeriod;
@@ -174,8 +175,8 @@ inline AdcScan::Place AdcScan::place(Cycle at) const {
   if (micro_only_) return {at > round_ ? (at - round_ - 1) / kScanMicroFrameCycles : 0, 0};
   if (at <= round_) return {0, first_slot_};
   const std::uint64_t before = static_cast<std::uint64_t>(at - round_ - 1);  // the first call beyond this
-  const std::uint64_t round = before / kRoundCycles;
-  const Cycle rest = static_cast<Cycle>(before - round * kRoundCycles);
+  const std::uint64_t round = before / kScanRoundCycles;
+  const Cycle rest = static_cast<Cycle>(before - round * kScanRoundCycles);
   Place p{static_cast<std::int64_t>(round), static_cast<int>(rest / kScanFrameCycles)};
   if (p.slot > 0 && kRound.at[p.slot - 1] > rest) --p.slot;
   if (kRound.at[p.slot] <= rest) p = after(p);
@@ -212,7 +213,7 @@ AdcScan::Call AdcScan::call_before(Place p) const {
 std::uint64_t AdcScan::share_q32() const {
   if (!on_) return 0;
   const Cycle cycles = micro_only_ ? kScanMicroIsrCycles : kRound.before[kScanPeriod];
-  const Cycle of = micro_only_ ? kScanMicroFrameCycles : kRoundCycles;
+  const Cycle of = micro_only_ ? kScanMicroFrameCycles : kScanRoundCycles;
   return (static_cast<std::uint64_t>(cycles) << 32) / static_cast<std::uint64_t>(of);
 }
 
@@ -249,13 +250,13 @@ AdcScan::Delay AdcScan::next_delay(const AgendaTimer& ticks, Cycle until) const 
   for (int kind = 0; kind < kStops; ++kind) {
     std::int64_t round = (noted_stops_ - kind + kStops - 1) / kStops;
     if (kStopSlots[kind] < first_slot_) round = std::max<std::int64_t>(round, 1);
-    const Cycle call = round_ + round * kRoundCycles + stop_at(kind);
+    const Cycle call = round_ + round * kScanRoundCycles + stop_at(kind);
     if (call >= first.at) continue;
     const Cycle since = ticks.since_tick(call);
     if (!ticks.may_delay(since)) continue;
-    const AgendaTimer::Wait wait = ticks.first_wait(call, since, (first.at - 1 - call) / kRoundCycles);
+    const AgendaTimer::Wait wait = ticks.first_wait(call, since, (first.at - 1 - call) / kScanRoundCycles);
     if (wait.cycles == 0) continue;
-    first = {(round + wait.round) * kStops + kind + 1, call + wait.round * kRoundCycles, wait.cycles};
+    first = {(round + wait.round) * kStops + kind + 1, call + wait.round * kScanRoundCycles, wait.cycles};
   }
   if (first.cycles == 0) first.stops = stops_before(until);
   return first;
@@ -266,7 +267,7 @@ AdcScan::Delay AdcScan::delay_at_exit(Cycle at) const {
   if (!on_ || micro_only_) return delay;
   delay.stops = stops_before(at);
   const int kind = static_cast<int>(delay.stops % kStops);
-  const Cycle call = round_ + delay.stops / kStops * kRoundCycles + stop_at(kind);
+  const Cycle call = round_ + delay.stops / kStops * kScanRoundCycles + stop_at(kind);
   if (delay.stops < kStops && kStopSlots[kind] < first_slot_) return delay;
   if (call < at + kExitCycles) delay = {delay.stops + 1, call, at + kExitCycles - call};
   return delay;
@@ -275,9 +276,9 @@ AdcScan::Delay AdcScan::delay_at_exit(Cycle at) const {
 std::int64_t AdcScan::stops_before(Cycle at) const {
   const Cycle since = at - round_;
   if (since <= stop_at(0)) return noted_stops_;
-  const std::int64_t round = since / kRoundCycles;
+  const std::int64_t round = since / kScanRoundCycles;
   int kind = 0;
-  while (kind < kStops && round * kRoundCycles + stop_at(kind) < since) ++kind;
+  while (kind < kStops && round * kScanRoundCycles + stop_at(kind) < since) ++kind;
   return round * kStops + kind;
 }
 
@@ -322,22 +323,21 @@ void AdcScan::keep(Sample& kept, int sensor, std::int64_t number, bool lit_sampl
   kept.number = number;
 }
 
-int AdcScan::dark(int sensor, Cycle at) {
-  Sample& kept = dark_[static_cast<std::size_t>(sensor)];
+int AdcScan::read(Sample& kept, int sensor, Cycle at, bool lit_sample) {
   if (at < kept.until) return kept.counts;
   const std::int64_t filed = full_interrupts(at - kScanFileCycles);
-  keep(kept, sensor, newest(filed, kScanDarkSlot, 1, pair_of_sensor(sensor)), false);
-  kept.until = next_sample(filed, kScanDarkSlot, 1, pair_of_sensor(sensor));
+  const int slot = lit_sample ? kScanLitSlot : kScanDarkSlot, shift = lit_sample ? 0 : 1;
+  keep(kept, sensor, newest(filed, slot, shift, pair_of_sensor(sensor)), lit_sample);
+  kept.until = next_sample(filed, slot, shift, pair_of_sensor(sensor));
   return kept.counts;
 }
 
+int AdcScan::dark(int sensor, Cycle at) {
+  return read(dark_[static_cast<std::size_t>(sensor)], sensor, at, false);
+}
+
 int AdcScan::lit(int sensor, Cycle at) {
-  Sample& kept = lit_[static_cast<std::size_t>(sensor)];
-  if (at < kept.until) return kept.counts;
-  const std::int64_t filed = full_interrupts(at - kScanFileCycles);
-  keep(kept, sensor, newest(filed, kScanLitSlot, 0, pair_of_sensor(sensor)), true);
-  kept.until = next_sample(filed, kScanLitSlot, 0, pair_of_sensor(sensor));
-  return kept.counts;
+  return read(lit_[static_cast<std::size_t>(sensor)], sensor, at, true);
 }
 
 int AdcScan::peek_dark(int sensor, Cycle at) const {
@@ -360,7 +360,7 @@ Cycle AdcScan::mic_hold(int microphone, std::int64_t number) const {
     return run.round + (frame + 1) * kScanMicroFrameCycles - hold_to_end(kMicroFrame, microphone);
   const std::int64_t from_round = run.full % kScanPeriod + frame;
   const int slot = static_cast<int>(from_round % kScanPeriod);
-  return run.round + from_round / kScanPeriod * kRoundCycles + kRound.at[slot] -
+  return run.round + from_round / kScanPeriod * kScanRoundCycles + kRound.at[slot] -
          hold_to_end(frame_of(slot), microphone);
 }
 

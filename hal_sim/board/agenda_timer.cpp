@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "hal_sim/board/adc_scan.h"
 #include "sim_core/base/hash.h"
 
 namespace board {
@@ -484,8 +485,8 @@ Cycle AgendaTimer::next_call(Cycle at) const {
 AgendaTimer::Wait AgendaTimer::first_wait(Cycle at, Cycle since, std::int64_t rounds) const {
   // a round moves an interrupt by 39 of the 59 phases of a tick; 56 rounds move it by one
   constexpr Cycle kPhases = kAgendaTickCycles / kPhaseCycles;
-  constexpr Cycle kRoundCycles = kScanPeriod * kScanFrameCycles, kRoundsAPhase = 56;
-  static_assert(kRoundCycles * kRoundsAPhase % kAgendaTickCycles == kPhaseCycles);
+  constexpr Cycle kRoundsAPhase = 56;
+  static_assert(kScanRoundCycles * kRoundsAPhase % kAgendaTickCycles == kPhaseCycles);
   Wait first{rounds + 1, 0};
   for (int i = 0; i < moment_count_; ++i) {
     const Cycle ahead = moments_[i] - since;
@@ -493,7 +494,7 @@ AgendaTimer::Wait AgendaTimer::first_wait(Cycle at, Cycle since, std::int64_t ro
     const Cycle phases = ahead / kPhaseCycles;
     std::int64_t round = (phases < 0 ? phases + kPhases : phases) * kRoundsAPhase % kPhases;
     for (; round < first.round; round += kPhases) {
-      const Cycle wait = wait_at(at + round * kRoundCycles, moments_[i]);
+      const Cycle wait = wait_at(at + round * kScanRoundCycles, moments_[i]);
       if (wait > 0) first = {round, wait};
     }
   }

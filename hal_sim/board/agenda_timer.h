@@ -23,10 +23,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "hal_sim/board/adc_scan.h"
 #include "hal_sim/board/agenda_motor.h"
 
 namespace board {
+
+class AdcScan;
 
 enum class Wheel { Left = 0, Right = 1 };
 

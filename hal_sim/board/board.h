@@ -184,12 +184,12 @@ class Board {
   const AgendaTimer& agendas() const { return agendas_; }
   TimerMotors& timer_motors() { return timer_motors_; }
   const TimerMotors& timer_motors() const { return timer_motors_; }
-  /// What the handlers of both take from the program.
-  /// Before any change to when they come or what they take.
+  /// What the handlers of the scan and of the agenda tick take from the program.
+  Handlers handlers() const { return {scan_, agendas_}; }
+  /// Before any change to when these come or what they take.
   void settle_handlers(Cycle at);
   /// A handler that was run comes to its RETFIE, during which nothing interrupts.
   void handler_left(Cycle at);
-  Handlers handlers() const { return {scan_, agendas_}; }
   AdcScan& scan() { return scan_; }
   const AdcScan& scan() const { return scan_; }
   Codec& codec() { return codec_; }

@@ -50,6 +50,7 @@ inline constexpr Cycle kScanMicroFrameCycles =
     450;  // MICRO_ONLY, ADCS 19 [lib: a_d/advance_ad_scan/e_ad_conv.c]
 inline constexpr int kScanPeriod =
     65;  // interrupts from one pair to the next [lib: a_d/advance_ad_scan/e_ad_conv.c]
+inline constexpr Cycle kScanRoundCycles = kScanPeriod * kScanFrameCycles;
 inline constexpr int kScanLitSlot = 3;  // PULSE_PERIOD - 1 [lib: a_d/advance_ad_scan/e_ad_conv.c]
 inline constexpr int kScanLitInterrupts =
     5;  // a flash lasts from slot 63 to 3 [lib: a_d/advance_ad_scan/e_ad_conv.c]
@@ -174,7 +175,7 @@ inline constexpr Cycle kMotorPinsLeftSooner = 1;    // of the left motor's funct
 inline constexpr Cycle kScanStartCycles = 15;  // from the converter's being switched on to its first frame
 /// A round of the scan and a tick are multiples of this, so what is asked for once a round keeps its phase.
 inline constexpr Cycle kPhaseCycles = 25;
-static_assert(kScanPeriod * kScanFrameCycles % kPhaseCycles == 0 && kAgendaTickCycles % kPhaseCycles == 0);
+static_assert(kScanRoundCycles % kPhaseCycles == 0 && kAgendaTickCycles % kPhaseCycles == 0);
 /// How far ahead such waits are looked for: bookkeeping, no time of the robot's.
 inline constexpr Cycle kLookAheadCycles = 1'000'000;  // [assumed: programs command motors more often]
 inline constexpr Cycle kPinBlockCycles = 2;  // before a pin changes: an interrupt comes too late to delay it

@@ -16,6 +16,7 @@
 // Steps that were lost and coils that heat the motor are counted (faults()); copies count for themselves.
 #pragma once
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "hal_sim/board/checks_params.h"
@@ -129,12 +130,16 @@ class Stepper {
     }
   };
 
-  void turn_once(int direction, Cycle at, Cycle since) {
-    motion_.from = static_cast<double>(motion_.steps);
+  void begin_step(int direction, double from, Cycle at, Cycle move) {
+    motion_.from = from;
     motion_.steps += direction;
     motion_.moved_at = motion_.stepped_at = motion_.pulled_at = at;
-    motion_.move = std::min(at - since, kRotorMoveCycles);
+    motion_.move = std::min(move, kRotorMoveCycles);
     motion_.ready_at = std::max(motion_.ready_at, at) + kPullOutCycles;
+  }
+  /// A regular step: the rotor stands where the one before, at `since`, has brought it.
+  void turn_once(int direction, Cycle at, Cycle since) {
+    begin_step(direction, static_cast<double>(motion_.steps), at, at - since);
   }
 
   int rotor_phase() const { return static_cast<int>(motion_.steps * forward_) & 3; }
@@ -143,14 +148,8 @@ class Stepper {
     if (motion_.ready_at - at > kPullOutCycles) return faults_.too_fast.note(at);
     before_ = motion_;
     if (move <= 0) move = at - motion_.stepped_at;
-    motion_.from = position(at);
-    const double missing = static_cast<double>(motion_.steps) - motion_.from;
-    if (missing < kRotorThereSteps && missing > -kRotorThereSteps)
-      motion_.from = static_cast<double>(motion_.steps);
-    motion_.steps += direction;
-    motion_.moved_at = motion_.stepped_at = at;
-    motion_.move = move < kRotorMoveCycles ? move : kRotorMoveCycles;
-    motion_.ready_at = (motion_.ready_at > at ? motion_.ready_at : at) + kPullOutCycles;
+    const double there = static_cast<double>(motion_.steps), from = position(at);
+    begin_step(direction, std::abs(there - from) < kRotorThereSteps ? there : from, at, move);
   }
 
   /// The pattern that ends at `at`: has it heated the motor for nothing?
