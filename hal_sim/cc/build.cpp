@@ -19,6 +19,7 @@
 #include "mplab_project.h"
 #include "object_cache.h"
 #include "timer_owners.h"
+#include "twinpuck_paths.h"
 
 namespace cc {
 namespace fs = std::filesystem;

@@ -11,6 +11,7 @@
 #include "hal_sim/twin/twin.h"
 #include "sim_core/base/hash.h"
 #include "sim_core/load/world_loader.h"
+#include "twinpuck_paths.h"
 
 namespace twin {
 

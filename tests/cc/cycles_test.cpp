@@ -15,6 +15,7 @@
 #include "fake_host.h"
 #include "hal_sim/cc/cost_params.h"
 #include "hal_sim/cc/object_cache.h"
+#include "twinpuck_paths.h"
 
 extern "C" __attribute__((visibility("default"))) long long tp_bench_counts[4096];
 long long tp_bench_counts[4096];

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "fake_host.h"
+#include "twinpuck_paths.h"
 
 using namespace fake;
 

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "tests/cli/command.h"
+#include "twinpuck_paths.h"
 
 using namespace cli_test;
 using nlohmann::json;

@@ -11,6 +11,8 @@
 #include <fstream>
 #include <string>
 
+#include "twinpuck_paths.h"
+
 namespace cli_test {
 
 namespace fs = std::filesystem;

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "tests/cli/command.h"
+#include "twinpuck_paths.h"
 
 namespace {
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // twinpuck import: from a .wbt file to a world that runs, and what it says of files that are none.
 #include "tests/cli/command.h"
+#include "twinpuck_paths.h"
 
 using namespace cli_test;
 

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "twinpuck_paths.h"
+
 namespace {
 
 namespace fs = std::filesystem;

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "tests/support/firmware_test.h"
+#include "twinpuck_paths.h"
 
 namespace {
 

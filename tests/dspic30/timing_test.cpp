@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Every row of docs/chip-timing.md: the models give the cycles of the notes, and the page says so.
 #include "tests/dspic30/timing_cases.h"
+#include "twinpuck_paths.h"
 
 #include <gtest/gtest.h>
 

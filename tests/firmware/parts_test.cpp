@@ -8,6 +8,7 @@
 #include "sim_core/load/schema.h"
 #include "sim_core/load/world_loader.h"
 #include "tests/support/firmware_test.h"
+#include "twinpuck_paths.h"
 
 using namespace firmware_test;
 

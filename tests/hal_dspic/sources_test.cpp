@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tests/hal_dspic/sound_samples.h"
+#include "twinpuck_paths.h"
 
 namespace {
 

@@ -9,6 +9,7 @@
 
 #include "hal_sim/board/board.h"
 #include "hal_sim/host/robot.h"
+#include "twinpuck_paths.h"
 
 namespace host_test {
 

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "tests/host/bench.h"
+#include "twinpuck_paths.h"
 
 namespace {
 

@@ -2,6 +2,7 @@
 // What holds in the native way holds here: traps stop one robot, runs repeat, robots of one image are apart,
 // and both ways live in one world.
 #include "tests/register/register_fixture.h"
+#include "twinpuck_paths.h"
 
 namespace register_test {
 namespace {

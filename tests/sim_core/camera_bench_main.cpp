@@ -8,6 +8,7 @@
 #include "sim_core/camera/camera.h"
 #include "sim_core/load/world_loader.h"
 #include "tests/sim_core/fixture.h"
+#include "twinpuck_paths.h"
 
 int main(int argc, char** argv) {
   const int pictures = argc > 1 ? std::atoi(argv[1]) : 20000;

@@ -2,6 +2,7 @@
 // Same inputs, same bytes: for any number of threads, any order of reading, and from run to run.
 #include "sim_core/random/counter_random.h"
 #include "tests/sim_core/fixture.h"
+#include "twinpuck_paths.h"
 
 using namespace sim_test;
 

@@ -16,6 +16,7 @@
 #include "sim_core/record/frame_encoder.h"
 #include "tests/sim_core/fixture.h"
 #include "tests/support/film_reader.h"
+#include "twinpuck_paths.h"
 
 using namespace sim_test;
 using film_test::Read;

@@ -7,6 +7,7 @@
 
 #include "sim_core/record/heatmap.h"
 #include "tests/sim_core/fixture.h"
+#include "twinpuck_paths.h"
 
 using namespace sim_test;
 

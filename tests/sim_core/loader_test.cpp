@@ -6,6 +6,7 @@
 #include "sim_core/load/schema.h"
 #include "sim_core/world/variation.h"
 #include "tests/sim_core/fixture.h"
+#include "twinpuck_paths.h"
 
 using namespace sim_test;
 

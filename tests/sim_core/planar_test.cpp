@@ -4,6 +4,7 @@
 
 #include "sim_core/physics/plan_contact.h"
 #include "tests/sim_core/fixture.h"
+#include "twinpuck_paths.h"
 
 using namespace sim_test;
 

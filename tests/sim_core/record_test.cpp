@@ -9,6 +9,7 @@
 #include "sim_core/record/csv_recorder.h"
 #include "sim_core/record/picture.h"
 #include "tests/sim_core/fixture.h"
+#include "twinpuck_paths.h"
 
 using namespace sim_test;
 

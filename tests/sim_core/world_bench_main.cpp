@@ -5,6 +5,7 @@
 #include <ctime>
 
 #include "tests/sim_core/fixture.h"
+#include "twinpuck_paths.h"
 
 using namespace sim_test;
 

@@ -6,6 +6,7 @@
 
 #include "hal_sim/host/shared_object.h"
 #include "tests/support/firmware_test.h"
+#include "twinpuck_paths.h"
 
 namespace {
 

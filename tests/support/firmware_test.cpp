@@ -9,6 +9,7 @@
 #include "hal_sim/board/part.h"
 #include "sim_core/base/hash.h"
 #include "sim_core/load/world_loader.h"
+#include "twinpuck_paths.h"
 
 namespace firmware_test {
 
