@@ -6,11 +6,13 @@ WORLD ?= maze
 T     ?=
 ARGS  ?=
 XC16  ?= xc16-gcc
+PACKAGES ?= build
 
 BUILD  := build
 OUT    := $(BUILD)/run
 JOBS   := $(shell nproc)
 CMAKE  := cmake -G Ninja -S .
+NINJA  := python3 scripts/progress.py $(BUILD) $(JOBS)
 
 .DEFAULT_GOAL := help
 .PHONY: help setup tool build run test view dspic check format bench asan tsan fuzz levels clean
@@ -23,24 +25,24 @@ help:
 	@echo
 	@echo "  variables: FW=controller (folder of firmware/)  WORLD=world (file of worlds/)  T=filter  ARGS=options"
 
-## setup: install the packages that building and testing need (Debian 12)
+## setup: install the packages that building and testing need; PACKAGES=debug installs gdb
 setup:
-	@scripts/setup.sh
+	@scripts/setup.sh $(PACKAGES)
 
 # configures once; $(1): build folder, $(2): what differs from the usual build
 define configure
-@test -f $(1)/build.ninja || $(CMAKE) -B $(1) $(2) >$(1).log 2>&1 || { cat $(1).log; rm -f $(1).log; exit 1; }; rm -f $(1).log
+@test -f $(1)/build.ninja || echo "configuring $(1)"; test -f $(1)/build.ninja || $(CMAKE) -B $(1) $(2) >$(1).log 2>&1 || { cat $(1).log; rm -f $(1).log; exit 1; }; rm -f $(1).log
 endef
 
 # the command and the firmware compiler, without tests
 tool: setup
 	$(call configure,$(BUILD),)
-	@ninja -C $(BUILD) --quiet -j $(JOBS) twinpuck
+	@$(NINJA) twinpuck
 
 ## build: build everything for the PC
 build: setup
 	$(call configure,$(BUILD),)
-	@ninja -C $(BUILD) --quiet -j $(JOBS)
+	@$(NINJA)
 
 ## run: 60 simulated seconds of FW in WORLD: summary, CSV and picture
 run: tool
@@ -50,8 +52,9 @@ run: tool
 	  --record $(OUT)/$(FW).csv --summary $(OUT)/$(FW).json --picture $(OUT)/$(FW).png $(ARGS)
 
 ## test: all tests that need no browser; T=filter selects by name
-test: build
-	@scripts/run_tests.sh $(BUILD) '$(T)'
+test: setup
+	$(call configure,$(BUILD),)
+	@scripts/run_tests.py $(BUILD) $(JOBS) --filter '$(T)'
 
 ## view: the same run in the browser
 view:
@@ -77,23 +80,22 @@ format:
 ## bench: speed for 1 to 1000 robots, beside libenki
 bench: tool
 	@scripts/setup.sh bench
-	@ninja -C $(BUILD) --quiet -j $(JOBS) bench
+	@$(CMAKE) -B $(BUILD) >/dev/null
+	@$(NINJA) bench
 	@$(BUILD)/bin/bench $(ARGS)
 
 # the tests that run the simulator in their own process: the compiler's and the command's start others
-SANITIZED = board_test sim_core_test dspic30_test import_test host_test golden_test supervisor_test firmware_test
+SANITIZED = dspic30_test,sim_core_test,host_test,board_test,import_test,supervisor_test,golden_test,firmware_test
 
 ## asan: the simulator's tests under the address and undefined-behaviour sanitizers
 asan: setup
 	@$(CMAKE) -B $(BUILD)-asan -DTWINPUCK_OPTIMISE="-O1 -g1" -DTWINPUCK_SANITIZE=address,undefined >/dev/null
-	@ninja -C $(BUILD)-asan --quiet -j $(JOBS) $(SANITIZED)
-	@scripts/run_tests.sh $(BUILD)-asan '$(T)'
+	@scripts/run_tests.py $(BUILD)-asan $(JOBS) --filter '$(T)' --programs $(SANITIZED)
 
 ## tsan: the simulator's tests under the thread sanitizer
 tsan: setup
 	@$(CMAKE) -B $(BUILD)-tsan -DTWINPUCK_OPTIMISE="-O1 -g1" -DTWINPUCK_SANITIZE=thread >/dev/null
-	@ninja -C $(BUILD)-tsan --quiet -j $(JOBS) $(SANITIZED)
-	@scripts/run_tests.sh $(BUILD)-tsan '$(T)'
+	@scripts/run_tests.py $(BUILD)-tsan $(JOBS) --filter '$(T)' --programs $(SANITIZED)
 
 ## fuzz: ten minutes of broken files each against the loader of worlds and the importer of Webots' worlds
 fuzz: setup

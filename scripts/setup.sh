@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # Installs what building and testing need on Debian 12, and says nothing when all is there.
 #
-#   scripts/setup.sh [GROUP]    GROUP: build (default), check, bench, fuzz
+#   scripts/setup.sh [GROUP]    GROUP: build (default), check, bench, fuzz, debug
 #
 # Needs root or sudo only when something is missing.
 set -eu
@@ -15,6 +15,7 @@ build="g++ cmake ninja-build pkg-config python3 binutils zlib1g-dev
 check="clang-format clang-tidy"
 bench="libenki-dev libbenchmark-dev"
 fuzz="clang-14 libclang-rt-14-dev"
+debug="gdb"
 
 group=${1:-build}
 case $group in
@@ -22,8 +23,9 @@ case $group in
   check) packages=$check ;;
   bench) packages=$bench ;;
   fuzz) packages=$fuzz ;;
+  debug) packages=$debug ;;
   *)
-    echo "setup.sh: group: got '$group', expected build, check, bench or fuzz" >&2
+    echo "setup.sh: group: got '$group', expected build, check, bench, fuzz or debug" >&2
     exit 2
     ;;
 esac
@@ -53,15 +55,43 @@ if [ "$(id -u)" = 0 ]; then
 elif command -v sudo >/dev/null; then
   as_root=sudo
 else
-  echo "setup.sh: needs root or sudo to install:$missing" >&2
+  echo "setup.sh: packages are missing, and installing them needs root. As root, run:" >&2
+  echo "  apt-get update && apt-get install -y --no-install-recommends$missing" >&2
   exit 2
 fi
 
 echo "setup.sh: installing$missing"
-log=$(mktemp)
-trap 'rm -f "$log"' EXIT
-# waits up to five minutes for another apt that may be running
-apt() { $as_root env DEBIAN_FRONTEND=noninteractive apt-get -q -o DPkg::Lock::Timeout=300 "$@" >>"$log" 2>&1; }
-apt update || { cat "$log" >&2; echo "setup.sh: apt-get update failed, see above" >&2; exit 2; }
-apt install -y --no-install-recommends $missing ||
+scratch=$(mktemp -d)
+log=$scratch/log
+status=$scratch/status
+trap 'rm -rf "$scratch"' EXIT
+
+# apt STAGE WORDS...: waits up to five minutes for another apt that may be running; a line every five seconds says how
+# far it is, by the percentages that apt writes to descriptor 3
+apt() {
+  stage=$1
+  shift
+  echo "packages $stage"
+  : >"$status"
+  $as_root env DEBIAN_FRONTEND=noninteractive \
+    sh -c 'exec 3>"$0"; exec apt-get -q -o DPkg::Lock::Timeout=300 -o APT::Status-Fd=3 "$@"' "$status" "$@" >>"$log" 2>&1 &
+  running=$!
+  seconds=0
+  while kill -0 $running 2>/dev/null; do
+    sleep 1
+    seconds=$((seconds + 1))
+    [ $((seconds % 5)) = 0 ] || continue
+    # "dlstatus:3:41.5:..." while packages are fetched, "pmstatus:cmake:60.1:..." while they are unpacked
+    tail -n 1 "$status" | tr -d '\r' |
+      awk -F: -v s=$seconds -v stage="$stage" '{ if ($3 > 0) printf "packages %s: %.0f %%, %d s\n", stage, $3, s
+                                                 else printf "packages %s: %d s\n", stage, s; said = 1 }
+                                               END { if (!said) printf "packages %s: %d s\n", stage, s }'
+  done
+  wait $running
+}
+apt "1/3 reading the lists" update ||
+  { cat "$log" >&2; echo "setup.sh: apt-get update failed, see above" >&2; exit 2; }
+apt "2/3 fetching" install -y --no-install-recommends --download-only $missing ||
+  { cat "$log" >&2; echo "setup.sh: apt-get could not fetch the packages, see above" >&2; exit 2; }
+apt "3/3 installing" install -y --no-install-recommends $missing ||
   { cat "$log" >&2; echo "setup.sh: apt-get install failed, see above" >&2; exit 2; }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "hal_sim/board/board.h"
+#include "sim_core/base/portable_math.h"
 #include "sim_core/random/counter_random.h"
 #include "sim_core/world/true_motion.h"
 
@@ -14,7 +15,6 @@ namespace board {
 namespace {
 
 constexpr std::uint32_t kStream = sim::kStreamBoard + 32;
-constexpr double kTwoPi = 6.283185307179586;
 
 constexpr double kFaded = 0.01;  // older shares of a filter's answer are left to the oldest counted one
 
@@ -27,7 +27,7 @@ sim::Vec3 plus(const sim::Vec3& a, double k, const sim::Vec3& b) {
   return {a.x + k * b.x, a.y + k * b.y, a.z + k * b.z};
 }
 
-double time_constant_s(double pole_hz) { return 1 / (kTwoPi * pole_hz); }
+double time_constant_s(double pole_hz) { return 1 / (sim::kTwoPi * pole_hz); }
 
 /// The newest instant whose motion is known whenever a sample of `at` may be worked out.
 sim::Clicks known(const Board& robot, Cycle at) {
@@ -76,7 +76,7 @@ int accelerometer_counts(const Board& robot, int axis, Cycle at, std::uint64_t s
     const sim::RandomKey key{robot.setup().seed, static_cast<std::uint32_t>(robot.setup().robot),
                              kStream + static_cast<std::uint32_t>(axis)};
     // a pole lets through white noise as a band of pi / 2 times its frequency
-    const double noise_g = kAccNoiseGPerRtHz * std::sqrt(0.25 * kTwoPi * pole_hz);
+    const double noise_g = kAccNoiseGPerRtHz * std::sqrt(0.25 * sim::kTwoPi * pole_hz);
     g += robot.setup().motion_noise_scale * noise_g * sim::random_gaussian(key, sample);
   }
   constexpr double kRail = kAccRailV / kAdcReferenceV * (kAdcMax + 1);

@@ -17,6 +17,7 @@
 #include "hal_sim/board/remote_params.h"
 #include "hal_sim/board/sound_bank.h"
 #include "sim_core/base/hash.h"
+#include "sim_core/base/portable_math.h"
 #include "sim_core/light/proximity.h"
 #include "sim_core/random/counter_random.h"
 #include "sim_core/sound/sound_field.h"
@@ -44,7 +45,6 @@ constexpr int kOnes[16] = {0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};
 constexpr std::uint16_t kRingMask =
     bit(6) | bit(7) | bit(9) | bit(10) | bit(12) | bit(13) | bit(14) | bit(15);
 
-constexpr double kTwoPi = 6.283185307179586;
 constexpr std::uint32_t kAmbientStream = sim::kStreamBoard;          // + sensor
 constexpr std::uint32_t kReflectionStream = sim::kStreamBoard + 16;  // + sensor
 constexpr std::uint32_t kMicrophoneStream = sim::kStreamBoard + 32;  // + microphone
@@ -105,7 +105,7 @@ Stepper& Board::stepper(Wheel wheel, Cycle at) {
 double Board::wheel_angle_rad(Wheel wheel, Cycle at) const {
   const double steps = timer_motors_.drives(wheel) ? stepper_at(wheel, at).position(at)
                                                    : agendas_.stepper_at(wheel, at).position(at);
-  return steps * (kTwoPi / kStepsPerTurn) * setup_.wheel_ratio[static_cast<std::size_t>(wheel)];
+  return steps * (sim::kTwoPi / kStepsPerTurn) * setup_.wheel_ratio[static_cast<std::size_t>(wheel)];
 }
 
 std::int64_t Board::steps(Wheel wheel, Cycle at) const { return stepper_at(wheel, at).steps(); }

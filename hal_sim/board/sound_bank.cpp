@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "hal_sim/board/sound_params.h"
+#include "sim_core/base/portable_math.h"
 #include "sim_core/random/counter_random.h"
 
 namespace board {
@@ -16,7 +17,6 @@ namespace {
 constexpr double kRateHz = 7200;     // samples a second, of the codec
 constexpr double kHighestHz = 3300;  // no harmonic nearer to half the rate
 constexpr double kPeak = 24000;      // of each sound: 2.7 dB below full scale
-constexpr double kTwoPi = 6.283185307179586;
 
 struct Mouth {
   double f1, f2, f3;  // resonances, Hz
@@ -125,14 +125,15 @@ void speak(const Word& word, std::vector<double>& out) {
     if (now.voice > 0) {
       for (int h = 1; h * now.pitch_hz < kHighestHz; ++h)
         value += passes(now.mouth, h * now.pitch_hz) / std::sqrt(static_cast<double>(h)) *
-                 sim::sin_cos(kTwoPi * h * turns).s;
+                 sim::sin_cos(sim::kTwoPi * h * turns).s;
       value *= now.voice;
     }
     const double noise = sim::random_gaussian(key, static_cast<std::uint64_t>(i));
     const double centres[3] = {now.mouth.f1, now.mouth.f2, now.mouth.f3};
     for (int r = 0; r < 3; ++r) {
       constexpr double kRadius = 0.95;
-      const double next = noise + 2 * kRadius * sim::sin_cos(kTwoPi * centres[r] / kRateHz).c * breath[r][0] -
+      const double next = noise +
+                          2 * kRadius * sim::sin_cos(sim::kTwoPi * centres[r] / kRateHz).c * breath[r][0] -
                           kRadius * kRadius * breath[r][1];
       breath[r][1] = breath[r][0];
       breath[r][0] = next;

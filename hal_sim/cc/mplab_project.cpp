@@ -14,7 +14,7 @@ namespace cc {
 namespace fs = std::filesystem;
 namespace {
 
-std::string lower(std::string text) {
+std::string lower_case(std::string text) {
   for (char& c : text) c = char(std::tolower(static_cast<unsigned char>(c)));
   return text;
 }
@@ -25,7 +25,7 @@ fs::path entry_of(const fs::path& folder, const std::string& name) {
   if (name == "." || name == "..") return folder / name;
   if (fs::exists(folder / name, ec)) return folder / name;
   for (fs::directory_iterator it(folder, ec), end; !ec && it != end; it.increment(ec))
-    if (lower(it->path().filename().string()) == lower(name)) return it->path();
+    if (lower_case(it->path().filename().string()) == lower_case(name)) return it->path();
   return {};
 }
 
@@ -98,13 +98,13 @@ Listed read_configurations(const std::string& text) {
 std::optional<MplabProject> read_project(const fs::path& file, const fs::path& home) {
   const std::string text = read_text(file);
   const Listed listed =
-      lower(file.extension().string()) == ".mcp" ? read_mcp(text) : read_configurations(text);
+      lower_case(file.extension().string()) == ".mcp" ? read_mcp(text) : read_configurations(text);
   MplabProject project{file, {}, {}};
   bool has_main = false;
   std::error_code ec;
   for (const std::string& name : listed.files) {
     const fs::path found = resolve(home, name).lexically_normal();
-    if (lower(found.extension().string()) != ".c" || !fs::is_regular_file(found, ec)) continue;
+    if (lower_case(found.extension().string()) != ".c" || !fs::is_regular_file(found, ec)) continue;
     if (std::find(project.sources.begin(), project.sources.end(), found) != project.sources.end()) continue;
     project.sources.push_back(found);
     has_main = has_main || defines_main(found);
@@ -138,7 +138,7 @@ std::optional<MplabProject> find_mplab_project(const fs::path& folder) {
   add_configurations(home);
   std::error_code ec;
   for (fs::directory_iterator it(home, ec), end; !ec && it != end; it.increment(ec)) {
-    const std::string extension = lower(it->path().extension().string());
+    const std::string extension = lower_case(it->path().extension().string());
     if (extension == ".mcp" && it->is_regular_file()) files.emplace_back(it->path(), home);
     if (extension == ".x" && it->is_directory()) add_configurations(it->path());
   }

@@ -10,6 +10,8 @@
 
 namespace sim {
 
+inline constexpr double kTwoPi = 6.283185307179586;  // rad
+
 struct SinCos {
   double s = 0;
   double c = 1;

@@ -13,8 +13,8 @@
 namespace sim {
 namespace {
 
-constexpr double kMarginPx = 8, kHeadPx = 30, kFootPx = 36;
-constexpr double kNarrowestPx = 320;  // room for the time and the scale bar
+constexpr double kFilmMarginPx = 8, kHeadPx = 30, kFilmFootPx = 36;
+constexpr double kFilmNarrowestPx = 320;  // room for the time and the scale bar
 constexpr double kTimePx = 15;
 
 int even(double px) { return 2 * static_cast<int>(std::ceil(px / 2 - 1e-9)); }
@@ -36,13 +36,13 @@ Film::Film(const std::string& path, const Scene& scene, const FilmOptions& optio
                   std::max(layout.high_m.y - layout.low_m.y, 1e-3)};
   const double size = options.size_px;
   double width = size, height = size;
-  double foot = kFootPx;
+  double foot = kFilmFootPx;
   for (int round = 0; round < 2; ++round) {  // a narrower frame may need more rows of legend
-    const int rows = legend_->arrange(width - 2 * kMarginPx - kScaleBarRoomPx);
-    foot = kFootPx + std::max(0, rows - 1) * Legend::kRowPx;
-    const double px_per_m = std::min((size - 2 * kMarginPx) / span.x, (size - kHeadPx - foot) / span.y);
+    const int rows = legend_->arrange(width - 2 * kFilmMarginPx - kScaleBarRoomPx);
+    foot = kFilmFootPx + std::max(0, rows - 1) * Legend::kRowPx;
+    const double px_per_m = std::min((size - 2 * kFilmMarginPx) / span.x, (size - kHeadPx - foot) / span.y);
     place_ = std::make_unique<MapPlace>(place_map(scene, px_per_m * std::max(span.x, span.y)));
-    width = std::max(std::min(kNarrowestPx, size), place_->width_px() + 2 * kMarginPx);
+    width = std::max(std::min(kFilmNarrowestPx, size), place_->width_px() + 2 * kFilmMarginPx);
     height = kHeadPx + place_->height_px() + foot;
   }
   place_->left_px = 0.5 * (even(width) - place_->width_px());
@@ -103,10 +103,10 @@ void Film::draw(Clicks at, const Scene& scene, const Minds& minds, const std::ve
                                : fmt::format("{:.2f} s  x{:g}", to_seconds(at), options_.speed);
   const double time_width = text_width_px(cr, time, kTimePx, true);
   cairo_set_source_rgb(cr, 0.1, 0.1, 0.1);
-  draw_text(cr, time, width - kMarginPx - time_width, 20, kTimePx, true);
+  draw_text(cr, time, width - kFilmMarginPx - time_width, 20, kTimePx, true);
   // as much of the title as there is room for
   std::string title = scene.world().title;
-  const double room = width - 3 * kMarginPx - std::max(time_width, 110.0);
+  const double room = width - 3 * kFilmMarginPx - std::max(time_width, 110.0);
   if (text_width_px(cr, title, kTimePx) > room) {
     while (!title.empty() && text_width_px(cr, title + "...", kTimePx) > room) {
       do title.pop_back();
@@ -116,10 +116,10 @@ void Film::draw(Clicks at, const Scene& scene, const Minds& minds, const std::ve
     title += "...";
   }
   cairo_set_source_rgb(cr, 0.35, 0.35, 0.35);
-  draw_text(cr, title, kMarginPx, 20, kTimePx);
+  draw_text(cr, title, kFilmMarginPx, 20, kTimePx);
   const double foot_y = place_->top_px + place_->height_px() + 16;
-  draw_scale_bar(cr, *place_, kMarginPx, foot_y);
-  legend_->draw(cr, kMarginPx + kScaleBarRoomPx, foot_y);
+  draw_scale_bar(cr, *place_, kFilmMarginPx, foot_y);
+  legend_->draw(cr, kFilmMarginPx + kScaleBarRoomPx, foot_y);
   draw_labels(cr, labels, width, height);
   if (!canvas_->error().empty()) error_ = "film: " + canvas_->error();
 }

@@ -15,7 +15,7 @@
 namespace sim {
 namespace {
 
-constexpr double kMarginPx = 28, kTitlePx = 62, kFootPx = 66, kNarrowestPx = 520;
+constexpr double kHeatmapFootPx = 66;
 constexpr double kBarPx = 220;     // length of the colour bar
 constexpr double kDecades = 1e-3;  // of the top of the scale: what is less has the lowest colour
 
@@ -158,7 +158,7 @@ std::string write_heatmap(const std::string& path, const Heatmap& heatmap, const
   place.left_px = kMarginPx;
   place.top_px = kTitlePx;
   const double width = std::max(kNarrowestPx, std::ceil(place.width_px() + 2 * kMarginPx));
-  const double height = std::ceil(kTitlePx + place.height_px() + kFootPx);
+  const double height = std::ceil(kTitlePx + place.height_px() + kHeatmapFootPx);
   const HeatScale scale(heatmap, options.linear);
   return write_drawing(path, width, height, [&](cairo_t* cr) {
     {
@@ -175,7 +175,7 @@ std::string write_heatmap(const std::string& path, const Heatmap& heatmap, const
       map.lamps();
     }
     draw_title(cr, scene, options.caption, kMarginPx);
-    const double foot_y = kTitlePx + place.height_px() + kFootPx - 30;
+    const double foot_y = kTitlePx + place.height_px() + kHeatmapFootPx - 30;
     draw_scale_bar(cr, place, kMarginPx, foot_y);
     colour_bar(cr, scale, fmt::format("of all robots' time, in a cell of {:g} cm", 100 * side),
                kMarginPx + kScaleBarRoomPx + 20, foot_y);

@@ -43,6 +43,8 @@ void add_ray_legend(Legend& legend);
 /// Shows low to high in a canvas whose map is at most `longer_side_px` on its longer side.
 MapPlace place_map(const Scene& scene, double longer_side_px);
 
+/// Around a map that is a picture of its own: its margins, the room for the title above, the least width, px.
+inline constexpr double kMarginPx = 28, kTitlePx = 62, kNarrowestPx = 520;
 /// Room for a scale bar and its text to the left of a legend, px.
 inline constexpr double kScaleBarRoomPx = 130;
 /// A bar of a round length, at most 100 px, its left end at x, y.

@@ -12,8 +12,7 @@
 namespace sim {
 namespace {
 
-constexpr double kMarginPx = 28, kTitlePx = 62, kFootPx = 64;
-constexpr double kNarrowestPx = 520;
+constexpr double kFootPx = 64;
 constexpr int kMostLegend = 8;  // robots named in the legend
 
 Legend legend_of(const Scene& scene, bool ways, bool rays) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "sim_core/sound/sound_source.h"
+#include "sim_core/base/portable_math.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +10,6 @@
 namespace sim {
 namespace {
 
-constexpr double kTwoPi = 6.283185307179586;
 constexpr double kNever = 1e300;
 constexpr std::uint32_t kStreamSound = 32;  // of the world's sources: below what boards use
 constexpr std::uint64_t kDrawsPerBurst = 2 * kClapTones;

@@ -26,7 +26,7 @@ struct Subscription {
   double next_s;
 };
 
-std::vector<std::unique_ptr<NodeStruct>> nodes;
+std::vector<std::unique_ptr<NodeStruct>> found_nodes;
 std::vector<Subscription> subscriptions;
 
 /// x, y, z, then axis and angle, one a bit of the mask.
@@ -62,11 +62,11 @@ extern "C" {
 
 NodeRef supervisor_node_get_from_def(const char* def) {
   const std::string name = def ? def : "";
-  for (const auto& node : nodes)
+  for (const auto& node : found_nodes)
     if (node->def == name) return node.get();
-  nodes.push_back(std::make_unique<NodeStruct>());
-  *nodes.back() = {name, sv_find(name.c_str())};
-  return nodes.back().get();
+  found_nodes.push_back(std::make_unique<NodeStruct>());
+  *found_nodes.back() = {name, sv_find(name.c_str())};
+  return found_nodes.back().get();
 }
 
 int supervisor_node_was_found(NodeRef node) { return node && node->thing >= 0; }

@@ -1,0 +1,120 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Builds and runs the test programs of a build folder, one line a test, and ends with "N passed, N failed".
+
+    scripts/run_tests.py BUILD_FOLDER JOBS [--filter PART_OF_A_NAME] [--programs A,B,...]
+
+While one program runs, the next ones are built, so the first results come early. The filter selects programs or single
+tests; a program that runs a list of tests, as firmware_register_test does, runs those of its list that match.
+Exit code: 0 all passed, 1 some failed or did not build, 5 nothing selected.
+"""
+import argparse
+import os
+import queue
+import re
+import subprocess
+import sys
+import threading
+import time
+
+from progress import ninja, read_lines, say
+
+RESULT = re.compile(r"^\[\s+(OK|FAILED|SKIPPED)\s+\] ([^ ,]+).*\((\d+) ms\)$")
+BEGIN = re.compile(r"^\[ RUN      \] (.*)")
+
+
+def listed(program):
+    """The tests of a program, as 'Suite.test'."""
+    output = subprocess.run([program, "--gtest_list_tests"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                            text=True, check=False).stdout
+    names, suite = [], ""
+    for line in output.splitlines():
+        word = line.split("#")[0].strip()
+        if line.startswith("  "):
+            names.append(suite + word)
+        elif word.endswith("."):
+            suite = word
+    return names
+
+
+def run(path, name, tests):
+    """Runs the given tests of a program, all of them if `tests` is None. Returns how many passed and failed."""
+    command = [path] + ([] if tests is None else ["--gtest_filter=" + ":".join(tests)])
+    environment = dict(os.environ, GTEST_COLOR="no",
+                       LSAN_OPTIONS=f"suppressions={os.getcwd()}/scripts/lsan.supp:print_suppressions=0")
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, env=environment)
+    passed = failed = 0
+    current, said, since = "", [], time.monotonic()
+    for line in read_lines(process):
+        if line is None:
+            say(f"...   {name}: {current}, {time.monotonic() - since:.0f} s")
+            continue
+        begin, result = BEGIN.match(line), RESULT.match(line)
+        if begin:
+            current, said, since = begin.group(1), [], time.monotonic()
+        elif result and current:
+            if result.group(1) == "FAILED":
+                failed += 1
+                say("\n".join([f"FAIL  {name}: {current}"] + ["      " + s for s in said]))
+            else:
+                passed += result.group(1) == "OK"
+                say(f"{'ok  ' if result.group(1) == 'OK' else 'skip'}  {name}: {current}")
+            current, said = "", []
+        else:
+            said.append(line)
+    status = process.wait()
+    if status != 0 and not failed:
+        failed = 1
+        say("\n".join([f"FAIL  {name}: ended with status {status}" + (f" in {current}" if current else "")] +
+                      ["      " + s for s in said[-200:]]))
+    return passed, failed
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("build")
+    parser.add_argument("jobs", type=int)
+    parser.add_argument("--filter", default="")
+    parser.add_argument("--programs", default="")
+    options = parser.parse_args()
+    with open(f"{options.build}/tests/programs.txt", encoding="utf-8") as file:
+        programs = [line.split() for line in file.read().split("\n") if line]  # its name, then the target to build
+    if options.programs:
+        wanted = options.programs.split(",")
+        programs = [p for p in programs if p[0] in wanted]
+
+    built = queue.Queue()
+
+    def build_all():
+        for name, target in programs:
+            built.put((name, ninja(options.build, [target], options.jobs, "      ")))
+        built.put(None)
+
+    threading.Thread(target=build_all, daemon=True).start()
+    passed = failed = 0
+    while True:
+        item = built.get()
+        if item is None:
+            break
+        name, status = item
+        if status != 0:
+            failed += 1
+            say(f"FAIL  {name}: does not build")
+            continue
+        path = f"{options.build}/tests/{name}"
+        tests = None
+        if options.filter and options.filter not in name:
+            tests = [t for t in listed(path) if options.filter in t]
+            if not tests:
+                continue
+        p, f = run(path, name, tests)
+        passed += p
+        failed += f
+    if passed + failed == 0:
+        print(f"make test: T: got '{options.filter}', expected a part of a test's or a program's name", file=sys.stderr)
+        return 5
+    say(f"{passed} passed, {failed} failed")
+    return 1 if failed else 0
+
+
+sys.exit(main())
