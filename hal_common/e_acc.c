@@ -50,9 +50,10 @@ static void refresh_lsm330(void) {
 int e_get_acc(unsigned int captor) {
   if (isEpuckVersion1_3()) {
     refresh_lsm330();
+    /* the readings change places here and the centres do not: the original's own slip */
     switch (captor) {
-      case ACCX_BUFFER: return to_analogue_scale(last_y - centre_x);
-      case ACCY_BUFFER: return to_analogue_scale(last_x - centre_y);
+      case ACCX_BUFFER: return to_analogue_scale(last_y - centre_y);
+      case ACCY_BUFFER: return to_analogue_scale(last_x - centre_x);
       case ACCZ_BUFFER: return to_analogue_scale(last_z - centre_z);
       default: return (int)ANGLE_ERROR;
     }

@@ -5,7 +5,10 @@
 
 void e_fast_copy(int *in_array, int *out_array, int size) {
   int i;
-  for (i = 0; i < size; i++) out_array[i] = in_array[i];
+  for (i = 0; i < size; i++) {
+    *out_array++ = in_array[i];
+    *out_array++ = 0;
+  }
 }
 
 void e_subtract_mean(int *array, int size, int log2size) {

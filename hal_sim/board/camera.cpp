@@ -99,14 +99,14 @@ void Camera::plan_line() {
   line_.clear();
   columns_.clear();
   const int bpp = taken_.bytes_per_pixel();
-  const int first = taken_.first_x - (request_.in_step ? taken_.sub_sampling : 0);
+  const int first = taken_.first_x - taken_.sub_sampling;  // of the line as it comes out of the sensor
   int last_pixel = -1;
   for (int column = 0; column < request_.columns; ++column) {
     for (int part = 0; part < request_.bytes_per_pixel; ++part) {
       const int turn = column * request_.bytes_per_pixel * (1 + request_.skipped_pixels) + part;
-      const int byte = request_.in_step
-                           ? turn
-                           : static_cast<int>(2 * kMaskCycles * turn / std::max(1, taken_.byte_half_cycles));
+      const int byte = request_.in_step ? turn
+                                        : static_cast<int>(2 * (kFirstByteCycles + kMaskCycles * turn) /
+                                                           std::max(1, taken_.byte_half_cycles));
       const int pixel = byte / bpp;
       if (pixel != last_pixel || columns_.empty()) {
         columns_.push_back(first + (pixel + 0.5) * taken_.sub_sampling);

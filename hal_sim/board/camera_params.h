@@ -35,8 +35,9 @@ inline constexpr int kLongestFrames = 2;  // [measured: documentation of epuckli
 
 inline constexpr Cycle kMaskCycles =
     8;  // per byte of a line, taken or not [lib: camera/fast_2_timer/e_interrupt.s]
-inline constexpr Cycle kLineIsrCycles =
-    26;  // entry to first byte, end of line, RETFIE [lib: camera/fast_2_timer/e_interrupt.s]
+// from HREF's rise to the first byte that the fast driver takes: 2 until timer 4 has counted it, 5 for the
+// interrupt's entry, 10 in the handler [lib: camera/fast_2_timer/e_interrupt.s, DS70143 5.4]
+inline constexpr Cycle kFirstByteCycles = 17;
 inline constexpr Cycle kFrameIsrCycles =
     30;  // the frame's interrupt [estimated: context, three bits, RETFIE]
 inline constexpr Cycle kSlowPixelCycles =

@@ -115,8 +115,6 @@ std::uint8_t CameraPins::data(Cycle at) {
   if (line < 0 || line >= f_.lines || phase - line * f_.line >= f_.high) return 0;
   board::Camera& camera = *board_.camera();
   const Cycle start = f_.start + frame * f_.length;
-  const std::int64_t before_isr =
-      camera.setup().bytes_per_pixel();  // pixels of an in-step driver begin earlier
   if (captured_ != start) {
     const board::SensorSetup setup = camera.setup();
     board::Camera::Request all;
@@ -135,9 +133,7 @@ std::uint8_t CameraPins::data(Cycle at) {
     camera.take_line(bytes_.data(), static_cast<int>(bytes_.size()), start + f_.first + line * f_.line);
     line_ = line;
   }
-  // the sensor's first pixel is the one that a driver takes kLineIsrCycles after HREF
-  const std::int64_t index =
-      floor_div(2 * (phase - line * f_.line - board::kLineIsrCycles), f_.byte_half_cycles) + before_isr;
+  const std::int64_t index = floor_div(2 * (phase - line * f_.line), f_.byte_half_cycles);
   return bytes_[static_cast<std::size_t>(std::clamp<std::int64_t>(index, 0, f_.bytes - 1))];
 }
 

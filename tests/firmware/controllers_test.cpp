@@ -200,12 +200,21 @@ TEST_F(FirmwareTest, a_transform_helper_rounds_the_mean_down) {
   Robot& robot = add_robot_with_source(
       "#include <fft/e_fft_utilities.h>\n"
       "int in[4] = {-1, -2, 30000, 30001};\n"
-      "int out[4];\n"
-      "int main(void) { e_fast_copy(in, out, 4); e_subtract_mean(out, 4, 2); while (1); }\n");
+      "int main(void) { e_subtract_mean(in, 4, 2); while (1); }\n");
   run_for(0.1);
   // the sum is 59998, a quarter of it 14999.5, the mean 14999
   using Words = std::array<std::int16_t, 4>;
-  EXPECT_EQ(robot.variable<Words>("out"), (Words{-15000, -15001, 15001, 15002}));
+  EXPECT_EQ(robot.variable<Words>("in"), (Words{-15000, -15001, 15001, 15002}));
+}
+
+TEST_F(FirmwareTest, a_fast_copy_makes_complex_numbers) {
+  Robot& robot = add_robot_with_source(
+      "#include <fft/e_fft_utilities.h>\n"
+      "int in[3] = {5, -6, 7};\n"
+      "int out[8] = {1, 1, 1, 1, 1, 1, 1, 1};\n"
+      "int main(void) { e_fast_copy(in, out, 3); while (1); }\n");
+  run_for(0.1);
+  EXPECT_EQ(robot.variables("out", 8), (std::vector<std::int16_t>{5, 0, -6, 0, 7, 0, 1, 1}));
 }
 
 TEST_F(FirmwareTest, matlab_messages_have_the_documented_bytes) {

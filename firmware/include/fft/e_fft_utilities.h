@@ -4,7 +4,7 @@
 #ifndef _FFT_UTILITIES
 #define _FFT_UTILITIES
 
-/** Copies `size` ints. */
+/** Makes complex numbers of `size` ints: writes x0, 0, x1, 0, ..., 2 * `size` words. */
 void e_fast_copy(int *in_array, int *out_array, int size);
 
 /** Subtracts the mean from each of `size` ints; `log2size` is its logarithm (the division is a shift). */

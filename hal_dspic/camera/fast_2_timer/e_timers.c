@@ -36,7 +36,14 @@ void __attribute__((__interrupt__, __auto_psv__)) _T5Interrupt(void) {
   T4CONbits.TON = 1;
 }
 
-#ifdef __TWINPUCK__
+#ifndef __TWINPUCK__
+
+/* The handler has an archive member of its own, which a linker takes only when something names it: vectors do not. */
+extern void _T4Interrupt(void);
+extern void (*const twinpuck_line_interrupt)(void);
+void (*const twinpuck_line_interrupt)(void) = _T4Interrupt;
+
+#else
 
 /* the clock of the register way, and a wait for it */
 long long tp_now(void);
