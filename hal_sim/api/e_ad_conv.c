@@ -12,7 +12,7 @@
 #define ACC_COUNTER_MAX 64   /* where updateAccI2CCounter stops */
 #define TICK_COUNTER_MAX 65535u
 /* registers of the converter; after its start; the last look at the buffer's index [measured: register way] */
-#define SET_UP_CYCLES 91
+#define SET_UP_CYCLES 79
 #define STARTED_CYCLES 24
 #define FILLED_CYCLES 7
 

@@ -76,9 +76,10 @@ int main(void) {
   expect_no_traps();
 }
 
-// 25 periods of 0.1 ms a step, and what the handler holds the timer up each time it changes the period: with the drivers
-// for the chip 376 steps/s. The right wheel's 300 follow, for both wheels share one timer and its driver confuses the
-// periods, as the original does. The native way used to charge its own bookkeeping and made 277.
+// 25 periods of 0.1 ms a step, and what the handler holds the timer up each time it changes the period: with
+// the drivers for the chip 376 steps/s. The right wheel's 300 follow, for both wheels share one timer and its
+// driver confuses the periods, as the original does. The native way used to charge its own bookkeeping and
+// made 277.
 TEST_F(FastAgenda, motors_step_as_fast_as_with_the_drivers_for_the_chip) {
   Robot& r = add_robot_with_source(R"(
 #include <motor_led/e_init_port.h>

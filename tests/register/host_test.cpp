@@ -35,6 +35,34 @@ TEST_F(RegisterTest, an_interrupt_costs_the_chip_one_question_or_two) {
   expect_no_traps();
 }
 
+// Both interrupts have the priority of a reset, 4, as in the library: while an agenda's callback runs, the
+// scan waits, and of the frames that end meanwhile one is kept. 500 us hold off 8.2 frames, 7.2 of them are
+// lost, and 4 of Timer 2's ticks, so the callback comes every 1.4 ms: 714 a second, 5140 frames.
+TEST_F(RegisterTest, a_long_callback_costs_the_scan_its_frames) {
+  Robot& robot = add_robot_with_source(R"(
+#include <p30F6014A.h>
+#include <a_d/advance_ad_scan/e_ad_conv.h>
+#include <motor_led/e_init_port.h>
+#include <motor_led/advance_one_timer/e_agenda.h>
+extern unsigned int tickAdcIsr;
+static void long_one(void) {
+  T5CON = 0; TMR5 = 0; T5CONbits.TON = 1;
+  while (TMR5 < 7373);
+}
+int main(void) {
+  e_init_port();
+  e_init_ad_scan(ALL_ADC);
+  e_start_agendas_processing();
+  e_activate_agenda(long_one, 10);
+  while (1);
+}
+)");
+  run_for(0.5);
+  const int before = robot.variable("tickAdcIsr");
+  run_for(1.0);
+  EXPECT_NEAR(robot.variable("tickAdcIsr") - before, 16384 - 5140, 250);
+}
+
 TEST_F(RegisterTest, robots_of_one_image_have_chips_of_their_own) {
   Robot& one = add_robot_with_source(kStepper).selector(1);
   Robot& three = add_robot_with_source(kStepper).at(0.5, 0).selector(3);

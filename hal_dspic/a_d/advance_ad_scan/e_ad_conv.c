@@ -21,7 +21,6 @@
 #define GUMSTIX_POSITION 10
 #define GUMSTIX_PAIR 4
 #define GUMSTIX_PRIORITY 6
-#define SCAN_PRIORITY 5 /* above the agendas' 4: a frame is lost when a callback holds it off for 61 us */
 #define ACC_COUNTER_MAX 64
 #define TICK_COUNTER_MAX 65535u
 
@@ -194,7 +193,7 @@ void e_init_ad_scan(unsigned char only_micro) {
   pairs = selector == GUMSTIX_POSITION ? 5 : 4;
   if (pair >= pairs) pair = 0;
   ADPCFG = selector == GUMSTIX_POSITION ? 0x0000 : 0x0003; /* AN0 and AN1 are the debugger's otherwise */
-  IPC2bits.ADIP = selector == GUMSTIX_POSITION ? GUMSTIX_PRIORITY : SCAN_PRIORITY;
+  if (selector == GUMSTIX_POSITION) IPC2bits.ADIP = GUMSTIX_PRIORITY; /* else as after a reset, 4 */
   ADCHS = 0;
   ADCON1 = AUTO_CONVERT;
   IFS0bits.ADIF = 0;
