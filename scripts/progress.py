@@ -51,6 +51,8 @@ def ninja(build, targets, jobs, label=""):
     for line in read_lines(process):
         now = time.monotonic()
         match = COUNT.match(line) if line is not None else None
+        if match and "globbed" in match.group(3):
+            continue
         if match:
             count = f"[{match.group(1)}/{match.group(2)}]"
             if brief(match.group(3)) and (now - shown >= REFRESH_S or not told):
