@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
+
+#include "sim_core/base/input_file.h"
 
 namespace wbt {
 namespace {
@@ -372,9 +372,8 @@ NodePtr Walk::unfolded(const Node& n) {
       std::error_code error;
       for (const fs::path& p : places) {
         Proto found;
-        if (!fs::is_regular_file(p, error) || fs::file_size(p, error) > kLongestFile) continue;
-        std::ifstream in(p, std::ios::binary);
-        const std::string text{std::istreambuf_iterator<char>(in), {}};
+        std::string text;
+        if (!fs::is_regular_file(p, error) || !sim::read_input_file(p, kLongestFile, text).empty()) continue;
         if (!read_proto_text(text, found)) continue;
         read = files_.emplace(n.type, std::move(found)).first;
         break;
