@@ -137,6 +137,7 @@ class Reader {
       }
     }
     if (problems_.empty()) problems_ = check_world(world_);
+    if (problems_.size() > kMostProblems) problems_.resize(kMostProblems);
     std::stable_sort(problems_.begin(), problems_.end(), [](const WorldProblem& a, const WorldProblem& b) {
       return a.line != b.line ? a.line < b.line : a.column < b.column;
     });
