@@ -356,7 +356,7 @@ void Walk::add_body(Body body) {
   if (scene_.bodies.size() <= kMostBodies) scene_.bodies.push_back(std::move(body));
 }
 
-NodePtr Walk::unfolded(const Node& n) {
+const Proto* Walk::proto_of(const Node& n) {
   const auto declared = text_.protos.find(n.type);
   const Proto* proto = declared != text_.protos.end() ? &declared->second : nullptr;
   if (!proto && !options_.folder.empty() && !missing_.count(n.type) && n.type.size() < 100 &&
@@ -384,8 +384,12 @@ NodePtr Walk::unfolded(const Node& n) {
     else
       proto = &read->second;
   }
-  if (!proto || budget_ == 0) return nullptr;
-  if (proto->has_script) return nullptr;
+  return proto;
+}
+
+NodePtr Walk::unfolded(const Node& n) {
+  const Proto* proto = proto_of(n);
+  if (!proto || budget_ == 0 || proto->has_script) return nullptr;
   return unfold(*proto, n, budget_);
 }
 

@@ -49,6 +49,10 @@ int import(const std::string& file, std::string output, bool without_firmware) {
     std::error_code none;
     return fs::is_directory(fs::path(twin::project_root()) / "firmware" / name, none);
   };
+  options.has_program = [](const std::string& name) {
+    std::error_code none;
+    return fs::is_directory(fs::path(twin::project_root()) / "supervisor" / "programs" / name, none);
+  };
   options.model = board::epuck_model();
   const wbt::Imported made = wbt::import_world(text, options);
   if (!made.errors.empty()) {
