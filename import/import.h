@@ -17,8 +17,8 @@ struct Options {
   std::string folder;  ///< where it lies; empty: no other file (pictures, PROTOs, controllers) is looked at
   std::string out_folder;         ///< where the result will lie, for relative names
   bool without_firmware = false;  ///< robots get no controller
-  /// Whether the project has a controller of that name; may be empty.
-  std::function<bool(const std::string&)> has_firmware;
+  /// Whether the project has a controller, or a supervisor's program, of that name; may be empty.
+  std::function<bool(const std::string&)> has_firmware, has_program;
   sim::RobotModel model;  ///< of an e-puck, to see whether it begins inside something
 };
 

@@ -8,12 +8,18 @@
 #include <jpeglib.h>
 
 #include <memory>
+#include <string>
 #include <vector>
 
+#include "sim_core/base/input_file.h"
 #include "sim_core/load/floor_image.h"
 
 namespace wbt {
 namespace {
+
+constexpr std::size_t kLongestPicture = 64u << 20;  // bytes
+constexpr unsigned long kMostPixels = 64'000'000;
+constexpr int kMostScans = 100;  // of a progressive picture; a handful is usual
 
 struct JpegError {
   jpeg_error_mgr base;
@@ -22,10 +28,16 @@ struct JpegError {
 
 void give_up(j_common_ptr info) { std::longjmp(reinterpret_cast<JpegError*>(info->err)->back, 1); }
 void keep_quiet(j_common_ptr) {}
+// a few bytes may ask for thousands of scans over the whole picture
+void count_scans(j_common_ptr info) {
+  if (reinterpret_cast<j_decompress_ptr>(info)->input_scan_number > kMostScans) give_up(info);
+}
 
 // no objects with destructors live between setjmp and longjmp here
-bool read_jpeg(std::FILE* file, std::vector<unsigned char>& row, double* sum, double& pixels) {
+bool read_jpeg(const std::string& bytes, std::vector<unsigned char>& row, double* sum, double& pixels) {
   jpeg_decompress_struct info;
+  jpeg_progress_mgr progress{};
+  progress.progress_monitor = count_scans;
   JpegError error;
   info.err = jpeg_std_error(&error.base);
   error.base.error_exit = give_up;
@@ -35,8 +47,11 @@ bool read_jpeg(std::FILE* file, std::vector<unsigned char>& row, double* sum, do
     return false;
   }
   jpeg_create_decompress(&info);
-  jpeg_stdio_src(&info, file);
+  info.progress = &progress;
+  jpeg_mem_src(&info, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
   jpeg_read_header(&info, TRUE);
+  if (static_cast<unsigned long>(info.image_width) * info.image_height > kMostPixels)
+    give_up(reinterpret_cast<j_common_ptr>(&info));
   info.out_color_space = JCS_RGB;
   info.scale_num = 1;
   info.scale_denom = 8;
@@ -56,18 +71,19 @@ bool read_jpeg(std::FILE* file, std::vector<unsigned char>& row, double* sum, do
 }  // namespace
 
 std::optional<sim::Colour> average_colour(const std::string& name) {
+  std::string bytes;
+  if (!sim::read_input_file(name, kLongestPicture, bytes).empty()) return std::nullopt;
+  return average_colour_of(bytes);
+}
+
+std::optional<sim::Colour> average_colour_of(const std::string& bytes) {
   double sum[3] = {0, 0, 0}, pixels = 0;
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(name.c_str(), "rb"), std::fclose);
-  if (!file) return std::nullopt;
-  unsigned char magic[2] = {0, 0};
-  if (std::fread(magic, 1, 2, file.get()) != 2) return std::nullopt;
-  if (magic[0] == 0xFF && magic[1] == 0xD8) {
-    std::rewind(file.get());
+  if (bytes.compare(0, 2, "\xFF\xD8") == 0) {
     std::vector<unsigned char> row;
-    if (!read_jpeg(file.get(), row, sum, pixels)) return std::nullopt;
+    if (!read_jpeg(bytes, row, sum, pixels)) return std::nullopt;
   } else {
     sim::FloorDesc floor;
-    if (!sim::read_floor_image(name, floor).empty()) return std::nullopt;
+    if (!sim::parse_floor_image(bytes, floor).empty()) return std::nullopt;
     for (std::size_t i = 0; i < floor.image_rgb.size(); ++i) sum[i % 3] += floor.image_rgb[i];
     pixels = static_cast<double>(floor.image_rgb.size() / 3);
   }

@@ -10,5 +10,7 @@ namespace wbt {
 
 /// Of a PNG or JPEG file; nothing when it cannot be read.
 std::optional<sim::Colour> average_colour(const std::string& file);
+/// The same from the bytes of a file.
+std::optional<sim::Colour> average_colour_of(const std::string& bytes);
 
 }  // namespace wbt

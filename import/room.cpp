@@ -53,18 +53,12 @@ bool step_aside(sim::WorldDesc& all, std::size_t robot) {
   sim::WorldDesc w = neighbourhood(all, robot);
   if (static_cast<int>(w.objects.size() + w.robots.size()) > kMostNeighbours) return false;
   const sim::Pose2 begin = w.robots[0].pose;
-  const int line = w.robots[0].line;
   for (const double r : {0.01, 0.02, 0.04, 0.06, 0.08, 0.12, 0.16, 0.2, 0.3, 0.4}) {
     for (int i = 0; i < 12; ++i) {
       const double t = 2 * sim::kPi * i / 12;
       w.robots[0].pose = {begin.x_m + r * std::cos(t), begin.y_m + r * std::sin(t), begin.heading_rad};
       if (std::max(std::abs(w.robots[0].pose.x_m), std::abs(w.robots[0].pose.y_m)) > kFarthestM) continue;
-      // the robot may be named, or a neighbour that is checked before it
-      const auto problems = sim::check_world(w);
-      const bool mine = std::any_of(problems.begin(), problems.end(), [&](const sim::WorldProblem& p) {
-        return p.line == line || p.text.find(fmt::format("(line {})", line)) != std::string::npos;
-      });
-      if (mine) continue;
+      if (!sim::has_room(w, 0)) continue;
       all.robots[robot].pose = w.robots[0].pose;
       return true;
     }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <set>
 
 #include "import/carried.h"
@@ -347,36 +348,57 @@ class Settler {
     }
     const std::string plain = clean(name);
     if (options_.without_firmware) return {};
+    const bool for_robot = std::string(what) == "firmware";
+    const auto& is_ours = for_robot ? options_.has_firmware : options_.has_program;
+    const bool ours = is_ours && plain == name && is_ours(name);
+    const std::string home = std::string(for_robot ? "firmware/" : "supervisor/programs/") + plain;
     if (!options_.folder.empty() && plain == name && name.find('/') == std::string::npos && name != "..") {
       const fs::path folder = fs::path(options_.folder) / ".." / "controllers" / name;
       std::error_code error;
       std::set<std::string> kinds;
       for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
         kinds.insert(at->path().extension().string());
-      const bool c_program = kinds.count(".c") > 0 || kinds.count(".cpp") > 0 || kinds.count(".cc") > 0;
-      if (c_program) return relative_name(folder.lexically_normal().string(), options_);
-      const char* language = kinds.count(".py")     ? "Python"
-                             : kinds.count(".java") ? "Java"
-                             : kinds.count(".m")    ? "MATLAB"
-                             : kinds.count(".bsg")  ? "BotStudio"
-                                                    : nullptr;
-      if (language && !(options_.has_firmware && options_.has_firmware(name))) {
-        report_.add(line, type, fmt::format("controller \"{}\", a {} program", plain, language),
-                    fmt::format("its name is kept; write it in C as {}/{}", what, plain));
-        return plain;
+      const bool cpp = kinds.count(".cpp") + kinds.count(".cc") + kinds.count(".cxx") > 0;
+      if (kinds.count(".c") > 0 || (cpp && !for_robot))
+        return relative_name(folder.lexically_normal().string(), options_);
+      const char* language = cpp                     ? "C++"
+                             : kinds.count(".py")    ? "Python"
+                             : kinds.count(".java")  ? "Java"
+                             : kinds.count(".class") ? "Java"
+                             : kinds.count(".jar")   ? "Java"
+                             : kinds.count(".m")     ? "MATLAB"
+                             : kinds.count(".bsg")   ? "BotStudio"
+                                                     : nullptr;
+      if (language) {
+        const std::string found = fmt::format("controller \"{}\", a {} program", plain, language);
+        // a program of ours that happens to have the name is not this one
+        report_.add(line, type, found,
+                    ours ? fmt::format("no {}; {} is another program", what, home)
+                         : fmt::format("its name is kept; write it in C as {}", home));
+        return ours ? std::string() : plain;
       }
     }
-    if (!options_.folder.empty() && !(options_.has_firmware && options_.has_firmware(name)))
+    if (ours)
       report_.add(line, type, fmt::format("controller \"{}\", whose sources are not beside the world", plain),
-                  fmt::format("its name is kept; put it into {}/{}", what, plain));
+                  fmt::format("{} has its name and runs in its place", home));
+    else if (!options_.folder.empty())
+      report_.add(line, type, fmt::format("controller \"{}\", whose sources are not beside the world", plain),
+                  fmt::format("its name is kept; put it into {}", home));
     return plain;
+  }
+
+  // robots and supervisors of one name are numbered
+  std::string name_of_its_own(const std::string& plain) {
+    std::string name = plain;
+    for (int& i = used_[plain]; !names_.insert(name).second;) name = fmt::format("{} {}", plain, ++i + 1);
+    return name;
   }
 
   void robot(const FoundRobot& f) {
     sim::RobotDesc r;
     r.name = clean(f.name).empty() ? "robot" : clean(f.name);
     const std::string plain = r.name;
-    for (int i = 2; !names_.insert(r.name).second; ++i) r.name = fmt::format("{} {}", plain, i);
+    r.name = name_of_its_own(plain);
     if (r.name != plain)
       report_.add(f.line, f.type, fmt::format("the name \"{}\" a second time", plain), "\"" + r.name + "\"");
     r.def = clean(f.def);
@@ -420,9 +442,7 @@ class Settler {
 
   void supervisor(const FoundSupervisor& f) {
     sim::SupervisorDesc s;
-    s.name = clean(f.name);
-    const std::string plain = s.name;
-    for (int i = 2; !names_.insert(s.name).second; ++i) s.name = fmt::format("{} {}", plain, i);
+    s.name = name_of_its_own(clean(f.name));
     s.program = program(f.controller, f.line, "Supervisor", "program");
     if (s.program.empty()) return;
     out_.world.supervisors.push_back(s);
@@ -439,6 +459,7 @@ class Settler {
   const Piece* floor_ = nullptr;
   const Body* floor_body_ = nullptr;
   std::set<std::string> names_;
+  std::map<std::string, int> used_;  // how often a name has been asked for again
 };
 
 }  // namespace

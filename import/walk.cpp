@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
+
+#include "sim_core/base/input_file.h"
 
 namespace wbt {
 namespace {
@@ -356,7 +356,7 @@ void Walk::add_body(Body body) {
   if (scene_.bodies.size() <= kMostBodies) scene_.bodies.push_back(std::move(body));
 }
 
-NodePtr Walk::unfolded(const Node& n) {
+const Proto* Walk::proto_of(const Node& n) {
   const auto declared = text_.protos.find(n.type);
   const Proto* proto = declared != text_.protos.end() ? &declared->second : nullptr;
   if (!proto && !options_.folder.empty() && !missing_.count(n.type) && n.type.size() < 100 &&
@@ -372,9 +372,8 @@ NodePtr Walk::unfolded(const Node& n) {
       std::error_code error;
       for (const fs::path& p : places) {
         Proto found;
-        if (!fs::is_regular_file(p, error) || fs::file_size(p, error) > kLongestFile) continue;
-        std::ifstream in(p, std::ios::binary);
-        const std::string text{std::istreambuf_iterator<char>(in), {}};
+        std::string text;
+        if (!fs::is_regular_file(p, error) || !sim::read_input_file(p, kLongestFile, text).empty()) continue;
         if (!read_proto_text(text, found)) continue;
         read = files_.emplace(n.type, std::move(found)).first;
         break;
@@ -385,8 +384,12 @@ NodePtr Walk::unfolded(const Node& n) {
     else
       proto = &read->second;
   }
-  if (!proto || budget_ == 0) return nullptr;
-  if (proto->has_script) return nullptr;
+  return proto;
+}
+
+NodePtr Walk::unfolded(const Node& n) {
+  const Proto* proto = proto_of(n);
+  if (!proto || budget_ == 0 || proto->has_script) return nullptr;
   return unfold(*proto, n, budget_);
 }
 

@@ -35,6 +35,7 @@ class Walk {
   void background(const Node& n);
   bool afford(const Node& n);
   Affine inside(const Node& n, const Affine& frame) const;
+  const Proto* proto_of(const Node& n);  ///< in the file or beside it; null: none
   NodePtr unfolded(const Node& n);
 
   // walk_proto.cpp: PROTOs known by name
@@ -52,6 +53,9 @@ class Walk {
   void epuck(const Node& n, const Affine& frame, bool by_proto);
   void plain_fields(const Node& n, FoundRobot& out);
   void proto_fields(const Node& n, FoundRobot& out);
+  void proto_body(const Node& n, FoundRobot& out);
+  void equipment(const Node& n, FoundRobot& out);
+  void arguments(const Node& n, const char* instead);
   void slot(const Node& n, const char* field, FoundRobot& out);
   void device(const Node& n, FoundRobot& out, int depth);
   void collect(const Node& n, const std::set<std::string>& types, std::vector<const Node*>& out, int depth);

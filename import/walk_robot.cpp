@@ -29,7 +29,6 @@ const std::set<std::string> kSilent{"window",
                                     "selfCollision",
                                     "translationStep",
                                     "rotationStep",
-                                    "children",
                                     "boundingObject",
                                     "physics",
                                     "data"};
@@ -103,6 +102,7 @@ void Walk::robot(const Node& n, const Affine& frame, int depth) {
     s.def = n.def;
     s.controller = runs ? controller : "";
     s.line = n.line;
+    if (runs) arguments(n, "the program has none");
     if (runs)
       scene_.supervisors.push_back(s);
     else
@@ -142,16 +142,15 @@ void Walk::epuck(const Node& n, const Affine& frame, bool by_proto) {
   const std::string lower = n.type;
   if (lower.find("NoPhysics") != std::string::npos || n.truth("kinematic", false)) out.kinematic = true;
   if (!by_proto && !n.field("physics")) out.kinematic = true;
-  if (by_proto)
+  if (by_proto) {
     proto_fields(n, out);
-  else
+    proto_body(n, out);
+  } else {
     plain_fields(n, out);
+  }
   const std::string data = n.text("customData", n.text("data"));
   if (!data.empty()) report_.add(n, "customData \"" + printable(data) + "\"", "firmware gets no text");
-  const Field* arguments = n.field("controllerArgs");
-  if (arguments && !arguments->strings.empty() && !arguments->strings.front().empty())
-    report_.add(n, *arguments, "arguments of the controller",
-                "firmware has none; the selector switch may serve");
+  arguments(n, "firmware has none; the selector switch may serve");
   if (n.truth("supervisor", false))
     report_.add(n, "that this robot is a supervisor too", "attach a program as [[supervisor]] to the world");
   if (const Field* battery = n.field("battery")) {
@@ -164,6 +163,48 @@ void Walk::epuck(const Node& n, const Affine& frame, bool by_proto) {
   scene_.robots.push_back(std::move(out));
 }
 
+void Walk::arguments(const Node& n, const char* instead) {
+  const Field* arguments = n.field("controllerArgs");
+  if (arguments && !arguments->strings.empty() && !arguments->strings.front().empty())
+    report_.add(n, *arguments, "arguments of the controller", instead);
+}
+
+// what a PROTO of the project makes of the robot: its controller and what it is equipped with
+void Walk::proto_body(const Node& n, FoundRobot& out) {
+  const Proto* proto = proto_of(n);
+  if (!proto) return;
+  // what was put into its slots has been looked at
+  Node bare = n;
+  bare.fields.erase(
+      std::remove_if(bare.fields.begin(), bare.fields.end(), [](const Field& f) { return !f.nodes.empty(); }),
+      bare.fields.end());
+  const NodePtr body = unfolded(bare);
+  if (!body) {
+    for (const Field& f : proto->defaults) {
+      if (f.name == "controller" && !f.strings.empty() && !n.field("controller"))
+        out.controller = f.strings.front();
+    }
+    report_.add(n, "what a PROTO with a script is equipped with", "a plain e-puck");
+    return;
+  }
+  kept_.push_back(body);
+  if (!n.field("controller")) out.controller = body->text("controller");
+  if (!n.field("controllerArgs")) arguments(*body, "firmware has none; the selector switch may serve");
+  FoundRobot own;
+  equipment(*body, own);
+  if (!own.sensors.empty()) out.sensors = own.sensors;
+  const bool alike = own.proximity.table || own.proximity.rays || own.proximity.aperture_rad;
+  if (alike) out.proximity = own.proximity;
+  for (const std::string& part : own.parts) {
+    if (std::find(out.parts.begin(), out.parts.end(), part) == out.parts.end()) out.parts.push_back(part);
+  }
+  for (const Device& d : own.devices) {
+    if (std::none_of(out.devices.begin(), out.devices.end(),
+                     [&](const Device& o) { return o.name == d.name; }))
+      out.devices.push_back(d);
+  }
+}
+
 void Walk::proto_fields(const Node& n, FoundRobot& out) {
   if (text_.year == 0) out.speed_unit_rad_s = kProtoSpeedUnitRadS;
   if (n.number("version", 1) == 2 || n.text("version") == "2" || n.type.find('2') != std::string::npos)
@@ -172,10 +213,7 @@ void Walk::proto_fields(const Node& n, FoundRobot& out) {
     if (kSilent.count(f.name) || f.name == "kinematic" || f.name == "customData" ||
         f.name == "controllerArgs" || f.name == "supervisor" || f.name == "battery" || f.name == "version")
       continue;
-    if (f.name == "groundSensorsSlot") {
-      if (!f.nodes.empty()) out.parts.push_back("ground-sensors");
-    } else if (f.name == "turretSlot" || f.name == "bodySlot" || f.name == "extensionSlot" ||
-               f.name == "slot") {
+    if (!f.nodes.empty() || (f.name.size() > 4 && f.name.compare(f.name.size() - 4, 4, "Slot") == 0)) {
       slot(n, f.name.c_str(), out);
     } else if (f.name == "emitter_channel" || f.name == "receiver_channel") {
       const std::string kind = f.name.substr(0, f.name.find('_'));
@@ -220,22 +258,50 @@ void Walk::plain_fields(const Node& n, FoundRobot& out) {
     if (n.number("encoderNoise", -1) > 0)
       report_.add(n, *n.field("encoderNoise"), "noise of encoders", "firmware counts exact steps");
   }
+  equipment(n, out);
+}
+
+void Walk::equipment(const Node& n, FoundRobot& out) {
   std::vector<const Node*> found;
   collect(n,
-          {"DistanceSensor", "E-puckDistanceSensor", "EPuck_DistanceSensor", "E-puckGroundSensors",
-           "EPuck_GroundSensorsModule", "GPS", "Compass", "Gyro", "Emitter", "Receiver", "Lidar",
-           "InertialUnit", "Display", "TouchSensor", "Radar", "RangeFinder", "Pen", "Gripper"},
+          {"DistanceSensor",
+           "E-puckDistanceSensor",
+           "EPuck_DistanceSensor",
+           "E-puckGroundSensors",
+           "EPuck_GroundSensorsModule",
+           "GPS",
+           "Compass",
+           "Gyro",
+           "Emitter",
+           "Receiver",
+           "Lidar",
+           "InertialUnit",
+           "Display",
+           "TouchSensor",
+           "Radar",
+           "RangeFinder",
+           "Pen",
+           "Gripper",
+           "LightSensor",
+           "Connector",
+           "LinearMotor",
+           "VacuumGripper",
+           "Propeller",
+           "Altimeter",
+           "Microphone"},
           found, 0);
-  std::vector<const Node*> ring, ground;
+  std::vector<const Node*> ring;
+  const Node* tables = nullptr;  // a light sensor's own: one line tells it of all
   for (const Node* d : found) {
-    if (ps_index(d->text("name")) >= 0)
+    if (ps_index(d->text("name")) >= 0 && d->type != "LightSensor")
       ring.push_back(d);
-    else if (d->type.find("Ground") != std::string::npos || d->text("name").rfind("gs", 0) == 0)
-      ground.push_back(d);
+    else if (d->type == "LightSensor")
+      tables = tables || !d->field("lookupTable") ? tables : d;
     else if (d->type.find("DistanceSensor") == std::string::npos || !d->field("id"))
       device(*d, out, 0);
   }
-  if (!ground.empty()) out.parts.push_back("ground-sensors");
+  if (tables)
+    report_.add(*tables, *tables->field("lookupTable"), "tables of light sensors", "those of the real robot");
   sensors(ring, out);
 }
 
@@ -296,6 +362,12 @@ void Walk::slot(const Node& n, const char* field, FoundRobot& out) {
 
 void Walk::device(const Node& n, FoundRobot& out, int depth) {
   if (depth > kDeepestNode || !afford(n)) return;
+  if (n.type.find("GroundSensors") != std::string::npos ||
+      (n.type == "DistanceSensor" && n.text("name").rfind("gs", 0) == 0)) {
+    if (std::find(out.parts.begin(), out.parts.end(), "ground-sensors") == out.parts.end())
+      out.parts.push_back("ground-sensors");
+    return;
+  }
   const struct {
     const char *type, *kind, *name;
   } kDevices[] = {{"GPS", "gps", "gps"},

@@ -42,13 +42,13 @@ MAY_INCLUDE = {
     # linked into supervisors' programs, which see nothing but supervisor.h
     "supervisor/webots": ["supervisor/include", "firmware/include"],
     "supervisor/programs": ["supervisor/include", "firmware/include"],
-    "import": ["sim_core/geometry", "sim_core/world", "sim_core/load"],  # it knows e-pucks by their nodes only
+    "import": ["sim_core/base", "sim_core/geometry", "sim_core/world", "sim_core/load"],  # it knows e-pucks by their nodes only
     "firmware": ["tests/support/firmware_test.h"],  # a controller brings its own test.cpp
 }
 # packages and the only room that may include them
 PACKAGE_ROOMS = {
     "box2d/": ["sim_core/physics"], "ccd/": ["sim_core/geometry"], "boost/": ["hal_sim/host"],
-    "toml++/": ["sim_core/load", "tools"], "CLI/": ["tools"], "llvm/": ["hal_sim/cc"], "clang/": ["hal_sim/cc"],
+    "toml++/": ["sim_core/load/toml_parser.h"], "CLI/": ["tools"], "llvm/": ["hal_sim/cc"], "clang/": ["hal_sim/cc"],
     "cairo": ["sim_core/record", "sim_core/load", "tools"], "enki/": ["bench"], "gelf.h": ["hal_sim", "dspic30"],
     "libelf.h": ["hal_sim", "dspic30"], "vpx/": ["sim_core/record"], "zlib.h": ["sim_core/record"], "jpeglib.h": ["import"],
 }

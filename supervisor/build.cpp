@@ -36,9 +36,10 @@ bool is_source(const fs::path& file) {
 
 std::vector<fs::path> files_in(const fs::path& folder) {
   std::vector<fs::path> files;
-  std::error_code none;
-  for (const auto& entry : fs::recursive_directory_iterator(folder, none))
-    if (entry.is_regular_file()) files.push_back(entry.path());
+  std::error_code none, odd;  // what cannot be looked at is no source
+  const auto skip = fs::directory_options::skip_permission_denied;
+  for (fs::recursive_directory_iterator it(folder, skip, none), end; !none && it != end; it.increment(none))
+    if (it->is_regular_file(odd)) files.push_back(it->path());
   std::sort(files.begin(), files.end());
   return files;
 }
@@ -141,8 +142,12 @@ std::string provide_program(const std::string& name, const std::string& from_fol
                        (guess.empty() ? "" : "; did you mean '" + guess + "'?"));
     return "";
   }
-  if (path.extension() == ".so") return path.string();
   const bool folder = fs::is_directory(path);
+  if (!folder && !fs::is_regular_file(path)) {
+    problems.push_back(path.string() + ": supervisor: got a device, expected a file or a folder");
+    return "";
+  }
+  if (path.extension() == ".so") return path.string();
   std::vector<fs::path> sources;
   std::uint64_t h = 1;
   for (const fs::path& file : folder ? files_in(path) : std::vector<fs::path>{path}) {

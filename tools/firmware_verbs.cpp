@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 
 #include "hal_sim/board/epuck_model.h"
@@ -52,7 +53,28 @@ int build_supervisor(const std::string& name, const fs::path& output) {
   return kPass;
 }
 
+/// An image takes the place of what bears its name: that must be an image too, not a device or a source.
+bool may_replace(const fs::path& output) {
+  std::error_code none;
+  if (output.empty() || !fs::exists(fs::symlink_status(output, none))) return true;
+  const bool is_file = fs::is_regular_file(output, none);
+  if (is_file) {
+    std::string head(4, '\0');
+    std::ifstream in(output, std::ios::binary);
+    in.read(head.data(), 4);
+    if (in.gcount() == 0 || head ==
+                                "\x7f"
+                                "ELF")
+      return true;
+  }
+  complain({output.string() + ": -o: got " +
+            (is_file ? "a file that is no image" : "something that is no file") +
+            ", expected a new name, or an image to replace"});
+  return false;
+}
+
 int build(cc::BuildOptions options) {
+  if (!may_replace(options.output)) return kBadInput;
   const std::string given = options.source_dir.string();
   if (!fs::is_directory(controller_folder(given)) ||
       supervisor::is_program_folder(controller_folder(given))) {
@@ -95,6 +117,10 @@ int cycles(const std::string& name, double period_ms) {
   const std::string image = twin::provide_image(name, "", {}, problems);
   complain(problems);
   if (image.empty()) return kBadInput;
+  if (!fs::is_regular_file(image)) {
+    complain({image + ": cycles: got a device, expected an image made by `twinpuck build`"});
+    return kBadInput;
+  }
   const auto functions = cc::function_costs(image);
   if (functions.empty()) {
     complain(
@@ -167,7 +193,7 @@ void add_cycles(CLI::App& app, int& exit_code) {
   auto period_ms = std::make_shared<double>(10);
   verb->add_option("FILE", *name, "an image, a folder or a controller's name")->required();
   verb->add_option("--period", *period_ms, "the load column assumes one call every so many ms")
-      ->check(CLI::PositiveNumber)
+      ->check(between(1e-6, 1e9))
       ->capture_default_str();
   verb->callback([name, period_ms, &exit_code] { exit_code = cycles(*name, *period_ms); });
 }

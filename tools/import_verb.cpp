@@ -3,15 +3,17 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
 #include <iostream>
-#include <iterator>
 
 #include "hal_sim/board/epuck_model.h"
 #include "hal_sim/board/part.h"
 #include "hal_sim/twin/twin.h"
 #include "import/import.h"
+#include "import/wbt_reader.h"
+#include "sim_core/base/input_file.h"
+#include "sim_core/base/output_file.h"
 #include "sim_core/load/world_loader.h"
+#include "tools/output_folder.h"
 #include "tools/verbs.h"
 
 namespace tools {
@@ -26,10 +28,15 @@ std::string place(const std::string& file, const wbt::Remark& r) {
 }
 
 int import(const std::string& file, std::string output, bool without_firmware) {
-  std::ifstream in(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
-  if (!in.good() && !in.eof()) {
-    complain({file + ": world of Webots: got a file that cannot be read, expected a .wbt file"});
+  std::string text;
+  const std::string wrong = sim::read_input_file(file, wbt::kLongestFile, text);
+  if (!wrong.empty()) {
+    complain({file + ": world of Webots: " + wrong});
+    return kBadInput;
+  }
+  std::error_code none;
+  if (fs::equivalent(file, output, none)) {
+    complain({output + ": -o: got the world itself, expected another name"});
     return kBadInput;
   }
   if (output.empty()) output = fs::path(file).replace_extension(".toml").string();
@@ -39,7 +46,12 @@ int import(const std::string& file, std::string output, bool without_firmware) {
   options.out_folder = fs::absolute(output).parent_path().string();
   options.without_firmware = without_firmware;
   options.has_firmware = [](const std::string& name) {
-    return fs::is_directory(fs::path(twin::project_root()) / "firmware" / name);
+    std::error_code none;
+    return fs::is_directory(fs::path(twin::project_root()) / "firmware" / name, none);
+  };
+  options.has_program = [](const std::string& name) {
+    std::error_code none;
+    return fs::is_directory(fs::path(twin::project_root()) / "supervisor" / "programs" / name, none);
   };
   options.model = board::epuck_model();
   const wbt::Imported made = wbt::import_world(text, options);
@@ -48,13 +60,19 @@ int import(const std::string& file, std::string output, bool without_firmware) {
     return kBadInput;
   }
   for (const wbt::Remark& r : made.report) complain({place(file, r)});
-  std::ofstream out(output, std::ios::binary);
-  out << made.toml;
-  if (!out.flush()) {
-    complain({output + ": world: cannot write the file"});
+  std::vector<std::string> problems;
+  if (!can_write(output, "world", problems)) {
+    complain(problems);
     return kBadInput;
   }
-  const auto loaded = sim::load_world(output, {board::epuck_model()}, board::part_kinds());
+  sim::OutputFile out(output);
+  out.append(made.toml);
+  out.close();
+  if (!out.error().empty()) {
+    complain({out.error()});
+    return kInvalidRun;
+  }
+  const auto loaded = sim::parse_world(made.toml, output, {board::epuck_model()}, board::part_kinds());
   if (!loaded.world) {
     complain({loaded.report(output)});
     return kInternal;  // what it writes can always be loaded

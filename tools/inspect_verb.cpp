@@ -207,7 +207,7 @@ void add_inspect(CLI::App& app, int& exit_code) {
   verb->add_option("--sensor", a->sensor, "which proximity sensor, from 0; all in one table otherwise")
       ->check(CLI::NonNegativeNumber);
   verb->add_option("--at", a->at_s, "run the world's firmware for so many simulated seconds first")
-      ->check(CLI::Range(0.0, 1e6));
+      ->check(between(0, 1e6));
   verb->add_option("--seed", a->seed, "the world's seed instead of the file's")
       ->check(CLI::NonNegativeNumber);
   verb->add_option("--picture", a->picture, "draw the reading: PNG or SVG");
@@ -215,9 +215,10 @@ void add_inspect(CLI::App& app, int& exit_code) {
   verb->add_option("--plot", a->plot, "plot response curves: PNG or SVG");
   verb->add_option("--colour,--color", a->colour, "R,G,B of the wall in curves, each 0 to 1")
       ->delimiter(',')
-      ->expected(3);
+      ->expected(3)
+      ->check(between(0, 1));
   verb->add_option("--roughness", a->roughness, "of that wall, 0 to 1; the new colour rule asks for it")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(between(0, 1));
   verb->add_flag("--json", a->json, "for scripts");
   verb->callback([a, &exit_code] { exit_code = inspect(*a); });
 }

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: MIT
-#define TOML_EXCEPTIONS 0
 #include "tools/lab_table.h"
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "sim_core/base/input_file.h"
+#include "sim_core/load/toml_parser.h"
 #include "sim_core/load/world_loader.h"
 
 namespace tools {
 
 namespace {
+
+constexpr std::size_t kLongestFile = 1u << 20;  // bytes
 
 constexpr const char* kMeasureNames[kMeasures] = {
     "standstill_s", "wall_touch_s", "touch_s",   "collisions",  "distance_m",  "escape_s",
@@ -201,8 +203,21 @@ class Reader {
 const char* measure_name(Measure m) { return kMeasureNames[static_cast<std::size_t>(m)]; }
 
 std::vector<LabExercise> read_lab_table(const std::string& file, std::vector<std::string>& problems) {
+  std::string text;
+  const std::string wrong = sim::read_input_file(file, kLongestFile, text);
+  if (wrong.empty()) return parse_lab_table(text, file, problems);
+  problems.push_back(file + ": " + wrong);
+  return {};
+}
+
+std::vector<LabExercise> parse_lab_table(const std::string& text, const std::string& file,
+                                         std::vector<std::string>& problems) {
   const std::size_t before = problems.size();
-  const toml::parse_result parsed = toml::parse_file(file);
+  if (const sim::TomlTrap trap = sim::find_toml_trap(text); trap.line > 0) {
+    problems.push_back(fmt::format("{}:{}:{}: {}", file, trap.line, trap.column, trap.text));
+    return {};
+  }
+  const toml::parse_result parsed = toml::parse(text);
   if (!parsed) {
     const auto& at = parsed.error().source().begin;
     problems.push_back(fmt::format("{}:{}:{}: {}", file, at.line, at.column, parsed.error().description()));

@@ -87,5 +87,8 @@ struct LabExercise {
 
 /// Reads the table; empty, with lines in `problems`, when anything is wrong.
 std::vector<LabExercise> read_lab_table(const std::string& file, std::vector<std::string>& problems);
+/// The same from text; `file` is the name for messages.
+std::vector<LabExercise> parse_lab_table(const std::string& text, const std::string& file,
+                                         std::vector<std::string>& problems);
 
 }  // namespace tools

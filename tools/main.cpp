@@ -1,16 +1,30 @@
 // SPDX-License-Identifier: MIT
 // twinpuck: the command. Verbs live in files of their own.
+#include <fmt/format.h>
+
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 
 #include "sim_core/load/world_loader.h"
+#include "tools/printable.h"
 #include "tools/verbs.h"
 
 namespace tools {
 void complain(const std::vector<std::string>& problems) {
   for (const auto& p : problems) std::cerr << p << '\n';
+}
+
+CLI::Validator between(double least, double most) {
+  return CLI::Validator(
+      [least, most](std::string& text) {
+        double value = 0;
+        if (CLI::detail::lexical_cast(text, value) && value >= least && value <= most) return std::string();
+        return fmt::format("got {}, expected {:g} to {:g}", text, least, most);
+      },
+      fmt::format("{:g} to {:g}", least, most));
 }
 
 namespace {
@@ -48,7 +62,10 @@ int usage_error(const CLI::App& app, const CLI::ParseError& e, int argc, char** 
 }  // namespace tools
 
 int main(int argc, char** argv) {
+  const tools::PrintableStream out(std::cout), error(std::cerr);
+  // what cannot be written is an error of the call, not the end of the program
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
   int exit_code = tools::kPass;
   CLI::App app{"Twinpuck: the firmware twin of the e-puck robot"};
   app.require_subcommand(1);
@@ -69,6 +86,11 @@ int main(int argc, char** argv) {
     return app.exit(e);
   } catch (const CLI::ParseError& e) {
     return tools::usage_error(app, e, argc, argv);
+  } catch (const std::filesystem::filesystem_error& e) {
+    // a loop of links, a folder that may not be read: whatever was named, it is the user's to mend
+    tools::complain({(e.path1().empty() ? "file system" : e.path1().string()) +
+                     ": cannot be used: " + e.code().message()});
+    return tools::kBadInput;
   } catch (const std::exception& e) {
     std::cerr << "twinpuck: internal error: " << e.what() << '\n';
     return tools::kInternal;

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <map>
 
 namespace tools {
 
@@ -20,16 +21,38 @@ bool make_output_folder(const std::string& folder, const char* option, std::vect
 
 bool can_write(const std::string& path, const char* option, std::vector<std::string>& problems) {
   if (path.empty()) return true;
-  const bool existed = std::filesystem::exists(path);
-  std::ofstream out(path, std::ios::app);
-  if (out) {
-    out.close();
-    if (!existed) std::filesystem::remove(path);
-    return true;
+  std::error_code none;
+  const auto status = std::filesystem::status(path, none);
+  const bool existed = std::filesystem::exists(status);
+  std::string wrong;
+  // one that the shell made is open already; opening another would wait for its reader
+  if (std::filesystem::is_fifo(status) && path.rfind("/dev/", 0) != 0) {
+    wrong = "a pipe";
+  } else {
+    std::ofstream out(path, std::ios::app);
+    if (out) {
+      out.close();
+      if (!existed) std::filesystem::remove(path, none);
+      return true;
+    }
+    wrong = std::strerror(errno);
   }
-  problems.push_back(path + ": " + option + ": got '" + std::strerror(errno) +
-                     "', expected a file that can be written");
+  problems.push_back(path + ": " + option + ": got '" + wrong + "', expected a file that can be written");
   return false;
+}
+
+void check_files_differ(std::vector<std::pair<std::string, std::string>> files,
+                        std::vector<std::string>& problems) {
+  std::error_code none;
+  std::map<std::string, std::string> taken;
+  for (const auto& [path, option] : files) {
+    if (path.empty() || path.rfind("/dev/", 0) == 0) continue;
+    const std::filesystem::path whole = std::filesystem::weakly_canonical(path, none);
+    const auto [it, fresh] = taken.emplace(whole.empty() ? path : whole.string(), option);
+    if (!fresh)
+      problems.push_back(path + ": " + option + ": got the file of " + it->second +
+                         ", expected another; give them different names");
+  }
 }
 
 std::string output_file(const std::string& folder, const sim::WorldDesc& world, int robot) {

@@ -9,6 +9,7 @@
 #include "sim_core/record/film.h"
 #include "sim_core/record/heatmap.h"
 #include "tools/output_folder.h"
+#include "tools/verbs.h"
 
 namespace tools {
 
@@ -37,7 +38,7 @@ void add_picture_options(CLI::App& verb, PictureArguments& a) {
                   "where the robots spent their time: a PNG or SVG with a colour bar, or a CSV of cells")
       ->allow_extra_args(false);
   verb.add_option("--heatmap-cell", a.heatmap_cell_m, "side of a cell (m)")
-      ->check(CLI::Range(1e-3, 100.0))
+      ->check(between(1e-3, 100))
       ->capture_default_str();
   verb.add_option("--heatmap-scale", a.heatmap_scale, "colours by orders of magnitude or in proportion")
       ->check(CLI::IsMember({"log", "linear"}))
@@ -47,13 +48,13 @@ void add_picture_options(CLI::App& verb, PictureArguments& a) {
       ->check(CLI::Range(1, 100))
       ->capture_default_str();
   verb.add_option("--film-speed", a.film_speed, "simulated seconds in a second of film")
-      ->check(CLI::Range(1e-3, 1e5))
+      ->check(between(1e-3, 1e5))
       ->capture_default_str();
   verb.add_option("--film-size", a.film_size_px, "longer side of the film (pixels)")
       ->check(CLI::Range(160, 4096))
       ->capture_default_str();
   verb.add_option("--film-trail", a.film_trail_s, "simulated seconds of way behind each robot; 0: none")
-      ->check(CLI::Range(0.0, 1e6))
+      ->check(between(0, 1e6))
       ->capture_default_str();
 }
 
@@ -63,11 +64,9 @@ PictureOutputs::~PictureOutputs() = default;
 
 void PictureOutputs::open(std::vector<std::string>& problems) {
   const auto& a = arguments_;
-  std::vector<std::string> files = a.heatmaps;
   if (!a.picture.empty()) {
     check_ending(a.picture, "--picture", {".png", ".svg"}, problems);
     can_write(a.picture, "--picture", problems);
-    files.push_back(a.picture);
     paths_ = std::make_unique<sim::Trajectories>(twin_.robots());
   }
   for (const auto& file : a.heatmaps) {
@@ -78,12 +77,7 @@ void PictureOutputs::open(std::vector<std::string>& problems) {
   if (!a.film.empty()) {
     check_ending(a.film, "--film", {".webm", ".png", ".apng"}, problems);
     can_write(a.film, "--film", problems);
-    files.push_back(a.film);
   }
-  std::sort(files.begin(), files.end());
-  const auto twice = std::adjacent_find(files.begin(), files.end());
-  if (twice != files.end())
-    problems.push_back(*twice + ": got two outputs for this file, expected one; give them different names");
   // the film's file is begun, and emptied, only when nothing else is wrong
   if (a.film.empty() || !problems.empty()) return;
   sim::FilmOptions options;

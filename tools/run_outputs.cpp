@@ -11,6 +11,7 @@
 
 #include "sim_core/record/csv_recorder.h"
 #include "tools/output_folder.h"
+#include "tools/verbs.h"
 
 namespace tools {
 
@@ -59,7 +60,7 @@ std::string lcov_of(const twin::Twin& twin) {
 void add_output_options(CLI::App& verb, OutputArguments& a) {
   verb.add_option("--record", a.record, "CSV of poses, steps, sensors and LEDs");
   verb.add_option("--record-every", a.record_every_s, "seconds between rows of a robot")
-      ->check(CLI::Range(1e-4, 1e6))
+      ->check(between(1e-4, 1e6))
       ->capture_default_str();
   verb.add_option("--summary", a.summary, "JSON of what the run came to");
   verb.add_option("--save-images", a.images,
@@ -83,6 +84,14 @@ RunOutputs::~RunOutputs() = default;
 bool RunOutputs::open(std::vector<std::string>& problems) {
   const std::size_t before = problems.size();
   const auto& a = arguments_;
+  std::vector<std::pair<std::string, std::string>> files{
+      {twin_.world().file, "the world"}, {a.record, "--record"},
+      {a.summary, "--summary"},          {a.coverage, "--coverage"},
+      {a.pictures.picture, "--picture"}, {a.pictures.film, "--film"},
+      {a.traces.vcd, "--vcd"},           {a.traces.timeline, "--trace"}};
+  for (const std::string& file : a.pictures.heatmaps) files.emplace_back(file, "--heatmap");
+  check_files_differ(std::move(files), problems);
+  if (problems.size() != before) return false;
   can_write(a.summary, "--summary", problems);
   can_write(a.coverage, "--coverage", problems);
   if (!a.sound_folder.empty()) {
@@ -135,6 +144,10 @@ void RunOutputs::finish(const Summary& summary, std::vector<std::string>& proble
   if (sound_ && !sound_->error().empty()) problems.push_back(sound_->error());
   if (!a.summary.empty()) write_text(a.summary, to_json(summary), "--summary", problems);
   if (!a.coverage.empty()) write_text(a.coverage, lcov_of(twin_), "--coverage", problems);
+  for (int r = 0; r < twin_.robots(); ++r)
+    for (int port = 1; port <= 2; ++port)
+      if (const auto* end = twin_.mind(r).board().uart(port).end(); end && !end->error().empty())
+        problems.push_back(end->error() + "; further bytes of the robot are lost");
   pictures_.finish(summary, problems);
   traces_.finish(problems);
 }

@@ -201,9 +201,7 @@ void add_run(CLI::App& app, int& exit_code) {
   verb->add_option("WORLD", a->world, "world file, or the name of one in worlds/")->required();
   verb->add_option("--fw", a->firmware,
                    "ROBOT=FILE: a .so, a folder of C files, or a controller's name; '*' is every robot");
-  verb->add_option("--for", a->seconds, "simulated seconds")
-      ->check(CLI::Range(0.0, 1e7))
-      ->capture_default_str();
+  verb->add_option("--for", a->seconds, "simulated seconds")->check(between(0, 1e7))->capture_default_str();
   verb->add_option("--speed", a->speed, "pace: 1 is real time, max as fast as possible")
       ->capture_default_str();
   verb->add_option("--seed", a->seed, "the world's seed, 0 or more, instead of the file's")
@@ -223,7 +221,7 @@ void add_run(CLI::App& app, int& exit_code) {
       "ROBOT=KEY@TIME[+HOLD]: a remote control's key, 0 to 63 or a name such as VOL_UP, pressed at "
       "TIME s for HOLD s (0.1); ADDRESS:KEY for another address than 0");
   verb->add_option("--host-limit", a->host_limit_s, "give up after this many real seconds (exit 124)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(between(0, 1e7));
   verb->add_option("--opt", a->optimisation, "level for controllers built from source")
       ->check(CLI::IsMember({"-O0", "-O1", "-O2", "-Os"}))
       ->capture_default_str();

@@ -2,11 +2,13 @@
 #include "tools/trace_outputs.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 
 #include "sim_core/load/world_loader.h"
 #include "tools/output_folder.h"
+#include "tools/verbs.h"
 
 namespace tools {
 
@@ -29,17 +31,17 @@ void add_trace_options(CLI::App& verb, TraceArguments& a) {
           "ROBOT:SIGNAL, several separated by commas: LED0, RA6, LATD, left_coils, T1, TX1, a variable; "
           "ROBOT may be '*'")
       ->delimiter(',');
-  verb.add_option("--vcd-from", a.from_s, "first second of the window")->check(CLI::NonNegativeNumber);
-  verb.add_option("--vcd-to", a.to_s, "last second of the window")->check(CLI::NonNegativeNumber);
+  verb.add_option("--vcd-from", a.from_s, "first second of the window")->check(between(0, 1e7));
+  verb.add_option("--vcd-to", a.to_s, "last second of the window")->check(between(0, 1e7));
   verb.add_option("--vcd-trigger", a.trigger,
                   "ROBOT:SIGNAL=VALUE: the window begins when the signal has the value");
   verb.add_option("--trace", a.timeline,
                   "time line of main program, interrupts, agendas and counters (JSON for ui.perfetto.dev)");
   verb.add_option("--trace-max-mb", a.most_timeline_mb, "the time line ends before it is larger")
-      ->check(CLI::Range(0.001, 1e6))
+      ->check(between(0.001, 1e6))
       ->capture_default_str();
   verb.add_option("--vcd-max-mb", a.most_mb, "the dump ends before it is larger")
-      ->check(CLI::Range(0.001, 1e6))
+      ->check(between(0.001, 1e6))
       ->capture_default_str();
 }
 
@@ -132,7 +134,7 @@ bool TraceOutputs::choose(std::vector<std::vector<trace::Signal>>& signals, trac
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
   const std::int64_t whole = std::strtoll(text.c_str(), nullptr, 0);
-  if (end == nullptr || *end != 0) {
+  if (end == nullptr || *end != 0 || !std::isfinite(value)) {
     problems.push_back("command line: --vcd-trigger: got value '" + text + "', expected a number");
     return false;
   }

@@ -51,6 +51,7 @@ class BluetoothModule final : public UartEnd, public sim::LinkPort {
   void on_break(Cycle at) override;
   bool takes_packets() const override { return to_computer_ && transparent_ && computer_->takes_packets(); }
   std::string name() const override { return computer_ ? computer_->name() : ""; }
+  std::string error() const override { return computer_ ? computer_->error() : ""; }
 
   // --- the air, between ticks
   void on_message(const sim::LinkMessage& message, sim::Clicks now) override;

@@ -16,15 +16,21 @@
 #include <sys/eventfd.h>
 #include <sys/inotify.h>
 #include <sys/ioctl.h>
+#include <sys/socket.h>
+#include <sys/un.h>
 #include <termios.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <cstddef>
+#include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <mutex>
 #include <thread>
 
 #include "hal_sim/board/uart_programs.h"
+#include "sim_core/base/hash.h"
 
 namespace board {
 
@@ -39,7 +45,8 @@ std::string why() { return std::strerror(errno); }
 class PtyEnd : public UartEnd {
  public:
   ~PtyEnd() override {
-    if (!link_.empty()) ::unlink(link_.c_str());
+    // somebody may have put something else there
+    if (!link_.empty() && target_of(link_) == path_) ::unlink(link_.c_str());
     if (!listener_.joinable()) return;
     const std::uint64_t one = 1;
     while (::write(stop_.get(), &one, sizeof one) < 0 && errno == EINTR) continue;
@@ -75,8 +82,12 @@ class PtyEnd : public UartEnd {
     listener_ = std::thread([this] { listen(); });
     if (link.empty()) return true;
     // a link left by an earlier run is replaced; anything else is not ours
-    char old[256];
-    if (::readlink(link.c_str(), old, sizeof old) >= 0) ::unlink(link.c_str());
+    if (!claim(link)) {
+      error = "pty: link " + link +
+              ": got the link of a run that goes on, expected a name of its own, by pty:LINK";
+      return false;
+    }
+    if (target_of(link).rfind("/dev/pts/", 0) == 0) ::unlink(link.c_str());
     if (::symlink(path, link.c_str()) != 0) {
       error = "pty: link " + link + ": " + why();
       return false;
@@ -115,6 +126,35 @@ class PtyEnd : public UartEnd {
   std::string name() const override { return link_.empty() ? path_ : link_; }
 
  private:
+  static std::string target_of(const std::string& link) {
+    char target[256];
+    const ssize_t got = ::readlink(link.c_str(), target, sizeof target);
+    return got > 0 && got < static_cast<ssize_t>(sizeof target)
+               ? std::string(target, static_cast<std::size_t>(got))
+               : "";
+  }
+
+  /// One process at a time has a link of that name: the claim is a socket's name in the kernel, which is gone
+  /// with the process and leaves no file behind.
+  bool claim(const std::string& link) {
+    std::error_code none;
+    const std::filesystem::path whole = std::filesystem::absolute(link, none);
+    std::uint64_t h = 0;
+    for (unsigned char c :
+         (std::filesystem::weakly_canonical(whole.parent_path(), none) / whole.filename()).string())
+      h = sim::mix64(h ^ c);
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    // the first byte stays zero: a name that is no file
+    const int length = std::snprintf(address.sun_path + 1, sizeof address.sun_path - 1,
+                                     "twinpuck-pty-%016llx", static_cast<unsigned long long>(h));
+    claim_.reset(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
+    const auto size =
+        static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + static_cast<std::size_t>(length));
+    return !claim_.valid() || ::bind(claim_.get(), reinterpret_cast<const sockaddr*>(&address), size) == 0 ||
+           errno != EADDRINUSE;
+  }
+
   bool is_alone() const { return watch_.valid() && programs_ <= 0; }
 
   void make_raw() {
@@ -168,7 +208,7 @@ class PtyEnd : public UartEnd {
     return heard_.size() < kMostHeard;
   }
 
-  Descriptor master_, slave_, watch_, stop_;
+  Descriptor master_, slave_, watch_, stop_, claim_;
   std::thread listener_;
   std::mutex heard_lock_;
   std::string heard_;  // said by programs, not yet taken by the robot's line

@@ -3,12 +3,16 @@
 // talks to are pty_end.cpp and tcp_end.cpp.
 #include "hal_sim/board/uart_end.h"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <cerrno>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 
 #include "hal_sim/board/uart_programs.h"
+#include "sim_core/base/output_file.h"
 
 namespace board {
 
@@ -36,39 +40,46 @@ std::string why() { return std::strerror(errno); }
 
 class FileEnd : public UartEnd {
  public:
-  ~FileEnd() override {
-    if (out_) std::fclose(out_);
-    if (in_) std::fclose(in_);
-  }
   bool open(const std::string& out, const std::string& in, std::string& error) {
+    if (!in.empty() && !open_input(in, error)) return false;
+    struct stat info {};
+    if (::stat(out.c_str(), &info) == 0 && S_ISFIFO(info.st_mode) && out.rfind("/dev/", 0) != 0) {
+      error = "file:" + out + ": got a pipe, expected a file";  // opening it would wait for a reader
+      return false;
+    }
+    out_ = std::make_unique<sim::OutputFile>(out);
     path_ = out;
-    if (!in.empty() && !(in_ = std::fopen(in.c_str(), "rb"))) {
+    error = this->error();
+    return error.empty();
+  }
+  void deliver(const std::uint8_t* bytes, const Cycle*, std::size_t count) override {
+    // after the first error the robot goes on; further bytes are lost
+    if (out_->error().empty()) out_->append({reinterpret_cast<const char*>(bytes), count});
+  }
+  std::size_t collect(std::uint8_t* bytes, std::size_t room, Cycle) override {
+    if (!in_.valid()) return 0;
+    const ssize_t got = ::read(in_.get(), bytes, room);
+    return got > 0 ? static_cast<std::size_t>(got) : 0;
+  }
+  std::string name() const override { return "file:" + path_; }
+  std::string error() const override { return out_->error().empty() ? "" : "file:" + out_->error(); }
+
+ private:
+  bool open_input(const std::string& in, std::string& error) {
+    in_.reset(::open(in.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY));
+    struct stat info {};
+    if (!in_.valid() || ::fstat(in_.get(), &info) != 0) {
       error = "file:" + in + ": cannot be read: " + why();
       return false;
     }
-    if (!(out_ = std::fopen(out.c_str(), "wb"))) {
-      error = "file:" + out + ": cannot be written: " + why();
-      return false;
-    }
-    return true;
+    if (!S_ISDIR(info.st_mode)) return true;
+    error = "file:" + in + ": got a folder, expected a file";
+    return false;
   }
-  void deliver(const std::uint8_t* bytes, const Cycle*, std::size_t count) override {
-    if (failed_) return;
-    if (std::fwrite(bytes, 1, count, out_) == count && std::fflush(out_) == 0) return;
-    failed_ = true;  // said once; the robot goes on
-    std::fprintf(stderr, "file:%s: cannot be written: %s; further bytes are lost\n", path_.c_str(),
-                 why().c_str());
-  }
-  std::size_t collect(std::uint8_t* bytes, std::size_t room, Cycle) override {
-    return in_ ? std::fread(bytes, 1, room, in_) : 0;
-  }
-  std::string name() const override { return "file:" + path_; }
 
- private:
-  std::FILE* out_ = nullptr;
-  std::FILE* in_ = nullptr;
+  std::unique_ptr<sim::OutputFile> out_;
+  Descriptor in_;
   std::string path_;
-  bool failed_ = false;
 };
 
 }  // namespace

@@ -39,6 +39,10 @@ class UartEnd {
   /// How to reach it, for messages: "/tmp/robot0", "tcp:127.0.0.1:5000", "file:out.txt"; empty
   /// when nobody outside can.
   virtual std::string name() const = 0;
+
+  /// What was lost on the way out: "file:F: cannot be written: No space left on device"; empty while all is
+  /// well.
+  virtual std::string error() const { return {}; }
 };
 
 /// Keeps everything in memory: for tests.
@@ -67,9 +71,10 @@ class MemoryEnd : public UartEnd {
 
 /// Opens an end from its description:
 ///   "none"               no end (null)
-///   "pty" "pty:LINK"     a pseudo-terminal; LINK (default `default_link`) is a symbolic link to it, replaced
-///   if
-///                        it is an old link, never a file
+///   "pty" "pty:LINK"     a pseudo-terminal; LINK (default `default_link`) is a symbolic link to it. One that
+///   a
+///                        run left behind is replaced; a file, a link to a file or a link of a run that goes
+///                        on is not
 ///   "tcp:PORT"           a server on 127.0.0.1; 0 takes any free port; one client at a time
 ///   "file:OUT" "file:OUT,IN"  bytes go to OUT, bytes come from IN at the line's speed
 /// On failure null, and `error` says what was wrong (one line, without a full stop).

@@ -35,15 +35,17 @@ fs::path build_root() { return TWINPUCK_BUILD_DIR; }
 std::vector<fs::path> files_below(const fs::path& folder, const std::string& extension) {
   std::vector<fs::path> found;
   std::error_code ec;
-  for (fs::recursive_directory_iterator it(folder, ec), end; it != end && !ec; it.increment(ec)) {
+  for (fs::recursive_directory_iterator it(folder, fs::directory_options::skip_permission_denied, ec), end;
+       it != end && !ec; it.increment(ec)) {
     std::string name = it->path().filename().string();
-    if (it->is_directory() && name.size() > 1 && name[0] == '.') {
+    std::error_code odd;  // a loop of links is neither folder nor file
+    if (it->is_directory(odd) && name.size() > 1 && name[0] == '.') {
       it.disable_recursion_pending();
       continue;
     }
     std::string end_of_name = it->path().extension().string();
     std::transform(end_of_name.begin(), end_of_name.end(), end_of_name.begin(), ::tolower);
-    if (it->is_regular_file() && end_of_name == extension) found.push_back(it->path());
+    if (it->is_regular_file(odd) && end_of_name == extension) found.push_back(it->path());
   }
   std::sort(found.begin(), found.end());
   return found;

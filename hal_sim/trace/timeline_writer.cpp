@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "hal_sim/host/processor.h"
@@ -27,18 +25,8 @@ std::string micros(std::int64_t ns) { return fmt::format("{}.{:03}", ns / 1000, 
 }  // namespace
 
 TimelineWriter::TimelineWriter(std::string path, std::int64_t most_bytes)
-    : path_(std::move(path)), most_bytes_(most_bytes) {
-  file_ = std::fopen(path_.c_str(), "wb");
-  if (!file_) {
-    error_ = path_ + ": --trace: cannot be written: " + std::strerror(errno);
-    return;
-  }
+    : file_(std::move(path), "--trace"), most_bytes_(most_bytes) {
   pending_ = "[\n";
-  flush();
-}
-
-TimelineWriter::~TimelineWriter() {
-  if (file_) std::fclose(file_);
 }
 
 void TimelineWriter::add(const std::string& event) {
@@ -116,22 +104,17 @@ void TimelineWriter::counter(int robot, sim::Clicks at, const char* name, const 
 }
 
 void TimelineWriter::flush() {
-  if (pending_.empty() || !file_) return;
+  if (pending_.empty() || !error().empty()) return;
   bytes_ += static_cast<std::int64_t>(pending_.size());
-  if (std::fwrite(pending_.data(), 1, pending_.size(), file_) != pending_.size() || std::fflush(file_) != 0) {
-    error_ = path_ + ": --trace: cannot be written: " + std::strerror(errno);
-    done_ = true;
-  }
+  file_.append(pending_, "\n]\n");
+  if (!error().empty()) done_ = true;
   pending_.clear();
 }
 
 void TimelineWriter::finish() {
-  if (!file_) return;
   pending_ += "\n]\n";
   flush();
-  if (std::fclose(file_) != 0 && error_.empty())
-    error_ = path_ + ": --trace: cannot be written: " + std::strerror(errno);
-  file_ = nullptr;
+  file_.close();
 }
 
 }  // namespace trace

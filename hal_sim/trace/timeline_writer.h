@@ -2,15 +2,16 @@
 // A time line for Perfetto and chrome://tracing (Trace Event Format, the JSON array): a process for every
 // robot with tracks for its main program, interrupts and agendas, and counters. Times are microseconds of
 // world time with three decimals. An event a line; what is complete goes to the file at every tick, and
-// viewers accept an array without its end, so that a file is readable up to there after any crash.
+// viewers accept an array without its end, so that a file is readable up to there after any crash; on a
+// full disk the array is closed after its last whole tick.
 #pragma once
 #include <cstdint>
-#include <cstdio>
 #include <map>
 #include <string>
 
 #include "hal_sim/board/clock.h"
 #include "hal_sim/trace/robot_trace.h"
+#include "sim_core/base/output_file.h"
 
 namespace trace {
 
@@ -18,9 +19,6 @@ class TimelineWriter {
  public:
   /// `most_bytes`: the file ends before it is larger.
   TimelineWriter(std::string path, std::int64_t most_bytes);
-  ~TimelineWriter();
-  TimelineWriter(const TimelineWriter&) = delete;
-  TimelineWriter& operator=(const TimelineWriter&) = delete;
 
   /// Names the tracks of a robot.
   void add_robot(int robot, const std::string& name);
@@ -33,14 +31,12 @@ class TimelineWriter {
   void finish();
 
   bool is_done() const { return done_; }
-  const std::string& error() const { return error_; }
+  const std::string& error() const { return file_.error(); }
 
  private:
   void add(const std::string& event);
 
-  std::string path_;
-  std::FILE* file_ = nullptr;
-  std::string error_;
+  sim::OutputFile file_;
   std::string pending_;
   std::int64_t bytes_ = 0;
   std::int64_t most_bytes_;

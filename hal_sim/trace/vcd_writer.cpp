@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <cstring>
 
 namespace trace {
@@ -45,12 +44,7 @@ std::int64_t to_ns(sim::Clicks at) {
 }
 
 VcdWriter::VcdWriter(std::string path, const std::vector<Scope>& scopes, Window window)
-    : path_(std::move(path)), window_(window) {
-  file_ = std::fopen(path_.c_str(), "wb");
-  if (!file_) {
-    error_ = path_ + ": --vcd: cannot be written: " + std::strerror(errno);
-    return;
-  }
+    : file_(std::move(path), "--vcd"), window_(window) {
   pending_ = "$version twinpuck $end\n$timescale 1 ns $end\n";
   for (const Scope& scope : scopes) {
     pending_ += "$scope module " + plain(scope.name) + " $end\n";
@@ -74,12 +68,7 @@ VcdWriter::VcdWriter(std::string path, const std::vector<Scope>& scopes, Window 
     if (!group.empty()) pending_ += "$upscope $end\n";
     pending_ += "$upscope $end\n";
   }
-  pending_ += "$enddefinitions $end\n";
-  flush();
-}
-
-VcdWriter::~VcdWriter() {
-  if (file_) std::fclose(file_);
+  pending_ += "$enddefinitions $end\n";  // written with the first tick
 }
 
 void VcdWriter::arrive(sim::Clicks at) {
@@ -162,24 +151,19 @@ void VcdWriter::tick(sim::Clicks now) {
 }
 
 void VcdWriter::finish(sim::Clicks now) {
-  if (!file_) return;
   if (!is_done()) {
     arrive(now + (armed_ ? 0 : 1));
     if (state_ == State::Writing) end(now, "");
   }
   flush();
-  if (std::fclose(file_) != 0 && error_.empty())
-    error_ = path_ + ": --vcd: cannot be written: " + std::strerror(errno);
-  file_ = nullptr;
+  file_.close();
 }
 
 void VcdWriter::flush() {
-  if (pending_.empty() || !file_) return;
+  if (pending_.empty() || !error().empty()) return;
   bytes_ += static_cast<std::int64_t>(pending_.size());
-  if (std::fwrite(pending_.data(), 1, pending_.size(), file_) != pending_.size() || std::fflush(file_) != 0) {
-    error_ = path_ + ": --vcd: cannot be written: " + std::strerror(errno);
-    state_ = State::Done;
-  }
+  file_.append(pending_);
+  if (!error().empty()) state_ = State::Done;
   pending_.clear();
 }
 

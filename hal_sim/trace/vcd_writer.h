@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
 // A value change dump (IEEE 1364, clause 18) of chosen signals: a scope for every robot, in it one for every
 // group. Time unit 1 ns; a cycle is 67.8 ns, so every cycle has its own time, rounded to the nearest ns.
-// What is complete goes to the file at every tick, so that a file is readable up to there after any crash.
-// In: changes in order of time. Out: those within the window, and all values at its beginning.
+// What is complete goes to the file at every tick, so that a file is readable up to there after any crash; on
+// a full disk it ends with its last whole tick. In: changes in order of time. Out: those within the window,
+// and all values at its beginning.
 #pragma once
 #include <cstdint>
-#include <cstdio>
 #include <string>
 #include <vector>
 
 #include "hal_sim/trace/signals.h"
 #include "sim_core/base/clock.h"
+#include "sim_core/base/output_file.h"
 
 namespace trace {
 
@@ -34,9 +35,6 @@ class VcdWriter {
     std::vector<Signal> signals;
   };
   VcdWriter(std::string path, const std::vector<Scope>& scopes, Window window);
-  ~VcdWriter();
-  VcdWriter(const VcdWriter&) = delete;
-  VcdWriter& operator=(const VcdWriter&) = delete;
 
   /// A signal has another value from `at` on; times never fall.
   void change(sim::Clicks at, int signal, std::uint64_t value);
@@ -50,7 +48,7 @@ class VcdWriter {
   bool has_begun() const { return state_ != State::Before; }
   bool was_cut() const { return cut_; }
   /// Empty while all is well.
-  const std::string& error() const { return error_; }
+  const std::string& error() const { return file_.error(); }
 
  private:
   enum class State { Before, Writing, Done };
@@ -68,9 +66,7 @@ class VcdWriter {
   void write_value(const Line& line);
   void flush();
 
-  std::string path_;
-  std::FILE* file_ = nullptr;
-  std::string error_;
+  sim::OutputFile file_;
   Window window_;
   std::vector<Line> lines_;
   State state_ = State::Before;

@@ -21,8 +21,9 @@ namespace {
 
 bool holds_c(const fs::path& folder) {
   std::error_code none;
-  for (const auto& entry : fs::recursive_directory_iterator(folder, none))
-    if (entry.path().extension() == ".c" || entry.path().extension() == ".C") return true;
+  const auto skip = fs::directory_options::skip_permission_denied;
+  for (fs::recursive_directory_iterator it(folder, skip, none), end; !none && it != end; it.increment(none))
+    if (it->path().extension() == ".c" || it->path().extension() == ".C") return true;
   return false;
 }
 
@@ -30,7 +31,8 @@ std::vector<std::string> controller_names() {
   std::vector<std::string> names;
   std::error_code none;
   for (const auto& entry : fs::directory_iterator(fs::path(project_root()) / "firmware", none))
-    if (entry.is_directory() && entry.path().filename() != "include" && entry.path().filename() != "webots")
+    if (entry.is_directory(none) && entry.path().filename() != "include" &&
+        entry.path().filename() != "webots")
       names.push_back(entry.path().filename().string());
   return names;
 }

@@ -85,8 +85,9 @@ void check_planar(const WorldDesc& world, std::vector<WorldProblem>& out) {
 }
 
 /// Robots and movable objects must not begin inside anything. Fixed solids may cross each other: that is how
-/// walls are built.
-void check_overlaps(const WorldDesc& world, std::vector<WorldProblem>& out) {
+/// walls are built. A body is reported with the first other that it meets. `only`: one body is looked at, and
+/// all others count for it; negative: all, each pair once.
+void check_overlaps(const WorldDesc& world, int only, std::vector<WorldProblem>& out) {
   const bool flat = world.engine == Engine::Planar;
   Layout layout = build_layout(world);
   if (flat) {
@@ -110,12 +111,13 @@ void check_overlaps(const WorldDesc& world, std::vector<WorldProblem>& out) {
   };
   std::vector<Candidate> around;
   for (std::size_t i = 0; i < layout.moving.size(); ++i) {
+    if (only >= 0 && i != static_cast<std::size_t>(only)) continue;
     const Placed& me = layout.moving[i];
     around.clear();
     near.gather(me.frame.at, me.solid->bound_m, around);
     for (const Candidate& c : around) {
       const std::size_t other = static_cast<std::size_t>(c.index);
-      if (c.moving && other <= i) continue;  // each pair once
+      if (c.moving && (only < 0 ? other <= i : other == i)) continue;
       if (!overlaps(me, c.moving ? layout.moving[other] : layout.fixed[other], kOverlapM)) continue;
       const std::string& name = c.moving ? layout.moving_name[other] : layout.fixed_name[other];
       const int their_line = c.moving ? line_of(other) : layout.fixed_line[other];
@@ -124,6 +126,7 @@ void check_overlaps(const WorldDesc& world, std::vector<WorldProblem>& out) {
                                  layout.moving_name[i], me.frame.at.x, me.frame.at.y, name,
                                  their_line > 0 ? fmt::format(" (line {})", their_line) : std::string(),
                                  flat ? " (the planar engine knows no heights)" : "")});
+      break;
     }
   }
 }
@@ -141,8 +144,14 @@ std::vector<WorldProblem> check_world(const WorldDesc& world) {
   check_names(world, out);
   check_models(world, out);
   check_planar(world, out);
-  if (out.empty()) check_overlaps(world, out);
+  if (out.empty()) check_overlaps(world, -1, out);
   return out;
+}
+
+bool has_room(const WorldDesc& world, int robot) {
+  std::vector<WorldProblem> out;
+  check_overlaps(world, robot, out);
+  return out.empty();
 }
 
 }  // namespace sim

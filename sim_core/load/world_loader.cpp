@@ -4,19 +4,16 @@
 #include "sim_core/load/world_loader.h"
 
 #include <fmt/format.h>
-// the parser asserts where it goes on to report the very same mistake ("[[#"): let it report
-#define TOML_ASSERT(condition) static_cast<void>(0)
-#define TOML_EXCEPTIONS 0
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <sstream>
 
+#include "sim_core/base/input_file.h"
 #include "sim_core/load/floor_image.h"
 #include "sim_core/load/schema.h"
+#include "sim_core/load/toml_parser.h"
 #include "sim_core/sound/wav_file.h"
 
 namespace sim {
@@ -49,6 +46,8 @@ bool number_of(const toml::node& node, double& out) {
   return false;
 }
 
+bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }
+
 bool in_range(const KeySpec& k, double v) { return v >= k.least && v <= k.most; }
 
 /// Reads a node into a value; false when its type or range is wrong.
@@ -75,7 +74,8 @@ bool read_value(const KeySpec& k, const toml::node& node, Value& v) {
     case ValueType::Text: {
       const auto* s = node.as_string();
       if (s) v.text = s->get();
-      return s && v.text.find('\0') == std::string::npos;
+      // names and titles go to terminals and into tables
+      return s && std::none_of(v.text.begin(), v.text.end(), is_control);
     }
     case ValueType::Choice: {
       const auto* s = node.as_string();
@@ -109,46 +109,6 @@ bool read_value(const KeySpec& k, const toml::node& node, Value& v) {
   return false;
 }
 
-/// Place of the first character beyond ASCII that stands outside comments and quotes, where TOML knows none
-/// (and where the parser would ask itself whether a letter is white space, without an answer). line 0: there
-/// is none.
-WorldProblem find_stray_character(std::string_view text) {
-  enum class In { Plain, Comment, Basic, Literal, LongBasic, LongLiteral } in = In::Plain;
-  int line = 1, column = 1;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    const bool basic = in == In::Basic || in == In::LongBasic;
-    const bool triple = text.substr(i, 3) == "\"\"\"" || text.substr(i, 3) == "'''";
-    std::size_t skip = 0;  // characters of the same line to leave out
-    if (in == In::Plain) {
-      // a byte order mark at the very beginning is all right
-      if (static_cast<unsigned char>(c) >= 0x80 && !(i < 3 && text.substr(0, 3) == "\xEF\xBB\xBF")) {
-        return {line, column,
-                "not TOML: got a character beyond ASCII, expected those in quotes or comments only"};
-      }
-      if (c == '#') in = In::Comment;
-      if (c == '"') in = triple ? In::LongBasic : In::Basic;
-      if (c == '\'') in = triple ? In::LongLiteral : In::Literal;
-      if (triple) skip = 2;
-    } else if (basic && c == '\\' && i + 1 < text.size() && text[i + 1] != '\n') {
-      skip = 1;
-    } else if ((in == In::Basic && c == '"') || (in == In::Literal && c == '\'')) {
-      in = In::Plain;
-    } else if (triple && ((in == In::LongBasic && c == '"') || (in == In::LongLiteral && c == '\''))) {
-      in = In::Plain;
-      skip = 2;
-    }
-    if (c == '\n') {
-      if (in == In::Comment || in == In::Basic || in == In::Literal) in = In::Plain;
-      ++line;
-      column = 0;
-    }
-    i += skip;
-    column += 1 + static_cast<int>(skip);
-  }
-  return {};
-}
-
 class Reader {
  public:
   Reader(const std::string& path, const std::vector<RobotModel>& models,
@@ -162,8 +122,8 @@ class Reader {
     LoadedWorld out;
     if (text.size() > kLongestFile) {
       problem({}, fmt::format("got {} bytes, expected at most {}", text.size(), kLongestFile));
-    } else if (const WorldProblem stray = find_stray_character(text); stray.line > 0) {
-      problems_.push_back(stray);
+    } else if (const TomlTrap trap = find_toml_trap(text); trap.line > 0) {
+      problems_.push_back({trap.line, trap.column, trap.text});
     } else {
       lines_ = split_lines(text);
       const toml::parse_result result = toml::parse(text);
@@ -177,6 +137,7 @@ class Reader {
       }
     }
     if (problems_.empty()) problems_ = check_world(world_);
+    if (problems_.size() > kMostProblems) problems_.resize(kMostProblems);
     std::stable_sort(problems_.begin(), problems_.end(), [](const WorldProblem& a, const WorldProblem& b) {
       return a.line != b.line ? a.line < b.line : a.column < b.column;
     });
@@ -255,6 +216,7 @@ class Reader {
       Value value;
       if (!read_value(k, *node, value)) {
         std::string hint;
+        if (k.type == ValueType::Text && node->is_string()) hint = " without control characters";
         if (k.type == ValueType::Choice && node->is_string()) hint = choice_hint(k, node->as_string()->get());
         problem(node->source(), fmt::format("{}{}: got {}, expected {}{}", prefix, k.key, written(*node),
                                             expected_text(k), hint));
@@ -498,15 +460,14 @@ std::string LoadedWorld::report(std::string_view file) const {
 
 LoadedWorld load_world(const std::string& path, const std::vector<RobotModel>& models,
                        const std::vector<PartKind>& part_kinds) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  if (in) text << in.rdbuf();
-  if (!in || !text) {
+  std::string text;
+  const std::string wrong = read_input_file(path, kLongestFile, text);
+  if (!wrong.empty()) {
     LoadedWorld out;
-    out.problems.push_back({0, 0, std::string("cannot be read: ") + std::strerror(errno)});
+    out.problems.push_back({0, 0, wrong});
     return out;
   }
-  return parse_world(text.str(), path, models, part_kinds);
+  return parse_world(text, path, models, part_kinds);
 }
 
 LoadedWorld parse_world(std::string_view text, const std::string& path, const std::vector<RobotModel>& models,

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "sim_core/record/csv_recorder.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <iterator>
 
 #include "sim_core/world/scene.h"
@@ -18,19 +14,22 @@ namespace {
 constexpr std::size_t kBufferBytes = 1u << 16;  // at most this much is lost with the power
 constexpr int kIrColumns = 8;
 
+// a field with a comma or a quote stands in quotes (RFC 4180)
+std::string field(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string out = "\"";
+  for (char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + '"';
+}
+
 }  // namespace
 
 CsvRecorder::CsvRecorder(std::string path, double every_s)
-    : path_(std::move(path)), every_(std::max<Clicks>(1, from_seconds(every_s))) {
-  file_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (file_ < 0) error_ = fmt::format("{}: cannot be written: {}", path_, std::strerror(errno));
+    : file_(std::move(path)), every_(std::max<Clicks>(1, from_seconds(every_s))) {
   buffer_ = "time_s,robot,x_m,y_m,heading_rad,left_steps,right_steps,ir0,ir1,ir2,ir3,ir4,ir5,ir6,ir7,leds\n";
 }
 
-CsvRecorder::~CsvRecorder() {
-  flush();
-  if (file_ >= 0) ::close(file_);
-}
+CsvRecorder::~CsvRecorder() { flush(); }
 
 void CsvRecorder::sample(const Scene& scene, const Minds& minds) {
   const Clicks now = scene.now();
@@ -42,7 +41,7 @@ void CsvRecorder::sample(const Scene& scene, const Minds& minds) {
     RobotMind& mind = *minds[static_cast<std::size_t>(r)];
     const MindReport report = mind.report();
     fmt::format_to(out, "{:.6f},{},{:.6f},{:.6f},{:.6f},{},{}", to_seconds(now),
-                   scene.world().robots[static_cast<std::size_t>(r)].name, p.x_m, p.y_m, p.heading_rad,
+                   field(scene.world().robots[static_cast<std::size_t>(r)].name), p.x_m, p.y_m, p.heading_rad,
                    report.left_steps, report.right_steps);
     const int sensors = static_cast<int>(
         scene.world().model_of(scene.world().robots[static_cast<std::size_t>(r)])->proximity.size());
@@ -64,16 +63,7 @@ bool CsvRecorder::flush() {
 }
 
 void CsvRecorder::write_buffer() {
-  // the buffer always ends with a whole line; a short write is carried on with
-  std::size_t done = 0;
-  while (is_good() && done < buffer_.size()) {
-    const ssize_t wrote = ::write(file_, buffer_.data() + done, buffer_.size() - done);
-    if (wrote > 0) {
-      done += static_cast<std::size_t>(wrote);
-    } else if (errno != EINTR) {
-      error_ = fmt::format("{}: cannot be written: {}", path_, std::strerror(errno));
-    }
-  }
+  if (is_good()) file_.append_lines(buffer_);
   buffer_.clear();
 }
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The --record file: one CSV row per robot and instant, SI units. Whole lines are written at once, so
-// whatever happens the file is readable up to its last line. The first I/O error is kept; later calls do
+// whatever happens the file ends with a whole line. The first I/O error is kept; later calls do
 // nothing.
 #pragma once
 #include <string>
 
 #include "sim_core/base/clock.h"
+#include "sim_core/base/output_file.h"
 #include "sim_core/world/robot_mind.h"
 
 namespace sim {
@@ -24,19 +25,17 @@ class CsvRecorder {
   /// Writes what is still in memory to the file. True when all went well so far.
   bool flush();
 
-  bool is_good() const { return error_.empty(); }
+  bool is_good() const { return file_.error().empty(); }
   /// "F.csv: cannot be written: No space left on device"; empty while all is well.
-  const std::string& error() const { return error_; }
+  const std::string& error() const { return file_.error(); }
 
  private:
   void write_buffer();
 
-  std::string path_;
+  OutputFile file_;
   Clicks every_;
   Clicks next_ = 0;
-  int file_ = -1;
   std::string buffer_;
-  std::string error_;
 };
 
 }  // namespace sim

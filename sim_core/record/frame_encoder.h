@@ -6,35 +6,10 @@
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <vector>
+
+#include "sim_core/base/output_file.h"
 
 namespace sim {
-
-/// A file that is written at its end and patched in places; remembers the first error.
-class FilmFile {
- public:
-  explicit FilmFile(std::string path);
-  ~FilmFile();
-  FilmFile(const FilmFile&) = delete;
-  FilmFile& operator=(const FilmFile&) = delete;
-  /// Writes all of it, or notes why not.
-  void write_at(std::int64_t at, const std::vector<std::uint8_t>& bytes);
-  /// All of it or, when that fails, nothing of it; `end` is what the file then ends with.
-  void append(const std::vector<std::uint8_t>& bytes, const std::vector<std::uint8_t>& end = {});
-  /// Bytes so far: where append() writes.
-  std::int64_t size() const { return size_; }
-  /// Cuts off or goes on: where append() writes from now on.
-  void set_size(std::int64_t size) { size_ = size; }
-  void close();
-  void fail(const std::string& reason);
-  /// "PATH: cannot be written: reason", or empty.
-  const std::string& error() const { return error_; }
-
- private:
-  std::string path_, error_;
-  int file_ = -1;
-  std::int64_t size_ = 0;
-};
 
 class FrameEncoder {
  public:
@@ -47,7 +22,7 @@ class FrameEncoder {
   const std::string& error() const { return file_.error(); }
 
  protected:
-  FilmFile file_;
+  OutputFile file_;
 };
 
 /// VP9 in WebM. Sides must be even.

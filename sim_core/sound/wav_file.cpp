@@ -2,10 +2,8 @@
 #include "sim_core/sound/wav_file.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <sstream>
+
+#include "sim_core/base/input_file.h"
 
 namespace sim {
 namespace {
@@ -80,17 +78,9 @@ std::string parse_wav(std::string_view bytes, WavSound& out) {
 }
 
 std::string read_wav(const std::string& path, WavSound& out) {
-  errno = 0;
-  std::ifstream in(path, std::ios::binary | std::ios::ate);
-  if (!in) return std::string("cannot be read: ") + std::strerror(errno ? errno : EIO);
-  const auto size = static_cast<std::size_t>(std::max<std::streamoff>(0, in.tellg()));
-  if (size > kLongestFile)
-    return "got " + std::to_string(size) + " bytes, expected at most " + std::to_string(kLongestFile);
-  in.seekg(0);
-  std::ostringstream text;
-  text << in.rdbuf();
-  if (!text) return std::string("cannot be read: ") + std::strerror(errno ? errno : EIO);
-  return parse_wav(text.str(), out);
+  std::string text;
+  const std::string wrong = read_input_file(path, kLongestFile, text);
+  return wrong.empty() ? parse_wav(text, out) : wrong;
 }
 
 std::string wav_header(int rate_hz, std::uint32_t samples) {

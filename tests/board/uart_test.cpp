@@ -180,6 +180,54 @@ TEST(UartEnd, pty_carries_bytes_both_ways_under_a_stable_name) {
   EXPECT_NE(::access(link.c_str(), F_OK), 0);  // the link goes with the end
 }
 
+TEST(UartEnd, a_pty_link_never_takes_the_place_of_what_is_not_its_own) {
+  const std::string link = "/tmp/twinpuck_pty_own_" + std::to_string(getpid());
+  const auto target = [&] {
+    char text[256];
+    const ssize_t got = readlink(link.c_str(), text, sizeof text);
+    return got > 0 ? std::string(text, static_cast<std::size_t>(got)) : std::string();
+  };
+  std::string error;
+  // a link of the user's own, to a file
+  ASSERT_EQ(symlink("/etc/hostname", link.c_str()), 0);
+  EXPECT_FALSE(board::open_uart_end("pty", link, error));
+  EXPECT_EQ(error, "pty: link " + link + ": File exists");
+  EXPECT_EQ(target(), "/etc/hostname");
+  // one that a run left behind is replaced
+  unlink(link.c_str());
+  ASSERT_EQ(symlink("/dev/pts/99999", link.c_str()), 0);
+  auto first = board::open_uart_end("pty", link, error);
+  ASSERT_TRUE(first) << error;
+  const std::string ours = target();
+  // two runs in one folder: the second is told, and the first keeps its link
+  EXPECT_FALSE(board::open_uart_end("pty", link, error));
+  EXPECT_EQ(error, "pty: link " + link +
+                       ": got the link of a run that goes on, expected a name of its own, by pty:LINK");
+  EXPECT_EQ(target(), ours);
+  // what somebody else put there meanwhile stays
+  unlink(link.c_str());
+  ASSERT_EQ(symlink("/etc/hostname", link.c_str()), 0);
+  first.reset();
+  EXPECT_EQ(target(), "/etc/hostname");
+  unlink(link.c_str());
+  // the name is free again
+  first = board::open_uart_end("pty", link, error);
+  EXPECT_TRUE(first) << error;
+  first.reset();
+  EXPECT_EQ(target(), "");
+}
+
+TEST(UartEnd, a_file_on_a_full_disk_says_so) {
+  std::string error;
+  auto end = board::open_uart_end("file:/dev/full", "", error);
+  ASSERT_TRUE(end) << error;
+  EXPECT_EQ(end->error(), "");
+  const std::uint8_t bytes[] = {1, 2};
+  const Cycle ends[] = {1, 2};
+  end->deliver(bytes, ends, 2);
+  EXPECT_EQ(end->error(), "file:/dev/full: cannot be written: No space left on device");
+}
+
 TEST(UartEnd, tcp_listens_on_loopback_and_says_when_the_port_is_taken) {
   std::string error;
   auto end = board::open_uart_end("tcp:0", "", error);

@@ -4,6 +4,9 @@
 #include <netinet/in.h>
 #include <sys/socket.h>
 
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
 #include "tests/cli/command.h"
 
 using namespace cli_test;
@@ -41,6 +44,16 @@ TEST_P(BadInput, is_refused_with_a_clear_line) {
   write("no_version.toml", "title = \"x\"\n");
   write("unknown_firmware.toml",
         "twinpuck = 1\n[arena]\nsize = [1, 1]\n[[robot]]\nname = \"r\"\nfirmware = \"obstakle\"\n");
+  write("good.toml", "twinpuck = 1\n[arena]\nsize = [1, 1]\n[[robot]]\n");
+  write("half.toml", "[=]");
+  write("empty.toml", "");
+  write("image.so",
+        "\x7f"
+        "ELF, or so it says");
+  fs::create_symlink("loop", folder / "loop");
+  fs::create_symlink("/dev/full", folder / "full.so");
+  write("odd/main.c", "int main(void) { while (1); }\n");
+  write("device.cpp/readme.txt", "no C\n");
   std::string arguments = bad.arguments;
   for (std::size_t at; (at = arguments.find('@')) != std::string::npos;)
     arguments.replace(at, 1, folder.string());
@@ -101,6 +114,42 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"record_nowhere", "run maze --record /nowhere/r.csv", 2, "/nowhere/r.csv"},
         Bad{"summary_nowhere", "run maze --summary /nowhere/s.json", 2, "/nowhere/s.json"},
         Bad{"record_too_often", "run maze --record @/r.csv --record-every 0", 2, "--record-every"},
+        Bad{"half_a_header", "run @/half.toml", 2, "half.toml:1:2: not TOML"},
+        Bad{"half_a_table_of_exercises", "lab --table @/half.toml", 2, "half.toml:1:2"},
+        Bad{"empty_world", "check @/empty.toml", 2, "empty.toml:1:1: twinpuck: missing"},
+        Bad{"world_is_a_device", "check /dev/zero", 2, "expected a regular file"},
+        Bad{"world_is_a_loop", "run @/loop", 2, "Too many levels of symbolic links"},
+        Bad{"import_of_a_device", "import /dev/zero -o @/x.toml", 2, "expected a regular file"},
+        Bad{"import_of_a_loop", "import @/loop -o @/x.toml", 2, "Too many levels of symbolic links"},
+        Bad{"import_of_a_folder", "import @/odd -o @/x.toml", 2, "got a folder"},
+        Bad{"import_onto_itself", "import @/empty.toml -o @/empty.toml", 2, "got the world itself"},
+        Bad{"lab_table_is_a_device", "lab --table /dev/zero", 2, "expected a regular file"},
+        Bad{"firmware_is_a_device", "run maze --fw puck=/dev/zero", 2, "regular file"},
+        Bad{"firmware_is_a_loop", "run maze --fw puck=@/loop", 2, "loop"},
+        Bad{"supervisor_is_a_device", "run maze --supervisor /dev/zero", 2, "got a device"},
+        Bad{"supervisor_is_a_loop", "run maze --supervisor @/loop", 2, "loop"},
+        Bad{"cycles_of_a_device", "cycles /dev/zero", 2, "got a device"},
+        Bad{"build_of_a_loop", "build @/loop -o @/x.so", 2, "Too many levels of symbolic links"},
+        Bad{"image_onto_a_device", "build @/odd -o @/full.so", 2, "expected a new name"},
+        Bad{"image_onto_a_source", "build @/odd -o @/odd/main.c", 2, "expected a new name"},
+        Bad{"record_onto_a_loop", "run maze --record @/loop", 2, "loop"},
+        Bad{"record_onto_the_world", "run @/good.toml --record @/good.toml", 2, "got the file of the world"},
+        Bad{"two_outputs_in_one", "run maze --record @/x --summary @/./x", 2, "got the file of --record"},
+        Bad{"folder_under_a_loop", "run maze --save-images @/loop/x", 2, "Too many levels"},
+        Bad{"serial_input_is_a_folder", "run maze --uart puck=file:/dev/null,@/odd", 2, "got a folder"},
+        Bad{"link_onto_a_file", "run maze --uart puck=pty:@/text.so", 2, "File exists"},
+        Bad{"time_is_nan", "run maze --for nan", 2, "--for: got nan"},
+        Bad{"limit_is_nan", "run maze --host-limit nan", 2, "--host-limit: got nan"},
+        Bad{"window_is_nan", "run maze --vcd @/x.vcd --vcd-from nan", 2, "--vcd-from: got nan"},
+        Bad{"window_beyond_time", "run maze --vcd @/x.vcd --vcd-to 1e300", 2, "--vcd-to: got 1e300"},
+        Bad{"cell_is_nan", "run maze --heatmap @/x.png --heatmap-cell nan", 2, "--heatmap-cell: got nan"},
+        Bad{"film_speed_is_nan", "run maze --film @/x.webm --film-speed nan", 2, "--film-speed: got nan"},
+        Bad{"record_every_nan", "run maze --record @/x.csv --record-every nan", 2, "--record-every: got nan"},
+        Bad{"inspect_at_nan", "inspect maze --at nan", 2, "--at: got nan"},
+        Bad{"roughness_is_nan", "inspect --profile all --roughness nan", 2, "--roughness: got nan"},
+        Bad{"colour_is_nan", "inspect --profile all --colour nan,0,0", 2, "--colour: got nan"},
+        Bad{"period_is_nan", "cycles blink --period nan", 2, "--period: got nan"},
+        Bad{"trigger_is_nan", "run maze --vcd @/x.vcd --vcd-trigger puck:LED0=nan", 2, "got value 'nan'"},
         Bad{"bad_name", "new 'My Robot'", 2, "lower-case"}, Bad{"name_taken", "new obstacle", 2, "exists"}),
     [](const auto& info) { return std::string(info.param.name); });
 
@@ -128,10 +177,63 @@ TEST_F(BadLuck, a_full_disk_ends_the_run_with_7_and_says_so) {
   EXPECT_NE(s.text.find("No space left"), std::string::npos) << s.text;
 }
 
-TEST_F(BadLuck, a_summary_on_a_full_disk_is_reported) {
-  const Said s = twinpuck("run maze --for 1 --summary /dev/full");
-  EXPECT_EQ(s.exit_code, 7) << s.text;
-  EXPECT_NE(s.text.find("/dev/full"), std::string::npos) << s.text;
+TEST_F(BadLuck, every_output_on_a_full_disk_ends_with_7_and_is_named) {
+  for (const char* name : {"x.png", "x.svg", "x.csv", "x.webm", "x.apng", "x"})
+    fs::create_symlink("/dev/full", folder / name);
+  for (const std::string output :
+       {"--record @/x.csv", "--summary @/x", "--coverage @/x", "--vcd @/x", "--trace @/x",
+        "--picture @/x.png", "--picture @/x.svg", "--heatmap @/x.png", "--heatmap @/x.svg",
+        "--heatmap @/x.csv", "--film @/x.webm", "--film @/x.apng", "--uart puck=file:@/x"}) {
+    const std::size_t at = output.find('@');
+    const std::string option = output.substr(0, at) + folder.string() + output.substr(at + 1);
+    const Said s = twinpuck("run maze --for 1 -q --fw puck=asercom " + option);
+    EXPECT_EQ(s.exit_code, 7) << output << "\n" << s.text;
+    EXPECT_NE(s.text.find(": cannot be written: "), std::string::npos) << output << "\n" << s.text;
+    EXPECT_NE(s.text.find(output.substr(at + 1)), std::string::npos) << output << "\n" << s.text;
+  }
+}
+
+// a limit on the size of files is a disk that fills up within a record
+TEST_F(BadLuck, files_end_with_their_last_whole_record_when_the_disk_fills_up) {
+  ASSERT_EQ(twinpuck("build braitenberg -o " + path("b.so")).exit_code, 0);
+  for (const char* output : {"--record", "--vcd", "--trace"}) {
+    const std::string file = path("x");
+    fs::remove(file);
+    const Said s = twinpuck("run maze --for 60 -q --fw puck=" + path("b.so") + " " + output + " " + file,
+                            "ulimit -f 13 &&");
+    EXPECT_EQ(s.exit_code, 7) << s.text;
+    EXPECT_NE(s.text.find("x: "), std::string::npos) << s.text;
+    EXPECT_NE(s.text.find("cannot be written: File too large"), std::string::npos) << s.text;
+    const std::string text = read(file);
+    ASSERT_GT(text.size(), 5000u) << output;
+    EXPECT_EQ(text.back(), '\n') << output;
+    if (std::string(output) == "--record") {
+      const std::string last = text.substr(text.rfind('\n', text.size() - 2) + 1);
+      EXPECT_EQ(std::count(last.begin(), last.end(), ','), 15) << last;
+    }
+    if (std::string(output) == "--trace")
+      EXPECT_TRUE(nlohmann::json::accept(text)) << text.substr(text.size() - 99);
+  }
+}
+
+// an escape sequence could hide a message or change the terminal
+TEST_F(BadLuck, control_characters_in_names_do_not_reach_the_terminal) {
+  const std::string name = "a\x1b[31mred\x07.toml";
+  write(name, "twinpuck = 1\n[arena]\nsize = [1, 1]\n[[robot]]\nname = \"\\u001b[2J\"\n'\x9b' = 1\n");
+  write("folder/\x1b]0;x\x07.c", "int main(void) { retrun 0; }\n");
+  write("w.wbt", "#VRML_SIM R2023b utf8\nE-puck { name \"\x1b[31m\" controller \"\x1b[2J\" }\nFoo\x1b { }\n");
+  for (const std::string& arguments :
+       {"check '" + path(name) + "'", "run '" + path(name) + "'",
+        "build " + path("folder") + " -o " + path("x.so"),
+        "import " + path("w.wbt") + " -o " + path("w.toml"), std::string("run maze --fw 'puck=\x1b[31m'"),
+        std::string("run maze '--\x1b[31m'"), std::string("list '\x9b'")}) {
+    const Said s = twinpuck(arguments);
+    for (char c : s.text)
+      EXPECT_TRUE(static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t') << arguments << "\n"
+                                                                                   << s.text;
+    EXPECT_EQ(s.text.find('\x9b'), std::string::npos) << s.text;
+    EXPECT_NE(s.exit_code, 6) << s.text;
+  }
 }
 
 TEST_F(BadLuck, a_failed_build_leaves_the_old_image) {

@@ -45,7 +45,7 @@ TEST_F(FilmOption, a_full_disk_ends_the_run_with_7) {
 TEST_F(FilmOption, one_file_for_two_outputs_is_refused) {
   const Said s = twinpuck("run maze --for 1 --picture " + path("x.png") + " --film " + path("x.png"));
   EXPECT_EQ(s.exit_code, 2);
-  EXPECT_NE(s.text.find("x.png: got two outputs for this file"), std::string::npos) << s.text;
+  EXPECT_NE(s.text.find("x.png: --film: got the file of --picture"), std::string::npos) << s.text;
 }
 
 TEST_F(FilmOption, heat_maps_are_written_as_picture_and_as_numbers_at_once) {

@@ -171,6 +171,125 @@ Strange { translation 2 0 0 }
   EXPECT_TRUE(reports(made, 9, "Strange: not carried: a node that is not known here"));
 }
 
+// braitenberg, obstacle and e-puck are names of ours too
+TEST(ImportRobots, a_program_of_ours_never_drives_in_silence) {
+  const fs::path top = fs::path(::testing::TempDir()) / ("twinpuck-names-" + std::to_string(getpid()));
+  const auto write = [&](const std::string& name, const std::string& file) {
+    fs::create_directories(top / "controllers" / name);
+    std::ofstream(top / "controllers" / name / file) << "text\n";
+  };
+  fs::create_directories(top / "worlds");
+  write("braitenberg", "braitenberg.py");
+  write("obstacle", "obstacle.bsg");
+  write("line", "line.cpp");
+  write("own", "own.c");
+  write("referee", "referee.cpp");
+  wbt::Options options;
+  options.folder = options.out_folder = (top / "worlds").string();
+  options.model = board::epuck_model();
+  options.has_firmware = [](const std::string& name) {
+    return name == "braitenberg" || name == "obstacle" || name == "e-puck" || name == "own";
+  };
+  options.has_program = [](const std::string& name) { return name == "rules"; };
+  const auto made = wbt::import_world(kNew + R"(E-puck { controller "braitenberg" }
+E-puck { name "b" translation 0 1 0 controller "obstacle" }
+E-puck { name "c" translation 0 2 0 controller "e-puck" }
+E-puck { name "d" translation 0 3 0 controller "line" }
+E-puck { name "e" translation 0 4 0 controller "own" }
+Robot { name "s" supervisor TRUE controller "referee" }
+Robot { name "t" supervisor TRUE controller "rules" controllerArgs [ "fast" ] }
+)",
+                                      options);
+  fs::remove_all(top);
+  const auto world = world_of(made);
+  ASSERT_EQ(world.robots.size(), 5u);
+  EXPECT_EQ(world.robots[0].firmware, "");
+  EXPECT_TRUE(reports(made, 2, "a Python program; no firmware; firmware/braitenberg is another program"));
+  EXPECT_EQ(world.robots[1].firmware, "");
+  EXPECT_TRUE(reports(made, 3, "a BotStudio program; no firmware; firmware/obstacle is another program"));
+  EXPECT_EQ(world.robots[2].firmware, "e-puck");
+  EXPECT_TRUE(reports(made, 4, "firmware/e-puck has its name and runs in its place"));
+  EXPECT_EQ(world.robots[3].firmware, "line");
+  EXPECT_TRUE(reports(made, 5, "a C++ program"));
+  EXPECT_EQ(world.robots[4].firmware, "../controllers/own");
+  EXPECT_FALSE(reports(made, 6, ""));
+  // supervisors are the PC's programs: C++ is all right, ours have another place
+  ASSERT_EQ(world.supervisors.size(), 2u);
+  EXPECT_EQ(world.supervisors[0].program, "../controllers/referee");
+  EXPECT_TRUE(reports(made, 8, "supervisor/programs/rules has its name and runs in its place"));
+  EXPECT_TRUE(reports(made, 8, "controllerArgs: not carried: arguments of the controller"));
+}
+
+TEST(ImportRobots, every_slot_is_looked_into) {
+  const auto made = raw(kNew + R"(E-puck {
+  groundSensorsSlot [
+    GPS { name "floor" }
+    Group { children [ DistanceSensor { name "gs0" } DistanceSensor { name "gs1" } ] }
+    Camera { name "below" }
+  ]
+  bodySlot [ Lidar { } ]
+  newSlot [ Radar { } ]
+  children [ Compass { } ]
+}
+E-puck { name "b" translation 1 0 0 groundSensorsSlot [ Emitter { name "e" } ] }
+)");
+  const auto world = world_of(made);
+  ASSERT_EQ(world.robots.size(), 2u);
+  ASSERT_EQ(world.robots[0].parts.size(), 1u);
+  EXPECT_EQ(world.robots[0].parts[0].kind, "ground-sensors");
+  ASSERT_EQ(world.robots[0].devices.size(), 2u);
+  EXPECT_EQ(world.robots[0].devices[0].name, "floor");
+  EXPECT_EQ(world.robots[0].devices[1].name, "compass");
+  EXPECT_TRUE(reports(made, 6, "Camera: not carried"));
+  EXPECT_TRUE(reports(made, 8, "Lidar: not carried"));
+  EXPECT_TRUE(reports(made, 9, "Radar: not carried"));
+  EXPECT_TRUE(world.robots[1].parts.empty());
+  EXPECT_EQ(world.robots[1].devices.size(), 1u);
+}
+
+TEST(ImportRobots, a_proto_of_the_project_brings_its_controller_and_sensors) {
+  const auto made = raw(kNew + R"(PROTO EPuckMine [
+  field SFVec3f translation 0 0 0
+  field SFString controller "from_proto"
+  field MFNode turretSlot [ ]
+] { Robot {
+  translation IS translation
+  controller IS controller
+  controllerArgs [ "a" ]
+  children [
+    DistanceSensor { name "ps3" lookupTable [ 0 100 0 0.1 50 0 ] }
+    LightSensor { name "ls0" lookupTable [ 0 4095 0 1 0 0 ] }
+    LightSensor { name "ls1" lookupTable [ 0 4095 0 1 0 0 ] }
+    Gyro { }
+    Group { children IS turretSlot }
+  ]
+} }
+EPuckMine { turretSlot [ GPS { } ] }
+EPuckMine { translation 1 0 0 controller "own" }
+PROTO EPuckScript [ field SFString controller "scripted" ] { %{ local x = 1 }% Robot { controller IS controller } }
+EPuckScript { }
+)");
+  const auto world = world_of(made);
+  ASSERT_EQ(world.robots.size(), 3u) << made.toml;
+  EXPECT_EQ(world.robots[0].firmware, "from_proto");
+  EXPECT_EQ(world.robots[1].firmware, "own");
+  EXPECT_EQ(world.robots[2].firmware, "scripted");
+  ASSERT_EQ(world.robots[0].sensors.size(), 1u);
+  EXPECT_EQ(world.robots[0].sensors[0].index, 3);
+  ASSERT_EQ(world.robots[0].devices.size(), 2u);
+  EXPECT_EQ(world.robots[0].devices[0].name, "gps");
+  EXPECT_EQ(world.robots[0].devices[1].name, "gyro");
+  EXPECT_TRUE(reports(made, 0, "LightSensor.lookupTable: not carried: tables of light sensors"));
+  EXPECT_TRUE(reports(made, 0, "controllerArgs: not carried"));
+  EXPECT_TRUE(reports(made, 0, "a PROTO with a script"));
+}
+
+TEST(ImportRobots, hundreds_on_one_spot_find_room_or_go) {
+  std::string text = kNew + "RectangleArena { floorSize 2 2 }\n";
+  for (int i = 0; i < 300; ++i) text += "E-puck { name \"r" + std::to_string(i) + "\" }\n";
+  EXPECT_EQ(world_of(raw(text)).robots.size(), 41u);  // kMostRepairs, and the one that stays
+}
+
 TEST(ImportRobots, without_firmware_no_controller_is_named) {
   wbt::Options options;
   options.without_firmware = true;

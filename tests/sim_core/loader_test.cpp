@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // World files: what is read, and the exact sentence for each kind of mistake.
+#include <sys/stat.h>
+
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -169,6 +172,8 @@ TEST(Loader, every_kind_of_mistake_has_its_sentence) {
        "w.toml:3:1: unknown key 'physicshz' in world; did you mean 'physics_hz'? (keys: physics_hz, engine, "
        "gravity, seed, ambient, interrupts, "
        "wheel_noise, wheel_noise_law, slip)"},
+      {"title = \"a\\u001b[31mb\"",
+       "w.toml:2:9: title: got \"a\\u001b[31mb\", expected text in quotes without control characters"},
       {"title = 5", "w.toml:2:9: title: got 5, expected text in quotes"},
       {"world = 3", "w.toml:2:9: world: got 3, expected a table, written [world]"},
       {"[[arena]]\nsize = [1, 1]",
@@ -198,7 +203,8 @@ TEST(Loader, every_kind_of_mistake_has_its_sentence) {
       {"[material]\nname = \"a\"",
        "w.toml:2:1: material: got a table, expected [[material]] with double brackets"},
       {"[floor]\nimage = \"no.png\"\n[arena]\nsize = [1, 1]",
-       "w.toml:3:9: floor.image: got no.png (file not found), expected a PNG file"},
+       "w.toml:3:9: floor.image: got no.png (cannot be read: No such file or directory), expected a PNG "
+       "file"},
       {"[[wall]]\nheight = 0.1",
        "w.toml:2:1: wall.points: missing, expected list of points [[x, y], ...] from -1000 to 1000 m"},
       {"[[wall]]\npoints = [[0, 0]]", "w.toml:3:10: wall.points: got 1 point(s), expected at least 2"},
@@ -337,6 +343,42 @@ TEST(Loader, all_mistakes_are_reported_in_order) {
             "w.toml:4:1: unknown key 'batery' in robot; did you mean 'battery'? ");
   EXPECT_NE(report.find("\nw.toml:6:11: world.gravity: got 0, expected number from 0.01 to 100 m/s2"),
             std::string::npos);
+}
+
+// what the parser asserted on, in a program of several files that include it, or followed by recursion
+TEST(Loader, half_typed_headers_and_very_deep_keys_are_mistakes_like_others) {
+  const std::string deep = [] {
+    std::string all = "a";
+    for (int i = 0; i < 300000; ++i) all += ".a";
+    return all;
+  }();
+  const std::string lists(300000, '[');
+  for (const std::string& text :
+       {std::string("["), std::string("[["), std::string("[=]"), std::string("[[=]]"), std::string("[[#"),
+        std::string("[a.=]"), std::string("[\"a\"=]"), "[" + deep + "]", "[[" + deep + "]]", deep + " = 1",
+        "x = " + lists, "x = {" + deep + " = 1}"})
+    EXPECT_NE(report_of(text), "") << text.substr(0, 40);
+  EXPECT_EQ(report_of("a.b.c.d.e.f.g.h.i = 1"),
+            "w.toml:1:16: got a key of more than 8 parts, expected two at most");
+  // dots of numbers are none of a key
+  EXPECT_EQ(report_of("[sky]\na = [1.5, 2.5, 3.5, 4.5, 5.5, 6.5, 7.5, 8.5, 9.5, 0.5]").find("parts"),
+            std::string::npos);
+}
+
+TEST(Loader, odd_files_are_named_and_nothing_waits_for_them) {
+  const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "odd_files";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "empty.toml").close();
+  std::filesystem::create_symlink("loop", folder / "loop");
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  const auto report = [](const std::string& file) { return sim::load_world(file, {puck()}).report("f"); };
+  EXPECT_EQ(report("/dev/zero"), "f: got a device, expected a regular file");
+  EXPECT_EQ(report(folder), "f: got a folder, expected a file");
+  EXPECT_EQ(report(folder / "loop"), "f: cannot be read: Too many levels of symbolic links");
+  EXPECT_EQ(report(folder / "empty.toml"), "f:1:1: twinpuck: missing, expected whole number: 1");
+  EXPECT_EQ(report(folder / "pipe"), "f:1:1: twinpuck: missing, expected whole number: 1");
+  std::filesystem::remove_all(folder);
 }
 
 TEST(Loader, a_missing_file_and_a_folder_are_said) {
