@@ -155,7 +155,7 @@ Cycle Robot::after(Cycle main, std::uint64_t& fraction) const {
 
 Cycle Robot::main_until(Cycle at) const {
   const Cycle real = has_handlers_ ? board_.handlers().work(now_, at, processor_->cpu_level()) : at - now_;
-  if (stolen_q32_ == 0) return real;
+  if (stolen_q32_ == 0 || real <= 0) return std::max<Cycle>(real, 0);
   const unsigned __int128 whole = (static_cast<unsigned __int128>(real) << kQ) - fraction_;
   return static_cast<Cycle>(whole / (kOne + stolen_q32_));
 }
