@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "sim_core/load/world_loader.h"
+#include "tools/run_guard.h"
 #include "tools/verbs.h"
 
 namespace tools {
@@ -49,6 +50,7 @@ int usage_error(const CLI::App& app, const CLI::ParseError& e, int argc, char** 
 
 int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);
+  tools::guard_process();
   int exit_code = tools::kPass;
   CLI::App app{"Twinpuck: the firmware twin of the e-puck robot"};
   app.require_subcommand(1);

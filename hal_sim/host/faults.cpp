@@ -5,16 +5,21 @@
 #include <pthread.h>
 #include <signal.h>
 #include <ucontext.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cstring>
 #include <memory>
 #include <mutex>
+#include <vector>
 
 #if defined(__SANITIZE_ADDRESS__)
 #include <sanitizer/asan_interface.h>
 #include <sanitizer/common_interface_defs.h>
 #endif
 
+#include "hal_sim/host/halt.h"
 #include "hal_sim/host/robot.h"
 #include "sim_core/base/check.h"
 
@@ -33,12 +38,36 @@ struct Fault {
 thread_local Fault last_fault;
 thread_local FaultGuest* guest = nullptr;
 
+/// A thread that was told to halt, and where it did.
+struct Halted {
+  pthread_t thread = pthread_self();
+  std::atomic<bool> has_halted{false};
+  Robot* robot = nullptr;
+  FaultGuest* guest = nullptr;
+  std::uintptr_t pc = 0, frame = 0;
+};
+std::mutex threads_changing;
+std::vector<Halted*> threads;  // all that may run firmware or supervisors
+thread_local Halted* halted = nullptr;
+constexpr int kHaltSignal = SIGUSR2;
+
 constexpr std::size_t kSignalStackBytes = 64 * 1024;
 constexpr std::size_t kRecoveryStackBytes = 256 * 1024;
 struct ThreadStacks {
   std::unique_ptr<char[]> signal{new char[kSignalStackBytes]};
   std::unique_ptr<char[]> recovery{new char[kRecoveryStackBytes]};
+  Halted here;
+  ThreadStacks() {
+    std::lock_guard<std::mutex> lock(threads_changing);
+    threads.push_back(&here);
+    halted = &here;
+  }
   ~ThreadStacks() {
+    {
+      std::lock_guard<std::mutex> lock(threads_changing);
+      threads.erase(std::find(threads.begin(), threads.end(), &here));
+      halted = nullptr;
+    }
     stack_t off{};
     off.ss_flags = SS_DISABLE;
     sigaltstack(&off, nullptr);
@@ -82,6 +111,17 @@ void tell_sanitizer() {}
 __attribute__((noreturn, no_sanitize("address"))) void land() {
   tell_sanitizer();
   recover();
+}
+
+void on_halt(int, siginfo_t*, void* raw) {
+  if (!halted) return;
+  const auto& r = static_cast<ucontext_t*>(raw)->uc_mcontext.gregs;
+  halted->robot = Robot::running();
+  halted->guest = guest;
+  halted->pc = static_cast<std::uintptr_t>(r[REG_RIP]);
+  halted->frame = static_cast<std::uintptr_t>(r[REG_RBP]);
+  halted->has_halted = true;
+  for (;;) pause();  // what it was at stays as it is
 }
 
 void on_signal(int signal, siginfo_t* info, void* raw) {
@@ -141,6 +181,8 @@ void catch_faults_on_this_thread() {
     action.sa_flags = SA_SIGINFO | SA_ONSTACK;
     sigemptyset(&action.sa_mask);
     for (int s : kSignals) CHECK(sigaction(s, &action, &previous[s]) == 0, "cannot install a fault handler");
+    action.sa_sigaction = on_halt;
+    CHECK(sigaction(kHaltSignal, &action, nullptr) == 0, "cannot install a handler");
   });
   if (stacks) return;
   stacks = std::make_unique<ThreadStacks>();
@@ -148,6 +190,26 @@ void catch_faults_on_this_thread() {
   stack.ss_sp = stacks->signal.get();
   stack.ss_size = kSignalStackBytes;
   CHECK(sigaltstack(&stack, nullptr) == 0, "cannot set a signal stack");
+}
+
+std::string halt_threads() {
+  std::lock_guard<std::mutex> lock(threads_changing);
+  for (Halted* t : threads) pthread_kill(t->thread, kHaltSignal);
+  const auto all_have = [] {
+    return std::all_of(threads.begin(), threads.end(), [](const Halted* t) { return t->has_halted.load(); });
+  };
+  for (int ms = 0; ms < 100 && !all_have(); ++ms) usleep(1000);
+  std::string text;
+  for (const Halted* t : threads) {
+    if (!t->has_halted) continue;
+    const std::string ran = t->robot
+                                ? "robot '" + t->robot->name() +
+                                      "' was running: " + to_string(t->robot->place_of_code(t->pc, t->frame))
+                            : t->guest ? t->guest->what_runs(t->pc, t->frame)
+                                       : "";
+    if (!ran.empty()) text += (text.empty() ? "" : ", ") + ran;
+  }
+  return text;
 }
 
 }  // namespace host

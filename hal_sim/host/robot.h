@@ -208,6 +208,8 @@ class Robot final : public Context {
   /// Opens the stack's reserve to a host function; the overflow is reported when it has returned. Called by
   /// the signal handler. False: there is no reserve.
   bool lend_reserve();
+  /// The program's own place for an instruction, or for the one that called what it belongs to.
+  Place place_of_code(std::uintptr_t pc, std::uintptr_t frame) const;
   /// Runs on the recovery stack after a hardware fault; never returns.
   [[noreturn]] void fault(int kind, std::string message, std::uintptr_t pc, std::uintptr_t frame);
 
@@ -363,6 +365,8 @@ class FaultGuest {
   /// In the signal handler: a fault of `signal` at `address` (0 unknown) was not firmware's. True: `context`
   /// (ucontext_t) was changed to go on elsewhere.
   virtual bool take(int signal, void* context, std::uintptr_t address) = 0;
+  /// Who it is, and at what: the thread has been stopped there for good.
+  virtual std::string what_runs(std::uintptr_t pc, std::uintptr_t frame) const = 0;
 };
 /// The guest that runs on this thread now; null: none.
 void set_fault_guest(FaultGuest* guest);

@@ -129,6 +129,12 @@ std::vector<Place> Robot::walk(std::uintptr_t pc, std::uintptr_t frame) const {
   return places;
 }
 
+Place Robot::place_of_code(std::uintptr_t pc, std::uintptr_t frame) const {
+  Place place = culprit(walk(pc, frame));
+  if (place.function.empty()) place.function = "code that is not the program's";
+  return place;
+}
+
 std::vector<board::Diagnosis> Robot::diagnoses() const {
   std::vector<board::Diagnosis> all = processor_->diagnoses();
   for (board::Diagnosis& d : board_.diagnoses(lived_cycles())) all.push_back(std::move(d));
