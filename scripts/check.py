@@ -32,7 +32,7 @@ MAY_INCLUDE = {
     "hal_sim/api": ["hal_sim/host/pins", "hal_sim/host/image_abi.h", "firmware/include", "hal_common",
                     "firmware/webots/simulator.h"],  # what Webots' interfaces take from the simulator
     "hal_common": ["firmware/include"],
-    "hal_sim/cc": ["hal_sim/host/image_abi.h", "hal_sim/host/pins"],  # its libc calls the host
+    "hal_sim/cc": ["hal_sim/host/image_abi.h", "hal_sim/host/image_stamp.h", "hal_sim/host/pins"],  # its libc calls the host
     "hal_sim/trace": ["hal_sim/board", "hal_sim/host", "dspic30", "sim_core/base", "sim_core/load"],
     "hal_sim/twin": ["hal_sim/", "sim_core/"],  # ties board, host and world together
     "hal_sim/register": ["hal_sim/host", "hal_sim/chip", "hal_sim/board", "dspic30"],

@@ -197,6 +197,10 @@ void Program::crash_with(std::string what, std::uintptr_t pc, std::uintptr_t fra
   leave(State::Crashed);
 }
 
+std::string Program::what_runs(std::uintptr_t pc, std::uintptr_t frame) const {
+  return "supervisor '" + name_ + "' was running" + place_of(pc, frame);
+}
+
 std::string Program::place_of(std::uintptr_t pc, std::uintptr_t frame) const {
   // the innermost frame that is the program's own; frames are linked through the frame pointer
   for (int depth = 0; depth < 32; ++depth) {

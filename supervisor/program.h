@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // One supervisor's program in memory: a private copy of its shared object, its main() on a fiber of its own.
 // It runs only when run() is called and comes back when it waits, ends or crashes. What ends a process
-// (exit(), abort(), a signal, an exception that nobody catches) ends this program only. Not caught: an
-// endless loop that never steps, threads of its own, exec.
+// (exit(), abort(), a signal, an exception that nobody catches) ends this program only. Not caught: threads of its
+// own, exec. An endless loop that never steps ends with the run (tools/run_guard.h).
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -50,6 +50,7 @@ class Program final : host::FaultGuest {
   static void enter(void* self);
   [[noreturn]] static void land();
   bool take(int signal, void* context, std::uintptr_t address) override;
+  std::string what_runs(std::uintptr_t pc, std::uintptr_t frame) const override;
   [[noreturn]] void leave(State state);
   [[noreturn]] void crash_with(std::string what, std::uintptr_t pc, std::uintptr_t frame);
   bool is_code(std::uintptr_t pc) const { return object_->is_code(pc); }

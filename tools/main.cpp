@@ -10,6 +10,7 @@
 
 #include "sim_core/load/world_loader.h"
 #include "tools/printable.h"
+#include "tools/run_guard.h"
 #include "tools/verbs.h"
 
 namespace tools {
@@ -66,6 +67,7 @@ int main(int argc, char** argv) {
   // what cannot be written is an error of the call, not the end of the program
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
+  tools::guard_process();
   int exit_code = tools::kPass;
   CLI::App app{"Twinpuck: the firmware twin of the e-puck robot"};
   app.require_subcommand(1);

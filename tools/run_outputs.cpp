@@ -7,6 +7,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <map>
 
 #include "sim_core/record/csv_recorder.h"
@@ -134,6 +135,11 @@ void RunOutputs::sample() {
 bool RunOutputs::failed() const {
   return (recorder_ && !recorder_->is_good()) || (images_ && images_->failed()) ||
          (sound_ && !sound_->error().empty()) || pictures_.failed() || traces_.failed();
+}
+
+void RunOutputs::rescue() {
+  std::cout.flush();
+  if (recorder_) recorder_->flush();
 }
 
 void RunOutputs::finish(const Summary& summary, std::vector<std::string>& problems) {

@@ -41,6 +41,8 @@ class RunOutputs {
   void after_tick();
   /// An output was lost (disk full): the run should end.
   bool failed() const;
+  /// The process ends between two ticks that it will not come back from: what is in memory goes to the file.
+  void rescue();
   void finish(const Summary& summary, std::vector<std::string>& problems);
 
  private:

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // twinpuck run WORLD: simulates, shows progress, writes what was asked for, tells what happened.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <csignal>
 #include <filesystem>
 #include <iostream>
 #include <thread>
@@ -16,6 +16,7 @@
 #include "supervisor/team.h"
 #include "tools/progress.h"
 #include "tools/remote_keys.h"
+#include "tools/run_guard.h"
 #include "tools/run_outputs.h"
 #include "tools/summary.h"
 #include "tools/verbs.h"
@@ -26,8 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Wall = std::chrono::steady_clock;
-
-volatile std::sig_atomic_t interrupted = 0;
+constexpr double kLongestSleep_s = 0.1;  // with a look whether the end was asked for
 
 struct RunArguments {
   std::string world;
@@ -122,15 +122,20 @@ int run(const RunArguments& arguments) {
                   << end->name() << '\n';
 
   // the run
-  std::signal(SIGINT, [](int) { interrupted = 1; });
-  std::signal(SIGTERM, [](int) { interrupted = 1; });
+  // while programs run, the outputs are whole up to the last tick
+  std::atomic<bool> is_stepping{false};
+  GracefulEnd guard([&] {
+    if (is_stepping) outputs.rescue();
+  });
+  limit_host_time(arguments.host_limit_s);
   auto& simulation = twin->simulation();
   const sim::Clicks end = sim::from_seconds(arguments.seconds);
   Progress progress(arguments.seconds, arguments.quiet);
   const auto start = Wall::now();
   const auto wall_s = [&] { return std::chrono::duration<double>(Wall::now() - start).count(); };
-  int exit_code = kPass;
+  is_stepping = true;
   team->before_first_tick();
+  is_stepping = false;
   outputs.before_run();
   for (int i = 0; i < twin->robots() && !arguments.quiet; ++i) {
     const std::string name = twin->world().robots[static_cast<std::size_t>(i)].name;
@@ -140,25 +145,26 @@ int run(const RunArguments& arguments) {
     };
   }
   while (simulation.now() < end && !team->has_ended()) {
+    is_stepping = true;
     simulation.step();
+    is_stepping = false;
     outputs.after_tick();
-    if (interrupted || outputs.failed()) break;
-    if (progress.is_due()) {
-      progress.show(sim::to_seconds(simulation.now()));
-      if (arguments.host_limit_s > 0 && wall_s() > arguments.host_limit_s) {
-        exit_code = kHostTime;
-        break;
-      }
-    }
+    if (end_asked() || outputs.failed()) break;
+    if (progress.is_due()) progress.show(sim::to_seconds(simulation.now()));
     if (speed > 0) {
-      const double ahead_s = sim::to_seconds(simulation.now()) / speed - wall_s();
-      if (ahead_s > 0) std::this_thread::sleep_for(std::chrono::duration<double>(ahead_s));
+      const double due_s = sim::to_seconds(simulation.now()) / speed;
+      for (double ahead_s; (ahead_s = due_s - wall_s()) > 0 && !end_asked();)
+        std::this_thread::sleep_for(std::chrono::duration<double>(std::min(ahead_s, kLongestSleep_s)));
     }
   }
   const double took_s = wall_s();
   progress.finish();
   twin->flush_console();
+  is_stepping = true;
   team->finish();
+  is_stepping = false;
+  guard.finishing();
+  const int end_code = end_asked();
   if (team->has_ended() && !(arguments.quiet && team->outcome().code == 0)) complain({team->outcome().text});
   for (int i = 0; i < twin->robots(); ++i) twin->mind(i).board().exchange(twin->mind(i).now());
 
@@ -173,13 +179,13 @@ int run(const RunArguments& arguments) {
       is_clean = false;
       if (!arguments.quiet || arguments.strict) std::cerr << to_text(r.name, d) << '\n';
     }
-  if (exit_code == kHostTime) {
+  if (end_code == kHostTime) {
     complain({"twinpuck: host time: got " + std::to_string(static_cast<long>(took_s)) +
               " s, expected at most " + std::to_string(static_cast<long>(arguments.host_limit_s)) +
               " s; outputs hold what was simulated"});
-    return exit_code;
+    return end_code;
   }
-  if (interrupted) return kInterrupted;
+  if (end_code == kInterrupted) return kInterrupted;
   if (!problems.empty() || outputs.failed()) return kInvalidRun;
   if (team->outcome().crashed) return kTrapped;
   if (team->outcome().code != 0) return kTestFailed;

@@ -15,6 +15,7 @@
 #include <sstream>
 
 #include "elf_reader.h"
+#include "hal_sim/host/image_stamp.h"
 #include "library_copies.h"
 #include "mplab_project.h"
 #include "object_cache.h"
@@ -496,6 +497,8 @@ BuildResult build_image(const BuildOptions& options) {
                                    "-z",
                                    "relro",
                                    "-z",
+                                   "separate-code",
+                                   "-z",
                                    "noexecstack",
                                    "-z",
                                    "defs",
@@ -521,6 +524,7 @@ BuildResult build_image(const BuildOptions& options) {
   sort_linker_messages(link.output, result);
   if (link.status != 0 && result.errors.empty()) result.errors.push_back("link: " + link.output);
   if (result.errors.empty()) {
+    std::ofstream(half, std::ios::binary | std::ios::app) << host::image_stamp(read_text(half));
     fs::rename(half, output, ec);
     if (ec) result.errors.push_back(output.string() + ": cannot write: " + ec.message());
   }

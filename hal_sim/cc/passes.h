@@ -78,6 +78,8 @@ void account(Unit& unit, const CostPlan& plan);
 void fuse_registers(Unit& unit);
 /// What x86 would trap on or define otherwise: INT16_MIN / -1, shifts by 16 and more.
 void lower_late(Unit& unit);
+/// What nobody has written holds the same in every run.
+void fill_locals(Unit& unit);
 /// --sanitize: every access checked against the objects that exist.
 void check_addresses(Unit& unit);
 
@@ -95,7 +97,7 @@ inline bool is_free(const llvm::Instruction& i) { return i.getMetadata(kFree) !=
 bool calls(const llvm::Instruction& i, llvm::StringRef name);
 /// Poll-safe: reads at most; may stand in a polling loop.
 bool is_poll_safe(const llvm::Function* callee, const Unit& unit);
-/// Address of the tp_control field: 0 budget, 1 writes.
+/// Address of the tp_control field: 0 budget, 1 writes, 2 fill.
 llvm::Value* control_field(llvm::Module& m, unsigned index);
 
 }  // namespace cc

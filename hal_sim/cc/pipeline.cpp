@@ -145,7 +145,7 @@ bool calls(const Instruction& i, StringRef name) {
 
 Value* control_field(Module& m, unsigned index) {
   auto& c = m.getContext();
-  auto* type = StructType::get(Type::getInt64Ty(c), Type::getInt64Ty(c));
+  auto* type = StructType::get(Type::getInt64Ty(c), Type::getInt64Ty(c), Type::getInt64Ty(c));
   auto* g = m.getGlobalVariable("tp_ctl");
   if (!g) {
     g = new GlobalVariable(m, type, false, GlobalValue::ExternalLinkage, nullptr, "tp_ctl");
@@ -237,6 +237,7 @@ bool run_pipeline(Unit& unit) {
   fuse_registers(unit);
   lower_late(unit);
   if (unit.options.sanitize) check_addresses(unit);
+  if (!unit.options.library && !unit.options.uncounted) fill_locals(unit);
   if (unit.options.library || unit.options.weak) make_weak(unit);
   return !unit.failed;
 }

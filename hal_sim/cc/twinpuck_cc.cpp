@@ -102,6 +102,7 @@ bool emit(Module& m, const cc::Options& o) {
   std::string message;
   const Target* target = TargetRegistry::lookupTarget(m.getTargetTriple(), message);
   TargetOptions options;
+  options.TrapUnreachable = true;  // on the chip the program runs on into whatever follows; here it is told
   std::unique_ptr<TargetMachine> machine(target->createTargetMachine(m.getTargetTriple(), "x86-64", "",
                                                                      options, Reloc::PIC_, CodeModel::Small,
                                                                      o.level == 0   ? CodeGenOpt::None

@@ -5,16 +5,21 @@
 #include <pthread.h>
 #include <signal.h>
 #include <ucontext.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cstring>
 #include <memory>
 #include <mutex>
+#include <vector>
 
 #if defined(__SANITIZE_ADDRESS__)
 #include <sanitizer/asan_interface.h>
 #include <sanitizer/common_interface_defs.h>
 #endif
 
+#include "hal_sim/host/halt.h"
 #include "hal_sim/host/robot.h"
 #include "sim_core/base/check.h"
 
@@ -22,23 +27,49 @@ namespace host {
 
 namespace {
 
-constexpr int kSignals[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL};
+constexpr int kSignals[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTRAP};
 struct sigaction previous[NSIG];
 
 struct Fault {
   int kind = 0;
-  std::uintptr_t pc = 0, frame = 0, address = 0;
+  std::uintptr_t pc = 0, frame = 0, stack = 0, address = 0;
   bool is_write = false, has_address = false;
+  bool is_call = false;     // there is no code where the program jumped to
+  bool is_library = false;  // a function of the host was at it for the program
 };
 thread_local Fault last_fault;
 thread_local FaultGuest* guest = nullptr;
+
+/// A thread that was told to halt, and where it did.
+struct Halted {
+  pthread_t thread = pthread_self();
+  std::atomic<bool> has_halted{false};
+  Robot* robot = nullptr;
+  FaultGuest* guest = nullptr;
+  std::uintptr_t pc = 0, frame = 0;
+};
+std::mutex threads_changing;
+std::vector<Halted*> threads;  // all that may run firmware or supervisors
+thread_local Halted* halted = nullptr;
+constexpr int kHaltSignal = SIGUSR2;
 
 constexpr std::size_t kSignalStackBytes = 64 * 1024;
 constexpr std::size_t kRecoveryStackBytes = 256 * 1024;
 struct ThreadStacks {
   std::unique_ptr<char[]> signal{new char[kSignalStackBytes]};
   std::unique_ptr<char[]> recovery{new char[kRecoveryStackBytes]};
+  Halted here;
+  ThreadStacks() {
+    std::lock_guard<std::mutex> lock(threads_changing);
+    threads.push_back(&here);
+    halted = &here;
+  }
   ~ThreadStacks() {
+    {
+      std::lock_guard<std::mutex> lock(threads_changing);
+      threads.erase(std::find(threads.begin(), threads.end(), &here));
+      halted = nullptr;
+    }
     stack_t off{};
     off.ss_flags = SS_DISABLE;
     sigaltstack(&off, nullptr);
@@ -46,16 +77,28 @@ struct ThreadStacks {
 };
 thread_local std::unique_ptr<ThreadStacks> stacks;
 
-std::string describe(const Fault& f) {
+std::string describe(const Fault& f, const Robot& robot) {
   constexpr std::uintptr_t kNullPage = 64 * 1024;
   if (f.kind == TP_TRAP_STACK) return kStackOverflow;
   if (f.kind == TP_TRAP_MATH) return "arithmetic fault";
   if (f.kind == TP_TRAP_ILLEGAL)
     return "illegal instruction: the program ran into a place it can never reach";
-  const std::string access = f.is_write ? "write through" : "read through";
+  const std::string access = std::string(f.is_library ? "a function of the library was to " : "") +
+                             (f.is_call    ? "call through"
+                              : f.is_write ? "write through"
+                                           : "read through");
   if (f.has_address && f.address < 4096) return access + " a null pointer";
   if (f.has_address && f.address < kNullPage)
     return access + " a wild pointer (address " + std::to_string(f.address) + ")";
+  if (f.is_call)
+    return access + " a wild pointer: there is no code; a function pointer or, on the stack, a return address "
+                    "was overwritten";
+  if (f.has_address && f.is_write && robot.owns_constant(f.address))
+    return "write to a constant or to the program itself";
+  if (f.has_address && robot.owns_address(f.address))
+    return access + " a pointer or index that has left the program's memory";
+  if (f.has_address && robot.fiber().is_beyond(f.address))
+    return access + " a pointer or index that has left the stack: beyond the end of a local array";
   return access + " a wild pointer";
 }
 
@@ -76,12 +119,24 @@ void tell_sanitizer() {}
   sigemptyset(&set);
   for (int s : kSignals) sigaddset(&set, s);
   pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
-  Robot::running()->fault(f.kind, describe(f), f.pc, f.frame);
+  Robot& robot = *Robot::running();
+  robot.fault(f.kind, describe(f, robot), f.pc, f.frame, f.stack);
 }
 
 __attribute__((noreturn, no_sanitize("address"))) void land() {
   tell_sanitizer();
   recover();
+}
+
+void on_halt(int, siginfo_t*, void* raw) {
+  if (!halted) return;
+  const auto& r = static_cast<ucontext_t*>(raw)->uc_mcontext.gregs;
+  halted->robot = Robot::running();
+  halted->guest = guest;
+  halted->pc = static_cast<std::uintptr_t>(r[REG_RIP]);
+  halted->frame = static_cast<std::uintptr_t>(r[REG_RBP]);
+  halted->has_halted = true;
+  for (;;) pause();  // what it was at stays as it is
 }
 
 void on_signal(int signal, siginfo_t* info, void* raw) {
@@ -92,21 +147,27 @@ void on_signal(int signal, siginfo_t* info, void* raw) {
   const auto sp = static_cast<std::uintptr_t>(r[REG_RSP]);
   const auto address = reinterpret_cast<std::uintptr_t>(info->si_addr);
   bool ours = robot && robot->owns_code(pc);
-  // memcpy and the like, called by firmware: the return address on top of the stack is the firmware's
-  if (robot && !ours && robot->fiber().is_on_stack(sp)) {
+  const bool is_fetch = signal == SIGSEGV && pc == address;
+  const bool on_stack = robot && robot->fiber().is_on_stack(sp);
+  bool is_library = false;
+  if (robot && !ours && is_fetch) {
+    // a jump to where no code is: a wild function pointer, whose caller left a return address, or a wild return
+    // address
+    ours = true;
+    std::uintptr_t back = 0;
+    if (on_stack && robot->fiber().is_on_stack(sp + sizeof back - 1))
+      std::memcpy(&back, reinterpret_cast<const void*>(sp), sizeof back);
+    pc = robot->owns_code(back) ? back - 1 : 0;
+  } else if (robot && !ours && on_stack) {
+    // one of the host's functions, called by firmware that has used up its stack: it gets the reserve and goes on
+    if (signal == SIGSEGV && robot->fiber().is_in_reserve(address) && robot->lend_reserve()) return;
+    // or given a pointer that leads nowhere. On top of the stack, of a function without a frame, or along the
+    // frames stands who called it
+    ours = is_library = true;
     std::uintptr_t back;
     std::memcpy(&back, reinterpret_cast<const void*>(sp), sizeof back);
-    if (robot->owns_code(back)) {
-      ours = true;
-      pc = back - 1;
-    }
+    pc = robot->owns_code(back) ? back - 1 : 0;
   }
-  // a jump through a wild function pointer
-  if (robot && !ours && signal == SIGSEGV && pc == address) ours = true;
-  // one of the host's functions, called by firmware that has used up its stack: it gets the reserve and goes
-  // on
-  if (robot && !ours && signal == SIGSEGV && robot->fiber().is_in_reserve(address) && robot->lend_reserve())
-    return;
   // out of stack anywhere on the firmware's stack
   if (robot && signal == SIGSEGV && robot->fiber().is_in_guard(address)) ours = true;
   if (!robot && guest && guest->take(signal, raw, info->si_code == SI_KERNEL ? 0 : address)) return;
@@ -118,10 +179,15 @@ void on_signal(int signal, siginfo_t* info, void* raw) {
   Fault& f = last_fault;
   f.pc = pc;
   f.frame = static_cast<std::uintptr_t>(r[REG_RBP]);
+  f.stack = sp;
   f.address = address;
+  f.is_call = is_fetch;
+  f.is_library = is_library;
   f.has_address = signal == SIGSEGV && info->si_code != SI_KERNEL;
   f.is_write = (r[REG_ERR] & 2) != 0;
-  f.kind = signal == SIGFPE ? TP_TRAP_MATH : signal == SIGILL ? TP_TRAP_ILLEGAL : TP_TRAP_ADDRESS;
+  f.kind = signal == SIGFPE                        ? TP_TRAP_MATH
+           : signal == SIGILL || signal == SIGTRAP ? TP_TRAP_ILLEGAL
+                                                   : TP_TRAP_ADDRESS;
   if (signal == SIGSEGV && robot->fiber().is_in_guard(address)) f.kind = TP_TRAP_STACK;
   const auto top = reinterpret_cast<std::uintptr_t>(stacks->recovery.get()) + kRecoveryStackBytes;
   r[REG_RSP] = static_cast<greg_t>((top & ~std::uintptr_t{15}) - 8);
@@ -141,6 +207,8 @@ void catch_faults_on_this_thread() {
     action.sa_flags = SA_SIGINFO | SA_ONSTACK;
     sigemptyset(&action.sa_mask);
     for (int s : kSignals) CHECK(sigaction(s, &action, &previous[s]) == 0, "cannot install a fault handler");
+    action.sa_sigaction = on_halt;
+    CHECK(sigaction(kHaltSignal, &action, nullptr) == 0, "cannot install a handler");
   });
   if (stacks) return;
   stacks = std::make_unique<ThreadStacks>();
@@ -148,6 +216,26 @@ void catch_faults_on_this_thread() {
   stack.ss_sp = stacks->signal.get();
   stack.ss_size = kSignalStackBytes;
   CHECK(sigaltstack(&stack, nullptr) == 0, "cannot set a signal stack");
+}
+
+std::string halt_threads() {
+  std::lock_guard<std::mutex> lock(threads_changing);
+  for (Halted* t : threads) pthread_kill(t->thread, kHaltSignal);
+  const auto all_have = [] {
+    return std::all_of(threads.begin(), threads.end(), [](const Halted* t) { return t->has_halted.load(); });
+  };
+  for (int ms = 0; ms < 100 && !all_have(); ++ms) usleep(1000);
+  std::string text;
+  for (const Halted* t : threads) {
+    if (!t->has_halted) continue;
+    const std::string ran = t->robot
+                                ? "robot '" + t->robot->name() +
+                                      "' was running: " + to_string(t->robot->place_of_code(t->pc, t->frame))
+                            : t->guest ? t->guest->what_runs(t->pc, t->frame)
+                                       : "";
+    if (!ran.empty()) text += (text.empty() ? "" : ", ") + ran;
+  }
+  return text;
 }
 
 }  // namespace host

@@ -27,17 +27,19 @@ constexpr std::size_t kReserveBytes =
     512 * 1024;  // ample for the report of a trap, sanitized builds included
 }  // namespace
 
-Fiber::Fiber(std::size_t stack_bytes) {
-  const std::size_t page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
-  stack_bytes = (stack_bytes + page - 1) / page * page;
-  mapping_bytes_ = stack_bytes + kReserveBytes + kGuardBytes;
-  mapping_ = mmap(nullptr, mapping_bytes_, PROT_READ | PROT_WRITE,
-                  MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-  CHECK(mapping_ != MAP_FAILED, "no memory for a firmware stack");
-  CHECK(mprotect(mapping_, kGuardBytes + kReserveBytes, PROT_NONE) == 0,
-        "cannot protect a stack's guard pages");
-  low_ = reinterpret_cast<std::uintptr_t>(mapping_) + kGuardBytes + kReserveBytes;
-  high_ = reinterpret_cast<std::uintptr_t>(mapping_) + mapping_bytes_;
+namespace {
+constexpr std::size_t kOffset = 0x4000'0000;  // in the slot; an image's memory lies elsewhere in its own
+std::size_t whole_pages(std::size_t bytes) {
+  const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  return (bytes + page - 1) / page * page;
+}
+}  // namespace
+
+Fiber::Fiber(std::size_t stack_bytes) : slot_(kOffset, whole_pages(stack_bytes) + kReserveBytes + kGuardBytes) {
+  low_ = slot_.begin() + kGuardBytes + kReserveBytes;
+  high_ = slot_.begin() + slot_.bytes();
+  CHECK(mprotect(reinterpret_cast<void*>(low_), high_ - low_, PROT_READ | PROT_WRITE) == 0,
+        "no memory for a firmware stack");
 }
 
 Fiber::~Fiber() {
@@ -46,15 +48,14 @@ Fiber::~Fiber() {
 #endif
 #if defined(__SANITIZE_ADDRESS__)
   // a robot that was stopped by a trap leaves frames behind, and the addresses are soon somebody else's
-  ASAN_UNPOISON_MEMORY_REGION(mapping_, mapping_bytes_);
+  ASAN_UNPOISON_MEMORY_REGION(reinterpret_cast<void*>(slot_.begin()), slot_.bytes());
 #endif
-  munmap(mapping_, mapping_bytes_);
 }
 
 std::uintptr_t Fiber::floor() const { return reserve_open_ ? low_ - kReserveBytes : low_; }
 
 bool Fiber::is_in_guard(std::uintptr_t address) const {
-  return address < floor() && address >= reinterpret_cast<std::uintptr_t>(mapping_);
+  return address < floor() && slot_.holds(address);
 }
 
 bool Fiber::is_in_reserve(std::uintptr_t address) const {

@@ -2,14 +2,17 @@
 // A stackful coroutine on Boost.Context: the firmware's own stack. The scheduler enters it, the firmware
 // yields. Running over its end is a page fault, which faults.cpp recognises:
 //
-//   [ guard: never accessible | reserve: opened for the host alone | stack .......... high ]
+//   slot: [ guard: never accessible | reserve: opened for the host alone | stack .......... high ] nothing
 //
+// Its addresses are the same in every run (address_slot.h).
 // Firmware that reaches into the reserve has overflowed its stack. The host's own functions run on this stack
 // too, when firmware calls them; one that needs the reserve gets it, so that it is never given up half way,
 // and the overflow is reported as soon as it has come back.
 #pragma once
 #include <cstddef>
 #include <cstdint>
+
+#include "hal_sim/host/address_slot.h"
 
 namespace host {
 
@@ -43,14 +46,15 @@ class Fiber {
   /// Lets the host use the reserve until the next restart. Safe in a signal handler. False: the system
   /// refused.
   bool open_reserve();
+  /// Above the stack, where nothing is.
+  bool is_beyond(std::uintptr_t address) const { return address >= high_ && slot_.holds(address); }
   std::uintptr_t stack_high() const { return high_; }
 
  private:
   static void trampoline(void* self);
   std::uintptr_t floor() const;  // lowest address that may be accessed now
 
-  void* mapping_ = nullptr;
-  std::size_t mapping_bytes_ = 0;
+  AddressSlot slot_;
   std::uintptr_t low_ = 0;   // lowest usable stack address
   std::uintptr_t high_ = 0;  // one past the highest
   bool reserve_open_ = false;

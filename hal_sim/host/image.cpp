@@ -4,10 +4,12 @@
 #include <elf.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 
+#include "hal_sim/host/image_stamp.h"
 #include "hal_sim/host/symbols.h"
 #include "sim_core/base/check.h"
 
@@ -49,14 +51,20 @@ std::string what_is(const std::string& path) {
 
 }  // namespace
 
-ImageCopy::ImageCopy(std::string path, std::unique_ptr<SharedObject> object, const tp_image* image)
-    : path_(std::move(path)), object_(std::move(object)), image_(image) {
+ImageCopy::ImageCopy(std::string path, std::unique_ptr<ImageMemory> memory, const tp_image* image)
+    : path_(std::move(path)), memory_(std::move(memory)), image_(image) {
   const std::size_t whole = static_cast<std::size_t>(image->data_end - image->data_begin);
   const std::size_t hole = static_cast<std::size_t>(image->hole_end - image->hole_begin);
   private_bytes_ = whole - hole;
   start_values_.resize(private_bytes_);
   copy_out(start_values_.data());
-  object_->locate(reinterpret_cast<std::uintptr_t>(image));
+  const char* heap = static_cast<const char*>(memory_->symbol("tp_image_heap"));
+  const void* size = memory_->symbol("tp_image_heap_bytes");
+  if (!heap || !size || heap < image->data_begin || heap >= image->hole_begin) return;
+  std::uint16_t bytes;
+  std::memcpy(&bytes, size, sizeof bytes);
+  heap_offset_ = static_cast<std::size_t>(heap - image->data_begin);
+  heap_bytes_ = std::min<std::size_t>(bytes, static_cast<std::size_t>(image->hole_begin - heap));
 }
 
 void ImageCopy::copy_out(char* to) const {
@@ -73,12 +81,15 @@ void ImageCopy::copy_in(const char* from) const {
   std::memcpy(image_->hole_end, from + before, private_bytes_ - before);
 }
 
-Image::Image(std::string path) : path_(std::move(path)), symbols_(std::make_unique<Symbols>(path_)) {}
+Image::Image(std::string path) : path_(std::move(path)), symbols_(std::make_unique<Symbols>(path_)) {
+  std::ifstream file(path_, std::ios::binary);
+  file_.assign(std::istreambuf_iterator<char>(file), {});
+}
 Image::~Image() = default;
 
-std::unique_ptr<ImageCopy> Image::load(bool private_file, std::string& error) const {
+std::unique_ptr<ImageCopy> Image::load(std::string& error) const {
   std::string why;
-  auto object = SharedObject::open(path_, private_file, why);
+  auto object = ImageMemory::load(file_, path_, why);
   if (!object) {
     error = path_ + ": firmware image: got '" + why +
             "', expected a .so made by `twinpuck build`; build it again with this version";
@@ -118,7 +129,15 @@ std::shared_ptr<Image> Image::open(const std::string& path, std::string& error) 
     return nullptr;
   }
   std::shared_ptr<Image> image(new Image(path));
-  auto first = image->load(false, error);
+  const Stamp stamp = check_stamp(image->file_);
+  if (stamp != Stamp::Right) {
+    error = path + ": firmware image: got " +
+            (stamp == Stamp::Wrong ? "a damaged file (its checksum is another one)"
+                                   : "a shared object without a firmware inside, or of an older version") +
+            ", expected a .so made by `twinpuck build`; make it with `twinpuck build DIR -o FILE.so`";
+    return nullptr;
+  }
+  auto first = image->load(error);
   if (!first) return nullptr;
   image->copies_.push_back(std::move(first));
   return image;
@@ -127,7 +146,7 @@ std::shared_ptr<Image> Image::open(const std::string& path, std::string& error) 
 ImageCopy& Image::copy(std::size_t n) {
   while (copies_.size() <= n) {
     std::string error;
-    auto next = load(true, error);
+    auto next = load(error);
     CHECK(next, error.c_str());
     copies_.push_back(std::move(next));
   }

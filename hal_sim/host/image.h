@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "hal_sim/host/image_abi.h"
-#include "hal_sim/host/shared_object.h"
+#include "hal_sim/host/image_memory.h"
 
 namespace host {
 
@@ -17,7 +17,7 @@ class Symbols;
 /// One loaded copy. Robots bound to it swap their private data in and out of its data segment.
 class ImageCopy {
  public:
-  ImageCopy(std::string path, std::unique_ptr<SharedObject> object, const tp_image* image);
+  ImageCopy(std::string path, std::unique_ptr<ImageMemory> memory, const tp_image* image);
   ImageCopy(const ImageCopy&) = delete;
   ImageCopy& operator=(const ImageCopy&) = delete;
 
@@ -27,12 +27,18 @@ class ImageCopy {
   /// Start-up values of the private data, private_bytes() long.
   const std::vector<char>& start_values() const { return start_values_; }
 
+  /// Where malloc() takes its memory from, as a part of start_values(); 0 bytes: the program has none of ours.
+  std::size_t heap_offset() const { return heap_offset_; }
+  std::size_t heap_bytes() const { return heap_bytes_; }
+
   void copy_out(char* to) const;         ///< live data -> a robot's own copy
   void copy_in(const char* from) const;  ///< a robot's own copy -> live data
 
-  bool is_code(std::uintptr_t address) const { return object_->is_code(address); }
+  bool is_code(std::uintptr_t address) const { return memory_->is_code(address); }
   /// Load address: address in the file = address in memory - base().
-  std::uintptr_t base() const { return object_->base(); }
+  std::uintptr_t base() const { return memory_->base(); }
+  /// In the addresses that belong to this copy alone.
+  bool holds(std::uintptr_t address) const { return memory_->holds(address); }
   const std::string& path() const { return path_; }
 
   const void* owner = nullptr;  ///< the robot whose data is live; null: start-up values or nobody's
@@ -40,9 +46,10 @@ class ImageCopy {
 
  private:
   std::string path_;
-  std::unique_ptr<SharedObject> object_;
+  std::unique_ptr<ImageMemory> memory_;
   const tp_image* image_;
   std::size_t private_bytes_;
+  std::size_t heap_offset_ = 0, heap_bytes_ = 0;
   std::vector<char> start_values_;
 };
 
@@ -62,9 +69,10 @@ class Image {
 
  private:
   explicit Image(std::string path);
-  std::unique_ptr<ImageCopy> load(bool private_file, std::string& error) const;
+  std::unique_ptr<ImageCopy> load(std::string& error) const;
 
   std::string path_;
+  std::string file_;  // its bytes: every copy is of the same
   std::vector<std::unique_ptr<ImageCopy>> copies_;
   std::unique_ptr<Symbols> symbols_;
 };

@@ -23,15 +23,16 @@ typedef long long tp_i64;
 typedef float tp_f32 __attribute__((aligned(2)));
 
 #define TP_IMAGE_MAGIC 0x54575049 /* "TWPI": tells an image from any other .so */
-#define TP_IMAGE_ABI 3            /* raised whenever a line of this file changes its meaning */
+#define TP_IMAGE_ABI 4            /* raised whenever a line of this file changes its meaning */
 
 /** Shared by compiled code and host, never part of a robot's private data. One per loaded copy of the image.
- *  Section "tpctl"; the compiler pass knows the two offsets. */
+ *  Section "tpctl"; the compiler pass knows the offsets. */
 struct tp_control {
   tp_i64 budget; /* estimated cycles left until the host wants control; compiled code subtracts a block's cost
                     before the block and calls tp_event() when it falls below 0 */
   tp_i64
       writes; /* grows whenever the running loop may have changed anything: the poll detector compares it */
+  tp_i64 fill; /* low byte: what local variables hold before the program writes them */
 };
 
 /** One function of the image with its cost, for `twinpuck cycles` (array in section "tpfunc"). */

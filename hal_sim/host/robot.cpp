@@ -67,6 +67,8 @@ void Robot::power_up() {
 void Robot::restart_program() {
   if (observer_) observer_->ended(now_);
   data_ = copy_.start_values();
+  // RAM that the start-up code does not clear holds anything, and the same each time
+  std::fill_n(data_.data() + copy_.heap_offset(), copy_.heap_bytes(), unused_memory());
   if (copy_.owner == this) copy_.owner = nullptr;
   std::fill(background_.begin(), background_.end(), Background{});
   background_share_q32_ = 0;
@@ -96,6 +98,23 @@ void Robot::remote_changed() {
   wake();
 }
 
+namespace {
+/// Calls it with registers that hold no address of the PC: what a function saves and a stray index finds is the
+/// same in every run.
+void call_with_clear_registers(void (*function)()) {
+#if defined(__x86_64__)
+  asm volatile(
+      "xorl %%ebx, %%ebx\n xorl %%r12d, %%r12d\n xorl %%r13d, %%r13d\n xorl %%r14d, %%r14d\n"
+      "xorl %%r15d, %%r15d\n callq *%%rax"
+      : "+a"(function)
+      :
+      : "rbx", "rcx", "rdx", "rsi", "rdi", "r8", "r9", "r10", "r11", "r12", "r13", "r14", "r15", "memory", "cc");
+#else
+  function();
+#endif
+}
+}  // namespace
+
 void Robot::enter_firmware(void* raw) {
   auto* self = static_cast<Robot*>(raw);
   self->pass_window();
@@ -104,8 +123,9 @@ void Robot::enter_firmware(void* raw) {
     self->last_words_ = clock_problem(*static_cast<const std::uint16_t*>(fosc));
     if (!self->last_words_.empty()) self->trap(TP_TRAP_UNSIMULATED, self->last_words_);
   }
-  self->copy_.description().start();
-  self->on_reset("main() returned, so the start-up code resets the processor");
+  call_with_clear_registers(self->copy_.description().start);
+  // not `self`: the program may have written all over this stack
+  running()->on_reset("main() returned, so the start-up code resets the processor");
 }
 
 void Robot::swap_in() {
@@ -132,6 +152,7 @@ void Robot::run_until(Cycle end) {
     swap_in();
     // what other robots of the copy wrote is no change that this one's loops could see
     control_.writes = writes_;
+    control_.fill = unused_memory();
     fiber_.enter();
     writes_ = control_.writes;
   } while (reset_asked_);
@@ -155,7 +176,7 @@ Cycle Robot::after(Cycle main, std::uint64_t& fraction) const {
 
 Cycle Robot::main_until(Cycle at) const {
   const Cycle real = has_handlers_ ? board_.handlers().work(now_, at, processor_->cpu_level()) : at - now_;
-  if (stolen_q32_ == 0) return real;
+  if (stolen_q32_ == 0 || real <= 0) return std::max<Cycle>(real, 0);
   const unsigned __int128 whole = (static_cast<unsigned __int128>(real) << kQ) - fraction_;
   return static_cast<Cycle>(whole / (kOne + stolen_q32_));
 }

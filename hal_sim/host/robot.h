@@ -204,12 +204,22 @@ class Robot final : public Context {
   // --- for the fault handler
   // ----------------------------------------------------------------------------------
   bool owns_code(std::uintptr_t pc) const { return copy_.is_code(pc); }
+  /// Addresses that are this program's alone, used or not; below its variables: its code and constants.
+  bool owns_address(std::uintptr_t address) const { return copy_.holds(address); }
+  bool owns_constant(std::uintptr_t address) const {
+    return copy_.holds(address) && address >= copy_.base() &&
+           address < reinterpret_cast<std::uintptr_t>(&control_);
+  }
   const Fiber& fiber() const { return fiber_; }
   /// Opens the stack's reserve to a host function; the overflow is reported when it has returned. Called by
   /// the signal handler. False: there is no reserve.
   bool lend_reserve();
+  /// The program's own place for an instruction, or for the one that called what it belongs to.
+  Place place_of_code(std::uintptr_t pc, std::uintptr_t frame) const;
   /// Runs on the recovery stack after a hardware fault; never returns.
-  [[noreturn]] void fault(int kind, std::string message, std::uintptr_t pc, std::uintptr_t frame);
+  /// Where the frames say nothing, because they were overwritten, the words around `stack` are searched.
+  [[noreturn]] void fault(int kind, std::string message, std::uintptr_t pc, std::uintptr_t frame,
+                          std::uintptr_t stack);
 
   /// On this thread; null outside firmware.
   static Robot* running() { return detail::running_robot; }
@@ -219,6 +229,8 @@ class Robot final : public Context {
   static constexpr std::uint64_t kOne = std::uint64_t{1} << kQ;
 
   static void enter_firmware(void* self);
+  /// What memory holds before somebody writes it: a byte made from the seed, never 0.
+  char unused_memory() const { return static_cast<char>(0x81 | (settings_.seed * 0x9E3779B97F4A7C15u >> 57)); }
   void restart_program();
   void program_eeprom();
   char* place_of(std::uintptr_t address) const;  // where this robot's value of a variable is now
@@ -295,6 +307,7 @@ class Robot final : public Context {
   void stop_if_blocked();
   [[noreturn]] void stop_with(TrapReport report);
   std::vector<Place> walk(std::uintptr_t pc, std::uintptr_t frame) const;
+  std::uintptr_t find_return_address(std::uintptr_t stack) const;
   TrapReport report_here(int kind, std::string_view message);
   TrapReport report_at(int kind, std::string message, std::uintptr_t pc, std::uintptr_t frame) const;
 
@@ -363,6 +376,8 @@ class FaultGuest {
   /// In the signal handler: a fault of `signal` at `address` (0 unknown) was not firmware's. True: `context`
   /// (ucontext_t) was changed to go on elsewhere.
   virtual bool take(int signal, void* context, std::uintptr_t address) = 0;
+  /// Who it is, and at what: the thread has been stopped there for good.
+  virtual std::string what_runs(std::uintptr_t pc, std::uintptr_t frame) const = 0;
 };
 /// The guest that runs on this thread now; null: none.
 void set_fault_guest(FaultGuest* guest);

@@ -91,10 +91,34 @@ void Robot::trap(int kind, std::string_view message) {
   stop_with(report_here(kind, message));
 }
 
-void Robot::fault(int kind, std::string message, std::uintptr_t pc, std::uintptr_t frame) {
+void Robot::fault(int kind, std::string message, std::uintptr_t pc, std::uintptr_t frame,
+                  std::uintptr_t stack) {
   fold();
   // moved, not copied: this stack is abandoned, nothing on it is freed
-  stop_with(report_at(kind, std::move(message), pc, frame));
+  TrapReport report = report_at(kind, std::move(message), pc, frame);
+  if (report.place.line == 0) {
+    report.backtrace = walk(find_return_address(stack), 0);
+    report.place = culprit(report.backtrace);
+  }
+  stop_with(std::move(report));
+}
+
+/// An address of the program's code on the stack: above `stack`, where those that called lie, or else right
+/// below, where the last that was called from here left one. 0: none.
+std::uintptr_t Robot::find_return_address(std::uintptr_t stack) const {
+  constexpr std::uintptr_t kWord = sizeof(std::uintptr_t), kBelow = 512;
+  stack = (stack + kWord - 1) / kWord * kWord;
+  const auto at = [this](std::uintptr_t where) {
+    std::uintptr_t word = 0;
+    if (fiber_.is_on_stack(where) && fiber_.is_on_stack(where + kWord - 1))
+      std::memcpy(&word, reinterpret_cast<const void*>(where), kWord);
+    return word;
+  };
+  for (std::uintptr_t where = stack; fiber_.is_on_stack(where); where += kWord)
+    if (copy_.is_code(at(where)) && !walk(at(where) - 1, 0).empty()) return at(where) - 1;
+  for (std::uintptr_t where = stack; where > stack - kBelow; where -= kWord)
+    if (copy_.is_code(at(where - kWord)) && !walk(at(where - kWord) - 1, 0).empty()) return at(where - kWord) - 1;
+  return 0;
 }
 
 void Robot::stop_with(TrapReport report) {
@@ -127,6 +151,12 @@ std::vector<Place> Robot::walk(std::uintptr_t pc, std::uintptr_t frame) const {
     frame = link[0];
   }
   return places;
+}
+
+Place Robot::place_of_code(std::uintptr_t pc, std::uintptr_t frame) const {
+  Place place = culprit(walk(pc, frame));
+  if (place.function.empty()) place.function = "code that is not the program's";
+  return place;
 }
 
 std::vector<board::Diagnosis> Robot::diagnoses() const {

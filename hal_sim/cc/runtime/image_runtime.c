@@ -4,7 +4,7 @@
  */
 #include "hal_sim/host/image_abi.h"
 
-__attribute__((section("tpctl"), aligned(64), visibility("hidden"))) struct tp_control tp_ctl = {0, 0};
+__attribute__((section("tpctl"), aligned(64), visibility("hidden"))) struct tp_control tp_ctl = {0, 0, 0};
 
 /* Budget spent. Keeps every general register, so the fast path needs no saving around the call. */
 __attribute__((preserve_most, noinline)) void tp_image_event(void)

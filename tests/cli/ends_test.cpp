@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// Whatever runs, a run ends when the user or --host-limit wants it to. `timeout` sends the signal, and kills
+// what has not ended ten seconds later: exit code 137.
+#include <algorithm>
+
+#include "tests/cli/command.h"
+
+namespace {
+
+using cli_test::CommandTest;
+using cli_test::twinpuck;
+
+class Ends : public CommandTest {
+ protected:
+  static constexpr const char* kTerm = "timeout --preserve-status -k 10 -s TERM 1.5";
+  static constexpr const char* kInt = "timeout --preserve-status -k 10 -s INT 1.5";
+  static constexpr const char* kPatient = "timeout --preserve-status -k 1 60";
+
+  std::string endless_supervisor() const {
+    return write("endless.c",
+                 "#include <supervisor.h>\n"
+                 "volatile int d;\n"
+                 "int main(void) {\n"
+                 "  sv_step(0.5);\n"
+                 "  for (;;) d++;\n"
+                 "}\n");
+  }
+  /// The last line of a recording is whole: as many fields as the head has.
+  void expect_whole_lines(const std::string& file) const {
+    const std::string text = read(file);
+    ASSERT_FALSE(text.empty());
+    EXPECT_EQ(text.back(), '\n');
+    const auto commas = [](const std::string& line) { return std::count(line.begin(), line.end(), ','); };
+    const std::string last = text.substr(text.rfind('\n', text.size() - 2) + 1);
+    EXPECT_EQ(commas(last), commas(text.substr(0, text.find('\n')))) << last;
+    EXPECT_GT(std::count(text.begin(), text.end(), '\n'), 10);
+  }
+};
+
+TEST_F(Ends, a_supervisor_s_endless_loop_ends_at_the_host_limit) {
+  const auto said =
+      twinpuck("run empty --host-limit 1 --record " + path("r.csv") + " --supervisor " + endless_supervisor(),
+               kPatient);
+  EXPECT_EQ(said.exit_code, 124) << said.text;
+  EXPECT_NE(said.text.find("host time: got more than 1 s, expected at most 1 s; supervisor 'endless' was "
+                           "running at main"),
+            std::string::npos)
+      << said.text;
+  EXPECT_NE(said.text.find("endless.c:5"), std::string::npos) << said.text;
+  expect_whole_lines(path("r.csv"));
+}
+
+TEST_F(Ends, a_supervisor_s_endless_loop_ends_at_a_signal) {
+  for (const char* signal : {kTerm, kInt}) {
+    const auto said =
+        twinpuck("run empty --record " + path("r.csv") + " --supervisor " + endless_supervisor(), signal);
+    EXPECT_EQ(said.exit_code, 130) << said.text;
+    EXPECT_NE(said.text.find("interrupted; supervisor 'endless' was running"), std::string::npos)
+        << said.text;
+    expect_whole_lines(path("r.csv"));
+  }
+}
+
+TEST_F(Ends, a_run_at_any_pace_ends_with_its_summary_at_a_signal) {
+  for (const char* speed : {"max", "0.0001"}) {
+    const auto said = twinpuck(
+        "run maze --for 1e6 --record-every 0.001 --record " + path("r.csv") + " --speed " + speed, kTerm);
+    EXPECT_EQ(said.exit_code, 130) << said.text;
+    EXPECT_NE(said.text.find("simulated in"), std::string::npos) << said.text;
+    if (std::string(speed) == "max") expect_whole_lines(path("r.csv"));
+  }
+}
+
+TEST_F(Ends, every_long_verb_ends_at_a_signal) {
+  const auto said = twinpuck("lab", kTerm);
+  EXPECT_EQ(said.exit_code, 130) << said.text;
+}
+
+// the work that fits before the handlers was computed as 2^64 cycles
+TEST_F(Ends, basic_motors_beside_agendas_run_on_at_every_speed) {
+  for (const char* speed : {"410", "50", "650", "999"}) {
+    write("both/main.c",
+          "#include <p30F6014A.h>\n"
+          "#include <motor_led/e_init_port.h>\n"
+          "#include <motor_led/e_motors.h>\n"
+          "#include <motor_led/advance_one_timer/e_agenda.h>\n"
+          "volatile unsigned d;\n"
+          "int main(void) {\n"
+          "  e_init_port(); e_start_agendas_processing(); e_init_motors();\n"
+          "  e_set_speed_left(" +
+              std::string(speed) + "); e_set_speed_right(" + speed + ");\n  while (1) d++;\n}\n");
+    const auto said = twinpuck("run empty --for 2 --host-limit 20 --fw '*=" + path("both") + "'", kPatient);
+    EXPECT_EQ(said.exit_code, 0) << speed << "\n" << said.text;
+  }
+}
+
+}  // namespace

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+#include "tools/run_guard.h"
+
+#include <pthread.h>
+#include <semaphore.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <ctime>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "hal_sim/host/halt.h"
+#include "sim_core/base/check.h"
+#include "tools/verbs.h"
+
+namespace tools {
+
+namespace {
+
+constexpr double kGrace_s = 0.4;   // for a tick or two, and the supervisors' last go
+constexpr double kRescue_s = 0.3;  // for stopping the threads and writing what is left
+
+std::atomic<int> asked{0};    // exit code
+std::atomic<int> signals{0};  // so far
+sem_t news;                   // posted by signals, limits and scopes
+
+std::mutex changing;  // what follows
+std::function<void()> rescue;
+bool is_graceful = false, is_finishing = false;
+double limit_s = 0;  // --host-limit; 0 none
+timespec limit_at{};
+
+timespec after(double seconds) {
+  timespec at;
+  clock_gettime(CLOCK_MONOTONIC, &at);
+  const double whole = std::floor(seconds);
+  at.tv_sec += static_cast<time_t>(whole);
+  at.tv_nsec += static_cast<long>((seconds - whole) * 1e9);
+  if (at.tv_nsec >= 1'000'000'000) {
+    at.tv_nsec -= 1'000'000'000;
+    ++at.tv_sec;
+  }
+  return at;
+}
+
+bool has_passed(const timespec& at) {
+  timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return now.tv_sec > at.tv_sec || (now.tv_sec == at.tv_sec && now.tv_nsec >= at.tv_nsec);
+}
+
+/// Until news come or `at` has passed.
+void wait_for_news(const timespec* at) {
+  while ((at ? sem_clockwait(&news, CLOCK_MONOTONIC, at) : sem_wait(&news)) != 0 && errno == EINTR) {
+  }
+}
+
+void tell(const char* text) {
+  const ssize_t written = write(STDERR_FILENO, text, std::strlen(text));
+  (void)written;
+}
+
+std::string limit_text() {
+  std::string text = std::to_string(limit_s);
+  while (text.back() == '0') text.pop_back();
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
+[[noreturn]] void end_hard() {
+  const int code = asked.load();
+  // nothing of the following may last: the last word has the alarm
+  signal(SIGALRM, [](int) {
+    tell("twinpuck: ended without writing what was left of the outputs\n");
+    _exit(asked.load());
+  });
+  sigset_t alarm_only;
+  sigemptyset(&alarm_only);
+  sigaddset(&alarm_only, SIGALRM);
+  pthread_sigmask(SIG_UNBLOCK, &alarm_only, nullptr);
+  timer_t timer;
+  sigevent event{};
+  event.sigev_notify = SIGEV_SIGNAL;
+  event.sigev_signo = SIGALRM;
+  itimerspec when{};
+  when.it_value.tv_nsec = static_cast<long>(kRescue_s * 1e9);
+  if (timer_create(CLOCK_MONOTONIC, &event, &timer) != 0 || timer_settime(timer, 0, &when, nullptr) != 0)
+    _exit(code);
+  std::function<void()> write_rest;
+  bool was_graceful;
+  {
+    std::lock_guard<std::mutex> lock(changing);
+    was_graceful = is_graceful && !is_finishing;
+    write_rest = rescue;
+  }
+  std::string text = "\ntwinpuck: ";
+  text += code == kHostTime
+              ? "host time: got more than " + limit_text() + " s, expected at most " + limit_text() + " s"
+              : "interrupted";
+  if (was_graceful) {
+    const std::string ran = host::halt_threads();
+    text += "; " + (ran.empty() ? std::string("the simulator did not come back from a step") : ran) +
+            "; recordings hold what was written";
+  }
+  tell((text + '\n').c_str());
+  if (was_graceful && write_rest) write_rest();
+  _exit(code);
+}
+
+void watch() {
+  for (;;) {
+    bool graceful, finishing, limited;
+    timespec at;
+    {
+      std::lock_guard<std::mutex> lock(changing);
+      graceful = is_graceful;
+      finishing = is_finishing;
+      limited = limit_s > 0;
+      at = limit_at;
+    }
+    if (asked == 0 && limited && has_passed(at)) asked = kHostTime;
+    if (asked == 0) {
+      wait_for_news(limited ? &at : nullptr);
+      continue;
+    }
+    if (!graceful || signals > 1) end_hard();
+    if (finishing) {
+      wait_for_news(nullptr);
+      continue;
+    }
+    static const timespec grace = after(kGrace_s);
+    if (has_passed(grace)) end_hard();
+    wait_for_news(&grace);
+  }
+}
+
+void on_signal(int) {
+  const int before = errno;
+  int none = 0;
+  asked.compare_exchange_strong(none, kInterrupted);
+  ++signals;
+  sem_post(&news);
+  errno = before;
+}
+
+}  // namespace
+
+void guard_process() {
+  CHECK(sem_init(&news, 0, 0) == 0, "cannot make a semaphore");
+  // the guard's thread takes no signals, so that they come to where they always came
+  sigset_t all, before;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &before);
+  std::thread(watch).detach();
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  struct sigaction action {};
+  action.sa_handler = on_signal;
+  action.sa_flags = SA_RESTART | SA_ONSTACK;
+  sigemptyset(&action.sa_mask);
+  for (int s : {SIGINT, SIGTERM}) sigaction(s, &action, nullptr);
+}
+
+int end_asked() { return asked.load(std::memory_order_relaxed); }
+
+void limit_host_time(double seconds) {
+  if (seconds <= 0) return;
+  std::lock_guard<std::mutex> lock(changing);
+  limit_s = seconds;
+  limit_at = after(std::min(seconds, 1e9));
+  sem_post(&news);
+}
+
+GracefulEnd::GracefulEnd(std::function<void()> write_rest) {
+  std::lock_guard<std::mutex> lock(changing);
+  rescue = std::move(write_rest);
+  is_graceful = true;
+  is_finishing = false;
+}
+
+GracefulEnd::~GracefulEnd() {
+  std::lock_guard<std::mutex> lock(changing);
+  rescue = nullptr;
+  is_graceful = is_finishing = false;
+  limit_s = 0;
+}
+
+void GracefulEnd::finishing() {
+  std::lock_guard<std::mutex> lock(changing);
+  is_finishing = true;
+}
+
+}  // namespace tools

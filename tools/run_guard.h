@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// Ends the process when the user (Ctrl-C, SIGTERM) or --host-limit wants it ended, whatever runs. A verb that
+// looks at end_asked() ends by itself, with its files whole. One that does not come to it, because a program
+// or the simulator loops for ever, is ended by a thread of its own: that stops the other threads where they
+// are, says what ran, and leaves with the documented exit code.
+//
+//   asked --- grace --> rescue: files written as far as safe --- grace --> end without anything
+#pragma once
+#include <functional>
+
+namespace tools {
+
+/// Once, at the start of main(): signals end the process from now on. `verb` is named where nothing better is
+/// known.
+void guard_process();
+
+/// 0, or the exit code to end with: kInterrupted, kHostTime.
+int end_asked();
+
+/// kHostTime is asked for after so many seconds from now.
+void limit_host_time(double seconds);
+
+/// While one of these lives the verb looks at end_asked(), and gets the time of the first grace to react.
+/// Without one the process ends at once.
+class GracefulEnd {
+ public:
+  /// `rescue` writes what is left of the output files; called by the guard's thread, with the simulation
+  /// stopped somewhere between two instructions of firmware.
+  explicit GracefulEnd(std::function<void()> rescue);
+  ~GracefulEnd();
+  GracefulEnd(const GracefulEnd&) = delete;
+  GracefulEnd& operator=(const GracefulEnd&) = delete;
+
+  /// Nobody else's code runs any more, and the files are being finished: no end but by a second signal.
+  void finishing();
+};
+
+}  // namespace tools
