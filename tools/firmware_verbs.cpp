@@ -142,6 +142,8 @@ void add_build(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({"-O0", "-O1", "-O2", "-Os"}))
       ->capture_default_str();
   verb->add_option("-D", o->defines, "NAME or NAME=value for the preprocessor");
+  verb->add_option("-I", o->include_dirs, "folder that is searched for headers first");
+  verb->add_option("--std", o->standard, "standard of C, such as gnu99; default: the project's, or XC16's");
   auto way = std::make_shared<std::string>("native");
   verb->add_option("--way", *way, "native: the library's functions; register: the chip's registers")
       ->check(CLI::IsMember({"native", "register"}))

@@ -21,7 +21,8 @@ struct BuildOptions {
   std::string name;                  ///< controller's name; default: the folder's
   std::filesystem::path cache_dir;   ///< objects kept between builds; default: below the build folder
   std::vector<std::string> defines;  ///< "NAME=value"
-  std::vector<std::filesystem::path> include_dirs;  ///< searched before the project's own folders
+  std::string standard;              ///< of C, as -std= has it; default: the project's, or XC16's gnu89
+  std::vector<std::filesystem::path> include_dirs;  ///< searched first
   std::vector<std::filesystem::path> sources;       ///< instead of every .c of source_dir
   std::filesystem::path api_dir,
       include_root;  ///< default: hal_sim/api (register way: hal_dspic) and firmware/include of this tree

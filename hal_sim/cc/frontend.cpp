@@ -299,7 +299,7 @@ class RobotAction : public EmitLLVMOnlyAction {
   std::shared_ptr<AttributeFilter> filter_;
 };
 
-std::vector<std::string> clang_arguments(const Options& o) {
+std::vector<std::string> clang_arguments(const Options& o, const std::string& standard) {
   std::vector<std::string> a = {"/usr/lib/llvm-14/bin/clang",
                                 "-c",
                                 o.input,
@@ -308,7 +308,7 @@ std::vector<std::string> clang_arguments(const Options& o) {
                                 "--target=x86_64-pc-linux-gnu",
                                 "-x",
                                 "c",
-                                o.webots ? "-std=gnu11" : "-std=gnu89",
+                                "-std=" + standard,
                                 "-fgnu89-inline",
                                 "-fcommon",
                                 "-fsigned-char",
@@ -382,14 +382,15 @@ std::vector<std::string> clang_arguments(const Options& o) {
 
 namespace {
 
-/// One attempt; `declarations` go in front of the file. Messages go to `out`.
+/// One attempt in one standard of C; `declarations` go in front of the file. Messages go to `out`.
 std::unique_ptr<llvm::Module> attempt(const Options& options, llvm::LLVMContext& context, Facts& facts,
-                                      const std::string& declarations, llvm::raw_ostream& out) {
+                                      const std::string& standard, const std::string& declarations,
+                                      llvm::raw_ostream& out) {
   constexpr const char* kDeclarations = "/twinpuck-forward-declarations.h";
   IntrusiveRefCntPtr<DiagnosticOptions> diagnostic_options = new DiagnosticOptions;
   auto* printer = new TextDiagnosticPrinter(out, &*diagnostic_options);
   DiagnosticsEngine diagnostics(new DiagnosticIDs, &*diagnostic_options, printer);
-  auto arguments = clang_arguments(options);
+  auto arguments = clang_arguments(options, standard);
   if (!declarations.empty()) {
     arguments.push_back("-include");
     arguments.push_back(kDeclarations);
@@ -413,6 +414,7 @@ std::unique_ptr<llvm::Module> attempt(const Options& options, llvm::LLVMContext&
   // the virtual root must look like a folder, or clang drops it from the include path
   auto memory = llvm::makeIntrusiveRefCnt<llvm::vfs::InMemoryFileSystem>();
   memory->addFile(std::string(kFallbackRoot) + "/.root", 0, llvm::MemoryBuffer::getMemBuffer(""));
+  memory->addFile(std::string(kVendorRoot) + "/.root", 0, llvm::MemoryBuffer::getMemBuffer(""));
   if (!declarations.empty())
     memory->addFile(kDeclarations, 0, llvm::MemoryBuffer::getMemBufferCopy(declarations));
   auto overlay = llvm::makeIntrusiveRefCnt<llvm::vfs::OverlayFileSystem>(
@@ -427,24 +429,36 @@ std::unique_ptr<llvm::Module> attempt(const Options& options, llvm::LLVMContext&
   return action.takeModule();
 }
 
+/// Attempts as the file stands, then with declarations of its own functions that it lacks.
+std::unique_ptr<llvm::Module> attempts(const Options& options, llvm::LLVMContext& context, Facts& facts,
+                                       const std::string& standard, std::string& messages) {
+  llvm::raw_string_ostream said(messages);
+  facts = Facts();
+  auto module = attempt(options, context, facts, standard, "", said);
+  said.flush();
+  if (module) return module;
+  auto source = llvm::MemoryBuffer::getFile(options.input);
+  const std::string declarations = source ? forward_declarations(messages, (*source)->getBuffer().str()) : "";
+  if (declarations.empty()) return nullptr;
+  messages.clear();
+  facts = Facts();
+  module = attempt(options, context, facts, standard, declarations, said);
+  said.flush();
+  return module;
+}
+
 }  // namespace
 
 std::unique_ptr<llvm::Module> compile_to_module(const Options& options, llvm::LLVMContext& context,
                                                 Facts& facts) {
+  const std::string first = !options.standard.empty() ? options.standard : options.webots ? "gnu11" : "gnu89";
   std::string messages;
-  llvm::raw_string_ostream said(messages);
-  auto module = attempt(options, context, facts, "", said);
-  said.flush();
-  if (!module) {
-    auto source = llvm::MemoryBuffer::getFile(options.input);
-    const std::string declarations =
-        source ? forward_declarations(messages, (*source)->getBuffer().str()) : "";
-    if (!declarations.empty()) {
-      messages.clear();
-      facts = Facts();
-      module = attempt(options, context, facts, declarations, said);
-      said.flush();
-    }
+  auto module = attempts(options, context, facts, first, messages);
+  if (!module && options.standard.empty() && !options.webots) {
+    // what XC16 takes with -std=gnu99 only: a variable of each loop's own, for one
+    std::string messages_of_c99;
+    module = attempts(options, context, facts, "gnu99", messages_of_c99);
+    if (module) messages = messages_of_c99;
   }
   llvm::errs() << messages;
   return module;

@@ -112,7 +112,14 @@ class ForgivingFileSystem : public llvm::vfs::ProxyFileSystem {
 
   std::string find(const std::string& path) {
     StringRef name = path;
-    if (name == kFallbackRoot) return "";
+    if (name == kFallbackRoot || name == kVendorRoot) return "";
+    if (name.startswith(std::string(kVendorRoot) + "/")) {
+      const StringRef header = llvm::sys::path::filename(name);
+      for (const char* vendors : {"adc12.h", "dsp.h", "i2c.h", "libpic30.h", "timer.h", "uart.h", "xc.h"})
+        if (header.equals_insensitive(vendors) && !folders_.empty())
+          return match_ignoring_case(folders_.front(), {header.str()}, 0);
+      return "";
+    }
     if (name.startswith(std::string(kFallbackRoot) + "/")) {
       auto parts = components(name.substr(std::string(kFallbackRoot).size()).str());
       parts.erase(std::remove(parts.begin(), parts.end(), ".."), parts.end());
