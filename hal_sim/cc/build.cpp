@@ -453,7 +453,8 @@ BuildResult build_image(const BuildOptions& options) {
                                 outcomes[i].messages.substr(0, outcomes[i].messages.find('\n')));
       continue;
     }
-    sort_messages(outcomes[i].messages, result, !outcomes[i].ok);
+    const bool is_member = i >= own && i < p.user.size();  // of a library: its warnings are not the user's
+    if (!is_member) sort_messages(outcomes[i].messages, result, !outcomes[i].ok);
     ok = ok && outcomes[i].ok;
     ++(outcomes[i].reused ? result.reused : result.compiled);
   }

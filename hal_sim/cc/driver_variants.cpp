@@ -16,31 +16,38 @@ namespace {
 // the usual form first
 constexpr Driver kDrivers[] = {
     {"motors",
+     true,
      {{"motor_led/advance_one_timer/e_motors.c", "motor_led/advance_one_timer/e_motors.h", ""},
       {"motor_led/e_motors.c", "motor_led/e_motors.h", "tpbasic_"},
       {"motor_led/e_motors_timer3.c", "motor_led/e_motors_timer3.h", "tptimer3_"},
       {"motor_led/advance_one_timer/fast_agenda/e_motors.c",
        "motor_led/advance_one_timer/fast_agenda/e_motors.h", "tpfast_"}}},
     {"LEDs",
+     true,
      {{"motor_led/advance_one_timer/e_led.c", "motor_led/advance_one_timer/e_led.h", ""},
       {"motor_led/e_led.c", "motor_led/e_led.h", "tpbasic_"},
       {"motor_led/advance_one_timer/fast_agenda/e_led.c", "motor_led/advance_one_timer/fast_agenda/e_led.h",
        "tpfast_"}}},
     {"agendas",
+     true,
      {{"motor_led/advance_one_timer/e_agenda.c", "motor_led/advance_one_timer/e_agenda.h", ""},
       {"motor_led/advance_one_timer/fast_agenda/e_agenda_fast.c",
        "motor_led/advance_one_timer/fast_agenda/e_agenda_fast.h", "tpfast_"}}},
     {"converter",
+     true,
      {{"a_d/advance_ad_scan/e_ad_conv.c", "a_d/advance_ad_scan/e_ad_conv.h", ""},
       {"a_d/e_ad_conv.c", "a_d/e_ad_conv.h", "tpbasic_"}}},
     {"proximity sensors",
+     true,
      {{"a_d/advance_ad_scan/e_prox.c", "a_d/advance_ad_scan/e_prox.h", ""},
       {"a_d/e_prox.c", "a_d/e_prox.h", "tpbasic_"},
       {"a_d/e_prox_timer2.c", "a_d/e_prox_timer2.h", "tpt2_"}}},
     {"accelerometer",
+     false,
      {{"a_d/advance_ad_scan/e_acc.c", "a_d/advance_ad_scan/e_acc.h", ""},
       {"a_d/e_accelerometer.c", "a_d/e_accelerometer.h", "tpbasic_"}}},
     {"microphones",
+     false,
      {{"a_d/advance_ad_scan/e_micro.c", "a_d/advance_ad_scan/e_micro.h", ""},
       {"a_d/e_micro.c", "a_d/e_micro.h", "tpbasic_"}}},
 };
@@ -120,6 +127,7 @@ std::vector<DriverChoice> choose_driver_forms(const ProgramSymbols& symbols,
       if (*form.prefix) of_labels.push_back(&form);
       if (*form.prefix || is_included(form, texts)) of_headers.push_back(&form);
     });
+    if (!driver.is_exchangeable && (of_headers.size() > 1 || !of_labels.empty())) continue;
     if (of_project.size() == 1) {
       choices.push_back({&driver, of_project[0], ""});
     } else if (of_headers.size() > 1) {

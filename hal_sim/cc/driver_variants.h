@@ -6,8 +6,9 @@
 //   2. the form whose source the project file lists;
 //   3. the form whose header the program includes; of several the usual one, which comes first in the table;
 //   4. without a header, the form that has all functions that are called.
-// Our headers label the functions of the less usual forms ("tpbasic_e_init_motors"), so a choice is a set of
-// names to replace in the program's objects.
+// Where forms take different arguments (e_get_acc(&x, &y, &z) and e_get_acc(0)), each file's header decides
+// for it. Our headers label the functions of the less usual forms ("tpbasic_e_init_motors"), so a choice is a
+// set of names to replace in the program's objects.
 #pragma once
 #include <filesystem>
 #include <map>
@@ -25,6 +26,7 @@ struct DriverForm {
 
 struct Driver {
   const char* name;
+  bool is_exchangeable;  ///< functions of one name take the same arguments in all forms
   DriverForm forms[4];
 };
 

@@ -152,8 +152,12 @@ std::optional<MplabProject> read_makefile(const fs::path& folder) {
   static const std::regex kSources(R"((C_?)?(SRCS?|SOURCES?)(_C|_FILES)?|\w*OBJ(S|ECTS)?)",
                                    std::regex::icase);
   static const std::regex kOptions(R"(\w*(C(PP)?FLAGS|INCLUDES?|INC|DEFS|DEFINES)\w*)", std::regex::icase);
+  static const std::regex kFolders("INC_?DIRS?|INCLUDE_?DIRS?", std::regex::icase);  // without -I
   std::string options;
   for (const auto& [name, raw] : makefile.variables()) {
+    if (std::regex_match(name, kFolders))
+      for (const std::string& word : words_of(makefile.value(name)))
+        if (word[0] != '-') options += "-I" + word + " ";
     if (std::regex_match(name, kOptions)) options += makefile.value(name) + " ";
     if (!std::regex_match(name, kSources)) continue;
     for (std::string word : words_of(makefile.value(name))) {

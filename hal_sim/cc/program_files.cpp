@@ -78,7 +78,8 @@ Program program_of(const BuildOptions& o, BuildResult& result) {
     program.standard = project->standard;
     if (std::none_of(project->sources.begin(), project->sources.end(), defines_main)) project.reset();
   }
-  if (is_webots && project) {
+  if (is_webots && project &&
+      std::count_if(project->sources.begin(), project->sources.end(), defines_main) == 1) {
     program.sources = project->sources;
     program.is_exact = true;
     return program;
@@ -87,7 +88,7 @@ Program program_of(const BuildOptions& o, BuildResult& result) {
     program.assembler = project->assembler;
   else
     program.assembler = files_below(o.source_dir, ".s");
-  if (!project) {
+  if (!project || is_webots) {
     if (!is_webots) leave_out_other_programs(program, o.source_dir, result);
     return program;
   }

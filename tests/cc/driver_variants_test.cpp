@@ -111,3 +111,17 @@ TEST(driver_variants, functions_of_a_form_link_without_a_header) {
       }
     }
 }
+
+// the two take different arguments; each file calls what its header declares
+TEST(driver_variants, forms_with_other_arguments_are_not_exchanged) {
+  Folder folder;
+  folder.file("prog/main.c",
+              "#include <a_d/e_accelerometer.h>\nint other(void);\n"
+              "int main(void) { int x, y, z; e_get_acc(&x, &y, &z); return other(); }");
+  folder.file("prog/other.c",
+              "#include <a_d/advance_ad_scan/e_acc.h>\nint other(void) { return e_get_acc(0); }");
+  auto built = build_as(folder, false);
+  ASSERT_TRUE(built.ok) << text_of(built);
+  EXPECT_TRUE(has_function(folder, "e_get_acc"));
+  EXPECT_TRUE(has_function(folder, "tpbasic_e_get_acc"));
+}
