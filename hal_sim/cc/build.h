@@ -50,6 +50,8 @@ struct FunctionCycles {
   std::string name, file;
   int line = 0;
   bool is_interrupt = false;  ///< a handler: entry, context saving and RETFIE are included
+  bool is_library = false;    ///< of the e-puck library or the C library, not of the program
+  std::string inlined_into;   ///< names of the functions in which its code stands; it has no cost of its own
   double min = 0, mean = 0, max = 0;
   double mean_us() const;  ///< at 14.7456 MHz
   /// Share of the processor when called every `period_s` seconds, 0..1 and above.

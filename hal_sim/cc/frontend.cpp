@@ -67,27 +67,29 @@ void set_robot_model(TargetInfo& t) {
 /// Refuses headers of an operating system, and writes down every file read.
 class IncludeWatch : public PPCallbacks {
  public:
-  IncludeWatch(CompilerInstance& ci, bool webots) : ci_(ci), webots_(webots) {}
-  bool FileNotFound(StringRef name, SmallVectorImpl<char>&) override {
-    missing_ = name.str();
-    return false;
-  }
+  IncludeWatch(CompilerInstance& ci, const Options& options) : ci_(ci), options_(options) {}
   void InclusionDirective(SourceLocation, const Token&, StringRef name, bool, CharSourceRange range,
                           const FileEntry* file, StringRef, StringRef, const Module*,
                           SrcMgr::CharacteristicKind) override {
-    if (webots_ && file) return;  // the library behind Webots' interfaces has some of them
+    if (options_.webots && file) return;  // the library behind Webots' interfaces has some of them
     if (const char* instead = refused_header(name)) {
       auto& d = ci_.getDiagnostics();
       d.Report(range.getBegin(), d.getCustomDiagID(DiagnosticsEngine::Fatal,
                                                    "#include <%0>: a robot has no operating system; %1"))
           << name << instead;
+    } else if (!file) {
+      auto folders = options_.fallback;
+      if (!options_.project.empty()) folders.push_back(options_.project);
+      const std::string guess = header_like(name.str(), folders);
+      auto& d = ci_.getDiagnostics();
+      if (!guess.empty())
+        d.Report(range.getBegin(), d.getCustomDiagID(DiagnosticsEngine::Note, "did you mean '%0'?")) << guess;
     }
   }
 
  private:
   CompilerInstance& ci_;
-  bool webots_;
-  std::string missing_;
+  const Options& options_;
 };
 
 /// Collects what later stages need from declarations, and mends the one type the widths break.
@@ -272,15 +274,15 @@ class ConfigPragma : public PragmaHandler {
 
 class RobotAction : public EmitLLVMOnlyAction {
  public:
-  RobotAction(llvm::LLVMContext& context, Facts& facts, bool webots)
-      : EmitLLVMOnlyAction(&context), facts_(facts), webots_(webots) {}
+  RobotAction(llvm::LLVMContext& context, Facts& facts, const Options& options)
+      : EmitLLVMOnlyAction(&context), facts_(facts), options_(options) {}
   bool BeginInvocation(CompilerInstance& ci) override {
     set_robot_model(ci.getTarget());
     return EmitLLVMOnlyAction::BeginInvocation(ci);
   }
   bool BeginSourceFileAction(CompilerInstance& ci) override {
     auto& pp = ci.getPreprocessor();
-    pp.addPPCallbacks(std::make_unique<IncludeWatch>(ci, webots_));
+    pp.addPPCallbacks(std::make_unique<IncludeWatch>(ci, options_));
     pp.AddPragmaHandler(new ConfigPragma(facts_));
     filter_ = std::make_shared<AttributeFilter>(pp);
     pp.setTokenWatcher([f = filter_](const Token& token) { (*f)(token); });
@@ -295,7 +297,7 @@ class RobotAction : public EmitLLVMOnlyAction {
 
  private:
   Facts& facts_;
-  bool webots_;
+  const Options& options_;
   std::shared_ptr<AttributeFilter> filter_;
 };
 
@@ -424,7 +426,7 @@ std::unique_ptr<llvm::Module> attempt(const Options& options, llvm::LLVMContext&
   ci.setInvocation(invocation);
   ci.createDiagnostics(new TextDiagnosticPrinter(out, &invocation->getDiagnosticOpts()));
   ci.setFileManager(new FileManager(FileSystemOptions(), overlay));
-  RobotAction action(context, facts, options.webots);
+  RobotAction action(context, facts, options);
   if (!ci.ExecuteAction(action)) return nullptr;
   return action.takeModule();
 }

@@ -25,4 +25,7 @@ inline constexpr const char* kVendorRoot = "/twinpuck-vendor";
 llvm::IntrusiveRefCntPtr<llvm::vfs::FileSystem> forgiving_file_system(
     std::vector<std::string> fallback_folders, std::string project, std::vector<std::string> copies);
 
+/// The header below the folders whose name is most like `name`, as an #include would have it; "" for none.
+std::string header_like(const std::string& name, const std::vector<std::string>& folders);
+
 }  // namespace cc

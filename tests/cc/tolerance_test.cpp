@@ -228,3 +228,22 @@ TEST(tolerance, the_standard_of_c_can_be_given) {
   EXPECT_FALSE(build(folder, kLoops, "-O1", [](cc::BuildOptions& o) { o.standard = "gnu89"; }).ok);
   EXPECT_TRUE(build(folder, kLoops, "-O1", [](cc::BuildOptions& o) { o.standard = "gnu99"; }).ok);
 }
+
+TEST(tolerance, a_header_that_is_nowhere_is_guessed) {
+  for (const auto& [written, meant] :
+       {std::pair("<motor_led/e_motor.h>", "'motor_led/e_motors.h'"), std::pair("\"e_proxx.h\"", "e_prox.h'"),
+        std::pair("<a_d/advanced_ad_scan/e_porx.h>", "'a_d/advance_ad_scan/e_prox.h'"),
+        std::pair("\"behavior.h\"", "'tools/behaviour.h'")}) {
+    Folder folder;
+    folder.file("prog/tools/behaviour.h", "");
+    auto built = build(folder, std::string("#include ") + written + "\nint main(void) { return 0; }");
+    EXPECT_FALSE(built.ok);
+    ASSERT_EQ(built.errors.size(), 1u) << text_of(built);
+    EXPECT_NE(built.errors[0].find("did you mean"), std::string::npos) << built.errors[0];
+    EXPECT_NE(built.errors[0].find(meant), std::string::npos) << built.errors[0];
+  }
+  Folder folder;
+  EXPECT_EQ(text_of(build(folder, "#include <robotics/quaternions.h>\nint main(void) { return 0; }"))
+                .find("did you mean"),
+            std::string::npos);
+}
