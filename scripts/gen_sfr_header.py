@@ -72,12 +72,7 @@ HEAD = """\
 #define Idle() { __asm__ volatile("pwrsav #1"); }
 #define Reset() { __asm__ volatile("reset"); }
 
-/* --- what XC16 has as built-in functions ---------------------------------------------------------------- */
-#define __builtin_nop() __asm__ volatile("nop")
-#define __builtin_clrwdt() __asm__ volatile("clrwdt")
-#define __builtin_pwrsav(mode) tp_power_save(mode)
-#define __builtin_disi(cycles) tp_disi(cycles)
-#define __builtin_software_breakpoint() __asm__ volatile("nop")
+/* --- built-in functions of XC16 that reach registers (the others: xc16_builtins.h) --------------- */
 #define __builtin_get_isr_state() ((unsigned)SRbits.IPL)
 #define __builtin_set_isr_state(state) (SRbits.IPL = (state))
 #define __builtin_disable_interrupts() (SRbits.IPL = 7)
@@ -91,26 +86,15 @@ HEAD = """\
   __builtin_nop(); } while (0)
 /* table instructions reach the data EEPROM, pages 0x7F */
 #define __builtin_tblrdl(offset) tp_image_table_read((unsigned long)TBLPAG << 16 | (unsigned)(offset))
-#define __builtin_tblpage(object) ((unsigned)(tp_image_program_address(object) >> 16))
-#define __builtin_tbloffset(object) ((unsigned)tp_image_program_address(object))
-#define __builtin_psvpage(object) ((unsigned)(tp_image_program_address(object) >> 15))
-#define __builtin_psvoffset(object) ((unsigned)tp_image_program_address(object) | 0x8000u)
 #define __builtin_tblwtl(offset, value) \\
   tp_table_write((long long)TBLPAG << 16 | (unsigned)(offset), (unsigned)(value))
-#define __builtin_btg(pointer, bit) (*(pointer) ^= 1u << (bit))
-#define __builtin_mulss(a, b) ((long)(int)(a) * (int)(b))
-#define __builtin_muluu(a, b) ((unsigned long)(unsigned)(a) * (unsigned)(b))
-#define __builtin_mulsu(a, b) ((long)(int)(a) * (long)(unsigned)(b))
-#define __builtin_mulus(a, b) ((long)(unsigned)(a) * (long)(int)(b))
-#define __builtin_divsd(a, b) ((int)((long)(a) / (int)(b)))
-#define __builtin_divud(a, b) ((unsigned)((unsigned long)(a) / (unsigned)(b)))
-#define __builtin_modsd(a, b) ((int)((long)(a) % (int)(b)))
-#define __builtin_modud(a, b) ((unsigned)((unsigned long)(a) % (unsigned)(b)))
-extern void tp_disi(long long cycles);
-extern void tp_power_save(long long mode);
-extern unsigned tp_image_table_read(unsigned long program_address);
-extern unsigned long tp_image_program_address(const volatile void *object);
-extern void tp_table_write(long long address, long long value);
+#define __builtin_tblrdlb(offset) (__builtin_tblrdl((offset) & ~1u) >> ((offset) & 1u ? 8 : 0) & 0xFFu)
+/* the third byte of an instruction word: none in the EEPROM, 0 beside a constant */
+#define __builtin_tblrdh(offset) ((void)(offset), 0u)
+#define __builtin_tblrdhb(offset) ((void)(offset), 0u)
+#define __builtin_tblwth(offset, value) ((void)(offset), (void)(value))
+#define __builtin_readsfr(address) (*(volatile unsigned *)(address))
+#define __builtin_writesfr(address, value) (*(volatile unsigned *)(address) = (value))
 
 /* --- priority of the running program, 0 to 7: interrupts at or below it wait ---------------------------- */
 #define SET_CPU_IPL(ipl) { SRbits.IPL = (ipl); }

@@ -112,7 +112,7 @@ int lint(const std::string& name) {
 
 std::string count(double cycles) { return cycles < 0 ? "no bound" : fmt::format("{:.0f}", cycles); }
 
-int cycles(const std::string& name, double period_ms) {
+int cycles(const std::string& name, double period_ms, bool with_library) {
   std::vector<std::string> problems;
   const std::string image = twin::provide_image(name, "", {}, problems);
   complain(problems);
@@ -131,10 +131,23 @@ int cycles(const std::string& name, double period_ms) {
       "estimated cycles at 14.7456 MHz, callees included (docs/cycles.md says how good the estimate is)\n"
       "{:<32} {:>9} {:>9} {:>9} {:>11} {:>10}  where\n",
       "function", "min", "mean", "max", "mean (us)", fmt::format("load/{:g}ms", period_ms));
-  for (const auto& f : functions)
-    std::cout << fmt::format("{:<32} {:>9} {:>9} {:>9} {:>11.2f} {:>9.2f}%  {}:{}\n",
-                             f.name + (f.is_interrupt ? " (interrupt)" : ""), count(f.min), count(f.mean),
-                             count(f.max), f.mean_us(), 100 * f.cpu_load(period_ms / 1000), f.file, f.line);
+  int of_library = 0;
+  for (const auto& f : functions) {
+    const std::string where = fmt::format("{}:{}", f.file, f.line);
+    if (f.is_library && !with_library) {
+      ++of_library;
+    } else if (!f.inlined_into.empty()) {
+      std::cout << fmt::format("{:<32} part of {}  {}\n", f.name, f.inlined_into, where);
+    } else {
+      // main() is not called every so many milliseconds: it has no load
+      const std::string load =
+          f.name == "main" ? "" : fmt::format("{:.2f}%", 100 * f.cpu_load(period_ms / 1000));
+      std::cout << fmt::format("{:<32} {:>9} {:>9} {:>9} {:>11.2f} {:>10}  {}\n",
+                               f.name + (f.is_interrupt ? " (interrupt)" : ""), count(f.min), count(f.mean),
+                               count(f.max), f.mean_us(), load, where);
+    }
+  }
+  if (of_library > 0) std::cout << fmt::format("and {} functions of the library: --all\n", of_library);
   return kPass;
 }
 
@@ -168,6 +181,8 @@ void add_build(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({"-O0", "-O1", "-O2", "-Os"}))
       ->capture_default_str();
   verb->add_option("-D", o->defines, "NAME or NAME=value for the preprocessor");
+  verb->add_option("-I", o->include_dirs, "folder that is searched for headers first");
+  verb->add_option("--std", o->standard, "standard of C, such as gnu99; default: the project's, or XC16's");
   auto way = std::make_shared<std::string>("native");
   verb->add_option("--way", *way, "native: the library's functions; register: the chip's registers")
       ->check(CLI::IsMember({"native", "register"}))
@@ -195,7 +210,9 @@ void add_cycles(CLI::App& app, int& exit_code) {
   verb->add_option("--period", *period_ms, "the load column assumes one call every so many ms")
       ->check(between(1e-6, 1e9))
       ->capture_default_str();
-  verb->callback([name, period_ms, &exit_code] { exit_code = cycles(*name, *period_ms); });
+  auto with_library = std::make_shared<bool>(false);
+  verb->add_flag("--all", *with_library, "the library's functions, too");
+  verb->callback([=, &exit_code] { exit_code = cycles(*name, *period_ms, *with_library); });
 }
 
 void add_check(CLI::App& app, int& exit_code) {

@@ -22,11 +22,24 @@ typedef unsigned long _prog_addressT;
 /** Copies `bytes` bytes from program memory or data EEPROM; returns the place behind them. */
 _prog_addressT _memcpy_p2d16(void *to, _prog_addressT from, unsigned int bytes);
 
+/* lengths: bytes of data EEPROM, instructions of program memory */
 #define _EE_WORD 2
 #define _EE_ROW 32
+#define _FLASH_PAGE 32
+#define _FLASH_ROW 32
+
+/* what NVMCON takes for each operation [DS70143 table 7-1]; program memory itself is not written here */
+#define _FLASH_ERASE_CODE 0x4041
+#define _FLASH_WRITE_ROW_CODE 0x4001
+#define _EE_ERASE_WORD_CODE 0x4044
+#define _EE_ERASE_ROW_CODE 0x4045
+#define _EE_ERASE_ALL_CODE 0x4046
+#define _EE_WORD_WRITE_CODE 0x4004
+#define _EE_ROW_WRITE_CODE 0x4005
 
 /** Erases (to 0xFFFF) or writes a word or a row (_EE_WORD, _EE_ROW bytes) of data EEPROM, about 2 ms. */
 void _erase_eedata(_prog_addressT place, int bytes);
+void _erase_eedata_all(void);
 void _write_eedata_word(_prog_addressT place, int word);
 void _write_eedata_row(_prog_addressT place, int *words);
 /** Returns when erasing or writing is done. */

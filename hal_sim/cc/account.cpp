@@ -193,6 +193,27 @@ double describe(Function& f, FunctionAnalysisManager& analyses, const std::vecto
   return least.cycles;
 }
 
+/// Functions whose code stands in others, a line each: "name|file|line|inlined|in which".
+std::vector<std::string> inlined_functions(const Module& m) {
+  std::map<const DISubprogram*, std::set<std::string>> hosts;
+  for (const Function& f : m)
+    for (const Instruction& i : instructions(f))
+      for (const DILocation* at = i.getDebugLoc().get(); at && at->getInlinedAt(); at = at->getInlinedAt())
+        hosts[at->getScope()->getSubprogram()].insert(f.getName().str());
+  std::set<std::string> lines;
+  for (const auto& [what, where] : hosts) {
+    const Function* own = m.getFunction(what->getName());
+    if ((own && !own->isDeclaration()) || what->getFilename().contains("firmware/include/") ||
+        what->getFilename().contains("libc/include/"))
+      continue;  // stands by itself as well, or is of a header of ours
+    std::string names;
+    for (const std::string& name : where) names += (names.empty() ? "" : ", ") + name;
+    lines.insert((what->getName() + "|" + what->getFilename() + "|" + Twine(what->getLine())).str() +
+                 "|inlined|" + names);
+  }
+  return {lines.begin(), lines.end()};
+}
+
 /// For fitting the model: what each segment consists of, and a counter of its executions.
 void dump_segment(raw_ostream& out, const Function& f, const Segment& s) {
   out << f.getName();
@@ -262,6 +283,7 @@ CostPlan plan_costs(Unit& unit, FunctionAnalysisManager& analyses) {
       if (dump) dump_segment(*dump, f, s);
     }
     function.least = describe(f, analyses, cost.segments, function.description);
+    function.description += unit.options.library || unit.options.weak ? "|library" : "|program";
     plan.functions.push_back(function);
   }
   return plan;
@@ -286,6 +308,12 @@ void account(Unit& unit, const CostPlan& plan) {
     cast<GlobalVariable>(used.back())->setAlignment(Align(1));
     cast<GlobalVariable>(used.back())->setConstant(true);
   }
+  if (!unit.options.library && !unit.options.weak)
+    for (const std::string& line : inlined_functions(m)) {
+      add_to_section(m, "tpcost", ConstantDataArray::getString(m.getContext(), line), used);
+      cast<GlobalVariable>(used.back())->setAlignment(Align(1));
+      cast<GlobalVariable>(used.back())->setConstant(true);
+    }
   for (auto& [before, cycles] : plan.charges)
     if (std::llround(cycles) != 0) charge(m, before, std::llround(cycles));
   if (unit.options.coverage)

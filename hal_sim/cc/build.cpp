@@ -14,11 +14,11 @@
 #include <set>
 #include <sstream>
 
+#include "driver_variants.h"
 #include "elf_reader.h"
 #include "hal_sim/host/image_stamp.h"
-#include "library_copies.h"
-#include "mplab_project.h"
 #include "object_cache.h"
+#include "program_files.h"
 #include "timer_owners.h"
 #include "twinpuck_paths.h"
 
@@ -32,25 +32,6 @@ fs::path source_root() {
 }
 
 fs::path build_root() { return TWINPUCK_BUILD_DIR; }
-
-std::vector<fs::path> files_below(const fs::path& folder, const std::string& extension) {
-  std::vector<fs::path> found;
-  std::error_code ec;
-  for (fs::recursive_directory_iterator it(folder, fs::directory_options::skip_permission_denied, ec), end;
-       it != end && !ec; it.increment(ec)) {
-    std::string name = it->path().filename().string();
-    std::error_code odd;  // a loop of links is neither folder nor file
-    if (it->is_directory(odd) && name.size() > 1 && name[0] == '.') {
-      it.disable_recursion_pending();
-      continue;
-    }
-    std::string end_of_name = it->path().extension().string();
-    std::transform(end_of_name.begin(), end_of_name.end(), end_of_name.begin(), ::tolower);
-    if (it->is_regular_file(odd) && end_of_name == extension) found.push_back(it->path());
-  }
-  std::sort(found.begin(), found.end());
-  return found;
-}
 
 /// Sub-folders of the contract, in the order a flat "e_motors.h" is looked up: the one-timer drivers first.
 std::vector<fs::path> contract_folders(const fs::path& root) {
@@ -69,20 +50,14 @@ struct Plan {
   CompileJob runtime;
 };
 
+// of include_finder.h, which is the compiler's
+constexpr const char* kVendorHeaders = "-I/twinpuck-vendor";
+
 std::string common_salt(const std::vector<fs::path>& headers) {
   // a header that appears or goes away can change what an #include finds
   std::string names;
   for (const auto& h : headers) names += h.string() + "\n";
   return content_hash(names);
-}
-
-/// Whether a program is written for Webots' interfaces: one of its files, or a header of its own, says so.
-bool names_webots(const std::vector<fs::path>& sources, const std::vector<fs::path>& headers) {
-  static const std::regex kInclude(R"(#\s*include\s*[<"](webots|device)[/\\])");
-  for (const auto* list : {&sources, &headers})
-    for (const auto& file : *list)
-      if (std::regex_search(read_text(file), kInclude)) return true;
-  return false;
 }
 
 /// Whether a program takes the address of a register anywhere: then its files may pass it on.
@@ -120,14 +95,18 @@ std::vector<fs::path> webots_sources(const fs::path& folder, const std::vector<f
   return kept.empty() ? sources : kept;
 }
 
-Plan plan(const BuildOptions& o, const LibraryCopies& copies, bool lint,
-          const std::vector<fs::path>& project_include_dirs = {}) {
+Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& program, bool lint) {
   fs::path root = source_root(), cc_dir = root / "hal_sim/cc";
   fs::path include_root = o.include_root.empty() ? root / "firmware/include" : o.include_root;
   fs::path api = o.api_dir.empty() ? root / (o.register_way ? "hal_dspic" : "hal_sim/api") : o.api_dir;
   std::vector<std::string> mode = {o.optimisation};
   std::vector<std::string> library_include, user_include;
-  for (const auto& d : o.include_dirs) user_include.push_back("-I" + d.string());
+  // first what is said where to look, for quotes as for angles, then what the compiler brings along, as XC16
+  // has it; folders of the program that nobody named come after that
+  for (const auto& d : o.include_dirs) user_include.push_back("-I" + fs::absolute(d).string());
+  for (const auto& d : program.include_dirs) user_include.push_back("-I" + d.string());
+  user_include.push_back("-I" + (cc_dir / "libc/include").string());
+  user_include.push_back(kVendorHeaders);
   auto headers = files_below(o.source_dir, ".h");
   std::vector<fs::path> own = {o.source_dir};
   for (const auto& h : headers)
@@ -142,8 +121,9 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, bool lint,
     if (const fs::path above = d.parent_path(); d != o.source_dir)
       if (std::find(own.begin(), own.end(), above) == own.end())
         user_include.push_back("-I" + above.string());
-  for (const auto& d : project_include_dirs) user_include.push_back("-I" + d.string());
   for (auto* list : {&user_include, &library_include}) {
+    list->push_back("-include");
+    list->push_back((cc_dir / "libc/include/xc16_builtins.h").string());
     list->push_back("-I" + (cc_dir / "libc/include").string());
     list->push_back("--fallback");
     list->push_back(include_root.string());
@@ -176,9 +156,13 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, bool lint,
   if (lint) flags.push_back("--lint");
   if (o.register_way && takes_register_addresses(copies.kept, headers))
     flags.push_back("--register-pointers");
+  for (const auto& d : program.defines) flags.push_back("-D" + d);
   for (const auto& d : o.defines) flags.push_back("-D" + d);
+  if (const std::string& standard = o.standard.empty() ? program.standard : o.standard; !standard.empty())
+    flags.push_back("-std=" + standard);
   flags.insert(flags.end(), user_include.begin(), user_include.end());
-  for (const auto& s : p.is_webots ? webots_sources(o.source_dir, copies.kept) : copies.kept)
+  for (const auto& s :
+       p.is_webots && !program.is_exact ? webots_sources(o.source_dir, copies.kept) : copies.kept)
     p.user.push_back({s, flags, common_salt(headers)});
 
   std::vector<std::string> library_flags = mode;
@@ -258,7 +242,10 @@ std::set<std::string> host_exports() {
 }
 
 /// "x.o: in function `f': main.c:12: undefined reference to `g'" -> our grammar.
-void sort_linker_messages(const std::string& text, BuildResult& result) {
+void sort_linker_messages(const std::string& text, const Program& program, BuildResult& result) {
+  std::map<std::string, fs::path> in_assembler;
+  for (const fs::path& file : program.assembler)
+    for (const std::string& name : functions_in_assembler(file)) in_assembler.emplace(name, file);
   static const std::regex kIn(R"(in function `([^']+)':)");
   static const std::regex kUndefined(
       R"(^(?:.*?: )?(?:\.\./)*(\S+?:\d+|\S+\.o:\S+): (?:warning: )?undefined reference to `([^']+)')");
@@ -280,7 +267,9 @@ void sort_linker_messages(const std::string& text, BuildResult& result) {
       static const std::regex kWebots(
           R"((wb_|wbu_|supervisor_|robot_|camera_|speaker_|display_|servo_|connector_|pen_|differential_wheels_).*)");
       std::string hint =
-          std::regex_match(name, kWebots)
+          in_assembler.count(name) ? "it is in " + in_assembler[name].filename().string() +
+                                         ", and assembler sources are not assembled here; write it in C"
+          : std::regex_match(name, kWebots)
               ? "a controller runs on the robot and has not this function of Webots; docs/webots.md lists "
                 "what there is, and supervisors are programs of their own"
           : name.rfind("e_", 0) == 0
@@ -327,69 +316,61 @@ void check_main(const std::vector<CompileOutcome>& outcomes, const std::vector<C
                               " (bytes), expected at most 8192 (bytes); it would not fit the chip's RAM");
 }
 
-/// The C files of a program. Those that its project file does not list are there for whatever asks for them.
-struct Program {
-  std::vector<fs::path> sources, include_dirs;
-  std::set<fs::path> unlisted;
-
-  /// The `own` first files to compile are the program's, the others members of a library: unlisted ones
-  /// become the last of them. How many are own now.
-  std::size_t order(LibraryCopies& copies, std::size_t own) const {
-    const auto is_listed = [this](const fs::path& source) { return !unlisted.count(source); };
-    const auto first = copies.kept.begin();
-    const auto still_own = std::count_if(first, first + std::ptrdiff_t(own), is_listed);
-    std::stable_partition(first, copies.kept.end(), is_listed);
-    return std::size_t(still_own);
-  }
-};
-
-/// Of several main() that which lies nearest to the folder is the program's; folders of the others, such as
-/// the examples of a library that a project carries along, are there for whatever asks for them.
-void leave_out_other_programs(Program& program, const fs::path& folder, BuildResult& result) {
-  std::vector<std::pair<std::ptrdiff_t, fs::path>> mains;  // depth, file
-  for (const fs::path& source : program.sources)
-    if (defines_main(source)) {
-      const fs::path below = source.lexically_relative(folder);
-      mains.emplace_back(std::distance(below.begin(), below.end()), source);
+/// Handlers that a program has in assembler would be missing without a word: nothing names them.
+void tell_of_assembler(const Program& program, const std::vector<CompileOutcome>& user, BuildResult& result) {
+  for (const fs::path& file : program.assembler)
+    for (const std::string& name : functions_in_assembler(file)) {
+      static const std::regex kHandler("_\\w+Interrupt");
+      if (!std::regex_match(name, kHandler) || is_library_assembler(file)) continue;
+      const bool is_in_c = std::any_of(user.begin(), user.end(), [&](const CompileOutcome& o) {
+        const auto symbols = read_elf(o.object).symbols;
+        return std::any_of(symbols.begin(), symbols.end(),
+                           [&](const ElfSymbol& s) { return s.is_defined && s.name == name; });
+      });
+      if (!is_in_c)
+        result.warnings.push_back(file.string() + ": " + name +
+                                  "(): got a handler in assembler, which is not assembled here, expected C; "
+                                  "the interrupt has no handler");
     }
-  std::sort(mains.begin(), mains.end());
-  if (mains.size() < 2 || mains[0].first == mains[1].first) return;
-  for (std::size_t i = 1; i < mains.size(); ++i)
-    for (const fs::path& source : program.sources)
-      if (const fs::path home = mains[i].second.parent_path();
-          std::mismatch(home.begin(), home.end(), source.begin(), source.end()).first == home.end())
-        program.unlisted.insert(source);
-  result.warnings.push_back(folder.string() + ": main(): got " + std::to_string(mains.size()) +
-                            " definitions, expected 1; " +
-                            mains[0].second.lexically_relative(folder).string() +
-                            " is taken, and of the folders of the others what it asks for");
 }
 
-Program program_of(const BuildOptions& o, BuildResult& result) {
-  Program program;
-  program.sources = o.sources.empty() ? files_below(o.source_dir, ".c") : o.sources;
-  if (!o.sources.empty() || names_webots(program.sources, files_below(o.source_dir, ".h"))) return program;
-  const auto project = find_mplab_project(o.source_dir);
-  if (!project) {
-    leave_out_other_programs(program, o.source_dir, result);
-    return program;
+/// Makes the program's objects call the forms of drivers that are chosen (driver_variants.h).
+std::vector<DriverChoice> choose_drivers(std::vector<CompileOutcome>& user,
+                                         const std::vector<CompileJob>& jobs, const Program& program,
+                                         const BuildOptions& o, BuildResult& result) {
+  const fs::path include_root = o.include_root.empty() ? source_root() / "firmware/include" : o.include_root;
+  ProgramSymbols symbols;
+  std::vector<std::set<std::string>> wanted(user.size());
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < user.size(); ++i) {
+    for (const auto& s : read_elf(user[i].object).symbols) {
+      if (s.name.empty() || !s.is_global) continue;
+      (s.is_defined || s.is_common ? symbols.defined : wanted[i]).insert(s.name);
+    }
+    symbols.wanted.insert(wanted[i].begin(), wanted[i].end());
+    texts.push_back(read_text(jobs[i].source));
   }
-  program.include_dirs = project->include_dirs;
-  std::set<fs::path> listed;
-  for (const fs::path& source : project->sources) listed.insert(fs::weakly_canonical(source));
-  for (const fs::path& source : program.sources)
-    if (!listed.erase(fs::weakly_canonical(source))) program.unlisted.insert(source);
-  // what lies elsewhere and is the library's is ours to bring
-  const std::size_t in_folder = program.sources.size();
-  for (const fs::path& source : listed)
-    if (!is_library_source(source)) program.sources.push_back(source);
-  if (!program.unlisted.empty() || program.sources.size() > in_folder)
-    result.warnings.push_back(
-        project->file.string() + ": project: lists " + std::to_string(in_folder - program.unlisted.size()) +
-        " of the folder's " + std::to_string(in_folder) + " C files and " +
-        std::to_string(program.sources.size() - in_folder) +
-        " elsewhere; files that it does not list are linked only where something asks for them");
-  return program;
+  for (const fs::path& header : files_below(o.source_dir, ".h"))
+    if (library_place(fs::path(header).replace_extension(".c")).empty()) texts.push_back(read_text(header));
+  auto choices = choose_driver_forms(symbols, program.library_places, texts, include_root);
+  const auto renamed = renamed_functions(symbols, choices, include_root);
+  for (const DriverChoice& choice : choices)
+    if (!choice.told.empty()) result.conflicts.push_back(o.source_dir.string() + ": warning: " + choice.told);
+  for (std::size_t i = 0; i < user.size(); ++i) {
+    std::string names;
+    for (const auto& [from, to] : renamed)
+      if (wanted[i].count(from)) names += from + " " + to + "\n";
+    if (names.empty()) continue;
+    const fs::path changed =
+        o.cache_dir / (user[i].object.stem().string() + "-" + content_hash(names) + ".o");
+    const fs::path list = changed.string() + ".names";
+    write_text(list, names);
+    const auto run = run_process(
+        {"objcopy", "--redefine-syms=" + list.string(), user[i].object.string(), changed.string()});
+    if (run.status != 0) result.errors.push_back("objcopy: " + run.output);
+    user[i].object = changed;
+  }
+  return choices;
 }
 
 bool archive(const std::vector<CompileOutcome>& objects, const fs::path& path, BuildResult& result) {
@@ -439,8 +420,9 @@ BuildResult build_image(const BuildOptions& options) {
   std::size_t own = 0;  // of p.user, what is not a member of a copy of the library
   if (o.register_way) {
     // drivers that a project brings along reach the registers they were written for
-    const LibraryCopies split = find_library_members(o.source_dir, sources);
+    const LibraryCopies split = find_library_members(o.source_dir, sources, program.unlisted);
     own = split.kept.size();
+    copies.replaced_whole = split.replaced_whole;
     copies.kept = split.kept;
     copies.kept.insert(copies.kept.end(), split.replaced.begin(), split.replaced.end());
   } else {
@@ -450,11 +432,10 @@ BuildResult build_image(const BuildOptions& options) {
   own = program.order(copies, own);
   if (const std::string told = library_copies_message(o.source_dir, copies); !told.empty())
     result.warnings.push_back(told);
-  std::vector<std::pair<std::string, std::string>> texts;
-  for (const auto& s : o.register_way ? find_library_copies(o.source_dir, sources).kept : copies.kept)
-    if (!program.unlisted.count(s)) texts.emplace_back(s.filename().string(), read_text(s));
-  result.conflicts = timer_conflicts(texts);
-  Plan p = plan(o, copies, false, program.include_dirs);
+  if (!o.register_way && program.has_project)
+    for (const fs::path& source : copies.replaced)
+      if (!program.unlisted.count(source)) program.library_places.push_back(library_place(source));
+  Plan p = plan(o, copies, program, false);
   if (p.is_webots) own = p.user.size();
   for (std::size_t i = own; i < p.user.size(); ++i) p.user[i].flags.push_back("--weak");
   fs::path compiler = build_root() / "twinpuck-cc";
@@ -473,7 +454,8 @@ BuildResult build_image(const BuildOptions& options) {
                                 outcomes[i].messages.substr(0, outcomes[i].messages.find('\n')));
       continue;
     }
-    sort_messages(outcomes[i].messages, result, !outcomes[i].ok);
+    const bool is_member = i >= own && i < p.user.size();  // of a library: its warnings are not the user's
+    if (!is_member) sort_messages(outcomes[i].messages, result, !outcomes[i].ok);
     ok = ok && outcomes[i].ok;
     ++(outcomes[i].reused ? result.reused : result.compiled);
   }
@@ -485,6 +467,13 @@ BuildResult build_image(const BuildOptions& options) {
   std::vector<CompileOutcome> library(outcomes.begin() + long(p.user.size()), outcomes.end() - 1);
   check_main(user, p.user, o.source_dir, result);
   if (!result.errors.empty()) return finish();
+  tell_of_assembler(program, user, result);
+  const auto choices = choose_drivers(user, p.user, program, o, result);
+  std::vector<std::pair<std::string, std::string>> texts;
+  for (const auto& s : o.register_way ? find_library_copies(o.source_dir, sources).kept : copies.kept)
+    if (!program.unlisted.count(s)) texts.emplace_back(s.filename().string(), read_text(s));
+  for (auto& conflict : timer_conflicts(texts, replaced_headers(choices)))
+    result.conflicts.push_back(std::move(conflict));
 
   fs::path output = fs::absolute(o.output);
   fs::create_directories(output.parent_path(), ec);
@@ -521,7 +510,7 @@ BuildResult build_image(const BuildOptions& options) {
     argv.push_back(lib.string());
   }
   auto link = run_process(argv);
-  sort_linker_messages(link.output, result);
+  sort_linker_messages(link.output, program, result);
   if (link.status != 0 && result.errors.empty()) result.errors.push_back("link: " + link.output);
   if (result.errors.empty()) {
     std::ofstream(half, std::ios::binary | std::ios::app) << host::image_stamp(read_text(half));
@@ -544,12 +533,13 @@ BuildResult lint_folder(const BuildOptions& options) {
     return result;
   }
   if (o.cache_dir.empty()) o.cache_dir = build_root() / "firmware-cache";
-  Plan p = plan(o, find_library_copies(o.source_dir, sources), true);
+  BuildResult of_project;
+  Plan p = plan(o, find_library_copies(o.source_dir, sources), program_of(o, of_project), true);
   auto outcomes = compile_all(p.user, build_root() / "twinpuck-cc", o.cache_dir, std::max(1, o.jobs));
   for (const auto& outcome : outcomes) sort_messages(outcome.messages, result, !outcome.ok);
   std::vector<std::pair<std::string, std::string>> texts;
   for (const auto& s : sources) texts.emplace_back(s.filename().string(), read_text(s));
-  for (auto& conflict : timer_conflicts(texts)) result.warnings.push_back(conflict);
+  for (auto& conflict : timer_conflicts(texts, {})) result.warnings.push_back(conflict);
   result.ok = result.errors.empty() && result.warnings.empty();
   return result;
 }

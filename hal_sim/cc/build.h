@@ -21,7 +21,8 @@ struct BuildOptions {
   std::string name;                  ///< controller's name; default: the folder's
   std::filesystem::path cache_dir;   ///< objects kept between builds; default: below the build folder
   std::vector<std::string> defines;  ///< "NAME=value"
-  std::vector<std::filesystem::path> include_dirs;  ///< searched before the project's own folders
+  std::string standard;              ///< of C, as -std= has it; default: the project's, or XC16's gnu89
+  std::vector<std::filesystem::path> include_dirs;  ///< searched first
   std::vector<std::filesystem::path> sources;       ///< instead of every .c of source_dir
   std::filesystem::path api_dir,
       include_root;  ///< default: hal_sim/api (register way: hal_dspic) and firmware/include of this tree
@@ -49,6 +50,8 @@ struct FunctionCycles {
   std::string name, file;
   int line = 0;
   bool is_interrupt = false;  ///< a handler: entry, context saving and RETFIE are included
+  bool is_library = false;    ///< of the e-puck library or the C library, not of the program
+  std::string inlined_into;   ///< names of the functions in which its code stands; it has no cost of its own
   double min = 0, mean = 0, max = 0;
   double mean_us() const;  ///< at 14.7456 MHz
   /// Share of the processor when called every `period_s` seconds, 0..1 and above.

@@ -67,27 +67,29 @@ void set_robot_model(TargetInfo& t) {
 /// Refuses headers of an operating system, and writes down every file read.
 class IncludeWatch : public PPCallbacks {
  public:
-  IncludeWatch(CompilerInstance& ci, bool webots) : ci_(ci), webots_(webots) {}
-  bool FileNotFound(StringRef name, SmallVectorImpl<char>&) override {
-    missing_ = name.str();
-    return false;
-  }
+  IncludeWatch(CompilerInstance& ci, const Options& options) : ci_(ci), options_(options) {}
   void InclusionDirective(SourceLocation, const Token&, StringRef name, bool, CharSourceRange range,
                           const FileEntry* file, StringRef, StringRef, const Module*,
                           SrcMgr::CharacteristicKind) override {
-    if (webots_ && file) return;  // the library behind Webots' interfaces has some of them
+    if (options_.webots && file) return;  // the library behind Webots' interfaces has some of them
     if (const char* instead = refused_header(name)) {
       auto& d = ci_.getDiagnostics();
       d.Report(range.getBegin(), d.getCustomDiagID(DiagnosticsEngine::Fatal,
                                                    "#include <%0>: a robot has no operating system; %1"))
           << name << instead;
+    } else if (!file) {
+      auto folders = options_.fallback;
+      if (!options_.project.empty()) folders.push_back(options_.project);
+      const std::string guess = header_like(name.str(), folders);
+      auto& d = ci_.getDiagnostics();
+      if (!guess.empty())
+        d.Report(range.getBegin(), d.getCustomDiagID(DiagnosticsEngine::Note, "did you mean '%0'?")) << guess;
     }
   }
 
  private:
   CompilerInstance& ci_;
-  bool webots_;
-  std::string missing_;
+  const Options& options_;
 };
 
 /// Collects what later stages need from declarations, and mends the one type the widths break.
@@ -272,15 +274,15 @@ class ConfigPragma : public PragmaHandler {
 
 class RobotAction : public EmitLLVMOnlyAction {
  public:
-  RobotAction(llvm::LLVMContext& context, Facts& facts, bool webots)
-      : EmitLLVMOnlyAction(&context), facts_(facts), webots_(webots) {}
+  RobotAction(llvm::LLVMContext& context, Facts& facts, const Options& options)
+      : EmitLLVMOnlyAction(&context), facts_(facts), options_(options) {}
   bool BeginInvocation(CompilerInstance& ci) override {
     set_robot_model(ci.getTarget());
     return EmitLLVMOnlyAction::BeginInvocation(ci);
   }
   bool BeginSourceFileAction(CompilerInstance& ci) override {
     auto& pp = ci.getPreprocessor();
-    pp.addPPCallbacks(std::make_unique<IncludeWatch>(ci, webots_));
+    pp.addPPCallbacks(std::make_unique<IncludeWatch>(ci, options_));
     pp.AddPragmaHandler(new ConfigPragma(facts_));
     filter_ = std::make_shared<AttributeFilter>(pp);
     pp.setTokenWatcher([f = filter_](const Token& token) { (*f)(token); });
@@ -295,11 +297,11 @@ class RobotAction : public EmitLLVMOnlyAction {
 
  private:
   Facts& facts_;
-  bool webots_;
+  const Options& options_;
   std::shared_ptr<AttributeFilter> filter_;
 };
 
-std::vector<std::string> clang_arguments(const Options& o) {
+std::vector<std::string> clang_arguments(const Options& o, const std::string& standard) {
   std::vector<std::string> a = {"/usr/lib/llvm-14/bin/clang",
                                 "-c",
                                 o.input,
@@ -308,7 +310,7 @@ std::vector<std::string> clang_arguments(const Options& o) {
                                 "--target=x86_64-pc-linux-gnu",
                                 "-x",
                                 "c",
-                                o.webots ? "-std=gnu11" : "-std=gnu89",
+                                "-std=" + standard,
                                 "-fgnu89-inline",
                                 "-fcommon",
                                 "-fsigned-char",
@@ -382,14 +384,15 @@ std::vector<std::string> clang_arguments(const Options& o) {
 
 namespace {
 
-/// One attempt; `declarations` go in front of the file. Messages go to `out`.
+/// One attempt in one standard of C; `declarations` go in front of the file. Messages go to `out`.
 std::unique_ptr<llvm::Module> attempt(const Options& options, llvm::LLVMContext& context, Facts& facts,
-                                      const std::string& declarations, llvm::raw_ostream& out) {
+                                      const std::string& standard, const std::string& declarations,
+                                      llvm::raw_ostream& out) {
   constexpr const char* kDeclarations = "/twinpuck-forward-declarations.h";
   IntrusiveRefCntPtr<DiagnosticOptions> diagnostic_options = new DiagnosticOptions;
   auto* printer = new TextDiagnosticPrinter(out, &*diagnostic_options);
   DiagnosticsEngine diagnostics(new DiagnosticIDs, &*diagnostic_options, printer);
-  auto arguments = clang_arguments(options);
+  auto arguments = clang_arguments(options, standard);
   if (!declarations.empty()) {
     arguments.push_back("-include");
     arguments.push_back(kDeclarations);
@@ -413,6 +416,7 @@ std::unique_ptr<llvm::Module> attempt(const Options& options, llvm::LLVMContext&
   // the virtual root must look like a folder, or clang drops it from the include path
   auto memory = llvm::makeIntrusiveRefCnt<llvm::vfs::InMemoryFileSystem>();
   memory->addFile(std::string(kFallbackRoot) + "/.root", 0, llvm::MemoryBuffer::getMemBuffer(""));
+  memory->addFile(std::string(kVendorRoot) + "/.root", 0, llvm::MemoryBuffer::getMemBuffer(""));
   if (!declarations.empty())
     memory->addFile(kDeclarations, 0, llvm::MemoryBuffer::getMemBufferCopy(declarations));
   auto overlay = llvm::makeIntrusiveRefCnt<llvm::vfs::OverlayFileSystem>(
@@ -422,29 +426,41 @@ std::unique_ptr<llvm::Module> attempt(const Options& options, llvm::LLVMContext&
   ci.setInvocation(invocation);
   ci.createDiagnostics(new TextDiagnosticPrinter(out, &invocation->getDiagnosticOpts()));
   ci.setFileManager(new FileManager(FileSystemOptions(), overlay));
-  RobotAction action(context, facts, options.webots);
+  RobotAction action(context, facts, options);
   if (!ci.ExecuteAction(action)) return nullptr;
   return action.takeModule();
+}
+
+/// Attempts as the file stands, then with declarations of its own functions that it lacks.
+std::unique_ptr<llvm::Module> attempts(const Options& options, llvm::LLVMContext& context, Facts& facts,
+                                       const std::string& standard, std::string& messages) {
+  llvm::raw_string_ostream said(messages);
+  facts = Facts();
+  auto module = attempt(options, context, facts, standard, "", said);
+  said.flush();
+  if (module) return module;
+  auto source = llvm::MemoryBuffer::getFile(options.input);
+  const std::string declarations = source ? forward_declarations(messages, (*source)->getBuffer().str()) : "";
+  if (declarations.empty()) return nullptr;
+  messages.clear();
+  facts = Facts();
+  module = attempt(options, context, facts, standard, declarations, said);
+  said.flush();
+  return module;
 }
 
 }  // namespace
 
 std::unique_ptr<llvm::Module> compile_to_module(const Options& options, llvm::LLVMContext& context,
                                                 Facts& facts) {
+  const std::string first = !options.standard.empty() ? options.standard : options.webots ? "gnu11" : "gnu89";
   std::string messages;
-  llvm::raw_string_ostream said(messages);
-  auto module = attempt(options, context, facts, "", said);
-  said.flush();
-  if (!module) {
-    auto source = llvm::MemoryBuffer::getFile(options.input);
-    const std::string declarations =
-        source ? forward_declarations(messages, (*source)->getBuffer().str()) : "";
-    if (!declarations.empty()) {
-      messages.clear();
-      facts = Facts();
-      module = attempt(options, context, facts, declarations, said);
-      said.flush();
-    }
+  auto module = attempts(options, context, facts, first, messages);
+  if (!module && options.standard.empty() && !options.webots) {
+    // what XC16 takes with -std=gnu99 only: a variable of each loop's own, for one
+    std::string messages_of_c99;
+    module = attempts(options, context, facts, "gnu99", messages_of_c99);
+    if (module) messages = messages_of_c99;
   }
   llvm::errs() << messages;
   return module;

@@ -20,6 +20,7 @@ struct Options {
   std::vector<std::string> fallback;   // folders searched by trailing path components, in order
   std::string project;                 // the controller's own folder, absolute; empty: none
   std::vector<std::string> copies;     // folders in it that hold a copy of the library, absolute
+  std::string standard;                // of C, "gnu99"; empty: gnu89 as XC16, gnu99 where that fails
   std::string depfile;                 // every file read, one a line
   std::string cost_dump;               // block features for fitting the cost model
   int level = 1;                       // 0, 1, 2

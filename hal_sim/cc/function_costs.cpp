@@ -21,6 +21,7 @@ constexpr double kInterruptCycles = 24;
 struct Entry {
   std::string file;
   int line = 0;
+  bool is_library = false;
   double cycles[3] = {0, 0, 0};  // least, mean, most; -1 unknown
   std::map<std::string, double> calls[3];
   bool done = false;
@@ -71,8 +72,15 @@ std::vector<FunctionCycles> function_costs(const std::filesystem::path& image) {
   std::map<std::string, Entry> all;
   for (const auto& line : split(text, '\0')) {
     auto fields = split(line, '|');
+    if (fields.size() == 5 && fields[3] == "inlined") {
+      FunctionCycles f;
+      f.name = fields[0], f.file = fields[1], f.line = std::atoi(fields[2].c_str());
+      f.inlined_into = fields[4];
+      result.push_back(f);
+    }
     if (fields.size() < 6) continue;
     Entry e;
+    e.is_library = fields.size() > 9 && fields[9] == "library";
     e.file = fields[1];
     e.line = std::atoi(fields[2].c_str());
     for (int k = 0; k < 3; ++k) {
@@ -94,7 +102,7 @@ std::vector<FunctionCycles> function_costs(const std::filesystem::path& image) {
   for (const auto& name : names) {
     const Entry& e = all[name];
     FunctionCycles f;
-    f.name = name, f.file = e.file, f.line = e.line;
+    f.name = name, f.file = e.file, f.line = e.line, f.is_library = e.is_library;
     f.is_interrupt = name.size() > 10 && name[0] == '_' && name.find("Interrupt") == name.size() - 9;
     double extra = f.is_interrupt ? kInterruptCycles : 0;
     f.min = e.cycles[0] < 0 ? -1 : e.cycles[0] + extra;
@@ -104,6 +112,7 @@ std::vector<FunctionCycles> function_costs(const std::filesystem::path& image) {
       f.mean = std::min(f.mean, f.max);  // the mean assumes ten rounds a loop; the bound may know better
     result.push_back(f);
   }
+  std::sort(result.begin(), result.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
   return result;
 }
 

@@ -3,6 +3,7 @@
 #include "include_finder.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include "llvm/Support/FileSystem.h"
 #include "llvm/Support/Path.h"
@@ -112,7 +113,14 @@ class ForgivingFileSystem : public llvm::vfs::ProxyFileSystem {
 
   std::string find(const std::string& path) {
     StringRef name = path;
-    if (name == kFallbackRoot) return "";
+    if (name == kFallbackRoot || name == kVendorRoot) return "";
+    if (name.startswith(std::string(kVendorRoot) + "/")) {
+      const StringRef header = llvm::sys::path::filename(name);
+      for (const char* vendors : {"adc12.h", "dsp.h", "i2c.h", "libpic30.h", "timer.h", "uart.h", "xc.h"})
+        if (header.equals_insensitive(vendors) && !folders_.empty())
+          return match_ignoring_case(folders_.front(), {header.str()}, 0);
+      return "";
+    }
     if (name.startswith(std::string(kFallbackRoot) + "/")) {
       auto parts = components(name.substr(std::string(kFallbackRoot).size()).str());
       parts.erase(std::remove(parts.begin(), parts.end(), ".."), parts.end());
@@ -143,6 +151,29 @@ llvm::IntrusiveRefCntPtr<llvm::vfs::FileSystem> forgiving_file_system(std::vecto
                                                                       std::string project,
                                                                       std::vector<std::string> copies) {
   return new ForgivingFileSystem(std::move(folders), std::move(project), std::move(copies));
+}
+
+std::string header_like(const std::string& name, const std::vector<std::string>& folders) {
+  const std::string wanted = StringRef(name).lower();
+  const auto wanted_parts = components(wanted);
+  if (wanted_parts.empty()) return "";
+  // a third of the letters may be wrong; the folders decide between headers of one name
+  const unsigned most = unsigned(wanted_parts.back().size()) / 3;
+  std::tuple<unsigned, unsigned, std::string> best{most + 1, 0, ""};
+  for (const std::string& folder : folders) {
+    std::error_code ec;
+    for (llvm::sys::fs::recursive_directory_iterator it(folder, ec), end; it != end && !ec;
+         it.increment(ec)) {
+      const StringRef path = it->path();
+      if (!path.endswith_insensitive(".h")) continue;
+      const std::string below = path.substr(folder.size()).ltrim('/').str();
+      const std::string file = llvm::sys::path::filename(path).lower();
+      best =
+          std::min(best, std::make_tuple(StringRef(file).edit_distance(wanted_parts.back(), true, most + 1),
+                                         StringRef(StringRef(below).lower()).edit_distance(wanted), below));
+    }
+  }
+  return std::get<2>(best);
 }
 
 }  // namespace cc

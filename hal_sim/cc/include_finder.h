@@ -12,6 +12,11 @@ namespace cc {
 /// Stands last in the include path; what is looked up below it is searched by trailing path components.
 inline constexpr const char* kFallbackRoot = "/twinpuck-fallback";
 
+/// Holds the vendor's headers alone (timer.h, uart.h ...), which lie among the library's in the first
+/// fallback folder: a program's own header of such a name comes after them, unless it lies beside the file or
+/// in a folder of -I.
+inline constexpr const char* kVendorRoot = "/twinpuck-vendor";
+
 /// The real file system, forgiving about case and separators in names of header files. `project`: the
 /// controller's own folder. A copy of the e-puck library that lies outside it ("../lib/motor_led/e_led.h") is
 /// passed over in favour of the first fallback folder's header of the same place and name, because our
@@ -19,5 +24,8 @@ inline constexpr const char* kFallbackRoot = "/twinpuck-fallback";
 /// library is, and the compiler's own p30Fxxxx.h wherever the project has one.
 llvm::IntrusiveRefCntPtr<llvm::vfs::FileSystem> forgiving_file_system(
     std::vector<std::string> fallback_folders, std::string project, std::vector<std::string> copies);
+
+/// The header below the folders whose name is most like `name`, as an #include would have it; "" for none.
+std::string header_like(const std::string& name, const std::vector<std::string>& folders);
 
 }  // namespace cc

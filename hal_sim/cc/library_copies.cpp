@@ -12,6 +12,13 @@
 
 namespace cc {
 namespace fs = std::filesystem;
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return char(std::tolower(c)); });
+  return text;
+}
+
 namespace {
 
 constexpr const char* kLibrarySources[] = {
@@ -65,19 +72,13 @@ constexpr const char* kLibrarySources[] = {
     "utility/utility.c",
 };
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return char(std::tolower(c)); });
-  return text;
-}
-
 bool ends_with(const std::string& text, const std::string& tail) {
   return text.size() >= tail.size() && text.compare(text.size() - tail.size(), tail.size(), tail) == 0;
 }
 
 /// The library's path at the end of `below` (a path below the project's folder), "" for none. Longest first,
 /// so that "a_d/e_prox.c" is not found in "advance_ad_scan/e_prox.c".
-std::string library_place(const std::string& below) {
+std::string place_below(const std::string& below) {
   std::string best;
   for (const char* path : kLibrarySources)
     if (ends_with("/" + below, "/" + lower(path)) && std::string(path).size() > best.size()) best = path;
@@ -90,11 +91,80 @@ bool has_library_name(const std::string& name) {
   return false;
 }
 
+const std::regex& camera_files() {
+  static const std::regex kCamera(R"(e_(calc|registers|timers|common|po\d+[kd]_registers|calc_po\w+)\.c)");
+  return kCamera;
+}
+
+/// Whether a file speaks of the camera's sensor, whatever its name.
+bool speaks_of_camera(const std::string& text) {
+  static const std::regex kCameraText(R"(po(3030k|6030k|8030d|xxxx))", std::regex::icase);
+  return std::regex_search(text, kCameraText);
+}
+
+// a driver of which the original has the handler in assembler, and its C files
+struct HalfInAssembler {
+  const char* folder;
+  const char* handler;
+};
+constexpr HalfInAssembler kHalves[] = {{"camera/fast_2_timer/", "_T4Interrupt"}, {"codec/", "_DCIInterrupt"}};
+constexpr const char* kSlowCamera = "camera/slow_3_timer/";
+
+/// The library's folder of a source, "camera/fast_2_timer/"; of a camera's file beside main.c that of the
+/// fast driver, which is the usual one, unless it has the slow driver's handlers.
+std::string driver_folder(const fs::path& source, const std::string& below) {
+  const std::string place = place_below(lower(below));
+  if (!place.empty()) return place.substr(0, place.rfind('/') + 1);
+  const std::string name = lower(source.filename().string());
+  if (name == "e_sound.c") return "codec/";
+  if (std::regex_match(name, camera_files()) && speaks_of_camera(read_text(source))) return kHalves[0].folder;
+  return "";
+}
+
+/// Takes from the members those drivers of which only one half is C.
+void leave_out_half_drivers(const fs::path& project, const std::set<fs::path>& unlisted,
+                            LibraryCopies& split) {
+  std::vector<std::pair<fs::path, std::string>> folders;  // source, its driver
+  for (const fs::path& source : split.replaced)
+    folders.emplace_back(source, driver_folder(source, source.lexically_relative(project).generic_string()));
+  std::set<std::string> ours;
+  for (const HalfInAssembler& half : kHalves) {
+    bool is_there = false, is_whole = false;
+    for (const auto& [source, folder] : folders) {
+      if (folder != half.folder) continue;
+      is_there = true;
+      const std::regex definition(std::string(half.handler) + R"(\s*\([^;{}]*\)\s*\{)");
+      is_whole = is_whole || std::regex_search(without_comments(read_text(source)), definition);
+    }
+    // a handler of the program's own is the other half, too
+    for (const fs::path& source : split.kept)
+      is_whole =
+          is_whole ||
+          (is_there && std::regex_search(without_comments(read_text(source)),
+                                         std::regex(std::string(half.handler) + R"(\s*\([^;{}]*\)\s*\{)")));
+    if (is_there && !is_whole) ours.insert(half.folder);
+  }
+  // the slow driver stays where the project lists it alone, or the program asks for it by its folder's name
+  if (ours.count(kHalves[0].folder)) {
+    const auto is_listed = [&](const std::string& driver) {
+      return std::any_of(folders.begin(), folders.end(),
+                         [&](const auto& f) { return f.second == driver && !unlisted.count(f.first); });
+    };
+    bool is_slow_wanted = !unlisted.empty() && is_listed(kSlowCamera) && !is_listed(kHalves[0].folder);
+    for (const fs::path& source : split.kept)
+      is_slow_wanted = is_slow_wanted || read_text(source).find("slow_3_timer") != std::string::npos;
+    if (!is_slow_wanted) ours.insert(kSlowCamera);
+  }
+  for (const auto& [source, folder] : folders) {
+    if (!ours.count(folder)) continue;
+    split.replaced_whole.push_back(source);
+    split.replaced.erase(std::find(split.replaced.begin(), split.replaced.end(), source));
+  }
+}
+
 /// Whether a flat copy does what only the chip can: see limits.md, "The processor, native way".
 bool needs_the_chip(const std::string& name, const std::string& text) {
-  static const std::regex kCamera(R"(e_(calc|registers|timers|common|po\d+[kd]_registers|calc_po\w+)\.c)");
-  static const std::regex kCameraText(R"(po(3030k|6030k|8030d|xxxx))", std::regex::icase);
-  if (std::regex_match(name, kCamera) && std::regex_search(text, kCameraText)) return true;
+  if (std::regex_match(name, camera_files()) && speaks_of_camera(text)) return true;
   static const std::regex kChip(
       R"(\b(ADCON[1-3]|ADCHS|ADCSSL|ADCBUF[0-9A-F]|DCICON[1-3]|TSCON|RSCON|RXBUF[0-3]|TXBUF[0-3]|)"
       R"(I2C(CON|STAT|TRN|RCV|BRG)|U[12](MODE|STA|BRG|TXREG|RXREG)|SPI[12](STAT|CON|BUF))(bits)?\b|)"
@@ -110,9 +180,7 @@ std::string without_comments(const std::string& text) {
   return std::regex_replace(text, kComment, " ");
 }
 
-bool is_library_source(const fs::path& source) {
-  return !library_place(lower(source.generic_string())).empty();
-}
+std::string library_place(const fs::path& source) { return place_below(lower(source.generic_string())); }
 
 LibraryCopies find_library_copies(const fs::path& project, const std::vector<fs::path>& sources) {
   LibraryCopies copies;
@@ -120,7 +188,7 @@ LibraryCopies find_library_copies(const fs::path& project, const std::vector<fs:
   for (const auto& source : sources) {
     const fs::path whole = fs::weakly_canonical(source);
     const std::string below = whole.lexically_relative(folder).generic_string();
-    const std::string place = library_place(lower(below));
+    const std::string place = place_below(lower(below));
     if (!place.empty()) {
       std::string root = whole.string();
       root.resize(root.size() - place.size());
@@ -143,7 +211,8 @@ LibraryCopies find_library_copies(const fs::path& project, const std::vector<fs:
   return copies;
 }
 
-LibraryCopies find_library_members(const fs::path& project, const std::vector<fs::path>& sources) {
+LibraryCopies find_library_members(const fs::path& project, const std::vector<fs::path>& sources,
+                                   const std::set<fs::path>& unlisted) {
   LibraryCopies split;
   for (const fs::path& source : sources)
     (has_library_name(lower(source.filename().string())) ? split.replaced : split.kept).push_back(source);
@@ -157,6 +226,7 @@ LibraryCopies find_library_members(const fs::path& project, const std::vector<fs
       ++i;
     }
   }
+  leave_out_half_drivers(project, unlisted, split);
   std::set<std::string> included;  // last two parts of every #include: "a_d/e_prox.h", "e_led.h"
   static const std::regex kInclude(R"(#\s*include\s*[<"]([^>"]+)[>"])");
   for (const fs::path& source : split.kept) {
@@ -181,18 +251,46 @@ LibraryCopies find_library_members(const fs::path& project, const std::vector<fs
   return split;
 }
 
-std::string library_copies_message(const fs::path& project, const LibraryCopies& copies) {
-  if (copies.replaced.empty()) return "";
+bool is_library_assembler(const fs::path& file) {
+  static const std::regex kNames(
+      R"((e_(interrupt|isr_dci|init_codec_slave|init_dci_master|sub_dci_kickoff|const_sound|init_uart[12]|)"
+      R"(uart[12]_[rt]x_char\w*|fast_copy|subtract_mean)|dataeeprom)\.s)");
+  return std::regex_match(lower(file.filename().string()), kNames);
+}
+
+std::vector<std::string> functions_in_assembler(const fs::path& file) {
+  static const std::regex kGlobal(R"((^|\n)[ \t]*\.glob(a)?l[ \t]+_(\w+))");
+  const std::string text = read_text(file);
+  std::vector<std::string> names;
+  for (std::sregex_iterator it(text.begin(), text.end(), kGlobal), end; it != end; ++it)
+    names.push_back((*it)[3]);
+  return names;
+}
+
+namespace {
+
+std::string shown(const fs::path& project, const std::vector<fs::path>& files) {
   std::string list;
   constexpr std::size_t kShown = 4;
-  for (std::size_t i = 0; i < copies.replaced.size() && i < kShown; ++i)
-    list += (i ? ", " : "") + copies.replaced[i].lexically_relative(project).generic_string();
-  if (copies.replaced.size() > kShown)
-    list += " and " + std::to_string(copies.replaced.size() - kShown) + " more";
-  return project.string() + ": copy of the e-puck library: got " + list +
+  for (std::size_t i = 0; i < files.size() && i < kShown; ++i)
+    list += (i ? ", " : "") + files[i].lexically_relative(project).generic_string();
+  if (files.size() > kShown) list += " and " + std::to_string(files.size() - kShown) + " more";
+  return list;
+}
+
+}  // namespace
+
+std::string library_copies_message(const fs::path& project, const LibraryCopies& copies) {
+  const std::string where = project.string() + ": copy of the e-puck library: got ";
+  if (!copies.replaced_whole.empty())
+    return where + shown(project, copies.replaced_whole) +
+           ", drivers whose other half is assembler, which is not assembled here; Twinpuck's own drivers are "
+           "used in "
+           "their place, changes made in them have no effect";
+  if (copies.replaced.empty()) return "";
+  return where + shown(project, copies.replaced) +
          ", expected no drivers of the hardware in the project; Twinpuck's own library is used in their "
-         "place, "
-         "changes made in them have no effect";
+         "place, changes made in them have no effect";
 }
 
 }  // namespace cc

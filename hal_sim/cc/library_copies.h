@@ -5,6 +5,7 @@
 // place of such files, and the build says so.
 #pragma once
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,8 @@ struct LibraryCopies {
   std::vector<std::filesystem::path> kept;      ///< sources to compile, in the order given
   std::vector<std::filesystem::path> replaced;  ///< sources that are left out
   std::vector<std::filesystem::path> roots;     ///< folders that hold a copy in the library's own folders
+  std::vector<std::filesystem::path>
+      replaced_whole;  ///< register way: drivers that are ours, half assembler there
 };
 
 /// Splits a project's sources. Left out are files that lie below the project's folder where the library has
@@ -28,13 +31,28 @@ LibraryCopies find_library_copies(const std::filesystem::path& project,
 /// holds several variants of one function: those whose header the program includes come first, then the
 /// library's usual choice, the advanced ones; of two files of one name the one nearer to the project's
 /// folder.
+///
+/// A driver of which the original has one half in assembler (the fast camera's, the codec's) is taken from
+/// Twinpuck's library as a whole (`replaced_whole`), unless the project's C files have the handler too. With
+/// the fast camera goes the slow one that lies beside it: the same functions, which nobody asked for.
+/// `unlisted`: sources that the project file does not name; what it names wins.
 LibraryCopies find_library_members(const std::filesystem::path& project,
-                                   const std::vector<std::filesystem::path>& sources);
+                                   const std::vector<std::filesystem::path>& sources,
+                                   const std::set<std::filesystem::path>& unlisted = {});
 
-/// Whether a file has the place of one of the library's: its folder and its name.
-bool is_library_source(const std::filesystem::path& source);
+/// File names differ in case from system to system: `text` in lower case.
+std::string lower(std::string text);
+
+/// The place in the library that a file has by its folder and its name ("a_d/e_prox.c"), "" for none.
+std::string library_place(const std::filesystem::path& source);
 
 std::string without_comments(const std::string& text);
+
+/// What an assembler source defines, by its names in C.
+std::vector<std::string> functions_in_assembler(const std::filesystem::path& file);
+
+/// Whether an assembler source has the name of one of the library's, which Twinpuck's library has in C.
+bool is_library_assembler(const std::filesystem::path& file);
 
 /// The line that tells of it; "" when nothing was left out.
 std::string library_copies_message(const std::filesystem::path& project, const LibraryCopies& copies);

@@ -26,10 +26,6 @@ void refuse_functions(Unit& unit) {
     if (!f.isDeclaration() || f.use_empty()) continue;
     const char* instead = refused_function(f.getName());
     if (!instead) continue;
-    // programs for Webots' interfaces have a calendar, which the simulator keeps
-    if (unit.options.webots && (f.getName() == "time" || f.getName() == "clock")) continue;
-    // the robot's count cycles in a pair of timers
-    if (unit.options.register_way && (f.getName() == "time" || f.getName() == "clock")) continue;
     for (User* user : f.users()) {
       // a call without prototype goes through a cast of the function
       while (isa<Constant>(user) && !user->use_empty()) user = user->user_back();

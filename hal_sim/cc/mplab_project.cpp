@@ -14,18 +14,13 @@ namespace cc {
 namespace fs = std::filesystem;
 namespace {
 
-std::string lower_case(std::string text) {
-  for (char& c : text) c = char(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
 /// What `name` is called in `folder` whatever its case, or an empty path.
 fs::path entry_of(const fs::path& folder, const std::string& name) {
   std::error_code ec;
   if (name == "." || name == "..") return folder / name;
   if (fs::exists(folder / name, ec)) return folder / name;
   for (fs::directory_iterator it(folder, ec), end; !ec && it != end; it.increment(ec))
-    if (lower_case(it->path().filename().string()) == lower_case(name)) return it->path();
+    if (lower(it->path().filename().string()) == lower(name)) return it->path();
   return {};
 }
 
@@ -33,25 +28,6 @@ fs::path below(const fs::path& folder, const std::vector<std::string>& parts, st
   fs::path at = folder;
   for (std::size_t i = first; i < parts.size() && !at.empty(); ++i) at = entry_of(at, parts[i]);
   return at;
-}
-
-/// The file or folder that a project in `home` means by `text`, or an empty path.
-fs::path resolve(const fs::path& home, std::string text) {
-  std::replace(text.begin(), text.end(), '\\', '/');
-  const bool is_absolute = text.size() > 1 && (text[0] == '/' || text[1] == ':');
-  std::vector<std::string> parts;
-  std::istringstream in(text);
-  for (std::string part; std::getline(in, part, '/');)
-    if (!part.empty() && part.back() != ':') parts.push_back(part);
-  if (parts.empty()) return {};
-  if (!is_absolute) return below(home, parts, 0);
-  constexpr int kAncestors = 3;
-  for (std::size_t first = 0; first < parts.size(); ++first) {
-    fs::path at = home;
-    for (int up = 0; up <= kAncestors; ++up, at = at.parent_path())
-      if (fs::path found = below(at, parts, first); !found.empty()) return found;
-  }
-  return {};
 }
 
 /// The values of "key=value" lines of one section.
@@ -72,17 +48,34 @@ std::vector<std::string> values_of(const std::string& text, const std::string& s
 
 struct Listed {
   std::vector<std::string> files, include_dirs;  // as written; folders separated by ';'
+  CompilerOptions options;
 };
 
 Listed read_mcp(const std::string& text) {
-  return {values_of(text, "FILE_INFO", "file_"), values_of(text, "PATH_INFO", "dir_inc")};
+  // the settings of C30 and XC16 among those of the other tools
+  constexpr const char* kCompiler = "TS{25AC22BD-2378-4FDB-BFB6-7345A15512D3}";
+  Listed listed{values_of(text, "FILE_INFO", "file_"), values_of(text, "PATH_INFO", "dir_inc"), {}};
+  std::string options;
+  for (const std::string& value : values_of(text, "TOOL_SETTINGS", kCompiler)) options += value + " ";
+  listed.options = compiler_options(options);
+  return listed;
+}
+
+std::string without_entities(std::string text) {
+  for (const auto& [entity, plain] :
+       {std::pair("&quot;", "\""), std::pair("&lt;", "<"), std::pair("&gt;", ">"), std::pair("&amp;", "&")})
+    for (std::size_t at; (at = text.find(entity)) != std::string::npos;)
+      text.replace(at, std::string(entity).size(), plain);
+  return text;
 }
 
 Listed read_configurations(const std::string& text) {
   Listed listed;
   static const std::regex kItem(R"(<itemPath>([^<]+)</itemPath>)");
   static const std::regex kExcluded(R"re(<item path="([^"]+)" ex="true")re");
-  static const std::regex kInclude(R"re(key="extra-include-directories"\s+value="([^"]*)")re");
+  static const std::regex kInclude(R"re(key="(extra|common)-include-directories"\s+value="([^"]*)")re");
+  static const std::regex kMacros(R"re(key="preprocessor-macros"\s+value="([^"]*)")re");
+  static const std::regex kMore(R"re(<appendMe\s+value="([^"]*)")re");
   std::vector<std::string> excluded;
   for (std::sregex_iterator it(text.begin(), text.end(), kExcluded), end; it != end; ++it)
     excluded.push_back((*it)[1]);
@@ -90,7 +83,19 @@ Listed read_configurations(const std::string& text) {
     if (std::find(excluded.begin(), excluded.end(), (*it)[1]) == excluded.end())
       listed.files.push_back((*it)[1]);
   for (std::sregex_iterator it(text.begin(), text.end(), kInclude), end; it != end; ++it)
-    listed.include_dirs.push_back((*it)[1]);
+    listed.include_dirs.push_back(without_entities((*it)[2]));
+  // macros of the compiler, not of the assembler or the linker
+  std::string options;
+  const std::size_t begin = text.find("<C30>"), end_of_compiler = text.find("</C30>");
+  const std::string compiler = begin == std::string::npos ? "" : text.substr(begin, end_of_compiler - begin);
+  for (std::sregex_iterator it(compiler.begin(), compiler.end(), kMacros), end; it != end; ++it) {
+    std::istringstream in(without_entities((*it)[1]));
+    for (std::string macro; std::getline(in, macro, ';');)
+      if (!macro.empty()) options += "-D" + macro + " ";
+  }
+  for (std::sregex_iterator it(compiler.begin(), compiler.end(), kMore), end; it != end; ++it)
+    options += without_entities((*it)[1]) + " ";
+  listed.options = compiler_options(options);
   return listed;
 }
 
@@ -98,23 +103,42 @@ Listed read_configurations(const std::string& text) {
 std::optional<MplabProject> read_project(const fs::path& file, const fs::path& home) {
   const std::string text = read_text(file);
   const Listed listed =
-      lower_case(file.extension().string()) == ".mcp" ? read_mcp(text) : read_configurations(text);
-  MplabProject project{file, {}, {}};
+      lower(file.extension().string()) == ".mcp" ? read_mcp(text) : read_configurations(text);
+  MplabProject project;
+  project.file = file;
+  project.defines = listed.options.defines;
+  project.standard = listed.options.standard;
   bool has_main = false;
   std::error_code ec;
   for (const std::string& name : listed.files) {
-    const fs::path found = resolve(home, name).lexically_normal();
-    if (lower_case(found.extension().string()) != ".c" || !fs::is_regular_file(found, ec)) continue;
-    if (std::find(project.sources.begin(), project.sources.end(), found) != project.sources.end()) continue;
+    const fs::path found = resolve_path(home, name).lexically_normal();
+    const std::string extension = lower(fs::path(name).extension().string());
+    const bool exists = !found.empty() && fs::is_regular_file(found, ec);
+    if (extension == ".s" && exists) project.assembler.push_back(found);
+    if (extension != ".c") continue;
+    if (!exists) {
+      ++project.missing;
+      std::string written = name;
+      std::replace(written.begin(), written.end(), '\\', '/');
+      if (const std::string place = library_place(written); !place.empty())
+        project.library_places.push_back(place);
+    }
+    if (!exists || std::find(project.sources.begin(), project.sources.end(), found) != project.sources.end())
+      continue;
     project.sources.push_back(found);
     has_main = has_main || defines_main(found);
   }
   if (!has_main) return std::nullopt;
+  const auto add_folder = [&](const std::string& name) {
+    const fs::path found = resolve_path(home, name).lexically_normal();
+    if (!found.empty() && fs::is_directory(found, ec)) project.include_dirs.push_back(found);
+  };
+  for (const std::string& name : listed.options.include_dirs) add_folder(name);
   for (const std::string& list : listed.include_dirs) {
     std::istringstream in(list);
     for (std::string name; std::getline(in, name, ';');) {
-      const fs::path found = resolve(home, name).lexically_normal();
-      if (!found.empty() && fs::is_directory(found, ec)) project.include_dirs.push_back(found);
+      name.erase(std::remove(name.begin(), name.end(), '"'), name.end());
+      add_folder(name);
     }
   }
   return project;
@@ -122,12 +146,58 @@ std::optional<MplabProject> read_project(const fs::path& file, const fs::path& h
 
 }  // namespace
 
+fs::path resolve_path(const fs::path& home, std::string text) {
+  std::replace(text.begin(), text.end(), '\\', '/');
+  const bool is_absolute = text.size() > 1 && (text[0] == '/' || text[1] == ':');
+  std::vector<std::string> parts;
+  std::istringstream in(text);
+  for (std::string part; std::getline(in, part, '/');)
+    if (!part.empty() && part.back() != ':') parts.push_back(part);
+  if (parts.empty()) return {};
+  if (!is_absolute) return below(home, parts, 0);
+  constexpr int kAncestors = 3;
+  for (std::size_t first = 0; first < parts.size(); ++first) {
+    fs::path at = home;
+    for (int up = 0; up <= kAncestors; ++up, at = at.parent_path())
+      if (fs::path found = below(at, parts, first); !found.empty()) return found;
+  }
+  return {};
+}
+
+CompilerOptions compiler_options(const std::string& command_line) {
+  // words, in which quotes join
+  std::vector<std::string> words(1);
+  char quote = 0;
+  for (char c : command_line) {
+    if (quote ? c == quote : c == '"' || c == '\'')
+      quote = quote ? 0 : c;
+    else if (!quote && std::isspace(static_cast<unsigned char>(c)))
+      words.emplace_back();
+    else
+      words.back() += c;
+  }
+  CompilerOptions options;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string& word = words[i];
+    const auto value = [&] {
+      return word.size() > 2 ? word.substr(2) : i + 1 < words.size() ? words[++i] : std::string();
+    };
+    if (word.rfind("-I", 0) == 0)
+      options.include_dirs.push_back(value());
+    else if (word.rfind("-D", 0) == 0)
+      options.defines.push_back(value());
+    else if (word.rfind("-std=", 0) == 0)
+      options.standard = word.substr(5);
+  }
+  return options;
+}
+
 bool defines_main(const fs::path& source) {
   static const std::regex kMain(R"(\bmain\s*\([^;{)]*\)\s*\{)");
   return std::regex_search(without_comments(read_text(source)), kMain);
 }
 
-std::optional<MplabProject> find_mplab_project(const fs::path& folder) {
+std::optional<MplabProject> find_mplab_project(const fs::path& folder, std::string& told) {
   const fs::path home = fs::absolute(folder).lexically_normal();
   std::vector<std::pair<fs::path, fs::path>> files;  // project, its home
   const auto add_configurations = [&](const fs::path& place) {
@@ -138,24 +208,47 @@ std::optional<MplabProject> find_mplab_project(const fs::path& folder) {
   add_configurations(home);
   std::error_code ec;
   for (fs::directory_iterator it(home, ec), end; !ec && it != end; it.increment(ec)) {
-    const std::string extension = lower_case(it->path().extension().string());
+    const std::string extension = lower(it->path().extension().string());
     if (extension == ".mcp" && it->is_regular_file()) files.emplace_back(it->path(), home);
     if (extension == ".x" && it->is_directory()) add_configurations(it->path());
   }
   std::sort(files.begin(), files.end());
-  std::optional<MplabProject> only;
-  for (const auto& [file, at] : files) {
-    auto project = read_project(file, at);
-    if (!project) continue;
-    auto sorted = [](std::vector<fs::path> list) {
-      std::sort(list.begin(), list.end());
-      return list;
-    };
-    // one program may have a project for each version of MPLAB
-    if (only && sorted(only->sources) != sorted(project->sources)) return std::nullopt;
-    if (!only) only = project;
+  std::vector<MplabProject> projects;
+  for (const auto& [file, at] : files)
+    if (auto project = read_project(file, at)) projects.push_back(*project);
+  if (projects.empty()) return std::nullopt;
+
+  const auto sorted = [](std::vector<fs::path> list) {
+    std::sort(list.begin(), list.end());
+    return list;
+  };
+  const bool agree = std::all_of(projects.begin(), projects.end(), [&](const MplabProject& p) {
+    return sorted(p.sources) == sorted(projects[0].sources);
+  });
+  if (agree) return projects[0];  // one program may have a project for each version of MPLAB
+
+  std::string names;
+  for (const MplabProject& p : projects)
+    names += (names.empty() ? "" : " and ") + p.file.lexically_relative(home).string();
+  const auto only = [&](const auto& is_good) -> const MplabProject* {
+    const auto first = std::find_if(projects.begin(), projects.end(), is_good);
+    if (first == projects.end() || std::find_if(first + 1, projects.end(), is_good) != projects.end())
+      return nullptr;
+    return &*first;
+  };
+  const int fewest = std::min_element(projects.begin(), projects.end(), [](const auto& a, const auto& b) {
+                       return a.missing < b.missing;
+                     })->missing;
+  const MplabProject* taken = only([&](const MplabProject& p) { return p.missing == fewest; });
+  std::string why = "all others list more files that are missing";
+  if (!taken) {
+    taken = only([&](const MplabProject& p) { return p.missing == fewest && p.file.extension() == ".xml"; });
+    why = "it is the project of the newer MPLAB X";
   }
-  return only;
+  told = home.string() + ": project: got several that list different files (" + names + "), expected one; " +
+         (taken ? taken->file.lexically_relative(home).string() + " is taken, since " + why
+                : "none is taken, remove all but one");
+  return taken ? std::optional<MplabProject>(*taken) : std::nullopt;
 }
 
 }  // namespace cc

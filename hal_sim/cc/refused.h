@@ -32,10 +32,6 @@ inline constexpr Refusal kRefusedHeaders[] = {
 };
 
 inline constexpr Refusal kRefusedFunctions[] = {
-    {"time",
-     "count with an agenda, or resetTime() and getDiffTimeMs() of utility.h; the register way has it"},
-    {"clock",
-     "count with an agenda, or resetTime() and getDiffTimeMs() of utility.h; the register way has it"},
     {"gettimeofday", "count with an agenda, or resetTime() and getDiffTimeMs() of utility.h"},
     {"clock_gettime", "count with an agenda, or resetTime() and getDiffTimeMs() of utility.h"},
     {"localtime", "a robot has no calendar; count with an agenda"},

@@ -47,7 +47,8 @@ constexpr Owner kOwners[] = {
 
 }  // namespace
 
-std::vector<std::string> timer_conflicts(const std::vector<std::pair<std::string, std::string>>& texts) {
+std::vector<std::string> timer_conflicts(const std::vector<std::pair<std::string, std::string>>& texts,
+                                         const std::map<std::string, std::string>& replaced_headers) {
   static const std::regex kInclude(R"(^[ \t]*#[ \t]*include[ \t]*[<"]([^>"]+)[>"])", std::regex::multiline);
   static const std::regex kHandler(R"(\bvoid\b[^;{}]*?\b_([A-Z0-9]+)Interrupt\s*\([^;{}]*\)[^;{}]*\{)");
   static const std::regex kCall(R"(\b(e_[a-z0-9_]+)\s*\()");
@@ -61,7 +62,12 @@ std::vector<std::string> timer_conflicts(const std::vector<std::pair<std::string
         std::string tail = owner.header;
         if (name.size() < tail.size() || name.compare(name.size() - tail.size(), tail.size(), tail) != 0)
           continue;
-        for (const char* t = owner.timers; *t; ++t) users[std::string("T") + *t].emplace(owner.driver, file);
+        const auto other = replaced_headers.find(owner.header);
+        const std::string header = other == replaced_headers.end() ? owner.header : other->second;
+        for (const auto& linked : kOwners)
+          if (header == linked.header)
+            for (const char* t = linked.timers; *t; ++t)
+              users[std::string("T") + *t].emplace(linked.driver, file);
         break;
       }
     }

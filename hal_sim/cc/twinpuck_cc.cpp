@@ -58,6 +58,8 @@ bool parse(int argc, char** argv, cc::Options& o) {
       o.project = value();
     else if (a == "--copy")
       o.copies.push_back(value());
+    else if (a.startswith("-std="))
+      o.standard = a.substr(5).str();
     else if (a == "--depfile")
       o.depfile = value();
     else if (a == "--cost-dump")

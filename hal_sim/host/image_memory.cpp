@@ -20,7 +20,7 @@ namespace host {
 
 namespace {
 
-constexpr std::size_t kOffset = 0x1000'0000;  // in the slot: where images begin
+constexpr std::size_t kImageOffset = 0x1000'0000;  // in the slot: where images begin
 constexpr std::uintptr_t kPage = 4096;
 
 std::uintptr_t page_down(std::uintptr_t a) { return a & ~(kPage - 1); }
@@ -64,7 +64,7 @@ class File {
 
 }  // namespace
 
-ImageMemory::ImageMemory(std::size_t bytes) : slot_(kOffset, bytes) {}
+ImageMemory::ImageMemory(std::size_t bytes) : slot_(kImageOffset, bytes) {}
 ImageMemory::~ImageMemory() = default;
 
 std::unique_ptr<ImageMemory> ImageMemory::load(const std::string& file, const std::string& path,
@@ -73,7 +73,7 @@ std::unique_ptr<ImageMemory> ImageMemory::load(const std::string& file, const st
   for (const Elf64_Phdr& segment : File(file).segments()) {
     if (segment.p_type != PT_LOAD) continue;
     if (segment.p_offset > file.size() || segment.p_filesz > file.size() - segment.p_offset ||
-        segment.p_filesz > segment.p_memsz || segment.p_vaddr + segment.p_memsz > kOffset) {
+        segment.p_filesz > segment.p_memsz || segment.p_vaddr + segment.p_memsz > kImageOffset) {
       error = "a segment that does not fit";
       return nullptr;
     }

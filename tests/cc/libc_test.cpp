@@ -122,7 +122,7 @@ TEST(libc, leaving_is_a_reset_or_a_trap) {
 
 TEST(libc, what_a_robot_does_not_have_is_refused_by_name_and_line) {
   const char* const kCases[][2] = {
-      {"#include <time.h>\nlong t;\nint main(void) { t = time(0); return 0; }", "time()"},
+      {"#include <time.h>\nlong t;\nint main(void) { mktime(0); return 0; }", "mktime()"},
       {"int x;\n\nint main(void) { sleep(1); return 0; }", "sleep()"},
       {"int x;\n\nint main(void) { usleep(10); return 0; }", "usleep()"},
       {"#include <stdio.h>\nint x;\nint main(void) { x = (int)fopen(\"a\", \"r\"); return 0; }", "fopen()"},

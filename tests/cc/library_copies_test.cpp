@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "fake_host.h"
+#include "hal_sim/cc/elf_reader.h"
 
 using namespace fake;
 
@@ -101,4 +102,42 @@ TEST(library_members, files_that_do_not_compile_are_left_out_with_a_warning) {
   EXPECT_TRUE(built.ok) << text_of(built);
   EXPECT_NE(text_of(built).find("old/e_motors.c: does not compile and is left out"), std::string::npos)
       << text_of(built);
+}
+
+// the fast camera driver: its C starts the timers, its assembler takes the lines
+TEST(library_members, a_driver_of_which_one_half_is_assembler_is_ours_as_a_whole) {
+  const char* const kTimers =
+      "char *_poxxxx_buffer; void __attribute__((interrupt)) _T5Interrupt(void) {}\n"
+      "int copied = 1; void e_poxxxx_launch_capture(char *b) { copied = 2; }";
+  for (const std::string place : {"lib/camera/fast_2_timer/", ""}) {
+    Folder folder;
+    folder.file("prog/" + place + "e_timers.c", kTimers);
+    folder.file("prog/" + place + "e_interrupt.s", ".global __T4Interrupt\n__T4Interrupt: retfie\n");
+    folder.file("prog/lib/camera/slow_3_timer/e_timers.c",
+                "int slow = 1; void __attribute__((interrupt)) _T4Interrupt(void) {} "
+                "void e_poxxxx_launch_capture(char *b) { slow = 2; }");
+    const std::string main_c =
+        "void e_poxxxx_launch_capture(char *); char b[9];\n"
+        "int main(void) { e_poxxxx_launch_capture(b); return 0; }";
+    auto built = build(folder, main_c, "-O1", [](cc::BuildOptions& o) { o.register_way = true; });
+    ASSERT_TRUE(built.ok) << text_of(built);
+    EXPECT_NE(text_of(built).find("drivers whose other half is assembler"), std::string::npos)
+        << text_of(built);
+    bool has_handler = false;
+    for (const auto& s : cc::read_elf(folder.path / "prog.so").symbols) {
+      EXPECT_TRUE(s.name != "copied" && s.name != "slow") << place << s.name;
+      has_handler = has_handler || (s.name == "_T4Interrupt" && s.is_defined);
+    }
+    EXPECT_TRUE(has_handler) << place;
+
+    // with the handler in C it is whole, and stays
+    folder.file("prog/" + place + "e_timers.c",
+                std::string(kTimers) + "void __attribute__((interrupt)) _T4Interrupt(void) { copied++; }");
+    built = build(folder, main_c, "-O1", [](cc::BuildOptions& o) { o.register_way = true; });
+    ASSERT_TRUE(built.ok) << text_of(built);
+    bool is_copied = false;
+    for (const auto& s : cc::read_elf(folder.path / "prog.so").symbols)
+      is_copied = is_copied || s.name == "copied";
+    EXPECT_TRUE(is_copied) << place;
+  }
 }

@@ -136,3 +136,72 @@ TEST(mplab_project, headers_of_the_libc_use_no_name_of_the_program) {
                         "int main(void) { return 0; }");
   EXPECT_TRUE(built.ok) << text_of(built);
 }
+
+// a header of the name of one of ours, in a folder that the project names
+TEST(mplab_project, headers_in_folders_of_the_project_win_over_ours) {
+  for (const bool is_x : {false, true}) {
+    Folder folder;
+    folder.file("prog/main.c", "#include <motors.h>\n#include \"led.h\"\n" + std::string(kMain));
+    folder.file("prog/part.c",
+                "#include <motors.h>\n#include \"led.h\"\nint part(void) { return MOTORS + LEDS + EXTRA; }");
+    folder.file("common/motors.h", "#define MOTORS 20\n");
+    folder.file("common/led.h", "#define LEDS 1\n");
+    if (is_x)
+      folder.file("prog/robot.X/nbproject/configurations.xml",
+                  "<itemPath>../main.c</itemPath><itemPath>../part.c</itemPath><C30>"
+                  "<property key=\"extra-include-directories\" value=\"&quot;../../common&quot;\"/>"
+                  "<property key=\"preprocessor-macros\" value=\"EXTRA=300;OTHER\"/></C30>");
+    else
+      folder.file("prog/robot.mcp",
+                  mcp("file_000=main.c\r\nfile_001=part.c\r\n") +
+                      "[TOOL_SETTINGS]\r\nTS{25AC22BD-2378-4FDB-BFB6-7345A15512D3}=-g -Wall "
+                      "-I\"..\\common\" -DEXTRA=300\r\n");
+    auto built = build_folder(folder);
+    ASSERT_TRUE(built.ok) << text_of(built);
+    EXPECT_EQ(said(folder), "321") << is_x;
+  }
+}
+
+// MPLAB 8 was left behind with a list of files that are gone; then both lists are complete
+TEST(mplab_project, of_two_projects_the_complete_or_the_newer_one_is_taken_and_named) {
+  Folder folder;
+  folder.file("prog/main.c", kMain);
+  folder.file("prog/part.c", "int part(void) { return 1; }");
+  folder.file("prog/new.c", "int part(void) { return 2; }");
+  folder.file("prog/robot.mcp", mcp("file_000=main.c\r\nfile_001=part.c\r\nfile_002=gone.c\r\n"));
+  folder.file("prog/robot.X/nbproject/configurations.xml",
+              "<itemPath>../main.c</itemPath><itemPath>../new.c</itemPath>");
+  auto built = build_folder(folder);
+  ASSERT_TRUE(built.ok) << text_of(built);
+  EXPECT_EQ(said(folder), "2");
+  EXPECT_NE(text_of(built).find("robot.X/nbproject/configurations.xml is taken, since all others list more"),
+            std::string::npos)
+      << text_of(built);
+
+  folder.file("prog/robot.mcp", mcp("file_000=main.c\r\nfile_001=part.c\r\n"));
+  built = build_folder(folder);
+  ASSERT_TRUE(built.ok) << text_of(built);
+  EXPECT_EQ(said(folder), "2");
+  EXPECT_NE(text_of(built).find("is taken, since it is the project of the newer MPLAB X"), std::string::npos)
+      << text_of(built);
+
+  folder.file("prog/robot.X/nbproject/configurations.xml",
+              "<itemPath>../main.c</itemPath><itemPath>../gone.c</itemPath>");
+  built = build_folder(folder);
+  ASSERT_TRUE(built.ok) << text_of(built);
+  EXPECT_EQ(said(folder), "1");
+}
+
+TEST(mplab_project, handlers_and_functions_in_assembler_are_missed_by_name) {
+  Folder folder;
+  folder.file("prog/main.c", "void fast(void); int main(void) { fast(); return 0; }");
+  folder.file(
+      "prog/fast.s",
+      "        .global _fast\n_fast:  return\n        .globl  __T3Interrupt\n__T3Interrupt: retfie\n");
+  auto built = build_folder(folder);
+  EXPECT_NE(text_of(built).find("it is in fast.s, and assembler sources are not assembled here"),
+            std::string::npos)
+      << text_of(built);
+  EXPECT_NE(text_of(built).find("fast.s: _T3Interrupt(): got a handler in assembler"), std::string::npos)
+      << text_of(built);
+}

@@ -148,3 +148,102 @@ TEST(tolerance, functions_used_before_their_definition_may_take_shorts) {
       "void put(unsigned short value) { volatile unsigned short v = value; }\n"
       "void mix(int n, char c, float x) { volatile float y = n + c + x; }\n");
 }
+
+// XC16 takes these with -std=gnu99; nobody's options say so in a bare folder
+TEST(tolerance, each_loop_may_declare_the_same_counter) {
+  EXPECT_EQ(run_c("#include <stdint.h>\n#include <stdio.h>\nint main(void) { int s = 0; for (uint16_t i = 0; "
+                  "i < 3; i++) s "
+                  "+= i; for (uint16_t i = 0; i < 3; i++) s += i; printf(\"%d\", s); return 0; }")
+                .console,
+            "6");
+}
+
+TEST(tolerance, arithmetic_of_the_compilers_built_in_functions_needs_no_header) {
+  EXPECT_EQ(
+      run_c(
+          "#include <stdio.h>\nint main(void) { int r; unsigned u; volatile long a = -100007; volatile "
+          "unsigned long b = "
+          "100007;\n"
+          "printf(\"%d \", __builtin_divmodsd(a, 1000, &r)); printf(\"%d \", r);\n"
+          "printf(\"%u \", __builtin_divmodud(b, 1000, &u)); printf(\"%u \", u);\n"
+          "printf(\"%d %d %u %u \", __builtin_divsd(a, 7), __builtin_modsd(a, 7), __builtin_divud(b, 7), "
+          "__builtin_modud(b, 7));\n"
+          "printf(\"%ld %ld %ld %lu \", __builtin_mulss(-300, 300), __builtin_mulsu(-1, 65535), "
+          "__builtin_mulus(65535, -1), __builtin_muluu(65535, 65535));\n"
+          "printf(\"%d %d %d %d %d\", __builtin_divf(1, 4), __builtin_ff1l(0x0400), __builtin_ff1r(0x0400), "
+          "__builtin_fbcl(0x0400), __builtin_fbcl(-1)); __builtin_disi(3); return 0; }")
+          .console,
+      // by hand: 100007 = 7 x 14286 + 5; 0x0400 is bit 10, the 6th from the left and the 11th from the right,
+      // behind five bits 0, four of which only repeat the sign
+      "-100 -7 100 7 -14286 -5 14286 5 -90000 -65535 -65535 4294836225 8192 6 11 -4 -15");
+}
+
+TEST(tolerance, time_and_clock_count_cycles) {
+  Folder folder;
+  auto built = build(
+      folder,
+      "#include <time.h>\n#include <stdlib.h>\nlong t; int main(void) { srand(time(NULL)); t = clock(); "
+      "return (int)difftime(t, 0) < 0; }");
+  EXPECT_TRUE(built.ok) << text_of(built);
+}
+
+TEST(tolerance, libpic30_names_what_nvmcon_takes) {
+  compiles(
+      "#include <p30F6014A.h>\n#include <libpic30.h>\nint main(void) { NVMCON = _EE_ERASE_ROW_CODE; NVMCON = "
+      "_FLASH_ERASE_CODE; "
+      "NVMCON = _EE_WORD_WRITE_CODE | _EE_ROW_WRITE_CODE | _EE_ERASE_WORD_CODE | _FLASH_WRITE_ROW_CODE | "
+      "_EE_ERASE_ALL_CODE; "
+      "_erase_eedata_all(); return _FLASH_PAGE + _FLASH_ROW + _EE_ROW + _EE_WORD; }");
+}
+
+// XC16: quotes look beside the including file, then in the folders of -I, then among the compiler's headers;
+// angles leave out the first. A program's folder that nobody named comes after all of them.
+TEST(tolerance, headers_lie_where_xc16_looks_for_them) {
+  Folder folder;
+  folder.file("prog/math.h", "#define WHERE 1\n");
+  folder.file("prog/timer.h", "#define WHERE_TIMER 1\n");
+  folder.file("prog/part/part.c",
+              "#include \"math.h\"\n#include \"own.h\"\n#ifdef WHERE\n#error not beside this file\n#endif\n"
+              "float part(void) { return sin(OWN); }");
+  folder.file("prog/tools/own.h", "#define OWN 2\n");
+  folder.file("named/timer.h", "#define WHERE_TIMER 3\n");
+  auto built = build(
+      folder,
+      "#include <math.h>\n#include <timer.h>\n#if defined(WHERE) || defined(WHERE_TIMER)\n#error angles\n"
+      "#endif\n#include \"math.h\"\n#if WHERE != 1\n#error quotes\n#endif\nint main(void) { return 0; }");
+  EXPECT_TRUE(built.ok) << text_of(built);
+  built = build(folder,
+                "#include <timer.h>\n#if WHERE_TIMER != 3\n#error -I\n#endif\nint main(void) { return 0; }",
+                "-O1", [&](cc::BuildOptions& o) { o.include_dirs = {folder.path / "named"}; });
+  EXPECT_TRUE(built.ok) << text_of(built);
+}
+
+TEST(tolerance, the_standard_of_c_can_be_given) {
+  Folder folder;
+  const char* const kLoop = "int s; int main(void) { for (int i = 0; i < 3; i++) s += i; return i; }";
+  const char* const kLoops =
+      "int s; int main(void) { for (int i = 0; i < 3; i++) s += i; for (int i = 0; i < 3; i++) s += i; "
+      "return s; }";
+  EXPECT_FALSE(build(folder, kLoop, "-O1", [](cc::BuildOptions& o) { o.standard = "gnu99"; }).ok);
+  EXPECT_FALSE(build(folder, kLoops, "-O1", [](cc::BuildOptions& o) { o.standard = "gnu89"; }).ok);
+  EXPECT_TRUE(build(folder, kLoops, "-O1", [](cc::BuildOptions& o) { o.standard = "gnu99"; }).ok);
+}
+
+TEST(tolerance, a_header_that_is_nowhere_is_guessed) {
+  for (const auto& [written, meant] :
+       {std::pair("<motor_led/e_motor.h>", "'motor_led/e_motors.h'"), std::pair("\"e_proxx.h\"", "e_prox.h'"),
+        std::pair("<a_d/advanced_ad_scan/e_porx.h>", "'a_d/advance_ad_scan/e_prox.h'"),
+        std::pair("\"behavior.h\"", "'tools/behaviour.h'")}) {
+    Folder folder;
+    folder.file("prog/tools/behaviour.h", "");
+    auto built = build(folder, std::string("#include ") + written + "\nint main(void) { return 0; }");
+    EXPECT_FALSE(built.ok);
+    ASSERT_EQ(built.errors.size(), 1u) << text_of(built);
+    EXPECT_NE(built.errors[0].find("did you mean"), std::string::npos) << built.errors[0];
+    EXPECT_NE(built.errors[0].find(meant), std::string::npos) << built.errors[0];
+  }
+  Folder folder;
+  EXPECT_EQ(text_of(build(folder, "#include <robotics/quaternions.h>\nint main(void) { return 0; }"))
+                .find("did you mean"),
+            std::string::npos);
+}

@@ -221,6 +221,23 @@ TEST_F(Command, cycles_lists_functions_with_microseconds) {
   EXPECT_NE(s.text.find("mean (us)"), std::string::npos);
 }
 
+TEST_F(Command, cycles_shows_the_programs_functions_and_the_librarys_when_asked) {
+  write("mine/main.c",
+        "#include <motor_led/advance_one_timer/e_motors.h>\nvolatile int v;\nstatic void twice(int n) { v = "
+        "n * v; }\n"
+        "void often(void) { v++; }\nint main(void) { e_init_motors(); twice(2); while (1) often(); }\n");
+  const Said s = twinpuck("cycles " + path("mine"));
+  EXPECT_EQ(s.exit_code, 0) << s.text;
+  EXPECT_EQ(s.text.find("\ne_init_motors"), std::string::npos) << s.text;
+  EXPECT_NE(s.text.find("functions of the library: --all"), std::string::npos) << s.text;
+  EXPECT_NE(s.text.find("part of main"), std::string::npos) << s.text;
+  EXPECT_NE(s.text.find("\ntwice "), std::string::npos) << s.text;
+  // main is called once
+  const std::string line = s.text.substr(s.text.find("\nmain ") + 1);
+  EXPECT_EQ(line.substr(0, line.find('\n')).find('%'), std::string::npos) << s.text;
+  EXPECT_NE(twinpuck("cycles --all " + path("mine")).text.find("\ne_init_motors"), std::string::npos);
+}
+
 TEST_F(Command, lint_praises_and_blames) {
   EXPECT_EQ(twinpuck("lint blink").exit_code, 0);
   write("sloppy/main.c", "int flag;\nint main(void) { while (!flag); return 70000; }\n");

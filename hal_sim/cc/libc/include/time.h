@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * Firmware libc: a robot has no calendar. time() and clock() count cycles in the register way; in the native
- * way they are refused at build, but for programs written for Webots' interfaces, whose calendar is
- * simulated. */
+ * Firmware libc: a robot has no calendar. time() and clock() count cycles, as XC16's do: in timers 2 and 3 in
+ * the register way, from the first call on in the native way. The calendar of programs written for Webots'
+ * interfaces is simulated. */
 #ifndef TP_LIBC_TIME_H
 #define TP_LIBC_TIME_H
 #include <stddef.h>

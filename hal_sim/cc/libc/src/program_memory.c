@@ -7,7 +7,7 @@
 
 /* of libpic30.h and DataEEPROM.h */
 typedef unsigned long _prog_addressT;
-enum { kRowBytes = 32, kWord = 1, kRow = 16 };
+enum { kRowBytes = 32, kRows = 128, kWord = 1, kRow = 16 };
 int EraseEE(int page, int offset, int size);
 int WriteEE(int *words, int page, int offset, int size);
 
@@ -46,6 +46,10 @@ _prog_addressT _memcpy_p2d16(void *to, _prog_addressT from, unsigned int bytes)
 static int size_of(int bytes) { return bytes == kRowBytes ? kRow : kWord; }
 
 void _erase_eedata(_prog_addressT at, int bytes) { EraseEE((int)(at >> 16), (int)at, size_of(bytes)); }
+void _erase_eedata_all(void) {
+  int row;
+  for (row = 0; row < kRows; row++) EraseEE((int)(EEPROM >> 16), (int)(EEPROM + (unsigned)row * kRowBytes), kRow);
+}
 void _write_eedata_word(_prog_addressT at, int word) { WriteEE(&word, (int)(at >> 16), (int)at, kWord); }
 void _write_eedata_row(_prog_addressT at, int *words) { WriteEE(words, (int)(at >> 16), (int)at, kRow); }
 void _wait_eedata(void) {}

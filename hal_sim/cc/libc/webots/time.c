@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * Calendar and processor time for programs written for Webots' interfaces, which call srand(time(NULL)). Simulated
  * seconds from a moment that is made of the robot's seed: other robots and other seeds have other moments, and
- * a run repeats. Other firmware does not link with these: a robot has no calendar.
+ * a run repeats. In other firmware both count cycles.
  */
 #include <time.h>
 #include "hal_sim/host/pins.h"

@@ -1,0 +1,83 @@
+/* SPDX-License-Identifier: MIT
+ * What XC16 has as built-in functions, known to every file without an #include. Those that name registers are
+ * in p30F6014A.h. Not here: the accumulators of the DSP unit (__builtin_mac and its like).
+ */
+#ifndef XC16_BUILTINS_H
+#define XC16_BUILTINS_H
+
+#define __builtin_nop() __asm__ volatile("nop")
+#define __builtin_clrwdt() __asm__ volatile("clrwdt")
+#define __builtin_software_breakpoint() __asm__ volatile("nop")
+#define __builtin_pwrsav(mode) tp_power_save(mode)
+#define __builtin_disi(cycles) tp_disi(cycles)
+
+/* addresses in program memory, as table instructions and the window into it take them */
+#define __builtin_tbladdress(object) tp_image_program_address(object)
+#define __builtin_tblpage(object) ((unsigned)(tp_image_program_address(object) >> 16))
+#define __builtin_tbloffset(object) ((unsigned)tp_image_program_address(object))
+#define __builtin_psvpage(object) ((unsigned)(tp_image_program_address(object) >> 15))
+#define __builtin_psvoffset(object) ((unsigned)tp_image_program_address(object) | 0x8000u)
+
+/* 16 x 16 -> 32 bits */
+#define __builtin_mulss(a, b) ((long)(int)(a) * (int)(b))
+#define __builtin_muluu(a, b) ((unsigned long)(unsigned)(a) * (unsigned)(b))
+#define __builtin_mulsu(a, b) ((long)(int)(a) * (long)(unsigned)(b))
+#define __builtin_mulus(a, b) ((long)(unsigned)(a) * (long)(int)(b))
+
+/* 32 / 16 -> 16 bits; divf: the fraction a / b in 1.15 */
+#define __builtin_divsd(a, b) ((int)((long)(a) / (int)(b)))
+#define __builtin_divud(a, b) ((unsigned)((unsigned long)(a) / (unsigned)(b)))
+#define __builtin_modsd(a, b) ((int)((long)(a) % (int)(b)))
+#define __builtin_modud(a, b) ((unsigned)((unsigned long)(a) % (unsigned)(b)))
+#define __builtin_divmodsd(a, b, rest) tp_divmodsd(a, b, rest)
+#define __builtin_divmodud(a, b, rest) tp_divmodud(a, b, rest)
+#define __builtin_divf(a, b) ((int)((long)(int)(a)*32768L / (int)(b)))
+
+/* single bits of a word; ff1l and ff1r: number of the first one from the left or right, from 1 on, 0 for
+ * none; fbcl: minus the number of bits that only repeat the sign */
+#define __builtin_btg(pointer, bit) (*(pointer) ^= 1u << (bit))
+#define __builtin_ff1l(word) tp_ff1l(word)
+#define __builtin_ff1r(word) tp_ff1r(word)
+#define __builtin_fbcl(word) tp_fbcl(word)
+
+extern void tp_disi(long long cycles);
+extern void tp_power_save(long long mode);
+extern unsigned tp_image_table_read(unsigned long program_address);
+extern unsigned long tp_image_program_address(const volatile void* object);
+extern void tp_table_write(long long address, long long value);
+
+#define TP_BUILTIN static __inline__ __attribute__((always_inline, unused))
+
+TP_BUILTIN int tp_divmodsd(long __a, int __b, int* __rest) {
+  *__rest = (int)(__a % __b);
+  return (int)(__a / __b);
+}
+
+TP_BUILTIN unsigned tp_divmodud(unsigned long __a, unsigned __b, unsigned* __rest) {
+  *__rest = (unsigned)(__a % __b);
+  return (unsigned)(__a / __b);
+}
+
+TP_BUILTIN int tp_ff1r(unsigned __word) {
+  int __bit;
+  for (__bit = 1; __bit <= 16; __bit++, __word >>= 1)
+    if (__word & 1) return __bit;
+  return 0;
+}
+
+TP_BUILTIN int tp_ff1l(unsigned __word) {
+  int __bit;
+  for (__bit = 1; __bit <= 16; __bit++, __word <<= 1)
+    if (__word & 0x8000u) return __bit;
+  return 0;
+}
+
+TP_BUILTIN int tp_fbcl(int __word) {
+  int __count;
+  if (__word < 0) __word = ~__word;
+  for (__count = 0; __count < 15 && !(__word & 0x4000); __count++) __word <<= 1;
+  return -__count;
+}
+
+#undef TP_BUILTIN
+#endif

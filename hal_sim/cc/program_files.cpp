@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+// See program_files.h.
+#include "program_files.h"
+
+#include <regex>
+
+#include "makefile_project.h"
+#include "mplab_project.h"
+#include "object_cache.h"
+
+namespace cc {
+namespace fs = std::filesystem;
+
+std::vector<fs::path> files_below(const fs::path& folder, const std::string& extension) {
+  std::vector<fs::path> found;
+  std::error_code ec;
+  for (fs::recursive_directory_iterator it(folder, fs::directory_options::skip_permission_denied, ec), end;
+       it != end && !ec; it.increment(ec)) {
+    std::string name = it->path().filename().string();
+    std::error_code odd;  // a loop of links is neither folder nor file
+    if (it->is_directory(odd) && name.size() > 1 && name[0] == '.') {
+      it.disable_recursion_pending();
+      continue;
+    }
+    std::string end_of_name = it->path().extension().string();
+    std::transform(end_of_name.begin(), end_of_name.end(), end_of_name.begin(), ::tolower);
+    if (it->is_regular_file(odd) && end_of_name == extension) found.push_back(it->path());
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+bool names_webots(const std::vector<fs::path>& sources, const std::vector<fs::path>& headers) {
+  static const std::regex kInclude(R"(#\s*include\s*[<"](webots|device)[/\\])");
+  for (const auto* list : {&sources, &headers})
+    for (const auto& file : *list)
+      if (std::regex_search(read_text(file), kInclude)) return true;
+  return false;
+}
+
+namespace {
+
+/// Of several main() that which lies nearest to the folder is the program's; folders of the others, such as
+/// the examples of a library that a project carries along, are there for whatever asks for them.
+void leave_out_other_programs(Program& program, const fs::path& folder, BuildResult& result) {
+  std::vector<std::pair<std::ptrdiff_t, fs::path>> mains;  // depth, file
+  for (const fs::path& source : program.sources)
+    if (defines_main(source)) {
+      const fs::path below = source.lexically_relative(folder);
+      mains.emplace_back(std::distance(below.begin(), below.end()), source);
+    }
+  std::sort(mains.begin(), mains.end());
+  if (mains.size() < 2 || mains[0].first == mains[1].first) return;
+  for (std::size_t i = 1; i < mains.size(); ++i)
+    for (const fs::path& source : program.sources)
+      if (const fs::path home = mains[i].second.parent_path();
+          std::mismatch(home.begin(), home.end(), source.begin(), source.end()).first == home.end())
+        program.unlisted.insert(source);
+  result.warnings.push_back(folder.string() + ": main(): got " + std::to_string(mains.size()) +
+                            " definitions, expected 1; " +
+                            mains[0].second.lexically_relative(folder).string() +
+                            " is taken, and of the folders of the others what it asks for");
+}
+
+}  // namespace
+
+Program program_of(const BuildOptions& o, BuildResult& result) {
+  Program program;
+  program.sources = o.sources.empty() ? files_below(o.source_dir, ".c") : o.sources;
+  if (!o.sources.empty()) return program;
+  const bool is_webots = names_webots(program.sources, files_below(o.source_dir, ".h"));
+  std::string told;
+  auto project = is_webots ? std::nullopt : find_mplab_project(o.source_dir, told);
+  if (!told.empty()) result.warnings.push_back(told);
+  if (!project && (project = read_makefile(o.source_dir))) {
+    project->assembler = files_below(o.source_dir, ".s");
+    // its settings count in any case, its list when it has a program
+    program.include_dirs = project->include_dirs;
+    program.defines = project->defines;
+    program.standard = project->standard;
+    if (std::none_of(project->sources.begin(), project->sources.end(), defines_main)) project.reset();
+  }
+  if (is_webots && project &&
+      std::count_if(project->sources.begin(), project->sources.end(), defines_main) == 1) {
+    program.sources = project->sources;
+    program.is_exact = true;
+    return program;
+  }
+  if (project)
+    program.assembler = project->assembler;
+  else
+    program.assembler = files_below(o.source_dir, ".s");
+  if (!project || is_webots) {
+    if (!is_webots) leave_out_other_programs(program, o.source_dir, result);
+    return program;
+  }
+  program.defines = project->defines;
+  program.standard = project->standard;
+  program.library_places = project->library_places;
+  program.include_dirs = project->include_dirs;
+  program.has_project = true;
+  std::set<fs::path> listed;
+  for (const fs::path& source : project->sources) listed.insert(fs::weakly_canonical(source));
+  for (const fs::path& source : program.sources)
+    if (!listed.erase(fs::weakly_canonical(source))) program.unlisted.insert(source);
+  // what lies elsewhere and is the library's is ours to bring
+  const std::size_t in_folder = program.sources.size();
+  for (const fs::path& source : listed)
+    if (const std::string place = library_place(source); place.empty())
+      program.sources.push_back(source);
+    else
+      program.library_places.push_back(place);
+  if (!program.unlisted.empty() || program.sources.size() > in_folder)
+    result.warnings.push_back(
+        project->file.string() + ": project: lists " + std::to_string(in_folder - program.unlisted.size()) +
+        " of the folder's " + std::to_string(in_folder) + " C files and " +
+        std::to_string(program.sources.size() - in_folder) +
+        " elsewhere; files that it does not list are linked only where something asks for them");
+  return program;
+}
+
+}  // namespace cc

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// Controllers whose Makefile says which files they are and where they look: Webots' and those of GNU make.
+#include <gtest/gtest.h>
+
+#include "fake_host.h"
+
+using namespace fake;
+
+namespace {
+
+cc::BuildResult build_folder(const Folder& folder) {
+  cc::BuildOptions options;
+  options.source_dir = folder.path / "controllers/prog";
+  options.output = folder.path / "out.so";
+  return cc::build_image(options);
+}
+
+std::string said(const Folder& folder) { return Image(folder.path / "out.so").run().console; }
+
+const char* kMain =
+    "#include <stdio.h>\n#include \"part.h\"\nint part(void);\n"
+    "int main(void) { printf(\"%d\", part() + PART + EXTRA); return 0; }";
+
+}  // namespace
+
+TEST(makefile_project, sources_folders_and_macros_are_the_makefiles) {
+  Folder folder;
+  folder.file("controllers/prog/main.c", kMain);
+  folder.file("controllers/prog/old.c", "int main(void) { return 9; }");
+  folder.file("controllers/shared/src/part.c", "int part(void) { return 1; }");
+  folder.file("controllers/shared/include/part.h", "#define PART 20\n");
+  folder.file("controllers/prog/Makefile",
+              "# what the program is\nSHARED = ../shared\nCSRCS = main.c \\\n  part.c # both\n"
+              "VPATH = $(SHARED)/src\nCFLAGS += -Wall -DEXTRA=300 -I\"$(SHARED)/include\"\n"
+              "OBJS=$(CSRCS:.c=.o)\nall: $(OBJS)\n\t$(CC) -o x.hex $^\n");
+  auto built = build_folder(folder);
+  ASSERT_TRUE(built.ok) << text_of(built);
+  EXPECT_EQ(said(folder), "321");
+}
+
+TEST(makefile_project, settings_count_without_a_list_of_sources) {
+  Folder folder;
+  folder.file("controllers/prog/main.c", kMain);
+  folder.file("controllers/prog/part.c", "int part(void) { return 1; }");
+  folder.file("controllers/include/part.h", "#define PART 20\n");
+  folder.file("controllers/prog/Makefile",
+              "INCLUDE = -I../include\nCFLAGS = -D EXTRA=300\ninclude nowhere.mk\n");
+  auto built = build_folder(folder);
+  ASSERT_TRUE(built.ok) << text_of(built);
+  EXPECT_EQ(said(folder), "321");
+}
+
+TEST(makefile_project, a_makefile_of_webots_names_all_sources) {
+  Folder folder;
+  const std::string head = "#include <webots/robot.h>\n";
+  folder.file("controllers/prog/start.c",
+              head + "int part(void);\nint main(void) { wb_robot_init(); return part(); }");
+  folder.file("controllers/prog/prog.c", head + "int main(void) { return not_to_be_compiled; }");
+  folder.file("controllers/shared/part.c", "int part(void) { return 0; }");
+  folder.file("controllers/prog/Makefile", "C_SOURCES = start.c part.c\nVPATH = ../shared\n");
+  auto built = build_folder(folder);
+  EXPECT_TRUE(built.ok) << text_of(built);
+}
+
+TEST(makefile_project, what_make_would_compute_by_running_something_is_left_empty) {
+  Folder folder;
+  folder.file("controllers/prog/main.c", "int main(void) { return 0; }");
+  folder.file(
+      "controllers/prog/Makefile",
+      "A = $(A)$(shell touch ran)\nSRCS := $(wildcard m*.c) $(A)\nB = $(C)\nC = $(B)\nCFLAGS = $(B) $(\n");
+  auto built = build_folder(folder);
+  EXPECT_TRUE(built.ok) << text_of(built);
+}
