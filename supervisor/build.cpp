@@ -126,9 +126,8 @@ bool is_program_folder(const std::string& folder) {
   return false;
 }
 
-std::string provide_program(const std::string& name, const std::string& from_folder,
-                            const std::function<void(const std::string&)>& tell,
-                            std::vector<std::string>& problems) {
+std::string find_program(const std::string& name, const std::string& from_folder,
+                         std::vector<std::string>& problems) {
   const fs::path path = find(name, from_folder);
   if (path.empty()) {
     std::vector<std::string> known;
@@ -142,6 +141,14 @@ std::string provide_program(const std::string& name, const std::string& from_fol
                        (guess.empty() ? "" : "; did you mean '" + guess + "'?"));
     return "";
   }
+  return path.string();
+}
+
+std::string provide_program(const std::string& name, const std::string& from_folder,
+                            const std::function<void(const std::string&)>& tell,
+                            std::vector<std::string>& problems) {
+  const fs::path path = find_program(name, from_folder, problems);
+  if (path.empty()) return "";
   const bool folder = fs::is_directory(path);
   if (!folder && !fs::is_regular_file(path)) {
     problems.push_back(path.string() + ": supervisor: got a device, expected a file or a folder");

@@ -8,6 +8,10 @@
 
 namespace supervisor {
 
+/// The file or folder that a program's name means; empty, with a line in `problems`, when there is none.
+std::string find_program(const std::string& name, const std::string& from_folder,
+                         std::vector<std::string>& problems);
+
 /// `name`: a .so, a .c or .cpp file, a folder of such, or the name of one under supervisor/programs/;
 /// relative paths start in `from_folder`. Returns the shared object's path; empty on failure, with lines
 /// appended to `problems`. `tell` gets the compiler's warnings, a line each; may be empty.

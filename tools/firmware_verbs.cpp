@@ -13,6 +13,7 @@
 #include "sim_core/light/profiles.h"
 #include "sim_core/load/world_loader.h"
 #include "supervisor/build.h"
+#include "tools/command_line.h"
 #include "tools/verbs.h"
 
 namespace tools {
@@ -21,19 +22,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// a folder as given, or the controller of that name
-std::string controller_folder(const std::string& name) {
-  const fs::path known = fs::path(twin::project_root()) / "firmware" / name;
-  if (!fs::exists(name) && name.find('/') == std::string::npos && fs::is_directory(known))
-    return known.string();
-  return name;
-}
-
-bool is_folder(const std::string& folder, const char* verb) {
-  if (fs::is_directory(folder)) return true;
-  complain({folder + ": " + verb + ": got " + (fs::exists(folder) ? "a file" : "a name that does not exist") +
-            ", expected a folder with C files"});
-  return false;
+/// The folder of C files that `name` means; empty after a complaint.
+std::string controller_folder(const std::string& name, const char* verb) {
+  std::vector<std::string> problems;
+  const std::string path = twin::find_firmware(name, "", problems);
+  if (!path.empty() && !fs::is_directory(path))
+    problems.push_back(path + ": " + verb + ": got a file, expected a folder with C files");
+  complain(problems);
+  return problems.empty() ? path : "";
 }
 
 /// A supervisor's program is the PC's compiler's business.
@@ -76,18 +72,21 @@ bool may_replace(const fs::path& output) {
 int build(cc::BuildOptions options) {
   if (!may_replace(options.output)) return kBadInput;
   const std::string given = options.source_dir.string();
-  if (!fs::is_directory(controller_folder(given)) ||
-      supervisor::is_program_folder(controller_folder(given))) {
-    const fs::path known = fs::path(twin::project_root()) / "supervisor" / "programs" / given;
-    if (fs::exists(given) || (given.find('/') == std::string::npos && fs::is_directory(known)))
-      return build_supervisor(given, options.output);
-  }
+  std::vector<std::string> no_controller;
+  const std::string folder = twin::find_firmware(given, "", no_controller);
+  const fs::path known = fs::path(twin::project_root()) / "supervisor" / "programs" / given;
+  if (folder.empty() ? fs::exists(given) || (given.find('/') == std::string::npos && fs::is_directory(known))
+                     : !fs::is_directory(folder) || supervisor::is_program_folder(folder))
+    return build_supervisor(given, options.output);
+  options.source_dir = controller_folder(given, "build");
+  if (options.source_dir.empty()) return kBadInput;
   if (options.output.empty()) {
-    complain({"command line: -o: missing, expected the image to write, a .so"});
-    return kBadInput;
+    twin::Options of_run;
+    of_run.way = options.register_way ? "register" : "native";
+    of_run.sanitize = options.sanitize;
+    of_run.coverage = options.coverage;
+    options.output = twin::image_file(options.source_dir.string(), of_run);
   }
-  options.source_dir = controller_folder(options.source_dir.string());
-  if (!is_folder(options.source_dir.string(), "build")) return kBadInput;
   const auto result = cc::build_image(options);
   complain(result.conflicts);
   complain(result.warnings);
@@ -101,8 +100,8 @@ int build(cc::BuildOptions options) {
 
 int lint(const std::string& name) {
   cc::BuildOptions options;
-  options.source_dir = controller_folder(name);
-  if (!is_folder(options.source_dir.string(), "lint")) return kBadInput;
+  options.source_dir = controller_folder(name, "lint");
+  if (options.source_dir.empty()) return kBadInput;
   const auto result = cc::lint_folder(options);
   complain(result.errors);
   complain(result.warnings);
@@ -151,17 +150,41 @@ int cycles(const std::string& name, double period_ms, bool with_library) {
   return kPass;
 }
 
-int check(const std::vector<std::string>& files) {
+/// What a world names and is not there: firmware and supervisors.
+std::vector<std::string> missing_files(const sim::WorldDesc& world, const std::string& file) {
+  const std::string folder = fs::path(file).parent_path().string();
+  std::vector<std::string> found, missing;
+  for (const auto& robot : world.robots) {
+    if (robot.firmware.empty() || std::count(found.begin(), found.end(), robot.firmware)) continue;
+    found.push_back(robot.firmware);
+    if (twin::find_firmware(robot.firmware, folder, missing).empty())
+      missing.back() = file + ": robot '" + robot.name + "': " + missing.back();
+  }
+  for (const auto& program : world.supervisors)
+    if (supervisor::find_program(program.program, folder, missing).empty())
+      missing.back() = file + ": " + missing.back();
+  return missing;
+}
+
+int check(const std::vector<std::string>& names) {
   int exit_code = kPass;
-  for (const auto& file : files) {
-    const auto loaded = sim::load_world(file, {board::epuck_model()}, board::part_kinds());
-    if (!loaded.world) {
-      complain({loaded.report(file)});
+  for (const auto& name : names) {
+    std::vector<std::string> problems;
+    const std::string file = find_world(name, problems);
+    const auto loaded = file.empty() ? sim::LoadedWorld{}
+                                     : sim::load_world(file, {board::epuck_model()}, board::part_kinds());
+    if (!loaded.problems.empty()) problems.push_back(loaded.report(file));
+    for (std::string& missing : missing_files(loaded.world ? *loaded.world : loaded.draft, file))
+      problems.push_back(std::move(missing));
+    if (!problems.empty()) {
+      complain(problems);
       exit_code = kBadInput;
       continue;
     }
-    std::cout << fmt::format("{}: good: {} robots, {} objects, {} Hz\n", file, loaded.world->robots.size(),
-                             loaded.world->objects.size(), loaded.world->physics_hz);
+    std::cout << fmt::format(
+        "{}: good: {} {}, {} {}, {} Hz\n", file, loaded.world->robots.size(),
+        loaded.world->robots.size() == 1 ? "robot" : "robots", loaded.world->objects.size(),
+        loaded.world->objects.size() == 1 ? "object" : "objects", loaded.world->physics_hz);
     for (const std::string& notice : sim::proximity_notices(*loaded.world))
       std::cout << file << ": " << notice << '\n';
   }
@@ -176,12 +199,12 @@ void add_build(CLI::App& app, int& exit_code) {
   auto o = std::make_shared<cc::BuildOptions>();
   verb->add_option("DIR", o->source_dir, "folder with C files, or a controller's or supervisor's name")
       ->required();
-  verb->add_option("-o,--output", o->output, "the image to write, a .so; needed for firmware");
+  verb->add_option("-o,--output", o->output, "the image to write, a .so; without it, where runs keep theirs");
   verb->add_option("--opt", o->optimisation, "-O0 -O1 -O2 -Os")
       ->check(CLI::IsMember({"-O0", "-O1", "-O2", "-Os"}))
       ->capture_default_str();
-  verb->add_option("-D", o->defines, "NAME or NAME=value for the preprocessor");
-  verb->add_option("-I", o->include_dirs, "folder that is searched for headers first");
+  one_each(verb->add_option("-D", o->defines, "NAME or NAME=value for the preprocessor"));
+  one_each(verb->add_option("-I", o->include_dirs, "folder that is searched for headers first"));
   verb->add_option("--std", o->standard, "standard of C, such as gnu99; default: the project's, or XC16's");
   auto way = std::make_shared<std::string>("native");
   verb->add_option("--way", *way, "native: the library's functions; register: the chip's registers")
@@ -218,7 +241,7 @@ void add_cycles(CLI::App& app, int& exit_code) {
 void add_check(CLI::App& app, int& exit_code) {
   auto* verb = app.add_subcommand("check", "Read world files and tell everything that is wrong with them");
   auto files = std::make_shared<std::vector<std::string>>();
-  verb->add_option("WORLD", *files, "world files")->required();
+  verb->add_option("WORLD", *files, "world files, or names of those in worlds/")->required();
   verb->callback([files, &exit_code] { exit_code = check(*files); });
 }
 

@@ -13,6 +13,7 @@
 #include "sim_core/base/input_file.h"
 #include "sim_core/base/output_file.h"
 #include "sim_core/load/world_loader.h"
+#include "tools/command_line.h"
 #include "tools/output_folder.h"
 #include "tools/verbs.h"
 

@@ -11,6 +11,7 @@
 #include "hal_sim/board/part.h"
 #include "hal_sim/twin/twin.h"
 #include "sim_core/load/world_loader.h"
+#include "tools/command_line.h"
 #include "tools/curve_report.h"
 #include "tools/sensor_report.h"
 #include "tools/verbs.h"
@@ -114,7 +115,12 @@ int show_reading(const InspectArguments& a, const SensorReport& report, const si
 }
 
 int inspect_world(const InspectArguments& a) {
-  const std::string file = find_world(a.world);
+  std::vector<std::string> problems;
+  const std::string file = find_world(a.world, problems);
+  if (file.empty()) {
+    complain(problems);
+    return kBadInput;
+  }
   sim::LoadedWorld loaded = sim::load_world(file, {board::epuck_model()}, board::part_kinds());
   if (!loaded.world) {
     complain({loaded.report(file)});
@@ -142,7 +148,6 @@ int inspect_world(const InspectArguments& a) {
     return wrong(fmt::format("--sensor: got {}, expected 0 to {}", a.sensor, sensors - 1));
   if (a.sensor < 0 && (!a.picture.empty() || !a.plot.empty() || !a.profile.empty()))
     return wrong(fmt::format("--sensor: got none, expected 0 to {} for a picture or a curve", sensors - 1));
-  std::vector<std::string> problems;
   twin::Options options;
   options.world_folder = fs::path(file).parent_path().string();
   options.tell = [](const std::string& line) { std::cerr << line << '\n'; };

@@ -15,6 +15,7 @@
 #include <memory>
 
 #include "hal_sim/twin/twin.h"
+#include "tools/command_line.h"
 #include "tools/lab_report.h"
 #include "tools/verbs.h"
 

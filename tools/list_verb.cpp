@@ -8,6 +8,7 @@
 
 #include "hal_sim/board/part.h"
 #include "hal_sim/twin/twin.h"
+#include "tools/command_line.h"
 #include "tools/verbs.h"
 
 namespace tools {
@@ -16,17 +17,29 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// first line of running text of a README, or of a comment
-std::string first_sentence(const fs::path& file) {
-  std::ifstream in(file);
-  for (std::string line; std::getline(in, line);) {
-    if (line.rfind("title", 0) == 0 && line.find('"') != std::string::npos) {
-      const auto a = line.find('"'), b = line.rfind('"');
-      return line.substr(a + 1, b - a - 1);
-    }
-    if (file.extension() == ".md" && !line.empty() && line[0] != '#') return line;
-  }
+// what a README begins with: its first line of running text
+std::string first_line(const fs::path& readme) {
+  std::ifstream in(readme);
+  for (std::string line; std::getline(in, line);)
+    if (!line.empty() && line[0] != '#') return line;
   return "";
+}
+
+// what a world's comment begins with: its first sentence; without one, the title
+std::string description_of(const fs::path& world) {
+  std::ifstream in(world);
+  std::string comment, title;
+  bool in_head = true;
+  for (std::string line; std::getline(in, line);) {
+    in_head = in_head && line.rfind("#", 0) == 0;
+    if (in_head && line.find("SPDX-") == std::string::npos)
+      comment += (comment.empty() ? "" : " ") + line.substr(std::min<std::size_t>(2, line.size()));
+    const auto a = line.find('"'), b = line.rfind('"');
+    if (line.rfind("title", 0) == 0 && b != a) title = line.substr(a + 1, b - a - 1);
+  }
+  const std::size_t end = comment.find(". ");
+  if (comment.empty()) return title;
+  return end == std::string::npos ? comment : comment.substr(0, end + 1);
 }
 
 void print(const std::string& heading, std::vector<std::pair<std::string, std::string>> rows) {
@@ -38,7 +51,7 @@ void print(const std::string& heading, std::vector<std::pair<std::string, std::s
     std::cout << "  " << name << std::string(width - name.size() + 2, ' ') << text << "\n";
 }
 
-int list_all() {
+int list(const std::string& what) {
   const fs::path root = twin::project_root();
   std::vector<std::pair<std::string, std::string>> controllers, worlds, supervisors;
   std::error_code none;
@@ -46,21 +59,23 @@ int list_all() {
     // Webots' controllers have their folder's name
     if (fs::exists(entry.path() / "main.c") ||
         fs::exists(entry.path() / (entry.path().filename().string() + ".c")))
-      controllers.emplace_back(entry.path().filename().string(), first_sentence(entry.path() / "README.md"));
+      controllers.emplace_back(entry.path().filename().string(), first_line(entry.path() / "README.md"));
   for (const auto& entry : fs::directory_iterator(root / "worlds", none))
     if (entry.path().extension() == ".toml")
-      worlds.emplace_back(entry.path().stem().string(), first_sentence(entry.path()));
+      worlds.emplace_back(entry.path().stem().string(), description_of(entry.path()));
   for (const auto& entry : fs::directory_iterator(root / "supervisor" / "programs", none))
-    supervisors.emplace_back(entry.path().filename().string(), first_sentence(entry.path() / "README.md"));
+    supervisors.emplace_back(entry.path().filename().string(), first_line(entry.path() / "README.md"));
   if (controllers.empty() && worlds.empty()) {
     complain(
         {root.string() +
          ": list: got no controllers and no worlds, expected a checkout of Twinpuck; set TWINPUCK_ROOT"});
     return kNothing;
   }
-  print("Controllers (make run FW=...)", controllers);
-  print("Worlds (make run WORLD=...)", worlds);
-  print("Supervisors (twinpuck run WORLD --supervisor ...)", supervisors);
+  const auto wanted = [&](const char* kind) { return what.empty() || what == kind; };
+  if (wanted("controllers")) print("Controllers (make run FW=...)", controllers);
+  if (wanted("worlds")) print("Worlds (make run WORLD=...)", worlds);
+  if (wanted("supervisors")) print("Supervisors (twinpuck run WORLD --supervisor ...)", supervisors);
+  if (!wanted("parts")) return kPass;
   std::vector<std::pair<std::string, std::string>> parts;
   for (const sim::PartKind& kind : board::part_kinds()) parts.emplace_back(kind.name, kind.doc);
   print("Parts ([[robot.part]] kind = \"...\" in a world)", parts);
@@ -70,9 +85,11 @@ int list_all() {
 }  // namespace
 
 void add_list(CLI::App& app, int& exit_code) {
-  app.add_subcommand("list", "List controllers, worlds, supervisors and parts")->callback([&exit_code] {
-    exit_code = list_all();
-  });
+  auto* verb = app.add_subcommand("list", "List controllers, worlds, supervisors and parts");
+  auto what = std::make_shared<std::string>();
+  verb->add_option("KIND", *what, "controllers, worlds, supervisors or parts; all of them without it")
+      ->check(CLI::IsMember({"controllers", "worlds", "supervisors", "parts"}));
+  verb->callback([what, &exit_code] { exit_code = list(*what); });
 }
 
 }  // namespace tools

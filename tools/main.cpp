@@ -8,59 +8,10 @@
 #include <filesystem>
 #include <iostream>
 
-#include "sim_core/load/world_loader.h"
+#include "tools/command_line.h"
 #include "tools/printable.h"
 #include "tools/run_guard.h"
 #include "tools/verbs.h"
-
-namespace tools {
-void complain(const std::vector<std::string>& problems) {
-  for (const auto& p : problems) std::cerr << p << '\n';
-}
-
-CLI::Validator between(double least, double most) {
-  return CLI::Validator(
-      [least, most](std::string& text) {
-        double value = 0;
-        if (CLI::detail::lexical_cast(text, value) && value >= least && value <= most) return std::string();
-        return fmt::format("got {}, expected {:g} to {:g}", text, least, most);
-      },
-      fmt::format("{:g} to {:g}", least, most));
-}
-
-namespace {
-// names that a mistyped word on the command line may have meant
-std::vector<std::string> known_words(const CLI::App& app) {
-  std::vector<std::string> words;
-  for (const auto* o : app.get_options())
-    for (const auto& name : o->get_lnames()) words.push_back("--" + name);
-  for (const auto* verb : app.get_subcommands([](const CLI::App*) { return true; }))
-    words.push_back(verb->get_name());
-  return words;
-}
-
-int usage_error(const CLI::App& app, const CLI::ParseError& e, int argc, char** argv) {
-  const CLI::App* at = &app;
-  for (const auto* verb : app.get_subcommands()) at = verb;
-  std::string line = "command line: " + std::string(e.what());
-  const bool extras = e.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
-  const bool missing = e.get_exit_code() == static_cast<int>(CLI::ExitCodes::RequiredError);
-  for (int i = 1; i < argc && (extras || missing); ++i) {
-    const std::string word = std::string(argv[i]).substr(0, std::string(argv[i]).find('='));
-    const auto words = known_words(*at);
-    if (std::find(words.begin(), words.end(), word) != words.end() || word == at->get_name()) continue;
-    if (std::string(e.what()).find(word) == std::string::npos && extras) continue;
-    const std::string guess = sim::did_you_mean(word, words);
-    line = "command line: unknown word: got '" + word + "', expected an option or verb of `twinpuck" +
-           (at == &app ? "" : " " + at->get_name()) + "`" +
-           (guess.empty() ? "" : "; did you mean '" + guess + "'?");
-    break;
-  }
-  std::cerr << line << "\nTry `twinpuck " << (at == &app ? "" : at->get_name() + " ") << "--help`.\n";
-  return kBadInput;
-}
-}  // namespace
-}  // namespace tools
 
 int main(int argc, char** argv) {
   const tools::PrintableStream out(std::cout), error(std::cerr);
@@ -71,7 +22,7 @@ int main(int argc, char** argv) {
   int exit_code = tools::kPass;
   CLI::App app{"Twinpuck: the firmware twin of the e-puck robot"};
   app.require_subcommand(1);
-  app.set_version_flag("--version", "twinpuck " TWINPUCK_VERSION);
+  app.set_version_flag("-V,--version", "twinpuck " TWINPUCK_VERSION);
   tools::add_run(app, exit_code);
   tools::add_check(app, exit_code);
   tools::add_build(app, exit_code);
@@ -82,6 +33,7 @@ int main(int argc, char** argv) {
   tools::add_list(app, exit_code);
   tools::add_import(app, exit_code);
   tools::add_lab(app, exit_code);
+  tools::add_help(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& e) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hal_sim/twin/twin.h"
+#include "tools/command_line.h"
 #include "tools/verbs.h"
 
 namespace tools {

@@ -8,6 +8,7 @@
 
 #include "sim_core/record/film.h"
 #include "sim_core/record/heatmap.h"
+#include "tools/command_line.h"
 #include "tools/output_folder.h"
 #include "tools/verbs.h"
 
@@ -29,14 +30,16 @@ void check_ending(const std::string& path, const char* option, const std::vector
 }  // namespace
 
 void add_picture_options(CLI::App& verb, PictureArguments& a) {
+  verb.option_defaults()->group("Pictures and films");
   verb.add_option("--picture", a.picture, "PNG or SVG of the world with the robots' ways");
   verb.add_flag(
       "--rays", a.rays,
       "draw the sensors' rays in picture and film: red up to what they met, orange as much farther as "
       "a dark colour lets it seem, green beyond");
-  verb.add_option("--heatmap", a.heatmaps,
-                  "where the robots spent their time: a PNG or SVG with a colour bar, or a CSV of cells")
-      ->allow_extra_args(false);
+  one_each(
+      verb.add_option("--heatmap", a.heatmaps,
+                      "where the robots spent their time: a PNG or SVG with a colour bar, or a CSV of cells")
+          ->allow_extra_args(false));
   verb.add_option("--heatmap-cell", a.heatmap_cell_m, "side of a cell (m)")
       ->check(between(1e-3, 100))
       ->capture_default_str();

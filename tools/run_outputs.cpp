@@ -11,6 +11,7 @@
 #include <map>
 
 #include "sim_core/record/csv_recorder.h"
+#include "tools/command_line.h"
 #include "tools/output_folder.h"
 #include "tools/verbs.h"
 
@@ -59,6 +60,7 @@ std::string lcov_of(const twin::Twin& twin) {
 }  // namespace
 
 void add_output_options(CLI::App& verb, OutputArguments& a) {
+  verb.option_defaults()->group("Outputs");
   verb.add_option("--record", a.record, "CSV of poses, steps, sensors and LEDs");
   verb.add_option("--record-every", a.record_every_s, "seconds between rows of a robot")
       ->check(between(1e-4, 1e6))

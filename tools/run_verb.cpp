@@ -14,10 +14,12 @@
 #include "sim_core/light/profiles.h"
 #include "sim_core/load/world_loader.h"
 #include "supervisor/team.h"
+#include "tools/command_line.h"
 #include "tools/progress.h"
 #include "tools/remote_keys.h"
 #include "tools/run_guard.h"
 #include "tools/run_outputs.h"
+#include "tools/serial_text.h"
 #include "tools/summary.h"
 #include "tools/verbs.h"
 
@@ -42,16 +44,19 @@ struct RunArguments {
   OutputArguments outputs;
 };
 
-// "ROBOT=VALUE"
+// "ROBOT=VALUE"; what names no robot is for every robot
 bool split(const std::vector<std::string>& words, const char* option, std::vector<twin::Choice>& choices) {
   for (const auto& w : words) {
     const auto eq = w.find('=');
-    if (eq == std::string::npos || eq == 0 || eq + 1 == w.size()) {
+    if (w.empty() || eq == 0 || eq + 1 == w.size()) {
       complain({"command line: " + std::string(option) + ": got '" + w +
-                "', expected ROBOT=VALUE; ROBOT may be '*'"});
+                "', expected VALUE for every robot, or ROBOT=VALUE"});
       return false;
     }
-    choices.push_back({w.substr(0, eq), w.substr(eq + 1)});
+    if (eq == std::string::npos)
+      choices.push_back({"*", w});
+    else
+      choices.push_back({w.substr(0, eq), w.substr(eq + 1)});
   }
   return true;
 }
@@ -81,7 +86,12 @@ int run(const RunArguments& arguments) {
       !split(arguments.uart1, "--uart", options.uart1) || !split(arguments.uart2, "--uart2", options.uart2))
     return kBadInput;
 
-  const std::string file = find_world(arguments.world);
+  std::vector<std::string> problems;
+  const std::string file = find_world(arguments.world, problems);
+  if (file.empty()) {
+    complain(problems);
+    return kBadInput;
+  }
   sim::LoadedWorld loaded = sim::load_world(file, {board::epuck_model()}, board::part_kinds());
   if (!loaded.world) {
     complain({loaded.report(file)});
@@ -99,7 +109,6 @@ int run(const RunArguments& arguments) {
   if (!arguments.quiet)
     for (const std::string& notice : sim::proximity_notices(*loaded.world)) std::cerr << notice << '\n';
   options.world_folder = fs::path(file).parent_path().string();
-  std::vector<std::string> problems;
   auto twin = twin::Twin::open(std::move(*loaded.world), options, problems);
   if (!twin) {
     complain(problems);
@@ -137,18 +146,31 @@ int run(const RunArguments& arguments) {
   team->before_first_tick();
   is_stepping = false;
   outputs.before_run();
+  const auto say = [&progress](const std::string& line) {
+    progress.clear();
+    std::cout << line << '\n';
+  };
   for (int i = 0; i < twin->robots() && !arguments.quiet; ++i) {
     const std::string name = twin->world().robots[static_cast<std::size_t>(i)].name;
-    twin->mind(i).board().virtual_devices().on_console = [name, &progress](const std::string& line) {
-      progress.clear();
-      std::cout << name << ": " << line << '\n';
+    twin->mind(i).board().virtual_devices().on_console = [name, say](const std::string& line) {
+      say(name + ": " + line);
     };
   }
+  SerialText serial(say);
+  for (int i = 0; i < twin->robots(); ++i)
+    for (int port = 1; port <= 2; ++port) {
+      // a quiet run shows only what was asked for by name
+      const auto& asked = port == 1 ? options.uart1 : options.uart2;
+      const bool by_option =
+          std::any_of(asked.begin(), asked.end(), [](const auto& c) { return c.value == "-"; });
+      if (twin->uart_choice(i, port) == "-" && (by_option || !arguments.quiet)) serial.listen(*twin, i, port);
+    }
   while (simulation.now() < end && !team->has_ended()) {
     is_stepping = true;
     simulation.step();
     is_stepping = false;
     outputs.after_tick();
+    serial.show();
     if (end_asked() || outputs.failed()) break;
     if (progress.is_due()) progress.show(sim::to_seconds(simulation.now()));
     if (speed > 0) {
@@ -168,6 +190,7 @@ int run(const RunArguments& arguments) {
   if (team->has_ended() && !(arguments.quiet && team->outcome().code == 0)) complain({team->outcome().text});
   for (int i = 0; i < twin->robots(); ++i) twin->mind(i).board().exchange(twin->mind(i).now());
 
+  serial.finish();
   const Summary summary = summarise(*twin, took_s);
   outputs.finish(summary, problems);
   complain(problems);
@@ -195,18 +218,32 @@ int run(const RunArguments& arguments) {
 
 }  // namespace
 
-std::string find_world(const std::string& name) {
-  if (fs::exists(name)) return name;
-  const fs::path known = fs::path(twin::project_root()) / "worlds" / (name + ".toml");
-  return name.find('/') == std::string::npos && fs::exists(known) ? known.string() : name;
-}
-
 void add_run(CLI::App& app, int& exit_code) {
   auto* verb = app.add_subcommand("run", "Simulate a world");
   auto a = std::make_shared<RunArguments>();
   verb->add_option("WORLD", a->world, "world file, or the name of one in worlds/")->required();
-  verb->add_option("--fw", a->firmware,
-                   "ROBOT=FILE: a .so, a folder of C files, or a controller's name; '*' is every robot");
+  verb->option_defaults()->group("Robots");
+  one_each(
+      verb->add_option("--fw", a->firmware,
+                       "[ROBOT=]FILE: a .so, a folder of C files, or a controller's name; without ROBOT, for "
+                       "every robot"));
+  verb->add_option(
+          "--way", a->way,
+          "native or register, for all robots whose controller is built from source; else the world's")
+      ->check(CLI::IsMember({"native", "register"}));
+  one_each(verb->add_option(
+      "--uart", a->uart1,
+      "[ROBOT=]-|none|pty|pty:LINK|tcp:PORT|file:PATH: the other end of UART 1; - shows text "
+      "here, as a run does unless told otherwise"));
+  one_each(verb->add_option("--uart2", a->uart2, "the same for UART 2"));
+  one_each(
+      verb->add_option("--key", a->keys,
+                       "[ROBOT=]KEY@TIME[+HOLD]: a remote control's key, 0 to 63 or a name such as VOL_UP, "
+                       "pressed at TIME s for HOLD s (0.1); ADDRESS:KEY for another address than 0"));
+  one_each(verb->add_option("--supervisor", a->supervisors,
+                            "a program attached to the world: a C or C++ file, a folder, or one of "
+                            "supervisor/programs/"));
+  verb->option_defaults()->group("Time and chance");
   verb->add_option("--for", a->seconds, "simulated seconds")->check(between(0, 1e7))->capture_default_str();
   verb->add_option("--speed", a->speed, "pace: 1 is real time, max as fast as possible")
       ->capture_default_str();
@@ -215,29 +252,21 @@ void add_run(CLI::App& app, int& exit_code) {
   verb->add_option("--threads", a->threads, "threads that run firmware; the result does not depend on it")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
-  verb->add_flag("--strict", a->strict,
-                 "exit code 1 when board or chip have anything to say about a program (docs/diagnoses.md)");
-  verb->add_option("--uart", a->uart1, "ROBOT=none|pty|pty:LINK|tcp:PORT|file:PATH: the other end of UART 1");
-  verb->add_option("--uart2", a->uart2, "the same for UART 2");
-  verb->add_option(
-      "--supervisor", a->supervisors,
-      "a program attached to the world: a C or C++ file, a folder, or one of supervisor/programs/");
-  verb->add_option(
-      "--key", a->keys,
-      "ROBOT=KEY@TIME[+HOLD]: a remote control's key, 0 to 63 or a name such as VOL_UP, pressed at "
-      "TIME s for HOLD s (0.1); ADDRESS:KEY for another address than 0");
   verb->add_option("--host-limit", a->host_limit_s, "give up after this many real seconds (exit 124)")
       ->check(between(0, 1e7));
+  verb->option_defaults()->group("Checks");
+  verb->add_flag("--strict", a->strict,
+                 "exit code 1 when board or chip have anything to say about a program (docs/diagnoses.md)");
+  verb->add_flag("--sanitize", a->sanitize, "build controllers with address and 16-bit overflow checks");
   verb->add_option("--opt", a->optimisation, "level for controllers built from source")
       ->check(CLI::IsMember({"-O0", "-O1", "-O2", "-Os"}))
       ->capture_default_str();
-  verb->add_option(
-          "--way", a->way,
-          "native or register, for all robots whose controller is built from source; else the world's")
-      ->check(CLI::IsMember({"native", "register"}));
-  verb->add_flag("--sanitize", a->sanitize, "build controllers with address and 16-bit overflow checks");
-  verb->add_flag("-q,--quiet", a->quiet, "no progress and no summary on the terminal");
+  verb->add_flag("-q,--quiet", a->quiet, "no progress, no serial text and no summary on the terminal");
   add_output_options(*verb, a->outputs);
+  verb->footer(
+      "Example: twinpuck run maze --fw obstacle --for 60 --record maze.csv --picture maze.png\n"
+      "Exit codes: 0 good, 1 --strict or a supervisor found a fault, 2 bad input, 3 firmware trapped, "
+      "7 an output was lost, 124 --host-limit, 130 interrupted");
   verb->callback([a, &exit_code] { exit_code = run(*a); });
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace tools {
@@ -11,6 +12,19 @@ namespace tools {
 namespace {
 
 constexpr std::size_t kRobotsInText = 12;  // more would scroll the summary away
+
+/// A number with so many decimals, and no "-0" for what is a little less than nothing.
+std::string plain(double value, int decimals) {
+  std::string text = fmt::format("{:.{}f}", value, decimals);
+  if (text.find_first_not_of("-0.") == std::string::npos && text[0] == '-') text.erase(0, 1);
+  return text;
+}
+
+/// Above -180 and up to 180, as headings are said; whole turns are left out.
+double heading_deg(double heading_rad) {
+  const double degrees = std::remainder(heading_rad * 180 / 3.14159265358979323846, 360.0);
+  return degrees <= -179.5 ? 180 : degrees;
+}
 
 std::string hex(std::uint64_t digest) { return fmt::format("{:016x}", digest); }
 
@@ -91,14 +105,12 @@ std::string to_text(const Summary& s) {
                         "y (m)", "heading", "path (m)", "collisions", "wall (s)", "load", "used", "left");
   for (std::size_t i = 0; i < s.robots.size() && i < kRobotsInText; ++i) {
     const auto& r = s.robots[i];
-    const double turn = 360.0;
-    double heading = r.heading_rad * 180 / 3.14159265358979323846;
-    heading -= turn * static_cast<double>(static_cast<long long>(heading / turn));
     text += fmt::format(
-        "{:<12} {:>8.3f} {:>8.3f} {:>5.0f} deg {:>9.3f} {:>11} {:>9.2f} {:>5.0f}% {:>4.0f} mWh {:>5.0f} "
+        "{:<12} {:>8} {:>8} {:>5} deg {:>9.3f} {:>11} {:>9.2f} {:>5.0f}% {:>4.0f} mWh {:>5.0f} "
         "min\n",
-        r.name, r.x_m, r.y_m, heading, r.distance_m, r.collisions, r.longest_wall_touch_s, 100 * r.cpu_load,
-        1000 * r.battery_used_wh, std::max(0.0, r.battery_minutes));
+        r.name, plain(r.x_m, 3), plain(r.y_m, 3), plain(heading_deg(r.heading_rad), 0), r.distance_m,
+        r.collisions, r.longest_wall_touch_s, 100 * r.cpu_load, 1000 * r.battery_used_wh,
+        std::max(0.0, r.battery_minutes));
   }
   if (s.robots.size() > kRobotsInText)
     text += fmt::format("... and {} more\n", s.robots.size() - kRobotsInText);

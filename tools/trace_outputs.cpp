@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "sim_core/load/world_loader.h"
+#include "tools/command_line.h"
 #include "tools/output_folder.h"
 #include "tools/verbs.h"
 
@@ -24,6 +25,7 @@ bool is_same(const trace::Signal& a, const trace::Signal& b) {
 }  // namespace
 
 void add_trace_options(CLI::App& verb, TraceArguments& a) {
+  verb.option_defaults()->group("Traces");
   verb.add_option("--vcd", a.vcd,
                   "value change dump of pins, motors, interrupts, variables (docs/traces.md)");
   verb.add_option(

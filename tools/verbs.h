@@ -32,14 +32,6 @@ void add_list(CLI::App& app, int& exit_code);
 void add_import(CLI::App& app, int& exit_code);
 void add_inspect(CLI::App& app, int& exit_code);
 
-/// A check of options: a number within bounds. (CLI11's own ranges take nan for one.)
-CLI::Validator between(double least, double most);
-
-/// A world may be named as `make run` does: maze for worlds/maze.toml.
-std::string find_world(const std::string& name);
 void add_lab(CLI::App& app, int& exit_code);
-
-/// Writes each problem on a line of its own to stderr.
-void complain(const std::vector<std::string>& problems);
 
 }  // namespace tools

@@ -90,7 +90,7 @@ std::unique_ptr<UartEnd> open_uart_end(const std::string& description, const std
   const std::size_t colon = description.find(':');
   const std::string kind = description.substr(0, colon);
   const std::string rest = colon == std::string::npos ? "" : description.substr(colon + 1);
-  if (kind == "none" && colon == std::string::npos) return nullptr;
+  if ((kind == "none" || kind == "-") && colon == std::string::npos) return nullptr;
   if (kind == "pty") {
     return open_pty_end(rest.empty() ? default_link : rest, error);
   }
@@ -110,7 +110,7 @@ std::unique_ptr<UartEnd> open_uart_end(const std::string& description, const std
       return end;
     return nullptr;
   }
-  error = "uart: got '" + description + "', expected none, pty[:LINK], tcp:PORT or file:OUT[,IN]";
+  error = "uart: got '" + description + "', expected none, -, pty[:LINK], tcp:PORT or file:OUT[,IN]";
   return nullptr;
 }
 

@@ -71,6 +71,7 @@ class MemoryEnd : public UartEnd {
 
 /// Opens an end from its description:
 ///   "none"               no end (null)
+///   "-"                  no end either: whoever runs the robot may show its text
 ///   "pty" "pty:LINK"     a pseudo-terminal; LINK (default `default_link`) is a symbolic link to it. One that
 ///   a
 ///                        run left behind is replaced; a file, a link to a file or a link of a run that goes

@@ -37,17 +37,6 @@ std::vector<std::string> controller_names() {
   return names;
 }
 
-// one image file per folder, however it was named
-fs::path output_for(const fs::path& folder, const Options& options) {
-  std::uint64_t h = 0;
-  for (unsigned char c : fs::weakly_canonical(folder).string()) h = sim::mix64(h ^ c);
-  char tag[20];
-  std::snprintf(tag, sizeof tag, "-%08x", static_cast<unsigned>(h));
-  std::string kind = options.sanitize ? "-sanitize" : options.coverage ? "-coverage" : "";
-  if (options.way == "register") kind += "-register";
-  return fs::path(build_folder()) / "controllers" / (folder.filename().string() + tag + kind + ".so");
-}
-
 }  // namespace
 
 std::string project_root() {
@@ -67,7 +56,19 @@ std::string build_folder() {
   return (fs::path(project_root()) / "build").string();
 }
 
-std::string provide_image(const std::string& name, const std::string& from_folder, const Options& options,
+std::string image_file(const std::string& folder, const Options& options) {
+  std::uint64_t h = 0;
+  for (unsigned char c : fs::weakly_canonical(folder).string()) h = sim::mix64(h ^ c);
+  char tag[20];
+  std::snprintf(tag, sizeof tag, "-%08x", static_cast<unsigned>(h));
+  std::string kind = options.sanitize ? "-sanitize" : options.coverage ? "-coverage" : "";
+  if (options.way == "register") kind += "-register";
+  return (fs::path(build_folder()) / "controllers" /
+          (fs::path(folder).filename().string() + tag + kind + ".so"))
+      .string();
+}
+
+std::string find_firmware(const std::string& name, const std::string& from_folder,
                           std::vector<std::string>& problems) {
   fs::path path =
       fs::path(name).is_absolute() || from_folder.empty() ? fs::path(name) : fs::path(from_folder) / name;
@@ -86,20 +87,27 @@ std::string provide_image(const std::string& name, const std::string& from_folde
                        (guess.empty() ? "" : "; did you mean '" + guess + "'?"));
     return "";
   }
-  if (!fs::is_directory(path, none)) return path.string();
-  if (!holds_c(path)) {
+  if (fs::is_directory(path, none) && !holds_c(path)) {
     problems.push_back(path.string() + ": firmware: got a folder without C files, expected at least one .c");
     return "";
   }
+  return path.string();
+}
+
+std::string provide_image(const std::string& name, const std::string& from_folder, const Options& options,
+                          std::vector<std::string>& problems) {
+  const fs::path path = find_firmware(name, from_folder, problems);
+  std::error_code none;
+  if (path.empty() || !fs::is_directory(path, none)) return path.string();
   cc::BuildOptions build;
   build.source_dir = path;
-  build.output = output_for(path, options);
+  build.output = image_file(path.string(), options);
   build.optimisation = options.optimisation;
   build.sanitize = options.sanitize;
   build.coverage = options.coverage;
   build.register_way = options.way == "register";
   const cc::BuildResult result = cc::build_image(build);
-  if (options.tell && (result.compiled > 0 || !result.ok))
+  if (options.tell)
     for (const auto& w : result.warnings) options.tell(w);
   if (options.tell)
     for (const auto& c : result.conflicts) options.tell(c);

@@ -209,11 +209,12 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
       settings.processor = [](host::Robot& r) { return std::make_unique<register_way::ChipProcessor>(r); };
     auto mind = std::make_unique<host::FirmwareMind>(setup, std::move(settings), image, share);
     plug_in_parts(robot, mind->board(), problems);
-    const std::string ends[2] = {chosen(options.uart1, robot.name, robot.uart1),
-                                 chosen(options.uart2, robot.name, robot.uart2)};
+    twin->uart_choices_.push_back(
+        {chosen(options.uart1, robot.name, robot.uart1), chosen(options.uart2, robot.name, robot.uart2)});
     for (int port = 1; port <= 2; ++port) {
       std::string error;
-      auto end = board::open_uart_end(ends[port - 1], pty_link(robot.name, port), error);
+      auto end = board::open_uart_end(twin->uart_choice(static_cast<int>(i), port),
+                                      pty_link(robot.name, port), error);
       if (!error.empty())
         problems.push_back("robot '" + robot.name + "': uart" + std::to_string(port) + ": " + error);
       if (port == 1) {

@@ -2,6 +2,7 @@
 // A whole twin: a world, a board and a firmware for every robot in it, ready to step. The command line and
 // the test fixture are two thin users of this class.
 #pragma once
+#include <array>
 #include <functional>
 #include <memory>
 #include <string>
@@ -29,7 +30,7 @@ struct Choice {
 struct Options {
   std::vector<Choice>
       firmware;  ///< value: a .so, a folder with C files, or the name of a controller under firmware/
-  std::vector<Choice> uart1;  ///< value: none, pty, pty:LINK, tcp:PORT or file:PATH
+  std::vector<Choice> uart1;  ///< value: none, -, pty, pty:LINK, tcp:PORT or file:PATH
   std::vector<Choice> uart2;
   int threads = 1;  ///< 1 or more; results do not depend on it
   std::string
@@ -41,6 +42,14 @@ struct Options {
   /// Told the compiler's warnings, a line each; may be empty.
   std::function<void(const std::string&)> tell;
 };
+
+/// The .so, file or folder that `name` means: a path (relative ones begin in `from_folder`, or here), or a
+/// controller of firmware/. Empty, with a line in `problems`, when there is none.
+std::string find_firmware(const std::string& name, const std::string& from_folder,
+                          std::vector<std::string>& problems);
+
+/// Where the image of a folder of C files is kept that is built with these options.
+std::string image_file(const std::string& folder, const Options& options);
 
 /// Finds the controller that `name` means and builds it when it is source. Returns the path of the image;
 /// empty on failure, with lines appended to `problems`. Builds go to build/controllers/ and are incremental.
@@ -63,6 +72,10 @@ class Twin {
   int find(const std::string& name) const;
   /// Image file each robot runs; empty for a robot without firmware.
   const std::string& image_path(int robot) const { return image_paths_[static_cast<std::size_t>(robot)]; }
+  /// Where a robot's UART 1 or 2 goes, in open_uart_end()'s words: by the options, or by the world.
+  const std::string& uart_choice(int robot, int port) const {
+    return uart_choices_[static_cast<std::size_t>(robot)][static_cast<std::size_t>(port - 1)];
+  }
   /// All traps and unexpected resets so far, robot by robot.
   std::vector<host::TrapReport> traps() const;
   const std::vector<std::shared_ptr<host::Image>>& images() const { return images_; }
@@ -80,6 +93,7 @@ class Twin {
   std::unique_ptr<sim::Simulation> simulation_;  // owns the minds
   std::vector<host::FirmwareMind*> minds_;
   std::vector<std::string> image_paths_;
+  std::vector<std::array<std::string, 2>> uart_choices_;
   std::vector<std::shared_ptr<host::Image>> images_;
   sim::PacketMedium* packets_ = nullptr;                            // the simulation's
   const sim::RadioMedium* radio_ = nullptr;                         // the simulation's

@@ -164,7 +164,7 @@ std::vector<KeySpec> wheel_keys(const char* none, const char* usual_law) {
 /// none, pty, pty:LINK, tcp:PORT or file:PATH.
 std::string uart_text(const Value& v, std::string& out) {
   const std::string& t = v.text;
-  bool good = t == "none" || t == "pty" || (t.rfind("file:", 0) == 0 && t.size() > 5) ||
+  bool good = t == "none" || t == "-" || t == "pty" || (t.rfind("file:", 0) == 0 && t.size() > 5) ||
               (t.rfind("pty:", 0) == 0 && t.size() > 4);
   if (t.rfind("tcp:", 0) == 0 && t.size() > 4 && t.size() <= 9 &&
       t.find_first_not_of("0123456789", 4) == std::string::npos) {
@@ -173,7 +173,7 @@ std::string uart_text(const Value& v, std::string& out) {
   }
   if (!good)
     return fmt::format(
-        "got \"{}\", expected none, pty, pty:LINK, tcp:PORT with a port of 1 to 65535, or file:PATH", t);
+        "got \"{}\", expected none, -, pty, pty:LINK, tcp:PORT with a port of 1 to 65535, or file:PATH", t);
   out = t;
   return {};
 }
@@ -496,9 +496,10 @@ std::vector<SectionSpec> make_schema() {
            into<R>([](R& r, const Value& v) { r.battery_wh = v.number; })},
           {"colour", ValueType::Colour, "", 0, 1, "", "", "of the body; the model's otherwise",
            into<R>([](R& r, const Value& v) { r.colour = colour_of(v); })},
-          {"uart1", ValueType::Text, "", 0, 0, "", "\"none\"", "none, pty, pty:LINK, tcp:PORT or file:PATH",
+          {"uart1", ValueType::Text, "", 0, 0, "", "\"-\"",
+           "- (text is shown on the terminal), none, pty, pty:LINK, tcp:PORT or file:PATH",
            checked<R>([](R& r, const Value& v, const WorldDesc&) { return uart_text(v, r.uart1); })},
-          {"uart2", ValueType::Text, "", 0, 0, "", "\"none\"", "none, pty, pty:LINK, tcp:PORT or file:PATH",
+          {"uart2", ValueType::Text, "", 0, 0, "", "\"none\"", "none, -, pty, pty:LINK, tcp:PORT or file:PATH",
            checked<R>([](R& r, const Value& v, const WorldDesc&) { return uart_text(v, r.uart2); })},
       });
   for (KeySpec& key : wheel_keys<R>("", "")) s.back().keys.push_back(std::move(key));

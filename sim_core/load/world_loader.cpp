@@ -141,7 +141,10 @@ class Reader {
     std::stable_sort(problems_.begin(), problems_.end(), [](const WorldProblem& a, const WorldProblem& b) {
       return a.line != b.line ? a.line < b.line : a.column < b.column;
     });
-    if (problems_.empty()) out.world = std::move(world_);
+    if (problems_.empty())
+      out.world = std::move(world_);
+    else
+      out.draft = std::move(world_);
     out.problems = std::move(problems_);
     return out;
   }

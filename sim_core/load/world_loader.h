@@ -19,6 +19,7 @@ struct WorldProblem {
 
 struct LoadedWorld {
   std::optional<WorldDesc> world;      ///< set when there are no problems
+  WorldDesc draft;                     ///< otherwise what could be read, for further checks
   std::vector<WorldProblem> problems;  ///< in the order of their places
   /// One line per problem, "file:line:column: ...", without a line break at the end of the last.
   std::string report(std::string_view file) const;

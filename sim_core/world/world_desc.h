@@ -177,7 +177,7 @@ struct RobotDesc {
   std::string camera_mount;  ///< how it is turned, a name the caller knows; empty: the usual way
   double camera_noise = 1;   ///< factor on the camera's noise; 0 none
   WheelSettings wheels;      ///< what is not set is the world's
-  std::string uart1 = "none";
+  std::string uart1 = "-";
   std::string uart2 = "none";
   LinkEndDesc link;
   Variation variation;

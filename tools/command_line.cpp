@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+#include "tools/command_line.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+
+#include "hal_sim/twin/twin.h"
+#include "sim_core/load/world_loader.h"
+#include "tools/verbs.h"
+
+namespace tools {
+
+namespace fs = std::filesystem;
+
+void complain(const std::vector<std::string>& problems) {
+  for (const auto& p : problems) std::cerr << p << '\n';
+}
+
+CLI::Validator between(double least, double most) {
+  return CLI::Validator(
+      [least, most](std::string& text) {
+        double value = 0;
+        if (CLI::detail::lexical_cast(text, value) && value >= least && value <= most) return std::string();
+        return fmt::format("got '{}', expected a number from {:g} to {:g}", text, least, most);
+      },
+      fmt::format("{:g} to {:g}", least, most));
+}
+
+CLI::Option* one_each(CLI::Option* option) { return option->allow_extra_args(false); }
+
+std::string find_world(const std::string& name, std::vector<std::string>& problems) {
+  std::error_code none;
+  if (fs::exists(name, none)) return name;
+  const fs::path worlds = fs::path(twin::project_root()) / "worlds";
+  if (name.find('/') == std::string::npos && fs::exists(worlds / (name + ".toml"), none))
+    return (worlds / (name + ".toml")).string();
+  std::vector<std::string> known;
+  for (const auto& entry : fs::directory_iterator(worlds, none))
+    if (entry.path().extension() == ".toml") known.push_back(entry.path().stem().string());
+  const std::string guess = sim::did_you_mean(fs::path(name).stem().string(), known);
+  problems.push_back(name + ": world: got a name that is neither a file nor one of worlds/" +
+                     (guess.empty() ? "; `twinpuck list` shows them" : "; did you mean '" + guess + "'?"));
+  return "";
+}
+
+namespace {
+
+/// Names that a mistyped word may have meant.
+std::vector<std::string> known_words(const CLI::App& app) {
+  std::vector<std::string> words;
+  for (const auto* o : app.get_options())
+    for (const auto& name : o->get_lnames()) words.push_back("--" + name);
+  for (const auto* verb : app.get_subcommands([](const CLI::App*) { return true; }))
+    words.push_back(verb->get_name());
+  return words;
+}
+
+const CLI::App* root_of(const CLI::App& app) {
+  const CLI::App* at = &app;
+  while (at->get_parent()) at = at->get_parent();
+  return at;
+}
+
+/// "--for: [text]" or "Could not convert: --for = 5s": the option, and what was given for it.
+std::string option_in(const std::string& message) {
+  const std::size_t at = message.find("--");
+  return at == std::string::npos ? "" : message.substr(at, message.find_first_of(" :=", at) - at);
+}
+
+/// The word after an option on the command line, or in it after '='.
+std::string given_for(const std::string& option, int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == option && i + 1 < argc) return argv[i + 1];
+    if (word.rfind(option + "=", 0) == 0) return word.substr(option.size() + 1);
+  }
+  return "";
+}
+
+std::string in_the_houses_grammar(const CLI::App& at, const std::string& path, const CLI::ParseError& e,
+                                  int argc, char** argv) {
+  const std::string said = e.what();
+  const auto is = [&](CLI::ExitCodes code) { return e.get_exit_code() == static_cast<int>(code); };
+  const std::string option = option_in(said);
+  if (is(CLI::ExitCodes::ExtrasError)) {
+    // CLI11 lists what nobody took: the first of it
+    const auto left = at.remaining(true);
+    const std::string word = left.empty() ? "" : left.front().substr(0, left.front().find('='));
+    if (!word.empty()) {
+      const bool is_option = word[0] == '-';
+      const std::string guess = sim::did_you_mean(word, known_words(at));
+      if (is_option || !guess.empty() || at.get_parent() == nullptr)
+        return "unknown word: got '" + word + "', expected " +
+               (at.get_parent() ? "an option of `" : "a verb of `") + path + "`" +
+               (guess.empty() ? "" : "; did you mean '" + guess + "'?");
+      return "one word too many: got '" + word + "', expected options only after those before it";
+    }
+  }
+  if (is(CLI::ExitCodes::ConversionError) && !option.empty())
+    return option + ": got '" + given_for(option, argc, argv) + "', expected a number" +
+           (option == "--for" ? " of seconds" : "") + ", without a unit";
+  const auto verb_is = [&](const std::string& word) {
+    const std::string guess = sim::did_you_mean(word, known_words(*root_of(at)));
+    return "verb: got '" + word + "', expected one of those that `twinpuck --help` lists" +
+           (guess.empty() ? "" : "; did you mean '" + guess + "'?");
+  };
+  if (at.get_name() == "help" && argc > 2) return verb_is(argv[2]);
+  if (is(CLI::ExitCodes::RequiredError) && !at.get_parent() && argc > 1) return verb_is(argv[1]);
+  if (is(CLI::ExitCodes::RequiredError))
+    return said.find("subcommand") != std::string::npos
+               ? "verb: missing, expected one of those that `twinpuck --help` lists"
+               : said.substr(0, said.find(' ')) + ": missing, expected as in `" + path + " --help`";
+  return said;
+}
+
+}  // namespace
+
+int usage_error(const CLI::App& app, const CLI::ParseError& e, int argc, char** argv) {
+  const CLI::App* at = &app;
+  for (const auto* verb : app.get_subcommands()) at = verb;
+  const std::string path = at == &app ? "twinpuck" : "twinpuck " + at->get_name();
+  std::cerr << "command line: " << in_the_houses_grammar(*at, path, e, argc, argv) << "\nTry `" << path
+            << " --help`.\n";
+  return kBadInput;
+}
+
+void add_help(CLI::App& app) {
+  app.footer(
+      "Examples:\n"
+      "  twinpuck run maze --fw obstacle --for 60 --picture maze.png\n"
+      "  twinpuck new my_robot\n"
+      "  twinpuck help run\n\n"
+      "Exit codes:\n"
+      "  0 good   1 a test failed, or an input has errors   2 wrong usage or bad input, nothing ran\n"
+      "  3 firmware trapped or reset   4 no progress   5 nothing selected   6 internal error\n"
+      "  7 an output was lost   124 --host-limit   130 interrupted");
+  auto* verb = app.add_subcommand("help", "What a verb does and which options it takes");
+  auto name = std::make_shared<std::string>();
+  verb->add_option("VERB", *name, "a verb; without one, the list of verbs");
+  verb->callback([&app, name] {
+    if (name->empty()) {
+      std::cout << app.help();
+      return;
+    }
+    for (const CLI::App* known : app.get_subcommands([](const CLI::App*) { return true; }))
+      if (known->get_name() == *name) {
+        std::cout << known->help("twinpuck");
+        return;
+      }
+    throw CLI::ExtrasError(std::vector<std::string>{*name});
+  });
+}
+
+}  // namespace tools

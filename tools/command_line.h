@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// What the verbs share of the command line: messages in the house's grammar, help, and the meaning of names.
+#pragma once
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+namespace tools {
+
+/// A check of options: a number within bounds. (CLI11's own ranges take nan for one.)
+CLI::Validator between(double least, double most);
+
+/// The world file that a name means: a path, or as `make run` has it, maze for worlds/maze.toml. Empty, with
+/// a line in `problems`, when there is none.
+std::string find_world(const std::string& name, std::vector<std::string>& problems);
+
+/// After parse() has thrown: one line that says what was wrong, and where help is. Returns the exit code.
+int usage_error(const CLI::App& app, const CLI::ParseError& e, int argc, char** argv);
+
+/// `twinpuck help` and `twinpuck help VERB`.
+void add_help(CLI::App& app);
+
+/// An option that may be given several times, each time with one value: so that what follows is not
+/// swallowed.
+CLI::Option* one_each(CLI::Option* option);
+
+/// Writes each problem on a line of its own to stderr.
+void complain(const std::vector<std::string>& problems);
+
+}  // namespace tools
