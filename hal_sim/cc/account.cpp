@@ -177,6 +177,8 @@ double describe(Function& f, FunctionAnalysisManager& analyses, const std::vecto
     }
   }
   for (const Segment& s : segments) plans[s.first->getParent()].cycles += s.cycles();
+  // a handler's own cost is told with the saving of w0 to w7, which the host takes for it
+  if (is_handler(f)) plans[&f.getEntryBlock()].cycles += kHandlerContext;
   double mean = 0;
   std::map<std::string, double> mean_calls;
   for (auto& [block, p] : plans) {
@@ -272,7 +274,7 @@ CostPlan plan_costs(Unit& unit, FunctionAnalysisManager& analyses) {
   for (Function& f : m) {
     if (f.isDeclaration() || f.getName().startswith("tp_image_") || stands_for_handler(&f)) continue;
     free_stand_ins(f);
-    FunctionCost cost(f, analyses, unit.options.level);
+    FunctionCost cost(f, analyses, unit.options.level, unit.options.library);
     FunctionPlan function{&f, 0, 0, {}};
     const auto known = told.find(&f);
     for (Segment& s : cost.segments) {

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "cost_flow.h"
+#include "cost_operations.h"
 #include "cost_values.h"
 
 #include "llvm/ADT/SmallPtrSet.h"
@@ -27,25 +28,31 @@ double Segment::own() const {
 }
 double Segment::cycles() const { return own() + library; }
 
+bool is_handler(const Function& f) {
+  return f.getName().startswith("_") && f.getName().endswith("Interrupt");
+}
+
 namespace {
 
 class Model {
  public:
-  Model(Function& f, FunctionAnalysisManager& analyses, int level)
+  Model(Function& f, FunctionAnalysisManager& analyses, int level, bool registers_are_words)
       : f_(f),
         loops_(analyses.getResult<LoopAnalysis>(f)),
         se_(analyses.getResult<ScalarEvolutionAnalysis>(f)),
         level_(level),
+        registers_are_words_(registers_are_words),
         flow_(f, loops_, words_of, holds_register) {}
 
   void run(std::vector<Segment>& out);
 
  private:
-  bool changes_register(const CallBase& read) const;
+  double context_saved() const;
   void instruction(Instruction& i, Segment& s);
   void terminator(BasicBlock& block, Segment& s);
   void address(Value* pointer, Segment& s, bool is_word);
   void constant_operand(Value* v, Segment& s, bool compare = false);
+  void register_operation(const BinaryOperator& op, Segment& s);
   void float_operation(Instruction& i, Segment& s, double library);
   void call(CallBase& call, Segment& s);
   void live_words();
@@ -55,20 +62,24 @@ class Model {
   bool is_unrolled(const Loop* loop);
   bool counts_down(const ICmpInst& compare);
   bool sets_flags(const Value* v, const ICmpInst& at) const;
-  int words(const Value* v) const { return words_of(v); }
+  int words(const Value* v) const { return is_register_word(v) ? 1 : words_of(v); }
+  bool is_register_word(const Value* v) const { return registers_are_words_ && is_register_value(v); }
   bool in_loop(const Instruction& i) const { return loops_.getLoopFor(i.getParent()) != nullptr; }
 
   Function& f_;
   LoopInfo& loops_;
   ScalarEvolution& se_;
   int level_;
+  bool registers_are_words_;  // and not 64 bits wide, as the host has them
   CostFlow flow_;
   const Value* last_result_ = nullptr;  // what lies in w0.. after the last library call
   bool no_call_yet_ = true;             // arguments are still where the caller put them
+  int live_words_ = 0;                  // most values at once
   int saved_words_ = 0;                 // w8..w14 and stack words that calls must not destroy
   std::map<const Loop*, bool> unrolled_;
-  SmallPtrSet<const Value*, 16> kept_;            // values that live across a call
-  SmallPtrSet<const Instruction*, 16> in_place_;  // loads and operations merged into a memory operation
+  SmallPtrSet<const Value*, 16> kept_;                 // values that live across a call
+  SmallPtrSet<const Instruction*, 8> needs_constant_;  // writes that take one of w0 with them
+  SmallPtrSet<const Instruction*, 16> in_place_;       // loads and operations merged into a memory operation
 };
 
 void Model::constant_operand(Value* v, Segment& s, bool) {
@@ -191,6 +202,7 @@ void Model::live_words() {
         if ((isa<Argument>(v) || isa<Instruction>(v)) && holds_register(v)) live.insert(v);
     }
   }
+  live_words_ = most;
   saved_words_ = std::max(most_across, most - 8);
 }
 
@@ -266,6 +278,25 @@ bool Model::sets_flags(const Value* v, const ICmpInst& at) const {
   return before == op;
 }
 
+/// What becomes of a register's content, word by word.
+void Model::register_operation(const BinaryOperator& op, Segment& s) {
+  if (in_place_.count(&op) || without_word_mask(&op) != &op) return;
+  if (op.isShift()) {
+    s.features[k_shift16] += 1;
+    return;
+  }
+  auto* c = dyn_cast<ConstantInt>(op.getOperand(1));
+  // btst, btss: the bit of a register is tested where it lies
+  if (op.getOpcode() == Instruction::And && c && op.hasOneUse() && is_single_bit(c, false) &&
+      isa<CallBase>(without_word_mask(op.getOperand(0))))
+    if (auto* compare = dyn_cast<ICmpInst>(op.user_back()); compare && compare->isEquality()) return;
+  s.features[k_alu] += 1;
+  if (!c) return;
+  const uint64_t word = c->getZExtValue() & 0xFFFF;
+  const bool is_bit = op.isBitwiseLogicOp() && is_single_bit(c, op.getOpcode() == Instruction::And);
+  if (word > 31 && !is_bit) s.features[in_loop(op) ? k_wide_constant_loop : k_wide_constant] += 1;
+}
+
 void Model::call(CallBase& c, Segment& s) {
   if (calls(c, kRound)) return;
   if (calls(c, kNop)) {
@@ -278,9 +309,6 @@ void Model::call(CallBase& c, Segment& s) {
       case Intrinsic::fptosi_sat:
       case Intrinsic::fptoui_sat:
         return float_operation(c, s, kFloatToInt);
-      case Intrinsic::fabs:
-        s.features[k_alu] += 1;
-        return;
       case Intrinsic::fmuladd:
         float_operation(c, s, kFloatMul + kFloatAdd);
         return;
@@ -293,32 +321,28 @@ void Model::call(CallBase& c, Segment& s) {
         s.features[k_select_word] += words(&c) - 1;
         constant_operand(c.getArgOperand(1), s);
         return;
-      case Intrinsic::abs:  // btsc w0,#15 over neg
-        s.features[k_alu] += 2 * words(&c);
-        return;
-      case Intrinsic::memcpy:
-      case Intrinsic::memmove:
-      case Intrinsic::memset: {
-        auto* n = dyn_cast<ConstantInt>(cast<MemIntrinsic>(c).getLength());
-        s.features[k_copy_word] += n ? n->getZExtValue() / 2.0 + 2 : 20;
-        return;
-      }
-      case Intrinsic::bswap:
-        s.features[k_alu] += words(&c);
-        return;
-      case Intrinsic::fshl:
-      case Intrinsic::fshr:
-        s.features[words(&c) > 1 ? k_shift32 : k_shift16] += words(&c) > 1 ? 1 : 3;
+      case Intrinsic::minnum:
+      case Intrinsic::maxnum:
+        float_operation(c, s, kFloatCompare);
+        s.features[k_compare] += 1;
+        s.features[k_select] += 1;
         return;
       default:
-        if (intrinsic->getType()->isStructTy())
-          s.features[k_alu] += type_words(c.getArgOperand(0)->getType());
+        charge_intrinsic(*intrinsic, s.features, s.library);
+        // of a saturating or checked sum
+        if (isa<BinaryOpIntrinsic>(intrinsic)) constant_operand(c.getArgOperand(1), s);
         return;
     }
   }
   if (callee && (callee->getName().startswith("__ubsan") || callee->getName() == "tp_delay")) return;
+  if (calls(c, "tp_sfr_read") && in_place_.count(&c)) return;  // part of bset, bclr, btg
   if (callee && callee->getName().startswith("tp_sfr_")) {
     s.features[k_load_word] += 1;
+    s.features[k_alu] += double(needs_constant_.count(&c));
+    if (registers_are_words_ && calls(c, "tp_sfr_write"))
+      if (auto* value = dyn_cast<ConstantInt>(c.getArgOperand(1)))  // clr and setm need no constant
+        if (const uint64_t word = value->getZExtValue() & 0xFFFF; word != 0 && word != 0xFFFF)
+          s.features[in_loop(c) ? k_wide_constant_loop : k_alu] += 1;
     return;
   }
   s.features[k_call] += 1;
@@ -371,7 +395,12 @@ void Model::instruction(Instruction& i, Segment& s) {
     address(store->getPointerOperand(), s, words(v) == 1 && !byte);
     return;
   }
+  if (auto* op = dyn_cast<BinaryOperator>(&i); op && is_register_word(op)) return register_operation(*op, s);
   if (auto* compare = dyn_cast<ICmpInst>(&i)) {
+    if (auto* zero = dyn_cast<Constant>(compare->getOperand(1));
+        zero && zero->isNullValue() && compare->isEquality())
+      if (auto* op = dyn_cast<BinaryOperator>(compare->getOperand(0)); op && is_register_word(op))
+        return;  // and, btst set the flags
     if (level_ > 0 && words(compare->getOperand(0)) == 1 && flow_.ends_range_test(*i.getParent())) {
       s.features[k_alu] += 1;
       return;
@@ -584,15 +613,21 @@ void Model::terminator(BasicBlock& block, Segment& s) {
   for (int r = 0; r < kRuleCount; ++r) s.features[r] += edges[r];
 }
 
-/// Reads a register that the next call writes back: `IFS0bits.T2IF = 0` is one instruction, so no time passes
-/// in between, in which the hardware might set another bit.
-bool Model::changes_register(const CallBase& read) const {
-  if (!calls(read, "tp_sfr_read")) return false;
-  for (const Instruction* i = read.getNextNode(); i; i = i->getNextNode()) {
-    if (!isa<CallBase>(i) || isa<IntrinsicInst>(i)) continue;
-    return calls(*i, "tp_sfr_write") && cast<CallBase>(i)->getArgOperand(0) == read.getArgOperand(0);
+/// Words that a handler without calls saves, against what the host takes for every handler: w0 to w7 and
+/// more, which is right for one that calls something.
+double Model::context_saved() const {
+  int used = 0;
+  for (const Instruction& i : instructions(f_)) {
+    if (clobbers(i)) return 0;
+    const bool is_in_memory =
+        in_place_.count(&i) || calls(i, "tp_sfr_write") || isa<DbgInfoIntrinsic>(i) || is_free(i);
+    auto* store = dyn_cast<StoreInst>(&i);
+    if (!is_in_memory && !(store && updates_memory(*store)) && !i.isTerminator() && !isa<AllocaInst>(i))
+      used = 1;
+    if (i.isIntDivRem()) return 0;  // RCOUNT and a pair, too
   }
-  return false;
+  const int words = used ? std::min(live_words_ + 1, 8) : 0;
+  return 2 * words - kHandlerContext;
 }
 
 void Model::run(std::vector<Segment>& out) {
@@ -605,6 +640,7 @@ void Model::run(std::vector<Segment>& out) {
         in_place_.insert(op);
         in_place_.insert(cast<LoadInst>(op->getOperand(0)));
       }
+  if (registers_are_words_) merge_register_changes(f_, in_place_, needs_constant_);
   for (BasicBlock& block : f_) {
     Instruction* begin = &*block.getFirstInsertionPt();
     // local variables stay together at the entry, or the back end would treat them as of unknown size
@@ -619,6 +655,7 @@ void Model::run(std::vector<Segment>& out) {
       s.features[k_saved_word] += saved_words_;
       for (Argument& a : f_.args())
         if (kept_.count(&a)) s.features[k_kept_word] += words(&a);
+      if (registers_are_words_ && is_handler(f_)) s.library += context_saved();
       entry = false;
     }
     bool after_call = false;
@@ -651,8 +688,8 @@ void Model::run(std::vector<Segment>& out) {
 
 }  // namespace
 
-FunctionCost::FunctionCost(Function& f, FunctionAnalysisManager& analyses, int level) {
-  Model(f, analyses, level).run(segments);
+FunctionCost::FunctionCost(Function& f, FunctionAnalysisManager& analyses, int level, bool is_library) {
+  Model(f, analyses, level, level > 0 && !is_library).run(segments);
 }
 
 }  // namespace cc

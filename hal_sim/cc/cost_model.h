@@ -24,10 +24,15 @@ struct Segment {
   double own() const;
 };
 
+/// The function that serves an interrupt vector, by its name.
+bool is_handler(const llvm::Function& function);
+
 /// All segments of a function, in block order. Entry and return overheads are part of them.
+/// `is_library`: operations on registers count as the handlers of the native way were measured with, 64 bits
+/// wide and with a full context for every handler; else as the chip has them.
 class FunctionCost {
  public:
-  FunctionCost(llvm::Function& function, llvm::FunctionAnalysisManager& analyses, int level);
+  FunctionCost(llvm::Function& function, llvm::FunctionAnalysisManager& analyses, int level, bool is_library);
   std::vector<Segment> segments;
 };
 

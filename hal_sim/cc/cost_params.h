@@ -89,6 +89,10 @@ inline constexpr std::array<const char*, kRuleCount> kRuleNames = {
 // Arithmetic that only one arm of a choice needs counts with this share, since the chip branches round it.
 inline constexpr double kArmShare = 0.6;  // [assumed: about every second time, plus a jump]
 
+// Saving and restoring that the host takes for every handler: w0 to w7 pushed and popped [DS: 2 a word; the
+// same in both ways: host_params.h, register_params.h].
+inline constexpr double kHandlerContext = 16;  // [DS]
+
 // A straight run of code is charged in parts of at most about this many cycles, so an interrupt waits no
 // longer.
 inline constexpr double kSegmentCycles = 100;  // [assumed: 7 us at 14.7456 MHz]
@@ -101,6 +105,7 @@ inline constexpr double kIntToFloat =
 inline constexpr double kFloatToInt = 70;                                // [assumed: as above, generic 240]
 inline constexpr double kLongDivide = 130, kUnsignedLongDivide = 118;    // [xc16-cycles: library_cost.csv]
 inline constexpr double kLongLongMultiply = 60, kLongLongDivide = 1100;  // [assumed: never measured]
-inline constexpr double kDoubleFactor = 2.5;  // [assumed] 64-bit long double against float
+inline constexpr double kPopulationCount = 30;  // [assumed: a table of 256, a byte at a time]
+inline constexpr double kDoubleFactor = 2.5;    // [assumed] 64-bit long double against float
 
 }  // namespace cc

@@ -4,6 +4,7 @@
 
 #include "llvm/ADT/STLExtras.h"
 #include "llvm/IR/Operator.h"
+#include "llvm/Support/MathExtras.h"
 #include "passes.h"
 
 namespace cc {
@@ -32,6 +33,38 @@ bool is_pointer_arithmetic(const Value* v) {
   if (auto* op = dyn_cast<BinaryOperator>(v))
     return is_pointer_arithmetic(op->getOperand(0)) || is_pointer_arithmetic(op->getOperand(1));
   return false;
+}
+
+bool is_register_value(const Value* v, int depth) {
+  constexpr int kDeepest = 8;
+  if (depth > kDeepest || !v->getType()->isIntegerTy(64)) return false;
+  if (auto* call = dyn_cast<CallBase>(v)) return calls(*call, "tp_sfr_read");
+  const auto* op = dyn_cast<BinaryOperator>(v);
+  if (op && any_of(op->operands(), [&](const Value* o) { return is_register_value(o, depth + 1); }))
+    return true;
+  if (!op && !isa<CastInst>(v)) return false;
+  return !v->use_empty() && all_of(v->users(), [&](const User* u) {
+    auto* i = dyn_cast<Instruction>(u);
+    if (!i) return false;
+    if (calls(*i, "tp_sfr_write")) return true;
+    return isa<BinaryOperator>(i) && is_register_value(i, depth + 1);
+  });
+}
+
+const Value* without_word_mask(const Value* v) {
+  while (auto* op = dyn_cast<BinaryOperator>(v)) {
+    auto* mask = op->getOpcode() == Instruction::And ? dyn_cast<ConstantInt>(op->getOperand(1)) : nullptr;
+    if (!mask || !mask->equalsInt(0xFFFF)) break;
+    v = op->getOperand(0);
+  }
+  return v;
+}
+
+bool is_single_bit(const Value* constant, bool all_but_one) {
+  auto* c = dyn_cast<ConstantInt>(constant);
+  if (!c) return false;
+  const uint64_t word = c->getZExtValue() & 0xFFFF;
+  return isPowerOf2_64(all_but_one ? ~word & 0xFFFF : word);
 }
 
 int words_of(const Value* v) { return is_pointer_arithmetic(v) ? 1 : type_words(v->getType()); }

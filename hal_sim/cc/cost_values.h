@@ -11,6 +11,13 @@ int type_words(llvm::Type* type);
 int words_of(const llvm::Value* v);
 /// 64-bit numbers that only exist because the PC's pointers are wide.
 bool is_pointer_arithmetic(const llvm::Value* v);
+/// A special-function register's content, or what becomes one: 64 bits wide for the host's sake, one word on
+/// the chip.
+bool is_register_value(const llvm::Value* v, int depth = 0);
+/// The value without masks of 16 bits, which registers need none of.
+const llvm::Value* without_word_mask(const llvm::Value* v);
+/// One bit, or all but one, of a word: a constant of bset, bclr, btg and btst.
+bool is_single_bit(const llvm::Value* constant, bool all_but_one);
 /// False for conditions, address arithmetic and the like, which need no register of their own.
 bool holds_register(const llvm::Value* v);
 /// const data, and static arrays that nobody writes: XC16 keeps both in program memory.

@@ -334,6 +334,8 @@ std::vector<std::string> clang_arguments(const Options& o, const std::string& st
                                 "-nostdinc",
                                 "-Xclang",
                                 "-disable-llvm-passes",
+                                "-Xclang",
+                                "-disable-lifetime-markers",
                                 "-Wno-unknown-attributes",
                                 "-Wno-ignored-attributes",
                                 "-Wno-unknown-pragmas",

@@ -14,9 +14,9 @@ namespace cc {
 namespace {
 
 constexpr double kClockHz = 14745600;  // instruction cycles a second [lib: crystal 7.3728 MHz x 8 / 4]
-// entry 4, save and restore of w0-w7, RCOUNT and PSVPAG about 20, RETFIE instead of RETURN 0  [estimated:
-// DS70143 5.7 and gcc 4.5 prologues]
-constexpr double kInterruptCycles = 24;
+// of a handler beside what its line tells, which includes w0 to w7 saved and restored: entry 5, RETFIE
+// instead of RETURN 0, RCOUNT and PSVPAG about 3  [estimated: DS70143 5.7 and gcc 4.5 prologues]
+constexpr double kInterruptCycles = 8;
 
 struct Entry {
   std::string file;

@@ -30,7 +30,7 @@ TEST_P(BadInput, is_refused_with_a_clear_line) {
   write("syntax/main.c", "int main(void) { retrun 0; }\n");
   write("undefined/main.c", "int main(void) { no_such_function(); while (1); }\n");
   write("sleepy/main.c", "#include <unistd.h>\nint main(void) { sleep(1); while (1); }\n");
-  write("clock/main.c", "#include <time.h>\nint main(void) { return (int)time(0); }\n");
+  write("clock/main.c", "#include <time.h>\nint main(void) { return (int)mktime(0); }\n");
   write("threads/main.c", "#include <pthread.h>\nint main(void) { while (1); }\n");
   write("files/main.c", "#include <stdio.h>\nint main(void) { fopen(\"x\", \"r\"); while (1); }\n");
   write("two_mains/a.c", "int main(void) { while (1); }\n");
@@ -85,7 +85,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"syntax_error", "run maze --fw puck=@/syntax", 2, "main.c:1"},
         Bad{"undefined_function", "run maze --fw puck=@/undefined", 2, "no_such_function"},
         Bad{"sleep", "run maze --fw puck=@/sleepy", 2, "unistd.h"},
-        Bad{"time", "run maze --fw puck=@/clock", 2, "time"},
+        Bad{"calendar", "run maze --fw puck=@/clock", 2, "mktime"},
         Bad{"threads", "run maze --fw puck=@/threads", 2, "pthread.h"},
         Bad{"files", "run maze --fw puck=@/files", 2, "fopen"},
         Bad{"two_mains", "build @/two_mains -o @/x.so", 1, "main"},

@@ -436,10 +436,17 @@ TEST(WebotsRefused, functions_of_supervisors_are_refused_by_name_with_a_hint) {
   EXPECT_NE(errors.find("docs/webots.md"), std::string::npos) << errors;
 }
 
-TEST(WebotsRefused, firmware_of_the_robot_still_has_no_calendar) {
-  const std::string errors =
-      errors_of("#include <time.h>\nlong t;\nint main(void) { t = time(0); return 0; }\n");
-  EXPECT_NE(errors.find("time()"), std::string::npos) << errors;
+// as XC16's time(), which programs seed their random numbers with
+TEST_F(Webots, firmware_of_the_robot_counts_cycles_instead_of_a_calendar) {
+  Robot& r = add_robot_with_source(
+      "#include <time.h>\n#include <libpic30.h>\nlong first, later, ticks;\nint main(void) { time_t t; first "
+      "= time(0); "
+      "__delay32(1000000); later = time(&t); ticks = clock() - t; while (1); }\n");
+  run_for(0.2);
+  EXPECT_LT(r.variable<std::int32_t>("first"), 20);
+  EXPECT_NEAR(r.variable<std::int32_t>("later"), 1000000, 200);
+  EXPECT_LT(r.variable<std::int32_t>("ticks"), 200);
+  expect_no_traps();
 }
 
 }  // namespace

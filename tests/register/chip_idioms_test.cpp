@@ -157,6 +157,7 @@ int main(void)
 
 TEST_F(RegisterTest, the_default_interrupt_takes_what_has_no_handler) {
   Robot& robot = add_robot_with_source(program(R"(
+#include <libpic30.h>
 int taken, own;
 void _ISR _DefaultInterrupt(void) { taken++; IFS0 = 0; IFS1 = 0; }
 void _ISR _T3Interrupt(void) { own++; _T3IF = 0; }
@@ -164,7 +165,9 @@ int main(void)
 {
   _T2IE = 1; _INT1IE = 1; _T3IE = 1;
   _T2IF = 1;
+  __delay32(100); /* each is served before the next one comes, or the handler would clear that, too */
   _INT1IF = 1;
+  __delay32(100);
   _T3IF = 1;
   while (1);
 }
