@@ -142,6 +142,10 @@ void tp_agenda_stop(void) {
 }
 
 tp_i64 tp_agenda_activate(const void* function, tp_i64 cycle) {
+  if (!function)
+    Context::current().trap(TP_TRAP_ADDRESS,
+                            "agenda: its function is a null pointer; on the chip a call through "
+                            "it jumps to the reset at address 0");
   const board::AgendaTimer& list = Context::current().board().agendas();
   const int passed = list.nodes_passed(function);
   const Cycle cost = list.has(function) ? kKnownCycles + kNodePassedCycles * passed
