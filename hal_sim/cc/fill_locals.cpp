@@ -16,10 +16,11 @@ using namespace llvm;
 
 namespace {
 
-/// A number nobody expects; a pointer to nowhere.
+/// A number nobody expects; a pointer to nowhere. An open question is answered with yes.
 Constant* unwritten(Type* type) {
-  if (auto* integer = dyn_cast<IntegerType>(type); integer && integer->getBitWidth() >= 8)
-    return ConstantInt::get(type, APInt::getSplat(integer->getBitWidth(), APInt(8, 0xA5)));
+  auto* integer = dyn_cast<IntegerType>(type);
+  if (integer && integer->getBitWidth() < 8) return ConstantInt::getAllOnesValue(type);
+  if (integer) return ConstantInt::get(type, APInt::getSplat(integer->getBitWidth(), APInt(8, 0xA5)));
   return Constant::getNullValue(type);
 }
 
