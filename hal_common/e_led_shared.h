@@ -8,6 +8,7 @@ void e_set_led(unsigned int led_number, unsigned int value) {
     set_ring(led_number, value);
     return;
   }
+  hal_note_led(led_number);
   /* the value passes through eight one-bit fields */
   for (led = 0; led < RING_LEDS; led++) set_ring(led, value & 1);
 }

@@ -28,6 +28,7 @@
 /** Ring LED 0 to 7, clockwise from the front. */
 void hal_set_ring(unsigned int led, unsigned int value);
 #define set_ring(led, value) hal_set_ring(led, value)
+#define hal_note_led(led)
 #define set_front(value) HAL_SET_PIN(FRONT_LED, value)
 #define set_body(value) HAL_SET_PIN(BODY_LED, value)
 

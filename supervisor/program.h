@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // One supervisor's program in memory: a private copy of its shared object, its main() on a fiber of its own.
 // It runs only when run() is called and comes back when it waits, ends or crashes. What ends a process
-// (exit(), abort(), a signal, an exception that nobody catches) ends this program only. Not caught: threads of its
-// own, exec. An endless loop that never steps ends with the run (tools/run_guard.h).
+// (exit(), abort(), a signal, an exception that nobody catches) ends this program only. Not caught: threads
+// of its own, exec. An endless loop that never steps ends with the run (tools/run_guard.h).
 #pragma once
 #include <cstdint>
 #include <memory>

@@ -79,7 +79,7 @@ Drives forward and turns away from what the front sensors see. Made by `twinpuck
 - Run it: `make run FW=@NAME@`, in another world: `make run FW=@NAME@ WORLD=arena`
 - Test it: `make test T=@NAME@` (the test is `test.cpp` in this folder; docs/testing.md says what it can do)
 - Time it: `build/twinpuck cycles firmware/@NAME@`
-- Debug it: `gdb --args build/twinpuck run worlds/maze.toml --fw '*=firmware/@NAME@'`
+- Debug it: `gdb -x scripts/firmware.gdb --args build/twinpuck run worlds/maze.toml --fw '*=firmware/@NAME@'`
 )";
 
 const char* const kTest = R"(// SPDX-License-Identifier: MIT

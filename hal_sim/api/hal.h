@@ -28,6 +28,8 @@ void hal_set_ring(unsigned int led, unsigned int value);
 void hal_set_front(unsigned int value);
 void hal_set_body(unsigned int value);
 #define set_ring(led, value) hal_set_ring(led, value)
+/** Number that a program gave for all LEDs. */
+void hal_note_led(unsigned int led);
 #define set_front(value) hal_set_front(value)
 #define set_body(value) hal_set_body(value)
 

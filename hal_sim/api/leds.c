@@ -22,6 +22,8 @@ TAKES(0) void hal_set_ring(unsigned int led, unsigned int value) {
   set_pin('A', ring_pin[led], value, ring_cycles);
 }
 
+TAKES(0) void hal_note_led(unsigned int led) { tp_note_led(led); }
+
 TAKES(0) void hal_set_front(unsigned int value) { set_pin('C', FRONT_PIN, value, other_cycles); }
 
 TAKES(0) void hal_set_body(unsigned int value) { set_pin('C', BODY_PIN, value, other_cycles); }

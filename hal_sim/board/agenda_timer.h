@@ -102,6 +102,9 @@ class AgendaTimer {
   /// Nodes that a search for this function passes before it finds its own: those added later; all when it has
   /// none.
   int nodes_passed(Function function) const;
+  bool is_motor(Function function) const {
+    return function && (function == motor_functions_[0] || function == motor_functions_[1]);
+  }
   bool has(Function function) const { return nodes_passed(function) < static_cast<int>(nodes_.size()); }
   int nodes_passed(Wheel wheel) const { return nodes_passed(motor_functions_[static_cast<int>(wheel)]); }
 

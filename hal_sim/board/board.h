@@ -175,6 +175,10 @@ class Board {
   /// What the program makes of the board that an e-puck would not do for it, or would suffer from; up to
   /// `at`, in no order. Costs nothing while nobody asks.
   std::vector<Diagnosis> diagnoses(Cycle at) const;
+  /// A function of the library was given what it does something else with: told once per cause, and per
+  /// `about` where the program may take it back.
+  void note_misuse(Diagnosis what, const void* about = nullptr);
+  void forget_misuse(const void* about);
   /// Somebody else watches for latches of pins that are inputs (the models of the chip).
   void leave_inputs_to_others() { watches_inputs_ = false; }
 
@@ -327,6 +331,11 @@ class Board {
     std::array<Cycle, 16> first{};
   };
   std::array<VainWrites, kPorts> vain_writes_{};
+  struct Misuse {
+    Diagnosis what;
+    const void* about;
+  };
+  std::vector<Misuse> misuses_;
   bool watches_inputs_ = true;
   bool may_hear_ =
       true;  // false: nothing sounds in the scene, found out once a tick for the models of the chip

@@ -74,6 +74,21 @@ void Board::note_vain_writes(std::size_t port, std::uint16_t changed, Cycle at) 
   }
 }
 
+void Board::note_misuse(Diagnosis what, const void* about) {
+  for (Misuse& known : misuses_)
+    if (known.what.cause == what.cause && known.about == about) {
+      ++known.what.count;
+      return;
+    }
+  misuses_.push_back({std::move(what), about});
+}
+
+void Board::forget_misuse(const void* about) {
+  misuses_.erase(std::remove_if(misuses_.begin(), misuses_.end(),
+                                [about](const Misuse& known) { return known.about == about; }),
+                 misuses_.end());
+}
+
 std::vector<Diagnosis> Board::diagnoses(Cycle at) const {
   std::vector<Diagnosis> all;
   for (const Wheel wheel : {Wheel::Left, Wheel::Right}) {
@@ -126,6 +141,7 @@ std::vector<Diagnosis> Board::diagnoses(Cycle at) const {
                    "a transfer begins although the one before was not ended by a stop condition",
                    "end each transfer with I2CCON.PEN (e_i2c_stop()), or go on with RSEN",
                    i2c_.first_unstopped(), 0, i2c_.unstopped()});
+  for (const Misuse& misuse : misuses_) all.push_back(misuse.what);
   return all;
 }
 

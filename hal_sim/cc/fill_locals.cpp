@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// A local variable that the program reads before it writes it holds what the stack or a register held: on the PC
-// addresses that differ from run to run. Those in memory are filled with the robot's own byte when they come into
-// being (tp_control.fill), those in registers get a constant. After the accounting: the chip does nothing of it.
+// A local variable that the program reads before it writes it holds what the stack or a register held: on the
+// PC addresses that differ from run to run. Those in memory are filled with the robot's own byte when they
+// come into being (tp_control.fill), those in registers get a constant. After the accounting: the chip does
+// nothing of it.
 #include "llvm/IR/Constants.h"
 #include "llvm/IR/DataLayout.h"
 #include "llvm/IR/IRBuilder.h"
@@ -15,10 +16,11 @@ using namespace llvm;
 
 namespace {
 
-/// A number nobody expects; a pointer to nowhere.
+/// A number nobody expects; a pointer to nowhere. An open question is answered with yes.
 Constant* unwritten(Type* type) {
-  if (auto* integer = dyn_cast<IntegerType>(type); integer && integer->getBitWidth() >= 8)
-    return ConstantInt::get(type, APInt::getSplat(integer->getBitWidth(), APInt(8, 0xA5)));
+  auto* integer = dyn_cast<IntegerType>(type);
+  if (integer && integer->getBitWidth() < 8) return ConstantInt::getAllOnesValue(type);
+  if (integer) return ConstantInt::get(type, APInt::getSplat(integer->getBitWidth(), APInt(8, 0xA5)));
   return Constant::getNullValue(type);
 }
 
@@ -35,8 +37,9 @@ void fill(AllocaInst& variable, Unit& unit) {
   const DataLayout& layout = unit.module.getDataLayout();
   IRBuilder<> b(variable.getNextNode());
   Value* byte = b.CreateTrunc(b.CreateLoad(b.getInt64Ty(), control_field(unit.module, 2)), b.getInt8Ty());
-  Value* bytes = b.CreateMul(b.CreateZExtOrTrunc(variable.getArraySize(), b.getInt64Ty()),
-                             b.getInt64(layout.getTypeAllocSize(variable.getAllocatedType()).getFixedValue()));
+  Value* bytes =
+      b.CreateMul(b.CreateZExtOrTrunc(variable.getArraySize(), b.getInt64Ty()),
+                  b.getInt64(layout.getTypeAllocSize(variable.getAllocatedType()).getFixedValue()));
   b.CreateMemSet(&variable, byte, bytes, variable.getAlign());
 }
 

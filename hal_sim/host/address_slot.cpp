@@ -38,7 +38,8 @@ AddressSlot::AddressSlot(std::size_t offset, std::size_t bytes) : bytes_(bytes) 
   if (number_ >= 0) {
     first_ = kFirst + static_cast<std::uintptr_t>(number_) * kSlotBytes;
     end_ = first_ + kSlotBytes;
-    at = mmap(reinterpret_cast<void*>(first_ + offset), bytes, PROT_NONE, kFlags | MAP_FIXED_NOREPLACE, -1, 0);
+    at =
+        mmap(reinterpret_cast<void*>(first_ + offset), bytes, PROT_NONE, kFlags | MAP_FIXED_NOREPLACE, -1, 0);
   }
 #endif
   if (at == MAP_FAILED) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Memory of firmware lies at the same place in every run, for every robot and every copy of an image, as far as a
-// program can tell: each gets 4 GB of addresses for itself and lies at the same offset in them, so the lower 32
-// bits of an address are always the same. What an index runs into beyond its memory is nothing.
+// Memory of firmware lies at the same place in every run, for every robot and every copy of an image, as far
+// as a program can tell: each gets 4 GB of addresses for itself and lies at the same offset in them, so the
+// lower 32 bits of an address are always the same. What an index runs into beyond its memory is nothing.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -10,8 +10,8 @@ namespace host {
 
 class AddressSlot {
  public:
-  /// Takes a free slot and reserves `bytes` at `offset` in it; nothing may be accessed until mprotect() allows
-  /// it. Where the system has no room there, somewhere else.
+  /// Takes a free slot and reserves `bytes` at `offset` in it; nothing may be accessed until mprotect()
+  /// allows it. Where the system has no room there, somewhere else.
   AddressSlot(std::size_t offset, std::size_t bytes);
   ~AddressSlot();
   AddressSlot(const AddressSlot&) = delete;

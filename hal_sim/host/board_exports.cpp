@@ -3,6 +3,7 @@
 // host until when the answer holds (a read) or that something changed (a write).
 // Nothing is computed here; the numbers are hal_sim/board's.
 #include <algorithm>
+#include <string>
 
 #include "hal_sim/board/board.h"
 #include "hal_sim/host/context.h"
@@ -49,6 +50,16 @@ void request_background(Context& context, Board& robot, int slot, Cycle period, 
 void charge_basic_prox(Context& context, Board& robot) {
   request_background(context, robot, TP_BG_PROX, (board::kBasicPulseCycles + board::kBasicRestCycles) / 2,
                      board::kBasicIsrEntryCycles + 2 * board::kReadAdCycles);
+}
+
+void note_speed(Context& context, tp_i64 wheel, tp_i64 speed_steps_s, int most) {
+  if (speed_steps_s >= -most && speed_steps_s <= most) return;
+  const std::string side = wheel == 0 ? "left" : "right";
+  context.board().note_misuse({"speed out of range " + side, "e_set_speed_" + side + "()",
+                               "got " + std::to_string(speed_steps_s) + " steps/s, expected -" +
+                                   std::to_string(most) + " to " + std::to_string(most) +
+                                   "; the library takes the nearest of these",
+                               "the motors are not faster", context.now(), 0, 1});
 }
 
 /// After a change to agendas: the next interrupt.
@@ -116,6 +127,16 @@ tp_i64 tp_pins_read(tp_i64 port) {
   return context.board().port_read(static_cast<char>(port), Board::Register::Port, now);
 }
 
+void tp_note_led(tp_i64 led) {
+  constexpr tp_i64 kAll = 8;
+  if (led <= kAll) return;
+  Context& context = Context::current();
+  context.board().note_misuse(
+      {"LED out of range", "e_set_led()",
+       "got LED " + std::to_string(led) + ", expected 0 to 7, or 8 for all; the library sets all eight",
+       "count from 0; body and front have functions of their own", context.now(), 0, 1});
+}
+
 void tp_coils_write(tp_i64 wheel, tp_i64 coils) {
   Context& context = Context::current();
   const Cycle now = context.now();
@@ -142,7 +163,17 @@ void tp_agenda_stop(void) {
 }
 
 tp_i64 tp_agenda_activate(const void* function, tp_i64 cycle) {
+  if (!function)
+    Context::current().trap(TP_TRAP_ADDRESS,
+                            "agenda: its function is a null pointer; on the chip a call through "
+                            "it jumps to the reset at address 0");
   const board::AgendaTimer& list = Context::current().board().agendas();
+  if ((cycle & 0xFFFF) == 0 && !list.is_motor(function) && !list.has(function))
+    Context::current().board().note_misuse(
+        {"agenda without a period", "e_activate_agenda()",
+         "got cycle 0, expected 1 to 65535 (0.1 ms each): the agenda's function is never called",
+         "give it a cycle, now or with e_set_agenda_cycle()", Context::current().now(), 0, 1},
+        function);
   const int passed = list.nodes_passed(function);
   const Cycle cost = list.has(function) ? kKnownCycles + kNodePassedCycles * passed
                                         : kActivateCycles + kNodeOfListCycles * passed + hold_cost(list);
@@ -160,6 +191,7 @@ tp_i64 tp_agenda_destroy(const void* function) {
 }
 
 tp_i64 tp_agenda_set_cycle(const void* function, tp_i64 cycle) {
+  if ((cycle & 0xFFFF) != 0 && function) Context::current().board().forget_misuse(function);
   return change_list(search_cost(function, kSetCycleCycles), [&](board::AgendaTimer& agendas, Cycle now) {
     return agendas.set_cycle(function, static_cast<int>(cycle), now);
   });
@@ -219,6 +251,7 @@ void tp_motor_agenda(tp_i64 wheel, const void* function) {
 }
 
 void tp_motor_speed(tp_i64 wheel, tp_i64 speed_steps_s) {
+  note_speed(Context::current(), wheel, speed_steps_s, board::kMaxSpeed);
   const int passed = Context::current().board().agendas().nodes_passed(wheel_of(wheel));
   const Cycle cost =
       kSetSpeedCycles + kNodePassedCycles * passed + (speed_steps_s == 0 ? 0 : kDivisionCycles);
@@ -256,6 +289,7 @@ void tp_timer_motor_speed(tp_i64 driver, tp_i64 wheel, tp_i64 speed_steps_s) {
   const Cycle now = context.now();
   const Wheel which = wheel_of(wheel);
   const auto kind = driver == 0 ? TimerMotors::Driver::Basic : TimerMotors::Driver::Timer3;
+  if (kind == TimerMotors::Driver::Timer3) note_speed(context, wheel, speed_steps_s, board::kMaxSpeed);
   robot.timer_motors().set_speed(kind, which, static_cast<int>(speed_steps_s), now,
                                  robot.stepper(which, now));
   robot.follow_power(now);

@@ -15,6 +15,12 @@ tp_i64 tp_camera_launch(tp_i64 rows, tp_i64 columns, tp_i64 bytes_per_pixel, tp_
   board::Camera* camera = context.board().camera();
   context.note_write();
   if (!camera || rows < 1) return -1;
+  // more than any driver asks for
+  constexpr tp_i64 kMost = 4096;
+  for (tp_i64 number : {rows, columns, bytes_per_pixel, skipped_pixels, skipped_lines})
+    if (number < 0 || number > kMost)
+      context.trap(TP_TRAP_ADDRESS,
+                   "the camera driver's variables were overwritten: an array or pointer out of bounds");
   board::Camera::Request request;
   request.rows = static_cast<int>(rows);
   request.columns = static_cast<int>(columns);

@@ -14,6 +14,15 @@ Robot& robot() {
   CHECK(r, "a firmware function was called outside firmware");
   return *r;
 }
+
+/// What only our own code in the image passes: it is wrong when the program has written over our variables.
+void expect(bool is_right) {
+  if (!is_right)
+    robot().trap(TP_TRAP_ADDRESS,
+                 "the library's own variables were overwritten: an array or pointer out of bounds");
+}
+bool is_vector(tp_i64 vector) { return vector >= 0 && vector < TP_VECTORS; }
+constexpr tp_i64 kLongest = tp_i64{1} << 40;  // cycles: most of a day
 }  // namespace
 
 extern "C" {
@@ -64,16 +73,25 @@ tp_i64 tp_now(void) {
   robot().lower_horizon(now);
   return now;
 }
-void tp_spend(tp_i64 cycles) { robot().spend(cycles); }
+void tp_spend(tp_i64 cycles) {
+  expect(cycles >= 0 && cycles < kLongest);
+  robot().spend(cycles);
+}
 void tp_wait_until(tp_i64 at) { robot().wait_until(at); }
 void tp_irq_install(tp_i64 vector, void (*handler)(void), tp_i64 priority, tp_i64 entry_cycles) {
+  expect(is_vector(vector) && priority >= 0 && priority <= 7 && entry_cycles >= 0 && entry_cycles < kLongest);
   robot().irq_install(static_cast<int>(vector), handler, static_cast<int>(priority), entry_cycles);
 }
-void tp_irq_at(tp_i64 vector, tp_i64 at) { robot().irq_at(static_cast<int>(vector), at); }
+void tp_irq_at(tp_i64 vector, tp_i64 at) {
+  expect(is_vector(vector));
+  robot().irq_at(static_cast<int>(vector), at);
+}
 void tp_irq_every(tp_i64 vector, tp_i64 first, tp_i64 period) {
+  expect(is_vector(vector));
   robot().irq_every(static_cast<int>(vector), first, period);
 }
 void tp_background(tp_i64 slot, tp_i64 period, tp_i64 cost) {
+  expect(slot >= 0 && slot < 16 && period >= 0 && cost >= 0 && cost < kLongest);
   robot().set_background(static_cast<int>(slot), period, cost);
 }
 

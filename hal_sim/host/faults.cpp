@@ -9,7 +9,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdlib>
 #include <cstring>
+#include <exception>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -29,6 +31,7 @@ namespace {
 
 constexpr int kSignals[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTRAP};
 struct sigaction previous[NSIG];
+std::terminate_handler previous_terminate = nullptr;
 
 struct Fault {
   int kind = 0;
@@ -83,16 +86,17 @@ std::string describe(const Fault& f, const Robot& robot) {
   if (f.kind == TP_TRAP_MATH) return "arithmetic fault";
   if (f.kind == TP_TRAP_ILLEGAL)
     return "illegal instruction: the program ran into a place it can never reach";
-  const std::string access = std::string(f.is_library ? "a function of the library was to " : "") +
-                             (f.is_call    ? "call through"
-                              : f.is_write ? "write through"
-                                           : "read through");
+  const std::string access =
+      std::string(f.is_library ? "a function of the library was to " : "") + (f.is_call    ? "call through"
+                                                                              : f.is_write ? "write through"
+                                                                                           : "read through");
   if (f.has_address && f.address < 4096) return access + " a null pointer";
   if (f.has_address && f.address < kNullPage)
     return access + " a wild pointer (address " + std::to_string(f.address) + ")";
   if (f.is_call)
-    return access + " a wild pointer: there is no code; a function pointer or, on the stack, a return address "
-                    "was overwritten";
+    return access +
+           " a wild pointer: there is no code; a function pointer or, on the stack, a return address "
+           "was overwritten";
   if (f.has_address && f.is_write && robot.owns_constant(f.address))
     return "write to a constant or to the program itself";
   if (f.has_address && robot.owns_address(f.address))
@@ -128,6 +132,18 @@ __attribute__((noreturn, no_sanitize("address"))) void land() {
   recover();
 }
 
+/// An exception that a function of the host lets out to firmware.
+[[noreturn]] void on_terminate() {
+  char here;
+  Robot* robot = Robot::running();
+  if (robot && robot->fiber().is_on_stack(reinterpret_cast<std::uintptr_t>(&here))) {
+    robot->last_words() = "a function of the library was given what it cannot use";
+    robot->trap(TP_TRAP_ADDRESS, robot->last_words());
+  }
+  previous_terminate();
+  std::abort();
+}
+
 void on_halt(int, siginfo_t*, void* raw) {
   if (!halted) return;
   const auto& r = static_cast<ucontext_t*>(raw)->uc_mcontext.gregs;
@@ -151,15 +167,16 @@ void on_signal(int signal, siginfo_t* info, void* raw) {
   const bool on_stack = robot && robot->fiber().is_on_stack(sp);
   bool is_library = false;
   if (robot && !ours && is_fetch) {
-    // a jump to where no code is: a wild function pointer, whose caller left a return address, or a wild return
-    // address
+    // a jump to where no code is: a wild function pointer, whose caller left a return address, or a wild
+    // return address
     ours = true;
     std::uintptr_t back = 0;
     if (on_stack && robot->fiber().is_on_stack(sp + sizeof back - 1))
       std::memcpy(&back, reinterpret_cast<const void*>(sp), sizeof back);
     pc = robot->owns_code(back) ? back - 1 : 0;
   } else if (robot && !ours && on_stack) {
-    // one of the host's functions, called by firmware that has used up its stack: it gets the reserve and goes on
+    // one of the host's functions, called by firmware that has used up its stack: it gets the reserve and
+    // goes on
     if (signal == SIGSEGV && robot->fiber().is_in_reserve(address) && robot->lend_reserve()) return;
     // or given a pointer that leads nowhere. On top of the stack, of a function without a frame, or along the
     // frames stands who called it
@@ -207,6 +224,7 @@ void catch_faults_on_this_thread() {
     action.sa_flags = SA_SIGINFO | SA_ONSTACK;
     sigemptyset(&action.sa_mask);
     for (int s : kSignals) CHECK(sigaction(s, &action, &previous[s]) == 0, "cannot install a fault handler");
+    previous_terminate = std::set_terminate(on_terminate);
     action.sa_sigaction = on_halt;
     CHECK(sigaction(kHaltSignal, &action, nullptr) == 0, "cannot install a handler");
   });

@@ -35,7 +35,8 @@ std::size_t whole_pages(std::size_t bytes) {
 }
 }  // namespace
 
-Fiber::Fiber(std::size_t stack_bytes) : slot_(kStackOffset, whole_pages(stack_bytes) + kReserveBytes + kGuardBytes) {
+Fiber::Fiber(std::size_t stack_bytes)
+    : slot_(kStackOffset, whole_pages(stack_bytes) + kReserveBytes + kGuardBytes) {
   low_ = slot_.begin() + kGuardBytes + kReserveBytes;
   high_ = slot_.begin() + slot_.bytes();
   CHECK(mprotect(reinterpret_cast<void*>(low_), high_ - low_, PROT_READ | PROT_WRITE) == 0,
@@ -54,9 +55,7 @@ Fiber::~Fiber() {
 
 std::uintptr_t Fiber::floor() const { return reserve_open_ ? low_ - kReserveBytes : low_; }
 
-bool Fiber::is_in_guard(std::uintptr_t address) const {
-  return address < floor() && slot_.holds(address);
-}
+bool Fiber::is_in_guard(std::uintptr_t address) const { return address < floor() && slot_.holds(address); }
 
 bool Fiber::is_in_reserve(std::uintptr_t address) const {
   return !reserve_open_ && address < low_ && address + kReserveBytes >= low_;

@@ -27,7 +27,8 @@ class ImageCopy {
   /// Start-up values of the private data, private_bytes() long.
   const std::vector<char>& start_values() const { return start_values_; }
 
-  /// Where malloc() takes its memory from, as a part of start_values(); 0 bytes: the program has none of ours.
+  /// Where malloc() takes its memory from, as a part of start_values(); 0 bytes: the program has none of
+  /// ours.
   std::size_t heap_offset() const { return heap_offset_; }
   std::size_t heap_bytes() const { return heap_bytes_; }
 

@@ -31,7 +31,7 @@ struct tp_control {
   tp_i64 budget; /* estimated cycles left until the host wants control; compiled code subtracts a block's cost
                     before the block and calls tp_event() when it falls below 0 */
   tp_i64
-      writes; /* grows whenever the running loop may have changed anything: the poll detector compares it */
+      writes;  /* grows whenever the running loop may have changed anything: the poll detector compares it */
   tp_i64 fill; /* low byte: what local variables hold before the program writes them */
 };
 

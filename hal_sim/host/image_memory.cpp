@@ -93,7 +93,8 @@ bool ImageMemory::fill(const std::string& bytes, std::string& error) {
   const File file(bytes);
   char* const memory = reinterpret_cast<char*>(base());
   const auto allow = [&](std::uintptr_t from, std::uintptr_t to, int access) {
-    CHECK(mprotect(reinterpret_cast<void*>(base() + page_down(from)), page_up(to) - page_down(from), access) == 0,
+    CHECK(mprotect(reinterpret_cast<void*>(base() + page_down(from)), page_up(to) - page_down(from),
+                   access) == 0,
           "cannot set the access of an image's pages");
   };
   // contents first, all writable
@@ -113,7 +114,8 @@ bool ImageMemory::fill(const std::string& bytes, std::string& error) {
       return false;
     }
     if (section.sh_type == SHT_RELA)
-      for (const auto& r : file.table<Elf64_Rela>(section.sh_offset, section.sh_size)) relocations.push_back(r);
+      for (const auto& r : file.table<Elf64_Rela>(section.sh_offset, section.sh_size))
+        relocations.push_back(r);
     if (section.sh_type != SHT_DYNSYM) continue;
     const std::vector<Elf64_Shdr> all = file.sections();
     if (section.sh_link >= all.size()) return error = "a symbol table without names", false;

@@ -18,7 +18,8 @@ class ImageMemory {
  public:
   /// `file`: a shared object's bytes, checked by its stamp. What it needs comes from this executable and its
   /// libraries. On failure null, and `error` says what was found.
-  static std::unique_ptr<ImageMemory> load(const std::string& file, const std::string& path, std::string& error);
+  static std::unique_ptr<ImageMemory> load(const std::string& file, const std::string& path,
+                                           std::string& error);
   ~ImageMemory();
   ImageMemory(const ImageMemory&) = delete;
   ImageMemory& operator=(const ImageMemory&) = delete;

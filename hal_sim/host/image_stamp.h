@@ -39,7 +39,8 @@ enum class Stamp { Missing, Wrong, Right };
 
 inline Stamp check_stamp(std::string_view file) {
   if (file.size() < kStampBytes) return Stamp::Missing;
-  const std::string_view object = file.substr(0, file.size() - kStampBytes), stamp = file.substr(object.size());
+  const std::string_view object = file.substr(0, file.size() - kStampBytes),
+                         stamp = file.substr(object.size());
   if (stamp.substr(0, kStampMark.size()) != kStampMark) return Stamp::Missing;
   return stamp == image_stamp(object) ? Stamp::Right : Stamp::Wrong;
 }

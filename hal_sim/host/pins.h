@@ -65,6 +65,8 @@ void tp_init_ports(void);
 tp_i64 tp_latch_read(tp_i64 port, tp_i64 bit);
 /** Sets one latch bit to level & 1. Write. */
 void tp_latch_write(tp_i64 port, tp_i64 bit, tp_i64 level);
+/** e_set_led() of all LEDs was called with this number: for diagnoses, takes no time. */
+void tp_note_led(tp_i64 led);
 /** Pin levels of a port, 16 bits. Horizon: next change by a driver. */
 tp_i64 tp_pins_read(tp_i64 port);
 /** Coils A to D of a wheel in bits 0 to 3; the motor follows. Write. */

@@ -99,8 +99,8 @@ void Robot::remote_changed() {
 }
 
 namespace {
-/// Calls it with registers that hold no address of the PC: what a function saves and a stray index finds is the
-/// same in every run.
+/// Calls it with registers that hold no address of the PC: what a function saves and a stray index finds is
+/// the same in every run.
 void call_with_clear_registers(void (*function)()) {
 #if defined(__x86_64__)
   asm volatile(
@@ -108,7 +108,8 @@ void call_with_clear_registers(void (*function)()) {
       "xorl %%r15d, %%r15d\n callq *%%rax"
       : "+a"(function)
       :
-      : "rbx", "rcx", "rdx", "rsi", "rdi", "r8", "r9", "r10", "r11", "r12", "r13", "r14", "r15", "memory", "cc");
+      : "rbx", "rcx", "rdx", "rsi", "rdi", "r8", "r9", "r10", "r11", "r12", "r13", "r14", "r15", "memory",
+        "cc");
 #else
   function();
 #endif

@@ -230,7 +230,9 @@ class Robot final : public Context {
 
   static void enter_firmware(void* self);
   /// What memory holds before somebody writes it: a byte made from the seed, never 0.
-  char unused_memory() const { return static_cast<char>(0x81 | (settings_.seed * 0x9E3779B97F4A7C15u >> 57)); }
+  char unused_memory() const {
+    return static_cast<char>(0x81 | (settings_.seed * 0x9E3779B97F4A7C15u >> 57));
+  }
   void restart_program();
   void program_eeprom();
   char* place_of(std::uintptr_t address) const;  // where this robot's value of a variable is now

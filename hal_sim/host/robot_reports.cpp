@@ -12,10 +12,16 @@
 namespace host {
 
 namespace {
+bool is_library(const std::string& file) {
+  for (const char* room : {"hal_sim/", "hal_common/", "hal_dspic/", "firmware/webots/"})
+    if (file.find(room) != std::string::npos) return true;
+  return false;
+}
+
 // the innermost frame of the program itself: what our API and libc do inside is the caller's doing
 Place culprit(const std::vector<Place>& backtrace) {
   for (const Place& place : backtrace)
-    if (place.line > 0 && place.file.find("hal_sim/") == std::string::npos) return place;
+    if (place.line > 0 && !is_library(place.file)) return place;
   return backtrace.empty() ? Place{} : backtrace.front();
 }
 }  // namespace
@@ -100,6 +106,11 @@ void Robot::fault(int kind, std::string message, std::uintptr_t pc, std::uintptr
     report.backtrace = walk(find_return_address(stack), 0);
     report.place = culprit(report.backtrace);
   }
+  // nothing is left of the stack: the program's beginning at least
+  const tp_image& image = copy_.description();
+  for (const tp_function* f = image.functions; report.place.line == 0 && f && f != image.functions_end; ++f)
+    if (std::strcmp(f->name, "main") == 0)
+      report.place = image_->symbols().find(reinterpret_cast<std::uintptr_t>(f->address) - copy_.base());
   stop_with(std::move(report));
 }
 
@@ -117,7 +128,8 @@ std::uintptr_t Robot::find_return_address(std::uintptr_t stack) const {
   for (std::uintptr_t where = stack; fiber_.is_on_stack(where); where += kWord)
     if (copy_.is_code(at(where)) && !walk(at(where) - 1, 0).empty()) return at(where) - 1;
   for (std::uintptr_t where = stack; where > stack - kBelow; where -= kWord)
-    if (copy_.is_code(at(where - kWord)) && !walk(at(where - kWord) - 1, 0).empty()) return at(where - kWord) - 1;
+    if (copy_.is_code(at(where - kWord)) && !walk(at(where - kWord) - 1, 0).empty())
+      return at(where - kWord) - 1;
   return 0;
 }
 

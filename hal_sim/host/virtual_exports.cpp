@@ -27,6 +27,9 @@ void copy_name(const std::string& name, char* to, tp_i64 size) {
   to[n] = 0;
 }
 
+/// A text of the program. No std::string from a null pointer, which throws: a fault tells who read it.
+std::string text_of(const char* text) { return std::string(text, std::strlen(text)); }
+
 void put(const sim::Vec3& v, tp_f32* to) {
   to[0] = static_cast<float>(v.x);
   to[1] = static_cast<float>(v.y);
@@ -53,7 +56,9 @@ extern "C" {
 
 void tp_virtual_console(const char* bytes, tp_i64 length) {
   Context::current().note_write();
-  if (length > 0) this_board().virtual_devices().write(bytes, static_cast<std::size_t>(length));
+  constexpr tp_i64 kLongestText = 1 << 16;
+  if (length > 0)
+    this_board().virtual_devices().write(bytes, static_cast<std::size_t>(std::min(length, kLongestText)));
 }
 
 tp_i64 tp_virtual_time_step_us(void) {
@@ -80,6 +85,8 @@ tp_i64 tp_virtual_calendar_s(void) {
 }
 
 char* tp_virtual_heap(tp_i64 bytes) {
+  constexpr tp_i64 kMostBytes = 1 << 26;
+  if (bytes < 0 || bytes > kMostBytes) return nullptr;
   return this_board().virtual_devices().heap(static_cast<std::size_t>(bytes));
 }
 
@@ -110,7 +117,7 @@ tp_i64 tp_virtual_device(tp_i64 index, char* name, tp_i64 size) {
 tp_i64 tp_virtual_sensor(const char* name, tp_f32* value) {
   Context& context = Context::current();
   context.lower_horizon(context.now());
-  const auto found = context.board().virtual_devices().get(name);
+  const auto found = context.board().virtual_devices().get(text_of(name));
   if (!found) return 0;
   *value = static_cast<float>(*found);
   return 1;
@@ -125,7 +132,7 @@ void tp_virtual_north(tp_f32* xyz) { put(truth().north, xyz); }
 void tp_virtual_attitude(tp_f32* angles) { put(truth().attitude_rad, angles); }
 void tp_virtual_rates(tp_f32* xyz) { put(truth().rates_rad_s, xyz); }
 
-tp_i64 tp_virtual_find(const char* name) { return board::find_body(this_board(), name) + 1; }
+tp_i64 tp_virtual_find(const char* name) { return board::find_body(this_board(), text_of(name)) + 1; }
 
 void tp_virtual_pose_of(tp_i64 found, tp_f32* xyz, tp_f32* angle) {
   Context& context = Context::current();

@@ -228,6 +228,24 @@ TEST(UartEnd, a_file_on_a_full_disk_says_so) {
   EXPECT_EQ(end->error(), "file:/dev/full: cannot be written: No space left on device");
 }
 
+// another address of this PC: a server for all interfaces would answer there
+TEST(UartEnd, tcp_answers_at_127_0_0_1_alone) {
+  std::string error;
+  auto end = board::open_uart_end("tcp:0", "", error);
+  ASSERT_TRUE(end) << error;
+  const std::string name = end->name();
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(static_cast<std::uint16_t>(std::atoi(name.substr(name.rfind(':') + 1).c_str())));
+  for (const std::uint32_t host : {INADDR_LOOPBACK + 1, INADDR_LOOPBACK}) {
+    const int fd = ::socket(AF_INET, SOCK_STREAM, 0);
+    address.sin_addr.s_addr = htonl(host);
+    EXPECT_EQ(::connect(fd, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0,
+              host == INADDR_LOOPBACK);
+    ::close(fd);
+  }
+}
+
 TEST(UartEnd, tcp_listens_on_loopback_and_says_when_the_port_is_taken) {
   std::string error;
   auto end = board::open_uart_end("tcp:0", "", error);

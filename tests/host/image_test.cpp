@@ -64,4 +64,45 @@ TEST(Image, a_foreign_shared_object_is_refused) {
   EXPECT_NE(refusal("/lib/x86_64-linux-gnu/libm.so.6").find("without a firmware inside"), std::string::npos);
 }
 
+std::string bytes_of(const std::string& image) {
+  std::ifstream in(std::string(TWINPUCK_BUILD_DIR) + "/tests/images/" + image + ".so", std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST(Image, a_flipped_bit_anywhere_is_refused) {
+  const std::string whole = bytes_of("hand_idle");
+  ASSERT_GT(whole.size(), 1000u);
+  for (std::size_t at = 0; at < whole.size(); at += 1 + whole.size() / 400) {
+    std::string flipped = whole;
+    flipped[at] = static_cast<char>(flipped[at] ^ (1 << at % 8));
+    EXPECT_NE(refusal(write_file("flipped.so", flipped)), "") << at;
+  }
+  EXPECT_NE(refusal(write_file("flipped.so", std::string(whole).replace(whole.size() / 2, 1, "?")))
+                .find("damaged file"),
+            std::string::npos);
+}
+
+// what its constructor would do is seen by everybody: it ends the process
+TEST(Image, a_foreign_shared_object_is_refused_before_it_runs) {
+  EXPECT_NE(refusal(std::string(TWINPUCK_BUILD_DIR) + "/tests/images/hand_foreign.so")
+                .find("without a firmware inside"),
+            std::string::npos);
+}
+
+TEST(Image, constructors_and_indirect_functions_are_refused_before_they_run) {
+  EXPECT_NE(
+      refusal(std::string(TWINPUCK_BUILD_DIR) + "/tests/images/hand_constructor.so").find("constructor"),
+      std::string::npos);
+  EXPECT_NE(refusal(std::string(TWINPUCK_BUILD_DIR) + "/tests/images/hand_ifunc.so").find("firmware has not"),
+            std::string::npos);
+}
+
+TEST(Image, every_copy_lies_at_the_same_place_as_far_as_32_bits_tell) {
+  auto image = host_test::open_image("hand_busy"), other = host_test::open_image("hand_idle");
+  const auto low = [](const host::ImageCopy& copy) { return static_cast<std::uint32_t>(copy.base()); };
+  EXPECT_EQ(low(image->copy(0)), low(image->copy(1)));
+  EXPECT_EQ(low(image->copy(0)), low(other->copy(0)));
+  EXPECT_NE(image->copy(0).base(), image->copy(1).base());
+}
+
 }  // namespace

@@ -13,8 +13,9 @@ struct block {
   unsigned int used;
 };
 
-__attribute__((aligned(8))) char tp_image_heap[TP_HEAP_BYTES];
-unsigned int tp_image_heap_bytes = TP_HEAP_BYTES;
+/* exported: the host fills it, as RAM that the start-up code does not clear holds anything */
+__attribute__((aligned(8), visibility("default"))) char tp_image_heap[TP_HEAP_BYTES];
+__attribute__((visibility("default"))) unsigned int tp_image_heap_bytes = TP_HEAP_BYTES;
 static int ready;
 
 static struct block *next_of(struct block *b) { return (struct block *)((char *)(b + 1) + b->bytes); }

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// What the library does something else with than its name says is told, once (docs/diagnoses.md).
+#include "tests/support/firmware_test.h"
+
+namespace {
+
+using firmware_test::FirmwareTest;
+using firmware_test::Robot;
+
+class Misuse : public FirmwareTest {};
+
+const char* kHead = R"(
+#include <p30F6014A.h>
+#include <motor_led/e_init_port.h>
+#include <motor_led/advance_one_timer/e_agenda.h>
+#include <motor_led/advance_one_timer/e_led.h>
+#include <motor_led/advance_one_timer/e_motors.h>
+volatile int calls;
+void work(void) { calls++; }
+)";
+
+TEST_F(Misuse, an_led_that_is_none_is_told_once) {
+  Robot& r = add_robot_with_source(std::string(kHead) + R"(
+int main(void) { int i; e_init_port(); e_set_led(8, 0);
+  for (i = 0; i < 5; i++) e_set_led(12, 1);
+  while (1); })");
+  run_for(0.1);
+  ASSERT_EQ(r.diagnoses().size(), 1u) << r.diagnoses_text();
+  EXPECT_EQ(r.diagnoses()[0].count, 5);
+  EXPECT_EQ(r.diagnoses_text(),
+            "e_set_led(): LED out of range: got LED 12, expected 0 to 7, or 8 for all; the library sets all "
+            "eight; count from 0; body and front have functions of their own\n");
+  EXPECT_EQ(r.leds() & 0xFF, 0xFFu);
+}
+
+TEST_F(Misuse, a_speed_beyond_the_motors_is_told_for_each_wheel) {
+  Robot& r = add_robot_with_source(std::string(kHead) + R"(
+int main(void) { e_init_port(); e_init_motors(); e_start_agendas_processing();
+  e_set_speed_left(1000); e_set_speed_right(-1000); e_set_speed_left(1200);
+  e_set_speed_right(-1001); e_set_speed_right(-2000); while (1); })");
+  run_for(0.1);
+  ASSERT_EQ(r.diagnoses().size(), 2u) << r.diagnoses_text();
+  EXPECT_NE(r.diagnoses_text().find("e_set_speed_left(): speed out of range left: got 1200 steps/s, expected "
+                                    "-1000 to 1000"),
+            std::string::npos)
+      << r.diagnoses_text();
+  EXPECT_EQ(r.diagnoses()[1].count, 2);
+}
+
+TEST_F(Misuse, an_agenda_without_a_period_is_told_unless_it_gets_one) {
+  Robot& r = add_robot_with_source(std::string(kHead) + R"(
+void other(void) { calls++; }
+int main(void) { e_init_port(); e_init_motors(); e_start_agendas_processing();
+  e_activate_agenda(work, 0); e_activate_agenda(other, 0); e_set_agenda_cycle(other, 100); while (1); })");
+  run_for(0.1);
+  ASSERT_EQ(r.diagnoses().size(), 1u) << r.diagnoses_text();
+  EXPECT_NE(r.diagnoses_text().find("e_activate_agenda(): agenda without a period: got cycle 0"),
+            std::string::npos)
+      << r.diagnoses_text();
+  EXPECT_GT(r.variable("calls"), 5);
+}
+
+TEST_F(Misuse, a_wait_for_the_band_gap_ends) {
+  Robot& r = add_robot_with_source(std::string(kHead) + R"(
+int main(void) { RCONbits.BGST = 0; while (!RCONbits.BGST); calls = 7; while (1); })");
+  run_for(0.01);
+  EXPECT_EQ(r.variable("calls"), 7);
+  expect_no_traps();
+}
+
+}  // namespace
