@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // twinpuck: the command. Verbs live in files of their own.
-#include <fmt/format.h>
-
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -13,20 +11,6 @@
 #include "tools/verbs.h"
 
 namespace tools {
-void complain(const std::vector<std::string>& problems) {
-  for (const auto& p : problems) std::cerr << p << '\n';
-}
-
-CLI::Validator between(double least, double most) {
-  return CLI::Validator(
-      [least, most](std::string& text) {
-        double value = 0;
-        if (CLI::detail::lexical_cast(text, value) && value >= least && value <= most) return std::string();
-        return fmt::format("got {}, expected {:g} to {:g}", text, least, most);
-      },
-      fmt::format("{:g} to {:g}", least, most));
-}
-
 namespace {
 // names that a mistyped word on the command line may have meant
 std::vector<std::string> known_words(const CLI::App& app) {
