@@ -97,14 +97,13 @@ tsan: setup
 	@$(CMAKE) -B $(BUILD)-tsan -DTWINPUCK_OPTIMISE="-O1 -g1" -DTWINPUCK_SANITIZE=thread >/dev/null
 	@scripts/run_tests.py $(BUILD)-tsan $(JOBS) --filter '$(T)' --programs $(SANITIZED)
 
-## fuzz: ten minutes of broken files each against the loader of worlds and the importer of Webots' worlds
+## fuzz: ten minutes of broken input of each kind (FUZZ_SECONDS=600, FUZZ_KINDS="world wbt ...")
 fuzz: setup
 	@scripts/setup.sh fuzz
-	@$(CMAKE) -B $(BUILD)-fuzz -DCMAKE_C_COMPILER=clang-14 -DCMAKE_CXX_COMPILER=clang++-14 -DTWINPUCK_FUZZ=ON >/dev/null
-	@ninja -C $(BUILD)-fuzz --quiet -j $(JOBS) fuzz_world_loader fuzz_wbt_import
-	@mkdir -p $(BUILD)-fuzz/corpus $(BUILD)-fuzz/corpus-wbt
-	@$$(find $(BUILD)-fuzz -name fuzz_world_loader -type f) -max_total_time=600 -timeout=10 -max_len=4096 $(ARGS) $(BUILD)-fuzz/corpus worlds
-	@$$(find $(BUILD)-fuzz -name fuzz_wbt_import -type f) -max_total_time=600 -timeout=10 -max_len=8192 -dict=tests/import/wbt.dict $(ARGS) $(BUILD)-fuzz/corpus-wbt tests/import/worlds
+	@$(CMAKE) -B $(BUILD)-fuzz -DCMAKE_C_COMPILER=clang-14 -DCMAKE_CXX_COMPILER=clang++-14 -DTWINPUCK_FUZZ=ON \
+	  -DTWINPUCK_OPTIMISE="-O1 -g1" >/dev/null
+	@ninja -C $(BUILD)-fuzz --quiet -j $(JOBS) fuzzers
+	@scripts/fuzz.sh $(BUILD)-fuzz $(ARGS)
 
 ## levels: digests with the simulator at -O0 and -O2 must agree
 levels: tool

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // twinpuck: the command. Verbs live in files of their own.
-#include <fmt/format.h>
-
 #include <csignal>
 #include <cstdio>
 #include <exception>

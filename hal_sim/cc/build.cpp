@@ -17,6 +17,7 @@
 #include "driver_variants.h"
 #include "elf_reader.h"
 #include "hal_sim/host/image_stamp.h"
+#include "large_stack.h"
 #include "object_cache.h"
 #include "program_files.h"
 #include "timer_owners.h"
@@ -394,7 +395,7 @@ bool archive(const std::vector<CompileOutcome>& objects, const fs::path& path, B
 
 }  // namespace
 
-BuildResult build_image(const BuildOptions& options) {
+static BuildResult build_here(const BuildOptions& options) {
   auto start = std::chrono::steady_clock::now();
   BuildResult result;
   BuildOptions o = options;
@@ -522,7 +523,7 @@ BuildResult build_image(const BuildOptions& options) {
   return finish();
 }
 
-BuildResult lint_folder(const BuildOptions& options) {
+static BuildResult lint_here(const BuildOptions& options) {
   BuildResult result;
   BuildOptions o = options;
   o.strict = true;
@@ -542,6 +543,30 @@ BuildResult lint_folder(const BuildOptions& options) {
   for (auto& conflict : timer_conflicts(texts, {})) result.warnings.push_back(conflict);
   result.ok = result.errors.empty() && result.warnings.empty();
   return result;
+}
+
+/// Files that are longer than any program's: what looks for words in them would take a stack to match.
+static std::vector<std::string> too_long(const fs::path& folder) {
+  std::vector<std::string> wrong;
+  std::error_code ec;
+  for (const char* kind : {".c", ".h", ".mcp", ".xml"})
+    for (const fs::path& file : files_below(folder, kind))
+      if (const auto bytes = fs::file_size(file, ec); !ec && bytes > kLongestSourceBytes)
+        wrong.push_back(file.string() + ": source: got " + std::to_string(bytes) +
+                        " bytes, expected at most " + std::to_string(kLongestSourceBytes));
+  return wrong;
+}
+
+BuildResult build_image(const BuildOptions& options) {
+  BuildResult refused;
+  refused.errors = too_long(options.source_dir);
+  return refused.errors.empty() ? on_large_stack([&] { return build_here(options); }) : refused;
+}
+
+BuildResult lint_folder(const BuildOptions& options) {
+  BuildResult refused;
+  refused.errors = too_long(options.source_dir);
+  return refused.errors.empty() ? on_large_stack([&] { return lint_here(options); }) : refused;
 }
 
 }  // namespace cc

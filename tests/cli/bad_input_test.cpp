@@ -216,6 +216,18 @@ TEST_F(BadLuck, files_end_with_their_last_whole_record_when_the_disk_fills_up) {
   }
 }
 
+// regular expressions of the standard library follow a comment by recursion
+TEST_F(BadLuck, very_long_comments_are_built_and_endless_files_refused) {
+  const std::string end = "int main(void) { while (1); }\n";
+  write("long/main.c", "/*" + std::string(1'900'000, 'x') + "*/\n" + end);
+  write("longer/main.c", "//" + std::string(3'000'000, 'x') + "\n" + end);
+  const Said good = twinpuck("build " + path("long") + " -o " + path("x.so"));
+  EXPECT_EQ(good.exit_code, 0) << good.text;
+  const Said bad = twinpuck("build " + path("longer") + " -o " + path("x.so"));
+  EXPECT_EQ(bad.exit_code, 1) << bad.text;
+  EXPECT_NE(bad.text.find("expected at most 2097152"), std::string::npos) << bad.text;
+}
+
 // an escape sequence could hide a message or change the terminal
 TEST_F(BadLuck, control_characters_in_names_do_not_reach_the_terminal) {
   const std::string name = "a\x1b[31mred\x07.toml";
