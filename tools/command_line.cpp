@@ -24,7 +24,7 @@ CLI::Validator between(double least, double most) {
       [least, most](std::string& text) {
         double value = 0;
         if (CLI::detail::lexical_cast(text, value) && value >= least && value <= most) return std::string();
-        return fmt::format("got '{}', expected a number from {:g} to {:g}", text, least, most);
+        return fmt::format("got {}, expected {:g} to {:g}", text, least, most);
       },
       fmt::format("{:g} to {:g}", least, most));
 }
@@ -33,7 +33,7 @@ CLI::Option* one_each(CLI::Option* option) { return option->allow_extra_args(fal
 
 std::string find_world(const std::string& name, std::vector<std::string>& problems) {
   std::error_code none;
-  if (fs::exists(name, none)) return name;
+  if (fs::exists(fs::symlink_status(name, none))) return name;  // a loop of links is the loader's to name
   const fs::path worlds = fs::path(twin::project_root()) / "worlds";
   if (name.find('/') == std::string::npos && fs::exists(worlds / (name + ".toml"), none))
     return (worlds / (name + ".toml")).string();

@@ -198,6 +198,73 @@ TEST_F(Command, keys_that_make_no_sense_are_refused) {
   }
 }
 
+TEST_F(Command, text_on_uart_1_is_shown_unless_somebody_takes_it) {
+  write("chatty/main.c",
+        "#include <uart/e_uart_char.h>\nint main(void) { e_init_uart1(); "
+        "e_send_uart1_char(\"hello\\r\\n\\1\\2\\nbye\", "
+        "13); while (1); }\n");
+  const std::string run = "run maze --fw " + path("chatty") + " --for 0.1 ";
+  const Said shown = twinpuck(run);
+  EXPECT_NE(shown.text.find("puck: hello\npuck: bye\n"), std::string::npos) << shown.text;
+  EXPECT_NE(shown.text.find("puck: 2 bytes that are no text; --uart puck=file:F keeps them"),
+            std::string::npos)
+      << shown.text;
+  EXPECT_NE(twinpuck(run + "-q --uart puck=-").text.find("puck: hello"), std::string::npos);
+  EXPECT_EQ(twinpuck(run + "-q").text, "");
+  EXPECT_EQ(twinpuck(run + "--uart none").text.find("hello"), std::string::npos);
+  EXPECT_EQ(twinpuck(run + "--uart puck=file:" + path("out.txt")).text.find("hello"), std::string::npos);
+  // who looks changes nothing
+  const auto digest = [](const std::string& text) { return text.substr(text.find("digest "), 23); };
+  EXPECT_EQ(digest(shown.text), digest(twinpuck(run + "--uart none").text));
+}
+
+TEST_F(Command, options_may_stand_before_the_world_and_a_controller_alone_is_for_every_robot) {
+  const Said before = twinpuck("run --fw blink --for 0.1 epuck_5");
+  EXPECT_EQ(before.exit_code, 0) << before.text;
+  const Said with_equals = twinpuck("run epuck_5 --for=0.1 --fw=*=blink");
+  EXPECT_EQ(before.text.substr(before.text.find("digest"), 23),
+            with_equals.text.substr(with_equals.text.find("digest"), 23));
+}
+
+TEST_F(Command, check_finds_what_is_missing_and_what_is_wrong_in_one_pass) {
+  write("bad.toml",
+        "twinpuck = 1\n[world]\nsed = 2\n[[robot]]\nname = \"a\"\nfirmware = \"blnk\"\n"
+        "[[supervisor]]\nprogram = \"socce\"\n");
+  const Said s = twinpuck("check " + path("bad.toml"));
+  EXPECT_EQ(s.exit_code, 2);
+  for (const char* part : {"bad.toml:3:1: unknown key 'sed'", "robot 'a': blnk: firmware: ",
+                           "did you mean 'blink'?", "socce: supervisor: ", "did you mean 'soccer'?"})
+    EXPECT_NE(s.text.find(part), std::string::npos) << part << " in " << s.text;
+  EXPECT_EQ(twinpuck("check maze").text.substr(twinpuck("check maze").text.find("good")),
+            "good: 1 robot, 2 objects, 512 Hz\n");
+}
+
+TEST_F(Command, help_lists_and_builds_need_no_more_words_than_they_say) {
+  const Said help = twinpuck("help run");
+  EXPECT_EQ(help.exit_code, 0);
+  for (const char* part : {"Robots:", "Outputs:", "Example: twinpuck run maze", "Exit codes:"})
+    EXPECT_NE(help.text.find(part), std::string::npos) << part;
+  EXPECT_NE(twinpuck("--help").text.find("Exit codes:"), std::string::npos);
+  EXPECT_EQ(twinpuck("-V").text.substr(0, 9), "twinpuck ");
+  const Said worlds = twinpuck("list worlds");
+  EXPECT_NE(worlds.text.find("A maze of 1.6 m by 1.2 m"), std::string::npos) << worlds.text;
+  EXPECT_EQ(worlds.text.find("Controllers"), std::string::npos);
+  const Said build = twinpuck("build blink");
+  EXPECT_EQ(build.exit_code, 0);
+  EXPECT_NE(build.text.find("/controllers/blink-"), std::string::npos) << build.text;
+}
+
+TEST_F(Command, headings_are_said_as_people_say_them) {
+  write("still/main.c", "int main(void) { while (1); }\n");
+  write("headings.toml",
+        "twinpuck = 1\n[[robot]]\nname = \"a\"\nposition = [-0.0001, 0]\nheading = 341\n[[robot]]\nname = "
+        "\"b\"\n"
+        "position = [1, 0]\nheading = -0.2\n");
+  const Said s = twinpuck("run " + path("headings.toml") + " --for 0.1 --fw " + path("still"));
+  EXPECT_NE(s.text.find("a               0.000    0.000   -19 deg"), std::string::npos) << s.text;
+  EXPECT_NE(s.text.find("b               1.000    0.000     0 deg"), std::string::npos) << s.text;
+}
+
 TEST_F(Command, uart_output_goes_to_a_file) {
   write("hello/main.c",
         "#include <uart/e_uart_char.h>\nint main(void) { e_init_uart1(); e_send_uart1_char(\"hello\\r\\n\", "

@@ -16,6 +16,7 @@
 #include "hal_sim/cc/build.h"
 #include "hal_sim/cc/elf_reader.h"
 #include "hal_sim/cc/library_copies.h"
+#include "hal_sim/cc/makefile_project.h"
 #include "hal_sim/cc/mplab_project.h"
 #include "import/import.h"
 #include "import/picture.h"
