@@ -23,8 +23,10 @@ namespace tools {
 
 namespace {
 
-constexpr double kGrace_s = 0.4;   // for a tick or two, and the supervisors' last go
-constexpr double kRescue_s = 0.3;  // for stopping the threads and writing what is left
+// for a tick or two, and the supervisors' last go: of the processor's time, since a busy PC gives little of
+// it, and at most so long for who waits for something else
+constexpr double kGraceCpu_s = 0.3, kGrace_s = 2, kLook_s = 0.05;
+constexpr double kRescue_s = 0.6;  // for stopping the threads and writing what is left
 
 std::atomic<int> asked{0};    // exit code
 std::atomic<int> signals{0};  // so far
@@ -59,6 +61,12 @@ bool has_passed(const timespec& at) {
 void wait_for_news(const timespec* at) {
   while ((at ? sem_clockwait(&news, CLOCK_MONOTONIC, at) : sem_wait(&news)) != 0 && errno == EINTR) {
   }
+}
+
+double cpu_s() {
+  timespec t;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
 void tell(const char* text) {
@@ -135,8 +143,10 @@ void watch() {
       continue;
     }
     static const timespec grace = after(kGrace_s);
-    if (has_passed(grace)) end_hard();
-    wait_for_news(&grace);
+    static const double cpu_before_s = cpu_s();
+    if (has_passed(grace) || cpu_s() - cpu_before_s > kGraceCpu_s) end_hard();
+    const timespec next = after(kLook_s);
+    wait_for_news(&next);
   }
 }
 

@@ -15,8 +15,7 @@ namespace {
 
 constexpr unsigned kSr = 0x042, kDisicnt = 0x052, kIntcon1 = 0x080, kIntcon2 = 0x082, kIfs0 = 0x084,
                    kIec0 = 0x08C, kIpc0 = 0x094, kI2ccon = 0x206, kRcon = 0x740;
-constexpr std::uint16_t kPor = 1 << 0, kBor = 1 << 1, kSwr = 1 << 6, kExtr = 1 << 7,
-                        kBgst = 1 << 13;
+constexpr std::uint16_t kPor = 1 << 0, kBor = 1 << 1, kSwr = 1 << 6, kExtr = 1 << 7, kBgst = 1 << 13;
 
 // timer 1 stands alone; 2 and 3, 4 and 5 are laid out as pairs
 struct TimerRegisters {
@@ -205,7 +204,7 @@ std::uint16_t NativeRegisters::read_word(unsigned address) {
       return processor_.disi_active(now) ? 1 : 0;
     case kRcon:
       return rcon_ | kBgst;  // long stable when a program looks
-    case kI2ccon:  // of a bus that the library drives: is it on
+    case kI2ccon:            // of a bus that the library drives: is it on
       return robot_.board().i2c_master().is_on() ? 0x9000 : 0x1000;
     default:
       break;

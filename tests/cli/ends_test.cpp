@@ -94,4 +94,34 @@ TEST_F(Ends, basic_motors_beside_agendas_run_on_at_every_speed) {
   }
 }
 
+// the same cause beside the converter and the codec: the main program stood still while interrupts went on
+TEST_F(Ends, delay_loops_beside_scan_sound_and_agendas_go_on) {
+  write("delays/main.c", R"(
+#include <p30F6014A.h>
+#include <stdlib.h>
+#include <motor_led/e_init_port.h>
+#include <motor_led/advance_one_timer/e_agenda.h>
+#include <a_d/advance_ad_scan/e_ad_conv.h>
+#include <codec/e_sound.h>
+volatile unsigned d, old, same;
+void tick(void) { if (d == old) { if (++same > 60) abort(); } else same = 0; old = d; }
+int main(void) {
+  unsigned i, k, m;
+  e_init_port(); e_init_ad_scan(ALL_ADC); e_init_sound();
+  e_activate_agenda(tick, 10); e_start_agendas_processing();
+  while (1) {
+    m = rand() & 1023;
+    if (!(d & 1023)) e_play_sound(0, 2000);
+    for (k = 0; k < 20; k++) {
+      for (i = 0; i < m; i++);
+      d++;
+      for (i = 0; i < 3; i++) __asm__("nop");
+    }
+  }
+}
+)");
+  const auto said = twinpuck("run empty --for 10 --host-limit 30 --fw '*=" + path("delays") + "'", kPatient);
+  EXPECT_EQ(said.exit_code, 0) << said.text;
+}
+
 }  // namespace
