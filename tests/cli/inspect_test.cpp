@@ -143,7 +143,7 @@ TEST_F(Inspect, bad_input_is_named) {
   says(world + " --picture x.png", "--sensor: got none, expected 0 to 7");
   says(world + " --sensor 5 --profile webot-old", "did you mean 'webots-old'?");
   says("--profile webots-odl", "did you mean 'webots-old'?");
-  says("--profile enki --colour 2,0,0", "--colour: got 2, expected three numbers from 0 to 1");
+  says("--profile enki --colour 2,0,0", "--colour: got 2, expected 0 to 1");
   says("--profile enki --colour 1,0", "--colour");
   says("--profile enki --sensor 3", "without a world");
   says(write("empty.toml", "twinpuck = 1\n"), "got a world without robots");
