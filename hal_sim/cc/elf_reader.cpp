@@ -6,25 +6,31 @@
 
 #include <cstring>
 #include <fstream>
+#include <optional>
 #include <sstream>
 
 namespace cc {
 namespace {
 
+/// A copy: in a malformed file it may lie at any address.
 template <class T>
-const T* at(const std::string& bytes, uint64_t offset) {
-  if (offset > bytes.size() || bytes.size() - offset < sizeof(T)) return nullptr;
-  return reinterpret_cast<const T*>(bytes.data() + offset);
+std::optional<T> at(const std::string& bytes, uint64_t offset) {
+  if (offset > bytes.size() || bytes.size() - offset < sizeof(T)) return std::nullopt;
+  T value;
+  std::memcpy(&value, bytes.data() + offset, sizeof value);
+  return value;
 }
 
-const Elf64_Shdr* section_header(const std::string& bytes, unsigned index) {
-  auto* head = at<Elf64_Ehdr>(bytes, 0);
-  if (!head || index >= head->e_shnum) return nullptr;
+std::optional<Elf64_Shdr> section_header(const std::string& bytes, unsigned index) {
+  const auto head = at<Elf64_Ehdr>(bytes, 0);
+  if (!head || index >= head->e_shnum) return std::nullopt;
   return at<Elf64_Shdr>(bytes, head->e_shoff + uint64_t(index) * sizeof(Elf64_Shdr));
 }
 
-std::string string_at(const std::string& bytes, const Elf64_Shdr* table, uint64_t offset) {
-  if (!table || offset >= table->sh_size || table->sh_offset + offset >= bytes.size()) return "";
+std::string string_at(const std::string& bytes, const std::optional<Elf64_Shdr>& table, uint64_t offset) {
+  if (!table || offset >= table->sh_size || table->sh_offset >= bytes.size() ||
+      offset >= bytes.size() - table->sh_offset)
+    return "";
   const char* s = bytes.data() + table->sh_offset + offset;
   return std::string(s, strnlen(s, bytes.size() - (table->sh_offset + offset)));
 }
@@ -32,10 +38,10 @@ std::string string_at(const std::string& bytes, const Elf64_Shdr* table, uint64_
 }  // namespace
 
 std::string ElfFile::section(const std::string& name) const {
-  auto* head = at<Elf64_Ehdr>(bytes, 0);
+  const auto head = at<Elf64_Ehdr>(bytes, 0);
   if (!ok || !head) return "";
   for (unsigned i = 0; i < head->e_shnum; ++i) {
-    auto* s = section_header(bytes, i);
+    const auto s = section_header(bytes, i);
     if (!s || string_at(bytes, section_header(bytes, head->e_shstrndx), s->sh_name) != name) continue;
     if (s->sh_type == SHT_NOBITS || s->sh_offset > bytes.size()) return "";
     return bytes.substr(s->sh_offset, s->sh_size);
@@ -50,15 +56,15 @@ ElfFile read_elf(const std::filesystem::path& path) {
   std::ostringstream all;
   all << in.rdbuf();
   file.bytes = all.str();
-  auto* head = at<Elf64_Ehdr>(file.bytes, 0);
+  const auto head = at<Elf64_Ehdr>(file.bytes, 0);
   if (!head || std::memcmp(head->e_ident, ELFMAG, SELFMAG) != 0 || head->e_ident[EI_CLASS] != ELFCLASS64)
     return file;
   file.ok = true;
   for (unsigned i = 0; i < head->e_shnum; ++i) {
-    auto* table = section_header(file.bytes, i);
+    const auto table = section_header(file.bytes, i);
     if (!table || table->sh_type != SHT_SYMTAB) continue;
     for (uint64_t offset = 0; offset + sizeof(Elf64_Sym) <= table->sh_size; offset += sizeof(Elf64_Sym)) {
-      auto* symbol = at<Elf64_Sym>(file.bytes, table->sh_offset + offset);
+      const auto symbol = at<Elf64_Sym>(file.bytes, table->sh_offset + offset);
       if (!symbol) break;
       ElfSymbol s;
       s.name = string_at(file.bytes, section_header(file.bytes, table->sh_link), symbol->st_name);
@@ -69,7 +75,8 @@ ElfFile read_elf(const std::filesystem::path& path) {
       s.is_object = ELF64_ST_TYPE(symbol->st_info) == STT_OBJECT;
       s.is_weak = ELF64_ST_BIND(symbol->st_info) == STB_WEAK;
       s.is_global = ELF64_ST_BIND(symbol->st_info) != STB_LOCAL;
-      auto* home = symbol->st_shndx < SHN_LORESERVE ? section_header(file.bytes, symbol->st_shndx) : nullptr;
+      const auto home =
+          symbol->st_shndx < SHN_LORESERVE ? section_header(file.bytes, symbol->st_shndx) : std::nullopt;
       s.is_writable = s.is_common || (home && (home->sh_flags & SHF_WRITE));
       if (!s.name.empty()) file.symbols.push_back(std::move(s));
     }
