@@ -47,9 +47,10 @@ build: setup
 ## run: 60 simulated seconds of FW in WORLD: summary, CSV and picture
 run: tool
 	@mkdir -p $(OUT)
-	@$(BUILD)/twinpuck build firmware/$(FW) -o $(OUT)/$(FW).so
-	@$(BUILD)/twinpuck run worlds/$(WORLD).toml --fw '*=$(OUT)/$(FW).so' --for 60 --speed max \
-	  --record $(OUT)/$(FW).csv --summary $(OUT)/$(FW).json --picture $(OUT)/$(FW).png $(ARGS)
+	@$(BUILD)/twinpuck build $(FW) -o $(OUT)/$(notdir $(FW)).so
+	@$(BUILD)/twinpuck run worlds/$(WORLD).toml --fw '*=$(OUT)/$(notdir $(FW)).so' --for 60 --speed max \
+	  --record $(OUT)/$(notdir $(FW)).csv --summary $(OUT)/$(notdir $(FW)).json \
+	  --picture $(OUT)/$(notdir $(FW)).png $(ARGS)
 
 ## test: all tests that need no browser; T=filter selects by name
 test: setup

@@ -19,6 +19,7 @@ if ! command -v "$compiler" >/dev/null; then
   exit 2
 fi
 folder="firmware/$controller"
+[ -d "$folder" ] || folder="firmware/lab/$controller" # the lab's solutions
 if [ -z "$controller" ] || [ ! -d "$folder" ]; then
   echo "make dspic: FW: got '$controller', expected a folder of firmware/" >&2
   exit 2

@@ -83,7 +83,7 @@ def may_include(path, target):
     room = room_of(path)
     own = room_of(target)
     if room.startswith(FREE_ROOMS) or own == room or \
-            re.fullmatch(r"(firmware|supervisor/programs)/[^/]+/test\.cpp", path):
+            re.fullmatch(r"(firmware|firmware/lab|supervisor/programs)/[^/]+/test\.cpp", path):
         return True  # a controller's own test is a test
     if room.startswith("sim_core"):
         if path.count("/") == 1:  # sim_core/simulation.*: the front door of all rooms

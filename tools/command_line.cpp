@@ -33,10 +33,11 @@ CLI::Option* one_each(CLI::Option* option) { return option->allow_extra_args(fal
 
 std::string find_world(const std::string& name, std::vector<std::string>& problems) {
   std::error_code none;
-  if (fs::exists(fs::symlink_status(name, none))) return name;  // a loop of links is the loader's to name
   const fs::path worlds = fs::path(twin::project_root()) / "worlds";
-  if (name.find('/') == std::string::npos && fs::exists(worlds / (name + ".toml"), none))
-    return (worlds / (name + ".toml")).string();
+  const bool is_ours = name.find('/') == std::string::npos && fs::exists(worlds / (name + ".toml"), none);
+  // a loop of links is the loader's to name; a folder is a controller of that name, which may lie here
+  if (fs::exists(fs::symlink_status(name, none)) && !(is_ours && fs::is_directory(name, none))) return name;
+  if (is_ours) return (worlds / (name + ".toml")).string();
   std::vector<std::string> known;
   for (const auto& entry : fs::directory_iterator(worlds, none))
     if (entry.path().extension() == ".toml") known.push_back(entry.path().stem().string());

@@ -46,10 +46,7 @@ int import(const std::string& file, std::string output, bool without_firmware) {
   options.folder = fs::absolute(file).parent_path().string();
   options.out_folder = fs::absolute(output).parent_path().string();
   options.without_firmware = without_firmware;
-  options.has_firmware = [](const std::string& name) {
-    std::error_code none;
-    return fs::is_directory(fs::path(twin::project_root()) / "firmware" / name, none);
-  };
+  options.has_firmware = [](const std::string& name) { return !twin::stored_controller(name).empty(); };
   options.has_program = [](const std::string& name) {
     std::error_code none;
     return fs::is_directory(fs::path(twin::project_root()) / "supervisor" / "programs" / name, none);

@@ -41,6 +41,9 @@ std::string words(Measure m, double value, const char* how) {
   return fmt::format("{}{}{} {}{}{}", how, *how ? " " : "", name, number, unit.empty() ? "" : " ", unit);
 }
 
+// a solution is called as what the student writes
+std::string program_name(const std::string& firmware) { return firmware.substr(firmware.rfind('/') + 1); }
+
 constexpr const char* kHow[] = {"max", "min", "mean", "median"};
 
 double one_of(std::vector<double> v, Shown::How how) {
@@ -80,12 +83,15 @@ double share_of(const StepResult& result, double noise_scale) {
   return all ? static_cast<double>(kept) / all : 0;
 }
 
+bool has_run(const StepResult& result) {
+  return result.problem.empty() &&
+         std::all_of(result.trials.begin(), result.trials.end(), [](const TrialResult& t) { return t.ran; });
+}
+
 bool is_passed(const StepResult& result) {
-  if (!result.problem.empty()) return false;
+  if (!has_run(result)) return false;
   const LabStep& step = *result.step;
   if (step.kind == LabStep::Kind::Answer) return true;
-  for (const TrialResult& t : result.trials)
-    if (!t.ran) return false;
   for (std::size_t i = 0; i < step.shares.size(); ++i) {
     const double scale = step.shares.size() > 1 ? step.noise_scales[i] : std::nan("");
     const double share = share_of(result, scale);
@@ -138,7 +144,7 @@ std::string lab_csv_header() {
 std::string lab_csv(const std::string& exercise, const StepResult& result) {
   std::string text;
   for (const TrialResult& t : result.trials) {
-    text += fmt::format("{},{},{},{},{},{}", exercise, t.trial.world, t.trial.step->firmware,
+    text += fmt::format("{},{},{},{},{},{}", exercise, t.trial.world, program_name(t.trial.step->firmware),
                         std::isnan(t.trial.noise_scale) ? "" : fmt::format("{:g}", t.trial.noise_scale),
                         t.trial.seed, keeps_bounds(t) ? 1 : 0);
     for (double v : t.measures.value) text += std::isnan(v) ? "," : fmt::format(",{:.6g}", v);
@@ -151,8 +157,8 @@ sim::SharePlot share_plot(const StepResult& result) {
   const LabStep& step = *result.step;
   const int runs = static_cast<int>(result.trials.size() / step.noise_scales.size());
   sim::SharePlot plot;
-  plot.title = fmt::format("{} in {}: runs that {} within {:g} s, of {} each", step.firmware, step.worlds[0],
-                           step.says, result.trials[0].trial.seconds, runs);
+  plot.title = fmt::format("{} in {}: runs that {} within {:g} s, of {} each", program_name(step.firmware),
+                           step.worlds[0], step.says, result.trials[0].trial.seconds, runs);
   plot.across = "noise scale of the proximity sensors";
   for (const double scale : step.noise_scales) plot.points.push_back({scale, share_of(result, scale), runs});
   return plot;

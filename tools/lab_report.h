@@ -24,6 +24,9 @@ struct StepResult {
   std::string problem;  ///< why it could not be tried; empty: it was
 };
 
+/// Every trial was made, without a trap.
+bool has_run(const StepResult& result);
+
 /// Part of the trials that ran and kept the step's bounds; of one noise scale unless that is not a number.
 double share_of(const StepResult& result, double noise_scale);
 bool is_passed(const StepResult& result);

@@ -200,6 +200,10 @@ class Reader {
 
 }  // namespace
 
+std::string own_program(const LabStep& step) {
+  return step.firmware.rfind("lab/", 0) == 0 ? step.firmware.substr(4) : "";
+}
+
 const char* measure_name(Measure m) { return kMeasureNames[static_cast<std::size_t>(m)]; }
 
 std::vector<LabExercise> read_lab_table(const std::string& file, std::vector<std::string>& problems) {

@@ -66,7 +66,9 @@ struct LabStep {
   enum class Kind { Runs, Sensor, Answer } kind = Kind::Runs;
   std::string says;                 ///< what a run that keeps the bounds has done
   std::vector<std::string> worlds;  ///< files in worlds/, without ending
-  std::string firmware;             ///< for every robot; empty: as the world says
+  /// For every robot; empty: as the world says. "lab/NAME": the solution of an exercise in which a student
+  /// writes NAME.
+  std::string firmware;
   double seconds = 60, full_seconds = 60;
   int quick_seeds = 1, full_seeds = 1;
   std::vector<double> noise_scales;  ///< of the proximity sensors; empty: as the world says
@@ -79,6 +81,9 @@ struct LabStep {
   bool by_world = false;  ///< one figure per world
   std::string answer;     ///< heading in docs/lab-answers.md
 };
+
+/// What the student's program is called that a step asks for; empty when it asks for none.
+std::string own_program(const LabStep& step);
 
 struct LabExercise {
   std::string id, title;

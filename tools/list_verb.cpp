@@ -55,11 +55,13 @@ int list(const std::string& what) {
   const fs::path root = twin::project_root();
   std::vector<std::pair<std::string, std::string>> controllers, worlds, supervisors;
   std::error_code none;
-  for (const auto& entry : fs::directory_iterator(root / "firmware", none))
-    // Webots' controllers have their folder's name
-    if (fs::exists(entry.path() / "main.c") ||
-        fs::exists(entry.path() / (entry.path().filename().string() + ".c")))
-      controllers.emplace_back(entry.path().filename().string(), first_line(entry.path() / "README.md"));
+  for (const char* room : {"", "lab/"})
+    for (const auto& entry : fs::directory_iterator(root / "firmware" / room, none)) {
+      const std::string name = entry.path().filename().string();
+      // Webots' controllers have their folder's name
+      if (fs::exists(entry.path() / "main.c") || fs::exists(entry.path() / (name + ".c")))
+        controllers.emplace_back(room + name, first_line(entry.path() / "README.md"));
+    }
   for (const auto& entry : fs::directory_iterator(root / "worlds", none))
     if (entry.path().extension() == ".toml")
       worlds.emplace_back(entry.path().stem().string(), description_of(entry.path()));

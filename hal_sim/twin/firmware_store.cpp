@@ -27,17 +27,32 @@ bool holds_c(const fs::path& folder) {
   return false;
 }
 
+// rooms of firmware/ that are no controllers
+bool is_room(const std::string& name) { return name == "include" || name == "webots" || name == "lab"; }
+
 std::vector<std::string> controller_names() {
   std::vector<std::string> names;
   std::error_code none;
-  for (const auto& entry : fs::directory_iterator(fs::path(project_root()) / "firmware", none))
-    if (entry.is_directory(none) && entry.path().filename() != "include" &&
-        entry.path().filename() != "webots")
-      names.push_back(entry.path().filename().string());
+  for (const char* room : {"firmware", "firmware/lab"})
+    for (const auto& entry : fs::directory_iterator(fs::path(project_root()) / room, none))
+      if (entry.is_directory(none) && !is_room(entry.path().filename().string()))
+        names.push_back(entry.path().filename().string());
   return names;
 }
 
 }  // namespace
+
+std::string stored_controller(const std::string& name) {
+  const fs::path firmware = fs::path(project_root()) / "firmware";
+  const bool of_lab = name.rfind("lab/", 0) == 0;
+  const std::string plain = of_lab ? name.substr(4) : name;
+  if (plain.empty() || plain[0] == '.' || plain.find('/') != std::string::npos || is_room(plain)) return "";
+  std::error_code none;
+  // a controller of one's own in firmware/ goes before the lab's solution of that name
+  if (!of_lab && fs::is_directory(firmware / plain, none)) return (firmware / plain).string();
+  const fs::path solution = firmware / "lab" / plain;
+  return fs::is_directory(solution, none) ? solution.string() : "";
+}
 
 std::string project_root() {
   if (const char* root = std::getenv("TWINPUCK_ROOT")) return root;
@@ -70,13 +85,19 @@ std::string image_file(const std::string& folder, const Options& options) {
 
 std::string find_firmware(const std::string& name, const std::string& from_folder,
                           std::vector<std::string>& problems) {
+  std::error_code none;
+  const auto is_firmware = [&](const fs::path& p) {
+    return fs::exists(p, none) && (!fs::is_directory(p, none) || holds_c(p));
+  };
+  // beside the world, then here, then ours: who makes a folder of the name has it run
   fs::path path =
       fs::path(name).is_absolute() || from_folder.empty() ? fs::path(name) : fs::path(from_folder) / name;
-  std::error_code none;
-  if (!fs::exists(path, none) && fs::exists(name, none)) path = name;
-  if (!fs::exists(path, none) || (fs::is_directory(path, none) && !holds_c(path))) {
-    const fs::path controller = fs::path(project_root()) / "firmware" / name;
-    if (name.find('/') == std::string::npos && fs::is_directory(controller, none)) path = controller;
+  if (!is_firmware(path)) {
+    const std::string stored = stored_controller(name);
+    if (is_firmware(name) || (stored.empty() && !fs::exists(path, none) && fs::exists(name, none)))
+      path = name;
+    else if (!stored.empty())
+      path = stored;
   }
   if (!fs::exists(path, none)) {
     const std::string guess = sim::did_you_mean(name, controller_names());

@@ -43,8 +43,12 @@ struct Options {
   std::function<void(const std::string&)> tell;
 };
 
-/// The .so, file or folder that `name` means: a path (relative ones begin in `from_folder`, or here), or a
-/// controller of firmware/. Empty, with a line in `problems`, when there is none.
+/// The folder of a controller of the project: firmware/NAME, else firmware/lab/NAME (a solution of the lab,
+/// also called "lab/NAME"). Empty when there is none.
+std::string stored_controller(const std::string& name);
+
+/// The .so, file or folder that `name` means: a path (relative ones begin in `from_folder`, then here), or
+/// else a controller of the project. Empty, with a line in `problems`, when there is none.
 std::string find_firmware(const std::string& name, const std::string& from_folder,
                           std::vector<std::string>& problems);
 

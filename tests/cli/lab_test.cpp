@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // twinpuck lab: one line an exercise, the same however many processes, and honest about what fails.
 #include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <vector>
 
@@ -20,7 +22,38 @@ class Lab : public CommandTest {
         "7\nseeds = [2, 3]\nsays = \"stand\"\n" +
             bounds);
   }
+
+  /// A program as the lab's text has students write them: says its name, does `what` every 64 ms.
+  static std::string program(const std::string& name, const std::string& what) {
+    return "#include <device/robot.h>\n#include <device/differential_wheels.h>\nstatic int n;\n"
+           "static void reset(void) { robot_console_printf(\"" +
+           name + "\\n\"); }\nstatic int run(int ms) { n++; " + what +
+           " return 64; }\nint main() { robot_live(reset); robot_run(run); return 0; }\n";
+  }
 };
+
+/// What of the project's own goes into the place of a student's program.
+fs::path solution(const char* name) { return fs::path(TWINPUCK_SOURCE_DIR) / "firmware/lab" / name; }
+
+/// Names in `worlds = [...]` of the lab's table, and those of chapter 2.2. Not soccer, whose supervisor sets
+/// variables of its players: no other program runs there.
+std::set<std::string> worlds_of_the_lab() {
+  std::ifstream in(fs::path(TWINPUCK_SOURCE_DIR) / "docs/lab.toml");
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  std::set<std::string> names{"braitenberg", "braitenberg_four"};
+  for (std::size_t at = text.find("\nworlds = ["); at != std::string::npos;
+       at = text.find("\nworlds = [", at + 1)) {
+    std::istringstream words(text.substr(at, text.find(']', at) - at));
+    std::string name;
+    std::getline(words, name, '"');
+    while (std::getline(words, name, '"')) {
+      names.insert(name);
+      std::getline(words, name, '"');
+    }
+  }
+  names.erase("soccer");
+  return names;
+}
 
 TEST_F(Lab, every_exercise_of_the_lab_has_a_line_and_passes) {
   const Said s = twinpuck("lab --seeds 3 --no-times --jobs 2");
@@ -88,6 +121,119 @@ TEST_F(Lab, the_share_against_noise_is_drawn) {
   EXPECT_EQ(twinpuck("lab S15 --seeds 1 --plot " + path("p.png")).exit_code, 0);
   EXPECT_EQ(read(path("p.png")).substr(1, 3), "PNG");
   EXPECT_EQ(twinpuck("lab S15 --seeds 1 --plot /nonexistent/p.png").exit_code, 7);
+}
+
+TEST_F(Lab, a_students_program_drives_alike_in_all_worlds_of_the_lab) {
+  // to and fro by 2 cm, which is free everywhere; what its sensor 2 is, front left, says [webots]
+  write("to_and_fro/to_and_fro.c",
+        program("x", "differential_wheels_set_speed(n & 8 ? 20 : -20, n & 8 ? 20 : -20);"));
+  const auto worlds = worlds_of_the_lab();
+  EXPECT_GE(worlds.size(), 20u);
+  for (const std::string& world : worlds) {
+    const Said s =
+        twinpuck("run " + world + " --fw " + path("to_and_fro") + " --for 8 -q --summary " + path("s.json"));
+    ASSERT_EQ(s.exit_code, 0) << world << ": " << s.text;
+    const auto summary = nlohmann::json::parse(read(path("s.json")));
+    // 20 units of 0.1 rad/s on wheels of 20.5 mm: 41 mm/s
+    EXPECT_NEAR(summary["robots"][0]["distance_m"].get<double>(), 0.31, 0.02) << world;
+    const std::string text = read((fs::path(TWINPUCK_SOURCE_DIR) / "worlds" / (world + ".toml")).string());
+    EXPECT_NE(text.find("sensor_order = \"lab\""), std::string::npos) << world;
+  }
+}
+
+TEST_F(Lab, a_students_folder_goes_before_the_solution_of_its_name) {
+  const std::string stand = program("it is mine", "");
+  write("work/obstacle/obstacle.c", stand);
+  const std::string here = "cd " + path("work") + " &&";
+  // here, also where world and program are called the same
+  Said s = twinpuck("run obstacle --for 1", here);
+  EXPECT_EQ(s.exit_code, 0) << s.text;
+  EXPECT_NE(s.text.find("it is mine"), std::string::npos) << s.text;
+  // beside the world
+  const fs::path world = fs::path(TWINPUCK_SOURCE_DIR) / "worlds/obstacle.toml";
+  fs::copy(world, folder / "work/maze.toml");
+  s = twinpuck("run " + path("work/maze.toml") + " --for 1");
+  EXPECT_NE(s.text.find("it is mine"), std::string::npos) << s.text;
+  // nobody's here: the solution; and by its own name it is always ours
+  EXPECT_EQ(twinpuck("run obstacle --for 1").text.find("it is mine"), std::string::npos);
+  s = twinpuck("run obstacle --fw lab/obstacle --for 1", here);
+  EXPECT_EQ(s.exit_code, 0) << s.text;
+  EXPECT_EQ(s.text.find("it is mine"), std::string::npos) << s.text;
+  s = twinpuck("lab I1 --seeds 1 --no-times", here);
+  EXPECT_EQ(s.exit_code, 0) << s.text;
+  EXPECT_EQ(s.text, twinpuck("lab I1 --seeds 1 --no-times").text);
+}
+
+TEST_F(Lab, the_names_of_the_lab_are_free_for_new_controllers) {
+  fs::create_directories(folder / "root/firmware");
+  fs::create_directory_symlink(fs::path(TWINPUCK_SOURCE_DIR) / "firmware/lab", folder / "root/firmware/lab");
+  fs::create_directory_symlink(fs::path(TWINPUCK_SOURCE_DIR) / "firmware/include",
+                               folder / "root/firmware/include");
+  const std::string root = "TWINPUCK_ROOT=" + path("root");
+  const std::string listed = twinpuck("list controllers", root).text;
+  for (const char* name : {"obstacle", "u_obstacle", "braiten"}) {
+    EXPECT_FALSE(fs::exists(fs::path(TWINPUCK_SOURCE_DIR) / "firmware" / name)) << name;
+    EXPECT_NE(listed.find(std::string("  lab/") + name + " "), std::string::npos) << listed;
+    const Said s = twinpuck(std::string("new ") + name, root);
+    EXPECT_EQ(s.exit_code, 0) << s.text;
+  }
+  // the new one is what the name means
+  EXPECT_NE(twinpuck("lint obstacle", root).text.find(path("root/firmware/obstacle")), std::string::npos);
+  // a room is no controller
+  EXPECT_EQ(twinpuck("lint lab").exit_code, 2);
+}
+
+TEST_F(Lab, a_students_programs_are_judged_as_ours_are) {
+  fs::create_directories(folder / "mine");
+  fs::copy(solution("u_obstacle"), folder / "mine/u_obstacle", fs::copy_options::recursive);
+  write("mine/obstacle/obstacle.c", program("x", ""));  // stands for ever
+  write("mine/braiten/braiten.c", "int main() { retrun 0; }\n");
+  const Said s = twinpuck("lab --seeds 1 --no-times --mine " + path("mine"));
+  EXPECT_EQ(s.exit_code, 1) << s.text;
+  for (const char* line :
+       {"I1     FAIL  avoid any obstacle in any maze: 0 of 4 runs neither stuck nor at a wall, max "
+        "standstill "
+        "120 s",
+        "S2     seen  a long, narrow corridor with a dead end: 0 of 1 get out within a minute",
+        "I3     pass  escape from the U: 1 of 1 get out within a minute, escape ", "/braiten does not build",
+        "undeclared identifier 'retrun'", "1 of 5 pass, 4 seen"})
+    EXPECT_NE(s.text.find(line), std::string::npos) << line << "\nin " << s.text;
+  EXPECT_NE(s.text.find("I8     FAIL  "), std::string::npos) << s.text;
+  EXPECT_EQ(s.text.find("Q6"), std::string::npos) << "nothing of theirs runs there: " << s.text;
+  // ours in the place of theirs measures what `lab` measures
+  const auto line = [](const Said& said) { return said.text.substr(said.text.find(": ")); };
+  EXPECT_EQ(line(twinpuck("lab I3 --seeds 2 --mine " + path("mine"))), line(twinpuck("lab I3 --seeds 2")));
+}
+
+TEST_F(Lab, a_program_that_is_missing_is_named_as_missing) {
+  fs::create_directories(folder / "mine");
+  fs::copy(solution("u_obstacle"), folder / "mine/u_obstacle", fs::copy_options::recursive);
+  const Said s = twinpuck("lab I1 I3 --seeds 1 --mine " + path("mine"));
+  EXPECT_EQ(s.exit_code, 0) << s.text;
+  EXPECT_NE(
+      s.text.find("I1     none  avoid any obstacle in any maze: no program 'obstacle' in " + path("mine")),
+      std::string::npos)
+      << s.text;
+  EXPECT_NE(s.text.find("I3     pass"), std::string::npos) << s.text;
+  EXPECT_NE(s.text.find("1 of 1 pass, 1 without a program"), std::string::npos) << s.text;
+  write("other/README.md", "nothing\n");
+  const Said nothing = twinpuck("lab --mine " + path("other"));
+  EXPECT_EQ(nothing.exit_code, 5) << nothing.text;
+  EXPECT_NE(nothing.text.find("no program 'braiten' in " + path("other")), std::string::npos) << nothing.text;
+  EXPECT_EQ(twinpuck("lab --mine " + path("nowhere")).exit_code, 2);
+  EXPECT_NE(twinpuck("lab Q6 --mine " + path("mine")).text.find("got 'Q6', expected one of I1 S2 I3"),
+            std::string::npos);
+}
+
+TEST_F(Lab, one_controllers_folder_is_judged_too) {
+  fs::copy(solution("u_obstacle"), folder / "u_obstacle", fs::copy_options::recursive);
+  const Said s = twinpuck("lab --seeds 1 --mine " + path("u_obstacle"));
+  EXPECT_NE(s.text.find("I3     pass"), std::string::npos) << s.text;
+  EXPECT_NE(s.text.find("I1     none"), std::string::npos) << s.text;
+  // of another name it is what the exercise asks for, when that is said
+  fs::rename(folder / "u_obstacle", folder / "try3");
+  EXPECT_EQ(twinpuck("lab --seeds 1 --mine " + path("try3")).exit_code, 5);
+  EXPECT_NE(twinpuck("lab I3 --seeds 1 --mine " + path("try3")).text.find("I3     pass"), std::string::npos);
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ TEST_F(FirmwareTest, square_comes_back_to_its_start) {
 TEST_F(FirmwareTest, obstacle_wanders_through_the_maze_without_touching_it) {
   load_world("worlds/maze.toml");
   Robot& puck = robot(0);
-  puck.settings().firmware = "obstacle";
+  puck.settings().firmware = "lab/obstacle";
   run_for(60);
   EXPECT_GE(puck.distance_m(), 2);
   EXPECT_LE(puck.longest_wall_touch_s(), 0.2);
@@ -61,7 +61,7 @@ TEST_F(FirmwareTest, obstacle_sees_a_wall_end_dead_ahead) {
   // the end of a wall 1 cm thick stands between the two front sensors
   arena(1, 1);
   wall(0.2, 0, 0.45, 0);
-  Robot& robot = add_robot("obstacle").at(0, 0, 0);
+  Robot& robot = add_robot("lab/obstacle").at(0, 0, 0);
   run_for(20);
   EXPECT_EQ(robot.longest_wall_touch_s(), 0);
   EXPECT_GE(robot.distance_m(), 0.7);

@@ -13,7 +13,7 @@ class Braiten : public FirmwareTest {
     load_world("worlds/u_obstacle.toml");
     world.proximity.noise_scale = noise_scale;
     world.seed = static_cast<std::uint64_t>(seed);
-    robot(0).settings().firmware = "braiten";
+    robot(0).settings().firmware = "lab/braiten";
     return robot(0);
   }
 };
@@ -34,7 +34,7 @@ TEST_F(Braiten, avoids_a_box_on_either_side) {
   arena(1, 1);
   world.proximity.profile = "webots-old";
   box(0.2, 0.03, 0.1);
-  Robot& puck = add_robot("braiten").at(0, 0, 0);
+  Robot& puck = add_robot("lab/braiten").at(0, 0, 0);
   run_for(3);
   EXPECT_LT(puck.heading_deg(), -15);  // the box is more to its left: it turns right
   EXPECT_EQ(puck.collisions(), 0);

@@ -16,7 +16,7 @@ class UObstacle : public FirmwareTest, public ::testing::WithParamInterface<int>
     world.seed = static_cast<std::uint64_t>(number);
     Robot& puck = robot(0);
     puck.at(-0.03 + 0.03 * number, number % 2 ? 0.01 : -0.008, 7 * number - 21);
-    puck.settings().firmware = "u_obstacle";
+    puck.settings().firmware = "lab/u_obstacle";
     puck.settings().variation.gain_spread = 0.1;
     puck.settings().variation.offset_spread_counts = 8;
     return puck;
@@ -47,7 +47,7 @@ INSTANTIATE_TEST_SUITE_P(Starts, UObstacle, ::testing::Range(1, 6));
 TEST_F(FirmwareTest, u_obstacle_goes_about_in_the_open) {
   load_world("worlds/obstacle.toml");
   Robot& puck = robot(0);
-  puck.settings().firmware = "u_obstacle";
+  puck.settings().firmware = "lab/u_obstacle";
   run_for(60);
   EXPECT_GT(puck.distance_m(), 2);
   EXPECT_LE(puck.longest_wall_touch_s(), 0.5);
