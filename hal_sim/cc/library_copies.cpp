@@ -162,7 +162,7 @@ void leave_out_half_drivers(const fs::path& project, const std::set<fs::path>& u
   }
 }
 
-/// Whether a flat copy does what only the chip can: see limits.md, "The processor, native way".
+/// Whether a flat copy does what only the chip can: see limits.md, "The processor".
 bool needs_the_chip(const std::string& name, const std::string& text) {
   if (std::regex_match(name, camera_files()) && speaks_of_camera(text)) return true;
   static const std::regex kChip(

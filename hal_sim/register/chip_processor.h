@@ -7,7 +7,7 @@
 // Time is the Robot's: estimated costs of blocks, plus what the chip adds (interrupt entry and RETFIE). A
 // loop that polls registers is jumped over to the chip's horizon of what it has read.
 // Modelled: everything dspic30/ models, the program's configuration words FOSC and FWDT. Not modelled: the
-// other words, Sleep's stopped clocks, wait states; see docs/limits.md, "The register way".
+// other words, Sleep's stopped clocks, wait states; see docs/limits.md, "The processor".
 #pragma once
 #include <memory>
 #include <string>
