@@ -49,6 +49,52 @@ std::vector<fs::path> files_below(const fs::path& folder, const std::string& ext
   return found;
 }
 
+/// C++ is compiled for programs of Webots' interfaces alone.
+bool is_cxx(const fs::path& file) {
+  const std::string kind = file.extension();
+  return kind == ".cpp" || kind == ".cc" || kind == ".cxx";
+}
+
+std::vector<fs::path> files_below(const fs::path& folder, std::initializer_list<const char*> extensions) {
+  std::vector<fs::path> found;
+  for (const char* extension : extensions)
+    for (const fs::path& file : files_below(folder, extension)) found.push_back(file);
+  return found;
+}
+
+std::vector<fs::path> headers_below(const fs::path& folder) {
+  return files_below(folder, {".h", ".hpp", ".hh", ".hxx"});
+}
+
+/// Headers of the newest C++ library that is installed; empty: there is none.
+std::vector<fs::path> cxx_library_folders() {
+  int newest = 0;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator("/usr/include/c++", none))
+    newest = std::max(newest, std::atoi(entry.path().filename().c_str()));
+  if (newest == 0) return {};
+  const std::string version = std::to_string(newest);
+  return {"/usr/include/c++/" + version, "/usr/include/x86_64-linux-gnu/c++/" + version,
+          "/usr/include/c++/" + version + "/backward"};
+}
+
+/// The flags of a C file for a C++ file: headers of the C library stand behind those of C++, which include
+/// them.
+std::vector<std::string> cxx_flags(const std::vector<std::string>& flags) {
+  const fs::path cc_dir = source_root() / "hal_sim/cc";
+  std::vector<fs::path> folders = cxx_library_folders(),
+                        c_folders = {cc_dir / "libc/webots/include", cc_dir / "libc/include"};
+  folders.insert(folders.begin(), cc_dir / "libc/cxx/include");
+  folders.insert(folders.end(), c_folders.begin(), c_folders.end());
+  std::vector<std::string> changed;
+  for (const std::string& flag : flags)
+    if (std::none_of(c_folders.begin(), c_folders.end(),
+                     [&](const fs::path& folder) { return flag == "-I" + folder.string(); }))
+      changed.push_back(flag);
+  for (const fs::path& folder : folders) changed.push_back("-isystem" + folder.string());
+  return changed;
+}
+
 /// Sub-folders of the contract, in the order a flat "e_motors.h" is looked up: the one-timer drivers first.
 std::vector<fs::path> contract_folders(const fs::path& root) {
   std::vector<fs::path> folders = {root};
@@ -95,7 +141,7 @@ bool takes_register_addresses(const std::vector<fs::path>& sources, const std::v
 /// Sources of a program for Webots, which compiles the file with the controller's name alone: not those that
 /// another one includes as text, and not further programs that lie beside it.
 std::vector<fs::path> webots_sources(const fs::path& folder, const std::vector<fs::path>& sources) {
-  static const std::regex kInclude(R"(#\s*include\s*"([^"]+\.c)\")"), kMain(R"(\bmain\s*\()");
+  static const std::regex kInclude(R"(#\s*include\s*"([^"]+\.(?:c|cpp|cc|cxx))\")"), kMain(R"(\bmain\s*\()");
   const std::string own = fs::weakly_canonical(folder).filename().string();
   std::set<fs::path> left_out;
   bool has_own_main = false;
@@ -125,7 +171,7 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, bool lint,
   std::vector<std::string> mode = {o.optimisation};
   std::vector<std::string> library_include, user_include;
   for (const auto& d : o.include_dirs) user_include.push_back("-I" + d.string());
-  auto headers = files_below(o.source_dir, ".h");
+  auto headers = headers_below(o.source_dir);
   std::vector<fs::path> own = {o.source_dir};
   for (const auto& h : headers)
     if (std::find(own.begin(), own.end(), h.parent_path()) == own.end()) own.push_back(h.parent_path());
@@ -175,16 +221,22 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, bool lint,
     flags.push_back("--register-pointers");
   for (const auto& d : o.defines) flags.push_back("-D" + d);
   flags.insert(flags.end(), user_include.begin(), user_include.end());
-  for (const auto& s : p.is_webots ? webots_sources(o.source_dir, copies.kept) : copies.kept)
-    p.user.push_back({s, flags, common_salt(headers)});
+  bool any_cxx = false;
+  for (const auto& s : p.is_webots ? webots_sources(o.source_dir, copies.kept) : copies.kept) {
+    any_cxx = any_cxx || is_cxx(s);
+    p.user.push_back({s, is_cxx(s) ? cxx_flags(flags) : flags, common_salt(headers)});
+  }
 
   std::vector<std::string> library_flags = mode;
   library_flags.push_back("--library");
   library_flags.insert(library_flags.end(), library_include.begin(), library_include.end());
-  // first, since some take the place of a file of the libc
+  // some take the place of a file of the libc
   if (p.is_webots)
     for (const auto& folder : {root / "firmware/webots", cc_dir / "libc/webots"})
       for (const auto& s : files_below(folder, ".c")) p.library.push_back({s, library_flags, ""});
+  if (any_cxx)
+    for (const auto& s : files_below(cc_dir / "libc/cxx/src", ".cpp"))
+      p.library.push_back({s, cxx_flags(library_flags), ""});
   // what exists in the simulator alone has one form for both ways
   if (o.register_way)
     for (const char* name : {"virtual.c", "webots_simulator.c"})
@@ -192,8 +244,13 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, bool lint,
   std::vector<fs::path> library_folders = {api, cc_dir / "libc/src"};
   // the half of the library that needs no pins, for a HAL that has the other half
   if (fs::exists(api / "hal.h")) library_folders.push_back(root / "hal_common");
+  const auto is_replaced = [&](const fs::path& file) {
+    return p.is_webots && file.parent_path() == cc_dir / "libc/src" &&
+           fs::exists(cc_dir / "libc/webots" / file.filename());
+  };
   for (const auto& folder : library_folders)
-    for (const auto& s : files_below(folder, ".c")) p.library.push_back({s, library_flags, ""});
+    for (const auto& s : files_below(folder, ".c"))
+      if (!is_replaced(s)) p.library.push_back({s, library_flags, ""});
 
   std::string name =
       o.name.empty() ? fs::absolute(o.source_dir).lexically_normal().filename().string() : o.name;
@@ -324,6 +381,27 @@ void check_main(const std::vector<CompileOutcome>& outcomes, const std::vector<C
                               " (bytes), expected at most 8192 (bytes); it would not fit the chip's RAM");
 }
 
+/// C files, and those in C++ of a program for Webots' interfaces.
+std::vector<fs::path> sources_below(const fs::path& folder) {
+  std::vector<fs::path> sources = files_below(folder, ".c");
+  const std::vector<fs::path> cxx = files_below(folder, {".cpp", ".cc", ".cxx"});
+  if (!cxx.empty() && (names_webots(cxx, headers_below(folder)) || names_webots(sources, {})))
+    sources.insert(sources.end(), cxx.begin(), cxx.end());
+  return sources;
+}
+
+/// What is said of a folder without a program.
+std::string no_program(const fs::path& folder) {
+  const std::string got = folder.string() + ": controller: got ";
+  if (!files_below(folder, {".cpp", ".cc", ".cxx"}).empty())
+    return got +
+           "C++ that includes none of Webots' headers, expected C, or C++ with webots/Robot.hpp; "
+           "firmware on the e-puck's library is C";
+  if (!files_below(folder, ".py").empty())
+    return got + "a program in Python, expected one in C or C++; Python controllers are not run yet";
+  return got + "no .c file, expected at least one";
+}
+
 /// The C files of a program. Those that its project file does not list are there for whatever asks for them.
 struct Program {
   std::vector<fs::path> sources, include_dirs;
@@ -364,8 +442,8 @@ void leave_out_other_programs(Program& program, const fs::path& folder, BuildRes
 
 Program program_of(const BuildOptions& o, BuildResult& result) {
   Program program;
-  program.sources = o.sources.empty() ? files_below(o.source_dir, ".c") : o.sources;
-  if (!o.sources.empty() || names_webots(program.sources, files_below(o.source_dir, ".h"))) return program;
+  program.sources = o.sources.empty() ? sources_below(o.source_dir) : o.sources;
+  if (!o.sources.empty() || names_webots(program.sources, headers_below(o.source_dir))) return program;
   const auto project = find_mplab_project(o.source_dir);
   if (!project) {
     leave_out_other_programs(program, o.source_dir, result);
@@ -427,7 +505,7 @@ BuildResult build_image(const BuildOptions& options) {
   Program program = program_of(o, result);
   const auto& sources = program.sources;
   if (sources.empty()) {
-    result.errors.push_back(o.source_dir.string() + ": controller: got no .c file, expected at least one");
+    result.errors.push_back(no_program(o.source_dir));
     return finish();
   }
   if (o.cache_dir.empty()) o.cache_dir = build_root() / "firmware-cache";
@@ -532,9 +610,9 @@ BuildResult lint_folder(const BuildOptions& options) {
   BuildOptions o = options;
   o.strict = true;
   std::error_code ec;
-  auto sources = o.sources.empty() ? files_below(o.source_dir, ".c") : o.sources;
+  auto sources = o.sources.empty() ? sources_below(o.source_dir) : o.sources;
   if (sources.empty()) {
-    result.errors.push_back(o.source_dir.string() + ": controller: got no .c file, expected at least one");
+    result.errors.push_back(no_program(o.source_dir));
     return result;
   }
   if (o.cache_dir.empty()) o.cache_dir = build_root() / "firmware-cache";

@@ -22,7 +22,8 @@ namespace {
 bool holds_c(const fs::path& folder) {
   std::error_code none;
   for (const auto& entry : fs::recursive_directory_iterator(folder, none))
-    if (entry.path().extension() == ".c" || entry.path().extension() == ".C") return true;
+    for (const char* kind : {".c", ".C", ".cpp", ".cc", ".cxx"})
+      if (entry.path().extension() == kind) return true;
   return false;
 }
 
@@ -65,8 +66,7 @@ std::string build_folder() {
   return (fs::path(project_root()) / "build").string();
 }
 
-std::string provide_image(const std::string& name, const std::string& from_folder, const Options& options,
-                          std::vector<std::string>& problems) {
+std::string find_firmware(const std::string& name, const std::string& from_folder) {
   fs::path path =
       fs::path(name).is_absolute() || from_folder.empty() ? fs::path(name) : fs::path(from_folder) / name;
   std::error_code none;
@@ -75,6 +75,13 @@ std::string provide_image(const std::string& name, const std::string& from_folde
     const fs::path controller = fs::path(project_root()) / "firmware" / name;
     if (name.find('/') == std::string::npos && fs::is_directory(controller, none)) path = controller;
   }
+  return path.string();
+}
+
+std::string provide_image(const std::string& name, const std::string& from_folder, const Options& options,
+                          std::vector<std::string>& problems) {
+  const fs::path path = find_firmware(name, from_folder);
+  std::error_code none;
   if (!fs::exists(path, none)) {
     const std::string guess = sim::did_you_mean(name, controller_names());
     problems.push_back(name +
@@ -85,10 +92,6 @@ std::string provide_image(const std::string& name, const std::string& from_folde
     return "";
   }
   if (!fs::is_directory(path, none)) return path.string();
-  if (!holds_c(path)) {
-    problems.push_back(path.string() + ": firmware: got a folder without C files, expected at least one .c");
-    return "";
-  }
   cc::BuildOptions build;
   build.source_dir = path;
   build.output = output_for(path, options);
