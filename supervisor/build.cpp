@@ -126,6 +126,12 @@ bool is_program_folder(const std::string& folder) {
   return false;
 }
 
+std::string program_folder(const std::string& name, const std::string& from_folder) {
+  std::error_code none;
+  const fs::path path = fs::absolute(find(name, from_folder), none);
+  return (fs::is_directory(path, none) ? path : path.parent_path()).string();
+}
+
 std::string find_program(const std::string& name, const std::string& from_folder,
                          std::vector<std::string>& problems) {
   const fs::path path = find(name, from_folder);
@@ -171,6 +177,7 @@ std::string provide_program(const std::string& name, const std::string& from_fol
   const fs::path root = twin::project_root();
   std::vector<std::string> command{
       kCompiler, "-shared", "-fPIC", "-g", "-O1", "-Wall", "-fno-omit-frame-pointer", "-ffp-contract=off",
+      "-fcommon",  // as compilers did when many of them were written
       // two programs share nothing, and what ends a process ends only the program
       "-fno-gnu-unique", "-Wl,-Bsymbolic"};
   for (const char* symbol : {"exit", "_exit", "_Exit", "quick_exit", "rand", "srand", "random", "srandom",

@@ -19,6 +19,9 @@ std::string provide_program(const std::string& name, const std::string& from_fol
                             const std::function<void(const std::string&)>& tell,
                             std::vector<std::string>& problems);
 
+/// The folder that a program works in, absolute: its own, or that of its file.
+std::string program_folder(const std::string& name, const std::string& from_folder);
+
 /// True when `folder` is one of supervisor/programs/, or holds C or C++ that includes a supervisor's header.
 bool is_program_folder(const std::string& folder);
 

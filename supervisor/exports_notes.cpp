@@ -68,7 +68,7 @@ int sv_track_point(int thing, int index, double* time, struct sv_pose* pose) {
 int sv_save_tracks(const char* file) {
   Member& me = asking();
   errno = 0;
-  std::ofstream out(file ? file : "", std::ios::binary | std::ios::trunc);
+  std::ofstream out(me.team.file_of_run(file), std::ios::binary | std::ios::trunc);
   out << "time_s,thing,x_m,y_m,z_m,heading_rad\n";
   for (const auto& [thing, track] : me.tracks)
     for (const auto& note : track.notes)
@@ -85,7 +85,7 @@ int sv_picture(const char* file) {
   sim::PictureOptions options;
   options.caption = fmt::format("{:g} s, seed {}", me.team.now_s(), me.team.twin().world().seed);
   options.labels = me.team.labels();
-  const std::string error = sim::write_picture(file ? file : "", me.team.simulation().scene(),
+  const std::string error = sim::write_picture(me.team.file_of_run(file), me.team.simulation().scene(),
                                                me.team.simulation().minds(), me.team.ways(), options);
   return error.empty() ? 0 : me.refuse("sv_picture: " + error);
 }

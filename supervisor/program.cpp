@@ -3,14 +3,17 @@
 
 #include <cxxabi.h>
 #include <dlfcn.h>
+#include <fcntl.h>
 #include <pthread.h>
 #include <signal.h>
 #include <ucontext.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <mutex>
+#include <sstream>
 
 #include "sim_core/base/check.h"
 
@@ -62,6 +65,31 @@ void tell_sanitizer() {}
 
 struct sigaction abort_before;
 
+/// The process works in a folder for as long as this lives. Programs run between ticks, one after the other,
+/// and nothing else runs then that opens files.
+class InFolder {
+ public:
+  explicit InFolder(const std::string& folder) {
+    if (folder.empty()) return;
+    before_ = open(".", O_PATH | O_DIRECTORY | O_CLOEXEC);
+    if (before_ >= 0 && chdir(folder.c_str()) != 0) leave();
+  }
+  ~InFolder() {
+    if (before_ < 0) return;
+    CHECK(fchdir(before_) == 0, "the folder of the run is gone");
+    leave();
+  }
+  InFolder(const InFolder&) = delete;
+  InFolder& operator=(const InFolder&) = delete;
+
+ private:
+  void leave() {
+    close(before_);
+    before_ = -1;
+  }
+  int before_ = -1;
+};
+
 }  // namespace
 
 /// abort() raises a signal that the host does not handle for firmware.
@@ -87,9 +115,14 @@ Program::Program(std::string path, std::string name, void* owner)
 
 Program::~Program() = default;
 
-std::unique_ptr<Program> Program::open(const std::string& path, const std::string& name, void* owner,
+std::unique_ptr<Program> Program::open(const std::string& path, const std::string& name,
+                                       const std::string& folder, const std::string& args, void* owner,
                                        std::vector<std::string>& problems) {
   std::unique_ptr<Program> p(new Program(path, name, owner));
+  p->folder_ = folder;
+  p->words_ = {name};
+  std::istringstream words(args);
+  for (std::string word; words >> word;) p->words_.push_back(word);
   std::string why;
   p->object_ = host::SharedObject::open(path, true, why);
   if (!p->object_) {
@@ -127,6 +160,7 @@ void Program::run() {
   Program* const outer = running;
   running = this;
   host::set_fault_guest(this);
+  const InFolder here(folder_);
   fiber_.enter();
   host::set_fault_guest(outer);
   running = outer;
@@ -150,10 +184,13 @@ void Program::exit(int status) {
 
 void Program::enter(void* raw) {
   auto* self = static_cast<Program*>(raw);
-  char* arguments[] = {self->name_.data(), nullptr};
+  std::vector<char*> arguments;
+  for (std::string& word : self->words_) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
   std::string thrown;
   try {
-    self->exit_status_ = self->main_(1, arguments, arguments + 1);
+    self->exit_status_ = self->main_(static_cast<int>(self->words_.size()), arguments.data(),
+                                     arguments.data() + self->words_.size());
   } catch (const std::exception& e) {
     thrown = std::string("an exception that nobody caught: ") + e.what();
   } catch (...) {

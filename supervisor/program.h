@@ -22,7 +22,10 @@ class Program final : host::FaultGuest {
 
   /// Loads `path` once more. Null, with a line in `problems`, when it is no program. `owner` is what
   /// current() answers while it runs.
-  static std::unique_ptr<Program> open(const std::string& path, const std::string& name, void* owner,
+  /// `folder` is where it works: names of files without a path are of that folder; `args` are words between
+  /// blanks for main().
+  static std::unique_ptr<Program> open(const std::string& path, const std::string& name,
+                                       const std::string& folder, const std::string& args, void* owner,
                                        std::vector<std::string>& problems);
   ~Program() override;
   Program(const Program&) = delete;
@@ -56,7 +59,8 @@ class Program final : host::FaultGuest {
   bool is_code(std::uintptr_t pc) const { return object_->is_code(pc); }
   std::string place_of(std::uintptr_t pc, std::uintptr_t frame) const;
 
-  std::string path_, name_;
+  std::string path_, name_, folder_;
+  std::vector<std::string> words_;  // argv
   void* owner_;
   std::unique_ptr<host::SharedObject> object_;
   int (*main_)(int, char**, char**) = nullptr;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 
 #include "supervisor/build.h"
 
@@ -84,7 +85,7 @@ double Member::step(double seconds) {
 // --- Team
 
 Team::Team(twin::Twin& twin, std::vector<sim::SupervisorDesc> descs)
-    : twin_(twin), things_(twin.simulation()) {
+    : run_folder_(std::filesystem::current_path().string()), twin_(twin), things_(twin.simulation()) {
   say = [](const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); };
   for (std::size_t i = 0; i < descs.size(); ++i)
     members_.push_back(std::make_unique<Member>(*this, static_cast<int>(i), descs[i]));
@@ -116,7 +117,8 @@ std::unique_ptr<Team> Team::open(twin::Twin& twin, const twin::Options& options,
   std::unique_ptr<Team> team(new Team(twin, descs));
   for (std::size_t i = 0; i < descs.size(); ++i) {
     Member& member = *team->members_[i];
-    member.program = Program::open(paths[i], member.name, &member, problems);
+    const std::string folder = program_folder(descs[i].program, i < of_world ? options.world_folder : "");
+    member.program = Program::open(paths[i], member.name, folder, descs[i].args, &member, problems);
   }
   if (problems.size() != before) return nullptr;
   for (const auto& member : team->members_) twin.packets().add(*member);
@@ -203,6 +205,10 @@ void Team::note_move(int thing) {
     const auto track = member->tracks.find(thing);
     if (track != member->tracks.end()) track->second.lifted = true;
   }
+}
+
+std::string Team::file_of_run(const char* file) const {
+  return file && *file ? (std::filesystem::path(run_folder_) / file).string() : "";
 }
 
 void Team::keep_ways() {

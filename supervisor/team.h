@@ -141,6 +141,9 @@ class Team final : public sim::Attendant {
   void note_move(int thing);
   /// Ways of the robots since the first track was asked for.
   sim::Trajectories* ways() { return ways_.get(); }
+  /// A file that a function of supervisor.h writes: names without a path are of the folder of the run, not
+  /// of the program's, in which the process is during its turn.
+  std::string file_of_run(const char* file) const;
   void keep_ways();
 
  private:
@@ -149,6 +152,7 @@ class Team final : public sim::Attendant {
   void look_after(Member& member);
   void take_notes(Member& member);
 
+  const std::string run_folder_;
   twin::Twin& twin_;
   Things things_;
   std::vector<std::unique_ptr<Member>> members_;

@@ -21,6 +21,19 @@ constexpr NamedKey kNames[] = {{"BOTTOMR", 10}, {"BOTTOMl", 11},  {"STANDBY", 12
                                {"VOL_UP", 16},  {"VOL_DOWN", 17}, {"CHAN_UP", 32}, {"CHAN_DOWN", 33},
                                {"I_II", 35},    {"OUT_AUX_1", 56}};
 
+/// A keyboard's, by Webots' numbers.
+constexpr NamedKey kTyped[] = {{"END", 312},   {"HOME", 313}, {"LEFT", 314},   {"UP", 315},
+                               {"RIGHT", 316}, {"DOWN", 317}, {"PAGEUP", 366}, {"PAGEDOWN", 367},
+                               {"SPACE", ' '}, {"ENTER", 4}};
+
+/// Number of a key of the keyboard: a name, or a character, of which letters are capitals; 0: none.
+int typed_key(const std::string& name) {
+  for (const NamedKey& named : kTyped)
+    if (name == named.name) return named.code;
+  if (name.size() != 1 || name[0] <= ' ' || name[0] > '~') return 0;
+  return name[0] >= 'a' && name[0] <= 'z' ? name[0] - 'a' + 'A' : name[0];
+}
+
 bool whole_number(const std::string& text, int most, int& out) {
   if (text.empty() || text.size() > 3 || text.find_first_not_of("0123456789") != std::string::npos)
     return false;
@@ -42,11 +55,19 @@ std::string add_key(const std::string& robot, const std::string& press, std::vec
   if (at == std::string::npos) return form + " such as 5@1.5 or VOL_UP@2+0.5";
   sim::KeyDesc key;
   std::string code = press.substr(0, at);
-  if (const std::size_t colon = code.find(':'); colon != std::string::npos) {
+  constexpr const char* kKeyboard = "keyboard:";
+  const bool is_typed = code.rfind(kKeyboard, 0) == 0;
+  if (is_typed) {
+    key.typed = typed_key(code.substr(std::string(kKeyboard).size()));
+    if (!key.typed)
+      return form +
+             ", after keyboard: a character or one of UP, DOWN, LEFT, RIGHT, HOME, END, PAGEUP, "
+             "PAGEDOWN, SPACE, ENTER";
+  } else if (const std::size_t colon = code.find(':'); colon != std::string::npos) {
     if (!whole_number(code.substr(0, colon), 31, key.address)) return form + ", ADDRESS 0 to 31";
     code = code.substr(colon + 1);
   }
-  bool known = whole_number(code, 63, key.code);
+  bool known = is_typed || whole_number(code, 63, key.code);
   std::vector<std::string> names;
   for (const NamedKey& named : kNames) {
     names.push_back(named.name);

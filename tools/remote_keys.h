@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `--key ROBOT=[ADDRESS:]KEY@TIME[+HOLD]`: key presses of a remote control from the command line.
+// `--key ROBOT=[ADDRESS:]KEY@TIME[+HOLD]`: key presses of a remote control from the command line; with
+// `keyboard:` before the key those of a keyboard, which programs for Webots' interfaces ask for.
 #pragma once
 #include <string>
 #include <vector>

@@ -34,6 +34,7 @@ constexpr double kLongestSleep_s = 0.1;  // with a look whether the end was aske
 struct RunArguments {
   std::string world;
   std::vector<std::string> firmware, uart1, uart2, keys, supervisors;
+  std::string files = "twinpuck-files";
   double seconds = 60;
   std::string speed = "max";
   long long seed = -1;
@@ -81,6 +82,7 @@ int run(const RunArguments& arguments) {
   options.way = arguments.way;
   options.sanitize = arguments.sanitize;
   options.coverage = !arguments.outputs.coverage.empty();
+  options.files_folder = arguments.files;
   options.tell = [](const std::string& line) { std::cerr << line << '\n'; };
   if (!parse_speed(arguments.speed, speed) || !split(arguments.firmware, "--fw", options.firmware) ||
       !split(arguments.uart1, "--uart", options.uart1) || !split(arguments.uart2, "--uart2", options.uart2))
@@ -193,6 +195,10 @@ int run(const RunArguments& arguments) {
   serial.finish();
   const Summary summary = summarise(*twin, took_s);
   outputs.finish(summary, problems);
+  for (int i = 0; i < twin->robots() && !arguments.quiet; ++i)
+    if (const auto& files = twin->mind(i).board().virtual_devices().files; files.has_written())
+      std::cerr << twin->world().robots[static_cast<std::size_t>(i)].name
+                << ": files written: " << files.folder().string() << '\n';
   complain(problems);
   if (!arguments.quiet) std::cout << to_text(summary);
   for (const auto& t : summary.traps) std::cerr << to_text(t);
@@ -239,7 +245,11 @@ void add_run(CLI::App& app, int& exit_code) {
   one_each(
       verb->add_option("--key", a->keys,
                        "[ROBOT=]KEY@TIME[+HOLD]: a remote control's key, 0 to 63 or a name such as VOL_UP, "
-                       "pressed at TIME s for HOLD s (0.1); ADDRESS:KEY for another address than 0"));
+                       "pressed at TIME s for HOLD s (0.1); ADDRESS:KEY for another address than 0; keyboard:UP or "
+                       "keyboard:W for a keyboard's, which programs for Webots ask for"));
+  verb->add_option("--files", a->files,
+                   "folder for files that programs for Webots write, below it one for each robot")
+      ->capture_default_str();
   one_each(verb->add_option("--supervisor", a->supervisors,
                             "a program attached to the world: a C or C++ file, a folder, or one of "
                             "supervisor/programs/"));

@@ -140,6 +140,8 @@ static void add_simulated(void) {
       add_extra(name, WB_NODE_GYRO, 0, WEBOTS_TRUTH);
     else if (kind == TWIN_DISTANCE)
       add_extra(name, WB_NODE_DISTANCE_SENSOR, 0, WEBOTS_VIRTUAL);
+    else if (kind == TWIN_DISPLAY)
+      add_extra(name, WB_NODE_DISPLAY, i, WEBOTS_VIRTUAL);
   }
 #endif
 }

@@ -20,8 +20,11 @@ static int step_begun;              /* ms, between wb_robot_step_begin() and its
 static char custom_data[CUSTOM_SIZE];
 static struct webots_device* battery; /* null until a program wants it */
 
+static int next_key;                  /* of those that are down, since the last step */
+
 static int step(int ms) {
   webots_step(ms);
+  next_key = 0;
   return 0;
 }
 
@@ -42,6 +45,7 @@ static void run_for_ever(int (*run)(int)) {
   for (;;) {
     int next = run(passed);
     passed = webots_step(next > 0 ? next : (int)basic_step());
+    next_key = 0;
   }
 }
 
@@ -118,17 +122,25 @@ double wb_robot_battery_sensor_get_value(void) {
 void wb_robot_live(void (*reset)(void)) { live(reset); }
 void wb_robot_run(int (*run)(int)) { run_for_ever(run); }
 
-/* --- keyboard: nobody sits at it ---------------------------------------------------------------------- */
+/* --- keyboard ----------------------------------------------------------------------------------------- */
 
 static int keyboard_period;
+
+/* each key that is down once a step; then `none`, which was 0 in versions 5 to 8 */
+static long key(long none) {
+  int found = keyboard_period > 0 ? twin_key(next_key) : 0;
+  if (!found) return none;
+  next_key++;
+  return found;
+}
 
 void wb_keyboard_enable(int sampling_period) { keyboard_period = sampling_period; }
 void wb_keyboard_disable(void) { keyboard_period = 0; }
 int wb_keyboard_get_sampling_period(void) { return keyboard_period; }
-long wb_keyboard_get_key(void) { return -1; }
+long wb_keyboard_get_key(void) { return key(-1); }
 void wb_robot_keyboard_enable(int ms) { keyboard_period = ms; }
 void wb_robot_keyboard_disable(void) { keyboard_period = 0; }
-long wb_robot_keyboard_get_key(void) { return 0; } /* 0 was none in those versions */
+long wb_robot_keyboard_get_key(void) { return key(0); }
 
 /* --- console ------------------------------------------------------------------------------------------ */
 
@@ -167,7 +179,7 @@ void robot_console_printf(const char* format, ...) {
 
 void robot_keyboard_enable(int ms) { keyboard_period = ms; }
 void robot_keyboard_disable(void) { keyboard_period = 0; }
-long robot_keyboard_get_key(void) { return 0; }
+long robot_keyboard_get_key(void) { return key(0); }
 void robot_battery_sensor_enable(int ms) { enable_battery(ms); }
 void robot_battery_sensor_disable(void) { enable_battery(0); }
 float robot_battery_sensor_get_value(void) { return battery && battery->fresh ? battery->value : 0; }

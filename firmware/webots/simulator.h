@@ -17,7 +17,8 @@ enum twin_kind {
   TWIN_GYRO,
   TWIN_EMITTER,
   TWIN_RECEIVER,
-  TWIN_DISTANCE
+  TWIN_DISTANCE,
+  TWIN_DISPLAY
 };
 
 #ifdef __TWINPUCK__
@@ -36,6 +37,9 @@ int twin_device(int index, char* name, int size);
 /** Value of a sensor that a supervisor defined; 0: it has not. */
 int twin_virtual_sensor(const char* name, float* value);
 
+/** Key `index` of those that are down on the keyboard; 0: none. */
+int twin_key(int index);
+
 /** Truth, three numbers each; m, m/s, unit vector, rad, rad/s in the world file's axes. */
 void twin_position(float* xyz, float* velocity);
 void twin_north(float* xyz);
@@ -45,6 +49,18 @@ void twin_rates(float* xyz);
 /** A robot or object by def or name, 0 for none; its place and its angle about the upward axis. */
 int twin_find(const char* name);
 void twin_pose_of(int found, float* xyz, float* angle);
+
+/** Displays by their number among the devices; negative: nothing happens. As in pins_virtual.h. */
+int twin_display_width(int display);
+int twin_display_height(int display);
+void twin_display_colour(int display, long rgb);
+void twin_display_solid(int display, int alpha_percent, int opacity_percent);
+void twin_display_shape(int display, int filled, const int* x, const int* y, int points);
+int twin_display_copy(int display, int x, int y, int width, int height);
+int twin_display_make(int display, int width, int height, const void* bytes, int format);
+void twin_display_paste(int display, int image, int x, int y, int blend);
+void twin_display_remove(int display, int image);
+int twin_display_save(int display, int image, const char* name);
 
 /** Ends of packets, by number; -1 for none of the name. */
 int twin_emitter_find(const char* name);
@@ -73,6 +89,7 @@ void twin_receiver_set_channel(int receiver, int channel);
 #define twin_robot_name(name, size) ((void)(size), (name)[0] = 0)
 #define twin_device(index, name, size) TWIN_NONE
 #define twin_virtual_sensor(name, value) 0
+#define twin_key(index) 0
 
 #endif
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * What a robot's controller may ask of the world through webots/supervisor.h: where robots and movable objects are.
+ * What a robot's controller may ask of the world through webots/supervisor.h: where robots and objects are.
  * Everything that changes the world is left to supervisor programs, and does not link here. Empty on the robot.
  */
 #ifdef __TWINPUCK__

@@ -19,6 +19,28 @@ int twin_nue(void) { return (int)tp_virtual_nue(); }
 void twin_robot_name(char* name, int size) { tp_virtual_robot_name(name, size); }
 int twin_device(int index, char* name, int size) { return (int)tp_virtual_device(index, name, size); }
 int twin_virtual_sensor(const char* name, float* value) { return (int)tp_virtual_sensor(name, value); }
+int twin_key(int index) { return (int)tp_virtual_key(index); }
+
+int twin_display_width(int display) { return (int)tp_display_width(display); }
+int twin_display_height(int display) { return (int)tp_display_height(display); }
+void twin_display_colour(int display, long rgb) { tp_display_colour(display, rgb); }
+void twin_display_solid(int display, int alpha, int opacity) { tp_display_solid(display, alpha, opacity); }
+void twin_display_shape(int display, int filled, const int* x, const int* y, int points) {
+  tp_display_shape(display, filled, (const short*)x, (const short*)y, points);
+}
+int twin_display_copy(int display, int x, int y, int width, int height) {
+  return (int)tp_display_copy(display, x, y, width, height);
+}
+int twin_display_make(int display, int width, int height, const void* bytes, int format) {
+  return (int)tp_display_make(display, width, height, bytes, format);
+}
+void twin_display_paste(int display, int image, int x, int y, int blend) {
+  tp_display_paste(display, image, x, y, blend);
+}
+void twin_display_remove(int display, int image) { tp_display_remove(display, image); }
+int twin_display_save(int display, int image, const char* name) {
+  return (int)tp_display_save(display, image, name);
+}
 
 void twin_position(float* xyz, float* velocity) { tp_virtual_position(xyz, velocity); }
 void twin_north(float* xyz) { tp_virtual_north(xyz); }

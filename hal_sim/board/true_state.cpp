@@ -60,16 +60,35 @@ int find_body(const Board& board, const std::string& name) {
       const sim::ObjectDesc& object = world.objects[static_cast<std::size_t>(loose[i])];
       if ((by_def ? object.def : object.name) == name) return scene->robots() + static_cast<int>(i);
     }
+    // objects that nobody can move have no body; they are numbered behind the bodies
+    for (std::size_t o = 0; o < world.objects.size(); ++o) {
+      const sim::ObjectDesc& object = world.objects[o];
+      if (!object.movable && (by_def ? object.def : object.name) == name)
+        return scene->bodies() + static_cast<int>(o);
+    }
   }
   return -1;
 }
 
 void true_pose(const Board& board, int body, Cycle at, sim::Vec3& position_m, double& angle_rad) {
   const sim::Scene* scene = board.scene();
-  if (!scene || body < 0 || body >= scene->bodies()) return;
-  const sim::Pose2 pose = scene->pose(body, board.clock().click_at(at));
+  if (!scene || body < 0) return;
+  const std::vector<sim::ObjectDesc>& objects = scene->world().objects;
+  const std::size_t fixed = static_cast<std::size_t>(body - scene->bodies());
+  const bool is_fixed = body >= scene->bodies();
+  if (is_fixed && fixed >= objects.size()) return;
   const bool nue = board.setup().webots.axes == sim::Axes::Nue;
-  position_m = {pose.x_m, pose.y_m, scene->state(body).z_m};
+  const sim::Pose2 pose = is_fixed ? objects[fixed].pose : scene->pose(body, board.clock().click_at(at));
+  position_m = {pose.x_m, pose.y_m, is_fixed ? objects[fixed].z_m : scene->state(body).z_m};
+  // Webots places solids by their middle
+  if (is_fixed)
+    position_m.z += objects[fixed].size_m.z / 2;
+  else if (body >= scene->robots())
+    position_m.z +=
+        objects[static_cast<std::size_t>(
+                    scene->layout().loose_object[static_cast<std::size_t>(body - scene->robots())])]
+            .size_m.z /
+        2;
   if (nue) position_m = sim::to_nue(position_m);
   angle_rad = nue ? sim::angle_to_nue(pose.heading_rad) : pose.heading_rad;
 }

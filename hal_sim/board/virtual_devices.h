@@ -11,6 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "hal_sim/board/displays.h"
+#include "hal_sim/board/robot_files.h"
+
 namespace board {
 
 class VirtualDevices {
@@ -27,6 +30,20 @@ class VirtualDevices {
   /// Called with every line that firmware writes to the simulator's console, without its newline; may be
   /// empty.
   std::function<void(const std::string&)> on_console;
+
+  /// Keys of a keyboard by Webots' numbers, and when each is down (s, world time). Set before the run.
+  struct TypedKey {
+    int key;
+    double from_s, to_s;
+  };
+  std::vector<TypedKey> typed;
+
+  /// Files that firmware may open.
+  RobotFiles files;
+
+  /// Displays that firmware has used, by number, and who writes their pictures.
+  std::map<int, Display> displays;
+  std::function<bool(const std::string& path, const DisplayImage&)> write_picture;
 
   /// Memory for malloc() of programs written for PCs, which are not sparing with it; made when it is first
   /// asked for, and the robot's for life.

@@ -34,6 +34,35 @@ fs::path source_root() {
 
 fs::path build_root() { return TWINPUCK_BUILD_DIR; }
 
+/// Headers of the newest C++ library that is installed; empty: there is none.
+std::vector<fs::path> cxx_library_folders() {
+  int newest = 0;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator("/usr/include/c++", none))
+    newest = std::max(newest, std::atoi(entry.path().filename().c_str()));
+  if (newest == 0) return {};
+  const std::string version = std::to_string(newest);
+  return {"/usr/include/c++/" + version, "/usr/include/x86_64-linux-gnu/c++/" + version,
+          "/usr/include/c++/" + version + "/backward"};
+}
+
+/// The flags of a C file for a C++ file: headers of the C library stand behind those of C++, which include
+/// them.
+std::vector<std::string> cxx_flags(const std::vector<std::string>& flags) {
+  const fs::path cc_dir = source_root() / "hal_sim/cc";
+  std::vector<fs::path> folders = cxx_library_folders(),
+                        c_folders = {cc_dir / "libc/webots/include", cc_dir / "libc/include"};
+  folders.insert(folders.begin(), cc_dir / "libc/cxx/include");
+  folders.insert(folders.end(), c_folders.begin(), c_folders.end());
+  std::vector<std::string> changed;
+  for (const std::string& flag : flags)
+    if (std::none_of(c_folders.begin(), c_folders.end(),
+                     [&](const fs::path& folder) { return flag == "-I" + folder.string(); }))
+      changed.push_back(flag);
+  for (const fs::path& folder : folders) changed.push_back("-isystem" + folder.string());
+  return changed;
+}
+
 /// Sub-folders of the contract, in the order a flat "e_motors.h" is looked up: the one-timer drivers first.
 std::vector<fs::path> contract_folders(const fs::path& root) {
   std::vector<fs::path> folders = {root};
@@ -74,7 +103,7 @@ bool takes_register_addresses(const std::vector<fs::path>& sources, const std::v
 /// Sources of a program for Webots, which compiles the file with the controller's name alone: not those that
 /// another one includes as text, and not further programs that lie beside it.
 std::vector<fs::path> webots_sources(const fs::path& folder, const std::vector<fs::path>& sources) {
-  static const std::regex kInclude(R"(#\s*include\s*"([^"]+\.c)\")"), kMain(R"(\bmain\s*\()");
+  static const std::regex kInclude(R"(#\s*include\s*"([^"]+\.(?:c|cpp|cc|cxx))\")"), kMain(R"(\bmain\s*\()");
   const std::string own = fs::weakly_canonical(folder).filename().string();
   std::set<fs::path> left_out;
   bool has_own_main = false;
@@ -108,7 +137,7 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& pro
   for (const auto& d : program.include_dirs) user_include.push_back("-I" + d.string());
   user_include.push_back("-I" + (cc_dir / "libc/include").string());
   user_include.push_back(kVendorHeaders);
-  auto headers = files_below(o.source_dir, ".h");
+  auto headers = headers_below(o.source_dir);
   std::vector<fs::path> own = {o.source_dir};
   for (const auto& h : headers)
     if (std::find(own.begin(), own.end(), h.parent_path()) == own.end()) own.push_back(h.parent_path());
@@ -162,17 +191,23 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& pro
   if (const std::string& standard = o.standard.empty() ? program.standard : o.standard; !standard.empty())
     flags.push_back("-std=" + standard);
   flags.insert(flags.end(), user_include.begin(), user_include.end());
+  bool any_cxx = false;
   for (const auto& s :
-       p.is_webots && !program.is_exact ? webots_sources(o.source_dir, copies.kept) : copies.kept)
-    p.user.push_back({s, flags, common_salt(headers)});
+       p.is_webots && !program.is_exact ? webots_sources(o.source_dir, copies.kept) : copies.kept) {
+    any_cxx = any_cxx || is_cxx(s);
+    p.user.push_back({s, is_cxx(s) ? cxx_flags(flags) : flags, common_salt(headers)});
+  }
 
   std::vector<std::string> library_flags = mode;
   library_flags.push_back("--library");
   library_flags.insert(library_flags.end(), library_include.begin(), library_include.end());
-  // first, since some take the place of a file of the libc
+  // some take the place of a file of the libc
   if (p.is_webots)
     for (const auto& folder : {root / "firmware/webots", cc_dir / "libc/webots"})
       for (const auto& s : files_below(folder, ".c")) p.library.push_back({s, library_flags, ""});
+  if (any_cxx)
+    for (const auto& s : files_below(cc_dir / "libc/cxx/src", ".cpp"))
+      p.library.push_back({s, cxx_flags(library_flags), ""});
   // what exists in the simulator alone has one form for both ways
   if (o.register_way)
     for (const char* name : {"virtual.c", "webots_simulator.c"})
@@ -180,8 +215,13 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& pro
   std::vector<fs::path> library_folders = {api, cc_dir / "libc/src"};
   // the half of the library that needs no pins, for a HAL that has the other half
   if (fs::exists(api / "hal.h")) library_folders.push_back(root / "hal_common");
+  const auto is_replaced = [&](const fs::path& file) {
+    return p.is_webots && file.parent_path() == cc_dir / "libc/src" &&
+           fs::exists(cc_dir / "libc/webots" / file.filename());
+  };
   for (const auto& folder : library_folders)
-    for (const auto& s : files_below(folder, ".c")) p.library.push_back({s, library_flags, ""});
+    for (const auto& s : files_below(folder, ".c"))
+      if (!is_replaced(s)) p.library.push_back({s, library_flags, ""});
 
   std::string name =
       o.name.empty() ? fs::absolute(o.source_dir).lexically_normal().filename().string() : o.name;
@@ -412,7 +452,7 @@ static BuildResult build_here(const BuildOptions& options) {
   Program program = program_of(o, result);
   const auto& sources = program.sources;
   if (sources.empty()) {
-    result.errors.push_back(o.source_dir.string() + ": controller: got no .c file, expected at least one");
+    result.errors.push_back(no_program(o.source_dir));
     return finish();
   }
   if (o.cache_dir.empty()) o.cache_dir = build_root() / "firmware-cache";
@@ -528,9 +568,9 @@ static BuildResult lint_here(const BuildOptions& options) {
   BuildOptions o = options;
   o.strict = true;
   std::error_code ec;
-  auto sources = o.sources.empty() ? files_below(o.source_dir, ".c") : o.sources;
+  auto sources = o.sources.empty() ? sources_below(o.source_dir) : o.sources;
   if (sources.empty()) {
-    result.errors.push_back(o.source_dir.string() + ": controller: got no .c file, expected at least one");
+    result.errors.push_back(no_program(o.source_dir));
     return result;
   }
   if (o.cache_dir.empty()) o.cache_dir = build_root() / "firmware-cache";

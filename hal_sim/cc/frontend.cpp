@@ -11,6 +11,7 @@
 #include "clang/AST/ASTContext.h"
 #include "clang/AST/Attr.h"
 #include "clang/AST/Decl.h"
+#include "clang/AST/DeclCXX.h"
 #include "clang/AST/Expr.h"
 #include "clang/AST/Stmt.h"
 #include "clang/Basic/TargetInfo.h"
@@ -108,12 +109,12 @@ class FactConsumer : public ASTConsumer {
   bool HandleTopLevelDecl(DeclGroupRef group) override {
     for (Decl* decl : group) {
       note(decl);
-      if (auto* function = dyn_cast<FunctionDecl>(decl))
-        if (function->doesThisDeclarationHaveABody()) narrow_differences(function->getBody());
+      narrow_within(decl);
     }
     return true;
   }
   void HandleTopLevelDeclInObjCContainer(DeclGroupRef) override {}
+  void HandleInlineFunctionDefinition(FunctionDecl* function) override { narrow_within(function); }
 
  private:
   void note(Decl* decl) {
@@ -136,6 +137,18 @@ class FactConsumer : public ASTConsumer {
     var->addAttr(AsmLabelAttr::CreateImplicit(*context_, section->getName(), /*IsLiteralLabel*/ true));
     var->dropAttr<SectionAttr>();
     var->setStorageClass(SC_Extern);
+  }
+  /// Functions of C++ stand in name spaces and classes as well. Templates come when they are made.
+  void narrow_within(Decl* decl) {
+    if (auto* function = dyn_cast<FunctionDecl>(decl)) {
+      if (!function->doesThisDeclarationHaveABody() || function->isDependentContext()) return;
+      if (!narrowed_.insert(function).second) return;
+      if (auto* constructor = dyn_cast<CXXConstructorDecl>(function))
+        for (CXXCtorInitializer* member : constructor->inits()) narrow_differences(member->getInit());
+      narrow_differences(function->getBody());
+    } else if (isa<NamespaceDecl>(decl) || isa<LinkageSpecDecl>(decl) || isa<CXXRecordDecl>(decl)) {
+      for (Decl* inner : cast<DeclContext>(decl)->decls()) narrow_within(inner);
+    }
   }
   /// The code generator makes p - q and sizeof(int[n]) as wide as the PC's pointers, whatever ptrdiff_t is.
   /// Say so in the tree, and narrow the result to the robot's int.
@@ -161,6 +174,7 @@ class FactConsumer : public ASTConsumer {
 
   Facts& facts_;
   ASTContext* context_ = nullptr;
+  std::set<const FunctionDecl*> narrowed_;
 };
 
 /// Inside __attribute__((...)) some names mean something else to x86 or need a special signature there.
@@ -309,9 +323,8 @@ std::vector<std::string> clang_arguments(const Options& o, const std::string& st
                                 o.output,
                                 "--target=x86_64-pc-linux-gnu",
                                 "-x",
-                                "c",
+                                o.cxx ? "c++" : "c",
                                 "-std=" + standard,
-                                "-fgnu89-inline",
                                 "-fcommon",
                                 "-fsigned-char",
                                 "-fno-strict-aliasing",
@@ -355,6 +368,14 @@ std::vector<std::string> clang_arguments(const Options& o, const std::string& st
                                 "-Wno-newline-eof",
                                 "-Wno-error=return-type",
                                 "-Wno-gnu-designator"};
+  if (!o.cxx) a.push_back("-fgnu89-inline");
+  if (o.cxx)
+    for (const char* word : {"-fno-exceptions", "-fno-threadsafe-statics", "-fno-use-cxa-atexit",
+                             "-fnew-alignment=8",  // of our heap, libc/webots/malloc.c
+                             "-Wno-c++11-narrowing", "-Wno-reorder"})
+      a.push_back(word);
+  else
+    a.push_back("-fgnu89-inline");
   a.push_back(o.level == 0 ? "-O0" : o.for_size ? "-Os" : o.level == 1 ? "-O1" : "-O2");
   if (o.sanitize) {
     a.push_back("-fsanitize=signed-integer-overflow,shift-exponent,array-bounds");
@@ -378,7 +399,7 @@ std::vector<std::string> clang_arguments(const Options& o, const std::string& st
                         "__SSE2__", "__MMX__", "__k8", "__k8__"})
     a.push_back(std::string("-U") + u);
   for (const auto& p : o.passed_on) a.push_back(p);
-  a.push_back(std::string("-I") + kFallbackRoot);
+  a.push_back(std::string(o.cxx ? "-idirafter" : "-I") + kFallbackRoot);
   return a;
 }
 
@@ -455,10 +476,13 @@ std::unique_ptr<llvm::Module> attempts(const Options& options, llvm::LLVMContext
 
 std::unique_ptr<llvm::Module> compile_to_module(const Options& options, llvm::LLVMContext& context,
                                                 Facts& facts) {
-  const std::string first = !options.standard.empty() ? options.standard : options.webots ? "gnu11" : "gnu89";
+  const std::string first = options.cxx                 ? "gnu++17"
+                            : !options.standard.empty() ? options.standard
+                            : options.webots            ? "gnu11"
+                                                        : "gnu89";
   std::string messages;
   auto module = attempts(options, context, facts, first, messages);
-  if (!module && options.standard.empty() && !options.webots) {
+  if (!module && options.standard.empty() && !options.webots && !options.cxx) {
     // what XC16 takes with -std=gnu99 only: a variable of each loop's own, for one
     std::string messages_of_c99;
     module = attempts(options, context, facts, "gnu99", messages_of_c99);

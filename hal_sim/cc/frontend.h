@@ -30,6 +30,7 @@ struct Options {
   bool webots = false;        // written for Webots' interfaces: C of today, and a calendar
   bool register_way = false;  // the library reaches registers; nothing of it is evaluated by the host
   bool by_pointer = false;    // the program hands pointers to registers from file to file
+  bool cxx = false;           // C++: neither exceptions nor threads
   bool weak = false;          // a file of a copy of the library: of two definitions the first wins
   bool library = false;       // part of the API or libc: definitions are weak, the program's own win
 };

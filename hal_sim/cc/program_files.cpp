@@ -30,12 +30,47 @@ std::vector<fs::path> files_below(const fs::path& folder, const std::string& ext
   return found;
 }
 
+bool is_cxx(const fs::path& file) {
+  const std::string kind = file.extension();
+  return kind == ".cpp" || kind == ".cc" || kind == ".cxx";
+}
+
+std::vector<fs::path> files_below(const fs::path& folder, std::initializer_list<const char*> extensions) {
+  std::vector<fs::path> found;
+  for (const char* extension : extensions)
+    for (const fs::path& file : files_below(folder, extension)) found.push_back(file);
+  return found;
+}
+
+std::vector<fs::path> headers_below(const fs::path& folder) {
+  return files_below(folder, {".h", ".hpp", ".hh", ".hxx"});
+}
+
 bool names_webots(const std::vector<fs::path>& sources, const std::vector<fs::path>& headers) {
   static const std::regex kInclude(R"(#\s*include\s*[<"](webots|device)[/\\])");
   for (const auto* list : {&sources, &headers})
     for (const auto& file : *list)
       if (std::regex_search(read_text(file), kInclude)) return true;
   return false;
+}
+
+std::vector<fs::path> sources_below(const fs::path& folder) {
+  std::vector<fs::path> sources = files_below(folder, ".c");
+  const std::vector<fs::path> cxx = files_below(folder, {".cpp", ".cc", ".cxx"});
+  if (!cxx.empty() && (names_webots(cxx, headers_below(folder)) || names_webots(sources, {})))
+    sources.insert(sources.end(), cxx.begin(), cxx.end());
+  return sources;
+}
+
+std::string no_program(const fs::path& folder) {
+  const std::string got = folder.string() + ": controller: got ";
+  if (!files_below(folder, {".cpp", ".cc", ".cxx"}).empty())
+    return got +
+           "C++ that includes none of Webots' headers, expected C, or C++ with webots/Robot.hpp; "
+           "firmware on the e-puck's library is C";
+  if (!files_below(folder, ".py").empty())
+    return got + "a program in Python, expected one in C or C++; Python controllers are not run yet";
+  return got + "no .c file, expected at least one";
 }
 
 namespace {
@@ -66,9 +101,9 @@ void leave_out_other_programs(Program& program, const fs::path& folder, BuildRes
 
 Program program_of(const BuildOptions& o, BuildResult& result) {
   Program program;
-  program.sources = o.sources.empty() ? files_below(o.source_dir, ".c") : o.sources;
+  program.sources = o.sources.empty() ? sources_below(o.source_dir) : o.sources;
   if (!o.sources.empty()) return program;
-  const bool is_webots = names_webots(program.sources, files_below(o.source_dir, ".h"));
+  const bool is_webots = names_webots(program.sources, headers_below(o.source_dir));
   std::string told;
   auto project = is_webots ? std::nullopt : find_mplab_project(o.source_dir, told);
   if (!told.empty()) result.warnings.push_back(told);

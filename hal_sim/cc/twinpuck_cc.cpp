@@ -69,8 +69,8 @@ bool parse(int argc, char** argv, cc::Options& o) {
     else if (a == "-I" || a == "-D" || a == "-U" || a == "-include") {
       o.passed_on.push_back(a.str());
       o.passed_on.push_back(value());
-    } else if (a.startswith("-I") || a.startswith("-D") || a.startswith("-U") || a.startswith("-W") ||
-               a.startswith("-g") || a.startswith("-f")) {
+    } else if (a.startswith("-I") || a.startswith("-isystem") || a.startswith("-D") || a.startswith("-U") ||
+               a.startswith("-W") || a.startswith("-g") || a.startswith("-f")) {
       o.passed_on.push_back(a.str());
     } else if (a.startswith("-")) {
       errs() << "twinpuck-cc: command line: got " << a << ", expected a known option\n";
@@ -82,6 +82,8 @@ bool parse(int argc, char** argv, cc::Options& o) {
       return false;
     }
   }
+  const StringRef input = o.input;
+  o.cxx = input.endswith(".cpp") || input.endswith(".cc") || input.endswith(".cxx");
   if (o.input.empty() || o.output.empty()) {
     errs() << "usage: twinpuck-cc -c x.c -o x.o [-O0|-O1|-O2|-Os] [-I..] [-D..] [--sanitize] [--coverage] "
               "[--strict]\n";

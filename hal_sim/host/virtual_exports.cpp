@@ -110,6 +110,8 @@ tp_i64 tp_virtual_device(tp_i64 index, char* name, tp_i64 size) {
       return TP_DEVICE_RECEIVER;
     case sim::DeviceKind::Distance:
       return TP_DEVICE_DISTANCE;
+    case sim::DeviceKind::Display:
+      return TP_DEVICE_DISPLAY;
   }
   return 0;
 }
@@ -143,6 +145,46 @@ void tp_virtual_pose_of(tp_i64 found, tp_f32* xyz, tp_f32* angle) {
   board::true_pose(context.board(), static_cast<int>(found) - 1, now, position, angle_rad);
   put(position, xyz);
   *angle = static_cast<float>(angle_rad);
+}
+
+tp_i64 tp_virtual_key(tp_i64 index) {
+  Context& context = Context::current();
+  const host::Cycle now = context.now();
+  context.lower_horizon(now);
+  const double now_s = sim::to_seconds(context.board().clock().click_at(now));
+  for (const auto& key : this_board().virtual_devices().typed)
+    if (now_s >= key.from_s && now_s < key.to_s && index-- == 0) return key.key;
+  return 0;
+}
+
+tp_i64 tp_file_open(const char* name, const char* mode) {
+  Context::current().note_write();
+  board::VirtualDevices& devices = this_board().virtual_devices();
+  std::string why;
+  const int file = devices.files.open(name, mode, why);
+  if (!why.empty()) {
+    const std::string line = "fopen(\"" + std::string(name) + "\"): " + why + "\n";
+    devices.write(line.data(), line.size());
+  }
+  return file;
+}
+void tp_file_close(tp_i64 file) { this_board().virtual_devices().files.close(static_cast<int>(file)); }
+tp_i64 tp_file_read(tp_i64 file, void* to, tp_i64 bytes) {
+  Context::current().note_write();
+  return this_board().virtual_devices().files.read(static_cast<int>(file), to, bytes);
+}
+tp_i64 tp_file_write(tp_i64 file, const void* from, tp_i64 bytes) {
+  Context::current().note_write();
+  return this_board().virtual_devices().files.write(static_cast<int>(file), from, bytes);
+}
+void tp_file_flush(tp_i64 file) { this_board().virtual_devices().files.flush(static_cast<int>(file)); }
+tp_i64 tp_file_seek(tp_i64 file, tp_i64 offset, tp_i64 from) {
+  Context::current().note_write();
+  return this_board().virtual_devices().files.seek(static_cast<int>(file), offset, static_cast<int>(from));
+}
+tp_i64 tp_file_remove(const char* name) {
+  Context::current().note_write();
+  return this_board().virtual_devices().files.remove(name);
 }
 
 tp_i64 tp_emitter_find(const char* name) {

@@ -23,7 +23,8 @@ bool holds_c(const fs::path& folder) {
   std::error_code none;
   const auto skip = fs::directory_options::skip_permission_denied;
   for (fs::recursive_directory_iterator it(folder, skip, none), end; !none && it != end; it.increment(none))
-    if (it->path().extension() == ".c" || it->path().extension() == ".C") return true;
+    for (const char* kind : {".c", ".C", ".cpp", ".cc", ".cxx"})
+      if (it->path().extension() == kind) return true;
   return false;
 }
 
@@ -106,10 +107,6 @@ std::string find_firmware(const std::string& name, const std::string& from_folde
                        "folder with C files "
                        "or a folder under firmware/" +
                        (guess.empty() ? "" : "; did you mean '" + guess + "'?"));
-    return "";
-  }
-  if (fs::is_directory(path, none) && !holds_c(path)) {
-    problems.push_back(path.string() + ": firmware: got a folder without C files, expected at least one .c");
     return "";
   }
   return path.string();

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <filesystem>
 #include <map>
 
 #include "hal_sim/board/bluetooth_module.h"
@@ -14,6 +15,7 @@
 #include "hal_sim/register/chip_processor.h"
 #include "sim_core/load/world_loader.h"
 #include "sim_core/radio/link_medium.h"
+#include "sim_core/record/image_file.h"
 #include "sim_core/world/variation.h"
 
 namespace twin {
@@ -150,7 +152,20 @@ class ConsoleMedium final : public sim::Medium {
 void press_keys(host::FirmwareMind& mind, std::vector<sim::KeyDesc> keys) {
   std::stable_sort(keys.begin(), keys.end(),
                    [](const sim::KeyDesc& a, const sim::KeyDesc& b) { return a.at_s < b.at_s; });
-  for (const sim::KeyDesc& key : keys) mind.press_key({key.code, key.at_s, key.hold_s, key.address});
+  for (const sim::KeyDesc& key : keys)
+    if (key.typed)
+      mind.board().virtual_devices().typed.push_back({key.typed, key.at_s, key.at_s + key.hold_s});
+    else
+      mind.press_key({key.code, key.at_s, key.hold_s, key.address});
+}
+
+/// A robot's name as that of a folder; names that cannot be one, or come twice, get the robot's number.
+std::string folder_of(const sim::WorldDesc& world, std::size_t robot) {
+  const std::string& name = world.robots[robot].name;
+  const auto same = std::count_if(world.robots.begin(), world.robots.end(),
+                                  [&](const sim::RobotDesc& other) { return other.name == name; });
+  const bool good = same == 1 && !name.empty() && name[0] != '.' && name.find('/') == std::string::npos;
+  return good ? name : "robot" + std::to_string(robot);
 }
 
 }  // namespace
@@ -228,6 +243,16 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
       }
     }
     press_keys(*mind, robot.keys);
+    mind->board().virtual_devices().write_picture = [](const std::string& path,
+                                                       const board::DisplayImage& image) {
+      return sim::write_png(path, image.width, image.height, image.rgb()).empty();
+    };
+    if (!options.files_folder.empty() && !robot.firmware.empty()) {
+      const std::filesystem::path source = find_firmware(robot.firmware, options.world_folder, problems);
+      mind->board().virtual_devices().files.place(
+          std::filesystem::path(options.files_folder) / folder_of(world, i),
+          std::filesystem::is_directory(source) ? source : std::filesystem::path());
+    }
     twin->minds_.push_back(mind.get());
     twin->image_paths_.push_back(firmware[i].empty() ? "" : paths[firmware[i]]);
     minds.push_back(std::move(mind));

@@ -37,8 +37,11 @@ struct Options {
       world_folder;  ///< where relative firmware paths of the world file start; empty: the current folder
   std::string way;   ///< of controllers built from source, all robots: native or register; empty: the world's
   std::string optimisation = "-O1";  ///< of controllers that are built from source: -O0 -O1 -O2 -Os
-  bool sanitize = false;             ///< ... with address and 16-bit overflow checks
-  bool coverage = false;             ///< ... with line counters
+  /// Below it each robot has a folder of its name for files that its program writes; empty: none can be
+  /// opened.
+  std::string files_folder;
+  bool sanitize = false;  ///< ... with address and 16-bit overflow checks
+  bool coverage = false;  ///< ... with line counters
   /// Told the compiler's warnings, a line each; may be empty.
   std::function<void(const std::string&)> tell;
 };

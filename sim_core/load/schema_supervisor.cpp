@@ -21,6 +21,9 @@ SectionSpec supervisor_section() {
                  s.program = v.text;
                  return std::string(v.text.empty() ? "got \"\", expected the name of a program" : "");
                })},
+              {"args", ValueType::Text, "", 0, 0, "", "\"\"",
+               "what `main()` gets as its arguments, words between blanks",
+               into<S>([](S& s, const Value& v) { s.args = v.text; })},
               {"period", ValueType::Number, "s", 0, 1e6, "", "0",
                "how often it runs when it does not say so itself; 0: every tick",
                into<S>([](S& s, const Value& v) { s.period_s = v.number; })},

@@ -45,11 +45,11 @@ SectionSpec robot_device_section() {
                  d.name = v.text;
                  return std::string();
                })},
-              {"kind", ValueType::Choice, "", 0, 0, "gps|compass|inertial|gyro|emitter|receiver|distance",
-               "required",
+              {"kind", ValueType::Choice, "", 0, 0,
+               "gps|compass|inertial|gyro|emitter|receiver|distance|display", "required",
                "gps, compass, inertial, gyro: the truth, without noise; distance: a virtual sensor, whose "
                "value a "
-               "supervisor sets",
+               "supervisor sets; display: a picture that the program draws",
                into<D>([](D& d, const Value& v) {
                  d.kind = v.text == "compass"    ? DeviceKind::Compass
                           : v.text == "inertial" ? DeviceKind::Inertial
@@ -57,6 +57,7 @@ SectionSpec robot_device_section() {
                           : v.text == "emitter"  ? DeviceKind::Emitter
                           : v.text == "receiver" ? DeviceKind::Receiver
                           : v.text == "distance" ? DeviceKind::Distance
+                          : v.text == "display"  ? DeviceKind::Display
                                                  : DeviceKind::Gps;
                })},
               {"channel", ValueType::Integer, "", -1, 32767, "", "1",
@@ -81,6 +82,10 @@ SectionSpec robot_device_section() {
               {"infra_red", ValueType::Flag, "", 0, 0, "", "false",
                "of an emitter: packets need a free line of sight",
                into<D>([](D& d, const Value& v) { d.infra_red = v.flag; })},
+              {"width", ValueType::Integer, "", 1, 4096, "", "128", "of a display, in pixels",
+               into<D>([](D& d, const Value& v) { d.width = static_cast<int>(v.integer); })},
+              {"height", ValueType::Integer, "", 1, 4096, "", "64", "likewise",
+               into<D>([](D& d, const Value& v) { d.height = static_cast<int>(v.integer); })},
           }};
 }
 

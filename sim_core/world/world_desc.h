@@ -131,7 +131,7 @@ struct LinkEndDesc {
   std::vector<Dropout> dropouts;    ///< of this robot alone, growing
 };
 
-enum class DeviceKind { Gps, Compass, Inertial, Gyro, Emitter, Receiver, Distance };
+enum class DeviceKind { Gps, Compass, Inertial, Gyro, Emitter, Receiver, Distance, Display };
 
 /// A device that programs written for Webots' interfaces find on a robot by its name.
 struct DeviceDesc {
@@ -141,6 +141,8 @@ struct DeviceDesc {
   double range_m = -1;          ///< of emitters; negative: unlimited
   double baud_rate_bit_s = -1;  ///< of emitters; negative: unlimited
   bool infra_red = false;       ///< of emitters: a free line of sight is needed
+  int width = 128;              ///< of displays, pixels
+  int height = 64;              ///< likewise
   int line = 0;                 ///< line in the world file; 0 when built in C++
 };
 
@@ -150,6 +152,7 @@ struct KeyDesc {
   double at_s = 0;      ///< s, world time
   double hold_s = 0.1;  ///< s
   int address = 0;      ///< 0 to 31
+  int typed = 0;        ///< instead of a remote control's: a keyboard's key, by Webots' number
 };
 
 /// What happens between the motors and the floor, as written: what is not set is inherited (robot from
@@ -304,6 +307,7 @@ struct WebotsDesc {
 struct SupervisorDesc {
   std::string name;
   std::string program;  ///< name or path as written
+  std::string args;     ///< what its main() gets, words between blanks
   double period_s = 0;  ///< how often it runs when it does not say so itself; 0: every tick
   int line = 0;
 };

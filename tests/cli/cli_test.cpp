@@ -190,6 +190,7 @@ TEST_F(Command, keys_that_make_no_sense_are_refused) {
                                 {"puck=64@1", "0 to 63"},
                                 {"puck=32:1@1", "0 to 31"},
                                 {"puck=1@1+x", "HOLD"},
+                                {"puck=keyboard:TAB@1", "after keyboard: a character or one of UP"},
                                 {"puck=1@soon", "TIME"}};
   for (const auto& [key, says] : bad) {
     const Said s = twinpuck("run maze --key '" + std::string(key) + "'");
@@ -263,6 +264,20 @@ TEST_F(Command, headings_are_said_as_people_say_them) {
   const Said s = twinpuck("run " + path("headings.toml") + " --for 0.1 --fw " + path("still"));
   EXPECT_NE(s.text.find("a               0.000    0.000   -19 deg"), std::string::npos) << s.text;
   EXPECT_NE(s.text.find("b               1.000    0.000     0 deg"), std::string::npos) << s.text;
+}
+
+TEST_F(Command, typed_keys_and_files_of_a_webots_program_come_from_the_command_line) {
+  write("typist/typist.c",
+        "#include <stdio.h>\n#include <webots/keyboard.h>\n#include <webots/robot.h>\n"
+        "int main(void) { FILE *out = fopen(\"keys.txt\", \"w\"); int key;\n"
+        "  wb_robot_init(); wb_keyboard_enable(64);\n"
+        "  while (wb_robot_step(64) != -1)\n"
+        "    if ((key = wb_keyboard_get_key()) > 0) fprintf(out, \"%d \", key), fflush(out); }\n");
+  const Said s = twinpuck("run empty --fw '*=" + path("typist") + "' --for 2 --files " + path("files") +
+                          " --key '*=keyboard:UP@1+0.06' --key 'puck=keyboard:w@1.5+0.06'");
+  EXPECT_EQ(s.exit_code, 0) << s.text;
+  EXPECT_EQ(read(path("files/puck/keys.txt")), "315 87 ");
+  EXPECT_NE(s.text.find("puck: files written: " + path("files/puck")), std::string::npos) << s.text;
 }
 
 TEST_F(Command, uart_output_goes_to_a_file) {

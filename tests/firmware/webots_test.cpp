@@ -375,6 +375,34 @@ TEST_F(Webots, a_controller_finds_itself_and_others_in_the_world) {
   EXPECT_NEAR(r.variable<float>("angle"), sim::radians(40), 1e-4);
 }
 
+// Webots places solids by their middle: a box of 10 cm that stands on a table of 20 cm
+TEST_F(Webots, a_controller_finds_fixed_objects_and_how_high_they_are) {
+  Robot& r =
+      add("double x, z, angle, loose;",
+          "WbNodeRef box = wb_supervisor_node_get_from_def(\"BOX\");\n"
+          "WbNodeRef crate = wb_supervisor_node_get_from_def(\"crate\");\n"
+          "x = wb_supervisor_node_get_position(box)[0]; z = wb_supervisor_node_get_position(box)[2];\n"
+          "angle = wb_supervisor_field_get_sf_rotation(wb_supervisor_node_get_field(box, \"rotation\"))[3];\n"
+          "loose = wb_supervisor_node_get_position(crate)[2];",
+          "");
+  sim::ObjectDesc box;
+  box.def = "BOX";
+  box.pose = {0.4, 0.3, sim::radians(30)};
+  box.z_m = 0.2;
+  world.objects.push_back(box);
+  sim::ObjectDesc crate;
+  crate.name = "crate";
+  crate.movable = true;
+  crate.size_m = {0.05, 0.05, 0.06};
+  crate.pose = {-0.4, 0.3, 0};
+  world.objects.push_back(crate);
+  run_for(0.5);
+  EXPECT_NEAR(r.variable<float>("x"), 0.4, 1e-5);
+  EXPECT_NEAR(r.variable<float>("z"), 0.25, 1e-5);
+  EXPECT_NEAR(r.variable<float>("angle"), sim::radians(30), 1e-4);
+  EXPECT_NEAR(r.variable<float>("loose"), 0.03, 1e-3);
+}
+
 // red is bright where a red wall stands, and BGRA has it in the third byte
 TEST_F(Webots, the_camera_shows_a_red_wall_in_red) {
   wall(0.2, -0.5, 0.2, 0.5, {1, 0, 0});

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Programs written for Webots: both interfaces, both axes.
+#include <filesystem>
+#include <fstream>
+
 #include "tests/support/firmware_test.h"
+#include "twinpuck_paths.h"
 
 namespace {
 
@@ -78,6 +82,41 @@ TEST_F(SupervisorWebotsTest, nodes_and_fields_in_our_axes) {
   expect_pass();
   ASSERT_EQ(said.size(), 1u);
   EXPECT_NE(said[0].find("no field 'translaton'"), std::string::npos) << said[0];
+}
+
+// two files of one program share a variable that neither initialises, as programs of 2005 do; words come from
+// the world file, and files from the program's folder, to which the run does not belong
+TEST_F(SupervisorWebotsTest, programs_work_in_their_own_folder_and_get_their_words) {
+  const auto folder = std::filesystem::path(TWINPUCK_BUILD_DIR) / "tests" / "supervisor_folder";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "places.txt") << "12\n";
+  std::ofstream(folder / "common.c") << "int shared; void set_shared(void) { shared = 5; }";
+  std::ofstream(folder / "main.c") << kHead << R"(
+    #include <webots/robot.h>
+    #include <webots/supervisor.h>
+    int shared;
+    void set_shared(void);
+    int main(int argc, char **argv) {
+      int place = 0;
+      FILE *in = fopen("places.txt", "r");
+      EXPECT(in && fscanf(in, "%d", &place) == 1 && place == 12);
+      EXPECT(argc == 3 && !strcmp(argv[1], "fast") && !strcmp(argv[2], "3") && argv[3] == NULL);
+      set_shared();
+      EXPECT(shared == 5);
+      wb_robot_init();
+      wb_robot_step(64);
+      in = fopen("written.txt", "w");
+      EXPECT(in && fclose(in) == 0);
+      wb_supervisor_simulation_quit(0);
+      return 0;
+    })";
+  add_supervisor(folder.string());
+  world.supervisors.back().args = "fast  3";
+  const auto before = std::filesystem::current_path();
+  expect_pass();
+  EXPECT_EQ(std::filesystem::current_path(), before);
+  EXPECT_TRUE(std::filesystem::exists(folder / "written.txt"));
 }
 
 TEST_F(SupervisorWebotsTest, axes_of_older_worlds) {

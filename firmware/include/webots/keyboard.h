@@ -47,7 +47,8 @@ void wb_keyboard_enable(int sampling_period);
 void wb_keyboard_disable(void);
 int wb_keyboard_get_sampling_period(void);
 
-/** Next key that is down, -1 for none: always -1 in firmware. */
+/** Next key that is down, once a step each; -1: no more. Keys are those of `--key ROBOT=keyboard:UP@TIME`
+ * (docs/webots.md): letters as capitals, arrows as above. Always -1 on the robot. */
 long wb_keyboard_get_key(void);
 
 TP_C_END

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * Firmware libc: formatted text; printf() ends in write(), which sends to the UART that __C30_UART names,
- * as with XC16. There are no files. */
+ * as with XC16. Files are for programs written for Webots' interfaces alone (docs/webots.md); others are told
+ * so when they call what is declared for them. */
 #ifndef TP_LIBC_STDIO_H
 #define TP_LIBC_STDIO_H
 #include <stdarg.h>
@@ -8,6 +9,9 @@
 #define EOF (-1)
 #define BUFSIZ 128
 typedef struct tp_file FILE;
+#ifdef __cplusplus
+extern "C" {
+#endif
 extern FILE* const tp_stdout;
 #define stdout tp_stdout
 #define stderr tp_stdout
@@ -28,6 +32,29 @@ int putchar(int __c);
 int fputc(int __c, FILE* __to);
 int putc(int __c, FILE* __to);
 int fflush(FILE* __to);
+size_t fwrite(const void* __from, size_t __bytes, size_t __n, FILE* __to);
+#define SEEK_SET 0
+#define SEEK_CUR 1
+#define SEEK_END 2
+FILE* fopen(const char* __name, const char* __mode);
+int fclose(FILE* __file);
+size_t fread(void* __to, size_t __bytes, size_t __n, FILE* __from);
+int fgetc(FILE* __from);
+int getc(FILE* __from);
+int ungetc(int __c, FILE* __from);
+char* fgets(char* __to, int __size, FILE* __from);
+int fscanf(FILE* __from, const char* __format, ...) __attribute__((__format__(__scanf__, 2, 3)));
+int fseek(FILE* __file, long __offset, int __from);
+long ftell(FILE* __file);
+void rewind(FILE* __file);
+int feof(FILE* __file);
+int ferror(FILE* __file);
+void clearerr(FILE* __file);
+int remove(const char* __name);
+void perror(const char* __text);
 /* 1 or 2: the UART that printf() and its like write to */
 extern int __C30_UART;
+#ifdef __cplusplus
+}
+#endif
 #endif

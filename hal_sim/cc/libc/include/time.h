@@ -7,8 +7,14 @@
 #include <stddef.h>
 typedef long time_t;
 typedef unsigned long clock_t;
+#ifdef __cplusplus
+extern "C" {
+#endif
 time_t time(time_t* __to);
 clock_t clock(void);
 #define CLOCKS_PER_SEC 1000000L
 double difftime(time_t later, time_t earlier);
+#ifdef __cplusplus
+}
+#endif
 #endif

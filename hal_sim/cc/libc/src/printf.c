@@ -25,10 +25,6 @@ int write(int handle, void *bytes, unsigned int length)
   return (int)length;
 }
 
-struct tp_file { int unused; };
-static struct tp_file console;
-FILE *const tp_stdout = &console;
-
 static void put(struct sink *s, char c)
 {
   s->count++;
@@ -281,23 +277,14 @@ int vprintf(const char *format, va_list list)
   return (int)s.count;
 }
 
-int vfprintf(FILE *to, const char *format, va_list list) { return vprintf(format, list); }
-
 #define FORWARD(call) { int n; va_list list; va_start(list, format); n = call; va_end(list); return n; }
 int printf(const char *format, ...) FORWARD(vprintf(format, list))
-int fprintf(FILE *to, const char *format, ...) FORWARD(vprintf(format, list))
 int sprintf(char *to, const char *format, ...) FORWARD(vsprintf(to, format, list))
 int snprintf(char *to, size_t size, const char *format, ...) FORWARD(vsnprintf(to, size, format, list))
 
-int fputs(const char *s, FILE *to)
-{
-  write(kStdout, (void *)s, strlen(s));
-  return 0;
-}
-
 int puts(const char *s)
 {
-  fputs(s, tp_stdout);
+  write(kStdout, (void *)s, strlen(s));
   write(kStdout, "\n", 1);
   return 0;
 }
@@ -309,6 +296,3 @@ int putchar(int c)
   return c;
 }
 
-int fputc(int c, FILE *to) { return putchar(c); }
-int putc(int c, FILE *to) { return putchar(c); }
-int fflush(FILE *to) { return 0; }

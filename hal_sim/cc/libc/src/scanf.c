@@ -21,7 +21,9 @@ static int in_set(const char *set, const char *end, char c)
   return inside != negated;
 }
 
-int vsscanf(const char *s, const char *format, va_list given)
+/* as vsscanf(); how many characters were taken goes to `taken` (fscanf() of libc/webots asks) */
+int tp_image_scan(const char *s, const char *format, va_list given, int *taken);
+int tp_image_scan(const char *s, const char *format, va_list given, int *taken)
 {
   int done = 0;
   const char *start = s;
@@ -108,7 +110,14 @@ int vsscanf(const char *s, const char *format, va_list given)
     done += !skip;
   }
   va_end(list);
+  *taken = (int)(s - start);
   return done;
+}
+
+int vsscanf(const char *s, const char *format, va_list given)
+{
+  int taken;
+  return tp_image_scan(s, format, given, &taken);
 }
 
 int sscanf(const char *s, const char *format, ...)

@@ -13,7 +13,8 @@ struct block {
   long used;
 };
 
-static char *heap; /* null before the first call */
+char *tp_webots_heap; /* null before the first call; --sanitize asks for it */
+#define heap tp_webots_heap
 static struct block *lowest; /* nothing below it is free */
 
 static struct block *next_of(struct block *b) { return (struct block *)((char *)(b + 1) + b->bytes); }

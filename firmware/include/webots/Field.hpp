@@ -1,0 +1,5 @@
+// SPDX-License-Identifier: MIT
+#ifndef WB_FIELD_HPP
+#define WB_FIELD_HPP
+#include "Supervisor.hpp"
+#endif

@@ -1,0 +1,3 @@
+// SPDX-License-Identifier: MIT
+// Firmware has no languages: text is what it is.
+#pragma once

@@ -1,0 +1,5 @@
+/* SPDX-License-Identifier: MIT
+ * In C++ abs() knows every type, with or without std. */
+#pragma once
+#include <cstdlib>
+using std::abs;
