@@ -56,7 +56,15 @@ bool names_webots(const std::vector<fs::path>& sources, const std::vector<fs::pa
 
 std::vector<fs::path> sources_below(const fs::path& folder) {
   std::vector<fs::path> sources = files_below(folder, ".c");
-  const std::vector<fs::path> cxx = files_below(folder, {".cpp", ".cc", ".cxx"});
+  std::vector<fs::path> cxx = files_below(folder, {".cpp", ".cc", ".cxx"});
+  // a controller's own test lies beside it
+  cxx.erase(std::remove_if(cxx.begin(), cxx.end(),
+                           [](const fs::path& file) {
+                             return file.filename() == "test.cpp" &&
+                                    read_text(file).find("tests/support/firmware_test.h") !=
+                                        std::string::npos;
+                           }),
+            cxx.end());
   if (!cxx.empty() && (names_webots(cxx, headers_below(folder)) || names_webots(sources, {})))
     sources.insert(sources.end(), cxx.begin(), cxx.end());
   return sources;

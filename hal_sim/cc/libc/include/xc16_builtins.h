@@ -5,6 +5,10 @@
 #ifndef XC16_BUILTINS_H
 #define XC16_BUILTINS_H
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 #define __builtin_nop() __asm__ volatile("nop")
 #define __builtin_clrwdt() __asm__ volatile("clrwdt")
 #define __builtin_software_breakpoint() __asm__ volatile("nop")
@@ -80,4 +84,8 @@ TP_BUILTIN int tp_fbcl(int __word) {
 }
 
 #undef TP_BUILTIN
+
+#ifdef __cplusplus
+}
+#endif
 #endif
