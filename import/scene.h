@@ -62,7 +62,7 @@ struct FoundArena {
 };
 
 struct FoundSupervisor {
-  std::string name, def, controller;
+  std::string name, def, controller, args;
   int line = 0;
 };
 

@@ -359,10 +359,8 @@ class Settler {
       for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
         kinds.insert(at->path().extension().string());
       const bool cpp = kinds.count(".cpp") + kinds.count(".cc") + kinds.count(".cxx") > 0;
-      if (kinds.count(".c") > 0 || (cpp && !for_robot))
-        return relative_name(folder.lexically_normal().string(), options_);
-      const char* language = cpp                     ? "C++"
-                             : kinds.count(".py")    ? "Python"
+      if (kinds.count(".c") > 0 || cpp) return relative_name(folder.lexically_normal().string(), options_);
+      const char* language = kinds.count(".py")      ? "Python"
                              : kinds.count(".java")  ? "Java"
                              : kinds.count(".class") ? "Java"
                              : kinds.count(".jar")   ? "Java"
@@ -444,6 +442,7 @@ class Settler {
     sim::SupervisorDesc s;
     s.name = name_of_its_own(clean(f.name));
     s.program = program(f.controller, f.line, "Supervisor", "program");
+    s.args = f.args;
     if (s.program.empty()) return;
     out_.world.supervisors.push_back(s);
     out_.supervisor_from.push_back(from("Supervisor", "", f.def, f.line));

@@ -94,6 +94,7 @@ class Writer {
       section("[[supervisor]]", c_.supervisor_from[i]);
       key("name", quoted(w_.supervisors[i].name));
       key("program", quoted(w_.supervisors[i].program));
+      if (!w_.supervisors[i].args.empty()) key("args", quoted(w_.supervisors[i].args));
     }
     return out_;
   }

@@ -55,6 +55,7 @@ class Walk {
   void proto_fields(const Node& n, FoundRobot& out);
   void proto_body(const Node& n, FoundRobot& out);
   void equipment(const Node& n, FoundRobot& out);
+  std::string words_of(const Node& n);
   void arguments(const Node& n, const char* instead);
   void slot(const Node& n, const char* field, FoundRobot& out);
   void device(const Node& n, FoundRobot& out, int depth);

@@ -102,7 +102,7 @@ void Walk::robot(const Node& n, const Affine& frame, int depth) {
     s.def = n.def;
     s.controller = runs ? controller : "";
     s.line = n.line;
-    if (runs) arguments(n, "the program has none");
+    if (runs) s.args = words_of(n);
     if (runs)
       scene_.supervisors.push_back(s);
     else
@@ -161,6 +161,19 @@ void Walk::epuck(const Node& n, const Affine& frame, bool by_proto) {
     }
   }
   scene_.robots.push_back(std::move(out));
+}
+
+// a supervisor's arguments, as a world has them: words between blanks
+std::string Walk::words_of(const Node& n) {
+  const Field* arguments = n.field("controllerArgs");
+  std::string words;
+  if (!arguments) return words;
+  for (const std::string& word : arguments->strings) {
+    if (word.find_first_of(" \t") != std::string::npos)
+      report_.add(n, *arguments, "blanks within an argument", "it becomes several");
+    if (!word.empty()) words += (words.empty() ? "" : " ") + word;
+  }
+  return words;
 }
 
 void Walk::arguments(const Node& n, const char* instead) {

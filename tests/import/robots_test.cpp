@@ -209,15 +209,15 @@ Robot { name "t" supervisor TRUE controller "rules" controllerArgs [ "fast" ] }
   EXPECT_TRUE(reports(made, 3, "a BotStudio program; no firmware; firmware/obstacle is another program"));
   EXPECT_EQ(world.robots[2].firmware, "e-puck");
   EXPECT_TRUE(reports(made, 4, "firmware/e-puck has its name and runs in its place"));
-  EXPECT_EQ(world.robots[3].firmware, "line");
-  EXPECT_TRUE(reports(made, 5, "a C++ program"));
+  EXPECT_EQ(world.robots[3].firmware, "../controllers/line") << "C++ is run";
+  EXPECT_FALSE(reports(made, 5, ""));
   EXPECT_EQ(world.robots[4].firmware, "../controllers/own");
   EXPECT_FALSE(reports(made, 6, ""));
   // supervisors are the PC's programs: C++ is all right, ours have another place
   ASSERT_EQ(world.supervisors.size(), 2u);
   EXPECT_EQ(world.supervisors[0].program, "../controllers/referee");
   EXPECT_TRUE(reports(made, 8, "supervisor/programs/rules has its name and runs in its place"));
-  EXPECT_TRUE(reports(made, 8, "controllerArgs: not carried: arguments of the controller"));
+  EXPECT_EQ(world.supervisors[1].args, "fast");
 }
 
 TEST(ImportRobots, every_slot_is_looked_into) {
