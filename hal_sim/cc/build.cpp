@@ -312,9 +312,24 @@ void check_main(const std::vector<CompileOutcome>& outcomes, const std::vector<C
     result.errors.push_back(folder.string() + ": main(): got " + std::to_string(with_main.size()) +
                             " definitions (" + list + "), expected 1; give each program a folder of its own");
   }
-  if (ram > 8192)
-    result.warnings.push_back(folder.string() + ": static data: got " + std::to_string(ram) +
-                              " (bytes), expected at most 8192 (bytes); it would not fit the chip's RAM");
+}
+
+constexpr long kRamBytes = 8192;  // of the dsPIC30F6014A  [DS70143: 8192 bytes of data RAM]
+
+/// Static data and stack share the chip's RAM.
+void check_room(const fs::path& image, const fs::path& folder, BuildResult& result) {
+  const StackUse stack = stack_use(image);
+  result.stack_bytes = stack.bytes;
+  result.recursive = stack.recursive;
+  const std::string data = std::to_string(result.ram_bytes), most = std::to_string(kRamBytes);
+  if (result.ram_bytes > kRamBytes)
+    result.no_room = folder.string() + ": warning: static data: got " + data + " (bytes), expected at most " +
+                     most + " (bytes); it would not fit the chip's RAM";
+  else if (result.ram_bytes + stack.bytes > kRamBytes)
+    result.no_room = folder.string() + ": warning: static data and stack: got " + data + " and about " +
+                     std::to_string(stack.bytes) + " (bytes), expected together at most " + most +
+                     " (bytes); the stack is deepest in " + stack.deepest;
+  if (!result.no_room.empty()) result.warnings.push_back(result.no_room);
 }
 
 /// Handlers that a program has in assembler would be missing without a word: nothing names them.
@@ -514,6 +529,7 @@ static BuildResult build_here(const BuildOptions& options) {
   sort_linker_messages(link.output, program, result);
   if (link.status != 0 && result.errors.empty()) result.errors.push_back("link: " + link.output);
   if (result.errors.empty()) {
+    check_room(half, o.source_dir, result);
     std::ofstream(half, std::ios::binary | std::ios::app) << host::image_stamp(read_text(half));
     fs::rename(half, output, ec);
     if (ec) result.errors.push_back(output.string() + ": cannot write: " + ec.message());

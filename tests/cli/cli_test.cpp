@@ -348,6 +348,26 @@ TEST_F(Command, sanitize_finds_a_16_bit_overflow_and_a_bad_index) {
   EXPECT_NE(s.text.find("main.c:4"), std::string::npos) << s.text;
 }
 
+// each run, not the first alone, and with --strict what does not fit the chip is a fault
+TEST_F(Command, warnings_of_the_build_come_with_each_run_and_strict_ends_in_1) {
+  write("fat/main.c",
+        "char picture[9000];\nvolatile int n;\nint main(void) {\n  int big = 70000;\n  picture[n] = big;\n"
+        "  while (1);\n}\n");
+  const std::string run = "run maze --fw '*=" + path("fat") + "' --for 0.1 -q ";
+  for (const char* strict : {"", "", "--strict"}) {
+    const Said s = twinpuck(run + strict);
+    EXPECT_EQ(s.exit_code, *strict ? 1 : 0) << s.text;
+    EXPECT_NE(s.text.find("main.c:4"), std::string::npos) << s.text;
+    EXPECT_NE(s.text.find("70000"), std::string::npos) << s.text;
+    EXPECT_NE(s.text.find("static data: got 9002 (bytes), expected at most 8192"), std::string::npos)
+        << s.text;
+  }
+  write("thin/main.c", "volatile int n;\nint main(void) {\n  while (1) n++;\n}\n");
+  EXPECT_EQ(twinpuck("run maze --fw '*=" + path("thin") + "' --for 0.1 -q --strict").exit_code, 0);
+  const Said built = twinpuck("build " + path("thin") + " -o " + path("thin.so"));
+  EXPECT_NE(built.text.find("2 bytes of data, about 62 of stack, of 8192"), std::string::npos) << built.text;
+}
+
 TEST_F(Command, new_makes_a_controller_that_builds_and_runs) {
   // in a tree of its own, so the checkout stays clean
   fs::create_directories(folder / "root" / "worlds");
