@@ -96,6 +96,13 @@ std::vector<fs::path> webots_sources(const fs::path& folder, const std::vector<f
   return kept.empty() ? sources : kept;
 }
 
+/// Files of the libc that read and write the program's strings and arrays: --sanitize checks those, too.
+bool takes_strings(const fs::path& file) {
+  const std::string name = file.filename().string();
+  return file.parent_path() == source_root() / "hal_sim/cc/libc/src" &&
+         (name == "string.c" || name == "printf.c" || name == "scanf.c" || name == "stdlib.c");
+}
+
 Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& program, bool lint) {
   fs::path root = source_root(), cc_dir = root / "hal_sim/cc";
   fs::path include_root = o.include_root.empty() ? root / "firmware/include" : o.include_root;
@@ -181,7 +188,10 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& pro
   // the half of the library that needs no pins, for a HAL that has the other half
   if (fs::exists(api / "hal.h")) library_folders.push_back(root / "hal_common");
   for (const auto& folder : library_folders)
-    for (const auto& s : files_below(folder, ".c")) p.library.push_back({s, library_flags, ""});
+    for (const auto& s : files_below(folder, ".c")) {
+      p.library.push_back({s, library_flags, ""});
+      if (o.sanitize && takes_strings(s)) p.library.back().flags.push_back("--sanitize");
+    }
 
   std::string name =
       o.name.empty() ? fs::absolute(o.source_dir).lexically_normal().filename().string() : o.name;

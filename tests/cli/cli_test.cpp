@@ -348,6 +348,19 @@ TEST_F(Command, sanitize_finds_a_16_bit_overflow_and_a_bad_index) {
   EXPECT_NE(s.text.find("main.c:4"), std::string::npos) << s.text;
 }
 
+TEST_F(Command, sanitize_names_the_line_that_calls_a_string_function) {
+  write("long/main.c",
+        "#include <string.h>\nchar name[8], other[8];\nvolatile int n;\nstatic void fill(void) {\n"
+        "  strcpy(name, &\"longer than that\"[n]);\n}\nint main(void) {\n  fill();\n  while (1);\n}\n");
+  const Said s = twinpuck("run maze --fw '*=" + path("long") + "' --for 0.1 --sanitize --opt -O0");
+  EXPECT_EQ(s.exit_code, 3) << s.text;
+  EXPECT_NE(s.text.find("in strcpy(): write out of bounds of name"), std::string::npos) << s.text;
+  EXPECT_NE(s.text.find("  at fill (" + path("long/main.c") + ":5)"), std::string::npos) << s.text;
+  EXPECT_NE(s.text.find("called from main (" + path("long/main.c") + ":8)"), std::string::npos) << s.text;
+  for (const char* inner : {"image_sanitize.c", "string.c", "report"})
+    EXPECT_EQ(s.text.find(inner), std::string::npos) << inner << " in\n" << s.text;
+}
+
 // each run, not the first alone, and with --strict what does not fit the chip is a fault
 TEST_F(Command, warnings_of_the_build_come_with_each_run_and_strict_ends_in_1) {
   write("fat/main.c",
