@@ -341,6 +341,7 @@ TEST_F(Command, sanitize_finds_a_16_bit_overflow_and_a_bad_index) {
   Said s = twinpuck("run maze --fw '*=" + path("over") + "' --for 0.1 --sanitize");
   EXPECT_EQ(s.exit_code, 3) << s.text;
   EXPECT_NE(s.text.find("main.c:3"), std::string::npos) << s.text;
+  EXPECT_EQ(s.text.find("image_sanitize.c"), std::string::npos) << s.text;  // the check's own frames
   write("index/main.c",
         "int table[4], other[4];\nvolatile int i = 4;\nint main(void) {\n  table[i] = 1;\n  while (1);\n}\n");
   s = twinpuck("run maze --fw '*=" + path("index") + "' --for 0.1 --sanitize");
