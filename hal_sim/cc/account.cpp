@@ -228,6 +228,18 @@ uint64_t stack_bytes(const Function& f) {
   return bytes;
 }
 
+/// "file|data|bytes": variables that lie in the chip's RAM. Constants are in flash; private are clang's own
+/// for
+/// --sanitize.
+std::string data_line(const Module& m) {
+  uint64_t bytes = 0;
+  for (const GlobalVariable& g : m.globals())
+    if (!g.isDeclaration() && !g.isConstant() && !g.hasPrivateLinkage() && g.getSection() != "tpeedata" &&
+        !g.getName().startswith("tp") && !g.getName().startswith("llvm."))
+      bytes += alignTo(chip_bytes(g.getValueType(), m.getDataLayout()), 2);
+  return m.getSourceFileName() + "|data|" + std::to_string(bytes);
+}
+
 /// Functions of which the program takes the address, a line each: "name|pointer". An agenda, for example.
 std::vector<std::string> functions_by_pointer(const Module& m) {
   std::vector<std::string> lines;
@@ -340,7 +352,9 @@ void account(Unit& unit, const CostPlan& plan) {
   std::vector<GlobalValue*> used;
   Type* i64 = Type::getInt64Ty(m.getContext());
   if (!unit.options.cost_dump.empty()) return count_segments(m, plan.charges);
-  const auto by_pointer = functions_by_pointer(m);  // before the tables below, which hold all of them
+  // before the tables below, which are data and hold the addresses of all functions
+  auto of_program = functions_by_pointer(m);
+  of_program.push_back(data_line(m));
   for (const auto& function : plan.functions) {
     auto* where = function.function->getSubprogram();
     if (!where) continue;
@@ -356,7 +370,7 @@ void account(Unit& unit, const CostPlan& plan) {
     cast<GlobalVariable>(used.back())->setConstant(true);
   }
   if (!unit.options.library && !unit.options.weak)
-    for (const auto& lines : {inlined_functions(m), by_pointer})
+    for (const auto& lines : {inlined_functions(m), of_program})
       for (const std::string& line : lines) {
         add_to_section(m, "tpcost", ConstantDataArray::getString(m.getContext(), line), used);
         cast<GlobalVariable>(used.back())->setAlignment(Align(1));

@@ -302,17 +302,13 @@ void sort_linker_messages(const std::string& text, const Program& program, Build
 void check_main(const std::vector<CompileOutcome>& outcomes, const std::vector<CompileJob>& jobs,
                 const fs::path& folder, BuildResult& result) {
   std::vector<std::string> with_main;
-  long ram = 0;
   for (size_t i = 0; i < outcomes.size(); ++i) {
     auto elf = read_elf(outcomes[i].object);
     for (const auto& s : elf.symbols) {
       if (s.name == "main" && s.is_defined && s.is_function)
         with_main.push_back(jobs[i].source.filename().string());
-      if (s.is_defined && s.is_object && s.is_writable && s.name.rfind("tp", 0) != 0)
-        ram += long(s.is_common ? s.size : s.size);
     }
   }
-  result.ram_bytes = ram;
   if (with_main.empty())
     result.errors.push_back(folder.string() +
                             ": main(): got no definition, expected one; is this a controller's folder?");
@@ -328,17 +324,18 @@ constexpr long kRamBytes = 8192;  // of the dsPIC30F6014A  [DS70143: 8192 bytes 
 
 /// Static data and stack share the chip's RAM.
 void check_room(const fs::path& image, const fs::path& folder, BuildResult& result) {
-  const StackUse stack = stack_use(image);
-  result.stack_bytes = stack.bytes;
-  result.recursive = stack.recursive;
+  const MemoryUse use = memory_use(image);
+  result.ram_bytes = use.data;
+  result.stack_bytes = use.stack;
+  result.recursive = use.recursive;
   const std::string data = std::to_string(result.ram_bytes), most = std::to_string(kRamBytes);
   if (result.ram_bytes > kRamBytes)
     result.no_room = folder.string() + ": warning: static data: got " + data + " (bytes), expected at most " +
                      most + " (bytes); it would not fit the chip's RAM";
-  else if (result.ram_bytes + stack.bytes > kRamBytes)
+  else if (result.ram_bytes + use.stack > kRamBytes)
     result.no_room = folder.string() + ": warning: static data and stack: got " + data + " and about " +
-                     std::to_string(stack.bytes) + " (bytes), expected together at most " + most +
-                     " (bytes); the stack is deepest in " + stack.deepest;
+                     std::to_string(use.stack) + " (bytes), expected together at most " + most +
+                     " (bytes); the stack is deepest in " + use.deepest;
   if (!result.no_room.empty()) result.warnings.push_back(result.no_room);
 }
 

@@ -61,13 +61,14 @@ struct FunctionCycles {
   double cpu_load(double period_s) const;
 };
 
-/// What a program takes of the chip's stack, estimated (stack_use.cpp).
-struct StackUse {
-  long bytes = 0;         ///< from main() down, and the deepest that can interrupt it
+/// What a program takes of the chip's RAM in bytes, estimated (memory_use.cpp).
+struct MemoryUse {
+  long data = 0;          ///< variables with a place of their own
+  long stack = 0;         ///< from main() down, and the deepest that can interrupt it
   std::string deepest;    ///< "main() > f() > g()"
   std::string recursive;  ///< a function that calls itself, counted once; then there is no bound
 };
-StackUse stack_use(const std::filesystem::path& image);
+MemoryUse memory_use(const std::filesystem::path& image);
 
 /// Reads the cost section of an image. Empty when the file is not one.
 std::vector<FunctionCycles> function_costs(const std::filesystem::path& image);

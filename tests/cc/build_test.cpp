@@ -122,6 +122,22 @@ TEST(build, stack_is_the_deepest_way_from_main_and_the_deepest_interrupt) {
   EXPECT_EQ(agenda.stack_bytes, plain.stack_bytes + (14 + 20) + 14) << text_of(agenda);
 }
 
+// pointers have two bytes, constants are in flash, and the gaps of --sanitize are none of the chip's
+TEST(build, data_counts_as_on_the_chip) {
+  Folder folder;
+  const std::string program =
+      "char *names[10]; const char *const fixed[] = {\"a\", \"b\"}; const int table[50] = {1}; char "
+      "three[3];\n"
+      "struct { char c; int *p; long l; } both; static int hidden = 3; volatile int n;\n"
+      "int main(void) { static long kept; kept += n; names[n] = (char *)fixed[n]; three[n] = both.c;\n"
+      "  return hidden++ + table[n] + (int)kept; }";
+  for (const bool sanitize : {false, true}) {
+    const auto built = build(folder, program, "-O0", [&](cc::BuildOptions& o) { o.sanitize = sanitize; });
+    ASSERT_TRUE(built.ok) << text_of(built);
+    EXPECT_EQ(built.ram_bytes, 20 + 4 + 8 + 2 + 2 + 4) << sanitize;  // names three both hidden n kept
+  }
+}
+
 TEST(build, recursion_has_no_bound_and_says_of_what) {
   Folder folder;
   const auto built =

@@ -28,6 +28,7 @@ struct StackEntry {
 struct StackTable {
   std::map<std::string, StackEntry> functions;
   std::string recursive;  // a function that calls itself, at once or through others
+  long data = 0;
 
   long depth(const std::string& name, std::set<std::string>& open) {
     const auto found = functions.find(name);
@@ -57,6 +58,7 @@ StackTable read_stack_table(const std::string& table) {
     std::istringstream parts(line);
     for (std::string field; std::getline(parts, field, '|');) fields.push_back(field);
     if (fields.size() == 2 && fields[1] == "pointer") program.functions[fields[0]].may_interrupt = true;
+    if (fields.size() == 3 && fields[1] == "data") program.data += std::atol(fields[2].c_str());
     if (fields.size() < 11) continue;
     // of two functions with one name, the program's and the library's or two static ones, the larger counts
     StackEntry& e = program.functions[fields[0]];
@@ -74,15 +76,16 @@ StackTable read_stack_table(const std::string& table) {
 
 }  // namespace
 
-StackUse stack_use(const std::filesystem::path& image) {
+MemoryUse memory_use(const std::filesystem::path& image) {
   StackTable program = read_stack_table(read_elf(image).section(".tpcost"));
-  StackUse use;
+  MemoryUse use;
+  use.data = program.data;
   std::set<std::string> open;
-  use.bytes = program.depth("main", open);
+  use.stack = program.depth("main", open);
   long interrupt = 0;
   for (const auto& [name, entry] : program.functions)
     if (entry.may_interrupt) interrupt = std::max(interrupt, program.depth(name, open));
-  use.bytes += interrupt + kLibraryHandlerBytes;
+  use.stack += interrupt + kLibraryHandlerBytes;
   use.recursive = program.recursive;
   for (std::string name = "main"; !name.empty(); name = program.functions[name].next)
     use.deepest += (use.deepest.empty() ? "" : " > ") + name + "()";
