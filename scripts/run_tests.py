@@ -20,6 +20,7 @@ import time
 from progress import ninja, read_lines, say
 
 RESULT = re.compile(r"^\[\s+(OK|FAILED|SKIPPED)\s+\] ([^ ,]+).*\((\d+) ms\)$")
+SOURCE = re.compile(r"(?<![\w./-])(\.\./\S+?)(?=:\d+:)")  # as the compiler was told it, from the build folder
 BEGIN = re.compile(r"^\[ RUN      \] (.*)")
 
 
@@ -37,9 +38,9 @@ def listed(program):
     return names
 
 
-def run(path, name, tests):
+def run(build, name, tests):
     """Runs the given tests of a program, all of them if `tests` is None. Returns how many passed and failed."""
-    command = [path] + ([] if tests is None else ["--gtest_filter=" + ":".join(tests)])
+    command = [f"{build}/tests/{name}"] + ([] if tests is None else ["--gtest_filter=" + ":".join(tests)])
     environment = dict(os.environ, GTEST_COLOR="no",
                        LSAN_OPTIONS=f"suppressions={os.getcwd()}/scripts/lsan.supp:print_suppressions=0")
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, env=environment)
@@ -61,7 +62,7 @@ def run(path, name, tests):
                 say(f"{'ok  ' if result.group(1) == 'OK' else 'skip'}  {name}: {current}")
             current, said = "", []
         else:
-            said.append(line)
+            said.append(SOURCE.sub(lambda m: os.path.relpath(os.path.join(build, m.group(1))), line))
     status = process.wait()
     if status != 0 and not failed:
         failed = 1
@@ -101,13 +102,12 @@ def main():
             failed += 1
             say(f"FAIL  {name}: does not build")
             continue
-        path = f"{options.build}/tests/{name}"
         tests = None
         if options.filter and options.filter not in name:
-            tests = [t for t in listed(path) if options.filter in t]
+            tests = [t for t in listed(f"{options.build}/tests/{name}") if options.filter in t]
             if not tests:
                 continue
-        p, f = run(path, name, tests)
+        p, f = run(options.build, name, tests)
         passed += p
         failed += f
     if passed + failed == 0:

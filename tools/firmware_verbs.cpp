@@ -92,9 +92,13 @@ int build(cc::BuildOptions options) {
   complain(result.warnings);
   complain(result.errors);
   if (!result.ok) return kTestFailed;
+  const std::string bound =
+      result.recursive.empty() ? "" : fmt::format(" (no bound: {}() calls itself)", result.recursive);
   std::cout << fmt::format(
-      "{}: {} bytes of data on the chip (of 8192), {} files compiled, {} unchanged, {:.2f} s\n",
-      options.output.string(), result.ram_bytes, result.compiled, result.reused, result.seconds);
+      "{}: {} bytes of data, about {} of stack{}, of 8192 on the chip; {} files compiled, {} unchanged, "
+      "{:.2f} s\n",
+      options.output.string(), result.ram_bytes, result.stack_bytes, bound, result.compiled, result.reused,
+      result.seconds);
   return kPass;
 }
 

@@ -195,6 +195,61 @@ double describe(Function& f, FunctionAnalysisManager& analyses, const std::vecto
   return least.cycles;
 }
 
+// of each function on the chip's stack, beside its local variables  [estimated: CALL pushes two words, LNK
+// one; gcc 4.5 keeps four of w8 to w14 in an average function, and spills nothing]
+constexpr uint64_t kFrameBytes = 4 + 2 + 8;
+// of a handler, too: w0 to w7, RCOUNT and PSVPAG  [estimated: gcc 4.5 prologues]
+constexpr uint64_t kHandlerBytes = 16 + 2 + 2;
+
+/// Size of a variable as the chip has it: pointers of two bytes, everything but bytes at even addresses.
+uint64_t chip_bytes(Type* type, const DataLayout& layout) {
+  if (type->isPointerTy()) return 2;
+  if (auto* array = dyn_cast<ArrayType>(type))
+    return array->getNumElements() * chip_bytes(array->getElementType(), layout);
+  if (auto* fields = dyn_cast<StructType>(type)) {
+    uint64_t bytes = 0;
+    for (Type* field : fields->elements()) {
+      const uint64_t each = chip_bytes(field, layout);
+      bytes += each + (each > 1 ? bytes % 2 : 0);
+    }
+    return bytes;
+  }
+  return layout.getTypeStoreSize(type);
+}
+
+/// What one call of the function takes of the chip's stack, callees apart.
+uint64_t stack_bytes(const Function& f) {
+  const DataLayout& layout = f.getParent()->getDataLayout();
+  uint64_t bytes = kFrameBytes + (is_handler(f) ? kHandlerBytes : 0);
+  for (const Instruction& i : f.getEntryBlock())
+    if (auto* local = dyn_cast<AllocaInst>(&i))
+      if (auto* count = dyn_cast<ConstantInt>(local->getArraySize()))
+        bytes += alignTo(count->getZExtValue() * chip_bytes(local->getAllocatedType(), layout), 2);
+  return bytes;
+}
+
+/// "file|data|bytes": variables that lie in the chip's RAM. Constants are in flash; private are clang's own
+/// for
+/// --sanitize.
+std::string data_line(const Module& m) {
+  uint64_t bytes = 0;
+  for (const GlobalVariable& g : m.globals())
+    if (!g.isDeclaration() && !g.isConstant() && !g.hasPrivateLinkage() && g.getSection() != "tpeedata" &&
+        !g.getName().startswith("tp") && !g.getName().startswith("llvm."))
+      bytes += alignTo(chip_bytes(g.getValueType(), m.getDataLayout()), 2);
+  return m.getSourceFileName() + "|data|" + std::to_string(bytes);
+}
+
+/// Functions of which the program takes the address, a line each: "name|pointer". An agenda, for example.
+std::vector<std::string> functions_by_pointer(const Module& m) {
+  std::vector<std::string> lines;
+  for (const Function& f : m)
+    if (f.getName() != "main" && !f.isIntrinsic() && !f.getName().startswith("tp_") &&
+        f.hasAddressTaken(nullptr, false, true, true))
+      lines.push_back(f.getName().str() + "|pointer");
+  return lines;
+}
+
 /// Functions whose code stands in others, a line each: "name|file|line|inlined|in which".
 std::vector<std::string> inlined_functions(const Module& m) {
   std::map<const DISubprogram*, std::set<std::string>> hosts;
@@ -286,6 +341,7 @@ CostPlan plan_costs(Unit& unit, FunctionAnalysisManager& analyses) {
     }
     function.least = describe(f, analyses, cost.segments, function.description);
     function.description += unit.options.library || unit.options.weak ? "|library" : "|program";
+    function.description += "|" + std::to_string(stack_bytes(f));
     plan.functions.push_back(function);
   }
   return plan;
@@ -296,6 +352,9 @@ void account(Unit& unit, const CostPlan& plan) {
   std::vector<GlobalValue*> used;
   Type* i64 = Type::getInt64Ty(m.getContext());
   if (!unit.options.cost_dump.empty()) return count_segments(m, plan.charges);
+  // before the tables below, which are data and hold the addresses of all functions
+  auto of_program = functions_by_pointer(m);
+  of_program.push_back(data_line(m));
   for (const auto& function : plan.functions) {
     auto* where = function.function->getSubprogram();
     if (!where) continue;
@@ -311,11 +370,12 @@ void account(Unit& unit, const CostPlan& plan) {
     cast<GlobalVariable>(used.back())->setConstant(true);
   }
   if (!unit.options.library && !unit.options.weak)
-    for (const std::string& line : inlined_functions(m)) {
-      add_to_section(m, "tpcost", ConstantDataArray::getString(m.getContext(), line), used);
-      cast<GlobalVariable>(used.back())->setAlignment(Align(1));
-      cast<GlobalVariable>(used.back())->setConstant(true);
-    }
+    for (const auto& lines : {inlined_functions(m), of_program})
+      for (const std::string& line : lines) {
+        add_to_section(m, "tpcost", ConstantDataArray::getString(m.getContext(), line), used);
+        cast<GlobalVariable>(used.back())->setAlignment(Align(1));
+        cast<GlobalVariable>(used.back())->setConstant(true);
+      }
   for (auto& [before, cycles] : plan.charges)
     if (std::llround(cycles) != 0) charge(m, before, std::llround(cycles));
   if (unit.options.coverage)

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 // --sanitize: before each access a check that it falls inside one object that exists. Globals are registered
 // in section tpobj with a gap behind each; local variables whose address is used are registered while they
-// live; the heap knows its own blocks (runtime/image_sanitize.c).
+// live; the heap knows its own blocks (runtime/image_sanitize.c). In the firmware's libc the characters are
+// checked that it reads and whatever it writes: a string that is too long for the program's array. Its own
+// arguments and structures are not the program's doing.
 #include "llvm/Analysis/ValueTracking.h"
 #include "llvm/IR/DebugInfoMetadata.h"
 #include "llvm/IR/IRBuilder.h"
 #include "llvm/IR/InstIterator.h"
 #include "llvm/IR/IntrinsicInst.h"
+#include "llvm/Support/Path.h"
 #include "llvm/Transforms/Utils/ModuleUtils.h"
 #include "passes.h"
 
@@ -17,9 +20,14 @@ using namespace llvm;
 
 constexpr uint64_t kGapBytes = 32;  // behind each global: a run past its end lands here
 
-Constant* where_text(Module& m, const Instruction& i) {
+Constant* where_text(Module& m, const Instruction& i, bool library) {
   std::string text = m.getSourceFileName();
-  if (const DebugLoc& at = i.getDebugLoc())
+  const Function& f = *i.getFunction();
+  if (library) {
+    StringRef name = f.getName();
+    name.consume_front("tp_c_");  // what a label of ours stands before
+    text = f.hasLocalLinkage() ? "in " + sys::path::filename(text).str() : "in " + name.str() + "()";
+  } else if (const DebugLoc& at = i.getDebugLoc())
     text = (cast<DIScope>(at.getScope())->getFilename() + ":" + Twine(at.getLine())).str();
   auto* data = ConstantDataArray::getString(m.getContext(), text);
   auto* g = new GlobalVariable(m, data->getType(), true, GlobalValue::PrivateLinkage, data, "tp.where");
@@ -51,7 +59,8 @@ void register_globals(Unit& unit) {
       object->copyAttributesFrom(g);
       object->takeName(g);
       object->copyMetadata(g, 0);
-      object->setAlignment(Align(8));
+      object->setAlignment(
+          std::max(Align(8), layout.getValueOrABITypeAlignment(g->getAlign(), g->getValueType())));
       g->replaceAllUsesWith(ConstantExpr::getBitCast(object, g->getType()));
       g->eraseFromParent();
     }
@@ -88,7 +97,7 @@ void register_locals(Unit& unit, Function& f) {
     auto* padded = StructType::get(a->getAllocatedType(), ArrayType::get(b.getInt8Ty(), kGapBytes));
     b.SetInsertPoint(a);
     auto* wide = b.CreateAlloca(padded);
-    wide->setAlignment(Align(8));
+    wide->setAlignment(std::max(Align(8), a->getAlign()));
     auto* inside = cast<Instruction>(b.CreateBitCast(wide, a->getType()));
     a->replaceAllUsesWith(inside);
     a->eraseFromParent();
@@ -107,13 +116,14 @@ void register_locals(Unit& unit, Function& f) {
 }  // namespace
 
 void check_addresses(Unit& unit) {
-  if (unit.options.library) return;
+  const bool library = unit.options.library;
   Module& m = unit.module;
   std::vector<std::pair<Instruction*, Value*>> accesses;
   for (Function& f : m)
     for (Instruction& i : instructions(f)) {
       Value* pointer = nullptr;
-      if (auto* load = dyn_cast<LoadInst>(&i)) pointer = load->getPointerOperand();
+      if (auto* load = dyn_cast<LoadInst>(&i); load && (!library || load->getType()->isIntegerTy(8)))
+        pointer = load->getPointerOperand();
       if (auto* store = dyn_cast<StoreInst>(&i)) pointer = store->getPointerOperand();
       if (auto* copy = dyn_cast<MemTransferInst>(&i)) accesses.emplace_back(&i, copy->getRawSource());
       if (auto* mem = dyn_cast<MemIntrinsic>(&i)) pointer = mem->getRawDest();
@@ -141,11 +151,12 @@ void check_addresses(Unit& unit) {
           isa<LoadInst>(i) ? i->getType() : cast<StoreInst>(i)->getValueOperand()->getType()));
     bool writes =
         isa<StoreInst>(i) || (isa<MemIntrinsic>(i) && cast<MemIntrinsic>(i)->getRawDest() == pointer);
-    b.CreateCall(check, {b.CreateBitCast(pointer, bytes), size, b.getInt64(writes), where_text(m, *i)});
+    b.CreateCall(check,
+                 {b.CreateBitCast(pointer, bytes), size, b.getInt64(writes), where_text(m, *i, library)});
   }
   for (Function& f : m)
     if (!f.isDeclaration()) register_locals(unit, f);
-  register_globals(unit);
+  if (!library) register_globals(unit);
 }
 
 }  // namespace cc

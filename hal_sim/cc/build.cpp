@@ -125,6 +125,13 @@ std::vector<fs::path> webots_sources(const fs::path& folder, const std::vector<f
   return kept.empty() ? sources : kept;
 }
 
+/// Files of the libc that read and write the program's strings and arrays: --sanitize checks those, too.
+bool takes_strings(const fs::path& file) {
+  const std::string name = file.filename().string();
+  return file.parent_path() == source_root() / "hal_sim/cc/libc/src" &&
+         (name == "string.c" || name == "printf.c" || name == "scanf.c" || name == "stdlib.c");
+}
+
 Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& program, bool lint) {
   fs::path root = source_root(), cc_dir = root / "hal_sim/cc";
   fs::path include_root = o.include_root.empty() ? root / "firmware/include" : o.include_root;
@@ -220,8 +227,11 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& pro
            fs::exists(cc_dir / "libc/webots" / file.filename());
   };
   for (const auto& folder : library_folders)
-    for (const auto& s : files_below(folder, ".c"))
-      if (!is_replaced(s)) p.library.push_back({s, library_flags, ""});
+    for (const auto& s : files_below(folder, ".c")) {
+      if (is_replaced(s)) continue;
+      p.library.push_back({s, library_flags, ""});
+      if (o.sanitize && takes_strings(s)) p.library.back().flags.push_back("--sanitize");
+    }
 
   std::string name =
       o.name.empty() ? fs::absolute(o.source_dir).lexically_normal().filename().string() : o.name;
@@ -332,17 +342,13 @@ void sort_linker_messages(const std::string& text, const Program& program, Build
 void check_main(const std::vector<CompileOutcome>& outcomes, const std::vector<CompileJob>& jobs,
                 const fs::path& folder, BuildResult& result) {
   std::vector<std::string> with_main;
-  long ram = 0;
   for (size_t i = 0; i < outcomes.size(); ++i) {
     auto elf = read_elf(outcomes[i].object);
     for (const auto& s : elf.symbols) {
       if (s.name == "main" && s.is_defined && s.is_function)
         with_main.push_back(jobs[i].source.filename().string());
-      if (s.is_defined && s.is_object && s.is_writable && s.name.rfind("tp", 0) != 0)
-        ram += long(s.is_common ? s.size : s.size);
     }
   }
-  result.ram_bytes = ram;
   if (with_main.empty())
     result.errors.push_back(folder.string() +
                             ": main(): got no definition, expected one; is this a controller's folder?");
@@ -352,9 +358,25 @@ void check_main(const std::vector<CompileOutcome>& outcomes, const std::vector<C
     result.errors.push_back(folder.string() + ": main(): got " + std::to_string(with_main.size()) +
                             " definitions (" + list + "), expected 1; give each program a folder of its own");
   }
-  if (ram > 8192)
-    result.warnings.push_back(folder.string() + ": static data: got " + std::to_string(ram) +
-                              " (bytes), expected at most 8192 (bytes); it would not fit the chip's RAM");
+}
+
+constexpr long kRamBytes = 8192;  // of the dsPIC30F6014A  [DS70143: 8192 bytes of data RAM]
+
+/// Static data and stack share the chip's RAM.
+void check_room(const fs::path& image, const fs::path& folder, BuildResult& result) {
+  const MemoryUse use = memory_use(image);
+  result.ram_bytes = use.data;
+  result.stack_bytes = use.stack;
+  result.recursive = use.recursive;
+  const std::string data = std::to_string(result.ram_bytes), most = std::to_string(kRamBytes);
+  if (result.ram_bytes > kRamBytes)
+    result.no_room = folder.string() + ": warning: static data: got " + data + " (bytes), expected at most " +
+                     most + " (bytes); it would not fit the chip's RAM";
+  else if (result.ram_bytes + use.stack > kRamBytes)
+    result.no_room = folder.string() + ": warning: static data and stack: got " + data + " and about " +
+                     std::to_string(use.stack) + " (bytes), expected together at most " + most +
+                     " (bytes); the stack is deepest in " + use.deepest;
+  if (!result.no_room.empty()) result.warnings.push_back(result.no_room);
 }
 
 /// Handlers that a program has in assembler would be missing without a word: nothing names them.
@@ -554,6 +576,7 @@ static BuildResult build_here(const BuildOptions& options) {
   sort_linker_messages(link.output, program, result);
   if (link.status != 0 && result.errors.empty()) result.errors.push_back("link: " + link.output);
   if (result.errors.empty()) {
+    check_room(half, o.source_dir, result);
     std::ofstream(half, std::ios::binary | std::ios::app) << host::image_stamp(read_text(half));
     fs::rename(half, output, ec);
     if (ec) result.errors.push_back(output.string() + ": cannot write: " + ec.message());

@@ -35,6 +35,9 @@ struct BuildResult {
   std::vector<std::string> warnings;   ///< same grammar; 16-bit warnings of the compiler included
   int compiled = 0, reused = 0;        ///< translation units compiled now, taken from the cache
   long ram_bytes = 0;                  ///< estimate of static data on the chip
+  long stack_bytes = 0;                ///< estimate of the stack on the chip, the deepest interrupt included
+  std::string recursive;               ///< a function that calls itself: then the stack has no bound
+  std::string no_room;                 ///< one of the warnings: data and stack are more than the chip's RAM
   double seconds = 0;                  ///< wall time of this build
 };
 
@@ -57,6 +60,15 @@ struct FunctionCycles {
   /// Share of the processor when called every `period_s` seconds, 0..1 and above.
   double cpu_load(double period_s) const;
 };
+
+/// What a program takes of the chip's RAM in bytes, estimated (memory_use.cpp).
+struct MemoryUse {
+  long data = 0;          ///< variables with a place of their own
+  long stack = 0;         ///< from main() down, and the deepest that can interrupt it
+  std::string deepest;    ///< "main() > f() > g()"
+  std::string recursive;  ///< a function that calls itself, counted once; then there is no bound
+};
+MemoryUse memory_use(const std::filesystem::path& image);
 
 /// Reads the cost section of an image. Empty when the file is not one.
 std::vector<FunctionCycles> function_costs(const std::filesystem::path& image);

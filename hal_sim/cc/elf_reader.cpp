@@ -72,12 +72,8 @@ ElfFile read_elf(const std::filesystem::path& path) {
       s.is_defined = symbol->st_shndx != SHN_UNDEF;
       s.is_common = symbol->st_shndx == SHN_COMMON;
       s.is_function = ELF64_ST_TYPE(symbol->st_info) == STT_FUNC;
-      s.is_object = ELF64_ST_TYPE(symbol->st_info) == STT_OBJECT;
       s.is_weak = ELF64_ST_BIND(symbol->st_info) == STB_WEAK;
       s.is_global = ELF64_ST_BIND(symbol->st_info) != STB_LOCAL;
-      const auto home =
-          symbol->st_shndx < SHN_LORESERVE ? section_header(file.bytes, symbol->st_shndx) : std::nullopt;
-      s.is_writable = s.is_common || (home && (home->sh_flags & SHF_WRITE));
       if (!s.name.empty()) file.symbols.push_back(std::move(s));
     }
   }

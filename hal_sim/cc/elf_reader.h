@@ -11,9 +11,7 @@ namespace cc {
 struct ElfSymbol {
   std::string name;
   uint64_t value = 0, size = 0;
-  bool is_defined = false, is_function = false, is_object = false, is_weak = false, is_global = false,
-       is_common = false;
-  bool is_writable = false;  // lies in a writable section
+  bool is_defined = false, is_function = false, is_weak = false, is_global = false, is_common = false;
 };
 
 struct ElfFile {

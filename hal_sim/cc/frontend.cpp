@@ -377,7 +377,7 @@ std::vector<std::string> clang_arguments(const Options& o, const std::string& st
   else
     a.push_back("-fgnu89-inline");
   a.push_back(o.level == 0 ? "-O0" : o.for_size ? "-Os" : o.level == 1 ? "-O1" : "-O2");
-  if (o.sanitize) {
+  if (o.sanitize && !o.library) {
     a.push_back("-fsanitize=signed-integer-overflow,shift-exponent,array-bounds");
     a.push_back("-fsanitize-recover=all");
   } else {

@@ -41,7 +41,7 @@ struct TrapReport {
   Place place;                   ///< where in the firmware
   Cycle cycle = 0;               ///< cycles since power-up
   double time_s = 0;             ///< world time
-  std::vector<Place> backtrace;  ///< innermost first, at most 16
+  std::vector<Place> backtrace;  ///< from `place` outwards, at most 16
   int count = 1;                 ///< how often (unexpected resets only)
 };
 

@@ -19,10 +19,21 @@ bool is_library(const std::string& file) {
 }
 
 // the innermost frame of the program itself: what our API and libc do inside is the caller's doing
+std::vector<Place>::const_iterator own_frame(const std::vector<Place>& backtrace) {
+  const auto own = std::find_if(backtrace.begin(), backtrace.end(),
+                                [](const Place& place) { return place.line > 0 && !is_library(place.file); });
+  return own == backtrace.end() ? backtrace.begin() : own;
+}
+
 Place culprit(const std::vector<Place>& backtrace) {
-  for (const Place& place : backtrace)
-    if (place.line > 0 && !is_library(place.file)) return place;
-  return backtrace.empty() ? Place{} : backtrace.front();
+  return backtrace.empty() ? Place{} : *own_frame(backtrace);
+}
+
+// the report's place, and the way to it from there on
+void set_place(TrapReport& report, std::vector<Place> backtrace) {
+  backtrace.erase(backtrace.begin(), own_frame(backtrace));
+  report.place = culprit(backtrace);
+  report.backtrace = std::move(backtrace);
 }
 }  // namespace
 
@@ -78,8 +89,7 @@ TrapReport Robot::report_at(int kind, std::string message, std::uintptr_t pc, st
   report.message = std::move(message);
   report.cycle = now_;
   report.time_s = to_world_s ? to_world_s(now_) : static_cast<double>(now_) / kFcyHz;
-  report.backtrace = walk(pc, frame);
-  report.place = culprit(report.backtrace);
+  set_place(report, walk(pc, frame));
   return report;
 }
 
@@ -103,8 +113,7 @@ void Robot::fault(int kind, std::string message, std::uintptr_t pc, std::uintptr
   // moved, not copied: this stack is abandoned, nothing on it is freed
   TrapReport report = report_at(kind, std::move(message), pc, frame);
   if (report.place.line == 0) {
-    report.backtrace = walk(find_return_address(stack), 0);
-    report.place = culprit(report.backtrace);
+    set_place(report, walk(find_return_address(stack), 0));
   }
   // nothing is left of the stack: the program's beginning at least
   const tp_image& image = copy_.description();
@@ -150,8 +159,10 @@ std::vector<Place> Robot::walk(std::uintptr_t pc, std::uintptr_t frame) const {
   const auto add = [&](std::uintptr_t address) {
     if (!copy_.is_code(address)) return;
     Place place = image_->symbols().find(address - copy_.base());
-    if (place.function.rfind("tp_image_", 0) != 0)
-      places.push_back(std::move(place));  // the runtime's own frames say nothing
+    // the runtime's own frames say nothing
+    if (place.function.rfind("tp_image_", 0) != 0 &&
+        place.file.find("hal_sim/cc/runtime/") == std::string::npos)
+      places.push_back(std::move(place));
   };
   if (pc) add(pc);
   while (places.size() < kMostFrames && fiber_.is_on_stack(frame) && frame % sizeof(void*) == 0 &&

@@ -129,6 +129,7 @@ std::string provide_image(const std::string& name, const std::string& from_folde
     for (const auto& w : result.warnings) options.tell(w);
   if (options.tell)
     for (const auto& c : result.conflicts) options.tell(c);
+  if (options.no_room && !result.no_room.empty()) options.no_room();
   if (!result.ok) {
     problems.insert(problems.end(), result.errors.begin(), result.errors.end());
     return "";

@@ -44,6 +44,8 @@ struct Options {
   bool coverage = false;  ///< ... with line counters
   /// Told the compiler's warnings, a line each; may be empty.
   std::function<void(const std::string&)> tell;
+  /// Called when a controller's data and stack do not fit the chip; may be empty. `tell` has told it.
+  std::function<void()> no_room;
 };
 
 /// The folder of a controller of the project: firmware/NAME, else firmware/lab/NAME (a solution of the lab,

@@ -96,6 +96,78 @@ TEST(build, too_much_data_is_warned_of) {
   EXPECT_NE(text_of(built).find("expected at most 8192 (bytes)"), std::string::npos) << text_of(built);
 }
 
+// 14 bytes a function [estimated: hal_sim/cc/account.cpp], 48 for what interrupts. main 14, deep 14 + 2 x 300
+TEST(build, stack_is_the_deepest_way_from_main_and_the_deepest_interrupt) {
+  Folder folder;
+  const std::string functions =
+      "void use(int *p);\n__attribute__((noinline)) void use(int *p) { p[0]++; }\n"
+      "__attribute__((noinline)) void deep(void) { int k[300]; use(k); }\n"
+      "__attribute__((noinline)) void flat(void) { int k[20]; use(k); }\n";
+  const auto plain = build(folder, functions + "int main(void) { deep(); flat(); return 0; }");
+  ASSERT_TRUE(plain.ok) << text_of(plain);
+  EXPECT_EQ(plain.stack_bytes, 14 + (14 + 600) + 14 + 48);
+  EXPECT_EQ(plain.recursive, "");
+  // a handler: 20 more, and what it calls
+  const auto handled =
+      build(folder, functions +
+                        "void __attribute__((interrupt, auto_psv)) _T1Interrupt(void) { flat(); }\n"
+                        "int main(void) { deep(); return 0; }");
+  EXPECT_EQ(handled.stack_bytes, plain.stack_bytes + (14 + 20) + (14 + 40) + 14) << text_of(handled);
+  // an agenda is called by pointer; pointers have two bytes
+  const auto agenda =
+      build(folder, functions +
+                        "void (*volatile due)(void); __attribute__((noinline)) void keep(char **p) { "
+                        "p[1] = p[0]; }\nvoid step(void) { char *all[10]; keep(all); }\n"
+                        "int main(void) { due = step; deep(); return 0; }");
+  EXPECT_EQ(agenda.stack_bytes, plain.stack_bytes + (14 + 20) + 14) << text_of(agenda);
+}
+
+// pointers have two bytes, constants are in flash, and the gaps of --sanitize are none of the chip's
+TEST(build, data_counts_as_on_the_chip) {
+  Folder folder;
+  const std::string program =
+      "char *names[10]; const char *const fixed[] = {\"a\", \"b\"}; const int table[50] = {1}; char "
+      "three[3];\n"
+      "struct { char c; int *p; long l; } both; static int hidden = 3; volatile int n;\n"
+      "int main(void) { static long kept; kept += n; names[n] = (char *)fixed[n]; three[n] = both.c;\n"
+      "  return hidden++ + table[n] + (int)kept; }";
+  for (const bool sanitize : {false, true}) {
+    const auto built = build(folder, program, "-O0", [&](cc::BuildOptions& o) { o.sanitize = sanitize; });
+    ASSERT_TRUE(built.ok) << text_of(built);
+    EXPECT_EQ(built.ram_bytes, 20 + 4 + 8 + 2 + 2 + 4) << sanitize;  // names three both hidden n kept
+  }
+}
+
+TEST(build, recursion_has_no_bound_and_says_of_what) {
+  Folder folder;
+  const auto built =
+      build(folder,
+            "volatile int n;\nint down(int k) { return k ? down(k - 1) + n * down(k - 2) : 1; }\n"
+            "int main(void) { return down(n); }");
+  EXPECT_EQ(built.recursive, "down") << text_of(built);
+}
+
+TEST(build, data_and_stack_that_do_not_fit_together_are_warned_of) {
+  Folder folder;
+  const std::string program =
+      "char picture[5000]; volatile int n;\n__attribute__((noinline)) void keep(char *p) { p[n] = 1; }\n"
+      "void work(void) { char copy[3500]; keep(copy); }\nint main(void) { picture[n] = 1; work(); return 0; "
+      "}";
+  // also when all of it lies in the cache
+  for (int time = 0; time < 2; ++time) {
+    const auto built = build(folder, program, "-O0");
+    EXPECT_TRUE(built.ok);
+    EXPECT_NE(built.no_room, "");
+    EXPECT_NE(text_of(built).find("static data and stack: got 5002 and about 3"), std::string::npos)
+        << text_of(built);
+    EXPECT_NE(text_of(built).find("deepest in main() > work() > keep()"), std::string::npos)
+        << text_of(built);
+  }
+  const auto fits =
+      build(folder, "char picture[5000]; volatile int n; int main(void) { return picture[n]; }");
+  EXPECT_EQ(fits.no_room, "") << text_of(fits);
+}
+
 TEST(lint, finds_plain_flags_and_timer_conflicts) {
   Folder folder;
   folder.file("prog/main.c",

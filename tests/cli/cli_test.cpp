@@ -357,11 +357,45 @@ TEST_F(Command, sanitize_finds_a_16_bit_overflow_and_a_bad_index) {
   Said s = twinpuck("run maze --fw '*=" + path("over") + "' --for 0.1 --sanitize");
   EXPECT_EQ(s.exit_code, 3) << s.text;
   EXPECT_NE(s.text.find("main.c:3"), std::string::npos) << s.text;
+  EXPECT_EQ(s.text.find("image_sanitize.c"), std::string::npos) << s.text;  // the check's own frames
   write("index/main.c",
         "int table[4], other[4];\nvolatile int i = 4;\nint main(void) {\n  table[i] = 1;\n  while (1);\n}\n");
   s = twinpuck("run maze --fw '*=" + path("index") + "' --for 0.1 --sanitize");
   EXPECT_EQ(s.exit_code, 3) << s.text;
   EXPECT_NE(s.text.find("main.c:4"), std::string::npos) << s.text;
+}
+
+TEST_F(Command, sanitize_names_the_line_that_calls_a_string_function) {
+  write("long/main.c",
+        "#include <string.h>\nchar name[8], other[8];\nvolatile int n;\nstatic void fill(void) {\n"
+        "  strcpy(name, &\"longer than that\"[n]);\n}\nint main(void) {\n  fill();\n  while (1);\n}\n");
+  const Said s = twinpuck("run maze --fw '*=" + path("long") + "' --for 0.1 --sanitize --opt -O0");
+  EXPECT_EQ(s.exit_code, 3) << s.text;
+  EXPECT_NE(s.text.find("in strcpy(): write out of bounds of name"), std::string::npos) << s.text;
+  EXPECT_NE(s.text.find("  at fill (" + path("long/main.c") + ":5)"), std::string::npos) << s.text;
+  EXPECT_NE(s.text.find("called from main (" + path("long/main.c") + ":8)"), std::string::npos) << s.text;
+  for (const char* inner : {"image_sanitize.c", "string.c", "report"})
+    EXPECT_EQ(s.text.find(inner), std::string::npos) << inner << " in\n" << s.text;
+}
+
+// each run, not the first alone, and with --strict what does not fit the chip is a fault
+TEST_F(Command, warnings_of_the_build_come_with_each_run_and_strict_ends_in_1) {
+  write("fat/main.c",
+        "char picture[9000];\nvolatile int n;\nint main(void) {\n  int big = 70000;\n  picture[n] = big;\n"
+        "  while (1);\n}\n");
+  const std::string run = "run maze --fw '*=" + path("fat") + "' --for 0.1 -q ";
+  for (const char* strict : {"", "", "--strict"}) {
+    const Said s = twinpuck(run + strict);
+    EXPECT_EQ(s.exit_code, *strict ? 1 : 0) << s.text;
+    EXPECT_NE(s.text.find("main.c:4"), std::string::npos) << s.text;
+    EXPECT_NE(s.text.find("70000"), std::string::npos) << s.text;
+    EXPECT_NE(s.text.find("static data: got 9002 (bytes), expected at most 8192"), std::string::npos)
+        << s.text;
+  }
+  write("thin/main.c", "volatile int n;\nint main(void) {\n  while (1) n++;\n}\n");
+  EXPECT_EQ(twinpuck("run maze --fw '*=" + path("thin") + "' --for 0.1 -q --strict").exit_code, 0);
+  const Said built = twinpuck("build " + path("thin") + " -o " + path("thin.so"));
+  EXPECT_NE(built.text.find("2 bytes of data, about 62 of stack, of 8192"), std::string::npos) << built.text;
 }
 
 TEST_F(Command, new_makes_a_controller_that_builds_and_runs) {

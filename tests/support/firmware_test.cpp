@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/support/firmware_test.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -74,11 +75,18 @@ double Robot::longest_wall_touch_s() const {
   return test_->twin().simulation().touches(index_).longest_wall_touch_s;
 }
 double Robot::cpu_load() const { return mind().robot()->cpu_load(); }
-cc::FunctionCycles Robot::cost_of(const std::string& function) const {
+cc::FunctionCycles Robot::cost_of(const std::string& function, Caller caller) const {
   for (const auto& f : cc::function_costs(test_->twin().image_path(index_)))
     if (f.name == function) return f;
-  ADD_FAILURE() << "no function '" << function << "' in the firmware";
+  ADD_FAILURE_AT(caller.file, caller.line) << "no function '" << function << "' in the firmware";
   return {};
+}
+void Robot::copy_variable(const std::string& name, void* to, std::size_t bytes, const Caller& caller) const {
+  const auto found = mind().robot()->read_variable(name, bytes);
+  std::copy_n(found.begin(), std::min(bytes, found.size()), static_cast<char*>(to));
+  if (found.size() == bytes) return;
+  ADD_FAILURE_AT(caller.file, caller.line)
+      << "no variable '" << name << "' of " << bytes << " bytes in the firmware";
 }
 std::int64_t Robot::cycles() const { return mind().now(); }
 void Robot::turn_selector(int position) {
@@ -141,10 +149,13 @@ void FirmwareTest::box(double x_m, double y_m, double size_m, double heading_deg
   world.objects.push_back(o);
 }
 
-void FirmwareTest::load_world(const std::string& path) {
+void FirmwareTest::load_world(const std::string& path, Caller caller) {
   const auto file = std::filesystem::path(TWINPUCK_SOURCE_DIR) / path;
   auto loaded = sim::load_world(file.string(), {board::epuck_model()}, board::part_kinds());
-  ASSERT_TRUE(loaded.world) << loaded.report(path);
+  if (!loaded.world) {
+    ADD_FAILURE_AT(caller.file, caller.line) << loaded.report(path);
+    return;
+  }
   world = *loaded.world;
   robots_.clear();
   for (std::size_t i = 0; i < world.robots.size(); ++i) {
@@ -182,12 +193,13 @@ void FirmwareTest::add_supervisor_with_source(const std::string& source, const s
   add_supervisor(folder_for(source, language), period_s);
 }
 
-void FirmwareTest::start() {
+void FirmwareTest::start(const Caller& caller) {
+  const std::string where = std::string(caller.file) + ":" + std::to_string(caller.line) + ": ";
   world.robots.clear();
   for (const auto& r : robots_) world.robots.push_back(r->desc_);
   std::vector<std::string> problems;
   twin_ = twin::Twin::open(world, options, problems);
-  if (!twin_) throw std::runtime_error("the test's world cannot start:\n" + all_lines(problems));
+  if (!twin_) throw std::runtime_error(where + "the test's world cannot start:\n" + all_lines(problems));
   for (auto& r : robots_) {
     Robot* robot = r.get();
     robot->mind().board().virtual_devices().on_console = [robot](const std::string& line) {
@@ -196,7 +208,8 @@ void FirmwareTest::start() {
   }
   if (!world.supervisors.empty()) {
     team_ = supervisor::Team::open(*twin_, options, {}, problems);
-    if (!team_) throw std::runtime_error("the test's supervisors cannot start:\n" + all_lines(problems));
+    if (!team_)
+      throw std::runtime_error(where + "the test's supervisors cannot start:\n" + all_lines(problems));
   }
   for (auto& r : robots_)
     for (int port = r->keeps_bluetooth_ ? 2 : 1; port <= 2; ++port) {
@@ -206,19 +219,19 @@ void FirmwareTest::start() {
     }
 }
 
-twin::Twin& FirmwareTest::twin() {
-  if (!twin_) start();
+twin::Twin& FirmwareTest::twin(Caller caller) {
+  if (!twin_) start(caller);
   return *twin_;
 }
 
-void FirmwareTest::run_for(double seconds) {
-  auto& s = twin().simulation();
+void FirmwareTest::run_for(double seconds, Caller caller) {
+  auto& s = twin(caller).simulation();
   const sim::Clicks end = s.now() + sim::from_seconds(seconds);
   while (s.now() < end && !(team_ && team_->has_ended())) s.step();
 }
 
-bool FirmwareTest::run_until(const std::function<bool()>& done, double at_most_s) {
-  auto& s = twin().simulation();
+bool FirmwareTest::run_until(const std::function<bool()>& done, double at_most_s, Caller caller) {
+  auto& s = twin(caller).simulation();
   const sim::Clicks end = s.now() + sim::from_seconds(at_most_s);
   while (!done()) {
     if (s.now() >= end || (team_ && team_->has_ended())) return false;
@@ -248,16 +261,18 @@ std::string Robot::diagnoses_text() const {
   return text;
 }
 
-void FirmwareTest::expect_no_diagnoses() const {
+void FirmwareTest::expect_no_diagnoses(Caller caller) const {
   if (!twin_) return;
-  for (const auto& robot : robots_) EXPECT_EQ(robot->diagnoses_text(), "");
+  for (const auto& robot : robots_)
+    if (const std::string said = robot->diagnoses_text(); !said.empty())
+      ADD_FAILURE_AT(caller.file, caller.line) << robot->desc_.name << ": " << said;
 }
 
-void FirmwareTest::expect_no_traps() const {
+void FirmwareTest::expect_no_traps(Caller caller) const {
   if (!twin_) return;
   for (const auto& t : twin_->traps())
-    ADD_FAILURE() << t.robot << ": " << host::trap_name(t.kind) << ": " << t.message << " at "
-                  << to_string(t.place);
+    ADD_FAILURE_AT(caller.file, caller.line)
+        << t.robot << ": " << host::trap_name(t.kind) << ": " << t.message << " at " << to_string(t.place);
 }
 
 }  // namespace firmware_test

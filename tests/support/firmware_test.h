@@ -13,7 +13,6 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
-#include <cstring>
 #include <functional>
 #include <memory>
 #include <string>
@@ -27,6 +26,15 @@
 namespace firmware_test {
 
 class FirmwareTest;
+
+/// The line of the test that called: as a default argument, so that a failure names it and not this file's.
+struct Caller {
+  const char* file;
+  int line;
+  static Caller here(const char* file = __builtin_FILE(), int line = __builtin_LINE()) {
+    return {file, line};
+  }
+};
 
 /// One robot of a test. Before the first run it collects settings; afterwards it answers questions.
 class Robot {
@@ -72,27 +80,23 @@ class Robot {
 
   /// Value of a global or static variable of the firmware by name (16-bit int by default).
   template <typename T = std::int16_t>
-  T variable(const std::string& name) const {
+  T variable(const std::string& name, Caller caller = Caller::here()) const {
     T value{};
-    const auto bytes = mind().robot()->read_variable(name, sizeof value);
-    EXPECT_EQ(bytes.size(), sizeof value) << "no variable '" << name << "' of that size in the firmware";
-    std::memcpy(&value, bytes.data(), std::min(bytes.size(), sizeof value));
+    copy_variable(name, &value, sizeof value, caller);
     return value;
   }
 
   /// The first `count` elements of an array of the firmware.
   template <typename T = std::int16_t>
-  std::vector<T> variables(const std::string& name, std::size_t count) const {
+  std::vector<T> variables(const std::string& name, std::size_t count, Caller caller = Caller::here()) const {
     std::vector<T> values(count);
-    const auto bytes = mind().robot()->read_variable(name, count * sizeof(T));
-    EXPECT_EQ(bytes.size(), count * sizeof(T)) << "no array '" << name << "' of that size in the firmware";
-    std::memcpy(values.data(), bytes.data(), std::min(bytes.size(), count * sizeof(T)));
+    copy_variable(name, values.data(), count * sizeof(T), caller);
     return values;
   }
 
   /// Estimated cycles of a function of the firmware, callees included; -1 fields: no bound known
   /// (docs/cycles.md).
-  cc::FunctionCycles cost_of(const std::string& function) const;
+  cc::FunctionCycles cost_of(const std::string& function, Caller caller = Caller::here()) const;
 
   const std::vector<host::TrapReport>& traps() const { return mind().robot()->traps(); }
   /// What board and chip have to say about the firmware so far (docs/diagnoses.md).
@@ -104,6 +108,7 @@ class Robot {
   friend class FirmwareTest;
   const sim::Pose2& pose() const;
   host::FirmwareMind& mind() const;
+  void copy_variable(const std::string& name, void* to, std::size_t bytes, const Caller& caller) const;
   std::string serial_text(int port) const;
   void serial_send(int port, const std::string& bytes);
 
@@ -130,7 +135,7 @@ class FirmwareTest : public ::testing::Test {
   /// A fixed box with its centre at (x, y).
   void box(double x_m, double y_m, double size_m, double heading_deg = 0);
   /// Starts from a world file instead (path relative to the project).
-  void load_world(const std::string& path);
+  void load_world(const std::string& path, Caller caller = Caller::here());
 
   /// A robot with a controller: a name under firmware/, a folder, or a .so.
   Robot& add_robot(const std::string& firmware, const std::string& name = "");
@@ -146,25 +151,25 @@ class FirmwareTest : public ::testing::Test {
 
   // --- running
   // -----------------------------------------------------------------------------------------------------
-  void run_for(double seconds);
+  void run_for(double seconds, Caller caller = Caller::here());
   /// Runs until `done` holds (looked at every tick) or `at_most_s` have passed; false then.
-  bool run_until(const std::function<bool()>& done, double at_most_s);
+  bool run_until(const std::function<bool()>& done, double at_most_s, Caller caller = Caller::here());
   double now_s() const;
   std::uint64_t digest() const;
-  void expect_no_traps() const;
+  void expect_no_traps(Caller caller = Caller::here()) const;
   /// No diagnosis of any robot.
-  void expect_no_diagnoses() const;
+  void expect_no_diagnoses(Caller caller = Caller::here()) const;
   /// The world's supervisors; started on first use.
   supervisor::Team& team();
   /// The run is over: every supervisor has its last go. How they ended it.
   const supervisor::Outcome& finish();
   /// Number of threads, extra flags for twinpuck-cc; before the first run.
   twin::Options options;
-  twin::Twin& twin();
+  twin::Twin& twin(Caller caller = Caller::here());
 
  private:
   friend class Robot;
-  void start();
+  void start(const Caller& caller);
 
   std::vector<std::unique_ptr<Robot>> robots_;
   std::unique_ptr<twin::Twin> twin_;

@@ -34,9 +34,12 @@ void tp_image_local_enter(char *begin, tp_i64 size)
 
 void tp_image_local_leave(tp_i64 count) { depth -= (int)count; }
 
+static int telling; /* its own snprintf is not to be looked at */
+
 static void report(const char *where, const char *what, const char *name)
 {
   char message[200];
+  telling = 1;
   snprintf(message, sizeof message, "%s: %s%s%s", where, what, name ? " of " : "", name ? name : "");
   tp_trap_message(TP_TRAP_SANITIZER, message);
 }
@@ -65,7 +68,7 @@ void tp_image_check(char *p, tp_i64 size, tp_i64 writes, const char *where)
   const struct object *o, *near_one = 0;
   const char *what = 0;
   int i;
-  if (size == 0) return;
+  if (size == 0 || telling) return;
   for (i = (depth < LOCALS ? depth : LOCALS) - 1; i >= 0; i--)
     if (p >= locals[i].begin && p + size <= locals[i].begin + locals[i].size) return;
   if (depth > LOCALS) {

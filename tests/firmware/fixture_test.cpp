@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// The fixture itself: what a failing test of a user's is told.
+#include <gtest/gtest-spi.h>
+
+#include "tests/support/firmware_test.h"
+
+namespace firmware_test {
+namespace {
+
+class Fixture : public FirmwareTest {
+ protected:
+  /// The one failure that `act` is to report.
+  static ::testing::TestPartResult only_failure(const std::function<void()>& act) {
+    ::testing::TestPartResultArray told;
+    {
+      using Fake = ::testing::ScopedFakeTestPartResultReporter;
+      Fake fake(Fake::INTERCEPT_ONLY_CURRENT_THREAD, &told);
+      act();
+    }
+    EXPECT_EQ(told.size(), 1);
+    return told.size() > 0 ? told.GetTestPartResult(0)
+                           : ::testing::TestPartResult(::testing::TestPartResult::kSuccess, "", 0, "");
+  }
+  static void expect_here(const std::function<void()>& act, int line, const std::string& says) {
+    const auto failure = only_failure(act);
+    EXPECT_STREQ(failure.file_name(), __FILE__);
+    EXPECT_EQ(failure.line_number(), line);
+    EXPECT_NE(std::string(failure.message()).find(says), std::string::npos) << failure.message();
+  }
+};
+
+TEST_F(Fixture, a_trap_is_told_once_at_the_line_that_expects_none) {
+  add_robot_with_source("volatile int zero;\nint main(void) { return 1 / zero; }", "bad");
+  run_for(0.1);
+  expect_here([&] { expect_no_traps(); }, __LINE__, "bad: math error");
+}
+
+TEST_F(Fixture, a_variable_or_function_that_is_not_there_is_told_at_the_line_that_asks) {
+  Robot& robot = add_robot_with_source("volatile int there;\nint main(void) { while (1) there++; }");
+  run_for(0.1);
+  expect_here([&] { robot.variable("absent"); }, __LINE__, "no variable 'absent' of 2 bytes");
+  expect_here([&] { robot.variables("there", 5); }, __LINE__, "no variable 'there' of 10 bytes");
+  expect_here([&] { robot.cost_of("absent"); }, __LINE__, "no function 'absent'");
+  EXPECT_NE(robot.variable("there"), 0);
+}
+
+TEST_F(Fixture, a_program_that_does_not_compile_is_told_with_the_line_that_runs_it) {
+  add_robot_with_source("int main(void) { return nothing; }");
+  std::string said;
+  int line = 0;
+  try {
+    line = __LINE__ + 1;
+    run_for(0.1);
+  } catch (const std::exception& wrong) {
+    said = wrong.what();
+  }
+  EXPECT_EQ(said.rfind(__FILE__ ":" + std::to_string(line) + ": the test's world cannot start", 0), 0u)
+      << said;
+  EXPECT_NE(said.find("main.c:1"), std::string::npos) << said;
+}
+
+}  // namespace
+}  // namespace firmware_test
