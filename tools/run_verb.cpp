@@ -244,11 +244,11 @@ void add_run(CLI::App& app, int& exit_code) {
       "[ROBOT=]-|none|pty|pty:LINK|tcp:PORT|file:PATH: the other end of UART 1; - shows text "
       "here, as a run does unless told otherwise"));
   one_each(verb->add_option("--uart2", a->uart2, "the same for UART 2"));
-  one_each(
-      verb->add_option("--key", a->keys,
-                       "[ROBOT=]KEY@TIME[+HOLD]: a remote control's key, 0 to 63 or a name such as VOL_UP, "
-                       "pressed at TIME s for HOLD s (0.1); ADDRESS:KEY for another address than 0; keyboard:UP or "
-                       "keyboard:W for a keyboard's, which programs for Webots ask for"));
+  one_each(verb->add_option(
+      "--key", a->keys,
+      "[ROBOT=]KEY@TIME[+HOLD]: a remote control's key, 0 to 63 or a name such as VOL_UP, "
+      "pressed at TIME s for HOLD s (0.1); ADDRESS:KEY for another address than 0; keyboard:UP or "
+      "keyboard:W for a keyboard's, which programs for Webots ask for"));
   verb->add_option("--files", a->files,
                    "folder for files that programs for Webots write, below it one for each robot")
       ->capture_default_str();

@@ -499,7 +499,8 @@ std::vector<SectionSpec> make_schema() {
           {"uart1", ValueType::Text, "", 0, 0, "", "\"-\"",
            "- (text is shown on the terminal), none, pty, pty:LINK, tcp:PORT or file:PATH",
            checked<R>([](R& r, const Value& v, const WorldDesc&) { return uart_text(v, r.uart1); })},
-          {"uart2", ValueType::Text, "", 0, 0, "", "\"none\"", "none, -, pty, pty:LINK, tcp:PORT or file:PATH",
+          {"uart2", ValueType::Text, "", 0, 0, "", "\"none\"",
+           "none, -, pty, pty:LINK, tcp:PORT or file:PATH",
            checked<R>([](R& r, const Value& v, const WorldDesc&) { return uart_text(v, r.uart2); })},
       });
   for (KeySpec& key : wheel_keys<R>("", "")) s.back().keys.push_back(std::move(key));

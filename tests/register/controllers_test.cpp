@@ -108,8 +108,7 @@ INSTANTIATE_TEST_SUITE_P(
         Course{"obstacle", "worlds/corners.toml"}, Course{"obstacle", "worlds/pillars.toml"},
         Course{"obstacle", "worlds/maze.toml"}, Course{"obstacle", "worlds/u_obstacle.toml"},
         Course{"braitenberg", "worlds/arena.toml"}, Course{"braitenberg", "worlds/lamp.toml"},
-        Course{"sound_locate", "worlds/clap.toml"},
-        Course{"e-puck", "worlds/myobstacle.toml"},
+        Course{"sound_locate", "worlds/clap.toml"}, Course{"e-puck", "worlds/myobstacle.toml"},
         Course{"e-puck", "wall"},  // a line of the picture holds agenda ticks off, as on the robot
         Course{"camera_follow", "worlds/red_ball.toml", 0, "T2: missed interrupt"}),
     [](const auto& p) {

@@ -269,7 +269,8 @@ TEST(Loader, every_kind_of_mistake_has_its_sentence) {
       {"[[robot]]\nname = \"a\"\n[[robot]]\nname = \"a\"\nposition = [1, 0]",
        "w.toml:4:1: robot.name: got \"a\" a second time (first on line 2), expected a name of its own"},
       {"[[robot]]\nuart1 = \"tcp:70000\"",
-       "w.toml:3:9: robot.uart1: got \"tcp:70000\", expected none, -, pty, pty:LINK, tcp:PORT with a port of 1 "
+       "w.toml:3:9: robot.uart1: got \"tcp:70000\", expected none, -, pty, pty:LINK, tcp:PORT with a port of "
+       "1 "
        "to 65535, "
        "or file:PATH"},
       {"[[robot]]\nuart2 = \"usb\"",
