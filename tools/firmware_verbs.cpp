@@ -134,9 +134,11 @@ int cycles(const std::string& name, double period_ms, bool with_library) {
       "estimated cycles at 14.7456 MHz, callees included (docs/cycles.md says how good the estimate is)\n"
       "{:<32} {:>9} {:>9} {:>9} {:>11} {:>10}  where\n",
       "function", "min", "mean", "max", "mean (us)", fmt::format("load/{:g}ms", period_ms));
+  const std::string here = fs::current_path().string() + "/";  // what lies below is named from here
   int of_library = 0;
   for (const auto& f : functions) {
-    const std::string where = fmt::format("{}:{}", f.file, f.line);
+    const std::string where =
+        fmt::format("{}:{}", f.file.rfind(here, 0) == 0 ? f.file.substr(here.size()) : f.file, f.line);
     if (f.is_library && !with_library) {
       ++of_library;
     } else if (!f.inlined_into.empty()) {

@@ -144,6 +144,15 @@ void RunOutputs::rescue() {
   if (recorder_) recorder_->flush();
 }
 
+std::vector<std::string> RunOutputs::written() const {
+  const auto& a = arguments_;
+  std::vector<std::string> files = a.pictures.heatmaps;
+  for (const std::string& file : {a.record, a.summary, a.pictures.picture, a.pictures.film, a.traces.vcd,
+                                  a.traces.timeline, a.coverage, a.images, a.sound_folder})
+    if (!file.empty()) files.push_back(file);
+  return files;
+}
+
 void RunOutputs::finish(const Summary& summary, std::vector<std::string>& problems) {
   const auto& a = arguments_;
   if (recorder_ && !recorder_->flush()) problems.push_back(recorder_->error());

@@ -44,6 +44,8 @@ class RunOutputs {
   /// The process ends between two ticks that it will not come back from: what is in memory goes to the file.
   void rescue();
   void finish(const Summary& summary, std::vector<std::string>& problems);
+  /// Files and folders that were asked for, for people.
+  std::vector<std::string> written() const;
 
  private:
   void sample();

@@ -202,7 +202,12 @@ int run(const RunArguments& arguments) {
       std::cerr << twin->world().robots[static_cast<std::size_t>(i)].name
                 << ": files written: " << files.folder().string() << '\n';
   complain(problems);
-  if (!arguments.quiet) std::cout << to_text(summary);
+  if (!arguments.quiet) {
+    std::cout << to_text(summary);
+    const std::vector<std::string> written = outputs.written();
+    for (std::size_t i = 0; i < written.size(); ++i) std::cout << (i == 0 ? "written: " : ", ") << written[i];
+    if (!written.empty()) std::cout << '\n';
+  }
   for (const auto& t : summary.traps) std::cerr << to_text(t);
   bool is_clean = true;
   for (const auto& r : summary.robots)

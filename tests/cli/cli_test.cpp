@@ -256,6 +256,13 @@ TEST_F(Command, help_lists_and_builds_need_no_more_words_than_they_say) {
   EXPECT_NE(build.text.find("/controllers/blink-"), std::string::npos) << build.text;
 }
 
+TEST_F(Command, a_run_says_what_it_has_written) {
+  const Said s = twinpuck("run maze --for 0.1 --summary " + path("s.json") + " --record " + path("r.csv"));
+  EXPECT_NE(s.text.find("written: " + path("r.csv") + ", " + path("s.json") + "\n"), std::string::npos)
+      << s.text;
+  EXPECT_EQ(twinpuck("run maze --for 0.1").text.find("written"), std::string::npos);
+}
+
 TEST_F(Command, headings_are_said_as_people_say_them) {
   write("still/main.c", "int main(void) { while (1); }\n");
   write("headings.toml",

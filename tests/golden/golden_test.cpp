@@ -32,11 +32,11 @@ TEST_P(Golden, run_repeats_to_the_last_bit) {
 
 INSTANTIATE_TEST_SUITE_P(
     Of, Golden,
-    ::testing::Combine(::testing::Values(Pinned{"maze", "worlds/maze.toml", 20, "0488b6d58bf60183"},
-                                         Pinned{"swarm", "worlds/swarm.toml", 5, "6967c3fd317f7b0d"},
+    ::testing::Combine(::testing::Values(Pinned{"maze", "worlds/maze.toml", 20, "216910e483dba1ae"},
+                                         Pinned{"swarm", "worlds/swarm.toml", 5, "c2f2807054409300"},
                                          Pinned{"push", "worlds/push.toml", 10, "67147609882aced6"},
                                          Pinned{"braitenberg_10", "bench/worlds/brait_10.toml", 5,
-                                                "23a0a01a045f7012"}),
+                                                "89b8d0073a71d30c"}),
                        ::testing::Values(1, 3)),
     [](const auto& info) {
       return std::string(std::get<0>(info.param).name) + "_threads_" +
