@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// scripts/run_tests.py: what a user sees of a failing test.
+// What the front door's scripts show: run_tests.py, progress.py, setup.sh.
 #include "tests/cli/command.h"
 
 namespace cli_test {
@@ -28,6 +28,60 @@ TEST_F(RunTests, a_failing_test_is_told_once_with_a_path_that_opens_from_here) {
       << said;
   EXPECT_NE(said.find("\"here/test.cpp:9: cannot start\""), std::string::npos) << said;
   EXPECT_EQ(said.find("mine.drives"), said.rfind("mine.drives")) << said;
+}
+
+// a program that runs a list of its tests, as firmware_register_test does, shows that list and nothing else
+TEST_F(RunTests, a_filter_keeps_to_the_tests_that_a_program_lists) {
+  write("out/build.ninja", "build x_test: phony\n");
+  write("out/tests/programs.txt", "x_test x_test\n");
+  write("out/tests/x_test",
+        "#!/bin/sh\ncase $1 in\n--gtest_list_tests) printf 'Mine.\\n  drives\\n  stops\\n  drives_on  # "
+        "GetParam()\\n';;\n"
+        "--gtest_filter=Mine.drives:Mine.drives_on) for t in drives drives_on; do echo \"[ RUN      ] "
+        "Mine.$t\"; "
+        "echo \"[       OK ] Mine.$t (3 ms)\"; done;;\n*) exit 1;;\nesac\n");
+  fs::permissions(folder / "out/tests/x_test", fs::perms::owner_all);
+  const std::string run =
+      "cd '" + folder.string() + "' && '" TWINPUCK_SOURCE_DIR "/scripts/run_tests.py' out 1 --filter ";
+  const std::string to = " >'" + path("said") + "' 2>&1";
+  EXPECT_EQ(WEXITSTATUS(std::system((run + "drives" + to).c_str())), 0);
+  EXPECT_EQ(read(path("said")),
+            "ok    x_test: Mine.drives\nok    x_test: Mine.drives_on\n2 passed, 0 failed\n");
+  EXPECT_EQ(WEXITSTATUS(std::system((run + "flies" + to).c_str())), 5) << "nothing selected";
+  EXPECT_NE(read(path("said")).find("got 'flies', expected a part of a test's or a program's name"),
+            std::string::npos);
+}
+
+TEST_F(RunTests, a_build_shows_counts_and_every_error) {
+  write("bin/ninja",
+        "#!/bin/sh\necho 'ninja: Entering directory'\necho '[0/2] Re-checking globbed directories...'\n"
+        "echo '[1/3] Building CXX object sim_core/CMakeFiles/sim_core.dir/a.cpp.o'\necho 'a.cpp:1: error: "
+        "no'\nexit 3\n");
+  fs::permissions(folder / "bin/ninja", fs::perms::owner_all);
+  const int status = std::system(
+      ("PATH='" + path("bin") + "':$PATH python3 '" TWINPUCK_SOURCE_DIR "/scripts/progress.py' out 1 all >'" +
+       path("said") + "' 2>&1")
+          .c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 3);
+  EXPECT_EQ(read(path("said")), "[1/3] sim_core\na.cpp:1: error: no\n");
+}
+
+TEST_F(RunTests, without_root_the_whole_command_to_paste_is_shown) {
+  write("bin/dpkg-query", "#!/bin/sh\necho 'installed cmake'\nexit 1\n");
+  write("bin/id", "#!/bin/sh\necho 1000\n");
+  for (const char* name : {"dpkg-query", "id"}) fs::permissions(folder / "bin" / name, fs::perms::owner_all);
+  fs::create_symlink("/bin/sed", folder / "bin/sed");  // and no sudo
+  const int status =
+      std::system(("PATH='" + path("bin") + "' /bin/sh '" TWINPUCK_SOURCE_DIR "/scripts/setup.sh' >'" +
+                   path("said") + "' 2>&1")
+                      .c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 2);
+  const std::string said = read(path("said"));
+  EXPECT_NE(
+      said.find(
+          "As root, run:\n  apt-get update && apt-get install -y --no-install-recommends g++ ninja-build"),
+      std::string::npos)
+      << said;
 }
 
 }  // namespace
