@@ -123,6 +123,8 @@ std::unique_ptr<Program> Program::open(const std::string& path, const std::strin
   p->words_ = {name};
   std::istringstream words(args);
   for (std::string word; words >> word;) p->words_.push_back(word);
+  for (std::string& word : p->words_) p->arguments_.push_back(word.data());
+  p->arguments_.push_back(nullptr);
   std::string why;
   p->object_ = host::SharedObject::open(path, true, why);
   if (!p->object_) {
@@ -184,13 +186,10 @@ void Program::exit(int status) {
 
 void Program::enter(void* raw) {
   auto* self = static_cast<Program*>(raw);
-  std::vector<char*> arguments;
-  for (std::string& word : self->words_) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
   std::string thrown;
   try {
-    self->exit_status_ = self->main_(static_cast<int>(self->words_.size()), arguments.data(),
-                                     arguments.data() + self->words_.size());
+    self->exit_status_ = self->main_(static_cast<int>(self->words_.size()), self->arguments_.data(),
+                                     self->arguments_.data() + self->words_.size());
   } catch (const std::exception& e) {
     thrown = std::string("an exception that nobody caught: ") + e.what();
   } catch (...) {

@@ -60,7 +60,8 @@ class Program final : host::FaultGuest {
   std::string place_of(std::uintptr_t pc, std::uintptr_t frame) const;
 
   std::string path_, name_, folder_;
-  std::vector<std::string> words_;  // argv
+  std::vector<std::string> words_;  // the program's name and its arguments
+  std::vector<char*> arguments_;    // argv; here, for the program's own frames are dropped when it ends
   void* owner_;
   std::unique_ptr<host::SharedObject> object_;
   int (*main_)(int, char**, char**) = nullptr;
