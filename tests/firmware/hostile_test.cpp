@@ -91,7 +91,7 @@ const Hostile kPrograms[] = {
      "int main(void) {\n memset(a, 1, 30000 * one); /* HERE */\n while (1); }"},
     {"copy_of_too_much", TP_TRAP_ADDRESS, "left the program's memory",
      "char a[100], b[100];\n"
-     "int main(void) {\n memcpy(a, b, 30000 * one); /* HERE */\n while (1); }"},
+     "int main(void) {\n memmove(a, b, 30000 * one); /* HERE */\n while (1); }"},
     {"heap_overrun", TP_TRAP_ADDRESS, "left the program's memory",
      "int main(void) { char *p = malloc(10); int i; for (i = 0; i < 20000; i++)\n p[i] = 1; /* HERE */\n "
      "while (1); }"},
