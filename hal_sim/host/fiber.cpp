@@ -53,6 +53,13 @@ Fiber::~Fiber() {
 #endif
 }
 
+void Fiber::drop_frames() const {
+#if defined(__SANITIZE_ADDRESS__)
+  // frames leave poison
+  ASAN_UNPOISON_MEMORY_REGION(reinterpret_cast<void*>(floor()), high_ - floor());
+#endif
+}
+
 std::uintptr_t Fiber::floor() const { return reserve_open_ ? low_ - kReserveBytes : low_; }
 
 bool Fiber::is_in_guard(std::uintptr_t address) const { return address < floor() && slot_.holds(address); }
@@ -70,10 +77,7 @@ bool Fiber::open_reserve() {
 void Fiber::restart(Entry entry, void* argument) {
   entry_ = entry;
   argument_ = argument;
-#if defined(__SANITIZE_ADDRESS__)
-  // frames that were dropped left poison
-  ASAN_UNPOISON_MEMORY_REGION(reinterpret_cast<void*>(floor()), high_ - floor());
-#endif
+  drop_frames();
   if (reserve_open_) {
     CHECK(mprotect(reinterpret_cast<void*>(low_ - kReserveBytes), kReserveBytes, PROT_NONE) == 0,
           "cannot close a stack's reserve");

@@ -30,6 +30,8 @@ class Fiber {
   /// (Re)starts the fiber: the next enter() calls entry(argument) on an empty stack. What was on it is
   /// dropped.
   void restart(Entry entry, void* argument);
+  /// Frames on the stack will not be gone on with: from now on anybody may look at its memory.
+  void drop_frames() const;
 
   /// Runs the fiber until it yields. Called by the scheduler only.
   void enter();

@@ -109,6 +109,7 @@ void Robot::trap(int kind, std::string_view message) {
 
 void Robot::fault(int kind, std::string message, std::uintptr_t pc, std::uintptr_t frame,
                   std::uintptr_t stack) {
+  fiber_.drop_frames();
   fold();
   // moved, not copied: this stack is abandoned, nothing on it is freed
   TrapReport report = report_at(kind, std::move(message), pc, frame);
