@@ -210,6 +210,7 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
   const std::size_t shares =
       std::max<std::size_t>(1, std::min(n, static_cast<std::size_t>(std::max(1, options.threads))));
   std::vector<std::unique_ptr<sim::RobotMind>> minds;
+  std::map<std::string, std::filesystem::path> sources;
   std::size_t share = 0;
   for (std::size_t i = 0; i < n; ++i) {
     // robots that one thread runs share a copy of their image, as Simulation divides them
@@ -248,7 +249,9 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
       return sim::write_png(path, image.width, image.height, image.rgb()).empty();
     };
     if (!options.files_folder.empty() && !robot.firmware.empty()) {
-      const std::filesystem::path source = find_firmware(robot.firmware, options.world_folder, problems);
+      auto [source_at, is_new] = sources.try_emplace(robot.firmware);  // looked for once for all that run it
+      if (is_new) source_at->second = find_firmware(robot.firmware, options.world_folder, problems);
+      const std::filesystem::path& source = source_at->second;
       mind->board().virtual_devices().files.place(
           std::filesystem::path(options.files_folder) / folder_of(world, i),
           std::filesystem::is_directory(source) ? source : std::filesystem::path());
