@@ -159,13 +159,18 @@ void press_keys(host::FirmwareMind& mind, std::vector<sim::KeyDesc> keys) {
       mind.press_key({key.code, key.at_s, key.hold_s, key.address});
 }
 
-/// A robot's name as that of a folder; names that cannot be one, or come twice, get the robot's number.
-std::string folder_of(const sim::WorldDesc& world, std::size_t robot) {
-  const std::string& name = world.robots[robot].name;
-  const auto same = std::count_if(world.robots.begin(), world.robots.end(),
-                                  [&](const sim::RobotDesc& other) { return other.name == name; });
-  const bool good = same == 1 && !name.empty() && name[0] != '.' && name.find('/') == std::string::npos;
-  return good ? name : "robot" + std::to_string(robot);
+/// Robots' names as those of folders; names that cannot be one, or come twice, get the robot's number.
+std::vector<std::string> folders_of(const sim::WorldDesc& world) {
+  std::map<std::string, int> times;
+  for (const auto& robot : world.robots) ++times[robot.name];
+  std::vector<std::string> folders;
+  for (const auto& robot : world.robots) {
+    const std::string& name = robot.name;
+    const bool good =
+        times[name] == 1 && !name.empty() && name[0] != '.' && name.find('/') == std::string::npos;
+    folders.push_back(good ? name : "robot" + std::to_string(folders.size()));
+  }
+  return folders;
 }
 
 }  // namespace
@@ -211,6 +216,7 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
       std::max<std::size_t>(1, std::min(n, static_cast<std::size_t>(std::max(1, options.threads))));
   std::vector<std::unique_ptr<sim::RobotMind>> minds;
   std::map<std::string, std::filesystem::path> sources;
+  const std::vector<std::string> folders = folders_of(world);
   std::size_t share = 0;
   for (std::size_t i = 0; i < n; ++i) {
     // robots that one thread runs share a copy of their image, as Simulation divides them
@@ -253,7 +259,7 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
       if (is_new) source_at->second = find_firmware(robot.firmware, options.world_folder, problems);
       const std::filesystem::path& source = source_at->second;
       mind->board().virtual_devices().files.place(
-          std::filesystem::path(options.files_folder) / folder_of(world, i),
+          std::filesystem::path(options.files_folder) / folders[i],
           std::filesystem::is_directory(source) ? source : std::filesystem::path());
     }
     twin->minds_.push_back(mind.get());
