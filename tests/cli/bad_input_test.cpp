@@ -222,8 +222,9 @@ TEST_F(BadLuck, files_end_with_their_last_whole_record_when_the_disk_fills_up) {
       const std::string last = text.substr(text.rfind('\n', text.size() - 2) + 1);
       EXPECT_EQ(std::count(last.begin(), last.end(), ','), 15) << last;
     }
-    if (std::string(output) == "--trace")
+    if (std::string(output) == "--trace") {
       EXPECT_TRUE(nlohmann::json::accept(text)) << text.substr(text.size() - 99);
+    }
   }
 }
 

@@ -128,14 +128,15 @@ TEST_F(Command, ctrl_c_ends_with_130_and_keeps_the_outputs) {
   twinpuck("run maze --for 0.1 -q");  // its controller is built before the time counts
   const Said s =
       twinpuck("run maze --for 1000 --speed 1 --record " + path("r.csv") + " --summary " + path("s.json"),
-               "timeout --preserve-status -s INT 4");
+               signal_once("INT", path("r.csv"), 0, "2"));
   EXPECT_EQ(s.exit_code, 130) << s.text;
   EXPECT_TRUE(json::accept(read(path("s.json"))));
   EXPECT_EQ(read(path("r.csv")).back(), '\n');
 }
 
 TEST_F(Command, a_killed_run_leaves_a_readable_recording) {
-  twinpuck("run maze --for 1000 --speed 20 -q --record " + path("r.csv"), "timeout -s KILL 5");
+  twinpuck("run maze --for 1000 --speed 20 -q --record " + path("r.csv"),
+           signal_once("KILL", path("r.csv"), 2000));
   const std::string csv = read(path("r.csv"));
   EXPECT_GT(csv.size(), 1000u);
   const std::size_t end = csv.rfind('\n');
@@ -152,7 +153,7 @@ TEST_F(Command, a_killed_run_leaves_whole_sound_files) {
   const std::string run = "run maze --fw '*=" + path("singer") + "' -q --save-sound " + path("sound");
   EXPECT_EQ(twinpuck(run + " --for 0.5").exit_code, 0);
   for (int killed = 0; killed < 2; ++killed) {
-    if (killed) twinpuck(run + " --for 1000 --speed 5", "timeout -s KILL 4");
+    if (killed) twinpuck(run + " --for 1000 --speed 5", signal_once("KILL", path("sound/puck.wav"), 20000));
     const std::string wav = read(path("sound/puck.wav"));
     ASSERT_GT(wav.size(), 7200u);
     EXPECT_EQ(wav.substr(0, 4), "RIFF");

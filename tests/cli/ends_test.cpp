@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whatever runs, a run ends when the user or --host-limit wants it to. `timeout` sends the signal, and kills
-// what has not ended ten seconds later: exit code 137.
+// Whatever runs, a run ends when the user or --host-limit wants it to. What has not ended ten seconds later is
+// killed: exit code 137.
 #include <algorithm>
 
 #include "tests/cli/command.h"
@@ -8,12 +8,13 @@
 namespace {
 
 using cli_test::CommandTest;
+using cli_test::signal_once;
 using cli_test::twinpuck;
+namespace fs = std::filesystem;
 
 class Ends : public CommandTest {
  protected:
   static constexpr const char* kTerm = "timeout --preserve-status -k 10 -s TERM 1.5";
-  static constexpr const char* kInt = "timeout --preserve-status -k 10 -s INT 1.5";
   static constexpr const char* kPatient = "timeout --preserve-status -k 1 60";
 
   std::string endless_supervisor() const {
@@ -51,9 +52,10 @@ TEST_F(Ends, a_supervisor_s_endless_loop_ends_at_the_host_limit) {
 }
 
 TEST_F(Ends, a_supervisor_s_endless_loop_ends_at_a_signal) {
-  for (const char* signal : {kTerm, kInt}) {
-    const auto said =
-        twinpuck("run empty --record " + path("r.csv") + " --supervisor " + endless_supervisor(), signal);
+  for (const char* signal : {"TERM", "INT"}) {
+    fs::remove(path("r.csv"));
+    const auto said = twinpuck("run empty --record " + path("r.csv") + " --supervisor " + endless_supervisor(),
+                               signal_once(signal, path("r.csv"), 0, "1.5"));
     EXPECT_EQ(said.exit_code, 130) << said.text;
     EXPECT_NE(said.text.find("interrupted; supervisor 'endless' was running"), std::string::npos)
         << said.text;
@@ -63,8 +65,10 @@ TEST_F(Ends, a_supervisor_s_endless_loop_ends_at_a_signal) {
 
 TEST_F(Ends, a_run_at_any_pace_ends_with_its_summary_at_a_signal) {
   for (const char* speed : {"max", "0.0001"}) {
+    fs::remove(path("r.csv"));
     const auto said = twinpuck(
-        "run maze --for 1e6 --record-every 0.1 --record " + path("r.csv") + " --speed " + speed, kTerm);
+        "run maze --for 1e6 --record-every 0.1 --record " + path("r.csv") + " --speed " + speed,
+        signal_once("TERM", path("r.csv"), 0, "1.5"));
     EXPECT_EQ(said.exit_code, 130) << said.text;
     EXPECT_NE(said.text.find("simulated in"), std::string::npos) << said.text;
     if (std::string(speed) == "max") expect_whole_lines(path("r.csv"));

@@ -217,7 +217,7 @@ TEST_F(Traces, a_full_time_line_ends_cleanly) {
 TEST_F(Traces, a_killed_run_leaves_files_that_can_be_read) {
   twinpuck("run empty --fw '*=blink' -q --for 1000000 --vcd-max-mb 100000 --vcd " + path("k.vcd") +
                " --trace " + path("k.json"),
-           "timeout -s KILL 3");
+           cli_test::signal_once("KILL", path("k.json"), 20000));
   const Dump dump = parse(read(path("k.vcd")));
   EXPECT_GT(dump.last_ns, 0);
   const std::string text = read(path("k.json"));
