@@ -71,6 +71,8 @@ Simulation::Simulation(const WorldDesc& world, Minds minds, int threads)
   scene_->attach_optics(optics_);
   scene_->attach_sound(sound_.get());
   const std::size_t n = minds_.size();
+  idle_until_.resize(n);
+  for (std::size_t r = 0; r < n; ++r) minds_[r]->keep_idle_in(&idle_until_[r]);
   wheels_.resize(n);
   angles_.resize(n);
   travel_.resize(n);
@@ -121,7 +123,7 @@ void Simulation::run_minds(Clicks end) {
   const auto run = [&](std::size_t first, std::size_t last) {
     for (std::size_t r = first; r < last; ++r) {
       minds_[r]->run_until(*scene_, end);
-      angles_[r] = minds_[r]->wheel_angles(end);
+      angles_[r] = minds_[r]->wheel_course(end).angle;
       wheels_[r].mind_hash = minds_[r]->state_hash();
       if (minds_[r]->has_sound_news()) sound_news_.store(true, std::memory_order_relaxed);
     }

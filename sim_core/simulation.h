@@ -87,6 +87,7 @@ class Simulation {
   std::unique_ptr<SoundField> sound_;
   std::atomic<bool> sound_news_{false};
   std::unique_ptr<Motion> motion_;
+  std::vector<Clicks> idle_until_;  // the minds write here
   Minds minds_;
   std::vector<std::unique_ptr<Medium>> media_;
   Attendant* attendant_ = nullptr;

@@ -47,10 +47,14 @@ void FirmwareMind::press_key(const board::KeyPress& key) {
   if (robot_) robot_->remote_changed();
 }
 
-sim::WheelAngles FirmwareMind::wheel_angles(sim::Clicks at) {
+sim::WheelCourse FirmwareMind::wheel_course(sim::Clicks at) {
   const Cycle cycle = cycle_at(at);
-  return {board_.wheel_angle_rad(board::Wheel::Left, cycle),
-          board_.wheel_angle_rad(board::Wheel::Right, cycle)};
+  return {
+      {board_.wheel_angle_rad(board::Wheel::Left, cycle), board_.wheel_angle_rad(board::Wheel::Right, cycle)},
+      0,
+      0,
+      at,
+      at};
 }
 
 sim::MindReport FirmwareMind::report() const {

@@ -18,7 +18,7 @@ class FirmwareMind final : public sim::RobotMind {
                std::size_t copy);
 
   void run_until(const sim::Scene& scene, sim::Clicks end) override;
-  sim::WheelAngles wheel_angles(sim::Clicks at) override;
+  sim::WheelCourse wheel_course(sim::Clicks at) override;
   sim::MindReport report() const override;
   int proximity_counts(const sim::Scene& scene, int index) override;
   std::uint64_t state_hash() const override;

@@ -55,9 +55,9 @@ class Braitenberg : public sim::RobotMind {
       right_ = std::max(-limit, std::min(limit, right)) / 2.05;
     }
   }
-  sim::WheelAngles wheel_angles(sim::Clicks at) override {
+  sim::WheelCourse wheel_course(sim::Clicks at) override {
     turn_until(at);
-    return angles_;
+    return {angles_, 0, 0, at, at};
   }
   sim::MindReport report() const override { return {}; }
   int proximity_counts(const sim::Scene& scene, int s) override {

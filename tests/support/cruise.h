@@ -10,8 +10,8 @@ class Cruise : public sim::RobotMind {
  public:
   Cruise(double left_rad_s, double right_rad_s) : left_(left_rad_s), right_(right_rad_s) {}
   void run_until(const sim::Scene&, sim::Clicks) override {}
-  sim::WheelAngles wheel_angles(sim::Clicks at) override {
-    return {left_ * sim::to_seconds(at), right_ * sim::to_seconds(at)};
+  sim::WheelCourse wheel_course(sim::Clicks at) override {
+    return {{left_ * sim::to_seconds(at), right_ * sim::to_seconds(at)}, 0, 0, at, at};
   }
   sim::MindReport report() const override { return {}; }
   int proximity_counts(const sim::Scene&, int) override { return 0; }
