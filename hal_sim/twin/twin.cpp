@@ -142,6 +142,7 @@ class ConsoleMedium final : public sim::Medium {
     if (!somebody_writes_.exchange(false, std::memory_order_relaxed)) return;
     for (board::VirtualDevices* robot : robots_) robot->deliver();
   }
+  bool is_busy() const override { return false; }
 
  private:
   std::vector<board::VirtualDevices*> robots_;
