@@ -31,6 +31,7 @@ Motion::Motion(MotionDesc desc, bool has_heights, bool loose_moves, bool follows
   }
   touches_.resize(desc_.robots.size());
   way_m_.resize(desc_.robots.size());
+  fixed_pushes_.resize(desc_.robots.size());
   guessed_.assign(desc_.robots.size(), true);
   leg_until_.resize(desc_.robots.size());
   free_until_.resize(desc_.robots.size());
