@@ -60,7 +60,6 @@ std::int64_t to_ppb(double ppm) { return static_cast<std::int64_t>(std::llround(
 Board::Board(const Setup& setup)
     : setup_(setup),
       clock_(to_ppb(setup.clock_ppm), sim::from_seconds(setup.boot_delay_s)),
-      agendas_(setup.spread_handlers ? nullptr : &scan_),
       scan_(*this),
       basic_prox_(*this),
       battery_(setup.battery_wh, setup.battery_v, kProcessorA + kBluetoothA + kBoardA) {
@@ -308,7 +307,6 @@ void Board::processor_reset(Cycle at) {
   timer_motors_.reset();
   agendas_.reset(at);
   scan_.reset(at);
-  next_delay_ = -1;
   basic_prox_.reset(at);
   codec_.reset(at);
   for (Uart& uart : uarts_) uart.reset(at);
@@ -350,36 +348,16 @@ void Board::exchange(Cycle at) {
   for (Uart& uart : uarts_) uart.exchange(at);
   codec_.forget(at);
   scan_.keep_acc(at);
-  if (!setup_.spread_handlers && !agendas_.is_walking() && at > next_delay(at)) settle_handlers(at);
 }
 
-// What makes a handler wait depends on the motors' rhythm, which lasts until the next command.
-Cycle Board::next_delay(Cycle at) {
-  if (next_delay_ < 0) next_delay_ = scan_.next_delay(agendas_, at + kLookAheadCycles).at;
-  return next_delay_;
-}
-
-// The motors first: their steps so far were delayed by calls as these were known.
-void Board::settle_handlers(Cycle at) {
-  const Cycle no_delay_until = std::exchange(next_delay_, -1);
-  if (agendas_.is_walking() || setup_.spread_handlers) return;
-  if (at <= no_delay_until) {
-    agendas_.settle(at);
-    scan_.pass(at);
-    return;
+void Board::mask_handlers(bool masked, Cycle at) {
+  if (masked) {
+    scan_.hold(at);
+    agendas_.hold(at);
+  } else {
+    scan_.release(at);
+    agendas_.release(at);
   }
-  AdcScan::Delay delay;
-  do {
-    delay = scan_.next_delay(agendas_, at);
-    agendas_.settle(delay.at);
-    scan_.note(delay);
-  } while (delay.cycles > 0);
-}
-
-void Board::handler_left(Cycle at) {
-  next_delay_ = -1;
-  agendas_.settle(at);
-  scan_.note(scan_.delay_at_exit(at));
 }
 
 // --- analogue inputs -------------------------------------------------------------------------------------

@@ -31,7 +31,6 @@
 #include "hal_sim/board/codec.h"
 #include "hal_sim/board/data_eeprom.h"
 #include "hal_sim/board/diagnosis.h"
-#include "hal_sim/board/handlers.h"
 #include "hal_sim/board/i2c_bus.h"
 #include "hal_sim/board/i2c_master.h"
 #include "hal_sim/board/packet_devices.h"
@@ -84,7 +83,6 @@ struct Setup {
   std::array<double, 3> gyro_offset_rad_s{};  ///< added to the angular rates about these axes
   double motion_noise_scale = 1;              ///< factor on the noise of accelerometer and gyroscope
   double clock_ppm = 0;                       ///< crystal error, parts per million, positive = fast
-  bool spread_handlers = false;               ///< what handlers() take is spread evenly over the program
   double boot_delay_s = 0;                    ///< s from the world's beginning to the first instruction
   std::string name;                           ///< in the world
   sim::WebotsDesc webots;                     ///< of the world
@@ -188,12 +186,10 @@ class Board {
   const AgendaTimer& agendas() const { return agendas_; }
   TimerMotors& timer_motors() { return timer_motors_; }
   const TimerMotors& timer_motors() const { return timer_motors_; }
-  /// What the handlers of the scan and of the agenda tick take from the program.
-  Handlers handlers() const { return {scan_, agendas_}; }
-  /// Before any change to when these come or what they take.
-  void settle_handlers(Cycle at);
-  /// A handler that was run comes to its RETFIE, during which nothing interrupts.
-  void handler_left(Cycle at);
+  /// What the handlers of the scan and of the agenda tick take of each cycle, as a fraction of 2^32.
+  std::uint64_t handler_share_q32() const { return scan_.share_q32() + agendas_.share_q32(); }
+  /// The program masks these handlers from `at` on, or does no longer.
+  void mask_handlers(bool masked, Cycle at);
   AdcScan& scan() { return scan_; }
   const AdcScan& scan() const { return scan_; }
   Codec& codec() { return codec_; }
@@ -279,7 +275,6 @@ class Board {
   int selector() const { return setup_.selector; }
 
  private:
-  Cycle next_delay(Cycle at);
   static constexpr std::size_t kPorts = 6;  // A B C D F G
   static int port_index(char port);
   /// Counts of a microphone without noise.
@@ -342,7 +337,6 @@ class Board {
   double beside_emitters_a_ = kProcessorA + kBluetoothA + kBoardA;  // at the last follow_power()
 
   AgendaTimer agendas_;
-  Cycle next_delay_ = -1;  // before it no handler of the scan waits for Timer 2's; below 0: unknown
   TimerMotors timer_motors_;
   AdcScan scan_;
   BasicProx basic_prox_;

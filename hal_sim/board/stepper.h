@@ -148,8 +148,8 @@ class Stepper {
     if (motion_.ready_at - at > kPullOutCycles) return faults_.too_fast.note(at);
     before_ = motion_;
     if (move <= 0) move = at - motion_.stepped_at;
-    const double there = static_cast<double>(motion_.steps), from = position(at);
-    begin_step(direction, std::abs(there - from) < kRotorThereSteps ? there : from, at, move);
+    const double from = position(at);
+    begin_step(direction, from, at, move);
   }
 
   /// The pattern that ends at `at`: has it heated the motor for nothing?
