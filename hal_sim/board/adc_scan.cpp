@@ -99,9 +99,6 @@ void AdcScan::switch_converter(bool on, Cycle at) {
 
 void AdcScan::reset(Cycle at) {
   settle(at);
-  noise_base_ += 2 * static_cast<std::uint64_t>(run_.full / kScanPeriod + 1);
-  mic_noise_base_ += static_cast<std::uint64_t>(run_.first);
-  acc_noise_base_ += static_cast<std::uint64_t>(run_.full / kScanPeriod + 1);
   runs_.clear();
   acc_kept_ = 0;
   acc_used_ = false;
@@ -161,8 +158,7 @@ int AdcScan::evaluate(int sensor, std::int64_t period, bool lit_sample) const {
   const Cycle at = full_cycle(interrupt) - hold_to_end(sensor);
   // the LED was switched on at the dark interrupt of the period before; in the very first period nobody did
   const Cycle lit_for = lit_sample && period > 0 ? scan_flash_cycles(sensor) : -1;
-  const std::uint64_t number = noise_base_ + 2 * static_cast<std::uint64_t>(period) + (lit_sample ? 1 : 0);
-  return board_.ir_counts(sensor, at, lit_for, number);
+  return board_.ir_counts(sensor, at, lit_for);
 }
 
 void AdcScan::keep(Sample& kept, int sensor, std::int64_t number, bool lit_sample) const {
@@ -208,8 +204,7 @@ Cycle AdcScan::mic_hold(int microphone, std::int64_t number) const {
 }
 
 int AdcScan::mic_sample(int microphone, std::int64_t number) const {
-  return board_.mic_counts(microphone, mic_hold(microphone, number),
-                           mic_noise_base_ + static_cast<std::uint64_t>(number));
+  return board_.mic_counts(microphone, mic_hold(microphone, number));
 }
 
 Cycle AdcScan::next_sample(std::int64_t filed, int slot, int shift, int pair) const {
@@ -234,9 +229,7 @@ void AdcScan::fill_acc(std::int64_t count) {
     for (int axis = 0; axis < 3; ++axis) {
       const Cycle hold = end - hold_to_end(frame_of(kScanAccSlot), 3 + axis);
       const auto other = board_.counts_of_others(kAccChannel + axis, hold);
-      const int counts =
-          other ? *other
-                : accelerometer_counts(board_, axis, hold, acc_noise_base_ + static_cast<std::uint64_t>(k));
+      const int counts = other ? *other : accelerometer_counts(board_, axis, hold);
       acc_[static_cast<std::size_t>(axis)][static_cast<std::size_t>((k + 1) % kAccSamples)] =
           static_cast<std::int16_t>(counts);
     }

@@ -162,15 +162,12 @@ class AdcScan {
   Cycle first_lost_ = 0;
   std::int64_t period_base_ = 0;   // from this period on ...
   int pair_base_ = 0;              // ... pairs count from here
-  std::uint64_t noise_base_ = 0;   // samples drawn before the last reset
-  std::uint64_t mic_noise_base_ = 0;
-  std::vector<Run> runs_;  // those over that the last 100 microphone samples come from
+  std::vector<Run> runs_;          // those over that the last 100 microphone samples come from
   std::array<Sample, 10> dark_{};
   std::array<Sample, 10> lit_{};
   AccRing acc_{};
   bool acc_used_ = false;
-  std::int64_t acc_kept_ = 0;         // samples in acc_
-  std::uint64_t acc_noise_base_ = 0;  // samples before the last reset
+  std::int64_t acc_kept_ = 0;  // samples in acc_
 };
 
 }  // namespace board

@@ -33,6 +33,7 @@
 #include "hal_sim/board/diagnosis.h"
 #include "hal_sim/board/i2c_bus.h"
 #include "hal_sim/board/i2c_master.h"
+#include "hal_sim/board/noise.h"
 #include "hal_sim/board/packet_devices.h"
 #include "hal_sim/board/part.h"
 #include "hal_sim/board/remote.h"
@@ -230,19 +231,16 @@ class Board {
 
   /// The same sample without noise: what a conversion is made of. `lit_for` as below.
   IrConversion ir_conversion(int sensor, Cycle at, Cycle lit_for) const;
-  /// Counts of a proximity sensor's phototransistor at `at`, its emitter having been on for `lit_for` cycles
-  /// (negative: off). Noise is drawn from `sample`, a number unique to the sample.
-  int ir_counts(int sensor, Cycle at, Cycle lit_for, std::uint64_t sample) const;
-  /// Counts of microphone 0 right, 1 left, 2 back whose sample is held at `at`: 0 to 4095. Noise is drawn
-  /// from `sample`. Linear, all frequencies alike.
-  int mic_counts(int microphone, Cycle at, std::uint64_t sample) const;
-  /// The same with the noise drawn from a sum of 64 coins, spread evenly between two results: a fifth of the
-  /// time, for processors that convert a microphone 50,000 times a second. Tails end at 8 standard
-  /// deviations.
-  int mic_counts_fast(int microphone, Cycle at, std::uint64_t sample) const;
-  /// Counts of a single conversion of input AN`channel` by a program that runs the converter itself. Each
-  /// call is a new sample; -1: nothing is known of that input.
-  int convert(int channel, Cycle at);
+  /// Counts of a proximity sensor's phototransistor that is held at `at`, its emitter having been on for
+  /// `lit_for` cycles (negative: off). Noise of this and of the other inputs: noise.h.
+  int ir_counts(int sensor, Cycle at, Cycle lit_for) const;
+  /// Counts of microphone 0 right, 1 left, 2 back that is held at `at`: 0 to 4095. Linear, all frequencies
+  /// alike.
+  int mic_counts(int microphone, Cycle at) const;
+  /// What draws the noise of this robot's samples.
+  const SampleNoise& noise() const { return noise_; }
+  /// Counts of a single conversion of input AN`channel`, held at `at`; -1: nothing is known of that input.
+  int convert(int channel, Cycle at) const;
   /// Battery as the library's raw value on AN7 (revision 1.3); 0 on others.
   int battery_counts(Cycle at) const;
   const Battery& battery() const { return battery_; }
@@ -280,9 +278,8 @@ class Board {
   /// Counts of a microphone without noise.
   double mic_level(int microphone, Cycle at) const;
   void find_sound();
-  __attribute__((noinline)) int mic_counts_in_sound(int microphone, Cycle at, std::uint64_t sample) const;
-  /// Counts of the converter, the noise of mic_counts_fast() added.
-  int with_mic_noise(double counts, int microphone, std::uint64_t sample) const;
+  __attribute__((noinline)) int mic_counts_in_sound(int microphone, Cycle at) const;
+  int with_mic_noise(double counts, int microphone, Cycle at) const;
   unsigned pulses(Cycle at) const;
   /// Cycles for which the emitter line of a sensor has been on by its latch alone; -1 when off.
   Cycle line_on_for(int sensor, Cycle at) const;
@@ -350,8 +347,7 @@ class Board {
   std::vector<std::unique_ptr<Part>> parts_;
   mutable Cycle settled_for_ = -1;  // the flash's length is nearly always the same: its exponential, once
   mutable double settled_share_ = 0;
-  std::uint64_t conversions_ = 0;
-  std::uint64_t mic_noise_key_ = 0;
+  SampleNoise noise_;
   std::shared_ptr<const std::vector<std::int16_t>> on_air_;  // samples of the codec's line that the air plays
   PacketDevices packets_{clock_, setup_.robot, setup_.devices};
   VirtualDevices virtual_;

@@ -108,7 +108,7 @@ void ChipProcessor::power_up() {
   chip_ = std::make_unique<dspic::Dspic30f6014a>(outside_, this, configuration);
   parts_ = &chip_->parts();
   outside_.fill_eeprom(*chip_);
-  reset_board();
+  robot_.board().processor_reset(latest_);
   observe(observer_);
   next_reset_ = dspic::ResetKind::PowerOn;
 }
@@ -116,13 +116,8 @@ void ChipProcessor::power_up() {
 void ChipProcessor::reset(Cycle now) {
   chip_->reset(next_reset_, at(now));
   next_reset_ = dspic::ResetKind::Instruction;
-  reset_board();
-  watched_reads_ = 0;
-}
-
-void ChipProcessor::reset_board() {
   robot_.board().processor_reset(latest_);
-  outside_.processor_reset();
+  watched_reads_ = 0;
 }
 
 void ChipProcessor::note_reset(host::ResetCause cause) {
@@ -131,7 +126,7 @@ void ChipProcessor::note_reset(host::ResetCause cause) {
 
 void ChipProcessor::stop(Cycle now) {
   chip_->reset(dspic::ResetKind::Pin, at(now));
-  reset_board();
+  robot_.board().processor_reset(latest_);
 }
 
 bool ChipProcessor::begin_window(Cycle now) { return outside_.begin_window(*chip_, at(now)); }

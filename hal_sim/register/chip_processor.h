@@ -73,7 +73,6 @@ class ChipProcessor final : public host::Processor, public dspic::DiagnosticSink
   void report(const dspic::Diagnosis& diagnosis) override;
 
  private:
-  void reset_board();
   std::int64_t count_of(const dspic::Diagnosis& diagnosis) const;
   void about_to_change(Cycle at) override;
 

@@ -69,7 +69,7 @@ TEST(Accelerometer, offset_of_the_robot_and_noise) {
   double sum = 0, squares = 0;
   const int n = 4000;
   for (int i = 0; i < n; ++i) {
-    const double d = noisy.convert(6, 1000) - 2048.0;
+    const double d = noisy.convert(6, board::kSlowNoiseQuantum * i) - 2048.0;
     sum += d;
     squares += d * d;
   }

@@ -67,7 +67,7 @@ class TickedScan {
     for (int half = 0; half < 2; ++half) {
       const Cycle when = at - (half ? scan_times::kFifth : scan_times::kFourth);
       const int sensor = pair_ + 4 * half;
-      into[sensor] = robot_.ir_counts(sensor, when, lit_at < 0 ? -1 : when - lit_at, 0);
+      into[sensor] = robot_.ir_counts(sensor, when, lit_at < 0 ? -1 : when - lit_at);
     }
   }
   const Board& robot_;
@@ -307,19 +307,19 @@ TEST(IrCircuit, more_light_gives_lower_counts_and_the_ends_clamp) {
   setup.ir_gain[2] = 1.5;
   setup.ir_offset_counts[2] = 7;
   Board robot(setup);
-  EXPECT_EQ(robot.ir_counts(0, 0, -1, 0), 4095);  // darkness without a world
+  EXPECT_EQ(robot.ir_counts(0, 0, -1), 4095);  // darkness without a world
   robot.look_at(&scene);
   scene.irradiance_w_m2 = 1.0;
-  EXPECT_EQ(robot.ir_counts(0, 0, -1, 0), 4095 - 400);
+  EXPECT_EQ(robot.ir_counts(0, 0, -1), 4095 - 400);
   scene.irradiance_w_m2 = 100;
-  EXPECT_EQ(robot.ir_counts(0, 0, -1, 0), 0);
+  EXPECT_EQ(robot.ir_counts(0, 0, -1), 0);
   scene.irradiance_w_m2 = 0;
   scene.reflection = [](int, sim::Clicks) { return 1000.0; };
-  EXPECT_EQ(robot.ir_counts(2, 0, 1'000'000, 0), 4095 - 1507);
+  EXPECT_EQ(robot.ir_counts(2, 0, 1'000'000), 4095 - 1507);
   // a flash of 1 us has hardly begun to act
-  EXPECT_GT(robot.ir_counts(2, 0, 15, 0), 4095 - 100);
+  EXPECT_GT(robot.ir_counts(2, 0, 15), 4095 - 100);
   scene.reflection = [](int, sim::Clicks) { return 5000.0; };
-  EXPECT_EQ(robot.ir_counts(2, 0, 1'000'000, 0), 0);
+  EXPECT_EQ(robot.ir_counts(2, 0, 1'000'000), 0);
 }
 
 TEST(IrCircuit, uniform_noise_fills_its_half_width_and_no_more) {
@@ -333,7 +333,7 @@ TEST(IrCircuit, uniform_noise_fills_its_half_width_and_no_more) {
   double sum = 0, squares = 0, least = 4095, most = 0;
   constexpr int kCount = 4000;
   for (int i = 0; i < kCount; ++i) {
-    const double reading = 4095 - robot.ir_counts(0, 0, 1'000'000, static_cast<std::uint64_t>(i));
+    const double reading = 4095 - robot.ir_counts(0, i * board::kSlowNoiseQuantum, 1'000'000);
     sum += reading, squares += reading * reading;
     least = std::min(least, reading), most = std::max(most, reading);
   }
@@ -372,7 +372,7 @@ TEST(IrCircuit, a_conversion_taken_apart_adds_up_to_its_counts) {
   // one time constant: 63.2 % of it
   EXPECT_NEAR(robot.ir_conversion(3, 0, board::kIrSettleCycles).counts(), 4095 - 200 - 0.6321 * 1210, 0.5);
   scene.relative_noise = 0;
-  EXPECT_EQ(robot.ir_counts(3, 0, flash, 7), board::adc_counts(lit.counts()));
+  EXPECT_EQ(robot.ir_counts(3, 0, flash), board::adc_counts(lit.counts()));
 }
 
 // --- basic driver ----------------------------------------------------------------------------------------
@@ -407,9 +407,9 @@ TEST(BasicProx, closed_form_equals_the_ticked_state_machine) {
       const int s = pair + 4 * half;
       const Cycle when = at + 24 + 320 + half * 470;
       if (lit_phase)
-        reflected[s] = dark[s] - robot.ir_counts(s, when, when - lit_at, 0);
+        reflected[s] = dark[s] - robot.ir_counts(s, when, when - lit_at);
       else
-        dark[s] = robot.ir_counts(s, when, -1, 0);
+        dark[s] = robot.ir_counts(s, when, -1);
     }
     if (!lit_phase) lit_at = at + 24 + 940;
     if (lit_phase) pair = (pair + 1) % 4;
