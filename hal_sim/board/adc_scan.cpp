@@ -44,7 +44,7 @@ static_assert(hold_to_end(frame_of(kScanLitSlot), 3) == 349);
 }  // namespace
 
 Cycle scan_flash_cycles(int sensor) {
-  return kScanLitInterrupts * kScanFrameCycles - kScanLightCycles - hold_to_end(sensor);
+  return kScanFlashCycles - kScanLightCycles - hold_to_end(sensor);
 }
 
 void AdcScan::settle(Cycle at) {

@@ -51,6 +51,8 @@ inline constexpr Cycle kScanRoundCycles = kScanPeriod * kScanFrameCycles;
 inline constexpr int kScanLitSlot = 3;  // PULSE_PERIOD - 1 [lib: a_d/advance_ad_scan/e_ad_conv.c]
 inline constexpr int kScanLitInterrupts =
     5;  // a flash lasts from slot 63 to 3 [lib: a_d/advance_ad_scan/e_ad_conv.c]
+inline constexpr Cycle kScanFlashCycles =
+    4720;  // of these, with the stops of the converter between them [measured: register way]
 inline constexpr int kScanAccSlot = 62;         // ACC_PROX_PERIOD - 2 [lib: a_d/advance_ad_scan/e_ad_conv.c]
 inline constexpr int kScanDarkSlot = 63;        // ACC_PROX_PERIOD - 1 [lib: a_d/advance_ad_scan/e_ad_conv.c]
 inline constexpr Cycle kScanLightCycles = 152;  // end of a frame to IR LED switched [measured: register way]

@@ -360,15 +360,15 @@ TEST(IrCircuit, a_conversion_taken_apart_adds_up_to_its_counts) {
   EXPECT_EQ(dark.light_counts, 200);  // 0.5 W/m2 x 400
   EXPECT_EQ(dark.reflection_counts, 0);
   EXPECT_EQ(dark.counts(), 4095 - 200);
-  // from the LED's switching to the hold of the fourth channel: 271 us
+  // from the LED's switching to the hold of the fourth channel: 286 us
   const board::Cycle flash = board::scan_flash_cycles(3);
-  EXPECT_EQ(flash, 4500 - kLight - 349);
-  EXPECT_EQ(board::scan_flash_cycles(4), 4500 - kLight - 169);
+  EXPECT_EQ(flash, 4720 - kLight - 349);
+  EXPECT_EQ(board::scan_flash_cycles(4), 4720 - kLight - 169);
   const board::IrConversion lit = robot.ir_conversion(3, 0, flash);
   EXPECT_EQ(lit.reflection_counts, 1200);
   EXPECT_EQ(lit.relative_noise, 0.1);  // told, and not drawn
-  EXPECT_NEAR(lit.settled, 1, 3e-5);   // exp(-271 / 25)
-  EXPECT_NEAR(lit.counts(), 4095 - 200 - 1210, 0.03);
+  EXPECT_NEAR(lit.settled, 1, 2e-5);   // exp(-286 / 25)
+  EXPECT_NEAR(lit.counts(), 4095 - 200 - 1210, 0.02);
   // one time constant: 63.2 % of it
   EXPECT_NEAR(robot.ir_conversion(3, 0, board::kIrSettleCycles).counts(), 4095 - 200 - 0.6321 * 1210, 0.5);
   scene.relative_noise = 0;

@@ -32,11 +32,11 @@ TEST_P(Golden, run_repeats_to_the_last_bit) {
 
 INSTANTIATE_TEST_SUITE_P(
     Of, Golden,
-    ::testing::Combine(::testing::Values(Pinned{"maze", "worlds/maze.toml", 20, "216910e483dba1ae"},
-                                         Pinned{"swarm", "worlds/swarm.toml", 5, "c2f2807054409300"},
-                                         Pinned{"push", "worlds/push.toml", 10, "67147609882aced6"},
+    ::testing::Combine(::testing::Values(Pinned{"maze", "worlds/maze.toml", 20, "bc48e19e88ff20cf"},
+                                         Pinned{"swarm", "worlds/swarm.toml", 5, "6fb36cec5dc74dcf"},
+                                         Pinned{"push", "worlds/push.toml", 10, "8e852daf3045ee80"},
                                          Pinned{"braitenberg_10", "bench/worlds/brait_10.toml", 5,
-                                                "89b8d0073a71d30c"}),
+                                                "4fcda5c599f164ea"}),
                        ::testing::Values(1, 3)),
     [](const auto& info) {
       return std::string(std::get<0>(info.param).name) + "_threads_" +
