@@ -123,7 +123,7 @@ void Simulation::run_minds(Clicks end) {
   const auto run = [&](std::size_t first, std::size_t last) {
     for (std::size_t r = first; r < last; ++r) {
       minds_[r]->run_until(*scene_, end);
-      angles_[r] = minds_[r]->wheel_course(end).angle;
+      angles_[r] = minds_[r]->wheel_course(end).at(end);
       wheels_[r].mind_hash = minds_[r]->state_hash();
       if (minds_[r]->has_sound_news()) sound_news_.store(true, std::memory_order_relaxed);
     }

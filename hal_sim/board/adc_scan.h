@@ -93,6 +93,7 @@ class AdcScan {
   const AccRing& acc_scan(Cycle at);
   /// Cycle at which the next accelerometer sample arrives; kNever when none will.
   Cycle acc_until(Cycle at) const;
+  bool keeps_acc() const { return acc_used_; }
   /// Works out the samples so far, if a program has asked for any before.
   void keep_acc(Cycle at) {
     if (acc_used_) fill_acc(acc_samples(at));

@@ -140,6 +140,10 @@ class AgendaMotor {
     return !saves_power() ? kMotorStepCycles : phase_on ? kMotorOffCycles : kMotorHalfStepCycles;
   }
 
+  /// Does the rotor go from step to step without a rest until the next command?
+  bool is_even() const {
+    return regular_ >= kRegularFirings && count.counts() && full_period() * kAgendaTickCycles <= kRotorMoveCycles;
+  }
   /// Tick of the next step (not coil-off), or -1 if there is none without a command.
   std::int64_t next_step_tick() const {
     if (!count.counts() || speed_ == 0) return -1;

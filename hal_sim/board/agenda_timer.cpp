@@ -277,13 +277,13 @@ Stepper& AgendaTimer::stepper(Wheel wheel, Cycle at) {
 }
 
 Cycle AgendaTimer::steps_horizon(Wheel wheel, Cycle at) const {
-  if (!running_ && !walking_) return host::kNever;
+  if ((!running_ && !walking_) || held_since_ >= 0) return host::kNever;
   const std::int64_t tick = motor_at(wheel, at).next_step_tick();
   return tick < 0 ? host::kNever : line_.cycle_of(tick);
 }
 
 Cycle AgendaTimer::coils_horizon(Wheel wheel, Cycle at) const {
-  if (!running_ && !walking_) return host::kNever;
+  if ((!running_ && !walking_) || held_since_ >= 0) return host::kNever;
   const AgendaMotor& m = motor_at(wheel, at);
   if (!m.count.counts() || m.speed() == 0) return host::kNever;
   return line_.cycle_of(m.count.tick + m.count.ticks_to_fire());

@@ -76,6 +76,10 @@ class AgendaTimer {
   std::int64_t commanded_steps(Wheel wheel, Cycle at) const;
   /// Cycle before which the step counter keeps its value without a command.
   Cycle steps_horizon(Wheel wheel, Cycle at) const;
+  /// Does the wheel go from step to step without a rest, all of one length, until the next command?
+  bool turns_evenly(Wheel wheel, Cycle at) const {
+    return running_ && held_since_ < 0 && !walking_ && motor_at(wheel, at).is_even();
+  }
   /// Cycle before which the coils keep their state without a command.
   Cycle coils_horizon(Wheel wheel, Cycle at) const;
   /// The motor as it is at `at`; valid until the next call of anything here.

@@ -99,6 +99,19 @@ double Board::wheel_angle_rad(Wheel wheel, Cycle at) const {
   return steps * (sim::kTwoPi / kStepsPerTurn) * setup_.wheel_ratio[static_cast<std::size_t>(wheel)];
 }
 
+WheelTurn Board::wheel_turn(Wheel wheel, Cycle at) const {
+  const Stepper motor = stepper_at(wheel, at);
+  const double rad_per_step =
+      sim::kTwoPi / kStepsPerTurn * setup_.wheel_ratio[static_cast<std::size_t>(wheel)];
+  WheelTurn turn{motor.position(at) * rad_per_step, motor.speed(at) * rad_per_step, motor.move_end(at)};
+  if (agendas_.turns_evenly(wheel, at))
+    turn.until = host::kNever;
+  else
+    turn.until = std::min(
+        {turn.until, agendas_.steps_horizon(wheel, at), timer_motors_.steps_horizon(wheel, at)});
+  return turn;
+}
+
 std::int64_t Board::steps(Wheel wheel, Cycle at) const { return stepper_at(wheel, at).steps(); }
 
 unsigned Board::coils(Wheel wheel, Cycle at) const {
@@ -340,6 +353,13 @@ void Board::exchange(Cycle at) {
   for (Uart& uart : uarts_) uart.exchange(at);
   codec_.forget(at);
   scan_.keep_acc(at);
+}
+
+Cycle Board::quiet_until(Cycle at) const {
+  const bool has_news_of_its_own = !uarts_[0].is_quiet() || !uarts_[1].is_quiet() || !parts_.empty() ||
+                                   packets_.receivers() > 0 || codec_.was_used() || (camera_ && camera_->is_used());
+  if (has_news_of_its_own) return at;
+  return scan_.keeps_acc() ? at + kAccKeepCycles : host::kNever;
 }
 
 void Board::mask_handlers(bool masked, Cycle at) {

@@ -104,6 +104,13 @@ struct IrConversion {
   double counts() const { return kAdcMax - light_counts - (reflection_counts + offset_counts) * settled; }
 };
 
+/// How a wheel turns: its angle, the rate per cycle, and until when; `until` not after the instant asked for:
+/// known at that instant only.
+struct WheelTurn {
+  double angle_rad = 0, rate_rad = 0;
+  Cycle until = 0;
+};
+
 /// What the converter makes of a level given in counts: rounded, 0 to 4095.
 inline int adc_counts(double level) {
   level += 0.5;
@@ -134,6 +141,8 @@ class Board {
   /// up to kRotorMoveCycles to follow a step, so constant speed gives a constant rim speed. O(1). `at` not
   /// before the last command.
   double wheel_angle_rad(Wheel wheel, Cycle at) const;
+  /// The same, how fast it grows, and until when at that rate, unless somebody commands the motor.
+  WheelTurn wheel_turn(Wheel wheel, Cycle at) const;
   /// Full steps since power-up, forward positive, not wrapped, lost steps not counted.
   std::int64_t steps(Wheel wheel, Cycle at) const;
   std::int64_t left_steps(Cycle at) const { return steps(Wheel::Left, at); }
@@ -226,6 +235,9 @@ class Board {
   /// e_init_port(): latches 0, directions as the library wants them, the I2C module on. (Its cost is the
   /// caller's.)
   void init_ports(Cycle at);
+  /// Until when exchange() has nothing to do and nothing that firmware has not asked for happens; `at`: not
+  /// known.
+  Cycle quiet_until(Cycle at) const;
   /// Tick boundary: bytes from outside enter, bytes sent so far go out, old bookkeeping is dropped.
   void exchange(Cycle at);
 

@@ -66,6 +66,7 @@ inline constexpr Cycle kScanFlagCycles = 1;   // end of the last conversion to t
 inline constexpr Cycle kScanChannelTad = 15;  // SAMC 1 + conversion 14 [DS70143 20.7]
 inline constexpr int kMicSamples = 100;       // MIC_SAMP_NB [lib: a_d/advance_ad_scan/e_ad_conv.h]
 inline constexpr int kAccSamples = 50;        // ACC_SAMP_NB [lib: a_d/advance_ad_scan/e_ad_conv.h]
+inline constexpr Cycle kAccKeepCycles = kFcyHz / 50;  // samples are worked out as often, while poses are known
 inline constexpr int kGumstixSelector = 10;   // scans a fifth pair [lib: a_d/advance_ad_scan/e_ad_conv.c]
 
 // --- basic proximity driver ------------------------------------------------------------------------------

@@ -109,6 +109,15 @@ class Stepper {
   /// Rotor position in steps of the wheel, forward positive; also shortly before the last step, when the
   /// driver's handler has been called that is about to make it.
   double position(Cycle at) const { return (at < motion_.moved_at ? before_ : motion_).position(at); }
+  /// Steps per cycle at which that changes, and until when: kNever at rest.
+  double speed(Cycle at) const {
+    const Motion& m = at < motion_.moved_at ? before_ : motion_;
+    return at < m.moved_at + m.move ? (static_cast<double>(m.steps) - m.from) / static_cast<double>(m.move) : 0;
+  }
+  Cycle move_end(Cycle at) const {
+    if (at < motion_.moved_at) return at;
+    return at < motion_.moved_at + motion_.move ? motion_.moved_at + motion_.move : host::kNever;
+  }
 
  private:
   /// What a pattern that turns out too short takes back.

@@ -147,6 +147,7 @@ void Robot::run_until(Cycle end) {
   std::lock_guard<std::mutex> turn(copy_.turn);
   Robot* outer = detail::running_robot;
   detail::running_robot = this;
+  ++turns_;
   do {
     if (reset_asked_) restart_program();
     swap_in();

@@ -68,6 +68,12 @@ class Robot final : public Context {
   // ------------------------------------------------------------------------------------
   /// Runs firmware until cycle `end`. Returns at once while the firmware sleeps beyond `end`.
   void run_until(Cycle end);
+  /// Until when run_until() would return at once, if nothing from outside comes; <= the last end: it runs on.
+  Cycle idle_until() const { return stopped_ ? kNever : woken_ || reset_asked_ ? 0 : asleep_until_; }
+  /// The windows up to `end`, before which it is idle, have passed.
+  void pass_to(Cycle end) { end_ = std::max(end_, end); }
+  /// How often firmware has run: what the program sees and does is as it was until this changes.
+  std::uint64_t turns() const { return turns_; }
   /// Something outside changed (a byte came in, the selector was turned): a sleeping wait looks again.
   void wake() { woken_ = true; }
   /// Somebody will press, or presses, a key of a remote control: the receiver's line has a new future.
@@ -347,6 +353,7 @@ class Robot final : public Context {
   int handler_depth_ = 0;
   std::int64_t served_ = 0;  // interrupts so far
   std::int64_t looks_ = 0;   // look() so far
+  std::uint64_t turns_ = 0;
 
   std::int64_t writes_ = 0;  // image_abi.h's counter while another robot of the copy runs
   Cycle horizon_ = kNever;

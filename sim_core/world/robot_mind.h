@@ -25,6 +25,11 @@ struct WheelCourse {
   WheelAngles angle;
   double left_rate = 0, right_rate = 0;  ///< rad per click
   Clicks from = 0, until = 0;            ///< from == until: known at that instant only
+
+  WheelAngles at(Clicks instant) const {
+    const double turned = static_cast<double>(instant - from);
+    return {angle.left_rad + left_rate * turned, angle.right_rad + right_rate * turned};
+  }
 };
 
 /// What recorders and pictures show of a robot's inside.
