@@ -530,7 +530,7 @@ std::uint64_t Board::state_hash(Cycle at) const {
   if (films) add(camera_->state_hash());
   if (codec_.was_used()) add(codec_.state_hash());
   for (const auto& part : parts_) add(part->state_hash());
-  if (eeprom_.in_use()) add(eeprom_.state_hash());
+  if (const std::uint64_t changes = eeprom_.state_hash()) add(changes);
   add(static_cast<std::uint64_t>(scan_.interrupts(at)));
   return sim::mix64(sum);
 }

@@ -70,11 +70,6 @@ void BoardOutside::end_window(dspic::Dspic30f6014a& chip, Cycle now) {
   if (board_.codec().line().take_activity()) follow_codec(chip, now);
 }
 
-void BoardOutside::fill_eeprom(dspic::Dspic30f6014a& chip) const {
-  for (unsigned i = 0; i < board::DataEeprom::kWords; ++i)
-    chip.eeprom()[i] = board_.eeprom().read(board::DataEeprom::kFirst + 2 * i);
-}
-
 // --- pins ------------------------------------------------------------------------------------------------
 
 void BoardOutside::pins_driven(Port port, std::uint16_t levels, std::uint16_t driven,

@@ -32,8 +32,6 @@ class BoardOutside final : public dspic::Outside {
   bool begin_window(dspic::Dspic30f6014a& chip, Cycle now);
   /// The board's UARTs learn rate and switch of the chip's.
   void end_window(dspic::Dspic30f6014a& chip, Cycle now);
-  /// What the robot's maker and earlier programs left in the data EEPROM.
-  void fill_eeprom(dspic::Dspic30f6014a& chip) const;
 
   void pins_driven(dspic::Port port, std::uint16_t levels, std::uint16_t driven, std::uint16_t by_peripheral,
                    Cycle at) override;
