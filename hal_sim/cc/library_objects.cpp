@@ -155,7 +155,9 @@ Archive archive(const std::vector<CompileOutcome>& objects, const fs::path& fold
 }
 
 Library provide_library(const BuildOptions& o, bool is_webots, bool has_cxx) {
-  const fs::path folder = build_root() / "library";
+  // a library from elsewhere, as tests have, is no part of the product
+  const bool is_ours = o.api_dir.empty() && o.include_root.empty() && source_root() == TWINPUCK_SOURCE_DIR;
+  const fs::path folder = is_ours ? build_root() / "library" : o.cache_dir;
   const auto outcomes = compile_all(library_jobs(o, is_webots, has_cxx), compiler_path(), folder, o.jobs);
   Library library;
   library.ok = true;
