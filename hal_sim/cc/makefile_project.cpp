@@ -7,6 +7,7 @@
 #include <regex>
 #include <sstream>
 
+#include "build_record.h"
 #include "library_copies.h"
 #include "object_cache.h"
 
@@ -43,6 +44,7 @@ class Makefile {
 
   void read(const fs::path& file, int depth) {
     std::error_code ec;
+    look_at(file);
     if (depth > kDeepest || !fs::is_regular_file(file, ec)) return;
     static const std::regex kAssignment(R"(^\s*(?:export\s+|override\s+)?([\w.-]+)\s*([:?+]?:?=)\s*(.*)$)");
     static const std::regex kContinued(R"([ \t]*\\\r?\n[ \t]*)"), kComment(R"((^|[^\\])#.*$)");
@@ -118,6 +120,7 @@ class Makefile {
       const std::regex matches(form);
       std::vector<std::string> names;
       std::error_code ec;
+      look_at(home_ / folder);
       for (fs::directory_iterator it(home_ / folder, ec), end; !ec && it != end; it.increment(ec))
         if (const std::string name = it->path().filename().string(); std::regex_match(name, matches))
           names.push_back((folder / name).string());
@@ -137,6 +140,7 @@ class Makefile {
 std::optional<MplabProject> read_makefile(const fs::path& folder) {
   const fs::path home = fs::absolute(folder).lexically_normal();
   std::error_code ec;
+  look_at(home);
   fs::path file;
   for (const char* name : {"Makefile", "makefile", "GNUmakefile"})
     if (file.empty() && fs::is_regular_file(home / name, ec)) file = home / name;

@@ -82,7 +82,6 @@ board::Setup setup_of(const sim::WorldDesc& world, int index) {
   setup.webots = world.webots;
   setup.devices = robot.devices;
   setup.clock_ppm = variation.clock_ppm;
-  setup.spread_handlers = world.spread_interrupts;
   setup.boot_delay_s = variation.boot_delay_s;
   return setup;
 }
