@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tests/board/flat_scene.h"
 
+#include "sim_core/physics/leg.h"
+
 namespace sim {
 
 ProximityResponse sense_proximity(const Scene& scene, int, int sensor, Clicks at) {
@@ -28,6 +30,7 @@ void render_camera(const Scene& scene, int, const Vec3&, Clicks at, const std::v
 void watch_leds(const Scene&) {}
 
 Pose2 Scene::pose(int, Clicks) const { return {}; }
+BodyState Scene::state(int) const { return {}; }
 Stance stance(const Scene&, int, Clicks) { return {}; }
 
 }  // namespace sim
