@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tests/board/flat_scene.h"
 
-#include "sim_core/physics/leg.h"
-
 namespace sim {
 
 ProximityResponse sense_proximity(const Scene& scene, int, int sensor, Clicks at) {
