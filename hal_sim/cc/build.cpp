@@ -10,7 +10,6 @@
 #include <cstdlib>
 #include <fstream>
 #include <map>
-#include <regex>
 #include <set>
 #include <sstream>
 
@@ -19,6 +18,7 @@
 #include "hal_sim/host/image_stamp.h"
 #include "large_stack.h"
 #include "object_cache.h"
+#include "pattern.h"
 #include "program_files.h"
 #include "timer_owners.h"
 #include "twinpuck_paths.h"
@@ -92,7 +92,7 @@ std::string common_salt(const std::vector<fs::path>& headers) {
 
 /// Whether a program takes the address of a register anywhere: then its files may pass it on.
 bool takes_register_addresses(const std::vector<fs::path>& sources, const std::vector<fs::path>& headers) {
-  static const std::regex kAddress(
+  static const Pattern kAddress(
       R"([=(,{\[?:)]\s*&\s*(ADC|PORT|LAT|TRIS|TMR|PR\d|T\dCON|IFS|IEC|IPC|INTCON|U[12]|I2C|DCI|TSCON|RSCON|[RT]XBUF|SPI|OC\d|IC\d|RCON|CN)[A-Z0-9]*(bits)?\b)");
   for (const auto* list : {&sources, &headers})
     for (const auto& file : *list)
@@ -103,7 +103,7 @@ bool takes_register_addresses(const std::vector<fs::path>& sources, const std::v
 /// Sources of a program for Webots, which compiles the file with the controller's name alone: not those that
 /// another one includes as text, and not further programs that lie beside it.
 std::vector<fs::path> webots_sources(const fs::path& folder, const std::vector<fs::path>& sources) {
-  static const std::regex kInclude(R"(#\s*include\s*"([^"]+\.(?:c|cpp|cc|cxx))\")"), kMain(R"(\bmain\s*\()");
+  static const Pattern kInclude(R"(#\s*include\s*"([^"]+\.(?:c|cpp|cc|cxx))\")"), kMain(R"(\bmain\s*\()");
   const std::string own = fs::weakly_canonical(folder).filename().string();
   std::set<fs::path> left_out;
   bool has_own_main = false;
@@ -254,7 +254,7 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& pro
 
 /// Splits what a compiler printed into errors and warnings; notes stay with the line before them.
 void sort_messages(const std::string& text, BuildResult& result, bool failed) {
-  static const std::regex kSummary(R"(^\d+ (warning|error)s?( and \d+ errors?)? generated\.$)");
+  static const Pattern kSummary(R"(^\d+ (warning|error)s?( and \d+ errors?)? generated\.$)");
   std::istringstream lines(text);
   std::vector<std::string>* last = nullptr;
   for (std::string line; std::getline(lines, line);) {
@@ -278,7 +278,7 @@ void sort_messages(const std::string& text, BuildResult& result, bool failed) {
 std::set<std::string> host_exports() {
   std::set<std::string> names;
   fs::path root = source_root();
-  static const std::regex kFunction(R"(\b(tp_\w+)\s*\()");
+  static const Pattern kFunction(R"(\b(tp_\w+)\s*\()");
   for (const auto& header : files_below(root / "hal_sim/host", ".h")) {
     const std::string file = header.filename().string();
     if (file != "image_abi.h" && file.rfind("pins", 0) != 0) continue;
@@ -297,11 +297,11 @@ void sort_linker_messages(const std::string& text, const Program& program, Build
   std::map<std::string, fs::path> in_assembler;
   for (const fs::path& file : program.assembler)
     for (const std::string& name : functions_in_assembler(file)) in_assembler.emplace(name, file);
-  static const std::regex kIn(R"(in function `([^']+)':)");
-  static const std::regex kUndefined(
+  static const Pattern kIn(R"(in function `([^']+)':)");
+  static const Pattern kUndefined(
       R"(^(?:.*?: )?(?:\.\./)*(\S+?:\d+|\S+\.o:\S+): (?:warning: )?undefined reference to `([^']+)')");
-  static const std::regex kPlain(R"(undefined reference to `([^']+)')");
-  static const std::regex kTwice(R"(multiple definition of `([^']+)'; .*?first defined here)");
+  static const Pattern kPlain(R"(undefined reference to `([^']+)')");
+  static const Pattern kTwice(R"(multiple definition of `([^']+)'; .*?first defined here)");
   auto exports = host_exports();
   std::string function;
   std::set<std::string> told;
@@ -315,7 +315,7 @@ void sort_linker_messages(const std::string& text, const Program& program, Build
       if (std::regex_search(line, m, kUndefined)) where = m[1];
       if (where.rfind(".o:") != std::string::npos || where.empty())
         where = function.empty() ? "link" : function + "()";
-      static const std::regex kWebots(
+      static const Pattern kWebots(
           R"((wb_|wbu_|supervisor_|robot_|camera_|speaker_|display_|servo_|connector_|pen_|differential_wheels_).*)");
       std::string hint =
           in_assembler.count(name) ? "it is in " + in_assembler[name].filename().string() +
@@ -383,7 +383,7 @@ void check_room(const fs::path& image, const fs::path& folder, BuildResult& resu
 void tell_of_assembler(const Program& program, const std::vector<CompileOutcome>& user, BuildResult& result) {
   for (const fs::path& file : program.assembler)
     for (const std::string& name : functions_in_assembler(file)) {
-      static const std::regex kHandler("_\\w+Interrupt");
+      static const Pattern kHandler("_\\w+Interrupt");
       if (!std::regex_match(name, kHandler) || is_library_assembler(file)) continue;
       const bool is_in_c = std::any_of(user.begin(), user.end(), [&](const CompileOutcome& o) {
         const auto symbols = read_elf(o.object).symbols;
