@@ -24,8 +24,8 @@
 
 namespace sim {
 
-/// What the parser is not given: a character beyond ASCII outside quotes and comments, which it would not name
-/// so plainly, and a key of very many parts ("a.a.a"), which it follows by recursion.
+/// What the parser is not given: a character beyond ASCII outside quotes and comments, which it would not
+/// name so plainly, and a key of very many parts ("a.a.a"), which it follows by recursion.
 struct TomlTrap {
   int line = 0;  ///< 0: there is none
   int column = 0;
