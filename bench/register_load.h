@@ -9,6 +9,6 @@ namespace bench {
 /// the robot cannot be built.
 double measure_register_way(int rounds);
 /// What the issue of the register way promises.
-inline constexpr double kPromisedRegisterWay = 100;
+inline constexpr double kPromisedRegisterWay = 500;
 
 }  // namespace bench

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "build_record.h"
 #include "library_copies.h"
 #include "object_cache.h"
 #include "pattern.h"
@@ -61,6 +62,7 @@ void each_form(const Driver& driver, Visit visit) {
 /// Functions that the form's header declares. The variants on other timers have no header of their own here.
 std::set<std::string> functions_of(const DriverForm& form, const fs::path& include_root) {
   fs::path header = include_root / form.header;
+  look_at(header);
   if (!fs::exists(header)) {
     static const Pattern kTimer("_timer[23]\\.h$");
     header = std::regex_replace(header.string(), kTimer, ".h");

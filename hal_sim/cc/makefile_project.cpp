@@ -7,6 +7,7 @@
 #include <set>
 #include <sstream>
 
+#include "build_record.h"
 #include "library_copies.h"
 #include "object_cache.h"
 #include "pattern.h"
@@ -49,6 +50,7 @@ class Makefile {
   /// Reads a file, but none twice: one that includes itself would never end.
   void read(const fs::path& file) {
     std::error_code ec;
+    look_at(file);
     if (!fs::is_regular_file(file, ec) || !read_.insert(fs::canonical(file, ec)).second) return;
     static const Pattern kAssignment(R"(^\s*(?:export\s+|override\s+)?([\w.-]+)\s*([:?+]?:?=)\s*(.*)$)");
     static const Pattern kContinued(R"(\\\r?\n[ \t]*)"), kComment(R"((^|[^\\])#.*$)");
@@ -125,6 +127,7 @@ class Makefile {
       const Pattern matches(form);
       std::vector<std::string> names;
       std::error_code ec;
+      look_at(home_ / folder);
       for (fs::directory_iterator it(home_ / folder, ec), end; !ec && it != end; it.increment(ec))
         if (const std::string name = it->path().filename().string(); std::regex_match(name, matches))
           names.push_back((folder / name).string());
@@ -146,6 +149,7 @@ class Makefile {
 std::optional<MplabProject> read_makefile(const fs::path& folder) {
   const fs::path home = fs::absolute(folder).lexically_normal();
   std::error_code ec;
+  look_at(home);
   fs::path file;
   for (const char* name : {"Makefile", "makefile", "GNUmakefile"})
     if (file.empty() && fs::is_regular_file(home / name, ec)) file = home / name;

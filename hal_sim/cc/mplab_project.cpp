@@ -6,6 +6,7 @@
 #include <sstream>
 #include <string>
 
+#include "build_record.h"
 #include "library_copies.h"
 #include "object_cache.h"
 #include "pattern.h"
@@ -18,6 +19,7 @@ namespace {
 fs::path entry_of(const fs::path& folder, const std::string& name) {
   std::error_code ec;
   if (name == "." || name == "..") return folder / name;
+  look_at(folder);
   if (fs::exists(folder / name, ec)) return folder / name;
   for (fs::directory_iterator it(folder, ec), end; !ec && it != end; it.increment(ec))
     if (lower(it->path().filename().string()) == lower(name)) return it->path();
@@ -203,9 +205,11 @@ std::optional<MplabProject> find_mplab_project(const fs::path& folder, std::stri
   std::vector<std::pair<fs::path, fs::path>> files;  // project, its home
   const auto add_configurations = [&](const fs::path& place) {
     const fs::path file = place / "nbproject/configurations.xml";
+    look_at(file);
     std::error_code ec;
     if (fs::is_regular_file(file, ec)) files.emplace_back(file, place);
   };
+  look_at(home);
   add_configurations(home);
   std::error_code ec;
   for (fs::directory_iterator it(home, ec), end; !ec && it != end; it.increment(ec)) {
