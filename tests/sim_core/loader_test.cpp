@@ -331,6 +331,15 @@ TEST(Loader, every_kind_of_mistake_has_its_sentence) {
             std::string::npos);
 }
 
+// letters were looked up in a table of white space that has no answer for them
+TEST(Loader, letters_beyond_ascii_stand_anywhere_in_strings) {
+  const auto loaded =
+      sim::parse_world("twinpuck = 1\ntitle = \"\"\"\u013b \\\n  \u00f6\"\"\"\n", "w.toml", {}, {});
+  ASSERT_TRUE(loaded.world.has_value()) << loaded.report("w.toml");
+  EXPECT_EQ(loaded.world->title, "\u013b \u00f6");
+  EXPECT_EQ(report_of("twinpuck = 1\ntitle = 0n'\u013b\n").substr(0, 20), "w.toml:2:10: not TOM");
+}
+
 TEST(Loader, the_version_is_asked_for) {
   EXPECT_EQ(report_of("title = \"x\"\n"), "w.toml:1:1: twinpuck: missing, expected whole number: 1");
   EXPECT_EQ(report_of("twinpuck = 2\n"), "w.toml:1:12: twinpuck: got 2, expected whole number: 1");
