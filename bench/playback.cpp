@@ -15,8 +15,8 @@ class Playback final : public sim::RobotMind {
  public:
   explicit Playback(const std::vector<sim::WheelAngles>& angles) : angles_(angles) {}
   void run_until(const sim::Scene&, sim::Clicks) override {}
-  sim::WheelAngles wheel_angles(sim::Clicks) override {
-    return angles_[std::min(next_++, angles_.size() - 1)];
+  sim::WheelCourse wheel_course(sim::Clicks at) override {
+    return {angles_[std::min(next_++, angles_.size() - 1)], 0, 0, at, at};
   }
   sim::MindReport report() const override { return {}; }
   int proximity_counts(const sim::Scene&, int) override { return 0; }
@@ -43,7 +43,7 @@ WheelTrack track_wheels(const sim::WorldDesc& world, double seconds) {
   while (twin->simulation().now() < sim::from_seconds(seconds)) {
     twin->simulation().step();
     for (std::size_t r = 0; r < track.size(); ++r) {
-      track[r].push_back(twin->mind(static_cast<int>(r)).wheel_angles(twin->simulation().now()));
+      track[r].push_back(twin->mind(static_cast<int>(r)).wheel_course(twin->simulation().now()).at(twin->simulation().now()));
     }
   }
   return track;

@@ -34,8 +34,8 @@ std::vector<LabExercise> own_exercises(std::vector<LabExercise> all) {
   return all;
 }
 
-LabPrograms own_programs(const std::string& folder, const std::vector<const LabExercise*>& chosen,
-                         bool by_id) {
+LabPrograms own_programs(const std::string& folder, const std::string& way,
+                         const std::vector<const LabExercise*>& chosen, bool by_id) {
   std::set<std::string> wanted;
   for (const LabExercise* e : chosen)
     for (const LabStep& s : e->steps) wanted.insert(own_program(s));
@@ -46,6 +46,7 @@ LabPrograms own_programs(const std::string& folder, const std::vector<const LabE
                              });
   LabPrograms programs;
   twin::Options options;
+  options.way = way;
   options.tell = [](const std::string& line) { std::cerr << line << '\n'; };
   for (const std::string& name : wanted) {
     const std::string firmware = "lab/" + name;

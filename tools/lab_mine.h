@@ -21,7 +21,7 @@ std::vector<LabExercise> own_exercises(std::vector<LabExercise> all);
 /// Finds and builds what the chosen exercises ask for in `folder`: its folders of the lab's names, or the
 /// folder itself when it is a controller's. One of another name serves if `by_id`, when the exercises were
 /// named. Compiler's errors go to stderr.
-LabPrograms own_programs(const std::string& folder, const std::vector<const LabExercise*>& chosen,
-                         bool by_id);
+LabPrograms own_programs(const std::string& folder, const std::string& way,
+                         const std::vector<const LabExercise*>& chosen, bool by_id);
 
 }  // namespace tools

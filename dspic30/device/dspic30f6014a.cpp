@@ -251,9 +251,7 @@ void Dspic30f6014a::table_write(unsigned program_address, std::uint16_t value, C
   parts_->nvm.table_write(program_address, value);
 }
 
-std::array<std::uint16_t, Dspic30f6014a::kEepromWords>& Dspic30f6014a::eeprom() {
-  return parts_->nvm.eeprom();
-}
+Eeprom& Dspic30f6014a::eeprom() { return parts_->nvm.eeprom(); }
 
 // --- diagnosis --------------------------------------------------------------------------------------------
 

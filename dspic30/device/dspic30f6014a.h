@@ -40,6 +40,8 @@ struct Configuration {
   /// of `now`; right when the instants of accesses are estimates.
   bool synchronised_ports = false;
   bool warn_uninitialised = false;  ///< report reads of registers with an undefined power-on value
+  /// Words of the data EEPROM, which outlive the chip; null: its own, blank.
+  std::array<std::uint16_t, 2048>* eeprom = nullptr;
 };
 
 /// What the processor has to do at an instruction boundary, and when to ask again.
@@ -152,13 +154,11 @@ class Dspic30f6014a {
   // --- data EEPROM
   // ------------------------------------------------------------------------------------------
 
-  static constexpr int kEepromWords = 2048;
-  static constexpr unsigned kEepromBase = 0x7FF000;  ///< program address of word 0; words are 2 apart
   /// TBLRDL at a program address inside the EEPROM; 0 elsewhere.
   std::uint16_t table_read(unsigned program_address, Cycle now);
   /// TBLWTL: loads a write latch and NVMADR, NVMADRU.
   void table_write(unsigned program_address, std::uint16_t value, Cycle now);
-  std::array<std::uint16_t, kEepromWords>& eeprom();
+  std::array<std::uint16_t, 2048>& eeprom();
 
   // --- diagnosis
   // --------------------------------------------------------------------------------------------

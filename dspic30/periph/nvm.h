@@ -17,18 +17,20 @@
 
 namespace dspic {
 
+/// Words of the data EEPROM, and the program address of the first; words are 2 apart.
 inline constexpr int kEepromWordCount = 2048;
 inline constexpr unsigned kEepromStart = 0x7FF000;
+using Eeprom = std::array<std::uint16_t, kEepromWordCount>;
 
 class Nvm final : public SfrOwner, public EventOwner {
  public:
-  explicit Nvm(const Fabric& fabric) : f_(fabric) { eeprom_.fill(0xFFFF); }
+  /// `eeprom` outlives this.
+  Nvm(const Fabric& fabric, Eeprom& eeprom) : f_(fabric), eeprom_(eeprom) {}
   void attach();
   void reset(Cycle now);
   std::uint16_t table_read(unsigned program_address) const;
   void table_write(unsigned program_address, std::uint16_t value);
-  std::array<std::uint16_t, kEepromWordCount>& eeprom() { return eeprom_; }
-  const std::array<std::uint16_t, kEepromWordCount>& eeprom() const { return eeprom_; }
+  Eeprom& eeprom() { return eeprom_; }
   /// A flash operation holds the processor until here.
   Cycle stalled_until() const { return stalled_until_; }
   Cycle operation_cycles() const;
@@ -54,7 +56,7 @@ class Nvm final : public SfrOwner, public EventOwner {
   int key_step_ = 0;
   std::int64_t key_write_ = 0;
   Cycle stalled_until_ = 0;
-  std::array<std::uint16_t, kEepromWordCount> eeprom_{};
+  Eeprom& eeprom_;
 };
 
 }  // namespace dspic

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// See accelerometer.h. Random streams: kStreamBoard + 32 .. 34, one per axis.
+// See accelerometer.h.
 #include "hal_sim/board/accelerometer.h"
 
 #include <algorithm>
@@ -7,14 +7,11 @@
 
 #include "hal_sim/board/board.h"
 #include "sim_core/base/portable_math.h"
-#include "sim_core/random/counter_random.h"
 #include "sim_core/world/true_motion.h"
 
 namespace board {
 
 namespace {
-
-constexpr std::uint32_t kStream = sim::kStreamBoard + 32;
 
 constexpr double kFaded = 0.01;  // older shares of a filter's answer are left to the oldest counted one
 
@@ -68,16 +65,14 @@ sim::Vec3 felt_turn_rad_s(const Board& robot, Cycle at, double pole_hz) {
   return {w.x + offset[0], w.y + offset[1], w.z + offset[2]};
 }
 
-int accelerometer_counts(const Board& robot, int axis, Cycle at, std::uint64_t sample) {
+int accelerometer_counts(const Board& robot, int axis, Cycle at) {
   const double pole_hz = axis == 2 ? kAccPoleZHz : kAccPoleXyHz;
   const sim::Vec3 f = felt_force_m_s2(robot, at, pole_hz);
   double g = (axis == 0 ? f.y : axis == 1 ? f.x : f.z) / kStandardGravityMS2;
   if (robot.setup().motion_noise_scale > 0) {
-    const sim::RandomKey key{robot.setup().seed, static_cast<std::uint32_t>(robot.setup().robot),
-                             kStream + static_cast<std::uint32_t>(axis)};
     // a pole lets through white noise as a band of pi / 2 times its frequency
     const double noise_g = kAccNoiseGPerRtHz * std::sqrt(0.25 * sim::kTwoPi * pole_hz);
-    g += robot.setup().motion_noise_scale * noise_g * sim::random_gaussian(key, sample);
+    g += robot.setup().motion_noise_scale * noise_g * robot.noise().normal(NoiseOf::Accelerometer, axis, at);
   }
   constexpr double kRail = kAccRailV / kAdcReferenceV * (kAdcMax + 1);
   const double output = std::clamp(kAccZeroCounts + kAccCountsPerG * g, kRail, kAdcMax + 1 - kRail);

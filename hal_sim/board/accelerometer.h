@@ -10,8 +10,6 @@
 // switching, its place off the robot's origin (unknown). Source: [MMA7260QT], [lib:
 // a_d/advance_ad_scan/e_acc.c], facts restated.
 #pragma once
-#include <cstdint>
-
 #include "hal_sim/board/motion_params.h"
 #include "sim_core/world/true_motion.h"
 
@@ -25,7 +23,7 @@ sim::Vec3 felt_force_m_s2(const Board& robot, Cycle at, double pole_hz);
 /// Angular rate about the robot's axes (rad/s), the same way; zero without a scene.
 sim::Vec3 felt_turn_rad_s(const Board& robot, Cycle at, double pole_hz);
 
-/// One conversion of axis 0 x, 1 y, 2 z at `at`, counts 0 to 4095. `sample`: a number unique to the sample.
-int accelerometer_counts(const Board& robot, int axis, Cycle at, std::uint64_t sample);
+/// One conversion of axis 0 x, 1 y, 2 z, held at `at`, counts 0 to 4095.
+int accelerometer_counts(const Board& robot, int axis, Cycle at);
 
 }  // namespace board

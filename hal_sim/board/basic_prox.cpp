@@ -46,7 +46,6 @@ void BasicProx::release(Cycle at) {
 
 void BasicProx::reset(Cycle at) {
   settle(at);
-  noise_base_ += 2 * static_cast<std::uint64_t>((base_ + 1) / 2 + 1);
   on_ = false;
   left_ = 0;
   base_ = 0;
@@ -71,9 +70,7 @@ int BasicProx::evaluate(int sensor, std::int64_t event) const {
   const Cycle interrupt = event_cycle(event);
   const Cycle at = interrupt + kBasicIsrEntryCycles + kReadAdSampleCycles + (sensor >= 4 ? kReadAdCycles : 0);
   const Cycle lit_for = event % 2 == 1 ? at - (interrupt - kBasicPulseCycles + kSwitchCycles) : -1;
-  // numbered by flashes, as the scan's samples: even ones before, odd ones after the flash has begun
-  const std::uint64_t number = noise_base_ + static_cast<std::uint64_t>(event + 2 * (event % 2));
-  return board_.ir_counts(sensor, at, lit_for, number);
+  return board_.ir_counts(sensor, at, lit_for);
 }
 
 int BasicProx::evaluate_reflected(int sensor, std::int64_t event) const {

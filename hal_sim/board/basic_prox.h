@@ -64,7 +64,6 @@ class BasicProx {
   Cycle started_ = 0;
   Cycle left_ = 0;         // of the period under way when the timer was stopped; 0: it never ran
   std::int64_t base_ = 0;  // events before the last start
-  std::uint64_t noise_base_ = 0;
   std::array<Sample, 8> dark_{};
   std::array<Sample, 8> reflected_{};
 };

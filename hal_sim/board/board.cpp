@@ -19,7 +19,6 @@
 #include "sim_core/base/hash.h"
 #include "sim_core/base/portable_math.h"
 #include "sim_core/light/proximity.h"
-#include "sim_core/random/counter_random.h"
 #include "sim_core/sound/sound_field.h"
 
 namespace board {
@@ -45,12 +44,6 @@ constexpr int kOnes[16] = {0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};
 constexpr std::uint16_t kRingMask =
     bit(6) | bit(7) | bit(9) | bit(10) | bit(12) | bit(13) | bit(14) | bit(15);
 
-constexpr std::uint32_t kAmbientStream = sim::kStreamBoard;          // + sensor
-constexpr std::uint32_t kReflectionStream = sim::kStreamBoard + 16;  // + sensor
-constexpr std::uint32_t kMicrophoneStream = sim::kStreamBoard + 32;  // + microphone
-constexpr std::uint64_t kConversionOffset = std::uint64_t{1}
-                                            << 41;  // single conversions, apart from the drivers'
-
 constexpr std::int64_t kOpenEnd = std::int64_t{1} << 40;  // samples of a sound whose end is not known
 
 std::int64_t to_ppb(double ppm) { return static_cast<std::int64_t>(std::llround(ppm * 1000.0)); }
@@ -60,13 +53,11 @@ std::int64_t to_ppb(double ppm) { return static_cast<std::int64_t>(std::llround(
 Board::Board(const Setup& setup)
     : setup_(setup),
       clock_(to_ppb(setup.clock_ppm), sim::from_seconds(setup.boot_delay_s)),
-      agendas_(setup.spread_handlers ? nullptr : &scan_),
       scan_(*this),
       basic_prox_(*this),
-      battery_(setup.battery_wh, setup.battery_v, kProcessorA + kBluetoothA + kBoardA) {
+      battery_(setup.battery_wh, setup.battery_v, kProcessorA + kBluetoothA + kBoardA),
+      noise_(setup.seed, setup.robot) {
   for (std::size_t i = 0; i < kPorts; ++i) tris_[i] = kImplemented[i];
-  mic_noise_key_ = sim::mix64(sim::mix64(setup.seed) ^
-                              (static_cast<std::uint64_t>(setup.robot) << 32 | kMicrophoneStream));
   if (setup.camera != CameraKind::None) {
     auto sensor = std::make_unique<CameraSensor>(setup.camera);
     camera_ = std::make_unique<Camera>(*this, *sensor, setup.camera_mount, setup.camera_noise);
@@ -106,6 +97,19 @@ double Board::wheel_angle_rad(Wheel wheel, Cycle at) const {
   const double steps = timer_motors_.drives(wheel) ? stepper_at(wheel, at).position(at)
                                                    : agendas_.stepper_at(wheel, at).position(at);
   return steps * (sim::kTwoPi / kStepsPerTurn) * setup_.wheel_ratio[static_cast<std::size_t>(wheel)];
+}
+
+WheelTurn Board::wheel_turn(Wheel wheel, Cycle at) const {
+  const Stepper motor = stepper_at(wheel, at);
+  const double rad_per_step =
+      sim::kTwoPi / kStepsPerTurn * setup_.wheel_ratio[static_cast<std::size_t>(wheel)];
+  WheelTurn turn{motor.position(at) * rad_per_step, motor.speed(at) * rad_per_step, motor.move_end(at)};
+  if (agendas_.turns_evenly(wheel, at))
+    turn.until = host::kNever;
+  else
+    turn.until = std::min(
+        {turn.until, agendas_.steps_horizon(wheel, at), timer_motors_.steps_horizon(wheel, at)});
+  return turn;
 }
 
 std::int64_t Board::steps(Wheel wheel, Cycle at) const { return stepper_at(wheel, at).steps(); }
@@ -308,7 +312,6 @@ void Board::processor_reset(Cycle at) {
   timer_motors_.reset();
   agendas_.reset(at);
   scan_.reset(at);
-  next_delay_ = -1;
   basic_prox_.reset(at);
   codec_.reset(at);
   for (Uart& uart : uarts_) uart.reset(at);
@@ -350,36 +353,23 @@ void Board::exchange(Cycle at) {
   for (Uart& uart : uarts_) uart.exchange(at);
   codec_.forget(at);
   scan_.keep_acc(at);
-  if (!setup_.spread_handlers && !agendas_.is_walking() && at > next_delay(at)) settle_handlers(at);
 }
 
-// What makes a handler wait depends on the motors' rhythm, which lasts until the next command.
-Cycle Board::next_delay(Cycle at) {
-  if (next_delay_ < 0) next_delay_ = scan_.next_delay(agendas_, at + kLookAheadCycles).at;
-  return next_delay_;
+Cycle Board::quiet_until(Cycle at) const {
+  const bool has_news_of_its_own = !uarts_[0].is_quiet() || !uarts_[1].is_quiet() || !parts_.empty() ||
+                                   packets_.receivers() > 0 || codec_.was_used() || (camera_ && camera_->is_used());
+  if (has_news_of_its_own) return at;
+  return scan_.keeps_acc() ? at + kAccKeepCycles : host::kNever;
 }
 
-// The motors first: their steps so far were delayed by calls as these were known.
-void Board::settle_handlers(Cycle at) {
-  const Cycle no_delay_until = std::exchange(next_delay_, -1);
-  if (agendas_.is_walking() || setup_.spread_handlers) return;
-  if (at <= no_delay_until) {
-    agendas_.settle(at);
-    scan_.pass(at);
-    return;
+void Board::mask_handlers(bool masked, Cycle at) {
+  if (masked) {
+    scan_.hold(at);
+    agendas_.hold(at);
+  } else {
+    scan_.release(at);
+    agendas_.release(at);
   }
-  AdcScan::Delay delay;
-  do {
-    delay = scan_.next_delay(agendas_, at);
-    agendas_.settle(delay.at);
-    scan_.note(delay);
-  } while (delay.cycles > 0);
-}
-
-void Board::handler_left(Cycle at) {
-  next_delay_ = -1;
-  agendas_.settle(at);
-  scan_.note(scan_.delay_at_exit(at));
 }
 
 // --- analogue inputs -------------------------------------------------------------------------------------
@@ -412,21 +402,19 @@ IrConversion Board::ir_conversion(int sensor, Cycle at, Cycle lit_for) const {
   return c;
 }
 
-int Board::ir_counts(int sensor, Cycle at, Cycle lit_for, std::uint64_t sample) const {
-  const std::uint32_t robot = static_cast<std::uint32_t>(setup_.robot);
+int Board::ir_counts(int sensor, Cycle at, Cycle lit_for) const {
   const IrConversion c = ir_conversion(sensor, at, lit_for);
+  const bool lit = lit_for >= 0;
   double light = c.light_counts, reflection = c.reflection_counts;
   if (c.relative_noise > 0 && setup_.ir_noise_scale > 0) {
-    const sim::RandomKey key{setup_.seed, robot, kReflectionStream + static_cast<std::uint32_t>(sensor)};
-    const double noise =
-        c.uniform_noise ? sim::random_signed(key, sample) : sim::random_gaussian(key, sample);
+    const double noise = c.uniform_noise ? noise_.uniform(NoiseOf::Reflection, sensor, at)
+                                         : noise_.normal(NoiseOf::Reflection, sensor, at);
     reflection *= 1.0 + noise * c.relative_noise * setup_.ir_noise_scale;
   }
-  if (lit_for >= 0) reflection = (reflection + c.offset_counts) * c.settled;
-  if (setup_.ambient_noise_counts > 0) {
-    const sim::RandomKey key{setup_.seed, robot, kAmbientStream + static_cast<std::uint32_t>(sensor)};
-    light += setup_.ambient_noise_counts * sim::random_gaussian(key, sample);
-  }
+  if (lit) reflection = (reflection + c.offset_counts) * c.settled;
+  if (setup_.ambient_noise_counts > 0)
+    light += setup_.ambient_noise_counts *
+             noise_.normal(lit ? NoiseOf::AmbientLit : NoiseOf::AmbientDark, sensor, at);
   return adc_counts(kAdcMax - light - reflection);
 }
 
@@ -438,37 +426,17 @@ double Board::mic_level(int microphone, Cycle at) const {
                                                                 clock_.click_at(at));
 }
 
-__attribute__((always_inline)) inline int Board::with_mic_noise(double counts, int microphone,
-                                                                std::uint64_t sample) const {
+inline int Board::with_mic_noise(double counts, int microphone, Cycle at) const {
   if (setup_.mic_noise_counts <= 0) return adc_counts(counts);
-  // 64 coins: mean 32, standard deviation 4
-  const std::uint64_t bits =
-      sim::mix64(mic_noise_key_ ^ (sample << 2 | static_cast<std::uint64_t>(microphone)));
-  std::uint64_t ones = bits - ((bits >> 1) & 0x5555555555555555u);
-  ones = (ones & 0x3333333333333333u) + ((ones >> 2) & 0x3333333333333333u);
-  ones = ((ones + (ones >> 4)) & 0x0F0F0F0F0F0F0F0Fu) * 0x0101010101010101u >> 56;
-  // below 2^63: no correction for unsigned words is needed; 31 bits, so nothing is rounded
-  const auto level = static_cast<std::int64_t>(ones << 24 | bits * 0x9E3779B97F4A7C15u >> 40);
-  return adc_counts(counts + setup_.mic_noise_counts * 0.25 * (static_cast<double>(level) * 0x1p-24 - 32.5));
+  return adc_counts(counts + setup_.mic_noise_counts * noise_.normal(NoiseOf::Microphone, microphone, at));
 }
 
-int Board::mic_counts_fast(int microphone, Cycle at, std::uint64_t sample) const {
-  if (may_hear_) return mic_counts_in_sound(microphone, at, sample);
-  return with_mic_noise(kMicIdleCounts, microphone, sample);
+int Board::mic_counts(int microphone, Cycle at) const {
+  return may_hear_ ? mic_counts_in_sound(microphone, at) : with_mic_noise(kMicIdleCounts, microphone, at);
 }
 
-int Board::mic_counts_in_sound(int microphone, Cycle at, std::uint64_t sample) const {
-  return with_mic_noise(mic_level(microphone, at), microphone, sample);
-}
-
-int Board::mic_counts(int microphone, Cycle at, std::uint64_t sample) const {
-  double counts = mic_level(microphone, at);
-  if (setup_.mic_noise_counts > 0) {
-    const sim::RandomKey key{setup_.seed, static_cast<std::uint32_t>(setup_.robot),
-                             kMicrophoneStream + static_cast<std::uint32_t>(microphone)};
-    counts += setup_.mic_noise_counts * sim::random_gaussian(key, sample);
-  }
-  return static_cast<int>(std::clamp(std::floor(counts + 0.5), 0.0, double{kAdcMax}));
+int Board::mic_counts_in_sound(int microphone, Cycle at) const {
+  return with_mic_noise(mic_level(microphone, at), microphone, at);
 }
 
 void Board::publish_sound(sim::SoundField& field, sim::Clicks now) {
@@ -511,21 +479,18 @@ Cycle Board::line_on_for(int sensor, Cycle at) const {
   return at - line_since_[static_cast<std::size_t>(pair)];
 }
 
-int Board::convert(int channel, Cycle at) {
+int Board::convert(int channel, Cycle at) const {
   if (channel < 0 || channel > 15) return 0;
   if (channel >= 8) {
     const int sensor = channel - 8;
     Cycle lit_for = line_on_for(sensor, at);
     if (lit_for < 0 && pulses(at) & (1u << (sensor & 3))) lit_for = 40 * kIrSettleCycles;
-    return ir_counts(sensor, at, lit_for, kConversionOffset + conversions_++);
+    return ir_counts(sensor, at, lit_for);
   }
   if (channel >= kMicChannel && channel < kMicChannel + kMicrophones)
-    return mic_counts(channel - kMicChannel, at, kConversionOffset + conversions_++);
+    return mic_counts(channel - kMicChannel, at);
   if (const auto counts = counts_of_others(channel, at)) return *counts;
-  if (channel >= kAccChannel) {
-    return accelerometer_counts(*this, channel - kAccChannel, at, kConversionOffset + conversions_++);
-  }
-  return -1;
+  return channel >= kAccChannel ? accelerometer_counts(*this, channel - kAccChannel, at) : -1;
 }
 
 int Board::battery_counts(Cycle at) const {
@@ -565,7 +530,7 @@ std::uint64_t Board::state_hash(Cycle at) const {
   if (films) add(camera_->state_hash());
   if (codec_.was_used()) add(codec_.state_hash());
   for (const auto& part : parts_) add(part->state_hash());
-  if (eeprom_.in_use()) add(eeprom_.state_hash());
+  if (const std::uint64_t changes = eeprom_.state_hash()) add(changes);
   add(static_cast<std::uint64_t>(scan_.interrupts(at)));
   return sim::mix64(sum);
 }

@@ -31,9 +31,9 @@
 #include "hal_sim/board/codec.h"
 #include "hal_sim/board/data_eeprom.h"
 #include "hal_sim/board/diagnosis.h"
-#include "hal_sim/board/handlers.h"
 #include "hal_sim/board/i2c_bus.h"
 #include "hal_sim/board/i2c_master.h"
+#include "hal_sim/board/noise.h"
 #include "hal_sim/board/packet_devices.h"
 #include "hal_sim/board/part.h"
 #include "hal_sim/board/remote.h"
@@ -84,7 +84,6 @@ struct Setup {
   std::array<double, 3> gyro_offset_rad_s{};  ///< added to the angular rates about these axes
   double motion_noise_scale = 1;              ///< factor on the noise of accelerometer and gyroscope
   double clock_ppm = 0;                       ///< crystal error, parts per million, positive = fast
-  bool spread_handlers = false;               ///< what handlers() take is spread evenly over the program
   double boot_delay_s = 0;                    ///< s from the world's beginning to the first instruction
   std::string name;                           ///< in the world
   sim::WebotsDesc webots;                     ///< of the world
@@ -103,6 +102,13 @@ struct IrConversion {
   double settled = 1;        ///< part of the flash that the phototransistor has followed, 0 to 1
   /// Without noise, not rounded and not held within the converter's range.
   double counts() const { return kAdcMax - light_counts - (reflection_counts + offset_counts) * settled; }
+};
+
+/// How a wheel turns: its angle, the rate per cycle, and until when; `until` not after the instant asked for:
+/// known at that instant only.
+struct WheelTurn {
+  double angle_rad = 0, rate_rad = 0;
+  Cycle until = 0;
 };
 
 /// What the converter makes of a level given in counts: rounded, 0 to 4095.
@@ -135,6 +141,8 @@ class Board {
   /// up to kRotorMoveCycles to follow a step, so constant speed gives a constant rim speed. O(1). `at` not
   /// before the last command.
   double wheel_angle_rad(Wheel wheel, Cycle at) const;
+  /// The same, how fast it grows, and until when at that rate, unless somebody commands the motor.
+  WheelTurn wheel_turn(Wheel wheel, Cycle at) const;
   /// Full steps since power-up, forward positive, not wrapped, lost steps not counted.
   std::int64_t steps(Wheel wheel, Cycle at) const;
   std::int64_t left_steps(Cycle at) const { return steps(Wheel::Left, at); }
@@ -188,12 +196,10 @@ class Board {
   const AgendaTimer& agendas() const { return agendas_; }
   TimerMotors& timer_motors() { return timer_motors_; }
   const TimerMotors& timer_motors() const { return timer_motors_; }
-  /// What the handlers of the scan and of the agenda tick take from the program.
-  Handlers handlers() const { return {scan_, agendas_}; }
-  /// Before any change to when these come or what they take.
-  void settle_handlers(Cycle at);
-  /// A handler that was run comes to its RETFIE, during which nothing interrupts.
-  void handler_left(Cycle at);
+  /// What the handlers of the scan and of the agenda tick take of each cycle, as a fraction of 2^32.
+  std::uint64_t handler_share_q32() const { return scan_.share_q32() + agendas_.share_q32(); }
+  /// The program masks these handlers from `at` on, or does no longer.
+  void mask_handlers(bool masked, Cycle at);
   AdcScan& scan() { return scan_; }
   const AdcScan& scan() const { return scan_; }
   Codec& codec() { return codec_; }
@@ -229,24 +235,24 @@ class Board {
   /// e_init_port(): latches 0, directions as the library wants them, the I2C module on. (Its cost is the
   /// caller's.)
   void init_ports(Cycle at);
+  /// Until when exchange() has nothing to do and nothing that firmware has not asked for happens; `at`: not
+  /// known.
+  Cycle quiet_until(Cycle at) const;
   /// Tick boundary: bytes from outside enter, bytes sent so far go out, old bookkeeping is dropped.
   void exchange(Cycle at);
 
   /// The same sample without noise: what a conversion is made of. `lit_for` as below.
   IrConversion ir_conversion(int sensor, Cycle at, Cycle lit_for) const;
-  /// Counts of a proximity sensor's phototransistor at `at`, its emitter having been on for `lit_for` cycles
-  /// (negative: off). Noise is drawn from `sample`, a number unique to the sample.
-  int ir_counts(int sensor, Cycle at, Cycle lit_for, std::uint64_t sample) const;
-  /// Counts of microphone 0 right, 1 left, 2 back whose sample is held at `at`: 0 to 4095. Noise is drawn
-  /// from `sample`. Linear, all frequencies alike.
-  int mic_counts(int microphone, Cycle at, std::uint64_t sample) const;
-  /// The same with the noise drawn from a sum of 64 coins, spread evenly between two results: a fifth of the
-  /// time, for processors that convert a microphone 50,000 times a second. Tails end at 8 standard
-  /// deviations.
-  int mic_counts_fast(int microphone, Cycle at, std::uint64_t sample) const;
-  /// Counts of a single conversion of input AN`channel` by a program that runs the converter itself. Each
-  /// call is a new sample; -1: nothing is known of that input.
-  int convert(int channel, Cycle at);
+  /// Counts of a proximity sensor's phototransistor that is held at `at`, its emitter having been on for
+  /// `lit_for` cycles (negative: off). Noise of this and of the other inputs: noise.h.
+  int ir_counts(int sensor, Cycle at, Cycle lit_for) const;
+  /// Counts of microphone 0 right, 1 left, 2 back that is held at `at`: 0 to 4095. Linear, all frequencies
+  /// alike.
+  int mic_counts(int microphone, Cycle at) const;
+  /// What draws the noise of this robot's samples.
+  const SampleNoise& noise() const { return noise_; }
+  /// Counts of a single conversion of input AN`channel`, held at `at`; -1: nothing is known of that input.
+  int convert(int channel, Cycle at) const;
   /// Battery as the library's raw value on AN7 (revision 1.3); 0 on others.
   int battery_counts(Cycle at) const;
   const Battery& battery() const { return battery_; }
@@ -279,15 +285,13 @@ class Board {
   int selector() const { return setup_.selector; }
 
  private:
-  Cycle next_delay(Cycle at);
   static constexpr std::size_t kPorts = 6;  // A B C D F G
   static int port_index(char port);
   /// Counts of a microphone without noise.
   double mic_level(int microphone, Cycle at) const;
   void find_sound();
-  __attribute__((noinline)) int mic_counts_in_sound(int microphone, Cycle at, std::uint64_t sample) const;
-  /// Counts of the converter, the noise of mic_counts_fast() added.
-  int with_mic_noise(double counts, int microphone, std::uint64_t sample) const;
+  __attribute__((noinline)) int mic_counts_in_sound(int microphone, Cycle at) const;
+  int with_mic_noise(double counts, int microphone, Cycle at) const;
   unsigned pulses(Cycle at) const;
   /// Cycles for which the emitter line of a sensor has been on by its latch alone; -1 when off.
   Cycle line_on_for(int sensor, Cycle at) const;
@@ -342,7 +346,6 @@ class Board {
   double beside_emitters_a_ = kProcessorA + kBluetoothA + kBoardA;  // at the last follow_power()
 
   AgendaTimer agendas_;
-  Cycle next_delay_ = -1;  // before it no handler of the scan waits for Timer 2's; below 0: unknown
   TimerMotors timer_motors_;
   AdcScan scan_;
   BasicProx basic_prox_;
@@ -356,8 +359,7 @@ class Board {
   std::vector<std::unique_ptr<Part>> parts_;
   mutable Cycle settled_for_ = -1;  // the flash's length is nearly always the same: its exponential, once
   mutable double settled_share_ = 0;
-  std::uint64_t conversions_ = 0;
-  std::uint64_t mic_noise_key_ = 0;
+  SampleNoise noise_;
   std::shared_ptr<const std::vector<std::int16_t>> on_air_;  // samples of the codec's line that the air plays
   PacketDevices packets_{clock_, setup_.robot, setup_.devices};
   VirtualDevices virtual_;

@@ -27,21 +27,6 @@ constexpr std::uint16_t kSerialOuts = 0x0028;
 constexpr std::uint16_t kEmitters[dspic::kPorts] = {0, 0, 0, 0, 0x0180, 0x0003};
 constexpr int kFirstIr = 8, kFirstMic = 2, kFirstAcc = 5;
 
-// Both ways draw the same noise for the same sample. The native way numbers the samples of the library's
-// drivers by flashes; here a conversion is one of those when it falls where they convert: so many cycles
-// after the beginning of its flash, or after the end of the last one [measured: register way, 4219 to 4891,
-// 53285 to 53475, 30305 to 30671, 52181 to 52491].
-struct Window {
-  Cycle from, to;
-  constexpr bool holds(Cycle since) const { return since >= from && since < to; }
-};
-constexpr Window kLibraryFlash{3900, 5200}, kScanDark{53000, 53800}, kBasicDark{30000, 31000},
-    kScanAcc{51900, 52800};
-
-constexpr std::uint64_t kSampleOffset = std::uint64_t{1} << 42;  // apart from the drivers' numbers
-/// A result is the same whenever it is asked for: one number per instant.
-constexpr std::uint64_t of_instant(Cycle at) { return kSampleOffset + static_cast<std::uint64_t>(at); }
-
 constexpr unsigned kUartMode[2] = {0x20C, 0x216}, kUartBrg[2] = {0x214, 0x21E};
 constexpr std::uint16_t kUartEnabled = 0x8000;
 constexpr unsigned kDciCon3 = 0x244;
@@ -83,11 +68,6 @@ void BoardOutside::end_window(dspic::Dspic30f6014a& chip, Cycle now) {
     board_.uart(n).follow_chip((chip.peek(kUartMode[n - 1], now) & kUartEnabled) != 0,
                                chip.peek(kUartBrg[n - 1], now));
   if (board_.codec().line().take_activity()) follow_codec(chip, now);
-}
-
-void BoardOutside::fill_eeprom(dspic::Dspic30f6014a& chip) const {
-  for (unsigned i = 0; i < board::DataEeprom::kWords; ++i)
-    chip.eeprom()[i] = board_.eeprom().read(board::DataEeprom::kFirst + 2 * i);
 }
 
 // --- pins ------------------------------------------------------------------------------------------------
@@ -203,44 +183,11 @@ Cycle BoardOutside::nth_edge(dspic::Pin pin, dspic::Edge edge, Cycle after, std:
 
 // --- analogue, serial ------------------------------------------------------------------------------------
 
-BoardOutside::Since BoardOutside::since_flash(Cycle at) const {
-  Since since{resets_, -1};
-  Cycle darkened = -1;
-  for (const Emitter& e : emitters_) {
-    const int changes = e.changes_by(at);
-    since.flashes += static_cast<std::uint64_t>((changes + 1) / 2);
-    darkened = std::max(darkened, e.when(changes / 2 * 2 - 1));
-  }
-  if (darkened >= 0) since.dark = at - darkened;
-  return since;
-}
-
-std::uint64_t BoardOutside::ir_sample(Cycle at, Cycle lit) const {
-  const Since since = since_flash(at);
-  if (kLibraryFlash.holds(lit)) return 2 * since.flashes + 1;
-  if (lit < 0 && (kScanDark.holds(since.dark) || kBasicDark.holds(since.dark))) return 2 * since.flashes;
-  return of_instant(at);
-}
-
-std::uint64_t BoardOutside::acc_sample(Cycle at) const {
-  const Since since = since_flash(at);
-  return kScanAcc.holds(since.dark) ? since.flashes : of_instant(at);
-}
-
 int BoardOutside::analogue_counts(int channel, Cycle at) {
-  if (channel >= kFirstMic && channel < kFirstAcc)
-    return board_.mic_counts_fast(channel - kFirstMic, at, of_instant(at));
-  return beside_microphones(channel, at);
-}
-
-int BoardOutside::beside_microphones(int channel, Cycle at) {
-  if (channel >= kFirstIr) {
-    const Cycle lit = lit_for(channel - kFirstIr, at);
-    return board_.ir_counts(channel - kFirstIr, at, lit, ir_sample(at, lit));
-  }
+  if (channel >= kFirstIr) return board_.ir_counts(channel - kFirstIr, at, lit_for(channel - kFirstIr, at));
+  if (channel >= kFirstMic && channel < kFirstAcc) return board_.mic_counts(channel - kFirstMic, at);
   if (const auto counts = board_.counts_of_others(channel, at)) return *counts;
-  return channel >= kFirstAcc ? board::accelerometer_counts(board_, channel - kFirstAcc, at, acc_sample(at))
-                              : 0;
+  return channel >= kFirstAcc ? board::accelerometer_counts(board_, channel - kFirstAcc, at) : 0;
 }
 
 void BoardOutside::uart_sent(int uart, const dspic::UartFrame& frame) {

@@ -32,13 +32,9 @@ class BoardOutside final : public dspic::Outside {
   bool begin_window(dspic::Dspic30f6014a& chip, Cycle now);
   /// The board's UARTs learn rate and switch of the chip's.
   void end_window(dspic::Dspic30f6014a& chip, Cycle now);
-  /// What the robot's maker and earlier programs left in the data EEPROM.
-  void fill_eeprom(dspic::Dspic30f6014a& chip) const;
 
   void pins_driven(dspic::Port port, std::uint16_t levels, std::uint16_t driven, std::uint16_t by_peripheral,
                    Cycle at) override;
-  /// The processor was reset: noise is drawn on with new numbers.
-  void processor_reset() { ++resets_; }
   dspic::PinLevels pin_levels(dspic::Port port, Cycle at) override;
   Cycle next_change(dspic::Port port, std::uint16_t pins, Cycle after) override;
   std::int64_t edges(dspic::Pin pin, dspic::Edge edge, Cycle after, Cycle until) override;
@@ -69,18 +65,6 @@ class BoardOutside final : public dspic::Outside {
     /// When change `n` came, from 0; -1: there was none, or it is forgotten.
     Cycle when(int n) const;
   };
-  /// What a sample of a sensor is numbered by: flashes begun before `at`, cycles since the last one ended.
-  struct Since {
-    std::uint64_t flashes = 0;
-    Cycle dark = -1;  ///< -1: none has ended
-  };
-  Since since_flash(Cycle at) const;
-  /// The noise's number of a conversion: that of the native way where the library's drivers convert, else one
-  /// of its instant. `lit` as lit_for().
-  std::uint64_t ir_sample(Cycle at, Cycle lit) const;
-  std::uint64_t acc_sample(Cycle at) const;
-  /// analogue_counts() of every channel that is no microphone's.
-  int beside_microphones(int channel, Cycle at);
   /// Cycles for which the emitter beside a sensor has been on at `at`; -1: it was off.
   Cycle lit_for(int sensor, Cycle at) const;
   void follow_emitters(dspic::Port port, Cycle at);
@@ -89,7 +73,6 @@ class BoardOutside final : public dspic::Outside {
   board::Board& board_;
   CameraPins camera_;
   std::array<Emitter, 4> emitters_;
-  std::uint64_t resets_ = 0;
   std::array<std::uint16_t, dspic::kPorts> levels_{};
   std::array<std::uint16_t, dspic::kPorts> tris_{};
   std::array<Cycle, 2> low_since_{-1, -1};  // a serial line held low by its port; -1: it is not

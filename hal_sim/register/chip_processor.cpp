@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <cstring>
 
-#include "dspic30/device/chip_parts.h"
 #include "hal_sim/host/host_params.h"
 #include "hal_sim/host/image_abi.h"
 #include "hal_sim/host/observer.h"
@@ -34,70 +33,15 @@ constexpr bool has_side_effect(unsigned address) {
 }
 constexpr unsigned kFirstWithSideEffect = 0x140, kLastWithSideEffect = 0x22B;
 
-const char* reason_of(dspic::ResetKind kind) {
-  switch (kind) {
-    case dspic::ResetKind::Watchdog:
-      return "the watchdog was not cleared in time, so it resets the processor";
-    case dspic::ResetKind::TrapConflict:
-      return "a hard trap met another one, so the processor resets";
-    default:
-      return "the processor resets";
-  }
-}
-
-/// What to do about it; empty where the message says so.
-const char* hint_for(dspic::Cause cause) {
-  using dspic::Cause;
-  switch (cause) {
-    case Cause::UnmodelledBit:
-      return "the robot may do something here that the twin does not; see docs/limits.md";
-    case Cause::UnimplementedAddress:
-      return "is the header the dsPIC30F6014A's?";
-    case Cause::UninitialisedRead:
-      return "write it first";
-    case Cause::UartOverrun:
-      return "read UxRXREG in the receive interrupt until URXDA is 0, and clear UxSTA.OERR";
-    case Cause::UartFrameError:
-      return "compare baud rate, parity and stop bits of both ends";
-    case Cause::BaudError:
-      return "UxBRG = FCY / (16 baud) - 1 with FCY = 14745600 Hz: 7 for 115200, 95 for 9600";
-    case Cause::MissedInterrupt:
-      return "make the handler shorter, raise its priority, or allow nesting (INTCON1.NSTDIS = 0)";
-    case Cause::FlagNeverCleared:
-      return "clear the flag in the handler";
-    case Cause::InputDriven:
-      return "clear the TRIS bit, or call e_init_port() first";
-    case Cause::AnalogueDigital:
-      return "clear the channel's ADPCFG bit and set its TRIS bit";
-    case Cause::DigitalAnalogue:
-      return "set the ADPCFG bit";
-    case Cause::ChangedWhileOn:
-      return "clear ADCON1.ADON first";
-    case Cause::NotUnlocked:
-      return "write the unlock sequence directly before, with interrupts off";
-    case Cause::I2cMisuse:
-      return "wait until SEN, RSEN, PEN, RCEN, ACKEN and I2CSTAT.TRSTAT are 0";
-    case Cause::CodecRate:
-      return "choose the divider N1 and multiplier M1 in the codec's registers 3 and 4 for the rate of the "
-             "DCI's frames";
-    case Cause::WatchdogReset:
-      return "call ClrWdt() in the main loop, or leave RCON.SWDTEN 0";
-    case Cause::TrapConflict:
-      return "";
-  }
-  return "";
-}
-
 }  // namespace
 
 bool wants_chip(const char* image_flags) { return image_flags && std::strstr(image_flags, "register"); }
 
-ChipProcessor::ChipProcessor(host::Robot& robot) : robot_(robot), outside_(robot.board()) {}
+ChipProcessor::ChipProcessor(host::Robot& robot) : robot_(robot), chip_(robot.board()) {}
 
 // --- life -----------------------------------------------------------------------------------------------
 
 void ChipProcessor::power_up() {
-  latest_ = 0;
   dspic::Configuration configuration;
   const tp_image& image = robot_.image();
   if (image.fosc) {
@@ -105,63 +49,17 @@ void ChipProcessor::power_up() {
     configuration.fcy_hz *= host::clock_factor(configuration.fosc);
   }
   if (image.fwdt) configuration.fwdt = *static_cast<const std::uint16_t*>(image.fwdt);
-  chip_ = std::make_unique<dspic::Dspic30f6014a>(outside_, this, configuration);
-  parts_ = &chip_->parts();
-  outside_.fill_eeprom(*chip_);
-  reset_board();
-  observe(observer_);
-  next_reset_ = dspic::ResetKind::PowerOn;
+  chip_.power_up(configuration);
+  parts_ = &chip_.parts();
 }
 
 void ChipProcessor::reset(Cycle now) {
-  chip_->reset(next_reset_, at(now));
-  next_reset_ = dspic::ResetKind::Instruction;
-  reset_board();
+  chip_.reset(now);
   watched_reads_ = 0;
 }
 
-void ChipProcessor::reset_board() {
-  robot_.board().processor_reset(latest_);
-  outside_.processor_reset();
-}
-
 void ChipProcessor::note_reset(host::ResetCause cause) {
-  if (cause == host::ResetCause::Button) next_reset_ = dspic::ResetKind::Pin;
-}
-
-void ChipProcessor::stop(Cycle now) {
-  chip_->reset(dspic::ResetKind::Pin, at(now));
-  reset_board();
-}
-
-bool ChipProcessor::begin_window(Cycle now) { return outside_.begin_window(*chip_, at(now)); }
-
-void ChipProcessor::end_window(Cycle now) {
-  chip_->run_to(at(now));
-  outside_.end_window(*chip_, latest_);
-}
-
-void ChipProcessor::remote_changed(Cycle now) { chip_->outside_changed(at(now)); }
-
-void ChipProcessor::report(const dspic::Diagnosis& d) { diagnoses_.push_back(d); }
-
-std::vector<board::Diagnosis> ChipProcessor::diagnoses() const {
-  std::vector<board::Diagnosis> all;
-  for (const dspic::Diagnosis& d : diagnoses_) {
-    board::Diagnosis one{dspic::cause_name(d.cause), d.place, d.message, hint_for(d.cause), d.cycle};
-    one.count = count_of(d);
-    all.push_back(std::move(one));
-  }
-  return all;
-}
-
-// some causes are counted elsewhere, each time; the report comes once
-std::int64_t ChipProcessor::count_of(const dspic::Diagnosis& d) const {
-  if (d.cause == dspic::Cause::MissedInterrupt)
-    for (int v = dspic::kFirstIrqVector; v < dspic::kVectors; ++v)
-      if (d.place == dspic::vector_name(v)) return chip_->missed_interrupts(v);
-  if (d.cause == dspic::Cause::UartOverrun) return chip_->uart_overruns(d.place[1] - '0');
-  return chip_->diagnostics().count(d.cause, d.place);
+  if (cause == host::ResetCause::Button) chip_.note_reset(dspic::ResetKind::Pin);
 }
 
 // --- registers ------------------------------------------------------------------------------------------
@@ -184,14 +82,14 @@ std::uint16_t ChipProcessor::read_other(unsigned address, unsigned bits, Cycle t
 }
 
 std::uint16_t ChipProcessor::read_closely(unsigned address, unsigned bits, Cycle t) {
-  const std::uint16_t value = chip_->read(address, bits, t);
+  const std::uint16_t value = device().read(address, bits, t);
   if (has_side_effect(address)) {
     robot_.note_write();
     robot_.changed();
   }
   if (watched_reads_ > 0) {
     --watched_reads_;
-    robot_.lower_horizon(chip_->horizon(address, t));
+    robot_.lower_horizon(device().horizon(address, t));
   } else {
     robot_.lower_horizon(t);
   }
@@ -200,8 +98,9 @@ std::uint16_t ChipProcessor::read_closely(unsigned address, unsigned bits, Cycle
 
 inline void ChipProcessor::wrote(Cycle calm) {
   robot_.note_write();
-  robot_.calm_until(calm, latest_);
-  if (const Cycle stalled = parts_->nvm.stalled_until(); stalled > latest_) robot_.spend(stalled - latest_);
+  const Cycle t = chip_.latest();
+  robot_.calm_until(calm, t);
+  if (const Cycle stalled = parts_->nvm.stalled_until(); stalled > t) robot_.spend(stalled - t);
 }
 
 void ChipProcessor::write(unsigned address, std::uint16_t value, unsigned bits, Cycle now) {
@@ -225,25 +124,22 @@ void ChipProcessor::modify_other(unsigned address, std::uint16_t keep, std::uint
 }
 
 std::uint16_t ChipProcessor::table_read(unsigned program_address, Cycle now) {
-  return chip_->table_read(program_address, at(now));
+  return device().table_read(program_address, at(now));
 }
 
 void ChipProcessor::table_write(unsigned program_address, std::uint16_t value, Cycle now) {
-  chip_->table_write(program_address, value, at(now));
+  device().table_write(program_address, value, at(now));
   robot_.note_write();
 }
 
 // XC16's write(): UART 1 is switched on if nobody has done so, and every character waits for room
 bool ChipProcessor::print(const char* bytes, std::int64_t length, int uart) {
   const unsigned mode = uart == 2 ? kU2Mode : kU1Mode, sta = mode + 2, tx_reg = mode + 4;
-  const auto poll = [this](unsigned address) {
-    Cycle t = at(robot_.now());
-    return chip_->peek(address, t);
-  };
+  const auto poll = [this](unsigned address) { return device().peek(address, at(robot_.now())); };
   if (!(poll(mode) & kUartEnabled)) write(mode, kUartEnabled, 16, robot_.now());
   if (!(poll(sta) & kTransmitEnabled)) write(sta, poll(sta) | kTransmitEnabled, 16, robot_.now());
   for (std::int64_t i = 0; i < length; ++i) {
-    while (poll(sta) & kBufferFull) robot_.wait_until(chip_->horizon(sta, latest_));
+    while (poll(sta) & kBufferFull) robot_.wait_until(device().horizon(sta, chip_.latest()));
     write(tx_reg, static_cast<std::uint8_t>(bytes[i]), 16, robot_.now());
   }
   return true;
@@ -257,7 +153,7 @@ __attribute__((always_inline)) inline host::Processor::Outlook ChipProcessor::ou
     const dspic::Outlook& chip) {
   Outlook outlook{host::kNoVector, chip.level > 0 || chip.disi, chip.quiet_until};
   if (chip.reset_due) {
-    note_reset_due();
+    why_reset_ = chip_.note_reset_due();
     outlook.vector = host::kResetDue;
   } else if (chip.vector >= dspic::kFirstIrqVector) {
     outlook.vector = chip.vector - dspic::kFirstIrqVector;
@@ -265,11 +161,6 @@ __attribute__((always_inline)) inline host::Processor::Outlook ChipProcessor::ou
     outlook.vector = host::kTrapVector + chip.vector - 1;
   }
   return outlook;
-}
-
-void ChipProcessor::note_reset_due() {
-  next_reset_ = *chip_->reset_due(latest_);
-  why_reset_ = reason_of(next_reset_);
 }
 
 host::Processor::Outlook ChipProcessor::take(Cycle now, Entry& entry) {
@@ -310,39 +201,29 @@ host::Processor::Return ChipProcessor::leave(Cycle now) {
 }
 
 host::Processor::Waiting ChipProcessor::longest_waiting(Cycle now) {
-  const Cycle t = at(now);
-  if (chip_->cpu_level() == 0 && !chip_->disi_active(t)) return {};
-  Waiting oldest;
-  for (int v = dspic::kFirstIrqVector; v < dspic::kVectors; ++v) {
-    if (!chip_->is_enabled(v) || chip_->priority(v) == 0 || !chip_->has_flag(v, t)) continue;
-    const bool held =
-        chip_->priority(v) <= chip_->cpu_level() || (chip_->disi_active(t) && chip_->priority(v) < 7);
-    const Cycle since = chip_->flag_since(v);
-    if (held && (oldest.vector < 0 || since < oldest.since)) oldest = {v - dspic::kFirstIrqVector, since};
-  }
-  return oldest;
+  const chip::SolderedChip::Waiting oldest = chip_.longest_waiting(now);
+  if (oldest.vector == dspic::kNoVector) return {};
+  return {oldest.vector - dspic::kFirstIrqVector, oldest.since};
 }
-
-bool ChipProcessor::wakes(Cycle now) { return chip_->wakes(at(now)); }
 
 // --- observers ------------------------------------------------------------------------------------------
 
 // at the observer's own instants, which may lie before the latest of the program
 bool ChipProcessor::flag(int vector, Cycle at) {
-  return chip_->has_flag(vector + dspic::kFirstIrqVector, at);
+  return device().has_flag(vector + dspic::kFirstIrqVector, at);
 }
 
 Cycle ChipProcessor::next_flag(int vector, Cycle at) {
-  return chip_->horizon(kIfs0 + 2 * static_cast<unsigned>(vector / 16), at);
+  return device().horizon(kIfs0 + 2 * static_cast<unsigned>(vector / 16), at);
 }
 
 Cycle ChipProcessor::flag_since(int vector) {
-  return vector >= host::kTrapVector ? -1 : chip_->flag_since(vector + dspic::kFirstIrqVector);
+  return vector >= host::kTrapVector ? -1 : device().flag_since(vector + dspic::kFirstIrqVector);
 }
 
 void ChipProcessor::observe(host::Observer* observer) {
   observer_ = observer;
-  chip_->watch(observer ? this : nullptr);
+  chip_.watch(observer ? this : nullptr);
 }
 
 void ChipProcessor::about_to_change(Cycle at) { observer_->about_to_change(at); }

@@ -2,7 +2,7 @@
 // The register way's processor: every register access and every interrupt of a compiled program goes to the
 // models of the dsPIC30F6014A, on the same board and world as the native way.
 //
-//   compiled C --tp_sfr_read/write--> ChipProcessor --> Dspic30f6014a <--> chip::BoardOutside --> Board
+//   compiled C --tp_sfr_read/write--> ChipProcessor --> chip::SolderedChip --> Board
 //
 // Time is the Robot's: estimated costs of blocks, plus what the chip adds (interrupt entry and RETFIE). A
 // loop that polls registers is jumped over to the chip's horizon of what it has read.
@@ -13,9 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "dspic30/device/dspic30f6014a.h"
-#include "dspic30/periph/events.h"
-#include "hal_sim/chip/board_outside.h"
+#include "hal_sim/chip/soldered_chip.h"
 #include "hal_sim/host/processor.h"
 #include "hal_sim/host/robot.h"
 
@@ -26,7 +24,7 @@ using host::Cycle;
 /// Does an image of these flags (tp_image.flags) want this processor?
 bool wants_chip(const char* image_flags);
 
-class ChipProcessor final : public host::Processor, public dspic::DiagnosticSink, private dspic::EventWatch {
+class ChipProcessor final : public host::Processor, private dspic::EventWatch {
  public:
   /// `robot` owns this.
   explicit ChipProcessor(host::Robot& robot);
@@ -35,10 +33,10 @@ class ChipProcessor final : public host::Processor, public dspic::DiagnosticSink
   void power_up() override;
   void reset(Cycle now) override;
   void note_reset(host::ResetCause cause) override;
-  void stop(Cycle now) override;
-  bool begin_window(Cycle now) override;
-  void end_window(Cycle now) override;
-  void remote_changed(Cycle now) override;
+  void stop(Cycle now) override { chip_.stop(now); }
+  bool begin_window(Cycle now) override { return chip_.begin_window(now); }
+  void end_window(Cycle now) override { chip_.end_window(now); }
+  void remote_changed(Cycle now) override { device().outside_changed(at(now)); }
 
   std::uint16_t read(unsigned address, unsigned bits, Cycle now) override;
   void write(unsigned address, std::uint16_t value, unsigned bits, Cycle now) override;
@@ -53,28 +51,25 @@ class ChipProcessor final : public host::Processor, public dspic::DiagnosticSink
   const char* why_reset() const override { return why_reset_; }
   Entry enter(int vector, Cycle now) override;
   Return leave(Cycle now) override;
-  int cpu_level() const override { return chip_->cpu_level(); }
-  void set_cpu_level(int level, Cycle now) override { chip_->set_cpu_level(level, at(now)); }
+  int cpu_level() const override { return chip_.device().cpu_level(); }
+  void set_cpu_level(int level, Cycle now) override { device().set_cpu_level(level, at(now)); }
   Waiting longest_waiting(Cycle now) override;
 
-  void disi(Cycle cycles, Cycle now) override { chip_->disi(static_cast<unsigned>(cycles), at(now)); }
-  void clear_watchdog(Cycle now) override { chip_->clear_watchdog(at(now)); }
-  void power_save(bool sleep, Cycle now) override { chip_->power_save(sleep, at(now)); }
-  bool wakes(Cycle now) override;
+  void disi(Cycle cycles, Cycle now) override { device().disi(static_cast<unsigned>(cycles), at(now)); }
+  void clear_watchdog(Cycle now) override { device().clear_watchdog(at(now)); }
+  void power_save(bool sleep, Cycle now) override { device().power_save(sleep, at(now)); }
+  bool wakes(Cycle now) override { return device().wakes(at(now)); }
 
   bool flag(int vector, Cycle at) override;
   Cycle next_flag(int vector, Cycle at) override;
   Cycle flag_since(int vector) override;
   void observe(host::Observer* observer) override;
 
-  std::uint64_t state_hash(Cycle now) override { return chip_->state_hash(at(now)); }
-  dspic::Dspic30f6014a* chip() override { return chip_.get(); }
-  std::vector<board::Diagnosis> diagnoses() const override;
-  void report(const dspic::Diagnosis& diagnosis) override;
+  std::uint64_t state_hash(Cycle now) override { return device().state_hash(at(now)); }
+  dspic::Dspic30f6014a* chip() override { return &device(); }
+  std::vector<board::Diagnosis> diagnoses() const override { return chip_.diagnoses(); }
 
  private:
-  void reset_board();
-  std::int64_t count_of(const dspic::Diagnosis& diagnosis) const;
   void about_to_change(Cycle at) override;
 
   /// read() of a register that a read changes, or within a loop that waits.
@@ -85,7 +80,6 @@ class ChipProcessor final : public host::Processor, public dspic::DiagnosticSink
   __attribute__((noinline)) std::uint16_t read_other(unsigned address, unsigned bits, Cycle t);
   __attribute__((noinline)) void modify_other(unsigned address, std::uint16_t keep, std::uint16_t flip,
                                               Cycle t);
-  __attribute__((noinline)) void note_reset_due();
   __attribute__((noinline)) Outlook take_in_general(Cycle t, Entry& entry);
   static bool may_change_it(unsigned address);
   Outlook outlook_of(const dspic::Outlook& chip);
@@ -93,22 +87,15 @@ class ChipProcessor final : public host::Processor, public dspic::DiagnosticSink
   /// A write has happened at latest_; `calm`: what the chip said of it.
   void wrote(Cycle calm);
 
-  /// The chip's clock never goes back, whatever the caller's instant.
-  Cycle at(Cycle now) {
-    if (now > latest_) latest_ = now;
-    return latest_;
-  }
+  Cycle at(Cycle now) { return chip_.at(now); }
+  dspic::Dspic30f6014a& device() { return chip_.device(); }
 
   host::Robot& robot_;
-  chip::BoardOutside outside_;
-  std::unique_ptr<dspic::Dspic30f6014a> chip_;
+  chip::SolderedChip chip_;
   dspic::ChipParts* parts_ = nullptr;  // of chip_
-  dspic::ResetKind next_reset_ = dspic::ResetKind::PowerOn;
   const char* why_reset_ = "";
-  Cycle latest_ = 0;
   host::Observer* observer_ = nullptr;
   int watched_reads_ = 0;
-  std::vector<dspic::Diagnosis> diagnoses_;
 };
 
 }  // namespace register_way

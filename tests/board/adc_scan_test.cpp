@@ -67,7 +67,7 @@ class TickedScan {
     for (int half = 0; half < 2; ++half) {
       const Cycle when = at - (half ? scan_times::kFifth : scan_times::kFourth);
       const int sensor = pair_ + 4 * half;
-      into[sensor] = robot_.ir_counts(sensor, when, lit_at < 0 ? -1 : when - lit_at, 0);
+      into[sensor] = robot_.ir_counts(sensor, when, lit_at < 0 ? -1 : when - lit_at);
     }
   }
   const Board& robot_;
@@ -103,8 +103,7 @@ TEST_P(Scan, closed_form_equals_the_ticked_interrupt) {
   robot.scan().start(false, five, start);
   reader.scan().start(false, five, start);
   std::mt19937 random(7);
-  for (const scan_times::Call& call : scan_times::calls(start, 3000)) {
-    const Cycle at = call.at;
+  for (const Cycle at : scan_times::calls(start, 3000)) {
     // just before the interrupt nothing has changed yet
     expect_equal(robot, want, at - 1);
     if (HasFatalFailure()) return;
@@ -139,14 +138,12 @@ TEST(AdcScan, survives_stops_and_starts_in_the_middle_of_anything) {
   TickedScan want(robot, false);
   std::mt19937 random(11);
   Cycle now = 100;
-  int slot = 0;
   robot.scan().start(false, false, now);
   for (int round = 0; round < 300; ++round) {
     // some frames, and a part of one that is lost
     now += 15;
     for (auto frames = random() % 90; frames > 0; --frames) {
-      now += scan_times::frame_of(slot);
-      slot = (slot + 1) % 65;
+      now += kFrame;
       want.interrupt(now);
     }
     const auto part = static_cast<Cycle>(random() % 870);
@@ -166,6 +163,37 @@ TEST(AdcScan, survives_stops_and_starts_in_the_middle_of_anything) {
   }
 }
 
+// a handler that is held off files the newest frame when it comes, and the frames before are lost
+TEST(AdcScan, frames_that_come_while_the_handler_is_masked_are_lost_but_the_newest) {
+  sim::Scene scene;
+  make_telling(scene);
+  Board robot{board::Setup{}};
+  robot.look_at(&scene);
+  TickedScan want(robot, false);
+  std::mt19937 random(5);
+  robot.scan().start(false, false, 0);
+  Cycle call = 15, now = 0;
+  for (int round = 0; round < 400; ++round) {
+    for (auto frames = random() % 70; frames > 0; --frames) want.interrupt(call += kFrame);
+    now = call + kSettled + static_cast<Cycle>(random() % (kFrame - kSettled));
+    expect_equal(robot, want, now);
+    if (HasFatalFailure()) return;
+    const Cycle held = now;
+    robot.scan().hold(held);
+    robot.scan().hold(held + 10);  // masked twice: still since then
+    now += static_cast<Cycle>(random() % 4000);
+    expect_equal(robot, want, now);
+    robot.scan().release(now);
+    Cycle newest = call;
+    while (newest + kFrame <= now) newest += kFrame;
+    if (newest > call) want.interrupt(newest);
+    call = newest;
+    now = std::max(now, call + kSettled);
+    expect_equal(robot, want, now);
+    if (HasFatalFailure()) return;
+  }
+}
+
 // 16384 Hz / 65 / 4: every sensor 63 times a second
 TEST(AdcScan, refreshes_each_sensor_63_times_a_second) {
   Board robot{board::Setup{}};
@@ -180,16 +208,16 @@ TEST(AdcScan, refreshes_each_sensor_63_times_a_second) {
   }
 }
 
-// a flash lasts 5 interrupts and the stops of the converter between them: 4720 cycles; its samples are taken
-// 349 and 169 cycles before the end of the last. They are filed 117 cycles after it.
+// a flash lasts 5 interrupts, 4500 cycles; its samples are taken 349 and 169 cycles before the end of the last. They are
+// filed 117 cycles after it.
 TEST(AdcScan, flash_and_sample_instants) {
   sim::Scene scene;
   Board robot{board::Setup{}};
   robot.look_at(&scene);
   robot.scan().start(false, false, 0);
   const auto calls = scan_times::calls(0, 70);
-  const Cycle on = calls[63].at + kLight, end = calls[68].at, off = end + kLight;  // the second pair's LED
-  EXPECT_EQ(off - on, 4720);
+  const Cycle on = calls[63] + kLight, end = calls[68], off = end + kLight;  // the second pair's LED
+  EXPECT_EQ(off - on, 4500);
   EXPECT_EQ(robot.scan().pulses(on - 1), 0u);
   EXPECT_EQ(robot.scan().pulses(on), 2u);
   EXPECT_EQ(robot.scan().pulses(off - 1), 2u);
@@ -279,19 +307,19 @@ TEST(IrCircuit, more_light_gives_lower_counts_and_the_ends_clamp) {
   setup.ir_gain[2] = 1.5;
   setup.ir_offset_counts[2] = 7;
   Board robot(setup);
-  EXPECT_EQ(robot.ir_counts(0, 0, -1, 0), 4095);  // darkness without a world
+  EXPECT_EQ(robot.ir_counts(0, 0, -1), 4095);  // darkness without a world
   robot.look_at(&scene);
   scene.irradiance_w_m2 = 1.0;
-  EXPECT_EQ(robot.ir_counts(0, 0, -1, 0), 4095 - 400);
+  EXPECT_EQ(robot.ir_counts(0, 0, -1), 4095 - 400);
   scene.irradiance_w_m2 = 100;
-  EXPECT_EQ(robot.ir_counts(0, 0, -1, 0), 0);
+  EXPECT_EQ(robot.ir_counts(0, 0, -1), 0);
   scene.irradiance_w_m2 = 0;
   scene.reflection = [](int, sim::Clicks) { return 1000.0; };
-  EXPECT_EQ(robot.ir_counts(2, 0, 1'000'000, 0), 4095 - 1507);
+  EXPECT_EQ(robot.ir_counts(2, 0, 1'000'000), 4095 - 1507);
   // a flash of 1 us has hardly begun to act
-  EXPECT_GT(robot.ir_counts(2, 0, 15, 0), 4095 - 100);
+  EXPECT_GT(robot.ir_counts(2, 0, 15), 4095 - 100);
   scene.reflection = [](int, sim::Clicks) { return 5000.0; };
-  EXPECT_EQ(robot.ir_counts(2, 0, 1'000'000, 0), 0);
+  EXPECT_EQ(robot.ir_counts(2, 0, 1'000'000), 0);
 }
 
 TEST(IrCircuit, uniform_noise_fills_its_half_width_and_no_more) {
@@ -305,7 +333,7 @@ TEST(IrCircuit, uniform_noise_fills_its_half_width_and_no_more) {
   double sum = 0, squares = 0, least = 4095, most = 0;
   constexpr int kCount = 4000;
   for (int i = 0; i < kCount; ++i) {
-    const double reading = 4095 - robot.ir_counts(0, 0, 1'000'000, static_cast<std::uint64_t>(i));
+    const double reading = 4095 - robot.ir_counts(0, i * board::kSlowNoiseQuantum, 1'000'000);
     sum += reading, squares += reading * reading;
     least = std::min(least, reading), most = std::max(most, reading);
   }
@@ -344,7 +372,7 @@ TEST(IrCircuit, a_conversion_taken_apart_adds_up_to_its_counts) {
   // one time constant: 63.2 % of it
   EXPECT_NEAR(robot.ir_conversion(3, 0, board::kIrSettleCycles).counts(), 4095 - 200 - 0.6321 * 1210, 0.5);
   scene.relative_noise = 0;
-  EXPECT_EQ(robot.ir_counts(3, 0, flash, 7), board::adc_counts(lit.counts()));
+  EXPECT_EQ(robot.ir_counts(3, 0, flash), board::adc_counts(lit.counts()));
 }
 
 // --- basic driver ----------------------------------------------------------------------------------------
@@ -379,9 +407,9 @@ TEST(BasicProx, closed_form_equals_the_ticked_state_machine) {
       const int s = pair + 4 * half;
       const Cycle when = at + 24 + 320 + half * 470;
       if (lit_phase)
-        reflected[s] = dark[s] - robot.ir_counts(s, when, when - lit_at, 0);
+        reflected[s] = dark[s] - robot.ir_counts(s, when, when - lit_at);
       else
-        dark[s] = robot.ir_counts(s, when, -1, 0);
+        dark[s] = robot.ir_counts(s, when, -1);
     }
     if (!lit_phase) lit_at = at + 24 + 940;
     if (lit_phase) pair = (pair + 1) % 4;

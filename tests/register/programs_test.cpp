@@ -202,6 +202,63 @@ int main(void)
   expect_no_traps();
 }
 
+// noise belongs to the sample's instant: nothing here looks like a driver of the library
+TEST_F(RegisterTest, a_driver_of_the_programs_own_finds_as_much_noise_as_the_world_has) {
+  Robot& robot = add_robot_with_source(program(R"(
+#define SAMPLES 400
+int reflected[SAMPLES], forward[SAMPLES], right[SAMPLES], taken;
+static int convert(int channel)
+{
+  ADCHS = channel;
+  ADCON1bits.SAMP = 1;
+  { int i; for (i = 0; i < 40; i++) Nop(); }
+  ADCON1bits.SAMP = 0;
+  while (!ADCON1bits.DONE);
+  return ADCBUF0;
+}
+int main(void)
+{
+  pulse_IR0_dir = OUTPUT_PIN;
+  pulse_IR0 = 0;
+  ADPCFG = 0;
+  ADCON1 = 0;
+  ADCON2 = 0;
+  ADCON3 = 9;
+  ADCSSL = 0;
+  ADCON1bits.ADON = 1;
+  while (taken < SAMPLES) {
+    int i, dark = convert(IR0);
+    pulse_IR0 = 1;
+    for (i = 0; i < 600; i++) Nop();
+    reflected[taken] = dark - convert(IR0);
+    pulse_IR0 = 0;
+    forward[taken] = convert(ACCY);
+    right[taken] = convert(MIC1);
+    taken++;
+    for (i = 0; i < 2000; i++) Nop();
+  }
+  while (1);
+}
+)"));
+  wall(0.07, -0.3, 0.07, 0.3);
+  world.proximity.noise_scale.reset();  // the profile's own
+  run_for(1);
+  ASSERT_EQ(robot.variable("taken"), 400);
+  const auto spread = [&](const char* name) {
+    double sum = 0, squares = 0;
+    for (const int x : robot.variables<std::int16_t>(name, 400)) sum += x, squares += 1.0 * x * x;
+    return std::sqrt(squares / 400 - sum / 400 * sum / 400);
+  };
+  // a standard deviation of 400 samples is known within 3.5 %; rounding and the converter add a little
+  const board::Board& board = twin().mind(0).robot()->board();
+  const board::IrConversion lit = board.ir_conversion(0, board::kFcyHz, 100'000);
+  const double expected = lit.reflection_counts * lit.relative_noise;
+  ASSERT_GT(expected, 4);
+  EXPECT_NEAR(spread("reflected"), expected, 0.15 * expected);
+  EXPECT_NEAR(spread("forward"), 6.3, 1.0);  // 350 ug/rtHz over pi/2 * 350 Hz, in counts
+  EXPECT_NEAR(spread("right"), std::hypot(board::kMicNoiseCounts, std::sqrt(1.0 / 12)), 0.3);
+}
+
 TEST_F(RegisterTest, scan_with_handler_fills_all_channels_at_its_rate) {
   // 16 inputs, TAD 4.5 cycles, SAMC 1: (1 + 14) x 4.5 x 16 = 1080 cycles an interrupt
   Robot& robot = add_robot_with_source(program(R"(

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// Noise of the converter's samples: what it follows from, for every way of running a program.
+//
+// Time is cut into quanta, and a sample's noise is a function of seed, robot, sensor, lamp (dark or lit) and
+// the number of the quantum in which the converter holds the input. Nobody counts samples. So it does not
+// matter who looks, how often and in what order; a program that drives the converter by itself finds the same
+// noise as the library's drivers; and two ways of running a program, whose samples lie some hundred cycles
+// apart, draw the same noise unless a quantum happens to end between the two.
+//
+// Modelled: noise that is independent from one quantum to the next. Not modelled: any change of it within a
+// quantum, so a mean over one quantum is no better than a single sample.
+#pragma once
+#include <cstdint>
+
+#include "hal_sim/board/epuck_params.h"
+#include "sim_core/base/hash.h"
+#include "sim_core/random/counter_random.h"
+
+namespace board {
+
+/// Quantum of phototransistors and accelerometer, 1.1 ms. Shorter than the time between two samples of one
+/// sensor in any of the library's drivers (9.8 ms and more), whose noise is therefore independent. Long beside
+/// the distance of equal samples in the native and in the register way, 200 to 4,000 cycles in the first two
+/// seconds: six samples in seven have the same noise in both.
+inline constexpr Cycle kSlowNoiseQuantum = 16384;  // [assumed: see above]
+/// Quantum of microphones. Shorter than any conversion (14 TAD of at least 334 ns, 69 cycles), so no two
+/// samples of a recording share their noise; the library's lie 450 or 900 cycles apart. Between the ways it
+/// differs.
+inline constexpr Cycle kMicNoiseQuantum = 64;  // [assumed: see above]
+
+/// What draws: a first number, to which the sensor's own (0 to 7) is added.
+enum class NoiseOf : std::uint32_t {
+  AmbientDark = 0,
+  AmbientLit = 8,
+  Reflection = 16,
+  Microphone = 24,
+  Accelerometer = 28,
+};
+
+class SampleNoise {
+ public:
+  SampleNoise(std::uint64_t seed, int robot)
+      : key_(sim::mix64(sim::mix64(seed) ^ (static_cast<std::uint64_t>(robot) << 32 | sim::kStreamBoard))) {}
+
+  /// Nearly normal, mean 0, standard deviation 1: the number of heads among 64 coins, spread evenly between
+  /// two numbers. Nothing lies beyond 8.2. A fifth of the time that an exact normal number takes.
+  __attribute__((always_inline)) double normal(NoiseOf what, int sensor, Cycle at) const {
+    const std::uint64_t coins = bits(what, sensor, at);
+    std::uint64_t ones = coins - ((coins >> 1) & 0x5555555555555555u);
+    ones = (ones & 0x3333333333333333u) + ((ones >> 2) & 0x3333333333333333u);
+    ones = ((ones + (ones >> 4)) & 0x0F0F0F0F0F0F0F0Fu) * 0x0101010101010101u >> 56;
+    // heads in the upper bits, the even spread in the lower 24: an integer, so nothing is rounded
+    const auto level = static_cast<std::int64_t>(ones << 24 | coins * 0x9E3779B97F4A7C15u >> 40);
+    return kPerHead * (static_cast<double>(level) * 0x1p-24 - 32.5);
+  }
+  /// Uniform in [-1, 1).
+  double uniform(NoiseOf what, int sensor, Cycle at) const {
+    return static_cast<double>(bits(what, sensor, at) >> 11) * 0x1p-52 - 1;
+  }
+
+ private:
+  static constexpr double kPerHead = 0.249351;  // 1 / sqrt(64 / 4 + 1 / 12)
+
+  std::uint64_t bits(NoiseOf what, int sensor, Cycle at) const {
+    const Cycle quantum = what == NoiseOf::Microphone ? kMicNoiseQuantum : kSlowNoiseQuantum;
+    const std::uint64_t who = static_cast<std::uint32_t>(what) + static_cast<std::uint32_t>(sensor);
+    return sim::mix64(key_ ^
+                      (static_cast<std::uint64_t>(at) / static_cast<std::uint64_t>(quantum) << 5 | who));
+  }
+
+  std::uint64_t key_;
+};
+
+}  // namespace board

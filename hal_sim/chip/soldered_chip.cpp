@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include "hal_sim/chip/soldered_chip.h"
+
+namespace chip {
+
+namespace {
+
+const char* reason_of(dspic::ResetKind kind) {
+  switch (kind) {
+    case dspic::ResetKind::Watchdog:
+      return "the watchdog was not cleared in time, so it resets the processor";
+    case dspic::ResetKind::TrapConflict:
+      return "a hard trap met another one, so the processor resets";
+    default:
+      return "the processor resets";
+  }
+}
+
+/// What to do about it; empty where the message says so.
+const char* hint_for(dspic::Cause cause) {
+  using dspic::Cause;
+  switch (cause) {
+    case Cause::UnmodelledBit:
+      return "the robot may do something here that the twin does not; see docs/limits.md";
+    case Cause::UnimplementedAddress:
+      return "is the header the dsPIC30F6014A's?";
+    case Cause::UninitialisedRead:
+      return "write it first";
+    case Cause::UartOverrun:
+      return "read UxRXREG in the receive interrupt until URXDA is 0, and clear UxSTA.OERR";
+    case Cause::UartFrameError:
+      return "compare baud rate, parity and stop bits of both ends";
+    case Cause::BaudError:
+      return "UxBRG = FCY / (16 baud) - 1 with FCY = 14745600 Hz: 7 for 115200, 95 for 9600";
+    case Cause::MissedInterrupt:
+      return "make the handler shorter, raise its priority, or allow nesting (INTCON1.NSTDIS = 0)";
+    case Cause::FlagNeverCleared:
+      return "clear the flag in the handler";
+    case Cause::InputDriven:
+      return "clear the TRIS bit, or call e_init_port() first";
+    case Cause::AnalogueDigital:
+      return "clear the channel's ADPCFG bit and set its TRIS bit";
+    case Cause::DigitalAnalogue:
+      return "set the ADPCFG bit";
+    case Cause::ChangedWhileOn:
+      return "clear ADCON1.ADON first";
+    case Cause::NotUnlocked:
+      return "write the unlock sequence directly before, with interrupts off";
+    case Cause::I2cMisuse:
+      return "wait until SEN, RSEN, PEN, RCEN, ACKEN and I2CSTAT.TRSTAT are 0";
+    case Cause::CodecRate:
+      return "choose the divider N1 and multiplier M1 in the codec's registers 3 and 4 for the rate of the "
+             "DCI's frames";
+    case Cause::WatchdogReset:
+      return "call ClrWdt() in the main loop, or leave RCON.SWDTEN 0";
+    case Cause::TrapConflict:
+      return "";
+  }
+  return "";
+}
+
+}  // namespace
+
+// --- life -----------------------------------------------------------------------------------------------
+
+void SolderedChip::power_up(dspic::Configuration configuration) {
+  latest_ = 0;
+  configuration.eeprom = &board_.eeprom().words();
+  dspic::DiagnosticSink* sink = this;
+  device_ = std::make_unique<dspic::Dspic30f6014a>(outside_, sink, configuration);
+  parts_ = &device_->parts();
+  device_->watch(watch_);
+  board_.processor_reset(latest_);
+  next_reset_ = dspic::ResetKind::PowerOn;
+}
+
+void SolderedChip::reset(Cycle now) {
+  device_->reset(next_reset_, at(now));
+  next_reset_ = dspic::ResetKind::Instruction;
+  board_.processor_reset(latest_);
+}
+
+const char* SolderedChip::note_reset_due() {
+  next_reset_ = *device_->reset_due(latest_);
+  return reason_of(next_reset_);
+}
+
+void SolderedChip::stop(Cycle now) {
+  device_->reset(dspic::ResetKind::Pin, at(now));
+  board_.processor_reset(latest_);
+}
+
+void SolderedChip::end_window(Cycle now) {
+  device_->run_to(at(now));
+  outside_.end_window(*device_, latest_);
+}
+
+void SolderedChip::watch(dspic::EventWatch* watch) {
+  watch_ = watch;
+  device_->watch(watch);
+}
+
+SolderedChip::Waiting SolderedChip::longest_waiting(Cycle now) {
+  const Cycle t = at(now);
+  const bool disi = device_->disi_active(t);
+  if (device_->cpu_level() == 0 && !disi) return {};
+  Waiting oldest;
+  for (int v = dspic::kFirstIrqVector; v < dspic::kVectors; ++v) {
+    const int priority = device_->priority(v);
+    if (!device_->is_enabled(v) || priority == 0 || !device_->has_flag(v, t)) continue;
+    const Cycle since = device_->flag_since(v);
+    if ((priority <= device_->cpu_level() || (disi && priority < 7)) &&
+        (oldest.vector == dspic::kNoVector || since < oldest.since))
+      oldest = {v, since};
+  }
+  return oldest;
+}
+
+// --- diagnoses ------------------------------------------------------------------------------------------
+
+std::vector<board::Diagnosis> SolderedChip::diagnoses() const {
+  std::vector<board::Diagnosis> all;
+  for (const dspic::Diagnosis& d : diagnoses_) {
+    board::Diagnosis one{dspic::cause_name(d.cause), d.place, d.message, hint_for(d.cause), d.cycle};
+    one.count = count_of(d);
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
+// some causes are counted elsewhere, each time; the report comes once
+std::int64_t SolderedChip::count_of(const dspic::Diagnosis& d) const {
+  if (d.cause == dspic::Cause::MissedInterrupt)
+    for (int v = dspic::kFirstIrqVector; v < dspic::kVectors; ++v)
+      if (d.place == dspic::vector_name(v)) return device_->missed_interrupts(v);
+  if (d.cause == dspic::Cause::UartOverrun) return device_->uart_overruns(d.place[1] - '0');
+  return device_->diagnostics().count(d.cause, d.place);
+}
+
+}  // namespace chip

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// The dsPIC30F6014A of one robot, soldered in: the models of the chip, their pins on the board, resets with
+// their causes, data EEPROM, and what the chip has to say about a program. Whoever runs programs on it, one
+// compiled for the PC or an image of the chip, gives it time and instructions.
+//
+//   runner --registers, interrupts, instants--> SolderedChip: Dspic30f6014a <--> BoardOutside <--> Board
+//
+// Its clock never goes back: at() moves an instant of the caller's to the latest one seen, since a runner
+// that estimates may ask twice for nearly the same cycle. Modelled: everything dspic30/ models. The processor
+// core is the runner's.
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "dspic30/device/chip_parts.h"
+#include "hal_sim/chip/board_outside.h"
+
+namespace chip {
+
+class SolderedChip final : private dspic::DiagnosticSink {
+ public:
+  /// `board` outlives this. There is no device before power_up().
+  explicit SolderedChip(board::Board& board) : board_(board), outside_(board) {}
+
+  // --- life
+  /// A new device at cycle 0. `configuration`: the program's words; the EEPROM is the board's.
+  void power_up(dspic::Configuration configuration);
+  /// Chip and board: registers and pins to their reset values, for the cause noted last; without one for an
+  /// instruction.
+  void reset(Cycle now);
+  void note_reset(dspic::ResetKind cause) { next_reset_ = cause; }
+  /// The chip wants a reset (look() said reset_due): its cause is noted. Returns one sentence that says why.
+  const char* note_reset_due();
+  /// The program has ended for good: pins are released.
+  void stop(Cycle now);
+
+  // --- time
+  Cycle at(Cycle now) {
+    if (now > latest_) latest_ = now;
+    return latest_;
+  }
+  Cycle latest() const { return latest_; }
+  /// Tick boundary, after Board::exchange(): what came from outside is on its way. True: there was anything.
+  bool begin_window(Cycle now) { return outside_.begin_window(*device_, at(now)); }
+  /// Everything that happens by itself up to `now` has happened.
+  void end_window(Cycle now);
+
+  // --- the device
+  dspic::Dspic30f6014a& device() { return *device_; }
+  const dspic::Dspic30f6014a& device() const { return *device_; }
+  /// The same, for accesses that must be fast.
+  dspic::ChipParts& parts() { return *parts_; }
+  /// Whoever draws registers over time, now and after every power-up. Null: nobody.
+  void watch(dspic::EventWatch* watch);
+  /// An enabled interrupt whose flag is set and that level or DISI holds off, the oldest; kNoVector: none.
+  struct Waiting {
+    int vector = dspic::kNoVector;
+    Cycle since = 0;
+  };
+  Waiting longest_waiting(Cycle now);
+
+  /// What the models have to say about the program so far, in order of time.
+  std::vector<board::Diagnosis> diagnoses() const;
+
+ private:
+  void report(const dspic::Diagnosis& diagnosis) override { diagnoses_.push_back(diagnosis); }
+  std::int64_t count_of(const dspic::Diagnosis& diagnosis) const;
+
+  board::Board& board_;
+  BoardOutside outside_;
+  std::unique_ptr<dspic::Dspic30f6014a> device_;
+  dspic::ChipParts* parts_ = nullptr;  // of device_
+  dspic::EventWatch* watch_ = nullptr;
+  dspic::ResetKind next_reset_ = dspic::ResetKind::PowerOn;
+  Cycle latest_ = 0;
+  std::vector<dspic::Diagnosis> diagnoses_;
+};
+
+}  // namespace chip
