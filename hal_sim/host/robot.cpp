@@ -321,6 +321,7 @@ void Robot::deliver_now() {
       continue;
     }
     ++looks_;
+    if (processor_->serve(now_)) continue;
     Processor::Entry entry;
     const Processor::Outlook outlook = processor_->take(now_, entry);
     if (outlook.vector >= 0) {
@@ -341,42 +342,32 @@ void Robot::serve_told(int vector) {
   handle(vector, entry);
 }
 
-void Robot::handle(int vector, const Processor::Entry& entry) {
+void Robot::handle(int vector, const Processor::Entry& begins) {
   const Cycle asked = now_;
+  Processor::Entry entry = begins;
   quiet_until_ = 0;  // another level
   const tp_image& image = copy_.description();
   void (*handler)() = entry.handler;
   if (!handler && vector >= kTrapVector)
     handler = (entry.alternate ? image.alternate_trap_vectors : image.trap_vectors)[vector - kTrapVector];
   else if (!handler)
-    handler = (entry.alternate ? image.alternate_vectors : image.vectors)[vector];
+    handler = handler_of(vector, entry.alternate);
   if (!handler) handler = image.default_vector;
   if (!handler) miss_handler(vector, entry.alternate);
-  now_ = entry.first_instruction;
   if (has_handlers_) {
-    const Cycle entering = now_ - asked;
+    const Cycle entering = entry.first_instruction - asked;
     const board::Handlers others = board_.handlers();
-    now_ = others.done(others.free_from(asked, processor_->cpu_level()), entering, processor_->cpu_level());
+    entry.first_instruction =
+        others.done(others.free_from(asked, processor_->cpu_level()), entering, processor_->cpu_level());
   }
-  ++handler_depth_;
-  calm_until_ = entry.quiet_until;
-  give_budget();
-  control_.budget -= entry.saving;
-  handler();
-  --handler_depth_;
-  fold();
+  run_handler(handler, entry);
   if (observer_) observer_->handler_ends(now_);
   quiet_until_ = 0;
   if (has_handlers_) {
     board_.handler_left(now_);
     now_ += board::kExitCycles;
   }
-  const Processor::Return back = processor_->leave(now_);
-  now_ = back.next_instruction;
-  calm_until_ = back.quiet_until;
-  may_wait_ = false;  // or the next look() says so
-  ++served_;
-  note_write();
+  handler_returned(processor_->leave(now_));
 }
 
 void Robot::miss_handler(int vector, bool alternate) {
@@ -522,7 +513,8 @@ void Robot::on_rest(std::int64_t loop) {
       const Cycle start = now_;
       idle_ += calm_until_ - now_;
       now_ = calm_until_;
-      deliver_now();
+      ++looks_;
+      processor_->serve(now_) ? deliver() : deliver_now();
       const bool served = served_ != poll_served_;
       if (!served) sleep_until(kNever, round, start);
       note_poll(loop);
