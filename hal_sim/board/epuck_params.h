@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "hal_sim/api/timings.h"
 #include "hal_sim/host/context.h"
 
 namespace board {
@@ -66,8 +67,9 @@ inline constexpr Cycle kScanFlagCycles = 1;   // end of the last conversion to t
 inline constexpr Cycle kScanChannelTad = 15;  // SAMC 1 + conversion 14 [DS70143 20.7]
 inline constexpr int kMicSamples = 100;       // MIC_SAMP_NB [lib: a_d/advance_ad_scan/e_ad_conv.h]
 inline constexpr int kAccSamples = 50;        // ACC_SAMP_NB [lib: a_d/advance_ad_scan/e_ad_conv.h]
-inline constexpr Cycle kAccKeepCycles = kFcyHz / 50;  // samples are worked out as often, while poses are known
-inline constexpr int kGumstixSelector = 10;   // scans a fifth pair [lib: a_d/advance_ad_scan/e_ad_conv.c]
+inline constexpr Cycle kAccKeepCycles =
+    kFcyHz / 50;                             // samples are worked out as often, while poses are known
+inline constexpr int kGumstixSelector = 10;  // scans a fifth pair [lib: a_d/advance_ad_scan/e_ad_conv.c]
 
 // --- basic proximity driver ------------------------------------------------------------------------------
 inline constexpr Cycle kBasicPulseCycles = 646 * 8;  // PR1 = 645, prescale 8 [lib: a_d/e_prox.c]
@@ -151,19 +153,19 @@ inline constexpr double kFrontLedZM = 0.020;  // m [assumed: beside the camera]
 inline constexpr double kFrontLedSpotM = 0.004;  // m [assumed: a 5 mm lens and its halo]
 
 // --- processor time of the library's interrupt handlers, entry and RETFIE included -----------------------
-// of the usual variants: what the drivers' own handlers (hal_dspic) take in the register way, trace by trace
-// [measured: share of a delay loop that they take in the register way]
-inline constexpr Cycle kAgendaIsrCycles = 35;       // empty list
-inline constexpr Cycle kAgendaListCycles = -2;      // a list with nodes
-inline constexpr Cycle kAgendaNodeCycles = 13;      // one node
-inline constexpr Cycle kAgendaCountCycles = 5;      // one that counts
-inline constexpr Cycle kMotorHalfStepCycles = 123;  // coils on, the next half's cycle
-inline constexpr Cycle kMotorOffCycles = 125;       // coils off, the next half's cycle
-inline constexpr Cycle kMotorStepCycles = 107;      // coils on to stay
-inline constexpr Cycle kScanRoundIsrCycles = 7521;    // 65 frames of the scan, one round
-inline constexpr Cycle kScanAccIsrCycles = 186;       // of these, the frame with the accelerometer
-inline constexpr Cycle kScanMicroIsrCycles = 83;      // one frame of MICRO_ONLY
-inline constexpr Cycle kScanStartCycles = 15;  // from the converter's being switched on to its first frame
+// of the usual variants: what the drivers' own handlers (hal_dspic) take in the register way
+inline constexpr Cycle kAgendaIsrCycles = T_TICK;                       // empty list
+inline constexpr Cycle kAgendaListCycles = T_TICK_FIRST - T_TICK_NODE;  // a list with nodes
+inline constexpr Cycle kAgendaNodeCycles = T_TICK_NODE;                 // one node
+inline constexpr Cycle kAgendaCountCycles = T_TICK_COUNT;               // one that counts
+inline constexpr Cycle kMotorHalfStepCycles = T_MOTOR_HALF;             // coils on, the next half's cycle
+inline constexpr Cycle kMotorOffCycles = T_MOTOR_OFF;                   // coils off, the next half's cycle
+inline constexpr Cycle kMotorStepCycles = T_MOTOR_STEP;                 // coils on to stay
+inline constexpr Cycle kScanRoundIsrCycles = T_SCAN_ROUND;              // 65 frames of the scan, one round
+inline constexpr Cycle kScanAccIsrCycles = T_SCAN_ACC;      // of these, the frame with the accelerometer
+inline constexpr Cycle kScanMicroIsrCycles = T_SCAN_MICRO;  // one frame of MICRO_ONLY
+// from the converter's being switched on to its first frame
+inline constexpr Cycle kScanStartCycles = 15;  // [measured: register way]
 /// Of both Timer 2's and the converter's handler: the reset value [lib: neither file sets it; DS70143 5.2].
 inline constexpr int kHandlerPriority = 4;
 inline constexpr Cycle kBasicMotorIsrCycles =
