@@ -4,6 +4,7 @@
 // the gaps in a loop that does nothing but read Timer 4.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
@@ -34,7 +35,6 @@ struct Less {
 /// left out.
 struct Gaps {
   int count = 0, above = 40, every = 1, skip = 0;
-  int times = 1;  // the table has the cycles of so many
 };
 
 struct Row {
@@ -46,6 +46,7 @@ struct Row {
   const char* what;
   int tolerance = 2;  // cycles
   Gaps gaps = {};     // of handlers
+  int times = 1;      // of a call: so often in it; of a handler: so often in the table
 };
 
 struct Timing {
@@ -62,10 +63,9 @@ const Row kRows[] = {
     {"", 0, "", "sink = e_ischar_uart1();", {}, "e_ischar_uart1()", 4},
     {ROW(GETSELECTOR), "", "sink = getselector();", {}, "getselector()"},
     {ROW(WAIT), "", "wait(0);", {}, "wait()"},
-    {ROW(WAIT_ROUND), "", "wait(1);", {{"WAIT"}}, "each of its rounds"},
-    {"", 0, "", "wait(1000);", {}, "wait(1000)", 4},
+    {ROW(WAIT_ROUND), "", "wait(1000);", {{"WAIT"}}, "each of its rounds", 0, {}, 1000},
     {ROW(PAUSE), "", "hal_pause(0);", {}, "pause inside the library"},
-    {ROW(PAUSE_ROUND), "", "hal_pause(1);", {{"PAUSE"}}, "each of its rounds"},
+    {ROW(PAUSE_ROUND), "", "hal_pause(1000);", {{"PAUSE"}}, "each of its rounds", 0, {}, 1000},
     {ROW(RING_OFF), "", "hal_set_ring(3, 0);", {}, "a ring LED, off"},
     {ROW(RING_ON), "", "hal_set_ring(3, 1);", {}, "on"},
     {ROW(RING_TOGGLE), "", "hal_set_ring(3, 2);", {}, "toggled"},
@@ -153,7 +153,7 @@ const Row kRows[] = {
     {"", 0, "", "sink = e_get_micro(0);", {}, "e_get_micro()", 4},
     {"", 0, "", "e_calibrate_ir();", {}, "e_calibrate_ir()", 8},
     // handlers, entry and RETFIE included; the list has the motors only
-    {ROW(SCAN_ROUND), "e_ad_scan_on();", "", {}, "converter: 65 frames, one round", 10, {65, 40, 1, 0, 65}},
+    {ROW(SCAN_ROUND), "e_ad_scan_on();", "", {}, "converter: 65 frames, one round", 10, {65}, 65},
     {ROW(SCAN_ACC), "", "", {}, "of these, the frame with the accelerometer", 2, {4, 150}},
     {ROW(SCAN_MICRO), "e_init_ad_scan(MICRO_ONLY);", "", {}, "converter: a frame of MICRO_ONLY", 2, {8}},
     {ROW(MOTOR_HALF),
@@ -292,8 +292,9 @@ std::vector<Timing> measure(std::vector<std::string>& problems) {
   for (std::size_t n = 0; problems.empty() && n < std::size(kRows); ++n) {
     const Row& row = kRows[n];
     const Gaps& g = row.gaps;
-    int found = g.count > 0 ? (chip[n] * g.times + g.count / 2) / g.count : row.table + chip[n] - native[n];
+    int found = g.count > 0 ? (chip[n] * row.times + g.count / 2) / g.count : chip[n] - native[n];
     for (const Less& less : row.less) found -= less.times * (g.count > 0 ? cycles : missing).at(less.name);
+    if (g.count == 0) found = row.table + static_cast<int>(std::lround(double(found) / row.times));
     cycles[row.name] = found;
     missing[row.name] = found - row.table;
     all.push_back({row, found});
