@@ -15,14 +15,13 @@
 #include <string>
 #include <vector>
 
-#include "hal_sim/host/context.h"
+#include "hal_sim/board/cycle.h"
 #include "sim_core/random/counter_random.h"
 #include "sim_core/world/part_desc.h"
 #include "sim_core/world/robot_model.h"  // points and poses
 
 namespace board {
 
-using host::Cycle;
 
 class Board;
 

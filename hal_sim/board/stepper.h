@@ -24,6 +24,8 @@
 
 namespace board {
 
+enum class Wheel { Left = 0, Right = 1 };
+
 inline constexpr unsigned kPhaseCoils[4] = {0xA, 0x6, 0x5, 0x9};  // bit 0 = A [lib: motor_led/e_motors.c]
 
 /// What a motor would not do for its driver; each with the cycle of its first time.
@@ -116,7 +118,7 @@ class Stepper {
   }
   Cycle move_end(Cycle at) const {
     if (at < motion_.moved_at) return at;
-    return at < motion_.moved_at + motion_.move ? motion_.moved_at + motion_.move : host::kNever;
+    return at < motion_.moved_at + motion_.move ? motion_.moved_at + motion_.move : kNever;
   }
 
  private:

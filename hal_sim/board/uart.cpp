@@ -133,7 +133,7 @@ void Uart::clear_overrun(Cycle at) {
 
 Cycle Uart::next_arrival(Cycle at) {
   settle(at);
-  return on_wire_.empty() ? host::kNever : on_wire_.front().at;
+  return on_wire_.empty() ? kNever : on_wire_.front().at;
 }
 
 std::int64_t Uart::received(Cycle at) {

@@ -135,6 +135,8 @@ class Robot final : public Context {
   // --- Context
   // ----------------------------------------------------------------------------------------------
   board::Board& board() override { return board_; }
+  drivers::Drivers& drivers() override;
+  bool has_drivers() const { return native_ != nullptr; }
   Cycle now() override { return observer_ ? now_and_tell() : now_unobserved(); }
   void lower_horizon(Cycle at) override {
     if (at < horizon_) horizon_ = at;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "hal_sim/trace/robot_trace.h"
 
+#include "hal_sim/drivers/driver_params.h"
+
 #include <algorithm>
 #include <cstring>
 
@@ -144,7 +146,7 @@ Cycle RobotTrace::next_change(Cycle at) {
   const auto port = [&](char letter) {
     // where a tick of the agendas is late, its own cycle has already passed
     const Cycle then = board_.port_horizon(letter, at);
-    next = std::min(next, then > at ? then : at + board::kAgendaTickCycles);
+    next = std::min(next, then > at ? then : at + drivers::kAgendaTickCycles);
   };
   for (const Sampled& s : sampled_) {
     switch (s.source.kind) {

@@ -89,7 +89,7 @@ TEST(Uart, bytes_arrive_one_after_another) {
   w.uart.init_library(7, 0);
   w.end->inject("abc", 28800);
   w.uart.exchange(28799);
-  EXPECT_EQ(w.uart.next_arrival(28799), host::kNever);
+  EXPECT_EQ(w.uart.next_arrival(28799), board::kNever);
   w.uart.exchange(28800);
   EXPECT_EQ(w.uart.next_arrival(28800), 28800 + kByte);
   EXPECT_EQ(w.uart.unread(28800 + kByte - 1), 0);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // See adc_scan.h. Interrupts of ALL_ADC mode are numbered from 0; number i has slot i % 65 and period i / 65.
 // In period q the lit sample of pair_of_lit(q) arrives, and the dark one of pair_of_lit(q + 1).
-#include "hal_sim/board/adc_scan.h"
+#include "hal_sim/drivers/adc_scan.h"
 
 #include <algorithm>
 #include <utility>
@@ -10,7 +10,9 @@
 #include "hal_sim/board/board.h"
 #include "hal_sim/board/sound_params.h"
 
-namespace board {
+namespace drivers {
+
+using namespace board;
 
 namespace {
 /// `pair` of a sensor: 0 and 4 share an emitter line, and so on; 8 and 9 are the turret's.
@@ -208,7 +210,7 @@ int AdcScan::mic_sample(int microphone, std::int64_t number) const {
 }
 
 Cycle AdcScan::next_sample(std::int64_t filed, int slot, int shift, int pair) const {
-  if (!on_ || run_.micro_only) return host::kNever;
+  if (!on_ || run_.micro_only) return kNever;
   // first period whose interrupt in this slot is still to come, then on to the one that serves the pair
   std::int64_t period = (filed + kScanPeriod - 1 - slot) / kScanPeriod;
   period += (pair - pair_of_lit(period + shift) + pairs_) % pairs_;
@@ -244,7 +246,7 @@ const AdcScan::AccRing& AdcScan::acc_scan(Cycle at) {
 }
 
 Cycle AdcScan::acc_until(Cycle at) const {
-  if (!on_ || run_.micro_only) return host::kNever;
+  if (!on_ || run_.micro_only) return kNever;
   return full_cycle(kScanPeriod * acc_samples(at) + kScanAccSlot) + kScanFileCycles;
 }
 
@@ -260,7 +262,7 @@ unsigned AdcScan::pulses(Cycle at) const {
 }
 
 Cycle AdcScan::pulses_horizon(Cycle at) const {
-  if (!on_ || run_.micro_only) return host::kNever;
+  if (!on_ || run_.micro_only) return kNever;
   const std::int64_t count = full_interrupts(at - kScanLightCycles);
   const int slot = static_cast<int>(count % kScanPeriod);  // of the next interrupt
   const int wait = slot <= kScanLitSlot    ? kScanLitSlot - slot
@@ -269,4 +271,4 @@ Cycle AdcScan::pulses_horizon(Cycle at) const {
   return full_cycle(count + wait) + kScanLightCycles;
 }
 
-}  // namespace board
+}  // namespace drivers

@@ -15,10 +15,10 @@
 #pragma once
 #include <cstdint>
 
-#include "hal_sim/board/agenda_timer.h"
+#include "hal_sim/drivers/agenda_timer.h"
 #include "hal_sim/board/stepper.h"
 
-namespace board {
+namespace drivers {
 
 /// Steps at `next`, `next` + `period`, ...; both drivers of one wheel are this.
 struct StepTrain {
@@ -72,4 +72,4 @@ class TimerMotors {
   Cycle timer3_origin_ = 0;
 };
 
-}  // namespace board
+}  // namespace drivers

@@ -3,9 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "hal_sim/host/pins.h"
-#include "tests/board/fake_context.h"
+#include "tests/drivers/driven_board.h"
+#include "tests/drivers/fake_context.h"
 #include "tests/board/flat_scene.h"
-#include "tests/board/scan_times.h"
+#include "tests/drivers/scan_times.h"
 
 FakeContext* FakeContext::running = nullptr;
 
@@ -20,7 +21,7 @@ constexpr Cycle kTick = 1475;
 char left_motor, right_motor, blink;
 
 struct Running : ::testing::Test {
-  Board robot{board::Setup{}};
+  DrivenBoard robot{board::Setup{}};
   FakeContext context{robot};
 
   void init_motors() {

@@ -21,11 +21,15 @@
 #include <cstdint>
 #include <vector>
 
-#include "hal_sim/board/epuck_params.h"
+#include "hal_sim/drivers/driver_params.h"
 
 namespace board {
-
 class Board;
+}
+
+namespace drivers {
+
+using board::Board;
 
 /// Cycles for which the emitter of a ring sensor has been on when its lit sample is held.
 Cycle scan_flash_cycles(int sensor);
@@ -62,7 +66,7 @@ class AdcScan {
   /// Cycle of the next interrupt; kNever when the converter is off.
   Cycle next_interrupt(Cycle at) const { return interrupt_cycle(interrupts(at) + 1); }
   /// Cycle of the interrupt that completes the `count`-th microphone sample from power-up on.
-  Cycle interrupt_cycle(std::int64_t count) const { return on_ ? run_.cycle_of(count - 1) : host::kNever; }
+  Cycle interrupt_cycle(std::int64_t count) const { return on_ ? run_.cycle_of(count - 1) : kNever; }
   /// What the handler takes of each cycle, as a fraction of 2^32.
   std::uint64_t share_q32() const;
 
@@ -171,4 +175,4 @@ class AdcScan {
   std::int64_t acc_kept_ = 0;  // samples in acc_
 };
 
-}  // namespace board
+}  // namespace drivers
