@@ -32,8 +32,8 @@ TEST_P(Golden, run_repeats_to_the_last_bit) {
 
 INSTANTIATE_TEST_SUITE_P(
     Of, Golden,
-    ::testing::Combine(::testing::Values(Pinned{"maze", "worlds/maze.toml", 20, "216910e483dba1ae"},
-                                         Pinned{"swarm", "worlds/swarm.toml", 5, "c2f2807054409300"},
+    ::testing::Combine(::testing::Values(Pinned{"maze", "worlds/maze.toml", 20, "d779b0672faf950a"},
+                                         Pinned{"swarm", "worlds/swarm.toml", 5, "9c431c1c73cfddb2"},
                                          Pinned{"push", "worlds/push.toml", 10, "67147609882aced6"},
                                          Pinned{"braitenberg_10", "bench/worlds/brait_10.toml", 5,
                                                 "89b8d0073a71d30c"}),
