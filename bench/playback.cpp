@@ -5,7 +5,8 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
+
+#include "bench/processor_time.h"
 
 namespace bench {
 namespace {
@@ -14,8 +15,8 @@ class Playback final : public sim::RobotMind {
  public:
   explicit Playback(const std::vector<sim::WheelAngles>& angles) : angles_(angles) {}
   void run_until(const sim::Scene&, sim::Clicks) override {}
-  sim::WheelAngles wheel_angles(sim::Clicks) override {
-    return angles_[std::min(next_++, angles_.size() - 1)];
+  sim::WheelCourse wheel_course(sim::Clicks at) override {
+    return {angles_[std::min(next_++, angles_.size() - 1)], 0, 0, at, at};
   }
   sim::MindReport report() const override { return {}; }
   int proximity_counts(const sim::Scene&, int) override { return 0; }
@@ -42,7 +43,7 @@ WheelTrack track_wheels(const sim::WorldDesc& world, double seconds) {
   while (twin->simulation().now() < sim::from_seconds(seconds)) {
     twin->simulation().step();
     for (std::size_t r = 0; r < track.size(); ++r) {
-      track[r].push_back(twin->mind(static_cast<int>(r)).wheel_angles(twin->simulation().now()));
+      track[r].push_back(twin->mind(static_cast<int>(r)).wheel_course(twin->simulation().now()).at(twin->simulation().now()));
     }
   }
   return track;
@@ -58,11 +59,10 @@ Speed timed_speed(sim::Simulation& simulation, double warm_s, double measured_s)
   using Wall = std::chrono::steady_clock;
   simulation.run_until(sim::from_seconds(warm_s));
   const auto start = Wall::now();
-  const std::clock_t used = std::clock();
+  const double used_s = processor_s();
   simulation.run_until(sim::from_seconds(warm_s + measured_s));
-  const double ticks = static_cast<double>(std::clock() - used);
   return {measured_s / std::chrono::duration<double>(Wall::now() - start).count(),
-          measured_s * CLOCKS_PER_SEC / std::max(1.0, ticks)};
+          measured_s / (processor_s() - used_s)};
 }
 
 }  // namespace bench

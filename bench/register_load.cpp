@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <ctime>
 #include <vector>
 
+#include "bench/processor_time.h"
 #include "dspic30/device/dspic30f6014a.h"
 #include "hal_sim/board/epuck_model.h"
 #include "hal_sim/board/part.h"
@@ -17,12 +17,6 @@ namespace bench {
 namespace {
 
 constexpr double kSeconds = 10;
-
-double processor_s() {
-  timespec t;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
 
 }  // namespace
 

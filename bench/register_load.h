@@ -8,6 +8,7 @@ namespace bench {
 /// simulated seconds, printed. Returns the median of times real time on this core, processor time; -1 when
 /// the robot cannot be built.
 double measure_register_way(int rounds);
-inline constexpr double kPromisedRegisterWay = 250;
+/// What the issue of the register way promises.
+inline constexpr double kPromisedRegisterWay = 500;
 
 }  // namespace bench

@@ -16,7 +16,6 @@ title = "braitenberg {n}"
 
 [world]
 physics_hz = 96
-interrupts = "spread"
 
 [arena]
 size = [{side}, {side}]

@@ -8,13 +8,13 @@
 set -eu
 
 build="g++ cmake ninja-build pkg-config python3 binutils zlib1g-dev
- llvm-14-dev libclang-14-dev
+ llvm-14-dev libclang-14-dev clang-14
  libbox2d-dev libeigen3-dev libccd-dev libboost-context-dev
  libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libfmt-dev libelf-dev libdw-dev libcairo2-dev
  libvpx-dev libjpeg62-turbo-dev libgtest-dev libwebm-dev"
 check="clang-format clang-tidy"
 bench="libenki-dev libbenchmark-dev"
-fuzz="clang-14 libclang-rt-14-dev"
+fuzz="libclang-rt-14-dev"
 debug="gdb"
 
 group=${1:-build}

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// One tick, in order: minds run against the frozen scene, wheels turn into travel, bodies move, poses are
-// published, messages pass, the digest grows.
+// One tick, in order: minds run against the frozen scene, wheels turn into ways of the rims, bodies move,
+// what began is published and hashed, messages pass. Ticks in which nothing is due are passed over.
 #include "sim_core/simulation.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
@@ -20,7 +21,7 @@ namespace {
 /// The motion engine of a world, its numbers gathered from models, variations and materials.
 std::unique_ptr<Motion> make_motion(const WorldDesc& world, const Layout& layout) {
   MotionDesc desc;
-  desc.tick_s = 1.0 / world.physics_hz;
+  desc.tick = kClicksPerSecond / world.physics_hz;
   desc.gravity_m_s2 = world.gravity_m_s2;
   desc.fixed = &layout.fixed;
   desc.ground = &layout.ground;
@@ -71,11 +72,14 @@ Simulation::Simulation(const WorldDesc& world, Minds minds, int threads)
   scene_->attach_optics(optics_);
   scene_->attach_sound(sound_.get());
   const std::size_t n = minds_.size();
+  idle_until_.resize(n);
+  for (std::size_t r = 0; r < n; ++r) minds_[r]->keep_idle_in(&idle_until_[r]);
   wheels_.resize(n);
-  angles_.resize(n);
-  travel_.resize(n);
-  distance_m_.assign(n, 0.0);
-  last_place_.resize(n);
+  courses_.resize(n);
+  rims_.resize(n);
+  rims_until_.resize(n);
+  horizons_.resize(n);
+  mind_hash_.resize(n);
   for (std::size_t r = 0; r < n; ++r) {
     const RobotDesc& robot = scene_->world().robots[r];
     Wheels& w = wheels_[r];
@@ -86,7 +90,6 @@ Simulation::Simulation(const WorldDesc& world, Minds minds, int threads)
     w.grip = 1 - own.slip.value_or(common.slip.value_or(0));
     w.gaussian = own.noise_law.value_or(common.noise_law.value_or(NoiseLaw::Uniform)) == NoiseLaw::Gaussian;
     w.seed = robot_seed(scene_->world(), static_cast<int>(r));
-    last_place_[r] = {robot.pose.x_m, robot.pose.y_m};
   }
   digest_ = mix64(world.seed);
   if (threads > 1 && n > 1) workers_ = std::make_unique<WorkerPool>(std::min(threads, static_cast<int>(n)));
@@ -94,36 +97,87 @@ Simulation::Simulation(const WorldDesc& world, Minds minds, int threads)
 
 Simulation::~Simulation() = default;
 
-void Simulation::step() {
+void Simulation::advance(Clicks at) {
   if (attendant_ && !attended_) {
     attended_ = true;
     attendant_->before_first_tick();
   }
-  const Clicks end = scene_->now() + scene_->tick_clicks();
+  const Clicks tick = scene_->tick_clicks(), end = next_tick(at);
+  if (end - tick > now()) scene_->advance_to(end - tick);
+  due_.clear();
+  gather_due(end);
   run_minds(end);
-  turn_wheels(end);
-  const double moved_m = motion_->step(travel_.data(), scene_->neighbours());
-  scene_->publish(motion_->bodies(), moved_m);
+  if (fastest_rim_m_s() > pace_m_s_) {
+    gather_neighbours(fastest_rim_m_s());
+    find_horizons();
+    gather_due(end);
+  }
+  motion_->step(end, due_, rims_.data(), scene_->neighbours());
+  scene_->advance_to(end);
+  publish_motion();
   if (scene_->leds_watched()) publish_leds();
   publish_sound();
   for (const auto& medium : media_) medium->exchange(*scene_, end);
-  fold_digest();
   if (attendant_) attendant_->after_tick();
 }
 
 void Simulation::run_until(Clicks at) {
-  while (now() < at) step();
+  while (now() < at) advance(at);
+}
+
+/// Works out up to when nothing is due for each robot; returns the first of these instants.
+Clicks Simulation::find_horizons() {
+  using Instants = Eigen::Array<Clicks, Eigen::Dynamic, 1>;
+  const auto n = static_cast<Eigen::Index>(minds_.size());
+  const auto array = [n](const std::vector<Clicks>& v) { return Eigen::Map<const Instants>(v.data(), n); };
+  if (n == 0) return kEver;
+  Eigen::Map<Instants> horizons(horizons_.data(), n);
+  horizons = (array(idle_until_) - 1)
+                 .min(array(rims_until_))
+                 .min(array(motion_->leg_until()))
+                 .min(array(motion_->free_until()));
+  return horizons.minCoeff();
+}
+
+/// End of the first tick in which something is due, or that of `at`; nobody who sees every tick misses one.
+Clicks Simulation::next_tick(Clicks at) {
+  const Clicks tick = scene_->tick_clicks();
+  const bool busy = attendant_ || motion_->is_loose_busy() || sound_->has_voices() ||
+                    std::any_of(media_.begin(), media_.end(), [](const auto& m) { return m->is_busy(); });
+  const Clicks horizon = std::min({at - 1, lists_until_ - 2 * tick, find_horizons()});
+  return busy || horizon <= now() ? now() + tick : (horizon / tick + 1) * tick;
+}
+
+/// Adds to the list of a tick, which is in order, who is due; of their rims nothing new is known yet.
+void Simulation::gather_due(Clicks end) {
+  const auto known = static_cast<std::ptrdiff_t>(due_.size());
+  for (int r = 0; r < robots(); ++r) {
+    if (horizons_[static_cast<std::size_t>(r)] >= end ||
+        std::binary_search(due_.begin(), due_.begin() + known, r))
+      continue;
+    due_.push_back(r);
+    RimCourse& rims = rims_[static_cast<std::size_t>(r)];
+    rims.tick = rims.next;
+    rims.is_news = false;
+  }
+  std::inplace_merge(due_.begin(), due_.begin() + known, due_.end());
 }
 
 /// Minds see only the frozen scene, so they may run side by side; each worker has a fixed share of the
 /// robots.
 void Simulation::run_minds(Clicks end) {
   const auto run = [&](std::size_t first, std::size_t last) {
-    for (std::size_t r = first; r < last; ++r) {
-      minds_[r]->run_until(*scene_, end);
-      angles_[r] = minds_[r]->wheel_angles(end);
-      wheels_[r].mind_hash = minds_[r]->state_hash();
-      if (minds_[r]->has_sound_news()) sound_news_.store(true, std::memory_order_relaxed);
+    const auto begin = std::lower_bound(due_.begin(), due_.end(), static_cast<int>(first));
+    for (auto at = begin; at != due_.end() && *at < static_cast<int>(last); ++at) {
+      const std::size_t r = static_cast<std::size_t>(*at);
+      const bool runs = idle_until_[static_cast<std::size_t>(*at)] <= end;
+      if (!runs && rims_until_[static_cast<std::size_t>(*at)] >= end) continue;
+      if (runs) {
+        minds_[r]->run_until(*scene_, end);
+        mind_hash_[r] = minds_[r]->state_hash();
+        if (minds_[r]->has_sound_news()) sound_news_.store(true, std::memory_order_relaxed);
+      }
+      turn_wheels(*at, end);
     }
   };
   if (!workers_) return run(0, minds_.size());
@@ -139,33 +193,100 @@ void Simulation::publish_leds() {
   scene_->publish_leds(leds_);
 }
 
-/// Wheel angles become ways of the rims over the floor, noise and slip included.
-void Simulation::turn_wheels(Clicks end) {
-  const std::int64_t noise_index = end / from_seconds(kWheelNoisePeriodS);
-  for (std::size_t r = 0; r < minds_.size(); ++r) {
-    Wheels& w = wheels_[r];
-    const WheelAngles now = angles_[r];
-    double left = (now.left_rad - w.last.left_rad) * w.left_radius_m;
-    double right = (now.right_rad - w.last.right_rad) * w.right_radius_m;
-    if (w.noise > 0) {
-      if (noise_index != w.noise_index) {
-        const auto counter = static_cast<std::uint64_t>(noise_index);
-        const auto draw = [&](std::uint32_t stream) {
-          const RandomKey key{w.seed, 0, stream};
-          // a wheel never turns against its motor
-          return w.gaussian ? std::max(0.0, 1 + w.noise * random_gaussian(key, counter))
-                            : 1 + w.noise * random_signed(key, counter);
-        };
-        w.noise_index = noise_index;
-        w.left_factor = draw(kStreamWheelLeft);
-        w.right_factor = draw(kStreamWheelRight);
-      }
-      left *= w.left_factor;
-      right *= w.right_factor;
-    }
-    travel_[r] = {left * w.grip, right * w.grip};
-    w.last = now;
+/// Speed of the rims over the floor in a tick, noise and slip included.
+RimSpeed Simulation::rim_speed(const Wheels& w, double left_rad_s, double right_rad_s,
+                               Clicks tick_end) const {
+  RimSpeed rims{left_rad_s * w.left_radius_m * w.grip, right_rad_s * w.right_radius_m * w.grip};
+  if (w.noise == 0) return rims;
+  const auto counter = static_cast<std::uint64_t>(tick_end / from_seconds(kWheelNoisePeriodS));
+  const auto draw = [&](std::uint32_t stream) {
+    const RandomKey key{w.seed, 0, stream};
+    // a wheel never turns against its motor
+    return w.gaussian ? std::max(0.0, 1 + w.noise * random_gaussian(key, counter))
+                      : 1 + w.noise * random_signed(key, counter);
+  };
+  return {rims.left_m_s * draw(kStreamWheelLeft), rims.right_m_s * draw(kStreamWheelRight)};
+}
+
+/// What the rims of a robot did in the tick and do next; its mind ran, or its course or noise ends.
+void Simulation::turn_wheels(int robot, Clicks end) {
+  const std::size_t r = static_cast<std::size_t>(robot);
+  const Wheels& w = wheels_[r];
+  WheelCourse& course = courses_[r];
+  RimCourse& rims = rims_[r];
+  const Clicks tick = scene_->tick_clicks();
+  const WheelCourse last = course;
+  course = minds_[r]->wheel_course(end);
+  const WheelAngles before = last.at(end - tick), foreseen = last.at(end), after = course.at(end);
+  const auto same = [](double a, double b) { return std::fabs(a - b) < kSameAngleRad; };
+  // angles of a course that goes on would bring nothing but rounding
+  const bool goes_on = last.until >= end && same(after.left_rad, foreseen.left_rad) &&
+                       same(after.right_rad, foreseen.right_rad);
+  const double per_s = static_cast<double>(kClicksPerSecond);
+  const double left_rad_s =
+      goes_on ? last.left_rate * per_s : (after.left_rad - before.left_rad) / scene_->tick_s();
+  const double right_rad_s =
+      goes_on ? last.right_rate * per_s : (after.right_rad - before.right_rad) / scene_->tick_s();
+  const bool is_known = course.until > end;
+  const RimSpeed expected = rims.next;
+  rims.tick = rim_speed(w, left_rad_s, right_rad_s, end);
+  rims.next = rim_speed(w, is_known ? course.left_rate * per_s : left_rad_s,
+                        is_known ? course.right_rate * per_s : right_rad_s, end + tick);
+  rims.is_news = !(rims.tick == expected) || !(rims.next == expected);
+  rims_until_[static_cast<std::size_t>(robot)] = course.until;
+  if (w.noise > 0) {  // the next tick's is the last with its noise
+    const Clicks period = from_seconds(kWheelNoisePeriodS);
+    const Clicks next_draw = ((end + tick) / period + 1) * period;
+    rims_until_[static_cast<std::size_t>(robot)] = std::min(course.until, (next_draw - 1) / tick * tick - 1);
   }
+}
+
+/// The fastest rim of the robots that are due: nobody drives faster.
+double Simulation::fastest_rim_m_s() const {
+  double most = 0;
+  for (int r : due_) {
+    const RimCourse& rims = rims_[static_cast<std::size_t>(r)];
+    most = std::max({most, std::fabs(rims.tick.left_m_s), std::fabs(rims.tick.right_m_s),
+                     std::fabs(rims.next.left_m_s), std::fabs(rims.next.right_m_s)});
+  }
+  return most;
+}
+
+/// New lists of neighbours, of the scene's last tick. They count on a pace that hardly anybody exceeds soon.
+void Simulation::gather_neighbours(double fastest_m_s) {
+  const Clicks now = scene_->now();
+  double fastest2 = fastest_m_s * fastest_m_s;
+  for (int i = 0; i < scene_->bodies(); ++i) {
+    const Vec2 v = motion_->leg(i).velocity_m_s;
+    fastest2 = std::max(fastest2, dot(v, v));
+  }
+  fastest_m_s = std::sqrt(fastest2);
+  const double wanted = std::max(kLeastPaceMS, kPaceReserve * fastest_m_s), old = pace_m_s_;
+  if (wanted > 0.5 * old) quick_at_ = now;
+  // a lower pace only when the poses kept are of slow times too
+  if (wanted > old || now - quick_at_ > from_seconds(kHistoryS)) pace_m_s_ = wanted;
+  scene_->regather(std::max(old, pace_m_s_));
+  lists_until_ = now + from_seconds(0.5 * kSkinM / pace_m_s_);
+  motion_->look_around(scene_->neighbours(), pace_m_s_, now);
+}
+
+/// Legs that began become poses and part of the digest.
+void Simulation::publish_motion() {
+  double fastest2 = 0;
+  for (int i : motion_->changed()) {
+    const Leg& leg = motion_->leg(i);
+    const BodyState& b = motion_->body(i);
+    scene_->begin_leg(i, leg, b.z_m, b.climb_m_s);
+    fastest2 = std::max(fastest2, dot(leg.velocity_m_s, leg.velocity_m_s));
+    digest_ = fold(fold(fold(fold(digest_, leg.pose.x_m), leg.pose.y_m), leg.pose.heading_rad), b.z_m);
+  }
+  for (int r : due_) {
+    const WheelCourse& course = courses_[static_cast<std::size_t>(r)];
+    digest_ = fold(fold(digest_, course.angle.left_rad), course.angle.right_rad);
+    digest_ = fold(digest_, mind_hash_[static_cast<std::size_t>(r)]);
+  }
+  if (fastest2 > pace_m_s_ * pace_m_s_ || lists_until_ - 2 * scene_->tick_clicks() < now())
+    gather_neighbours(0);
 }
 
 /// What loudspeakers began or ended in this tick is heard from now on; nothing to do in a silent world.
@@ -177,33 +298,17 @@ void Simulation::publish_sound() {
   if (sound_->has_voices()) sound_->advance(*scene_);
 }
 
-void Simulation::fold_digest() {
-  const std::vector<BodyState>& bodies = motion_->bodies();
-  std::uint64_t h = digest_;
-  for (std::size_t r = 0; r < minds_.size(); ++r) {
-    const BodyState& b = bodies[r];
-    const Vec2 place{b.pose.x_m, b.pose.y_m};
-    distance_m_[r] += length(place - last_place_[r]);
-    last_place_[r] = place;
-    h = fold(fold(fold(h, b.pose.x_m), b.pose.y_m), b.pose.heading_rad);
-    h = fold(fold(fold(h, angles_[r].left_rad), angles_[r].right_rad), wheels_[r].mind_hash);
-  }
-  for (std::size_t i = minds_.size(); i < bodies.size(); ++i) {
-    const BodyState& b = bodies[i];
-    h = fold(fold(fold(fold(h, b.pose.x_m), b.pose.y_m), b.pose.heading_rad), b.z_m);
-  }
-  digest_ = h;
-}
-
 void Simulation::move(int body, const Pose2& pose, double z_m) {
   motion_->move(body, pose, z_m);
-  if (body < robots()) last_place_[static_cast<std::size_t>(body)] = {pose.x_m, pose.y_m};
-  scene_->relocate(body, motion_->bodies()[static_cast<std::size_t>(body)]);
+  scene_->relocate(body, motion_->leg(body), motion_->body(body).z_m);
+  gather_neighbours(0);
 }
 
 void Simulation::set_velocity(int body, Vec2 velocity_m_s, double spin_rad_s, double climb_m_s) {
   motion_->set_velocity(body, velocity_m_s, spin_rad_s, climb_m_s);
-  scene_->set_state(body, motion_->bodies()[static_cast<std::size_t>(body)]);
+  const BodyState& b = motion_->body(body);
+  scene_->begin_leg(body, motion_->leg(body), b.z_m, b.climb_m_s);
+  gather_neighbours(0);
 }
 
 void Simulation::set_colour(const Candidate& what, const Colour& colour) {
@@ -230,7 +335,7 @@ void Simulation::set_proximity_noise(int robot, double scale) {
 void Simulation::set_wheel_noise(int robot, double half_width) {
   Wheels& w = wheels_[static_cast<std::size_t>(robot)];
   w.noise = half_width;
-  w.noise_index = -1;
+  rims_until_[static_cast<std::size_t>(robot)] = now();
   note_intervention(static_cast<std::uint64_t>(robot));
   digest_ = fold(digest_, half_width);
 }

@@ -34,8 +34,11 @@ class Simulation {
   void add(std::unique_ptr<Medium> medium) { media_.push_back(std::move(medium)); }
 
   /// Advances by one tick.
-  void step();
-  /// Steps until now() >= at.
+  void step() { advance(now()); }
+  /// Advances by one tick, and by all that follow in which nothing is due, but not further than to the first
+  /// tick at or after `at`. Where it ends changes nothing in what happens.
+  void advance(Clicks at);
+  /// Advances until now() >= at.
   void run_until(Clicks at);
 
   Clicks now() const { return scene_->now(); }
@@ -47,15 +50,15 @@ class Simulation {
   const RobotMind& mind(int robot) const { return *minds_[static_cast<std::size_t>(robot)]; }
 
   /// Where a robot or a movable object is (robots come first).
-  const Pose2& pose(int body) const { return scene_->state(body).pose; }
-  const BodyState& state(int body) const { return scene_->state(body); }
+  Pose2 pose(int body) const { return scene_->pose(body, now()); }
+  BodyState state(int body) const { return scene_->state(body); }
   /// Way the robot's centre has travelled over the floor, m. Moves by hand do not count.
-  double distance_m(int robot) const { return distance_m_[static_cast<std::size_t>(robot)]; }
+  double distance_m(int robot) const { return motion_->distance_m(robot); }
   /// Collisions and how long they lasted.
-  const TouchReport& touches(int robot) const { return motion_->touches(robot); }
+  TouchReport touches(int robot) const { return motion_->touches(robot); }
 
-  /// Hash of every tick's poses, wheel angles and minds since the world began.
-  std::uint64_t digest() const { return digest_; }
+  /// Hash of every change of a way, a wheel's course and a mind since the world began, and of the time now.
+  std::uint64_t digest() const { return fold(digest_, static_cast<std::uint64_t>(now())); }
 
   /// Who is called between ticks; null: nobody. Outlives the simulation or takes itself away.
   void attend(Attendant* attendant) { attendant_ = attendant; }
@@ -76,17 +79,23 @@ class Simulation {
   void note_intervention(std::uint64_t what) { digest_ = fold(digest_, what); }
 
  private:
+  Clicks find_horizons();
+  Clicks next_tick(Clicks at);
+  void gather_due(Clicks end);
   void run_minds(Clicks end);
-  void turn_wheels(Clicks end);
+  void turn_wheels(int robot, Clicks end);
+  double fastest_rim_m_s() const;
+  void gather_neighbours(double fastest_m_s);
   void publish_leds();
   void publish_sound();
-  void fold_digest();
+  void publish_motion();
 
   std::shared_ptr<const ProximityOptics> optics_;
   std::unique_ptr<Scene> scene_;
   std::unique_ptr<SoundField> sound_;
   std::atomic<bool> sound_news_{false};
   std::unique_ptr<Motion> motion_;
+  std::vector<Clicks> idle_until_;  // per robot; the minds write here
   Minds minds_;
   std::vector<std::unique_ptr<Medium>> media_;
   Attendant* attendant_ = nullptr;
@@ -100,17 +109,18 @@ class Simulation {
     bool gaussian = false;  // which of them
     double grip = 1;        // 1 - slip
     std::uint64_t seed = 0;
-    WheelAngles last;
-    double left_factor = 1, right_factor = 1;
-    std::int64_t noise_index = -1;
-    std::uint64_t mind_hash = 0;
   };
+  RimSpeed rim_speed(const Wheels& wheels, double left_rad_s, double right_rad_s, Clicks tick_end) const;
   std::vector<Wheels> wheels_;
-  std::vector<WheelAngles> angles_;
-  std::vector<RimTravel> travel_;
+  std::vector<WheelCourse> courses_;
+  std::vector<RimCourse> rims_;
+  std::vector<Clicks> rims_until_;  // per robot: the last tick for which the rims' speeds hold
+  std::vector<std::uint64_t> mind_hash_;
+  std::vector<Clicks> horizons_;
+  std::vector<int> due_;  // robots of the tick, in order
   std::vector<std::uint32_t> leds_;
-  std::vector<double> distance_m_;
-  std::vector<Vec2> last_place_;
+  double pace_m_s_ = 0;  // nothing moves faster until the lists of neighbours are gathered anew
+  Clicks lists_until_ = 0, quick_at_ = 0;
   std::uint64_t digest_ = 0;
 };
 

@@ -62,7 +62,7 @@ void twinpuck_refresh_ir(unsigned int sensor);
 #define hal_acc_newest(axis) ((int)tp_scan_acc_newest(axis))
 #define hal_scan_starts() ((unsigned int)tp_scan_starts())
 /** The counter of interrupts begins anew; the handler takes longer while it counts. */
-#define hal_restart_ticks() (tickAdcIsr = 0, tp_scan_restart_ticks())
+#define hal_restart_ticks() (tickAdcIsr = 0)
 
 /* --- remote control ----------------------------------------------------------------------------------- */
 

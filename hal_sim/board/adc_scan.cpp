@@ -4,10 +4,9 @@
 #include "hal_sim/board/adc_scan.h"
 
 #include <algorithm>
-#include <iterator>
+#include <utility>
 
 #include "hal_sim/board/accelerometer.h"
-#include "hal_sim/board/agenda_timer.h"
 #include "hal_sim/board/board.h"
 #include "hal_sim/board/sound_params.h"
 
@@ -17,20 +16,20 @@ namespace {
 /// `pair` of a sensor: 0 and 4 share an emitter line, and so on; 8 and 9 are the turret's.
 int pair_of_sensor(int sensor) { return sensor >= 8 ? 4 : sensor & 3; }
 
-/// A frame's channels and converter clock; the latter in halves of a cycle.
+/// A frame's channels and converter clock, cycles.
 struct Frame {
   int channels;
-  Cycle half_tad;
+  Cycle tad;
 };
 constexpr Frame frame_of(int slot) {
-  if (slot == kScanLitSlot || slot == kScanDarkSlot) return {5, 2 * kScanTadCycles};
-  if (slot == kScanAccSlot) return {6, 2 * kScanTadCycles6};
-  return {3, 2 * kScanTadCycles3 - (slot > 4 && slot < 33 ? 1 : 0)};
+  if (slot == kScanLitSlot || slot == kScanDarkSlot) return {5, kScanTadCycles};
+  if (slot == kScanAccSlot) return {6, kScanTadCycles6};
+  return {3, kScanTadCycles3};
 }
-constexpr Frame kMicroFrame{3, 2 * kScanTadCycles6};
+constexpr Frame kMicroFrame{3, kScanTadCycles6};
 /// Cycles from a channel's hold instant to the end of its frame.
 constexpr Cycle hold_to_end(Frame f, int channel) {
-  return (((f.channels - channel) * kScanChannelTad - 1) * f.half_tad + 1) / 2 + kScanFlagCycles;
+  return ((f.channels - channel) * kScanChannelTad - 1) * f.tad + kScanFlagCycles;
 }
 Cycle hold_to_end(int sensor) {
   return hold_to_end(frame_of(kScanLitSlot), sensor < 4 ? 3 : sensor < 8 ? 4 : 9 - sensor);
@@ -42,37 +41,10 @@ static_assert(3 * kScanChannelTad * kScanTadCycles6 == kScanMicroFrameCycles);
 static_assert(5 * kScanChannelTad * kScanTadCycles == kScanFrameCycles);
 static_assert(hold_to_end(frame_of(kScanLitSlot), 3) == 349);
 
-/// Handlers of a period: when they are called, what they take, and what those before a slot take together.
-struct Round {
-  Cycle at[kScanPeriod];
-  Cycle cycles[kScanPeriod];
-  Cycle before[kScanPeriod + 1];
-};
-constexpr Round make_round() {
-  Round r{};
-  for (int slot = 0; slot < kScanPeriod; ++slot) {
-    const ScanHandler handler = scan_handler(slot);
-    r.at[slot] = (slot + 1) * kScanFrameCycles + handler.late;
-    r.cycles[slot] = handler.cycles;
-    r.before[slot + 1] = r.before[slot] + handler.cycles;
-  }
-  return r;
-}
-constexpr Round kRound = make_round();
-constexpr Cycle kLongestCall =
-    *std::max_element(std::begin(kRound.cycles), std::end(kRound.cycles)) + kScanWrapCycles;
-static_assert(kRound.at[kScanPeriod - 1] == kScanRoundCycles);
-
-/// Slots in whose calls the converter stands.
-constexpr int kStopSlots[] = {2, 3, 32, 61, 62, 63};
-constexpr int kStops = static_cast<int>(std::size(kStopSlots));
-/// When such a call comes, after the round's beginning.
-constexpr Cycle stop_at(int kind) { return kRound.at[kStopSlots[kind]]; }
 }  // namespace
 
 Cycle scan_flash_cycles(int sensor) {
-  return kScanRoundCycles + kRound.at[kScanLitSlot] - kRound.at[kScanDarkSlot] - kScanLightCycles -
-         hold_to_end(sensor);
+  return kScanFlashCycles - kScanLightCycles - hold_to_end(sensor);
 }
 
 void AdcScan::settle(Cycle at) {
@@ -86,28 +58,37 @@ void AdcScan::settle(Cycle at) {
   fill_acc(acc_samples_of(full_interrupts(at)));
   const std::int64_t passed = frames(at);
   if (passed > 0) {
-    runs_.push_back({total_base_, full_base_, round_, micro_only_});
-    while (runs_.size() > 1 && runs_[1].first <= total_base_ + passed - kMicSamples)
-      runs_.erase(runs_.begin());
+    runs_.push_back(run_);
+    while (runs_.size() > 1 && runs_[1].first <= run_.first + passed - kMicSamples) runs_.erase(runs_.begin());
   }
-  total_base_ += passed;
-  if (!micro_only_) full_base_ += passed;
-  find_round(at);
+  run_ = {run_.first + passed, full_interrupts(at), at + kScanStartCycles, run_.micro_only};
   for (auto* samples : {&dark_, &lit_})
     for (Sample& s : *samples) s.until = 0;
 }
 
 void AdcScan::start(bool micro_only, bool five_pairs, Cycle at) {
   settle(at);
-  const std::int64_t period = (full_base_ + kScanPeriod - 1 - kScanLitSlot) / kScanPeriod;
+  const std::int64_t period = (run_.full + kScanPeriod - 1 - kScanLitSlot) / kScanPeriod;
   pair_base_ = pair_of_lit(period);
   period_base_ = period;
   pairs_ = five_pairs ? 5 : 4;
   pair_base_ %= pairs_;
-  micro_only_ = micro_only;
-  find_round(at);
+  run_.micro_only = micro_only;
   on_ = true;
   ++starts_;
+}
+
+// The converter goes on meanwhile and sets the flag, which remembers one call.
+void AdcScan::release(Cycle at) {
+  const Cycle since = std::exchange(held_since_, -1);
+  if (since < 0 || !on_) return;
+  const std::int64_t lost = frames(at) - frames(since) - 1;
+  if (lost <= 0) return;
+  const Run before = run_;
+  settle(since);
+  run_.origin = before.cycle_of(run_.first + lost - 1);
+  if (lost_ == 0) first_lost_ = at;
+  lost_ += lost;
 }
 
 void AdcScan::switch_converter(bool on, Cycle at) {
@@ -122,12 +103,14 @@ void AdcScan::reset(Cycle at) {
   acc_kept_ = 0;
   acc_used_ = false;
   acc_ = AccRing{};
-  on_ = micro_only_ = false;
+  on_ = false;
+  held_since_ = -1;
+  lost_ = 0;
   starts_ = 0;
   pairs_ = 4;
-  total_base_ = full_base_ = period_base_ = ticks_base_ = 0;
+  period_base_ = 0;
   pair_base_ = 0;
-  find_round(at);
+  run_ = Run{};
   dark_.fill(Sample{});
   lit_.fill(Sample{});
 }
@@ -136,156 +119,21 @@ int AdcScan::pair_of_lit(std::int64_t period) const {
   return static_cast<int>((pair_base_ + (period - period_base_) % pairs_ + pairs_) % pairs_);
 }
 
-/// When a call is asked for, not with MICRO_ONLY.
-inline Cycle AdcScan::cycle_of(Place p) const {
-  return round_ + p.round * kScanRoundCycles + kRound.at[p.slot];
-}
-
-Cycle AdcScan::full_cycle(std::int64_t interrupt) const {
-  const std::int64_t period = interrupt / kScanPeriod;
-  return cycle_of({period - first_period_, static_cast<int>(interrupt - period * kScanPeriod)});
-}
-
-std::int64_t AdcScan::frames(Cycle at) const {
-  if (!on_) return 0;
-  const Place next = place(at + 1);
-  return micro_only_ ? next.round : next.round * kScanPeriod + next.slot - first_slot_;
-}
-
-Cycle AdcScan::interrupt_cycle(std::int64_t count) const {
-  if (!on_) return host::kNever;
-  const std::int64_t number = count - total_base_ - 1;
-  return micro_only_ ? call({number, 0}).at : full_cycle(full_base_ + number);
-}
-
-// The round in which this run of frames began would have begun then.
-void AdcScan::find_round(Cycle at) {
-  noted_stops_ = 0;
-  first_period_ = full_base_ / kScanPeriod;
-  first_slot_ = static_cast<int>(full_base_ % kScanPeriod);
-  round_ = at + kScanStartCycles;
-  if (!micro_only_ && first_slot_ > 0) round_ -= kRound.at[first_slot_ - 1];
-}
-
-/// Of the first call from `at` on.
-inline AdcScan::Place AdcScan::place(Cycle at) const {
-  if (micro_only_) return {at > round_ ? (at - round_ - 1) / kScanMicroFrameCycles : 0, 0};
-  if (at <= round_) return {0, first_slot_};
-  const std::uint64_t before = static_cast<std::uint64_t>(at - round_ - 1);  // the first call beyond this
-  const std::uint64_t round = before / kScanRoundCycles;
-  const Cycle rest = static_cast<Cycle>(before - round * kScanRoundCycles);
-  Place p{static_cast<std::int64_t>(round), static_cast<int>(rest / kScanFrameCycles)};
-  if (p.slot > 0 && kRound.at[p.slot - 1] > rest) --p.slot;
-  if (kRound.at[p.slot] <= rest) p = after(p);
-  if (p.round == 0 && p.slot < first_slot_) p.slot = first_slot_;
-  return p;
-}
-
-Cycle AdcScan::cycles_before(Cycle at) const {
-  if (!on_) return 0;
-  const Place p = place(at);
-  const Cycle more =
-      number(p) / kMicSamples * kScanWrapCycles - std::max<std::int64_t>(0, uncounted(p)) * kScanTickCycles;
-  if (micro_only_) return p.round * kScanMicroIsrCycles + more;
-  return p.round * kRound.before[kScanPeriod] + kRound.before[p.slot] + more;
-}
-
-AdcScan::Call AdcScan::call(Place p) const {
-  const Cycle more = (is_wrap(p) ? kScanWrapCycles : 0) - (uncounted(p) >= 0 ? kScanTickCycles : 0);
-  if (micro_only_) return {round_ + (p.round + 1) * kScanMicroFrameCycles, kScanMicroIsrCycles + more};
-  return {cycle_of(p), kRound.cycles[p.slot] + more};
-}
-
-AdcScan::Place AdcScan::after(Place p) const {
-  if (micro_only_ || ++p.slot == kScanPeriod) p = {p.round + 1, 0};
-  return p;
-}
-
-AdcScan::Call AdcScan::call_before(Place p) const {
-  if (micro_only_) return p.round > 0 ? call({p.round - 1, 0}) : Call{};
-  if (p.slot > (p.round > 0 ? 0 : first_slot_)) return call({p.round, p.slot - 1});
-  return p.round > 0 ? call({p.round - 1, kScanPeriod - 1}) : Call{};
-}
-
 std::uint64_t AdcScan::share_q32() const {
   if (!on_) return 0;
-  const Cycle cycles = micro_only_ ? kScanMicroIsrCycles : kRound.before[kScanPeriod];
-  const Cycle of = micro_only_ ? kScanMicroFrameCycles : kScanRoundCycles;
-  return (static_cast<std::uint64_t>(cycles) << 32) / static_cast<std::uint64_t>(of);
-}
-
-AdcScan::Call AdcScan::last_call(Cycle at) const { return on_ ? call_before(place(at)) : Call{}; }
-
-Cycle AdcScan::next_call(Cycle at) const { return on_ ? call(place(at)).at : host::kNever; }
-
-Cycle AdcScan::done(Cycle from, Cycle work) const {
-  return on_ ? done(place(from), from + work) : from + work;
-}
-
-Cycle AdcScan::done(Place next, Cycle end) const {
-  for (Call c = call(next); c.at < end; c = call(next)) {
-    end += c.cycles;
-    next = after(next);
-  }
-  return end;
-}
-
-Cycle AdcScan::served(Cycle asked, Cycle work) const {
-  if (!on_) return asked + work;
-  const Place next = place(asked);
-  // calls are far apart: the usual one needs neither the length of the one before nor that of the next
-  const bool apart =
-      !micro_only_ && next.slot > 0 && asked - cycle_of({next.round, next.slot - 1}) > kLongestCall;
-  const Cycle end = (apart ? asked : free_from(call_before(next), asked)) + work;
-  return !micro_only_ && cycle_of(next) >= end ? end : done(next, end);
-}
-
-AdcScan::Delay AdcScan::next_delay(const AgendaTimer& ticks, Cycle until) const {
-  Delay first{noted_stops_, until, 0};
-  if (!on_ || micro_only_ || !ticks.is_running()) return first;
-  // each kind of stop comes once a round, at a phase that it keeps
-  for (int kind = 0; kind < kStops; ++kind) {
-    std::int64_t round = (noted_stops_ - kind + kStops - 1) / kStops;
-    if (kStopSlots[kind] < first_slot_) round = std::max<std::int64_t>(round, 1);
-    const Cycle call = round_ + round * kScanRoundCycles + stop_at(kind);
-    if (call >= first.at) continue;
-    const Cycle since = ticks.since_tick(call);
-    if (!ticks.may_delay(since)) continue;
-    const AgendaTimer::Wait wait = ticks.first_wait(call, since, (first.at - 1 - call) / kScanRoundCycles);
-    if (wait.cycles == 0) continue;
-    first = {(round + wait.round) * kStops + kind + 1, call + wait.round * kScanRoundCycles, wait.cycles};
-  }
-  if (first.cycles == 0) first.stops = stops_before(until);
-  return first;
-}
-
-AdcScan::Delay AdcScan::delay_at_exit(Cycle at) const {
-  Delay delay{noted_stops_, at, 0};
-  if (!on_ || micro_only_) return delay;
-  delay.stops = stops_before(at);
-  const int kind = static_cast<int>(delay.stops % kStops);
-  const Cycle call = round_ + delay.stops / kStops * kScanRoundCycles + stop_at(kind);
-  if (delay.stops < kStops && kStopSlots[kind] < first_slot_) return delay;
-  if (call < at + kExitCycles) delay = {delay.stops + 1, call, at + kExitCycles - call};
-  return delay;
-}
-
-std::int64_t AdcScan::stops_before(Cycle at) const {
-  const Cycle since = at - round_;
-  if (since <= stop_at(0)) return noted_stops_;
-  const std::int64_t round = since / kScanRoundCycles;
-  int kind = 0;
-  while (kind < kStops && round * kScanRoundCycles + stop_at(kind) < since) ++kind;
-  return round * kStops + kind;
+  const auto q32 = [](Cycle cycles, Cycle of) {
+    return (static_cast<std::uint64_t>(cycles) << 32) / static_cast<std::uint64_t>(of);
+  };
+  return run_.micro_only ? q32(kScanMicroIsrCycles, kScanMicroFrameCycles)
+                         : q32(kScanRoundIsrCycles, kScanRoundCycles);
 }
 
 Cycle AdcScan::first_fill(Cycle at) const {
-  if (!on_ || micro_only_) return at;
+  if (!on_ || run_.micro_only) return at;
   const std::int64_t have = acc_samples(at);
   const std::int64_t missing = (2 * kAccSamples - 1 - have % kAccSamples) % kAccSamples;
   if (missing == 0) return at;
-  const Cycle filled = full_cycle(kScanPeriod * (have + missing - 1) + kScanAccSlot);
-  return filled + kRound.cycles[kScanAccSlot];
+  return full_cycle(kScanPeriod * (have + missing - 1) + kScanAccSlot) + kScanAccIsrCycles;
 }
 
 /// Newest period whose interrupt in `slot` has come and that serves `pair`; a value below 0 if none.
@@ -349,15 +197,10 @@ int AdcScan::peek_lit(int sensor, Cycle at) const {
 }
 
 Cycle AdcScan::mic_hold(int microphone, std::int64_t number) const {
-  Run run{total_base_, full_base_, round_, micro_only_};
+  Run run = run_;
   for (std::size_t i = runs_.size(); number < run.first && i-- > 0;) run = runs_[i];
-  const std::int64_t frame = number - run.first;
-  if (run.micro_only)
-    return run.round + (frame + 1) * kScanMicroFrameCycles - hold_to_end(kMicroFrame, microphone);
-  const std::int64_t from_round = run.full % kScanPeriod + frame;
-  const int slot = static_cast<int>(from_round % kScanPeriod);
-  return run.round + from_round / kScanPeriod * kScanRoundCycles + kRound.at[slot] -
-         hold_to_end(frame_of(slot), microphone);
+  const int slot = static_cast<int>((run.full + number - run.first) % kScanPeriod);
+  return run.cycle_of(number) - hold_to_end(run.micro_only ? kMicroFrame : frame_of(slot), microphone);
 }
 
 int AdcScan::mic_sample(int microphone, std::int64_t number) const {
@@ -365,7 +208,7 @@ int AdcScan::mic_sample(int microphone, std::int64_t number) const {
 }
 
 Cycle AdcScan::next_sample(std::int64_t filed, int slot, int shift, int pair) const {
-  if (!on_ || micro_only_) return host::kNever;
+  if (!on_ || run_.micro_only) return host::kNever;
   // first period whose interrupt in this slot is still to come, then on to the one that serves the pair
   std::int64_t period = (filed + kScanPeriod - 1 - slot) / kScanPeriod;
   period += (pair - pair_of_lit(period + shift) + pairs_) % pairs_;
@@ -401,7 +244,7 @@ const AdcScan::AccRing& AdcScan::acc_scan(Cycle at) {
 }
 
 Cycle AdcScan::acc_until(Cycle at) const {
-  if (!on_ || micro_only_) return host::kNever;
+  if (!on_ || run_.micro_only) return host::kNever;
   return full_cycle(kScanPeriod * acc_samples(at) + kScanAccSlot) + kScanFileCycles;
 }
 
@@ -417,7 +260,7 @@ unsigned AdcScan::pulses(Cycle at) const {
 }
 
 Cycle AdcScan::pulses_horizon(Cycle at) const {
-  if (!on_ || micro_only_) return host::kNever;
+  if (!on_ || run_.micro_only) return host::kNever;
   const std::int64_t count = full_interrupts(at - kScanLightCycles);
   const int slot = static_cast<int>(count % kScanPeriod);  // of the next interrupt
   const int wait = slot <= kScanLitSlot    ? kScanLitSlot - slot

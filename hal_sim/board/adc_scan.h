@@ -4,19 +4,19 @@
 //   slot (interrupts since the start mod 65):   3  lit pair arrives, IR LED off, next pair
 //                                              62  accelerometer arrives
 //                                              63  dark pair arrives, IR LED on
-//   every interrupt: 3 microphones. 65 frames = 58500 cycles (450 each with MICRO_ONLY); single ones are
-//   longer or shorter, because the converter stands while its list changes (scan_handler()) a pair's samples
-//   are the 4th and 5th channel of the frame that ends at its interrupt
+//   every interrupt: 3 microphones. A frame takes 900 cycles (450 with MICRO_ONLY); a pair's samples are the
+//   4th and 5th channel of the frame that ends at its interrupt
 //
-// Nothing is ticked: the number of interrupts so far follows from the clock, and a sample is evaluated when
-// somebody asks for it, at the instant at which it was taken. It is then kept, so it never changes.
+// Nothing is ticked: the number of interrupts so far follows from the clock by one division, and a sample is
+// evaluated when somebody asks for it, at its nominal instant. It is then kept, so it never changes.
+// While the program masks the handler (hold()), nothing is filed; of what came meanwhile the newest is.
 // Modelled: both rates, stopping and starting the converter, 4 or 5 pairs, the sample before the first flash.
 // Accelerometer samples are kept tick by tick from the first time that a program asks for one; those of
 // before are worked out then, from poses of at most 40 ms ago. Not modelled: turret sensors 8 and 9 (read 0),
-// which in their frames come before the microphones.
+// which in their frames come before the microphones; that single frames are up to a quarter longer or shorter,
+// because the converter stands while its list changes.
 // Source: [lib: a_d/advance_ad_scan/e_ad_conv.c], facts restated.
 #pragma once
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -25,7 +25,6 @@
 
 namespace board {
 
-class AgendaTimer;
 class Board;
 
 /// Cycles for which the emitter of a ring sensor has been on when its lit sample is held.
@@ -42,61 +41,30 @@ class AdcScan {
   /// The driver's statics and arrays return to their start values.
   void reset(Cycle at);
 
-  /// The driver's counter of interrupts is set to 0.
-  void restart_ticks(Cycle at) { ticks_base_ = interrupts(at); }
+  /// From `at` on the handler is not called, because the program masks it; and is again.
+  void hold(Cycle at) {
+    if (held_since_ < 0) held_since_ = at;
+  }
+  void release(Cycle at);
+  /// Frames that were lost so since the reset, and the first loss's cycle.
+  std::int64_t lost_frames() const { return lost_; }
+  Cycle first_lost() const { return first_lost_; }
 
   /// Calls of start() since the last reset.
   int starts() const { return starts_; }
   bool is_on() const { return on_; }
-  bool micro_only() const { return micro_only_; }
+  bool micro_only() const { return run_.micro_only; }
 
   /// Interrupts so far, in both modes.
-  std::int64_t interrupts(Cycle at) const { return total_base_ + frames(at); }
+  std::int64_t interrupts(Cycle at) const { return run_.first + frames(at); }
   /// Accelerometer samples so far.
   std::int64_t acc_samples(Cycle at) const { return acc_samples_of(full_interrupts(at - kScanFileCycles)); }
   /// Cycle of the next interrupt; kNever when the converter is off.
-  Cycle next_interrupt(Cycle at) const { return next_call(at + 1); }
+  Cycle next_interrupt(Cycle at) const { return interrupt_cycle(interrupts(at) + 1); }
   /// Cycle of the interrupt that completes the `count`-th microphone sample from power-up on.
-  Cycle interrupt_cycle(std::int64_t count) const;
-
-  // --- the time that its handler takes from the program ----------------------------------------------
-  /// A call of a handler: when it is asked for, and how long it takes. None: `at` below 0, 0 cycles.
-  struct Call {
-    Cycle at = -host::kNever, cycles = 0;
-  };
-  /// Cycles of the calls asked for in [from, to), neither before the last start() or switch_converter().
-  Cycle handler_cycles(Cycle from, Cycle to) const { return cycles_before(to) - cycles_before(from); }
-  /// What they take of each cycle on average, as a fraction of 2^32.
+  Cycle interrupt_cycle(std::int64_t count) const { return on_ ? run_.cycle_of(count - 1) : host::kNever; }
+  /// What the handler takes of each cycle, as a fraction of 2^32.
   std::uint64_t share_q32() const;
-  /// The newest call before `at`.
-  Call last_call(Cycle at) const;
-  /// When the first call from `at` on is asked for; kNever.
-  Cycle next_call(Cycle at) const;
-  /// `at`, or when the next handler's turn comes after the call that runs then.
-  Cycle free_from(Cycle at) const { return free_from(last_call(at), at); }
-  /// When `work` cycles of another handler, begun at `from`, are done that calls interrupt.
-  Cycle done(Cycle from, Cycle work) const;
-  /// The same of a handler that is asked for at `asked`: free_from() and done().
-  Cycle served(Cycle asked, Cycle work) const;
-  /// A call that must wait for a cycle or two, because the processor is on its way into Timer 2's handler or
-  /// out of it, while the converter stands: everything after comes as much later.
-  struct Delay {
-    std::int64_t stops = 0;  ///< of the converter, looked at so far
-    Cycle at = 0;            ///< when the call is asked for
-    Cycle cycles = 0;        ///< 0: none
-  };
-  /// The first since the last note() and before `until`; `ticks` settled no later than that.
-  Delay next_delay(const AgendaTimer& ticks, Cycle until) const;
-  /// That of a call that comes during a RETFIE at `at`; calls since the last note() did not wait.
-  Delay delay_at_exit(Cycle at) const;
-  /// Calls before `at` did not wait.
-  void pass(Cycle at) {
-    if (on_ && !micro_only_) noted_stops_ = stops_before(at);
-  }
-  void note(const Delay& d) {
-    noted_stops_ = d.stops;
-    round_ += d.cycles;
-  }
 
   /// When a program sees first, from `at` on, that the accelerometer index is 49: e_init_ad_scan() returns.
   Cycle first_fill(Cycle at) const;
@@ -125,6 +93,7 @@ class AdcScan {
   const AccRing& acc_scan(Cycle at);
   /// Cycle at which the next accelerometer sample arrives; kNever when none will.
   Cycle acc_until(Cycle at) const;
+  bool keeps_acc() const { return acc_used_; }
   /// Works out the samples so far, if a program has asked for any before.
   void keep_acc(Cycle at) {
     if (acc_used_) fill_acc(acc_samples(at));
@@ -146,47 +115,36 @@ class AdcScan {
     Cycle until = 0;  // the next sample of this kind arrives then; 0: not known
   };
 
-  /// A run of frames that is over.
+  /// A run of frames without a break.
   struct Run {
     std::int64_t first = 0;  // number of its first interrupt
-    std::int64_t full = 0;   // ALL_ADC interrupts before it
-    Cycle round = 0;         // round_
+    std::int64_t full = 0;   // ALL_ADC interrupts before it: the driver's slot counter
+    Cycle origin = 0;        // its first frame begins
     bool micro_only = false;
+
+    Cycle frame() const { return micro_only ? kScanMicroFrameCycles : kScanFrameCycles; }
+    /// When interrupt `number` comes.
+    Cycle cycle_of(std::int64_t number) const { return origin + (number - first + 1) * frame(); }
   };
 
+  Cycle seen(Cycle at) const { return held_since_ >= 0 && at > held_since_ ? held_since_ : at; }
   /// Of the present run.
-  std::int64_t frames(Cycle at) const;
+  std::int64_t frames(Cycle at) const {
+    at = seen(at);
+    if (!on_ || at <= run_.origin) return 0;
+    return static_cast<std::int64_t>(static_cast<std::uint64_t>(at - run_.origin) /
+                                     static_cast<std::uint64_t>(run_.frame()));
+  }
   static std::int64_t acc_samples_of(std::int64_t full_interrupts) {
     return (full_interrupts + kScanPeriod - 1 - kScanAccSlot) / kScanPeriod;
   }
-  std::int64_t full_interrupts(Cycle at) const { return full_base_ + (micro_only_ ? 0 : frames(at)); }
-  /// A call: round since round_, and slot in it; MICRO_ONLY: its number and 0.
-  struct Place {
-    std::int64_t round;
-    int slot;
-  };
-  Place place(Cycle at) const;
-  /// Of interrupts since reset, in either mode.
-  std::int64_t number(Place p) const {
-    return total_base_ + (micro_only_ ? p.round : p.round * kScanPeriod + p.slot - first_slot_);
-  }
-  /// Of these, those that found the counter of interrupts at its end; below 0: it still counts.
-  std::int64_t uncounted(Place p) const { return number(p) - ticks_base_ - kScanTicksMost; }
-  bool is_wrap(Place p) const { return number(p) % kMicSamples == kMicSamples - 1; }
-  static Cycle free_from(Call before, Cycle at) {
-    return at < before.at + before.cycles ? before.at + before.cycles + kChainCycles : at;
-  }
-  Place after(Place p) const;
-  Cycle cycle_of(Place p) const;
-  Call call(Place p) const;
-  Call call_before(Place p) const;
-  Cycle done(Place next, Cycle end) const;
-  void find_round(Cycle at);
-  std::int64_t stops_before(Cycle at) const;
-  Cycle cycles_before(Cycle at) const;
+  std::int64_t full_interrupts(Cycle at) const { return run_.full + (run_.micro_only ? 0 : frames(at)); }
   int pair_of_lit(std::int64_t period) const;  // pair whose lit sample arrives in this period
   std::int64_t newest(std::int64_t interrupts, int slot, int shift, int pair) const;
-  Cycle full_cycle(std::int64_t interrupt) const;  // of ALL_ADC interrupt number (from 0)
+  /// Of ALL_ADC interrupt number (from 0).
+  Cycle full_cycle(std::int64_t interrupt) const {
+    return run_.origin + (interrupt - run_.full + 1) * kScanFrameCycles;
+  }
   /// When the next sample is filed of `slot` and `pair`, after `filed` interrupts; kNever when none will.
   Cycle next_sample(std::int64_t filed, int slot, int shift, int pair) const;
   int evaluate(int sensor, std::int64_t period, bool lit_sample) const;
@@ -197,19 +155,15 @@ class AdcScan {
 
   const Board& board_;
   bool on_ = false;
-  bool micro_only_ = false;
   int starts_ = 0;
   int pairs_ = 4;
-  Cycle round_ = 0;                // calls of this run are counted in rounds from here on
-  std::int64_t first_period_ = 0;  // of the first round
-  int first_slot_ = 0;             // in it
-  std::int64_t noted_stops_ = 0;   // of the converter, since round_
-  std::int64_t ticks_base_ = 0;    // interrupts before the counter of interrupts stood at 0
-  std::int64_t total_base_ = 0;    // interrupts before this run
-  std::int64_t full_base_ = 0;     // of these, in ALL_ADC mode: the driver's slot counter
+  Run run_;                        // the present one
+  Cycle held_since_ = -1;          // -1: not held
+  std::int64_t lost_ = 0;
+  Cycle first_lost_ = 0;
   std::int64_t period_base_ = 0;   // from this period on ...
   int pair_base_ = 0;              // ... pairs count from here
-  std::vector<Run> runs_;          // those that the last 100 microphone samples come from
+  std::vector<Run> runs_;          // those over that the last 100 microphone samples come from
   std::array<Sample, 10> dark_{};
   std::array<Sample, 10> lit_{};
   AccRing acc_{};

@@ -64,10 +64,8 @@ class AgendaMotor {
 
   bool saves_power() const { return magnitude_ < kPowerSaveBelow; }
 
-  /// What the agenda's function does once. `pins_at`: from the cycles between its call and its last change of
-  /// a pin to the cycle of that. False: it divided by zero.
-  template <typename PinsAt>
-  bool fire(const PinsAt& pins_at) {
+  /// What the agenda's function does once, at `at`. False: it divided by zero.
+  bool fire(Cycle at) {
     if (phase_on && saves_power()) {
       stepper.set_coils_only(0);
       phase_on = false;
@@ -78,7 +76,7 @@ class AgendaMotor {
     const int direction = step_direction();
     commanded += direction;
     phase = (phase + direction * stepper.forward()) & 3;
-    stepper.energise(kPhaseCoils[phase], pins_at(pin_cycles(stepper.coils(), kPhaseCoils[phase])));
+    stepper.energise(kPhaseCoils[phase], at);
     if (saves_power()) {
       phase_on = true;
       set_cycle(kPowerSaveTicks);
@@ -86,10 +84,9 @@ class AgendaMotor {
     return true;
   }
 
-  /// Processes all ticks up to `tick`. `pins_at(n, cycles)`: when a firing of tick n changes its last pin,
-  /// `cycles` after its call. Speed 0 is stepped by the caller, firing by firing.
-  template <typename PinsAt>
-  void advance_to(std::int64_t tick, const TickLine& line, const PinsAt& pins_at) {
+  /// Processes all ticks up to `tick`; pins change at their ticks. Speed 0 is stepped by the caller, firing by
+  /// firing.
+  void advance_to(std::int64_t tick, const TickLine& line) {
     if (tick <= count.tick) return;
     if (!count.counts() || speed_ == 0) {
       count_idle(tick);
@@ -97,7 +94,7 @@ class AgendaMotor {
     }
     const auto fire_at = [&](std::int64_t fire_tick) {
       count.tick = fire_tick;
-      fire([&](Cycle cycles) { return pins_at(fire_tick, cycles); });
+      fire(line.cycle_of(fire_tick));
       count.counter = 0;
     };
     // firing by firing until driver, rotor and rhythm agree
@@ -119,13 +116,9 @@ class AgendaMotor {
       const std::int64_t last_step = before_first + steps * period;
       commanded += steps * direction;
       phase = static_cast<int>((phase + steps * turned) & 3);
-      const auto step_pins = [&](int back) {
-        const unsigned coils = kPhaseCoils[(phase - back * turned) & 3];
-        const unsigned old = saves_power() ? 0 : kPhaseCoils[(phase - (back + 1) * turned) & 3];
-        return pins_at(last_step - back * period, pin_cycles(old, coils));
-      };
-      const Cycle last = step_pins(0), before = steps > 1 ? step_pins(1) : 0;
-      stepper.turn(steps, direction, last, before, steps > 2 ? step_pins(2) : 0, kPhaseCoils[phase]);
+      const auto step_at = [&](int back) { return line.cycle_of(last_step - back * period); };
+      stepper.turn(steps, direction, step_at(0), steps > 1 ? step_at(1) : 0, steps > 2 ? step_at(2) : 0,
+                   kPhaseCoils[phase]);
       count.tick = last_step;
       count.counter = 0;
       if (saves_power()) {
@@ -137,45 +130,20 @@ class AgendaMotor {
     count_idle(tick);
   }
 
-  /// Firings at ticks after the one processed last, up to `tick`; without a command.
-  std::int64_t firings_until(std::int64_t tick) const {
-    if (!count.counts() || speed_ == 0) return 0;
-    const std::int64_t first = count.tick + count.ticks_to_fire();
-    if (tick < first) return 0;
-    const std::int64_t after = tick - first, period = full_period(), whole = quotient(after, period);
-    if (!saves_power()) return whole + 1;
-    return whole * 2 + (after - whole * period >= second_half() ? 2 : 1);
-  }
-  /// What the processor spends on a firing: a step, to a phase at which it is least, or the coils' switching
-  /// off.
-  Cycle step_cycles() const {
-    return (saves_power() ? kMotorHalfStepCycles : kMotorStepCycles + (phase_on ? kMotorOldHalfCycles : 0)) -
-           (is_left() ? kMotorLeftStepLess : 0) + turn_cycles();
-  }
-  Cycle off_cycles() const { return kMotorOffCycles + (is_left() ? kMotorLeftOffMore : 0) + turn_cycles(); }
-  /// More of a step to phase 1 or 2.
-  Cycle long_step_more() const { return is_left() ? kMotorLongStepMore : 0; }
-  /// Of a step and what belongs to it, on average; ticks from one to the next.
+  /// What the processor spends on one step and what belongs to it, on average; ticks from one to the next.
   Cycle period_cycles() const {
-    return step_cycles() + long_step_more() / 2 + (saves_power() ? off_cycles() : 0);
+    return saves_power() ? kMotorHalfStepCycles + kMotorOffCycles : kMotorStepCycles;
   }
   std::int64_t full_period() const { return saves_power() ? save_period_ : count.cycle; }
-  /// The same of the firing at this tick, which comes later than the one processed last; 0 for none.
-  Cycle firing_cycles(std::int64_t tick) const {
-    const std::int64_t after = tick - count.tick - count.ticks_to_fire();
-    if (after < 0 || !count.counts() || speed_ == 0) return 0;
-    const std::int64_t period = full_period(), whole = quotient(after, period), into = after - whole * period;
-    if (into == 0) return cycles_of(saves_power() ? 2 * whole : whole, 1);
-    return saves_power() && into == second_half() ? cycles_of(2 * whole + 1, 1) : 0;
-  }
-  /// What `number` firings take, the `first` after the one processed last.
-  Cycle cycles_of(std::int64_t first, std::int64_t number) const {
-    const std::int64_t before = steps_in(first), steps = steps_in(first + number) - before;
-    Cycle cycles = steps * step_cycles() + (number - steps) * off_cycles();
-    if (is_left()) cycles += (long_steps(before + steps) - long_steps(before)) * kMotorLongStepMore;
-    return cycles;
+  /// What the firing that comes next takes.
+  Cycle firing_cycles() const {
+    return !saves_power() ? kMotorStepCycles : phase_on ? kMotorOffCycles : kMotorHalfStepCycles;
   }
 
+  /// Does the rotor go from step to step without a rest until the next command?
+  bool is_even() const {
+    return regular_ >= kRegularFirings && count.counts() && full_period() * kAgendaTickCycles <= kRotorMoveCycles;
+  }
   /// Tick of the next step (not coil-off), or -1 if there is none without a command.
   std::int64_t next_step_tick() const {
     if (!count.counts() || speed_ == 0) return -1;
@@ -197,22 +165,6 @@ class AgendaMotor {
   int speed_ = 0, magnitude_ = 0;
   int save_period_ = 0;  // ticks from step to step in power save
 
-  bool is_left() const { return stepper.forward() < 0; }
-  /// More of a firing whose steps lower the phase.
-  Cycle turn_cycles() const { return step_direction() * stepper.forward() < 0 ? kMotorTurnMore : 0; }
-  /// Steps among the next `firings`.
-  std::int64_t steps_in(std::int64_t firings) const {
-    return !saves_power() ? firings : phase_on ? firings / 2 : (firings + 1) / 2;
-  }
-  /// Of the next `steps`, those to phase 1 or 2.
-  std::int64_t long_steps(std::int64_t steps) const {
-    const int turn = step_direction() * stepper.forward();
-    std::int64_t sum = steps / 4 * 2;
-    for (std::int64_t i = steps / 4 * 4 + 1; i <= steps; ++i)
-      sum += is_long(phase + static_cast<int>(i & 3) * turn);
-    return sum;
-  }
-  static bool is_long(int phase) { return ((phase + 1) & 2) != 0; }
   /// left: forward only for v > 0; right: backward only for v < 0
   int step_direction() const {
     if (stepper.forward() < 0) return speed_ > 0 ? 1 : -1;
@@ -223,19 +175,8 @@ class AgendaMotor {
     if (static_cast<std::uint64_t>(ticks) >> 32) return ticks / period;
     return static_cast<std::uint32_t>(ticks) / static_cast<std::uint32_t>(period);
   }
-  /// Power save: ticks from the next firing, which sets the cycle for it, to the one after.
-  std::int64_t second_half() const { return phase_on ? full_period() - kPowerSaveTicks : kPowerSaveTicks; }
   /// In a regular rhythm: was the last firing a step (true) or the coils' switching off?
   bool phase_on_is_new() const { return !saves_power() || phase_on; }
-  /// From the function's call to its last change of a pin.
-  Cycle pin_cycles(unsigned from, unsigned to) const {
-    int last = 3;
-    while (last > 0 && ((from ^ to) >> last & 1) == 0) --last;
-    return kMotorPinCycles[last] + ((from >> last & 1) != 0 ? kMotorPinClearedCycles : 0) +
-           (phase_on && !saves_power() ? kMotorOldHalfCycles : 0) -
-           (stepper.forward() < 0 ? kMotorPinsLeftSooner : 0);
-  }
-
   void count_idle(std::int64_t tick) {
     if (count.counts()) count.counter = static_cast<std::uint16_t>(count.counter + (tick - count.tick));
     count.tick = tick;

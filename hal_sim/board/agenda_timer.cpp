@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "hal_sim/board/adc_scan.h"
 #include "sim_core/base/hash.h"
 
 namespace board {
@@ -22,8 +21,7 @@ std::int64_t floor_div(std::int64_t a, std::int64_t b) {
 }
 }  // namespace
 
-AgendaTimer::AgendaTimer(const AdcScan* scan)
-    : scan_(scan), motors_{AgendaMotor(-1), AgendaMotor(+1)}, ahead_{AgendaMotor(-1), AgendaMotor(+1)} {
+AgendaTimer::AgendaTimer() : motors_{AgendaMotor(-1), AgendaMotor(+1)}, ahead_{AgendaMotor(-1), AgendaMotor(+1)} {
   nodes_.reserve(8);
   for (AgendaMotor& m : motors_) m.count.active = false;
 }
@@ -33,6 +31,7 @@ AgendaTimer::AgendaTimer(const AdcScan* scan)
 std::int64_t AgendaTimer::ticks_at(Cycle at) const {
   if (walking_) return walk_tick_;
   if (!running_) return stopped_tick_;
+  if (held_since_ >= 0) at = std::min(at, held_since_);
   std::int64_t tick = floor_div(at - line_.origin, kAgendaTickCycles);
   if (tick < line_.late_tick) tick = at >= line_.late_cycle ? line_.late_tick : line_.late_tick - 1;
   if (tick == line_.late_tick && at < line_.late_cycle) tick = line_.late_tick - 1;
@@ -53,7 +52,6 @@ void AgendaTimer::start(Cycle at) {
   line_.late_cycle = line_.cycle_of(tick);
   line_.late_tick = walking_ ? tick : -1;
   line_.origin = at - tick * kAgendaTickCycles;
-  started_tick_ = tick;
   running_ = enabled_ = true;
   for (AgendaMotor& m : motors_) m.disturb();
   find_next_fire();
@@ -80,10 +78,11 @@ void AgendaTimer::reset(Cycle at) {
   nodes_.clear();
   line_ = TickLine{};
   running_ = enabled_ = walking_ = in_callback_ = false;
-  stopped_tick_ = started_tick_ = 0;
+  stopped_tick_ = 0;
   next_fire_ = -1;
   last_serial_ = 0;
-  find_costs();
+  held_since_ = -1;
+  lost_ticks_ = 0;
 }
 
 // --- the list --------------------------------------------------------------------------------------------
@@ -128,28 +127,13 @@ void AgendaTimer::disturb(const Node& node) {
   if (node.kind != Kind::User) motor(wheel_of(node.kind)).disturb();
 }
 
-// A motor whose node comes later in the list waits for the other one's firings: these must still be known. In
-// a walk they have been charged already, and its own turn is still to come.
 AgendaMotor& AgendaTimer::bring(Wheel wheel, std::int64_t tick) {
-  const Wheel other = wheel == Wheel::Left ? Wheel::Right : Wheel::Left;
-  if (!walking_ && walks_before(wheel, other)) bring_alone(other, tick);
-  return bring_alone(wheel, tick);
-}
-
-AgendaMotor& AgendaTimer::bring_alone(Wheel wheel, std::int64_t tick) {
   const std::size_t i = static_cast<std::size_t>(wheel);
   AgendaMotor& m = motors_[i];
   if (has_ahead_[i] && ahead_[i].count.tick <= tick) m = ahead_[i];
   has_ahead_[i] = false;
-  advance(m, wheel, tick);
+  m.advance_to(tick, line_);
   return m;
-}
-
-void AgendaTimer::advance(AgendaMotor& m, Wheel wheel, std::int64_t tick) const {
-  if (scan_)
-    m.advance_to(tick, line_, [&](std::int64_t t, Cycle cycles) { return pins_at(wheel, t, cycles); });
-  else
-    m.advance_to(tick, line_, [&](std::int64_t t, Cycle) { return line_.cycle_of(t); });
 }
 
 void AgendaTimer::settle_motors(std::int64_t tick) {
@@ -159,7 +143,6 @@ void AgendaTimer::settle_motors(std::int64_t tick) {
 }
 
 void AgendaTimer::find_next_fire() {
-  find_costs();
   next_fire_ = -1;
   for (const Node& node : nodes_) {
     const AgendaCount& count = count_of(node);
@@ -257,15 +240,11 @@ void AgendaTimer::set_speed(Wheel wheel, int speed, Cycle at) {
   if (has_node_[static_cast<int>(wheel)]) m.set_cycle(m.speed() == 0 ? 0 : kSpeedUnit / std::abs(m.speed()));
   // a motor that runs, or stands without a cycle, needs no interrupt
   if (was_handled && !walking_) find_next_fire();
-  if (m.count.counts() != counted)
-    find_costs();
-  else if (scan_)
-    find_moments();
 }
 
 bool AgendaTimer::run_motor(Wheel wheel, Cycle at) {
   AgendaMotor& m = bring(wheel, done_tick(serial_of(wheel), at));
-  const bool fine = m.fire([at](Cycle) { return at; });
+  const bool fine = m.fire(at);
   m.disturb();
   if (!walking_) find_next_fire();
   return fine;
@@ -281,7 +260,7 @@ const AgendaMotor& AgendaTimer::motor_at(Wheel wheel, Cycle at) const {
     ahead_[i] = m;
     has_ahead_[i] = true;
   }
-  advance(ahead_[i], wheel, tick);
+  ahead_[i].advance_to(tick, line_);
   return ahead_[i];
 }
 
@@ -298,13 +277,13 @@ Stepper& AgendaTimer::stepper(Wheel wheel, Cycle at) {
 }
 
 Cycle AgendaTimer::steps_horizon(Wheel wheel, Cycle at) const {
-  if (!running_ && !walking_) return host::kNever;
+  if ((!running_ && !walking_) || held_since_ >= 0) return host::kNever;
   const std::int64_t tick = motor_at(wheel, at).next_step_tick();
   return tick < 0 ? host::kNever : line_.cycle_of(tick);
 }
 
 Cycle AgendaTimer::coils_horizon(Wheel wheel, Cycle at) const {
-  if (!running_ && !walking_) return host::kNever;
+  if ((!running_ && !walking_) || held_since_ >= 0) return host::kNever;
   const AgendaMotor& m = motor_at(wheel, at);
   if (!m.count.counts() || m.speed() == 0) return host::kNever;
   return line_.cycle_of(m.count.tick + m.count.ticks_to_fire());
@@ -324,10 +303,9 @@ void AgendaTimer::begin(Cycle at) {
   const std::int64_t lost =
       floor_div(at - (line_.origin + walk_tick_ * kAgendaTickCycles), kAgendaTickCycles);
   if (lost > 0) {
-    line_.origin += lost * kAgendaTickCycles;
+    lose(lost, at);
     line_.late_tick = walk_tick_;
     line_.late_cycle = at;
-    for (AgendaMotor& m : motors_) m.disturb();
   }
   walking_ = true;
   walk_serial_ = kBeforeAll;
@@ -335,9 +313,8 @@ void AgendaTimer::begin(Cycle at) {
   in_callback_ = false;
 }
 
-AgendaTimer::Function AgendaTimer::next(bool& divided_by_zero, Cycle at) {
+AgendaTimer::Function AgendaTimer::next(bool& divided_by_zero) {
   divided_by_zero = false;
-  walk_at_ = at;
   if (!walking_) return nullptr;
   // the callback has returned: its counter is zeroed now, whatever it did itself
   if (in_callback_) {
@@ -359,9 +336,8 @@ AgendaTimer::Function AgendaTimer::next(bool& divided_by_zero, Cycle at) {
     walk_cost_ += cost_of(*node);
     if (!needs_handler(*node)) {
       const AgendaMotor& m = motor(wheel_of(node->kind));
-      const Cycle firing = m.firing_cycles(walk_tick_);
+      if (m.count.counts() && m.count.ticks_to_fire() == 1) walk_cost_ += m.firing_cycles();
       settle(*node, walk_tick_);
-      walk_cost_ += firing;
       continue;
     }
     AgendaCount& count = count_of(*node);
@@ -374,8 +350,7 @@ AgendaTimer::Function AgendaTimer::next(bool& divided_by_zero, Cycle at) {
       return node->function;
     }
     AgendaMotor& m = motor(wheel_of(node->kind));
-    divided_by_zero =
-        !m.fire([&](Cycle cycles) { return pins_at(wheel_of(node->kind), walk_tick_, cycles); });
+    divided_by_zero = !m.fire(line_.cycle_of(walk_tick_));
     count.counter = 0;
     if (divided_by_zero) return nullptr;
   }
@@ -387,18 +362,35 @@ void AgendaTimer::finish(Cycle at) {
   in_callback_ = false;
   stopped_tick_ = walk_tick_;
   settle_motors(walk_tick_);
-  if (running_) {
-    // one tick was remembered by the flag and runs now; the others are lost
-    const std::int64_t since =
-        floor_div(at - (line_.origin + walk_tick_ * kAgendaTickCycles), kAgendaTickCycles);
-    if (since >= 1) {
-      line_.origin += (since - 1) * kAgendaTickCycles;
-      line_.late_tick = walk_tick_ + 1;
-      line_.late_cycle = at;
-      for (AgendaMotor& m : motors_) m.disturb();
-    }
-  }
+  if (running_) resume(walk_tick_, at);
+  if (held_since_ >= 0) held_since_ = at;
   find_next_fire();
+}
+
+// Ticks after `done` that came by `at` found the handler busy or masked: one was remembered by the flag and
+// runs now; the others are lost.
+void AgendaTimer::resume(std::int64_t done, Cycle at) {
+  const std::int64_t since = floor_div(at - (line_.origin + done * kAgendaTickCycles), kAgendaTickCycles);
+  if (since < 1) return;
+  lose(since - 1, at);
+  line_.late_tick = done + 1;
+  line_.late_cycle = at;
+}
+
+void AgendaTimer::lose(std::int64_t ticks, Cycle at) {
+  line_.origin += ticks * kAgendaTickCycles;
+  for (AgendaMotor& m : motors_) m.disturb();
+  if (ticks > 0 && lost_ticks_ == 0) first_lost_ = at;
+  lost_ticks_ += ticks;
+}
+
+void AgendaTimer::release(Cycle at) {
+  if (held_since_ < 0) return;
+  const std::int64_t done = ticks_at(held_since_);
+  held_since_ = -1;
+  if (!running_ || walking_ || at < line_.cycle_of(done + 1)) return;
+  settle_motors(done);
+  resume(done, at);
 }
 
 // --- costs and digest ------------------------------------------------------------------------------------
@@ -409,114 +401,17 @@ Cycle AgendaTimer::cost_of(const Node& node) const {
 
 Cycle AgendaTimer::take_walk_cost() { return std::exchange(walk_cost_, 0); }
 
-void AgendaTimer::find_costs() {
-  tick_cycles_ = kAgendaIsrCycles + (nodes_.empty() ? 0 : kAgendaListCycles);
-  way_to_[0] = way_to_[1] = 0;
-  for (const Node& node : nodes_) {
-    const Cycle cycles = cost_of(node);
-    tick_cycles_ += cycles;
-    for (Wheel wheel : {Wheel::Left, Wheel::Right})
-      if (node.serial >= serial_of(wheel)) way_to_[static_cast<std::size_t>(wheel)] += cycles;
-  }
-  if (scan_) find_moments();
-}
-
-// Firings that a tick may hold: none or one of either motor, a step or the coils' switching off.
-void AgendaTimer::find_moments() {
-  const std::array<Cycle, 5> key{tick_cycles_, motors_[0].step_cycles(), motors_[1].step_cycles(),
-                                 motors_[0].saves_power(), motors_[1].saves_power()};
-  if (key == moments_key_) return;
-  moments_key_ = key;
-  moment_count_ = 0;
-  delayed_phases_ = 0;
-  const auto add = [&](Cycle since) {
-    for (int i = 0; i < moment_count_; ++i)
-      if (moments_[i] == since) return;
-    moments_[moment_count_++] = static_cast<std::int16_t>(since);
-    delayed_phases_ |= 1u << since % kPhaseCycles;
-  };
-  for (Cycle since = 1; since <= kEntryCycles; ++since) add(since);
-  const auto kinds = [](const AgendaMotor& m) {
-    return std::array<Cycle, 4>{0, m.step_cycles(), m.step_cycles() + m.long_step_more(),
-                                m.saves_power() ? m.off_cycles() : 0};
-  };
-  for (const Cycle one : kinds(motors_[0]))
-    for (const Cycle other : kinds(motors_[1]))
-      for (Cycle left = 0; left < kExitCycles; ++left) add(tick_cycles_ - kExitCycles + one + other + left);
-}
-
-Cycle AgendaTimer::firing_cycles(std::int64_t from, std::int64_t to) const {
-  Cycle cycles = 0;
-  for (const AgendaMotor& m : motors_) {
-    const std::int64_t until = m.firings_until(to);
-    if (until == 0) continue;
-    const std::int64_t before = m.firings_until(from);
-    cycles += m.cycles_of(before, until - before);
-  }
-  return cycles;
-}
-
-Cycle AgendaTimer::handler_cycles(Cycle from, Cycle to) const {
-  if (!running_ || walking_) return 0;
-  const std::int64_t first = std::max(ticks_at(from - 1), started_tick_), last = ticks_at(to - 1);
-  return last <= first ? 0 : (last - first) * tick_cycles_ + firing_cycles(first, last);
-}
-
 std::uint64_t AgendaTimer::share_q32() const {
   if (!running_) return 0;
   const auto share = [](Cycle cycles, std::int64_t ticks) {
     return (static_cast<std::uint64_t>(cycles) << 32) / static_cast<std::uint64_t>(ticks * kAgendaTickCycles);
   };
-  std::uint64_t sum = share(tick_cycles_, 1);
+  Cycle tick = kAgendaIsrCycles + (nodes_.empty() ? 0 : kAgendaListCycles);
+  for (const Node& node : nodes_) tick += cost_of(node);
+  std::uint64_t sum = share(tick, 1);
   for (const AgendaMotor& m : motors_)
     if (m.count.counts() && m.speed() != 0) sum += share(m.period_cycles(), m.full_period());
   return sum;
-}
-
-Cycle AgendaTimer::last_call(Cycle at) const {
-  const std::int64_t tick = ticks_at(at - 1);
-  return running_ && !walking_ && tick > started_tick_ ? line_.cycle_of(tick) : -1;
-}
-
-Cycle AgendaTimer::next_call(Cycle at) const {
-  return running_ && !walking_ ? line_.cycle_of(std::max(ticks_at(at - 1), started_tick_) + 1) : host::kNever;
-}
-
-AgendaTimer::Wait AgendaTimer::first_wait(Cycle at, Cycle since, std::int64_t rounds) const {
-  // a round moves an interrupt by 39 of the 59 phases of a tick; 56 rounds move it by one
-  constexpr Cycle kPhases = kAgendaTickCycles / kPhaseCycles;
-  constexpr Cycle kRoundsAPhase = 56;
-  static_assert(kScanRoundCycles * kRoundsAPhase % kAgendaTickCycles == kPhaseCycles);
-  Wait first{rounds + 1, 0};
-  for (int i = 0; i < moment_count_; ++i) {
-    const Cycle ahead = moments_[i] - since;
-    if (ahead % kPhaseCycles != 0) continue;
-    const Cycle phases = ahead / kPhaseCycles;
-    std::int64_t round = (phases < 0 ? phases + kPhases : phases) * kRoundsAPhase % kPhases;
-    for (; round < first.round; round += kPhases) {
-      const Cycle wait = wait_at(at + round * kScanRoundCycles, moments_[i]);
-      if (wait > 0) first = {round, wait};
-    }
-  }
-  return first;
-}
-
-Cycle AgendaTimer::wait_at(Cycle at, Cycle since) const {
-  if (since <= kEntryCycles) return kEntryCycles + 1 - since;
-  const std::int64_t tick = ticks_at(at);
-  const Cycle left =
-      since - (tick_cycles_ - kExitCycles) - motors_[0].firing_cycles(tick) - motors_[1].firing_cycles(tick);
-  return left >= 0 && left < kExitCycles ? kExitCycles - left : 0;
-}
-
-Cycle AgendaTimer::pins_at(Wheel wheel, std::int64_t tick, Cycle cycles) const {
-  if (!scan_) return line_.cycle_of(tick);
-  cycles -= kPinBlockCycles;
-  if (walking_ && tick == walk_tick_) return scan_->done(walk_at_, cycles + walk_cost_) + kPinBlockCycles;
-  const Wheel other = wheel == Wheel::Left ? Wheel::Right : Wheel::Left;
-  cycles += kAgendaEntryCycles + way_to_[static_cast<std::size_t>(wheel)];
-  if (walks_before(other, wheel)) cycles += motor(other).firing_cycles(tick);
-  return scan_->served(line_.cycle_of(tick), cycles) + kPinBlockCycles;
 }
 
 std::uint64_t AgendaTimer::state_sum(Cycle at) const {

@@ -8,26 +8,21 @@
 // have a closed form. So only ticks at which a user agenda fires become interrupts (next_interrupt()); the
 // handler in the image then walks the list with begin / next / finish and calls what next() names.
 // A handler that takes longer than a tick delays the following tick to its end and loses the others, as the
-// processor with its single pending flag does; motors lose them too.
-//
-// A motor's pins change when the handler comes to them: after the nodes that were added later, the other
-// motor's firing if that is one of them, and the converter's handlers that come meanwhile.
+// processor with its single pending flag does; motors lose them too. So does a program that masks the handler
+// (hold()). Motors' pins change at their nominal ticks.
 //
 // Modelled: list order, counters that survive speed and cycle changes, pause, restart, reset, destroy from
 // within callbacks, lost ticks, division by zero in the power-save half.
-// Not modelled: a list edited while the interrupt walks it (the robot races); use of freed nodes; ticks lost
-// to other interrupts while no user agenda is due, or delayed by other handlers than the converter's.
+// Not modelled: a list edited while the interrupt walks it (the robot races); use of freed nodes; what nodes
+// earlier in the list and other handlers delay the pins by.
 // Source: [lib: motor_led/advance_one_timer/e_agenda.c], facts restated.
 #pragma once
-#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "hal_sim/board/agenda_motor.h"
 
 namespace board {
-
-class AdcScan;
 
 enum class Wheel { Left = 0, Right = 1 };
 
@@ -36,9 +31,7 @@ class AgendaTimer {
   /// Identifies an agenda: the address of its C function. Only compared, never followed here.
   using Function = const void*;
 
-  /// `scan`: whose handler interrupts that of the agendas; null: motors' pins change at their ticks, whatever
-  /// handlers do.
-  explicit AgendaTimer(const AdcScan* scan = nullptr);
+  AgendaTimer();
 
   // --- the timer -----------------------------------------------------------------------------------------
   /// Timer 2 starts from 0: the first tick is one period later.
@@ -51,6 +44,16 @@ class AgendaTimer {
   /// Processor reset: list, statics and timer as after loading; wheels keep their position and lose their
   /// current.
   void reset(Cycle at);
+
+  /// From `at` on the handler is not called, because the program masks it; and is again.
+  void hold(Cycle at) {
+    if (held_since_ < 0) held_since_ = at;
+  }
+  void release(Cycle at);
+  /// Ticks that were lost because the handler was busy or masked for longer than a tick, since the reset; the
+  /// first one's cycle.
+  std::int64_t lost_ticks() const { return lost_ticks_; }
+  Cycle first_lost() const { return first_lost_; }
 
   // --- the list; results as the C functions return them (1 done, 2 not found) ----------------------------
   int activate(Function function, int cycle, Cycle at);
@@ -67,11 +70,16 @@ class AgendaTimer {
   void set_speed(Wheel wheel, int speed, Cycle at);
   /// run_left_motor() called as a function, from wherever. False: division by zero.
   bool run_motor(Wheel wheel, Cycle at);
+  /// steps/s
   int speed(Wheel wheel) const { return motor(wheel).speed(); }
   /// The driver's step counter, not wrapped.
   std::int64_t commanded_steps(Wheel wheel, Cycle at) const;
   /// Cycle before which the step counter keeps its value without a command.
   Cycle steps_horizon(Wheel wheel, Cycle at) const;
+  /// Does the wheel go from step to step without a rest, all of one length, until the next command?
+  bool turns_evenly(Wheel wheel, Cycle at) const {
+    return running_ && held_since_ < 0 && !walking_ && motor_at(wheel, at).is_even();
+  }
   /// Cycle before which the coils keep their state without a command.
   Cycle coils_horizon(Wheel wheel, Cycle at) const;
   /// The motor as it is at `at`; valid until the next call of anything here.
@@ -91,8 +99,8 @@ class AgendaTimer {
   /// The handler starts. Must be called at or after next_interrupt().
   void begin(Cycle at);
   /// The next callback of this tick, in list order, or null when the list's end is reached. `divided_by_zero`
-  /// is set when a motor's firing trapped; the walk is then over. `at`: now.
-  Function next(bool& divided_by_zero, Cycle at);
+  /// is set when a motor's firing trapped; the walk is then over.
+  Function next(bool& divided_by_zero);
   /// Processor cycles that the walk has taken since this was asked last.
   Cycle take_walk_cost();
   /// The handler returns.
@@ -110,29 +118,9 @@ class AgendaTimer {
 
   /// Ticks processed by `at`.
   std::int64_t ticks_at(Cycle at) const;
-  /// Cycles that the ticks in [from, to) take which call no function of the program; those that do are run
-  /// and charged one by one. 0 during a walk.
-  Cycle handler_cycles(Cycle from, Cycle to) const;
-  /// What all of them take of each cycle on average, as a fraction of 2^32.
+  /// What the ticks take of each cycle that call no function of the program, as a fraction of 2^32; those that
+  /// do are run and charged one by one.
   std::uint64_t share_q32() const;
-  /// When the newest of them before `at` came; below 0: none.
-  Cycle last_call(Cycle at) const;
-  Cycle next_call(Cycle at) const;
-  /// Cycles from a tick to `at`, an instant after the first.
-  Cycle since_tick(Cycle at) const { return (at - line_.origin) % kAgendaTickCycles; }
-  /// An interrupt of a higher level that must wait because the processor is on its way into the handler or
-  /// out of it.
-  struct Wait {
-    std::int64_t round = 0;
-    Cycle cycles = 0;  ///< 0: none must
-  };
-  /// Of interrupts asked for at `at`, `since` after a tick, and then once a round of the scan, `rounds` times
-  /// more: the first that must wait. Not before the last settle().
-  Wait first_wait(Cycle at, Cycle since, std::int64_t rounds) const;
-  /// False: none must at `since` plus multiples of kPhaseCycles.
-  bool may_delay(Cycle since) const { return (delayed_phases_ >> (since % kPhaseCycles) & 1) != 0; }
-  /// Brings the motors to `at`: whatever changes how long handlers take, or delay each other, comes after.
-  void settle(Cycle at) { settle_motors(walking_ ? -1 : ticks_at(at)); }
   /// Does the driver step this wheel on and on?
   bool runs(Wheel wheel) const {
     return running_ && motor(wheel).count.counts() && motor(wheel).speed() != 0;
@@ -169,23 +157,16 @@ class AgendaTimer {
   /// Does this node need the handler when it fires?
   bool needs_handler(const Node& node) const;
   Cycle cost_of(const Node& node) const;
-  void find_costs();
-  void find_moments();
-  Cycle wait_at(Cycle at, Cycle since) const;
-  /// Firings of both motors in the ticks after `from` up to `to`, and what they take.
-  Cycle firing_cycles(std::int64_t from, std::int64_t to) const;
-  /// When the firing of a motor at `tick` changes its last pin, `cycles` after its function's call.
-  Cycle pins_at(Wheel wheel, std::int64_t tick, Cycle cycles) const;
-  bool walks_before(Wheel first, Wheel second) const { return serial_of(first) > serial_of(second); }
-  AgendaMotor& bring_alone(Wheel wheel, std::int64_t tick);
-  void advance(AgendaMotor& m, Wheel wheel, std::int64_t tick) const;
+  void resume(std::int64_t done, Cycle at);
+  void lose(std::int64_t ticks, Cycle at);
   void find_next_fire();
 
-  const AdcScan* scan_;
   TickLine line_;
   bool running_ = false, enabled_ = false;
-  std::int64_t started_tick_ = 0;  // the first call is that of the tick after this
   std::int64_t stopped_tick_ = 0;  // ticks processed while not running
+  Cycle held_since_ = -1;          // -1: not held
+  std::int64_t lost_ticks_ = 0;
+  Cycle first_lost_ = 0;
   std::vector<Node> nodes_;        // oldest first; the list is walked from the back
   AgendaMotor motors_[2];
   // what queries have computed ahead of the last command; a cache, its presence changes no answer
@@ -196,20 +177,11 @@ class AgendaTimer {
   std::uint32_t motor_serial_[2] = {0, 0};
   std::uint32_t last_serial_ = 0;
 
-  Cycle tick_cycles_ = kAgendaIsrCycles;  // of a tick at which nothing fires
-  // moments after a tick at which another interrupt may have to wait
-  std::int16_t moments_[kEntryCycles + 16 * kExitCycles] = {};
-  int moment_count_ = 0;
-  std::array<Cycle, 5> moments_key_{};  // what they were found for
-  std::uint32_t delayed_phases_ = 0;    // may_delay()'s bits
-  Cycle way_to_[2] = {0, 0};            // from the list's head to the motors' functions
-
   std::int64_t next_fire_ = -1;  // next tick that needs the handler, -1 none
   bool walking_ = false;
   std::int64_t walk_tick_ = 0;
   std::uint32_t walk_serial_ = 0;  // node being processed; those above are done
-  Cycle walk_cost_ = 0;            // of the nodes since walk_at_
-  Cycle walk_at_ = 0;
+  Cycle walk_cost_ = 0;            // since it was taken last
   bool in_callback_ = false;
 };
 

@@ -54,7 +54,6 @@ std::int64_t to_ppb(double ppm) { return static_cast<std::int64_t>(std::llround(
 Board::Board(const Setup& setup)
     : setup_(setup),
       clock_(to_ppb(setup.clock_ppm), sim::from_seconds(setup.boot_delay_s)),
-      agendas_(setup.spread_handlers ? nullptr : &scan_),
       scan_(*this),
       basic_prox_(*this),
       battery_(setup.battery_wh, setup.battery_v, kProcessorA + kBluetoothA + kBoardA),
@@ -101,6 +100,19 @@ double Board::wheel_angle_rad(Wheel wheel, Cycle at) const {
   const double steps = timer_motors_.drives(wheel) ? stepper_at(wheel, at).position(at)
                                                    : agendas_.stepper_at(wheel, at).position(at);
   return steps * (sim::kTwoPi / kStepsPerTurn) * setup_.wheel_ratio[static_cast<std::size_t>(wheel)];
+}
+
+WheelTurn Board::wheel_turn(Wheel wheel, Cycle at) const {
+  const Stepper motor = stepper_at(wheel, at);
+  const double rad_per_step =
+      sim::kTwoPi / kStepsPerTurn * setup_.wheel_ratio[static_cast<std::size_t>(wheel)];
+  WheelTurn turn{motor.position(at) * rad_per_step, motor.speed(at) * rad_per_step, motor.move_end(at)};
+  if (agendas_.turns_evenly(wheel, at))
+    turn.until = host::kNever;
+  else
+    turn.until = std::min(
+        {turn.until, agendas_.steps_horizon(wheel, at), timer_motors_.steps_horizon(wheel, at)});
+  return turn;
 }
 
 std::int64_t Board::steps(Wheel wheel, Cycle at) const { return stepper_at(wheel, at).steps(); }
@@ -303,7 +315,6 @@ void Board::processor_reset(Cycle at) {
   timer_motors_.reset();
   agendas_.reset(at);
   scan_.reset(at);
-  next_delay_ = -1;
   basic_prox_.reset(at);
   codec_.reset(at);
   for (Uart& uart : uarts_) uart.reset(at);
@@ -345,36 +356,23 @@ void Board::exchange(Cycle at) {
   for (Uart& uart : uarts_) uart.exchange(at);
   codec_.forget(at);
   scan_.keep_acc(at);
-  if (!setup_.spread_handlers && !agendas_.is_walking() && at > next_delay(at)) settle_handlers(at);
 }
 
-// What makes a handler wait depends on the motors' rhythm, which lasts until the next command.
-Cycle Board::next_delay(Cycle at) {
-  if (next_delay_ < 0) next_delay_ = scan_.next_delay(agendas_, at + kLookAheadCycles).at;
-  return next_delay_;
+Cycle Board::quiet_until(Cycle at) const {
+  const bool has_news_of_its_own = !uarts_[0].is_quiet() || !uarts_[1].is_quiet() || !parts_.empty() ||
+                                   packets_.receivers() > 0 || codec_.was_used() || (camera_ && camera_->is_used());
+  if (has_news_of_its_own) return at;
+  return scan_.keeps_acc() ? at + kAccKeepCycles : host::kNever;
 }
 
-// The motors first: their steps so far were delayed by calls as these were known.
-void Board::settle_handlers(Cycle at) {
-  const Cycle no_delay_until = std::exchange(next_delay_, -1);
-  if (agendas_.is_walking() || setup_.spread_handlers) return;
-  if (at <= no_delay_until) {
-    agendas_.settle(at);
-    scan_.pass(at);
-    return;
+void Board::mask_handlers(bool masked, Cycle at) {
+  if (masked) {
+    scan_.hold(at);
+    agendas_.hold(at);
+  } else {
+    scan_.release(at);
+    agendas_.release(at);
   }
-  AdcScan::Delay delay;
-  do {
-    delay = scan_.next_delay(agendas_, at);
-    agendas_.settle(delay.at);
-    scan_.note(delay);
-  } while (delay.cycles > 0);
-}
-
-void Board::handler_left(Cycle at) {
-  next_delay_ = -1;
-  agendas_.settle(at);
-  scan_.note(scan_.delay_at_exit(at));
 }
 
 // --- analogue inputs -------------------------------------------------------------------------------------

@@ -31,7 +31,6 @@
 #include "hal_sim/board/codec.h"
 #include "hal_sim/board/data_eeprom.h"
 #include "hal_sim/board/diagnosis.h"
-#include "hal_sim/board/handlers.h"
 #include "hal_sim/board/i2c_bus.h"
 #include "hal_sim/board/i2c_master.h"
 #include "hal_sim/board/noise.h"
@@ -85,7 +84,6 @@ struct Setup {
   std::array<double, 3> gyro_offset_rad_s{};  ///< added to the angular rates about these axes
   double motion_noise_scale = 1;              ///< factor on the noise of accelerometer and gyroscope
   double clock_ppm = 0;                       ///< crystal error, parts per million, positive = fast
-  bool spread_handlers = false;               ///< what handlers() take is spread evenly over the program
   double boot_delay_s = 0;                    ///< s from the world's beginning to the first instruction
   std::string name;                           ///< in the world
   sim::WebotsDesc webots;                     ///< of the world
@@ -104,6 +102,13 @@ struct IrConversion {
   double settled = 1;        ///< part of the flash that the phototransistor has followed, 0 to 1
   /// Without noise, not rounded and not held within the converter's range.
   double counts() const { return kAdcMax - light_counts - (reflection_counts + offset_counts) * settled; }
+};
+
+/// How a wheel turns: its angle, the rate per cycle, and until when; `until` not after the instant asked for:
+/// known at that instant only.
+struct WheelTurn {
+  double angle_rad = 0, rate_rad = 0;
+  Cycle until = 0;
 };
 
 /// What the converter makes of a level given in counts: rounded, 0 to 4095.
@@ -136,6 +141,8 @@ class Board {
   /// up to kRotorMoveCycles to follow a step, so constant speed gives a constant rim speed. O(1). `at` not
   /// before the last command.
   double wheel_angle_rad(Wheel wheel, Cycle at) const;
+  /// The same, how fast it grows, and until when at that rate, unless somebody commands the motor.
+  WheelTurn wheel_turn(Wheel wheel, Cycle at) const;
   /// Full steps since power-up, forward positive, not wrapped, lost steps not counted.
   std::int64_t steps(Wheel wheel, Cycle at) const;
   std::int64_t left_steps(Cycle at) const { return steps(Wheel::Left, at); }
@@ -189,12 +196,10 @@ class Board {
   const AgendaTimer& agendas() const { return agendas_; }
   TimerMotors& timer_motors() { return timer_motors_; }
   const TimerMotors& timer_motors() const { return timer_motors_; }
-  /// What the handlers of the scan and of the agenda tick take from the program.
-  Handlers handlers() const { return {scan_, agendas_}; }
-  /// Before any change to when these come or what they take.
-  void settle_handlers(Cycle at);
-  /// A handler that was run comes to its RETFIE, during which nothing interrupts.
-  void handler_left(Cycle at);
+  /// What the handlers of the scan and of the agenda tick take of each cycle, as a fraction of 2^32.
+  std::uint64_t handler_share_q32() const { return scan_.share_q32() + agendas_.share_q32(); }
+  /// The program masks these handlers from `at` on, or does no longer.
+  void mask_handlers(bool masked, Cycle at);
   AdcScan& scan() { return scan_; }
   const AdcScan& scan() const { return scan_; }
   Codec& codec() { return codec_; }
@@ -230,6 +235,9 @@ class Board {
   /// e_init_port(): latches 0, directions as the library wants them, the I2C module on. (Its cost is the
   /// caller's.)
   void init_ports(Cycle at);
+  /// Until when exchange() has nothing to do and nothing that firmware has not asked for happens; `at`: not
+  /// known.
+  Cycle quiet_until(Cycle at) const;
   /// Tick boundary: bytes from outside enter, bytes sent so far go out, old bookkeeping is dropped.
   void exchange(Cycle at);
 
@@ -277,7 +285,6 @@ class Board {
   int selector() const { return setup_.selector; }
 
  private:
-  Cycle next_delay(Cycle at);
   static constexpr std::size_t kPorts = 6;  // A B C D F G
   static int port_index(char port);
   /// Counts of a microphone without noise.
@@ -342,7 +349,6 @@ class Board {
   double beside_emitters_a_ = kProcessorA + kBluetoothA + kBoardA;  // at the last follow_power()
 
   AgendaTimer agendas_;
-  Cycle next_delay_ = -1;  // before it no handler of the scan waits for Timer 2's; below 0: unknown
   TimerMotors timer_motors_;
   AdcScan scan_;
   BasicProx basic_prox_;

@@ -39,9 +39,6 @@ inline constexpr int kStepsPerTurn = 1000;  // 20 steps a turn, gear 50:1 [FRM A
 // a loaded 20-step motor settles within a few ms of a step; 4 ms keeps speeds from 250 steps/s smooth
 inline constexpr Cycle kRotorMoveCycles =
     4 * kFcyHz / 1000;  // [assumed: settling time of a small PM stepper]
-/// A rotor this near to its place has arrived when the next step comes, so that a regular rhythm whose steps
-/// wait some microseconds for other handlers has no memory.
-inline constexpr double kRotorThereSteps = 0.05;  // [assumed: twice what such waits make at 1000 steps/s]
 
 // --- ADC scan --------------------------------------------------------------------------------------------
 inline constexpr Cycle kScanFrameCycles =
@@ -54,6 +51,8 @@ inline constexpr Cycle kScanRoundCycles = kScanPeriod * kScanFrameCycles;
 inline constexpr int kScanLitSlot = 3;  // PULSE_PERIOD - 1 [lib: a_d/advance_ad_scan/e_ad_conv.c]
 inline constexpr int kScanLitInterrupts =
     5;  // a flash lasts from slot 63 to 3 [lib: a_d/advance_ad_scan/e_ad_conv.c]
+inline constexpr Cycle kScanFlashCycles =
+    4720;  // of these, with the stops of the converter between them [measured: register way]
 inline constexpr int kScanAccSlot = 62;         // ACC_PROX_PERIOD - 2 [lib: a_d/advance_ad_scan/e_ad_conv.c]
 inline constexpr int kScanDarkSlot = 63;        // ACC_PROX_PERIOD - 1 [lib: a_d/advance_ad_scan/e_ad_conv.c]
 inline constexpr Cycle kScanLightCycles = 152;  // end of a frame to IR LED switched [measured: register way]
@@ -67,6 +66,7 @@ inline constexpr Cycle kScanFlagCycles = 1;   // end of the last conversion to t
 inline constexpr Cycle kScanChannelTad = 15;  // SAMC 1 + conversion 14 [DS70143 20.7]
 inline constexpr int kMicSamples = 100;       // MIC_SAMP_NB [lib: a_d/advance_ad_scan/e_ad_conv.h]
 inline constexpr int kAccSamples = 50;        // ACC_SAMP_NB [lib: a_d/advance_ad_scan/e_ad_conv.h]
+inline constexpr Cycle kAccKeepCycles = kFcyHz / 50;  // samples are worked out as often, while poses are known
 inline constexpr int kGumstixSelector = 10;   // scans a fifth pair [lib: a_d/advance_ad_scan/e_ad_conv.c]
 
 // --- basic proximity driver ------------------------------------------------------------------------------
@@ -160,60 +160,14 @@ inline constexpr Cycle kAgendaCountCycles = 5;      // one that counts
 inline constexpr Cycle kMotorHalfStepCycles = 123;  // coils on, the next half's cycle
 inline constexpr Cycle kMotorOffCycles = 125;       // coils off, the next half's cycle
 inline constexpr Cycle kMotorStepCycles = 107;      // coils on to stay
-inline constexpr Cycle kMotorLeftStepLess = 1;      // of the left one's step
-inline constexpr Cycle kMotorLeftOffMore = 1;       // of its coils' switching off
-inline constexpr Cycle kMotorLongStepMore = 2;      // of its step to a phase with coil C on
-inline constexpr Cycle kMotorTurnMore = 1;       // where steps lower the phase: left forward, right backward
-inline constexpr Cycle kMotorOldHalfCycles = 3;  // more of a step to stay when a half was left over
-inline constexpr int kAgendaPriority = 4;        // reset value of IPC1 [DS70143 5.2]
-inline constexpr int kScanPriority = 5;          // [lib: a_d/advance_ad_scan/e_ad_conv.c]
-inline constexpr Cycle kAgendaEntryCycles = 19;  // Timer 2's flag to the first node
-/// From the call of a motor's function to the last pin of a new pattern, by that pin: A, B, C, D.
-inline constexpr Cycle kMotorPinCycles[4] = {59, 68, 82, 91};
-inline constexpr Cycle kMotorPinClearedCycles = 1;  // more when that goes low
-inline constexpr Cycle kMotorPinsLeftSooner = 1;    // of the left motor's function
+inline constexpr Cycle kScanRoundIsrCycles = 7521;    // 65 frames of the scan, one round
+inline constexpr Cycle kScanAccIsrCycles = 186;       // of these, the frame with the accelerometer
+inline constexpr Cycle kScanMicroIsrCycles = 83;      // one frame of MICRO_ONLY
 inline constexpr Cycle kScanStartCycles = 15;  // from the converter's being switched on to its first frame
-/// A round of the scan and a tick are multiples of this, so what is asked for once a round keeps its phase.
-inline constexpr Cycle kPhaseCycles = 25;
-static_assert(kScanRoundCycles % kPhaseCycles == 0 && kAgendaTickCycles % kPhaseCycles == 0);
-/// How far ahead such waits are looked for: bookkeeping, no time of the robot's.
-inline constexpr Cycle kLookAheadCycles = 1'000'000;  // [assumed: programs command motors more often]
-inline constexpr Cycle kPinBlockCycles = 2;  // before a pin changes: an interrupt comes too late to delay it
-inline constexpr Cycle kEntryCycles = 2;     // of an interrupt in which no other is taken [register way]
-inline constexpr Cycle kExitCycles = 3;      // RETFIE [DS70157]
-inline constexpr Cycle kChainCycles = 1;     // from one handler to another that waits [register way]
-/// One frame of the scan: how much later than evenly its interrupt comes, and what the handler takes.
-struct ScanHandler {
-  Cycle late, cycles;
-};
-/// By slot: the converter stands while its list changes (slots 3, 4, 33, 62 to 64), and catches that up with
-/// short frames (5 to 32).
-constexpr ScanHandler scan_handler(int slot) {
-  // [measured: trace of the register way, 4 s]
-  const Cycle late = slot < 3    ? 0
-                     : slot == 3 ? 115
-                     : slot < 33 ? 199 - ((slot - 4) * 45 + 1) / 2
-                     : slot < 62 ? -320
-                     : slot < 64 ? -217 + (slot - 62) * 112
-                                 : 0;
-  const Cycle cycles = slot == 2    ? 170
-                       : slot == 3  ? 206
-                       : slot == 32 ? 165
-                       : slot == 61 ? 154
-                       : slot == 62 ? 186
-                       : slot == 63 ? 201
-                       : slot == 64 ? 117
-                                    : 109;
-  return {late, cycles};
-}
-inline constexpr Cycle kScanWrapCycles = 3;  // more where the microphones' arrays begin anew [register way]
-inline constexpr Cycle kScanTickCycles =
-    1;  // less where the counter of interrupts has stopped [register way]
-inline constexpr std::int64_t kScanTicksMost = 65535;  // [lib: a_d/advance_ad_scan/e_ad_conv.c]
-inline constexpr Cycle kScanMicroIsrCycles = 83;       // a frame
+/// Of both Timer 2's and the converter's handler: the reset value [lib: neither file sets it; DS70143 5.2].
+inline constexpr int kHandlerPriority = 4;
 inline constexpr Cycle kBasicMotorIsrCycles =
     34;                                        // [estimated: shadow context, counter, phase, 4 bit writes]
 inline constexpr Cycle kTimer3IsrCycles = 40;  // [estimated: context, two counters, coil clearing]
-inline constexpr Cycle kUartRxIsrCycles = 26;  // [estimated: instructions of the receive loop, one byte]
 
 }  // namespace board

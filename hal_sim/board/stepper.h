@@ -109,6 +109,15 @@ class Stepper {
   /// Rotor position in steps of the wheel, forward positive; also shortly before the last step, when the
   /// driver's handler has been called that is about to make it.
   double position(Cycle at) const { return (at < motion_.moved_at ? before_ : motion_).position(at); }
+  /// Steps per cycle at which that changes, and until when: kNever at rest.
+  double speed(Cycle at) const {
+    const Motion& m = at < motion_.moved_at ? before_ : motion_;
+    return at < m.moved_at + m.move ? (static_cast<double>(m.steps) - m.from) / static_cast<double>(m.move) : 0;
+  }
+  Cycle move_end(Cycle at) const {
+    if (at < motion_.moved_at) return at;
+    return at < motion_.moved_at + motion_.move ? motion_.moved_at + motion_.move : host::kNever;
+  }
 
  private:
   /// What a pattern that turns out too short takes back.
@@ -148,8 +157,8 @@ class Stepper {
     if (motion_.ready_at - at > kPullOutCycles) return faults_.too_fast.note(at);
     before_ = motion_;
     if (move <= 0) move = at - motion_.stepped_at;
-    const double there = static_cast<double>(motion_.steps), from = position(at);
-    begin_step(direction, std::abs(there - from) < kRotorThereSteps ? there : from, at, move);
+    const double from = position(at);
+    begin_step(direction, from, at, move);
   }
 
   /// The pattern that ends at `at`: has it heated the motor for nothing?

@@ -10,89 +10,38 @@
 #include <cstdlib>
 #include <fstream>
 #include <map>
-#include <regex>
 #include <set>
 #include <sstream>
 
+#include "build_record.h"
 #include "driver_variants.h"
 #include "elf_reader.h"
 #include "hal_sim/host/image_stamp.h"
 #include "large_stack.h"
+#include "library_objects.h"
+#include "link_messages.h"
 #include "object_cache.h"
+#include "pattern.h"
 #include "program_files.h"
 #include "timer_owners.h"
-#include "twinpuck_paths.h"
 
 namespace cc {
 namespace fs = std::filesystem;
 namespace {
 
-fs::path source_root() {
-  const char* home = std::getenv("TWINPUCK_HOME");
-  return home ? home : TWINPUCK_SOURCE_DIR;
-}
-
-fs::path build_root() { return TWINPUCK_BUILD_DIR; }
-
-/// Headers of the newest C++ library that is installed; empty: there is none.
-std::vector<fs::path> cxx_library_folders() {
-  int newest = 0;
-  std::error_code none;
-  for (const auto& entry : fs::directory_iterator("/usr/include/c++", none))
-    newest = std::max(newest, std::atoi(entry.path().filename().c_str()));
-  if (newest == 0) return {};
-  const std::string version = std::to_string(newest);
-  return {"/usr/include/c++/" + version, "/usr/include/x86_64-linux-gnu/c++/" + version,
-          "/usr/include/c++/" + version + "/backward"};
-}
-
-/// The flags of a C file for a C++ file: headers of the C library stand behind those of C++, which include
-/// them.
-std::vector<std::string> cxx_flags(const std::vector<std::string>& flags) {
-  const fs::path cc_dir = source_root() / "hal_sim/cc";
-  std::vector<fs::path> folders = cxx_library_folders(),
-                        c_folders = {cc_dir / "libc/webots/include", cc_dir / "libc/include"};
-  folders.insert(folders.begin(), cc_dir / "libc/cxx/include");
-  folders.insert(folders.end(), c_folders.begin(), c_folders.end());
-  std::vector<std::string> changed;
-  for (const std::string& flag : flags)
-    if (std::none_of(c_folders.begin(), c_folders.end(),
-                     [&](const fs::path& folder) { return flag == "-I" + folder.string(); }))
-      changed.push_back(flag);
-  for (const fs::path& folder : folders) changed.push_back("-isystem" + folder.string());
-  return changed;
-}
-
-/// Sub-folders of the contract, in the order a flat "e_motors.h" is looked up: the one-timer drivers first.
-std::vector<fs::path> contract_folders(const fs::path& root) {
-  std::vector<fs::path> folders = {root};
-  for (const char* sub : {"motor_led/advance_one_timer", "motor_led", "a_d/advance_ad_scan", "a_d", "uart",
-                          "utility", "camera/fast_2_timer", "codec", "bluetooth", "I2C", "fft", "matlab",
-                          "acc_gyro", "motor_led/advance_one_timer/fast_agenda", "contrib/LIS_sensors_turret",
-                          "contrib/SWIS_com_module", "contrib"})
-    folders.push_back(root / sub);
-  return folders;
-}
-
 struct Plan {
-  std::vector<CompileJob> user, library;
+  std::vector<CompileJob> user;
   bool is_webots = false;  // a program for Webots' interfaces, with the library behind them
+  bool has_cxx = false;
   CompileJob runtime;
 };
 
 // of include_finder.h, which is the compiler's
 constexpr const char* kVendorHeaders = "-I/twinpuck-vendor";
 
-std::string common_salt(const std::vector<fs::path>& headers) {
-  // a header that appears or goes away can change what an #include finds
-  std::string names;
-  for (const auto& h : headers) names += h.string() + "\n";
-  return content_hash(names);
-}
-
 /// Whether a program takes the address of a register anywhere: then its files may pass it on.
 bool takes_register_addresses(const std::vector<fs::path>& sources, const std::vector<fs::path>& headers) {
-  static const std::regex kAddress(
+  static const Pattern kAddress(
       R"([=(,{\[?:)]\s*&\s*(ADC|PORT|LAT|TRIS|TMR|PR\d|T\dCON|IFS|IEC|IPC|INTCON|U[12]|I2C|DCI|TSCON|RSCON|[RT]XBUF|SPI|OC\d|IC\d|RCON|CN)[A-Z0-9]*(bits)?\b)");
   for (const auto* list : {&sources, &headers})
     for (const auto& file : *list)
@@ -103,7 +52,7 @@ bool takes_register_addresses(const std::vector<fs::path>& sources, const std::v
 /// Sources of a program for Webots, which compiles the file with the controller's name alone: not those that
 /// another one includes as text, and not further programs that lie beside it.
 std::vector<fs::path> webots_sources(const fs::path& folder, const std::vector<fs::path>& sources) {
-  static const std::regex kInclude(R"(#\s*include\s*"([^"]+\.(?:c|cpp|cc|cxx))\")"), kMain(R"(\bmain\s*\()");
+  static const Pattern kInclude(R"(#\s*include\s*"([^"]+\.(?:c|cpp|cc|cxx))\")"), kMain(R"(\bmain\s*\()");
   const std::string own = fs::weakly_canonical(folder).filename().string();
   std::set<fs::path> left_out;
   bool has_own_main = false;
@@ -125,19 +74,10 @@ std::vector<fs::path> webots_sources(const fs::path& folder, const std::vector<f
   return kept.empty() ? sources : kept;
 }
 
-/// Files of the libc that read and write the program's strings and arrays: --sanitize checks those, too.
-bool takes_strings(const fs::path& file) {
-  const std::string name = file.filename().string();
-  return file.parent_path() == source_root() / "hal_sim/cc/libc/src" &&
-         (name == "string.c" || name == "printf.c" || name == "scanf.c" || name == "stdlib.c");
-}
-
 Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& program, bool lint) {
   fs::path root = source_root(), cc_dir = root / "hal_sim/cc";
-  fs::path include_root = o.include_root.empty() ? root / "firmware/include" : o.include_root;
-  fs::path api = o.api_dir.empty() ? root / (o.register_way ? "hal_dspic" : "hal_sim/api") : o.api_dir;
-  std::vector<std::string> mode = {o.optimisation};
-  std::vector<std::string> library_include, user_include;
+  const fs::path contract = include_root(o);
+  std::vector<std::string> user_include;
   // first what is said where to look, for quotes as for angles, then what the compiler brings along, as XC16
   // has it; folders of the program that nobody named come after that
   for (const auto& d : o.include_dirs) user_include.push_back("-I" + fs::absolute(d).string());
@@ -149,39 +89,25 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& pro
   for (const auto& h : headers)
     if (std::find(own.begin(), own.end(), h.parent_path()) == own.end()) own.push_back(h.parent_path());
   for (const auto& d : own) user_include.push_back("-I" + d.string());
-  for (const auto& d : contract_folders(include_root)) {
-    user_include.push_back("-I" + d.string());
-    library_include.push_back("-I" + d.string());
-  }
+  for (const auto& d : contract_folders(contract)) user_include.push_back("-I" + d.string());
   // "motor/speed.h" below a folder that the project's makefile names: the folder above the header's
   for (const auto& d : own)
     if (const fs::path above = d.parent_path(); d != o.source_dir)
       if (std::find(own.begin(), own.end(), above) == own.end())
         user_include.push_back("-I" + above.string());
-  for (auto* list : {&user_include, &library_include}) {
-    list->push_back("-include");
-    list->push_back((cc_dir / "libc/include/xc16_builtins.h").string());
-    list->push_back("-I" + (cc_dir / "libc/include").string());
-    list->push_back("--fallback");
-    list->push_back(include_root.string());
-    list->push_back("--fallback");
-    list->push_back((cc_dir / "libc/include").string());
-  }
-  user_include.push_back("--fallback");
-  user_include.push_back(o.source_dir.string());
-  user_include.push_back("--project");
-  user_include.push_back(fs::weakly_canonical(o.source_dir).string());
+  user_include.insert(user_include.end(),
+                      {"-include", (cc_dir / "libc/include/xc16_builtins.h").string(),
+                       "-I" + (cc_dir / "libc/include").string(), "--fallback", contract.string(),
+                       "--fallback", (cc_dir / "libc/include").string(), "--fallback", o.source_dir.string(),
+                       "--project", fs::weakly_canonical(o.source_dir).string()});
   for (const auto& r : copies.roots) {
     user_include.push_back("--copy");
     user_include.push_back(r.string());
   }
-  library_include.push_back("-I" + root.string());
-  library_include.push_back("-I" + api.string());  // its hal.h, for hal_common
-  if (o.register_way)
-    for (auto* list : {&user_include, &library_include}) list->push_back("--register");
+  if (o.register_way) user_include.push_back("--register");
 
   Plan p;
-  std::vector<std::string> flags = mode;
+  std::vector<std::string> flags = {o.optimisation};
   if (o.sanitize) flags.push_back("--sanitize");
   if (o.coverage) flags.push_back("--coverage");
   p.is_webots = names_webots(copies.kept, headers);
@@ -198,40 +124,12 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& pro
   if (const std::string& standard = o.standard.empty() ? program.standard : o.standard; !standard.empty())
     flags.push_back("-std=" + standard);
   flags.insert(flags.end(), user_include.begin(), user_include.end());
-  bool any_cxx = false;
+  const std::string salt = names_of_headers({o.source_dir, contract});
   for (const auto& s :
        p.is_webots && !program.is_exact ? webots_sources(o.source_dir, copies.kept) : copies.kept) {
-    any_cxx = any_cxx || is_cxx(s);
-    p.user.push_back({s, is_cxx(s) ? cxx_flags(flags) : flags, common_salt(headers)});
+    p.has_cxx = p.has_cxx || is_cxx(s);
+    p.user.push_back({s, is_cxx(s) ? cxx_flags(flags) : flags, salt, contract.string()});
   }
-
-  std::vector<std::string> library_flags = mode;
-  library_flags.push_back("--library");
-  library_flags.insert(library_flags.end(), library_include.begin(), library_include.end());
-  // some take the place of a file of the libc
-  if (p.is_webots)
-    for (const auto& folder : {root / "firmware/webots", cc_dir / "libc/webots"})
-      for (const auto& s : files_below(folder, ".c")) p.library.push_back({s, library_flags, ""});
-  if (any_cxx)
-    for (const auto& s : files_below(cc_dir / "libc/cxx/src", ".cpp"))
-      p.library.push_back({s, cxx_flags(library_flags), ""});
-  // what exists in the simulator alone has one form for both ways
-  if (o.register_way)
-    for (const char* name : {"virtual.c", "webots_simulator.c"})
-      p.library.push_back({root / "hal_sim/api" / name, library_flags, ""});
-  std::vector<fs::path> library_folders = {api, cc_dir / "libc/src"};
-  // the half of the library that needs no pins, for a HAL that has the other half
-  if (fs::exists(api / "hal.h")) library_folders.push_back(root / "hal_common");
-  const auto is_replaced = [&](const fs::path& file) {
-    return p.is_webots && file.parent_path() == cc_dir / "libc/src" &&
-           fs::exists(cc_dir / "libc/webots" / file.filename());
-  };
-  for (const auto& folder : library_folders)
-    for (const auto& s : files_below(folder, ".c")) {
-      if (is_replaced(s)) continue;
-      p.library.push_back({s, library_flags, ""});
-      if (o.sanitize && takes_strings(s)) p.library.back().flags.push_back("--sanitize");
-    }
 
   std::string name =
       o.name.empty() ? fs::absolute(o.source_dir).lexically_normal().filename().string() : o.name;
@@ -244,21 +142,20 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& pro
                ""};
   if (o.coverage) p.runtime.flags.push_back("-DTP_COVERAGE");
   if (p.is_webots) p.runtime.flags.push_back("-DTP_WEBOTS");
-  if (o.sanitize)
-    p.library.push_back(
-        {cc_dir / "runtime/image_sanitize.c",
-         {"-O1", "--uncounted", "-I" + root.string(), "-I" + (cc_dir / "libc/include").string()},
-         ""});
   return p;
 }
 
 /// Splits what a compiler printed into errors and warnings; notes stay with the line before them.
 void sort_messages(const std::string& text, BuildResult& result, bool failed) {
-  static const std::regex kSummary(R"(^\d+ (warning|error)s?( and \d+ errors?)? generated\.$)");
+<<<<<<< HEAD
+  static const Pattern kSummary(R"(^\d+ (warning|error)s?( and \d+ errors?)? generated\.$)");
+=======
+>>>>>>> main
   std::istringstream lines(text);
   std::vector<std::string>* last = nullptr;
   for (std::string line; std::getline(lines, line);) {
-    if (line.empty() || std::regex_match(line, kSummary)) continue;
+    const bool is_summary = line.size() > 11 && line.compare(line.size() - 11, 11, " generated.") == 0;
+    if (line.empty() || is_summary) continue;
     bool is_error =
         line.find(" error: ") != std::string::npos || line.find("fatal error: ") != std::string::npos;
     bool is_warning = line.find("warning: ") != std::string::npos;
@@ -274,11 +171,12 @@ void sort_messages(const std::string& text, BuildResult& result, bool failed) {
   }
 }
 
+<<<<<<< HEAD
 /// Everything the host exports: named in the headers of the seam, and in host_exports.def.
 std::set<std::string> host_exports() {
   std::set<std::string> names;
   fs::path root = source_root();
-  static const std::regex kFunction(R"(\b(tp_\w+)\s*\()");
+  static const Pattern kFunction(R"(\b(tp_\w+)\s*\()");
   for (const auto& header : files_below(root / "hal_sim/host", ".h")) {
     const std::string file = header.filename().string();
     if (file != "image_abi.h" && file.rfind("pins", 0) != 0) continue;
@@ -297,11 +195,11 @@ void sort_linker_messages(const std::string& text, const Program& program, Build
   std::map<std::string, fs::path> in_assembler;
   for (const fs::path& file : program.assembler)
     for (const std::string& name : functions_in_assembler(file)) in_assembler.emplace(name, file);
-  static const std::regex kIn(R"(in function `([^']+)':)");
-  static const std::regex kUndefined(
+  static const Pattern kIn(R"(in function `([^']+)':)");
+  static const Pattern kUndefined(
       R"(^(?:.*?: )?(?:\.\./)*(\S+?:\d+|\S+\.o:\S+): (?:warning: )?undefined reference to `([^']+)')");
-  static const std::regex kPlain(R"(undefined reference to `([^']+)')");
-  static const std::regex kTwice(R"(multiple definition of `([^']+)'; .*?first defined here)");
+  static const Pattern kPlain(R"(undefined reference to `([^']+)')");
+  static const Pattern kTwice(R"(multiple definition of `([^']+)'; .*?first defined here)");
   auto exports = host_exports();
   std::string function;
   std::set<std::string> told;
@@ -315,7 +213,7 @@ void sort_linker_messages(const std::string& text, const Program& program, Build
       if (std::regex_search(line, m, kUndefined)) where = m[1];
       if (where.rfind(".o:") != std::string::npos || where.empty())
         where = function.empty() ? "link" : function + "()";
-      static const std::regex kWebots(
+      static const Pattern kWebots(
           R"((wb_|wbu_|supervisor_|robot_|camera_|speaker_|display_|servo_|connector_|pen_|differential_wheels_).*)");
       std::string hint =
           in_assembler.count(name) ? "it is in " + in_assembler[name].filename().string() +
@@ -339,6 +237,8 @@ void sort_linker_messages(const std::string& text, const Program& program, Build
   }
 }
 
+=======
+>>>>>>> main
 void check_main(const std::vector<CompileOutcome>& outcomes, const std::vector<CompileJob>& jobs,
                 const fs::path& folder, BuildResult& result) {
   std::vector<std::string> with_main;
@@ -383,7 +283,7 @@ void check_room(const fs::path& image, const fs::path& folder, BuildResult& resu
 void tell_of_assembler(const Program& program, const std::vector<CompileOutcome>& user, BuildResult& result) {
   for (const fs::path& file : program.assembler)
     for (const std::string& name : functions_in_assembler(file)) {
-      static const std::regex kHandler("_\\w+Interrupt");
+      static const Pattern kHandler("_\\w+Interrupt");
       if (!std::regex_match(name, kHandler) || is_library_assembler(file)) continue;
       const bool is_in_c = std::any_of(user.begin(), user.end(), [&](const CompileOutcome& o) {
         const auto symbols = read_elf(o.object).symbols;
@@ -401,7 +301,7 @@ void tell_of_assembler(const Program& program, const std::vector<CompileOutcome>
 std::vector<DriverChoice> choose_drivers(std::vector<CompileOutcome>& user,
                                          const std::vector<CompileJob>& jobs, const Program& program,
                                          const BuildOptions& o, BuildResult& result) {
-  const fs::path include_root = o.include_root.empty() ? source_root() / "firmware/include" : o.include_root;
+  const fs::path contract = include_root(o);
   ProgramSymbols symbols;
   std::vector<std::set<std::string>> wanted(user.size());
   std::vector<std::string> texts;
@@ -415,8 +315,8 @@ std::vector<DriverChoice> choose_drivers(std::vector<CompileOutcome>& user,
   }
   for (const fs::path& header : files_below(o.source_dir, ".h"))
     if (library_place(fs::path(header).replace_extension(".c")).empty()) texts.push_back(read_text(header));
-  auto choices = choose_driver_forms(symbols, program.library_places, texts, include_root);
-  const auto renamed = renamed_functions(symbols, choices, include_root);
+  auto choices = choose_driver_forms(symbols, program.library_places, texts, contract);
+  const auto renamed = renamed_functions(symbols, choices, contract);
   for (const DriverChoice& choice : choices)
     if (!choice.told.empty()) result.conflicts.push_back(o.source_dir.string() + ": warning: " + choice.told);
   for (std::size_t i = 0; i < user.size(); ++i) {
@@ -436,31 +336,11 @@ std::vector<DriverChoice> choose_drivers(std::vector<CompileOutcome>& user,
   return choices;
 }
 
-bool archive(const std::vector<CompileOutcome>& objects, const fs::path& path, BuildResult& result) {
-  std::string names;
-  for (const auto& o : objects)
-    names += o.object.string() + " " + std::to_string(fs::file_size(o.object)) + " " +
-             std::to_string(fs::last_write_time(o.object).time_since_epoch().count()) + "\n";
-  fs::path list = path.string() + ".list";
-  if (fs::exists(path) && read_text(list) == names) return true;
-  std::error_code ec;
-  fs::remove(path, ec);
-  std::vector<std::string> argv = {"ar", "rcs", path.string()};
-  for (const auto& o : objects) argv.push_back(o.object.string());
-  auto run = run_process(argv);
-  if (run.status != 0) {
-    result.errors.push_back("ar: " + run.output);
-    return false;
-  }
-  return write_text(list, names);
-}
-
 }  // namespace
 
-static BuildResult build_here(const BuildOptions& options) {
+static BuildResult build_here(const BuildOptions& o) {
   auto start = std::chrono::steady_clock::now();
   BuildResult result;
-  BuildOptions o = options;
   auto finish = [&]() -> BuildResult& {
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;
@@ -477,8 +357,6 @@ static BuildResult build_here(const BuildOptions& options) {
     result.errors.push_back(no_program(o.source_dir));
     return finish();
   }
-  if (o.cache_dir.empty()) o.cache_dir = build_root() / "firmware-cache";
-  o.cache_dir = fs::absolute(o.cache_dir);
   LibraryCopies copies;
   std::size_t own = 0;  // of p.user, what is not a member of a copy of the library
   if (o.register_way) {
@@ -501,11 +379,12 @@ static BuildResult build_here(const BuildOptions& options) {
   Plan p = plan(o, copies, program, false);
   if (p.is_webots) own = p.user.size();
   for (std::size_t i = own; i < p.user.size(); ++i) p.user[i].flags.push_back("--weak");
-  fs::path compiler = build_root() / "twinpuck-cc";
   std::vector<CompileJob> all = p.user;
-  all.insert(all.end(), p.library.begin(), p.library.end());
   all.push_back(p.runtime);
-  auto outcomes = compile_all(all, compiler, o.cache_dir, std::max(1, o.jobs));
+  auto outcomes = compile_all(all, compiler_path(), o.cache_dir, o.jobs);
+  const Library library = provide_library(o, p.is_webots, p.has_cxx);
+  result.compiled += library.compiled;
+  result.reused += library.reused;
   bool ok = true;
   for (size_t i = 0; i < outcomes.size(); ++i) {
     if (!outcomes[i].ok && i >= own && i < p.user.size()) {
@@ -522,12 +401,12 @@ static BuildResult build_here(const BuildOptions& options) {
     ok = ok && outcomes[i].ok;
     ++(outcomes[i].reused ? result.reused : result.compiled);
   }
-  if (!ok) return finish();
+  sort_messages(library.messages, result, !library.ok);
+  if (!ok || !library.ok) return finish();
   std::vector<CompileOutcome> user(outcomes.begin(), outcomes.begin() + long(own));
   std::vector<CompileOutcome> members(outcomes.begin() + long(own), outcomes.begin() + long(p.user.size()));
   members.erase(std::remove_if(members.begin(), members.end(), [](const auto& m) { return !m.ok; }),
                 members.end());
-  std::vector<CompileOutcome> library(outcomes.begin() + long(p.user.size()), outcomes.end() - 1);
   check_main(user, p.user, o.source_dir, result);
   if (!result.errors.empty()) return finish();
   tell_of_assembler(program, user, result);
@@ -541,45 +420,30 @@ static BuildResult build_here(const BuildOptions& options) {
   fs::path output = fs::absolute(o.output);
   fs::create_directories(output.parent_path(), ec);
   fs::path half = output.string() + ".half" + std::to_string(getpid());
-  std::vector<std::string> argv = {"ld",
-                                   "-shared",
-                                   "-Bsymbolic",
-                                   "-z",
-                                   "now",
-                                   "-z",
-                                   "relro",
-                                   "-z",
-                                   "separate-code",
-                                   "-z",
-                                   "noexecstack",
-                                   "-z",
-                                   "defs",
-                                   "--warn-unresolved-symbols",
-                                   "--build-id=none",
-                                   "--hash-style=gnu",
-                                   "--no-warn-mismatch",
-                                   "-T",
-                                   (source_root() / "hal_sim/cc/runtime/image.ld").string(),
-                                   "-o",
-                                   half.string()};
+  const fs::path script = source_root() / "hal_sim/cc/runtime/image.ld";
+  look_at(script);
+  std::vector<std::string> argv = {"ld", "-shared", "-Bsymbolic", "--warn-unresolved-symbols"};
+  for (const char* word : {"now", "relro", "separate-code", "noexecstack", "defs"})
+    argv.insert(argv.end(), {"-z", word});
+  argv.insert(argv.end(), {"--build-id=none", "--hash-style=gnu", "--no-warn-mismatch", "-T", script.string(),
+                           "-o", half.string()});
   for (const auto& u : user) argv.push_back(u.object.string());
   argv.push_back(outcomes.back().object.string());
-  for (const auto* list : {&members, &library}) {
-    if (list->empty()) continue;
-    std::string key;
-    for (const auto& l : *list) key += l.object.filename().string();
-    fs::path lib = o.cache_dir / ("library-" + content_hash(key) + ".a");
-    if (!archive(*list, lib, result)) return finish();
-    argv.push_back(lib.string());
+  if (!members.empty()) {
+    const Archive of_members = archive(members, o.cache_dir);
+    if (!of_members.error.empty()) result.errors.push_back(of_members.error);
+    argv.push_back(of_members.file.string());
   }
+  argv.push_back(library.archive.string());
   auto link = run_process(argv);
-  sort_linker_messages(link.output, program, result);
+  sort_linker_messages(link.output, program, source_root(), result);
   if (link.status != 0 && result.errors.empty()) result.errors.push_back("link: " + link.output);
   if (result.errors.empty()) {
     check_room(half, o.source_dir, result);
-    std::ofstream(half, std::ios::binary | std::ios::app) << host::image_stamp(read_text(half));
+    std::ofstream(half, std::ios::binary | std::ios::app) << host::image_stamp(bytes_of(half));
     fs::rename(half, output, ec);
     if (ec) result.errors.push_back(output.string() + ": cannot write: " + ec.message());
+    look_at(output);
   }
   fs::remove(half, ec);
   result.ok = result.errors.empty();
@@ -596,10 +460,9 @@ static BuildResult lint_here(const BuildOptions& options) {
     result.errors.push_back(no_program(o.source_dir));
     return result;
   }
-  if (o.cache_dir.empty()) o.cache_dir = build_root() / "firmware-cache";
   BuildResult of_project;
   Plan p = plan(o, find_library_copies(o.source_dir, sources), program_of(o, of_project), true);
-  auto outcomes = compile_all(p.user, build_root() / "twinpuck-cc", o.cache_dir, std::max(1, o.jobs));
+  auto outcomes = compile_all(p.user, compiler_path(), o.cache_dir, o.jobs);
   for (const auto& outcome : outcomes) sort_messages(outcome.messages, result, !outcome.ok);
   std::vector<std::pair<std::string, std::string>> texts;
   for (const auto& s : sources) texts.emplace_back(s.filename().string(), read_text(s));
@@ -620,16 +483,37 @@ static std::vector<std::string> too_long(const fs::path& folder) {
   return wrong;
 }
 
-BuildResult build_image(const BuildOptions& options) {
+/// Both begin alike: with what they may look at, and on a stack that is large enough.
+template <typename Work>
+static BuildResult begin(const BuildOptions& options, BuildInputs& inputs, const Work& work) {
   BuildResult refused;
   refused.errors = too_long(options.source_dir);
-  return refused.errors.empty() ? on_large_stack([&] { return build_here(options); }) : refused;
+  if (!refused.errors.empty()) return refused;
+  return on_large_stack([&] {
+    const NotingInputs noting(inputs);
+    return work(options);
+  });
+}
+
+static BuildOptions with_cache(BuildOptions o) {
+  if (o.cache_dir.empty()) o.cache_dir = build_root() / "firmware-cache";
+  o.cache_dir = fs::absolute(o.cache_dir);
+  return o;
+}
+
+BuildResult build_image(const BuildOptions& options) {
+  const BuildOptions o = with_cache(options);
+  const BuildRecord record(o);
+  if (auto known = record.recall()) return *known;
+  BuildInputs inputs;
+  BuildResult result = begin(o, inputs, build_here);
+  if (result.ok) record.keep(result, inputs.all);
+  return result;
 }
 
 BuildResult lint_folder(const BuildOptions& options) {
-  BuildResult refused;
-  refused.errors = too_long(options.source_dir);
-  return refused.errors.empty() ? on_large_stack([&] { return lint_here(options); }) : refused;
+  BuildInputs inputs;
+  return begin(with_cache(options), inputs, lint_here);
 }
 
 }  // namespace cc

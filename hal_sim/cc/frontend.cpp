@@ -407,6 +407,14 @@ std::vector<std::string> clang_arguments(const Options& o, const std::string& st
 
 namespace {
 
+/// Appends to what earlier attempts looked for in vain.
+void note_missing(const std::string& file, const std::set<std::string>& missing) {
+  std::error_code ec;
+  llvm::raw_fd_ostream out(file, ec, llvm::sys::fs::OF_Append);
+  for (const llvm::StringRef name : missing)
+    if (!name.startswith(kFallbackRoot) && !name.startswith(kVendorRoot)) out << name << "\n";
+}
+
 /// One attempt in one standard of C; `declarations` go in front of the file. Messages go to `out`.
 std::unique_ptr<llvm::Module> attempt(const Options& options, llvm::LLVMContext& context, Facts& facts,
                                       const std::string& standard, const std::string& declarations,
@@ -442,16 +450,18 @@ std::unique_ptr<llvm::Module> attempt(const Options& options, llvm::LLVMContext&
   memory->addFile(std::string(kVendorRoot) + "/.root", 0, llvm::MemoryBuffer::getMemBuffer(""));
   if (!declarations.empty())
     memory->addFile(kDeclarations, 0, llvm::MemoryBuffer::getMemBufferCopy(declarations));
+  std::set<std::string> missing;
   auto overlay = llvm::makeIntrusiveRefCnt<llvm::vfs::OverlayFileSystem>(
-      forgiving_file_system(options.fallback, options.project, options.copies));
+      forgiving_file_system(options.fallback, options.project, options.copies, missing));
   overlay->pushOverlay(memory);
   CompilerInstance ci;
   ci.setInvocation(invocation);
   ci.createDiagnostics(new TextDiagnosticPrinter(out, &invocation->getDiagnosticOpts()));
   ci.setFileManager(new FileManager(FileSystemOptions(), overlay));
   RobotAction action(context, facts, options);
-  if (!ci.ExecuteAction(action)) return nullptr;
-  return action.takeModule();
+  const bool is_done = ci.ExecuteAction(action);
+  if (!options.depfile.empty()) note_missing(options.depfile + ".missing", missing);
+  return is_done ? action.takeModule() : nullptr;
 }
 
 /// Attempts as the file stands, then with declarations of its own functions that it lacks.

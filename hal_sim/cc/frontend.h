@@ -21,9 +21,10 @@ struct Options {
   std::string project;                 // the controller's own folder, absolute; empty: none
   std::vector<std::string> copies;     // folders in it that hold a copy of the library, absolute
   std::string standard;                // of C, "gnu99"; empty: gnu89 as XC16, gnu99 where that fails
-  std::string depfile;                 // every file read, one a line
-  std::string cost_dump;               // block features for fitting the cost model
-  int level = 1;                       // 0, 1, 2
+  std::string
+      depfile;  // a rule with every file read; beside it .missing, names that were not there, a line each
+  std::string cost_dump;  // block features for fitting the cost model
+  int level = 1;          // 0, 1, 2
   bool for_size = false;
   bool sanitize = false, coverage = false, strict = false, lint = false, emit_ir = false;
   bool uncounted = false;     // part of the runtime: costs no cycles

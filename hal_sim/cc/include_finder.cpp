@@ -55,11 +55,13 @@ std::string match_ignoring_case(std::string root, const std::vector<std::string>
 
 class ForgivingFileSystem : public llvm::vfs::ProxyFileSystem {
  public:
-  ForgivingFileSystem(std::vector<std::string> folders, std::string project, std::vector<std::string> copies)
+  ForgivingFileSystem(std::vector<std::string> folders, std::string project, std::vector<std::string> copies,
+                      std::set<std::string>& missing)
       : ProxyFileSystem(llvm::vfs::getRealFileSystem()),
         folders_(std::move(folders)),
         project_(std::move(project)),
-        copies_(std::move(copies)) {}
+        copies_(std::move(copies)),
+        missing_(missing) {}
 
   llvm::ErrorOr<llvm::vfs::Status> status(const llvm::Twine& path) override {
     std::string ours = replaced_copy(path.str());
@@ -69,6 +71,7 @@ class ForgivingFileSystem : public llvm::vfs::ProxyFileSystem {
     }
     auto exact = ProxyFileSystem::status(path);
     if (exact) return exact;
+    missing_.insert(path.str());
     std::string other = find(path.str());
     if (other.empty()) return exact;
     auto found = ProxyFileSystem::status(other);
@@ -81,6 +84,7 @@ class ForgivingFileSystem : public llvm::vfs::ProxyFileSystem {
     if (!ours.empty()) return ProxyFileSystem::openFileForRead(ours);
     auto exact = ProxyFileSystem::openFileForRead(path);
     if (exact) return exact;
+    missing_.insert(path.str());
     std::string other = find(path.str());
     if (other.empty()) return exact;
     return ProxyFileSystem::openFileForRead(other);
@@ -143,14 +147,16 @@ class ForgivingFileSystem : public llvm::vfs::ProxyFileSystem {
   std::vector<std::string> folders_;
   std::string project_;
   std::vector<std::string> copies_;
+  std::set<std::string>& missing_;
 };
 
 }  // namespace
 
 llvm::IntrusiveRefCntPtr<llvm::vfs::FileSystem> forgiving_file_system(std::vector<std::string> folders,
                                                                       std::string project,
-                                                                      std::vector<std::string> copies) {
-  return new ForgivingFileSystem(std::move(folders), std::move(project), std::move(copies));
+                                                                      std::vector<std::string> copies,
+                                                                      std::set<std::string>& missing) {
+  return new ForgivingFileSystem(std::move(folders), std::move(project), std::move(copies), missing);
 }
 
 std::string header_like(const std::string& name, const std::vector<std::string>& folders) {

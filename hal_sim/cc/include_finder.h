@@ -2,6 +2,7 @@
 // Header lookup for code written on Windows: any case, backslashes, drive letters, and the e-puck library
 // named by a path that does not exist here ("../../library/motor_led/e_motors.h", "C:\...\h\p30F6014A.h").
 #pragma once
+#include <set>
 #include <string>
 #include <vector>
 
@@ -21,9 +22,11 @@ inline constexpr const char* kVendorRoot = "/twinpuck-vendor";
 /// controller's own folder. A copy of the e-puck library that lies outside it ("../lib/motor_led/e_led.h") is
 /// passed over in favour of the first fallback folder's header of the same place and name, because our
 /// library is what is linked. So are headers below `copies`, folders of the project that are laid out as the
-/// library is, and the compiler's own p30Fxxxx.h wherever the project has one.
+/// library is, and the compiler's own p30Fxxxx.h wherever the project has one. `missing` gets the names that
+/// were looked up and are not there as they were asked for: a file of such a name would be taken.
 llvm::IntrusiveRefCntPtr<llvm::vfs::FileSystem> forgiving_file_system(
-    std::vector<std::string> fallback_folders, std::string project, std::vector<std::string> copies);
+    std::vector<std::string> fallback_folders, std::string project, std::vector<std::string> copies,
+    std::set<std::string>& missing);
 
 /// The header below the folders whose name is most like `name`, as an #include would have it; "" for none.
 std::string header_like(const std::string& name, const std::vector<std::string>& folders);

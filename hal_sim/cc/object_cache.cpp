@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See object_cache.h. For each object `<key>.o` stands `<key>.deps`: a line per file read with its hash.
+// See object_cache.h. For each object `<key>.o` stands `<key>.deps`: a line per file read, its hash before
+// it.
 #include "object_cache.h"
 
 #include <fcntl.h>
@@ -11,12 +12,13 @@
 #include <cstdio>
 #include <cstring>
 
+#include <algorithm>
 #include <atomic>
 #include <fstream>
-#include <map>
-#include <mutex>
 #include <sstream>
 #include <thread>
+
+#include "build_record.h"
 
 extern char** environ;
 
@@ -57,22 +59,33 @@ ProcessResult run_process(const std::vector<std::string>& argv) {
 }
 
 std::string content_hash(const std::string& bytes) {
-  // two FNV-1a runs with different offsets: 128 bits, plenty against accidents
-  uint64_t a = 1469598103934665603ull, b = 1099511628211ull ^ 0x9e3779b97f4a7c15ull;
-  for (unsigned char c : bytes) {
-    a = (a ^ c) * 1099511628211ull;
-    b = (b ^ c) * 0x100000001b3ull + 0x9e3779b97f4a7c15ull;
+  // two sums of words with different factors: 128 bits, plenty against accidents
+  uint64_t a = 0x9e3779b97f4a7c15ull + bytes.size(), b = 1469598103934665603ull ^ bytes.size();
+  for (size_t at = 0; at < bytes.size(); at += 8) {
+    uint64_t word = 0;
+    std::memcpy(&word, bytes.data() + at, std::min<size_t>(8, bytes.size() - at));
+    a = (a ^ word) * 0xd6e8feb86659fd93ull;
+    a ^= a >> 32;
+    b = (b ^ word) * 0x9fb21c651e98df25ull;
+    b ^= b >> 29;
   }
   char text[33];
   std::snprintf(text, sizeof text, "%016lx%016lx", (unsigned long)a, (unsigned long)b);
   return text;
 }
 
+std::string bytes_of(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary | std::ios::ate);
+  std::string all(in ? size_t(std::max<std::streamoff>(0, in.tellg())) : 0, '\0');
+  in.seekg(0);
+  in.read(all.data(), std::streamsize(all.size()));
+  all.resize(size_t(std::max<std::streamsize>(0, in.gcount())));
+  return all;
+}
+
 std::string read_text(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream all;
-  all << in.rdbuf();
-  return all.str();
+  BuildInputs* inputs = inputs_of_build();
+  return inputs ? inputs->read(path) : bytes_of(path);
 }
 
 bool write_text(const fs::path& path, const std::string& text) {
@@ -115,57 +128,47 @@ std::vector<std::string> names_of_rule(const std::string& rule) {
   return names;
 }
 
-/// Hashes of files, each read once a build.
-class FileHashes {
- public:
-  std::string of(const std::string& path) {
-    std::lock_guard<std::mutex> lock(mutex_);
-    auto found = known_.find(path);
-    if (found != known_.end()) return found->second;
-    return known_[path] = fs::exists(path) ? content_hash(read_text(path)) : "gone";
-  }
-
- private:
-  std::mutex mutex_;
-  std::map<std::string, std::string> known_;
-};
-
-bool is_fresh(const fs::path& deps, FileHashes& hashes) {
+bool is_fresh(const fs::path& deps, BuildInputs& inputs) {
   std::ifstream in(deps);
   std::string hash, path;
   bool any = false;
-  while (in >> hash && std::getline(in, path)) {
+  while (std::getline(in, hash, '\t') && std::getline(in, path)) {
     any = true;
-    if (hashes.of(path.substr(1)) != hash) return false;
+    if (inputs.look_at(path) != hash) return false;
   }
   return any;
 }
 
 CompileOutcome compile(const CompileJob& job, const fs::path& compiler, const std::string& salt,
-                       const fs::path& cache, FileHashes& hashes) {
+                       const fs::path& cache, BuildInputs& inputs) {
   CompileOutcome outcome;
   std::string key = job.source.string() + "\n" + job.salt + "\n" + salt;
   for (const auto& f : job.flags) key += "\n" + f;
   fs::path base = cache / (job.source.stem().string() + "-" + content_hash(key));
   outcome.object = base.string() + ".o";
   fs::path deps = base.string() + ".deps", notes = base.string() + ".txt";
-  if (fs::exists(outcome.object) && is_fresh(deps, hashes)) {
+  if (fs::exists(outcome.object) && is_fresh(deps, inputs)) {
     outcome.ok = outcome.reused = true;
-    outcome.messages = read_text(notes);
+    outcome.messages = bytes_of(notes);
     return outcome;
   }
   std::string half = base.string() + ".half" + std::to_string(getpid());
   std::vector<std::string> argv = {compiler.string(), "-c",       job.source.string(), "-o", half,
                                    "--depfile",       half + ".d"};
   argv.insert(argv.end(), job.flags.begin(), job.flags.end());
+  const int64_t began_ns = now_ns();
   auto result = run_process(argv);
   outcome.messages = result.output;
   outcome.ok = result.status == 0;
   std::error_code ec;
   if (outcome.ok) {
     std::string lines;
-    for (const auto& name : names_of_rule(read_text(half + ".d")))
-      lines += hashes.of(name) + " " + name + "\n";
+    for (const auto& name : names_of_rule(bytes_of(half + ".d")))
+      lines += inputs.look_at(name, began_ns) + "\t" + name + "\n";
+    std::istringstream missing(bytes_of(half + ".d.missing"));
+    for (std::string name; std::getline(missing, name);)
+      if (job.listed_below.empty() || name.rfind(job.listed_below, 0) != 0)
+        lines += inputs.look_at(name, began_ns) + "\t" + name + "\n";
     write_text(notes, result.output);
     fs::rename(half, outcome.object, ec);
     if (ec || !write_text(deps, lines)) {
@@ -178,6 +181,7 @@ CompileOutcome compile(const CompileJob& job, const fs::path& compiler, const st
   }
   fs::remove(half, ec);
   fs::remove(half + ".d", ec);
+  fs::remove(half + ".d.missing", ec);
   return outcome;
 }
 
@@ -191,12 +195,13 @@ std::vector<CompileOutcome> compile_all(const std::vector<CompileJob>& jobs, con
   auto time = fs::last_write_time(compiler, ec).time_since_epoch().count();
   std::string salt =
       compiler.string() + " " + std::to_string(time) + " " + std::to_string(fs::file_size(compiler, ec));
+  look_at(compiler);
   std::vector<CompileOutcome> outcomes(jobs.size());
-  FileHashes hashes;
+  BuildInputs& inputs = *inputs_of_build();
   std::atomic<size_t> next{0};
   auto work = [&] {
     for (size_t i; (i = next++) < jobs.size();)
-      outcomes[i] = compile(jobs[i], compiler, salt, cache_dir, hashes);
+      outcomes[i] = compile(jobs[i], compiler, salt, cache_dir, inputs);
   };
   std::vector<std::thread> others;
   for (int t = 1; t < parallel && size_t(t) < jobs.size(); ++t) others.emplace_back(work);

@@ -18,6 +18,8 @@ ProcessResult run_process(const std::vector<std::string>& argv);
 
 /// A short name for a content; equal contents give equal names.
 std::string content_hash(const std::string& bytes);
+std::string bytes_of(const std::filesystem::path& path);
+/// The same, noted as an input of this thread's build.
 std::string read_text(const std::filesystem::path& path);
 /// Through a temporary file, so that a reader never sees half of it. False when the disk refuses.
 bool write_text(const std::filesystem::path& path, const std::string& text);
@@ -25,7 +27,8 @@ bool write_text(const std::filesystem::path& path, const std::string& text);
 struct CompileJob {
   std::filesystem::path source;
   std::vector<std::string> flags;
-  std::string salt;  // anything else the result hangs on
+  std::string salt = {};          // anything else the result hangs on
+  std::string listed_below = {};  // a folder of which the salt says which headers there are
 };
 
 struct CompileOutcome {
@@ -34,7 +37,7 @@ struct CompileOutcome {
   std::string messages;
 };
 
-/// All jobs, at most `parallel` at once; outcomes in the order of the jobs.
+/// All jobs, at most `parallel` at once; outcomes in the order of the jobs. Within a build (build_record.h).
 std::vector<CompileOutcome> compile_all(const std::vector<CompileJob>& jobs,
                                         const std::filesystem::path& compiler,
                                         const std::filesystem::path& cache_dir, int parallel);

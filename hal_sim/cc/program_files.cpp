@@ -2,32 +2,44 @@
 // See program_files.h.
 #include "program_files.h"
 
-#include <regex>
-
+#include "build_record.h"
 #include "makefile_project.h"
 #include "mplab_project.h"
 #include "object_cache.h"
+#include "pattern.h"
 
 namespace cc {
 namespace fs = std::filesystem;
 
-std::vector<fs::path> files_below(const fs::path& folder, const std::string& extension) {
-  std::vector<fs::path> found;
+std::vector<fs::path> files_below(const fs::path& folder, std::initializer_list<const char*> extensions) {
+  std::vector<std::pair<std::ptrdiff_t, fs::path>> found;  // place of its extension, file
   std::error_code ec;
+  look_at(folder);
   for (fs::recursive_directory_iterator it(folder, fs::directory_options::skip_permission_denied, ec), end;
        it != end && !ec; it.increment(ec)) {
-    std::string name = it->path().filename().string();
     std::error_code odd;  // a loop of links is neither folder nor file
-    if (it->is_directory(odd) && name.size() > 1 && name[0] == '.') {
-      it.disable_recursion_pending();
+    if (it->is_directory(odd)) {
+      const std::string name = it->path().filename().string();
+      if (name.size() > 1 && name[0] == '.')
+        it.disable_recursion_pending();
+      else
+        look_at(it->path());
       continue;
     }
     std::string end_of_name = it->path().extension().string();
     std::transform(end_of_name.begin(), end_of_name.end(), end_of_name.begin(), ::tolower);
-    if (it->is_regular_file(odd) && end_of_name == extension) found.push_back(it->path());
+    const auto place = std::find(extensions.begin(), extensions.end(), end_of_name);
+    if (place != extensions.end() && it->is_regular_file(odd))
+      found.emplace_back(place - extensions.begin(), it->path());
   }
   std::sort(found.begin(), found.end());
-  return found;
+  std::vector<fs::path> files;
+  for (auto& file : found) files.push_back(std::move(file.second));
+  return files;
+}
+
+std::vector<fs::path> files_below(const fs::path& folder, const char* extension) {
+  return files_below(folder, {extension});
 }
 
 bool is_cxx(const fs::path& file) {
@@ -35,19 +47,12 @@ bool is_cxx(const fs::path& file) {
   return kind == ".cpp" || kind == ".cc" || kind == ".cxx";
 }
 
-std::vector<fs::path> files_below(const fs::path& folder, std::initializer_list<const char*> extensions) {
-  std::vector<fs::path> found;
-  for (const char* extension : extensions)
-    for (const fs::path& file : files_below(folder, extension)) found.push_back(file);
-  return found;
-}
-
 std::vector<fs::path> headers_below(const fs::path& folder) {
   return files_below(folder, {".h", ".hpp", ".hh", ".hxx"});
 }
 
 bool names_webots(const std::vector<fs::path>& sources, const std::vector<fs::path>& headers) {
-  static const std::regex kInclude(R"(#\s*include\s*[<"](webots|device)[/\\])");
+  static const Pattern kInclude(R"(#\s*include\s*[<"](webots|device)[/\\])");
   for (const auto* list : {&sources, &headers})
     for (const auto& file : *list)
       if (std::regex_search(read_text(file), kInclude)) return true;

@@ -32,8 +32,7 @@ struct Program {
 };
 
 /// Files below a folder whose names end so in any case, but for hidden folders; sorted.
-std::vector<std::filesystem::path> files_below(const std::filesystem::path& folder,
-                                               const std::string& extension);
+std::vector<std::filesystem::path> files_below(const std::filesystem::path& folder, const char* extension);
 std::vector<std::filesystem::path> files_below(const std::filesystem::path& folder,
                                                std::initializer_list<const char*> extensions);
 /// Headers of C and C++.

@@ -62,18 +62,6 @@ void note_speed(Context& context, tp_i64 wheel, tp_i64 speed_steps_s, int most) 
                                "the motors are not faster", context.now(), 0, 1});
 }
 
-/// After a change to agendas: the next interrupt.
-void follow_agendas(Context& context, Board& robot) {
-  board::AgendaTimer& agendas = robot.agendas();
-  if (agendas.is_walking()) return;  // tp_agenda_end() follows
-  const Cycle next = agendas.next_interrupt();
-  const Cycle wanted = next >= host::kNever ? -1 : next;
-  if (wanted != robot.requests.agenda_interrupt) {
-    robot.requests.agenda_interrupt = wanted;
-    context.irq_at(TP_V_T2, wanted);
-  }
-}
-
 Cycle search_cost(const void* function, Cycle found_at_once = kListSearchCycles) {
   return found_at_once + kNodePassedCycles * Context::current().board().agendas().nodes_passed(function);
 }
@@ -85,17 +73,32 @@ template <typename Change>
 tp_i64 change_list(Cycle cost, Change change) {
   Context& context = Context::current();
   Board& robot = context.board();
-  const Cycle now = context.settle();
-  robot.settle_handlers(now);
+  const Cycle now = context.now();
   const int result = change(robot.agendas(), now);
   robot.follow_power(now);
   context.note_write();
-  follow_agendas(context, robot);
+  context.follow_handlers();
+  host::request_agenda_interrupt(context);
   context.spend(cost);
   return result;
 }
 
 }  // namespace
+
+namespace host {
+
+void request_agenda_interrupt(Context& context) {
+  Board& robot = context.board();
+  const board::AgendaTimer& agendas = robot.agendas();
+  if (agendas.is_walking()) return;  // tp_agenda_end() follows
+  const Cycle next = agendas.next_interrupt();
+  const Cycle wanted = next >= kNever ? -1 : next;
+  if (wanted == robot.requests.agenda_interrupt) return;
+  robot.requests.agenda_interrupt = wanted;
+  context.irq_at(TP_V_T2, wanted);
+}
+
+}  // namespace host
 
 extern "C" {
 
@@ -215,17 +218,14 @@ tp_i64 tp_agenda_restart(const void* function) {
 
 void tp_agenda_begin(void) {
   Context& context = Context::current();
-  const Cycle now = context.settle();
-  context.board().settle_handlers(now);
-  context.board().agendas().begin(now);
+  context.board().agendas().begin(context.now());
   context.note_write();
-  context.spend(0);
 }
 
 const void* tp_agenda_next(void) {
   Context& context = Context::current();
   bool divided_by_zero = false;
-  const void* function = context.board().agendas().next(divided_by_zero, context.settle());
+  const void* function = context.board().agendas().next(divided_by_zero);
   context.spend(context.board().agendas().take_walk_cost());
   if (divided_by_zero)
     context.trap(TP_TRAP_MATH, "motor agenda: 10000 / 0 (speed 0 with a power-save half pending)");
@@ -237,11 +237,10 @@ void tp_agenda_end(void) {
   Context& context = Context::current();
   context.spend(kReturnCycles);
   Board& robot = context.board();
-  robot.agendas().finish(context.settle());
+  robot.agendas().finish(context.now());
   robot.requests.agenda_interrupt = Board::Requests::kUnknown;  // the request was used up
   context.note_write();
-  follow_agendas(context, robot);
-  context.spend(0);
+  host::request_agenda_interrupt(context);
 }
 
 // --- motors ----------------------------------------------------------------------------------------------
@@ -266,12 +265,10 @@ void tp_motor_speed(tp_i64 wheel, tp_i64 speed_steps_s) {
 void tp_motor_run(tp_i64 wheel) {
   Context& context = Context::current();
   Board& robot = context.board();
-  const Cycle now = context.settle();
-  robot.settle_handlers(now);
-  const bool fine = robot.agendas().run_motor(wheel_of(wheel), now);
+  const bool fine = robot.agendas().run_motor(wheel_of(wheel), context.now());
   context.note_write();
-  follow_agendas(context, robot);
-  context.spend(0);
+  context.follow_handlers();
+  host::request_agenda_interrupt(context);
   if (!fine) context.trap(TP_TRAP_MATH, "motor agenda: 10000 / 0 (speed 0 with a power-save half pending)");
 }
 
@@ -327,23 +324,21 @@ void tp_timer3_motors_start(void) {
 void tp_scan_start(tp_i64 micro_only, tp_i64 five_pairs) {
   Context& context = Context::current();
   Board& robot = context.board();
-  const Cycle now = context.settle();
-  robot.settle_handlers(now);
+  const Cycle now = context.now();
   robot.scan().start(micro_only != 0, five_pairs != 0, now);
   robot.follow_power(now);
   context.note_write();
-  context.spend(0);
+  context.follow_handlers();
 }
 
 void tp_scan_switch(tp_i64 on) {
   Context& context = Context::current();
   Board& robot = context.board();
-  const Cycle now = context.settle();
-  robot.settle_handlers(now);
+  const Cycle now = context.now();
   robot.scan().switch_converter(on != 0, now);
   robot.follow_power(now);
   context.note_write();
-  context.spend(0);
+  context.follow_handlers();
 }
 
 tp_i64 tp_scan_filled_at(void) {
@@ -357,12 +352,6 @@ tp_i64 tp_scan_interrupts(void) {
   const Cycle now = context.now();
   context.lower_horizon(scan.next_interrupt(now));
   return scan.interrupts(now);
-}
-
-void tp_scan_restart_ticks(void) {
-  Context& context = Context::current();
-  context.board().scan().restart_ticks(context.settle());
-  context.spend(0);
 }
 
 tp_i64 tp_scan_array_filled(void) {

@@ -35,9 +35,8 @@ class Context {
   /// Spends cycles; delivers interrupts; may let other robots run.
   virtual void spend(Cycle cycles) = 0;
   virtual void wait_until(Cycle at) = 0;
-  /// Settles the time so far, before a change to what board().handlers() say; spend() must follow the change,
-  /// with 0 if there is nothing to spend. Returns now.
-  virtual Cycle settle() = 0;
+  /// What board().handler_share_q32() says has changed at this moment.
+  virtual void follow_handlers() = 0;
 
   virtual void irq_install(int vector, void (*handler)(), int priority, Cycle entry_cycles) = 0;
   virtual void irq_at(int vector, Cycle at) = 0;  ///< at < 0 cancels
@@ -51,5 +50,8 @@ class Context {
   /// A trap of the running firmware; does not return. kind: TP_TRAP_*.
   [[noreturn]] virtual void trap(int kind, std::string_view message) = 0;
 };
+
+/// After a change to the board's agendas: their next interrupt is asked for.
+void request_agenda_interrupt(Context& context);
 
 }  // namespace host

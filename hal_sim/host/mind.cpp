@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "hal_sim/host/oscillator.h"
+#include "sim_core/world/scene.h"
 
 namespace host {
 
@@ -30,41 +31,70 @@ FirmwareMind::FirmwareMind(const board::Setup& setup, RobotSettings settings, st
 
 Cycle FirmwareMind::cycle_at(sim::Clicks at) const { return std::max<Cycle>(0, board_.clock().cycle_at(at)); }
 
+Cycle FirmwareMind::now() const {
+  return board_.scene() ? std::max(now_, cycle_at(board_.scene()->now())) : now_;
+}
+
 void FirmwareMind::run_until(const sim::Scene& scene, sim::Clicks end) {
   catch_faults_on_this_thread();
   board_.look_at(&scene);
-  board_.exchange(now_);
-  // bytes are on their way: whoever waits for them looks again
-  if (robot_ && (board_.uart(1).next_arrival(now_) < kNever || board_.uart(2).next_arrival(now_) < kNever))
-    robot_->wake();
-  if (robot_) robot_->begin_window(now_);
+  const Cycle start = now();
+  board_.exchange(start);
   now_ = cycle_at(end);
-  if (robot_) robot_->run_until(now_);
+  if (!robot_) return set_idle_until(idle_until());
+  robot_->pass_to(start);
+  // bytes are on their way: whoever waits for them looks again
+  if (board_.uart(1).next_arrival(start) < kNever || board_.uart(2).next_arrival(start) < kNever)
+    robot_->wake();
+  robot_->begin_window(start);
+  robot_->run_until(now_);
+  if (robot_->turns() != turns_) {
+    turns_ = robot_->turns();
+    course_.until = 0;
+    hash_ = board_.state_hash(now_) ^ robot_->hash() * 0xD6E8FEB86659FD93u;
+  }
+  set_idle_until(idle_until());
+}
+
+sim::Clicks FirmwareMind::idle_until() const {
+  const Cycle quiet = board_.quiet_until(now_), idle = robot_ ? robot_->idle_until() : kNever;
+  const Cycle until = std::min(quiet, idle);
+  return until >= kNever ? kNever : until <= now_ ? 0 : board_.clock().click_at(until);
 }
 
 void FirmwareMind::press_key(const board::KeyPress& key) {
   board_.remote().press(key);
   if (robot_) robot_->remote_changed();
+  set_idle_until(0);
 }
 
-sim::WheelAngles FirmwareMind::wheel_angles(sim::Clicks at) {
+sim::WheelCourse FirmwareMind::wheel_course(sim::Clicks at) {
+  if (at >= course_.until) course_ = course_at(at);
+  return course_;
+}
+
+sim::WheelCourse FirmwareMind::course_at(sim::Clicks at) const {
+  const board::RobotClock& clock = board_.clock();
   const Cycle cycle = cycle_at(at);
-  return {board_.wheel_angle_rad(board::Wheel::Left, cycle),
-          board_.wheel_angle_rad(board::Wheel::Right, cycle)};
+  const board::WheelTurn left = board_.wheel_turn(board::Wheel::Left, cycle),
+                         right = board_.wheel_turn(board::Wheel::Right, cycle);
+  const Cycle until = std::min(left.until, right.until);
+  const double cycles_per_click = 1 + static_cast<double>(clock.ppb()) * 1e-9;
+  return {{left.angle_rad, right.angle_rad},
+          left.rate_rad * cycles_per_click,
+          right.rate_rad * cycles_per_click,
+          at,
+          until >= kNever ? kNever : std::max(at, clock.click_at(until))};
 }
 
 sim::MindReport FirmwareMind::report() const {
-  return {board_.left_steps(now_), board_.right_steps(now_), board_.leds(now_)};
+  const Cycle at = now();
+  return {board_.left_steps(at), board_.right_steps(at), board_.leds(at)};
 }
 
 int FirmwareMind::proximity_counts(const sim::Scene& scene, int index) {
   board_.look_at(&scene);
-  return board_.proximity_counts(index, now_);
-}
-
-std::uint64_t FirmwareMind::state_hash() const {
-  const std::uint64_t h = board_.state_hash(now_);
-  return robot_ ? h ^ (robot_->hash() * 0xD6E8FEB86659FD93u) : h;
+  return board_.proximity_counts(index, now());
 }
 
 }  // namespace host

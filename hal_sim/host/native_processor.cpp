@@ -14,6 +14,7 @@ void NativeProcessor::reset(Cycle now) {
   interrupts_.reset();
   cpu_level_ = 0;
   disi_until_ = 0;
+  masked_ = false;
   outer_levels_.clear();
   registers_.processor_reset();
   watch_remote(now);
@@ -37,6 +38,7 @@ void NativeProcessor::watch_remote(Cycle now) {
 }
 
 Processor::Outlook NativeProcessor::look(Cycle now) {
+  if (masked_) follow_mask(now);  // DISI may have run out
   interrupts_.raise_due(now);
   const bool held = disi_until_ > now;
   Outlook outlook{interrupts_.select(cpu_level_, held), held || cpu_level_ > 0, interrupts_.next_due()};
@@ -52,6 +54,7 @@ Processor::Entry NativeProcessor::enter(int vector, Cycle now) {
   }
   outer_levels_.push_back(cpu_level_);
   cpu_level_ = registers_.nesting_disabled() ? 7 : s.priority;
+  follow_mask(now);
   return {s.self_clearing ? s.handler : nullptr,
           now + (s.self_clearing ? s.entry_cycles : kInterruptEntryCycles)};
 }
@@ -59,6 +62,7 @@ Processor::Entry NativeProcessor::enter(int vector, Cycle now) {
 Processor::Return NativeProcessor::leave(Cycle now) {
   cpu_level_ = outer_levels_.back();
   outer_levels_.pop_back();
+  follow_mask(now);
   return {now};
 }
 
@@ -71,6 +75,17 @@ Processor::Waiting NativeProcessor::longest_waiting(Cycle now) {
 void NativeProcessor::disi(Cycle cycles, Cycle now) {
   disi_until_ = std::max(disi_until_, now + cycles);
   if (cycles <= 2) disi_until_ = now + cycles;  // INTERRUPT_ON() writes a short count over a long one
+  follow_mask(now);
+}
+
+void NativeProcessor::follow_mask(Cycle now) {
+  const bool masked = cpu_level_ >= board::kHandlerPriority || now < disi_until_;
+  if (masked == masked_) return;
+  masked_ = masked;
+  board::Board& board = robot_.board();
+  board.mask_handlers(masked, now);
+  robot_.follow_handlers();
+  if (!masked) request_agenda_interrupt(robot_);  // ticks that were lost have moved it
 }
 
 bool NativeProcessor::flag(int vector, Cycle at) {

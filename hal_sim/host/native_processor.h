@@ -38,7 +38,10 @@ class NativeProcessor final : public Processor {
   Entry enter(int vector, Cycle now) override;
   Return leave(Cycle now) override;
   int cpu_level() const override { return cpu_level_; }
-  void set_cpu_level(int level, Cycle) override { cpu_level_ = level; }
+  void set_cpu_level(int level, Cycle now) override {
+    cpu_level_ = level;
+    follow_mask(now);
+  }
   Waiting longest_waiting(Cycle now) override;
   void disi(Cycle cycles, Cycle now) override;
   bool wakes(Cycle now) override { return look(now).vector >= 0; }
@@ -49,17 +52,22 @@ class NativeProcessor final : public Processor {
 
   InterruptController& interrupts() { return interrupts_; }
   bool disi_active(Cycle now) const { return now < disi_until_; }
+  /// Does the program keep the drivers' handlers that are not run from coming?
+  bool masks_handlers() const { return masked_; }
   /// INTCON2.INT0EP was written: external interrupt 0 waits for the other edge.
   void int0_polarity_changed(Cycle now) { interrupts_.refresh_int0(now); }
 
  private:
   void watch_remote(Cycle now);
+  /// After a change of level or DISI: do the handlers that are not run still come?
+  void follow_mask(Cycle now);
 
   Robot& robot_;
   InterruptController interrupts_;
   NativeRegisters registers_;
   int cpu_level_ = 0;
   Cycle disi_until_ = 0;
+  bool masked_ = false;
   std::vector<int> outer_levels_;
 };
 

@@ -53,8 +53,6 @@ void tp_background(tp_i64 slot, tp_i64 period, tp_i64 cost);
 #define TP_BG_MOTOR_LEFT 2
 #define TP_BG_MOTOR_RIGHT 3
 #define TP_BG_PROX 4
-#define TP_BG_UART1 5
-#define TP_BG_UART2 6
 
 /* --- board (implemented in host/board_exports.cpp on hal_sim/board) ----------------------------------- */
 /* Wheels: 0 left, 1 right. Ports: 'A' 'B' 'C' 'D' 'F' 'G'. Answers are whole numbers; nothing here blocks. */
@@ -115,8 +113,6 @@ void tp_scan_switch(tp_i64 on);
 tp_i64 tp_scan_filled_at(void);
 /** Interrupts since reset. Horizon: the next one. */
 tp_i64 tp_scan_interrupts(void);
-/** The driver's counter of interrupts, which stays at 65535, is set to 0. */
-void tp_scan_restart_ticks(void);
 /** 1 between the interrupt that wrapped the microphone index and the next. Horizon: its next change. */
 tp_i64 tp_scan_array_filled(void);
 /** The driver's indices: next microphone sample 0 to 99, newest accelerometer sample 0 to 49. Horizon: none.

@@ -72,7 +72,6 @@ void Robot::restart_program() {
   if (copy_.owner == this) copy_.owner = nullptr;
   std::fill(background_.begin(), background_.end(), Background{});
   background_share_q32_ = 0;
-  note_clock();
   handler_depth_ = 0;
   calm_until_ = 0;
   may_wait_ = false;
@@ -83,6 +82,7 @@ void Robot::restart_program() {
   overflowed_ = false;
   reset_asked_ = false;
   processor_->reset(now_);
+  find_share();
   now_ += kStartUpCycles;
   fiber_.restart(enter_firmware, this);
 }
@@ -142,12 +142,12 @@ void Robot::swap_in() {
 void Robot::run_until(Cycle end) {
   window_start_ = end_;
   end_ = end;
-  quiet_until_ = 0;
   if (stopped_ || end <= window_start_) return;
   if (asleep_until_ > end && !woken_) return processor_->end_window(end);
   std::lock_guard<std::mutex> turn(copy_.turn);
   Robot* outer = detail::running_robot;
   detail::running_robot = this;
+  ++turns_;
   do {
     if (reset_asked_) restart_program();
     swap_in();
@@ -165,57 +165,34 @@ void Robot::run_until(Cycle end) {
 // --- time
 // --------------------------------------------------------------------------------------------------------
 
-void Robot::find_quiet() const {
-  quiet_until_ = has_handlers_ ? board_.handlers().next(now_, processor_->cpu_level()) : kNever;
-}
-
-Cycle Robot::after(Cycle main, std::uint64_t& fraction) const {
-  if (stolen_q32_ == 0 && is_quiet(main)) return now_ + main;
-  if (stolen_q32_ != 0) main = stretched(main, fraction);
-  return has_handlers_ ? board_.handlers().done(now_, main, processor_->cpu_level()) : now_ + main;
-}
-
 Cycle Robot::main_until(Cycle at) const {
-  const Cycle real = has_handlers_ ? board_.handlers().work(now_, at, processor_->cpu_level()) : at - now_;
-  if (stolen_q32_ == 0 || real <= 0) return std::max<Cycle>(real, 0);
-  const unsigned __int128 whole = (static_cast<unsigned __int128>(real) << kQ) - fraction_;
-  return static_cast<Cycle>(whole / (kOne + stolen_q32_));
+  if (at <= now_) return 0;
+  if (stolen_q32_ == 0) return at - now_;
+  // by the reciprocal: at most one too few
+  auto main = static_cast<Cycle>(static_cast<unsigned __int128>(at - now_) * kept_q32_ >> kQ);
+  while (after(main + 1) <= at) ++main;
+  while (main > 0 && after(main) > at) --main;
+  return main;
 }
 
-void Robot::note_clock() {
-  quiet_until_ = 0;
-  const bool spread = board_.setup().spread_handlers;
-  has_handlers_ = native_ && !spread && board_.handlers().come();
-  const std::uint64_t handlers = native_ && spread ? board_.handlers().share_q32() : 0;
-  const std::uint64_t share =
-      std::min<std::uint64_t>(handlers + background_share_q32_, kOne / 100 * kMostBackgroundPercent);
-  stolen_q32_ =
-      share == 0 ? 0
-                 : static_cast<std::uint64_t>((static_cast<unsigned __int128>(share) << kQ) / (kOne - share));
-  has_plain_clock_ = !observer_ && stolen_q32_ == 0 && !has_handlers_;
+void Robot::find_share() {
+  const bool masked = native_ && native_->masks_handlers();
+  const std::uint64_t handlers = native_ && !masked ? board_.handler_share_q32() : 0;
+  share_q32_ = std::min<std::uint64_t>(handlers + background_share_q32_, kOne / 100 * kMostBackgroundPercent);
+  kept_q32_ = kOne - share_q32_;
+  stolen_q32_ = share_q32_ == 0 ? 0 : (share_q32_ << kQ) / kept_q32_;
 }
 
-Cycle Robot::settle() {
+void Robot::follow_handlers() {
   fold();
-  quiet_until_ = 0;
-  settled_ = true;
-  return now_;
+  find_share();
+  give_budget();
 }
 
 Cycle Robot::now_and_tell() {
-  std::uint64_t fraction = fraction_;
-  const Cycle main = issued_ - control_.budget;
-  const Cycle at = after(main, fraction);
-  if (observer_) observer_->reached(at);
+  const Cycle at = now_unobserved();
+  observer_->reached(at);
   return at;
-}
-
-std::uint16_t Robot::read_and_tell(unsigned address, unsigned bits) {
-  return processor_->read(address, bits, now_and_tell());
-}
-
-void Robot::write_and_tell(unsigned address, std::uint16_t value, unsigned bits) {
-  processor_->write(address, value, bits, now_and_tell());
 }
 
 void Robot::modify_in_two(unsigned address, std::uint16_t keep, std::uint16_t flip) {
@@ -248,13 +225,7 @@ Cycle Robot::next_disturbance() {
 void Robot::give_budget_anew() {
   Cycle until = std::min(end_, next_disturbance());
   if (observer_) until = std::min(until, now_ + observer_->look_every);
-  if (has_handlers_ && stolen_q32_ == 0 && until > now_) {
-    // up to the next handler: what comes after it is not worth counting yet
-    if (quiet_until_ <= now_) find_quiet();
-    issued_ = std::min(until, quiet_until_) - now_;
-  } else {
-    issued_ = until > now_ ? main_until(until) : 0;
-  }
+  issued_ = main_until(until);
   control_.budget = issued_;
 }
 
@@ -279,7 +250,7 @@ void Robot::set_background(int slot, Cycle period, Cycle cost) {
     if (b.period > 0)
       background_share_q32_ +=
           (static_cast<std::uint64_t>(b.cost) << kQ) / static_cast<std::uint64_t>(b.period);
-  note_clock();
+  find_share();
   note_write();
   give_budget();
 }
@@ -342,10 +313,7 @@ void Robot::serve_told(int vector) {
   handle(vector, entry);
 }
 
-void Robot::handle(int vector, const Processor::Entry& begins) {
-  const Cycle asked = now_;
-  Processor::Entry entry = begins;
-  quiet_until_ = 0;  // another level
+void Robot::handle(int vector, const Processor::Entry& entry) {
   const tp_image& image = copy_.description();
   void (*handler)() = entry.handler;
   if (!handler && vector >= kTrapVector)
@@ -354,19 +322,8 @@ void Robot::handle(int vector, const Processor::Entry& begins) {
     handler = handler_of(vector, entry.alternate);
   if (!handler) handler = image.default_vector;
   if (!handler) miss_handler(vector, entry.alternate);
-  if (has_handlers_) {
-    const Cycle entering = entry.first_instruction - asked;
-    const board::Handlers others = board_.handlers();
-    entry.first_instruction =
-        others.done(others.free_from(asked, processor_->cpu_level()), entering, processor_->cpu_level());
-  }
   run_handler(handler, entry);
   if (observer_) observer_->handler_ends(now_);
-  quiet_until_ = 0;
-  if (has_handlers_) {
-    board_.handler_left(now_);
-    now_ += board::kExitCycles;
-  }
   handler_returned(processor_->leave(now_));
 }
 
@@ -445,8 +402,7 @@ void Robot::run_main(Cycle main) {
     deliver();
     check_blocked();
     const Cycle disturbed = next_disturbance();
-    std::uint64_t fraction = fraction_;
-    const Cycle finish = after(main, fraction), next = std::min(disturbed, finish);
+    const Cycle finish = after(main), next = std::min(disturbed, finish);
     if (finish <= std::min(disturbed, end_)) {
       advance_main(main);
       return;
@@ -462,12 +418,10 @@ void Robot::run_main(Cycle main) {
   }
 }
 
-void Robot::spend(Cycle cycles) {
+// more than may pass undisturbed
+void Robot::overspend(Cycle cycles) {
+  control_.budget += cycles;
   fold();
-  if (settled_) {
-    settled_ = false;
-    note_clock();
-  }
   run_main(cycles);
   give_budget();
 }
@@ -507,7 +461,7 @@ void Robot::on_poll(std::int64_t loop) {
 // handler one round is done, finds nothing, and the loop sleeps on
 void Robot::on_rest(std::int64_t loop) {
   fold();
-  if (loop == poll_loop_ && served_ == poll_served_ && has_plain_clock_ && handler_depth_ == 0) {
+  if (loop == poll_loop_ && served_ == poll_served_ && !observer_ && handler_depth_ == 0) {
     const Cycle round = main_ - poll_main_;
     while (round > 0 && !may_wait_ && now_ < calm_until_ && calm_until_ <= end_) {
       const Cycle start = now_;
@@ -518,7 +472,7 @@ void Robot::on_rest(std::int64_t loop) {
       const bool served = served_ != poll_served_;
       if (!served) sleep_until(kNever, round, start);
       note_poll(loop);
-      if (!served || now_ + round > std::min(end_, calm_until_)) return give_budget();
+      if (!served || after(round) > std::min(end_, calm_until_)) return give_budget();
       advance_main(round);
     }
   }
@@ -527,20 +481,15 @@ void Robot::on_rest(std::int64_t loop) {
 
 void Robot::sleep_until(Cycle target, Cycle round, Cycle start) {
   // the program notices a change at the end of the round in which it happens
-  const int level = has_handlers_ ? processor_->cpu_level() : 0;
-  const auto end_of_round = [&](Cycle at) {
-    const Cycle work = has_handlers_ ? board_.handlers().work(start, at, level) : at - start;
-    const Cycle rounds = (work + round - 1) / round * round;
-    return has_handlers_ ? std::max(at, board_.handlers().done(start, rounds, level)) : start + rounds;
-  };
+  std::uint64_t fraction = 0;
+  round = stretched(round, fraction);
+  const auto end_of_round = [&](Cycle at) { return start + (at - start + round - 1) / round * round; };
   if (target < kNever) target = end_of_round(target);
   while (now_ < target) {
     deliver();
     if (now_ != start &&
-        served_ != poll_served_) {  // a handler ran: look again, after the round that it interrupted
-      if (has_handlers_) advance_main(round);
+        served_ != poll_served_)  // a handler ran: look again
       break;
-    }
     check_blocked();
     const Cycle stop = std::min(target, next_disturbance());
     if (stop >= kNever && handler_depth_ > 0 && !looked_outside_)

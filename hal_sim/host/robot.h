@@ -5,9 +5,9 @@
 //
 //   run_until(end) --enter--> firmware ... tp_event() ... tp_poll() ... --yield--> run_until returns
 //
-// Time: compiled code subtracts estimated cycles from a budget; the host adds what handlers take that are not
-// run: those of the board's closed forms when they come (hal_sim/board/handlers.h), others evenly spread
-// (docs/design.md, "Time"). A robot that sleeps in a wait costs nothing until something can happen.
+// Time: compiled code subtracts estimated cycles from a budget. What handlers take that are not run, because
+// they are closed forms, is a share by which the program's cycles are stretched (docs/design.md, "Time"); none
+// while the program masks them. A robot that sleeps in a wait costs nothing until something can happen.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -68,6 +68,12 @@ class Robot final : public Context {
   // ------------------------------------------------------------------------------------
   /// Runs firmware until cycle `end`. Returns at once while the firmware sleeps beyond `end`.
   void run_until(Cycle end);
+  /// Until when run_until() would return at once, if nothing from outside comes; <= the last end: it runs on.
+  Cycle idle_until() const { return stopped_ ? kNever : woken_ || reset_asked_ ? 0 : asleep_until_; }
+  /// The windows up to `end`, before which it is idle, have passed.
+  void pass_to(Cycle end) { end_ = std::max(end_, end); }
+  /// How often firmware has run: what the program sees and does is as it was until this changes.
+  std::uint64_t turns() const { return turns_; }
   /// Something outside changed (a byte came in, the selector was turned): a sleeping wait looks again.
   void wake() { woken_ = true; }
   /// Somebody will press, or presses, a key of a remote control: the receiver's line has a new future.
@@ -115,7 +121,6 @@ class Robot final : public Context {
   void observe(Observer* observer) {
     observer_ = observer;
     processor_->observe(observer);
-    note_clock();
   }
   /// The chip's models, in the register way; null in the native way.
   dspic::Dspic30f6014a* chip() { return processor_->chip(); }
@@ -130,15 +135,18 @@ class Robot final : public Context {
   // --- Context
   // ----------------------------------------------------------------------------------------------
   board::Board& board() override { return board_; }
-  Cycle now() override { return has_plain_clock_ ? now_ + issued_ - control_.budget : now_and_tell(); }
+  Cycle now() override { return observer_ ? now_and_tell() : now_unobserved(); }
   void lower_horizon(Cycle at) override {
     if (at < horizon_) horizon_ = at;
     looked_outside_ = true;
   }
   void note_write() override { ++control_.writes; }
-  void spend(Cycle cycles) override;
+  void spend(Cycle cycles) override {
+    control_.budget -= cycles;
+    if (control_.budget < 0) overspend(cycles);
+  }
   void wait_until(Cycle at) override;
-  Cycle settle() override;
+  void follow_handlers() override;
   void irq_install(int vector, void (*handler)(), int priority, Cycle entry_cycles) override;
   void irq_at(int vector, Cycle at) override;
   void irq_every(int vector, Cycle first, Cycle period);  ///< period 0: once; native way only
@@ -210,16 +218,14 @@ class Robot final : public Context {
     wake();
   }
   std::uint16_t read_register(unsigned address, unsigned bits) {
-    if (!has_plain_clock_) return read_and_tell(address, bits);
-    return processor_->read(address, bits, now_ + issued_ - control_.budget);
+    return processor_->read(address, bits, now());
   }
   void modify_register(unsigned address, std::uint16_t keep, std::uint16_t flip) {
-    if (!has_plain_clock_) return modify_in_two(address, keep, flip);
-    processor_->modify(address, keep, flip, now_ + issued_ - control_.budget);
+    if (observer_) return modify_in_two(address, keep, flip);
+    processor_->modify(address, keep, flip, now_unobserved());
   }
   void write_register(unsigned address, std::uint16_t value, unsigned bits) {
-    if (!has_plain_clock_) return write_and_tell(address, value, bits);
-    processor_->write(address, value, bits, now_ + issued_ - control_.budget);
+    processor_->write(address, value, bits, now());
   }
   void clear_watchdog() {
     processor_->clear_watchdog(now());
@@ -271,34 +277,28 @@ class Robot final : public Context {
   // program cycles -> cycles of the clock
   void advance_main(Cycle main) {
     main_ += main;
-    if (has_handlers_)
-      now_ = after(main, fraction_);
-    else
-      now_ += stolen_q32_ == 0 ? main : stretched(main, fraction_);
+    now_ += stretched(main, fraction_);
   }
-  // with the share that spread handlers take
+  // with the share that handlers take
   Cycle stretched(Cycle main, std::uint64_t& fraction) const {
+    if (stolen_q32_ == 0) return main;
     const unsigned __int128 stolen = static_cast<unsigned __int128>(main) * stolen_q32_ + fraction;
     fraction = static_cast<std::uint64_t>(stolen) & (kOne - 1);
     return main + static_cast<Cycle>(stolen >> kQ);
   }
-  Cycle after(Cycle main, std::uint64_t& fraction) const;
-  // no handler comes in these cycles
-  bool is_quiet(Cycle main) const {
-    if (quiet_until_ <= now_) find_quiet();
-    return now_ + main <= quiet_until_;
+  Cycle after(Cycle main) const {
+    std::uint64_t fraction = fraction_;
+    return now_ + stretched(main, fraction);
   }
-  void find_quiet() const;
-  void note_clock();
-  // while handlers take cycles or somebody observes
+  void find_share();
+  Cycle now_unobserved() const { return after(issued_ - control_.budget); }
   Cycle now_and_tell();
-  std::uint16_t read_and_tell(unsigned address, unsigned bits);
-  void write_and_tell(unsigned address, std::uint16_t value, unsigned bits);
   void modify_in_two(unsigned address, std::uint16_t keep, std::uint16_t flip);
+  void overspend(Cycle cycles);
   Cycle main_until(Cycle at) const;  // most program cycles that end at or before `at`
   void give_budget() {
-    if (now_ >= calm_until_ || !has_plain_clock_) return give_budget_anew();
-    issued_ = std::max<Cycle>(0, std::min(end_, calm_until_) - now_);
+    if (now_ >= calm_until_ || observer_) return give_budget_anew();
+    issued_ = main_until(std::min(end_, calm_until_));
     control_.budget = issued_;
   }
   void give_budget_anew();
@@ -318,7 +318,7 @@ class Robot final : public Context {
   void idle_to(Cycle at);     // jumps over a wait
   void pass_window();         // now_ >= end_: let the others run
   void run_main(Cycle main);  // spends main cycles, delivering on the way
-  // a wait since `start` that polls every `round` cycles; ends early when disturbed
+  // a wait since `start` that polls every `round` of its cycles; ends early when disturbed
   void sleep_until(Cycle target, Cycle round, Cycle start);
   void note_poll(std::int64_t loop) {
     poll_loop_ = loop;
@@ -353,10 +353,8 @@ class Robot final : public Context {
   Cycle issued_ = 0;               // budget given at that moment
   std::uint64_t fraction_ = 0;     // of a cycle, Q32, left over from stretching
   std::uint64_t stolen_q32_ = 0;   // cycles background handlers take per main cycle, Q32
-  bool settled_ = false;           // settle() was called, and spend() not yet
-  bool has_handlers_ = false;      // the board's closed forms take cycles
-  bool has_plain_clock_ = true;    // neither, and nobody observes
-  mutable Cycle quiet_until_ = 0;  // none of them comes before; <= now_: unknown
+  std::uint64_t kept_q32_ = 0;     // program's cycles per cycle of the clock, Q32, rounded down
+  std::uint64_t share_q32_ = 0;    // what of all cycles handlers take that are not run
   Cycle main_ = 0;                 // cycles of the program itself so far, up to the last fold
   struct Background {
     Cycle period = 0, cost = 0;
@@ -381,6 +379,7 @@ class Robot final : public Context {
   int handler_depth_ = 0;
   std::int64_t served_ = 0;  // interrupts so far
   std::int64_t looks_ = 0;   // look() so far
+  std::uint64_t turns_ = 0;
 
   std::int64_t writes_ = 0;  // image_abi.h's counter while another robot of the copy runs
   Cycle horizon_ = kNever;

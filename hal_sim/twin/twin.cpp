@@ -82,7 +82,6 @@ board::Setup setup_of(const sim::WorldDesc& world, int index) {
   setup.webots = world.webots;
   setup.devices = robot.devices;
   setup.clock_ppm = variation.clock_ppm;
-  setup.spread_handlers = world.spread_interrupts;
   setup.boot_delay_s = variation.boot_delay_s;
   return setup;
 }
@@ -142,6 +141,7 @@ class ConsoleMedium final : public sim::Medium {
     if (!somebody_writes_.exchange(false, std::memory_order_relaxed)) return;
     for (board::VirtualDevices* robot : robots_) robot->deliver();
   }
+  bool is_busy() const override { return false; }
 
  private:
   std::vector<board::VirtualDevices*> robots_;

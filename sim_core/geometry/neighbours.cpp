@@ -92,14 +92,8 @@ int Neighbours::cell_y(double y) const {
   return static_cast<int>(std::clamp((y - y0_) * (1 / kCellM), 0.0, static_cast<double>(rows_ - 1)));
 }
 
-bool Neighbours::note_motion(double most_m) {
-  moved_m_ += most_m;
-  return 2 * moved_m_ > kSkinM - 4 * most_m;  // two more such ticks must still fit into the skin
-}
-
 void Neighbours::rebuild(const std::vector<Placed>& moving, double history_m) {
   CHECK(moving.size() == bound_m_.size(), "bodies neither come nor go");
-  moved_m_ = 0;
   std::fill(moving_first_.begin(), moving_first_.end(), 0);
   for (std::size_t i = 0; i < moving.size(); ++i) {
     place_[i] = moving[i].frame.at;

@@ -2,8 +2,8 @@
 // Who is near whom: fixed solids in a uniform grid, moving ones binned anew whenever they have moved far
 // enough, and for each robot one list of everything its rays or its bumper could meet until then (a Verlet
 // list). In: placed solids, positions, m. Out: candidate lists, clearances (m), first hit of a long ray.
-// Algorithm: every moving solid moves at most `moved_m` between two rebuilds; lists are gathered `kSkinM` too
-// wide and stay valid until twice the movement has used up the skin. Lists are constant while robots' minds
+// Algorithm: lists are gathered `kSkinM` too wide and hold until bodies may have used up the skin, twice
+// their way; whoever knows how fast they are then asks for new ones. Lists are constant while robots' minds
 // run.
 #pragma once
 #include <cstdint>
@@ -35,12 +35,9 @@ class Neighbours {
   /// has moved within the poses that readers may still ask for, or may be extrapolated.
   void rebuild(const std::vector<Placed>& moving, double history_m);
 
-  /// Counts a movement of at most `most_m` by any body since the last call; true when the lists need a
-  /// rebuild.
-  bool note_motion(double most_m);
-
-  /// Distance, m, that robot r can be sure to have around its bound now; negative: it may touch something.
-  double clearance_m(int robot) const { return clearance_[static_cast<std::size_t>(robot)] - 2 * moved_m_; }
+  /// Distance, m, that robot r had around its bound when the lists were gathered; negative: it may touch
+  /// something.
+  double clearance_m(int robot) const { return clearance_[static_cast<std::size_t>(robot)]; }
 
   const Candidate* begin(int robot) const { return list_.data() + first_[static_cast<std::size_t>(robot)]; }
   const Candidate* end(int robot) const { return list_.data() + first_[static_cast<std::size_t>(robot) + 1]; }
@@ -70,7 +67,6 @@ class Neighbours {
   std::vector<std::int32_t> moving_items_;
   std::vector<std::int32_t> cell_of_;
   std::vector<Vec2> place_;
-  double moved_m_ = 0;
   std::vector<double> clearance_;
   std::vector<std::int32_t> first_;
   std::vector<Candidate> list_;

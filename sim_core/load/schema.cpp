@@ -272,12 +272,6 @@ std::vector<SectionSpec> make_schema() {
           {"ambient", ValueType::Number, "W/m2", 0, 10000, "", "0",
            "light that reaches every sensor from everywhere",
            into<W>([](W& w, const Value& v) { w.ambient_w_m2 = v.number; })},
-          {"interrupts", ValueType::Choice, "", 0, 0, "exact|spread", "\"exact\"",
-           "what the library's background interrupts do to programs of the native way; exact: each one "
-           "delays "
-           "what it interrupts, cycle by cycle as on the chip; spread: their time is spread evenly, for "
-           "swarms",
-           into<W>([](W& w, const Value& v) { w.spread_interrupts = v.text == "spread"; })},
       });
   for (KeySpec& k : wheel_keys<W>("0", "\"uniform\"")) s.back().keys.push_back(std::move(k));
   using M = Material;

@@ -201,6 +201,10 @@ class Reader {
       if (known || std::find(inner.begin(), inner.end(), name) != inner.end()) continue;
       std::vector<std::string> candidates = inner;
       for (const KeySpec& k : spec.keys) candidates.push_back(k.key);
+      if (path == "world" && name == "interrupts") {
+        problem(key.source(), "the key 'interrupts' is gone: there is one model of interrupts now; delete the line");
+        continue;
+      }
       const std::string meant = did_you_mean(name, candidates);
       std::string all;
       for (const std::string& c : candidates) all += (all.empty() ? "" : ", ") + c;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The engine with forces, on Box2D. Robots with room all around follow the traction law in closed form
-// (motion.cpp) and are switched off in Box2D; robots near something obey the same law as a friction joint to
-// a ghost that moves as the wheels ask, so contacts and traction are solved together. Loose objects have a
-// friction joint to a ghost that moves like whatever they stand on. Lengths are converted to Box2D's units
-// here and nowhere else.
+// The engine with forces. Robots that meet fixed solids only follow the law of fixed_contacts.cpp; Box2D
+// solves where bodies push each other. There a robot obeys the law of traction as a friction joint to a ghost
+// that moves as the wheels ask, so contacts and traction are solved together; loose objects have one to a
+// ghost that moves like whatever they stand on. Lengths are converted to Box2D's units here and nowhere else.
 #include <box2d/box2d.h>
 
 #include <algorithm>
@@ -32,7 +31,7 @@ b2Vec2 units(Vec2 v) { return {units(v.x), units(v.y)}; }
 
 class DynamicMotion final : public Motion, b2ContactFilter {
  public:
-  explicit DynamicMotion(MotionDesc desc) : Motion(std::move(desc), true, true), world_(b2Vec2(0, 0)) {
+  explicit DynamicMotion(MotionDesc desc) : Motion(std::move(desc), true, true, false), world_(b2Vec2(0, 0)) {
     world_.SetContinuousPhysics(false);  // at a few mm per tick nothing tunnels
     world_.SetContactFilter(this);
     b2BodyDef def;
@@ -62,46 +61,36 @@ class DynamicMotion final : public Motion, b2ContactFilter {
   }
 
  protected:
-  void step_plane(const RimTravel* travel, const Neighbours& neighbours) override {
-    const double tick_s = desc_.tick_s;
-    const std::size_t n = desc_.robots.size();
-    wanted_.resize(n);
-    double fastest2 = 0;
-    for (std::size_t r = 0; r < n; ++r) {
-      wanted_[r] = wanted(static_cast<int>(r), travel[r]);
-      fastest2 = std::max({fastest2, dot(wanted_[r].velocity_m_s, wanted_[r].velocity_m_s),
-                           dot(bodies_[r].velocity_m_s, bodies_[r].velocity_m_s)});
-    }
-    bool solve = false;
+  bool is_loose_moving() const override {
+    return std::any_of(parts_.begin() + robots(), parts_.end(),
+                       [](const Part& p) { return p.body->IsAwake(); });
+  }
+
+  void step_plane(const Neighbours& neighbours) override {
     for (int i = robots(); i < static_cast<int>(bodies_.size()); ++i) follow_support(i);
-    for (std::size_t i = n; i < bodies_.size(); ++i) {
-      if (!parts_[i].body->IsAwake()) continue;
-      solve = true;
-      fastest2 = std::max(fastest2, dot(bodies_[i].velocity_m_s, bodies_[i].velocity_m_s));
-    }
-    // two bodies may approach each other, and a push may make one faster than both were
-    const double margin = kSolverMarginM + 3 * std::sqrt(fastest2) * tick_s;
-    near_.clear();
-    for (std::size_t r = 0; r < n; ++r) {
-      const int robot = static_cast<int>(r);
-      if (neighbours.clearance_m(robot) < margin) {
-        near_.push_back(robot);
-        continue;
+    leaving_.swap(solved_);
+    solved_.clear();
+    for (int robot : near_) {
+      if (near(robot) == Near::Fixed && !is_sloping()) {
+        meet_fixed(robot, neighbours);
+      } else {
+        solved_.push_back(robot);
       }
-      if (parts_[r].body && parts_[r].body->IsEnabled()) leave_solver(robot);
-      drive_freely(robot, wanted_[r]);
-      note_touch(robot, false, false);
     }
-    for (int robot : near_) enter_solver(robot);
-    if (near_.empty() && !solve) return;
-    world_.Step(static_cast<float>(tick_s), kVelocityIterations, kPositionIterations);
-    for (int robot : near_) read_robot(robot);
+    for (int robot : leaving_) {
+      if (!std::binary_search(solved_.begin(), solved_.end(), robot)) leave_solver(robot);
+    }
+    for (int robot : solved_) enter_solver(robot);
+    if (!solved_.empty() || is_loose_moving()) {
+      world_.Step(static_cast<float>(tick_s_), kVelocityIterations, kPositionIterations);
+      for (int robot : solved_) read_robot(robot);
+      for (int i = robots(); i < static_cast<int>(bodies_.size()); ++i) read_loose(i);
+    }
     // Box2D notices a meeting only once bodies overlap, by up to a tick's way, and separates them softly;
     // twice round settles a robot in a corner, and walls have the last word
     for (int round = 0; round < 2; ++round) {
       for (int robot : near_) push_out(robot, neighbours);
     }
-    for (int i = robots(); i < static_cast<int>(bodies_.size()); ++i) read_loose(i);
   }
 
   void heights_changed(int body) override {
@@ -277,9 +266,10 @@ class DynamicMotion final : public Motion, b2ContactFilter {
     }
     part.body->SetLinearVelocity(units(bodies_[r].velocity_m_s));
     part.body->SetAngularVelocity(static_cast<float>(bodies_[r].spin_rad_s));
-    part.ghost->SetLinearVelocity(units(wanted_[r].velocity_m_s));
-    part.ghost->SetAngularVelocity(static_cast<float>(wanted_[r].spin_rad_s));
-    double grip = grip_n(robot, wanted_[r]);
+    const Wanted want = wanted(robot);
+    part.ghost->SetLinearVelocity(units(want.velocity_m_s));
+    part.ghost->SetAngularVelocity(static_cast<float>(want.spin_rad_s));
+    double grip = grip_n(robot, want);
     if (is_sloping()) {
       const SlopeEffect& slope = slope_of(robot);
       const double weight_n = desc_.robots[r].mass_kg * desc_.gravity_m_s2;
@@ -317,12 +307,12 @@ class DynamicMotion final : public Motion, b2ContactFilter {
       anything = true;
       wall = wall || e->other->GetType() == b2_staticBody;
     }
-    note_touch(robot, wall, anything);
+    if (anything) note_touch(robot, wall);
     // without a touch the closed form holds exactly, so the solver's rounding need not enter
     if (anything) {
       read_pose(robot);
     } else {
-      drive_freely(robot, wanted_[r]);
+      drive_freely(robot, wanted(robot));
     }
   }
 
@@ -380,8 +370,7 @@ class DynamicMotion final : public Motion, b2ContactFilter {
 
   b2World world_;
   std::vector<Part> parts_;
-  std::vector<Wanted> wanted_;
-  std::vector<int> near_;
+  std::vector<int> solved_, leaving_;  // robots in Box2D in this tick and in the last, in order
 };
 
 }  // namespace

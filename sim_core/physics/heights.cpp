@@ -103,7 +103,7 @@ void Motion::step_heights() {
 Motion::Landing Motion::landing_of(int body) {
   const std::size_t i = static_cast<std::size_t>(body);
   const BodyState& b = bodies_[i];
-  const double tick_s = desc_.tick_s, own = loose(body).restitution;
+  const double tick_s = tick_s_, own = loose(body).restitution;
   const double end = b.z_m + (b.climb_m_s - 0.5 * fall_m_s2_ * tick_s) * tick_s;
   Landing landing;
   landing.restitution = own;
@@ -147,7 +147,7 @@ void Motion::fly(int body) {
   const double g = fall_m_s2_;
   const Landing on = landing_of(body);
   const double steep2 = 1 / (1 + dot(on.slope, on.slope));
-  double left_s = desc_.tick_s, under = on.height_m;
+  double left_s = tick_s_, under = on.height_m;
   for (int bounce = 0; bounce < kMostBouncesPerTick; ++bounce) {
     // the instant of the next meeting: the height above what moves below is a parabola
     const double gap = std::max(0.0, b.z_m - under), closing = b.climb_m_s - on.climb_m_s;

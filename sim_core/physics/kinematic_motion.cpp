@@ -14,33 +14,16 @@ namespace {
 
 class KinematicMotion final : public Motion {
  public:
-  explicit KinematicMotion(MotionDesc desc) : Motion(std::move(desc), true, false) {}
+  explicit KinematicMotion(MotionDesc desc) : Motion(std::move(desc), true, false, true) {}
 
  protected:
-  void step_plane(const RimTravel* travel, const Neighbours& neighbours) override {
-    double most = 0;
-    for (int r = 0; r < robots(); ++r) {
-      most = std::max(most, std::fabs(0.5 * (travel[r].left_m + travel[r].right_m)));
-    }
-    for (int r = 0; r < robots(); ++r) {
-      const RobotBody& body = desc_.robots[static_cast<std::size_t>(r)];
+  void step_plane(const Neighbours& neighbours) override {
+    for (int r : near_) {
       BodyState& b = bodies_[static_cast<std::size_t>(r)];
-      double way = 0.5 * (travel[r].left_m + travel[r].right_m);
-      double turn = (travel[r].right_m - travel[r].left_m) / body.axle_m;
-      if (is_sloping()) {
-        way *= slope_of(r).way;
-        turn *= slope_of(r).turn;
-      }
       const Pose2 from = b.pose;
-      Pose2 to = way == 0 && turn == 0 ? from : advance(from, way, turn);
-      if (neighbours.clearance_m(r) - 2 * most < kSolverMarginM) {
-        to = stop_short(r, from, to, neighbours);
-      } else {
-        note_touch(r, false, false);
-      }
-      b.velocity_m_s = {(to.x_m - from.x_m) / desc_.tick_s, (to.y_m - from.y_m) / desc_.tick_s};
-      b.spin_rad_s = turn / desc_.tick_s;
-      b.pose = to;
+      drive_freely(r, wanted(r));
+      b.pose = stop_short(r, from, b.pose, neighbours);
+      b.velocity_m_s = {(b.pose.x_m - from.x_m) / tick_s_, (b.pose.y_m - from.y_m) / tick_s_};
     }
   }
 
@@ -78,7 +61,7 @@ class KinematicMotion final : public Motion {
       anything = true;
       wall = wall || !c->moving;
     }
-    note_touch(r, wall, anything);
+    if (anything) note_touch(r, wall);
     return {from.x_m + allowed * way.x, from.y_m + allowed * way.y, to.heading_rad};
   }
 };

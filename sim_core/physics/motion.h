@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: MIT
-// Motion engines: wheel travel of every robot in, poses of every moving body out, one tick at a time.
-// Units: m, rad, s, kg, N. Bodies are numbered robots first, then loose objects.
+// Motion engines: how every robot's rims move in, a leg of every moving body's way out. Units: m, rad, s, kg,
+// N. Bodies are numbered robots first, then loose objects.
+// A robot whose wheels turn evenly, that grips and has room drives an arc, and nothing is worked out before
+// something of that ends: its horizon. A robot near something, one that slips, and everything on slopes have
+// a leg of one tick.
 // On slopes bodies stand on the plane through the ground under them: gravity pulls them along it as far as
 // grip allows (dynamic), way along it is shortened in plan, heights follow. Not modelled: tipping, wheels
 // that leave the floor, suspension; a rolling ball's spin is there only as inertia.
 #pragma once
+#include <array>
 #include <memory>
 #include <vector>
 
 #include "sim_core/geometry/ground.h"
 #include "sim_core/geometry/neighbours.h"
 #include "sim_core/geometry/solid.h"
+#include "sim_core/physics/leg.h"
+#include "sim_core/physics/physics_params.h"
 
 namespace sim {
 
@@ -41,15 +47,6 @@ struct FixedSurface {
   double restitution = 0;
 };
 
-/// State of a moving body, at a tick.
-struct BodyState {
-  Pose2 pose;
-  double z_m = 0;     ///< height of its origin (its underside) above the floor
-  Vec2 velocity_m_s;  ///< world frame
-  double spin_rad_s = 0;
-  double climb_m_s = 0;  ///< vertical speed; negative while falling
-};
-
 /// What a robot has bumped into since the world began.
 struct TouchReport {
   int collisions = 0;               ///< touches begun, whatever was touched
@@ -59,14 +56,21 @@ struct TouchReport {
   double longest_touch_s = 0;       ///< longest touch of anything, s
 };
 
-/// Way of each rim over the floor during one tick, m, forward positive.
-struct RimTravel {
-  double left_m = 0;
-  double right_m = 0;
+/// Speed of each rim over the floor, m/s, forward positive.
+struct RimSpeed {
+  double left_m_s = 0;
+  double right_m_s = 0;
+  bool operator==(const RimSpeed& o) const { return left_m_s == o.left_m_s && right_m_s == o.right_m_s; }
+};
+
+/// How a robot's rims move: on average during the tick that ends, and evenly from its end on.
+struct RimCourse {
+  RimSpeed tick, next;
+  bool is_news = false;  ///< the tick's speed is not what was told for it, or the next one is another
 };
 
 struct MotionDesc {
-  double tick_s = 1.0 / 512;
+  Clicks tick = kClicksPerSecond / 512;
   double gravity_m_s2 = 9.81;
   const std::vector<Placed>* fixed = nullptr;  ///< must outlive the engine
   const Ground* ground = nullptr;              ///< must outlive the engine; null: level
@@ -82,14 +86,26 @@ class Motion {
  public:
   virtual ~Motion() = default;
 
-  /// Moves everything by one tick; `travel` holds one entry per robot. Returns the largest distance any body
-  /// moved, m.
-  double step(const RimTravel* travel, const Neighbours& neighbours);
+  /// Moves on to the end of a tick; nothing was due between the last step and its beginning. `active`: the
+  /// robots that have a horizon before `end` or news of their rims, in order; `rims`: one entry per robot.
+  void step(Clicks end, const std::vector<int>& active, const RimCourse* rims, const Neighbours& neighbours);
+  /// New lists of neighbours, as things stand at `at`; no body is faster than `pace_m_s` until the next ones.
+  void look_around(const Neighbours& neighbours, double pace_m_s, Clicks at);
 
-  const std::vector<BodyState>& bodies() const { return bodies_; }
-  const TouchReport& touches(int robot) const { return touches_[static_cast<std::size_t>(robot)]; }
-  /// A body at its place, for rays and overlaps.
-  Placed placed(int body) const;
+  /// Horizons: a robot's leg holds up to the first, and it meets nothing up to the second.
+  const std::vector<Clicks>& leg_until() const { return leg_until_; }
+  const std::vector<Clicks>& free_until() const { return free_until_; }
+  /// True when loose objects must be looked at in every tick.
+  bool is_loose_busy() const;
+
+  const Leg& leg(int body) const { return legs_[static_cast<std::size_t>(body)]; }
+  /// Height and climb as at the end of the last step; the rest as it was when the leg began.
+  const BodyState& body(int body) const { return bodies_[static_cast<std::size_t>(body)]; }
+  /// Bodies whose leg began, or whose height changed, with the last step.
+  const std::vector<int>& changed() const { return changed_; }
+  TouchReport touches(int robot) const;
+  /// Way of a robot's centre over the floor since the world began, m. Moves by hand do not count.
+  double distance_m(int robot) const;
   /// Puts a body somewhere else, at rest.
   virtual void move(int body, const Pose2& pose, double z_m);
   /// Gives a body another speed, m/s and rad/s; robots and objects on the floor keep it as long as grip
@@ -99,10 +115,14 @@ class Motion {
 
  protected:
   /// has_heights: false where everything stands on a level floor and is endlessly high. loose_moves: whether
-  /// loose objects move in the plane.
-  Motion(MotionDesc desc, bool has_heights, bool loose_moves);
+  /// loose objects move in the plane. follows_wheels: robots never slip.
+  Motion(MotionDesc desc, bool has_heights, bool loose_moves, bool follows_wheels);
 
-  virtual void step_plane(const RimTravel* travel, const Neighbours& neighbours) = 0;
+  /// Moves the robots of near_ and the loose objects; what they may meet stands where it is at the tick's
+  /// end.
+  virtual void step_plane(const Neighbours& neighbours) = 0;
+  /// True when a loose object moves in the plane.
+  virtual bool is_loose_moving() const { return false; }
   /// Called when a body's height range changed.
   virtual void heights_changed(int body) {}
   /// Called when a blow from below changed a loose object's velocity in the plane.
@@ -113,21 +133,27 @@ class Motion {
   const SlopeEffect& slope_of(int robot) const { return slopes_[static_cast<std::size_t>(robot)]; }
   /// The same for a loose object, worked out anew.
   SlopeEffect loose_slope(int body) const;
-  /// Looks at the ground under every robot; before a tick's plane motion, when is_sloping().
-  void feel_ground();
   bool heights_meet(double z0_a, double z1_a, double z0_b, double z1_b) const;
-  /// Books this tick's touches of a robot.
-  void note_touch(int robot, bool wall, bool anything);
+  /// A body at its place, for rays and overlaps.
+  Placed placed(int body) const;
+  /// Books a tick's touch of a robot.
+  void note_touch(int robot, bool wall);
   int robots() const { return static_cast<int>(desc_.robots.size()); }
   const LooseBody& loose(int body) const { return desc_.loose[static_cast<std::size_t>(body - robots())]; }
 
-  /// Traction-limited change of a robot's speeds towards what its wheels ask for; then the pose follows.
+  /// What a robot's wheels ask for.
   struct Wanted {
     Vec2 velocity_m_s;  ///< world frame, at the middle of the tick's turn
     double spin_rad_s = 0;
+    double speed_m_s = 0;  ///< forward
   };
-  Wanted wanted(int robot, const RimTravel& travel) const;
-  void drive_freely(int robot, const Wanted& wanted);
+  Wanted wanted(int robot, const RimSpeed& rims) const;
+  /// What the wheels ask for in the tick that is being worked out.
+  Wanted wanted(int robot) const { return wanted(robot, rims_[robot].tick); }
+  /// Leg of a robot that meets nothing, from where it is: as near to what is wanted as grip allows. An arc
+  /// once that is reached on a level floor; otherwise good for a tick.
+  Leg free_leg(int robot, Clicks from, const Wanted& want) const;
+  void drive_freely(int robot, const Wanted& want) { follow(robot, free_leg(robot, begin_, want)); }
   /// True when the wheels are told to stand, and hold rather than drive.
   static bool is_standing(const Wanted& want) {
     return want.velocity_m_s.x == 0 && want.velocity_m_s.y == 0 && want.spin_rad_s == 0;
@@ -138,13 +164,22 @@ class Motion {
     const double level_n = is_standing(want) ? r.hold_n : r.traction_n;
     return sloping_ ? level_n * slope_of(robot).press : level_n;
   }
+  /// The tick of a robot that may meet fixed solids, and nothing else, on a level floor (fixed_contacts.cpp).
+  void meet_fixed(int robot, const Neighbours& neighbours);
   /// Moves a robot out of whatever it is inside of: all the way out of fixed solids, half the way out of
   /// robots.
   void push_out(int robot, const Neighbours& neighbours);
+  /// What a robot may meet in the tick.
+  enum class Near : char { Nothing, Fixed, Bodies };
+  Near near(int robot) const { return nearness_[static_cast<std::size_t>(robot)]; }
 
   MotionDesc desc_;
+  double tick_s_;
+  /// As at the tick's beginning, then at its end; velocities are those of the middle of the tick before. Of a
+  /// robot that is not active: some time on its leg.
   std::vector<BodyState> bodies_;
   std::vector<Vec2> before_;  // places at the beginning of the tick
+  std::vector<int> near_;     // active robots that may meet something, in order
   static constexpr int kOnFloor = -1, kInAir = -2, kOnFixed = -3;
   std::vector<int> support_;  // per body: one of these, otherwise the moving body it stands on
 
@@ -176,26 +211,65 @@ class Motion {
     double speed_m_s = 0;   // change of speed
     double spin_rad_s = 0;  // change of spin
   };
+  /// A fixed solid within a tick's reach of a robot. Blows are changes of the robot's speed.
+  struct FixedContact {
+    int solid = 0;
+    Vec2 normal;           // out of the solid
+    double least_m_s = 0;  // speed along the normal that must be kept; negative while there is room
+    double friction = 0;
+    double blow_m_s = 0, rub_m_s = 0;
+  };
+  static constexpr std::size_t kMostFixedContacts = 4;  // a robot in a corner meets two
+  /// What pushed a robot at fixed solids in a tick.
+  struct FixedPush {
+    Clicks end = -1;
+    Vec2 push_m_s;  // by the wheels
+    double twist_rad_s = 0;
+    std::size_t count = 0;
+    std::array<FixedContact, kMostFixedContacts> contacts;
+  };
+  std::vector<FixedPush> fixed_pushes_;  // per robot
   struct Drive {
-    double spin_per_m = 0;  // spin for a difference of the rims' ways in a tick
+    double spin_per_m_s = 0;  // spin for a difference of the rims' speeds
     Limits driving, standing;
   };
+  void feel_ground();
+  void bring(int body, Clicks at);
+  void follow(int robot, const Leg& leg);
+  void look_around(int robot, const Neighbours& neighbours);
+  void begin_leg(int body, const Leg& leg);
+  void begin_loose_legs();
+
+  std::vector<Leg> legs_;
+  std::vector<Clicks> at_;                      // of which instant an entry of bodies_ is
+  std::vector<Clicks> leg_until_, free_until_;  // per robot
+  std::vector<char> guessed_;  // the leg only carries on what was: the tick is worked out at its end
+  std::vector<Near> nearness_;
+  std::vector<int> changed_;
+  std::vector<double> way_m_;  // before the leg that lasts
+  const RimCourse* rims_ = nullptr;
+  Clicks begin_ = 0, end_ = 0;  // of the last tick
+  double pace_m_s_ = 0;
   std::vector<Drive> drives_;
-  double ticks_per_s_ = 0;
   double fall_m_s2_ = 0;  // gravity across the floor
   bool has_heights_;
   bool loose_moves_;
+  bool follows_wheels_;
   bool sloping_ = false;
   std::vector<SlopeEffect> slopes_;  // per robot
   std::vector<double> told_z_m_;     // per robot: height of the last heights_changed()
 
-  struct Touching {
-    double wall_gap_s = 1;  // since the last touch
-    double any_gap_s = 1;
-    double any_s = 0;
+  /// Touches of a kind that follow one another closely are one.
+  struct Touch {
+    Clicks first = 0, last = -kEver;
+    double lasts_s() const { return to_seconds(last - first); }
   };
-  std::vector<TouchReport> touches_;
-  std::vector<Touching> touch_times_;
+  bool lasts(const Touch& touch) const { return end_ - touch.last < from_seconds(kTouchGapS); }
+  struct Touching {
+    TouchReport report;
+    Touch wall, any;
+  };
+  std::vector<Touching> touches_;
 };
 
 /// Box2D underneath: limited traction, slip, pushing.

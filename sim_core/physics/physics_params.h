@@ -37,4 +37,10 @@ inline constexpr double kRestSlackM = 0.0001;  // [assumed: ten times smaller th
 inline constexpr double kWheelNoisePeriodS =
     1.0 / 32;  // [assumed: the two 16 ms steps of common Webots worlds]
 
+/// A wheel's angle that comes this near to where its course would have led is on it, rad.
+inline constexpr double kSameAngleRad = 1e-9;  // [assumed: a million times less than a motor step]
+/// Lists of neighbours count on a pace this much above the fastest body's, and at least on the other, m/s.
+inline constexpr double kPaceReserve = 1.25;  // [measured: few raises, few lists, in the bench's worlds]
+inline constexpr double kLeastPaceMS = 0.02;  // [assumed: a sixth of a robot's full speed]
+
 }  // namespace sim

@@ -27,7 +27,7 @@ namespace {
 
 class PlanarMotion final : public Motion {
  public:
-  explicit PlanarMotion(MotionDesc desc) : Motion(std::move(desc), false, true) {
+  explicit PlanarMotion(MotionDesc desc) : Motion(std::move(desc), false, true, true) {
     const std::size_t n = bodies_.size();
     way_.resize(desc_.robots.size());
     pushed_.resize(n);
@@ -37,13 +37,17 @@ class PlanarMotion final : public Motion {
   }
 
  protected:
-  void step_plane(const RimTravel* travel, const Neighbours& neighbours) override {
+  bool is_loose_moving() const override {
+    return std::any_of(bodies_.begin() + robots(), bodies_.end(), [](const BodyState& b) {
+      return b.spin_rad_s != 0 || b.velocity_m_s.x != 0 || b.velocity_m_s.y != 0;
+    });
+  }
+
+  void step_plane(const Neighbours& neighbours) override {
     pairs_.clear();
-    near_.clear();
     awake_.clear();
-    const double fastest = slide();
-    drive(travel, neighbours, fastest);
-    if (near_.empty() && awake_.empty()) return;
+    slide();
+    for (int robot : near_) drive(robot);
     for (int robot : near_) pair_robot(robot, neighbours);
     // the list grows as awake objects reach others
     for (std::size_t k = 0; k < awake_.size(); ++k) pair_loose(awake_[k], neighbours);
@@ -86,16 +90,14 @@ class PlanarMotion final : public Motion {
   }
   double weight_n(int object) const { return loose(object).mass_kg * desc_.gravity_m_s2; }
 
-  /// Loose objects on their own: what is in motion slides on, slowed evenly. Returns the highest speed, m/s.
-  double slide() {
-    const double tick_s = desc_.tick_s;
-    double fastest = 0;
+  /// Loose objects on their own: what is in motion slides on, slowed evenly.
+  void slide() {
+    const double tick_s = tick_s_;
     for (int i = robots(); i < static_cast<int>(bodies_.size()); ++i) {
       BodyState& b = bodies_[static_cast<std::size_t>(i)];
       const double speed = length(b.velocity_m_s);
       if (speed == 0 && b.spin_rad_s == 0) continue;
       wake(i);
-      fastest = std::max(fastest, speed);
       const double brake = loose(i).floor_friction * desc_.gravity_m_s2;
       const auto slowed = [&](double value, double brake_s) {
         const double end = std::max(0.0, value - brake_s * tick_s);
@@ -116,31 +118,13 @@ class PlanarMotion final : public Motion {
         b.spin_rad_s = std::copysign(end, b.spin_rad_s);
       }
     }
-    return fastest;
   }
 
-  /// Robots along their wheels' way, wherever that leads; lists who may have met something.
-  void drive(const RimTravel* travel, const Neighbours& neighbours, double fastest_m_s) {
-    double most = fastest_m_s * desc_.tick_s;
-    for (int r = 0; r < robots(); ++r) {
-      most = std::max(most, std::fabs(0.5 * (travel[r].left_m + travel[r].right_m)));
-    }
-    for (int r = 0; r < robots(); ++r) {
-      const std::size_t i = static_cast<std::size_t>(r);
-      BodyState& b = bodies_[i];
-      const double way = 0.5 * (travel[r].left_m + travel[r].right_m);
-      const double turn = (travel[r].right_m - travel[r].left_m) / desc_.robots[i].axle_m;
-      const Pose2 from = b.pose;
-      if (way != 0 || turn != 0) b.pose = advance(from, way, turn);
-      way_[i] = {b.pose.x_m - from.x_m, b.pose.y_m - from.y_m};
-      b.velocity_m_s = {way_[i].x / desc_.tick_s, way_[i].y / desc_.tick_s};
-      b.spin_rad_s = turn / desc_.tick_s;
-      if (neighbours.clearance_m(r) - 2 * most < kSolverMarginM) {
-        near_.push_back(r);
-      } else {
-        note_touch(r, false, false);
-      }
-    }
+  /// A robot along its wheels' way, wherever that leads.
+  void drive(int robot) {
+    drive_freely(robot, wanted(robot));
+    const std::size_t i = static_cast<std::size_t>(robot);
+    way_[i] = {bodies_[i].pose.x_m - before_[i].x, bodies_[i].pose.y_m - before_[i].y};
   }
 
   void wake(int object) {
@@ -266,9 +250,8 @@ class PlanarMotion final : public Motion {
     for (int robot : near_) {
       const std::size_t i = static_cast<std::size_t>(robot);
       BodyState& b = bodies_[i];
-      b.velocity_m_s = {(b.pose.x_m - before_[i].x) / desc_.tick_s,
-                        (b.pose.y_m - before_[i].y) / desc_.tick_s};
-      note_touch(robot, touch_[i] == kTouchesWall, touch_[i] != kUntouched);
+      b.velocity_m_s = {(b.pose.x_m - before_[i].x) / tick_s_, (b.pose.y_m - before_[i].y) / tick_s_};
+      if (touch_[i] != kUntouched) note_touch(robot, touch_[i] == kTouchesWall);
     }
   }
 
@@ -329,7 +312,6 @@ class PlanarMotion final : public Motion {
   std::vector<char> held_;           // per body: pushed in vain
   std::vector<int> rank_;            // per body: place in awake_
   std::vector<double> gyration_m2_;  // per body
-  std::vector<int> near_;            // robots that may touch something, in order
   std::vector<int> awake_;           // objects that move or may be touched
   std::vector<Pair> pairs_;
   std::vector<Candidate> around_;

@@ -140,6 +140,7 @@ void LinkMedium::supervise(const Scene& scene, Clicks now) {
 }
 
 void LinkMedium::exchange(const Scene& scene, Clicks now) {
+  last_ = std::max(last_, now - scene.tick_clicks());  // nothing was under way before
   if (has_dropouts_)
     for (std::size_t p = 0; p < ports_.size(); ++p) ports_[p]->blocked = drops_out(p, now);
   const bool sends = somebody_sends_.exchange(false, std::memory_order_relaxed);

@@ -66,6 +66,7 @@ class LinkMedium final : public Medium {
              std::vector<std::vector<Dropout>> own_dropouts);
 
   void exchange(const Scene& scene, Clicks now) override;
+  bool is_busy() const override { return has_dropouts_ || has_links_ || !ways_.empty(); }
 
  private:
   struct UnderWay {

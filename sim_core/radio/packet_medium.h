@@ -73,6 +73,7 @@ class PacketMedium final : public Medium {
   /// `port` outlives the medium. Ports deliver and are served in the order in which they were added.
   void add(PacketPort& port);
   void exchange(const Scene& scene, Clicks now) override;
+  bool is_busy() const override { return somebody_sends_.load(std::memory_order_relaxed); }
 
  private:
   void deliver(const Scene& scene, const PacketPort& from, const Packet& packet, Clicks now) const;

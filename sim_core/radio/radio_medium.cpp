@@ -182,6 +182,11 @@ void RadioMedium::resolve(const Scene& scene, Clicks now) {
                 on_air_.end());
 }
 
+bool RadioMedium::is_busy() const {
+  return !on_air_.empty() ||
+         std::any_of(waiting_.begin(), waiting_.end(), [](const Waiting& w) { return w.queued; });
+}
+
 void RadioMedium::exchange(const Scene& scene, Clicks now) {
   contend(scene, now);
   if (!on_air_.empty()) resolve(scene, now);

@@ -73,6 +73,7 @@ class RadioMedium final : public Medium {
   RadioMedium(const RadioDesc& desc, std::uint64_t seed, std::vector<RadioPort*> ports);
 
   void exchange(const Scene& scene, Clicks now) override;
+  bool is_busy() const override;
   const RadioCounters& counters() const { return counters_; }
 
   /// Level of a frame at a distance, dB above the weakest one that can be received, without fading. In the

@@ -13,9 +13,12 @@ class Medium {
  public:
   virtual ~Medium() = default;
 
-  /// Tick boundary: every robot has run to `now`, the scene's last tick. Called serially, once a tick, in
-  /// order of time; what it hands over robots see from now on. Must not block.
+  /// Tick boundary: every robot has run to `now`, the scene's last tick. Called serially, in order of time,
+  /// at every tick in which a robot ran or that found the medium busy; what it hands over robots see from now
+  /// on. Must not block.
   virtual void exchange(const Scene& scene, Clicks now) = 0;
+  /// True when something is under way.
+  virtual bool is_busy() const = 0;
 };
 
 }  // namespace sim

@@ -20,6 +20,18 @@ struct WheelAngles {
   double right_rad = 0;
 };
 
+/// How both wheels turn for a while: the angles at `from`, and how fast they grow until `until`.
+struct WheelCourse {
+  WheelAngles angle;
+  double left_rate = 0, right_rate = 0;  ///< rad per click
+  Clicks from = 0, until = 0;            ///< from == until: known at that instant only
+
+  WheelAngles at(Clicks instant) const {
+    const double turned = static_cast<double>(instant - from);
+    return {angle.left_rad + left_rate * turned, angle.right_rad + right_rate * turned};
+  }
+};
+
 /// What recorders and pictures show of a robot's inside.
 struct MindReport {
   std::int64_t left_steps = 0;   ///< motor full steps since power-up, forward positive, not wrapped
@@ -35,8 +47,8 @@ class RobotMind {
   /// else that changes; may be called on any thread, never on two at once for one robot. Must not block.
   virtual void run_until(const Scene& scene, Clicks end) = 0;
 
-  /// Wheel angles at `at`, where at <= the last end. Called once per tick, in order of time.
-  virtual WheelAngles wheel_angles(Clicks at) = 0;
+  /// The course that holds at `at`, and until when it does unless run_until() is called; at is the last end.
+  virtual WheelCourse wheel_course(Clicks at) = 0;
 
   /// Steps and LEDs at the last end.
   virtual MindReport report() const = 0;
@@ -53,6 +65,25 @@ class RobotMind {
   /// Everything of the inside that must repeat from run to run, folded into one number, for the world's
   /// digest.
   virtual std::uint64_t state_hash() const = 0;
+
+  /// Keeps idle_until in a slot of the simulation's, which looks at a thousand of them and touches no mind.
+  void keep_idle_in(Clicks* slot) {
+    *slot = *idle_until_;
+    idle_until_ = slot;
+  }
+
+ protected:
+  RobotMind() = default;
+  RobotMind(const RobotMind&) = delete;
+  RobotMind& operator=(const RobotMind&) = delete;
+  /// Before that instant nothing happens inside that anybody outside could see: courses hold, LEDs, sound,
+  /// messages and state_hash() stay, and run_until() need not be called. Written at the end of run_until();
+  /// 0 when something from outside reaches the robot.
+  void set_idle_until(Clicks at) { *idle_until_ = at; }
+
+ private:
+  Clicks never_idle_ = 0;
+  Clicks* idle_until_ = &never_idle_;
 };
 
 /// One mind per robot, in the order of the world.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pose history is a ring per body; candidate lists are gathered anew when movement has used up their skin.
+// The legs of each body are a ring.
 #include "sim_core/world/scene.h"
 
 #include <algorithm>
@@ -25,60 +25,61 @@ Scene::Scene(const WorldDesc& world, std::vector<double> reach_m)
       tick_clicks_(kClicksPerSecond / world_.physics_hz),
       tick_s_(to_seconds(tick_clicks_)),
       slots_(static_cast<int>(std::ceil(kHistoryS * world_.physics_hz)) + 2),
-      per_tick_(1.0 / static_cast<double>(tick_clicks_)),
       moving_(layout_.moving),
       neighbours_(layout_.fixed, bounds_of(layout_), robots_, std::move(reach_m)) {
   CHECK(tick_clicks_ * world_.physics_hz == kClicksPerSecond, "the tick rate divides the click rate");
-  states_.resize(layout_.moving.size());
-  history_.resize(states_.size() * static_cast<std::size_t>(slots_));
-  moved_.assign(static_cast<std::size_t>(slots_), 0.0);
-  for (std::size_t i = 0; i < states_.size(); ++i) {
-    states_[i].pose = layout_.moving_pose[i];
-    states_[i].z_m = layout_.moving[i].z_m;
-    std::fill_n(history_.begin() + static_cast<std::ptrdiff_t>(i) * slots_, slots_, past(states_[i]));
+  const std::size_t bodies = layout_.moving.size();
+  legs_.resize(bodies * static_cast<std::size_t>(slots_));
+  newest_.resize(bodies);
+  heights_.resize(bodies);
+  for (int i = 0; i < static_cast<int>(bodies); ++i) {
+    const std::size_t b = static_cast<std::size_t>(i);
+    relocate(i, {0, layout_.moving_pose[b], {}, 0, false}, layout_.moving[b].z_m);
   }
-  regather();
+  regather(0);
 }
 
-int Scene::slot_before(Clicks at, Clicks* start) const {
-  // count back: usually one or two; slots from before the world began hold its start
-  int slot = last_slot_;
-  Clicks tick = now();
-  for (int back = 1; back < slots_ && tick > at; ++back) {
+const Leg& Scene::leg_at(int body, Clicks at, const Leg** next) const {
+  // count back: usually none or one
+  const Leg* ring = legs_.data() + static_cast<std::size_t>(body) * static_cast<std::size_t>(slots_);
+  int slot = newest_[static_cast<std::size_t>(body)];
+  if (next) *next = nullptr;
+  for (int back = 1; back < slots_ && ring[slot].from > at; ++back) {
+    if (next) *next = ring + slot;
     slot = slot == 0 ? slots_ - 1 : slot - 1;
-    tick -= tick_clicks_;
   }
-  *start = tick;
-  return slot;
+  return ring[slot];
 }
 
 Pose2 Scene::pose(int body, Clicks at) const {
-  Clicks start;
-  const int slot = slot_before(at, &start);
-  const Past& b = history_[static_cast<std::size_t>(body) * static_cast<std::size_t>(slots_) +
-                           static_cast<std::size_t>(slot)];
-  if (at <= start) return b.pose;
-  const double ahead_s = to_seconds(at - start);
-  return {b.pose.x_m + b.velocity_m_s.x * ahead_s, b.pose.y_m + b.velocity_m_s.y * ahead_s,
-          b.pose.heading_rad + b.spin_rad_s * ahead_s};
+  const Leg& leg = leg_at(body, at);
+  return leg.pose_at(std::max(at, leg.from));
 }
 
 Pose2 Scene::pose_on_way(int body, Clicks at) const {
-  Clicks start;
-  const int slot = slot_before(at, &start);
-  const Past* ring = history_.data() + static_cast<std::size_t>(body) * static_cast<std::size_t>(slots_);
-  const Pose2& a = ring[slot].pose;
-  if (at <= start || start == now()) return a;
-  const Pose2& b = ring[slot + 1 == slots_ ? 0 : slot + 1].pose;
-  const double f = static_cast<double>(at - start) * per_tick_;
-  return {a.x_m + f * (b.x_m - a.x_m), a.y_m + f * (b.y_m - a.y_m),
-          a.heading_rad + f * (b.heading_rad - a.heading_rad)};
+  if (at >= now_) return pose(body, now_);
+  const Leg* next;
+  const Leg& leg = leg_at(body, at, &next);
+  Pose2 p = leg.pose_at(std::max(at, leg.from));
+  // what the next leg corrected came about in the tick before it
+  const double part = next ? 1 - static_cast<double>(next->from - at) / static_cast<double>(tick_clicks_) : 0;
+  if (part <= 0 || at <= leg.from) return p;
+  const Pose2 end = leg.pose_at(next->from);
+  return {p.x_m + part * (next->pose.x_m - end.x_m), p.y_m + part * (next->pose.y_m - end.y_m),
+          p.heading_rad + part * (next->pose.heading_rad - end.heading_rad)};
+}
+
+BodyState Scene::state(int body) const {
+  const Leg& leg = leg_at(body, now_);
+  const Height& height = heights_[static_cast<std::size_t>(body)];
+  return {leg.pose_at(std::max(now_, leg.from)), height.z_m, leg.velocity_at(now_), leg.spin_rad_s,
+          height.climb_m_s};
 }
 
 Placed Scene::placed(int body, Clicks at) const {
   const std::size_t i = static_cast<std::size_t>(body);
   const Pose2 p = pose(body, at);
-  Placed out{layout_.moving[i].solid, Frame2(), states_[i].z_m};
+  Placed out{layout_.moving[i].solid, Frame2(), heights_[i].z_m};
   if (out.solid->kind == SolidKind::Prism) {
     out.frame = Frame2(p);
   } else {
@@ -165,29 +166,25 @@ bool Scene::cast(const Ray& ray, double limit_m, int skip_robot, Clicks at, Scen
   return true;
 }
 
-void Scene::publish(const std::vector<BodyState>& states, double moved_m) {
-  states_ = states;
-  ++tick_;
+void Scene::advance_to(Clicks tick) {
+  now_ = tick;
   ++version_;
-  last_slot_ = last_slot_ + 1 == slots_ ? 0 : last_slot_ + 1;
-  for (std::size_t i = 0; i < states_.size(); ++i) note_state(i);
-  moved_[static_cast<std::size_t>(last_slot_)] = moved_m;
-  if (neighbours_.note_motion(moved_m)) regather();
 }
 
-void Scene::relocate(int body, const BodyState& state) {
+void Scene::begin_leg(int body, const Leg& leg, double z_m, double climb_m_s) {
   const std::size_t i = static_cast<std::size_t>(body);
-  states_[i] = state;
+  Leg* ring = legs_.data() + i * static_cast<std::size_t>(slots_);
+  int& slot = newest_[i];
+  if (ring[slot].from < leg.from) slot = slot + 1 == slots_ ? 0 : slot + 1;
+  ring[slot] = leg;
+  heights_[i] = {z_m, climb_m_s};
   ++version_;
-  std::fill_n(history_.begin() + static_cast<std::ptrdiff_t>(i) * slots_, slots_, Past{state.pose, {}, 0});
-  note_state(i);
-  regather();
 }
 
-void Scene::set_state(int body, const BodyState& state) {
-  states_[static_cast<std::size_t>(body)] = state;
-  note_state(static_cast<std::size_t>(body));
-  ++version_;
+void Scene::relocate(int body, const Leg& leg, double z_m) {
+  const std::size_t i = static_cast<std::size_t>(body);
+  std::fill_n(legs_.begin() + static_cast<std::ptrdiff_t>(i) * slots_, slots_, leg);
+  begin_leg(body, leg, z_m, 0);
 }
 
 void Scene::set_colour(const Candidate& what, const Colour& colour) {
@@ -213,18 +210,10 @@ void Scene::set_proximity_noise(int robot, double scale) {
   ++version_;
 }
 
-void Scene::regather() {
-  for (std::size_t i = 0; i < moving_.size(); ++i) {
-    moving_[i].z_m = states_[i].z_m;
-    if (moving_[i].solid->kind == SolidKind::Prism) {
-      moving_[i].frame = Frame2(states_[i].pose);
-    } else {
-      moving_[i].frame.at = {states_[i].pose.x_m, states_[i].pose.y_m};
-    }
-  }
-  double history_m = 0;
-  for (double m : moved_) history_m += m;
-  neighbours_.rebuild(moving_, history_m);
+void Scene::regather(double pace_m_s) {
+  for (int i = 0; i < bodies(); ++i) moving_[static_cast<std::size_t>(i)] = placed(i, now_);
+  // readers may ask for poses of the past, and of the tick to come
+  neighbours_.rebuild(moving_, (kHistoryS + 2 * tick_s_) * pace_m_s);
 }
 
 }  // namespace sim

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The world as robots see it while they run: frozen at the last tick, with the poses of the last 40 ms behind
-// it. In: body states once per tick. Out: poses at any instant, rays, surfaces, who is near whom. All const
-// methods are safe from any thread while nobody publishes. Heights of falling bodies are those of the last
-// tick.
+// it. In: legs of the bodies' ways, each when it begins. Out: poses at any instant, rays, surfaces, who is
+// near whom. All const methods are safe from any thread while nobody publishes. Heights of falling bodies are
+// those of the last tick.
 #pragma once
 #include <atomic>
 #include <memory>
@@ -10,7 +10,7 @@
 
 #include "sim_core/base/clock.h"
 #include "sim_core/geometry/neighbours.h"
-#include "sim_core/physics/motion.h"
+#include "sim_core/physics/leg.h"
 #include "sim_core/world/layout.h"
 #include "sim_core/world/world_desc.h"
 
@@ -43,10 +43,10 @@ class Scene {
   const Layout& layout() const { return layout_; }
   int robots() const { return robots_; }
   /// Robots and movable objects; robots come first.
-  int bodies() const { return static_cast<int>(states_.size()); }
+  int bodies() const { return static_cast<int>(heights_.size()); }
 
   /// Instant of the last tick.
-  Clicks now() const { return tick_ * tick_clicks_; }
+  Clicks now() const { return now_; }
   Clicks tick_clicks() const { return tick_clicks_; }
   double tick_s() const { return tick_s_; }
 
@@ -54,9 +54,11 @@ class Scene {
   std::uint64_t version() const { return version_; }
 
   /// State at the last tick.
-  const BodyState& state(int body) const { return states_[static_cast<std::size_t>(body)]; }
-  /// Pose at an instant: that of the tick before, carried on with its velocity; before the oldest kept one
-  /// that one. The same whenever it is asked for, at that instant or later.
+  BodyState state(int body) const;
+  /// Height of a body's origin, m.
+  double z_m(int body) const { return heights_[static_cast<std::size_t>(body)].z_m; }
+  /// Pose at an instant, on the leg that had begun then; before the oldest kept one where that began. The
+  /// same whenever it is asked for, at that instant or later.
   Pose2 pose(int body, Clicks at) const;
   /// Pose on the way between two ticks, known once the later one has come; after the last tick its pose.
   Pose2 pose_on_way(int body, Clicks at) const;
@@ -88,14 +90,16 @@ class Scene {
   const SoundField* sound() const { return sound_; }
   void attach_sound(const SoundField* sound) { sound_ = sound; }
 
-  /// The next tick's states; `moved_m` is the largest distance any body moved.
-  void publish(const std::vector<BodyState>& states, double moved_m);
-  /// A body was put somewhere else: its history is forgotten, lists are gathered anew.
-  void relocate(int body, const BodyState& state);
+  /// The last tick is now that one.
+  void advance_to(Clicks tick);
+  /// A body begins a leg at the last tick, at that height and climbing so fast.
+  void begin_leg(int body, const Leg& leg, double z_m, double climb_m_s);
+  /// Gathers lists of neighbours anew; bodies are, and were in the poses kept, no faster than that.
+  void regather(double pace_m_s);
 
   // Changes by hand, between ticks only; Simulation's methods of these names book them.
-  /// A body has another speed from now on.
-  void set_state(int body, const BodyState& state);
+  /// A body was put somewhere else: its history is forgotten.
+  void relocate(int body, const Leg& leg, double z_m);
   /// Another colour; proximity sensors see its red part.
   void set_colour(const Candidate& what, const Colour& colour);
   void set_lamp(int lamp, bool on, double intensity_w_m2, Vec3 position_m);
@@ -104,35 +108,24 @@ class Scene {
   void set_proximity_noise(int robot, double scale);
 
  private:
-  /// A body at a past tick.
-  struct Past {
-    Pose2 pose;
-    Vec2 velocity_m_s;
-    double spin_rad_s = 0;
-  };
-  static Past past(const BodyState& b) { return {b.pose, b.velocity_m_s, b.spin_rad_s}; }
-
-  void note_state(std::size_t body) {
-    history_[body * static_cast<std::size_t>(slots_) + static_cast<std::size_t>(last_slot_)] =
-        past(states_[body]);
-  }
-  void regather();
-  /// Slot of the newest tick at or before `at`, or of the oldest kept one; `start`: its instant.
-  int slot_before(Clicks at, Clicks* start) const;
+  /// Newest leg of a body that had begun at an instant, or its oldest kept one; `next`, if given, gets the
+  /// one after it, or null.
+  const Leg& leg_at(int body, Clicks at, const Leg** next = nullptr) const;
 
   WorldDesc world_;
   Layout layout_;
   int robots_;
   Clicks tick_clicks_;
   double tick_s_;
-  Clicks tick_ = 0;
+  Clicks now_ = 0;
   std::uint64_t version_ = 1;
-  int slots_;                  // poses kept per body
-  int last_slot_ = 0;          // where the last tick's poses are
-  double per_tick_;            // 1 / tick_clicks_
-  std::vector<Past> history_;  // [body * slots_ + tick % slots_]
-  std::vector<double> moved_;  // [tick % slots_]: largest movement of that tick, m
-  std::vector<BodyState> states_;
+  int slots_;                // legs kept per body
+  std::vector<Leg> legs_;    // [body * slots_ + n % slots_], n counting the body's legs
+  std::vector<int> newest_;  // per body: its slot
+  struct Height {
+    double z_m = 0, climb_m_s = 0;
+  };
+  std::vector<Height> heights_;
   std::vector<std::uint32_t> leds_;  // per robot; empty until somebody watches
   mutable std::atomic<bool> leds_watched_{false};
   std::vector<Placed> moving_;

@@ -320,7 +320,6 @@ struct WorldDesc {
   double gravity_m_s2 = 9.81;
   std::uint64_t seed = 1;
   double ambient_w_m2 = 0;
-  bool spread_interrupts = false;  ///< the time of background interrupts is spread evenly over the program's
   std::optional<ArenaDesc> arena;
   FloorDesc floor;
   SkyDesc sky;

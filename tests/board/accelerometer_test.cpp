@@ -111,12 +111,12 @@ TEST(AccScan, samples_are_taken_every_65_interrupts_in_a_six_channel_frame) {
   robot.scan().start(false, false, 0);
   const auto expected = [](int sample, int channel, double pole_hz) {
     // interrupt 65 k + 62 (from 0) ends a frame of six channels of 15 TAD of 10, held after the first
-    const double end = static_cast<double>(scan_times::calls(0, 63)[62].at) + 58500.0 * sample;
+    const double end = static_cast<double>(scan_times::calls(0, 63)[62]) + 58500.0 * sample;
     const double hold = end - ((6 - channel) * 15 - 1) * 10 - 1;
     const double tau = board::kFcyHz / (2 * sim::kPi * pole_hz);
     return 2048 + (hold - 28800 - tau) / 1000;
   };
-  const Cycle first = scan_times::calls(0, 63)[62].at + scan_times::kFiled;
+  const Cycle first = scan_times::calls(0, 63)[62] + scan_times::kFiled;
   EXPECT_EQ(robot.scan().acc_until(0), first);
   const Cycle after = first + 3 * 58500 + 5;
   const board::AdcScan::AccRing ring = robot.scan().acc_scan(after);
@@ -154,7 +154,7 @@ TEST(AccScan, pins_give_the_newest_sample_and_its_horizon) {
   FakeContext host(robot);
   robot.scan().start(false, false, 0);
   EXPECT_EQ(tp_scan_acc_newest(2), 0) << "before the first sample";
-  const Cycle first = scan_times::calls(0, 63)[62].at + scan_times::kFiled;
+  const Cycle first = scan_times::calls(0, 63)[62] + scan_times::kFiled;
   EXPECT_EQ(host.horizon, first);
   host.cycle = first;
   host.horizon = host::kNever;

@@ -147,12 +147,12 @@ TEST(AgendaMotors, speed_zero_with_a_cycle_set_by_hand_divides_by_zero) {
   EXPECT_EQ(d.timer.next_interrupt(), 5 * kTick);
   bool trap = false;
   d.timer.begin(5 * kTick);
-  EXPECT_EQ(d.timer.next(trap, 0), nullptr);
+  EXPECT_EQ(d.timer.next(trap), nullptr);
   EXPECT_FALSE(trap);
   d.timer.finish(5 * kTick);
   EXPECT_EQ(d.timer.next_interrupt(), 20 * kTick);  // 15 ticks on, then 10000 / 0
   d.timer.begin(20 * kTick);
-  d.timer.next(trap, 0);
+  d.timer.next(trap);
   EXPECT_TRUE(trap);
 }
 
@@ -165,9 +165,9 @@ TEST(Agendas, newest_runs_first_and_counters_survive_a_new_cycle) {
   EXPECT_EQ(timer.next_interrupt(), 10 * kTick);
   bool trap;
   timer.begin(10 * kTick);
-  EXPECT_EQ(timer.next(trap, 0), &user_b);
-  EXPECT_EQ(timer.next(trap, 0), &user_a);
-  EXPECT_EQ(timer.next(trap, 0), nullptr);
+  EXPECT_EQ(timer.next(trap), &user_b);
+  EXPECT_EQ(timer.next(trap), &user_a);
+  EXPECT_EQ(timer.next(trap), nullptr);
   timer.finish(10 * kTick + 500);
   // 7 ticks counted; a cycle of 5 fires at the very next tick
   timer.set_cycle(&user_a, 5, 17 * kTick + 3);
@@ -180,12 +180,34 @@ TEST(Agendas, a_long_callback_loses_ticks_but_one_is_remembered) {
   timer.start(0);
   bool trap;
   timer.begin(10 * kTick);
-  timer.next(trap, 0);
-  timer.next(trap, 0);
+  timer.next(trap);
+  timer.next(trap);
   timer.finish(14 * kTick + 100);  // ticks 11 to 14 came: 11 is remembered and runs now, three are lost
   EXPECT_EQ(timer.ticks_at(14 * kTick + 100), 11);
   EXPECT_EQ(timer.ticks_at(15 * kTick), 12);
   EXPECT_EQ(timer.next_interrupt(), 23 * kTick);
+}
+
+// masked from the middle of tick 3 to that of tick 7: tick 4 is remembered and runs then, 5 to 7 are lost
+TEST(Agendas, a_masked_handler_loses_ticks_but_one_is_remembered) {
+  Driven d;
+  d.timer.set_speed(Wheel::Left, 1000, 0);  // a step every 10 ticks
+  d.timer.hold(3 * kTick + 700);
+  EXPECT_EQ(d.timer.ticks_at(7 * kTick), 3);
+  EXPECT_EQ(d.timer.commanded_steps(Wheel::Left, 100 * kTick), 0);
+  d.timer.release(7 * kTick + 700);
+  EXPECT_EQ(d.timer.ticks_at(7 * kTick + 700), 4);
+  EXPECT_EQ(d.timer.ticks_at(8 * kTick), 5);
+  EXPECT_EQ(d.timer.lost_ticks(), 3);
+  EXPECT_EQ(d.timer.first_lost(), 7 * kTick + 700);
+  EXPECT_EQ(d.timer.commanded_steps(Wheel::Left, 13 * kTick - 1), 0);
+  EXPECT_EQ(d.timer.commanded_steps(Wheel::Left, 13 * kTick), 1);
+  // shorter than a tick: nothing is lost, and what came runs at the release
+  d.timer.hold(14 * kTick - 10);
+  d.timer.release(14 * kTick + 10);
+  EXPECT_EQ(d.timer.ticks_at(14 * kTick + 10), 11);
+  EXPECT_EQ(d.timer.ticks_at(15 * kTick), 12);
+  EXPECT_EQ(d.timer.lost_ticks(), 3);
 }
 
 TEST(Agendas, negative_cycles_are_huge) {
@@ -359,7 +381,7 @@ class Twin {
     while (closed_.next_interrupt() <= std::max(until, now)) {
       Cycle at = std::max(closed_.next_interrupt(), now);
       closed_.begin(at);
-      while (const void* f = closed_.next(trapped_, at)) {
+      while (const void* f = closed_.next(trapped_)) {
         const int function = f == &user_a ? 0 : f == &user_b ? 1 : 2;
         closed_log_.push_back({function, at});
         const Script script = script_of(function, static_cast<int>(closed_log_.size()));

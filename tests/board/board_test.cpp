@@ -121,7 +121,7 @@ TEST(Pins, a_pulse_of_the_scan_is_seen_but_not_latched) {
   robot.init_ports(0);
   robot.scan().start(false, false, 0);
   const auto calls = scan_times::calls(0, 70);
-  const Cycle on = calls[63].at + scan_times::kLight, off = calls[68].at + scan_times::kLight;  // pair 1: RF8
+  const Cycle on = calls[63] + scan_times::kLight, off = calls[68] + scan_times::kLight;  // pair 1: RF8
   EXPECT_EQ(robot.port_read('F', Register::Lat, on - 1) & 0x180, 0);
   EXPECT_EQ(robot.port_read('F', Register::Lat, on) & 0x180, 0x100);
   EXPECT_EQ(robot.port_horizon('F', on), off);

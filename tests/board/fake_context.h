@@ -18,7 +18,7 @@ class FakeContext : public host::Context {
   void lower_horizon(host::Cycle at) override { horizon = std::min(horizon, at); }
   void note_write() override { ++writes; }
   void spend(host::Cycle cycles) override { spent += cycles; }
-  host::Cycle settle() override { return cycle; }
+  void follow_handlers() override { handler_share = robot_.handler_share_q32(); }
   void wait_until(host::Cycle at) override { cycle = std::max(cycle, at); }
   void irq_install(int vector, void (*handler)(), int, host::Cycle) override { handlers[vector] = handler; }
   void irq_at(int vector, host::Cycle at) override { requested[vector] = at; }
@@ -33,6 +33,7 @@ class FakeContext : public host::Context {
   host::Cycle spent = 0;
   host::Cycle horizon = host::kNever;
   int writes = 0;
+  std::uint64_t handler_share = 0;  // as told last
   std::map<int, void (*)()> handlers;
   std::map<int, host::Cycle> requested;
   std::map<int, std::pair<host::Cycle, host::Cycle>> background;

@@ -83,17 +83,17 @@ TEST_F(Microphones, samples_are_held_at_the_converters_instants) {
   context.cycle = 5000;
   tp_scan_start(0, 0);
   const auto calls = scan_times::calls(5000, 65);
-  context.cycle = calls[2].at;
+  context.cycle = calls[2];
   EXPECT_EQ(tp_mic_scan(scan, 0), 3);
-  EXPECT_EQ(context.horizon, calls[3].at);
+  EXPECT_EQ(context.horizon, calls[3]);
   // three channels of 15 TAD of 20, held after the first; the flag a cycle after the end
   EXPECT_EQ(held, (std::vector<sim::Clicks>{5034, 5334, 5634, 5934, 6234, 6534, 6834, 7134, 7434}));
-  // interrupt 3 delivers five channels (TAD 12), 62 six (TAD 10), 63 five again; 10 three at TAD 19.5
-  EXPECT_EQ(robot.scan().mic_hold(1, 3), calls[3].at - (4 * 15 - 1) * 12 - 1);
-  EXPECT_EQ(robot.scan().mic_hold(0, 10), calls[10].at - 44 * 39 / 2 - 1);
-  EXPECT_EQ(robot.scan().mic_hold(1, 62), calls[62].at - (5 * 15 - 1) * 10 - 1);
-  EXPECT_EQ(robot.scan().mic_hold(2, 63), calls[63].at - (3 * 15 - 1) * 12 - 1);
-  EXPECT_EQ(robot.scan().mic_hold(2, 64), calls[64].at - (15 - 1) * 20 - 1);
+  // interrupt 3 delivers five channels (TAD 12), 62 six (TAD 10), 63 five again; 10 three
+  EXPECT_EQ(robot.scan().mic_hold(1, 3), calls[3] - (4 * 15 - 1) * 12 - 1);
+  EXPECT_EQ(robot.scan().mic_hold(0, 10), calls[10] - 44 * 20 - 1);
+  EXPECT_EQ(robot.scan().mic_hold(1, 62), calls[62] - (5 * 15 - 1) * 10 - 1);
+  EXPECT_EQ(robot.scan().mic_hold(2, 63), calls[63] - (3 * 15 - 1) * 12 - 1);
+  EXPECT_EQ(robot.scan().mic_hold(2, 64), calls[64] - (15 - 1) * 20 - 1);
 }
 
 TEST_F(Microphones, alone_they_are_sampled_twice_as_often) {
@@ -107,20 +107,20 @@ TEST_F(Microphones, only_new_samples_are_evaluated_and_at_most_a_buffer) {
   int asked = 0;
   scene.sound_pa = [&](const sim::Vec3&, sim::Clicks at) { return ++asked, static_cast<double>(at) / 1e7; };
   tp_scan_start(0, 0);
-  context.cycle = 50 * 900;
+  context.cycle = 15 + 50 * 900;
   const tp_i64 seen = tp_mic_scan(scan, 0);
   EXPECT_EQ(asked, 150);
-  context.cycle = 60 * 900;
+  context.cycle = 15 + 60 * 900;
   EXPECT_EQ(tp_mic_scan(scan, seen), 60);
   EXPECT_EQ(asked, 180);
   tp_mic_scan(scan, 60);
   EXPECT_EQ(asked, 180);
-  context.cycle = 1230 * 900;
+  context.cycle = 15 + 1230 * 900;
   EXPECT_EQ(tp_mic_scan(scan, 60), 1230);
   EXPECT_EQ(asked, 480);
   // sample 1229 is in place 29, sample 1130, the oldest, in place 30
   const auto counts = [&](int n) {
-    return static_cast<int>(std::floor(2048.5 + 0.0794 / 3.3 * 4096 * (n * 900 + 20) / 1e7));
+    return static_cast<int>(std::floor(2048.5 + 0.0794 / 3.3 * 4096 * (n * 900 + 15 + 20) / 1e7));
   };
   EXPECT_EQ(scan[0][29], counts(1229));
   EXPECT_EQ(scan[0][30], counts(1130));
@@ -139,8 +139,8 @@ TEST_F(Microphones, samples_before_a_stop_keep_their_instants) {
   context.cycle += 15 + 40 * 450;
   EXPECT_EQ(tp_mic_scan(scan, 290), 290);
   const auto calls = scan_times::calls(0, 250);
-  EXPECT_EQ(robot.scan().mic_hold(0, 190), calls[190].at - 44 * 20 - 1);  // 190 % 65 = 60: three channels
-  EXPECT_EQ(robot.scan().mic_hold(0, 249), calls[249].at - 44 * 20 - 1);  // 54
+  EXPECT_EQ(robot.scan().mic_hold(0, 190), calls[190] - 44 * 20 - 1);  // 190 % 65 = 60: three channels
+  EXPECT_EQ(robot.scan().mic_hold(0, 249), calls[249] - 44 * 20 - 1);  // 54
   EXPECT_EQ(robot.scan().mic_hold(0, 250), again + 15 + 450 - 44 * 10 - 1);
   EXPECT_EQ(robot.scan().mic_hold(0, 289), again + 15 + 40 * 450 - 44 * 10 - 1);
 }

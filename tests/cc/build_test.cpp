@@ -6,20 +6,6 @@
 
 using namespace fake;
 
-TEST(build, second_build_takes_everything_from_the_cache) {
-  Folder folder;
-  auto change = [&](cc::BuildOptions& o) { o.cache_dir = folder.path / "cache"; };
-  auto first = build(folder, "int main(void) { return 1; }", "-O1", change);
-  ASSERT_TRUE(first.ok) << text_of(first);
-  EXPECT_GT(first.compiled, 5);
-  auto second = build(folder, "int main(void) { return 1; }", "-O1", change);
-  EXPECT_EQ(second.compiled, 0);
-  EXPECT_LT(second.seconds, 1.0);
-  auto third = build(folder, "int main(void) { return 2; }", "-O1", change);
-  EXPECT_EQ(third.compiled, 1);
-  EXPECT_LT(third.seconds, 1.5);
-}
-
 TEST(build, a_changed_header_recompiles_who_includes_it) {
   Folder folder;
   folder.file("prog/speed.h", "#define SPEED 3\n");

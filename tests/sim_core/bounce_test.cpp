@@ -202,7 +202,7 @@ struct Thrown {
   Thrown(bool planar, int hz, double speed_m_s, double restitution, double rolling, double wall_x_m) {
     fixed = {{&wall, sim::Frame2({wall_x_m, 0, 0}), 0}};
     sim::MotionDesc desc;
-    desc.tick_s = 1.0 / hz;
+    desc.tick = sim::kClicksPerSecond / hz;
     desc.fixed = &fixed;
     desc.surfaces = {{0.3, 0}};
     desc.solids = {&sphere};
@@ -211,11 +211,11 @@ struct Thrown {
     motion = planar ? sim::make_planar_motion(desc) : sim::make_dynamic_motion(desc);
     near = std::make_unique<sim::Neighbours>(fixed, std::vector<double>{0.02}, 0, std::vector<double>{});
   }
-  const sim::BodyState& ball() const { return motion->bodies()[0]; }
+  const sim::BodyState& ball() const { return motion->body(0); }
   void run(double seconds, int hz) {
     for (int tick = 0; tick < seconds * hz; ++tick) {
-      near->rebuild({motion->placed(0)}, 0);
-      motion->step(nullptr, *near);
+      near->rebuild({{&sphere, sim::Frame2(ball().pose), 0}}, 0);
+      motion->step((tick + 1) * sim::kClicksPerSecond / hz, {}, nullptr, *near);
     }
   }
 };

@@ -37,6 +37,27 @@ TEST(Determinism, one_two_and_three_threads_give_the_same_digest) {
   }
 }
 
+TEST(Determinism, where_a_step_ends_changes_nothing) {
+  for (int robots : {1, 5, 10}) {
+    const sim::WorldDesc world = bench_world(robots);
+    auto s = simulation_of(world, [](int r) { return std::make_unique<Braitenberg>(r); });
+    int steps = 0;
+    for (; s->now() < 5 * sim::kClicksPerSecond; ++steps) s->advance(5 * sim::kClicksPerSecond);
+    EXPECT_EQ(s->digest(), digest_of(world, 1, 5)) << robots;
+    EXPECT_EQ(s->now(), 5 * sim::kClicksPerSecond);
+    if (robots == 1) EXPECT_LT(steps, 5 * 96 / 2) << "free ways between control steps are passed over";
+    auto stepped = simulation_of(world, [](int r) { return std::make_unique<Braitenberg>(r); });
+    while (stepped->now() < s->now()) stepped->step();
+    for (int r = 0; r < robots; ++r) {
+      EXPECT_EQ(stepped->pose(r).x_m, s->pose(r).x_m);
+      EXPECT_EQ(stepped->distance_m(r), s->distance_m(r));
+      EXPECT_EQ(stepped->touches(r).touch_s, s->touches(r).touch_s);
+      const sim::Clicks past = s->now() - 100000;
+      EXPECT_EQ(stepped->scene().pose(r, past).heading_rad, s->scene().pose(r, past).heading_rad);
+    }
+  }
+}
+
 TEST(Determinism, a_thousand_robots_run_and_repeat) {
   const sim::WorldDesc world = bench_world(1000);
   EXPECT_EQ(digest_of(world, 1, 2), digest_of(world, 2, 2));

@@ -54,10 +54,13 @@ class Braitenberg : public sim::RobotMind {
       left_ = std::max(-limit, std::min(limit, left)) / 2.05;
       right_ = std::max(-limit, std::min(limit, right)) / 2.05;
     }
+    turn_until(end);
+    set_idle_until(next_ + 1);
   }
-  sim::WheelAngles wheel_angles(sim::Clicks at) override {
+  sim::WheelCourse wheel_course(sim::Clicks at) override {
+    constexpr double per_click = 1.0 / static_cast<double>(sim::kClicksPerSecond);
     turn_until(at);
-    return angles_;
+    return {angles_, left_ * per_click, right_ * per_click, at, next_};
   }
   sim::MindReport report() const override { return {}; }
   int proximity_counts(const sim::Scene& scene, int s) override {

@@ -198,19 +198,17 @@ TEST(Scene, poses_are_carried_on_from_the_tick_before_whenever_they_are_asked_fo
   }
   const sim::Clicks ahead = s->now() + sim::kClicksPerSecond / 256;
   EXPECT_NEAR(s->scene().pose(0, ahead).x_m, v * sim::to_seconds(ahead), 1e-9);
-  // a speed that changes at the next tick does not change what was true in this one
-  sim::BodyState faster = s->scene().state(0);
+  // a leg that begins at the next tick does not change what was true in this one
   const sim::Clicks early = ahead, tick = s->scene().tick_clicks();
   const double then_m = s->scene().pose(0, early).x_m;
   sim::Scene other(s->scene().world(), {0.1});
-  other.publish({faster}, 0.1);
-  const double start_m = faster.pose.x_m, speed = faster.velocity_m_s.x;
-  faster.pose.x_m += 0.004;
-  faster.velocity_m_s.x = 0.5;
-  other.publish({faster}, 0.1);
-  EXPECT_EQ(other.pose(0, tick + tick / 2).x_m, start_m + speed * sim::to_seconds(tick / 2));
-  EXPECT_NEAR(other.pose_on_way(0, tick + tick / 2).x_m, start_m + 0.002, 1e-12);
-  EXPECT_EQ(other.pose_on_way(0, 3 * tick).x_m, start_m + 0.004);
+  other.advance_to(tick);
+  other.begin_leg(0, {tick, {1, 0, 0}, {v, 0}, 0, false}, 0, 0);
+  other.advance_to(2 * tick);
+  other.begin_leg(0, {2 * tick, {1.004, 0, 0}, {0.5, 0}, 0, false}, 0, 0);
+  EXPECT_EQ(other.pose(0, tick + tick / 2).x_m, 1 + v * sim::to_seconds(tick / 2));
+  EXPECT_NEAR(other.pose_on_way(0, tick + tick / 2).x_m, 1.002, 1e-12);
+  EXPECT_EQ(other.pose_on_way(0, 3 * tick).x_m, 1.004);
   run_for(*s, 0.02);
   EXPECT_EQ(s->scene().pose(0, early).x_m, then_m);
   // before the world began everything stood where it stands at 0

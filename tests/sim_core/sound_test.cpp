@@ -306,7 +306,7 @@ TEST(SoundInWorlds, mistakes_are_named) {
 /// Plays a track from a given instant on, and samples its ears in every tick.
 class Singer : public Cruise {
  public:
-  using Cruise::Cruise;
+  Singer(double left_rad_s, double right_rad_s) : Cruise(left_rad_s, right_rad_s) { set_idle_until(0); }
   void run_until(const sim::Scene& scene, sim::Clicks end) override {
     for (; next_ < end; next_ += 900) {
       if (listen) heard.push_back(sim::sense_sound_pa(scene, robot, ear_m, next_));

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+// See library_objects.h. All of it is archives of weak symbols, so whatever a program defines itself takes
+// the place of ours.
+#include "library_objects.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "build_record.h"
+#include "object_cache.h"
+#include "program_files.h"
+#include "twinpuck_paths.h"
+
+namespace cc {
+namespace fs = std::filesystem;
+
+fs::path source_root() {
+  const char* home = std::getenv("TWINPUCK_HOME");
+  return home ? home : TWINPUCK_SOURCE_DIR;
+}
+
+fs::path build_root() { return TWINPUCK_BUILD_DIR; }
+
+fs::path compiler_path() { return build_root() / "twinpuck-cc"; }
+
+fs::path include_root(const BuildOptions& o) {
+  return o.include_root.empty() ? source_root() / "firmware/include" : o.include_root;
+}
+
+namespace {
+
+/// Headers of the newest C++ library that is installed; empty: there is none.
+std::vector<fs::path> cxx_library_folders() {
+  int newest = 0;
+  std::error_code none;
+  look_at("/usr/include/c++");
+  for (const auto& entry : fs::directory_iterator("/usr/include/c++", none))
+    newest = std::max(newest, std::atoi(entry.path().filename().c_str()));
+  if (newest == 0) return {};
+  const std::string version = std::to_string(newest);
+  return {"/usr/include/c++/" + version, "/usr/include/x86_64-linux-gnu/c++/" + version,
+          "/usr/include/c++/" + version + "/backward"};
+}
+
+/// Files of the libc that read and write the program's strings and arrays: --sanitize checks those, too.
+bool takes_strings(const fs::path& file) {
+  const std::string name = file.filename().string();
+  return file.parent_path() == source_root() / "hal_sim/cc/libc/src" &&
+         (name == "string.c" || name == "printf.c" || name == "scanf.c" || name == "stdlib.c");
+}
+
+}  // namespace
+
+std::vector<std::string> cxx_flags(const std::vector<std::string>& flags) {
+  const fs::path cc_dir = source_root() / "hal_sim/cc";
+  std::vector<fs::path> folders = cxx_library_folders(),
+                        c_folders = {cc_dir / "libc/webots/include", cc_dir / "libc/include"};
+  folders.insert(folders.begin(), cc_dir / "libc/cxx/include");
+  folders.insert(folders.end(), c_folders.begin(), c_folders.end());
+  std::vector<std::string> changed;
+  for (const std::string& flag : flags)
+    if (std::none_of(c_folders.begin(), c_folders.end(),
+                     [&](const fs::path& folder) { return flag == "-I" + folder.string(); }))
+      changed.push_back(flag);
+  for (const fs::path& folder : folders) changed.push_back("-isystem" + folder.string());
+  return changed;
+}
+
+std::vector<fs::path> contract_folders(const fs::path& root) {
+  std::vector<fs::path> folders = {root};
+  for (const char* sub : {"motor_led/advance_one_timer", "motor_led", "a_d/advance_ad_scan", "a_d", "uart",
+                          "utility", "camera/fast_2_timer", "codec", "bluetooth", "I2C", "fft", "matlab",
+                          "acc_gyro", "motor_led/advance_one_timer/fast_agenda", "contrib/LIS_sensors_turret",
+                          "contrib/SWIS_com_module", "contrib"})
+    folders.push_back(root / sub);
+  return folders;
+}
+
+std::string names_of_headers(const std::vector<fs::path>& folders) {
+  std::string names;
+  for (const fs::path& folder : folders)
+    for (const fs::path& header : headers_below(folder)) names += header.string() + "\n";
+  return content_hash(names);
+}
+
+namespace {
+
+std::vector<CompileJob> library_jobs(const BuildOptions& o, bool is_webots, bool has_cxx) {
+  const fs::path root = source_root(), cc_dir = root / "hal_sim/cc", libc = cc_dir / "libc/include";
+  const fs::path contract = include_root(o);
+  const fs::path api = o.api_dir.empty() ? root / (o.register_way ? "hal_dspic" : "hal_sim/api") : o.api_dir;
+  std::vector<std::string> flags = {o.optimisation, "--library"};
+  for (const fs::path& folder : contract_folders(contract)) flags.push_back("-I" + folder.string());
+  flags.insert(flags.end(), {"-include", (libc / "xc16_builtins.h").string(), "-I" + libc.string(),
+                             "--fallback", contract.string(), "--fallback", libc.string(),
+                             "-I" + root.string(), "-I" + api.string()});  // its hal.h, for hal_common
+  if (o.register_way) flags.push_back("--register");
+
+  const std::string salt =
+      names_of_headers({contract, cc_dir / "libc", api, root / "hal_common", root / "hal_sim/host"});
+  std::vector<CompileJob> jobs;
+  const auto add = [&](const fs::path& source, const std::vector<std::string>& with) {
+    jobs.push_back({source, with, salt, root.string()});
+  };
+  // some take the place of a file of the libc
+  if (is_webots)
+    for (const auto& folder : {root / "firmware/webots", cc_dir / "libc/webots"})
+      for (const auto& s : files_below(folder, ".c")) add(s, flags);
+  if (has_cxx)
+    for (const auto& s : files_below(cc_dir / "libc/cxx/src", ".cpp")) add(s, cxx_flags(flags));
+  // what exists in the simulator alone has one form for both ways
+  if (o.register_way)
+    for (const char* name : {"virtual.c", "webots_simulator.c"}) add(root / "hal_sim/api" / name, flags);
+  std::vector<fs::path> folders = {api, cc_dir / "libc/src"};
+  // the half of the library that needs no pins, for a HAL that has the other half
+  if (fs::exists(api / "hal.h")) folders.push_back(root / "hal_common");
+  const auto is_replaced = [&](const fs::path& file) {
+    return is_webots && file.parent_path() == cc_dir / "libc/src" &&
+           fs::exists(cc_dir / "libc/webots" / file.filename());
+  };
+  for (const auto& folder : folders)
+    for (const auto& s : files_below(folder, ".c")) {
+      if (is_replaced(s)) continue;
+      add(s, flags);
+      if (o.sanitize && takes_strings(s)) jobs.back().flags.push_back("--sanitize");
+    }
+  if (o.sanitize)
+    add(cc_dir / "runtime/image_sanitize.c",
+        {"-O1", "--uncounted", "-I" + root.string(), "-I" + libc.string()});
+  return jobs;
+}
+
+}  // namespace
+
+Archive archive(const std::vector<CompileOutcome>& objects, const fs::path& folder) {
+  std::string key, names;
+  for (const auto& o : objects) {
+    key += o.object.filename().string();
+    names += o.object.string() + " " + std::to_string(fs::file_size(o.object)) + " " +
+             std::to_string(fs::last_write_time(o.object).time_since_epoch().count()) + "\n";
+  }
+  const fs::path file = folder / ("library-" + content_hash(key) + ".a");
+  const fs::path list = file.string() + ".list", half = file.string() + ".half" + std::to_string(getpid());
+  if (fs::exists(file) && bytes_of(list) == names) return {file, ""};
+  std::vector<std::string> argv = {"ar", "rcs", half.string()};
+  for (const auto& o : objects) argv.push_back(o.object.string());
+  const auto run = run_process(argv);
+  std::error_code ec;
+  if (run.status == 0) fs::rename(half, file, ec);
+  if (run.status != 0 || ec || !write_text(list, names))
+    return {file, "ar: " + run.output + (ec ? ec.message() : "")};
+  return {file, ""};
+}
+
+Library provide_library(const BuildOptions& o, bool is_webots, bool has_cxx) {
+  // a library from elsewhere, as tests have, is no part of the product
+  const bool is_ours = o.api_dir.empty() && o.include_root.empty() && source_root() == TWINPUCK_SOURCE_DIR;
+  const fs::path folder = is_ours ? build_root() / "library" : o.cache_dir;
+  const auto outcomes = compile_all(library_jobs(o, is_webots, has_cxx), compiler_path(), folder, o.jobs);
+  Library library;
+  library.ok = true;
+  for (const CompileOutcome& outcome : outcomes) {
+    library.messages += outcome.messages;
+    library.ok = library.ok && outcome.ok;
+    ++(outcome.reused ? library.reused : library.compiled);
+  }
+  if (!library.ok) return library;
+  const Archive made = archive(outcomes, folder);
+  library.archive = made.file;
+  library.ok = made.error.empty();
+  library.messages += made.error;
+  return library;
+}
+
+std::vector<Library> provide_usual_libraries(int jobs) {
+  std::vector<Library> made;
+  for (const bool register_way : {false, true})
+    for (const auto& [is_webots, has_cxx] :
+         {std::pair(false, false), std::pair(true, false), std::pair(true, true)}) {
+      BuildOptions o;
+      o.register_way = register_way;
+      o.jobs = jobs;
+      made.push_back(provide_library(o, is_webots, has_cxx));
+    }
+  return made;
+}
+
+}  // namespace cc

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// What is linked behind every program: the e-puck library of one way, the firmware's libc, and for programs
+// written for Webots its interfaces and the C++ library. Its objects and archives lie beside the executable
+// in library/; `make build` fills it, and whatever changes later is compiled when a build asks for it.
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "build.h"
+#include "object_cache.h"
+
+namespace cc {
+
+/// TWINPUCK_HOME, or the tree this was built from.
+std::filesystem::path source_root();
+std::filesystem::path build_root();
+std::filesystem::path compiler_path();
+
+/// Sub-folders of the contract, in the order a flat "e_motors.h" is looked up: the one-timer drivers first.
+std::vector<std::filesystem::path> contract_folders(const std::filesystem::path& root);
+/// Where the headers of the e-puck library are.
+std::filesystem::path include_root(const BuildOptions& options);
+/// The flags of a C file for a C++ file: headers of the C library stand behind those of C++, which include
+/// them.
+std::vector<std::string> cxx_flags(const std::vector<std::string>& flags);
+/// Names of headers, each in its folder: one that appears or goes away can change what an #include finds.
+std::string names_of_headers(const std::vector<std::filesystem::path>& folders);
+
+struct Library {
+  bool ok = false;
+  std::filesystem::path archive;
+  std::string messages;  ///< of compilers and archiver
+  int compiled = 0, reused = 0;
+};
+
+/// Compiles what is not there yet. Within a build (build_record.h).
+Library provide_library(const BuildOptions& options, bool is_webots, bool has_cxx);
+
+struct Archive {
+  std::filesystem::path file;
+  std::string error;
+};
+/// Objects as an archive, made where it is not what it should be.
+Archive archive(const std::vector<CompileOutcome>& objects, const std::filesystem::path& folder);
+
+/// Every library that programs usually ask for, both ways, at -O1; for `make build`.
+std::vector<Library> provide_usual_libraries(int jobs);
+
+}  // namespace cc
