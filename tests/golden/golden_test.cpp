@@ -32,8 +32,8 @@ TEST_P(Golden, run_repeats_to_the_last_bit) {
 
 INSTANTIATE_TEST_SUITE_P(
     Of, Golden,
-    ::testing::Combine(::testing::Values(Pinned{"maze", "worlds/maze.toml", 20, "dfaf6c46eb6eed7a"},
-                                         Pinned{"swarm", "worlds/swarm.toml", 5, "4b11889542c06c15"},
+    ::testing::Combine(::testing::Values(Pinned{"maze", "worlds/maze.toml", 20, "4509bae6eec24bd5"},
+                                         Pinned{"swarm", "worlds/swarm.toml", 5, "277ea0f127ce860b"},
                                          Pinned{"push", "worlds/push.toml", 10, "f91ebaf3fed3ed69"},
                                          Pinned{"braitenberg_10", "bench/worlds/brait_10.toml", 5,
                                                 "b480092dd6366864"}),
