@@ -29,6 +29,12 @@ struct Carried {
 /// Decides what the floor is and turns every body into objects that our worlds can hold.
 Carried settle(const Scene& scene, const Options& options, Report& report);
 
+/// A place or measure in m as the world file has it: to 0.1 mm.
+double as_written(double metres);
+
+/// All of them, and headings, so that checks see what the loader will.
+void round_as_written(sim::WorldDesc& world);
+
 /// Moves robots and fixes objects that begin inside something else, so that the world can be loaded. What has
 /// no room at all is left out.
 void make_room(Carried& c, const Options& options, Report& report);

@@ -58,6 +58,11 @@ inline constexpr double kHeaviestKg = 1000;    // [world-format]
 inline constexpr double kGravityMin = 0.01;    // [world-format]
 inline constexpr double kGravityMax = 100;     // [world-format]
 inline constexpr double kLightMax = 10000;     // [world-format]
+inline constexpr double kFarthestRowM = 10;    // [world-format: of a lookup table]
+inline constexpr double kSpeedUnitMin = 1e-6;  // [world-format]
+inline constexpr double kSpeedUnitMax = 1000;  // [world-format]
+inline constexpr double kFadesLeast = 1e-6;  // [assumed: smaller factors of a lamp's fading are written as 0]
+inline constexpr std::size_t kLongestDevice = 31;  // [world-format: characters of a device's name]
 
 // bounds of the importer itself
 inline constexpr int kMostVisits = 200'000;    // [assumed: nodes looked at, USE counted each time]

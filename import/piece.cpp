@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "import/import_params.h"
+#include "sim_core/geometry/solid.h"
 
 namespace wbt {
 namespace {
@@ -110,7 +111,7 @@ std::optional<Piece> prism(std::vector<Vec2> hull, double z_low, double z_high) 
     out.corners.push_back(
         {std::round((p.x - out.at.x) * 1e5) / 1e5, std::round((p.y - out.at.y) * 1e5) / 1e5});
   out.corners = convex_hull(std::move(out.corners));
-  if (out.corners.size() < 3)
+  if (!sim::is_convex(out.corners))  // too small for a polygon of ours
     return box(out.at, {u1 - u0, std::max(v1 - v0, kSheetM)}, std::atan2(u.y, u.x), z_low, z_high);
   out.z_low = z_low;
   out.z_high = z_high;

@@ -56,7 +56,8 @@ bool step_aside(sim::WorldDesc& all, std::size_t robot) {
   for (const double r : {0.01, 0.02, 0.04, 0.06, 0.08, 0.12, 0.16, 0.2, 0.3, 0.4}) {
     for (int i = 0; i < 12; ++i) {
       const double t = 2 * sim::kPi * i / 12;
-      w.robots[0].pose = {begin.x_m + r * std::cos(t), begin.y_m + r * std::sin(t), begin.heading_rad};
+      w.robots[0].pose = {as_written(begin.x_m + r * std::cos(t)), as_written(begin.y_m + r * std::sin(t)),
+                          begin.heading_rad};
       if (std::max(std::abs(w.robots[0].pose.x_m), std::abs(w.robots[0].pose.y_m)) > kFarthestM) continue;
       if (!sim::has_room(w, 0)) continue;
       all.robots[robot].pose = w.robots[0].pose;
@@ -70,6 +71,7 @@ bool step_aside(sim::WorldDesc& all, std::size_t robot) {
 
 void make_room(Carried& c, const Options& options, Report& report) {
   if (options.model.name.empty()) return;
+  round_as_written(c.world);
   int moved = 0;
   for (int round = 0; round < 6; ++round) {
     sim::WorldDesc w = numbered(c);

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "import/carried.h"
+#include "sim_core/load/floor_image.h"
 
 namespace wbt {
 namespace {
@@ -21,8 +22,17 @@ std::string from(const std::string& type, const std::string& name, const std::st
   return fmt::format("{}, line {}", out, line);
 }
 
+constexpr const char* kTooLarge = "larger or further away than a world of ours may be";
+
 // names in our files: no control characters, not endless
 std::string clean(const std::string& text) { return printable(text, 80); }
+
+// a robot's name: messages and tables part names by these
+std::string robot_name(const std::string& text) {
+  std::string out = text.empty() ? "robot" : clean(text);
+  for (char& c : out) c = c == ',' || c == '"' || c == '=' ? '_' : c;
+  return out;
+}
 
 // a name as our files may hold it, or empty
 std::string relative_name(const std::string& file, const Options& o) {
@@ -94,8 +104,9 @@ class Settler {
   }
 
   void find_floor() {
-    if (!scene_.arenas.empty()) {
-      floor_z_ = scene_.arenas.front().z_m;
+    for (const FoundArena& a : scene_.arenas) {
+      if (!is_sensible(a)) continue;
+      floor_z_ = a.z_m;
       have_floor_ = true;
       return;
     }
@@ -143,13 +154,27 @@ class Settler {
       report_.add(floor_->line, "floor", "its outline", "the rectangle around it");
   }
 
+  static bool is_sensible(const FoundArena& a) {
+    return std::min(a.size.x, a.size.y) >= 0.01 && std::max(a.size.x, a.size.y) <= kFarthestM &&
+           is_finite({a.at.x, a.at.y, a.z_m}) && std::isfinite(a.heading_rad) &&
+           std::max({std::abs(a.at.x), std::abs(a.at.y), std::abs(a.z_m)}) <= kFarthestM;
+  }
+
+  void image(const FoundArena& a) {
+    sim::FloorDesc read;
+    const std::string name = relative_name(a.image, options_);
+    const std::string wrong = printable(name, 10000) != name ? "not a name of ASCII characters"
+                                                             : sim::read_floor_image(a.image, read);
+    if (wrong.empty())
+      out_.world.floor.image = name;
+    else
+      report_.add(a.line, a.type, "its picture: " + printable(wrong, 200), "its average colour");
+  }
+
   void arena(const FoundArena& a) {
     const std::string source = from(a.type, "", "", a.line);
-    const bool sensible = a.size.x >= 0.01 && a.size.y >= 0.01 && a.size.x <= kFarthestM &&
-                          a.size.y <= kFarthestM &&
-                          std::max(std::abs(a.at.x), std::abs(a.at.y)) <= kFarthestM && std::isfinite(a.z_m);
-    if (!sensible) return report_.add(a.line, a.type, "its measures make no sense");
-    const double height = std::isfinite(a.wall_height_m) ? std::clamp(a.wall_height_m, 0.0, kFarthestM) : 0;
+    if (!is_sensible(a)) return report_.add(a.line, a.type, "its measures make no sense");
+    const double height = std::clamp(a.wall_height_m, 0.0, kFarthestM);
     const double thickness = std::clamp(a.wall_thickness_m, kLeastM, 10.0);
     const double quarter = a.heading_rad / (sim::kPi / 2);
     const bool straight = std::abs(quarter - std::round(quarter)) < 1e-3;
@@ -165,11 +190,7 @@ class Settler {
       out_.world.arena = d;
       out_.arena_from = source;
       if (a.floor) out_.world.floor.colour = a.floor->colour;
-      if (!a.image.empty() && !options_.folder.empty()) {
-        out_.world.floor.image = relative_name(a.image, options_);
-        if (printable(out_.world.floor.image, 10000) != out_.world.floor.image)
-          out_.world.floor.image.clear();
-      }
+      if (!a.image.empty() && !options_.folder.empty()) image(a);
       if (!a.round) return;
     } else if (!straight && !out_.world.arena && a.floor) {
       out_.world.floor.colour = a.floor->colour;
@@ -194,6 +215,10 @@ class Settler {
                              : Vec2{i == 0 || i == 3 ? -hx : hx, i < 2 ? -hy : hy};
       w.points_m.push_back(a.at + Vec2{c * p.x - s * p.y, s * p.x + c * p.y});
     }
+    for (const Vec2 p : w.points_m) {
+      if (std::max(std::abs(p.x), std::abs(p.y)) > kFarthestM)
+        return report_.add(a.line, a.type, kTooLarge, "no walls");
+    }
     out_.world.walls.push_back(w);
     out_.wall_from.push_back(source);
   }
@@ -208,18 +233,23 @@ class Settler {
     return fallback;
   }
 
+  // within the bounds of our worlds, as it will be written
+  bool fits(const Piece& p) const {
+    double most = std::max({std::abs(p.at.x), std::abs(p.at.y), p.size.x, p.size.y, p.radius_m,
+                            p.z_high - p.z_low, std::abs(p.z_low - floor_z_), std::abs(p.z_high - floor_z_)});
+    for (const Vec2 c : p.corners) most = std::max({most, std::abs(c.x), std::abs(c.y)});
+    return most <= kFarthestM;
+  }
+
   void body(std::size_t index) {
     const Body& b = scene_.bodies[index];
     const std::string title = (b.def.empty() ? "" : b.def + " ") + b.type;
     std::vector<Piece> pieces;
     for (const Piece& p : b.pieces) {
-      const double side = std::max({std::abs(p.at.x), std::abs(p.at.y), p.size.x, p.size.y, p.radius_m});
-      if (!(side <= kFarthestM) || !(std::abs(p.z_low) <= kFarthestM) ||
-          !(std::abs(p.z_high) <= kFarthestM)) {
-        report_.add(p.line, title, "larger or further away than a world of ours may be");
-        continue;
-      }
-      pieces.push_back(p);
+      if (fits(p))
+        pieces.push_back(p);
+      else
+        report_.add(p.line, title, kTooLarge);
     }
     if (b.movable && pieces.size() > 1) {
       std::vector<Vec3> points;
@@ -231,6 +261,7 @@ class Settler {
       }
       auto hull = hull_piece(points);
       if (!hull) return report_.add(b.line, title, "has no extent");
+      if (!fits(*hull)) return report_.add(b.line, title, kTooLarge);
       hull->surface = pieces.front().surface;
       hull->volume_m3 = volume;
       report_.add(b.line, title, fmt::format("that it is made of {} pieces", pieces.size()),
@@ -394,8 +425,9 @@ class Settler {
 
   void robot(const FoundRobot& f) {
     sim::RobotDesc r;
-    r.name = clean(f.name).empty() ? "robot" : clean(f.name);
-    const std::string plain = r.name;
+    const std::string plain = robot_name(f.name);
+    if (plain != f.name && !f.name.empty())
+      report_.add(f.line, f.type, "the name \"" + clean(f.name) + "\"", "\"" + plain + "\"");
     r.name = name_of_its_own(plain);
     if (r.name != plain)
       report_.add(f.line, f.type, fmt::format("the name \"{}\" a second time", plain), "\"" + r.name + "\"");
@@ -430,8 +462,13 @@ class Settler {
       d.name = clean(d.name);
       const bool twice =
           std::any_of(devices.begin(), devices.end(), [&](const Device& o) { return o.name == d.name; });
-      if (twice || d.name.empty())
-        report_.add(f.line, f.type, fmt::format("a second device \"{}\"", d.name));
+      if (twice || d.name.empty() || d.name.size() > kLongestDevice)
+        report_.add(f.line, f.type,
+                    fmt::format("{} \"{}\"",
+                                twice            ? "a second device"
+                                : d.name.empty() ? "a device without a name"
+                                                 : "a device of so long a name",
+                                d.name));
       else
         devices.push_back(d);
     }

@@ -19,7 +19,7 @@ std::string num(double x, int digits = 4) {
   return s == "-0.0" ? "0.0" : s;
 }
 
-// a place or a measure, to 0.1 mm
+// a place or a measure
 std::string metres(double x) {
   std::string s = fmt::format("{:.4f}", x);
   while (s.back() == '0' && s[s.size() - 2] != '.') s.pop_back();
@@ -261,7 +261,7 @@ class Writer {
     if (p.table) {
       std::string rows;
       for (const auto& r : *p.table)
-        rows += fmt::format("{}[{}, {}, {}]", rows.empty() ? "" : ", ", num(r.distance_m, 7), num(r.value),
+        rows += fmt::format("{}[{}, {}, {}]", rows.empty() ? "" : ", ", num(r.distance_m, 9), num(r.value),
                             num(r.relative_noise, 5));
       key("table", "[" + rows + "]");
     }
@@ -314,7 +314,37 @@ class Writer {
   std::map<std::string, std::string> names_;
 };
 
+void round_place(sim::Pose2& pose) {
+  pose = {as_written(pose.x_m), as_written(pose.y_m), sim::radians(std::stod(degrees(pose.heading_rad)))};
+}
+
+void round_pair(Vec2& v) { v = {as_written(v.x), as_written(v.y)}; }
+
 }  // namespace
+
+double as_written(double metres) { return std::round(metres * 1e4) / 1e4; }
+
+void round_as_written(sim::WorldDesc& world) {
+  if (world.arena) {
+    round_pair(world.arena->size_m);
+    round_pair(world.arena->centre_m);
+    world.arena->wall_thickness_m = as_written(world.arena->wall_thickness_m);
+  }
+  for (sim::RampDesc& r : world.ramps) {
+    round_place(r.pose);
+    round_pair(r.size_m);
+    r.high_m = as_written(r.high_m);
+  }
+  for (sim::WallDesc& w : world.walls) {
+    for (Vec2& p : w.points_m) round_pair(p);
+    for (double* x : {&w.thickness_m, &w.height_m, &w.z_m}) *x = as_written(*x);
+  }
+  for (sim::ObjectDesc& o : world.objects) {
+    round_place(o.pose);
+    for (double* x : {&o.z_m, &o.radius_m, &o.size_m.x, &o.size_m.y, &o.size_m.z}) *x = as_written(*x);
+  }
+  for (sim::RobotDesc& r : world.robots) round_place(r.pose);
+}
 
 std::string write_toml(const Carried& c, const Options& options, const std::vector<Remark>& report,
                        const std::string& version) {

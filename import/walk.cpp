@@ -235,7 +235,8 @@ void Walk::lamp(const Node& n, const Affine& frame) {
       return report_.add(n, "too far away");
     const double d = length(p);  // ambient light at the middle of the world
     at_once = out.lamp.attenuation[0] + d * (out.lamp.attenuation[1] + d * out.lamp.attenuation[2]);
-    if (!(at_once > 0)) {
+    const auto& fades = out.lamp.attenuation;
+    if (!(at_once > 0) || std::max({fades[0], fades[1], fades[2]}) < kFadesLeast) {
       report_.add(n, "its attenuation makes no sense", "none");
       out.lamp.attenuation = {1, 0, 0};
       at_once = 1;

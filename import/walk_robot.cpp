@@ -265,7 +265,10 @@ void Walk::plain_fields(const Node& n, FoundRobot& out) {
   if (n.type == "DifferentialWheels") {
     const bool old = text_.year == 0 && text_.major < 6;
     out.speed_unit_rad_s = n.number("speedUnit", old ? kOldNodeSpeedUnitRadS : kNodeSpeedUnitRadS);
-    if (!(*out.speed_unit_rad_s > 0)) out.speed_unit_rad_s.reset();
+    if (!between(*out.speed_unit_rad_s, kSpeedUnitMin, kSpeedUnitMax)) {
+      report_.add(n, fmt::format("a speedUnit of {:g} rad/s", *out.speed_unit_rad_s), "the usual one");
+      out.speed_unit_rad_s.reset();
+    }
     // only the kinematic mode knows it
     if (out.kinematic) out.slip_noise = std::clamp(n.number("slipNoise", kNodeSlipNoise), 0.0, 0.5);
     if (n.number("encoderNoise", -1) > 0)
@@ -333,14 +336,17 @@ void Walk::sensors(const std::vector<const Node*>& nodes, FoundRobot& out) {
       });
       bool good = rows.size() >= 2;
       for (std::size_t i = 0; i < rows.size(); ++i) {
-        good = good && rows[i].distance_m >= 0 && rows[i].distance_m <= 1e6 && rows[i].value >= 0 &&
+        good = good && rows[i].distance_m >= 0 && rows[i].distance_m <= kFarthestRowM && rows[i].value >= 0 &&
                rows[i].value <= 1e6 && rows[i].relative_noise <= 1e6 &&
                (i == 0 || rows[i].distance_m > rows[i - 1].distance_m + 1e-7);
       }
       if (good && rows.size() <= kMostRows)
         p.table = rows;
       else
-        report_.add(*d, *table, "a table with fewer than two rows, or without order", "the profile's");
+        report_.add(
+            *d, *table,
+            fmt::format("a table with fewer than two rows, without order, or beyond {} m", kFarthestRowM),
+            "the profile's");
     }
     const std::string type = d->text("type", "generic");
     p.type = type == "generic" ? sim::SensorType::Generic : sim::SensorType::InfraRed;

@@ -270,21 +270,25 @@ class Reader {
   // `%{= fields.length.value }%` and `%<= fields.length.value >%` become `IS length`; any other script cannot
   // be unfolded
   static void unscript(Proto& p) {
+    std::string plain;
+    std::size_t done = 0;  // of the body, in `plain`
     for (std::size_t at = p.body.find('%'); at != std::string::npos; at = p.body.find('%', at + 1)) {
       if (at + 2 >= p.body.size() || (p.body[at + 1] != '{' && p.body[at + 1] != '<')) continue;
       const std::string close = p.body[at + 1] == '{' ? "}%" : ">%";
       const std::size_t end = p.body.find(close, at);
-      std::size_t from = p.body.find("fields.", at);
-      const std::size_t to = p.body.find(".value", at);
-      if (p.body[at + 2] != '=' || end == std::string::npos || from == std::string::npos || to > end ||
-          from > to || p.body.find_first_not_of(" \t", to + 6) != end ||
-          p.body.find_first_not_of(" \t", at + 3) != from) {
+      const std::size_t fields = p.body.find("fields.", at), from = fields + 7;
+      const std::size_t to = p.body.find(".value", from);
+      if (p.body[at + 2] != '=' || end == std::string::npos || fields == std::string::npos || to > end ||
+          p.body.find_first_not_of(" \t", to + 6) != end ||
+          p.body.find_first_not_of(" \t", at + 3) != fields) {
         p.has_script = true;
         return;
       }
-      from += 7;
-      p.body.replace(at, end + 2 - at, " IS " + p.body.substr(from, to - from) + " ");
+      plain += p.body.substr(done, at - done) + " IS " + p.body.substr(from, to - from) + " ";
+      done = end + 2;
+      at = end + 1;
     }
+    p.body = plain + p.body.substr(done);
   }
 
   NodePtr node(int depth) {

@@ -10,7 +10,6 @@
 #include <cstdlib>
 #include <fstream>
 #include <map>
-#include <regex>
 #include <set>
 #include <sstream>
 
@@ -22,6 +21,7 @@
 #include "library_objects.h"
 #include "link_messages.h"
 #include "object_cache.h"
+#include "pattern.h"
 #include "program_files.h"
 #include "timer_owners.h"
 
@@ -41,7 +41,7 @@ constexpr const char* kVendorHeaders = "-I/twinpuck-vendor";
 
 /// Whether a program takes the address of a register anywhere: then its files may pass it on.
 bool takes_register_addresses(const std::vector<fs::path>& sources, const std::vector<fs::path>& headers) {
-  static const std::regex kAddress(
+  static const Pattern kAddress(
       R"([=(,{\[?:)]\s*&\s*(ADC|PORT|LAT|TRIS|TMR|PR\d|T\dCON|IFS|IEC|IPC|INTCON|U[12]|I2C|DCI|TSCON|RSCON|[RT]XBUF|SPI|OC\d|IC\d|RCON|CN)[A-Z0-9]*(bits)?\b)");
   for (const auto* list : {&sources, &headers})
     for (const auto& file : *list)
@@ -52,7 +52,7 @@ bool takes_register_addresses(const std::vector<fs::path>& sources, const std::v
 /// Sources of a program for Webots, which compiles the file with the controller's name alone: not those that
 /// another one includes as text, and not further programs that lie beside it.
 std::vector<fs::path> webots_sources(const fs::path& folder, const std::vector<fs::path>& sources) {
-  static const std::regex kInclude(R"(#\s*include\s*"([^"]+\.(?:c|cpp|cc|cxx))\")"), kMain(R"(\bmain\s*\()");
+  static const Pattern kInclude(R"(#\s*include\s*"([^"]+\.(?:c|cpp|cc|cxx))\")"), kMain(R"(\bmain\s*\()");
   const std::string own = fs::weakly_canonical(folder).filename().string();
   std::set<fs::path> left_out;
   bool has_own_main = false;
@@ -147,6 +147,10 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& pro
 
 /// Splits what a compiler printed into errors and warnings; notes stay with the line before them.
 void sort_messages(const std::string& text, BuildResult& result, bool failed) {
+<<<<<<< HEAD
+  static const Pattern kSummary(R"(^\d+ (warning|error)s?( and \d+ errors?)? generated\.$)");
+=======
+>>>>>>> main
   std::istringstream lines(text);
   std::vector<std::string>* last = nullptr;
   for (std::string line; std::getline(lines, line);) {
@@ -167,6 +171,74 @@ void sort_messages(const std::string& text, BuildResult& result, bool failed) {
   }
 }
 
+<<<<<<< HEAD
+/// Everything the host exports: named in the headers of the seam, and in host_exports.def.
+std::set<std::string> host_exports() {
+  std::set<std::string> names;
+  fs::path root = source_root();
+  static const Pattern kFunction(R"(\b(tp_\w+)\s*\()");
+  for (const auto& header : files_below(root / "hal_sim/host", ".h")) {
+    const std::string file = header.filename().string();
+    if (file != "image_abi.h" && file.rfind("pins", 0) != 0) continue;
+    std::string text = read_text(header);
+    for (std::sregex_iterator it(text.begin(), text.end(), kFunction), end; it != end; ++it)
+      names.insert((*it)[1]);
+  }
+  std::istringstream lines(read_text(root / "hal_sim/cc/host_exports.def"));
+  for (std::string line; std::getline(lines, line);)
+    if (!line.empty() && line[0] != '#') names.insert(line);
+  return names;
+}
+
+/// "x.o: in function `f': main.c:12: undefined reference to `g'" -> our grammar.
+void sort_linker_messages(const std::string& text, const Program& program, BuildResult& result) {
+  std::map<std::string, fs::path> in_assembler;
+  for (const fs::path& file : program.assembler)
+    for (const std::string& name : functions_in_assembler(file)) in_assembler.emplace(name, file);
+  static const Pattern kIn(R"(in function `([^']+)':)");
+  static const Pattern kUndefined(
+      R"(^(?:.*?: )?(?:\.\./)*(\S+?:\d+|\S+\.o:\S+): (?:warning: )?undefined reference to `([^']+)')");
+  static const Pattern kPlain(R"(undefined reference to `([^']+)')");
+  static const Pattern kTwice(R"(multiple definition of `([^']+)'; .*?first defined here)");
+  auto exports = host_exports();
+  std::string function;
+  std::set<std::string> told;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    std::smatch m;
+    if (std::regex_search(line, m, kIn)) function = m[1];
+    if (std::regex_search(line, m, kPlain)) {
+      std::string name = m[1], where;
+      if (exports.count(name) || !told.insert(function + " " + name).second) continue;
+      if (std::regex_search(line, m, kUndefined)) where = m[1];
+      if (where.rfind(".o:") != std::string::npos || where.empty())
+        where = function.empty() ? "link" : function + "()";
+      static const Pattern kWebots(
+          R"((wb_|wbu_|supervisor_|robot_|camera_|speaker_|display_|servo_|connector_|pen_|differential_wheels_).*)");
+      std::string hint =
+          in_assembler.count(name) ? "it is in " + in_assembler[name].filename().string() +
+                                         ", and assembler sources are not assembled here; write it in C"
+          : std::regex_match(name, kWebots)
+              ? "a controller runs on the robot and has not this function of Webots; docs/webots.md lists "
+                "what there is, and supervisors are programs of their own"
+          : name.rfind("e_", 0) == 0
+              ? "this function of the e-puck library is not simulated yet, or its name is misspelt"
+              : "is a .c file missing from the folder, or the name misspelt?";
+      result.errors.push_back(where + ": " + (function.empty() ? "" : function + "() calls ") + name +
+                              "(): got no definition, expected one in the project or the library; " + hint);
+    } else if (std::regex_search(line, m, kTwice)) {
+      std::string name = m[1];
+      if (told.insert("twice " + name).second)
+        result.errors.push_back("link: " + name + ": got two definitions, expected one: " + line);
+    } else if (line.find("error: ") != std::string::npos || line.find("cannot ") != std::string::npos ||
+               line.find("No space") != std::string::npos) {
+      result.errors.push_back("link: " + line);
+    }
+  }
+}
+
+=======
+>>>>>>> main
 void check_main(const std::vector<CompileOutcome>& outcomes, const std::vector<CompileJob>& jobs,
                 const fs::path& folder, BuildResult& result) {
   std::vector<std::string> with_main;
@@ -211,7 +283,7 @@ void check_room(const fs::path& image, const fs::path& folder, BuildResult& resu
 void tell_of_assembler(const Program& program, const std::vector<CompileOutcome>& user, BuildResult& result) {
   for (const fs::path& file : program.assembler)
     for (const std::string& name : functions_in_assembler(file)) {
-      static const std::regex kHandler("_\\w+Interrupt");
+      static const Pattern kHandler("_\\w+Interrupt");
       if (!std::regex_match(name, kHandler) || is_library_assembler(file)) continue;
       const bool is_in_c = std::any_of(user.begin(), user.end(), [&](const CompileOutcome& o) {
         const auto symbols = read_elf(o.object).symbols;

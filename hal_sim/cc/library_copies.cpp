@@ -4,11 +4,11 @@
 #include "library_copies.h"
 
 #include <algorithm>
-#include <regex>
 #include <set>
 #include <tuple>
 
 #include "object_cache.h"
+#include "pattern.h"
 
 namespace cc {
 namespace fs = std::filesystem;
@@ -92,13 +92,13 @@ bool has_library_name(const std::string& name) {
 }
 
 const std::regex& camera_files() {
-  static const std::regex kCamera(R"(e_(calc|registers|timers|common|po\d+[kd]_registers|calc_po\w+)\.c)");
+  static const Pattern kCamera(R"(e_(calc|registers|timers|common|po\d+[kd]_registers|calc_po\w+)\.c)");
   return kCamera;
 }
 
 /// Whether a file speaks of the camera's sensor, whatever its name.
 bool speaks_of_camera(const std::string& text) {
-  static const std::regex kCameraText(R"(po(3030k|6030k|8030d|xxxx))", std::regex::icase);
+  static const Pattern kCameraText(R"(po(3030k|6030k|8030d|xxxx))", std::regex::icase);
   return std::regex_search(text, kCameraText);
 }
 
@@ -133,15 +133,14 @@ void leave_out_half_drivers(const fs::path& project, const std::set<fs::path>& u
     for (const auto& [source, folder] : folders) {
       if (folder != half.folder) continue;
       is_there = true;
-      const std::regex definition(std::string(half.handler) + R"(\s*\([^;{}]*\)\s*\{)");
+      const Pattern definition(std::string(half.handler) + R"(\s*\([^;{}]*\)\s*\{)");
       is_whole = is_whole || std::regex_search(without_comments(read_text(source)), definition);
     }
     // a handler of the program's own is the other half, too
     for (const fs::path& source : split.kept)
-      is_whole =
-          is_whole ||
-          (is_there && std::regex_search(without_comments(read_text(source)),
-                                         std::regex(std::string(half.handler) + R"(\s*\([^;{}]*\)\s*\{)")));
+      is_whole = is_whole || (is_there && std::regex_search(
+                                              without_comments(read_text(source)),
+                                              Pattern(std::string(half.handler) + R"(\s*\([^;{}]*\)\s*\{)")));
     if (is_there && !is_whole) ours.insert(half.folder);
   }
   // the slow driver stays where the project lists it alone, or the program asks for it by its folder's name
@@ -165,7 +164,7 @@ void leave_out_half_drivers(const fs::path& project, const std::set<fs::path>& u
 /// Whether a flat copy does what only the chip can: see limits.md, "The processor".
 bool needs_the_chip(const std::string& name, const std::string& text) {
   if (std::regex_match(name, camera_files()) && speaks_of_camera(text)) return true;
-  static const std::regex kChip(
+  static const Pattern kChip(
       R"(\b(ADCON[1-3]|ADCHS|ADCSSL|ADCBUF[0-9A-F]|DCICON[1-3]|TSCON|RSCON|RXBUF[0-3]|TXBUF[0-3]|)"
       R"(I2C(CON|STAT|TRN|RCV|BRG)|U[12](MODE|STA|BRG|TXREG|RXREG)|SPI[12](STAT|CON|BUF))(bits)?\b|)"
       R"(\b__builtin_(tbl|psv)|\b(asm|__asm__)\s*(volatile\s*)?\(\s*"\s*(?!nop|reset|clrwdt|pwrsav|disi))",
@@ -176,7 +175,7 @@ bool needs_the_chip(const std::string& name, const std::string& text) {
 }  // namespace
 
 std::string without_comments(const std::string& text) {
-  static const std::regex kComment(R"(/\*[^*]*\*+(?:[^/*][^*]*\*+)*/|//[^\n]*)");
+  static const Pattern kComment(R"(/\*[^*]*\*+(?:[^/*][^*]*\*+)*/|//[^\n]*)");
   return std::regex_replace(text, kComment, " ");
 }
 
@@ -217,7 +216,7 @@ LibraryCopies find_library_members(const fs::path& project, const std::vector<fs
   for (const fs::path& source : sources)
     (has_library_name(lower(source.filename().string())) ? split.replaced : split.kept).push_back(source);
   // a project that has nothing of its own is no project of copies
-  static const std::regex kMain(R"(\bmain\s*\()");
+  static const Pattern kMain(R"(\bmain\s*\()");
   for (std::size_t i = 0; i < split.replaced.size();) {
     if (std::regex_search(without_comments(read_text(split.replaced[i])), kMain)) {
       split.kept.push_back(split.replaced[i]);
@@ -228,7 +227,7 @@ LibraryCopies find_library_members(const fs::path& project, const std::vector<fs
   }
   leave_out_half_drivers(project, unlisted, split);
   std::set<std::string> included;  // last two parts of every #include: "a_d/e_prox.h", "e_led.h"
-  static const std::regex kInclude(R"(#\s*include\s*[<"]([^>"]+)[>"])");
+  static const Pattern kInclude(R"(#\s*include\s*[<"]([^>"]+)[>"])");
   for (const fs::path& source : split.kept) {
     const std::string text = without_comments(read_text(source));
     for (std::sregex_iterator it(text.begin(), text.end(), kInclude), end; it != end; ++it) {
@@ -252,14 +251,14 @@ LibraryCopies find_library_members(const fs::path& project, const std::vector<fs
 }
 
 bool is_library_assembler(const fs::path& file) {
-  static const std::regex kNames(
+  static const Pattern kNames(
       R"((e_(interrupt|isr_dci|init_codec_slave|init_dci_master|sub_dci_kickoff|const_sound|init_uart[12]|)"
       R"(uart[12]_[rt]x_char\w*|fast_copy|subtract_mean)|dataeeprom)\.s)");
   return std::regex_match(lower(file.filename().string()), kNames);
 }
 
 std::vector<std::string> functions_in_assembler(const fs::path& file) {
-  static const std::regex kGlobal(R"((^|\n)[ \t]*\.glob(a)?l[ \t]+_(\w+))");
+  static const Pattern kGlobal(R"((^|\n)[ \t]*\.glob(a)?l[ \t]+_(\w+))");
   const std::string text = read_text(file);
   std::vector<std::string> names;
   for (std::sregex_iterator it(text.begin(), text.end(), kGlobal), end; it != end; ++it)

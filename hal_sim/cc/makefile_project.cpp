@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <map>
-#include <regex>
+#include <set>
 #include <sstream>
 
 #include "build_record.h"
 #include "library_copies.h"
 #include "object_cache.h"
+#include "pattern.h"
 
 namespace cc {
 namespace fs = std::filesystem;
@@ -25,9 +26,11 @@ std::vector<std::string> words_of(const std::string& text, const std::string& se
   return words;
 }
 
+constexpr std::size_t kLongestName = 4096;  // bytes of a path, as Linux takes it
+
 class Makefile {
  public:
-  explicit Makefile(const fs::path& file) : home_(file.parent_path()) { read(file, 0); }
+  explicit Makefile(const fs::path& file) : home_(file.parent_path()) { read(file); }
 
   /// The value of a variable, with all others in it replaced.
   std::string value(const std::string& name) const { return expand(raw(name), 0); }
@@ -35,19 +38,22 @@ class Makefile {
   const std::string& source_folders() const { return source_folders_; }  ///< of `vpath` lines
 
  private:
-  static constexpr int kDeepest = 20;  // variables in variables, files in files
+  static constexpr int kDeepest = 20;              // variables in variables
+  static constexpr std::size_t kMost = 1'000'000;  // characters that all values may grow to, each $( one more
+  static constexpr std::size_t kFolder = 100;      // a folder read for $(wildcard) counts like so many
 
   std::string raw(const std::string& name) const {
     const auto found = variables_.find(name);
     return found == variables_.end() ? "" : found->second;
   }
 
-  void read(const fs::path& file, int depth) {
+  /// Reads a file, but none twice: one that includes itself would never end.
+  void read(const fs::path& file) {
     std::error_code ec;
     look_at(file);
-    if (depth > kDeepest || !fs::is_regular_file(file, ec)) return;
-    static const std::regex kAssignment(R"(^\s*(?:export\s+|override\s+)?([\w.-]+)\s*([:?+]?:?=)\s*(.*)$)");
-    static const std::regex kContinued(R"([ \t]*\\\r?\n[ \t]*)"), kComment(R"((^|[^\\])#.*$)");
+    if (!fs::is_regular_file(file, ec) || !read_.insert(fs::canonical(file, ec)).second) return;
+    static const Pattern kAssignment(R"(^\s*(?:export\s+|override\s+)?([\w.-]+)\s*([:?+]?:?=)\s*(.*)$)");
+    static const Pattern kContinued(R"(\\\r?\n[ \t]*)"), kComment(R"((^|[^\\])#.*$)");
     std::istringstream lines(std::regex_replace(read_text(file), kContinued, " "));
     for (std::string line; std::getline(lines, line);) {
       if (!line.empty() && line[0] == '\t' && line.find('=') == std::string::npos) continue;  // of a recipe
@@ -66,8 +72,7 @@ class Makefile {
         const auto words = words_of(expand(line, 0));
         for (std::size_t i = 2; i < words.size(); ++i) source_folders_ += words[i] + " ";
       } else if (line.rfind("include ", 0) == 0 || line.rfind("-include ", 0) == 0) {
-        for (const std::string& name : words_of(expand(line.substr(line.find(' ')), 0)))
-          read(home_ / name, depth + 1);
+        for (const std::string& name : words_of(expand(line.substr(line.find(' ')), 0))) read(home_ / name);
       }
     }
   }
@@ -85,16 +90,17 @@ class Makefile {
       std::size_t end = i + 1;
       for (; end < text.size() && level; ++end)
         level += text[end] == open ? 1 : text[end] == (open == '(' ? ')' : '}') ? -1 : 0;
-      if (depth < kDeepest) out += reference(text.substr(i + 1, end - i - 2), depth);
+      if (depth < kDeepest && ++grown_ < kMost) out += reference(text.substr(i + 1, end - i - 2), depth);
       i = end - 1;
     }
+    grown_ += out.size();
     return out;
   }
 
   /// What stands between $( and ).
   std::string reference(const std::string& inside, int depth) const {
     if (inside.rfind("wildcard ", 0) == 0) return wildcard(expand(inside.substr(9), depth + 1));
-    static const std::regex kReplaced(R"(^([\w.-]+):(%?)(\.\w+)=(%?)(\.\w+)$)");
+    static const Pattern kReplaced(R"(^([\w.-]+):(%?)(\.\w+)=(%?)(\.\w+)$)");
     std::smatch m;
     if (!std::regex_match(inside, m, kReplaced)) return expand(raw(inside), depth + 1);
     std::string out;
@@ -111,13 +117,14 @@ class Makefile {
   std::string wildcard(const std::string& patterns) const {
     std::string out;
     for (const std::string& pattern : words_of(patterns)) {
+      if ((grown_ += kFolder) > kMost || pattern.size() > kLongestName) continue;
       const fs::path folder = fs::path(pattern).parent_path();
       std::string form;
       for (char c : fs::path(pattern).filename().string())
         form += c == '*'                                      ? std::string(".*")
                 : std::isalnum(static_cast<unsigned char>(c)) ? std::string(1, c)
                                                               : std::string("\\") + c;
-      const std::regex matches(form);
+      const Pattern matches(form);
       std::vector<std::string> names;
       std::error_code ec;
       look_at(home_ / folder);
@@ -133,6 +140,8 @@ class Makefile {
   fs::path home_;
   std::map<std::string, std::string> variables_;
   std::string source_folders_;
+  std::set<fs::path> read_;
+  mutable std::size_t grown_ = 0;
 };
 
 }  // namespace
@@ -151,13 +160,14 @@ std::optional<MplabProject> read_makefile(const fs::path& folder) {
 
   std::vector<fs::path> places = {home};
   for (const std::string& name : words_of(makefile.value("VPATH") + " " + makefile.source_folders(), " \t:;"))
-    if (const fs::path found = resolve_path(home, name).lexically_normal(); fs::is_directory(found, ec))
+    if (const fs::path found = resolve_path(home, name).lexically_normal();
+        fs::is_directory(found, ec) && std::find(places.begin(), places.end(), found) == places.end())
       places.push_back(found);
-  static const std::regex kSources(R"((C_?)?(SRCS?|SOURCES?)(_C|_FILES)?|\w*OBJ(S|ECTS)?)",
-                                   std::regex::icase);
-  static const std::regex kOptions(R"(\w*(C(PP)?FLAGS|INCLUDES?|INC|DEFS|DEFINES)\w*)", std::regex::icase);
-  static const std::regex kFolders("INC_?DIRS?|INCLUDE_?DIRS?", std::regex::icase);  // without -I
+  static const Pattern kSources(R"((C_?)?(SRCS?|SOURCES?)(_C|_FILES)?|\w*OBJ(S|ECTS)?)", std::regex::icase);
+  static const Pattern kOptions(R"(\w*(C(PP)?FLAGS|INCLUDES?|INC|DEFS|DEFINES)\w*)", std::regex::icase);
+  static const Pattern kFolders("INC_?DIRS?|INCLUDE_?DIRS?", std::regex::icase);  // without -I
   std::string options;
+  std::set<std::string> words;  // of all lists of sources
   for (const auto& [name, raw] : makefile.variables()) {
     if (std::regex_match(name, kFolders))
       for (const std::string& word : words_of(makefile.value(name)))
@@ -165,6 +175,7 @@ std::optional<MplabProject> read_makefile(const fs::path& folder) {
     if (std::regex_match(name, kOptions)) options += makefile.value(name) + " ";
     if (!std::regex_match(name, kSources)) continue;
     for (std::string word : words_of(makefile.value(name))) {
+      if (!words.insert(word).second) continue;
       if (word.size() > 2 && word.compare(word.size() - 2, 2, ".o") == 0) word.back() = 'c';
       if (word.size() <= 2 || word.compare(word.size() - 2, 2, ".c") != 0) continue;
       const auto known = [&](const fs::path& source) {

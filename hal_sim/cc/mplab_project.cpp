@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <cctype>
-#include <regex>
 #include <sstream>
 #include <string>
 
 #include "build_record.h"
 #include "library_copies.h"
 #include "object_cache.h"
+#include "pattern.h"
 
 namespace cc {
 namespace fs = std::filesystem;
@@ -73,11 +73,11 @@ std::string without_entities(std::string text) {
 
 Listed read_configurations(const std::string& text) {
   Listed listed;
-  static const std::regex kItem(R"(<itemPath>([^<]+)</itemPath>)");
-  static const std::regex kExcluded(R"re(<item path="([^"]+)" ex="true")re");
-  static const std::regex kInclude(R"re(key="(extra|common)-include-directories"\s+value="([^"]*)")re");
-  static const std::regex kMacros(R"re(key="preprocessor-macros"\s+value="([^"]*)")re");
-  static const std::regex kMore(R"re(<appendMe\s+value="([^"]*)")re");
+  static const Pattern kItem(R"(<itemPath>([^<]+)</itemPath>)");
+  static const Pattern kExcluded(R"re(<item path="([^"]+)" ex="true")re");
+  static const Pattern kInclude(R"re(key="(extra|common)-include-directories"\s+value="([^"]*)")re");
+  static const Pattern kMacros(R"re(key="preprocessor-macros"\s+value="([^"]*)")re");
+  static const Pattern kMore(R"re(<appendMe\s+value="([^"]*)")re");
   std::vector<std::string> excluded;
   for (std::sregex_iterator it(text.begin(), text.end(), kExcluded), end; it != end; ++it)
     excluded.push_back((*it)[1]);
@@ -155,7 +155,8 @@ fs::path resolve_path(const fs::path& home, std::string text) {
   std::istringstream in(text);
   for (std::string part; std::getline(in, part, '/');)
     if (!part.empty() && part.back() != ':') parts.push_back(part);
-  if (parts.empty()) return {};
+  constexpr std::size_t kMostParts = 100;  // each is looked for in turn, and from every later one on
+  if (parts.empty() || parts.size() > kMostParts) return {};
   if (!is_absolute) return below(home, parts, 0);
   constexpr int kAncestors = 3;
   for (std::size_t first = 0; first < parts.size(); ++first) {
@@ -195,7 +196,7 @@ CompilerOptions compiler_options(const std::string& command_line) {
 }
 
 bool defines_main(const fs::path& source) {
-  static const std::regex kMain(R"(\bmain\s*\([^;{)]*\)\s*\{)");
+  static const Pattern kMain(R"(\bmain\s*\([^;{)]*\)\s*\{)");
   return std::regex_search(without_comments(read_text(source)), kMain);
 }
 

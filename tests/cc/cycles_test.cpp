@@ -46,12 +46,12 @@ int rule_named(const std::string& name) {
 
 /// Estimated own cycles of each function of a file while bench_run() ran once; checks the computed value too.
 std::map<std::string, double> estimate(const fs::path& source, const fs::path& work,
-                                       const std::string& expected) {
+                                       const std::string& expected, const std::string& level) {
   std::map<std::string, double> cycles;
-  fs::path base = work / source.stem();
+  fs::path base = work / (source.stem().string() + level);
   std::string o = base.string() + ".o", so = base.string() + ".so", dump = base.string() + ".dump";
   auto compiled = cc::run_process({std::string(TWINPUCK_BUILD_DIR) + "/twinpuck-cc", "-c", source.string(),
-                                   "-o", o, "-O1", "-fvisibility=default", "--cost-dump", dump});
+                                   "-o", o, level, "-fvisibility=default", "--cost-dump", dump});
   EXPECT_EQ(compiled.status, 0) << compiled.output;
   fs::path control = work / "control.c";
   std::ofstream(control) << "struct { long long a, b; } tp_ctl __attribute__((visibility(\"hidden\")));";
@@ -85,37 +85,66 @@ std::map<std::string, double> estimate(const fs::path& source, const fs::path& w
   return cycles;
 }
 
-}  // namespace
+struct Error {
+  double ratio = 1;  ///< estimated over counted
+  std::string function;
+  double size() const { return std::fabs(ratio - 1); }
+  double times() const { return std::max(ratio, 1 / ratio); }
+};
 
-TEST(cycles, estimate_is_within_the_published_error) {
-  fs::path data = fs::path(TWINPUCK_SOURCE_DIR) / "tests/cc/xc16-cycles";
+/// What the estimate makes of a folder's functions at one level, the best first.
+std::vector<Error> errors_of(const char* folder_name, const std::string& level) {
+  const fs::path data = fs::path(TWINPUCK_SOURCE_DIR) / "tests/cc" / folder_name;
   fake::Folder folder;
   std::map<std::string, std::string> results;
   for (const auto& row : rows_of(data / "results.csv"))
     if (row.size() == 2 && row[0] != "file") results[row[0]] = row[1];
   std::map<std::string, std::map<std::string, double>> estimates;
-  std::vector<std::pair<double, std::string>> errors;
-  for (const auto& row : rows_of(data / "cycles.csv")) {
-    if (row.size() < 8 || row[2] != "-O1") continue;
-    if (!estimates.count(row[1]))
-      estimates[row[1]] = estimate(data / "src" / row[1], folder.path, results[row[1]]);
-    auto& own = estimates[row[1]];
-    bool helper = row[3] == "helper";
-    double expected = std::stod(helper ? row[7] : row[6]), got = 0;
-    for (const auto& [name, cycles] : own)
-      if (helper ? name == row[0] : name != "bench_run") got += cycles;
-    errors.emplace_back(std::fabs(got / expected - 1), row[0]);
-    EXPECT_LT(std::max(got / expected, expected / got), 2.0)
-        << row[0] << ": got " << got << ", expected " << expected << " (cycles)";
+  std::vector<Error> errors;
+  const auto rows = rows_of(data / "cycles.csv");
+  const auto cell = [&](const std::vector<std::string>& row, const char* column) {
+    const auto at = std::find(rows[0].begin(), rows[0].end(), column);
+    return at == rows[0].end() ? std::string() : row.at(size_t(at - rows[0].begin()));
+  };
+  for (const auto& row : rows) {
+    if (cell(row, "opt") != level) continue;
+    const std::string file = cell(row, "file"), function = cell(row, "function");
+    if (!estimates.count(file))
+      estimates[file] = estimate(data / "src" / file, folder.path, results[file], level);
+    const bool helper = cell(row, "role") == "helper";
+    double counted = std::stod(cell(row, helper ? "cycles_self" : "cycles_own")), got = 0;
+    for (const auto& [name, cycles] : estimates[file])
+      if (helper ? name == function : name != "bench_run") got += cycles;
+    errors.push_back({got / counted, function});
   }
-  std::sort(errors.begin(), errors.end());
-  ASSERT_EQ(errors.size(), 78u);
-  double median = errors[39].first, ninth = errors[70].first, worst = errors.back().first;
-  std::printf("cycle estimate: median error %.1f %%, nine in ten within %.1f %%, worst %.1f %% (%s)\n",
-              median * 100, ninth * 100, worst * 100, errors.back().second.c_str());
-  EXPECT_LE(median, 0.04);
-  EXPECT_LE(ninth, 0.15);
-  EXPECT_LE(worst, 0.25);
+  std::sort(errors.begin(), errors.end(), [](const Error& a, const Error& b) { return a.size() < b.size(); });
+  return errors;
+}
+
+/// Holds the errors against what docs/cycles.md says: median, nine in ten, worst.
+void expect_within(const std::vector<Error>& errors, size_t count, double median, double ninth,
+                   double worst) {
+  ASSERT_EQ(errors.size(), count);
+  const Error& last = *std::max_element(errors.begin(), errors.end(),
+                                        [](const Error& a, const Error& b) { return a.times() < b.times(); });
+  const double half = errors[count / 2].size(), most = errors[(count * 9 + 9) / 10 - 1].size();
+  std::printf("cycle estimate: median error %.1f %%, nine in ten within %.1f %%, worst %.2f times (%s)\n",
+              half * 100, most * 100, last.times(), last.function.c_str());
+  EXPECT_LE(half, median);
+  EXPECT_LE(most, ninth);
+  EXPECT_LE(last.times(), worst) << last.function << ": estimated " << last.ratio << " of what was counted";
+}
+
+}  // namespace
+
+TEST(cycles, estimate_is_within_the_published_error) {
+  expect_within(errors_of("xc16-cycles", "-O1"), 78, 0.04, 0.15, 1.25);
+}
+
+// no rule and no number was chosen with these in sight; whoever tunes by them makes new ones
+TEST(cycles, estimate_of_functions_never_seen_is_within_the_published_error) {
+  expect_within(errors_of("xc16-cycles-blind", "-O1"), 45, 0.085, 0.275, 1.65);
+  expect_within(errors_of("xc16-cycles-blind", "-O0"), 45, 0.11, 0.32, 1.65);
 }
 
 namespace {

@@ -2,7 +2,10 @@
 // Controllers whose Makefile says which files they are and where they look: Webots' and those of GNU make.
 #include <gtest/gtest.h>
 
+#include <ctime>
+
 #include "fake_host.h"
+#include "hal_sim/cc/makefile_project.h"
 
 using namespace fake;
 
@@ -70,4 +73,28 @@ TEST(makefile_project, what_make_would_compute_by_running_something_is_left_empt
       "A = $(A)$(shell touch ran)\nSRCS := $(wildcard m*.c) $(A)\nB = $(C)\nC = $(B)\nCFLAGS = $(B) $(\n");
   auto built = build_folder(folder);
   EXPECT_TRUE(built.ok) << text_of(built);
+}
+
+TEST(makefile_project, makefiles_without_end_are_read_in_a_moment) {
+  std::string doubled = "A = x.c\n", folders = "SRC = $(wildcard", ups;
+  for (char c = 'B'; c <= 'Z'; ++c) {
+    const std::string before = std::string("$(") + char(c - 1) + ") ";
+    doubled += c + (" = " + before) + before + "\n";
+  }
+  for (int i = 0; i < 20'000; ++i) folders += " *", ups += i < 3000 ? "../" : "";
+  const std::vector<std::string> texts = {
+      "include Makefile Makefile $(wildcard *)\nSRC = main.c\n",  // reads itself
+      doubled + "SRC = main.c $(Z)\n",                            // 33 million words
+      "SRC = $(SRC) $(SRC) $(SRC)\n",
+      folders + ")\n",
+      "CFLAGS = -I/" + ups + "x\n",
+      "SRC = main.c # " + std::string(300'000, 'a') + "\nX = " + std::string(300'000, 'b') + "\n"};
+  for (const std::string& text : texts) {
+    Folder folder;
+    folder.file("prog/main.c", "int main(void) { return 0; }");
+    folder.file("prog/Makefile", text);
+    const std::clock_t begin = std::clock();
+    EXPECT_TRUE(cc::read_makefile(folder.path / "prog").has_value()) << text.substr(0, 60);
+    EXPECT_LT(double(std::clock() - begin) / CLOCKS_PER_SEC, 3) << text.substr(0, 60);
+  }
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "fake_host.h"
+#include "hal_sim/cc/mplab_project.h"
 
 using namespace fake;
 
@@ -204,4 +205,23 @@ TEST(mplab_project, handlers_and_functions_in_assembler_are_missed_by_name) {
       << text_of(built);
   EXPECT_NE(text_of(built).find("fast.s: _T3Interrupt(): got a handler in assembler"), std::string::npos)
       << text_of(built);
+}
+
+// 50,000 characters were too many for the stack
+TEST(mplab_project, names_and_comments_of_any_length_are_read) {
+  Folder folder;
+  const std::string longest(300'000, 'a');
+  folder.file("prog/main.c", "/*" + longest + "*/\n//" + longest + "\nint main(void) { return 0; }\n");
+  folder.file("prog/nbproject/configurations.xml",
+              "<itemPath>main.c</itemPath><itemPath>" + longest +
+                  ".c</itemPath><C30><property key=\"preprocessor-macros\" "
+                  "value=\"" +
+                  longest + "\"/></C30>");
+  std::string told;
+  const auto project = cc::find_mplab_project(folder.path / "prog", told);
+  ASSERT_TRUE(project.has_value()) << told;
+  EXPECT_EQ(project->sources.size(), 1u);
+  EXPECT_EQ(project->missing, 1);
+  ASSERT_EQ(project->defines.size(), 1u);
+  EXPECT_EQ(project->defines[0], longest);
 }

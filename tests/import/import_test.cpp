@@ -322,4 +322,93 @@ EPuck { }
   EXPECT_FALSE(r.world.lamps[2].on);
 }
 
+// every kind of node and field that becomes something in our world
+const char* const kEverything = R"(
+WorldInfo { basicTimeStep 32 gravity 9.81 randomSeed 7
+  contactProperties [ ContactProperties { coulombFriction 0.7 bounce 0.3 } ] }
+Background { skyColor [ 0.1 0.2 0.3 ] }
+PointLight { location 0.1 0.2 0.9 attenuation 0.5 0.25 0.125 intensity 2 ambientIntensity 0.5 color 1 0.5 0.25 }
+DirectionalLight { direction 0.1 0.2 -1 intensity 0.5 }
+RectangleArena { translation 0.1 0.2 0 rotation 0 0 1 0 floorSize 3 2 wallHeight 0.2 wallThickness 0.02 }
+RectangleArena { translation 5 5 0 rotation 0 0 1 0.5 floorSize 3 2 wallHeight 0.2 wallThickness 0.02 }
+CircleArena { translation -5 5 0 radius 0.4 wallHeight 0.2 wallThickness 0.02 }
+Wall { translation 0.1 0.9 0 rotation 0 0 1 0.3 size 0.4 0.02 0.1 }
+WoodenBox { translation 0.6 0.6 0.05 size 0.1 0.1 0.1 mass 0.2 }
+SoccerBall { translation 0.9 0.6 0.02 radius 0.02 mass 0.05 }
+OilBarrel { translation 0.9 -0.6 0.05 radius 0.05 height 0.1 }
+Solid { translation -0.6 0.3 0 rotation 0 0 1 0.2 scale 1 1 1
+  boundingObject Group { children [
+    IndexedFaceSet { coord Coordinate { point [ 0 0 0 0.2 0 0 0.1 0.1 0 0 0 0.1 0.2 0 0.1 0.1 0.1 0.1 ] }
+      coordIndex [ 0 1 2 -1 3 4 5 -1 0 1 4 3 -1 1 2 5 4 -1 2 0 3 5 -1 ] } ] }
+  physics Physics { mass 0.1 density -1 } }
+Solid { translation -0.6 -0.3 0.05 boundingObject Transform { translation 0 0 0.1 rotation 1 0 0 0.2
+  children [ Box { size 0.1 0.3 0.02 } ] } }
+Solid { translation 0 0.6 0.05 boundingObject Group { children [
+  Transform { translation 0.1 0 0 children [ Box { size 0.1 0.1 0.1 } ] } Sphere { radius 0.03 } ] }
+  physics Physics { density 500 } }
+E-puck { translation 0.3 0 0 rotation 0 0 1 1 battery [ 7000 7200 ] emitter_channel 3
+  distance_sensor_numberOfRays 5
+  turretSlot [ GPS { name "gps" } Emitter { name "radio" channel 3 range 1 baudRate 9600 } ] }
+DifferentialWheels { translation -0.3 0 0 axleLength 0.052 wheelRadius 0.0205 speedUnit 0.1 slipNoise 0.2 name "b"
+  children [
+    DistanceSensor { name "ps0" lookupTable [ 0.001 4095 0.1 0.07 34 0.7 ] numberOfRays 4 aperture 0.3
+      gaussianWidth 2 }
+    DistanceSensor { name "ps1" lookupTable [ 0.000001 4095 0.1 0.0000012 34 0.7 ] } ] }
+Supervisor { name "judge" controller "c" controllerArgs "one" }
+)";
+
+// the class of: a lookup table that ended at 4009 m, written and then refused
+TEST(Import, whatever_the_numbers_are_what_is_written_loads) {
+  const std::string text = kEverything;
+  int numbers = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    std::size_t end = at;
+    while (end < text.size() && std::string_view("0123456789.-").find(text[end]) != std::string_view::npos)
+      ++end;
+    const bool is_number = end > at && text[at - 1] == ' ' && (text[end] == ' ' || text[end] == '\n');
+    if (is_number) {
+      ++numbers;
+      for (const char* other : {"0", "3e-7", "0.004", "-0.3", "999.99996", "-1000.1", "4009"})
+        import(kNew + text.substr(0, at) + other + text.substr(end));
+    }
+    at = std::max(end, at + 1);
+  }
+  EXPECT_GT(numbers, 150);
+}
+
+TEST(Import, whatever_the_names_are_what_is_written_loads) {
+  for (const std::string& name :
+       {std::string(","), std::string("a=b"), std::string("left, right"), std::string("a\\\"b"),
+        std::string("\xc3\xa9"), std::string("tab\there"), std::string(300, 'x')}) {
+    const Result r = import(kNew + "WorldInfo { title \"" + name + "\" }\nSolid { name \"" + name +
+                            "\" boundingObject Box { size 0.1 0.1 0.1 } }\nE-puck { name \"" + name +
+                            "\" controller \"" + name + "\" translation 1 0 0 turretSlot [ GPS { name \"" +
+                            name + "\" } ] }\nE-puck { name \"" + name + "\" }\nSupervisor { name \"" + name +
+                            "\" controller \"" + name + "\" controllerArgs \"" + name + "\" }\n");
+    EXPECT_EQ(r.world.robots.size(), 2u) << name;
+    EXPECT_NE(r.made.report.size(), 0u) << name;
+  }
+}
+
+TEST(Import, what_our_worlds_have_no_room_for_is_reported) {
+  const Result far = import(kNew +
+                            "E-puck { name \"a\" children [ ] }\nDifferentialWheels { name \"b\" "
+                            "translation 1 0 0 axleLength 0.052 wheelRadius 0.0205 speedUnit 4000 children [ "
+                            "DistanceSensor { name \"ps0\" lookupTable [ 0 10 0 4009 5 0 ] } ] }\n");
+  EXPECT_TRUE(far.reports(0, {"lookupTable", "beyond 10 m", "the profile's"})) << far.all_reports();
+  EXPECT_TRUE(far.reports(0, {"a speedUnit of 4000 rad/s"})) << far.all_reports();
+  const Result bright = import(kNew + "PointLight { attenuation 0.0000001 0 0 }\n");
+  EXPECT_TRUE(bright.reports(0, {"PointLight", "attenuation makes no sense"})) << bright.all_reports();
+  const Result high = import(kNew +
+                             "RectangleArena { translation 0 0 -900 }\nSolid { translation 0 0 500 "
+                             "boundingObject Box { size 1 1 1 } }\n");
+  EXPECT_TRUE(high.reports(0, {"Solid", "larger or further away"})) << high.all_reports();
+  const Result names = import(kNew +
+                              "E-puck { name \"a,b\" turretSlot [ GPS { name "
+                              "\"a name of more than thirty-one characters\" } ] }\n");
+  EXPECT_EQ(names.world.robots.at(0).name, "a_b");
+  EXPECT_TRUE(names.reports(0, {"the name \"a,b\"", "a_b"})) << names.all_reports();
+  EXPECT_TRUE(names.reports(0, {"a device of so long a name"})) << names.all_reports();
+}
+
 }  // namespace

@@ -170,8 +170,9 @@ TEST(Loader, every_kind_of_mistake_has_its_sentence) {
        "w.toml:3:11: world.ambient: got \"sun\", expected number from 0 to 10000 W/m2"},
       {"[world]\nphysicshz = 96",
        "w.toml:3:1: unknown key 'physicshz' in world; did you mean 'physics_hz'? (keys: physics_hz, engine, "
-       "gravity, seed, ambient, interrupts, "
-       "wheel_noise, wheel_noise_law, slip)"},
+       "gravity, seed, ambient, wheel_noise, wheel_noise_law, slip)"},
+      {"[world]\ninterrupts = \"spread\"",
+       "w.toml:3:1: the key 'interrupts' is gone: there is one model of interrupts now; delete the line"},
       {"title = \"a\\u001b[31mb\"",
        "w.toml:2:9: title: got \"a\\u001b[31mb\", expected text in quotes without control characters"},
       {"title = 5", "w.toml:2:9: title: got 5, expected text in quotes"},
@@ -328,6 +329,15 @@ TEST(Loader, every_kind_of_mistake_has_its_sentence) {
   EXPECT_GE(count, 50);
   EXPECT_NE(report_of("twinpuck = 1\n[[box]]\nposition = [0, 0]\nsiz = 1\n").find(kUnknownBoxKeys),
             std::string::npos);
+}
+
+// letters were looked up in a table of white space that has no answer for them
+TEST(Loader, letters_beyond_ascii_stand_anywhere_in_strings) {
+  const auto loaded =
+      sim::parse_world("twinpuck = 1\ntitle = \"\"\"\u013b \\\n  \u00f6\"\"\"\n", "w.toml", {}, {});
+  ASSERT_TRUE(loaded.world.has_value()) << loaded.report("w.toml");
+  EXPECT_EQ(loaded.world->title, "\u013b \u00f6");
+  EXPECT_EQ(report_of("twinpuck = 1\ntitle = 0n'\u013b\n").substr(0, 20), "w.toml:2:10: not TOM");
 }
 
 TEST(Loader, the_version_is_asked_for) {
