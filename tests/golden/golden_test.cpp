@@ -32,11 +32,11 @@ TEST_P(Golden, run_repeats_to_the_last_bit) {
 
 INSTANTIATE_TEST_SUITE_P(
     Of, Golden,
-    ::testing::Combine(::testing::Values(Pinned{"maze", "worlds/maze.toml", 20, "dfaf6c46eb6eed7a"},
-                                         Pinned{"swarm", "worlds/swarm.toml", 5, "4b11889542c06c15"},
+    ::testing::Combine(::testing::Values(Pinned{"maze", "worlds/maze.toml", 20, "4509bae6eec24bd5"},
+                                         Pinned{"swarm", "worlds/swarm.toml", 5, "e76082da0e91221f"},
                                          Pinned{"push", "worlds/push.toml", 10, "f91ebaf3fed3ed69"},
                                          Pinned{"braitenberg_10", "bench/worlds/brait_10.toml", 5,
-                                                "b480092dd6366864"}),
+                                                "5aa9e310a47850b6"}),
                        ::testing::Values(1, 3)),
     [](const auto& info) {
       return std::string(std::get<0>(info.param).name) + "_threads_" +
