@@ -147,10 +147,6 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& pro
 
 /// Splits what a compiler printed into errors and warnings; notes stay with the line before them.
 void sort_messages(const std::string& text, BuildResult& result, bool failed) {
-<<<<<<< HEAD
-  static const Pattern kSummary(R"(^\d+ (warning|error)s?( and \d+ errors?)? generated\.$)");
-=======
->>>>>>> main
   std::istringstream lines(text);
   std::vector<std::string>* last = nullptr;
   for (std::string line; std::getline(lines, line);) {
@@ -171,74 +167,6 @@ void sort_messages(const std::string& text, BuildResult& result, bool failed) {
   }
 }
 
-<<<<<<< HEAD
-/// Everything the host exports: named in the headers of the seam, and in host_exports.def.
-std::set<std::string> host_exports() {
-  std::set<std::string> names;
-  fs::path root = source_root();
-  static const Pattern kFunction(R"(\b(tp_\w+)\s*\()");
-  for (const auto& header : files_below(root / "hal_sim/host", ".h")) {
-    const std::string file = header.filename().string();
-    if (file != "image_abi.h" && file.rfind("pins", 0) != 0) continue;
-    std::string text = read_text(header);
-    for (std::sregex_iterator it(text.begin(), text.end(), kFunction), end; it != end; ++it)
-      names.insert((*it)[1]);
-  }
-  std::istringstream lines(read_text(root / "hal_sim/cc/host_exports.def"));
-  for (std::string line; std::getline(lines, line);)
-    if (!line.empty() && line[0] != '#') names.insert(line);
-  return names;
-}
-
-/// "x.o: in function `f': main.c:12: undefined reference to `g'" -> our grammar.
-void sort_linker_messages(const std::string& text, const Program& program, BuildResult& result) {
-  std::map<std::string, fs::path> in_assembler;
-  for (const fs::path& file : program.assembler)
-    for (const std::string& name : functions_in_assembler(file)) in_assembler.emplace(name, file);
-  static const Pattern kIn(R"(in function `([^']+)':)");
-  static const Pattern kUndefined(
-      R"(^(?:.*?: )?(?:\.\./)*(\S+?:\d+|\S+\.o:\S+): (?:warning: )?undefined reference to `([^']+)')");
-  static const Pattern kPlain(R"(undefined reference to `([^']+)')");
-  static const Pattern kTwice(R"(multiple definition of `([^']+)'; .*?first defined here)");
-  auto exports = host_exports();
-  std::string function;
-  std::set<std::string> told;
-  std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) {
-    std::smatch m;
-    if (std::regex_search(line, m, kIn)) function = m[1];
-    if (std::regex_search(line, m, kPlain)) {
-      std::string name = m[1], where;
-      if (exports.count(name) || !told.insert(function + " " + name).second) continue;
-      if (std::regex_search(line, m, kUndefined)) where = m[1];
-      if (where.rfind(".o:") != std::string::npos || where.empty())
-        where = function.empty() ? "link" : function + "()";
-      static const Pattern kWebots(
-          R"((wb_|wbu_|supervisor_|robot_|camera_|speaker_|display_|servo_|connector_|pen_|differential_wheels_).*)");
-      std::string hint =
-          in_assembler.count(name) ? "it is in " + in_assembler[name].filename().string() +
-                                         ", and assembler sources are not assembled here; write it in C"
-          : std::regex_match(name, kWebots)
-              ? "a controller runs on the robot and has not this function of Webots; docs/webots.md lists "
-                "what there is, and supervisors are programs of their own"
-          : name.rfind("e_", 0) == 0
-              ? "this function of the e-puck library is not simulated yet, or its name is misspelt"
-              : "is a .c file missing from the folder, or the name misspelt?";
-      result.errors.push_back(where + ": " + (function.empty() ? "" : function + "() calls ") + name +
-                              "(): got no definition, expected one in the project or the library; " + hint);
-    } else if (std::regex_search(line, m, kTwice)) {
-      std::string name = m[1];
-      if (told.insert("twice " + name).second)
-        result.errors.push_back("link: " + name + ": got two definitions, expected one: " + line);
-    } else if (line.find("error: ") != std::string::npos || line.find("cannot ") != std::string::npos ||
-               line.find("No space") != std::string::npos) {
-      result.errors.push_back("link: " + line);
-    }
-  }
-}
-
-=======
->>>>>>> main
 void check_main(const std::vector<CompileOutcome>& outcomes, const std::vector<CompileJob>& jobs,
                 const fs::path& folder, BuildResult& result) {
   std::vector<std::string> with_main;
