@@ -107,7 +107,6 @@ struct ChipParts {
            bus.reader(address) == &adc;
   }
   __attribute__((always_inline)) std::uint16_t read_result(unsigned address, Cycle now) {
-    events.pass_to(now);
     return adc.read_result(static_cast<int>((address - Adc::kBuffer) / 2), now);
   }
 
@@ -116,21 +115,20 @@ struct ChipParts {
     store(address, value, bits, now);
     return end_write();
   }
-  /// What stands in a word becomes (old & keep) ^ flip: read and write by one instruction.
-  Cycle modify(unsigned address, std::uint16_t keep, std::uint16_t flip, Cycle now) {
-    const int port = Ports::latch_at(address);
-    if (port >= 0 && bus.reader(address) == &ports) return modify_latch(port, address, keep, flip, now);
-    const std::uint16_t old = read(address, 16, now);
-    return write(address, static_cast<std::uint16_t>((old & keep) ^ flip), 16, now);
+  // what stands in a word becomes (old & keep) ^ flip, read and written by one instruction: read() and
+  // write(), faster for the words that handlers change
+  /// Can modify_latch() do it?
+  bool is_latch(unsigned address) const {
+    return Ports::latch_at(address) >= 0 && bus.reader(address) == &ports;
   }
-  /// Is modify_flags() the same as modify()?
+  Cycle modify_latch(unsigned address, std::uint16_t keep, std::uint16_t flip, Cycle now);
+  /// Can modify_flags() do it?
   bool are_flags(unsigned address, Cycle now) const {
     return is_flags(address) && events.next() > now && bus.reader(address) == &interrupts;
   }
   __attribute__((always_inline)) Cycle modify_flags(unsigned address, std::uint16_t keep, std::uint16_t flip,
                                                     Cycle now) {
     const int word = flag_word(address);
-    events.pass_to(now);
     events.forget_changes();
     interrupts.forget_stir();
     const std::uint16_t old = interrupts.read_flags(word, now);
@@ -168,7 +166,6 @@ struct ChipParts {
   static bool is_flags(unsigned address) { return address - kIfs0 < kIec0 - kIfs0; }
   static int flag_word(unsigned address) { return static_cast<int>((address - kIfs0) / 2); }
 
-  Cycle modify_latch(int port, unsigned address, std::uint16_t keep, std::uint16_t flip, Cycle now);
   void begin_write(Cycle now) {
     events.run_to(now);
     events.forget_changes();

@@ -92,7 +92,8 @@ Cycle Dspic30f6014a::write(unsigned address, std::uint16_t value, unsigned bits,
   return parts_->write(address, value, bits, now);
 }
 
-Cycle ChipParts::modify_latch(int port, unsigned address, std::uint16_t keep, std::uint16_t flip, Cycle now) {
+Cycle ChipParts::modify_latch(unsigned address, std::uint16_t keep, std::uint16_t flip, Cycle now) {
+  const int port = Ports::latch_at(address);
   begin_write(now);
   const auto value = static_cast<std::uint16_t>((ports.latch(port) & keep) ^ flip);
   const std::uint16_t stored = bus.accept_plain(address, value);

@@ -31,6 +31,7 @@ void Adc::attach() {
 
 void Adc::reset(Cycle now) {
   con1_ = con2_ = con3_ = chs_ = cssl_ = 0;
+  form_ = kForms[0];
   set_times();
   buffer_.fill(0);
   sampling_ = converting_ = cruising_ = false;
@@ -125,6 +126,7 @@ void Adc::start_cruising(Half at) {
   cruise_.sequence = cruise_.count * cruise_.cycle;
   cruise_.first = cruise_.start = at;
   const std::uint16_t scanned = (con2_ & kCscna) ? cssl_ : 0;
+  cruise_.held.fill(-kNever);
   std::uint16_t left = scanned;
   for (int i = 0; i < cruise_.count; ++i) {
     if (!left) left = scanned;
@@ -161,7 +163,8 @@ void Adc::stop_cruising(Cycle now) {
 std::uint16_t Adc::slot_now(int slot, Cycle now) const {
   const auto s = static_cast<std::size_t>(slot);
   const Half held = held_instant(slot, now);
-  return held < 0 || result_of_[s] == held ? buffer_[s] : cruised_result(cruise_.channel[s], held);
+  return held < cruise_.first || result_of_[s] == held ? buffer_[s]
+                                                       : cruised_result(cruise_.channel[s], held);
 }
 
 void Adc::advance_by_stages(Cycle now) {
@@ -282,6 +285,7 @@ void Adc::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
       const std::uint16_t before = con1_, wanted = merge_lanes(con1_, value, lanes);
       con1_ = static_cast<std::uint16_t>((wanted & ~(kSamp | kDone)) | (before & kSamp) |
                                          (before & wanted & kDone));
+      form_ = kForms[con1_ >> 8 & 3];
       if (const bool waits = on() && ssrc() == kTimer3; waits != wants_timer_) {
         wants_timer_ = waits;
         timers_.want_matches(3, waits, now);

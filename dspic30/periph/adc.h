@@ -53,7 +53,7 @@ class Adc final : public SfrOwner, public EventOwner, public TimerListener {
  private:
   // half cycles: TAD may be an odd number of them
   using Half = std::int64_t;
-  static Cycle up(Half h) { return (h + 1) / 2; }
+  static Cycle up(Half h) { return (h + 1) >> 1; }
   void set_times();
   int ssrc() const { return con1_ >> 5 & 7; }
   bool asam() const { return (con1_ & 0x0004) != 0; }
@@ -67,7 +67,8 @@ class Adc final : public SfrOwner, public EventOwner, public TimerListener {
   void advance_by_stages(Cycle now);
   __attribute__((noinline)) void irregular_event(Cycle at);
   void stop_cruising(Cycle now);
-  /// Instant at which what a slot of the buffer holds at `now` was held; -1: before the cruise, or never.
+  /// Instant at which what a slot of the buffer holds at `now` was held; below cruise_.first: before the
+  /// cruise, or never.
   Half held_instant(int slot, Cycle now) const;
   std::uint16_t cruised_result(int channel, Half held) const;
   /// What a slot of the buffer holds at `now`.
@@ -114,38 +115,33 @@ class Adc final : public SfrOwner, public EventOwner, public TimerListener {
     Half sample = 0, cycle = 1, sequence = 1;  // sampling; one conversion with it; all of a sequence
     int count = 0;                             // conversions in a sequence
     std::array<std::uint8_t, 16> channel{};
-    std::array<Half, 16> held{}, done{};  // instants of a slot within its sequence
+    std::array<Half, 16> held{}, done{};  // instants of a slot within its sequence; held in none: far below 0
     Half first = 0;                       // start of the first sequence
     Half start = 0;                       // of the one under way
   } cruise_;
+  /// ADCON1.FORM: a result is ((counts ^ flip) << shift) - zero.
+  struct Form {
+    int flip, shift, zero;
+  };
+  static constexpr Form kForms[] = {{0, 0, 0}, {0, 0, 0x800}, {0, 4, 0}, {0x800, 4, 0}};
+  Form form_ = kForms[0];
   std::array<Half, 16> result_of_{};  // instant at which what stands in the buffer was held
 };
 
 // --- results of a cruise, what handlers read most ---------------------------------------------------------
 
 inline std::uint16_t Adc::formatted(int counts) const {
-  switch (con1_ >> 8 & 3) {
-    case 1:
-      return static_cast<std::uint16_t>(counts - 2048);
-    case 2:
-      return static_cast<std::uint16_t>(counts << 4);
-    case 3:
-      return static_cast<std::uint16_t>((counts ^ 0x800) << 4);
-    default:
-      return static_cast<std::uint16_t>(counts);
-  }
+  return static_cast<std::uint16_t>(((counts ^ form_.flip) << form_.shift) - form_.zero);
 }
 
 inline std::uint16_t Adc::cruised_result(int channel, Half held) const {
-  return formatted(std::clamp(f_.outside.analogue_counts(channel, held / 2), 0, 4095));
+  return formatted(f_.outside.analogue_counts(channel, held / 2));
 }
 
 inline Adc::Half Adc::held_instant(int slot, Cycle now) const {
-  if (slot >= cruise_.count) return -1;
   const auto s = static_cast<std::size_t>(slot);
   const bool done = cruise_.start + cruise_.done[s] <= 2 * now;
-  const Half start = done ? cruise_.start : cruise_.start - cruise_.sequence;
-  return start < cruise_.first ? -1 : start + cruise_.held[s];
+  return (done ? cruise_.start : cruise_.start - cruise_.sequence) + cruise_.held[s];
 }
 
 __attribute__((always_inline)) inline std::uint16_t Adc::read_result(int slot, Cycle now) {
@@ -153,7 +149,7 @@ __attribute__((always_inline)) inline std::uint16_t Adc::read_result(int slot, C
   if (!cruising_) return read_irregularly(slot, now);
   if (cruise_.start + cruise_.sequence <= 2 * now) cruise(now);
   const Half held = held_instant(slot, now);
-  if (held < 0 || result_of_[s] == held) return buffer_[s];
+  if (held < cruise_.first || result_of_[s] == held) return buffer_[s];
   result_of_[s] = held;
   return buffer_[s] = cruised_result(cruise_.channel[s], held);
 }

@@ -38,46 +38,29 @@ class Events {
   }
 
   void set(int slot, Cycle at) {
-    const auto s = static_cast<std::size_t>(slot);
-    const Cycle before = when_[s];
+    const Cycle before = when(slot);
     if (before == at) return;
-    when_[s] = at;
-    const std::uint64_t bit = std::uint64_t{1} << s;
-    active_ = at < kNever ? active_ | bit : active_ & ~bit;
-    if (noticed_ & bit) {
-      if (at < before) {
-        earliest_ = std::min(earliest_, at + delay(slot));
-        notice_ = std::min(notice_, at + delay(slot));
-      } else {
-        put_off_ = true;
-        notice_known_ &= notice_ != before + delay(slot);
-      }
-    }
-    if (at < next_)
-      next_ = at;
-    else if (before == next_)
-      refresh();
+    if (before < kNever) remove(slot);
+    when_[static_cast<std::size_t>(slot)] = at;
+    if (at < kNever) insert(slot, at);
+    if (!is_noticed(slot)) return;
+    if (at < before)
+      earliest_ = std::min(earliest_, at + delay(slot));
+    else
+      put_off_ = true;
   }
   Cycle when(int slot) const { return when_[static_cast<std::size_t>(slot)]; }
-  Cycle next() const { return next_; }
+  Cycle next() const { return queue_[0].at; }
 
   void run_to(Cycle now) {
-    if (next_ <= now) serve_to(now);
+    if (next() <= now) serve_to(now);
     reached_ = std::max(reached_, now);
   }
-  /// run_to() where it is already known that next() > now.
-  void pass_to(Cycle now) { reached_ = std::max(reached_, now); }
   /// set() of a slot that is empty, as in its own on_event(), to an instant that comes.
   void fill(int slot, Cycle at) {
-    const auto s = static_cast<std::size_t>(slot);
-    const std::uint64_t bit = std::uint64_t{1} << s;
-    when_[s] = at;
-    active_ |= bit;
-    if (noticed_ & bit) {
-      earliest_ = std::min(earliest_, at + delay(slot));
-      notice_ = std::min(notice_, at + delay(slot));
-    }
-    next_ = std::min(next_, at);
+    when_[static_cast<std::size_t>(slot)] = at;
+    insert(slot, at);
+    if (is_noticed(slot)) earliest_ = std::min(earliest_, at + delay(slot));
   }
   /// Null: nobody.
   void watch(EventWatch* watch) { watch_ = watch; }
@@ -90,75 +73,63 @@ class Events {
     earliest_ = kNever;
     put_off_ = false;
   }
-  /// Everything up to here has happened.
+  /// Everything up to here has happened, and perhaps more.
   Cycle reached() const { return reached_; }
 
   /// Earliest instant at which the processor may notice something: a slot that acts outwards, or one cycle
   /// after a slot that may set one of these flags.
   Cycle next_notice(std::uint64_t irqs) {
     if (irqs != noticed_irqs_) find_noticed(irqs);
-    if (!notice_known_) find_notice();
-    return notice_;
+    Cycle notice = kNever;
+    for (const Instant* i = queue_.data(); i->at < notice; ++i)
+      if (is_noticed(i->slot)) notice = std::min(notice, i->at + delay(i->slot));
+    return notice;
   }
   /// Earliest instant of a slot that may set one of these flags.
   Cycle next_for(std::uint64_t irqs) const {
-    Cycle next = kNever;
-    for (std::uint64_t rest = active_; rest; rest &= rest - 1) {
-      const auto s = static_cast<std::size_t>(__builtin_ctzll(rest));
-      if (slots_[s].irqs & irqs) next = std::min(next, when_[s]);
-    }
-    return next;
+    const Instant* i = queue_.data();
+    while (i->at < kNever && !(slots_[static_cast<std::size_t>(i->slot)].irqs & irqs)) ++i;
+    return i->at;
   }
 
  private:
+  struct Instant {
+    Cycle at = kNever;
+    int slot = 0;
+  };
+
   Cycle delay(int slot) const { return static_cast<Cycle>(~outward_ >> slot & 1); }
+  bool is_noticed(int slot) const { return (noticed_ >> slot & 1) != 0; }
   void find_noticed(std::uint64_t irqs) {
     noticed_irqs_ = irqs;
     noticed_ = outward_;
     for (int s = 0; s < count_; ++s)
       if (slots_[static_cast<std::size_t>(s)].irqs & irqs) noticed_ |= std::uint64_t{1} << s;
-    notice_known_ = false;
   }
-  void find_notice() {
-    notice_known_ = true;
-    notice_ = kNever;
-    for (std::uint64_t rest = active_ & noticed_; rest; rest &= rest - 1) {
-      const int s = __builtin_ctzll(rest);
-      notice_ = std::min(notice_, when_[static_cast<std::size_t>(s)] + delay(s));
-    }
+  void insert(int slot, Cycle at) {
+    Instant* place = &queue_[static_cast<std::size_t>(queued_++)];
+    place[1].at = kNever;
+    for (; place != queue_.data() && (place[-1].at > at || (place[-1].at == at && place[-1].slot > slot));
+         --place)
+      place[0] = place[-1];
+    *place = {at, slot};
   }
-  void refresh() {
-    next_ = kNever;
-    for (std::uint64_t rest = active_; rest; rest &= rest - 1)
-      next_ = std::min(next_, when_[static_cast<std::size_t>(__builtin_ctzll(rest))]);
+  void remove(int slot) {
+    Instant* place = queue_.data();
+    while (place->slot != slot) ++place;
+    for (; place->at < kNever; ++place) place[0] = place[1];
+    --queued_;
   }
   __attribute__((noinline)) void serve_to(Cycle now) {
-    while (next_ <= now) serve();
-  }
-  void serve() {
-    const Cycle at = next_;
-    if (watch_) watch_->about_to_change(at);
-    // the first slot of this instant, and what comes after it
-    std::size_t slot = kMostSlots;
-    Cycle next = kNever, notice = kNever;
-    for (std::uint64_t rest = active_; rest; rest &= rest - 1) {
-      const int s = __builtin_ctzll(rest);
-      const Cycle when = when_[static_cast<std::size_t>(s)];
-      if (when == at && slot == kMostSlots) {
-        slot = static_cast<std::size_t>(s);
-        continue;
-      }
-      next = std::min(next, when);
-      if (noticed_ >> s & 1) notice = std::min(notice, when + delay(s));
+    while (next() <= now) {
+      const Instant first = queue_[0];
+      if (watch_) watch_->about_to_change(first.at);
+      remove(first.slot);
+      when_[static_cast<std::size_t>(first.slot)] = kNever;
+      put_off_ |= is_noticed(first.slot);
+      const Slot& slot = slots_[static_cast<std::size_t>(first.slot)];
+      slot.owner->on_event(slot.id, first.at);
     }
-    const std::uint64_t bit = std::uint64_t{1} << slot;
-    next_ = next;
-    notice_ = notice;
-    notice_known_ = true;
-    put_off_ |= (noticed_ & bit) != 0;
-    when_[slot] = kNever;
-    active_ &= ~bit;
-    slots_[slot].owner->on_event(slots_[slot].id, at);
   }
 
   struct Slot {
@@ -168,14 +139,12 @@ class Events {
   };
   std::array<Cycle, kMostSlots> when_{};
   std::array<Slot, kMostSlots> slots_{};
-  std::uint64_t active_ = 0;   // slots whose instant is known
+  int count_ = 0;
+  std::array<Instant, kMostSlots + 1> queue_{};  // instants that are known, in order; then kNever
+  int queued_ = 0;
   std::uint64_t outward_ = 0;  // slots that act outwards
   // of next_notice(), for the flags of its last call; at the beginning for none
   std::uint64_t noticed_ = 0, noticed_irqs_ = ~std::uint64_t{0};
-  Cycle notice_ = kNever;  // its answer, while it is known
-  bool notice_known_ = false;
-  int count_ = 0;
-  Cycle next_ = kNever;
   Cycle reached_ = 0;
   EventWatch* watch_ = nullptr;
   Cycle earliest_ = kNever;

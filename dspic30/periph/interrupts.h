@@ -79,6 +79,7 @@ class Interrupts final : public SfrOwner {
   Cycle enter_sole(int irq, Cycle now) {
     const int level = nesting_disabled() ? 7 : priority(irq), vector = kFirstIrqVector + irq;
     stack_.emplace_back(vector, level_, now);
+    cleared_ &= ~(std::uint64_t{1} << irq);
     level_ = level;
     last_vector_ = static_cast<std::uint16_t>(vector);
     last_level_ = static_cast<std::uint16_t>(level);
@@ -134,9 +135,8 @@ class Interrupts final : public SfrOwner {
   struct Frame {
     int vector;
     int outer_level;
-    bool cleared;  // software cleared the flag since
     Cycle entered;
-    Frame(int v, int outer, Cycle at) : vector(v), outer_level(outer), cleared(false), entered(at) {}
+    Frame(int v, int outer, Cycle at) : vector(v), outer_level(outer), entered(at) {}
   };
   std::uint64_t younger_than(Cycle read, std::uint64_t flags) const;
   void set_by_program(std::uint64_t flags, Cycle now);
@@ -155,6 +155,7 @@ class Interrupts final : public SfrOwner {
   std::uint16_t last_vector_ = 0, last_level_ = 0;
   int level_ = 0;
   std::vector<Frame> stack_;
+  std::uint64_t cleared_ = 0;  // bit i: software cleared the flag of IRQ i since its handler began
   Cycle disi_until_ = 0;
   Cycle resumed_ = -1;     // first instruction after RETFIE
   int resumed_level_ = 0;  // level of the handler that ended there
@@ -223,10 +224,9 @@ __attribute__((always_inline)) inline void Interrupts::write_flags(int word, std
   }
   if (const std::uint64_t set = wanted & ~ifs_) set_by_program(set, now);
   ifs_ = wanted;
+  cleared_ |= cleared;
   for (; cleared; cleared &= cleared - 1) {
     const int i = __builtin_ctzll(cleared);
-    for (Frame& frame : stack_)
-      if (frame.vector == kFirstIrqVector + i) frame.cleared = true;
     uncleared_[static_cast<std::size_t>(i)] = 0;
     if (FlagListener* listener = listeners_[static_cast<std::size_t>(i)]) listener->flag_cleared(i, now);
   }
@@ -242,6 +242,7 @@ __attribute__((always_inline)) inline InterruptEntry Interrupts::enter(int vecto
   entry.address = (uses_alternate_table() ? 0x84u : 0x04u) + 2 * static_cast<unsigned>(vector);
   entry.first_instruction = now + kInterruptEntryCycles;
   stack_.emplace_back(vector, level_, now);
+  if (vector >= kFirstIrqVector) cleared_ &= ~(std::uint64_t{1} << (vector - kFirstIrqVector));
   level_ = entry.level;
   last_vector_ = static_cast<std::uint16_t>(vector);
   last_level_ = static_cast<std::uint16_t>(entry.level);
@@ -255,8 +256,8 @@ __attribute__((always_inline)) inline Cycle Interrupts::leave(Cycle now) {
   resumed_ = now + kInterruptReturnCycles;
   resumed_level_ = std::min(level_, 7);
   level_ = frame.outer_level;
-  if (frame.vector >= kFirstIrqVector && !frame.cleared)
-    check_cleared(frame.vector - kFirstIrqVector, frame.entered, now);
+  const int irq = frame.vector - kFirstIrqVector;
+  if (irq >= 0 && !(cleared_ >> irq & 1)) check_cleared(irq, frame.entered, now);
   stack_.pop_back();
   return now + kInterruptReturnCycles;
 }

@@ -15,6 +15,8 @@ namespace {
 
 constexpr int kPoints = static_cast<int>(std::size(kCell));
 
+constexpr double kSecondsPerCycle = 1 / static_cast<double>(kFcyHz);
+constexpr double kSettledShare = 1e-4;  // of a full battery, after which the curve is looked at again
 double seconds(Cycle span) { return static_cast<double>(span) / static_cast<double>(kFcyHz); }
 
 /// Mean of the curve: what a full battery's charge is worth.
@@ -31,16 +33,6 @@ double Battery::rest_v(double charge) {
   int i = 1;
   while (i < kPoints - 1 && kCell[i].charge < charge) ++i;
   return between(i, charge);
-}
-
-// rest_v(), looked for where it was last time: charge falls slowly
-double Battery::rest_v_near(double charge) {
-  const bool here = kCell[near_].charge >= charge && (near_ == 1 || kCell[near_ - 1].charge < charge);
-  if (!here) {
-    near_ = 1;
-    while (near_ < kPoints - 1 && kCell[near_].charge < charge) ++near_;
-  }
-  return between(near_, charge);
 }
 
 double Battery::between(int i, double charge) {
@@ -61,44 +53,44 @@ Battery::Battery(double capacity_wh, double volts, double amps)
       charge_(charge_at(volts + amps * kInnerResistanceOhm)),
       rest_v_(rest_v(charge_)) {}
 
-double Battery::share(Cycle span) const { return amps_ * seconds(span) / capacity_as_; }
-
-double Battery::charge(Cycle at) const { return charge_ - share(at - since_); }
+double Battery::charge(Cycle at) const { return charge_ - flow(at) * kSecondsPerCycle / capacity_as_; }
 
 double Battery::voltage(Cycle at) const { return rest_v(charge(at)) - amps_ * kInnerResistanceOhm; }
 
 double Battery::used_wh(Cycle at) const {
-  // the voltage falls so slowly that the mean of both ends is exact enough: 1 % of charge is some 10 mV
-  return used_wh(at, voltage(at));
-}
-
-double Battery::used_wh(Cycle at, double volts) const {
-  const double mean_v = (rest_v_ - amps_ * kInnerResistanceOhm + volts) / 2;
-  return (used_j_ + mean_v * amps_ * seconds(at - since_)) / 3600;
+  // the voltage at rest falls so slowly that the mean of both ends is exact enough: 1 % of charge is some 10
+  // mV
+  const double mean_v = (rest_v_ + rest_v(charge(at))) / 2;
+  return (used_j_ + (mean_v * flow(at) - kInnerResistanceOhm * heat(at)) * kSecondsPerCycle) / 3600;
 }
 
 double Battery::minutes_left(Cycle at) const {
-  const double drawn_as = drawn_as_ + amps_ * seconds(at - since_);
+  const double drawn_as = drawn_as_ + flow(at) * kSecondsPerCycle;
   if (drawn_as <= 0 || at <= 0) return -1;
   return std::max(0.0, charge(at)) * capacity_as_ / (drawn_as / seconds(at)) / 60;
 }
 
 void Battery::draw(double amps, Cycle at) {
   if (amps == amps_) return;
-  const double charge_now = charge(at), rest_now_v = rest_v_near(charge_now);
-  used_j_ = used_wh(at, rest_now_v - amps_ * kInnerResistanceOhm) * 3600;
-  drawn_as_ += amps_ * seconds(at - since_);
-  charge_ = charge_now;
-  rest_v_ = rest_now_v;
+  flow_ = flow(at);
+  heat_ = heat(at);
   since_ = at;
   amps_ = amps;
+  if (flow_ * kSecondsPerCycle > kSettledShare * capacity_as_) settle(at);
+}
+
+void Battery::settle(Cycle at) {
+  used_j_ = used_wh(at) * 3600;
+  drawn_as_ += flow(at) * kSecondsPerCycle;
+  charge_ = charge(at);
+  rest_v_ = rest_v(charge_);
+  flow_ = heat_ = 0;
+  since_ = at;
 }
 
 void Battery::set_voltage(double volts, Cycle at) {
-  const double amps = amps_;
-  draw(-1, at);  // settles what was drawn
-  amps_ = amps;
-  charge_ = charge_at(volts + amps * kInnerResistanceOhm);
+  settle(at);
+  charge_ = charge_at(volts + amps_ * kInnerResistanceOhm);
   rest_v_ = rest_v(charge_);
 }
 

@@ -44,20 +44,22 @@ class Battery {
 
  private:
   static double between(int point, double charge);
-  double rest_v_near(double charge);
-  /// Charge, as a share, that flows in a span.
-  double share(Cycle span) const;
-  /// used_wh() where the terminal voltage at `at` is known.
-  double used_wh(Cycle at, double volts) const;
+  /// What has flowed from settled_ to `at`: ampere cycles, and their squares, of which the inner resistance
+  /// makes heat.
+  double flow(Cycle at) const { return flow_ + amps_ * static_cast<double>(at - since_); }
+  double heat(Cycle at) const { return heat_ + amps_ * amps_ * static_cast<double>(at - since_); }
+  void settle(Cycle at);
 
   double capacity_as_;  // ampere seconds
   double amps_;
-  Cycle since_ = 0;      // the present current flows since
-  double charge_;        // then
+  Cycle since_ = 0;  // the present current flows since
+  // the state when it was settled last, and what has flowed from then to since_: emitters flash hundreds of
+  // times a second, and the state matters to whoever asks
+  double charge_;
   double rest_v_;        // of that charge
-  double used_j_ = 0;    // joule, up to then
-  double drawn_as_ = 0;  // ampere seconds, up to then
-  int near_ = 1;         // point of the curve above the charge
+  double used_j_ = 0;    // joule
+  double drawn_as_ = 0;  // ampere seconds
+  double flow_ = 0, heat_ = 0;
 };
 
 }  // namespace board

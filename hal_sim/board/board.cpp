@@ -44,6 +44,7 @@ constexpr int kOnes[16] = {0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};
 constexpr std::uint16_t kRingMask =
     bit(6) | bit(7) | bit(9) | bit(10) | bit(12) | bit(13) | bit(14) | bit(15);
 
+constexpr double kMicLoudest = 1e6;                       // counts; beyond what any converter tells apart
 constexpr std::int64_t kOpenEnd = std::int64_t{1} << 40;  // samples of a sound whose end is not known
 
 std::int64_t to_ppb(double ppm) { return static_cast<std::int64_t>(std::llround(ppm * 1000.0)); }
@@ -56,7 +57,9 @@ Board::Board(const Setup& setup)
       scan_(*this),
       basic_prox_(*this),
       battery_(setup.battery_wh, setup.battery_v, kProcessorA + kBluetoothA + kBoardA),
-      noise_(setup.seed, setup.robot) {
+      noise_(setup.seed, setup.robot),
+      mic_noise_per_face_(
+          std::llround(setup.mic_noise_counts * SampleNoise::kPerFace * (1 << kMicFraction))) {
   for (std::size_t i = 0; i < kPorts; ++i) tris_[i] = kImplemented[i];
   if (setup.camera != CameraKind::None) {
     auto sensor = std::make_unique<CameraSensor>(setup.camera);
@@ -426,17 +429,19 @@ double Board::mic_level(int microphone, Cycle at) const {
                                                                 clock_.click_at(at));
 }
 
-inline int Board::with_mic_noise(double counts, int microphone, Cycle at) const {
-  if (setup_.mic_noise_counts <= 0) return adc_counts(counts);
-  return adc_counts(counts + setup_.mic_noise_counts * noise_.normal(NoiseOf::Microphone, microphone, at));
+inline int Board::with_mic_noise(std::int64_t level, int microphone, Cycle at) const {
+  level += mic_noise_per_face_ * noise_.dice(NoiseOf::Microphone, microphone, at);
+  return static_cast<int>(std::clamp<std::int64_t>(level >> kMicFraction, 0, kAdcMax));
 }
 
 int Board::mic_counts(int microphone, Cycle at) const {
-  return may_hear_ ? mic_counts_in_sound(microphone, at) : with_mic_noise(kMicIdleCounts, microphone, at);
+  constexpr auto kSilence = static_cast<std::int64_t>((kMicIdleCounts + 0.5) * (1 << kMicFraction));
+  return may_hear_ ? mic_counts_in_sound(microphone, at) : with_mic_noise(kSilence, microphone, at);
 }
 
 int Board::mic_counts_in_sound(int microphone, Cycle at) const {
-  return with_mic_noise(mic_level(microphone, at), microphone, at);
+  const double level = std::clamp(mic_level(microphone, at), -kMicLoudest, kMicLoudest);
+  return with_mic_noise(std::llround((level + 0.5) * (1 << kMicFraction)), microphone, at);
 }
 
 void Board::publish_sound(sim::SoundField& field, sim::Clicks now) {

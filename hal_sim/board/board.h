@@ -291,7 +291,10 @@ class Board {
   double mic_level(int microphone, Cycle at) const;
   void find_sound();
   __attribute__((noinline)) int mic_counts_in_sound(int microphone, Cycle at) const;
-  int with_mic_noise(double counts, int microphone, Cycle at) const;
+  /// Levels of microphones are in 2^-kMicFraction counts, whole: a robot's are converted 50,000 times a
+  /// second.
+  static constexpr int kMicFraction = 24;
+  int with_mic_noise(std::int64_t level, int microphone, Cycle at) const;
   unsigned pulses(Cycle at) const;
   /// Cycles for which the emitter line of a sensor has been on by its latch alone; -1 when off.
   Cycle line_on_for(int sensor, Cycle at) const;
@@ -360,6 +363,7 @@ class Board {
   mutable Cycle settled_for_ = -1;  // the flash's length is nearly always the same: its exponential, once
   mutable double settled_share_ = 0;
   SampleNoise noise_;
+  std::int64_t mic_noise_per_face_;                          // of SampleNoise::dice(), as levels
   std::shared_ptr<const std::vector<std::int16_t>> on_air_;  // samples of the codec's line that the air plays
   PacketDevices packets_{clock_, setup_.robot, setup_.devices};
   VirtualDevices virtual_;

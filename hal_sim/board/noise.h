@@ -19,9 +19,9 @@
 namespace board {
 
 /// Quantum of phototransistors and accelerometer, 1.1 ms. Shorter than the time between two samples of one
-/// sensor in any of the library's drivers (9.8 ms and more), whose noise is therefore independent. Long beside
-/// the distance of equal samples in the native and in the register way, 200 to 4,000 cycles in the first two
-/// seconds: six samples in seven have the same noise in both.
+/// sensor in any of the library's drivers (9.8 ms and more), whose noise is therefore independent. Long
+/// beside the distance of equal samples in the native and in the register way, 200 to 4,000 cycles in the
+/// first two seconds: six samples in seven have the same noise in both.
 inline constexpr Cycle kSlowNoiseQuantum = 16384;  // [assumed: see above]
 /// Quantum of microphones. Shorter than any conversion (14 TAD of at least 334 ns, 69 cycles), so no two
 /// samples of a recording share their noise; the library's lie 450 or 900 cycles apart. Between the ways it
@@ -42,16 +42,16 @@ class SampleNoise {
   SampleNoise(std::uint64_t seed, int robot)
       : key_(sim::mix64(sim::mix64(seed) ^ (static_cast<std::uint64_t>(robot) << 32 | sim::kStreamBoard))) {}
 
-  /// Nearly normal, mean 0, standard deviation 1: the number of heads among 64 coins, spread evenly between
-  /// two numbers. Nothing lies beyond 8.2. A fifth of the time that an exact normal number takes.
-  __attribute__((always_inline)) double normal(NoiseOf what, int sensor, Cycle at) const {
-    const std::uint64_t coins = bits(what, sensor, at);
-    std::uint64_t ones = coins - ((coins >> 1) & 0x5555555555555555u);
-    ones = (ones & 0x3333333333333333u) + ((ones >> 2) & 0x3333333333333333u);
-    ones = ((ones + (ones >> 4)) & 0x0F0F0F0F0F0F0F0Fu) * 0x0101010101010101u >> 56;
-    // heads in the upper bits, the even spread in the lower 24: an integer, so nothing is rounded
-    const auto level = static_cast<std::int64_t>(ones << 24 | coins * 0x9E3779B97F4A7C15u >> 40);
-    return kPerHead * (static_cast<double>(level) * 0x1p-24 - 32.5);
+  /// Nearly normal, mean 0, standard deviation 1: the sum of eight dice with 256 faces. Nothing lies beyond
+  /// 4.9, and 1.6 in a thousand beyond 3 (of a normal distribution 2.7).
+  double normal(NoiseOf what, int sensor, Cycle at) const { return kPerFace * dice(what, sensor, at); }
+  /// The same before it is scaled: integer, mean 0, standard deviation 1 / kPerFace.
+  static constexpr double kPerFace = 0.004784172;  // 1 / sqrt(8 (256^2 - 1) / 12)
+  __attribute__((always_inline)) int dice(NoiseOf what, int sensor, Cycle at) const {
+    constexpr std::uint64_t kEverySecond = 0x00FF00FF00FF00FFu;
+    const std::uint64_t thrown = bits(what, sensor, at);
+    const std::uint64_t pairs = (thrown & kEverySecond) + (thrown >> 8 & kEverySecond);
+    return static_cast<int>(pairs * 0x0001000100010001u >> 48) - 8 * 255 / 2;
   }
   /// Uniform in [-1, 1).
   double uniform(NoiseOf what, int sensor, Cycle at) const {
@@ -59,8 +59,6 @@ class SampleNoise {
   }
 
  private:
-  static constexpr double kPerHead = 0.249351;  // 1 / sqrt(64 / 4 + 1 / 12)
-
   std::uint64_t bits(NoiseOf what, int sensor, Cycle at) const {
     const Cycle quantum = what == NoiseOf::Microphone ? kMicNoiseQuantum : kSlowNoiseQuantum;
     const std::uint64_t who = static_cast<std::uint32_t>(what) + static_cast<std::uint32_t>(sensor);

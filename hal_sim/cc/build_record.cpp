@@ -137,7 +137,7 @@ BuildRecord::BuildRecord(const BuildOptions& o) {
   const char* home = std::getenv("TWINPUCK_HOME");
   std::vector<std::string> asked = {TWINPUCK_DRIVER_ID,
                                     home ? home : "",
-                                    fs::current_path().string(),
+                                    o.source_dir.is_absolute() ? "" : fs::current_path().string(),
                                     o.source_dir.string(),
                                     fs::absolute(o.output).string(),
                                     o.optimisation,
@@ -150,8 +150,10 @@ BuildRecord::BuildRecord(const BuildOptions& o) {
                                     o.api_dir.string(),
                                     o.include_root.string()};
   put(asked, o.defines);
-  for (const auto* paths : {&o.include_dirs, &o.sources})
-    put(asked, std::vector<std::string>(paths->begin(), paths->end()));
+  for (const auto* paths : {&o.include_dirs, &o.sources}) {
+    asked.push_back(std::to_string(paths->size()));
+    for (const fs::path& path : *paths) asked.push_back(fs::absolute(path).string());
+  }
   question_ = content_hash(joined(asked));
   file_ = o.cache_dir / ("image-" + content_hash(fs::absolute(o.output).string()) + ".record");
 }

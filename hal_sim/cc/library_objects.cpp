@@ -99,7 +99,7 @@ std::vector<CompileJob> library_jobs(const BuildOptions& o, bool is_webots, bool
   if (o.register_way) flags.push_back("--register");
 
   const std::string salt =
-      names_of_headers({contract, cc_dir, api, root / "hal_common", root / "hal_sim/host"});
+      names_of_headers({contract, cc_dir / "libc", api, root / "hal_common", root / "hal_sim/host"});
   std::vector<CompileJob> jobs;
   const auto add = [&](const fs::path& source, const std::vector<std::string>& with) {
     jobs.push_back({source, with, salt, root.string()});

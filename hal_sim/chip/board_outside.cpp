@@ -184,8 +184,12 @@ Cycle BoardOutside::nth_edge(dspic::Pin pin, dspic::Edge edge, Cycle after, std:
 // --- analogue, serial ------------------------------------------------------------------------------------
 
 int BoardOutside::analogue_counts(int channel, Cycle at) {
-  if (channel >= kFirstIr) return board_.ir_counts(channel - kFirstIr, at, lit_for(channel - kFirstIr, at));
   if (channel >= kFirstMic && channel < kFirstAcc) return board_.mic_counts(channel - kFirstMic, at);
+  return beside_microphones(channel, at);
+}
+
+int BoardOutside::beside_microphones(int channel, Cycle at) {
+  if (channel >= kFirstIr) return board_.ir_counts(channel - kFirstIr, at, lit_for(channel - kFirstIr, at));
   if (const auto counts = board_.counts_of_others(channel, at)) return *counts;
   return channel >= kFirstAcc ? board::accelerometer_counts(board_, channel - kFirstAcc, at) : 0;
 }

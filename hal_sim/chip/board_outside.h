@@ -65,6 +65,8 @@ class BoardOutside final : public dspic::Outside {
     /// When change `n` came, from 0; -1: there was none, or it is forgotten.
     Cycle when(int n) const;
   };
+  /// analogue_counts() of every channel that is no microphone's.
+  __attribute__((noinline)) int beside_microphones(int channel, Cycle at);
   /// Cycles for which the emitter beside a sensor has been on at `at`; -1: it was off.
   Cycle lit_for(int sensor, Cycle at) const;
   void follow_emitters(dspic::Port port, Cycle at);

@@ -82,8 +82,9 @@ void ImageCopy::copy_in(const char* from) const {
 }
 
 Image::Image(std::string path) : path_(std::move(path)), symbols_(std::make_unique<Symbols>(path_)) {
-  std::ifstream file(path_, std::ios::binary);
-  file_.assign(std::istreambuf_iterator<char>(file), {});
+  std::ifstream file(path_, std::ios::binary | std::ios::ate);
+  if (file) file_.resize(static_cast<std::size_t>(file.tellg()));
+  file.seekg(0).read(file_.data(), static_cast<std::streamsize>(file_.size()));
 }
 Image::~Image() = default;
 

@@ -87,6 +87,9 @@ class Processor {
     bool alternate = false;  ///< by the alternate vector table
   };
   virtual Entry enter(int vector, Cycle now) = 0;
+  /// take(), the program's handler and leave() at once, where one interrupt is due and nobody observes.
+  /// False: nothing has happened, take() knows.
+  virtual bool serve(Cycle now) { return false; }
   /// look(), and enter() at once where there is a vector to serve.
   virtual Outlook take(Cycle now, Entry& entry) = 0;
   struct Return {

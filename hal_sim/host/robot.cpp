@@ -292,6 +292,7 @@ void Robot::deliver_now() {
       continue;
     }
     ++looks_;
+    if (processor_->serve(now_)) continue;
     Processor::Entry entry;
     const Processor::Outlook outlook = processor_->take(now_, entry);
     if (outlook.vector >= 0) {
@@ -318,24 +319,12 @@ void Robot::handle(int vector, const Processor::Entry& entry) {
   if (!handler && vector >= kTrapVector)
     handler = (entry.alternate ? image.alternate_trap_vectors : image.trap_vectors)[vector - kTrapVector];
   else if (!handler)
-    handler = (entry.alternate ? image.alternate_vectors : image.vectors)[vector];
+    handler = handler_of(vector, entry.alternate);
   if (!handler) handler = image.default_vector;
   if (!handler) miss_handler(vector, entry.alternate);
-  now_ = entry.first_instruction;
-  ++handler_depth_;
-  calm_until_ = entry.quiet_until;
-  give_budget();
-  control_.budget -= entry.saving;
-  handler();
-  --handler_depth_;
-  fold();
+  run_handler(handler, entry);
   if (observer_) observer_->handler_ends(now_);
-  const Processor::Return back = processor_->leave(now_);
-  now_ = back.next_instruction;
-  calm_until_ = back.quiet_until;
-  may_wait_ = false;  // or the next look() says so
-  ++served_;
-  note_write();
+  handler_returned(processor_->leave(now_));
 }
 
 void Robot::miss_handler(int vector, bool alternate) {
@@ -478,7 +467,8 @@ void Robot::on_rest(std::int64_t loop) {
       const Cycle start = now_;
       idle_ += calm_until_ - now_;
       now_ = calm_until_;
-      deliver_now();
+      ++looks_;
+      processor_->serve(now_) ? deliver() : deliver_now();
       const bool served = served_ != poll_served_;
       if (!served) sleep_until(kNever, round, start);
       note_poll(loop);

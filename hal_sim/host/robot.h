@@ -185,6 +185,32 @@ class Robot final : public Context {
     if (now >= calm_until_) at = 0;
     if (at < calm_until_ || at == 0) lower_calm(at);
   }
+  /// The program's function for an interrupt; null: it has none.
+  void (*handler_of(int vector, bool alternate) const)() {
+    const tp_image& image = copy_.description();
+    void (*handler)() = (alternate ? image.alternate_vectors : image.vectors)[vector];
+    return handler ? handler : image.default_vector;
+  }
+  /// Runs it, as `entry` says. Returns when it has ended, before RETFIE.
+  Cycle run_handler(void (*handler)(), const Processor::Entry& entry) {
+    now_ = entry.first_instruction;
+    ++handler_depth_;
+    calm_until_ = entry.quiet_until;
+    give_budget();
+    control_.budget -= entry.saving;
+    handler();
+    --handler_depth_;
+    fold();
+    return now_;
+  }
+  /// RETFIE is done.
+  void handler_returned(const Processor::Return& back) {
+    now_ = back.next_instruction;
+    calm_until_ = back.quiet_until;
+    may_wait_ = false;  // or the next look() says so
+    ++served_;
+    note_write();
+  }
   /// Tick boundary, before run_until().
   void begin_window(Cycle now) {
     if (stopped_ || !processor_->begin_window(now)) return;

@@ -98,13 +98,13 @@ std::uint16_t ChipProcessor::read_closely(unsigned address, unsigned bits, Cycle
 
 inline void ChipProcessor::wrote(Cycle calm) {
   robot_.note_write();
-  const Cycle t = chip_.latest();
-  robot_.calm_until(calm, t);
-  if (const Cycle stalled = parts_->nvm.stalled_until(); stalled > t) robot_.spend(stalled - t);
+  robot_.calm_until(calm, chip_.latest());
 }
 
 void ChipProcessor::write(unsigned address, std::uint16_t value, unsigned bits, Cycle now) {
-  wrote(parts_->write(address, value, bits, at(now)));
+  const Cycle t = at(now);
+  wrote(parts_->write(address, value, bits, t));
+  if (const Cycle stalled = parts_->nvm.stalled_until(); stalled > t) robot_.spend(stalled - t);
 }
 
 void ChipProcessor::modify(unsigned address, std::uint16_t keep, std::uint16_t flip, Cycle now) {
@@ -115,12 +115,12 @@ void ChipProcessor::modify(unsigned address, std::uint16_t keep, std::uint16_t f
 }
 
 void ChipProcessor::modify_other(unsigned address, std::uint16_t keep, std::uint16_t flip, Cycle t) {
-  if (!may_change_it(address) && watched_reads_ == 0) {
+  if (parts_->is_latch(address) && watched_reads_ == 0) {
     robot_.lower_horizon(t);
-    return wrote(parts_->modify(address, keep, flip, t));
+    return wrote(parts_->modify_latch(address, keep, flip, t));
   }
-  const std::uint16_t old = read_closely(address, 16, t);
-  wrote(parts_->write(address, static_cast<std::uint16_t>((old & keep) ^ flip), 16, t));
+  const std::uint16_t old = read(address, 16, t);
+  write(address, static_cast<std::uint16_t>((old & keep) ^ flip), 16, t);
 }
 
 std::uint16_t ChipProcessor::table_read(unsigned program_address, Cycle now) {
@@ -163,20 +163,30 @@ __attribute__((always_inline)) inline host::Processor::Outlook ChipProcessor::ou
   return outlook;
 }
 
-host::Processor::Outlook ChipProcessor::take(Cycle now, Entry& entry) {
+__attribute__((always_inline)) inline host::Processor::Return ChipProcessor::left(Cycle now) {
+  const Cycle next = parts_->interrupts.leave(at(now));
+  return {next, parts_->calm_until(next)};
+}
+
+bool ChipProcessor::serve(Cycle now) {
   const Cycle t = at(now);
   dspic::ChipParts& p = *parts_;
   p.events.run_to(t);
   const int irq = p.interrupts.sole_pending(t);
-  if (irq < 0 || p.is_reset_due()) return take_in_general(t, entry);
+  if (irq < 0 || p.is_reset_due()) return false;
+  const bool alternate = p.interrupts.uses_alternate_table();
+  void (*handler)() = robot_.handler_of(irq, alternate);
+  if (!handler) return false;
   watched_reads_ = 0;  // whatever waits looks again afterwards
   const Cycle first = p.interrupts.enter_sole(irq, t);
-  entry = {nullptr, first, p.events.next() <= first ? 0 : p.next_notice(), kSavingCycles,
-           p.interrupts.uses_alternate_table()};
-  return {irq, true, 0};
+  const Cycle end = robot_.run_handler(
+      handler, {nullptr, first, p.events.next() <= first ? 0 : p.next_notice(), kSavingCycles, alternate});
+  robot_.handler_returned(left(end));
+  return true;
 }
 
-host::Processor::Outlook ChipProcessor::take_in_general(Cycle t, Entry& entry) {
+host::Processor::Outlook ChipProcessor::take(Cycle now, Entry& entry) {
+  const Cycle t = at(now);
   const dspic::Outlook chip = parts_->look(t);
   if (chip.vector != dspic::kNoVector && !chip.reset_due) entry = enter_at(chip.vector, t);
   return outlook_of(chip);
@@ -195,10 +205,7 @@ host::Processor::Entry ChipProcessor::enter(int vector, Cycle now) {
   return enter_at(number, at(now));
 }
 
-host::Processor::Return ChipProcessor::leave(Cycle now) {
-  const Cycle next = parts_->interrupts.leave(at(now));
-  return {next, parts_->calm_until(next)};
-}
+host::Processor::Return ChipProcessor::leave(Cycle now) { return left(now); }
 
 host::Processor::Waiting ChipProcessor::longest_waiting(Cycle now) {
   const chip::SolderedChip::Waiting oldest = chip_.longest_waiting(now);

@@ -47,6 +47,7 @@ class ChipProcessor final : public host::Processor, private dspic::EventWatch {
   bool print(const char* bytes, std::int64_t length, int uart) override;
 
   Outlook look(Cycle now) override;
+  bool serve(Cycle now) override;
   Outlook take(Cycle now, Entry& entry) override;
   const char* why_reset() const override { return why_reset_; }
   Entry enter(int vector, Cycle now) override;
@@ -80,10 +81,10 @@ class ChipProcessor final : public host::Processor, private dspic::EventWatch {
   __attribute__((noinline)) std::uint16_t read_other(unsigned address, unsigned bits, Cycle t);
   __attribute__((noinline)) void modify_other(unsigned address, std::uint16_t keep, std::uint16_t flip,
                                               Cycle t);
-  __attribute__((noinline)) Outlook take_in_general(Cycle t, Entry& entry);
   static bool may_change_it(unsigned address);
   Outlook outlook_of(const dspic::Outlook& chip);
   Entry enter_at(int number, Cycle t);
+  Return left(Cycle now);
   /// A write has happened at latest_; `calm`: what the chip said of it.
   void wrote(Cycle calm);
 

@@ -28,6 +28,7 @@ void render_camera(const Scene& scene, int, const Vec3&, Clicks at, const std::v
 void watch_leds(const Scene&) {}
 
 Pose2 Scene::pose(int, Clicks) const { return {}; }
+BodyState Scene::state(int) const { return {}; }
 Stance stance(const Scene&, int, Clicks) { return {}; }
 
 }  // namespace sim

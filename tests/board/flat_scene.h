@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "sim_core/physics/leg.h"
 #include "sim_core/camera/camera.h"
 #include "sim_core/light/proximity.h"
 #include "sim_core/sound/sound_field.h"
@@ -26,6 +27,7 @@ class Scene {
   double relative_noise = 0;
   bool uniform_noise = false;
   Pose2 pose(int body, Clicks at) const;  ///< always the origin: true positions are tested in whole worlds
+  BodyState state(int body) const;
   std::function<Vec3(Clicks at)> force_m_s2 = [](Clicks) { return Vec3{0, 0, 9.81}; };
   std::function<Vec3(Clicks at)> turn_rad_s = [](Clicks) { return Vec3{}; };
   mutable std::vector<Question> asked;

@@ -17,7 +17,7 @@ constexpr Cycle kQuantum = board::kSlowNoiseQuantum;
 constexpr int kDraws = 200'000;
 
 // limits are four to five standard errors: mean 1 / sqrt(n) = 0.0022, sigma 1 / sqrt(2 n) = 0.0016, fourth
-// moment sqrt(96 / n) = 0.022
+// moment sqrt(96 / n) = 0.022, tails sqrt(p / n)
 TEST(SampleNoise, is_normal_with_mean_0_and_sigma_1) {
   const SampleNoise noise(7, 3);
   double sum = 0, squares = 0, cubes = 0, fourths = 0;
@@ -30,13 +30,13 @@ TEST(SampleNoise, is_normal_with_mean_0_and_sigma_1) {
   EXPECT_NEAR(sum / kDraws, 0, 0.01);
   EXPECT_NEAR(std::sqrt(squares / kDraws), 1, 0.007);
   EXPECT_NEAR(cubes / kDraws, 0, 0.04);
-  // 64 coins: 3 - 2 / 64 and a little less for the spread
-  EXPECT_NEAR(fourths / kDraws, 3 - 0.031, 0.1);
-  // the normal distribution's tails: 0.5, 0.1587, 0.02275, 0.00135
+  // eight dice: 3 - 1.2 / 8
+  EXPECT_NEAR(fourths / kDraws, 2.85, 0.1);
+  // the sum of eight dice, counted out; a normal distribution's tails are 0.5, 0.1587, 0.0228 and 0.0014
   EXPECT_NEAR(1.0 * beyond[0] / kDraws, 0.5, 0.005);
-  EXPECT_NEAR(1.0 * beyond[1] / kDraws, 0.1587, 0.004);
-  EXPECT_NEAR(1.0 * beyond[2] / kDraws, 0.02275, 0.0015);
-  EXPECT_NEAR(1.0 * beyond[3] / kDraws, 0.00135, 0.0004);
+  EXPECT_NEAR(1.0 * beyond[1] / kDraws, 0.1612, 0.004);
+  EXPECT_NEAR(1.0 * beyond[2] / kDraws, 0.0219, 0.0015);
+  EXPECT_NEAR(1.0 * beyond[3] / kDraws, 0.00082, 0.0003);
 }
 
 /// Correlation of two draws at the same and at neighbouring quanta.

@@ -32,11 +32,11 @@ TEST_P(Golden, run_repeats_to_the_last_bit) {
 
 INSTANTIATE_TEST_SUITE_P(
     Of, Golden,
-    ::testing::Combine(::testing::Values(Pinned{"maze", "worlds/maze.toml", 20, "1eb0d767b45ae13a"},
-                                         Pinned{"swarm", "worlds/swarm.toml", 5, "dae939ebf761851b"},
-                                         Pinned{"push", "worlds/push.toml", 10, "c66792a2f5ccc7d2"},
+    ::testing::Combine(::testing::Values(Pinned{"maze", "worlds/maze.toml", 20, "dfaf6c46eb6eed7a"},
+                                         Pinned{"swarm", "worlds/swarm.toml", 5, "4b11889542c06c15"},
+                                         Pinned{"push", "worlds/push.toml", 10, "f91ebaf3fed3ed69"},
                                          Pinned{"braitenberg_10", "bench/worlds/brait_10.toml", 5,
-                                                "d0c7bf56365fb2c9"}),
+                                                "b480092dd6366864"}),
                        ::testing::Values(1, 3)),
     [](const auto& info) {
       return std::string(std::get<0>(info.param).name) + "_threads_" +

@@ -170,8 +170,9 @@ TEST(Loader, every_kind_of_mistake_has_its_sentence) {
        "w.toml:3:11: world.ambient: got \"sun\", expected number from 0 to 10000 W/m2"},
       {"[world]\nphysicshz = 96",
        "w.toml:3:1: unknown key 'physicshz' in world; did you mean 'physics_hz'? (keys: physics_hz, engine, "
-       "gravity, seed, ambient, interrupts, "
-       "wheel_noise, wheel_noise_law, slip)"},
+       "gravity, seed, ambient, wheel_noise, wheel_noise_law, slip)"},
+      {"[world]\ninterrupts = \"spread\"",
+       "w.toml:3:1: the key 'interrupts' is gone: there is one model of interrupts now; delete the line"},
       {"title = \"a\\u001b[31mb\"",
        "w.toml:2:9: title: got \"a\\u001b[31mb\", expected text in quotes without control characters"},
       {"title = 5", "w.toml:2:9: title: got 5, expected text in quotes"},

@@ -53,7 +53,7 @@ Robot& Robot::battery(double volts) {
   return *this;
 }
 
-const sim::Pose2& Robot::pose() const { return test_->twin().simulation().pose(index_); }
+sim::Pose2 Robot::pose() const { return test_->twin().simulation().pose(index_); }
 host::FirmwareMind& Robot::mind() const { return test_->twin().mind(index_); }
 double Robot::distance_m() const { return test_->twin().simulation().distance_m(index_); }
 std::int64_t Robot::left_steps() const { return mind().report().left_steps; }

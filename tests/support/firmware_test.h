@@ -106,7 +106,7 @@ class Robot {
 
  private:
   friend class FirmwareTest;
-  const sim::Pose2& pose() const;
+  sim::Pose2 pose() const;
   host::FirmwareMind& mind() const;
   void copy_variable(const std::string& name, void* to, std::size_t bytes, const Caller& caller) const;
   std::string serial_text(int port) const;

@@ -22,7 +22,7 @@ class SoccerTest : public FirmwareTest {
     std::sscanf(team().labels().at(0).text.c_str(), "blue %d : %d yellow", &blue, &yellow);
     return {blue, yellow};
   }
-  const sim::BodyState& ball() { return twin().simulation().state(ball_); }
+  sim::BodyState ball() { return twin().simulation().state(ball_); }
   int ball_ = 0;
 };
 
