@@ -173,8 +173,12 @@ int AdcScan::read(Sample& kept, int sensor, Cycle at, bool lit_sample) {
   if (at < kept.until) return kept.counts;
   const std::int64_t filed = full_interrupts(at - kScanFileCycles);
   const int slot = lit_sample ? kScanLitSlot : kScanDarkSlot, shift = lit_sample ? 0 : 1;
-  keep(kept, sensor, newest(filed, slot, shift, pair_of_sensor(sensor)), lit_sample);
-  kept.until = next_sample(filed, slot, shift, pair_of_sensor(sensor));
+  const std::int64_t number = newest(filed, slot, shift, pair_of_sensor(sensor));
+  keep(kept, sensor, number, lit_sample);
+  // a pair's turn comes round every so many periods; before its first time it has to be looked for
+  kept.until = number >= 0 && number >= period_base_ && on_ && !run_.micro_only
+                   ? full_cycle((number + pairs_) * kScanPeriod + slot) + kScanFileCycles
+                   : next_sample(filed, slot, shift, pair_of_sensor(sensor));
   return kept.counts;
 }
 
