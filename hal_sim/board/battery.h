@@ -12,7 +12,6 @@
 
 namespace board {
 
-
 class Battery {
  public:
   /// `capacity_wh`: energy of a full battery at small currents, above 0. `volts`: at the terminals at cycle 0

@@ -105,9 +105,7 @@ WheelTurn Board::wheel_turn(Wheel wheel, Cycle at) const {
 
 std::int64_t Board::steps(Wheel wheel, Cycle at) const { return stepper_at(wheel, at).steps(); }
 
-unsigned Board::coils(Wheel wheel, Cycle at) const {
-  return stepper_at(wheel, at).coils();
-}
+unsigned Board::coils(Wheel wheel, Cycle at) const { return stepper_at(wheel, at).coils(); }
 
 void Board::connect_steppers(Cycle at) {
   stepper(Wheel::Left, at).connect((tris_[kD] & 0x0F) == 0, at);
@@ -188,9 +186,7 @@ void Board::port_write(char port, Register reg, std::uint16_t value, Cycle at) {
 }
 
 // a robot whose drivers are its own program, on the models of the chip
-bool Board::is_led_by_pins() const {
-  return !watches_inputs_ && !driver_ && parts_.empty();
-}
+bool Board::is_led_by_pins() const { return !watches_inputs_ && !driver_ && parts_.empty(); }
 
 void Board::write_coils(std::uint16_t value, Cycle at) {
   bool same_current = true;
@@ -243,8 +239,9 @@ void Board::latch_bit(char port, int n, bool level, Cycle at) {
 Cycle Board::port_horizon(char port, Cycle at) const {
   switch (port_index(port)) {
     case kD:
-      return driver_ ? std::min(driver_->coils_horizon(Wheel::Left, at), driver_->coils_horizon(Wheel::Right, at))
-                     : kNever;
+      return driver_
+                 ? std::min(driver_->coils_horizon(Wheel::Left, at), driver_->coils_horizon(Wheel::Right, at))
+                 : kNever;
     case kF:
       return std::min({driver_ ? driver_->pulses_horizon(at) : kNever, battery_.below(kBatteryLowV, at),
                        remote_.next_change(at)});
@@ -341,7 +338,8 @@ void Board::exchange(Cycle at) {
 
 Cycle Board::quiet_until(Cycle at) const {
   const bool has_news_of_its_own = !uarts_[0].is_quiet() || !uarts_[1].is_quiet() || !parts_.empty() ||
-                                   packets_.receivers() > 0 || codec_.was_used() || (camera_ && camera_->is_used());
+                                   packets_.receivers() > 0 || codec_.was_used() ||
+                                   (camera_ && camera_->is_used());
   if (has_news_of_its_own) return at;
   return driver_ ? driver_->quiet_until(at) : kNever;
 }

@@ -5,9 +5,9 @@
 //   firmware -- registers - tp_sfr_* -----+--> Board --> wheel angles, LEDs, IR light      (to the world)
 //                                             Board <-- sim::sense_proximity, irradiance   (from the Scene)
 //
-// Modelled: port latches, directions and pin levels; two steppers that follow their coils; IR circuit; LEDs; selector; remote
-// control's receiver; battery, fed by what is on. Motion sensors: accelerometer.h (before revision 1.3),
-// lsm330.h (1.3).
+// Modelled: port latches, directions and pin levels; two steppers that follow their coils; IR circuit; LEDs;
+// selector; remote control's receiver; battery, fed by what is on. Motion sensors: accelerometer.h (before
+// revision 1.3), lsm330.h (1.3).
 //
 // Every method takes the cycle of this robot's clock at which it happens. Cycles never go back between calls
 // that change something. Nothing depends on who looked before: const methods have no side effects, and a
@@ -25,6 +25,7 @@
 #include "hal_sim/board/camera.h"
 #include "hal_sim/board/clock.h"
 #include "hal_sim/board/codec.h"
+#include "hal_sim/board/cycle.h"
 #include "hal_sim/board/data_eeprom.h"
 #include "hal_sim/board/diagnosis.h"
 #include "hal_sim/board/i2c_bus.h"
@@ -36,7 +37,6 @@
 #include "hal_sim/board/remote.h"
 #include "hal_sim/board/uart.h"
 #include "hal_sim/board/virtual_devices.h"
-#include "hal_sim/board/cycle.h"
 
 namespace sim {
 class Scene;

@@ -6,7 +6,6 @@
 
 namespace board {
 
-
 // --- optics ------------------------------------------------------------------------------------------------
 inline constexpr double kCameraXM = 0.030;  // m ahead of the axle's middle [FRM A9]
 inline constexpr double kCameraZM = 0.028;  // m above the floor [FRM A9]

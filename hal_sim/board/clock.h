@@ -11,7 +11,6 @@
 
 namespace board {
 
-
 class RobotClock {
  public:
   /// `ppb`: parts per billion the robot's clock is fast (positive) or slow; above

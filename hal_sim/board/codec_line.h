@@ -22,7 +22,6 @@
 
 namespace board {
 
-
 class CodecLine {
  public:
   /// Samples that leave the loudspeaker one after the other, a period apart.

@@ -14,14 +14,14 @@
 
 namespace board {
 
-
 // --- clock -------------------------------------------------------------------------------------------------
 inline constexpr Cycle kFcyHz = 14'745'600;  // 7.3728 MHz x 8 / 4 [DS70143 table 19-1]
 
 // --- motors ----------------------------------------------------------------------------------------------
 inline constexpr int kStepsPerTurn = 1000;  // 20 steps a turn, gear 50:1 [FRM A1]
 // gear and wheel smooth steps that come in a row: 20 ms keeps speeds from 50 steps/s even
-inline constexpr Cycle kRotorMoveCycles = kFcyHz / 50;  // [assumed: nobody sees a wheel of 50:1 stop between steps]
+inline constexpr Cycle kRotorMoveCycles =
+    kFcyHz / 50;  // [assumed: nobody sees a wheel of 50:1 stop between steps]
 
 // --- IR circuit ------------------------------------------------------------------------------------------
 inline constexpr int kAdcMax = 4095;           // 12 bits [DS70143 20.0]

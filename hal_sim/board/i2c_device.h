@@ -10,7 +10,6 @@
 
 namespace board {
 
-
 class I2cDevice {
  public:
   virtual ~I2cDevice() = default;

@@ -11,7 +11,6 @@
 
 namespace board {
 
-
 inline constexpr double kStandardGravityMS2 =
     9.81;  // what 1 g means here [assumed: the worlds' default gravity]
 

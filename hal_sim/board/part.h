@@ -22,7 +22,6 @@
 
 namespace board {
 
-
 class Board;
 
 /// What the world file says of one part, defaults filled in.
@@ -41,8 +40,6 @@ class PartSettings {
   bool flag(const std::string& key) const;
   std::string text(const std::string& key) const;
   std::vector<double> numbers(const std::string& key) const;
-  /// The file says something about this key.
-  bool is_set(const std::string& key) const { return desc_.values.count(key) != 0; }
 
  private:
   const sim::PartKey& key_of(const std::string& key) const;

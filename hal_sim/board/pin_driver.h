@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whoever moves pins of the board without being asked at each change: the library's drivers in closed form. The
-// board asks when somebody looks at what they move; it knows no driver.
+// Whoever moves pins of the board without being asked at each change: the library's drivers in closed form.
+// The board asks when somebody looks at what they move; it knows no driver.
 #pragma once
 #include <cstdint>
 #include <optional>

@@ -114,7 +114,8 @@ class Stepper {
   /// Steps per cycle at which that changes, and until when: kNever at rest.
   double speed(Cycle at) const {
     const Motion& m = at < motion_.moved_at ? before_ : motion_;
-    return at < m.moved_at + m.move ? (static_cast<double>(m.steps) - m.from) / static_cast<double>(m.move) : 0;
+    return at < m.moved_at + m.move ? (static_cast<double>(m.steps) - m.from) / static_cast<double>(m.move)
+                                    : 0;
   }
   Cycle move_end(Cycle at) const {
     if (at < motion_.moved_at) return at;

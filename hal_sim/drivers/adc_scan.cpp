@@ -45,9 +45,7 @@ static_assert(hold_to_end(frame_of(kScanLitSlot), 3) == 349);
 
 }  // namespace
 
-Cycle scan_flash_cycles(int sensor) {
-  return kScanFlashCycles - kScanLightCycles - hold_to_end(sensor);
-}
+Cycle scan_flash_cycles(int sensor) { return kScanFlashCycles - kScanLightCycles - hold_to_end(sensor); }
 
 void AdcScan::settle(Cycle at) {
   // samples so far must not depend on frame times that are about to be forgotten
@@ -61,7 +59,8 @@ void AdcScan::settle(Cycle at) {
   const std::int64_t passed = frames(at);
   if (passed > 0) {
     runs_.push_back(run_);
-    while (runs_.size() > 1 && runs_[1].first <= run_.first + passed - kMicSamples) runs_.erase(runs_.begin());
+    while (runs_.size() > 1 && runs_[1].first <= run_.first + passed - kMicSamples)
+      runs_.erase(runs_.begin());
   }
   run_ = {run_.first + passed, full_interrupts(at), at + kScanStartCycles, run_.micro_only};
   for (auto* samples : {&dark_, &lit_})

@@ -13,9 +13,9 @@
 // Modelled: both rates, stopping and starting the converter, 4 or 5 pairs, the sample before the first flash.
 // Accelerometer samples are kept tick by tick from the first time that a program asks for one; those of
 // before are worked out then, from poses of at most 40 ms ago. Not modelled: turret sensors 8 and 9 (read 0),
-// which in their frames come before the microphones; that single frames are up to a quarter longer or shorter,
-// because the converter stands while its list changes.
-// Source: [lib: a_d/advance_ad_scan/e_ad_conv.c], facts restated.
+// which in their frames come before the microphones; that single frames are up to a quarter longer or
+// shorter, because the converter stands while its list changes. Source: [lib:
+// a_d/advance_ad_scan/e_ad_conv.c], facts restated.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -161,13 +161,13 @@ class AdcScan {
   bool on_ = false;
   int starts_ = 0;
   int pairs_ = 4;
-  Run run_;                        // the present one
-  Cycle held_since_ = -1;          // -1: not held
+  Run run_;                // the present one
+  Cycle held_since_ = -1;  // -1: not held
   std::int64_t lost_ = 0;
   Cycle first_lost_ = 0;
-  std::int64_t period_base_ = 0;   // from this period on ...
-  int pair_base_ = 0;              // ... pairs count from here
-  std::vector<Run> runs_;          // those over that the last 100 microphone samples come from
+  std::int64_t period_base_ = 0;  // from this period on ...
+  int pair_base_ = 0;             // ... pairs count from here
+  std::vector<Run> runs_;         // those over that the last 100 microphone samples come from
   std::array<Sample, 10> dark_{};
   std::array<Sample, 10> lit_{};
   AccRing acc_{};

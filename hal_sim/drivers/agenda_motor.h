@@ -12,8 +12,8 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "hal_sim/drivers/driver_params.h"
 #include "hal_sim/board/stepper.h"
+#include "hal_sim/drivers/driver_params.h"
 
 namespace drivers {
 
@@ -43,7 +43,8 @@ struct AgendaCount {
   }
 };
 
-/// The driver's statics for one wheel; the motor that they move is handed in. Copying it is how const queries look ahead.
+/// The driver's statics for one wheel; the motor that they move is handed in. Copying it is how const queries
+/// look ahead.
 class AgendaMotor {
  public:
   /// `forward` as the Stepper's.
@@ -84,8 +85,8 @@ class AgendaMotor {
     return true;
   }
 
-  /// Processes all ticks up to `tick`; pins change at their ticks. Speed 0 is stepped by the caller, firing by
-  /// firing.
+  /// Processes all ticks up to `tick`; pins change at their ticks. Speed 0 is stepped by the caller, firing
+  /// by firing.
   void advance_to(std::int64_t tick, const TickLine& line, board::Stepper& stepper) {
     if (tick <= count.tick) return;
     if (!count.counts() || speed_ == 0) {
@@ -164,8 +165,8 @@ class AgendaMotor {
   void disturb() { regular_ = 0; }
 
  private:
-  /// Steps in a row after which every one has had the time to finish, so that periods can be added up: two that
-  /// came a period after the one before.
+  /// Steps in a row after which every one has had the time to finish, so that periods can be added up: two
+  /// that came a period after the one before.
   static constexpr int kRegularSteps = 3;
   int forward_;
   int regular_ = 0;

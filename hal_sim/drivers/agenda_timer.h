@@ -119,8 +119,8 @@ class AgendaTimer {
 
   /// Ticks processed by `at`.
   std::int64_t ticks_at(Cycle at) const;
-  /// What the ticks take of each cycle that call no function of the program, as a fraction of 2^32; those that
-  /// do are run and charged one by one.
+  /// What the ticks take of each cycle that call no function of the program, as a fraction of 2^32; those
+  /// that do are run and charged one by one.
   std::uint64_t share_q32() const;
   /// Does the driver step this wheel on and on?
   bool runs(Wheel wheel) const {
@@ -179,7 +179,7 @@ class AgendaTimer {
   Cycle held_since_ = -1;          // -1: not held
   std::int64_t lost_ticks_ = 0;
   Cycle first_lost_ = 0;
-  std::vector<Node> nodes_;        // oldest first; the list is walked from the back
+  std::vector<Node> nodes_;  // oldest first; the list is walked from the back
   board::Stepper* steppers_[2];
   AgendaMotor motors_[2];
   // what queries have computed ahead of the last command; a cache, its presence changes no answer

@@ -26,7 +26,6 @@ inline constexpr Cycle kTimer3TickCycles =
 inline constexpr int kTimer3MaxSpeed = 999;  // steps/s [lib: motor_led/e_motors_timer3.c]
 inline constexpr int kTimer3Idle = 9999;     // counter at speed 0 [lib: motor_led/e_motors_timer3.c]
 
-
 // --- ADC scan --------------------------------------------------------------------------------------------
 inline constexpr Cycle kScanFrameCycles =
     900;  // 3, 5 or 6 channels alike [lib: a_d/advance_ad_scan/e_ad_conv.h]
@@ -53,8 +52,9 @@ inline constexpr Cycle kScanFlagCycles = 1;   // end of the last conversion to t
 inline constexpr Cycle kScanChannelTad = 15;  // SAMC 1 + conversion 14 [DS70143 20.7]
 inline constexpr int kMicSamples = 100;       // MIC_SAMP_NB [lib: a_d/advance_ad_scan/e_ad_conv.h]
 inline constexpr int kAccSamples = 50;        // ACC_SAMP_NB [lib: a_d/advance_ad_scan/e_ad_conv.h]
-inline constexpr Cycle kAccKeepCycles = kFcyHz / 50;  // samples are worked out as often, while poses are known
-inline constexpr int kGumstixSelector = 10;   // scans a fifth pair [lib: a_d/advance_ad_scan/e_ad_conv.c]
+inline constexpr Cycle kAccKeepCycles =
+    kFcyHz / 50;                             // between looks at it [assumed: half as long as poses are kept]
+inline constexpr int kGumstixSelector = 10;  // scans a fifth pair [lib: a_d/advance_ad_scan/e_ad_conv.c]
 
 // --- basic proximity driver ------------------------------------------------------------------------------
 inline constexpr Cycle kBasicPulseCycles = 646 * 8;  // PR1 = 645, prescale 8 [lib: a_d/e_prox.c]
@@ -75,9 +75,9 @@ inline constexpr Cycle kAgendaCountCycles = 5;      // one that counts
 inline constexpr Cycle kMotorHalfStepCycles = 123;  // coils on, the next half's cycle
 inline constexpr Cycle kMotorOffCycles = 125;       // coils off, the next half's cycle
 inline constexpr Cycle kMotorStepCycles = 107;      // coils on to stay
-inline constexpr Cycle kScanRoundIsrCycles = 7521;    // 65 frames of the scan, one round
-inline constexpr Cycle kScanAccIsrCycles = 186;       // of these, the frame with the accelerometer
-inline constexpr Cycle kScanMicroIsrCycles = 83;      // one frame of MICRO_ONLY
+inline constexpr Cycle kScanRoundIsrCycles = 7521;  // 65 frames of the scan, one round
+inline constexpr Cycle kScanAccIsrCycles = 186;     // of these, the frame with the accelerometer
+inline constexpr Cycle kScanMicroIsrCycles = 83;    // one frame of MICRO_ONLY
 inline constexpr Cycle kScanStartCycles = 15;  // from the converter's being switched on to its first frame
 /// Of both Timer 2's and the converter's handler: the reset value [lib: neither file sets it; DS70143 5.2].
 inline constexpr int kHandlerPriority = 4;

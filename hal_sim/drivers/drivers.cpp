@@ -94,7 +94,8 @@ void Drivers::add_diagnoses(std::vector<board::Diagnosis>& all) const {
                    std::string(vector) +
                        ": an event came while its flag was still set and enabled; the handler runs once for "
                        "several (too slow, or held off too long)",
-                   "make agendas' functions and handlers shorter, or mask interrupts for less", first, 0, count});
+                   "make agendas' functions and handlers shorter, or mask interrupts for less", first, 0,
+                   count});
   };
   missed("ADC", scan_.lost_frames(), scan_.first_lost());
   missed("T2", agendas_.lost_ticks(), agendas_.first_lost());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The library's drivers that the native way knows by heart: what each would do to the board's pins follows from
-// the clock, and is worked out when somebody looks.
+// The library's drivers that the native way knows by heart: what each would do to the board's pins follows
+// from the clock, and is worked out when somebody looks.
 //
 //   e_* API -- exports --> Drivers --> board's pins, lazily (board::PinDriver)
 //

@@ -15,8 +15,8 @@
 #pragma once
 #include <cstdint>
 
-#include "hal_sim/drivers/agenda_timer.h"
 #include "hal_sim/board/stepper.h"
+#include "hal_sim/drivers/agenda_timer.h"
 
 namespace drivers {
 
@@ -55,7 +55,6 @@ class TimerMotors {
     return trains_[0][index(wheel)].running || trains_[1][index(wheel)].running ||
            trains_[1][index(wheel)].coils_off_at >= 0;
   }
-  bool timer3_runs() const { return timer3_runs_; }
   /// Cycles between two interrupts of the basic driver; 0 when stopped.
   Cycle interrupt_period(Wheel wheel) const;
   void reset();

@@ -3,8 +3,8 @@
 #include <cstring>
 
 #include "hal_sim/board/board.h"
-#include "hal_sim/drivers/drivers.h"
 #include "hal_sim/board/motion_params.h"
+#include "hal_sim/drivers/drivers.h"
 #include "hal_sim/host/context.h"
 #include "hal_sim/host/pins.h"
 #include "hal_sim/host/pins_acc.h"

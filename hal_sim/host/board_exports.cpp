@@ -14,9 +14,9 @@ namespace {
 
 using board::Board;
 using board::Cycle;
+using board::Wheel;
 using drivers::Drivers;
 using drivers::TimerMotors;
-using board::Wheel;
 using host::Context;
 
 // processor time of library functions whose work happens on this side
@@ -42,7 +42,9 @@ Wheel wheel_of(tp_i64 wheel) { return wheel == 0 ? Wheel::Left : Wheel::Right; }
 void request_background(Context& context, Board& robot, int slot, Cycle period, Cycle cost) {
   const std::size_t i = static_cast<std::size_t>(slot);
   if (cost == 0 || period <= 0) period = cost = 0;
-  if (context.drivers().requests.background_period[i] == period && context.drivers().requests.background_cost[i] == cost) return;
+  if (context.drivers().requests.background_period[i] == period &&
+      context.drivers().requests.background_cost[i] == cost)
+    return;
   context.drivers().requests.background_period[i] = period;
   context.drivers().requests.background_cost[i] = cost;
   context.set_background(slot, period, cost);
@@ -191,8 +193,8 @@ tp_i64 tp_agenda_destroy(const void* function) {
   const drivers::AgendaTimer& list = Context::current().drivers().agendas();
   const Cycle cost = kDestroyCycles + kDestroyPassedCycles * list.nodes_passed(function) +
                      (list.has(function) ? kFreeCycles : 0) + hold_cost(list);
-  return change_list(cost,
-                     [&](drivers::AgendaTimer& agendas, Cycle now) { return agendas.destroy(function, now); });
+  return change_list(
+      cost, [&](drivers::AgendaTimer& agendas, Cycle now) { return agendas.destroy(function, now); });
 }
 
 tp_i64 tp_agenda_set_cycle(const void* function, tp_i64 cycle) {
@@ -214,8 +216,9 @@ tp_i64 tp_agenda_pause(const void* function) {
 }
 
 tp_i64 tp_agenda_restart(const void* function) {
-  return change_list(search_cost(function),
-                     [&](drivers::AgendaTimer& agendas, Cycle now) { return agendas.restart(function, now); });
+  return change_list(search_cost(function), [&](drivers::AgendaTimer& agendas, Cycle now) {
+    return agendas.restart(function, now);
+  });
 }
 
 void tp_agenda_begin(void) {
@@ -290,7 +293,7 @@ void tp_timer_motor_speed(tp_i64 driver, tp_i64 wheel, tp_i64 speed_steps_s) {
   const auto kind = driver == 0 ? TimerMotors::Driver::Basic : TimerMotors::Driver::Timer3;
   if (kind == TimerMotors::Driver::Timer3) note_speed(context, wheel, speed_steps_s, drivers::kMaxSpeed);
   context.drivers().timer_motors().set_speed(kind, which, static_cast<int>(speed_steps_s), now,
-                                 robot.stepper(which, now));
+                                             robot.stepper(which, now));
   robot.follow_power(now);
   if (kind == TimerMotors::Driver::Basic) {
     const Cycle period = context.drivers().timer_motors().interrupt_period(which);

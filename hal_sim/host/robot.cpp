@@ -489,8 +489,7 @@ void Robot::sleep_until(Cycle target, Cycle round, Cycle start) {
   if (target < kNever) target = end_of_round(target);
   while (now_ < target) {
     deliver();
-    if (now_ != start &&
-        served_ != poll_served_)  // a handler ran: look again
+    if (now_ != start && served_ != poll_served_)  // a handler ran: look again
       break;
     check_blocked();
     const Cycle stop = std::min(target, next_disturbance());

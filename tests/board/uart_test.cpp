@@ -113,19 +113,6 @@ TEST(Uart, ring_overwrites_silently) {
   EXPECT_EQ(w.uart.take(late), -1);
 }
 
-TEST(Uart, hardware_buffer_overruns_after_four_bytes) {
-  Wired w;
-  w.uart.init_raw(true, 7, 0);
-  w.end->inject("abcdef", 0);
-  w.uart.exchange(0);
-  const Cycle late = 10 * kByte;
-  EXPECT_EQ(w.uart.raw_available(late), 4);
-  EXPECT_TRUE(w.uart.overrun(late));
-  EXPECT_EQ(w.uart.raw_take(late), 'a');
-  w.uart.clear_overrun(late);
-  EXPECT_EQ(w.uart.raw_take(late), -1);
-}
-
 TEST(Uart, other_rates) {
   Uart uart;
   uart.init_library(0, 0);

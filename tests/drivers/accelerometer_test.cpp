@@ -8,9 +8,9 @@
 
 #include "hal_sim/board/board.h"
 #include "hal_sim/host/pins_acc.h"
+#include "tests/board/flat_scene.h"
 #include "tests/drivers/driven_board.h"
 #include "tests/drivers/fake_context.h"
-#include "tests/board/flat_scene.h"
 #include "tests/drivers/scan_times.h"
 
 namespace {

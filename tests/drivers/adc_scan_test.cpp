@@ -9,8 +9,8 @@
 #include <random>
 
 #include "hal_sim/board/board.h"
-#include "tests/drivers/driven_board.h"
 #include "tests/board/flat_scene.h"
+#include "tests/drivers/driven_board.h"
 #include "tests/drivers/scan_times.h"
 
 namespace {
@@ -209,8 +209,8 @@ TEST(AdcScan, refreshes_each_sensor_63_times_a_second) {
   }
 }
 
-// a flash lasts 5 interrupts, 4500 cycles; its samples are taken 349 and 169 cycles before the end of the last. They are
-// filed 117 cycles after it.
+// a flash lasts 5 interrupts, 4500 cycles; its samples are taken 349 and 169 cycles before the end of the
+// last. They are filed 117 cycles after it.
 TEST(AdcScan, flash_and_sample_instants) {
   sim::Scene scene;
   DrivenBoard robot{board::Setup{}};

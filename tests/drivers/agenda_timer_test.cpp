@@ -12,9 +12,9 @@
 
 namespace {
 
-using drivers::AgendaTimer;
 using board::Cycle;
 using board::Wheel;
+using drivers::AgendaTimer;
 
 constexpr Cycle kSecond = 14'745'600;
 constexpr Cycle kTick = 1475;

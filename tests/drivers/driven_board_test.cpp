@@ -79,7 +79,8 @@ TEST(Board, basic_driver_moves_the_same_wheels) {
   DrivenBoard robot{board::Setup{}};
   robot.init_ports(0);
   auto set = [&](Wheel wheel, int v, Cycle at) {
-    robot.timer_motors().set_speed(drivers::TimerMotors::Driver::Basic, wheel, v, at, robot.stepper(wheel, at));
+    robot.timer_motors().set_speed(drivers::TimerMotors::Driver::Basic, wheel, v, at,
+                                   robot.stepper(wheel, at));
   };
   set(Wheel::Left, 500, 0);
   set(Wheel::Right, -500, 0);

@@ -9,9 +9,9 @@
 #include "hal_sim/board/sound_params.h"
 #include "hal_sim/host/pins_dsp.h"
 #include "hal_sim/host/pins_sound.h"
+#include "tests/board/flat_scene.h"
 #include "tests/drivers/driven_board.h"
 #include "tests/drivers/fake_context.h"
-#include "tests/board/flat_scene.h"
 #include "tests/drivers/scan_times.h"
 
 namespace {

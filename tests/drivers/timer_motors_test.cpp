@@ -11,8 +11,8 @@ namespace {
 
 using board::Cycle;
 using board::Stepper;
-using drivers::TimerMotors;
 using board::Wheel;
+using drivers::TimerMotors;
 using Driver = drivers::TimerMotors::Driver;
 
 constexpr Cycle kSecond = 14'745'600;
