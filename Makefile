@@ -65,13 +65,14 @@ view:
 dspic:
 	@scripts/build_dspic.sh '$(XC16)' '$(FW)' $(BUILD)/dspic
 
-## check: rules of the code: includes, sources of numbers, formatting, contract
-check: setup
+## check: rules of the code: includes, sources of numbers, formatting, contract, timings
+check: tool
 	@scripts/setup.sh check
 	@scripts/check.py
 	@scripts/check_contract.py
 	@scripts/gen_sfr_header.py --check
 	@scripts/gen_sfr_table.py --check
+	@$(BUILD)/twinpuck timings --check
 
 ## format: format C++ sources in place
 format:

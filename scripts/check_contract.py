@@ -88,7 +88,7 @@ def definitions(source, contract):
             chosen = next((p for switch, p in choices.items() if switch in switches), choices[None])
             prefixes.setdefault(name, chosen)
     found = []
-    text = re.sub(r"__attribute__\(\(\w+\)\)\s*|\bTAKES\(\d+\)\s*", "", raw)
+    text = re.sub(r"__attribute__\(\(\w+\)\)\s*|\bTAKES\(\w+\)\s*", "", raw)
     blank = lambda match: re.sub(r"[^\n]", " ", match.group(0))  # keeps line numbers
     text = re.sub(r"/\*.*?\*/", blank, text, flags=re.S)
     code = re.sub(r"^[ \t]*#(?:[^\n]*\\\n)*[^\n]*", blank, text, flags=re.M)

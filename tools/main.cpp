@@ -31,6 +31,7 @@ int main(int argc, char** argv) {
   tools::add_list(app, exit_code);
   tools::add_import(app, exit_code);
   tools::add_lab(app, exit_code);
+  tools::add_timings(app, exit_code);
   tools::add_help(app);
   try {
     app.parse(argc, argv);

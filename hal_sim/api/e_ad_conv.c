@@ -11,8 +11,7 @@
 #define GUMSTIX_POSITION 10  /* selector position that scans the turret's pair too */
 #define ACC_COUNTER_MAX 64   /* where updateAccI2CCounter stops */
 #define TICK_COUNTER_MAX 65535u
-/* registers of the converter; after its start; the last look at the buffer's index [measured: register way] */
-#define SET_UP_CYCLES 79
+/* of the set-up, after the converter's start; the last look at the buffer's index [measured: register way] */
 #define STARTED_CYCLES 24
 #define FILLED_CYCLES 7
 
@@ -67,7 +66,7 @@ TAKES(0) static void refresh_all(void) {
 
 TAKES(0) void e_init_ad_scan(unsigned char only_micro) {
   selector = getselector();
-  tp_spend(SET_UP_CYCLES);
+  tp_spend(T_SCAN_INIT - STARTED_CYCLES);
   tp_scan_start(only_micro == MICRO_ONLY, selector == GUMSTIX_POSITION);
   if (only_micro == MICRO_ONLY) {
     tp_spend(STARTED_CYCLES);
@@ -92,9 +91,9 @@ unsigned char e_ad_is_acquisition_completed(void) {
   return twinpuck_interrupts_seen > 0;
 }
 
-TAKES(13) void e_ad_scan_on(void) { tp_scan_switch(1); }
+TAKES(T_SCAN_ON) void e_ad_scan_on(void) { tp_scan_switch(1); }
 
-TAKES(9) void e_ad_scan_off(void) {
+TAKES(T_SCAN_OFF) void e_ad_scan_off(void) {
   tp_scan_switch(0);
   refresh_all();
   twinpuck_refresh_mic(); /* later the past is forgotten */

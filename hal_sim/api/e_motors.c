@@ -27,7 +27,7 @@ void run_left_motor(void) { tp_motor_run(LEFT); }
 
 void run_right_motor(void) { tp_motor_run(RIGHT); }
 
-TAKES(5) void e_init_motors(void) {
+TAKES(T_INIT_MOTORS) void e_init_motors(void) {
   tp_motor_agenda(LEFT, (const void *)run_left_motor);
   tp_motor_agenda(RIGHT, (const void *)run_right_motor);
   e_activate_agenda(run_left_motor, 0);
@@ -47,10 +47,10 @@ void e_set_speed(int linear_speed, int angular_speed) {
   e_set_speed_right((int)((unsigned int)linear_speed + (unsigned int)angular_speed));
 }
 
-TAKES(4) int e_get_steps_left() { return (int)(tp_motor_steps(LEFT) - left_zero); }
+TAKES(T_GET_STEPS) int e_get_steps_left() { return (int)(tp_motor_steps(LEFT) - left_zero); }
 
-TAKES(4) int e_get_steps_right() { return (int)(tp_motor_steps(RIGHT) - right_zero); }
+TAKES(T_GET_STEPS) int e_get_steps_right() { return (int)(tp_motor_steps(RIGHT) - right_zero); }
 
-TAKES(4) void e_set_steps_left(int steps_left) { left_zero = tp_motor_steps(LEFT) - steps_left; }
+TAKES(T_SET_STEPS) void e_set_steps_left(int steps_left) { left_zero = tp_motor_steps(LEFT) - steps_left; }
 
-TAKES(4) void e_set_steps_right(int steps_right) { right_zero = tp_motor_steps(RIGHT) - steps_right; }
+TAKES(T_SET_STEPS) void e_set_steps_right(int steps_right) { right_zero = tp_motor_steps(RIGHT) - steps_right; }

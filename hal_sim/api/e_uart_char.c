@@ -9,10 +9,10 @@
  */
 #include "uart/e_uart_char.h"
 
+#include "hal_sim/api/timings.h"
 #include "hal_sim/host/pins.h"
 
 #define UART_PRIORITY 5
-#define SET_UP_CYCLES 102 /* registers, and a division for the rate [measured: register way] */
 #define UART_ENTRY_CYCLES 16 /* [estimated: entry 4, three words saved, RETFIE 3] */
 #define BURST 4              /* bytes an interrupt loads */
 
@@ -65,7 +65,7 @@ static int take(int number, char *car) {
 }
 
 void e_init_uart1(void) {
-  tp_spend(SET_UP_CYCLES);
+  tp_spend(T_INIT_UART);
   tp_irq_install(TP_V_U1TX, serve_uart1, UART_PRIORITY, UART_ENTRY_CYCLES);
   tp_uart_init(1, BAUD115200);
 }
@@ -79,7 +79,7 @@ void e_send_uart1_char(const char *buff, int length) { begin(&uart1, 1, buff, le
 int e_uart1_sending(void) { return uart1.busy; }
 
 void e_init_uart2(int baud) {
-  tp_spend(SET_UP_CYCLES);
+  tp_spend(T_INIT_UART);
   tp_irq_install(TP_V_U2TX, serve_uart2, UART_PRIORITY, UART_ENTRY_CYCLES);
   tp_uart_init(2, baud);
 }

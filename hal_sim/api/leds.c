@@ -9,21 +9,27 @@
 
 static const unsigned char ring_pin[RING_LEDS] = {6, 7, 9, 12, 10, 13, 14, 15}; /* of port A */
 
-/* a pin to 0, to 1, and toggled; the ring's is one of eight [measured: register way] */
-static const unsigned char ring_cycles[3] = {24, 27, 29};
-static const unsigned char other_cycles[3] = {10, 15, 17};
+/* to 0, to 1, and toggled; a pin of the ring is one of eight */
+#define RING_CYCLES(value) ((value) > 1 ? T_RING_TOGGLE : (value) ? T_RING_ON : T_RING_OFF)
+#define OTHER_CYCLES(value) ((value) > 1 ? T_LED_TOGGLE : (value) ? T_LED_ON : T_LED_OFF)
 
-TAKES(0) static void set_pin(char port, unsigned char pin, unsigned int value, const unsigned char *cycles) {
-  tp_spend(cycles[value > 1 ? 2 : value]);
+TAKES(0) static void set_pin(char port, unsigned char pin, unsigned int value) {
   tp_latch_write(port, pin, value > 1 ? !tp_latch_read(port, pin) : value);
 }
 
 TAKES(0) void hal_set_ring(unsigned int led, unsigned int value) {
-  set_pin('A', ring_pin[led], value, ring_cycles);
+  tp_spend(RING_CYCLES(value));
+  set_pin('A', ring_pin[led], value);
 }
 
 TAKES(0) void hal_note_led(unsigned int led) { tp_note_led(led); }
 
-TAKES(0) void hal_set_front(unsigned int value) { set_pin('C', FRONT_PIN, value, other_cycles); }
+TAKES(0) void hal_set_front(unsigned int value) {
+  tp_spend(OTHER_CYCLES(value));
+  set_pin('C', FRONT_PIN, value);
+}
 
-TAKES(0) void hal_set_body(unsigned int value) { set_pin('C', BODY_PIN, value, other_cycles); }
+TAKES(0) void hal_set_body(unsigned int value) {
+  tp_spend(OTHER_CYCLES(value));
+  set_pin('C', BODY_PIN, value);
+}

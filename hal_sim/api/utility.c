@@ -8,14 +8,11 @@
 #include "hal_sim/host/pins.h"
 #include "motor_led/e_init_port.h"
 
-/* of a call of wait(), and of each round of its loop over a long [measured: register way] */
-#define WAIT_CYCLES 7
-#define ROUND_CYCLES 10
 #define SELECTOR_PIN 6  /* RG6 to RG9 */
 
-TAKES(0) void wait(long num) { tp_spend((num > 0 ? (tp_i64)num * ROUND_CYCLES : 0) + WAIT_CYCLES); }
+TAKES(0) void wait(long num) { tp_spend((num > 0 ? (tp_i64)num * T_WAIT_ROUND : 0) + T_WAIT); }
 
-TAKES(18) int getselector() { return (int)(tp_pins_read('G') >> SELECTOR_PIN & 15); }
+TAKES(T_GETSELECTOR) int getselector() { return (int)(tp_pins_read('G') >> SELECTOR_PIN & 15); }
 
 /* the scan's sample of AN7; 0 until the first one */
 unsigned int getBatteryValueRaw() {

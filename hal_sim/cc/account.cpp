@@ -5,6 +5,7 @@
 #include <set>
 
 #include "cost_model.h"
+#include "hal_sim/api/timings.h"
 #include "llvm/ADT/PostOrderIterator.h"
 #include "llvm/IR/CFG.h"
 #include "llvm/IR/DebugInfoMetadata.h"
@@ -136,6 +137,43 @@ std::string list_of(const std::map<std::string, double>& calls) {
   return s;
 }
 
+/// The cycles that the library hands to tp_spend(): of several ways the mean; rounds that are not known yet
+/// count nothing and have no bound.
+double spent_cycles(const Value* v, bool& bounded, int deep = 8) {
+  if (auto* number = dyn_cast<ConstantInt>(v)) return double(number->getSExtValue());
+  if (auto* wider = dyn_cast<CastInst>(v)) return spent_cycles(wider->getOperand(0), bounded, deep);
+  const auto* sum = dyn_cast<BinaryOperator>(v);
+  const bool is_sum = sum && sum->getOpcode() == Instruction::Add, is_choice = isa<SelectInst>(v);
+  if (deep == 0 || (!is_sum && !is_choice && !isa<PHINode>(v))) return bounded = false, 0;
+  const User* parts = cast<User>(v);
+  double all = 0;
+  for (unsigned n = is_choice; n < parts->getNumOperands(); ++n)  // the first of a choice is its condition
+    all += spent_cycles(parts->getOperand(n), bounded, deep - 1);
+  return is_sum ? all : all / (parts->getNumOperands() - is_choice);
+}
+
+/// What the host charges during a call of one of its functions, as far as that is known here: of a usual one,
+/// with the motors newest in the list of agendas.
+double host_cycles(const CallBase& call, bool& bounded) {
+  static const std::map<StringRef, int> kCharged = {
+      {"tp_motor_speed", T_SPEED + T_SPEED_DIVISION},
+      {"tp_agenda_start", T_AGENDAS_START},
+      {"tp_agenda_stop", T_AGENDAS_STOP},
+      {"tp_agenda_activate", T_AGENDA_ACTIVATE + T_AGENDA_HOLD},
+      {"tp_agenda_set_cycle", T_AGENDA_CYCLE},
+      {"tp_agenda_reset", T_AGENDA_FOUND},
+      {"tp_agenda_pause", T_AGENDA_FOUND},
+      {"tp_agenda_restart", T_AGENDA_FOUND},
+      {"tp_agenda_destroy", T_AGENDA_DESTROY + T_AGENDA_FREE + T_AGENDA_HOLD},
+  };
+  const StringRef name = call.getCalledFunction()->getName();
+  const auto* number = call.arg_empty() ? nullptr : dyn_cast<ConstantInt>(call.getArgOperand(0));
+  if (name == "tp_spend") return spent_cycles(call.getArgOperand(0), bounded);
+  const auto found = kCharged.find(name);
+  const bool is_left = name == "tp_motor_speed" && number && number->isZero();  // the right one is newer
+  return found == kCharged.end() ? 0 : found->second + (is_left ? T_AGENDA_PASSED : 0);
+}
+
 /// One line for `twinpuck cycles`: own cycles and calls, least, mean and most. Returns the least.
 double describe(Function& f, FunctionAnalysisManager& analyses, const std::vector<Segment>& segments,
                 std::string& out) {
@@ -171,7 +209,9 @@ double describe(Function& f, FunctionAnalysisManager& analyses, const std::vecto
           p.cycles += double(rounds->getSExtValue()) * each;
         else
           bounded = false, p.cycles += each;
-      } else if (!callee->getName().startswith("tp_")) {
+      } else if (callee->getName().startswith("tp_")) {
+        p.cycles += host_cycles(*c, bounded);
+      } else {
         p.calls.push_back(callee->getName().str());
       }
     }
@@ -334,10 +374,10 @@ CostPlan plan_costs(Unit& unit, FunctionAnalysisManager& analyses) {
     const auto known = told.find(&f);
     for (Segment& s : cost.segments) {
       const bool is_entry = &s == &cost.segments.front();
-      const double cycles = known == told.end() ? s.cycles() : is_entry ? known->second : 0;
-      plan.charges.push_back({s.first, cycles});
-      function.straight += cycles;
       if (dump) dump_segment(*dump, f, s);
+      if (known != told.end()) s.features = {}, s.library = is_entry ? known->second : 0;
+      plan.charges.push_back({s.first, s.cycles()});
+      function.straight += s.cycles();
     }
     function.least = describe(f, analyses, cost.segments, function.description);
     function.description += unit.options.library || unit.options.weak ? "|library" : "|program";

@@ -2,6 +2,7 @@
 // Every number of the library's drivers that their closed forms need, each with one source (tags as in
 // hal_sim/board/epuck_params.h).
 #pragma once
+#include "hal_sim/api/timings.h"
 #include "hal_sim/board/epuck_params.h"
 
 namespace drivers {
@@ -66,19 +67,19 @@ inline constexpr Cycle kBasicIsrEntryCycles =
     24;  // interrupt to first e_read_ad [estimated: context, switch]
 
 // --- processor time of the library's interrupt handlers, entry and RETFIE included -----------------------
-// of the usual variants: what the drivers' own handlers (hal_dspic) take in the register way, trace by trace
-// [measured: share of a delay loop that they take in the register way]
-inline constexpr Cycle kAgendaIsrCycles = 35;       // empty list
-inline constexpr Cycle kAgendaListCycles = -2;      // a list with nodes
-inline constexpr Cycle kAgendaNodeCycles = 13;      // one node
-inline constexpr Cycle kAgendaCountCycles = 5;      // one that counts
-inline constexpr Cycle kMotorHalfStepCycles = 123;  // coils on, the next half's cycle
-inline constexpr Cycle kMotorOffCycles = 125;       // coils off, the next half's cycle
-inline constexpr Cycle kMotorStepCycles = 107;      // coils on to stay
-inline constexpr Cycle kScanRoundIsrCycles = 7521;  // 65 frames of the scan, one round
-inline constexpr Cycle kScanAccIsrCycles = 186;     // of these, the frame with the accelerometer
-inline constexpr Cycle kScanMicroIsrCycles = 83;    // one frame of MICRO_ONLY
-inline constexpr Cycle kScanStartCycles = 15;  // from the converter's being switched on to its first frame
+// of the usual variants: what the drivers' own handlers (hal_dspic) take in the register way
+inline constexpr Cycle kAgendaIsrCycles = T_TICK;                       // empty list
+inline constexpr Cycle kAgendaListCycles = T_TICK_FIRST - T_TICK_NODE;  // a list with nodes
+inline constexpr Cycle kAgendaNodeCycles = T_TICK_NODE;                 // one node
+inline constexpr Cycle kAgendaCountCycles = T_TICK_COUNT;               // one that counts
+inline constexpr Cycle kMotorHalfStepCycles = T_MOTOR_HALF;             // coils on, the next half's cycle
+inline constexpr Cycle kMotorOffCycles = T_MOTOR_OFF;                   // coils off, the next half's cycle
+inline constexpr Cycle kMotorStepCycles = T_MOTOR_STEP;                 // coils on to stay
+inline constexpr Cycle kScanRoundIsrCycles = T_SCAN_ROUND;              // 65 frames of the scan, one round
+inline constexpr Cycle kScanAccIsrCycles = T_SCAN_ACC;      // of these, the frame with the accelerometer
+inline constexpr Cycle kScanMicroIsrCycles = T_SCAN_MICRO;  // one frame of MICRO_ONLY
+// from the converter's being switched on to its first frame
+inline constexpr Cycle kScanStartCycles = 15;  // [measured: register way]
 /// Of both Timer 2's and the converter's handler: the reset value [lib: neither file sets it; DS70143 5.2].
 inline constexpr int kHandlerPriority = 4;
 inline constexpr Cycle kBasicMotorIsrCycles =

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string>
 
+#include "hal_sim/api/timings.h"
 #include "hal_sim/board/board.h"
 #include "hal_sim/drivers/drivers.h"
 #include "hal_sim/host/context.h"
@@ -20,22 +21,21 @@ using drivers::TimerMotors;
 using host::Context;
 
 // processor time of library functions whose work happens on this side
-// [measured: register way] beside what TAKES() of the functions that call says
-constexpr Cycle kSetSpeedCycles = 81;     // speed 0
-constexpr Cycle kDivisionCycles = 21;     // any other speed
-constexpr Cycle kSpeedReturnCycles = 12;  // of these, after the new speed holds [estimated]
-constexpr Cycle kListSearchCycles = 11;   // agenda found at once
-constexpr Cycle kSetCycleCycles = 7;
-constexpr Cycle kNodePassedCycles = 10;
-constexpr Cycle kStartCycles = 20;
-constexpr Cycle kReturnCycles = 6;      // from the end of the list to RETFIE
-constexpr Cycle kKnownCycles = 13;      // activated although it is there
-constexpr Cycle kActivateCycles = 103;  // malloc() and all
-constexpr Cycle kNodeOfListCycles = 12;
-constexpr Cycle kDestroyCycles = 46;
-constexpr Cycle kDestroyPassedCycles = 8;
-constexpr Cycle kFreeCycles = 35;
-constexpr Cycle kHoldCycles = 9;  // more of both when Timer 2's interrupt is to be enabled again
+constexpr Cycle kSetSpeedCycles = T_SPEED;           // speed 0
+constexpr Cycle kDivisionCycles = T_SPEED_DIVISION;  // any other speed
+constexpr Cycle kSpeedReturnCycles = 12;             // of these, after the new speed holds [estimated]
+constexpr Cycle kListSearchCycles = T_AGENDA_FOUND;
+constexpr Cycle kSetCycleCycles = T_AGENDA_CYCLE;
+constexpr Cycle kNodePassedCycles = T_AGENDA_PASSED;
+constexpr Cycle kStartCycles = T_AGENDAS_START;
+constexpr Cycle kReturnCycles = 6;              // from the end of the list to RETFIE
+constexpr Cycle kKnownCycles = T_AGENDA_KNOWN;  // activated although it is there
+constexpr Cycle kActivateCycles = T_AGENDA_ACTIVATE;
+constexpr Cycle kNodeOfListCycles = T_AGENDA_ACTIVATE_PASSED;
+constexpr Cycle kDestroyCycles = T_AGENDA_DESTROY;
+constexpr Cycle kDestroyPassedCycles = T_AGENDA_DESTROY_PASSED;
+constexpr Cycle kFreeCycles = T_AGENDA_FREE;
+constexpr Cycle kHoldCycles = T_AGENDA_HOLD;  // more of both when Timer 2's interrupt is to be enabled again
 
 Wheel wheel_of(tp_i64 wheel) { return wheel == 0 ? Wheel::Left : Wheel::Right; }
 
@@ -163,7 +163,7 @@ void tp_agenda_start(void) {
 }
 
 void tp_agenda_stop(void) {
-  change_list(4, [](drivers::AgendaTimer& agendas, Cycle now) {
+  change_list(T_AGENDAS_STOP, [](drivers::AgendaTimer& agendas, Cycle now) {
     agendas.stop(now);
     return 1;
   });

@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: MIT
+// `twinpuck timings`: measures hal_sim/api/timings.h. One program makes every call once and reads Timer 4
+// before and after, in both ways: what the register way takes longer is missing in the table. Handlers are
+// the gaps in a loop that does nothing but read Timer 4.
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <memory>
+
+#include "hal_sim/api/timings.h"
+#include "hal_sim/board/epuck_model.h"
+#include "hal_sim/twin/twin.h"
+#include "tools/command_line.h"
+#include "tools/verbs.h"
+
+namespace fs = std::filesystem;
+
+namespace tools {
+namespace {
+
+constexpr double kMostS = 4;  // simulated; the program takes a quarter
+
+struct Less {
+  const char* name;  // a row before
+  int times = 1;
+};
+
+/// A handler is measured by the mean of `count` gaps above `above` cycles, one of `every`, the first `skip`
+/// left out.
+struct Gaps {
+  int count = 0, above = 40, every = 1, skip = 0;
+  int times = 1;  // the table has the cycles of so many
+};
+
+struct Row {
+  const char* name;  // in the table, after T_; empty: a call that is held to take the same in both ways
+  int table;
+  const char* before;      // C code that is not measured
+  const char* call;        // C code that is; of a handler what goes on meanwhile
+  std::vector<Less> less;  // parts of it that have rows of their own
+  const char* what;
+  int tolerance = 2;  // cycles
+  Gaps gaps = {};     // of handlers
+};
+
+struct Timing {
+  const Row& row;
+  int cycles;  // measured: what the table should say
+};
+
+#define ROW(name) #name, T_##name
+const Row kRows[] = {
+    {"", 0, "", "sink = 1;", {}, "no call", 0},
+    // the program's start: nothing runs, the list is empty
+    {"", 0, "", "e_init_port();", {}, "e_init_port()"},
+    {ROW(INIT_UART), "", "e_init_uart1();", {}, "e_init_uart1(), e_init_uart2()"},
+    {"", 0, "", "sink = e_ischar_uart1();", {}, "e_ischar_uart1()", 4},
+    {ROW(GETSELECTOR), "", "sink = getselector();", {}, "getselector()"},
+    {ROW(WAIT), "", "wait(0);", {}, "wait()"},
+    {ROW(WAIT_ROUND), "", "wait(1);", {{"WAIT"}}, "each of its rounds"},
+    {"", 0, "", "wait(1000);", {}, "wait(1000)", 4},
+    {ROW(PAUSE), "", "hal_pause(0);", {}, "pause inside the library"},
+    {ROW(PAUSE_ROUND), "", "hal_pause(1);", {{"PAUSE"}}, "each of its rounds"},
+    {ROW(RING_OFF), "", "hal_set_ring(3, 0);", {}, "a ring LED, off"},
+    {ROW(RING_ON), "", "hal_set_ring(3, 1);", {}, "on"},
+    {ROW(RING_TOGGLE), "", "hal_set_ring(3, 2);", {}, "toggled"},
+    {"", 0, "", "e_set_led(8, 1);", {}, "e_set_led(8, 1)", 45},
+    {ROW(LED_OFF), "", "e_set_front_led(0);", {}, "front or body LED, off"},
+    {ROW(LED_ON), "", "e_set_front_led(1);", {}, "on"},
+    {ROW(LED_TOGGLE), "", "e_set_front_led(2);", {}, "toggled"},
+    {"", 0, "", "e_set_body_led(1);", {}, "e_set_body_led()"},
+    {ROW(AGENDA_ACTIVATE), "", "e_activate_agenda(first, 0);", {}, "e_activate_agenda(), empty list", 8},
+    {ROW(AGENDA_FOUND), "", "e_pause_agenda(first);", {}, "pause, restart, reset: the newest of the list"},
+    {ROW(AGENDA_CYCLE), "", "e_set_agenda_cycle(first, 0);", {}, "e_set_agenda_cycle(), the newest"},
+    {ROW(AGENDA_KNOWN), "", "e_activate_agenda(first, 0);", {}, "e_activate_agenda(), the newest again"},
+    {ROW(AGENDA_ACTIVATE_PASSED),
+     "",
+     "e_activate_agenda(second, 0);",
+     {{"AGENDA_ACTIVATE"}},
+     "each agenda that it finds",
+     8},
+    {ROW(AGENDA_PASSED),
+     "",
+     "e_pause_agenda(first);",
+     {{"AGENDA_FOUND"}},
+     "each newer agenda that a search passes"},
+    {ROW(AGENDA_DESTROY),
+     "e_destroy_agenda(first); e_destroy_agenda(second);",
+     "e_destroy_agenda(third);",
+     {},
+     "e_destroy_agenda(), empty list"},
+    {ROW(AGENDA_DESTROY_PASSED),
+     "e_activate_agenda(first, 0);",
+     "e_destroy_agenda(third);",
+     {{"AGENDA_DESTROY"}},
+     "each newer agenda that it passes",
+     8},
+    {ROW(AGENDA_FREE), "", "e_destroy_agenda(first);", {{"AGENDA_DESTROY"}}, "an agenda that it finds", 8},
+    {ROW(AGENDAS_START), "", "e_start_agendas_processing();", {}, "e_start_agendas_processing()"},
+    {ROW(TICK), "", "", {}, "Timer 2's handler, entry and RETFIE included: empty list", 1, {8}},
+    {ROW(TICK_FIRST), "e_activate_agenda(first, 0);", "", {{"TICK"}}, "an agenda", 1, {8}},
+    {ROW(TICK_NODE),
+     "e_activate_agenda(second, 0);",
+     "",
+     {{"TICK"}, {"TICK_FIRST"}},
+     "each further one",
+     1,
+     {8}},
+    {ROW(TICK_COUNT),
+     "e_set_agenda_cycle(first, 30000);",
+     "",
+     {{"TICK"}, {"TICK_FIRST"}, {"TICK_NODE"}},
+     "each that counts",
+     1,
+     {8}},
+    {ROW(AGENDAS_STOP),
+     "e_destroy_agenda(first); e_destroy_agenda(second);",
+     "e_end_agendas_processing();",
+     {},
+     "e_end_agendas_processing()"},
+    {ROW(AGENDA_HOLD),
+     "",
+     "e_destroy_agenda(third);",
+     {{"AGENDA_DESTROY"}},
+     "activate, destroy: Timer 2 is enabled"},
+    {"", 0, "", "e_init_motors();", {}, "e_init_motors(), malloc() and all", 16},
+    {ROW(INIT_MOTORS),
+     "",
+     "e_init_motors();",
+     {{"AGENDA_KNOWN", 2}, {"AGENDA_PASSED"}},
+     "e_init_motors()",
+     4},
+    {ROW(SPEED), "", "e_set_speed_right(0);", {}, "e_set_speed_left(), _right(): 0, the newest agenda", 4},
+    {ROW(SPEED_DIVISION), "", "e_set_speed_right(500);", {{"SPEED"}}, "another speed"},
+    {"", 0, "", "e_set_speed_left(500);", {}, "e_set_speed_left(500)", 4},
+    {"", 0, "", "e_set_speed(300, 50);", {}, "e_set_speed()", 8},
+    {ROW(GET_STEPS), "", "sink = e_get_steps_left();", {}, "e_get_steps_left(), _right()"},
+    {ROW(SET_STEPS), "", "e_set_steps_left(7);", {}, "e_set_steps_left(), _right()"},
+    {ROW(SCAN_INIT), "", "e_init_ad_scan(MICRO_ONLY);", {{"GETSELECTOR"}}, "e_init_ad_scan(), no wait", 8},
+    // natively its frames come at nominal instants; single ones are up to a quarter longer or shorter
+    {"", 0, "", "e_init_ad_scan(ALL_ADC);", {}, "e_init_ad_scan(ALL_ADC)", 250},
+    {ROW(SCAN_OFF), "", "e_ad_scan_off();", {}, "e_ad_scan_off()"},
+    {ROW(SCAN_ON), "", "e_ad_scan_on();", {}, "e_ad_scan_on()"},
+    {"", 0, "e_ad_scan_off();", "sink = e_get_prox(3);", {}, "e_get_prox()", 4},
+    {"", 0, "", "sink = e_get_calibrated_prox(3);", {}, "e_get_calibrated_prox()", 4},
+    {"", 0, "", "sink = e_get_ambient_light(3);", {}, "e_get_ambient_light()", 4},
+    {"", 0, "", "sink = e_get_acc(0);", {}, "e_get_acc()", 4},
+    {"", 0, "", "sink = e_get_micro(0);", {}, "e_get_micro()", 4},
+    {"", 0, "", "e_calibrate_ir();", {}, "e_calibrate_ir()", 8},
+    // handlers, entry and RETFIE included; the list has the motors only
+    {ROW(SCAN_ROUND), "e_ad_scan_on();", "", {}, "converter: 65 frames, one round", 10, {65, 40, 1, 0, 65}},
+    {ROW(SCAN_ACC), "", "", {}, "of these, the frame with the accelerometer", 2, {4, 150}},
+    {ROW(SCAN_MICRO), "e_init_ad_scan(MICRO_ONLY);", "", {}, "converter: a frame of MICRO_ONLY", 2, {8}},
+    {ROW(MOTOR_HALF),
+     "e_ad_scan_off(); e_start_agendas_processing(); e_set_speed(0, 0); e_set_speed_left(500);",
+     "",
+     {{"TICK"}, {"TICK_FIRST"}, {"TICK_NODE"}, {"TICK_COUNT"}},
+     "motor below 601: coils on",
+     4,
+     {8, 120, 2, 0}},
+    {ROW(MOTOR_OFF),
+     "",
+     "",
+     {{"TICK"}, {"TICK_FIRST"}, {"TICK_NODE"}, {"TICK_COUNT"}},
+     "coils off",
+     4,
+     {8, 120, 2, 1}},
+    {ROW(MOTOR_STEP),
+     "e_set_speed_left(800);",
+     "",
+     {{"TICK"}, {"TICK_FIRST"}, {"TICK_NODE"}, {"TICK_COUNT"}},
+     "motor above 600: coils on",
+     4,
+     {8, 120, 1, 0}},
+};
+#undef ROW
+
+const char* const kTableHead = R"(/* SPDX-License-Identifier: MIT
+ * What the library's calls and handlers take, in processor cycles. Of a call: what the native way charges beside what
+ * the compiler estimates for the function's own code. Written by `twinpuck timings` [measured: register way], which
+ * keeps what is within its tolerance; held by `make check`. Read by the run, and through takes.h by `twinpuck cycles`.
+ */
+#ifndef TWINPUCK_API_TIMINGS_H
+#define TWINPUCK_API_TIMINGS_H
+
+)";
+
+const char* const kHead = R"(
+#include <a_d/advance_ad_scan/e_ad_conv.h>
+#include <a_d/advance_ad_scan/e_acc.h>
+#include <a_d/advance_ad_scan/e_micro.h>
+#include <a_d/advance_ad_scan/e_prox.h>
+#include <motor_led/advance_one_timer/e_agenda.h>
+#include <motor_led/advance_one_timer/e_led.h>
+#include <motor_led/advance_one_timer/e_motors.h>
+#include <motor_led/e_epuck_ports.h>
+#include <motor_led/e_init_port.h>
+#include <uart/e_uart_char.h>
+#include <utility/utility.h>
+#define CALM 40
+#define APART static void __attribute__((noinline))
+void hal_pause(unsigned int rounds);
+void hal_set_ring(unsigned int led, unsigned int value);
+volatile int sink, done;
+unsigned int took[100];
+static void first(void) {}
+static void second(void) {}
+static void third(void) {}
+APART measure(int row, void (*call)(void)) {
+  TMR4 = 0; T4CONbits.TON = 1; call(); T4CONbits.TON = 0; took[row] = TMR4;
+}
+APART watch(int row, int count, unsigned int above, int every, int skip) {
+  unsigned int now, last, gap, calm = 0, sum = 0;
+  int seen = 0, left = count;
+  T4CONbits.TON = 1;
+  last = TMR4;
+  while (left > 0) {
+    now = TMR4;
+    gap = now - last;
+    last = now;
+    if (gap > above) {
+      if (seen >= skip && (seen - skip) % every == 0) { sum += gap; left--; }
+      seen++;
+      last = TMR4;
+    } else if (gap < CALM) {
+      calm = gap; /* a round without a handler */
+    }
+  }
+  T4CONbits.TON = 0;
+  took[row] = sum - count * calm;
+}
+)";
+
+/// The program. Native handlers take a share of the time, which has no gaps to see.
+std::string program(bool with_handlers) {
+  std::string text = kHead, main = "int main(void) {\n  T4CON = 0; PR4 = 0xFFFF;\n";
+  int n = 0;
+  for (const Row& row : kRows) {
+    text += fmt::format("APART f{}(void) {{ {} }}\n", n, row.call);
+    const Gaps& g = row.gaps;
+    main += fmt::format("  {}\n", row.before);
+    if (g.count == 0)
+      main += fmt::format("  measure({}, f{});\n", n, n);
+    else if (with_handlers)
+      main += fmt::format("  watch({}, {}, {}, {}, {});\n", n, g.count, g.above, g.every, g.skip);
+    ++n;
+  }
+  return text + main + "  done = 1;\n  for (;;);\n}\n";
+}
+
+/// What Timer 4 has counted for each row, in one way. Empty, with lines in `problems`, on failure.
+std::vector<std::uint16_t> counts(const std::string& way, std::vector<std::string>& problems) {
+  const fs::path folder = fs::path(twin::build_folder()) / "controllers" / ("timings-" + way);
+  fs::create_directories(folder);
+  std::ofstream(folder / "main.c") << program(way == "register");
+  sim::WorldDesc world;
+  world.models = {board::epuck_model()};
+  world.proximity.noise_scale = 0;
+  world.robots.resize(1);
+  world.robots[0].name = "puck";
+  world.robots[0].firmware = folder.string();
+  twin::Options options;
+  options.way = way;
+  const auto twin = twin::Twin::open(world, options, problems);
+  if (!twin) return {};
+  const auto read = [&](const char* name, std::size_t words) {
+    std::vector<std::uint16_t> values(words);
+    const auto bytes = twin->mind(0).robot()->read_variable(name, 2 * words);
+    std::copy(bytes.begin(), bytes.end(), reinterpret_cast<char*>(values.data()));
+    return values;
+  };
+  while (read("done", 1)[0] == 0) {
+    if (sim::to_seconds(twin->simulation().now()) > kMostS) {
+      problems.push_back(fmt::format("timings: {} way: the program did not end in {} s", way, kMostS));
+      return {};
+    }
+    twin->simulation().step();
+  }
+  return read("took", std::size(kRows));
+}
+
+/// Where a row stands against both measurements: what its number in the table should be.
+std::vector<Timing> measure(std::vector<std::string>& problems) {
+  const auto chip = counts("register", problems), native = counts("native", problems);
+  std::vector<Timing> all;
+  std::map<std::string, int> cycles, missing;  // of each row: measured; of that, not in the table
+  for (std::size_t n = 0; problems.empty() && n < std::size(kRows); ++n) {
+    const Row& row = kRows[n];
+    const Gaps& g = row.gaps;
+    int found = g.count > 0 ? (chip[n] * g.times + g.count / 2) / g.count : row.table + chip[n] - native[n];
+    for (const Less& less : row.less) found -= less.times * (g.count > 0 ? cycles : missing).at(less.name);
+    cycles[row.name] = found;
+    missing[row.name] = found - row.table;
+    all.push_back({row, found});
+  }
+  return all;
+}
+
+int timings(const std::string& file, bool is_check) {
+  std::vector<std::string> problems;
+  const auto all = measure(problems);
+  complain(problems);
+  if (!problems.empty()) return kInternal;
+  std::string table = kTableHead;
+  bool is_right = true;
+  for (const auto& [row, cycles] : all) {
+    const bool is_near = std::abs(cycles - row.table) <= row.tolerance, is_named = *row.name != 0;
+    if (!is_near && is_named)
+      complain({fmt::format("{}: T_{}: got {} cycles, expected {} +- {}", file, row.name, row.table, cycles,
+                            row.tolerance)});
+    else if (!is_near)
+      complain({fmt::format("{}: {}: takes {} cycles more in the register way, expected 0 +- {}", file,
+                            row.what, cycles, row.tolerance)});
+    if (is_named)
+      table += fmt::format("#define T_{} {} /* {} */\n", row.name, is_near ? row.table : cycles, row.what);
+    is_right = is_right && (is_near || (is_named && !is_check));
+  }
+  if (!is_check && !(std::ofstream(file) << table << "\n#endif\n" << std::flush)) {
+    complain({file + ": cannot be written"});
+    return kBadInput;
+  }
+  return is_right ? kPass : kTestFailed;
+}
+
+}  // namespace
+
+void add_timings(CLI::App& app, int& exit_code) {
+  auto* verb = app.add_subcommand(
+      "timings", "Measure what the library's calls and handlers take, and write their table");
+  auto is_check = std::make_shared<bool>(false);
+  verb->add_flag("--check", *is_check, "hold the table against the measurement instead of writing it");
+  verb->callback(
+      [=, &exit_code] { exit_code = timings(twin::project_root() + "/hal_sim/api/timings.h", *is_check); });
+}
+
+}  // namespace tools
