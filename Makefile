@@ -77,7 +77,7 @@ check: tool
 ## format: format C++ sources in place
 format:
 	@scripts/setup.sh check
-	@git ls-files '*.h' '*.cpp' | grep -v '^firmware/' | grep -v '^hal_sim/api/' | grep -v '^hal_dspic/' | grep -v '^hal_common/' | xargs -r clang-format -i
+	@git ls-files '*.h' '*.cpp' | grep -v '^firmware/' | grep -v '^hal_sim/api/' | grep -v '^hal_dspic/' | grep -v '^firmware/library/' | xargs -r clang-format -i
 
 ## bench: speed for 1 to 1000 robots, beside libenki
 bench: tool

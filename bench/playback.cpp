@@ -43,7 +43,9 @@ WheelTrack track_wheels(const sim::WorldDesc& world, double seconds) {
   while (twin->simulation().now() < sim::from_seconds(seconds)) {
     twin->simulation().step();
     for (std::size_t r = 0; r < track.size(); ++r) {
-      track[r].push_back(twin->mind(static_cast<int>(r)).wheel_course(twin->simulation().now()).at(twin->simulation().now()));
+      track[r].push_back(twin->mind(static_cast<int>(r))
+                             .wheel_course(twin->simulation().now())
+                             .at(twin->simulation().now()));
     }
   }
   return track;

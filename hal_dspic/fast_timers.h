@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Timers 1 to 3 for the fast agenda (hal_common/e_agenda_fast.c, its only includer), on registers.
+ * Timers 1 to 3 for the fast agenda (firmware/library/e_agenda_fast.c, its only includer), on registers.
  * A timer without tasks has its interrupt switched off; the original leaves its flag set and interrupts for ever.
  */
 #ifndef HAL_DSPIC_FAST_TIMERS_H

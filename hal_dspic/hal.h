@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * What hal_common asks of the chip: LEDs, coils, samples, delays, each on registers. The native way answers the same
+ * What firmware/library asks of the chip: LEDs, coils, samples, delays, each on registers. The native way answers the same
  * questions in hal_sim/api/hal.h.
  *
  * A pin is set by an instruction on its one bit, never by reading, changing and writing the port: an interrupt between
@@ -8,7 +8,7 @@
 #ifndef HAL_DSPIC_HAL_H
 #define HAL_DSPIC_HAL_H
 
-#include "hal_common/adc_arrays.h"
+#include "firmware/library/adc_arrays.h"
 #include "motor_led/e_epuck_ports.h"
 
 /* --- LEDs --------------------------------------------------------------------------------------------- */
@@ -60,7 +60,7 @@ extern unsigned int hal_starts;
 
 /* --- remote control ----------------------------------------------------------------------------------- */
 
-/** In hal_common: what a falling edge of the receiver does. */
+/** In firmware/library: what a falling edge of the receiver does. */
 void twinpuck_remote_edge(void);
 #define hal_remote_level() ((unsigned char)REMOTE)
 void hal_remote_arm(void);

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# Cross-builds a controller for the robot with Microchip's XC16: controller + hal_dspic + hal_common -> .elf, .hex and
+# Cross-builds a controller for the robot with Microchip's XC16: controller + hal_dspic + firmware/library -> .elf, .hex and
 # a report of its size. Exit 2 when the compiler, the controller or an argument is wrong, 1 when it does not build or fit.
 #
 #   scripts/build_dspic.sh COMPILER CONTROLLER OUTPUT_FOLDER
@@ -59,7 +59,7 @@ compile() {
 }
 
 library=""
-for source in $(find hal_dspic hal_common -name '*.[cs]' | sort); do
+for source in $(find hal_dspic firmware/library -name '*.[cs]' | sort); do
   case $source in hal_dspic/motor_led/configuration.c) continue ;; esac
   object="$objects/library/$(echo "$source" | tr / -).o"
   compile "-Ihal_dspic -I." "$source" "$object"

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Holds firmware/include (the contract) against what implements it: hal_common with hal_sim/api (the native way), and
-hal_common with hal_dspic (the chip).
+"""Holds firmware/include (the contract) against what implements it: firmware/library with hal_sim/api (the native way), and
+firmware/library with hal_dspic (the chip).
 
     scripts/check_contract.py            exit 1 unless every prototype has exactly one definition in each way
 
@@ -16,7 +16,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 INCLUDE = ROOT / "firmware/include"
-COMMON = ROOT / "hal_common"
+COMMON = ROOT / "firmware/library"
 API = ROOT / "hal_sim/api"
 CHIP = ROOT / "hal_dspic"
 WEBOTS = ROOT / "firmware/webots"  # the library behind webots/ and device/, on top of the API

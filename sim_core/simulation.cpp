@@ -144,7 +144,7 @@ Clicks Simulation::next_tick(Clicks at) {
   const Clicks tick = scene_->tick_clicks();
   const bool busy = attendant_ || motion_->is_loose_busy() || sound_->has_voices() ||
                     std::any_of(media_.begin(), media_.end(), [](const auto& m) { return m->is_busy(); });
-  const Clicks horizon = std::min({at - 1, lists_until_ - 2 * tick, find_horizons()});
+  const Clicks horizon = std::min({at - 1, lists_until_ - tick, find_horizons()});
   return busy || horizon <= now() ? now() + tick : (horizon / tick + 1) * tick;
 }
 
@@ -285,8 +285,7 @@ void Simulation::publish_motion() {
     digest_ = fold(fold(digest_, course.angle.left_rad), course.angle.right_rad);
     digest_ = fold(digest_, mind_hash_[static_cast<std::size_t>(r)]);
   }
-  if (fastest2 > pace_m_s_ * pace_m_s_ || lists_until_ - 2 * scene_->tick_clicks() < now())
-    gather_neighbours(0);
+  if (fastest2 > pace_m_s_ * pace_m_s_ || lists_until_ - scene_->tick_clicks() < now()) gather_neighbours(0);
 }
 
 /// What loudspeakers began or ended in this tick is heard from now on; nothing to do in a silent world.

@@ -128,6 +128,11 @@ void RunOutputs::after_tick() {
   traces_.after_tick();
 }
 
+bool RunOutputs::wants_ticks() const {
+  const std::vector<std::string> files = written();
+  return std::any_of(files.begin(), files.end(), [&](const auto& f) { return f != arguments_.summary; });
+}
+
 void RunOutputs::sample() {
   const auto& simulation = twin_.simulation();
   if (recorder_) recorder_->sample(simulation.scene(), simulation.minds());

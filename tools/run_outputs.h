@@ -39,6 +39,8 @@ class RunOutputs {
   bool open(std::vector<std::string>& problems);
   void before_run();
   void after_tick();
+  /// True when an output needs every tick.
+  bool wants_ticks() const;
   /// An output was lost (disk full): the run should end.
   bool failed() const;
   /// The process ends between two ticks that it will not come back from: what is in memory goes to the file.

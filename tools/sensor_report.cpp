@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tools/sensor_report.h"
 
+#include "hal_sim/drivers/drivers.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -143,7 +145,7 @@ SensorReport report_sensor(twin::Twin& twin, const std::string& world_file, int 
   r.light = sim::explain_light(scene, robot, sensor, at);
   r.gain = board.setup().ir_gain[static_cast<std::size_t>(sensor)];
   r.offset_counts = board.setup().ir_offset_counts[static_cast<std::size_t>(sensor)];
-  const board::Cycle flash = board::scan_flash_cycles(sensor);
+  const board::Cycle flash = drivers::scan_flash_cycles(sensor);
   r.flash_us = 1e6 * static_cast<double>(flash) / static_cast<double>(board::kFcyHz);
   r.dark_made_of = board.ir_conversion(sensor, cycle, -1);
   r.lit_made_of = board.ir_conversion(sensor, cycle, flash);
@@ -156,7 +158,8 @@ SensorReport report_sensor(twin::Twin& twin, const std::string& world_file, int 
   const double reach = std::fabs(r.noise_counts) * (lit.uniform_noise ? 1 : kTwoSided95);
   r.band_low = r.dark.counts - board::adc_counts(lit.counts() + reach);
   r.band_high = r.dark.counts - board::adc_counts(lit.counts() - reach);
-  const board::AdcScan& scan = board.scan();
+  if (!mind.robot() || !mind.robot()->has_drivers()) return r;
+  const drivers::AdcScan& scan = mind.robot()->drivers().scan();
   const board::Cycle now = mind.now();
   r.firmware_scans = scan.dark_number(sensor, now) >= 0 && scan.lit_number(sensor, now) >= 0;
   if (r.firmware_scans) {

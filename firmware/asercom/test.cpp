@@ -374,7 +374,8 @@ TEST_F(Asercom, accelerometer_raw_in_text_and_binary) {
   EXPECT_NEAR(text[2], 2048 + 768, 150);
   const std::string raw = reply(binary("a") + kEnd);
   ASSERT_EQ(raw.size(), 6u);
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(word_at(raw, 2 * i), text[i], 30);
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_NEAR(word_at(raw, 2 * i), text[i], 45);  // noise of 6.3 counts in each
 }
 
 TEST_F(Asercom, accelerometer_spherical_is_three_floats) {

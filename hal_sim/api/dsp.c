@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * The transforms of Microchip's signal-processing library; the rest is hal_common/dsp_vectors.c. Arithmetic is the DSP engine's
+ * The transforms of Microchip's signal-processing library; the rest is firmware/library/dsp_vectors.c. Arithmetic is the DSP engine's
  * (hal_sim/host/pins_dsp.h); the cycles are the published ones where there are any.
  * Source: the library's own tables of cycles and its manual, 16-bit Language Tools Libraries [vendor], restated.
  */

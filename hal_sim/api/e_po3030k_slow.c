@@ -9,7 +9,7 @@
  */
 #include "camera/slow_3_timer/e_po3030k.h"
 
-#include "hal_common/camera.h"
+#include "firmware/library/camera.h"
 #include "hal_sim/host/pins.h"
 #include "hal_sim/host/pins_camera.h"
 

@@ -9,7 +9,7 @@
  */
 #include "camera/fast_2_timer/e_poxxxx.h"
 
-#include "hal_common/camera.h"
+#include "firmware/library/camera.h"
 #include "hal_sim/host/pins.h"
 #include "hal_sim/host/pins_camera.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Timers 1 to 3 for the fast agenda (hal_common/e_agenda_fast.c, its only includer), the native way: interrupts are not
+ * Timers 1 to 3 for the fast agenda (firmware/library/e_agenda_fast.c, its only includer), the native way: interrupts are not
  * evaluated in closed form but delivered one by one.
  */
 #ifndef TWINPUCK_API_FAST_TIMERS_H

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * What hal_common asks of the native way: pins, converter, time, each through the seam (hal_sim/host/pins*.h). The
+ * What firmware/library asks of the native way: pins, converter, time, each through the seam (hal_sim/host/pins*.h). The
  * chip's answers to the same questions are in hal_dspic/hal.h.
  *
  *   ring LED   0    1    2    3    4    5    6    7        front  body
@@ -13,7 +13,7 @@
 #ifndef TWINPUCK_API_HAL_H
 #define TWINPUCK_API_HAL_H
 
-#include "hal_common/adc_arrays.h"
+#include "firmware/library/adc_arrays.h"
 #include "hal_sim/host/pins.h"
 #include "hal_sim/host/pins_acc.h"
 #include "hal_sim/host/pins_bluetooth.h"
@@ -68,7 +68,7 @@ void twinpuck_refresh_ir(unsigned int sensor);
 
 #define INT0_PRIORITY 4      /* reset value of IPC0 [DS70143 5.2] */
 #define INT0_ENTRY_CYCLES 30 /* [estimated: entry 4, context 20, RETFIE 3] */
-/** In hal_common: what a falling edge of the receiver does. */
+/** In firmware/library: what a falling edge of the receiver does. */
 void twinpuck_remote_edge(void);
 #define hal_remote_level() ((unsigned char)tp_remote_level())
 #define hal_remote_arm() tp_irq_install(TP_V_INT0, twinpuck_remote_edge, INT0_PRIORITY, INT0_ENTRY_CYCLES)

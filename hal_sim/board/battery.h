@@ -8,11 +8,9 @@
 // Modelled: discharge curve, sag under load, energy drawn. Not modelled: temperature, ageing, recovery after
 // a load, self-discharge, the protection circuit (an empty battery goes on at a falling voltage).
 #pragma once
-#include "hal_sim/host/context.h"
+#include "hal_sim/board/cycle.h"
 
 namespace board {
-
-using host::Cycle;
 
 class Battery {
  public:

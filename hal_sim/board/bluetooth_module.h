@@ -57,7 +57,6 @@ class BluetoothModule final : public UartEnd, public sim::LinkPort {
   void on_message(const sim::LinkMessage& message, sim::Clicks now) override;
   void on_link_lost(sim::Clicks now) override;
 
-  const std::string& local_name() const { return name_; }
   const BtAddress& address() const { return address_; }
   bool is_transparent() const { return transparent_; }
   bool is_linked() const { return peer != kNobody || to_computer_; }

@@ -54,8 +54,6 @@ std::int64_t to_ppb(double ppm) { return static_cast<std::int64_t>(std::llround(
 Board::Board(const Setup& setup)
     : setup_(setup),
       clock_(to_ppb(setup.clock_ppm), sim::from_seconds(setup.boot_delay_s)),
-      scan_(*this),
-      basic_prox_(*this),
       battery_(setup.battery_wh, setup.battery_v, kProcessorA + kBluetoothA + kBoardA),
       noise_(setup.seed, setup.robot),
       mic_noise_per_face_(
@@ -84,42 +82,30 @@ void Board::find_sound() { may_hear_ = scene_ && sim::has_sound(*scene_); }
 
 // --- motors ----------------------------------------------------------------------------------------------
 
-Stepper Board::stepper_at(Wheel wheel, Cycle at) const {
-  Stepper copy = agendas_.stepper_at(wheel, at);
-  if (timer_motors_.drives(wheel)) timer_motors_.peek(wheel, at, copy);
-  return copy;
-}
-
 Stepper& Board::stepper(Wheel wheel, Cycle at) {
-  Stepper& stepper = agendas_.stepper(wheel, at);
-  if (timer_motors_.drives(wheel)) timer_motors_.move(wheel, at, stepper);
-  return stepper;
+  if (driver_) driver_->bring_motor(wheel, at);
+  return own_motor(wheel);
 }
 
 double Board::wheel_angle_rad(Wheel wheel, Cycle at) const {
-  const double steps = timer_motors_.drives(wheel) ? stepper_at(wheel, at).position(at)
-                                                   : agendas_.stepper_at(wheel, at).position(at);
+  const double steps = stepper_at(wheel, at).position(at);
   return steps * (sim::kTwoPi / kStepsPerTurn) * setup_.wheel_ratio[static_cast<std::size_t>(wheel)];
 }
 
 WheelTurn Board::wheel_turn(Wheel wheel, Cycle at) const {
-  const Stepper motor = stepper_at(wheel, at);
   const double rad_per_step =
       sim::kTwoPi / kStepsPerTurn * setup_.wheel_ratio[static_cast<std::size_t>(wheel)];
+  if (const auto course = driver_ ? driver_->motor_course(wheel, at) : std::nullopt)
+    return {course->steps * rad_per_step, course->rate * rad_per_step, course->until};
+  const Stepper& motor = stepper_at(wheel, at);
   WheelTurn turn{motor.position(at) * rad_per_step, motor.speed(at) * rad_per_step, motor.move_end(at)};
-  if (agendas_.turns_evenly(wheel, at))
-    turn.until = host::kNever;
-  else
-    turn.until = std::min(
-        {turn.until, agendas_.steps_horizon(wheel, at), timer_motors_.steps_horizon(wheel, at)});
+  if (driver_) turn.until = std::min(turn.until, driver_->steps_horizon(wheel, at));
   return turn;
 }
 
 std::int64_t Board::steps(Wheel wheel, Cycle at) const { return stepper_at(wheel, at).steps(); }
 
-unsigned Board::coils(Wheel wheel, Cycle at) const {
-  return timer_motors_.drives(wheel) ? stepper_at(wheel, at).coils() : agendas_.stepper_at(wheel, at).coils();
-}
+unsigned Board::coils(Wheel wheel, Cycle at) const { return stepper_at(wheel, at).coils(); }
 
 void Board::connect_steppers(Cycle at) {
   stepper(Wheel::Left, at).connect((tris_[kD] & 0x0F) == 0, at);
@@ -127,8 +113,6 @@ void Board::connect_steppers(Cycle at) {
 }
 
 // --- ports -----------------------------------------------------------------------------------------------
-
-unsigned Board::pulses(Cycle at) const { return scan_.pulses(at) | basic_prox_.pulses(at); }
 
 std::uint16_t Board::port_read(char port, Register reg, Cycle at) const {
   const int index = port_index(port);
@@ -189,11 +173,11 @@ void Board::port_write(char port, Register reg, std::uint16_t value, Cycle at) {
     const Line line = kEmitter[pair];
     if (line.port != index) continue;
     // a driver that owns the lines switches them off itself; a read-modify-write must not latch its pulse
-    if (scan_.is_on() || basic_prox_.is_on()) value = static_cast<std::uint16_t>(value & ~bit(line.bit));
+    if (owns_emitters()) value = static_cast<std::uint16_t>(value & ~bit(line.bit));
     if (value & ~lat_[i] & bit(line.bit)) line_since_[static_cast<std::size_t>(pair)] = at;
   }
   if (index == kC && camera_ && lat_[i] & ~value & bit(kCameraResetBit)) camera_->sensor_reset(at);
-  if (index == kC && scan_.pulses(at) & 16u) value = static_cast<std::uint16_t>(value & ~(bit(1) | bit(2)));
+  if (index == kC && pulses(at) & 16u) value = static_cast<std::uint16_t>(value & ~(bit(1) | bit(2)));
   if (value == lat_[i]) return;
   note_pulses(i, value, tris_[i], at);
   note_vain_writes(i, value ^ lat_[i], at);
@@ -202,17 +186,13 @@ void Board::port_write(char port, Register reg, std::uint16_t value, Cycle at) {
 }
 
 // a robot whose drivers are its own program, on the models of the chip
-bool Board::is_led_by_pins() const {
-  return !watches_inputs_ && !scan_.is_on() && !basic_prox_.is_on() && parts_.empty() &&
-         agendas_.rests(Wheel::Left) && agendas_.rests(Wheel::Right) && !timer_motors_.drives(Wheel::Left) &&
-         !timer_motors_.drives(Wheel::Right);
-}
+bool Board::is_led_by_pins() const { return !watches_inputs_ && !driver_ && parts_.empty(); }
 
 void Board::write_coils(std::uint16_t value, Cycle at) {
   bool same_current = true;
   for (const Wheel wheel : {Wheel::Left, Wheel::Right}) {
     const unsigned coils = (value >> (wheel == Wheel::Left ? 0 : 4)) & 15u;
-    Stepper& motor = agendas_.stepper_by_pins(wheel);
+    Stepper& motor = own_motor(wheel);
     if (coils == motor.coils()) continue;
     same_current &= kOnes[coils] == kOnes[motor.coils()];
     motor.energise(coils, at);
@@ -259,17 +239,17 @@ void Board::latch_bit(char port, int n, bool level, Cycle at) {
 Cycle Board::port_horizon(char port, Cycle at) const {
   switch (port_index(port)) {
     case kD:
-      return std::min({agendas_.coils_horizon(Wheel::Left, at), agendas_.coils_horizon(Wheel::Right, at),
-                       timer_motors_.coils_horizon(Wheel::Left, at),
-                       timer_motors_.coils_horizon(Wheel::Right, at)});
+      return driver_
+                 ? std::min(driver_->coils_horizon(Wheel::Left, at), driver_->coils_horizon(Wheel::Right, at))
+                 : kNever;
     case kF:
-      return std::min({scan_.pulses_horizon(at), basic_prox_.horizon(at), battery_.below(kBatteryLowV, at),
+      return std::min({driver_ ? driver_->pulses_horizon(at) : kNever, battery_.below(kBatteryLowV, at),
                        remote_.next_change(at)});
     case kC:
     case kG:
-      return std::min(scan_.pulses_horizon(at), basic_prox_.horizon(at));
+      return driver_ ? driver_->pulses_horizon(at) : kNever;
     default:
-      return host::kNever;
+      return kNever;
   }
 }
 
@@ -279,7 +259,7 @@ std::uint32_t Board::leds(Cycle at) const {
   for (int led = 0; ring && led < 8; ++led)
     if (ring & bit(kRingLedBit[led])) mask |= 1u << led;
   unsigned other = lat_[kC];
-  if (scan_.pulses(at) & 16u) other |= bit(kFrontLedBit) | bit(kBodyLedBit);
+  if (pulses(at) & 16u) other |= bit(kFrontLedBit) | bit(kBodyLedBit);
   other &= ~static_cast<unsigned>(tris_[kC]);
   if (other & bit(kBodyLedBit)) mask |= 1u << 8;
   if (other & bit(kFrontLedBit)) mask |= 1u << 9;
@@ -310,17 +290,15 @@ void Board::init_ports(Cycle at) {
 }
 
 void Board::processor_reset(Cycle at) {
-  // whatever another driver did to the wheels by now, before its train is forgotten
-  for (Wheel wheel : {Wheel::Left, Wheel::Right}) stepper(wheel, at);
-  timer_motors_.reset();
-  agendas_.reset(at);
-  scan_.reset(at);
-  basic_prox_.reset(at);
+  if (driver_) driver_->processor_reset(at);
+  for (Stepper& motor : motors_) {
+    motor.connect(false);
+    motor.set_coils_only(0);
+  }
   codec_.reset(at);
   for (Uart& uart : uarts_) uart.reset(at);
   if (camera_) camera_->processor_reset();
   i2c_master_.processor_reset(at);
-  requests = Requests{};
   for (std::size_t i = 0; i < kPorts; ++i) note_pulses(i, 0, tris_[i], at);
   lat_.fill(0);
   for (std::size_t i = 0; i < kPorts; ++i) tris_[i] = kImplemented[i];
@@ -355,24 +333,15 @@ void Board::set_battery(double volts, Cycle at) { battery_.set_voltage(volts, at
 void Board::exchange(Cycle at) {
   for (Uart& uart : uarts_) uart.exchange(at);
   codec_.forget(at);
-  scan_.keep_acc(at);
+  if (driver_) driver_->exchange(at);
 }
 
 Cycle Board::quiet_until(Cycle at) const {
   const bool has_news_of_its_own = !uarts_[0].is_quiet() || !uarts_[1].is_quiet() || !parts_.empty() ||
-                                   packets_.receivers() > 0 || codec_.was_used() || (camera_ && camera_->is_used());
+                                   packets_.receivers() > 0 || codec_.was_used() ||
+                                   (camera_ && camera_->is_used());
   if (has_news_of_its_own) return at;
-  return scan_.keeps_acc() ? at + kAccKeepCycles : host::kNever;
-}
-
-void Board::mask_handlers(bool masked, Cycle at) {
-  if (masked) {
-    scan_.hold(at);
-    agendas_.hold(at);
-  } else {
-    scan_.release(at);
-    agendas_.release(at);
-  }
+  return driver_ ? driver_->quiet_until(at) : kNever;
 }
 
 // --- analogue inputs -------------------------------------------------------------------------------------
@@ -505,8 +474,7 @@ int Board::battery_counts(Cycle at) const {
 }
 
 int Board::proximity_counts(int sensor, Cycle at) const {
-  if (scan_.is_on() && !scan_.micro_only()) return scan_.peek_dark(sensor, at) - scan_.peek_lit(sensor, at);
-  if (basic_prox_.is_on()) return basic_prox_.peek_reflected(sensor, at);
+  if (const auto counts = driver_ ? driver_->proximity_counts(sensor, at) : std::nullopt) return *counts;
   if (!scene_) return 0;
   const sim::Clicks when = clock_.click_at(at);
   const double seen = sim::sense_proximity(*scene_, setup_.robot, sensor, when).value *
@@ -516,15 +484,14 @@ int Board::proximity_counts(int sensor, Cycle at) const {
 
 std::uint64_t Board::state_hash(Cycle at) const {
   // a sum of products with odd numbers: the parts do not wait for one another; mixed once at the end
-  std::uint64_t sum = agendas_.state_sum(at);
+  std::uint64_t sum = driver_ ? driver_->state_sum(at) : 0;
   std::uint64_t factor = 0x9E3779B97F4A7C15u;
   const auto add = [&](std::uint64_t part) {
     sum += part * factor;
     factor += 0xD1B54A32D192ED02u;  // even, so the factor stays odd
   };
   for (Wheel wheel : {Wheel::Left, Wheel::Right}) {
-    if (!timer_motors_.drives(wheel)) continue;  // the agenda's motors are in its sum
-    const Stepper motor = stepper_at(wheel, at);
+    const Stepper& motor = stepper_at(wheel, at);
     add(static_cast<std::uint64_t>(motor.steps()) << 4 ^ motor.coils());
   }
   for (std::size_t i = 0; i < kPorts; ++i) add(lat_[i] | static_cast<std::uint64_t>(tris_[i]) << 16);
@@ -536,7 +503,6 @@ std::uint64_t Board::state_hash(Cycle at) const {
   if (codec_.was_used()) add(codec_.state_hash());
   for (const auto& part : parts_) add(part->state_hash());
   if (const std::uint64_t changes = eeprom_.state_hash()) add(changes);
-  add(static_cast<std::uint64_t>(scan_.interrupts(at)));
   return sim::mix64(sum);
 }
 

@@ -5,10 +5,9 @@
 //   firmware -- registers - tp_sfr_* -----+--> Board --> wheel angles, LEDs, IR light      (to the world)
 //                                             Board <-- sim::sense_proximity, irradiance   (from the Scene)
 //
-// Modelled: port latches, directions and pin levels; two steppers that follow their coils; the library's
-// motor drivers, agenda timer, ADC scan and UARTs in closed form; IR circuit; LEDs; selector; remote
-// control's receiver; battery, fed by what is on. Motion sensors: accelerometer.h (before revision 1.3),
-// lsm330.h (1.3).
+// Modelled: port latches, directions and pin levels; two steppers that follow their coils; IR circuit; LEDs;
+// selector; remote control's receiver; battery, fed by what is on. Motion sensors: accelerometer.h (before
+// revision 1.3), lsm330.h (1.3).
 //
 // Every method takes the cycle of this robot's clock at which it happens. Cycles never go back between calls
 // that change something. Nothing depends on who looked before: const methods have no side effects, and a
@@ -21,14 +20,12 @@
 #include <string>
 #include <vector>
 
-#include "hal_sim/board/adc_scan.h"
-#include "hal_sim/board/agenda_timer.h"
-#include "hal_sim/board/basic_prox.h"
 #include "hal_sim/board/battery.h"
 #include "hal_sim/board/battery_params.h"
 #include "hal_sim/board/camera.h"
 #include "hal_sim/board/clock.h"
 #include "hal_sim/board/codec.h"
+#include "hal_sim/board/cycle.h"
 #include "hal_sim/board/data_eeprom.h"
 #include "hal_sim/board/diagnosis.h"
 #include "hal_sim/board/i2c_bus.h"
@@ -36,11 +33,10 @@
 #include "hal_sim/board/noise.h"
 #include "hal_sim/board/packet_devices.h"
 #include "hal_sim/board/part.h"
+#include "hal_sim/board/pin_driver.h"
 #include "hal_sim/board/remote.h"
-#include "hal_sim/board/timer_motors.h"
 #include "hal_sim/board/uart.h"
 #include "hal_sim/board/virtual_devices.h"
-#include "hal_sim/host/context.h"
 
 namespace sim {
 class Scene;
@@ -190,22 +186,15 @@ class Board {
   /// Somebody else watches for latches of pins that are inputs (the models of the chip).
   void leave_inputs_to_others() { watches_inputs_ = false; }
 
-  // --- what the library's drivers keep in the processor, in closed form ----------------------------------
+  // --- devices --------------------------------------------------------------------------------------------
 
-  AgendaTimer& agendas() { return agendas_; }
-  const AgendaTimer& agendas() const { return agendas_; }
-  TimerMotors& timer_motors() { return timer_motors_; }
-  const TimerMotors& timer_motors() const { return timer_motors_; }
-  /// What the handlers of the scan and of the agenda tick take of each cycle, as a fraction of 2^32.
-  std::uint64_t handler_share_q32() const { return scan_.share_q32() + agendas_.share_q32(); }
-  /// The program masks these handlers from `at` on, or does no longer.
-  void mask_handlers(bool masked, Cycle at);
-  AdcScan& scan() { return scan_; }
-  const AdcScan& scan() const { return scan_; }
+  /// Whoever moves pins by itself; null: nobody. Outlives the board's use or takes itself away.
+  void attach(PinDriver* driver) { driver_ = driver; }
+  /// The motor itself, for a PinDriver.
+  Stepper& own_motor(Wheel wheel) { return motors_[static_cast<std::size_t>(wheel)]; }
+
   Codec& codec() { return codec_; }
   const Codec& codec() const { return codec_; }
-  BasicProx& basic_prox() { return basic_prox_; }
-  const BasicProx& basic_prox() const { return basic_prox_; }
   /// The motor of a wheel, brought to `at`.
   Stepper& stepper(Wheel wheel, Cycle at);
   /// UART 1 (Bluetooth) or 2 (RS232).
@@ -269,16 +258,6 @@ class Board {
   /// What somebody does with a remote control.
   RemoteReceiver& remote() { return remote_; }
   const RemoteReceiver& remote() const { return remote_; }
-  /// What the exported functions last asked of the host for this board, so that they ask only when it
-  /// changed.
-  struct Requests {
-    static constexpr Cycle kUnknown = -2;
-    Cycle agenda_interrupt = -1;
-    std::array<Cycle, 16> background_period{};
-    std::array<Cycle, 16> background_cost{};
-  };
-  Requests requests;
-
   /// Tells the air what the loudspeaker began or ended, at the tick boundary `now`.
   void publish_sound(sim::SoundField& field, sim::Clicks now);
 
@@ -295,10 +274,13 @@ class Board {
   /// second.
   static constexpr int kMicFraction = 24;
   int with_mic_noise(std::int64_t level, int microphone, Cycle at) const;
-  unsigned pulses(Cycle at) const;
+  unsigned pulses(Cycle at) const { return driver_ ? driver_->pulses(at) : 0; }
+  bool owns_emitters() const { return driver_ && driver_->owns_emitters(); }
   /// Cycles for which the emitter line of a sensor has been on by its latch alone; -1 when off.
   Cycle line_on_for(int sensor, Cycle at) const;
-  Stepper stepper_at(Wheel wheel, Cycle at) const;
+  const Stepper& stepper_at(Wheel wheel, Cycle at) const {
+    return driver_ ? driver_->motor_at(wheel, at) : motors_[static_cast<std::size_t>(wheel)];
+  }
   void connect_steppers(Cycle at);
   /// Share of the time for which a wheel's two coils are energised while nothing new is commanded, 0 to 1.
   double coil_duty(Wheel wheel, Cycle at) const;
@@ -348,10 +330,8 @@ class Board {
       true;  // false: nothing sounds in the scene, found out once a tick for the models of the chip
   double beside_emitters_a_ = kProcessorA + kBluetoothA + kBoardA;  // at the last follow_power()
 
-  AgendaTimer agendas_;
-  TimerMotors timer_motors_;
-  AdcScan scan_;
-  BasicProx basic_prox_;
+  PinDriver* driver_ = nullptr;
+  Stepper motors_[2] = {Stepper(-1), Stepper(+1)};
   Codec codec_;
   std::array<Uart, 2> uarts_;
   I2cBus i2c_;

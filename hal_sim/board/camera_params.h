@@ -2,11 +2,9 @@
 // Every number of the camera, each with one source (docs/sources.md). Register numbers stand in
 // camera_sensor.cpp beside what they mean. [derived: ..] follows from the facts that it names.
 #pragma once
-#include "hal_sim/host/context.h"
+#include "hal_sim/board/cycle.h"
 
 namespace board {
-
-using host::Cycle;
 
 // --- optics ------------------------------------------------------------------------------------------------
 inline constexpr double kCameraXM = 0.030;  // m ahead of the axle's middle [FRM A9]

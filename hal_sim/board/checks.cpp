@@ -141,16 +141,7 @@ std::vector<Diagnosis> Board::diagnoses(Cycle at) const {
                    "a transfer begins although the one before was not ended by a stop condition",
                    "end each transfer with I2CCON.PEN (e_i2c_stop()), or go on with RSEN",
                    i2c_.first_unstopped(), 0, i2c_.unstopped()});
-  const auto missed = [&all](const char* vector, std::int64_t count, Cycle first) {
-    if (count == 0) return;
-    all.push_back({"missed interrupt", vector,
-                   std::string(vector) +
-                       ": an event came while its flag was still set and enabled; the handler runs once for "
-                       "several (too slow, or held off too long)",
-                   "make agendas' functions and handlers shorter, or mask interrupts for less", first, 0, count});
-  };
-  missed("ADC", scan_.lost_frames(), scan_.first_lost());
-  missed("T2", agendas_.lost_ticks(), agendas_.first_lost());
+  if (driver_) driver_->add_diagnoses(all);
   for (const Misuse& misuse : misuses_) all.push_back(misuse.what);
   return all;
 }

@@ -6,12 +6,10 @@
 #pragma once
 #include <cstdint>
 
-#include "hal_sim/host/context.h"
+#include "hal_sim/board/cycle.h"
 #include "sim_core/base/clock.h"
 
 namespace board {
-
-using host::Cycle;
 
 class RobotClock {
  public:

@@ -42,7 +42,7 @@ void Codec::start_dci(Cycle at) {
 void Codec::configure() { configured_ = powered_ && dci_runs(); }
 
 Cycle Codec::next_group(Cycle at) const {
-  if (!dci_runs()) return host::kNever;
+  if (!dci_runs()) return kNever;
   return dci_since_ + (std::max<Cycle>(0, at - dci_since_) / kCodecGroupCycles + 1) * kCodecGroupCycles;
 }
 

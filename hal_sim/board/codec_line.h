@@ -18,11 +18,9 @@
 #include <memory>
 #include <vector>
 
-#include "hal_sim/host/context.h"
+#include "hal_sim/board/cycle.h"
 
 namespace board {
-
-using host::Cycle;
 
 class CodecLine {
  public:

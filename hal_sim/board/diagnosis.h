@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "hal_sim/host/context.h"
+#include "hal_sim/board/cycle.h"
 
 namespace board {
 
@@ -14,7 +14,7 @@ struct Diagnosis {
   std::string place;       ///< pins, register, bit or vector: "LATD0-3", "U1STA.OERR", "T2"
   std::string message;     ///< one sentence without a full stop
   std::string hint;        ///< what to do; empty when the sentence says it
-  host::Cycle first = 0;   ///< cycle of the robot's clock at which it happened first
+  Cycle first = 0;         ///< cycle of the robot's clock at which it happened first
   double first_s = 0;      ///< the same as world time, s; set by host::Robot::diagnoses()
   std::int64_t count = 1;  ///< occurrences since power-up
 };

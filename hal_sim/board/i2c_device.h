@@ -6,11 +6,9 @@
 #pragma once
 #include <cstdint>
 
-#include "hal_sim/host/context.h"
+#include "hal_sim/board/cycle.h"
 
 namespace board {
-
-using host::Cycle;
 
 class I2cDevice {
  public:

@@ -7,11 +7,9 @@
 // counts (619 mV/g) is within the part's tolerance and the only value with which calibrated readings obey
 // trigonometry; before calibration the library's centre of 2000 then shows 816 at rest, its "about 800".
 #pragma once
-#include "hal_sim/host/context.h"
+#include "hal_sim/board/cycle.h"
 
 namespace board {
-
-using host::Cycle;
 
 inline constexpr double kStandardGravityMS2 =
     9.81;  // what 1 g means here [assumed: the worlds' default gravity]

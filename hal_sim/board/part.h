@@ -15,14 +15,12 @@
 #include <string>
 #include <vector>
 
-#include "hal_sim/host/context.h"
+#include "hal_sim/board/cycle.h"
 #include "sim_core/random/counter_random.h"
 #include "sim_core/world/part_desc.h"
 #include "sim_core/world/robot_model.h"  // points and poses
 
 namespace board {
-
-using host::Cycle;
 
 class Board;
 
@@ -42,8 +40,6 @@ class PartSettings {
   bool flag(const std::string& key) const;
   std::string text(const std::string& key) const;
   std::vector<double> numbers(const std::string& key) const;
-  /// The file says something about this key.
-  bool is_set(const std::string& key) const { return desc_.values.count(key) != 0; }
 
  private:
   const sim::PartKey& key_of(const std::string& key) const;

@@ -24,14 +24,10 @@ int ones(unsigned word) {
 }  // namespace
 
 double Board::coil_duty(Wheel wheel, Cycle at) const {
-  const Stepper& motor = agendas_.stepper_at(wheel, at);  // of a timer's train: connected, and driven, alike
+  const Stepper& motor = stepper_at(wheel, at);
   if (!motor.connected()) return 0;
-  if (timer_motors_.drives(wheel)) return 1;  // these drivers leave the coils on from step to step
-  if (!agendas_.runs(wheel)) return ones(motor.coils()) / 2.0;
-  const int magnitude = std::abs(agendas_.speed(wheel));
-  if (magnitude >= kPowerSaveBelow) return 1;
-  const int period = magnitude > 0 ? kSpeedUnit / magnitude : 0;
-  return period > 0 ? std::min(1.0, static_cast<double>(kPowerSaveTicks) / period) : 0;
+  const auto driven = driver_ ? driver_->coil_duty(wheel) : std::nullopt;
+  return driven ? *driven : ones(motor.coils()) / 2.0;
 }
 
 double Board::beside_emitters_a(Cycle at) const {
@@ -51,10 +47,7 @@ double Board::beside_emitters_a(Cycle at) const {
 double Board::emitters_a(Cycle at) const {
   double lines = 0;
   for (int sensor = 0; sensor < 4; ++sensor) lines += line_on_for(sensor, at) >= 0 ? 1 : 0;
-  if (scan_.is_on() && !scan_.micro_only()) lines += static_cast<double>(kScanLitInterrupts) / kScanPeriod;
-  if (basic_prox_.is_on())
-    lines +=
-        static_cast<double>(kBasicPulseCycles) / static_cast<double>(kBasicPulseCycles + kBasicRestCycles);
+  if (driver_) lines += driver_->mean_pulses();
   return 2 * kIrEmitterA * lines;
 }
 

@@ -62,7 +62,7 @@ Cycle RemoteReceiver::next_change(Cycle at) const {
   for (sim::Clicks now = from;;) {
     sim::Clicks next = kNoClick;
     for (const Press& press : presses_) next = std::min(next, next_change(press, now));
-    if (next >= kNoClick) return host::kNever;
+    if (next >= kNoClick) return kNever;
     now = next;
     if (level_at(now) == before) continue;  // another key's carrier covers the change
     return clock_.cycle_at(now - 1) + 1;
@@ -71,7 +71,7 @@ Cycle RemoteReceiver::next_change(Cycle at) const {
 
 Cycle RemoteReceiver::next_edge(Cycle at, bool falling) const {
   Cycle change = next_change(at);
-  if (change < host::kNever && level(change) == falling) change = next_change(change);
+  if (change < kNever && level(change) == falling) change = next_change(change);
   return change;
 }
 

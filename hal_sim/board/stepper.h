@@ -24,6 +24,8 @@
 
 namespace board {
 
+enum class Wheel { Left = 0, Right = 1 };
+
 inline constexpr unsigned kPhaseCoils[4] = {0xA, 0x6, 0x5, 0x9};  // bit 0 = A [lib: motor_led/e_motors.c]
 
 /// What a motor would not do for its driver; each with the cycle of its first time.
@@ -112,11 +114,12 @@ class Stepper {
   /// Steps per cycle at which that changes, and until when: kNever at rest.
   double speed(Cycle at) const {
     const Motion& m = at < motion_.moved_at ? before_ : motion_;
-    return at < m.moved_at + m.move ? (static_cast<double>(m.steps) - m.from) / static_cast<double>(m.move) : 0;
+    return at < m.moved_at + m.move ? (static_cast<double>(m.steps) - m.from) / static_cast<double>(m.move)
+                                    : 0;
   }
   Cycle move_end(Cycle at) const {
     if (at < motion_.moved_at) return at;
-    return at < motion_.moved_at + motion_.move ? motion_.moved_at + motion_.move : host::kNever;
+    return at < motion_.moved_at + motion_.move ? motion_.moved_at + motion_.move : kNever;
   }
 
  private:

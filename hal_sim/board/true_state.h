@@ -4,13 +4,12 @@
 #pragma once
 #include <string>
 
-#include "hal_sim/host/context.h"
+#include "hal_sim/board/cycle.h"
 #include "sim_core/world/world_desc.h"
 
 namespace board {
 
 class Board;
-using host::Cycle;
 
 /// In the axes that the world file chose ([webots] axes).
 struct TrueState {

@@ -15,14 +15,6 @@ void Uart::init_library(int brg, Cycle at) {
   received_count_ = read_count_ = 0;
 }
 
-void Uart::init_raw(bool enabled, int brg, Cycle at) {
-  settle(at);
-  enabled_ = enabled;
-  library_ = false;
-  brg_ = brg & 0xFFFF;
-  if (!enabled) raw_count_ = 0;
-}
-
 void Uart::cut_off(Cycle at) {
   while (!out_ends_.empty() && out_ends_.back() > at) {
     out_ends_.pop_back();
@@ -42,9 +34,8 @@ void Uart::send_break(Cycle cycles, Cycle at) {
 void Uart::reset(Cycle at) {
   settle(at);
   cut_off(at);  // a byte cut off by the reset never arrives
-  enabled_ = library_ = overrun_ = false;
+  enabled_ = library_ = false;
   received_count_ = read_count_ = 0;
-  raw_count_ = 0;
   starts_.fill(at);
   last_start_ = free_at_ = at;
 }
@@ -84,14 +75,9 @@ void Uart::settle(Cycle at) {
     if (!enabled_) continue;
     ++received_;
     hash_ = sim::mix64(hash_ ^ (arrival.byte | static_cast<std::uint64_t>(arrival.at) << 8 | 1ull << 63));
-    if (library_) {
-      ring_[received_count_ % kUartRingBytes] = arrival.byte;
-      ++received_count_;
-    } else if (raw_count_ < static_cast<int>(raw_.size())) {
-      raw_[static_cast<std::size_t>(raw_count_++)] = arrival.byte;
-    } else {
-      overrun_ = true;
-    }
+    if (!library_) continue;
+    ring_[received_count_ % kUartRingBytes] = arrival.byte;
+    ++received_count_;
   }
 }
 
@@ -106,34 +92,9 @@ int Uart::take(Cycle at) {
   return ring_[read_count_++ % kUartRingBytes];
 }
 
-int Uart::raw_available(Cycle at) {
-  settle(at);
-  return raw_count_;
-}
-
-int Uart::raw_take(Cycle at) {
-  settle(at);
-  if (raw_count_ == 0) return -1;
-  const int byte = raw_[0];
-  std::copy(raw_.begin() + 1, raw_.end(), raw_.begin());
-  --raw_count_;
-  return byte;
-}
-
-bool Uart::overrun(Cycle at) {
-  settle(at);
-  return overrun_;
-}
-
-void Uart::clear_overrun(Cycle at) {
-  settle(at);
-  overrun_ = false;
-  raw_count_ = 0;  // clearing OERR empties the buffer
-}
-
 Cycle Uart::next_arrival(Cycle at) {
   settle(at);
-  return on_wire_.empty() ? host::kNever : on_wire_.front().at;
+  return on_wire_.empty() ? kNever : on_wire_.front().at;
 }
 
 std::int64_t Uart::received(Cycle at) {

@@ -34,8 +34,6 @@ class Uart {
  public:
   /// e_init_uartN(): enabled at BRG `brg`, ring emptied.
   void init_library(int brg, Cycle at);
-  /// UARTEN and BRG by registers; received bytes wait in the hardware's buffer of four.
-  void init_raw(bool enabled, int brg, Cycle at);
   void reset(Cycle at);
 
   bool enabled() const { return enabled_; }
@@ -59,11 +57,6 @@ class Uart {
   int unread(Cycle at);
   /// Library: next byte of the ring, or -1.
   int take(Cycle at);
-  /// Raw: bytes in the hardware's buffer, its next byte or -1, overrun flag.
-  int raw_available(Cycle at);
-  int raw_take(Cycle at);
-  bool overrun(Cycle at);
-  void clear_overrun(Cycle at);
   /// End of the next byte known to be on its way; kNever if none.
   Cycle next_arrival(Cycle at);
   /// Bytes received since power-up.
@@ -131,9 +124,6 @@ class Uart {
   std::array<std::uint8_t, kUartRingBytes> ring_{};
   std::uint16_t received_count_ = 0;
   std::uint16_t read_count_ = 0;
-  std::array<std::uint8_t, 4> raw_{};
-  int raw_count_ = 0;
-  bool overrun_ = false;
   std::int64_t received_ = 0;
 
   std::shared_ptr<UartEnd> end_;

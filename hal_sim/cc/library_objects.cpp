@@ -95,11 +95,11 @@ std::vector<CompileJob> library_jobs(const BuildOptions& o, bool is_webots, bool
   for (const fs::path& folder : contract_folders(contract)) flags.push_back("-I" + folder.string());
   flags.insert(flags.end(), {"-include", (libc / "xc16_builtins.h").string(), "-I" + libc.string(),
                              "--fallback", contract.string(), "--fallback", libc.string(),
-                             "-I" + root.string(), "-I" + api.string()});  // its hal.h, for hal_common
+                             "-I" + root.string(), "-I" + api.string()});  // its hal.h, for firmware/library
   if (o.register_way) flags.push_back("--register");
 
   const std::string salt =
-      names_of_headers({contract, cc_dir / "libc", api, root / "hal_common", root / "hal_sim/host"});
+      names_of_headers({contract, cc_dir / "libc", api, root / "firmware/library", root / "hal_sim/host"});
   std::vector<CompileJob> jobs;
   const auto add = [&](const fs::path& source, const std::vector<std::string>& with) {
     jobs.push_back({source, with, salt, root.string()});
@@ -115,7 +115,7 @@ std::vector<CompileJob> library_jobs(const BuildOptions& o, bool is_webots, bool
     for (const char* name : {"virtual.c", "webots_simulator.c"}) add(root / "hal_sim/api" / name, flags);
   std::vector<fs::path> folders = {api, cc_dir / "libc/src"};
   // the half of the library that needs no pins, for a HAL that has the other half
-  if (fs::exists(api / "hal.h")) folders.push_back(root / "hal_common");
+  if (fs::exists(api / "hal.h")) folders.push_back(root / "firmware/library");
   const auto is_replaced = [&](const fs::path& file) {
     return is_webots && file.parent_path() == cc_dir / "libc/src" &&
            fs::exists(cc_dir / "libc/webots" / file.filename());

@@ -80,12 +80,12 @@ std::int64_t CameraPins::edges(int bit, bool rising, Cycle after, Cycle until) {
 }
 
 Cycle CameraPins::nth_edge(int bit, bool rising, Cycle after, std::int64_t n) {
-  if (!refresh(after)) return host::kNever;
+  if (!refresh(after)) return board::kNever;
   return instant(bit, rising, count(bit, rising, after) + n - 1);
 }
 
 Cycle CameraPins::next_change(std::uint16_t pins, Cycle after) {
-  Cycle next = host::kNever;
+  Cycle next = board::kNever;
   for (const int bit : {Href, Vsync, Pclk})
     if (pins >> bit & 1)
       for (const bool rising : {false, true}) next = std::min(next, nth_edge(bit, rising, after, 1));
@@ -93,7 +93,7 @@ Cycle CameraPins::next_change(std::uint16_t pins, Cycle after) {
 }
 
 Cycle CameraPins::next_byte(Cycle after) {
-  if (!refresh(after)) return host::kNever;
+  if (!refresh(after)) return board::kNever;
   return std::min(nth_edge(Href, true, after, 1), nth_edge(Pclk, false, after, 1));
 }
 

@@ -17,7 +17,7 @@
 
 namespace chip {
 
-using host::Cycle;
+using board::Cycle;
 
 class CameraPins {
  public:

@@ -4,6 +4,7 @@
 
 #include "hal_sim/board/board.h"
 #include "hal_sim/board/motion_params.h"
+#include "hal_sim/drivers/drivers.h"
 #include "hal_sim/host/context.h"
 #include "hal_sim/host/pins.h"
 #include "hal_sim/host/pins_acc.h"
@@ -15,10 +16,10 @@ extern "C" {
 
 void tp_scan_acc_values(void* samples) {
   Context& context = Context::current();
-  board::AdcScan& scan = context.board().scan();
+  drivers::AdcScan& scan = context.drivers().scan();
   const Cycle now = context.now();
-  const board::AdcScan::AccRing& ring = scan.acc_scan(now);
-  static_assert(sizeof ring == 3 * board::kAccSamples * 2, "e_acc_scan's layout");
+  const drivers::AdcScan::AccRing& ring = scan.acc_scan(now);
+  static_assert(sizeof ring == 3 * drivers::kAccSamples * 2, "e_acc_scan's layout");
   std::memcpy(samples, &ring, sizeof ring);
   context.lower_horizon(scan.acc_until(now));
 }
@@ -26,31 +27,31 @@ void tp_scan_acc_values(void* samples) {
 tp_i64 tp_scan_acc_newest(tp_i64 axis) {
   if (axis < 0 || axis > 2) return 0;
   Context& context = Context::current();
-  board::AdcScan& scan = context.board().scan();
+  drivers::AdcScan& scan = context.drivers().scan();
   const Cycle now = context.now();
   context.lower_horizon(scan.acc_until(now));
   return scan.acc_scan(now)[static_cast<std::size_t>(axis)]
-                           [static_cast<std::size_t>(scan.acc_samples(now) % board::kAccSamples)];
+                           [static_cast<std::size_t>(scan.acc_samples(now) % drivers::kAccSamples)];
 }
 
 tp_i64 tp_scan_acc_index_until_next(void) {
   Context& context = Context::current();
-  const board::AdcScan& scan = context.board().scan();
+  const drivers::AdcScan& scan = context.drivers().scan();
   const Cycle now = context.now();
   context.lower_horizon(scan.acc_until(now));
-  return scan.acc_samples(now) % board::kAccSamples;
+  return scan.acc_samples(now) % drivers::kAccSamples;
 }
 
 void tp_scan_ir_values(void* dark, void* lit) {
   Context& context = Context::current();
-  board::AdcScan& scan = context.board().scan();
+  drivers::AdcScan& scan = context.drivers().scan();
   const Cycle now = context.now();
   tp_scan_values(dark, lit);
   for (int sensor = 0; sensor < board::kRingSensors; ++sensor)
     context.lower_horizon(scan.horizon(sensor, now));
 }
 
-tp_i64 tp_scan_starts(void) { return Context::current().board().scan().starts(); }
+tp_i64 tp_scan_starts(void) { return Context::current().drivers().scan().starts(); }
 
 tp_i64 tp_lsm330_answers(void) {
   Context& context = Context::current();

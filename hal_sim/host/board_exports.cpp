@@ -7,6 +7,7 @@
 
 #include "hal_sim/api/timings.h"
 #include "hal_sim/board/board.h"
+#include "hal_sim/drivers/drivers.h"
 #include "hal_sim/host/context.h"
 #include "hal_sim/host/pins.h"
 
@@ -14,8 +15,9 @@ namespace {
 
 using board::Board;
 using board::Cycle;
-using board::TimerMotors;
 using board::Wheel;
+using drivers::Drivers;
+using drivers::TimerMotors;
 using host::Context;
 
 // processor time of library functions whose work happens on this side
@@ -40,16 +42,18 @@ Wheel wheel_of(tp_i64 wheel) { return wheel == 0 ? Wheel::Left : Wheel::Right; }
 void request_background(Context& context, Board& robot, int slot, Cycle period, Cycle cost) {
   const std::size_t i = static_cast<std::size_t>(slot);
   if (cost == 0 || period <= 0) period = cost = 0;
-  if (robot.requests.background_period[i] == period && robot.requests.background_cost[i] == cost) return;
-  robot.requests.background_period[i] = period;
-  robot.requests.background_cost[i] = cost;
+  if (context.drivers().requests.background_period[i] == period &&
+      context.drivers().requests.background_cost[i] == cost)
+    return;
+  context.drivers().requests.background_period[i] = period;
+  context.drivers().requests.background_cost[i] = cost;
   context.set_background(slot, period, cost);
 }
 
 /// Two interrupts a pair, each with two conversions.
 void charge_basic_prox(Context& context, Board& robot) {
-  request_background(context, robot, TP_BG_PROX, (board::kBasicPulseCycles + board::kBasicRestCycles) / 2,
-                     board::kBasicIsrEntryCycles + 2 * board::kReadAdCycles);
+  request_background(context, robot, TP_BG_PROX, (drivers::kBasicPulseCycles + drivers::kBasicRestCycles) / 2,
+                     drivers::kBasicIsrEntryCycles + 2 * drivers::kReadAdCycles);
 }
 
 void note_speed(Context& context, tp_i64 wheel, tp_i64 speed_steps_s, int most) {
@@ -63,10 +67,10 @@ void note_speed(Context& context, tp_i64 wheel, tp_i64 speed_steps_s, int most) 
 }
 
 Cycle search_cost(const void* function, Cycle found_at_once = kListSearchCycles) {
-  return found_at_once + kNodePassedCycles * Context::current().board().agendas().nodes_passed(function);
+  return found_at_once + kNodePassedCycles * Context::current().drivers().agendas().nodes_passed(function);
 }
 
-Cycle hold_cost(const board::AgendaTimer& list) { return list.is_enabled() ? kHoldCycles : 0; }
+Cycle hold_cost(const drivers::AgendaTimer& list) { return list.is_enabled() ? kHoldCycles : 0; }
 
 /// Shape of every change of the agenda list.
 template <typename Change>
@@ -74,7 +78,7 @@ tp_i64 change_list(Cycle cost, Change change) {
   Context& context = Context::current();
   Board& robot = context.board();
   const Cycle now = context.now();
-  const int result = change(robot.agendas(), now);
+  const int result = change(context.drivers().agendas(), now);
   robot.follow_power(now);
   context.note_write();
   context.follow_handlers();
@@ -89,12 +93,12 @@ namespace host {
 
 void request_agenda_interrupt(Context& context) {
   Board& robot = context.board();
-  const board::AgendaTimer& agendas = robot.agendas();
+  const drivers::AgendaTimer& agendas = context.drivers().agendas();
   if (agendas.is_walking()) return;  // tp_agenda_end() follows
   const Cycle next = agendas.next_interrupt();
   const Cycle wanted = next >= kNever ? -1 : next;
-  if (wanted == robot.requests.agenda_interrupt) return;
-  robot.requests.agenda_interrupt = wanted;
+  if (wanted == context.drivers().requests.agenda_interrupt) return;
+  context.drivers().requests.agenda_interrupt = wanted;
   context.irq_at(TP_V_T2, wanted);
 }
 
@@ -152,14 +156,14 @@ void tp_coils_write(tp_i64 wheel, tp_i64 coils) {
 
 void tp_agenda_start(void) {
   Context::current().spend(kStartCycles);  // the timer is switched on last
-  change_list(0, [](board::AgendaTimer& agendas, Cycle now) {
+  change_list(0, [](drivers::AgendaTimer& agendas, Cycle now) {
     agendas.start(now);
     return 1;
   });
 }
 
 void tp_agenda_stop(void) {
-  change_list(T_AGENDAS_STOP, [](board::AgendaTimer& agendas, Cycle now) {
+  change_list(T_AGENDAS_STOP, [](drivers::AgendaTimer& agendas, Cycle now) {
     agendas.stop(now);
     return 1;
   });
@@ -170,7 +174,7 @@ tp_i64 tp_agenda_activate(const void* function, tp_i64 cycle) {
     Context::current().trap(TP_TRAP_ADDRESS,
                             "agenda: its function is a null pointer; on the chip a call through "
                             "it jumps to the reset at address 0");
-  const board::AgendaTimer& list = Context::current().board().agendas();
+  const drivers::AgendaTimer& list = Context::current().drivers().agendas();
   if ((cycle & 0xFFFF) == 0 && !list.is_motor(function) && !list.has(function))
     Context::current().board().note_misuse(
         {"agenda without a period", "e_activate_agenda()",
@@ -180,53 +184,54 @@ tp_i64 tp_agenda_activate(const void* function, tp_i64 cycle) {
   const int passed = list.nodes_passed(function);
   const Cycle cost = list.has(function) ? kKnownCycles + kNodePassedCycles * passed
                                         : kActivateCycles + kNodeOfListCycles * passed + hold_cost(list);
-  return change_list(cost, [&](board::AgendaTimer& agendas, Cycle now) {
+  return change_list(cost, [&](drivers::AgendaTimer& agendas, Cycle now) {
     return agendas.activate(function, static_cast<int>(cycle), now);
   });
 }
 
 tp_i64 tp_agenda_destroy(const void* function) {
-  const board::AgendaTimer& list = Context::current().board().agendas();
+  const drivers::AgendaTimer& list = Context::current().drivers().agendas();
   const Cycle cost = kDestroyCycles + kDestroyPassedCycles * list.nodes_passed(function) +
                      (list.has(function) ? kFreeCycles : 0) + hold_cost(list);
-  return change_list(cost,
-                     [&](board::AgendaTimer& agendas, Cycle now) { return agendas.destroy(function, now); });
+  return change_list(
+      cost, [&](drivers::AgendaTimer& agendas, Cycle now) { return agendas.destroy(function, now); });
 }
 
 tp_i64 tp_agenda_set_cycle(const void* function, tp_i64 cycle) {
   if ((cycle & 0xFFFF) != 0 && function) Context::current().board().forget_misuse(function);
-  return change_list(search_cost(function, kSetCycleCycles), [&](board::AgendaTimer& agendas, Cycle now) {
+  return change_list(search_cost(function, kSetCycleCycles), [&](drivers::AgendaTimer& agendas, Cycle now) {
     return agendas.set_cycle(function, static_cast<int>(cycle), now);
   });
 }
 
 tp_i64 tp_agenda_reset(const void* function) {
-  return change_list(search_cost(function), [&](board::AgendaTimer& agendas, Cycle now) {
+  return change_list(search_cost(function), [&](drivers::AgendaTimer& agendas, Cycle now) {
     return agendas.reset_count(function, now);
   });
 }
 
 tp_i64 tp_agenda_pause(const void* function) {
   return change_list(search_cost(function),
-                     [&](board::AgendaTimer& agendas, Cycle now) { return agendas.pause(function, now); });
+                     [&](drivers::AgendaTimer& agendas, Cycle now) { return agendas.pause(function, now); });
 }
 
 tp_i64 tp_agenda_restart(const void* function) {
-  return change_list(search_cost(function),
-                     [&](board::AgendaTimer& agendas, Cycle now) { return agendas.restart(function, now); });
+  return change_list(search_cost(function), [&](drivers::AgendaTimer& agendas, Cycle now) {
+    return agendas.restart(function, now);
+  });
 }
 
 void tp_agenda_begin(void) {
   Context& context = Context::current();
-  context.board().agendas().begin(context.now());
+  context.drivers().agendas().begin(context.now());
   context.note_write();
 }
 
 const void* tp_agenda_next(void) {
   Context& context = Context::current();
   bool divided_by_zero = false;
-  const void* function = context.board().agendas().next(divided_by_zero);
-  context.spend(context.board().agendas().take_walk_cost());
+  const void* function = context.drivers().agendas().next(divided_by_zero);
+  context.spend(context.drivers().agendas().take_walk_cost());
   if (divided_by_zero)
     context.trap(TP_TRAP_MATH, "motor agenda: 10000 / 0 (speed 0 with a power-save half pending)");
   context.callback(function);
@@ -237,8 +242,8 @@ void tp_agenda_end(void) {
   Context& context = Context::current();
   context.spend(kReturnCycles);
   Board& robot = context.board();
-  robot.agendas().finish(context.now());
-  robot.requests.agenda_interrupt = Board::Requests::kUnknown;  // the request was used up
+  context.drivers().agendas().finish(context.now());
+  context.drivers().requests.agenda_interrupt = Drivers::Requests::kUnknown;  // the request was used up
   context.note_write();
   host::request_agenda_interrupt(context);
 }
@@ -246,17 +251,17 @@ void tp_agenda_end(void) {
 // --- motors ----------------------------------------------------------------------------------------------
 
 void tp_motor_agenda(tp_i64 wheel, const void* function) {
-  Context::current().board().agendas().name_motor(wheel_of(wheel), function);
+  Context::current().drivers().agendas().name_motor(wheel_of(wheel), function);
 }
 
 void tp_motor_speed(tp_i64 wheel, tp_i64 speed_steps_s) {
-  note_speed(Context::current(), wheel, speed_steps_s, board::kMaxSpeed);
-  const int passed = Context::current().board().agendas().nodes_passed(wheel_of(wheel));
+  note_speed(Context::current(), wheel, speed_steps_s, drivers::kMaxSpeed);
+  const int passed = Context::current().drivers().agendas().nodes_passed(wheel_of(wheel));
   const Cycle cost =
       kSetSpeedCycles + kNodePassedCycles * passed + (speed_steps_s == 0 ? 0 : kDivisionCycles);
   // the agenda's cycle is set last
   Context::current().spend(cost - kSpeedReturnCycles);
-  change_list(kSpeedReturnCycles, [&](board::AgendaTimer& agendas, Cycle now) {
+  change_list(kSpeedReturnCycles, [&](drivers::AgendaTimer& agendas, Cycle now) {
     agendas.set_speed(wheel_of(wheel), static_cast<int>(speed_steps_s), now);
     return 1;
   });
@@ -265,7 +270,7 @@ void tp_motor_speed(tp_i64 wheel, tp_i64 speed_steps_s) {
 void tp_motor_run(tp_i64 wheel) {
   Context& context = Context::current();
   Board& robot = context.board();
-  const bool fine = robot.agendas().run_motor(wheel_of(wheel), context.now());
+  const bool fine = context.drivers().agendas().run_motor(wheel_of(wheel), context.now());
   context.note_write();
   context.follow_handlers();
   host::request_agenda_interrupt(context);
@@ -275,7 +280,7 @@ void tp_motor_run(tp_i64 wheel) {
 tp_i64 tp_motor_steps(tp_i64 wheel) {
   Context& context = Context::current();
   const Cycle now = context.now();
-  const board::AgendaTimer& agendas = context.board().agendas();
+  const drivers::AgendaTimer& agendas = context.drivers().agendas();
   context.lower_horizon(agendas.steps_horizon(wheel_of(wheel), now));
   return agendas.commanded_steps(wheel_of(wheel), now);
 }
@@ -286,14 +291,14 @@ void tp_timer_motor_speed(tp_i64 driver, tp_i64 wheel, tp_i64 speed_steps_s) {
   const Cycle now = context.now();
   const Wheel which = wheel_of(wheel);
   const auto kind = driver == 0 ? TimerMotors::Driver::Basic : TimerMotors::Driver::Timer3;
-  if (kind == TimerMotors::Driver::Timer3) note_speed(context, wheel, speed_steps_s, board::kMaxSpeed);
-  robot.timer_motors().set_speed(kind, which, static_cast<int>(speed_steps_s), now,
-                                 robot.stepper(which, now));
+  if (kind == TimerMotors::Driver::Timer3) note_speed(context, wheel, speed_steps_s, drivers::kMaxSpeed);
+  context.drivers().timer_motors().set_speed(kind, which, static_cast<int>(speed_steps_s), now,
+                                             robot.stepper(which, now));
   robot.follow_power(now);
   if (kind == TimerMotors::Driver::Basic) {
-    const Cycle period = robot.timer_motors().interrupt_period(which);
+    const Cycle period = context.drivers().timer_motors().interrupt_period(which);
     request_background(context, robot, which == Wheel::Left ? TP_BG_MOTOR_LEFT : TP_BG_MOTOR_RIGHT, period,
-                       period > 0 ? board::kBasicMotorIsrCycles : 0);
+                       period > 0 ? drivers::kBasicMotorIsrCycles : 0);
   }
   context.note_write();
   context.spend(kSetSpeedCycles);
@@ -304,18 +309,18 @@ tp_i64 tp_timer_motor_steps(tp_i64 driver, tp_i64 wheel) {
   Board& robot = context.board();
   const Cycle now = context.now();
   const Wheel which = wheel_of(wheel);
-  context.lower_horizon(robot.timer_motors().steps_horizon(which, now));
-  return robot.timer_motors().commanded_steps(
+  context.lower_horizon(context.drivers().timer_motors().steps_horizon(which, now));
+  return context.drivers().timer_motors().commanded_steps(
       driver == 0 ? TimerMotors::Driver::Basic : TimerMotors::Driver::Timer3, which, now,
-      robot.agendas().stepper_at(which, now));
+      context.drivers().agendas().stepper_at(which, now));
 }
 
 void tp_timer3_motors_start(void) {
   Context& context = Context::current();
   Board& robot = context.board();
   for (Wheel wheel : {Wheel::Left, Wheel::Right}) robot.stepper(wheel, context.now());
-  robot.timer_motors().start_timer3(context.now());
-  request_background(context, robot, TP_BG_MOTOR_LEFT, board::kTimer3TickCycles, board::kTimer3IsrCycles);
+  context.drivers().timer_motors().start_timer3(context.now());
+  request_background(context, robot, TP_BG_MOTOR_LEFT, drivers::kTimer3TickCycles, drivers::kTimer3IsrCycles);
   context.note_write();
 }
 
@@ -325,7 +330,7 @@ void tp_scan_start(tp_i64 micro_only, tp_i64 five_pairs) {
   Context& context = Context::current();
   Board& robot = context.board();
   const Cycle now = context.now();
-  robot.scan().start(micro_only != 0, five_pairs != 0, now);
+  context.drivers().scan().start(micro_only != 0, five_pairs != 0, now);
   robot.follow_power(now);
   context.note_write();
   context.follow_handlers();
@@ -335,7 +340,7 @@ void tp_scan_switch(tp_i64 on) {
   Context& context = Context::current();
   Board& robot = context.board();
   const Cycle now = context.now();
-  robot.scan().switch_converter(on != 0, now);
+  context.drivers().scan().switch_converter(on != 0, now);
   robot.follow_power(now);
   context.note_write();
   context.follow_handlers();
@@ -343,12 +348,12 @@ void tp_scan_switch(tp_i64 on) {
 
 tp_i64 tp_scan_filled_at(void) {
   Context& context = Context::current();
-  return context.board().scan().first_fill(context.now());
+  return context.drivers().scan().first_fill(context.now());
 }
 
 tp_i64 tp_scan_interrupts(void) {
   Context& context = Context::current();
-  const board::AdcScan& scan = context.board().scan();
+  const drivers::AdcScan& scan = context.drivers().scan();
   const Cycle now = context.now();
   context.lower_horizon(scan.next_interrupt(now));
   return scan.interrupts(now);
@@ -356,18 +361,18 @@ tp_i64 tp_scan_interrupts(void) {
 
 tp_i64 tp_scan_array_filled(void) {
   Context& context = Context::current();
-  const board::AdcScan& scan = context.board().scan();
+  const drivers::AdcScan& scan = context.drivers().scan();
   const Cycle now = context.now();
   const std::int64_t count = scan.interrupts(now);
-  const bool filled = count > 0 && count % board::kMicSamples == 0;
-  const std::int64_t next = filled ? count + 1 : count - count % board::kMicSamples + board::kMicSamples;
+  const bool filled = count > 0 && count % drivers::kMicSamples == 0;
+  const std::int64_t next = filled ? count + 1 : count - count % drivers::kMicSamples + drivers::kMicSamples;
   context.lower_horizon(scan.interrupt_cycle(next));
   return filled ? 1 : 0;
 }
 
 tp_i64 tp_scan_acc_samples(void) {
   Context& context = Context::current();
-  const board::AdcScan& scan = context.board().scan();
+  const drivers::AdcScan& scan = context.drivers().scan();
   const Cycle now = context.now();
   context.lower_horizon(scan.next_interrupt(now));
   return scan.acc_samples(now);
@@ -375,7 +380,7 @@ tp_i64 tp_scan_acc_samples(void) {
 
 tp_i64 tp_scan_dark(tp_i64 sensor) {
   Context& context = Context::current();
-  board::AdcScan& scan = context.board().scan();
+  drivers::AdcScan& scan = context.drivers().scan();
   if (sensor < 0 || sensor > 9) return 0;
   const Cycle now = context.now();
   const int counts = scan.dark(static_cast<int>(sensor), now);
@@ -385,7 +390,7 @@ tp_i64 tp_scan_dark(tp_i64 sensor) {
 
 tp_i64 tp_scan_lit(tp_i64 sensor) {
   Context& context = Context::current();
-  board::AdcScan& scan = context.board().scan();
+  drivers::AdcScan& scan = context.drivers().scan();
   if (sensor < 0 || sensor > 9) return 0;
   const Cycle now = context.now();
   const int counts = scan.lit(static_cast<int>(sensor), now);
@@ -395,17 +400,17 @@ tp_i64 tp_scan_lit(tp_i64 sensor) {
 
 tp_i64 tp_scan_mic_index(void) {
   Context& context = Context::current();
-  return context.board().scan().interrupts(context.now()) % board::kMicSamples;
+  return context.drivers().scan().interrupts(context.now()) % drivers::kMicSamples;
 }
 
 tp_i64 tp_scan_acc_index(void) {
   Context& context = Context::current();
-  return context.board().scan().acc_samples(context.now()) % board::kAccSamples;
+  return context.drivers().scan().acc_samples(context.now()) % drivers::kAccSamples;
 }
 
 void tp_scan_values(void* dark, void* lit) {
   Context& context = Context::current();
-  board::AdcScan& scan = context.board().scan();
+  drivers::AdcScan& scan = context.drivers().scan();
   const Cycle now = context.now();
   for (int sensor = 0; sensor < 10; ++sensor) {
     static_cast<std::int16_t*>(dark)[sensor] = static_cast<std::int16_t>(scan.dark(sensor, now));
@@ -416,7 +421,7 @@ void tp_scan_values(void* dark, void* lit) {
 void tp_basic_prox_start(void) {
   Context& context = Context::current();
   Board& robot = context.board();
-  robot.basic_prox().start(context.now());
+  context.drivers().basic_prox().start(context.now());
   robot.follow_power(context.now());
   charge_basic_prox(context, robot);
   context.note_write();
@@ -424,22 +429,22 @@ void tp_basic_prox_start(void) {
 
 void tp_basic_prox_hold(void) {
   Context& context = Context::current();
-  context.board().basic_prox().hold(context.now());
+  context.drivers().basic_prox().hold(context.now());
   context.note_write();
 }
 
 void tp_basic_prox_release(void) {
   Context& context = Context::current();
   Board& robot = context.board();
-  const bool was_on = robot.basic_prox().is_on();
-  robot.basic_prox().release(context.now());
-  if (!was_on && robot.basic_prox().is_on()) charge_basic_prox(context, robot);
+  const bool was_on = context.drivers().basic_prox().is_on();
+  context.drivers().basic_prox().release(context.now());
+  if (!was_on && context.drivers().basic_prox().is_on()) charge_basic_prox(context, robot);
   context.note_write();
 }
 
 void tp_basic_prox_stop(void) {
   Context& context = Context::current();
-  context.board().basic_prox().stop(context.now());
+  context.drivers().basic_prox().stop(context.now());
   context.board().follow_power(context.now());
   request_background(context, context.board(), TP_BG_PROX, 0, 0);
   context.note_write();
@@ -448,7 +453,7 @@ void tp_basic_prox_stop(void) {
 tp_i64 tp_basic_prox_ambient(tp_i64 sensor) {
   Context& context = Context::current();
   if (sensor < 0 || sensor >= board::kRingSensors) return 0;
-  board::BasicProx& prox = context.board().basic_prox();
+  drivers::BasicProx& prox = context.drivers().basic_prox();
   const Cycle now = context.now();
   context.lower_horizon(prox.horizon(now));
   return prox.ambient(static_cast<int>(sensor), now);
@@ -457,7 +462,7 @@ tp_i64 tp_basic_prox_ambient(tp_i64 sensor) {
 tp_i64 tp_basic_prox_reflected(tp_i64 sensor) {
   Context& context = Context::current();
   if (sensor < 0 || sensor >= board::kRingSensors) return 0;
-  board::BasicProx& prox = context.board().basic_prox();
+  drivers::BasicProx& prox = context.drivers().basic_prox();
   const Cycle now = context.now();
   context.lower_horizon(prox.horizon(now));
   return prox.reflected(static_cast<int>(sensor), now);

@@ -5,17 +5,19 @@
 #include <cstdint>
 #include <string_view>
 
+#include "hal_sim/board/cycle.h"
+
 namespace board {
 class Board;
+}
+namespace drivers {
+class Drivers;
 }
 
 namespace host {
 
-/// Instruction cycles of one robot's clock since its power-up.
-using Cycle = std::int64_t;
-
-/// A horizon that never comes.
-inline constexpr Cycle kNever = INT64_MAX / 4;
+using board::Cycle;
+using board::kNever;
 
 class Context {
  public:
@@ -25,6 +27,8 @@ class Context {
   static Context& current();
 
   virtual board::Board& board() = 0;
+  /// Of the native way; calling it from the register way is our bug (CHECK).
+  virtual drivers::Drivers& drivers() = 0;
 
   /// Cycles now, background work included.
   virtual Cycle now() = 0;
@@ -35,7 +39,7 @@ class Context {
   /// Spends cycles; delivers interrupts; may let other robots run.
   virtual void spend(Cycle cycles) = 0;
   virtual void wait_until(Cycle at) = 0;
-  /// What board().handler_share_q32() says has changed at this moment.
+  /// What drivers().handler_share_q32() says has changed at this moment.
   virtual void follow_handlers() = 0;
 
   virtual void irq_install(int vector, void (*handler)(), int priority, Cycle entry_cycles) = 0;
@@ -51,7 +55,7 @@ class Context {
   [[noreturn]] virtual void trap(int kind, std::string_view message) = 0;
 };
 
-/// After a change to the board's agendas: their next interrupt is asked for.
+/// After a change to the agendas: their next interrupt is asked for.
 void request_agenda_interrupt(Context& context);
 
 }  // namespace host

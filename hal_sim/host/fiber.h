@@ -50,7 +50,6 @@ class Fiber {
   bool open_reserve();
   /// Above the stack, where nothing is.
   bool is_beyond(std::uintptr_t address) const { return address >= high_ && slot_.holds(address); }
-  std::uintptr_t stack_high() const { return high_; }
 
  private:
   static void trampoline(void* self);

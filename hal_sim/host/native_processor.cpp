@@ -10,6 +10,9 @@
 
 namespace host {
 
+NativeProcessor::NativeProcessor(Robot& robot)
+    : robot_(robot), drivers_(robot.board()), registers_(robot, *this) {}
+
 void NativeProcessor::reset(Cycle now) {
   interrupts_.reset();
   cpu_level_ = 0;
@@ -79,11 +82,10 @@ void NativeProcessor::disi(Cycle cycles, Cycle now) {
 }
 
 void NativeProcessor::follow_mask(Cycle now) {
-  const bool masked = cpu_level_ >= board::kHandlerPriority || now < disi_until_;
+  const bool masked = cpu_level_ >= drivers::kHandlerPriority || now < disi_until_;
   if (masked == masked_) return;
   masked_ = masked;
-  board::Board& board = robot_.board();
-  board.mask_handlers(masked, now);
+  drivers_.mask_handlers(masked, now);
   robot_.follow_handlers();
   if (!masked) request_agenda_interrupt(robot_);  // ticks that were lost have moved it
 }

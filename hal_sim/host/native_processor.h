@@ -4,6 +4,7 @@
 #pragma once
 #include <vector>
 
+#include "hal_sim/drivers/drivers.h"
 #include "hal_sim/host/interrupts.h"
 #include "hal_sim/host/processor.h"
 #include "hal_sim/host/registers.h"
@@ -12,7 +13,7 @@ namespace host {
 
 class NativeProcessor final : public Processor {
  public:
-  explicit NativeProcessor(Robot& robot) : robot_(robot), registers_(robot, *this) {}
+  explicit NativeProcessor(Robot& robot);
 
   const char* way() const override { return "native"; }
   void power_up() override { registers_.power_up(); }
@@ -51,6 +52,7 @@ class NativeProcessor final : public Processor {
   Cycle flag_since(int vector) override { return interrupts_.source(vector).flag_since; }
 
   InterruptController& interrupts() { return interrupts_; }
+  drivers::Drivers& drivers() { return drivers_; }
   bool disi_active(Cycle now) const { return now < disi_until_; }
   /// Does the program keep the drivers' handlers that are not run from coming?
   bool masks_handlers() const { return masked_; }
@@ -63,6 +65,7 @@ class NativeProcessor final : public Processor {
   void follow_mask(Cycle now);
 
   Robot& robot_;
+  drivers::Drivers drivers_;
   InterruptController interrupts_;
   NativeRegisters registers_;
   int cpu_level_ = 0;

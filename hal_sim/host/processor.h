@@ -15,10 +15,6 @@
 #include "hal_sim/board/diagnosis.h"
 #include "hal_sim/host/context.h"
 
-namespace dspic {
-class Dspic30f6014a;
-}
-
 namespace host {
 
 class Robot;
@@ -126,8 +122,12 @@ class Processor {
   virtual std::uint64_t state_hash(Cycle now) { return 0; }
   /// What the models have to say about the program so far, in order of time.
   virtual std::vector<board::Diagnosis> diagnoses() const { return {}; }
-  /// The chip behind it; null in the native way.
-  virtual dspic::Dspic30f6014a* chip() { return nullptr; }
+  /// For whoever looks without disturbing: what has happened by `at` is carried out; a register's value then,
+  /// and cycle before which it keeps it; handlers of a vector begun. Of the chip's models; else nothing.
+  virtual void carry_out(Cycle at) {}
+  virtual std::uint16_t peek(unsigned address, Cycle at) { return 0; }
+  virtual Cycle horizon(unsigned address, Cycle at) { return kNever; }
+  virtual std::int64_t served(int vector) const { return 0; }
 };
 
 /// Makes the processor of a robot that is being set up.

@@ -87,6 +87,8 @@ void Robot::restart_program() {
   fiber_.restart(enter_firmware, this);
 }
 
+drivers::Drivers& Robot::drivers() { return native().drivers(); }
+
 NativeProcessor& Robot::native() {
   CHECK(native_, "a function of the native way was called in the register way");
   return *native_;
@@ -177,7 +179,7 @@ Cycle Robot::main_until(Cycle at) const {
 
 void Robot::find_share() {
   const bool masked = native_ && native_->masks_handlers();
-  const std::uint64_t handlers = native_ && !masked ? board_.handler_share_q32() : 0;
+  const std::uint64_t handlers = native_ && !masked ? native_->drivers().handler_share_q32() : 0;
   share_q32_ = std::min<std::uint64_t>(handlers + background_share_q32_, kOne / 100 * kMostBackgroundPercent);
   kept_q32_ = kOne - share_q32_;
   stolen_q32_ = share_q32_ == 0 ? 0 : (share_q32_ << kQ) / kept_q32_;
@@ -487,8 +489,7 @@ void Robot::sleep_until(Cycle target, Cycle round, Cycle start) {
   if (target < kNever) target = end_of_round(target);
   while (now_ < target) {
     deliver();
-    if (now_ != start &&
-        served_ != poll_served_)  // a handler ran: look again
+    if (now_ != start && served_ != poll_served_)  // a handler ran: look again
       break;
     check_blocked();
     const Cycle stop = std::min(target, next_disturbance());

@@ -6,8 +6,8 @@
 //   run_until(end) --enter--> firmware ... tp_event() ... tp_poll() ... --yield--> run_until returns
 //
 // Time: compiled code subtracts estimated cycles from a budget. What handlers take that are not run, because
-// they are closed forms, is a share by which the program's cycles are stretched (docs/design.md, "Time"); none
-// while the program masks them. A robot that sleeps in a wait costs nothing until something can happen.
+// they are closed forms, is a share by which the program's cycles are stretched (docs/design.md, "Time");
+// none while the program masks them. A robot that sleeps in a wait costs nothing until something can happen.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -122,8 +122,7 @@ class Robot final : public Context {
     observer_ = observer;
     processor_->observe(observer);
   }
-  /// The chip's models, in the register way; null in the native way.
-  dspic::Dspic30f6014a* chip() { return processor_->chip(); }
+  /// Is it the models of the chip that serve its registers?
   bool has_chip() const { return native_ == nullptr; }
   /// Asleep in a wait that has not ended yet.
   bool is_waiting() const { return idling_ && !stopped_; }
@@ -135,6 +134,8 @@ class Robot final : public Context {
   // --- Context
   // ----------------------------------------------------------------------------------------------
   board::Board& board() override { return board_; }
+  drivers::Drivers& drivers() override;
+  bool has_drivers() const { return native_ != nullptr; }
   Cycle now() override { return observer_ ? now_and_tell() : now_unobserved(); }
   void lower_horizon(Cycle at) override {
     if (at < horizon_) horizon_ = at;
@@ -349,13 +350,13 @@ class Robot final : public Context {
   NativeProcessor* native_ = nullptr;  // processor_, or null in the register way
   std::vector<char> data_;             // private data while another robot of the copy is live
 
-  Cycle now_ = 0;                  // real cycles, up to the last fold
-  Cycle issued_ = 0;               // budget given at that moment
-  std::uint64_t fraction_ = 0;     // of a cycle, Q32, left over from stretching
-  std::uint64_t stolen_q32_ = 0;   // cycles background handlers take per main cycle, Q32
-  std::uint64_t kept_q32_ = 0;     // program's cycles per cycle of the clock, Q32, rounded down
-  std::uint64_t share_q32_ = 0;    // what of all cycles handlers take that are not run
-  Cycle main_ = 0;                 // cycles of the program itself so far, up to the last fold
+  Cycle now_ = 0;                 // real cycles, up to the last fold
+  Cycle issued_ = 0;              // budget given at that moment
+  std::uint64_t fraction_ = 0;    // of a cycle, Q32, left over from stretching
+  std::uint64_t stolen_q32_ = 0;  // cycles background handlers take per main cycle, Q32
+  std::uint64_t kept_q32_ = 0;    // program's cycles per cycle of the clock, Q32, rounded down
+  std::uint64_t share_q32_ = 0;   // what of all cycles handlers take that are not run
+  Cycle main_ = 0;                // cycles of the program itself so far, up to the last fold
   struct Background {
     Cycle period = 0, cost = 0;
   };

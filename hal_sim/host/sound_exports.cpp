@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "hal_sim/board/board.h"
+#include "hal_sim/drivers/drivers.h"
 #include "hal_sim/host/context.h"
 #include "hal_sim/host/pins_sound.h"
 
@@ -13,14 +14,14 @@ extern "C" {
 
 tp_i64 tp_mic_scan(void* scan, tp_i64 from) {
   Context& context = Context::current();
-  const board::AdcScan& adc = context.board().scan();
+  const drivers::AdcScan& adc = context.drivers().scan();
   const Cycle now = context.now();
   const std::int64_t count = adc.interrupts(now);
   context.lower_horizon(adc.next_interrupt(now));
   auto* words = static_cast<std::int16_t*>(scan);
-  for (std::int64_t n = std::max<std::int64_t>(from, count - board::kMicSamples); n < count; ++n)
+  for (std::int64_t n = std::max<std::int64_t>(from, count - drivers::kMicSamples); n < count; ++n)
     for (int microphone = 0; microphone < board::kMicrophones; ++microphone)
-      words[microphone * board::kMicSamples + n % board::kMicSamples] =
+      words[microphone * drivers::kMicSamples + n % drivers::kMicSamples] =
           static_cast<std::int16_t>(adc.mic_sample(microphone, n));
   return count;
 }

@@ -67,7 +67,10 @@ class ChipProcessor final : public host::Processor, private dspic::EventWatch {
   void observe(host::Observer* observer) override;
 
   std::uint64_t state_hash(Cycle now) override { return device().state_hash(at(now)); }
-  dspic::Dspic30f6014a* chip() override { return &device(); }
+  void carry_out(Cycle at) override { device().run_events(at); }
+  std::uint16_t peek(unsigned address, Cycle at) override { return device().peek(address, at); }
+  Cycle horizon(unsigned address, Cycle at) override { return device().horizon(address, at); }
+  std::int64_t served(int vector) const override { return chip_.device().served_interrupts(vector); }
   std::vector<board::Diagnosis> diagnoses() const override { return chip_.diagnoses(); }
 
  private:

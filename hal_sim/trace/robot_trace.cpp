@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "hal_sim/trace/robot_trace.h"
 
+#include "hal_sim/drivers/driver_params.h"
+
 #include <algorithm>
 #include <cstring>
 
@@ -60,7 +62,7 @@ void RobotTrace::reached(Cycle at) {
   if (at <= last_ || signals_.empty()) return;
   // what the chip does by itself before `at` comes back in about_to_change(). No further than the window: of
   // what comes from outside later nothing is known yet
-  if (robot_ && robot_->has_chip()) robot_->chip()->run_events(std::min(at - 1, robot_->cycles()));
+  if (robot_ && robot_->has_chip()) robot_->processor().carry_out(std::min(at - 1, robot_->cycles()));
   show_until(at);
 }
 
@@ -123,7 +125,7 @@ std::uint64_t RobotTrace::value_of(const SignalSource& source, Cycle at) {
       return source.kind == Source::WireBusy ? busy : wire_byte_[index];
     }
     case Source::Register:
-      return robot_->chip()->peek(static_cast<unsigned>(source.index), at);
+      return robot_->processor().peek(static_cast<unsigned>(source.index), at);
     case Source::Variable: {
       char bytes[16] = {};
       robot_->read_memory(source.variable.address, bytes, std::min(source.variable.bytes, sizeof bytes));
@@ -144,7 +146,7 @@ Cycle RobotTrace::next_change(Cycle at) {
   const auto port = [&](char letter) {
     // where a tick of the agendas is late, its own cycle has already passed
     const Cycle then = board_.port_horizon(letter, at);
-    next = std::min(next, then > at ? then : at + board::kAgendaTickCycles);
+    next = std::min(next, then > at ? then : at + drivers::kAgendaTickCycles);
   };
   for (const Sampled& s : sampled_) {
     switch (s.source.kind) {
@@ -173,7 +175,7 @@ Cycle RobotTrace::next_change(Cycle at) {
         break;
       case Source::Register:
         if (!runs_freely(s.source.index))
-          next = std::min(next, robot_->chip()->horizon(static_cast<unsigned>(s.source.index), at));
+          next = std::min(next, robot_->processor().horizon(static_cast<unsigned>(s.source.index), at));
         break;
       case Source::Tris:
       case Source::Service:

@@ -8,8 +8,6 @@ namespace sim {
 
 enum class Axes { Enu, Nue };
 
-/// A point or direction of a NUE world in ours, and back; m.
-constexpr Vec3 from_nue(Vec3 p) { return {p.x, -p.z, p.y}; }
 constexpr Vec3 to_nue(Vec3 p) { return {p.x, p.z, -p.y}; }
 
 /// Heading of a robot that a NUE world turned by `angle_rad` about its upward y axis, and back; rad.

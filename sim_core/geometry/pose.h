@@ -57,6 +57,14 @@ struct Frame2 {
   Vec2 turn_back(Vec2 v) const { return {c * v.x + s * v.y, c * v.y - s * v.x}; }
   Vec2 to_world(Vec2 local) const { return at + turn(local); }
   Vec2 to_local(Vec2 world) const { return turn_back(world - at); }
+  /// Another frame as seen from this one.
+  Frame2 to_local(const Frame2& other) const {
+    Frame2 seen;
+    seen.at = to_local(other.at);
+    seen.c = c * other.c + s * other.s;
+    seen.s = c * other.s - s * other.c;
+    return seen;
+  }
 };
 
 /// Pose after travelling `forward_m` along an arc that turns by `turn_rad`: half the turn, the way, half the

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Rays are kept in the robot's frame and turned by its heading once per instant. Only solids on the robot's
-// neighbour list are tried, and only those that a sensor's bundle of rays can touch. [Webots B2] [Enki:
-// IRSensor.cpp]
+// Rays are kept in the robot's frame, and what they may meet is turned into it once per instant. Only solids
+// on the robot's neighbour list are tried, and only those that a sensor's bundle of rays can touch. [Webots
+// B2] [Enki: IRSensor.cpp]
 #include "sim_core/light/proximity.h"
 
 #include <algorithm>
@@ -39,13 +39,12 @@ struct SensorOptics {
 /// What one robot's rays may meet at one instant; the four instants of an ADC scan serve two sensors each.
 struct alignas(64) Surroundings {
   struct Item {
-    const Placed* placed;
+    Placed placed;  // in the robot's frame; in worlds with ramps, where robots tilt, in the world's
     const Surface* surface;
   };
   Clicks at = -1;
   std::uint64_t version = 0;
   Frame2 frame;
-  std::vector<Placed> moving;
   std::vector<Item> items;
 };
 
@@ -75,16 +74,17 @@ const Surroundings& surroundings(const Scene& scene, int robot, Clicks at) {
   s.version = scene.version();
   s.frame = Frame2(scene.pose(robot, at));
   s.items.clear();
-  s.moving.clear();
+  const bool is_tilting = scene.layout().ground.has_ramps();
+  const double reach = scene.optics()->reach_m[static_cast<std::size_t>(robot)];
   const Neighbours& near = scene.neighbours();
   for (const Candidate* c = near.begin(robot); c != near.end(robot); ++c) {
-    if (c->moving) s.moving.push_back(scene.placed(c->index, at));
-  }
-  std::size_t next = 0;
-  for (const Candidate* c = near.begin(robot); c != near.end(robot); ++c) {
-    s.items.push_back(
-        {c->moving ? &s.moving[next++] : &scene.layout().fixed[static_cast<std::size_t>(c->index)],
-         &scene.surface(*c)});
+    Placed placed =
+        c->moving ? scene.placed(c->index, at) : scene.layout().fixed[static_cast<std::size_t>(c->index)];
+    const Vec2 gap = placed.frame.at - s.frame.at;
+    const double far = reach + placed.solid->bound_m;
+    if (dot(gap, gap) > far * far) continue;
+    if (!is_tilting) placed.frame = s.frame.to_local(placed.frame);
+    s.items.push_back({placed, &scene.surface(*c)});
   }
   return s;
 }
@@ -129,7 +129,7 @@ bool shoot_over_ramps(const Scene& scene, int robot, const SensorOptics& s, Clic
     RayEnd& end = ends[i] = {s.config.max_range_m(), 1, false};
     const Ray ray{from, frame.turn(s.rays[i].dir)};
     for (const Surroundings::Item& item : around.items) {
-      if (!cast_ray(ray, *item.placed, end.distance_m)) continue;
+      if (!cast_ray(ray, item.placed, end.distance_m)) continue;
       end.factor = colour_factor(s.config, *item.surface);
       end.hit = true;
     }
@@ -152,21 +152,16 @@ bool shoot_over_ramps(const Scene& scene, int robot, const SensorOptics& s, Clic
 bool shoot(const Scene& scene, int robot, const SensorOptics& s, Clicks at, RayEnd* ends) {
   if (scene.layout().ground.has_ramps()) return shoot_over_ramps(scene, robot, s, at, ends);
   const Surroundings& around = surroundings(scene, robot, at);
-  const Frame2& frame = around.frame;
   const double range = s.config.max_range_m();
-  const Vec2 from = frame.to_world({s.at_m.x, s.at_m.y});
-  const Vec2 axis = frame.turn({s.axis.x, s.axis.y});
+  const Vec2 from{s.at_m.x, s.at_m.y}, axis{s.axis.x, s.axis.y};
   const std::size_t rays = s.rays.size();
   for (std::size_t i = 0; i < rays; ++i) ends[i] = {range, 1, false};
   bool any = false;
   for (const Surroundings::Item& item : around.items) {
-    if (!s.wide && out_of_sight(from, axis, s.half_sin, s.half_cos, range, *item.placed)) continue;
+    if (!s.wide && out_of_sight(from, axis, s.half_sin, s.half_cos, range, item.placed)) continue;
     const double factor = colour_factor(s.config, *item.surface);
     for (std::size_t i = 0; i < rays; ++i) {
-      const Vec3& d = s.rays[i].dir;
-      const Vec2 dir = frame.turn({d.x, d.y});
-      if (!cast_ray({{from.x, from.y, s.at_m.z}, {dir.x, dir.y, d.z}}, *item.placed, ends[i].distance_m))
-        continue;
+      if (!cast_ray({s.at_m, s.rays[i].dir}, item.placed, ends[i].distance_m)) continue;
       ends[i].factor = factor;
       ends[i].hit = any = true;
     }
@@ -176,7 +171,7 @@ bool shoot(const Scene& scene, int robot, const SensorOptics& s, Clicks at, RayE
     const Vec3& dir = s.rays[i].dir;
     if (dir.z > -1e-9 || s.at_m.z >= -dir.z * ends[i].distance_m) continue;
     const double d = -s.at_m.z / dir.z;
-    const Vec2 there = from + d * frame.turn({dir.x, dir.y});
+    const Vec2 there = around.frame.to_world(from + d * Vec2{dir.x, dir.y});
     ends[i] = {d, colour_factor(s.config, scene.floor(there)), true};
     any = true;
   }

@@ -202,7 +202,8 @@ class Reader {
       std::vector<std::string> candidates = inner;
       for (const KeySpec& k : spec.keys) candidates.push_back(k.key);
       if (path == "world" && name == "interrupts") {
-        problem(key.source(), "the key 'interrupts' is gone: there is one model of interrupts now; delete the line");
+        problem(key.source(),
+                "the key 'interrupts' is gone: there is one model of interrupts now; delete the line");
         continue;
       }
       const std::string meant = did_you_mean(name, candidates);

@@ -89,7 +89,7 @@ class DynamicMotion final : public Motion, b2ContactFilter {
     // Box2D notices a meeting only once bodies overlap, by up to a tick's way, and separates them softly;
     // twice round settles a robot in a corner, and walls have the last word
     for (int round = 0; round < 2; ++round) {
-      for (int robot : near_) push_out(robot, neighbours);
+      for (int robot : solved_) push_out(robot, neighbours);
     }
   }
 

@@ -22,6 +22,7 @@ void Motion::meet_fixed(int robot, const Neighbours& neighbours) {
   const FixedPush before = last.end == begin_ ? last : FixedPush{};
   std::array<FixedContact, kMostFixedContacts>& contacts = last.contacts;
   std::size_t count = 0;
+  bool is_inside = false;
   for (const Candidate* c = neighbours.begin(robot); c != neighbours.end(robot); ++c) {
     if (c->moving || count == kMostFixedContacts) continue;
     const Placed& other = (*desc_.fixed)[static_cast<std::size_t>(c->index)];
@@ -33,6 +34,7 @@ void Motion::meet_fixed(int robot, const Neighbours& neighbours) {
                       other.z_m + other.solid->z1_m)) {
       continue;
     }
+    is_inside = is_inside || gap < -kContactDepthM;
     const FixedSurface& surface = desc_.surfaces[static_cast<std::size_t>(c->index)];
     contact.least_m_s = -std::max(0.0, gap) / tick_s_;
     const double approach = -dot(b.velocity_m_s, contact.normal);
@@ -84,7 +86,7 @@ void Motion::meet_fixed(int robot, const Neighbours& neighbours) {
       c->blow_m_s = blow;
       is_hit = is_hit || blow > 0;
     }
-    if (!is_hit) {
+    if (!is_hit && !is_inside) {
       drive_freely(robot, want);  // nothing was met: the closed form holds exactly
       return;
     }
@@ -99,6 +101,7 @@ void Motion::meet_fixed(int robot, const Neighbours& neighbours) {
   b.velocity_m_s = velocity;
   b.spin_rad_s = spin;
   note_touch(robot, true);
+  if (is_inside) push_out(robot, neighbours);
 }
 
 }  // namespace sim

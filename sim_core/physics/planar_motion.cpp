@@ -149,7 +149,7 @@ class PlanarMotion final : public Motion {
     const Placed me = placed(object);
     around_.clear();
     // bodies are binned where they were gathered: allow for what they moved since
-    neighbours.gather(me.frame.at, me.solid->bound_m + 2 * kSkinM, around_);
+    neighbours.gather(me.frame.at, me.solid->bound_m + kSkinM, around_);
     for (const Candidate& c : around_) {
       if (c.moving) {
         if (is_robot(c.index)) continue;  // near robots have listed it

@@ -124,7 +124,7 @@ bool Scene::cast(const Ray& ray, double limit_m, int skip_robot, Clicks at, Scen
     around.clear();
     // bodies are binned where they were gathered: allow for what they moved since
     neighbours_.gather({ray.from.x + middle * ray.dir.x, ray.from.y + middle * ray.dir.y},
-                       0.5 * piece_m + 2 * kSkinM, around);
+                       0.5 * piece_m + kSkinM, around);
     for (const Candidate& c : around) {
       if (c.moving && c.index == skip_robot && c.index < robots_) continue;
       try_one(c, c.moving ? placed(c.index, at) : layout_.fixed[static_cast<std::size_t>(c.index)]);

@@ -64,14 +64,14 @@ TEST(Battery, what_was_used_does_not_depend_on_how_often_it_was_asked) {
 TEST(Battery, tells_the_cycle_at_which_it_falls_below_a_voltage) {
   Battery battery(0.01, 3.5, 0.2);
   const Cycle low = battery.below(3.4, 0);
-  ASSERT_LT(low, host::kNever);
+  ASSERT_LT(low, board::kNever);
   EXPECT_GE(battery.voltage(low - 1), 3.4);
   EXPECT_LT(battery.voltage(low), 3.4);
   // rest voltages 3.54 and 3.44 V: charges 0.05 + 0.05 * 0.09 / 0.23 and 0.05 * 0.44 / 0.45
   const double charge = 0.05 + 0.05 * 0.09 / 0.23 - 0.05 * 0.44 / 0.45;
   const double seconds = charge * 0.01 / 3.8285 * 3600 / 0.2;
   EXPECT_NEAR(static_cast<double>(low) / kSecond, seconds, seconds * 1e-3);
-  EXPECT_EQ(battery.below(3.6, 0), host::kNever);  // is already
+  EXPECT_EQ(battery.below(3.6, 0), board::kNever);  // is already
 }
 
 // --- what draws ------------------------------------------------------------------------------------------
@@ -104,26 +104,6 @@ TEST(Power, leds_camera_and_codec_count_while_they_are_on) {
 }
 
 // 300 steps/s: 15 of 33 ticks with two coils; 700 steps/s: always; 0: never
-TEST(Power, coils_count_with_the_share_of_the_power_save_rhythm) {
-  static const char left = 0, right = 0;
-  Board robot{board::Setup{}};
-  robot.init_ports(0);
-  robot.agendas().name_motor(Wheel::Left, &left);
-  robot.agendas().name_motor(Wheel::Right, &right);
-  robot.agendas().activate(&left, 0, 0);
-  robot.agendas().activate(&right, 0, 0);
-  robot.agendas().start(0);
-  robot.agendas().set_speed(Wheel::Left, 300, 0);
-  robot.follow_power(0);
-  EXPECT_NEAR(robot.battery().amps(), kIdleA + 2 * 0.060 * 15 / 33, 1e-12);
-  robot.agendas().set_speed(Wheel::Right, -700, 100);
-  robot.follow_power(100);
-  EXPECT_NEAR(robot.battery().amps(), kIdleA + 2 * 0.060 * 15 / 33 + 2 * 0.060, 1e-12);
-  robot.agendas().set_speed(Wheel::Left, 0, 200);
-  robot.agendas().set_speed(Wheel::Right, 0, 200);
-  robot.follow_power(200);
-  EXPECT_NEAR(robot.battery().amps(), kIdleA, 1e-12);
-}
 
 TEST(Power, coils_that_a_program_holds_count_one_by_one) {
   Board robot{board::Setup{}};
@@ -135,13 +115,6 @@ TEST(Power, coils_that_a_program_holds_count_one_by_one) {
 }
 
 // the scan lights each of four lines of two emitters for 5 of 260 interrupts
-TEST(Power, infrared_flashes_count_with_their_mean) {
-  Board robot{board::Setup{}};
-  robot.init_ports(0);
-  robot.scan().start(false, false, 0);
-  robot.follow_power(0);
-  EXPECT_NEAR(robot.battery().amps(), kIdleA + 4 * 2 * 0.050 * 5 / 260, 1e-12);
-}
 
 // driving with everything that usual programs use empties 5 Wh in about the published three hours
 TEST(Power, driving_lasts_as_long_as_published) {
@@ -158,7 +131,7 @@ TEST(Power, low_battery_pin_falls_by_itself_and_says_when) {
   robot.init_ports(0);
   EXPECT_EQ(robot.port_read('F', Register::Port, 0) >> 1 & 1, 1);
   const Cycle falls = robot.port_horizon('F', 0);
-  ASSERT_LT(falls, host::kNever);
+  ASSERT_LT(falls, board::kNever);
   EXPECT_EQ(robot.port_read('F', Register::Port, falls - 1) >> 1 & 1, 1);
   EXPECT_EQ(robot.port_read('F', Register::Port, falls) >> 1 & 1, 0);
 }

@@ -5,9 +5,9 @@
 #include <functional>
 #include <vector>
 
-#include "sim_core/physics/leg.h"
 #include "sim_core/camera/camera.h"
 #include "sim_core/light/proximity.h"
+#include "sim_core/physics/leg.h"
 #include "sim_core/sound/sound_field.h"
 #include "sim_core/world/true_motion.h"
 

@@ -89,7 +89,7 @@ TEST(Uart, bytes_arrive_one_after_another) {
   w.uart.init_library(7, 0);
   w.end->inject("abc", 28800);
   w.uart.exchange(28799);
-  EXPECT_EQ(w.uart.next_arrival(28799), host::kNever);
+  EXPECT_EQ(w.uart.next_arrival(28799), board::kNever);
   w.uart.exchange(28800);
   EXPECT_EQ(w.uart.next_arrival(28800), 28800 + kByte);
   EXPECT_EQ(w.uart.unread(28800 + kByte - 1), 0);
@@ -111,19 +111,6 @@ TEST(Uart, ring_overwrites_silently) {
   EXPECT_EQ(w.uart.unread(late), 70);
   for (int i = 0; i < 70; ++i) EXPECT_EQ(w.uart.take(late), i < 6 ? i + 64 : i < 64 ? i : i);
   EXPECT_EQ(w.uart.take(late), -1);
-}
-
-TEST(Uart, hardware_buffer_overruns_after_four_bytes) {
-  Wired w;
-  w.uart.init_raw(true, 7, 0);
-  w.end->inject("abcdef", 0);
-  w.uart.exchange(0);
-  const Cycle late = 10 * kByte;
-  EXPECT_EQ(w.uart.raw_available(late), 4);
-  EXPECT_TRUE(w.uart.overrun(late));
-  EXPECT_EQ(w.uart.raw_take(late), 'a');
-  w.uart.clear_overrun(late);
-  EXPECT_EQ(w.uart.raw_take(late), -1);
 }
 
 TEST(Uart, other_rates) {

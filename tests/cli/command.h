@@ -43,9 +43,10 @@ inline Said twinpuck(const std::string& arguments, const std::string& before = "
 inline std::string signal_once(const std::string& signal, const std::string& file, int bytes,
                                const std::string& seconds = "0.5") {
   return "sh -c '\"$@\" & p=$!; n=0; "
-         "until [ $n = 1200 ] || [ \"$(stat -c %s \"" + file + "\" 2>/dev/null || echo -1)\" -ge " +
-         std::to_string(bytes) + " ]; do sleep 0.05; n=$((n + 1)); done; sleep " + seconds + "; kill -s " +
-         signal + " $p; { sleep 10; kill -s KILL $p; } >/dev/null 2>&1 & q=$!; "
+         "until [ $n = 1200 ] || [ \"$(stat -c %s \"" +
+         file + "\" 2>/dev/null || echo -1)\" -ge " + std::to_string(bytes) +
+         " ]; do sleep 0.05; n=$((n + 1)); done; sleep " + seconds + "; kill -s " + signal +
+         " $p; { sleep 10; kill -s KILL $p; } >/dev/null 2>&1 & q=$!; "
          "wait $p; r=$?; kill $q 2>/dev/null; exit $r' sh";
 }
 

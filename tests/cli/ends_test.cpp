@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whatever runs, a run ends when the user or --host-limit wants it to. What has not ended ten seconds later is
-// killed: exit code 137.
+// Whatever runs, a run ends when the user or --host-limit wants it to. What has not ended ten seconds later
+// is killed: exit code 137.
 #include <algorithm>
 
 #include "tests/cli/command.h"
@@ -54,8 +54,9 @@ TEST_F(Ends, a_supervisor_s_endless_loop_ends_at_the_host_limit) {
 TEST_F(Ends, a_supervisor_s_endless_loop_ends_at_a_signal) {
   for (const char* signal : {"TERM", "INT"}) {
     fs::remove(path("r.csv"));
-    const auto said = twinpuck("run empty --record " + path("r.csv") + " --supervisor " + endless_supervisor(),
-                               signal_once(signal, path("r.csv"), 0, "1.5"));
+    const auto said =
+        twinpuck("run empty --record " + path("r.csv") + " --supervisor " + endless_supervisor(),
+                 signal_once(signal, path("r.csv"), 0, "1.5"));
     EXPECT_EQ(said.exit_code, 130) << said.text;
     EXPECT_NE(said.text.find("interrupted; supervisor 'endless' was running"), std::string::npos)
         << said.text;
@@ -66,9 +67,9 @@ TEST_F(Ends, a_supervisor_s_endless_loop_ends_at_a_signal) {
 TEST_F(Ends, a_run_at_any_pace_ends_with_its_summary_at_a_signal) {
   for (const char* speed : {"max", "0.0001"}) {
     fs::remove(path("r.csv"));
-    const auto said = twinpuck(
-        "run maze --for 1e6 --record-every 0.1 --record " + path("r.csv") + " --speed " + speed,
-        signal_once("TERM", path("r.csv"), 0, "1.5"));
+    const auto said =
+        twinpuck("run maze --for 1e6 --record-every 0.1 --record " + path("r.csv") + " --speed " + speed,
+                 signal_once("TERM", path("r.csv"), 0, "1.5"));
     EXPECT_EQ(said.exit_code, 130) << said.text;
     EXPECT_NE(said.text.find("simulated in"), std::string::npos) << said.text;
     if (std::string(speed) == "max") expect_whole_lines(path("r.csv"));

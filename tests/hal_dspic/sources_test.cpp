@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 std::vector<fs::path> sources() {
   std::vector<fs::path> found;
-  for (const char* folder : {"/hal_dspic", "/hal_common"})
+  for (const char* folder : {"/hal_dspic", "/firmware/library"})
     for (const auto& entry : fs::recursive_directory_iterator(std::string(TWINPUCK_SOURCE_DIR) + folder))
       if (entry.path().extension() == ".c") found.push_back(entry.path());
   std::sort(found.begin(), found.end());

@@ -67,6 +67,23 @@ TEST(Motion, pushed_against_a_wall_the_robot_stays) {
   }
 }
 
+TEST(Motion, in_a_corner_the_wheels_still_turn_it) {
+  for (int hz : {96, 512}) {
+    auto s =
+        cruising(world_of("twinpuck = 1\n[world]\nphysics_hz = " + std::to_string(hz) +
+                          "\n[[box]]\nposition = [0.15, 0]\nsize = [0.1, 0.6, 0.1]\n"
+                          "[[box]]\nposition = [0, 0.15]\nsize = [0.2, 0.1, 0.1]\n[[robot]]\nheading = 45\n"),
+                 kHalfTurn - 0.05, kHalfTurn + 0.05);
+    run_for(*s, 4);
+    // walls at 0.10: it stops at 0.063 from both and turns by 0.1 * 0.0205 / 0.053 = 0.0387 rad/s
+    EXPECT_NEAR(s->pose(0).x_m, 0.063, 0.0002) << hz;
+    EXPECT_NEAR(s->pose(0).y_m, 0.063, 0.0002) << hz;
+    const double heading_rad = s->pose(0).heading_rad;
+    run_for(*s, 4);
+    EXPECT_NEAR((s->pose(0).heading_rad - heading_rad) / 4, 0.0387, 0.002) << hz;
+  }
+}
+
 TEST(Motion, a_light_box_is_pushed_and_a_heavy_one_is_not) {
   const auto run = [](const char* mass) {
     auto s = cruising(

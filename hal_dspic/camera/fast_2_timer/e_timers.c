@@ -12,7 +12,7 @@
 
 #include "camera_line.h"
 #include "hal.h"
-#include "hal_common/camera.h"
+#include "firmware/library/camera.h"
 
 #define COUNT_EDGES 0x0002 /* external clock, prescaler 1 */
 

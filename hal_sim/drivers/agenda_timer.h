@@ -18,20 +18,24 @@
 // Source: [lib: motor_led/advance_one_timer/e_agenda.c], facts restated.
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <vector>
 
-#include "hal_sim/board/agenda_motor.h"
+#include "hal_sim/board/pin_driver.h"
+#include "hal_sim/drivers/agenda_motor.h"
 
-namespace board {
+namespace drivers {
 
-enum class Wheel { Left = 0, Right = 1 };
+using board::Stepper;
+using board::Wheel;
 
 class AgendaTimer {
  public:
   /// Identifies an agenda: the address of its C function. Only compared, never followed here.
   using Function = const void*;
 
-  AgendaTimer();
+  /// The board's motors, left and right; they outlive this.
+  explicit AgendaTimer(board::Stepper& left, board::Stepper& right);
 
   // --- the timer -----------------------------------------------------------------------------------------
   /// Timer 2 starts from 0: the first tick is one period later.
@@ -76,10 +80,9 @@ class AgendaTimer {
   std::int64_t commanded_steps(Wheel wheel, Cycle at) const;
   /// Cycle before which the step counter keeps its value without a command.
   Cycle steps_horizon(Wheel wheel, Cycle at) const;
-  /// Does the wheel go from step to step without a rest, all of one length, until the next command?
-  bool turns_evenly(Wheel wheel, Cycle at) const {
-    return running_ && held_since_ < 0 && !walking_ && motor_at(wheel, at).is_even();
-  }
+  /// How the wheel turns on: evenly from the third step after a command, and straight to where it is then
+  /// before. Empty: it rests between steps, or stands.
+  std::optional<board::PinDriver::Course> course(Wheel wheel, Cycle at) const;
   /// Cycle before which the coils keep their state without a command.
   Cycle coils_horizon(Wheel wheel, Cycle at) const;
   /// The motor as it is at `at`; valid until the next call of anything here.
@@ -90,8 +93,6 @@ class AgendaTimer {
 
   /// Does this driver leave the wheel alone until somebody commands it?
   bool rests(Wheel wheel) const { return !motor(wheel).count.counts(); }
-  /// stepper() of a robot that never runs this driver.
-  Stepper& stepper_by_pins(Wheel wheel) { return motor(wheel).stepper; }
 
   // --- the interrupt handler -----------------------------------------------------------------------------
   /// Cycle of the next tick at which a user agenda fires (or a motor traps); kNever if none.
@@ -118,8 +119,8 @@ class AgendaTimer {
 
   /// Ticks processed by `at`.
   std::int64_t ticks_at(Cycle at) const;
-  /// What the ticks take of each cycle that call no function of the program, as a fraction of 2^32; those that
-  /// do are run and charged one by one.
+  /// What the ticks take of each cycle that call no function of the program, as a fraction of 2^32; those
+  /// that do are run and charged one by one.
   std::uint64_t share_q32() const;
   /// Does the driver step this wheel on and on?
   bool runs(Wheel wheel) const {
@@ -137,6 +138,12 @@ class AgendaTimer {
     AgendaCount count;  // of user nodes; motors keep theirs in AgendaMotor
   };
 
+  /// A motor as it will be.
+  struct Ahead {
+    AgendaMotor motor;
+    Stepper stepper;
+  };
+
   AgendaMotor& motor(Wheel wheel) { return motors_[static_cast<int>(wheel)]; }
   const AgendaMotor& motor(Wheel wheel) const { return motors_[static_cast<int>(wheel)]; }
   static Wheel wheel_of(Kind kind) { return kind == Kind::Left ? Wheel::Left : Wheel::Right; }
@@ -152,8 +159,13 @@ class AgendaTimer {
   /// The motor itself, brought to `tick`.
   AgendaMotor& bring(Wheel wheel, std::int64_t tick);
   std::uint32_t serial_of(Wheel wheel) const { return motor_serial_[static_cast<int>(wheel)]; }
-  /// The motor as it is at `at`: itself, or the copy kept for looking ahead.
-  const AgendaMotor& motor_at(Wheel wheel, Cycle at) const;
+  /// The copy kept for looking ahead, brought to `at`; null: the motor itself is as it is then.
+  const Ahead* ahead_at(Wheel wheel, Cycle at) const;
+  const AgendaMotor& motor_at(Wheel wheel, Cycle at) const {
+    const Ahead* ahead = ahead_at(wheel, at);
+    return ahead ? ahead->motor : motor(wheel);
+  }
+  Stepper& stepper(Wheel wheel) { return *steppers_[static_cast<int>(wheel)]; }
   /// Does this node need the handler when it fires?
   bool needs_handler(const Node& node) const;
   Cycle cost_of(const Node& node) const;
@@ -167,10 +179,11 @@ class AgendaTimer {
   Cycle held_since_ = -1;          // -1: not held
   std::int64_t lost_ticks_ = 0;
   Cycle first_lost_ = 0;
-  std::vector<Node> nodes_;        // oldest first; the list is walked from the back
+  std::vector<Node> nodes_;  // oldest first; the list is walked from the back
+  board::Stepper* steppers_[2];
   AgendaMotor motors_[2];
   // what queries have computed ahead of the last command; a cache, its presence changes no answer
-  mutable AgendaMotor ahead_[2];
+  mutable Ahead ahead_[2];
   mutable bool has_ahead_[2] = {false, false};
   bool has_node_[2] = {false, false};
   Function motor_functions_[2] = {nullptr, nullptr};
@@ -185,4 +198,4 @@ class AgendaTimer {
   bool in_callback_ = false;
 };
 
-}  // namespace board
+}  // namespace drivers

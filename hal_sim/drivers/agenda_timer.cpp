@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
 // See agenda_timer.h. Invariants: a node's count.tick never exceeds the ticks it has processed; next_fire_ is
 // up to date whenever no walk is under way; outside a walk no tick at or after next_fire_ is processed.
-#include "hal_sim/board/agenda_timer.h"
+#include "hal_sim/drivers/agenda_timer.h"
 
 #include <algorithm>
 #include <utility>
 
 #include "sim_core/base/hash.h"
 
-namespace board {
+namespace drivers {
+
+using namespace board;
 
 namespace {
 constexpr int kDone = 1;      // EXIT_OK of the library, AG_ALREADY_CREATED too
@@ -21,7 +23,10 @@ std::int64_t floor_div(std::int64_t a, std::int64_t b) {
 }
 }  // namespace
 
-AgendaTimer::AgendaTimer() : motors_{AgendaMotor(-1), AgendaMotor(+1)}, ahead_{AgendaMotor(-1), AgendaMotor(+1)} {
+AgendaTimer::AgendaTimer(Stepper& left, Stepper& right)
+    : steppers_{&left, &right},
+      motors_{AgendaMotor(-1), AgendaMotor(+1)},
+      ahead_{{AgendaMotor(-1), Stepper(-1)}, {AgendaMotor(+1), Stepper(+1)}} {
   nodes_.reserve(8);
   for (AgendaMotor& m : motors_) m.count.active = false;
 }
@@ -65,11 +70,10 @@ void AgendaTimer::stop(Cycle at) {
 
 void AgendaTimer::reset(Cycle at) {
   for (Wheel wheel : {Wheel::Left, Wheel::Right}) {
-    Stepper kept = stepper_at(wheel, at);
-    kept.connect(false);
-    kept.set_coils_only(0);
-    motor(wheel) = AgendaMotor(kept.forward());
-    motor(wheel).stepper = kept;
+    bring(wheel, ticks_at(at));
+    stepper(wheel).connect(false);
+    stepper(wheel).set_coils_only(0);
+    motor(wheel) = AgendaMotor(stepper(wheel).forward());
     motor(wheel).count.active = false;
     motor_functions_[static_cast<int>(wheel)] = nullptr;
     motor_serial_[static_cast<int>(wheel)] = 0;
@@ -130,9 +134,12 @@ void AgendaTimer::disturb(const Node& node) {
 AgendaMotor& AgendaTimer::bring(Wheel wheel, std::int64_t tick) {
   const std::size_t i = static_cast<std::size_t>(wheel);
   AgendaMotor& m = motors_[i];
-  if (has_ahead_[i] && ahead_[i].count.tick <= tick) m = ahead_[i];
+  if (has_ahead_[i] && ahead_[i].motor.count.tick <= tick) {
+    m = ahead_[i].motor;
+    *steppers_[i] = ahead_[i].stepper;
+  }
   has_ahead_[i] = false;
-  m.advance_to(tick, line_);
+  m.advance_to(tick, line_, *steppers_[i]);
   return m;
 }
 
@@ -234,7 +241,7 @@ void AgendaTimer::name_motor(Wheel wheel, Function function) {
 void AgendaTimer::set_speed(Wheel wheel, int speed, Cycle at) {
   AgendaMotor& m = bring(wheel, done_tick(serial_of(wheel), at));
   const bool counted = m.count.counts(), was_handled = counted && m.speed() == 0;
-  m.stepper.set_coils_only(0);
+  stepper(wheel).set_coils_only(0);
   m.disturb();
   m.set_speed(std::clamp(speed, -kMaxSpeed, kMaxSpeed));
   if (has_node_[static_cast<int>(wheel)]) m.set_cycle(m.speed() == 0 ? 0 : kSpeedUnit / std::abs(m.speed()));
@@ -244,55 +251,72 @@ void AgendaTimer::set_speed(Wheel wheel, int speed, Cycle at) {
 
 bool AgendaTimer::run_motor(Wheel wheel, Cycle at) {
   AgendaMotor& m = bring(wheel, done_tick(serial_of(wheel), at));
-  const bool fine = m.fire(at);
+  const bool fine = m.fire(at, stepper(wheel));
   m.disturb();
   if (!walking_) find_next_fire();
   return fine;
 }
 
-const AgendaMotor& AgendaTimer::motor_at(Wheel wheel, Cycle at) const {
+const AgendaTimer::Ahead* AgendaTimer::ahead_at(Wheel wheel, Cycle at) const {
   const std::size_t i = static_cast<std::size_t>(wheel);
   const AgendaMotor& m = motors_[i];
-  if (!m.count.counts() || m.speed() == 0) return m;
+  if (!m.count.counts() || m.speed() == 0) return nullptr;
   const std::int64_t tick = done_tick(motor_serial_[i], at);
-  if (!has_ahead_[i] || ahead_[i].count.tick > tick) {
-    if (tick < m.count.tick + m.count.ticks_to_fire()) return m;
-    ahead_[i] = m;
+  if (!has_ahead_[i] || ahead_[i].motor.count.tick > tick) {
+    if (tick < m.count.tick + m.count.ticks_to_fire()) return nullptr;
+    ahead_[i] = {m, *steppers_[i]};
     has_ahead_[i] = true;
   }
-  ahead_[i].advance_to(tick, line_);
-  return ahead_[i];
+  ahead_[i].motor.advance_to(tick, line_, ahead_[i].stepper);
+  return &ahead_[i];
 }
 
 std::int64_t AgendaTimer::commanded_steps(Wheel wheel, Cycle at) const {
   return motor_at(wheel, at).commanded;
 }
 
-const Stepper& AgendaTimer::stepper_at(Wheel wheel, Cycle at) const { return motor_at(wheel, at).stepper; }
+const Stepper& AgendaTimer::stepper_at(Wheel wheel, Cycle at) const {
+  const Ahead* ahead = ahead_at(wheel, at);
+  return ahead ? ahead->stepper : *steppers_[static_cast<std::size_t>(wheel)];
+}
 
 Stepper& AgendaTimer::stepper(Wheel wheel, Cycle at) {
   AgendaMotor& m = bring(wheel, done_tick(serial_of(wheel), at));
   m.disturb();  // the caller may write pins
-  return m.stepper;
+  return stepper(wheel);
+}
+
+std::optional<board::PinDriver::Course> AgendaTimer::course(Wheel wheel, Cycle at) const {
+  if (!running_ || held_since_ >= 0 || walking_) return std::nullopt;
+  const AgendaMotor& m = motor_at(wheel, at);
+  const Stepper& rotor = stepper_at(wheel, at);
+  const Cycle period = m.full_period() * kAgendaTickCycles;
+  if (m.next_step_tick() < 0 || period > kRotorMoveCycles || !rotor.is_at(m.phase)) return std::nullopt;
+  const double now = rotor.position(at);
+  if (m.is_regular()) return board::PinDriver::Course{now, rotor.speed(at), kNever};
+  // the third step from here begins where the second one ends
+  const Cycle third = line_.cycle_of(m.next_step_tick()) + 2 * period;
+  const double there = static_cast<double>(rotor.steps()) + 2 * m.step_direction();
+  return board::PinDriver::Course{now, (there - now) / static_cast<double>(third - at), third};
 }
 
 Cycle AgendaTimer::steps_horizon(Wheel wheel, Cycle at) const {
-  if ((!running_ && !walking_) || held_since_ >= 0) return host::kNever;
+  if ((!running_ && !walking_) || held_since_ >= 0) return kNever;
   const std::int64_t tick = motor_at(wheel, at).next_step_tick();
-  return tick < 0 ? host::kNever : line_.cycle_of(tick);
+  return tick < 0 ? kNever : line_.cycle_of(tick);
 }
 
 Cycle AgendaTimer::coils_horizon(Wheel wheel, Cycle at) const {
-  if ((!running_ && !walking_) || held_since_ >= 0) return host::kNever;
+  if ((!running_ && !walking_) || held_since_ >= 0) return kNever;
   const AgendaMotor& m = motor_at(wheel, at);
-  if (!m.count.counts() || m.speed() == 0) return host::kNever;
+  if (!m.count.counts() || m.speed() == 0) return kNever;
   return line_.cycle_of(m.count.tick + m.count.ticks_to_fire());
 }
 
 // --- the interrupt handler -------------------------------------------------------------------------------
 
 Cycle AgendaTimer::next_interrupt() const {
-  if (!running_ || walking_ || next_fire_ < 0) return host::kNever;
+  if (!running_ || walking_ || next_fire_ < 0) return kNever;
   return line_.cycle_of(next_fire_);
 }
 
@@ -350,7 +374,7 @@ AgendaTimer::Function AgendaTimer::next(bool& divided_by_zero) {
       return node->function;
     }
     AgendaMotor& m = motor(wheel_of(node->kind));
-    divided_by_zero = !m.fire(line_.cycle_of(walk_tick_));
+    divided_by_zero = !m.fire(line_.cycle_of(walk_tick_), stepper(wheel_of(node->kind)));
     count.counter = 0;
     if (divided_by_zero) return nullptr;
   }
@@ -422,15 +446,16 @@ std::uint64_t AgendaTimer::state_sum(Cycle at) const {
     factor += 0xE7037ED1A0B428DAu;  // even, so the factor stays odd
   };
   // motors as the last command left them: what they have done since follows from the ticks
-  for (const AgendaMotor& m : motors_) {
+  for (std::size_t i = 0; i < 2; ++i) {
+    const AgendaMotor& m = motors_[i];
     add(static_cast<std::uint64_t>(m.count.tick) << 16 | m.count.counter);
-    add(static_cast<std::uint64_t>(m.stepper.steps()));
+    add(static_cast<std::uint64_t>(steppers_[i]->steps()));
     add(static_cast<std::uint64_t>(m.commanded));
-    add(m.stepper.coils() | static_cast<std::uint64_t>(m.phase) << 8 |
+    add(steppers_[i]->coils() | static_cast<std::uint64_t>(m.phase) << 8 |
         static_cast<std::uint64_t>(m.speed() + kMaxSpeed) << 16 | (m.phase_on ? 1ull << 40 : 0));
   }
   for (const Node& node : nodes_) add(node.count.cycle | std::uint64_t{node.serial} << 16);
   return sum;
 }
 
-}  // namespace board
+}  // namespace drivers

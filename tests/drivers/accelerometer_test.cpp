@@ -8,9 +8,10 @@
 
 #include "hal_sim/board/board.h"
 #include "hal_sim/host/pins_acc.h"
-#include "tests/board/fake_context.h"
 #include "tests/board/flat_scene.h"
-#include "tests/board/scan_times.h"
+#include "tests/drivers/driven_board.h"
+#include "tests/drivers/fake_context.h"
+#include "tests/drivers/scan_times.h"
 
 namespace {
 
@@ -24,7 +25,7 @@ board::Setup quiet() {
 }
 
 TEST(Accelerometer, at_rest_on_the_level_zero_zero_and_one_g) {
-  Board robot(quiet());
+  DrivenBoard robot(quiet());
   sim::Scene scene;
   robot.look_at(&scene);
   EXPECT_EQ(robot.convert(5, 1'000'000), 2048);
@@ -33,7 +34,7 @@ TEST(Accelerometer, at_rest_on_the_level_zero_zero_and_one_g) {
 }
 
 TEST(Accelerometer, the_lower_side_pulls_its_axis) {
-  Board robot(quiet());
+  DrivenBoard robot(quiet());
   sim::Scene scene;
   robot.look_at(&scene);
   // 20 degrees nose down: the specific force leans backwards; 768 sin 20 = 262.67, 768 cos 20 = 721.68
@@ -49,7 +50,7 @@ TEST(Accelerometer, the_lower_side_pulls_its_axis) {
 }
 
 TEST(Accelerometer, output_ends_a_quarter_volt_from_the_supplies) {
-  Board robot(quiet());
+  DrivenBoard robot(quiet());
   sim::Scene scene;
   robot.look_at(&scene);
   scene.force_m_s2 = [](sim::Clicks) { return sim::Vec3{-100, 100, 0}; };
@@ -79,7 +80,7 @@ TEST(Accelerometer, offset_of_the_robot_and_noise) {
 }
 
 TEST(Accelerometer, one_pole_filter_delays_a_growing_force_by_its_time_constant) {
-  Board robot(quiet());
+  DrivenBoard robot(quiet());
   sim::Scene scene;
   robot.look_at(&scene);
   // 10 m/s2 per second; felt one tick of 28800 clicks and one time constant late
@@ -93,13 +94,13 @@ TEST(Accelerometer, revision_1_3_has_the_battery_on_the_z_channel) {
   board::Setup setup = quiet();
   setup.revision = board::Revision::Rev13;
   setup.battery_v = 3.4;
-  Board robot(setup);
+  DrivenBoard robot(setup);
   EXPECT_EQ(robot.convert(5, 1000), 0);
   EXPECT_EQ(robot.convert(7, 1000), 2070);
 }
 
 TEST(AccScan, samples_are_taken_every_65_interrupts_in_a_six_channel_frame) {
-  Board robot(quiet());
+  DrivenBoard robot(quiet());
   sim::Scene scene;
   robot.look_at(&scene);
   // the force tells the instant: 1 count per 1000 cycles, on all axes (lag and filter shift it evenly)
@@ -119,7 +120,7 @@ TEST(AccScan, samples_are_taken_every_65_interrupts_in_a_six_channel_frame) {
   const Cycle first = scan_times::calls(0, 63)[62] + scan_times::kFiled;
   EXPECT_EQ(robot.scan().acc_until(0), first);
   const Cycle after = first + 3 * 58500 + 5;
-  const board::AdcScan::AccRing ring = robot.scan().acc_scan(after);
+  const drivers::AdcScan::AccRing ring = robot.scan().acc_scan(after);
   EXPECT_EQ(robot.scan().acc_samples(after), 4);
   for (int k = 0; k < 4; ++k) {
     const std::size_t slot = static_cast<std::size_t>(k + 1);
@@ -134,7 +135,7 @@ TEST(AccScan, samples_are_taken_every_65_interrupts_in_a_six_channel_frame) {
 
 TEST(AccScan, a_sample_has_one_value_however_often_it_is_read) {
   board::Setup setup;  // with noise
-  Board looked(setup), late(setup);
+  DrivenBoard looked(setup), late(setup);
   sim::Scene scene;
   looked.look_at(&scene);
   late.look_at(&scene);
@@ -150,7 +151,7 @@ TEST(AccScan, a_sample_has_one_value_however_often_it_is_read) {
 }
 
 TEST(AccScan, pins_give_the_newest_sample_and_its_horizon) {
-  Board robot(quiet());
+  DrivenBoard robot(quiet());
   FakeContext host(robot);
   robot.scan().start(false, false, 0);
   EXPECT_EQ(tp_scan_acc_newest(2), 0) << "before the first sample";
@@ -168,8 +169,8 @@ TEST(AccScan, pins_give_the_newest_sample_and_its_horizon) {
 }
 
 TEST(BasicProxHold, the_timer_goes_on_where_it_was_held) {
-  Board robot(quiet());
-  board::BasicProx& prox = robot.basic_prox();
+  DrivenBoard robot(quiet());
+  drivers::BasicProx& prox = robot.basic_prox();
   prox.start(0);
   prox.hold(1000);
   EXPECT_EQ(prox.horizon(5000), host::kNever);
@@ -183,7 +184,7 @@ TEST(BasicProxHold, the_timer_goes_on_where_it_was_held) {
   prox.release(20000);
   EXPECT_TRUE(prox.is_on());
   // but a timer that was never set up has nothing to start
-  Board fresh(quiet());
+  DrivenBoard fresh(quiet());
   fresh.basic_prox().release(100);
   EXPECT_FALSE(fresh.basic_prox().is_on());
 }

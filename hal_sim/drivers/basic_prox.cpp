@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 // See basic_prox.h.
-#include "hal_sim/board/basic_prox.h"
+#include "hal_sim/drivers/basic_prox.h"
 
 #include "hal_sim/board/board.h"
 
-namespace board {
+namespace drivers {
+
+using namespace board;
 
 namespace {
 constexpr Cycle kPairCycles = kBasicPulseCycles + kBasicRestCycles;
@@ -103,11 +105,11 @@ int BasicProx::peek_reflected(int sensor, Cycle at) const {
   return evaluate_reflected(sensor, event);
 }
 
-Cycle BasicProx::horizon(Cycle at) const { return on_ ? event_cycle(events(at)) : host::kNever; }
+Cycle BasicProx::horizon(Cycle at) const { return on_ ? event_cycle(events(at)) : kNever; }
 
 unsigned BasicProx::pulses(Cycle at) const {
   const std::int64_t count = events(at);
   return on_ && count % 2 == 1 ? 1u << (count / 2 % 4) : 0u;
 }
 
-}  // namespace board
+}  // namespace drivers

@@ -11,11 +11,15 @@
 #include <array>
 #include <cstdint>
 
-#include "hal_sim/board/epuck_params.h"
+#include "hal_sim/drivers/driver_params.h"
 
 namespace board {
-
 class Board;
+}
+
+namespace drivers {
+
+using board::Board;
 
 class BasicProx {
  public:
@@ -68,4 +72,4 @@ class BasicProx {
   std::array<Sample, 8> reflected_{};
 };
 
-}  // namespace board
+}  // namespace drivers

@@ -3,9 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "hal_sim/host/pins.h"
-#include "tests/board/fake_context.h"
 #include "tests/board/flat_scene.h"
-#include "tests/board/scan_times.h"
+#include "tests/drivers/driven_board.h"
+#include "tests/drivers/fake_context.h"
+#include "tests/drivers/scan_times.h"
 
 FakeContext* FakeContext::running = nullptr;
 
@@ -20,7 +21,7 @@ constexpr Cycle kTick = 1475;
 char left_motor, right_motor, blink;
 
 struct Running : ::testing::Test {
-  Board robot{board::Setup{}};
+  DrivenBoard robot{board::Setup{}};
   FakeContext context{robot};
 
   void init_motors() {
@@ -39,8 +40,8 @@ TEST_F(Exports, motors_alone_ask_for_no_interrupt) {
   init_motors();
   tp_motor_speed(0, 700);
   EXPECT_EQ(context.requested.count(TP_V_T2), 0u);
-  // every tick takes 35 cycles, 13 for each of two nodes less 2, and 5 for the one that counts; the left motor's
-  // firing every 14 ticks 107 more
+  // every tick takes 35 cycles, 13 for each of two nodes less 2, and 5 for the one that counts; the left
+  // motor's firing every 14 ticks 107 more
   const double share = (35 - 2 + 2 * 13 + 5) / 1475.0 + 107 / (14 * 1475.0);
   EXPECT_NEAR(static_cast<double>(context.handler_share) / 0x1p32, share, 1e-6);
   tp_agenda_stop();

@@ -12,10 +12,10 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "hal_sim/board/epuck_params.h"
 #include "hal_sim/board/stepper.h"
+#include "hal_sim/drivers/driver_params.h"
 
-namespace board {
+namespace drivers {
 
 /// When the n-th processed tick of Timer 2 happens: a straight line, except one tick that came late because
 /// its interrupt had to wait for a callback.
@@ -43,13 +43,14 @@ struct AgendaCount {
   }
 };
 
-/// The driver's statics for one wheel. Copying it is how const queries look ahead.
+/// The driver's statics for one wheel; the motor that they move is handed in. Copying it is how const queries
+/// look ahead.
 class AgendaMotor {
  public:
-  explicit AgendaMotor(int forward) : stepper(forward) {}
+  /// `forward` as the Stepper's.
+  explicit AgendaMotor(int forward) : forward_(forward) {}
 
   AgendaCount count;           ///< its node; count.active stays false while no node exists
-  Stepper stepper;             ///< the motor itself
   int phase = 0;               ///< the driver's idea of the rotor
   bool phase_on = false;       ///< power save: the next firing switches the coils off
   std::int64_t commanded = 0;  ///< steps counted by the driver, not wrapped
@@ -65,7 +66,7 @@ class AgendaMotor {
   bool saves_power() const { return magnitude_ < kPowerSaveBelow; }
 
   /// What the agenda's function does once, at `at`. False: it divided by zero.
-  bool fire(Cycle at) {
+  bool fire(Cycle at, board::Stepper& stepper) {
     if (phase_on && saves_power()) {
       stepper.set_coils_only(0);
       phase_on = false;
@@ -75,8 +76,8 @@ class AgendaMotor {
     }
     const int direction = step_direction();
     commanded += direction;
-    phase = (phase + direction * stepper.forward()) & 3;
-    stepper.energise(kPhaseCoils[phase], at);
+    phase = (phase + direction * forward_) & 3;
+    stepper.energise(board::kPhaseCoils[phase], at);
     if (saves_power()) {
       phase_on = true;
       set_cycle(kPowerSaveTicks);
@@ -84,9 +85,9 @@ class AgendaMotor {
     return true;
   }
 
-  /// Processes all ticks up to `tick`; pins change at their ticks. Speed 0 is stepped by the caller, firing by
-  /// firing.
-  void advance_to(std::int64_t tick, const TickLine& line) {
+  /// Processes all ticks up to `tick`; pins change at their ticks. Speed 0 is stepped by the caller, firing
+  /// by firing.
+  void advance_to(std::int64_t tick, const TickLine& line, board::Stepper& stepper) {
     if (tick <= count.tick) return;
     if (!count.counts() || speed_ == 0) {
       count_idle(tick);
@@ -94,31 +95,34 @@ class AgendaMotor {
     }
     const auto fire_at = [&](std::int64_t fire_tick) {
       count.tick = fire_tick;
-      fire(line.cycle_of(fire_tick));
+      fire(line.cycle_of(fire_tick), stepper);
       count.counter = 0;
     };
     // firing by firing until driver, rotor and rhythm agree
-    while (regular_ < kRegularFirings) {
+    while (regular_ < kRegularSteps) {
       const std::int64_t fire_tick = count.tick + count.ticks_to_fire();
       if (fire_tick > tick) {
         count_idle(tick);
         return;
       }
       fire_at(fire_tick);
-      regular_ = stepper.is_at(phase) && fire_tick > line.late_tick ? regular_ + 1 : 0;
+      if (!stepper.is_at(phase) || fire_tick <= line.late_tick)
+        regular_ = 0;
+      else if (phase_on_is_new())
+        ++regular_;
     }
     // then all steps up to the last one at once: one every period
     const std::int64_t period = full_period(), last_firing = count.tick - count.counter;
     const std::int64_t before_first = phase_on_is_new() ? last_firing : last_firing - kPowerSaveTicks;
     const std::int64_t steps = quotient(tick - before_first, period);
     if (steps > 0) {
-      const int direction = step_direction(), turned = direction * stepper.forward();
+      const int direction = step_direction(), turned = direction * forward_;
       const std::int64_t last_step = before_first + steps * period;
       commanded += steps * direction;
       phase = static_cast<int>((phase + steps * turned) & 3);
       const auto step_at = [&](int back) { return line.cycle_of(last_step - back * period); };
       stepper.turn(steps, direction, step_at(0), steps > 1 ? step_at(1) : 0, steps > 2 ? step_at(2) : 0,
-                   kPhaseCoils[phase]);
+                   board::kPhaseCoils[phase]);
       count.tick = last_step;
       count.counter = 0;
       if (saves_power()) {
@@ -140,9 +144,12 @@ class AgendaMotor {
     return !saves_power() ? kMotorStepCycles : phase_on ? kMotorOffCycles : kMotorHalfStepCycles;
   }
 
-  /// Does the rotor go from step to step without a rest until the next command?
-  bool is_even() const {
-    return regular_ >= kRegularFirings && count.counts() && full_period() * kAgendaTickCycles <= kRotorMoveCycles;
+  /// Do steps come one period after the other, each beginning where the one before ended, until a command?
+  bool is_regular() const { return regular_ >= kRegularSteps; }
+  /// left: forward only for v > 0; right: backward only for v < 0
+  int step_direction() const {
+    if (forward_ < 0) return speed_ > 0 ? 1 : -1;
+    return speed_ < 0 ? -1 : 1;
   }
   /// Tick of the next step (not coil-off), or -1 if there is none without a command.
   std::int64_t next_step_tick() const {
@@ -158,18 +165,14 @@ class AgendaMotor {
   void disturb() { regular_ = 0; }
 
  private:
-  /// Firings in a row after which every step has had the time to finish, so that periods can be added up: two
-  /// steps that came a period after the one before.
-  static constexpr int kRegularFirings = 6;
+  /// Steps in a row after which every one has had the time to finish, so that periods can be added up: two
+  /// that came a period after the one before.
+  static constexpr int kRegularSteps = 3;
+  int forward_;
   int regular_ = 0;
   int speed_ = 0, magnitude_ = 0;
   int save_period_ = 0;  // ticks from step to step in power save
 
-  /// left: forward only for v > 0; right: backward only for v < 0
-  int step_direction() const {
-    if (stepper.forward() < 0) return speed_ > 0 ? 1 : -1;
-    return speed_ < 0 ? -1 : 1;
-  }
   /// Of numbers that are small nearly always: a short division takes half the time.
   static std::int64_t quotient(std::int64_t ticks, std::int64_t period) {
     if (static_cast<std::uint64_t>(ticks) >> 32) return ticks / period;
@@ -183,4 +186,4 @@ class AgendaMotor {
   }
 };
 
-}  // namespace board
+}  // namespace drivers

@@ -15,10 +15,10 @@
 #pragma once
 #include <cstdint>
 
-#include "hal_sim/board/agenda_timer.h"
 #include "hal_sim/board/stepper.h"
+#include "hal_sim/drivers/agenda_timer.h"
 
-namespace board {
+namespace drivers {
 
 /// Steps at `next`, `next` + `period`, ...; both drivers of one wheel are this.
 struct StepTrain {
@@ -55,7 +55,6 @@ class TimerMotors {
     return trains_[0][index(wheel)].running || trains_[1][index(wheel)].running ||
            trains_[1][index(wheel)].coils_off_at >= 0;
   }
-  bool timer3_runs() const { return timer3_runs_; }
   /// Cycles between two interrupts of the basic driver; 0 when stopped.
   Cycle interrupt_period(Wheel wheel) const;
   void reset();
@@ -72,4 +71,4 @@ class TimerMotors {
   Cycle timer3_origin_ = 0;
 };
 
-}  // namespace board
+}  // namespace drivers

@@ -5,20 +5,21 @@
 #include <stdexcept>
 #include <string>
 
-#include "hal_sim/board/board.h"
 #include "hal_sim/host/context.h"
+#include "tests/drivers/driven_board.h"
 
 class FakeContext : public host::Context {
  public:
-  explicit FakeContext(board::Board& robot) : robot_(robot) { running = this; }
+  explicit FakeContext(DrivenBoard& robot) : robot_(robot) { running = this; }
   ~FakeContext() override { running = nullptr; }
 
   board::Board& board() override { return robot_; }
+  drivers::Drivers& drivers() override { return robot_.drivers(); }
   host::Cycle now() override { return cycle; }
   void lower_horizon(host::Cycle at) override { horizon = std::min(horizon, at); }
   void note_write() override { ++writes; }
   void spend(host::Cycle cycles) override { spent += cycles; }
-  void follow_handlers() override { handler_share = robot_.handler_share_q32(); }
+  void follow_handlers() override { handler_share = robot_.drivers().handler_share_q32(); }
   void wait_until(host::Cycle at) override { cycle = std::max(cycle, at); }
   void irq_install(int vector, void (*handler)(), int, host::Cycle) override { handlers[vector] = handler; }
   void irq_at(int vector, host::Cycle at) override { requested[vector] = at; }
@@ -41,5 +42,5 @@ class FakeContext : public host::Context {
   static FakeContext* running;
 
  private:
-  board::Board& robot_;
+  DrivenBoard& robot_;
 };

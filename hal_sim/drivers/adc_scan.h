@@ -13,19 +13,23 @@
 // Modelled: both rates, stopping and starting the converter, 4 or 5 pairs, the sample before the first flash.
 // Accelerometer samples are kept tick by tick from the first time that a program asks for one; those of
 // before are worked out then, from poses of at most 40 ms ago. Not modelled: turret sensors 8 and 9 (read 0),
-// which in their frames come before the microphones; that single frames are up to a quarter longer or shorter,
-// because the converter stands while its list changes.
-// Source: [lib: a_d/advance_ad_scan/e_ad_conv.c], facts restated.
+// which in their frames come before the microphones; that single frames are up to a quarter longer or
+// shorter, because the converter stands while its list changes. Source: [lib:
+// a_d/advance_ad_scan/e_ad_conv.c], facts restated.
 #pragma once
 #include <array>
 #include <cstdint>
 #include <vector>
 
-#include "hal_sim/board/epuck_params.h"
+#include "hal_sim/drivers/driver_params.h"
 
 namespace board {
-
 class Board;
+}
+
+namespace drivers {
+
+using board::Board;
 
 /// Cycles for which the emitter of a ring sensor has been on when its lit sample is held.
 Cycle scan_flash_cycles(int sensor);
@@ -62,7 +66,7 @@ class AdcScan {
   /// Cycle of the next interrupt; kNever when the converter is off.
   Cycle next_interrupt(Cycle at) const { return interrupt_cycle(interrupts(at) + 1); }
   /// Cycle of the interrupt that completes the `count`-th microphone sample from power-up on.
-  Cycle interrupt_cycle(std::int64_t count) const { return on_ ? run_.cycle_of(count - 1) : host::kNever; }
+  Cycle interrupt_cycle(std::int64_t count) const { return on_ ? run_.cycle_of(count - 1) : kNever; }
   /// What the handler takes of each cycle, as a fraction of 2^32.
   std::uint64_t share_q32() const;
 
@@ -157,13 +161,13 @@ class AdcScan {
   bool on_ = false;
   int starts_ = 0;
   int pairs_ = 4;
-  Run run_;                        // the present one
-  Cycle held_since_ = -1;          // -1: not held
+  Run run_;                // the present one
+  Cycle held_since_ = -1;  // -1: not held
   std::int64_t lost_ = 0;
   Cycle first_lost_ = 0;
-  std::int64_t period_base_ = 0;   // from this period on ...
-  int pair_base_ = 0;              // ... pairs count from here
-  std::vector<Run> runs_;          // those over that the last 100 microphone samples come from
+  std::int64_t period_base_ = 0;  // from this period on ...
+  int pair_base_ = 0;             // ... pairs count from here
+  std::vector<Run> runs_;         // those over that the last 100 microphone samples come from
   std::array<Sample, 10> dark_{};
   std::array<Sample, 10> lit_{};
   AccRing acc_{};
@@ -171,4 +175,4 @@ class AdcScan {
   std::int64_t acc_kept_ = 0;  // samples in acc_
 };
 
-}  // namespace board
+}  // namespace drivers

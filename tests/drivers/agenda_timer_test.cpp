@@ -1,28 +1,33 @@
 // SPDX-License-Identifier: MIT
 // AgendaTimer: hand-computed motor rates and quirks, and equality with the ticked yardstick over random
 // programs.
-#include "hal_sim/board/agenda_timer.h"
+#include "hal_sim/drivers/agenda_timer.h"
 
 #include <gtest/gtest.h>
 
 #include <memory>
 #include <random>
 
-#include "tests/board/ticked_agenda.h"
+#include "tests/drivers/ticked_agenda.h"
 
 namespace {
 
-using board::AgendaTimer;
 using board::Cycle;
 using board::Wheel;
+using drivers::AgendaTimer;
 
 constexpr Cycle kSecond = 14'745'600;
 constexpr Cycle kTick = 1475;
 
 char left_motor, right_motor, user_a, user_b, user_c;  // addresses stand for functions
 
+struct OwnMotors {
+  board::Stepper left{-1}, right{+1};
+};
+
 struct Driven {
-  AgendaTimer timer;
+  OwnMotors motors;
+  AgendaTimer timer{motors.left, motors.right};
   explicit Driven(Cycle start = 0) {
     timer.stepper(Wheel::Left, 0).connect(true);
     timer.stepper(Wheel::Right, 0).connect(true);
@@ -157,7 +162,8 @@ TEST(AgendaMotors, speed_zero_with_a_cycle_set_by_hand_divides_by_zero) {
 }
 
 TEST(Agendas, newest_runs_first_and_counters_survive_a_new_cycle) {
-  AgendaTimer timer;
+  OwnMotors motors;
+  AgendaTimer timer{motors.left, motors.right};
   timer.activate(&user_a, 10, 0);
   timer.activate(&user_b, 10, 0);
   EXPECT_EQ(timer.activate(&user_a, 3, 0), 1);  // already there: the new cycle is ignored
@@ -175,7 +181,8 @@ TEST(Agendas, newest_runs_first_and_counters_survive_a_new_cycle) {
 }
 
 TEST(Agendas, a_long_callback_loses_ticks_but_one_is_remembered) {
-  AgendaTimer timer;
+  OwnMotors motors;
+  AgendaTimer timer{motors.left, motors.right};
   timer.activate(&user_a, 10, 0);
   timer.start(0);
   bool trap;
@@ -211,7 +218,8 @@ TEST(Agendas, a_masked_handler_loses_ticks_but_one_is_remembered) {
 }
 
 TEST(Agendas, negative_cycles_are_huge) {
-  AgendaTimer timer;
+  OwnMotors motors;
+  AgendaTimer timer{motors.left, motors.right};
   timer.activate(&user_a, -1, 0);
   timer.start(0);
   EXPECT_EQ(timer.next_interrupt(), 65535 * kTick);
@@ -409,7 +417,8 @@ class Twin {
   }
 
   std::mt19937 random_;
-  AgendaTimer closed_;
+  OwnMotors motors_;
+  AgendaTimer closed_{motors_.left, motors_.right};
   ticked::Agendas ticked_;
   std::vector<Call> closed_log_, ticked_log_;
   Cycle now_ = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The ADC scan and the basic proximity driver: instants by hand, and equality with plain ticked state
 // machines.
-#include "hal_sim/board/adc_scan.h"
+#include "hal_sim/drivers/adc_scan.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,8 @@
 
 #include "hal_sim/board/board.h"
 #include "tests/board/flat_scene.h"
-#include "tests/board/scan_times.h"
+#include "tests/drivers/driven_board.h"
+#include "tests/drivers/scan_times.h"
 
 namespace {
 
@@ -77,7 +78,7 @@ class TickedScan {
   Cycle lit_at_ = 0;
 };
 
-void expect_equal(Board& robot, const TickedScan& want, Cycle at) {
+void expect_equal(DrivenBoard& robot, const TickedScan& want, Cycle at) {
   for (int sensor = 0; sensor < 8; ++sensor) {
     ASSERT_EQ(robot.scan().peek_dark(sensor, at), want.dark[sensor]) << sensor << " at " << at;
     ASSERT_EQ(robot.scan().peek_lit(sensor, at), want.lit[sensor]) << sensor << " at " << at;
@@ -95,7 +96,7 @@ TEST_P(Scan, closed_form_equals_the_ticked_interrupt) {
   make_telling(scene);
   board::Setup setup;
   setup.ir_noise_scale = 0;
-  Board robot(setup), reader(setup);
+  DrivenBoard robot(setup), reader(setup);
   robot.look_at(&scene);
   reader.look_at(&scene);
   TickedScan want(robot, five);
@@ -133,7 +134,7 @@ TEST(AdcScan, survives_stops_and_starts_in_the_middle_of_anything) {
   sim::Scene scene;
   make_telling(scene);
   board::Setup setup;
-  Board robot(setup);
+  DrivenBoard robot(setup);
   robot.look_at(&scene);
   TickedScan want(robot, false);
   std::mt19937 random(11);
@@ -167,7 +168,7 @@ TEST(AdcScan, survives_stops_and_starts_in_the_middle_of_anything) {
 TEST(AdcScan, frames_that_come_while_the_handler_is_masked_are_lost_but_the_newest) {
   sim::Scene scene;
   make_telling(scene);
-  Board robot{board::Setup{}};
+  DrivenBoard robot{board::Setup{}};
   robot.look_at(&scene);
   TickedScan want(robot, false);
   std::mt19937 random(5);
@@ -196,7 +197,7 @@ TEST(AdcScan, frames_that_come_while_the_handler_is_masked_are_lost_but_the_newe
 
 // 16384 Hz / 65 / 4: every sensor 63 times a second
 TEST(AdcScan, refreshes_each_sensor_63_times_a_second) {
-  Board robot{board::Setup{}};
+  DrivenBoard robot{board::Setup{}};
   robot.scan().start(false, false, 0);
   const Cycle second = 14'745'600;
   for (int sensor = 0; sensor < 8; ++sensor) {
@@ -208,11 +209,11 @@ TEST(AdcScan, refreshes_each_sensor_63_times_a_second) {
   }
 }
 
-// a flash lasts 5 interrupts, 4500 cycles; its samples are taken 349 and 169 cycles before the end of the last. They are
-// filed 117 cycles after it.
+// a flash lasts 5 interrupts, 4500 cycles; its samples are taken 349 and 169 cycles before the end of the
+// last. They are filed 117 cycles after it.
 TEST(AdcScan, flash_and_sample_instants) {
   sim::Scene scene;
-  Board robot{board::Setup{}};
+  DrivenBoard robot{board::Setup{}};
   robot.look_at(&scene);
   robot.scan().start(false, false, 0);
   const auto calls = scan_times::calls(0, 70);
@@ -234,7 +235,7 @@ TEST(AdcScan, flash_and_sample_instants) {
 }
 
 TEST(AdcScan, initialisation_takes_194_ms) {
-  Board robot{board::Setup{}};
+  DrivenBoard robot{board::Setup{}};
   robot.scan().start(false, false, 0);
   const Cycle filled = robot.scan().first_fill(0);
   EXPECT_NEAR(static_cast<double>(filled) / 14745.6, 194.3, 0.1);
@@ -247,7 +248,7 @@ TEST(AdcScan, initialisation_takes_194_ms) {
 TEST(AdcScan, microphones_alone_run_twice_as_fast) {
   sim::Scene scene;
   make_telling(scene);
-  Board robot{board::Setup{}};
+  DrivenBoard robot{board::Setup{}};
   robot.look_at(&scene);
   robot.scan().start(true, false, 0);
   EXPECT_EQ(robot.scan().interrupts(14'745'600 + 14), 32767);
@@ -261,7 +262,7 @@ TEST(AdcScan, a_sample_never_changes_once_read) {
   sim::Scene scene;
   double value = 500;
   scene.reflection = [&](int, sim::Clicks) { return value; };
-  Board robot{board::Setup{}};
+  DrivenBoard robot{board::Setup{}};
   robot.look_at(&scene);
   robot.scan().start(false, false, 0);
   const Cycle at = 300 * kFrame;
@@ -277,7 +278,7 @@ TEST(IrCircuit, noise_depends_on_the_sample_and_on_nothing_else) {
   scene.relative_noise = 0.05;
   board::Setup setup;
   setup.seed = 42;
-  Board a(setup), b(setup);
+  DrivenBoard a(setup), b(setup);
   a.look_at(&scene);
   b.look_at(&scene);
   a.scan().start(false, false, 0);
@@ -306,7 +307,7 @@ TEST(IrCircuit, more_light_gives_lower_counts_and_the_ends_clamp) {
   board::Setup setup;
   setup.ir_gain[2] = 1.5;
   setup.ir_offset_counts[2] = 7;
-  Board robot(setup);
+  DrivenBoard robot(setup);
   EXPECT_EQ(robot.ir_counts(0, 0, -1), 4095);  // darkness without a world
   robot.look_at(&scene);
   scene.irradiance_w_m2 = 1.0;
@@ -328,7 +329,7 @@ TEST(IrCircuit, uniform_noise_fills_its_half_width_and_no_more) {
   scene.relative_noise = 0.2;
   scene.uniform_noise = true;
   board::Setup setup;
-  board::Board robot(setup);
+  DrivenBoard robot(setup);
   robot.look_at(&scene);
   double sum = 0, squares = 0, least = 4095, most = 0;
   constexpr int kCount = 4000;
@@ -354,16 +355,16 @@ TEST(IrCircuit, a_conversion_taken_apart_adds_up_to_its_counts) {
   board::Setup setup;
   setup.ir_gain[3] = 1.2;
   setup.ir_offset_counts[3] = 10;
-  board::Board robot(setup);
+  DrivenBoard robot(setup);
   robot.look_at(&scene);
   const board::IrConversion dark = robot.ir_conversion(3, 0, -1);
   EXPECT_EQ(dark.light_counts, 200);  // 0.5 W/m2 x 400
   EXPECT_EQ(dark.reflection_counts, 0);
   EXPECT_EQ(dark.counts(), 4095 - 200);
   // from the LED's switching to the hold of the fourth channel: 286 us
-  const board::Cycle flash = board::scan_flash_cycles(3);
+  const board::Cycle flash = drivers::scan_flash_cycles(3);
   EXPECT_EQ(flash, 4720 - kLight - 349);
-  EXPECT_EQ(board::scan_flash_cycles(4), 4720 - kLight - 169);
+  EXPECT_EQ(drivers::scan_flash_cycles(4), 4720 - kLight - 169);
   const board::IrConversion lit = robot.ir_conversion(3, 0, flash);
   EXPECT_EQ(lit.reflection_counts, 1200);
   EXPECT_EQ(lit.relative_noise, 0.1);  // told, and not drawn
@@ -380,7 +381,7 @@ TEST(IrCircuit, a_conversion_taken_apart_adds_up_to_its_counts) {
 TEST(BasicProx, closed_form_equals_the_ticked_state_machine) {
   sim::Scene scene;
   make_telling(scene);
-  Board robot{board::Setup{}};
+  DrivenBoard robot{board::Setup{}};
   robot.look_at(&scene);
   Cycle start = 777;
   robot.basic_prox().start(start);
@@ -429,7 +430,7 @@ TEST(BasicProx, closed_form_equals_the_ticked_state_machine) {
 
 // 2.45 ms a pair, 9.80 ms for all
 TEST(BasicProx, all_eight_are_fresh_every_9_8_ms) {
-  Board robot{board::Setup{}};
+  DrivenBoard robot{board::Setup{}};
   robot.basic_prox().start(0);
   EXPECT_NEAR(static_cast<double>(robot.basic_prox().events(14'745'600)), 8 * 102.0, 2);
   robot.basic_prox().stop(14'745'600);

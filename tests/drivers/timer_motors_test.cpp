@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The drivers on Timers 4 and 5 and on Timer 3: rates by hand, and equality with ticked interrupts.
-#include "hal_sim/board/timer_motors.h"
+#include "hal_sim/drivers/timer_motors.h"
 
 #include <gtest/gtest.h>
 
@@ -11,9 +11,9 @@ namespace {
 
 using board::Cycle;
 using board::Stepper;
-using board::TimerMotors;
 using board::Wheel;
-using Driver = board::TimerMotors::Driver;
+using drivers::TimerMotors;
+using Driver = drivers::TimerMotors::Driver;
 
 constexpr Cycle kSecond = 14'745'600;
 
@@ -56,7 +56,7 @@ TEST(BasicMotors, coils_stay_on_while_running_and_go_off_at_zero) {
   EXPECT_NE(motor.coils(), 0u);
   motors.set_speed(Driver::Basic, Wheel::Right, 0, kSecond, motor);
   EXPECT_EQ(motor.coils(), 0u);
-  EXPECT_EQ(motors.steps_horizon(Wheel::Right, kSecond), host::kNever);
+  EXPECT_EQ(motors.steps_horizon(Wheel::Right, kSecond), board::kNever);
 }
 
 // ticks of 1536 cycles: 9600 / (10000 / 999) = 960 steps/s at most

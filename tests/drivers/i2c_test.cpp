@@ -8,7 +8,8 @@
 #include "hal_sim/board/board.h"
 #include "hal_sim/host/pins.h"
 #include "hal_sim/host/pins_i2c.h"
-#include "tests/board/fake_context.h"
+#include "tests/drivers/driven_board.h"
+#include "tests/drivers/fake_context.h"
 
 namespace {
 
@@ -34,7 +35,7 @@ struct Registers : board::I2cRegisters {
 };
 
 struct I2c : ::testing::Test {
-  board::Board robot{board::Setup{}};
+  DrivenBoard robot{board::Setup{}};
   Registers* device = nullptr;
   Cycle now = 1000;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // See adc_scan.h. Interrupts of ALL_ADC mode are numbered from 0; number i has slot i % 65 and period i / 65.
 // In period q the lit sample of pair_of_lit(q) arrives, and the dark one of pair_of_lit(q + 1).
-#include "hal_sim/board/adc_scan.h"
+#include "hal_sim/drivers/adc_scan.h"
 
 #include <algorithm>
 #include <utility>
@@ -10,7 +10,9 @@
 #include "hal_sim/board/board.h"
 #include "hal_sim/board/sound_params.h"
 
-namespace board {
+namespace drivers {
+
+using namespace board;
 
 namespace {
 /// `pair` of a sensor: 0 and 4 share an emitter line, and so on; 8 and 9 are the turret's.
@@ -43,9 +45,7 @@ static_assert(hold_to_end(frame_of(kScanLitSlot), 3) == 349);
 
 }  // namespace
 
-Cycle scan_flash_cycles(int sensor) {
-  return kScanFlashCycles - kScanLightCycles - hold_to_end(sensor);
-}
+Cycle scan_flash_cycles(int sensor) { return kScanFlashCycles - kScanLightCycles - hold_to_end(sensor); }
 
 void AdcScan::settle(Cycle at) {
   // samples so far must not depend on frame times that are about to be forgotten
@@ -59,7 +59,8 @@ void AdcScan::settle(Cycle at) {
   const std::int64_t passed = frames(at);
   if (passed > 0) {
     runs_.push_back(run_);
-    while (runs_.size() > 1 && runs_[1].first <= run_.first + passed - kMicSamples) runs_.erase(runs_.begin());
+    while (runs_.size() > 1 && runs_[1].first <= run_.first + passed - kMicSamples)
+      runs_.erase(runs_.begin());
   }
   run_ = {run_.first + passed, full_interrupts(at), at + kScanStartCycles, run_.micro_only};
   for (auto* samples : {&dark_, &lit_})
@@ -171,8 +172,12 @@ int AdcScan::read(Sample& kept, int sensor, Cycle at, bool lit_sample) {
   if (at < kept.until) return kept.counts;
   const std::int64_t filed = full_interrupts(at - kScanFileCycles);
   const int slot = lit_sample ? kScanLitSlot : kScanDarkSlot, shift = lit_sample ? 0 : 1;
-  keep(kept, sensor, newest(filed, slot, shift, pair_of_sensor(sensor)), lit_sample);
-  kept.until = next_sample(filed, slot, shift, pair_of_sensor(sensor));
+  const std::int64_t number = newest(filed, slot, shift, pair_of_sensor(sensor));
+  keep(kept, sensor, number, lit_sample);
+  // a pair's turn comes round every so many periods; before its first time it has to be looked for
+  kept.until = number >= 0 && number >= period_base_ && on_ && !run_.micro_only
+                   ? full_cycle((number + pairs_) * kScanPeriod + slot) + kScanFileCycles
+                   : next_sample(filed, slot, shift, pair_of_sensor(sensor));
   return kept.counts;
 }
 
@@ -208,7 +213,7 @@ int AdcScan::mic_sample(int microphone, std::int64_t number) const {
 }
 
 Cycle AdcScan::next_sample(std::int64_t filed, int slot, int shift, int pair) const {
-  if (!on_ || run_.micro_only) return host::kNever;
+  if (!on_ || run_.micro_only) return kNever;
   // first period whose interrupt in this slot is still to come, then on to the one that serves the pair
   std::int64_t period = (filed + kScanPeriod - 1 - slot) / kScanPeriod;
   period += (pair - pair_of_lit(period + shift) + pairs_) % pairs_;
@@ -244,7 +249,7 @@ const AdcScan::AccRing& AdcScan::acc_scan(Cycle at) {
 }
 
 Cycle AdcScan::acc_until(Cycle at) const {
-  if (!on_ || run_.micro_only) return host::kNever;
+  if (!on_ || run_.micro_only) return kNever;
   return full_cycle(kScanPeriod * acc_samples(at) + kScanAccSlot) + kScanFileCycles;
 }
 
@@ -260,7 +265,7 @@ unsigned AdcScan::pulses(Cycle at) const {
 }
 
 Cycle AdcScan::pulses_horizon(Cycle at) const {
-  if (!on_ || run_.micro_only) return host::kNever;
+  if (!on_ || run_.micro_only) return kNever;
   const std::int64_t count = full_interrupts(at - kScanLightCycles);
   const int slot = static_cast<int>(count % kScanPeriod);  // of the next interrupt
   const int wait = slot <= kScanLitSlot    ? kScanLitSlot - slot
@@ -269,4 +274,4 @@ Cycle AdcScan::pulses_horizon(Cycle at) const {
   return full_cycle(count + wait) + kScanLightCycles;
 }
 
-}  // namespace board
+}  // namespace drivers

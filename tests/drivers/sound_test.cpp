@@ -9,9 +9,10 @@
 #include "hal_sim/board/sound_params.h"
 #include "hal_sim/host/pins_dsp.h"
 #include "hal_sim/host/pins_sound.h"
-#include "tests/board/fake_context.h"
 #include "tests/board/flat_scene.h"
-#include "tests/board/scan_times.h"
+#include "tests/drivers/driven_board.h"
+#include "tests/drivers/fake_context.h"
+#include "tests/drivers/scan_times.h"
 
 namespace {
 
@@ -25,7 +26,7 @@ board::Setup quiet() {
 }
 
 struct Microphones : ::testing::Test {
-  Board robot{quiet()};
+  DrivenBoard robot{quiet()};
   FakeContext context{robot};
   sim::Scene scene;
   Microphones() { robot.look_at(&scene); }

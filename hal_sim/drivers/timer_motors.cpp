@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // See timer_motors.h.
-#include "hal_sim/board/timer_motors.h"
+#include "hal_sim/drivers/timer_motors.h"
 
 #include <algorithm>
 #include <cstdlib>
 
-namespace board {
+namespace drivers {
+
+using namespace board;
 
 int StepTrain::direction(const Stepper& stepper) const {
   if (stepper.forward() < 0) return speed > 0 ? 1 : -1;
@@ -95,7 +97,7 @@ Cycle TimerMotors::coils_horizon(Wheel wheel, Cycle at) const {
 }
 
 Cycle TimerMotors::steps_horizon(Wheel wheel, Cycle at) const {
-  Cycle earliest = host::kNever;
+  Cycle earliest = kNever;
   for (const auto& driver : trains_) {
     const StepTrain& t = driver[index(wheel)];
     if (!t.running) continue;
@@ -127,4 +129,4 @@ void TimerMotors::reset() {
   timer3_runs_ = false;
 }
 
-}  // namespace board
+}  // namespace drivers

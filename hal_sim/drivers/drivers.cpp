@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "hal_sim/drivers/drivers.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "hal_sim/board/board.h"
+
+namespace drivers {
+
+Drivers::Drivers(board::Board& board)
+    : board_(board),
+      agendas_(board.own_motor(Wheel::Left), board.own_motor(Wheel::Right)),
+      scan_(board),
+      basic_prox_(board) {
+  board_.attach(this);
+}
+
+Drivers::~Drivers() { board_.attach(nullptr); }
+
+void Drivers::mask_handlers(bool masked, Cycle at) {
+  if (masked) {
+    scan_.hold(at);
+    agendas_.hold(at);
+  } else {
+    scan_.release(at);
+    agendas_.release(at);
+  }
+}
+
+void Drivers::bring_motor(Wheel wheel, Cycle at) {
+  Stepper& motor = agendas_.stepper(wheel, at);
+  if (timer_motors_.drives(wheel)) timer_motors_.move(wheel, at, motor);
+}
+
+const Stepper& Drivers::motor_at(Wheel wheel, Cycle at) const {
+  const Stepper& motor = agendas_.stepper_at(wheel, at);
+  if (!timer_motors_.drives(wheel)) return motor;
+  seen_ = motor;
+  timer_motors_.peek(wheel, at, seen_);
+  return seen_;
+}
+
+Cycle Drivers::steps_horizon(Wheel wheel, Cycle at) const {
+  return std::min(agendas_.steps_horizon(wheel, at), timer_motors_.steps_horizon(wheel, at));
+}
+
+Cycle Drivers::coils_horizon(Wheel wheel, Cycle at) const {
+  return std::min(agendas_.coils_horizon(wheel, at), timer_motors_.coils_horizon(wheel, at));
+}
+
+std::optional<double> Drivers::coil_duty(Wheel wheel) const {
+  if (timer_motors_.drives(wheel)) return 1;  // these drivers leave the coils on from step to step
+  if (!agendas_.runs(wheel)) return std::nullopt;
+  const int magnitude = std::abs(agendas_.speed(wheel));
+  if (magnitude >= kPowerSaveBelow) return 1;
+  const int period = magnitude > 0 ? kSpeedUnit / magnitude : 0;
+  return period > 0 ? std::min(1.0, static_cast<double>(kPowerSaveTicks) / period) : 0;
+}
+
+Cycle Drivers::pulses_horizon(Cycle at) const {
+  return std::min(scan_.pulses_horizon(at), basic_prox_.horizon(at));
+}
+
+double Drivers::mean_pulses() const {
+  double lines = 0;
+  if (scan_.is_on() && !scan_.micro_only()) lines += static_cast<double>(kScanLitInterrupts) / kScanPeriod;
+  if (basic_prox_.is_on())
+    lines +=
+        static_cast<double>(kBasicPulseCycles) / static_cast<double>(kBasicPulseCycles + kBasicRestCycles);
+  return lines;
+}
+
+std::optional<int> Drivers::proximity_counts(int sensor, Cycle at) const {
+  if (scan_.is_on() && !scan_.micro_only()) return scan_.peek_dark(sensor, at) - scan_.peek_lit(sensor, at);
+  if (basic_prox_.is_on()) return basic_prox_.peek_reflected(sensor, at);
+  return std::nullopt;
+}
+
+void Drivers::processor_reset(Cycle at) {
+  // whatever another driver did to the wheels by now, before its train is forgotten
+  for (Wheel wheel : {Wheel::Left, Wheel::Right}) bring_motor(wheel, at);
+  timer_motors_.reset();
+  agendas_.reset(at);
+  scan_.reset(at);
+  basic_prox_.reset(at);
+  requests = Requests{};
+}
+
+void Drivers::add_diagnoses(std::vector<board::Diagnosis>& all) const {
+  const auto missed = [&all](const char* vector, std::int64_t count, Cycle first) {
+    if (count == 0) return;
+    all.push_back({"missed interrupt", vector,
+                   std::string(vector) +
+                       ": an event came while its flag was still set and enabled; the handler runs once for "
+                       "several (too slow, or held off too long)",
+                   "make agendas' functions and handlers shorter, or mask interrupts for less", first, 0,
+                   count});
+  };
+  missed("ADC", scan_.lost_frames(), scan_.first_lost());
+  missed("T2", agendas_.lost_ticks(), agendas_.first_lost());
+}
+
+std::uint64_t Drivers::state_sum(Cycle at) const {
+  return agendas_.state_sum(at) + static_cast<std::uint64_t>(scan_.interrupts(at)) * 0x9E3779B97F4A7C15u;
+}
+
+}  // namespace drivers

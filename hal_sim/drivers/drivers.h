@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// The library's drivers that the native way knows by heart: what each would do to the board's pins follows
+// from the clock, and is worked out when somebody looks.
+//
+//   e_* API -- exports --> Drivers --> board's pins, lazily (board::PinDriver)
+//
+// Time: their handlers are not run. What these take is a share of all cycles (handler_share_q32()); while the
+// program masks them they do not come (mask_handlers()).
+#pragma once
+#include <array>
+#include <cstdint>
+
+#include "hal_sim/board/pin_driver.h"
+#include "hal_sim/drivers/adc_scan.h"
+#include "hal_sim/drivers/agenda_timer.h"
+#include "hal_sim/drivers/basic_prox.h"
+#include "hal_sim/drivers/timer_motors.h"
+
+namespace drivers {
+
+class Drivers final : public board::PinDriver {
+ public:
+  /// Drives this board's pins from now on; the board outlives it.
+  explicit Drivers(board::Board& board);
+  ~Drivers() override;
+  Drivers(const Drivers&) = delete;
+  Drivers& operator=(const Drivers&) = delete;
+
+  AgendaTimer& agendas() { return agendas_; }
+  const AgendaTimer& agendas() const { return agendas_; }
+  TimerMotors& timer_motors() { return timer_motors_; }
+  AdcScan& scan() { return scan_; }
+  const AdcScan& scan() const { return scan_; }
+  BasicProx& basic_prox() { return basic_prox_; }
+
+  /// What the handlers of the scan and of the agenda tick take of each cycle, as a fraction of 2^32.
+  std::uint64_t handler_share_q32() const { return scan_.share_q32() + agendas_.share_q32(); }
+  /// The program masks these handlers from `at` on, or does no longer.
+  void mask_handlers(bool masked, Cycle at);
+
+  /// What the exported functions last asked of the host, so that they ask only when it changed.
+  struct Requests {
+    static constexpr Cycle kUnknown = -2;
+    Cycle agenda_interrupt = -1;
+    std::array<Cycle, 16> background_period{};
+    std::array<Cycle, 16> background_cost{};
+  };
+  Requests requests;
+
+  void bring_motor(Wheel wheel, Cycle at) override;
+  const Stepper& motor_at(Wheel wheel, Cycle at) const override;
+  Cycle steps_horizon(Wheel wheel, Cycle at) const override;
+  Cycle coils_horizon(Wheel wheel, Cycle at) const override;
+  std::optional<Course> motor_course(Wheel wheel, Cycle at) const override {
+    return timer_motors_.drives(wheel) ? std::nullopt : agendas_.course(wheel, at);
+  }
+  std::optional<double> coil_duty(Wheel wheel) const override;
+  unsigned pulses(Cycle at) const override { return scan_.pulses(at) | basic_prox_.pulses(at); }
+  Cycle pulses_horizon(Cycle at) const override;
+  double mean_pulses() const override;
+  bool owns_emitters() const override { return scan_.is_on() || basic_prox_.is_on(); }
+  std::optional<int> proximity_counts(int sensor, Cycle at) const override;
+  void exchange(Cycle at) override { scan_.keep_acc(at); }
+  Cycle quiet_until(Cycle at) const override { return scan_.keeps_acc() ? at + kAccKeepCycles : kNever; }
+  void processor_reset(Cycle at) override;
+  void add_diagnoses(std::vector<board::Diagnosis>& all) const override;
+  std::uint64_t state_sum(Cycle at) const override;
+
+ private:
+  board::Board& board_;
+  AgendaTimer agendas_;
+  TimerMotors timer_motors_;
+  AdcScan scan_;
+  BasicProx basic_prox_;
+  mutable Stepper seen_{+1};  // what motor_at() shows of a timer's train
+};
+
+}  // namespace drivers

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// A board with the library's drivers on it, as a robot of the native way has.
+#pragma once
+#include "hal_sim/board/board.h"
+#include "hal_sim/drivers/drivers.h"
+
+class DrivenBoard : public board::Board {
+ public:
+  explicit DrivenBoard(const board::Setup& setup) : Board(setup) {}
+
+  drivers::Drivers& drivers() { return drivers_; }
+  drivers::AgendaTimer& agendas() { return drivers_.agendas(); }
+  drivers::TimerMotors& timer_motors() { return drivers_.timer_motors(); }
+  drivers::AdcScan& scan() { return drivers_.scan(); }
+  drivers::BasicProx& basic_prox() { return drivers_.basic_prox(); }
+
+ private:
+  drivers::Drivers drivers_{*this};
+};
