@@ -33,7 +33,7 @@ def outputs(command, program, folder):
     for name in ("worlds", "firmware", "bench"):
         os.symlink(ROOT / name, folder / name)
     said = subprocess.run(f"'{program}' {command}", shell=True, cwd=folder, stdout=subprocess.PIPE,
-                          stderr=subprocess.STDOUT, text=True, check=False).stdout
+                          stderr=subprocess.STDOUT, text=True, check=False).stdout.replace(f"{ROOT}/", "")
     written = [p for p in sorted(folder.iterdir()) if p.is_file()]
     return [text.splitlines() for text in [said] + [p.read_text(errors="replace") for p in written]]
 

@@ -292,12 +292,8 @@ std::optional<board::PinDriver::Course> AgendaTimer::course(Wheel wheel, Cycle a
   const Stepper& rotor = stepper_at(wheel, at);
   const Cycle period = m.full_period() * kAgendaTickCycles;
   if (m.next_step_tick() < 0 || period > kRotorMoveCycles || !rotor.is_at(m.phase)) return std::nullopt;
-  const double now = rotor.position(at);
-  if (m.is_regular()) return board::PinDriver::Course{now, rotor.speed(at), kNever};
-  // the third step from here begins where the second one ends
-  const Cycle third = line_.cycle_of(m.next_step_tick()) + 2 * period;
-  const double there = static_cast<double>(rotor.steps()) + 2 * m.step_direction();
-  return board::PinDriver::Course{now, (there - now) / static_cast<double>(third - at), third};
+  if (!m.is_regular()) return std::nullopt;
+  return board::PinDriver::Course{rotor.position(at), rotor.speed(at), kNever};
 }
 
 Cycle AgendaTimer::steps_horizon(Wheel wheel, Cycle at) const {

@@ -32,11 +32,11 @@ TEST_P(Golden, run_repeats_to_the_last_bit) {
 
 INSTANTIATE_TEST_SUITE_P(
     Of, Golden,
-    ::testing::Combine(::testing::Values(Pinned{"maze", "worlds/maze.toml", 20, "a01d67410792aea1"},
-                                         Pinned{"swarm", "worlds/swarm.toml", 5, "e2ca1567a9f87806"},
-                                         Pinned{"push", "worlds/push.toml", 10, "a70fb350e95b9465"},
+    ::testing::Combine(::testing::Values(Pinned{"maze", "worlds/maze.toml", 20, "260913b5799c054e"},
+                                         Pinned{"swarm", "worlds/swarm.toml", 5, "50849938906a4d2d"},
+                                         Pinned{"push", "worlds/push.toml", 10, "b5bf08f3e2e64273"},
                                          Pinned{"braitenberg_10", "bench/worlds/brait_10.toml", 5,
-                                                "98a1131d80df4afb"}),
+                                                "ea6aa4332ea5b263"}),
                        ::testing::Values(1, 3)),
     [](const auto& info) {
       return std::string(std::get<0>(info.param).name) + "_threads_" +
