@@ -17,7 +17,8 @@ class Command : public CommandTest {};
 TEST_F(Command, help_names_every_verb) {
   const Said s = twinpuck("--help");
   EXPECT_EQ(s.exit_code, 0);
-  for (const char* verb : {"run", "check", "build", "lint", "cycles", "inspect", "new", "list", "lab"})
+  for (const char* verb :
+       {"run", "check", "build", "lint", "cycles", "inspect", "new", "list", "lab", "timings"})
     EXPECT_NE(s.text.find(verb), std::string::npos) << verb;
 }
 
