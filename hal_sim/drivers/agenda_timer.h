@@ -80,8 +80,8 @@ class AgendaTimer {
   std::int64_t commanded_steps(Wheel wheel, Cycle at) const;
   /// Cycle before which the step counter keeps its value without a command.
   Cycle steps_horizon(Wheel wheel, Cycle at) const;
-  /// How the wheel turns on: evenly, from the third step after a command on. Empty: not yet; or it rests between
-  /// steps, or stands.
+  /// How the wheel turns on: evenly, from the third step after a command on. Empty: not yet; or it rests
+  /// between steps, or stands.
   std::optional<board::PinDriver::Course> course(Wheel wheel, Cycle at) const;
   /// Cycle before which the coils keep their state without a command.
   Cycle coils_horizon(Wheel wheel, Cycle at) const;
