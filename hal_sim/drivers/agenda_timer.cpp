@@ -291,8 +291,8 @@ std::optional<board::PinDriver::Course> AgendaTimer::course(Wheel wheel, Cycle a
   const AgendaMotor& m = motor_at(wheel, at);
   const Stepper& rotor = stepper_at(wheel, at);
   const Cycle period = m.full_period() * kAgendaTickCycles;
-  if (m.next_step_tick() < 0 || period > kRotorMoveCycles || !rotor.is_at(m.phase)) return std::nullopt;
-  if (!m.is_regular()) return std::nullopt;
+  if (m.next_step_tick() < 0 || period > kRotorMoveCycles || !m.is_regular() || !rotor.is_at(m.phase))
+    return std::nullopt;
   return board::PinDriver::Course{rotor.position(at), rotor.speed(at), kNever};
 }
 

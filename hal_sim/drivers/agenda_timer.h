@@ -91,9 +91,6 @@ class AgendaTimer {
   /// drivers).
   Stepper& stepper(Wheel wheel, Cycle at);
 
-  /// Does this driver leave the wheel alone until somebody commands it?
-  bool rests(Wheel wheel) const { return !motor(wheel).count.counts(); }
-
   // --- the interrupt handler -----------------------------------------------------------------------------
   /// Cycle of the next tick at which a user agenda fires (or a motor traps); kNever if none.
   Cycle next_interrupt() const;

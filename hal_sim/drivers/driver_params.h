@@ -25,7 +25,6 @@ inline constexpr int kBasicMotorUnit = 57600;      // FCY / 256 [lib: motor_led/
 inline constexpr Cycle kTimer3TickCycles =
     6 * 256;                                 // PR3 = 5, prescale 256 [lib: motor_led/e_motors_timer3.c]
 inline constexpr int kTimer3MaxSpeed = 999;  // steps/s [lib: motor_led/e_motors_timer3.c]
-inline constexpr int kTimer3Idle = 9999;     // counter at speed 0 [lib: motor_led/e_motors_timer3.c]
 
 // --- ADC scan --------------------------------------------------------------------------------------------
 inline constexpr Cycle kScanFrameCycles =

@@ -180,9 +180,10 @@ Cycle Robot::main_until(Cycle at) const {
 void Robot::find_share() {
   const bool masked = native_ && native_->masks_handlers();
   const std::uint64_t handlers = native_ && !masked ? native_->drivers().handler_share_q32() : 0;
-  share_q32_ = std::min<std::uint64_t>(handlers + background_share_q32_, kOne / 100 * kMostBackgroundPercent);
-  kept_q32_ = kOne - share_q32_;
-  stolen_q32_ = share_q32_ == 0 ? 0 : (share_q32_ << kQ) / kept_q32_;
+  const auto share =
+      std::min<std::uint64_t>(handlers + background_share_q32_, kOne / 100 * kMostBackgroundPercent);
+  kept_q32_ = kOne - share;
+  stolen_q32_ = (share << kQ) / kept_q32_;
 }
 
 void Robot::follow_handlers() {

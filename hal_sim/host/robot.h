@@ -355,7 +355,6 @@ class Robot final : public Context {
   std::uint64_t fraction_ = 0;    // of a cycle, Q32, left over from stretching
   std::uint64_t stolen_q32_ = 0;  // cycles background handlers take per main cycle, Q32
   std::uint64_t kept_q32_ = 0;    // program's cycles per cycle of the clock, Q32, rounded down
-  std::uint64_t share_q32_ = 0;   // what of all cycles handlers take that are not run
   Cycle main_ = 0;                // cycles of the program itself so far, up to the last fold
   struct Background {
     Cycle period = 0, cost = 0;
