@@ -45,9 +45,9 @@ double measure_register_way(int rounds) {
     const double from = processor_s();
     while (simulation.now() < sim::from_seconds(kSeconds)) simulation.step();
     const double took = processor_s() - from;
-    const auto& processor = twin->mind(0).robot()->processor();
-    const double served = static_cast<double>(processor.served(dspic::kFirstIrqVector + dspic::irq::Adc) +
-                                              processor.served(dspic::kFirstIrqVector + dspic::irq::T2));
+    const host::Runner* runner = twin->mind(0).runner();
+    const double served =
+        static_cast<double>(runner->served(dspic::irq::Adc) + runner->served(dspic::irq::T2));
     factors.push_back(kSeconds / took);
     ns.push_back(1e9 * took / served);
     if (round == 0)

@@ -270,7 +270,7 @@ std::vector<std::uint16_t> counts(const std::string& way, std::vector<std::strin
   if (!twin) return {};
   const auto read = [&](const char* name, std::size_t words) {
     std::vector<std::uint16_t> values(words);
-    const auto bytes = twin->mind(0).robot()->read_variable(name, 2 * words);
+    const auto bytes = twin->mind(0).runner()->read_variable(name, 2 * words);
     std::copy(bytes.begin(), bytes.end(), reinterpret_cast<char*>(values.data()));
     return values;
   };

@@ -12,6 +12,8 @@
 #include "hal_sim/board/epuck_model.h"
 #include "hal_sim/board/part.h"
 #include "hal_sim/board/uart_end.h"
+#include "hal_sim/host/compiled_runner.h"
+#include "hal_sim/host/oscillator.h"
 #include "hal_sim/register/chip_processor.h"
 #include "sim_core/load/world_loader.h"
 #include "sim_core/radio/link_medium.h"
@@ -95,6 +97,24 @@ board::BluetoothSetup bluetooth_of(const sim::WorldDesc& world, int index) {
   setup.seed = world.seed;
   setup.timeout_s = world.link.timeout_s;
   return setup;
+}
+
+/// What executes an image on a board, of whose thread's share it is. The program's configuration words make
+/// the clock of the robot that is set up.
+host::RunnerFactory runner_for(std::shared_ptr<host::Image> image, std::size_t share, board::Setup& setup) {
+  const tp_image& program = image->copy(share).description();
+  if (program.fosc)
+    setup.clock_ppm = host::clock_ppm(setup.clock_ppm, *static_cast<const std::uint16_t*>(program.fosc));
+  host::CompiledSettings settings;
+  settings.name = setup.name;
+  settings.seed = setup.seed;
+  if (register_way::wants_chip(program.flags))
+    settings.processor = [](host::CompiledRunner& r) {
+      return std::make_unique<register_way::ChipProcessor>(r);
+    };
+  return [=](board::Board& board) {
+    return std::make_unique<host::CompiledRunner>(settings, image, share, board);
+  };
 }
 
 // first address at which two devices of the bus would answer; -1 when there is none
@@ -222,14 +242,10 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
     // robots that one thread runs share a copy of their image, as Simulation divides them
     while (i >= n * (share + 1) / shares) ++share;
     const auto& robot = world.robots[i];
-    const board::Setup setup = setup_of(world, static_cast<int>(i));
-    const auto image = firmware[i].empty() ? nullptr : images[firmware[i]];
-    host::RobotSettings settings;
-    settings.name = robot.name;
-    settings.seed = setup.seed;
-    if (image && register_way::wants_chip(image->copy(0).description().flags))
-      settings.processor = [](host::Robot& r) { return std::make_unique<register_way::ChipProcessor>(r); };
-    auto mind = std::make_unique<host::FirmwareMind>(setup, std::move(settings), image, share);
+    board::Setup setup = setup_of(world, static_cast<int>(i));
+    host::RunnerFactory make_runner;
+    if (!firmware[i].empty()) make_runner = runner_for(images[firmware[i]], share, setup);
+    auto mind = std::make_unique<host::FirmwareMind>(setup, make_runner);
     plug_in_parts(robot, mind->board(), problems);
     twin->uart_choices_.push_back(
         {chosen(options.uart1, robot.name, robot.uart1), chosen(options.uart2, robot.name, robot.uart2)});
@@ -318,7 +334,7 @@ int Twin::find(const std::string& name) const {
 std::vector<host::TrapReport> Twin::traps() const {
   std::vector<host::TrapReport> all;
   for (const auto* mind : minds_)
-    if (mind->robot()) all.insert(all.end(), mind->robot()->traps().begin(), mind->robot()->traps().end());
+    if (mind->runner()) all.insert(all.end(), mind->runner()->traps().begin(), mind->runner()->traps().end());
   return all;
 }
 

@@ -74,7 +74,7 @@ Robot& Robot::bluetooth() {
 double Robot::longest_wall_touch_s() const {
   return test_->twin().simulation().touches(index_).longest_wall_touch_s;
 }
-double Robot::cpu_load() const { return mind().robot()->cpu_load(); }
+double Robot::cpu_load() const { return mind().runner()->cpu_load(); }
 cc::FunctionCycles Robot::cost_of(const std::string& function, Caller caller) const {
   for (const auto& f : cc::function_costs(test_->twin().image_path(index_)))
     if (f.name == function) return f;
@@ -82,7 +82,7 @@ cc::FunctionCycles Robot::cost_of(const std::string& function, Caller caller) co
   return {};
 }
 void Robot::copy_variable(const std::string& name, void* to, std::size_t bytes, const Caller& caller) const {
-  const auto found = mind().robot()->read_variable(name, bytes);
+  const auto found = mind().runner()->read_variable(name, bytes);
   std::copy_n(found.begin(), std::min(bytes, found.size()), static_cast<char*>(to));
   if (found.size() == bytes) return;
   ADD_FAILURE_AT(caller.file, caller.line)
@@ -91,7 +91,7 @@ void Robot::copy_variable(const std::string& name, void* to, std::size_t bytes, 
 std::int64_t Robot::cycles() const { return mind().now(); }
 void Robot::turn_selector(int position) {
   mind().board().turn_selector(position);
-  mind().robot()->wake();
+  mind().runner()->wake();
 }
 void Robot::define_sensor(const std::string& name, double value) {
   test_->twin();
