@@ -8,9 +8,9 @@
 
 #include "bench/processor_time.h"
 #include "dspic30/device/dspic30f6014a.h"
-#include "hal_sim/board/epuck_model.h"
 #include "hal_sim/board/part.h"
 #include "hal_sim/twin/twin.h"
+#include "hal_sim/twin/world_file.h"
 
 namespace bench {
 
@@ -22,7 +22,7 @@ constexpr double kSeconds = 10;
 
 double measure_register_way(int rounds) {
   sim::WorldDesc world;
-  world.models = {board::epuck_model()};
+  world.models = twin::robot_models();
   world.part_kinds = board::part_kinds();
   world.title = "register way";
   world.arena = sim::ArenaDesc{};
@@ -30,7 +30,7 @@ double measure_register_way(int rounds) {
   sim::RobotDesc robot;
   robot.name = "robot";
   robot.firmware = twin::project_root() + "/bench/firmware/register_load";
-  robot.way = "register";
+  robot.own["way"] = "register";
   robot.pose = {-1.2, 0, 0};
   world.robots.push_back(robot);
   std::vector<double> factors, ns;

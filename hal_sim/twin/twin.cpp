@@ -51,6 +51,10 @@ std::string pty_link(const std::string& robot, int port) {
   return "twinpuck-" + robot + "-uart" + std::to_string(port);
 }
 
+sim::OwnSettings own_settings(const sim::WorldDesc& world, const sim::RobotDesc& robot) {
+  return {world.model_of(robot)->keys, robot.own};
+}
+
 // noise settings stay with the world's optics; the board gets what is this robot's own
 board::Setup setup_of(const sim::WorldDesc& world, int index) {
   const sim::RobotDesc& robot = world.robots[static_cast<std::size_t>(index)];
@@ -58,7 +62,6 @@ board::Setup setup_of(const sim::WorldDesc& world, int index) {
   board::Setup setup;
   setup.robot = index;
   setup.seed = variation.seed;
-  setup.selector = robot.selector;
   setup.battery_v = robot.battery_v >= 0 ? robot.battery_v : world.model_of(robot)->battery_v;
   setup.battery_wh = robot.battery_wh >= 0 ? robot.battery_wh : world.model_of(robot)->battery_wh;
   setup.wheel_ratio = {variation.left_wheel_ratio, variation.right_wheel_ratio};
@@ -67,24 +70,15 @@ board::Setup setup_of(const sim::WorldDesc& world, int index) {
     if (i < variation.sensor_offset_counts.size())
       setup.ir_offset_counts[i] = variation.sensor_offset_counts[i];
   }
-  if (robot.revision == "1.3") setup.revision = board::Revision::Rev13;
   setup.acc_offset_m_s2 = variation.acc_offset_m_s2;
   setup.gyro_offset_rad_s = variation.gyro_offset_rad_s;
   setup.motion_noise_scale = robot.variation.motion_noise_scale;
-  setup.camera = robot.camera == "none"      ? board::CameraKind::None
-                 : robot.camera == "po3030k" ? board::CameraKind::Po3030k
-                 : robot.camera == "po6030k" ? board::CameraKind::Po6030k
-                 : robot.camera == "po8030d" ? board::CameraKind::Po8030d
-                                             : board::usual_camera(setup.revision);
-  setup.camera_mount = robot.camera_mount == "sideways"   ? board::CameraMount::Sideways
-                       : robot.camera_mount == "inverted" ? board::CameraMount::Inverted
-                                                          : board::CameraMount::Upright;
-  setup.camera_noise = robot.camera_noise;
   setup.name = robot.name;
   setup.webots = world.webots;
   setup.devices = robot.devices;
   setup.clock_ppm = variation.clock_ppm;
   setup.boot_delay_s = variation.boot_delay_s;
+  board::set_up(setup, own_settings(world, robot));
   return setup;
 }
 
@@ -210,7 +204,7 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
   for (auto& robot : world.robots) {
     const std::string name = chosen(options.firmware, robot.name, robot.firmware);
     Options of_robot = options;
-    if (of_robot.way.empty()) of_robot.way = robot.way;
+    if (of_robot.way.empty()) of_robot.way = own_settings(world, robot).text("way");
     const std::string key = name.empty() ? name : of_robot.way + ":" + name;
     firmware.push_back(key);
     robot.firmware = name;  // what it runs, for pictures and supervisors

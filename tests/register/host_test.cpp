@@ -79,7 +79,7 @@ TEST_F(RegisterTest, robots_of_one_image_have_chips_of_their_own) {
 TEST_F(RegisterTest, a_native_and_a_register_robot_in_one_world) {
   options.way = "";
   Robot& reg = add_robot_with_source(kStepper).selector(2);
-  reg.settings().way = "register";
+  reg.settings().own["way"] = "register";
   Robot& native = add_robot("blink").at(0.5, 0);
   run_for(0.505);
   EXPECT_EQ(reg.variable<std::uint16_t>("count"), 100);

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "hal_sim/board/epuck_model.h"
 #include "hal_sim/board/part.h"
+#include "hal_sim/twin/world_file.h"
 #include "sim_core/base/hash.h"
 #include "sim_core/load/world_loader.h"
 #include "twinpuck_paths.h"
@@ -45,7 +45,7 @@ Robot& Robot::at(double x_m, double y_m, double heading_deg) {
   return *this;
 }
 Robot& Robot::selector(int position) {
-  desc_.selector = position;
+  desc_.own["selector"] = position;
   return *this;
 }
 Robot& Robot::battery(double volts) {
@@ -120,7 +120,7 @@ void Robot::serial_send(int port, const std::string& bytes) {
 // ----------------------------------------------------------------------------------------------------
 
 FirmwareTest::FirmwareTest() {
-  world.models = {board::epuck_model()};
+  world.models = twin::robot_models();
   world.part_kinds = board::part_kinds();
   world.title = "test";
   world.proximity.noise_scale = 0;
@@ -151,7 +151,7 @@ void FirmwareTest::box(double x_m, double y_m, double size_m, double heading_deg
 
 void FirmwareTest::load_world(const std::string& path, Caller caller) {
   const auto file = std::filesystem::path(TWINPUCK_SOURCE_DIR) / path;
-  auto loaded = sim::load_world(file.string(), {board::epuck_model()}, board::part_kinds());
+  auto loaded = twin::load_world(file.string());
   if (!loaded.world) {
     ADD_FAILURE_AT(caller.file, caller.line) << loaded.report(path);
     return;
