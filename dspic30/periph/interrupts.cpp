@@ -86,10 +86,7 @@ const char* vector_name(int vector) {
   return vector >= 0 && vector < kVectors ? kNames[vector] : "?";
 }
 
-void Interrupts::attach(SfrBus& bus) {
-  bus.attach(*this, kIntcon1, kInttreg);
-  bus.mark_unmodelled(kIntcon1, 0x0700);
-}
+void Interrupts::attach(SfrBus& bus) { bus.attach(*this, kIntcon1, kInttreg); }
 
 void Interrupts::reset(Cycle now) {
   ifs_ = iec_ = 0;
