@@ -49,9 +49,9 @@ struct Item {
   Statement where;
   Place place;
   std::size_t index = 0;
-  Choice choice;                      // an instruction
-  int bytes = 0;                      // of each value; 3 is a whole program word
-  std::vector<std::string> values;    // expressions
+  Choice choice;                    // an instruction
+  int bytes = 0;                    // of each value; 3 is a whole program word
+  std::vector<std::string> values;  // expressions
 };
 
 // what "name" or "_name" of the device header stands for: a register, or a field's lowest bit
@@ -100,7 +100,8 @@ class Assembly final : private SourceLines::Listener {
     for (const std::string& label : s.labels) define_label(label);
     if (s.name.empty()) return;
     if (directive(s)) return;
-    if (s.name[0] == '.' && s.name != ".") return complain(s.file, s.line, "unknown directive '" + s.name + "'");
+    if (s.name[0] == '.' && s.name != ".")
+      return complain(s.file, s.line, "unknown directive '" + s.name + "'");
     instruction(s);
   }
 
@@ -130,7 +131,8 @@ class Assembly final : private SourceLines::Listener {
   }
 
   void align(std::int64_t to) {
-    if (to < 1 || to > kPsvPage || (to & (to - 1))) return complain("alignment: got " + std::to_string(to) + ", expected a power of two");
+    if (to < 1 || to > kPsvPage || (to & (to - 1)))
+      return complain("alignment: got " + std::to_string(to) + ", expected a power of two");
     section().align = std::max(section().align, to);
     grow((to - section().size % to) % to);
   }
@@ -186,14 +188,19 @@ class Assembly final : private SourceLines::Listener {
   }
 
   bool link_value(const std::string& name, std::int64_t& value) const {
-    if (name == "__SP_init") value = stack_start_;
-    else if (name == "__SPLIM_init") value = kRamEnd - kStackReserve;
-    else return false;
+    if (name == "__SP_init")
+      value = stack_start_;
+    else if (name == "__SPLIM_init")
+      value = kRamEnd - kStackReserve;
+    else
+      return false;
     return placed_;
   }
 
   Symbols resolver(std::size_t index, const Place& place) {
-    return [this, index, place](const std::string& name, std::int64_t& value) { return symbol_value(name, index, place, value); };
+    return [this, index, place](const std::string& name, std::int64_t& value) {
+      return symbol_value(name, index, place, value);
+    };
   }
 
   std::int64_t value(const std::string& text, std::size_t index, const Place& place) {
@@ -224,7 +231,8 @@ class Assembly final : private SourceLines::Listener {
     if (parts.size() != 2) return complain("config: expected a word's name and its value");
     for (std::uint32_t i = 0; i < kConfigurationWords; ++i)
       if (parts[0] == std::string("__") + kNames[i]) {
-        image_.program[kConfigurationStart + 2 * i] = static_cast<std::uint32_t>(value_now(parts[1])) & 0xFFFF;
+        image_.program[kConfigurationStart + 2 * i] =
+            static_cast<std::uint32_t>(value_now(parts[1])) & 0xFFFF;
         return;
       }
     complain("config: unknown word '" + parts[0] + "'");
@@ -243,7 +251,8 @@ class Assembly final : private SourceLines::Listener {
     if (section().kind == Kind::Ram) return complain(s.name + ": RAM has no values before the program runs");
     Item item{s, here(), index_, {}, 1, {}};
     for (const std::string& part : split(s.operands)) {
-      if (part.size() < 2 || part.front() != '"' || part.back() != '"') return complain(s.name + ": expected text in quotes");
+      if (part.size() < 2 || part.front() != '"' || part.back() != '"')
+        return complain(s.name + ": expected text in quotes");
       for (std::size_t i = 1; i + 1 < part.size(); ++i) {
         char c = part[i];
         if (c == '\\' && i + 2 < part.size()) {
@@ -262,9 +271,16 @@ class Assembly final : private SourceLines::Listener {
     const std::vector<std::string> parts = split(s.operands);
     if (parts.empty()) return complain(s.name + ": how many bytes?");
     const std::int64_t bytes = value_now(parts[0]);
-    if (bytes < 0 || bytes > kMostBytes) return complain(s.name + ": got " + std::to_string(bytes) + " bytes, expected 0 to " + std::to_string(kMostBytes));
+    if (bytes < 0 || bytes > kMostBytes)
+      return complain(s.name + ": got " + std::to_string(bytes) + " bytes, expected 0 to " +
+                      std::to_string(kMostBytes));
     if (section().kind != Kind::Ram) {
-      Item item{s, here(), index_, {}, 1, std::vector<std::string>(static_cast<std::size_t>(bytes), parts.size() > 1 ? parts[1] : "0")};
+      Item item{s,
+                here(),
+                index_,
+                {},
+                1,
+                std::vector<std::string>(static_cast<std::size_t>(bytes), parts.size() > 1 ? parts[1] : "0")};
       items_.push_back(std::move(item));
     }
     grow(bytes);
@@ -274,7 +290,8 @@ class Assembly final : private SourceLines::Listener {
     const std::vector<std::string> parts = split(s.operands);
     if (parts.size() != 2) return complain(s.name + ": expected a name and a value");
     std::string text = parts[1];
-    if (may_change && symbols_.count(parts[0])) text = std::to_string(value_now(text));  // perhaps in terms of itself
+    if (may_change && symbols_.count(parts[0]))
+      text = std::to_string(value_now(text));  // perhaps in terms of itself
     define(parts[0], {false, here(), text, index_, false}, may_change);
   }
 
@@ -295,20 +312,28 @@ class Assembly final : private SourceLines::Listener {
     const std::vector<std::string> parts = split(text);
     if (parts.empty() || parts[0].empty()) return complain(".section: which?");
     const std::string name = parts[0];
-    Kind kind = name.compare(0, 6, ".const") == 0                                      ? Kind::Constants
-                : name.compare(0, 7, ".eedata") == 0                                   ? Kind::Eeprom
-                : name.find("bss") != std::string::npos || name.find("data") != std::string::npos ? Kind::Ram
-                                                                                       : Kind::Code;
+    Kind kind = name.compare(0, 6, ".const") == 0    ? Kind::Constants
+                : name.compare(0, 7, ".eedata") == 0 ? Kind::Eeprom
+                : name.find("bss") != std::string::npos || name.find("data") != std::string::npos
+                    ? Kind::Ram
+                    : Kind::Code;
     std::int64_t address = -1, alignment = 2;
     for (std::size_t i = 1; i < parts.size(); ++i) {
       const std::string a = lower(parts[i]);
-      const std::string inside = a.find('(') == std::string::npos ? "" : a.substr(a.find('(') + 1, a.rfind(')') - a.find('(') - 1);
-      if (a == "code" || a == "\"x\"") kind = Kind::Code;
-      else if (a == "psv" || a == "const" || a == "\"r\"") kind = Kind::Constants;
-      else if (a == "eedata") kind = Kind::Eeprom;
-      else if (a == "data" || a == "bss" || a == "xmemory" || a == "ymemory" || a == "\"b\"" || a == "\"d\"") kind = Kind::Ram;
-      else if (a.compare(0, 8, "address(") == 0) address = value_now(inside);
-      else if (a.compare(0, 6, "align(") == 0) alignment = value_now(inside);
+      const std::string inside =
+          a.find('(') == std::string::npos ? "" : a.substr(a.find('(') + 1, a.rfind(')') - a.find('(') - 1);
+      if (a == "code" || a == "\"x\"")
+        kind = Kind::Code;
+      else if (a == "psv" || a == "const" || a == "\"r\"")
+        kind = Kind::Constants;
+      else if (a == "eedata")
+        kind = Kind::Eeprom;
+      else if (a == "data" || a == "bss" || a == "xmemory" || a == "ymemory" || a == "\"b\"" || a == "\"d\"")
+        kind = Kind::Ram;
+      else if (a.compare(0, 8, "address(") == 0)
+        address = value_now(inside);
+      else if (a.compare(0, 6, "align(") == 0)
+        alignment = value_now(inside);
       else if (a != "near" && a != "noload" && a != "persist" && a != "page" && a != "keep")
         complain(".section: unknown attribute '" + parts[i] + "'");
     }
@@ -319,12 +344,14 @@ class Assembly final : private SourceLines::Listener {
   }
 
   bool directive(const Statement& s) {
-    static const std::map<std::string, int> kWidths = {{".byte", 1},  {".word", 2},  {".hword", 2}, {".short", 2}, {".int", 2},
-                                                       {".2byte", 2}, {".pword", 3}, {".long", 4},  {".4byte", 4}};
-    static const std::set<std::string> kIgnored = {".global", ".globl", ".extern", ".weak",  ".local", ".type", ".size",
-                                                   ".file",   ".loc",   ".ident",  ".title", ".sbttl", ".list", ".nolist",
-                                                   ".psize",  ".eject", ".equiv_", ".version"};
-    if (const auto width = kWidths.find(s.name); width != kWidths.end()) return values(s, width->second), true;
+    static const std::map<std::string, int> kWidths = {{".byte", 1},  {".word", 2}, {".hword", 2},
+                                                       {".short", 2}, {".int", 2},  {".2byte", 2},
+                                                       {".pword", 3}, {".long", 4}, {".4byte", 4}};
+    static const std::set<std::string> kIgnored = {
+        ".global", ".globl", ".extern", ".weak", ".local",  ".type",  ".size",  ".file",   ".loc",
+        ".ident",  ".title", ".sbttl",  ".list", ".nolist", ".psize", ".eject", ".equiv_", ".version"};
+    if (const auto width = kWidths.find(s.name); width != kWidths.end())
+      return values(s, width->second), true;
     if (kIgnored.count(s.name)) return true;
     if (s.name == ".section") return choose_section(s), true;
     if (s.name == ".text") return enter_section(".text", Kind::Code), true;
@@ -334,12 +361,15 @@ class Assembly final : private SourceLines::Listener {
     if (s.name == ".ascii") return characters(s, false), true;
     if (s.name == ".asciz" || s.name == ".string") return characters(s, true), true;
     if (s.name == ".space" || s.name == ".skip" || s.name == ".zero") return space(s), true;
-    if (s.name == ".align" || s.name == ".palign" || s.name == ".balign") return align(value_now(split(s.operands).empty() ? "" : split(s.operands)[0])), true;
+    if (s.name == ".align" || s.name == ".palign" || s.name == ".balign")
+      return align(value_now(split(s.operands).empty() ? "" : split(s.operands)[0])), true;
     if (s.name == ".comm" || s.name == ".lcomm") return common(s), true;
     if (s.name == ".org") {
       const std::int64_t to = value_now(s.operands);
-      if (to < section().size) complain(".org: got " + std::to_string(to) + ", expected at least " + std::to_string(section().size));
-      else grow(to - section().size);
+      if (to < section().size)
+        complain(".org: got " + std::to_string(to) + ", expected at least " + std::to_string(section().size));
+      else
+        grow(to - section().size);
       return true;
     }
     return false;
@@ -348,7 +378,9 @@ class Assembly final : private SourceLines::Listener {
   // --- placing: sections with an address first, the others behind what is there
   void place_sections() {
     std::uint32_t code = kCodeStart, ram = kRamStart, eeprom = kEepromStart;
-    const auto free_from = [&](Kind kind) -> std::uint32_t& { return kind == Kind::Ram ? ram : kind == Kind::Eeprom ? eeprom : code; };
+    const auto free_from = [&](Kind kind) -> std::uint32_t& {
+      return kind == Kind::Ram ? ram : kind == Kind::Eeprom ? eeprom : code;
+    };
     for (Section& s : sections_)
       if (s.address >= 0) s.base = static_cast<std::uint32_t>(s.address);
     for (Section& s : sections_) {
@@ -359,7 +391,8 @@ class Assembly final : private SourceLines::Listener {
         moved = false;
         at = (at + to - 1) / to * to;
         // constants do not cross a page of the window
-        if (s.kind == Kind::Constants && at / kPsvPage != (at + s.size - 1) / kPsvPage) at = (at / kPsvPage + 1) * kPsvPage, moved = true;
+        if (s.kind == Kind::Constants && at / kPsvPage != (at + s.size - 1) / kPsvPage)
+          at = (at / kPsvPage + 1) * kPsvPage, moved = true;
         for (const Section& other : sections_)
           if (other.address >= 0 && other.size > 0 && (other.kind == Kind::Ram) == (s.kind == Kind::Ram) &&
               at < other.base + other.size && other.base < at + s.size)
@@ -369,9 +402,15 @@ class Assembly final : private SourceLines::Listener {
       at += (s.size + 1) & ~1u;
     }
     stack_start_ = ram;
-    for (const Section& s : sections_) stack_start_ = std::max(stack_start_, s.kind == Kind::Ram ? (s.base + s.size + 1) & ~1u : 0);
-    if (code > kFlashEnd) complain("", 0, "the program needs " + std::to_string(code / 2) + " words, the flash has " + std::to_string(kFlashWords));
-    if (stack_start_ > kRamEnd) complain("", 0, "the data need " + std::to_string(stack_start_ - kRamStart) + " bytes, the RAM has 8192");
+    for (const Section& s : sections_)
+      stack_start_ = std::max(stack_start_, s.kind == Kind::Ram ? (s.base + s.size + 1) & ~1u : 0);
+    if (code > kFlashEnd)
+      complain("", 0,
+               "the program needs " + std::to_string(code / 2) + " words, the flash has " +
+                   std::to_string(kFlashWords));
+    if (stack_start_ > kRamEnd)
+      complain("", 0,
+               "the data need " + std::to_string(stack_start_ - kRamStart) + " bytes, the RAM has 8192");
     placed_ = true;
   }
 
@@ -383,7 +422,8 @@ class Assembly final : private SourceLines::Listener {
     const Value value_here = [&](const std::string& text) { return value(text, item.index, place); };
     if (item.choice.row) {
       std::uint32_t at = address;
-      for (const std::uint32_t word : encode(item.choice, address, value_here, [this](const std::string& text) { complain(text); })) {
+      for (const std::uint32_t word :
+           encode(item.choice, address, value_here, [this](const std::string& text) { complain(text); })) {
         put_word(at, word);
         at += 2;
       }
@@ -392,7 +432,8 @@ class Assembly final : private SourceLines::Listener {
     for (const std::string& text : item.values) {
       const std::int64_t v = value_here(text);
       const std::int64_t limit = std::int64_t{1} << 8 * item.bytes;
-      if (v >= limit || v < -limit / 2) complain(text + ": got " + std::to_string(v) + ", which does not fit " + item.where.name);
+      if (v >= limit || v < -limit / 2)
+        complain(text + ": got " + std::to_string(v) + ", which does not fit " + item.where.name);
       const std::uint32_t at = sections_[place.section].base + place.offset;
       if (item.bytes == 1)
         put_byte(at, static_cast<std::uint32_t>(v) & 0xFF);
@@ -404,7 +445,8 @@ class Assembly final : private SourceLines::Listener {
   }
 
   void put_word(std::uint32_t address, std::uint32_t word) {
-    if (!image_.program.emplace(address, word).second) complain("two things stand at program address " + std::to_string(address));
+    if (!image_.program.emplace(address, word).second)
+      complain("two things stand at program address " + std::to_string(address));
   }
   void put_byte(std::uint32_t address, std::uint32_t byte) {
     std::uint32_t& word = image_.program.emplace(address & ~1u, 0).first->second;
@@ -432,8 +474,10 @@ class Assembly final : private SourceLines::Listener {
       const std::string name = vector_name(vector), is_trap = vector < kFirstIrqVector ? "" : "Interrupt";
       std::uint32_t handler = 0;
       const bool known = name != "?" && address("__" + name + is_trap, handler);
-      if (known || address("__DefaultInterrupt", handler)) image_.program.emplace(kVectors0 + 2 * static_cast<std::uint32_t>(vector), handler);
-      if ((name != "?" && address("__Alt" + name + is_trap, handler)) || address("__DefaultInterrupt", handler))
+      if (known || address("__DefaultInterrupt", handler))
+        image_.program.emplace(kVectors0 + 2 * static_cast<std::uint32_t>(vector), handler);
+      if ((name != "?" && address("__Alt" + name + is_trap, handler)) ||
+          address("__DefaultInterrupt", handler))
         image_.program.emplace(kAlternate0 + 2 * static_cast<std::uint32_t>(vector), handler);
     }
   }

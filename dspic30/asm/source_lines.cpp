@@ -9,7 +9,7 @@ namespace dspic::assembly {
 
 namespace {
 
-constexpr int kDeepest = 30;             // macros and includes within one another
+constexpr int kDeepest = 30;              // macros and includes within one another
 constexpr long long kMostLines = 500000;  // after expansion
 constexpr std::int64_t kMostRepeats = 65536;
 
@@ -72,11 +72,13 @@ std::string word_at(const std::string& text, std::size_t from) {
 }
 
 std::string unquoted(const std::string& text) {
-  return text.size() >= 2 && text.front() == '"' && text.back() == '"' ? text.substr(1, text.size() - 2) : text;
+  return text.size() >= 2 && text.front() == '"' && text.back() == '"' ? text.substr(1, text.size() - 2)
+                                                                       : text;
 }
 
 // \name, \@ and \() within a macro's line
-std::string substituted(const std::string& text, const std::map<std::string, std::string>& values, int number) {
+std::string substituted(const std::string& text, const std::map<std::string, std::string>& values,
+                        int number) {
   std::string out;
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text[i] != '\\' || i + 1 == text.size()) {
@@ -118,7 +120,8 @@ void SourceLines::read(const std::string& text, const std::string& file) {
   }
   const std::size_t open = conditions_.size();
   run(lines, file);
-  if (conditions_.size() > open && !ended_) listener_.complain(file, static_cast<int>(lines.size()), ".if without .endif");
+  if (conditions_.size() > open && !ended_)
+    listener_.complain(file, static_cast<int>(lines.size()), ".if without .endif");
   conditions_.resize(std::min(open, conditions_.size()));
 }
 
@@ -151,7 +154,9 @@ Statement SourceLines::parse(const Line& line, const std::string& file) const {
   return s;
 }
 
-bool SourceLines::is_skipping() const { return !conditions_.empty() && !(conditions_.back().holds && !conditions_.back().outer_skips); }
+bool SourceLines::is_skipping() const {
+  return !conditions_.empty() && !(conditions_.back().holds && !conditions_.back().outer_skips);
+}
 
 void SourceLines::run(const std::vector<Line>& lines, const std::string& file) {
   if (++depth_ > kDeepest) {
@@ -203,7 +208,8 @@ bool SourceLines::conditional(const Statement& s) {
     if (s.name == ".endif") {
       conditions_.pop_back();
     } else {
-      const bool holds = !c.was_true && !c.outer_skips && (s.name == ".else" || listener_.value_now(s.operands) != 0);
+      const bool holds =
+          !c.was_true && !c.outer_skips && (s.name == ".else" || listener_.value_now(s.operands) != 0);
       c.holds = holds;
       c.was_true |= holds;
     }
@@ -248,7 +254,8 @@ void SourceLines::define_macro(const Statement& s, std::vector<Line> body) {
     }
     const std::string word = word_at(parameters, i);
     const std::size_t equals = word.find('=');
-    macro.parameters.emplace_back(word.substr(0, equals), equals == std::string::npos ? "" : word.substr(equals + 1));
+    macro.parameters.emplace_back(word.substr(0, equals),
+                                  equals == std::string::npos ? "" : word.substr(equals + 1));
     i += word.size();
   }
   if (name.empty()) return complain(s, ".macro needs a name");
@@ -281,21 +288,24 @@ void SourceLines::repeat(const Statement& s, const std::vector<Line>& body) {
     std::vector<std::string> values = split(s.operands);
     for (std::size_t i = 1; i < values.size() && !ended_; ++i) {
       std::vector<Line> lines;
-      for (const Line& line : body) lines.push_back({substituted(line.text, {{values[0], values[i]}}, 0), line.number});
+      for (const Line& line : body)
+        lines.push_back({substituted(line.text, {{values[0], values[i]}}, 0), line.number});
       run(lines, s.file);
     }
     return;
   }
   const std::int64_t count = listener_.value_now(s.operands);
   if (count < 0 || count > kMostRepeats)
-    return complain(s, ".rept: got " + std::to_string(count) + ", expected 0 to " + std::to_string(kMostRepeats));
+    return complain(
+        s, ".rept: got " + std::to_string(count) + ", expected 0 to " + std::to_string(kMostRepeats));
   for (std::int64_t i = 0; i < count && !ended_; ++i) run(body, s.file);
 }
 
 void SourceLines::include(const Statement& s) {
   const std::string name = unquoted(s.operands);
   std::string bare = lower(name);
-  if (const std::size_t slash = bare.find_last_of("/\\"); slash != std::string::npos) bare = bare.substr(slash + 1);
+  if (const std::size_t slash = bare.find_last_of("/\\"); slash != std::string::npos)
+    bare = bare.substr(slash + 1);
   if (bare == "p30f6014a.inc" || bare == "p30fxxxx.inc" || bare == "xc.inc") return;  // registers are known
   const std::optional<std::string> text = includes_ ? includes_(name) : std::nullopt;
   if (!text) return complain(s, ".include: there is no file '" + name + "'");

@@ -271,25 +271,25 @@ const Decoded* shift(Cpu& cpu, const Decoded* d) {
 
 }  // namespace
 
-#define BINARY(Name, Op)         \
-  case Insn::Name##_f:           \
-    return Binary<Op>::on_file(f); \
-  case Insn::Name##_Wb_lit5_Wd:  \
+#define BINARY(Name, Op)                \
+  case Insn::Name##_f:                  \
+    return Binary<Op>::on_file(f);      \
+  case Insn::Name##_Wb_lit5_Wd:         \
     return Binary<Op>::with_literal(f); \
-  case Insn::Name##_Wb_Ws_Wd:    \
+  case Insn::Name##_Wb_Ws_Wd:           \
     return Binary<Op>::in_registers(f);
-#define LITERAL(Name, Op)         \
-  case Insn::Name##_lit10_Wn:     \
+#define LITERAL(Name, Op)     \
+  case Insn::Name##_lit10_Wn: \
     return Binary<Op>::on_register(f);
-#define UNARY(Name, Op)          \
-  case Insn::Name##_f:           \
+#define UNARY(Name, Op)           \
+  case Insn::Name##_f:            \
     return Unary<Op>::on_file(f); \
-  case Insn::Name##_Ws_Wd:       \
+  case Insn::Name##_Ws_Wd:        \
     return Unary<Op>::in_registers(f);
-#define SHIFT(Name, Op)            \
-  case Insn::Name##_Wb_lit4_Wnd:   \
-    return &shift<Op, Literal>;    \
-  case Insn::Name##_Wb_Wns_Wnd:    \
+#define SHIFT(Name, Op)          \
+  case Insn::Name##_Wb_lit4_Wnd: \
+    return &shift<Op, Literal>;  \
+  case Insn::Name##_Wb_Wns_Wnd:  \
     return &shift<Op, Rs>;
 
 Run choose_arithmetic(Insn id, const Fields& f) {

@@ -7,15 +7,16 @@ namespace dspic {
 
 namespace {
 
-constexpr unsigned kSplim = 0x020, kAccal = 0x022, kAccbu = 0x02C, kPcl = 0x02E, kPch = 0x030, kTblpag = 0x032,
-                   kPsvpag = 0x034, kRcount = 0x036, kDcount = 0x038, kDostartl = 0x03A, kDostarth = 0x03C,
-                   kDoendl = 0x03E, kDoendh = 0x040, kSr = 0x042, kCorcon = 0x044, kModcon = 0x046, kXmodsrt = 0x048,
-                   kYmodend = 0x04E, kXbrev = 0x050, kDisicnt = 0x052, kLast = kDisicnt;
-constexpr std::uint16_t kPsvOn = 0x0004, kIpl3 = 0x0008, kDl = 0x0700, kEdt = 0x0800, kCorconKept = 0xFFFF & ~(kIpl3 | kDl | kEdt);
+constexpr unsigned kSplim = 0x020, kAccal = 0x022, kAccbu = 0x02C, kPcl = 0x02E, kPch = 0x030,
+                   kTblpag = 0x032, kPsvpag = 0x034, kRcount = 0x036, kDcount = 0x038, kDostartl = 0x03A,
+                   kDostarth = 0x03C, kDoendl = 0x03E, kDoendh = 0x040, kSr = 0x042, kCorcon = 0x044,
+                   kModcon = 0x046, kXmodsrt = 0x048, kYmodend = 0x04E, kXbrev = 0x050, kDisicnt = 0x052,
+                   kLast = kDisicnt;
+constexpr std::uint16_t kPsvOn = 0x0004, kIpl3 = 0x0008, kDl = 0x0700, kEdt = 0x0800,
+                        kCorconKept = 0xFFFF & ~(kIpl3 | kDl | kEdt);
 constexpr std::uint16_t kCorconAtReset = 0x0020;
 constexpr unsigned kStackStart = 0x0800;
 constexpr int kDeepestDo = 7;  // DL has three bits
-constexpr int kRepeatPsv = 2;  // of the first and last iteration, and before an interrupt
 
 // the course has not come there yet
 const Decoded* meet(Cpu& cpu, const Decoded* d) {
@@ -58,7 +59,8 @@ void Cpu::reset() {
   n = 0;
   z = 1;
   c = ov = dc = 0;
-  repeating = end_loop = splim_on = false;
+  repeating = repeat_is_fresh = window_was_free = end_loop = splim_on = false;
+  window = Window::Plain;
   power = Power::On;
   reset_due.reset();
   written = 0;
@@ -90,7 +92,9 @@ const Decoded* Cpu::jump(unsigned address, const Decoded* from) {
 
 bool Cpu::is_decoded(const Decoded* d) const { return d->run != &meet; }
 
-void Cpu::decode(const Decoded* d) { code_[static_cast<std::size_t>(d - code_.data())] = decode_word(*this, address_of(d)); }
+void Cpu::decode(const Decoded* d) {
+  code_[static_cast<std::size_t>(d - code_.data())] = decode_word(*this, address_of(d));
+}
 
 void Cpu::trap(Trap which) {
   parts.events.run_to(now);
@@ -108,7 +112,9 @@ void Cpu::begin_do(unsigned count, const Decoded* first, const Decoded* last) {
   find_loop_end();
 }
 
-void Cpu::find_loop_end() { loop_end = loop_depth > 0 && loop.end < kFlashEnd ? &code_[loop.end / 2] : nullptr; }
+void Cpu::find_loop_end() {
+  loop_end = loop_depth > 0 && loop.end < kFlashEnd ? &code_[loop.end / 2] : nullptr;
+}
 
 const Decoded* Cpu::loop_back(const Decoded* last, const Decoded* following) {
   if (following != last + 1) return following;  // it left the loop
@@ -128,18 +134,20 @@ const Decoded* Cpu::loop_back(const Decoded* last, const Decoded* following) {
 const Decoded* Cpu::run_repeated(const Decoded* d) {
   if (!is_decoded(d)) decode(d);
   at = d;
-  for (bool is_first = true;; is_first = false) {
-    const bool is_last = rcount == 0, is_edge = is_first || is_last || now + d->cycles >= deadline;
+  do {
+    const bool is_last = rcount == 0;
     if (is_last) repeating = false;
-    repeat_psv = is_edge ? kRepeatPsv : 0;
+    window = is_last || repeat_is_fresh ? Window::RepeatEdge : Window::RepeatMiddle;
+    window_was_free = false;
+    if (!repeat_is_fresh && (d->writes & d->pointers)) ++now;  // it stalls behind itself
     const Decoded* following = d->run(*this, d);
-    repeat_psv = -1;
+    window = Window::Plain;
+    repeat_is_fresh = false;
     now += d->cycles;
-    if (!is_first && (d->writes & d->pointers)) ++now;  // it stalls behind itself
     if (is_last || reset_due) return following;
     if (rcount > 0) --rcount;
-    if (now >= deadline) return d;
-  }
+  } while (now < deadline);
+  return d;
 }
 
 // --- status ---------------------------------------------------------------------------------------------
@@ -150,8 +158,8 @@ unsigned Cpu::sr_low() const {
 }
 
 unsigned Cpu::sr() const {
-  return sr_low() | flag_dc() << 8 | (loop_depth > 0) << 9 | (sa || sb) << 10 | (oa || ob) << 11 | sb << 12 | sa << 13 |
-         ob << 14 | static_cast<unsigned>(oa) << 15;
+  return sr_low() | flag_dc() << 8 | (loop_depth > 0) << 9 | (sa || sb) << 10 | (oa || ob) << 11 | sb << 12 |
+         sa << 13 | ob << 14 | static_cast<unsigned>(oa) << 15;
 }
 
 void Cpu::set_flags(unsigned bits) {
@@ -211,7 +219,8 @@ std::uint16_t Cpu::peek(unsigned address, Cycle when) const {
     case kSr:
       return static_cast<std::uint16_t>(sr());
     case kCorcon:
-      return static_cast<std::uint16_t>(corcon | (parts.interrupts.level() > 7 ? kIpl3 : 0) | loop_depth << 8);
+      return static_cast<std::uint16_t>(corcon | (parts.interrupts.level() > 7 ? kIpl3 : 0) |
+                                        loop_depth << 8);
     case kModcon:
       return modcon;
     case kXbrev:
@@ -238,7 +247,8 @@ void Cpu::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
     std::int64_t& a = acc[(address - kAccal) / 6];
     const unsigned shift = 8 * ((address - kAccal) % 6);
     const std::uint64_t mask = std::uint64_t{shift == 32 ? 0xFFu : 0xFFFFu} << shift;
-    const std::uint64_t bits = (static_cast<std::uint64_t>(a) & ~mask) | ((std::uint64_t{wanted} << shift) & mask);
+    const std::uint64_t bits =
+        (static_cast<std::uint64_t>(a) & ~mask) | ((std::uint64_t{wanted} << shift) & mask);
     a = static_cast<std::int64_t>(bits << 24) >> 24;
     return;
   }
@@ -308,7 +318,8 @@ bool Cpu::is_special(unsigned reg, bool is_write) const {
 
 unsigned Cpu::stepped(unsigned reg, unsigned value, int step, bool y_space) const {
   const unsigned moved = (value + static_cast<unsigned>(step)) & 0xFFFF;
-  const bool on = y_space ? (modcon & 0x4000) && (modcon >> 4 & 15) == reg : (modcon & 0x8000) && (modcon & 15) == reg;
+  const bool on =
+      y_space ? (modcon & 0x4000) && (modcon >> 4 & 15) == reg : (modcon & 0x8000) && (modcon & 15) == reg;
   if (!on) return moved;
   const int start = modulo[y_space ? 2 : 0], end = modulo[y_space ? 3 : 1], length = end - start + 1;
   const int place = static_cast<int>(value) + step;
@@ -375,7 +386,10 @@ unsigned Cpu::read_elsewhere(unsigned ea, unsigned bits) {
 }
 
 unsigned Cpu::read_psv(unsigned ea, unsigned bits) {
-  now += repeat_psv >= 0 ? repeat_psv : at->psv;
+  if (window == Window::RepeatMiddle)
+    window_was_free = true;
+  else
+    now += window == Window::Plain ? at->psv : kRepeatWindow;
   const unsigned address = static_cast<unsigned>(psvpag) << 15 | (ea & 0x7FFE);
   const bool is_eeprom = address - kEepromStart < 2 * kEepromWordCount;
   const unsigned word = (is_eeprom ? parts.nvm.table_read(address) : program.read(address)) & 0xFFFF;

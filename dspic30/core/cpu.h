@@ -3,10 +3,11 @@
 //
 //   flash word --decode once--> Decoded {run, registers, literal, cycles} --run(cpu, decoded)--> next Decoded
 //
-// Time: `now` is the cycle in which an instruction begins; a stall delays its accesses by `lead`. Straight code runs
-// until `deadline`, the next instant at which anything else may happen; whatever changes that instant lowers it.
-// Stalls, and the check for pointers that were never written, are found when a word is decoded, at its first
-// execution. Flags are kept as they fall out of an operation and put together when SR is read.
+// Time: `now` is the cycle in which an instruction begins; a stall delays its accesses by `lead`. Straight
+// code runs until `deadline`, the next instant at which anything else may happen; whatever changes that
+// instant lowers it. Stalls, and the check for pointers that were never written, are found when a word is
+// decoded, at its first execution. Flags are kept as they fall out of an operation and put together when SR
+// is read.
 //
 // Modelled: see docs/chip-core.md. Source: [chip C2] to [chip C16].
 #pragma once
@@ -29,14 +30,14 @@ using Run = const Decoded* (*)(Cpu&, const Decoded*);
 
 struct Decoded {
   Run run;
-  std::int32_t imm = 0;          ///< literal, address, words of a branch, shift
-  std::uint16_t writes = 0;      ///< registers written directly, or changed as a destination's pointer
-  std::uint16_t pointers = 0;    ///< registers that form a source's address
-  std::uint16_t mask = 0xFFFF;   ///< of what register d can hold: W15 is even
+  std::int32_t imm = 0;         ///< literal, address, words of a branch, shift
+  std::uint16_t writes = 0;     ///< registers written directly, or changed as a destination's pointer
+  std::uint16_t pointers = 0;   ///< registers that form a source's address
+  std::uint16_t mask = 0xFFFF;  ///< of what register d can hold: W15 is even
   std::uint8_t s = 0, d = 0, b = 0;
-  std::uint8_t cycles = 1;       ///< stall included
-  std::uint8_t lead = 0;         ///< stall cycles, when it follows the word before
-  std::uint8_t psv = 2;          ///< what reading through the PSV window costs
+  std::uint8_t cycles = 1;  ///< stall included
+  std::uint8_t lead = 0;    ///< stall cycles, when it follows the word before
+  std::uint8_t psv = 2;     ///< what reading through the PSV window costs
   std::int8_t s_pre = 0, s_post = 0, d_pre = 0, d_post = 0;
   std::uint8_t s_special = 0, d_special = 0;  ///< the pointer is W15, or modulo or bit-reversed
 };
@@ -61,12 +62,14 @@ class Cpu final : public SfrOwner {
   }
   const Decoded* offset(const Decoded* from, std::int32_t words) {
     const std::ptrdiff_t index = from - code_.data() + words;
-    return index >= 0 && index < static_cast<std::ptrdiff_t>(kFlashWords) ? arrive(&code_[static_cast<std::size_t>(index)])
-                                                                            : jump(static_cast<unsigned>(2 * index) & 0x7FFFFE, from);
+    return index >= 0 && index < static_cast<std::ptrdiff_t>(kFlashWords)
+               ? arrive(&code_[static_cast<std::size_t>(index)])
+               : jump(static_cast<unsigned>(2 * index) & 0x7FFFFE, from);
   }
   bool is_decoded(const Decoded* d) const;
   void decode(const Decoded* d);
   const Decoded* loop_back(const Decoded* last, const Decoded* next);
+  /// Iterations up to the last one or to `deadline`; then d itself is next.
   const Decoded* run_repeated(const Decoded* d);
   void begin_do(unsigned count, const Decoded* first, const Decoded* last);
   void ask_reset(ResetKind kind) {
@@ -156,7 +159,8 @@ class Cpu final : public SfrOwner {
   }
   unsigned special_pointer(unsigned n, int pre, int post, bool write);
   unsigned stack_checked(unsigned ea);
-  /// A register moved by `step` within its modulo buffer, if it has one. `y_space`: by the Y address generator.
+  /// A register moved by `step` within its modulo buffer, if it has one. `y_space`: by the Y address
+  /// generator.
   unsigned stepped(unsigned n, unsigned value, int step, bool y_space) const;
   bool is_special(unsigned n, bool write) const;
 
@@ -166,8 +170,10 @@ class Cpu final : public SfrOwner {
   std::uint16_t peek(unsigned address, Cycle at) const override;
   Cycle horizon(unsigned address, Cycle at) const override;
 
-  static constexpr unsigned kRamStart = 0x800, kRamBytes = 0x2000, kRamEnd = kRamStart + kRamBytes, kPsvStart = 0x8000,
-                            kYStart = 0x1800;
+  /// Reading through the PSV window in the first and last iteration of a REPEAT, and around an interrupt.
+  static constexpr Cycle kRepeatWindow = 2;
+  static constexpr unsigned kRamStart = 0x800, kRamBytes = 0x2000, kRamEnd = kRamStart + kRamBytes,
+                            kPsvStart = 0x8000, kYStart = 0x1800;
 
   // --- state; handlers use it freely
   std::array<std::uint16_t, 16> w{};
@@ -178,14 +184,16 @@ class Cpu final : public SfrOwner {
   const Decoded* next = nullptr;      ///< the one that comes
   const Decoded* loop_end = nullptr;  ///< last instruction of the DO loop; null: none runs
   std::array<std::uint8_t, kRamBytes> ram{};
-  bool repeating = false;             ///< RA
-  int repeat_psv = -1;                ///< what REPEAT makes of a read through the window; -1: nothing
-  bool code_is_old = false;           ///< forget_code() before the next instruction
-  bool end_loop = false;              ///< CORCON.EDT
+  bool repeating = false;        ///< RA
+  bool repeat_is_fresh = false;  ///< the next iteration is the first one, or the first after an interrupt
+  enum class Window : std::uint8_t { Plain, RepeatEdge, RepeatMiddle } window = Window::Plain;
+  bool window_was_free = false;  ///< the last iteration read through the window at no cost
+  bool code_is_old = false;      ///< forget_code() before the next instruction
+  bool end_loop = false;         ///< CORCON.EDT
   bool splim_on = false;
   enum class Power : std::uint8_t { On, Idle, Sleep } power = Power::On;
   std::optional<ResetKind> reset_due;
-  unsigned written = 0;               ///< W registers that were written since the reset
+  unsigned written = 0;  ///< W registers that were written since the reset
   std::uint16_t splim = 0, tblpag = 0, psvpag = 0, rcount = 0, corcon = 0, modcon = 0, xbrev = 0;
   std::array<std::uint16_t, 4> modulo{};  ///< XMODSRT, XMODEND, YMODSRT, YMODEND
   struct Loop {
@@ -220,8 +228,9 @@ class Cpu final : public SfrOwner {
   unsigned bad_address_ = 0;   // that address
 };
 
-/// The word at an address made ready, as its first execution begins: registers that it writes count as written from
-/// now on, and a pointer that was never written makes it an illegal one. Depends on Cpu::is_special().
+/// The word at an address made ready, as its first execution begins: registers that it writes count as
+/// written from now on, and a pointer that was never written makes it an illegal one. Depends on
+/// Cpu::is_special().
 Decoded decode_word(Cpu& cpu, unsigned address);
 
 // --- semantics, in the manual's groups; null: not of this group

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One word of flash made ready to run: registers, literals, pointer steps, cycles with the stall that it suffers
-// behind the word before it.
+// One word of flash made ready to run: registers, literals, pointer steps, cycles with the stall that it
+// suffers behind the word before it.
 #include "dspic30/core/cpu.h"
 
 namespace dspic {
@@ -24,11 +24,11 @@ void pointer_steps(unsigned mode, int step, std::int8_t& pre, std::int8_t& post)
 // --- registers of a word, for stalls and for pointers never written --------------------------------------
 
 struct Registers {
-  std::uint16_t written = 0;      // as a destination, directly
-  std::uint16_t moved = 0;        // as a destination's pointer
-  std::uint16_t sources = 0;      // form a source's address
-  std::uint16_t destinations = 0; // form a destination's
-  std::uint16_t offsets = 0;      // are added to one of these
+  std::uint16_t written = 0;       // as a destination, directly
+  std::uint16_t moved = 0;         // as a destination's pointer
+  std::uint16_t sources = 0;       // form a source's address
+  std::uint16_t destinations = 0;  // form a destination's
+  std::uint16_t offsets = 0;       // are added to one of these
 };
 
 void add_source(Registers& r, unsigned mode, unsigned n, unsigned offset) {
@@ -98,7 +98,8 @@ void add_operand(Registers& r, Operand kind, const Row& row, const Fields& f) {
     case Operand::File:
     case Operand::FileWord: {
       const unsigned address = kind == Operand::File ? f.f : 2 * f.f;
-      const bool stores = row.id == Insn::Mov_Wns_f || row.id == Insn::Pop_f || row.id == Insn::Mov_WREG_f || f.D;
+      const bool stores =
+          row.id == Insn::Mov_Wns_f || row.id == Insn::Pop_f || row.id == Insn::Mov_WREG_f || f.D;
       if (address < 0x20 && stores) r.written |= bit(address / 2);  // the register's own address
       break;
     }
@@ -214,7 +215,8 @@ void fill_registers(Decoded& d, const Row& row, const Fields& f) {
   if (has_kind(row, Operand::RsPair)) d.s = static_cast<std::uint8_t>(2 * f.s);
   if (has_kind(row, Operand::RdPair)) d.d = static_cast<std::uint8_t>(2 * f.d);
   if (has_kind(row, Operand::Bit) || has_kind(row, Operand::FileBit)) d.b = static_cast<std::uint8_t>(f.b);
-  if (has_kind(row, Operand::Dividend) || has_kind(row, Operand::DividendLong)) d.b = static_cast<std::uint8_t>(f.v);
+  if (has_kind(row, Operand::Dividend) || has_kind(row, Operand::DividendLong))
+    d.b = static_cast<std::uint8_t>(f.v);
   if (has_kind(row, Operand::DividendF)) d.b = static_cast<std::uint8_t>(f.t);
   d.mask = d.d == 15 ? 0xFFFE : 0xFFFF;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The DSP engine: accumulators of 40 bits, products of W4 to W7, prefetches, rounding and saturation. imm holds the
-// instruction's word. An accumulator is kept sign-extended.
+// The DSP engine: accumulators of 40 bits, products of W4 to W7, prefetches, rounding and saturation. imm
+// holds the instruction's word. An accumulator is kept sign-extended.
 //
 //   39      32 31              16 15               0
 //   [ guard   ][ high            ][ low             ]      SAC stores the high word
@@ -14,9 +14,10 @@ namespace {
 
 constexpr unsigned kIntcon1 = 0x080;
 constexpr unsigned kOvate = 1u << 10, kOvbte = 1u << 9, kCovte = 1u << 8;
-constexpr std::uint16_t kInteger = 0x01, kRound = 0x02, kSuperSaturation = 0x10, kSaturateStores = 0x20, kSaturateB = 0x40,
-                        kSaturateA = 0x80, kUnsigned = 0x1000;
-constexpr std::int64_t kMost31 = 0x7FFFFFFF, kLeast31 = -kMost31 - 1, kMost39 = 0x7FFFFFFFFF, kLeast39 = -kMost39 - 1;
+constexpr std::uint16_t kInteger = 0x01, kRound = 0x02, kSuperSaturation = 0x10, kSaturateStores = 0x20,
+                        kSaturateB = 0x40, kSaturateA = 0x80, kUnsigned = 0x1000;
+constexpr std::int64_t kMost31 = 0x7FFFFFFF, kLeast31 = -kMost31 - 1, kMost39 = 0x7FFFFFFFFF,
+                       kLeast39 = -kMost39 - 1;
 constexpr int kMostShift = 16;
 
 std::int64_t wrapped_40(std::int64_t v) {
@@ -43,13 +44,16 @@ void put_accumulator(Cpu& cpu, unsigned a, std::int64_t v, bool saturation_flags
 }
 
 std::int64_t product(const Cpu& cpu, unsigned x, unsigned y) {
-  std::int64_t p = (cpu.corcon & kUnsigned) ? std::int64_t{x} * y : std::int64_t{sign_extend(x, 16)} * sign_extend(y, 16);
+  std::int64_t p =
+      (cpu.corcon & kUnsigned) ? std::int64_t{x} * y : std::int64_t{sign_extend(x, 16)} * sign_extend(y, 16);
   if (!(cpu.corcon & kInteger)) p *= 2;
   return p;
 }
 
 // positive: to the right
-std::int64_t shifted(std::int64_t v, int right) { return right >= 0 ? v >> right : v * (std::int64_t{1} << -right); }
+std::int64_t shifted(std::int64_t v, int right) {
+  return right >= 0 ? v >> right : v * (std::int64_t{1} << -right);
+}
 
 unsigned stored(const Cpu& cpu, std::int64_t v, bool round) {
   if (round) {
@@ -67,7 +71,8 @@ unsigned fetched(Cpu& cpu, const PrefetchMode& mode, bool y_space) {
   const auto n = static_cast<unsigned>(mode.pointer);
   unsigned ea = cpu.w[n];
   if (mode.by_index) ea = cpu.stepped(n, ea, sign_extend(cpu.w[12], 16), y_space);
-  if (!mode.by_index && mode.step) cpu.w[n] = static_cast<std::uint16_t>(cpu.stepped(n, ea, mode.step, y_space));
+  if (!mode.by_index && mode.step)
+    cpu.w[n] = static_cast<std::uint16_t>(cpu.stepped(n, ea, mode.step, y_space));
   const bool in_y = ea >= Cpu::kYStart && ea < Cpu::kRamEnd;
   if (y_space != in_y && (y_space || in_y)) return 0;
   return cpu.read16(ea);
@@ -112,7 +117,8 @@ const Decoded* multiply(Cpu& cpu, const Decoded* d) {
   const Prefetch p{static_cast<unsigned>(d->imm)};
   int m = 4 + static_cast<int>(p.word >> 16 & 3), n = m;
   if (!Square) product_registers(p.word >> 16 & 7, m, n);
-  const std::int64_t value = product(cpu, cpu.w[static_cast<std::size_t>(m)], cpu.w[static_cast<std::size_t>(n)]);
+  const std::int64_t value =
+      product(cpu, cpu.w[static_cast<std::size_t>(m)], cpu.w[static_cast<std::size_t>(n)]);
   const unsigned a = p.accumulator();
   if (WriteBack) write_back(cpu, p);
   prefetch(cpu, p);
@@ -178,8 +184,12 @@ const Decoded* shift_by(Cpu& cpu, const Decoded* d, int right) {
   put_accumulator(cpu, a, shifted(cpu.acc[a], right));
   return d + 1;
 }
-const Decoded* shift_literal(Cpu& cpu, const Decoded* d) { return shift_by(cpu, d, sign_extend(static_cast<unsigned>(d->imm), 6)); }
-const Decoded* shift_register(Cpu& cpu, const Decoded* d) { return shift_by(cpu, d, sign_extend(cpu.w[d->s], 16)); }
+const Decoded* shift_literal(Cpu& cpu, const Decoded* d) {
+  return shift_by(cpu, d, sign_extend(static_cast<unsigned>(d->imm), 6));
+}
+const Decoded* shift_register(Cpu& cpu, const Decoded* d) {
+  return shift_by(cpu, d, sign_extend(cpu.w[d->s], 16));
+}
 
 // --- loads and stores; shift in bits 10:7 ----------------------------------------------------------------
 
@@ -188,7 +198,9 @@ int slit4(const Decoded* d) { return sign_extend(static_cast<unsigned>(d->imm) >
 // modes of bits 6:4: register, memory, [W+Wb]
 unsigned mode(const Decoded* d) { return static_cast<unsigned>(d->imm) >> 4 & 7; }
 
-unsigned indexed(Cpu& cpu, unsigned n, const Decoded* d) { return cpu.stepped(n, cpu.w[n], sign_extend(cpu.w[d->b], 16), false); }
+unsigned indexed(Cpu& cpu, unsigned n, const Decoded* d) {
+  return cpu.stepped(n, cpu.w[n], sign_extend(cpu.w[d->b], 16), false);
+}
 
 template <bool Adds>
 const Decoded* load(Cpu& cpu, const Decoded* d) {
@@ -196,7 +208,8 @@ const Decoded* load(Cpu& cpu, const Decoded* d) {
                          : mode(d) < 6 ? cpu.read16(cpu.source_address(d))
                                        : cpu.read16(indexed(cpu, d->s, d));
   const unsigned a = d->imm >> 15 & 1;
-  put_accumulator(cpu, a, (Adds ? cpu.acc[a] : 0) + shifted(std::int64_t{sign_extend(value, 16)} * 0x10000, slit4(d)));
+  put_accumulator(
+      cpu, a, (Adds ? cpu.acc[a] : 0) + shifted(std::int64_t{sign_extend(value, 16)} * 0x10000, slit4(d)));
   return d + 1;
 }
 template <bool Rounds>

@@ -30,7 +30,9 @@ const Decoded* branch_if(Cpu& cpu, const Decoded* d) {
 // --- branches and calls; imm of a branch counts words from the instruction itself ------------------------
 
 const Decoded* branch(Cpu& cpu, const Decoded* d) { return cpu.offset(d, d->imm); }
-const Decoded* branch_register(Cpu& cpu, const Decoded* d) { return cpu.offset(d, 1 + sign_extend(cpu.w[d->s], 16)); }
+const Decoded* branch_register(Cpu& cpu, const Decoded* d) {
+  return cpu.offset(d, 1 + sign_extend(cpu.w[d->s], 16));
+}
 const Decoded* go_to(Cpu& cpu, const Decoded* d) { return cpu.jump(static_cast<unsigned>(d->imm), d); }
 const Decoded* go_to_register(Cpu& cpu, const Decoded* d) { return cpu.jump(cpu.w[d->s] & 0xFFFE, d); }
 
@@ -76,7 +78,7 @@ const Decoded* return_literal(Cpu& cpu, const Decoded* d) {
 const Decoded* return_from_interrupt(Cpu& cpu, const Decoded* d) {
   const unsigned top = cpu.pop(), low = cpu.pop();
   cpu.set_flags(top >> 8);
-  cpu.repeating = (top >> 12 & 1) != 0;
+  cpu.repeating = cpu.repeat_is_fresh = (top >> 12 & 1) != 0;
   cpu.parts.events.run_to(cpu.now);
   cpu.parts.interrupts.leave_to(static_cast<int>((top >> 13 & 7) | (top >> 4 & 8)), cpu.now);
   hurry_to_exception(cpu);
@@ -87,7 +89,8 @@ const Decoded* return_from_interrupt(Cpu& cpu, const Decoded* d) {
 // --- loops ----------------------------------------------------------------------------------------------
 
 const Decoded* do_literal(Cpu& cpu, const Decoded* d) {
-  cpu.begin_do(static_cast<unsigned>(d->imm), d + 2, d + 2 + sign_extend(static_cast<unsigned>(d->d) << 8 | d->b, 16));
+  cpu.begin_do(static_cast<unsigned>(d->imm), d + 2,
+               d + 2 + sign_extend(static_cast<unsigned>(d->d) << 8 | d->b, 16));
   return d + 2;
 }
 const Decoded* do_register(Cpu& cpu, const Decoded* d) {
@@ -99,13 +102,15 @@ const Decoded* do_register(Cpu& cpu, const Decoded* d) {
 const Decoded* repeat(Cpu& cpu, const Decoded* d, unsigned count) {
   cpu.rcount = static_cast<std::uint16_t>(count);
   if (count == 0) return d + 1;
-  cpu.repeating = true;
+  cpu.repeating = cpu.repeat_is_fresh = true;
   cpu.now += d->cycles;
   const Decoded* next = cpu.run_repeated(d + 1);
   cpu.now -= d->cycles;
   return next;
 }
-const Decoded* repeat_literal(Cpu& cpu, const Decoded* d) { return repeat(cpu, d, static_cast<unsigned>(d->imm)); }
+const Decoded* repeat_literal(Cpu& cpu, const Decoded* d) {
+  return repeat(cpu, d, static_cast<unsigned>(d->imm));
+}
 const Decoded* repeat_register(Cpu& cpu, const Decoded* d) { return repeat(cpu, d, cpu.w[d->s] & 0x3FFF); }
 
 }  // namespace

@@ -176,7 +176,9 @@ template <bool High, bool Byte, class From>
 const Decoded* table_write(Cpu& cpu, const Decoded* d) {
   const unsigned value = From::template get<Byte>(cpu, d), ea = cpu.destination_address(d);
   cpu.parts.events.run_to(cpu.now);
-  const std::uint32_t lanes = High ? (Byte && (ea & 1) ? 0 : 0xFF0000) : Byte ? 0xFFu << 8 * (ea & 1) : 0xFFFF;
+  const std::uint32_t lanes = High   ? (Byte && (ea & 1) ? 0 : 0xFF0000)
+                              : Byte ? 0xFFu << 8 * (ea & 1)
+                                     : 0xFFFF;
   const std::uint32_t placed = High ? value << 16 : Byte ? value << 8 * (ea & 1) : value;
   cpu.parts.nvm.table_write(static_cast<unsigned>(cpu.tblpag) << 16 | (ea & 0xFFFE), placed, lanes);
   return d + 1;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Integer products, and division: one step of 18 each time REPEAT runs it. The result is made in the last one.
+// Integer products, and division: one step of 18 each time REPEAT runs it. The result is made in the last
+// one.
 #include "dspic30/core/operands.h"
 
 namespace dspic {
@@ -40,7 +41,8 @@ const Decoded* multiply_file_byte(Cpu& cpu, const Decoded* d) {
 constexpr int kIterations = 18;
 
 // flags of the remainder; on overflow the registers are undefined, here the low bits
-const Decoded* divided(Cpu& cpu, const Decoded* d, std::int64_t quotient, std::int64_t remainder, bool overflow) {
+const Decoded* divided(Cpu& cpu, const Decoded* d, std::int64_t quotient, std::int64_t remainder,
+                       bool overflow) {
   cpu.w[0] = static_cast<std::uint16_t>(quotient);
   cpu.w[1] = static_cast<std::uint16_t>(remainder);
   cpu.set_nz<false>(cpu.w[1]);
@@ -63,9 +65,10 @@ template <bool Long>
 const Decoded* divide_signed(Cpu& cpu, const Decoded* d) {
   if (is_on_its_way(cpu, d)) return d + 1;
   const std::int64_t divisor = sign_extend(cpu.w[d->s], 16);
-  const std::int64_t dividend = Long ? static_cast<std::int32_t>(static_cast<std::uint32_t>(cpu.w[d->b]) |
-                                                                 static_cast<std::uint32_t>(cpu.w[d->b + 1u]) << 16)
-                                     : sign_extend(cpu.w[d->b], 16);
+  const std::int64_t dividend =
+      Long ? static_cast<std::int32_t>(static_cast<std::uint32_t>(cpu.w[d->b]) |
+                                       static_cast<std::uint32_t>(cpu.w[d->b + 1u]) << 16)
+           : sign_extend(cpu.w[d->b], 16);
   const std::int64_t quotient = dividend / divisor;
   return divided(cpu, d, quotient, dividend % divisor, quotient != static_cast<std::int16_t>(quotient));
 }
@@ -73,12 +76,14 @@ template <bool Long>
 const Decoded* divide_unsigned(Cpu& cpu, const Decoded* d) {
   if (is_on_its_way(cpu, d)) return d + 1;
   const std::uint32_t divisor = cpu.w[d->s];
-  const std::uint32_t dividend = cpu.w[d->b] | (Long ? static_cast<std::uint32_t>(cpu.w[d->b + 1u]) << 16 : 0);
+  const std::uint32_t dividend =
+      cpu.w[d->b] | (Long ? static_cast<std::uint32_t>(cpu.w[d->b + 1u]) << 16 : 0);
   return divided(cpu, d, dividend / divisor, dividend % divisor, dividend / divisor > 0xFFFF);
 }
 const Decoded* divide_fraction(Cpu& cpu, const Decoded* d) {
   if (is_on_its_way(cpu, d)) return d + 1;
-  const std::int64_t divisor = sign_extend(cpu.w[d->s], 16), dividend = std::int64_t{sign_extend(cpu.w[d->b], 16)} * 0x8000;
+  const std::int64_t divisor = sign_extend(cpu.w[d->s], 16),
+                     dividend = std::int64_t{sign_extend(cpu.w[d->b], 16)} * 0x8000;
   const std::int64_t quotient = dividend / divisor;
   return divided(cpu, d, quotient, dividend % divisor, quotient != static_cast<std::int16_t>(quotient));
 }

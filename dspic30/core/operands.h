@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where instructions take their operands from and put their results: one class a place, get() and put() for bytes
-// and words. Sources come first, then destinations, as on the chip.
+// Where instructions take their operands from and put their results: one class a place, get() and put() for
+// bytes and words. Sources come first, then destinations, as on the chip.
 #pragma once
 #include "dspic30/core/cpu.h"
 

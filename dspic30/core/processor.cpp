@@ -9,8 +9,8 @@ namespace dspic {
 
 namespace {
 
-// from the event that wakes to the next instruction [?]: Idle goes on at once; Sleep waits for the crystal (1024
-// periods of 7.3728 MHz) and for the PLL (20 us)
+// from the event that wakes to the next instruction [?]: Idle goes on at once; Sleep waits for the crystal
+// (1024 periods of 7.3728 MHz) and for the PLL (20 us)
 constexpr Cycle kIdleWakeCycles = 2, kSleepWakeCycles = 2048 + 295;
 
 }  // namespace
@@ -84,6 +84,7 @@ void Processor::enter_interrupt(int vector) {
   Cpu& cpu = *cpu_;
   cpu.at = cpu.next;  // what the stack's pushes belong to
   const unsigned pc = cpu.address_of(cpu.next), level = static_cast<unsigned>(cpu.parts.interrupts.level());
+  if (cpu.repeating && cpu.window_was_free) cpu.now += Cpu::kRepeatWindow;
   cpu.push(pc & 0xFFFF);
   cpu.push(cpu.sr_low() << 8 | (level & 8) << 4 | pc >> 16);
   cpu.repeating = false;

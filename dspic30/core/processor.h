@@ -24,8 +24,8 @@ class Processor {
   Processor(Dspic30f6014a& chip, ProgramMemory& program);
   ~Processor();
 
-  /// Runs until the cycle `until`, or a few more: instructions are whole. A reset ends it earlier: its kind is
-  /// returned, the caller resets the chip and calls restart().
+  /// Runs until the cycle `until`, or a few more: instructions are whole. A reset ends it earlier: its kind
+  /// is returned, the caller resets the chip and calls restart().
   std::optional<ResetKind> run(Cycle until);
   /// As after a reset: PC = 0; RAM stays.
   void restart();

@@ -8,7 +8,9 @@ namespace {
 constexpr unsigned kDeviceId = 0xFF0000, kDeviceRevision = 0xFF0002;
 constexpr std::uint32_t kDeviceIdValue = 0x0343, kDeviceRevisionValue = 0x1000;  // [?]
 
-constexpr bool is_within(unsigned address, unsigned start, unsigned words) { return address - start < 2 * words; }
+constexpr bool is_within(unsigned address, unsigned start, unsigned words) {
+  return address - start < 2 * words;
+}
 
 }  // namespace
 

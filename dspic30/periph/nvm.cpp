@@ -75,12 +75,13 @@ void Nvm::on_event(int id, Cycle at) {
       break;
     case kWriteWord:
       if (word >= 0)
-        eeprom_[static_cast<std::size_t>(word)] &= static_cast<std::uint16_t>(latches_[address() / 2 % kFlashRowWords]);
+        eeprom_[static_cast<std::size_t>(word)] &=
+            static_cast<std::uint16_t>(latches_[address() / 2 % kFlashRowWords]);
       break;
     case kWriteRow:
       for (int i = 0; row >= 0 && i < kRowWords; ++i)
-        eeprom_[static_cast<std::size_t>(row + i)] &=
-            static_cast<std::uint16_t>(latches_[(kEepromStart / 2 + static_cast<unsigned>(row + i)) % kFlashRowWords]);
+        eeprom_[static_cast<std::size_t>(row + i)] &= static_cast<std::uint16_t>(
+            latches_[(kEepromStart / 2 + static_cast<unsigned>(row + i)) % kFlashRowWords]);
       break;
     default:
       if (program_) carry_out_on_flash(con_ & 0x7F);

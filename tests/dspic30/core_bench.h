@@ -40,7 +40,7 @@ struct CoreBench {
   /// Runs until the program counter is at a label, at an instruction's end; false: not within `most` cycles.
   bool run_to(const std::string& label, Cycle most = 1000000) {
     for (const Cycle end = cpu->now() + most; cpu->now() < end;) {
-      if (cpu->pc() == symbol(label)) return true;
+      if (cpu->pc() == symbol(label) && !cpu->is_asleep()) return true;
       run(cpu->now() + 1);
     }
     return false;
@@ -51,7 +51,9 @@ struct CoreBench {
     return found == image.symbols.end() ? 0 : found->second;
   }
   unsigned w(int n) const { return cpu->w(n); }
-  unsigned word(unsigned address) const { return address < 0x800 ? chip->peek(address, cpu->now()) : cpu->ram(address) | cpu->ram(address + 1) << 8; }
+  unsigned word(unsigned address) const {
+    return address < 0x800 ? chip->peek(address, cpu->now()) : cpu->ram(address) | cpu->ram(address + 1) << 8;
+  }
   unsigned word(const std::string& name) const { return word(symbol(name)); }
   unsigned sfr(const std::string& name) const { return chip->peek(Bench::at(name), cpu->now()); }
 };
