@@ -158,7 +158,7 @@ def check_text(path, text):
     for number, line in enumerate(lines, 1):
         if re.search(r"(?<![\w.$])/(?:home|Users|root|work|tmp/bash_jobs)/\w", line) and path != "scripts/check.py":
             problem(path, number, "path of somebody's machine: " + line.strip()[:80])
-        if path.startswith("sim_core/") and re.search(r"e-?puck", line, re.I):
+        if path.startswith("sim_core/") and re.search(r"e-?puck|po[368]03\d[kd]", line, re.I):
             problem(path, number, "sim_core knows no robot by name: " + line.strip()[:80])
     if path.endswith((".c", ".h", ".cpp", ".py", ".sh", ".cmake", ".s")) or path in ("Makefile", ".ci/run"):
         # the sources of the exact cycle counts stay as they were counted

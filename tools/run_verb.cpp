@@ -8,9 +8,8 @@
 #include <iostream>
 #include <thread>
 
-#include "hal_sim/board/epuck_model.h"
-#include "hal_sim/board/part.h"
 #include "hal_sim/twin/twin.h"
+#include "hal_sim/twin/world_file.h"
 #include "sim_core/light/profiles.h"
 #include "sim_core/load/world_loader.h"
 #include "supervisor/team.h"
@@ -96,7 +95,7 @@ int run(const RunArguments& arguments) {
     complain(problems);
     return kBadInput;
   }
-  sim::LoadedWorld loaded = sim::load_world(file, {board::epuck_model()}, board::part_kinds());
+  sim::LoadedWorld loaded = twin::load_world(file);
   if (!loaded.world) {
     complain({loaded.report(file)});
     return kBadInput;

@@ -5,9 +5,12 @@
 #pragma once
 #include <cstdint>
 
-#include "hal_sim/host/context.h"
+#include "hal_sim/board/cycle.h"
 
 namespace host {
+
+using board::Cycle;
+using board::kNever;
 
 class Observer {
  public:

@@ -5,9 +5,9 @@
 #include <string>
 
 #include "hal_sim/board/board.h"
+#include "hal_sim/host/compiled_runner.h"
 #include "hal_sim/host/native_processor.h"
 #include "hal_sim/host/pins.h"
-#include "hal_sim/host/robot.h"
 
 namespace host {
 
@@ -87,22 +87,22 @@ void NativeRegisters::processor_reset() {
   timers_.fill({});
   intcon1_ = intcon2_ = 0;
   kept_.clear();
-  robot_.board().processor_reset(robot_.settled_now());
+  runner_.board().processor_reset(runner_.settled_now());
 }
 
 void NativeRegisters::note_software_reset() { rcon_ |= kSwr; }
 void NativeRegisters::note_reset_button() { rcon_ |= kExtr; }
 
-void NativeRegisters::processor_stopped() { robot_.board().processor_reset(robot_.now()); }
+void NativeRegisters::processor_stopped() { runner_.board().processor_reset(runner_.now()); }
 
 void NativeRegisters::refuse(unsigned address, const char* what) const {
-  robot_.last_words() = std::string(register_name(address)) + ": " + what;
-  robot_.trap(TP_TRAP_UNSIMULATED, robot_.last_words());
+  runner_.last_words() = std::string(register_name(address)) + ": " + what;
+  runner_.trap(TP_TRAP_UNSIMULATED, runner_.last_words());
 }
 
 void NativeRegisters::refuse_table() const {
-  robot_.trap(TP_TRAP_UNSIMULATED,
-              "table instructions (__builtin_tblrdl ...) need the register way: build with --way register");
+  runner_.trap(TP_TRAP_UNSIMULATED,
+               "table instructions (__builtin_tblrdl ...) need the register way: build with --way register");
 }
 
 // --- timers
@@ -139,7 +139,7 @@ void NativeRegisters::schedule(int number) {
     source.due = t.since + ticks * prescale(t);
     source.period = (Cycle{t.pr} + 1) * prescale(t);
   }
-  robot_.changed();
+  runner_.changed();
 }
 
 NativeRegisters::Timer* NativeRegisters::timer_at(unsigned address, int& which) {
@@ -157,18 +157,18 @@ NativeRegisters::Timer* NativeRegisters::timer_at(unsigned address, int& which) 
 
 std::uint16_t NativeRegisters::read_word(unsigned address) {
   auto& interrupts = processor_.interrupts();
-  const Cycle now = robot_.now();
+  const Cycle now = runner_.now();
   char letter;
   board::Board::Register kind;
   if (is_port(address, letter, kind)) {
-    robot_.lower_horizon(robot_.board().port_horizon(letter, now));
-    return robot_.board().port_read(letter, kind, now);
+    runner_.lower_horizon(runner_.board().port_horizon(letter, now));
+    return runner_.board().port_read(letter, kind, now);
   }
   int n;
   if (const Timer* t = timer_at(address, n)) {
     if (address == kTimers[n].pr) return t->pr;
     if (address == kTimers[n].con) return t->con;
-    robot_.lower_horizon(runs(*t) ? now + prescale(*t) - (now - t->since) % prescale(*t) : kNever);
+    runner_.lower_horizon(runs(*t) ? now + prescale(*t) - (now - t->since) % prescale(*t) : kNever);
     return count_at(*t, now);
   }
   if (address >= kIfs0 && address < kIfs0 + 6) {
@@ -176,7 +176,7 @@ std::uint16_t NativeRegisters::read_word(unsigned address) {
     std::uint16_t word = 0;
     for (int v = static_cast<int>(address - kIfs0) * 8, bit = 0; bit < 16 && v + bit < TP_VECTORS; ++bit) {
       word |= static_cast<std::uint16_t>(interrupts.source(v + bit).flag << bit);
-      robot_.lower_horizon(interrupts.source(v + bit).due);
+      runner_.lower_horizon(interrupts.source(v + bit).due);
     }
     return word;
   }
@@ -205,7 +205,7 @@ std::uint16_t NativeRegisters::read_word(unsigned address) {
     case kRcon:
       return rcon_ | kBgst;  // long stable when a program looks
     case kI2ccon:            // of a bus that the library drives: is it on
-      return robot_.board().i2c_master().is_on() ? 0x9000 : 0x1000;
+      return runner_.board().i2c_master().is_on() ? 0x9000 : 0x1000;
     default:
       break;
   }
@@ -215,11 +215,11 @@ std::uint16_t NativeRegisters::read_word(unsigned address) {
 
 void NativeRegisters::write_word(unsigned address, std::uint16_t value) {
   auto& interrupts = processor_.interrupts();
-  const Cycle now = robot_.now();
-  robot_.note_write();
+  const Cycle now = runner_.now();
+  runner_.note_write();
   char letter;
   board::Board::Register kind;
-  if (is_port(address, letter, kind)) return robot_.board().port_write(letter, kind, value, now);
+  if (is_port(address, letter, kind)) return runner_.board().port_write(letter, kind, value, now);
   int n;
   if (Timer* t = timer_at(address, n)) {
     settle(*t, now);
@@ -247,39 +247,39 @@ void NativeRegisters::write_word(unsigned address, std::uint16_t value) {
       if (flag && !s.flag) s.flag_since = now;
       s.flag = flag;
     }
-    return robot_.changed();
+    return runner_.changed();
   }
   if (address >= kIec0 && address < kIec0 + 6) {
     for (int v = static_cast<int>(address - kIec0) * 8, bit = 0; bit < 16 && v + bit < TP_VECTORS; ++bit)
       interrupts.source(v + bit).enabled = (value >> bit & 1) != 0;
-    return robot_.changed();
+    return runner_.changed();
   }
   if (address >= kIpc0 && address < kIpc0 + 22) {
     for (int v = static_cast<int>(address - kIpc0) * 2, field = 0; field < 4 && v + field < TP_VECTORS;
          ++field)
       interrupts.source(v + field).priority = value >> (4 * field) & 7;
-    return robot_.changed();
+    return runner_.changed();
   }
   switch (address) {
     case kSr:
       processor_.set_cpu_level(value >> 5 & 7, now);
-      return robot_.changed();
+      return runner_.changed();
     case kIntcon1:
       intcon1_ = value;
       return;
     case kIntcon2:
       intcon2_ = value & 0x801F;
       processor_.int0_polarity_changed(now);
-      return robot_.changed();
+      return runner_.changed();
     case kDisicnt:
-      return robot_.on_disi(value & 0x3FFF);
+      return runner_.on_disi(value & 0x3FFF);
     case kRcon:
       rcon_ = value;
       return;
     case kI2ccon:  // switching off, so that an extension can be the bus's master, is all a program may do
                    // itself
       if (value & 0x803F) refuse(address, "the I2C bus can be used through the library's functions only");
-      return robot_.board().i2c_master().switch_off(now);
+      return runner_.board().i2c_master().switch_off(now);
     default:
       break;
   }

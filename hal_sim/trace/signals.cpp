@@ -10,7 +10,6 @@
 #include "hal_sim/board/epuck_params.h"
 #include "hal_sim/board/remote_params.h"
 #include "hal_sim/host/image_abi.h"
-#include "hal_sim/host/processor.h"
 #include "sim_core/load/world_loader.h"
 
 namespace trace {
@@ -142,18 +141,18 @@ bool port_signal(const std::string& name, Signal& out) {
 }
 
 // a number, or the numbers of an array
-std::string add_variable(const std::string& name, const host::Robot& robot, std::vector<Signal>& out) {
+std::string add_variable(const std::string& name, const host::Runner& runner, std::vector<Signal>& out) {
   std::string error;
-  const host::Variable* v = robot.symbols().find_variable(name, error);
+  const host::Variable* v = runner.find_variable(name, error);
   if (!v) return error.empty() ? "got '" + name + "', expected a variable" : error;
   if (v->kind == host::Variable::Kind::Aggregate) {
     for (int i = 0; i < kMostElements; ++i) {
       const std::string element = name + "[" + std::to_string(i) + "]";
-      if (!robot.symbols().find_variable(element, error)) {
+      if (!runner.find_variable(element, error)) {
         if (i > 0) return "";
         return "got '" + name + "', a struct, expected one of its members";
       }
-      const std::string wrong = add_variable(element, robot, out);
+      const std::string wrong = add_variable(element, runner, out);
       if (!wrong.empty()) return wrong;
       if (out.size() >= kMostElements) return "";
     }
@@ -171,9 +170,9 @@ std::string add_variable(const std::string& name, const host::Robot& robot, std:
 
 }  // namespace
 
-std::vector<Signal> find_signals(const std::string& name, const host::Robot* robot, std::string& error) {
+std::vector<Signal> find_signals(const std::string& name, const host::Runner* runner, std::string& error) {
   error.clear();
-  const bool has_chip = robot && robot->has_chip();
+  const bool has_chip = runner && runner->has_chip();
   for (const Named& n : kNamed)
     if (name == n.name) {
       Signal pin = signal(n.group, n.name, n.source, n.index, n.shift, n.width);
@@ -203,8 +202,8 @@ std::vector<Signal> find_signals(const std::string& name, const host::Robot* rob
   if (!error.empty()) return {};
   std::vector<Signal> found;
   std::string wrong = "no firmware";
-  if (robot) {
-    wrong = add_variable(name, *robot, found);
+  if (runner) {
+    wrong = add_variable(name, *runner, found);
     if (wrong.empty()) return found;
   }
   // the nearest of the names that are no variables

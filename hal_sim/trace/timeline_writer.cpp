@@ -58,7 +58,7 @@ void TimelineWriter::add_robot(int robot, const std::string& name) {
 }
 
 void TimelineWriter::span(int robot, const Span& span, const board::RobotClock& clock,
-                          const host::Symbols* symbols) {
+                          const host::Runner* runner) {
   std::string name, args;
   Track track = kMain;
   const auto ns = [&](host::Cycle at) { return to_ns(clock.click_at(at)); };
@@ -85,7 +85,7 @@ void TimelineWriter::span(int robot, const Span& span, const board::RobotClock& 
     case Span::Kind::Callback: {
       track = kAgendas;
       std::string& known = names_[{robot, span.function}];
-      if (known.empty() && symbols) known = symbols->find(span.function).function;
+      if (known.empty() && runner) known = runner->place_of(span.function).function;
       if (known.empty()) known = fmt::format("{:#x}", span.function);
       name = known;
       break;

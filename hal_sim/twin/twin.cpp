@@ -12,6 +12,8 @@
 #include "hal_sim/board/epuck_model.h"
 #include "hal_sim/board/part.h"
 #include "hal_sim/board/uart_end.h"
+#include "hal_sim/host/compiled_runner.h"
+#include "hal_sim/host/oscillator.h"
 #include "hal_sim/register/chip_processor.h"
 #include "sim_core/load/world_loader.h"
 #include "sim_core/radio/link_medium.h"
@@ -49,6 +51,10 @@ std::string pty_link(const std::string& robot, int port) {
   return "twinpuck-" + robot + "-uart" + std::to_string(port);
 }
 
+sim::OwnSettings own_settings(const sim::WorldDesc& world, const sim::RobotDesc& robot) {
+  return {world.model_of(robot)->keys, robot.own};
+}
+
 // noise settings stay with the world's optics; the board gets what is this robot's own
 board::Setup setup_of(const sim::WorldDesc& world, int index) {
   const sim::RobotDesc& robot = world.robots[static_cast<std::size_t>(index)];
@@ -56,7 +62,6 @@ board::Setup setup_of(const sim::WorldDesc& world, int index) {
   board::Setup setup;
   setup.robot = index;
   setup.seed = variation.seed;
-  setup.selector = robot.selector;
   setup.battery_v = robot.battery_v >= 0 ? robot.battery_v : world.model_of(robot)->battery_v;
   setup.battery_wh = robot.battery_wh >= 0 ? robot.battery_wh : world.model_of(robot)->battery_wh;
   setup.wheel_ratio = {variation.left_wheel_ratio, variation.right_wheel_ratio};
@@ -65,24 +70,15 @@ board::Setup setup_of(const sim::WorldDesc& world, int index) {
     if (i < variation.sensor_offset_counts.size())
       setup.ir_offset_counts[i] = variation.sensor_offset_counts[i];
   }
-  if (robot.revision == "1.3") setup.revision = board::Revision::Rev13;
   setup.acc_offset_m_s2 = variation.acc_offset_m_s2;
   setup.gyro_offset_rad_s = variation.gyro_offset_rad_s;
   setup.motion_noise_scale = robot.variation.motion_noise_scale;
-  setup.camera = robot.camera == "none"      ? board::CameraKind::None
-                 : robot.camera == "po3030k" ? board::CameraKind::Po3030k
-                 : robot.camera == "po6030k" ? board::CameraKind::Po6030k
-                 : robot.camera == "po8030d" ? board::CameraKind::Po8030d
-                                             : board::usual_camera(setup.revision);
-  setup.camera_mount = robot.camera_mount == "sideways"   ? board::CameraMount::Sideways
-                       : robot.camera_mount == "inverted" ? board::CameraMount::Inverted
-                                                          : board::CameraMount::Upright;
-  setup.camera_noise = robot.camera_noise;
   setup.name = robot.name;
   setup.webots = world.webots;
   setup.devices = robot.devices;
   setup.clock_ppm = variation.clock_ppm;
   setup.boot_delay_s = variation.boot_delay_s;
+  board::set_up(setup, own_settings(world, robot));
   return setup;
 }
 
@@ -95,6 +91,24 @@ board::BluetoothSetup bluetooth_of(const sim::WorldDesc& world, int index) {
   setup.seed = world.seed;
   setup.timeout_s = world.link.timeout_s;
   return setup;
+}
+
+/// What executes an image on a board, of whose thread's share it is. The program's configuration words make
+/// the clock of the robot that is set up.
+host::RunnerFactory runner_for(std::shared_ptr<host::Image> image, std::size_t share, board::Setup& setup) {
+  const tp_image& program = image->copy(share).description();
+  if (program.fosc)
+    setup.clock_ppm = host::clock_ppm(setup.clock_ppm, *static_cast<const std::uint16_t*>(program.fosc));
+  host::CompiledSettings settings;
+  settings.name = setup.name;
+  settings.seed = setup.seed;
+  if (register_way::wants_chip(program.flags))
+    settings.processor = [](host::CompiledRunner& r) {
+      return std::make_unique<register_way::ChipProcessor>(r);
+    };
+  return [=](board::Board& board) {
+    return std::make_unique<host::CompiledRunner>(settings, image, share, board);
+  };
 }
 
 // first address at which two devices of the bus would answer; -1 when there is none
@@ -190,7 +204,7 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
   for (auto& robot : world.robots) {
     const std::string name = chosen(options.firmware, robot.name, robot.firmware);
     Options of_robot = options;
-    if (of_robot.way.empty()) of_robot.way = robot.way;
+    if (of_robot.way.empty()) of_robot.way = own_settings(world, robot).text("way");
     const std::string key = name.empty() ? name : of_robot.way + ":" + name;
     firmware.push_back(key);
     robot.firmware = name;  // what it runs, for pictures and supervisors
@@ -222,14 +236,10 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
     // robots that one thread runs share a copy of their image, as Simulation divides them
     while (i >= n * (share + 1) / shares) ++share;
     const auto& robot = world.robots[i];
-    const board::Setup setup = setup_of(world, static_cast<int>(i));
-    const auto image = firmware[i].empty() ? nullptr : images[firmware[i]];
-    host::RobotSettings settings;
-    settings.name = robot.name;
-    settings.seed = setup.seed;
-    if (image && register_way::wants_chip(image->copy(0).description().flags))
-      settings.processor = [](host::Robot& r) { return std::make_unique<register_way::ChipProcessor>(r); };
-    auto mind = std::make_unique<host::FirmwareMind>(setup, std::move(settings), image, share);
+    board::Setup setup = setup_of(world, static_cast<int>(i));
+    host::RunnerFactory make_runner;
+    if (!firmware[i].empty()) make_runner = runner_for(images[firmware[i]], share, setup);
+    auto mind = std::make_unique<host::FirmwareMind>(setup, make_runner);
     plug_in_parts(robot, mind->board(), problems);
     twin->uart_choices_.push_back(
         {chosen(options.uart1, robot.name, robot.uart1), chosen(options.uart2, robot.name, robot.uart2)});
@@ -318,7 +328,7 @@ int Twin::find(const std::string& name) const {
 std::vector<host::TrapReport> Twin::traps() const {
   std::vector<host::TrapReport> all;
   for (const auto* mind : minds_)
-    if (mind->robot()) all.insert(all.end(), mind->robot()->traps().begin(), mind->robot()->traps().end());
+    if (mind->runner()) all.insert(all.end(), mind->runner()->traps().begin(), mind->runner()->traps().end());
   return all;
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "hal_sim/host/image.h"
 #include "hal_sim/host/mind.h"
 #include "sim_core/radio/packet_medium.h"
 #include "sim_core/radio/radio_medium.h"
