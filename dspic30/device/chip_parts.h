@@ -46,7 +46,7 @@ struct ChipParts {
         compare(fabric, timers),
         spis{Spi(fabric, 1), Spi(fabric, 2)},
         system(fabric, c.fosc, c.fwdt),
-        nvm(fabric, c.eeprom ? *c.eeprom : own_eeprom()),
+        nvm(fabric, c.eeprom ? *c.eeprom : own_eeprom(), c.program),
         cans{Can(fabric, 1), Can(fabric, 2)},
         cpu(fabric),
         plain(fabric) {

@@ -25,10 +25,7 @@ const char* vector_name(int vector) {
   return vector >= 1 && vector <= 4 ? kTraps[vector - 1] : irq_name(vector - kFirstIrqVector);
 }
 
-void Interrupts::attach(SfrBus& bus) {
-  bus.attach(*this, kIntcon1, kInttreg);
-  bus.mark_unmodelled(kIntcon1, 0x0700);
-}
+void Interrupts::attach(SfrBus& bus) { bus.attach(*this, kIntcon1, kInttreg); }
 
 void Interrupts::reset(Cycle now) {
   ifs_ = iec_ = 0;

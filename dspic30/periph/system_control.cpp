@@ -36,7 +36,7 @@ Cycle SystemControl::watchdog_period() const {
 }
 
 void SystemControl::reset(ResetKind kind, Cycle now) {
-  bitten_ = false;
+  bitten_ = asleep_ = woke_ = false;
   const auto kept = static_cast<std::uint16_t>(rcon_ & ~(kSwdten | kLvden | kBgst | kLvdl));
   switch (kind) {
     case ResetKind::PowerOn:
@@ -79,6 +79,11 @@ void SystemControl::power_save(bool sleep, Cycle now) {
 }
 
 void SystemControl::on_event(int id, Cycle at) {
+  if (asleep_) {
+    rcon_ |= kWdto;
+    woke_ = true;
+    return clear_watchdog(at);
+  }
   bitten_ = true;
   f_.diagnostics.report(Cause::WatchdogReset, "RCON.WDTO",
                         "the watchdog was not cleared in time (ClrWdt()); the chip resets with RCON.WDTO = 1",

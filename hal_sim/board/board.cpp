@@ -323,9 +323,9 @@ void Board::exchange(Cycle at) {
 }
 
 Cycle Board::quiet_until(Cycle at) const {
+  // packets wait in their queues until the program looks
   const bool has_news_of_its_own = !uarts_[0].is_quiet() || !uarts_[1].is_quiet() || !parts_.empty() ||
-                                   packets_.receivers() > 0 || codec_.was_used() ||
-                                   (camera_ && camera_->is_used());
+                                   codec_.was_used() || (camera_ && camera_->is_used());
   if (has_news_of_its_own) return at;
   return driver_ ? driver_->quiet_until(at) : kNever;
 }

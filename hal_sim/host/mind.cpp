@@ -47,7 +47,7 @@ sim::Clicks FirmwareMind::idle_until() const {
 void FirmwareMind::press_key(const board::KeyPress& key) {
   board_.remote().press(key);
   if (runner_) runner_->remote_changed();
-  set_idle_until(0);
+  wake();
 }
 
 sim::WheelCourse FirmwareMind::wheel_course(sim::Clicks at) {

@@ -28,15 +28,17 @@ class FirmwareMind final : public sim::RobotMind {
   /// Somebody presses a key of a remote control; not before what has already run.
   void press_key(const board::KeyPress& key);
 
-  /// For changing, too: the robot looks at what is new in the next tick.
+  /// Something outside has changed: the robot looks at what is new in the next tick.
+  void wake() { set_idle_until(0); }
+  /// For changing, too.
   board::Board& board() {
-    set_idle_until(0);
+    wake();
     return board_;
   }
   const board::Board& board() const { return board_; }
   /// Null when no firmware is loaded.
   Runner* runner() {
-    set_idle_until(0);
+    wake();
     return caught_up();
   }
   const Runner* runner() const { return caught_up(); }

@@ -253,6 +253,7 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
         auto module = std::make_shared<board::BluetoothModule>(bluetooth_of(world, static_cast<int>(i)),
                                                                mind->board().clock(), static_cast<int>(i),
                                                                std::move(end));
+        module->wake = [awake = mind.get()] { awake->wake(); };
         twin->bluetooth_.push_back(module);
         mind->board().uart(1).connect(std::move(module));
       } else if (end) {

@@ -215,6 +215,7 @@ void FirmwareTest::start(const Caller& caller) {
     for (int port = r->keeps_bluetooth_ ? 2 : 1; port <= 2; ++port) {
       auto end = std::make_unique<board::MemoryEnd>();
       r->serial_[port - 1] = end.get();
+      end->wake = [mind = &r->mind()] { mind->wake(); };
       r->mind().board().uart(port).connect(std::move(end));
     }
 }
