@@ -28,12 +28,12 @@ MAY_INCLUDE = {
     "hal_sim/board": ["sim_core/base", "sim_core/world", "sim_core/light", "sim_core/camera", "sim_core/sound",
                       "sim_core/radio", "sim_core/random"],
     "hal_sim/drivers": ["hal_sim/board", "hal_sim/api/timings.h", "sim_core/base"],
-    "hal_sim/host": ["hal_sim/board", "hal_sim/drivers", "hal_sim/api/timings.h", "sim_core/base", "sim_core/world/robot_mind.h",
+    "hal_sim/host": ["dspic30/memory", "hal_sim/board", "hal_sim/drivers", "hal_sim/api/timings.h", "sim_core/base", "sim_core/world/robot_mind.h",
                      "sim_core/world/scene.h"],
     "hal_sim/api": ["hal_sim/host/pins", "hal_sim/host/image_abi.h", "firmware/include", "firmware/library",
                     "firmware/webots/simulator.h"],  # what Webots' interfaces take from the simulator
     "firmware/library": ["firmware/include"],
-    "hal_sim/cc": ["hal_sim/host/image_abi.h", "hal_sim/host/image_stamp.h", "hal_sim/host/pins",
+    "hal_sim/cc": ["dspic30/memory/irqs.inc", "hal_sim/board/cycle.h", "hal_sim/host/image_abi.h", "hal_sim/host/image_stamp.h", "hal_sim/host/pins",
                    "hal_sim/api/timings.h"],  # its libc calls the host
     "hal_sim/trace": ["hal_sim/board", "hal_sim/drivers/driver_params.h", "hal_sim/host", "dspic30", "sim_core/base", "sim_core/load"],
     "hal_sim/twin": ["hal_sim/", "sim_core/"],  # ties board, host and world together

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "dspic30/memory/irqs.h"
 #include "hal_sim/board/board.h"
 #include "hal_sim/host/faults.h"
 #include "hal_sim/host/host_params.h"
@@ -347,8 +348,8 @@ void CompiledRunner::handle(int vector, const Processor::Entry& entry) {
 
 void CompiledRunner::miss_handler(int vector, bool alternate) {
   static constexpr const char* kTraps[] = {"OscillatorFail", "AddressError", "StackError", "MathError"};
-  const std::string name =
-      vector >= kTrapVector ? kTraps[vector - kTrapVector] : std::string(vector_name(vector)) + "Interrupt";
+  const std::string name = vector >= kTrapVector ? kTraps[vector - kTrapVector]
+                                                 : std::string(dspic::irq_name(vector)) + "Interrupt";
   last_words_ = "interrupt " + name.substr(0, name.rfind("Interrupt")) +
                 " is enabled and was raised, but the program has no handler _" + (alternate ? "Alt" : "") +
                 name + "; on the chip the processor resets";
@@ -360,7 +361,7 @@ void CompiledRunner::stop_if_blocked() {
   const Processor::Waiting waiting = processor_->longest_waiting(now_);
   if (waiting.vector < 0 || now_ - waiting.since < kBlockedInterruptCycles) return;
   last_words_ = std::string("interrupts have been off for more than a second while ") +
-                vector_name(waiting.vector) + " is waiting: an endless loop with interrupts off";
+                dspic::irq_name(waiting.vector) + " is waiting: an endless loop with interrupts off";
   trap(TP_TRAP_INTERRUPT, last_words_);
 }
 

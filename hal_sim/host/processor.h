@@ -21,8 +21,7 @@ class CompiledRunner;
 class Observer;
 
 inline constexpr int kNoVector = -1;
-inline constexpr int kResetDue = -2;      ///< the processor resets itself: why_reset() says why
-inline constexpr int kTrapVector = 1000;  ///< + 0 oscillator fail, 1 address, 2 stack, 3 math error
+inline constexpr int kResetDue = -2;  ///< the processor resets itself: why_reset() says why
 
 enum class ResetCause { PowerUp, Instruction, Button };
 

@@ -46,9 +46,6 @@ struct TrapReport {
 /// "division by zero", "address error" ...
 const char* trap_name(int kind);
 
-/// "T1", "U1RX", ... of an interrupt vector in natural order; "?" for reserved ones.
-const char* vector_name(int vector);
-
 class Runner {
  public:
   explicit Runner(std::string name) : name_(std::move(name)) {}

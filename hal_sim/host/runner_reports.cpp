@@ -89,7 +89,8 @@ TrapReport CompiledRunner::report_at(int kind, std::string message, std::uintptr
   report.kind = kind;
   report.message = std::move(message);
   report.cycle = now_;
-  report.time_s = to_world_s ? to_world_s(now_) : static_cast<double>(now_) / kFcyHz;
+  report.time_s =
+      to_world_s ? to_world_s(now_) : static_cast<double>(now_) / static_cast<double>(board::kFcyHz);
   set_place(report, walk(pc, frame));
   return report;
 }

@@ -15,23 +15,25 @@ namespace register_way {
 
 namespace {
 
-constexpr unsigned kU1Mode = 0x20C, kU2Mode = 0x216, kIfs0 = 0x084;
+using dspic::sfr;
+
+constexpr unsigned kU1Mode = sfr("U1MODE"), kU2Mode = sfr("U2MODE"), kIfs0 = sfr("IFS0");
 constexpr std::uint16_t kUartEnabled = 0x8000, kTransmitEnabled = 0x0400, kBufferFull = 0x0200;
 
 /// Reading it moves a FIFO or lowers a flag, so a loop that does has changed something.
 constexpr bool has_side_effect(unsigned address) {
   switch (address & ~1u) {
-    case 0x200:  // I2CRCV
-    case 0x212:  // U1RXREG
-    case 0x21C:  // U2RXREG
-    case 0x224:  // SPI1BUF
-    case 0x22A:  // SPI2BUF
+    case sfr("I2CRCV"):
+    case sfr("U1RXREG"):
+    case sfr("U2RXREG"):
+    case sfr("SPI1BUF"):
+    case sfr("SPI2BUF"):
       return true;
     default:
-      return address >= 0x140 && address < 0x160;  // input capture buffers
+      return address >= sfr("IC1BUF") && address < sfr("IC8CON") + 2;  // input capture buffers
   }
 }
-constexpr unsigned kFirstWithSideEffect = 0x140, kLastWithSideEffect = 0x22B;
+constexpr unsigned kFirstWithSideEffect = sfr("IC1BUF"), kLastWithSideEffect = sfr("SPI2BUF") + 1;
 
 }  // namespace
 
@@ -46,7 +48,7 @@ void ChipProcessor::power_up() {
   const tp_image& image = runner_.image();
   if (image.fosc) {
     configuration.fosc = *static_cast<const std::uint16_t*>(image.fosc);
-    configuration.fcy_hz *= host::clock_factor(configuration.fosc);
+    configuration.fcy_hz = static_cast<double>(board::kFcyHz) * host::clock_factor(configuration.fosc);
   }
   if (image.fwdt) configuration.fwdt = *static_cast<const std::uint16_t*>(image.fwdt);
   chip_.power_up(configuration);
