@@ -2,6 +2,8 @@
 #include "dspic30/core/cpu.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <string>
 
 namespace dspic {
 
@@ -30,6 +32,12 @@ const Decoded* fetch_nothing(Cpu& cpu, const Decoded* d) {
   return d;
 }
 
+std::string hex(unsigned address) {
+  char text[16];
+  std::snprintf(text, sizeof text, "0x%06x", address);
+  return text;
+}
+
 void set_low(unsigned& address, unsigned value) { address = (address & 0x7F0000) | (value & 0xFFFE); }
 void set_high(unsigned& address, unsigned value) { address = (address & 0xFFFF) | (value & 0x7F) << 16; }
 
@@ -45,9 +53,13 @@ void Cpu::forget_code() {
   Decoded unknown{};
   unknown.run = &meet;
   unknown.cycles = 0;
-  code_.assign(kFlashWords + 1, unknown);
-  code_.back().run = &fetch_nothing;
-  code_.back().cycles = 1;
+  for (const std::uint32_t index : decoded_) code_[index] = unknown;
+  decoded_.clear();
+  if (code_.empty()) {
+    code_.assign(kFlashWords + 1, unknown);
+    code_.back().run = &fetch_nothing;
+    code_.back().cycles = 1;
+  }
   next = code_.data() + here;
   code_is_old = false;
   find_loop_end();
@@ -93,10 +105,14 @@ const Decoded* Cpu::jump(unsigned address, const Decoded* from) {
 bool Cpu::is_decoded(const Decoded* d) const { return d->run != &meet; }
 
 void Cpu::decode(const Decoded* d) {
+  decoded_.push_back(static_cast<std::uint32_t>(d - code_.data()));
   code_[static_cast<std::size_t>(d - code_.data())] = decode_word(*this, address_of(d));
 }
 
 void Cpu::trap(Trap which) {
+  const char* name = vector_name(static_cast<int>(which));
+  const std::string place = std::string(name) + " at " + hex(address_of(at));
+  parts.diagnostics.report(Cause::CpuTrap, place, place + ": the program goes on at the trap's vector", now);
   parts.events.run_to(now);
   parts.interrupts.raise_trap(which, now);
   deadline = 0;

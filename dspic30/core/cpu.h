@@ -224,8 +224,9 @@ class Cpu final : public SfrOwner {
   unsigned read_psv(unsigned ea, unsigned bits);
   void find_loop_end();
 
-  std::vector<Decoded> code_;  // one a flash word, then one for addresses where no flash is
-  unsigned bad_address_ = 0;   // that address
+  std::vector<std::uint32_t> decoded_;  // words that were met since forget_code()
+  std::vector<Decoded> code_;           // one a flash word, then one for addresses where no flash is
+  unsigned bad_address_ = 0;            // that address
 };
 
 /// The word at an address made ready, as its first execution begins: registers that it writes count as

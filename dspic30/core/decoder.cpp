@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // One word of flash made ready to run: registers, literals, pointer steps, cycles with the stall that it
 // suffers behind the word before it.
+#include <cstdio>
+#include <string>
+
 #include "dspic30/core/cpu.h"
 
 namespace dspic {
@@ -201,6 +204,15 @@ Run choose(Insn id, const Fields& f) {
 }
 
 const Decoded* illegal(Cpu& cpu, const Decoded* d) {
+  char place[24];
+  const unsigned address = cpu.address_of(d);
+  std::snprintf(place, sizeof place, "0x%06x", address);
+  cpu.parts.diagnostics.report(
+      Cause::IllegalOpcode, place,
+      find_row(cpu.program.read(address))
+          ? std::string(place) + ": an address in a register that was never written resets the chip"
+          : std::string(place) + ": a word that is no instruction resets the chip",
+      cpu.now);
   cpu.ask_reset(ResetKind::IllegalOpcode);
   return d;
 }

@@ -11,6 +11,7 @@ namespace {
 
 // from the event that wakes to the next instruction [?]: Idle goes on at once; Sleep waits for the crystal
 // (1024 periods of 7.3728 MHz) and for the PLL (20 us)
+constexpr Cycle kResetCycles = 295;  // 20 us from a reset's cause to the first instruction [?]
 constexpr Cycle kIdleWakeCycles = 2, kSleepWakeCycles = 2048 + 295;
 
 }  // namespace
@@ -22,6 +23,7 @@ Processor::~Processor() = default;
 
 void Processor::restart() {
   cpu_->reset();
+  cpu_->now += kResetCycles;
   code_version_ = cpu_->program.version();
 }
 

@@ -78,12 +78,9 @@ double Board::wheel_angle_rad(Wheel wheel, Cycle at) const {
 WheelTurn Board::wheel_turn(Wheel wheel, Cycle at) const {
   const double rad_per_step =
       sim::kTwoPi / kStepsPerTurn * setup_.wheel_ratio[static_cast<std::size_t>(wheel)];
-  if (const auto course = driver_ ? driver_->motor_course(wheel, at) : std::nullopt)
-    return {course->steps * rad_per_step, course->rate * rad_per_step, course->until};
-  const Stepper& motor = stepper_at(wheel, at);
-  WheelTurn turn{motor.position(at) * rad_per_step, motor.speed(at) * rad_per_step, motor.move_end(at)};
-  if (driver_) turn.until = std::min(turn.until, driver_->steps_horizon(wheel, at));
-  return turn;
+  const Stepper& own = motors_[static_cast<std::size_t>(wheel)];
+  const RotorCourse rotor = driver_ ? driver_->motor_course(wheel, at) : own.course(at);
+  return {rotor.steps * rad_per_step, rotor.rate * rad_per_step, rotor.until};
 }
 
 std::int64_t Board::steps(Wheel wheel, Cycle at) const { return stepper_at(wheel, at).steps(); }
@@ -359,8 +356,9 @@ IrConversion Board::ir_conversion(int sensor, Cycle at, Cycle lit_for) const {
 }
 
 int Board::ir_counts(int sensor, Cycle at, Cycle lit_for) const {
-  const IrConversion c = ir_conversion(sensor, at, lit_for);
   const bool lit = lit_for >= 0;
+  if (!lit && setup_.ambient_noise_counts == 0 && !(scene_ && sim::has_light(*scene_))) return kAdcMax;
+  const IrConversion c = ir_conversion(sensor, at, lit_for);
   double light = c.light_counts, reflection = c.reflection_counts;
   if (c.relative_noise > 0 && setup_.ir_noise_scale > 0) {
     const double noise = c.uniform_noise ? noise_.uniform(NoiseOf::Reflection, sensor, at)
@@ -474,10 +472,8 @@ std::uint64_t Board::state_hash(Cycle at) const {
     sum += part * factor;
     factor += 0xD1B54A32D192ED02u;  // even, so the factor stays odd
   };
-  for (Wheel wheel : {Wheel::Left, Wheel::Right}) {
-    const Stepper& motor = stepper_at(wheel, at);
-    add(static_cast<std::uint64_t>(motor.steps()) << 4 ^ motor.coils());
-  }
+  // as the program left them: what a driver has made of them since follows from its own state
+  for (const Stepper& motor : motors_) add(static_cast<std::uint64_t>(motor.steps()) << 4 ^ motor.coils());
   for (std::size_t i = 0; i < kPorts; ++i) add(lat_[i] | static_cast<std::uint64_t>(tris_[i]) << 16);
   for (const Uart& uart : uarts_) add(uart.state_hash());
   // every robot has a camera on its bus; it counts once a program films

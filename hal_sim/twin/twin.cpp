@@ -6,12 +6,15 @@
 #include <algorithm>
 #include <atomic>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <map>
 
 #include "hal_sim/board/bluetooth_module.h"
 #include "hal_sim/board/epuck_model.h"
 #include "hal_sim/board/part.h"
 #include "hal_sim/board/uart_end.h"
+#include "hal_sim/chip/chip_runner.h"
 #include "hal_sim/host/compiled_runner.h"
 #include "hal_sim/host/oscillator.h"
 #include "hal_sim/register/chip_processor.h"
@@ -91,6 +94,36 @@ board::BluetoothSetup bluetooth_of(const sim::WorldDesc& world, int index) {
   setup.seed = world.seed;
   setup.timeout_s = world.link.timeout_s;
   return setup;
+}
+
+/// What a robot runs, loaded once for all that run it: code for the PC, or the chip's own.
+struct Firmware {
+  std::shared_ptr<host::Image> image;
+  std::shared_ptr<const dspic::FirmwareFile> chip;
+};
+
+Firmware open_firmware(const std::string& path, std::string& error) {
+  std::ifstream in(path, std::ios::binary);
+  std::string bytes(4, '\0');
+  in.read(bytes.data(), 4);
+  if (bytes[0] == ':' || bytes ==
+                             "\x7f"
+                             "ELF")
+    bytes.append(std::istreambuf_iterator<char>(in), {});
+  if (dspic::kind_of(bytes) == dspic::FileKind::Other) return {host::Image::open(path, error), nullptr};
+  auto file = std::make_shared<dspic::FirmwareFile>();
+  if (!dspic::load_firmware(bytes, path, *file, error)) return {};
+  return {nullptr, file};
+}
+
+host::RunnerFactory runner_for_chip(std::shared_ptr<const dspic::FirmwareFile> file, board::Setup& setup) {
+  const auto word = file->words.find(dspic::kConfigurationStart);
+  const std::uint16_t fosc =
+      word == file->words.end() ? dspic::Configuration{}.fosc : static_cast<std::uint16_t>(word->second);
+  setup.clock_ppm = host::clock_ppm(setup.clock_ppm, fosc);
+  return [=, name = setup.name](board::Board& board) {
+    return std::make_unique<chip::ChipRunner>(name, file, host::clock_factor(fosc), board);
+  };
 }
 
 /// What executes an image on a board, of whose thread's share it is. The program's configuration words make
@@ -199,7 +232,7 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
 
   // every distinct firmware is found, built and loaded once
   std::map<std::string, std::string> paths;
-  std::map<std::string, std::shared_ptr<host::Image>> images;
+  std::map<std::string, Firmware> images;
   std::vector<std::string> firmware;
   for (auto& robot : world.robots) {
     const std::string name = chosen(options.firmware, robot.name, robot.firmware);
@@ -213,11 +246,14 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
     path = provide_image(name, options.world_folder, of_robot, problems);
     if (path.empty()) continue;
     std::string error;
-    images[key] = host::Image::open(path, error);
-    if (!images[key]) {
+    const Firmware& opened = images[key] = open_firmware(path, error);
+    if (!opened.image && !opened.chip) {
       problems.push_back(error);
+    } else if (of_robot.way == "register" && opened.chip) {
+      problems.push_back("robot '" + robot.name + "': way: got register, but " + path +
+                         " is a program of the chip; leave the way out");
     } else if (of_robot.way == "register" &&
-               !register_way::wants_chip(images[key]->copy(0).description().flags)) {
+               !register_way::wants_chip(opened.image->copy(0).description().flags)) {
       problems.push_back("robot '" + robot.name + "': way: got register, but " + path +
                          " was built for the native way, expected an image of twinpuck build --way register");
     }
@@ -238,7 +274,11 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
     const auto& robot = world.robots[i];
     board::Setup setup = setup_of(world, static_cast<int>(i));
     host::RunnerFactory make_runner;
-    if (!firmware[i].empty()) make_runner = runner_for(images[firmware[i]], share, setup);
+    if (!firmware[i].empty()) {
+      const Firmware& program = images[firmware[i]];
+      make_runner =
+          program.chip ? runner_for_chip(program.chip, setup) : runner_for(program.image, share, setup);
+    }
     auto mind = std::make_unique<host::FirmwareMind>(setup, make_runner);
     plug_in_parts(robot, mind->board(), problems);
     twin->uart_choices_.push_back(
@@ -278,7 +318,8 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
     minds.push_back(std::move(mind));
   }
   if (problems.size() != problems_before) return nullptr;
-  for (auto& [name, image] : images) twin->images_.push_back(image);
+  for (auto& [name, program] : images)
+    if (program.image) twin->images_.push_back(program.image);
   twin->simulation_ = std::make_unique<sim::Simulation>(std::move(world), std::move(minds), options.threads);
   twin->add_media();
   return twin;
