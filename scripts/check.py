@@ -53,7 +53,7 @@ NAMESPACE_ROOMS = {"board": "hal_sim/board", "drivers": "hal_sim/drivers", "host
                    "twin": "hal_sim/twin", "dspic": "dspic30/device"}
 # packages and the only room that may include them
 PACKAGE_ROOMS = {
-    "box2d/": ["sim_core/physics"], "ccd/": ["sim_core/geometry"], "boost/": ["hal_sim/host"],
+    "box2d/": ["sim_core/physics"], "Eigen/": ["sim_core/simulation.cpp"], "ccd/": ["sim_core/geometry"], "boost/": ["hal_sim/host"],
     "toml++/": ["sim_core/load/toml_parser.h"], "CLI/": ["tools"], "llvm/": ["hal_sim/cc"], "clang/": ["hal_sim/cc"],
     "cairo": ["sim_core/record", "sim_core/load", "tools"], "enki/": ["bench"], "gelf.h": ["hal_sim", "dspic30"],
     "libelf.h": ["hal_sim", "dspic30"], "vpx/": ["sim_core/record"], "zlib.h": ["sim_core/record"], "jpeglib.h": ["import"],

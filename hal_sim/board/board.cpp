@@ -317,12 +317,12 @@ void Board::exchange(Cycle at) {
   if (driver_) driver_->exchange(at);
 }
 
-Cycle Board::quiet_until(Cycle at) const {
+Cycle Board::horizon(Cycle at) const {
   // packets wait in their queues until the program looks
   const bool has_news_of_its_own = !uarts_[0].is_quiet() || !uarts_[1].is_quiet() || !parts_.empty() ||
                                    codec_.was_used() || (camera_ && camera_->is_used());
   if (has_news_of_its_own) return at;
-  return driver_ ? driver_->quiet_until(at) : kNever;
+  return driver_ ? driver_->horizon(at) : kNever;
 }
 
 // --- analogue inputs -------------------------------------------------------------------------------------

@@ -224,7 +224,7 @@ class Board {
   void init_ports(Cycle at);
   /// Until when exchange() has nothing to do and nothing that firmware has not asked for happens; `at`: not
   /// known.
-  Cycle quiet_until(Cycle at) const;
+  Cycle horizon(Cycle at) const;
   /// Tick boundary: bytes from outside enter, bytes sent so far go out, old bookkeeping is dropped.
   void exchange(Cycle at);
 

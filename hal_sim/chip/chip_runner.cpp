@@ -9,7 +9,8 @@ namespace chip {
 
 namespace {
 
-constexpr unsigned kIfs0 = 0x084, kInttreg = 0x0B0, kRamStart = 0x800, kRamEnd = 0x2800;
+constexpr unsigned kIfs0 = dspic::sfr("IFS0"), kInttreg = dspic::sfr("INTTREG"), kRamStart = 0x800,
+                   kRamEnd = 0x2800;
 
 std::string place_text(unsigned pc, const host::Place& place) {
   char text[16];
@@ -106,7 +107,6 @@ std::uint64_t ChipRunner::hash() const {
 }
 
 // --- observed: instruction by instruction, and what it told in between
-// --------------------------------------
 
 void ChipRunner::run_observed(Cycle end) {
   while (processor_->now() < end) {
@@ -146,7 +146,6 @@ Cycle ChipRunner::flag_horizon(int vector, Cycle at) {
 void ChipRunner::carry_out(Cycle at) { device().run_events(chip_.at(at)); }
 
 // --- data and code
-// ------------------------------------------------------------------------------------------
 
 const host::Variable* ChipRunner::find_variable(const std::string& expression, std::string& error) const {
   error = "got '" + expression + "', but types and members are not read from the chip's images yet";

@@ -54,8 +54,7 @@ inline constexpr Cycle kScanChannelTad = 15;  // SAMC 1 + conversion 14 [DS70143
 inline constexpr int kMicSamples = 100;       // MIC_SAMP_NB [lib: a_d/advance_ad_scan/e_ad_conv.h]
 inline constexpr int kAccSamples = 50;        // ACC_SAMP_NB [lib: a_d/advance_ad_scan/e_ad_conv.h]
 inline constexpr Cycle kAccKeepCycles =
-    kFcyHz / 50;                             // between looks at it [assumed: half as long as poses are kept]
-inline constexpr int kGumstixSelector = 10;  // scans a fifth pair [lib: a_d/advance_ad_scan/e_ad_conv.c]
+    kFcyHz / 50;  // between looks at it [assumed: half as long as poses are kept]
 
 // --- basic proximity driver ------------------------------------------------------------------------------
 inline constexpr Cycle kBasicPulseCycles = 646 * 8;  // PR1 = 645, prescale 8 [lib: a_d/e_prox.c]

@@ -63,7 +63,7 @@ class Drivers final : public board::PinDriver {
   bool owns_emitters() const override { return scan_.is_on() || basic_prox_.is_on(); }
   std::optional<int> proximity_counts(int sensor, Cycle at) const override;
   void exchange(Cycle at) override { scan_.keep_acc(at); }
-  Cycle quiet_until(Cycle at) const override { return scan_.keeps_acc() ? at + kAccKeepCycles : kNever; }
+  Cycle horizon(Cycle at) const override { return scan_.keeps_acc() ? at + kAccKeepCycles : kNever; }
   void processor_reset(Cycle at) override;
   void add_diagnoses(std::vector<board::Diagnosis>& all) const override;
   std::uint64_t state_sum(Cycle at) const override;

@@ -39,8 +39,8 @@ void FirmwareMind::run_until(const sim::Scene& scene, sim::Clicks end) {
 }
 
 sim::Clicks FirmwareMind::idle_until() const {
-  const Cycle quiet = board_.quiet_until(now_), idle = runner_ ? runner_->idle_until() : kNever;
-  const Cycle until = std::min(quiet, idle);
+  const Cycle board = board_.horizon(now_), idle = runner_ ? runner_->idle_until() : kNever;
+  const Cycle until = std::min(board, idle);
   return until >= kNever ? kNever : until <= now_ ? 0 : board_.clock().click_at(until);
 }
 

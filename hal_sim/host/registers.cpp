@@ -93,7 +93,6 @@ void NativeRegisters::refuse_table() const {
 }
 
 // --- timers
-// ----------------------------------------------------------------------------------------------------------
 
 Cycle NativeRegisters::prescale(const Timer& t) const {
   constexpr Cycle kDivide[] = {1, 8, 64, 256};
@@ -140,7 +139,6 @@ NativeRegisters::Timer* NativeRegisters::timer_at(unsigned address, int& which) 
 }
 
 // --- words
-// -----------------------------------------------------------------------------------------------------------
 
 std::uint16_t NativeRegisters::read_word(unsigned address) {
   auto& interrupts = processor_.interrupts();
