@@ -25,6 +25,20 @@ FirmwareMind::FirmwareMind(const board::Setup& setup, RobotSettings settings, st
     board_.switch_off();
     return;
   }
+  power_up(std::move(settings), std::move(image), copy);
+}
+
+void FirmwareMind::flash(RobotSettings settings, std::shared_ptr<Image> image, std::size_t copy) {
+  settings.start = now();
+  board_.processor_reset(settings.start);  // motors stop where they are
+  robot_.reset();
+  power_up(std::move(settings), std::move(image), copy);
+  course_.until = 0;
+  turns_ = 0;
+  set_idle_until(0);
+}
+
+void FirmwareMind::power_up(RobotSettings settings, std::shared_ptr<Image> image, std::size_t copy) {
   robot_ = std::make_unique<Robot>(std::move(settings), std::move(image), copy, board_);
   robot_->to_world_s = [this](Cycle at) { return sim::to_seconds(board_.clock().click_at(at)); };
 }

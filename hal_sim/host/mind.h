@@ -27,6 +27,10 @@ class FirmwareMind final : public sim::RobotMind {
     board_.publish_sound(field, now);
   }
 
+  /// Another program is flashed and started where the robot stands; as the constructor's otherwise. Between
+  /// ticks.
+  void flash(RobotSettings settings, std::shared_ptr<Image> image, std::size_t copy);
+
   /// Somebody presses a key of a remote control; not before what has already run.
   void press_key(const board::KeyPress& key);
 
@@ -52,6 +56,7 @@ class FirmwareMind final : public sim::RobotMind {
     if (robot_) robot_->pass_to(now());
     return robot_.get();
   }
+  void power_up(RobotSettings settings, std::shared_ptr<Image> image, std::size_t copy);
   sim::Clicks idle_until() const;
   sim::WheelCourse course_at(sim::Clicks at) const;
 

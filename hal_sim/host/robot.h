@@ -54,6 +54,7 @@ struct RobotSettings {
   std::uint64_t seed = 0;                ///< of rand()
   std::size_t stack_bytes = 256 * 1024;  ///< PC frames are two to four times the chip's; see docs/limits.md
   ProcessorFactory processor{};          ///< empty: the native way
+  Cycle start = 0;                       ///< when it is powered up
 };
 
 class Robot final : public Context {

@@ -224,12 +224,9 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
     const auto& robot = world.robots[i];
     const board::Setup setup = setup_of(world, static_cast<int>(i));
     const auto image = firmware[i].empty() ? nullptr : images[firmware[i]];
-    host::RobotSettings settings;
-    settings.name = robot.name;
-    settings.seed = setup.seed;
-    if (image && register_way::wants_chip(image->copy(0).description().flags))
-      settings.processor = [](host::Robot& r) { return std::make_unique<register_way::ChipProcessor>(r); };
-    auto mind = std::make_unique<host::FirmwareMind>(setup, std::move(settings), image, share);
+    auto mind = std::make_unique<host::FirmwareMind>(setup, settings_of(robot.name, setup.seed, image.get()),
+                                                     image, share);
+    twin->copies_.push_back(share);
     plug_in_parts(robot, mind->board(), problems);
     twin->uart_choices_.push_back(
         {chosen(options.uart1, robot.name, robot.uart1), chosen(options.uart2, robot.name, robot.uart2)});
@@ -271,6 +268,31 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
   twin->simulation_ = std::make_unique<sim::Simulation>(std::move(world), std::move(minds), options.threads);
   twin->add_media();
   return twin;
+}
+
+host::RobotSettings Twin::settings_of(const std::string& name, std::uint64_t seed, host::Image* image) {
+  host::RobotSettings settings;
+  settings.name = name;
+  settings.seed = seed;
+  if (image && register_way::wants_chip(image->copy(0).description().flags))
+    settings.processor = [](host::Robot& r) { return std::make_unique<register_way::ChipProcessor>(r); };
+  return settings;
+}
+
+std::string Twin::flash(const std::vector<int>& robots, const std::string& path) {
+  std::string error;
+  const auto image = host::Image::open(path, error);
+  if (!image) return error;
+  for (int robot : robots) {
+    const auto r = static_cast<std::size_t>(robot);
+    if (!minds_[r]->robot()) return "robot '" + world().robots[r].name + "': got one that is switched off";
+    minds_[r]->flash(settings_of(world().robots[r].name, minds_[r]->board().setup().seed, image.get()), image,
+                     copies_[r]);
+    image_paths_[r] = path;
+    simulation_->note_intervention(r);
+  }
+  images_.push_back(image);
+  return "";
 }
 
 // what passes between robots; a world whose robots have nothing of the kind gets nothing
