@@ -16,7 +16,8 @@ check="clang-format clang-tidy"
 bench="libenki-dev libbenchmark-dev"
 fuzz="libclang-rt-14-dev"
 debug="gdb"
-view="esbuild nodejs npm"
+view="esbuild nodejs"
+command -v npm >/dev/null || view="$view npm"  # other nodejs packages than Debian's bring it along
 browser="chromium"
 
 group=${1:-build}

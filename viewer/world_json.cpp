@@ -164,6 +164,13 @@ Json world_json(const sim::LoadedWorld& loaded, const sim::WorldText& text) {
                           r.pose));
   }
   out["robots"] = std::move(robots);
+  Json elements = Json::array();
+  for (const auto& e : text.elements()) {
+    Json values = Json::object();
+    for (const auto& [key, value] : text.values(e.id)) values[key] = value;
+    elements.push_back({{"id", e.id}, {"path", e.path}, {"line", e.first_line}, {"values", values}});
+  }
+  out["elements"] = std::move(elements);
   Json problems = Json::array();
   for (const sim::WorldProblem& p : loaded.problems)
     problems.push_back({{"line", p.line},

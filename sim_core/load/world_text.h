@@ -36,6 +36,8 @@ class WorldText {
   /// A value as it is written; empty: the key is not there.
   std::string value(int id, const std::string& key) const;
 
+  /// The keys of an element's own table, as they are written.
+  Values values(int id) const;
   /// All of an element as it is written, without the comment above it.
   std::string text_of(int id) const;
 
