@@ -19,6 +19,7 @@ constexpr std::uint32_t kCodeStart = 0x100, kRamStart = 0x800, kRamEnd = 0x2800,
 constexpr std::uint32_t kStackReserve = 8;  // between SPLIM and the end of RAM
 constexpr std::uint32_t kVectors0 = 0x04, kAlternate0 = 0x84;
 constexpr std::int64_t kMostBytes = 0x18000;  // of a section
+constexpr std::int64_t kMostAddress = 0xFFFFFE;
 constexpr std::size_t kMostMessages = 50;
 constexpr int kDeepestSymbols = 20;  // .equ in terms of .equ
 
@@ -350,7 +351,11 @@ class Assembly final : private SourceLines::Listener {
     }
     enter_section(name, kind);
     section().kind = kind;
-    if (address >= 0) section().address = address & ~std::int64_t{1};
+    if (address > kMostAddress)
+      complain(".section: got address " + std::to_string(address) + ", expected at most " +
+               std::to_string(kMostAddress));
+    else if (address >= 0)
+      section().address = address & ~std::int64_t{1};
     if (alignment > 2) align(alignment);
   }
 
@@ -398,7 +403,11 @@ class Assembly final : private SourceLines::Listener {
       if (s.address >= 0 || s.size == 0) continue;
       std::uint32_t& at = free_from(s.kind);
       const auto to = static_cast<std::uint32_t>(s.align);
-      for (bool moved = true; moved;) {
+      if (s.kind == Kind::Constants && s.size > kPsvPage)
+        return complain(
+            "", 0,
+            "a section of constants has " + std::to_string(s.size) + " bytes, a page of the window 32768");
+      for (bool moved = true; moved && at <= kFlashEnd + kEepromStart;) {
         moved = false;
         at = (at + to - 1) / to * to;
         // constants do not cross a page of the window
