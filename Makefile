@@ -90,6 +90,7 @@ check: tool
 	@scripts/gen_sfr_header.py --check
 	@scripts/gen_sfr_table.py --check
 	@scripts/gen_instruction_table.py --check
+	@scripts/instruction_coverage.py --check
 	@$(BUILD)/twinpuck timings --check
 
 ## format: format C++ sources in place
