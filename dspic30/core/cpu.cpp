@@ -153,7 +153,7 @@ const Decoded* Cpu::run_repeated(const Decoded* d) {
   do {
     const bool is_last = rcount == 0;
     if (is_last) repeating = false;
-    window = is_last || repeat_is_fresh ? Window::RepeatEdge : Window::RepeatMiddle;
+    window = is_last || repeat_is_fresh ? Window::RepeatEdge : Window::Free;
     window_was_free = false;
     if (!repeat_is_fresh && (d->writes & d->pointers)) ++now;  // it stalls behind itself
     const Decoded* following = d->run(*this, d);
@@ -402,7 +402,7 @@ unsigned Cpu::read_elsewhere(unsigned ea, unsigned bits) {
 }
 
 unsigned Cpu::read_psv(unsigned ea, unsigned bits) {
-  if (window == Window::RepeatMiddle)
+  if (window == Window::Free)
     window_was_free = true;
   else
     now += window == Window::Plain ? at->psv : kRepeatWindow;

@@ -58,9 +58,9 @@ CompiledRunner::~CompiledRunner() {
 }
 
 void CompiledRunner::power_up() {
-  now_ = 0;
+  now_ = settings_.start;
   processor_->power_up();
-  end_ = 0;
+  end_ = settings_.start;
   idle_ = 0;
   stopped_ = false;
   traps_.clear();

@@ -38,6 +38,7 @@ struct CompiledSettings {
   std::uint64_t seed = 0;                ///< of rand()
   std::size_t stack_bytes = 256 * 1024;  ///< PC frames are two to four times the chip's; see docs/limits.md
   ProcessorFactory processor{};          ///< empty: the native way
+  Cycle start = 0;                       ///< when it is powered up
 };
 
 class CompiledRunner final : public Runner, public Context {
@@ -92,7 +93,7 @@ class CompiledRunner final : public Runner, public Context {
 
   /// Handlers that have returned, and how often the processor was asked what to do next, since the robot was
   /// made: what an interrupt costs, in a number that no other work on the machine changes.
-  std::int64_t interrupts_served() const { return served_; }
+  std::int64_t interrupts_served() const override { return served_; }
   std::int64_t looks() const { return looks_; }
   /// Cycles at the last moment at which the program's own count was added up: the instant of a reset.
   Cycle settled_now() const { return now_; }

@@ -12,6 +12,19 @@ FirmwareMind::FirmwareMind(const board::Setup& setup, const RunnerFactory& make_
     board_.switch_off();
     return;
   }
+  power_up(make_runner);
+}
+
+void FirmwareMind::flash(const RunnerFactory& make_runner) {
+  board_.processor_reset(now());  // motors stop where they are
+  runner_.reset();
+  power_up(make_runner);
+  course_.until = 0;
+  turns_ = 0;
+  wake();
+}
+
+void FirmwareMind::power_up(const RunnerFactory& make_runner) {
   runner_ = make_runner(board_);
   runner_->to_world_s = [this](Cycle at) { return sim::to_seconds(board_.clock().click_at(at)); };
 }
