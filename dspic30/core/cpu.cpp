@@ -162,6 +162,11 @@ const Decoded* Cpu::run_repeated(const Decoded* d) {
     now += d->cycles;
     if (is_last || reset_due) return following;
     if (rcount > 0) --rcount;
+    if (d->run == &no_operation && now < deadline) {  // a delay: as many at once as fit
+      const Cycle many = std::min<Cycle>(rcount, deadline - now);
+      now += many;
+      rcount = static_cast<std::uint16_t>(rcount - many);
+    }
   } while (now < deadline);
   return d;
 }

@@ -234,6 +234,9 @@ class Cpu final : public SfrOwner {
 /// Cpu::is_special().
 Decoded decode_word(Cpu& cpu, unsigned address);
 
+/// NOP's.
+const Decoded* no_operation(Cpu& cpu, const Decoded* d);
+
 // --- semantics, in the manual's groups; null: not of this group
 Run choose_arithmetic(Insn id, const Fields& f);
 Run choose_move(Insn id, const Fields& f);
