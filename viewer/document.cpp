@@ -138,7 +138,8 @@ int Document::edit(const Json& request) {
     const sim::WorldText::Element element = piece();
     fresh = next.copy(element.id);
     if (fresh == 0) refuse("thing: got one of which there is only one");
-    for (const auto& [key, value] : request.value("values", Json::object()).items()) {
+    const Json values = request.value("values", Json::object());
+    for (const auto& [key, value] : values.items()) {
       check_key(element.path, key);
       next.set(fresh, key, literal(value));
     }

@@ -107,13 +107,13 @@ bool Session::reopen(std::vector<std::string>& problems) {
       if (c.robot == "*" || c.robot == r.name) return false;
     return true;
   };
-  if (twin_)
+  if (was_open_)
     for (auto* choices : {&options.firmware, &options.uart1, &options.uart2})
       choices->erase(std::remove_if(choices->begin(), choices->end(), is_gone), choices->end());
-  auto twin = twin::Twin::open(world, options, problems);
-  if (!twin) return false;
-  close_run();
-  twin_ = std::move(twin);
+  close_run();  // first: programs lie in memory where they lay in the run before
+  twin_ = twin::Twin::open(world, options, problems);
+  if (!twin_) return false;
+  was_open_ = true;
   team_ = supervisor::Team::open(*twin_, options, opening_.supervisors, problems);
   if (!team_) {
     twin_.reset();

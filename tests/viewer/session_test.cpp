@@ -271,6 +271,21 @@ TEST_F(Session, a_robot_added_in_the_page_runs) {
   EXPECT_GT(frame.body.at(1).x, -0.48);
 }
 
+TEST_F(Session, a_robot_copied_in_a_run_begins_anew_with_whoever_looks) {
+  Page page(open("world.toml"));
+  const int robot = page.event("hello").at("world").at("robots").at(0).at("id");
+  page.good({{"do", "subscribe"},
+             {"names", {"puck.x", "puck.ir0", "puck.light0", "puck.mic0", "puck.var:rounds"}}});
+  steps(page, 5);
+  page.good({{"do", "edit"},
+             {"op", "copy"},
+             {"thing", robot},
+             {"values", {{"name", "puck2"}, {"position", {-0.5, 0.2}}}}});
+  const Frame frame = page.frame([](const Frame& f) { return f.robots == 2; });
+  EXPECT_EQ(frame.time_s, 0);
+  EXPECT_FLOAT_EQ(frame.body.at(1).y, 0.2f);
+}
+
 TEST_F(Session, a_world_drawn_from_nothing_runs_from_the_command_line) {
   write("new.toml", "twinpuck = 1\n");
   Page page(open("new.toml"));
