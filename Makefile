@@ -89,6 +89,7 @@ check: tool
 	@scripts/check_contract.py
 	@scripts/gen_sfr_header.py --check
 	@scripts/gen_sfr_table.py --check
+	@scripts/gen_instruction_table.py --check
 	@$(BUILD)/twinpuck timings --check
 
 ## format: format C++ sources in place

@@ -8,9 +8,8 @@
 #include <iostream>
 #include <thread>
 
-#include "hal_sim/board/epuck_model.h"
-#include "hal_sim/board/part.h"
 #include "hal_sim/twin/twin.h"
+#include "hal_sim/twin/world_file.h"
 #include "sim_core/light/profiles.h"
 #include "sim_core/load/world_loader.h"
 #include "supervisor/team.h"
@@ -86,9 +85,8 @@ int run(const RunArguments& arguments) {
     complain(problems);
     return kBadInput;
   }
-  sim::LoadedWorld loaded = replay ? sim::parse_world(replay->opening.text, replay->opening.file,
-                                                      {board::epuck_model()}, board::part_kinds())
-                                   : sim::load_world(file, {board::epuck_model()}, board::part_kinds());
+  sim::LoadedWorld loaded =
+      replay ? twin::parse_world(replay->opening.text, replay->opening.file) : twin::load_world(file);
   if (!loaded.world) {
     complain({loaded.report(replay ? arguments.replay : file)});
     return kBadInput;

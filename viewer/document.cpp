@@ -11,8 +11,7 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "hal_sim/board/epuck_model.h"
-#include "hal_sim/board/part.h"
+#include "hal_sim/twin/world_file.h"
 #include "sim_core/load/schema.h"
 
 namespace viewer {
@@ -59,6 +58,10 @@ void check_key(const std::string& path, const std::string& key) {
     if (path == section.path)
       for (const sim::KeySpec& k : section.keys)
         if (key == k.key) return;
+  if (path == "robot")
+    for (const sim::RobotModel& model : twin::robot_models())
+      for (const auto& k : model.keys)
+        if (key == k.key) return;
   refuse(fmt::format("key: got '{}', expected a key of {}", key.substr(0, 60),
                      path.empty() ? "the file" : path));
 }
@@ -97,9 +100,7 @@ Document::Document(std::string file, std::string text)
   load();
 }
 
-void Document::load() {
-  loaded_ = sim::parse_world(text_.text(), file_, {board::epuck_model()}, board::part_kinds());
-}
+void Document::load() { loaded_ = twin::parse_world(text_.text(), file_); }
 
 void Document::remember(int group) {
   if (group != 0 && group == group_) return;

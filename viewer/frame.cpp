@@ -33,14 +33,14 @@ std::string frame_bodies(twin::Twin& twin) {
   }
   for (int r = 0; r < twin.robots(); ++r) {
     const host::FirmwareMind& mind = std::as_const(twin).mind(r);
-    const host::Robot* robot = mind.robot();
+    const host::Runner* robot = mind.runner();
     put<std::uint32_t>(out, mind.report().leds);
     std::uint32_t state = 0;
     if (!robot)
       state = kNoProgram;
     else if (robot->has_stopped())
       state = kStopped;
-    else if (robot->is_waiting())
+    else if (robot->waiting_since() < host::kNever)
       state = kWaiting;
     put(out, state);
   }

@@ -7,9 +7,9 @@
 #include <stdexcept>
 
 #include "hal_sim/board/bluetooth_module.h"
-#include "hal_sim/board/epuck_model.h"
 #include "hal_sim/board/uart_end.h"
 #include "hal_sim/host/variables.h"
+#include "hal_sim/twin/world_file.h"
 #include "sim_core/base/hash.h"
 #include "sim_core/base/input_file.h"
 #include "sim_core/load/world_loader.h"
@@ -84,8 +84,8 @@ int Inputs::robot_of(const Json& input) const {
   return robot;
 }
 
-host::Robot& Inputs::program_of(const Json& input, int robot) {
-  host::Robot* program = twin_.mind(robot).robot();
+host::Runner& Inputs::program_of(const Json& input, int robot) {
+  host::Runner* program = twin_.mind(robot).runner();
   if (!program) refuse_input(fmt::format("robot: got {}, which runs no program", input.at("robot").dump()));
   return *program;
 }
@@ -108,8 +108,7 @@ void Inputs::apply(const Json& input) {
   const auto what = input.at("do").get<std::string>();
   sim::Simulation& simulation = twin_.simulation();
   if (what == "world") {
-    sim::LoadedWorld loaded = sim::parse_world(input.at("text").get<std::string>(), twin_.world().file,
-                                               {board::epuck_model()}, board::part_kinds());
+    sim::LoadedWorld loaded = twin::parse_world(input.at("text").get<std::string>(), twin_.world().file);
     if (!loaded.world) refuse_input(loaded.report("world"));
     if (loaded.world->robots.size() != twin_.world().robots.size() ||
         loaded.world->physics_hz != twin_.world().physics_hz)
@@ -158,10 +157,10 @@ void Inputs::apply(const Json& input) {
   } else if (what == "reset") {
     program_of(input, robot).restart();
   } else if (what == "set") {
-    host::Robot& program = program_of(input, robot);
+    host::Runner& program = program_of(input, robot);
     const auto expression = input.at("variable").get<std::string>();
     std::string error;
-    const host::Variable* v = program.symbols().find_variable(expression, error);
+    const host::Variable* v = program.find_variable(expression, error);
     if (!v) refuse_input(error);
     if (v->kind == host::Variable::Kind::Aggregate || v->bytes > 8)
       refuse_input(
@@ -173,7 +172,7 @@ void Inputs::apply(const Json& input) {
   } else {
     refuse_input(fmt::format("do: got '{}', expected an input", what));
   }
-  if (mind.robot()) mind.robot()->wake();
+  if (mind.runner()) mind.runner()->wake();
   std::uint64_t hash = sim::mix64(static_cast<std::uint64_t>(robot) + 1);
   for (const char c : bare(input).dump()) hash = sim::mix64(hash ^ static_cast<unsigned char>(c));
   simulation.note_intervention(hash);

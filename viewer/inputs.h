@@ -35,7 +35,7 @@ class Inputs {
 
  private:
   int robot_of(const Json& input) const;
-  host::Robot& program_of(const Json& input, int robot);
+  host::Runner& program_of(const Json& input, int robot);
   TypedLine& line(int robot, int port);
 
   twin::Twin& twin_;

@@ -78,7 +78,7 @@ const Entry kEntries[] = {
      [](twin::Twin& t, int r, int) { return mind(t, r).board().battery().voltage(mind(t, r).now()); }},
     {"load", 0, "%",
      [](twin::Twin& t, int r, int) {
-       const auto* robot = mind(t, r).robot();
+       const auto* robot = mind(t, r).runner();
        return robot ? 100 * robot->cpu_load() : 0.0;
      }},
 };
@@ -107,16 +107,16 @@ Named pin(int robot, const std::string& name) {
 }
 
 Named variable(twin::Twin& twin, int robot, const std::string& expression) {
-  const host::Robot* program = mind(twin, robot).robot();
+  const host::Runner* program = mind(twin, robot).runner();
   if (!program) throw std::runtime_error("got a variable of a robot that runs no program");
   std::string error;
-  const host::Variable* v = program->symbols().find_variable(expression, error);
+  const host::Variable* v = program->find_variable(expression, error);
   if (!v) throw std::runtime_error(error);
   if (v->kind == host::Variable::Kind::Aggregate || v->bytes > 8)
     throw std::runtime_error("got '" + expression + "', expected a number; name a member or element");
   return {"", [robot, v = *v](twin::Twin& t) {
             char bytes[8] = {};
-            mind(t, robot).robot()->read_memory(v.address, bytes, v.bytes);
+            mind(t, robot).runner()->read_memory(v.address, bytes, v.bytes);
             return host::variable_value(v, bytes);
           }};
 }

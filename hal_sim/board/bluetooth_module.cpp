@@ -39,6 +39,7 @@ void BluetoothModule::connect_computer(std::shared_ptr<UartEnd> computer) {
 void BluetoothModule::settle_idle() {
   idle = !computer_ && out_.empty() && inquiry_.until < 0 && naming_.until < 0 && paging_.until < 0 &&
          linked_at_ < 0;
+  if (!idle && wake) wake();
 }
 
 // --- UART 1 ----------------------------------------------------------------------------------------------

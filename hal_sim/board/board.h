@@ -37,6 +37,7 @@
 #include "hal_sim/board/remote.h"
 #include "hal_sim/board/uart.h"
 #include "hal_sim/board/virtual_devices.h"
+#include "hal_sim/board/wiring.h"
 
 namespace sim {
 class Scene;
@@ -264,7 +265,6 @@ class Board {
   int selector() const { return setup_.selector; }
 
  private:
-  static constexpr std::size_t kPorts = 6;  // A B C D F G
   static int port_index(char port);
   /// Counts of a microphone without noise.
   double mic_level(int microphone, Cycle at) const;
@@ -290,7 +290,7 @@ class Board {
   void note_pulses(std::size_t port, std::uint16_t new_lat, std::uint16_t new_tris, Cycle at);
   void note_vain_writes(std::size_t port, std::uint16_t changed, Cycle at);
   /// Is the pin an output, and its latch 1?
-  bool output_high(char port, int bit) const;
+  bool output_high(Pin pin) const;
   /// What everything that is on draws, A: the IR emitters, and all else.
   double emitters_a(Cycle at) const;
   double beside_emitters_a(Cycle at) const;

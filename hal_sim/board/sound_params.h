@@ -24,7 +24,6 @@ inline constexpr double kMicIdleCounts =
 // the part's own noise (35 dBA) is a tenth of a count; the converter and the supply of a moving robot add
 // theirs
 inline constexpr double kMicNoiseCounts = 1.5;  // standard deviation [assumed: an ordinary 12-bit converter]
-inline constexpr int kMicChannel = 2;           // AN2 to AN4 [lib: motor_led/e_epuck_ports.h]
 
 // --- codec and loudspeaker ---------------------------------------------------------------------------------
 inline constexpr Cycle kCodecSampleCycles =

@@ -41,6 +41,13 @@ const Stepper& Drivers::motor_at(Wheel wheel, Cycle at) const {
   return seen_;
 }
 
+board::RotorCourse Drivers::motor_course(Wheel wheel, Cycle at) const {
+  if (!timer_motors_.drives(wheel)) return agendas_.course(wheel, at);
+  board::RotorCourse course = motor_at(wheel, at).course(at);
+  course.until = std::min(course.until, steps_horizon(wheel, at));
+  return course;
+}
+
 Cycle Drivers::steps_horizon(Wheel wheel, Cycle at) const {
   return std::min(agendas_.steps_horizon(wheel, at), timer_motors_.steps_horizon(wheel, at));
 }

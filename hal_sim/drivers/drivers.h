@@ -51,9 +51,7 @@ class Drivers final : public board::PinDriver {
   const Stepper& motor_at(Wheel wheel, Cycle at) const override;
   Cycle steps_horizon(Wheel wheel, Cycle at) const override;
   Cycle coils_horizon(Wheel wheel, Cycle at) const override;
-  std::optional<Course> motor_course(Wheel wheel, Cycle at) const override {
-    return timer_motors_.drives(wheel) ? std::nullopt : agendas_.course(wheel, at);
-  }
+  board::RotorCourse motor_course(Wheel wheel, Cycle at) const override;
   std::optional<double> coil_duty(Wheel wheel) const override;
   unsigned pulses(Cycle at) const override { return scan_.pulses(at) | basic_prox_.pulses(at); }
   Cycle pulses_horizon(Cycle at) const override;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "hal_sim/host/image.h"
 #include "hal_sim/host/mind.h"
 #include "sim_core/radio/packet_medium.h"
 #include "sim_core/radio/radio_medium.h"
@@ -102,7 +103,6 @@ class Twin {
  private:
   Twin() = default;
   void add_media();
-  static host::RobotSettings settings_of(const std::string& name, std::uint64_t seed, host::Image* image);
   std::unique_ptr<sim::Simulation> simulation_;  // owns the minds
   std::vector<host::FirmwareMind*> minds_;
   std::vector<std::string> image_paths_;

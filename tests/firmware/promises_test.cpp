@@ -51,6 +51,17 @@ int main(void) {
 }
 )";
 
+TEST_F(Promise, ticks_in_which_no_program_runs_are_passed_over) {
+  arena(2, 1);
+  add_robot_with_source(kToggleByAgenda).at(-0.5, 0).bluetooth();
+  add_robot_with_source(kToggleByAgenda).at(0.5, 0);
+  sim::Simulation& s = twin().simulation();
+  const sim::Clicks end = 2 * sim::kClicksPerSecond;
+  int steps = 0;
+  for (; s.now() < end; ++steps) s.advance(end);
+  EXPECT_LT(steps, 2 * 60) << "20 toggles by each of two robots; 1024 ticks";
+}
+
 TEST_F(Promise, an_agenda_toggles_every_100_ms_without_drift) {
   Robot& r = add_robot_with_source(kToggleByAgenda);
   run_for(0.2);

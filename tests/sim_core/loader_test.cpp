@@ -116,7 +116,7 @@ address = 8
   EXPECT_NEAR(w.objects[0].pose.heading_rad, sim::kPi / 2, 1e-12);
   const sim::RobotDesc& r = w.robots[0];
   EXPECT_NEAR(r.pose.heading_rad, sim::kPi, 1e-12);
-  EXPECT_EQ(r.selector, 7);
+  EXPECT_EQ(sim::OwnSettings(w.models[0].keys, r.own).integer("selector"), 7);
   EXPECT_EQ(r.uart2, "tcp:4711");
   EXPECT_EQ(r.variation.left_wheel_ratio, 1.01);
   const auto v = sim::resolve_variation(w, 0);
@@ -398,14 +398,14 @@ TEST(Loader, a_missing_file_and_a_folder_are_said) {
   EXPECT_FALSE(sim::load_world("/tmp", {puck()}).world);
 }
 
-TEST(Loader, ten_thousand_robots_are_the_limit) {
+TEST(Loader, robots_have_a_limit) {
   std::string text = "twinpuck = 1\n";
-  for (int i = 0; i < 10001; ++i) {
+  for (int i = 0; i < 25001; ++i) {
     text += "[[robot]]\nposition = [" + std::to_string(i % 100) + ", " + std::to_string(i / 100) + "]\n";
   }
-  EXPECT_EQ(report_of(text), "w.toml: robot: got 10001 robots, expected at most 10000");
+  EXPECT_EQ(report_of(text), "w.toml: robot: got 25001 robots, expected at most 25000");
   text.resize(text.rfind("[[robot]]"));
-  EXPECT_EQ(world_of(text).robots.size(), 10000u);
+  EXPECT_EQ(world_of(text).robots.size(), 25000u);
 }
 
 TEST(Loader, bodies_above_one_another_do_not_overlap) {
@@ -504,6 +504,19 @@ TEST(Loader, defaults_in_the_table_are_the_defaults_of_the_structs) {
   EXPECT_EQ(arena.arena->wall_thickness_m, sim::ArenaDesc().wall_thickness_m);
   const auto wall = world_of("twinpuck = 1\n[[wall]]\npoints = [[0, 0], [1, 0]]\n" + spelled("wall"));
   EXPECT_EQ(wall.walls[0].height_m, sim::WallDesc().height_m);
+}
+
+TEST(Loader, a_model_has_keys_that_another_has_not) {
+  sim::RobotModel plain = one_eyed();
+  plain.keys.clear();
+  const auto report = [&](const std::string& robot) {
+    return sim::parse_world("twinpuck = 1\n[[robot]]\n" + robot, "w.toml", {puck(), plain}).report("w.toml");
+  };
+  EXPECT_EQ(report("selector = 3\n"), "");
+  EXPECT_EQ(report("model = \"one-eyed\"\n"), "");
+  EXPECT_NE(
+      report("model = \"one-eyed\"\nselector = 3\n").find("w.toml:4:1: unknown key 'selector' in robot"),
+      std::string::npos);
 }
 
 }  // namespace

@@ -4,9 +4,10 @@
 
 #include <thread>
 
-#include "hal_sim/board/epuck_model.h"
-#include "hal_sim/board/part.h"
+#include "hal_sim/twin/world_file.h"
+
 #include "tests/viewer/page_client.h"
+#include "twinpuck_paths.h"
 #include "viewer/inputs.h"
 
 namespace {
@@ -202,6 +203,19 @@ TEST_F(Session, only_one_page_steers) {
   second.good({{"do", "step"}});
 }
 
+// docs/control.md's example, 40 lines of another language
+TEST_F(Session, the_example_client_drives_it) {
+  open("world.toml");
+  const std::string command =
+      "python3 " TWINPUCK_SOURCE_DIR "/tests/viewer/example_client.py " + view().server().address() + " 2>&1";
+  std::string out;
+  FILE* pipe = ::popen(command.c_str(), "r");
+  for (char piece[256]; std::fgets(piece, sizeof piece, pipe);) out += piece;
+  EXPECT_EQ(::pclose(pipe), 0) << out;
+  EXPECT_EQ(std::count(out.begin(), out.end(), '\n'), 20) << out;
+  EXPECT_NE(out.find("1.9"), std::string::npos) << out;
+}
+
 // --- touch
 
 TEST_F(Session, a_wall_dragged_before_a_driving_robot_stops_it_and_the_file_keeps_its_style) {
@@ -300,7 +314,7 @@ TEST_F(Session, a_world_drawn_from_nothing_runs_from_the_command_line) {
              {"values", {{"name", "puck"}, {"firmware", "drive"}, {"position", {0, 0}}}}});
   page.good({{"do", "save_as"}, {"name", "drawn.toml"}});
   const std::string text = read("drawn.toml");
-  const sim::LoadedWorld loaded = sim::parse_world(text, path("drawn.toml"), {board::epuck_model()});
+  const sim::LoadedWorld loaded = twin::parse_world(text, path("drawn.toml"));
   ASSERT_TRUE(loaded.world) << loaded.report("drawn.toml") << text;
   EXPECT_EQ(loaded.world->objects.size(), 1u);
   EXPECT_EQ(loaded.world->robots.size(), 1u);
@@ -347,8 +361,7 @@ TEST_F(Session, a_recorded_session_repeats_bit_by_bit) {
   std::vector<std::string> problems;
   const auto replay = viewer::Replay::open(path("inputs.jsonl"), problems);
   ASSERT_TRUE(replay) << problems.at(0);
-  sim::LoadedWorld loaded = sim::parse_world(replay->opening.text, replay->opening.file,
-                                             {board::epuck_model()}, board::part_kinds());
+  sim::LoadedWorld loaded = twin::parse_world(replay->opening.text, replay->opening.file);
   loaded.world->seed = replay->opening.seed;
   twin::Options options;
   options.world_folder = folder_.string();

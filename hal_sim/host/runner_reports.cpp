@@ -5,8 +5,8 @@
 #include <cstring>
 
 #include "hal_sim/board/board.h"
+#include "hal_sim/host/compiled_runner.h"
 #include "hal_sim/host/host_params.h"
-#include "hal_sim/host/robot.h"
 #include "sim_core/base/check.h"
 
 namespace host {
@@ -62,7 +62,7 @@ const char* trap_name(int kind) {
   }
 }
 
-void Robot::on_reset(const char* unexpected_reason) {
+void CompiledRunner::on_reset(const char* unexpected_reason) {
   fold();
   processor_->note_reset(ResetCause::Instruction);
   if (unexpected_reason) {
@@ -77,23 +77,25 @@ void Robot::on_reset(const char* unexpected_reason) {
   std::abort();
 }
 
-TrapReport Robot::report_here(int kind, std::string_view message) {
+TrapReport CompiledRunner::report_here(int kind, std::string_view message) {
   return report_at(kind, std::string(message), 0,
                    reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0)));
 }
 
-TrapReport Robot::report_at(int kind, std::string message, std::uintptr_t pc, std::uintptr_t frame) const {
+TrapReport CompiledRunner::report_at(int kind, std::string message, std::uintptr_t pc,
+                                     std::uintptr_t frame) const {
   TrapReport report;
-  report.robot = settings_.name;
+  report.robot = name();
   report.kind = kind;
   report.message = std::move(message);
   report.cycle = now_;
-  report.time_s = to_world_s ? to_world_s(now_) : static_cast<double>(now_) / kFcyHz;
+  report.time_s =
+      to_world_s ? to_world_s(now_) : static_cast<double>(now_) / static_cast<double>(board::kFcyHz);
   set_place(report, walk(pc, frame));
   return report;
 }
 
-void Robot::trap(int kind, std::string_view message) {
+void CompiledRunner::trap(int kind, std::string_view message) {
   fold();
   const tp_image& image = copy_.description();
   if (kind == TP_TRAP_MATH && image.trap_vectors[3] && processor_->cpu_level() < kMathErrorPriority) {
@@ -107,8 +109,8 @@ void Robot::trap(int kind, std::string_view message) {
   stop_with(report_here(kind, message));
 }
 
-void Robot::fault(int kind, std::string message, std::uintptr_t pc, std::uintptr_t frame,
-                  std::uintptr_t stack) {
+void CompiledRunner::fault(int kind, std::string message, std::uintptr_t pc, std::uintptr_t frame,
+                           std::uintptr_t stack) {
   fiber_.drop_frames();
   fold();
   // moved, not copied: this stack is abandoned, nothing on it is freed
@@ -126,7 +128,7 @@ void Robot::fault(int kind, std::string message, std::uintptr_t pc, std::uintptr
 
 /// An address of the program's code on the stack: above `stack`, where those that called lie, or else right
 /// below, where the last that was called from here left one. 0: none.
-std::uintptr_t Robot::find_return_address(std::uintptr_t stack) const {
+std::uintptr_t CompiledRunner::find_return_address(std::uintptr_t stack) const {
   constexpr std::uintptr_t kWord = sizeof(std::uintptr_t), kBelow = 512;
   stack = (stack + kWord - 1) / kWord * kWord;
   const auto at = [this](std::uintptr_t where) {
@@ -143,7 +145,7 @@ std::uintptr_t Robot::find_return_address(std::uintptr_t stack) const {
   return 0;
 }
 
-void Robot::stop_with(TrapReport report) {
+void CompiledRunner::stop_with(TrapReport report) {
   if (observer_) observer_->ended(now_);
   traps_.push_back(std::move(report));
   stopped_ = true;
@@ -154,7 +156,7 @@ void Robot::stop_with(TrapReport report) {
 }
 
 // frames are linked through the frame pointer, which twinpuck-cc keeps
-std::vector<Place> Robot::walk(std::uintptr_t pc, std::uintptr_t frame) const {
+std::vector<Place> CompiledRunner::walk(std::uintptr_t pc, std::uintptr_t frame) const {
   constexpr std::size_t kMostFrames = 16;
   std::vector<Place> places;
   const auto add = [&](std::uintptr_t address) {
@@ -177,13 +179,13 @@ std::vector<Place> Robot::walk(std::uintptr_t pc, std::uintptr_t frame) const {
   return places;
 }
 
-Place Robot::place_of_code(std::uintptr_t pc, std::uintptr_t frame) const {
+Place CompiledRunner::place_of_code(std::uintptr_t pc, std::uintptr_t frame) const {
   Place place = culprit(walk(pc, frame));
   if (place.function.empty()) place.function = "code that is not the program's";
   return place;
 }
 
-std::vector<board::Diagnosis> Robot::diagnoses() const {
+std::vector<board::Diagnosis> CompiledRunner::diagnoses() const {
   std::vector<board::Diagnosis> all = processor_->diagnoses();
   for (board::Diagnosis& d : board_.diagnoses(lived_cycles())) all.push_back(std::move(d));
   for (board::Diagnosis& d : all) d.first_s = to_world_s ? to_world_s(d.first) : 0;
@@ -191,14 +193,14 @@ std::vector<board::Diagnosis> Robot::diagnoses() const {
   return all;
 }
 
-std::uint64_t Robot::hash() const {
+std::uint64_t CompiledRunner::hash() const {
   std::uint64_t h = static_cast<std::uint64_t>(now_) * 0x9E3779B97F4A7C15u;
   h ^= static_cast<std::uint64_t>(served_) + (h << 6) + (h >> 2);
   h ^= static_cast<std::uint64_t>(traps_.size()) + (h << 6) + (h >> 2);
   return h;
 }
 
-std::vector<char> Robot::read_variable(const std::string& symbol, std::size_t bytes) const {
+std::vector<char> CompiledRunner::read_variable(const std::string& symbol, std::size_t bytes) const {
   std::uintptr_t address = 0;
   std::size_t size = 0;
   if (!image_->symbols().find_object(symbol, address, size)) return {};
@@ -208,7 +210,7 @@ std::vector<char> Robot::read_variable(const std::string& symbol, std::size_t by
   return value;
 }
 
-char* Robot::place_of(std::uintptr_t address) const {
+char* CompiledRunner::data_at(std::uintptr_t address) const {
   char* live = reinterpret_cast<char*>(copy_.base() + address);
   const tp_image& image = copy_.description();
   if (copy_.owner == this || live < image.data_begin || live >= image.data_end) return live;
@@ -218,17 +220,17 @@ char* Robot::place_of(std::uintptr_t address) const {
   return const_cast<char*>(data_.data()) + offset;
 }
 
-void Robot::read_memory(std::uintptr_t address, void* to, std::size_t bytes) const {
-  std::memcpy(to, place_of(address), bytes);
+void CompiledRunner::read_memory(std::uintptr_t address, void* to, std::size_t bytes) const {
+  std::memcpy(to, data_at(address), bytes);
 }
 
-void Robot::write_memory(std::uintptr_t address, const void* from, std::size_t bytes) {
-  std::memcpy(place_of(address), from, bytes);
+void CompiledRunner::write_memory(std::uintptr_t address, const void* from, std::size_t bytes) {
+  std::memcpy(data_at(address), from, bytes);
   ++writes_;
   wake();
 }
 
-void Robot::restart() {
+void CompiledRunner::restart() {
   processor_->note_reset(ResetCause::Button);
   stopped_ = false;
   now_ = std::max(now_, end_);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One robot's processor: a fiber running compiled firmware, its private data, a cycle clock fed by block
+// The Runner of code compiled for the PC: a fiber, the program's private data, a cycle clock fed by block
 // costs, and the delivery of interrupts. Registers and interrupt controller are a Processor (processor.h):
 // those of the native way, or the models of the chip.
 //
@@ -19,37 +19,21 @@
 #include "hal_sim/host/context.h"
 #include "hal_sim/host/fiber.h"
 #include "hal_sim/host/image.h"
-#include "hal_sim/host/observer.h"
 #include "hal_sim/host/processor.h"
-#include "hal_sim/host/symbols.h"
+#include "hal_sim/host/runner.h"
 
 namespace host {
 
 class NativeProcessor;
-class Robot;
+class CompiledRunner;
 
 namespace detail {
-// Robot::running(); in the executable itself, so no function needs to be asked for its place
-__attribute__((tls_model("initial-exec"))) inline thread_local Robot* running_robot = nullptr;
+// CompiledRunner::running(); in the executable itself, so no function needs to be asked for its place
+__attribute__((tls_model("initial-exec"))) inline thread_local CompiledRunner* running_here = nullptr;
 }  // namespace detail
 
-/// Why a robot stopped or restarted, for reports.
-struct TrapReport {
-  std::string robot;
-  int kind = 0;                  ///< TP_TRAP_*; 0: an unexpected reset (the robot went on)
-  std::string message;           ///< one sentence
-  Place place;                   ///< where in the firmware
-  Cycle cycle = 0;               ///< cycles since power-up
-  double time_s = 0;             ///< world time
-  std::vector<Place> backtrace;  ///< from `place` outwards, at most 16
-  int count = 1;                 ///< how often (unexpected resets only)
-};
-
-/// "division by zero", "address error" ...
-const char* trap_name(int kind);
-
 /// Every way a robot's processor can be set up.
-struct RobotSettings {
+struct CompiledSettings {
   std::string name;
   std::uint64_t seed = 0;                ///< of rand()
   std::size_t stack_bytes = 256 * 1024;  ///< PC frames are two to four times the chip's; see docs/limits.md
@@ -57,86 +41,68 @@ struct RobotSettings {
   Cycle start = 0;                       ///< when it is powered up
 };
 
-class Robot final : public Context {
+class CompiledRunner final : public Runner, public Context {
  public:
   /// `copy` of the image is this robot's for life. `board` outlives the robot.
-  Robot(RobotSettings settings, std::shared_ptr<Image> image, std::size_t copy, board::Board& board);
-  ~Robot() override;
-  Robot(const Robot&) = delete;
-  Robot& operator=(const Robot&) = delete;
+  CompiledRunner(CompiledSettings settings, std::shared_ptr<Image> image, std::size_t copy,
+                 board::Board& board);
+  ~CompiledRunner() override;
 
-  // --- for the scheduler
-  // ------------------------------------------------------------------------------------
-  /// Runs firmware until cycle `end`. Returns at once while the firmware sleeps beyond `end`.
-  void run_until(Cycle end);
-  /// Until when run_until() would return at once, if nothing from outside comes; <= the last end: it runs on.
-  Cycle idle_until() const { return stopped_ ? kNever : woken_ || reset_asked_ ? 0 : asleep_until_; }
-  /// The windows up to `end`, before which it is idle, have passed.
-  void pass_to(Cycle end) { end_ = std::max(end_, end); }
-  /// How often firmware has run: what the program sees and does is as it was until this changes.
-  std::uint64_t turns() const { return turns_; }
-  /// Something outside changed (a byte came in, the selector was turned): a sleeping wait looks again.
-  void wake() { woken_ = true; }
-  /// Somebody will press, or presses, a key of a remote control: the receiver's line has a new future.
-  void remote_changed();
-  /// Power-up: start-up values, RCON = POR | BOR, cycle 0.
-  void power_up();
+  // --- Runner
+  const char* way() const override { return processor_->way(); }
+  void begin_window(Cycle now) override;
+  void run_until(Cycle end) override;
+  Cycle idle_until() const override { return stopped_ ? kNever : woken_ || reset_asked_ ? 0 : asleep_until_; }
+  void pass_to(Cycle end) override { end_ = std::max(end_, end); }
+  std::uint64_t turns() const override { return turns_; }
+  void wake() override { woken_ = true; }
+  void remote_changed() override;
+  void restart() override;
 
-  bool has_stopped() const { return stopped_; }
-  const std::vector<TrapReport>& traps() const { return traps_; }
-  /// What board and chip have to say about the program so far, in order of time. Between windows only.
-  std::vector<board::Diagnosis> diagnoses() const;
-  Cycle cycles() const { return end_; }
-  /// Cycles at the last moment at which the program's own count was added up: the instant of a reset.
-  Cycle settled_now() const { return now_; }
-  /// Cycles up to now, or up to where the robot was stopped by a trap.
-  Cycle lived_cycles() const { return stopped_ ? now_ : end_; }
-  /// Cycles in which the processor only waited (jumped over), a wait that still goes on included.
-  Cycle idle_cycles() const { return idle_ + (idling_ && !stopped_ && end_ > now_ ? end_ - now_ : 0); }
-  /// Share of its life in which it did anything but wait, 0 to 1.
-  double cpu_load() const {
-    return lived_cycles() > 0 ? 1 - static_cast<double>(idle_cycles()) / static_cast<double>(lived_cycles())
-                              : 0;
+  Cycle cycles() const override { return end_; }
+  Cycle lived_cycles() const override { return stopped_ ? now_ : end_; }
+  Cycle idle_cycles() const override {
+    return idle_ + (idling_ && !stopped_ && end_ > now_ ? end_ - now_ : 0);
   }
-  std::uint64_t hash() const;
-  /// World time of a cycle, for reports.
-  std::function<double(Cycle)> to_world_s;
-  const std::string& name() const { return settings_.name; }
-  /// Value of a global of the firmware by name, for tests and supervisors: its bytes now. Empty when unknown.
-  std::vector<char> read_variable(const std::string& symbol, std::size_t bytes) const;
-  /// Bytes of the program's data now, whoever's data is live; `address` relative to the load address. Between
-  /// windows only.
-  void read_memory(std::uintptr_t address, void* to, std::size_t bytes) const;
-  /// Changes them, as a debugger would; a wait looks again.
-  void write_memory(std::uintptr_t address, const void* from, std::size_t bytes);
-  const Symbols& symbols() const { return image_->symbols(); }
-  /// The loaded image's description of itself.
-  const tp_image& image() const { return copy_.description(); }
-  /// The reset button: the program begins anew at the end of the last window, also after a trap. Between
-  /// windows only. Traps stay reported.
-  void restart();
+  Cycle waiting_since() const override { return idling_ && !stopped_ ? now_ : kNever; }
+  bool has_stopped() const override { return stopped_; }
+  const std::vector<TrapReport>& traps() const override { return traps_; }
+  std::vector<board::Diagnosis> diagnoses() const override;
+  std::uint64_t hash() const override;
 
-  // --- for whoever writes its course down
-  // ----------------------------------------------------------------------
-  /// Null: nobody. Between windows only; outlives the robot or is taken away.
-  void observe(Observer* observer) {
+  const Variable* find_variable(const std::string& expression, std::string& error) const override {
+    return image_->symbols().find_variable(expression, error);
+  }
+  std::vector<char> read_variable(const std::string& name, std::size_t bytes) const override;
+  void read_memory(std::uintptr_t address, void* to, std::size_t bytes) const override;
+  void write_memory(std::uintptr_t address, const void* from, std::size_t bytes) override;
+  Place place_of(std::uintptr_t code) const override { return image_->symbols().find(code); }
+
+  void observe(Observer* observer) override {
     observer_ = observer;
     processor_->observe(observer);
   }
-  /// Is it the models of the chip that serve its registers?
-  bool has_chip() const { return native_ == nullptr; }
-  /// Asleep in a wait that has not ended yet.
-  bool is_waiting() const { return idling_ && !stopped_; }
+  bool flag(int vector, Cycle at) override { return processor_->flag(vector, at); }
+  Cycle flag_horizon(int vector, Cycle at) override { return processor_->flag_horizon(vector, at); }
+  bool has_chip() const override { return native_ == nullptr; }
+  void carry_out(Cycle at) override { processor_->carry_out(at); }
+  std::uint16_t peek(unsigned address, Cycle at) override { return processor_->peek(address, at); }
+  Cycle register_horizon(unsigned address, Cycle at) override { return processor_->horizon(address, at); }
+  std::int64_t served(int vector) const override { return processor_->served(vector); }
+  const drivers::Drivers* closed_drivers() const override;
+
   /// Handlers that have returned, and how often the processor was asked what to do next, since the robot was
   /// made: what an interrupt costs, in a number that no other work on the machine changes.
   std::int64_t interrupts_served() const { return served_; }
   std::int64_t looks() const { return looks_; }
+  /// Cycles at the last moment at which the program's own count was added up: the instant of a reset.
+  Cycle settled_now() const { return now_; }
+  /// The loaded image's description of itself.
+  const tp_image& image() const { return copy_.description(); }
 
   // --- Context
-  // ----------------------------------------------------------------------------------------------
   board::Board& board() override { return board_; }
   drivers::Drivers& drivers() override;
-  bool has_drivers() const { return native_ != nullptr; }
   Cycle now() override { return observer_ ? now_and_tell() : now_unobserved(); }
   void lower_horizon(Cycle at) override {
     if (at < horizon_) horizon_ = at;
@@ -160,7 +126,6 @@ class Robot final : public Context {
   [[noreturn]] void trap(int kind, std::string_view message) override;
 
   // --- what the compiler inserts
-  // ------------------------------------------------------------------------------
   void on_event();
   void on_poll(std::int64_t loop);
   void on_rest(std::int64_t loop);
@@ -176,7 +141,6 @@ class Robot final : public Context {
   std::string& last_words() { return last_words_; }
 
   // --- for the registers
-  // ----------------------------------------------------------------------------------
   Processor& processor() { return *processor_; }
   const Processor& processor() const { return *processor_; }
   /// Interrupt state changed: look for something to deliver as soon as the current block ends.
@@ -213,12 +177,6 @@ class Robot final : public Context {
     ++served_;
     note_write();
   }
-  /// Tick boundary, before run_until().
-  void begin_window(Cycle now) {
-    if (stopped_ || !processor_->begin_window(now)) return;
-    calm_until_ = 0;
-    wake();
-  }
   std::uint16_t read_register(unsigned address, unsigned bits) {
     return processor_->read(address, bits, now());
   }
@@ -236,7 +194,6 @@ class Robot final : public Context {
   }
 
   // --- for the fault handler
-  // ----------------------------------------------------------------------------------
   bool owns_code(std::uintptr_t pc) const { return copy_.is_code(pc); }
   /// Addresses that are this program's alone, used or not; below its variables: its code and constants.
   bool owns_address(std::uintptr_t address) const { return copy_.holds(address); }
@@ -256,7 +213,7 @@ class Robot final : public Context {
                           std::uintptr_t stack);
 
   /// On this thread; null outside firmware.
-  static Robot* running() { return detail::running_robot; }
+  static CompiledRunner* running() { return detail::running_here; }
 
  private:
   static constexpr unsigned kQ = 32;  // of stolen_q32_
@@ -267,9 +224,10 @@ class Robot final : public Context {
   char unused_memory() const {
     return static_cast<char>(0x81 | (settings_.seed * 0x9E3779B97F4A7C15u >> 57));
   }
+  void power_up();
   void restart_program();
   void program_eeprom();
-  char* place_of(std::uintptr_t address) const;  // where this robot's value of a variable is now
+  char* data_at(std::uintptr_t address) const;  // where this robot's value of a variable is now
   void swap_in();
   void fold() {  // spent budget -> now_
     if (issued_ != control_.budget) advance_main(issued_ - control_.budget);
@@ -341,7 +299,7 @@ class Robot final : public Context {
   TrapReport report_here(int kind, std::string_view message);
   TrapReport report_at(int kind, std::string message, std::uintptr_t pc, std::uintptr_t frame) const;
 
-  RobotSettings settings_;
+  CompiledSettings settings_;
   std::shared_ptr<Image> image_;
   ImageCopy& copy_;
   tp_control& control_;  // of copy_
@@ -396,22 +354,5 @@ class Robot final : public Context {
 };
 
 inline constexpr const char* kStackOverflow = "stack overflow: endless recursion, or local arrays too large";
-
-/// Other native code that a thread runs between the robots' turns and that answers for its own faults.
-class FaultGuest {
- public:
-  virtual ~FaultGuest() = default;
-  /// In the signal handler: a fault of `signal` at `address` (0 unknown) was not firmware's. True: `context`
-  /// (ucontext_t) was changed to go on elsewhere.
-  virtual bool take(int signal, void* context, std::uintptr_t address) = 0;
-  /// Who it is, and at what: the thread has been stopped there for good.
-  virtual std::string what_runs(std::uintptr_t pc, std::uintptr_t frame) const = 0;
-};
-/// The guest that runs on this thread now; null: none.
-void set_fault_guest(FaultGuest* guest);
-
-/// Installs the fault handlers of this process (SIGSEGV, SIGBUS, SIGFPE, SIGILL) once, and this thread's
-/// signal and recovery stacks. Faults outside firmware go to the handlers that were there before.
-void catch_faults_on_this_thread();
 
 }  // namespace host

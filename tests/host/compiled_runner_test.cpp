@@ -7,7 +7,7 @@
 
 using namespace host_test;
 
-TEST(Robot, globals_of_a_thousand_robots_of_one_image_stay_private) {
+TEST(CompiledRunner, globals_of_a_thousand_robots_of_one_image_stay_private) {
   auto image = open_image("hand_busy");
   std::vector<std::unique_ptr<BenchRobot>> robots;
   for (int i = 0; i < 1000; ++i)
@@ -20,7 +20,7 @@ TEST(Robot, globals_of_a_thousand_robots_of_one_image_stay_private) {
         << i;
 }
 
-TEST(Robot, a_waiting_robot_costs_no_time) {
+TEST(CompiledRunner, a_waiting_robot_costs_no_time) {
   BenchRobot r(open_image("hand_idle"));
   const auto before = std::chrono::steady_clock::now();
   r.run(1000 * kSecond);
@@ -30,14 +30,14 @@ TEST(Robot, a_waiting_robot_costs_no_time) {
   EXPECT_EQ(r.variable("started"), 42);
 }
 
-TEST(Robot, a_timer_comes_on_time_without_drift) {
+TEST(CompiledRunner, a_timer_comes_on_time_without_drift) {
   BenchRobot r(open_image("hand_ticker"));
   r.run(100 * kSecond + 100);
   EXPECT_EQ(r.variable("ticks"), 10'000);
   EXPECT_LE(r.variable("worst_late"), 40);  // entry 20, the block of 5, and at most one round of the wait
 }
 
-TEST(Robot, results_do_not_depend_on_the_window) {
+TEST(CompiledRunner, results_do_not_depend_on_the_window) {
   auto image = open_image("hand_ticker");
   BenchRobot a(image, "a"), b(image, "b", 1);
   a.run(kSecond);
@@ -47,14 +47,14 @@ TEST(Robot, results_do_not_depend_on_the_window) {
   EXPECT_EQ(a.robot.hash(), b.robot.hash());
 }
 
-TEST(Robot, interrupts_nest_by_priority_and_equals_wait) {
+TEST(CompiledRunner, interrupts_nest_by_priority_and_equals_wait) {
   BenchRobot r(open_image("hand_nested"));
   r.run(50'000);
   const auto text = r.robot.read_variable("log_text", 32);
   EXPECT_STREQ(text.data(), "ahAe");
 }
 
-TEST(Robot, a_program_s_own_timer_interrupt_runs_through_registers) {
+TEST(CompiledRunner, a_program_s_own_timer_interrupt_runs_through_registers) {
   BenchRobot r(open_image("hand_registers"));
   r.run(kSecond + 5000);
   EXPECT_EQ(r.variable("fired"), 100);
@@ -63,7 +63,7 @@ TEST(Robot, a_program_s_own_timer_interrupt_runs_through_registers) {
   EXPECT_EQ(r.board.leds(r.robot.cycles()) & 1, 1u);
 }
 
-TEST(Robot, background_work_slows_the_main_program_by_its_share) {
+TEST(CompiledRunner, background_work_slows_the_main_program_by_its_share) {
   auto image = open_image("hand_busy");
   BenchRobot plain(image, "plain"), loaded(image, "loaded");
   plain.run(28'800);
@@ -78,24 +78,18 @@ TEST(Robot, background_work_slows_the_main_program_by_its_share) {
   EXPECT_NEAR(ratio, 0.75, 0.0005);
 }
 
-TEST(Robot, robots_of_two_copies_run_at_the_same_time_and_agree) {
+TEST(CompiledRunner, robots_of_two_copies_run_at_the_same_time_and_agree) {
   auto image = open_image("hand_ticker");
   BenchRobot a(image, "a", 0), b(image, "b", 1);
-  std::thread one([&] {
-    host::catch_faults_on_this_thread();
-    a.run(10 * kSecond + 100);
-  });
-  std::thread two([&] {
-    host::catch_faults_on_this_thread();
-    b.run(10 * kSecond + 100);
-  });
+  std::thread one([&] { a.run(10 * kSecond + 100); });
+  std::thread two([&] { b.run(10 * kSecond + 100); });
   one.join();
   two.join();
   EXPECT_EQ(a.robot.hash(), b.robot.hash());
   EXPECT_EQ(a.variable("ticks"), 1000);
 }
 
-TEST(Robot, every_copy_of_an_image_has_data_of_its_own) {
+TEST(CompiledRunner, every_copy_of_an_image_has_data_of_its_own) {
   // symptom: digests changed with three threads. Cause: copies 1 and 2 were loaded from the same
   // /proc/self/fd name, so the dynamic linker handed out one object twice.
   auto image = open_image("hand_busy");

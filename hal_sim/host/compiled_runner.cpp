@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "hal_sim/host/robot.h"
+#include "hal_sim/host/compiled_runner.h"
 
 #include <algorithm>
 #include <cstring>
 
+#include "dspic30/memory/irqs.h"
 #include "hal_sim/board/board.h"
+#include "hal_sim/host/faults.h"
 #include "hal_sim/host/host_params.h"
 #include "hal_sim/host/native_processor.h"
 #include "hal_sim/host/oscillator.h"
@@ -14,12 +16,14 @@
 namespace host {
 
 Context& Context::current() {
-  CHECK(detail::running_robot, "a firmware function was called outside firmware");
-  return *detail::running_robot;
+  CHECK(detail::running_here, "a firmware function was called outside firmware");
+  return *detail::running_here;
 }
 
-Robot::Robot(RobotSettings settings, std::shared_ptr<Image> image, std::size_t copy, board::Board& board)
-    : settings_(std::move(settings)),
+CompiledRunner::CompiledRunner(CompiledSettings settings, std::shared_ptr<Image> image, std::size_t copy,
+                               board::Board& board)
+    : Runner(settings.name),
+      settings_(std::move(settings)),
       image_(std::move(image)),
       copy_(image_->copy(copy)),
       control_(copy_.control()),
@@ -37,7 +41,7 @@ Robot::Robot(RobotSettings settings, std::shared_ptr<Image> image, std::size_t c
 }
 
 /// The programmer writes the data EEPROM with the program; from then on only the program changes it.
-void Robot::program_eeprom() {
+void CompiledRunner::program_eeprom() {
   const tp_image& image = copy_.description();
   unsigned address = board::DataEeprom::kFirst;
   for (const char* at = image.eedata_begin; at + 1 < image.eedata_end && address <= 0xFFFE;
@@ -49,11 +53,11 @@ void Robot::program_eeprom() {
   }
 }
 
-Robot::~Robot() {
+CompiledRunner::~CompiledRunner() {
   if (copy_.owner == this) copy_.owner = nullptr;
 }
 
-void Robot::power_up() {
+void CompiledRunner::power_up() {
   now_ = settings_.start;
   processor_->power_up();
   end_ = settings_.start;
@@ -64,7 +68,7 @@ void Robot::power_up() {
   restart_program();
 }
 
-void Robot::restart_program() {
+void CompiledRunner::restart_program() {
   if (observer_) observer_->ended(now_);
   data_ = copy_.start_values();
   // RAM that the start-up code does not clear holds anything, and the same each time
@@ -87,14 +91,18 @@ void Robot::restart_program() {
   fiber_.restart(enter_firmware, this);
 }
 
-drivers::Drivers& Robot::drivers() { return native().drivers(); }
+drivers::Drivers& CompiledRunner::drivers() { return native().drivers(); }
 
-NativeProcessor& Robot::native() {
+const drivers::Drivers* CompiledRunner::closed_drivers() const {
+  return native_ ? &native_->drivers() : nullptr;
+}
+
+NativeProcessor& CompiledRunner::native() {
   CHECK(native_, "a function of the native way was called in the register way");
   return *native_;
 }
 
-void Robot::remote_changed() {
+void CompiledRunner::remote_changed() {
   processor_->remote_changed(now_);
   calm_until_ = 0;
   wake();
@@ -118,8 +126,8 @@ void call_with_clear_registers(void (*function)()) {
 }
 }  // namespace
 
-void Robot::enter_firmware(void* raw) {
-  auto* self = static_cast<Robot*>(raw);
+void CompiledRunner::enter_firmware(void* raw) {
+  auto* self = static_cast<CompiledRunner*>(raw);
   self->pass_window();
   self->give_budget();
   if (const void* fosc = self->copy_.description().fosc) {
@@ -131,24 +139,34 @@ void Robot::enter_firmware(void* raw) {
   running()->on_reset("main() returned, so the start-up code resets the processor");
 }
 
-void Robot::swap_in() {
+void CompiledRunner::swap_in() {
   if (copy_.owner == this) return;
   if (copy_.owner) {
-    auto* other = static_cast<Robot*>(const_cast<void*>(copy_.owner));
+    auto* other = static_cast<CompiledRunner*>(const_cast<void*>(copy_.owner));
     copy_.copy_out(other->data_.data());
   }
   copy_.copy_in(data_.data());
   copy_.owner = this;
 }
 
-void Robot::run_until(Cycle end) {
+void CompiledRunner::begin_window(Cycle now) {
+  pass_to(now);
+  // bytes are on their way: whoever waits for them looks again
+  if (board_.uart(1).next_arrival(now) < kNever || board_.uart(2).next_arrival(now) < kNever) wake();
+  if (stopped_ || !processor_->begin_window(now)) return;
+  calm_until_ = 0;
+  wake();
+}
+
+void CompiledRunner::run_until(Cycle end) {
   window_start_ = end_;
   end_ = end;
   if (stopped_ || end <= window_start_) return;
   if (asleep_until_ > end && !woken_) return processor_->end_window(end);
+  catch_faults_on_this_thread();
   std::lock_guard<std::mutex> turn(copy_.turn);
-  Robot* outer = detail::running_robot;
-  detail::running_robot = this;
+  CompiledRunner* outer = detail::running_here;
+  detail::running_here = this;
   ++turns_;
   do {
     if (reset_asked_) restart_program();
@@ -160,14 +178,13 @@ void Robot::run_until(Cycle end) {
     writes_ = control_.writes;
   } while (reset_asked_);
   woken_ = false;
-  detail::running_robot = outer;
+  detail::running_here = outer;
   if (!stopped_) processor_->end_window(end);
 }
 
 // --- time
-// --------------------------------------------------------------------------------------------------------
 
-Cycle Robot::main_until(Cycle at) const {
+Cycle CompiledRunner::main_until(Cycle at) const {
   if (at <= now_) return 0;
   if (stolen_q32_ == 0) return at - now_;
   // by the reciprocal: at most one too few
@@ -177,7 +194,7 @@ Cycle Robot::main_until(Cycle at) const {
   return main;
 }
 
-void Robot::find_share() {
+void CompiledRunner::find_share() {
   const bool masked = native_ && native_->masks_handlers();
   const std::uint64_t handlers = native_ && !masked ? native_->drivers().handler_share_q32() : 0;
   const auto share =
@@ -186,31 +203,31 @@ void Robot::find_share() {
   stolen_q32_ = (share << kQ) / kept_q32_;
 }
 
-void Robot::follow_handlers() {
+void CompiledRunner::follow_handlers() {
   fold();
   find_share();
   give_budget();
 }
 
-Cycle Robot::now_and_tell() {
+Cycle CompiledRunner::now_and_tell() {
   const Cycle at = now_unobserved();
   observer_->reached(at);
   return at;
 }
 
-void Robot::modify_in_two(unsigned address, std::uint16_t keep, std::uint16_t flip) {
+void CompiledRunner::modify_in_two(unsigned address, std::uint16_t keep, std::uint16_t flip) {
   const std::uint16_t old = read_register(address, 16);
   write_register(address, static_cast<std::uint16_t>((old & keep) ^ flip), 16);
 }
 
-int Robot::look() {
+int CompiledRunner::look() {
   ++looks_;
   const Processor::Outlook outlook = processor_->look(now_);
   note_outlook(outlook);
   return outlook.vector;
 }
 
-void Robot::note_outlook(const Processor::Outlook& outlook) {
+void CompiledRunner::note_outlook(const Processor::Outlook& outlook) {
   calm_until_ = outlook.vector == kNoVector ? outlook.quiet_until : now_;
   may_wait_ = outlook.may_wait;
   if (may_wait_ && handler_depth_ == 0) {
@@ -220,32 +237,32 @@ void Robot::note_outlook(const Processor::Outlook& outlook) {
   }
 }
 
-Cycle Robot::next_disturbance() {
+Cycle CompiledRunner::next_disturbance() {
   if (now_ < calm_until_) return calm_until_;
   return look() == kNoVector ? std::max(calm_until_, now_ + 1) : now_;
 }
 
-void Robot::give_budget_anew() {
+void CompiledRunner::give_budget_anew() {
   Cycle until = std::min(end_, next_disturbance());
   if (observer_) until = std::min(until, now_ + observer_->look_every);
   issued_ = main_until(until);
   control_.budget = issued_;
 }
 
-void Robot::changed() {
+void CompiledRunner::changed() {
   if (native_) native_->interrupts().touch();
   calm_until_ = 0;
   fold();
   give_budget();
 }
 
-void Robot::lower_calm(Cycle at) {
+void CompiledRunner::lower_calm(Cycle at) {
   fold();
   calm_until_ = at;
   give_budget();
 }
 
-void Robot::set_background(int slot, Cycle period, Cycle cost) {
+void CompiledRunner::set_background(int slot, Cycle period, Cycle cost) {
   fold();
   background_[static_cast<std::size_t>(slot)] = {period, cost};
   background_share_q32_ = 0;
@@ -259,9 +276,8 @@ void Robot::set_background(int slot, Cycle period, Cycle cost) {
 }
 
 // --- interrupts
-// ----------------------------------------------------------------------------------------------------
 
-void Robot::irq_install(int vector, void (*handler)(), int priority, Cycle entry_cycles) {
+void CompiledRunner::irq_install(int vector, void (*handler)(), int priority, Cycle entry_cycles) {
   auto& s = native().interrupts().source(vector);
   s.handler = handler;
   s.enabled = handler != nullptr;
@@ -275,9 +291,9 @@ void Robot::irq_install(int vector, void (*handler)(), int priority, Cycle entry
   changed();
 }
 
-void Robot::irq_at(int vector, Cycle at) { irq_every(vector, at, 0); }
+void CompiledRunner::irq_at(int vector, Cycle at) { irq_every(vector, at, 0); }
 
-void Robot::irq_every(int vector, Cycle at, Cycle period) {
+void CompiledRunner::irq_every(int vector, Cycle at, Cycle period) {
   auto& s = native().interrupts().source(vector);
   s.period = period;
   s.due = at < 0 ? kNever : at;
@@ -285,7 +301,7 @@ void Robot::irq_every(int vector, Cycle at, Cycle period) {
   changed();
 }
 
-void Robot::deliver_now() {
+void CompiledRunner::deliver_now() {
   do {
     if (observer_) {
       const int vector = look();
@@ -308,7 +324,7 @@ void Robot::deliver_now() {
   } while (now_ >= calm_until_);
 }
 
-void Robot::serve_told(int vector) {
+void CompiledRunner::serve_told(int vector) {
   const Cycle flagged = processor_->flag_since(vector);
   observer_->reached(now_);
   const Processor::Entry entry = processor_->enter(vector, now_);
@@ -316,7 +332,7 @@ void Robot::serve_told(int vector) {
   handle(vector, entry);
 }
 
-void Robot::handle(int vector, const Processor::Entry& entry) {
+void CompiledRunner::handle(int vector, const Processor::Entry& entry) {
   const tp_image& image = copy_.description();
   void (*handler)() = entry.handler;
   if (!handler && vector >= kTrapVector)
@@ -330,10 +346,10 @@ void Robot::handle(int vector, const Processor::Entry& entry) {
   handler_returned(processor_->leave(now_));
 }
 
-void Robot::miss_handler(int vector, bool alternate) {
+void CompiledRunner::miss_handler(int vector, bool alternate) {
   static constexpr const char* kTraps[] = {"OscillatorFail", "AddressError", "StackError", "MathError"};
-  const std::string name =
-      vector >= kTrapVector ? kTraps[vector - kTrapVector] : std::string(vector_name(vector)) + "Interrupt";
+  const std::string name = vector >= kTrapVector ? kTraps[vector - kTrapVector]
+                                                 : std::string(dspic::irq_name(vector)) + "Interrupt";
   last_words_ = "interrupt " + name.substr(0, name.rfind("Interrupt")) +
                 " is enabled and was raised, but the program has no handler _" + (alternate ? "Alt" : "") +
                 name + "; on the chip the processor resets";
@@ -341,18 +357,17 @@ void Robot::miss_handler(int vector, bool alternate) {
 }
 
 // not within a handler: a long one delays others on the chip too
-void Robot::stop_if_blocked() {
+void CompiledRunner::stop_if_blocked() {
   const Processor::Waiting waiting = processor_->longest_waiting(now_);
   if (waiting.vector < 0 || now_ - waiting.since < kBlockedInterruptCycles) return;
   last_words_ = std::string("interrupts have been off for more than a second while ") +
-                vector_name(waiting.vector) + " is waiting: an endless loop with interrupts off";
+                dspic::irq_name(waiting.vector) + " is waiting: an endless loop with interrupts off";
   trap(TP_TRAP_INTERRUPT, last_words_);
 }
 
 // --- what compiled code calls
-// ---------------------------------------------------------------------------------------
 
-bool Robot::lend_reserve() {
+bool CompiledRunner::lend_reserve() {
   if (!fiber_.open_reserve()) return false;
   overflowed_ = true;
   // the next block asks for an event; the time that has passed stays what it is
@@ -361,7 +376,7 @@ bool Robot::lend_reserve() {
   return true;
 }
 
-void Robot::on_event() {
+void CompiledRunner::on_event() {
   if (overflowed_) trap(TP_TRAP_STACK, kStackOverflow);
   if (!native_) {
     // a block may be a division of 500 cycles: an interrupt comes within it, and the rest of it afterwards
@@ -386,7 +401,7 @@ void Robot::on_event() {
   if (overflowed_) trap(TP_TRAP_STACK, kStackOverflow);
 }
 
-void Robot::pass_window() {
+void CompiledRunner::pass_window() {
   while (now_ >= end_) {
     asleep_until_ = now_ + 1;
     fiber_.yield();
@@ -394,13 +409,13 @@ void Robot::pass_window() {
   asleep_until_ = -1;
 }
 
-void Robot::doze(Cycle until) {
+void CompiledRunner::doze(Cycle until) {
   asleep_until_ = std::max(until, end_ + 1);
   fiber_.yield();
   asleep_until_ = -1;
 }
 
-void Robot::run_main(Cycle main) {
+void CompiledRunner::run_main(Cycle main) {
   while (true) {
     deliver();
     check_blocked();
@@ -422,20 +437,20 @@ void Robot::run_main(Cycle main) {
 }
 
 // more than may pass undisturbed
-void Robot::overspend(Cycle cycles) {
+void CompiledRunner::overspend(Cycle cycles) {
   control_.budget += cycles;
   fold();
   run_main(cycles);
   give_budget();
 }
 
-void Robot::on_delay(Cycle rounds, Cycle cycles_per_round) {
+void CompiledRunner::on_delay(Cycle rounds, Cycle cycles_per_round) {
   fold();
   if (rounds > 0) run_main(rounds * cycles_per_round);
   give_budget();
 }
 
-void Robot::wait_until(Cycle at) {
+void CompiledRunner::wait_until(Cycle at) {
   fold();
   while (now_ < at) {
     deliver();
@@ -450,7 +465,7 @@ void Robot::wait_until(Cycle at) {
   give_budget();
 }
 
-void Robot::on_poll(std::int64_t loop) {
+void CompiledRunner::on_poll(std::int64_t loop) {
   fold();
   const bool same = loop == poll_loop_ && served_ == poll_served_;
   const Cycle round = main_ - poll_main_;
@@ -462,7 +477,7 @@ void Robot::on_poll(std::int64_t loop) {
 
 // on_poll() and the rounds between two of them at once, as long as nothing but handlers happens: after a
 // handler one round is done, finds nothing, and the loop sleeps on
-void Robot::on_rest(std::int64_t loop) {
+void CompiledRunner::on_rest(std::int64_t loop) {
   fold();
   if (loop == poll_loop_ && served_ == poll_served_ && !observer_ && handler_depth_ == 0) {
     const Cycle round = main_ - poll_main_;
@@ -482,7 +497,7 @@ void Robot::on_rest(std::int64_t loop) {
   on_poll(loop);
 }
 
-void Robot::sleep_until(Cycle target, Cycle round, Cycle start) {
+void CompiledRunner::sleep_until(Cycle target, Cycle round, Cycle start) {
   // the program notices a change at the end of the round in which it happens
   std::uint64_t fraction = 0;
   round = stretched(round, fraction);
@@ -515,13 +530,13 @@ void Robot::sleep_until(Cycle target, Cycle round, Cycle start) {
   deliver();
 }
 
-void Robot::idle_to(Cycle at) {
+void CompiledRunner::idle_to(Cycle at) {
   if (observer_) observer_->waited(now_, at, handler_depth_);
   idle_ += at - now_;
   now_ = at;
 }
 
-void Robot::on_disi(Cycle cycles) {
+void CompiledRunner::on_disi(Cycle cycles) {
   fold();
   processor_->disi(cycles, now_);
   calm_until_ = 0;
@@ -531,7 +546,7 @@ void Robot::on_disi(Cycle cycles) {
   give_budget();
 }
 
-void Robot::on_power_save(bool sleep) {
+void CompiledRunner::on_power_save(bool sleep) {
   fold();
   processor_->power_save(sleep, now_);
   calm_until_ = 0;
@@ -556,7 +571,7 @@ void Robot::on_power_save(bool sleep) {
   give_budget();
 }
 
-std::int64_t Robot::next_rand() {
+std::int64_t CompiledRunner::next_rand() {
   // 32-bit congruential generator with the usual constants; the upper half is what rand() shows
   rand_state_ = rand_state_ * 1103515245u + 12345u;
   note_write();
@@ -564,9 +579,8 @@ std::int64_t Robot::next_rand() {
 }
 
 // --- for observers
-// ---------------------------------------------------------------------------------------------------
 
-void Robot::callback(const void* function) {
+void CompiledRunner::callback(const void* function) {
   if (observer_)
     observer_->callback(function ? reinterpret_cast<std::uintptr_t>(function) - copy_.base() : 0, now());
 }

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// World files as Twinpuck knows them: sim_core's, with what the other rooms contribute to them, kinds of
+// robot and parts, each with its keys.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "sim_core/load/world_loader.h"
+
+namespace twin {
+
+/// The kinds of robot that a world may have; the first is the default.
+std::vector<sim::RobotModel> robot_models();
+
+/// Reads and checks a file.
+sim::LoadedWorld load_world(const std::string& file);
+/// The same for text in memory; `file` serves messages and relative file names.
+sim::LoadedWorld parse_world(const std::string& text, const std::string& file);
+
+}  // namespace twin
