@@ -85,8 +85,8 @@ int run(const RunArguments& arguments) {
     complain(problems);
     return kBadInput;
   }
-  sim::LoadedWorld loaded = replay ? twin::parse_world(replay->opening.text, replay->opening.file)
-                                   : twin::load_world(file);
+  sim::LoadedWorld loaded =
+      replay ? twin::parse_world(replay->opening.text, replay->opening.file) : twin::load_world(file);
   if (!loaded.world) {
     complain({loaded.report(replay ? arguments.replay : file)});
     return kBadInput;
@@ -240,7 +240,7 @@ void add_run(CLI::App& app, int& exit_code) {
   verb->add_option(
           "--way", a->way,
           "native or register, for all robots whose controller is built from source; else the world's")
-      ->check(CLI::IsMember({"native", "register", "chip"}));
+      ->check(CLI::IsMember({"native", "register"}));
   one_each(verb->add_option(
       "--uart", a->uart1,
       "[ROBOT=]-|none|pty|pty:LINK|tcp:PORT|file:PATH: the other end of UART 1; - shows text "

@@ -12,7 +12,6 @@
 #include <stdexcept>
 
 #include "hal_sim/twin/world_file.h"
-#include "hal_sim/board/part.h"
 #include "sim_core/load/schema.h"
 
 namespace viewer {
@@ -59,6 +58,10 @@ void check_key(const std::string& path, const std::string& key) {
     if (path == section.path)
       for (const sim::KeySpec& k : section.keys)
         if (key == k.key) return;
+  if (path == "robot")
+    for (const sim::RobotModel& model : twin::robot_models())
+      for (const auto& k : model.keys)
+        if (key == k.key) return;
   refuse(fmt::format("key: got '{}', expected a key of {}", key.substr(0, 60),
                      path.empty() ? "the file" : path));
 }
@@ -97,9 +100,7 @@ Document::Document(std::string file, std::string text)
   load();
 }
 
-void Document::load() {
-  loaded_ = twin::parse_world(text_.text(), file_);
-}
+void Document::load() { loaded_ = twin::parse_world(text_.text(), file_); }
 
 void Document::remember(int group) {
   if (group != 0 && group == group_) return;
@@ -138,7 +139,8 @@ int Document::edit(const Json& request) {
     const sim::WorldText::Element element = piece();
     fresh = next.copy(element.id);
     if (fresh == 0) refuse("thing: got one of which there is only one");
-    for (const auto& [key, value] : request.value("values", Json::object()).items()) {
+    const Json values = request.value("values", Json::object());
+    for (const auto& [key, value] : values.items()) {
       check_key(element.path, key);
       next.set(fresh, key, literal(value));
     }

@@ -7,9 +7,9 @@
 #include <stdexcept>
 
 #include "hal_sim/board/bluetooth_module.h"
-#include "hal_sim/twin/world_file.h"
 #include "hal_sim/board/uart_end.h"
 #include "hal_sim/host/variables.h"
+#include "hal_sim/twin/world_file.h"
 #include "sim_core/base/hash.h"
 #include "sim_core/base/input_file.h"
 #include "sim_core/load/world_loader.h"

@@ -6,8 +6,7 @@
 
 #include <filesystem>
 
-#include "hal_sim/board/epuck_model.h"
-#include "hal_sim/board/part.h"
+#include "hal_sim/host/compiled_runner.h"
 #include "sim_core/load/world_loader.h"
 #include "viewer/world_json.h"
 
@@ -24,6 +23,15 @@ constexpr auto kPaceOver = 500ms;                  // the pace is a mean over so
 constexpr std::size_t kLongestSerial = 64u << 10;  // bytes of a line sent at once
 
 double seconds(std::chrono::steady_clock::duration d) { return std::chrono::duration<double>(d).count(); }
+
+/// Handlers begun since the robot was made.
+std::int64_t interrupts_served(const host::Runner& program) {
+  if (const auto* compiled = dynamic_cast<const host::CompiledRunner*>(&program))
+    return compiled->interrupts_served();
+  std::int64_t sum = 0;
+  for (int vector = 0; vector < TP_VECTORS; ++vector) sum += program.served(vector);
+  return sum;
+}
 
 /// Bytes as a JSON text: what is no UTF-8 is taken for Latin-1.
 std::string latin_to_utf8(const std::string& bytes) {
@@ -107,13 +115,13 @@ bool Session::reopen(std::vector<std::string>& problems) {
       if (c.robot == "*" || c.robot == r.name) return false;
     return true;
   };
-  if (twin_)
+  if (was_open_)
     for (auto* choices : {&options.firmware, &options.uart1, &options.uart2})
       choices->erase(std::remove_if(choices->begin(), choices->end(), is_gone), choices->end());
-  auto twin = twin::Twin::open(world, options, problems);
-  if (!twin) return false;
-  close_run();
-  twin_ = std::move(twin);
+  close_run();  // first: programs lie in memory where they lay in the run before
+  twin_ = twin::Twin::open(world, options, problems);
+  if (!twin_) return false;
+  was_open_ = true;
   team_ = supervisor::Team::open(*twin_, options, opening_.supervisors, problems);
   if (!team_) {
     twin_.reset();
@@ -270,12 +278,12 @@ bool Session::step_interrupt(int robot) {
   sim::Simulation& simulation = twin_->simulation();
   const host::Runner* program = twin_->mind(robot).runner();
   if (!program) return false;
-  const auto served = program->interrupts_served();
+  const auto served = interrupts_served(*program);
   const sim::Clicks end = simulation.now() + 10 * sim::kClicksPerSecond;
-  while (program->interrupts_served() == served && simulation.now() < end && !team_->has_ended())
+  while (interrupts_served(*program) == served && simulation.now() < end && !team_->has_ended())
     simulation.step();
   after_ticks();
-  return program->interrupts_served() != served;
+  return interrupts_served(*program) != served;
 }
 
 void Session::play(bool on) {

@@ -140,7 +140,8 @@ class Session {
   std::size_t traps_told_ = 0;
 
   bool playing_ = false, ended_ = false;
-  double speed_ = 1;  // 0: as fast as possible
+  bool was_open_ = false;  // once, so that the options that name robots were right
+  double speed_ = 1;       // 0: as fast as possible
   Wall::time_point anchor_wall_{};
   sim::Clicks anchor_ = 0;
   double pace_ = 0;

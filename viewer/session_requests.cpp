@@ -228,8 +228,7 @@ void Session::build_program(Program& program) {
   tell_all({{"event", "building"}, {"program", program.name}});
   twin::Options options = opening_.options;
   options.world_folder = fs::path(opening_.file).parent_path().string();
-  if (options.way.empty())
-    options.way = twin::own_settings(twin_->world(), twin_->world().robots[static_cast<std::size_t>(program.robots.front())]).text("way");
+  if (options.way.empty()) options.way = twin_->mind(program.robots.front()).runner()->way();
   build_ = std::async(std::launch::async, [options, name = program.name]() mutable {
     Built built;
     built.name = name;

@@ -151,8 +151,6 @@ Json world_json(const sim::LoadedWorld& loaded, const sim::WorldText& text) {
                            {"kind", "robot"},
                            {"name", r.name},
                            {"firmware", r.firmware},
-                           {"way", twin::own_settings(world, r).text("way")},
-                           {"selector", twin::own_settings(world, r).integer("selector")},
                            {"body", i},
                            {"colour", colour(r.colour ? *r.colour : m->colour)},
                            {"radius", m->body_radius_m},
@@ -189,22 +187,30 @@ std::vector<int> movable_ids(const sim::WorldDesc& world, const sim::WorldText& 
   return ids;
 }
 
+Json key_json(const char* type, const std::string& choices, double least, double most, Json key) {
+  key["type"] = type;
+  if (!choices.empty()) key["choices"] = choices;
+  if (least < most) key["range"] = {least, most};
+  return key;
+}
+
 Json schema_json() {
   Json out = Json::object();
   for (const sim::SectionSpec& section : sim::world_schema()) {
     Json keys = Json::array();
-    for (const sim::KeySpec& k : section.keys) {
-      Json key{{"key", k.key},
-               {"type", type_name(k.type)},
-               {"unit", k.unit},
-               {"default", k.fallback},
-               {"doc", k.doc}};
-      if (*k.choices) key["choices"] = k.choices;
-      if (k.least < k.most) key["range"] = {k.least, k.most};
-      keys.push_back(std::move(key));
-    }
+    for (const sim::KeySpec& k : section.keys)
+      keys.push_back(key_json(type_name(k.type), k.choices, k.least, k.most,
+                              {{"key", k.key}, {"unit", k.unit}, {"default", k.fallback}, {"doc", k.doc}}));
     out[section.path] = {{"many", section.many}, {"doc", section.doc}, {"keys", keys}};
   }
+  // what only robots of a kind have
+  constexpr const char* kTypes[] = {"number", "integer", "flag",   "text",
+                                    "choice", "pair",    "triple", "numbers"};
+  for (const sim::RobotModel& model : twin::robot_models())
+    for (const sim::OwnKey& k : model.keys)
+      out["robot"]["keys"].push_back(
+          key_json(kTypes[static_cast<int>(k.type)], k.choices, k.least, k.most,
+                   {{"key", k.key}, {"unit", k.unit}, {"default", k.fallback}, {"doc", k.doc}}));
   return out;
 }
 

@@ -5,8 +5,9 @@
 #include <thread>
 
 #include "hal_sim/twin/world_file.h"
-#include "hal_sim/board/part.h"
+
 #include "tests/viewer/page_client.h"
+#include "twinpuck_paths.h"
 #include "viewer/inputs.h"
 
 namespace {
@@ -202,6 +203,19 @@ TEST_F(Session, only_one_page_steers) {
   second.good({{"do", "step"}});
 }
 
+// docs/control.md's example, 40 lines of another language
+TEST_F(Session, the_example_client_drives_it) {
+  open("world.toml");
+  const std::string command =
+      "python3 " TWINPUCK_SOURCE_DIR "/tests/viewer/example_client.py " + view().server().address() + " 2>&1";
+  std::string out;
+  FILE* pipe = ::popen(command.c_str(), "r");
+  for (char piece[256]; std::fgets(piece, sizeof piece, pipe);) out += piece;
+  EXPECT_EQ(::pclose(pipe), 0) << out;
+  EXPECT_EQ(std::count(out.begin(), out.end(), '\n'), 20) << out;
+  EXPECT_NE(out.find("1.9"), std::string::npos) << out;
+}
+
 // --- touch
 
 TEST_F(Session, a_wall_dragged_before_a_driving_robot_stops_it_and_the_file_keeps_its_style) {
@@ -269,6 +283,21 @@ TEST_F(Session, a_robot_added_in_the_page_runs) {
   steps(page, 40);
   const Frame frame = page.frame([](const Frame& f) { return f.robots == 2 && f.time_s > 1.2; });
   EXPECT_GT(frame.body.at(1).x, -0.48);
+}
+
+TEST_F(Session, a_robot_copied_in_a_run_begins_anew_with_whoever_looks) {
+  Page page(open("world.toml"));
+  const int robot = page.event("hello").at("world").at("robots").at(0).at("id");
+  page.good({{"do", "subscribe"},
+             {"names", {"puck.x", "puck.ir0", "puck.light0", "puck.mic0", "puck.var:rounds"}}});
+  steps(page, 5);
+  page.good({{"do", "edit"},
+             {"op", "copy"},
+             {"thing", robot},
+             {"values", {{"name", "puck2"}, {"position", {-0.5, 0.2}}}}});
+  const Frame frame = page.frame([](const Frame& f) { return f.robots == 2; });
+  EXPECT_EQ(frame.time_s, 0);
+  EXPECT_FLOAT_EQ(frame.body.at(1).y, 0.2f);
 }
 
 TEST_F(Session, a_world_drawn_from_nothing_runs_from_the_command_line) {

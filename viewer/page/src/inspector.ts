@@ -23,6 +23,7 @@ export class Inspector {
   private gauges = new Map<string, { text: HTMLElement; bar: HTMLElement; least: number; most: number; unit: string }>();
   private watched = new Map<string, string[]>();  // per robot: expressions
   private place?: HTMLElement;
+  private selector?: { knob: HTMLInputElement; label: HTMLElement };
 
   constructor(private app: App) {}
 
@@ -60,9 +61,10 @@ export class Inspector {
   private robot(robot: Robot): HTMLElement[] {
     const canvas = h("canvas", { width: 640, height: 440, id: "fan", title: "Proximity sensors: the fuller a wedge, the nearer something is (counts, 0 to 4095). Numbers are ir0 to ir7." });
     this.fan = canvas.getContext("2d")!;
-    const selector = h("input", { type: "range", min: "0", max: "15", value: String(robot.selector), id: "selector", title: "Selector, 0 to 15: turn it while the program runs",
+    const selector = h("input", { type: "range", min: "0", max: "15", value: "0", id: "selector", title: "Selector, 0 to 15: turn it while the program runs",
       oninput: () => { label.textContent = selector.value; this.app.do("selector", { robot: robot.name, position: Number(selector.value) }); } }) as HTMLInputElement;
-    const label = h("b", { id: "selector-value" }, String(robot.selector));
+    const label = h("b", { id: "selector-value" });
+    this.selector = { knob: selector, label };
     const gauge = ([name, unit, least, most]: (typeof kGauges)[number]) => {
       const text = h("span", { className: "number" }), bar = h("div", {});
       this.gauges.set(`${robot.name}.${name}`, { text, bar, least, most, unit });
@@ -166,6 +168,10 @@ export class Inspector {
     const value = (name: string) => this.app.values.get(`${robot.name}.${name}`);
     if (this.place && value("x") !== undefined)
       this.place.textContent = `x ${value("x")!.toFixed(3)} m   y ${value("y")!.toFixed(3)} m   ${((((value("heading")! % 360) + 360) % 360)).toFixed(0)}°`;
+    if (this.selector && value("selector") !== undefined && document.activeElement !== this.selector.knob) {
+      this.selector.knob.value = String(value("selector"));
+      this.selector.label.textContent = String(value("selector"));
+    }
     for (const [name, g] of this.gauges) {
       const v = this.app.values.get(name);
       if (v === undefined) continue;

@@ -8,7 +8,7 @@ export interface Thing {
   movable?: boolean; body?: number; low?: number; high?: number; intensity?: number; on?: boolean;
 }
 export interface Robot {
-  id: number; kind: "robot"; name: string; firmware: string; selector: number; body: number; position: Vec;
+  id: number; kind: "robot"; name: string; firmware: string; body: number; position: Vec;
   heading: number; colour: Vec; radius: number; z0: number; height: number; wheel_radius: number; axle: number;
   leds: Vec[]; sensors: Vec[];
 }
