@@ -19,7 +19,9 @@ constexpr std::uint32_t kCodeStart = 0x100, kRamStart = 0x800, kRamEnd = 0x2800,
 constexpr std::uint32_t kStackReserve = 8;  // between SPLIM and the end of RAM
 constexpr std::uint32_t kVectors0 = 0x04, kAlternate0 = 0x84;
 constexpr std::int64_t kMostBytes = 0x18000;  // of a section
+constexpr std::int64_t kMostAddress = 0xFFFFFE;
 constexpr std::size_t kMostMessages = 50;
+constexpr int kDeepestSymbols = 20;  // .equ in terms of .equ
 
 enum class Kind { Code, Constants, Eeprom, Ram };
 
@@ -38,10 +40,13 @@ struct Place {
 
 struct Symbol {
   bool is_label = false;
-  Place place;        // of a label; where an .equ stands
-  std::string text;   // of an .equ
-  std::size_t index;  // statement
-  bool busy = false;  // being evaluated
+  Place place;            // of a label; where an .equ stands
+  std::string text;       // of an .equ
+  std::size_t index = 0;  // statement
+  // its value as of a generation of symbols; what is being evaluated is not known
+  std::uint64_t as_of = 0;
+  bool is_known = false;
+  std::int64_t value = 0;
 };
 
 /// What is put into a section once all values are known.
@@ -144,7 +149,7 @@ class Assembly final : private SourceLines::Listener {
       numbered_[label].push_back({here(), index_});
       return;
     }
-    define(label, {true, here(), "", index_, false});
+    define(label, {true, here(), "", index_});
   }
 
   void define(const std::string& name, Symbol symbol, bool may_change = false) {
@@ -152,6 +157,7 @@ class Assembly final : private SourceLines::Listener {
       return complain("'" + name + "' is no name");
     if (symbols_.count(name) && !may_change) return complain("'" + name + "' is defined twice");
     symbols_[name] = std::move(symbol);
+    ++generation_;
   }
 
   bool numbered(const std::string& name, std::size_t index, std::int64_t& value) const {
@@ -179,12 +185,18 @@ class Assembly final : private SourceLines::Listener {
       value = sections_[symbol.place.section].base + symbol.place.offset;
       return placed_;
     }
-    if (symbol.busy) return false;  // in terms of itself
-    symbol.busy = true;
-    std::string error;
-    const bool known = evaluate(symbol.text, resolver(symbol.index, symbol.place), handles_, value, error);
-    symbol.busy = false;
-    return known;
+    if (symbol.as_of != generation_ && depth_ < kDeepestSymbols) {
+      symbol.as_of = generation_;
+      symbol.is_known = false;  // in terms of itself
+      ++depth_;
+      std::string error;
+      const bool known = evaluate(symbol.text, resolver(symbol.index, symbol.place), handles_, value, error);
+      --depth_;
+      symbol.is_known = known;
+      symbol.value = value;
+    }
+    value = symbol.value;
+    return symbol.as_of == generation_ && symbol.is_known;
   }
 
   bool link_value(const std::string& name, std::int64_t& value) const {
@@ -292,7 +304,7 @@ class Assembly final : private SourceLines::Listener {
     std::string text = parts[1];
     if (may_change && symbols_.count(parts[0]))
       text = std::to_string(value_now(text));  // perhaps in terms of itself
-    define(parts[0], {false, here(), text, index_, false}, may_change);
+    define(parts[0], {false, here(), text, index_}, may_change);
   }
 
   // .comm name, bytes: one place in RAM
@@ -302,7 +314,7 @@ class Assembly final : private SourceLines::Listener {
     const std::size_t before = now_;
     enter_section(".bss", Kind::Ram);
     align(2);
-    define(parts[0], {true, here(), "", index_, false});
+    define(parts[0], {true, here(), "", index_});
     grow(value_now(parts[1]));
     now_ = before;
   }
@@ -339,7 +351,11 @@ class Assembly final : private SourceLines::Listener {
     }
     enter_section(name, kind);
     section().kind = kind;
-    if (address >= 0) section().address = address & ~std::int64_t{1};
+    if (address > kMostAddress)
+      complain(".section: got address " + std::to_string(address) + ", expected at most " +
+               std::to_string(kMostAddress));
+    else if (address >= 0)
+      section().address = address & ~std::int64_t{1};
     if (alignment > 2) align(alignment);
   }
 
@@ -387,7 +403,11 @@ class Assembly final : private SourceLines::Listener {
       if (s.address >= 0 || s.size == 0) continue;
       std::uint32_t& at = free_from(s.kind);
       const auto to = static_cast<std::uint32_t>(s.align);
-      for (bool moved = true; moved;) {
+      if (s.kind == Kind::Constants && s.size > kPsvPage)
+        return complain(
+            "", 0,
+            "a section of constants has " + std::to_string(s.size) + " bytes, a page of the window 32768");
+      for (bool moved = true; moved && at <= kFlashEnd + kEepromStart;) {
         moved = false;
         at = (at + to - 1) / to * to;
         // constants do not cross a page of the window
@@ -412,6 +432,7 @@ class Assembly final : private SourceLines::Listener {
       complain("", 0,
                "the data need " + std::to_string(stack_start_ - kRamStart) + " bytes, the RAM has 8192");
     placed_ = true;
+    ++generation_;
   }
 
   // --- values
@@ -493,6 +514,8 @@ class Assembly final : private SourceLines::Listener {
   std::size_t index_ = 0;
   Statement current_;
   bool placed_ = false;
+  std::uint64_t generation_ = 1;  // of symbols: what was evaluated before is old
+  int depth_ = 0;
   std::uint32_t stack_start_ = kRamStart;
   const Handles handles_ = [this](std::int64_t address) {
     if (address > 0xFFFF) complain("handle(): the function lies beyond 0xFFFF");

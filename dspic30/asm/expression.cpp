@@ -8,7 +8,7 @@ namespace dspic::assembly {
 
 namespace {
 
-constexpr int kDeepest = 200;  // parentheses and signs within one another
+constexpr int kDeepest = 50;  // parentheses and signs within one another
 constexpr int kBinaryLevels = 10;
 
 // operators by precedence, loosest first

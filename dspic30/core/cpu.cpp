@@ -153,7 +153,7 @@ const Decoded* Cpu::run_repeated(const Decoded* d) {
   do {
     const bool is_last = rcount == 0;
     if (is_last) repeating = false;
-    window = is_last || repeat_is_fresh ? Window::RepeatEdge : Window::RepeatMiddle;
+    window = is_last || repeat_is_fresh ? Window::RepeatEdge : Window::Free;
     window_was_free = false;
     if (!repeat_is_fresh && (d->writes & d->pointers)) ++now;  // it stalls behind itself
     const Decoded* following = d->run(*this, d);
@@ -162,6 +162,11 @@ const Decoded* Cpu::run_repeated(const Decoded* d) {
     now += d->cycles;
     if (is_last || reset_due) return following;
     if (rcount > 0) --rcount;
+    if (d->run == &no_operation && now < deadline) {  // a delay: as many at once as fit
+      const Cycle many = std::min<Cycle>(rcount, deadline - now);
+      now += many;
+      rcount = static_cast<std::uint16_t>(rcount - many);
+    }
   } while (now < deadline);
   return d;
 }
@@ -402,7 +407,7 @@ unsigned Cpu::read_elsewhere(unsigned ea, unsigned bits) {
 }
 
 unsigned Cpu::read_psv(unsigned ea, unsigned bits) {
-  if (window == Window::RepeatMiddle)
+  if (window == Window::Free)
     window_was_free = true;
   else
     now += window == Window::Plain ? at->psv : kRepeatWindow;

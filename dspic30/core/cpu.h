@@ -186,7 +186,7 @@ class Cpu final : public SfrOwner {
   std::array<std::uint8_t, kRamBytes> ram{};
   bool repeating = false;        ///< RA
   bool repeat_is_fresh = false;  ///< the next iteration is the first one, or the first after an interrupt
-  enum class Window : std::uint8_t { Plain, RepeatEdge, RepeatMiddle } window = Window::Plain;
+  enum class Window : std::uint8_t { Plain, RepeatEdge, Free } window = Window::Plain;
   bool window_was_free = false;  ///< the last iteration read through the window at no cost
   bool code_is_old = false;      ///< forget_code() before the next instruction
   bool end_loop = false;         ///< CORCON.EDT
@@ -233,6 +233,9 @@ class Cpu final : public SfrOwner {
 /// written from now on, and a pointer that was never written makes it an illegal one. Depends on
 /// Cpu::is_special().
 Decoded decode_word(Cpu& cpu, unsigned address);
+
+/// NOP's.
+const Decoded* no_operation(Cpu& cpu, const Decoded* d);
 
 // --- semantics, in the manual's groups; null: not of this group
 Run choose_arithmetic(Insn id, const Fields& f);

@@ -318,8 +318,8 @@ Decoded decode_word(Cpu& cpu, unsigned address) {
   const Registers r = registers_of(*row, f);
   d.run = choose(row->id, f);
   fill_registers(d, *row, f);
-  fill_literal(d, *row, f, word, second);
   fill_pointers(d, *row, f, cpu, r);
+  fill_literal(d, *row, f, word, second);
   d.psv = psv_cycles(row->id);
   d.writes = r.written | r.moved;
   d.pointers = r.sources | r.offsets;

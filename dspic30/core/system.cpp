@@ -7,8 +7,6 @@ namespace dspic {
 
 namespace {
 
-const Decoded* no_operation(Cpu&, const Decoded* d) { return d + 1; }
-
 const Decoded* clear_watchdog(Cpu& cpu, const Decoded* d) {
   cpu.parts.events.run_to(cpu.now);
   cpu.parts.system.clear_watchdog(cpu.now);
@@ -37,6 +35,8 @@ const Decoded* disable_interrupts(Cpu& cpu, const Decoded* d) {
 }
 
 }  // namespace
+
+const Decoded* no_operation(Cpu&, const Decoded* d) { return d + 1; }
 
 Run choose_system(Insn id, const Fields&) {
   switch (id) {

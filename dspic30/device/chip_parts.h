@@ -146,15 +146,15 @@ struct ChipParts {
     outlook.vector = interrupts.pending(now, outlook.level);
     outlook.reset_due = is_reset_due();
     if (outlook.vector != kNoVector) return outlook;
-    outlook.quiet_until = std::max(
-        now + 1, std::min(events.next_notice(interrupts.enabled_mask()), interrupts.next_change(now)));
+    outlook.horizon = std::max(
+        now + 1, std::min(events.notice_horizon(interrupts.enabled_mask()), interrupts.next_change(now)));
     return outlook;
   }
   bool is_reset_due() const { return system.watchdog_bit() || interrupts.reset_due().has_value(); }
-  Cycle next_notice() { return events.next_notice(interrupts.enabled_mask()); }
-  __attribute__((always_inline)) Cycle calm_until(Cycle now, int served = kNoVector) {
+  Cycle notice_horizon() { return events.notice_horizon(interrupts.enabled_mask()); }
+  __attribute__((always_inline)) Cycle interrupt_horizon(Cycle now, int served = kNoVector) {
     if (!interrupts.has_no_other(served) || events.next() <= now) return 0;
-    return events.next_notice(interrupts.enabled_mask());
+    return events.notice_horizon(interrupts.enabled_mask());
   }
 
   void switch_modules(std::uint16_t next1, std::uint16_t next2, Cycle now);

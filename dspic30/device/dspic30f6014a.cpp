@@ -166,7 +166,7 @@ Cycle Dspic30f6014a::next_event(Cycle now) {
   ChipParts& p = *parts_;
   p.events.run_to(now);
   const Cycle next =
-      std::min(p.events.next_notice(p.interrupts.enabled_mask()), p.interrupts.next_change(now));
+      std::min(p.events.notice_horizon(p.interrupts.enabled_mask()), p.interrupts.next_change(now));
   return next >= kNever ? kNever : std::max(next, now + 1);
 }
 
@@ -200,7 +200,9 @@ InterruptEntry Dspic30f6014a::enter_interrupt(int vector, Cycle now) {
 }
 Cycle Dspic30f6014a::return_from_interrupt(Cycle now) { return parts_->interrupts.leave(now); }
 
-Cycle Dspic30f6014a::calm_until(Cycle now, int served) { return parts_->calm_until(now, served); }
+Cycle Dspic30f6014a::interrupt_horizon(Cycle now, int served) {
+  return parts_->interrupt_horizon(now, served);
+}
 int Dspic30f6014a::cpu_level() const { return parts_->interrupts.level(); }
 void Dspic30f6014a::set_cpu_level(int level, Cycle now) { parts_->interrupts.set_level(level, now); }
 int Dspic30f6014a::nesting() const { return parts_->interrupts.nesting(); }

@@ -140,6 +140,7 @@ class Interrupts final : public SfrOwner {
   Cycle horizon(unsigned address, Cycle now) const override;
 
  private:
+  static constexpr std::size_t kMostFrames = 64;
   struct Frame {
     int vector;
     int outer_level;
@@ -249,6 +250,7 @@ __attribute__((always_inline)) inline InterruptEntry Interrupts::enter(int vecto
     entry.level = nesting_disabled() ? 7 : priority(vector - kFirstIrqVector);
   entry.address = (uses_alternate_table() ? 0x84u : 0x04u) + 2 * static_cast<unsigned>(vector);
   entry.first_instruction = now + kInterruptEntryCycles;
+  if (stack_.size() == kMostFrames) stack_.erase(stack_.begin());  // a program that leaves handlers by jumps
   stack_.emplace_back(vector, level_, now);
   if (vector >= kFirstIrqVector) cleared_ &= ~(std::uint64_t{1} << (vector - kFirstIrqVector));
   level_ = entry.level;

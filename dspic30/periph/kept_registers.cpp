@@ -20,7 +20,6 @@ std::uint16_t reset_value(unsigned address) {
 }  // namespace
 
 // --- the core's
-// ---------------------------------------------------------------------------------------------
 
 void CpuRegisters::attach() { f_.bus.attach(*this, 0, kDisicnt); }
 
@@ -58,7 +57,6 @@ Cycle CpuRegisters::horizon(unsigned address, Cycle now) const {
 }
 
 // --- plain words
-// --------------------------------------------------------------------------------------------
 
 void PlainRegisters::attach(unsigned first, unsigned last) { f_.bus.attach(*this, first, last); }
 
@@ -70,7 +68,6 @@ std::uint16_t PlainRegisters::word(unsigned address) const {
 }
 
 // --- CAN
-// ----------------------------------------------------------------------------------------------------
 
 void Can::attach() {
   f_.bus.attach(*this, base_, base_ + 0x9A);

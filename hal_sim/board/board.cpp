@@ -268,8 +268,6 @@ void Board::init_ports(Cycle at) {
   stepper(Wheel::Left, at).set_coils_only(0);
   stepper(Wheel::Right, at).set_coils_only(0);
   follow_power(at);
-  // the function ends with a question over the bus and leaves the module on, its interrupt off
-  i2c_master_.switch_on(kI2cLibraryBrg, at);
 }
 
 void Board::processor_reset(Cycle at) {
@@ -281,7 +279,7 @@ void Board::processor_reset(Cycle at) {
   codec_.reset(at);
   for (Uart& uart : uarts_) uart.reset(at);
   if (camera_) camera_->processor_reset();
-  i2c_master_.processor_reset(at);
+  i2c_.processor_reset(at);
   for (std::size_t i = 0; i < kPorts; ++i) note_pulses(i, 0, tris_[i], at);
   lat_.fill(0);
   for (std::size_t i = 0; i < kPorts; ++i) tris_[i] = kImplemented[i];
@@ -319,12 +317,12 @@ void Board::exchange(Cycle at) {
   if (driver_) driver_->exchange(at);
 }
 
-Cycle Board::quiet_until(Cycle at) const {
+Cycle Board::horizon(Cycle at) const {
   // packets wait in their queues until the program looks
   const bool has_news_of_its_own = !uarts_[0].is_quiet() || !uarts_[1].is_quiet() || !parts_.empty() ||
                                    codec_.was_used() || (camera_ && camera_->is_used());
   if (has_news_of_its_own) return at;
-  return driver_ ? driver_->quiet_until(at) : kNever;
+  return driver_ ? driver_->horizon(at) : kNever;
 }
 
 // --- analogue inputs -------------------------------------------------------------------------------------
@@ -480,7 +478,8 @@ std::uint64_t Board::state_hash(Cycle at) const {
   for (const Uart& uart : uarts_) add(uart.state_hash());
   // every robot has a camera on its bus; it counts once a program films
   const bool films = camera_ && camera_->is_used();
-  if (films || i2c_.devices().size() > (camera_ ? 1u : 0u)) add(i2c_.state_hash() + i2c_master_.state_hash());
+  if (films || i2c_.devices().size() > (camera_ ? 1u : 0u))
+    add(i2c_.state_hash() + (driver_ ? driver_->bus_state() : 0));
   if (films) add(camera_->state_hash());
   if (codec_.was_used()) add(codec_.state_hash());
   for (const auto& part : parts_) add(part->state_hash());

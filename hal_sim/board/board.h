@@ -29,7 +29,6 @@
 #include "hal_sim/board/data_eeprom.h"
 #include "hal_sim/board/diagnosis.h"
 #include "hal_sim/board/i2c_bus.h"
-#include "hal_sim/board/i2c_master.h"
 #include "hal_sim/board/noise.h"
 #include "hal_sim/board/packet_devices.h"
 #include "hal_sim/board/part.h"
@@ -207,8 +206,6 @@ class Board {
   Camera* camera() { return camera_.get(); }
   const Camera* camera() const { return camera_.get(); }
   /// The processor's side of the bus.
-  I2cMaster& i2c_master() { return i2c_master_; }
-  const I2cMaster& i2c_master() const { return i2c_master_; }
   /// Emitters and receivers of packets, and sensors that a supervisor defines: for programs written for
   /// Webots' interfaces.
   PacketDevices& packets() { return packets_; }
@@ -227,7 +224,7 @@ class Board {
   void init_ports(Cycle at);
   /// Until when exchange() has nothing to do and nothing that firmware has not asked for happens; `at`: not
   /// known.
-  Cycle quiet_until(Cycle at) const;
+  Cycle horizon(Cycle at) const;
   /// Tick boundary: bytes from outside enter, bytes sent so far go out, old bookkeeping is dropped.
   void exchange(Cycle at);
 
@@ -337,7 +334,6 @@ class Board {
   I2cBus i2c_;
   Battery battery_;
   DataEeprom eeprom_;
-  I2cMaster i2c_master_{i2c_};
   std::unique_ptr<Camera> camera_;
   std::vector<std::unique_ptr<Part>> parts_;
   mutable Cycle settled_for_ = -1;  // the flash's length is nearly always the same: its exponential, once

@@ -27,9 +27,7 @@ inline constexpr double kMicNoiseCounts = 1.5;  // standard deviation [assumed: 
 
 // --- codec and loudspeaker ---------------------------------------------------------------------------------
 inline constexpr Cycle kCodecSampleCycles =
-    2048;                              // 256 bits of 8 cycles: 7200 Hz [lib: codec/e_init_dci_master.s]
-inline constexpr int kCodecGroup = 4;  // samples an interrupt [lib: codec/e_isr_dci.s]
-inline constexpr Cycle kCodecGroupCycles = kCodecGroup * kCodecSampleCycles;
+    2048;  // 256 bits of 8 cycles: 7200 Hz [lib: codec/e_init_dci_master.s]
 static_assert(kFcyHz == 7200 * kCodecSampleCycles);
 inline constexpr int kSoundBankSamples = 19044;  // [lib: codec/e_const_sound.s]
 // the codec's registers and clock
@@ -46,7 +44,5 @@ inline constexpr double kSpeakerFullScalePa =
 
 // --- processor time of the codec's interrupt ---------------------------------------------------------------
 // entry, context and the reading of four samples; the handler's own C is counted besides
-inline constexpr Cycle kDciBusyEntryCycles = 65;  // [estimated: 4 entry and exit, 12 saves, 4 samples of 11]
-inline constexpr Cycle kDciIdleIsrCycles = 26;    // [estimated: the same without samples]
 
 }  // namespace board

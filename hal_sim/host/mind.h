@@ -25,6 +25,10 @@ class FirmwareMind final : public sim::RobotMind {
     board_.publish_sound(field, now);
   }
 
+  /// Another program is flashed and started where the robot stands; as the constructor's otherwise. Between
+  /// ticks.
+  void flash(const RunnerFactory& make_runner);
+
   /// Somebody presses a key of a remote control; not before what has already run.
   void press_key(const board::KeyPress& key);
 
@@ -52,6 +56,7 @@ class FirmwareMind final : public sim::RobotMind {
     if (runner_) runner_->pass_to(now());
     return runner_.get();
   }
+  void power_up(const RunnerFactory& make_runner);
   sim::Clicks idle_until() const;
   sim::WheelCourse course_at(sim::Clicks at) const;
 

@@ -93,7 +93,6 @@ void NativeRegisters::refuse_table() const {
 }
 
 // --- timers
-// ----------------------------------------------------------------------------------------------------------
 
 Cycle NativeRegisters::prescale(const Timer& t) const {
   constexpr Cycle kDivide[] = {1, 8, 64, 256};
@@ -140,7 +139,6 @@ NativeRegisters::Timer* NativeRegisters::timer_at(unsigned address, int& which) 
 }
 
 // --- words
-// -----------------------------------------------------------------------------------------------------------
 
 std::uint16_t NativeRegisters::read_word(unsigned address) {
   auto& interrupts = processor_.interrupts();
@@ -192,7 +190,7 @@ std::uint16_t NativeRegisters::read_word(unsigned address) {
     case kRcon:
       return rcon_ | kBgst;  // long stable when a program looks
     case kI2ccon:            // of a bus that the library drives: is it on
-      return runner_.board().i2c_master().is_on() ? 0x9000 : 0x1000;
+      return runner_.drivers().i2c_master().is_on() ? 0x9000 : 0x1000;
     default:
       break;
   }
@@ -266,7 +264,7 @@ void NativeRegisters::write_word(unsigned address, std::uint16_t value) {
     case kI2ccon:  // switching off, so that an extension can be the bus's master, is all a program may do
                    // itself
       if (value & 0x803F) refuse(address, "the I2C bus can be used through the library's functions only");
-      return runner_.board().i2c_master().switch_off(now);
+      return runner_.drivers().i2c_master().switch_off(now);
     default:
       break;
   }

@@ -98,9 +98,9 @@ std::uint16_t ChipProcessor::read_closely(unsigned address, unsigned bits, Cycle
   return value;
 }
 
-inline void ChipProcessor::wrote(Cycle calm) {
+inline void ChipProcessor::wrote(Cycle horizon) {
   runner_.note_write();
-  runner_.calm_until(calm, chip_.latest());
+  runner_.note_interrupt_horizon(horizon, chip_.latest());
 }
 
 void ChipProcessor::write(unsigned address, std::uint16_t value, unsigned bits, Cycle now) {
@@ -153,7 +153,7 @@ host::Processor::Outlook ChipProcessor::look(Cycle now) { return outlook_of(part
 
 __attribute__((always_inline)) inline host::Processor::Outlook ChipProcessor::outlook_of(
     const dspic::Outlook& chip) {
-  Outlook outlook{host::kNoVector, chip.level > 0 || chip.disi, chip.quiet_until};
+  Outlook outlook{host::kNoVector, chip.level > 0 || chip.disi, chip.horizon};
   if (chip.reset_due) {
     why_reset_ = chip_.note_reset_due();
     outlook.vector = host::kResetDue;
@@ -167,7 +167,7 @@ __attribute__((always_inline)) inline host::Processor::Outlook ChipProcessor::ou
 
 __attribute__((always_inline)) inline host::Processor::Return ChipProcessor::left(Cycle now) {
   const Cycle next = parts_->interrupts.leave(at(now));
-  return {next, parts_->calm_until(next)};
+  return {next, parts_->interrupt_horizon(next)};
 }
 
 bool ChipProcessor::serve(Cycle now) {
@@ -182,7 +182,7 @@ bool ChipProcessor::serve(Cycle now) {
   watched_reads_ = 0;  // whatever waits looks again afterwards
   const Cycle first = p.interrupts.enter_sole(irq, t);
   const Cycle end = runner_.run_handler(
-      handler, {nullptr, first, p.events.next() <= first ? 0 : p.next_notice(), kSavingCycles, alternate});
+      handler, {nullptr, first, p.events.next() <= first ? 0 : p.notice_horizon(), kSavingCycles, alternate});
   runner_.handler_returned(left(end));
   return true;
 }
@@ -197,7 +197,7 @@ host::Processor::Outlook ChipProcessor::take(Cycle now, Entry& entry) {
 __attribute__((always_inline)) inline host::Processor::Entry ChipProcessor::enter_at(int number, Cycle t) {
   watched_reads_ = 0;  // whatever waits looks again afterwards
   const Cycle first = parts_->interrupts.enter(number, t).first_instruction;
-  return {nullptr, first, parts_->calm_until(first, number), kSavingCycles,
+  return {nullptr, first, parts_->interrupt_horizon(first, number), kSavingCycles,
           parts_->interrupts.uses_alternate_table()};
 }
 

@@ -166,6 +166,11 @@ TEST(Psv, others_pay_two_and_repeats_only_at_their_ends) {
   EXPECT_EQ(between(b, "from2", "to2"), 1 + 10 + 2 * 2);
 }
 
+TEST(Psv, a_pair_pays_once) {
+  CoreBench b(kWindow + "from: mov.d [w1], w4\nto: nop\nend: bra end");
+  EXPECT_EQ(between(b, "from", "to"), 3);
+}
+
 TEST(Psv, writing_there_is_an_address_error) {
   CoreBench b(kWindow + "mov w2, [w1]\nend: bra end\n__AddressError: mov #7, w7\n1: bra 1b");
   b.run(100);

@@ -12,7 +12,6 @@ namespace {
 class Promise : public FirmwareTest {};
 
 // --- time
-// ------------------------------------------------------------------------------------------------------------
 
 // the program counts what it does itself, so the tick of the world does not blur what is measured
 const char* const kToggleByAgenda = R"(
@@ -173,7 +172,6 @@ int main(void) {
 }
 
 // --- motors
-// ------------------------------------------------------------------------------------------------------------
 
 const char* const kDrive500 = R"(
 #include <motor_led/advance_one_timer/e_agenda.h>
@@ -224,7 +222,6 @@ TEST_F(Promise, pushed_against_a_wall_the_wheels_turn_and_the_robot_stays) {
 }
 
 // --- sensors
-// -----------------------------------------------------------------------------------------------------------
 
 const char* const kReadRing = R"(
 #include <a_d/advance_ad_scan/e_ad_conv.h>
@@ -304,7 +301,6 @@ INSTANTIATE_TEST_SUITE_P(EverySensor, Ring, ::testing::ValuesIn(ring_cases()), [
 });
 
 // --- repeatability
-// -------------------------------------------------------------------------------------------------------
 
 class Repeat : public FirmwareTest {};
 
@@ -329,7 +325,6 @@ TEST_F(Repeat, the_digest_does_not_depend_on_threads) {
 }
 
 // --- traps of real firmware
-// ------------------------------------------------------------------------------------------------
 
 struct Failure {
   const char* name;

@@ -38,7 +38,6 @@ std::string folder_for(const std::string& source, const std::string& language = 
 }  // namespace
 
 // --- Robot
-// ---------------------------------------------------------------------------------------------------------
 
 Robot& Robot::at(double x_m, double y_m, double heading_deg) {
   desc_.pose = {x_m, y_m, sim::radians(heading_deg)};
@@ -117,7 +116,6 @@ void Robot::serial_send(int port, const std::string& bytes) {
 }
 
 // --- FirmwareTest
-// ----------------------------------------------------------------------------------------------------
 
 FirmwareTest::FirmwareTest() {
   world.models = twin::robot_models();

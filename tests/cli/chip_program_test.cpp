@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// twinpuck asm and dis, and a run of what they made: docs/chip-core.md's sample blinks.
+#include "tests/cli/command.h"
+
+namespace {
+
+using cli_test::CommandTest;
+using cli_test::twinpuck;
+
+constexpr const char* kBlink = R"(
+__reset: mov #__SP_init, w15
+    bclr TRISA, #6
+1:  btg LATA, #6
+    repeat #16383
+    nop
+    bra 1b
+)";
+
+class ChipProgram : public CommandTest {
+ protected:
+  std::string file(const std::string& name, const std::string& text) {
+    const std::string at = (folder / name).string();
+    std::ofstream(at) << text;
+    return at;
+  }
+};
+
+TEST_F(ChipProgram, text_becomes_a_program_that_is_shown_and_runs) {
+  const std::string source = file("blink.s", kBlink), hex = (folder / "blink.hex").string();
+  const auto made = twinpuck("asm '" + source + "' -o '" + hex + "'");
+  ASSERT_EQ(made.exit_code, 0) << made.text;
+  const auto shown = twinpuck("dis '" + hex + "'");
+  EXPECT_EQ(shown.exit_code, 0);
+  for (const char* part : {"000000  040100  goto 0x000100\n000002  000000\n", "mov #0x800, w15",
+                           "bclr.b 0x02c0, #6", "btg.b 0x02c4, #6", "repeat #0x3fff", "bra 0x000104"})
+    EXPECT_NE(shown.text.find(part), std::string::npos) << part << " in:\n" << shown.text;
+  const auto run = twinpuck("run maze --fw '*=" + hex + "' --for 0.1");
+  EXPECT_EQ(run.exit_code, 0) << run.text;
+  EXPECT_NE(run.text.find("chip"), std::string::npos) << run.text;
+}
+
+TEST_F(ChipProgram, mistakes_are_named_with_file_and_line) {
+  const std::string source = file("wrong.s", "start:\n  mov #1, w16\n  bra nowhere\n");
+  const auto said = twinpuck("asm '" + source + "' -o '" + (folder / "x.hex").string() + "'");
+  EXPECT_EQ(said.exit_code, 1);
+  EXPECT_NE(said.text.find("wrong.s:2: mov: operands '#1, w16' fit none of"), std::string::npos) << said.text;
+  EXPECT_EQ(twinpuck("dis '" + source + "'").exit_code, 2);
+  EXPECT_EQ(twinpuck("dis /nonexistent.hex").exit_code, 2);
+}
+
+}  // namespace
