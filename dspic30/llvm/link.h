@@ -4,7 +4,8 @@
 //   link_read.cpp    objects and archives in; what is undefined is looked for in the libraries
 //   link_place.cpp   what is used gets its place: near, X, Y and other RAM; constants in one PSV page; code;
 //   start-up table link_fill.cpp    addresses into instructions, data and debugging information; vectors
-//   link_write.cpp   .elf, .hex, .map
+//   link_stack.cpp   how deep the stack can grow
+//   link_write.cpp   .elf, .hex, .map; link_listing.cpp .lst
 //   link_report.cpp  sizes against the chip's, and what is largest
 #pragma once
 #include <cstdint>
@@ -18,9 +19,10 @@ namespace dspic::link {
 struct Options {
   std::vector<std::string> inputs;     ///< .o: all of it; .a: members that somebody needs
   std::vector<std::string> libraries;  ///< .o and .a, of which only what somebody needs
-  std::string output;                  ///< x.elf; x.hex and x.map lie beside it
-  std::map<std::string, std::string> renames;  ///< what `inputs` ask for by the first name is the second, both as in C
-  unsigned heap_bytes = 512;           ///< for malloc(), if it is used
+  std::string output;                  ///< x.elf; x.hex, x.lst and x.map lie beside it
+  std::map<std::string, std::string>
+      renames;                ///< what `inputs` ask for by the first name is the second, both as in C
+  unsigned heap_bytes = 512;  ///< for malloc(), if it is used
 };
 
 /// What memory a section goes to.
@@ -66,6 +68,8 @@ struct Program {
   std::uint32_t dinit = 0, dinit_words = 0;        ///< start-up table
   std::uint32_t handles_at = 0;                    ///< where the GOTOs lie
   std::uint32_t stack_begin = 0, stack_end = 0;
+  std::uint32_t stack_bytes = 0;  ///< at most, if nothing is recursive
+  std::string recursive;          ///< a function that calls itself
   std::uint32_t code_words = 0, constant_words = 0, ram_bytes = 0;
 
   Symbol* global(const std::string& name);
@@ -81,8 +85,12 @@ bool read_all(Program& program, const Options& options);
 void keep_used(Program& program);
 void place_all(Program& program, const Options& options);
 void fill_all(Program& program);
+void bound_stack(Program& program);
 bool write_all(Program& program, const Options& options);
 std::string report(const Program& program);
+std::string listing(const Program& program);
+/// Is that the name of a handler, as vectors look for it?
+bool is_handler(const std::string& name);
 
 /// All of it; messages to stderr, the report to stdout. False after an error.
 bool run(const Options& options);
