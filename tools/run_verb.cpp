@@ -85,8 +85,8 @@ int run(const RunArguments& arguments) {
     complain(problems);
     return kBadInput;
   }
-  sim::LoadedWorld loaded = replay ? twin::parse_world(replay->opening.text, replay->opening.file)
-                                   : twin::load_world(file);
+  sim::LoadedWorld loaded =
+      replay ? twin::parse_world(replay->opening.text, replay->opening.file) : twin::load_world(file);
   if (!loaded.world) {
     complain({loaded.report(replay ? arguments.replay : file)});
     return kBadInput;
