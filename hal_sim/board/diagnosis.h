@@ -15,7 +15,7 @@ struct Diagnosis {
   std::string message;     ///< one sentence without a full stop
   std::string hint;        ///< what to do; empty when the sentence says it
   Cycle first = 0;         ///< cycle of the robot's clock at which it happened first
-  double first_s = 0;      ///< the same as world time, s; set by host::Robot::diagnoses()
+  double first_s = 0;      ///< the same as world time, s; set by host::Runner::diagnoses()
   std::int64_t count = 1;  ///< occurrences since power-up
 };
 
