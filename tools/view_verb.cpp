@@ -50,7 +50,7 @@ int view(const ViewArguments& a) {
                              : (first.loaded().world ? *first.loaded().world : first.loaded().draft).seed;
 
   auto live = viewer::LiveView::open(std::move(opening), a.record, a.port,
-                                           (fs::path(twin::build_folder()) / "page").string(), problems);
+                                     (fs::path(twin::build_folder()) / "page").string(), problems);
   complain(problems);  // of the world's the page tells, too, and may mend them
   if (!live) return kBadInput;
   GracefulEnd guard([] {});

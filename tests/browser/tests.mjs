@@ -174,6 +174,9 @@ export const tests = {
     const [v, page] = await start(browser, live);
     await page.click("#play");
     await until(page, "(app) => app.frame.time > 0.3");
+    // slowly: where this sees it, it still is when the hand comes, on a busy machine, too
+    await page.selectOption("#speed", "0.0625");
+    await until(page, "(app) => app.state.speed === 0.0625");
     const from = await ask(page, "(app) => [app.frame.poses[0], app.frame.poses[1], 0.04]");
     await drag(page, from, [-0.1, -0.3, 0.04]);
     await until(page, "(app) => app.frame.poses[1] < -0.2");
@@ -194,20 +197,21 @@ export const tests = {
   },
 
   async a_saved_program_runs_within_a_second_and_a_broken_one_does_not(browser, live) {
-    const [v, page] = await start(browser, live);
+    // slow robots with room on both sides: a busy machine may take its time
+    const [v, page] = await start(browser, live, kWorld.replace("[-0.4, 0]", "[0.2, 0]"), { drive: program(50) });
     await page.click("#play");
     await page.click("#tab-program");
     await until(page, "(app) => app.program.text().includes('e_set_speed_left')");
-    await until(page, "(app) => app.frame.poses[0] > -0.38");
+    await until(page, "(app) => app.frame.poses[0] > 0.203");
     const begin = Date.now();
-    await ask(page, "(app, text) => { app.program.setText(text); return app.program.save(); }", program(-400));
+    await ask(page, "(app, text) => { app.program.setText(text); return app.program.save(); }", program(-50));
     await page.waitForFunction(() => document.querySelector("#build-messages").dataset.ok === "true");
     const took = (Date.now() - begin) / 1000;
     console.log(`     the new program ran ${took.toFixed(2)} s after it was saved`);
     assert.ok(took < 5);
     const turned = await x(page);
-    await until(page, "(app, x) => app.frame.poses[0] < x - 0.02", turned);
-    v.write("drive/main.c", program(400).replace("int main", "int main nonsense"));
+    await until(page, "(app, x) => app.frame.poses[0] < x - 0.01", turned);
+    v.write("drive/main.c", program(50).replace("int main", "int main nonsense"));
     await page.waitForFunction(() => document.querySelector("#build-messages").dataset.ok === "false");
     const still = await x(page);
     await until(page, "(app, x) => app.frame.poses[0] < x - 0.005", still);
