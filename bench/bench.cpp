@@ -22,10 +22,8 @@
 #include "bench/playback.h"
 #include "bench/processor_time.h"
 #include "bench/register_load.h"
-#include "hal_sim/board/epuck_model.h"
-#include "hal_sim/board/part.h"
 #include "hal_sim/twin/twin.h"
-#include "sim_core/load/world_loader.h"
+#include "hal_sim/twin/world_file.h"
 
 namespace {
 
@@ -123,8 +121,7 @@ int main(int argc, char** argv) {
   double per_robot_100 = 0, per_robot_1000 = 0;
   bool kept = true;
   for (int n : sizes) {
-    const auto loaded = sim::load_world(worlds + "/brait_" + std::to_string(n) + ".toml",
-                                        {board::epuck_model()}, board::part_kinds());
+    const auto loaded = twin::load_world(worlds + "/brait_" + std::to_string(n) + ".toml");
     if (!loaded.world) {
       std::fprintf(stderr, "%s\n", loaded.report("bench world").c_str());
       return 2;

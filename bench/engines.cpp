@@ -3,6 +3,7 @@
 // other in each round. The world's share is timed by playing back each engine's own wheel angles without
 // minds, as bench.cpp does. Behaviour: small scenes in which wheels turn at constant speeds.
 #include "bench/engines.h"
+#include "hal_sim/twin/world_file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,8 +13,6 @@
 
 #include "bench/median.h"
 #include "bench/playback.h"
-#include "hal_sim/board/epuck_model.h"
-#include "hal_sim/board/part.h"
 #include "sim_core/load/world_loader.h"
 #include "tests/support/cruise.h"
 
@@ -66,7 +65,7 @@ Conduct observe(const sim::WorldDesc& world) {
 std::unique_ptr<sim::Simulation> scene(const NamedEngine& engine, const std::string& text, double rad_s) {
   const auto loaded =
       sim::parse_world("twinpuck = 1\n[world]\nengine = \"" + std::string(engine.name) + "\"\n" + text,
-                       "scene", {board::epuck_model()});
+                       "scene", twin::robot_models());
   if (!loaded.world) {
     std::fprintf(stderr, "%s\n", loaded.report("scene").c_str());
     std::exit(2);
@@ -145,7 +144,7 @@ void print_behaviour() {
 }  // namespace
 
 int compare_engines(const std::string& worlds, int rounds) {
-  const auto loaded = sim::load_world(worlds + "/engines.toml", {board::epuck_model()}, board::part_kinds());
+  const auto loaded = twin::load_world(worlds + "/engines.toml");
   if (!loaded.world) {
     std::fprintf(stderr, "%s\n", loaded.report("engines world").c_str());
     return 2;

@@ -8,9 +8,9 @@
 
 #include "bench/processor_time.h"
 #include "dspic30/device/dspic30f6014a.h"
-#include "hal_sim/board/epuck_model.h"
 #include "hal_sim/board/part.h"
 #include "hal_sim/twin/twin.h"
+#include "hal_sim/twin/world_file.h"
 
 namespace bench {
 
@@ -22,7 +22,7 @@ constexpr double kSeconds = 10;
 
 double measure_register_way(int rounds) {
   sim::WorldDesc world;
-  world.models = {board::epuck_model()};
+  world.models = twin::robot_models();
   world.part_kinds = board::part_kinds();
   world.title = "register way";
   world.arena = sim::ArenaDesc{};
@@ -30,7 +30,7 @@ double measure_register_way(int rounds) {
   sim::RobotDesc robot;
   robot.name = "robot";
   robot.firmware = twin::project_root() + "/bench/firmware/register_load";
-  robot.way = "register";
+  robot.own["way"] = "register";
   robot.pose = {-1.2, 0, 0};
   world.robots.push_back(robot);
   std::vector<double> factors, ns;
@@ -45,9 +45,9 @@ double measure_register_way(int rounds) {
     const double from = processor_s();
     while (simulation.now() < sim::from_seconds(kSeconds)) simulation.step();
     const double took = processor_s() - from;
-    const auto& processor = twin->mind(0).robot()->processor();
-    const double served = static_cast<double>(processor.served(dspic::kFirstIrqVector + dspic::irq::Adc) +
-                                              processor.served(dspic::kFirstIrqVector + dspic::irq::T2));
+    const host::Runner* runner = twin->mind(0).runner();
+    const double served =
+        static_cast<double>(runner->served(dspic::irq::Adc) + runner->served(dspic::irq::T2));
     factors.push_back(kSeconds / took);
     ns.push_back(1e9 * took / served);
     if (round == 0)

@@ -437,7 +437,7 @@ class Settler {
     if (f.controller.empty() && f.by_proto)
       report_.add(f.line, f.type, "the controller that its PROTO names", "no firmware");
     if (f.slip_noise > 0) r.wheels.noise = f.slip_noise;
-    r.camera_mount = f.camera_mount;
+    if (!f.camera_mount.empty()) r.own["camera_mount"] = f.camera_mount;
     if (f.battery_wh) r.battery_wh = *f.battery_wh;
     r.proximity = f.proximity;
     r.sensors = f.sensors;

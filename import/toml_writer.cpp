@@ -281,7 +281,7 @@ class Writer {
     key("heading", degrees(r.pose.heading_rad));
     if (r.battery_wh > 0) key("battery_wh", num(r.battery_wh));
     if (r.wheels.noise) key("wheel_noise", num(*r.wheels.noise));
-    if (!r.camera_mount.empty()) key("camera_mount", quoted(r.camera_mount));
+    for (const auto& [name, value] : r.own) key(name.c_str(), quoted(value.text));
     const bool own = r.proximity.table || r.proximity.type == sim::SensorType::Generic || r.proximity.rays ||
                      r.proximity.aperture_rad || r.proximity.gaussian_width;
     if (own) {

@@ -19,17 +19,17 @@ namespace sim {
 namespace {
 
 /// The motion engine of a world, its numbers gathered from models, variations and materials.
-std::unique_ptr<Motion> make_motion(const WorldDesc& world, const Layout& layout) {
+std::unique_ptr<Motion> make_motion(const WorldDesc& world, const Layout& layout,
+                                    const std::vector<BodyState>& start, Clicks begin) {
   MotionDesc desc;
   desc.tick = kClicksPerSecond / world.physics_hz;
   desc.gravity_m_s2 = world.gravity_m_s2;
   desc.fixed = &layout.fixed;
   desc.ground = &layout.ground;
   for (const Surface& s : layout.fixed_surface) desc.surfaces.push_back({s.friction, s.restitution});
-  for (std::size_t i = 0; i < layout.moving.size(); ++i) {
-    desc.solids.push_back(layout.moving[i].solid);
-    desc.start.push_back({layout.moving_pose[i], layout.moving[i].z_m, {}, 0, 0});
-  }
+  for (const Placed& body : layout.moving) desc.solids.push_back(body.solid);
+  desc.start = start;
+  desc.begin = begin;
   for (std::size_t r = 0; r < world.robots.size(); ++r) {
     const RobotModel& m = *world.model_of(world.robots[r]);
     RobotBody body;
@@ -60,13 +60,19 @@ std::unique_ptr<Motion> make_motion(const WorldDesc& world, const Layout& layout
   return make_dynamic_motion(std::move(desc));
 }
 
+std::vector<BodyState> states_of(const Scene& scene) {
+  std::vector<BodyState> states;
+  for (int i = 0; i < scene.bodies(); ++i) states.push_back(scene.state(i));
+  return states;
+}
+
 }  // namespace
 
 Simulation::Simulation(const WorldDesc& world, Minds minds, int threads)
     : optics_(make_optics(world)),
       scene_(std::make_unique<Scene>(world, optics_reach_m(*optics_))),
       sound_(std::make_unique<SoundField>(scene_->world(), scene_->tick_clicks())),
-      motion_(make_motion(scene_->world(), scene_->layout())),
+      motion_(make_motion(scene_->world(), scene_->layout(), states_of(*scene_), 0)),
       minds_(std::move(minds)) {
   CHECK(minds_.size() == world.robots.size(), "one mind per robot");
   scene_->attach_optics(optics_);
@@ -74,13 +80,22 @@ Simulation::Simulation(const WorldDesc& world, Minds minds, int threads)
   const std::size_t n = minds_.size();
   idle_until_.resize(n);
   for (std::size_t r = 0; r < n; ++r) minds_[r]->keep_idle_in(&idle_until_[r]);
-  wheels_.resize(n);
   courses_.resize(n);
   rims_.resize(n);
   rims_until_.resize(n);
   horizons_.resize(n);
   mind_hash_.resize(n);
-  for (std::size_t r = 0; r < n; ++r) {
+  read_wheels();
+  digest_ = mix64(world.seed);
+  if (threads > 1 && n > 1) workers_ = std::make_unique<WorkerPool>(std::min(threads, static_cast<int>(n)));
+}
+
+Simulation::~Simulation() = default;
+
+/// What the world says about every robot's wheels.
+void Simulation::read_wheels() {
+  wheels_.assign(minds_.size(), {});
+  for (std::size_t r = 0; r < minds_.size(); ++r) {
     const RobotDesc& robot = scene_->world().robots[r];
     Wheels& w = wheels_[r];
     // a wheel's own size is the board's business: it tells angles of nominal wheels
@@ -91,11 +106,7 @@ Simulation::Simulation(const WorldDesc& world, Minds minds, int threads)
     w.gaussian = own.noise_law.value_or(common.noise_law.value_or(NoiseLaw::Uniform)) == NoiseLaw::Gaussian;
     w.seed = robot_seed(scene_->world(), static_cast<int>(r));
   }
-  digest_ = mix64(world.seed);
-  if (threads > 1 && n > 1) workers_ = std::make_unique<WorkerPool>(std::min(threads, static_cast<int>(n)));
 }
-
-Simulation::~Simulation() = default;
 
 void Simulation::advance(Clicks at) {
   if (attendant_ && !attended_) {
@@ -295,6 +306,28 @@ void Simulation::publish_sound() {
       if (minds_[r]->has_sound_news()) minds_[r]->publish_sound(*sound_, static_cast<int>(r), scene_->now());
   }
   if (sound_->has_voices()) sound_->advance(*scene_);
+}
+
+void Simulation::refurnish(const WorldDesc& world, const std::vector<int>& before) {
+  const std::size_t n = minds_.size();
+  CHECK(world.robots.size() == n && world.physics_hz == scene_->world().physics_hz,
+        "the same robots and tick");
+  std::vector<int> bodies;
+  for (std::size_t r = 0; r < n; ++r) bodies.push_back(static_cast<int>(r));
+  bodies.insert(bodies.end(), before.begin(), before.end());
+  const auto old_optics = optics_;  // until nobody can look through it any more
+  optics_ = make_optics(world);
+  scene_->refurnish(world, bodies, optics_reach_m(*optics_));
+  scene_->attach_optics(optics_);
+  auto motion = make_motion(scene_->world(), scene_->layout(), states_of(*scene_), now());
+  motion->carry_on(*motion_);
+  motion_ = std::move(motion);
+  read_wheels();
+  std::fill(rims_until_.begin(), rims_until_.end(), now());
+  gather_neighbours(0);
+  note_intervention(static_cast<std::uint64_t>(scene_->bodies()));
+  for (const Placed& p : scene_->layout().fixed)
+    digest_ = fold(fold(fold(fold(digest_, p.frame.at.x), p.frame.at.y), p.frame.s), p.solid->bound_m);
 }
 
 void Simulation::move(int body, const Pose2& pose, double z_m) {

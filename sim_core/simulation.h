@@ -64,6 +64,10 @@ class Simulation {
   void attend(Attendant* attendant) { attendant_ = attendant; }
 
   // Changes by hand, between ticks only; each becomes part of the history that the digest sees.
+  /// Everything but the robots becomes as `world` says, which has the same robots; their programs, places and
+  /// speeds stay. `before`: for each movable object of it the body it was; -1: a new one. Not changed: tick,
+  /// engine, sounds.
+  void refurnish(const WorldDesc& world, const std::vector<int>& before);
   /// Puts a body somewhere else, at rest.
   void move(int body, const Pose2& pose, double z_m = 0);
   /// Gives a body another speed (physics/motion.h).
@@ -79,6 +83,7 @@ class Simulation {
   void note_intervention(std::uint64_t what) { digest_ = fold(digest_, what); }
 
  private:
+  void read_wheels();
   Clicks find_horizons();
   Clicks next_tick(Clicks at);
   void gather_due(Clicks end);

@@ -19,30 +19,30 @@ host::FirmwareMind* mind_of(Member& me, const char* function, int robot) {
 }
 
 /// Its processor; null, with a message, when it runs no firmware.
-host::Robot* firmware_of(Member& me, const char* function, int robot) {
+host::Runner* firmware_of(Member& me, const char* function, int robot) {
   host::FirmwareMind* mind = mind_of(me, function, robot);
   if (!mind) return nullptr;
-  if (!mind->robot())
+  if (!mind->runner())
     me.refuse(fmt::format("{}: got robot '{}', which runs no firmware, expected one that does", function,
                           me.team.things().name(robot)));
-  return mind->robot();
+  return mind->runner();
 }
 
-const host::Variable* variable_of(Member& me, const char* function, host::Robot& robot,
+const host::Variable* variable_of(Member& me, const char* function, host::Runner& runner,
                                   const char* expression) {
   std::string error;
-  const host::Variable* found = robot.symbols().find_variable(expression ? expression : "", error);
-  if (!found) me.refuse(fmt::format("{}: robot '{}': {}", function, robot.name(), error));
+  const host::Variable* found = runner.find_variable(expression ? expression : "", error);
+  if (!found) me.refuse(fmt::format("{}: robot '{}': {}", function, runner.name(), error));
   return found;
 }
 
-const host::Variable* scalar_of(Member& me, const char* function, host::Robot& robot,
+const host::Variable* scalar_of(Member& me, const char* function, host::Runner& runner,
                                 const char* expression) {
-  const host::Variable* found = variable_of(me, function, robot, expression);
+  const host::Variable* found = variable_of(me, function, runner, expression);
   if (!found || (found->kind != host::Variable::Kind::Aggregate && found->bytes <= 8)) return found;
   me.refuse(
       fmt::format("{}: robot '{}': got '{}', which has {} bytes, expected a number; name a member or element",
-                  function, robot.name(), expression, found->bytes));
+                  function, runner.name(), expression, found->bytes));
   return nullptr;
 }
 
@@ -91,7 +91,7 @@ int sv_set_selector(int robot, int position) {
   host::FirmwareMind* mind = mind_of(me, "sv_set_selector", robot);
   if (!mind || !supervisor::in_range(me, "sv_set_selector", "position", position, 0, 15, "")) return -1;
   mind->board().turn_selector(position);
-  if (mind->robot()) mind->robot()->wake();
+  if (mind->runner()) mind->runner()->wake();
   note(me, robot, "selector", &position, sizeof position);
   return 0;
 }
@@ -106,7 +106,7 @@ int sv_set_battery(int robot, double volts) {
   host::FirmwareMind* mind = mind_of(me, "sv_set_battery", robot);
   if (!mind || !supervisor::in_range(me, "sv_set_battery", "", volts, 3.0, 4.2, "V")) return -1;
   mind->board().set_battery(volts, mind->now());
-  if (mind->robot()) mind->robot()->wake();
+  if (mind->runner()) mind->runner()->wake();
   note(me, robot, "battery", &volts, sizeof volts);
   return 0;
 }
@@ -131,19 +131,19 @@ double sv_longest_wall_touch(int robot) {
 
 double sv_cpu_load(int robot) {
   const host::FirmwareMind* mind = mind_of(asking(), "sv_cpu_load", robot);
-  return mind && mind->robot() ? mind->robot()->cpu_load() : 0;
+  return mind && mind->runner() ? mind->runner()->cpu_load() : 0;
 }
 
 int sv_traps(int robot) {
   const host::FirmwareMind* mind = mind_of(asking(), "sv_traps", robot);
-  return mind && mind->robot() ? static_cast<int>(mind->robot()->traps().size()) : 0;
+  return mind && mind->runner() ? static_cast<int>(mind->runner()->traps().size()) : 0;
 }
 
 const char* sv_trap(int robot, int number) {
   Member& me = asking();
   const host::FirmwareMind* mind = mind_of(me, "sv_trap", robot);
   if (!mind || number < 0 || number >= sv_traps(robot)) return "";
-  const host::TrapReport& t = mind->robot()->traps()[static_cast<std::size_t>(number)];
+  const host::TrapReport& t = mind->runner()->traps()[static_cast<std::size_t>(number)];
   me.text =
       fmt::format("{}: {} at {}, {:.6f} s", host::trap_name(t.kind), t.message, to_string(t.place), t.time_s);
   return me.text.c_str();
@@ -152,7 +152,7 @@ const char* sv_trap(int robot, int number) {
 int sv_restart(int robot) {
   Member& me = asking();
   return supervisor::for_robots(me, "sv_restart", robot, [&](int r) {
-    host::Robot* firmware = firmware_of(me, "sv_restart", r);
+    host::Runner* firmware = firmware_of(me, "sv_restart", r);
     if (!firmware) return -1;
     firmware->restart();
     note(me, r, "restart", nullptr, 0);
@@ -164,7 +164,7 @@ int sv_restart(int robot) {
 
 int sv_get_variable(int robot, const char* expression, double* value) {
   Member& me = asking();
-  host::Robot* firmware = firmware_of(me, "sv_get_variable", robot);
+  host::Runner* firmware = firmware_of(me, "sv_get_variable", robot);
   const host::Variable* v = firmware ? scalar_of(me, "sv_get_variable", *firmware, expression) : nullptr;
   if (!v) return -1;
   char bytes[8] = {};
@@ -175,7 +175,7 @@ int sv_get_variable(int robot, const char* expression, double* value) {
 
 int sv_set_variable(int robot, const char* expression, double value) {
   Member& me = asking();
-  host::Robot* firmware = firmware_of(me, "sv_set_variable", robot);
+  host::Runner* firmware = firmware_of(me, "sv_set_variable", robot);
   const host::Variable* v = firmware ? scalar_of(me, "sv_set_variable", *firmware, expression) : nullptr;
   if (!v) return -1;
   char bytes[8] = {};
@@ -188,7 +188,7 @@ int sv_set_variable(int robot, const char* expression, double value) {
 
 int sv_read_variable(int robot, const char* expression, void* to, int size) {
   Member& me = asking();
-  host::Robot* firmware = firmware_of(me, "sv_read_variable", robot);
+  host::Runner* firmware = firmware_of(me, "sv_read_variable", robot);
   const host::Variable* v = firmware ? variable_of(me, "sv_read_variable", *firmware, expression) : nullptr;
   if (!v) return -1;
   if (size > 0) firmware->read_memory(v->address, to, std::min(v->bytes, static_cast<std::size_t>(size)));
@@ -197,7 +197,7 @@ int sv_read_variable(int robot, const char* expression, void* to, int size) {
 
 int sv_write_variable(int robot, const char* expression, const void* from, int size) {
   Member& me = asking();
-  host::Robot* firmware = firmware_of(me, "sv_write_variable", robot);
+  host::Runner* firmware = firmware_of(me, "sv_write_variable", robot);
   const host::Variable* v = firmware ? variable_of(me, "sv_write_variable", *firmware, expression) : nullptr;
   if (!v) return -1;
   if (size < 0 || static_cast<std::size_t>(size) > v->bytes)
@@ -216,7 +216,7 @@ int sv_set_sensor(int robot, const char* name, double value) {
   return supervisor::for_robots(me, "sv_set_sensor", robot, [&](int r) {
     host::FirmwareMind& mind = me.team.twin().mind(r);
     mind.board().virtual_devices().set(name, value);
-    if (mind.robot()) mind.robot()->wake();
+    if (mind.runner()) mind.runner()->wake();
     note(me, r, name, &value, sizeof value);
     return 0;
   });

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "hal_sim/host/faults.h"
 #include "hal_sim/host/fiber.h"
-#include "hal_sim/host/robot.h"
 #include "hal_sim/host/shared_object.h"
 #include "hal_sim/host/symbols.h"
 

@@ -6,10 +6,9 @@
 #include <fstream>
 #include <iostream>
 
-#include "hal_sim/board/epuck_model.h"
-#include "hal_sim/board/part.h"
 #include "hal_sim/cc/build.h"
 #include "hal_sim/twin/twin.h"
+#include "hal_sim/twin/world_file.h"
 #include "sim_core/light/profiles.h"
 #include "sim_core/load/world_loader.h"
 #include "supervisor/build.h"
@@ -177,8 +176,7 @@ int check(const std::vector<std::string>& names) {
   for (const auto& name : names) {
     std::vector<std::string> problems;
     const std::string file = find_world(name, problems);
-    const auto loaded = file.empty() ? sim::LoadedWorld{}
-                                     : sim::load_world(file, {board::epuck_model()}, board::part_kinds());
+    const auto loaded = file.empty() ? sim::LoadedWorld{} : twin::load_world(file);
     if (!loaded.problems.empty()) problems.push_back(loaded.report(file));
     for (std::string& missing : missing_files(loaded.world ? *loaded.world : loaded.draft, file))
       problems.push_back(std::move(missing));

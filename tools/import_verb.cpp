@@ -8,6 +8,7 @@
 #include "hal_sim/board/epuck_model.h"
 #include "hal_sim/board/part.h"
 #include "hal_sim/twin/twin.h"
+#include "hal_sim/twin/world_file.h"
 #include "import/import.h"
 #include "import/wbt_reader.h"
 #include "sim_core/base/input_file.h"
@@ -70,7 +71,7 @@ int import(const std::string& file, std::string output, bool without_firmware) {
     complain({out.error()});
     return kInvalidRun;
   }
-  const auto loaded = sim::parse_world(made.toml, output, {board::epuck_model()}, board::part_kinds());
+  const auto loaded = twin::parse_world(made.toml, output);
   if (!loaded.world) {
     complain({loaded.report(output)});
     return kInternal;  // what it writes can always be loaded

@@ -7,9 +7,8 @@
 #include <filesystem>
 #include <iostream>
 
-#include "hal_sim/board/epuck_model.h"
-#include "hal_sim/board/part.h"
 #include "hal_sim/twin/twin.h"
+#include "hal_sim/twin/world_file.h"
 #include "sim_core/load/world_loader.h"
 #include "tools/command_line.h"
 #include "tools/curve_report.h"
@@ -121,7 +120,7 @@ int inspect_world(const InspectArguments& a) {
     complain(problems);
     return kBadInput;
   }
-  sim::LoadedWorld loaded = sim::load_world(file, {board::epuck_model()}, board::part_kinds());
+  sim::LoadedWorld loaded = twin::load_world(file);
   if (!loaded.world) {
     complain({loaded.report(file)});
     return kBadInput;

@@ -6,9 +6,8 @@
 #include <ctime>
 #include <filesystem>
 
-#include "hal_sim/board/epuck_model.h"
-#include "hal_sim/board/part.h"
 #include "hal_sim/twin/twin.h"
+#include "hal_sim/twin/world_file.h"
 #include "sim_core/light/proximity.h"
 #include "sim_core/load/world_loader.h"
 #include "sim_core/random/counter_random.h"
@@ -243,7 +242,7 @@ bool run_trial(const Trial& trial, Measures& measures, std::string& said,
   const LabStep& step = *trial.step;
   const std::string file =
       (std::filesystem::path(twin::project_root()) / "worlds" / (trial.world + ".toml")).string();
-  sim::LoadedWorld loaded = sim::load_world(file, {board::epuck_model()}, board::part_kinds());
+  sim::LoadedWorld loaded = twin::load_world(file);
   if (!loaded.world) {
     problems.push_back(loaded.report(file));
     return false;

@@ -26,10 +26,13 @@ int main(int argc, char** argv) {
   tools::add_build(app, exit_code);
   tools::add_lint(app, exit_code);
   tools::add_cycles(app, exit_code);
+  tools::add_dis(app, exit_code);
+  tools::add_asm(app, exit_code);
   tools::add_new(app, exit_code);
   tools::add_inspect(app, exit_code);
   tools::add_list(app, exit_code);
   tools::add_import(app, exit_code);
+  tools::add_view(app, exit_code);
   tools::add_lab(app, exit_code);
   tools::add_timings(app, exit_code);
   tools::add_help(app);

@@ -15,7 +15,7 @@
 #include <string>
 #include <thread>
 
-#include "hal_sim/host/halt.h"
+#include "hal_sim/host/faults.h"
 #include "sim_core/base/check.h"
 #include "tools/verbs.h"
 

@@ -158,8 +158,9 @@ SensorReport report_sensor(twin::Twin& twin, const std::string& world_file, int 
   const double reach = std::fabs(r.noise_counts) * (lit.uniform_noise ? 1 : kTwoSided95);
   r.band_low = r.dark.counts - board::adc_counts(lit.counts() + reach);
   r.band_high = r.dark.counts - board::adc_counts(lit.counts() - reach);
-  if (!mind.robot() || !mind.robot()->has_drivers()) return r;
-  const drivers::AdcScan& scan = mind.robot()->drivers().scan();
+  const drivers::Drivers* drivers = mind.runner() ? mind.runner()->closed_drivers() : nullptr;
+  if (!drivers) return r;
+  const drivers::AdcScan& scan = drivers->scan();
   const board::Cycle now = mind.now();
   r.firmware_scans = scan.dark_number(sensor, now) >= 0 && scan.lit_number(sensor, now) >= 0;
   if (r.firmware_scans) {

@@ -69,7 +69,7 @@ Summary summarise(const twin::Twin& twin, double wall_s) {
     RobotSummary r;
     r.name = twin.world().robots[static_cast<std::size_t>(i)].name;
     r.firmware = twin.image_path(i);
-    r.way = mind.robot() ? mind.robot()->processor().way() : "none";
+    r.way = mind.runner() ? mind.runner()->way() : "none";
     const auto& pose = simulation.pose(i);
     r.x_m = pose.x_m;
     r.y_m = pose.y_m;
@@ -85,10 +85,10 @@ Summary summarise(const twin::Twin& twin, double wall_s) {
     r.battery_v = battery.voltage(mind.now());
     r.battery_used_wh = battery.used_wh(mind.now());
     r.battery_minutes = battery.minutes_left(mind.now());
-    if (mind.robot()) {
-      r.cpu_load = mind.robot()->cpu_load();
-      r.traps = mind.robot()->traps();
-      r.diagnoses = mind.robot()->diagnoses();
+    if (mind.runner()) {
+      r.cpu_load = mind.runner()->cpu_load();
+      r.traps = mind.runner()->traps();
+      r.diagnoses = mind.runner()->diagnoses();
       s.traps.insert(s.traps.end(), r.traps.begin(), r.traps.end());
     }
     s.robots.push_back(std::move(r));

@@ -14,8 +14,8 @@
 #include <memory>
 
 #include "hal_sim/api/timings.h"
-#include "hal_sim/board/epuck_model.h"
 #include "hal_sim/twin/twin.h"
+#include "hal_sim/twin/world_file.h"
 #include "tools/command_line.h"
 #include "tools/verbs.h"
 
@@ -259,7 +259,7 @@ std::vector<std::uint16_t> counts(const std::string& way, std::vector<std::strin
   fs::create_directories(folder);
   std::ofstream(folder / "main.c") << program(way == "register");
   sim::WorldDesc world;
-  world.models = {board::epuck_model()};
+  world.models = twin::robot_models();
   world.proximity.noise_scale = 0;
   world.robots.resize(1);
   world.robots[0].name = "puck";
@@ -270,7 +270,7 @@ std::vector<std::uint16_t> counts(const std::string& way, std::vector<std::strin
   if (!twin) return {};
   const auto read = [&](const char* name, std::size_t words) {
     std::vector<std::uint16_t> values(words);
-    const auto bytes = twin->mind(0).robot()->read_variable(name, 2 * words);
+    const auto bytes = twin->mind(0).runner()->read_variable(name, 2 * words);
     std::copy(bytes.begin(), bytes.end(), reinterpret_cast<char*>(values.data()));
     return values;
   };

@@ -68,7 +68,7 @@ bool TraceOutputs::add(const std::string& word, const char* option,
     if (robot != "*" && robot != known.back()) continue;
     found = true;
     std::string error;
-    auto all = trace::find_signals(name, twin_.mind(r).robot(), error);
+    auto all = trace::find_signals(name, twin_.mind(r).runner(), error);
     if (all.empty()) {
       problems.push_back(where + known.back() + ": " + error);
       return false;
@@ -131,7 +131,7 @@ bool TraceOutputs::choose(std::vector<std::vector<trace::Signal>>& signals, trac
   if (trigger_name.empty()) return true;
   std::string error;
   const int robot = twin_.find(trigger_robot);
-  const auto meant = trace::find_signals(trigger_name, twin_.mind(robot).robot(), error);
+  const auto meant = trace::find_signals(trigger_name, twin_.mind(robot).runner(), error);
   const std::string text = a.trigger.substr(a.trigger.rfind('=') + 1);
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
@@ -178,7 +178,7 @@ bool TraceOutputs::open(std::vector<std::string>& problems) {
     if (count > 0 || spans)
       traced_.push_back(
           {r, first,
-           std::make_unique<trace::RobotTrace>(mind.board(), mind.robot(), std::move(mine), spans)});
+           std::make_unique<trace::RobotTrace>(mind.board(), mind.runner(), std::move(mine), spans)});
     first += count;
   }
   if (!a.vcd.empty()) {
@@ -224,8 +224,7 @@ void TraceOutputs::write_spans() {
     auto& mind = twin_.mind(t.robot);
     if (timeline_)
       for (const trace::Span& span : spans)
-        timeline_->span(t.robot, span, mind.board().clock(),
-                        mind.robot() ? &mind.robot()->symbols() : nullptr);
+        timeline_->span(t.robot, span, mind.board().clock(), mind.runner());
     spans.clear();
   }
 }
@@ -235,7 +234,7 @@ void TraceOutputs::write_counters(sim::Clicks now) {
   next_count_ = now + kCounterClicks;
   for (Traced& t : traced_) {
     auto& mind = twin_.mind(t.robot);
-    if (const host::Robot* robot = mind.robot()) {
+    if (const host::Runner* robot = mind.runner()) {
       const host::Cycle lived = robot->lived_cycles() - t.counted_cycles;
       const host::Cycle idle = robot->idle_cycles() - t.counted_idle;
       t.counted_cycles += lived;

@@ -27,11 +27,14 @@ void add_check(CLI::App& app, int& exit_code);
 void add_build(CLI::App& app, int& exit_code);
 void add_lint(CLI::App& app, int& exit_code);
 void add_cycles(CLI::App& app, int& exit_code);
+void add_dis(CLI::App& app, int& exit_code);
+void add_asm(CLI::App& app, int& exit_code);
 void add_new(CLI::App& app, int& exit_code);
 void add_list(CLI::App& app, int& exit_code);
 void add_import(CLI::App& app, int& exit_code);
 void add_inspect(CLI::App& app, int& exit_code);
 void add_timings(CLI::App& app, int& exit_code);
 void add_lab(CLI::App& app, int& exit_code);
+void add_view(CLI::App& app, int& exit_code);
 
 }  // namespace tools

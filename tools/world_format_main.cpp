@@ -3,10 +3,11 @@
 #include <cstdio>
 
 #include "hal_sim/board/part.h"
+#include "hal_sim/twin/world_file.h"
 #include "sim_core/load/schema.h"
 
 int main(int argc, char** argv) {
-  const std::string page = sim::world_format_page(board::part_kinds());
+  const std::string page = sim::world_format_page(twin::robot_models(), board::part_kinds());
   std::FILE* out = argc > 1 ? std::fopen(argv[1], "wb") : stdout;
   if (!out) {
     std::perror(argv[1]);

@@ -46,7 +46,7 @@ struct ChipParts {
         compare(fabric, timers),
         spis{Spi(fabric, 1), Spi(fabric, 2)},
         system(fabric, c.fosc, c.fwdt),
-        nvm(fabric, c.eeprom ? *c.eeprom : own_eeprom()),
+        nvm(fabric, c.eeprom ? *c.eeprom : own_eeprom(), c.program),
         cans{Can(fabric, 1), Can(fabric, 2)},
         cpu(fabric),
         plain(fabric) {
@@ -160,9 +160,10 @@ struct ChipParts {
   void switch_modules(std::uint16_t next1, std::uint16_t next2, Cycle now);
 
  private:
-  static constexpr unsigned kIfs0 = 0x084, kIec0 = 0x08C, kAdcon1 = 0x2A0, kAdpcfg = 0x2A8,
-                            kFirstPort = 0x2C0, kLastPort = 0x2E8, kBsram = 0x750, kSsram = 0x752,
-                            kPmd1 = 0x770, kPmd2 = 0x772, kPmd3 = 0x774;
+  static constexpr unsigned kIfs0 = sfr("IFS0"), kIec0 = sfr("IEC0"), kAdcon1 = sfr("ADCON1"),
+                            kAdpcfg = sfr("ADPCFG"), kFirstPort = sfr("TRISA"), kLastPort = sfr("LATG"),
+                            kBsram = sfr("BSRAM"), kSsram = sfr("SSRAM"), kPmd1 = sfr("PMD1"),
+                            kPmd2 = sfr("PMD2"), kPmd3 = sfr("PMD3");
   static bool is_flags(unsigned address) { return address - kIfs0 < kIec0 - kIfs0; }
   static int flag_word(unsigned address) { return static_cast<int>((address - kIfs0) / 2); }
 

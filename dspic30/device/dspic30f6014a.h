@@ -29,6 +29,7 @@
 namespace dspic {
 
 class EventWatch;
+class ProgramMemory;
 struct ChipParts;
 
 /// Configuration words and what else is fixed while the chip is powered. Defaults are the e-puck's.
@@ -42,6 +43,8 @@ struct Configuration {
   bool warn_uninitialised = false;  ///< report reads of registers with an undefined power-on value
   /// Words of the data EEPROM, which outlive the chip; null: its own, blank.
   std::array<std::uint16_t, 2048>* eeprom = nullptr;
+  /// Flash, which the chip may program itself and which outlives it; null: there is none.
+  ProgramMemory* program = nullptr;
 };
 
 /// What the processor has to do at an instruction boundary, and when to ask again.

@@ -39,6 +39,10 @@ const char* cause_name(Cause cause) {
       return "codec rate";
     case Cause::TrapConflict:
       return "trap conflict";
+    case Cause::CpuTrap:
+      return "trap";
+    case Cause::IllegalOpcode:
+      return "illegal opcode";
   }
   return "?";
 }

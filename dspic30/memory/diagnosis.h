@@ -30,6 +30,8 @@ enum class Cause : std::uint8_t {
   WatchdogReset,         ///< the watchdog was not cleared in time
   CodecRate,             ///< the codec's own sample rate is not that of the frames it gets
   TrapConflict,          ///< a hard trap met another one
+  CpuTrap,               ///< an instruction led to a trap, and on to the trap's vector
+  IllegalOpcode,         ///< an illegal word was executed, or a pointer used that was never written: a reset
 };
 
 /// "unmodelled bit", "UART overrun", ... for messages and tests.

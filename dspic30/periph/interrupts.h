@@ -6,8 +6,8 @@
 // Modelled: priorities 0 to 7, natural order among equals, nesting, NSTDIS, DISI (holds 1 to 6), traps 11 to
 // 14 with their flags, hard-trap conflict, alternate vector table, acceptance one cycle after the flag, one
 // instruction between RETFIE and the next acceptance, a flag set by hardware between the read and the write
-// of one read-modify-write survives. Not modelled: INTTREG.VHOLD, IRQTOCPU and TMODE; the accumulator traps'
-// causes (the core raises MathError itself). Source: [chip C11].
+// of one read-modify-write survives. Not modelled: INTTREG.VHOLD, IRQTOCPU and TMODE. The causes of
+// traps are the core's. Source: [chip C11].
 #pragma once
 #include <algorithm>
 #include <array>
@@ -90,6 +90,14 @@ class Interrupts final : public SfrOwner {
   Cycle next_change(Cycle now) const;
   InterruptEntry enter(int vector, Cycle now);
   Cycle leave(Cycle now);
+  /// leave() to the level that the program's stack tells.
+  Cycle leave_to(int level, Cycle now) {
+    const Cycle next = leave(now);
+    resumed_ = next;
+    level_ = level;
+    stirred_ = true;
+    return next;
+  }
   int level() const { return level_; }
   void set_level(int level, Cycle now);
   int nesting() const { return static_cast<int>(stack_.size()); }
@@ -132,6 +140,7 @@ class Interrupts final : public SfrOwner {
   Cycle horizon(unsigned address, Cycle now) const override;
 
  private:
+  static constexpr std::size_t kMostFrames = 64;
   struct Frame {
     int vector;
     int outer_level;
@@ -241,6 +250,7 @@ __attribute__((always_inline)) inline InterruptEntry Interrupts::enter(int vecto
     entry.level = nesting_disabled() ? 7 : priority(vector - kFirstIrqVector);
   entry.address = (uses_alternate_table() ? 0x84u : 0x04u) + 2 * static_cast<unsigned>(vector);
   entry.first_instruction = now + kInterruptEntryCycles;
+  if (stack_.size() == kMostFrames) stack_.erase(stack_.begin());  // a program that leaves handlers by jumps
   stack_.emplace_back(vector, level_, now);
   if (vector >= kFirstIrqVector) cleared_ &= ~(std::uint64_t{1} << (vector - kFirstIrqVector));
   level_ = entry.level;

@@ -7,7 +7,8 @@ namespace dspic {
 
 namespace {
 
-constexpr unsigned kPcl = 0x02E, kPch = 0x030, kSr = 0x042, kCorcon = 0x044, kDisicnt = 0x052;
+constexpr unsigned kPcl = sfr("PCL"), kPch = sfr("PCH"), kSr = sfr("SR"), kCorcon = sfr("CORCON"),
+                   kDisicnt = sfr("DISICNT");
 constexpr std::uint16_t kIpl = 0x00E0, kIpl3 = 0x0008, kEdt = 0x0800;
 constexpr Cycle kCanModeChange = 4;  // a few cycles without a bus [?]
 

@@ -7,9 +7,10 @@ namespace dspic {
 
 namespace {
 
-constexpr unsigned kCon = 0x760, kAdr = 0x762, kAdru = 0x764, kKey = 0x766;
+constexpr unsigned kCon = sfr("NVMCON"), kAdr = sfr("NVMADR"), kAdru = sfr("NVMADRU"), kKey = sfr("NVMKEY");
 constexpr std::uint16_t kWr = 0x8000, kWren = 0x4000, kWrerr = 0x2000;
 constexpr int kEraseWord = 0x44, kEraseRow = 0x45, kEraseAll = 0x46, kWriteWord = 0x04, kWriteRow = 0x05;
+constexpr int kEraseFlashRow = 0x41, kWriteFlashRow = 0x01, kWriteConfiguration = 0x08;
 constexpr double kOperationSeconds = 0.002;  // [?] 0.8 to 2.6 ms
 
 }  // namespace
@@ -23,7 +24,7 @@ void Nvm::reset(Cycle now) {
   const bool interrupted = (con_ & kWr) != 0;
   con_ = interrupted ? kWrerr : 0;
   adr_ = adru_ = 0;
-  latches_.fill(0xFFFF);
+  latches_.fill(kErasedWord);
   key_step_ = 0;
   stalled_until_ = 0;
   f_.events.set(slot_, kNever);
@@ -34,18 +35,18 @@ Cycle Nvm::operation_cycles() const {
 }
 
 int Nvm::word_index() const {
-  const unsigned address = std::uint32_t{adru_} << 16 | adr_;
-  return in_eeprom(address) ? static_cast<int>(address - kEepromStart) / 2 : -1;
+  return in_eeprom(address()) ? static_cast<int>(address() - kEepromStart) / 2 : -1;
 }
 
 std::uint16_t Nvm::table_read(unsigned program_address) const {
   return in_eeprom(program_address) ? eeprom_[(program_address - kEepromStart) / 2] : 0;
 }
 
-void Nvm::table_write(unsigned program_address, std::uint16_t value) {
+void Nvm::table_write(unsigned program_address, std::uint32_t value, std::uint32_t lanes) {
   adr_ = static_cast<std::uint16_t>(program_address & 0xFFFE);
   adru_ = static_cast<std::uint16_t>(program_address >> 16 & 0xFF);
-  latches_[(program_address / 2) % kRowWords] = value;
+  std::uint32_t& latch = latches_[(program_address / 2) % kFlashRowWords];
+  latch = (latch & ~lanes) | (value & lanes);
 }
 
 void Nvm::begin(Cycle now) {
@@ -74,18 +75,27 @@ void Nvm::on_event(int id, Cycle at) {
       break;
     case kWriteWord:
       if (word >= 0)
-        eeprom_[static_cast<std::size_t>(word)] &= latches_[static_cast<std::size_t>(word % kRowWords)];
+        eeprom_[static_cast<std::size_t>(word)] &=
+            static_cast<std::uint16_t>(latches_[address() / 2 % kFlashRowWords]);
       break;
     case kWriteRow:
       for (int i = 0; row >= 0 && i < kRowWords; ++i)
-        eeprom_[static_cast<std::size_t>(row + i)] &= latches_[static_cast<std::size_t>(i)];
+        eeprom_[static_cast<std::size_t>(row + i)] &= static_cast<std::uint16_t>(
+            latches_[(kEepromStart / 2 + static_cast<unsigned>(row + i)) % kFlashRowWords]);
       break;
     default:
-      break;  // program memory
+      if (program_) carry_out_on_flash(con_ & 0x7F);
   }
-  latches_.fill(0xFFFF);
+  latches_.fill(kErasedWord);
   con_ &= static_cast<std::uint16_t>(~kWr);
   f_.interrupts.raise(irq::Nvm, at);
+}
+
+void Nvm::carry_out_on_flash(int operation) {
+  if (operation == kEraseFlashRow) program_->erase_row(address());
+  if (operation == kWriteFlashRow) program_->program_row(address(), latches_);
+  if (operation == kWriteConfiguration && address() >= kConfigurationStart)
+    program_->write(address(), latches_[address() / 2 % kFlashRowWords]);
 }
 
 std::uint16_t Nvm::peek(unsigned address, Cycle now) const {

@@ -6,13 +6,14 @@
 //
 // Modelled: erase and write of one EEPROM word or row, erase of all, programming that only clears bits, the
 // unlock sequence (the two keys and WR, no other register written in between), WR held while busy, a second
-// operation refused. Flash operations take their time and hold the processor; program memory is the core's
-// and stays as it is. Not modelled: WRERR by a reset in between beyond setting it, code protection, wear.
-// Source: [chip C18]; [?] 2 ms for each operation.
+// operation refused; erase and write of a row of flash, which hold the processor; a configuration word. Not
+// modelled: WRERR by a reset in between beyond setting it, code protection, wear. Source: [chip C18]; [?] 2
+// ms for each operation.
 #pragma once
 #include <array>
 #include <cstdint>
 
+#include "dspic30/memory/program_memory.h"
 #include "dspic30/periph/fabric.h"
 
 namespace dspic {
@@ -24,12 +25,14 @@ using Eeprom = std::array<std::uint16_t, kEepromWordCount>;
 
 class Nvm final : public SfrOwner, public EventOwner {
  public:
-  /// `eeprom` outlives this.
-  Nvm(const Fabric& fabric, Eeprom& eeprom) : f_(fabric), eeprom_(eeprom) {}
+  /// `eeprom` and `program` outlive this; no program: operations on flash only take their time.
+  Nvm(const Fabric& fabric, Eeprom& eeprom, ProgramMemory* program)
+      : f_(fabric), eeprom_(eeprom), program_(program) {}
   void attach();
   void reset(Cycle now);
   std::uint16_t table_read(unsigned program_address) const;
-  void table_write(unsigned program_address, std::uint16_t value);
+  /// Loads the latch of that word: the bits of `lanes`, of 24.
+  void table_write(unsigned program_address, std::uint32_t value, std::uint32_t lanes = 0xFFFF);
   Eeprom& eeprom() { return eeprom_; }
   /// A flash operation holds the processor until here.
   Cycle stalled_until() const { return stalled_until_; }
@@ -46,17 +49,20 @@ class Nvm final : public SfrOwner, public EventOwner {
   static bool in_eeprom(unsigned address) {
     return address >= kEepromStart && address < kEepromStart + 2 * kEepromWordCount;
   }
+  unsigned address() const { return std::uint32_t{adru_} << 16 | adr_; }
   int word_index() const;
+  void carry_out_on_flash(int operation);
   void begin(Cycle now);
 
   Fabric f_;
   int slot_ = -1;
   std::uint16_t con_ = 0, adr_ = 0, adru_ = 0;
-  std::array<std::uint16_t, kRowWords> latches_{};
+  std::array<std::uint32_t, kFlashRowWords> latches_{};
   int key_step_ = 0;
   std::int64_t key_write_ = 0;
   Cycle stalled_until_ = 0;
   Eeprom& eeprom_;
+  ProgramMemory* program_;
 };
 
 }  // namespace dspic

@@ -7,7 +7,7 @@ namespace dspic {
 
 namespace {
 
-constexpr unsigned kRcon = 0x740, kOsccon = 0x742, kOsctun = 0x744;
+constexpr unsigned kRcon = sfr("RCON"), kOsccon = sfr("OSCCON"), kOsctun = sfr("OSCTUN");
 constexpr std::uint16_t kPor = 1 << 0, kBor = 1 << 1, kIdle = 1 << 2, kSleep = 1 << 3, kWdto = 1 << 4,
                         kSwdten = 1 << 5, kSwr = 1 << 6, kExtr = 1 << 7, kLvdl = 0x0F00, kLvden = 1 << 12,
                         kBgst = 1 << 13, kIopuwr = 1 << 14, kTrapr = 1 << 15;
@@ -36,7 +36,7 @@ Cycle SystemControl::watchdog_period() const {
 }
 
 void SystemControl::reset(ResetKind kind, Cycle now) {
-  bitten_ = false;
+  bitten_ = asleep_ = woke_ = false;
   const auto kept = static_cast<std::uint16_t>(rcon_ & ~(kSwdten | kLvden | kBgst | kLvdl));
   switch (kind) {
     case ResetKind::PowerOn:
@@ -79,6 +79,11 @@ void SystemControl::power_save(bool sleep, Cycle now) {
 }
 
 void SystemControl::on_event(int id, Cycle at) {
+  if (asleep_) {
+    rcon_ |= kWdto;
+    woke_ = true;
+    return clear_watchdog(at);
+  }
   bitten_ = true;
   f_.diagnostics.report(Cause::WatchdogReset, "RCON.WDTO",
                         "the watchdog was not cleared in time (ClrWdt()); the chip resets with RCON.WDTO = 1",

@@ -3,9 +3,10 @@
 //
 // Modelled: what each reset leaves in RCON, sticky bits, watchdog with both postscalers by FWDT or
 // RCON.SWDTEN, unlock sequences of OSCCON's two bytes, COSC from FOSC, LVDL thresholds with BGST and LVDIF,
-// RCON.SLEEP and IDLE. Not modelled: another clock than the configured one (OSWEN is kept and clears itself),
-// the postscaler POST, the fail-safe monitor, LPOSCEN, tuning, start-up times. Source: [chip C14], [chip
-// C16], [chip P11], thresholds [DS70138G 23-10]; [?] OSCCON and LVDL after a reset.
+// RCON.SLEEP and IDLE, in which the watchdog wakes. Not modelled: another clock than the configured one
+// (OSWEN is kept and clears itself), the postscaler POST, the fail-safe monitor, LPOSCEN, tuning, start-up
+// times. Source: [chip C14], [chip C16], [chip P11], thresholds [DS70138G 23-10]; [?] OSCCON and LVDL after a
+// reset.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -24,6 +25,10 @@ class SystemControl final : public SfrOwner, public EventOwner {
   void clear_watchdog(Cycle now);
   void power_save(bool sleep, Cycle now);
   bool watchdog_bit() const { return bitten_; }
+  /// From now on a time-out wakes instead (RCON.WDTO, woke()), until awake().
+  void fall_asleep() { asleep_ = true; }
+  bool woke() const { return woke_; }
+  void awake() { asleep_ = woke_ = false; }
   /// Cycles from a clear to the time-out.
   Cycle watchdog_period() const;
   bool watchdog_runs() const { return (fwdt_ & 0x8000) || (rcon_ & 0x0020); }
@@ -42,6 +47,7 @@ class SystemControl final : public SfrOwner, public EventOwner {
   int slot_ = -1;
   std::uint16_t rcon_ = 0, osccon_ = 0, osctun_ = 0;
   bool bitten_ = false;
+  bool asleep_ = false, woke_ = false;
   // how far each byte's unlock sequence has come, and at which write of the bus
   struct Lock {
     int step = 0;

@@ -488,7 +488,7 @@ TEST_F(Asercom, sounds_are_played_or_stopped) {
 // --- hardware revision 1.3 ---------------------------------------------------------------------------------
 
 TEST_F(Asercom, revision_1_3_measures_its_battery_rotation_and_temperature) {
-  puck().battery(4.0).settings().revision = "1.3";
+  puck().battery(4.0).settings().own["revision"] = "1.3";
   run_for(4);
   // 4.0 V are 2437.5 counts; camera and infrared draw some 38 mA more through 0.2 ohm: 5 counts less
   int counts = 0, percent = 0, length = 0;

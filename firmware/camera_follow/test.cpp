@@ -29,7 +29,7 @@ TEST_P(CameraFollow, faces_the_ball_keeps_its_distance_and_follows_it) {
   load_world("worlds/red_ball.toml");
   world.seed = seed;
   const char* const cameras[] = {"po3030k", "po6030k", "po8030d"};
-  robot(0).settings().camera = cameras[seed % 3];
+  robot(0).settings().own["camera"] = cameras[seed % 3];
   std::mt19937 random(static_cast<unsigned>(seed));
   const auto draw = [&](double low, double high) {
     return low + (high - low) * static_cast<double>(random()) / 4294967296.0;

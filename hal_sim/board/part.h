@@ -25,27 +25,17 @@ namespace board {
 class Board;
 
 /// What the world file says of one part, defaults filled in.
-class PartSettings {
+class PartSettings : public sim::OwnSettings {
  public:
   /// `number`: which of its robot's parts it is, from 0; keeps two of a kind apart in their noise.
   PartSettings(const sim::PartKind& kind, const sim::PartDesc& desc, int number)
-      : kind_(&kind), desc_(desc), part_number_(number) {}
+      : OwnSettings(kind.keys, desc.values), kind_(&kind), part_number_(number) {}
 
   const std::string& kind() const { return kind_->name; }
   int part_number() const { return part_number_; }
-  /// The value of a key of the kind; its default where the file says nothing. A key that the kind does not
-  /// have, or has with another type, is our bug (CHECK).
-  double number(const std::string& key) const;
-  int integer(const std::string& key) const { return static_cast<int>(number(key)); }
-  bool flag(const std::string& key) const;
-  std::string text(const std::string& key) const;
-  std::vector<double> numbers(const std::string& key) const;
 
  private:
-  const sim::PartKey& key_of(const std::string& key) const;
-
   const sim::PartKind* kind_;  // lives as long as the program
-  sim::PartDesc desc_;
   int part_number_;
 };
 

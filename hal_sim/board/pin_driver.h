@@ -46,6 +46,8 @@ class PinDriver {
   virtual void add_diagnoses(std::vector<Diagnosis>& all) const = 0;
   /// State at `at` as a sum of products, for a hash: the caller mixes it.
   virtual std::uint64_t state_sum(Cycle at) const = 0;
+  /// The same of its module at the I2C bus.
+  virtual std::uint64_t bus_state() const = 0;
 };
 
 }  // namespace board

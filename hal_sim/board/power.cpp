@@ -39,8 +39,8 @@ double Board::other_a(Cycle at) const {
   if (lit & kRing) amps += kRingLedA * ones(lit & kRing);
   if (lit & kBody) amps += kBodyLedA;
   if (lit & kFront) amps += kFrontLedA;
-  if (output_high('C', kCameraResetBit)) amps += kCameraA;
-  if (output_high('F', kCodecOnBit)) amps += kCodecA;
+  if (output_high(kCameraResetPin)) amps += kCameraA;
+  if (output_high(kCodecOnPin)) amps += kCodecA;
   return amps;
 }
 

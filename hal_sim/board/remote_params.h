@@ -14,6 +14,5 @@ inline constexpr int kRc5Bits = 14;          // two start bits, toggle, 5 of add
 inline constexpr int kRc5FrameHalves = 128;  // from one frame to the next while a key is held: 113.8 ms [RC5]
 inline constexpr int kRc5MostAddress = 31;   // 5 bits [RC5]
 inline constexpr int kRc5MostKey = 63;       // 6 bits [RC5]
-inline constexpr int kRemoteBit = 6;         // RF6 [lib: motor_led/e_epuck_ports.h]
 
 }  // namespace board

@@ -11,6 +11,8 @@ const char* reason_of(dspic::ResetKind kind) {
       return "the watchdog was not cleared in time, so it resets the processor";
     case dspic::ResetKind::TrapConflict:
       return "a hard trap met another one, so the processor resets";
+    case dspic::ResetKind::IllegalOpcode:
+      return "an illegal opcode, or a pointer that was never written, resets the processor";
     default:
       return "the processor resets";
   }
@@ -55,6 +57,10 @@ const char* hint_for(dspic::Cause cause) {
       return "call ClrWdt() in the main loop, or leave RCON.SWDTEN 0";
     case Cause::TrapConflict:
       return "";
+    case Cause::CpuTrap:
+      return "twinpuck dis shows the instruction there; without a handler of its own a program resets";
+    case Cause::IllegalOpcode:
+      return "did the program run into data, or into flash that holds nothing?";
   }
   return "";
 }
@@ -80,9 +86,11 @@ void SolderedChip::reset(Cycle now) {
   board_.processor_reset(latest_);
 }
 
-const char* SolderedChip::note_reset_due() {
-  next_reset_ = *device_->reset_due(latest_);
-  return reason_of(next_reset_);
+const char* SolderedChip::note_reset_due() { return note_reset_due(*device_->reset_due(latest_)); }
+
+const char* SolderedChip::note_reset_due(dspic::ResetKind kind) {
+  next_reset_ = kind;
+  return reason_of(kind);
 }
 
 void SolderedChip::stop(Cycle now) {

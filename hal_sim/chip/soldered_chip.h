@@ -31,6 +31,7 @@ class SolderedChip final : private dspic::DiagnosticSink {
   void note_reset(dspic::ResetKind cause) { next_reset_ = cause; }
   /// The chip wants a reset (look() said reset_due): its cause is noted. Returns one sentence that says why.
   const char* note_reset_due();
+  const char* note_reset_due(dspic::ResetKind kind);
   /// The program has ended for good: pins are released.
   void stop(Cycle now);
 

@@ -4,6 +4,7 @@
 #pragma once
 #include "hal_sim/api/timings.h"
 #include "hal_sim/board/epuck_params.h"
+#include "hal_sim/board/sound_params.h"
 
 namespace drivers {
 
@@ -84,5 +85,22 @@ inline constexpr int kHandlerPriority = 4;
 inline constexpr Cycle kBasicMotorIsrCycles =
     34;                                        // [estimated: shadow context, counter, phase, 4 bit writes]
 inline constexpr Cycle kTimer3IsrCycles = 40;  // [estimated: context, two counters, coil clearing]
+
+// --- I2C module
+inline constexpr int kI2cLibraryBrg = 150;   // I2CBRG [lib: I2C/e_I2C_master_module.c]
+inline constexpr Cycle kI2cEdgeCycles = 13;  // FCY / 1,111,111 Hz, the edges' share of a bit [DS70143 17.12]
+// half bits of each operation
+inline constexpr int kI2cByteHalves = 16;          // a byte received, acknowledge apart [DS70143 17.12]
+inline constexpr int kI2cAcknowledgedHalves = 18;  // a byte sent, acknowledge included [DS70143 17.12]
+inline constexpr int kI2cAcknowledgeHalves = 2;    // [DS70143 17.12]
+inline constexpr int kI2cStartHalves = 2;          // [estimated: as dspic30/periph/i2c.cpp]
+inline constexpr int kI2cRestartHalves = 4;        // [estimated: as dspic30/periph/i2c.cpp]
+inline constexpr int kI2cStopHalves = 3;           // [estimated: as dspic30/periph/i2c.cpp]
+
+// --- sound
+inline constexpr int kCodecGroup = 4;  // samples an interrupt [lib: codec/e_isr_dci.s]
+inline constexpr Cycle kCodecGroupCycles = kCodecGroup * board::kCodecSampleCycles;
+inline constexpr Cycle kDciBusyEntryCycles = 65;  // [estimated: 4 entry and exit, 12 saves, 4 samples of 11]
+inline constexpr Cycle kDciIdleIsrCycles = 26;    // [estimated: the same without samples]
 
 }  // namespace drivers

@@ -12,7 +12,9 @@ Drivers::Drivers(board::Board& board)
     : board_(board),
       agendas_(board.own_motor(Wheel::Left), board.own_motor(Wheel::Right)),
       scan_(board),
-      basic_prox_(board) {
+      basic_prox_(board),
+      i2c_master_(board.i2c()),
+      sound_(board.codec()) {
   board_.attach(this);
 }
 
@@ -26,6 +28,11 @@ void Drivers::mask_handlers(bool masked, Cycle at) {
     scan_.release(at);
     agendas_.release(at);
   }
+}
+
+void Drivers::init_ports(Cycle at) {
+  board_.init_ports(at);
+  i2c_master_.switch_on(kI2cLibraryBrg, at);
 }
 
 void Drivers::bring_motor(Wheel wheel, Cycle at) {
@@ -91,6 +98,7 @@ void Drivers::processor_reset(Cycle at) {
   agendas_.reset(at);
   scan_.reset(at);
   basic_prox_.reset(at);
+  i2c_master_.processor_reset(at);
   requests = Requests{};
 }
 

@@ -109,7 +109,7 @@ extern "C" {
 
 void tp_init_ports(void) {
   Context& context = Context::current();
-  context.board().init_ports(context.now());
+  context.drivers().init_ports(context.now());
   context.note_write();
 }
 

@@ -21,8 +21,8 @@
 #include <sanitizer/common_interface_defs.h>
 #endif
 
-#include "hal_sim/host/halt.h"
-#include "hal_sim/host/robot.h"
+#include "hal_sim/host/compiled_runner.h"
+#include "hal_sim/host/faults.h"
 #include "sim_core/base/check.h"
 
 namespace host {
@@ -47,7 +47,7 @@ thread_local FaultGuest* guest = nullptr;
 struct Halted {
   pthread_t thread = pthread_self();
   std::atomic<bool> has_halted{false};
-  Robot* robot = nullptr;
+  CompiledRunner* runner = nullptr;
   FaultGuest* guest = nullptr;
   std::uintptr_t pc = 0, frame = 0;
 };
@@ -80,7 +80,7 @@ struct ThreadStacks {
 };
 thread_local std::unique_ptr<ThreadStacks> stacks;
 
-std::string describe(const Fault& f, const Robot& robot) {
+std::string describe(const Fault& f, const CompiledRunner& runner) {
   constexpr std::uintptr_t kNullPage = 64 * 1024;
   if (f.kind == TP_TRAP_STACK) return kStackOverflow;
   if (f.kind == TP_TRAP_MATH) return "arithmetic fault";
@@ -97,11 +97,11 @@ std::string describe(const Fault& f, const Robot& robot) {
     return access +
            " a wild pointer: there is no code; a function pointer or, on the stack, a return address "
            "was overwritten";
-  if (f.has_address && f.is_write && robot.owns_constant(f.address))
+  if (f.has_address && f.is_write && runner.owns_constant(f.address))
     return "write to a constant or to the program itself";
-  if (f.has_address && robot.owns_address(f.address))
+  if (f.has_address && runner.owns_address(f.address))
     return access + " a pointer or index that has left the program's memory";
-  if (f.has_address && robot.fiber().is_beyond(f.address))
+  if (f.has_address && runner.fiber().is_beyond(f.address))
     return access + " a pointer or index that has left the stack: beyond the end of a local array";
   return access + " a wild pointer";
 }
@@ -123,8 +123,8 @@ void tell_sanitizer() {}
   sigemptyset(&set);
   for (int s : kSignals) sigaddset(&set, s);
   pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
-  Robot& robot = *Robot::running();
-  robot.fault(f.kind, describe(f, robot), f.pc, f.frame, f.stack);
+  CompiledRunner& runner = *CompiledRunner::running();
+  runner.fault(f.kind, describe(f, runner), f.pc, f.frame, f.stack);
 }
 
 __attribute__((noreturn, no_sanitize("address"))) void land() {
@@ -135,10 +135,10 @@ __attribute__((noreturn, no_sanitize("address"))) void land() {
 /// An exception that a function of the host lets out to firmware.
 [[noreturn]] void on_terminate() {
   char here;
-  Robot* robot = Robot::running();
-  if (robot && robot->fiber().is_on_stack(reinterpret_cast<std::uintptr_t>(&here))) {
-    robot->last_words() = "a function of the library was given what it cannot use";
-    robot->trap(TP_TRAP_ADDRESS, robot->last_words());
+  CompiledRunner* runner = CompiledRunner::running();
+  if (runner && runner->fiber().is_on_stack(reinterpret_cast<std::uintptr_t>(&here))) {
+    runner->last_words() = "a function of the library was given what it cannot use";
+    runner->trap(TP_TRAP_ADDRESS, runner->last_words());
   }
   previous_terminate();
   std::abort();
@@ -147,7 +147,7 @@ __attribute__((noreturn, no_sanitize("address"))) void land() {
 void on_halt(int, siginfo_t*, void* raw) {
   if (!halted) return;
   const auto& r = static_cast<ucontext_t*>(raw)->uc_mcontext.gregs;
-  halted->robot = Robot::running();
+  halted->runner = CompiledRunner::running();
   halted->guest = guest;
   halted->pc = static_cast<std::uintptr_t>(r[REG_RIP]);
   halted->frame = static_cast<std::uintptr_t>(r[REG_RBP]);
@@ -158,36 +158,36 @@ void on_halt(int, siginfo_t*, void* raw) {
 void on_signal(int signal, siginfo_t* info, void* raw) {
   auto* context = static_cast<ucontext_t*>(raw);
   auto& r = context->uc_mcontext.gregs;
-  Robot* robot = Robot::running();
+  CompiledRunner* runner = CompiledRunner::running();
   auto pc = static_cast<std::uintptr_t>(r[REG_RIP]);
   const auto sp = static_cast<std::uintptr_t>(r[REG_RSP]);
   const auto address = reinterpret_cast<std::uintptr_t>(info->si_addr);
-  bool ours = robot && robot->owns_code(pc);
+  bool ours = runner && runner->owns_code(pc);
   const bool is_fetch = signal == SIGSEGV && pc == address;
-  const bool on_stack = robot && robot->fiber().is_on_stack(sp);
+  const bool on_stack = runner && runner->fiber().is_on_stack(sp);
   bool is_library = false;
-  if (robot && !ours && is_fetch) {
+  if (runner && !ours && is_fetch) {
     // a jump to where no code is: a wild function pointer, whose caller left a return address, or a wild
     // return address
     ours = true;
     std::uintptr_t back = 0;
-    if (on_stack && robot->fiber().is_on_stack(sp + sizeof back - 1))
+    if (on_stack && runner->fiber().is_on_stack(sp + sizeof back - 1))
       std::memcpy(&back, reinterpret_cast<const void*>(sp), sizeof back);
-    pc = robot->owns_code(back) ? back - 1 : 0;
-  } else if (robot && !ours && on_stack) {
+    pc = runner->owns_code(back) ? back - 1 : 0;
+  } else if (runner && !ours && on_stack) {
     // one of the host's functions, called by firmware that has used up its stack: it gets the reserve and
     // goes on
-    if (signal == SIGSEGV && robot->fiber().is_in_reserve(address) && robot->lend_reserve()) return;
+    if (signal == SIGSEGV && runner->fiber().is_in_reserve(address) && runner->lend_reserve()) return;
     // or given a pointer that leads nowhere. On top of the stack, of a function without a frame, or along the
     // frames stands who called it
     ours = is_library = true;
     std::uintptr_t back;
     std::memcpy(&back, reinterpret_cast<const void*>(sp), sizeof back);
-    pc = robot->owns_code(back) ? back - 1 : 0;
+    pc = runner->owns_code(back) ? back - 1 : 0;
   }
   // out of stack anywhere on the firmware's stack
-  if (robot && signal == SIGSEGV && robot->fiber().is_in_guard(address)) ours = true;
-  if (!robot && guest && guest->take(signal, raw, info->si_code == SI_KERNEL ? 0 : address)) return;
+  if (runner && signal == SIGSEGV && runner->fiber().is_in_guard(address)) ours = true;
+  if (!runner && guest && guest->take(signal, raw, info->si_code == SI_KERNEL ? 0 : address)) return;
   if (!ours) {
     sigaction(signal, &previous[signal],
               nullptr);  // not firmware: fault again with whoever was there before us
@@ -205,7 +205,7 @@ void on_signal(int signal, siginfo_t* info, void* raw) {
   f.kind = signal == SIGFPE                        ? TP_TRAP_MATH
            : signal == SIGILL || signal == SIGTRAP ? TP_TRAP_ILLEGAL
                                                    : TP_TRAP_ADDRESS;
-  if (signal == SIGSEGV && robot->fiber().is_in_guard(address)) f.kind = TP_TRAP_STACK;
+  if (signal == SIGSEGV && runner->fiber().is_in_guard(address)) f.kind = TP_TRAP_STACK;
   const auto top = reinterpret_cast<std::uintptr_t>(stacks->recovery.get()) + kRecoveryStackBytes;
   r[REG_RSP] = static_cast<greg_t>((top & ~std::uintptr_t{15}) - 8);
   r[REG_RBP] = 0;
@@ -246,9 +246,9 @@ std::string halt_threads() {
   std::string text;
   for (const Halted* t : threads) {
     if (!t->has_halted) continue;
-    const std::string ran = t->robot
-                                ? "robot '" + t->robot->name() +
-                                      "' was running: " + to_string(t->robot->place_of_code(t->pc, t->frame))
+    const std::string ran = t->runner
+                                ? "robot '" + t->runner->name() +
+                                      "' was running: " + to_string(t->runner->place_of_code(t->pc, t->frame))
                             : t->guest ? t->guest->what_runs(t->pc, t->frame)
                                        : "";
     if (!ran.empty()) text += (text.empty() ? "" : ", ") + ran;

@@ -3,30 +3,30 @@
 
 #include <algorithm>
 
-#include "hal_sim/host/oscillator.h"
 #include "sim_core/world/scene.h"
 
 namespace host {
 
-namespace {
-/// The robot as the program's configuration words make it: its clock's rate is theirs.
-board::Setup configured(board::Setup setup, Image* image, std::size_t copy) {
-  const void* fosc = image ? image->copy(copy).description().fosc : nullptr;
-  const double factor = fosc ? clock_factor(*static_cast<const std::uint16_t*>(fosc)) : 1;
-  if (factor != 1) setup.clock_ppm = ((1 + setup.clock_ppm * 1e-6) * factor - 1) * 1e6;
-  return setup;
-}
-}  // namespace
-
-FirmwareMind::FirmwareMind(const board::Setup& setup, RobotSettings settings, std::shared_ptr<Image> image,
-                           std::size_t copy)
-    : board_(configured(setup, image.get(), copy)) {
-  if (!image) {
+FirmwareMind::FirmwareMind(const board::Setup& setup, const RunnerFactory& make_runner) : board_(setup) {
+  if (!make_runner) {
     board_.switch_off();
     return;
   }
-  robot_ = std::make_unique<Robot>(std::move(settings), std::move(image), copy, board_);
-  robot_->to_world_s = [this](Cycle at) { return sim::to_seconds(board_.clock().click_at(at)); };
+  power_up(make_runner);
+}
+
+void FirmwareMind::flash(const RunnerFactory& make_runner) {
+  board_.processor_reset(now());  // motors stop where they are
+  runner_.reset();
+  power_up(make_runner);
+  course_.until = 0;
+  turns_ = 0;
+  wake();
+}
+
+void FirmwareMind::power_up(const RunnerFactory& make_runner) {
+  runner_ = make_runner(board_);
+  runner_->to_world_s = [this](Cycle at) { return sim::to_seconds(board_.clock().click_at(at)); };
 }
 
 Cycle FirmwareMind::cycle_at(sim::Clicks at) const { return std::max<Cycle>(0, board_.clock().cycle_at(at)); }
@@ -36,35 +36,30 @@ Cycle FirmwareMind::now() const {
 }
 
 void FirmwareMind::run_until(const sim::Scene& scene, sim::Clicks end) {
-  catch_faults_on_this_thread();
   board_.look_at(&scene);
   const Cycle start = now();
   board_.exchange(start);
   now_ = cycle_at(end);
-  if (!robot_) return set_idle_until(idle_until());
-  robot_->pass_to(start);
-  // bytes are on their way: whoever waits for them looks again
-  if (board_.uart(1).next_arrival(start) < kNever || board_.uart(2).next_arrival(start) < kNever)
-    robot_->wake();
-  robot_->begin_window(start);
-  robot_->run_until(now_);
-  if (robot_->turns() != turns_) {
-    turns_ = robot_->turns();
+  if (!runner_) return set_idle_until(idle_until());
+  runner_->begin_window(start);
+  runner_->run_until(now_);
+  if (runner_->turns() != turns_) {
+    turns_ = runner_->turns();
     course_.until = 0;
-    hash_ = board_.state_hash(now_) ^ robot_->hash() * 0xD6E8FEB86659FD93u;
+    hash_ = board_.state_hash(now_) ^ runner_->hash() * 0xD6E8FEB86659FD93u;
   }
   set_idle_until(idle_until());
 }
 
 sim::Clicks FirmwareMind::idle_until() const {
-  const Cycle quiet = board_.quiet_until(now_), idle = robot_ ? robot_->idle_until() : kNever;
+  const Cycle quiet = board_.quiet_until(now_), idle = runner_ ? runner_->idle_until() : kNever;
   const Cycle until = std::min(quiet, idle);
   return until >= kNever ? kNever : until <= now_ ? 0 : board_.clock().click_at(until);
 }
 
 void FirmwareMind::press_key(const board::KeyPress& key) {
   board_.remote().press(key);
-  if (robot_) robot_->remote_changed();
+  if (runner_) runner_->remote_changed();
   wake();
 }
 

@@ -4,14 +4,14 @@
 #include <algorithm>
 
 #include "hal_sim/board/board.h"
+#include "hal_sim/host/compiled_runner.h"
 #include "hal_sim/host/host_params.h"
 #include "hal_sim/host/pins.h"
-#include "hal_sim/host/robot.h"
 
 namespace host {
 
-NativeProcessor::NativeProcessor(Robot& robot)
-    : robot_(robot), drivers_(robot.board()), registers_(robot, *this) {}
+NativeProcessor::NativeProcessor(CompiledRunner& runner)
+    : runner_(runner), drivers_(runner.board()), registers_(runner, *this) {}
 
 void NativeProcessor::reset(Cycle now) {
   interrupts_.reset();
@@ -29,7 +29,7 @@ void NativeProcessor::note_reset(ResetCause cause) {
 }
 
 void NativeProcessor::watch_remote(Cycle now) {
-  const board::RemoteReceiver& remote = robot_.board().remote();
+  const board::RemoteReceiver& remote = runner_.board().remote();
   if (!remote.in_use()) return;
   // the library waits for falling edges; a program with its own handler says which
   interrupts_.watch_int0(
@@ -86,8 +86,8 @@ void NativeProcessor::follow_mask(Cycle now) {
   if (masked == masked_) return;
   masked_ = masked;
   drivers_.mask_handlers(masked, now);
-  robot_.follow_handlers();
-  if (!masked) request_agenda_interrupt(robot_);  // ticks that were lost have moved it
+  runner_.follow_handlers();
+  if (!masked) request_agenda_interrupt(runner_);  // ticks that were lost have moved it
 }
 
 bool NativeProcessor::flag(int vector, Cycle at) {
@@ -95,7 +95,7 @@ bool NativeProcessor::flag(int vector, Cycle at) {
   return (s.flag && s.flag_since <= at) || s.due <= at;
 }
 
-Cycle NativeProcessor::next_flag(int vector, Cycle at) {
+Cycle NativeProcessor::flag_horizon(int vector, Cycle at) {
   const InterruptSource& s = interrupts_.source(vector);
   if (s.flag && s.flag_since > at) return s.flag_since;
   return s.due > at ? s.due : kNever;

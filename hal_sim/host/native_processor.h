@@ -13,7 +13,7 @@ namespace host {
 
 class NativeProcessor final : public Processor {
  public:
-  explicit NativeProcessor(Robot& robot);
+  explicit NativeProcessor(CompiledRunner& runner);
 
   const char* way() const override { return "native"; }
   void power_up() override { registers_.power_up(); }
@@ -48,7 +48,7 @@ class NativeProcessor final : public Processor {
   bool wakes(Cycle now) override { return look(now).vector >= 0; }
 
   bool flag(int vector, Cycle at) override;
-  Cycle next_flag(int vector, Cycle at) override;
+  Cycle flag_horizon(int vector, Cycle at) override;
   Cycle flag_since(int vector) override { return interrupts_.source(vector).flag_since; }
 
   InterruptController& interrupts() { return interrupts_; }
@@ -64,7 +64,7 @@ class NativeProcessor final : public Processor {
   /// After a change of level or DISI: do the handlers that are not run still come?
   void follow_mask(Cycle now);
 
-  Robot& robot_;
+  CompiledRunner& runner_;
   drivers::Drivers drivers_;
   InterruptController interrupts_;
   NativeRegisters registers_;

@@ -53,8 +53,13 @@ double instruction_rate_hz(std::uint16_t fosc) {
 }
 
 double clock_factor(std::uint16_t fosc) {
-  const double factor = instruction_rate_hz(fosc) / kFcyHz;
+  const double factor = instruction_rate_hz(fosc) / static_cast<double>(board::kFcyHz);
   return factor == 0 || std::abs(factor - 1) <= kClockTolerance ? 1 : factor;
+}
+
+double clock_ppm(double crystal_ppm, std::uint16_t fosc) {
+  const double factor = clock_factor(fosc);
+  return factor == 1 ? crystal_ppm : ((1 + crystal_ppm * 1e-6) * factor - 1) * 1e6;
 }
 
 std::string clock_problem(std::uint16_t fosc) {

@@ -16,6 +16,9 @@ double instruction_rate_hz(std::uint16_t fosc);
 /// That rate over the usual one; 1 for a source that the robot has not.
 double clock_factor(std::uint16_t fosc);
 
+/// Error of a robot's clock whose crystal is off by `crystal_ppm`, against the usual rate.
+double clock_ppm(double crystal_ppm, std::uint16_t fosc);
+
 /// Why a program with this word cannot run here; empty: it can.
 std::string clock_problem(std::uint16_t fosc);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a Robot asks of its processor's registers and interrupt controller. Two answers exist:
+// What a CompiledRunner asks of its processor's registers and interrupt controller. Two answers exist:
 // NativeProcessor, which holds the little that programs touch beside the e_* library, and
 // register_way::ChipProcessor, which runs the models of the whole chip.
 //
@@ -17,17 +17,13 @@
 
 namespace host {
 
-class Robot;
+class CompiledRunner;
 class Observer;
 
 inline constexpr int kNoVector = -1;
-inline constexpr int kResetDue = -2;      ///< the processor resets itself: why_reset() says why
-inline constexpr int kTrapVector = 1000;  ///< + 0 oscillator fail, 1 address, 2 stack, 3 math error
+inline constexpr int kResetDue = -2;  ///< the processor resets itself: why_reset() says why
 
 enum class ResetCause { PowerUp, Instruction, Button };
-
-/// "T1", "U1RX", ... of an interrupt vector in natural order; "?" for reserved ones.
-const char* vector_name(int vector);
 
 class Processor {
  public:
@@ -72,7 +68,8 @@ class Processor {
     Cycle quiet_until = 0;   ///< with kNoVector: until then look() answers the same, > now
   };
   /// Its answer stays true until its instant, whatever the program reads and whatever time passes. Not after
-  /// a write (ChipProcessor tells Robot::calm_until, NativeProcessor Robot::changed), enter() or leave().
+  /// a write (ChipProcessor tells CompiledRunner::calm_until, NativeProcessor CompiledRunner::changed),
+  /// enter() or leave().
   virtual Outlook look(Cycle now) = 0;
   virtual const char* why_reset() const { return "the processor resets"; }
   struct Entry {
@@ -114,12 +111,11 @@ class Processor {
   /// The flag of an interrupt at `at`, not before what has already run; the first cycle after `at` at which
   /// it may change by itself, kNever if none; when it rose last, -1 unknown.
   virtual bool flag(int vector, Cycle at) = 0;
-  virtual Cycle next_flag(int vector, Cycle at) = 0;
+  virtual Cycle flag_horizon(int vector, Cycle at) = 0;
   virtual Cycle flag_since(int vector) = 0;
-  /// Told of what happens by itself, as Robot::observe() says.
+  /// Told of what happens by itself, as CompiledRunner::observe() says.
   virtual void observe(Observer* observer) {}
 
-  virtual std::uint64_t state_hash(Cycle now) { return 0; }
   /// What the models have to say about the program so far, in order of time.
   virtual std::vector<board::Diagnosis> diagnoses() const { return {}; }
   /// For whoever looks without disturbing: what has happened by `at` is carried out; a register's value then,
@@ -131,6 +127,6 @@ class Processor {
 };
 
 /// Makes the processor of a robot that is being set up.
-using ProcessorFactory = std::function<std::unique_ptr<Processor>(Robot&)>;
+using ProcessorFactory = std::function<std::unique_ptr<Processor>(CompiledRunner&)>;
 
 }  // namespace host

@@ -4,17 +4,21 @@
 #include <algorithm>
 #include <string>
 
+#include "dspic30/memory/sfr_table.h"
 #include "hal_sim/board/board.h"
+#include "hal_sim/host/compiled_runner.h"
 #include "hal_sim/host/native_processor.h"
 #include "hal_sim/host/pins.h"
-#include "hal_sim/host/robot.h"
 
 namespace host {
 
 namespace {
 
-constexpr unsigned kSr = 0x042, kDisicnt = 0x052, kIntcon1 = 0x080, kIntcon2 = 0x082, kIfs0 = 0x084,
-                   kIec0 = 0x08C, kIpc0 = 0x094, kI2ccon = 0x206, kRcon = 0x740;
+using dspic::sfr;
+
+constexpr unsigned kSr = sfr("SR"), kDisicnt = sfr("DISICNT"), kIntcon1 = sfr("INTCON1"),
+                   kIntcon2 = sfr("INTCON2"), kIfs0 = sfr("IFS0"), kIec0 = sfr("IEC0"), kIpc0 = sfr("IPC0"),
+                   kI2ccon = sfr("I2CCON"), kRcon = sfr("RCON");
 constexpr std::uint16_t kPor = 1 << 0, kBor = 1 << 1, kSwr = 1 << 6, kExtr = 1 << 7, kBgst = 1 << 13;
 
 // timer 1 stands alone; 2 and 3, 4 and 5 are laid out as pairs
@@ -22,38 +26,31 @@ struct TimerRegisters {
   unsigned tmr, pr, con;
   int vector;
 };
-constexpr TimerRegisters kTimers[5] = {{0x100, 0x102, 0x104, TP_V_T1},
-                                       {0x106, 0x10C, 0x110, TP_V_T2},
-                                       {0x10A, 0x10E, 0x112, TP_V_T3},
-                                       {0x114, 0x11A, 0x11E, TP_V_T4},
-                                       {0x118, 0x11C, 0x120, TP_V_T5}};
+constexpr TimerRegisters kTimers[5] = {{sfr("TMR1"), sfr("PR1"), sfr("T1CON"), TP_V_T1},
+                                       {sfr("TMR2"), sfr("PR2"), sfr("T2CON"), TP_V_T2},
+                                       {sfr("TMR3"), sfr("PR3"), sfr("T3CON"), TP_V_T3},
+                                       {sfr("TMR4"), sfr("PR4"), sfr("T4CON"), TP_V_T4},
+                                       {sfr("TMR5"), sfr("PR5"), sfr("T5CON"), TP_V_T5}};
 
 struct PortBlock {
   unsigned tris;
   char letter;
 };
-constexpr PortBlock kPorts[] = {{0x2C0, 'A'}, {0x2C6, 'B'}, {0x2CC, 'C'},
-                                {0x2D2, 'D'}, {0x2DE, 'F'}, {0x2E4, 'G'}};
+constexpr PortBlock kPorts[] = {{sfr("TRISA"), 'A'}, {sfr("TRISB"), 'B'}, {sfr("TRISC"), 'C'},
+                                {sfr("TRISD"), 'D'}, {sfr("TRISF"), 'F'}, {sfr("TRISG"), 'G'}};
 
 constexpr const char* kOtherWay =
     "the native way, in which the library's functions drive the hardware, has no model of this register; "
     "build the program with --way register (docs/register-way.md)";
 
 // registers that hold what was written and do nothing else here
-constexpr unsigned kKept[] = {0x032, 0x034, 0x044, 0x0C0, 0x0C2, 0x0C4, 0x0C6, 0x2A8, 0x744, 0x770, 0x772};
-
-struct RegisterName {
-  unsigned address;
-  const char* name;
-};
-constexpr RegisterName kNames[] = {
-#include "sfr_names.inc"
-};
+constexpr unsigned kKept[] = {sfr("TBLPAG"), sfr("PSVPAG"), sfr("CORCON"), sfr("CNEN1"),
+                              sfr("CNEN2"),  sfr("CNPU1"),  sfr("CNPU2"),  sfr("ADPCFG"),
+                              sfr("OSCTUN"), sfr("PMD1"),   sfr("PMD2")};
 
 const char* register_name(unsigned address) {
-  for (const auto& r : kNames)
-    if (r.address == address) return r.name;
-  return "?";
+  const dspic::SfrInfo* info = dspic::sfr_info(address);
+  return info ? info->name : "?";
 }
 
 bool is_port(unsigned address, char& letter, board::Board::Register& kind) {
@@ -68,16 +65,6 @@ bool is_port(unsigned address, char& letter, board::Board::Register& kind) {
 
 }  // namespace
 
-const char* vector_name(int vector) {
-  static constexpr const char* kVectors[TP_VECTORS] = {
-      "INT0", "IC1",  "OC1",  "T1",   "IC2",  "OC2",  "T2",  "T3",  "SPI1", "U1RX", "U1TX",
-      "ADC",  "NVM",  "SI2C", "MI2C", "CN",   "INT1", "IC7", "IC8", "OC3",  "OC4",  "T4",
-      "T5",   "INT2", "U2RX", "U2TX", "SPI2", "C1",   "IC3", "IC4", "IC5",  "IC6",  "OC5",
-      "OC6",  "OC7",  "OC8",  "INT3", "INT4", "C2",   "?",   "?",   "DCI",  "LVD",  "?",
-      "?",    "?",    "?",    "?",    "?",    "?",    "?",   "?",   "?",    "?"};
-  return vector >= 0 && vector < TP_VECTORS ? kVectors[vector] : "?";
-}
-
 void NativeRegisters::power_up() {
   processor_reset();
   rcon_ = kPor | kBor;
@@ -87,22 +74,22 @@ void NativeRegisters::processor_reset() {
   timers_.fill({});
   intcon1_ = intcon2_ = 0;
   kept_.clear();
-  robot_.board().processor_reset(robot_.settled_now());
+  runner_.board().processor_reset(runner_.settled_now());
 }
 
 void NativeRegisters::note_software_reset() { rcon_ |= kSwr; }
 void NativeRegisters::note_reset_button() { rcon_ |= kExtr; }
 
-void NativeRegisters::processor_stopped() { robot_.board().processor_reset(robot_.now()); }
+void NativeRegisters::processor_stopped() { runner_.board().processor_reset(runner_.now()); }
 
 void NativeRegisters::refuse(unsigned address, const char* what) const {
-  robot_.last_words() = std::string(register_name(address)) + ": " + what;
-  robot_.trap(TP_TRAP_UNSIMULATED, robot_.last_words());
+  runner_.last_words() = std::string(register_name(address)) + ": " + what;
+  runner_.trap(TP_TRAP_UNSIMULATED, runner_.last_words());
 }
 
 void NativeRegisters::refuse_table() const {
-  robot_.trap(TP_TRAP_UNSIMULATED,
-              "table instructions (__builtin_tblrdl ...) need the register way: build with --way register");
+  runner_.trap(TP_TRAP_UNSIMULATED,
+               "table instructions (__builtin_tblrdl ...) need the register way: build with --way register");
 }
 
 // --- timers
@@ -139,7 +126,7 @@ void NativeRegisters::schedule(int number) {
     source.due = t.since + ticks * prescale(t);
     source.period = (Cycle{t.pr} + 1) * prescale(t);
   }
-  robot_.changed();
+  runner_.changed();
 }
 
 NativeRegisters::Timer* NativeRegisters::timer_at(unsigned address, int& which) {
@@ -157,18 +144,18 @@ NativeRegisters::Timer* NativeRegisters::timer_at(unsigned address, int& which) 
 
 std::uint16_t NativeRegisters::read_word(unsigned address) {
   auto& interrupts = processor_.interrupts();
-  const Cycle now = robot_.now();
+  const Cycle now = runner_.now();
   char letter;
   board::Board::Register kind;
   if (is_port(address, letter, kind)) {
-    robot_.lower_horizon(robot_.board().port_horizon(letter, now));
-    return robot_.board().port_read(letter, kind, now);
+    runner_.lower_horizon(runner_.board().port_horizon(letter, now));
+    return runner_.board().port_read(letter, kind, now);
   }
   int n;
   if (const Timer* t = timer_at(address, n)) {
     if (address == kTimers[n].pr) return t->pr;
     if (address == kTimers[n].con) return t->con;
-    robot_.lower_horizon(runs(*t) ? now + prescale(*t) - (now - t->since) % prescale(*t) : kNever);
+    runner_.lower_horizon(runs(*t) ? now + prescale(*t) - (now - t->since) % prescale(*t) : kNever);
     return count_at(*t, now);
   }
   if (address >= kIfs0 && address < kIfs0 + 6) {
@@ -176,7 +163,7 @@ std::uint16_t NativeRegisters::read_word(unsigned address) {
     std::uint16_t word = 0;
     for (int v = static_cast<int>(address - kIfs0) * 8, bit = 0; bit < 16 && v + bit < TP_VECTORS; ++bit) {
       word |= static_cast<std::uint16_t>(interrupts.source(v + bit).flag << bit);
-      robot_.lower_horizon(interrupts.source(v + bit).due);
+      runner_.lower_horizon(interrupts.source(v + bit).due);
     }
     return word;
   }
@@ -205,7 +192,7 @@ std::uint16_t NativeRegisters::read_word(unsigned address) {
     case kRcon:
       return rcon_ | kBgst;  // long stable when a program looks
     case kI2ccon:            // of a bus that the library drives: is it on
-      return robot_.board().i2c_master().is_on() ? 0x9000 : 0x1000;
+      return runner_.drivers().i2c_master().is_on() ? 0x9000 : 0x1000;
     default:
       break;
   }
@@ -215,11 +202,11 @@ std::uint16_t NativeRegisters::read_word(unsigned address) {
 
 void NativeRegisters::write_word(unsigned address, std::uint16_t value) {
   auto& interrupts = processor_.interrupts();
-  const Cycle now = robot_.now();
-  robot_.note_write();
+  const Cycle now = runner_.now();
+  runner_.note_write();
   char letter;
   board::Board::Register kind;
-  if (is_port(address, letter, kind)) return robot_.board().port_write(letter, kind, value, now);
+  if (is_port(address, letter, kind)) return runner_.board().port_write(letter, kind, value, now);
   int n;
   if (Timer* t = timer_at(address, n)) {
     settle(*t, now);
@@ -247,39 +234,39 @@ void NativeRegisters::write_word(unsigned address, std::uint16_t value) {
       if (flag && !s.flag) s.flag_since = now;
       s.flag = flag;
     }
-    return robot_.changed();
+    return runner_.changed();
   }
   if (address >= kIec0 && address < kIec0 + 6) {
     for (int v = static_cast<int>(address - kIec0) * 8, bit = 0; bit < 16 && v + bit < TP_VECTORS; ++bit)
       interrupts.source(v + bit).enabled = (value >> bit & 1) != 0;
-    return robot_.changed();
+    return runner_.changed();
   }
   if (address >= kIpc0 && address < kIpc0 + 22) {
     for (int v = static_cast<int>(address - kIpc0) * 2, field = 0; field < 4 && v + field < TP_VECTORS;
          ++field)
       interrupts.source(v + field).priority = value >> (4 * field) & 7;
-    return robot_.changed();
+    return runner_.changed();
   }
   switch (address) {
     case kSr:
       processor_.set_cpu_level(value >> 5 & 7, now);
-      return robot_.changed();
+      return runner_.changed();
     case kIntcon1:
       intcon1_ = value;
       return;
     case kIntcon2:
       intcon2_ = value & 0x801F;
       processor_.int0_polarity_changed(now);
-      return robot_.changed();
+      return runner_.changed();
     case kDisicnt:
-      return robot_.on_disi(value & 0x3FFF);
+      return runner_.on_disi(value & 0x3FFF);
     case kRcon:
       rcon_ = value;
       return;
     case kI2ccon:  // switching off, so that an extension can be the bus's master, is all a program may do
                    // itself
       if (value & 0x803F) refuse(address, "the I2C bus can be used through the library's functions only");
-      return robot_.board().i2c_master().switch_off(now);
+      return runner_.drivers().i2c_master().switch_off(now);
     default:
       break;
   }

@@ -16,12 +16,13 @@
 
 namespace host {
 
-class Robot;
+class CompiledRunner;
 class NativeProcessor;
 
 class NativeRegisters {
  public:
-  NativeRegisters(Robot& robot, NativeProcessor& processor) : robot_(robot), processor_(processor) {}
+  NativeRegisters(CompiledRunner& runner, NativeProcessor& processor)
+      : runner_(runner), processor_(processor) {}
 
   void power_up();         ///< everything at power-on reset values, RCON = POR | BOR
   void processor_reset();  ///< same, but RCON keeps what a software reset keeps
@@ -58,7 +59,7 @@ class NativeRegisters {
   void settle(Timer& t, Cycle at);
   void schedule(int number);
 
-  Robot& robot_;
+  CompiledRunner& runner_;
   NativeProcessor& processor_;
   std::array<Timer, 5> timers_;
   std::uint16_t rcon_ = 0;

@@ -15,38 +15,40 @@ namespace register_way {
 
 namespace {
 
-constexpr unsigned kU1Mode = 0x20C, kU2Mode = 0x216, kIfs0 = 0x084;
+using dspic::sfr;
+
+constexpr unsigned kU1Mode = sfr("U1MODE"), kU2Mode = sfr("U2MODE"), kIfs0 = sfr("IFS0");
 constexpr std::uint16_t kUartEnabled = 0x8000, kTransmitEnabled = 0x0400, kBufferFull = 0x0200;
 
 /// Reading it moves a FIFO or lowers a flag, so a loop that does has changed something.
 constexpr bool has_side_effect(unsigned address) {
   switch (address & ~1u) {
-    case 0x200:  // I2CRCV
-    case 0x212:  // U1RXREG
-    case 0x21C:  // U2RXREG
-    case 0x224:  // SPI1BUF
-    case 0x22A:  // SPI2BUF
+    case sfr("I2CRCV"):
+    case sfr("U1RXREG"):
+    case sfr("U2RXREG"):
+    case sfr("SPI1BUF"):
+    case sfr("SPI2BUF"):
       return true;
     default:
-      return address >= 0x140 && address < 0x160;  // input capture buffers
+      return address >= sfr("IC1BUF") && address < sfr("IC8CON") + 2;  // input capture buffers
   }
 }
-constexpr unsigned kFirstWithSideEffect = 0x140, kLastWithSideEffect = 0x22B;
+constexpr unsigned kFirstWithSideEffect = sfr("IC1BUF"), kLastWithSideEffect = sfr("SPI2BUF") + 1;
 
 }  // namespace
 
 bool wants_chip(const char* image_flags) { return image_flags && std::strstr(image_flags, "register"); }
 
-ChipProcessor::ChipProcessor(host::Robot& robot) : robot_(robot), chip_(robot.board()) {}
+ChipProcessor::ChipProcessor(host::CompiledRunner& runner) : runner_(runner), chip_(runner.board()) {}
 
 // --- life -----------------------------------------------------------------------------------------------
 
 void ChipProcessor::power_up() {
   dspic::Configuration configuration;
-  const tp_image& image = robot_.image();
+  const tp_image& image = runner_.image();
   if (image.fosc) {
     configuration.fosc = *static_cast<const std::uint16_t*>(image.fosc);
-    configuration.fcy_hz *= host::clock_factor(configuration.fosc);
+    configuration.fcy_hz = static_cast<double>(board::kFcyHz) * host::clock_factor(configuration.fosc);
   }
   if (image.fwdt) configuration.fwdt = *static_cast<const std::uint16_t*>(image.fwdt);
   chip_.power_up(configuration);
@@ -71,52 +73,52 @@ inline bool ChipProcessor::may_change_it(unsigned address) {
 std::uint16_t ChipProcessor::read(unsigned address, unsigned bits, Cycle now) {
   const Cycle t = at(now);
   if (watched_reads_ > 0 || !parts_->is_result(address, bits, t)) return read_other(address, bits, t);
-  robot_.lower_horizon(t);
+  runner_.lower_horizon(t);
   return parts_->read_result(address, t);
 }
 
 std::uint16_t ChipProcessor::read_other(unsigned address, unsigned bits, Cycle t) {
   if (may_change_it(address) || watched_reads_ > 0) return read_closely(address, bits, t);
-  robot_.lower_horizon(t);
+  runner_.lower_horizon(t);
   return parts_->read(address, bits, t);
 }
 
 std::uint16_t ChipProcessor::read_closely(unsigned address, unsigned bits, Cycle t) {
   const std::uint16_t value = device().read(address, bits, t);
   if (has_side_effect(address)) {
-    robot_.note_write();
-    robot_.changed();
+    runner_.note_write();
+    runner_.changed();
   }
   if (watched_reads_ > 0) {
     --watched_reads_;
-    robot_.lower_horizon(device().horizon(address, t));
+    runner_.lower_horizon(device().horizon(address, t));
   } else {
-    robot_.lower_horizon(t);
+    runner_.lower_horizon(t);
   }
   return value;
 }
 
 inline void ChipProcessor::wrote(Cycle calm) {
-  robot_.note_write();
-  robot_.calm_until(calm, chip_.latest());
+  runner_.note_write();
+  runner_.calm_until(calm, chip_.latest());
 }
 
 void ChipProcessor::write(unsigned address, std::uint16_t value, unsigned bits, Cycle now) {
   const Cycle t = at(now);
   wrote(parts_->write(address, value, bits, t));
-  if (const Cycle stalled = parts_->nvm.stalled_until(); stalled > t) robot_.spend(stalled - t);
+  if (const Cycle stalled = parts_->nvm.stalled_until(); stalled > t) runner_.spend(stalled - t);
 }
 
 void ChipProcessor::modify(unsigned address, std::uint16_t keep, std::uint16_t flip, Cycle now) {
   const Cycle t = at(now);
   if (watched_reads_ > 0 || !parts_->are_flags(address, t)) return modify_other(address, keep, flip, t);
-  robot_.lower_horizon(t);
+  runner_.lower_horizon(t);
   wrote(parts_->modify_flags(address, keep, flip, t));
 }
 
 void ChipProcessor::modify_other(unsigned address, std::uint16_t keep, std::uint16_t flip, Cycle t) {
   if (parts_->is_latch(address) && watched_reads_ == 0) {
-    robot_.lower_horizon(t);
+    runner_.lower_horizon(t);
     return wrote(parts_->modify_latch(address, keep, flip, t));
   }
   const std::uint16_t old = read(address, 16, t);
@@ -129,18 +131,18 @@ std::uint16_t ChipProcessor::table_read(unsigned program_address, Cycle now) {
 
 void ChipProcessor::table_write(unsigned program_address, std::uint16_t value, Cycle now) {
   device().table_write(program_address, value, at(now));
-  robot_.note_write();
+  runner_.note_write();
 }
 
 // XC16's write(): UART 1 is switched on if nobody has done so, and every character waits for room
 bool ChipProcessor::print(const char* bytes, std::int64_t length, int uart) {
   const unsigned mode = uart == 2 ? kU2Mode : kU1Mode, sta = mode + 2, tx_reg = mode + 4;
-  const auto poll = [this](unsigned address) { return device().peek(address, at(robot_.now())); };
-  if (!(poll(mode) & kUartEnabled)) write(mode, kUartEnabled, 16, robot_.now());
-  if (!(poll(sta) & kTransmitEnabled)) write(sta, poll(sta) | kTransmitEnabled, 16, robot_.now());
+  const auto poll = [this](unsigned address) { return device().peek(address, at(runner_.now())); };
+  if (!(poll(mode) & kUartEnabled)) write(mode, kUartEnabled, 16, runner_.now());
+  if (!(poll(sta) & kTransmitEnabled)) write(sta, poll(sta) | kTransmitEnabled, 16, runner_.now());
   for (std::int64_t i = 0; i < length; ++i) {
-    while (poll(sta) & kBufferFull) robot_.wait_until(device().horizon(sta, chip_.latest()));
-    write(tx_reg, static_cast<std::uint8_t>(bytes[i]), 16, robot_.now());
+    while (poll(sta) & kBufferFull) runner_.wait_until(device().horizon(sta, chip_.latest()));
+    write(tx_reg, static_cast<std::uint8_t>(bytes[i]), 16, runner_.now());
   }
   return true;
 }
@@ -175,13 +177,13 @@ bool ChipProcessor::serve(Cycle now) {
   const int irq = p.interrupts.sole_pending(t);
   if (irq < 0 || p.is_reset_due()) return false;
   const bool alternate = p.interrupts.uses_alternate_table();
-  void (*handler)() = robot_.handler_of(irq, alternate);
+  void (*handler)() = runner_.handler_of(irq, alternate);
   if (!handler) return false;
   watched_reads_ = 0;  // whatever waits looks again afterwards
   const Cycle first = p.interrupts.enter_sole(irq, t);
-  const Cycle end = robot_.run_handler(
+  const Cycle end = runner_.run_handler(
       handler, {nullptr, first, p.events.next() <= first ? 0 : p.next_notice(), kSavingCycles, alternate});
-  robot_.handler_returned(left(end));
+  runner_.handler_returned(left(end));
   return true;
 }
 
@@ -220,7 +222,7 @@ bool ChipProcessor::flag(int vector, Cycle at) {
   return device().has_flag(vector + dspic::kFirstIrqVector, at);
 }
 
-Cycle ChipProcessor::next_flag(int vector, Cycle at) {
+Cycle ChipProcessor::flag_horizon(int vector, Cycle at) {
   return device().horizon(kIfs0 + 2 * static_cast<unsigned>(vector / 16), at);
 }
 

@@ -4,18 +4,18 @@
 //
 //   compiled C --tp_sfr_read/write--> ChipProcessor --> chip::SolderedChip --> Board
 //
-// Time is the Robot's: estimated costs of blocks, plus what the chip adds (interrupt entry and RETFIE). A
-// loop that polls registers is jumped over to the chip's horizon of what it has read.
-// Modelled: everything dspic30/ models, the program's configuration words FOSC and FWDT. Not modelled: the
-// other words, Sleep's stopped clocks, wait states; see docs/limits.md, "The processor".
+// Time is the CompiledRunner's: estimated costs of blocks, plus what the chip adds (interrupt entry and
+// RETFIE). A loop that polls registers is jumped over to the chip's horizon of what it has read. Modelled:
+// everything dspic30/ models, the program's configuration words FOSC and FWDT. Not modelled: the other words,
+// Sleep's stopped clocks, wait states; see docs/limits.md, "The processor".
 #pragma once
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "hal_sim/chip/soldered_chip.h"
+#include "hal_sim/host/compiled_runner.h"
 #include "hal_sim/host/processor.h"
-#include "hal_sim/host/robot.h"
 
 namespace register_way {
 
@@ -27,7 +27,7 @@ bool wants_chip(const char* image_flags);
 class ChipProcessor final : public host::Processor, private dspic::EventWatch {
  public:
   /// `robot` owns this.
-  explicit ChipProcessor(host::Robot& robot);
+  explicit ChipProcessor(host::CompiledRunner& runner);
 
   const char* way() const override { return "register"; }
   void power_up() override;
@@ -62,15 +62,16 @@ class ChipProcessor final : public host::Processor, private dspic::EventWatch {
   bool wakes(Cycle now) override { return device().wakes(at(now)); }
 
   bool flag(int vector, Cycle at) override;
-  Cycle next_flag(int vector, Cycle at) override;
+  Cycle flag_horizon(int vector, Cycle at) override;
   Cycle flag_since(int vector) override;
   void observe(host::Observer* observer) override;
 
-  std::uint64_t state_hash(Cycle now) override { return device().state_hash(at(now)); }
   void carry_out(Cycle at) override { device().run_events(at); }
   std::uint16_t peek(unsigned address, Cycle at) override { return device().peek(address, at); }
   Cycle horizon(unsigned address, Cycle at) override { return device().horizon(address, at); }
-  std::int64_t served(int vector) const override { return chip_.device().served_interrupts(vector); }
+  std::int64_t served(int vector) const override {
+    return chip_.device().served_interrupts(vector + dspic::kFirstIrqVector);
+  }
   std::vector<board::Diagnosis> diagnoses() const override { return chip_.diagnoses(); }
 
  private:
@@ -94,7 +95,7 @@ class ChipProcessor final : public host::Processor, private dspic::EventWatch {
   Cycle at(Cycle now) { return chip_.at(now); }
   dspic::Dspic30f6014a& device() { return chip_.device(); }
 
-  host::Robot& robot_;
+  host::CompiledRunner& runner_;
   chip::SolderedChip chip_;
   dspic::ChipParts* parts_ = nullptr;  // of chip_
   const char* why_reset_ = "";

@@ -32,8 +32,8 @@ bool runs_freely(int address) {
 
 }  // namespace
 
-RobotTrace::RobotTrace(board::Board& board, host::Robot* robot, std::vector<Signal> signals, bool spans)
-    : board_(board), robot_(robot), signals_(std::move(signals)), keeps_spans_(spans) {
+RobotTrace::RobotTrace(board::Board& board, host::Runner* runner, std::vector<Signal> signals, bool spans)
+    : board_(board), runner_(runner), signals_(std::move(signals)), keeps_spans_(spans) {
   for (std::size_t i = 0; i < signals_.size(); ++i) {
     const SignalSource& source = signals_[i].source;
     auto at =
@@ -48,12 +48,12 @@ RobotTrace::RobotTrace(board::Board& board, host::Robot* robot, std::vector<Sign
   }
   shown_.assign(signals_.size(), 0);
   for (int number : {1, 2}) board_.uart(number).watch(this, number);
-  if (robot_) robot_->observe(this);
+  if (runner_) runner_->observe(this);
 }
 
 RobotTrace::~RobotTrace() {
   for (int number : {1, 2}) board_.uart(number).watch(nullptr, number);
-  if (robot_) robot_->observe(nullptr);
+  if (runner_) runner_->observe(nullptr);
 }
 
 // --- signals ---------------------------------------------------------------------------------------------
@@ -62,7 +62,7 @@ void RobotTrace::reached(Cycle at) {
   if (at <= last_ || signals_.empty()) return;
   // what the chip does by itself before `at` comes back in about_to_change(). No further than the window: of
   // what comes from outside later nothing is known yet
-  if (robot_ && robot_->has_chip()) robot_->processor().carry_out(std::min(at - 1, robot_->cycles()));
+  if (runner_ && runner_->has_chip()) runner_->carry_out(std::min(at - 1, runner_->cycles()));
   show_until(at);
 }
 
@@ -112,7 +112,7 @@ std::uint64_t RobotTrace::value_of(const SignalSource& source, Cycle at) {
     case Source::Steps:
       return static_cast<std::uint64_t>(board_.steps(static_cast<board::Wheel>(source.index), at));
     case Source::Flag:
-      return robot_ && robot_->processor().flag(source.index, at);
+      return runner_ && runner_->flag(source.index, at);
     case Source::Service:
       return std::any_of(open_.begin(), open_.end(),
                          [&](const Span& open) { return open.vector == source.index; });
@@ -125,10 +125,10 @@ std::uint64_t RobotTrace::value_of(const SignalSource& source, Cycle at) {
       return source.kind == Source::WireBusy ? busy : wire_byte_[index];
     }
     case Source::Register:
-      return robot_->processor().peek(static_cast<unsigned>(source.index), at);
+      return runner_->peek(static_cast<unsigned>(source.index), at);
     case Source::Variable: {
       char bytes[16] = {};
-      robot_->read_memory(source.variable.address, bytes, std::min(source.variable.bytes, sizeof bytes));
+      runner_->read_memory(source.variable.address, bytes, std::min(source.variable.bytes, sizeof bytes));
       const double value = host::variable_value(source.variable, bytes);
       if (source.variable.kind == host::Variable::Kind::Float) return bits_of(value);
       if (source.variable.bits > 0 || source.variable.bytes > sizeof(std::uint64_t))
@@ -161,7 +161,7 @@ Cycle RobotTrace::next_change(Cycle at) {
         port('D');
         break;
       case Source::Flag:
-        if (robot_) next = std::min(next, robot_->processor().next_flag(s.source.index, at));
+        if (runner_) next = std::min(next, runner_->flag_horizon(s.source.index, at));
         break;
       case Source::WireByte:
       case Source::WireBusy:
@@ -175,7 +175,7 @@ Cycle RobotTrace::next_change(Cycle at) {
         break;
       case Source::Register:
         if (!runs_freely(s.source.index))
-          next = std::min(next, robot_->processor().horizon(static_cast<unsigned>(s.source.index), at));
+          next = std::min(next, runner_->register_horizon(static_cast<unsigned>(s.source.index), at));
         break;
       case Source::Tris:
       case Source::Service:
@@ -271,12 +271,12 @@ void RobotTrace::ended(Cycle at) {
 }
 
 void RobotTrace::finish(Cycle now) {
-  if (robot_) now = std::min(now, robot_->lived_cycles());
+  if (runner_) now = std::min(now, runner_->lived_cycles());
   ended(now);
   if (!keeps_spans_) return;
-  if (robot_ && robot_->is_waiting()) waited(robot_->settled_now(), now, 0);
+  if (runner_ && runner_->waiting_since() < now) waited(runner_->waiting_since(), now, 0);
   end_wait();
-  if (now <= wait_.end || !robot_) return;
+  if (now <= wait_.end || !runner_) return;
   Span busy;
   busy.begin = wait_.end;
   busy.end = now;

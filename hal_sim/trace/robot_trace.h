@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "hal_sim/board/board.h"
-#include "hal_sim/host/robot.h"
+#include "hal_sim/host/runner.h"
 #include "hal_sim/trace/signals.h"
 #include "sim_core/base/clock.h"
 
@@ -49,8 +49,8 @@ struct Span {
 
 class RobotTrace final : public host::Observer, public board::UartWatch {
  public:
-  /// `robot` null: a robot without firmware. Both outlive this object, which takes itself away from them.
-  RobotTrace(board::Board& board, host::Robot* robot, std::vector<Signal> signals, bool spans);
+  /// `runner` null: a robot without firmware. Both outlive this object, which takes itself away from them.
+  RobotTrace(board::Board& board, host::Runner* runner, std::vector<Signal> signals, bool spans);
   ~RobotTrace() override;
   RobotTrace(const RobotTrace&) = delete;
   RobotTrace& operator=(const RobotTrace&) = delete;
@@ -92,7 +92,7 @@ class RobotTrace final : public host::Observer, public board::UartWatch {
   void end_wait();
 
   board::Board& board_;
-  host::Robot* robot_;
+  host::Runner* runner_;
   std::vector<Signal> signals_;
   bool keeps_spans_;
   bool shows_counters_ = false;  // that run freely

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "hal_sim/host/robot.h"
+#include "hal_sim/host/runner.h"
 #include "hal_sim/host/variables.h"
 
 namespace trace {
@@ -46,9 +46,9 @@ struct Signal {
   bool real = false;  ///< the value is a double's bits
 };
 
-/// Signals that a name means, several for an interrupt, a line or an array. `robot` null: no firmware, no
+/// Signals that a name means, several for an interrupt, a line or an array. `runner` null: no firmware, no
 /// variables. Empty with a sentence in `error` ("got ..., expected ..."): there is no such thing.
-std::vector<Signal> find_signals(const std::string& name, const host::Robot* robot, std::string& error);
+std::vector<Signal> find_signals(const std::string& name, const host::Runner* runner, std::string& error);
 
 /// What is drawn when nobody says: LEDs, motors, IR pulses, AUDIO_ON, UARTs.
 const std::vector<std::string>& usual_signals();

@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "hal_sim/host/processor.h"
+#include "dspic30/memory/irqs.h"
+#include "hal_sim/host/observer.h"
 #include "hal_sim/trace/vcd_writer.h"
 
 namespace trace {
@@ -58,7 +59,7 @@ void TimelineWriter::add_robot(int robot, const std::string& name) {
 }
 
 void TimelineWriter::span(int robot, const Span& span, const board::RobotClock& clock,
-                          const host::Symbols* symbols) {
+                          const host::Runner* runner) {
   std::string name, args;
   Track track = kMain;
   const auto ns = [&](host::Cycle at) { return to_ns(clock.click_at(at)); };
@@ -74,7 +75,7 @@ void TimelineWriter::span(int robot, const Span& span, const board::RobotClock& 
       track = kInterrupts;
       break;
     case Span::Kind::Handler:
-      name = span.vector < host::kTrapVector ? host::vector_name(span.vector) : "trap";
+      name = span.vector < host::kTrapVector ? dspic::irq_name(span.vector) : "trap";
       track = kInterrupts;
       args = fmt::format(R"(,"first_instruction_us":{},"interrupted_handlers":{})", micros(ns(span.first)),
                          span.depth);
@@ -85,7 +86,7 @@ void TimelineWriter::span(int robot, const Span& span, const board::RobotClock& 
     case Span::Kind::Callback: {
       track = kAgendas;
       std::string& known = names_[{robot, span.function}];
-      if (known.empty() && symbols) known = symbols->find(span.function).function;
+      if (known.empty() && runner) known = runner->place_of(span.function).function;
       if (known.empty()) known = fmt::format("{:#x}", span.function);
       name = known;
       break;

@@ -22,8 +22,8 @@ class TimelineWriter {
 
   /// Names the tracks of a robot.
   void add_robot(int robot, const std::string& name);
-  /// `symbols` names callbacks; null: by address.
-  void span(int robot, const Span& span, const board::RobotClock& clock, const host::Symbols* symbols);
+  /// `runner` names callbacks; null: by address.
+  void span(int robot, const Span& span, const board::RobotClock& clock, const host::Runner* runner);
   /// One point of a curve named `name`; `unit` names the value.
   void counter(int robot, sim::Clicks at, const char* name, const char* unit, double value);
   /// What was told so far goes to the file.

@@ -6,13 +6,19 @@
 #include <algorithm>
 #include <atomic>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <map>
 
 #include "hal_sim/board/bluetooth_module.h"
 #include "hal_sim/board/epuck_model.h"
 #include "hal_sim/board/part.h"
 #include "hal_sim/board/uart_end.h"
+#include "hal_sim/chip/chip_runner.h"
+#include "hal_sim/host/compiled_runner.h"
+#include "hal_sim/host/oscillator.h"
 #include "hal_sim/register/chip_processor.h"
+#include "hal_sim/twin/world_file.h"
 #include "sim_core/load/world_loader.h"
 #include "sim_core/radio/link_medium.h"
 #include "sim_core/record/image_file.h"
@@ -56,7 +62,6 @@ board::Setup setup_of(const sim::WorldDesc& world, int index) {
   board::Setup setup;
   setup.robot = index;
   setup.seed = variation.seed;
-  setup.selector = robot.selector;
   setup.battery_v = robot.battery_v >= 0 ? robot.battery_v : world.model_of(robot)->battery_v;
   setup.battery_wh = robot.battery_wh >= 0 ? robot.battery_wh : world.model_of(robot)->battery_wh;
   setup.wheel_ratio = {variation.left_wheel_ratio, variation.right_wheel_ratio};
@@ -65,24 +70,15 @@ board::Setup setup_of(const sim::WorldDesc& world, int index) {
     if (i < variation.sensor_offset_counts.size())
       setup.ir_offset_counts[i] = variation.sensor_offset_counts[i];
   }
-  if (robot.revision == "1.3") setup.revision = board::Revision::Rev13;
   setup.acc_offset_m_s2 = variation.acc_offset_m_s2;
   setup.gyro_offset_rad_s = variation.gyro_offset_rad_s;
   setup.motion_noise_scale = robot.variation.motion_noise_scale;
-  setup.camera = robot.camera == "none"      ? board::CameraKind::None
-                 : robot.camera == "po3030k" ? board::CameraKind::Po3030k
-                 : robot.camera == "po6030k" ? board::CameraKind::Po6030k
-                 : robot.camera == "po8030d" ? board::CameraKind::Po8030d
-                                             : board::usual_camera(setup.revision);
-  setup.camera_mount = robot.camera_mount == "sideways"   ? board::CameraMount::Sideways
-                       : robot.camera_mount == "inverted" ? board::CameraMount::Inverted
-                                                          : board::CameraMount::Upright;
-  setup.camera_noise = robot.camera_noise;
   setup.name = robot.name;
   setup.webots = world.webots;
   setup.devices = robot.devices;
   setup.clock_ppm = variation.clock_ppm;
   setup.boot_delay_s = variation.boot_delay_s;
+  board::set_up(setup, own_settings(world, robot));
   return setup;
 }
 
@@ -95,6 +91,56 @@ board::BluetoothSetup bluetooth_of(const sim::WorldDesc& world, int index) {
   setup.seed = world.seed;
   setup.timeout_s = world.link.timeout_s;
   return setup;
+}
+
+/// What a robot runs, loaded once for all that run it: code for the PC, or the chip's own.
+struct Firmware {
+  std::shared_ptr<host::Image> image;
+  std::shared_ptr<const dspic::FirmwareFile> chip;
+};
+
+Firmware open_firmware(const std::string& path, std::string& error) {
+  std::ifstream in(path, std::ios::binary);
+  std::string bytes(4, '\0');
+  in.read(bytes.data(), 4);
+  if (bytes[0] == ':' || bytes == "\177ELF")
+    bytes.append(std::istreambuf_iterator<char>(in), {});
+  if (dspic::kind_of(bytes) == dspic::FileKind::Other) return {host::Image::open(path, error), nullptr};
+  auto file = std::make_shared<dspic::FirmwareFile>();
+  if (!dspic::load_firmware(bytes, path, *file, error)) return {};
+  return {nullptr, file};
+}
+
+std::uint16_t fosc_of(const dspic::FirmwareFile& file) {
+  const auto word = file.words.find(dspic::kConfigurationStart);
+  return word == file.words.end() ? dspic::Configuration{}.fosc : static_cast<std::uint16_t>(word->second);
+}
+
+/// What executes a program on a board, of whose thread's share it is, powered up at `start`. The program's
+/// configuration words make the clock of the robot that is set up.
+host::RunnerFactory runner_for(const Firmware& program, std::size_t share, board::Setup& setup,
+                               host::Cycle start) {
+  if (program.chip) {
+    const std::uint16_t fosc = fosc_of(*program.chip);
+    setup.clock_ppm = host::clock_ppm(setup.clock_ppm, fosc);
+    return [=, name = setup.name, file = program.chip](board::Board& board) {
+      return std::make_unique<chip::ChipRunner>(name, file, host::clock_factor(fosc), board, start);
+    };
+  }
+  const tp_image& image = program.image->copy(share).description();
+  if (image.fosc)
+    setup.clock_ppm = host::clock_ppm(setup.clock_ppm, *static_cast<const std::uint16_t*>(image.fosc));
+  host::CompiledSettings settings;
+  settings.name = setup.name;
+  settings.seed = setup.seed;
+  settings.start = start;
+  if (register_way::wants_chip(image.flags))
+    settings.processor = [](host::CompiledRunner& r) {
+      return std::make_unique<register_way::ChipProcessor>(r);
+    };
+  return [=, shared = program.image](board::Board& board) {
+    return std::make_unique<host::CompiledRunner>(settings, shared, share, board);
+  };
 }
 
 // first address at which two devices of the bus would answer; -1 when there is none
@@ -185,12 +231,12 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
 
   // every distinct firmware is found, built and loaded once
   std::map<std::string, std::string> paths;
-  std::map<std::string, std::shared_ptr<host::Image>> images;
+  std::map<std::string, Firmware> images;
   std::vector<std::string> firmware;
   for (auto& robot : world.robots) {
     const std::string name = chosen(options.firmware, robot.name, robot.firmware);
     Options of_robot = options;
-    if (of_robot.way.empty()) of_robot.way = robot.way;
+    if (of_robot.way.empty()) of_robot.way = own_settings(world, robot).text("way");
     const std::string key = name.empty() ? name : of_robot.way + ":" + name;
     firmware.push_back(key);
     robot.firmware = name;  // what it runs, for pictures and supervisors
@@ -199,11 +245,14 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
     path = provide_image(name, options.world_folder, of_robot, problems);
     if (path.empty()) continue;
     std::string error;
-    images[key] = host::Image::open(path, error);
-    if (!images[key]) {
+    const Firmware& opened = images[key] = open_firmware(path, error);
+    if (!opened.image && !opened.chip) {
       problems.push_back(error);
+    } else if (of_robot.way == "register" && opened.chip) {
+      problems.push_back("robot '" + robot.name + "': way: got register, but " + path +
+                         " is a program of the chip; leave the way out");
     } else if (of_robot.way == "register" &&
-               !register_way::wants_chip(images[key]->copy(0).description().flags)) {
+               !register_way::wants_chip(opened.image->copy(0).description().flags)) {
       problems.push_back("robot '" + robot.name + "': way: got register, but " + path +
                          " was built for the native way, expected an image of twinpuck build --way register");
     }
@@ -222,14 +271,11 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
     // robots that one thread runs share a copy of their image, as Simulation divides them
     while (i >= n * (share + 1) / shares) ++share;
     const auto& robot = world.robots[i];
-    const board::Setup setup = setup_of(world, static_cast<int>(i));
-    const auto image = firmware[i].empty() ? nullptr : images[firmware[i]];
-    host::RobotSettings settings;
-    settings.name = robot.name;
-    settings.seed = setup.seed;
-    if (image && register_way::wants_chip(image->copy(0).description().flags))
-      settings.processor = [](host::Robot& r) { return std::make_unique<register_way::ChipProcessor>(r); };
-    auto mind = std::make_unique<host::FirmwareMind>(setup, std::move(settings), image, share);
+    board::Setup setup = setup_of(world, static_cast<int>(i));
+    host::RunnerFactory make_runner;
+    if (!firmware[i].empty()) make_runner = runner_for(images[firmware[i]], share, setup, 0);
+    auto mind = std::make_unique<host::FirmwareMind>(setup, make_runner);
+    twin->copies_.push_back(share);
     plug_in_parts(robot, mind->board(), problems);
     twin->uart_choices_.push_back(
         {chosen(options.uart1, robot.name, robot.uart1), chosen(options.uart2, robot.name, robot.uart2)});
@@ -268,10 +314,31 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
     minds.push_back(std::move(mind));
   }
   if (problems.size() != problems_before) return nullptr;
-  for (auto& [name, image] : images) twin->images_.push_back(image);
+  for (auto& [name, program] : images)
+    if (program.image) twin->images_.push_back(program.image);
   twin->simulation_ = std::make_unique<sim::Simulation>(std::move(world), std::move(minds), options.threads);
   twin->add_media();
   return twin;
+}
+
+std::string Twin::flash(const std::vector<int>& robots, const std::string& path) {
+  std::string error;
+  const Firmware program = open_firmware(path, error);
+  if (!error.empty()) return error;
+  for (int robot : robots) {
+    const auto r = static_cast<std::size_t>(robot);
+    const std::string where = "robot '" + world().robots[r].name + "': ";
+    if (!minds_[r]->runner()) return where + "got one that is switched off";
+    board::Setup setup = setup_of(world(), robot);
+    const auto make_runner = runner_for(program, copies_[r], setup, minds_[r]->now());
+    if (setup.clock_ppm != minds_[r]->board().setup().clock_ppm)
+      return where + "got a program with another clock in its configuration words; restart the run";
+    minds_[r]->flash(make_runner);
+    image_paths_[r] = path;
+    simulation_->note_intervention(r);
+  }
+  if (program.image) images_.push_back(program.image);
+  return "";
 }
 
 // what passes between robots; a world whose robots have nothing of the kind gets nothing
@@ -319,7 +386,7 @@ int Twin::find(const std::string& name) const {
 std::vector<host::TrapReport> Twin::traps() const {
   std::vector<host::TrapReport> all;
   for (const auto* mind : minds_)
-    if (mind->robot()) all.insert(all.end(), mind->robot()->traps().begin(), mind->robot()->traps().end());
+    if (mind->runner()) all.insert(all.end(), mind->runner()->traps().begin(), mind->runner()->traps().end());
   return all;
 }
 

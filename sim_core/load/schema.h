@@ -72,7 +72,10 @@ std::string expected_text(const KeySpec& key);
 /// `[[robot.part]]` of one kind: `kind`, then its own keys. Points into `kind`, which must outlive it.
 SectionSpec part_section(const PartKind& kind);
 
-/// docs/world-format.md, whole. `part_kinds`: the parts to describe.
-std::string world_format_page(const std::vector<PartKind>& part_kinds = {});
+/// `[[robot]]` of one model, its own keys last. Points into `model`, which must outlive it.
+SectionSpec robot_section(const RobotModel& model);
+
+/// docs/world-format.md, whole. `models`, `part_kinds`: the kinds of robot and part to describe.
+std::string world_format_page(const std::vector<RobotModel>& models, const std::vector<PartKind>& part_kinds);
 
 }  // namespace sim

@@ -55,9 +55,8 @@ inline std::vector<Vec2> points_of(const Value& v) {
   return points;
 }
 
-/// schema_camera.cpp: [sky], and what a robot says about its camera.
+/// schema_camera.cpp: [sky]
 std::vector<SectionSpec> camera_sections();
-std::vector<KeySpec> robot_camera_keys();
 /// Sections with a file of their own.
 SectionSpec remote_key_section();
 /// schema_webots.cpp

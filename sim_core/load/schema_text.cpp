@@ -80,6 +80,18 @@ std::string part_pages(const std::vector<PartKind>& kinds) {
   return out;
 }
 
+/// A table for each kind of robot that has keys of its own.
+std::string robot_pages(const std::vector<RobotModel>& models) {
+  std::string out;
+  for (const RobotModel& model : models) {
+    const std::vector<KeySpec> keys = robot_section(model).keys;
+    if (model.keys.empty()) continue;
+    out += fmt::format("\nOnly robots of `model = \"{}\"` have these, too:\n\n{}", model.name, kKeyTable);
+    for (std::size_t i = keys.size() - model.keys.size(); i < keys.size(); ++i) out += key_row(keys[i]);
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string expected_text(const KeySpec& k) {
@@ -92,7 +104,8 @@ std::string expected_text(const KeySpec& k) {
   return out;
 }
 
-std::string world_format_page(const std::vector<PartKind>& part_kinds) {
+std::string world_format_page(const std::vector<RobotModel>& models,
+                              const std::vector<PartKind>& part_kinds) {
   std::string out =
       "# World files\n\n"
       "<!-- Made by build/world_format_doc from sim_core/load/schema.cpp; do not edit. -->\n\n"
@@ -121,6 +134,7 @@ std::string world_format_page(const std::vector<PartKind>& part_kinds) {
     const std::size_t shown = path == "robot.sensor" ? 1 : s.keys.size();
     out += kKeyTable;
     for (std::size_t i = 0; i < shown; ++i) out += key_row(s.keys[i]);
+    if (path == "robot") out += robot_pages(models);
     if (path == "robot.part") out += part_pages(part_kinds);
   }
   out +=

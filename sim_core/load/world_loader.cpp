@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <sstream>
 
 #include "sim_core/base/input_file.h"
@@ -381,7 +382,7 @@ class Reader {
       RobotDesc r;
       r.name = "robot" + std::to_string(world_.robots.size());
       r.line = line_of(t);
-      read_table("robot", t, &r);
+      read_table(robot_keys(t), t, &r);
       read_one("robot.variation", t, "variation", &r.variation);
       read_one("robot.proximity", t, "proximity", &r.proximity);
       read_one("robot.bluetooth", t, "bluetooth", &r.link);
@@ -424,6 +425,19 @@ class Reader {
     });
   }
 
+  /// The keys that a robot may have depend on its model, which is therefore looked at first.
+  const SectionSpec& robot_keys(const toml::table& table) {
+    if (world_.models.empty()) return section("robot");
+    RobotDesc robot;
+    if (const toml::node* model = table.get("model"); model && model->is_string())
+      robot.model = model->as_string()->get();
+    const RobotModel* model = world_.model_of(robot);
+    if (!model) model = &world_.models.front();
+    const auto [at, is_new] = robot_sections_.try_emplace(model);
+    if (is_new) at->second = robot_section(*model);
+    return at->second;
+  }
+
   /// The keys that a part may have depend on its kind, which is therefore looked at first.
   void read_part(const toml::table& table, RobotDesc& robot) {
     PartDesc part;
@@ -450,6 +464,7 @@ class Reader {
   }
 
   WorldDesc world_;
+  std::map<const RobotModel*, SectionSpec> robot_sections_;
   std::vector<WorldProblem> problems_;
   std::vector<std::string_view> lines_;
 };

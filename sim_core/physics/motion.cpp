@@ -15,8 +15,10 @@ Motion::Motion(MotionDesc desc, bool has_heights, bool loose_moves, bool follows
       tick_s_(to_seconds(desc_.tick)),
       bodies_(desc_.start),
       before_(bodies_.size()),
-      at_(bodies_.size(), 0),
+      at_(bodies_.size(), desc_.begin),
       nearness_(desc_.robots.size(), Near::Nothing),
+      begin_(desc_.begin),
+      end_(desc_.begin),
       has_heights_(has_heights),
       loose_moves_(loose_moves),
       follows_wheels_(follows_wheels) {
@@ -41,7 +43,8 @@ Motion::Motion(MotionDesc desc, bool has_heights, bool loose_moves, bool follows
   if (!has_heights_) {
     for (BodyState& b : bodies_) b.z_m = b.climb_m_s = 0;
   }
-  for (const BodyState& b : bodies_) legs_.push_back({0, b.pose, b.velocity_m_s, b.spin_rad_s, false});
+  for (const BodyState& b : bodies_)
+    legs_.push_back({desc_.begin, b.pose, b.velocity_m_s, b.spin_rad_s, false});
   slopes_.resize(sloping_ ? desc_.robots.size() : 0);
   for (std::size_t r = 0; r < slopes_.size(); ++r) told_z_m_.push_back(bodies_[r].z_m);
   for (std::size_t i = desc_.robots.size(); i < bodies_.size(); ++i) {
@@ -307,6 +310,11 @@ void Motion::note_touch(int robot, bool wall) {
   report.touch_s += tick_s_;
   if (go_on(touching.any, report.longest_touch_s)) ++report.collisions;
   if (wall) go_on(touching.wall, report.longest_wall_touch_s);
+}
+
+void Motion::carry_on(const Motion& before) {
+  touches_ = before.touches_;
+  for (int r = 0; r < robots(); ++r) way_m_[static_cast<std::size_t>(r)] = before.distance_m(r);
 }
 
 TouchReport Motion::touches(int robot) const {

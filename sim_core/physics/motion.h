@@ -80,6 +80,7 @@ struct MotionDesc {
   std::vector<RobotBody> robots;
   std::vector<LooseBody> loose;
   std::vector<BodyState> start;  ///< one per moving body
+  Clicks begin = 0;              ///< when they stand there
 };
 
 class Motion {
@@ -106,6 +107,8 @@ class Motion {
   TouchReport touches(int robot) const;
   /// Way of a robot's centre over the floor since the world began, m. Moves by hand do not count.
   double distance_m(int robot) const;
+  /// What the robots have done so far is carried on from another engine with the same robots.
+  void carry_on(const Motion& before);
   /// Puts a body somewhere else, at rest.
   virtual void move(int body, const Pose2& pose, double z_m);
   /// Gives a body another speed, m/s and rad/s; robots and objects on the floor keep it as long as grip

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sim_core/geometry/pose.h"
+#include "sim_core/world/own_keys.h"
 
 namespace sim {
 
@@ -55,6 +56,7 @@ struct RobotModel {
   double roughness = 0;        ///< 0 mirror to 1 matt, for the newer colour rule
   std::vector<SensorMount> proximity;
   std::vector<LedMount> leds;  ///< index = bit of MindReport::leds
+  std::vector<OwnKey> keys;    ///< of `[[robot]]`, that only this kind has
 };
 
 }  // namespace sim

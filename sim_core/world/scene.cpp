@@ -26,7 +26,7 @@ Scene::Scene(const WorldDesc& world, std::vector<double> reach_m)
       tick_s_(to_seconds(tick_clicks_)),
       slots_(static_cast<int>(std::ceil(kHistoryS * world_.physics_hz)) + 2),
       moving_(layout_.moving),
-      neighbours_(layout_.fixed, bounds_of(layout_), robots_, std::move(reach_m)) {
+      neighbours_(std::in_place, layout_.fixed, bounds_of(layout_), robots_, std::move(reach_m)) {
   CHECK(tick_clicks_ * world_.physics_hz == kClicksPerSecond, "the tick rate divides the click rate");
   const std::size_t bodies = layout_.moving.size();
   legs_.resize(bodies * static_cast<std::size_t>(slots_));
@@ -123,8 +123,8 @@ bool Scene::cast(const Ray& ray, double limit_m, int skip_robot, Clicks at, Scen
     const double middle = 0.5 * (from + to);
     around.clear();
     // bodies are binned where they were gathered: allow for what they moved since
-    neighbours_.gather({ray.from.x + middle * ray.dir.x, ray.from.y + middle * ray.dir.y},
-                       0.5 * piece_m + kSkinM, around);
+    neighbours_->gather({ray.from.x + middle * ray.dir.x, ray.from.y + middle * ray.dir.y},
+                        0.5 * piece_m + kSkinM, around);
     for (const Candidate& c : around) {
       if (c.moving && c.index == skip_robot && c.index < robots_) continue;
       try_one(c, c.moving ? placed(c.index, at) : layout_.fixed[static_cast<std::size_t>(c.index)]);
@@ -187,6 +187,33 @@ void Scene::relocate(int body, const Leg& leg, double z_m) {
   begin_leg(body, leg, z_m, 0);
 }
 
+void Scene::refurnish(const WorldDesc& world, const std::vector<int>& before, std::vector<double> reach_m) {
+  const std::vector<Leg> legs = std::move(legs_);
+  const std::vector<int> newest = std::move(newest_);
+  const std::vector<Height> heights = std::move(heights_);
+  world_ = world;
+  layout_ = build_layout(world_);
+  moving_ = layout_.moving;
+  const std::size_t bodies = moving_.size();
+  CHECK(before.size() == bodies, "one body of before, or none, for each");
+  legs_.assign(bodies * static_cast<std::size_t>(slots_), {});
+  newest_.assign(bodies, 0);
+  heights_.assign(bodies, {});
+  for (std::size_t b = 0; b < bodies; ++b) {
+    if (before[b] < 0) {
+      relocate(static_cast<int>(b), {now_, layout_.moving_pose[b], {}, 0, false}, moving_[b].z_m);
+      continue;
+    }
+    const auto was = static_cast<std::size_t>(before[b]);
+    std::copy_n(legs.begin() + static_cast<std::ptrdiff_t>(was) * slots_, slots_,
+                legs_.begin() + static_cast<std::ptrdiff_t>(b) * slots_);
+    newest_[b] = newest[was];
+    heights_[b] = heights[was];
+  }
+  neighbours_.emplace(layout_.fixed, bounds_of(layout_), robots_, std::move(reach_m));
+  ++version_;
+}
+
 void Scene::set_colour(const Candidate& what, const Colour& colour) {
   Surface& surface =
       (what.moving ? layout_.moving_surface : layout_.fixed_surface)[static_cast<std::size_t>(what.index)];
@@ -213,7 +240,7 @@ void Scene::set_proximity_noise(int robot, double scale) {
 void Scene::regather(double pace_m_s) {
   for (int i = 0; i < bodies(); ++i) moving_[static_cast<std::size_t>(i)] = placed(i, now_);
   // readers may ask for poses of the past, and of the tick to come
-  neighbours_.rebuild(moving_, (kHistoryS + 2 * tick_s_) * pace_m_s);
+  neighbours_->rebuild(moving_, (kHistoryS + 2 * tick_s_) * pace_m_s);
 }
 
 }  // namespace sim

@@ -6,6 +6,7 @@
 #pragma once
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "sim_core/base/clock.h"
@@ -65,7 +66,7 @@ class Scene {
   /// Same with the solid, ready for rays. Headings of round bodies are left out.
   Placed placed(int body, Clicks at) const;
 
-  const Neighbours& neighbours() const { return neighbours_; }
+  const Neighbours& neighbours() const { return *neighbours_; }
   /// Look of a fixed solid or of a moving body.
   const Surface& surface(const Candidate& c) const {
     return (c.moving ? layout_.moving_surface : layout_.fixed_surface)[static_cast<std::size_t>(c.index)];
@@ -100,6 +101,9 @@ class Scene {
   // Changes by hand, between ticks only; Simulation's methods of these names book them.
   /// A body was put somewhere else: its history is forgotten.
   void relocate(int body, const Leg& leg, double z_m);
+  /// Everything but the robots is as `world` says. `before`: for each body the one it was, whose course it
+  /// goes on with; -1: a new one. The optics must be made anew.
+  void refurnish(const WorldDesc& world, const std::vector<int>& before, std::vector<double> reach_m);
   /// Another colour; proximity sensors see its red part.
   void set_colour(const Candidate& what, const Colour& colour);
   void set_lamp(int lamp, bool on, double intensity_w_m2, Vec3 position_m);
@@ -129,7 +133,7 @@ class Scene {
   std::vector<std::uint32_t> leds_;  // per robot; empty until somebody watches
   mutable std::atomic<bool> leds_watched_{false};
   std::vector<Placed> moving_;
-  Neighbours neighbours_;
+  std::optional<Neighbours> neighbours_;
   std::shared_ptr<const ProximityOptics> optics_;
   const SoundField* sound_ = nullptr;
 };

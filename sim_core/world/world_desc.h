@@ -168,18 +168,13 @@ struct RobotDesc {
   std::string def;       ///< second name, by which supervisors may look it up; may be empty
   std::string model;     ///< empty: the only or first model the caller knows
   std::string firmware;  ///< name or path as written; may be empty
-  std::string way;       ///< how it runs, a name the caller knows; empty: the usual one
+  OwnValues own;         ///< of the keys that its model lists
   Pose2 pose;
-  int selector = 0;                   ///< 0 to 15
-  std::string revision;               ///< of the hardware, as written; empty: the model's usual one
   std::optional<std::uint64_t> seed;  ///< unset: made of the world's seed and the robot's index
   double battery_v = -1;              ///< V; negative: the model's
   double battery_wh = -1;             ///< Wh when full; negative: the model's
   std::optional<Colour> colour;
-  std::string camera;        ///< which one it carries, a name the caller knows; empty: the model's usual one
-  std::string camera_mount;  ///< how it is turned, a name the caller knows; empty: the usual way
-  double camera_noise = 1;   ///< factor on the camera's noise; 0 none
-  WheelSettings wheels;      ///< what is not set is the world's
+  WheelSettings wheels;  ///< what is not set is the world's
   std::string uart1 = "-";
   std::string uart2 = "none";
   LinkEndDesc link;

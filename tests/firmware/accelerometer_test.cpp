@@ -353,7 +353,7 @@ int main(void) {
 TEST_F(Accelerometer, revision_1_3_is_found_on_the_bus_and_reads_the_same_scale) {
   ramp();
   Robot& r = quiet(add_robot_with_source(kReadAll));
-  r.settings().revision = "1.3";
+  r.settings().own["revision"] = "1.3";
   run_for(0.6);
   // 16384 counts become 1024 - 256; the centre of z is cleared by e_init_ad_scan()
   EXPECT_EQ(r.variables("raw", 3), (std::vector<std::int16_t>{0, 0, 768}));
@@ -390,7 +390,7 @@ int main(void) {
   }
 }
 )"));
-  r.settings().revision = "1.3";
+  r.settings().own["revision"] = "1.3";
   r.at(2, 0);  // nose up by 20 degrees: 5604 counts forward, none sideways
   run_for(1);
   // the centres are 0 of x and 5348 of y: single axes take the low byte of 0x15E4 as signed, too. -5348
@@ -435,7 +435,7 @@ int main(void) {
 
 TEST_F(Accelerometer, lsm330_over_the_bus_byte_by_byte) {
   Robot& r = quiet(add_robot_with_source("#include <p30F6014A.h>\n" + std::string(kLsm330)));
-  r.settings().revision = "1.3";
+  r.settings().own["revision"] = "1.3";
   r.settings().variation.acc_offset_m_s2 = {0, 0.0981, 0};  // 0.01 g: 164 counts, low byte 0xA4
   run_for(1);
   EXPECT_EQ(r.variable("present"), 1);
@@ -472,7 +472,7 @@ int main(void) {
   while (1);
 }
 )"));
-  r.settings().revision = "1.3";
+  r.settings().own["revision"] = "1.3";
   r.settings().variation.gyro_offset_rad_s = {sim::radians(3.5), sim::radians(-7), 0};
   run_for(0.2);
   EXPECT_EQ(r.variables("before", 3), (std::vector<std::int16_t>{400, -800, 0}));  // 8.75 mdps

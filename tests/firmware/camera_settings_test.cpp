@@ -32,7 +32,7 @@ class CameraSettings : public FirmwareTest {
         "#include <p30F6014A.h>\n#include <camera/fast_2_timer/e_poxxxx.h>\n#include <camera/" + header +
         ">\nint done, answer[16];\nint main(void) {\n  e_poxxxx_init_cam();\n" + statements +
         "\n  done = 1;\n  while (1);\n}\n");
-    r.settings().camera = camera;
+    r.settings().own["camera"] = camera;
     run_for(seconds);
     EXPECT_EQ(r.variable("done"), 1);
     expect_no_traps();
@@ -290,7 +290,7 @@ int main(void) {
   }
 }
 )");
-  r.settings().camera = "po3030k";
+  r.settings().own["camera"] = "po3030k";
   run_for(4);
   const int first = r.variable("pictures");
   run_for(16);

@@ -78,8 +78,8 @@ TEST_F(CameraApi, red_cylinder_on_white_ground_stands_where_it_is) {
   cylinder(0.23, 0.04, 0.020, {1, 0, 0});
   world.floor.colour = {1, 1, 1};
   Robot& r = add_robot_with_source(film());
-  r.settings().camera = "po3030k";
-  r.settings().camera_noise = 0;
+  r.settings().own["camera"] = "po3030k";
+  r.settings().own["camera_noise"] = 0;
   ASSERT_TRUE(run_until([&] { return r.variable("pictures") >= 3; }, 3));
   EXPECT_EQ(r.variable<std::uint16_t>("version"), 0x3030);
   EXPECT_EQ(r.variable("configured"), 0);
@@ -105,7 +105,7 @@ TEST_F(CameraApi, all_three_sensors_see_it_upright_and_as_wide_as_it_is) {
   const char* const cameras[] = {"po3030k", "po6030k", "po8030d"};
   for (int i = 0; i < 3; ++i) {
     Robot& r = add_robot_with_source(film(), cameras[i]);
-    r.settings().camera = cameras[i];
+    r.settings().own["camera"] = cameras[i];
     // out of one another's sight, all at the same place before their own cylinder
     if (i > 0) cylinder(0.23, 2.0 * i, 0.025, {1, 0, 0}, 0.02);
     r.at(0, 2.0 * i);
@@ -156,8 +156,8 @@ TEST_F(CameraApi, mirrors_and_mounts_turn_the_picture) {
   int i = 0;
   for (const Case& c : cases) {
     Robot& r = add_robot_with_source(film("RGB_565_MODE", c.extra), "r" + std::to_string(i));
-    r.settings().camera = c.camera;
-    r.settings().camera_mount = c.mount;
+    r.settings().own["camera"] = c.camera;
+    r.settings().own["camera_mount"] = c.mount;
     r.at(0, 2.0 * i);
     sim::ObjectDesc o;  // hovers 10 mm above the lens, on the left
     o.kind = sim::ObjectKind::Box;
@@ -216,8 +216,8 @@ TEST_F(CameraApi, rgb565_has_the_high_byte_first) {
   world.floor.colour = {1, 1, 1};
   Robot& r = add_robot_with_source(
       film("RGB_565_MODE", "e_poxxxx_set_awb_ae(0, 0); e_poxxxx_set_exposure(500L * 64);"));
-  r.settings().camera = "po3030k";
-  r.settings().camera_noise = 0;
+  r.settings().own["camera"] = "po3030k";
+  r.settings().own["camera_noise"] = 0;
   ASSERT_TRUE(run_until([&] { return r.variable("pictures") >= 1; }, 3));
   const auto bytes = picture(r);
   EXPECT_EQ(bytes[3198], 0x4A);
@@ -233,8 +233,8 @@ TEST_F(CameraApi, exposure_and_gains_by_hand_are_linear_in_light) {
       film("GREY_SCALE_MODE",
            "e_poxxxx_set_awb_ae(0, 0); e_po3030k_set_color_gain(0x10, 0x40, 0x20, 0x20, 0x40); "
            "e_po3030k_set_speed(0x20); e_poxxxx_set_exposure(998L * 64 + 2L * 64);"));
-  r.settings().camera = "po3030k";
-  r.settings().camera_noise = 0;
+  r.settings().own["camera"] = "po3030k";
+  r.settings().own["camera_noise"] = 0;
   // with the clock of colour, the fast driver takes every byte twice; white ground stays white ground
   ASSERT_TRUE(run_until([&] { return r.variable("pictures") >= 1; }, 3));
   EXPECT_NEAR(picture(r, 1600)[1599], 96, 1);  // 998 lines is the longest integration: 0.2 % less
@@ -245,8 +245,8 @@ TEST_F(CameraApi, yuv_gives_luma_and_chroma_in_turn) {
   world.floor.colour = {1, 1, 1};
   Robot& r =
       add_robot_with_source(film("YUV_MODE", "e_poxxxx_set_awb_ae(0, 0); e_poxxxx_set_exposure(500L * 64);"));
-  r.settings().camera = "po3030k";
-  r.settings().camera_noise = 0;
+  r.settings().own["camera"] = "po3030k";
+  r.settings().own["camera_noise"] = 0;
   ASSERT_TRUE(run_until([&] { return r.variable("pictures") >= 1; }, 3));
   const auto bytes = picture(r);
   EXPECT_EQ(bytes[3198], 78);
@@ -269,7 +269,7 @@ TEST_F(CameraApi, frame_rates_are_the_authors) {
     const std::string zoom = std::to_string(c.zoom), size = std::to_string(40 * c.zoom);
     text.replace(text.find("320, 320, 8, 8"), 14, size + ", " + size + ", " + zoom + ", " + zoom);
     Robot& r = add_robot_with_source(text, "r" + std::to_string(i));
-    r.settings().camera = "po3030k";
+    r.settings().own["camera"] = "po3030k";
     r.at(0, 1.0 * i++);
   }
   run_for(3);
@@ -303,7 +303,7 @@ int main(void) {
   while (1);
 }
 )");
-  r.settings().camera = "po3030k";
+  r.settings().own["camera"] = "po3030k";
   ASSERT_TRUE(run_until([&] { return r.variable("step") == 1; }, 3));
   EXPECT_EQ(r.variable("early"), 1000);
   const auto first = r.variables<std::uint8_t>("buffer", 3200),
@@ -339,7 +339,7 @@ int main(void) {
                                    "resets");
   Robot& blind = add_robot_with_source(film(), "blind");
   blind.at(0, 1);
-  blind.settings().camera = "none";
+  blind.settings().own["camera"] = "none";
   run_for(3);
   EXPECT_EQ(r.variable("done"), 1);
   EXPECT_EQ(r.variable("version"), 0);
@@ -377,7 +377,7 @@ int main(void) {
   const char* const cameras[] = {"po3030k", "po6030k", "po8030d"};
   for (int i = 0; i < 3; ++i) {
     Robot& r = add_robot_with_source(text, cameras[i]);
-    r.settings().camera = cameras[i];
+    r.settings().own["camera"] = cameras[i];
     r.at(0, i);
   }
   run_for(2);
@@ -413,7 +413,7 @@ int main(void) {
 }
 )",
                                      std::string("filming") + filming);
-    r.settings().camera = "po3030k";
+    r.settings().own["camera"] = "po3030k";
     r.at(0, *filming - '0');
   }
   run_for(1.5);

@@ -14,17 +14,17 @@ constexpr double kFcy = 14745600.0;
 
 class LisTest : public FirmwareTest {
  protected:
-  static sim::PartValue number(double value) {
-    sim::PartValue v;
+  static sim::OwnValue number(double value) {
+    sim::OwnValue v;
     v.numbers = {value};
     return v;
   }
-  static sim::PartValue text(const std::string& value) {
-    sim::PartValue v;
+  static sim::OwnValue text(const std::string& value) {
+    sim::OwnValue v;
     v.text = value;
     return v;
   }
-  static void add_part(Robot& r, const std::string& kind, std::map<std::string, sim::PartValue> values = {}) {
+  static void add_part(Robot& r, const std::string& kind, std::map<std::string, sim::OwnValue> values = {}) {
     sim::PartDesc desc;
     desc.kind = kind;
     desc.values = std::move(values);

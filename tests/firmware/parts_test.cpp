@@ -3,10 +3,9 @@
 #include <fstream>
 #include <sstream>
 
-#include "hal_sim/board/epuck_model.h"
 #include "hal_sim/board/part.h"
+#include "hal_sim/twin/world_file.h"
 #include "sim_core/load/schema.h"
-#include "sim_core/load/world_loader.h"
 #include "tests/support/firmware_test.h"
 #include "twinpuck_paths.h"
 
@@ -22,7 +21,8 @@ std::string text_of(const std::string& path) {
 }
 
 TEST(Parts, the_page_in_docs_is_the_one_the_schema_makes) {
-  EXPECT_EQ(text_of("docs/world-format.md"), sim::world_format_page(board::part_kinds()))
+  EXPECT_EQ(text_of("docs/world-format.md"),
+            sim::world_format_page(twin::robot_models(), board::part_kinds()))
       << "run build/world_format_doc docs/world-format.md";
 }
 
@@ -31,9 +31,9 @@ TEST(Parts, every_kind_has_a_name_of_its_own_and_sensible_defaults) {
   for (const board::PartType* type : types) {
     EXPECT_EQ(board::find_part_type(type->kind.name), type) << type->kind.name;
     const board::PartSettings settings(type->kind, {}, 0);
-    for (const sim::PartKey& key : type->kind.keys) {
+    for (const sim::OwnKey& key : type->kind.keys) {
       if (key.fallback.empty() || key.fallback == "required") continue;
-      if (key.type == sim::PartKeyType::Number || key.type == sim::PartKeyType::Integer) {
+      if (key.type == sim::OwnKeyType::Number || key.type == sim::OwnKeyType::Integer) {
         EXPECT_GE(settings.number(key.key), key.least) << key.key;
         EXPECT_LE(settings.number(key.key), key.most) << key.key;
       }
@@ -50,7 +50,7 @@ TEST(Parts, the_page_about_parts_shows_the_example_as_it_is) {
 
 TEST(Parts, two_of_one_address_are_refused) {
   sim::WorldDesc world;
-  world.models = {board::epuck_model()};
+  world.models = twin::robot_models();
   sim::RobotDesc robot;
   robot.name = "puck";
   robot.parts.resize(2);
@@ -68,14 +68,14 @@ TEST(Parts, two_of_one_address_are_refused) {
 
 class PartTest : public FirmwareTest {
  protected:
-  static sim::PartDesc part(const std::string& kind, std::map<std::string, sim::PartValue> values = {}) {
+  static sim::PartDesc part(const std::string& kind, std::map<std::string, sim::OwnValue> values = {}) {
     sim::PartDesc desc;
     desc.kind = kind;
     desc.values = std::move(values);
     return desc;
   }
-  static sim::PartValue number(double value) {
-    sim::PartValue v;
+  static sim::OwnValue number(double value) {
+    sim::OwnValue v;
     v.numbers = {value};
     return v;
   }

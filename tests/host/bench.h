@@ -8,7 +8,7 @@
 #include <string>
 
 #include "hal_sim/board/board.h"
-#include "hal_sim/host/robot.h"
+#include "hal_sim/host/compiled_runner.h"
 #include "twinpuck_paths.h"
 
 namespace host_test {
@@ -22,12 +22,10 @@ inline std::shared_ptr<host::Image> open_image(const std::string& name) {
 
 struct BenchRobot {
   board::Board board;
-  host::Robot robot;
+  host::CompiledRunner robot;
 
   BenchRobot(std::shared_ptr<host::Image> image, const std::string& name = "r", std::size_t copy = 0)
-      : board(board::Setup{}), robot({name, 1, 256 * 1024}, std::move(image), copy, board) {
-    host::catch_faults_on_this_thread();
-  }
+      : board(board::Setup{}), robot({name, 1, 256 * 1024}, std::move(image), copy, board) {}
   /// Runs in windows of 28,800 cycles (1/512 s), as a world does.
   void run(host::Cycle cycles) {
     const host::Cycle end = robot.cycles() + cycles;

@@ -28,7 +28,7 @@ int main(void)
 TEST_F(RegisterTest, an_interrupt_costs_the_chip_one_question_or_two) {
   add_robot(std::string(TWINPUCK_SOURCE_DIR) + "/bench/firmware/register_load");
   run_for(0.2);
-  const host::Robot& robot = *twin().mind(0).robot();
+  const host::CompiledRunner& robot = runner();
   // 16384 Hz and 10 kHz for 0.2 s
   EXPECT_NEAR(static_cast<double>(robot.interrupts_served()), 5277, 60);
   EXPECT_LT(static_cast<double>(robot.looks()) / static_cast<double>(robot.interrupts_served()), 2.0);
@@ -79,12 +79,12 @@ TEST_F(RegisterTest, robots_of_one_image_have_chips_of_their_own) {
 TEST_F(RegisterTest, a_native_and_a_register_robot_in_one_world) {
   options.way = "";
   Robot& reg = add_robot_with_source(kStepper).selector(2);
-  reg.settings().way = "register";
+  reg.settings().own["way"] = "register";
   Robot& native = add_robot("blink").at(0.5, 0);
   run_for(0.505);
   EXPECT_EQ(reg.variable<std::uint16_t>("count"), 100);
-  EXPECT_STREQ(processor(0).way(), "register");
-  EXPECT_STREQ(processor(1).way(), "native");
+  EXPECT_STREQ(runner(0).way(), "register");
+  EXPECT_STREQ(runner(1).way(), "native");
   EXPECT_GT(native.cycles(), 0);
   expect_no_traps();
 }

@@ -40,7 +40,7 @@ int main(void)
   run_for(9.3);
   EXPECT_EQ(robot.variable<std::uint16_t>("count"), 99);
   EXPECT_LT(robot.cpu_load(), 0.001);  // an empty main loop waits
-  EXPECT_STREQ(processor().way(), "register");
+  EXPECT_STREQ(runner().way(), "register");
   expect_no_diagnoses();
   expect_no_traps();
 }
@@ -250,7 +250,7 @@ int main(void)
     return std::sqrt(squares / 400 - sum / 400 * sum / 400);
   };
   // a standard deviation of 400 samples is known within 3.5 %; rounding and the converter add a little
-  const board::Board& board = twin().mind(0).robot()->board();
+  const board::Board& board = twin().mind(0).board();
   const board::IrConversion lit = board.ir_conversion(0, board::kFcyHz, 100'000);
   const double expected = lit.reflection_counts * lit.relative_noise;
   ASSERT_GT(expected, 4);
@@ -374,7 +374,7 @@ int main(void)
   EXPECT_EQ(robot.variable("modulo"), 1);
   EXPECT_EQ(robot.variable<std::uint16_t>("word"), 0x1234);
   EXPECT_TRUE(robot.led(0));
-  EXPECT_EQ(processor().cpu_level(), 3);
+  EXPECT_EQ(runner().processor().cpu_level(), 3);
   expect_no_traps();
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A world whose robots run the register way.
 #pragma once
+#include "hal_sim/host/compiled_runner.h"
 #include "tests/support/firmware_test.h"
 
 namespace register_test {
@@ -10,7 +11,9 @@ using firmware_test::Robot;
 class RegisterTest : public firmware_test::FirmwareTest {
  protected:
   RegisterTest() { options.way = "register"; }
-  host::Processor& processor(int robot = 0) { return twin().mind(robot).robot()->processor(); }
+  host::CompiledRunner& runner(int robot = 0) {
+    return dynamic_cast<host::CompiledRunner&>(*twin().mind(robot).runner());
+  }
 };
 
 /// What every program below begins with.

@@ -23,6 +23,7 @@ inline sim::RobotModel puck() {
   const double x[8] = {.0335, .023, 0, -.030, -.030, 0, .023, .0335};
   const double y[8] = {-.0105, -.026, -.033, -.018, .018, .033, .026, .0105};
   const double yaw_deg[8] = {-18, -45, -90, -142, 142, 90, 45, 18};
+  m.keys = {{"selector", sim::OwnKeyType::Integer, "", 0, 15, "", "0", "position of a switch"}};
   for (int i = 0; i < 8; ++i) m.proximity.push_back({{x[i], y[i], 0.025}, sim::radians(yaw_deg[i]), 0});
   return m;
 }
@@ -31,6 +32,7 @@ inline sim::RobotModel puck() {
 inline sim::RobotModel one_eyed() {
   sim::RobotModel m;
   m.name = "one-eyed";
+  m.keys = {{"selector", sim::OwnKeyType::Integer, "", 0, 15, "", "0", "position of a switch"}};
   m.proximity = {{{0.037, 0, 0.025}, 0, 0}};
   return m;
 }

@@ -116,7 +116,7 @@ address = 8
   EXPECT_NEAR(w.objects[0].pose.heading_rad, sim::kPi / 2, 1e-12);
   const sim::RobotDesc& r = w.robots[0];
   EXPECT_NEAR(r.pose.heading_rad, sim::kPi, 1e-12);
-  EXPECT_EQ(r.selector, 7);
+  EXPECT_EQ(sim::OwnSettings(w.models[0].keys, r.own).integer("selector"), 7);
   EXPECT_EQ(r.uart2, "tcp:4711");
   EXPECT_EQ(r.variation.left_wheel_ratio, 1.01);
   const auto v = sim::resolve_variation(w, 0);
@@ -504,6 +504,19 @@ TEST(Loader, defaults_in_the_table_are_the_defaults_of_the_structs) {
   EXPECT_EQ(arena.arena->wall_thickness_m, sim::ArenaDesc().wall_thickness_m);
   const auto wall = world_of("twinpuck = 1\n[[wall]]\npoints = [[0, 0], [1, 0]]\n" + spelled("wall"));
   EXPECT_EQ(wall.walls[0].height_m, sim::WallDesc().height_m);
+}
+
+TEST(Loader, a_model_has_keys_that_another_has_not) {
+  sim::RobotModel plain = one_eyed();
+  plain.keys.clear();
+  const auto report = [&](const std::string& robot) {
+    return sim::parse_world("twinpuck = 1\n[[robot]]\n" + robot, "w.toml", {puck(), plain}).report("w.toml");
+  };
+  EXPECT_EQ(report("selector = 3\n"), "");
+  EXPECT_EQ(report("model = \"one-eyed\"\n"), "");
+  EXPECT_NE(
+      report("model = \"one-eyed\"\nselector = 3\n").find("w.toml:4:1: unknown key 'selector' in robot"),
+      std::string::npos);
 }
 
 }  // namespace

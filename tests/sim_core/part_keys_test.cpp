@@ -10,10 +10,10 @@ namespace {
 const std::vector<sim::PartKind> kKinds{
     {"antenna",
      "It hums.",
-     {{"length", sim::PartKeyType::Number, "m", 0.01, 0.5, "", "0.1", "how long"},
-      {"mood", sim::PartKeyType::Choice, "", 0, 0, "calm|wild", "\"calm\"", "how it hums"},
-      {"tips", sim::PartKeyType::Integer, "", 1, 9, "", "required", "how many"},
-      {"at", sim::PartKeyType::Pair, "m", -1, 1, "", "[0, 0]", "where"}}},
+     {{"length", sim::OwnKeyType::Number, "m", 0.01, 0.5, "", "0.1", "how long"},
+      {"mood", sim::OwnKeyType::Choice, "", 0, 0, "calm|wild", "\"calm\"", "how it hums"},
+      {"tips", sim::OwnKeyType::Integer, "", 1, 9, "", "required", "how many"},
+      {"at", sim::OwnKeyType::Pair, "m", -1, 1, "", "[0, 0]", "where"}}},
     {"wheelbarrow", "It rolls.", {}}};
 
 sim::LoadedWorld read(const std::string& part) {

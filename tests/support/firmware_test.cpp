@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "hal_sim/board/epuck_model.h"
 #include "hal_sim/board/part.h"
+#include "hal_sim/twin/world_file.h"
 #include "sim_core/base/hash.h"
 #include "sim_core/load/world_loader.h"
 #include "twinpuck_paths.h"
@@ -45,7 +45,7 @@ Robot& Robot::at(double x_m, double y_m, double heading_deg) {
   return *this;
 }
 Robot& Robot::selector(int position) {
-  desc_.selector = position;
+  desc_.own["selector"] = position;
   return *this;
 }
 Robot& Robot::battery(double volts) {
@@ -74,7 +74,7 @@ Robot& Robot::bluetooth() {
 double Robot::longest_wall_touch_s() const {
   return test_->twin().simulation().touches(index_).longest_wall_touch_s;
 }
-double Robot::cpu_load() const { return mind().robot()->cpu_load(); }
+double Robot::cpu_load() const { return mind().runner()->cpu_load(); }
 cc::FunctionCycles Robot::cost_of(const std::string& function, Caller caller) const {
   for (const auto& f : cc::function_costs(test_->twin().image_path(index_)))
     if (f.name == function) return f;
@@ -82,7 +82,7 @@ cc::FunctionCycles Robot::cost_of(const std::string& function, Caller caller) co
   return {};
 }
 void Robot::copy_variable(const std::string& name, void* to, std::size_t bytes, const Caller& caller) const {
-  const auto found = mind().robot()->read_variable(name, bytes);
+  const auto found = mind().runner()->read_variable(name, bytes);
   std::copy_n(found.begin(), std::min(bytes, found.size()), static_cast<char*>(to));
   if (found.size() == bytes) return;
   ADD_FAILURE_AT(caller.file, caller.line)
@@ -91,7 +91,7 @@ void Robot::copy_variable(const std::string& name, void* to, std::size_t bytes, 
 std::int64_t Robot::cycles() const { return mind().now(); }
 void Robot::turn_selector(int position) {
   mind().board().turn_selector(position);
-  mind().robot()->wake();
+  mind().runner()->wake();
 }
 void Robot::define_sensor(const std::string& name, double value) {
   test_->twin();
@@ -120,7 +120,7 @@ void Robot::serial_send(int port, const std::string& bytes) {
 // ----------------------------------------------------------------------------------------------------
 
 FirmwareTest::FirmwareTest() {
-  world.models = {board::epuck_model()};
+  world.models = twin::robot_models();
   world.part_kinds = board::part_kinds();
   world.title = "test";
   world.proximity.noise_scale = 0;
@@ -151,7 +151,7 @@ void FirmwareTest::box(double x_m, double y_m, double size_m, double heading_deg
 
 void FirmwareTest::load_world(const std::string& path, Caller caller) {
   const auto file = std::filesystem::path(TWINPUCK_SOURCE_DIR) / path;
-  auto loaded = sim::load_world(file.string(), {board::epuck_model()}, board::part_kinds());
+  auto loaded = twin::load_world(file.string());
   if (!loaded.world) {
     ADD_FAILURE_AT(caller.file, caller.line) << loaded.report(path);
     return;

@@ -98,9 +98,9 @@ class Robot {
   /// (docs/cycles.md).
   cc::FunctionCycles cost_of(const std::string& function, Caller caller = Caller::here()) const;
 
-  const std::vector<host::TrapReport>& traps() const { return mind().robot()->traps(); }
+  const std::vector<host::TrapReport>& traps() const { return mind().runner()->traps(); }
   /// What board and chip have to say about the firmware so far (docs/diagnoses.md).
-  std::vector<board::Diagnosis> diagnoses() const { return mind().robot()->diagnoses(); }
+  std::vector<board::Diagnosis> diagnoses() const { return mind().runner()->diagnoses(); }
   /// The same, a line each: "place: cause: message; hint".
   std::string diagnoses_text() const;
 

@@ -65,9 +65,8 @@ const PartType& part_compass() {
   static const PartType type{
       {"compass",
        "Devantech CMPS03 at I2C address 0xC0, north is +y.",
-       {{"noise", sim::PartKeyType::Number, "deg", 0, 180, "", "0.3", "standard deviation of a bearing"},
-        {"offset", sim::PartKeyType::Number, "deg", -180, 180, "", "0",
-         "added to every bearing, clockwise"}}},
+       {{"noise", sim::OwnKeyType::Number, "deg", 0, 180, "", "0.3", "standard deviation of a bearing"},
+        {"offset", sim::OwnKeyType::Number, "deg", -180, 180, "", "0", "added to every bearing, clockwise"}}},
       make_part<Compass>};
   return type;
 }

@@ -54,8 +54,8 @@ const PartType& part_floor_colour() {
   static const PartType type{
       {"floor-colour",
        "Example of docs/parts.md: the colour of the floor under the robot, I2C address 0x52.",
-       {{"forward", sim::PartKeyType::Number, "m", -0.03, 0.03, "", "0", "where it sits, from the middle"},
-        {"noise", sim::PartKeyType::Number, "", 0, 50, "", "1", "standard deviation of a reading"}}},
+       {{"forward", sim::OwnKeyType::Number, "m", -0.03, 0.03, "", "0", "where it sits, from the middle"},
+        {"noise", sim::OwnKeyType::Number, "", 0, 50, "", "1", "standard deviation of a reading"}}},
       make_part<FloorColour>};
   return type;
 }

@@ -81,9 +81,9 @@ const PartType& part_ground_sensors() {
   static const PartType type{
       {"ground-sensors",
        "Three infra-red sensors that look at the floor and two at its edges, I2C address 0xC0.",
-       {{"noise", sim::PartKeyType::Number, "", 0, 1, "", "0.1",
+       {{"noise", sim::OwnKeyType::Number, "", 0, 1, "", "0.1",
          "standard deviation of a reading, as a part of it; 0 switches it off"},
-        {"height", sim::PartKeyType::Number, "m", 0.0005, 0.05, "", "0.0033",
+        {"height", sim::OwnKeyType::Number, "m", 0.0005, 0.05, "", "0.0033",
          "of the sensors above the floor"}}},
       make_part<GroundSensors>};
   return type;

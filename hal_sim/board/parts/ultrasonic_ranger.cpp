@@ -131,16 +131,16 @@ class UltrasonicRanger final : public Part, public I2cRegisters {
 }  // namespace
 
 const PartType& part_ultrasonic_ranger() {
-  using sim::PartKeyType;
+  using sim::OwnKeyType;
   static const PartType type{
       {"ultrasonic-ranger",
        "Devantech SRF08 or SRF10, looking forward from a turret.",
-       {{"model", PartKeyType::Choice, "", 0, 0, "srf08|srf10", "\"srf08\"", "the SRF10 has no light sensor"},
-        {"address", PartKeyType::Integer, "", 0xE0, 0xFE, "", "224", "8-bit I2C address, even: 224 is 0xE0"},
-        {"heading", PartKeyType::Number, "deg", -180, 180, "", "0",
+       {{"model", OwnKeyType::Choice, "", 0, 0, "srf08|srf10", "\"srf08\"", "the SRF10 has no light sensor"},
+        {"address", OwnKeyType::Integer, "", 0xE0, 0xFE, "", "224", "8-bit I2C address, even: 224 is 0xE0"},
+        {"heading", OwnKeyType::Number, "deg", -180, 180, "", "0",
          "where it looks, counter-clockwise from forward"},
-        {"height", PartKeyType::Number, "m", 0.01, 0.5, "", "0.06", "above the floor"},
-        {"noise", PartKeyType::Number, "m", 0, 0.1, "", "0.003", "standard deviation of a distance"}}},
+        {"height", OwnKeyType::Number, "m", 0.01, 0.5, "", "0.06", "above the floor"},
+        {"noise", OwnKeyType::Number, "m", 0, 0.1, "", "0.003", "standard deviation of a distance"}}},
       make_part<UltrasonicRanger>};
   return type;
 }

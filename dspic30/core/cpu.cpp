@@ -1,0 +1,427 @@
+// SPDX-License-Identifier: MIT
+#include "dspic30/core/cpu.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+
+namespace dspic {
+
+namespace {
+
+constexpr unsigned kSplim = 0x020, kAccal = 0x022, kAccbu = 0x02C, kPcl = 0x02E, kPch = 0x030,
+                   kTblpag = 0x032, kPsvpag = 0x034, kRcount = 0x036, kDcount = 0x038, kDostartl = 0x03A,
+                   kDostarth = 0x03C, kDoendl = 0x03E, kDoendh = 0x040, kSr = 0x042, kCorcon = 0x044,
+                   kModcon = 0x046, kXmodsrt = 0x048, kYmodend = 0x04E, kXbrev = 0x050, kDisicnt = 0x052,
+                   kLast = kDisicnt;
+constexpr std::uint16_t kPsvOn = 0x0004, kIpl3 = 0x0008, kDl = 0x0700, kEdt = 0x0800,
+                        kCorconKept = 0xFFFF & ~(kIpl3 | kDl | kEdt);
+constexpr std::uint16_t kCorconAtReset = 0x0020;
+constexpr unsigned kStackStart = 0x0800;
+constexpr int kDeepestDo = 7;  // DL has three bits
+
+// the course has not come there yet
+const Decoded* meet(Cpu& cpu, const Decoded* d) {
+  cpu.decode(d);
+  return d->run(cpu, d);
+}
+
+// no flash at that address
+const Decoded* fetch_nothing(Cpu& cpu, const Decoded* d) {
+  cpu.trap(Trap::AddressError);
+  return d;
+}
+
+std::string hex(unsigned address) {
+  char text[16];
+  std::snprintf(text, sizeof text, "0x%06x", address);
+  return text;
+}
+
+void set_low(unsigned& address, unsigned value) { address = (address & 0x7F0000) | (value & 0xFFFE); }
+void set_high(unsigned& address, unsigned value) { address = (address & 0xFFFF) | (value & 0x7F) << 16; }
+
+}  // namespace
+
+Cpu::Cpu(ChipParts& chip, ProgramMemory& memory) : parts(chip), program(memory) {
+  parts.bus.attach(*this, 0, kLast);
+  reset();
+}
+
+void Cpu::forget_code() {
+  const std::ptrdiff_t here = next ? next - code_.data() : 0;
+  Decoded unknown{};
+  unknown.run = &meet;
+  unknown.cycles = 0;
+  for (const std::uint32_t index : decoded_) code_[index] = unknown;
+  decoded_.clear();
+  if (code_.empty()) {
+    code_.assign(kFlashWords + 1, unknown);
+    code_.back().run = &fetch_nothing;
+    code_.back().cycles = 1;
+  }
+  next = code_.data() + here;
+  code_is_old = false;
+  find_loop_end();
+}
+
+void Cpu::reset() {
+  w.fill(0);
+  w[15] = kStackStart;
+  n = 0;
+  z = 1;
+  c = ov = dc = 0;
+  repeating = repeat_is_fresh = window_was_free = end_loop = splim_on = false;
+  window = Window::Plain;
+  power = Power::On;
+  reset_due.reset();
+  written = 0;
+  splim = tblpag = psvpag = rcount = modcon = xbrev = 0;
+  corcon = kCorconAtReset;
+  modulo = {0, 1, 0, 1};
+  loop = outer_loop = Loop{};
+  loop_depth = 0;
+  acc.fill(0);
+  oa = ob = sa = sb = false;
+  shadow = {};
+  next = code_.data();
+  deadline = 0;
+  forget_code();
+}
+
+// --- flow -----------------------------------------------------------------------------------------------
+
+unsigned Cpu::address_of(const Decoded* d) const {
+  const auto index = static_cast<unsigned>(d - code_.data());
+  return index < kFlashWords ? 2 * index : bad_address_;
+}
+
+const Decoded* Cpu::jump(unsigned address, const Decoded* from) {
+  if (address < kFlashEnd) return arrive(&code_[address / 2]);
+  bad_address_ = address;
+  return &code_.back();
+}
+
+bool Cpu::is_decoded(const Decoded* d) const { return d->run != &meet; }
+
+void Cpu::decode(const Decoded* d) {
+  decoded_.push_back(static_cast<std::uint32_t>(d - code_.data()));
+  code_[static_cast<std::size_t>(d - code_.data())] = decode_word(*this, address_of(d));
+}
+
+void Cpu::trap(Trap which) {
+  const char* name = vector_name(static_cast<int>(which));
+  const std::string place = std::string(name) + " at " + hex(address_of(at));
+  parts.diagnostics.report(Cause::CpuTrap, place, place + ": the program goes on at the trap's vector", now);
+  parts.events.run_to(now);
+  parts.interrupts.raise_trap(which, now);
+  deadline = 0;
+}
+
+// --- loops ----------------------------------------------------------------------------------------------
+
+void Cpu::begin_do(unsigned count, const Decoded* first, const Decoded* last) {
+  outer_loop = loop;
+  const auto index = static_cast<unsigned>(last - code_.data());
+  loop = {count, address_of(first), 2 * index & 0x7FFFFE};
+  loop_depth = std::min(loop_depth + 1, kDeepestDo);
+  find_loop_end();
+}
+
+void Cpu::find_loop_end() {
+  loop_end = loop_depth > 0 && loop.end < kFlashEnd ? &code_[loop.end / 2] : nullptr;
+}
+
+const Decoded* Cpu::loop_back(const Decoded* last, const Decoded* following) {
+  if (following != last + 1) return following;  // it left the loop
+  if (loop.count > 0 && !end_loop) {
+    --loop.count;
+    const Decoded* first = jump(loop.start, last);
+    if (last->writes & first->pointers) ++now;
+    return first;
+  }
+  end_loop = false;
+  if (--loop_depth > 0) loop = outer_loop;
+  find_loop_end();
+  return following;
+}
+
+// between two iterations an interrupt may come; RCOUNT then says how many follow the one that comes next
+const Decoded* Cpu::run_repeated(const Decoded* d) {
+  if (!is_decoded(d)) decode(d);
+  at = d;
+  do {
+    const bool is_last = rcount == 0;
+    if (is_last) repeating = false;
+    window = is_last || repeat_is_fresh ? Window::RepeatEdge : Window::Free;
+    window_was_free = false;
+    if (!repeat_is_fresh && (d->writes & d->pointers)) ++now;  // it stalls behind itself
+    const Decoded* following = d->run(*this, d);
+    window = Window::Plain;
+    repeat_is_fresh = false;
+    now += d->cycles;
+    if (is_last || reset_due) return following;
+    if (rcount > 0) --rcount;
+  } while (now < deadline);
+  return d;
+}
+
+// --- status ---------------------------------------------------------------------------------------------
+
+unsigned Cpu::sr_low() const {
+  return static_cast<unsigned>(flag_c()) | flag_z() << 1 | flag_ov() << 2 | flag_n() << 3 | repeating << 4 |
+         (static_cast<unsigned>(parts.interrupts.level()) & 7) << 5;
+}
+
+unsigned Cpu::sr() const {
+  return sr_low() | flag_dc() << 8 | (loop_depth > 0) << 9 | (sa || sb) << 10 | (oa || ob) << 11 | sb << 12 |
+         sa << 13 | ob << 14 | static_cast<unsigned>(oa) << 15;
+}
+
+void Cpu::set_flags(unsigned bits) {
+  c = bits & 1;
+  z = bits & 2 ? 0 : 1;
+  ov = bits & 4 ? 0x8000 : 0;
+  n = bits & 8 ? 0x8000 : 0;
+}
+
+// the overflow bits are the engine's; saturation bits can only be cleared, both by SAB
+void Cpu::set_sr(unsigned value, unsigned lanes) {
+  if (lanes & 0xFF) {
+    set_flags(value);
+    parts.interrupts.set_level(static_cast<int>(value >> 5 & 7) | (parts.interrupts.level() & 8), now);
+    deadline = 0;
+  }
+  if (!(lanes & 0xFF00)) return;
+  dc = value & 0x100;
+  const bool both_stay = !(sa || sb) || (value & 0x400);
+  sa = sa && both_stay && (value & 0x2000);
+  sb = sb && both_stay && (value & 0x1000);
+}
+
+// --- registers 0x000 to 0x052 ---------------------------------------------------------------------------
+
+std::uint16_t Cpu::peek(unsigned address, Cycle when) const {
+  if (address < kSplim) return w[address / 2];
+  if (address >= kAccal && address <= kAccbu) {
+    const std::int64_t a = acc[(address - kAccal) / 6];
+    return static_cast<std::uint16_t>(a >> 8 * ((address - kAccal) % 6));
+  }
+  if (address >= kXmodsrt && address <= kYmodend) return modulo[(address - kXmodsrt) / 2];
+  const unsigned pc = address_of(next);
+  switch (address) {
+    case kSplim:
+      return splim;
+    case kPcl:
+      return static_cast<std::uint16_t>(pc);
+    case kPch:
+      return static_cast<std::uint16_t>(pc >> 16);
+    case kTblpag:
+      return tblpag;
+    case kPsvpag:
+      return psvpag;
+    case kRcount:
+      return rcount;
+    case kDcount:
+      return static_cast<std::uint16_t>(loop.count);
+    case kDostartl:
+      return static_cast<std::uint16_t>(loop.start);
+    case kDostarth:
+      return static_cast<std::uint16_t>(loop.start >> 16);
+    case kDoendl:
+      return static_cast<std::uint16_t>(loop.end);
+    case kDoendh:
+      return static_cast<std::uint16_t>(loop.end >> 16);
+    case kSr:
+      return static_cast<std::uint16_t>(sr());
+    case kCorcon:
+      return static_cast<std::uint16_t>(corcon | (parts.interrupts.level() > 7 ? kIpl3 : 0) |
+                                        loop_depth << 8);
+    case kModcon:
+      return modcon;
+    case kXbrev:
+      return xbrev;
+    case kDisicnt:
+      return static_cast<std::uint16_t>(std::clamp<Cycle>(parts.interrupts.disi_until() - when, 0, 0x3FFF));
+    default:
+      return 0;
+  }
+}
+
+Cycle Cpu::horizon(unsigned address, Cycle when) const {
+  return address == kDisicnt && parts.interrupts.disi_active(when) ? when + 1 : kNever;
+}
+
+void Cpu::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycle when) {
+  const std::uint16_t wanted = merge_lanes(peek(address, when), value, lanes);
+  if (address < kSplim) {
+    w[address / 2] = address == 0x1E ? wanted & 0xFFFE : wanted;
+    if (lanes == 0xFFFF) written |= 1u << address / 2;
+    return;
+  }
+  if (address >= kAccal && address <= kAccbu) {
+    std::int64_t& a = acc[(address - kAccal) / 6];
+    const unsigned shift = 8 * ((address - kAccal) % 6);
+    const std::uint64_t mask = std::uint64_t{shift == 32 ? 0xFFu : 0xFFFFu} << shift;
+    const std::uint64_t bits =
+        (static_cast<std::uint64_t>(a) & ~mask) | ((std::uint64_t{wanted} << shift) & mask);
+    a = static_cast<std::int64_t>(bits << 24) >> 24;
+    return;
+  }
+  switch (address) {
+    case kSplim:
+      splim = wanted;
+      splim_on |= lanes == 0xFFFF;
+      break;
+    case kTblpag:
+      tblpag = wanted;
+      break;
+    case kPsvpag:
+      psvpag = wanted;
+      break;
+    case kRcount:
+      rcount = wanted;
+      break;
+    case kDcount:
+      loop.count = wanted;
+      break;
+    case kDostartl:
+      set_low(loop.start, wanted);
+      break;
+    case kDostarth:
+      set_high(loop.start, wanted);
+      break;
+    case kDoendl:
+      set_low(loop.end, wanted);
+      find_loop_end();
+      break;
+    case kDoendh:
+      set_high(loop.end, wanted);
+      find_loop_end();
+      break;
+    case kSr:
+      set_sr(value, lanes);
+      break;
+    case kCorcon:
+      corcon = wanted & kCorconKept;
+      if ((lanes & kIpl3) && !(value & kIpl3) && parts.interrupts.level() > 7)
+        parts.interrupts.set_level(parts.interrupts.level() & 7, when);
+      end_loop |= (value & kEdt) && loop_depth > 0;
+      deadline = 0;
+      break;
+    case kDisicnt:
+      parts.interrupts.disi(wanted, when);
+      deadline = 0;
+      break;
+    default:
+      if (address == kPcl || address == kPch) break;
+      if (address == kModcon) modcon = wanted;
+      if (address == kXbrev) xbrev = wanted;
+      if (address >= kXmodsrt && address <= kYmodend)
+        modulo[(address - kXmodsrt) / 2] = address & 2 ? wanted | 1 : wanted & 0xFFFE;
+      code_is_old = true;  // which pointers are special is decoded
+      deadline = 0;
+  }
+}
+
+// --- pointers -------------------------------------------------------------------------------------------
+
+bool Cpu::is_special(unsigned reg, bool is_write) const {
+  if (reg == 15) return true;
+  if ((modcon & 0x8000) && (modcon & 15) == reg) return true;
+  return is_write && (xbrev & 0x8000) && (modcon >> 8 & 15) == reg;
+}
+
+unsigned Cpu::stepped(unsigned reg, unsigned value, int step, bool y_space) const {
+  const unsigned moved = (value + static_cast<unsigned>(step)) & 0xFFFF;
+  const bool on =
+      y_space ? (modcon & 0x4000) && (modcon >> 4 & 15) == reg : (modcon & 0x8000) && (modcon & 15) == reg;
+  if (!on) return moved;
+  const int start = modulo[y_space ? 2 : 0], end = modulo[y_space ? 3 : 1], length = end - start + 1;
+  const int place = static_cast<int>(value) + step;
+  if (place > end && step > 0) return static_cast<unsigned>(place - length) & 0xFFFF;
+  if (place < start && step < 0) return static_cast<unsigned>(place + length) & 0xFFFF;
+  return moved;
+}
+
+unsigned Cpu::stack_checked(unsigned ea) {
+  if (ea < kStackStart || (splim_on && ea > splim)) trap(Trap::StackError);
+  return ea;
+}
+
+// XB is added from the highest bit down, to words
+static unsigned reversed_step(unsigned value, unsigned xb) {
+  unsigned sum = value >> 1, carry = xb & 0x7FFF;
+  while (carry) {
+    const unsigned both = sum & carry;
+    sum ^= carry;
+    carry = both >> 1;
+  }
+  return (sum << 1 | (value & 1)) & 0xFFFF;
+}
+
+unsigned Cpu::special_pointer(unsigned reg, int pre, int post, bool is_write) {
+  const bool reversed = is_write && (xbrev & 0x8000) && (modcon >> 8 & 15) == reg;
+  const auto step = [&](unsigned value, int by) {
+    if (reversed && by == 2) return reversed_step(value, xbrev);
+    return by ? stepped(reg, value, by, false) : value;
+  };
+  const unsigned mask = reg == 15 ? 0xFFFE : 0xFFFF;
+  const unsigned ea = step(w[reg], pre) & mask;
+  w[reg] = static_cast<std::uint16_t>(step(ea, post) & mask);
+  return reg == 15 ? stack_checked(ea) : ea;
+}
+
+void Cpu::push(unsigned value) {
+  const unsigned ea = stack_checked(w[15]);
+  w[15] = static_cast<std::uint16_t>(ea + 2);
+  write16(ea, value);
+}
+
+unsigned Cpu::pop() {
+  w[15] = static_cast<std::uint16_t>(w[15] - 2);
+  return read16(stack_checked(w[15]));
+}
+
+// --- data space beyond RAM ------------------------------------------------------------------------------
+
+unsigned Cpu::read_elsewhere(unsigned ea, unsigned bits) {
+  if (bits == 16 && (ea & 1)) {
+    trap(Trap::AddressError);
+    return 0;
+  }
+  const Cycle t = now + at->lead;
+  if (ea < kDisicnt) {
+    const unsigned word = peek(ea & ~1u, t);
+    return bits == 16 ? word : word >> 8 * (ea & 1) & 0xFF;
+  }
+  if (ea < kSfrBytes) return parts.read(ea, bits, t);
+  if (ea >= kPsvStart && (corcon & kPsvOn)) return read_psv(ea, bits);
+  trap(Trap::AddressError);
+  return 0;
+}
+
+unsigned Cpu::read_psv(unsigned ea, unsigned bits) {
+  if (window == Window::Free)
+    window_was_free = true;
+  else
+    now += window == Window::Plain ? at->psv : kRepeatWindow;
+  const unsigned address = static_cast<unsigned>(psvpag) << 15 | (ea & 0x7FFE);
+  const bool is_eeprom = address - kEepromStart < 2 * kEepromWordCount;
+  const unsigned word = (is_eeprom ? parts.nvm.table_read(address) : program.read(address)) & 0xFFFF;
+  return bits == 16 ? word : word >> 8 * (ea & 1) & 0xFF;
+}
+
+void Cpu::write_elsewhere(unsigned ea, unsigned value, unsigned bits) {
+  if (bits == 16 && (ea & 1)) return trap(Trap::AddressError);
+  const Cycle t = now + at->lead;
+  if (ea >= kSfrBytes) return trap(Trap::AddressError);
+  const Cycle calm = parts.write(ea, static_cast<std::uint16_t>(value), bits, t);
+  deadline = std::min(deadline, calm);
+  if (parts.nvm.stalled_until() > t) {  // flash is being programmed
+    now += parts.nvm.stalled_until() - t;
+    deadline = 0;
+  }
+}
+
+}  // namespace dspic

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: MIT
+// The processor's state, as its instructions see it; Processor (processor.h) is the front door.
+//
+//   flash word --decode once--> Decoded {run, registers, literal, cycles} --run(cpu, decoded)--> next Decoded
+//
+// Time: `now` is the cycle in which an instruction begins; a stall delays its accesses by `lead`. Straight
+// code runs until `deadline`, the next instant at which anything else may happen; whatever changes that
+// instant lowers it. Stalls, and the check for pointers that were never written, are found when a word is
+// decoded, at its first execution. Flags are kept as they fall out of an operation and put together when SR
+// is read.
+//
+// Modelled: see docs/chip-core.md. Source: [chip C2] to [chip C16].
+#pragma once
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <vector>
+
+#include "dspic30/core/instruction_table.h"
+#include "dspic30/device/chip_parts.h"
+#include "dspic30/memory/program_memory.h"
+
+namespace dspic {
+
+class Cpu;
+struct Decoded;
+/// Executes an instruction; returns the next one.
+using Run = const Decoded* (*)(Cpu&, const Decoded*);
+
+struct Decoded {
+  Run run;
+  std::int32_t imm = 0;         ///< literal, address, words of a branch, shift
+  std::uint16_t writes = 0;     ///< registers written directly, or changed as a destination's pointer
+  std::uint16_t pointers = 0;   ///< registers that form a source's address
+  std::uint16_t mask = 0xFFFF;  ///< of what register d can hold: W15 is even
+  std::uint8_t s = 0, d = 0, b = 0;
+  std::uint8_t cycles = 1;  ///< stall included
+  std::uint8_t lead = 0;    ///< stall cycles, when it follows the word before
+  std::uint8_t psv = 2;     ///< what reading through the PSV window costs
+  std::int8_t s_pre = 0, s_post = 0, d_pre = 0, d_post = 0;
+  std::uint8_t s_special = 0, d_special = 0;  ///< the pointer is W15, or modulo or bit-reversed
+};
+static_assert(sizeof(Decoded) == 32);
+
+class Cpu final : public SfrOwner {
+ public:
+  Cpu(ChipParts& parts, ProgramMemory& program);
+
+  void reset();
+  /// All words are decoded again.
+  void forget_code();
+
+  // --- flow
+  unsigned address_of(const Decoded* d) const;
+  /// The instruction at a program address that the course jumps to.
+  const Decoded* jump(unsigned address, const Decoded* from);
+  const Decoded* arrive(const Decoded* target) {
+    if (!is_decoded(target)) decode(target);
+    now -= target->lead;
+    return target;
+  }
+  const Decoded* offset(const Decoded* from, std::int32_t words) {
+    const std::ptrdiff_t index = from - code_.data() + words;
+    return index >= 0 && index < static_cast<std::ptrdiff_t>(kFlashWords)
+               ? arrive(&code_[static_cast<std::size_t>(index)])
+               : jump(static_cast<unsigned>(2 * index) & 0x7FFFFE, from);
+  }
+  bool is_decoded(const Decoded* d) const;
+  void decode(const Decoded* d);
+  const Decoded* loop_back(const Decoded* last, const Decoded* next);
+  /// Iterations up to the last one or to `deadline`; then d itself is next.
+  const Decoded* run_repeated(const Decoded* d);
+  void begin_do(unsigned count, const Decoded* first, const Decoded* last);
+  void ask_reset(ResetKind kind) {
+    reset_due = kind;
+    deadline = 0;
+  }
+  void trap(Trap which);
+
+  // --- flags
+  template <bool Byte>
+  void set_nz(unsigned result) {
+    n = static_cast<std::uint16_t>(Byte ? result << 8 : result);
+    z = static_cast<std::uint16_t>(Byte ? result & 0xFF : result);
+  }
+  /// a + b + carry, with all flags; Sticky: Z only falls.
+  template <bool Byte, bool Sticky>
+  unsigned add(unsigned a, unsigned b, unsigned carry) {
+    constexpr int shift = Byte ? 8 : 0;
+    a = (a << shift) & 0xFFFF;
+    b = (b << shift) & 0xFFFF;
+    const unsigned r = a + b + (carry << shift);
+    n = static_cast<std::uint16_t>(r);
+    z = static_cast<std::uint16_t>(Sticky ? z | r : r);
+    c = r >> 16;
+    ov = (a ^ r) & (b ^ r);
+    dc = (a ^ b ^ r) >> (Byte ? 4 : 0);
+    return (r & 0xFFFF) >> shift;
+  }
+  bool flag_n() const { return (n & 0x8000) != 0; }
+  bool flag_z() const { return z == 0; }
+  bool flag_c() const { return (c & 1) != 0; }
+  bool flag_ov() const { return (ov & 0x8000) != 0; }
+  bool flag_dc() const { return (dc & 0x100) != 0; }
+  void set_z(bool on) { z = on ? 0 : 1; }
+  unsigned sr() const;
+  unsigned sr_low() const;
+  void set_sr(unsigned value, unsigned lanes);
+  void set_flags(unsigned sr_low_bits);  ///< C Z OV N
+
+  // --- data space
+  unsigned read16(unsigned ea) {
+    const unsigned i = ea - kRamStart;
+    if (i < kRamBytes && !(i & 1)) return load(i);
+    return read_elsewhere(ea, 16);
+  }
+  unsigned read8(unsigned ea) {
+    const unsigned i = ea - kRamStart;
+    return i < kRamBytes ? ram[i] : read_elsewhere(ea, 8);
+  }
+  void write16(unsigned ea, unsigned value) {
+    const unsigned i = ea - kRamStart;
+    if (i < kRamBytes && !(i & 1))
+      store(i, value);
+    else
+      write_elsewhere(ea, value, 16);
+  }
+  void write8(unsigned ea, unsigned value) {
+    const unsigned i = ea - kRamStart;
+    if (i < kRamBytes)
+      ram[i] = static_cast<std::uint8_t>(value);
+    else
+      write_elsewhere(ea, value, 8);
+  }
+  template <bool Byte>
+  unsigned read(unsigned ea) {
+    return Byte ? read8(ea) : read16(ea);
+  }
+  template <bool Byte>
+  void write(unsigned ea, unsigned value) {
+    Byte ? write8(ea, value) : write16(ea, value);
+  }
+  void push(unsigned value);
+  unsigned pop();
+
+  // --- pointers
+  unsigned source_address(const Decoded* d) {
+    if (d->s_special) return special_pointer(d->s, d->s_pre, d->s_post, false);
+    const auto ea = static_cast<std::uint16_t>(w[d->s] + d->s_pre);
+    w[d->s] = static_cast<std::uint16_t>(ea + d->s_post);
+    return ea;
+  }
+  unsigned destination_address(const Decoded* d) {
+    if (d->d_special) return special_pointer(d->d, d->d_pre, d->d_post, true);
+    const auto ea = static_cast<std::uint16_t>(w[d->d] + d->d_pre);
+    w[d->d] = static_cast<std::uint16_t>(ea + d->d_post);
+    return ea;
+  }
+  unsigned special_pointer(unsigned n, int pre, int post, bool write);
+  unsigned stack_checked(unsigned ea);
+  /// A register moved by `step` within its modulo buffer, if it has one. `y_space`: by the Y address
+  /// generator.
+  unsigned stepped(unsigned n, unsigned value, int step, bool y_space) const;
+  bool is_special(unsigned n, bool write) const;
+
+  // --- SfrOwner: 0x000 to 0x052
+  std::uint16_t read(unsigned address, Cycle at) override { return peek(address, at); }
+  void write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycle at) override;
+  std::uint16_t peek(unsigned address, Cycle at) const override;
+  Cycle horizon(unsigned address, Cycle at) const override;
+
+  /// Reading through the PSV window in the first and last iteration of a REPEAT, and around an interrupt.
+  static constexpr Cycle kRepeatWindow = 2;
+  static constexpr unsigned kRamStart = 0x800, kRamBytes = 0x2000, kRamEnd = kRamStart + kRamBytes,
+                            kPsvStart = 0x8000, kYStart = 0x1800;
+
+  // --- state; handlers use it freely
+  std::array<std::uint16_t, 16> w{};
+  std::uint16_t n = 0, z = 1;
+  unsigned c = 0, ov = 0, dc = 0;
+  Cycle now = 0, deadline = 0;
+  const Decoded* at = nullptr;        ///< the instruction that runs
+  const Decoded* next = nullptr;      ///< the one that comes
+  const Decoded* loop_end = nullptr;  ///< last instruction of the DO loop; null: none runs
+  std::array<std::uint8_t, kRamBytes> ram{};
+  bool repeating = false;        ///< RA
+  bool repeat_is_fresh = false;  ///< the next iteration is the first one, or the first after an interrupt
+  enum class Window : std::uint8_t { Plain, RepeatEdge, Free } window = Window::Plain;
+  bool window_was_free = false;  ///< the last iteration read through the window at no cost
+  bool code_is_old = false;      ///< forget_code() before the next instruction
+  bool end_loop = false;         ///< CORCON.EDT
+  bool splim_on = false;
+  enum class Power : std::uint8_t { On, Idle, Sleep } power = Power::On;
+  std::optional<ResetKind> reset_due;
+  unsigned written = 0;  ///< W registers that were written since the reset
+  std::uint16_t splim = 0, tblpag = 0, psvpag = 0, rcount = 0, corcon = 0, modcon = 0, xbrev = 0;
+  std::array<std::uint16_t, 4> modulo{};  ///< XMODSRT, XMODEND, YMODSRT, YMODEND
+  struct Loop {
+    unsigned count = 0, start = 0, end = 0;
+  } loop, outer_loop;
+  int loop_depth = 0;  ///< DL
+  std::array<std::int64_t, 2> acc{};
+  bool oa = false, ob = false, sa = false, sb = false;
+  struct {
+    std::array<std::uint16_t, 4> w{};
+    unsigned flags = 0;  // SR<8>, SR<3:0>
+  } shadow;
+  ChipParts& parts;
+  ProgramMemory& program;
+
+ private:
+  unsigned load(unsigned i) const {
+    std::uint16_t value;
+    std::memcpy(&value, &ram[i], 2);
+    return value;
+  }
+  void store(unsigned i, unsigned value) {
+    const auto word = static_cast<std::uint16_t>(value);
+    std::memcpy(&ram[i], &word, 2);
+  }
+  unsigned read_elsewhere(unsigned ea, unsigned bits);
+  void write_elsewhere(unsigned ea, unsigned value, unsigned bits);
+  unsigned read_psv(unsigned ea, unsigned bits);
+  void find_loop_end();
+
+  std::vector<std::uint32_t> decoded_;  // words that were met since forget_code()
+  std::vector<Decoded> code_;           // one a flash word, then one for addresses where no flash is
+  unsigned bad_address_ = 0;            // that address
+};
+
+/// The word at an address made ready, as its first execution begins: registers that it writes count as
+/// written from now on, and a pointer that was never written makes it an illegal one. Depends on
+/// Cpu::is_special().
+Decoded decode_word(Cpu& cpu, unsigned address);
+
+// --- semantics, in the manual's groups; null: not of this group
+Run choose_arithmetic(Insn id, const Fields& f);
+Run choose_move(Insn id, const Fields& f);
+Run choose_bit(Insn id, const Fields& f);
+Run choose_multiply(Insn id, const Fields& f);
+Run choose_flow(Insn id, const Fields& f);
+Run choose_system(Insn id, const Fields& f);
+Run choose_dsp(Insn id, const Fields& f);
+
+}  // namespace dspic

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "dspic30/core/instruction_table.h"
+
+#include <array>
+
+namespace dspic {
+
+namespace {
+
+using FieldList = std::vector<Field>;
+using Operands = std::vector<Operand>;
+
+std::vector<Row> make_rows() {
+  return {
+#define ROW(name, mnemonic, operands, mask, match, words, cycles, repeatable, fields, kinds, legal) \
+  Row{Insn::name, mnemonic, operands, mask, match, words, cycles, repeatable, fields, kinds, legal},
+#include "dspic30/core/instruction_rows.inc"
+#undef ROW
+  };
+}
+
+// rows by the top eight bits of their words
+using Index = std::array<std::vector<const Row*>, 256>;
+
+Index make_index() {
+  Index index;
+  for (const Row& row : instruction_rows())
+    for (std::uint32_t top = 0; top < 256; ++top)
+      if (((top << 16) & row.mask & 0xFF0000) == (row.match & 0xFF0000)) index[top].push_back(&row);
+  return index;
+}
+
+}  // namespace
+
+bool Row::has(unsigned Fields::*member) const {
+  for (const Field& field : fields)
+    if (field.member == member) return true;
+  return false;
+}
+
+const std::vector<Row>& instruction_rows() {
+  static const std::vector<Row> rows = make_rows();
+  return rows;
+}
+
+const Row* find_row(std::uint32_t word) {
+  static const Index index = make_index();
+  for (const Row* row : index[word >> 16 & 0xFF])
+    if ((word & row->mask) == row->match && (!row->legal || row->legal(fields_of(*row, word)))) return row;
+  return nullptr;
+}
+
+Fields fields_of(const Row& row, std::uint32_t word) {
+  Fields fields;
+  for (const Field& field : row.fields) {
+    unsigned value = 0;
+    int at = 0;
+    for (std::uint32_t rest = field.mask; rest; rest &= rest - 1)
+      value |= (word >> __builtin_ctz(rest) & 1) << at++;
+    fields.*field.member = value;
+  }
+  return fields;
+}
+
+std::uint32_t encode(const Row& row, const Fields& fields) {
+  std::uint32_t word = row.match;
+  for (const Field& field : row.fields) {
+    int at = 0;
+    for (std::uint32_t rest = field.mask; rest; rest &= rest - 1)
+      word |= (fields.*field.member >> at++ & 1) << __builtin_ctz(rest);
+  }
+  return word;
+}
+
+unsigned field_limit(const Row& row, unsigned Fields::*member) {
+  for (const Field& field : row.fields)
+    if (field.member == member) return (1u << __builtin_popcount(field.mask)) - 1;
+  return 0;
+}
+
+PrefetchMode prefetch_mode(unsigned code, bool y_space) {
+  const int pointer = (y_space ? 10 : 8) + static_cast<int>(code >> 3 & 1);
+  const int low = static_cast<int>(code & 7);
+  if (code == 4) return {false, 0, false, 0};
+  if (code == 12) return {true, pointer, true, 0};
+  return {true, pointer, false, low < 4 ? 2 * low : 2 * low - 16};
+}
+
+void product_registers(unsigned m, int& first, int& second) {
+  static constexpr int kFirst[] = {4, 4, 4, 0, 5, 5, 6, 0}, kSecond[] = {5, 6, 7, 0, 6, 7, 7, 0};
+  first = kFirst[m & 7];
+  second = kSecond[m & 7];
+}
+
+}  // namespace dspic

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include "dspic30/core/processor.h"
+
+#include <algorithm>
+
+#include "dspic30/core/cpu.h"
+
+namespace dspic {
+
+namespace {
+
+// from the event that wakes to the next instruction [?]: Idle goes on at once; Sleep waits for the crystal
+// (1024 periods of 7.3728 MHz) and for the PLL (20 us)
+constexpr Cycle kResetCycles = 295;  // 20 us from a reset's cause to the first instruction [?]
+constexpr Cycle kIdleWakeCycles = 2, kSleepWakeCycles = 2048 + 295;
+
+}  // namespace
+
+Processor::Processor(Dspic30f6014a& chip, ProgramMemory& program)
+    : cpu_(std::make_unique<Cpu>(chip.parts(), program)), chip_(chip), code_version_(program.version()) {}
+
+Processor::~Processor() = default;
+
+void Processor::restart() {
+  cpu_->reset();
+  cpu_->now += kResetCycles;
+  code_version_ = cpu_->program.version();
+}
+
+// --- the loop -------------------------------------------------------------------------------------------
+
+// straight on until something else may happen
+void Processor::execute() {
+  Cpu& cpu = *cpu_;
+  const Decoded* d = cpu.next;
+  while (cpu.now < cpu.deadline) {
+    cpu.at = d;
+    const Decoded* next = d->run(cpu, d);
+    cpu.now += d->cycles;
+    if (d == cpu.loop_end) next = cpu.loop_back(d, next);
+    d = next;
+  }
+  cpu.next = d;
+}
+
+std::optional<ResetKind> Processor::run(Cycle until) {
+  Cpu& cpu = *cpu_;
+  while (true) {
+    if (cpu.reset_due) return cpu.reset_due;
+    if (cpu.now >= until) return std::nullopt;
+    const Outlook outlook = cpu.parts.look(cpu.now);
+    if (outlook.reset_due) return chip_.reset_due(cpu.now);
+    if (cpu.code_is_old || cpu.program.version() != code_version_) {
+      code_version_ = cpu.program.version();
+      cpu.forget_code();
+    }
+    if (cpu.power != Cpu::Power::On) {
+      sleep(until);
+      continue;
+    }
+    if (outlook.vector != kNoVector) {
+      enter_interrupt(outlook.vector);
+      continue;
+    }
+    cpu.deadline = std::min(until, outlook.quiet_until);
+    if (cpu.repeating) cpu.next = cpu.run_repeated(cpu.next);
+    execute();
+  }
+}
+
+// an enabled flag wakes whatever its priority, and so does the watchdog
+void Processor::sleep(Cycle until) {
+  Cpu& cpu = *cpu_;
+  if (cpu.parts.interrupts.wakes() || cpu.parts.system.woke()) {
+    cpu.now += cpu.power == Cpu::Power::Sleep ? kSleepWakeCycles : kIdleWakeCycles;
+    cpu.power = Cpu::Power::On;
+    cpu.parts.system.awake();
+    return;
+  }
+  const Cycle next = std::clamp(chip_.next_event(cpu.now), cpu.now + 1, std::max(until, cpu.now + 1));
+  slept_ += next - cpu.now;
+  cpu.now = next;
+}
+
+void Processor::enter_interrupt(int vector) {
+  Cpu& cpu = *cpu_;
+  cpu.at = cpu.next;  // what the stack's pushes belong to
+  const unsigned pc = cpu.address_of(cpu.next), level = static_cast<unsigned>(cpu.parts.interrupts.level());
+  if (cpu.repeating && cpu.window_was_free) cpu.now += Cpu::kRepeatWindow;
+  cpu.push(pc & 0xFFFF);
+  cpu.push(cpu.sr_low() << 8 | (level & 8) << 4 | pc >> 16);
+  cpu.repeating = false;
+  const InterruptEntry entry = cpu.parts.interrupts.enter(vector, cpu.now);
+  cpu.now = entry.first_instruction;
+  cpu.next = cpu.jump(cpu.program.read(entry.address) & 0x7FFFFE, cpu.next);
+}
+
+// --- what others look at --------------------------------------------------------------------------------
+
+Cycle Processor::now() const { return cpu_->now; }
+void Processor::wait_until(Cycle at) { cpu_->now = std::max(cpu_->now, at); }
+bool Processor::is_asleep() const { return cpu_->power != Cpu::Power::On; }
+unsigned Processor::pc() const { return cpu_->address_of(cpu_->next); }
+std::uint16_t Processor::w(int n) const { return cpu_->w[static_cast<std::size_t>(n)]; }
+std::uint16_t Processor::sr() const { return static_cast<std::uint16_t>(cpu_->sr()); }
+std::int64_t Processor::accumulator(int n) const { return cpu_->acc[static_cast<std::size_t>(n)]; }
+std::uint8_t Processor::ram(unsigned address) const { return cpu_->ram[address - Cpu::kRamStart]; }
+void Processor::set_ram(unsigned address, std::uint8_t value) { cpu_->ram[address - Cpu::kRamStart] = value; }
+
+void Processor::set_w(int n, std::uint16_t value) {
+  cpu_->w[static_cast<std::size_t>(n)] = value;
+  cpu_->written |= 1u << n;
+}
+
+std::uint64_t Processor::state_hash() const {
+  std::uint64_t h = 0xCBF29CE484222325u;
+  const auto add = [&h](std::uint64_t v) { h = (h ^ v) * 0x100000001B3u; };
+  for (const std::uint8_t byte : cpu_->ram) add(byte);
+  for (const std::uint16_t w : cpu_->w) add(w);
+  for (const std::int64_t a : cpu_->acc) add(static_cast<std::uint64_t>(a));
+  add(static_cast<std::uint64_t>(cpu_->now));
+  add(pc());
+  add(cpu_->sr());
+  return h;
+}
+
+}  // namespace dspic

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// The processor of the dsPIC30F6014A: runs the program in flash, cycle by cycle, on the chip's peripherals.
+//
+//   ProgramMemory --words--> Processor --registers, traps--> Dspic30f6014a
+//                            run(until) <--interrupts, resets--
+//
+// Deterministic: cycles depend on the program and the chip alone, not on how run() is called.
+// What is modelled and what is doubted: docs/chip-core.md.
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "dspic30/device/dspic30f6014a.h"
+#include "dspic30/memory/program_memory.h"
+
+namespace dspic {
+
+class Cpu;
+
+class Processor {
+ public:
+  /// `chip` and `program`, which is the chip's Configuration::program, outlive this.
+  Processor(Dspic30f6014a& chip, ProgramMemory& program);
+  ~Processor();
+
+  /// Runs until the cycle `until`, or a few more: instructions are whole. A reset ends it earlier: its kind
+  /// is returned, the caller resets the chip and calls restart().
+  std::optional<ResetKind> run(Cycle until);
+  /// As after a reset: PC = 0; RAM stays.
+  void restart();
+
+  Cycle now() const;
+  /// Time passes without the processor, which stands still: before it was switched on, in a reset.
+  void wait_until(Cycle at);
+  bool is_asleep() const;
+  /// Cycles spent in Idle or Sleep.
+  Cycle slept() const { return slept_; }
+
+  // --- for debuggers, tests and reports: no side effects
+  unsigned pc() const;
+  std::uint16_t w(int n) const;
+  std::uint16_t sr() const;
+  std::int64_t accumulator(int n) const;
+  std::uint8_t ram(unsigned address) const;  ///< 0x800 to 0x27FF
+  void set_ram(unsigned address, std::uint8_t value);
+  void set_w(int n, std::uint16_t value);
+  std::uint64_t state_hash() const;
+
+ private:
+  void enter_interrupt(int vector);
+  void execute();
+  void sleep(Cycle until);
+
+  std::unique_ptr<Cpu> cpu_;
+  Dspic30f6014a& chip_;
+  std::uint64_t code_version_ = 0;
+  Cycle slept_ = 0;
+};
+
+}  // namespace dspic

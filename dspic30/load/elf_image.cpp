@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+#include <gelf.h>
+#include <libelf.h>
+
+#include <cstdio>
+#include <memory>
+#include <vector>
+
+#include "dspic30/load/firmware_file.h"
+
+namespace dspic {
+
+namespace {
+
+constexpr unsigned kMachine = 118, kDevice = 31;  // EM_DSPIC30F; the 6014A's number in e_flags
+constexpr std::uint32_t kPsv = 1u << 28, kEeprom = 1u << 29, kNoLoad = 1u << 23;
+constexpr std::uint32_t kOctetsAWord = 4;
+
+std::string hex(std::uint64_t value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "0x%llx", static_cast<unsigned long long>(value));
+  return text;
+}
+
+struct Closer {
+  void operator()(Elf* elf) const { elf_end(elf); }
+};
+
+class ElfReader {
+ public:
+  ElfReader(const std::string& name, FirmwareFile& file) : name_(name), file_(file) {}
+
+  bool read(std::string bytes, std::string& error) {
+    elf_version(EV_CURRENT);
+    elf_.reset(elf_memory(bytes.data(), bytes.size()));
+    if (!elf_ || elf_kind(elf_.get()) != ELF_K_ELF) fail("not an ELF file that can be read: " + why());
+    if (error_.empty()) check_header(bytes.size());
+    for (Elf_Scn* s = nullptr; error_.empty() && (s = elf_nextscn(elf_.get(), s));) read_section(s);
+    if (error_.empty() && file_.words.empty()) fail("there is no program in it");
+    error = error_;
+    return error_.empty();
+  }
+
+ private:
+  void fail(const std::string& what) {
+    if (error_.empty()) error_ = name_ + ": " + what;
+  }
+  static std::string why() {
+    const char* text = elf_errmsg(-1);
+    return text ? text : "unknown reason";
+  }
+
+  void check_header(std::size_t size) {
+    GElf_Ehdr head;
+    if (!gelf_getehdr(elf_.get(), &head)) return fail("its header cannot be read: " + why());
+    if (head.e_ident[EI_CLASS] != ELFCLASS32 || head.e_ident[EI_DATA] != ELFDATA2LSB ||
+        head.e_machine != kMachine)
+      return fail("machine: got " + std::to_string(head.e_machine) + ", expected " +
+                  std::to_string(kMachine) + " (dsPIC30F, 32 bits, little-endian)");
+    if (head.e_type != ET_EXEC) return fail("it is no linked program (an object file?)");
+    const unsigned device = head.e_flags & 0xFFFF;
+    if (device != 0 && device != kDevice)
+      return fail("device: got number " + std::to_string(device) + ", expected " + std::to_string(kDevice) +
+                  " (30F6014A)");
+    if (head.e_shoff == 0 || head.e_shoff > size)
+      return fail("its table of sections lies outside of the file; is it cut off?");
+  }
+
+  void read_section(Elf_Scn* section) {
+    GElf_Shdr head;
+    if (!gelf_getshdr(section, &head)) return fail("a section's header cannot be read: " + why());
+    if (head.sh_type == SHT_SYMTAB) return read_symbols(section, head);
+    const bool is_program = (head.sh_flags & (SHF_EXECINSTR | kPsv | kEeprom)) != 0;
+    if (head.sh_type != SHT_PROGBITS || !(head.sh_flags & SHF_ALLOC) || !is_program ||
+        (head.sh_flags & kNoLoad) || head.sh_size == 0)
+      return;
+    Elf_Data* data = elf_getdata(section, nullptr);
+    if (!data || !data->d_buf || data->d_size != head.sh_size)
+      return fail("a section's bytes are missing; is the file cut off?");
+    put(static_cast<const unsigned char*>(data->d_buf), data->d_size, program_address(head));
+  }
+
+  // constants say where they are seen; the segment says where they lie
+  std::uint64_t program_address(const GElf_Shdr& section) {
+    if (!(section.sh_flags & kPsv)) return section.sh_addr;
+    std::size_t count = 0;
+    elf_getphdrnum(elf_.get(), &count);
+    for (std::size_t i = 0; i < count; ++i) {
+      GElf_Phdr segment;
+      if (!gelf_getphdr(elf_.get(), static_cast<int>(i), &segment) || segment.p_type != PT_LOAD) continue;
+      if (section.sh_offset >= segment.p_offset && section.sh_offset - segment.p_offset < segment.p_filesz)
+        return segment.p_paddr + (section.sh_offset - segment.p_offset) / 2;
+    }
+    fail("a section of constants lies in no segment");
+    return 0;
+  }
+
+  void put(const unsigned char* bytes, std::size_t size, std::uint64_t address) {
+    for (std::size_t i = 0; i + kOctetsAWord <= size && error_.empty(); i += kOctetsAWord, address += 2) {
+      if (address > 0xFFFFFF || (address & 1) || !is_program_memory(static_cast<std::uint32_t>(address)))
+        return fail("program address " + hex(address) + " is in no memory of this chip");
+      const std::uint32_t word = bytes[i] | bytes[i + 1] << 8 | bytes[i + 2] << 16;
+      if (!file_.words.emplace(static_cast<std::uint32_t>(address), word).second)
+        return fail("two sections lie at program address " + hex(address));
+    }
+  }
+
+  void read_symbols(Elf_Scn* section, const GElf_Shdr& head) {
+    Elf_Data* data = elf_getdata(section, nullptr);
+    if (!data || head.sh_entsize == 0) return;
+    for (std::size_t i = 0; i < head.sh_size / head.sh_entsize; ++i) {
+      GElf_Sym symbol;
+      if (!gelf_getsym(data, static_cast<int>(i), &symbol)) return;
+      const char* name = elf_strptr(elf_.get(), head.sh_link, symbol.st_name);
+      if (!name || !*name || symbol.st_shndx == SHN_UNDEF || symbol.st_shndx >= SHN_LORESERVE) continue;
+      const int type = GELF_ST_TYPE(symbol.st_info);
+      GElf_Shdr home;
+      Elf_Scn* at = elf_getscn(elf_.get(), symbol.st_shndx);
+      if (!at || !gelf_getshdr(at, &home) || type == STT_SECTION || type == STT_FILE) continue;
+      // C names have an underscore before them
+      const std::string plain = name[0] == '_' ? name + 1 : name;
+      ((home.sh_flags & SHF_EXECINSTR) ? file_.functions : file_.objects)[plain] =
+          static_cast<std::uint32_t>(symbol.st_value);
+    }
+  }
+
+  const std::string& name_;
+  FirmwareFile& file_;
+  std::unique_ptr<Elf, Closer> elf_;
+  std::string error_;
+};
+
+}  // namespace
+
+FileKind kind_of(const std::string& bytes) {
+  if (bytes.compare(0, 4,
+                    "\x7f"
+                    "ELF") == 0) {
+    // a program for another machine is no image of the chip
+    const bool is_chips =
+        bytes.size() > 19 && static_cast<unsigned char>(bytes[18]) == kMachine && bytes[19] == 0;
+    return is_chips ? FileKind::Elf : FileKind::Other;
+  }
+  const std::size_t first = bytes.find_first_not_of(" \t\r\n");
+  return first != std::string::npos && bytes[first] == ':' ? FileKind::Hex : FileKind::Other;
+}
+
+bool load_elf(const std::string& bytes, const std::string& name, FirmwareFile& file, std::string& error) {
+  return ElfReader(name, file).read(bytes, error);
+}
+
+bool load_firmware(const std::string& bytes, const std::string& name, FirmwareFile& file,
+                   std::string& error) {
+  switch (kind_of(bytes)) {
+    case FileKind::Hex:
+      return load_hex(bytes, name, file, error);
+    case FileKind::Elf:
+      return load_elf(bytes, name, file, error);
+    default:
+      error = name + ": neither Intel HEX nor an ELF file of the dsPIC30F (machine " +
+              std::to_string(kMachine) + ")";
+      return false;
+  }
+}
+
+}  // namespace dspic

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Files that hold a program of the chip: Intel HEX, and ELF as XC16 writes it. The kind is read from the
+// content.
+//
+//   bytes --load_firmware--> FirmwareFile: words by program address, symbols
+//
+// HEX: byte address = 2 x program address, four bytes a word, the fourth is not there ("phantom").
+// ELF: machine 118 (dsPIC30F), addresses in units of the program counter, sizes in octets, four octets a
+// word; sections of data have no bytes of their own, .dinit brings them. Not read: relocatable objects, line
+// numbers. Source: [chip C19].
+#pragma once
+#include <cstdint>
+#include <map>
+#include <string>
+
+namespace dspic {
+
+struct FirmwareFile {
+  std::map<std::uint32_t, std::uint32_t>
+      words;  ///< by program address: flash, EEPROM, configuration, unit ID
+  std::map<std::string, std::uint32_t> functions;  ///< program addresses
+  std::map<std::string, std::uint32_t> objects;    ///< data addresses
+};
+
+enum class FileKind { Hex, Elf, Other };
+FileKind kind_of(const std::string& bytes);
+
+/// False: `error` says what is wrong: "NAME: line 12: checksum got 0x3f, expected 0x41". `name` is the
+/// file's, for it.
+bool load_firmware(const std::string& bytes, const std::string& name, FirmwareFile& file, std::string& error);
+/// Of one kind.
+bool load_hex(const std::string& bytes, const std::string& name, FirmwareFile& file, std::string& error);
+bool load_elf(const std::string& bytes, const std::string& name, FirmwareFile& file, std::string& error);
+/// As Intel HEX.
+std::string to_hex(const FirmwareFile& file);
+
+/// Is there memory at this program address?
+bool is_program_memory(std::uint32_t address);
+
+}  // namespace dspic

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MIT
+#include "hal_sim/chip/chip_runner.h"
+
+#include <algorithm>
+
+#include "hal_sim/board/board.h"
+
+namespace chip {
+
+namespace {
+
+constexpr unsigned kIfs0 = 0x084, kInttreg = 0x0B0, kRamStart = 0x800, kRamEnd = 0x2800;
+
+std::string place_text(unsigned pc, const host::Place& place) {
+  char text[16];
+  std::snprintf(text, sizeof text, "0x%06x", pc);
+  return place.function == "?" ? text : place.function + " (" + text + ")";
+}
+
+}  // namespace
+
+ChipRunner::ChipRunner(std::string name, std::shared_ptr<const dspic::FirmwareFile> file, double clock_factor,
+                       board::Board& board, Cycle start)
+    : Runner(std::move(name)), file_(std::move(file)), chip_(board) {
+  // what a programmer writes: flash and configuration words, and the EEPROM, which is the board's
+  for (const auto& [address, word] : file_->words) {
+    if (program_.write(address, word)) continue;
+    const unsigned low = address & 0xFFFF;
+    board.eeprom().erase(low);
+    board.eeprom().write(low, static_cast<std::uint16_t>(word));
+  }
+  dspic::Configuration configuration;
+  configuration.fosc = static_cast<std::uint16_t>(program_.read(dspic::kConfigurationStart));
+  configuration.fwdt = static_cast<std::uint16_t>(program_.read(dspic::kConfigurationStart + 2));
+  configuration.fcy_hz *= clock_factor;
+  configuration.synchronised_ports = true;
+  configuration.program = &program_;
+  chip_.power_up(configuration);
+  processor_ = std::make_unique<dspic::Processor>(device(), program_);
+  if (start <= 0) return;
+  end_ = start;
+  processor_->wait_until(start);
+  chip_.reset(start);
+  processor_->restart();
+}
+
+// --- time -------------------------------------------------------------------------------------------------
+
+void ChipRunner::begin_window(Cycle now) {
+  end_ = std::max(end_, now);
+  chip_.begin_window(now);
+}
+
+void ChipRunner::run_until(Cycle end) {
+  if (processor_->now() < end) {
+    ++turns_;
+    if (observer_)
+      run_observed(end);
+    else
+      while (const auto kind = processor_->run(end)) reset(*kind);
+  }
+  end_ = std::max(end_, end);
+  chip_.end_window(std::max(end_, processor_->now()));
+  idle_until_ = processor_->is_asleep() ? device().next_event(chip_.latest()) : 0;
+}
+
+void ChipRunner::pass_to(Cycle end) {
+  if (end <= end_) return;
+  end_ = end;
+  while (const auto kind = processor_->run(end)) reset(*kind);  // it sleeps: nothing but its clock goes on
+  chip_.end_window(end);
+}
+
+void ChipRunner::remote_changed() {
+  device().outside_changed(chip_.at(processor_->now()));
+  wake();
+}
+
+void ChipRunner::restart() {
+  chip_.note_reset(dspic::ResetKind::Pin);
+  processor_->wait_until(end_);
+  chip_.reset(processor_->now());
+  processor_->restart();
+  if (observer_) observer_->ended(processor_->now());
+  wake();
+}
+
+// what the program asked for by RESET goes unsaid
+void ChipRunner::reset(dspic::ResetKind kind) {
+  const Cycle at = processor_->now();
+  const char* why = chip_.note_reset_due(kind);
+  if (kind != dspic::ResetKind::Instruction) {
+    host::TrapReport report;
+    report.robot = name();
+    report.place = place_of(processor_->pc());
+    report.message = std::string(why) + ", at " + place_text(processor_->pc(), report.place);
+    report.cycle = at;
+    report.time_s = to_world_s ? to_world_s(at) : 0;
+    if (!traps_.empty() && traps_.back().message == report.message)
+      ++traps_.back().count;
+    else
+      traps_.push_back(report);
+  }
+  if (observer_) observer_->ended(at);
+  chip_.reset(at);
+  processor_->restart();
+}
+
+std::uint64_t ChipRunner::hash() const {
+  return device().state_hash(chip_.at(end_)) ^ processor_->state_hash() * 0x9E3779B97F4A7C15u;
+}
+
+// --- observed: instruction by instruction, and what it told in between
+// --------------------------------------
+
+void ChipRunner::run_observed(Cycle end) {
+  while (processor_->now() < end) {
+    const Cycle before = processor_->now();
+    const int nesting = device().nesting();
+    const bool slept = processor_->is_asleep();
+    observer_->reached(before);
+    if (const auto kind = processor_->run(slept ? end : before + 1)) {
+      reset(*kind);
+      continue;
+    }
+    const Cycle now = processor_->now();
+    if (slept) observer_->waited(before, now, nesting);
+    if (device().nesting() > nesting) {
+      const int vector = device().peek(kInttreg, chip_.at(now)) & 0x3F;
+      const int irq = vector - dspic::kFirstIrqVector;
+      observer_->handler_begins(irq, irq >= 0 ? device().flag_since(vector) : -1, before, now);
+    } else if (device().nesting() < nesting) {
+      observer_->handler_ends(now);
+    }
+  }
+}
+
+void ChipRunner::observe(host::Observer* observer) {
+  observer_ = observer;
+  chip_.watch(observer ? this : nullptr);
+}
+
+bool ChipRunner::flag(int vector, Cycle at) {
+  return device().has_flag(vector + dspic::kFirstIrqVector, chip_.at(at));
+}
+
+Cycle ChipRunner::flag_horizon(int vector, Cycle at) {
+  return device().horizon(kIfs0 + 2 * static_cast<unsigned>(vector / 16), chip_.at(at));
+}
+
+std::int64_t ChipRunner::interrupts_served() const {
+  std::int64_t all = 0;
+  for (int vector = dspic::kFirstIrqVector; vector < dspic::kVectors; ++vector)
+    all += device().served_interrupts(vector);
+  return all;
+}
+
+void ChipRunner::carry_out(Cycle at) { device().run_events(chip_.at(at)); }
+
+// --- data and code
+// ------------------------------------------------------------------------------------------
+
+const host::Variable* ChipRunner::find_variable(const std::string& expression, std::string& error) const {
+  error = "got '" + expression + "', but types and members are not read from the chip's images yet";
+  return nullptr;
+}
+
+std::vector<char> ChipRunner::read_variable(const std::string& variable, std::size_t bytes) const {
+  const auto found = file_->objects.find(variable);
+  if (found == file_->objects.end()) return {};
+  std::vector<char> data(bytes ? bytes : 2);
+  read_memory(found->second, data.data(), data.size());
+  return data;
+}
+
+void ChipRunner::read_memory(std::uintptr_t address, void* to, std::size_t bytes) const {
+  auto* out = static_cast<unsigned char*>(to);
+  for (std::size_t i = 0; i < bytes; ++i) {
+    const auto at = static_cast<unsigned>(address + i);
+    out[i] = at >= kRamStart && at < kRamEnd ? processor_->ram(at)
+             : at < kRamStart
+                 ? static_cast<unsigned char>(device().peek(at & ~1u, chip_.latest()) >> 8 * (at & 1))
+                 : 0;
+  }
+}
+
+void ChipRunner::write_memory(std::uintptr_t address, const void* from, std::size_t bytes) {
+  const auto* in = static_cast<const unsigned char*>(from);
+  for (std::size_t i = 0; i < bytes; ++i) {
+    const auto at = static_cast<unsigned>(address + i);
+    if (at >= kRamStart && at < kRamEnd) processor_->set_ram(at, in[i]);
+    if (at < kRamStart) device().write(at, in[i], 8, chip_.latest());
+  }
+  wake();
+}
+
+host::Place ChipRunner::place_of(std::uintptr_t code) const {
+  host::Place place{"?", "", 0};
+  std::uint32_t best = 0;
+  for (const auto& [function, address] : file_->functions)
+    if (address <= code && address >= best) {
+      best = address;
+      place.function = function;
+    }
+  return place;
+}
+
+}  // namespace chip

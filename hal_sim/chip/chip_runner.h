@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// The chip way: a robot's own binary on the model of its chip, soldered to the board.
+//
+//   .hex or .elf --FirmwareFile--> flash --> dspic::Processor <--> SolderedChip <--> Board
+//
+// Time is the chip's, exact to the cycle as far as docs/chip-core.md says. Traps and resets are the chip's
+// own: the program goes on at their vectors; a reset that the program did not ask for is reported. Not
+// modelled: debug information of images (lines, types); a program is known by the names of its functions and
+// variables.
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dspic30/core/processor.h"
+#include "dspic30/load/firmware_file.h"
+#include "hal_sim/chip/soldered_chip.h"
+#include "hal_sim/host/runner.h"
+
+namespace chip {
+
+using dspic::Cycle;
+
+class ChipRunner final : public host::Runner, private dspic::EventWatch {
+ public:
+  /// `board` outlives the runner. `clock_factor`: the program's instruction rate over the usual one.
+  /// `start`: when it is powered up.
+  ChipRunner(std::string name, std::shared_ptr<const dspic::FirmwareFile> file, double clock_factor,
+             board::Board& board, Cycle start = 0);
+
+  const char* way() const override { return "chip"; }
+
+  void begin_window(Cycle now) override;
+  void run_until(Cycle end) override;
+  Cycle idle_until() const override { return idle_until_; }
+  void pass_to(Cycle end) override;
+  std::uint64_t turns() const override { return turns_; }
+  void wake() override { idle_until_ = 0; }
+  void remote_changed() override;
+  void restart() override;
+
+  Cycle cycles() const override { return end_; }
+  Cycle lived_cycles() const override { return end_; }
+  Cycle idle_cycles() const override { return processor_->slept(); }
+  Cycle waiting_since() const override { return dspic::kNever; }
+  bool has_stopped() const override { return false; }
+  const std::vector<host::TrapReport>& traps() const override { return traps_; }
+  std::vector<board::Diagnosis> diagnoses() const override { return chip_.diagnoses(); }
+  std::uint64_t hash() const override;
+
+  const host::Variable* find_variable(const std::string& expression, std::string& error) const override;
+  std::vector<char> read_variable(const std::string& name, std::size_t bytes) const override;
+  void read_memory(std::uintptr_t address, void* to, std::size_t bytes) const override;
+  void write_memory(std::uintptr_t address, const void* from, std::size_t bytes) override;
+  host::Place place_of(std::uintptr_t code) const override;
+
+  void observe(host::Observer* observer) override;
+  bool flag(int vector, Cycle at) override;
+  Cycle flag_horizon(int vector, Cycle at) override;
+  bool has_chip() const override { return true; }
+  void carry_out(Cycle at) override;
+  std::uint16_t peek(unsigned address, Cycle at) override { return device().peek(address, chip_.at(at)); }
+  Cycle register_horizon(unsigned address, Cycle at) override {
+    return device().horizon(address, chip_.at(at));
+  }
+  std::int64_t interrupts_served() const override;
+  std::int64_t served(int vector) const override {
+    return chip_.device().served_interrupts(vector + dspic::kFirstIrqVector);
+  }
+
+  const dspic::Processor& processor() const { return *processor_; }
+
+ private:
+  void about_to_change(Cycle at) override { observer_->about_to_change(at); }
+  void run_observed(Cycle end);
+  void reset(dspic::ResetKind kind);
+  dspic::Dspic30f6014a& device() const { return chip_.device(); }
+
+  std::shared_ptr<const dspic::FirmwareFile> file_;
+  mutable SolderedChip chip_;  // looking advances closed forms
+  dspic::ProgramMemory program_;
+  std::unique_ptr<dspic::Processor> processor_;
+  std::vector<host::TrapReport> traps_;
+  host::Observer* observer_ = nullptr;
+  Cycle end_ = 0, idle_until_ = 0;
+  std::uint64_t turns_ = 0;
+};
+
+}  // namespace chip

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+// What executes one robot's firmware, as everybody else sees it: the mind that gives it time, and traces,
+// supervisors, tools and tests that look at the program.
+//
+//   FirmwareMind --begin_window, run_until--> Runner --e_* calls or registers--> Board
+//
+// Runners: CompiledRunner, code compiled for the PC (native and register way).
+//
+// Time: a Cycle is an instruction cycle of the robot's own clock since power-up. The mind gives windows, one
+// a tick of the world, each from the end of the one before to a later end; a runner never looks beyond its
+// window. Threads: run_until() may run beside those of other robots; everything else, and all of it between
+// windows, on one thread at a time. Errors: nothing throws; what is wrong with a program is a TrapReport or a
+// diagnosis. Equal programs, boards and windows give equal courses, whoever looks in between.
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hal_sim/board/diagnosis.h"
+#include "hal_sim/host/observer.h"
+#include "hal_sim/host/symbols.h"
+
+namespace board {
+class Board;
+}
+namespace drivers {
+class Drivers;
+}
+
+namespace host {
+
+/// Why a robot stopped or restarted, for reports.
+struct TrapReport {
+  std::string robot;
+  int kind = 0;                  ///< TP_TRAP_* (image_abi.h); 0: an unexpected reset (the robot went on)
+  std::string message;           ///< one sentence
+  Place place;                   ///< where in the firmware
+  Cycle cycle = 0;               ///< cycles since power-up
+  double time_s = 0;             ///< world time
+  std::vector<Place> backtrace;  ///< from `place` outwards, at most 16
+  int count = 1;                 ///< how often (unexpected resets only)
+};
+
+/// "division by zero", "address error" ...
+const char* trap_name(int kind);
+
+class Runner {
+ public:
+  explicit Runner(std::string name) : name_(std::move(name)) {}
+  virtual ~Runner() = default;
+  Runner(const Runner&) = delete;
+  Runner& operator=(const Runner&) = delete;
+
+  /// The robot's, for messages.
+  const std::string& name() const { return name_; }
+  /// "native", "register" ...
+  virtual const char* way() const = 0;
+
+  // --- time
+  /// A window begins at `now`, after Board::exchange(): what came from outside is on its way. Windows that
+  /// were left out, because idle_until() lies beyond them, have passed.
+  virtual void begin_window(Cycle now) = 0;
+  /// The program runs until cycle `end`, or up to the end of the instruction or block that reaches it, which
+  /// the next window makes up for. Returns when it is there, sleeps beyond it or has stopped; blocks on
+  /// nothing outside.
+  virtual void run_until(Cycle end) = 0;
+  /// Until this cycle run_until() would do nothing, if nothing comes from outside; 0: it runs on, kNever: for
+  /// ever.
+  virtual Cycle idle_until() const = 0;
+  /// The windows up to `end`, before which it is idle, have passed.
+  virtual void pass_to(Cycle end) = 0;
+  /// Handlers that have returned since it was made; what drivers in closed form do is none.
+  virtual std::int64_t interrupts_served() const = 0;
+  /// Grows whenever the program has run: what it knows and did is as it was until then.
+  virtual std::uint64_t turns() const = 0;
+  /// Something outside changed (a byte came in, the selector was turned): a wait looks again.
+  virtual void wake() = 0;
+  /// Somebody will press, or presses, a key of a remote control: the receiver's line has a new future.
+  virtual void remote_changed() = 0;
+  /// The reset button: the program begins anew at the end of the last window, also after a trap. Traps stay
+  /// reported.
+  virtual void restart() = 0;
+
+  // --- how it has gone
+  /// End of the last window.
+  virtual Cycle cycles() const = 0;
+  /// Cycles up to now, or up to where the program was stopped by a trap.
+  virtual Cycle lived_cycles() const = 0;
+  /// Of these, cycles in which the processor only waited, a wait that still goes on included.
+  virtual Cycle idle_cycles() const = 0;
+  /// Since when the program has been in a wait that has not ended; kNever: it is in none.
+  virtual Cycle waiting_since() const = 0;
+  /// Share of its life in which it did anything but wait, 0 to 1.
+  double cpu_load() const {
+    return lived_cycles() > 0 ? 1 - static_cast<double>(idle_cycles()) / static_cast<double>(lived_cycles())
+                              : 0;
+  }
+  /// A trap has stopped it for good, or until restart().
+  virtual bool has_stopped() const = 0;
+  /// Traps and unexpected resets, in order of time.
+  virtual const std::vector<TrapReport>& traps() const = 0;
+  /// What board and chip have to say about the program so far, in order of time.
+  virtual std::vector<board::Diagnosis> diagnoses() const = 0;
+  /// Of what the program did; the board's own state is not in it. Equal courses have equal ones.
+  virtual std::uint64_t hash() const = 0;
+  /// World time of a cycle, for reports; set by the mind, empty on a bench.
+  std::function<double(Cycle)> to_world_s;
+
+  // --- the program's data and code. Addresses are those of its debug information
+  /// A variable, element or member by an expression in C (variables.h); null with `error` saying why.
+  virtual const Variable* find_variable(const std::string& expression, std::string& error) const = 0;
+  /// Bytes of a global object by its name; 0 `bytes`: all of it. Empty when unknown.
+  virtual std::vector<char> read_variable(const std::string& name, std::size_t bytes) const = 0;
+  virtual void read_memory(std::uintptr_t address, void* to, std::size_t bytes) const = 0;
+  /// As a debugger would; a wait looks again.
+  virtual void write_memory(std::uintptr_t address, const void* from, std::size_t bytes) = 0;
+  /// Function, file and line of an instruction.
+  virtual Place place_of(std::uintptr_t code) const = 0;
+
+  // --- for whoever writes its course down; no change of course
+  /// Null: nobody. The observer outlives the robot or is taken away.
+  virtual void observe(Observer* observer) = 0;
+  /// Whether the flag of an interrupt (natural order) is set at `at`, not before what has already run; and
+  /// the first cycle after `at` at which it may change by itself, kNever if none.
+  virtual bool flag(int vector, Cycle at) = 0;
+  virtual Cycle flag_horizon(int vector, Cycle at) = 0;
+  /// Is there a chip with all its registers? Only then the rest of this group means anything.
+  virtual bool has_chip() const = 0;
+  /// What happens in the chip by itself up to `at` has happened.
+  virtual void carry_out(Cycle at) = 0;
+  /// A register as the program would read it at `at`, without the effects of reading.
+  virtual std::uint16_t peek(unsigned address, Cycle at) = 0;
+  /// The first cycle after `at` at which a register may change by itself.
+  virtual Cycle register_horizon(unsigned address, Cycle at) = 0;
+  /// Handlers of an interrupt (natural order) begun so far.
+  virtual std::int64_t served(int vector) const = 0;
+  /// The library's drivers where they are closed forms; null: the program's own run.
+  virtual const drivers::Drivers* closed_drivers() const { return nullptr; }
+
+ private:
+  std::string name_;
+};
+
+/// Makes what executes the firmware of a robot that is being set up, on its board.
+using RunnerFactory = std::function<std::unique_ptr<Runner>(board::Board&)>;
+
+}  // namespace host

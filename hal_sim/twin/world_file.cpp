@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#include "hal_sim/twin/world_file.h"
+
+#include "hal_sim/board/epuck_model.h"
+#include "hal_sim/board/part.h"
+
+namespace twin {
+
+std::vector<sim::RobotModel> robot_models() {
+  sim::RobotModel model = board::epuck_model();
+  model.keys.push_back(
+      {"way", sim::OwnKeyType::Choice, "", 0, 0, "native|register", "\"native\"",
+       "how firmware built from source reaches the hardware: by the library's functions, or by registers"});
+  return {std::move(model)};
+}
+
+sim::LoadedWorld load_world(const std::string& file) {
+  return sim::load_world(file, robot_models(), board::part_kinds());
+}
+
+sim::LoadedWorld parse_world(std::string_view text, const std::string& file) {
+  return sim::parse_world(text, file, robot_models(), board::part_kinds());
+}
+
+sim::OwnSettings own_settings(const sim::WorldDesc& world, const sim::RobotDesc& robot) {
+  return {world.model_of(robot)->keys, robot.own};
+}
+
+}  // namespace twin

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// World files as Twinpuck knows them: sim_core's, with what the other rooms contribute to them, kinds of
+// robot and parts, each with its keys.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "sim_core/load/world_loader.h"
+
+namespace twin {
+
+/// The kinds of robot that a world may have; the first is the default.
+std::vector<sim::RobotModel> robot_models();
+
+/// Reads and checks a file.
+sim::LoadedWorld load_world(const std::string& file);
+/// The same of a text; `file` is where it comes from, for messages and relative paths.
+sim::LoadedWorld parse_world(std::string_view text, const std::string& file);
+
+/// What a robot's table says in the keys that only its kind has.
+sim::OwnSettings own_settings(const sim::WorldDesc& world, const sim::RobotDesc& robot);
+
+}  // namespace twin

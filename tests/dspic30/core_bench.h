@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// A whole chip on a bench: a program in assembler text runs on it.
+#pragma once
+#include <memory>
+#include <string>
+
+#include "dspic30/asm/assembler.h"
+#include "dspic30/core/processor.h"
+#include "tests/dspic30/bench.h"
+
+namespace bench {
+
+struct CoreBench {
+  /// `text` is assembled and programmed; the configuration words are those of `c`.
+  explicit CoreBench(const std::string& text, dspic::Configuration c = {}) {
+    image = dspic::assembly::assemble(text, "test.s");
+    EXPECT_TRUE(image.is_whole()) << image.report();
+    for (const auto& [address, word] : image.program) program.write(address, word);
+    c.program = &program;
+    c.synchronised_ports = true;
+    chip = std::make_unique<dspic::Dspic30f6014a>(outside, &notes, c);
+    cpu = std::make_unique<dspic::Processor>(*chip, program);
+  }
+  FakeOutside outside;
+  Notes notes;
+  dspic::ProgramMemory program;
+  dspic::assembly::Image image;
+  std::unique_ptr<dspic::Dspic30f6014a> chip;
+  std::unique_ptr<dspic::Processor> cpu;
+  int resets = 0;
+
+  /// Runs up to `until`, through resets.
+  void run(Cycle until) {
+    while (const auto kind = cpu->run(until)) {
+      ++resets;
+      chip->reset(*kind, cpu->now());
+      cpu->restart();
+    }
+  }
+  /// Runs until the program counter is at a label, at an instruction's end; false: not within `most` cycles.
+  bool run_to(const std::string& label, Cycle most = 1000000) {
+    for (const Cycle end = cpu->now() + most; cpu->now() < end;) {
+      if (cpu->pc() == symbol(label) && !cpu->is_asleep()) return true;
+      run(cpu->now() + 1);
+    }
+    return false;
+  }
+  unsigned symbol(const std::string& name) const {
+    const auto found = image.symbols.find(name);
+    EXPECT_NE(found, image.symbols.end()) << name;
+    return found == image.symbols.end() ? 0 : found->second;
+  }
+  unsigned w(int n) const { return cpu->w(n); }
+  unsigned word(unsigned address) const {
+    return address < 0x800 ? chip->peek(address, cpu->now()) : cpu->ram(address) | cpu->ram(address + 1) << 8;
+  }
+  unsigned word(const std::string& name) const { return word(symbol(name)); }
+  unsigned sfr(const std::string& name) const { return chip->peek(Bench::at(name), cpu->now()); }
+};
+
+}  // namespace bench

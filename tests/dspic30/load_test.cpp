@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+// Program files: what is read, and what is said about broken ones.
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "dspic30/load/firmware_file.h"
+
+namespace {
+
+using dspic::FirmwareFile;
+
+std::string error_of(const std::string& text) {
+  FirmwareFile file;
+  std::string error;
+  EXPECT_FALSE(dspic::load_firmware(text, "x.hex", file, error));
+  return error;
+}
+
+// goto 0x100: word 0x040100 at 0, 0x000000 at 2; EEPROM word 0 = 0x1234 at 0x7FF000; FOSC
+constexpr const char* kHex =
+    ":080000000001040000000000F3\n"
+    ":0200000400FFFB\n"
+    ":04E000003412000 0D6\n";
+
+std::string good_hex() {
+  return ":080000000001040000000000F3\r\n"
+         ":0200000400FFFB\n"
+         ":04E000003412FF00D7\n"
+         ":0200000401F009\n"
+         ":04000000E6FF000017\n"
+         ":00000001FF\n";
+}
+
+TEST(Hex, words_stand_at_half_their_byte_address) {
+  FirmwareFile file;
+  std::string error;
+  ASSERT_TRUE(dspic::load_firmware(good_hex(), "x.hex", file, error)) << error;
+  EXPECT_EQ(file.words.size(), 4u);
+  EXPECT_EQ(file.words[0], 0x040100u);
+  EXPECT_EQ(file.words[2], 0u);
+  EXPECT_EQ(file.words[0x7FF000], 0xFF1234u);
+  EXPECT_EQ(file.words[0xF80000], 0x00FFE6u);
+}
+
+TEST(Hex, comes_back_from_what_is_written) {
+  FirmwareFile file, again;
+  std::string error;
+  ASSERT_TRUE(dspic::load_firmware(good_hex(), "x.hex", file, error)) << error;
+  for (std::uint32_t a = 0x100; a < 0x150; a += 2) file.words[a] = a * 77;
+  ASSERT_TRUE(dspic::load_firmware(dspic::to_hex(file), "y.hex", again, error)) << error;
+  EXPECT_EQ(again.words, file.words);
+}
+
+TEST(Hex, what_is_wrong_is_named_with_its_line) {
+  EXPECT_EQ(error_of(":080000000001040000000000F4\n:00000001FF\n"),
+            "x.hex: line 1: checksum got 0xf4, expected 0xf3");
+  EXPECT_EQ(error_of(":080000000001040000000000F3\n"),
+            "x.hex: the file ends without an end record (:00000001FF); is it cut off?");
+  EXPECT_EQ(error_of(":08000000000104\n"), "x.hex: line 1: got 7 bytes, expected 13");
+  EXPECT_EQ(error_of(kHex), "x.hex: line 3: column 16: expected pairs of hexadecimal digits");
+  EXPECT_EQ(error_of(":00000001FF\n"), "x.hex: there is no program in it");
+  EXPECT_EQ(error_of(":020000040003F7\n:0400000000000000FC\n:00000001FF\n"),
+            "x.hex: line 2: address 0x018000 is in no memory of this chip");
+  EXPECT_EQ(error_of(":0400000000010400F7\n:0400000000020400F6\n:00000001FF\n"),
+            "x.hex: line 2: address 0x000000 comes a second time, with another value");
+  EXPECT_EQ(error_of(":00000009F7\n"), "x.hex: line 1: record type got 0x09, expected 0x00 to 0x05");
+  EXPECT_EQ(error_of("hello"), "x.hex: neither Intel HEX nor an ELF file of the dsPIC30F (machine 118)");
+}
+
+// --- ELF ------------------------------------------------------------------------------------------------
+
+struct Section {
+  std::string name;
+  unsigned type, flags, address, segment_address;
+  std::string bytes;
+};
+
+void put(std::string& out, std::uint64_t value, int bytes) {
+  for (int i = 0; i < bytes; ++i) out += static_cast<char>(value >> 8 * i);
+}
+
+// as XC16's linker writes it: a segment for each section, addresses in units of the program counter
+std::string elf(const std::vector<Section>& given, unsigned machine = 118, unsigned flags = 31,
+                unsigned type = 2) {
+  std::vector<Section> sections{{"", 0, 0, 0, 0, ""}};
+  sections.insert(sections.end(), given.begin(), given.end());
+  std::string names;
+  std::vector<unsigned> name_at;
+  sections.push_back({".shstrtab", 3, 0, 0, 0, ""});
+  for (const Section& s : sections) {
+    name_at.push_back(static_cast<unsigned>(names.size()));
+    names += s.name + '\0';
+  }
+  sections.back().bytes = names;
+  const unsigned head = 52, segments = static_cast<unsigned>(given.size());
+  std::string body, table, program;
+  unsigned at = head + 32 * segments;
+  for (std::size_t i = 0; i < sections.size(); ++i) {
+    const Section& s = sections[i];
+    for (const std::uint64_t v : {std::uint64_t{name_at[i]}, std::uint64_t{s.type}, std::uint64_t{s.flags},
+                                  std::uint64_t{s.address}, std::uint64_t{at}, std::uint64_t{s.bytes.size()},
+                                  std::uint64_t{0}, std::uint64_t{0}, std::uint64_t{4}, std::uint64_t{0}})
+      put(table, v, 4);
+    if (i > 0 && i <= given.size())
+      for (const std::uint64_t v :
+           {std::uint64_t{1}, std::uint64_t{at}, std::uint64_t{s.address}, std::uint64_t{s.segment_address},
+            std::uint64_t{s.bytes.size()}, std::uint64_t{s.bytes.size()}, std::uint64_t{5}, std::uint64_t{4}})
+        put(program, v, 4);
+    body += s.bytes;
+    at += static_cast<unsigned>(s.bytes.size());
+  }
+  std::string out(
+      "\x7f"
+      "ELF\x01\x01\x01",
+      7);
+  out.resize(16);
+  put(out, type, 2);
+  put(out, machine, 2);
+  for (const std::uint64_t v :
+       {std::uint64_t{1}, std::uint64_t{0x100}, std::uint64_t{head}, std::uint64_t{at}, std::uint64_t{flags}})
+    put(out, v, 4);
+  for (const std::uint64_t v :
+       {std::uint64_t{52}, std::uint64_t{32}, std::uint64_t{segments}, std::uint64_t{40},
+        std::uint64_t{sections.size()}, std::uint64_t{sections.size() - 1}})
+    put(out, v, 2);
+  return out + program + body + table;
+}
+
+const Section kCode{".text", 1, 6, 0x100, 0x100, std::string("\x00\x01\x04\x00\x00\x00\x00\x00", 8)};
+const Section kConstants{".const", 1, 2 | 1u << 28, 0xA65E, 0x265E, std::string("AB\0\0", 4)};
+
+TEST(ElfImage, code_and_constants_stand_where_the_program_counter_counts) {
+  FirmwareFile file;
+  std::string error;
+  const Section data{".data", 1, 3, 0x900, 0x900, std::string(8, 'x')};
+  ASSERT_TRUE(dspic::load_firmware(elf({kCode, kConstants, data}), "x.elf", file, error)) << error;
+  EXPECT_EQ(file.words.size(), 3u);
+  EXPECT_EQ(file.words[0x100], 0x040100u);
+  EXPECT_EQ(file.words[0x102], 0u);
+  EXPECT_EQ(file.words[0x265E], 0x4241u);  // seen at 0xA65E through the window
+}
+
+TEST(ElfImage, what_is_wrong_is_named) {
+  const auto wrong = [](const std::string& bytes) {
+    FirmwareFile file;
+    std::string error;
+    EXPECT_FALSE(dspic::load_elf(bytes, "x.elf", file, error));
+    return error;
+  };
+  EXPECT_EQ(wrong(elf({kCode}, 3)), "x.elf: machine: got 3, expected 118 (dsPIC30F, 32 bits, little-endian)");
+  EXPECT_EQ(wrong(elf({kCode}, 118, 5)), "x.elf: device: got number 5, expected 31 (30F6014A)");
+  EXPECT_EQ(wrong(elf({kCode}, 118, 31, 1)), "x.elf: it is no linked program (an object file?)");
+  EXPECT_EQ(wrong(elf({kCode, kCode})), "x.elf: two sections lie at program address 0x100");
+  EXPECT_EQ(wrong(elf({})), "x.elf: there is no program in it");
+  Section far = kCode;
+  far.address = 0x20000;
+  EXPECT_EQ(wrong(elf({far})), "x.elf: program address 0x20000 is in no memory of this chip");
+  const std::string whole = elf({kCode, kConstants});
+  for (std::size_t cut = 0; cut < whole.size(); cut += 7) EXPECT_NE(wrong(whole.substr(0, cut)), "") << cut;
+}
+
+TEST(FirmwareFile, kind_is_read_from_the_content) {
+  EXPECT_EQ(dspic::kind_of(good_hex()), dspic::FileKind::Hex);
+  EXPECT_EQ(dspic::kind_of(elf({kCode})), dspic::FileKind::Elf);
+  EXPECT_EQ(dspic::kind_of(elf({kCode}, 62)), dspic::FileKind::Other);  // a PC's
+  EXPECT_EQ(dspic::kind_of(""), dspic::FileKind::Other);
+}
+
+}  // namespace

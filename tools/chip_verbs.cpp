@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// The verbs for the chip's own programs: dis writes an image as assembler text, asm makes one from such text.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+
+#include "dspic30/asm/assembler.h"
+#include "dspic30/core/disassembler.h"
+#include "dspic30/load/firmware_file.h"
+#include "dspic30/memory/program_memory.h"
+#include "tools/command_line.h"
+#include "tools/verbs.h"
+
+namespace tools {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool read_file(const std::string& name, std::string& bytes) {
+  std::ifstream in(name, std::ios::binary);
+  if (!in || fs::is_directory(name)) return false;
+  bytes.assign(std::istreambuf_iterator<char>(in), {});
+  return true;
+}
+
+int disassemble(const std::string& name) {
+  std::string bytes, error;
+  dspic::FirmwareFile file;
+  if (!read_file(name, bytes))
+    error = name + ": cannot be read, expected a .hex or .elf file";
+  else
+    dspic::load_firmware(bytes, name, file, error);
+  if (!error.empty()) {
+    complain({error});
+    return kBadInput;
+  }
+  std::multimap<std::uint32_t, std::string> labels;
+  for (const auto& [function, address] : file.functions) labels.emplace(address, function);
+  std::uint32_t expected = 0;
+  for (auto at = file.words.begin(); at != file.words.end();) {
+    const auto [address, word] = *at++;
+    if (word == dspic::kErasedWord) continue;
+    if (address != expected) std::cout << '\n';
+    const auto [first, last] = labels.equal_range(address);
+    for (auto label = first; label != last; ++label) std::cout << label->second << ":\n";
+    const bool is_flash = address < dspic::kFlashEnd;
+    const bool has_second = is_flash && at != file.words.end() && at->first == address + 2;
+    const std::uint32_t second = has_second ? at->second : 0;
+    const std::string text =
+        is_flash ? dspic::disassemble(word, second, address) : fmt::format(".pword {:#08x}", word);
+    std::cout << fmt::format("{:06x}  {:06x}  {}\n", address, word, text);
+    expected = address + 2;
+    if (is_flash && has_second && text[0] != '.' && dspic::instruction_words(word) == 2) {
+      std::cout << fmt::format("{:06x}  {:06x}\n", at->first, second);
+      expected = at++->first + 2;
+    }
+  }
+  return kPass;
+}
+
+int assemble(const std::string& name, const std::string& output) {
+  std::string text;
+  if (!read_file(name, text)) {
+    complain({name + ": cannot be read, expected assembler text"});
+    return kBadInput;
+  }
+  const fs::path folder = fs::path(name).parent_path();
+  const dspic::assembly::Image image =
+      dspic::assembly::assemble(text, name, [&](const std::string& other) -> std::optional<std::string> {
+        std::string included;
+        return read_file((folder / other).string(), included) ? std::optional(included) : std::nullopt;
+      });
+  if (!image.is_whole()) {
+    std::cerr << image.report();
+    return kTestFailed;
+  }
+  dspic::FirmwareFile file;
+  file.words = image.program;
+  std::ofstream out(output, std::ios::binary);
+  if (!(out << dspic::to_hex(file)).flush()) {
+    complain({output + ": -o: cannot be written"});
+    return kBadInput;
+  }
+  std::cout << fmt::format("{}: {} words\n", output, image.program.size());
+  return kPass;
+}
+
+}  // namespace
+
+void add_dis(CLI::App& app, int& exit_code) {
+  auto* verb = app.add_subcommand("dis", "The instructions of a program of the chip, a .hex or .elf file");
+  auto name = std::make_shared<std::string>();
+  verb->add_option("FILE", *name, "a .hex or .elf file")->required();
+  verb->callback([=, &exit_code] { exit_code = disassemble(*name); });
+}
+
+void add_asm(CLI::App& app, int& exit_code) {
+  auto* verb = app.add_subcommand("asm", "Makes a program of the chip, a .hex file, from assembler text");
+  auto name = std::make_shared<std::string>();
+  auto output = std::make_shared<std::string>();
+  verb->add_option("FILE", *name, "assembler text in XC16's syntax")->required();
+  verb->add_option("-o", *output, "the .hex file")->required();
+  verb->callback([=, &exit_code] { exit_code = assemble(*name, *output); });
+}
+
+}  // namespace tools
