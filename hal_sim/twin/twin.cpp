@@ -103,8 +103,7 @@ Firmware open_firmware(const std::string& path, std::string& error) {
   std::ifstream in(path, std::ios::binary);
   std::string bytes(4, '\0');
   in.read(bytes.data(), 4);
-  if (bytes[0] == ':' || bytes == "\177ELF")
-    bytes.append(std::istreambuf_iterator<char>(in), {});
+  if (bytes[0] == ':' || bytes == "\177ELF") bytes.append(std::istreambuf_iterator<char>(in), {});
   if (dspic::kind_of(bytes) == dspic::FileKind::Other) return {host::Image::open(path, error), nullptr};
   auto file = std::make_shared<dspic::FirmwareFile>();
   if (!dspic::load_firmware(bytes, path, *file, error)) return {};
