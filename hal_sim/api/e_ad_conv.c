@@ -47,8 +47,9 @@ void twinpuck_refresh_acc(void) {
 }
 
 void twinpuck_refresh_ir(unsigned int sensor) {
-  e_ambient_ir[sensor] = (int)tp_scan_dark(sensor);
-  e_ambient_and_reflected_ir[sensor] = (int)tp_scan_lit(sensor);
+  unsigned long counts = (unsigned long)tp_scan_pair(sensor);
+  e_ambient_ir[sensor] = (int)(counts & 0xFFFF);
+  e_ambient_and_reflected_ir[sensor] = (int)(counts >> 16);
 }
 
 unsigned long twinpuck_mic_filed;

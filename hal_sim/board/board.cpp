@@ -181,7 +181,7 @@ void Board::write_coils(std::uint16_t value, Cycle at) {
     motor.energise(coils, at);
   }
   lat_[kD] = value & kCameraData;
-  if (!same_current) follow_power(at);
+  if (!same_current) follow_motors(at);
 }
 
 void Board::write_emitters(std::size_t port, std::uint16_t value, Cycle at) {
@@ -193,7 +193,8 @@ void Board::write_emitters(std::size_t port, std::uint16_t value, Cycle at) {
   // all else draws what it drew
   const int lines = __builtin_popcount(static_cast<unsigned>(lat_[kF] & ~tris_[kF] & kEmitterMask[kF])) +
                     __builtin_popcount(static_cast<unsigned>(lat_[kG] & ~tris_[kG] & kEmitterMask[kG]));
-  battery_.draw(beside_emitters_a_ + 2 * kIrEmitterA * lines, at);
+  emitters_a_ = 2 * kIrEmitterA * lines;
+  battery_.draw(other_a_ + coils_a_ + emitters_a_, at);
 }
 
 void Board::outputs_changed(Cycle at) {

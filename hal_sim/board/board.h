@@ -246,8 +246,14 @@ class Board {
   /// Something was switched on or off: the battery's current from `at` on. Whoever changes a device beside
   /// port_write() calls it. Motors count with the mean of their rhythm.
   void follow_power(Cycle at) {
-    beside_emitters_a_ = beside_emitters_a(at);
-    battery_.draw(beside_emitters_a_ + emitters_a(at), at);
+    emitters_a_ = emitters_a(at);
+    other_a_ = other_a(at);
+    follow_motors(at);
+  }
+  /// The same when it was only the motors.
+  void follow_motors(Cycle at) {
+    coils_a_ = coils_a(at);
+    battery_.draw(other_a_ + coils_a_ + emitters_a_, at);
   }
   /// The robot is switched off for good: nothing is drawn.
   void switch_off() { battery_.draw(0, 0); }
@@ -288,9 +294,10 @@ class Board {
   void note_vain_writes(std::size_t port, std::uint16_t changed, Cycle at);
   /// Is the pin an output, and its latch 1?
   bool output_high(Pin pin) const;
-  /// What everything that is on draws, A: the IR emitters, and all else.
+  /// What everything that is on draws, A: the IR emitters, the motors, and all else.
   double emitters_a(Cycle at) const;
-  double beside_emitters_a(Cycle at) const;
+  double coils_a(Cycle at) const;
+  double other_a(Cycle at) const;
   /// Nothing but pins moves coils and emitters: no driver in closed form runs, no part hears of pins.
   bool is_led_by_pins() const;
   void write_coils(std::uint16_t value, Cycle at);
@@ -325,7 +332,7 @@ class Board {
   bool watches_inputs_ = true;
   bool may_hear_ =
       true;  // false: nothing sounds in the scene, found out once a tick for the models of the chip
-  double beside_emitters_a_ = kProcessorA + kBluetoothA + kBoardA;  // at the last follow_power()
+  double other_a_ = kProcessorA + kBluetoothA + kBoardA, coils_a_ = 0, emitters_a_ = 0;  // as followed last
 
   PinDriver* driver_ = nullptr;
   Stepper motors_[2] = {Stepper(-1), Stepper(+1)};

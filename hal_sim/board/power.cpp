@@ -29,10 +29,12 @@ double Board::coil_duty(Wheel wheel, Cycle at) const {
   return driven ? *driven : ones(coils(wheel, at)) / 2.0;
 }
 
-double Board::beside_emitters_a(Cycle at) const {
-  double amps = kProcessorA + kBluetoothA + kBoardA;
-  for (Wheel wheel : {Wheel::Left, Wheel::Right}) amps += 2 * kCoilA * coil_duty(wheel, at);
+double Board::coils_a(Cycle at) const {
+  return 2 * kCoilA * (coil_duty(Wheel::Left, at) + coil_duty(Wheel::Right, at));
+}
 
+double Board::other_a(Cycle at) const {
+  double amps = kProcessorA + kBluetoothA + kBoardA;
   const std::uint32_t lit = leds(at);
   if (lit & kRing) amps += kRingLedA * ones(lit & kRing);
   if (lit & kBody) amps += kBodyLedA;

@@ -52,7 +52,7 @@ std::int64_t AgendaTimer::done_tick(std::uint32_t serial, Cycle at) const {
 
 void AgendaTimer::start(Cycle at) {
   const std::int64_t tick = ticks_at(at);
-  settle_motors(walking_ ? -1 : tick);
+  settle_motors_at(at);
   // a callback may do this: motors further down the list still belong to the tick that is being walked
   line_.late_cycle = line_.cycle_of(tick);
   line_.late_tick = walking_ ? tick : -1;
@@ -64,7 +64,7 @@ void AgendaTimer::start(Cycle at) {
 
 void AgendaTimer::stop(Cycle at) {
   stopped_tick_ = ticks_at(at);
-  settle_motors(walking_ ? -1 : stopped_tick_);
+  settle_motors_at(at);
   running_ = false;
 }
 
@@ -144,9 +144,11 @@ AgendaMotor& AgendaTimer::bring(Wheel wheel, std::int64_t tick) {
 }
 
 void AgendaTimer::settle_motors(std::int64_t tick) {
-  if (tick < 0) return;
-  bring(Wheel::Left, tick);
-  bring(Wheel::Right, tick);
+  for (Wheel wheel : {Wheel::Left, Wheel::Right}) bring(wheel, tick);
+}
+
+void AgendaTimer::settle_motors_at(Cycle at) {
+  for (Wheel wheel : {Wheel::Left, Wheel::Right}) bring(wheel, done_tick(serial_of(wheel), at));
 }
 
 void AgendaTimer::find_next_fire() {
@@ -320,11 +322,11 @@ Cycle AgendaTimer::next_interrupt() const {
 
 void AgendaTimer::begin(Cycle at) {
   walk_tick_ = next_fire_ >= 0 && at >= next_interrupt() ? next_fire_ : ticks_at(at);
-  settle_motors(walk_tick_ - 1);
   // ticks that came while the flag was already set are lost
   const std::int64_t lost =
       floor_div(at - (line_.origin + walk_tick_ * kAgendaTickCycles), kAgendaTickCycles);
   if (lost > 0) {
+    settle_motors(walk_tick_ - 1);
     lose(lost, at);
     line_.late_tick = walk_tick_;
     line_.late_cycle = at;
@@ -359,7 +361,6 @@ AgendaTimer::Function AgendaTimer::next(bool& divided_by_zero) {
     if (!needs_handler(*node)) {
       const AgendaMotor& m = motor(wheel_of(node->kind));
       if (m.count.counts() && m.count.ticks_to_fire() == 1) walk_cost_ += m.firing_cycles();
-      settle(*node, walk_tick_);
       continue;
     }
     AgendaCount& count = count_of(*node);
@@ -383,7 +384,6 @@ void AgendaTimer::finish(Cycle at) {
   walking_ = false;
   in_callback_ = false;
   stopped_tick_ = walk_tick_;
-  settle_motors(walk_tick_);
   if (running_) resume(walk_tick_, at);
   if (held_since_ >= 0) held_since_ = at;
   find_next_fire();
@@ -394,6 +394,7 @@ void AgendaTimer::finish(Cycle at) {
 void AgendaTimer::resume(std::int64_t done, Cycle at) {
   const std::int64_t since = floor_div(at - (line_.origin + done * kAgendaTickCycles), kAgendaTickCycles);
   if (since < 1) return;
+  settle_motors(done);
   lose(since - 1, at);
   line_.late_tick = done + 1;
   line_.late_cycle = at;
@@ -411,7 +412,6 @@ void AgendaTimer::release(Cycle at) {
   const std::int64_t done = ticks_at(held_since_);
   held_since_ = -1;
   if (!running_ || walking_ || at < line_.cycle_of(done + 1)) return;
-  settle_motors(done);
   resume(done, at);
 }
 

@@ -151,6 +151,7 @@ class AgendaTimer {
   std::int64_t done_tick(std::uint32_t serial, Cycle at) const;
   void settle(Node& node, std::int64_t tick);
   void settle_motors(std::int64_t tick);
+  void settle_motors_at(Cycle at);
   void disturb(const Node& node);
   /// The motor itself, brought to `tick`.
   AgendaMotor& bring(Wheel wheel, std::int64_t tick);

@@ -79,7 +79,7 @@ tp_i64 change_list(Cycle cost, Change change) {
   Board& robot = context.board();
   const Cycle now = context.now();
   const int result = change(context.drivers().agendas(), now);
-  robot.follow_power(now);
+  robot.follow_motors(now);
   context.note_write();
   context.follow_handlers();
   host::request_agenda_interrupt(context);
@@ -147,7 +147,7 @@ void tp_coils_write(tp_i64 wheel, tp_i64 coils) {
   Context& context = Context::current();
   const Cycle now = context.now();
   context.board().stepper(wheel_of(wheel), now).energise(static_cast<unsigned>(coils & 15), now);
-  context.board().follow_power(now);
+  context.board().follow_motors(now);
   context.note_write();
 }
 
@@ -291,7 +291,7 @@ void tp_timer_motor_speed(tp_i64 driver, tp_i64 wheel, tp_i64 speed_steps_s) {
   if (kind == TimerMotors::Driver::Timer3) note_speed(context, wheel, speed_steps_s, drivers::kMaxSpeed);
   context.drivers().timer_motors().set_speed(kind, which, static_cast<int>(speed_steps_s), now,
                                              robot.stepper(which, now));
-  robot.follow_power(now);
+  robot.follow_motors(now);
   if (kind == TimerMotors::Driver::Basic) {
     const Cycle period = context.drivers().timer_motors().interrupt_period(which);
     request_background(context, robot, which == Wheel::Left ? TP_BG_MOTOR_LEFT : TP_BG_MOTOR_RIGHT, period,
@@ -374,24 +374,15 @@ tp_i64 tp_scan_acc_samples(void) {
   return scan.acc_samples(now);
 }
 
-tp_i64 tp_scan_dark(tp_i64 sensor) {
+tp_i64 tp_scan_pair(tp_i64 sensor) {
   Context& context = Context::current();
   drivers::AdcScan& scan = context.drivers().scan();
   if (sensor < 0 || sensor > 9) return 0;
+  const int which = static_cast<int>(sensor);
   const Cycle now = context.now();
-  const int counts = scan.dark(static_cast<int>(sensor), now);
-  context.lower_horizon(scan.dark_until(static_cast<int>(sensor)));
-  return counts;
-}
-
-tp_i64 tp_scan_lit(tp_i64 sensor) {
-  Context& context = Context::current();
-  drivers::AdcScan& scan = context.drivers().scan();
-  if (sensor < 0 || sensor > 9) return 0;
-  const Cycle now = context.now();
-  const int counts = scan.lit(static_cast<int>(sensor), now);
-  context.lower_horizon(scan.lit_until(static_cast<int>(sensor)));
-  return counts;
+  const tp_i64 dark = scan.dark(which, now), lit = scan.lit(which, now);
+  context.lower_horizon(std::min(scan.dark_until(which), scan.lit_until(which)));
+  return dark | lit << 16;
 }
 
 tp_i64 tp_scan_mic_index(void) {

@@ -113,10 +113,9 @@ tp_i64 tp_scan_mic_index(void);
 tp_i64 tp_scan_acc_index(void);
 /** Accelerometer samples since reset. Horizon: next interrupt. */
 tp_i64 tp_scan_acc_samples(void);
-/** Newest dark / lit sample of a sensor 0 to 9, counts 0 to 4095; 0 before the first. Horizon: the next of
- * either. */
-tp_i64 tp_scan_dark(tp_i64 sensor);
-tp_i64 tp_scan_lit(tp_i64 sensor);
+/** Newest samples of a sensor 0 to 9, counts 0 to 4095, 0 before the first: dark, and lit from bit 16 on.
+ * Horizon: the next of either. */
+tp_i64 tp_scan_pair(tp_i64 sensor);
 
 /** All ten dark and lit samples at once, into two arrays of ten 16-bit words. Horizon: none. */
 void tp_scan_values(void* dark, void* lit);

@@ -251,6 +251,16 @@ bool out_of_sight(Vec2 from, Vec2 axis, double half_sin, double half_cos, double
   return false;
 }
 
+bool is_beyond(Vec2 point, double reach_m, const Placed& what) {
+  const Vec2 gap = what.frame.at - point;
+  const double far = reach_m + what.solid->bound_m;
+  if (dot(gap, gap) > far * far) return true;
+  const Vec2 p = what.frame.to_local(point);
+  for (const HalfPlane& side : what.solid->sides)
+    if (dot(side.normal, p) - side.offset_m > reach_m) return true;
+  return false;
+}
+
 double plan_distance_m(Vec2 point, const Placed& what, Vec2* toward) {
   const Vec2 p = what.frame.to_local(point);
   const Solid& s = *what.solid;

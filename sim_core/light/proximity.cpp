@@ -80,9 +80,7 @@ const Surroundings& surroundings(const Scene& scene, int robot, Clicks at) {
   for (const Candidate* c = near.begin(robot); c != near.end(robot); ++c) {
     Placed placed =
         c->moving ? scene.placed(c->index, at) : scene.layout().fixed[static_cast<std::size_t>(c->index)];
-    const Vec2 gap = placed.frame.at - s.frame.at;
-    const double far = reach + placed.solid->bound_m;
-    if (dot(gap, gap) > far * far) continue;
+    if (is_beyond(s.frame.at, reach, placed)) continue;
     if (!is_tilting) placed.frame = s.frame.to_local(placed.frame);
     s.items.push_back({placed, &scene.surface(*c)});
   }
@@ -287,7 +285,8 @@ std::vector<double> optics_reach_m(const ProximityOptics& optics) { return optic
 ProximityResponse sense_proximity(const Scene& scene, int robot, int sensor, Clicks at) {
   const SensorOptics& s = optics_of(scene, robot, sensor);
   const Neighbours& near = scene.neighbours();
-  if (near.begin(robot) == near.end(robot) && !s.meets_floor && !scene.layout().ground.has_ramps())
+  const bool sees_ground = s.meets_floor || scene.layout().ground.has_ramps();
+  if (!sees_ground && (near.begin(robot) == near.end(robot) || surroundings(scene, robot, at).items.empty()))
     return s.nothing;
   RayEnd ends[kMostRays];
   return shoot(scene, robot, s, at, ends) ? respond(s, ends) : s.nothing;

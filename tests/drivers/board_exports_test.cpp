@@ -122,15 +122,17 @@ TEST_F(Exports, readings_hold_until_the_next_sample) {
   tp_scan_start(0, 0);
   context.cycle = tp_scan_filled_at();
   context.horizon = host::kNever;
-  EXPECT_EQ(tp_scan_dark(3) - tp_scan_lit(3), 321);
+  const tp_i64 pair = tp_scan_pair(3);
+  EXPECT_EQ(pair & 0xFFFF, 4095);
+  EXPECT_EQ(pair >> 16, 4095 - 321);
   EXPECT_GT(context.horizon, context.cycle);
   EXPECT_LT(context.horizon, context.cycle + 260 * 900);
   std::int16_t dark[10], lit[10];
   tp_scan_values(dark, lit);
   for (int sensor = 0; sensor < 8; ++sensor) EXPECT_EQ(dark[sensor] - lit[sensor], 321);
   EXPECT_EQ(dark[9], 0);
-  EXPECT_EQ(tp_scan_dark(10), 0);
-  EXPECT_EQ(tp_scan_dark(-1), 0);
+  EXPECT_EQ(tp_scan_pair(10), 0);
+  EXPECT_EQ(tp_scan_pair(-1), 0);
   tp_scan_switch(0);
   EXPECT_EQ(context.handler_share, 0u);
 }
