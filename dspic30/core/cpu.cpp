@@ -102,8 +102,6 @@ const Decoded* Cpu::jump(unsigned address, const Decoded* from) {
   return &code_.back();
 }
 
-bool Cpu::is_decoded(const Decoded* d) const { return d->run != &meet; }
-
 void Cpu::decode(const Decoded* d) {
   decoded_.push_back(static_cast<std::uint32_t>(d - code_.data()));
   code_[static_cast<std::size_t>(d - code_.data())] = decode_word(*this, address_of(d));
@@ -398,9 +396,16 @@ unsigned Cpu::read_elsewhere(unsigned ea, unsigned bits) {
   const Cycle t = now + at->lead;
   if (ea < kDisicnt) {
     const unsigned word = peek(ea & ~1u, t);
+    if (watching) watched_until = std::min(watched_until, horizon(ea & ~1u, t));
     return bits == 16 ? word : word >> 8 * (ea & 1) & 0xFF;
   }
-  if (ea < kSfrBytes) return parts.read(ea, bits, t);
+  if (ea < kSfrBytes) {
+    const unsigned value = parts.read(ea, bits, t);
+    if (watching)
+      watched_until =
+          ChipParts::is_changed_by_reading(ea) ? 0 : std::min(watched_until, parts.horizon(ea, t));
+    return value;
+  }
   if (ea >= kPsvStart && (corcon & kPsvOn)) return read_psv(ea, bits);
   trap(Trap::AddressError);
   return 0;
@@ -413,6 +418,7 @@ unsigned Cpu::read_psv(unsigned ea, unsigned bits) {
     now += window == Window::Plain ? at->psv : kRepeatWindow;
   const unsigned address = static_cast<unsigned>(psvpag) << 15 | (ea & 0x7FFE);
   const bool is_eeprom = address - kEepromStart < 2 * kEepromWordCount;
+  if (is_eeprom) note_effect();
   const unsigned word = (is_eeprom ? parts.nvm.table_read(address) : program.read(address)) & 0xFFFF;
   return bits == 16 ? word : word >> 8 * (ea & 1) & 0xFF;
 }
@@ -420,6 +426,7 @@ unsigned Cpu::read_psv(unsigned ea, unsigned bits) {
 void Cpu::write_elsewhere(unsigned ea, unsigned value, unsigned bits) {
   if (bits == 16 && (ea & 1)) return trap(Trap::AddressError);
   const Cycle t = now + at->lead;
+  note_effect();
   if (ea >= kSfrBytes) return trap(Trap::AddressError);
   const Cycle calm = parts.write(ea, static_cast<std::uint16_t>(value), bits, t);
   deadline = std::min(deadline, calm);

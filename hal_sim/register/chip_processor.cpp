@@ -18,19 +18,6 @@ namespace {
 constexpr unsigned kU1Mode = 0x20C, kU2Mode = 0x216, kIfs0 = 0x084;
 constexpr std::uint16_t kUartEnabled = 0x8000, kTransmitEnabled = 0x0400, kBufferFull = 0x0200;
 
-/// Reading it moves a FIFO or lowers a flag, so a loop that does has changed something.
-constexpr bool has_side_effect(unsigned address) {
-  switch (address & ~1u) {
-    case 0x200:  // I2CRCV
-    case 0x212:  // U1RXREG
-    case 0x21C:  // U2RXREG
-    case 0x224:  // SPI1BUF
-    case 0x22A:  // SPI2BUF
-      return true;
-    default:
-      return address >= 0x140 && address < 0x160;  // input capture buffers
-  }
-}
 constexpr unsigned kFirstWithSideEffect = 0x140, kLastWithSideEffect = 0x22B;
 
 }  // namespace
@@ -83,7 +70,7 @@ std::uint16_t ChipProcessor::read_other(unsigned address, unsigned bits, Cycle t
 
 std::uint16_t ChipProcessor::read_closely(unsigned address, unsigned bits, Cycle t) {
   const std::uint16_t value = device().read(address, bits, t);
-  if (has_side_effect(address)) {
+  if (dspic::ChipParts::is_changed_by_reading(address)) {
     runner_.note_write();
     runner_.changed();
   }
