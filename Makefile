@@ -15,13 +15,13 @@ CMAKE  := cmake -G Ninja -S .
 NINJA  := python3 scripts/progress.py $(BUILD) $(JOBS)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup tool build run test view dspic check format bench asan tsan fuzz levels clean
+.PHONY: help setup tool build run test view test-view dspic check format bench asan tsan fuzz levels clean
 
 ## help: this list
 help:
 	@echo "Twinpuck: e-puck controllers on a PC, in virtual time."
 	@echo
-	@sed -n 's/^## \([a-z]*\): *\(.*\)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 18
+	@sed -n 's/^## \([a-z-]*\): *\(.*\)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 18
 	@echo
 	@echo "  variables: FW=controller (folder of firmware/)  WORLD=world (file of worlds/)  T=filter  ARGS=options"
 
@@ -57,9 +57,26 @@ test: setup
 	$(call configure,$(BUILD),)
 	@scripts/run_tests.py $(BUILD) $(JOBS) --filter '$(T)'
 
-## view: the same run in the browser
-view:
-	@echo "make view: the browser page is not built yet; use make run, which writes a picture" >&2; exit 2
+# what only the page needs is fetched here: make run and make test do without
+PAGE := viewer/page
+$(PAGE)/node_modules/.package-lock.json: $(PAGE)/package-lock.json
+	@scripts/setup.sh view
+	@echo "fetching the page's packages"; cd $(PAGE) && npm ci --no-audit --no-fund --loglevel=error >/dev/null && touch node_modules/.package-lock.json
+
+$(BUILD)/page/page.js: $(PAGE)/node_modules/.package-lock.json $(wildcard $(PAGE)/src/*) $(PAGE)/index.html
+	@scripts/setup.sh view
+	@mkdir -p $(BUILD)/page && cp $(PAGE)/index.html $(BUILD)/page
+	@esbuild $(PAGE)/src/main.ts --bundle --minify --target=es2020 --outdir=$(BUILD)/page --entry-names=page --log-level=warning
+
+## view: FW in WORLD in the browser: see, touch and change it while it runs
+view: tool $(BUILD)/page/page.js
+	@$(BUILD)/twinpuck view worlds/$(WORLD).toml --fw '*=$(FW)' $(ARGS)
+
+## test-view: the page in a real browser (chromium)
+test-view: tool $(BUILD)/page/page.js
+	@scripts/setup.sh browser
+	@cd tests/browser && { test node_modules -nt package-lock.json || npm ci --no-audit --no-fund --loglevel=error >/dev/null; touch node_modules; }
+	@node tests/browser/run.mjs '$(T)'
 
 ## dspic: cross-build FW for the robot with XC16 (XC16=path, or xc16-gcc in PATH)
 dspic:

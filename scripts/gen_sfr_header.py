@@ -57,13 +57,17 @@ HEAD = """\
 #define _ISRFAST __attribute__((__interrupt__, __shadow__))
 
 /* --- placement of variables: no effect on a PC, where memory has one space ------------------------------ */
-#define _PERSISTENT
-#define _NEAR
-#define _XBSS(alignment) __attribute__((aligned(alignment)))
-#define _XDATA(alignment) __attribute__((aligned(alignment)))
-#define _YBSS(alignment) __attribute__((aligned(alignment)))
-#define _YDATA(alignment) __attribute__((aligned(alignment)))
+#define _PERSISTENT __attribute__((persistent))
+#define _NEAR __attribute__((near))
+#define _XBSS(alignment) __attribute__((space(xmemory), aligned(alignment)))
+#define _XDATA(alignment) __attribute__((space(xmemory), aligned(alignment)))
+#define _YBSS(alignment) __attribute__((space(ymemory), aligned(alignment)))
+#define _YDATA(alignment) __attribute__((space(ymemory), aligned(alignment)))
+#ifdef __TWINPUCK_PC__
 #define _EEDATA(alignment) __attribute__((section("tpeedata"), aligned(alignment)))
+#else
+#define _EEDATA(alignment) __attribute__((space(eedata), aligned(alignment)))
+#endif
 
 /* --- single instructions -------------------------------------------------------------------------------- */
 #define Nop() { __asm__ volatile("nop"); }
@@ -84,6 +88,7 @@ HEAD = """\
   ((volatile unsigned char *)&OSCCON)[1] = 0x9A; ((volatile unsigned char *)&OSCCON)[1] = (value); } while (0)
 #define __builtin_write_NVM() do { NVMKEY = 0x55; NVMKEY = 0xAA; NVMCONbits.WR = 1; __builtin_nop(); \\
   __builtin_nop(); } while (0)
+#ifdef __TWINPUCK_PC__
 /* table instructions reach the data EEPROM, pages 0x7F */
 #define __builtin_tblrdl(offset) tp_image_table_read((unsigned long)TBLPAG << 16 | (unsigned)(offset))
 #define __builtin_tblwtl(offset, value) \\
@@ -93,6 +98,7 @@ HEAD = """\
 #define __builtin_tblrdh(offset) ((void)(offset), 0u)
 #define __builtin_tblrdhb(offset) ((void)(offset), 0u)
 #define __builtin_tblwth(offset, value) ((void)(offset), (void)(value))
+#endif
 #define __builtin_readsfr(address) (*(volatile unsigned *)(address))
 #define __builtin_writesfr(address, value) (*(volatile unsigned *)(address) = (value))
 
@@ -104,6 +110,7 @@ HEAD = """\
 /* --- configuration words. _FWDT switches the watchdog on and sets its postscalers (register way); an _FOSC
  *     that does not give 14.7456 million instructions a second from the robot's crystal stops the robot with a
  *     message. The others are accepted, checked for known names, and have no effect. --------------------- */
+#ifdef __TWINPUCK_PC__
 #define _FOSC(value) __attribute__((weak)) const unsigned int tp_config_fosc = (value);
 #define _FWDT(value) __attribute__((weak)) const unsigned int tp_config_fwdt = (value);
 #define _FBORPOR(value) extern char tp_config_fborpor[sizeof(value)];
@@ -111,6 +118,17 @@ HEAD = """\
 #define _FSS(value) extern char tp_config_fss[sizeof(value)];
 #define _FGS(value) extern char tp_config_fgs[sizeof(value)];
 #define _FICD(value) extern char tp_config_ficd[sizeof(value)];
+#else
+#define TP_CONFIGURATION(name, address, value) \\
+  __attribute__((weak, used, section(".config@" address))) const unsigned int tp_config_##name = (value);
+#define _FOSC(value) TP_CONFIGURATION(fosc, "F80000", value)
+#define _FWDT(value) TP_CONFIGURATION(fwdt, "F80002", value)
+#define _FBORPOR(value) TP_CONFIGURATION(fborpor, "F80004", value)
+#define _FBS(value) TP_CONFIGURATION(fbs, "F80006", value)
+#define _FSS(value) TP_CONFIGURATION(fss, "F80008", value)
+#define _FGS(value) TP_CONFIGURATION(fgs, "F8000A", value)
+#define _FICD(value) TP_CONFIGURATION(ficd, "F8000C", value)
+#endif
 """
 
 # name, mask that clears what the choice clears (all ones elsewhere); FOSC = FCKSM 15:14, FOS 10:8, FPR 4:0

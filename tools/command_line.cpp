@@ -155,4 +155,21 @@ void add_help(CLI::App& app) {
   });
 }
 
+bool split_choices(const std::vector<std::string>& words, const char* option,
+                   std::vector<twin::Choice>& choices) {
+  for (const auto& w : words) {
+    const auto eq = w.find('=');
+    if (w.empty() || eq == 0 || eq + 1 == w.size()) {
+      complain({"command line: " + std::string(option) + ": got '" + w +
+                "', expected VALUE for every robot, or ROBOT=VALUE"});
+      return false;
+    }
+    if (eq == std::string::npos)
+      choices.push_back({"*", w});
+    else
+      choices.push_back({w.substr(0, eq), w.substr(eq + 1)});
+  }
+  return true;
+}
+
 }  // namespace tools

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "hal_sim/twin/twin.h"
+
 namespace tools {
 
 /// A check of options: a number within bounds. (CLI11's own ranges take nan for one.)
@@ -23,6 +25,10 @@ void add_help(CLI::App& app);
 /// An option that may be given several times, each time with one value: so that what follows is not
 /// swallowed.
 CLI::Option* one_each(CLI::Option* option);
+
+/// "ROBOT=VALUE" of each word; what names no robot is for every robot. False, told, when one is neither.
+bool split_choices(const std::vector<std::string>& words, const char* option,
+                   std::vector<twin::Choice>& choices);
 
 /// Writes each problem on a line of its own to stderr.
 void complain(const std::vector<std::string>& problems);

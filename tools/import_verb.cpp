@@ -71,7 +71,7 @@ int import(const std::string& file, std::string output, bool without_firmware) {
     complain({out.error()});
     return kInvalidRun;
   }
-  const auto loaded = sim::parse_world(made.toml, output, twin::robot_models(), board::part_kinds());
+  const auto loaded = twin::parse_world(made.toml, output);
   if (!loaded.world) {
     complain({loaded.report(output)});
     return kInternal;  // what it writes can always be loaded

@@ -32,6 +32,7 @@ int main(int argc, char** argv) {
   tools::add_inspect(app, exit_code);
   tools::add_list(app, exit_code);
   tools::add_import(app, exit_code);
+  tools::add_view(app, exit_code);
   tools::add_lab(app, exit_code);
   tools::add_timings(app, exit_code);
   tools::add_help(app);

@@ -21,6 +21,7 @@
 #include "tools/serial_text.h"
 #include "tools/summary.h"
 #include "tools/verbs.h"
+#include "viewer/inputs.h"
 
 namespace tools {
 
@@ -33,7 +34,7 @@ constexpr double kLongestSleep_s = 0.1;  // with a look whether the end was aske
 struct RunArguments {
   std::string world;
   std::vector<std::string> firmware, uart1, uart2, keys, supervisors;
-  std::string files = "twinpuck-files";
+  std::string files = "twinpuck-files", replay;
   double seconds = 60;
   std::string speed = "max";
   long long seed = -1;
@@ -43,23 +44,6 @@ struct RunArguments {
   bool sanitize = false, quiet = false, strict = false;
   OutputArguments outputs;
 };
-
-// "ROBOT=VALUE"; what names no robot is for every robot
-bool split(const std::vector<std::string>& words, const char* option, std::vector<twin::Choice>& choices) {
-  for (const auto& w : words) {
-    const auto eq = w.find('=');
-    if (w.empty() || eq == 0 || eq + 1 == w.size()) {
-      complain({"command line: " + std::string(option) + ": got '" + w +
-                "', expected VALUE for every robot, or ROBOT=VALUE"});
-      return false;
-    }
-    if (eq == std::string::npos)
-      choices.push_back({"*", w});
-    else
-      choices.push_back({w.substr(0, eq), w.substr(eq + 1)});
-  }
-  return true;
-}
 
 bool parse_speed(const std::string& text, double& factor) {
   if (text == "max") {
@@ -85,24 +69,32 @@ int run(const RunArguments& arguments) {
   options.tell = [](const std::string& line) { std::cerr << line << '\n'; };
   bool fits_the_chip = true;
   options.no_room = [&fits_the_chip] { fits_the_chip = false; };
-  if (!parse_speed(arguments.speed, speed) || !split(arguments.firmware, "--fw", options.firmware) ||
-      !split(arguments.uart1, "--uart", options.uart1) || !split(arguments.uart2, "--uart2", options.uart2))
+  if (!parse_speed(arguments.speed, speed) || !split_choices(arguments.firmware, "--fw", options.firmware) ||
+      !split_choices(arguments.uart1, "--uart", options.uart1) ||
+      !split_choices(arguments.uart2, "--uart2", options.uart2))
     return kBadInput;
 
   std::vector<std::string> problems;
-  const std::string file = find_world(arguments.world, problems);
-  if (file.empty()) {
+  std::unique_ptr<viewer::Replay> replay;
+  if (!arguments.replay.empty()) {
+    replay = viewer::Replay::open(arguments.replay, problems);
+    if (replay) replay->resume(options);
+  }
+  const std::string file = replay || !problems.empty() ? "" : find_world(arguments.world, problems);
+  if (!problems.empty()) {
     complain(problems);
     return kBadInput;
   }
-  sim::LoadedWorld loaded = twin::load_world(file);
+  sim::LoadedWorld loaded =
+      replay ? twin::parse_world(replay->opening.text, replay->opening.file) : twin::load_world(file);
   if (!loaded.world) {
-    complain({loaded.report(file)});
+    complain({loaded.report(replay ? arguments.replay : file)});
     return kBadInput;
   }
+  if (replay) loaded.world->seed = replay->opening.seed;
   if (arguments.seed >= 0) loaded.world->seed = static_cast<std::uint64_t>(arguments.seed);
   std::vector<twin::Choice> keys;
-  if (!split(arguments.keys, "--key", keys)) return kBadInput;
+  if (!split_choices(arguments.keys, "--key", keys)) return kBadInput;
   for (const auto& key : keys) {
     const std::string wrong = add_key(key.robot, key.value, loaded.world->robots);
     if (wrong.empty()) continue;
@@ -111,13 +103,14 @@ int run(const RunArguments& arguments) {
   }
   if (!arguments.quiet)
     for (const std::string& notice : sim::proximity_notices(*loaded.world)) std::cerr << notice << '\n';
-  options.world_folder = fs::path(file).parent_path().string();
+  options.world_folder = fs::path(loaded.world->file).parent_path().string();
   auto twin = twin::Twin::open(std::move(*loaded.world), options, problems);
   if (!twin) {
     complain(problems);
     return kBadInput;
   }
-  auto team = supervisor::Team::open(*twin, options, arguments.supervisors, problems);
+  auto team = supervisor::Team::open(*twin, options,
+                                     replay ? replay->opening.supervisors : arguments.supervisors, problems);
   if (!team) {
     complain(problems);
     return kBadInput;
@@ -141,7 +134,8 @@ int run(const RunArguments& arguments) {
   });
   limit_host_time(arguments.host_limit_s);
   auto& simulation = twin->simulation();
-  const sim::Clicks end = sim::from_seconds(arguments.seconds);
+  const sim::Clicks end = replay && replay->end() >= 0 ? replay->end() : sim::from_seconds(arguments.seconds);
+  viewer::Inputs inputs(*twin);
   Progress progress(arguments.seconds, arguments.quiet);
   const auto start = Wall::now();
   const auto wall_s = [&] { return std::chrono::duration<double>(Wall::now() - start).count(); };
@@ -172,7 +166,8 @@ int run(const RunArguments& arguments) {
   const sim::Clicks look = outputs.wants_ticks() ? 0 : sim::kClicksPerSecond / 64;
   while (simulation.now() < end && !team->has_ended()) {
     is_stepping = true;
-    simulation.advance(std::min(end, simulation.now() + look));
+    if (replay) replay->apply_due(inputs, simulation.now());
+    simulation.advance(std::min({end, simulation.now() + look, replay ? replay->next() : sim::kEver}));
     is_stepping = false;
     outputs.after_tick();
     serial.show();
@@ -184,6 +179,7 @@ int run(const RunArguments& arguments) {
         std::this_thread::sleep_for(std::chrono::duration<double>(std::min(ahead_s, kLongestSleep_s)));
     }
   }
+  if (replay && !end_asked()) replay->finish(inputs, simulation, problems);
   const double took_s = wall_s();
   progress.finish();
   twin->flush_console();
@@ -235,7 +231,7 @@ int run(const RunArguments& arguments) {
 void add_run(CLI::App& app, int& exit_code) {
   auto* verb = app.add_subcommand("run", "Simulate a world");
   auto a = std::make_shared<RunArguments>();
-  verb->add_option("WORLD", a->world, "world file, or the name of one in worlds/")->required();
+  auto* world = verb->add_option("WORLD", a->world, "world file, or the name of one in worlds/");
   verb->option_defaults()->group("Robots");
   one_each(
       verb->add_option("--fw", a->firmware,
@@ -272,6 +268,9 @@ void add_run(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   verb->add_option("--host-limit", a->host_limit_s, "give up after this many real seconds (exit 124)")
       ->check(between(0, 1e7));
+  auto* replay =
+      verb->add_option("--replay", a->replay,
+                       "do again what a page did, from view --record-inputs; the world is the recording's");
   verb->option_defaults()->group("Checks");
   verb->add_flag(
       "--strict", a->strict,
@@ -287,7 +286,10 @@ void add_run(CLI::App& app, int& exit_code) {
       "Example: twinpuck run maze --fw obstacle --for 60 --record maze.csv --picture maze.png\n"
       "Exit codes: 0 good, 1 --strict or a supervisor found a fault, 2 bad input, 3 firmware trapped, "
       "7 an output was lost, 124 --host-limit, 130 interrupted");
-  verb->callback([a, &exit_code] { exit_code = run(*a); });
+  verb->callback([a, world, replay, &exit_code] {
+    if (world->count() + replay->count() != 1) throw CLI::RequiredError("WORLD or --replay");
+    exit_code = run(*a);
+  });
 }
 
 }  // namespace tools

@@ -66,8 +66,8 @@ bool device_value(const std::string& symbol, std::int64_t& value) {
     value = info->address;
     return true;
   }
-  for (const SfrInfo* info = sfr_begin(); info != sfr_end(); ++info) {
-    const std::string fields = std::string(" ") + info->fields;
+  for (const SfrInfo& info : kSfrRows) {
+    const std::string fields = std::string(" ") + info.fields;
     const std::size_t at = fields.find(" " + name + ":");
     if (at == std::string::npos) continue;
     value = std::stoi(fields.substr(at + name.size() + 2));

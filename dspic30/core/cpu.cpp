@@ -9,11 +9,13 @@ namespace dspic {
 
 namespace {
 
-constexpr unsigned kSplim = 0x020, kAccal = 0x022, kAccbu = 0x02C, kPcl = 0x02E, kPch = 0x030,
-                   kTblpag = 0x032, kPsvpag = 0x034, kRcount = 0x036, kDcount = 0x038, kDostartl = 0x03A,
-                   kDostarth = 0x03C, kDoendl = 0x03E, kDoendh = 0x040, kSr = 0x042, kCorcon = 0x044,
-                   kModcon = 0x046, kXmodsrt = 0x048, kYmodend = 0x04E, kXbrev = 0x050, kDisicnt = 0x052,
-                   kLast = kDisicnt;
+constexpr unsigned kSplim = sfr("SPLIM"), kAccal = sfr("ACCAL"), kAccbu = sfr("ACCBU"), kPcl = sfr("PCL"),
+                   kPch = sfr("PCH"), kTblpag = sfr("TBLPAG"), kPsvpag = sfr("PSVPAG"),
+                   kRcount = sfr("RCOUNT"), kDcount = sfr("DCOUNT"), kDostartl = sfr("DOSTARTL"),
+                   kDostarth = sfr("DOSTARTH"), kDoendl = sfr("DOENDL"), kDoendh = sfr("DOENDH"),
+                   kSr = sfr("SR"), kCorcon = sfr("CORCON"), kModcon = sfr("MODCON"),
+                   kXmodsrt = sfr("XMODSRT"), kYmodend = sfr("YMODEND"), kXbrev = sfr("XBREV"),
+                   kDisicnt = sfr("DISICNT"), kLast = kDisicnt;
 constexpr std::uint16_t kPsvOn = 0x0004, kIpl3 = 0x0008, kDl = 0x0700, kEdt = 0x0800,
                         kCorconKept = 0xFFFF & ~(kIpl3 | kDl | kEdt);
 constexpr std::uint16_t kCorconAtReset = 0x0020;

@@ -81,7 +81,7 @@ std::optional<ResetKind> Processor::run(Cycle until) {
       enter_interrupt(outlook.vector);
       continue;
     }
-    cpu.deadline = std::min(until, outlook.quiet_until);
+    cpu.deadline = std::min(until, outlook.horizon);
     if (cpu.repeating) cpu.next = cpu.run_repeated(cpu.next);
     execute();
   }

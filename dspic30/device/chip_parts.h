@@ -146,15 +146,15 @@ struct ChipParts {
     outlook.vector = interrupts.pending(now, outlook.level);
     outlook.reset_due = is_reset_due();
     if (outlook.vector != kNoVector) return outlook;
-    outlook.quiet_until = std::max(
-        now + 1, std::min(events.next_notice(interrupts.enabled_mask()), interrupts.next_change(now)));
+    outlook.horizon = std::max(
+        now + 1, std::min(events.notice_horizon(interrupts.enabled_mask()), interrupts.next_change(now)));
     return outlook;
   }
   bool is_reset_due() const { return system.watchdog_bit() || interrupts.reset_due().has_value(); }
-  Cycle next_notice() { return events.next_notice(interrupts.enabled_mask()); }
-  __attribute__((always_inline)) Cycle calm_until(Cycle now, int served = kNoVector) {
+  Cycle notice_horizon() { return events.notice_horizon(interrupts.enabled_mask()); }
+  __attribute__((always_inline)) Cycle interrupt_horizon(Cycle now, int served = kNoVector) {
     if (!interrupts.has_no_other(served) || events.next() <= now) return 0;
-    return events.next_notice(interrupts.enabled_mask());
+    return events.notice_horizon(interrupts.enabled_mask());
   }
 
   /// Until when a read of that register gives the same value; may lie in the past. As
@@ -167,23 +167,24 @@ struct ChipParts {
   /// Does reading it move a FIFO or lower a flag?
   static constexpr bool is_changed_by_reading(unsigned address) {
     switch (address & ~1u) {
-      case 0x200:  // I2CRCV
-      case 0x212:  // U1RXREG
-      case 0x21C:  // U2RXREG
-      case 0x224:  // SPI1BUF
-      case 0x22A:  // SPI2BUF
+      case sfr("I2CRCV"):
+      case sfr("U1RXREG"):
+      case sfr("U2RXREG"):
+      case sfr("SPI1BUF"):
+      case sfr("SPI2BUF"):
         return true;
       default:
-        return address >= 0x140 && address < 0x160;  // input capture buffers
+        return address >= sfr("IC1BUF") && address < sfr("IC8CON") + 2;  // input capture buffers
     }
   }
 
   void switch_modules(std::uint16_t next1, std::uint16_t next2, Cycle now);
 
  private:
-  static constexpr unsigned kIfs0 = 0x084, kIec0 = 0x08C, kAdcon1 = 0x2A0, kAdpcfg = 0x2A8,
-                            kFirstPort = 0x2C0, kLastPort = 0x2E8, kBsram = 0x750, kSsram = 0x752,
-                            kPmd1 = 0x770, kPmd2 = 0x772, kPmd3 = 0x774;
+  static constexpr unsigned kIfs0 = sfr("IFS0"), kIec0 = sfr("IEC0"), kAdcon1 = sfr("ADCON1"),
+                            kAdpcfg = sfr("ADPCFG"), kFirstPort = sfr("TRISA"), kLastPort = sfr("LATG"),
+                            kBsram = sfr("BSRAM"), kSsram = sfr("SSRAM"), kPmd1 = sfr("PMD1"),
+                            kPmd2 = sfr("PMD2"), kPmd3 = sfr("PMD3");
   static bool is_flags(unsigned address) { return address - kIfs0 < kIec0 - kIfs0; }
   static int flag_word(unsigned address) { return static_cast<int>((address - kIfs0) / 2); }
 

@@ -8,6 +8,12 @@
 
 namespace dspic {
 
+namespace {
+
+constexpr unsigned kFirstOc = sfr("OC1RS"), kFirstIc = sfr("IC1BUF");
+
+}  // namespace
+
 // A module that is switched off forgets everything and answers 0.
 void ChipParts::switch_modules(std::uint16_t next1, std::uint16_t next2, Cycle now) {
   const auto turned = [&](std::uint16_t before, std::uint16_t next, int bit) {
@@ -21,11 +27,18 @@ void ChipParts::switch_modules(std::uint16_t next1, std::uint16_t next2, Cycle n
     unsigned first, last;
   };
   static constexpr Module kModules[] = {
-      {0, 0x280, 0x2A6},  {0, 0x2AA, 0x2AA},  {1, 0x300, 0x39A},  {2, 0x3C0, 0x45A},  {3, 0x220, 0x224},
-      {4, 0x226, 0x22A},  {5, 0x20C, 0x214},  {6, 0x216, 0x21E},  {7, 0x200, 0x20A},  {8, 0x240, 0x25E},
-      {11, 0x100, 0x104}, {12, 0x106, 0x106}, {12, 0x10C, 0x10C}, {12, 0x110, 0x110}, {13, 0x108, 0x10A},
-      {13, 0x10E, 0x10E}, {13, 0x112, 0x112}, {14, 0x114, 0x114}, {14, 0x11A, 0x11A}, {14, 0x11E, 0x11E},
-      {15, 0x116, 0x118}, {15, 0x11C, 0x11C}, {15, 0x120, 0x120}};
+      {0, sfr("ADCBUF0"), sfr("ADCHS")},    {0, sfr("ADCSSL"), sfr("ADCSSL")},
+      {1, sfr("C1RXF0SID"), sfr("C1EC")},   {2, sfr("C2RXF0SID"), sfr("C2EC")},
+      {3, sfr("SPI1STAT"), sfr("SPI1BUF")}, {4, sfr("SPI2STAT"), sfr("SPI2BUF")},
+      {5, sfr("U1MODE"), sfr("U1BRG")},     {6, sfr("U2MODE"), sfr("U2BRG")},
+      {7, sfr("I2CRCV"), sfr("I2CADD")},    {8, sfr("DCICON1"), sfr("TXBUF3")},
+      {11, sfr("TMR1"), sfr("T1CON")},      {12, sfr("TMR2"), sfr("TMR2")},
+      {12, sfr("PR2"), sfr("PR2")},         {12, sfr("T2CON"), sfr("T2CON")},
+      {13, sfr("TMR3HLD"), sfr("TMR3")},    {13, sfr("PR3"), sfr("PR3")},
+      {13, sfr("T3CON"), sfr("T3CON")},     {14, sfr("TMR4"), sfr("TMR4")},
+      {14, sfr("PR4"), sfr("PR4")},         {14, sfr("T4CON"), sfr("T4CON")},
+      {15, sfr("TMR5HLD"), sfr("TMR5")},    {15, sfr("PR5"), sfr("PR5")},
+      {15, sfr("T5CON"), sfr("T5CON")}};
   for (const Module& m : kModules)
     if (turned(pmd1, next1, m.bit)) {
       // what a module does must end before its registers fall silent
@@ -37,7 +50,7 @@ void ChipParts::switch_modules(std::uint16_t next1, std::uint16_t next2, Cycle n
   for (int bit = 0; bit < 16; ++bit) {
     if (!turned(pmd2, next2, bit)) continue;
     const auto n = static_cast<unsigned>(bit & 7);
-    const unsigned first = bit < 8 ? 0x180 + 6 * n : 0x140 + 4 * n;
+    const unsigned first = bit < 8 ? kFirstOc + 6 * n : kFirstIc + 4 * n;
     const unsigned last = bit < 8 ? first + 4 : first + 2;
     if (next2 >> bit & 1) bus.write(last, 0, 16, now);
     range(next2, bit, first, last);
@@ -150,7 +163,7 @@ Cycle Dspic30f6014a::next_event(Cycle now) {
   ChipParts& p = *parts_;
   p.events.run_to(now);
   const Cycle next =
-      std::min(p.events.next_notice(p.interrupts.enabled_mask()), p.interrupts.next_change(now));
+      std::min(p.events.notice_horizon(p.interrupts.enabled_mask()), p.interrupts.next_change(now));
   return next >= kNever ? kNever : std::max(next, now + 1);
 }
 
@@ -184,7 +197,9 @@ InterruptEntry Dspic30f6014a::enter_interrupt(int vector, Cycle now) {
 }
 Cycle Dspic30f6014a::return_from_interrupt(Cycle now) { return parts_->interrupts.leave(now); }
 
-Cycle Dspic30f6014a::calm_until(Cycle now, int served) { return parts_->calm_until(now, served); }
+Cycle Dspic30f6014a::interrupt_horizon(Cycle now, int served) {
+  return parts_->interrupt_horizon(now, served);
+}
 int Dspic30f6014a::cpu_level() const { return parts_->interrupts.level(); }
 void Dspic30f6014a::set_cpu_level(int level, Cycle now) { parts_->interrupts.set_level(level, now); }
 int Dspic30f6014a::nesting() const { return parts_->interrupts.nesting(); }
@@ -264,8 +279,8 @@ std::uint64_t Dspic30f6014a::state_hash(Cycle now, bool with_pins) {
   run_to(now);
   std::uint64_t h = 0xCBF29CE484222325u;
   const auto add = [&h](std::uint64_t v) { h = (h ^ v) * 0x100000001B3u; };
-  for (const SfrInfo* info = sfr_begin(); info != sfr_end(); ++info)
-    if (with_pins || std::strncmp(info->name, "PORT", 4) != 0) add(parts_->bus.peek(info->address, now));
+  for (const SfrInfo& info : kSfrRows)
+    if (with_pins || std::strncmp(info.name, "PORT", 4) != 0) add(parts_->bus.peek(info.address, now));
   for (const Uart& u : parts_->uarts) add(u.state_hash());
   add(static_cast<std::uint64_t>(parts_->interrupts.level()));
   for (const std::uint16_t word : parts_->nvm.eeprom()) add(word);

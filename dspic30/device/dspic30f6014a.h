@@ -53,7 +53,7 @@ struct Outlook {
   int level = 0;           ///< the CPU's
   bool disi = false;       ///< priorities 1 to 6 are held off
   bool reset_due = false;  ///< reset_due() says which
-  Cycle quiet_until = 0;   ///< next_event()
+  Cycle horizon = 0;       ///< next_event()
 };
 
 class Dspic30f6014a {
@@ -70,13 +70,12 @@ class Dspic30f6014a {
   void reset(ResetKind kind, Cycle now);
 
   // --- registers
-  // --------------------------------------------------------------------------------------------
 
   /// Byte address 0x000 to 0x7FF; bits 8 or 16 (a word access ignores address bit 0; the address error of an
   /// odd one is the core's). Result in the low bits. Addresses with nothing behind them read 0.
   std::uint16_t read(unsigned address, unsigned bits, Cycle now);
-  /// Returns the instant with which whoever remembers look().quiet_until or calm_until() has to compare it:
-  /// the earlier one of both is true now; 0: ask look() again.
+  /// Returns the instant with which whoever remembers look().horizon or interrupt_horizon() has to compare
+  /// it: the earlier one of both is true now; 0: ask look() again.
   Cycle write(unsigned address, std::uint16_t value, unsigned bits, Cycle now);
   /// The register's value as a debugger shows it: no FIFO moves, no flag falls, no latch is loaded.
   std::uint16_t peek(unsigned address, Cycle now);
@@ -88,7 +87,6 @@ class Dspic30f6014a {
   static int register_address(const std::string& name);
 
   // --- time
-  // -------------------------------------------------------------------------------------------------
 
   /// Everything that happens up to and in cycle `now` has happened. Call it before the outside changes.
   void run_to(Cycle now);
@@ -107,7 +105,6 @@ class Dspic30f6014a {
   void uart_receive(int uart, const UartFrame& frame);
 
   // --- interrupts
-  // -------------------------------------------------------------------------------------------
 
   /// pending(), reset_due() and next_event() at once, for a host that asks again only when it must.
   Outlook look(Cycle now);
@@ -123,7 +120,7 @@ class Dspic30f6014a {
   Cycle return_from_interrupt(Cycle now);
   /// next_event(), if no flag but that of the vector whose handler runs at `now` is set and enabled, and
   /// nothing has happened up to `now` that is not known already; else 0: ask look(). Cheaper than that.
-  Cycle calm_until(Cycle now, int served = kNoVector);
+  Cycle interrupt_horizon(Cycle now, int served = kNoVector);
   /// SR.IPL, and IPL3 above 7. Levels 0 to 7 can be set (unless INTCON1.NSTDIS).
   int cpu_level() const;
   void set_cpu_level(int level, Cycle now);
@@ -142,7 +139,6 @@ class Dspic30f6014a {
   Cycle flag_since(int vector) const;
 
   // --- instructions that peripherals know of
-  // ----------------------------------------------------------------
 
   void clear_watchdog(Cycle now);
   /// PWRSAV #0 (Sleep) or #1 (Idle): sets RCON.SLEEP or IDLE, clears the watchdog. Peripherals go on here.
@@ -155,7 +151,6 @@ class Dspic30f6014a {
   Cycle stalled_until() const;
 
   // --- data EEPROM
-  // ------------------------------------------------------------------------------------------
 
   /// TBLRDL at a program address inside the EEPROM; 0 elsewhere.
   std::uint16_t table_read(unsigned program_address, Cycle now);
@@ -164,7 +159,6 @@ class Dspic30f6014a {
   std::array<std::uint16_t, 2048>& eeprom();
 
   // --- diagnosis
-  // --------------------------------------------------------------------------------------------
 
   Diagnostics& diagnostics();
   /// Words lost by receive overruns of UART 1 or 2 since power-up.

@@ -7,15 +7,13 @@
 
 namespace dspic {
 
-namespace {
+void detail::no_such_register() { std::abort(); }
 
-constexpr SfrInfo kRows[] = {
-#include "dspic30/memory/sfr_rows.inc"
-};
+namespace {
 
 std::array<const SfrInfo*, kSfrBytes / 2> by_address() {
   std::array<const SfrInfo*, kSfrBytes / 2> table{};
-  for (const SfrInfo& row : kRows) table[row.address / 2] = &row;
+  for (const SfrInfo& row : kSfrRows) table[row.address / 2] = &row;
   return table;
 }
 
@@ -27,13 +25,10 @@ const SfrInfo* sfr_info(unsigned address) {
 }
 
 const SfrInfo* sfr_named(const std::string& name) {
-  for (const SfrInfo& row : kRows)
+  for (const SfrInfo& row : kSfrRows)
     if (name == row.name) return &row;
   return nullptr;
 }
-
-const SfrInfo* sfr_begin() { return std::begin(kRows); }
-const SfrInfo* sfr_end() { return std::end(kRows); }
 
 std::string sfr_bit_name(const SfrInfo& info, int bit) {
   std::istringstream fields(info.fields);

@@ -4,6 +4,7 @@
 #pragma once
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace dspic {
 
@@ -18,13 +19,26 @@ struct SfrInfo {
   const char* fields;         ///< "TCS:1:1 TSYNC:2:1 ...": name, lowest bit, width
 };
 
+inline constexpr SfrInfo kSfrRows[] = {
+#include "dspic30/memory/sfr_rows.inc"
+};
+
+namespace detail {
+[[noreturn]] void no_such_register();  // aborts; no constant calls it
+}
+
+/// Address of the register of that name, for constants.
+constexpr unsigned sfr(std::string_view name) {
+  for (const SfrInfo& row : kSfrRows)
+    if (name == row.name) return row.address;
+  detail::no_such_register();
+  return 0;
+}
+
 /// Register at a byte address (the odd byte belongs to its word); null where nothing is.
 const SfrInfo* sfr_info(unsigned address);
 /// Register of that name; null for unknown ones.
 const SfrInfo* sfr_named(const std::string& name);
-/// All registers in the order of their addresses.
-const SfrInfo* sfr_begin();
-const SfrInfo* sfr_end();
 /// "U1MODE.LPBACK", "TCKPS1" style for fields of several bits ("T1CON.TCKPS"), "PR1.3" where no field is
 /// named.
 std::string sfr_bit_name(const SfrInfo& info, int bit);

@@ -8,7 +8,8 @@ namespace dspic {
 
 namespace {
 
-constexpr unsigned kCon1 = 0x2A0, kCon2 = 0x2A2, kCon3 = 0x2A4, kChs = 0x2A6, kCssl = 0x2AA;
+constexpr unsigned kCon1 = sfr("ADCON1"), kCon2 = sfr("ADCON2"), kCon3 = sfr("ADCON3"), kChs = sfr("ADCHS"),
+                   kCssl = sfr("ADCSSL");
 constexpr std::uint16_t kDone = 0x0001, kSamp = 0x0002, kAdon = 0x8000, kBufs = 0x0080, kCscna = 0x0400,
                         kAlts = 0x0001, kBufm = 0x0002, kAdrc = 0x0080;
 constexpr int kConversionTads = 14;       // [chip P4]

@@ -7,7 +7,7 @@ namespace dspic {
 
 namespace {
 
-constexpr unsigned kIc = 0x140, kOc = 0x180;
+constexpr unsigned kIc = sfr("IC1BUF"), kOc = sfr("OC1RS");
 constexpr int kIcFlags[] = {irq::Ic1, irq::Ic2, irq::Ic3, irq::Ic4, irq::Ic5, irq::Ic6, irq::Ic7, irq::Ic8};
 constexpr int kOcFlags[] = {irq::Oc1, irq::Oc2, irq::Oc3, irq::Oc4, irq::Oc5, irq::Oc6, irq::Oc7, irq::Oc8};
 constexpr Cycle kEdgeToCapture = 1;  // synchroniser

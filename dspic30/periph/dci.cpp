@@ -7,8 +7,9 @@ namespace dspic {
 
 namespace {
 
-constexpr unsigned kCon1 = 0x240, kCon2 = 0x242, kCon3 = 0x244, kStat = 0x246, kTscon = 0x248, kRscon = 0x24C,
-                   kRx = 0x250, kTx = 0x258;
+constexpr unsigned kCon1 = sfr("DCICON1"), kCon2 = sfr("DCICON2"), kCon3 = sfr("DCICON3"),
+                   kStat = sfr("DCISTAT"), kTscon = sfr("TSCON"), kRscon = sfr("RSCON"), kRx = sfr("RXBUF0"),
+                   kTx = sfr("TXBUF0");
 constexpr std::uint16_t kDcien = 0x8000, kDloop = 0x0800, kUnfm = 0x0080, kDjst = 0x0020;
 constexpr std::uint16_t kTmpty = 0x0001, kTunf = 0x0002, kRful = 0x0004, kRov = 0x0008;
 constexpr Cycle kStartBits = 1;  // bit clocks from DCIEN to the first frame [?]

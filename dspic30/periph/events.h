@@ -64,9 +64,9 @@ class Events {
   }
   /// Null: nobody.
   void watch(EventWatch* watch) { watch_ = watch; }
-  /// What next_notice(), asked before with the same flags, answers now is the earlier one of its last answer
-  /// and earliest(), if nothing has happened since forget_changes() but what was set; was_put_off(): it may
-  /// be later.
+  /// What notice_horizon(), asked before with the same flags, answers now is the earlier one of its last
+  /// answer and earliest(), if nothing has happened since forget_changes() but what was set; was_put_off():
+  /// it may be later.
   Cycle earliest() const { return earliest_; }
   bool was_put_off() const { return put_off_; }
   void forget_changes() {
@@ -78,7 +78,7 @@ class Events {
 
   /// Earliest instant at which the processor may notice something: a slot that acts outwards, or one cycle
   /// after a slot that may set one of these flags.
-  Cycle next_notice(std::uint64_t irqs) {
+  Cycle notice_horizon(std::uint64_t irqs) {
     if (irqs != noticed_irqs_) find_noticed(irqs);
     Cycle notice = kNever;
     for (const Instant* i = queue_.data(); i->at < notice; ++i)
@@ -143,7 +143,7 @@ class Events {
   std::array<Instant, kMostSlots + 1> queue_{};  // instants that are known, in order; then kNever
   int queued_ = 0;
   std::uint64_t outward_ = 0;  // slots that act outwards
-  // of next_notice(), for the flags of its last call; at the beginning for none
+  // of notice_horizon(), for the flags of its last call; at the beginning for none
   std::uint64_t noticed_ = 0, noticed_irqs_ = ~std::uint64_t{0};
   Cycle reached_ = 0;
   EventWatch* watch_ = nullptr;

@@ -11,7 +11,7 @@ constexpr Pin kPins[] = {{Port::F, 6}, {Port::A, 12}, {Port::A, 13}, {Port::A, 1
 constexpr int kFlags[] = {irq::Int0, irq::Int1, irq::Int2, irq::Int3, irq::Int4};
 constexpr Cycle kEdgeToFlag = 2;  // synchroniser, then the flag [?]
 
-constexpr unsigned kCnen1 = 0x0C0, kCnpu1 = 0x0C4, kCnpu2 = 0x0C6;
+constexpr unsigned kCnen1 = sfr("CNEN1"), kCnpu1 = sfr("CNPU1"), kCnpu2 = sfr("CNPU2");
 constexpr Pin kCnPins[] = {{Port::C, 14}, {Port::C, 13}, {Port::B, 0},  {Port::B, 1}, {Port::B, 2},
                            {Port::B, 3},  {Port::B, 4},  {Port::B, 5},  {Port::G, 6}, {Port::G, 7},
                            {Port::G, 8},  {Port::G, 9},  {Port::B, 15}, {Port::D, 4}, {Port::D, 5},

@@ -8,7 +8,8 @@ namespace dspic {
 
 namespace {
 
-constexpr unsigned kRcv = 0x200, kTrn = 0x202, kBrg = 0x204, kCon = 0x206, kStat = 0x208, kAdd = 0x20A;
+constexpr unsigned kRcv = sfr("I2CRCV"), kTrn = sfr("I2CTRN"), kBrg = sfr("I2CBRG"), kCon = sfr("I2CCON"),
+                   kStat = sfr("I2CSTAT"), kAdd = sfr("I2CADD");
 constexpr std::uint16_t kSen = 0x01, kRsen = 0x02, kPen = 0x04, kRcen = 0x08, kAcken = 0x10, kAckdt = 0x20,
                         kOperations = 0x1F;
 constexpr std::uint16_t kTbf = 0x0001, kRbf = 0x0002, kS = 0x0008, kP = 0x0010, kI2cov = 0x0040,

@@ -10,8 +10,8 @@ namespace dspic {
 
 namespace {
 
-constexpr unsigned kIntcon1 = 0x080, kIntcon2 = 0x082, kIfs0 = 0x084, kIec0 = 0x08C, kIpc0 = 0x094,
-                   kInttreg = 0x0B0;
+constexpr unsigned kIntcon1 = sfr("INTCON1"), kIntcon2 = sfr("INTCON2"), kIfs0 = sfr("IFS0"),
+                   kIec0 = sfr("IEC0"), kIpc0 = sfr("IPC0"), kInttreg = sfr("INTTREG");
 constexpr int kDefaultPriority = 4;
 // returns in a row with the flag untouched before it is taken for a mistake
 constexpr int kUnclearedReturns = 2;
@@ -21,69 +21,8 @@ constexpr int kHardLevel = 13;
 }  // namespace
 
 const char* vector_name(int vector) {
-  static constexpr const char* kNames[kVectors] = {"?",
-                                                   "OscillatorFail",
-                                                   "AddressError",
-                                                   "StackError",
-                                                   "MathError",
-                                                   "?",
-                                                   "?",
-                                                   "?",
-                                                   "INT0",
-                                                   "IC1",
-                                                   "OC1",
-                                                   "T1",
-                                                   "IC2",
-                                                   "OC2",
-                                                   "T2",
-                                                   "T3",
-                                                   "SPI1",
-                                                   "U1RX",
-                                                   "U1TX",
-                                                   "ADC",
-                                                   "NVM",
-                                                   "SI2C",
-                                                   "MI2C",
-                                                   "CN",
-                                                   "INT1",
-                                                   "IC7",
-                                                   "IC8",
-                                                   "OC3",
-                                                   "OC4",
-                                                   "T4",
-                                                   "T5",
-                                                   "INT2",
-                                                   "U2RX",
-                                                   "U2TX",
-                                                   "SPI2",
-                                                   "C1",
-                                                   "IC3",
-                                                   "IC4",
-                                                   "IC5",
-                                                   "IC6",
-                                                   "OC5",
-                                                   "OC6",
-                                                   "OC7",
-                                                   "OC8",
-                                                   "INT3",
-                                                   "INT4",
-                                                   "C2",
-                                                   "?",
-                                                   "?",
-                                                   "DCI",
-                                                   "LVD",
-                                                   "?",
-                                                   "?",
-                                                   "?",
-                                                   "?",
-                                                   "?",
-                                                   "?",
-                                                   "?",
-                                                   "?",
-                                                   "?",
-                                                   "?",
-                                                   "?"};
-  return vector >= 0 && vector < kVectors ? kNames[vector] : "?";
+  static constexpr const char* kTraps[] = {"OscillatorFail", "AddressError", "StackError", "MathError"};
+  return vector >= 1 && vector <= 4 ? kTraps[vector - 1] : irq_name(vector - kFirstIrqVector);
 }
 
 void Interrupts::attach(SfrBus& bus) { bus.attach(*this, kIntcon1, kInttreg); }

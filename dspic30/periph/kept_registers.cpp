@@ -7,7 +7,8 @@ namespace dspic {
 
 namespace {
 
-constexpr unsigned kPcl = 0x02E, kPch = 0x030, kSr = 0x042, kCorcon = 0x044, kDisicnt = 0x052;
+constexpr unsigned kPcl = sfr("PCL"), kPch = sfr("PCH"), kSr = sfr("SR"), kCorcon = sfr("CORCON"),
+                   kDisicnt = sfr("DISICNT");
 constexpr std::uint16_t kIpl = 0x00E0, kIpl3 = 0x0008, kEdt = 0x0800;
 constexpr Cycle kCanModeChange = 4;  // a few cycles without a bus [?]
 
@@ -19,7 +20,6 @@ std::uint16_t reset_value(unsigned address) {
 }  // namespace
 
 // --- the core's
-// ---------------------------------------------------------------------------------------------
 
 void CpuRegisters::attach() { f_.bus.attach(*this, 0, kDisicnt); }
 
@@ -57,7 +57,6 @@ Cycle CpuRegisters::horizon(unsigned address, Cycle now) const {
 }
 
 // --- plain words
-// --------------------------------------------------------------------------------------------
 
 void PlainRegisters::attach(unsigned first, unsigned last) { f_.bus.attach(*this, first, last); }
 
@@ -69,7 +68,6 @@ std::uint16_t PlainRegisters::word(unsigned address) const {
 }
 
 // --- CAN
-// ----------------------------------------------------------------------------------------------------
 
 void Can::attach() {
   f_.bus.attach(*this, base_, base_ + 0x9A);

@@ -53,7 +53,7 @@ class PlainRegisters final : public SfrOwner {
 
 class Can final : public SfrOwner {
  public:
-  Can(const Fabric& fabric, int number) : f_(fabric), base_(number == 1 ? 0x300 : 0x3C0) {}
+  Can(const Fabric& fabric, int number) : f_(fabric), base_(kBases[number - 1]) {}
   void attach();
   void reset();
   std::uint16_t read(unsigned address, Cycle now) override { return peek(address, now); }
@@ -62,6 +62,7 @@ class Can final : public SfrOwner {
   Cycle horizon(unsigned address, Cycle now) const override;
 
  private:
+  static constexpr unsigned kBases[2] = {sfr("C1RXF0SID"), sfr("C2RXF0SID")};
   unsigned control() const { return base_ + 0x90; }
   Fabric f_;
   unsigned base_;

@@ -7,7 +7,7 @@ namespace dspic {
 
 namespace {
 
-constexpr unsigned kCon = 0x760, kAdr = 0x762, kAdru = 0x764, kKey = 0x766;
+constexpr unsigned kCon = sfr("NVMCON"), kAdr = sfr("NVMADR"), kAdru = sfr("NVMADRU"), kKey = sfr("NVMKEY");
 constexpr std::uint16_t kWr = 0x8000, kWren = 0x4000, kWrerr = 0x2000;
 constexpr int kEraseWord = 0x44, kEraseRow = 0x45, kEraseAll = 0x46, kWriteWord = 0x04, kWriteRow = 0x05;
 constexpr int kEraseFlashRow = 0x41, kWriteFlashRow = 0x01, kWriteConfiguration = 0x08;

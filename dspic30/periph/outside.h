@@ -83,7 +83,6 @@ class Outside {
   virtual Cycle nth_edge(Pin pin, Edge edge, Cycle after, std::int64_t n);
 
   // --- analogue inputs
-  // --------------------------------------------------------------------------------------
   /// Counts of AN`channel` (0 to 15) against AVDD and AVSS, 0 to 4095, held at `at`. Asked once per
   /// conversion and in order, so that noise may be drawn per call.
   virtual int analogue_counts(int channel, Cycle at) { return 0; }
@@ -96,12 +95,10 @@ class Outside {
   virtual double supply_v(Cycle at) { return 3.3; }
 
   // --- UART 1 and 2
-  // -----------------------------------------------------------------------------------------
   /// A word begins to leave UART `uart` (1, 2) at frame.start; its end lies in the future.
   virtual void uart_sent(int uart, const UartFrame& frame) {}
 
   // --- I2C module as master
-  // ---------------------------------------------------------------------------------
   /// Each when it is complete on the bus: start or repeated start, byte with its ninth bit, stop.
   virtual void i2c_start(bool repeated, Cycle at) {}
   virtual I2cReply i2c_write(std::uint8_t byte, Cycle at) { return {}; }
@@ -112,13 +109,11 @@ class Outside {
   virtual void i2c_stop(Cycle at) {}
 
   // --- DCI (codec)
-  // ------------------------------------------------------------------------------------------
   /// A word of an enabled slot has passed; its last bit ends at `end`. `transmitted`: what CSDO carried,
   /// right-aligned, 4 to 16 bits; 0 when the slot does not transmit. Returns what CSDI carried.
   virtual std::uint16_t dci_word(int slot, std::uint16_t transmitted, int bits, Cycle end) { return 0; }
 
   // --- SPI 1 and 2
-  // ------------------------------------------------------------------------------------------
   /// A word of 8 or 16 bits went out as master, complete at `end`. Returns what came in.
   virtual std::uint16_t spi_word(int module, std::uint16_t word, int bits, Cycle end) { return 0; }
 };

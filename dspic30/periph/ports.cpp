@@ -7,7 +7,7 @@ namespace dspic {
 
 namespace {
 
-constexpr unsigned kAdpcfg = 0x2A8;
+constexpr unsigned kAdpcfg = sfr("ADPCFG");
 enum Kind : unsigned { Tris = 0, PortPins = 2, Lat = 4 };
 // writes to an input's latch before it is taken for a mistake: start-up code may set latches before
 // directions

@@ -81,8 +81,9 @@ class Ports final : public SfrOwner {
     while (address < kBases[p]) --p;
     return static_cast<Port>(p);
   }
-  static constexpr unsigned kFirst = 0x2C0;
-  static constexpr unsigned kBases[kPorts] = {0x2C0, 0x2C6, 0x2CC, 0x2D2, 0x2DE, 0x2E4};
+  static constexpr unsigned kFirst = sfr("TRISA");
+  static constexpr unsigned kBases[kPorts] = {sfr("TRISA"), sfr("TRISB"), sfr("TRISC"),
+                                              sfr("TRISD"), sfr("TRISF"), sfr("TRISG")};
   struct State {
     std::uint16_t implemented = 0;
     std::uint16_t plain_outputs = 0;  // outputs that are the latch's alone, and that nobody watches

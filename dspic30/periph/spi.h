@@ -13,7 +13,7 @@ namespace dspic {
 
 class Spi final : public SfrOwner, public EventOwner {
  public:
-  Spi(const Fabric& fabric, int number) : f_(fabric), number_(number), base_(number == 1 ? 0x220 : 0x226) {}
+  Spi(const Fabric& fabric, int number) : f_(fabric), number_(number), base_(kBases[number - 1]) {}
   void attach();
   void reset(Cycle now);
 
@@ -24,6 +24,7 @@ class Spi final : public SfrOwner, public EventOwner {
   void on_event(int id, Cycle at) override;
 
  private:
+  static constexpr unsigned kBases[2] = {sfr("SPI1STAT"), sfr("SPI2STAT")};
   bool on() const { return (stat_ & 0x8000) != 0; }
   int bits() const { return (con_ & 0x0400) ? 16 : 8; }
   Cycle clock() const;

@@ -7,7 +7,7 @@ namespace dspic {
 
 namespace {
 
-constexpr unsigned kRcon = 0x740, kOsccon = 0x742, kOsctun = 0x744;
+constexpr unsigned kRcon = sfr("RCON"), kOsccon = sfr("OSCCON"), kOsctun = sfr("OSCTUN");
 constexpr std::uint16_t kPor = 1 << 0, kBor = 1 << 1, kIdle = 1 << 2, kSleep = 1 << 3, kWdto = 1 << 4,
                         kSwdten = 1 << 5, kSwr = 1 << 6, kExtr = 1 << 7, kLvdl = 0x0F00, kLvden = 1 << 12,
                         kBgst = 1 << 13, kIopuwr = 1 << 14, kTrapr = 1 << 15;

@@ -11,12 +11,12 @@ namespace {
 struct Addresses {
   unsigned tmr, pr, con;
 };
-constexpr Addresses kAt[kTimers] = {{0x100, 0x102, 0x104},
-                                    {0x106, 0x10C, 0x110},
-                                    {0x10A, 0x10E, 0x112},
-                                    {0x114, 0x11A, 0x11E},
-                                    {0x118, 0x11C, 0x120}};
-constexpr unsigned kHold23 = 0x108, kHold45 = 0x116;
+constexpr Addresses kAt[kTimers] = {{sfr("TMR1"), sfr("PR1"), sfr("T1CON")},
+                                    {sfr("TMR2"), sfr("PR2"), sfr("T2CON")},
+                                    {sfr("TMR3"), sfr("PR3"), sfr("T3CON")},
+                                    {sfr("TMR4"), sfr("PR4"), sfr("T4CON")},
+                                    {sfr("TMR5"), sfr("PR5"), sfr("T5CON")}};
+constexpr unsigned kHold23 = sfr("TMR3HLD"), kHold45 = sfr("TMR5HLD");
 constexpr int kFlags[kTimers] = {irq::T1, irq::T2, irq::T3, irq::T4, irq::T5};
 constexpr Pin kClockPins[kTimers] = {{Port::C, 14}, {Port::C, 1}, {Port::C, 2}, {Port::C, 3}, {Port::C, 4}};
 constexpr std::uint16_t kTon = 0x8000, kTgate = 0x0040, kT32 = 0x0008, kTcs = 0x0002;
@@ -54,7 +54,7 @@ Register find(unsigned address) {
 }  // namespace
 
 void Timers::attach() {
-  f_.bus.attach(*this, 0x100, 0x120);
+  f_.bus.attach(*this, kAt[0].tmr, kAt[4].con);
   for (int t = 1; t <= kTimers; ++t) {
     // a pair's match sets the flag of its high half
     std::uint64_t flags = std::uint64_t{1} << kFlags[t - 1];

@@ -11,6 +11,7 @@ namespace dspic {
 namespace {
 
 constexpr unsigned kMode = 0, kSta = 2, kTxReg = 4, kRxReg = 6;
+constexpr unsigned kU1Mode = sfr("U1MODE"), kU2Mode = sfr("U2MODE");
 constexpr std::uint16_t kUarten = 0x8000, kAltio = 0x0400, kLpback = 0x0040;
 constexpr std::uint16_t kUtxisel = 0x8000, kUtxbrk = 0x0800, kUtxen = 0x0400, kUtxbf = 0x0200, kTrmt = 0x0100,
                         kAdden = 0x0020, kRidle = 0x0010, kPerr = 0x0008, kFerr = 0x0004, kOerr = 0x0002,
@@ -27,7 +28,7 @@ constexpr double kWorstRateError = 0.02;
 Uart::Uart(const Fabric& fabric, int number)
     : f_(fabric),
       number_(number),
-      base_(number == 1 ? 0x20C : 0x216),
+      base_(number == 1 ? kU1Mode : kU2Mode),
       tx_irq_(number == 1 ? irq::U1Tx : irq::U2Tx),
       rx_irq_(number == 1 ? irq::U1Rx : irq::U2Rx) {}
 

@@ -4,61 +4,14 @@
 #include <cstdint>
 
 #include "dspic30/memory/cycle.h"
+#include "dspic30/memory/irqs.h"
 
 namespace dspic {
 
 /// Interrupt and trap vectors in natural order: 1 to 4 traps, 8 + IRQ the sources (T1 is IRQ 3, vector 11).
 inline constexpr int kNoVector = -1;
 inline constexpr int kFirstIrqVector = 8;
-inline constexpr int kIrqs = 54;
 inline constexpr int kVectors = kFirstIrqVector + kIrqs;
-
-/// Interrupt sources by their bit in IFS0..IFS3.
-namespace irq {
-enum : int {
-  Int0,
-  Ic1,
-  Oc1,
-  T1,
-  Ic2,
-  Oc2,
-  T2,
-  T3,
-  Spi1,
-  U1Rx,
-  U1Tx,
-  Adc,
-  Nvm,
-  SlaveI2c,
-  MasterI2c,
-  Cn,
-  Int1,
-  Ic7,
-  Ic8,
-  Oc3,
-  Oc4,
-  T4,
-  T5,
-  Int2,
-  U2Rx,
-  U2Tx,
-  Spi2,
-  C1,
-  Ic3,
-  Ic4,
-  Ic5,
-  Ic6,
-  Oc5,
-  Oc6,
-  Oc7,
-  Oc8,
-  Int3,
-  Int4,
-  C2,
-  Dci = 41,
-  Lvd = 42,
-};
-}  // namespace irq
 
 /// "T1", "U1RX", "ADC", "MathError" ... as in _T1Interrupt and _MathError; "?" for reserved ones.
 const char* vector_name(int vector);

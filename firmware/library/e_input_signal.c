@@ -3,7 +3,7 @@
  */
 #include "fft/e_fft.h"
 
-#ifdef __TWINPUCK__
+#ifdef __TWINPUCK_PC__
 __attribute__((weak)) fractcomplex sigCmpx[FFT_BLOCK_LENGTH];
 #else
 /* the DSP engine fetches from Y memory, and reverses bits of addresses that begin at a multiple of the size */

@@ -12,13 +12,14 @@
 #include "I2C/e_I2C_protocol.h"
 #include "camera.h"
 #include "hal.h"
+#include "motor_led/e_epuck_ports.h"
 #include "motor_led/e_init_port.h"
 
 #define ORIGIN_X 210
 #define ORIGIN_Y 7
 #define IRQ_PIXELS 1 /* pixels that pass before the line's interrupt takes its first byte */
 #define FRAME_WIDTH 0x0353
-#define MASTER_CLOCK 14745600ul
+#define MASTER_CLOCK ((unsigned long)FCY)
 #define FORMAT_GREY 0x0c
 #define FORMAT_RGB565 0x08
 #define FORMAT_YUV 0x02

@@ -6,7 +6,7 @@
 
 #include "hal.h"
 
-#ifdef __TWINPUCK__
+#ifdef __TWINPUCK_PC__
 #define IN_PROGRAM_MEMORY
 #else
 #define IN_PROGRAM_MEMORY __attribute__((__space__(prog)))
@@ -1181,7 +1181,7 @@ static const int IN_PROGRAM_MEMORY second_half[HAL_BANK_SAMPLES / 2] = {
     -380, -852, 752, 1348, 218, 962, -334, -936, 174, 122, -394, -288, -402,
 };
 
-#ifdef __TWINPUCK__
+#ifdef __TWINPUCK_PC__
 
 int hal_bank_sample(unsigned int index) {
   if (index >= HAL_BANK_SAMPLES) return 0;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * Twin of XC16's own delay, for the register way: with XC16 the vendor's is linked.
  */
-#ifdef __TWINPUCK__
+#ifdef __TWINPUCK_PC__
 #include "libpic30.h"
 
 #define LEAST_CYCLES 12 /* call, test and return take this much even for shorter delays */

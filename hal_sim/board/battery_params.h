@@ -7,7 +7,6 @@
 namespace board {
 
 inline constexpr double kBatteryWh = 5.0;           // Wh, rested and full to empty [FRM A10]
-inline constexpr double kEnduranceH = 3.0;          // h, driving; sources say 2 to 3 [FRM A10]
 inline constexpr double kInnerResistanceOhm = 0.2;  // [assumed: small Li-ion cell with protection circuit]
 
 struct CellPoint {

@@ -45,6 +45,9 @@ class BluetoothModule final : public UartEnd, public sim::LinkPort {
   BluetoothModule(const BluetoothSetup& setup, const RobotClock& clock, int robot_index,
                   std::unique_ptr<UartEnd> computer);
 
+  /// A computer links itself to the robot, which had none.
+  void connect_computer(std::shared_ptr<UartEnd> computer);
+
   // --- UART 1
   void deliver(const std::uint8_t* bytes, const Cycle* ends, std::size_t count) override;
   std::size_t collect(std::uint8_t* bytes, std::size_t room, Cycle at) override;
@@ -98,7 +101,7 @@ class BluetoothModule final : public UartEnd, public sim::LinkPort {
   std::uint8_t event_filter_ = kBtDefaultFilter;
   bool transparent_ = false;
 
-  std::unique_ptr<UartEnd> computer_;
+  std::shared_ptr<UartEnd> computer_;
   bool to_computer_ = false;
   Bytes to_send_;  // for the computer, while the link is blocked
   sim::Clicks blocked_since_ = -1;

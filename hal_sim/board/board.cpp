@@ -1,10 +1,5 @@
 // SPDX-License-Identifier: MIT
-// See board.h. Pin map [lib: motor_led/e_epuck_ports.h], facts restated:
-//
-//   RA6 7 9 12 10 13 14 15  ring LEDs 0..7      RC1 front LED   RC2 body LED   RC13 camera reset
-//   RD0..3 left coils A..D  RD4..7 right coils  RD8..15 camera data
-//   RF0 codec on   RF1 battery good   RF2..5 UARTs   RF6 remote receiver   RF7 RF8 RG0 RG1 IR emitters 0..3
-//   RG2 RG3 I2C    RG6..9 selector
+// See board.h; pins: wiring.h.
 #include "hal_sim/board/board.h"
 
 #include <algorithm>
@@ -26,23 +21,11 @@ namespace board {
 namespace {
 
 constexpr std::uint16_t kImplemented[] = {0xF6C0, 0xFFFF, 0xE01E, 0xFFFF, 0x01FF, 0xF3CF};  // [DS70143 3.2]
-enum : int { kA, kB, kC, kD, kF, kG };
-
-constexpr int kRingLedBit[8] = {6, 7, 9, 12, 10, 13, 14, 15};  // [lib: motor_led/e_epuck_ports.h]
-constexpr int kFrontLedBit = 1;                                // [lib: motor_led/e_epuck_ports.h]
-constexpr int kBodyLedBit = 2;                                 // [lib: motor_led/e_epuck_ports.h]
-
-struct Line {
-  int port;
-  int bit;
-};
-constexpr Line kEmitter[4] = {{kF, 7}, {kF, 8}, {kG, 0}, {kG, 1}};  // [lib: motor_led/e_epuck_ports.h]
 
 constexpr std::uint16_t bit(int n) { return static_cast<std::uint16_t>(1u << n); }
-constexpr std::uint16_t kEmitterMask[] = {0, 0, 0, 0, bit(7) | bit(8), bit(0) | bit(1)};  // as kEmitter
 constexpr int kOnes[16] = {0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};
-constexpr std::uint16_t kRingMask =
-    bit(6) | bit(7) | bit(9) | bit(10) | bit(12) | bit(13) | bit(14) | bit(15);
+constexpr std::uint16_t kRingMask = mask(kA, kRingLedPins);
+constexpr std::uint16_t kNearLeds = mask(kC, kFrontLedPin, kBodyLedPin);  // that a pulse driver may flash
 
 constexpr double kMicLoudest = 1e6;                       // counts; beyond what any converter tells apart
 constexpr std::int64_t kOpenEnd = std::int64_t{1} << 40;  // samples of a sound whose end is not known
@@ -95,12 +78,9 @@ double Board::wheel_angle_rad(Wheel wheel, Cycle at) const {
 WheelTurn Board::wheel_turn(Wheel wheel, Cycle at) const {
   const double rad_per_step =
       sim::kTwoPi / kStepsPerTurn * setup_.wheel_ratio[static_cast<std::size_t>(wheel)];
-  if (const auto course = driver_ ? driver_->motor_course(wheel, at) : std::nullopt)
-    return {course->steps * rad_per_step, course->rate * rad_per_step, course->until};
-  const Stepper& motor = stepper_at(wheel, at);
-  WheelTurn turn{motor.position(at) * rad_per_step, motor.speed(at) * rad_per_step, motor.move_end(at)};
-  if (driver_) turn.until = std::min(turn.until, driver_->steps_horizon(wheel, at));
-  return turn;
+  const Stepper& own = motors_[static_cast<std::size_t>(wheel)];
+  const RotorCourse rotor = driver_ ? driver_->motor_course(wheel, at) : own.course(at);
+  return {rotor.steps * rad_per_step, rotor.rate * rad_per_step, rotor.until};
 }
 
 std::int64_t Board::steps(Wheel wheel, Cycle at) const { return stepper_at(wheel, at).steps(); }
@@ -108,8 +88,8 @@ std::int64_t Board::steps(Wheel wheel, Cycle at) const { return stepper_at(wheel
 unsigned Board::coils(Wheel wheel, Cycle at) const { return stepper_at(wheel, at).coils(); }
 
 void Board::connect_steppers(Cycle at) {
-  stepper(Wheel::Left, at).connect((tris_[kD] & 0x0F) == 0, at);
-  stepper(Wheel::Right, at).connect((tris_[kD] & 0xF0) == 0, at);
+  stepper(Wheel::Left, at).connect((tris_[kD] & kLeftCoils) == 0, at);
+  stepper(Wheel::Right, at).connect((tris_[kD] & kRightCoils) == 0, at);
 }
 
 // --- ports -----------------------------------------------------------------------------------------------
@@ -122,23 +102,25 @@ std::uint16_t Board::port_read(char port, Register reg, Cycle at) const {
 
   std::uint16_t lat = lat_[static_cast<std::size_t>(index)];
   if (index == kD)
-    lat = static_cast<std::uint16_t>((lat & 0xFF00) | coils(Wheel::Right, at) << 4 | coils(Wheel::Left, at));
+    lat = static_cast<std::uint16_t>((lat & kCameraData) | coils(Wheel::Right, at) << kRightCoilsBit |
+                                     coils(Wheel::Left, at));
   if (index == kF || index == kG || index == kC) {
     const unsigned on = pulses(at);
     for (int pair = 0; pair < 4; ++pair)
-      if (on & (1u << pair) && kEmitter[pair].port == index) lat |= bit(kEmitter[pair].bit);
-    if (index == kC && on & 16u) lat |= bit(kFrontLedBit) | bit(kBodyLedBit);
+      if (on & (1u << pair) && kEmitterPins[pair].port == index) lat |= kEmitterPins[pair].mask();
+    if (index == kC && on & 16u) lat |= kNearLeds;
   }
   if (reg == Register::Lat) return lat;
 
   // levels that the board puts on input pins; open pins read 0, idle serial lines and pull-ups 1
   std::uint16_t level = 0;
   if (index == kF) {
-    level = bit(2) | bit(3) | bit(4) | bit(5);
-    if (battery_.voltage(at) >= kBatteryLowV) level |= bit(1);
-    if (remote_.level(at)) level |= bit(kRemoteBit);
+    level = mask(kF, kUartInPins, kUartOutPins);
+    if (battery_.voltage(at) >= kBatteryLowV) level |= kBatteryGoodPin.mask();
+    if (remote_.level(at)) level |= kRemotePin.mask();
   }
-  if (index == kG) level = static_cast<std::uint16_t>((setup_.selector & 15) << 6 | bit(2) | bit(3));
+  if (index == kG)
+    level = static_cast<std::uint16_t>((setup_.selector & 15) << kSelectorPins[0].bit | mask(kG, kI2cPins));
   return static_cast<std::uint16_t>((lat & ~tris) | (level & tris)) & kImplemented[index];
 }
 
@@ -160,24 +142,25 @@ void Board::port_write(char port, Register reg, std::uint16_t value, Cycle at) {
     if (!((value ^ lat_[i]) & ~kEmitterMask[i])) return write_emitters(i, value, at);
   }
   if (index == kD) {
-    if (tris_[kD] & 0xFF) note_vain_writes(kD, value ^ port_read('D', Register::Lat, at), at);
+    if (tris_[kD] & (kLeftCoils | kRightCoils))
+      note_vain_writes(kD, value ^ port_read('D', Register::Lat, at), at);
     for (Wheel wheel : {Wheel::Left, Wheel::Right}) {
-      const unsigned coils = (value >> (wheel == Wheel::Left ? 0 : 4)) & 15u;
+      const unsigned coils = (value >> (wheel == Wheel::Left ? 0 : kRightCoilsBit)) & 15u;
       if (coils != this->coils(wheel, at)) stepper(wheel, at).energise(coils, at);
     }
-    lat_[i] = value & 0xFF00;
+    lat_[i] = value & kCameraData;
     follow_power(at);
     return;
   }
   for (int pair = 0; pair < 4; ++pair) {
-    const Line line = kEmitter[pair];
+    const Pin line = kEmitterPins[pair];
     if (line.port != index) continue;
     // a driver that owns the lines switches them off itself; a read-modify-write must not latch its pulse
-    if (owns_emitters()) value = static_cast<std::uint16_t>(value & ~bit(line.bit));
-    if (value & ~lat_[i] & bit(line.bit)) line_since_[static_cast<std::size_t>(pair)] = at;
+    if (owns_emitters()) value = static_cast<std::uint16_t>(value & ~line.mask());
+    if (value & ~lat_[i] & line.mask()) line_since_[static_cast<std::size_t>(pair)] = at;
   }
-  if (index == kC && camera_ && lat_[i] & ~value & bit(kCameraResetBit)) camera_->sensor_reset(at);
-  if (index == kC && pulses(at) & 16u) value = static_cast<std::uint16_t>(value & ~(bit(1) | bit(2)));
+  if (index == kC && camera_ && lat_[i] & ~value & kCameraResetPin.mask()) camera_->sensor_reset(at);
+  if (index == kC && pulses(at) & 16u) value = static_cast<std::uint16_t>(value & ~kNearLeds);
   if (value == lat_[i]) return;
   note_pulses(i, value, tris_[i], at);
   note_vain_writes(i, value ^ lat_[i], at);
@@ -191,20 +174,20 @@ bool Board::is_led_by_pins() const { return !watches_inputs_ && !driver_ && part
 void Board::write_coils(std::uint16_t value, Cycle at) {
   bool same_current = true;
   for (const Wheel wheel : {Wheel::Left, Wheel::Right}) {
-    const unsigned coils = (value >> (wheel == Wheel::Left ? 0 : 4)) & 15u;
+    const unsigned coils = (value >> (wheel == Wheel::Left ? 0 : kRightCoilsBit)) & 15u;
     Stepper& motor = own_motor(wheel);
     if (coils == motor.coils()) continue;
     same_current &= kOnes[coils] == kOnes[motor.coils()];
     motor.energise(coils, at);
   }
-  lat_[kD] = value & 0xFF00;
+  lat_[kD] = value & kCameraData;
   if (!same_current) follow_power(at);
 }
 
 void Board::write_emitters(std::size_t port, std::uint16_t value, Cycle at) {
   const unsigned risen = value & ~static_cast<unsigned>(lat_[port]);
   for (std::size_t pair = port == kF ? 0 : 2, end = pair + 2; pair < end; ++pair)
-    if (risen & bit(kEmitter[pair].bit)) line_since_[pair] = at;
+    if (risen & kEmitterPins[pair].mask()) line_since_[pair] = at;
   note_pulses(port, value, tris_[port], at);
   lat_[port] = value;
   // all else draws what it drew
@@ -214,14 +197,13 @@ void Board::write_emitters(std::size_t port, std::uint16_t value, Cycle at) {
 }
 
 void Board::outputs_changed(Cycle at) {
-  codec_.power(output_high('F', kCodecOnBit), at);
+  codec_.power(output_high(kCodecOnPin), at);
   for (const auto& part : parts_) part->pins_changed(at);
   follow_power(at);
 }
 
-bool Board::output_high(char port, int n) const {
-  const std::size_t i = static_cast<std::size_t>(port_index(port));
-  return (lat_[i] & ~static_cast<unsigned>(tris_[i]) & bit(n)) != 0;
+bool Board::output_high(Pin pin) const {
+  return (lat_[pin.port] & ~static_cast<unsigned>(tris_[pin.port]) & pin.mask()) != 0;
 }
 
 bool Board::latch_bit(char port, int n, Cycle at) const {
@@ -257,36 +239,35 @@ std::uint32_t Board::leds(Cycle at) const {
   const unsigned ring = lat_[kA] & ~static_cast<unsigned>(tris_[kA]) & kRingMask;
   std::uint32_t mask = 0;
   for (int led = 0; ring && led < 8; ++led)
-    if (ring & bit(kRingLedBit[led])) mask |= 1u << led;
+    if (ring & kRingLedPins[led].mask()) mask |= 1u << led;
   unsigned other = lat_[kC];
-  if (pulses(at) & 16u) other |= bit(kFrontLedBit) | bit(kBodyLedBit);
+  if (pulses(at) & 16u) other |= kNearLeds;
   other &= ~static_cast<unsigned>(tris_[kC]);
-  if (other & bit(kBodyLedBit)) mask |= 1u << 8;
-  if (other & bit(kFrontLedBit)) mask |= 1u << 9;
+  if (other & kBodyLedPin.mask()) mask |= 1u << 8;
+  if (other & kFrontLedPin.mask()) mask |= 1u << 9;
   return mask;
 }
 
 void Board::init_ports(Cycle at) {
   lat_[kA] = static_cast<std::uint16_t>(lat_[kA] & ~kRingMask);
   tris_[kA] = static_cast<std::uint16_t>(tris_[kA] & ~kRingMask);
-  const std::uint16_t outputs_c = bit(kFrontLedBit) | bit(kBodyLedBit) | bit(kCameraResetBit);
+  const std::uint16_t outputs_c = kNearLeds | kCameraResetPin.mask();
   lat_[kC] = static_cast<std::uint16_t>(lat_[kC] & ~outputs_c);
   tris_[kC] = static_cast<std::uint16_t>(tris_[kC] & ~outputs_c);
-  const std::uint16_t outputs_f = bit(kCodecOnBit) | bit(7) | bit(8);
+  const std::uint16_t outputs_f = kCodecOnPin.mask() | kEmitterMask[kF];
   lat_[kF] = static_cast<std::uint16_t>(lat_[kF] & ~outputs_f);
-  tris_[kF] = static_cast<std::uint16_t>((tris_[kF] & ~outputs_f) | bit(1) | bit(6));
+  tris_[kF] =
+      static_cast<std::uint16_t>((tris_[kF] & ~outputs_f) | kBatteryGoodPin.mask() | kRemotePin.mask());
   codec_.power(false, at);
-  const std::uint16_t outputs_g = bit(0) | bit(1) | bit(2) | bit(3);
+  const std::uint16_t outputs_g = kEmitterMask[kG] | mask(kG, kI2cPins);
   lat_[kG] = static_cast<std::uint16_t>(lat_[kG] & ~outputs_g);
-  tris_[kG] = static_cast<std::uint16_t>((tris_[kG] & ~outputs_g) | bit(6) | bit(7) | bit(8) | bit(9));
+  tris_[kG] = static_cast<std::uint16_t>((tris_[kG] & ~outputs_g) | mask(kG, kSelectorPins));
   // coils last: a running driver energises them again at its next step
-  tris_[kD] = static_cast<std::uint16_t>((tris_[kD] & 0x00) | 0xFF00);
+  tris_[kD] = kCameraData;
   connect_steppers(at);
   stepper(Wheel::Left, at).set_coils_only(0);
   stepper(Wheel::Right, at).set_coils_only(0);
   follow_power(at);
-  // the function ends with a question over the bus and leaves the module on, its interrupt off
-  i2c_master_.switch_on(kI2cLibraryBrg, at);
 }
 
 void Board::processor_reset(Cycle at) {
@@ -298,7 +279,7 @@ void Board::processor_reset(Cycle at) {
   codec_.reset(at);
   for (Uart& uart : uarts_) uart.reset(at);
   if (camera_) camera_->processor_reset();
-  i2c_master_.processor_reset(at);
+  i2c_.processor_reset(at);
   for (std::size_t i = 0; i < kPorts; ++i) note_pulses(i, 0, tris_[i], at);
   lat_.fill(0);
   for (std::size_t i = 0; i < kPorts; ++i) tris_[i] = kImplemented[i];
@@ -323,7 +304,7 @@ std::optional<int> Board::counts_of_others(int channel, Cycle at) const {
     return static_cast<int>(
         std::clamp(std::floor(*level_v / kAdcReferenceV * (kAdcMax + 1)), 0.0, double{kAdcMax}));
   if (setup_.revision == Revision::Analogue || channel < kAccChannel) return std::nullopt;
-  return channel == 7 ? battery_counts(at) : 0;  // 5 and 6 are open
+  return channel == kBatteryChannel ? battery_counts(at) : 0;  // 5 and 6 are open
 }
 
 void Board::turn_selector(int position) { setup_.selector = position & 15; }
@@ -336,12 +317,12 @@ void Board::exchange(Cycle at) {
   if (driver_) driver_->exchange(at);
 }
 
-Cycle Board::quiet_until(Cycle at) const {
+Cycle Board::horizon(Cycle at) const {
+  // packets wait in their queues until the program looks
   const bool has_news_of_its_own = !uarts_[0].is_quiet() || !uarts_[1].is_quiet() || !parts_.empty() ||
-                                   packets_.receivers() > 0 || codec_.was_used() ||
-                                   (camera_ && camera_->is_used());
+                                   codec_.was_used() || (camera_ && camera_->is_used());
   if (has_news_of_its_own) return at;
-  return driver_ ? driver_->quiet_until(at) : kNever;
+  return driver_ ? driver_->horizon(at) : kNever;
 }
 
 // --- analogue inputs -------------------------------------------------------------------------------------
@@ -375,8 +356,9 @@ IrConversion Board::ir_conversion(int sensor, Cycle at, Cycle lit_for) const {
 }
 
 int Board::ir_counts(int sensor, Cycle at, Cycle lit_for) const {
-  const IrConversion c = ir_conversion(sensor, at, lit_for);
   const bool lit = lit_for >= 0;
+  if (!lit && setup_.ambient_noise_counts == 0 && !(scene_ && sim::has_light(*scene_))) return kAdcMax;
+  const IrConversion c = ir_conversion(sensor, at, lit_for);
   double light = c.light_counts, reflection = c.reflection_counts;
   if (c.relative_noise > 0 && setup_.ir_noise_scale > 0) {
     const double noise = c.uniform_noise ? noise_.uniform(NoiseOf::Reflection, sensor, at)
@@ -446,17 +428,17 @@ void Board::publish_sound(sim::SoundField& field, sim::Clicks now) {
 
 Cycle Board::line_on_for(int sensor, Cycle at) const {
   const int pair = sensor & 3;
-  const Line line = kEmitter[pair];
+  const Pin line = kEmitterPins[pair];
   if (!(lat_[static_cast<std::size_t>(line.port)] & ~tris_[static_cast<std::size_t>(line.port)] &
-        bit(line.bit)))
+        line.mask()))
     return -1;
   return at - line_since_[static_cast<std::size_t>(pair)];
 }
 
 int Board::convert(int channel, Cycle at) const {
   if (channel < 0 || channel > 15) return 0;
-  if (channel >= 8) {
-    const int sensor = channel - 8;
+  if (channel >= kIrChannel) {
+    const int sensor = channel - kIrChannel;
     Cycle lit_for = line_on_for(sensor, at);
     if (lit_for < 0 && pulses(at) & (1u << (sensor & 3))) lit_for = 40 * kIrSettleCycles;
     return ir_counts(sensor, at, lit_for);
@@ -490,15 +472,14 @@ std::uint64_t Board::state_hash(Cycle at) const {
     sum += part * factor;
     factor += 0xD1B54A32D192ED02u;  // even, so the factor stays odd
   };
-  for (Wheel wheel : {Wheel::Left, Wheel::Right}) {
-    const Stepper& motor = stepper_at(wheel, at);
-    add(static_cast<std::uint64_t>(motor.steps()) << 4 ^ motor.coils());
-  }
+  // as the program left them: what a driver has made of them since follows from its own state
+  for (const Stepper& motor : motors_) add(static_cast<std::uint64_t>(motor.steps()) << 4 ^ motor.coils());
   for (std::size_t i = 0; i < kPorts; ++i) add(lat_[i] | static_cast<std::uint64_t>(tris_[i]) << 16);
   for (const Uart& uart : uarts_) add(uart.state_hash());
   // every robot has a camera on its bus; it counts once a program films
   const bool films = camera_ && camera_->is_used();
-  if (films || i2c_.devices().size() > (camera_ ? 1u : 0u)) add(i2c_.state_hash() + i2c_master_.state_hash());
+  if (films || i2c_.devices().size() > (camera_ ? 1u : 0u))
+    add(i2c_.state_hash() + (driver_ ? driver_->bus_state() : 0));
   if (films) add(camera_->state_hash());
   if (codec_.was_used()) add(codec_.state_hash());
   for (const auto& part : parts_) add(part->state_hash());

@@ -29,7 +29,6 @@
 #include "hal_sim/board/data_eeprom.h"
 #include "hal_sim/board/diagnosis.h"
 #include "hal_sim/board/i2c_bus.h"
-#include "hal_sim/board/i2c_master.h"
 #include "hal_sim/board/noise.h"
 #include "hal_sim/board/packet_devices.h"
 #include "hal_sim/board/part.h"
@@ -37,6 +36,7 @@
 #include "hal_sim/board/remote.h"
 #include "hal_sim/board/uart.h"
 #include "hal_sim/board/virtual_devices.h"
+#include "hal_sim/board/wiring.h"
 
 namespace sim {
 class Scene;
@@ -206,8 +206,6 @@ class Board {
   Camera* camera() { return camera_.get(); }
   const Camera* camera() const { return camera_.get(); }
   /// The processor's side of the bus.
-  I2cMaster& i2c_master() { return i2c_master_; }
-  const I2cMaster& i2c_master() const { return i2c_master_; }
   /// Emitters and receivers of packets, and sensors that a supervisor defines: for programs written for
   /// Webots' interfaces.
   PacketDevices& packets() { return packets_; }
@@ -226,7 +224,7 @@ class Board {
   void init_ports(Cycle at);
   /// Until when exchange() has nothing to do and nothing that firmware has not asked for happens; `at`: not
   /// known.
-  Cycle quiet_until(Cycle at) const;
+  Cycle horizon(Cycle at) const;
   /// Tick boundary: bytes from outside enter, bytes sent so far go out, old bookkeeping is dropped.
   void exchange(Cycle at);
 
@@ -264,7 +262,6 @@ class Board {
   int selector() const { return setup_.selector; }
 
  private:
-  static constexpr std::size_t kPorts = 6;  // A B C D F G
   static int port_index(char port);
   /// Counts of a microphone without noise.
   double mic_level(int microphone, Cycle at) const;
@@ -290,7 +287,7 @@ class Board {
   void note_pulses(std::size_t port, std::uint16_t new_lat, std::uint16_t new_tris, Cycle at);
   void note_vain_writes(std::size_t port, std::uint16_t changed, Cycle at);
   /// Is the pin an output, and its latch 1?
-  bool output_high(char port, int bit) const;
+  bool output_high(Pin pin) const;
   /// What everything that is on draws, A: the IR emitters, and all else.
   double emitters_a(Cycle at) const;
   double beside_emitters_a(Cycle at) const;
@@ -337,7 +334,6 @@ class Board {
   I2cBus i2c_;
   Battery battery_;
   DataEeprom eeprom_;
-  I2cMaster i2c_master_{i2c_};
   std::unique_ptr<Camera> camera_;
   std::vector<std::unique_ptr<Part>> parts_;
   mutable Cycle settled_for_ = -1;  // the flash's length is nearly always the same: its exponential, once

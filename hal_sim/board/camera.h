@@ -99,7 +99,6 @@ class Camera {
   void make_curve();
   std::array<std::uint8_t, 3> develop(const sim::Light& light, std::uint64_t pixel) const;
   void render_rows(int first_row, Cycle at);
-  double gain_of_exposure() const;
 
   Board& board_;
   CameraSensor& sensor_;

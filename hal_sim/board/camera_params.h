@@ -36,10 +36,6 @@ inline constexpr Cycle kMaskCycles =
 // from HREF's rise to the first byte that the fast driver takes: 2 until timer 4 has counted it, 5 for the
 // interrupt's entry, 10 in the handler [lib: camera/fast_2_timer/e_interrupt.s, DS70143 5.4]
 inline constexpr Cycle kFirstByteCycles = 17;
-inline constexpr Cycle kFrameIsrCycles =
-    30;  // the frame's interrupt [estimated: context, three bits, RETFIE]
-inline constexpr Cycle kSlowPixelCycles =
-    75;  // a byte's interrupt of the slow driver [estimated: 40 instructions, context]
 
 // --- light -------------------------------------------------------------------------------------------------
 // white under 1 W/m2, exposed for one second at gain 1, gives this share of full scale. An ordinary bright

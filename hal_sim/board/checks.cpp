@@ -13,18 +13,13 @@ namespace board {
 
 namespace {
 
-constexpr char kLetters[] = "ABCDFG";
-constexpr struct {
-  std::size_t port;
-  int bit;
-  const char* pin;
-  const char* name;
-} kLines[4] = {{4, 7, "LATF7", "pulse_IR0"},
-               {4, 8, "LATF8", "pulse_IR1"},
-               {5, 0, "LATG0", "pulse_IR2"},
-               {5, 1, "LATG1", "pulse_IR3"}};  // [lib: motor_led/e_epuck_ports.h]
-// pins that lead to something on the board that a program drives [lib: motor_led/e_epuck_ports.h]
-constexpr std::uint16_t kDriven[6] = {0xF6C0, 0, 0x2006, 0x00FF, 0x0181, 0x0003};
+// pins that lead to something on the board that a program drives
+constexpr std::uint16_t kDriven[kPorts] = {mask(kA, kRingLedPins),
+                                           0,
+                                           mask(kC, kFrontLedPin, kBodyLedPin, kCameraResetPin),
+                                           kLeftCoils | kRightCoils,
+                                           static_cast<std::uint16_t>(kCodecOnPin.mask() | kEmitterMask[kF]),
+                                           kEmitterMask[kG]};
 
 std::string text(const char* format, ...) __attribute__((format(printf, 1, 2)));
 std::string text(const char* format, ...) {
@@ -47,12 +42,12 @@ void add(std::vector<Diagnosis>& all, const StepperFaults::Fault& fault, const c
 }  // namespace
 
 void Board::note_pulses(std::size_t port, std::uint16_t new_lat, std::uint16_t new_tris, Cycle at) {
-  if (port < kLines[0].port) return;
+  if (!kEmitterMask[port]) return;
   const unsigned before = lat_[port] & ~static_cast<unsigned>(tris_[port]);
   const unsigned after = new_lat & ~static_cast<unsigned>(new_tris);
-  const std::size_t first = port == kLines[0].port ? 0 : 2;
+  const std::size_t first = port == kF ? 0 : 2;
   for (std::size_t line = first; line < first + 2; ++line) {
-    const unsigned bit = 1u << kLines[line].bit;
+    const unsigned bit = kEmitterPins[line].mask();
     if (!((before ^ after) & bit)) continue;
     if (after & bit) {
       lit_since_[line] = at;
@@ -113,26 +108,26 @@ std::vector<Diagnosis> Board::diagnoses(Cycle at) const {
   }
   for (std::size_t line = 0; line < 4; ++line) {
     LongPulse p = long_pulses_[line];
-    const std::size_t port = kLines[line].port;
-    const bool is_lit = lat_[port] & ~tris_[port] & 1u << kLines[line].bit;
+    const std::size_t port = static_cast<std::size_t>(kEmitterPins[line].port);
+    const bool is_lit = lat_[port] & ~tris_[port] & kEmitterPins[line].mask();
     if (is_lit && at - lit_since_[line] >= kLongPulseCycles) {
       if (p.count++ == 0) p.first = lit_since_[line];
       p.longest = std::max(p.longest, at - lit_since_[line]);
     }
     if (p.count == 0) continue;
-    all.push_back({"IR pulse too long", kLines[line].pin,
-                   text("%s stays high for %.1f ms: its two IR emitters draw %.0f mA all the time",
-                        kLines[line].name, ms(p.longest), 1000 * 2 * kIrEmitterA),
+    all.push_back({"IR pulse too long", text("LAT%c%d", kEmitterPins[line].letter(), kEmitterPins[line].bit),
+                   text("pulse_IR%zu stays high for %.1f ms: its two IR emitters draw %.0f mA all the time",
+                        line, ms(p.longest), 1000 * 2 * kIrEmitterA),
                    "lower the pulse after the lit sample, 0.3 ms after it rose", p.first, 0, p.count});
   }
   for (std::size_t port = 0; port < kPorts; ++port)
     for (std::size_t n = 0; n < 16; ++n) {
       const std::int64_t count = vain_writes_[port].count[n];
       if (count < kVainWrites) continue;
-      all.push_back({"input driven", text("TRIS%c%zu", kLetters[port], n),
+      all.push_back({"input driven", text("TRIS%c%zu", kPortLetters[port], n),
                      text("LAT%c%zu is written again and again, but TRIS%c%zu = 1 makes the pin an input: "
                           "nothing reaches it",
-                          kLetters[port], n, kLetters[port], n),
+                          kPortLetters[port], n, kPortLetters[port], n),
                      "clear the TRIS bit, or call e_init_port() first", vain_writes_[port].first[n], 0,
                      count});
     }

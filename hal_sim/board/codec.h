@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The Si3000 codec behind the data converter interface (DCI), as codec/e_sound.c runs them.
+// The Si3000 codec and the loudspeaker behind it.
 //
-//   e_play_sound -> four words in the DCI's buffers -> every 4 samples: buffers out, interrupt, four new
-//   words
-//                                                      -> codec (AUDIO_ON, configured) -> loudspeaker
+//   driver in closed form: stretches of the sound bank, put_out() --+
+//   models of the chip: the DCI's words, codec_line.h --------------+--> AUDIO_ON, configured --> loudspeaker
 //
-// The interrupt handler itself runs in the firmware image (hal_sim/api/e_sound.c), since it keeps two
-// variables that programs read and write; what reaches the loudspeaker is evaluated here, in closed form.
-// Modelled: 7200 samples a second in groups of four, the driver's pointer that is moved before it is read (so
-// a sound lacks its first sample and has one more at its end), the lowest bit cleared, lengths that are no
-// multiple of four and never end, silence without e_init_sound() or after e_close_sound(). Not modelled: the
-// codec's filters, recording. Programs whose DCI is a model of the chip (the register way) reach the codec
-// word by word instead: codec_line.h. Source: [lib: codec/], facts restated; samples are our own
-// (sound_bank.h).
+// What reaches the loudspeaker is evaluated when asked. Not modelled: the codec's filters, recording. Source:
+// [lib: codec/], facts restated; samples are our own (sound_bank.h).
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -34,18 +27,17 @@ class Codec {
 
   /// AUDIO_ON: the codec's reset pin.
   void power(bool on, Cycle at);
-  /// e_init_dci_master(): frames begin.
-  void start_dci(Cycle at);
-  /// e_init_codec_slave(): registers written; needs power and frames.
-  void configure();
-  bool dci_runs() const { return dci_since_ >= 0; }
-  /// First cycle after `at` at which four samples go out and the interrupt comes; kNever when the DCI is off.
-  Cycle next_group(Cycle at) const;
-
-  /// e_sub_dci_kickoff(): `length` samples from `offset` on, beginning with the next group.
-  void play(int offset, int length, Cycle at);
-  /// No further groups: silence once the one that is under way is over.
-  void stop(Cycle at);
+  /// The DCI's frames begin; the codec's clock.
+  void start_frames(Cycle at);
+  /// Since when there are frames; -1: there are none.
+  Cycle frames_since() const { return frames_since_; }
+  /// Its registers are written; needs power and frames.
+  void configure() { configured_ = powered_ && frames_since_ >= 0; }
+  bool is_configured() const { return configured_; }
+  /// What the frames carry from play.from on, instead of what was to come.
+  void put_out(const Play& play);
+  /// The last stretch, which counts for ever, is no silence.
+  bool sounds() const { return plays_.back().count > 0; }
   void reset(Cycle at);
 
   /// What the loudspeaker is given, -32768 to 32767. `at` not before the last forget().
@@ -57,7 +49,7 @@ class Codec {
   CodecLine& line() { return line_; }
   const CodecLine& line() const { return line_; }
 
-  /// True from the first start_dci(), or the first word of the line, on.
+  /// True from the first start_frames(), or the first word of the line, on.
   bool was_used() const { return used_ || line_.was_used(); }
   /// Something began or ended since the last time the news was taken.
   bool has_news() const { return news_ || line_.has_news(); }
@@ -66,14 +58,12 @@ class Codec {
   std::uint64_t state_hash() const;
 
  private:
-  void begin(const Play& play);
-
   CodecLine line_;
   bool powered_ = false;
   bool configured_ = false;
   bool used_ = false;
   bool news_ = false;
-  Cycle dci_since_ = -1;
+  Cycle frames_since_ = -1;
   std::vector<Play> plays_{Play{}};  // in order of `from`; the last one counts for ever
 };
 

@@ -14,9 +14,6 @@
 
 namespace board {
 
-// --- clock -------------------------------------------------------------------------------------------------
-inline constexpr Cycle kFcyHz = 14'745'600;  // 7.3728 MHz x 8 / 4 [DS70143 table 19-1]
-
 // --- motors ----------------------------------------------------------------------------------------------
 inline constexpr int kStepsPerTurn = 1000;  // 20 steps a turn, gear 50:1 [FRM A1]
 // gear and wheel smooth steps that come in a row: 20 ms keeps speeds from 50 steps/s even
@@ -36,10 +33,6 @@ inline constexpr Cycle kIrSettleCycles =
 inline constexpr double kBatteryLowV = 3.4;       // BATT_LOW detector [FRM A10]
 inline constexpr double kBatteryRawAt3V4 = 2070;  // counts [lib: utility/utility.c]
 inline constexpr double kBatteryRawAt4V2 = 2560;  // counts [lib: utility/utility.c]
-
-// --- pins that several devices look at -------------------------------------------------------------------
-inline constexpr int kCameraResetBit = 13;  // of port C, 1 = out of reset [lib: motor_led/e_epuck_ports.h]
-inline constexpr int kCodecOnBit = 0;       // of port F, 1 = on [lib: motor_led/e_epuck_ports.h]
 
 // --- UART ------------------------------------------------------------------------------------------------
 inline constexpr int kUartBitsPerByte = 10;          // 8N1 [lib: uart/e_init_uart1.s]

@@ -15,7 +15,6 @@ inline constexpr double kStandardGravityMS2 =
     9.81;  // what 1 g means here [assumed: the worlds' default gravity]
 
 // --- MMA7260QT on AN5 to AN7, before revision 1.3 ----------------------------------------------------------
-inline constexpr int kAccChannel = 5;           // x on AN5, then y and z [lib: motor_led/e_epuck_ports.h]
 inline constexpr double kAccCountsPerG = 768;   // GRAVITY [lib: a_d/advance_ad_scan/e_acc.h]
 inline constexpr double kAccZeroCounts = 2048;  // 0 g is half the supply [lib: a_d/advance_ad_scan/e_acc.c]
 inline constexpr double kAccRailV = 0.25;  // the output ends this far from both supplies [MMA7260QT table 2]

@@ -28,7 +28,6 @@ class PacketDevices final : public sim::PacketPort {
   PacketDevices(const RobotClock& clock, int robot, const std::vector<sim::DeviceDesc>& devices);
 
   // --- emitters, by number from 0
-  // ----------------------------------------------------------------------------------------------
   int emitters() const { return static_cast<int>(emitters_.size()); }
   const std::string& emitter_name(int e) const { return emitters_[index(e)].name; }
   int emitter_channel(int e) const { return emitters_[index(e)].channel; }
@@ -40,7 +39,6 @@ class PacketDevices final : public sim::PacketPort {
   bool send(int e, const std::uint8_t* data, int bytes, Cycle at);
 
   // --- receivers
-  // ----------------------------------------------------------------------------------------------
   int receivers() const { return static_cast<int>(receivers_.size()); }
   const std::string& receiver_name(int r) const { return receivers_[index(r)].name; }
   int receiver_channel(int r) const { return receivers_[index(r)].channel; }
@@ -55,7 +53,6 @@ class PacketDevices final : public sim::PacketPort {
   void drop(int r);
 
   // --- sim::PacketPort
-  // ----------------------------------------------------------------------------------------------
   bool listens(int channel) const override;
   void on_packet(const sim::ReceivedPacket& packet) override;
   void on_left(const sim::Packet& packet) override;

@@ -7,26 +7,22 @@
 namespace board {
 
 // --- ground sensors ----------------------------------------------------------------------------------------
-inline constexpr int kGroundAddress = 0xC0;       // [lib: program/BTcom/BTcom.c]
-inline constexpr int kGroundFirstCliff = 13;      // register [lib: program/DemoGCtronic-complete/Asercom.c]
-inline constexpr double kGroundForwardM = 0.03;   // holder's place [FRM A5]
-inline constexpr double kGroundSideM = 0.010;     // outer sensors, Webots; the real board's are 9 mm [FRM A5]
-inline constexpr double kCliffSideM = 0.020;      // [assumed: outside the three, inside the body]
-inline constexpr double kGroundHeightM = 0.0033;  // above the floor [FRM A5]
+inline constexpr int kGroundAddress = 0xC0;      // [lib: program/BTcom/BTcom.c]
+inline constexpr int kGroundFirstCliff = 13;     // register [lib: program/DemoGCtronic-complete/Asercom.c]
+inline constexpr double kGroundForwardM = 0.03;  // holder's place [FRM A5]
+inline constexpr double kGroundSideM = 0.010;    // outer sensors, Webots; the real board's are 9 mm [FRM A5]
+inline constexpr double kCliffSideM = 0.020;     // [assumed: outside the three, inside the body]
 inline constexpr double kGroundNearCounts = 1000;  // at distance 0 [FRM A5]
 inline constexpr double kGroundFarCounts = 300;    // at kGroundFarM and beyond [FRM A5]
 inline constexpr double kGroundFarM = 0.016;       // apparent distance [FRM A5]
 inline constexpr double kGroundDarkFactor =
-    0.2;                                     // distance is divided by this plus the rest times red [FRM A5]
-inline constexpr double kGroundNoise = 0.1;  // standard deviation, part of the value [FRM A5]
+    0.2;  // distance is divided by this plus the rest times red [FRM A5]
 inline constexpr double kGroundSpotM =
     0.002;  // radius of what a sensor sees [assumed: reflective sensor at 3 mm]
 inline constexpr Cycle kGroundPeriod =
     kFcyHz / 1000;  // a new sample [assumed: a small processor's free-running loop]
 
 // --- ultrasonic ranger (SRF08, SRF10)
-// ------------------------------------------------------------------------
-inline constexpr int kRangerAddress = 0xE0;                  // as delivered [SRF08]
 inline constexpr int kRangerInches = 80;                     // command [SRF08]
 inline constexpr int kRangerCm = 81;                         // command [SRF08]
 inline constexpr int kRangerUs = 82;                         // command [SRF08]
@@ -42,7 +38,6 @@ inline constexpr double kRangerMirrorRad =
     0.44;  // 25 degrees: beyond, smooth surfaces send the sound away [assumed: smooth walls]
 inline constexpr int kRangerRaysAcross = 21;     // [assumed: one every 2.75 degrees]
 inline constexpr int kRangerRaysUp = 3;          // [assumed: down, level, up]
-inline constexpr double kRangerHeightM = 0.06;   // above the floor [assumed: on a turret]
 inline constexpr double kRangerForwardM = 0.02;  // before the wheels [assumed: on a turret]
 inline constexpr int kRangerLightDark = 2;       // reading in darkness [SRF08]
 inline constexpr int kRangerLightBright = 248;   // reading in bright light [SRF08]
@@ -52,14 +47,12 @@ inline constexpr int kSrf08Version = 10;         // [assumed: a late one]
 inline constexpr int kSrf10Version = 6;          // [assumed: a late one]
 
 // --- compass (CMPS03)
-// ----------------------------------------------------------------------------------------
 inline constexpr int kCompassAddress = 0xC0;  // [CMPS03]
 inline constexpr int kCompassVersion = 14;    // [assumed: a late one]
 inline constexpr int kCompassTurn = 3600;     // registers 2 and 3 count tenths of a degree [CMPS03]
 inline constexpr Cycle kCompassPeriod = kFcyHz * 40 / 1000;  // a new bearing [CMPS03]
 
 // --- LIS turret: memory, Sharp GP2D120, LEDs
-// --------------------------------------------------------------------
 inline constexpr int kTurretAddress = 0xA2;  // [lib: contrib/LIS_sensors_turret/e_sensext.h]
 inline constexpr Cycle kTurretWriteCycles = kFcyHz * 5 / 1000;  // [assumed: 24C02 family, 5 ms a byte]
 inline constexpr int kSharpChannel = 5;    // AN5 [lib: contrib/LIS_sensors_turret/e_sharp.h]

@@ -20,12 +20,8 @@ class PinDriver {
   virtual void bring_motor(Wheel wheel, Cycle at) = 0;
   /// The motor as it is at `at`; valid until the next call of anything here.
   virtual const Stepper& motor_at(Wheel wheel, Cycle at) const = 0;
-  /// How the rotor turns on, at its mean rate over steps to come; empty: the driver does not know, or rests.
-  struct Course {
-    double steps = 0, rate = 0;  ///< position now; steps per cycle
-    Cycle until = 0;
-  };
-  virtual std::optional<Course> motor_course(Wheel wheel, Cycle at) const = 0;
+  /// How the rotor turns on: over steps to come at their mean rate, as far as the driver knows them.
+  virtual RotorCourse motor_course(Wheel wheel, Cycle at) const = 0;
   /// Cycle before which the driver energises no other coils, or switches none off.
   virtual Cycle steps_horizon(Wheel wheel, Cycle at) const = 0;
   virtual Cycle coils_horizon(Wheel wheel, Cycle at) const = 0;
@@ -45,11 +41,13 @@ class PinDriver {
   // --- the rest -------------------------------------------------------------------------------------------
   /// Tick boundary; until when there is nothing to do at the next ones.
   virtual void exchange(Cycle at) = 0;
-  virtual Cycle quiet_until(Cycle at) const = 0;
+  virtual Cycle horizon(Cycle at) const = 0;
   virtual void processor_reset(Cycle at) = 0;
   virtual void add_diagnoses(std::vector<Diagnosis>& all) const = 0;
   /// State at `at` as a sum of products, for a hash: the caller mixes it.
   virtual std::uint64_t state_sum(Cycle at) const = 0;
+  /// The same of its module at the I2C bus.
+  virtual std::uint64_t bus_state() const = 0;
 };
 
 }  // namespace board

@@ -24,10 +24,9 @@ int ones(unsigned word) {
 }  // namespace
 
 double Board::coil_duty(Wheel wheel, Cycle at) const {
-  const Stepper& motor = stepper_at(wheel, at);
-  if (!motor.connected()) return 0;
+  if (!motors_[static_cast<std::size_t>(wheel)].connected()) return 0;
   const auto driven = driver_ ? driver_->coil_duty(wheel) : std::nullopt;
-  return driven ? *driven : ones(motor.coils()) / 2.0;
+  return driven ? *driven : ones(coils(wheel, at)) / 2.0;
 }
 
 double Board::beside_emitters_a(Cycle at) const {
@@ -38,8 +37,8 @@ double Board::beside_emitters_a(Cycle at) const {
   if (lit & kRing) amps += kRingLedA * ones(lit & kRing);
   if (lit & kBody) amps += kBodyLedA;
   if (lit & kFront) amps += kFrontLedA;
-  if (output_high('C', kCameraResetBit)) amps += kCameraA;
-  if (output_high('F', kCodecOnBit)) amps += kCodecA;
+  if (output_high(kCameraResetPin)) amps += kCameraA;
+  if (output_high(kCodecOnPin)) amps += kCodecA;
   return amps;
 }
 

@@ -12,8 +12,5 @@ inline constexpr std::int64_t kRc5HalfBitDenominator = 5;    // [RC5]
 static_assert(kRc5HalfBitNumerator * 36000 == 32 * sim::kClicksPerSecond * kRc5HalfBitDenominator);
 inline constexpr int kRc5Bits = 14;          // two start bits, toggle, 5 of address, 6 of the key [RC5]
 inline constexpr int kRc5FrameHalves = 128;  // from one frame to the next while a key is held: 113.8 ms [RC5]
-inline constexpr int kRc5MostAddress = 31;   // 5 bits [RC5]
-inline constexpr int kRc5MostKey = 63;       // 6 bits [RC5]
-inline constexpr int kRemoteBit = 6;         // RF6 [lib: motor_led/e_epuck_ports.h]
 
 }  // namespace board

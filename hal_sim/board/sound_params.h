@@ -24,13 +24,10 @@ inline constexpr double kMicIdleCounts =
 // the part's own noise (35 dBA) is a tenth of a count; the converter and the supply of a moving robot add
 // theirs
 inline constexpr double kMicNoiseCounts = 1.5;  // standard deviation [assumed: an ordinary 12-bit converter]
-inline constexpr int kMicChannel = 2;           // AN2 to AN4 [lib: motor_led/e_epuck_ports.h]
 
 // --- codec and loudspeaker ---------------------------------------------------------------------------------
 inline constexpr Cycle kCodecSampleCycles =
-    2048;                              // 256 bits of 8 cycles: 7200 Hz [lib: codec/e_init_dci_master.s]
-inline constexpr int kCodecGroup = 4;  // samples an interrupt [lib: codec/e_isr_dci.s]
-inline constexpr Cycle kCodecGroupCycles = kCodecGroup * kCodecSampleCycles;
+    2048;  // 256 bits of 8 cycles: 7200 Hz [lib: codec/e_init_dci_master.s]
 static_assert(kFcyHz == 7200 * kCodecSampleCycles);
 inline constexpr int kSoundBankSamples = 19044;  // [lib: codec/e_const_sound.s]
 // the codec's registers and clock
@@ -47,7 +44,5 @@ inline constexpr double kSpeakerFullScalePa =
 
 // --- processor time of the codec's interrupt ---------------------------------------------------------------
 // entry, context and the reading of four samples; the handler's own C is counted besides
-inline constexpr Cycle kDciBusyEntryCycles = 65;  // [estimated: 4 entry and exit, 12 saves, 4 samples of 11]
-inline constexpr Cycle kDciIdleIsrCycles = 26;    // [estimated: the same without samples]
 
 }  // namespace board

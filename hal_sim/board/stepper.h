@@ -43,6 +43,12 @@ struct StepperFaults {
   Fault held;     ///< both coils energised for kRestCycles without a step
 };
 
+/// How a rotor turns on, evenly.
+struct RotorCourse {
+  double steps = 0, rate = 0;  ///< position now; steps per cycle
+  Cycle until = 0;
+};
+
 class Stepper {
  public:
   /// `forward` +1: the wheel rolls forward when the phase grows (right); -1 when it falls (left).
@@ -78,16 +84,14 @@ class Stepper {
     look_back(at);
     coils_ = coils;
     changed_at_ = at;
-    if (!connected_) return;
-    for (int phase = 0; phase < 4; ++phase) {
-      if (coils != kPhaseCoils[phase]) continue;
-      if (phase != rotor_phase() && at - motion_.stepped_at < kPatternCycles) motion_ = before_;
-      const int ahead = (phase - rotor_phase()) & 3;
-      if (ahead == 1) step(forward_, at, move);
-      if (ahead == 3) step(-forward_, at, move);
-      if (ahead == 2) (at - motion_.pulled_at < kPullOutCycles ? faults_.too_fast : faults_.jumps).note(at);
-      motion_.pulled_at = at;
-    }
+    const int phase = phase_of(coils);
+    if (!connected_ || phase < 0) return;
+    if (phase != rotor_phase() && at - motion_.stepped_at < kPatternCycles) motion_ = before_;
+    const int ahead = (phase - rotor_phase()) & 3;
+    if (ahead == 1) step(forward_, at, move);
+    if (ahead == 3) step(-forward_, at, move);
+    if (ahead == 2) (at - motion_.pulled_at < kPullOutCycles ? faults_.too_fast : faults_.jumps).note(at);
+    motion_.pulled_at = at;
   }
 
   /// `count` > 0 regular steps at once, all in wheel direction `direction`, the last one at `last`; `before`
@@ -111,15 +115,15 @@ class Stepper {
   /// Rotor position in steps of the wheel, forward positive; also shortly before the last step, when the
   /// driver's handler has been called that is about to make it.
   double position(Cycle at) const { return (at < motion_.moved_at ? before_ : motion_).position(at); }
-  /// Steps per cycle at which that changes, and until when: kNever at rest.
-  double speed(Cycle at) const {
-    const Motion& m = at < motion_.moved_at ? before_ : motion_;
-    return at < m.moved_at + m.move ? (static_cast<double>(m.steps) - m.from) / static_cast<double>(m.move)
-                                    : 0;
-  }
-  Cycle move_end(Cycle at) const {
-    if (at < motion_.moved_at) return at;
-    return at < motion_.moved_at + motion_.move ? motion_.moved_at + motion_.move : kNever;
+  /// How that goes on as long as no pattern changes.
+  RotorCourse course(Cycle at) const {
+    const bool is_ahead = at < motion_.moved_at;
+    const Motion& m = is_ahead ? before_ : motion_;
+    const bool moves = at < m.moved_at + m.move;
+    return {m.position(at), moves ? (static_cast<double>(m.steps) - m.from) / static_cast<double>(m.move) : 0,
+            is_ahead ? at
+            : moves  ? m.moved_at + m.move
+                     : kNever};
   }
 
  private:
@@ -154,6 +158,13 @@ class Stepper {
     begin_step(direction, static_cast<double>(motion_.steps), at, at - since);
   }
 
+  /// -1: no pattern of the motor.
+  static int phase_of(unsigned coils) {
+    constexpr signed char kPhase[16] = {-1, -1, -1, -1, -1, 2, 1, -1, -1, 3, 0, -1, -1, -1, -1, -1};
+    static_assert(kPhase[kPhaseCoils[0]] == 0 && kPhase[kPhaseCoils[1]] == 1 && kPhase[kPhaseCoils[2]] == 2 &&
+                  kPhase[kPhaseCoils[3]] == 3);
+    return kPhase[coils & 15];
+  }
   int rotor_phase() const { return static_cast<int>(motion_.steps * forward_) & 3; }
 
   void step(int direction, Cycle at, Cycle move) {

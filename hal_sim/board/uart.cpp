@@ -143,7 +143,7 @@ void Uart::hand_out(Cycle at) {
 }
 
 void Uart::exchange(Cycle at) {
-  if ((!end_ || (end_->idle && break_until_ < 0)) && out_ends_.empty() && on_wire_.empty()) return;
+  if (is_quiet()) return;
   if (break_until_ >= 0 && break_until_ <= at) {
     // what came before the break first
     hand_out(break_until_);

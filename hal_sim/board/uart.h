@@ -76,8 +76,10 @@ class Uart {
   /// Tick boundary: what has left goes to the end; what has come starts on the wire, or waits outside until
   /// the UART is enabled.
   void exchange(Cycle at);
-  /// Has exchange() nothing to do, now and until the program sends something?
-  bool is_quiet() const { return !end_ && out_ends_.empty() && on_wire_.empty(); }
+  /// Has exchange() nothing to do, now and until the program sends something or its end is idle no more?
+  bool is_quiet() const {
+    return (!end_ || (end_->idle && break_until_ < 0)) && out_ends_.empty() && on_wire_.empty();
+  }
   // --- a chip's own UART on the wire (the register way) ---------------------------------------------------
   /// Follows the chip's switch and rate; bytes come in at that rate.
   void follow_chip(bool enabled, int brg) {

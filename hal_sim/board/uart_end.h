@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -31,6 +32,8 @@ class UartEnd {
   /// Nothing will come out of collect() by itself: it need not be asked every tick. Written between ticks and
   /// by the robot's own thread.
   bool idle = false;
+  /// Called when it is idle no more: its robot may be asleep over many ticks. Empty: nobody asks.
+  std::function<void()> wake;
 
   /// A Bluetooth link carries packets: bytes sent without a pause arrive together. True for ends that
   /// programs talk to, since many take what one read() gives them for the whole reply.
@@ -48,6 +51,7 @@ class UartEnd {
 /// Keeps everything in memory: for tests.
 class MemoryEnd : public UartEnd {
  public:
+  MemoryEnd() { idle = true; }
   void deliver(const std::uint8_t* bytes, const Cycle* ends, std::size_t count) override;
   std::size_t collect(std::uint8_t* bytes, std::size_t room, Cycle at) override;
   std::string name() const override { return "memory"; }

@@ -53,7 +53,6 @@ class VirtualDevices {
   }
 
   // --- the console
-  // ----------------------------------------------------------------------------------------------
   /// From the robot's own thread: text of firmware, on its way to on_console.
   void write(const char* text, std::size_t length) {
     if (text_.size() < kMostText) text_.append(text, length);

@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 namespace {
 
 struct Plan {
-  std::vector<CompileJob> user;
+  std::vector<CompileJob> user, assembler;
   bool is_webots = false;  // a program for Webots' interfaces, with the library behind them
   bool has_cxx = false;
   CompileJob runtime;
@@ -104,7 +104,7 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& pro
     user_include.push_back("--copy");
     user_include.push_back(r.string());
   }
-  if (o.register_way) user_include.push_back("--register");
+  if (o.register_way) user_include.push_back(o.chip_way ? "--target=dspic30f6014a" : "--register");
 
   Plan p;
   std::vector<std::string> flags = {o.optimisation};
@@ -117,7 +117,7 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& pro
   }
   if (o.strict) flags.push_back("--strict");
   if (lint) flags.push_back("--lint");
-  if (o.register_way && takes_register_addresses(copies.kept, headers))
+  if (o.register_way && !o.chip_way && takes_register_addresses(copies.kept, headers))
     flags.push_back("--register-pointers");
   for (const auto& d : program.defines) flags.push_back("-D" + d);
   for (const auto& d : o.defines) flags.push_back("-D" + d);
@@ -130,6 +130,11 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& pro
     p.has_cxx = p.has_cxx || is_cxx(s);
     p.user.push_back({s, is_cxx(s) ? cxx_flags(flags) : flags, salt, contract.string()});
   }
+
+  if (o.chip_way)
+    for (const auto& s : program.assembler)
+      if (!is_library_assembler(s))
+        p.assembler.push_back({s, {"--target=dspic30f6014a"}, salt, contract.string()});
 
   std::string name =
       o.name.empty() ? fs::absolute(o.source_dir).lexically_normal().filename().string() : o.name;
@@ -225,10 +230,13 @@ void tell_of_assembler(const Program& program, const std::vector<CompileOutcome>
     }
 }
 
-/// Makes the program's objects call the forms of drivers that are chosen (driver_variants.h).
+using Renames = std::vector<std::pair<std::string, std::string>>;
+
+/// Makes the program's objects call the forms of drivers that are chosen (driver_variants.h); for the chip
+/// its linker does, by `renames`.
 std::vector<DriverChoice> choose_drivers(std::vector<CompileOutcome>& user,
                                          const std::vector<CompileJob>& jobs, const Program& program,
-                                         const BuildOptions& o, BuildResult& result) {
+                                         const BuildOptions& o, BuildResult& result, Renames& renames) {
   const fs::path contract = include_root(o);
   ProgramSymbols symbols;
   std::vector<std::set<std::string>> wanted(user.size());
@@ -247,6 +255,10 @@ std::vector<DriverChoice> choose_drivers(std::vector<CompileOutcome>& user,
   const auto renamed = renamed_functions(symbols, choices, contract);
   for (const DriverChoice& choice : choices)
     if (!choice.told.empty()) result.conflicts.push_back(o.source_dir.string() + ": warning: " + choice.told);
+  if (o.chip_way) {
+    renames.assign(renamed.begin(), renamed.end());
+    return choices;
+  }
   for (std::size_t i = 0; i < user.size(); ++i) {
     std::string names;
     for (const auto& [from, to] : renamed)
@@ -262,6 +274,34 @@ std::vector<DriverChoice> choose_drivers(std::vector<CompileOutcome>& user,
     user[i].object = changed;
   }
   return choices;
+}
+
+/// The chip way's last step: .elf, .hex and .map, which appear together or not at all.
+void link_chip(const std::vector<CompileOutcome>& user, const std::vector<CompileOutcome>& members,
+               const Library& library, const Renames& renames, const fs::path& output, BuildResult& result) {
+  std::error_code ec;
+  const fs::path half = output.parent_path() / (".half" + std::to_string(getpid()) + output.stem().string());
+  fs::create_directories(half, ec);
+  const fs::path made = half / (output.stem().string() + ".elf");
+  std::vector<std::string> argv = {compiler_path().string(), "--link", "-o", made.string()};
+  for (const auto& u : user) argv.push_back(u.object.string());
+  for (const auto& [from, to] : renames) argv.insert(argv.end(), {"--rename", from + "=" + to});
+  for (const auto& m : members) argv.insert(argv.end(), {"--library", m.object.string()});
+  argv.insert(argv.end(), {"--library", library.archive.string()});
+  const auto run = run_process(argv);
+  if (run.status == 0)
+    result.size_report = run.output;
+  else
+    sort_messages(run.output, result, true);
+  for (const char* kind : {".hex", ".map", ".elf"}) {
+    if (!result.errors.empty()) break;
+    fs::path from = made, to = output;
+    if (kind != std::string(".elf")) to.replace_extension(kind);
+    fs::rename(from.replace_extension(kind), to, ec);
+    if (ec) result.errors.push_back(to.string() + ": cannot write: " + ec.message());
+  }
+  fs::remove_all(half, ec);
+  if (result.errors.empty()) look_at(output);
 }
 
 }  // namespace
@@ -308,7 +348,10 @@ static BuildResult build_here(const BuildOptions& o) {
   if (p.is_webots) own = p.user.size();
   for (std::size_t i = own; i < p.user.size(); ++i) p.user[i].flags.push_back("--weak");
   std::vector<CompileJob> all = p.user;
-  all.push_back(p.runtime);
+  if (o.chip_way)
+    all.insert(all.end(), p.assembler.begin(), p.assembler.end());
+  else
+    all.push_back(p.runtime);
   auto outcomes = compile_all(all, compiler_path(), o.cache_dir, o.jobs);
   const Library library = provide_library(o, p.is_webots, p.has_cxx);
   result.compiled += library.compiled;
@@ -337,8 +380,9 @@ static BuildResult build_here(const BuildOptions& o) {
                 members.end());
   check_main(user, p.user, o.source_dir, result);
   if (!result.errors.empty()) return finish();
-  tell_of_assembler(program, user, result);
-  const auto choices = choose_drivers(user, p.user, program, o, result);
+  if (!o.chip_way) tell_of_assembler(program, user, result);
+  Renames renames;
+  const auto choices = choose_drivers(user, p.user, program, o, result, renames);
   std::vector<std::pair<std::string, std::string>> texts;
   for (const auto& s : o.register_way ? find_library_copies(o.source_dir, sources).kept : copies.kept)
     if (!program.unlisted.count(s)) texts.emplace_back(s.filename().string(), read_text(s));
@@ -347,6 +391,12 @@ static BuildResult build_here(const BuildOptions& o) {
 
   fs::path output = fs::absolute(o.output);
   fs::create_directories(output.parent_path(), ec);
+  if (o.chip_way) {
+    user.insert(user.end(), outcomes.begin() + long(p.user.size()), outcomes.end());
+    link_chip(user, members, library, renames, output, result);
+    result.ok = result.errors.empty();
+    return finish();
+  }
   fs::path half = output.string() + ".half" + std::to_string(getpid());
   const fs::path script = source_root() / "hal_sim/cc/runtime/image.ld";
   look_at(script);

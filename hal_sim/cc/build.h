@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// From a folder of firmware C to a loadable image. Spawns twinpuck-cc and ld; links no compiler itself.
-// In: a controller's folder. Out: one .so with the controller, the e_* API, the firmware libc and the
-// runtime.
+// From a folder of firmware C to a loadable image. Spawns twinpuck-cc and ld; links no compiler itself. For
+// the chip way twinpuck-cc links as well. In: a controller's folder. Out: one .so with the controller, the
+// e_* API, the firmware libc and the runtime.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -17,6 +17,7 @@ struct BuildOptions {
   bool coverage = false;             ///< line counters
   bool strict = false;               ///< more warnings
   bool register_way = false;         ///< for the models of the chip: hal_dspic's drivers, registers for all
+  bool chip_way = false;             ///< an image of the chip, .elf with .hex and .map; with register_way
   int jobs = 2;                      ///< compilers at once
   std::string name;                  ///< controller's name; default: the folder's
   std::filesystem::path cache_dir;   ///< objects kept between builds; default: below the build folder
@@ -38,6 +39,7 @@ struct BuildResult {
   long stack_bytes = 0;                ///< estimate of the stack on the chip, the deepest interrupt included
   std::string recursive;               ///< a function that calls itself: then the stack has no bound
   std::string no_room;                 ///< one of the warnings: data and stack are more than the chip's RAM
+  std::string size_report;             ///< chip way: what the linker says of flash and RAM
   double seconds = 0;                  ///< wall time of this build
 };
 

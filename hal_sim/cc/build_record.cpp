@@ -144,7 +144,9 @@ BuildRecord::BuildRecord(const BuildOptions& o) {
                                     o.sanitize ? "sanitize" : "",
                                     o.coverage ? "coverage" : "",
                                     o.strict ? "strict" : "",
-                                    o.register_way ? "register" : "",
+                                    o.chip_way       ? "chip"
+                                    : o.register_way ? "register"
+                                                     : "",
                                     o.name,
                                     o.standard,
                                     o.api_dir.string(),

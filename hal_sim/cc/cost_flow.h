@@ -21,7 +21,6 @@ class CostFlow {
            std::function<bool(const llvm::Value*)> counted);
 
   const Values& live_out(const llvm::BasicBlock* block) { return live_out_[block]; }
-  const Values& live_in(const llvm::BasicBlock* block) { return live_in_[block]; }
 
   /// Cost of a block for its terminator and for moves on its way out; cycles of taken branches may be
   /// negative, where another block has paid for them already.

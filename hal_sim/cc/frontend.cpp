@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <set>
 
+#include "chip.h"
 #include "clang/AST/ASTConsumer.h"
 #include "clang/AST/ASTContext.h"
 #include "clang/AST/Attr.h"
@@ -96,9 +97,10 @@ class IncludeWatch : public PPCallbacks {
 /// Collects what later stages need from declarations, and mends the one type the widths break.
 class FactConsumer : public ASTConsumer {
  public:
-  explicit FactConsumer(Facts& facts) : facts_(facts) {}
+  FactConsumer(Facts& facts, bool for_chip) : facts_(facts), for_chip_(for_chip) {}
   void Initialize(ASTContext& context) override {
     context_ = &context;
+    if (for_chip_) return;
     // the machine's va_list counts in 32 bits; "unsigned int" has only 16 of them now
     if (auto* record = dyn_cast_or_null<RecordDecl>(context.getVaListTagDecl())) {
       int index = 0;
@@ -109,8 +111,9 @@ class FactConsumer : public ASTConsumer {
   bool HandleTopLevelDecl(DeclGroupRef group) override {
     for (Decl* decl : group) {
       note(decl);
-      narrow_within(decl);
+      if (!for_chip_) narrow_within(decl);
     }
+    if (for_chip_) place_variables(*context_);
     return true;
   }
   void HandleTopLevelDeclInObjCContainer(DeclGroupRef) override {}
@@ -173,6 +176,7 @@ class FactConsumer : public ASTConsumer {
   }
 
   Facts& facts_;
+  const bool for_chip_;  // whose pointers are as wide as its int
   ASTContext* context_ = nullptr;
   std::set<const FunctionDecl*> narrowed_;
 };
@@ -180,7 +184,7 @@ class FactConsumer : public ASTConsumer {
 /// Inside __attribute__((...)) some names mean something else to x86 or need a special signature there.
 class AttributeFilter {
  public:
-  explicit AttributeFilter(Preprocessor& pp) : pp_(pp) {}
+  AttributeFilter(Preprocessor& pp, bool for_chip) : pp_(pp), for_chip_(for_chip) {}
   void operator()(const Token& token) {
     if (token.is(tok::kw___attribute)) {
       armed_ = true;
@@ -197,24 +201,27 @@ class AttributeFilter {
     if (!name) return;
     const StringRef bare = name->getName().trim('_');
     if (depth_ == 3 && bare == "eedata") return name_section(token);
+    if (depth_ == 3 && for_chip_)
+      for (const char* known : {"save", "preprologue", "irq", "altirq"})  // of an interrupt: "functions"
+        if (bare == known) return rename(token, kAttributePrefix + bare.str());
     if (depth_ != 2) return;
     section_ = section_for(bare, token);
-    if (!section_.empty()) {
-      const_cast<Token&>(token).setIdentifierInfo(&pp_.getIdentifierTable().get("section"));
-      return;
-    }
+    if (!section_.empty()) return rename(token, "section");
     for (const char* known :
          {"interrupt",   "signal",      "address", "space",  "near", "far",     "shadow", "persistent",
           "preprologue", "fillupper",   "secure",  "boot",   "sfr",  "reverse", "eds",    "unordered",
           "auto_psv",    "no_auto_psv", "keep",    "update", "save", "irq",     "altirq", "context"})
       if (bare == known) {
-        // the parser takes unknown attributes with any arguments and drops them
-        const_cast<Token&>(token).setIdentifierInfo(&pp_.getIdentifierTable().get("tp_ignored"));
+        rename(token, for_chip_ ? kAttributePrefix + bare.str() : "tp_ignored");
         return;
       }
   }
 
  private:
+  /// The parser takes attributes it does not know with any arguments, and drops them.
+  void rename(const Token& token, const std::string& name) {
+    const_cast<Token&>(token).setIdentifierInfo(&pp_.getIdentifierTable().get(name));
+  }
   /// What follows a token in its file, without blanks, brackets and underscores.
   const char* text_behind(const Token& token) const {
     const auto& sources = pp_.getSourceManager();
@@ -228,7 +235,7 @@ class AttributeFilter {
   /// attributes.
   std::string section_for(StringRef attribute, const Token& token) const {
     const StringRef argument = text_behind(token);
-    if (attribute == "space") return argument.startswith("eedata") ? "\"tpeedata\"" : "";
+    if (attribute == "space") return argument.startswith("eedata") && !for_chip_ ? "\"tpeedata\"" : "";
     if (attribute != "sfr" && attribute != "address") return "";
     const unsigned long address = std::strtoul(argument.data(), nullptr, 0);
     if (address == 0 || address >= kRegistersEnd) return "";
@@ -249,6 +256,7 @@ class AttributeFilter {
 
   static constexpr unsigned long kRegistersEnd = 0x800;  // of special-function registers, bytes
   Preprocessor& pp_;
+  const bool for_chip_;
   bool armed_ = false;
   int depth_ = 0;
   std::string section_;  // of the attribute that is being read
@@ -291,20 +299,23 @@ class RobotAction : public EmitLLVMOnlyAction {
   RobotAction(llvm::LLVMContext& context, Facts& facts, const Options& options)
       : EmitLLVMOnlyAction(&context), facts_(facts), options_(options) {}
   bool BeginInvocation(CompilerInstance& ci) override {
-    set_robot_model(ci.getTarget());
+    if (options_.chip)
+      ci.setTarget(make_chip_target(ci.getInvocation().TargetOpts));
+    else
+      set_robot_model(ci.getTarget());
     return EmitLLVMOnlyAction::BeginInvocation(ci);
   }
   bool BeginSourceFileAction(CompilerInstance& ci) override {
     auto& pp = ci.getPreprocessor();
     pp.addPPCallbacks(std::make_unique<IncludeWatch>(ci, options_));
     pp.AddPragmaHandler(new ConfigPragma(facts_));
-    filter_ = std::make_shared<AttributeFilter>(pp);
+    filter_ = std::make_shared<AttributeFilter>(pp, options_.chip);
     pp.setTokenWatcher([f = filter_](const Token& token) { (*f)(token); });
     return EmitLLVMOnlyAction::BeginSourceFileAction(ci);
   }
   std::unique_ptr<ASTConsumer> CreateASTConsumer(CompilerInstance& ci, StringRef file) override {
     std::vector<std::unique_ptr<ASTConsumer>> all;
-    all.push_back(std::make_unique<FactConsumer>(facts_));
+    all.push_back(std::make_unique<FactConsumer>(facts_, options_.chip));
     all.push_back(EmitLLVMOnlyAction::CreateASTConsumer(ci, file));
     return std::make_unique<MultiplexConsumer>(std::move(all));
   }
@@ -315,13 +326,25 @@ class RobotAction : public EmitLLVMOnlyAction {
   std::shared_ptr<AttributeFilter> filter_;
 };
 
+const std::vector<const char*> kForPc = {"--target=x86_64-pc-linux-gnu",
+                                         "-fno-omit-frame-pointer",
+                                         "-mno-omit-leaf-frame-pointer",
+                                         "-fPIC",
+                                         "-fvisibility=hidden",
+                                         "-fcf-protection=none",
+                                         "-fno-asynchronous-unwind-tables",
+                                         "-fmath-errno",
+                                         "-gdwarf-4"};
+// another chip of 16 bits for the driver; chip_target.cpp is what the compiler itself gets. DWARF 3: its
+// addresses are all absolute, so the linker can make program addresses of them
+const std::vector<const char*> kForChip = {"--target=msp430", "-ffreestanding", "-fno-builtin", "-gdwarf-3"};
+
 std::vector<std::string> clang_arguments(const Options& o, const std::string& standard) {
   std::vector<std::string> a = {"/usr/lib/llvm-14/bin/clang",
                                 "-c",
                                 o.input,
                                 "-o",
                                 o.output,
-                                "--target=x86_64-pc-linux-gnu",
                                 "-x",
                                 o.cxx ? "c++" : "c",
                                 "-std=" + standard,
@@ -330,17 +353,9 @@ std::vector<std::string> clang_arguments(const Options& o, const std::string& st
                                 "-fno-strict-aliasing",
                                 "-fno-delete-null-pointer-checks",
                                 "-fno-finite-loops",
-                                "-fno-omit-frame-pointer",
-                                "-mno-omit-leaf-frame-pointer",
-                                "-fPIC",
-                                "-fvisibility=hidden",
                                 "-fno-stack-protector",
-                                "-fcf-protection=none",
-                                "-fno-asynchronous-unwind-tables",
                                 "-ffp-contract=off",
-                                "-fmath-errno",
                                 "-g",
-                                "-gdwarf-4",
                                 "-fno-short-enums",
                                 "-fno-caret-diagnostics",
                                 "-Qunused-arguments",
@@ -368,7 +383,8 @@ std::vector<std::string> clang_arguments(const Options& o, const std::string& st
                                 "-Wno-newline-eof",
                                 "-Wno-error=return-type",
                                 "-Wno-gnu-designator"};
-  if (!o.cxx) a.push_back("-fgnu89-inline");
+  for (const char* word : o.chip ? kForChip : kForPc) a.push_back(word);
+  if (o.chip && o.level == 0) a.insert(a.end(), {"-Xclang", "-disable-O0-optnone"});
   if (o.cxx)
     for (const char* word : {"-fno-exceptions", "-fno-threadsafe-statics", "-fno-use-cxa-atexit",
                              "-fnew-alignment=8",  // of our heap, libc/webots/malloc.c
@@ -394,10 +410,12 @@ std::vector<std::string> clang_arguments(const Options& o, const std::string& st
                         "__XC16=1", "XC16=1", "__XC__=1", "__XC16_VERSION__=1022", "__C30_VERSION__=1022",
                         "__C30ELF=1", "__C30ELF__=1", "__HAS_DSP__=1", "__TWINPUCK__=1"})
     a.push_back(std::string("-D") + d);
-  for (const char* u : {"__x86_64__", "__x86_64", "__amd64__", "__amd64", "__linux__", "__linux", "linux",
-                        "__unix__", "__unix", "unix", "__gnu_linux__", "__LP64__", "_LP64", "__SSE__",
-                        "__SSE2__", "__MMX__", "__k8", "__k8__"})
-    a.push_back(std::string("-U") + u);
+  if (!o.chip) a.push_back("-D__TWINPUCK_PC__=1");
+  if (!o.chip)
+    for (const char* u : {"__x86_64__", "__x86_64", "__amd64__", "__amd64", "__linux__", "__linux", "linux",
+                          "__unix__", "__unix", "unix", "__gnu_linux__", "__LP64__", "_LP64", "__SSE__",
+                          "__SSE2__", "__MMX__", "__k8", "__k8__"})
+      a.push_back(std::string("-U") + u);
   for (const auto& p : o.passed_on) a.push_back(p);
   a.push_back(std::string(o.cxx ? "-idirafter" : "-I") + kFallbackRoot);
   return a;

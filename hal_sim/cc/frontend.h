@@ -33,6 +33,8 @@ struct Options {
   bool by_pointer = false;    // the program hands pointers to registers from file to file
   bool cxx = false;           // C++: neither exceptions nor threads
   bool weak = false;          // a file of a copy of the library: of two definitions the first wins
+  bool chip = false;          // code for the dsPIC30F6014A instead of the PC
+  bool emit_text = false;     // chip: assembler text
   bool library = false;       // part of the API or libc: definitions are weak, the program's own win
 };
 

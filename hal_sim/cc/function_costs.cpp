@@ -9,11 +9,11 @@
 
 #include "build.h"
 #include "elf_reader.h"
+#include "hal_sim/board/cycle.h"
 
 namespace cc {
 namespace {
 
-constexpr double kClockHz = 14745600;  // instruction cycles a second [lib: crystal 7.3728 MHz x 8 / 4]
 // of a handler beside what its line tells, which includes w0 to w7 saved and restored: entry 5, RETFIE
 // instead of RETURN 0, RCOUNT and PSVPAG about 3  [estimated: DS70143 5.7 and gcc 4.5 prologues]
 constexpr double kInterruptCycles = 8;
@@ -61,9 +61,9 @@ void resolve(const std::string& name, std::map<std::string, Entry>& all, std::se
 
 }  // namespace
 
-double FunctionCycles::mean_us() const { return mean / kClockHz * 1e6; }
+double FunctionCycles::mean_us() const { return mean / static_cast<double>(board::kFcyHz) * 1e6; }
 double FunctionCycles::cpu_load(double period_s) const {
-  return period_s > 0 ? mean / kClockHz / period_s : 0;
+  return period_s > 0 ? mean / static_cast<double>(board::kFcyHz) / period_s : 0;
 }
 
 std::vector<FunctionCycles> function_costs(const std::filesystem::path& image) {

@@ -87,6 +87,13 @@ std::string names_of_headers(const std::vector<fs::path>& folders) {
 
 namespace {
 
+constexpr const char* kForChip = "--target=dspic30f6014a";
+
+/// Files of the libc that only a host can serve.
+bool is_for_host(const fs::path& file) {
+  return file.filename() == "image_support.c" || file.filename() == "program_memory.c";
+}
+
 std::vector<CompileJob> library_jobs(const BuildOptions& o, bool is_webots, bool has_cxx) {
   const fs::path root = source_root(), cc_dir = root / "hal_sim/cc", libc = cc_dir / "libc/include";
   const fs::path contract = include_root(o);
@@ -96,7 +103,7 @@ std::vector<CompileJob> library_jobs(const BuildOptions& o, bool is_webots, bool
   flags.insert(flags.end(), {"-include", (libc / "xc16_builtins.h").string(), "-I" + libc.string(),
                              "--fallback", contract.string(), "--fallback", libc.string(),
                              "-I" + root.string(), "-I" + api.string()});  // its hal.h, for firmware/library
-  if (o.register_way) flags.push_back("--register");
+  if (o.register_way) flags.push_back(o.chip_way ? kForChip : "--register");
 
   const std::string salt =
       names_of_headers({contract, cc_dir / "libc", api, root / "firmware/library", root / "hal_sim/host"});
@@ -111,17 +118,20 @@ std::vector<CompileJob> library_jobs(const BuildOptions& o, bool is_webots, bool
   if (has_cxx)
     for (const auto& s : files_below(cc_dir / "libc/cxx/src", ".cpp")) add(s, cxx_flags(flags));
   // what exists in the simulator alone has one form for both ways
-  if (o.register_way)
+  if (o.register_way && !o.chip_way)
     for (const char* name : {"virtual.c", "webots_simulator.c"}) add(root / "hal_sim/api" / name, flags);
+  const std::initializer_list<const char*> c_sources = {".c"}, chip_sources = {".c", ".s"};
   std::vector<fs::path> folders = {api, cc_dir / "libc/src"};
   // the half of the library that needs no pins, for a HAL that has the other half
   if (fs::exists(api / "hal.h")) folders.push_back(root / "firmware/library");
   const auto is_replaced = [&](const fs::path& file) {
+    const bool is_of_chip = file.parent_path() == root / "hal_dspic/runtime";
+    if (is_of_chip != o.chip_way && (is_of_chip || is_for_host(file))) return true;
     return is_webots && file.parent_path() == cc_dir / "libc/src" &&
            fs::exists(cc_dir / "libc/webots" / file.filename());
   };
   for (const auto& folder : folders)
-    for (const auto& s : files_below(folder, ".c")) {
+    for (const auto& s : files_below(folder, o.chip_way ? chip_sources : c_sources)) {
       if (is_replaced(s)) continue;
       add(s, flags);
       if (o.sanitize && takes_strings(s)) jobs.back().flags.push_back("--sanitize");
@@ -176,14 +186,18 @@ Library provide_library(const BuildOptions& o, bool is_webots, bool has_cxx) {
 
 std::vector<Library> provide_usual_libraries(int jobs) {
   std::vector<Library> made;
+  const auto make = [&](bool register_way, bool chip_way, bool is_webots, bool has_cxx) {
+    BuildOptions o;
+    o.register_way = register_way;
+    o.chip_way = chip_way;
+    o.jobs = jobs;
+    made.push_back(provide_library(o, is_webots, has_cxx));
+  };
   for (const bool register_way : {false, true})
     for (const auto& [is_webots, has_cxx] :
-         {std::pair(false, false), std::pair(true, false), std::pair(true, true)}) {
-      BuildOptions o;
-      o.register_way = register_way;
-      o.jobs = jobs;
-      made.push_back(provide_library(o, is_webots, has_cxx));
-    }
+         {std::pair(false, false), std::pair(true, false), std::pair(true, true)})
+      make(register_way, false, is_webots, has_cxx);
+  make(true, true, false, false);
   return made;
 }
 

@@ -22,7 +22,6 @@ struct Unit {
 };
 
 // --- names of the functions stages leave for one another (never called at run time)
-// -------------------------
 inline constexpr const char* kNop = "tp.nop";      // asm("nop"): one cycle, no effect
 inline constexpr const char* kRound = "tp.round";  // keeps an empty counting loop alive; no cycle
 inline constexpr const char* kFree = "tp.free";  // metadata: instruction exists on the PC only, costs nothing
@@ -87,7 +86,6 @@ void check_addresses(Unit& unit);
 bool run_pipeline(Unit& unit);
 
 // --- small tools
-// ---------------------------------------------------------------------------------------------
 llvm::FunctionCallee host_function(llvm::Module& m, const char* name, llvm::Type* result,
                                    llvm::ArrayRef<llvm::Type*> parameters);
 /// Marks an instruction as costing nothing on the chip.

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
-// twinpuck-cc -c x.c -o x.o: one C file to one object, for the PC, computing and costing as the robot does.
+// twinpuck-cc -c x.c -o x.o: one C file to one object, for the PC, computing and costing as the robot does;
+// with
+// --target=dspic30f6014a for the robot itself.
 #include <cstring>
 
+#include "chip.h"
+#include "dspic30/llvm/link.h"
 #include "llvm/Analysis/TargetLibraryInfo.h"
 #include "llvm/IR/LegacyPassManager.h"
 #include "llvm/IR/Verifier.h"
@@ -40,6 +44,10 @@ bool parse(int argc, char** argv, cc::Options& o) {
       o.strict = true;
     else if (a == "--lint")
       o.lint = true;
+    else if (a == "--target=dspic30f6014a")
+      o.chip = true;
+    else if (a == "-S")
+      o.emit_text = true;
     else if (a == "--register")
       o.register_way = true;
     else if (a == "--webots")
@@ -122,11 +130,41 @@ bool emit(Module& m, const cc::Options& o) {
   return true;
 }
 
+/// twinpuck-cc --link -o x.elf a.o b.o [--library c.o]... [--heap N]
+int link(int argc, char** argv) {
+  dspic::link::Options o;
+  for (int i = 2; i < argc; ++i) {
+    const StringRef a = argv[i];
+    const auto value = [&]() -> std::string { return i + 1 < argc ? argv[++i] : ""; };
+    if (a == "-o")
+      o.output = value();
+    else if (a == "--library")
+      o.libraries.push_back(value());
+    else if (a == "--rename") {
+      const std::string pair = value();
+      const auto [from, to] = StringRef(pair).split('=');
+      o.renames[from.str()] = to.str();
+    } else if (a == "--heap")
+      o.heap_bytes = unsigned(std::strtoul(value().c_str(), nullptr, 0));
+    else
+      o.inputs.push_back(a.str());
+  }
+  if (o.output.empty() || o.inputs.empty()) {
+    errs() << "usage: twinpuck-cc --link -o x.elf a.o b.o [--library c.o]... [--rename FROM=TO]... [--heap "
+              "BYTES]\n";
+    return 2;
+  }
+  return dspic::link::run(o) ? 0 : 1;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc > 1 && StringRef(argv[1]) == "--link") return link(argc, argv);
   cc::Options options;
   if (!parse(argc, argv, options)) return 2;
+  if (options.chip && StringRef(options.input).endswith_insensitive(".s"))
+    return cc::assemble_for_chip(options);
   InitializeNativeTarget();
   InitializeNativeTargetAsmPrinter();
   InitializeNativeTargetAsmParser();
@@ -135,6 +173,7 @@ int main(int argc, char** argv) {
   auto module = cc::compile_to_module(options, context, facts);
   if (!module) return 1;
   cc::Unit unit{*module, options, facts};
+  if (options.chip) return cc::compile_for_chip(unit);
   if (!cc::run_pipeline(unit)) return 1;
   if (verifyModule(*module, &errs())) {
     if (options.emit_ir) module->print(errs(), nullptr);

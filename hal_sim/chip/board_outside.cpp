@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Pins [lib: motor_led/e_epuck_ports.h], facts restated: RF1 battery good, RF6 remote receiver, RF2 and RF4
-// serial lines in, RG2 RG3 I2C, RG6 to RG9 selector; camera: camera_pins.h.
+// Pins: board/wiring.h.
 #include "hal_sim/chip/board_outside.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
+#include "dspic30/memory/sfr_table.h"
 #include "hal_sim/board/accelerometer.h"
 
 namespace chip {
@@ -15,21 +15,20 @@ namespace {
 
 using board::Board;
 using dspic::Port;
+using dspic::sfr;
 
-constexpr std::uint16_t bit(int n) { return static_cast<std::uint16_t>(1u << n); }
-constexpr std::uint16_t kSelector = 0x03C0, kI2cLines = 0x000C, kSerialIn = 0x0014, kBattery = 0x0002,
-                        kRemote = 0x0040, kCameraData = 0xFF00;
+static_assert(board::kPorts == dspic::kPorts);  // both in the order of their letters
+constexpr std::uint16_t kSelector = mask(board::kG, board::kSelectorPins),
+                        kI2cLines = mask(board::kG, board::kI2cPins),
+                        kSerialIn = mask(board::kF, board::kUartInPins),
+                        kSerialOut = mask(board::kF, board::kUartOutPins),
+                        kBattery = board::kBatteryGoodPin.mask(), kRemote = board::kRemotePin.mask();
 constexpr std::uint16_t kCameraClocks =
-    static_cast<std::uint16_t>(1 << CameraPins::Href | 1 << CameraPins::Vsync | 1 << CameraPins::Pclk);
-constexpr std::uint16_t kSerialOut[2] = {0x0008, 0x0020};                // RF3 RF5
-constexpr std::uint16_t kEmitter[4] = {0x0080, 0x0100, 0x0001, 0x0002};  // RF7 RF8 RG0 RG1
-constexpr std::uint16_t kSerialOuts = 0x0028;
-constexpr std::uint16_t kEmitters[dspic::kPorts] = {0, 0, 0, 0, 0x0180, 0x0003};
-constexpr int kFirstIr = 8, kFirstMic = 2, kFirstAcc = 5;
+    mask(board::kC, board::kCameraHrefPin, board::kCameraVsyncPin, board::kCameraClockPin);
 
-constexpr unsigned kUartMode[2] = {0x20C, 0x216}, kUartBrg[2] = {0x214, 0x21E};
+constexpr unsigned kUartMode[2] = {sfr("U1MODE"), sfr("U2MODE")}, kUartBrg[2] = {sfr("U1BRG"), sfr("U2BRG")};
 constexpr std::uint16_t kUartEnabled = 0x8000;
-constexpr unsigned kDciCon3 = 0x244;
+constexpr unsigned kDciCon3 = sfr("DCICON3");
 constexpr double kCodecRateTolerance = 0.01;
 
 std::string hertz(double rate) { return std::to_string(std::lround(rate)); }
@@ -86,9 +85,9 @@ void BoardOutside::pins_driven(Port port, std::uint16_t levels, std::uint16_t dr
   if (lat != levels_[p]) board_.port_write(letter, Board::Register::Lat, lat, at);
   tris_[p] = tris;
   levels_[p] = lat;
-  if ((lit_before ^ (lat & ~tris)) & kEmitters[p]) follow_emitters(port, at);
+  if ((lit_before ^ (lat & ~tris)) & board::kEmitterMask[p]) follow_emitters(port, at);
   if (port != Port::F) return;
-  const auto low = static_cast<std::uint16_t>(driven & ~by_peripheral & ~levels & kSerialOuts);
+  const auto low = static_cast<std::uint16_t>(driven & ~by_peripheral & ~levels & kSerialOut);
   if (low != low_lines_) follow_breaks(low, at);
 }
 
@@ -98,7 +97,7 @@ void BoardOutside::follow_breaks(std::uint16_t low, Cycle at) {
   low_lines_ = low;
   for (int n = 1; n <= 2; ++n) {
     Cycle& since = low_since_[static_cast<std::size_t>(n - 1)];
-    const bool is_low = (low & kSerialOut[n - 1]) != 0;
+    const bool is_low = (low & board::kUartOutPins[n - 1].mask()) != 0;
     if (is_low == (since >= 0)) continue;
     if (!is_low && at - since > board_.uart(n).byte_cycles()) board_.uart(n).break_on_wire(at);
     since = is_low ? at : -1;
@@ -110,7 +109,7 @@ void BoardOutside::follow_emitters(Port port, Cycle at) {
   const int first = port == Port::F ? 0 : 2;
   for (int i = first; i < first + 2; ++i) {
     Emitter& e = emitters_[static_cast<std::size_t>(i)];
-    if (((levels_[p] & ~tris_[p] & kEmitter[i]) != 0) != e.is_on()) e.change(at);
+    if (((levels_[p] & ~tris_[p] & board::kEmitterPins[i].mask()) != 0) != e.is_on()) e.change(at);
   }
 }
 
@@ -135,8 +134,8 @@ dspic::PinLevels BoardOutside::pin_levels(Port port, Cycle at) {
     case Port::C:
       return {camera_.levels(at), board_.camera() ? kCameraClocks : std::uint16_t{0}};
     case Port::D:
-      return {static_cast<std::uint16_t>(camera_.data(at) << 8),
-              board_.camera() ? kCameraData : std::uint16_t{0}};
+      return {static_cast<std::uint16_t>(camera_.data(at) << board::kCameraDataBit),
+              board_.camera() ? board::kCameraData : std::uint16_t{0}};
     case Port::F: {
       std::uint16_t levels = kSerialIn;
       if (board_.battery().voltage(at) >= board::kBatteryLowV) levels |= kBattery;
@@ -144,7 +143,7 @@ dspic::PinLevels BoardOutside::pin_levels(Port port, Cycle at) {
       return {levels, static_cast<std::uint16_t>(kSerialIn | kBattery | kRemote)};
     }
     case Port::G:
-      return {static_cast<std::uint16_t>((board_.selector() & 15) << 6 | kI2cLines),
+      return {static_cast<std::uint16_t>((board_.selector() & 15) << board::kSelectorPins[0].bit | kI2cLines),
               static_cast<std::uint16_t>(kSelector | kI2cLines)};
     default:
       return {};
@@ -156,7 +155,7 @@ Cycle BoardOutside::next_change(Port port, std::uint16_t pins, Cycle after) {
     case Port::C:
       return camera_.next_change(pins, after);
     case Port::D:
-      return pins & CameraPins::kData ? camera_.next_byte(after) : dspic::kNever;
+      return pins & board::kCameraData ? camera_.next_byte(after) : dspic::kNever;
     case Port::F:
       return std::min(board_.battery().below(board::kBatteryLowV, after), board_.remote().next_change(after));
     default:
@@ -175,7 +174,7 @@ Cycle BoardOutside::nth_edge(dspic::Pin pin, dspic::Edge edge, Cycle after, std:
   if (pin.port == Port::C)
     return CameraPins::has(pin.bit) ? camera_.nth_edge(pin.bit, edge == dspic::Edge::Rising, after, n)
                                     : dspic::kNever;
-  if (pin.port == Port::F && pin.bit == 6 && n == 1)
+  if (pin.port == Port::F && pin.bit == board::kRemotePin.bit && n == 1)
     return board_.remote().next_edge(after, edge == dspic::Edge::Falling);
   if (pin.port == Port::D) return dspic::kNever;
   return Outside::nth_edge(pin, edge, after, n);
@@ -184,14 +183,17 @@ Cycle BoardOutside::nth_edge(dspic::Pin pin, dspic::Edge edge, Cycle after, std:
 // --- analogue, serial ------------------------------------------------------------------------------------
 
 int BoardOutside::analogue_counts(int channel, Cycle at) {
-  if (channel >= kFirstMic && channel < kFirstAcc) return board_.mic_counts(channel - kFirstMic, at);
+  if (channel >= board::kMicChannel && channel < board::kAccChannel)
+    return board_.mic_counts(channel - board::kMicChannel, at);
   return beside_microphones(channel, at);
 }
 
 int BoardOutside::beside_microphones(int channel, Cycle at) {
-  if (channel >= kFirstIr) return board_.ir_counts(channel - kFirstIr, at, lit_for(channel - kFirstIr, at));
+  if (channel >= board::kIrChannel)
+    return board_.ir_counts(channel - board::kIrChannel, at, lit_for(channel - board::kIrChannel, at));
   if (const auto counts = board_.counts_of_others(channel, at)) return *counts;
-  return channel >= kFirstAcc ? board::accelerometer_counts(board_, channel - kFirstAcc, at) : 0;
+  return channel >= board::kAccChannel ? board::accelerometer_counts(board_, channel - board::kAccChannel, at)
+                                       : 0;
 }
 
 void BoardOutside::uart_sent(int uart, const dspic::UartFrame& frame) {

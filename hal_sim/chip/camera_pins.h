@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The camera's clock and data pins for a processor that takes pictures by itself: RC4 VSYNC, RC3 HREF,
-// RC14 pixel clock, RD8 to RD15 data.
+// The camera's clock and data pins (board/wiring.h) for a processor that takes pictures by itself.
 //
 //   VSYNC  _|~|______________________________________|~|___     one frame
 //   HREF   ______|~~~~~~|__|~~~~~~|__ ... |~~~~~~|_________     one line each, its bytes while it is high
@@ -21,15 +20,18 @@ using board::Cycle;
 
 class CameraPins {
  public:
-  enum Bit { Href = 3, Vsync = 4, Pclk = 14 };
+  enum Bit {
+    Href = board::kCameraHrefPin.bit,
+    Vsync = board::kCameraVsyncPin.bit,
+    Pclk = board::kCameraClockPin.bit
+  };
 
   explicit CameraPins(board::Board& board) : board_(board) {}
 
-  static constexpr std::uint16_t kData = 0xFF00;  ///< of port D
   static bool has(int bit) { return bit == Href || bit == Vsync || bit == Pclk; }
   /// Levels of the three pins of port C.
   std::uint16_t levels(Cycle at);
-  /// Byte on RD8 to RD15.
+  /// Byte on the data pins.
   std::uint8_t data(Cycle at);
   /// First change of HREF or VSYNC after `after`, or of the pixel clock; kNever without a camera.
   Cycle next_change(std::uint16_t pins, Cycle after);

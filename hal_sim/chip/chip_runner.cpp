@@ -9,7 +9,8 @@ namespace chip {
 
 namespace {
 
-constexpr unsigned kIfs0 = 0x084, kInttreg = 0x0B0, kRamStart = 0x800, kRamEnd = 0x2800;
+constexpr unsigned kIfs0 = dspic::sfr("IFS0"), kInttreg = dspic::sfr("INTTREG"), kRamStart = 0x800,
+                   kRamEnd = 0x2800;
 
 std::string place_text(unsigned pc, const host::Place& place) {
   char text[16];
@@ -20,7 +21,7 @@ std::string place_text(unsigned pc, const host::Place& place) {
 }  // namespace
 
 ChipRunner::ChipRunner(std::string name, std::shared_ptr<const dspic::FirmwareFile> file, double clock_factor,
-                       board::Board& board)
+                       board::Board& board, Cycle start)
     : Runner(std::move(name)), file_(std::move(file)), chip_(board) {
   // what a programmer writes: flash and configuration words, and the EEPROM, which is the board's
   for (const auto& [address, word] : file_->words) {
@@ -37,6 +38,11 @@ ChipRunner::ChipRunner(std::string name, std::shared_ptr<const dspic::FirmwareFi
   configuration.program = &program_;
   chip_.power_up(configuration);
   processor_ = std::make_unique<dspic::Processor>(device(), program_);
+  if (start <= 0) return;
+  end_ = start;
+  processor_->wait_until(start);
+  chip_.reset(start);
+  processor_->restart();
 }
 
 // --- time -------------------------------------------------------------------------------------------------
@@ -106,7 +112,6 @@ std::uint64_t ChipRunner::hash() const {
 }
 
 // --- observed: instruction by instruction, and what it told in between
-// --------------------------------------
 
 void ChipRunner::run_observed(Cycle end) {
   while (processor_->now() < end) {
@@ -143,10 +148,16 @@ Cycle ChipRunner::flag_horizon(int vector, Cycle at) {
   return device().horizon(kIfs0 + 2 * static_cast<unsigned>(vector / 16), chip_.at(at));
 }
 
+std::int64_t ChipRunner::interrupts_served() const {
+  std::int64_t all = 0;
+  for (int vector = dspic::kFirstIrqVector; vector < dspic::kVectors; ++vector)
+    all += device().served_interrupts(vector);
+  return all;
+}
+
 void ChipRunner::carry_out(Cycle at) { device().run_events(chip_.at(at)); }
 
 // --- data and code
-// ------------------------------------------------------------------------------------------
 
 const host::Variable* ChipRunner::find_variable(const std::string& expression, std::string& error) const {
   error = "got '" + expression + "', but types and members are not read from the chip's images yet";

@@ -24,8 +24,9 @@ using dspic::Cycle;
 class ChipRunner final : public host::Runner, private dspic::EventWatch {
  public:
   /// `board` outlives the runner. `clock_factor`: the program's instruction rate over the usual one.
+  /// `start`: when it is powered up.
   ChipRunner(std::string name, std::shared_ptr<const dspic::FirmwareFile> file, double clock_factor,
-             board::Board& board);
+             board::Board& board, Cycle start = 0);
 
   const char* way() const override { return "chip"; }
 
@@ -62,6 +63,7 @@ class ChipRunner final : public host::Runner, private dspic::EventWatch {
   Cycle register_horizon(unsigned address, Cycle at) override {
     return device().horizon(address, chip_.at(at));
   }
+  std::int64_t interrupts_served() const override;
   std::int64_t served(int vector) const override {
     return chip_.device().served_interrupts(vector + dspic::kFirstIrqVector);
   }

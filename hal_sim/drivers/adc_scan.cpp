@@ -64,7 +64,7 @@ void AdcScan::settle(Cycle at) {
   }
   run_ = {run_.first + passed, full_interrupts(at), at + kScanStartCycles, run_.micro_only};
   for (auto* samples : {&dark_, &lit_})
-    for (Sample& s : *samples) s.until = 0;
+    for (Sample& s : *samples) s.until = 0, s.is_regular = false;
 }
 
 void AdcScan::start(bool micro_only, bool five_pairs, Cycle at) {
@@ -170,14 +170,21 @@ void AdcScan::keep(Sample& kept, int sensor, std::int64_t number, bool lit_sampl
 
 int AdcScan::read(Sample& kept, int sensor, Cycle at, bool lit_sample) {
   if (at < kept.until) return kept.counts;
+  if (kept.is_regular && held_since_ < 0) {
+    const Cycle turn = pairs_ * kScanPeriod * kScanFrameCycles;
+    const std::int64_t turns = 1 + (at - kept.until) / turn;
+    kept.until += turns * turn;
+    keep(kept, sensor, kept.number + turns * pairs_, lit_sample);
+    return kept.counts;
+  }
   const std::int64_t filed = full_interrupts(at - kScanFileCycles);
   const int slot = lit_sample ? kScanLitSlot : kScanDarkSlot, shift = lit_sample ? 0 : 1;
   const std::int64_t number = newest(filed, slot, shift, pair_of_sensor(sensor));
   keep(kept, sensor, number, lit_sample);
   // a pair's turn comes round every so many periods; before its first time it has to be looked for
-  kept.until = number >= 0 && number >= period_base_ && on_ && !run_.micro_only
-                   ? full_cycle((number + pairs_) * kScanPeriod + slot) + kScanFileCycles
-                   : next_sample(filed, slot, shift, pair_of_sensor(sensor));
+  kept.is_regular = number >= 0 && number >= period_base_ && on_ && !run_.micro_only;
+  kept.until = kept.is_regular ? full_cycle((number + pairs_) * kScanPeriod + slot) + kScanFileCycles
+                               : next_sample(filed, slot, shift, pair_of_sensor(sensor));
   return kept.counts;
 }
 

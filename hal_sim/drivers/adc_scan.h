@@ -116,7 +116,8 @@ class AdcScan {
   struct Sample {
     std::int64_t number = -1;
     int counts = 0;
-    Cycle until = 0;  // the next sample of this kind arrives then; 0: not known
+    Cycle until = 0;          // the next sample of this kind arrives then; 0: not known
+    bool is_regular = false;  // it does, and the others follow turn by turn
   };
 
   /// A run of frames without a break.

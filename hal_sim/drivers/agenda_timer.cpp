@@ -286,19 +286,21 @@ Stepper& AgendaTimer::stepper(Wheel wheel, Cycle at) {
   return stepper(wheel);
 }
 
-std::optional<board::PinDriver::Course> AgendaTimer::course(Wheel wheel, Cycle at) const {
-  if (!running_ || held_since_ >= 0 || walking_) return std::nullopt;
-  const AgendaMotor& m = motor_at(wheel, at);
-  const Stepper& rotor = stepper_at(wheel, at);
-  const Cycle period = m.full_period() * kAgendaTickCycles;
-  if (m.next_step_tick() < 0 || period > kRotorMoveCycles || !m.is_regular() || !rotor.is_at(m.phase))
-    return std::nullopt;
-  return board::PinDriver::Course{rotor.position(at), rotor.speed(at), kNever};
+board::RotorCourse AgendaTimer::course(Wheel wheel, Cycle at) const {
+  const Ahead* ahead = ahead_at(wheel, at);
+  const AgendaMotor& m = ahead ? ahead->motor : motor(wheel);
+  const Stepper& rotor = ahead ? ahead->stepper : *steppers_[static_cast<std::size_t>(wheel)];
+  board::RotorCourse course = rotor.course(at);
+  const Cycle step = next_step(m);
+  const bool is_even = step < kNever && !walking_ && m.is_regular() && rotor.is_at(m.phase) &&
+                       m.full_period() * kAgendaTickCycles <= kRotorMoveCycles;
+  course.until = is_even ? kNever : std::min(course.until, step);
+  return course;
 }
 
-Cycle AgendaTimer::steps_horizon(Wheel wheel, Cycle at) const {
+Cycle AgendaTimer::next_step(const AgendaMotor& motor) const {
   if ((!running_ && !walking_) || held_since_ >= 0) return kNever;
-  const std::int64_t tick = motor_at(wheel, at).next_step_tick();
+  const std::int64_t tick = motor.next_step_tick();
   return tick < 0 ? kNever : line_.cycle_of(tick);
 }
 
@@ -442,13 +444,11 @@ std::uint64_t AgendaTimer::state_sum(Cycle at) const {
     factor += 0xE7037ED1A0B428DAu;  // even, so the factor stays odd
   };
   // motors as the last command left them: what they have done since follows from the ticks
-  for (std::size_t i = 0; i < 2; ++i) {
-    const AgendaMotor& m = motors_[i];
+  for (const AgendaMotor& m : motors_) {
     add(static_cast<std::uint64_t>(m.count.tick) << 16 | m.count.counter);
-    add(static_cast<std::uint64_t>(steppers_[i]->steps()));
     add(static_cast<std::uint64_t>(m.commanded));
-    add(steppers_[i]->coils() | static_cast<std::uint64_t>(m.phase) << 8 |
-        static_cast<std::uint64_t>(m.speed() + kMaxSpeed) << 16 | (m.phase_on ? 1ull << 40 : 0));
+    add(static_cast<std::uint64_t>(m.phase) << 8 | static_cast<std::uint64_t>(m.speed() + kMaxSpeed) << 16 |
+        (m.phase_on ? 1ull << 40 : 0));
   }
   for (const Node& node : nodes_) add(node.count.cycle | std::uint64_t{node.serial} << 16);
   return sum;

@@ -18,7 +18,6 @@
 // Source: [lib: motor_led/advance_one_timer/e_agenda.c], facts restated.
 #pragma once
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "hal_sim/board/pin_driver.h"
@@ -79,10 +78,10 @@ class AgendaTimer {
   /// The driver's step counter, not wrapped.
   std::int64_t commanded_steps(Wheel wheel, Cycle at) const;
   /// Cycle before which the step counter keeps its value without a command.
-  Cycle steps_horizon(Wheel wheel, Cycle at) const;
-  /// How the wheel turns on: evenly, from the third step after a command on. Empty: not yet; or it rests
-  /// between steps, or stands.
-  std::optional<board::PinDriver::Course> course(Wheel wheel, Cycle at) const;
+  Cycle steps_horizon(Wheel wheel, Cycle at) const { return next_step(motor_at(wheel, at)); }
+  /// How the wheel turns on: evenly over steps to come from the third after a command on; before, and when it
+  /// rests between them, up to the next one.
+  board::RotorCourse course(Wheel wheel, Cycle at) const;
   /// Cycle before which the coils keep their state without a command.
   Cycle coils_horizon(Wheel wheel, Cycle at) const;
   /// The motor as it is at `at`; valid until the next call of anything here.
@@ -162,6 +161,7 @@ class AgendaTimer {
     const Ahead* ahead = ahead_at(wheel, at);
     return ahead ? ahead->motor : motor(wheel);
   }
+  Cycle next_step(const AgendaMotor& motor) const;
   Stepper& stepper(Wheel wheel) { return *steppers_[static_cast<int>(wheel)]; }
   /// Does this node need the handler when it fires?
   bool needs_handler(const Node& node) const;

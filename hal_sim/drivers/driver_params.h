@@ -4,6 +4,7 @@
 #pragma once
 #include "hal_sim/api/timings.h"
 #include "hal_sim/board/epuck_params.h"
+#include "hal_sim/board/sound_params.h"
 
 namespace drivers {
 
@@ -53,8 +54,7 @@ inline constexpr Cycle kScanChannelTad = 15;  // SAMC 1 + conversion 14 [DS70143
 inline constexpr int kMicSamples = 100;       // MIC_SAMP_NB [lib: a_d/advance_ad_scan/e_ad_conv.h]
 inline constexpr int kAccSamples = 50;        // ACC_SAMP_NB [lib: a_d/advance_ad_scan/e_ad_conv.h]
 inline constexpr Cycle kAccKeepCycles =
-    kFcyHz / 50;                             // between looks at it [assumed: half as long as poses are kept]
-inline constexpr int kGumstixSelector = 10;  // scans a fifth pair [lib: a_d/advance_ad_scan/e_ad_conv.c]
+    kFcyHz / 50;  // between looks at it [assumed: half as long as poses are kept]
 
 // --- basic proximity driver ------------------------------------------------------------------------------
 inline constexpr Cycle kBasicPulseCycles = 646 * 8;  // PR1 = 645, prescale 8 [lib: a_d/e_prox.c]
@@ -84,5 +84,22 @@ inline constexpr int kHandlerPriority = 4;
 inline constexpr Cycle kBasicMotorIsrCycles =
     34;                                        // [estimated: shadow context, counter, phase, 4 bit writes]
 inline constexpr Cycle kTimer3IsrCycles = 40;  // [estimated: context, two counters, coil clearing]
+
+// --- I2C module
+inline constexpr int kI2cLibraryBrg = 150;   // I2CBRG [lib: I2C/e_I2C_master_module.c]
+inline constexpr Cycle kI2cEdgeCycles = 13;  // FCY / 1,111,111 Hz, the edges' share of a bit [DS70143 17.12]
+// half bits of each operation
+inline constexpr int kI2cByteHalves = 16;          // a byte received, acknowledge apart [DS70143 17.12]
+inline constexpr int kI2cAcknowledgedHalves = 18;  // a byte sent, acknowledge included [DS70143 17.12]
+inline constexpr int kI2cAcknowledgeHalves = 2;    // [DS70143 17.12]
+inline constexpr int kI2cStartHalves = 2;          // [estimated: as dspic30/periph/i2c.cpp]
+inline constexpr int kI2cRestartHalves = 4;        // [estimated: as dspic30/periph/i2c.cpp]
+inline constexpr int kI2cStopHalves = 3;           // [estimated: as dspic30/periph/i2c.cpp]
+
+// --- sound
+inline constexpr int kCodecGroup = 4;  // samples an interrupt [lib: codec/e_isr_dci.s]
+inline constexpr Cycle kCodecGroupCycles = kCodecGroup * board::kCodecSampleCycles;
+inline constexpr Cycle kDciBusyEntryCycles = 65;  // [estimated: 4 entry and exit, 12 saves, 4 samples of 11]
+inline constexpr Cycle kDciIdleIsrCycles = 26;    // [estimated: the same without samples]
 
 }  // namespace drivers

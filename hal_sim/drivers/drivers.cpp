@@ -12,7 +12,9 @@ Drivers::Drivers(board::Board& board)
     : board_(board),
       agendas_(board.own_motor(Wheel::Left), board.own_motor(Wheel::Right)),
       scan_(board),
-      basic_prox_(board) {
+      basic_prox_(board),
+      i2c_master_(board.i2c()),
+      sound_(board.codec()) {
   board_.attach(this);
 }
 
@@ -28,6 +30,11 @@ void Drivers::mask_handlers(bool masked, Cycle at) {
   }
 }
 
+void Drivers::init_ports(Cycle at) {
+  board_.init_ports(at);
+  i2c_master_.switch_on(kI2cLibraryBrg, at);
+}
+
 void Drivers::bring_motor(Wheel wheel, Cycle at) {
   Stepper& motor = agendas_.stepper(wheel, at);
   if (timer_motors_.drives(wheel)) timer_motors_.move(wheel, at, motor);
@@ -39,6 +46,13 @@ const Stepper& Drivers::motor_at(Wheel wheel, Cycle at) const {
   seen_ = motor;
   timer_motors_.peek(wheel, at, seen_);
   return seen_;
+}
+
+board::RotorCourse Drivers::motor_course(Wheel wheel, Cycle at) const {
+  if (!timer_motors_.drives(wheel)) return agendas_.course(wheel, at);
+  board::RotorCourse course = motor_at(wheel, at).course(at);
+  course.until = std::min(course.until, steps_horizon(wheel, at));
+  return course;
 }
 
 Cycle Drivers::steps_horizon(Wheel wheel, Cycle at) const {
@@ -84,6 +98,7 @@ void Drivers::processor_reset(Cycle at) {
   agendas_.reset(at);
   scan_.reset(at);
   basic_prox_.reset(at);
+  i2c_master_.processor_reset(at);
   requests = Requests{};
 }
 

@@ -14,6 +14,8 @@
 #include "hal_sim/drivers/adc_scan.h"
 #include "hal_sim/drivers/agenda_timer.h"
 #include "hal_sim/drivers/basic_prox.h"
+#include "hal_sim/drivers/i2c_master.h"
+#include "hal_sim/drivers/sound_driver.h"
 #include "hal_sim/drivers/timer_motors.h"
 
 namespace drivers {
@@ -32,6 +34,8 @@ class Drivers final : public board::PinDriver {
   AdcScan& scan() { return scan_; }
   const AdcScan& scan() const { return scan_; }
   BasicProx& basic_prox() { return basic_prox_; }
+  I2cMaster& i2c_master() { return i2c_master_; }
+  SoundDriver& sound() { return sound_; }
 
   /// What the handlers of the scan and of the agenda tick take of each cycle, as a fraction of 2^32.
   std::uint64_t handler_share_q32() const { return scan_.share_q32() + agendas_.share_q32(); }
@@ -51,9 +55,7 @@ class Drivers final : public board::PinDriver {
   const Stepper& motor_at(Wheel wheel, Cycle at) const override;
   Cycle steps_horizon(Wheel wheel, Cycle at) const override;
   Cycle coils_horizon(Wheel wheel, Cycle at) const override;
-  std::optional<Course> motor_course(Wheel wheel, Cycle at) const override {
-    return timer_motors_.drives(wheel) ? std::nullopt : agendas_.course(wheel, at);
-  }
+  board::RotorCourse motor_course(Wheel wheel, Cycle at) const override;
   std::optional<double> coil_duty(Wheel wheel) const override;
   unsigned pulses(Cycle at) const override { return scan_.pulses(at) | basic_prox_.pulses(at); }
   Cycle pulses_horizon(Cycle at) const override;
@@ -61,10 +63,14 @@ class Drivers final : public board::PinDriver {
   bool owns_emitters() const override { return scan_.is_on() || basic_prox_.is_on(); }
   std::optional<int> proximity_counts(int sensor, Cycle at) const override;
   void exchange(Cycle at) override { scan_.keep_acc(at); }
-  Cycle quiet_until(Cycle at) const override { return scan_.keeps_acc() ? at + kAccKeepCycles : kNever; }
+  Cycle horizon(Cycle at) const override { return scan_.keeps_acc() ? at + kAccKeepCycles : kNever; }
   void processor_reset(Cycle at) override;
   void add_diagnoses(std::vector<board::Diagnosis>& all) const override;
   std::uint64_t state_sum(Cycle at) const override;
+  std::uint64_t bus_state() const override { return i2c_master_.state_hash(); }
+  /// e_init_port(): the board's pins, then a question over the bus that leaves the module on, its interrupt
+  /// off.
+  void init_ports(Cycle at);
 
  private:
   board::Board& board_;
@@ -72,6 +78,8 @@ class Drivers final : public board::PinDriver {
   TimerMotors timer_motors_;
   AdcScan scan_;
   BasicProx basic_prox_;
+  I2cMaster i2c_master_;
+  SoundDriver sound_;
   mutable Stepper seen_{+1};  // what motor_at() shows of a timer's train
 };
 

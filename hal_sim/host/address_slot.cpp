@@ -11,22 +11,30 @@
 namespace host {
 
 namespace {
-constexpr std::uintptr_t kFirst = 0x2000'0000'0000, kSlotBytes = std::uintptr_t{1} << 32;
-constexpr int kSlots = 0x3000;  // up to 0x5000'0000'0000, where programs and libraries of the PC may lie
+constexpr std::uintptr_t kSlotBytes = std::uintptr_t{1} << 32;
+// below and above where programs of the PC lie; libraries come further up, a sanitizer's shadow further down.
+// One for each robot of the largest world.
+constexpr int kSlotsBelow = 0x3F00, kSlots = kSlotsBelow + 0x2300;
+constexpr std::uintptr_t place_of(int slot) {
+  const bool is_below = slot < kSlotsBelow;
+  const std::uintptr_t first = is_below ? 0x1100'0000'0000 : 0x5800'0000'0000;
+  return first + static_cast<std::uintptr_t>(is_below ? slot : slot - kSlotsBelow) * kSlotBytes;
+}
+static_assert(place_of(kSlotsBelow - 1) + kSlotBytes == 0x5000'0000'0000);
+static_assert(place_of(kSlots - 1) + kSlotBytes == 0x7B00'0000'0000);
 std::mutex changing;
-std::vector<bool> taken;
+std::vector<int> given_back;
+int next = 0;
 
-// the lowest free one; -1: none
+// -1: none
 int take() {
   std::lock_guard<std::mutex> lock(changing);
-  for (std::size_t i = 0; i < taken.size(); ++i)
-    if (!taken[i]) {
-      taken[i] = true;
-      return static_cast<int>(i);
-    }
-  if (taken.size() == kSlots) return -1;
-  taken.push_back(true);
-  return static_cast<int>(taken.size()) - 1;
+  if (!given_back.empty()) {
+    const int slot = given_back.back();
+    given_back.pop_back();
+    return slot;
+  }
+  return next < kSlots ? next++ : -1;
 }
 }  // namespace
 
@@ -36,7 +44,7 @@ AddressSlot::AddressSlot(std::size_t offset, std::size_t bytes) : bytes_(bytes) 
 #if !defined(__SANITIZE_THREAD__)  // which wants all memory in places of its own
   number_ = take();
   if (number_ >= 0) {
-    first_ = kFirst + static_cast<std::uintptr_t>(number_) * kSlotBytes;
+    first_ = place_of(number_);
     end_ = first_ + kSlotBytes;
     at =
         mmap(reinterpret_cast<void*>(first_ + offset), bytes, PROT_NONE, kFlags | MAP_FIXED_NOREPLACE, -1, 0);
@@ -55,7 +63,7 @@ AddressSlot::~AddressSlot() {
   munmap(reinterpret_cast<void*>(begin_), bytes_);
   if (number_ < 0) return;
   std::lock_guard<std::mutex> lock(changing);
-  taken[static_cast<std::size_t>(number_)] = false;
+  given_back.push_back(number_);
 }
 
 }  // namespace host

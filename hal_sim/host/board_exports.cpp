@@ -92,7 +92,6 @@ tp_i64 change_list(Cycle cost, Change change) {
 namespace host {
 
 void request_agenda_interrupt(Context& context) {
-  Board& robot = context.board();
   const drivers::AgendaTimer& agendas = context.drivers().agendas();
   if (agendas.is_walking()) return;  // tp_agenda_end() follows
   const Cycle next = agendas.next_interrupt();
@@ -110,7 +109,7 @@ extern "C" {
 
 void tp_init_ports(void) {
   Context& context = Context::current();
-  context.board().init_ports(context.now());
+  context.drivers().init_ports(context.now());
   context.note_write();
 }
 
@@ -241,7 +240,6 @@ const void* tp_agenda_next(void) {
 void tp_agenda_end(void) {
   Context& context = Context::current();
   context.spend(kReturnCycles);
-  Board& robot = context.board();
   context.drivers().agendas().finish(context.now());
   context.drivers().requests.agenda_interrupt = Drivers::Requests::kUnknown;  // the request was used up
   context.note_write();
@@ -269,7 +267,6 @@ void tp_motor_speed(tp_i64 wheel, tp_i64 speed_steps_s) {
 
 void tp_motor_run(tp_i64 wheel) {
   Context& context = Context::current();
-  Board& robot = context.board();
   const bool fine = context.drivers().agendas().run_motor(wheel_of(wheel), context.now());
   context.note_write();
   context.follow_handlers();
@@ -306,7 +303,6 @@ void tp_timer_motor_speed(tp_i64 driver, tp_i64 wheel, tp_i64 speed_steps_s) {
 
 tp_i64 tp_timer_motor_steps(tp_i64 driver, tp_i64 wheel) {
   Context& context = Context::current();
-  Board& robot = context.board();
   const Cycle now = context.now();
   const Wheel which = wheel_of(wheel);
   context.lower_horizon(context.drivers().timer_motors().steps_horizon(which, now));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "dspic30/memory/irqs.h"
 #include "hal_sim/board/board.h"
 #include "hal_sim/host/faults.h"
 #include "hal_sim/host/host_params.h"
@@ -57,9 +58,9 @@ CompiledRunner::~CompiledRunner() {
 }
 
 void CompiledRunner::power_up() {
-  now_ = 0;
+  now_ = settings_.start;
   processor_->power_up();
-  end_ = 0;
+  end_ = settings_.start;
   idle_ = 0;
   stopped_ = false;
   traps_.clear();
@@ -76,7 +77,7 @@ void CompiledRunner::restart_program() {
   std::fill(background_.begin(), background_.end(), Background{});
   background_share_q32_ = 0;
   handler_depth_ = 0;
-  calm_until_ = 0;
+  interrupt_horizon_ = 0;
   may_wait_ = false;
   horizon_ = kNever;
   poll_loop_ = -1;
@@ -103,7 +104,7 @@ NativeProcessor& CompiledRunner::native() {
 
 void CompiledRunner::remote_changed() {
   processor_->remote_changed(now_);
-  calm_until_ = 0;
+  interrupt_horizon_ = 0;
   wake();
 }
 
@@ -153,7 +154,7 @@ void CompiledRunner::begin_window(Cycle now) {
   // bytes are on their way: whoever waits for them looks again
   if (board_.uart(1).next_arrival(now) < kNever || board_.uart(2).next_arrival(now) < kNever) wake();
   if (stopped_ || !processor_->begin_window(now)) return;
-  calm_until_ = 0;
+  interrupt_horizon_ = 0;
   wake();
 }
 
@@ -227,22 +228,23 @@ int CompiledRunner::look() {
 }
 
 void CompiledRunner::note_outlook(const Processor::Outlook& outlook) {
-  calm_until_ = outlook.vector == kNoVector ? outlook.quiet_until : now_;
+  interrupt_horizon_ = outlook.vector == kNoVector ? outlook.horizon : now_;
   may_wait_ = outlook.may_wait;
   if (may_wait_ && handler_depth_ == 0) {
     // a main program that masks a waiting interrupt for ever is found out after a while
     const Processor::Waiting waiting = processor_->longest_waiting(now_);
-    if (waiting.vector >= 0) calm_until_ = std::min(calm_until_, waiting.since + kBlockedInterruptCycles);
+    if (waiting.vector >= 0)
+      interrupt_horizon_ = std::min(interrupt_horizon_, waiting.since + kBlockedInterruptCycles);
   }
 }
 
-Cycle CompiledRunner::next_disturbance() {
-  if (now_ < calm_until_) return calm_until_;
-  return look() == kNoVector ? std::max(calm_until_, now_ + 1) : now_;
+Cycle CompiledRunner::find_interrupt_horizon() {
+  if (now_ < interrupt_horizon_) return interrupt_horizon_;
+  return look() == kNoVector ? std::max(interrupt_horizon_, now_ + 1) : now_;
 }
 
 void CompiledRunner::give_budget_anew() {
-  Cycle until = std::min(end_, next_disturbance());
+  Cycle until = std::min(end_, find_interrupt_horizon());
   if (observer_) until = std::min(until, now_ + observer_->look_every);
   issued_ = main_until(until);
   control_.budget = issued_;
@@ -250,14 +252,14 @@ void CompiledRunner::give_budget_anew() {
 
 void CompiledRunner::changed() {
   if (native_) native_->interrupts().touch();
-  calm_until_ = 0;
+  interrupt_horizon_ = 0;
   fold();
   give_budget();
 }
 
-void CompiledRunner::lower_calm(Cycle at) {
+void CompiledRunner::lower_interrupt_horizon(Cycle at) {
   fold();
-  calm_until_ = at;
+  interrupt_horizon_ = at;
   give_budget();
 }
 
@@ -320,7 +322,7 @@ void CompiledRunner::deliver_now() {
     note_outlook(outlook);
     if (outlook.vector == kNoVector) return;
     on_reset(processor_->why_reset());
-  } while (now_ >= calm_until_);
+  } while (now_ >= interrupt_horizon_);
 }
 
 void CompiledRunner::serve_told(int vector) {
@@ -347,8 +349,8 @@ void CompiledRunner::handle(int vector, const Processor::Entry& entry) {
 
 void CompiledRunner::miss_handler(int vector, bool alternate) {
   static constexpr const char* kTraps[] = {"OscillatorFail", "AddressError", "StackError", "MathError"};
-  const std::string name =
-      vector >= kTrapVector ? kTraps[vector - kTrapVector] : std::string(vector_name(vector)) + "Interrupt";
+  const std::string name = vector >= kTrapVector ? kTraps[vector - kTrapVector]
+                                                 : std::string(dspic::irq_name(vector)) + "Interrupt";
   last_words_ = "interrupt " + name.substr(0, name.rfind("Interrupt")) +
                 " is enabled and was raised, but the program has no handler _" + (alternate ? "Alt" : "") +
                 name + "; on the chip the processor resets";
@@ -360,7 +362,7 @@ void CompiledRunner::stop_if_blocked() {
   const Processor::Waiting waiting = processor_->longest_waiting(now_);
   if (waiting.vector < 0 || now_ - waiting.since < kBlockedInterruptCycles) return;
   last_words_ = std::string("interrupts have been off for more than a second while ") +
-                vector_name(waiting.vector) + " is waiting: an endless loop with interrupts off";
+                dspic::irq_name(waiting.vector) + " is waiting: an endless loop with interrupts off";
   trap(TP_TRAP_INTERRUPT, last_words_);
 }
 
@@ -418,7 +420,7 @@ void CompiledRunner::run_main(Cycle main) {
   while (true) {
     deliver();
     check_blocked();
-    const Cycle disturbed = next_disturbance();
+    const Cycle disturbed = find_interrupt_horizon();
     const Cycle finish = after(main), next = std::min(disturbed, finish);
     if (finish <= std::min(disturbed, end_)) {
       advance_main(main);
@@ -454,7 +456,7 @@ void CompiledRunner::wait_until(Cycle at) {
   while (now_ < at) {
     deliver();
     check_blocked();
-    const Cycle stop = std::min(at, next_disturbance());
+    const Cycle stop = std::min(at, find_interrupt_horizon());
     if (stop > end_) {
       doze(stop);
       continue;
@@ -480,16 +482,16 @@ void CompiledRunner::on_rest(std::int64_t loop) {
   fold();
   if (loop == poll_loop_ && served_ == poll_served_ && !observer_ && handler_depth_ == 0) {
     const Cycle round = main_ - poll_main_;
-    while (round > 0 && !may_wait_ && now_ < calm_until_ && calm_until_ <= end_) {
+    while (round > 0 && !may_wait_ && now_ < interrupt_horizon_ && interrupt_horizon_ <= end_) {
       const Cycle start = now_;
-      idle_ += calm_until_ - now_;
-      now_ = calm_until_;
+      idle_ += interrupt_horizon_ - now_;
+      now_ = interrupt_horizon_;
       ++looks_;
       processor_->serve(now_) ? deliver() : deliver_now();
       const bool served = served_ != poll_served_;
       if (!served) sleep_until(kNever, round, start);
       note_poll(loop);
-      if (!served || after(round) > std::min(end_, calm_until_)) return give_budget();
+      if (!served || after(round) > std::min(end_, interrupt_horizon_)) return give_budget();
       advance_main(round);
     }
   }
@@ -507,7 +509,7 @@ void CompiledRunner::sleep_until(Cycle target, Cycle round, Cycle start) {
     if (now_ != start && served_ != poll_served_)  // a handler ran: look again
       break;
     check_blocked();
-    const Cycle stop = std::min(target, next_disturbance());
+    const Cycle stop = std::min(target, find_interrupt_horizon());
     if (stop >= kNever && handler_depth_ > 0 && !looked_outside_)
       trap(TP_TRAP_INTERRUPT, "an interrupt handler waits for ever: nothing that it looks at can change");
     if (stop > end_) {
@@ -538,7 +540,7 @@ void CompiledRunner::idle_to(Cycle at) {
 void CompiledRunner::on_disi(Cycle cycles) {
   fold();
   processor_->disi(cycles, now_);
-  calm_until_ = 0;
+  interrupt_horizon_ = 0;
   note_write();
   deliver();
   check_blocked();
@@ -548,7 +550,7 @@ void CompiledRunner::on_disi(Cycle cycles) {
 void CompiledRunner::on_power_save(bool sleep) {
   fold();
   processor_->power_save(sleep, now_);
-  calm_until_ = 0;
+  interrupt_horizon_ = 0;
   for (;;) {
     if (processor_->wakes(now_)) {
       idle_to(now_ + kWakeCycles);  // a program of nothing but Idle() lives on this time
@@ -556,7 +558,7 @@ void CompiledRunner::on_power_save(bool sleep) {
       break;
     }
     deliver();
-    const Cycle stop = next_disturbance();
+    const Cycle stop = find_interrupt_horizon();
     if (stop > end_) {
       idling_ = true;
       doze(stop);

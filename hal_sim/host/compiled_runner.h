@@ -38,6 +38,7 @@ struct CompiledSettings {
   std::uint64_t seed = 0;                ///< of rand()
   std::size_t stack_bytes = 256 * 1024;  ///< PC frames are two to four times the chip's; see docs/limits.md
   ProcessorFactory processor{};          ///< empty: the native way
+  Cycle start = 0;                       ///< when it is powered up
 };
 
 class CompiledRunner final : public Runner, public Context {
@@ -92,7 +93,7 @@ class CompiledRunner final : public Runner, public Context {
 
   /// Handlers that have returned, and how often the processor was asked what to do next, since the robot was
   /// made: what an interrupt costs, in a number that no other work on the machine changes.
-  std::int64_t interrupts_served() const { return served_; }
+  std::int64_t interrupts_served() const override { return served_; }
   std::int64_t looks() const { return looks_; }
   /// Cycles at the last moment at which the program's own count was added up: the instant of a reset.
   Cycle settled_now() const { return now_; }
@@ -146,9 +147,9 @@ class CompiledRunner final : public Runner, public Context {
   void changed();
   /// At `now` the program did something after which an interrupt may be served from `at` on, and not before
   /// unless that was known already; 0: not known.
-  void calm_until(Cycle at, Cycle now) {
-    if (now >= calm_until_) at = 0;
-    if (at < calm_until_ || at == 0) lower_calm(at);
+  void note_interrupt_horizon(Cycle at, Cycle now) {
+    if (now >= interrupt_horizon_) at = 0;
+    if (at < interrupt_horizon_ || at == 0) lower_interrupt_horizon(at);
   }
   /// The program's function for an interrupt; null: it has none.
   void (*handler_of(int vector, bool alternate) const)() {
@@ -160,7 +161,7 @@ class CompiledRunner final : public Runner, public Context {
   Cycle run_handler(void (*handler)(), const Processor::Entry& entry) {
     now_ = entry.first_instruction;
     ++handler_depth_;
-    calm_until_ = entry.quiet_until;
+    interrupt_horizon_ = entry.horizon;
     give_budget();
     control_.budget -= entry.saving;
     handler();
@@ -171,7 +172,7 @@ class CompiledRunner final : public Runner, public Context {
   /// RETFIE is done.
   void handler_returned(const Processor::Return& back) {
     now_ = back.next_instruction;
-    calm_until_ = back.quiet_until;
+    interrupt_horizon_ = back.horizon;
     may_wait_ = false;  // or the next look() says so
     ++served_;
     note_write();
@@ -188,7 +189,7 @@ class CompiledRunner final : public Runner, public Context {
   }
   void clear_watchdog() {
     processor_->clear_watchdog(now());
-    calm_until_ = 0;
+    interrupt_horizon_ = 0;
     note_write();
   }
 
@@ -256,19 +257,19 @@ class CompiledRunner final : public Runner, public Context {
   void overspend(Cycle cycles);
   Cycle main_until(Cycle at) const;  // most program cycles that end at or before `at`
   void give_budget() {
-    if (now_ >= calm_until_ || observer_) return give_budget_anew();
-    issued_ = main_until(std::min(end_, calm_until_));
+    if (now_ >= interrupt_horizon_ || observer_) return give_budget_anew();
+    issued_ = main_until(std::min(end_, interrupt_horizon_));
     control_.budget = issued_;
   }
   void give_budget_anew();
   NativeProcessor& native();
-  int look();  // the vector to serve now; kNoVector: calm_until_ is known afterwards
+  int look();  // the vector to serve now; kNoVector: interrupt_horizon_ is known afterwards
   void note_outlook(const Processor::Outlook& outlook);
-  Cycle next_disturbance();  // when an interrupt or the end of DISI may change the program's course
-  void lower_calm(Cycle at);
+  Cycle find_interrupt_horizon();  // when an interrupt or the end of DISI may change the program's course
+  void lower_interrupt_horizon(Cycle at);
   // due interrupts, in order
   void deliver() {
-    if (now_ >= calm_until_) deliver_now();
+    if (now_ >= interrupt_horizon_) deliver_now();
   }
   void deliver_now();
   void serve_told(int vector);  // for an observer
@@ -332,8 +333,8 @@ class CompiledRunner final : public Runner, public Context {
 
   // nothing can be served or found blocked before; <= now_: unknown. The program is interrupted at the end of
   // the first block beyond it, so it is exact, not merely early enough
-  Cycle calm_until_ = 0;
-  bool may_wait_ = false;  // a flag may be held off; as calm_until_
+  Cycle interrupt_horizon_ = 0;
+  bool may_wait_ = false;  // a flag may be held off; as interrupt_horizon_
   int handler_depth_ = 0;
   std::int64_t served_ = 0;  // interrupts so far
   std::int64_t looks_ = 0;   // look() so far

@@ -5,9 +5,6 @@
 
 namespace host {
 
-/// Instruction clock, Hz: 7.3728 MHz crystal, PLL x8, four clocks an instruction.
-inline constexpr double kFcyHz = 14'745'600.0;  // [lib: motor_led/e_epuck_ports.h]
-
 /// Start-up code before main(): stack, PSV, clearing and filling of data.
 inline constexpr Cycle kStartUpCycles = 1000;  // [assumed: some hundred words of data, 2 to 4 cycles each]
 
@@ -19,7 +16,8 @@ inline constexpr Cycle kInterruptEntryCycles = 23;  // [estimated: DS70143 5.7 a
 inline constexpr Cycle kWakeCycles = 3;  // [assumed: the family manual names 2 to 4]
 
 /// Interrupts blocked for this long by the main program are taken for an endless loop: one second.
-inline constexpr Cycle kBlockedInterruptCycles = 14'745'600;  // [assumed: no program masks them for as long]
+inline constexpr Cycle kBlockedInterruptCycles =
+    board::kFcyHz;  // [assumed: no program masks them for as long]
 
 /// Background handlers never take more than this share of the processor, percent.
 inline constexpr int kMostBackgroundPercent = 95;  // [assumed: beyond it the robot starves as well]

@@ -23,8 +23,7 @@ class ImageCopy {
 
   const tp_image& description() const { return *image_; }
   tp_control& control() const { return *image_->control; }
-  std::size_t private_bytes() const { return private_bytes_; }
-  /// Start-up values of the private data, private_bytes() long.
+  /// Start-up values of the private data.
   const std::vector<char>& start_values() const { return start_values_; }
 
   /// Where malloc() takes its memory from, as a part of start_values(); 0 bytes: the program has none of

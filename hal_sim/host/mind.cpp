@@ -12,6 +12,19 @@ FirmwareMind::FirmwareMind(const board::Setup& setup, const RunnerFactory& make_
     board_.switch_off();
     return;
   }
+  power_up(make_runner);
+}
+
+void FirmwareMind::flash(const RunnerFactory& make_runner) {
+  board_.processor_reset(now());  // motors stop where they are
+  runner_.reset();
+  power_up(make_runner);
+  course_.until = 0;
+  turns_ = 0;
+  wake();
+}
+
+void FirmwareMind::power_up(const RunnerFactory& make_runner) {
   runner_ = make_runner(board_);
   runner_->to_world_s = [this](Cycle at) { return sim::to_seconds(board_.clock().click_at(at)); };
 }
@@ -39,15 +52,15 @@ void FirmwareMind::run_until(const sim::Scene& scene, sim::Clicks end) {
 }
 
 sim::Clicks FirmwareMind::idle_until() const {
-  const Cycle quiet = board_.quiet_until(now_), idle = runner_ ? runner_->idle_until() : kNever;
-  const Cycle until = std::min(quiet, idle);
+  const Cycle board = board_.horizon(now_), idle = runner_ ? runner_->idle_until() : kNever;
+  const Cycle until = std::min(board, idle);
   return until >= kNever ? kNever : until <= now_ ? 0 : board_.clock().click_at(until);
 }
 
 void FirmwareMind::press_key(const board::KeyPress& key) {
   board_.remote().press(key);
   if (runner_) runner_->remote_changed();
-  set_idle_until(0);
+  wake();
 }
 
 sim::WheelCourse FirmwareMind::wheel_course(sim::Clicks at) {

@@ -25,18 +25,24 @@ class FirmwareMind final : public sim::RobotMind {
     board_.publish_sound(field, now);
   }
 
+  /// Another program is flashed and started where the robot stands; as the constructor's otherwise. Between
+  /// ticks.
+  void flash(const RunnerFactory& make_runner);
+
   /// Somebody presses a key of a remote control; not before what has already run.
   void press_key(const board::KeyPress& key);
 
-  /// For changing, too: the robot looks at what is new in the next tick.
+  /// Something outside has changed: the robot looks at what is new in the next tick.
+  void wake() { set_idle_until(0); }
+  /// For changing, too.
   board::Board& board() {
-    set_idle_until(0);
+    wake();
     return board_;
   }
   const board::Board& board() const { return board_; }
   /// Null when no firmware is loaded.
   Runner* runner() {
-    set_idle_until(0);
+    wake();
     return caught_up();
   }
   const Runner* runner() const { return caught_up(); }
@@ -50,6 +56,7 @@ class FirmwareMind final : public sim::RobotMind {
     if (runner_) runner_->pass_to(now());
     return runner_.get();
   }
+  void power_up(const RunnerFactory& make_runner);
   sim::Clicks idle_until() const;
   sim::WheelCourse course_at(sim::Clicks at) const;
 

@@ -45,7 +45,7 @@ Processor::Outlook NativeProcessor::look(Cycle now) {
   interrupts_.raise_due(now);
   const bool held = disi_until_ > now;
   Outlook outlook{interrupts_.select(cpu_level_, held), held || cpu_level_ > 0, interrupts_.next_due()};
-  if (held) outlook.quiet_until = std::min(outlook.quiet_until, disi_until_);
+  if (held) outlook.horizon = std::min(outlook.horizon, disi_until_);
   return outlook;
 }
 

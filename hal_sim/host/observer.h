@@ -12,6 +12,10 @@ namespace host {
 using board::Cycle;
 using board::kNever;
 
+/// Vectors are interrupts in natural order; the core's traps are kTrapVector
+/// + 0 oscillator fail, 1 address, 2 stack, 3 math error.
+inline constexpr int kTrapVector = 1000;
+
 class Observer {
  public:
   virtual ~Observer() = default;

@@ -53,7 +53,7 @@ double instruction_rate_hz(std::uint16_t fosc) {
 }
 
 double clock_factor(std::uint16_t fosc) {
-  const double factor = instruction_rate_hz(fosc) / kFcyHz;
+  const double factor = instruction_rate_hz(fosc) / static_cast<double>(board::kFcyHz);
   return factor == 0 || std::abs(factor - 1) <= kClockTolerance ? 1 : factor;
 }
 

@@ -33,19 +33,11 @@ void tp_irq_install(tp_i64 vector, void (*handler)(void), tp_i64 priority, tp_i6
 void tp_irq_at(tp_i64 vector, tp_i64 at);
 /** The same at `first` and every `period` cycles from then on, as a timer does. */
 void tp_irq_every(tp_i64 vector, tp_i64 first, tp_i64 period);
-#define TP_V_INT0 0
-#define TP_V_T1 3
-#define TP_V_T2 6
-#define TP_V_T3 7
-#define TP_V_U1RX 9
-#define TP_V_U1TX 10
-#define TP_V_ADC 11
-#define TP_V_MI2C 14
-#define TP_V_T4 21
-#define TP_V_T5 22
-#define TP_V_U2RX 24
-#define TP_V_U2TX 25
-#define TP_V_DCI 41
+enum {
+#define IRQ(id, name) TP_V_##name,
+#define UNUSED_IRQ(bit, handler) TP_V_UNUSED##bit,
+#include "dspic30/memory/irqs.inc"
+};
 
 /** Work of a closed-form interrupt handler that steals `cost` cycles every `period` cycles from the program.
  *  slot 0..15 (TP_BG_*); cost 0 ends it. */

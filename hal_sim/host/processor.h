@@ -21,8 +21,7 @@ class CompiledRunner;
 class Observer;
 
 inline constexpr int kNoVector = -1;
-inline constexpr int kResetDue = -2;      ///< the processor resets itself: why_reset() says why
-inline constexpr int kTrapVector = 1000;  ///< + 0 oscillator fail, 1 address, 2 stack, 3 math error
+inline constexpr int kResetDue = -2;  ///< the processor resets itself: why_reset() says why
 
 enum class ResetCause { PowerUp, Instruction, Button };
 
@@ -66,17 +65,17 @@ class Processor {
   struct Outlook {
     int vector = kNoVector;  ///< to serve at the instruction boundary before `now`; kNoVector, kResetDue
     bool may_wait = false;   ///< level or DISI may hold a flag off: longest_waiting() is worth asking
-    Cycle quiet_until = 0;   ///< with kNoVector: until then look() answers the same, > now
+    Cycle horizon = 0;       ///< with kNoVector: until then look() answers the same, > now
   };
   /// Its answer stays true until its instant, whatever the program reads and whatever time passes. Not after
-  /// a write (ChipProcessor tells CompiledRunner::calm_until, NativeProcessor CompiledRunner::changed),
-  /// enter() or leave().
+  /// a write (ChipProcessor tells CompiledRunner::note_interrupt_horizon, NativeProcessor
+  /// CompiledRunner::changed), enter() or leave().
   virtual Outlook look(Cycle now) = 0;
   virtual const char* why_reset() const { return "the processor resets"; }
   struct Entry {
     void (*handler)() = nullptr;  ///< null: the program's own, by its vector
     Cycle first_instruction = 0;
-    Cycle quiet_until = 0;   ///< no other vector can be served before; 0: ask look()
+    Cycle horizon = 0;       ///< no other vector can be served before; 0: ask look()
     Cycle saving = 0;        ///< what the handler itself needs to save registers; others may come within
     bool alternate = false;  ///< by the alternate vector table
   };
@@ -88,7 +87,7 @@ class Processor {
   virtual Outlook take(Cycle now, Entry& entry) = 0;
   struct Return {
     Cycle next_instruction = 0;
-    Cycle quiet_until = 0;  ///< nothing waits, and nothing can be served before; 0: ask look()
+    Cycle horizon = 0;  ///< nothing waits, and nothing can be served before; 0: ask look()
   };
   /// The handler returns.
   virtual Return leave(Cycle now) = 0;

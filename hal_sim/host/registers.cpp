@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string>
 
+#include "dspic30/memory/sfr_table.h"
 #include "hal_sim/board/board.h"
 #include "hal_sim/host/compiled_runner.h"
 #include "hal_sim/host/native_processor.h"
@@ -13,8 +14,11 @@ namespace host {
 
 namespace {
 
-constexpr unsigned kSr = 0x042, kDisicnt = 0x052, kIntcon1 = 0x080, kIntcon2 = 0x082, kIfs0 = 0x084,
-                   kIec0 = 0x08C, kIpc0 = 0x094, kI2ccon = 0x206, kRcon = 0x740;
+using dspic::sfr;
+
+constexpr unsigned kSr = sfr("SR"), kDisicnt = sfr("DISICNT"), kIntcon1 = sfr("INTCON1"),
+                   kIntcon2 = sfr("INTCON2"), kIfs0 = sfr("IFS0"), kIec0 = sfr("IEC0"), kIpc0 = sfr("IPC0"),
+                   kI2ccon = sfr("I2CCON"), kRcon = sfr("RCON");
 constexpr std::uint16_t kPor = 1 << 0, kBor = 1 << 1, kSwr = 1 << 6, kExtr = 1 << 7, kBgst = 1 << 13;
 
 // timer 1 stands alone; 2 and 3, 4 and 5 are laid out as pairs
@@ -22,38 +26,31 @@ struct TimerRegisters {
   unsigned tmr, pr, con;
   int vector;
 };
-constexpr TimerRegisters kTimers[5] = {{0x100, 0x102, 0x104, TP_V_T1},
-                                       {0x106, 0x10C, 0x110, TP_V_T2},
-                                       {0x10A, 0x10E, 0x112, TP_V_T3},
-                                       {0x114, 0x11A, 0x11E, TP_V_T4},
-                                       {0x118, 0x11C, 0x120, TP_V_T5}};
+constexpr TimerRegisters kTimers[5] = {{sfr("TMR1"), sfr("PR1"), sfr("T1CON"), TP_V_T1},
+                                       {sfr("TMR2"), sfr("PR2"), sfr("T2CON"), TP_V_T2},
+                                       {sfr("TMR3"), sfr("PR3"), sfr("T3CON"), TP_V_T3},
+                                       {sfr("TMR4"), sfr("PR4"), sfr("T4CON"), TP_V_T4},
+                                       {sfr("TMR5"), sfr("PR5"), sfr("T5CON"), TP_V_T5}};
 
 struct PortBlock {
   unsigned tris;
   char letter;
 };
-constexpr PortBlock kPorts[] = {{0x2C0, 'A'}, {0x2C6, 'B'}, {0x2CC, 'C'},
-                                {0x2D2, 'D'}, {0x2DE, 'F'}, {0x2E4, 'G'}};
+constexpr PortBlock kPorts[] = {{sfr("TRISA"), 'A'}, {sfr("TRISB"), 'B'}, {sfr("TRISC"), 'C'},
+                                {sfr("TRISD"), 'D'}, {sfr("TRISF"), 'F'}, {sfr("TRISG"), 'G'}};
 
 constexpr const char* kOtherWay =
     "the native way, in which the library's functions drive the hardware, has no model of this register; "
     "build the program with --way register (docs/register-way.md)";
 
 // registers that hold what was written and do nothing else here
-constexpr unsigned kKept[] = {0x032, 0x034, 0x044, 0x0C0, 0x0C2, 0x0C4, 0x0C6, 0x2A8, 0x744, 0x770, 0x772};
-
-struct RegisterName {
-  unsigned address;
-  const char* name;
-};
-constexpr RegisterName kNames[] = {
-#include "sfr_names.inc"
-};
+constexpr unsigned kKept[] = {sfr("TBLPAG"), sfr("PSVPAG"), sfr("CORCON"), sfr("CNEN1"),
+                              sfr("CNEN2"),  sfr("CNPU1"),  sfr("CNPU2"),  sfr("ADPCFG"),
+                              sfr("OSCTUN"), sfr("PMD1"),   sfr("PMD2")};
 
 const char* register_name(unsigned address) {
-  for (const auto& r : kNames)
-    if (r.address == address) return r.name;
-  return "?";
+  const dspic::SfrInfo* info = dspic::sfr_info(address);
+  return info ? info->name : "?";
 }
 
 bool is_port(unsigned address, char& letter, board::Board::Register& kind) {
@@ -67,16 +64,6 @@ bool is_port(unsigned address, char& letter, board::Board::Register& kind) {
 }
 
 }  // namespace
-
-const char* vector_name(int vector) {
-  static constexpr const char* kVectors[TP_VECTORS] = {
-      "INT0", "IC1",  "OC1",  "T1",   "IC2",  "OC2",  "T2",  "T3",  "SPI1", "U1RX", "U1TX",
-      "ADC",  "NVM",  "SI2C", "MI2C", "CN",   "INT1", "IC7", "IC8", "OC3",  "OC4",  "T4",
-      "T5",   "INT2", "U2RX", "U2TX", "SPI2", "C1",   "IC3", "IC4", "IC5",  "IC6",  "OC5",
-      "OC6",  "OC7",  "OC8",  "INT3", "INT4", "C2",   "?",   "?",   "DCI",  "LVD",  "?",
-      "?",    "?",    "?",    "?",    "?",    "?",    "?",   "?",   "?",    "?"};
-  return vector >= 0 && vector < TP_VECTORS ? kVectors[vector] : "?";
-}
 
 void NativeRegisters::power_up() {
   processor_reset();
@@ -106,7 +93,6 @@ void NativeRegisters::refuse_table() const {
 }
 
 // --- timers
-// ----------------------------------------------------------------------------------------------------------
 
 Cycle NativeRegisters::prescale(const Timer& t) const {
   constexpr Cycle kDivide[] = {1, 8, 64, 256};
@@ -153,7 +139,6 @@ NativeRegisters::Timer* NativeRegisters::timer_at(unsigned address, int& which) 
 }
 
 // --- words
-// -----------------------------------------------------------------------------------------------------------
 
 std::uint16_t NativeRegisters::read_word(unsigned address) {
   auto& interrupts = processor_.interrupts();
@@ -205,7 +190,7 @@ std::uint16_t NativeRegisters::read_word(unsigned address) {
     case kRcon:
       return rcon_ | kBgst;  // long stable when a program looks
     case kI2ccon:            // of a bus that the library drives: is it on
-      return runner_.board().i2c_master().is_on() ? 0x9000 : 0x1000;
+      return runner_.drivers().i2c_master().is_on() ? 0x9000 : 0x1000;
     default:
       break;
   }
@@ -279,7 +264,7 @@ void NativeRegisters::write_word(unsigned address, std::uint16_t value) {
     case kI2ccon:  // switching off, so that an extension can be the bus's master, is all a program may do
                    // itself
       if (value & 0x803F) refuse(address, "the I2C bus can be used through the library's functions only");
-      return runner_.board().i2c_master().switch_off(now);
+      return runner_.drivers().i2c_master().switch_off(now);
     default:
       break;
   }

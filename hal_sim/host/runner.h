@@ -46,9 +46,6 @@ struct TrapReport {
 /// "division by zero", "address error" ...
 const char* trap_name(int kind);
 
-/// "T1", "U1RX", ... of an interrupt vector in natural order; "?" for reserved ones.
-const char* vector_name(int vector);
-
 class Runner {
  public:
   explicit Runner(std::string name) : name_(std::move(name)) {}
@@ -74,6 +71,8 @@ class Runner {
   virtual Cycle idle_until() const = 0;
   /// The windows up to `end`, before which it is idle, have passed.
   virtual void pass_to(Cycle end) = 0;
+  /// Handlers that have returned since it was made; what drivers in closed form do is none.
+  virtual std::int64_t interrupts_served() const = 0;
   /// Grows whenever the program has run: what it knows and did is as it was until then.
   virtual std::uint64_t turns() const = 0;
   /// Something outside changed (a byte came in, the selector was turned): a wait looks again.

@@ -89,7 +89,8 @@ TrapReport CompiledRunner::report_at(int kind, std::string message, std::uintptr
   report.kind = kind;
   report.message = std::move(message);
   report.cycle = now_;
-  report.time_s = to_world_s ? to_world_s(now_) : static_cast<double>(now_) / kFcyHz;
+  report.time_s =
+      to_world_s ? to_world_s(now_) : static_cast<double>(now_) / static_cast<double>(board::kFcyHz);
   set_place(report, walk(pc, frame));
   return report;
 }
@@ -100,7 +101,7 @@ void CompiledRunner::trap(int kind, std::string_view message) {
   if (kind == TP_TRAP_MATH && image.trap_vectors[3] && processor_->cpu_level() < kMathErrorPriority) {
     // the program has its own _MathError: it may reset or report; the division itself cannot be resumed
     processor_->set_cpu_level(kMathErrorPriority, now_);
-    calm_until_ = 0;
+    interrupt_horizon_ = 0;
     give_budget();
     image.trap_vectors[3]();
     fold();

@@ -28,39 +28,39 @@ tp_i64 tp_mic_scan(void* scan, tp_i64 from) {
 
 void tp_codec_start(void) {
   Context& context = Context::current();
-  context.board().codec().start_dci(context.now());
+  context.drivers().sound().start(context.now());
   context.note_write();
 }
 
 void tp_codec_configure(void) {
   Context& context = Context::current();
-  context.board().codec().configure();
+  context.drivers().sound().codec().configure();
   context.note_write();
 }
 
 void tp_codec_play(tp_i64 offset, tp_i64 length) {
   Context& context = Context::current();
-  context.board().codec().play(static_cast<int>(offset), static_cast<int>(length), context.now());
+  context.drivers().sound().play(static_cast<int>(offset), static_cast<int>(length), context.now());
   context.note_write();
 }
 
 void tp_codec_stop(void) {
   Context& context = Context::current();
-  context.board().codec().stop(context.now());
+  context.drivers().sound().stop(context.now());
   context.note_write();
 }
 
 tp_i64 tp_codec_next_group(void) {
   Context& context = Context::current();
-  const board::Codec& codec = context.board().codec();
-  return codec.dci_runs() ? codec.next_group(context.now()) : -1;
+  const Cycle next = context.drivers().sound().next_group(context.now());
+  return next < board::kNever ? next : -1;
 }
 
 void tp_codec_idle(tp_i64 idle) {
-  Context::current().set_background(TP_BG_DCI, idle ? board::kCodecGroupCycles : 0,
-                                    idle ? board::kDciIdleIsrCycles : 0);
+  Context::current().set_background(TP_BG_DCI, idle ? drivers::kCodecGroupCycles : 0,
+                                    idle ? drivers::kDciIdleIsrCycles : 0);
 }
 
-tp_i64 tp_codec_entry_cycles(void) { return board::kDciBusyEntryCycles; }
+tp_i64 tp_codec_entry_cycles(void) { return drivers::kDciBusyEntryCycles; }
 
 }  // extern "C"

@@ -15,10 +15,12 @@ namespace register_way {
 
 namespace {
 
-constexpr unsigned kU1Mode = 0x20C, kU2Mode = 0x216, kIfs0 = 0x084;
+using dspic::sfr;
+
+constexpr unsigned kU1Mode = sfr("U1MODE"), kU2Mode = sfr("U2MODE"), kIfs0 = sfr("IFS0");
 constexpr std::uint16_t kUartEnabled = 0x8000, kTransmitEnabled = 0x0400, kBufferFull = 0x0200;
 
-constexpr unsigned kFirstWithSideEffect = 0x140, kLastWithSideEffect = 0x22B;
+constexpr unsigned kFirstWithSideEffect = sfr("IC1BUF"), kLastWithSideEffect = sfr("SPI2BUF") + 1;
 
 }  // namespace
 
@@ -33,7 +35,7 @@ void ChipProcessor::power_up() {
   const tp_image& image = runner_.image();
   if (image.fosc) {
     configuration.fosc = *static_cast<const std::uint16_t*>(image.fosc);
-    configuration.fcy_hz *= host::clock_factor(configuration.fosc);
+    configuration.fcy_hz = static_cast<double>(board::kFcyHz) * host::clock_factor(configuration.fosc);
   }
   if (image.fwdt) configuration.fwdt = *static_cast<const std::uint16_t*>(image.fwdt);
   chip_.power_up(configuration);
@@ -83,9 +85,9 @@ std::uint16_t ChipProcessor::read_closely(unsigned address, unsigned bits, Cycle
   return value;
 }
 
-inline void ChipProcessor::wrote(Cycle calm) {
+inline void ChipProcessor::wrote(Cycle horizon) {
   runner_.note_write();
-  runner_.calm_until(calm, chip_.latest());
+  runner_.note_interrupt_horizon(horizon, chip_.latest());
 }
 
 void ChipProcessor::write(unsigned address, std::uint16_t value, unsigned bits, Cycle now) {
@@ -138,7 +140,7 @@ host::Processor::Outlook ChipProcessor::look(Cycle now) { return outlook_of(part
 
 __attribute__((always_inline)) inline host::Processor::Outlook ChipProcessor::outlook_of(
     const dspic::Outlook& chip) {
-  Outlook outlook{host::kNoVector, chip.level > 0 || chip.disi, chip.quiet_until};
+  Outlook outlook{host::kNoVector, chip.level > 0 || chip.disi, chip.horizon};
   if (chip.reset_due) {
     why_reset_ = chip_.note_reset_due();
     outlook.vector = host::kResetDue;
@@ -152,7 +154,7 @@ __attribute__((always_inline)) inline host::Processor::Outlook ChipProcessor::ou
 
 __attribute__((always_inline)) inline host::Processor::Return ChipProcessor::left(Cycle now) {
   const Cycle next = parts_->interrupts.leave(at(now));
-  return {next, parts_->calm_until(next)};
+  return {next, parts_->interrupt_horizon(next)};
 }
 
 bool ChipProcessor::serve(Cycle now) {
@@ -167,7 +169,7 @@ bool ChipProcessor::serve(Cycle now) {
   watched_reads_ = 0;  // whatever waits looks again afterwards
   const Cycle first = p.interrupts.enter_sole(irq, t);
   const Cycle end = runner_.run_handler(
-      handler, {nullptr, first, p.events.next() <= first ? 0 : p.next_notice(), kSavingCycles, alternate});
+      handler, {nullptr, first, p.events.next() <= first ? 0 : p.notice_horizon(), kSavingCycles, alternate});
   runner_.handler_returned(left(end));
   return true;
 }
@@ -182,7 +184,7 @@ host::Processor::Outlook ChipProcessor::take(Cycle now, Entry& entry) {
 __attribute__((always_inline)) inline host::Processor::Entry ChipProcessor::enter_at(int number, Cycle t) {
   watched_reads_ = 0;  // whatever waits looks again afterwards
   const Cycle first = parts_->interrupts.enter(number, t).first_instruction;
-  return {nullptr, first, parts_->calm_until(first, number), kSavingCycles,
+  return {nullptr, first, parts_->interrupt_horizon(first, number), kSavingCycles,
           parts_->interrupts.uses_alternate_table()};
 }
 

@@ -89,8 +89,8 @@ class ChipProcessor final : public host::Processor, private dspic::EventWatch {
   Outlook outlook_of(const dspic::Outlook& chip);
   Entry enter_at(int number, Cycle t);
   Return left(Cycle now);
-  /// A write has happened at latest_; `calm`: what the chip said of it.
-  void wrote(Cycle calm);
+  /// A write has happened at latest_; `horizon`: what the chip said of it.
+  void wrote(Cycle horizon);
 
   Cycle at(Cycle now) { return chip_.at(now); }
   dspic::Dspic30f6014a& device() { return chip_.device(); }

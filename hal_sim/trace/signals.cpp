@@ -6,17 +6,15 @@
 #include <cstdlib>
 #include <sstream>
 
+#include "dspic30/memory/irqs.h"
 #include "dspic30/memory/sfr_table.h"
-#include "hal_sim/board/epuck_params.h"
-#include "hal_sim/board/remote_params.h"
-#include "hal_sim/host/image_abi.h"
+#include "hal_sim/board/wiring.h"
 #include "sim_core/load/world_loader.h"
 
 namespace trace {
 
 namespace {
 
-constexpr const char* kPorts = "ABCDFG";
 constexpr const char* kLines[] = {"TX1", "RX1", "TX2", "RX2"};
 constexpr int kMostElements = 256;
 
@@ -28,6 +26,14 @@ struct Named {
   int shift;
   int width;
 };
+
+constexpr Named pin(const char* name, const char* group, Source source, board::Pin pin) {
+  return {name, group, source, pin.letter(), pin.bit, 1};
+}
+constexpr Named coil(const char* name, int bit, int width = 1) {
+  return {name, "motors", Source::Lat, 'D', bit, width};
+}
+constexpr int kRight = board::kRightCoilsBit;
 
 // names of e_epuck_ports.h
 constexpr Named kNamed[] = {
@@ -41,26 +47,26 @@ constexpr Named kNamed[] = {
     {"LED7", "leds", Source::Lights, 0, 7, 1},
     {"BODY_LED", "leds", Source::Lights, 0, 8, 1},
     {"FRONT_LED", "leds", Source::Lights, 0, 9, 1},
-    {"MOTOR1_PHA", "motors", Source::Lat, 'D', 0, 1},
-    {"MOTOR1_PHB", "motors", Source::Lat, 'D', 1, 1},
-    {"MOTOR1_PHC", "motors", Source::Lat, 'D', 2, 1},
-    {"MOTOR1_PHD", "motors", Source::Lat, 'D', 3, 1},
-    {"MOTOR2_PHA", "motors", Source::Lat, 'D', 4, 1},
-    {"MOTOR2_PHB", "motors", Source::Lat, 'D', 5, 1},
-    {"MOTOR2_PHC", "motors", Source::Lat, 'D', 6, 1},
-    {"MOTOR2_PHD", "motors", Source::Lat, 'D', 7, 1},
-    {"left_coils", "motors", Source::Lat, 'D', 0, 4},
-    {"right_coils", "motors", Source::Lat, 'D', 4, 4},
+    coil("MOTOR1_PHA", 0),
+    coil("MOTOR1_PHB", 1),
+    coil("MOTOR1_PHC", 2),
+    coil("MOTOR1_PHD", 3),
+    coil("MOTOR2_PHA", kRight),
+    coil("MOTOR2_PHB", kRight + 1),
+    coil("MOTOR2_PHC", kRight + 2),
+    coil("MOTOR2_PHD", kRight + 3),
+    coil("left_coils", 0, 4),
+    coil("right_coils", kRight, 4),
     {"left_steps", "motors", Source::Steps, 0, 0, 32},
     {"right_steps", "motors", Source::Steps, 1, 0, 32},
-    {"PULSE_IR0", "pins", Source::Lat, 'F', 7, 1},
-    {"PULSE_IR1", "pins", Source::Lat, 'F', 8, 1},
-    {"PULSE_IR2", "pins", Source::Lat, 'G', 0, 1},
-    {"PULSE_IR3", "pins", Source::Lat, 'G', 1, 1},
-    {"AUDIO_ON", "pins", Source::Lat, 'F', board::kCodecOnBit, 1},
-    {"CAM_RESET", "pins", Source::Lat, 'C', board::kCameraResetBit, 1},
-    {"REMOTE", "pins", Source::Port, 'F', board::kRemoteBit, 1},
-    {"BATT_LOW", "pins", Source::Port, 'F', 1, 1},
+    pin("PULSE_IR0", "pins", Source::Lat, board::kEmitterPins[0]),
+    pin("PULSE_IR1", "pins", Source::Lat, board::kEmitterPins[1]),
+    pin("PULSE_IR2", "pins", Source::Lat, board::kEmitterPins[2]),
+    pin("PULSE_IR3", "pins", Source::Lat, board::kEmitterPins[3]),
+    pin("AUDIO_ON", "pins", Source::Lat, board::kCodecOnPin),
+    pin("CAM_RESET", "pins", Source::Lat, board::kCameraResetPin),
+    pin("REMOTE", "pins", Source::Port, board::kRemotePin),
+    pin("BATT_LOW", "pins", Source::Port, board::kBatteryGoodPin),
 };
 
 Signal signal(std::string group, std::string name, Source source, int index, int shift, int width) {
@@ -124,7 +130,7 @@ bool port_signal(const std::string& name, Signal& out) {
     const std::string prefix = form.prefix;
     if (name.rfind(prefix, 0) != 0 || name.size() <= prefix.size()) continue;
     const char letter = name[prefix.size()];
-    if (std::string(kPorts).find(letter) == std::string::npos) continue;
+    if (std::string(board::kPortLetters).find(letter) == std::string::npos) continue;
     const std::string number = name.substr(prefix.size() + 1);
     if (number.empty() && !form.pin) {
       out = signal("pins", name, form.source, letter, 0, 16);
@@ -175,9 +181,9 @@ std::vector<Signal> find_signals(const std::string& name, const host::Runner* ru
   const bool has_chip = runner && runner->has_chip();
   for (const Named& n : kNamed)
     if (name == n.name) {
-      Signal pin = signal(n.group, n.name, n.source, n.index, n.shift, n.width);
-      if (has_chip) take_from_chip(pin);
-      return {pin};
+      Signal found = signal(n.group, n.name, n.source, n.index, n.shift, n.width);
+      if (has_chip) take_from_chip(found);
+      return {found};
     }
   Signal port;
   if (port_signal(name, port)) {
@@ -188,8 +194,8 @@ std::vector<Signal> find_signals(const std::string& name, const host::Runner* ru
     if (name == kLines[line])
       return {signal("uart", name, Source::WireByte, line, 0, 8),
               signal("uart", name + "_busy", Source::WireBusy, line, 0, 1)};
-  for (int v = 0; v < TP_VECTORS; ++v)
-    if (name == host::vector_name(v) && name != "?")
+  for (int v = 0; v < dspic::kIrqs; ++v)
+    if (name == dspic::irq_name(v) && name != "?")
       return {signal("interrupts", name + "_flag", Source::Flag, v, 0, 1),
               signal("interrupts", name + "_service", Source::Service, v, 0, 1)};
   Signal word;
@@ -210,11 +216,11 @@ std::vector<Signal> find_signals(const std::string& name, const host::Runner* ru
   std::vector<std::string> known;
   for (const Named& n : kNamed) known.push_back(n.name);
   for (const char* line : kLines) known.push_back(line);
-  for (int v = 0; v < TP_VECTORS; ++v) known.push_back(host::vector_name(v));
-  for (const char* p = kPorts; *p; ++p)
+  for (int v = 0; v < dspic::kIrqs; ++v) known.push_back(dspic::irq_name(v));
+  for (const char* p = board::kPortLetters; *p; ++p)
     for (const char* kind : {"LAT", "PORT", "TRIS"}) known.push_back(std::string(kind) + *p);
   if (has_chip)
-    for (const dspic::SfrInfo* r = dspic::sfr_begin(); r != dspic::sfr_end(); ++r) known.push_back(r->name);
+    for (const dspic::SfrInfo& r : dspic::kSfrRows) known.push_back(r.name);
   const std::string guess = sim::did_you_mean(name, known);
   error = fmt::format(
       "got '{}', expected a pin, a port, a register, an interrupt, a UART's line or a variable ({}){}", name,

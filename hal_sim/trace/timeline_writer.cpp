@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "hal_sim/host/processor.h"
+#include "dspic30/memory/irqs.h"
+#include "hal_sim/host/observer.h"
 #include "hal_sim/trace/vcd_writer.h"
 
 namespace trace {
@@ -74,7 +75,7 @@ void TimelineWriter::span(int robot, const Span& span, const board::RobotClock& 
       track = kInterrupts;
       break;
     case Span::Kind::Handler:
-      name = span.vector < host::kTrapVector ? host::vector_name(span.vector) : "trap";
+      name = span.vector < host::kTrapVector ? dspic::irq_name(span.vector) : "trap";
       track = kInterrupts;
       args = fmt::format(R"(,"first_instruction_us":{},"interrupted_handlers":{})", micros(ns(span.first)),
                          span.depth);

@@ -45,7 +45,6 @@ class VcdWriter {
 
   /// The window is over or the file is as large as it may be: nothing more will be written.
   bool is_done() const { return state_ == State::Done; }
-  bool has_begun() const { return state_ != State::Before; }
   /// Empty while all is well.
   const std::string& error() const { return file_.error(); }
 

@@ -78,9 +78,9 @@ std::string image_file(const std::string& folder, const Options& options) {
   char tag[20];
   std::snprintf(tag, sizeof tag, "-%08x", static_cast<unsigned>(h));
   std::string kind = options.sanitize ? "-sanitize" : options.coverage ? "-coverage" : "";
-  if (options.way == "register") kind += "-register";
+  if (options.way != "native" && !options.way.empty()) kind += "-" + options.way;
   return (fs::path(build_folder()) / "controllers" /
-          (fs::path(folder).filename().string() + tag + kind + ".so"))
+          (fs::path(folder).filename().string() + tag + kind + (options.way == "chip" ? ".elf" : ".so")))
       .string();
 }
 
@@ -123,7 +123,8 @@ std::string provide_image(const std::string& name, const std::string& from_folde
   build.optimisation = options.optimisation;
   build.sanitize = options.sanitize;
   build.coverage = options.coverage;
-  build.register_way = options.way == "register";
+  build.chip_way = options.way == "chip";
+  build.register_way = options.way == "register" || build.chip_way;
   const cc::BuildResult result = cc::build_image(build);
   if (options.tell)
     for (const auto& w : result.warnings) options.tell(w);

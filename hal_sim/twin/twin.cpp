@@ -18,6 +18,7 @@
 #include "hal_sim/host/compiled_runner.h"
 #include "hal_sim/host/oscillator.h"
 #include "hal_sim/register/chip_processor.h"
+#include "hal_sim/twin/world_file.h"
 #include "sim_core/load/world_loader.h"
 #include "sim_core/radio/link_medium.h"
 #include "sim_core/record/image_file.h"
@@ -52,10 +53,6 @@ void check_names(const sim::WorldDesc& world, const std::vector<Choice>& choices
 // where a robot's pseudo-terminal is found: a stable name in the run's folder
 std::string pty_link(const std::string& robot, int port) {
   return "twinpuck-" + robot + "-uart" + std::to_string(port);
-}
-
-sim::OwnSettings own_settings(const sim::WorldDesc& world, const sim::RobotDesc& robot) {
-  return {world.model_of(robot)->keys, robot.own};
 }
 
 // noise settings stay with the world's optics; the board gets what is this robot's own
@@ -106,41 +103,42 @@ Firmware open_firmware(const std::string& path, std::string& error) {
   std::ifstream in(path, std::ios::binary);
   std::string bytes(4, '\0');
   in.read(bytes.data(), 4);
-  if (bytes[0] == ':' || bytes ==
-                             "\x7f"
-                             "ELF")
-    bytes.append(std::istreambuf_iterator<char>(in), {});
+  if (bytes[0] == ':' || bytes == "\177ELF") bytes.append(std::istreambuf_iterator<char>(in), {});
   if (dspic::kind_of(bytes) == dspic::FileKind::Other) return {host::Image::open(path, error), nullptr};
   auto file = std::make_shared<dspic::FirmwareFile>();
   if (!dspic::load_firmware(bytes, path, *file, error)) return {};
   return {nullptr, file};
 }
 
-host::RunnerFactory runner_for_chip(std::shared_ptr<const dspic::FirmwareFile> file, board::Setup& setup) {
-  const auto word = file->words.find(dspic::kConfigurationStart);
-  const std::uint16_t fosc =
-      word == file->words.end() ? dspic::Configuration{}.fosc : static_cast<std::uint16_t>(word->second);
-  setup.clock_ppm = host::clock_ppm(setup.clock_ppm, fosc);
-  return [=, name = setup.name](board::Board& board) {
-    return std::make_unique<chip::ChipRunner>(name, file, host::clock_factor(fosc), board);
-  };
+std::uint16_t fosc_of(const dspic::FirmwareFile& file) {
+  const auto word = file.words.find(dspic::kConfigurationStart);
+  return word == file.words.end() ? dspic::Configuration{}.fosc : static_cast<std::uint16_t>(word->second);
 }
 
-/// What executes an image on a board, of whose thread's share it is. The program's configuration words make
-/// the clock of the robot that is set up.
-host::RunnerFactory runner_for(std::shared_ptr<host::Image> image, std::size_t share, board::Setup& setup) {
-  const tp_image& program = image->copy(share).description();
-  if (program.fosc)
-    setup.clock_ppm = host::clock_ppm(setup.clock_ppm, *static_cast<const std::uint16_t*>(program.fosc));
+/// What executes a program on a board, of whose thread's share it is, powered up at `start`. The program's
+/// configuration words make the clock of the robot that is set up.
+host::RunnerFactory runner_for(const Firmware& program, std::size_t share, board::Setup& setup,
+                               host::Cycle start) {
+  if (program.chip) {
+    const std::uint16_t fosc = fosc_of(*program.chip);
+    setup.clock_ppm = host::clock_ppm(setup.clock_ppm, fosc);
+    return [=, name = setup.name, file = program.chip](board::Board& board) {
+      return std::make_unique<chip::ChipRunner>(name, file, host::clock_factor(fosc), board, start);
+    };
+  }
+  const tp_image& image = program.image->copy(share).description();
+  if (image.fosc)
+    setup.clock_ppm = host::clock_ppm(setup.clock_ppm, *static_cast<const std::uint16_t*>(image.fosc));
   host::CompiledSettings settings;
   settings.name = setup.name;
   settings.seed = setup.seed;
-  if (register_way::wants_chip(program.flags))
+  settings.start = start;
+  if (register_way::wants_chip(image.flags))
     settings.processor = [](host::CompiledRunner& r) {
       return std::make_unique<register_way::ChipProcessor>(r);
     };
-  return [=](board::Board& board) {
-    return std::make_unique<host::CompiledRunner>(settings, image, share, board);
+  return [=, shared = program.image](board::Board& board) {
+    return std::make_unique<host::CompiledRunner>(settings, shared, share, board);
   };
 }
 
@@ -274,12 +272,9 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
     const auto& robot = world.robots[i];
     board::Setup setup = setup_of(world, static_cast<int>(i));
     host::RunnerFactory make_runner;
-    if (!firmware[i].empty()) {
-      const Firmware& program = images[firmware[i]];
-      make_runner =
-          program.chip ? runner_for_chip(program.chip, setup) : runner_for(program.image, share, setup);
-    }
+    if (!firmware[i].empty()) make_runner = runner_for(images[firmware[i]], share, setup, 0);
     auto mind = std::make_unique<host::FirmwareMind>(setup, make_runner);
+    twin->copies_.push_back(share);
     plug_in_parts(robot, mind->board(), problems);
     twin->uart_choices_.push_back(
         {chosen(options.uart1, robot.name, robot.uart1), chosen(options.uart2, robot.name, robot.uart2)});
@@ -293,6 +288,7 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
         auto module = std::make_shared<board::BluetoothModule>(bluetooth_of(world, static_cast<int>(i)),
                                                                mind->board().clock(), static_cast<int>(i),
                                                                std::move(end));
+        module->wake = [awake = mind.get()] { awake->wake(); };
         twin->bluetooth_.push_back(module);
         mind->board().uart(1).connect(std::move(module));
       } else if (end) {
@@ -322,6 +318,26 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
   twin->simulation_ = std::make_unique<sim::Simulation>(std::move(world), std::move(minds), options.threads);
   twin->add_media();
   return twin;
+}
+
+std::string Twin::flash(const std::vector<int>& robots, const std::string& path) {
+  std::string error;
+  const Firmware program = open_firmware(path, error);
+  if (!error.empty()) return error;
+  for (int robot : robots) {
+    const auto r = static_cast<std::size_t>(robot);
+    const std::string where = "robot '" + world().robots[r].name + "': ";
+    if (!minds_[r]->runner()) return where + "got one that is switched off";
+    board::Setup setup = setup_of(world(), robot);
+    const auto make_runner = runner_for(program, copies_[r], setup, minds_[r]->now());
+    if (setup.clock_ppm != minds_[r]->board().setup().clock_ppm)
+      return where + "got a program with another clock in its configuration words; restart the run";
+    minds_[r]->flash(make_runner);
+    image_paths_[r] = path;
+    simulation_->note_intervention(r);
+  }
+  if (program.image) images_.push_back(program.image);
+  return "";
 }
 
 // what passes between robots; a world whose robots have nothing of the kind gets nothing

@@ -86,6 +86,9 @@ class Twin {
   const std::string& uart_choice(int robot, int port) const {
     return uart_choices_[static_cast<std::size_t>(robot)][static_cast<std::size_t>(port - 1)];
   }
+  /// Flashes another image into robots that run programs; they start it where they stand. Returns what is
+  /// wrong with the image, or an empty string. Between ticks.
+  std::string flash(const std::vector<int>& robots, const std::string& path);
   /// All traps and unexpected resets so far, robot by robot.
   std::vector<host::TrapReport> traps() const;
   const std::vector<std::shared_ptr<host::Image>>& images() const { return images_; }
@@ -103,6 +106,7 @@ class Twin {
   std::unique_ptr<sim::Simulation> simulation_;  // owns the minds
   std::vector<host::FirmwareMind*> minds_;
   std::vector<std::string> image_paths_;
+  std::vector<std::size_t> copies_;  // of its image, that each robot lives in
   std::vector<std::array<std::string, 2>> uart_choices_;
   std::vector<std::shared_ptr<host::Image>> images_;
   sim::PacketMedium* packets_ = nullptr;                            // the simulation's

@@ -10,8 +10,7 @@ enum class Axes { Enu, Nue };
 
 constexpr Vec3 to_nue(Vec3 p) { return {p.x, p.z, -p.y}; }
 
-/// Heading of a robot that a NUE world turned by `angle_rad` about its upward y axis, and back; rad.
-constexpr double heading_from_nue(double angle_rad) { return angle_rad + kPi / 2; }
+/// Angle by which a NUE world turns a robot of that heading about its upward y axis; rad.
 constexpr double angle_to_nue(double heading_rad) { return heading_rad - kPi / 2; }
 
 }  // namespace sim

@@ -359,6 +359,8 @@ LampShare share_of(const Scene& scene, const LampDesc& lamp, const Eye& eye, int
 
 }  // namespace
 
+bool has_light(const Scene& scene) { return scene.world().ambient_w_m2 != 0 || !scene.world().lamps.empty(); }
+
 double sense_irradiance_w_m2(const Scene& scene, int robot, int sensor, Clicks at) {
   const WorldDesc& world = scene.world();
   double sum = world.ambient_w_m2;

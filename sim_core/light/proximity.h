@@ -48,6 +48,8 @@ class FlatWall {
   double factor_;
 };
 
+/// Is there a lamp, or ambient light?
+bool has_light(const Scene& scene);
 /// Irradiance from lamps and ambient light on the same sensor, W/m2, occlusion by bodies included.
 double sense_irradiance_w_m2(const Scene& scene, int robot, int sensor, Clicks at);
 

@@ -13,7 +13,7 @@ namespace sim {
 
 /// Version of the format; the first line of a world file says `twinpuck = 1`.
 inline constexpr int kWorldFormatVersion = 1;
-inline constexpr int kMostRobots = 10000;
+inline constexpr int kMostRobots = 25000;
 
 enum class ValueType {
   Integer,

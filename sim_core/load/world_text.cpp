@@ -231,6 +231,13 @@ std::string WorldText::value(int id, const std::string& key) const {
   return "";
 }
 
+WorldText::Values WorldText::values(int id) const {
+  Values out;
+  if (const Table* table = own_table(id))
+    for (const Entry& e : table->entries) out.emplace_back(e.key, text_.substr(e.begin, e.end - e.begin));
+  return out;
+}
+
 bool WorldText::set(int id, const std::string& key, const std::string& value) {
   const Table* table = own_table(id);
   if (!table) return false;

@@ -36,6 +36,11 @@ class WorldText {
   /// A value as it is written; empty: the key is not there.
   std::string value(int id, const std::string& key) const;
 
+  /// The keys of an element's own table, as they are written.
+  Values values(int id) const;
+  /// All of an element as it is written, without the comment above it.
+  std::string text_of(int id) const;
+
   // Edits. False: there is no such element.
   /// Changes, adds or, with an empty `value`, takes away a key of the element's own table.
   bool set(int id, const std::string& key, const std::string& value);
@@ -62,8 +67,6 @@ class WorldText {
   std::vector<int> ids() const;
   int index_of(int id) const;
   const Table* own_table(int id) const;
-  std::string text_of(int id) const;
-
   std::string text_;
   std::vector<Element> elements_;
   std::vector<Table> tables_;

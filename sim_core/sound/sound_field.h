@@ -58,7 +58,6 @@ class SoundField {
   double pressure_pa(const Vec3& place_m, double at_s) const;
 
   // --- at tick boundaries, by the simulation
-  // ------------------------------------------------------------------
 
   /// The robot's loudspeaker plays this from `now` on instead of whatever it played.
   void play(int robot, const SpeakerTrack& track, Clicks now);

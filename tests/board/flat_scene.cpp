@@ -16,6 +16,7 @@ Clicks motion_lag(const Scene&) { return 28800; }
 Vec3 specific_force_m_s2(const Scene& scene, int, Clicks at) { return scene.force_m_s2(at); }
 Vec3 angular_rate_rad_s(const Scene& scene, int, Clicks at) { return scene.turn_rad_s(at); }
 
+bool has_light(const Scene& scene) { return scene.irradiance_w_m2 != 0; }
 double sense_irradiance_w_m2(const Scene& scene, int, int, Clicks) { return scene.irradiance_w_m2; }
 
 void render_camera(const Scene& scene, int, const Vec3&, Clicks at, const std::vector<double>& right,

@@ -93,7 +93,6 @@ TEST(Stepper, rotor_follows_within_the_time_it_has) {
 }
 
 // --- what a motor does not do
-// -------------------------------------------------------------------------------
 
 std::int64_t steps_after_a_second_at(int steps_s) {
   Stepper s = connected(+1);

@@ -70,7 +70,6 @@ TEST(library_copies, the_chips_header_is_always_ours) {
 }
 
 // --- the register way: a copy is an archive of the project's own drivers
-// ------------------------------------
 
 // two variants of one function, of which the program includes a header; the chosen one counts
 TEST(library_members, the_variant_whose_header_the_program_includes_is_linked) {

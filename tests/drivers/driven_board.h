@@ -13,6 +13,7 @@ class DrivenBoard : public board::Board {
   drivers::TimerMotors& timer_motors() { return drivers_.timer_motors(); }
   drivers::AdcScan& scan() { return drivers_.scan(); }
   drivers::BasicProx& basic_prox() { return drivers_.basic_prox(); }
+  drivers::I2cMaster& i2c_master() { return drivers_.i2c_master(); }
 
  private:
   drivers::Drivers drivers_{*this};

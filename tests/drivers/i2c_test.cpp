@@ -14,7 +14,7 @@
 namespace {
 
 using board::Cycle;
-using board::I2cMaster;
+using drivers::I2cMaster;
 
 /// 256 registers at 0x42 that remember when they were used.
 struct Registers : board::I2cRegisters {

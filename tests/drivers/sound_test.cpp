@@ -263,11 +263,11 @@ TEST_F(Speaker, tells_the_air_what_it_plays_in_world_time) {
   setup.robot = 3;
   setup.clock_ppm = 100;
   setup.boot_delay_s = 1;
-  Board late(setup);
+  DrivenBoard late(setup);
   late.codec().power(true, 0);
-  late.codec().start_dci(0);
+  late.drivers().sound().start(0);
   late.codec().configure();
-  late.codec().play(3878, 3412, 14745600);
+  late.drivers().sound().play(3878, 3412, 14745600);
   sim::WorldDesc world;
   sim::SoundField field(world, 28800);
   sim::flat_sound().clear();

@@ -10,12 +10,12 @@ using dspic::Cause;
 
 TEST(Bus, every_register_reads_its_reset_value) {
   Bench b;
-  for (const dspic::SfrInfo* r = dspic::sfr_begin(); r != dspic::sfr_end(); ++r)
+  for (const dspic::SfrInfo* r = std::begin(dspic::kSfrRows); r != std::end(dspic::kSfrRows); ++r)
     EXPECT_EQ(b.read(r->name, 0), r->reset) << r->name;
 }
 
 TEST(Bus, unimplemented_bits_read_zero_whatever_is_written) {
-  for (const dspic::SfrInfo* r = dspic::sfr_begin(); r != dspic::sfr_end(); ++r) {
+  for (const dspic::SfrInfo* r = std::begin(dspic::kSfrRows); r != std::end(dspic::kSfrRows); ++r) {
     Bench b;
     b.write(r->name, 0xFFFF, 10);
     EXPECT_EQ(b.read(r->name, 11) & ~r->implemented, 0u) << r->name;
@@ -23,7 +23,7 @@ TEST(Bus, unimplemented_bits_read_zero_whatever_is_written) {
 }
 
 TEST(Bus, no_register_is_without_an_owner) {
-  for (const dspic::SfrInfo* r = dspic::sfr_begin(); r != dspic::sfr_end(); ++r) {
+  for (const dspic::SfrInfo* r = std::begin(dspic::kSfrRows); r != std::end(dspic::kSfrRows); ++r) {
     Bench b;
     b.write(r->name, 0, 10);
     EXPECT_EQ(b.notes.count(Cause::UnimplementedAddress), 0) << r->name;

@@ -125,7 +125,6 @@ TEST(Ports, bit_operations_beside_moving_inputs_are_no_mistake) {
 }
 
 // --- INT0 to INT4
-// --------------------------------------------------------------------------------------------
 
 TEST(ExternalInterrupt, flag_comes_two_cycles_after_its_edge) {
   Bench b;

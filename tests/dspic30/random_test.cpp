@@ -28,11 +28,11 @@ std::uint64_t wander(std::uint32_t seed, int peeks) {
   b.outside.clock({Port::F, 6}, 77, 1303, 600, 200);
   b.outside.clock({Port::D, 8}, 77, 503, 100, 200);
   b.chip.outside_changed(0);
-  const auto registers = static_cast<unsigned>(dspic::sfr_end() - dspic::sfr_begin());
+  const auto registers = static_cast<unsigned>(std::end(dspic::kSfrRows) - std::begin(dspic::kSfrRows));
   Cycle now = 0;
   for (int step = 0; step < 3000; ++step) {
     now += draw(100) ? draw(80) : draw(20000);
-    const unsigned address = dspic::sfr_begin()[draw(registers)].address;
+    const unsigned address = std::begin(dspic::kSfrRows)[draw(registers)].address;
     const unsigned value = draw(4) ? draw(0x10000) : 1u << draw(16);
     switch (draw(6)) {
       case 0:
@@ -61,7 +61,7 @@ std::uint64_t wander(std::uint32_t seed, int peeks) {
         break;
     }
     if (peeks && step % peeks == 0)
-      for (const dspic::SfrInfo* r = dspic::sfr_begin(); r != dspic::sfr_end(); ++r)
+      for (const dspic::SfrInfo* r = std::begin(dspic::kSfrRows); r != std::end(dspic::kSfrRows); ++r)
         b.chip.peek(r->address, now);
     EXPECT_GT(b.chip.next_event(now), now);
   }
@@ -82,15 +82,15 @@ TEST(Random, horizons_are_kept) {
     b.outside.clock({Port::C, 14}, 50, 911, 500, 500);
     b.outside.clock({Port::D, 8}, 77, 503, 100, 500);
     b.chip.outside_changed(0);
-    const auto registers = static_cast<unsigned>(dspic::sfr_end() - dspic::sfr_begin());
+    const auto registers = static_cast<unsigned>(std::end(dspic::kSfrRows) - std::begin(dspic::kSfrRows));
     Cycle now = 0;
     for (int step = 0; step < 300; ++step) {
       now += draw(60);
-      b.chip.write(dspic::sfr_begin()[draw(registers)].address, static_cast<std::uint16_t>(draw(0x10000)), 16,
-                   now);
+      b.chip.write(std::begin(dspic::kSfrRows)[draw(registers)].address,
+                   static_cast<std::uint16_t>(draw(0x10000)), 16, now);
       if (b.chip.stalled_until() > now || step % 10) continue;
       now += 3;
-      const unsigned address = dspic::sfr_begin()[draw(registers)].address;
+      const unsigned address = std::begin(dspic::kSfrRows)[draw(registers)].address;
       const std::uint16_t before = b.chip.peek(address, now);
       const Cycle until = std::min(b.chip.horizon(address, now), now + 3000);
       for (Cycle t = now + 1; t < until; ++t)
@@ -113,11 +113,11 @@ TEST(Random, next_event_is_never_late) {
     b.write("IEC0", 0xFFFF, 0);
     b.write("IEC1", 0xFFFF, 0);
     b.write("IEC2", 0xFFFF, 0);
-    const auto registers = static_cast<unsigned>(dspic::sfr_end() - dspic::sfr_begin());
+    const auto registers = static_cast<unsigned>(std::end(dspic::kSfrRows) - std::begin(dspic::kSfrRows));
     Cycle now = 0;
     for (int step = 0; step < 200; ++step) {
       now += draw(40);
-      const unsigned address = dspic::sfr_begin()[draw(registers)].address;
+      const unsigned address = std::begin(dspic::kSfrRows)[draw(registers)].address;
       if (address >= 0x84 && address < 0x94) continue;  // flags and enables
       b.chip.write(address, static_cast<std::uint16_t>(draw(0x10000)), 16, now);
       const int before = b.chip.pending(now);

@@ -143,7 +143,6 @@ TEST_F(FirmwareTest, bench_braitenberg_cruises_at_8_cm_per_second) {
 }
 
 // --- the contract as controllers meet it
-// ------------------------------------------------------------------------
 
 TEST_F(FirmwareTest, a_register_that_is_not_simulated_stops_its_robot_by_name) {
   Robot& driver = add_robot_with_source(

@@ -12,7 +12,6 @@ namespace {
 class Promise : public FirmwareTest {};
 
 // --- time
-// ------------------------------------------------------------------------------------------------------------
 
 // the program counts what it does itself, so the tick of the world does not blur what is measured
 const char* const kToggleByAgenda = R"(
@@ -50,6 +49,17 @@ int main(void) {
   while (1);
 }
 )";
+
+TEST_F(Promise, ticks_in_which_no_program_runs_are_passed_over) {
+  arena(2, 1);
+  add_robot_with_source(kToggleByAgenda).at(-0.5, 0).bluetooth();
+  add_robot_with_source(kToggleByAgenda).at(0.5, 0);
+  sim::Simulation& s = twin().simulation();
+  const sim::Clicks end = 2 * sim::kClicksPerSecond;
+  int steps = 0;
+  for (; s.now() < end; ++steps) s.advance(end);
+  EXPECT_LT(steps, 2 * 60) << "20 toggles by each of two robots; 1024 ticks";
+}
 
 TEST_F(Promise, an_agenda_toggles_every_100_ms_without_drift) {
   Robot& r = add_robot_with_source(kToggleByAgenda);
@@ -162,7 +172,6 @@ int main(void) {
 }
 
 // --- motors
-// ------------------------------------------------------------------------------------------------------------
 
 const char* const kDrive500 = R"(
 #include <motor_led/advance_one_timer/e_agenda.h>
@@ -213,7 +222,6 @@ TEST_F(Promise, pushed_against_a_wall_the_wheels_turn_and_the_robot_stays) {
 }
 
 // --- sensors
-// -----------------------------------------------------------------------------------------------------------
 
 const char* const kReadRing = R"(
 #include <a_d/advance_ad_scan/e_ad_conv.h>
@@ -293,7 +301,6 @@ INSTANTIATE_TEST_SUITE_P(EverySensor, Ring, ::testing::ValuesIn(ring_cases()), [
 });
 
 // --- repeatability
-// -------------------------------------------------------------------------------------------------------
 
 class Repeat : public FirmwareTest {};
 
@@ -318,7 +325,6 @@ TEST_F(Repeat, the_digest_does_not_depend_on_threads) {
 }
 
 // --- traps of real firmware
-// ------------------------------------------------------------------------------------------------
 
 struct Failure {
   const char* name;

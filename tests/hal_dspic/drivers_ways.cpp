@@ -121,7 +121,6 @@ int main(void) {
 }
 
 // --- LEDs, selector
-// ------------------------------------------------------------------------------------------
 
 TEST_P(Ways, leds_and_selector) {
   Robot& robot = add_robot_with_source(R"(
@@ -146,7 +145,6 @@ int main(void) {
 }
 
 // --- serial lines
-// ----------------------------------------------------------------------------------------------
 
 TEST_P(Ways, serial_lines_echo_what_they_get) {
   Robot& robot = add_robot_with_source(R"(
@@ -174,7 +172,6 @@ int main(void) {
 }
 
 // --- the scan
-// ----------------------------------------------------------------------------------------------------
 
 // 65 frames of 900 cycles: an accelerometer sample every 3.967 ms, 49 of them before e_init_ad_scan returns
 TEST_P(Ways, scan_fills_its_arrays_at_the_librarys_rate) {
@@ -241,7 +238,6 @@ int main(void) {
 }
 
 // --- camera, codec, EEPROM, transform
-// ------------------------------------------------------------------------------
 
 TEST_P(Ways, camera_takes_a_picture) {
   wall(0.2, -0.3, 0.2, 0, {0, 0, 0});

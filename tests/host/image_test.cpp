@@ -2,8 +2,11 @@
 #include <sys/stat.h>
 
 #include <cstdio>
+#include <deque>
 #include <fstream>
 
+#include "hal_sim/host/address_slot.h"
+#include "sim_core/load/schema.h"
 #include "tests/host/bench.h"
 #include "twinpuck_paths.h"
 
@@ -103,6 +106,15 @@ TEST(Image, every_copy_lies_at_the_same_place_as_far_as_32_bits_tell) {
   EXPECT_EQ(low(image->copy(0)), low(image->copy(1)));
   EXPECT_EQ(low(image->copy(0)), low(other->copy(0)));
   EXPECT_NE(image->copy(0).base(), image->copy(1).base());
+}
+
+TEST(AddressSlots, there_is_one_for_every_robot_of_the_largest_world) {
+  constexpr std::size_t kOffset = 0x4000'0000;
+  std::deque<host::AddressSlot> stacks;
+  for (int r = 0; r < sim::kMostRobots; ++r) {
+    stacks.emplace_back(kOffset, 4096);
+    ASSERT_EQ(stacks.back().begin() & 0xFFFFFFFFu, kOffset) << r;
+  }
 }
 
 }  // namespace

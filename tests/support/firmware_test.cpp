@@ -38,7 +38,6 @@ std::string folder_for(const std::string& source, const std::string& language = 
 }  // namespace
 
 // --- Robot
-// ---------------------------------------------------------------------------------------------------------
 
 Robot& Robot::at(double x_m, double y_m, double heading_deg) {
   desc_.pose = {x_m, y_m, sim::radians(heading_deg)};
@@ -117,7 +116,6 @@ void Robot::serial_send(int port, const std::string& bytes) {
 }
 
 // --- FirmwareTest
-// ----------------------------------------------------------------------------------------------------
 
 FirmwareTest::FirmwareTest() {
   world.models = twin::robot_models();
@@ -215,6 +213,7 @@ void FirmwareTest::start(const Caller& caller) {
     for (int port = r->keeps_bluetooth_ ? 2 : 1; port <= 2; ++port) {
       auto end = std::make_unique<board::MemoryEnd>();
       r->serial_[port - 1] = end.get();
+      end->wake = [mind = &r->mind()] { mind->wake(); };
       r->mind().board().uart(port).connect(std::move(end));
     }
 }

@@ -40,7 +40,6 @@ struct Caller {
 class Robot {
  public:
   // --- before the first run
-  // -------------------------------------------------------------------------------------
   Robot& at(double x_m, double y_m, double heading_deg = 0);
   Robot& selector(int position);
   Robot& battery(double volts);
@@ -49,7 +48,6 @@ class Robot {
   sim::RobotDesc& settings() { return desc_; }  ///< everything else a world file can say
 
   // --- while running
-  // ----------------------------------------------------------------------------------------------
   double x_m() const { return pose().x_m; }
   double y_m() const { return pose().y_m; }
   double heading_deg() const { return sim::degrees(pose().heading_rad); }
@@ -127,7 +125,6 @@ class FirmwareTest : public ::testing::Test {
 
  protected:
   // --- the world, before the first run
-  // ---------------------------------------------------------------------------
   sim::WorldDesc world;  ///< an empty floor without walls or noise; change anything
   void arena(double width_m, double depth_m);
   /// A fixed wall from one point to another, 10 cm high; colour parts 0 to 1.
@@ -150,7 +147,6 @@ class FirmwareTest : public ::testing::Test {
   Robot& robot(int index) { return *robots_[static_cast<std::size_t>(index)]; }
 
   // --- running
-  // -----------------------------------------------------------------------------------------------------
   void run_for(double seconds, Caller caller = Caller::here());
   /// Runs until `done` holds (looked at every tick) or `at_most_s` have passed; false then.
   bool run_until(const std::function<bool()>& done, double at_most_s, Caller caller = Caller::here());

@@ -36,7 +36,7 @@ void __attribute__((__interrupt__, __auto_psv__)) _T5Interrupt(void) {
   T4CONbits.TON = 1;
 }
 
-#ifndef __TWINPUCK__
+#ifndef __TWINPUCK_PC__
 
 /* The handler has an archive member of its own, which a linker takes only when something names it: vectors do not. */
 extern void _T4Interrupt(void);

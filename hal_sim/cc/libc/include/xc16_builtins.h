@@ -12,6 +12,7 @@ extern "C" {
 #define __builtin_nop() __asm__ volatile("nop")
 #define __builtin_clrwdt() __asm__ volatile("clrwdt")
 #define __builtin_software_breakpoint() __asm__ volatile("nop")
+#ifdef __TWINPUCK_PC__
 #define __builtin_pwrsav(mode) tp_power_save(mode)
 #define __builtin_disi(cycles) tp_disi(cycles)
 
@@ -21,6 +22,34 @@ extern "C" {
 #define __builtin_tbloffset(object) ((unsigned)tp_image_program_address(object))
 #define __builtin_psvpage(object) ((unsigned)(tp_image_program_address(object) >> 15))
 #define __builtin_psvoffset(object) ((unsigned)tp_image_program_address(object) | 0x8000u)
+#else
+#define __builtin_pwrsav(mode) __asm__ volatile("pwrsav %0" : : "i"(mode))
+#define __builtin_disi(cycles) __asm__ volatile("disi %0" : : "i"(cycles))
+#define TP_OF_ADDRESS(function, object)                                 \
+  ({                                                                    \
+    unsigned __v;                                                       \
+    __asm__("mov #" #function "(%1), %0" : "=r"(__v) : "i"(&(object))); \
+    __v;                                                                \
+  })
+#define __builtin_tblpage(object) TP_OF_ADDRESS(tblpage, object)
+#define __builtin_tbloffset(object) TP_OF_ADDRESS(tbloffset, object)
+#define __builtin_psvpage(object) TP_OF_ADDRESS(psvpage, object)
+#define __builtin_psvoffset(object) TP_OF_ADDRESS(psvoffset, object)
+#define __builtin_tbladdress(object) \
+  ((unsigned long)__builtin_tblpage(object) << 16 | __builtin_tbloffset(object))
+#define TP_TABLE_READ(instruction, offset)                               \
+  ({                                                                     \
+    unsigned __v;                                                        \
+    __asm__ volatile(instruction " [%1], %0" : "=r"(__v) : "r"(offset)); \
+    __v;                                                                 \
+  })
+#define __builtin_tblrdl(offset) TP_TABLE_READ("tblrdl", offset)
+#define __builtin_tblrdh(offset) TP_TABLE_READ("tblrdh", offset)
+#define __builtin_tblrdlb(offset) (TP_TABLE_READ("tblrdl.b", offset) & 0xFFu)
+#define __builtin_tblrdhb(offset) (TP_TABLE_READ("tblrdh.b", offset) & 0xFFu)
+#define __builtin_tblwtl(offset, value) __asm__ volatile("tblwtl %0, [%1]" : : "r"(value), "r"(offset))
+#define __builtin_tblwth(offset, value) __asm__ volatile("tblwth %0, [%1]" : : "r"(value), "r"(offset))
+#endif
 
 /* 16 x 16 -> 32 bits */
 #define __builtin_mulss(a, b) ((long)(int)(a) * (int)(b))
@@ -44,11 +73,13 @@ extern "C" {
 #define __builtin_ff1r(word) tp_ff1r(word)
 #define __builtin_fbcl(word) tp_fbcl(word)
 
+#ifdef __TWINPUCK_PC__
 extern void tp_disi(long long cycles);
 extern void tp_power_save(long long mode);
 extern unsigned tp_image_table_read(unsigned long program_address);
 extern unsigned long tp_image_program_address(const volatile void* object);
 extern void tp_table_write(long long address, long long value);
+#endif
 
 #define TP_BUILTIN static __inline__ __attribute__((always_inline, unused))
 

@@ -13,23 +13,33 @@ struct block {
   unsigned int used;
 };
 
+#ifdef __TWINPUCK_PC__
 /* exported: the host fills it, as RAM that the start-up code does not clear holds anything */
 __attribute__((aligned(8), visibility("default"))) char tp_image_heap[TP_HEAP_BYTES];
 __attribute__((visibility("default"))) unsigned int tp_image_heap_bytes = TP_HEAP_BYTES;
+#define HEAP tp_image_heap
+#define HEAP_END (tp_image_heap + TP_HEAP_BYTES)
+#else
+/* what the linker was told to leave */
+extern char _heap[], _eheap[];
+#define HEAP _heap
+#define HEAP_END _eheap
+#endif
+#define HEAP_ROOM ((unsigned int)(HEAP_END - HEAP))
 static int ready;
 
 static struct block *next_of(struct block *b) { return (struct block *)((char *)(b + 1) + b->bytes); }
-static struct block *end_of_heap(void) { return (struct block *)(tp_image_heap + TP_HEAP_BYTES); }
+static struct block *end_of_heap(void) { return (struct block *)HEAP_END; }
 
 void *malloc(size_t bytes)
 {
-  struct block *b = (struct block *)tp_image_heap;
+  struct block *b = (struct block *)HEAP;
   if (!ready) {
     ready = 1;
-    b->bytes = TP_HEAP_BYTES - sizeof(struct block);
+    b->bytes = HEAP_ROOM - sizeof(struct block);
     b->used = 0;
   }
-  if (bytes == 0 || bytes > TP_HEAP_BYTES) return 0;
+  if (bytes == 0 || bytes > HEAP_ROOM) return 0;
   bytes = (bytes + 3u) & ~3u;
   for (; b < end_of_heap(); b = next_of(b)) {
     if (b->used) continue;
@@ -55,7 +65,7 @@ void free(void *p)
 void *calloc(size_t n, size_t bytes)
 {
   unsigned long all = (unsigned long)n * bytes;
-  void *p = all > TP_HEAP_BYTES ? 0 : malloc((size_t)all);
+  void *p = all > HEAP_ROOM ? 0 : malloc((size_t)all);
   if (p) memset(p, 0, (size_t)all);
   return p;
 }

@@ -6,6 +6,10 @@
 #include "hal_sim/host/pins.h"
 #include "math_costs.h"
 
+#ifndef __TWINPUCK_PC__
+#define tp_spend(cycles) ((void)0) /* the chip takes the time itself */
+#endif
+
 union bits { float f; unsigned long u; };
 
 float tp_m_sinf(float x);

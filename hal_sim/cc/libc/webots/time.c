@@ -6,8 +6,7 @@
 #include <time.h>
 #include "hal_sim/host/pins.h"
 #include "hal_sim/host/pins_virtual.h"
-
-#define CYCLES_PER_SECOND 14745600 /* nominal [lib: motor_led/e_epuck_ports.h] */
+#include "motor_led/e_epuck_ports.h"
 
 time_t time(time_t *to)
 {
@@ -18,4 +17,4 @@ time_t time(time_t *to)
 
 double difftime(time_t later, time_t earlier) { return (double)(later - earlier); }
 
-clock_t clock(void) { return (clock_t)(tp_now() * CLOCKS_PER_SEC / CYCLES_PER_SECOND); }
+clock_t clock(void) { return (clock_t)(tp_now() * CLOCKS_PER_SEC / (tp_i64)FCY); }

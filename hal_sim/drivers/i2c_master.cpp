@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "hal_sim/board/i2c_master.h"
+#include "hal_sim/drivers/i2c_master.h"
 
-namespace board {
+namespace drivers {
 
 namespace {
 int half_bits_of(I2cMaster::Operation operation) {
@@ -74,7 +74,6 @@ void I2cMaster::processor_reset(Cycle at) {
   switch_off(at);
   acknowledged_ = false;
   received_ = 0;
-  bus_.processor_reset(at);
 }
 
 std::uint64_t I2cMaster::state_hash() const {
@@ -84,4 +83,4 @@ std::uint64_t I2cMaster::state_hash() const {
   return sum * 0x9E3779B97F4A7C15u + static_cast<std::uint64_t>(over_at_);
 }
 
-}  // namespace board
+}  // namespace drivers

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The processor's I2C module as master: one operation at a time, over after its bits, then an interrupt.
+// The processor's I2C module as the library's driver uses it, as master: one operation at a time, over after
+// its bits, then an interrupt.
 //
 //   begin(operation) --- bits x (BRG + 14) cycles ---> settle(): the bus and its devices see it
 //
@@ -11,15 +12,15 @@
 #include <cstdint>
 
 #include "hal_sim/board/i2c_bus.h"
-#include "hal_sim/board/i2c_params.h"
+#include "hal_sim/drivers/driver_params.h"
 
-namespace board {
+namespace drivers {
 
 class I2cMaster {
  public:
   enum class Operation { Start, Restart, Stop, Acknowledge, Refuse, Read, Write };
 
-  explicit I2cMaster(I2cBus& bus) : bus_(bus) {}
+  explicit I2cMaster(board::I2cBus& bus) : bus_(bus) {}
 
   /// I2CEN with a baud rate register of 0 to 511. Whatever was under way is forgotten, the lines go high.
   void switch_on(int brg, Cycle at);
@@ -47,7 +48,7 @@ class I2cMaster {
   std::uint64_t state_hash() const;
 
  private:
-  I2cBus& bus_;
+  board::I2cBus& bus_;
   bool on_ = false;
   Cycle bit_cycles_ = 0;
   bool pending_ = false;
@@ -59,4 +60,4 @@ class I2cMaster {
   std::uint8_t received_ = 0;
 };
 
-}  // namespace board
+}  // namespace drivers

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+// Assembler text, inline and in .s files. LLVM reads labels, directives and macros; an instruction's text
+// goes to the chip's own assembler (dspic30/asm), which knows every form from the instruction table, and
+// comes back as words. Operands with symbols are left to the linker, by the kind of field they stand in.
+#include <map>
+
+#include "dspic30/asm/expression.h"
+#include "dspic30/asm/instruction_text.h"
+#include "dspic30/llvm/fixups.h"
+#include "dspic30/llvm/tables.h"
+#include "dspic30/llvm/target.h"
+#include "llvm/ADT/StringSwitch.h"
+#include "llvm/MC/MCContext.h"
+#include "llvm/MC/MCExpr.h"
+#include "llvm/MC/MCInst.h"
+#include "llvm/MC/MCInstBuilder.h"
+#include "llvm/MC/MCParser/MCAsmParser.h"
+#include "llvm/MC/MCParser/MCParsedAsmOperand.h"
+#include "llvm/MC/MCParser/MCTargetAsmParser.h"
+#include "llvm/MC/MCStreamer.h"
+
+namespace llvm {
+
+namespace {
+
+namespace assembly = dspic::assembly;
+
+/// How the linker fills an operand of this kind with a symbol's address; 0 when it cannot.
+unsigned fixup_of(dspic::Operand kind, const dspic::Row& row) {
+  using dspic::Operand;
+  switch (kind) {
+    case Operand::File:
+      return row.has(&dspic::Fields::B) ? DSPICFix::NearByte : DSPICFix::Near;
+    case Operand::FileWord:
+      return StringRef(row.mnemonic) == "MOV" ? DSPICFix::FileOfMove : DSPICFix::File;
+    case Operand::Branch:
+      return DSPICFix::Branch;
+    case Operand::DoEnd:
+      return DSPICFix::DoEnd;
+    case Operand::Target:
+      return DSPICFix::CallLow;
+    case Operand::Literal: {
+      constexpr std::uint32_t kLiteral16 = 0x0FFFF0;  // MOV #lit16,Wn
+      for (const dspic::Field& field : row.fields)
+        if (field.mask == kLiteral16) return DSPICFix::Literal16;
+      return 0;
+    }
+    default:
+      return 0;
+  }
+}
+
+/// XC16's functions of an address, each a way of its own to fill #lit16.
+unsigned fixup_named(StringRef function) {
+  return StringSwitch<unsigned>(function.lower())
+      .Case("tbloffset", DSPICFix::TableOffset)
+      .Case("tblpage", DSPICFix::TablePage)
+      .Case("psvoffset", DSPICFix::PsvOffset)
+      .Case("psvpage", DSPICFix::PsvPage)
+      .Case("handle", DSPICFix::Literal16)
+      .Default(0);
+}
+
+bool holds_value(const assembly::Written& operand) {
+  using assembly::Written;
+  return operand.kind == Written::Immediate || operand.kind == Written::Plain ||
+         operand.kind == Written::IndirectLiteral;
+}
+
+/// An operand that waits for the linker.
+struct Symbolic {
+  const MCExpr* expression;
+  unsigned fixup;
+};
+
+class Parser : public MCTargetAsmParser {
+ public:
+  Parser(const MCSubtargetInfo& subtarget, MCAsmParser& parser, const MCInstrInfo& instructions,
+         const MCTargetOptions& options)
+      : MCTargetAsmParser(options, subtarget, instructions) {
+    MCAsmParserExtension::Initialize(parser);
+  }
+  bool ParseRegister(unsigned&, SMLoc&, SMLoc&) override { return true; }
+  OperandMatchResultTy tryParseRegister(unsigned&, SMLoc&, SMLoc&) override { return MatchOperand_NoMatch; }
+  void convertToMapAndConstraints(unsigned, const OperandVector&) override {}
+
+  bool ParseInstruction(ParseInstructionInfo&, StringRef name, SMLoc at, OperandVector&) override {
+    mnemonic_ = name.str();
+    const char* begin = at.getPointer() + name.size();
+    while (getLexer().isNot(AsmToken::EndOfStatement)) Lex();
+    operands_ = StringRef(begin, getLexer().getLoc().getPointer() - begin).split(';').first.trim().str();
+    Lex();
+    return false;
+  }
+
+  bool MatchAndEmitInstruction(SMLoc at, unsigned&, OperandVector&, MCStreamer& out, uint64_t&,
+                               bool) override {
+    bool failed = false;
+    const auto complain = [&](const std::string& message) { failed |= Error(at, message); };
+    const assembly::Choice choice = assembly::choose(mnemonic_, operands_, complain);
+    if (failed || !choice.row) return true;
+    SmallVector<Symbolic, 2> symbolic;
+    std::map<std::string, std::int64_t> values;
+    for (size_t i = 0; i < choice.operands.size(); ++i) {
+      const std::string& text = choice.operands[i].text;
+      std::string error;
+      if (text.empty() || !holds_value(choice.operands[i]) || value_of(text, values[text], error)) continue;
+      Symbolic s{nullptr, fixup_of(choice.row->kinds[i], *choice.row)};
+      if (!s.fixup || !address_of(text, s)) return Error(at, error);
+      symbolic.push_back(s);
+      // the field stays zero: a branch to the next instruction is one of zero words
+      values[text] = s.fixup == DSPICFix::Branch ? 2 : s.fixup == DSPICFix::DoEnd ? 4 : 0;
+    }
+    const auto words = encode(
+        choice, 0, [&](const std::string& text) { return values[text]; }, complain);
+    if (!failed) emit(out, words, symbolic);
+    return failed;
+  }
+
+  bool ParseDirective(AsmToken) override { return true; }  // none beside LLVM's
+
+ private:
+  bool value_of(const std::string& text, std::int64_t& value, std::string& error) {
+    const auto symbols = [this](const std::string& name, std::int64_t& v) {
+      MCSymbol* symbol = getContext().lookupSymbol(name);
+      return symbol && symbol->isVariable() && symbol->getVariableValue()->evaluateAsAbsolute(v);
+    };
+    return assembly::evaluate(text, symbols, nullptr, value, error);
+  }
+  /// "name", "name + 2", "tbloffset(name)".
+  bool address_of(StringRef text, Symbolic& s) {
+    text = text.trim();
+    size_t end = 0;
+    while (end < text.size() && assembly::continues_name(text[end])) ++end;
+    const StringRef name = text.take_front(end), rest = text.drop_front(end).trim();
+    if (rest.startswith("(") && rest.endswith(")")) {
+      const unsigned named = name.empty() ? s.fixup : fixup_named(name);
+      if (!named || (s.fixup != DSPICFix::Literal16 && !name.empty())) return false;
+      s.fixup = named;
+      return address_of(rest.drop_front().drop_back(), s);
+    }
+    if (name.empty()) return false;
+    s.expression = MCSymbolRefExpr::create(symbol(name), getContext());
+    std::int64_t offset = 0;
+    std::string error;
+    if (rest.empty()) return true;
+    if (!value_of("0" + rest.str(), offset, error)) return false;
+    s.expression =
+        MCBinaryExpr::createAdd(s.expression, MCConstantExpr::create(offset, getContext()), getContext());
+    return true;
+  }
+  /// "1b" and "1f" are the nearest label 1 before and after.
+  MCSymbol* symbol(StringRef name) {
+    unsigned number;
+    const char direction = name.back();
+    if ((direction == 'b' || direction == 'f') && !name.drop_back().getAsInteger(10, number))
+      return getContext().getDirectionalLocalSymbol(number, direction == 'b');
+    return getContext().getOrCreateSymbol(name);
+  }
+  /// Words as they are, with what the linker adds (RAW in control.td).
+  void emit(MCStreamer& out, const std::vector<std::uint32_t>& words, ArrayRef<Symbolic> symbolic) {
+    for (size_t i = 0; i < words.size(); ++i) {
+      MCInst raw = MCInstBuilder(DSPIC::RAW).addImm(words[i]);
+      for (const Symbolic& s : symbolic) {
+        const bool is_in_second = s.fixup == DSPICFix::DoEnd;
+        if (s.fixup != DSPICFix::CallLow && is_in_second != (i == 1)) continue;
+        raw.addOperand(MCOperand::createImm(
+            s.fixup == DSPICFix::CallLow && i == 1 ? unsigned(DSPICFix::CallHigh) : s.fixup));
+        raw.addOperand(MCOperand::createExpr(s.expression));
+      }
+      out.emitInstruction(raw, getSTI());
+    }
+  }
+
+  std::string mnemonic_, operands_;
+};
+
+}  // namespace
+
+void register_dspic_parser(Target& target) { RegisterMCAsmParser<Parser> parser(target); }
+
+}  // namespace llvm

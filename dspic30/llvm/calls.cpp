@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: MIT
+// The calling convention, XC16's (its manual's section on function parameters; facts that objects show):
+//
+//   arguments   left to right, each takes the first free registers of W0..W7 that suit it: a word any, a long
+//   or float
+//               an even pair, 64 bits W0..W3 or W4..W7, a struct as many in a row as it has words. So a later
+//               short argument may fill a gap. What finds none, and everything behind "...", goes on the
+//               stack, the first nearest to the return address.
+//   result      W0, W1:W0, W3..W0; a struct of up to 8 bytes alike, a longer one where W0 points
+//   kept        W8 to W14; lost W0 to W7
+//
+// Doubtful: a struct behind "..." is handed over by its address here; programs with such calls must not mix
+// compilers.
+#include "dspic30/llvm/interrupts.h"
+#include "dspic30/llvm/subtarget.h"
+#include "llvm/CodeGen/MachineFrameInfo.h"
+#include "llvm/CodeGen/MachineRegisterInfo.h"
+
+namespace llvm {
+
+namespace {
+
+constexpr unsigned kArgumentRegisters = 8, kResultRegisters = 4;
+constexpr int kReturnAddress = 4;  // bytes between the stacked arguments and the callee's frame
+const MCPhysReg kRegisters[kArgumentRegisters] = {DSPIC::W0, DSPIC::W1, DSPIC::W2, DSPIC::W3,
+                                                  DSPIC::W4, DSPIC::W5, DSPIC::W6, DSPIC::W7};
+
+/// One word of an argument and where it travels.
+struct Word {
+  unsigned value;     // index among the values LLVM hands over; a struct is one value
+  unsigned of_value;  // which word of it
+  bool in_register;
+  MCPhysReg reg = 0;
+  int offset = 0;  // on the stack, from W15 at the CALL
+};
+
+struct Places {
+  SmallVector<Word, 16> words;
+  int stack_bytes = 0;
+};
+
+template <class Argument>
+bool is_fixed(const Argument& a) {
+  if constexpr (std::is_same_v<Argument, ISD::OutputArg>)
+    return a.IsFixed;
+  else
+    return true;
+}
+
+template <class Argument>
+bool is_struct(const Argument& a) {
+  return a.Flags.isByVal() && is_fixed(a);
+}
+
+template <class Argument>
+Places place(const SmallVectorImpl<Argument>& arguments) {
+  Places places;
+  unsigned used = 0;  // a bit a register
+  for (unsigned i = 0; i < arguments.size();) {
+    const Argument& a = arguments[i];
+    // LLVM hands a long over as two values, 64 bits as four
+    unsigned end = i + 1;
+    if (a.Flags.isSplit())
+      while (!arguments[end++].Flags.isSplitEnd()) {
+      }
+    const unsigned size = is_struct(a) ? (a.Flags.getByValSize() + 1) / 2 : end - i;
+    const unsigned step = is_struct(a) || size == 1 ? 1 : size == 2 ? 2 : 4;
+    const unsigned mask = (1u << size) - 1;
+    unsigned first = 0;
+    while (first + size <= kArgumentRegisters && (used >> first & mask)) first += step;
+    const bool fits = size <= kArgumentRegisters && first + size <= kArgumentRegisters && is_fixed(a);
+    if (fits)
+      used |= mask << first;
+    else
+      places.stack_bytes += 2 * size;
+    for (unsigned w = 0; w < size; ++w) {
+      Word word{is_struct(a) ? i : i + w, is_struct(a) ? w : 0, fits};
+      if (fits)
+        word.reg = kRegisters[first + w];
+      else
+        word.offset = -places.stack_bytes + 2 * int(w);
+      places.words.push_back(word);
+    }
+    i = end;
+  }
+  return places;
+}
+
+/// The address of word `n` of the struct at `base`.
+SDValue word_of(SDValue base, unsigned n, const SDLoc& where, SelectionDAG& dag) {
+  return n ? dag.getNode(ISD::ADD, where, MVT::i16, base, dag.getConstant(2 * n, where, MVT::i16)) : base;
+}
+
+/// Reads word `n` of a struct of `size` bytes; an odd last byte alone, for nothing may lie behind it.
+SDValue load_word(SDValue chain, SDValue base, unsigned n, unsigned size, Align align, const SDLoc& where,
+                  SelectionDAG& dag) {
+  SDValue at = word_of(base, n, where, dag);
+  if (2 * n + 1 == size)
+    return dag.getExtLoad(ISD::ZEXTLOAD, where, MVT::i16, chain, at, MachinePointerInfo(), MVT::i8);
+  return dag.getLoad(MVT::i16, where, chain, at, MachinePointerInfo(), std::min(align, Align(2)));
+}
+
+/// A struct behind "...": a copy on the caller's frame; its address is the argument.
+SDValue copy_to_frame(SDValue& chain, SDValue source, ISD::ArgFlagsTy flags, const SDLoc& where,
+                      SelectionDAG& dag) {
+  const unsigned size = flags.getByValSize();
+  const int object = dag.getMachineFunction().getFrameInfo().CreateStackObject(size, Align(2), false);
+  SDValue copy = dag.getFrameIndex(object, MVT::i16);
+  chain = dag.getMemcpy(chain, where, copy, source, dag.getConstant(size, where, MVT::i16),
+                        std::min(Align(2), flags.getNonZeroByValAlign()), false, true, false,
+                        MachinePointerInfo(), MachinePointerInfo());
+  return copy;
+}
+
+}  // namespace
+
+SDValue DSPICTargetLowering::LowerFormalArguments(SDValue chain, CallingConv::ID, bool variadic,
+                                                  const SmallVectorImpl<ISD::InputArg>& ins,
+                                                  const SDLoc& where, SelectionDAG& dag,
+                                                  SmallVectorImpl<SDValue>& values) const {
+  auto& mf = dag.getMachineFunction();
+  auto& frame = mf.getFrameInfo();
+  const Places places = place(ins);
+  if (variadic) mf.getInfo<DSPICFunctionInfo>()->named_stack_bytes = places.stack_bytes;
+  SDValue object;  // of the struct being received
+  SmallVector<SDValue, 8> stores;
+  for (const Word& w : places.words) {
+    const bool starts_struct = is_struct(ins[w.value]) && w.of_value == 0;
+    const unsigned size = is_struct(ins[w.value]) ? ins[w.value].Flags.getByValSize() : 2;
+    if (!w.in_register) {
+      // it lies on the stack already
+      if (w.of_value) continue;
+      const int fixed = frame.CreateFixedObject(alignTo(size, 2), -kReturnAddress + w.offset, !starts_struct);
+      SDValue at = dag.getFrameIndex(fixed, MVT::i16);
+      values.push_back(starts_struct ? at
+                                     : dag.getLoad(MVT::i16, where, chain, at,
+                                                   MachinePointerInfo::getFixedStack(mf, fixed)));
+      continue;
+    }
+    const Register v = mf.getRegInfo().createVirtualRegister(&DSPIC::WRegClass);
+    mf.getRegInfo().addLiveIn(w.reg, v);
+    SDValue word = dag.getCopyFromReg(chain, where, v, MVT::i16);
+    if (!is_struct(ins[w.value])) {
+      values.push_back(word);
+      continue;
+    }
+    if (starts_struct) {
+      object = dag.getFrameIndex(frame.CreateStackObject(alignTo(size, 2), Align(2), false), MVT::i16);
+      values.push_back(object);
+    }
+    stores.push_back(dag.getStore(word.getValue(1), where, word, word_of(object, w.of_value, where, dag),
+                                  MachinePointerInfo()));
+  }
+  for (unsigned i = values.size(); i < ins.size(); ++i)  // structs without members take no word
+    if (ins[i].Flags.isByVal()) values.push_back(dag.getConstant(0, where, MVT::i16));
+  if (stores.empty()) return chain;
+  stores.push_back(chain);
+  return dag.getNode(ISD::TokenFactor, where, MVT::Other, stores);
+}
+
+SDValue DSPICTargetLowering::LowerCall(CallLoweringInfo& call, SmallVectorImpl<SDValue>& values) const {
+  SelectionDAG& dag = call.DAG;
+  const SDLoc where = call.DL;
+  call.IsTailCall = false;
+  SDValue before = call.Chain;
+  for (unsigned i = 0; i < call.Outs.size(); ++i)
+    if (call.Outs[i].Flags.isByVal() && !call.Outs[i].IsFixed)
+      call.OutVals[i] = copy_to_frame(before, call.OutVals[i], call.Outs[i].Flags, where, dag);
+
+  // the words of structs are read before the stack moves
+  const Places places = place(call.Outs);
+  SmallVector<SDValue, 16> words, loads;
+  for (const Word& w : places.words) {
+    const auto& out = call.Outs[w.value];
+    if (!is_struct(out)) {
+      words.push_back(call.OutVals[w.value]);
+      continue;
+    }
+    words.push_back(load_word(before, call.OutVals[w.value], w.of_value, out.Flags.getByValSize(),
+                              out.Flags.getNonZeroByValAlign(), where, dag));
+    loads.push_back(words.back().getValue(1));
+  }
+  if (!loads.empty()) before = dag.getNode(ISD::TokenFactor, where, MVT::Other, loads);
+
+  SDValue chain = dag.getCALLSEQ_START(before, places.stack_bytes, 0, where);
+  SDValue stack;
+  SmallVector<SDValue, 8> stores;
+  for (unsigned i = 0; i < places.words.size(); ++i) {
+    if (places.words[i].in_register) continue;
+    if (!stack) stack = dag.getCopyFromReg(chain, where, DSPIC::W15, MVT::i16);
+    SDValue offset = dag.getConstant(places.words[i].offset, where, MVT::i16);
+    SDValue at = dag.getNode(ISD::ADD, where, MVT::i16, stack, offset);
+    stores.push_back(dag.getStore(chain, where, words[i], at, MachinePointerInfo()));
+  }
+  if (!stores.empty()) chain = dag.getNode(ISD::TokenFactor, where, MVT::Other, stores);
+
+  SDValue glue;
+  SmallVector<SDValue, 16> ops(2);  // chain and callee, below
+  for (unsigned i = 0; i < places.words.size(); ++i) {
+    if (!places.words[i].in_register) continue;
+    chain = dag.getCopyToReg(chain, where, places.words[i].reg, words[i], glue);
+    glue = chain.getValue(1);
+    ops.push_back(dag.getRegister(places.words[i].reg, MVT::i16));
+  }
+  ops[0] = chain;
+  ops[1] = call.Callee;
+  if (auto* g = dyn_cast<GlobalAddressSDNode>(call.Callee))
+    ops[1] = dag.getTargetGlobalAddress(g->getGlobal(), where, MVT::i16, g->getOffset());
+  else if (auto* e = dyn_cast<ExternalSymbolSDNode>(call.Callee))
+    ops[1] = dag.getTargetExternalSymbol(e->getSymbol(), MVT::i16);
+  const auto* registers = dag.getSubtarget().getRegisterInfo();
+  ops.push_back(
+      dag.getRegisterMask(registers->getCallPreservedMask(dag.getMachineFunction(), call.CallConv)));
+  if (glue) ops.push_back(glue);
+  chain = dag.getNode(DSPICISD::CALL, where, dag.getVTList(MVT::Other, MVT::Glue), ops);
+  chain = dag.getCALLSEQ_END(chain, dag.getIntPtrConstant(places.stack_bytes, where, true),
+                             dag.getIntPtrConstant(0, where, true), chain.getValue(1), where);
+  glue = chain.getValue(1);
+  for (unsigned i = 0; i < call.Ins.size(); ++i) {
+    SDValue word = dag.getCopyFromReg(chain, where, kRegisters[i], MVT::i16, glue);
+    chain = word.getValue(1);
+    glue = word.getValue(2);
+    values.push_back(word);
+  }
+  return chain;
+}
+
+bool DSPICTargetLowering::CanLowerReturn(CallingConv::ID, MachineFunction&, bool,
+                                         const SmallVectorImpl<ISD::OutputArg>& outs, LLVMContext&) const {
+  return outs.size() <= kResultRegisters;
+}
+
+SDValue DSPICTargetLowering::LowerReturn(SDValue chain, CallingConv::ID, bool,
+                                         const SmallVectorImpl<ISD::OutputArg>& outs,
+                                         const SmallVectorImpl<SDValue>& results, const SDLoc& where,
+                                         SelectionDAG& dag) const {
+  SDValue glue;
+  SmallVector<SDValue, 6> ops(1);
+  for (unsigned i = 0; i < outs.size(); ++i) {
+    chain = dag.getCopyToReg(chain, where, kRegisters[i], results[i], glue);
+    glue = chain.getValue(1);
+    ops.push_back(dag.getRegister(kRegisters[i], MVT::i16));
+  }
+  ops[0] = chain;
+  if (glue) ops.push_back(glue);
+  const bool from_interrupt = is_interrupt(dag.getMachineFunction().getFunction());
+  return dag.getNode(from_interrupt ? DSPICISD::RETURN_FROM_INTERRUPT : DSPICISD::RETURN, where, MVT::Other,
+                     ops);
+}
+
+}  // namespace llvm

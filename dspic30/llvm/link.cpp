@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#include "dspic30/llvm/link.h"
+
+#include <cstdio>
+
+#include "dspic30/llvm/link_debug.h"
+
+namespace dspic::link {
+
+bool run(const Options& options) {
+  Program program;
+  if (read_all(program, options)) {
+    keep_used(program);
+    place_debug(program);
+    place_all(program, options);
+    fill_all(program);
+    halve_addresses(program);
+    if (program.errors.empty()) write_all(program, options);
+  }
+  for (const std::string& w : program.warnings) std::fprintf(stderr, "link: warning: %s\n", w.c_str());
+  for (const std::string& e : program.errors) std::fprintf(stderr, "link: error: %s\n", e.c_str());
+  if (program.errors.empty()) std::fputs(report(program).c_str(), stdout);
+  return program.errors.empty();
+}
+
+}  // namespace dspic::link

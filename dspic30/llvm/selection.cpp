@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+// Instruction selection: the patterns of the .td files, and by hand what patterns cannot say (pairs of
+// results, post-increment, stack objects).
+#include "dspic30/llvm/machine.h"
+#include "dspic30/llvm/memory_spaces.h"
+#include "llvm/CodeGen/SelectionDAGISel.h"
+
+namespace llvm {
+
+namespace {
+
+constexpr uint64_t kNearEnd = 0x2000;  // what 13 bits of address reach
+
+/// Whether file instructions reach the variable: it says so, or it is small. The linker puts all of these
+/// below kNearEnd, and says which variables are too many.
+bool is_near(const GlobalValue* g) {
+  auto* v = dyn_cast<GlobalVariable>(g);
+  if (!v || v->isConstant()) return false;
+  if (v->hasSection()) {
+    const auto* space = dspic_elf::space_of(v->getSection());
+    return space && space->flags & dspic_elf::kNearSpace;
+  }
+  return dspic_elf::is_small(*v);
+}
+
+class Selection : public SelectionDAGISel {
+ public:
+  Selection(TargetMachine& machine, CodeGenOpt::Level level) : SelectionDAGISel(machine, level) {}
+  StringRef getPassName() const override { return "dsPIC instruction selection"; }
+
+ private:
+#include "DSPICGenDAGISel.inc"
+
+  SDValue word(int64_t v, const SDLoc& where) { return CurDAG->getTargetConstant(v, where, MVT::i16); }
+  SDNode* machine_node(unsigned opcode, const SDLoc& where, ArrayRef<EVT> types, ArrayRef<SDValue> ops) {
+    return CurDAG->getMachineNode(opcode, where, CurDAG->getVTList(types), ops);
+  }
+
+  // --- shapes of addresses (operands.td). An address has exactly one of them for words, and one for bytes.
+
+  bool select_absolute(SDValue n, SDValue& file) {
+    if (n.getOpcode() == DSPICISD::WRAP) {
+      file = n.getOperand(0);
+      return true;
+    }
+    auto* c = dyn_cast<ConstantSDNode>(n);
+    if (!c || c->getZExtValue() & 1) return false;
+    file = word(c->getZExtValue(), SDLoc(n));
+    return true;
+  }
+  bool select_near_byte(SDValue n, SDValue& file) {
+    if (auto* c = dyn_cast<ConstantSDNode>(n)) {
+      file = word(c->getZExtValue(), SDLoc(n));
+      return c->getZExtValue() < kNearEnd;
+    }
+    if (n.getOpcode() != DSPICISD::WRAP) return false;
+    file = n.getOperand(0);
+    auto* g = dyn_cast<GlobalAddressSDNode>(file);
+    return g && is_near(g->getGlobal());
+  }
+  bool select_near(SDValue n, SDValue& file) {
+    return select_near_byte(n, file) &&
+           !(isa<ConstantSDNode>(file) && cast<ConstantSDNode>(file)->getZExtValue() & 1);
+  }
+  bool select_offset(SDValue n, SDValue& base, SDValue& offset, bool byte) {
+    int64_t k = 0;
+    const bool is_sum = CurDAG->isBaseWithConstantOffset(n) ||
+                        (n.getOpcode() == ISD::ADD && isa<ConstantSDNode>(n.getOperand(1)));
+    if (is_sum) {
+      k = cast<ConstantSDNode>(n.getOperand(1))->getSExtValue();
+      n = n.getOperand(0);
+      // how far a stack object lies is not known yet: it may have any offset here
+      const bool reaches = byte ? isInt<10>(k) : isInt<11>(k) && !(k & 1);
+      if (!reaches && !isa<FrameIndexSDNode>(n)) return false;
+    } else if (!isa<FrameIndexSDNode>(n)) {
+      return false;
+    }
+    if (auto* f = dyn_cast<FrameIndexSDNode>(n)) n = CurDAG->getTargetFrameIndex(f->getIndex(), MVT::i16);
+    base = n;
+    offset = word(k, SDLoc(n));
+    return true;
+  }
+  bool select_word_offset(SDValue n, SDValue& base, SDValue& offset) {
+    return select_offset(n, base, offset, false);
+  }
+  bool select_byte_offset(SDValue n, SDValue& base, SDValue& offset) {
+    return select_offset(n, base, offset, true);
+  }
+  bool select_indexed(SDValue n, SDValue& base, SDValue& index) {
+    if (n.getOpcode() != ISD::ADD || !n.hasOneUse() || isa<ConstantSDNode>(n.getOperand(1))) return false;
+    base = n.getOperand(0);
+    index = n.getOperand(1);
+    return true;
+  }
+  bool select_indirect(SDValue n, SDValue& pointer) {
+    SDValue a, b;
+    pointer = n;
+    return !select_absolute(n, a) && !select_word_offset(n, a, b) && !select_indexed(n, a, b);
+  }
+  bool select_indirect_byte(SDValue n, SDValue& pointer) {
+    SDValue a, b;
+    pointer = n;
+    return !select_byte_offset(n, a, b) && !select_indexed(n, a, b);
+  }
+  bool SelectInlineAsmMemoryOperand(const SDValue& op, unsigned, std::vector<SDValue>& out) override {
+    SDValue base, offset;
+    if (!select_byte_offset(op, base, offset)) base = op, offset = word(0, SDLoc(op));
+    out.push_back(base);
+    out.push_back(offset);
+    return false;
+  }
+
+  // --- by hand
+
+  void Select(SDNode* n) override {
+    if (n->isMachineOpcode()) return n->setNodeId(-1);
+    switch (n->getOpcode()) {
+      case ISD::FrameIndex:
+        return select_stack_address(n, cast<FrameIndexSDNode>(n), 0);
+      case ISD::ADD:
+        if (auto* f = dyn_cast<FrameIndexSDNode>(n->getOperand(0)))
+          if (auto* c = dyn_cast<ConstantSDNode>(n->getOperand(1)))
+            return select_stack_address(n, f, c->getSExtValue());
+        break;
+      case ISD::MUL:
+      case ISD::SMUL_LOHI:
+      case ISD::UMUL_LOHI:
+        return select_product(n);
+      case ISD::SDIVREM:
+      case ISD::UDIVREM:
+        return select_division(n);
+      case ISD::LOAD:
+        if (cast<LoadSDNode>(n)->getAddressingMode() == ISD::POST_INC) return select_post_increment(n);
+        break;
+      case DSPICISD::SELECT2: {
+        SmallVector<SDValue, 6> ops(n->op_begin(), n->op_end());
+        return ReplaceNode(n, machine_node(DSPIC::SELECT2, SDLoc(n), {MVT::i16, MVT::i16}, ops));
+      }
+    }
+    SelectCode(n);
+  }
+
+  void select_stack_address(SDNode* n, FrameIndexSDNode* object, int64_t offset) {
+    SDValue target = CurDAG->getTargetFrameIndex(object->getIndex(), MVT::i16);
+    CurDAG->SelectNodeTo(n, DSPIC::LEA, MVT::i16, target, word(offset, SDLoc(n)));
+  }
+  void select_product(SDNode* n) {
+    const SDLoc where(n);
+    SDValue l = n->getOperand(0), r = n->getOperand(1);
+    unsigned opcode = n->getOpcode() == ISD::SMUL_LOHI ? DSPIC::MULSS : DSPIC::MULUU;
+    auto* c = dyn_cast<ConstantSDNode>(r);
+    if (c && opcode == DSPIC::MULUU && c->getZExtValue() < 32) {
+      opcode = DSPIC::MULUUi;
+      r = word(c->getZExtValue(), where);
+    }
+    SDValue pair(machine_node(opcode, where, {MVT::Untyped}, {l, r}), 0);
+    const auto half = [&](unsigned i) { return CurDAG->getTargetExtractSubreg(i, where, MVT::i16, pair); };
+    ReplaceUses(SDValue(n, 0), half(DSPIC::sub_lo));
+    if (n->getOpcode() != ISD::MUL) ReplaceUses(SDValue(n, 1), half(DSPIC::sub_hi));
+    CurDAG->RemoveDeadNode(n);
+  }
+  void select_division(SDNode* n) {
+    const SDLoc where(n);
+    const unsigned opcode = n->getOpcode() == ISD::SDIVREM ? DSPIC::DIVS : DSPIC::DIVU;
+    SDValue glue(machine_node(opcode, where, {MVT::Glue}, {n->getOperand(0), n->getOperand(1)}), 0);
+    const unsigned results[] = {DSPIC::W0, DSPIC::W1};  // quotient, remainder
+    for (unsigned i : {0, 1}) {
+      if (!n->hasAnyUseOfValue(i)) continue;
+      SDValue v = CurDAG->getCopyFromReg(CurDAG->getEntryNode(), where, results[i], MVT::i16, glue);
+      glue = v.getValue(2);
+      ReplaceUses(SDValue(n, i), v);
+    }
+    CurDAG->RemoveDeadNode(n);
+  }
+  void select_post_increment(SDNode* n) {
+    auto* load = cast<LoadSDNode>(n);
+    const unsigned opcode = load->getMemoryVT() == MVT::i16             ? DSPIC::MOVldpi
+                            : load->getExtensionType() == ISD::SEXTLOAD ? DSPIC::SEpi
+                                                                        : DSPIC::ZEpi;
+    SDNode* made = machine_node(opcode, SDLoc(n), {MVT::i16, MVT::i16, MVT::Other},
+                                {load->getBasePtr(), load->getChain()});
+    CurDAG->setNodeMemRefs(cast<MachineSDNode>(made), {load->getMemOperand()});
+    ReplaceNode(n, made);
+  }
+};
+
+}  // namespace
+
+FunctionPass* create_dspic_selection(TargetMachine& machine, CodeGenOpt::Level level) {
+  return new Selection(machine, level);
+}
+
+}  // namespace llvm

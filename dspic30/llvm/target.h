@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// The front door of the dsPIC30F target: what twinpuck-cc needs of it.
+//
+// A module goes through the passes of hal_sim/cc, then addPassesToEmitFile() of the machine made here:
+// selection (lowering.cpp, selection.cpp), registers, frames (frames.cpp), words (encoder.cpp) or text
+// (printer.cpp). Where an instruction lies is counted in octets, four a word; the linker halves them to the
+// chip's addresses.
+#pragma once
+#include "llvm/MC/TargetRegistry.h"
+
+namespace llvm {
+
+/// Registers the target; again does nothing.
+Target& dspic_target();
+
+/// What LLVM must know of the chip's memory: 16-bit pointers, everything aligned to words, none to more.
+inline constexpr const char* kDspicDataLayout = "e-p:16:16-i16:16-i32:16-i64:16-f32:16-f64:16-a:8-n16-S16";
+inline constexpr const char* kDspicTriple = "dspic30f-microchip-none-elf";
+inline constexpr const char* kDspicCpu = "30f6014a";
+
+// parts that register themselves with the target
+void register_dspic_mc(Target& target);
+void register_dspic_printer(Target& target);
+void register_dspic_parser(Target& target);
+
+}  // namespace llvm

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// The chip's half of twinpuck-cc (--target=dspic30f6014a): the same front end on the chip's own data layout,
+// the same kind of passes, and the dsPIC30F's code generator (dspic30/llvm). Stages, in order:
+//
+//   chip_target.cpp      what clang must know of the chip; XC16's attributes
+//   chip_lower.cpp       registers, attributes, bit-fields, struct results: from C's terms to the code
+//   generator's chip_pipeline.cpp    optimiser's passes, in our own order chip_emit.cpp        object,
+//   assembler text or IR
+#pragma once
+#include "frontend.h"
+
+namespace clang {
+class TargetInfo;
+class TargetOptions;
+class ASTContext;
+}  // namespace clang
+namespace llvm {
+class TargetMachine;
+}
+
+namespace cc {
+struct Unit;
+
+/// clang's notion of the chip: 16-bit int and pointers, double as wide as float.
+clang::TargetInfo* make_chip_target(std::shared_ptr<clang::TargetOptions> options);
+
+/// XC16's attributes that place a variable, in the parser's spelling (the token filter writes it so).
+inline constexpr const char* kAttributePrefix = "tp_";
+/// Gives variables whose attributes were read since the last call their sections.
+void place_variables(clang::ASTContext& context);
+
+/// Prefix of annotations by which attributes of functions travel from clang to chip_lower.cpp:
+/// "dspic:save=_a,_b".
+inline constexpr const char* kFunctionNote = "dspic:";
+
+/// Before the optimiser; false after an error.
+bool lower_for_chip(Unit& unit);
+void optimise_for_chip(Unit& unit, llvm::TargetMachine& machine);
+/// All stages after the front end, and writes what the options ask for. The exit code of twinpuck-cc.
+int compile_for_chip(Unit& unit);
+/// A .s file instead of a .c file. The exit code of twinpuck-cc.
+int assemble_for_chip(const Options& options);
+
+}  // namespace cc

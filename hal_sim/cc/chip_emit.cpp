@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// The last stage for the chip: names as the linker knows them, then the code generator.
+#include "chip.h"
+#include "dspic30/llvm/target.h"
+#include "llvm/Analysis/TargetLibraryInfo.h"
+#include "llvm/IR/LegacyPassManager.h"
+#include "llvm/IR/Verifier.h"
+#include "llvm/Support/CommandLine.h"
+#include "llvm/Support/FileSystem.h"
+#include "llvm/Support/raw_ostream.h"
+#include "llvm/Target/TargetMachine.h"
+#include "passes.h"
+
+namespace cc {
+
+using namespace llvm;
+
+namespace {
+
+/// Options that only exist as flags of LLVM's command line.
+void set_flags() {
+  const char* flags[] = {"twinpuck-cc",
+                         // no speculation: a branch round a BSET must stay one
+                         "-phi-node-folding-threshold=0", "-two-entry-phi-node-folding-threshold=0",
+                         "-unroll-threshold=40"};
+  cl::ParseCommandLineOptions(std::size(flags), flags);
+}
+
+/// XC16 puts an underscore before every name of C. "\1" says that nothing is to be added.
+void add_underscores(Module& m) {
+  const auto rename = [](GlobalValue& g) {
+    const StringRef name = g.getName();
+    if (name.empty() || name.startswith("\1") || name.startswith("llvm.") || g.hasPrivateLinkage()) return;
+    g.setName("\1_" + name);
+  };
+  for (Function& f : m) rename(f);
+  for (GlobalVariable& g : m.globals()) rename(g);
+  for (GlobalAlias& a : m.aliases()) rename(a);
+}
+
+std::unique_ptr<TargetMachine> make_machine(const Options& o) {
+  TargetOptions options;
+  // "None" would split what must be one instruction: LATAbits.LATA6 = 1
+  const auto level = o.level == 0 ? CodeGenOpt::Less : CodeGenOpt::Default;
+  return std::unique_ptr<TargetMachine>(
+      dspic_target().createTargetMachine(kDspicTriple, kDspicCpu, "", options, None, None, level));
+}
+
+bool write(Module& m, const Options& o, TargetMachine& machine) {
+  std::error_code ec;
+  raw_fd_ostream out(o.output, ec, sys::fs::OF_None);
+  if (ec) {
+    errs() << o.output << ": cannot write: " << ec.message() << "\n";
+    return false;
+  }
+  if (o.emit_ir) {
+    m.print(out, nullptr);
+    return true;
+  }
+  legacy::PassManager passes;
+  TargetLibraryInfoImpl library(Triple(m.getTargetTriple()));
+  library.disableAllFunctions();
+  passes.add(new TargetLibraryInfoWrapperPass(library));
+  const auto kind = o.emit_text ? CGFT_AssemblyFile : CGFT_ObjectFile;
+  if (machine.addPassesToEmitFile(passes, out, nullptr, kind)) return false;
+  passes.run(m);
+  return true;
+}
+
+}  // namespace
+
+int compile_for_chip(Unit& unit) {
+  constexpr int kUsersFault = 1, kOurFault = 6;
+  Module& m = unit.module;
+  set_flags();
+  auto machine = make_machine(unit.options);
+  if (!lower_for_chip(unit)) return kUsersFault;
+  optimise_for_chip(unit, *machine);
+  add_underscores(m);
+  if (verifyModule(m, &errs())) {
+    errs() << unit.options.input << ": internal error: malformed code after the pipeline\n";
+    return kOurFault;
+  }
+  return write(m, unit.options, *machine) ? 0 : kUsersFault;
+}
+
+}  // namespace cc

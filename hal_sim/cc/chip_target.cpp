@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+// clang has no dsPIC30F. A TargetInfo of our own gives it the widths and the layout, and attributes of XC16
+// become either notes on functions or names of sections, which the later stages read.
+#include <map>
+
+#include "chip.h"
+#include "clang/AST/ASTContext.h"
+#include "clang/AST/Attr.h"
+#include "clang/AST/Decl.h"
+#include "clang/AST/Expr.h"
+#include "clang/Basic/MacroBuilder.h"
+#include "clang/Basic/TargetInfo.h"
+#include "clang/Sema/ParsedAttr.h"
+#include "clang/Sema/Sema.h"
+#include "dspic30/llvm/target.h"
+#include "llvm/ADT/StringExtras.h"
+
+namespace {
+
+using namespace clang;
+
+// TargetInfo::TargetOpts is private and must not stay empty; an explicit instantiation may name it
+std::shared_ptr<TargetOptions>& options_of(TargetInfo& target);
+template <std::shared_ptr<TargetOptions> TargetInfo::*member>
+struct OptionsKey {
+  friend std::shared_ptr<TargetOptions>& options_of(TargetInfo& target) { return target.*member; }
+};
+template struct OptionsKey<&TargetInfo::TargetOpts>;
+
+class ChipTarget : public TargetInfo {
+ public:
+  explicit ChipTarget(std::shared_ptr<TargetOptions> options) : TargetInfo(llvm::Triple(llvm::kDspicTriple)) {
+    options_of(*this) = std::move(options);
+    TLSSupported = false;
+    PointerWidth = PointerAlign = IntWidth = IntAlign = 16;
+    LongWidth = 32, LongLongWidth = 64;
+    LongAlign = LongLongAlign = FloatAlign = DoubleAlign = LongDoubleAlign = SuitableAlign = 16;
+    DefaultAlignForAttributeAligned = 16;
+    DoubleWidth = 32, DoubleFormat = &llvm::APFloat::IEEEsingle();
+    LongDoubleWidth = 64, LongDoubleFormat = &llvm::APFloat::IEEEdouble();
+    SizeType = UnsignedInt;
+    PtrDiffType = IntPtrType = SigAtomicType = Int16Type = SignedInt;
+    WCharType = UnsignedShort, WIntType = UnsignedInt, Char32Type = UnsignedLong;
+    Int64Type = IntMaxType = SignedLongLong;
+    MaxAtomicPromoteWidth = MaxAtomicInlineWidth = 16;
+    resetDataLayout(llvm::kDspicDataLayout);
+  }
+  void getTargetDefines(const LangOptions&, MacroBuilder& b) const override {
+    b.defineMacro("__TWINPUCK_CHIP__");
+  }
+  ArrayRef<Builtin::Info> getTargetBuiltins() const override { return {}; }
+  BuiltinVaListKind getBuiltinVaListKind() const override { return CharPtrBuiltinVaList; }
+  const char* getClobbers() const override { return ""; }
+  ArrayRef<const char*> getGCCRegNames() const override {
+    static const char* const names[] = {"w0", "w1",  "w2",  "w3",  "w4",  "w5",  "w6",  "w7", "w8",
+                                        "w9", "w10", "w11", "w12", "w13", "w14", "w15", "sr"};
+    return names;
+  }
+  ArrayRef<GCCRegAlias> getGCCRegAliases() const override { return {}; }
+  bool validateAsmConstraint(const char*& name, ConstraintInfo& info) const override {
+    if (!StringRef("abcdew").contains(*name)) return false;
+    info.setAllowsRegister();
+    return true;
+  }
+  bool hasBitIntType() const override { return true; }
+};
+
+// --- attributes
+
+/// What the attributes of one variable say of its place.
+struct Placement {
+  std::string space;  // "", "near", "far", "xmemory", "ymemory", "eedata", "prog", "psv", "persistent"
+  unsigned address = 0;
+};
+// attributes come before the declaration is complete: kept until place_variables()
+std::map<VarDecl*, Placement>& pending() {
+  static std::map<VarDecl*, Placement> all;
+  return all;
+}
+
+std::string section_of(const Placement& place, bool has_value) {
+  const char* name = llvm::StringSwitch<const char*>(place.space)
+                         .Case("near", has_value ? ".ndata" : ".nbss")
+                         .Case("xmemory", has_value ? ".xdata" : ".xbss")
+                         .Case("ymemory", has_value ? ".ydata" : ".ybss")
+                         .Case("persistent", ".pbss")
+                         .Case("eedata", ".eedata")
+                         .Case("prog", ".prog")
+                         .Cases("psv", "auto_psv", "const", ".const")
+                         .Default(has_value ? ".data" : ".bss");
+  return place.address ? std::string(name) + "@" + llvm::utohexstr(place.address) : name;
+}
+
+/// __save__(a,b) and __preprologue__("...") inside interrupt(...): calls, as the parser sees them.
+void note_interrupt_argument(Expr* argument, FunctionDecl* function, ASTContext& context);
+
+void note(FunctionDecl* function, const std::string& what, ASTContext& context) {
+  function->addAttr(AnnotateAttr::CreateImplicit(context, cc::kFunctionNote + what, nullptr, 0));
+}
+
+void note_interrupt_argument(Expr* argument, FunctionDecl* function, ASTContext& context) {
+  auto* call = dyn_cast<CallExpr>(argument->IgnoreParenImpCasts());
+  auto* callee = call ? call->getDirectCallee() : nullptr;
+  if (!callee) return;
+  const StringRef kind = callee->getName();
+  std::string names;
+  for (Expr* e : call->arguments()) {
+    e = e->IgnoreParenCasts();
+    if (auto* text = dyn_cast<StringLiteral>(e))
+      names += text->getString();
+    else if (auto* variable = dyn_cast<DeclRefExpr>(e))
+      names += (names.empty() ? "_" : ",_") + variable->getDecl()->getName().str();
+  }
+  if (kind.contains("save")) note(function, "save=" + names, context);
+  if (kind.contains("preprologue")) note(function, "preprologue=" + names, context);
+}
+
+/// Takes every attribute that the token filter of the front end has marked with kAttributePrefix.
+class ChipAttribute : public ParsedAttrInfo {
+ public:
+  ChipAttribute() {
+    constexpr unsigned kAnyNumber = 15;
+    OptArgs = kAnyNumber;
+    static constexpr Spelling kSpellings[] = {
+        {ParsedAttr::AS_GNU, "tp_interrupt"}, {ParsedAttr::AS_GNU, "tp_shadow"},
+        {ParsedAttr::AS_GNU, "tp_auto_psv"},  {ParsedAttr::AS_GNU, "tp_no_auto_psv"},
+        {ParsedAttr::AS_GNU, "tp_space"},     {ParsedAttr::AS_GNU, "tp_near"},
+        {ParsedAttr::AS_GNU, "tp_far"},       {ParsedAttr::AS_GNU, "tp_persistent"},
+        {ParsedAttr::AS_GNU, "tp_address"}};
+    Spellings = kSpellings;
+  }
+  AttrHandling handleDeclAttribute(Sema& sema, Decl* decl, const ParsedAttr& attribute) const override {
+    const StringRef name =
+        attribute.getAttrName()->getName().drop_front(StringRef(cc::kAttributePrefix).size());
+    if (auto* function = dyn_cast<FunctionDecl>(decl)) {
+      note(function, name.str(), sema.Context);
+      for (unsigned i = 0; i < attribute.getNumArgs(); ++i)
+        if (attribute.isArgExpr(i))
+          note_interrupt_argument(attribute.getArgAsExpr(i), function, sema.Context);
+    } else if (auto* variable = dyn_cast<VarDecl>(decl)) {
+      place(pending()[variable], name, attribute, sema.Context);
+    }
+    return AttributeApplied;
+  }
+
+ private:
+  static void place(Placement& place, StringRef name, const ParsedAttr& attribute, ASTContext& context) {
+    const unsigned count = attribute.getNumArgs();
+    if (name == "space" && count == 1 && attribute.isArgIdent(0)) {
+      place.space = attribute.getArgAsIdent(0)->Ident->getName().trim('_').str();
+    } else if (name == "address" && count == 1 && attribute.isArgExpr(0)) {
+      if (auto value = attribute.getArgAsExpr(0)->getIntegerConstantExpr(context))
+        place.address = value->getZExtValue();
+    } else if (place.space.empty()) {
+      place.space = name.str();
+    }
+  }
+};
+ParsedAttrInfoRegistry::Add<ChipAttribute> registered("dspic", "attributes of XC16");
+
+}  // namespace
+
+namespace cc {
+
+clang::TargetInfo* make_chip_target(std::shared_ptr<clang::TargetOptions> options) {
+  return new ChipTarget(std::move(options));
+}
+
+void place_variables(clang::ASTContext& context) {
+  for (auto& [variable, place] : pending())
+    if (!variable->hasAttr<SectionAttr>())
+      variable->addAttr(SectionAttr::CreateImplicit(context, section_of(place, variable->hasInit())));
+  pending().clear();
+}
+
+}  // namespace cc

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+// The chip's compiler, looked at as text: what must be one instruction is one, arguments travel where XC16's
+// do, handlers keep what they use.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+#include "hal_sim/cc/object_cache.h"
+#include "twinpuck_paths.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Instructions of one function, a line each, without labels, directives and blanks.
+std::string code_of(const std::string& source, const std::string& function,
+                    const std::string& level = "-O1") {
+  const fs::path work = fs::path(TWINPUCK_BUILD_DIR) / "tests" / "chip_code";
+  fs::create_directories(work);
+  std::ofstream(work / "x.c") << "#include <p30F6014A.h>\n" << source;
+  const std::string root = TWINPUCK_SOURCE_DIR;
+  const auto run =
+      cc::run_process({std::string(TWINPUCK_BUILD_DIR) + "/twinpuck-cc", "--target=dspic30f6014a", level,
+                       "-S", "-c", (work / "x.c").string(), "-I" + root + "/firmware/include", "-I",
+                       root + "/hal_sim/cc/libc/include", "-o", (work / "x.s").string()});
+  if (run.status != 0) return run.output;
+  std::ifstream in(work / "x.s");
+  std::string code;
+  bool inside = false;
+  for (std::string line; std::getline(in, line);) {
+    if (line == "_" + function + ":") inside = true;
+    if (line.rfind(".Lfunc_end", 0) == 0) inside = false;
+    if (!inside || line.empty() || line[0] != '\t') continue;
+    if (line[1] == '.' && line.rfind("\t.pword", 0) != 0) continue;  // .pword: of inline assembler
+    code += std::regex_replace(line.substr(1), std::regex("\t"), " ") + "\n";
+  }
+  return code;
+}
+
+TEST(ChipCode, bit_of_register_is_set_cleared_and_toggled_by_one_instruction) {
+  const char* source = R"(
+void set(void) { LATAbits.LATA6 = 1; }
+void clear(void) { IFS0bits.T1IF = 0; }
+void toggle(void) { LATAbits.LATA12 ^= 1; }
+void wait(void) { while (!IFS0bits.T1IF) ; }
+void mask(void) { LATD |= 0x8000; })";
+  // LATA 0x2C4 = 708, IFS0 0x084 = 132, LATD 0x2D6 = 726
+  EXPECT_EQ(code_of(source, "set"), "bset 708, #6\nreturn\n");
+  EXPECT_EQ(code_of(source, "set", "-O0"), "bset 708, #6\nreturn\n");
+  EXPECT_EQ(code_of(source, "clear"), "bclr 132, #3\nreturn\n");
+  EXPECT_EQ(code_of(source, "clear", "-O0"), "bclr 132, #3\nreturn\n");
+  EXPECT_EQ(code_of(source, "toggle"), "btg 708, #12\nreturn\n");
+  EXPECT_EQ(code_of(source, "wait"), "btst 132, #3\nbra z, .LBB3_1\nreturn\n");
+  EXPECT_EQ(code_of(source, "mask"), "bset 726, #15\nreturn\n");
+}
+
+TEST(ChipCode, arguments_fill_gaps_as_with_xc16) {
+  // a W0, b W3:W2, c W1: the long takes an even pair, and c comes back for the gap
+  const char* source = R"(
+int gap(int a, long b, int c) { return c; }
+long pair(int a, long b) { return b; }
+struct three { int v[3]; };
+int of_struct(int a, struct three s, int c) { return s.v[2] + c; }
+int ninth(int a, int b, int c, int d, int e, int f, int g, int h, int i, int j) { return j; })";
+  EXPECT_EQ(code_of(source, "gap"), "mov w1, w0\nreturn\n");
+  EXPECT_EQ(code_of(source, "pair"), "mov w3, w1\nmov w2, w0\nreturn\n");
+  EXPECT_NE(code_of(source, "of_struct").find("add w3, w4, w0"), std::string::npos)
+      << code_of(source, "of_struct");
+  // i lies nearest to the return address, j below it: W14 - 2 (W14) - 4 (return) - 2 (i) = -8 + 2
+  EXPECT_NE(code_of(source, "ninth").find("mov [w14-10], w0"), std::string::npos) << code_of(source, "ninth");
+}
+
+TEST(ChipCode, struct_of_up_to_8_bytes_comes_back_in_registers) {
+  const char* source = R"(
+struct four { int v[4]; };
+struct five { int v[5]; };
+extern struct four a;
+extern struct five b;
+struct four small(void) { return a; }
+struct five large(void) { return b; }
+extern struct four get(void);
+int third(void) { return get().v[2]; })";
+  EXPECT_EQ(code_of(source, "small"), "mov _a, w0\nmov _a+2, w1\nmov _a+4, w2\nmov _a+6, w3\nreturn\n");
+  EXPECT_NE(code_of(source, "large").find("[w0"), std::string::npos);  // to where W0 points
+  EXPECT_NE(code_of(source, "third").find("mov w2, w0"), std::string::npos);
+}
+
+TEST(ChipCode, handler_keeps_what_it_uses_and_returns_by_retfie) {
+  const char* source = R"(
+int ticks, other, table[100];
+void __attribute__((interrupt, no_auto_psv)) _T1Interrupt(void) { IFS0bits.T1IF = 0; ticks++; }
+void __attribute__((__interrupt__, __auto_psv__)) _T2Interrupt(void) { ticks++; }
+void __attribute__((interrupt(__save__(ticks, other)), shadow, no_auto_psv)) _T3Interrupt(void) { ticks = other; }
+void _ISR _T4Interrupt(void) { ticks = table[ticks] / other; })";
+  EXPECT_EQ(code_of(source, "_T1Interrupt"), "bclr 132, #3\ninc _ticks\nretfie\n");
+  // PSVPAG is 0x34 = 52
+  EXPECT_EQ(code_of(source, "_T2Interrupt"),
+            "push 52\npush w0\nmov #__const_psvpage, w0\nmov w0, 52\ninc _ticks\npop w0\npop 52\nretfie\n");
+  EXPECT_EQ(code_of(source, "_T3Interrupt"),
+            "push.s\npush _ticks\npush _other\nmov _other, w0\nmov w0, _ticks\npop _other\npop "
+            "_ticks\npop.s\nretfie\n");
+  // a division counts in RCOUNT, 0x36 = 54
+  const std::string divides = code_of(source, "_T4Interrupt");
+  EXPECT_EQ(divides.rfind("push 54\n", 0), 0u) << divides;
+  EXPECT_NE(divides.find("repeat #17\ndiv.sw"), std::string::npos) << divides;
+  EXPECT_NE(divides.find("pop 54\nretfie\n"), std::string::npos) << divides;
+}
+
+TEST(ChipCode, only_small_and_near_variables_are_taken_for_near) {
+  const char* source = R"(
+int small, big[100], near_one[100] __attribute__((near)), far_one __attribute__((far));
+void a(void) { small++; }
+void b(void) { big[3]++; }
+void c(void) { near_one[3]++; }
+void d(void) { far_one++; })";
+  EXPECT_EQ(code_of(source, "a"), "inc _small\nreturn\n");
+  EXPECT_EQ(code_of(source, "b").find("inc _big"), std::string::npos);
+  EXPECT_EQ(code_of(source, "c"), "inc _near_one+6\nreturn\n");
+  EXPECT_EQ(code_of(source, "d").find("inc _far_one"), std::string::npos);
+}
+
+TEST(ChipCode, inline_assembler_is_checked_by_the_instruction_table) {
+  // DISI #5 is 0xFC0005
+  const std::string good = code_of("void f(void) { __asm__ volatile(\"disi #5\"); }", "f");
+  EXPECT_NE(good.find(".pword 16515077"), std::string::npos) << good;
+  const fs::path work = fs::path(TWINPUCK_BUILD_DIR) / "tests" / "chip_code";
+  std::ofstream(work / "bad.c") << "void f(void) { __asm__ volatile(\"mov #70000, w0\"); }";
+  const auto run =
+      cc::run_process({std::string(TWINPUCK_BUILD_DIR) + "/twinpuck-cc", "--target=dspic30f6014a", "-c",
+                       (work / "bad.c").string(), "-o", (work / "bad.o").string()});
+  EXPECT_NE(run.status, 0);
+  EXPECT_NE(run.output.find("70000"), std::string::npos) << run.output;
+}
+
+}  // namespace

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// twinpuck view WORLD: the world in a browser, until Ctrl-C. The page is viewer/page, bundled by `make view`.
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <thread>
+
+#include "sim_core/base/input_file.h"
+#include "tools/command_line.h"
+#include "tools/run_guard.h"
+#include "tools/verbs.h"
+#include "viewer/live_view.h"
+
+namespace tools {
+
+namespace {
+
+namespace fs = std::filesystem;
+constexpr std::size_t kLongestWorld = 8u << 20;  // bytes
+constexpr auto kLook = std::chrono::milliseconds(50);
+
+struct ViewArguments {
+  std::string world, record, way, optimisation = "-O1", files = "twinpuck-files";
+  std::vector<std::string> firmware, supervisors;
+  int port = 0, threads = 1;
+  long long seed = -1;
+};
+
+int view(const ViewArguments& a) {
+  std::vector<std::string> problems;
+  viewer::Opening opening;
+  opening.file = find_world(a.world, problems);
+  const std::string wrong =
+      problems.empty() ? sim::read_input_file(opening.file, kLongestWorld, opening.text) : "";
+  if (!wrong.empty()) problems.push_back(opening.file + ": " + wrong);
+  if (!problems.empty() || !split_choices(a.firmware, "--fw", opening.options.firmware)) {
+    complain(problems);
+    return kBadInput;
+  }
+  opening.file = fs::absolute(opening.file).lexically_normal().string();
+  opening.options.way = a.way;
+  opening.options.optimisation = a.optimisation;
+  opening.options.threads = a.threads;
+  opening.options.files_folder = a.files;
+  opening.supervisors = a.supervisors;
+  const viewer::Document first(opening.file, opening.text);
+  opening.seed = a.seed >= 0 ? static_cast<std::uint64_t>(a.seed)
+                             : (first.loaded().world ? *first.loaded().world : first.loaded().draft).seed;
+
+  const auto live = viewer::LiveView::open(std::move(opening), a.record, a.port,
+                                           (fs::path(twin::build_folder()) / "page").string(), problems);
+  complain(problems);  // of the world's the page tells, too, and may mend them
+  if (!live) return kBadInput;
+  GracefulEnd guard([] {});
+  std::cout << "open " << live->server().address() << "\nCtrl-C ends it" << std::endl;
+  while (!end_asked()) std::this_thread::sleep_for(kLook);
+  return kPass;
+}
+
+}  // namespace
+
+void add_view(CLI::App& app, int& exit_code) {
+  auto* verb = app.add_subcommand("view", "See, touch and change a world in a browser");
+  auto a = std::make_shared<ViewArguments>();
+  verb->add_option("WORLD", a->world, "world file, or the name of one in worlds/")->required();
+  one_each(
+      verb->add_option("--fw", a->firmware,
+                       "[ROBOT=]FILE: a .so, a folder of C files, or a controller's name; without ROBOT, for "
+                       "every robot"));
+  verb->add_option("--port", a->port, "of 127.0.0.1; 0 takes any that is free")
+      ->check(CLI::Range(0, 65535))
+      ->capture_default_str();
+  verb->add_option("--record-inputs", a->record,
+                   "file for what the page does, with its ticks; run --replay does it again");
+  verb->add_option("--way", a->way,
+                   "native or register, for all robots whose controller is built from source")
+      ->check(CLI::IsMember({"native", "register"}));
+  one_each(verb->add_option("--supervisor", a->supervisors, "a program attached to the world"));
+  verb->add_option("--seed", a->seed, "the world's seed, 0 or more, instead of the file's")
+      ->check(CLI::NonNegativeNumber);
+  verb->add_option("--threads", a->threads, "threads that run firmware; the result does not depend on it")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  verb->add_option("--opt", a->optimisation, "level for controllers built from source")
+      ->check(CLI::IsMember({"-O0", "-O1", "-O2", "-Os"}))
+      ->capture_default_str();
+  verb->add_option("--files", a->files, "folder for files that programs for Webots write")
+      ->capture_default_str();
+  verb->footer("Example: twinpuck view maze --fw obstacle\nExit codes: 0 ended by Ctrl-C, 2 bad input");
+  verb->callback([a, &exit_code] { exit_code = view(*a); });
+}
+
+}  // namespace tools

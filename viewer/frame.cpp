@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/frame.h"
+
+#include <algorithm>
+
+#include "sim_core/light/proximity.h"
+
+namespace viewer {
+
+namespace {
+
+static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "frames are little endian");
+constexpr std::size_t kRayBytes = 7 * sizeof(float);
+
+template <typename T>
+void put(std::string& out, T value) {
+  out.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+void put_float(std::string& out, double value) { put(out, static_cast<float>(value)); }
+
+}  // namespace
+
+std::string frame_bodies(twin::Twin& twin) {
+  const sim::Scene& scene = twin.simulation().scene();
+  std::string out;
+  out.reserve(static_cast<std::size_t>(scene.bodies()) * 16 + static_cast<std::size_t>(twin.robots()) * 8);
+  for (int b = 0; b < scene.bodies(); ++b) {
+    const sim::Pose2 p = scene.pose(b, scene.now());
+    put_float(out, p.x_m);
+    put_float(out, p.y_m);
+    put_float(out, scene.z_m(b));
+    put_float(out, p.heading_rad);
+  }
+  for (int r = 0; r < twin.robots(); ++r) {
+    const host::FirmwareMind& mind = std::as_const(twin).mind(r);
+    const host::Runner* robot = mind.runner();
+    put<std::uint32_t>(out, mind.report().leds);
+    std::uint32_t state = 0;
+    if (!robot)
+      state = kNoProgram;
+    else if (robot->has_stopped())
+      state = kStopped;
+    else if (robot->waiting_since() < host::kNever)
+      state = kWaiting;
+    put(out, state);
+  }
+  return out;
+}
+
+std::string frame_rays(twin::Twin& twin, const std::vector<int>& robots) {
+  const sim::Scene& scene = twin.simulation().scene();
+  std::string out;
+  for (int r : robots) {
+    const std::size_t sensors =
+        twin.world().model_of(twin.world().robots[static_cast<std::size_t>(r)])->proximity.size();
+    for (std::size_t s = 0; s < sensors; ++s)
+      for (const sim::RayTrace& ray : sim::trace_proximity(scene, r, static_cast<int>(s), scene.now())) {
+        for (const sim::Vec3& p : {ray.from_m, ray.to_m}) {
+          put_float(out, p.x);
+          put_float(out, p.y);
+          put_float(out, p.z);
+        }
+        put_float(out, ray.hit ? std::clamp(ray.colour_factor, 0.0, 1.0) : -1);
+      }
+  }
+  return out;
+}
+
+std::string frame(twin::Twin& twin, const FrameHead& head, const std::vector<double>& values,
+                  const std::string& bodies, const std::string& rays) {
+  const sim::Scene& scene = twin.simulation().scene();
+  std::string out;
+  out.reserve(48 + values.size() * 8 + bodies.size() + rays.size());
+  out += "TPK1";
+  put<std::uint32_t>(out, head.revision);
+  put<double>(out, sim::to_seconds(scene.now()));
+  put<double>(out, head.pace);
+  put<std::uint32_t>(out, head.flags);
+  put<std::uint32_t>(out, static_cast<std::uint32_t>(twin.robots()));
+  put<std::uint32_t>(out, static_cast<std::uint32_t>(scene.bodies()));
+  put<std::uint32_t>(out, static_cast<std::uint32_t>(values.size()));
+  put<std::uint32_t>(out, static_cast<std::uint32_t>(rays.size() / kRayBytes));
+  put<std::uint32_t>(out, head.subscription);
+  for (const double value : values) put<double>(out, value);
+  return out + bodies + rays;
+}
+
+}  // namespace viewer

@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/inputs.h"
+
+#include <fmt/format.h>
+
+#include <deque>
+#include <stdexcept>
+
+#include "hal_sim/board/bluetooth_module.h"
+#include "hal_sim/board/uart_end.h"
+#include "hal_sim/host/variables.h"
+#include "hal_sim/twin/world_file.h"
+#include "sim_core/base/hash.h"
+#include "sim_core/base/input_file.h"
+#include "sim_core/load/world_loader.h"
+
+namespace viewer {
+
+namespace {
+
+constexpr std::size_t kLongestRecording = 256u << 20;  // bytes
+
+[[noreturn]] void refuse_input(const std::string& what) { throw std::runtime_error(what); }
+
+int whole(const Json& input, const char* key, int least, int most) {
+  const double value = input.at(key).get<double>();
+  if (!(value >= least && value <= most) || value != static_cast<int>(value))
+    refuse_input(fmt::format("{}: got {}, expected {} to {}", key, input.at(key).dump(), least, most));
+  return static_cast<int>(value);
+}
+
+double number(const Json& input, const char* key, double least, double most) {
+  const double value = input.at(key).get<double>();
+  if (!(value >= least && value <= most))
+    refuse_input(fmt::format("{}: got {}, expected {} to {}", key, input.at(key).dump(), least, most));
+  return value;
+}
+
+/// Without what is of the request, or of its place in a recording.
+Json bare(Json input) {
+  for (const char* other : {"id", "at"}) input.erase(other);
+  return input;
+}
+
+std::string hex(std::uint64_t n) { return fmt::format("{:016x}", n); }
+
+}  // namespace
+
+/// The far end of a serial line on which somebody types. What the robot sends is heard elsewhere.
+class TypedLine final : public board::UartEnd {
+ public:
+  void type(const std::string& bytes) {
+    waiting_.insert(waiting_.end(), bytes.begin(), bytes.end());
+    idle = waiting_.empty();
+  }
+  void deliver(const std::uint8_t*, const board::Cycle*, std::size_t) override {}
+  std::size_t collect(std::uint8_t* bytes, std::size_t room, board::Cycle) override {
+    std::size_t count = 0;
+    for (; count < room && !waiting_.empty(); ++count) {
+      bytes[count] = static_cast<std::uint8_t>(waiting_.front());
+      waiting_.pop_front();
+    }
+    idle = waiting_.empty();
+    return count;
+  }
+  std::string name() const override { return {}; }
+
+ private:
+  std::deque<char> waiting_;
+};
+
+Inputs::~Inputs() = default;
+
+bool Inputs::is_input(const std::string& what) {
+  for (const char* known : {"move", "type", "selector", "key", "battery", "set", "reset", "world"})
+    if (what == known) return true;
+  return false;
+}
+
+int Inputs::robot_of(const Json& input) const {
+  const auto name = input.at("robot").get<std::string>();
+  const int robot = twin_.find(name);
+  if (robot < 0) refuse_input(fmt::format("robot: got '{}', expected a robot of the world", name));
+  return robot;
+}
+
+host::Runner& Inputs::program_of(const Json& input, int robot) {
+  host::Runner* program = twin_.mind(robot).runner();
+  if (!program) refuse_input(fmt::format("robot: got {}, which runs no program", input.at("robot").dump()));
+  return *program;
+}
+
+/// A line gets its far end when somebody types for the first time: a run with a page is one without.
+TypedLine& Inputs::line(int robot, int port) {
+  auto& line = lines_[robot * 2 + port - 1];
+  if (line) return *line;
+  if (twin_.uart_choice(robot, port) != "-" && twin_.uart_choice(robot, port) != "none")
+    refuse_input(fmt::format("port: got {}, whose other end is {}", port, twin_.uart_choice(robot, port)));
+  line = std::make_shared<TypedLine>();
+  if (port == 1)
+    twin_.bluetooth(robot).connect_computer(line);
+  else
+    twin_.mind(robot).board().uart(port).connect(line);
+  return *line;
+}
+
+void Inputs::apply(const Json& input) {
+  const auto what = input.at("do").get<std::string>();
+  sim::Simulation& simulation = twin_.simulation();
+  if (what == "world") {
+    sim::LoadedWorld loaded = twin::parse_world(input.at("text").get<std::string>(), twin_.world().file);
+    if (!loaded.world) refuse_input(loaded.report("world"));
+    if (loaded.world->robots.size() != twin_.world().robots.size() ||
+        loaded.world->physics_hz != twin_.world().physics_hz)
+      refuse_input("text: got other robots or another tick, expected the same");
+    std::size_t movable = 0;
+    for (const auto& object : loaded.world->objects) movable += object.movable;
+    const auto before = input.at("before").get<std::vector<int>>();
+    if (before.size() != movable) refuse_input("before: expected one number for each movable object");
+    for (int body : before)
+      if (body >= simulation.scene().bodies() || (body >= 0 && body < twin_.robots()))
+        refuse_input(fmt::format("before: got {}, expected a movable object or -1", body));
+    loaded.world->seed = twin_.world().seed;
+    for (std::size_t i = 0; i < twin_.world().robots.size(); ++i)
+      loaded.world->robots[i].firmware = twin_.world().robots[i].firmware;
+    simulation.refurnish(*loaded.world, before);
+    return;
+  }
+  if (what == "program") {
+    const std::string wrong =
+        twin_.flash(input.at("robots").get<std::vector<int>>(), input.at("image").get<std::string>());
+    if (!wrong.empty()) refuse_input(wrong);
+    return;
+  }
+  if (what == "move") {
+    const int body =
+        input.contains("body") ? whole(input, "body", 0, simulation.scene().bodies() - 1) : robot_of(input);
+    simulation.move(body,
+                    {number(input, "x", -1000, 1000), number(input, "y", -1000, 1000),
+                     number(input, "heading", -1e6, 1e6)},
+                    simulation.scene().z_m(body));
+    return;
+  }
+  const int robot = robot_of(input);
+  host::FirmwareMind& mind = twin_.mind(robot);
+  if (what == "selector") {
+    mind.board().turn_selector(whole(input, "position", 0, 15));
+  } else if (what == "battery") {
+    mind.board().set_battery(number(input, "volts", 3.0, 4.2), mind.now());
+  } else if (what == "type") {
+    line(robot, whole(input, "port", 1, 2)).type(input.at("bytes").get<std::string>());
+  } else if (what == "key") {
+    const double hold_s = input.value("hold", 0.1);
+    if (!(hold_s >= 0 && hold_s <= 60)) refuse_input("hold: expected 0 to 60 s");
+    mind.press_key({whole(input, "key", 0, 63), sim::to_seconds(simulation.now()), hold_s,
+                    input.value("address", 0) & 31});
+  } else if (what == "reset") {
+    program_of(input, robot).restart();
+  } else if (what == "set") {
+    host::Runner& program = program_of(input, robot);
+    const auto expression = input.at("variable").get<std::string>();
+    std::string error;
+    const host::Variable* v = program.find_variable(expression, error);
+    if (!v) refuse_input(error);
+    if (v->kind == host::Variable::Kind::Aggregate || v->bytes > 8)
+      refuse_input(
+          fmt::format("variable: got '{}', expected a number; name a member or element", expression));
+    char bytes[8] = {};
+    program.read_memory(v->address, bytes, v->bytes);
+    host::set_variable_value(*v, bytes, input.at("value").get<double>());
+    program.write_memory(v->address, bytes, v->bytes);
+  } else {
+    refuse_input(fmt::format("do: got '{}', expected an input", what));
+  }
+  if (mind.runner()) mind.runner()->wake();
+  std::uint64_t hash = sim::mix64(static_cast<std::uint64_t>(robot) + 1);
+  for (const char c : bare(input).dump()) hash = sim::mix64(hash ^ static_cast<unsigned char>(c));
+  simulation.note_intervention(hash);
+}
+
+// --- recordings
+
+Json to_json(const Opening& o) {
+  Json firmware = Json::array();
+  for (const auto& choice : o.options.firmware) firmware.push_back({choice.robot, choice.value});
+  return {{"twinpuck_inputs", 1},
+          {"file", o.file},
+          {"text", o.text},
+          {"seed", o.seed},
+          {"firmware", firmware},
+          {"way", o.options.way},
+          {"opt", o.options.optimisation},
+          {"supervisors", o.supervisors}};
+}
+
+Recorder::Recorder(const std::string& path, const Opening& opening) : file_(path, "--record-inputs") {
+  file_.append(to_json(opening).dump() + "\n");
+}
+
+void Recorder::note(sim::Clicks at, const Json& input) {
+  Json line = bare(input);
+  line["at"] = at;
+  file_.append(line.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+void Recorder::end(sim::Clicks at, std::uint64_t digest) {
+  note(at, {{"do", "end"}, {"digest", hex(digest)}});
+  file_.close();
+}
+
+std::unique_ptr<Replay> Replay::open(const std::string& path, std::vector<std::string>& problems) {
+  std::string text;
+  const std::string wrong = sim::read_input_file(path, kLongestRecording, text);
+  if (!wrong.empty()) {
+    problems.push_back(path + ": " + wrong);
+    return nullptr;
+  }
+  auto replay = std::make_unique<Replay>();
+  int number = 0;
+  try {
+    for (std::size_t begin = 0; begin < text.size();) {
+      const std::size_t end = text.find('\n', begin);
+      if (end == std::string::npos) break;  // cut off: the last line is not whole
+      const Json line = Json::parse(text.substr(begin, end - begin));
+      begin = end + 1;
+      if (number++ == 0) {
+        if (line.at("twinpuck_inputs").get<int>() != 1) refuse_input("version: expected 1");
+        Opening& o = replay->opening;
+        o.file = line.at("file").get<std::string>();
+        o.text = line.at("text").get<std::string>();
+        o.seed = line.at("seed").get<std::uint64_t>();
+        o.options.way = line.at("way").get<std::string>();
+        o.options.optimisation = line.at("opt").get<std::string>();
+        o.supervisors = line.at("supervisors").get<std::vector<std::string>>();
+        for (const Json& choice : line.at("firmware"))
+          o.options.firmware.push_back({choice.at(0).get<std::string>(), choice.at(1).get<std::string>()});
+      } else if (line.at("do") == "end") {
+        replay->end_ = line.at("at").get<sim::Clicks>();
+        replay->digest_ = std::stoull(line.at("digest").get<std::string>(), nullptr, 16);
+      } else {
+        if (line.at("at").get<sim::Clicks>() < 0) refuse_input("at: expected 0 or more");
+        replay->inputs_.push_back(line);
+      }
+    }
+    if (number == 0) refuse_input("got an empty file, expected a recording of inputs");
+  } catch (const std::exception& e) {
+    problems.push_back(fmt::format("{}:{}: {}", path, number, e.what()));
+    return nullptr;
+  }
+  return replay;
+}
+
+void Replay::resume(twin::Options& options) const {
+  options.way = opening.options.way;
+  options.optimisation = opening.options.optimisation;
+  options.firmware = opening.options.firmware;
+}
+
+void Replay::finish(Inputs& inputs, sim::Simulation& simulation, std::vector<std::string>& problems) {
+  apply_due(inputs, simulation.now());
+  if (end_ < 0 || simulation.now() < end_ || simulation.digest() == digest_) return;
+  problems.push_back(
+      fmt::format("replay: got digest {}, expected {} as recorded: world, program or Twinpuck are others",
+                  hex(simulation.digest()), hex(digest_)));
+}
+
+void Replay::apply_due(Inputs& inputs, sim::Clicks now) {
+  for (; next() <= now; ++at_) inputs.apply(inputs_[at_]);
+}
+
+}  // namespace viewer

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// What somebody outside does to a running world: moves things, types, turns selectors, changes the furniture.
+// An input is a JSON object with the key "do"; docs/control.md lists them. Applied between ticks, each
+// becomes part of the history that the digest sees. Written down with their ticks they repeat a session bit
+// by bit:
+//
+//   {"twinpuck_inputs": 1, "file": "maze.toml", "text": "...", "seed": 1, "firmware": [["*", "obstacle"]]}
+//   {"at": 7372800, "do": "selector", "robot": "puck", "position": 3}
+//   {"at": 29491200, "do": "end", "digest": "165a659790c166b6"}
+#pragma once
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "hal_sim/twin/twin.h"
+#include "sim_core/base/output_file.h"
+
+namespace viewer {
+
+using Json = nlohmann::json;
+
+class TypedLine;
+
+class Inputs {
+ public:
+  explicit Inputs(twin::Twin& twin) : twin_(twin) {}
+  ~Inputs();
+  /// Does it; throws std::runtime_error that says what is wrong, "got ..., expected ...", when nothing was
+  /// done. Json's own exceptions pass: a member is missing or of another type.
+  void apply(const Json& input);
+  /// Is it one of these? Other requests do not change the world.
+  static bool is_input(const std::string& what);
+
+ private:
+  int robot_of(const Json& input) const;
+  host::Runner& program_of(const Json& input, int robot);
+  TypedLine& line(int robot, int port);
+
+  twin::Twin& twin_;
+  std::map<int, std::shared_ptr<TypedLine>> lines_;  // [robot * 2 + port - 1]
+};
+
+/// How a world was opened: what a recording begins with.
+struct Opening {
+  std::string file, text;
+  std::uint64_t seed = 1;
+  twin::Options options;
+  std::vector<std::string> supervisors;
+};
+Json to_json(const Opening& opening);
+
+/// Writes inputs down as they happen.
+class Recorder {
+ public:
+  Recorder(const std::string& path, const Opening& opening);
+  void note(sim::Clicks at, const Json& input);
+  /// The run is over.
+  void end(sim::Clicks at, std::uint64_t digest);
+  const std::string& error() const { return file_.error(); }
+
+ private:
+  sim::OutputFile file_;
+};
+
+/// A recording, done again.
+class Replay {
+ public:
+  /// Null, with a line in `problems`, when the file is none.
+  static std::unique_ptr<Replay> open(const std::string& path, std::vector<std::string>& problems);
+  /// What it was opened with; the rest of the options are the caller's.
+  Opening opening;
+  /// When the next input is due; kEver: no more come.
+  sim::Clicks next() const {
+    return at_ < inputs_.size() ? inputs_[at_].at("at").get<sim::Clicks>() : sim::kEver;
+  }
+  /// The options with which it was opened, over those of the command.
+  void resume(twin::Options& options) const;
+  /// What was done at the end, then: is it the same run? Otherwise a line in `problems`.
+  void finish(Inputs& inputs, sim::Simulation& simulation, std::vector<std::string>& problems);
+  /// Does all that are due now.
+  void apply_due(Inputs& inputs, sim::Clicks now);
+  /// Where the recording ends, and with which digest; negative: it was cut off.
+  sim::Clicks end() const { return end_; }
+  std::uint64_t digest() const { return digest_; }
+
+ private:
+  std::vector<Json> inputs_;
+  std::size_t at_ = 0;
+  sim::Clicks end_ = -1;
+  std::uint64_t digest_ = 0;
+};
+
+}  // namespace viewer

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// A session and the server through which pages reach it.
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "viewer/session.h"
+#include "viewer/web_server.h"
+
+namespace viewer {
+
+class LiveView {
+ public:
+  /// Null, with lines in `problems`, when the port cannot be had. A world that cannot run is shown all the
+  /// same, its problems are in `problems`, too. `record`: file for inputs; `page_folder`: of the bundled
+  /// page.
+  static std::unique_ptr<LiveView> open(Opening opening, const std::string& record, int port,
+                                        const std::string& page_folder, std::vector<std::string>& problems);
+  ~LiveView();
+  const WebServer& server() const { return *server_; }
+
+ private:
+  LiveView() = default;
+  std::unique_ptr<Session> session_;
+  std::unique_ptr<WebServer> server_;
+};
+
+}  // namespace viewer

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// Anything of a robot that has a name and a number: what pages plot and inspectors show. Looking changes
+// nothing that the robot could notice.
+//
+//   puck.x puck.heading puck.ir3 puck.light3 puck.acc_x puck.mic0 puck.led4 puck.left_steps puck.selector
+//   puck.battery puck.load puck.collisions puck.pin:D3 puck.var:speed[1]
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "hal_sim/twin/twin.h"
+
+namespace viewer {
+
+struct Named {
+  std::string unit;  ///< "" for none
+  std::function<double(twin::Twin&)> value;
+};
+
+/// Throws std::runtime_error, "got ..., expected ...", for a name that nothing has.
+Named find_named(twin::Twin& twin, const std::string& name);
+
+/// Names that every robot has, without the robot's, for lists to choose from.
+std::vector<std::string> names_of_robots();
+
+}  // namespace viewer

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT
+// Beside the scene: a robot with its sensors, lights and selector, or a thing with the keys of its piece of the
+// world file.
+import type { App } from "./main";
+import type { KeySpec, Robot, Thing } from "./protocol";
+import { readLiteral } from "./protocol";
+import { byId, css, h } from "./dom";
+
+const kSwatches: [string, number[]][] = [["black", [0, 0, 0]], ["white", [1, 1, 1]], ["grey", [0.5, 0.5, 0.5]],
+  ["red", [0.85, 0.1, 0.1]], ["green", [0.1, 0.6, 0.25]], ["blue", [0.1, 0.3, 0.8]], ["yellow", [0.95, 0.8, 0.1]]];
+const kGauges: [string, string, number, number][] = [["speed", "m/s", 0, 0.13], ["battery", "V", 3, 4.2], ["load", "%", 0, 100],
+  ["left_steps", "steps", 0, 0], ["right_steps", "steps", 0, 0], ["distance", "m", 0, 0], ["collisions", "", 0, 0],
+  ["acc_x", "counts", 0, 4095], ["acc_y", "counts", 0, 4095], ["acc_z", "counts", 0, 4095],
+  ["mic0", "counts", 0, 4095], ["mic1", "counts", 0, 4095], ["mic2", "counts", 0, 4095]];
+const kFarCounts = 4095;
+
+const hex = (c: number[]) => "#" + c.slice(0, 3).map((v) => Math.round(255 * Math.min(1, Math.max(0, v))).toString(16).padStart(2, "0")).join("");
+const fromHex = (s: string) => [1, 3, 5].map((i) => Math.round((parseInt(s.slice(i, i + 2), 16) / 255) * 1000) / 1000);
+
+export class Inspector {
+  private shown = -1;
+  private fan?: CanvasRenderingContext2D;
+  private gauges = new Map<string, { text: HTMLElement; bar: HTMLElement; least: number; most: number; unit: string }>();
+  private watched = new Map<string, string[]>();  // per robot: expressions
+  private place?: HTMLElement;
+  private selector?: { knob: HTMLInputElement; label: HTMLElement };
+
+  constructor(private app: App) {}
+
+  /** Names that the robot that is shown wants in every frame. */
+  names(): string[] {
+    const robot = this.app.selectedRobot();
+    if (!robot) return [];
+    const own = ["x", "y", "heading", "selector", ...kGauges.map((g) => g[0])];
+    for (let i = 0; i < 8; ++i) own.push(`ir${i}`, `light${i}`);
+    return [...own, ...(this.watched.get(robot.name) ?? []).map((v) => `var:${v}`)].map((n) => `${robot.name}.${n}`);
+  }
+
+  show() {
+    const robot = this.app.selectedRobot(), thing = this.app.selectedThing();
+    const editing = document.activeElement?.closest("#inspector input,#inspector select");
+    if (editing && this.shown === this.app.selected) return;
+    this.shown = this.app.selected;
+    this.gauges.clear();
+    this.fan = undefined;
+    byId("inspector").replaceChildren(...(robot ? this.robot(robot) : thing ? this.thing(thing) : this.worldPane()));
+    this.update();
+  }
+
+  private worldPane(): HTMLElement[] {
+    const w = this.app.world;
+    return [h("h2", {}, w.title || "World"), h("p", { className: "dim" }, w.file),
+      h("p", {}, "Click a robot or a thing to see and change it. Add things from the palette on the left."),
+      h("h3", {}, "Robots"),
+      h("ul", { className: "list" }, ...w.robots.map((r) => h("li", {}, h("button", { className: "row", onclick: () => this.app.select(r.id) }, h("i", { style: `background:${hex(r.colour)}` }), `${r.name}`, h("small", {}, r.firmware || "no program"))))),
+      h("h3", {}, "Things"),
+      h("ul", { className: "list" }, ...w.things.map((t) => h("li", {}, h("button", { className: "row", onclick: () => this.app.select(t.id) }, h("i", { style: `background:${hex(t.colour)}` }), t.name || t.kind, h("small", {}, t.kind))))),
+      ...this.keys("arena"), ...this.keys("world"), ...this.keys("proximity")];
+  }
+
+  private robot(robot: Robot): HTMLElement[] {
+    const canvas = h("canvas", { width: 640, height: 440, id: "fan", title: "Proximity sensors: the fuller a wedge, the nearer something is (counts, 0 to 4095). Numbers are ir0 to ir7." });
+    this.fan = canvas.getContext("2d")!;
+    const selector = h("input", { type: "range", min: "0", max: "15", value: "0", id: "selector", title: "Selector, 0 to 15: turn it while the program runs",
+      oninput: () => { label.textContent = selector.value; this.app.do("selector", { robot: robot.name, position: Number(selector.value) }); } }) as HTMLInputElement;
+    const label = h("b", { id: "selector-value" });
+    this.selector = { knob: selector, label };
+    const gauge = ([name, unit, least, most]: (typeof kGauges)[number]) => {
+      const text = h("span", { className: "number" }), bar = h("div", {});
+      this.gauges.set(`${robot.name}.${name}`, { text, bar, least, most, unit });
+      return h("div", { className: "gauge", title: `${robot.name}.${name}${unit ? ", " + unit : ""}; click to plot`, onclick: () => this.app.plots.toggle(`${robot.name}.${name}`) },
+        h("label", {}, name), h("div", { className: "track" }, bar), text);
+    };
+    const variable = h("input", { placeholder: "counter, speed[1], main.c:state", title: "A global or static variable of the program; Enter watches it",
+      onchange: () => { if (variable.value.trim()) this.watch(robot.name, variable.value.trim()); } }) as HTMLInputElement;
+    this.place = h("p", { className: "dim number" });
+    return [
+      h("h2", {}, h("i", { style: `background:${hex(robot.colour)}` }), robot.name, h("small", {}, robot.firmware || "no program")),
+      this.place,
+      h("div", { className: "buttons" },
+        h("button", { onclick: () => this.app.do("reset", { robot: robot.name }), title: "The robot's reset button" }, "Reset"),
+        h("button", { onclick: () => this.app.toggleRays(robot.name), title: "Rays of its proximity sensors (Y for all robots)" }, "Rays"),
+        h("button", { onclick: () => this.app.follow(robot.name), title: "The view goes with it" }, "Follow"),
+        h("button", { onclick: () => this.app.showDock("program"), title: "Its source" }, "Program"),
+        h("button", { onclick: () => this.app.copySelected(), title: "Copy (Ctrl D)" }, "Copy"),
+        h("button", { onclick: () => this.app.removeSelected(), title: "Delete (Del)" }, "Delete")),
+      canvas,
+      h("div", { className: "field" }, h("label", {}, "Selector"), selector, label),
+      ...kGauges.map(gauge),
+      h("h3", {}, "Variables"),
+      ...(this.watched.get(robot.name) ?? []).map((v) => {
+        const row = gauge([`var:${v}`, "", 0, 0]);
+        row.append(h("button", { className: "tiny", title: "Change it", onclick: (e: Event) => { e.stopPropagation(); const to = prompt(`${v} =`); if (to) this.app.do("set", { robot: robot.name, variable: v, value: Number(to) }); } }, "="),
+          h("button", { className: "tiny", title: "No more", onclick: (e: Event) => { e.stopPropagation(); this.watched.set(robot.name, this.watched.get(robot.name)!.filter((w) => w !== v)); this.app.subscribe(); this.show(); } }, "×"));
+        return row;
+      }),
+      h("div", { className: "field" }, variable),
+      ...this.keys("robot", robot.id),
+    ];
+  }
+
+  private async watch(robot: string, expression: string) {
+    try {
+      await this.app.connection.ask("subscribe", { names: [`${robot}.var:${expression}`] });
+      this.watched.set(robot, [...(this.watched.get(robot) ?? []), expression]);
+      (document.activeElement as HTMLElement)?.blur();
+    } catch (e) {
+      this.app.notice((e as Error).message, true);
+    }
+    this.app.subscribe();
+    this.shown = -1;
+    this.show();
+  }
+
+  private thing(thing: Thing): HTMLElement[] {
+    const element = this.app.world.elements.find((e) => e.id === thing.id);
+    return [
+      h("h2", {}, h("i", { style: `background:${hex(thing.colour)}` }), thing.name || thing.kind, h("small", {}, `${thing.kind}, line ${element?.line}`)),
+      h("div", { className: "buttons" },
+        h("button", { onclick: () => this.app.copySelected(), title: "Copy (Ctrl D)" }, "Copy"),
+        h("button", { onclick: () => this.app.turnSelected(15), title: "Turn by 15 degrees (E, back: Q)" }, "Turn"),
+        h("button", { onclick: () => this.app.removeSelected(), title: "Delete (Del)" }, "Delete")),
+      h("h3", {}, "Paint"),
+      h("div", { className: "swatches" }, ...kSwatches.map(([name, colour]) => h("button", { style: `background:${hex(colour)}`, title: name, "aria-label": `paint ${name}`, onclick: () => this.app.set(thing.id, { colour }) }))),
+      ...this.keys(element?.path ?? thing.kind, thing.id),
+    ];
+  }
+
+  /** The keys that the format has for a piece; written ones filled in. */
+  private keys(path: string, id?: number): HTMLElement[] {
+    const element = this.app.world.elements.find((e) => (id ? e.id === id : e.path === path));
+    const section = this.app.schema[path];
+    if (!element || !section) return [];
+    const written = section.keys.filter((k) => k.key in element.values), rest = section.keys.filter((k) => !(k.key in element.values));
+    const row = (k: KeySpec) => this.key(element.id, k, element.values[k.key]);
+    return [h("h3", {}, id ? "In the world file" : `[${path}]`), ...written.map(row),
+      rest.length > 0 && h("details", {}, h("summary", {}, `${rest.length} more keys`), ...rest.map(row))].filter((e): e is HTMLElement => !!e);
+  }
+
+  private key(id: number, k: KeySpec, literal?: string): HTMLElement {
+    const value = literal === undefined ? undefined : readLiteral(literal);
+    const send = (v: unknown) => this.app.set(id, { [k.key]: v });
+    const title = `${k.doc}${k.unit ? ", " + k.unit : ""}${k.range ? `, ${k.range[0]} to ${k.range[1]}` : ""}${k.default && k.default !== "required" ? "; otherwise " + k.default : ""}`;
+    let input: HTMLElement;
+    if (k.type === "colour") {
+      input = h("input", { type: "color", value: value ? hex(value) : "#ffffff", onchange: (e: any) => send(fromHex(e.target.value)) });
+    } else if (k.type === "flag") {
+      input = h("input", { type: "checkbox", checked: value === true, onchange: (e: any) => send(e.target.checked) });
+    } else if (k.type === "choice") {
+      input = h("select", { onchange: (e: any) => send(e.target.value || null) }, h("option", { value: "" }, ""), ...k.choices!.split("|").map((c) => h("option", { value: c, selected: c === value }, c)));
+    } else {
+      const text = k.type === "text";
+      input = h("input", { value: literal === undefined ? "" : text ? String(value ?? literal) : literal.replace(/\s+/g, " "), placeholder: k.default === "required" ? "" : k.default.replace(/"/g, ""), "data-key": k.key,
+        onchange: (e: any) => {
+          const typed = e.target.value.trim();
+          const v = typed === "" ? null : text ? typed : readLiteral(typed);
+          if (v === undefined) return this.app.notice(`${k.key}: got '${typed}', expected ${k.type}`, true);
+          send(v);
+          e.target.blur();
+        } });
+    }
+    return h("div", { className: "field", title }, h("label", {}, k.key), input, h("span", { className: "unit" }, k.unit));
+  }
+
+  update() {
+    const robot = this.app.selectedRobot();
+    if (!robot) return;
+    const value = (name: string) => this.app.values.get(`${robot.name}.${name}`);
+    if (this.place && value("x") !== undefined)
+      this.place.textContent = `x ${value("x")!.toFixed(3)} m   y ${value("y")!.toFixed(3)} m   ${((((value("heading")! % 360) + 360) % 360)).toFixed(0)}°`;
+    if (this.selector && value("selector") !== undefined && document.activeElement !== this.selector.knob) {
+      this.selector.knob.value = String(value("selector"));
+      this.selector.label.textContent = String(value("selector"));
+    }
+    for (const [name, g] of this.gauges) {
+      const v = this.app.values.get(name);
+      if (v === undefined) continue;
+      g.text.textContent = Number.isInteger(v) ? String(v) : v.toFixed(3);
+      g.bar.style.width = g.most > g.least ? `${(100 * Math.min(1, Math.max(0, (v - g.least) / (g.most - g.least)))).toFixed(1)}%` : "0";
+    }
+    this.drawFan(robot, value);
+  }
+
+  private drawFan(robot: Robot, value: (name: string) => number | undefined) {
+    const c = this.fan;
+    if (!c) return;
+    const { width: w, height: hgt } = c.canvas, mx = w / 2, my = hgt / 2 + 10, r0 = 62, r1 = 185;
+    c.clearRect(0, 0, w, hgt);
+    c.lineWidth = 2;
+    robot.sensors.forEach((s, i) => {
+      const counts = value(`ir${i}`) ?? 0, a = -s[3] - Math.PI / 2, half = 0.2;
+      const reach = r0 + (r1 - r0) * Math.min(1, Math.sqrt(Math.max(0, counts) / kFarCounts));
+      c.fillStyle = css("--line");
+      c.beginPath(); c.arc(mx, my, r1, a - half, a + half); c.arc(mx, my, r0, a + half, a - half, true); c.fill();
+      c.fillStyle = css("--accent");
+      c.beginPath(); c.arc(mx, my, reach, a - half, a + half); c.arc(mx, my, r0, a + half, a - half, true); c.fill();
+      c.fillStyle = css("--text");
+      c.font = "600 21px system-ui";
+      c.textAlign = "center";
+      c.fillText(`${counts.toFixed(0)}`, mx + (r1 + 26) * Math.cos(a) * 1.08, my + (r1 + 18) * Math.sin(a) + 4);
+    });
+    c.fillStyle = css("--panel2");
+    c.strokeStyle = css("--dim");
+    c.beginPath(); c.arc(mx, my, r0 - 6, 0, 7); c.fill(); c.stroke();
+    c.beginPath(); c.moveTo(mx, my - 46); c.lineTo(mx - 14, my - 22); c.lineTo(mx + 14, my - 22); c.closePath(); c.fillStyle = css("--text"); c.fill();
+    const leds = this.app.leds(robot.body);
+    for (let i = 0; i < 8; ++i) {
+      const a = -Math.PI / 2 + (i * Math.PI) / 4;
+      c.fillStyle = leds & (1 << i) ? "#ff3b30" : css("--line");
+      c.beginPath(); c.arc(mx + 44 * Math.cos(a), my + 44 * Math.sin(a), 6, 0, 7); c.fill();
+    }
+  }
+}

@@ -1,0 +1,449 @@
+// SPDX-License-Identifier: MIT
+// The world in three dimensions. Metres, z up. Robots are instances of a few meshes that share one buffer of
+// matrices; nothing is drawn unless something changed.
+import * as THREE from "three";
+import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import type { Frame, Robot, Thing, Vec, World } from "./protocol";
+
+export interface Picked { kind: "robot" | "thing" | "handle" | "floor"; id: number; point: THREE.Vector3; handle?: Handle }
+/** Something to pull: `drag` gets the place on the floor. */
+export interface Handle { x: number; y: number; z: number; title: string; drag: (x: number, y: number) => void }
+
+const kTrailPoints = 3000;
+// Okabe and Ito: told apart by the colour-blind, too
+export const kPalette = ["#0072b2", "#e69f00", "#009e73", "#d55e00", "#cc79a7", "#56b4e9", "#f0e442", "#7f7f7f"];
+
+const rgb = (c: Vec) => new THREE.Color().setRGB(c[0], c[1], c[2], THREE.SRGBColorSpace);
+
+class Trail {
+  readonly line: THREE.Line;
+  private points = new Float32Array(kTrailPoints * 3);
+  private count = 0;
+  constructor(colour: THREE.ColorRepresentation) {
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute("position", new THREE.BufferAttribute(this.points, 3));
+    geometry.setDrawRange(0, 0);
+    this.line = new THREE.Line(geometry, new THREE.LineBasicMaterial({ color: colour }));
+    this.line.frustumCulled = false;
+  }
+  add(x: number, y: number) {
+    const last = 3 * (this.count - 1);
+    if (this.count > 0 && Math.hypot(this.points[last] - x, this.points[last + 1] - y) < 0.002) return;
+    if (this.count === kTrailPoints) {
+      this.points.copyWithin(0, 3);
+      --this.count;
+    }
+    this.points.set([x, y, 0.002], 3 * this.count++);
+    this.line.geometry.setDrawRange(0, this.count);
+    this.line.geometry.attributes.position.needsUpdate = true;
+  }
+  clear() {
+    this.count = 0;
+    this.line.geometry.setDrawRange(0, 0);
+  }
+}
+
+export class Scene {
+  readonly renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
+  private scene = new THREE.Scene();
+  private camera = new THREE.PerspectiveCamera(30, 1, 0.01, 200);
+  readonly controls: OrbitControls;
+  private static_ = new THREE.Group();
+  private handles = new THREE.Group();
+  private outline = new THREE.Group();
+  private moving: { object: THREE.Object3D; body: number }[] = [];
+  private things = new Map<number, THREE.Object3D>();
+  private instances: THREE.InstancedMesh[] = [];
+  private bodyMesh?: THREE.InstancedMesh;
+  private leds?: THREE.InstancedMesh;
+  private halo?: THREE.InstancedMesh;
+  private trails: Trail[] = [];
+  private rays = new THREE.LineSegments(new THREE.BufferGeometry(),
+    new THREE.LineBasicMaterial({ vertexColors: true, transparent: true, opacity: 0.9 }));
+  private sun = new THREE.DirectionalLight(0xffffff, 1.1);
+  private dirty = true;
+  private drawing = true;
+  private world?: World;
+  private selected = 0;
+  private last?: Frame;
+  showTrails = true;
+  followed = "";
+  /** Milliseconds of script that the last frames took, without drawing. */
+  readonly work: number[] = [];
+  onDraw: () => void = () => {};
+
+  constructor(private stage: HTMLElement) {
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.type = THREE.PCFSoftShadowMap;
+    stage.prepend(this.renderer.domElement);
+    this.camera.up.set(0, 0, 1);
+    this.controls = new OrbitControls(this.camera, this.renderer.domElement);
+    this.controls.mouseButtons = { LEFT: THREE.MOUSE.PAN, MIDDLE: THREE.MOUSE.PAN, RIGHT: THREE.MOUSE.ROTATE };
+    this.controls.maxPolarAngle = Math.PI * 0.49;
+    this.controls.screenSpacePanning = false;
+    this.controls.addEventListener("change", () => this.draw());
+    this.scene.add(new THREE.HemisphereLight(0xffffff, 0xb8bcc4, 2.3), this.sun, this.static_, this.handles,
+      this.outline, this.rays);
+    this.rays.frustumCulled = false;
+    this.sun.castShadow = true;
+    this.sun.shadow.mapSize.set(2048, 2048);
+    this.sun.shadow.radius = 3;
+    new ResizeObserver(() => this.resize()).observe(stage);
+    const loop = () => {
+      requestAnimationFrame(loop);
+      if (!this.dirty || !this.drawing) return;
+      this.dirty = false;
+      this.renderer.render(this.scene, this.camera);
+      this.onDraw();
+    };
+    loop();
+  }
+
+  draw() { this.dirty = true; }
+  /** Off: everything but the drawing itself, for measurements. */
+  setDrawing(on: boolean) { this.drawing = on; }
+  setBackground(colour: string) {
+    this.scene.background = new THREE.Color(colour);
+    this.draw();
+  }
+  private resize() {
+    const { clientWidth: w, clientHeight: h } = this.stage;
+    if (!w || !h) return;
+    this.renderer.setSize(w, h);
+    this.camera.aspect = w / h;
+    this.camera.updateProjectionMatrix();
+    this.draw();
+  }
+
+  // --- the world
+
+  setWorld(world: World, keepCamera: boolean) {
+    this.world = world;
+    for (const group of [this.static_, this.outline]) this.empty(group);
+    this.things.clear();
+    this.moving = [];
+    this.addFloor(world);
+    for (const thing of world.things) this.addThing(thing);
+    this.addRobots(world.robots);
+    if (!keepCamera) this.fit(true);
+    const size = Math.max(1, this.extent().size);
+    this.sun.position.set(0.4 * size, -0.6 * size, 1.5 * size);
+    Object.assign(this.sun.shadow.camera, { left: -size, right: size, top: size, bottom: -size, far: 4 * size });
+    this.sun.shadow.camera.updateProjectionMatrix();
+    this.select(this.selected);
+    if (this.last) this.setFrame(this.last);
+    this.draw();
+  }
+
+  private empty(group: THREE.Object3D) {
+    group.traverse((o) => {
+      if (!(o instanceof THREE.Mesh || o instanceof THREE.Line)) return;
+      o.geometry.dispose();
+      for (const m of [o.material].flat()) m.dispose();
+    });
+    group.clear();
+  }
+
+  extent() {
+    const w = this.world;
+    if (w?.arena) return { x: w.arena.centre[0], y: w.arena.centre[1], size: Math.max(...w.arena.size) };
+    const box = new THREE.Box3();
+    for (const t of w?.things ?? []) for (const p of t.points ?? [t.position]) box.expandByPoint(new THREE.Vector3(p[0], p[1], 0));
+    for (const r of w?.robots ?? []) box.expandByPoint(new THREE.Vector3(r.position[0], r.position[1], 0));
+    if (box.isEmpty()) box.setFromCenterAndSize(new THREE.Vector3(), new THREE.Vector3(1, 1, 0));
+    const c = box.getCenter(new THREE.Vector3()), s = box.getSize(new THREE.Vector3());
+    return { x: c.x, y: c.y, size: Math.max(s.x, s.y, 0.6) + 0.4 };
+  }
+
+  private mesh(geometry: THREE.BufferGeometry, colour: Vec, rough = 0.75) {
+    const mesh = new THREE.Mesh(geometry, new THREE.MeshStandardMaterial({ color: rgb(colour), roughness: rough }));
+    mesh.castShadow = mesh.receiveShadow = true;
+    return mesh;
+  }
+
+  private addFloor(world: World) {
+    const e = this.extent();
+    const [w, h] = world.arena ? world.arena.size : [3 * e.size, 3 * e.size];
+    const floor = this.mesh(new THREE.PlaneGeometry(w, h), world.floor.colour, 0.95);
+    floor.castShadow = false;
+    floor.position.set(e.x, e.y, 0);
+    this.static_.add(floor);
+    // a grid of 10 cm, fainter than what matters
+    const lines: number[] = [];
+    for (let x = Math.ceil((e.x - w / 2) * 10 + 1e-6); x < (e.x + w / 2) * 10; ++x)
+      lines.push(x / 10, e.y - h / 2, 0.0006, x / 10, e.y + h / 2, 0.0006);
+    for (let y = Math.ceil((e.y - h / 2) * 10 + 1e-6); y < (e.y + h / 2) * 10; ++y)
+      lines.push(e.x - w / 2, y / 10, 0.0006, e.x + w / 2, y / 10, 0.0006);
+    const grid = new THREE.BufferGeometry().setAttribute("position", new THREE.Float32BufferAttribute(lines, 3));
+    this.static_.add(new THREE.LineSegments(grid, new THREE.LineBasicMaterial({ color: 0x808890, transparent: true, opacity: 0.28 })));
+    const a = world.arena;
+    if (!a || a.wall_height <= 0) return;
+    const t = a.wall_thickness, [sx, sy] = a.size;
+    for (const [x, y, lx, ly] of [[0, (sy + t) / 2, sx + 2 * t, t], [0, -(sy + t) / 2, sx + 2 * t, t],
+      [(sx + t) / 2, 0, t, sy], [-(sx + t) / 2, 0, t, sy]]) {
+      const wall = this.mesh(new THREE.BoxGeometry(lx, ly, a.wall_height), a.colour);
+      wall.position.set(e.x + x, e.y + y, a.wall_height / 2);
+      wall.userData.id = a.id;
+      this.static_.add(wall);
+    }
+  }
+
+  private addThing(t: Thing) {
+    const group = new THREE.Group();
+    const z = t.z ?? 0;
+    const put = (mesh: THREE.Mesh, x: number, y: number, h: number, turn = 0) => {
+      mesh.position.set(x, y, h);
+      mesh.rotation.z = turn;
+      group.add(mesh);
+    };
+    if (t.kind === "wall") {
+      const p = t.points!, count = t.closed ? p.length : p.length - 1;
+      for (let i = 0; i < count; ++i) {
+        const a = p[i], b = p[(i + 1) % p.length], l = Math.hypot(b[0] - a[0], b[1] - a[1]);
+        put(this.mesh(new THREE.BoxGeometry(l + t.thickness!, t.thickness!, t.height!), t.colour),
+          (a[0] + b[0]) / 2, (a[1] + b[1]) / 2, z + t.height! / 2, Math.atan2(b[1] - a[1], b[0] - a[0]));
+      }
+    } else if (t.kind === "lamp") {
+      const bulb = this.mesh(new THREE.SphereGeometry(0.02, 24, 16), t.colour);
+      const m = bulb.material as THREE.MeshStandardMaterial;
+      m.emissive = rgb(t.colour);
+      m.emissiveIntensity = t.on ? 1 : 0;
+      bulb.castShadow = false;
+      put(bulb, 0, 0, Math.max(0.02, t.position[2]));
+      if (t.on) group.add(new THREE.Mesh(new THREE.CircleGeometry(0.12, 48), new THREE.MeshBasicMaterial({ color: 0xffd54a, transparent: true, opacity: 0.25, depthWrite: false })).translateZ(0.001));
+    } else if (t.kind === "ramp") {
+      const [lx, ly] = t.size!, low = t.low!, high = Math.max(t.high!, 0.001);
+      const shape = new THREE.Shape([[-lx / 2, 0], [lx / 2, 0], [lx / 2, high], [-lx / 2, Math.max(low, 0.0005)]].map((p) => new THREE.Vector2(p[0], p[1])));
+      const g = new THREE.ExtrudeGeometry(shape, { depth: ly, bevelEnabled: false }).translate(0, 0, -ly / 2).rotateX(Math.PI / 2);
+      put(this.mesh(g, t.colour), 0, 0, 0);
+    } else if (t.kind === "box") {
+      put(this.mesh(new THREE.BoxGeometry(t.size![0], t.size![1], t.size![2]), t.colour), 0, 0, t.size![2] / 2);
+    } else if (t.kind === "cylinder") {
+      put(this.mesh(new THREE.CylinderGeometry(t.radius, t.radius, t.size![2], 48).rotateX(Math.PI / 2), t.colour), 0, 0, t.size![2] / 2);
+    } else if (t.kind === "ball") {
+      put(this.mesh(new THREE.SphereGeometry(t.radius, 32, 24), t.colour, 0.35), 0, 0, t.radius!);
+    } else {
+      const shape = new THREE.Shape((t.corners ?? []).map((c) => new THREE.Vector2(c[0], c[1])));
+      put(this.mesh(new THREE.ExtrudeGeometry(shape, { depth: t.size![2], bevelEnabled: false }), t.colour), 0, 0, 0);
+    }
+    if (t.kind !== "wall") {
+      group.position.set(t.position[0], t.position[1], t.kind === "lamp" ? 0 : z);
+      group.rotation.z = t.heading ?? 0;
+    }
+    group.userData.id = t.id;
+    if (t.body !== undefined) this.moving.push({ object: group, body: t.body });
+    this.things.set(t.id, group);
+    this.static_.add(group);
+  }
+
+  private addRobots(robots: Robot[]) {
+    for (const old of [...this.instances, this.leds, this.halo]) if (old) {
+      this.scene.remove(old);
+      old.geometry.dispose();
+      (old.material as THREE.Material).dispose();
+    }
+    this.instances = [];
+    this.leds = this.halo = this.bodyMesh = undefined;
+    while (this.trails.length > robots.length) this.scene.remove(this.trails.pop()!.line);
+    while (this.trails.length < robots.length) {
+      const trail = new Trail(kPalette[this.trails.length % kPalette.length]);
+      this.trails.push(trail);
+      this.scene.add(trail.line);
+    }
+    if (robots.length === 0) return;
+    const r = robots[0], n = robots.length;
+    const add = (geometry: THREE.BufferGeometry, material: THREE.Material, shadow = true) => {
+      const mesh = new THREE.InstancedMesh(geometry, material, n);
+      if (this.bodyMesh) mesh.instanceMatrix = this.bodyMesh.instanceMatrix;
+      else this.bodyMesh = mesh;
+      mesh.castShadow = shadow;
+      mesh.frustumCulled = false;
+      this.instances.push(mesh);
+      this.scene.add(mesh);
+      return mesh;
+    };
+    const upright = (g: THREE.BufferGeometry, z: number) => g.rotateX(Math.PI / 2).translate(0, 0, z);
+    const shell = add(upright(new THREE.CylinderGeometry(r.radius * 0.94, r.radius * 0.94, r.height * 0.5, 40), r.height * 0.32),
+      new THREE.MeshStandardMaterial({ roughness: 0.35, transparent: true, opacity: 0.85 }));
+    robots.forEach((robot, i) => shell.setColorAt(i, rgb(robot.colour)));
+    const dark = new THREE.MeshStandardMaterial({ color: 0x23282e, roughness: 0.6 });
+    add(upright(new THREE.CylinderGeometry(r.radius, r.radius, 0.003, 40), r.height * 0.62), dark);
+    add(upright(new THREE.CylinderGeometry(r.radius * 0.8, r.radius * 0.86, r.height * 0.3, 32), r.height * 0.82),
+      new THREE.MeshStandardMaterial({ color: 0x3b424b, roughness: 0.5 }));
+    for (const side of [1, -1])
+      add(new THREE.CylinderGeometry(r.wheel_radius, r.wheel_radius, 0.004, 32).translate(0, side * r.axle / 2, 0)
+        .applyMatrix4(new THREE.Matrix4().makeTranslation(0, 0, r.wheel_radius)), new THREE.MeshStandardMaterial({ color: 0x111417, roughness: 0.9 }));
+    // where it looks
+    const nose = new THREE.Shape([[r.radius * 0.72, 0], [r.radius * 0.1, r.radius * 0.34], [r.radius * 0.26, 0], [r.radius * 0.1, -r.radius * 0.34]].map((p) => new THREE.Vector2(p[0], p[1])));
+    add(new THREE.ShapeGeometry(nose).translate(0, 0, r.height * 0.975), new THREE.MeshBasicMaterial({ color: 0xffffff }), false);
+    const lamps = (radius: number, opacity: number) => {
+      const mesh = new THREE.InstancedMesh(new THREE.SphereGeometry(radius, 12, 8),
+        new THREE.MeshBasicMaterial({ transparent: opacity < 1, opacity, depthWrite: opacity === 1 }), n * Math.max(1, r.leds.length));
+      mesh.count = 0;
+      mesh.frustumCulled = false;
+      this.scene.add(mesh);
+      return mesh;
+    };
+    this.leds = lamps(0.0045, 1);
+    this.halo = lamps(0.011, 0.35);
+  }
+
+  // --- frames
+
+  setFrame(frame: Frame) {
+    const begin = performance.now();
+    this.last = frame;
+    const world = this.world;
+    if (!world || !this.bodyMesh && world.robots.length > 0) return;
+    const p = frame.poses, n = Math.min(frame.robots, world.robots.length);
+    const matrices = this.bodyMesh?.instanceMatrix.array as Float32Array | undefined;
+    let lit = 0;
+    const leds = this.leds?.instanceMatrix.array as Float32Array | undefined;
+    const halo = this.halo?.instanceMatrix.array as Float32Array | undefined;
+    for (let i = 0; i < n && matrices; ++i) {
+      const x = p[4 * i], y = p[4 * i + 1], z = p[4 * i + 2], c = Math.cos(p[4 * i + 3]), s = Math.sin(p[4 * i + 3]);
+      matrices.set([c, s, 0, 0, -s, c, 0, 0, 0, 0, 1, 0, x, y, z, 1], 16 * i);
+      for (let bits = frame.robotWords[2 * i], bit = 0; bits !== 0; bits >>>= 1, ++bit) {
+        const led = world.robots[i].leds[bit];
+        if (!(bits & 1) || !led || !leds || !halo) continue;
+        const lx = x + c * led[0] - s * led[1], ly = y + s * led[0] + c * led[1], lz = z + Math.max(led[2], world.robots[i].height * 0.62);
+        const m = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, lx, ly, lz, 1];
+        leds.set(m, 16 * lit);
+        halo.set(m, 16 * lit);
+        this.leds!.setColorAt(lit, new THREE.Color(led[3], led[4], led[5]));
+        this.halo!.setColorAt(lit++, new THREE.Color(led[3], led[4], led[5]));
+      }
+      this.trails[i].line.visible = this.showTrails;
+      this.trails[i].add(x, y);
+    }
+    if (this.bodyMesh) this.bodyMesh.instanceMatrix.needsUpdate = true;
+    for (const mesh of [this.leds, this.halo]) if (mesh) {
+      mesh.count = lit;
+      mesh.instanceMatrix.needsUpdate = true;
+      if (mesh.instanceColor) mesh.instanceColor.needsUpdate = true;
+    }
+    for (const { object, body } of this.moving) if (body < frame.bodies) {
+      object.position.set(p[4 * body], p[4 * body + 1], p[4 * body + 2]);
+      object.rotation.z = p[4 * body + 3];
+    }
+    this.setRays(frame.rays);
+    const follow = world.robots.find((r) => r.name === this.followed);
+    if (follow) {
+      const to = new THREE.Vector3(p[4 * follow.body], p[4 * follow.body + 1], 0), by = to.sub(this.controls.target);
+      this.controls.target.add(by);
+      this.camera.position.add(by);
+      this.controls.update();
+    }
+    this.placeOutline();
+    this.draw();
+    this.work.push(performance.now() - begin);
+    if (this.work.length > 600) this.work.shift();
+  }
+
+  private setRays(rays: Float32Array) {
+    const n = rays.length / 7, at = new Float32Array(6 * n), colours = new Float32Array(6 * n);
+    for (let i = 0; i < n; ++i) {
+      at.set(rays.subarray(7 * i, 7 * i + 6), 6 * i);
+      // free rays blue, those that meet something orange, darker the less comes back
+      const f = rays[7 * i + 6], c = f < 0 ? [0.0, 0.32, 0.6] : [0.84 * (0.3 + 0.7 * f), 0.37 * (0.3 + 0.7 * f), 0];
+      colours.set([...c, ...c], 6 * i);
+    }
+    const g = this.rays.geometry;
+    g.setAttribute("position", new THREE.BufferAttribute(at, 3));
+    g.setAttribute("color", new THREE.BufferAttribute(colours, 3));
+    this.rays.visible = n > 0;
+  }
+
+  clearTrails() {
+    this.trails.forEach((t) => t.clear());
+    this.draw();
+  }
+
+  // --- camera
+
+  fit(fromAbove: boolean) {
+    const e = this.extent();
+    const tan = Math.tan((this.camera.fov * Math.PI) / 360);
+    const d = (0.56 * e.size) / tan / Math.min(1, this.camera.aspect * 0.98);
+    this.controls.target.set(e.x, e.y, 0);
+    this.camera.position.set(e.x, e.y - (fromAbove ? 0.002 * d : 0.75 * d), e.y * 0 + (fromAbove ? d : 0.72 * d));
+    this.controls.update();
+    this.draw();
+  }
+  /** Where a place of the world is on the stage, px. */
+  project(x: number, y: number, z = 0) {
+    const v = new THREE.Vector3(x, y, z).project(this.camera), box = this.renderer.domElement.getBoundingClientRect();
+    return { x: box.left + ((v.x + 1) / 2) * box.width, y: box.top + ((1 - v.y) / 2) * box.height };
+  }
+
+  // --- pointing
+
+  private ray(event: { clientX: number; clientY: number }) {
+    const box = this.renderer.domElement.getBoundingClientRect();
+    const caster = new THREE.Raycaster();
+    caster.setFromCamera(new THREE.Vector2(((event.clientX - box.left) / box.width) * 2 - 1, 1 - ((event.clientY - box.top) / box.height) * 2), this.camera);
+    return caster;
+  }
+  floorPoint(event: { clientX: number; clientY: number }) {
+    return this.ray(event).ray.intersectPlane(new THREE.Plane(new THREE.Vector3(0, 0, 1), 0), new THREE.Vector3());
+  }
+  pick(event: { clientX: number; clientY: number }): Picked | undefined {
+    const caster = this.ray(event);
+    const floor = this.floorPoint(event) ?? new THREE.Vector3();
+    const handle = caster.intersectObjects(this.handles.children)[0];
+    if (handle) return { kind: "handle", id: this.selected, point: floor, handle: handle.object.userData.handle };
+    const hit = caster.intersectObjects([this.static_, ...this.instances], true)
+      .find((h) => h.instanceId !== undefined || this.idOf(h.object) > 0);
+    if (!hit) return { kind: "floor", id: 0, point: floor };
+    if (hit.instanceId !== undefined) return { kind: "robot", id: this.world!.robots[hit.instanceId].id, point: floor };
+    return { kind: "thing", id: this.idOf(hit.object), point: floor };
+  }
+  private idOf(object: THREE.Object3D | null): number {
+    for (; object; object = object.parent) if (object.userData.id) return object.userData.id;
+    return 0;
+  }
+
+  /** Instances' bounds are for picking, and change with every frame. */
+  beforePicking() { this.instances.forEach((mesh) => { mesh.boundingSphere = null; }); }
+
+  // --- selection
+
+  select(id: number, handles: Handle[] = []) {
+    this.selected = id;
+    this.empty(this.outline);
+    this.empty(this.handles);
+    const colour = 0xe69f00, thing = this.things.get(id), robot = this.world?.robots.find((r) => r.id === id);
+    if (robot) {
+      this.outline.add(new THREE.Mesh(new THREE.RingGeometry(robot.radius * 1.12, robot.radius * 1.3, 48), new THREE.MeshBasicMaterial({ color: colour, depthTest: false, transparent: true })));
+    } else if (thing) {
+      thing.updateMatrixWorld();
+      thing.traverse((o) => {
+        if (!(o instanceof THREE.Mesh) || o.material.transparent) return;
+        const edges = new THREE.LineSegments(new THREE.EdgesGeometry(o.geometry, 30), new THREE.LineBasicMaterial({ color: colour, depthTest: false }));
+        edges.applyMatrix4(new THREE.Matrix4().copy(thing.matrixWorld).invert().multiply(o.matrixWorld));
+        this.outline.add(edges);
+      });
+    }
+    for (const h of handles) {
+      const ball = new THREE.Mesh(new THREE.SphereGeometry(0.011, 16, 12), new THREE.MeshBasicMaterial({ color: colour, depthTest: false, transparent: true }));
+      ball.position.set(h.x, h.y, h.z);
+      ball.renderOrder = 5;
+      ball.userData.handle = h;
+      this.handles.add(ball);
+    }
+    this.placeOutline();
+    this.draw();
+  }
+  private placeOutline() {
+    const robot = this.world?.robots.find((r) => r.id === this.selected), thing = this.things.get(this.selected);
+    if (robot && this.last && robot.body < this.last.bodies) this.outline.position.set(this.last.poses[4 * robot.body], this.last.poses[4 * robot.body + 1], 0.003);
+    else if (robot) this.outline.position.set(robot.position[0], robot.position[1], 0.003);
+    else if (thing) {
+      this.outline.position.copy(thing.position);
+      this.outline.rotation.copy(thing.rotation);
+      return;
+    }
+    this.outline.rotation.set(0, 0, 0);
+  }
+}

@@ -1,0 +1,426 @@
+// SPDX-License-Identifier: MIT
+// The thread: requests, pace, frames. What requests do is in session_requests.cpp.
+#include "viewer/session.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "hal_sim/host/compiled_runner.h"
+#include "sim_core/load/world_loader.h"
+#include "viewer/world_json.h"
+
+namespace viewer {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr auto kFrameEvery = 16ms;                 // 60 a second
+constexpr auto kSlice = 8ms;                       // of stepping, between two looks at requests
+constexpr auto kPaceOver = 500ms;                  // the pace is a mean over so long
+constexpr std::size_t kLongestSerial = 64u << 10;  // bytes of a line sent at once
+
+double seconds(std::chrono::steady_clock::duration d) { return std::chrono::duration<double>(d).count(); }
+
+/// Handlers begun since the robot was made.
+std::int64_t interrupts_served(const host::Runner& program) {
+  if (const auto* compiled = dynamic_cast<const host::CompiledRunner*>(&program))
+    return compiled->interrupts_served();
+  std::int64_t sum = 0;
+  for (int vector = 0; vector < TP_VECTORS; ++vector) sum += program.served(vector);
+  return sum;
+}
+
+/// Bytes as a JSON text: what is no UTF-8 is taken for Latin-1.
+std::string latin_to_utf8(const std::string& bytes) {
+  std::string out;
+  for (const char c : bytes) {
+    const auto u = static_cast<unsigned char>(c);
+    if (u < 0x80) {
+      out += c;
+    } else {
+      out += static_cast<char>(0xC0 | u >> 6);
+      out += static_cast<char>(0x80 | (u & 0x3F));
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+Session::Session(Opening opening, std::string record, Outlet outlet)
+    : opening_(std::move(opening)),
+      record_file_(std::move(record)),
+      outlet_(std::move(outlet)),
+      document_(opening_.file, opening_.text),
+      live_text_("") {}
+
+Session::~Session() { stop(); }
+
+void Session::stop() {
+  ending_ = true;
+  has_news_ = true;
+  news_.notify_all();
+  if (thread_.joinable()) thread_.join();
+  if (build_.valid()) build_.wait();
+  close_run();
+}
+
+bool Session::open(std::vector<std::string>& problems) { return reopen(problems); }
+
+void Session::start() {
+  thread_ = std::thread([this] { live(); });
+}
+
+void Session::post(ClientId client, Kind kind, std::string text) {
+  {
+    std::lock_guard<std::mutex> lock(mutex_);
+    messages_.push_back({client, kind, std::move(text)});
+    has_news_ = true;
+  }
+  news_.notify_one();
+}
+
+/// The run that was is over: its programs finish, its recording is whole.
+void Session::close_run() {
+  if (team_) team_->finish();
+  if (recorder_ && twin_) recorder_->end(twin_->simulation().now(), twin_->simulation().digest());
+  recorder_.reset();
+  inputs_.reset();
+  team_.reset();
+  twin_.reset();
+  lines_.clear();
+}
+
+/// A new run from time 0, of the document as it is.
+bool Session::reopen(std::vector<std::string>& problems) {
+  const sim::LoadedWorld& loaded = document_.loaded();
+  if (!loaded.world) {
+    problems.push_back(loaded.report(document_.file()));
+    return false;
+  }
+  sim::WorldDesc world = *loaded.world;
+  opening_.file = document_.file();
+  opening_.text = document_.text().text();
+  world.seed = opening_.seed;
+  twin::Options options = opening_.options;
+  options.world_folder = fs::path(opening_.file).parent_path().string();
+  told_.clear();
+  options.tell = [this](const std::string& line) { told_.push_back(line); };
+  // options that name robots are for those that are there
+  const auto is_gone = [&](const twin::Choice& c) {
+    for (const auto& r : world.robots)
+      if (c.robot == "*" || c.robot == r.name) return false;
+    return true;
+  };
+  if (was_open_)
+    for (auto* choices : {&options.firmware, &options.uart1, &options.uart2})
+      choices->erase(std::remove_if(choices->begin(), choices->end(), is_gone), choices->end());
+  close_run();  // first: programs lie in memory where they lay in the run before
+  twin_ = twin::Twin::open(world, options, problems);
+  if (!twin_) return false;
+  was_open_ = true;
+  team_ = supervisor::Team::open(*twin_, options, opening_.supervisors, problems);
+  if (!team_) {
+    twin_.reset();
+    return false;
+  }
+  inputs_ = std::make_unique<Inputs>(*twin_);
+  if (!record_file_.empty()) recorder_ = std::make_unique<Recorder>(record_file_, opening_);
+  live_text_ = document_.text();
+  movable_ = movable_ids(twin_->world(), live_text_);
+  ended_ = false;
+  traps_told_ = 0;
+  anchor_ = pace_from_ = 0;
+  anchor_wall_ = pace_wall_ = Wall::now();
+  programs_.clear();
+  for (int r = 0; r < twin_->robots(); ++r) {
+    const auto& robot = twin_->world().robots[static_cast<std::size_t>(r)];
+    for (int port = 1; port <= 2; ++port)
+      if (twin_->uart_choice(r, port) == "-" || twin_->uart_choice(r, port) == "none") {
+        lines_.push_back(std::make_unique<Line>(Line{r, port, ""}));
+        twin_->mind(r).board().uart(port).listen(&lines_.back()->text);
+      }
+    lines_.push_back(std::make_unique<Line>(Line{r, 0, ""}));
+    twin_->mind(r).board().virtual_devices().on_console =
+        [line = lines_.back().get()](const std::string& text) { line->text += text + "\n"; };
+    if (robot.firmware.empty()) continue;
+    auto program = std::find_if(programs_.begin(), programs_.end(),
+                                [&](const Program& p) { return p.name == robot.firmware; });
+    if (program == programs_.end()) {
+      std::vector<std::string> none;
+      programs_.push_back({robot.firmware,
+                           {},
+                           Sources(twin::find_firmware(robot.firmware, options.world_folder, none)),
+                           false});
+      program = programs_.end() - 1;
+    }
+    program->robots.push_back(r);
+  }
+  team_->say = [this](const std::string& line) { tell_all({{"event", "says"}, {"text", line}}); };
+  team_->before_first_tick();
+  resubscribe();
+  return true;
+}
+
+void Session::restart() {
+  std::vector<std::string> problems;
+  if (!reopen(problems)) tell_all({{"event", "problems"}, {"problems", problems}});
+  tell_world();
+  tell_state();
+}
+
+void Session::live() {
+  while (!ending_) {
+    const bool changed = take_messages();
+    if (playing_ && twin_ && !ended_) {
+      advance_slice();
+    } else {
+      pace_ = 0;
+      pace_wall_ = Wall::now();
+      if (twin_) pace_from_ = twin_->simulation().now();
+    }
+    if (Wall::now() >= next_watch_) watch_programs();
+    send_serial();
+    send_frames(changed);
+    if (!playing_ || !twin_ || ended_) {
+      std::unique_lock<std::mutex> lock(mutex_);
+      news_.wait_for(lock, kFrameEvery, [&] { return has_news_.load(); });
+    }
+  }
+}
+
+bool Session::take_messages() {
+  if (!has_news_) return false;
+  std::deque<Message> messages;
+  {
+    std::lock_guard<std::mutex> lock(mutex_);
+    messages.swap(messages_);
+    has_news_ = ending_.load();
+  }
+  for (const Message& message : messages) handle(message);
+  return !messages.empty();
+}
+
+void Session::advance_slice() {
+  sim::Simulation& simulation = twin_->simulation();
+  const auto begin = Wall::now();
+  // in between is looked for requests, and for what programs print
+  const sim::Clicks look = sim::kClicksPerSecond / 64;
+  while (!has_news_ && !team_->has_ended()) {
+    const auto now = Wall::now();
+    if (now - begin > kSlice) break;
+    sim::Clicks until = simulation.now() + look;
+    if (speed_ > 0) {
+      const sim::Clicks due = anchor_ + sim::from_seconds(seconds(now - anchor_wall_) * speed_);
+      if (simulation.now() >= due) {
+        // until the next tick is due, or a request comes
+        const double wait_s =
+            (sim::to_seconds(simulation.now() - anchor_) + simulation.scene().tick_s()) / speed_ -
+            seconds(now - anchor_wall_);
+        std::unique_lock<std::mutex> lock(mutex_);
+        news_.wait_for(lock, std::chrono::duration<double>(std::min(wait_s, seconds(kSlice))),
+                       [&] { return has_news_.load(); });
+        break;
+      }
+      // a machine that is too slow does not run after the time it lost
+      if (seconds(now - anchor_wall_) * speed_ - sim::to_seconds(simulation.now() - anchor_) >
+          0.25 * speed_) {
+        anchor_ = simulation.now();
+        anchor_wall_ = now;
+        continue;
+      }
+      until = std::min(until, due);
+    }
+    simulation.advance(until);
+  }
+  after_ticks();
+  if (Wall::now() - pace_wall_ > kPaceOver) {
+    pace_ = sim::to_seconds(simulation.now() - pace_from_) / seconds(Wall::now() - pace_wall_);
+    pace_wall_ = Wall::now();
+    pace_from_ = simulation.now();
+  }
+}
+
+/// What happened in the ticks that everybody should know.
+void Session::after_ticks() {
+  const auto traps = twin_->traps();
+  for (std::size_t i = traps_told_; i < traps.size(); ++i)
+    tell_all({{"event", "trap"},
+              {"robot", traps[i].robot},
+              {"kind", host::trap_name(traps[i].kind)},
+              {"text", traps[i].message},
+              {"place", to_string(traps[i].place)},
+              {"file", traps[i].place.file},
+              {"line", traps[i].place.line},
+              {"time_s", traps[i].time_s}});
+  traps_told_ = std::max(traps_told_, traps.size());
+  if (team_->has_ended() && !ended_) {
+    ended_ = true;
+    playing_ = false;
+    tell_state();
+  }
+}
+
+void Session::step_ticks(double span_s, int count) {
+  sim::Simulation& simulation = twin_->simulation();
+  for (int i = 0; i < count && !team_->has_ended(); ++i)
+    if (span_s <= 0)
+      simulation.step();
+    else
+      simulation.run_until(simulation.now() + sim::from_seconds(span_s));
+  after_ticks();
+}
+
+bool Session::step_interrupt(int robot) {
+  sim::Simulation& simulation = twin_->simulation();
+  const host::Runner* program = twin_->mind(robot).runner();
+  if (!program) return false;
+  const auto served = interrupts_served(*program);
+  const sim::Clicks end = simulation.now() + 10 * sim::kClicksPerSecond;
+  while (interrupts_served(*program) == served && simulation.now() < end && !team_->has_ended())
+    simulation.step();
+  after_ticks();
+  return interrupts_served(*program) != served;
+}
+
+void Session::play(bool on) {
+  playing_ = on;
+  if (!twin_) return;
+  anchor_ = twin_->simulation().now();
+  anchor_wall_ = Wall::now();
+}
+
+void Session::input(const Json& request) {
+  inputs_->apply(request);
+  if (recorder_) recorder_->note(twin_->simulation().now(), request);
+}
+
+/// The file's text is another: the world that lives becomes so, where it can without beginning anew.
+void Session::document_changed() {
+  const sim::WorldText& text = document_.text();
+  if (document_.loaded().world) {
+    const auto rest = [](const sim::WorldText& t) {
+      std::string out;
+      for (const auto& e : t.elements())
+        for (const char* kind : {"robot", "world", "sound", "supervisor", "radio", "link", "webots"})
+          if (e.path == kind) out += std::to_string(e.id) + t.text_of(e.id);
+      return out;
+    };
+    const bool goes_on = twin_ && twin_->simulation().now() > 0 && rest(text) == rest(live_text_);
+    if (goes_on) {
+      std::vector<int> before;
+      const std::vector<int> ids = movable_ids(*document_.loaded().world, text);
+      for (int id : ids) {
+        const auto was = std::find(movable_.begin(), movable_.end(), id);
+        before.push_back(was == movable_.end() ? -1
+                                               : twin_->robots() + static_cast<int>(was - movable_.begin()));
+      }
+      input({{"do", "world"}, {"text", text.text()}, {"before", before}});
+      movable_ = ids;
+      live_text_ = text;
+      resubscribe();
+    } else {
+      std::vector<std::string> problems;
+      if (!reopen(problems)) tell_all({{"event", "problems"}, {"problems", problems}});
+    }
+  }
+  tell_world();
+  tell_state();
+}
+
+void Session::tell_all(const Json& event) {
+  const std::string text = event.dump(-1, ' ', false, Json::error_handler_t::replace);
+  for (const auto& [client, page] : pages_) outlet_.send(client, text);
+}
+
+void Session::tell_world() {
+  ++revision_;
+  Json world = world_json(document_.loaded(), document_.text());
+  tell_all({{"event", "world"}, {"revision", revision_}, {"world", std::move(world)}});
+  tell_all({{"event", "programs"}, {"programs", programs_json()}});
+  for (auto& [client, page] : pages_) page.fresh = true;
+}
+
+Json Session::state_json() const {
+  Json state{{"playing", playing_},
+             {"speed", speed_},
+             {"ended", ended_},
+             {"time_s", twin_ ? sim::to_seconds(twin_->simulation().now()) : 0.0},
+             {"seed", opening_.seed},
+             {"saved", document_.is_saved()},
+             {"undo", document_.can_undo()},
+             {"redo", document_.can_redo()},
+             {"steering", steering_},
+             {"runs", twin_ != nullptr}};
+  if (ended_) state["outcome"] = {{"code", team_->outcome().code}, {"text", team_->outcome().text}};
+  return state;
+}
+
+void Session::send_serial() {
+  for (const auto& line : lines_) {
+    if (line->text.empty()) continue;
+    const std::string some = line->text.substr(0, kLongestSerial);
+    line->text.erase(0, some.size());
+    const Json event{{"event", "serial"},
+                     {"robot", twin_->world().robots[static_cast<std::size_t>(line->robot)].name},
+                     {"port", line->port},
+                     {"time_s", sim::to_seconds(twin_->simulation().now())},
+                     {"text", line->port == 0 ? some : latin_to_utf8(some)}};
+    tell_all(event);
+  }
+}
+
+void Session::send_frames(bool all) {
+  if (!twin_ || pages_.empty()) return;
+  const auto now = Wall::now();
+  std::string bodies;
+  for (auto& [client, page] : pages_) {
+    const bool is_due = now - page.last_frame >= kFrameEvery;
+    if (!(page.fresh || all || (playing_ && is_due))) continue;
+    if (!outlet_.wants_frame(client)) {
+      page.fresh = true;  // as soon as it can
+      continue;
+    }
+    if (bodies.empty()) bodies = frame_bodies(*twin_);
+    std::vector<double> values;
+    for (const Named& named : page.values) values.push_back(named.value(*twin_));
+    FrameHead head;
+    head.revision = revision_;
+    head.flags = (playing_ ? kRunning : 0u) | (ended_ ? kEnded : 0u);
+    head.subscription = page.subscription;
+    head.pace = pace_;
+    outlet_.send_frame(client, frame(*twin_, head, values, bodies, frame_rays(*twin_, page.rays)));
+    page.last_frame = now;
+    page.fresh = false;
+  }
+}
+
+/// After the world or a program was exchanged: names mean something else now, or nothing.
+void Session::resubscribe() {
+  for (auto& [client, page] : pages_) {
+    page.rays.erase(
+        std::remove_if(page.rays.begin(), page.rays.end(), [&](int r) { return r >= twin_->robots(); }),
+        page.rays.end());
+    page.values.clear();
+    for (const std::string& name : page.names) {
+      try {
+        page.values.push_back(find_named(*twin_, name));
+      } catch (const std::exception&) {
+        page.values.push_back({"", [](twin::Twin&) { return std::numeric_limits<double>::quiet_NaN(); }});
+      }
+    }
+    page.fresh = true;
+  }
+}
+
+int Session::robot_named(const std::string& name) const {
+  const int robot = twin_ ? twin_->find(name) : -1;
+  if (robot < 0)
+    throw std::runtime_error(fmt::format("robot: got '{}', expected a robot of the world", name));
+  return robot;
+}
+
+}  // namespace viewer

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/sources.h"
+
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+
+#include "sim_core/base/input_file.h"
+#include "viewer/document.h"
+
+namespace viewer {
+
+namespace fs = std::filesystem;
+
+namespace {
+constexpr std::size_t kLongestSource = 4u << 20;  // bytes
+constexpr int kDeepest = 3;                       // folders below the controller's
+constexpr std::size_t kMostFiles = 500;
+}  // namespace
+
+Sources::Sources(std::string folder) : folder_(std::move(folder)) {
+  std::error_code none;
+  if (!fs::is_directory(folder_, none)) folder_.clear();
+  stamps_ = stamps();
+}
+
+std::vector<std::string> Sources::files() const {
+  std::vector<std::string> names;
+  if (folder_.empty()) return names;
+  std::error_code none;
+  for (fs::recursive_directory_iterator it(folder_, fs::directory_options::skip_permission_denied, none), end;
+       !none && it != end && names.size() < kMostFiles; it.increment(none)) {
+    if (it.depth() >= kDeepest) it.disable_recursion_pending();
+    if (it->is_symlink(none) || !it->is_regular_file(none)) continue;  // a link may lead anywhere
+    const std::string kind = it->path().extension().string();
+    for (const char* known : {".c", ".h", ".cpp", ".hpp", ".cc", ".s", ".inc"})
+      if (kind == known) names.push_back(it->path().lexically_relative(folder_).string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string Sources::path_of(const std::string& name) const {
+  const std::vector<std::string> known = files();
+  if (!std::binary_search(known.begin(), known.end(), name))
+    throw std::runtime_error("file: got '" + name + "', expected one of the controller's sources");
+  return (fs::path(folder_) / name).string();
+}
+
+std::string Sources::read(const std::string& name) const {
+  std::string text;
+  const std::string wrong = sim::read_input_file(path_of(name), kLongestSource, text);
+  if (!wrong.empty()) throw std::runtime_error(name + ": " + wrong);
+  return text;
+}
+
+void Sources::write(const std::string& name, const std::string& text) {
+  const std::string wrong = replace_file(path_of(name), text);
+  if (!wrong.empty()) throw std::runtime_error(wrong);
+}
+
+std::map<std::string, std::pair<long long, long long>> Sources::stamps() const {
+  std::map<std::string, std::pair<long long, long long>> out;
+  for (const std::string& name : files()) {
+    struct stat info {};
+    if (::stat((fs::path(folder_) / name).c_str(), &info) == 0)
+      out[name] = {info.st_mtim.tv_sec * 1000000000ll + info.st_mtim.tv_nsec, info.st_size};
+  }
+  return out;
+}
+
+bool Sources::has_changed() {
+  auto now = stamps();
+  if (now == stamps_) return false;
+  stamps_ = std::move(now);
+  return true;
+}
+
+}  // namespace viewer

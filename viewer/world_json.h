@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// A world as the page draws it and edits it: everything that stands in it, with the number of its piece of
+// the world file. docs/control.md, "world".
+#pragma once
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "sim_core/load/world_loader.h"
+#include "sim_core/load/world_text.h"
+
+namespace viewer {
+
+/// `loaded`: what was made of `text`; with problems its draft is shown, and they stand beside what they are
+/// about.
+nlohmann::json world_json(const sim::LoadedWorld& loaded, const sim::WorldText& text);
+
+/// Numbers (ids) of the movable objects' pieces, in the order of the simulation's bodies behind the robots.
+std::vector<int> movable_ids(const sim::WorldDesc& world, const sim::WorldText& text);
+
+/// What the file may say about a piece: keys with type, unit, range, default and meaning.
+nlohmann::json schema_json();
+
+}  // namespace viewer
