@@ -5,7 +5,7 @@ FW    ?= obstacle
 WORLD ?= maze
 T     ?=
 ARGS  ?=
-XC16  ?= xc16-gcc
+XC16  ?=
 PACKAGES ?= build
 
 BUILD  := build
@@ -78,9 +78,16 @@ test-view: tool $(BUILD)/page/page.js
 	@cd tests/browser && { test node_modules -nt package-lock.json || npm ci --no-audit --no-fund --loglevel=error >/dev/null; touch node_modules; }
 	@node tests/browser/run.mjs '$(T)'
 
-## dspic: cross-build FW for the robot with XC16 (XC16=path, or xc16-gcc in PATH)
+## dspic: cross-build FW for the robot: build/dspic/NAME.elf, .hex, .lst, .map; XC16=path does it with Microchip's compiler
+ifeq ($(XC16),)
+dspic: tool
+	@mkdir -p $(BUILD)/dspic
+	@$(BUILD)/twinpuck build '$(FW)' --way chip -o '$(BUILD)/dspic/$(notdir $(FW)).elf'
+	@echo $(BUILD)/dspic/$(notdir $(FW)).hex
+else
 dspic:
 	@scripts/build_dspic.sh '$(XC16)' '$(FW)' $(BUILD)/dspic
+endif
 
 ## check: rules of the code: includes, sources of numbers, formatting, contract, timings
 check: tool

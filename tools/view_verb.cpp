@@ -49,13 +49,15 @@ int view(const ViewArguments& a) {
   opening.seed = a.seed >= 0 ? static_cast<std::uint64_t>(a.seed)
                              : (first.loaded().world ? *first.loaded().world : first.loaded().draft).seed;
 
-  const auto live = viewer::LiveView::open(std::move(opening), a.record, a.port,
+  auto live = viewer::LiveView::open(std::move(opening), a.record, a.port,
                                            (fs::path(twin::build_folder()) / "page").string(), problems);
   complain(problems);  // of the world's the page tells, too, and may mend them
   if (!live) return kBadInput;
   GracefulEnd guard([] {});
   std::cout << "open " << live->server().address() << "\nCtrl-C ends it" << std::endl;
   while (!end_asked()) std::this_thread::sleep_for(kLook);
+  guard.finishing();
+  live.reset();  // the recording is whole before the guard goes
   return kPass;
 }
 

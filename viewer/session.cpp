@@ -17,8 +17,8 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr auto kFrameEvery = 16ms;                 // 60 a second
-constexpr auto kSlice = 8ms;                       // of stepping, between two looks at requests
+constexpr auto kFrameEvery = 15ms;                 // 60 a second
+constexpr auto kSlice = 4ms;                       // of stepping, between two looks at requests
 constexpr auto kPaceOver = 500ms;                  // the pace is a mean over so long
 constexpr std::size_t kLongestSerial = 64u << 10;  // bytes of a line sent at once
 

@@ -114,6 +114,7 @@ class Session {
   void tell_world();
   void send_serial();
   void send_frames(bool all);
+  Json diagnoses_json() const;
   Json programs_json() const;
   void watch_programs();
   void build_program(Program& program);
@@ -138,6 +139,7 @@ class Session {
   std::string building_;
   std::vector<std::string> told_;  // the compiler's warnings of the last opening
   std::size_t traps_told_ = 0;
+  Json diagnoses_told_ = Json::array();
 
   bool playing_ = false, ended_ = false;
   bool was_open_ = false;  // once, so that the options that name robots were right

@@ -15,6 +15,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
+constexpr std::size_t kMostDiagnoses = 200;
 constexpr int kMostSteps = 10000;        // of one request
 constexpr std::size_t kMostNames = 256;  // of one page's subscription
 constexpr auto kWatchEvery = 150ms;      // are sources what they were?
@@ -46,6 +47,7 @@ void Session::handle(const Message& message) {
                      {"state", state_json()},
                      {"world", world_json(document_.loaded(), document_.text())},
                      {"programs", programs_json()},
+                     {"diagnoses", diagnoses_told_},
                      {"names", names_of_robots()},
                      {"schema", schema_json()}};
     outlet_.send(message.client, hello.dump(-1, ' ', false, Json::error_handler_t::replace));
@@ -151,6 +153,7 @@ Json Session::look_request(ClientId client, const std::string& what, const Json&
     if (twin_) {
       const std::uint64_t digest = twin_->simulation().digest();
       state["digest"] = fmt::format("{:016x}", digest);
+      state["diagnoses"] = diagnoses_json();
       state["clicks"] = twin_->simulation().now();
     }
     return {{"ok", true}, {"state", state}};
@@ -211,7 +214,28 @@ Json Session::program_request(const std::string&, const Json& request) {
   throw std::runtime_error("program: expected one that a robot runs");
 }
 
+/// What board and chip say about the programs, robot by robot.
+Json Session::diagnoses_json() const {
+  Json out = Json::array();
+  for (int r = 0; twin_ && r < twin_->robots() && out.size() < kMostDiagnoses; ++r) {
+    const host::Runner* program = std::as_const(*twin_).mind(r).runner();
+    if (!program) continue;
+    for (const board::Diagnosis& d : program->diagnoses())
+      out.push_back({{"robot", program->name()},
+                     {"time_s", d.first_s},
+                     {"cause", d.cause},
+                     {"place", d.place},
+                     {"text", d.message},
+                     {"hint", d.hint}});
+  }
+  return out;
+}
+
 void Session::watch_programs() {
+  if (Json diagnoses = diagnoses_json(); diagnoses != diagnoses_told_) {
+    diagnoses_told_ = std::move(diagnoses);
+    tell_all({{"event", "diagnoses"}, {"diagnoses", diagnoses_told_}});
+  }
   next_watch_ = Wall::now() + kWatchEvery;
   if (build_.valid() && build_.wait_for(0s) == std::future_status::ready) finish_build();
   for (Program& program : programs_) {

@@ -15,7 +15,10 @@ bool run(const Options& options) {
     place_all(program, options);
     fill_all(program);
     halve_addresses(program);
-    if (program.errors.empty()) write_all(program, options);
+    if (program.errors.empty()) {
+      bound_stack(program);
+      write_all(program, options);
+    }
   }
   for (const std::string& w : program.warnings) std::fprintf(stderr, "link: warning: %s\n", w.c_str());
   for (const std::string& e : program.errors) std::fprintf(stderr, "link: error: %s\n", e.c_str());

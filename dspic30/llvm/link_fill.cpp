@@ -13,6 +13,9 @@ using namespace llvm::dspic_elf;
 
 constexpr std::uint32_t kGoto = 0x040000;
 
+/// XC16 puts an underscore before names of C.
+std::string in_c(const std::string& name) { return name.substr(name.size() > 1 && name[0] == '_'); }
+
 /// Fills one section's places.
 class Filler {
  public:
@@ -33,8 +36,7 @@ class Filler {
   static std::uint32_t width(unsigned type) { return type == kByte ? 1 : type == kWord ? 2 : 4; }
 
   void complain(const Relocation& r, const std::string& text) {
-    const std::string name = r.symbol->name.substr(!r.symbol->name.empty() && r.symbol->name[0] == '_');
-    program_.errors.push_back(section_.from + ": " + name + ": " + text);
+    program_.errors.push_back(section_.from + ": " + in_c(r.symbol->name) + ": " + text);
   }
 
   /// False: nothing to fill in.
@@ -45,7 +47,8 @@ class Filler {
       return true;  // of a function that was left out
     if (!s.is_defined) {
       if (s.is_weak) return true;
-      complain(r, "undefined; used in " + section_.name.substr(section_.name.rfind('.') + 1));
+      const std::string user = section_.name.substr(section_.name.rfind('.') + 1);
+      program_.errors.push_back(in_c(s.name) + ": undefined; used in " + in_c(user));
       return false;
     }
     value_ = program_.address_of(s, r.addend);

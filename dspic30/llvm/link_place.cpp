@@ -85,13 +85,6 @@ bool fixed_address(const Section& s, std::uint32_t& address) {
   return true;
 }
 
-bool is_handler(const std::string& name) {
-  for (const char* prefix : {"__", "__Alt"})
-    for (int v = 1; v < kVectors; ++v)
-      if (name == prefix + handler_name(v)) return true;
-  return false;
-}
-
 /// A common variable becomes a section like any other.
 void place_commons(Program& program) {
   constexpr std::uint32_t kSmall = 32;  // as in sections.cpp
@@ -253,6 +246,13 @@ std::string handler_name(int vector) {
   return name == "?"                ? "Interrupt" + std::to_string(vector - kFirstIrqVector)
          : vector < kFirstIrqVector ? name
                                     : name + "Interrupt";
+}
+
+bool is_handler(const std::string& name) {
+  for (const char* prefix : {"__", "__Alt"})
+    for (int v = 1; v < kVectors; ++v)
+      if (name == prefix + handler_name(v)) return true;
+  return false;
 }
 
 void keep_used(Program& program) {

@@ -181,7 +181,7 @@ class ElfFile {
                             : s.section && s.section->kind != Kind::Code ? STT_OBJECT
                                                                          : STT_NOTYPE;
       e.st_info = ELF32_ST_INFO(binding, type);
-      e.st_shndx = SHN_ABS;
+      e.st_shndx = s.section ? home_of(*s.section) : std::uint16_t(SHN_ABS);
       table.append(reinterpret_cast<const char*>(&e), sizeof e);
     };
     for (const Symbol& s : program_.symbols)
@@ -194,6 +194,16 @@ class ElfFile {
     sections_[at].sh_info = locals;
     sections_[at].sh_entsize = sizeof(Elf32_Sym);
     add(".strtab", SHT_STRTAB, 0, 0, 0, names);
+  }
+  /// The section of the file in which a section of the program has come to lie.
+  std::uint16_t home_of(const Section& s) const {
+    const std::uint32_t at = s.kind == Kind::Code ? s.address : s.load;
+    for (std::size_t i = 0; i < sections_.size(); ++i) {
+      const Elf32_Shdr& h = sections_[i];
+      if (!(h.sh_flags & SHF_ALLOC) || (h.sh_type == SHT_NOBITS) != (s.kind == Kind::Ram)) continue;
+      if (s.kind == Kind::Ram || (at >= h.sh_addr && at < h.sh_addr + h.sh_size / 2)) return std::uint16_t(i);
+    }
+    return SHN_ABS;
   }
   bool is_global(const Symbol& s) const {
     const auto it = program_.globals.find(s.name);
@@ -262,6 +272,7 @@ bool write_all(Program& program, const Options& options) {
   const std::string stem = options.output.substr(0, options.output.rfind('.'));
   return write_file(program, options.output, ElfFile(program).make()) &&
          write_file(program, stem + ".hex", hex_file(program)) &&
+         write_file(program, stem + ".lst", listing(program)) &&
          write_file(program, stem + ".map", map_file(program));
 }
 

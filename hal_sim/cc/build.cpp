@@ -276,7 +276,7 @@ std::vector<DriverChoice> choose_drivers(std::vector<CompileOutcome>& user,
   return choices;
 }
 
-/// The chip way's last step: .elf, .hex and .map, which appear together or not at all.
+/// The chip way's last step: .elf, .hex, .lst and .map, which appear together or not at all.
 void link_chip(const std::vector<CompileOutcome>& user, const std::vector<CompileOutcome>& members,
                const Library& library, const Renames& renames, const fs::path& output, BuildResult& result) {
   std::error_code ec;
@@ -289,11 +289,9 @@ void link_chip(const std::vector<CompileOutcome>& user, const std::vector<Compil
   for (const auto& m : members) argv.insert(argv.end(), {"--library", m.object.string()});
   argv.insert(argv.end(), {"--library", library.archive.string()});
   const auto run = run_process(argv);
-  if (run.status == 0)
-    result.size_report = run.output;
-  else
-    sort_messages(run.output, result, true);
-  for (const char* kind : {".hex", ".map", ".elf"}) {
+  sort_messages(run.output, result, run.status != 0);
+  if (run.status == 0) result.size_report = run.output.substr(run.output.find("flash"));
+  for (const char* kind : {".hex", ".lst", ".map", ".elf"}) {
     if (!result.errors.empty()) break;
     fs::path from = made, to = output;
     if (kind != std::string(".elf")) to.replace_extension(kind);

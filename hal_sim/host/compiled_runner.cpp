@@ -84,6 +84,7 @@ void CompiledRunner::restart_program() {
   asleep_until_ = -1;
   idling_ = false;
   overflowed_ = false;
+  resting_ = false;
   reset_asked_ = false;
   processor_->reset(now_);
   find_share();
@@ -495,7 +496,9 @@ void CompiledRunner::on_rest(std::int64_t loop) {
       advance_main(round);
     }
   }
+  resting_ = true;
   on_poll(loop);
+  resting_ = false;
 }
 
 void CompiledRunner::sleep_until(Cycle target, Cycle round, Cycle start) {
@@ -512,6 +515,7 @@ void CompiledRunner::sleep_until(Cycle target, Cycle round, Cycle start) {
     const Cycle stop = std::min(target, find_interrupt_horizon());
     if (stop >= kNever && handler_depth_ > 0 && !looked_outside_)
       trap(TP_TRAP_INTERRUPT, "an interrupt handler waits for ever: nothing that it looks at can change");
+    if (stop >= kNever && !looked_outside_ && !resting_ && !enables_interrupts()) note_endless_wait();
     if (stop > end_) {
       idling_ = true;
       doze(stop);

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cstring>
 
+#include "dspic30/memory/sfr_table.h"
 #include "hal_sim/board/board.h"
 #include "hal_sim/host/compiled_runner.h"
 #include "hal_sim/host/host_params.h"
+#include "hal_sim/host/native_processor.h"
 #include "sim_core/base/check.h"
 
 namespace host {
@@ -185,8 +187,29 @@ Place CompiledRunner::place_of_code(std::uintptr_t pc, std::uintptr_t frame) con
   return place;
 }
 
+/// May anything interrupt the program, now or when something comes from outside?
+bool CompiledRunner::enables_interrupts() {
+  if (native_) {
+    for (int vector = 0; vector < TP_VECTORS; ++vector)
+      if (native_->interrupts().source(vector).enabled) return true;
+    return false;
+  }
+  return peek(dspic::sfr("IEC0"), now_) || peek(dspic::sfr("IEC1"), now_) || peek(dspic::sfr("IEC2"), now_);
+}
+
+void CompiledRunner::note_endless_wait() {
+  if (!endless_wait_.cause.empty()) return;
+  endless_wait_.cause = "endless wait";
+  endless_wait_.place = to_string(report_here(0, "").place);
+  endless_wait_.message =
+      "the program waits here for ever: nothing that it looks at can change, for no interrupt is enabled";
+  endless_wait_.hint = "start the agendas or the timer, or enable the interrupt whose handler ends the wait";
+  endless_wait_.first = now_;
+}
+
 std::vector<board::Diagnosis> CompiledRunner::diagnoses() const {
   std::vector<board::Diagnosis> all = processor_->diagnoses();
+  if (!endless_wait_.cause.empty()) all.push_back(endless_wait_);
   for (board::Diagnosis& d : board_.diagnoses(lived_cycles())) all.push_back(std::move(d));
   for (board::Diagnosis& d : all) d.first_s = to_world_s ? to_world_s(d.first) : 0;
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first < b.first; });

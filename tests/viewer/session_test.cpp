@@ -430,4 +430,29 @@ TEST_F(Session, a_trap_is_told_with_its_place) {
             std::uint32_t{viewer::kStopped});
 }
 
+TEST_F(Session, an_endless_wait_is_explained) {
+  const std::string start =
+      "#include <motor_led/e_init_port.h>\n#include <motor_led/advance_one_timer/e_agenda.h>\n"
+      "volatile char due;\nvoid tick(void) { due = 1; }\n"
+      "int main(void) {\n  e_init_port();\n  e_activate_agenda(tick, 320);\n";
+  write("drive/main.c", start + "  while (!due);\n  return 0;\n}\n");
+  {
+    Page page(open("world.toml"));
+    steps(page, 10);
+    const Json told = page.event("diagnoses", [](const Json& e) { return !e.at("diagnoses").empty(); })
+                          .at("diagnoses")
+                          .at(0);
+    EXPECT_EQ(told.at("cause"), "endless wait");
+    EXPECT_NE(told.at("place").get<std::string>().find("main.c:8"), std::string::npos) << told;
+  }
+  // with the agendas started, or in a loop that is empty on purpose, there is nothing to say
+  for (const char* end :
+       {"  e_start_agendas_processing();\n  while (!due);\n  while (1);\n}\n", "  while (1);\n}\n"}) {
+    write("drive/main.c", start + end);
+    Page page(open("world.toml"));
+    steps(page, 10);
+    EXPECT_EQ(page.good({{"do", "state"}}).at("state").at("diagnoses"), Json::array()) << end;
+  }
+}
+
 }  // namespace

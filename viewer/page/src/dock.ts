@@ -75,7 +75,7 @@ export class Plots {
     this.pane = h("div", { className: "pane column" }, h("div", { className: "toolbar" }, input, list, this.chips, h("button", { onclick: () => this.clear(), title: "Forget what was plotted" }, "Clear"), h("button", { onclick: () => this.saveCsv(), title: "What is plotted, as a table" }, "CSV")), this.area);
     new ResizeObserver(() => this.chart?.setSize(this.size())).observe(this.area);
   }
-  private size() { return { width: Math.max(200, this.area.clientWidth), height: Math.max(80, this.area.clientHeight - 32) }; }
+  private size() { return { width: Math.max(200, this.area.clientWidth), height: Math.max(80, this.area.clientHeight - 4) }; }
   async toggle(name: string) {
     const before = this.names;
     this.names = before.includes(name) ? before.filter((n) => n !== name) : [...before, name].slice(-kPalette.length);
@@ -103,7 +103,7 @@ export class Plots {
     this.area.replaceChildren();
     const axis = { stroke: css("--dim"), grid: { stroke: css("--line"), width: 1 }, ticks: { stroke: css("--line") } };
     this.chart = new uPlot({
-      ...this.size(), scales: { x: { time: false } }, axes: [{ ...axis, label: "time, s", labelSize: 18 }, axis],
+      ...this.size(), scales: { x: { time: false } }, axes: [{ ...axis, size: 32, values: (_: uPlot, at: number[]) => at.map((t) => `${+t.toFixed(3)} s`) }, axis], legend: { show: false },
       series: [{ label: "s" }, ...this.names.map((label, i) => ({ label, stroke: kPalette[i], width: 1.5, points: { show: false } }))],
     }, [[], ...this.names.map(() => [])] as any, this.area);
   }

@@ -45,6 +45,7 @@ export class App {
   private past: { time: number; bytes: ArrayBuffer }[] = [];
   private pastBytes = 0;
   private live = true;
+  private traps: string[] = [];
   private diagnoses: string[] = [];
   private noticeTimer = 0;
   private fresh = true;
@@ -70,6 +71,7 @@ export class App {
       this.takeWorld(e.world, e.revision);
       this.takePrograms(e.programs);
       this.takeState(e.state);
+      this.takeDiagnoses(e.diagnoses);
       if (this.world.robots.length === 1) this.select(this.world.robots[0].id);
       else this.inspector.show();
       document.body.dataset.ready = "yes";
@@ -87,17 +89,27 @@ export class App {
     });
     c.on("trap", (e) => {
       const text = `${e.robot}: ${e.kind}: ${e.text}, at ${e.place}, ${e.time_s.toFixed(3)} s`;
-      this.diagnoses.push(text);
-      this.problems.show(this.diagnoses);
+      this.traps.push(text);
+      this.showProblems();
       this.console.say(e.robot, `${e.kind}: ${e.text}, at ${e.place}\n`, "bad");
       this.notice(text, true);
     });
+    c.on("diagnoses", (e) => this.takeDiagnoses(e.diagnoses));
     c.onFrame = (frame, bytes) => this.takeFrame(frame, bytes);
     c.onClose = () => {
       document.body.dataset.ready = "gone";
       this.notice("twinpuck view has ended. Start it again and open the address that it prints.", true, true);
     };
   }
+
+  private takeDiagnoses(list: { robot: string; time_s: number; cause: string; place: string; text: string; hint: string }[]) {
+    const texts = list.map((d) => `${d.robot}: ${d.cause} at ${d.place}, ${d.time_s.toFixed(3)} s: ${d.text}${d.hint ? "; " + d.hint : ""}`);
+    const news = texts.find((t) => !this.diagnoses.includes(t));
+    this.diagnoses = texts;
+    this.showProblems();
+    if (news) this.notice(news, true);
+  }
+  private showProblems() { this.problems.show([...this.traps, ...this.diagnoses]); }
 
   private takeWorld(world: World, revision: number) {
     const first = this.revision === 0;
@@ -109,7 +121,7 @@ export class App {
     this.select(this.selected);
     this.console.robots(world.robots.map((r) => r.name));
     this.text.show(world.text);
-    this.problems.show(this.diagnoses);
+    this.showProblems();
     byId("badges").replaceChildren(...world.problems.slice(0, 8).map((p) => h("button", { className: "bad", onclick: () => { if (p.id) this.select(p.id); this.goToLine(p.line); } }, `⚠ ${p.text}`)));
     this.rays.forEach((name) => { if (!world.robots.some((r) => r.name === name)) this.rays.delete(name); });
     this.subscribe().catch(() => {});
@@ -181,6 +193,7 @@ export class App {
   private forgetPast() {
     this.past = [];
     this.pastBytes = 0;
+    this.traps = [];
     this.live = true;
     byId("past").classList.remove("back");
     this.scene.clearTrails();

@@ -367,7 +367,7 @@ export class Scene {
     const tan = Math.tan((this.camera.fov * Math.PI) / 360);
     const d = (0.56 * e.size) / tan / Math.min(1, this.camera.aspect * 0.98);
     this.controls.target.set(e.x, e.y, 0);
-    this.camera.position.set(e.x, e.y - (fromAbove ? 0.002 * d : 0.75 * d), e.y * 0 + (fromAbove ? d : 0.72 * d));
+    this.camera.position.set(e.x, e.y - (fromAbove ? 0.002 * d : 0.62 * d), fromAbove ? d : 0.62 * d);
     this.controls.update();
     this.draw();
   }
