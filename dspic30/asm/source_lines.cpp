@@ -10,7 +10,7 @@ namespace dspic::assembly {
 namespace {
 
 constexpr int kDeepest = 30;              // macros and includes within one another
-constexpr long long kMostLines = 500000;  // after expansion
+constexpr long long kMostLines = 100000;  // after expansion
 constexpr std::int64_t kMostRepeats = 65536;
 
 // ";" to the end of the line, "//" too, outside quotes; "#" only where nothing stands before it

@@ -9,11 +9,13 @@ namespace dspic {
 
 namespace {
 
-constexpr unsigned kSplim = 0x020, kAccal = 0x022, kAccbu = 0x02C, kPcl = 0x02E, kPch = 0x030,
-                   kTblpag = 0x032, kPsvpag = 0x034, kRcount = 0x036, kDcount = 0x038, kDostartl = 0x03A,
-                   kDostarth = 0x03C, kDoendl = 0x03E, kDoendh = 0x040, kSr = 0x042, kCorcon = 0x044,
-                   kModcon = 0x046, kXmodsrt = 0x048, kYmodend = 0x04E, kXbrev = 0x050, kDisicnt = 0x052,
-                   kLast = kDisicnt;
+constexpr unsigned kSplim = sfr("SPLIM"), kAccal = sfr("ACCAL"), kAccbu = sfr("ACCBU"), kPcl = sfr("PCL"),
+                   kPch = sfr("PCH"), kTblpag = sfr("TBLPAG"), kPsvpag = sfr("PSVPAG"),
+                   kRcount = sfr("RCOUNT"), kDcount = sfr("DCOUNT"), kDostartl = sfr("DOSTARTL"),
+                   kDostarth = sfr("DOSTARTH"), kDoendl = sfr("DOENDL"), kDoendh = sfr("DOENDH"),
+                   kSr = sfr("SR"), kCorcon = sfr("CORCON"), kModcon = sfr("MODCON"),
+                   kXmodsrt = sfr("XMODSRT"), kYmodend = sfr("YMODEND"), kXbrev = sfr("XBREV"),
+                   kDisicnt = sfr("DISICNT"), kLast = kDisicnt;
 constexpr std::uint16_t kPsvOn = 0x0004, kIpl3 = 0x0008, kDl = 0x0700, kEdt = 0x0800,
                         kCorconKept = 0xFFFF & ~(kIpl3 | kDl | kEdt);
 constexpr std::uint16_t kCorconAtReset = 0x0020;
@@ -101,8 +103,6 @@ const Decoded* Cpu::jump(unsigned address, const Decoded* from) {
   bad_address_ = address;
   return &code_.back();
 }
-
-bool Cpu::is_decoded(const Decoded* d) const { return d->run != &meet; }
 
 void Cpu::decode(const Decoded* d) {
   decoded_.push_back(static_cast<std::uint32_t>(d - code_.data()));
@@ -398,9 +398,16 @@ unsigned Cpu::read_elsewhere(unsigned ea, unsigned bits) {
   const Cycle t = now + at->lead;
   if (ea < kDisicnt) {
     const unsigned word = peek(ea & ~1u, t);
+    if (watching) watched_until = std::min(watched_until, horizon(ea & ~1u, t));
     return bits == 16 ? word : word >> 8 * (ea & 1) & 0xFF;
   }
-  if (ea < kSfrBytes) return parts.read(ea, bits, t);
+  if (ea < kSfrBytes) {
+    const unsigned value = parts.read(ea, bits, t);
+    if (watching)
+      watched_until =
+          ChipParts::is_changed_by_reading(ea) ? 0 : std::min(watched_until, parts.horizon(ea, t));
+    return value;
+  }
   if (ea >= kPsvStart && (corcon & kPsvOn)) return read_psv(ea, bits);
   trap(Trap::AddressError);
   return 0;
@@ -413,6 +420,7 @@ unsigned Cpu::read_psv(unsigned ea, unsigned bits) {
     now += window == Window::Plain ? at->psv : kRepeatWindow;
   const unsigned address = static_cast<unsigned>(psvpag) << 15 | (ea & 0x7FFE);
   const bool is_eeprom = address - kEepromStart < 2 * kEepromWordCount;
+  if (is_eeprom) note_effect();
   const unsigned word = (is_eeprom ? parts.nvm.table_read(address) : program.read(address)) & 0xFFFF;
   return bits == 16 ? word : word >> 8 * (ea & 1) & 0xFF;
 }
@@ -420,6 +428,7 @@ unsigned Cpu::read_psv(unsigned ea, unsigned bits) {
 void Cpu::write_elsewhere(unsigned ea, unsigned value, unsigned bits) {
   if (bits == 16 && (ea & 1)) return trap(Trap::AddressError);
   const Cycle t = now + at->lead;
+  note_effect();
   if (ea >= kSfrBytes) return trap(Trap::AddressError);
   const Cycle calm = parts.write(ea, static_cast<std::uint16_t>(value), bits, t);
   deadline = std::min(deadline, calm);

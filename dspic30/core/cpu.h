@@ -66,7 +66,7 @@ class Cpu final : public SfrOwner {
                ? arrive(&code_[static_cast<std::size_t>(index)])
                : jump(static_cast<unsigned>(2 * index) & 0x7FFFFE, from);
   }
-  bool is_decoded(const Decoded* d) const;
+  bool is_decoded(const Decoded* d) const { return d->cycles != 0; }
   void decode(const Decoded* d);
   const Decoded* loop_back(const Decoded* last, const Decoded* next);
   /// Iterations up to the last one or to `deadline`; then d itself is next.
@@ -172,6 +172,15 @@ class Cpu final : public SfrOwner {
 
   /// Reading through the PSV window in the first and last iteration of a REPEAT, and around an interrupt.
   static constexpr Cycle kRepeatWindow = 2;
+  // --- waits
+  /// If the program goes round and nothing changes from round to round, nor can before `deadline`, time goes
+  /// on by as many rounds as fit; returns how much. Runs a few instructions in any case.
+  Cycle skip_wait();
+  /// Something was done that a wait does not do.
+  void note_effect() { watched_until = 0; }
+  Cycle watched_until = kNever;  ///< what was read since skip_wait() began to look stays as it is until here
+  bool watching = false;
+
   static constexpr unsigned kRamStart = 0x800, kRamBytes = 0x2000, kRamEnd = kRamStart + kRamBytes,
                             kPsvStart = 0x8000, kYStart = 0x1800;
 

@@ -12,7 +12,7 @@ namespace dspic {
 
 namespace {
 
-constexpr unsigned kIntcon1 = 0x080;
+constexpr unsigned kIntcon1 = sfr("INTCON1");
 constexpr unsigned kOvate = 1u << 10, kOvbte = 1u << 9, kCovte = 1u << 8;
 constexpr std::uint16_t kInteger = 0x01, kRound = 0x02, kSuperSaturation = 0x10, kSaturateStores = 0x20,
                         kSaturateB = 0x40, kSaturateA = 0x80, kUnsigned = 0x1000;

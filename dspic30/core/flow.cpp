@@ -61,6 +61,7 @@ const Decoded* call_relative_register(Cpu& cpu, const Decoded* d) {
 
 void hurry_to_exception(Cpu& cpu) {
   if (cpu.deadline > cpu.now + kInterruptReturnCycles) return;  // nothing comes so soon
+  cpu.parts.events.run_to(cpu.now);
   const Interrupts& interrupts = cpu.parts.interrupts;
   if (interrupts.pending(cpu.now + 2, interrupts.level()) != kNoVector) --cpu.now;
 }

@@ -163,6 +163,7 @@ const Decoded* unlink(Cpu& cpu, const Decoded* d) {
 
 std::uint32_t program_word(Cpu& cpu, unsigned address) {
   if (address - kEepromStart < 2 * kEepromWordCount) {
+    cpu.note_effect();
     cpu.parts.events.run_to(cpu.now);
     return cpu.parts.nvm.table_read(address);
   }
@@ -180,6 +181,7 @@ const Decoded* table_read(Cpu& cpu, const Decoded* d) {
 template <bool High, bool Byte, class From>
 const Decoded* table_write(Cpu& cpu, const Decoded* d) {
   const unsigned value = From::template get<Byte>(cpu, d), ea = cpu.destination_address(d);
+  cpu.note_effect();
   cpu.parts.events.run_to(cpu.now);
   const std::uint32_t lanes = High   ? (Byte && (ea & 1) ? 0 : 0xFF0000)
                               : Byte ? 0xFFu << 8 * (ea & 1)

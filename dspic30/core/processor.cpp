@@ -2,6 +2,7 @@
 #include "dspic30/core/processor.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "dspic30/core/cpu.h"
 
@@ -13,6 +14,9 @@ namespace {
 // (1024 periods of 7.3728 MHz) and for the PLL (20 us)
 constexpr Cycle kResetCycles = 295;  // 20 us from a reset's cause to the first instruction [?]
 constexpr Cycle kIdleWakeCycles = 2, kSleepWakeCycles = 2048 + 295;
+
+// cycles that are worth a look for a wait, and between two looks
+constexpr Cycle kWorthALook = 100, kFirstLooks = 200, kRarestLooks = 4096;
 
 }  // namespace
 
@@ -29,18 +33,33 @@ void Processor::restart() {
 
 // --- the loop -------------------------------------------------------------------------------------------
 
-// straight on until something else may happen
+// straight on until something else may happen; now and then, ever more rarely, a look whether the program
+// only waits
 void Processor::execute() {
   Cpu& cpu = *cpu_;
-  const Decoded* d = cpu.next;
-  while (cpu.now < cpu.deadline) {
-    cpu.at = d;
-    const Decoded* next = d->run(cpu, d);
-    cpu.now += d->cycles;
-    if (d == cpu.loop_end) next = cpu.loop_back(d, next);
-    d = next;
+  const Cycle end = cpu.deadline;
+  Cycle between = kFirstLooks;
+  const std::int64_t writes = cpu.parts.bus.writes();
+  while (cpu.now < end) {
+    const Cycle jumped = end - cpu.now > kWorthALook ? cpu.skip_wait() : 0;
+    jumped_ += jumped;
+    if (jumped > 0) between = kFirstLooks;
+    if (cpu.deadline != end || cpu.parts.bus.writes() != writes) return;
+    cpu.deadline = std::min(end, cpu.now + between);
+    const Cycle pause = cpu.deadline;
+    const Decoded* d = cpu.next;
+    while (cpu.now < cpu.deadline) {
+      cpu.at = d;
+      const Decoded* next = d->run(cpu, d);
+      cpu.now += d->cycles;
+      if (d == cpu.loop_end) next = cpu.loop_back(d, next);
+      d = next;
+    }
+    cpu.next = d;
+    if (cpu.deadline != pause || cpu.repeating || cpu.parts.bus.writes() != writes) return;
+    cpu.deadline = end;
+    between = std::min(2 * between, kRarestLooks);
   }
-  cpu.next = d;
 }
 
 std::optional<ResetKind> Processor::run(Cycle until) {
@@ -115,7 +134,11 @@ void Processor::set_w(int n, std::uint16_t value) {
 std::uint64_t Processor::state_hash() const {
   std::uint64_t h = 0xCBF29CE484222325u;
   const auto add = [&h](std::uint64_t v) { h = (h ^ v) * 0x100000001B3u; };
-  for (const std::uint8_t byte : cpu_->ram) add(byte);
+  for (std::size_t i = 0; i < cpu_->ram.size(); i += 8) {
+    std::uint64_t eight;
+    std::memcpy(&eight, &cpu_->ram[i], 8);
+    add(eight);
+  }
   for (const std::uint16_t w : cpu_->w) add(w);
   for (const std::int64_t a : cpu_->acc) add(static_cast<std::uint64_t>(a));
   add(static_cast<std::uint64_t>(cpu_->now));

@@ -36,6 +36,8 @@ class Processor {
   bool is_asleep() const;
   /// Cycles spent in Idle or Sleep.
   Cycle slept() const { return slept_; }
+  /// Cycles of waits that were jumped over: how, not what was simulated. Depends on how run() is called.
+  Cycle jumped() const { return jumped_; }
 
   // --- for debuggers, tests and reports: no side effects
   unsigned pc() const;
@@ -55,7 +57,7 @@ class Processor {
   std::unique_ptr<Cpu> cpu_;
   Dspic30f6014a& chip_;
   std::uint64_t code_version_ = 0;
-  Cycle slept_ = 0;
+  Cycle slept_ = 0, jumped_ = 0;
 };
 
 }  // namespace dspic

@@ -157,6 +157,27 @@ struct ChipParts {
     return events.notice_horizon(interrupts.enabled_mask());
   }
 
+  /// Until when a read of that register gives the same value; may lie in the past. As
+  /// Dspic30f6014a::horizon().
+  Cycle horizon(unsigned address, Cycle now) const {
+    const unsigned word = address & ~1u;
+    return is_flags(word) ? events.next_for(std::uint64_t{0xFFFF} << 8 * (word - kIfs0))
+                          : bus.horizon(word, now);
+  }
+  /// Does reading it move a FIFO or lower a flag?
+  static constexpr bool is_changed_by_reading(unsigned address) {
+    switch (address & ~1u) {
+      case sfr("I2CRCV"):
+      case sfr("U1RXREG"):
+      case sfr("U2RXREG"):
+      case sfr("SPI1BUF"):
+      case sfr("SPI2BUF"):
+        return true;
+      default:
+        return address >= sfr("IC1BUF") && address < sfr("IC8CON") + 2;  // input capture buffers
+    }
+  }
+
   void switch_modules(std::uint16_t next1, std::uint16_t next2, Cycle now);
 
  private:

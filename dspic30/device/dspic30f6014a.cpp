@@ -2,6 +2,7 @@
 #include "dspic30/device/dspic30f6014a.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "dspic30/device/chip_parts.h"
 
@@ -9,8 +10,7 @@ namespace dspic {
 
 namespace {
 
-constexpr unsigned kIfs0 = sfr("IFS0"), kIec0 = sfr("IEC0"), kFirstOc = sfr("OC1RS"),
-                   kFirstIc = sfr("IC1BUF");
+constexpr unsigned kFirstOc = sfr("OC1RS"), kFirstIc = sfr("IC1BUF");
 
 }  // namespace
 
@@ -133,10 +133,7 @@ std::uint16_t Dspic30f6014a::peek(unsigned address, Cycle now) {
 Cycle Dspic30f6014a::horizon(unsigned address, Cycle now) {
   ChipParts& p = *parts_;
   p.events.run_to(now);
-  const unsigned word = address & ~1u;
-  Cycle until = p.bus.horizon(word, now);
-  if (word >= kIfs0 && word < kIec0) until = p.events.next_for(std::uint64_t{0xFFFF} << 8 * (word - kIfs0));
-  return std::max(until, now + 1);
+  return std::max(p.horizon(address, now), now + 1);
 }
 
 const char* Dspic30f6014a::register_name(unsigned address) {
@@ -278,11 +275,12 @@ std::int64_t Dspic30f6014a::missed_interrupts(int vector) {
 
 std::int64_t Dspic30f6014a::served_interrupts(int vector) const { return parts_->interrupts.served(vector); }
 
-std::uint64_t Dspic30f6014a::state_hash(Cycle now) {
+std::uint64_t Dspic30f6014a::state_hash(Cycle now, bool with_pins) {
   run_to(now);
   std::uint64_t h = 0xCBF29CE484222325u;
   const auto add = [&h](std::uint64_t v) { h = (h ^ v) * 0x100000001B3u; };
-  for (const SfrInfo& info : kSfrRows) add(parts_->bus.peek(info.address, now));
+  for (const SfrInfo& info : kSfrRows)
+    if (with_pins || std::strncmp(info.name, "PORT", 4) != 0) add(parts_->bus.peek(info.address, now));
   for (const Uart& u : parts_->uarts) add(u.state_hash());
   add(static_cast<std::uint64_t>(parts_->interrupts.level()));
   for (const std::uint16_t word : parts_->nvm.eeprom()) add(word);

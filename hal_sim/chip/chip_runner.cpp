@@ -108,7 +108,7 @@ void ChipRunner::reset(dspic::ResetKind kind) {
 }
 
 std::uint64_t ChipRunner::hash() const {
-  return device().state_hash(chip_.at(end_)) ^ processor_->state_hash() * 0x9E3779B97F4A7C15u;
+  return device().state_hash(chip_.at(end_), false) ^ processor_->state_hash() * 0x9E3779B97F4A7C15u;
 }
 
 // --- observed: instruction by instruction, and what it told in between

@@ -20,19 +20,6 @@ using dspic::sfr;
 constexpr unsigned kU1Mode = sfr("U1MODE"), kU2Mode = sfr("U2MODE"), kIfs0 = sfr("IFS0");
 constexpr std::uint16_t kUartEnabled = 0x8000, kTransmitEnabled = 0x0400, kBufferFull = 0x0200;
 
-/// Reading it moves a FIFO or lowers a flag, so a loop that does has changed something.
-constexpr bool has_side_effect(unsigned address) {
-  switch (address & ~1u) {
-    case sfr("I2CRCV"):
-    case sfr("U1RXREG"):
-    case sfr("U2RXREG"):
-    case sfr("SPI1BUF"):
-    case sfr("SPI2BUF"):
-      return true;
-    default:
-      return address >= sfr("IC1BUF") && address < sfr("IC8CON") + 2;  // input capture buffers
-  }
-}
 constexpr unsigned kFirstWithSideEffect = sfr("IC1BUF"), kLastWithSideEffect = sfr("SPI2BUF") + 1;
 
 }  // namespace
@@ -85,7 +72,7 @@ std::uint16_t ChipProcessor::read_other(unsigned address, unsigned bits, Cycle t
 
 std::uint16_t ChipProcessor::read_closely(unsigned address, unsigned bits, Cycle t) {
   const std::uint16_t value = device().read(address, bits, t);
-  if (has_side_effect(address)) {
+  if (dspic::ChipParts::is_changed_by_reading(address)) {
     runner_.note_write();
     runner_.changed();
   }

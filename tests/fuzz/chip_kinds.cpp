@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a stranger hands to the chip: program files, assembler text, and code.
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
@@ -13,7 +14,7 @@
 namespace fuzz {
 namespace {
 
-constexpr dspic::Cycle kMoment = 100000;
+constexpr dspic::Cycle kMoment = 50000, kWindow = 37;
 
 void require(bool holds, const char* what) {
   if (holds) return;
@@ -35,7 +36,7 @@ std::uint64_t run(std::string_view bytes, dspic::Cycle window) {
   dspic::Dspic30f6014a chip(nobody, nullptr, configuration);
   dspic::Processor cpu(chip, program);
   for (dspic::Cycle end = window; cpu.now() < kMoment; end += window)
-    while (const auto kind = cpu.run(end)) {
+    while (const auto kind = cpu.run(std::min(end, kMoment))) {
       const dspic::Cycle before = cpu.now();
       chip.reset(*kind, before);
       cpu.restart();
@@ -69,8 +70,7 @@ void assembler(std::string_view bytes) {
 }
 
 void code(std::string_view bytes) {
-  const std::uint64_t whole = run(bytes, kMoment);
-  require(run(bytes, kMoment) == whole, "two runs of one program differ");
+  require(run(bytes, kMoment) == run(bytes, kWindow), "a course depends on how it is divided");
 }
 
 }  // namespace fuzz

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// Waits jumped over: a program that goes round without changing anything.
+//
+//   round 1: registers and flags are as they were  ->  round 2: and so is RAM  ->  all rounds to come are
+//   like it, until what it reads from peripherals may change
+//
+// A round that writes a register, reads a FIFO, loads a write latch or leads to a trap is no wait. So the
+// course is the same to the cycle as if every round had been run.
+#include <algorithm>
+
+#include "dspic30/core/cpu.h"
+
+namespace dspic {
+
+namespace {
+
+constexpr int kLongestRound = 40;  // instructions
+
+/// All that a round may change and that is neither RAM nor a peripheral's.
+struct Registers {
+  explicit Registers(const Cpu& c)
+      : w(c.w),
+        n(c.n),
+        z(c.z),
+        c(c.c & 1),
+        ov(c.ov & 0x8000),
+        dc(c.dc & 0x100),
+        rcount(c.rcount),
+        acc(c.acc),
+        loop(c.loop.count << 4 | static_cast<unsigned>(c.loop_depth)),
+        flags(static_cast<unsigned>(c.oa) | c.ob << 1 | c.sa << 2 | c.sb << 3 | c.repeating << 4 |
+              c.end_loop << 5),
+        shadow(c.shadow.w),
+        shadow_flags(c.shadow.flags) {}
+  bool operator==(const Registers& o) const {
+    return w == o.w && n == o.n && (z == 0) == (o.z == 0) && c == o.c && ov == o.ov && dc == o.dc &&
+           rcount == o.rcount && acc == o.acc && loop == o.loop && flags == o.flags && shadow == o.shadow &&
+           shadow_flags == o.shadow_flags;
+  }
+  std::array<std::uint16_t, 16> w;
+  std::uint16_t n, z;
+  unsigned c, ov, dc;
+  std::uint16_t rcount;
+  std::array<std::int64_t, 2> acc;
+  unsigned loop, flags;
+  std::array<std::uint16_t, 4> shadow;
+  unsigned shadow_flags;
+};
+
+}  // namespace
+
+Cycle Cpu::skip_wait() {
+  const Cycle end = deadline;
+  const Decoded* const first = next;
+  const Registers before(*this);
+  watching = true;
+  watched_until = kNever;
+  // one round, at most so many instructions long; false: it is none, or no wait
+  const auto goes_round = [&](int longest) {
+    for (int i = 0; i < longest && now < deadline; ++i) {
+      at = next;
+      const Decoded* following = at->run(*this, at);
+      now += at->cycles;
+      if (at == loop_end) following = loop_back(at, following);
+      next = following;
+      if (deadline != end || watched_until <= now) return false;
+      if (next == first) return before == Registers(*this);
+    }
+    return false;
+  };
+  Cycle skipped = 0;
+  if (goes_round(kLongestRound)) {
+    const auto memory = ram;
+    const Cycle start = now;
+    if (goes_round(kLongestRound) && memory == ram) {
+      const Cycle round = now - start, rounds = (std::min(end, watched_until) - now) / round;
+      skipped = std::max<Cycle>(rounds, 0) * round;
+      now += skipped;
+    }
+  }
+  watching = false;
+  return skipped;
+}
+
+}  // namespace dspic
