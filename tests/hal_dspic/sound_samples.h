@@ -18,7 +18,7 @@ inline std::string sound_samples_source() {
       "\n"
       "#include \"hal.h\"\n"
       "\n"
-      "#ifdef __TWINPUCK__\n"
+      "#ifdef __TWINPUCK_PC__\n"
       "#define IN_PROGRAM_MEMORY\n"
       "#else\n"
       "#define IN_PROGRAM_MEMORY __attribute__((__space__(prog)))\n"
@@ -43,7 +43,7 @@ inline std::string sound_samples_source() {
   }
   text +=
       "\n"
-      "#ifdef __TWINPUCK__\n"
+      "#ifdef __TWINPUCK_PC__\n"
       "\n"
       "int hal_bank_sample(unsigned int index) {\n"
       "  if (index >= HAL_BANK_SAMPLES) return 0;\n"
