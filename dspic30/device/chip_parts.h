@@ -166,6 +166,8 @@ struct ChipParts {
   }
   /// Does reading it move a FIFO or lower a flag?
   static constexpr bool is_changed_by_reading(unsigned address) {
+    constexpr unsigned kFirstCapture = sfr("IC1BUF"),
+                       kLastCapture = sfr("IC8CON");  // not looked up at run time
     switch (address & ~1u) {
       case sfr("I2CRCV"):
       case sfr("U1RXREG"):
@@ -174,7 +176,7 @@ struct ChipParts {
       case sfr("SPI2BUF"):
         return true;
       default:
-        return address >= sfr("IC1BUF") && address < sfr("IC8CON") + 2;  // input capture buffers
+        return address >= kFirstCapture && address < kLastCapture + 2;  // input capture buffers
     }
   }
 

@@ -34,9 +34,12 @@ TEST_F(ChipProgram, text_becomes_a_program_that_is_shown_and_runs) {
   for (const char* part : {"000000  040100  goto 0x000100\n000002  000000\n", "mov #0x800, w15",
                            "bclr.b 0x02c0, #6", "btg.b 0x02c4, #6", "repeat #0x3fff", "bra 0x000104"})
     EXPECT_NE(shown.text.find(part), std::string::npos) << part << " in:\n" << shown.text;
-  const auto run = twinpuck("run maze --fw '*=" + hex + "' --for 0.1");
+  const std::string summary = (folder / "run.json").string();
+  const auto run = twinpuck("run maze --fw '*=" + hex + "' --for 0.1 --summary '" + summary + "'");
   EXPECT_EQ(run.exit_code, 0) << run.text;
-  EXPECT_NE(run.text.find("chip"), std::string::npos) << run.text;
+  std::ifstream in(summary);
+  const std::string json((std::istreambuf_iterator<char>(in)), {});
+  EXPECT_NE(json.find("\"way\": \"chip\""), std::string::npos) << json;
 }
 
 TEST_F(ChipProgram, mistakes_are_named_with_file_and_line) {
