@@ -244,7 +244,7 @@ void add_lab(CLI::App& app, int& exit_code) {
       "in the place of the lab's solutions");
   verb->add_option("--way", a->way,
                    "native or register, for all programs that are built from source; else the worlds'")
-      ->check(CLI::IsMember({"native", "register", "chip"}));
+      ->check(CLI::IsMember({"native", "register"}));
   verb->add_option("--seeds", a->seeds, "runs of everything left to chance, instead of the table's")
       ->check(CLI::Range(1, 100000));
   verb->add_flag("--full", a->full, "as many runs as the figures in docs/lab.md rest on");

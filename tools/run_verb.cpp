@@ -239,8 +239,8 @@ void add_run(CLI::App& app, int& exit_code) {
                        "every robot"));
   verb->add_option(
           "--way", a->way,
-          "native or register, for all robots whose controller is built from source; else the world's")
-      ->check(CLI::IsMember({"native", "register"}));
+          "native, register or chip, for all robots whose controller is built from source; else the world's")
+      ->check(CLI::IsMember({"native", "register", "chip"}));
   one_each(verb->add_option(
       "--uart", a->uart1,
       "[ROBOT=]-|none|pty|pty:LINK|tcp:PORT|file:PATH: the other end of UART 1; - shows text "

@@ -77,8 +77,8 @@ void add_view(CLI::App& app, int& exit_code) {
   verb->add_option("--record-inputs", a->record,
                    "file for what the page does, with its ticks; run --replay does it again");
   verb->add_option("--way", a->way,
-                   "native or register, for all robots whose controller is built from source")
-      ->check(CLI::IsMember({"native", "register"}));
+                   "native, register or chip, for all robots whose controller is built from source")
+      ->check(CLI::IsMember({"native", "register", "chip"}));
   one_each(verb->add_option("--supervisor", a->supervisors, "a program attached to the world"));
   verb->add_option("--seed", a->seed, "the world's seed, 0 or more, instead of the file's")
       ->check(CLI::NonNegativeNumber);

@@ -42,6 +42,22 @@ TEST_F(ChipProgram, text_becomes_a_program_that_is_shown_and_runs) {
   EXPECT_NE(json.find("\"way\": \"chip\""), std::string::npos) << json;
 }
 
+TEST_F(ChipProgram, controllers_source_becomes_an_image_and_drives) {
+  const std::string elf = (folder / "obstacle.elf").string();
+  const auto built = twinpuck("build obstacle --way chip -o '" + elf + "'");
+  ASSERT_EQ(built.exit_code, 0) << built.text;
+  EXPECT_NE(built.text.find("of 49152 words"), std::string::npos) << built.text;
+  for (const char* kind : {"elf", "hex", "lst", "map"})
+    EXPECT_TRUE(std::filesystem::exists(folder / (std::string("obstacle.") + kind))) << kind;
+  // the image and the source give the same run, to the last bit
+  const auto digest = [](const std::string& text) { return text.substr(text.find("digest "), 23); };
+  const auto of_image = twinpuck("run maze --fw '*=" + elf + "' --for 2");
+  const auto of_source = twinpuck("run maze --fw '*=obstacle' --way chip --for 2");
+  ASSERT_EQ(of_image.exit_code, 0) << of_image.text;
+  EXPECT_EQ(digest(of_image.text), digest(of_source.text));
+  EXPECT_NE(of_image.text.find(" 0.1"), std::string::npos) << "it drives some 0.1 m: " << of_image.text;
+}
+
 TEST_F(ChipProgram, mistakes_are_named_with_file_and_line) {
   const std::string source = file("wrong.s", "start:\n  mov #1, w16\n  bra nowhere\n");
   const auto said = twinpuck("asm '" + source + "' -o '" + (folder / "x.hex").string() + "'");
