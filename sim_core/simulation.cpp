@@ -85,6 +85,7 @@ Simulation::Simulation(const WorldDesc& world, Minds minds, int threads)
   rims_until_.resize(n);
   horizons_.resize(n);
   mind_hash_.resize(n);
+  told_.resize(n);
   read_wheels();
   digest_ = mix64(world.seed);
   if (threads > 1 && n > 1) workers_ = std::make_unique<WorkerPool>(std::min(threads, static_cast<int>(n)));
@@ -292,9 +293,13 @@ void Simulation::publish_motion() {
     digest_ = fold(fold(fold(fold(digest_, leg.pose.x_m), leg.pose.y_m), leg.pose.heading_rad), b.z_m);
   }
   for (int r : due_) {
-    const WheelCourse& course = courses_[static_cast<std::size_t>(r)];
-    digest_ = fold(fold(digest_, course.angle.left_rad), course.angle.right_rad);
-    digest_ = fold(digest_, mind_hash_[static_cast<std::size_t>(r)]);
+    const WheelAngles& angle = courses_[static_cast<std::size_t>(r)].angle;
+    std::uint64_t& told = told_[static_cast<std::size_t>(r)];
+    const std::uint64_t now_told =
+        fold(fold(mind_hash_[static_cast<std::size_t>(r)], angle.left_rad), angle.right_rad);
+    if (now_told == told) continue;  // it was due because somebody looked at it
+    told = now_told;
+    digest_ = fold(digest_, told);
   }
   if (fastest2 > pace_m_s_ * pace_m_s_ || lists_until_ - scene_->tick_clicks() < now()) gather_neighbours(0);
 }

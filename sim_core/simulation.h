@@ -120,7 +120,7 @@ class Simulation {
   std::vector<WheelCourse> courses_;
   std::vector<RimCourse> rims_;
   std::vector<Clicks> rims_until_;  // per robot: the last tick for which the rims' speeds hold
-  std::vector<std::uint64_t> mind_hash_;
+  std::vector<std::uint64_t> mind_hash_, told_;
   std::vector<Clicks> horizons_;
   std::vector<int> due_;  // robots of the tick, in order
   std::vector<std::uint32_t> leds_;

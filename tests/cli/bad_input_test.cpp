@@ -77,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"missing_firmware", "run maze --fw puck=@/nothing.so", 2, "nothing.so"},
         Bad{"firmware_is_text", "run maze --fw puck=@/text.so", 2, "no ELF"},
         Bad{"firmware_is_empty", "run maze --fw puck=@/empty.so", 2, "empty file"},
-        Bad{"firmware_is_hex", "run maze --fw puck=@/chip.hex", 2, "Intel hex"},
+        Bad{"firmware_is_hex", "run maze --fw puck=@/chip.hex", 2, "without an end record"},
         Bad{"firmware_of_the_pc", "run maze --fw puck=/lib/x86_64-linux-gnu/libm.so.6", 2,
             "without a firmware"},
         Bad{"firmware_for_nobody", "run maze --fw punk=blink", 2, "did you mean 'puck'"},
