@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // twinpuck asm and dis, and a run of what they made: docs/chip-core.md's sample blinks.
+#include <nlohmann/json.hpp>
+
 #include "tests/cli/command.h"
 
 namespace {
@@ -65,6 +67,34 @@ TEST_F(ChipProgram, mistakes_are_named_with_file_and_line) {
   EXPECT_NE(said.text.find("wrong.s:2: mov: operands '#1, w16' fit none of"), std::string::npos) << said.text;
   EXPECT_EQ(twinpuck("dis '" + source + "'").exit_code, 2);
   EXPECT_EQ(twinpuck("dis /nonexistent.hex").exit_code, 2);
+}
+
+TEST_F(ChipProgram, every_controller_becomes_an_image_that_drives_as_natively) {
+  namespace fs = std::filesystem;
+  int controllers = 0;
+  for (const auto& entry : fs::directory_iterator(TWINPUCK_SOURCE_DIR "/firmware")) {
+    if (!fs::exists(entry.path() / "main.c")) continue;
+    const std::string name = entry.path().filename().string();
+    SCOPED_TRACE(name);
+    ++controllers;
+    double x[2] = {}, y[2] = {}, heading[2] = {};
+    for (int way = 0; way < 2; ++way) {
+      const std::string summary = (folder / "run.json").string();
+      const auto run = twinpuck("run maze --fw '*=" + name + "' --way " + (way ? "chip" : "native") +
+                                " --for 2 --summary '" + summary + "'");
+      ASSERT_EQ(run.exit_code, 0) << run.text;
+      std::ifstream in(summary);
+      const auto robot = nlohmann::json::parse(in)["robots"][0];
+      x[way] = robot["x_m"];
+      y[way] = robot["y_m"];
+      heading[way] = robot["heading_rad"];
+    }
+    // a sample of the infrared sensors taken beside another decides the turn of `braitenberg`: 4 mm
+    EXPECT_NEAR(x[0], x[1], 0.005);
+    EXPECT_NEAR(y[0], y[1], 0.005);
+    EXPECT_NEAR(heading[0], heading[1], 0.07);
+  }
+  EXPECT_GE(controllers, 19);
 }
 
 }  // namespace

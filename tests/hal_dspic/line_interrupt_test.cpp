@@ -120,5 +120,9 @@ TEST(LineInterrupt, stops_timer_4_after_the_last_row_and_not_before) {
 }
 
 TEST(LineInterrupt, is_named_by_the_driver_so_that_archives_give_it_out) {
-  EXPECT_NE(text_of("/hal_dspic/camera/fast_2_timer/e_timers.c").find("= _T4Interrupt;"), std::string::npos);
+  EXPECT_NE(text_of("/hal_dspic/camera/fast_2_timer/e_timers.c").find("= twinpuck_line_handler;"),
+            std::string::npos);
+  EXPECT_NE(text_of("/hal_dspic/camera/fast_2_timer/e_line_interrupt.s")
+                .find("\n_twinpuck_line_handler:\n__T4Interrupt:\n"),
+            std::string::npos);
 }

@@ -11,7 +11,8 @@
         .equ    CONTROL4_HIGH, 0x011F   ; high byte of T4CON, TON is bit 7
 
         .section .text
-        .global __T4Interrupt
+        .global __T4Interrupt, _twinpuck_line_handler
+_twinpuck_line_handler:
 __T4Interrupt:
         push.s                          ; 0
         bclr.b  FLAGS1, #5              ; 1

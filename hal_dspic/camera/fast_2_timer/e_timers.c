@@ -38,10 +38,11 @@ void __attribute__((__interrupt__, __auto_psv__)) _T5Interrupt(void) {
 
 #ifndef __TWINPUCK_PC__
 
-/* The handler has an archive member of its own, which a linker takes only when something names it: vectors do not. */
-extern void _T4Interrupt(void);
+/* The handler has an archive member of its own, which a linker takes only when something names it: vectors do not, and
+ * _T4Interrupt is the slow camera's handler, too. */
+extern void twinpuck_line_handler(void);
 extern void (*const twinpuck_line_interrupt)(void);
-void (*const twinpuck_line_interrupt)(void) = _T4Interrupt;
+void (*const twinpuck_line_interrupt)(void) = twinpuck_line_handler;
 
 #else
 
