@@ -19,7 +19,6 @@
 #include "hal_sim/host/oscillator.h"
 #include "hal_sim/register/chip_processor.h"
 #include "hal_sim/twin/world_file.h"
-#include "sim_core/load/world_loader.h"
 #include "sim_core/radio/link_medium.h"
 #include "sim_core/record/image_file.h"
 #include "sim_core/world/variation.h"
@@ -53,6 +52,11 @@ void check_names(const sim::WorldDesc& world, const std::vector<Choice>& choices
 // where a robot's pseudo-terminal is found: a stable name in the run's folder
 std::string pty_link(const std::string& robot, int port) {
   return "twinpuck-" + robot + "-uart" + std::to_string(port);
+}
+
+/// What its table says in the keys that only its kind has.
+sim::OwnSettings own_settings(const sim::WorldDesc& world, const sim::RobotDesc& robot) {
+  return {world.model_of(robot)->keys, robot.own};
 }
 
 // noise settings stay with the world's optics; the board gets what is this robot's own

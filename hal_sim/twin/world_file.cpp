@@ -22,8 +22,4 @@ sim::LoadedWorld parse_world(std::string_view text, const std::string& file) {
   return sim::parse_world(text, file, robot_models(), board::part_kinds());
 }
 
-sim::OwnSettings own_settings(const sim::WorldDesc& world, const sim::RobotDesc& robot) {
-  return {world.model_of(robot)->keys, robot.own};
-}
-
 }  // namespace twin

@@ -17,7 +17,4 @@ sim::LoadedWorld load_world(const std::string& file);
 /// The same of a text; `file` is where it comes from, for messages and relative paths.
 sim::LoadedWorld parse_world(std::string_view text, const std::string& file);
 
-/// What a robot's table says in the keys that only its kind has.
-sim::OwnSettings own_settings(const sim::WorldDesc& world, const sim::RobotDesc& robot);
-
 }  // namespace twin
