@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "dspic30/core/cpu.h"
+#include "dspic30/core/wait_samples.h"
 
 namespace dspic {
 
@@ -21,13 +22,17 @@ constexpr Cycle kWorthALook = 100, kFirstLooks = 200, kRarestLooks = 4096;
 }  // namespace
 
 Processor::Processor(Dspic30f6014a& chip, ProgramMemory& program)
-    : cpu_(std::make_unique<Cpu>(chip.parts(), program)), chip_(chip), code_version_(program.version()) {}
+    : cpu_(std::make_unique<Cpu>(chip.parts(), program)),
+      waits_(std::make_unique<WaitSamples>()),
+      chip_(chip),
+      code_version_(program.version()) {}
 
 Processor::~Processor() = default;
 
 void Processor::restart() {
   cpu_->reset();
   cpu_->now += kResetCycles;
+  waits_->forget();
   code_version_ = cpu_->program.version();
 }
 
@@ -82,6 +87,10 @@ std::optional<ResetKind> Processor::run(Cycle until) {
       continue;
     }
     cpu.deadline = std::min(until, outlook.horizon);
+    if (cpu.now < waits_->next())
+      cpu.deadline = std::min(cpu.deadline, waits_->next());
+    else if (waits_->look(cpu))
+      cpu.deadline = cpu.now + 1;
     if (cpu.repeating) cpu.next = cpu.run_repeated(cpu.next);
     execute();
   }
@@ -116,6 +125,7 @@ void Processor::enter_interrupt(int vector) {
 
 // --- what others look at --------------------------------------------------------------------------------
 
+Cycle Processor::waited() const { return waits_->waited(); }
 Cycle Processor::now() const { return cpu_->now; }
 void Processor::wait_until(Cycle at) { cpu_->now = std::max(cpu_->now, at); }
 bool Processor::is_asleep() const { return cpu_->power != Cpu::Power::On; }

@@ -12,17 +12,11 @@ namespace {
 constexpr unsigned kIfs0 = dspic::sfr("IFS0"), kInttreg = dspic::sfr("INTTREG"), kRamStart = 0x800,
                    kRamEnd = 0x2800;
 
-std::string place_text(unsigned pc, const host::Place& place) {
-  char text[16];
-  std::snprintf(text, sizeof text, "0x%06x", pc);
-  return place.function == "?" ? text : place.function + " (" + text + ")";
-}
-
 }  // namespace
 
 ChipRunner::ChipRunner(std::string name, std::shared_ptr<const dspic::FirmwareFile> file, double clock_factor,
                        board::Board& board, Cycle start)
-    : Runner(std::move(name)), file_(std::move(file)), chip_(board) {
+    : Runner(std::move(name)), file_(std::move(file)), board_(board), chip_(board) {
   // what a programmer writes: flash and configuration words, and the EEPROM, which is the board's
   for (const auto& [address, word] : file_->words) {
     if (program_.write(address, word)) continue;
@@ -94,7 +88,7 @@ void ChipRunner::reset(dspic::ResetKind kind) {
     host::TrapReport report;
     report.robot = name();
     report.place = place_of(processor_->pc());
-    report.message = std::string(why) + ", at " + place_text(processor_->pc(), report.place);
+    report.message = std::string(why) + ", at " + file_->code.describe(processor_->pc());
     report.cycle = at;
     report.time_s = to_world_s ? to_world_s(at) : 0;
     if (!traps_.empty() && traps_.back().message == report.message)
@@ -105,6 +99,10 @@ void ChipRunner::reset(dspic::ResetKind kind) {
   if (observer_) observer_->ended(at);
   chip_.reset(at);
   processor_->restart();
+}
+
+std::vector<board::Diagnosis> ChipRunner::diagnoses() const {
+  return dated(chip_.diagnoses(), board_.diagnoses(lived_cycles()));
 }
 
 std::uint64_t ChipRunner::hash() const {
@@ -195,12 +193,12 @@ void ChipRunner::write_memory(std::uintptr_t address, const void* from, std::siz
 
 host::Place ChipRunner::place_of(std::uintptr_t code) const {
   host::Place place{"?", "", 0};
-  std::uint32_t best = 0;
-  for (const auto& [function, address] : file_->functions)
-    if (address <= code && address >= best) {
-      best = address;
-      place.function = function;
-    }
+  const auto address = static_cast<std::uint32_t>(code);
+  if (const auto* function = file_->code.function_at(address)) place.function = function->name;
+  if (const auto* line = file_->code.line_at(address)) {
+    place.file = file_->code.files[line->file];
+    place.line = line->line;
+  }
   return place;
 }
 

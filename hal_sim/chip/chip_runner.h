@@ -41,11 +41,11 @@ class ChipRunner final : public host::Runner, private dspic::EventWatch {
 
   Cycle cycles() const override { return end_; }
   Cycle lived_cycles() const override { return end_; }
-  Cycle idle_cycles() const override { return processor_->slept(); }
+  Cycle idle_cycles() const override { return processor_->slept() + processor_->waited(); }
   Cycle waiting_since() const override { return dspic::kNever; }
   bool has_stopped() const override { return false; }
   const std::vector<host::TrapReport>& traps() const override { return traps_; }
-  std::vector<board::Diagnosis> diagnoses() const override { return chip_.diagnoses(); }
+  std::vector<board::Diagnosis> diagnoses() const override;
   std::uint64_t hash() const override;
 
   const host::Variable* find_variable(const std::string& expression, std::string& error) const override;
@@ -77,6 +77,7 @@ class ChipRunner final : public host::Runner, private dspic::EventWatch {
   dspic::Dspic30f6014a& device() const { return chip_.device(); }
 
   std::shared_ptr<const dspic::FirmwareFile> file_;
+  board::Board& board_;
   mutable SolderedChip chip_;  // looking advances closed forms
   dspic::ProgramMemory program_;
   std::unique_ptr<dspic::Processor> processor_;

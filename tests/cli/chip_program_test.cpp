@@ -51,6 +51,9 @@ TEST_F(ChipProgram, controllers_source_becomes_an_image_and_drives) {
   EXPECT_NE(built.text.find("of 49152 words"), std::string::npos) << built.text;
   for (const char* kind : {"elf", "hex", "lst", "map"})
     EXPECT_TRUE(std::filesystem::exists(folder / (std::string("obstacle.") + kind))) << kind;
+  const auto shown = twinpuck("dis '" + elf + "'");
+  EXPECT_NE(shown.text.find("\nmain:\n"), std::string::npos);
+  EXPECT_NE(shown.text.find("firmware/lab/obstacle/main.c:"), std::string::npos) << "lines are named";
   // the image and the source give the same run, to the last bit
   const auto digest = [](const std::string& text) { return text.substr(text.find("digest "), 23); };
   const auto of_image = twinpuck("run maze --fw '*=" + elf + "' --for 2");
