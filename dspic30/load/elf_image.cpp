@@ -116,7 +116,8 @@ class ElfReader {
 
   void read_lines(Elf_Scn* section) {
     const Elf_Data* data = elf_getdata(section, nullptr);
-    if (data && data->d_buf) file_.code.add_lines(static_cast<const unsigned char*>(data->d_buf), data->d_size);
+    if (data && data->d_buf)
+      file_.code.add_lines(static_cast<const unsigned char*>(data->d_buf), data->d_size);
   }
 
   void read_symbols(Elf_Scn* section, const GElf_Shdr& head) {
