@@ -134,6 +134,7 @@ std::uint16_t Processor::w(int n) const { return cpu_->w[static_cast<std::size_t
 std::uint16_t Processor::sr() const { return static_cast<std::uint16_t>(cpu_->sr()); }
 std::int64_t Processor::accumulator(int n) const { return cpu_->acc[static_cast<std::size_t>(n)]; }
 std::uint8_t Processor::ram(unsigned address) const { return cpu_->ram[address - Cpu::kRamStart]; }
+const std::uint8_t* Processor::ram() const { return cpu_->ram.data(); }
 void Processor::set_ram(unsigned address, std::uint8_t value) { cpu_->ram[address - Cpu::kRamStart] = value; }
 
 void Processor::set_w(int n, std::uint16_t value) {

@@ -48,6 +48,9 @@ class Processor {
   std::uint16_t sr() const;
   std::int64_t accumulator(int n) const;
   std::uint8_t ram(unsigned address) const;  ///< 0x800 to 0x27FF
+  static constexpr unsigned kRamStart = 0x800, kRamEnd = 0x2800;
+  static constexpr std::size_t kRamBytes = kRamEnd - kRamStart;
+  const std::uint8_t* ram() const;  ///< all of it
   void set_ram(unsigned address, std::uint8_t value);
   void set_w(int n, std::uint16_t value);
   std::uint64_t state_hash() const;

@@ -123,6 +123,7 @@ class LineProgram {
   }
 
   void begin() {
+    sequence_ = map_.lines.size();
     row_ = {};
     row_.is_statement = starts_statement_;
     file_ = 1;
@@ -148,6 +149,8 @@ class LineProgram {
       case EndSequence:
         file_ = 0;  // no line from here on
         emit();
+        // what the linker left out stands at 0, where no C code can be
+        if (map_.lines[sequence_].address == 0) map_.lines.resize(sequence_);
         return begin();
       case SetAddress:
         row_.address = rest.number(rest.left());
@@ -192,6 +195,7 @@ class LineProgram {
   bool starts_statement_ = true;
   int line_base_ = 0, line_range_ = 1, opcode_base_ = 1, line_ = 1;
   std::uint32_t shortest_ = 1, file_ = 1;
+  std::size_t sequence_ = 0;  // its first row
   CodeMap::Line row_;
 };
 

@@ -9,8 +9,8 @@ namespace chip {
 
 namespace {
 
-constexpr unsigned kIfs0 = dspic::sfr("IFS0"), kInttreg = dspic::sfr("INTTREG"), kRamStart = 0x800,
-                   kRamEnd = 0x2800;
+constexpr unsigned kIfs0 = dspic::sfr("IFS0"), kInttreg = dspic::sfr("INTTREG"),
+                   kRamStart = dspic::Processor::kRamStart, kRamEnd = dspic::Processor::kRamEnd;
 
 }  // namespace
 
@@ -49,8 +49,8 @@ void ChipRunner::begin_window(Cycle now) {
 void ChipRunner::run_until(Cycle end) {
   if (processor_->now() < end) {
     ++turns_;
-    if (observer_)
-      run_observed(end);
+    if (observer_ || !watches_.empty())
+      run_watched(end);
     else
       while (const auto kind = processor_->run(end)) reset(*kind);
   }
@@ -76,8 +76,13 @@ void ChipRunner::restart() {
   processor_->wait_until(end_);
   chip_.reset(processor_->now());
   processor_->restart();
-  if (observer_) observer_->ended(processor_->now());
+  tell_reset(processor_->now());
   wake();
+}
+
+void ChipRunner::tell_reset(Cycle at) {
+  if (observer_) observer_->ended(at);
+  for (StepWatch* watch : watches_) watch->was_reset(at);
 }
 
 // what the program asked for by RESET goes unsaid
@@ -96,7 +101,7 @@ void ChipRunner::reset(dspic::ResetKind kind) {
     else
       traps_.push_back(report);
   }
-  if (observer_) observer_->ended(at);
+  tell_reset(at);
   chip_.reset(at);
   processor_->restart();
 }
@@ -109,28 +114,43 @@ std::uint64_t ChipRunner::hash() const {
   return device().state_hash(chip_.at(end_), false) ^ processor_->state_hash() * 0x9E3779B97F4A7C15u;
 }
 
-// --- observed: instruction by instruction, and what it told in between
+// --- watched: instruction by instruction, and what it told in between
 
-void ChipRunner::run_observed(Cycle end) {
+void ChipRunner::run_watched(Cycle end) {
   while (processor_->now() < end) {
-    const Cycle before = processor_->now();
+    Step step;
+    step.begin = processor_->now();
+    for (StepWatch* watch : watches_) watch->before(step.begin);
+    step.pc = processor_->pc();
+    step.slept = processor_->is_asleep();
     const int nesting = device().nesting();
-    const bool slept = processor_->is_asleep();
-    observer_->reached(before);
-    if (const auto kind = processor_->run(slept ? end : before + 1)) {
+    if (observer_) observer_->reached(step.begin);
+    if (const auto kind = processor_->run(step.slept ? end : step.begin + 1)) {
       reset(*kind);
       continue;
     }
-    const Cycle now = processor_->now();
-    if (slept) observer_->waited(before, now, nesting);
-    if (device().nesting() > nesting) {
-      const int vector = device().peek(kInttreg, chip_.at(now)) & 0x3F;
-      const int irq = vector - dspic::kFirstIrqVector;
-      observer_->handler_begins(irq, irq >= 0 ? device().flag_since(vector) : -1, before, now);
-    } else if (device().nesting() < nesting) {
-      observer_->handler_ends(now);
-    }
+    step.end = processor_->now();
+    step.next = processor_->pc();
+    if (device().nesting() > nesting) step.entered = device().peek(kInttreg, chip_.at(step.end)) & 0x3F;
+    step.left = device().nesting() < nesting;
+    if (observer_) tell_observer(step, nesting);
+    for (StepWatch* watch : watches_) watch->after(step);
   }
+}
+
+void ChipRunner::tell_observer(const Step& step, int nesting) {
+  if (step.slept) observer_->waited(step.begin, step.end, nesting);
+  if (step.entered != dspic::kNoVector) {
+    const int irq = step.entered - dspic::kFirstIrqVector;
+    observer_->handler_begins(irq, irq >= 0 ? device().flag_since(step.entered) : -1, step.begin, step.end);
+  } else if (step.left) {
+    observer_->handler_ends(step.end);
+  }
+}
+
+void ChipRunner::watch_steps(StepWatch* watch, bool on) {
+  watches_.erase(std::remove(watches_.begin(), watches_.end(), watch), watches_.end());
+  if (on) watches_.push_back(watch);
 }
 
 void ChipRunner::observe(host::Observer* observer) {

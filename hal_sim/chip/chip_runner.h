@@ -15,6 +15,7 @@
 #include "dspic30/core/processor.h"
 #include "dspic30/load/firmware_file.h"
 #include "hal_sim/chip/soldered_chip.h"
+#include "hal_sim/chip/step_watch.h"
 #include "hal_sim/host/runner.h"
 
 namespace chip {
@@ -69,12 +70,17 @@ class ChipRunner final : public host::Runner, private dspic::EventWatch {
   }
 
   const dspic::Processor& processor() const { return *processor_; }
+  dspic::Dspic30f6014a& device() const { return chip_.device(); }
+  const dspic::FirmwareFile& file() const { return *file_; }
+  /// `watch` sees every step from now on, or no longer. It outlives the runner or is taken away.
+  void watch_steps(StepWatch* watch, bool on);
 
  private:
   void about_to_change(Cycle at) override { observer_->about_to_change(at); }
-  void run_observed(Cycle end);
+  void run_watched(Cycle end);
+  void tell_observer(const Step& step, int nesting);
+  void tell_reset(Cycle at);
   void reset(dspic::ResetKind kind);
-  dspic::Dspic30f6014a& device() const { return chip_.device(); }
 
   std::shared_ptr<const dspic::FirmwareFile> file_;
   board::Board& board_;
@@ -83,6 +89,7 @@ class ChipRunner final : public host::Runner, private dspic::EventWatch {
   std::unique_ptr<dspic::Processor> processor_;
   std::vector<host::TrapReport> traps_;
   host::Observer* observer_ = nullptr;
+  std::vector<StepWatch*> watches_;
   Cycle end_ = 0, idle_until_ = 0;
   std::uint64_t turns_ = 0;
 };

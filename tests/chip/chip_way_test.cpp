@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The chip way: programs assembled here, run as .hex files in a world.
-#include <filesystem>
-#include <fstream>
-
-#include "dspic30/asm/assembler.h"
-#include "dspic30/load/firmware_file.h"
-#include "tests/support/firmware_test.h"
-#include "twinpuck_paths.h"
+#include "tests/chip/chip_fixture.h"
 
 namespace {
 
@@ -86,30 +80,9 @@ __reset: mov #7, w0
 text: .asciz "hello\r\n"
 )";
 
-class ChipWayTest : public firmware_test::FirmwareTest {
+class ChipWayTest : public chip_test::ChipTest {
  protected:
-  ~ChipWayTest() override {
-    for (const auto& file : files_) std::filesystem::remove(file);
-  }
-  /// The program as a .hex file.
-  std::string hex(const std::string& text) {
-    const dspic::assembly::Image image = dspic::assembly::assemble(text, "test.s");
-    EXPECT_TRUE(image.is_whole()) << image.report();
-    dspic::FirmwareFile file;
-    file.words = image.program;
-    return write(dspic::to_hex(file));
-  }
-  std::string write(const std::string& bytes) {
-    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    files_.push_back(std::string(TWINPUCK_BUILD_DIR) + "/tests/chip-" + info->name() +
-                     std::to_string(files_.size()) + ".hex");
-    std::ofstream(files_.back(), std::ios::binary) << bytes;
-    return files_.back();
-  }
   std::string drive() { return hex("    .equ pause, " + std::to_string(kPause) + "\n" + kDrive); }
-
- private:
-  std::vector<std::string> files_;
 };
 
 // 500 steps/s of 0.1288 mm: 64 mm/s
