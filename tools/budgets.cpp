@@ -61,13 +61,13 @@ bool Budgets::read(const std::string& file, std::vector<std::string>& problems) 
                         const std::vector<std::string>& known) {
     for (const auto& [key, node] : table) {
       Budget budget{of, name, std::string(key.str()), 0, ""};
-      const auto limit = node.is_boolean() ? std::nullopt : node.value<double>();
+      const double limit = node.is_boolean() ? -1 : node.value<double>().value_or(-1);
       if (std::find(known.begin(), known.end(), budget.key) == known.end()) {
         problem(key.source(), "unknown key '" + budget.key + "'" + hint(budget.key, known));
-      } else if (!limit || !(*limit >= 0 && *limit < 1e15)) {
+      } else if (!(limit >= 0 && limit < 1e15)) {
         problem(node.source(), budget.key + ": expected a number, 0 or more");
       } else {
-        budget.limit = *limit;
+        budget.limit = limit;
         budget.place = fmt::format("{}:{}:{}", file, key.source().begin.line, key.source().begin.column);
         for (const std::string unit : {"_us", "_cycles"})
           if (ends_with(budget.key, unit)) budget.key.resize(budget.key.size() - unit.size());

@@ -147,8 +147,9 @@ class LineProgram {
     Cursor rest = unit_.part(unit_.leb());
     switch (rest.byte()) {
       case EndSequence:
-        file_ = 0;  // no line from here on
+        row_.is_end = true;
         emit();
+        map_.lines.back().line = 0;
         // what the linker left out stands at 0, where no C code can be
         if (map_.lines[sequence_].address == 0) map_.lines.resize(sequence_);
         return begin();
@@ -226,7 +227,7 @@ void CodeMap::add_lines(const unsigned char* bytes, std::size_t size) {
 void CodeMap::sort() {
   // an end of a sequence goes before what begins at the same address
   std::stable_sort(lines.begin(), lines.end(), [](const Line& a, const Line& b) {
-    return a.address != b.address ? a.address < b.address : a.line == 0 && b.line != 0;
+    return a.address != b.address ? a.address < b.address : a.is_end && !b.is_end;
   });
   std::stable_sort(functions.begin(), functions.end(),
                    [](const Function& a, const Function& b) { return a.begin < b.begin; });
@@ -246,8 +247,10 @@ const CodeMap::Function* CodeMap::function_named(const std::string& name) const 
 }
 
 const CodeMap::Line* CodeMap::line_at(std::uint32_t address) const {
-  const auto found = last_before(lines, address, [](const Line& l) { return l.address; });
-  return found != lines.end() && found->line > 0 ? &*found : nullptr;
+  auto found = last_before(lines, address, [](const Line& l) { return l.address; });
+  if (found == lines.end()) return nullptr;
+  while (found->line == 0 && !found->is_end && found != lines.begin()) --found;
+  return found->line > 0 ? &*found : nullptr;
 }
 
 std::vector<std::uint32_t> CodeMap::addresses_of(const std::string& file, int line, int& found) const {

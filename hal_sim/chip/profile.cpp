@@ -67,7 +67,7 @@ Profile::Kind Profile::kind_of(unsigned pc) {
   return kind;
 }
 
-// --- steps ------------------------------------------------------------------------------------------------
+// --- steps
 
 void Profile::after(const Step& step) {
   const Cycle took = step.end - step.begin;
@@ -124,7 +124,7 @@ void Profile::was_reset(Cycle) {
   for (auto& [target, loop] : loops_) loop.last = -1;
 }
 
-// --- calls ------------------------------------------------------------------------------------------------
+// --- calls
 
 void Profile::call(const Step& step, bool by_register) {
   Context& context = here();
@@ -153,7 +153,7 @@ void Profile::finish(Context& context, const Frame& frame) {
   f.cycles.add(took, frame.at);
 }
 
-// --- handlers ---------------------------------------------------------------------------------------------
+// --- handlers
 
 void Profile::enter_handler(const Step& step) {
   InterruptTally& tally = interrupts_[step.entered];
@@ -219,7 +219,7 @@ void Profile::watch_stack(Cycle at) {
   }
 }
 
-// --- loops ------------------------------------------------------------------------------------------------
+// --- loops
 
 void Profile::turn_loop(const Step& step) {
   if (contexts_.size() > 1 || function_of(step.next) != function_of(step.pc)) return;
@@ -338,7 +338,7 @@ void Profile::end_wait(Context& context) {
   context.waits_at = ~0u;
 }
 
-// --- the report -------------------------------------------------------------------------------------------
+// --- the report
 
 std::string Profile::name_of(int function) const {
   return function > 0 ? file_.code.functions[static_cast<std::size_t>(function - 1)].name : "?";

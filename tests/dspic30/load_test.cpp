@@ -189,8 +189,8 @@ TEST(ElfImage, lines_are_read) {
   ASSERT_TRUE(dspic::load_firmware(elf({code, lines}), "x.elf", file, error)) << error;
   EXPECT_EQ(file.code.describe(0x100), "main.c:7");
   EXPECT_EQ(file.code.describe(0x102), "main.c:12");
-  EXPECT_EQ(file.code.describe(0x104), "0x000104");  // code of no line
-  EXPECT_EQ(file.code.describe(0x106), "0x000106");  // beyond the end
+  EXPECT_EQ(file.code.describe(0x104), "main.c:12");  // the compiler's own
+  EXPECT_EQ(file.code.describe(0x106), "0x000106");   // beyond the end
   EXPECT_EQ(file.code.describe(0x0FE), "0x0000fe");
   ASSERT_NE(file.code.line_at(0x100), nullptr);
   EXPECT_EQ(file.code.files[file.code.line_at(0x100)->file], "/p/main.c");
