@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iostream>
 
+#include "hal_sim/debug/dap.h"
 #include "hal_sim/debug/monitor.h"
 #include "hal_sim/twin/world_file.h"
 #include "tools/command_line.h"
@@ -24,7 +25,7 @@ struct DebugArguments {
   std::vector<std::string> firmware;
   double seconds = 1e6;
   long long seed = -1;
-  bool quiet = false;
+  bool dap = false;
 };
 
 volatile std::sig_atomic_t pause_asked = 0;
@@ -48,17 +49,41 @@ bool set_up(const DebugArguments& a, debug::Session::Setup& setup, std::vector<s
   return true;
 }
 
-int debug_in_terminal(const DebugArguments& a) {
-  std::vector<std::string> problems;
-  debug::Session::Setup setup;
-  std::unique_ptr<SerialText> serial;
-  setup.opened = [&](twin::Twin& twin) {
-    serial = std::make_unique<SerialText>([](const std::string& line) { std::cout << line << '\n'; });
+/// Robots' text goes to `say`.
+std::shared_ptr<SerialText> listen(debug::Session::Setup& setup,
+                                   std::function<void(const std::string&)> say) {
+  auto serial = std::make_shared<SerialText>(say);
+  setup.opened = [=](twin::Twin& twin) {
+    *serial = SerialText(say);
     for (int i = 0; i < twin.robots(); ++i)
       for (int port = 1; port <= 2; ++port)
         if (twin.uart_choice(i, port) == "-") serial->listen(twin, i, port);
   };
-  setup.ticked = [&](twin::Twin&) { serial->show(); };
+  setup.ticked = [=] { serial->show(); };
+  setup.repeated = [=] { serial->forget(); };
+  return serial;
+}
+
+/// A session as an editor's launch.json asks for it.
+std::unique_ptr<debug::Session> launched(const nlohmann::json& launch,
+                                         const std::function<void(const std::string&)>& output,
+                                         std::vector<std::string>& problems) {
+  DebugArguments a;
+  a.world = launch.value("world", "maze");
+  a.robot = launch.value("robot", "");
+  a.seconds = launch.value("seconds", a.seconds);
+  a.seed = launch.value("seed", a.seed);
+  if (const std::string firmware = launch.value("firmware", ""); !firmware.empty())
+    a.firmware.push_back(firmware);
+  debug::Session::Setup setup;
+  listen(setup, output);
+  return set_up(a, setup, problems) ? debug::Session::open(std::move(setup), problems) : nullptr;
+}
+
+int debug_in_terminal(const DebugArguments& a) {
+  std::vector<std::string> problems;
+  debug::Session::Setup setup;
+  listen(setup, [](const std::string& line) { std::cout << line << '\n'; });
   if (!set_up(a, setup, problems)) {
     complain(problems);
     return kBadInput;
@@ -92,7 +117,7 @@ void add_debug(CLI::App& app, int& exit_code) {
   auto* verb =
       app.add_subcommand("debug", "Debug a robot's program on the chip: breakpoints, steps, also backwards");
   auto a = std::make_shared<DebugArguments>();
-  verb->add_option("WORLD", a->world, "world file, or the name of one in worlds/")->required();
+  auto* world = verb->add_option("WORLD", a->world, "world file, or the name of one in worlds/");
   one_each(verb->add_option("--fw", a->firmware,
                             "[ROBOT=]FILE: a .elf or .hex, a folder of C files, or a controller's name"));
   verb->add_option("-x,--commands", a->commands, "file of commands, instead of the terminal");
@@ -102,7 +127,16 @@ void add_debug(CLI::App& app, int& exit_code) {
   verb->add_option("--seed", a->seed, "the world's seed, 0 or more, instead of the file's")
       ->check(CLI::NonNegativeNumber);
   verb->footer("Commands are read from the terminal, or from a pipe; help lists them. See docs/debug.md");
-  verb->callback([a, &exit_code] { exit_code = debug_in_terminal(*a); });
+  verb->add_flag("--dap", a->dap, "speak the Debug Adapter Protocol with an editor, which says what to run");
+  verb->callback([a, world, &exit_code] {
+    if (a->dap) {
+      std::signal(SIGPIPE, SIG_IGN);
+      exit_code = debug::DapServer(0, 1, launched).serve() ? kPass : kBadInput;
+      return;
+    }
+    if (world->count() == 0) throw CLI::RequiredError("WORLD or --dap");
+    exit_code = debug_in_terminal(*a);
+  });
 }
 
 }  // namespace tools

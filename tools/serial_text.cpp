@@ -33,6 +33,10 @@ void SerialText::show() {
     if (!line->text.empty()) show(*line, false);
 }
 
+void SerialText::forget() {
+  for (const auto& line : lines_) line->text.clear();
+}
+
 // lines end with CR, LF or both, as programs have it
 void SerialText::show(Line& line, bool all) {
   std::size_t begin = 0;

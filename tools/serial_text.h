@@ -20,6 +20,8 @@ class SerialText {
   void listen(twin::Twin& twin, int robot, int port);
   /// Between ticks: whole lines that have come.
   void show();
+  /// What has come and is not shown yet never will be.
+  void forget();
   /// At the end of a run: the rest, and how much was no text.
   void finish();
 

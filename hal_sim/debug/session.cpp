@@ -100,7 +100,7 @@ void Session::run_world() {
     const bool wanted = mind.cycle_at(simulation.now() + 2 * tick) >= std::min(fast_until_, poke);
     if (wanted != watches) runner_->watch_steps(this, watches = wanted);
     simulation.advance(simulation.now());
-    if (setup_.ticked && !is_repeating_ && !abandoned_) setup_.ticked(*twin_);
+    if (setup_.ticked && !is_repeating_ && !abandoned_) setup_.ticked();
   }
   if (watches) runner_->watch_steps(this, false);
   {
@@ -161,6 +161,7 @@ Stop Session::repeat_to(Cycle cycle, Cycle look_from, const std::function<bool()
   stop_ = {Stop::Why::Step, 0, ""};
   const Stop stop = resume(idle);
   is_repeating_ = false;
+  if (setup_.repeated) setup_.repeated();
   return stop;
 }
 

@@ -66,10 +66,11 @@ class Session final : private chip::StepWatch {
   struct Setup {
     sim::WorldDesc world;
     twin::Options options;
-    std::string robot;     ///< empty: the first that runs the chip way
-    double seconds = 1e6;  ///< the world ends
-    /// Told of each new world, and after each tick that is not a repetition; both may be empty.
-    std::function<void(twin::Twin&)> opened, ticked;
+    std::string robot;                        ///< empty: the first that runs the chip way
+    double seconds = 1e6;                     ///< the world ends
+    std::function<void(twin::Twin&)> opened;  ///< told of each new world; this and the others may be empty
+    std::function<void()> ticked;             ///< after each tick that is not a repetition
+    std::function<void()> repeated;           ///< after a repetition
   };
   /// Stopped before the program's first instruction. Null with lines in `problems`.
   static std::unique_ptr<Session> open(Setup setup, std::vector<std::string>& problems);

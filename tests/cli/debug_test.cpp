@@ -26,7 +26,7 @@ __attribute__((noinline)) int weigh(int n) {
 
 __attribute__((noinline)) void work(int n) {
   sum += weigh(n);
-  LATAbits.LATA6 = !LATAbits.LATA6;
+  LATAbits.LATA6 = !LATAbits.LATA6;  // toggle
 }
 
 int main(void) {
@@ -163,6 +163,16 @@ TEST_F(Debug, a_trace_has_an_instruction_a_line) {
     ++lines;
   }
   EXPECT_EQ(lines, 50);
+}
+
+TEST_F(Debug, editors_speak_with_it) {
+  const std::string line = "python3 '" TWINPUCK_SOURCE_DIR "/tests/cli/dap_client.py' '" +
+                           cli_test::executable() + "' '" + elf() + "' '" + path("mine/main.c") + "' 2>&1";
+  FILE* pipe = popen(line.c_str(), "r");
+  std::string text;
+  for (char bytes[4096]; const std::size_t n = fread(bytes, 1, sizeof bytes, pipe);) text.append(bytes, n);
+  EXPECT_EQ(pclose(pipe), 0) << text;
+  EXPECT_EQ(text, "all as expected\n");
 }
 
 TEST_F(Debug, mistakes_are_answered) {

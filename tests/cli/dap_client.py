@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: MIT
+"""An editor's side of the Debug Adapter Protocol: dap_client.py TWINPUCK FIRMWARE SOURCE. Exit code 0: all as expected."""
+import json
+import subprocess
+import sys
+
+TWINPUCK, FIRMWARE, SOURCE = sys.argv[1:]
+server = subprocess.Popen([TWINPUCK, "debug", "--dap"], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+sequence = 0
+events = []
+
+
+def receive():
+    length = 0
+    while (line := server.stdout.readline().strip()):
+        length = int(line.split(b":")[1])
+    assert length > 0, "the server has ended"
+    return json.loads(server.stdout.read(length))
+
+
+def ask(command, **arguments):
+    """The response; events that come before it are kept."""
+    global sequence
+    sequence += 1
+    text = json.dumps({"seq": sequence, "type": "request", "command": command, "arguments": arguments}).encode()
+    server.stdin.write(b"Content-Length: %d\r\n\r\n%s" % (len(text), text))
+    server.stdin.flush()
+    while (message := receive())["type"] == "event":
+        events.append(message)
+    assert message["request_seq"] == sequence and message["command"] == command, message
+    return message
+
+
+def event(name):
+    while True:
+        for e in events:
+            if e["event"] == name:
+                events.remove(e)
+                return e.get("body", {})
+        events.append(receive())
+
+
+def good(command, **arguments):
+    response = ask(command, **arguments)
+    assert response["success"], response
+    return response["body"]
+
+
+def expect(got, wanted):
+    assert got == wanted, f"got {got!r}, expected {wanted!r}"
+
+
+def top():
+    frame = good("stackTrace", threadId=1)["stackFrames"][0]
+    return frame["name"], frame["line"]
+
+
+def value(expression):
+    return good("evaluate", expression=expression, context="watch")["result"]
+
+
+assert good("initialize", adapterID="twinpuck")["supportsStepBack"]
+assert not ask("stackTrace", threadId=1)["success"]
+good("launch", world="maze", firmware=FIRMWARE, seconds=0.03)
+event("initialized")
+lines = {text.split("//")[1].strip(): n for n, text in enumerate(open(SOURCE, encoding="utf-8"), 1) if "//" in text}
+set_points = good("setBreakpoints", source={"path": SOURCE},
+                  breakpoints=[{"line": lines["toggle"], "condition": "ticks == 3"}, {"line": 9999}])["breakpoints"]
+expect([b["verified"] for b in set_points], [True, False])
+expect(set_points[0]["line"], lines["toggle"])
+good("setExceptionBreakpoints", filters=[])
+good("configurationDone")
+stopped = event("stopped")
+expect((stopped["reason"], stopped["hitBreakpointIds"]), ("breakpoint", [set_points[0]["id"]]))
+expect(top(), ("work", lines["toggle"]))
+expect([f["name"] for f in good("stackTrace", threadId=1)["stackFrames"]][:2], ["work", "main"])
+expect(good("stackTrace", threadId=1)["stackFrames"][0]["source"]["path"], SOURCE)
+expect(good("threads")["threads"], [{"id": 1, "name": "puck"}])
+expect([s["name"] for s in good("scopes", frameId=0)["scopes"]], ["Variables", "Registers", "Peripherals"])
+shown = {v["name"]: v["value"] for v in good("variables", variablesReference=2)["variables"]}
+expect(shown["ticks"], "3 (0x3)")
+assert "w15" in {v["name"] for v in good("variables", variablesReference=1)["variables"]}
+assert "LATA" in {v["name"] for v in good("variables", variablesReference=3)["variables"]}
+before = value("LATA.LATA6")
+good("next", threadId=1)
+expect(event("stopped")["reason"], "step")
+assert value("LATA.LATA6") != before
+good("stepBack", threadId=1)
+event("stopped")
+expect((top(), value("LATA.LATA6")), (("work", lines["toggle"]), before))
+cycle = value("cycle")
+good("stepIn", threadId=1, granularity="instruction")
+event("stopped")
+assert value("cycle") != cycle
+good("stepBack", threadId=1, granularity="instruction")
+event("stopped")
+expect(value("cycle"), cycle)
+good("stepOut", threadId=1)
+event("stopped")
+expect(top()[0], "main")
+
+# changed by hand, watched, the monitor's commands
+expect(good("setVariable", variablesReference=2, name="ticks", value="10 + 1")["value"], "11")
+assert not ask("setVariable", variablesReference=2, name="nothing", value="1")["success"]
+assert not ask("evaluate", expression="nothing", context="watch")["success"]
+assert "it goes round in main()" in good("evaluate", expression="why", context="repl")["result"]
+good("setBreakpoints", source={"path": SOURCE}, breakpoints=[])
+expect(good("dataBreakpointInfo", name="ticks")["dataId"], "ticks")
+good("setDataBreakpoints", breakpoints=[{"dataId": "ticks"}])
+good("continue", threadId=1)
+stopped = event("stopped")
+expect(stopped["reason"], "data breakpoint")
+assert "ticks: 11 -> 12, by _T1Interrupt()" in stopped["text"], stopped
+assert top()[0] == "_T1Interrupt (interrupt)"
+good("setDataBreakpoints", breakpoints=[])
+expect([b["verified"] for b in good("setFunctionBreakpoints", breakpoints=[{"name": "work"}, {"name": "no"}])["breakpoints"]],
+       [True, False])
+good("continue", threadId=1)
+expect((event("stopped")["reason"], top()[0]), ("breakpoint", "work"))
+good("reverseContinue", threadId=1)
+expect((event("stopped")["reason"], top()[0]), ("breakpoint", "work"))
+good("setFunctionBreakpoints", breakpoints=[])
+assert not ask("launchRockets")["success"]
+assert not ask("setBreakpoints", source={"path": 1})["success"]
+
+# a pause, and a breakpoint that is set while it runs; then the end of the world's time
+good("continue", threadId=1)
+good("setFunctionBreakpoints", breakpoints=[])
+event("terminated")
+good("disconnect")
+expect(server.wait(10), 0)
+
+# another one, paused while it runs
+server = subprocess.Popen([TWINPUCK, "debug", "--dap"], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+events.clear()
+good("initialize", adapterID="twinpuck")
+assert not ask("launch", world="nowhere")["success"]
+event("terminated")
+good("launch", firmware=FIRMWARE, stopOnEntry=True)
+event("initialized")
+good("configurationDone")
+expect(event("stopped")["reason"], "entry")
+good("continue", threadId=1)
+good("threads")
+good("pause", threadId=1)
+expect(event("stopped")["reason"], "pause")
+assert int(value("cycle").split()[0]) > 0
+good("disconnect")
+expect(server.wait(10), 0)
+
+# what is no message ends it
+server = subprocess.Popen([TWINPUCK, "debug", "--dap"], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+server.communicate(b"Content-Length: 5\r\n\r\n[[[[[", timeout=10)
+expect(server.returncode, 2)
+print("all as expected")
