@@ -144,7 +144,14 @@ void show_exact(const CyclesArguments& a, const chip::ProfileReport& report) {
   if (of_library > 0) std::cout << fmt::format("and {} functions of the library: --all\n", of_library);
 }
 
-/// Beside one another; the estimate is off by what its mean is more or less than the exact one.
+/// Does an exact mean lie between the estimate's least and most? If not, by how much it is off.
+bool is_within(const cc::FunctionCycles& estimate, double exact) {
+  return exact >= estimate.min && (estimate.max < 0 || exact <= estimate.max);
+}
+double off(const cc::FunctionCycles& estimate, double exact) {
+  return (exact < estimate.min ? estimate.min : estimate.max) / exact - 1;
+}
+
 void show_both(const CyclesArguments& a, const std::vector<cc::FunctionCycles>& functions,
                const chip::ProfileReport& report) {
   std::cout << fmt::format(
@@ -166,8 +173,8 @@ void show_both(const CyclesArguments& a, const std::vector<cc::FunctionCycles>& 
       measured = fmt::format("{:>8} {:>8} {:>8} {:>7} | {:>6}", "", "", "", "runs on", "");
     if (found != exact.end() && found->second.cycles.count > 0) {
       const chip::Spread& s = found->second.cycles;
-      measured = fmt::format("{:>8} {:>8.0f} {:>8} {:>7} | {:>+5.0f}%", s.min, s.mean(), s.max, s.count,
-                             100 * (f.mean / s.mean() - 1));
+      measured = fmt::format("{:>8} {:>8.0f} {:>8} {:>7} | {:>5}", s.min, s.mean(), s.max, s.count,
+                             is_within(f, s.mean()) ? "-" : fmt::format("{:+.0f}%", 100 * off(f, s.mean())));
     }
     std::cout << fmt::format("{:<28} | {:>8} {:>8} {:>8} | {}  {}:{}\n", f.name, count(f.min), count(f.mean),
                              count(f.max), measured, from_here(f.file), f.line);

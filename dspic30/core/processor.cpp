@@ -32,7 +32,7 @@ Processor::~Processor() = default;
 void Processor::restart() {
   cpu_->reset();
   cpu_->now += kResetCycles;
-  waits_->forget();
+  waits_->forget(*cpu_);
   code_version_ = cpu_->program.version();
 }
 

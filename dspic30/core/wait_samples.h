@@ -27,8 +27,8 @@ class WaitSamples {
   /// Before the instruction at cpu.next. True: one instruction only, then again.
   bool look(Cpu& cpu);
   /// A reset.
-  void forget() {
-    is_looking_ = false;
+  void forget(Cpu& cpu) {
+    is_looking_ = cpu.watching = false;
     next_ = later_;
   }
   Cycle waited() const { return waited_; }

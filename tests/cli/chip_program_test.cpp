@@ -125,6 +125,19 @@ TEST_F(ChipProgram, cycles_are_exact_and_held_against_budgets) {
   EXPECT_EQ(twinpuck("cycles '" + elf + "' --budgets /nonexistent.toml").exit_code, 2);
 }
 
+TEST_F(ChipProgram, exact_cycles_of_the_docs_are_those_of_the_chip) {
+  const std::string check =
+      "cd '" TWINPUCK_SOURCE_DIR "' && python3 scripts/exact_cycles.py '" TWINPUCK_BUILD_DIR
+      "' --check braitenberg_2a tilt blink 2>&1";
+  FILE* pipe = popen(check.c_str(), "r");
+  std::string text;
+  for (char bytes[4096]; const std::size_t n = fread(bytes, 1, sizeof bytes, pipe);) text.append(bytes, n);
+  EXPECT_EQ(pclose(pipe), 0) << text;
+  const auto timings = twinpuck("timings --exact");
+  EXPECT_EQ(timings.exit_code, 0) << timings.text;
+  EXPECT_NE(timings.text.find("Timer 2's handler, entry and RETFIE included: empty list"), std::string::npos);
+}
+
 TEST_F(ChipProgram, a_run_shows_its_profile) {
   const std::string json = (folder / "profile.json").string();
   const auto run =
