@@ -74,10 +74,11 @@ std::optional<ResetKind> Processor::run(Cycle until) {
     if (cpu.now >= until) return std::nullopt;
     const Outlook outlook = cpu.parts.look(cpu.now);
     if (outlook.reset_due) return chip_.reset_due(cpu.now);
-    if (cpu.code_is_old || cpu.program.version() != code_version_) {
+    if (cpu.program.version() != code_version_) {
       code_version_ = cpu.program.version();
       cpu.forget_code();
     }
+    if (cpu.stale_pointers) cpu.forget_pointers();
     if (cpu.power != Cpu::Power::On) {
       sleep(until);
       continue;

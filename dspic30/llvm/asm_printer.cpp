@@ -6,6 +6,7 @@
 #include "dspic30/llvm/tables.h"
 #include "dspic30/llvm/target.h"
 #include "llvm/CodeGen/MachineInstr.h"
+#include "llvm/IR/Constants.h"
 #include "llvm/MC/MCContext.h"
 #include "llvm/MC/MCExpr.h"
 #include "llvm/MC/MCInst.h"
@@ -40,6 +41,17 @@ class DSPICAsmPrinter : public AsmPrinter {
     EmitToStreamer(*OutStreamer, inst);
   }
 
+  /// The distance of two labels counts program addresses, two a word; the assembler layer counts octets,
+  /// four.
+  const MCExpr* lowerConstant(const Constant* c) override {
+    auto* e = dyn_cast<ConstantExpr>(c);
+    const MCExpr* value = AsmPrinter::lowerConstant(c);
+    const bool is_distance =
+        e && e->getOpcode() == Instruction::Sub && is_label(e->getOperand(0)) && is_label(e->getOperand(1));
+    return is_distance ? MCBinaryExpr::createDiv(value, MCConstantExpr::create(2, OutContext), OutContext)
+                       : value;
+  }
+
   bool PrintAsmOperand(const MachineInstr* mi, unsigned n, const char* modifier, raw_ostream& out) override {
     const MachineOperand& op = mi->getOperand(n);
     if (modifier && *modifier) {
@@ -60,6 +72,10 @@ class DSPICAsmPrinter : public AsmPrinter {
   }
 
  private:
+  static bool is_label(const Constant* c) {
+    auto* e = dyn_cast<ConstantExpr>(c);
+    return e && e->getOpcode() == Instruction::PtrToInt && isa<BlockAddress>(e->getOperand(0));
+  }
   unsigned number_of(const MachineOperand& op) const {
     return TM.getMCRegisterInfo()->getEncodingValue(op.getReg());
   }

@@ -4,13 +4,11 @@
 //   arguments   left to right, each takes the first free registers of W0..W7 that suit it: a word any, a long
 //   or float
 //               an even pair, 64 bits W0..W3 or W4..W7, a struct as many in a row as it has words. So a later
-//               short argument may fill a gap. What finds none, and everything behind "...", goes on the
-//               stack, the first nearest to the return address.
+//               short argument may fill a gap. What finds none goes on the stack, the first nearest to the
+//               return address; so do the last named argument before "..." and all behind it, structs as
+//               well.
 //   result      W0, W1:W0, W3..W0; a struct of up to 8 bytes alike, a longer one where W0 points
 //   kept        W8 to W14; lost W0 to W7
-//
-// Doubtful: a struct behind "..." is handed over by its address here; programs with such calls must not mix
-// compilers.
 #include "dspic30/llvm/interrupts.h"
 #include "dspic30/llvm/subtarget.h"
 #include "llvm/CodeGen/MachineFrameInfo.h"
@@ -40,7 +38,12 @@ struct Places {
 };
 
 template <class Argument>
-bool is_fixed(const Argument& a) {
+bool is_struct(const Argument& a) {
+  return a.Flags.isByVal();
+}
+
+template <class Argument>
+bool is_named(const Argument& a) {
   if constexpr (std::is_same_v<Argument, ISD::OutputArg>)
     return a.IsFixed;
   else
@@ -48,16 +51,14 @@ bool is_fixed(const Argument& a) {
 }
 
 template <class Argument>
-bool is_struct(const Argument& a) {
-  return a.Flags.isByVal() && is_fixed(a);
-}
-
-template <class Argument>
-Places place(const SmallVectorImpl<Argument>& arguments) {
+Places place(const SmallVectorImpl<Argument>& arguments, bool variadic) {
   Places places;
-  unsigned used = 0;  // a bit a register
+  unsigned last_named = 0, used = 0;  // a bit a register
+  for (const Argument& a : arguments)
+    if (is_named(a)) last_named = std::max(last_named, a.OrigArgIndex);
   for (unsigned i = 0; i < arguments.size();) {
     const Argument& a = arguments[i];
+    if (variadic && a.OrigArgIndex >= last_named) used = ~0u;
     // LLVM hands a long over as two values, 64 bits as four
     unsigned end = i + 1;
     if (a.Flags.isSplit())
@@ -68,7 +69,7 @@ Places place(const SmallVectorImpl<Argument>& arguments) {
     const unsigned mask = (1u << size) - 1;
     unsigned first = 0;
     while (first + size <= kArgumentRegisters && (used >> first & mask)) first += step;
-    const bool fits = size <= kArgumentRegisters && first + size <= kArgumentRegisters && is_fixed(a);
+    const bool fits = size <= kArgumentRegisters && first + size <= kArgumentRegisters;
     if (fits)
       used |= mask << first;
     else
@@ -100,18 +101,6 @@ SDValue load_word(SDValue chain, SDValue base, unsigned n, unsigned size, Align 
   return dag.getLoad(MVT::i16, where, chain, at, MachinePointerInfo(), std::min(align, Align(2)));
 }
 
-/// A struct behind "...": a copy on the caller's frame; its address is the argument.
-SDValue copy_to_frame(SDValue& chain, SDValue source, ISD::ArgFlagsTy flags, const SDLoc& where,
-                      SelectionDAG& dag) {
-  const unsigned size = flags.getByValSize();
-  const int object = dag.getMachineFunction().getFrameInfo().CreateStackObject(size, Align(2), false);
-  SDValue copy = dag.getFrameIndex(object, MVT::i16);
-  chain = dag.getMemcpy(chain, where, copy, source, dag.getConstant(size, where, MVT::i16),
-                        std::min(Align(2), flags.getNonZeroByValAlign()), false, true, false,
-                        MachinePointerInfo(), MachinePointerInfo());
-  return copy;
-}
-
 }  // namespace
 
 SDValue DSPICTargetLowering::LowerFormalArguments(SDValue chain, CallingConv::ID, bool variadic,
@@ -120,7 +109,7 @@ SDValue DSPICTargetLowering::LowerFormalArguments(SDValue chain, CallingConv::ID
                                                   SmallVectorImpl<SDValue>& values) const {
   auto& mf = dag.getMachineFunction();
   auto& frame = mf.getFrameInfo();
-  const Places places = place(ins);
+  const Places places = place(ins, variadic);
   if (variadic) mf.getInfo<DSPICFunctionInfo>()->named_stack_bytes = places.stack_bytes;
   SDValue object;  // of the struct being received
   SmallVector<SDValue, 8> stores;
@@ -163,12 +152,9 @@ SDValue DSPICTargetLowering::LowerCall(CallLoweringInfo& call, SmallVectorImpl<S
   const SDLoc where = call.DL;
   call.IsTailCall = false;
   SDValue before = call.Chain;
-  for (unsigned i = 0; i < call.Outs.size(); ++i)
-    if (call.Outs[i].Flags.isByVal() && !call.Outs[i].IsFixed)
-      call.OutVals[i] = copy_to_frame(before, call.OutVals[i], call.Outs[i].Flags, where, dag);
 
   // the words of structs are read before the stack moves
-  const Places places = place(call.Outs);
+  const Places places = place(call.Outs, call.IsVarArg);
   SmallVector<SDValue, 16> words, loads;
   for (const Word& w : places.words) {
     const auto& out = call.Outs[w.value];

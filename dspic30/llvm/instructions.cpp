@@ -22,45 +22,21 @@ void DSPICInstrInfo::copyPhysReg(MachineBasicBlock& mbb, MachineBasicBlock::iter
         .addReg(registers_.getSubReg(from, half), getKillRegState(kill));
 }
 
-// --- spills: a word, or a pair as two words
+// --- spills. A pair is one instruction until its place is known (registers.cpp): between two, the allocator
+// would put copies of what it thinks is still there.
 
 void DSPICInstrInfo::storeRegToStackSlot(MachineBasicBlock& mbb, MachineBasicBlock::iterator it, Register r,
                                          bool kill, int object, const TargetRegisterClass* rc,
                                          const TargetRegisterInfo*) const {
-  const DebugLoc none;
-  if (DSPIC::WRegClass.hasSubClassEq(rc)) {
-    BuildMI(mbb, it, none, get(DSPIC::MOVsto))
-        .addReg(r, getKillRegState(kill))
-        .addFrameIndex(object)
-        .addImm(0);
-    return;
-  }
-  for (unsigned half : {DSPIC::sub_lo, DSPIC::sub_hi}) {
-    auto store = BuildMI(mbb, it, none, get(DSPIC::MOVsto));
-    if (r.isPhysical())
-      store.addReg(registers_.getSubReg(r, half), getKillRegState(kill));
-    else
-      store.addReg(r, getKillRegState(kill && half == DSPIC::sub_hi), half);
-    store.addFrameIndex(object).addImm(half == DSPIC::sub_hi ? 2 : 0);
-  }
+  const unsigned opcode = DSPIC::WRegClass.hasSubClassEq(rc) ? DSPIC::MOVsto : DSPIC::STORE_PAIR;
+  BuildMI(mbb, it, DebugLoc(), get(opcode)).addReg(r, getKillRegState(kill)).addFrameIndex(object).addImm(0);
 }
 
 void DSPICInstrInfo::loadRegFromStackSlot(MachineBasicBlock& mbb, MachineBasicBlock::iterator it, Register r,
                                           int object, const TargetRegisterClass* rc,
                                           const TargetRegisterInfo*) const {
-  const DebugLoc none;
-  if (DSPIC::WRegClass.hasSubClassEq(rc)) {
-    BuildMI(mbb, it, none, get(DSPIC::MOVldo), r).addFrameIndex(object).addImm(0);
-    return;
-  }
-  for (unsigned half : {DSPIC::sub_lo, DSPIC::sub_hi}) {
-    auto load = BuildMI(mbb, it, none, get(DSPIC::MOVldo));
-    if (r.isPhysical())
-      load.addReg(registers_.getSubReg(r, half), RegState::Define);
-    else
-      load.addReg(r, half == DSPIC::sub_lo ? RegState::DefineNoRead : RegState::Define, half);
-    load.addFrameIndex(object).addImm(half == DSPIC::sub_hi ? 2 : 0);
-  }
+  const unsigned opcode = DSPIC::WRegClass.hasSubClassEq(rc) ? DSPIC::MOVldo : DSPIC::LOAD_PAIR;
+  BuildMI(mbb, it, DebugLoc(), get(opcode), r).addFrameIndex(object).addImm(0);
 }
 
 // --- branches: a block ends in nothing, BRA, BRA cc, or BRA cc and BRA

@@ -2,6 +2,7 @@
 // The linker: objects to an image of the chip.
 //
 //   link_read.cpp    objects and archives in; what is undefined is looked for in the libraries
+//   link_vendor.cpp  objects of XC16, made what ours are
 //   link_place.cpp   what is used gets its place: near, X, Y and other RAM; constants in one PSV page; code;
 //   start-up table link_fill.cpp    addresses into instructions, data and debugging information; vectors
 //   link_stack.cpp   how deep the stack can grow
@@ -82,6 +83,10 @@ struct Program {
 std::string handler_name(int vector);
 
 bool read_all(Program& program, const Options& options);
+/// Of an object of XC16: each byte of data has an octet behind it that says nothing.
+void drop_phantom_octets(Section& section);
+/// False: that type is not known. `offset` as the object has it.
+bool add_vendor_relocation(Section& section, std::uint32_t offset, unsigned type, Symbol& symbol);
 void keep_used(Program& program);
 void place_all(Program& program, const Options& options);
 void fill_all(Program& program);

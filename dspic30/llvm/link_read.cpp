@@ -33,7 +33,7 @@ namespace {
 struct Member {
   std::string name;
   StringRef bytes;
-  bool is_taken = false;
+  bool is_taken = false, is_of_library = false;
 };
 
 class Reader {
@@ -73,7 +73,7 @@ class Reader {
     auto elf = Elf::create(member.bytes);
     if (!elf) return problem(member.name, toString(elf.takeError()));
     if (elf->getHeader().e_machine != ELF::EM_DSPIC30F || elf->getHeader().e_type != ELF::ET_REL)
-      return problem(member.name, "got no object for this chip, expected one of twinpuck-cc's");
+      return problem(member.name, "got no object for this chip, expected one of twinpuck-cc or XC16");
     return read(member, *elf);
   }
 
@@ -124,13 +124,15 @@ class Reader {
     if (!headers) return problem(member.name, toString(headers.takeError()));
     std::vector<Section*> sections(headers->size(), nullptr);
     const Elf::Elf_Shdr* table = nullptr;
+    const bool is_vendors = elf.getHeader().e_flags != 0;  // the chip; ours say nothing
     for (size_t i = 0; i < headers->size(); ++i) {
       const auto& h = (*headers)[i];
       auto name = elf.getSectionName(h);
       if (!name) return problem(member.name, toString(name.takeError()));
       if (h.sh_type == ELF::SHT_SYMTAB) table = &h;
       const bool is_debug = !(h.sh_flags & ELF::SHF_ALLOC);
-      if (is_debug && !(h.sh_type == ELF::SHT_PROGBITS && name->startswith(".debug_"))) continue;
+      if (is_debug && !(h.sh_type == ELF::SHT_PROGBITS && name->startswith(".debug_") && !is_vendors))
+        continue;
       if (h.sh_type != ELF::SHT_PROGBITS && h.sh_type != ELF::SHT_NOBITS) continue;
       Section& s = program_.sections.emplace_back();
       s.name = name->str();
@@ -144,6 +146,10 @@ class Reader {
         auto bytes = elf.getSectionContents(h);
         if (!bytes) return problem(member.name, toString(bytes.takeError()));
         s.bytes.assign(bytes->begin(), bytes->end());
+      }
+      if (is_vendors) {
+        drop_phantom_octets(s);
+        if (h.sh_flags & dspic_elf::kAbsolute) s.name += "@" + utohexstr(h.sh_addr);
       }
       sections[i] = &s;
     }
@@ -165,14 +171,16 @@ class Reader {
       own.name = name->str();
       own.from = member.name;
       own.value = e.st_value;
+      if (e.st_shndx < sections.size()) own.section = sections[e.st_shndx];
+      if (elf.getHeader().e_flags && own.section && own.section->kind == Kind::Code) own.value *= 2;
       own.size = e.st_size;
       own.is_function = e.getType() == ELF::STT_FUNC;
-      own.is_weak = e.getBinding() == ELF::STB_WEAK;
       own.is_common = e.st_shndx == ELF::SHN_COMMON;
       own.is_defined = e.st_shndx != ELF::SHN_UNDEF && !own.is_common;
+      // what a program defines itself takes the place of a library's
+      own.is_weak = e.getBinding() == ELF::STB_WEAK || (own.is_defined && member.is_of_library);
       if (own.is_common) own.align = e.st_value, own.value = 0;
       if (!own.is_defined && !own.is_common && rename.count(own.name)) own.name = rename[own.name];
-      if (e.st_shndx < sections.size()) own.section = sections[e.st_shndx];
       const bool is_dropped = own.is_defined && !own.section && e.st_shndx != ELF::SHN_ABS;
       if (e.getBinding() == ELF::STB_LOCAL || is_dropped) {
         program_.symbols.push_back(own);
@@ -208,10 +216,28 @@ class Reader {
     return known;
   }
 
+  bool read_vendor_relocations(const Member& member, const Elf& elf, const Elf::Elf_Shdr& header,
+                               Section& section, const std::vector<Symbol*>& symbols) {
+    auto all = elf.rels(header);
+    if (!all) return problem(member.name, toString(all.takeError()));
+    for (const auto& r : *all) {
+      const unsigned n = r.getSymbol(false), type = r.getType(false);
+      if (n >= symbols.size()) return problem(member.name, "damaged relocation");
+      if (!add_vendor_relocation(section, r.r_offset, type, *symbols[n]))
+        return problem(member.name, section.name + ": relocation of type " + std::to_string(type) + " to " +
+                                        symbols[n]->name + " is not known here");
+    }
+    return true;
+  }
+
   bool read_relocations(const Member& member, const Elf& elf, const std::vector<Section*>& sections,
                         const std::vector<Symbol*>& symbols) {
     for (const auto& h : cantFail(elf.sections())) {
-      if (h.sh_type != ELF::SHT_RELA || h.sh_info >= sections.size() || !sections[h.sh_info]) continue;
+      if (h.sh_info >= sections.size() || !sections[h.sh_info]) continue;
+      if (h.sh_type == ELF::SHT_REL &&
+          !read_vendor_relocations(member, elf, h, *sections[h.sh_info], symbols))
+        return false;
+      if (h.sh_type != ELF::SHT_RELA) continue;
       auto all = elf.relas(h);
       if (!all) return problem(member.name, toString(all.takeError()));
       for (const auto& r : *all) {
@@ -247,8 +273,10 @@ bool read_all(Program& program, const Options& options) {
   for (const std::string& path : options.libraries)
     if (!reader.open(path, lazy)) return false;
   std::map<std::string, Member*> who;  // the first that defines a name
-  for (Member& m : lazy)
+  for (Member& m : lazy) {
+    m.is_of_library = true;
     for (const std::string& name : reader.defined_by(m)) who.emplace(name, &m);
+  }
   // names with a label of their own have no underscore
   for (const auto& [from, to] : options.renames) {
     const std::string target = who.count(to) ? to : "_" + to;

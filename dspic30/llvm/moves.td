@@ -67,5 +67,8 @@ def : Pat<(store W:$s, (addrrr W:$d, W:$b)), (MOVstx W:$s, W:$d, W:$b)>;
 def : Pat<(truncstorei8 W:$s, (addrrr W:$d, W:$b)), (MOVBstx W:$s, W:$d, W:$b)>;
 def : Pat<(post_store W:$s, W:$d, (i16 2)), (MOVstpi W:$s, W:$d)>;
 def : Pat<(post_truncsti8 W:$s, W:$d, (i16 1)), (MOVBstpi W:$s, W:$d)>;
+// a pair to and from the stack; both become two moves when the frame is laid out
+let mayLoad = 1 in def LOAD_PAIR : Pseudo<(outs WP:$d), (ins mem16:$m)>;
+let mayStore = 1 in def STORE_PAIR : Pseudo<(outs), (ins WP:$s, mem16:$m)>;
 // address of a stack object
 def LEA : Pseudo<(outs W:$d), (ins mem16:$m)>;

@@ -46,6 +46,22 @@ unsigned indexed_form(unsigned opcode) {
   report_fatal_error("dsPIC: a frame object is used by an instruction without an offset");
 }
 
+/// Spill of a pair as two of its words.
+void split_pair(MachineInstr& mi, const DSPICRegisterInfo& registers) {
+  auto& mbb = *mi.getParent();
+  const auto& instructions = *mbb.getParent()->getSubtarget().getInstrInfo();
+  const bool loads = mi.getOpcode() == DSPIC::LOAD_PAIR;
+  const MachineOperand& pair = mi.getOperand(0);
+  const int64_t offset = mi.getOperand(2).getImm();
+  for (unsigned half : {DSPIC::sub_lo, DSPIC::sub_hi})
+    BuildMI(mbb, mi, mi.getDebugLoc(), instructions.get(loads ? DSPIC::MOVldo : DSPIC::MOVsto))
+        .addReg(registers.getSubReg(pair.getReg(), half),
+                loads ? unsigned(RegState::Define) : getKillRegState(pair.isKill()))
+        .addFrameIndex(mi.getOperand(1).getIndex())
+        .addImm(offset + (half == DSPIC::sub_hi ? 2 : 0));
+  mi.eraseFromParent();
+}
+
 }  // namespace
 
 void DSPICRegisterInfo::eliminateFrameIndex(MachineBasicBlock::iterator it, int, unsigned operand,
@@ -57,6 +73,10 @@ void DSPICRegisterInfo::eliminateFrameIndex(MachineBasicBlock::iterator it, int,
   const auto& instructions = *mf.getSubtarget().getInstrInfo();
   const DebugLoc where = mi.getDebugLoc();
   MachineOperand &base = mi.getOperand(operand), &offset = mi.getOperand(operand + 1);
+  if (mi.getOpcode() == DSPIC::LOAD_PAIR || mi.getOpcode() == DSPIC::STORE_PAIR) {
+    split_pair(mi, *this);  // its halves come here next
+    return;
+  }
   const int k = mf.getFrameInfo().getObjectOffset(base.getIndex()) - kSavedFrame + offset.getImm();
 
   if (mi.getOpcode() == DSPIC::LEA) {

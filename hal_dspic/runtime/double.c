@@ -3,6 +3,7 @@
 #define BITS unsigned long long
 #define FRACTION 52
 #define EXPONENT 11
+#define OF_ANY(operation) __##operation##df3
 #define NAME(operation, operands) __##operation##df##operands
 #define FROM(kind) __##kind##df
 #define TO(kind, width) __##kind##df##width
@@ -19,6 +20,8 @@ static unsigned long long product(unsigned long long a, unsigned long long b)
   return high | (((unsigned long)middle | (unsigned long)low) != 0);
 }
 #include "float_format.h"
+
+unsigned long long __subdf3(unsigned long long a, unsigned long long b) { return sum(a, b ^ SIGN); }
 
 enum { kFloatFraction = 23, kFloatBias = 127, kFloatLargest = 255, kCut = FRACTION - kFloatFraction };
 

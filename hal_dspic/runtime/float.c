@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: MIT
- * Runtime of the chip: float, which double is as well. */
+ * Runtime of the chip: float, which double is as well. Sums, products and quotients of numbers with a hidden bit are in
+ * float_arithmetic.s. */
 #define BITS unsigned long
 #define FRACTION 23
 #define EXPONENT 8
+#define OF_ANY(operation) __any_##operation##sf3
 #define NAME(operation, operands) __##operation##sf##operands
 #define FROM(kind) __##kind##sf
 #define TO(kind, width) __##kind##sf##width

@@ -2,7 +2,7 @@
  * IEEE arithmetic on the bits of a number, for the format that the including file describes:
  *
  *   BITS     unsigned type as wide as the number        FRACTION  bits of its fraction        EXPONENT  bits of its exponent
- *   NAME(x)  __addsf3 or __adddf3 of addf3              PRODUCT   product(): upper half of a product, lowest bit sticky
+ *   OF_ANY(x) __any_addsf3 or __adddf3 of add; NAME(x, n) alike              PRODUCT   product(): upper half of a product, lowest bit sticky
  *
  * Rounds to nearest, ties to even; subnormal numbers, infinities and not-a-number as on any PC. A fraction being worked on
  * has three bits more: two that decide the rounding and one that says whether anything lay below.
@@ -178,10 +178,9 @@ static long long to_signed(BITS a, unsigned long long most)
 }
 
 /* what the compiler calls */
-BITS NAME(add, 3)(BITS a, BITS b) { return sum(a, b); }
-BITS NAME(sub, 3)(BITS a, BITS b) { return sum(a, b ^ SIGN); }
-BITS NAME(mul, 3)(BITS a, BITS b) { return times(a, b); }
-BITS NAME(div, 3)(BITS a, BITS b) { return quotient(a, b); }
+BITS OF_ANY(add)(BITS a, BITS b) { return sum(a, b); }
+BITS OF_ANY(mul)(BITS a, BITS b) { return times(a, b); }
+BITS OF_ANY(div)(BITS a, BITS b) { return quotient(a, b); }
 BITS NAME(neg, 2)(BITS a) { return a ^ SIGN; }
 int NAME(eq, 2)(BITS a, BITS b) { return order(a, b, 1); }
 int NAME(ne, 2)(BITS a, BITS b) { return order(a, b, 1); }

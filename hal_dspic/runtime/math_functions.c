@@ -114,6 +114,7 @@ static float wave(float x, unsigned ahead)
   unsigned quarter;
   float r, v;
   if (x - x != 0) return NAN;
+  if (x == 0 && !ahead) return x; /* with its sign */
   r = reduced(x, &quarter);
   quarter += ahead;
   v = quarter & 1 ? cosine_near(r) : sine_near(r);
@@ -128,6 +129,7 @@ float tp_m_atanf(float x)
 {
   const float a = x < 0 ? -x : x;
   float base = 0, r = a, z;
+  if (x == 0) return x; /* with its sign */
   if (a > 2.414213562373095f) /* tan(3 pi / 8) */
     base = kHalfPi, r = -1 / a;
   else if (a > 0.4142135623730950f) /* tan(pi / 8) */

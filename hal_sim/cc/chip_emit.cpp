@@ -22,7 +22,7 @@ void set_flags() {
   const char* flags[] = {"twinpuck-cc",
                          // no speculation: a branch round a BSET must stay one
                          "-phi-node-folding-threshold=0", "-two-entry-phi-node-folding-threshold=0",
-                         "-unroll-threshold=40"};
+                         "-unroll-threshold=40", "-scalarize-load-store"};
   cl::ParseCommandLineOptions(std::size(flags), flags);
 }
 

@@ -200,6 +200,76 @@ void return_small_structs(Module& m) {
     }
 }
 
+// --- variable arguments
+
+/// clang takes a struct behind "..." for handed over by its address; it lies among the arguments itself, as
+/// with XC16. va_arg of a pointer that the program asked for itself is stored at once.
+bool is_of_struct(const VAArgInst& va) {
+  auto* type = dyn_cast<PointerType>(va.getType());
+  if (!type || !type->getPointerElementType()->isAggregateType()) return false;
+  return none_of(va.users(), [&](const User* u) {
+    auto* store = dyn_cast<StoreInst>(u);
+    return store && store->getValueOperand() == &va;
+  });
+}
+
+/// va_list is the address above the next argument.
+void take_structs_from_lists(Module& m) {
+  for (Function& f : m)
+    for (Instruction& i : make_early_inc_range(instructions(f))) {
+      auto* va = dyn_cast<VAArgInst>(&i);
+      if (!va || !is_of_struct(*va)) continue;
+      IRBuilder<> b(va);
+      auto* word = b.getInt8PtrTy();
+      Value* list = b.CreateBitCast(va->getPointerOperand(), word->getPointerTo());
+      const auto bytes =
+          alignTo(m.getDataLayout().getTypeAllocSize(va->getType()->getPointerElementType()), 2);
+      Value* at = b.CreateGEP(b.getInt8Ty(), b.CreateLoad(word, list), b.getInt16(-bytes));
+      b.CreateStore(at, list);
+      va->replaceAllUsesWith(b.CreateBitCast(at, va->getType()));
+      va->eraseFromParent();
+    }
+}
+
+// --- calls that clang makes for an int of 32 bits, or leaves to a library that is not here
+
+/// __builtin_trap() is abort() of the libc, as with gcc.
+void call_abort(CallInst& call) {
+  IRBuilder<> b(&call);
+  b.CreateCall(call.getModule()->getOrInsertFunction("abort", b.getVoidTy()));
+  call.eraseFromParent();
+}
+
+void reserve_stack(CallInst& call) {
+  IRBuilder<> b(&call);
+  auto* room = b.CreateAlloca(b.getInt8Ty(), b.CreateZExtOrTrunc(call.getArgOperand(0), b.getInt16Ty()));
+  room->setAlignment(Align(2));
+  call.replaceAllUsesWith(b.CreateBitOrPointerCast(room, call.getType()));
+  call.eraseFromParent();
+}
+
+/// The depth of __builtin_frame_address() is an int of C, but a long of the intrinsic function.
+void widen_constants(CallInst& call, FunctionType& type) {
+  for (unsigned n = 0; n < call.arg_size(); ++n)
+    if (auto* c = dyn_cast<ConstantInt>(call.getArgOperand(n)))
+      call.setArgOperand(n, ConstantInt::get(type.getParamType(n), c->getZExtValue()));
+}
+
+void mend_calls(Module& m) {
+  for (Function& f : make_early_inc_range(m))
+    for (Instruction& i : make_early_inc_range(instructions(f))) {
+      auto* call = dyn_cast<CallInst>(&i);
+      auto* callee = call ? dyn_cast<Function>(call->getCalledOperand()->stripPointerCasts()) : nullptr;
+      if (!callee) continue;
+      if (callee->getIntrinsicID() == Intrinsic::trap)
+        call_abort(*call);
+      else if (callee->isIntrinsic())
+        widen_constants(*call, *callee->getFunctionType());
+      else if (callee->getName() == "alloca" && callee->isDeclaration() && call->arg_size() == 1)
+        reserve_stack(*call);
+    }
+}
+
 }  // namespace
 
 bool lower_for_chip(Unit& unit) {
@@ -209,6 +279,8 @@ bool lower_for_chip(Unit& unit) {
   define_configuration(unit);
   define_initializers(m);
   simplify_fields(m);
+  mend_calls(m);
+  take_structs_from_lists(m);
   return_small_structs(m);
   return !unit.failed;
 }

@@ -26,6 +26,8 @@
 #include "llvm/Transforms/Scalar/LoopRotation.h"
 #include "llvm/Transforms/Scalar/LoopUnrollPass.h"
 #include "llvm/Transforms/Scalar/SROA.h"
+#include "llvm/Transforms/Scalar/Scalarizer.h"
+#include "llvm/Transforms/Utils/EntryExitInstrumenter.h"
 #include "llvm/Transforms/Utils/LCSSA.h"
 #include "llvm/Transforms/Utils/LoopSimplify.h"
 #include "passes.h"
@@ -141,7 +143,9 @@ void add_loops(FunctionPassManager& passes) {
 ModulePassManager passes_for(const Options& options) {
   constexpr int kInlineFew = 10, kInlineMore = 60;  // thresholds of LLVM's inliner, about instructions x 5
   ModulePassManager m;
+  m.addPass(createModuleToFunctionPassAdaptor(EntryExitInstrumenterPass(/*PostInlining=*/false)));
   m.addPass(AlwaysInlinerPass());
+  m.addPass(createModuleToFunctionPassAdaptor(ScalarizerPass()));  // the chip has no vectors
   if (options.level == 0) return m;
   FunctionPassManager first, second;
   add_tidying(first, false);

@@ -31,7 +31,7 @@ class ChipTarget : public TargetInfo {
  public:
   explicit ChipTarget(std::shared_ptr<TargetOptions> options) : TargetInfo(llvm::Triple(llvm::kDspicTriple)) {
     options_of(*this) = std::move(options);
-    TLSSupported = false;
+    TLSSupported = BigEndian = false;
     PointerWidth = PointerAlign = IntWidth = IntAlign = 16;
     LongWidth = 32, LongLongWidth = 64;
     LongAlign = LongLongAlign = FloatAlign = DoubleAlign = LongDoubleAlign = SuitableAlign = 16;

@@ -137,7 +137,7 @@ TEST(libc, what_a_robot_does_not_have_is_refused_by_name_and_line) {
     EXPECT_NE(text_of(built).find("main.c:3"), std::string::npos) << text_of(built);
     EXPECT_NE(text_of(built).find(c[1]), std::string::npos) << text_of(built);
   }
-  for (const char* header : {"unistd.h", "pthread.h", "signal.h", "windows.h", "sys/time.h"}) {
+  for (const char* header : {"unistd.h", "pthread.h", "windows.h", "sys/time.h"}) {
     Folder folder;
     auto built =
         build(folder, std::string("int a;\n#include <") + header + ">\nint main(void) { return 0; }");

@@ -72,6 +72,20 @@ int ninth(int a, int b, int c, int d, int e, int f, int g, int h, int i, int j) 
   EXPECT_NE(code_of(source, "ninth").find("mov [w14-10], w0"), std::string::npos) << code_of(source, "ninth");
 }
 
+TEST(ChipCode, last_named_argument_before_dots_and_all_behind_it_travel_on_the_stack) {
+  // as XC16's own code: format in memory below the return address, buffer in W0
+  const char* source = R"(
+int first(char *to, const char *format, ...) { return *format; }
+extern int print(char *to, const char *format, ...);
+void call(char *p) { print(p, (const char *)0x1234, 7); })";
+  EXPECT_EQ(code_of(source, "first"), "lnk #0\nmov [w14-8], w0\nse [w0], w0\nulnk\nreturn\n");
+  const std::string call = code_of(source, "call");
+  EXPECT_NE(call.find("mov #4660, w"), std::string::npos) << call;
+  EXPECT_EQ(call.find("mov #4660, w1\ncall"), std::string::npos) << call;
+  EXPECT_NE(call.find("add #4, w15"), std::string::npos) << call;
+  EXPECT_NE(call.find("sub #4, w15"), std::string::npos) << call;
+}
+
 TEST(ChipCode, struct_of_up_to_8_bytes_comes_back_in_registers) {
   const char* source = R"(
 struct four { int v[4]; };

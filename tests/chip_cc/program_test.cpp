@@ -137,5 +137,15 @@ TEST(ChipPrograms, random_programs_agree_with_the_pc) {
   }
 }
 
+// A copy stood between the two moves that reloaded a pair of registers, and read half of the pair.
+TEST(ChipPrograms, spilled_pair_comes_back_whole) {
+  for (const int seed : {100044, 203087, 204600, 204999}) {
+    const std::string source = random_program(seed);
+    ChipProgram program("pair" + std::to_string(seed), source, "-O1");
+    ASSERT_TRUE(program.is_whole()) << seed << program.error();
+    EXPECT_EQ(program.run(), result_on_pc(source)) << "seed " << seed;
+  }
+}
+
 }  // namespace
 }  // namespace chip_cc

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <map>
 
 #include "dspic30/load/firmware_file.h"
 
@@ -17,7 +18,7 @@ std::string error_of(const std::string& text) {
   return error;
 }
 
-// goto 0x100: word 0x040100 at 0, 0x000000 at 2; EEPROM word 0 = 0x1234 at 0x7FF000; FOSC
+// goto 0x100: words 0x040100 at 0 and 0x000000 at 2; EEPROM word 0 = 0x1234 at 0x7FF000; FOSC
 constexpr const char* kHex =
     ":080000000001040000000000F3\n"
     ":0200000400FFFB\n"
@@ -50,6 +51,16 @@ TEST(Hex, comes_back_from_what_is_written) {
   for (std::uint32_t a = 0x100; a < 0x150; a += 2) file.words[a] = a * 77;
   ASSERT_TRUE(dspic::load_firmware(dspic::to_hex(file), "y.hex", again, error)) << error;
   EXPECT_EQ(again.words, file.words);
+}
+
+TEST(Hex, a_record_runs_on_over_64_kilobytes_but_a_segment_wraps_round) {
+  FirmwareFile linear, segment;
+  std::string error;
+  const std::string record = ":10FFF80001000000020000000300000004000000EF\n:00000001FF\n";
+  ASSERT_TRUE(dspic::load_firmware(":020000040000FA\n" + record, "x.hex", linear, error)) << error;
+  EXPECT_EQ(linear.words, (std::map<std::uint32_t, std::uint32_t>{{0x7FFC, 1}, {0x7FFE, 2}, {0x8000, 3}, {0x8002, 4}}));
+  ASSERT_TRUE(dspic::load_firmware(":020000020000FC\n" + record, "x.hex", segment, error)) << error;
+  EXPECT_EQ(segment.words, (std::map<std::uint32_t, std::uint32_t>{{0, 3}, {2, 4}, {0x7FFC, 1}, {0x7FFE, 2}}));
 }
 
 TEST(Hex, what_is_wrong_is_named_with_its_line) {

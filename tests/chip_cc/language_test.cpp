@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+// Corners of C on the chip, each a few lines, at every level. A public compiler test-suite found most of
+// them.
+#include "tests/chip_cc/chip_program.h"
+
+namespace chip_cc {
+namespace {
+
+struct Corner {
+  const char* name;
+  const char* source;  ///< bench_run() returns 0 when all is right, else which check failed
+};
+
+const Corner kCorners[] = {
+    {"distances of labels count as pointers do", R"(
+static int c;
+__attribute__((noinline)) static void go(int x) {
+  static const int b[] = { &&one - &&none, &&two - &&none };
+  goto *(&&none + b[x]);
+one: c += 2;
+two: c++;
+none:;
+}
+long bench_run(void) { go(0); if (c != 3) return 1; go(1); return c != 4; })"},
+    {"address of the frame and of the return, prefetch", R"(
+int x[4];
+__attribute__((noinline)) static void *frame(void) { return __builtin_frame_address(0); }
+__attribute__((noinline)) static void *from(void) { return __builtin_return_address(0); }
+long bench_run(void) { __builtin_prefetch(x, 1, 2); return frame() == 0 || from() == 0; })"},
+    {"alloca without a header", R"(
+extern void *alloca(unsigned);
+__attribute__((noinline)) static int sum(const char *p, int n) { int s = 0; while (n--) s += *p++; return s; }
+long bench_run(void) {
+  int n, s = 0;
+  for (n = 1; n < 20; n++) { char *p = alloca(n); int i; for (i = 0; i < n; i++) p[i] = n; s += sum(p, n); }
+  return s != 19 * 20 * 39 / 6;
+})"},
+    {"structs behind ...", R"(
+#include <stdarg.h>
+struct three { char c[3]; };
+struct large { int v[6]; };
+struct pair { long a; char b; };
+__attribute__((noinline)) static int sum(int n, ...) {
+  va_list list;
+  int s;
+  va_start(list, n);
+  struct large l = va_arg(list, struct large);
+  struct large *p = va_arg(list, struct large *);
+  s = l.v[5] + p->v[1] + va_arg(list, struct three).c[2];
+  struct pair q = va_arg(list, struct pair);
+  s += (int)q.a + q.b + va_arg(list, int);
+  va_end(list);
+  return s + n;
+}
+struct large l = {{1, 2, 3, 4, 5, 6}};
+struct three t = {{7, 8, 9}};
+struct pair q = {1000, 20};
+long bench_run(void) { return sum(3, l, &l, t, q, 500) != 3 + 6 + 2 + 9 + 1020 + 500; })"},
+    {"byte order", R"(
+long bench_run(void) {
+  long v = 0x01020304;
+  return __BYTE_ORDER__ != __ORDER_LITTLE_ENDIAN__ || *(char *)&v != 4;
+})"},
+    {"vectors", R"(
+typedef unsigned short words __attribute__((vector_size(16)));
+typedef int counts __attribute__((vector_size(16)));
+words a = {73, 65531, 0, 174, 921, 65535, 17, 178}, r;
+counts b = {73, -9123, 32761, 8191, 16371, 1201, 12701, 9999}, q;
+__attribute__((noinline)) static void divide(words *x, words *y) { *x = *y / (words){1, 4, 2, 8, 16, 64, 32, 128}; }
+__attribute__((noinline)) static void rest(counts *x, counts *y) { *x = *y % (counts){4, 4, 4, 4, 4, 4, 4, 4}; }
+long bench_run(void) {
+  int i;
+  static const int by[] = {1, 4, 2, 8, 16, 64, 32, 128};
+  divide(&r, &a);
+  rest(&q, &b);
+  for (i = 0; i < 8; i++)
+    if (((unsigned short *)&r)[i] != ((unsigned short *)&a)[i] / (unsigned)by[i] || ((int *)&q)[i] != ((int *)&b)[i] % 4)
+      return i + 1;
+  return 0;
+})"},
+    {"products that overflow", R"(
+long a = 70000, b = -70000;
+long long c = 5000000000ll, d = -5000000000ll, e = 3;
+long bench_run(void) {
+  long r;
+  long long s;
+  if (!__builtin_mul_overflow(a, b, &r) || __builtin_mul_overflow(a, 3l, &r) || r != 210000) return 1;
+  if (!__builtin_mul_overflow(c, d, &s) || __builtin_mul_overflow(d, e, &s) || s != -15000000000ll) return 2;
+  return 0;
+})"},
+    {"complex quotients", R"(
+_Complex float a = 1.0f + 2.0if, b = 3.0f - 4.0if, z;
+long bench_run(void) {
+  z = a / b;
+  if (__real__ z != -0.2f || __imag__ z != 0.4f) return 1;
+  z = a * b;
+  return __real__ z != 11 || __imag__ z != 2;
+})"},
+    {"zero keeps its sign", R"(
+#include <math.h>
+double zero = -0.0;
+static int is_negative(double d) { union { float f; unsigned long u; } b; b.f = d; return b.u == 0x80000000ul; }
+long bench_run(void) { return !is_negative(sin(zero)) | !is_negative(tan(zero)) << 1 | !is_negative(atan(zero)) << 2; })"},
+    {"signals, limits of long double, names of types", R"(
+#include <float.h>
+#include <signal.h>
+#include <sys/types.h>
+static int got;
+static void take(int number) { got = number; }
+long bench_run(void) {
+  ssize_t n = -1;
+  if (signal(SIGFPE, take) != SIG_DFL || raise(SIGFPE) || got != SIGFPE) return 1;
+  signal(SIGTERM, SIG_IGN);
+  if (raise(SIGTERM) || n > 0) return 2;
+  return 1.0L + LDBL_EPSILON == 1.0L || 1.0L + LDBL_EPSILON / 2 != 1.0L || LDBL_MANT_DIG != 53;
+})"},
+    {"all of a union is cleared", R"(
+union u { char c; long l; };
+struct s { int a; union u b; char d; };
+static volatile int one = 1;
+__attribute__((noinline)) static void dirty(void) { volatile char mud[40]; int i; for (i = 0; i < 40; i++) mud[i] = 0x55; }
+__attribute__((noinline)) static long empty(void) { union u x = {}; return x.l; }
+__attribute__((noinline)) static long member(void) { struct s x = {1}; return x.b.l; }
+long bench_run(void) { dirty(); if (empty()) return 1; dirty(); return member() ? 2 : 0; })"},
+    {"what the program defines takes the place of the libc's", R"(
+#include <stdlib.h>
+static int called;
+void abort(void) { called++; for (;;) ; }
+long labs(long v) { called++; return v; }
+long bench_run(void) { return abs(-5) != 5 || labs(-5) != -5 || called != 1; })"},
+};
+
+TEST(ChipLanguage, corners_are_right_at_every_level) {
+  for (const Corner& corner : kCorners)
+    for (const char* level : {"-O0", "-O1", "-O2", "-Os"}) {
+      ChipProgram program("corner", corner.source, level);
+      ASSERT_TRUE(program.is_whole()) << corner.name << level << ": " << program.error();
+      EXPECT_EQ(program.run(), 0u) << corner.name << " " << level;
+    }
+}
+
+TEST(ChipLanguage, optimiser_says_so_and_only_then) {
+  const char* source = R"(
+#ifdef __OPTIMIZE__
+long bench_run(void) { return 1; }
+#else
+long bench_run(void) { return 0; }
+#endif
+)";
+  for (const auto& [level, expected] : {std::pair("-O0", 0u), {"-O1", 1u}, {"-Os", 1u}})
+    EXPECT_EQ(ChipProgram("level", source, level).run(), expected) << level;
+}
+
+}  // namespace
+}  // namespace chip_cc
