@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """The table of docs/cycles.md that holds estimates of controllers' functions against exact cycles on the chip.
 
-    scripts/exact_cycles.py BUILD_FOLDER                    measures all controllers of firmware/ and writes the table anew
+    scripts/exact_cycles.py BUILD_FOLDER                    measures all controllers of firmware/, writes the table
     scripts/exact_cycles.py BUILD_FOLDER --check NAME...    exit 1 when one of these is not what the table says
 
 A check lets an exact mean differ by a twentieth or 4 cycles: the compiler may find better code for other reasons.
@@ -16,7 +16,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGE = ROOT / "docs/cycles.md"
 BEGIN, END = "<!-- exact_cycles.py: begin -->\n", "<!-- exact_cycles.py: end -->\n"
-ROW = re.compile(r"^(\w+) +\| +([\w ]+?) +(\d+) +([\w ]+?) \| +(\d+) +(\d+) +(\d+) +(\d+) \| +(-|[+-]\d+%)")
+ROW = re.compile(r"^(\w+) +\| +([\w ]+?) +(\d+) +([\w ]+?) \| +(\d+) +(\d+) +(\d+) +(\d+) \| +([+-]\d+%|-) ")
 SHARE, LEAST = 0.05, 4  # of a check
 NAME, LOW, HIGH, MIN, MEAN, MAX, CALLS, OFF = 0, 1, 3, 4, 5, 6, 7, 8
 
@@ -60,7 +60,7 @@ def main():
         print(__doc__.strip(), file=sys.stderr)
         return 2
     program = str(pathlib.Path(sys.argv[1]).resolve() / "twinpuck")
-    names = sys.argv[3:] or sorted(p.parent.name for p in (ROOT / "firmware").glob("*/main.c"))
+    names = sys.argv[3:] or sorted(p.parent.name for p in (ROOT / "firmware").glob("**/main.c"))
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         measured = list(pool.map(lambda name: measure(program, name), names))
     page = PAGE.read_text()
