@@ -199,9 +199,9 @@ class Cpu final : public SfrOwner {
   bool repeating = false;        ///< RA
   bool repeat_is_fresh = false;  ///< the next iteration is the first one, or the first after an interrupt
   enum class Window : std::uint8_t { Plain, RepeatEdge, Free } window = Window::Plain;
-  bool window_was_free = false;  ///< the last iteration read through the window at no cost
+  bool window_was_free = false;      ///< the last iteration read through the window at no cost
   std::uint32_t stale_pointers = 0;  ///< registers, a bit each: forget_pointers() before the next instruction
-  bool end_loop = false;         ///< CORCON.EDT
+  bool end_loop = false;             ///< CORCON.EDT
   bool splim_on = false;
   enum class Power : std::uint8_t { On, Idle, Sleep } power = Power::On;
   std::optional<ResetKind> reset_due;

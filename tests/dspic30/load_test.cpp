@@ -58,9 +58,11 @@ TEST(Hex, a_record_runs_on_over_64_kilobytes_but_a_segment_wraps_round) {
   std::string error;
   const std::string record = ":10FFF80001000000020000000300000004000000EF\n:00000001FF\n";
   ASSERT_TRUE(dspic::load_firmware(":020000040000FA\n" + record, "x.hex", linear, error)) << error;
-  EXPECT_EQ(linear.words, (std::map<std::uint32_t, std::uint32_t>{{0x7FFC, 1}, {0x7FFE, 2}, {0x8000, 3}, {0x8002, 4}}));
+  EXPECT_EQ(linear.words,
+            (std::map<std::uint32_t, std::uint32_t>{{0x7FFC, 1}, {0x7FFE, 2}, {0x8000, 3}, {0x8002, 4}}));
   ASSERT_TRUE(dspic::load_firmware(":020000020000FC\n" + record, "x.hex", segment, error)) << error;
-  EXPECT_EQ(segment.words, (std::map<std::uint32_t, std::uint32_t>{{0, 3}, {2, 4}, {0x7FFC, 1}, {0x7FFE, 2}}));
+  EXPECT_EQ(segment.words,
+            (std::map<std::uint32_t, std::uint32_t>{{0, 3}, {2, 4}, {0x7FFC, 1}, {0x7FFE, 2}}));
 }
 
 TEST(Hex, what_is_wrong_is_named_with_its_line) {
