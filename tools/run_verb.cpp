@@ -149,7 +149,9 @@ int run(const RunArguments& arguments) {
   };
   for (int i = 0; i < twin->robots() && !arguments.quiet; ++i) {
     const std::string name = twin->world().robots[static_cast<std::size_t>(i)].name;
-    twin->mind(i).board().virtual_devices().on_console = [name, say](const std::string& line) {
+    auto& console = twin->mind(i).board().virtual_devices().on_console;
+    console = [name, say, before = console](const std::string& line) {
+      if (before) before(line);
       say(name + ": " + line);
     };
   }
