@@ -15,7 +15,7 @@ CMAKE  := cmake -G Ninja -S .
 NINJA  := python3 scripts/progress.py $(BUILD) $(JOBS)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup tool build run test view test-view dspic check format bench asan tsan fuzz levels clean
+.PHONY: help setup tool build run test page view test-view dspic check format bench asan tsan fuzz levels clean
 
 ## help: this list
 help:
@@ -45,7 +45,7 @@ build: setup
 	@$(NINJA)
 
 ## run: 60 simulated seconds of FW in WORLD: summary, CSV and picture
-run: tool
+run: tool $(if $(findstring --report,$(ARGS)),page)
 	@mkdir -p $(OUT)
 	@$(BUILD)/twinpuck build $(FW) -o $(OUT)/$(notdir $(FW)).so
 	@$(BUILD)/twinpuck run worlds/$(WORLD).toml --fw '*=$(OUT)/$(notdir $(FW)).so' --for 60 --speed max \
@@ -67,6 +67,9 @@ $(BUILD)/page/page.js: $(PAGE)/node_modules/.package-lock.json $(wildcard $(PAGE
 	@scripts/setup.sh view
 	@mkdir -p $(BUILD)/page && cp $(PAGE)/index.html $(BUILD)/page
 	@esbuild $(PAGE)/src/main.ts --bundle --minify --target=es2020 --outdir=$(BUILD)/page --entry-names=page --log-level=warning
+
+## page: bundle the page of the live view and of reports (--report)
+page: $(BUILD)/page/page.js
 
 ## view: FW in WORLD in the browser: see, touch and change it while it runs
 view: tool $(BUILD)/page/page.js

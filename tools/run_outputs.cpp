@@ -14,6 +14,7 @@
 #include "tools/command_line.h"
 #include "tools/output_folder.h"
 #include "tools/verbs.h"
+#include "viewer/report.h"
 
 namespace tools {
 
@@ -66,6 +67,9 @@ void add_output_options(CLI::App& verb, OutputArguments& a) {
       ->check(between(1e-4, 1e6))
       ->capture_default_str();
   verb.add_option("--summary", a.summary, "JSON of what the run came to");
+  verb.add_option(
+      "--report", a.report,
+      "HTML file of the run to look at in a browser: scrub, plots, time line, serial text, traps");
   verb.add_option("--save-images", a.images,
                   "folder for every picture that a program gets from its camera (PNG)");
   verb.add_option("--save-sound", a.sound_folder,
@@ -87,11 +91,15 @@ RunOutputs::~RunOutputs() = default;
 bool RunOutputs::open(std::vector<std::string>& problems) {
   const std::size_t before = problems.size();
   const auto& a = arguments_;
-  std::vector<std::pair<std::string, std::string>> files{
-      {twin_.world().file, "the world"}, {a.record, "--record"},
-      {a.summary, "--summary"},          {a.coverage, "--coverage"},
-      {a.pictures.picture, "--picture"}, {a.pictures.film, "--film"},
-      {a.traces.vcd, "--vcd"},           {a.traces.timeline, "--trace"}};
+  std::vector<std::pair<std::string, std::string>> files{{twin_.world().file, "the world"},
+                                                         {a.record, "--record"},
+                                                         {a.summary, "--summary"},
+                                                         {a.coverage, "--coverage"},
+                                                         {a.pictures.picture, "--picture"},
+                                                         {a.pictures.film, "--film"},
+                                                         {a.traces.vcd, "--vcd"},
+                                                         {a.traces.timeline, "--trace"},
+                                                         {a.report, "--report"}};
   for (const std::string& file : a.pictures.heatmaps) files.emplace_back(file, "--heatmap");
   check_files_differ(std::move(files), problems);
   if (problems.size() != before) return false;
@@ -111,6 +119,11 @@ bool RunOutputs::open(std::vector<std::string>& problems) {
   }
   pictures_.open(problems);
   traces_.open(problems);
+  if (!a.report.empty() && can_write(a.report, "--report", problems)) {
+    report_ = std::make_unique<viewer::Report>(a.report, twin_, twin::build_folder() + "/page",
+                                               a.traces.vcd.empty() && a.traces.timeline.empty());
+    if (!report_->error().empty()) problems.push_back(report_->error());
+  }
   return problems.size() == before;
 }
 
@@ -137,6 +150,7 @@ void RunOutputs::sample() {
   const auto& simulation = twin_.simulation();
   if (recorder_) recorder_->sample(simulation.scene(), simulation.minds());
   if (sound_) sound_->after_tick();
+  if (report_) report_->sample();
 }
 
 bool RunOutputs::failed() const {
@@ -153,7 +167,7 @@ std::vector<std::string> RunOutputs::written() const {
   const auto& a = arguments_;
   std::vector<std::string> files = a.pictures.heatmaps;
   for (const std::string& file : {a.record, a.summary, a.pictures.picture, a.pictures.film, a.traces.vcd,
-                                  a.traces.timeline, a.coverage, a.images, a.sound_folder})
+                                  a.traces.timeline, a.coverage, a.images, a.sound_folder, a.report})
     if (!file.empty()) files.push_back(file);
   return files;
 }
@@ -170,6 +184,10 @@ void RunOutputs::finish(const Summary& summary, std::vector<std::string>& proble
     for (int port = 1; port <= 2; ++port)
       if (const auto* end = twin_.mind(r).board().uart(port).end(); end && !end->error().empty())
         problems.push_back(end->error() + "; further bytes of the robot are lost");
+  if (report_) {
+    const std::string wrong = report_->finish(to_json(summary));
+    if (!wrong.empty()) problems.push_back(wrong);
+  }
   pictures_.finish(summary, problems);
   traces_.finish(problems);
 }

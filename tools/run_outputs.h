@@ -18,11 +18,14 @@
 namespace sim {
 class CsvRecorder;
 }  // namespace sim
+namespace viewer {
+class Report;
+}  // namespace viewer
 
 namespace tools {
 
 struct OutputArguments {
-  std::string record, summary, coverage, images, sound_folder;
+  std::string record, summary, coverage, images, sound_folder, report;
   double record_every_s = 0.01;
   PictureArguments pictures;
   TraceArguments traces;
@@ -60,6 +63,7 @@ class RunOutputs {
   std::unique_ptr<SoundOutput> sound_;
   PictureOutputs pictures_;
   TraceOutputs traces_;
+  std::unique_ptr<viewer::Report> report_;
 };
 
 }  // namespace tools

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // twinpuck run WORLD: simulates, shows progress, writes what was asked for, tells what happened.
+#include <unistd.h>
 #include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -21,6 +23,7 @@
 #include "tools/run_outputs.h"
 #include "tools/serial_text.h"
 #include "tools/summary.h"
+#include "tools/terminal_view.h"
 #include "tools/verbs.h"
 #include "viewer/inputs.h"
 
@@ -30,6 +33,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Wall = std::chrono::steady_clock;
+constexpr double kPictureEvery_s = 0.05;
 constexpr double kLongestSleep_s = 0.1;  // with a look whether the end was asked for
 
 struct RunArguments {
@@ -42,7 +46,7 @@ struct RunArguments {
   int threads = 1;
   double host_limit_s = 0;
   std::string optimisation = "-O1", way;
-  bool sanitize = false, quiet = false, strict = false;
+  bool sanitize = false, quiet = false, strict = false, live = false;
   OutputArguments outputs;
   ProfileArguments profile;
 };
@@ -76,6 +80,10 @@ int run(const RunArguments& arguments) {
       !split_choices(arguments.uart2, "--uart2", options.uart2))
     return kBadInput;
 
+  if (arguments.live && !::isatty(STDOUT_FILENO)) {
+    complain({"command line: --live: got no terminal, expected one of 80 by 24 characters on stdout"});
+    return kBadInput;
+  }
   std::vector<std::string> problems;
   std::unique_ptr<viewer::Replay> replay;
   if (!arguments.replay.empty()) {
@@ -133,26 +141,37 @@ int run(const RunArguments& arguments) {
   // while programs run, the outputs are whole up to the last tick
   std::atomic<bool> is_stepping{false};
   GracefulEnd guard([&] {
+    if (arguments.live) TerminalScreen::give_back();
     if (is_stepping) outputs.rescue();
   });
   limit_host_time(arguments.host_limit_s);
   auto& simulation = twin->simulation();
   const sim::Clicks end = replay && replay->end() >= 0 ? replay->end() : sim::from_seconds(arguments.seconds);
   viewer::Inputs inputs(*twin);
-  Progress progress(arguments.seconds, arguments.quiet);
+  Progress progress(arguments.seconds, arguments.quiet || arguments.live);
+  std::unique_ptr<TerminalView> terminal;
+  std::unique_ptr<TerminalScreen> screen;
+  if (arguments.live) {
+    terminal = std::make_unique<TerminalView>(*twin);
+    screen = std::make_unique<TerminalScreen>();
+  }
+  double next_picture_s = 0;
   const auto start = Wall::now();
   const auto wall_s = [&] { return std::chrono::duration<double>(Wall::now() - start).count(); };
   is_stepping = true;
   team->before_first_tick();
   is_stepping = false;
   outputs.before_run();
-  const auto say = [&progress](const std::string& line) {
+  const auto say = [&](const std::string& line) {
+    if (screen) return terminal->say(line);
     progress.clear();
     std::cout << line << '\n';
   };
   for (int i = 0; i < twin->robots() && !arguments.quiet; ++i) {
     const std::string name = twin->world().robots[static_cast<std::size_t>(i)].name;
-    twin->mind(i).board().virtual_devices().on_console = [name, say](const std::string& line) {
+    auto& console = twin->mind(i).board().virtual_devices().on_console;
+    console = [name, say, before = console](const std::string& line) {
+      if (before) before(line);
       say(name + ": " + line);
     };
   }
@@ -175,6 +194,10 @@ int run(const RunArguments& arguments) {
     outputs.after_tick();
     serial.show();
     if (end_asked() || outputs.failed()) break;
+    if (screen && wall_s() >= next_picture_s) {
+      screen->show(terminal->frame(sim::to_seconds(simulation.now()) / std::max(wall_s(), 1e-3)));
+      next_picture_s = wall_s() + kPictureEvery_s;
+    }
     if (progress.is_due()) progress.show(sim::to_seconds(simulation.now()));
     if (speed > 0) {
       const double due_s = sim::to_seconds(simulation.now()) / speed;
@@ -184,6 +207,7 @@ int run(const RunArguments& arguments) {
   }
   if (replay && !end_asked()) replay->finish(inputs, simulation, problems);
   const double took_s = wall_s();
+  screen.reset();
   progress.finish();
   twin->flush_console();
   is_stepping = true;
@@ -264,8 +288,8 @@ void add_run(CLI::App& app, int& exit_code) {
                             "supervisor/programs/"));
   verb->option_defaults()->group("Time and chance");
   verb->add_option("--for", a->seconds, "simulated seconds")->check(between(0, 1e7))->capture_default_str();
-  verb->add_option("--speed", a->speed, "pace: 1 is real time, max as fast as possible")
-      ->capture_default_str();
+  auto* speed = verb->add_option("--speed", a->speed, "pace: 1 is real time, max as fast as possible")
+                    ->capture_default_str();
   verb->add_option("--seed", a->seed, "the world's seed, 0 or more, instead of the file's")
       ->check(CLI::NonNegativeNumber);
   verb->add_option("--threads", a->threads, "threads that run firmware; the result does not depend on it")
@@ -285,6 +309,9 @@ void add_run(CLI::App& app, int& exit_code) {
   verb->add_option("--opt", a->optimisation, "level for controllers built from source")
       ->check(CLI::IsMember({"-O0", "-O1", "-O2", "-Os"}))
       ->capture_default_str();
+  verb->add_flag("--live", a->live,
+                 "show arena, robots, LEDs and serial text in this terminal (80 by 24), in real time unless "
+                 "--speed says otherwise");
   verb->add_flag("-q,--quiet", a->quiet, "no progress, no serial text and no summary on the terminal");
   add_profile_options(*verb, a->profile);
   add_output_options(*verb, a->outputs);
@@ -293,7 +320,8 @@ void add_run(CLI::App& app, int& exit_code) {
       "Exit codes: 0 good, 1 --strict, --budgets or a supervisor found a fault, 2 bad input, 3 firmware "
       "trapped, "
       "7 an output was lost, 124 --host-limit, 130 interrupted");
-  verb->callback([a, world, replay, &exit_code] {
+  verb->callback([a, world, replay, speed, &exit_code] {
+    if (a->live && speed->count() == 0) a->speed = "1";
     if (world->count() + replay->count() != 1) throw CLI::RequiredError("WORLD or --replay");
     exit_code = run(*a);
   });

@@ -8,6 +8,7 @@
 
 #include "hal_sim/host/compiled_runner.h"
 #include "sim_core/load/world_loader.h"
+#include "viewer/events.h"
 #include "viewer/world_json.h"
 
 namespace viewer {
@@ -17,8 +18,10 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr auto kFrameEvery = 15ms;                 // 60 a second
-constexpr auto kSlice = 4ms;                       // of stepping, between two looks at requests
+constexpr auto kFrameEvery = 15ms;  // 60 a second
+constexpr auto kSlice = 4ms;        // of stepping, between two looks at requests
+constexpr auto kTraceEvery = 100ms;
+constexpr std::size_t kMostTold = 4000;            // spans, and changes, of one event
 constexpr auto kPaceOver = 500ms;                  // the pace is a mean over so long
 constexpr std::size_t kLongestSerial = 64u << 10;  // bytes of a line sent at once
 
@@ -31,21 +34,6 @@ std::int64_t interrupts_served(const host::Runner& program) {
   std::int64_t sum = 0;
   for (int vector = 0; vector < TP_VECTORS; ++vector) sum += program.served(vector);
   return sum;
-}
-
-/// Bytes as a JSON text: what is no UTF-8 is taken for Latin-1.
-std::string latin_to_utf8(const std::string& bytes) {
-  std::string out;
-  for (const char c : bytes) {
-    const auto u = static_cast<unsigned char>(c);
-    if (u < 0x80) {
-      out += c;
-    } else {
-      out += static_cast<char>(0xC0 | u >> 6);
-      out += static_cast<char>(0x80 | (u & 0x3F));
-    }
-  }
-  return out;
 }
 
 }  // namespace
@@ -85,6 +73,7 @@ void Session::post(ClientId client, Kind kind, std::string text) {
 
 /// The run that was is over: its programs finish, its recording is whole.
 void Session::close_run() {
+  trace_.reset();
   if (team_) team_->finish();
   if (recorder_ && twin_) recorder_->end(twin_->simulation().now(), twin_->simulation().digest());
   recorder_.reset();
@@ -185,6 +174,7 @@ void Session::live() {
     if (Wall::now() >= next_watch_) watch_programs();
     send_serial();
     send_frames(changed);
+    send_trace();
     if (!playing_ || !twin_ || ended_) {
       std::unique_lock<std::mutex> lock(mutex_);
       news_.wait_for(lock, kFrameEvery, [&] { return has_news_.load(); });
@@ -247,15 +237,7 @@ void Session::advance_slice() {
 /// What happened in the ticks that everybody should know.
 void Session::after_ticks() {
   const auto traps = twin_->traps();
-  for (std::size_t i = traps_told_; i < traps.size(); ++i)
-    tell_all({{"event", "trap"},
-              {"robot", traps[i].robot},
-              {"kind", host::trap_name(traps[i].kind)},
-              {"text", traps[i].message},
-              {"place", to_string(traps[i].place)},
-              {"file", traps[i].place.file},
-              {"line", traps[i].place.line},
-              {"time_s", traps[i].time_s}});
+  for (std::size_t i = traps_told_; i < traps.size(); ++i) tell_all(trap_event(traps[i]));
   traps_told_ = std::max(traps_told_, traps.size());
   if (team_->has_ended() && !ended_) {
     ended_ = true;
@@ -294,7 +276,15 @@ void Session::play(bool on) {
 }
 
 void Session::input(const Json& request) {
+  // a program that goes is looked at no more, and the one that comes is
+  std::unique_ptr<TraceFeed> before;
+  if (request.at("do") == "program") before = std::move(trace_);
+  const int robot = before ? before->robot() : 0;
+  const auto signals = before ? before->asked() : std::vector<std::string>();
+  const bool traced = before != nullptr;
+  before.reset();
   inputs_->apply(request);
+  if (traced) trace(robot, signals);
   if (recorder_) recorder_->note(twin_->simulation().now(), request);
 }
 
@@ -364,12 +354,7 @@ void Session::send_serial() {
     if (line->text.empty()) continue;
     const std::string some = line->text.substr(0, kLongestSerial);
     line->text.erase(0, some.size());
-    const Json event{{"event", "serial"},
-                     {"robot", twin_->world().robots[static_cast<std::size_t>(line->robot)].name},
-                     {"port", line->port},
-                     {"time_s", sim::to_seconds(twin_->simulation().now())},
-                     {"text", line->port == 0 ? some : latin_to_utf8(some)}};
-    tell_all(event);
+    tell_all(serial_event(*twin_, line->robot, line->port, some));
   }
 }
 
@@ -396,6 +381,19 @@ void Session::send_frames(bool all) {
     page.last_frame = now;
     page.fresh = false;
   }
+}
+
+void Session::trace(int robot, const std::vector<std::string>& signals) {
+  trace_.reset();  // first: a robot has one observer
+  trace_ = std::make_unique<TraceFeed>(*twin_, robot, signals);
+  traced_ = -1;
+}
+
+void Session::send_trace() {
+  if (!trace_ || traced_ == twin_->simulation().now() || Wall::now() < next_trace_) return;
+  next_trace_ = Wall::now() + kTraceEvery;
+  traced_ = twin_->simulation().now();
+  tell_all(trace_->take(kMostTold));
 }
 
 /// After the world or a program was exchanged: names mean something else now, or nothing.

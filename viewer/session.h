@@ -24,6 +24,7 @@
 #include "viewer/inputs.h"
 #include "viewer/names.h"
 #include "viewer/sources.h"
+#include "viewer/trace_feed.h"
 #include "viewer/web_server.h"
 
 namespace viewer {
@@ -114,7 +115,8 @@ class Session {
   void tell_world();
   void send_serial();
   void send_frames(bool all);
-  Json diagnoses_json() const;
+  void send_trace();
+  void trace(int robot, const std::vector<std::string>& signals);
   Json programs_json() const;
   void watch_programs();
   void build_program(Program& program);
@@ -131,6 +133,9 @@ class Session {
   std::unique_ptr<supervisor::Team> team_;
   std::unique_ptr<Inputs> inputs_;
   std::unique_ptr<Recorder> recorder_;
+  std::unique_ptr<TraceFeed> trace_;  // while a page shows a time line
+  sim::Clicks traced_ = 0;            // until when pages know it
+  Wall::time_point next_trace_{};
   std::vector<std::unique_ptr<Line>> lines_;  // UARTs keep pointers
   std::vector<int> movable_;                  // ids of the movable objects that live
   sim::WorldText live_text_;                  // what the world that lives was made of

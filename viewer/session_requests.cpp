@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "viewer/events.h"
 #include "viewer/session.h"
 #include "viewer/world_json.h"
 
@@ -15,7 +16,6 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr std::size_t kMostDiagnoses = 200;
 constexpr int kMostSteps = 10000;        // of one request
 constexpr std::size_t kMostNames = 256;  // of one page's subscription
 constexpr auto kWatchEvery = 150ms;      // are sources what they were?
@@ -72,7 +72,7 @@ Json Session::answer(ClientId client, const Json& request) {
     tell_state();
     return {{"ok", true}};
   }
-  if (is_one_of(what, {"subscribe", "rays", "source", "state", "watch"}))
+  if (is_one_of(what, {"subscribe", "rays", "source", "state", "trace"}))
     return look_request(client, what, request);
   if (client != steering_) throw std::runtime_error("another page steers; take the wheel first");
   if (is_one_of(what, {"edit", "undo", "redo", "save", "save_as"})) return edit_request(what, request);
@@ -153,7 +153,7 @@ Json Session::look_request(ClientId client, const std::string& what, const Json&
     if (twin_) {
       const std::uint64_t digest = twin_->simulation().digest();
       state["digest"] = fmt::format("{:016x}", digest);
-      state["diagnoses"] = diagnoses_json();
+      state["diagnoses"] = diagnoses_json(*twin_);
       state["clicks"] = twin_->simulation().now();
     }
     return {{"ok", true}, {"state", state}};
@@ -165,6 +165,14 @@ Json Session::look_request(ClientId client, const std::string& what, const Json&
     throw std::runtime_error("program: expected one that a robot runs");
   }
   if (!twin_) throw std::runtime_error("the world does not run: mend its problems first");
+  if (what == "trace") {
+    const auto robot = request.at("robot").get<std::string>();
+    if (robot.empty())
+      trace_.reset();
+    else
+      trace(robot_named(robot), request.value("signals", std::vector<std::string>()));
+    return {{"ok", true}};
+  }
   if (what == "rays") {
     std::vector<int> robots;
     for (const Json& name : request.at("robots")) robots.push_back(robot_named(name.get<std::string>()));
@@ -214,25 +222,8 @@ Json Session::program_request(const std::string&, const Json& request) {
   throw std::runtime_error("program: expected one that a robot runs");
 }
 
-/// What board and chip say about the programs, robot by robot.
-Json Session::diagnoses_json() const {
-  Json out = Json::array();
-  for (int r = 0; twin_ && r < twin_->robots() && out.size() < kMostDiagnoses; ++r) {
-    const host::Runner* program = std::as_const(*twin_).mind(r).runner();
-    if (!program) continue;
-    for (const board::Diagnosis& d : program->diagnoses())
-      out.push_back({{"robot", program->name()},
-                     {"time_s", d.first_s},
-                     {"cause", d.cause},
-                     {"place", d.place},
-                     {"text", d.message},
-                     {"hint", d.hint}});
-  }
-  return out;
-}
-
 void Session::watch_programs() {
-  if (Json diagnoses = diagnoses_json(); diagnoses != diagnoses_told_) {
+  if (Json diagnoses = twin_ ? diagnoses_json(*twin_) : Json::array(); diagnoses != diagnoses_told_) {
     diagnoses_told_ = std::move(diagnoses);
     tell_all({{"event", "diagnoses"}, {"diagnoses", diagnoses_told_}});
   }

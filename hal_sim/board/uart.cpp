@@ -137,7 +137,7 @@ void Uart::hand_out(Cycle at) {
       at - out_ends_.front() < kPacketCycles)
     return;
   if (end_) end_->deliver(out_bytes_.data(), out_ends_.data(), done);
-  if (heard_) heard_->append(reinterpret_cast<const char*>(out_bytes_.data()), done);
+  for (std::string* heard : heard_) heard->append(reinterpret_cast<const char*>(out_bytes_.data()), done);
   out_bytes_.erase(out_bytes_.begin(), out_bytes_.begin() + static_cast<std::ptrdiff_t>(done));
   out_ends_.erase(out_ends_.begin(), out_ends_.begin() + static_cast<std::ptrdiff_t>(done));
 }

@@ -70,9 +70,8 @@ class Uart {
     watch_ = watch;
     number_ = number;
   }
-  /// What the robot sends is added to `heard` at the end of each tick, whoever else takes it; null: nobody
-  /// hears.
-  void listen(std::string* heard) { heard_ = heard; }
+  /// What the robot sends is added to `heard` at the end of each tick, whoever else takes it.
+  void listen(std::string* heard) { heard_.push_back(heard); }
   /// Tick boundary: what has left goes to the end; what has come starts on the wire, or waits outside until
   /// the UART is enabled.
   void exchange(Cycle at);
@@ -131,7 +130,7 @@ class Uart {
   std::shared_ptr<UartEnd> end_;
   UartWatch* watch_ = nullptr;
   int number_ = 0;
-  std::string* heard_ = nullptr;
+  std::vector<std::string*> heard_;
   Cycle break_until_ = -1;
   std::uint64_t hash_ = 0;
 };

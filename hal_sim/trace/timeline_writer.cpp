@@ -30,6 +30,22 @@ TimelineWriter::TimelineWriter(std::string path, std::int64_t most_bytes)
   pending_ = "[\n";
 }
 
+std::string span_name(const Span& span, const host::Runner* runner) {
+  switch (span.kind) {
+    case Span::Kind::Busy:
+      return "busy";
+    case Span::Kind::Waiting:
+    case Span::Kind::HandlerWaiting:
+      return "waiting";
+    case Span::Kind::Handler:
+      return span.vector < host::kTrapVector ? dspic::irq_name(span.vector) : "trap";
+    case Span::Kind::Callback:
+      break;
+  }
+  const std::string known = runner ? runner->place_of(span.function).function : "";
+  return known.empty() ? fmt::format("{:#x}", span.function) : known;
+}
+
 void TimelineWriter::add(const std::string& event) {
   if (done_) return;
   if (bytes_ + static_cast<std::int64_t>(pending_.size() + event.size()) + kEndBytes > most_bytes_) {
@@ -60,37 +76,21 @@ void TimelineWriter::add_robot(int robot, const std::string& name) {
 
 void TimelineWriter::span(int robot, const Span& span, const board::RobotClock& clock,
                           const host::Runner* runner) {
-  std::string name, args;
-  Track track = kMain;
+  // an agenda's function is looked up once
+  std::string known, args;
+  std::string& name = span.kind == Span::Kind::Callback ? names_[{robot, span.function}] : known;
+  if (name.empty()) name = span_name(span, runner);
   const auto ns = [&](host::Cycle at) { return to_ns(clock.click_at(at)); };
-  switch (span.kind) {
-    case Span::Kind::Busy:
-      name = "busy";
-      break;
-    case Span::Kind::Waiting:
-      name = "waiting";
-      break;
-    case Span::Kind::HandlerWaiting:
-      name = "waiting";
-      track = kInterrupts;
-      break;
-    case Span::Kind::Handler:
-      name = span.vector < host::kTrapVector ? dspic::irq_name(span.vector) : "trap";
-      track = kInterrupts;
-      args = fmt::format(R"(,"first_instruction_us":{},"interrupted_handlers":{})", micros(ns(span.first)),
-                         span.depth);
-      if (span.flagged >= 0)
-        args += fmt::format(R"(,"flag_us":{},"latency_cycles":{})", micros(ns(span.flagged)),
-                            span.first - span.flagged);
-      break;
-    case Span::Kind::Callback: {
-      track = kAgendas;
-      std::string& known = names_[{robot, span.function}];
-      if (known.empty() && runner) known = runner->place_of(span.function).function;
-      if (known.empty()) known = fmt::format("{:#x}", span.function);
-      name = known;
-      break;
-    }
+  Track track = kMain;
+  if (span.kind == Span::Kind::Callback) track = kAgendas;
+  if (span.kind == Span::Kind::HandlerWaiting) track = kInterrupts;
+  if (span.kind == Span::Kind::Handler) {
+    track = kInterrupts;
+    args = fmt::format(R"(,"first_instruction_us":{},"interrupted_handlers":{})", micros(ns(span.first)),
+                       span.depth);
+    if (span.flagged >= 0)
+      args += fmt::format(R"(,"flag_us":{},"latency_cycles":{})", micros(ns(span.flagged)),
+                          span.first - span.flagged);
   }
   const std::int64_t begin = ns(span.begin);
   latest_ns_ = std::max(latest_ns_, ns(span.end));

@@ -15,6 +15,9 @@
 
 namespace trace {
 
+/// "busy", "waiting", an interrupt's name or an agenda's function; `runner` null: functions by address.
+std::string span_name(const Span& span, const host::Runner* runner);
+
 class TimelineWriter {
  public:
   /// `most_bytes`: the file ends before it is larger.

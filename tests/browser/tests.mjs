@@ -315,6 +315,57 @@ export const tests = {
     await steps(page, 3);
   },
 
+  async a_report_opens_from_disk_without_a_network(browser, live) {
+    const [v] = await start(browser, live);
+    const run = spawnSync(path.join(root, "build/twinpuck"), ["run", v.file, "--for", "60", "--report", "run.html", "-q"], { cwd: v.folder });
+    assert.equal(run.status, 0, String(run.stderr));
+    const bytes = fs.statSync(path.join(v.folder, "run.html")).size;
+    console.log(`     a minute of one robot: ${(bytes / 1e6).toFixed(2)} MB`);
+    assert.ok(bytes < 5e6);
+    const page = await (await browser.newContext({ offline: true, viewport: { width: 1280, height: 720 } })).newPage();
+    const errors = [];
+    page.on("console", (m) => { if (m.type() === "error") errors.push(m.text()); });
+    page.on("pageerror", (e) => errors.push(String(e)));
+    await page.goto(`file://${v.folder}/run.html`);
+    await page.waitForFunction(() => document.body.dataset.ready === "yes");
+    assert.match(await page.textContent("#pane-summary"), /60\.0 s simulated/);
+    assert.match(await page.textContent("#console-lines"), /hello/);
+    const scrub = (at) => page.evaluate((i) => { const s = document.getElementById("scrub"); s.value = String(i); s.dispatchEvent(new Event("input")); }, at);
+    await scrub(100);
+    assert.ok(Math.abs((await time(page)) - 2) < 0.003);
+    const early = await x(page);
+    await scrub(250);
+    assert.ok((await x(page)) > early + 0.1, "it drives");
+    assert.equal(await ask(page, "(app) => app.values.get('puck.x') === app.frame.values[0]"), true);
+    await ask(page, "(app) => app.plots.toggle('puck.ir0')");
+    assert.equal(await ask(page, "(app) => app.plots.samples"), 3001);
+    await page.click("#tab-timeline");
+    assert.ok(await ask(page, "(app) => app.timeline.known.changes.some((n) => n > 2)"), "LED0 and the bytes");
+    await scrub(0);
+    await page.click("#play");
+    await until(page, "(app) => app.frame.time > 0.2");
+    await page.click("#play");
+    assert.equal(await ask(page, "(app) => app.connection.ask('play').catch((e) => e.message)"), "a report shows what was; it cannot be changed");
+    assert.deepEqual(errors, []);
+  },
+
+  async time_line_and_pins(browser, live) {
+    const [, page] = await start(browser, live);
+    await page.click("#tab-timeline");
+    await page.click("#play");
+    await until(page, "(app) => app.timeline.known.changes.some((n) => n > 20)");
+    await page.fill("#signals", "LED0, left_coils, rounds");
+    await page.press("#signals", "Enter");
+    await until(page, "(app) => app.timeline.known.changes.length === 3 && app.timeline.known.changes[1] > 20 && app.timeline.known.changes[2] > 20");
+    // a controller that is built anew is looked at, too
+    await page.fill("#signals", "nonsense");
+    await page.press("#signals", "Enter");
+    await page.waitForFunction(() => /nonsense/.test(document.querySelector("#notice").textContent));
+    await page.click("#tab-console");
+    await until(page, "(app) => !app.timeline.shown");
+    assert.deepEqual(page.errors, []);
+  },
+
   async kill_9_leaves_the_old_file_or_the_new_one(browser, live) {
     const [v, page] = await start(browser, live);
     const wall = await ask(page, "(app) => app.world.things[0].id");

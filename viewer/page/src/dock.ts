@@ -40,14 +40,14 @@ export class Console {
     if (names.includes(was)) this.robot.value = was;
   }
   choose(name: string) { this.robot.value = name; }
-  say(who: string, text: string, kind = "") {
+  say(who: string, text: string, kind = "", time?: number) {
     const stays = this.lines.scrollHeight - this.lines.scrollTop - this.lines.clientHeight > 40;
     const parts = text.split(/\r\n|\r|\n/);
     parts.forEach((part, i) => {
       let line = this.open.get(who);
       if (!line && (part !== "" || i < parts.length - 1)) {
         if (part === "" && i < parts.length - 1) return;
-        line = h("div", { className: kind }, h("b", {}, who + " "), h("span", {}));
+        line = h("div", { className: kind }, time !== undefined && h("small", {}, `${time.toFixed(3)} `), h("b", {}, who + " "), h("span", {}));
         this.lines.append(line);
         this.open.set(who, line);
       }
@@ -87,9 +87,15 @@ export class Plots {
       this.app.subscribe();
       return;
     }
-    this.clear();
     this.build();
+    this.refill();
     this.app.showDock("plots");
+  }
+  /** From the frames that are kept. */
+  refill() {
+    this.clear();
+    this.app.eachKept((time, values) => this.sample(time, values));
+    this.draw();
   }
   clear() {
     this.times = [];
@@ -103,7 +109,7 @@ export class Plots {
     this.area.replaceChildren();
     const axis = { stroke: css("--dim"), grid: { stroke: css("--line"), width: 1 }, ticks: { stroke: css("--line") } };
     this.chart = new uPlot({
-      ...this.size(), scales: { x: { time: false } }, axes: [{ ...axis, size: 32, values: (_: uPlot, at: number[]) => at.map((t) => `${+t.toFixed(3)} s`) }, axis], legend: { show: false },
+      ...this.size(), scales: { x: { time: false } }, axes: [{ ...axis, size: 32, values: (_: uPlot, at: number[]) => at.map((t) => `${+t.toFixed(3)} s`) }, { ...axis, size: 64 }], legend: { show: false },
       series: [{ label: "s" }, ...this.names.map((label, i) => ({ label, stroke: kPalette[i], width: 1.5, points: { show: false } }))],
     }, [[], ...this.names.map(() => [])] as any, this.area);
   }

@@ -4,6 +4,8 @@
 import "uplot/dist/uPlot.min.css";
 import "./page.css";
 import { Connection, readFrame, RobotState } from "./protocol";
+import { Playback } from "./playback";
+import { TimeLine } from "./timeline";
 import type { Frame, Program, Robot, Schema, State, Thing, World } from "./protocol";
 import { Scene } from "./scene";
 import { Inspector } from "./inspector";
@@ -18,7 +20,9 @@ const kMostPastBytes = 96 << 20;
 const kRedrawEvery = 4;           // frames, for numbers and plots: nobody reads faster
 
 export class App {
-  readonly connection = new Connection();
+  /** Set in a report: nothing runs, everything is there already. */
+  readonly recorded = document.getElementById("report") ? new Playback() : undefined;
+  readonly connection = this.recorded ?? new Connection();
   readonly scene = new Scene(byId("stage"));
   world: World = { title: "", file: "", text: "", step_s: 0.032, tick_s: 1 / 512, floor: { colour: [1, 1, 1], image: false }, things: [], robots: [], elements: [], problems: [] };
   state: State = { playing: false, speed: 1, ended: false, time_s: 0, seed: 1, saved: true, undo: false, redo: false, steering: 0, runs: false };
@@ -34,6 +38,7 @@ export class App {
   readonly text = new WorldTextPane(this);
   readonly problems = new ProblemsPane(this);
   readonly inspector = new Inspector(this);
+  readonly timeline = new TimeLine(this);
   readonly touch = new Touch(this);
   frames = 0;
   frame?: Frame;
@@ -49,6 +54,7 @@ export class App {
   private diagnoses: string[] = [];
   private noticeTimer = 0;
   private fresh = true;
+  private player = 0;  // of a report: the timer
 
   constructor() {
     this.buildBar();
@@ -58,6 +64,11 @@ export class App {
     addEventListener("keydown", (e) => this.key(e));
     addEventListener("beforeunload", (e) => { if (!this.state.saved) e.preventDefault(); });
     byId("scrub").addEventListener("input", () => this.scrub());
+    if (this.recorded) {
+      document.body.classList.add("report");
+      this.recorded.onPast = (frames) => this.takeReport(frames);
+      this.recorded.play();
+    }
   }
 
   // --- what the server tells
@@ -74,12 +85,13 @@ export class App {
       this.takeDiagnoses(e.diagnoses);
       if (this.world.robots.length === 1) this.select(this.world.robots[0].id);
       else this.inspector.show();
-      document.body.dataset.ready = "yes";
+      if (!this.recorded) document.body.dataset.ready = "yes";
     });
     c.on("world", (e) => this.takeWorld(e.world, e.revision));
     c.on("programs", (e) => this.takePrograms(e.programs));
     c.on("state", (e) => this.takeState(e.state));
-    c.on("serial", (e) => this.console.say(e.robot + (e.port === 2 ? " uart2" : ""), e.text));
+    c.on("serial", (e) => this.console.say(e.robot + (e.port === 2 ? " uart2" : ""), e.text, "", e.time_s));
+    c.on("trace", (e) => this.timeline.take(e));
     c.on("says", (e) => this.console.say("supervisor", e.text + "\n", "dim"));
     c.on("problems", (e) => this.notice(e.problems[0], true));
     c.on("building", () => this.program.building());
@@ -133,7 +145,7 @@ export class App {
   }
 
   private takeState(state: State) {
-    if (state.time_s < this.state.time_s || this.fresh) this.forgetPast();
+    if (!this.recorded && (state.time_s < this.state.time_s || this.fresh)) this.forgetPast();
     this.fresh = false;
     this.state = state;
     const set = (id: string, on: boolean) => byId(id).toggleAttribute("disabled", !on);
@@ -155,10 +167,7 @@ export class App {
     this.past.push({ time: frame.time, bytes });
     this.pastBytes += bytes.byteLength;
     while (this.past.length > kMostPast || this.pastBytes > kMostPastBytes) this.pastBytes -= this.past.shift()!.bytes.byteLength;
-    if (frame.subscription === this.subscription) {
-      this.names.forEach((n, i) => this.values.set(n, frame.values[i]));
-      this.plots.sample(frame.time, this.values);
-    }
+    if (this.takeValues(frame)) this.plots.sample(frame.time, this.values);
     if (this.live) this.show(frame);
     if (this.frames % kRedrawEvery === 0 || !frame.running) {
       const scrub = byId("scrub") as HTMLInputElement;
@@ -167,6 +176,19 @@ export class App {
       byId("pace").textContent = frame.running ? `${frame.pace < 10 ? frame.pace.toFixed(1) : frame.pace.toFixed(0)}×` : "";
       this.inspector.update();
       this.plots.draw();
+    }
+  }
+
+  private takeValues(frame: Frame) {
+    if (frame.subscription !== this.subscription) return false;
+    this.names.forEach((n, i) => this.values.set(n, frame.values[i]));
+    return true;
+  }
+  /** The values of every frame that is kept and has what is subscribed to now. */
+  eachKept(look: (time: number, values: Map<string, number>) => void) {
+    for (const { bytes } of this.past) {
+      const frame = readFrame(bytes);
+      if (this.takeValues(frame)) look(frame.time, this.values);
     }
   }
 
@@ -188,7 +210,55 @@ export class App {
     this.live = at >= this.past.length - 1;
     byId("past").classList.toggle("back", !this.live);
     const kept = this.past[at];
-    if (kept) this.show(readFrame(kept.bytes));
+    if (!kept) return;
+    const frame = readFrame(kept.bytes);
+    this.takeValues(frame);
+    this.show(frame);
+    this.inspector.update();
+    this.timeline.goTo(frame.time);
+  }
+
+  // --- a report: all frames are there, and time passes here
+
+  private async takeReport(frames: { time: number; bytes: ArrayBuffer }[]) {
+    this.past = frames;
+    await this.subscribe();
+    const scrub = byId("scrub") as HTMLInputElement;
+    scrub.max = String(frames.length - 1);
+    scrub.value = "0";
+    this.scrub();
+    byId("past").classList.remove("back");
+    this.showSummary();
+    document.body.dataset.ready = "yes";
+  }
+  private playReport() {
+    const begin = performance.now(), scrub = byId("scrub") as HTMLInputElement;
+    let at = Number(scrub.value);
+    if (at >= this.past.length - 1) at = 0;
+    const from = this.past[at]?.time ?? 0;
+    const turn = () => {
+      const time = from + ((performance.now() - begin) / 1000) * (this.state.speed || 64);
+      while (at + 1 < this.past.length && this.past[at + 1].time <= time) ++at;
+      scrub.value = String(at);
+      this.scrub();
+      if (at + 1 < this.past.length) this.player = requestAnimationFrame(turn);
+      else this.stopReport();
+    };
+    this.player = requestAnimationFrame(turn);
+    this.takeState({ ...this.state, playing: true });
+  }
+  private stopReport() {
+    cancelAnimationFrame(this.player);
+    this.takeState({ ...this.state, playing: false });
+  }
+  private showSummary() {
+    const s = this.recorded!.summary, columns: [string, (r: any) => string][] = [["robot", (r) => r.name], ["program", (r) => r.firmware.split("/").pop()], ["way", (r) => r.way],
+      ["x, m", (r) => r.x_m.toFixed(3)], ["y, m", (r) => r.y_m.toFixed(3)], ["path, m", (r) => r.distance_m.toFixed(3)], ["collisions", (r) => r.collisions],
+      ["load", (r) => `${(100 * r.cpu_load).toFixed(0)} %`], ["battery used", (r) => `${(1000 * r.battery_used_wh).toFixed(0)} mWh`], ["traps", (r) => r.traps.length], ["diagnoses", (r) => r.diagnoses.length]];
+    byId("pane-summary").replaceChildren(
+      h("p", {}, `${s.world}: ${s.simulated_s.toFixed(1)} s simulated in ${s.wall_s.toFixed(2)} s (${s.speed.toFixed(0)} times real time), seed ${s.seed}, digest ${s.digest}, Twinpuck ${s.version}`),
+      h("table", {}, h("tr", {}, ...columns.map(([name]) => h("th", {}, name))), ...s.robots.slice(0, 200).map((r: any) => h("tr", {}, ...columns.map(([, text]) => h("td", {}, String(text(r))))))));
+    this.showDock("summary");
   }
   private forgetPast() {
     this.past = [];
@@ -198,6 +268,7 @@ export class App {
     byId("past").classList.remove("back");
     this.scene.clearTrails();
     this.plots.clear();
+    this.timeline.forget();
   }
 
   // --- asking
@@ -215,9 +286,9 @@ export class App {
   async subscribe() {
     const names = [...new Set([...this.inspector.names(), ...this.plots.names])];
     const answer = await this.connection.ask("subscribe", { names });
-    this.names = names;
+    this.names = answer.names ?? names;
     this.subscription = answer.subscription;
-    this.connection.ask("rays", { robots: [...this.rays] }).catch(() => {});
+    if (!this.recorded) this.connection.ask("rays", { robots: [...this.rays] }).catch(() => {});
   }
   toggleRays(robot?: string) {
     const all = this.world.robots.map((r) => r.name);
@@ -247,6 +318,7 @@ export class App {
       this.program.choose(robot.firmware);
     }
     if (changed) this.subscribe().catch(() => {});
+    if (changed && this.timeline.shown) this.timeline.watch(true);
   }
   copySelected() {
     const piece = this.selectedRobot() ?? this.selectedThing();
@@ -300,7 +372,8 @@ export class App {
   }
 
   private buildDock() {
-    const tabs: [string, string, HTMLElement][] = [["console", "Console", this.console.pane], ["plots", "Plots", this.plots.pane], ["program", "Program", this.program.pane], ["text", "World file", this.text.pane], ["problems", "Problems", this.problems.pane]];
+    const tabs: [string, string, HTMLElement][] = [["console", "Console", this.console.pane], ["plots", "Plots", this.plots.pane], ["program", "Program", this.program.pane], ["timeline", "Time line", this.timeline.pane], ["text", "World file", this.text.pane], ["problems", "Problems", this.problems.pane]];
+    if (this.recorded) tabs.unshift(["summary", "Summary", h("div", { className: "pane pad" })]);
     byId("dock").replaceChildren(h("div", { className: "tabs", role: "tablist" }, ...tabs.map(([id, text]) => h("button", { id: `tab-${id}`, role: "tab", onclick: () => this.showDock(id) }, text)),
       h("span", { className: "space" }), h("button", { title: "Larger or smaller", onclick: () => document.body.classList.toggle("tall") }, "⇕")), ...tabs.map(([id, , pane]) => ((pane.id = `pane-${id}`), pane)));
     this.plots.build();
@@ -310,6 +383,7 @@ export class App {
     for (const tab of byId("dock").querySelectorAll(".tabs [id]")) tab.classList.toggle("on", tab.id === `tab-${id}`);
     for (const pane of byId("dock").querySelectorAll<HTMLElement>(".pane")) pane.hidden = pane.id !== `pane-${id}`;
     if (id === "plots") this.plots.draw();
+    if ((id === "timeline") !== this.timeline.shown) this.timeline.watch(id === "timeline");
   }
   goToLine(line: number) {
     if (!line) return;
@@ -333,10 +407,15 @@ export class App {
     if (this.frame) this.scene.setFrame(this.frame);
   }
   togglePlay() {
+    if (this.recorded) return this.state.playing ? this.stopReport() : this.playReport();
     if (!this.live) { (byId("scrub") as HTMLInputElement).value = byId("scrub").getAttribute("max")!; this.scrub(); }
     return this.do(this.state.playing ? "pause" : "play");
   }
-  private setSpeed(value: number) { return this.do("speed", { factor: value === 0 ? "max" : value }); }
+  private setSpeed(value: number) {
+    if (!this.recorded) return this.do("speed", { factor: value === 0 ? "max" : value });
+    if (this.state.playing) this.stopReport();
+    this.takeState({ ...this.state, speed: value });
+  }
   private faster(by: number) {
     const at = kSpeeds.findIndex(([, v]) => v === this.state.speed);
     this.setSpeed(kSpeeds[Math.max(0, Math.min(kSpeeds.length - 1, (at < 0 ? 4 : at) + by))][1]);

@@ -57,32 +57,39 @@ export function readFrame(bytes: ArrayBuffer): Frame {
 type Answer = Record<string, any>;
 type Listener = (event: any) => void;
 
-export class Connection {
-  private socket: WebSocket;
-  private next = 1;
-  private waiting = new Map<number, { done: (a: Answer) => void; fail: (e: Error) => void }>();
+/** Who tells this page of a run: a server that runs it, or the file of a report. */
+export abstract class Link {
   private listeners = new Map<string, Listener[]>();
   onFrame: (frame: Frame, bytes: ArrayBuffer) => void = () => {};
   onClose: () => void = () => {};
+  on(event: string, listener: Listener) {
+    this.listeners.set(event, [...(this.listeners.get(event) ?? []), listener]);
+  }
+  protected tell(event: any) { (this.listeners.get(event.event) ?? []).forEach((listener) => listener(event)); }
+  /** The answer; rejected with what is wrong. */
+  abstract ask(what: string, more?: Record<string, unknown>): Promise<Answer>;
+}
+
+export class Connection extends Link {
+  private socket: WebSocket;
+  private next = 1;
+  private waiting = new Map<number, { done: (a: Answer) => void; fail: (e: Error) => void }>();
 
   constructor() {
+    super();
     this.socket = new WebSocket(`ws://${location.host}${location.pathname.replace(/[^/]*$/, "")}live`);
     this.socket.binaryType = "arraybuffer";
     this.socket.onclose = () => this.onClose();
     this.socket.onmessage = (message) => {
       if (typeof message.data !== "string") return this.onFrame(readFrame(message.data), message.data);
       const data = JSON.parse(message.data);
-      if (!("answer" in data)) return (this.listeners.get(data.event) ?? []).forEach((listener) => listener(data));
+      if (!("answer" in data)) return this.tell(data);
       const asked = this.waiting.get(data.answer);
       this.waiting.delete(data.answer);
       if (data.error) asked?.fail(new Error(data.error));
       else asked?.done(data);
     };
   }
-  on(event: string, listener: Listener) {
-    this.listeners.set(event, [...(this.listeners.get(event) ?? []), listener]);
-  }
-  /** The answer; rejected with what is wrong. */
   ask(what: string, more: Record<string, unknown> = {}): Promise<Answer> {
     const id = this.next++;
     this.socket.send(JSON.stringify({ id, do: what, ...more }));

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/events.h"
+
+namespace viewer {
+
+namespace {
+
+using Json = nlohmann::json;
+constexpr std::size_t kMostDiagnoses = 200;
+
+/// Bytes as a JSON text: what is no UTF-8 is taken for Latin-1.
+std::string latin_to_utf8(const std::string& bytes) {
+  std::string out;
+  for (const char c : bytes) {
+    const auto u = static_cast<unsigned char>(c);
+    if (u < 0x80) {
+      out += c;
+    } else {
+      out += static_cast<char>(0xC0 | u >> 6);
+      out += static_cast<char>(0x80 | (u & 0x3F));
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+Json serial_event(const twin::Twin& twin, int robot, int port, const std::string& bytes) {
+  return {{"event", "serial"},
+          {"robot", twin.world().robots[static_cast<std::size_t>(robot)].name},
+          {"port", port},
+          {"time_s", sim::to_seconds(twin.simulation().now())},
+          {"text", port == 0 ? bytes : latin_to_utf8(bytes)}};
+}
+
+Json trap_event(const host::TrapReport& trap) {
+  return {{"event", "trap"},
+          {"robot", trap.robot},
+          {"kind", host::trap_name(trap.kind)},
+          {"text", trap.message},
+          {"place", to_string(trap.place)},
+          {"file", trap.place.file},
+          {"line", trap.place.line},
+          {"time_s", trap.time_s}};
+}
+
+Json diagnoses_json(const twin::Twin& twin) {
+  Json out = Json::array();
+  for (int r = 0; r < twin.robots() && out.size() < kMostDiagnoses; ++r) {
+    const host::Runner* program = twin.mind(r).runner();
+    if (!program) continue;
+    for (const board::Diagnosis& d : program->diagnoses())
+      out.push_back({{"robot", program->name()},
+                     {"time_s", d.first_s},
+                     {"cause", d.cause},
+                     {"place", d.place},
+                     {"text", d.message},
+                     {"hint", d.hint}});
+  }
+  return out;
+}
+
+}  // namespace viewer
