@@ -37,6 +37,7 @@ MAY_INCLUDE = {
                    "hal_sim/api/timings.h", "dspic30/llvm/target.h", "dspic30/llvm/link.h"],  # its libc calls the host
     "hal_sim/trace": ["hal_sim/board", "hal_sim/drivers/driver_params.h", "hal_sim/host", "dspic30", "sim_core/base", "sim_core/load"],
     "hal_sim/twin": ["hal_sim/", "sim_core/"],  # ties board, host and world together
+    "hal_sim/debug": ["hal_sim/chip", "hal_sim/host", "hal_sim/twin", "dspic30", "sim_core"],
     "hal_sim/register": ["hal_sim/host", "hal_sim/chip", "hal_sim/board", "dspic30"],
     "hal_sim/chip": ["hal_sim/board", "hal_sim/host/runner.h", "dspic30", "sim_core/base"],
     "hal_dspic": ["firmware/include", "firmware/library", "hal_sim/host/image_abi.h"],  # runtime: what the libc asks for
@@ -51,7 +52,7 @@ MAY_INCLUDE = {
 # whose classes a namespace holds
 NAMESPACE_ROOMS = {"board": "hal_sim/board", "drivers": "hal_sim/drivers", "host": "hal_sim/host",
                    "chip": "hal_sim/chip", "register_way": "hal_sim/register", "trace": "hal_sim/trace",
-                   "twin": "hal_sim/twin", "dspic": "dspic30/device"}
+                   "twin": "hal_sim/twin", "debug": "hal_sim/debug", "dspic": "dspic30/device"}
 # packages and the only room that may include them
 PACKAGE_ROOMS = {
     "box2d/": ["sim_core/physics"], "Eigen/": ["sim_core/simulation.cpp"], "ccd/": ["sim_core/geometry"], "boost/": ["hal_sim/host"],

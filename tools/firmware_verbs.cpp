@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The verbs that look at firmware without running it: build, lint, cycles; and check, which looks at a world.
+// The verbs that look at firmware without running it: build, lint; and check, which looks at a world.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -117,49 +117,6 @@ int lint(const std::string& name) {
   return result.ok ? kPass : kTestFailed;
 }
 
-std::string count(double cycles) { return cycles < 0 ? "no bound" : fmt::format("{:.0f}", cycles); }
-
-int cycles(const std::string& name, double period_ms, bool with_library) {
-  std::vector<std::string> problems;
-  const std::string image = twin::provide_image(name, "", {}, problems);
-  complain(problems);
-  if (image.empty()) return kBadInput;
-  if (!fs::is_regular_file(image)) {
-    complain({image + ": cycles: got a device, expected an image made by `twinpuck build`"});
-    return kBadInput;
-  }
-  const auto functions = cc::function_costs(image);
-  if (functions.empty()) {
-    complain(
-        {image + ": cycles: got a file without a cost table, expected an image made by `twinpuck build`"});
-    return kBadInput;
-  }
-  std::cout << fmt::format(
-      "estimated cycles at 14.7456 MHz, callees included (docs/cycles.md says how good the estimate is)\n"
-      "{:<32} {:>9} {:>9} {:>9} {:>11} {:>10}  where\n",
-      "function", "min", "mean", "max", "mean (us)", fmt::format("load/{:g}ms", period_ms));
-  const std::string here = fs::current_path().string() + "/";  // what lies below is named from here
-  int of_library = 0;
-  for (const auto& f : functions) {
-    const std::string where =
-        fmt::format("{}:{}", f.file.rfind(here, 0) == 0 ? f.file.substr(here.size()) : f.file, f.line);
-    if (f.is_library && !with_library) {
-      ++of_library;
-    } else if (!f.inlined_into.empty()) {
-      std::cout << fmt::format("{:<32} part of {}  {}\n", f.name, f.inlined_into, where);
-    } else {
-      // main() is not called every so many milliseconds: it has no load
-      const std::string load =
-          f.name == "main" ? "" : fmt::format("{:.2f}%", 100 * f.cpu_load(period_ms / 1000));
-      std::cout << fmt::format("{:<32} {:>9} {:>9} {:>9} {:>11.2f} {:>10}  {}\n",
-                               f.name + (f.is_interrupt ? " (interrupt)" : ""), count(f.min), count(f.mean),
-                               count(f.max), f.mean_us(), load, where);
-    }
-  }
-  if (of_library > 0) std::cout << fmt::format("and {} functions of the library: --all\n", of_library);
-  return kPass;
-}
-
 /// What a world names and is not there: firmware and supervisors.
 std::vector<std::string> missing_files(const sim::WorldDesc& world, const std::string& file) {
   const std::string folder = fs::path(file).parent_path().string();
@@ -236,19 +193,6 @@ void add_lint(CLI::App& app, int& exit_code) {
   auto name = std::make_shared<std::string>();
   verb->add_option("DIR", *name, "folder with C files, or a controller's name")->required();
   verb->callback([name, &exit_code] { exit_code = lint(*name); });
-}
-
-void add_cycles(CLI::App& app, int& exit_code) {
-  auto* verb = app.add_subcommand("cycles", "Estimated cycles of every function and interrupt");
-  auto name = std::make_shared<std::string>();
-  auto period_ms = std::make_shared<double>(10);
-  verb->add_option("FILE", *name, "an image, a folder or a controller's name")->required();
-  verb->add_option("--period", *period_ms, "the load column assumes one call every so many ms")
-      ->check(between(1e-6, 1e9))
-      ->capture_default_str();
-  auto with_library = std::make_shared<bool>(false);
-  verb->add_flag("--all", *with_library, "the library's functions, too");
-  verb->callback([=, &exit_code] { exit_code = cycles(*name, *period_ms, *with_library); });
 }
 
 void add_check(CLI::App& app, int& exit_code) {

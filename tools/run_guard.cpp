@@ -63,7 +63,7 @@ void wait_for_news(const timespec* at) {
   }
 }
 
-double cpu_s() {
+double process_cpu_s() {
   timespec t;
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
@@ -143,8 +143,8 @@ void watch() {
       continue;
     }
     static const timespec grace = after(kGrace_s);
-    static const double cpu_before_s = cpu_s();
-    if (has_passed(grace) || cpu_s() - cpu_before_s > kGraceCpu_s) end_hard();
+    static const double cpu_before_s = process_cpu_s();
+    if (has_passed(grace) || process_cpu_s() - cpu_before_s > kGraceCpu_s) end_hard();
     const timespec next = after(kLook_s);
     wait_for_news(&next);
   }

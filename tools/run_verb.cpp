@@ -14,6 +14,7 @@
 #include "sim_core/load/world_loader.h"
 #include "supervisor/team.h"
 #include "tools/command_line.h"
+#include "tools/profile_outputs.h"
 #include "tools/progress.h"
 #include "tools/remote_keys.h"
 #include "tools/run_guard.h"
@@ -43,6 +44,7 @@ struct RunArguments {
   std::string optimisation = "-O1", way;
   bool sanitize = false, quiet = false, strict = false;
   OutputArguments outputs;
+  ProfileArguments profile;
 };
 
 bool parse_speed(const std::string& text, double& factor) {
@@ -116,7 +118,8 @@ int run(const RunArguments& arguments) {
     return kBadInput;
   }
   RunOutputs outputs(arguments.outputs, *twin, team.get());
-  if (!outputs.open(problems)) {
+  ProfileOutputs profile(arguments.profile, *twin);
+  if (!outputs.open(problems) || !profile.open(problems)) {
     complain(problems);
     return kBadInput;
   }
@@ -205,6 +208,7 @@ int run(const RunArguments& arguments) {
     for (std::size_t i = 0; i < written.size(); ++i) std::cout << (i == 0 ? "written: " : ", ") << written[i];
     if (!written.empty()) std::cout << '\n';
   }
+  const bool kept_budgets = profile.finish(problems);
   for (const auto& t : summary.traps) std::cerr << to_text(t);
   bool is_clean = true;
   for (const auto& r : summary.robots)
@@ -223,6 +227,7 @@ int run(const RunArguments& arguments) {
   if (team->outcome().crashed) return kTrapped;
   if (team->outcome().code != 0) return kTestFailed;
   if (!summary.traps.empty()) return kTrapped;
+  if (!kept_budgets) return kTestFailed;
   return arguments.strict && !(is_clean && fits_the_chip) ? kTestFailed : kPass;
 }
 
@@ -281,10 +286,12 @@ void add_run(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({"-O0", "-O1", "-O2", "-Os"}))
       ->capture_default_str();
   verb->add_flag("-q,--quiet", a->quiet, "no progress, no serial text and no summary on the terminal");
+  add_profile_options(*verb, a->profile);
   add_output_options(*verb, a->outputs);
   verb->footer(
       "Example: twinpuck run maze --fw obstacle --for 60 --record maze.csv --picture maze.png\n"
-      "Exit codes: 0 good, 1 --strict or a supervisor found a fault, 2 bad input, 3 firmware trapped, "
+      "Exit codes: 0 good, 1 --strict, --budgets or a supervisor found a fault, 2 bad input, 3 firmware "
+      "trapped, "
       "7 an output was lost, 124 --host-limit, 130 interrupted");
   verb->callback([a, world, replay, &exit_code] {
     if (world->count() + replay->count() != 1) throw CLI::RequiredError("WORLD or --replay");

@@ -43,6 +43,13 @@ std::string hex(unsigned address) {
 void set_low(unsigned& address, unsigned value) { address = (address & 0x7F0000) | (value & 0xFFFE); }
 void set_high(unsigned& address, unsigned value) { address = (address & 0xFFFF) | (value & 0x7F) << 16; }
 
+Decoded not_decoded() {
+  Decoded d{};
+  d.run = &meet;
+  d.cycles = 0;
+  return d;
+}
+
 }  // namespace
 
 Cpu::Cpu(ChipParts& chip, ProgramMemory& memory) : parts(chip), program(memory) {
@@ -52,9 +59,7 @@ Cpu::Cpu(ChipParts& chip, ProgramMemory& memory) : parts(chip), program(memory) 
 
 void Cpu::forget_code() {
   const std::ptrdiff_t here = next ? next - code_.data() : 0;
-  Decoded unknown{};
-  unknown.run = &meet;
-  unknown.cycles = 0;
+  const Decoded unknown = not_decoded();
   for (const std::uint32_t index : decoded_) code_[index] = unknown;
   decoded_.clear();
   if (code_.empty()) {
@@ -63,8 +68,17 @@ void Cpu::forget_code() {
     code_.back().cycles = 1;
   }
   next = code_.data() + here;
-  code_is_old = false;
+  stale_pointers = 0;
   find_loop_end();
+}
+
+void Cpu::forget_pointers() {
+  const auto uses = [this](const Decoded& d) { return (1u << d.s | 1u << d.d) & stale_pointers; };
+  const auto stale = std::partition(decoded_.begin(), decoded_.end(),
+                                    [&](std::uint32_t index) { return !uses(code_[index]); });
+  std::for_each(stale, decoded_.end(), [&](std::uint32_t index) { code_[index] = not_decoded(); });
+  decoded_.erase(stale, decoded_.end());
+  stale_pointers = 0;
 }
 
 void Cpu::reset() {
@@ -318,23 +332,25 @@ void Cpu::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
       parts.interrupts.disi(wanted, when);
       deadline = 0;
       break;
-    default:
+    default: {
       if (address == kPcl || address == kPch) break;
+      const auto special = special_registers();
       if (address == kModcon) modcon = wanted;
       if (address == kXbrev) xbrev = wanted;
       if (address >= kXmodsrt && address <= kYmodend)
         modulo[(address - kXmodsrt) / 2] = address & 2 ? wanted | 1 : wanted & 0xFFFE;
-      code_is_old = true;  // which pointers are special is decoded
-      deadline = 0;
+      const auto now_special = special_registers();
+      stale_pointers |= (special[0] ^ now_special[0]) | (special[1] ^ now_special[1]);
+      if (stale_pointers) deadline = 0;
+    }
   }
 }
 
 // --- pointers -------------------------------------------------------------------------------------------
 
-bool Cpu::is_special(unsigned reg, bool is_write) const {
-  if (reg == 15) return true;
-  if ((modcon & 0x8000) && (modcon & 15) == reg) return true;
-  return is_write && (xbrev & 0x8000) && (modcon >> 8 & 15) == reg;
+std::array<std::uint32_t, 2> Cpu::special_registers() const {
+  const std::uint32_t read = 1u << 15 | (modcon & 0x8000 ? 1u << (modcon & 15) : 0);
+  return {read, read | (xbrev & 0x8000 ? 1u << (modcon >> 8 & 15) : 0)};
 }
 
 unsigned Cpu::stepped(unsigned reg, unsigned value, int step, bool y_space) const {

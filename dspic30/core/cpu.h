@@ -50,6 +50,8 @@ class Cpu final : public SfrOwner {
   void reset();
   /// All words are decoded again.
   void forget_code();
+  /// What uses stale_pointers is decoded anew.
+  void forget_pointers();
 
   // --- flow
   unsigned address_of(const Decoded* d) const;
@@ -162,7 +164,8 @@ class Cpu final : public SfrOwner {
   /// A register moved by `step` within its modulo buffer, if it has one. `y_space`: by the Y address
   /// generator.
   unsigned stepped(unsigned n, unsigned value, int step, bool y_space) const;
-  bool is_special(unsigned n, bool write) const;
+  /// Pointers that need more than an addition, one bit a register: when they read, and when they write.
+  std::array<std::uint32_t, 2> special_registers() const;
 
   // --- SfrOwner: 0x000 to 0x052
   std::uint16_t read(unsigned address, Cycle at) override { return peek(address, at); }
@@ -197,7 +200,7 @@ class Cpu final : public SfrOwner {
   bool repeat_is_fresh = false;  ///< the next iteration is the first one, or the first after an interrupt
   enum class Window : std::uint8_t { Plain, RepeatEdge, Free } window = Window::Plain;
   bool window_was_free = false;  ///< the last iteration read through the window at no cost
-  bool code_is_old = false;      ///< forget_code() before the next instruction
+  std::uint32_t stale_pointers = 0;  ///< registers, a bit each: forget_pointers() before the next instruction
   bool end_loop = false;         ///< CORCON.EDT
   bool splim_on = false;
   enum class Power : std::uint8_t { On, Idle, Sleep } power = Power::On;
@@ -240,7 +243,7 @@ class Cpu final : public SfrOwner {
 
 /// The word at an address made ready, as its first execution begins: registers that it writes count as
 /// written from now on, and a pointer that was never written makes it an illegal one. Depends on
-/// Cpu::is_special().
+/// Cpu::special_registers().
 Decoded decode_word(Cpu& cpu, unsigned address);
 
 /// NOP's.

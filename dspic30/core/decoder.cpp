@@ -276,8 +276,9 @@ void fill_pointers(Decoded& d, const Row& row, const Fields& f, const Cpu& cpu, 
   const int step = is_pair ? 4 : is_byte ? 1 : 2;
   pointer_steps(f.p | f.g, step, d.s_pre, d.s_post);
   pointer_steps(f.q | f.h, step, d.d_pre, d.d_post);
-  d.s_special = (r.sources & bit(d.s)) && cpu.is_special(d.s, false);
-  d.d_special = (r.destinations & bit(d.d)) && cpu.is_special(d.d, true);
+  const auto [read, written] = cpu.special_registers();
+  d.s_special = (r.sources & read & bit(d.s)) != 0;
+  d.d_special = (r.destinations & written & bit(d.d)) != 0;
 }
 
 bool is_skip(Insn id) {

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "dspic30/core/cpu.h"
+#include "dspic30/core/wait_samples.h"
 
 namespace dspic {
 
@@ -21,13 +22,17 @@ constexpr Cycle kWorthALook = 100, kFirstLooks = 200, kRarestLooks = 4096;
 }  // namespace
 
 Processor::Processor(Dspic30f6014a& chip, ProgramMemory& program)
-    : cpu_(std::make_unique<Cpu>(chip.parts(), program)), chip_(chip), code_version_(program.version()) {}
+    : cpu_(std::make_unique<Cpu>(chip.parts(), program)),
+      waits_(std::make_unique<WaitSamples>()),
+      chip_(chip),
+      code_version_(program.version()) {}
 
 Processor::~Processor() = default;
 
 void Processor::restart() {
   cpu_->reset();
   cpu_->now += kResetCycles;
+  waits_->forget();
   code_version_ = cpu_->program.version();
 }
 
@@ -69,10 +74,11 @@ std::optional<ResetKind> Processor::run(Cycle until) {
     if (cpu.now >= until) return std::nullopt;
     const Outlook outlook = cpu.parts.look(cpu.now);
     if (outlook.reset_due) return chip_.reset_due(cpu.now);
-    if (cpu.code_is_old || cpu.program.version() != code_version_) {
+    if (cpu.program.version() != code_version_) {
       code_version_ = cpu.program.version();
       cpu.forget_code();
     }
+    if (cpu.stale_pointers) cpu.forget_pointers();
     if (cpu.power != Cpu::Power::On) {
       sleep(until);
       continue;
@@ -82,6 +88,10 @@ std::optional<ResetKind> Processor::run(Cycle until) {
       continue;
     }
     cpu.deadline = std::min(until, outlook.horizon);
+    if (cpu.now < waits_->next())
+      cpu.deadline = std::min(cpu.deadline, waits_->next());
+    else if (waits_->look(cpu))
+      cpu.deadline = cpu.now + 1;
     if (cpu.repeating) cpu.next = cpu.run_repeated(cpu.next);
     execute();
   }
@@ -116,6 +126,7 @@ void Processor::enter_interrupt(int vector) {
 
 // --- what others look at --------------------------------------------------------------------------------
 
+Cycle Processor::waited() const { return waits_->waited(); }
 Cycle Processor::now() const { return cpu_->now; }
 void Processor::wait_until(Cycle at) { cpu_->now = std::max(cpu_->now, at); }
 bool Processor::is_asleep() const { return cpu_->power != Cpu::Power::On; }
@@ -124,6 +135,7 @@ std::uint16_t Processor::w(int n) const { return cpu_->w[static_cast<std::size_t
 std::uint16_t Processor::sr() const { return static_cast<std::uint16_t>(cpu_->sr()); }
 std::int64_t Processor::accumulator(int n) const { return cpu_->acc[static_cast<std::size_t>(n)]; }
 std::uint8_t Processor::ram(unsigned address) const { return cpu_->ram[address - Cpu::kRamStart]; }
+const std::uint8_t* Processor::ram() const { return cpu_->ram.data(); }
 void Processor::set_ram(unsigned address, std::uint8_t value) { cpu_->ram[address - Cpu::kRamStart] = value; }
 
 void Processor::set_w(int n, std::uint16_t value) {

@@ -17,6 +17,7 @@
 namespace dspic {
 
 class Cpu;
+class WaitSamples;
 
 class Processor {
  public:
@@ -36,6 +37,8 @@ class Processor {
   bool is_asleep() const;
   /// Cycles spent in Idle or Sleep.
   Cycle slept() const { return slept_; }
+  /// Cycles spent in loops that only wait, estimated by samples (wait_samples.h).
+  Cycle waited() const;
   /// Cycles of waits that were jumped over: how, not what was simulated. Depends on how run() is called.
   Cycle jumped() const { return jumped_; }
 
@@ -45,6 +48,9 @@ class Processor {
   std::uint16_t sr() const;
   std::int64_t accumulator(int n) const;
   std::uint8_t ram(unsigned address) const;  ///< 0x800 to 0x27FF
+  static constexpr unsigned kRamStart = 0x800, kRamEnd = 0x2800;
+  static constexpr std::size_t kRamBytes = kRamEnd - kRamStart;
+  const std::uint8_t* ram() const;  ///< all of it
   void set_ram(unsigned address, std::uint8_t value);
   void set_w(int n, std::uint16_t value);
   std::uint64_t state_hash() const;
@@ -55,6 +61,7 @@ class Processor {
   void sleep(Cycle until);
 
   std::unique_ptr<Cpu> cpu_;
+  std::unique_ptr<WaitSamples> waits_;
   Dspic30f6014a& chip_;
   std::uint64_t code_version_ = 0;
   Cycle slept_ = 0, jumped_ = 0;

@@ -37,6 +37,7 @@ class ElfReader {
     if (error_.empty()) check_header(bytes.size());
     for (Elf_Scn* s = nullptr; error_.empty() && (s = elf_nextscn(elf_.get(), s));) read_section(s);
     if (error_.empty() && file_.words.empty()) fail("there is no program in it");
+    file_.code.sort();
     error = error_;
     return error_.empty();
   }
@@ -70,6 +71,7 @@ class ElfReader {
     GElf_Shdr head;
     if (!gelf_getshdr(section, &head)) return fail("a section's header cannot be read: " + why());
     if (head.sh_type == SHT_SYMTAB) return read_symbols(section, head);
+    if (section_name(head) == ".debug_line") return read_lines(section);
     const bool is_program = (head.sh_flags & (SHF_EXECINSTR | kPsv | kEeprom)) != 0;
     if (head.sh_type != SHT_PROGBITS || !(head.sh_flags & SHF_ALLOC) || !is_program ||
         (head.sh_flags & kNoLoad) || head.sh_size == 0)
@@ -105,6 +107,19 @@ class ElfReader {
     }
   }
 
+  std::string section_name(const GElf_Shdr& section) {
+    std::size_t names = 0;
+    elf_getshdrstrndx(elf_.get(), &names);
+    const char* name = elf_strptr(elf_.get(), names, section.sh_name);
+    return name ? name : "";
+  }
+
+  void read_lines(Elf_Scn* section) {
+    const Elf_Data* data = elf_getdata(section, nullptr);
+    if (data && data->d_buf)
+      file_.code.add_lines(static_cast<const unsigned char*>(data->d_buf), data->d_size);
+  }
+
   void read_symbols(Elf_Scn* section, const GElf_Shdr& head) {
     Elf_Data* data = elf_getdata(section, nullptr);
     if (!data || head.sh_entsize == 0) return;
@@ -119,8 +134,17 @@ class ElfReader {
       if (!at || !gelf_getshdr(at, &home) || type == STT_SECTION || type == STT_FILE) continue;
       // C names have an underscore before them
       const std::string plain = name[0] == '_' ? name + 1 : name;
-      ((home.sh_flags & SHF_EXECINSTR) ? file_.functions : file_.objects)[plain] =
-          static_cast<std::uint32_t>(symbol.st_value);
+      const auto value = static_cast<std::uint32_t>(symbol.st_value);
+      if (!(home.sh_flags & SHF_EXECINSTR)) {
+        file_.objects[plain] = value;
+        if (symbol.st_size > 0) file_.object_bytes[plain] = static_cast<std::uint32_t>(symbol.st_size);
+        continue;
+      }
+      file_.functions[plain] = value;
+      // a local label of assembler text is a place within a function
+      if (type == STT_FUNC || GELF_ST_BIND(symbol.st_info) != STB_LOCAL)
+        file_.code.functions.push_back(
+            {value, static_cast<std::uint32_t>(home.sh_addr + home.sh_size / kOctetsAWord * 2), plain});
     }
   }
 

@@ -6,20 +6,24 @@
 //
 // HEX: byte address = 2 x program address, four bytes a word, the fourth is not there ("phantom").
 // ELF: machine 118 (dsPIC30F), addresses in units of the program counter, sizes in octets, four octets a
-// word; sections of data have no bytes of their own, .dinit brings them. Not read: relocatable objects, line
-// numbers. Source: [chip C19].
+// word; sections of data have no bytes of their own, .dinit brings them. Not read: relocatable objects.
+// Source: [chip C19].
 #pragma once
 #include <cstdint>
 #include <map>
 #include <string>
+
+#include "dspic30/load/code_map.h"
 
 namespace dspic {
 
 struct FirmwareFile {
   std::map<std::uint32_t, std::uint32_t>
       words;  ///< by program address: flash, EEPROM, configuration, unit ID
-  std::map<std::string, std::uint32_t> functions;  ///< program addresses
-  std::map<std::string, std::uint32_t> objects;    ///< data addresses
+  std::map<std::string, std::uint32_t> functions;     ///< program addresses, of labels too
+  std::map<std::string, std::uint32_t> objects;       ///< data addresses
+  std::map<std::string, std::uint32_t> object_bytes;  ///< their sizes, where told
+  CodeMap code;
 };
 
 enum class FileKind { Hex, Elf, Other };

@@ -78,8 +78,9 @@ class HexReader {
     const unsigned value = length == 2 ? bytes[4] << 8 | bytes[5] : 0;
     switch (type) {
       case kData:
+        // XC16 writes records that run on over a border of 64 KB; only segments wrap round (Intel's specification)
         for (unsigned i = 0; i < length && error_.empty(); ++i)
-          put(base_ + ((address + i) & 0xFFFF), bytes[4 + i]);
+          put(base_ + (segmented_ ? (address + i) & 0xFFFF : address + i), bytes[4 + i]);
         break;
       case kEnd:
         ended_ = true;
@@ -87,7 +88,8 @@ class HexReader {
       case kUpper:
       case kSegment:
         if (length != 2) return fail("an address record of " + std::to_string(length) + " bytes, expected 2");
-        base_ = type == kUpper ? value << 16 : value << 4;
+        segmented_ = type == kSegment;
+        base_ = segmented_ ? value << 4 : value << 16;
         break;
       case kSegmentStart:
       case kStart:
@@ -116,6 +118,7 @@ class HexReader {
   FirmwareFile& file_;
   std::map<std::uint32_t, unsigned> written_;  // lanes of each word
   std::uint32_t base_ = 0;
+  bool segmented_ = false;  // base_ comes from a record of segments
   int line_ = 0;
   bool ended_ = false;
   std::string error_;

@@ -56,6 +56,7 @@ class Interrupts final : public SfrOwner {
   void note_missed(int irq, std::int64_t events, Cycle at);
   bool flag(int irq) const { return (ifs_ >> irq & 1) != 0; }
   bool enabled(int irq) const { return (iec_ >> irq & 1) != 0; }
+  std::uint64_t flags() const { return ifs_; }
   std::uint64_t enabled_mask() const { return iec_; }
   bool uses_alternate_table() const { return (intcon2_ & 0x8000) != 0; }  ///< INTCON2.ALTIVT
   int priority(int irq) const { return priority_[static_cast<std::size_t>(irq)]; }

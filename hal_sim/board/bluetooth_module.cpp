@@ -68,9 +68,11 @@ void BluetoothModule::send_data(Bytes bytes, sim::Clicks at) {
 
 void BluetoothModule::take_data(const Bytes& bytes, sim::Clicks at) {
   if (!transparent_) {
-    Bytes payload{kBtPort, static_cast<std::uint8_t>(bytes.size()),
-                  static_cast<std::uint8_t>(bytes.size() >> 8)};
-    payload.insert(payload.end(), bytes.begin(), bytes.end());
+    Bytes payload(3 + bytes.size());
+    payload[0] = kBtPort;
+    payload[1] = static_cast<std::uint8_t>(bytes.size());
+    payload[2] = static_cast<std::uint8_t>(bytes.size() >> 8);
+    std::copy(bytes.begin(), bytes.end(), payload.begin() + 3);
     return indicate(kBtIncomingData, payload, at);
   }
   for (std::uint8_t byte : bytes)

@@ -9,20 +9,14 @@ namespace chip {
 
 namespace {
 
-constexpr unsigned kIfs0 = dspic::sfr("IFS0"), kInttreg = dspic::sfr("INTTREG"), kRamStart = 0x800,
-                   kRamEnd = 0x2800;
-
-std::string place_text(unsigned pc, const host::Place& place) {
-  char text[16];
-  std::snprintf(text, sizeof text, "0x%06x", pc);
-  return place.function == "?" ? text : place.function + " (" + text + ")";
-}
+constexpr unsigned kIfs0 = dspic::sfr("IFS0"), kInttreg = dspic::sfr("INTTREG"),
+                   kRamStart = dspic::Processor::kRamStart, kRamEnd = dspic::Processor::kRamEnd;
 
 }  // namespace
 
 ChipRunner::ChipRunner(std::string name, std::shared_ptr<const dspic::FirmwareFile> file, double clock_factor,
                        board::Board& board, Cycle start)
-    : Runner(std::move(name)), file_(std::move(file)), chip_(board) {
+    : Runner(std::move(name)), file_(std::move(file)), board_(board), chip_(board) {
   // what a programmer writes: flash and configuration words, and the EEPROM, which is the board's
   for (const auto& [address, word] : file_->words) {
     if (program_.write(address, word)) continue;
@@ -55,8 +49,8 @@ void ChipRunner::begin_window(Cycle now) {
 void ChipRunner::run_until(Cycle end) {
   if (processor_->now() < end) {
     ++turns_;
-    if (observer_)
-      run_observed(end);
+    if (observer_ || !watches_.empty())
+      run_watched(end);
     else
       while (const auto kind = processor_->run(end)) reset(*kind);
   }
@@ -82,8 +76,13 @@ void ChipRunner::restart() {
   processor_->wait_until(end_);
   chip_.reset(processor_->now());
   processor_->restart();
-  if (observer_) observer_->ended(processor_->now());
+  tell_reset(processor_->now());
   wake();
+}
+
+void ChipRunner::tell_reset(Cycle at) {
+  if (observer_) observer_->ended(at);
+  for (StepWatch* watch : watches_) watch->was_reset(at);
 }
 
 // what the program asked for by RESET goes unsaid
@@ -94,7 +93,7 @@ void ChipRunner::reset(dspic::ResetKind kind) {
     host::TrapReport report;
     report.robot = name();
     report.place = place_of(processor_->pc());
-    report.message = std::string(why) + ", at " + place_text(processor_->pc(), report.place);
+    report.message = std::string(why) + ", at " + file_->code.describe(processor_->pc());
     report.cycle = at;
     report.time_s = to_world_s ? to_world_s(at) : 0;
     if (!traps_.empty() && traps_.back().message == report.message)
@@ -102,37 +101,56 @@ void ChipRunner::reset(dspic::ResetKind kind) {
     else
       traps_.push_back(report);
   }
-  if (observer_) observer_->ended(at);
+  tell_reset(at);
   chip_.reset(at);
   processor_->restart();
+}
+
+std::vector<board::Diagnosis> ChipRunner::diagnoses() const {
+  return dated(chip_.diagnoses(), board_.diagnoses(lived_cycles()));
 }
 
 std::uint64_t ChipRunner::hash() const {
   return device().state_hash(chip_.at(end_), false) ^ processor_->state_hash() * 0x9E3779B97F4A7C15u;
 }
 
-// --- observed: instruction by instruction, and what it told in between
+// --- watched: instruction by instruction, and what it told in between
 
-void ChipRunner::run_observed(Cycle end) {
+void ChipRunner::run_watched(Cycle end) {
   while (processor_->now() < end) {
-    const Cycle before = processor_->now();
+    Step step;
+    step.begin = processor_->now();
+    for (StepWatch* watch : watches_) watch->before(step.begin);
+    step.pc = processor_->pc();
+    step.slept = processor_->is_asleep();
     const int nesting = device().nesting();
-    const bool slept = processor_->is_asleep();
-    observer_->reached(before);
-    if (const auto kind = processor_->run(slept ? end : before + 1)) {
+    if (observer_) observer_->reached(step.begin);
+    if (const auto kind = processor_->run(step.slept ? end : step.begin + 1)) {
       reset(*kind);
       continue;
     }
-    const Cycle now = processor_->now();
-    if (slept) observer_->waited(before, now, nesting);
-    if (device().nesting() > nesting) {
-      const int vector = device().peek(kInttreg, chip_.at(now)) & 0x3F;
-      const int irq = vector - dspic::kFirstIrqVector;
-      observer_->handler_begins(irq, irq >= 0 ? device().flag_since(vector) : -1, before, now);
-    } else if (device().nesting() < nesting) {
-      observer_->handler_ends(now);
-    }
+    step.end = processor_->now();
+    step.next = processor_->pc();
+    if (device().nesting() > nesting) step.entered = device().peek(kInttreg, chip_.at(step.end)) & 0x3F;
+    step.left = device().nesting() < nesting;
+    if (observer_) tell_observer(step, nesting);
+    for (StepWatch* watch : watches_) watch->after(step);
   }
+}
+
+void ChipRunner::tell_observer(const Step& step, int nesting) {
+  if (step.slept) observer_->waited(step.begin, step.end, nesting);
+  if (step.entered != dspic::kNoVector) {
+    const int irq = step.entered - dspic::kFirstIrqVector;
+    observer_->handler_begins(irq, irq >= 0 ? device().flag_since(step.entered) : -1, step.begin, step.end);
+  } else if (step.left) {
+    observer_->handler_ends(step.end);
+  }
+}
+
+void ChipRunner::watch_steps(StepWatch* watch, bool on) {
+  watches_.erase(std::remove(watches_.begin(), watches_.end(), watch), watches_.end());
+  if (on) watches_.push_back(watch);
 }
 
 void ChipRunner::observe(host::Observer* observer) {
@@ -195,12 +213,12 @@ void ChipRunner::write_memory(std::uintptr_t address, const void* from, std::siz
 
 host::Place ChipRunner::place_of(std::uintptr_t code) const {
   host::Place place{"?", "", 0};
-  std::uint32_t best = 0;
-  for (const auto& [function, address] : file_->functions)
-    if (address <= code && address >= best) {
-      best = address;
-      place.function = function;
-    }
+  const auto address = static_cast<std::uint32_t>(code);
+  if (const auto* function = file_->code.function_at(address)) place.function = function->name;
+  if (const auto* line = file_->code.line_at(address)) {
+    place.file = file_->code.files[line->file];
+    place.line = line->line;
+  }
   return place;
 }
 

@@ -15,6 +15,7 @@
 #include "dspic30/core/processor.h"
 #include "dspic30/load/firmware_file.h"
 #include "hal_sim/chip/soldered_chip.h"
+#include "hal_sim/chip/step_watch.h"
 #include "hal_sim/host/runner.h"
 
 namespace chip {
@@ -41,11 +42,11 @@ class ChipRunner final : public host::Runner, private dspic::EventWatch {
 
   Cycle cycles() const override { return end_; }
   Cycle lived_cycles() const override { return end_; }
-  Cycle idle_cycles() const override { return processor_->slept(); }
+  Cycle idle_cycles() const override { return processor_->slept() + processor_->waited(); }
   Cycle waiting_since() const override { return dspic::kNever; }
   bool has_stopped() const override { return false; }
   const std::vector<host::TrapReport>& traps() const override { return traps_; }
-  std::vector<board::Diagnosis> diagnoses() const override { return chip_.diagnoses(); }
+  std::vector<board::Diagnosis> diagnoses() const override;
   std::uint64_t hash() const override;
 
   const host::Variable* find_variable(const std::string& expression, std::string& error) const override;
@@ -69,19 +70,26 @@ class ChipRunner final : public host::Runner, private dspic::EventWatch {
   }
 
   const dspic::Processor& processor() const { return *processor_; }
+  dspic::Dspic30f6014a& device() const { return chip_.device(); }
+  const dspic::FirmwareFile& file() const { return *file_; }
+  /// `watch` sees every step from now on, or no longer. It outlives the runner or is taken away.
+  void watch_steps(StepWatch* watch, bool on);
 
  private:
   void about_to_change(Cycle at) override { observer_->about_to_change(at); }
-  void run_observed(Cycle end);
+  void run_watched(Cycle end);
+  void tell_observer(const Step& step, int nesting);
+  void tell_reset(Cycle at);
   void reset(dspic::ResetKind kind);
-  dspic::Dspic30f6014a& device() const { return chip_.device(); }
 
   std::shared_ptr<const dspic::FirmwareFile> file_;
+  board::Board& board_;
   mutable SolderedChip chip_;  // looking advances closed forms
   dspic::ProgramMemory program_;
   std::unique_ptr<dspic::Processor> processor_;
   std::vector<host::TrapReport> traps_;
   host::Observer* observer_ = nullptr;
+  std::vector<StepWatch*> watches_;
   Cycle end_ = 0, idle_until_ = 0;
   std::uint64_t turns_ = 0;
 };

@@ -139,6 +139,11 @@ class Runner {
   /// The library's drivers where they are closed forms; null: the program's own run.
   virtual const drivers::Drivers* closed_drivers() const { return nullptr; }
 
+ protected:
+  /// Of the chip and of the board, as diagnoses() gives them: in order of time, with the world's time.
+  std::vector<board::Diagnosis> dated(std::vector<board::Diagnosis> of_chip,
+                                      std::vector<board::Diagnosis> of_board) const;
+
  private:
   std::string name_;
 };

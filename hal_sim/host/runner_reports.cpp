@@ -210,7 +210,12 @@ void CompiledRunner::note_endless_wait() {
 std::vector<board::Diagnosis> CompiledRunner::diagnoses() const {
   std::vector<board::Diagnosis> all = processor_->diagnoses();
   if (!endless_wait_.cause.empty()) all.push_back(endless_wait_);
-  for (board::Diagnosis& d : board_.diagnoses(lived_cycles())) all.push_back(std::move(d));
+  return dated(std::move(all), board_.diagnoses(lived_cycles()));
+}
+
+std::vector<board::Diagnosis> Runner::dated(std::vector<board::Diagnosis> all,
+                                            std::vector<board::Diagnosis> of_board) const {
+  std::move(of_board.begin(), of_board.end(), std::back_inserter(all));
   for (board::Diagnosis& d : all) d.first_s = to_world_s ? to_world_s(d.first) : 0;
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   return all;

@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The chip way: programs assembled here, run as .hex files in a world.
-#include <filesystem>
-#include <fstream>
-
-#include "dspic30/asm/assembler.h"
-#include "dspic30/load/firmware_file.h"
-#include "tests/support/firmware_test.h"
-#include "twinpuck_paths.h"
+#include "tests/chip/chip_fixture.h"
 
 namespace {
 
@@ -86,30 +80,9 @@ __reset: mov #7, w0
 text: .asciz "hello\r\n"
 )";
 
-class ChipWayTest : public firmware_test::FirmwareTest {
+class ChipWayTest : public chip_test::ChipTest {
  protected:
-  ~ChipWayTest() override {
-    for (const auto& file : files_) std::filesystem::remove(file);
-  }
-  /// The program as a .hex file.
-  std::string hex(const std::string& text) {
-    const dspic::assembly::Image image = dspic::assembly::assemble(text, "test.s");
-    EXPECT_TRUE(image.is_whole()) << image.report();
-    dspic::FirmwareFile file;
-    file.words = image.program;
-    return write(dspic::to_hex(file));
-  }
-  std::string write(const std::string& bytes) {
-    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    files_.push_back(std::string(TWINPUCK_BUILD_DIR) + "/tests/chip-" + info->name() +
-                     std::to_string(files_.size()) + ".hex");
-    std::ofstream(files_.back(), std::ios::binary) << bytes;
-    return files_.back();
-  }
   std::string drive() { return hex("    .equ pause, " + std::to_string(kPause) + "\n" + kDrive); }
-
- private:
-  std::vector<std::string> files_;
 };
 
 // 500 steps/s of 0.1288 mm: 64 mm/s
@@ -169,20 +142,54 @@ TEST_F(ChipWayTest, an_observer_changes_nothing) {
     void ended(host::Cycle) override {}
   } nobody;
   std::uint64_t digests[2];
+  double loads[2];
   for (const bool observed : {false, true}) {
     struct One : ChipWayTest {
       void TestBody() override {}
-      std::uint64_t run(host::Observer* observer) {
+      std::pair<std::uint64_t, double> run(host::Observer* observer) {
         add_robot(drive());
         twin().mind(0).runner()->observe(observer);
         run_for(0.2);
-        return digest();
+        return {digest(), twin().mind(0).runner()->cpu_load()};
       }
     } one;
-    digests[observed] = one.run(observed ? &nobody : nullptr);
+    std::tie(digests[observed], loads[observed]) = one.run(observed ? &nobody : nullptr);
   }
   EXPECT_EQ(digests[0], digests[1]);
+  EXPECT_EQ(loads[0], loads[1]);
   EXPECT_GT(nobody.reaches, 100000);
+}
+
+// load is the share of the time in which the program does anything but poll, count a delay down or sleep
+TEST_F(ChipWayTest, waits_are_no_load) {
+  const auto load_of = [](const std::string& text) {
+    struct One : ChipWayTest {
+      void TestBody() override {}
+      double run(const std::string& program) {
+        add_robot(hex(program));
+        run_for(0.5);
+        return twin().mind(0).runner()->cpu_load();
+      }
+    } one;
+    return one.run(text);
+  };
+  EXPECT_LT(load_of(kHello), 0.05);                                                       // polls
+  EXPECT_LT(load_of("    .equ pause, " + std::to_string(kPause) + "\n" + kDrive), 0.05);  // a delay loop
+  EXPECT_LT(load_of("__reset: repeat #16383\n nop\n bra __reset\n"), 0.05);
+  EXPECT_GT(load_of("__reset: clr w0\n1: inc w0, w0\n inc w1, w1\n bra 1b\n"), 0.95);  // two values change
+  EXPECT_GT(load_of("__reset: mov #0x800, w1\n mov #0x7ff, w2\n1: mov [w1++], w0\n and w1, w2, w1\n bset w1, "
+                    "#11\n bra 1b\n"),
+            0.95);  // the counter is a pointer
+  EXPECT_GT(load_of("__reset: bclr TRISA, #6\n1: btg LATA, #6\n bra 1b\n"), 0.95);  // an LED blinks
+}
+
+TEST_F(ChipWayTest, diagnoses_say_when) {
+  Robot& robot =
+      add_robot(hex("__reset: repeat #14744\n nop\n mov #0x1235, w1\n mov [w1], w2\nend: bra end\n"
+                    "__AddressError: bra __AddressError\n"));
+  run_for(0.1);
+  ASSERT_EQ(robot.diagnoses().size(), 1u) << robot.diagnoses_text();
+  EXPECT_NEAR(robot.diagnoses()[0].first_s, 0.001, 1e-5);
 }
 
 TEST_F(ChipWayTest, resets_that_nobody_asked_for_are_told) {

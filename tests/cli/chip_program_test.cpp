@@ -51,6 +51,9 @@ TEST_F(ChipProgram, controllers_source_becomes_an_image_and_drives) {
   EXPECT_NE(built.text.find("of 49152 words"), std::string::npos) << built.text;
   for (const char* kind : {"elf", "hex", "lst", "map"})
     EXPECT_TRUE(std::filesystem::exists(folder / (std::string("obstacle.") + kind))) << kind;
+  const auto shown = twinpuck("dis '" + elf + "'");
+  EXPECT_NE(shown.text.find("\nmain:\n"), std::string::npos);
+  EXPECT_NE(shown.text.find("firmware/lab/obstacle/main.c:"), std::string::npos) << "lines are named";
   // the image and the source give the same run, to the last bit
   const auto digest = [](const std::string& text) { return text.substr(text.find("digest "), 23); };
   const auto of_image = twinpuck("run maze --fw '*=" + elf + "' --for 2");
@@ -67,6 +70,80 @@ TEST_F(ChipProgram, mistakes_are_named_with_file_and_line) {
   EXPECT_NE(said.text.find("wrong.s:2: mov: operands '#1, w16' fit none of"), std::string::npos) << said.text;
   EXPECT_EQ(twinpuck("dis '" + source + "'").exit_code, 2);
   EXPECT_EQ(twinpuck("dis /nonexistent.hex").exit_code, 2);
+}
+
+TEST_F(ChipProgram, cycles_are_exact_and_held_against_budgets) {
+  const std::string elf = (folder / "obstacle.elf").string();
+  ASSERT_EQ(twinpuck("build obstacle --way chip -o '" + elf + "'").exit_code, 0);
+  const auto exact = twinpuck("cycles '" + elf + "' --for 0.5");
+  EXPECT_EQ(exact.exit_code, 0) << exact.text;
+  EXPECT_NE(exact.text.find("exact cycles at 14.7456 MHz, callees included, in 0.5 s of maze"),
+            std::string::npos)
+      << exact.text;
+  EXPECT_NE(exact.text.find("\ncontrol_tick                             5         5         5"),
+            std::string::npos)
+      << exact.text;
+  EXPECT_EQ(exact.text.find("\n_T2Interrupt"), std::string::npos) << "the library's are not shown";
+  EXPECT_NE(twinpuck("cycles '" + elf + "' --for 0.5 --all").text.find("\n_T2Interrupt (interrupt)"),
+            std::string::npos);
+  const auto both = twinpuck("cycles obstacle --exact --for 0.5");
+  EXPECT_NE(both.text.find(
+                "\ncontrol_tick                 |        5        5        5 |        5        5        5"),
+            std::string::npos)
+      << both.text;
+
+  const auto budget = [&](const std::string& text) {
+    return twinpuck("cycles '" + elf + "' --for 0.5 --budgets '" + file("b.toml", text) + "'");
+  };
+  const auto kept =
+      budget("[function.control_tick]\nmax_cycles = 5\n[interrupt.T2]\nmax_us = 100\nmerged = 0\n");
+  EXPECT_EQ(kept.exit_code, 0) << kept.text;
+  EXPECT_NE(kept.text.find("pass  control_tick: max 5 of 5 cycles"), std::string::npos) << kept.text;
+  const auto broken = budget("[function.control_tick]\nmax_cycles = 4\n[program]\nmax_stack = 10\n");
+  EXPECT_EQ(broken.exit_code, 1);
+  EXPECT_NE(broken.text.find("FAIL  control_tick: max 5 of 4 cycles"), std::string::npos) << broken.text;
+  EXPECT_NE(broken.text.find("FAIL  program: max_stack"), std::string::npos) << broken.text;
+  for (const auto& [text, said] : {
+           std::pair{"[function.contrl_tick]\nmax_us = 1\n",
+                     "b.toml:2:1: got function 'contrl_tick', which the "
+                     "program has not; did you mean 'control_tick'?"},
+           std::pair{"[function.main]\nmax_ms = 1\n",
+                     "b.toml:2:1: unknown key 'max_ms'; did you mean 'max_us'?"},
+           std::pair{"[function.main]\nmax_us = \"x\"\n",
+                     "b.toml:2:10: max_us: expected a number, 0 or more"},
+           std::pair{"[functions.main]\nmax_us = 1\n",
+                     "unknown section 'functions'; did you mean 'function'?"},
+           std::pair{"[function]\nmain = 1\n", "got a value, expected a section such as [function.control]"},
+           std::pair{"[interrupt.T9]\nmax_us = 1\n", "got interrupt 'T9', which the program has not"},
+           std::pair{"", "there is no budget in it"},
+           std::pair{"[", "b.toml:1:"},
+       }) {
+    const auto wrong = budget(text);
+    EXPECT_EQ(wrong.exit_code, 2) << text;
+    EXPECT_NE(wrong.text.find(said), std::string::npos) << wrong.text;
+  }
+  EXPECT_EQ(twinpuck("cycles '" + elf + "' --budgets /nonexistent.toml").exit_code, 2);
+}
+
+TEST_F(ChipProgram, a_run_shows_its_profile) {
+  const std::string json = (folder / "profile.json").string();
+  const auto run =
+      twinpuck("run maze --fw '*=obstacle' --way chip --for 0.5 --profile --profile-json '" + json + "'");
+  EXPECT_EQ(run.exit_code, 0) << run.text;
+  for (const char* part : {"puck: profile of 0.5 s, exact to the cycle",
+                           "main loop  main() (main.c:", "\nADC ", "busy wait", "run_left_motor (agenda)"})
+    EXPECT_NE(run.text.find(part), std::string::npos) << part << " in:\n" << run.text;
+  std::ifstream in(json);
+  const auto robot = nlohmann::json::parse(in)["robots"][0];
+  EXPECT_EQ(robot["to_cycle"].get<long>() / 1000, 7372);
+  EXPECT_GT(robot["functions"].size(), 20u);
+  const auto without = twinpuck("run maze --fw '*=obstacle' --way chip --for 0.5");
+  const auto digest = [](const std::string& text) { return text.substr(text.find("digest "), 23); };
+  EXPECT_EQ(digest(run.text), digest(without.text));
+  const auto native = twinpuck("run maze --fw '*=obstacle' --for 0.5 --profile");
+  EXPECT_EQ(native.exit_code, 2);
+  EXPECT_NE(native.text.find("--profile: got no robot that runs the chip way"), std::string::npos)
+      << native.text;
 }
 
 TEST_F(ChipProgram, every_controller_becomes_an_image_that_drives_as_natively) {

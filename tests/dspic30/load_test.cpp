@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <map>
 
 #include "dspic30/load/firmware_file.h"
 
@@ -17,7 +18,7 @@ std::string error_of(const std::string& text) {
   return error;
 }
 
-// goto 0x100: word 0x040100 at 0, 0x000000 at 2; EEPROM word 0 = 0x1234 at 0x7FF000; FOSC
+// goto 0x100: words 0x040100 at 0 and 0x000000 at 2; EEPROM word 0 = 0x1234 at 0x7FF000; FOSC
 constexpr const char* kHex =
     ":080000000001040000000000F3\n"
     ":0200000400FFFB\n"
@@ -50,6 +51,16 @@ TEST(Hex, comes_back_from_what_is_written) {
   for (std::uint32_t a = 0x100; a < 0x150; a += 2) file.words[a] = a * 77;
   ASSERT_TRUE(dspic::load_firmware(dspic::to_hex(file), "y.hex", again, error)) << error;
   EXPECT_EQ(again.words, file.words);
+}
+
+TEST(Hex, a_record_runs_on_over_64_kilobytes_but_a_segment_wraps_round) {
+  FirmwareFile linear, segment;
+  std::string error;
+  const std::string record = ":10FFF80001000000020000000300000004000000EF\n:00000001FF\n";
+  ASSERT_TRUE(dspic::load_firmware(":020000040000FA\n" + record, "x.hex", linear, error)) << error;
+  EXPECT_EQ(linear.words, (std::map<std::uint32_t, std::uint32_t>{{0x7FFC, 1}, {0x7FFE, 2}, {0x8000, 3}, {0x8002, 4}}));
+  ASSERT_TRUE(dspic::load_firmware(":020000020000FC\n" + record, "x.hex", segment, error)) << error;
+  EXPECT_EQ(segment.words, (std::map<std::uint32_t, std::uint32_t>{{0, 3}, {2, 4}, {0x7FFC, 1}, {0x7FFE, 2}}));
 }
 
 TEST(Hex, what_is_wrong_is_named_with_its_line) {
@@ -158,6 +169,56 @@ TEST(ElfImage, what_is_wrong_is_named) {
   EXPECT_EQ(wrong(elf({far})), "x.elf: program address 0x20000 is in no memory of this chip");
   const std::string whole = elf({kCode, kConstants});
   for (std::size_t cut = 0; cut < whole.size(); cut += 7) EXPECT_NE(wrong(whole.substr(0, cut)), "") << cut;
+}
+
+// DWARF 2 as XC16 writes it: addresses of 4 bytes, in units of the program counter
+std::string line_table() {
+  std::string head("\x02\x01\xF6\xF5\x0A",
+                   5);  // shortest instruction 2, is_stmt, base -10, range 245, first 10
+  head += std::string("\x00\x01\x01\x01\x01\x00\x00\x00\x01", 9);
+  head += std::string("/p\0\0main.c\0\1\0\0other.h\0\0\0\0\0", 27);
+  std::string code("\x00\x05\x02\x00\x01\x00\x00", 7);     // at 0x100
+  code += std::string("\x03\x06\x01", 3);                  // line 7
+  code += std::string("\x02\x01\x03\x05\x01", 5);          // 1 instruction on: line 12
+  code += std::string("\x04\x02\x02\x01\x03\x74\x01", 7);  // file 2, 1 on, 12 back: line 0
+  code += std::string("\x02\x01\x00\x01\x01", 5);          // the end, 1 on
+  std::string unit;
+  put(unit, 2, 2);
+  put(unit, head.size(), 4);
+  unit += head + code;
+  std::string all;
+  put(all, unit.size(), 4);
+  return all + unit;
+}
+
+TEST(ElfImage, lines_are_read) {
+  Section code = kCode;
+  code.bytes = std::string(16, '\0');
+  const Section lines{".debug_line", 1, 0, 0, 0, line_table()};
+  FirmwareFile file;
+  std::string error;
+  ASSERT_TRUE(dspic::load_firmware(elf({code, lines}), "x.elf", file, error)) << error;
+  EXPECT_EQ(file.code.describe(0x100), "main.c:7");
+  EXPECT_EQ(file.code.describe(0x102), "main.c:12");
+  EXPECT_EQ(file.code.describe(0x104), "main.c:12");  // the compiler's own
+  EXPECT_EQ(file.code.describe(0x106), "0x000106");   // beyond the end
+  EXPECT_EQ(file.code.describe(0x0FE), "0x0000fe");
+  ASSERT_NE(file.code.line_at(0x100), nullptr);
+  EXPECT_EQ(file.code.files[file.code.line_at(0x100)->file], "/p/main.c");
+  int found = 0;
+  EXPECT_EQ(file.code.addresses_of("main.c", 8, found), std::vector<std::uint32_t>{0x102});
+  EXPECT_EQ(found, 12);
+  EXPECT_TRUE(file.code.addresses_of("ain.c", 7, found).empty());
+  EXPECT_TRUE(file.code.addresses_of("main.c", 13, found).empty());
+  for (std::size_t cut = 0; cut < lines.bytes.size(); ++cut) {  // hostile ones
+    dspic::CodeMap map;
+    map.add_lines(reinterpret_cast<const unsigned char*>(lines.bytes.data()), cut);
+    std::string wrong = lines.bytes;
+    wrong[cut] = static_cast<char>(wrong[cut] ^ 0xFF);
+    map.add_lines(reinterpret_cast<const unsigned char*>(wrong.data()), wrong.size());
+    map.sort();
+    map.describe(0x102);
+  }
 }
 
 TEST(FirmwareFile, kind_is_read_from_the_content) {

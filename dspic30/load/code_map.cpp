@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: MIT
+#include "dspic30/load/code_map.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace dspic {
+
+namespace {
+
+constexpr std::size_t kMostLines = 1u << 20;  // of a hostile file
+
+/// Bytes one after the other; zero beyond the end.
+class Cursor {
+ public:
+  Cursor(const unsigned char* bytes, std::size_t size) : at_(bytes), end_(bytes + size) {}
+  bool is_at_end() const { return at_ >= end_; }
+  std::size_t left() const { return static_cast<std::size_t>(end_ - at_); }
+  std::uint32_t number(std::size_t bytes) {
+    std::uint32_t value = 0;
+    for (std::size_t i = 0; i < bytes; ++i) {
+      const std::uint32_t b = byte();
+      if (i < 4) value |= b << 8 * i;
+    }
+    return value;
+  }
+  std::uint8_t byte() { return is_at_end() ? std::uint8_t{0} : *at_++; }
+  std::uint32_t leb() { return static_cast<std::uint32_t>(bits(false)); }
+  std::int32_t signed_leb() { return static_cast<std::int32_t>(bits(true)); }
+  std::string text() {
+    std::string out;
+    while (!is_at_end() && *at_) out += static_cast<char>(*at_++);
+    byte();
+    return out;
+  }
+  /// The next `size` bytes for themselves; they are passed.
+  Cursor part(std::size_t size) {
+    const Cursor inner(at_, std::min(size, left()));
+    at_ = inner.end_;
+    return inner;
+  }
+
+ private:
+  std::int64_t bits(bool is_signed) {
+    std::uint64_t value = 0;
+    unsigned shift = 0;
+    std::uint8_t b = 0x80;
+    while ((b & 0x80) && !is_at_end()) {
+      b = byte();
+      if (shift < 63) value |= static_cast<std::uint64_t>(b & 0x7F) << shift;
+      shift += 7;
+    }
+    if (is_signed && shift < 64 && (b & 0x40)) value |= ~std::uint64_t{0} << shift;
+    return static_cast<std::int64_t>(value);
+  }
+  const unsigned char *at_, *end_;
+};
+
+/// One unit's line program [DWARF 4, 6.2].
+class LineProgram {
+ public:
+  LineProgram(CodeMap& map, Cursor unit) : map_(map), unit_(unit) {}
+
+  void run() {
+    if (!read_head()) return;
+    while (!unit_.is_at_end() && map_.lines.size() < kMostLines) {
+      const std::uint8_t code = unit_.byte();
+      if (code >= opcode_base_)
+        special(code);
+      else if (code == 0)
+        extended();
+      else
+        standard(code);
+    }
+  }
+
+ private:
+  enum Standard {
+    Copy = 1,
+    AdvancePc,
+    AdvanceLine,
+    SetFile,
+    SetColumn,
+    NegateStatement,
+    Block,
+    ConstAddPc,
+    FixedAdvancePc
+  };
+  enum Extended { EndSequence = 1, SetAddress, DefineFile };
+
+  bool read_head() {
+    const unsigned version = unit_.number(2);
+    if (version < 2 || version > 4) return false;
+    const std::uint32_t length = unit_.number(4);
+    Cursor head = unit_.part(length);
+    shortest_ = head.byte();
+    if (version == 4) head.byte();  // operations an instruction
+    starts_statement_ = head.byte() != 0;
+    line_base_ = static_cast<std::int8_t>(head.byte());
+    line_range_ = head.byte();
+    opcode_base_ = head.byte();
+    if (line_range_ == 0 || opcode_base_ == 0) return false;
+    for (int i = 1; i < opcode_base_; ++i) operands_.push_back(head.byte());
+    std::vector<std::string> folders{""};
+    for (std::string folder; !(folder = head.text()).empty();) folders.push_back(folder);
+    for (std::string name; !(name = head.text()).empty();) {
+      const std::size_t folder = head.leb();
+      head.leb();
+      head.leb();
+      const bool is_whole = name[0] == '/' || folder >= folders.size() || folders[folder].empty();
+      files_.push_back(file_number(is_whole ? name : folders[folder] + "/" + name));
+    }
+    begin();
+    return true;
+  }
+
+  std::uint16_t file_number(const std::string& name) {
+    const auto known = std::find(map_.files.begin(), map_.files.end(), name);
+    if (known != map_.files.end()) return static_cast<std::uint16_t>(known - map_.files.begin());
+    if (map_.files.size() >= 0xFFFF) return 0;
+    map_.files.push_back(name);
+    return static_cast<std::uint16_t>(map_.files.size() - 1);
+  }
+
+  void begin() {
+    sequence_ = map_.lines.size();
+    row_ = {};
+    row_.is_statement = starts_statement_;
+    file_ = 1;
+    line_ = 1;
+  }
+  void emit() {
+    row_.line = file_ - 1 < files_.size() ? std::max(0, line_) : 0;
+    row_.file = row_.line ? files_[file_ - 1] : std::uint16_t{0};
+    map_.lines.push_back(row_);
+  }
+  void advance(std::uint32_t instructions) { row_.address += instructions * shortest_; }
+
+  void special(std::uint8_t code) {
+    const int adjusted = code - opcode_base_;
+    advance(static_cast<std::uint32_t>(adjusted / line_range_));
+    line_ += line_base_ + adjusted % line_range_;
+    emit();
+  }
+
+  void extended() {
+    Cursor rest = unit_.part(unit_.leb());
+    switch (rest.byte()) {
+      case EndSequence:
+        row_.is_end = true;
+        emit();
+        map_.lines.back().line = 0;
+        // what the linker left out stands at 0, where no C code can be
+        if (map_.lines[sequence_].address == 0) map_.lines.resize(sequence_);
+        return begin();
+      case SetAddress:
+        row_.address = rest.number(rest.left());
+        return;
+      case DefineFile:
+        files_.push_back(file_number(rest.text()));
+        return;
+      default:
+        return;
+    }
+  }
+
+  void standard(std::uint8_t code) {
+    switch (code) {
+      case Copy:
+        return emit();
+      case AdvancePc:
+        return advance(unit_.leb());
+      case AdvanceLine:
+        line_ += unit_.signed_leb();
+        return;
+      case SetFile:
+        file_ = unit_.leb();
+        return;
+      case NegateStatement:
+        row_.is_statement = !row_.is_statement;
+        return;
+      case ConstAddPc:
+        return advance(static_cast<std::uint32_t>((255 - opcode_base_) / line_range_));
+      case FixedAdvancePc:
+        row_.address += unit_.number(2);
+        return;
+      default:
+        for (int i = 0; i < operands_[code - 1u]; ++i) unit_.leb();
+    }
+  }
+
+  CodeMap& map_;
+  Cursor unit_;
+  std::vector<std::uint8_t> operands_;
+  std::vector<std::uint16_t> files_;  // numbers in the map; the unit counts from 1
+  bool starts_statement_ = true;
+  int line_base_ = 0, line_range_ = 1, opcode_base_ = 1, line_ = 1;
+  std::uint32_t shortest_ = 1, file_ = 1;
+  std::size_t sequence_ = 0;  // its first row
+  CodeMap::Line row_;
+};
+
+bool ends_with(const std::string& path, const std::string& end) {
+  if (path.size() < end.size() || path.compare(path.size() - end.size(), end.size(), end) != 0) return false;
+  return path.size() == end.size() || path[path.size() - end.size() - 1] == '/' || end[0] == '/';
+}
+
+/// The last of `rows`, sorted by `address`, that begins at or before one; end() if none does.
+template <typename Rows, typename Address>
+typename Rows::const_iterator last_before(const Rows& rows, std::uint32_t address, Address of) {
+  const auto after = std::upper_bound(rows.begin(), rows.end(), address,
+                                      [&](std::uint32_t a, const auto& row) { return a < of(row); });
+  return after == rows.begin() ? rows.end() : after - 1;
+}
+
+}  // namespace
+
+void CodeMap::add_lines(const unsigned char* bytes, std::size_t size) {
+  Cursor section(bytes, size);
+  while (section.left() > 4) {
+    const std::uint32_t length = section.number(4);
+    if (length > section.left()) return;
+    LineProgram(*this, section.part(length)).run();
+  }
+}
+
+void CodeMap::sort() {
+  // an end of a sequence goes before what begins at the same address
+  std::stable_sort(lines.begin(), lines.end(), [](const Line& a, const Line& b) {
+    return a.address != b.address ? a.address < b.address : a.is_end && !b.is_end;
+  });
+  std::stable_sort(functions.begin(), functions.end(),
+                   [](const Function& a, const Function& b) { return a.begin < b.begin; });
+  for (std::size_t i = 0; i + 1 < functions.size(); ++i)
+    functions[i].end = std::min(functions[i].end, functions[i + 1].begin);
+}
+
+const CodeMap::Function* CodeMap::function_at(std::uint32_t address) const {
+  const auto found = last_before(functions, address, [](const Function& f) { return f.begin; });
+  return found != functions.end() && address < found->end ? &*found : nullptr;
+}
+
+const CodeMap::Function* CodeMap::function_named(const std::string& name) const {
+  const auto found =
+      std::find_if(functions.begin(), functions.end(), [&](const Function& f) { return f.name == name; });
+  return found == functions.end() ? nullptr : &*found;
+}
+
+const CodeMap::Line* CodeMap::line_at(std::uint32_t address) const {
+  auto found = last_before(lines, address, [](const Line& l) { return l.address; });
+  if (found == lines.end()) return nullptr;
+  while (found->line == 0 && !found->is_end && found != lines.begin()) --found;
+  return found->line > 0 ? &*found : nullptr;
+}
+
+std::vector<std::uint32_t> CodeMap::addresses_of(const std::string& file, int line, int& found) const {
+  std::vector<std::uint32_t> addresses;
+  found = 0;
+  for (const Line& l : lines)
+    if (l.is_statement && l.line >= line && (found == 0 || l.line < found) && ends_with(files[l.file], file))
+      found = l.line;
+  if (found == 0) return addresses;
+  const Line* before = nullptr;
+  for (const Line& l : lines) {
+    const bool is_it = l.line == found && ends_with(files[l.file], file);
+    const bool goes_on = before && before->line == l.line && before->file == l.file;
+    // of a loop's several pieces only the first in each function
+    if (is_it && l.is_statement && !goes_on &&
+        (addresses.empty() || function_at(addresses.back()) != function_at(l.address)))
+      addresses.push_back(l.address);
+    before = &l;
+  }
+  return addresses;
+}
+
+std::string CodeMap::describe(std::uint32_t address) const {
+  const Function* function = function_at(address);
+  const Line* line = line_at(address);
+  char plain[16];
+  std::snprintf(plain, sizeof plain, "0x%06x", address);
+  if (!function && !line) return plain;
+  const std::string place =
+      line ? files[line->file].substr(files[line->file].rfind('/') + 1) + ":" + std::to_string(line->line)
+           : plain;
+  return function ? function->name + "() (" + place + ")" : place;
+}
+
+}  // namespace dspic

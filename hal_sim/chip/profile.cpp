@@ -1,0 +1,407 @@
+// SPDX-License-Identifier: MIT
+#include "hal_sim/chip/profile.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "dspic30/core/instruction_table.h"
+#include "dspic30/core/wait_samples.h"
+#include "dspic30/device/chip_parts.h"
+
+namespace chip {
+
+namespace {
+
+constexpr int kTrustedRounds = 15;  // after one whose RAM was compared
+constexpr int kMostIgnored = 64;    // rounds of a loop that turned out to be no wait
+constexpr std::size_t kMostFrames = 512;
+
+bool is_call(dspic::Insn id) { return id == dspic::Insn::Call_Expr || id == dspic::Insn::Rcall_Expr; }
+bool is_call_by_register(dspic::Insn id) { return id == dspic::Insn::Call_Wn || id == dspic::Insn::Rcall_Wn; }
+
+}  // namespace
+
+void Spread::add(Cycle value, Cycle at) {
+  if (count == 0 || value < min) min = value;
+  if (count == 0 || value > max) {
+    max = value;
+    max_at = at;
+  }
+  ++count;
+  sum += value;
+}
+
+Profile::Profile(const dspic::FirmwareFile& file, const dspic::Processor& processor,
+                 dspic::Dspic30f6014a& device)
+    : file_(file),
+      processor_(processor),
+      device_(device),
+      kinds_(dspic::kFlashWords, Kind::Unknown),
+      function_of_(dspic::kFlashWords, 0),
+      contexts_(1),
+      functions_(file.code.functions.size() + 1),
+      ram_(dspic::Processor::kRamBytes) {
+  const auto& functions = file.code.functions;
+  for (std::size_t f = 0; f < functions.size(); ++f)
+    for (std::uint32_t a = functions[f].begin; a < functions[f].end && a / 2 < function_of_.size(); a += 2)
+      function_of_[a / 2] = static_cast<std::int16_t>(f + 1);
+}
+
+Profile::Kind Profile::kind_of(unsigned pc) {
+  if (pc / 2 >= kinds_.size()) return Kind::Plain;
+  Kind& kind = kinds_[pc / 2];
+  if (kind != Kind::Unknown) return kind;
+  kind = Kind::Plain;
+  const auto word = file_.words.find(pc);
+  const dspic::Row* row = word == file_.words.end() ? nullptr : dspic::find_row(word->second);
+  if (!row) return kind;
+  const std::string name = row->mnemonic;
+  if (is_call(row->id))
+    kind = Kind::Call;
+  else if (is_call_by_register(row->id))
+    kind = Kind::CallRegister;
+  else if (row->id == dspic::Insn::Return || row->id == dspic::Insn::Retlw_lit10_Wn)
+    kind = Kind::Return;
+  else if (name.rfind("BRA", 0) == 0 || name == "GOTO")
+    kind = Kind::Branch;
+  return kind;
+}
+
+// --- steps
+
+void Profile::after(const Step& step) {
+  const Cycle took = step.end - step.begin;
+  if (from_ < 0) {
+    from_ = step.begin;
+    here().frames.push_back({function_of(step.pc), 0, 0, step.begin});
+  }
+  to_ = step.end;
+  if (step.slept) {
+    slept_ += took;
+    end_wait(here());
+    return;
+  }
+  ++steps_;
+  if (step.entered != dspic::kNoVector) {
+    enter_handler(step);
+    here().clock += took;
+    in_handlers_ += took;
+    functions_[static_cast<std::size_t>(function_of(step.next))].own += took;
+    watch_stack(step.end);
+    return;
+  }
+  here().clock += took;
+  functions_[static_cast<std::size_t>(function_of(step.pc))].own += took;
+  if (contexts_.size() > 1) in_handlers_ += took;
+  watch_stack(step.end);
+  watch_flags();
+  if (step.left) return leave_handler(step);
+  switch (kind_of(step.pc)) {
+    case Kind::Call:
+      return call(step, false);
+    case Kind::CallRegister:
+      return call(step, true);
+    case Kind::Return:
+      return come_back(here(), processor_.w(15));
+    case Kind::Branch:
+      if (contexts_.size() == 1 && here().frames.size() == 1)
+        here().frames[0].function = function_of(step.next);
+      if (step.next > step.pc) return;
+      turn_loop(step);
+      return look_for_wait(step);
+    default:
+      return;
+  }
+}
+
+void Profile::was_reset(Cycle) {
+  while (contexts_.size() > 1) contexts_.pop_back();
+  cuts_.clear();
+  end_wait(here());
+  here() = Context{};
+  here().frames.push_back({function_of(0), 0, 0, to_});
+  flags_ = 0;
+  for (auto& [target, loop] : loops_) loop.last = -1;
+}
+
+// --- calls
+
+void Profile::call(const Step& step, bool by_register) {
+  Context& context = here();
+  if (context.frames.size() >= kMostFrames) return;
+  const int caller = function_of(step.pc);
+  if (contexts_.size() == 1 && stack_base_ == 0) stack_base_ = processor_.w(15) - 4u;
+  // a routine within a function, as assembler text has them, is nobody's call
+  int callee = function_of(step.next);
+  if (callee > 0 && file_.code.functions[static_cast<std::size_t>(callee - 1)].begin != step.next) callee = 0;
+  context.frames.push_back({callee, processor_.w(15), context.clock, step.end, caller});
+  if (by_register && contexts_.size() > 1) functions_[static_cast<std::size_t>(callee)].is_agenda = true;
+}
+
+// also by longjmp(): whatever lies above the stack's end is over
+void Profile::come_back(Context& context, unsigned sp) {
+  while (context.frames.size() > 1 && context.frames.back().sp > sp) {
+    finish(context, context.frames.back());
+    context.frames.pop_back();
+  }
+}
+
+void Profile::finish(Context& context, const Frame& frame) {
+  FunctionTally& f = functions_[static_cast<std::size_t>(frame.function)];
+  const Cycle took = context.clock - frame.began;
+  if (f.cycles.count == 0 || took > f.cycles.max) f.max_caller = frame.caller;
+  f.cycles.add(took, frame.at);
+}
+
+// --- handlers
+
+void Profile::enter_handler(const Step& step) {
+  InterruptTally& tally = interrupts_[step.entered];
+  Context context;
+  context.vector = step.entered;
+  context.at = step.begin;
+  context.frames.push_back({function_of(step.next), 0, 0, step.begin});
+  if (step.entered >= dspic::kFirstIrqVector) {
+    const Cycle flagged = device_.flag_since(step.entered);
+    tally.latency.add(step.end - flagged, step.end);
+    if (tally.flagged >= 0) tally.period.add(flagged - tally.flagged, flagged);
+    tally.flagged = flagged;
+    flags_ &= ~(std::uint64_t{1} << (step.entered - dspic::kFirstIrqVector));
+  }
+  Cut cut;
+  if (here().round.has_ram) cut.ram.assign(processor_.ram(), processor_.ram() + dspic::Processor::kRamBytes);
+  cut.writes = device_.parts().bus.writes();
+  cut.steps = steps_ - 1;  // this one
+  cuts_.push_back(std::move(cut));
+  contexts_.push_back(std::move(context));
+}
+
+void Profile::leave_handler(const Step& step) {
+  if (contexts_.size() == 1) return;
+  Context& context = here();
+  end_wait(context);
+  come_back(context, 0);
+  finish(context, context.frames[0]);
+  interrupts_[context.vector].cycles.add(context.clock, context.at);
+  contexts_.pop_back();
+  // what the handler changed is no doing of the round that it cut
+  const Cut& cut = cuts_.back();
+  Round& round = here().round;
+  round.writes += device_.parts().bus.writes() - cut.writes;
+  round.steps += steps_ - cut.steps;
+  for (std::size_t i = 0; i < cut.ram.size() && round.has_ram; ++i)
+    if (cut.ram[i] != processor_.ram()[i]) ram_[i] = processor_.ram()[i];
+  if (cut.ram.empty()) round.has_ram = false;
+  cuts_.pop_back();
+}
+
+// an enabled flag that fell without a service was cleared by the program
+void Profile::watch_flags() {
+  const dspic::Interrupts& interrupts = device_.parts().interrupts;
+  const std::uint64_t flags = interrupts.flags(), enabled = interrupts.enabled_mask();
+  std::uint64_t fell = flags_ & ~flags;
+  flags_ = flags & enabled;
+  for (const Context& context : contexts_)
+    if (context.vector >= dspic::kFirstIrqVector)
+      flags_ &= ~(std::uint64_t{1} << (context.vector - dspic::kFirstIrqVector));
+  for (; fell; fell &= fell - 1) ++interrupts_[dspic::kFirstIrqVector + __builtin_ctzll(fell)].missed;
+}
+
+void Profile::watch_stack(Cycle at) {
+  const unsigned top = processor_.w(15);
+  if (top <= stack_top_ || top > dspic::Processor::kRamEnd) return;
+  stack_top_ = top;
+  stack_at_ = at;
+  stack_path_.clear();
+  for (const Context& context : contexts_) {
+    stack_path_.push_back({context.vector, {}});
+    for (const Frame& frame : context.frames) stack_path_.back().functions.push_back(frame.function);
+  }
+}
+
+// --- loops
+
+void Profile::turn_loop(const Step& step) {
+  if (contexts_.size() > 1 || function_of(step.next) != function_of(step.pc)) return;
+  Loop& loop = loops_[step.next];
+  loop.begin = step.next;
+  loop.depth = here().frames.size();
+  loop.end = std::max(loop.end, step.pc);
+  if (loop.last >= 0) loop.turn.add(step.end - loop.last, loop.last);
+  loop.last = step.end;
+}
+
+void Profile::look_for_wait(const Step& step) {
+  Context& context = here();
+  Round& round = context.round;
+  const bool again = round.target == step.next && steps_ - round.steps <= dspic::WaitSamples::kLongestRound;
+  bool counts = false;
+  if (!again) {
+    end_wait(context);
+    round = Round{};
+    round.target = step.next;
+  } else if (is_wait(step, round, counts)) {
+    if (context.waits_at != step.next) {
+      context.waits_at = step.next;
+      context.wait = 0;
+      context.wait_at = step.end;
+    }
+    context.wait += context.clock - round.clock;
+    loops_[step.next].polled += counts ? 0 : context.clock - round.clock;
+  } else {
+    end_wait(context);
+  }
+  round.length = steps_ - round.steps;
+  round.steps = steps_;
+  round.clock = context.clock;
+  round.writes = device_.parts().bus.writes();
+  for (std::size_t n = 0; n < round.w.size(); ++n) round.w[n] = processor_.w(static_cast<int>(n));
+}
+
+bool Profile::is_wait(const Step& step, Round& round, bool& counts) {
+  const int counter = changed_register(step, round);
+  if (counter == kTooMany || device_.parts().bus.writes() != round.writes) {
+    round.trusted = 0;
+    round.has_ram = false;
+    return false;
+  }
+  if (round.ignored > 0) {
+    --round.ignored;
+    return false;
+  }
+  const bool is_same_length = steps_ - round.steps == round.length;
+  bool is_it = false;
+  if (round.trusted > 0 && is_same_length) {
+    --round.trusted;
+    is_it = true;
+  } else if (round.has_ram) {
+    is_it = is_same_ram(counter, counts);
+    round.trusted = is_it ? kTrustedRounds : 0;
+    round.failures = is_it ? 0 : round.failures + 1;
+    if (!is_it) round.ignored = std::min(1 << std::min(round.failures, 6), kMostIgnored);
+  }
+  if (counter >= 0) counts = true;
+  round.has_ram = round.trusted == 0;
+  if (round.has_ram) std::memcpy(ram_.data(), processor_.ram(), ram_.size());
+  return is_it;
+}
+
+// the one register that differs from the round before; kNone, kTooMany: also where it is a pointer
+int Profile::changed_register(const Step& step, const Round& round) {
+  int changed = kNone;
+  for (int n = 0; n < 16; ++n) {
+    if (processor_.w(n) == round.w[static_cast<std::size_t>(n)]) continue;
+    if (changed != kNone) return kTooMany;
+    changed = n;
+  }
+  if (changed == kNone) return kNone;
+  Loop& loop = loops_[step.next];
+  if (loop.pointers < 0) loop.pointers = static_cast<int>(pointers_of(step.next, step.pc));
+  return loop.pointers >> changed & 1 ? kTooMany : changed;
+}
+
+unsigned Profile::pointers_of(unsigned begin, unsigned end) const {
+  unsigned registers = 0;
+  for (unsigned a = begin; a <= end; a += 2) {
+    const auto word = file_.words.find(a);
+    const dspic::Row* row = word == file_.words.end() ? nullptr : dspic::find_row(word->second);
+    if (!row) continue;
+    const dspic::Fields f = dspic::fields_of(*row, word->second);
+    for (const dspic::Operand kind : row->kinds) {
+      if (kind == dspic::Operand::Source && f.p) registers |= 1u << f.s;
+      if (kind == dspic::Operand::Destination && f.q) registers |= 1u << f.d;
+    }
+  }
+  return registers & 0x7FFF;
+}
+
+// but for one word, a counter that passes through a register
+bool Profile::is_same_ram(int counter, bool& counts) const {
+  const std::uint8_t* ram = processor_.ram();
+  if (std::memcmp(ram, ram_.data(), ram_.size()) == 0) return true;
+  int words = 0;
+  for (std::size_t i = 0; i < ram_.size(); i += 2) {
+    if (ram[i] == ram_[i] && ram[i + 1] == ram_[i + 1]) continue;
+    const auto old = static_cast<unsigned>(ram_[i] | ram_[i + 1] << 8),
+               now = static_cast<unsigned>(ram[i] | ram[i + 1] << 8);
+    const unsigned value = counter >= 0 ? processor_.w(counter) : now;
+    if (++words > 1 || (value != now && value != old)) return false;
+  }
+  counts = true;
+  return true;
+}
+
+void Profile::end_wait(Context& context) {
+  if (context.waits_at == ~0u) return;
+  loops_[context.waits_at].wait.add(context.wait, context.wait_at);
+  if (context.vector == dspic::kNoVector) waited_ += context.wait;
+  context.waits_at = ~0u;
+}
+
+// --- the report
+
+std::string Profile::name_of(int function) const {
+  return function > 0 ? file_.code.functions[static_cast<std::size_t>(function - 1)].name : "?";
+}
+
+ProfileReport Profile::report() const {
+  ProfileReport report;
+  report.from = std::max<Cycle>(from_, 0);
+  report.to = to_;
+  report.slept = slept_;
+  report.waited = waited_;
+  report.in_handlers = in_handlers_;
+  // the wait that goes on
+  const Context& main = contexts_[0];
+  if (main.waits_at != ~0u) report.waited += main.wait;
+  for (std::size_t f = 1; f < functions_.size(); ++f) {
+    const FunctionTally& tally = functions_[f];
+    if (tally.own == 0) continue;
+    const auto& function = file_.code.functions[f - 1];
+    ProfileReport::Function out{function.name,  "", tally.cycles, tally.own, name_of(tally.max_caller),
+                                tally.is_agenda};
+    if (const auto* line = file_.code.line_at(function.begin))
+      out.place = file_.code.files[line->file] + ":" + std::to_string(line->line);
+    report.functions.push_back(out);
+  }
+  std::stable_sort(report.functions.begin(), report.functions.end(),
+                   [](const auto& a, const auto& b) { return a.own > b.own; });
+  for (const auto& [vector, tally] : interrupts_)
+    report.interrupts.push_back(
+        {vector, dspic::vector_name(vector), tally.cycles, tally.latency, tally.period,
+         vector >= dspic::kFirstIrqVector ? device_.missed_interrupts(vector) : 0, tally.missed});
+  const Loop* main_loop = nullptr;
+  for (const auto& [target, loop] : loops_) {
+    Spread wait = loop.wait;
+    if (main.waits_at == target) wait.add(main.wait, main.wait_at);
+    if (wait.count > 0)
+      report.waits.push_back({file_.code.describe(target), wait, 2 * loop.polled < wait.sum});
+    const unsigned span = loop.end - target;
+    // the outermost that takes at least half of the time
+    if (loop.turn.count < 2 || 2 * loop.turn.sum < to_ - report.from) continue;
+    if (main_loop && (main_loop->depth < loop.depth ||
+                      (main_loop->depth == loop.depth && main_loop->end - main_loop->begin >= span)))
+      continue;
+    main_loop = &loop;
+    report.turn = loop.turn;
+    report.turn_place = file_.code.describe(target);
+  }
+  std::stable_sort(report.waits.begin(), report.waits.end(),
+                   [](const auto& a, const auto& b) { return a.cycles.sum > b.cycles.sum; });
+  if (stack_top_ > 0) {
+    const unsigned base = stack_base_ > 0 ? stack_base_ : dspic::Processor::kRamStart;
+    report.data_bytes = static_cast<int>(base - dspic::Processor::kRamStart);
+    report.stack_bytes = static_cast<int>(stack_top_ > base ? stack_top_ - base : 0);
+    report.stack_free = static_cast<int>(dspic::Processor::kRamEnd - std::max(stack_top_, base));
+    report.stack_at = stack_at_;
+    for (const auto& [vector, functions] : stack_path_) {
+      if (!report.stack_path.empty())
+        report.stack_path += std::string(" | ") + dspic::vector_name(vector) + ": ";
+      for (std::size_t i = 0; i < functions.size(); ++i)
+        report.stack_path += (i > 0 ? " > " : "") + name_of(functions[i]);
+    }
+  }
+  return report;
+}
+
+}  // namespace chip

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Sees a chip robot's program instruction by instruction: profiles, debuggers. It changes nothing, and a
+// robot without one pays nothing.
+#pragma once
+#include "dspic30/core/processor.h"
+
+namespace chip {
+
+using dspic::Cycle;
+
+/// What happened between two instruction boundaries: an instruction, an iteration of a REPEAT, the entry of a
+/// handler, or sleep.
+struct Step {
+  Cycle begin = 0, end = 0;
+  unsigned pc = 0;                 ///< of the instruction; at a handler's entry of the one that is put off
+  unsigned next = 0;               ///< of the one that follows
+  int entered = dspic::kNoVector;  ///< vector of the handler that begins
+  bool left = false;               ///< RETFIE
+  bool slept = false;
+};
+
+class StepWatch {
+ public:
+  virtual ~StepWatch() = default;
+  /// At a boundary, before anything happens there.
+  virtual void before(Cycle at) {}
+  virtual void after(const Step& step) {}
+  /// A reset: the program begins anew.
+  virtual void was_reset(Cycle at) {}
+};
+
+}  // namespace chip

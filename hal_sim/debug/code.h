@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// Reads a program's instructions: which way they lead, what they do to the stack, which places in data they
+// read and write by address. For back-traces and for telling what a program waits for.
+#pragma once
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dspic30/core/instruction_table.h"
+#include "dspic30/load/firmware_file.h"
+
+namespace debug {
+
+/// An instruction as far as it concerns its surroundings.
+struct Instruction {
+  std::uint32_t address = 0;
+  const dspic::Row* row = nullptr;
+  dspic::Fields fields;
+
+  std::uint32_t next() const { return address + 2 * static_cast<std::uint32_t>(row->words); }
+  bool is_return() const;
+  bool is_call() const;  ///< direct or by register
+  bool is_skip() const;
+  bool is_branch() const;               ///< direct; conditional or not
+  std::optional<std::uint32_t> target;  ///< of a direct branch, jump or call
+  bool goes_on = true;                  ///< may the next one follow?
+  /// A place in data that its text names.
+  struct Access {
+    unsigned address = 0;
+    int bit = -1;  ///< -1: all of it
+    bool reads = false, writes = false;
+  };
+  std::optional<Access> access;
+};
+
+class Code {
+ public:
+  /// `file` outlives this.
+  explicit Code(const dspic::FirmwareFile& file);
+
+  const dspic::FirmwareFile& file() const { return file_; }
+  std::optional<Instruction> at(std::uint32_t address) const;
+  /// All of a function.
+  std::vector<Instruction> of(const dspic::CodeMap::Function& function) const;
+  /// Vectors that lead to an address; empty: it begins no handler.
+  std::vector<int> vectors_of(std::uint32_t address) const;
+  bool is_handler(const dspic::CodeMap::Function& function) const {
+    return !vectors_of(function.begin).empty();
+  }
+
+  /// Bytes by which the stack has grown since the function began, found by following every way; none where
+  /// no way leads.
+  std::optional<int> stack_depth(std::uint32_t pc);
+
+ private:
+  struct Depth {
+    int bytes = 0, frame = 0;  // frame: at LNK
+  };
+  void follow(const dspic::CodeMap::Function& function);
+
+  const dspic::FirmwareFile& file_;
+  std::multimap<std::uint32_t, int> vectors_;
+  std::map<std::uint32_t, std::map<std::uint32_t, Depth>> depths_;  // by function, by address
+};
+
+/// One level of calls.
+struct Frame {
+  std::uint32_t pc = 0;
+  std::uint32_t call = 0;  ///< of the instruction that is under way: pc, or the call before it
+  unsigned base = 0;       ///< W15 as the function began; deeper ones have a higher one
+  const dspic::CodeMap::Function* function = nullptr;
+  bool is_handler = false;
+};
+
+/// From the innermost outwards. `word`: a word of RAM at an address.
+template <typename ReadWord>
+std::vector<Frame> trace_back(Code& code, std::uint32_t pc, unsigned sp, ReadWord word) {
+  constexpr std::size_t kMostFrames = 64;
+  constexpr unsigned kRamStart = 0x800;
+  std::vector<Frame> frames;
+  std::uint32_t call = pc;
+  while (frames.size() < kMostFrames) {
+    const auto* function = code.file().code.function_at(pc);
+    const auto depth = code.stack_depth(pc);
+    Frame frame{pc, call, depth ? sp - static_cast<unsigned>(*depth) : 0, function,
+                function && code.is_handler(*function)};
+    frames.push_back(frame);
+    const auto first = code.at(0);  // what a reset jumps to was called by nobody
+    if (!depth || frame.base < kRamStart + 4 ||
+        (function && first && first->target && code.file().code.function_at(*first->target) == function))
+      break;
+    const unsigned low = word(frame.base - 4), high = word(frame.base - 2);
+    pc = (high & 0x7F) << 16 | (low & 0xFFFE);
+    sp = frame.base - 4;
+    // a handler goes on with an instruction, a function behind one
+    call = pc;
+    if (!frame.is_handler) {
+      const auto before = code.at(pc - 4);
+      call = before && before->is_call() && before->row->words == 2 ? pc - 4 : pc - 2;
+      const auto caller = code.at(call);
+      if (!caller || !caller->is_call()) break;
+    }
+  }
+  return frames;
+}
+
+}  // namespace debug

@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: MIT
+#include "hal_sim/debug/monitor.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "dspic30/asm/expression.h"
+#include "dspic30/core/disassembler.h"
+#include "dspic30/memory/sfr_table.h"
+#include "hal_sim/debug/why.h"
+
+namespace debug {
+
+namespace {
+
+using dspic::assembly::trimmed;
+
+constexpr const char* kHelp =
+    R"(break WHERE [if EXPR]   stop at a function, file:line, line or 0xADDRESS; tbreak: once
+watch WHAT [if EXPR]    stop when a variable, register or *ADDRESS has changed
+delete [N]              a breakpoint, or all; info break lists them
+continue, c             run on; Ctrl-C pauses
+step, s   next, n       to the next source line, into or over calls; a number repeats
+stepi, si nexti, ni     to the next instruction, likewise
+finish                  until this function has returned
+back, rs  backi, rsi    a source line or an instruction back; rc: back to the breakpoint before
+goto 1.5s | CYCLE       forwards or back to a time of the robot, or a cycle; past breakpoints
+where                   place and time; backtrace, bt: the calls that led here
+print EXPR, p           variables, registers (LATA, LATA.LATA6, w0, pc, sr, cycle), C's operators
+set NAME = EXPR         a variable or register
+x EXPR [WORDS]          words of data from an address
+regs                    the processor's registers; info interrupts: what is enabled or pending;
+                        info world: the robots, and the digest of the run so far
+list [LINE]  dis [N]    source, instructions from here
+why                     what is waited for, who could set it, what is pending but held off
+trace FILE [N]          the next N instructions (10,000; at most 10,000,000) with cycles, as text
+help, quit
+)";
+
+std::string first_word(const std::string& line, std::string& rest) {
+  const std::size_t space = line.find_first_of(" \t");
+  rest = space == std::string::npos ? "" : trimmed(line.substr(space));
+  return line.substr(0, space);
+}
+
+/// "WHERE if EXPR"
+std::string condition_of(std::string& text) {
+  const std::size_t at = text.find(" if ");
+  if (at == std::string::npos) return "";
+  const std::string condition = trimmed(text.substr(at + 4));
+  text = trimmed(text.substr(0, at));
+  return condition;
+}
+
+}  // namespace
+
+std::string Monitor::execute(const std::string& given) {
+  std::string line = trimmed(given), rest;
+  if (line.empty()) line = last_;  // an empty line: once more
+  last_ = line;
+  const std::string word = first_word(line, rest);
+  if (word.empty() || word[0] == '#') return "";
+  if (word == "quit" || word == "q") {
+    quits_ = true;
+    return "";
+  }
+  const std::map<std::string, Plan> plans{{"continue", Plan::Continue},
+                                          {"c", Plan::Continue},
+                                          {"step", Plan::Line},
+                                          {"s", Plan::Line},
+                                          {"next", Plan::NextLine},
+                                          {"n", Plan::NextLine},
+                                          {"stepi", Plan::Instruction},
+                                          {"si", Plan::Instruction},
+                                          {"nexti", Plan::NextInstruction},
+                                          {"ni", Plan::NextInstruction},
+                                          {"finish", Plan::Finish},
+                                          {"back", Plan::BackLine},
+                                          {"rs", Plan::BackLine},
+                                          {"backi", Plan::BackInstruction},
+                                          {"rsi", Plan::BackInstruction},
+                                          {"rc", Plan::BackContinue}};
+  if (const auto plan = plans.find(word); plan != plans.end()) return run(plan->second, rest);
+  last_ = word == "x" || word == "list" || word == "dis" ? line : "";  // the others are not worth repeating
+  if (word == "help" || word == "h") return kHelp;
+  if (word == "break" || word == "b" || word == "tbreak") return set_break(rest, word == "tbreak");
+  if (word == "watch") return watch(rest);
+  if (word == "info") return info(rest);
+  if (word == "print" || word == "p") return print(rest);
+  if (word == "set") return assign(rest);
+  if (word == "x") return memory(rest);
+  if (word == "backtrace" || word == "bt") return backtrace();
+  if (word == "regs") return registers();
+  if (word == "list" || word == "l") return list(rest);
+  if (word == "dis") return disassemble(rest);
+  if (word == "goto") return go(rest);
+  if (word == "trace") return trace(rest);
+  if (word == "where") return where();
+  if (word == "why") return why(session_);
+  if (word == "delete" || word == "d") {
+    if (rest.empty()) {
+      while (!session_.breakpoints().empty()) session_.remove(session_.breakpoints().front().id);
+      return "";
+    }
+    return session_.remove(std::atoi(rest.c_str())) ? "" : "there is no breakpoint " + rest + "\n";
+  }
+  return "unknown command '" + word + "'; help lists them\n";
+}
+
+// --- running
+
+std::string Monitor::run(Plan plan, const std::string& times) {
+  Stop stop;
+  for (int n = std::clamp(times.empty() ? 1 : std::atoi(times.c_str()), 1, 1'000'000); n > 0; --n) {
+    stop = session_.run(plan, idle_);
+    const bool is_continued = plan == Plan::Continue || plan == Plan::BackContinue;
+    const bool goes_on = stop.why == Stop::Why::Step || (is_continued && stop.why == Stop::Why::Breakpoint);
+    if (!goes_on) break;
+  }
+  return told(stop);
+}
+
+std::string Monitor::told(const Stop& stop) { return (stop.text.empty() ? "" : stop.text + "\n") + where(); }
+
+std::string Monitor::go(const std::string& rest) {
+  if (rest.empty()) return "goto: expected a time such as 1.5s, or a cycle\n";
+  char* end = nullptr;
+  double value = std::strtod(rest.c_str(), &end);
+  const std::string unit = trimmed(end);
+  if (unit == "s") value *= static_cast<double>(board::kFcyHz);
+  if (end == rest.c_str() || !(unit.empty() || unit == "s") || !(value >= 0 && value < 1e15))
+    return "got '" + rest + "', expected a time such as 1.5s, or a cycle\n";
+  return told(session_.go_to(static_cast<Cycle>(value), idle_));
+}
+
+std::string Monitor::trace(const std::string& rest) {
+  constexpr int kMost = 10'000'000, kUsual = 10'000;
+  std::string count;
+  const std::string name = first_word(rest, count);
+  const int wanted = count.empty() ? kUsual : std::atoi(count.c_str());
+  std::ofstream out(name);
+  if (name.empty() || !out || wanted < 1 || wanted > kMost)
+    return fmt::format("got '{}', expected a file that can be written, and a number from 1 to {}\n", rest,
+                       kMost);
+  int n = 0;
+  for (; n < wanted && !session_.has_ended(); ++n) {
+    const std::uint32_t pc = session_.pc();
+    const auto& words = session_.file().words;
+    const auto word = words.find(pc), second = words.find(pc + 2);
+    out << fmt::format("{} {:06x} {:<28} ; {}\n", session_.now(), pc,
+                       word == words.end()
+                           ? "?"
+                           : dspic::disassemble(word->second, second == words.end() ? 0 : second->second, pc),
+                       session_.file().code.describe(pc));
+    const Stop stop = session_.run(Plan::AnyInstruction, idle_);
+    if (stop.why != Stop::Why::Step) break;
+  }
+  return fmt::format("{} instructions in {}\n", n, name) + where();
+}
+
+// --- breakpoints
+
+std::string Monitor::set_break(const std::string& rest, bool once) {
+  std::string at = rest, error;
+  const std::string condition = condition_of(at);
+  if (at.empty()) at = fmt::format("{:#x}", session_.pc());
+  const Breakpoint* b = session_.add_breakpoint(at, condition, error);
+  if (!b) return error + "\n";
+  const int id = b->id;
+  for (Breakpoint& each : session_.breakpoints())
+    if (each.id == id) each.once = once;
+  std::string text = fmt::format("breakpoint {} at", id);
+  for (const std::uint32_t a : b->addresses)
+    text += fmt::format(" {:#08x} {}", a, session_.file().code.describe(a));
+  return text + "\n";
+}
+
+std::string Monitor::watch(const std::string& rest) {
+  std::string what = rest, error;
+  const std::string condition = condition_of(what);
+  const Breakpoint* b = session_.add_watchpoint(what, condition, error);
+  if (!b) return error + "\n";
+  return fmt::format("watchpoint {} on {} at {:#06x}, {} bytes\n", b->id, b->what, b->data, b->bytes);
+}
+
+std::string Monitor::info(const std::string& rest) {
+  if (rest == "interrupts") return interrupts(session_);
+  if (rest == "world") return world();
+  if (rest != "break" && rest != "b")
+    return "got 'info " + rest + "', expected info break, interrupts or world\n";
+  std::string text;
+  for (const Breakpoint& b : session_.breakpoints())
+    text += fmt::format("{} {} {}{}, {} times\n", b.id, b.bytes ? "watch" : "break", b.what,
+                        b.condition.empty() ? "" : " if " + b.condition, b.hits);
+  return text.empty() ? "none\n" : text;
+}
+
+std::string Monitor::world() {
+  const sim::Simulation& simulation = session_.twin().simulation();
+  std::string text =
+      fmt::format("{:.6f} s, digest {:016x}\n", sim::to_seconds(simulation.now()), simulation.digest());
+  for (int i = 0; i < session_.twin().robots(); ++i) {
+    const auto pose = simulation.pose(i);
+    text += fmt::format("  {}: {:.4f} m, {:.4f} m, {:.1f} deg\n",
+                        session_.twin().world().robots[static_cast<std::size_t>(i)].name, pose.x_m, pose.y_m,
+                        pose.heading_rad * 180 / 3.14159265358979);
+  }
+  return text;
+}
+
+// --- data
+
+std::string Monitor::print(const std::string& expression) {
+  const auto data = session_.find_data(expression);
+  if (data && data->bytes > 4) {  // an array or structure: its words
+    std::string text = expression + " =";
+    for (unsigned i = 0; i + 1 < data->bytes && i < 64; i += 2)
+      text += fmt::format(" {:#06x}", session_.read(data->address + i, 2));
+    return text + (data->bytes > 64 ? " ...\n" : "\n");
+  }
+  std::int64_t value = 0;
+  std::string error;
+  if (!session_.evaluate(expression, value, error)) return error + "\n";
+  const unsigned bits = data && data->width == 0 ? 8 * data->bytes : 0;
+  std::string other;
+  if (bits > 0 && bits <= 32 && (value >> (bits - 1) & 1))
+    other = fmt::format(", signed {}", value - (std::int64_t{1} << bits));
+  return fmt::format("{} = {} ({:#x}{})\n", expression, value, value, other);
+}
+
+std::string Monitor::assign(const std::string& rest) {
+  const std::size_t equals = rest.find('=');
+  if (equals == std::string::npos) return "expected NAME = EXPRESSION\n";
+  const std::string name = trimmed(rest.substr(0, equals));
+  std::int64_t value = 0;
+  std::string error;
+  if (!session_.evaluate(rest.substr(equals + 1), value, error)) return error + "\n";
+  const auto data = session_.find_data(name);
+  if (!data || !session_.write(*data, static_cast<unsigned>(value)))
+    return "got '" + name + "', expected a variable of up to 4 bytes or a register\n";
+  return print(name);
+}
+
+std::string Monitor::memory(const std::string& rest) {
+  std::string count;
+  const std::string at = first_word(rest, count);
+  std::int64_t address = 0;
+  std::string error;
+  if (!session_.evaluate(at, address, error)) return error + "\n";
+  const int words = std::clamp(count.empty() ? 8 : std::atoi(count.c_str()), 1, 4096);
+  std::string text;
+  for (int i = 0; i < words; ++i) {
+    const auto here = static_cast<unsigned>(address + 2 * i) & 0xFFFE;
+    if (i % 8 == 0) text += fmt::format("{}{:04x}:", i ? "\n" : "", here);
+    text += fmt::format(" {:04x}", session_.read(here, 2));
+  }
+  return text + "\n";
+}
+
+std::string Monitor::registers() {
+  std::string text;
+  for (int n = 0; n < 16; ++n)
+    text += fmt::format("w{:<2} {:04x}{}", n, session_.runner().processor().w(n), n % 8 == 7 ? "\n" : "   ");
+  const unsigned sr = session_.runner().processor().sr();
+  text += fmt::format("pc  {:06x}  sr {:04x} (IPL {}{}{}{}{}{})  RCOUNT {:04x}  A {:#x}  B {:#x}\n",
+                      session_.pc(), sr, session_.runner().device().cpu_level(), sr & 1 ? " C" : "",
+                      sr & 2 ? " Z" : "", sr & 4 ? " OV" : "", sr & 8 ? " N" : "", sr & 0x10 ? " RA" : "",
+                      session_.read(dspic::sfr("RCOUNT"), 2), session_.runner().processor().accumulator(0),
+                      session_.runner().processor().accumulator(1));
+  return text;
+}
+
+// --- code
+
+std::string Monitor::where() {
+  std::string text = fmt::format("{:.9f} s, cycle {}: {:#08x} {}\n", session_.seconds(), session_.now(),
+                                 session_.pc(), session_.file().code.describe(session_.pc()));
+  if (const auto* line = session_.file().code.line_at(session_.pc()))
+    text += source_line(session_.file().code.files[line->file], line->line);
+  return text;
+}
+
+std::string Monitor::backtrace() {
+  std::string text;
+  int n = 0;
+  for (const Frame& f : session_.frames())
+    text += fmt::format("#{} {:#08x} {}{}\n", n++, f.call, session_.file().code.describe(f.call),
+                        f.is_handler ? "  <-- interrupt" : "");
+  return text;
+}
+
+std::string Monitor::source_line(const std::string& file, int line) {
+  auto [at, is_new] = sources_.try_emplace(file);
+  if (is_new) {
+    std::ifstream in(file);
+    for (std::string text; std::getline(in, text);) at->second.push_back(text);
+  }
+  if (line < 1 || line > static_cast<int>(at->second.size())) return "";
+  return fmt::format("{}\t{}\n", line, at->second[static_cast<std::size_t>(line - 1)]);
+}
+
+std::string Monitor::list(const std::string& rest) {
+  const auto* here = session_.file().code.line_at(session_.pc());
+  if (!here) return "no source line is known here; dis shows instructions\n";
+  const int middle = rest.empty() ? here->line : std::atoi(rest.c_str());
+  std::string text;
+  for (int n = middle - 5; n <= middle + 5; ++n)
+    text += source_line(session_.file().code.files[here->file], n);
+  return text;
+}
+
+std::string Monitor::disassemble(const std::string& rest) {
+  std::string text;
+  std::uint32_t a = session_.pc();
+  for (int n = std::clamp(rest.empty() ? 10 : std::atoi(rest.c_str()), 1, 1000); n > 0; --n) {
+    const auto i = session_.code().at(a);
+    const auto& words = session_.file().words;
+    const auto word = words.find(a), second = words.find(a + 2);
+    if (word == words.end()) break;
+    text += fmt::format("{} {:06x}  {:06x}  {:<28} ; {}\n", a == session_.pc() ? "=>" : "  ", a, word->second,
+                        dspic::disassemble(word->second, second == words.end() ? 0 : second->second, a),
+                        session_.file().code.describe(a));
+    a = i ? i->next() : a + 2;
+  }
+  return text;
+}
+
+}  // namespace debug

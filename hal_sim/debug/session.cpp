@@ -1,0 +1,492 @@
+// SPDX-License-Identifier: MIT
+#include "hal_sim/debug/session.h"
+
+#include <algorithm>
+
+#include "dspic30/memory/sfr_table.h"
+
+namespace debug {
+
+namespace {
+
+constexpr auto kIdleEvery = std::chrono::milliseconds(20);
+constexpr unsigned kRepeating = 0x10;  // SR.RA
+// how far back is looked at first, cycles; then ever further
+constexpr Cycle kFirstLookBack = 50'000, kLookBackGrows = 30;
+
+unsigned sr_address() { return dspic::sfr("SR"); }
+
+}  // namespace
+
+// --- worlds
+
+std::unique_ptr<Session> Session::open(Setup setup, std::vector<std::string>& problems) {
+  std::unique_ptr<Session> session(new Session(std::move(setup)));
+  session->setup_.options.threads = 1;
+  if (!session->open_world(problems)) return nullptr;
+  session->set_marks();
+  session->start(0);
+  session->target_ = 0;
+  session->stop_.why = Stop::Why::Entry;
+  session->resume(nullptr);
+  return session;
+}
+
+Session::~Session() { abandon(); }
+
+bool Session::open_world(std::vector<std::string>& problems) {
+  twin_ = twin::Twin::open(setup_.world, setup_.options, problems);
+  if (!twin_) return false;
+  robot_ = -1;
+  for (int i = 0; i < twin_->robots() && robot_ < 0; ++i) {
+    const std::string& name = twin_->world().robots[static_cast<std::size_t>(i)].name;
+    if (!setup_.robot.empty() && name != setup_.robot) continue;
+    runner_ = dynamic_cast<chip::ChipRunner*>(twin_->mind(i).runner());
+    if (runner_) robot_ = i;
+    if (runner_) setup_.robot = name;
+  }
+  if (robot_ < 0) {
+    problems.push_back(setup_.robot.empty()
+                           ? "debug: no robot runs the chip way; add --way chip, or give a .elf or .hex"
+                           : "debug: robot '" + setup_.robot +
+                                 "' does not run the chip way, or is not there");
+    return false;
+  }
+  // the next world runs the same images, without building them
+  setup_.options.firmware.clear();
+  for (int i = 0; i < twin_->robots(); ++i)
+    if (!twin_->image_path(i).empty())
+      setup_.options.firmware.push_back(
+          {twin_->world().robots[static_cast<std::size_t>(i)].name, twin_->image_path(i)});
+  code_ = std::make_unique<Code>(file());
+  if (setup_.opened) setup_.opened(*twin_);
+  return true;
+}
+
+// its thread stands until resume()
+void Session::start(Cycle fast_until) {
+  state_ = State::Stopped;
+  abandoned_ = pause_ = false;
+  fast_until_ = fast_until;
+  put_off_.clear();
+  trap_.clear();
+  was_reset_ = last_repeats_ = false;
+  next_poke_ = 0;
+  watched_.clear();
+  thread_ = std::thread([this] { run_world(); });
+}
+
+void Session::abandon() {
+  if (!thread_.joinable()) return;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    abandoned_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+void Session::run_world() {
+  {
+    std::unique_lock<std::mutex> lock(mutex_);
+    changed_.wait(lock, [this] { return state_ == State::Running || abandoned_; });
+  }
+  sim::Simulation& simulation = twin_->simulation();
+  host::FirmwareMind& mind = twin_->mind(robot_);
+  const sim::Clicks end = sim::from_seconds(setup_.seconds), tick = simulation.scene().tick_clicks();
+  bool watches = false;
+  while (!abandoned_ && simulation.now() < end) {
+    const Cycle poke = next_poke_ < pokes_.size() ? pokes_[next_poke_].at : dspic::kNever;
+    const bool wanted = mind.cycle_at(simulation.now() + 2 * tick) >= std::min(fast_until_, poke);
+    if (wanted != watches) runner_->watch_steps(this, watches = wanted);
+    simulation.advance(simulation.now());
+    if (setup_.ticked && !is_repeating_ && !abandoned_) setup_.ticked(*twin_);
+  }
+  if (watches) runner_->watch_steps(this, false);
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    state_ = State::Ended;
+    stop_ = {Stop::Why::End, 0, "the end of the world's time"};
+  }
+  changed_.notify_all();
+}
+
+// --- the face's side
+
+Stop Session::resume(const std::function<bool()>& idle) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  if (state_ == State::Ended) return stop_;
+  pause_ = false;
+  state_ = State::Running;
+  changed_.notify_all();
+  while (!changed_.wait_for(lock, kIdleEvery, [this] { return state_ != State::Running; })) {
+    lock.unlock();
+    if (idle && idle()) pause_ = true;
+    lock.lock();
+  }
+  target_.reset();
+  return stop_;
+}
+
+Stop Session::run(Plan plan, const std::function<bool()>& idle) {
+  if (plan >= Plan::BackInstruction) return go_back(plan, idle);
+  if (has_ended()) return stop_;
+  // what was changed by hand later than here has not happened
+  while (!pokes_.empty() && pokes_.back().at > now()) pokes_.pop_back();
+  next_poke_ = pokes_.size();
+  plan_ = plan;
+  from_ = moment(now());
+  return resume(idle);
+}
+
+Stop Session::go_to(Cycle cycle, const std::function<bool()>& idle) {
+  if (cycle < now() || has_ended()) return repeat_to(cycle, cycle, idle);
+  plan_ = Plan::GoTo;
+  target_ = cycle;
+  stop_ = {Stop::Why::Step, 0, ""};
+  return resume(idle);
+}
+
+// a new world, up to `cycle`; instruction by instruction from `look_from` on
+Stop Session::repeat_to(Cycle cycle, Cycle look_from, const std::function<bool()>& idle) {
+  abandon();
+  std::vector<std::string> problems;
+  is_repeating_ = true;
+  if (!open_world(problems)) {  // a file has changed meanwhile
+    state_ = State::Ended;
+    return stop_ = {Stop::Why::End, 0, problems.empty() ? "the world cannot be opened again" : problems[0]};
+  }
+  start(look_from);
+  target_ = cycle;
+  stop_ = {Stop::Why::Step, 0, ""};
+  const Stop stop = resume(idle);
+  is_repeating_ = false;
+  return stop;
+}
+
+// runs again up to here, ever more of it instruction by instruction, for the latest moment that will do
+Stop Session::go_back(Plan plan, const std::function<bool()>& idle) {
+  const Cycle here = has_ended() ? runner_->cycles() : now();
+  plan_ = plan;
+  from_ = has_ended() ? Moment{here} : moment(here);
+  for (Cycle back = kFirstLookBack;; back *= kLookBackGrows) {
+    const Cycle look_from = std::max<Cycle>(0, here - back);
+    latest_.reset();
+    looks_back_ = true;
+    repeat_to(here, look_from, idle);
+    looks_back_ = false;
+    if (latest_ || look_from == 0 || pause_) break;
+  }
+  if (pause_) return {Stop::Why::Pause, 0, "paused"};
+  const Moment to = latest_.value_or(Moment{});
+  Stop stop = repeat_to(to.at, to.at, idle);
+  if (!latest_) return {Stop::Why::Entry, 0, "the beginning of the run"};
+  if (to.hit) stop = {Stop::Why::Breakpoint, to.hit, "breakpoint " + std::to_string(to.hit)};
+  return stop;
+}
+
+Cycle Session::now() const { return runner_->processor().now(); }
+
+double Session::seconds() const { return runner_->to_world_s ? runner_->to_world_s(now()) : 0; }
+
+std::vector<Frame> Session::frames() {
+  return trace_back(*code_, pc(), runner_->processor().w(15),
+                    [this](unsigned address) { return read(address, 2); });
+}
+
+// --- the world's side
+
+void Session::before(Cycle at) {
+  if (abandoned_) return;
+  apply_pokes(at);
+  if (!wants_stop(at)) return;
+  stand();
+}
+
+void Session::stand() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  state_ = State::Stopped;
+  changed_.notify_all();
+  changed_.wait(lock, [this] { return state_ == State::Running || abandoned_; });
+}
+
+void Session::after(const chip::Step& step) {
+  last_pc_ = step.pc;
+  last_repeats_ = !step.slept && step.next == step.pc && (read(sr_address(), 2) & kRepeating);
+  if (step.entered == dspic::kNoVector) return;
+  put_off_.push_back({step.pc, runner_->device().nesting() - 1});
+  if (step.entered < dspic::kFirstIrqVector)
+    trap_ = std::string(dspic::vector_name(step.entered)) + " trap at " + file().code.describe(step.pc);
+}
+
+void Session::was_reset(Cycle) {
+  was_reset_ = true;
+  put_off_.clear();
+}
+
+bool Session::wants_stop(Cycle at) {
+  const int nesting = runner_->device().nesting();
+  while (!put_off_.empty() && put_off_.back().nesting > nesting) put_off_.pop_back();
+  // an instruction that was put off has been stopped at already
+  const bool comes_again =
+      !put_off_.empty() && put_off_.back().nesting == nesting && put_off_.back().pc == pc();
+  if (comes_again) put_off_.pop_back();
+  if (target_ && at >= *target_) return true;
+  if (is_repeating_) {
+    if (!looks_back_) return false;
+    Moment here = moment(at);
+    if (plan_ == Plan::BackContinue && !comes_again) here.hit = watch_hit() ? stop_.id : hit_here(false);
+    if (is_way_back(here)) latest_ = here;
+    return pause_;
+  }
+  if (pause_) {
+    stop_ = {Stop::Why::Pause, 0, "paused"};
+    return true;
+  }
+  if (was_reset_ || !trap_.empty()) {
+    stop_ =
+        was_reset_ ? Stop{Stop::Why::Reset, 0, "the processor was reset"} : Stop{Stop::Why::Trap, 0, trap_};
+    was_reset_ = false;
+    trap_.clear();
+    return true;
+  }
+  if (watch_hit() && plan_ != Plan::GoTo) return true;
+  if (comes_again || last_repeats_ || plan_ == Plan::GoTo) return false;
+  if (const int id = hit_here(true)) {
+    stop_ = {Stop::Why::Breakpoint, id, "breakpoint " + std::to_string(id)};
+    const auto b =
+        std::find_if(breakpoints_.begin(), breakpoints_.end(), [&](const auto& x) { return x.id == id; });
+    if (b->once) {
+      stop_.text = b->what;
+      breakpoints_.erase(b);
+      set_marks();
+    }
+    return true;
+  }
+  if (plan_ == Plan::Continue || !is_step_over(at)) return false;
+  stop_ = {Stop::Why::Step, 0, ""};
+  return true;
+}
+
+bool Session::is_step_over(Cycle at) {
+  if (plan_ == Plan::AnyInstruction) return true;
+  const Moment here = moment(at);
+  if (here.nesting > from_.nesting) return false;
+  const bool is_deeper = here.nesting == from_.nesting && here.base > from_.base;
+  switch (plan_) {
+    case Plan::Instruction:
+      return true;
+    case Plan::NextInstruction:
+      return !is_deeper;
+    case Plan::Finish:
+      return here.nesting < from_.nesting || here.base < from_.base;
+    case Plan::Line:
+    case Plan::NextLine: {
+      if (plan_ == Plan::NextLine && is_deeper) return false;
+      const bool is_other =
+          here.base != from_.base || here.nesting != from_.nesting || !is_same_line(here.pc, from_.pc);
+      return begins_line(here.pc) && is_other;
+    }
+    default:
+      return false;
+  }
+}
+
+bool Session::is_way_back(const Moment& here) {
+  if (here.at >= from_.at) return false;
+  if (plan_ == Plan::BackContinue) return here.hit != 0;
+  if (here.nesting > from_.nesting || last_repeats_) return false;
+  if (plan_ == Plan::BackInstruction) return true;
+  return here.base <= from_.base && begins_line(here.pc) &&
+         (here.base != from_.base || !is_same_line(here.pc, from_.pc));
+}
+
+bool Session::begins_line(std::uint32_t at) const {
+  const auto* line = file().code.line_at(at);
+  return line && line->address == at && line->is_statement;
+}
+
+bool Session::is_same_line(std::uint32_t a, std::uint32_t b) const {
+  const auto *one = file().code.line_at(a), *other = file().code.line_at(b);
+  return one && other && one->file == other->file && one->line == other->line;
+}
+
+Session::Moment Session::moment(Cycle at) { return {at, pc(), base_here(), runner_->device().nesting(), 0}; }
+
+unsigned Session::base_here() {
+  const auto depth = code_->stack_depth(pc());
+  return depth ? runner_->processor().w(15) - static_cast<unsigned>(*depth) : 0;
+}
+
+// --- breakpoints
+
+int Session::hit_here(bool count) {
+  const std::uint32_t here = pc();
+  if (here / 2 >= marks_.size() || !marks_[here / 2]) return 0;
+  for (Breakpoint& b : breakpoints_) {
+    if (std::find(b.addresses.begin(), b.addresses.end(), here) == b.addresses.end() || !holds(b)) continue;
+    if (count) ++b.hits;
+    return b.id;
+  }
+  return 0;
+}
+
+bool Session::holds(const Breakpoint& b) const {
+  std::int64_t value = 1;
+  std::string error;
+  return b.condition.empty() || !evaluate(b.condition, value, error) ||
+         value != 0;  // what cannot be told stops
+}
+
+bool Session::watch_hit() {
+  bool hit = false;
+  std::size_t n = 0;
+  for (Breakpoint& b : breakpoints_) {
+    if (b.bytes == 0) continue;
+    const std::uint32_t value = value_of(b);
+    const bool is_new = n >= watched_.size();
+    if (is_new) watched_.push_back(value);
+    std::uint32_t& old = watched_[n++];
+    if (is_new || old == value) continue;
+    const std::string change = b.what + ": " + std::to_string(old) + " -> " + std::to_string(value) +
+                               ", by " + file().code.describe(last_pc_);
+    old = value;
+    if (hit || !holds(b)) continue;
+    if (!is_repeating_) ++b.hits;
+    stop_ = {Stop::Why::Watchpoint, b.id, change};
+    hit = true;
+  }
+  return hit;
+}
+
+const Breakpoint* Session::add_breakpoint(const std::string& where, const std::string& condition,
+                                          std::string& error) {
+  Breakpoint b;
+  const dspic::CodeMap& map = file().code;
+  const std::size_t colon = where.rfind(':');
+  const std::string number = where.substr(colon == std::string::npos ? 0 : colon + 1);
+  const bool is_number = !number.empty() && number.find_first_not_of("0123456789") == std::string::npos;
+  if (is_number && number.size() < 9) {
+    const auto* line = map.line_at(pc());
+    const std::string source = colon != std::string::npos ? where.substr(0, colon)
+                               : line                     ? map.files[line->file]
+                                                          : "";
+    int found = 0;
+    b.addresses = map.addresses_of(source, std::stoi(number), found);
+    if (b.addresses.empty())
+      error = "got '" + where + "', expected a line with code in a file of the program" +
+              (map.lines.empty() ? "; this image has no lines" : "");
+    else
+      b.what = source.substr(source.rfind('/') + 1) + ":" + std::to_string(found);
+  } else if (const auto label = file().functions.find(where); label != file().functions.end()) {
+    b.addresses = {label->second};
+    b.what = where;
+  } else {
+    std::int64_t address = 0;
+    const bool is_address = where.rfind("0x", 0) == 0 || where.rfind('*', 0) == 0;
+    if (is_address && evaluate(where.substr(where[0] == '*'), address, error) && address >= 0 &&
+        address < dspic::kFlashEnd && address % 2 == 0) {
+      b.addresses = {static_cast<std::uint32_t>(address)};
+      b.what = where;
+    } else {
+      error = "got '" + where + "', expected a function, file:line, or an even address such as 0x1a0";
+    }
+  }
+  std::int64_t value = 0;
+  std::string wrong;
+  if (b.addresses.empty()) return nullptr;
+  if (!condition.empty() && !evaluate(condition, value, wrong)) {
+    error = "condition: " + wrong;
+    return nullptr;
+  }
+  b.condition = condition;
+  b.id = ++last_id_;
+  breakpoints_.push_back(std::move(b));
+  set_marks();
+  return &breakpoints_.back();
+}
+
+const Breakpoint* Session::add_watchpoint(const std::string& what, const std::string& condition,
+                                          std::string& error) {
+  Breakpoint b;
+  b.what = what;
+  std::int64_t value = 0;
+  if (!what.empty() && what[0] == '*') {
+    if (!evaluate(what.substr(1), value, error)) return nullptr;
+    b.data = static_cast<unsigned>(value & 0xFFFF);
+    b.bytes = 2;
+  } else if (const auto data = find_data(what)) {
+    b.data = data->address;
+    b.bytes = std::min(data->bytes, 4u);
+    b.bit = data->bit;
+    b.width = data->width;
+  } else {
+    error = "got '" + what + "', expected a variable, a register or *address";
+    return nullptr;
+  }
+  if (!condition.empty() && !evaluate(condition, value, error)) return nullptr;
+  b.condition = condition;
+  b.id = ++last_id_;
+  breakpoints_.push_back(std::move(b));
+  look_at_watchpoints();
+  return &breakpoints_.back();
+}
+
+std::uint32_t Session::value_of(const Breakpoint& watch) const {
+  const std::uint32_t value = read(watch.data, watch.bytes);
+  return watch.width > 0 ? value >> watch.bit & ((1u << watch.width) - 1) : value;
+}
+
+void Session::look_at_watchpoints() {
+  watched_.clear();
+  for (const Breakpoint& b : breakpoints_)
+    if (b.bytes) watched_.push_back(value_of(b));
+}
+
+bool Session::remove(int id) {
+  const auto gone =
+      std::remove_if(breakpoints_.begin(), breakpoints_.end(), [&](const auto& b) { return b.id == id; });
+  const bool found = gone != breakpoints_.end();
+  breakpoints_.erase(gone, breakpoints_.end());
+  look_at_watchpoints();
+  set_marks();
+  return found;
+}
+
+const Breakpoint* Session::find(int id) const {
+  for (const Breakpoint& b : breakpoints_)
+    if (b.id == id) return &b;
+  return nullptr;
+}
+
+void Session::set_marks() {
+  marks_.assign(dspic::kFlashWords, 0);
+  for (const Breakpoint& b : breakpoints_)
+    for (const std::uint32_t a : b.addresses) marks_[a / 2] = 1;
+}
+
+// --- data
+
+bool Session::write(const Data& data, unsigned value) {
+  if (data.address + data.bytes > dspic::Processor::kRamEnd || data.bytes > 4) return false;
+  if (data.width > 0) {
+    const unsigned mask = ((1u << data.width) - 1) << data.bit;
+    value = (read(data.address, 2) & ~mask) | (value << data.bit & mask);
+  }
+  runner_->write_memory(data.address, &value, data.bytes);
+  if (has_ended()) return true;
+  Data whole = data;
+  whole.width = 0;
+  pokes_.push_back({now(), whole, value});
+  next_poke_ = pokes_.size();
+  return true;
+}
+
+void Session::apply_pokes(Cycle at) {
+  for (; next_poke_ < pokes_.size() && pokes_[next_poke_].at <= at; ++next_poke_) {
+    const Poke& p = pokes_[next_poke_];
+    runner_->write_memory(p.data.address, &p.value, p.data.bytes);
+  }
+}
+
+}  // namespace debug

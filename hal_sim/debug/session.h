@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+// The debugger's core: a world in which one robot of the chip way stops where it is told to.
+//
+//   face (monitor, DAP) --run(Plan)--> Session --world's thread--> Twin, ChipRunner --before(cycle)--> stop?
+//
+// While the robot stands, the whole world stands: its time does not go on. So what a run does depends on
+// neither breakpoints nor patience. Going back is running again: a new world, the same seed, up to the cycle
+// that is wanted, at full speed as far as nobody has to look; what was changed by hand is changed again.
+//
+// Steps do not stop in a handler that comes meanwhile. A breakpoint in it does.
+#pragma once
+#include <atomic>
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "hal_sim/chip/chip_runner.h"
+#include "hal_sim/debug/code.h"
+#include "hal_sim/twin/twin.h"
+
+namespace debug {
+
+using chip::Cycle;
+
+struct Stop {
+  enum class Why { Entry, Step, Breakpoint, Watchpoint, Pause, Trap, Reset, End };
+  Why why = Why::Entry;
+  int id = 0;        ///< of the breakpoint
+  std::string text;  ///< "breakpoint 1", "control_due: 0 -> 1, by control_tick() (main.c:39)"
+};
+
+/// What a robot's program runs on to.
+enum class Plan {
+  Continue,
+  GoTo,             ///< past breakpoints, to a cycle
+  AnyInstruction,   ///< into calls and handlers
+  Instruction,      ///< into calls
+  NextInstruction,  ///< over calls
+  Line,
+  NextLine,
+  Finish,  ///< until this function has returned
+  // backwards
+  BackInstruction,
+  BackLine,
+  BackContinue,
+};
+
+struct Breakpoint {
+  int id = 0;
+  std::string what;                      ///< as it was asked for
+  std::vector<std::uint32_t> addresses;  ///< empty: a watchpoint
+  std::string condition;                 ///< an expression; empty: always
+  unsigned data = 0, bytes = 0;          ///< of a watchpoint
+  int bit = 0, width = 0;                ///< of a watchpoint on a register's field
+  bool once = false;
+  std::int64_t hits = 0;
+};
+
+class Session final : private chip::StepWatch {
+ public:
+  struct Setup {
+    sim::WorldDesc world;
+    twin::Options options;
+    std::string robot;     ///< empty: the first that runs the chip way
+    double seconds = 1e6;  ///< the world ends
+    /// Told of each new world, and after each tick that is not a repetition; both may be empty.
+    std::function<void(twin::Twin&)> opened, ticked;
+  };
+  /// Stopped before the program's first instruction. Null with lines in `problems`.
+  static std::unique_ptr<Session> open(Setup setup, std::vector<std::string>& problems);
+  ~Session() override;
+
+  // --- running
+  /// Returns when it has stopped. `idle` is asked about 50 times a second of real time; true: pause.
+  Stop run(Plan plan, const std::function<bool()>& idle = nullptr);
+  /// Forwards or backwards to the first instruction at or after a cycle.
+  Stop go_to(Cycle cycle, const std::function<bool()>& idle = nullptr);
+  bool has_ended() const { return state_ == State::Ended; }
+
+  // --- where it stands
+  Cycle now() const;
+  double seconds() const;  ///< the world's time
+  std::uint32_t pc() const { return runner().processor().pc(); }
+  std::vector<Frame> frames();
+  const chip::ChipRunner& runner() const { return *runner_; }
+  chip::ChipRunner& runner() { return *runner_; }
+  const dspic::FirmwareFile& file() const { return runner_->file(); }
+  Code& code() { return *code_; }
+  twin::Twin& twin() { return *twin_; }
+  const std::string& robot() const { return setup_.robot; }
+
+  // --- data
+  /// Value of an expression of C: numbers, variables, registers (LATA, LATA.LATA6, w0, pc, sr, cycle).
+  /// False: `error` says why.
+  bool evaluate(const std::string& expression, std::int64_t& value, std::string& error) const;
+  /// A variable or register by name: where it is, and its size in bytes.
+  struct Data {
+    unsigned address = 0, bytes = 2;
+    int bit = 0, width = 0;  ///< of a register's field; width 0: all of it
+  };
+  std::optional<Data> find_data(const std::string& name) const;
+  unsigned read(unsigned address, unsigned bytes) const;
+  /// As the debugger's doing, again in each repetition. False: not a place that can be written.
+  bool write(const Data& data, unsigned value);
+
+  // --- breakpoints
+  /// `where`: a function or label, file:line, line (of the current file), 0x-address. Null with `error`.
+  const Breakpoint* add_breakpoint(const std::string& where, const std::string& condition,
+                                   std::string& error);
+  /// `what`: a variable, a register or *address.
+  const Breakpoint* add_watchpoint(const std::string& what, const std::string& condition, std::string& error);
+  bool remove(int id);
+  std::vector<Breakpoint>& breakpoints() { return breakpoints_; }
+  const Breakpoint* find(int id) const;
+
+ private:
+  enum class State { Running, Stopped, Ended };
+  struct Moment {
+    Cycle at = 0;
+    std::uint32_t pc = 0;
+    unsigned base = 0;
+    int nesting = 0;
+    int hit = 0;  // id of the breakpoint that would stop here
+  };
+  struct Poke {
+    Cycle at = 0;
+    Data data;
+    unsigned value = 0;
+  };
+
+  explicit Session(Setup setup) : setup_(std::move(setup)) {}
+  bool open_world(std::vector<std::string>& problems);
+  void start(Cycle fast_until);
+  void abandon();
+  void run_world();
+  Stop resume(const std::function<bool()>& idle);
+  Stop repeat_to(Cycle cycle, Cycle look_from, const std::function<bool()>& idle);
+  Stop go_back(Plan plan, const std::function<bool()>& idle);
+
+  void before(Cycle at) override;
+  void after(const chip::Step& step) override;
+  void was_reset(Cycle at) override;
+  bool wants_stop(Cycle at);
+  bool is_step_over(Cycle at);
+  bool is_way_back(const Moment& here);
+  bool begins_line(std::uint32_t pc) const;
+  bool is_same_line(std::uint32_t a, std::uint32_t b) const;
+  int hit_here(bool count);
+  bool watch_hit();
+  std::uint32_t value_of(const Breakpoint& watch) const;
+  void look_at_watchpoints();
+  Moment moment(Cycle at);
+  unsigned base_here();
+  void apply_pokes(Cycle at);
+  void stand();
+  bool holds(const Breakpoint& b) const;
+  void set_marks();
+
+  Setup setup_;
+  std::unique_ptr<twin::Twin> twin_;
+  chip::ChipRunner* runner_ = nullptr;
+  std::unique_ptr<Code> code_;
+  int robot_ = 0;
+
+  // the world's thread runs while state_ is Running, the face's otherwise
+  std::thread thread_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  State state_ = State::Stopped;
+  std::atomic<bool> pause_{false}, abandoned_{false};
+  Cycle fast_until_ = 0;  // nobody looks before
+
+  // what it runs to
+  Plan plan_ = Plan::Continue;
+  Moment from_;  // where the step began
+  std::optional<Cycle> target_;
+  Stop stop_;
+  std::string trap_;  // seen in the step before
+  bool was_reset_ = false;
+  std::uint32_t last_pc_ = 0;  // of the step before
+  bool last_repeats_ = false;  // it was an iteration of a REPEAT
+  struct PutOff {
+    std::uint32_t pc;
+    int nesting;
+  };
+  std::vector<PutOff> put_off_;  // instructions that a handler came before
+
+  bool is_repeating_ = false;
+  bool looks_back_ = false;  // and keeps the latest moment that a way back may end at
+  std::optional<Moment> latest_;
+
+  std::vector<Breakpoint> breakpoints_;
+  std::vector<char> marks_;             // by word: is there a breakpoint?
+  std::vector<std::uint32_t> watched_;  // values of watchpoints, in their order
+  int last_id_ = 0;
+  std::vector<Poke> pokes_;
+  std::size_t next_poke_ = 0;
+};
+
+}  // namespace debug

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+// twinpuck debug: scripts of commands, as a person would type them, on a controller's own program.
+#include "tests/cli/command.h"
+
+namespace {
+
+using cli_test::CommandTest;
+using cli_test::twinpuck;
+
+constexpr const char* kProgram = R"(#include <p30F6014A.h>
+volatile int ticks;
+static int table[4] = {1, 2, 3, 4};
+int sum;
+
+void __attribute__((interrupt, auto_psv)) _T1Interrupt(void) {
+  ticks++;
+  IFS0bits.T1IF = 0;
+}
+
+__attribute__((noinline)) int weigh(int n) {
+  int s = 0;
+  for (int i = 0; i < 4; i++)
+    s += table[i] * n;
+  return s;
+}
+
+__attribute__((noinline)) void work(int n) {
+  sum += weigh(n);
+  LATAbits.LATA6 = !LATAbits.LATA6;
+}
+
+int main(void) {
+  TRISAbits.TRISA6 = 0;
+  PR1 = 14745;
+  IEC0bits.T1IE = 1;
+  T1CON = 0x8000;
+  while (1) {
+    int now = ticks;
+    while (ticks == now)
+      ;
+    work(ticks);
+  }
+}
+)";
+
+class Debug : public CommandTest {
+ protected:
+  Debug() {
+    write("mine/main.c", kProgram);
+    built_ = twinpuck("build '" + path("mine") + "' --way chip -o '" + elf() + "'");
+  }
+  void SetUp() override { ASSERT_EQ(built_.exit_code, 0) << built_.text; }
+  std::string path(const std::string& name) const { return (folder / name).string(); }
+  std::string elf() const { return path("mine.elf"); }
+  void write(const std::string& name, const std::string& text) {
+    std::filesystem::create_directories((folder / name).parent_path());
+    std::ofstream(folder / name) << text;
+  }
+  /// What the commands answer.
+  std::string debug(const std::string& commands, const std::string& options = "") {
+    write("commands", commands);
+    const auto said = twinpuck("debug maze --fw '*=" + elf() + "' -x '" + path("commands") + "' " + options);
+    EXPECT_EQ(said.exit_code, 0) << said.text;
+    return said.text;
+  }
+  static void expect_in_order(const std::string& text, std::initializer_list<const char*> parts) {
+    std::size_t at = 0;
+    for (const char* part : parts) {
+      const std::size_t found = text.find(part, at);
+      ASSERT_NE(found, std::string::npos)
+          << "'" << part << "' behind " << text.substr(0, at) << "\n--- in ---\n"
+          << text.substr(at);
+      at = found + std::string(part).size();
+    }
+  }
+
+ private:
+  cli_test::Said built_;
+};
+
+TEST_F(Debug, breakpoints_stop_and_calls_are_traced_back) {
+  const std::string text =
+      debug("break weigh\nbreak main.c:20\nc\nbt\nfinish\nc\nbt\nprint ticks\ndelete 1\ninfo break\n");
+  expect_in_order(text, {"breakpoint 1 at", "weigh() (main.c:11)", "breakpoint 2 at", "work() (main.c:20)",
+                         "> c", "breakpoint", "> bt\n#0", "#1", "main()", "_reset()", "> finish",
+                         "> print ticks\nticks = 1 (0x1)", "2 break main.c:20, 1 times"});
+}
+
+TEST_F(Debug, conditions_hold_before_it_stops) {
+  expect_in_order(debug("break work if ticks == 5\nc\nprint ticks\nprint sum\nc\n", "--for 0.02"),
+                  {"> c\nbreakpoint 1", "ticks = 5", "sum = 100", "> c\nthe end of the world's time"});
+}
+
+TEST_F(Debug, watchpoints_say_who_changed_what) {
+  expect_in_order(
+      debug("watch ticks\nc\nbt\ndelete\nwatch LATA.LATA6\nc\ndelete\nwatch sum if sum > 30\nc\n"),
+      {"> c\nticks: 0 -> 1, by _T1Interrupt() (main.c:7)", "#0", "_T1Interrupt()", "<-- interrupt", "main()",
+       "> c\n", "LATA.LATA6: 0 -> 1", ", by work() (main.c:20)",
+       "> c\nsum: 30 -> 60, by work() (main.c:19)"});
+}
+
+TEST_F(Debug, steps_go_by_lines_and_over_calls_and_interrupts) {
+  const std::string text = debug("break work\nc\ndelete\nstep\nstep\n");
+  expect_in_order(text, {"> c\nbreakpoint 1", "> step", "main.c:", "> step"});
+  // over the call: the sum has its value, the program still stands in work()
+  expect_in_order(debug("break work\nc\nnext\nnext\nbt\nprint sum\n"), {"> bt\n#0", "work()", "sum = 10"});
+  // in the wait an interrupt comes: the step does not stop in the handler
+  expect_in_order(debug("goto 100000\nnexti 20000\nprint ticks > 6\nprint nesting\n"),
+                  {"ticks > 6 = 1", "nesting = 0"});
+}
+
+TEST_F(Debug, time_goes_back_and_comes_again) {
+  const std::string text = debug(
+      "break work\nc 3\nprint ticks\nprint cycle\nrc\nprint ticks\nc\nprint ticks\nprint cycle\n"
+      "stepi 3\nbacki 3\nprint cycle\ngoto 20000\nprint ticks\ndelete\nrc\nwhere\n");
+  expect_in_order(text, {"> print ticks\nticks = 3", "> rc\nbreakpoint 1", "> print ticks\nticks = 2",
+                         "> print ticks\nticks = 3", "> goto 20000", "> print ticks\nticks = 1",
+                         "the beginning of the run"});
+  std::vector<std::string> cycles;
+  for (std::size_t at = 0; (at = text.find("\ncycle = ", at)) != std::string::npos; ++at)
+    cycles.push_back(text.substr(at, text.find('(', at) - at));
+  ASSERT_EQ(cycles.size(), 3u);
+  EXPECT_EQ(cycles[0], cycles[1]);
+  EXPECT_EQ(cycles[0], cycles[2]);
+}
+
+TEST_F(Debug, what_was_changed_by_hand_is_changed_again_on_the_way_back) {
+  expect_in_order(
+      debug("goto 50000\nset ticks = 100\nset LATA.LATA6 = 1\ngoto 80000\nprint ticks\nbacki\nprint ticks\n"
+            "goto 49000\nprint ticks\ngoto 80000\nprint ticks\n"),
+      {"> set ticks = 100\nticks = 100", "LATA.LATA6 = 1", "> print ticks\nticks = 102", "> backi",
+       "> print ticks\nticks = 102", "> goto 49000", "> print ticks\nticks = 3", "> goto 80000",
+       "> print ticks\nticks = "});
+}
+
+TEST_F(Debug, why_names_the_wait_and_who_could_end_it) {
+  expect_in_order(debug("goto 100000\nwhy\n"), {"it goes round in main() (main.c:30)", "ticks = 0x6",
+                                                "the handler _T1Interrupt writes it; T1: enabled, "
+                                                "priority 4 above the processor's 0"});
+  expect_in_order(
+      debug("goto 100000\nset sr = 0xE0\ngoto 130000\nwhy\ninfo interrupts\n"),
+      {"T1: held off: priority 4, the processor is at 7, flag set",
+       "pending, but not served:\n  T1: held off", "the processor is at level 7", "T1: held off"});
+  expect_in_order(debug("goto 100000\nset T1CON = 0\ngoto 130000\nwhy\n"),
+                  {"timer 1 is off (T1CON.TON = 0)"});
+}
+
+TEST_F(Debug, a_debugger_changes_nothing) {
+  const auto run = twinpuck("run maze --fw '*=" + elf() + "' --for 0.05");
+  const std::string digest = run.text.substr(run.text.find("digest "), 23);
+  const std::string text =
+      debug("break work if 0\nwatch sum if 0\nc\ninfo world\nbacki 3\nc\ninfo world\n", "--for 0.05");
+  expect_in_order(text, {"> info world\n", digest.c_str(), "> c\nthe end", "> info world\n", digest.c_str()});
+}
+
+TEST_F(Debug, a_trace_has_an_instruction_a_line) {
+  debug("goto 50000\ntrace " + path("trace.txt") + " 50\n");
+  std::ifstream in(path("trace.txt"));
+  std::string line, last;
+  int lines = 0;
+  while (std::getline(in, line)) {
+    EXPECT_NE(line.find(" ; "), std::string::npos) << line;
+    ++lines;
+  }
+  EXPECT_EQ(lines, 50);
+}
+
+TEST_F(Debug, mistakes_are_answered) {
+  expect_in_order(
+      debug("brake main\nbreak nowhere\nbreak main.c:9999\nbreak work if nonsense\nwatch nothing\nprint 1 +\n"
+            "set nothing = 1\ninfo nothing\ngoto soon\ndelete 9\nx\ntrace\n"),
+      {"unknown command 'brake'", "got 'nowhere', expected a function, file:line", "got 'main.c:9999'",
+       "condition: unknown symbol 'nonsense'", "got 'nothing', expected a variable", "a value is missing",
+       "got 'nothing', expected a variable", "expected info break, interrupts or world",
+       "got 'soon', expected a time", "there is no breakpoint 9"});
+  EXPECT_EQ(twinpuck("debug maze --fw '*=" + elf() + "' -x /nonexistent").exit_code, 2);
+  EXPECT_EQ(twinpuck("debug maze --fw '*=" + elf() + "' --robot nobody").exit_code, 2);
+  EXPECT_EQ(twinpuck("debug nowhere").exit_code, 2);
+}
+
+}  // namespace
