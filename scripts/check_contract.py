@@ -28,7 +28,7 @@ NO_PROTOTYPES = {"p30F6014A.h",
 ONLY_DECLARED = {"e_i2cp_read_string", "e_i2cp_write_string",
                  "e_po6030k_set_color_mode", "e_po8030d_set_color_mode",
                  "speaker_emit_sample"}  # the robot plays stored sounds only: refused when a program is linked
-# of the vendor's libpic30 on the chip, of hal_sim/cc/libc/src/program_memory.c here
+# of the vendor's libpic30 on the chip, of hal_sim/cc/libc/src/eedata.c here
 VENDORS_LIBRARY = {"_erase_eedata", "_erase_eedata_all", "_memcpy_p2d16", "_wait_eedata", "_write_eedata_row", "_write_eedata_word"}
 # a header's own variant macro -> (switch, prefix with the switch, prefix without)
 VARIANT_MACROS = {"TP_MOTORS": ("E_MOTORS_TIMER3", "tptimer3_", "tpbasic_"),

@@ -10,13 +10,16 @@ let isBranch = 1, isTerminator = 1 in {
 let isBranch = 1, isTerminator = 1, isBarrier = 1, isIndirectBranch = 1, hasSideEffects = 0 in
 def GOTOW : I<(outs), (ins W:$s), "goto\t$s", [(brind W:$s)]> { bits<4> s; let Inst{23-4} = 0x01400; let Inst{3-0} = s; }
 let isCall = 1, Defs = [SR], Uses = [W15] in {
-  let Size = 8 in
-  def CALL : I<(outs), (ins calltarget:$t, variable_ops), "call\t$t", []> { let Inst{23-0} = 0x020000; }
+  // what it does not reach it calls by way of a GOTO that the linker puts in reach
+  def RCALL : I<(outs), (ins calltarget:$t, variable_ops), "rcall\t$t", []> { bits<16> t; let Inst{23-16} = 0x07; let Inst{15-0} = t; }
   def CALLW : I<(outs), (ins W:$s, variable_ops), "call\t$s", [(dscall W:$s)]> { bits<4> s; let Inst{23-4} = 0x01000; let Inst{3-0} = s; }
 }
-def : Pat<(dscall tglobaladdr:$t), (CALL tglobaladdr:$t)>;
-def : Pat<(dscall texternalsym:$t), (CALL texternalsym:$t)>;
+def : Pat<(dscall tglobaladdr:$t), (RCALL tglobaladdr:$t)>;
+def : Pat<(dscall texternalsym:$t), (RCALL texternalsym:$t)>;
 let isReturn = 1, isTerminator = 1, isBarrier = 1 in {
+  // a call right before the return (tail_calls.cpp)
+  def BRAtail : I<(outs), (ins calltarget:$t, variable_ops), "bra\t$t", []> { bits<16> t; let Inst{23-16} = 0x37; let Inst{15-0} = t; }
+  def GOTOtail : I<(outs), (ins W:$s, variable_ops), "goto\t$s", []> { bits<4> s; let Inst{23-4} = 0x01400; let Inst{3-0} = s; }
   def RETURN : I<(outs), (ins), "return", [(dsret)]> { let Inst = 0x060000; }
   def RETFIE : I<(outs), (ins), "retfie", [(dsreti)]> { let Inst = 0x064000; }
 }
@@ -28,6 +31,8 @@ let hasSideEffects = 1 in {
   let Defs = [W15], Uses = [W15] in {
     def PUSH : I<(outs), (ins W:$s), "push\t$s"> { bits<4> s; let Inst{23-4} = 0x781F8; let Inst{3-0} = s; }
     def POP : I<(outs W:$d), (ins), "pop\t$d"> { bits<4> d; let Inst{23-11} = 0b0111100000000; let Inst{10-7} = d; let Inst{6-0} = 0b1001111; }
+    def PUSHD : I<(outs), (ins WP:$s), "push.d\t$s"> { bits<4> s; let Inst{23-4} = 0xBE9F8; let Inst{3-0} = s; }
+    def POPD : I<(outs WP:$d), (ins), "pop.d\t$d"> { bits<4> d; let Inst{23-11} = 0b1011111000000; let Inst{10-8} = d{3-1}; let Inst{7-0} = 0x4F; }
     def PUSHf : I<(outs), (ins filetarget:$f), "push\t$f"> { bits<16> f; let Inst{23-16} = 0xF8; let Inst{15-0} = f; }
     def POPf : I<(outs), (ins filetarget:$f), "pop\t$f"> { bits<16> f; let Inst{23-16} = 0xF9; let Inst{15-0} = f; }
   }

@@ -25,17 +25,11 @@ class DSPICMCCodeEmitter : public MCCodeEmitter {
 
   void encodeInstruction(const MCInst& mi, raw_ostream& out, Fixups& fixups,
                          const MCSubtargetInfo& subtarget) const override {
-    constexpr unsigned kWordOctets = 4;
     write_word(out, getBinaryCodeForInstr(mi, fixups, subtarget));
     if (mi.getOpcode() == DSPIC::RAW)  // kinds and expressions follow the word
       for (unsigned i = 1; i + 1 < mi.getNumOperands(); i += 2)
         fixups.push_back(
             MCFixup::create(0, mi.getOperand(i + 1).getExpr(), MCFixupKind(mi.getOperand(i).getImm())));
-    if (mi.getOpcode() != DSPIC::CALL) return;
-    const MCExpr* target = mi.getOperand(0).getExpr();
-    fixups.push_back(MCFixup::create(0, target, MCFixupKind(DSPICFix::CallLow)));
-    fixups.push_back(MCFixup::create(kWordOctets, target, MCFixupKind(DSPICFix::CallHigh)));
-    write_word(out, 0);
   }
 
  private:
@@ -116,8 +110,6 @@ class DSPICMCCodeEmitter : public MCCodeEmitter {
   uint64_t encode_branch(const MCInst& mi, unsigned n, Fixups& fixups, const MCSubtargetInfo&) const {
     return leave_to_linker(mi.getOperand(n).getExpr(), DSPICFix::Branch, fixups);
   }
-  /// CALL's operand fills both words: encodeInstruction() sees to it.
-  uint64_t encode_call(const MCInst&, unsigned, Fixups&, const MCSubtargetInfo&) const { return 0; }
 
   MCContext& context_;
 };

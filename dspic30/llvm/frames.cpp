@@ -88,7 +88,12 @@ void pop_context(MachineFunction& mf, MachineBasicBlock& mbb, MachineBasicBlock:
 void find_kept_registers(const MachineFunction& mf, MachineBasicBlock& mbb, MachineBasicBlock::iterator end) {
   auto first_pop = end;
   unsigned pops = 0;
-  while (first_pop != mbb.begin() && std::prev(first_pop)->getOpcode() == DSPIC::POP) --first_pop, ++pops;
+  while (first_pop != mbb.begin()) {
+    const unsigned opcode = std::prev(first_pop)->getOpcode();
+    if (opcode != DSPIC::POP && opcode != DSPIC::POPD) break;
+    pops += opcode == DSPIC::POPD ? 2 : 1;
+    --first_pop;
+  }
   if (!pops) return;
   BuildMI(mbb, first_pop, DebugLoc(), instructions_of(mf).get(DSPIC::MOVrr), DSPIC::W15).addReg(DSPIC::W14);
   move_stack(mbb, first_pop, DebugLoc(), alignTo(mf.getFrameInfo().getStackSize(), 2) + 2 * pops);
@@ -134,23 +139,44 @@ void DSPICFrameLowering::processFunctionBeforeFrameFinalized(MachineFunction& mf
     scavenger->addScavengingFrameIndex(frame.CreateStackObject(2, Align(2), false));
 }
 
+namespace {
+
+/// Two neighbours that one instruction keeps, as their pair; or the one.
+SmallVector<Register, 8> in_pairs(ArrayRef<CalleeSavedInfo> saved, const TargetRegisterInfo& registers) {
+  SmallVector<Register, 8> all;
+  for (size_t i = 0; i < saved.size(); ++i) {
+    const MCRegister pair =
+        registers.getMatchingSuperReg(saved[i].getReg(), DSPIC::sub_lo, &DSPIC::WPRegClass);
+    const bool is_pair = pair && i + 1 < saved.size() &&
+                         registers.getSubReg(pair, DSPIC::sub_hi) == MCRegister(saved[i + 1].getReg());
+    all.push_back(is_pair ? Register(pair) : Register(saved[i].getReg()));
+    i += is_pair;
+  }
+  return all;
+}
+
+}  // namespace
+
 bool DSPICFrameLowering::spillCalleeSavedRegisters(MachineBasicBlock& mbb, MachineBasicBlock::iterator it,
                                                    ArrayRef<CalleeSavedInfo> saved,
-                                                   const TargetRegisterInfo*) const {
+                                                   const TargetRegisterInfo* registers) const {
   auto& mf = *mbb.getParent();
-  for (auto& s : saved) {
-    mbb.addLiveIn(s.getReg());
-    BuildMI(mbb, it, DebugLoc(), instructions_of(mf).get(DSPIC::PUSH)).addReg(s.getReg(), RegState::Kill);
-  }
+  for (auto& s : saved) mbb.addLiveIn(s.getReg());
+  for (Register r : in_pairs(saved, *registers))
+    BuildMI(mbb, it, DebugLoc(),
+            instructions_of(mf).get(DSPIC::WPRegClass.contains(r) ? DSPIC::PUSHD : DSPIC::PUSH))
+        .addReg(r, RegState::Kill);
   if (opens_constants(mf.getFunction()) && !has_shadow(mf.getFunction())) open_constants(mf, mbb, it);
   return true;
 }
 
 bool DSPICFrameLowering::restoreCalleeSavedRegisters(MachineBasicBlock& mbb, MachineBasicBlock::iterator it,
                                                      MutableArrayRef<CalleeSavedInfo> saved,
-                                                     const TargetRegisterInfo*) const {
-  for (auto& s : reverse(saved))
-    BuildMI(mbb, it, DebugLoc(), instructions_of(*mbb.getParent()).get(DSPIC::POP), s.getReg());
+                                                     const TargetRegisterInfo* registers) const {
+  for (Register r : reverse(in_pairs(saved, *registers)))
+    BuildMI(mbb, it, DebugLoc(),
+            instructions_of(*mbb.getParent()).get(DSPIC::WPRegClass.contains(r) ? DSPIC::POPD : DSPIC::POP),
+            r);
   return true;
 }
 

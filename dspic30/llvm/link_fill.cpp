@@ -56,12 +56,13 @@ class Filler {
     return true;
   }
 
-  /// A function as 16 bits: its address, or that of a GOTO to it where that is too far up.
-  std::uint32_t handle() {
-    if (!is_code_ || value_ <= 0xFFFF) return value_;
+  /// Where a GOTO to the function lies.
+  std::uint32_t jump() {
     const auto next = program_.handles_at + 4 * std::uint32_t(program_.handles.size());
     return program_.handles.emplace(value_, next).first->second;
   }
+  /// A function as 16 bits: its address, or that of a GOTO to it where that is too far up.
+  std::uint32_t handle() { return !is_code_ || value_ <= 0xFFFF ? value_ : jump(); }
 
   void checked(const Relocation& r, bool fits, const char* expected) {
     char got[16];
@@ -103,8 +104,13 @@ class Filler {
         return insert(r.offset, 4, 0xFFFF, program_address(r) >> 16);
       case kBranch:
       case kDoEnd: {
-        const std::int32_t words = (std::int32_t(value_) - std::int32_t(here) - 2) / 2;
-        checked(r, words >= -0x8000 && words <= 0x7FFF, "within 32767 words of the branch");
+        const auto words_to = [&](std::uint32_t to) {
+          return (std::int32_t(to) - std::int32_t(here) - 2) / 2;
+        };
+        const auto reaches = [](std::int32_t words) { return words >= -0x8000 && words <= 0x7FFF; };
+        std::int32_t words = words_to(value_);
+        if (!reaches(words) && is_code_ && r.type == kBranch) words = words_to(jump());
+        checked(r, reaches(words), "within 32767 words of the branch");
         return insert(r.offset, 0, 0xFFFF, std::uint32_t(words));
       }
       case kCallLow:

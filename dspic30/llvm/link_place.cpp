@@ -160,13 +160,23 @@ std::uint32_t dinit_words(const Program& program) {
   return words;
 }
 
-std::uint32_t handle_count(const Program& program) {
-  // an upper bound: functions whose 16-bit address is asked for
+/// More code than a RCALL reaches from one end to the other.
+bool is_far(const Program& program) {
+  constexpr std::uint32_t kReach = 0x8000 - 0x100;  // words, less the vectors
+  std::uint32_t words = 0;
+  for (const Section& s : program.sections)
+    if (s.used && s.kind != Kind::Ram && s.kind != Kind::Debug)
+      words += s.size / (s.kind == Kind::Code ? kWordOctets : 2);
+  return words > kReach;
+}
+
+/// An upper bound: functions whose 16-bit address is asked for, or that may be too far for a RCALL.
+std::uint32_t handle_count(const Program& program, bool far) {
   std::map<const Symbol*, int> asked;
   for (const Section& s : program.sections)
     if (s.used && s.kind != Kind::Debug)
       for (const Relocation& r : s.relocations)
-        if ((r.type == kLiteral16 || r.type == kWord) && r.symbol->section &&
+        if ((r.type == kLiteral16 || r.type == kWord || (far && r.type == kBranch)) && r.symbol->section &&
             r.symbol->section->kind == Kind::Code)
           asked[r.symbol] = 1;
   return std::uint32_t(asked.size());
@@ -186,8 +196,12 @@ void place_flash(Program& program) {
   };
   Section* start = program.global("__reset")->section;
   if (start && start->used) code(*start);
-  const std::uint32_t handles = handle_count(program);
-  if (!flash.take(4 * handles, 2, 0, 0x10000, program.handles_at)) no_room("handles", 2 * handles);
+  // a RCALL reaches the middle of flash from everywhere
+  constexpr std::uint32_t kMiddle = 0x8000, kHandlesEnd = 0x10000;
+  const bool far = is_far(program);
+  const std::uint32_t handles = handle_count(program, far);
+  if (!flash.take(4 * handles, 2, far ? kMiddle : 0, kHandlesEnd, program.handles_at))
+    no_room("handles", 2 * handles);
 
   // all constants in one page of the window, at the beginning of flash if they fit there
   std::uint32_t bytes = 0;

@@ -46,7 +46,10 @@ class PassConfig : public TargetPassConfig {
     addPass(create_dspic_selection(getTM<DSPICTargetMachine>(), getOptLevel()));
     return false;
   }
-  void addPreEmitPass() override { addPass(create_dspic_flag_reuse()); }
+  void addPreEmitPass() override {
+    addPass(create_dspic_flag_reuse());
+    if (getOptLevel() > CodeGenOpt::Less) addPass(create_dspic_tail_calls());  // at -O0 every call is seen
+  }
 };
 
 }  // namespace

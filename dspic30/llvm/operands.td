@@ -32,7 +32,7 @@ def nearbit : Operand<i16> {  // near byte address and bit 0..15
 def mem16  : Operand<i16> { let MIOperandInfo = (ops W, i16imm); let EncoderMethod = "encode_word_offset"; let PrintMethod = "print_memory"; }
 def mem8   : Operand<i16> { let MIOperandInfo = (ops W, i16imm); let EncoderMethod = "encode_byte_offset"; let PrintMethod = "print_memory"; }
 def brtarget : Operand<OtherVT> { let EncoderMethod = "encode_branch"; }
-def calltarget : Operand<i16> { let EncoderMethod = "encode_call"; }
+def calltarget : Operand<i16> { let EncoderMethod = "encode_branch"; }
 def filetarget : Operand<i16> { let EncoderMethod = "encode_file"; }
 def ccop   : Operand<i16> { let PrintMethod = "print_condition"; }
 

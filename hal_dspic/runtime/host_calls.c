@@ -48,3 +48,14 @@ tp_i64 tp_rand(void)
   random_state = random_state * 1103515245ul + 12345ul;
   return (int)(random_state >> 16) & RAND_MAX;
 }
+
+/* a word of program memory or data EEPROM */
+unsigned tp_image_table_read(unsigned long address)
+{
+  const unsigned page = TBLPAG;
+  unsigned word;
+  TBLPAG = (unsigned)(address >> 16);
+  word = __builtin_tblrdl((unsigned)address);
+  TBLPAG = page;
+  return word;
+}

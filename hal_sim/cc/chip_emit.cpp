@@ -18,11 +18,15 @@ using namespace llvm;
 namespace {
 
 /// Options that only exist as flags of LLVM's command line.
-void set_flags() {
+void set_flags(const Options& o) {
+  // what a loop may grow to when it is written out; measured: what makes delays of NOPs as long as XC16's
+  const char* unrolled = o.for_size     ? "-unroll-threshold=0"
+                         : o.level == 1 ? "-unroll-threshold=24"
+                                        : "-unroll-threshold=40";
   const char* flags[] = {"twinpuck-cc",
                          // no speculation: a branch round a BSET must stay one
                          "-phi-node-folding-threshold=0", "-two-entry-phi-node-folding-threshold=0",
-                         "-unroll-threshold=40", "-scalarize-load-store"};
+                         "-scalarize-load-store", unrolled};
   cl::ParseCommandLineOptions(std::size(flags), flags);
 }
 
@@ -72,7 +76,7 @@ bool write(Module& m, const Options& o, TargetMachine& machine) {
 int compile_for_chip(Unit& unit) {
   constexpr int kUsersFault = 1, kOurFault = 6;
   Module& m = unit.module;
-  set_flags();
+  set_flags(unit.options);
   auto machine = make_machine(unit.options);
   if (!lower_for_chip(unit)) return kUsersFault;
   optimise_for_chip(unit, *machine);

@@ -384,6 +384,7 @@ std::vector<std::string> clang_arguments(const Options& o, const std::string& st
                                 "-Wno-error=return-type",
                                 "-Wno-gnu-designator"};
   for (const char* word : o.chip ? kForChip : kForPc) a.push_back(word);
+  if (o.chip) a.push_back("-funroll-loops");  // what the optimiser may, not what it does (chip_emit.cpp)
   if (o.chip && o.level == 0) a.insert(a.end(), {"-Xclang", "-disable-O0-optnone"});
   if (o.cxx)
     for (const char* word : {"-fno-exceptions", "-fno-threadsafe-statics", "-fno-use-cxa-atexit",

@@ -47,9 +47,15 @@ ChipProgram::ChipProgram(const std::string& name, const std::string& source, con
   }
   fs::remove_all(folder);
   if (!is_whole()) return;
-  for (const auto& [address, word] : file_.words) program_.write(address, word);
+  constexpr std::uint32_t kEeprom = 0x7FF000, kEepromEnd = 0x800000;
+  for (const auto& [address, word] : file_.words)
+    if (address >= kEeprom && address < kEepromEnd)
+      eeprom_[(address - kEeprom) / 2] = static_cast<std::uint16_t>(word);
+    else
+      program_.write(address, word);
   dspic::Configuration c;
   c.program = &program_;
+  c.eeprom = &eeprom_;
   chip_ = std::make_unique<dspic::Dspic30f6014a>(outside_, &notes_, c);
   cpu_ = std::make_unique<dspic::Processor>(*chip_, program_);
   done_ = address_of("bench_done");

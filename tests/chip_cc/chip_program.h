@@ -2,6 +2,7 @@
 // A C program, compiled and linked for the chip, on a bench. Its main() is ours: it calls bench_run(), keeps
 // the result and stops.
 #pragma once
+#include <array>
 #include <map>
 #include <memory>
 #include <string>
@@ -50,6 +51,7 @@ class ChipProgram {
   bench::FakeOutside outside_;
   bench::Notes notes_;
   dspic::ProgramMemory program_;
+  std::array<std::uint16_t, 2048> eeprom_{};
   std::unique_ptr<dspic::Dspic30f6014a> chip_;
   std::unique_ptr<dspic::Processor> cpu_;
   unsigned done_ = 0, result_ = 0;

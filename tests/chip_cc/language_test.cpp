@@ -122,6 +122,27 @@ __attribute__((noinline)) static void dirty(void) { volatile char mud[40]; int i
 __attribute__((noinline)) static long empty(void) { union u x = {}; return x.l; }
 __attribute__((noinline)) static long member(void) { struct s x = {1}; return x.b.l; }
 long bench_run(void) { dirty(); if (empty()) return 1; dirty(); return member() ? 2 : 0; })"},
+    {"data EEPROM by libpic30.h", R"(
+#include <libpic30.h>
+int kept[16] __attribute__((space(eedata))) = {11, 22, 33};
+long bench_run(void) {
+  _prog_addressT place, end;
+  int row[16], back[16], i;
+  _init_prog_address(place, kept);
+  end = _memcpy_p2d16(back, place, 6);
+  if (end != place + 6 || back[0] != 11 || back[2] != 33) return 1;
+  for (i = 0; i < 16; i++) row[i] = 1000 + i;
+  _erase_eedata(place, _EE_ROW);
+  _wait_eedata();
+  _write_eedata_row(place, row);
+  _wait_eedata();
+  _memcpy_p2d16(back, place, 32);
+  for (i = 0; i < 16; i++) if (back[i] != 1000 + i) return 2;
+  _erase_eedata(place + 4, _EE_WORD);
+  _write_eedata_word(place + 4, -5);
+  _memcpy_p2d16(back, place, 8);
+  return back[1] != 1001 || back[2] != -5 || back[3] != 1003;
+})"},
     {"what the program defines takes the place of the libc's", R"(
 #include <stdlib.h>
 static int called;

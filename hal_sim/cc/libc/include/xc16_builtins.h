@@ -25,11 +25,11 @@ extern "C" {
 #else
 #define __builtin_pwrsav(mode) __asm__ volatile("pwrsav %0" : : "i"(mode))
 #define __builtin_disi(cycles) __asm__ volatile("disi %0" : : "i"(cycles))
-#define TP_OF_ADDRESS(function, object)                                 \
-  ({                                                                    \
-    unsigned __v;                                                       \
-    __asm__("mov #" #function "(%1), %0" : "=r"(__v) : "i"(&(object))); \
-    __v;                                                                \
+#define TP_OF_ADDRESS(function, object)                              \
+  ({                                                                 \
+    unsigned __v;                                                    \
+    __asm__("mov #" #function "(%1), %0" : "=r"(__v) : "i"(object)); \
+    __v;                                                             \
   })
 #define __builtin_tblpage(object) TP_OF_ADDRESS(tblpage, object)
 #define __builtin_tbloffset(object) TP_OF_ADDRESS(tbloffset, object)
