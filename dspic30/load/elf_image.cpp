@@ -177,7 +177,9 @@ bool load_firmware(const std::string& bytes, const std::string& name, FirmwareFi
                    std::string& error) {
   switch (kind_of(bytes)) {
     case FileKind::Hex:
-      return load_hex(bytes, name, file, error);
+      if (!load_hex(bytes, name, file, error)) return false;
+      find_functions(file);
+      return true;
     case FileKind::Elf:
       return load_elf(bytes, name, file, error);
     default:

@@ -32,6 +32,9 @@ FileKind kind_of(const std::string& bytes);
 /// False: `error` says what is wrong: "NAME: line 12: checksum got 0x3f, expected 0x41". `name` is the
 /// file's, for it.
 bool load_firmware(const std::string& bytes, const std::string& name, FirmwareFile& file, std::string& error);
+/// Gives an image that names no functions those that a reset, vectors and calls lead to: "_reset",
+/// "_T1Interrupt", "sub_0003a0". load_firmware() does it for HEX files.
+void find_functions(FirmwareFile& file);
 /// Of one kind.
 bool load_hex(const std::string& bytes, const std::string& name, FirmwareFile& file, std::string& error);
 bool load_elf(const std::string& bytes, const std::string& name, FirmwareFile& file, std::string& error);

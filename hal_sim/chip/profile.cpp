@@ -106,6 +106,8 @@ void Profile::after(const Step& step) {
     case Kind::Branch:
       if (contexts_.size() == 1 && here().frames.size() == 1)
         here().frames[0].function = function_of(step.next);
+      else if (function_of(step.next) != function_of(step.pc))
+        call(step, false);  // the last call of a function, made a jump: both return at once
       if (step.next > step.pc) return;
       turn_loop(step);
       return look_for_wait(step);
@@ -134,6 +136,7 @@ void Profile::call(const Step& step, bool by_register) {
   // a routine within a function, as assembler text has them, is nobody's call
   int callee = function_of(step.next);
   if (callee > 0 && file_.code.functions[static_cast<std::size_t>(callee - 1)].begin != step.next) callee = 0;
+  if (callee == 0 && kind_of(step.pc) == Kind::Branch) return;
   context.frames.push_back({callee, processor_.w(15), context.clock, step.end, caller});
   if (by_register && contexts_.size() > 1) functions_[static_cast<std::size_t>(callee)].is_agenda = true;
 }

@@ -69,6 +69,23 @@ TEST_F(ProfileTest, functions_take_their_cycles_whatever_interrupts) {
   EXPECT_NEAR(static_cast<double>(rare.own) / static_cast<double>(rare.cycles.count), 7, 0.01);
 }
 
+TEST_F(ProfileTest, a_last_call_that_is_a_jump_is_a_call) {
+  const ProfileReport report = profile(R"(
+__reset: mov #__SP_init, w15
+main: rcall first
+    bra main
+first: nop                    ; 1 + 2, and all of second
+    bra second
+second: nop                   ; 1 + 3
+    return
+)",
+                                       0.01);
+  EXPECT_EQ(function(report, "first").cycles.max, 7);
+  EXPECT_EQ(function(report, "second").cycles.max, 4);
+  EXPECT_NEAR(static_cast<double>(function(report, "second").cycles.count),
+              static_cast<double>(function(report, "first").cycles.count), 1);
+}
+
 TEST_F(ProfileTest, interrupts_have_a_latency_and_a_period) {
   const ProfileReport report = profile(kProgram, 0.05);
   ASSERT_EQ(report.interrupts.size(), 1u);

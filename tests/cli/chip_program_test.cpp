@@ -138,6 +138,28 @@ TEST_F(ChipProgram, exact_cycles_of_the_docs_are_those_of_the_chip) {
   EXPECT_NE(timings.text.find("Timer 2's handler, entry and RETFIE included: empty list"), std::string::npos);
 }
 
+// a HEX file names nothing: what the vectors and calls lead to are its functions
+TEST_F(ChipProgram, functions_of_a_hex_file_are_found) {
+  const std::string elf = (folder / "obstacle.elf").string(), hex = (folder / "obstacle.hex").string();
+  ASSERT_EQ(twinpuck("build obstacle --way chip -o '" + elf + "'").exit_code, 0);
+  const auto named = twinpuck("cycles '" + elf + "' --for 0.3 --all"),
+             found = twinpuck("cycles '" + hex + "' --for 0.3 --all");
+  ASSERT_EQ(found.exit_code, 0) << found.text;
+  const auto row = [](const std::string& text,
+                      const std::string& name) {  // least, mean, most, us, load, calls
+    const std::size_t at = text.find("\n" + name + " ");
+    return at == std::string::npos ? "no " + name : text.substr(at + 33, 62);
+  };
+  EXPECT_EQ(row(found.text, "_T2Interrupt (interrupt)"), row(named.text, "_T2Interrupt (interrupt)"))
+      << found.text;
+  EXPECT_EQ(row(found.text, "_ADCInterrupt (interrupt)"), row(named.text, "_ADCInterrupt (interrupt)"));
+  // called through a pointer alone
+  const auto shown = twinpuck("dis '" + elf + "'").text;
+  const std::string tick = shown.substr(shown.find('\n', shown.find("\ncontrol_tick:\n") + 1) + 1);
+  const std::string address = tick.substr(tick.find("\n") + 1, 6);
+  EXPECT_EQ(row(found.text, "sub_" + address), row(named.text, "control_tick")) << found.text;
+}
+
 TEST_F(ChipProgram, a_run_shows_its_profile) {
   const std::string json = (folder / "profile.json").string();
   const auto run =
