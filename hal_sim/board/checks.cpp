@@ -136,7 +136,7 @@ std::vector<Diagnosis> Board::diagnoses(Cycle at) const {
                    "a transfer begins although the one before was not ended by a stop condition",
                    "end each transfer with I2CCON.PEN (e_i2c_stop()), or go on with RSEN",
                    i2c_.first_unstopped(), 0, i2c_.unstopped()});
-  if (driver_) driver_->add_diagnoses(all);
+  if (driver_) driver_->add_diagnoses(all, at);
   for (const Misuse& misuse : misuses_) all.push_back(misuse.what);
   return all;
 }

@@ -43,7 +43,7 @@ class PinDriver {
   virtual void exchange(Cycle at) = 0;
   virtual Cycle horizon(Cycle at) const = 0;
   virtual void processor_reset(Cycle at) = 0;
-  virtual void add_diagnoses(std::vector<Diagnosis>& all) const = 0;
+  virtual void add_diagnoses(std::vector<Diagnosis>& all, Cycle at) const = 0;
   /// State at `at` as a sum of products, for a hash: the caller mixes it.
   virtual std::uint64_t state_sum(Cycle at) const = 0;
   /// The same of its module at the I2C bus.

@@ -87,6 +87,7 @@ void AgendaTimer::reset(Cycle at) {
   last_serial_ = 0;
   held_since_ = -1;
   lost_ticks_ = 0;
+  first_speed_ = -1;
 }
 
 // --- the list --------------------------------------------------------------------------------------------
@@ -246,6 +247,7 @@ void AgendaTimer::set_speed(Wheel wheel, int speed, Cycle at) {
   stepper(wheel).set_coils_only(0);
   m.disturb();
   m.set_speed(std::clamp(speed, -kMaxSpeed, kMaxSpeed));
+  if (speed != 0 && first_speed_ < 0) first_speed_ = at;
   if (has_node_[static_cast<int>(wheel)]) m.set_cycle(m.speed() == 0 ? 0 : kSpeedUnit / std::abs(m.speed()));
   // a motor that runs, or stands without a cycle, needs no interrupt
   if (was_handled && !walking_) find_next_fire();

@@ -73,6 +73,10 @@ class AgendaTimer {
   void set_speed(Wheel wheel, int speed, Cycle at);
   /// run_left_motor() called as a function, from wherever. False: division by zero.
   bool run_motor(Wheel wheel, Cycle at);
+  /// When a speed other than 0 was set for the first time since the reset; -1: never.
+  Cycle first_speed() const { return first_speed_; }
+  /// Has e_init_motors() put this motor into the list?
+  bool has(Wheel wheel) const { return has_node_[static_cast<int>(wheel)]; }
   /// steps/s
   int speed(Wheel wheel) const { return motor(wheel).speed(); }
   /// The driver's step counter, not wrapped.
@@ -176,7 +180,7 @@ class AgendaTimer {
   std::int64_t stopped_tick_ = 0;  // ticks processed while not running
   Cycle held_since_ = -1;          // -1: not held
   std::int64_t lost_ticks_ = 0;
-  Cycle first_lost_ = 0;
+  Cycle first_lost_ = 0, first_speed_ = -1;
   std::vector<Node> nodes_;  // oldest first; the list is walked from the back
   board::Stepper* steppers_[2];
   AgendaMotor motors_[2];

@@ -14,6 +14,8 @@ using board::kNever;
 
 // --- agendas and motors ----------------------------------------------------------------------------------
 inline constexpr Cycle kAgendaTickCycles = 1475;  // PR2 + 1 [lib: motor_led/advance_one_timer/e_agenda.c]
+inline constexpr Cycle kSpeedGrace =
+    1474560;  // 0.1 s without motors, then told [assumed: no program starts them so late]
 inline constexpr int kSpeedUnit = 10000;  // ticks times steps/s [lib: motor_led/advance_one_timer/e_motors.c]
 inline constexpr int kMaxSpeed = 1000;    // steps/s [lib: motor_led/advance_one_timer/e_motors.c]
 inline constexpr int kPowerSaveBelow = 601;  // steps/s, MAXV [lib: motor_led/advance_one_timer/e_motors.c]

@@ -102,7 +102,7 @@ void Drivers::processor_reset(Cycle at) {
   requests = Requests{};
 }
 
-void Drivers::add_diagnoses(std::vector<board::Diagnosis>& all) const {
+void Drivers::add_diagnoses(std::vector<board::Diagnosis>& all, Cycle at) const {
   const auto missed = [&all](const char* vector, std::int64_t count, Cycle first) {
     if (count == 0) return;
     all.push_back({"missed interrupt", vector,
@@ -114,6 +114,15 @@ void Drivers::add_diagnoses(std::vector<board::Diagnosis>& all) const {
   };
   missed("ADC", scan_.lost_frames(), scan_.first_lost());
   missed("T2", agendas_.lost_ticks(), agendas_.first_lost());
+  // a speed that nothing turns into steps; programs may set it a little before they start the motors
+  const Cycle since = agendas_.first_speed();
+  if (since < 0 || at - since < kSpeedGrace) return;
+  const bool never_made = !agendas_.has(Wheel::Left) && !agendas_.has(Wheel::Right);
+  if (!never_made && agendas_.is_enabled()) return;
+  const std::string missing = never_made ? "e_init_motors()" : "e_start_agendas_processing()";
+  all.push_back({"motors stand", never_made ? "e_init_motors()" : "e_start_agendas_processing()",
+                 "speed set, but " + missing + " was never called: no motor turns",
+                 "call " + missing + " before the loop", since, 0, 1});
 }
 
 std::uint64_t Drivers::state_sum(Cycle at) const {

@@ -65,7 +65,7 @@ class Drivers final : public board::PinDriver {
   void exchange(Cycle at) override { scan_.keep_acc(at); }
   Cycle horizon(Cycle at) const override { return scan_.keeps_acc() ? at + kAccKeepCycles : kNever; }
   void processor_reset(Cycle at) override;
-  void add_diagnoses(std::vector<board::Diagnosis>& all) const override;
+  void add_diagnoses(std::vector<board::Diagnosis>& all, Cycle at) const override;
   std::uint64_t state_sum(Cycle at) const override;
   std::uint64_t bus_state() const override { return i2c_master_.state_hash(); }
   /// e_init_port(): the board's pins, then a question over the bus that leaves the module on, its interrupt

@@ -47,6 +47,42 @@ int main(void) { e_init_port(); e_init_motors(); e_start_agendas_processing();
   EXPECT_EQ(r.diagnoses()[1].count, 2);
 }
 
+TEST_F(Misuse, a_speed_without_motors_is_told) {
+  Robot& never = add_robot_with_source(std::string(kHead) + R"(
+int main(void) { e_init_port(); e_start_agendas_processing(); while (1) e_set_speed_left(300); })");
+  Robot& asleep = add_robot_with_source(std::string(kHead) + R"(
+int main(void) { e_init_port(); e_init_motors(); while (1) e_set_speed_left(300); })")
+                      .at(0.5, 0);
+  Robot& fine = add_robot_with_source(std::string(kHead) + R"(
+int main(void) { e_init_port(); e_init_motors(); e_set_speed_left(300); e_start_agendas_processing();
+  while (1); })")
+                    .at(-0.5, 0);
+  run_for(0.09);
+  EXPECT_EQ(never.diagnoses_text() + asleep.diagnoses_text(), "");  // it may still come
+  run_for(0.1);
+  EXPECT_EQ(never.diagnoses_text(),
+            "e_init_motors(): motors stand: speed set, but e_init_motors() was never called: no motor turns; "
+            "call e_init_motors() before the loop\n");
+  EXPECT_NE(asleep.diagnoses_text().find("e_start_agendas_processing() was never called"), std::string::npos)
+      << asleep.diagnoses_text();
+  EXPECT_EQ(fine.diagnoses_text(), "");
+}
+
+TEST_F(Misuse, an_endless_wait_names_what_it_waits_for) {
+  Robot& r = add_robot_with_source(std::string(kHead) + R"(
+volatile int due, other;
+void tick(void) { due = 1; }
+int main(void) { e_init_port(); e_activate_agenda(tick, 320);
+  while (due == 0 && calls < 3) ;
+  other = 1; while (1); })");
+  run_for(0.1);
+  EXPECT_NE(
+      r.diagnoses_text().find("endless wait: the program waits here for `due` and `calls`; nothing will "
+                              "ever set it: no interrupt that writes it is enabled"),
+      std::string::npos)
+      << r.diagnoses_text();
+}
+
 TEST_F(Misuse, an_agenda_without_a_period_is_told_unless_it_gets_one) {
   Robot& r = add_robot_with_source(std::string(kHead) + R"(
 void other(void) { calls++; }
