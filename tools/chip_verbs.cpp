@@ -12,6 +12,7 @@
 #include "dspic30/load/firmware_file.h"
 #include "dspic30/memory/program_memory.h"
 #include "tools/command_line.h"
+#include "tools/program_file.h"
 #include "tools/verbs.h"
 
 namespace tools {
@@ -20,21 +21,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool read_file(const std::string& name, std::string& bytes) {
-  std::ifstream in(name, std::ios::binary);
-  if (!in || fs::is_directory(name)) return false;
-  bytes.assign(std::istreambuf_iterator<char>(in), {});
-  return true;
-}
-
 int disassemble(const std::string& name) {
-  std::string bytes, error;
+  std::string error;
   dspic::FirmwareFile file;
-  if (!read_file(name, bytes))
-    error = name + ": cannot be read, expected a .hex or .elf file";
-  else
-    dspic::load_firmware(bytes, name, file, error);
-  if (!error.empty()) {
+  if (!read_program(name, file, error)) {
     complain({error});
     return kBadInput;
   }

@@ -28,6 +28,7 @@ int main(int argc, char** argv) {
   tools::add_cycles(app, exit_code);
   tools::add_dis(app, exit_code);
   tools::add_asm(app, exit_code);
+  tools::add_flash(app, exit_code);
   tools::add_debug(app, exit_code);
   tools::add_new(app, exit_code);
   tools::add_inspect(app, exit_code);

@@ -29,6 +29,7 @@ void add_lint(CLI::App& app, int& exit_code);
 void add_cycles(CLI::App& app, int& exit_code);
 void add_dis(CLI::App& app, int& exit_code);
 void add_asm(CLI::App& app, int& exit_code);
+void add_flash(CLI::App& app, int& exit_code);
 void add_new(CLI::App& app, int& exit_code);
 void add_list(CLI::App& app, int& exit_code);
 void add_import(CLI::App& app, int& exit_code);

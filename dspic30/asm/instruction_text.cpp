@@ -360,7 +360,9 @@ std::vector<std::string> split(const std::string& text) {
     } else if (c == '"') {
       quote = c;
     } else if (c == '\'' && i + 2 < text.size()) {
-      part += text[i++];  // the character itself is no comma
+      part += text[i++];  // the character itself is no comma, nor does its closing quote open another
+      if (text[i] == '\\' && i + 1 < text.size()) part += text[i++];
+      if (i + 1 < text.size() && text[i + 1] == '\'') part += text[i++];
     } else if (c == '[' || c == '(') {
       ++depth;
     } else if (c == ']' || c == ')') {

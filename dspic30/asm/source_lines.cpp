@@ -26,7 +26,8 @@ std::string without_comment(const std::string& text) {
     } else if (c == '"') {
       quote = c;
     } else if (c == '\'' && i + 1 < text.size()) {
-      ++i;  // 'c'
+      i += text[i + 1] == '\\' ? 2 : 1;  // 'c', '\n' and gas's 'c
+      if (i + 1 < text.size() && text[i + 1] == '\'') ++i;
     } else if (c == ';' || text.compare(i, 2, "//") == 0) {
       return text.substr(0, i);
     } else if (c == '#' && trimmed(text.substr(0, i)).empty()) {

@@ -127,6 +127,7 @@ std::vector<CompileJob> library_jobs(const BuildOptions& o, bool is_webots, bool
   const auto is_replaced = [&](const fs::path& file) {
     const bool is_of_chip = file.parent_path() == root / "hal_dspic/runtime";
     if (is_of_chip != o.chip_way && (is_of_chip || is_for_host(file))) return true;
+    if (file.parent_path() == root / "hal_dspic/bootloader") return true;  // a program of its own
     return is_webots && file.parent_path() == cc_dir / "libc/src" &&
            fs::exists(cc_dir / "libc/webots" / file.filename());
   };

@@ -70,6 +70,7 @@ class ChipRunner final : public host::Runner, private dspic::EventWatch {
   }
 
   const dspic::Processor& processor() const { return *processor_; }
+  const dspic::ProgramMemory& program() const { return program_; }
   dspic::Dspic30f6014a& device() const { return chip_.device(); }
   const dspic::FirmwareFile& file() const { return *file_; }
   /// `watch` sees every step from now on, or no longer. It outlives the runner or is taken away.

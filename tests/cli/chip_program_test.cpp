@@ -187,4 +187,50 @@ TEST_F(ChipProgram, every_controller_becomes_an_image_that_drives_as_natively) {
   EXPECT_GE(controllers, 19);
 }
 
+TEST_F(ChipProgram, quoted_characters_end_at_their_quote) {
+  const std::string source = file("letters.s", R"(
+__reset: mov.b #'K', w2 ; 'x'
+    mov.b #'\n',w3
+    mov.b #',', w4
+    mov.b #'a, w5
+)");
+  const std::string hex = (folder / "letters.hex").string();
+  const auto made = twinpuck("asm '" + source + "' -o '" + hex + "'");
+  ASSERT_EQ(made.exit_code, 0) << made.text;
+  const std::string shown = twinpuck("dis '" + hex + "'").text;
+  for (const char* part : {"mov.b #0x4b, w2", "mov.b #0xa, w3", "mov.b #0x2c, w4", "mov.b #0x61, w5"})
+    EXPECT_NE(shown.find(part), std::string::npos) << part << " in:\n" << shown;
+}
+
+// the bootloader's own image in a robot, and the command at the other end of a real line
+TEST_F(ChipProgram, flash_writes_a_program_into_a_robot) {
+  const std::string source = file("blink.s", kBlink), hex = (folder / "blink.hex").string();
+  const std::string boot = (folder / "boot.hex").string(), line = (folder / "line").string();
+  ASSERT_EQ(twinpuck("asm '" + source + "' -o '" + hex + "'").exit_code, 0);
+  ASSERT_EQ(
+      twinpuck("asm '" TWINPUCK_SOURCE_DIR "/hal_dspic/bootloader/bootloader.s' -o '" + boot + "'").exit_code,
+      0);
+  const std::string robot = cli_test::executable() + " run maze --fw \"*=" + boot +
+                            "\" --uart \"puck=pty:" + line + "\" --for 60 --speed 1";
+  const auto flashed =
+      twinpuck("flash '" + hex + "' --port '" + line + "' --wait 20",
+               "sh -c '" + robot + " >/dev/null 2>&1 & p=$!; n=0; until [ -e \"" + line +
+                   "\" ] || [ $n = 400 ]; do sleep 0.05; n=$((n + 1)); done; \"$@\"; r=$?; kill $p; "
+                   "wait $p; exit $r' sh");
+  EXPECT_EQ(flashed.exit_code, 0) << flashed.text;
+  EXPECT_NE(flashed.text.find("rows written and verified"), std::string::npos) << flashed.text;
+}
+
+TEST_F(ChipProgram, flash_refuses_what_is_no_program_or_no_line) {
+  const auto no_file = twinpuck("flash /nowhere.hex --port /dev/null");
+  EXPECT_EQ(no_file.exit_code, 2);
+  EXPECT_EQ(no_file.text, "/nowhere.hex: cannot be read, expected a .hex or .elf file\n");
+  const std::string source = file("blink.s", kBlink), good = (folder / "blink.hex").string();
+  ASSERT_EQ(twinpuck("asm '" + source + "' -o '" + good + "'").exit_code, 0);
+  const auto no_line = twinpuck("flash '" + good + "' --port /dev/null");
+  EXPECT_EQ(no_line.exit_code, 2);
+  EXPECT_EQ(no_line.text,
+            "/dev/null: got a file, expected a serial device such as /dev/rfcomm0 or /dev/ttyUSB0\n");
+}
+
 }  // namespace

@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: MIT
+// twinpuck flash against a simulated robot that runs hal_dspic/bootloader: what was said to be good drives,
+// on any line.
+#include "tools/upload.h"
+
+#include <random>
+#include <sstream>
+
+#include "dspic30/memory/program_memory.h"
+#include "tests/chip/chip_fixture.h"
+
+namespace {
+
+using firmware_test::Robot;
+using State = tools::Upload::State;
+
+// says its name and steps both motors, 500 steps/s; 12 rows of other words lie about in flash, as a larger
+// program's
+std::string program(char name) {
+  std::string text = R"(
+    config __FOSC, 0xFFE6
+__reset: mov #0x800, w15
+    mov #7, w0
+    mov w0, U1BRG
+    bset U1MODE, #15
+    bset U1STA, #10
+    mov.b #')" + std::string(1, name) +
+                     R"(', w2
+    mov w2, U1TXREG
+    mov #0xFF00, w0
+    mov w0, TRISD
+step: mov #0xAA, w3
+    rcall put
+    mov #0x69, w3
+    rcall put
+    mov #0x55, w3
+    rcall put
+    mov #0x96, w3
+    rcall put
+    bra step
+put: mov w3, LATD
+    mov #5898, w0
+1:  dec w0, w0
+    nop
+    nop
+    bra nz, 1b
+    return
+)";
+  text += "    .section .more, code, address(0x10000)\n";
+  for (int i = 0; i < 12 * 32; ++i)
+    text += "    .pword " + std::to_string(i * 40503 % 0xFFFFFF + name) + "\n";
+  return text;
+}
+
+dspic::FirmwareFile assembled(const std::string& text) {
+  const dspic::assembly::Image image = dspic::assembly::assemble(text, "test.s");
+  EXPECT_TRUE(image.is_whole()) << image.report();
+  dspic::FirmwareFile file;
+  file.words = image.program;
+  return file;
+}
+
+class UploadTest : public chip_test::ChipTest {
+ protected:
+  // the robot's line in virtual time. Bytes of both directions are lost or garbled
+  struct Line : tools::SerialLine {
+    Line(UploadTest& test, Robot& robot, double bad_share, unsigned seed)
+        : test(test), robot(robot), bad_share(bad_share), random(seed) {}
+
+    // -1: lost
+    int through(std::uint8_t byte) {
+      if (std::uniform_real_distribution<>()(random) >= bad_share) return byte;
+      ++spoiled;
+      return random() % 2 ? -1 : byte ^ static_cast<int>(1 + random() % 255);
+    }
+    bool write(const std::vector<std::uint8_t>& bytes) override {
+      if (cut_after < static_cast<int>(bytes.size())) {
+        cut_after = 0;
+        return false;
+      }
+      cut_after -= static_cast<int>(bytes.size());
+      std::string out;
+      for (const std::uint8_t b : bytes)
+        if (const int byte = through(b); byte >= 0) out += static_cast<char>(byte);
+      robot.send_uart1(out);
+      return true;
+    }
+    std::optional<std::uint8_t> read(double seconds) override {
+      const double end = now_s() + seconds;
+      while (true) {
+        const std::string text = robot.uart1_text();
+        while (taken < text.size())
+          if (const int byte = through(static_cast<std::uint8_t>(text[taken++])); byte >= 0)
+            return static_cast<std::uint8_t>(byte);
+        if (now_s() >= end) return std::nullopt;
+        test.run_for(std::min(0.002, std::max(end - now_s(), 0.0001)));
+      }
+    }
+    double now_s() const override { return test.now_s(); }
+
+    UploadTest& test;
+    Robot& robot;
+    double bad_share;
+    std::mt19937 random;
+    std::size_t taken = robot.uart1_text().size();
+    int spoiled = 0, cut_after = 1 << 30;  // bytes
+  };
+
+  UploadTest() {
+    std::ifstream in(std::string(TWINPUCK_SOURCE_DIR) + "/hal_dspic/bootloader/bootloader.s");
+    std::stringstream text;
+    text << in.rdbuf();
+    bootloader_ = text.str();
+  }
+  tools::UploadPlan plan(char name) {
+    tools::UploadPlan result;
+    std::string error;
+    EXPECT_TRUE(tools::plan_upload(assembled(program(name)), "p.hex", result, error)) << error;
+    return result;
+  }
+  tools::Upload upload(Line& line, char name, tools::UploadSettings settings = {}) {
+    return tools::upload(line, plan(name), settings, [](const char*, int, int) {});
+  }
+  std::uint32_t flash(std::uint32_t address) { return runner().program().read(address); }
+  bool holds(const tools::UploadPlan& plan) {
+    for (const auto& [address, row] : plan.rows)
+      for (std::uint32_t i = 0; i < 32; ++i) {
+        const std::uint32_t at = address + 2 * i;
+        const std::uint32_t wanted = at >= tools::kBootloaderUser && at < tools::kBootloaderEntry
+                                         ? plan.way_in[(at - tools::kBootloaderUser) / 2]
+                                         : row[i];
+        if (flash(at) != wanted) return false;
+      }
+    return true;
+  }
+  std::string bootloader_;
+};
+
+TEST_F(UploadTest, a_program_is_written_read_back_and_drives) {
+  Robot& robot = add_robot(hex(bootloader_));
+  Line line(*this, robot, 0, 1);
+  const tools::Upload result = upload(line, 'A');
+  EXPECT_EQ(result.state, State::Verified) << result.why;
+  EXPECT_EQ(result.repeated, 0);
+  EXPECT_TRUE(holds(plan('A')));
+  const std::size_t before = robot.uart1_text().size();
+  run_for(0.5);
+  EXPECT_TRUE(robot.led(6)) << "the end of an upload lights LED 6";
+  run_for(3);
+  EXPECT_EQ(robot.uart1_text().substr(before), "A");
+  EXPECT_GT(robot.distance_m(), 0.05);
+  expect_no_traps();
+}
+
+// the old program is whole or gone: a line that dies in the middle leaves a robot that waits for the next
+// upload
+TEST_F(UploadTest, a_line_that_dies_leaves_no_half_program) {
+  Robot& robot = add_robot(hex(bootloader_));
+  Line first(*this, robot, 0, 1);
+  ASSERT_EQ(upload(first, 'A').state, State::Verified);
+  run_for(0.1);  // its last frame arrives
+  for (const int bytes : {150, 700, 1400, 2500, 3100}) {
+    runner().restart();
+    Line line(*this, robot, 0, 2);
+    line.cut_after = bytes;
+    const tools::Upload result = upload(line, 'B');
+    EXPECT_TRUE(result.state == State::Refused || result.state == State::Unknown) << bytes;
+    EXPECT_EQ(result.why, "the serial line is gone");
+    runner().restart();
+    const std::size_t before = robot.uart1_text().size();
+    run_for(3);
+    const std::string said = robot.uart1_text().substr(before);
+    // cut off before the first frame was through, the robot has its old program, all of it
+    if (bytes > 300 || !said.empty())
+      EXPECT_EQ(said, bytes > 300 ? "" : "A") << "after " << bytes << " bytes";
+    EXPECT_EQ(said == "A", holds(plan('A'))) << "after " << bytes << " bytes";
+  }
+  runner().restart();
+  Line again(*this, robot, 0, 3);
+  EXPECT_EQ(upload(again, 'C').state, State::Verified);
+  EXPECT_TRUE(holds(plan('C')));
+}
+
+// 1 % of all bytes of both directions: what is said to be verified is so
+TEST_F(UploadTest, bad_lines_are_repeated_until_all_is_right) {
+  Robot& robot = add_robot(hex(bootloader_));
+  int verified = 0, spoiled = 0;
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    runner().restart();
+    Line line(*this, robot, 0.01, seed);
+    const char name = static_cast<char>('A' + seed % 26);
+    const tools::Upload result = upload(line, name);
+    spoiled += line.spoiled;
+    if (result.state != State::Verified) {
+      ADD_FAILURE() << "seed " << seed << ": " << result.why;
+      continue;
+    }
+    ++verified;
+    EXPECT_TRUE(holds(plan(name))) << "seed " << seed;
+    EXPECT_GT(result.repeated, 0);
+    const std::size_t before = robot.uart1_text().size();
+    run_for(4);
+    EXPECT_EQ(robot.uart1_text().substr(before), std::string(1, name));
+  }
+  EXPECT_EQ(verified, 4);
+  EXPECT_GT(spoiled, 50);
+}
+
+TEST_F(UploadTest, a_line_that_is_too_bad_is_refused_and_the_robot_waits) {
+  Robot& robot = add_robot(hex(bootloader_));
+  Line line(*this, robot, 0.2, 1);
+  tools::UploadSettings settings;
+  settings.tries = 3;
+  const tools::Upload result = upload(line, 'A', settings);
+  EXPECT_NE(result.state, State::Verified);
+  EXPECT_NE(result.state, State::Written);
+  EXPECT_NE(result.why, "");
+  const std::size_t before = robot.uart1_text().size();
+  run_for(4);
+  EXPECT_EQ(robot.uart1_text().substr(before), "");
+}
+
+TEST_F(UploadTest, the_bootloader_keeps_its_own_rows) {
+  Robot& robot = add_robot(hex(bootloader_));
+  run_for(0.01);
+  const std::uint32_t entry = flash(tools::kBootloaderEntry), extension = flash(0x17EC0);
+  for (const std::uint32_t row : {0x17EC0u, 0x17F40u, 0x17F80u, 0x17FC0u}) {
+    runner().restart();
+    tools::UploadPlan p = plan('A');
+    p.rows[row].fill(0x123456);
+    Line line(*this, robot, 0, 1);
+    tools::UploadSettings settings;
+    settings.tries = 5;
+    const tools::Upload result = tools::upload(line, p, settings, [](const char*, int, int) {});
+    EXPECT_EQ(result.state, State::Refused);
+    EXPECT_NE(
+        result.why.find("was not taken in 5 tries, 5 of them answered 'N'; the bootloader protects this row"),
+        std::string::npos)
+        << result.why;
+  }
+  EXPECT_EQ(flash(tools::kBootloaderEntry), entry);
+  EXPECT_EQ(flash(0x17EC0), extension);
+}
+
+// no answer, or a program that talks
+TEST_F(UploadTest, silence_is_told) {
+  Robot& robot = add_robot(hex("__reset: bra __reset\n"));
+  Line line(*this, robot, 0, 1);
+  tools::UploadSettings settings;
+  settings.wait_s = 2;
+  const tools::Upload result = upload(line, 'A', settings);
+  EXPECT_EQ(result.state, State::Untouched);
+  EXPECT_EQ(result.why, "got no answer for 2 s, expected a bootloader's answer (0x71 0x4B)");
+}
+
+// --- what goes into the robot, and what does not
+
+std::string problem_of(const dspic::FirmwareFile& file) {
+  tools::UploadPlan plan;
+  std::string error;
+  EXPECT_FALSE(tools::plan_upload(file, "p.hex", plan, error));
+  return error;
+}
+
+TEST(UploadPlan, the_way_in_is_the_programs_and_the_reset_vector_the_bootloaders) {
+  dspic::FirmwareFile file;
+  file.words = {{0, 0x040200}, {2, 0}, {0x200, 0x37FFFF}, {0x7FF000, 0xFF1234}, {0xF80000, 0xFFE6}};
+  tools::UploadPlan plan;
+  std::string error;
+  ASSERT_TRUE(tools::plan_upload(file, "p.hex", plan, error)) << error;
+  ASSERT_EQ(plan.rows.size(), 3u);
+  EXPECT_EQ(plan.rows[0][0], 0x047F40u);
+  EXPECT_EQ(plan.rows[0][1], 0x000001u);
+  EXPECT_EQ(plan.rows[0][2], 0xFFFFFFu);
+  EXPECT_EQ(plan.rows[0x200][0], 0x37FFFFu);
+  EXPECT_EQ(plan.rows[0x17F00][27], 0xFFFFFFu);
+  EXPECT_EQ(plan.rows[0x17F00][28], 0xEB0000u);
+  EXPECT_EQ(plan.way_in, (std::array<std::uint32_t, 4>{0x040200, 0, 0xFFFFFF, 0xFFFFFF}));
+  EXPECT_EQ(plan.notes.size(), 2u);
+}
+
+TEST(UploadPlan, a_file_with_a_bootloader_in_it_brings_its_program_only) {
+  dspic::FirmwareFile file;
+  file.words = {{0, 0x047F40},       {2, 1},       {0x200, 0x37FFFF},
+                {0x17F38, 0x040200}, {0x17F3A, 0}, {0x17F40, 0x123456}};
+  tools::UploadPlan plan;
+  std::string error;
+  ASSERT_TRUE(tools::plan_upload(file, "p.hex", plan, error)) << error;
+  EXPECT_EQ(plan.way_in[0], 0x040200u);
+  EXPECT_EQ(plan.rows.count(0x17F40), 0u);
+  file.words.erase(0x17F38);
+  EXPECT_EQ(problem_of(file),
+            "p.hex: address 0x017f38: got the word 0xffffff, expected a goto to the program; is the file a "
+            "bootloader only?");
+}
+
+TEST(UploadPlan, what_cannot_be_written_is_refused) {
+  dspic::FirmwareFile file;
+  EXPECT_EQ(problem_of(file),
+            "p.hex: address 0x000000: got the word 0xffffff, expected a goto to the program");
+  file.words = {{0, 0x040200}, {2, 0}, {0x17F3A, 1}};
+  EXPECT_EQ(problem_of(file),
+            "p.hex: address 0x017f3a: the program reaches into the bootloader's words, 0x017f38 to 0x017ffe; "
+            "make it smaller");
+}
+
+}  // namespace
