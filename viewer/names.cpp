@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "hal_sim/host/variables.h"
 #include "hal_sim/trace/signals.h"
