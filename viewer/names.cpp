@@ -5,8 +5,10 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "hal_sim/host/variables.h"
+#include "hal_sim/trace/signals.h"
 #include "sim_core/light/proximity.h"
 #include "sim_core/load/world_loader.h"
 
@@ -121,6 +123,21 @@ Named variable(twin::Twin& twin, int robot, const std::string& expression) {
           }};
 }
 
+/// A register of the chip, or one of its fields, as signals are called; only where there is a chip.
+Named chip_register(twin::Twin& twin, int robot, const std::string& name) {
+  const host::Runner* program = mind(twin, robot).runner();
+  std::string error = "got a register of a robot without a chip, expected --way register or chip";
+  if (!program || !program->has_chip()) throw std::runtime_error(error);
+  const auto signals = trace::find_signals(name, program, error);
+  if (signals.size() != 1 || signals[0].source.kind != trace::Source::Register)
+    throw std::runtime_error(error.empty() ? "got '" + name + "', expected a register" : error);
+  return {"", [robot, s = signals[0]](twin::Twin& t) {
+            const auto value =
+                t.mind(robot).runner()->peek(static_cast<unsigned>(s.source.index), t.mind(robot).now());
+            return double(value >> s.shift & ((1u << s.width) - 1));
+          }};
+}
+
 }  // namespace
 
 Named find_named(twin::Twin& twin, const std::string& name) {
@@ -136,6 +153,7 @@ Named find_named(twin::Twin& twin, const std::string& name) {
     throw std::runtime_error("got '" + name + "', expected ROBOT.NAME with a robot of the world");
   const std::string what = name.substr(length + 1);
   if (what.rfind("pin:", 0) == 0) return pin(robot, what.substr(4));
+  if (what.rfind("reg:", 0) == 0) return chip_register(twin, robot, what.substr(4));
   if (what.rfind("var:", 0) == 0) return variable(twin, robot, what.substr(4));
   for (const Entry& entry : kEntries) {
     int index = 0;

@@ -3,7 +3,7 @@
 // nothing that the robot could notice.
 //
 //   puck.x puck.heading puck.ir3 puck.light3 puck.acc_x puck.mic0 puck.led4 puck.left_steps puck.selector
-//   puck.battery puck.load puck.collisions puck.pin:D3 puck.var:speed[1]
+//   puck.battery puck.load puck.collisions puck.pin:D3 puck.reg:T2CON puck.var:speed[1]
 #pragma once
 #include <functional>
 #include <string>

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "sim_core/record/canvas.h"
-#include "sim_core/record/frame_encoder.h"
+#include "sim_core/record/frame_feed.h"
 #include "sim_core/record/map_frame.h"
 
 namespace sim {
@@ -48,9 +48,9 @@ Film::Film(const std::string& path, const Scene& scene, const FilmOptions& optio
   place_->left_px = 0.5 * (even(width) - place_->width_px());
   place_->top_px = kHeadPx;
   canvas_ = std::make_unique<Canvas>(even(width), even(height));
-  encoder_ = (ends_with(path, ".webm") ? make_webm_encoder : make_apng_encoder)(
-      path, canvas_->width_px(), canvas_->height_px(), options.frames_per_s);
-  error_ = encoder_->error();
+  feed_ = std::make_unique<FrameFeed>((ends_with(path, ".webm") ? make_webm_encoder : make_apng_encoder)(
+      path, canvas_->width_px(), canvas_->height_px(), options.frames_per_s));
+  error_ = feed_->error();
 }
 
 Film::~Film() = default;
@@ -70,8 +70,9 @@ void Film::sample(const Scene& scene, const Minds& minds, const std::vector<Pict
   trails_.sample(scene);
   while (error_.empty() && time_of(frame_) <= scene.now()) {
     draw(time_of(frame_), scene, minds, labels);
-    encoder_->add(canvas_->pixels(), canvas_->stride_px());
-    error_ = encoder_->error();
+    if (!error_.empty()) return;
+    feed_->add(canvas_->pixels(), canvas_->stride_px(), canvas_->height_px());
+    error_ = feed_->error();
     ++frame_;
   }
 }
@@ -125,9 +126,9 @@ void Film::draw(Clicks at, const Scene& scene, const Minds& minds, const std::ve
 }
 
 void Film::finish() {
-  if (!encoder_ || !error_.empty()) return;
-  encoder_->finish();
-  error_ = encoder_->error();
+  if (!feed_ || !error_.empty()) return;
+  feed_->finish();
+  error_ = feed_->error();
 }
 
 }  // namespace sim

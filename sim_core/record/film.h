@@ -12,7 +12,7 @@
 namespace sim {
 
 class Canvas;
-class FrameEncoder;
+class FrameFeed;
 class Legend;
 struct MapPlace;
 
@@ -56,7 +56,7 @@ class Film {
   std::unique_ptr<Legend> legend_;
   std::unique_ptr<MapPlace> place_;
   std::unique_ptr<Canvas> canvas_;
-  std::unique_ptr<FrameEncoder> encoder_;
+  std::unique_ptr<FrameFeed> feed_;  // the encoder's
   std::string error_;
 };
 

@@ -378,6 +378,39 @@ export const tests = {
     assert.ok([kWorld, fresh].includes(fs.readFileSync(v.file, "utf8")));
   },
 
+  async registers_remote_control_and_battery(browser, live) {
+    const remote = `#include <motor_led/e_init_port.h>
+#include <motor_led/advance_one_timer/e_remote_control.h>
+#include <motor_led/advance_one_timer/e_agenda.h>
+volatile int pressed = -1;
+int main(void) {
+  e_init_port();
+  e_init_remote_control();
+  e_start_agendas_processing();
+  while (1) if (e_get_data() == 5) pressed = 5;
+}
+`;
+    const [v, page] = await start(browser, live, kWorld, { drive: remote });
+    await ask(page, "(app) => app.togglePlay()");
+    await page.fill("#watch", "pressed");
+    await page.keyboard.press("Enter");
+    await until(page, "(app) => app.values.get('puck.var:pressed') === -1");
+    await ask(page, "() => document.querySelector('#hands button[title*=\"key 5\"]').click()");
+    await until(page, "(app) => app.values.get('puck.var:pressed') === 5");
+    await page.evaluate(() => { const b = document.getElementById("battery"); b.value = "3.2"; b.dispatchEvent(new Event("change")); });
+    await until(page, "(app) => app.values.get('puck.battery') < 3.3");
+    // registers: only where there is a chip
+    assert.match(await ask(page, "(app) => app.connection.ask('subscribe', { names: ['puck.reg:T2CON'] }).catch((e) => e.message)"), /without a chip/);
+    const chip = await view(kWorld, { drive: remote }, ["--way", "register"]);
+    live.push(chip);
+    const other = await open(browser, chip);
+    await other.fill("#watch", "reg:T2CON");
+    await other.keyboard.press("Enter");
+    await ask(other, "(app) => app.togglePlay()");
+    await until(other, "(app) => app.values.get('puck.reg:T2CON') >= 0x8000");
+    assert.deepEqual(page.errors, []);
+  },
+
   // figures of docs/performance.md; bars are loose, since the machine may be busy
   async frames_and_the_work_for_them(browser, live) {
     for (const [n, perSecond, bar] of [[10, 60, 4], [1000, 20, 15]]) {

@@ -13,6 +13,11 @@ const kGauges: [string, string, number, number][] = [["speed", "m/s", 0, 0.13], 
   ["acc_x", "counts", 0, 4095], ["acc_y", "counts", 0, 4095], ["acc_z", "counts", 0, 4095],
   ["mic0", "counts", 0, 4095], ["mic1", "counts", 0, 4095], ["mic2", "counts", 0, 4095]];
 const kFarCounts = 4095;
+// codes of RC-5, as televisions' remote controls send them
+const kRemote: [string, number, string][] = [...Array.from({ length: 10 }, (_, i): [string, number, string] => [String((i + 1) % 10), (i + 1) % 10, `key ${(i + 1) % 10}`]),
+  ["⏻", 12, "standby"], ["V+", 16, "volume up"], ["V−", 17, "volume down"], ["P+", 32, "programme up"], ["P−", 33, "programme down"]];
+/** The protocol's name of what was typed: a variable, unless it says reg: or pin:. */
+const watchName = (typed: string) => (/^(reg|pin):/.test(typed) ? typed : `var:${typed}`);
 
 const hex = (c: number[]) => "#" + c.slice(0, 3).map((v) => Math.round(255 * Math.min(1, Math.max(0, v))).toString(16).padStart(2, "0")).join("");
 const fromHex = (s: string) => [1, 3, 5].map((i) => Math.round((parseInt(s.slice(i, i + 2), 16) / 255) * 1000) / 1000);
@@ -33,7 +38,7 @@ export class Inspector {
     if (!robot) return [];
     const own = ["x", "y", "heading", "selector", ...kGauges.map((g) => g[0])];
     for (let i = 0; i < 8; ++i) own.push(`ir${i}`, `light${i}`);
-    return [...own, ...(this.watched.get(robot.name) ?? []).map((v) => `var:${v}`)].map((n) => `${robot.name}.${n}`);
+    return [...own, ...(this.watched.get(robot.name) ?? []).map(watchName)].map((n) => `${robot.name}.${n}`);
   }
 
   show() {
@@ -71,7 +76,7 @@ export class Inspector {
       return h("div", { className: "gauge", title: `${robot.name}.${name}${unit ? ", " + unit : ""}; click to plot`, onclick: () => this.app.plots.toggle(`${robot.name}.${name}`) },
         h("label", {}, name), h("div", { className: "track" }, bar), text);
     };
-    const variable = h("input", { placeholder: "counter, speed[1], main.c:state", title: "A global or static variable of the program; Enter watches it",
+    const variable = h("input", { placeholder: "counter, speed[1], reg:T2CON, pin:D3", id: "watch", title: "A global or static variable of the program, a register (register and chip way) or a pin; Enter watches it",
       onchange: () => { if (variable.value.trim()) this.watch(robot.name, variable.value.trim()); } }) as HTMLInputElement;
     this.place = h("p", { className: "dim number" });
     return [
@@ -87,21 +92,24 @@ export class Inspector {
       canvas,
       h("div", { className: "field" }, h("label", {}, "Selector"), selector, label),
       ...kGauges.map(gauge),
-      h("h3", {}, "Variables"),
+      h("h3", {}, "Variables, registers, pins"),
       ...(this.watched.get(robot.name) ?? []).map((v) => {
-        const row = gauge([`var:${v}`, "", 0, 0]);
-        row.append(h("button", { className: "tiny", title: "Change it", onclick: (e: Event) => { e.stopPropagation(); const to = prompt(`${v} =`); if (to) this.app.do("set", { robot: robot.name, variable: v, value: Number(to) }); } }, "="),
+        const row = gauge([watchName(v), "", 0, 0]);
+        row.append(h("button", { className: "tiny", title: "Change it", hidden: watchName(v) === v, onclick: (e: Event) => { e.stopPropagation(); const to = prompt(`${v} =`); if (to) this.app.do("set", { robot: robot.name, variable: v, value: Number(to) }); } }, "="),
           h("button", { className: "tiny", title: "No more", onclick: (e: Event) => { e.stopPropagation(); this.watched.set(robot.name, this.watched.get(robot.name)!.filter((w) => w !== v)); this.app.subscribe(); this.show(); } }, "×"));
         return row;
       }),
       h("div", { className: "field" }, variable),
+      h("details", { id: "hands" }, h("summary", {}, "Remote control, battery"),
+        h("div", { className: "buttons" }, ...kRemote.map(([text, key, title]) => h("button", { title: `Remote control: ${title} (${key})`, onclick: () => this.app.do("key", { robot: robot.name, key }) }, text))),
+        h("div", { className: "field" }, h("label", {}, "Battery"), h("input", { type: "range", min: "3", max: "4.2", step: "0.05", value: "4", id: "battery", title: "Charge the battery to so many volts", onchange: (e: any) => this.app.do("battery", { robot: robot.name, volts: Number(e.target.value) }) }), h("span", { className: "unit" }, "V"))),
       ...this.keys("robot", robot.id),
     ];
   }
 
   private async watch(robot: string, expression: string) {
     try {
-      await this.app.connection.ask("subscribe", { names: [`${robot}.var:${expression}`] });
+      await this.app.connection.ask("subscribe", { names: [`${robot}.${watchName(expression)}`] });
       this.watched.set(robot, [...(this.watched.get(robot) ?? []), expression]);
       (document.activeElement as HTMLElement)?.blur();
     } catch (e) {
