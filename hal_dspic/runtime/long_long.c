@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Runtime of the chip: 64-bit integers, where an instruction sequence would be too long. */
+ * Runtime of the chip: 64-bit integers, where an instruction sequence would be too long; division is in
+ * long_long_division.s. */
 typedef unsigned long u32;
 typedef unsigned long long u64;
 typedef union {
@@ -67,56 +68,4 @@ long long __ashrdi3(long long x, int n)
     a.half.high = (u32)((long)a.half.high >> n);
   }
   return (long long)a.whole;
-}
-
-/* divided by 0: as the chip's 32-bit division, all ones and the dividend */
-static u64 divided(u64 x, u64 by, u64 *rest)
-{
-  words a, q;
-  u64 r = 0;
-  int i;
-  a.whole = x;
-  q.whole = 0;
-  if (a.half.high == 0 && (u32)(by >> 32) == 0 && by) {
-    q.half.low = a.half.low / (u32)by;
-    *rest = a.half.low % (u32)by;
-    return q.whole;
-  }
-  for (i = 0; i < 64; i++) {
-    r = r << 1 | (a.half.high >> 31);
-    a.whole <<= 1;
-    q.whole <<= 1;
-    if (r >= by) r -= by, q.half.low |= 1;
-  }
-  *rest = r;
-  return q.whole;
-}
-
-u64 __udivdi3(u64 a, u64 b)
-{
-  u64 rest;
-  return divided(a, b, &rest);
-}
-
-u64 __umoddi3(u64 a, u64 b)
-{
-  u64 rest;
-  divided(a, b, &rest);
-  return rest;
-}
-
-static u64 size_of(long long a) { return a < 0 ? 0 - (u64)a : (u64)a; }
-
-long long __divdi3(long long a, long long b)
-{
-  u64 rest;
-  const u64 q = divided(size_of(a), size_of(b), &rest);
-  return (long long)((a < 0) != (b < 0) ? 0 - q : q);
-}
-
-long long __moddi3(long long a, long long b)
-{
-  u64 rest;
-  divided(size_of(a), size_of(b), &rest);
-  return (long long)(a < 0 ? 0 - rest : rest);
 }

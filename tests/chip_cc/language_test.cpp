@@ -122,6 +122,25 @@ __attribute__((noinline)) static void dirty(void) { volatile char mud[40]; int i
 __attribute__((noinline)) static long empty(void) { union u x = {}; return x.l; }
 __attribute__((noinline)) static long member(void) { struct s x = {1}; return x.b.l; }
 long bench_run(void) { dirty(); if (empty()) return 1; dirty(); return member() ? 2 : 0; })"},
+    {"64-bit division", R"(
+typedef unsigned long long wide;
+static wide s = 88172645463325252ull;
+static wide next(void) { s ^= s << 13; s ^= s >> 7; s ^= s << 17; return s; }
+volatile wide a = 0xFEDCBA9876543210ull, b = 0x123456789ull;
+volatile long long c = -5000000000000ll, d = 7000000ll;
+long bench_run(void) {
+  int n;
+  if (a / b != 3758096384ull || a % b != 2522100240ull) return 1;
+  if (c / d != -714285 || c % d != -5000000 || c / -d != 714285 || -c % d != 5000000) return 2;
+  for (n = 0; n < 150; n++) {
+    const wide x = next() >> (n % 50), y = (next() >> (n * 7 % 60)) | 1;
+    const long long i = (long long)next() >> (n % 40), j = ((long long)next() >> (n * 11 % 60)) | 1;
+    if (x % y >= y || x / y * y + x % y != x) return 3;
+    if (i / j * j + i % j != i || (i % j != 0 && (i % j < 0) != (i < 0))) return 4;
+    if ((i % j < 0 ? 0 - (wide)(i % j) : (wide)(i % j)) >= (j < 0 ? 0 - (wide)j : (wide)j)) return 5;
+  }
+  return 0;
+})"},
     {"data EEPROM by libpic30.h", R"(
 #include <libpic30.h>
 int kept[16] __attribute__((space(eedata))) = {11, 22, 33};
