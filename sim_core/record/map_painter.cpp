@@ -117,10 +117,14 @@ void MapPainter::trails(const Trails& trails) {
     const auto& trail = trails.trail(r);
     const Pose2 here = scene_.pose(r, at_);
     int step = -1;  // of fading
+    Vec2 drawn{};   // where the line has come to
     for (std::size_t i = 0; i < trail.size() && trail[i].when <= at_; ++i) {
       // each part of the way is as old as its end
       const bool last = i + 1 == trail.size() || trail[i + 1].when > at_;
       if (!last && trail[i + 1].lifted) continue;
+      // what a pixel does not show is not drawn, but for the ends
+      if (!last && step >= 0 && !trail[i].lifted && length(trail[i + 1].at_m - drawn) * place_.px_per_m < 1)
+        continue;
       const Vec2 to = last ? Vec2{here.x_m, here.y_m} : trail[i + 1].at_m;
       if (length(to - trail[i].at_m) > kJumpM && last) break;
       const double age =
@@ -129,10 +133,13 @@ void MapPainter::trails(const Trails& trails) {
       if (own != step || trail[i].lifted) {
         if (step >= 0) cairo_stroke(cr_);
         step = own;
-        cairo_move_to(cr_, trail[i].at_m.x, trail[i].at_m.y);
+        // a part that was not drawn belongs to the next stroke
+        const Vec2 from = step >= 0 && !trail[i].lifted ? drawn : trail[i].at_m;
+        cairo_move_to(cr_, from.x, from.y);
         ink(way_colour(r), 0.85 * (1 - static_cast<double>(own) / kFadeSteps));
       }
       cairo_line_to(cr_, to.x, to.y);
+      drawn = to;
     }
     cairo_stroke(cr_);
   }
