@@ -84,6 +84,7 @@ void Film::draw(Clicks at, const Scene& scene, const Minds& minds, const std::ve
   cairo_paint(cr);
   {
     MapPainter map(cr, *place_, scene, at);
+    cairo_set_antialias(cr, CAIRO_ANTIALIAS_FAST);  // nobody sees the difference in a film
     map.floor();
     map.ramps();
     map.trails(trails_);

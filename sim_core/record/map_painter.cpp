@@ -12,7 +12,6 @@ namespace {
 constexpr Colour kWayColours[10] = {
     {.122, .467, .706}, {.839, .153, .157}, {.173, .627, .173}, {.580, .404, .741}, {1.0, .498, .055},
     {.090, .745, .812}, {.890, .467, .761}, {.549, .337, .294}, {.737, .741, .133}, {.35, .35, .35}};
-constexpr double kLeastStepPx = 0.7;
 constexpr int kFadeSteps = 16;  // of a trail; each is one stroke
 
 }  // namespace
@@ -118,31 +117,29 @@ void MapPainter::trails(const Trails& trails) {
     const auto& trail = trails.trail(r);
     const Pose2 here = scene_.pose(r, at_);
     int step = -1;  // of fading
-    Vec2 from{};    // where the line has come to
-    const double least_m = kLeastStepPx / place_.px_per_m;
+    Vec2 drawn{};   // where the line has come to
     for (std::size_t i = 0; i < trail.size() && trail[i].when <= at_; ++i) {
       // each part of the way is as old as its end
       const bool last = i + 1 == trail.size() || trail[i + 1].when > at_;
       if (!last && trail[i + 1].lifted) continue;
+      // what a pixel does not show is not drawn, but for the ends
+      if (!last && step >= 0 && !trail[i].lifted && length(trail[i + 1].at_m - drawn) * place_.px_per_m < 1)
+        continue;
       const Vec2 to = last ? Vec2{here.x_m, here.y_m} : trail[i + 1].at_m;
       if (length(to - trail[i].at_m) > kJumpM && last) break;
       const double age =
           static_cast<double>(at_ - (last ? at_ : trail[i + 1].when)) / static_cast<double>(trails.span());
       const int own = static_cast<int>(std::min(age, 1.0) * (kFadeSteps - 1));
       if (own != step || trail[i].lifted) {
-        if (step >= 0) {
-          if (!trail[i].lifted) cairo_line_to(cr_, trail[i].at_m.x, trail[i].at_m.y);
-          cairo_stroke(cr_);
-        }
+        if (step >= 0) cairo_stroke(cr_);
         step = own;
-        from = trail[i].at_m;
+        // a part that was not drawn belongs to the next stroke
+        const Vec2 from = step >= 0 && !trail[i].lifted ? drawn : trail[i].at_m;
         cairo_move_to(cr_, from.x, from.y);
         ink(way_colour(r), 0.85 * (1 - static_cast<double>(own) / kFadeSteps));
       }
-      // what is nearer than a part of a pixel costs time and shows nothing
-      if (!last && length(to - from) < least_m) continue;
       cairo_line_to(cr_, to.x, to.y);
-      from = to;
+      drawn = to;
     }
     cairo_stroke(cr_);
   }

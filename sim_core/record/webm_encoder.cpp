@@ -18,7 +18,7 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr int kClusterS = 5;             // of film; times in a cluster must stay below 32.7 s
 constexpr int kQuality = 24;             // 0 to 63, less is better; thin lines stay sharp
-constexpr int kHaste = 7;                // libvpx's cpu-used: 0 slow to 9
+constexpr int kHaste = 8;                // libvpx's cpu-used: 0 slow to 9
 constexpr std::size_t kMostCues = 4096;  // of the index; beyond it every other one goes
 constexpr std::uint64_t kUnknown = 0x00ffffffffffffff;
 

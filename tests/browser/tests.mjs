@@ -361,21 +361,24 @@ export const tests = {
     await page.fill("#signals", "nonsense");
     await page.press("#signals", "Enter");
     await page.waitForFunction(() => /nonsense/.test(document.querySelector("#notice").textContent));
-    await page.click("#tab-console");
+    await ask(page, "(app) => app.showDock('console')");
     await until(page, "(app) => !app.timeline.shown");
     assert.deepEqual(page.errors, []);
   },
 
   async kill_9_leaves_the_old_file_or_the_new_one(browser, live) {
-    const [v, page] = await start(browser, live);
-    const wall = await ask(page, "(app) => app.world.things[0].id");
-    await ask(page, "(app, id) => app.set(id, { colour: [0, 0, 0] })", wall);
-    const fresh = await ask(page, "(app) => app.world.text");
-    page.evaluate(() => { for (let i = 0; i < 200; ++i) window.twinpuck.connection.ask("save").catch(() => {}); }).catch(() => {});
-    await page.waitForTimeout(30);
-    process.kill(v.pid, "SIGKILL");
-    await page.waitForTimeout(100);
-    assert.ok([kWorld, fresh].includes(fs.readFileSync(v.file, "utf8")));
+    for (const ms of [0, 3, 10, 30, 80]) {
+      const [v, page] = await start(browser, live);
+      const wall = await ask(page, "(app) => app.world.things[0].id");
+      await ask(page, "(app, id) => app.set(id, { colour: [0, 0, 0] })", wall);
+      const fresh = await ask(page, "(app) => app.world.text");
+      page.evaluate(() => { for (let i = 0; i < 400; ++i) window.twinpuck.connection.ask("save").catch(() => {}); }).catch(() => {});
+      await page.waitForTimeout(ms);
+      process.kill(v.pid, "SIGKILL");
+      await page.waitForTimeout(50);
+      assert.ok([kWorld, fresh].includes(fs.readFileSync(v.file, "utf8")), `killed after ${ms} ms`);
+      await page.context().close();
+    }
   },
 
   async registers_remote_control_and_battery(browser, live) {
