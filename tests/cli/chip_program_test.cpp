@@ -166,7 +166,7 @@ TEST_F(ChipProgram, a_run_shows_its_profile) {
       twinpuck("run maze --fw '*=obstacle' --way chip --for 0.5 --profile --profile-json '" + json + "'");
   EXPECT_EQ(run.exit_code, 0) << run.text;
   for (const char* part : {"puck: profile of 0.5 s, exact to the cycle",
-                           "main loop  main() (main.c:", "\nADC ", "busy wait", "run_left_motor (agenda)"})
+                           "main loop  main() (main.c:", "\nADC ", "busy wait", "control_tick (agenda)"})
     EXPECT_NE(run.text.find(part), std::string::npos) << part << " in:\n" << run.text;
   std::ifstream in(json);
   const auto robot = nlohmann::json::parse(in)["robots"][0];

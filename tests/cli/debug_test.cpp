@@ -81,7 +81,7 @@ class Debug : public CommandTest {
 TEST_F(Debug, breakpoints_stop_and_calls_are_traced_back) {
   const std::string text =
       debug("break weigh\nbreak main.c:20\nc\nbt\nfinish\nc\nbt\nprint ticks\ndelete 1\ninfo break\n");
-  expect_in_order(text, {"breakpoint 1 at", "weigh() (main.c:11)", "breakpoint 2 at", "work() (main.c:20)",
+  expect_in_order(text, {"breakpoint 1 at", "weigh() (main.c:14)", "breakpoint 2 at", "work() (main.c:20)",
                          "> c", "breakpoint", "> bt\n#0", "#1", "main()", "_reset()", "> finish",
                          "> print ticks\nticks = 1 (0x1)", "2 break main.c:20, 1 times"});
 }
