@@ -336,6 +336,13 @@ export const tests = {
     const early = await x(page);
     await scrub(250);
     assert.ok((await x(page)) > early + 0.1, "it drives");
+    const points = () => ask(page, "(app) => app.scene.trails[0].count");
+    const there = await points();
+    assert.ok(there > 30, "the path is the one that was driven");
+    await scrub(200);
+    assert.ok((await points()) < there, "and ends where the robot was");
+    await scrub(250);
+    assert.equal(await points(), there);
     assert.equal(await ask(page, "(app) => app.values.get('puck.x') === app.frame.values[0]"), true);
     await ask(page, "(app) => app.plots.toggle('puck.ir0')");
     assert.equal(await ask(page, "(app) => app.plots.samples"), 3001);

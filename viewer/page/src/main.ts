@@ -15,6 +15,7 @@ import { byId, css, h, icon } from "./dom";
 
 const kSpeeds: [string, number][] = [["1/16", 1 / 16], ["1/8", 1 / 8], ["1/4", 1 / 4], ["1/2", 1 / 2], ["1", 1], ["2", 2],
   ["4", 4], ["8", 8], ["16", 16], ["64", 64], ["max", 0]];
+const kMostTrail = 3000;  // frames, of the paths in what was seen
 const kMostPast = 20000;          // frames
 const kMostPastBytes = 96 << 20;
 const kRedrawEvery = 4;           // frames, for numbers and plots: nobody reads faster
@@ -48,6 +49,7 @@ export class App {
   private subscription = -1;
   private rays = new Set<string>();
   private past: { time: number; bytes: ArrayBuffer }[] = [];
+  private shownAt = Infinity;  // the frame of the past that the paths lead to; live ones lead to now
   private pastBytes = 0;
   private live = true;
   private traps: string[] = [];
@@ -168,7 +170,10 @@ export class App {
     this.pastBytes += bytes.byteLength;
     while (this.past.length > kMostPast || this.pastBytes > kMostPastBytes) this.pastBytes -= this.past.shift()!.bytes.byteLength;
     if (this.takeValues(frame)) this.plots.sample(frame.time, this.values);
-    if (this.live) this.show(frame);
+    if (this.live) {
+      this.show(frame);
+      this.shownAt = Infinity;
+    }
     if (this.frames % kRedrawEvery === 0 || !frame.running) {
       const scrub = byId("scrub") as HTMLInputElement;
       scrub.max = String(this.past.length - 1);
@@ -211,6 +216,13 @@ export class App {
     byId("past").classList.toggle("back", !this.live);
     const kept = this.past[at];
     if (!kept) return;
+    // the paths are those of then
+    if (at < this.shownAt) {
+      this.scene.clearTrails();
+      this.shownAt = 0;
+    }
+    for (let i = this.shownAt, by = Math.max(1, (at - i) / kMostTrail); i < at; i += by) this.scene.addToTrails(readFrame(this.past[Math.floor(i)].bytes));
+    this.shownAt = at;
     const frame = readFrame(kept.bytes);
     this.takeValues(frame);
     this.show(frame);

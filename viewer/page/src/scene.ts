@@ -355,6 +355,10 @@ export class Scene {
     this.rays.visible = n > 0;
   }
 
+  /** Where the robots were, without showing them there. */
+  addToTrails(frame: Frame) {
+    for (let i = 0; i < Math.min(frame.robots, this.trails.length); ++i) this.trails[i].add(frame.poses[4 * i], frame.poses[4 * i + 1]);
+  }
   clearTrails() {
     this.trails.forEach((t) => t.clear());
     this.draw();
