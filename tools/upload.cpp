@@ -108,8 +108,8 @@ class Uploader {
       if (!send({kHello})) return false;
       for (auto byte = line_.read(kBetweenHellos); byte; byte = line_.read(kBetweenHellos)) {
         heard_ = true;
-        if (*byte != 'q') continue;
-        has_begun_ |= line_.read(kAnswer) == 'K' || fill_up('N') == Answer::No;
+        if (*byte != 'q' && *byte != 'K' && *byte != 'N') continue;
+        has_begun_ |= (*byte == 'q' && line_.read(kAnswer) == 'K') || fill_up('N') == Answer::No;
         if (has_begun_) return true;
       }
       // what it took for the beginning of a frame, it forgets

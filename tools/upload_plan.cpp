@@ -76,6 +76,11 @@ bool plan_upload(const dspic::FirmwareFile& file, const std::string& name, Uploa
   put(plan, 0, entry[0]);
   put(plan, 2, entry[1]);
   for (std::uint32_t i = 0; i < 4; ++i) put(plan, kBootloaderUser + 2 * i, kClrW0);
+  // No 0xFF at its beginning: should bytes of the frame's head be lost, a bootloader would take it for the
+  // end of the upload, and start what the row leads to
+  FlashRow& last = plan.rows.at(kBootloaderRow);
+  for (std::uint32_t i = 0; kBootloaderRow + 2 * i < kBootloaderUser; ++i)
+    if (!file.words.count(kBootloaderRow + 2 * i)) last[i] = 0;
   if (eeprom)
     plan.notes.push_back(
         fmt::format("{} words of EEPROM are not written: the protocol writes flash only", eeprom));

@@ -8,7 +8,7 @@
 ;   robot  'q' 'K'
 ;   PC     address (3 bytes) 0x60 row (96) sum   32 words of 3 bytes, low byte first; all bytes add up to 0
 ;   robot  'K' written, 'N' sum or place is wrong: once more, please
-;   PC     blinks (2 bytes) 0 0xFF               the end: LED 6, then the program starts
+;   PC     blinks, 0, 0, 0xFF                    the end: LED 6, then the program starts
 ;
 ; One frame more, for what was written to be verified. A bootloader without it sees a wrong sum and says 'N':
 ;
@@ -171,6 +171,7 @@ send:
     return
 
 blink:
+    ze w12, w12                  ; at most 3 s, should the frame be a spoiled one
     bclr TRISA, #14
     bset LATA, #14
 1:  setm w0
