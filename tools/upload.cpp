@@ -15,10 +15,10 @@ constexpr std::uint8_t kBlinks = 100;  // of 13 ms
 // the bootloader begins again after 1.1 s without a byte; a frame takes 9 ms, erasing and writing 4 ms. Radio
 // links hold bytes back: assumed up to 0.3 s
 constexpr double kSilence = 1.4, kAnswer = 0.35, kBetweenHellos = 0.1;
-constexpr double kQuiet = 0.05;  // between the bytes of one answer
-constexpr int kLostBytes = 8;    // so many are made up for one by one
-constexpr int kReadProbes = 20;  // before a bootloader is said not to read back
-constexpr int kRounds = 5;       // of reading everything back
+constexpr double kQuiet = 0.05;   // between the bytes of one answer
+constexpr int kLostBytes = 8;     // so many are made up for one by one
+constexpr int kReadProbes = 150;  // before a bootloader is said not to read back
+constexpr int kRounds = 5;        // of reading everything back
 
 using Bytes = std::vector<std::uint8_t>;
 
@@ -60,6 +60,12 @@ class Uploader {
       bool was_whole = true;
       if (reads_back_ && !verify_all(was_whole)) return done(Upload::State::Refused);
       if (!was_whole) continue;
+      if (!reads_back_ && repeated_ > 0) {
+        why_ = fmt::format(
+            "{} frames were spoiled on the way, and this bootloader cannot read back what it took",
+            repeated_);
+        return done(Upload::State::Refused);
+      }
       FlashRow open = closed;
       std::copy(plan_.way_in.begin(), plan_.way_in.end(), open.end() - 4);
       if (!write(kBootloaderRow, open)) return done(Upload::State::Unknown);

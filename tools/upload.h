@@ -58,7 +58,7 @@ struct UploadSettings {
 struct Upload {
   enum class State {
     Verified,   ///< each row was read back and is right
-    Written,    ///< each row's sum was right; this bootloader cannot read back
+    Written,    ///< no frame was spoiled; this bootloader cannot read back
     Untouched,  ///< no bootloader answered
     Refused,    ///< the robot has no whole program and knows it: its bootloader waits for the next upload
     Unknown,    ///< the line failed while a way in was being written: the old program, the new one, or none
