@@ -448,6 +448,7 @@ TEST_F(Session, an_endless_wait_is_explained) {
   // with the agendas started, or in a loop that is empty on purpose, there is nothing to say
   for (const char* end :
        {"  e_start_agendas_processing();\n  while (!due);\n  while (1);\n}\n", "  while (1);\n}\n"}) {
+    close();  // or the view before would build the same program at the same time
     write("drive/main.c", start + end);
     Page page(open("world.toml"));
     steps(page, 10);
