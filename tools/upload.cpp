@@ -115,8 +115,8 @@ class Uploader {
       for (auto byte = line_.read(kBetweenHellos); byte; byte = line_.read(kBetweenHellos)) {
         heard_ = true;
         if (*byte != 'q' && *byte != 'K' && *byte != 'N') continue;
-        has_begun_ |= (*byte == 'q' && line_.read(kAnswer) == 'K') || fill_up('N') == Answer::No;
-        if (has_begun_) return true;
+        if ((*byte == 'q' && line_.read(kAnswer) == 'K') || fill_up('N') == Answer::No)
+          return has_begun_ = true;
       }
       // what it took for the beginning of a frame, it forgets
       if (has_begun_) be_silent();
