@@ -77,6 +77,7 @@ class CompiledRunner final : public Runner, public Context {
   void read_memory(std::uintptr_t address, void* to, std::size_t bytes) const override;
   void write_memory(std::uintptr_t address, const void* from, std::size_t bytes) override;
   Place place_of(std::uintptr_t code) const override { return image_->symbols().find(code); }
+  Place place_now() const override;
 
   void observe(Observer* observer) override {
     observer_ = observer;

@@ -192,6 +192,10 @@ Place CompiledRunner::place_of_code(std::uintptr_t pc, std::uintptr_t frame) con
   return place;
 }
 
+Place CompiledRunner::place_now() const {
+  return stopped_ ? traps_.back().place : culprit(walk(0, fiber_.frame()));
+}
+
 /// May anything interrupt the program, now or when something comes from outside?
 bool CompiledRunner::enables_interrupts() {
   if (native_) {
