@@ -215,7 +215,7 @@ std::string Report::finish(const std::string& summary) {
   const std::string pieces = "<script type=\"application/json\" id=\"report\">" + dumped(piece) +
                              "</script>\n<script type=\"text/plain\" id=\"frames\">" + packed(frames_) +
                              "</script>\n<script>\n" + script_ + "</script>";
-  const std::string slot = "<script src=\"page.js\"></script>";
+  const std::string slot = "<script src=\"start.js\"></script>";
   const std::size_t at = page.find(slot);
   if (at == std::string::npos) return path_ + ": --report: the bundled page has no place for it";
   page.replace(at, slot.size(), pieces);

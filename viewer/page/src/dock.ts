@@ -70,7 +70,7 @@ export class Plots {
   readonly pane: HTMLElement;
   names: string[] = [];
   private times: number[] = [];
-  private series: number[][] = [];
+  private series: (number | null)[][] = [];
   private chart?: uPlot;
   private area = h("div", { id: "plot" });
   private chips = h("div", { className: "toolbar wrap" });
@@ -101,7 +101,7 @@ export class Plots {
   /** From the frames that are kept. */
   refill() {
     this.clear();
-    this.app.eachKept((time, values) => this.sample(time, values));
+    this.app.eachKept(this.names, (time, values) => this.sample(time, values));
     this.draw();
   }
   clear() {
@@ -120,12 +120,12 @@ export class Plots {
       series: [{ label: "s" }, ...this.names.map((label, i) => ({ label, stroke: kPalette[i], width: 1.5, points: { show: false } }))],
     }, [[], ...this.names.map(() => [])] as any, this.area);
   }
-  sample(time: number, values: Map<string, number>) {
+  sample(time: number, values: (number | null)[]) {
     if (this.names.length === 0) return;
     if (this.times.length > 0 && time < this.times[this.times.length - 1]) this.clear();
     if (time === this.times[this.times.length - 1]) return;
     this.times.push(time);
-    this.names.forEach((n, i) => this.series[i]?.push(values.get(n) ?? NaN));
+    values.forEach((v, i) => this.series[i]?.push(v));
     if (this.times.length > kMostSamples) {
       this.times.splice(0, kMostSamples / 4);
       this.series.forEach((s) => s.splice(0, kMostSamples / 4));

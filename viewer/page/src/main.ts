@@ -44,6 +44,8 @@ export class App {
   readonly timeline = new TimeLine(this);
   readonly touch = new Touch(this);
   frames = 0;
+  /** Milliseconds of script that the last frames took: scene, inspector, plots, but not the drawing of the scene. */
+  readonly work: number[] = [];
   frame?: Frame;
   look?: Look;  // what is shown of the selected robot beside numbers
   showView = true;
@@ -51,8 +53,7 @@ export class App {
   private floorImage = "";
   private me = 0;
   private revision = 0;
-  private names: string[] = [];
-  private subscription = -1;
+  private subscriptions = new Map<number, string[]>();  // names of each, since frames of all are kept
   private rays = new Set<string>();
   private past: { time: number; bytes: ArrayBuffer }[] = [];
   private shownAt = Infinity;  // the frame of the past that the paths lead to; live ones lead to now
@@ -117,7 +118,12 @@ export class App {
       this.notice(text, true);
     });
     c.on("diagnoses", (e) => this.takeDiagnoses(e.diagnoses));
-    c.onFrame = (frame, bytes) => this.takeFrame(frame, bytes);
+    c.onFrame = (frame, bytes) => {
+      const begin = performance.now();
+      this.takeFrame(frame, bytes);
+      // behind what the plots have put off
+      queueMicrotask(() => { if (this.work.push(performance.now() - begin) > 600) this.work.shift(); });
+    };
     c.onClose = () => {
       document.body.dataset.ready = "gone";
       this.notice("twinpuck view has ended. Start it again and open the address that it prints.", true, true);
@@ -173,8 +179,11 @@ export class App {
   }
   /** A file of a controller, as a place names it. */
   sourceOf(look?: Look) {
-    const at = look?.place, program = this.programs.find((p) => at?.line && p.folder && p.robots.includes(look!.robot) && at.file.startsWith(p.folder + "/"));
-    return program && { program: program.name, file: at!.file.slice(program.folder.length + 1), line: at!.line };
+    const at = look?.place;
+    // as it was compiled, which may be from elsewhere
+    for (const program of at?.line ? this.programs.filter((p) => p.robots.includes(look!.robot)) : [])
+      for (const file of program.files)
+        if (`/${program.folder}/${file}`.endsWith(`/${at!.file}`)) return { program: program.name, file, line: at!.line };
   }
 
   private takePrograms(programs: Program[]) {
@@ -205,7 +214,7 @@ export class App {
     this.past.push({ time: frame.time, bytes });
     this.pastBytes += bytes.byteLength;
     while (this.past.length > kMostPast || this.pastBytes > kMostPastBytes) this.pastBytes -= this.past.shift()!.bytes.byteLength;
-    if (this.takeValues(frame)) this.plots.sample(frame.time, this.values);
+    if (this.takeValues(frame)) this.plots.sample(frame.time, this.plots.names.map((n) => this.values.get(n) ?? null));
     if (this.live) {
       this.show(frame);
       this.shownAt = Infinity;
@@ -221,15 +230,19 @@ export class App {
   }
 
   private takeValues(frame: Frame) {
-    if (frame.subscription !== this.subscription) return false;
-    this.names.forEach((n, i) => this.values.set(n, frame.values[i]));
+    const names = this.subscriptions.get(frame.subscription);
+    if (!names) return false;
+    names.forEach((n, i) => this.values.set(n, frame.values[i]));
     return true;
   }
-  /** The values of every frame that is kept and has what is subscribed to now. */
-  eachKept(look: (time: number, values: Map<string, number>) => void) {
+  /** Values by name of every frame that is kept; null where it has none. */
+  eachKept(names: string[], look: (time: number, values: (number | null)[]) => void) {
+    const places = new Map<number, number[]>();  // by subscription
     for (const { bytes } of this.past) {
       const frame = readFrame(bytes);
-      if (this.takeValues(frame)) look(frame.time, this.values);
+      let at = places.get(frame.subscription);
+      if (!at) places.set(frame.subscription, (at = names.map((n) => (this.subscriptions.get(frame.subscription) ?? []).indexOf(n))));
+      look(frame.time, at.map((i) => (i < 0 ? null : frame.values[i])));
     }
   }
 
@@ -352,8 +365,7 @@ export class App {
   async subscribe() {
     const names = [...new Set([...this.inspector.names(), ...this.plots.names])];
     const answer = await this.connection.ask("subscribe", { names });
-    this.names = answer.names ?? names;
-    this.subscription = answer.subscription;
+    this.subscriptions.set(answer.subscription, answer.names ?? names);
     if (!this.recorded) this.connection.ask("rays", { robots: [...this.rays] }).catch(() => {});
   }
   toggleRays(robot?: string) {

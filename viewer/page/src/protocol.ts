@@ -75,6 +75,9 @@ export abstract class Link {
   abstract ask(what: string, more?: Record<string, unknown>): Promise<Answer>;
 }
 
+/** What start.ts has opened, and heard since then. */
+export interface Early { socket: WebSocket; heard: (string | ArrayBuffer)[] }
+
 export class Connection extends Link {
   private socket: WebSocket;
   private next = 1;
@@ -82,18 +85,24 @@ export class Connection extends Link {
 
   constructor() {
     super();
-    this.socket = new WebSocket(`ws://${location.host}${location.pathname.replace(/[^/]*$/, "")}live`);
-    this.socket.binaryType = "arraybuffer";
-    this.socket.onclose = () => this.onClose();
-    this.socket.onmessage = (message) => {
-      if (typeof message.data !== "string") return this.onFrame(readFrame(message.data), message.data);
-      const data = JSON.parse(message.data);
+    const { socket, heard }: Early = (window as any).early;
+    this.socket = socket;
+    socket.onclose = () => this.onClose();
+    const hear = (message: string | ArrayBuffer) => {
+      if (typeof message !== "string") return this.onFrame(readFrame(message), message);
+      const data = JSON.parse(message);
       if (!("answer" in data)) return this.tell(data);
       const asked = this.waiting.get(data.answer);
       this.waiting.delete(data.answer);
       if (data.error) asked?.fail(Object.assign(new Error(data.error), { anew: data.anew }));
       else asked?.done(data);
     };
+    socket.onmessage = (message) => hear(message.data);
+    // once who listens is there
+    queueMicrotask(() => {
+      heard.forEach(hear);
+      if (socket.readyState > WebSocket.OPEN) this.onClose();
+    });
   }
   ask(what: string, more: Record<string, unknown> = {}): Promise<Answer> {
     const id = this.next++;

@@ -71,6 +71,7 @@ export class Scene {
   private rays = new THREE.LineSegments(new THREE.BufferGeometry(),
     new THREE.LineBasicMaterial({ vertexColors: true, transparent: true, opacity: 0.9 }));
   private sun = new THREE.DirectionalLight(0xffffff, 1.1);
+  private compiling = true;  // the first world's shaders, beside the script
   private dirty = true;
   private drawing = true;
   private world?: World;
@@ -78,12 +79,10 @@ export class Scene {
   private last?: Frame;
   showTrails = true;
   followed = "";
-  /** Milliseconds of script that the last frames took, without drawing. */
-  readonly work: number[] = [];
-  onDraw: () => void = () => {};
 
   constructor(private stage: HTMLElement) {
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    this.renderer.debug.checkShaderErrors = false;  // asking waits for the compiler, and ours compile
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = THREE.PCFSoftShadowMap;
     stage.prepend(this.renderer.domElement);
@@ -102,10 +101,10 @@ export class Scene {
     new ResizeObserver(() => this.resize()).observe(stage);
     const loop = () => {
       requestAnimationFrame(loop);
-      if (!this.dirty || !this.drawing) return;
+      if (!this.dirty || !this.drawing || this.compiling) return;
       this.dirty = false;
       this.renderer.render(this.scene, this.camera);
-      this.onDraw();
+      document.getElementById("plan")?.remove();
     };
     loop();
   }
@@ -143,6 +142,7 @@ export class Scene {
     this.sun.shadow.camera.updateProjectionMatrix();
     this.select(this.selected);
     if (this.last) this.setFrame(this.last);
+    if (!keepCamera) this.renderer.compileAsync(this.scene, this.camera).finally(() => (this.compiling = false));
     this.draw();
   }
 
@@ -312,7 +312,6 @@ export class Scene {
   // --- frames
 
   setFrame(frame: Frame) {
-    const begin = performance.now();
     this.last = frame;
     const world = this.world;
     if (!world || !this.bodyMesh && world.robots.length > 0) return;
@@ -368,8 +367,6 @@ export class Scene {
     }
     this.placeOutline();
     this.draw();
-    this.work.push(performance.now() - begin);
-    if (this.work.length > 600) this.work.shift();
   }
 
   /** What a robot's camera sees, as a pyramid; no camera: none. */
