@@ -55,6 +55,9 @@ Cycle Cpu::skip_wait() {
   const Registers before(*this);
   watching = true;
   watched_until = kNever;
+  looks_outside = false;
+  bool is_still = false;
+  const Cycle began = now;
   // one round, at most so many instructions long; false: it is none, or no wait
   const auto goes_round = [&](int longest) {
     for (int i = 0; i < longest && now < deadline; ++i) {
@@ -76,9 +79,11 @@ Cycle Cpu::skip_wait() {
       const Cycle round = now - start, rounds = (std::min(end, watched_until) - now) / round;
       skipped = std::max<Cycle>(rounds, 0) * round;
       now += skipped;
+      is_still = watched_until == kNever && !looks_outside;
     }
   }
   watching = false;
+  still_since = is_still ? std::min(still_since, began) : kNever;
   return skipped;
 }
 

@@ -80,6 +80,7 @@ class ChipRunner final : public host::Runner, private dspic::EventWatch {
  private:
   void about_to_change(Cycle at) override { observer_->about_to_change(at); }
   void run_watched(Cycle end);
+  void add_endless_wait(std::vector<board::Diagnosis>& all) const;
   void tell_observer(const Step& step, int nesting);
   void tell_reset(Cycle at);
   void reset(dspic::ResetKind kind);

@@ -545,6 +545,30 @@ int main(void) {
     assert.ok((await ask(page, "(app) => app.plots.samples")) > 10, "filled from the frames that are kept");
   },
 
+  async a_program_that_waits_for_ever_says_for_what_and_who_writes_it(browser, live) {
+    const waits = `#include <p30F6014A.h>
+#include <motor_led/e_init_port.h>
+volatile int flag, never;
+void __attribute__((interrupt, auto_psv)) _T3Interrupt(void) { IFS0bits.T3IF = 0; flag = 1; }
+int main(void) {
+  e_init_port();
+  TMR3 = 0;
+  while (flag == 0);
+  while (!never);
+  return 0;
+}
+`;
+    for (const way of ["native", "register", "chip"]) {
+      const source = way === "native" ? waits.replace("  TMR3 = 0;\n", "").replace("IFS0bits.T3IF = 0; ", "").replace("#include <p30F6014A.h>\n", "") : waits;
+      const [, page] = await start(browser, live, kWorld, { drive: source }, ["--way", way]);
+      await page.click("#play");
+      await page.waitForFunction(() => /endless wait/.test(document.querySelector("#pane-problems").textContent));
+      const told = await page.textContent("#pane-problems"), line = way === "native" ? 6 : 8;
+      assert.match(told, new RegExp(`main\\.c:${line}.*waits here for .flag.; nothing will ever set it: the interrupt of _T3Interrupt\\(\\) \\(main.c:${way === "native" ? 3 : 4}\\), which writes it, is not enabled`), way);
+      await page.context().close();
+    }
+  },
+
   async a_simulation_runs_as_fast_with_a_page(browser, live) {
     const [v, page] = await start(browser, live, swarm(10), { drive: program(100) });
     await ask(page, "(app) => { app.do('speed', { factor: 'max' }); app.do('play'); }");
