@@ -52,7 +52,7 @@ struct Writer {
 
 /// Functions in whose text a variable is written, or its address taken.
 std::vector<Writer> writers_of(const std::string& variable, const fs::path& folder) {
-  const std::regex writes("(\\+\\+|--|&)\\s*" + variable + "\\b|\\b" + variable +
+  const std::regex writes("(\\+\\+|--|(^|[^&])&)\\s*" + variable + "\\b|\\b" + variable +
                           "\\b(\\s*(\\[[^\\]]*\\]|\\.\\w+))*\\s*(\\+\\+|--|(<<|>>|[-+*/%&|^])?=(?!=))");
   std::vector<Writer> writers;
   std::vector<fs::path> files;
@@ -68,11 +68,12 @@ std::vector<Writer> writers_of(const std::string& variable, const fs::path& fold
     for (const std::string& line : lines_of(file.string())) {
       ++number;
       // the last word before the last parenthesis that opens: of a definition, its name
-      if (const std::size_t open = line.rfind('('); depth == 0 && open != std::string::npos) {
+      const std::size_t body = line.find('{');
+      if (const std::size_t open = line.substr(0, body).rfind('('); depth == 0 && open != std::string::npos) {
         const auto names = names_in(line.substr(0, open));
         if (!names.empty()) function = names.back();
       }
-      const bool is_inside = depth > 0 || line.find('{') != std::string::npos;
+      const bool is_inside = depth > 0 || body != std::string::npos;
       if (is_inside && !function.empty() && std::regex_search(line, writes))
         writers.push_back({function, file.filename().string() + ":" + std::to_string(number)});
       depth += static_cast<int>(std::count(line.begin(), line.end(), '{') -
@@ -126,10 +127,15 @@ board::Diagnosis endless_wait(const Runner& program, const Place& place, Cycle s
     }
   for (std::string& name : names) name = "`" + name + "`";
   wait.message = "the program waits here for " + joined(names) + "; nothing will ever set it: ";
+  const auto only = [](const std::vector<std::string>& functions) {
+    return "only " + joined(functions) + " could, and ";
+  };
   if (!handlers.empty())
-    wait.message += "the interrupt of " + joined(handlers) + ", which writes it, is not enabled";
+    wait.message +=
+        only(handlers) + (handlers.size() > 1 ? "their interrupts are" : "its interrupt is") + " not enabled";
   else if (!others.empty())
-    wait.message += joined(others) + " writes it, and no interrupt is enabled that would call it";
+    wait.message +=
+        only(others) + "no interrupt is enabled that would call " + (others.size() > 1 ? "them" : "it");
   else {
     wait.message += "no function but this one writes it";
     wait.hint = "write it in a handler or an agenda, and see that it is volatile";

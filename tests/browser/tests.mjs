@@ -564,7 +564,7 @@ int main(void) {
       await page.click("#play");
       await page.waitForFunction(() => /endless wait/.test(document.querySelector("#pane-problems").textContent));
       const told = await page.textContent("#pane-problems"), line = way === "native" ? 6 : 8;
-      assert.match(told, new RegExp(`main\\.c:${line}.*waits here for .flag.; nothing will ever set it: the interrupt of _T3Interrupt\\(\\) \\(main.c:${way === "native" ? 3 : 4}\\), which writes it, is not enabled`), way);
+      assert.match(told, new RegExp(`main\\.c:${line}.*waits here for .flag.; nothing will ever set it: only _T3Interrupt\\(\\) \\(main.c:${way === "native" ? 3 : 4}\\) could, and its interrupt is not enabled`), way);
       await page.context().close();
     }
   },
