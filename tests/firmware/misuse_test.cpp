@@ -79,7 +79,7 @@ int main(void) { e_init_port(); e_activate_agenda(tick, 320);
   EXPECT_NE(
       r.diagnoses_text().find("endless wait: the program waits here for `due` and `calls`; nothing will "
                               "ever set it: only tick() (main.c:11) and work() (main.c:8) could, and no "
-                              "interrupt is enabled that would call them"),
+                              "interrupt is enabled that calls them"),
       std::string::npos)
       << r.diagnoses_text();
 }
