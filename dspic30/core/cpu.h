@@ -39,7 +39,8 @@ struct Decoded {
   std::uint8_t lead = 0;    ///< stall cycles, when it follows the word before
   std::uint8_t psv = 2;     ///< what reading through the PSV window costs
   std::int8_t s_pre = 0, s_post = 0, d_pre = 0, d_post = 0;
-  std::uint8_t s_special = 0, d_special = 0;  ///< the pointer is W15, or modulo or bit-reversed
+  bool s_special = false, d_special = false;  ///< the pointer is W15, or modulo or bit-reversed
+  bool stores = true;                         ///< may write to data space
 };
 static_assert(sizeof(Decoded) == 32);
 
