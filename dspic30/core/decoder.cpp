@@ -277,8 +277,11 @@ void fill_pointers(Decoded& d, const Row& row, const Fields& f, const Cpu& cpu, 
   pointer_steps(f.p | f.g, step, d.s_pre, d.s_post);
   pointer_steps(f.q | f.h, step, d.d_pre, d.d_post);
   const auto [read, written] = cpu.special_registers();
-  d.s_special = (r.sources & read & bit(d.s)) != 0;
-  d.d_special = (r.destinations & written & bit(d.d)) != 0;
+  const auto kind = [](std::uint32_t special, unsigned n) {
+    return special >> n & 1 ? Pointer::Special : n == 15 ? Pointer::Stack : Pointer::Plain;
+  };
+  if (r.sources & bit(d.s)) d.s_kind = kind(read, d.s);
+  if (r.destinations & bit(d.d)) d.d_kind = kind(written, d.d);
 }
 
 bool may_store(const Row& row, const Fields& f, const Registers& r) {
@@ -335,6 +338,11 @@ std::uint16_t registers_written(std::uint32_t word) {
 }
 
 }  // namespace
+
+Run function_of(std::uint32_t word) {
+  const Row* row = find_row(word);
+  return row ? choose(row->id, fields_of(*row, word)) : nullptr;
+}
 
 Decoded decode_word(Cpu& cpu, unsigned address) {
   const std::uint32_t word = cpu.program.read(address), second = cpu.program.read(address + 2);

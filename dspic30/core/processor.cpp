@@ -129,6 +129,12 @@ void Processor::enter_interrupt(int vector) {
 // --- what others look at --------------------------------------------------------------------------------
 
 Cycle Processor::waited() const { return waits_->waited(); }
+void Processor::set_translator(Translator* translator) { cpu_->translator = translator; }
+void Processor::translate_all() {
+  cpu_->hot = 0;
+  cpu_->forget_code();
+}
+int Processor::translated() const { return cpu_->translated(); }
 Cycle Processor::now() const { return cpu_->now; }
 void Processor::wait_until(Cycle at) { cpu_->now = std::max(cpu_->now, at); }
 bool Processor::is_asleep() const { return cpu_->power != Cpu::Power::On; }

@@ -62,7 +62,7 @@ Cycle Cpu::skip_wait() {
     for (int i = 0; i < longest && now < deadline; ++i) {
       at = next;
       stores |= at->stores;
-      const Decoded* following = at->run(*this, at);
+      const Decoded* following = plain(at)(*this, at);
       now += at->cycles;
       if (at == loop_end) following = loop_back(at, following);
       next = following;
