@@ -11,7 +11,7 @@ bool WaitSamples::look(Cpu& cpu) {
     next_ = later_ = (cpu.now / kEvery + 1) * kEvery;
     rounds_ = 0;
     if (!is_main) return false;
-    if (cpu.repeating && cpu.next->run == &no_operation) return end(cpu, true);
+    if (cpu.repeating && cpu.plain(cpu.next) == &no_operation) return end(cpu, true);
     return begin_round(cpu);
   }
   if (!is_main) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Waits jumped over: a program that goes round without changing anything.
 //
-//   round 1: registers and flags are as they were  ->  round 2: and so is RAM  ->  all rounds to come are
-//   like it, until what it reads from peripherals may change
+//   round 1: registers and flags are as they were, and nothing was stored, or else
+//   round 2: and RAM is as it was  ->  all rounds to come are like it, until what it reads from
+//   peripherals may change
 //
 // A round that writes a register, reads a FIFO, loads a write latch or leads to a trap is no wait. So the
 // course is the same to the cycle as if every round had been run.
@@ -55,11 +56,13 @@ Cycle Cpu::skip_wait() {
   const Registers before(*this);
   watching = true;
   watched_until = kNever;
+  bool stores = false;
   // one round, at most so many instructions long; false: it is none, or no wait
   const auto goes_round = [&](int longest) {
     for (int i = 0; i < longest && now < deadline; ++i) {
       at = next;
-      const Decoded* following = at->run(*this, at);
+      stores |= at->stores;
+      const Decoded* following = plain(at)(*this, at);
       now += at->cycles;
       if (at == loop_end) following = loop_back(at, following);
       next = following;
@@ -69,14 +72,18 @@ Cycle Cpu::skip_wait() {
     return false;
   };
   Cycle skipped = 0;
-  if (goes_round(kLongestRound)) {
+  Cycle start = now;
+  const auto is_wait = [&] {
+    if (!goes_round(kLongestRound)) return false;
+    if (!stores) return true;
     const auto memory = ram;
-    const Cycle start = now;
-    if (goes_round(kLongestRound) && memory == ram) {
-      const Cycle round = now - start, rounds = (std::min(end, watched_until) - now) / round;
-      skipped = std::max<Cycle>(rounds, 0) * round;
-      now += skipped;
-    }
+    start = now;
+    return goes_round(kLongestRound) && memory == ram;
+  };
+  if (is_wait()) {
+    const Cycle round = now - start, rounds = (std::min(end, watched_until) - now) / round;
+    skipped = std::max<Cycle>(rounds, 0) * round;
+    now += skipped;
   }
   watching = false;
   return skipped;

@@ -9,6 +9,7 @@
 
 #include "dspic30/asm/assembler.h"
 #include "dspic30/core/processor.h"
+#include "hal_sim/chip/translation.h"
 
 namespace {
 
@@ -123,6 +124,7 @@ void measure(const char* what, const std::string& text, int seconds) {
   configuration.program = &program;
   dspic::Dspic30f6014a chip(inputs, nullptr, configuration);
   dspic::Processor cpu(chip, program);
+  cpu.set_translator(&chip::translation());
   const std::clock_t begin = std::clock();
   for (int tick = 0; tick < 512 * seconds; ++tick) cpu.run(static_cast<Cycle>(tick + 1) * 28800);
   const double taken = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
