@@ -2,8 +2,9 @@
 #include "dspic30/core/cpu.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <string>
+
+#include "dspic30/memory/hex.h"
 
 namespace dspic {
 
@@ -31,12 +32,6 @@ const Decoded* meet(Cpu& cpu, const Decoded* d) {
 const Decoded* fetch_nothing(Cpu& cpu, const Decoded* d) {
   cpu.trap(Trap::AddressError);
   return d;
-}
-
-std::string hex(unsigned address) {
-  char text[16];
-  std::snprintf(text, sizeof text, "0x%06x", address);
-  return text;
 }
 
 void set_low(unsigned& address, unsigned value) { address = (address & 0x7F0000) | (value & 0xFFFE); }
@@ -153,7 +148,7 @@ int Cpu::translated() const {
 
 void Cpu::trap(Trap which) {
   const char* name = vector_name(static_cast<int>(which));
-  const std::string place = std::string(name) + " at " + hex(address_of(at));
+  const std::string place = std::string(name) + " at " + hex(address_of(at), 6);
   parts.diagnostics.report(Cause::CpuTrap, place, place + ": the program goes on at the trap's vector", now);
   parts.events.run_to(now);
   parts.interrupts.raise_trap(which, now);

@@ -12,12 +12,6 @@ namespace {
 
 constexpr std::uint16_t bit(unsigned n) { return static_cast<std::uint16_t>(1u << n); }
 
-bool has_kind(const Row& row, Operand kind) {
-  for (const Operand k : row.kinds)
-    if (k == kind) return true;
-  return false;
-}
-
 // what modes 1 to 5 do to a pointer before and after
 void pointer_steps(unsigned mode, int step, std::int8_t& pre, std::int8_t& post) {
   pre = static_cast<std::int8_t>(mode == 4 ? -step : mode == 5 ? step : 0);
@@ -224,12 +218,11 @@ void fill_registers(Decoded& d, const Row& row, const Fields& f) {
   d.d = static_cast<std::uint8_t>(f.d);
   d.b = static_cast<std::uint8_t>(f.w);
   if (row.id == Insn::Swap_Wn || row.id == Insn::Daw_B_Wn) d.d = d.s;
-  if (has_kind(row, Operand::RsPair)) d.s = static_cast<std::uint8_t>(2 * f.s);
-  if (has_kind(row, Operand::RdPair)) d.d = static_cast<std::uint8_t>(2 * f.d);
-  if (has_kind(row, Operand::Bit) || has_kind(row, Operand::FileBit)) d.b = static_cast<std::uint8_t>(f.b);
-  if (has_kind(row, Operand::Dividend) || has_kind(row, Operand::DividendLong))
-    d.b = static_cast<std::uint8_t>(f.v);
-  if (has_kind(row, Operand::DividendF)) d.b = static_cast<std::uint8_t>(f.t);
+  if (row.has(Operand::RsPair)) d.s = static_cast<std::uint8_t>(2 * f.s);
+  if (row.has(Operand::RdPair)) d.d = static_cast<std::uint8_t>(2 * f.d);
+  if (row.has(Operand::Bit) || row.has(Operand::FileBit)) d.b = static_cast<std::uint8_t>(f.b);
+  if (row.has(Operand::Dividend) || row.has(Operand::DividendLong)) d.b = static_cast<std::uint8_t>(f.v);
+  if (row.has(Operand::DividendF)) d.b = static_cast<std::uint8_t>(f.t);
   d.mask = d.d == 15 ? 0xFFFE : 0xFFFF;
 }
 
@@ -309,7 +302,7 @@ bool may_store(const Row& row, const Fields& f, const Registers& r) {
     case Insn::Bsw_Ws_Wb:
       return f.p != 0;
     default:
-      return r.destinations != 0 || (has_kind(row, Operand::WregOption) && f.D);
+      return r.destinations != 0 || (row.has(Operand::WregOption) && f.D);
   }
 }
 
@@ -370,7 +363,7 @@ Decoded decode_word(Cpu& cpu, unsigned address) {
   }
   // a pointer that nobody has written since the reset resets the chip again
   if ((r.sources | r.destinations) & ~cpu.written & 0x7FFF) d.run = &illegal;
-  if (!f.B || has_kind(*row, Operand::Prefetch)) cpu.written |= r.written;
+  if (!f.B || row->has(Operand::Prefetch)) cpu.written |= r.written;
   return d;
 }
 

@@ -7,6 +7,7 @@
 // A field is a letter of the manual's pattern: ADD Wb,Ws,Wd is 0100 0www wBqq qddd dppp ssss. Source: [chip
 // C], the columns of instructions.csv.
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -79,6 +80,7 @@ struct Row {
   bool (*legal)(const Fields&);  ///< null: always
 
   bool has(unsigned Fields::*member) const;
+  bool has(Operand kind) const { return std::find(kinds.begin(), kinds.end(), kind) != kinds.end(); }
 };
 
 /// All rows, in the order of Insn.

@@ -18,8 +18,8 @@ namespace {
 constexpr int kLongestRound = 40;  // instructions
 
 /// All that a round may change and that is neither RAM nor a peripheral's.
-struct Registers {
-  explicit Registers(const Cpu& c)
+struct CoreState {
+  explicit CoreState(const Cpu& c)
       : w(c.w),
         n(c.n),
         z(c.z),
@@ -33,7 +33,7 @@ struct Registers {
               c.end_loop << 5),
         shadow(c.shadow.w),
         shadow_flags(c.shadow.flags) {}
-  bool operator==(const Registers& o) const {
+  bool operator==(const CoreState& o) const {
     return w == o.w && n == o.n && (z == 0) == (o.z == 0) && c == o.c && ov == o.ov && dc == o.dc &&
            rcount == o.rcount && acc == o.acc && loop == o.loop && flags == o.flags && shadow == o.shadow &&
            shadow_flags == o.shadow_flags;
@@ -53,7 +53,7 @@ struct Registers {
 Cycle Cpu::skip_wait() {
   const Cycle end = deadline;
   const Decoded* const first = next;
-  const Registers before(*this);
+  const CoreState before(*this);
   watching = true;
   watched_until = kNever;
   bool stores = false;
@@ -67,7 +67,7 @@ Cycle Cpu::skip_wait() {
       if (at == loop_end) following = loop_back(at, following);
       next = following;
       if (deadline != end || watched_until <= now) return false;
-      if (next == first) return before == Registers(*this);
+      if (next == first) return before == CoreState(*this);
     }
     return false;
   };

@@ -27,7 +27,8 @@ struct FirmwareFile {
   CodeMap code;
 };
 
-inline constexpr std::size_t kLongestFirmwareFile = 64u << 20;  // bytes [assumed: a hundred times the largest]
+inline constexpr std::size_t kLongestFirmwareFile = 64u
+                                                    << 20;  // bytes [assumed: a hundred times the largest]
 
 enum class FileKind { Hex, Elf, Other };
 FileKind kind_of(const std::string& bytes);

@@ -104,7 +104,8 @@ struct Firmware {
 
 Firmware open_firmware(const std::string& path, std::string& error) {
   std::string bytes;
-  sim::read_input_file(path, dspic::kLongestFirmwareFile, bytes);  // what cannot be read, opening the image tells
+  sim::read_input_file(path, dspic::kLongestFirmwareFile,
+                       bytes);  // what cannot be read, opening the image tells
   if (dspic::kind_of(bytes) == dspic::FileKind::Other) return {host::Image::open(path, error), nullptr};
   auto file = std::make_shared<dspic::FirmwareFile>();
   if (!dspic::load_firmware(bytes, path, *file, error)) return {};
