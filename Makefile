@@ -66,7 +66,7 @@ $(PAGE)/node_modules/.package-lock.json: $(PAGE)/package-lock.json
 $(BUILD)/page/page.js: $(PAGE)/node_modules/.package-lock.json $(wildcard $(PAGE)/src/*) $(PAGE)/index.html
 	@scripts/setup.sh view
 	@mkdir -p $(BUILD)/page && cp $(PAGE)/index.html $(BUILD)/page
-	@esbuild $(PAGE)/src/main.ts --bundle --minify --target=es2020 --outdir=$(BUILD)/page --entry-names=page --log-level=warning
+	@esbuild page=$(PAGE)/src/main.ts start=$(PAGE)/src/start.ts --bundle --minify --target=es2020 --outdir=$(BUILD)/page --log-level=warning
 
 ## page: bundle the page of the live view and of reports (--report)
 page: $(BUILD)/page/page.js

@@ -39,7 +39,7 @@ MAY_INCLUDE = {
     "hal_sim/twin": ["hal_sim/", "sim_core/"],  # ties board, host and world together
     "hal_sim/debug": ["hal_sim/chip", "hal_sim/host", "hal_sim/twin", "dspic30", "sim_core"],
     "hal_sim/register": ["hal_sim/host", "hal_sim/chip", "hal_sim/board", "dspic30"],
-    "hal_sim/chip": ["hal_sim/board", "hal_sim/host/runner.h", "dspic30", "sim_core/base"],
+    "hal_sim/chip": ["hal_sim/board", "hal_sim/host/runner.h", "hal_sim/host/endless_wait.h", "dspic30", "sim_core/base"],
     "hal_dspic": ["firmware/include", "firmware/library", "hal_sim/host/image_abi.h"],  # runtime: what the libc asks for
     "supervisor": ["hal_sim/", "sim_core/"],  # a whole twin, seen from outside
     # linked into supervisors' programs, which see nothing but supervisor.h

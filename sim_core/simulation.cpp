@@ -327,10 +327,12 @@ void Simulation::refurnish(const WorldDesc& world, const std::vector<int>& befor
   auto motion = make_motion(scene_->world(), scene_->layout(), states_of(*scene_), now());
   motion->carry_on(*motion_);
   motion_ = std::move(motion);
+  sound_->refurnish(world);
   read_wheels();
   std::fill(rims_until_.begin(), rims_until_.end(), now());
   gather_neighbours(0);
   note_intervention(static_cast<std::uint64_t>(scene_->bodies()));
+  for (const SoundDesc& s : world.sounds) digest_ = fold(fold(digest_, s.position_m.x), s.position_m.y);
   for (const Placed& p : scene_->layout().fixed)
     digest_ = fold(fold(fold(fold(digest_, p.frame.at.x), p.frame.at.y), p.frame.s), p.solid->bound_m);
 }

@@ -66,7 +66,7 @@ class Simulation {
   // Changes by hand, between ticks only; each becomes part of the history that the digest sees.
   /// Everything but the robots becomes as `world` says, which has the same robots; their programs, places and
   /// speeds stay. `before`: for each movable object of it the body it was; -1: a new one. Not changed: tick,
-  /// engine, sounds.
+  /// engine.
   void refurnish(const WorldDesc& world, const std::vector<int>& before);
   /// Puts a body somewhere else, at rest.
   void move(int body, const Pose2& pose, double z_m = 0);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // twinpuck run --save-images FOLDER: every picture that a program gets from its camera as
-// FOLDER/ROBOT_000001.png, and so on. Pixels are the bytes the program got, decoded by the sensor's format:
-// 565 widened to eight bits a colour by repeating its upper bits, grey as it is, YUV with the chroma of its
-// neighbours. Rows and columns as in the buffer.
+// FOLDER/ROBOT_000001.png, and so on. Rows and columns as in the buffer.
 #pragma once
 #include <atomic>
 #include <cstdint>
@@ -14,9 +12,6 @@
 #include "hal_sim/twin/twin.h"
 
 namespace tools {
-
-/// Three bytes a pixel, rows from the top.
-std::vector<std::uint8_t> decode_picture(const board::CameraPicture& picture);
 
 class SavedImages {
  public:

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "hal_sim/board/part.h"
 #include "hal_sim/twin/world_file.h"
 #include "sim_core/load/schema.h"
 
@@ -66,6 +67,14 @@ void check_key(const std::string& path, const std::string& key) {
                      path.empty() ? "the file" : path));
 }
 
+void check_part_key(const std::string& key) {
+  if (key == "kind") return;
+  for (const sim::PartKind& kind : board::part_kinds())
+    for (const auto& k : kind.keys)
+      if (key == k.key) return;
+  refuse(fmt::format("key: got '{}', expected a key of robot.part", key.substr(0, 60)));
+}
+
 }  // namespace
 
 std::string replace_file(const std::string& path, const std::string& bytes) {
@@ -102,8 +111,17 @@ Document::Document(std::string file, std::string text)
 
 void Document::load() { loaded_ = twin::parse_world(text_.text(), file_); }
 
+void Document::take_back() {
+  if (!before_) return;
+  text_ = std::move(before_->text);
+  redo_ = std::move(before_->redo);
+  if (before_->remembered) undo_.pop_back();
+  group_ = before_->group;
+  before_.reset();
+  load();
+}
+
 void Document::remember(int group) {
-  if (group != 0 && group == group_) return;
   group_ = group;
   undo_.push_back(text_);
   if (undo_.size() > kMostUndo) undo_.erase(undo_.begin());
@@ -144,13 +162,28 @@ int Document::edit(const Json& request) {
       check_key(element.path, key);
       next.set(fresh, key, literal(value));
     }
+  } else if (op == "add_inner") {
+    const auto path = request.at("path").get<std::string>();
+    if (path != "robot.part" || piece().path != "robot") refuse("path: expected robot.part, of a robot");
+    sim::WorldText::Values values;
+    for (const auto& [key, value] : request.at("values").items()) {
+      check_part_key(key);
+      values.emplace_back(key, literal(value));
+    }
+    next.add_inner(piece().id, path, values);
+  } else if (op == "remove_inner") {
+    if (!next.remove_inner(piece().id, request.at("path").get<std::string>(), request.at("index").get<int>()))
+      refuse("index: got one that is not there");
   } else if (op == "text") {
     next.replace(request.at("text").get<std::string>());
   } else {
-    refuse("op: got '" + op + "', expected set, add, remove, copy or text");
+    refuse("op: got '" + op + "', expected set, add, remove, copy, add_inner, remove_inner or text");
   }
+  before_.reset();
   if (next.text() == text_.text()) return fresh;
-  remember(request.value("group", 0));
+  const int group = request.value("group", 0);
+  before_ = Before{text_, redo_, group == 0 || group != group_, group_};
+  if (before_->remembered) remember(group);
   text_ = std::move(next);
   load();
   return fresh;

@@ -3,6 +3,7 @@
 // disk is either the old or the new one whatever happens while it is written.
 #pragma once
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,8 @@ class Document {
   /// One edit (docs/control.md, "edit"). Returns the id of what is new, otherwise 0. Throws
   /// std::runtime_error when it cannot be done. Edits of one `group` other than 0 are undone together.
   int edit(const nlohmann::json& request);
+  /// As it was before the last edit(), as if that had not been.
+  void take_back();
   bool undo();
   bool redo();
   /// Returns an empty string, or what is wrong. `name`: another file of the same folder; empty: the same.
@@ -38,6 +41,13 @@ class Document {
   sim::WorldText text_;
   sim::LoadedWorld loaded_;
   std::vector<sim::WorldText> undo_, redo_;
+  struct Before {
+    sim::WorldText text;
+    std::vector<sim::WorldText> redo;
+    bool remembered;
+    int group;
+  };
+  std::optional<Before> before_;  // of the last edit
   int group_ = 0;
 };
 

@@ -18,6 +18,15 @@ void put(std::string& out, T value) {
 }
 void put_float(std::string& out, double value) { put(out, static_cast<float>(value)); }
 
+/// Not only at this instant: a wave goes through 0.
+bool is_sounding(const host::FirmwareMind& mind) {
+  const board::Codec& codec = mind.board().codec();
+  if (!codec.was_used()) return false;
+  for (int i = 0; i < 8; ++i)
+    if (codec.output(std::max<board::Cycle>(0, mind.now() - i * board::kCodecSampleCycles)) != 0) return true;
+  return false;
+}
+
 }  // namespace
 
 std::string frame_bodies(twin::Twin& twin) {
@@ -42,6 +51,7 @@ std::string frame_bodies(twin::Twin& twin) {
       state = kStopped;
     else if (robot->waiting_since() < host::kNever)
       state = kWaiting;
+    if (is_sounding(mind)) state |= kSounding;
     put(out, state);
   }
   return out;

@@ -14,7 +14,7 @@
 namespace viewer {
 
 enum FrameFlag : std::uint32_t { kRunning = 1, kEnded = 2 };
-enum RobotState : std::uint32_t { kNoProgram = 1, kStopped = 2, kWaiting = 4 };
+enum RobotState : std::uint32_t { kNoProgram = 1, kStopped = 2, kWaiting = 4, kSounding = 8 };
 
 struct FrameHead {
   std::uint32_t revision = 0, flags = 0, subscription = 0;

@@ -146,7 +146,7 @@ void Inputs::apply(const Json& input) {
   if (what == "selector") {
     mind.board().turn_selector(whole(input, "position", 0, 15));
   } else if (what == "battery") {
-    mind.board().set_battery(number(input, "volts", 3.0, 4.2), mind.now());
+    mind.board().set_battery(number(input, "volts", kLeastBatteryV, kMostBatteryV), mind.now());
   } else if (what == "type") {
     line(robot, whole(input, "port", 1, 2)).type(input.at("bytes").get<std::string>());
   } else if (what == "key") {

@@ -21,6 +21,9 @@ namespace viewer {
 
 using Json = nlohmann::json;
 
+/// To which a battery can be charged, V.
+inline constexpr double kLeastBatteryV = 3.0, kMostBatteryV = 4.2;
+
 class TypedLine;
 
 class Inputs {

@@ -7,10 +7,12 @@
 #include <stdexcept>
 #include <utility>
 
+#include "hal_sim/board/sound_params.h"
 #include "hal_sim/host/variables.h"
 #include "hal_sim/trace/signals.h"
 #include "sim_core/light/proximity.h"
 #include "sim_core/load/world_loader.h"
+#include "sim_core/sound/sound_field.h"
 
 namespace viewer {
 
@@ -27,7 +29,66 @@ struct Entry {
 
 const host::FirmwareMind& mind(twin::Twin& twin, int r) { return std::as_const(twin).mind(r); }
 
-constexpr int kFirstMic = 2, kFirstAcc = 5;  // analogue inputs, as wired
+// sound is listened to for so long, and at so many instants of it
+constexpr sim::Clicks kListen = sim::kClicksPerSecond / 64;
+constexpr int kListens = 48;
+constexpr sim::Clicks kMoment = sim::kClicksPerSecond / 50000;  // for how fast it changes
+constexpr double kFullScale = 32768;                            // of the loudspeaker's samples
+
+/// What arrives at a robot's microphones, without their noise.
+struct Heard {
+  double counts[board::kMicrophones] = {};  // root mean square
+  double bearing_rad = 0;                   // of where it comes from, robot frame
+};
+
+Heard listen(const sim::Scene& scene, int robot) {
+  Heard heard;
+  if (!sim::has_sound(scene)) return heard;
+  const auto pressure = [&](int mic, sim::Clicks at) {
+    const board::Place& p = board::kMicrophone[mic];
+    return sim::sense_sound_pa(scene, robot, {p.x_m, p.y_m, board::kMicrophoneZM}, at);
+  };
+  double now[kListens][board::kMicrophones] = {}, change[kListens][board::kMicrophones] = {};
+  for (int i = 0; i < kListens; ++i) {
+    const sim::Clicks at = scene.now() - kMoment - kListen * i / kListens;
+    for (int mic = 0; mic < board::kMicrophones && at >= 0; ++mic) {
+      now[i][mic] = pressure(mic, at);
+      change[i][mic] = pressure(mic, at + kMoment) - now[i][mic];
+      heard.counts[mic] += now[i][mic] * now[i][mic] / kListens;
+    }
+  }
+  for (double& counts : heard.counts) counts = std::sqrt(counts);
+  // a wave from direction u: its gradient is u times its change in time, over the speed of sound. That a near
+  // source is louder at one microphone says nothing of the wave
+  double ahead = 0, left = 0;
+  constexpr const board::Place* kMic = board::kMicrophone;
+  for (int i = 0; i < kListens; ++i) {
+    double p[board::kMicrophones], grows = 0;
+    for (int mic = 0; mic < board::kMicrophones; ++mic) {
+      const double loud = std::max(heard.counts[mic], 1e-12);
+      p[mic] = now[i][mic] / loud;
+      grows += change[i][mic] / loud;
+    }
+    ahead += grows * ((p[0] + p[1]) / 2 - p[2]) / (kMic[0].x_m - kMic[2].x_m);
+    left += grows * (p[1] - p[0]) / (kMic[1].y_m - kMic[0].y_m);
+  }
+  for (double& counts : heard.counts) counts *= board::kMicCountsPerPa;
+  heard.bearing_rad = std::atan2(left, ahead);
+  return heard;
+}
+
+/// What the loudspeaker gets, root mean square, in per cent of full scale.
+double speaker_level(const host::FirmwareMind& mind) {
+  const board::Codec& codec = mind.board().codec();
+  if (!codec.was_used()) return 0;
+  double sum = 0;
+  constexpr int kSamples = static_cast<int>(board::kFcyHz / 64 / board::kCodecSampleCycles);
+  for (int i = 0; i < kSamples; ++i) {
+    const double out = codec.output(std::max<board::Cycle>(0, mind.now() - i * board::kCodecSampleCycles));
+    sum += out * out;
+  }
+  return 100 * std::sqrt(sum / kSamples) / kFullScale;
+}
 
 const Entry kEntries[] = {
     {"x", 0, "m", [](twin::Twin& t, int r, int) { return t.simulation().pose(r).x_m; }},
@@ -50,25 +111,30 @@ const Entry kEntries[] = {
      [](twin::Twin& t, int r, int i) {
        return sim::sense_irradiance_w_m2(t.simulation().scene(), r, i, t.simulation().now());
      }},
-    {"mic", 3, "counts",
+    {"mic", board::kMicrophones, "counts",
      [](twin::Twin& t, int r, int i) {
        const auto& m = mind(t, r);
-       return m.board().scene() ? double(m.board().convert(kFirstMic + i, m.now())) : 0.0;
+       return m.board().scene() ? double(m.board().convert(board::kMicChannel + i, m.now())) : 0.0;
      }},
+    {"mic_level", board::kMicrophones, "counts rms",
+     [](twin::Twin& t, int r, int i) { return listen(t.simulation().scene(), r).counts[i]; }},
+    {"sound_bearing", 0, "deg",
+     [](twin::Twin& t, int r, int) { return sim::degrees(listen(t.simulation().scene(), r).bearing_rad); }},
+    {"speaker", 0, "%", [](twin::Twin& t, int r, int) { return speaker_level(mind(t, r)); }},
     {"acc_x", 0, "counts",
      [](twin::Twin& t, int r, int) {
        const auto& m = mind(t, r);
-       return m.board().scene() ? double(m.board().convert(kFirstAcc, m.now())) : 0.0;
+       return m.board().scene() ? double(m.board().convert(board::kAccChannel, m.now())) : 0.0;
      }},
     {"acc_y", 0, "counts",
      [](twin::Twin& t, int r, int) {
        const auto& m = mind(t, r);
-       return m.board().scene() ? double(m.board().convert(kFirstAcc + 1, m.now())) : 0.0;
+       return m.board().scene() ? double(m.board().convert(board::kAccChannel + 1, m.now())) : 0.0;
      }},
     {"acc_z", 0, "counts",
      [](twin::Twin& t, int r, int) {
        const auto& m = mind(t, r);
-       return m.board().scene() ? double(m.board().convert(kFirstAcc + 2, m.now())) : 0.0;
+       return m.board().scene() ? double(m.board().convert(board::kAccChannel + 2, m.now())) : 0.0;
      }},
     {"left_steps", 0, "steps",
      [](twin::Twin& t, int r, int) { return double(mind(t, r).report().left_steps); }},
@@ -78,6 +144,10 @@ const Entry kEntries[] = {
     {"selector", 0, "", [](twin::Twin& t, int r, int) { return double(mind(t, r).board().selector()); }},
     {"battery", 0, "V",
      [](twin::Twin& t, int r, int) { return mind(t, r).board().battery().voltage(mind(t, r).now()); }},
+    {"charge", 0, "%",
+     [](twin::Twin& t, int r, int) { return 100 * mind(t, r).board().battery().charge(mind(t, r).now()); }},
+    {"current", 0, "mA",
+     [](twin::Twin& t, int r, int) { return 1000 * mind(t, r).board().battery().amps(); }},
     {"load", 0, "%",
      [](twin::Twin& t, int r, int) {
        const auto* robot = mind(t, r).runner();

@@ -4,11 +4,15 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <stdexcept>
 
 #include "sim_core/base/input_file.h"
 #include "sim_core/base/output_file.h"
+#include "viewer/base64.h"
 #include "viewer/events.h"
 #include "viewer/frame.h"
+#include "viewer/sources.h"
 #include "viewer/world_json.h"
 
 namespace viewer {
@@ -19,28 +23,17 @@ using Json = nlohmann::json;
 
 constexpr std::size_t kMostFrames = 3600;  // more than a minute at 50 a second
 constexpr sim::Clicks kFirstEvery = sim::kClicksPerSecond / 50;
-constexpr std::size_t kMostValues = 500;       // of a frame: about ten robots
-constexpr std::size_t kMostSerial = 1u << 20;  // bytes
-constexpr std::size_t kMostTraced = 40000;     // spans and changes of the time line
+constexpr std::size_t kMostValues = 500;        // of a frame: about ten robots
+constexpr std::size_t kMostSerial = 1u << 20;   // bytes
+constexpr std::size_t kMostSources = 1u << 20;  // bytes
+constexpr std::size_t kMostLooked = 1u << 20;   // bytes
+constexpr sim::Clicks kLookEvery = sim::kClicksPerSecond / 10;
+constexpr std::size_t kMostTraced = 40000;  // spans and changes of the time line
 constexpr std::size_t kLongestWorld = 16u << 20, kLongestPage = 16u << 20;
 
 // coils and steps would fill it
 const std::vector<std::string> kSignals{"LED0", "LED1",     "LED2",      "LED3",     "LED4", "LED5", "LED6",
                                         "LED7", "BODY_LED", "FRONT_LED", "AUDIO_ON", "TX1",  "RX1"};
-
-std::string base64(const std::string& bytes) {
-  constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  out.reserve(bytes.size() / 3 * 4 + 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t here = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t word = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      word = word << 8 | (k < here ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k) out += k <= here ? kDigits[word >> (18 - 6 * k) & 63] : '=';
-  }
-  return out;
-}
 
 /// Frames change little from one to the next: the same byte of all of them together packs well.
 std::string packed(const std::vector<std::string>& frames) {
@@ -97,6 +90,7 @@ Report::Report(std::string path, twin::Twin& twin, const std::string& page_folde
       if (before) before(text);
       line->text += text + "\n";
     };
+    if (!look_ && twin.mind(r).runner()) look_ = std::make_unique<RobotLook>(twin, r);
     if (time_line && !trace_ && twin.mind(r).runner())
       trace_ = std::make_unique<TraceFeed>(twin, r, kSignals);
   }
@@ -113,6 +107,16 @@ void Report::hear() {
   }
 }
 
+/// What numbers do not say; as long as there is room.
+void Report::look() {
+  if (!look_ || twin_.simulation().now() < next_look_ || looked_ > kMostLooked) return;
+  next_look_ = twin_.simulation().now() + kLookEvery;
+  Json event = look_->take();
+  if (event.is_null()) return;
+  looked_ += event.dump(-1, ' ', false, Json::error_handler_t::replace).size();
+  events_.push_back(std::move(event));
+}
+
 /// Every other frame is enough.
 void Report::thin() {
   std::size_t kept = 1;
@@ -125,6 +129,7 @@ void Report::thin() {
 void Report::sample() {
   if (twin_.simulation().now() < next_) return;
   hear();
+  look();
   if (frames_.size() == kMostFrames) thin();
   if (twin_.simulation().now() < next_) return;
   next_ += every_;
@@ -135,6 +140,34 @@ void Report::sample() {
   frames_.push_back(frame(twin_, head, values, frame_bodies(twin_), ""));
 }
 
+/// The controllers' sources, as far as there is room.
+void Report::add_sources(Json& programs, Json& sources) const {
+  std::size_t bytes = 0;
+  const std::string folder = std::filesystem::path(twin_.world().file).parent_path().string();
+  for (const auto& robot : twin_.world().robots) {
+    const auto known = std::find_if(programs.begin(), programs.end(),
+                                    [&](const Json& p) { return p.at("name") == robot.firmware; });
+    if (known != programs.end()) (*known)["robots"].push_back(robot.name);
+    if (known != programs.end() || robot.firmware.empty()) continue;
+    std::vector<std::string> none;
+    const Sources found(twin::find_firmware(robot.firmware, folder, none));
+    Json files = Json::array();
+    for (const std::string& file : found.files()) {
+      std::string text;
+      try {
+        text = found.read(file);
+      } catch (const std::runtime_error&) {
+        continue;  // gone, or too long
+      }
+      if ((bytes += text.size()) > kMostSources) break;
+      files.push_back(file);
+      sources[robot.firmware + "/" + file] = std::move(text);
+    }
+    programs.push_back(
+        {{"name", robot.firmware}, {"robots", {robot.name}}, {"folder", found.folder()}, {"files", files}});
+  }
+}
+
 std::string Report::finish(const std::string& summary) {
   hear();
   for (const auto& trap : twin_.traps()) events_.push_back(trap_event(trap));
@@ -142,6 +175,9 @@ std::string Report::finish(const std::string& summary) {
     events_.push_back(trace_->take(kMostTraced));
     trace_.reset();
   }
+  Json programs = Json::array(), sources = Json::object();
+  add_sources(programs, sources);
+  const sim::FloorDesc& floor = twin_.world().floor;
   sim::LoadedWorld loaded;
   loaded.world = twin_.world();
   std::string text;
@@ -162,10 +198,12 @@ std::string Report::finish(const std::string& summary) {
                        {"steering", 0},
                        {"runs", false}}},
                      {"world", world_json(loaded, sim::WorldText(text))},
-                     {"programs", Json::array()},
+                     {"programs", programs},
                      {"diagnoses", diagnoses_json(twin_)},
                      {"names", names_of_robots()},
                      {"schema", Json::object()}}},
+                   {"sources", sources},
+                   {"floor", floor.image_rgb.empty() ? Json() : floor_json(floor)},
                    {"events", events_},
                    {"summary", Json::parse(summary)},
                    {"names", names_},
@@ -177,7 +215,7 @@ std::string Report::finish(const std::string& summary) {
   const std::string pieces = "<script type=\"application/json\" id=\"report\">" + dumped(piece) +
                              "</script>\n<script type=\"text/plain\" id=\"frames\">" + packed(frames_) +
                              "</script>\n<script>\n" + script_ + "</script>";
-  const std::string slot = "<script src=\"page.js\"></script>";
+  const std::string slot = "<script src=\"start.js\"></script>";
   const std::size_t at = page.find(slot);
   if (at == std::string::npos) return path_ + ": --report: the bundled page has no place for it";
   page.replace(at, slot.size(), pieces);

@@ -13,6 +13,7 @@
 
 #include "hal_sim/twin/twin.h"
 #include "viewer/names.h"
+#include "viewer/robot_look.h"
 #include "viewer/trace_feed.h"
 
 namespace viewer {
@@ -36,7 +37,9 @@ class Report {
     int robot, port;
     std::string text;
   };
+  void add_sources(nlohmann::json& programs, nlohmann::json& sources) const;
   void hear();
+  void look();
   void thin();
 
   std::string path_, error_, html_, script_, style_;
@@ -49,6 +52,9 @@ class Report {
   std::size_t heard_ = 0;  // bytes of serial text kept
   std::vector<std::unique_ptr<Line>> lines_;
   std::unique_ptr<TraceFeed> trace_;  // of the first robot with a program
+  std::unique_ptr<RobotLook> look_;   // likewise
+  std::size_t looked_ = 0;            // bytes of what was seen there
+  sim::Clicks next_look_ = 0;
 };
 
 }  // namespace viewer

@@ -21,6 +21,7 @@ namespace {
 constexpr auto kFrameEvery = 15ms;  // 60 a second
 constexpr auto kSlice = 4ms;        // of stepping, between two looks at requests
 constexpr auto kTraceEvery = 100ms;
+constexpr auto kLookPause = 100ms;
 constexpr std::size_t kMostTold = 4000;            // spans, and changes, of one event
 constexpr auto kPaceOver = 500ms;                  // the pace is a mean over so long
 constexpr std::size_t kLongestSerial = 64u << 10;  // bytes of a line sent at once
@@ -74,6 +75,7 @@ void Session::post(ClientId client, Kind kind, std::string text) {
 /// The run that was is over: its programs finish, its recording is whole.
 void Session::close_run() {
   trace_.reset();
+  looks_.clear();
   if (team_) team_->finish();
   if (recorder_ && twin_) recorder_->end(twin_->simulation().now(), twin_->simulation().digest());
   recorder_.reset();
@@ -136,22 +138,28 @@ bool Session::reopen(std::vector<std::string>& problems) {
     twin_->mind(r).board().virtual_devices().on_console =
         [line = lines_.back().get()](const std::string& text) { line->text += text + "\n"; };
     if (robot.firmware.empty()) continue;
-    auto program = std::find_if(programs_.begin(), programs_.end(),
-                                [&](const Program& p) { return p.name == robot.firmware; });
-    if (program == programs_.end()) {
-      std::vector<std::string> none;
-      programs_.push_back({robot.firmware,
-                           {},
-                           Sources(twin::find_firmware(robot.firmware, options.world_folder, none)),
-                           false});
-      program = programs_.end() - 1;
-    }
-    program->robots.push_back(r);
+    program_named(robot.firmware).robots.push_back(r);
   }
   team_->say = [this](const std::string& line) { tell_all({{"event", "says"}, {"text", line}}); };
   team_->before_first_tick();
   resubscribe();
   return true;
+}
+
+Session::Program& Session::program_named(const std::string& name) {
+  for (Program& program : programs_)
+    if (program.name == name) return program;
+  std::vector<std::string> none;
+  const std::string folder = fs::path(opening_.file).parent_path().string();
+  programs_.push_back({name, {}, Sources(twin::find_firmware(name, folder, none)), false, {}});
+  return programs_.back();
+}
+
+/// A robot of the run gets another program, as soon as that is built.
+void Session::choose_program(int robot, const std::string& name) {
+  opening_.options.firmware.push_back({twin_->world().robots[static_cast<std::size_t>(robot)].name, name});
+  program_named(name).waiting.push_back(robot);
+  next_watch_ = {};
 }
 
 void Session::restart() {
@@ -175,6 +183,7 @@ void Session::live() {
     send_serial();
     send_frames(changed);
     send_trace();
+    send_looks();
     if (!playing_ || !twin_ || ended_) {
       std::unique_lock<std::mutex> lock(mutex_);
       news_.wait_for(lock, kFrameEvery, [&] { return has_news_.load(); });
@@ -288,34 +297,34 @@ void Session::input(const Json& request) {
   if (recorder_) recorder_->note(twin_->simulation().now(), request);
 }
 
-/// The file's text is another: the world that lives becomes so, where it can without beginning anew.
-void Session::document_changed() {
+/// What the file's new text asks of the run; "it needs a new one" where there is none that has begun.
+LiveEdit Session::live_edit_now() const {
+  if (!twin_ || twin_->simulation().now() == 0) return {"the run has not begun", {}, {}};
+  return live_edit(live_text_, document_.text(), *document_.loaded().world);
+}
+
+/// The file's text is another: the world that lives becomes so, or begins anew.
+void Session::document_changed(const LiveEdit& edit) {
   const sim::WorldText& text = document_.text();
-  if (document_.loaded().world) {
-    const auto rest = [](const sim::WorldText& t) {
-      std::string out;
-      for (const auto& e : t.elements())
-        for (const char* kind : {"robot", "world", "sound", "supervisor", "radio", "link", "webots"})
-          if (e.path == kind) out += std::to_string(e.id) + t.text_of(e.id);
-      return out;
-    };
-    const bool goes_on = twin_ && twin_->simulation().now() > 0 && rest(text) == rest(live_text_);
-    if (goes_on) {
-      std::vector<int> before;
-      const std::vector<int> ids = movable_ids(*document_.loaded().world, text);
-      for (int id : ids) {
-        const auto was = std::find(movable_.begin(), movable_.end(), id);
-        before.push_back(was == movable_.end() ? -1
-                                               : twin_->robots() + static_cast<int>(was - movable_.begin()));
-      }
-      input({{"do", "world"}, {"text", text.text()}, {"before", before}});
-      movable_ = ids;
-      live_text_ = text;
-      resubscribe();
-    } else {
-      std::vector<std::string> problems;
-      if (!reopen(problems)) tell_all({{"event", "problems"}, {"problems", problems}});
+  if (!document_.loaded().world) {
+    // shown with its problems; what ran runs on
+  } else if (edit.why_not.empty()) {
+    std::vector<int> before;
+    const std::vector<int> ids = movable_ids(*document_.loaded().world, text);
+    for (int id : ids) {
+      const auto was = std::find(movable_.begin(), movable_.end(), id);
+      before.push_back(was == movable_.end() ? -1
+                                             : twin_->robots() + static_cast<int>(was - movable_.begin()));
     }
+    input({{"do", "world"}, {"text", text.text()}, {"before", before}});
+    for (const Json& request : edit.inputs) input(request);
+    for (const auto& [robot, name] : edit.firmware) choose_program(robot, name);
+    movable_ = ids;
+    live_text_ = text;
+    resubscribe();
+  } else {
+    std::vector<std::string> problems;
+    if (!reopen(problems)) tell_all({{"event", "problems"}, {"problems", problems}});
   }
   tell_world();
   tell_state();
@@ -394,6 +403,27 @@ void Session::send_trace() {
   next_trace_ = Wall::now() + kTraceEvery;
   traced_ = twin_->simulation().now();
   tell_all(trace_->take(kMostTold));
+}
+
+/// To who looks at a robot, what is new there; and to who has just begun, all.
+void Session::send_looks() {
+  if (!twin_ || Wall::now() < next_look_) return;
+  next_look_ = Wall::now() + kLookPause;
+  std::map<int, Json> news;
+  for (auto& [client, page] : pages_) {
+    const int robot = page.looked_at.empty() ? -1 : twin_->find(page.looked_at);
+    if (robot < 0) continue;
+    auto& look = looks_[robot];
+    if (!look) look = std::make_unique<RobotLook>(*twin_, robot);
+    if (news.find(robot) == news.end()) news[robot] = look->take();
+    Json event = news[robot];
+    if (event.is_null() && page.look_is_fresh) event = look->last();
+    if (event.is_null()) continue;
+    outlet_.send(client, event.dump(-1, ' ', false, Json::error_handler_t::replace));
+    page.look_is_fresh = false;
+  }
+  for (auto it = looks_.begin(); it != looks_.end();)
+    it = news.find(it->first) == news.end() ? looks_.erase(it) : std::next(it);
 }
 
 /// After the world or a program was exchanged: names mean something else now, or nothing.

@@ -22,7 +22,9 @@
 #include "viewer/document.h"
 #include "viewer/frame.h"
 #include "viewer/inputs.h"
+#include "viewer/live_edits.h"
 #include "viewer/names.h"
+#include "viewer/robot_look.h"
 #include "viewer/sources.h"
 #include "viewer/trace_feed.h"
 #include "viewer/web_server.h"
@@ -70,6 +72,8 @@ class Session {
     std::vector<std::string> names;
     std::vector<Named> values;
     std::vector<int> rays;
+    std::string looked_at;       // robot; empty: none
+    bool look_is_fresh = false;  // it has not been told of it
     Wall::time_point last_frame{};
   };
   struct Line {  // of a serial line or a console, until it has been sent
@@ -80,7 +84,8 @@ class Session {
     std::string name;
     std::vector<int> robots;
     Sources sources;
-    bool stale = false;
+    bool stale = false;        // its sources have changed since it was built
+    std::vector<int> waiting;  // robots that get it when it is built, and run another one until then
   };
   struct Built {
     std::string name, path;
@@ -101,7 +106,10 @@ class Session {
   bool reopen(std::vector<std::string>& problems);
   void restart();
   void close_run();
-  void document_changed();
+  void document_changed(const LiveEdit& edit);
+  LiveEdit live_edit_now() const;
+  void choose_program(int robot, const std::string& name);
+  Program& program_named(const std::string& name);
   void advance_slice();
   void step_ticks(double span_s, int count);
   bool step_interrupt(int robot);
@@ -116,6 +124,7 @@ class Session {
   void send_serial();
   void send_frames(bool all);
   void send_trace();
+  void send_looks();
   void trace(int robot, const std::vector<std::string>& signals);
   Json programs_json() const;
   void watch_programs();
@@ -136,12 +145,16 @@ class Session {
   std::unique_ptr<TraceFeed> trace_;  // while a page shows a time line
   sim::Clicks traced_ = 0;            // until when pages know it
   Wall::time_point next_trace_{};
+  std::map<int, std::unique_ptr<RobotLook>> looks_;  // by robot, while a page looks at it
+  Wall::time_point next_look_{};
   std::vector<std::unique_ptr<Line>> lines_;  // UARTs keep pointers
   std::vector<int> movable_;                  // ids of the movable objects that live
   sim::WorldText live_text_;                  // what the world that lives was made of
   std::vector<Program> programs_;
   std::future<Built> build_;
   std::string building_;
+  bool building_stale_ = false;    // for all robots that run it
+  std::vector<int> building_for_;  // and for these
   std::vector<std::string> told_;  // the compiler's warnings of the last opening
   std::size_t traps_told_ = 0;
   Json diagnoses_told_ = Json::array();

@@ -72,7 +72,7 @@ Json Session::answer(ClientId client, const Json& request) {
     tell_state();
     return {{"ok", true}};
   }
-  if (is_one_of(what, {"subscribe", "rays", "source", "state", "trace"}))
+  if (is_one_of(what, {"subscribe", "rays", "source", "state", "trace", "look", "floor"}))
     return look_request(client, what, request);
   if (client != steering_) throw std::runtime_error("another page steers; take the wheel first");
   if (is_one_of(what, {"edit", "undo", "redo", "save", "save_as"})) return edit_request(what, request);
@@ -142,7 +142,21 @@ Json Session::edit_request(const std::string& what, const Json& request) {
     reply["thing"] = document_.edit(request);
   else
     reply["done"] = what == "undo" ? document_.undo() : document_.redo();
-  document_changed();
+  if (!document_.loaded().world) {
+    document_changed({});
+    return reply;
+  }
+  const LiveEdit asked = live_edit_now();
+  const bool has_begun = twin_ && twin_->simulation().now() > 0;
+  if (!asked.why_not.empty() && has_begun && !request.value("anew", false)) {
+    // as if nobody had asked
+    if (what == "edit")
+      document_.take_back();
+    else
+      what == "undo" ? document_.redo() : document_.undo();
+    return {{"error", asked.why_not + ": the run would begin anew"}, {"anew", true}};
+  }
+  document_changed(asked);
   return reply;
 }
 
@@ -164,7 +178,19 @@ Json Session::look_request(ClientId client, const std::string& what, const Json&
         return {{"ok", true}, {"text", program.sources.read(request.at("file").get<std::string>())}};
     throw std::runtime_error("program: expected one that a robot runs");
   }
+  if (what == "floor") {
+    const sim::LoadedWorld& loaded = document_.loaded();
+    const sim::FloorDesc& floor = (loaded.world ? *loaded.world : loaded.draft).floor;
+    return floor_json(floor);
+  }
   if (!twin_) throw std::runtime_error("the world does not run: mend its problems first");
+  if (what == "look") {
+    page.looked_at = request.at("robot").get<std::string>();
+    if (!page.looked_at.empty()) robot_named(page.looked_at);
+    page.look_is_fresh = true;
+    next_look_ = {};
+    return {{"ok", true}};
+  }
   if (what == "trace") {
     const auto robot = request.at("robot").get<std::string>();
     if (robot.empty())
@@ -230,20 +256,24 @@ void Session::watch_programs() {
   next_watch_ = Wall::now() + kWatchEvery;
   if (build_.valid() && build_.wait_for(0s) == std::future_status::ready) finish_build();
   for (Program& program : programs_) {
-    if (program.sources.has_changed()) program.stale = true;
-    if (program.stale && !build_.valid()) build_program(program);
+    if (program.sources.has_changed()) program.stale |= !program.robots.empty();
+    if ((program.stale || !program.waiting.empty()) && !build_.valid()) build_program(program);
   }
   // a build that is under way is looked for more often
   if (build_.valid()) next_watch_ = Wall::now() + 5ms;
 }
 
 void Session::build_program(Program& program) {
+  building_stale_ = program.stale;
+  building_for_ = std::move(program.waiting);
+  program.waiting.clear();
   program.stale = false;
   building_ = program.name;
   tell_all({{"event", "building"}, {"program", program.name}});
   twin::Options options = opening_.options;
   options.world_folder = fs::path(opening_.file).parent_path().string();
-  if (options.way.empty()) options.way = twin_->mind(program.robots.front()).runner()->way();
+  const int robot = program.robots.empty() ? building_for_.front() : program.robots.front();
+  if (options.way.empty()) options.way = twin_->mind(robot).runner()->way();
   build_ = std::async(std::launch::async, [options, name = program.name]() mutable {
     Built built;
     built.name = name;
@@ -263,7 +293,16 @@ void Session::finish_build() {
                                     [&](const Program& p) { return p.name == built.name; });
   if (built.problems.empty() && program != programs_.end() && twin_) {
     try {
-      input({{"do", "program"}, {"robots", program->robots}, {"image", built.path}});
+      std::vector<int> robots = building_for_;
+      if (building_stale_) robots.insert(robots.end(), program->robots.begin(), program->robots.end());
+      if (!robots.empty()) input({{"do", "program"}, {"robots", robots}, {"image", built.path}});
+      for (const int robot : building_for_) {
+        for (Program& other : programs_)
+          other.robots.erase(std::remove(other.robots.begin(), other.robots.end(), robot),
+                             other.robots.end());
+        program->robots.push_back(robot);
+      }
+      if (!building_for_.empty()) tell_all({{"event", "programs"}, {"programs", programs_json()}});
     } catch (const std::exception& e) {
       built.problems.push_back(e.what());
     }

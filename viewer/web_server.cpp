@@ -44,6 +44,7 @@ struct FileType {
 };
 // the page is these files and nothing else
 constexpr FileType kFiles[] = {{"index.html", "text/html; charset=utf-8"},
+                               {"start.js", "text/javascript; charset=utf-8"},
                                {"page.js", "text/javascript; charset=utf-8"},
                                {"page.css", "text/css; charset=utf-8"}};
 

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/world_json.h"
 
+#include <cmath>
+
+#include "hal_sim/board/part.h"
 #include "hal_sim/twin/world_file.h"
 #include "sim_core/load/schema.h"
+#include "sim_core/sound/sound_source.h"
+#include "viewer/base64.h"
 
 namespace viewer {
 
@@ -38,6 +43,11 @@ const char* kind_of(sim::ObjectKind kind) {
       break;
   }
   return "polygon";
+}
+
+/// dB SPL of a root mean square pressure.
+double level_of_pressure_db(double pa) {
+  return 20 * std::log10(std::max(pa, 1e-9) / sim::pressure_of_level_pa(0));
 }
 
 Json pose(Json piece, const sim::Pose2& p) {
@@ -89,7 +99,8 @@ Json world_json(const sim::LoadedWorld& loaded, const sim::WorldText& text) {
                     {"centre", point(a.centre_m)},          {"wall_height", a.wall_height_m},
                     {"wall_thickness", a.wall_thickness_m}, {"colour", colour(a.material.colour)}};
   }
-  out["floor"] = {{"colour", colour(world.floor.colour)}, {"image", !world.floor.image_rgb.empty()}};
+  out["floor"] = {{"colour", colour(world.floor.colour)},
+                  {"image", world.floor.image_rgb.empty() ? "" : world.floor.image}};
   Json things = Json::array();
   for (const sim::WallDesc& w : world.walls) {
     Json points = Json::array();
@@ -133,9 +144,17 @@ Json world_json(const sim::LoadedWorld& loaded, const sim::WorldText& text) {
                       {"name", l.name},
                       {"position", point(l.position_m)},
                       {"intensity", l.intensity_w_m2},
+                      {"attenuation", l.attenuation},
                       {"on", l.on},
                       {"colour", colour(l.colour)}});
   }
+  for (const sim::SoundDesc& s : world.sounds)
+    things.push_back({{"id", id_at(text, s.line)},
+                      {"kind", "sound"},
+                      {"name", s.name},
+                      {"position", point(s.position_m)},
+                      {"level", s.pressure_pa ? level_of_pressure_db(*s.pressure_pa) : s.level_db},
+                      {"colour", {0.8, 0.47, 0.65}}});
   out["things"] = std::move(things);
   Json robots = Json::array();
   for (std::size_t i = 0; i < world.robots.size(); ++i) {
@@ -147,6 +166,8 @@ Json world_json(const sim::LoadedWorld& loaded, const sim::WorldText& text) {
       leds.push_back({led.at_m.x, led.at_m.y, led.z_m, led.colour.r, led.colour.g, led.colour.b});
     for (const sim::SensorMount& s : m->proximity)
       sensors.push_back({s.at_m.x, s.at_m.y, s.at_m.z, s.yaw_rad});
+    Json parts = Json::array();
+    for (const sim::PartDesc& part : r.parts) parts.push_back(part.kind);
     robots.push_back(pose({{"id", id_at(text, r.line)},
                            {"kind", "robot"},
                            {"name", r.name},
@@ -158,6 +179,7 @@ Json world_json(const sim::LoadedWorld& loaded, const sim::WorldText& text) {
                            {"height", m->body_height_m},
                            {"wheel_radius", m->wheel_radius_m},
                            {"axle", m->axle_m},
+                           {"parts", parts},
                            {"leds", leds},
                            {"sensors", sensors}},
                           r.pose));
@@ -178,6 +200,12 @@ Json world_json(const sim::LoadedWorld& loaded, const sim::WorldText& text) {
                         {"id", p.line > 0 ? id_at(text, p.line) : 0}});
   out["problems"] = std::move(problems);
   return out;
+}
+
+Json floor_json(const sim::FloorDesc& floor) {
+  return {{"width", floor.image_width},
+          {"height", floor.image_height},
+          {"rgb", base64(std::string(floor.image_rgb.begin(), floor.image_rgb.end()))}};
 }
 
 std::vector<int> movable_ids(const sim::WorldDesc& world, const sim::WorldText& text) {
@@ -211,6 +239,9 @@ Json schema_json() {
       out["robot"]["keys"].push_back(
           key_json(kTypes[static_cast<int>(k.type)], k.choices, k.least, k.most,
                    {{"key", k.key}, {"unit", k.unit}, {"default", k.fallback}, {"doc", k.doc}}));
+  Json& kinds = out["robot.part"]["kinds"] = Json::array();
+  for (const sim::PartKind& kind : board::part_kinds())
+    kinds.push_back({{"kind", kind.name}, {"doc", kind.doc}});
   return out;
 }
 

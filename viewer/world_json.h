@@ -14,6 +14,9 @@ namespace viewer {
 /// about.
 nlohmann::json world_json(const sim::LoadedWorld& loaded, const sim::WorldText& text);
 
+/// The picture on the floor: `width`, `height`, `rgb` in base64, rows from the north.
+nlohmann::json floor_json(const sim::FloorDesc& floor);
+
 /// Numbers (ids) of the movable objects' pieces, in the order of the simulation's bodies behind the robots.
 std::vector<int> movable_ids(const sim::WorldDesc& world, const sim::WorldText& text);
 

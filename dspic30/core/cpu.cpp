@@ -426,6 +426,7 @@ unsigned Cpu::read_elsewhere(unsigned ea, unsigned bits) {
   }
   if (ea < kSfrBytes) {
     const unsigned value = parts.read(ea, bits, t);
+    looks_outside = true;
     if (watching)
       watched_until =
           ChipParts::is_changed_by_reading(ea) ? 0 : std::min(watched_until, parts.horizon(ea, t));

@@ -239,6 +239,9 @@ class Cpu final : public SfrOwner {
   void note_effect() { watched_until = 0; }
   Cycle watched_until = kNever;  ///< what was read since skip_wait() began to look stays as it is until here
   bool watching = false;
+  bool looks_outside = false;  ///< since then a register of a peripheral was read
+  Cycle still_since =
+      kNever;  ///< since when nothing that the program looks at can change but by an interrupt
 
   static constexpr unsigned kRamStart = 0x800, kRamBytes = 0x2000, kRamEnd = kRamStart + kRamBytes,
                             kPsvStart = 0x8000, kYStart = 0x1800;

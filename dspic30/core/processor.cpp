@@ -32,9 +32,12 @@ Processor::~Processor() = default;
 void Processor::restart() {
   cpu_->reset();
   cpu_->now += kResetCycles;
+  cpu_->still_since = kNever;
   waits_->forget(*cpu_);
   code_version_ = cpu_->program.version();
 }
+
+Cycle Processor::still_since() const { return cpu_->still_since; }
 
 // --- the loop -------------------------------------------------------------------------------------------
 

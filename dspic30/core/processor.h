@@ -50,6 +50,10 @@ class Processor {
   /// Cycles of waits that were jumped over: how, not what was simulated. Depends on how run() is called.
   Cycle jumped() const { return jumped_; }
 
+  /// Since when it has been in a loop in which nothing that it reads can change unless an interrupt comes;
+  /// kNever: it is in none. Depends, by some looks, on how run() is called.
+  Cycle still_since() const;
+
   // --- for debuggers, tests and reports: no side effects
   unsigned pc() const;
   std::uint16_t w(int n) const;

@@ -56,7 +56,9 @@ Cycle Cpu::skip_wait() {
   const CoreState before(*this);
   watching = true;
   watched_until = kNever;
-  bool stores = false;
+  bool stores = false, is_still = false;
+  looks_outside = false;
+  const Cycle began = now;
   // one round, at most so many instructions long; false: it is none, or no wait
   const auto goes_round = [&](int longest) {
     for (int i = 0; i < longest && now < deadline; ++i) {
@@ -84,8 +86,10 @@ Cycle Cpu::skip_wait() {
     const Cycle round = now - start, rounds = (std::min(end, watched_until) - now) / round;
     skipped = std::max<Cycle>(rounds, 0) * round;
     now += skipped;
+    is_still = watched_until == kNever && !looks_outside;
   }
   watching = false;
+  still_since = is_still ? std::min(still_since, began) : kNever;
   return skipped;
 }
 

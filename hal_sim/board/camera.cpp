@@ -120,6 +120,34 @@ void Camera::plan_line() {
 
 // --- light -----------------------------------------------------------------------------------------------
 
+/// Tangents for each pixel along a line and down the lines.
+std::array<double, 2> Camera::scale() const {
+  // the PO6030K shows upright pictures with both mirrors on, the others with both off
+  double sign = sensor_.kind() == CameraKind::Po6030k ? -1 : 1;
+  if (mount_ != CameraMount::Upright) sign = -sign;
+  return {(taken_.mirror_columns ? -sign : sign) / kFocalPx, (taken_.mirror_lines ? -sign : sign) / kFocalPx};
+}
+
+std::array<double, 4> Camera::widest_edges() const {
+  double right = kArrayWidth / (2 * kFocalPx), up = kArrayHeight / (2 * kFocalPx);
+  if (mount_ == CameraMount::Sideways) std::swap(right, up);
+  return {-right, right, -up, up};
+}
+
+/// Of the picture that is taken.
+std::array<double, 4> Camera::edges() const {
+  const auto [along, down] = scale();
+  const double half = 0.5 * taken_.sub_sampling;
+  const double lines = (request_.rows - 1) * (1 + request_.skipped_lines) + 1;
+  const auto x = std::minmax({(columns_.front() - half - 0.5 * kArrayWidth) * along,
+                              (columns_.back() + half - 0.5 * kArrayWidth) * along});
+  const double top = (taken_.first_y - 0.5 * kArrayHeight) * down;
+  const auto y = std::minmax({top, top + lines * taken_.sub_sampling * down});
+  // as in render(): turned by a quarter, or lines from the top
+  if (mount_ == CameraMount::Sideways) return {y.first, y.second, x.first, x.second};
+  return {x.first, x.second, -y.second, -y.first};
+}
+
 /// Light at places of the array (x along a line, y down the lines), as seen through mirrors, mount and lens.
 /// The result is light_[j * x.size() + i], or light_[i * y.size() + j] when transposed_.
 void Camera::render(const std::vector<double>& x, const std::vector<double>& y, Cycle at) {
@@ -129,11 +157,7 @@ void Camera::render(const std::vector<double>& x, const std::vector<double>& y, 
     light_.assign(x.size() * y.size(), sim::Light{});
     return;
   }
-  // the PO6030K shows upright pictures with both mirrors on, the others with both off
-  double sign = sensor_.kind() == CameraKind::Po6030k ? -1 : 1;
-  if (mount_ != CameraMount::Upright) sign = -sign;
-  const double along = (taken_.mirror_columns ? -sign : sign) / kFocalPx;
-  const double down = (taken_.mirror_lines ? -sign : sign) / kFocalPx;
+  const auto [along, down] = scale();
   right_.clear();
   up_.clear();
   if (transposed_) {
@@ -292,7 +316,8 @@ int Camera::take_line(std::uint8_t* to, int room, Cycle at) {
   next_line_ += Cycle{1 + request_.skipped_lines} * taken_.sub_sampling * taken_.line_cycles();
   if (row_ == request_.rows) {
     ++pictures_;
-    if (on_picture) on_picture({taken_.format, request_.columns, request_.rows, pictures_, at, picture_});
+    if (on_picture)
+      on_picture({taken_.format, request_.columns, request_.rows, pictures_, at, picture_, edges()});
   }
   return count;
 }

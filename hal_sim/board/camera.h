@@ -41,7 +41,13 @@ struct CameraPicture {
   std::int64_t number;              ///< of this robot's completed pictures, from 1
   Cycle at;                         ///< cycle of its last line
   std::vector<std::uint8_t> bytes;  ///< what the driver stored
+  /// Its edges as tangents of directions from the lens: left, right, low, high.
+  std::array<double, 4> edges{};
 };
+
+/// The bytes the program got as colours, three bytes a pixel, rows from the top: 565 widened to eight bits by
+/// repeating its upper bits, grey as it is, YUV with the chroma of its neighbours.
+std::vector<std::uint8_t> decode_picture(const CameraPicture& picture);
 
 class Camera {
  public:
@@ -77,6 +83,8 @@ class Camera {
   double exposure_s() const { return exposure_s_; }
   CameraMount mount() const { return mount_; }
   std::int64_t pictures() const { return pictures_; }
+  /// As CameraPicture's, of all that the sensor could see.
+  std::array<double, 4> widest_edges() const;
 
   void processor_reset();
   void sensor_reset(Cycle at);
@@ -94,6 +102,8 @@ class Camera {
   };
   void refresh(Cycle at);
   void plan_line();
+  std::array<double, 2> scale() const;
+  std::array<double, 4> edges() const;
   void run_automatics(std::int64_t frames, Cycle at);
   void render(const std::vector<double>& x, const std::vector<double>& y, Cycle at);
   void make_curve();

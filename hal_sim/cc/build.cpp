@@ -280,7 +280,7 @@ std::vector<DriverChoice> choose_drivers(std::vector<CompileOutcome>& user,
 void link_chip(const std::vector<CompileOutcome>& user, const std::vector<CompileOutcome>& members,
                const Library& library, const Renames& renames, const fs::path& output, BuildResult& result) {
   std::error_code ec;
-  const fs::path half = output.parent_path() / (".half" + std::to_string(getpid()) + output.stem().string());
+  const fs::path half = unfinished(output);  // a folder
   fs::create_directories(half, ec);
   const fs::path made = half / (output.stem().string() + ".elf");
   std::vector<std::string> argv = {compiler_path().string(), "--link", "-o", made.string()};
@@ -401,7 +401,7 @@ static BuildResult build_here(const BuildOptions& o) {
     result.ok = result.errors.empty();
     return finish();
   }
-  fs::path half = output.string() + ".half" + std::to_string(getpid());
+  const fs::path half = unfinished(output);
   const fs::path script = source_root() / "hal_sim/cc/runtime/image.ld";
   look_at(script);
   std::vector<std::string> argv = {"ld", "-shared", "-Bsymbolic", "--warn-unresolved-symbols"};
@@ -486,6 +486,9 @@ static BuildOptions with_cache(BuildOptions o) {
 BuildResult build_image(const BuildOptions& options) {
   const BuildOptions o = with_cache(options);
   const BuildRecord record(o);
+  if (auto known = record.recall()) return *known;
+  // one build of an image at a time: its files and its record are of the same one
+  const FileLock lock(record.lock_file());
   if (auto known = record.recall()) return *known;
   BuildInputs inputs;
   BuildResult result = begin(o, inputs, build_here);

@@ -67,6 +67,7 @@ class BuildRecord {
   explicit BuildRecord(const BuildOptions& options);
   /// The result of the last build with these options, when it would come out the same.
   std::optional<BuildResult> recall() const;
+  std::filesystem::path lock_file() const { return file_.string() + ".lock"; }
   void keep(const BuildResult& result, const std::map<std::string, BuildInputs::Input>& inputs) const;
 
  private:

@@ -153,14 +153,17 @@ Archive archive(const std::vector<CompileOutcome>& objects, const fs::path& fold
              std::to_string(fs::last_write_time(o.object).time_since_epoch().count()) + "\n";
   }
   const fs::path file = folder / ("library-" + content_hash(key) + ".a");
-  const fs::path list = file.string() + ".list", half = file.string() + ".half" + std::to_string(getpid());
-  if (fs::exists(file) && bytes_of(list) == names) return {file, ""};
+  const fs::path list = file.string() + ".list", half = unfinished(file);
+  // with its own hash: another build may have left its archive beside our list
+  const auto told = [&](const fs::path& made) { return content_hash(bytes_of(made)) + "\n" + names; };
+  if (fs::exists(file) && bytes_of(list) == told(file)) return {file, ""};
   std::vector<std::string> argv = {"ar", "rcs", half.string()};
   for (const auto& o : objects) argv.push_back(o.object.string());
   const auto run = run_process(argv);
   std::error_code ec;
+  const std::string list_text = told(half);
   if (run.status == 0) fs::rename(half, file, ec);
-  if (run.status != 0 || ec || !write_text(list, names))
+  if (run.status != 0 || ec || !write_text(list, list_text))
     return {file, "ar: " + run.output + (ec ? ec.message() : "")};
   return {file, ""};
 }

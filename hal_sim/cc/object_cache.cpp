@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// See object_cache.h. For each object `<key>.o` stands `<key>.deps`: a line per file read, its hash before
-// it.
+// See object_cache.h. For each object `<key>.o` stands `<key>.deps`: the object's own hash, then a line per
+// file read, its hash before it. Two builds at once may leave one's object beside the other's list: that is
+// no pair.
 #include "object_cache.h"
 
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/file.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -88,9 +90,26 @@ std::string read_text(const fs::path& path) {
   return inputs ? inputs->read(path) : bytes_of(path);
 }
 
-bool write_text(const fs::path& path, const std::string& text) {
+fs::path unfinished(const fs::path& path) {
   static std::atomic<int> count{0};
-  fs::path half = path.string() + ".tmp" + std::to_string(getpid()) + "_" + std::to_string(count++);
+  return path.string() + ".half" + std::to_string(getpid()) + "_" + std::to_string(count++);
+}
+
+FileLock::FileLock(const fs::path& file) {
+  std::error_code ec;
+  fs::create_directories(file.parent_path(), ec);
+  file_ = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  // without one, as on a disk that cannot, builds go on as if they were alone
+  while (file_ >= 0 && flock(file_, LOCK_EX) != 0 && errno == EINTR) {
+  }
+}
+
+FileLock::~FileLock() {
+  if (file_ >= 0) close(file_);
+}
+
+bool write_text(const fs::path& path, const std::string& text) {
+  fs::path half = unfinished(path);
   {
     std::ofstream out(half, std::ios::binary);
     out << text;
@@ -128,9 +147,10 @@ std::vector<std::string> names_of_rule(const std::string& rule) {
   return names;
 }
 
-bool is_fresh(const fs::path& deps, BuildInputs& inputs) {
+bool is_fresh(const fs::path& object, const fs::path& deps, BuildInputs& inputs) {
   std::ifstream in(deps);
   std::string hash, path;
+  if (!std::getline(in, hash) || hash != content_hash(bytes_of(object))) return false;
   bool any = false;
   while (std::getline(in, hash, '\t') && std::getline(in, path)) {
     any = true;
@@ -147,12 +167,12 @@ CompileOutcome compile(const CompileJob& job, const fs::path& compiler, const st
   fs::path base = cache / (job.source.stem().string() + "-" + content_hash(key));
   outcome.object = base.string() + ".o";
   fs::path deps = base.string() + ".deps", notes = base.string() + ".txt";
-  if (fs::exists(outcome.object) && is_fresh(deps, inputs)) {
+  if (fs::exists(outcome.object) && is_fresh(outcome.object, deps, inputs)) {
     outcome.ok = outcome.reused = true;
     outcome.messages = bytes_of(notes);
     return outcome;
   }
-  std::string half = base.string() + ".half" + std::to_string(getpid());
+  const std::string half = unfinished(base).string();
   std::vector<std::string> argv = {compiler.string(), "-c",       job.source.string(), "-o", half,
                                    "--depfile",       half + ".d"};
   argv.insert(argv.end(), job.flags.begin(), job.flags.end());
@@ -162,7 +182,7 @@ CompileOutcome compile(const CompileJob& job, const fs::path& compiler, const st
   outcome.ok = result.status == 0;
   std::error_code ec;
   if (outcome.ok) {
-    std::string lines;
+    std::string lines = content_hash(bytes_of(half)) + "\n";
     for (const auto& name : names_of_rule(bytes_of(half + ".d")))
       lines += inputs.look_at(name, began_ns) + "\t" + name + "\n";
     std::istringstream missing(bytes_of(half + ".d.missing"));

@@ -21,6 +21,21 @@ std::string content_hash(const std::string& bytes);
 std::string bytes_of(const std::filesystem::path& path);
 /// The same, noted as an input of this thread's build.
 std::string read_text(const std::filesystem::path& path);
+/// A name beside `path` that no other thread or process writes to, for what is not whole yet.
+std::filesystem::path unfinished(const std::filesystem::path& path);
+
+/// One at a time, among threads and processes: the file is made, and stays.
+class FileLock {
+ public:
+  explicit FileLock(const std::filesystem::path& file);
+  ~FileLock();
+  FileLock(const FileLock&) = delete;
+  FileLock& operator=(const FileLock&) = delete;
+
+ private:
+  int file_;
+};
+
 /// Through a temporary file, so that a reader never sees half of it. False when the disk refuses.
 bool write_text(const std::filesystem::path& path, const std::string& text);
 

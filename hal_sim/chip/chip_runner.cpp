@@ -4,7 +4,9 @@
 #include <algorithm>
 
 #include "hal_sim/board/board.h"
+#include "hal_sim/board/epuck_params.h"
 #include "hal_sim/chip/translation.h"
+#include "hal_sim/host/endless_wait.h"
 
 namespace chip {
 
@@ -12,6 +14,7 @@ namespace {
 
 constexpr unsigned kIfs0 = dspic::sfr("IFS0"), kInttreg = dspic::sfr("INTTREG"),
                    kRamStart = dspic::Processor::kRamStart, kRamEnd = dspic::Processor::kRamEnd;
+constexpr Cycle kLeastWait = board::kFcyHz / 100;  // a wait is called endless from then on
 
 }  // namespace
 
@@ -109,7 +112,21 @@ void ChipRunner::reset(dspic::ResetKind kind) {
 }
 
 std::vector<board::Diagnosis> ChipRunner::diagnoses() const {
-  return dated(chip_.diagnoses(), board_.diagnoses(lived_cycles()));
+  std::vector<board::Diagnosis> all = chip_.diagnoses();
+  add_endless_wait(all);
+  return dated(std::move(all), board_.diagnoses(lived_cycles()));
+}
+
+/// For what no code can set any more. An empty loop is none, but the end of a program.
+void ChipRunner::add_endless_wait(std::vector<board::Diagnosis>& all) const {
+  const Cycle since = processor_->still_since();
+  if (since == dspic::kNever || end_ - since < kLeastWait || processor_->is_asleep() ||
+      device().nesting() > 0)
+    return;
+  for (int v = dspic::kFirstIrqVector; v < dspic::kVectors; ++v)
+    if (device().is_enabled(v)) return;
+  const host::Place place = place_now();
+  if (!host::variables_in(*this, place).empty()) all.push_back(host::endless_wait(*this, place, since));
 }
 
 std::uint64_t ChipRunner::hash() const {

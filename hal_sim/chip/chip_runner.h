@@ -54,6 +54,7 @@ class ChipRunner final : public host::Runner, private dspic::EventWatch {
   void read_memory(std::uintptr_t address, void* to, std::size_t bytes) const override;
   void write_memory(std::uintptr_t address, const void* from, std::size_t bytes) override;
   host::Place place_of(std::uintptr_t code) const override;
+  host::Place place_now() const override { return place_of(processor_->pc()); }
 
   void observe(host::Observer* observer) override;
   bool flag(int vector, Cycle at) override;
@@ -79,6 +80,7 @@ class ChipRunner final : public host::Runner, private dspic::EventWatch {
  private:
   void about_to_change(Cycle at) override { observer_->about_to_change(at); }
   void run_watched(Cycle end);
+  void add_endless_wait(std::vector<board::Diagnosis>& all) const;
   void tell_observer(const Step& step, int nesting);
   void tell_reset(Cycle at);
   void reset(dspic::ResetKind kind);

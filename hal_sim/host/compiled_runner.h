@@ -77,6 +77,7 @@ class CompiledRunner final : public Runner, public Context {
   void read_memory(std::uintptr_t address, void* to, std::size_t bytes) const override;
   void write_memory(std::uintptr_t address, const void* from, std::size_t bytes) override;
   Place place_of(std::uintptr_t code) const override { return image_->symbols().find(code); }
+  Place place_now() const override;
 
   void observe(Observer* observer) override {
     observer_ = observer;
@@ -280,7 +281,6 @@ class CompiledRunner final : public Runner, public Context {
   void run_main(Cycle main);  // spends main cycles, delivering on the way
   bool enables_interrupts();
   void note_endless_wait();
-  std::string variables_in(const Place& place) const;
   // a wait since `start` that polls every `round` of its cycles; ends early when disturbed
   void sleep_until(Cycle target, Cycle round, Cycle start);
   void note_poll(std::int64_t loop) {

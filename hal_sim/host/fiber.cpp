@@ -77,6 +77,7 @@ bool Fiber::open_reserve() {
 void Fiber::restart(Entry entry, void* argument) {
   entry_ = entry;
   argument_ = argument;
+  frame_ = 0;
   drop_frames();
   if (reserve_open_) {
     CHECK(mprotect(reinterpret_cast<void*>(low_ - kReserveBytes), kReserveBytes, PROT_NONE) == 0,
@@ -120,6 +121,7 @@ void Fiber::enter() {
 }
 
 void Fiber::yield() {
+  frame_ = reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0));
 #if defined(__SANITIZE_ADDRESS__)
   void* fake = nullptr;
   __sanitizer_start_switch_fiber(&fake, outside_bottom_, outside_size_);

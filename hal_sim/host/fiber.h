@@ -40,6 +40,8 @@ class Fiber {
   /// it).
   void yield();
 
+  /// Frame of the last yield(), in which it stands while it does not run; 0: it has not begun.
+  std::uintptr_t frame() const { return frame_; }
   bool is_on_stack(std::uintptr_t address) const { return address >= floor() && address < high_; }
   /// Below the stack, where nothing may be accessed: the stack has overflowed.
   bool is_in_guard(std::uintptr_t address) const;
@@ -59,6 +61,7 @@ class Fiber {
   std::uintptr_t low_ = 0;   // lowest usable stack address
   std::uintptr_t high_ = 0;  // one past the highest
   bool reserve_open_ = false;
+  std::uintptr_t frame_ = 0;
   void* inside_ = nullptr;   // saved context of the fiber while it does not run
   void* outside_ = nullptr;  // saved context of the scheduler while it runs
   Entry entry_ = nullptr;

@@ -118,6 +118,8 @@ class Runner {
   virtual void write_memory(std::uintptr_t address, const void* from, std::size_t bytes) = 0;
   /// Function, file and line of an instruction.
   virtual Place place_of(std::uintptr_t code) const = 0;
+  /// Where the program stands, or was stopped; without a function: it has not begun.
+  virtual Place place_now() const = 0;
 
   // --- for whoever writes its course down; no change of course
   /// Null: nobody. The observer outlives the robot or is taken away.

@@ -2,23 +2,19 @@
 // The end of a robot's program, and what is told of it: traps and resets with the place in the firmware, what
 // board and chip noticed, values of variables. See robot.h.
 #include <algorithm>
-#include <cctype>
 #include <cstring>
-#include <sstream>
 
 #include "dspic30/memory/sfr_table.h"
 #include "hal_sim/board/board.h"
 #include "hal_sim/host/compiled_runner.h"
+#include "hal_sim/host/endless_wait.h"
 #include "hal_sim/host/host_params.h"
 #include "hal_sim/host/native_processor.h"
 #include "sim_core/base/check.h"
-#include "sim_core/base/input_file.h"
 
 namespace host {
 
 namespace {
-constexpr std::size_t kLongestSource = 4u << 20;  // bytes
-
 bool is_library(const std::string& file) {
   for (const char* room : {"hal_sim/", "firmware/library/", "hal_dspic/", "firmware/webots/"})
     if (file.find(room) != std::string::npos) return true;
@@ -192,6 +188,10 @@ Place CompiledRunner::place_of_code(std::uintptr_t pc, std::uintptr_t frame) con
   return place;
 }
 
+Place CompiledRunner::place_now() const {
+  return stopped_ ? traps_.back().place : culprit(walk(0, fiber_.frame()));
+}
+
 /// May anything interrupt the program, now or when something comes from outside?
 bool CompiledRunner::enables_interrupts() {
   if (native_) {
@@ -202,41 +202,9 @@ bool CompiledRunner::enables_interrupts() {
   return peek(dspic::sfr("IEC0"), now_) || peek(dspic::sfr("IEC1"), now_) || peek(dspic::sfr("IEC2"), now_);
 }
 
-/// Variables of the program in its line of source: "`flag`", "`flag` and `ready`"; empty: none is known
-/// there.
-std::string CompiledRunner::variables_in(const Place& place) const {
-  std::string text, line, found;
-  if (!sim::read_input_file(place.file, kLongestSource, text).empty()) return "";
-  std::istringstream lines(text);
-  for (int i = 0; i < place.line; ++i)
-    if (!std::getline(lines, line)) return "";
-  for (std::size_t at = 0, end; at < line.size(); at = end) {
-    const auto is_name = [&](std::size_t i) {
-      return std::isalnum(static_cast<unsigned char>(line[i])) || line[i] == '_';
-    };
-    for (end = at + 1; is_name(at) && end < line.size() && is_name(end); ++end) continue;
-    const std::string name = line.substr(at, end - at);
-    std::string error;
-    if (is_name(at) && !std::isdigit(static_cast<unsigned char>(name[0])) &&
-        found.find("`" + name + "`") == std::string::npos && find_variable(name, error))
-      found += (found.empty() ? "`" : " and `") + name + "`";
-  }
-  return found;
-}
-
 void CompiledRunner::note_endless_wait() {
   if (!endless_wait_.cause.empty()) return;
-  const Place place = report_here(0, "").place;
-  const std::string variables = variables_in(place);
-  endless_wait_.cause = "endless wait";
-  endless_wait_.place = to_string(place);
-  endless_wait_.message =
-      variables.empty() ? "the program waits here for ever: nothing that it looks at can change, for no "
-                          "interrupt is enabled"
-                        : "the program waits here for " + variables +
-                              "; nothing will ever set it: no interrupt that writes it is enabled";
-  endless_wait_.hint = "start the agendas or the timer, or enable the interrupt whose handler ends the wait";
-  endless_wait_.first = now_;
+  endless_wait_ = endless_wait(*this, report_here(0, "").place, now_);
 }
 
 std::vector<board::Diagnosis> CompiledRunner::diagnoses() const {

@@ -140,7 +140,7 @@ void WorldText::scan(const std::vector<int>& ids) {
       const int id = element < ids.size() ? ids[element] : next_id_++;
       elements_.push_back({id, owner, many && dot == std::string::npos, 0, 0});
     }
-    tables_.push_back({static_cast<int>(element), own, top, begin, 0, {}});
+    tables_.push_back({static_cast<int>(element), own, std::move(path), top, begin, 0, {}});
   };
   begin_table("", false, 0, 0);
   std::size_t comment = std::string::npos;  // where the comment begins that ends right above
@@ -302,6 +302,49 @@ std::string WorldText::text_of(int id) const {
     if (elements_[static_cast<std::size_t>(t.element)].id == id)
       out += text_.substr(t.begin, t.end - t.begin);
   return out;
+}
+
+std::string WorldText::inner_text(int id) const {
+  const int index = index_of(id);
+  std::string out;
+  for (const Table& t : tables_)
+    if (!t.own && t.element == index) out += text_.substr(t.begin, t.end - t.begin);
+  return out;
+}
+
+bool WorldText::add_inner(int id, const std::string& path, const Values& values) {
+  const int index = index_of(id);
+  if (index < 0) return false;
+  std::string table = fmt::format("[[{}]]\n", path);
+  for (const auto& [key, value] : values) table += fmt::format("{} = {}\n", key, value);
+  std::size_t at = 0;
+  for (const Table& t : tables_)
+    if (t.element == index) at = t.end;
+  if (at > 0 && text_[at - 1] != '\n') table = "\n" + table;
+  const bool has_gap = at > 1 && text_[at - 1] == '\n' && text_[at - 2] == '\n';
+  // the blank line that stood below the element goes on doing so
+  if (has_gap)
+    text_.insert(at - 1, table);
+  else
+    text_.insert(at, table);
+  scan(ids());
+  return true;
+}
+
+bool WorldText::remove_inner(int id, const std::string& path, int index) {
+  const int element = index_of(id);
+  for (const Table& t : tables_)
+    if (!t.own && t.element == element && t.path == path && index-- == 0) {
+      // nor does the blank line go that stands between elements
+      const bool is_last = &t == &tables_.back() || (&t + 1)->own;
+      std::size_t end = t.end;
+      if (is_last && end < text_.size() && end > t.begin && text_[end - 1] == '\n' && text_[end - 2] == '\n')
+        --end;
+      text_.erase(t.top, end - t.top);
+      scan(ids());
+      return true;
+    }
+  return false;
 }
 
 int WorldText::copy(int id) {

@@ -40,6 +40,8 @@ class WorldText {
   Values values(int id) const;
   /// All of an element as it is written, without the comment above it.
   std::string text_of(int id) const;
+  /// Its tables below its own, likewise.
+  std::string inner_text(int id) const;
 
   // Edits. False: there is no such element.
   /// Changes, adds or, with an empty `value`, takes away a key of the element's own table.
@@ -49,6 +51,10 @@ class WorldText {
   int add(const std::string& path, const Values& values);
   /// The same once more, right below; returns the new one's id, 0: nothing to copy.
   int copy(int id);
+  /// Adds a table such as [[robot.part]] at the end of an element.
+  bool add_inner(int id, const std::string& path, const Values& values);
+  /// Takes away the `index`-th table of that path within an element.
+  bool remove_inner(int id, const std::string& path, int index);
   /// Another text altogether; elements keep their ids by path and order.
   void replace(std::string text);
 
@@ -58,8 +64,9 @@ class WorldText {
     std::size_t line = 0, begin = 0, end = 0, next = 0;  // places: its line, its value, the line after it
   };
   struct Table {
-    int element = 0;                          // index
-    bool own = false;                         // the element's first table
+    int element = 0;   // index
+    bool own = false;  // the element's first table
+    std::string path;
     std::size_t top = 0, begin = 0, end = 0;  // with the comment above; header; where the next table's top is
     std::vector<Entry> entries;
   };

@@ -41,6 +41,11 @@ double SpeakerTrack::value(double at_s) const {
 }
 
 SoundField::SoundField(const WorldDesc& world, Clicks tick) : tick_(tick), tick_s_(to_seconds(tick)) {
+  refurnish(world);
+}
+
+void SoundField::refurnish(const WorldDesc& world) {
+  sources_.clear();
   for (std::size_t i = 0; i < world.sounds.size(); ++i)
     sources_.emplace_back(world.sounds[i], world.seed, static_cast<int>(i));
 }

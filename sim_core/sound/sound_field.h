@@ -59,6 +59,8 @@ class SoundField {
 
   // --- at tick boundaries, by the simulation
 
+  /// Other sources from now on; what robots play goes on.
+  void refurnish(const WorldDesc& world);
   /// The robot's loudspeaker plays this from `now` on instead of whatever it played.
   void play(int robot, const SpeakerTrack& track, Clicks now);
   /// It falls silent at `now`.

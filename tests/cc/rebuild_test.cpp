@@ -5,8 +5,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <fstream>
+#include <mutex>
 #include <thread>
 
 #include "fake_host.h"
@@ -43,6 +45,15 @@ class Rebuild : public ::testing::Test {
     EXPECT_TRUE(result.ok) << text_of(result);
     return number() != before;
   }
+  /// An image ends with its stamp; half of one does not open.
+  bool bytes_are_whole() const {
+    const std::string bytes = cc::bytes_of(folder.path / "prog.so");
+    return bytes.rfind(
+               "\x7F"
+               "ELF",
+               0) == 0 &&
+           bytes.size() > 4096;
+  }
   std::string console() { return Image(folder.path / "prog.so").run().console; }
   void main_c(const std::string& text) { folder.file("prog/main.c", text); }
   ino_t number() const {
@@ -72,6 +83,48 @@ TEST_F(Rebuild, nothing_is_done_when_nothing_has_changed) {
   EXPECT_EQ(text_of(again), text_of(first)) << "warnings are told again";
   EXPECT_FALSE(text_of(again).empty());
   EXPECT_EQ(again.stack_bytes, first.stack_bytes);
+}
+
+// two views of one program, or a view and a run: a saved file starts a build in each of them
+TEST_F(Rebuild, builds_of_one_program_at_the_same_moment_do_not_spoil_each_others) {
+  const auto text = [](char c) {
+    return std::string("#include <stdio.h>\nint main(void) { printf(\"") + c + "\"); return 0; }";
+  };
+  // as editors save: the file is the old or the new one
+  const auto save = [&](char c) {
+    folder.file("prog/next", text(c));
+    fs::rename(folder.path / "prog/next", folder.path / "prog/main.c");
+  };
+  main_c(text('0'));
+  ASSERT_TRUE(build_again().ok);
+  std::atomic<bool> ended{false};
+  std::atomic<int> failed{0};
+  std::string said;
+  std::mutex mutex;
+  std::vector<std::thread> builders;
+  for (int i = 0; i < 3; ++i)
+    builders.emplace_back([&] {
+      while (!ended) {
+        const auto result = build_again();
+        if (result.ok && bytes_are_whole()) continue;
+        ++failed;
+        const std::lock_guard<std::mutex> lock(mutex);
+        said = text_of(result);
+      }
+    });
+  for (int round = 0; round < 12; ++round) {
+    save(static_cast<char>('1' + round % 2));
+    std::this_thread::sleep_for(std::chrono::milliseconds(60));
+  }
+  ended = true;
+  for (auto& builder : builders) builder.join();
+  EXPECT_EQ(failed, 0) << said;
+  // and whatever they have left behind misleads nobody
+  for (char c : std::string("1212")) {
+    save(c);
+    ASSERT_TRUE(build_again().ok);
+    EXPECT_EQ(console(), std::string(1, c));
+  }
 }
 
 TEST_F(Rebuild, a_touched_file_of_the_same_content_is_no_change) {

@@ -37,12 +37,12 @@ TEST_F(SaveImages, a_file_in_the_way_is_said_before_the_run) {
 TEST(DecodePicture, widens_565_takes_grey_and_pairs_chroma) {
   board::CameraPicture picture{board::SensorSetup::Format::Rgb565, 2, 1, 1, 0, {0xF8, 0x00, 0x04, 0x1F}};
   // pure red; green 32 of 63 is 130, blue 31 is 255
-  EXPECT_EQ(tools::decode_picture(picture), (std::vector<std::uint8_t>{255, 0, 0, 0, 130, 255}));
+  EXPECT_EQ(board::decode_picture(picture), (std::vector<std::uint8_t>{255, 0, 0, 0, 130, 255}));
   picture = {board::SensorSetup::Format::Grey, 2, 1, 1, 0, {7, 200}};
-  EXPECT_EQ(tools::decode_picture(picture), (std::vector<std::uint8_t>{7, 7, 7, 200, 200, 200}));
+  EXPECT_EQ(board::decode_picture(picture), (std::vector<std::uint8_t>{7, 7, 7, 200, 200, 200}));
   // Cb 128, Cr 128 + 0.713 * 100 = 199: red is 100 above the luma
   picture = {board::SensorSetup::Format::Yuv, 2, 1, 1, 0, {100, 128, 50, 199}};
-  const std::vector<std::uint8_t> rgb = tools::decode_picture(picture);
+  const std::vector<std::uint8_t> rgb = board::decode_picture(picture);
   EXPECT_NEAR(rgb[0], 200, 1);
   EXPECT_NEAR(rgb[2], 100, 1);
   EXPECT_NEAR(rgb[3], 150, 1);

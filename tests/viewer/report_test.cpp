@@ -62,7 +62,7 @@ class Report : public ViewTest {
   Report() {
     write("world.toml", kWorld);
     write("drive/main.c", kDrive);
-    write("page/index.html", "<link rel=\"stylesheet\" href=\"page.css\"><script src=\"page.js\"></script>");
+    write("page/index.html", "<link rel=\"stylesheet\" href=\"page.css\"><script src=\"start.js\"></script>");
     write("page/page.js", "'</script>'");
     write("page/page.css", "b{}");
     twin::Options options;

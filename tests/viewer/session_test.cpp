@@ -278,6 +278,7 @@ TEST_F(Session, a_robot_added_in_the_page_runs) {
   steps(page, 3);
   page.good({{"do", "edit"},
              {"op", "add"},
+             {"anew", true},
              {"path", "robot"},
              {"values", {{"name", "second"}, {"firmware", "drive"}, {"position", {-0.5, 0.3}}}}});
   steps(page, 40);
@@ -293,11 +294,166 @@ TEST_F(Session, a_robot_copied_in_a_run_begins_anew_with_whoever_looks) {
   steps(page, 5);
   page.good({{"do", "edit"},
              {"op", "copy"},
+             {"anew", true},
              {"thing", robot},
              {"values", {{"name", "puck2"}, {"position", {-0.5, 0.2}}}}});
   const Frame frame = page.frame([](const Frame& f) { return f.robots == 2; });
   EXPECT_EQ(frame.time_s, 0);
   EXPECT_FLOAT_EQ(frame.body.at(1).y, 0.2f);
+}
+
+TEST_F(Session, an_edit_that_needs_a_new_run_says_why_before_it_is_done) {
+  Page page(open("world.toml"));
+  const int robot = page.event("hello").at("world").at("robots").at(0).at("id");
+  steps(page, 5);
+  const auto refused = [&](Json request) {
+    request["do"] = "edit";
+    const Json answer = page.ask(request);
+    EXPECT_TRUE(answer.value("anew", false)) << answer.dump();
+    return answer.value("error", std::string());
+  };
+  EXPECT_EQ(refused({{"op", "remove"}, {"thing", robot}}),
+            "robots come and go only when a run begins: the run would begin anew");
+  EXPECT_EQ(refused({{"op", "set"}, {"thing", robot}, {"values", {{"seed", 3}}}}),
+            "`seed` of puck is set when it is switched on: the run would begin anew");
+  EXPECT_EQ(
+      refused(
+          {{"op", "add_inner"}, {"thing", robot}, {"path", "robot.part"}, {"values", {{"kind", "compass"}}}}),
+      "what is plugged into puck is there from its power-up on: the run would begin anew");
+  EXPECT_EQ(refused({{"op", "text"}, {"text", std::string(kWorld) + "[world]\nseed = 4\n"}}),
+            "[world] counts for a whole run: the run would begin anew");
+  // nothing was done, and nothing is there to be undone
+  const Json state = page.good({{"do", "state"}}).at("state");
+  EXPECT_TRUE(state.at("saved"));
+  EXPECT_FALSE(state.at("undo"));
+  EXPECT_NEAR(state.at("time_s"), 0.16, 0.01);
+  page.good({{"do", "edit"}, {"anew", true}, {"op", "set"}, {"thing", robot}, {"values", {{"seed", 3}}}});
+  EXPECT_EQ(page.good({{"do", "state"}}).at("state").at("time_s"), 0);
+  // undoing it is the same question
+  steps(page, 5);
+  EXPECT_TRUE(page.ask({{"do", "undo"}}).value("anew", false));
+  EXPECT_TRUE(page.good({{"do", "state"}}).at("state").at("undo"));
+}
+
+TEST_F(Session, a_robot_that_runs_takes_place_colour_selector_battery_and_program_from_the_file) {
+  write("back/main.c",
+        std::string(kDrive).replace(std::string(kDrive).find("speed = 500"), 11, "speed =-500"));
+  Page page(open("world.toml"));
+  const int robot = page.event("hello").at("world").at("robots").at(0).at("id");
+  page.good({{"do", "subscribe"}, {"names", {"puck.selector", "puck.battery"}}});
+  steps(page, 10);
+  page.good({{"do", "edit"},
+             {"op", "set"},
+             {"thing", robot},
+             {"values",
+              {{"position", {0.1, 0.2}},
+               {"heading", 90},
+               {"colour", {1, 0, 0}},
+               {"selector", 4},
+               {"battery", 3.4}}}});
+  steps(page, 1);
+  const Frame moved = page.frame([](const Frame& f) { return f.time_s > 0.33; });
+  EXPECT_NEAR(moved.body.at(0).x, 0.1, 0.002);
+  EXPECT_GT(moved.body.at(0).y, 0.2);
+  EXPECT_EQ(moved.value.at(0), 4);
+  EXPECT_NEAR(moved.value.at(1), 3.4, 0.1);
+  page.good({{"do", "edit"}, {"op", "set"}, {"thing", robot}, {"values", {{"firmware", "back"}}}});
+  page.event("programs", [](const Json& e) {
+    for (const Json& p : e.at("programs"))
+      if (p.at("name") == "back") return !p.at("robots").empty();
+    return false;
+  });
+  EXPECT_TRUE(page.event("built").at("ok"));
+  steps(page, 30);
+  const Frame back = page.frame([](const Frame& f) { return f.time_s > 1.3; });
+  EXPECT_LT(back.body.at(0).y, moved.body.at(0).y);
+  // and a new run has it, too
+  page.good({{"do", "restart"}});
+  steps(page, 10);
+  EXPECT_LT(page.frame([](const Frame& f) { return f.time_s > 0.3 && f.time_s < 1; }).body.at(0).y, 0.2);
+}
+
+TEST_F(Session, a_source_of_sound_moves_while_the_robot_hears_it) {
+  write("world.toml",
+        std::string(kWorld) +
+            "\n[[sound]]\nname = \"horn\"\nkind = \"tone\"\nlevel = 80\nposition = [-0.5, 0.2, 0.035]\n");
+  write("drive/main.c", "int main(void) { while (1); }\n");
+  Page page(open("world.toml"));
+  const int horn = thing(page.event("hello").at("world"), "horn");
+  page.good({{"do", "subscribe"}, {"names", {"puck.sound_bearing", "puck.mic_level0", "puck.mic_level1"}}});
+  steps(page, 5);
+  const Frame left = page.frame([](const Frame& f) { return f.time_s > 0.15; });
+  EXPECT_NEAR(left.value.at(0), 90, 3);
+  // 80 dB are 0.2 Pa at 1 m; 0.169 m to the left microphone: 0.2 / 0.169 * 98.5 counts
+  EXPECT_NEAR(left.value.at(2), 117, 3);
+  EXPECT_LT(left.value.at(1), left.value.at(2));
+  page.good({{"do", "edit"}, {"op", "set"}, {"thing", horn}, {"values", {{"position", {-0.7, 0, 0.035}}}}});
+  steps(page, 5);
+  const Frame behind = page.frame([](const Frame& f) { return f.time_s > 0.3; });
+  EXPECT_NEAR(std::fabs(behind.value.at(0)), 180, 3);
+}
+
+TEST_F(Session, who_looks_at_a_robot_is_told_of_place_parts_and_picture) {
+  write("world.toml", std::string(kWorld) +
+                          "\n[[robot.part]]\nkind = \"lis-turret\"\n\n[[robot]]\nname = \"eye\"\nfirmware = "
+                          "\"eye\"\nposition = [0, 0.4]\n");
+  write("eye/main.c", R"(#include <camera/fast_2_timer/e_poxxxx.h>
+#include <motor_led/e_init_port.h>
+static char picture[2 * 40 * 30];
+int main(void) {
+  e_init_port();
+  e_poxxxx_init_cam();
+  e_poxxxx_config_cam(0, 0, 640, 480, 16, 16, RGB_565_MODE);
+  e_poxxxx_write_cam_registers();
+  while (1) {
+    e_poxxxx_launch_capture(picture);
+    while (!e_poxxxx_is_img_ready())
+      ;
+  }
+}
+)");
+  Page page(open("world.toml"));
+  page.event("hello");
+  page.good({{"do", "look"}, {"robot", "eye"}});
+  const Json before = page.event("look");
+  EXPECT_FALSE(before.contains("picture"));
+  EXPECT_EQ(before.at("camera").at("pictures"), 0);
+  steps(page, 60);
+  const Json look = page.event("look", [](const Json& e) { return e.contains("picture"); });
+  EXPECT_EQ(look.at("place").at("line"), 11);
+  EXPECT_EQ(look.at("place").at("function"), "main");
+  const Json& picture = look.at("picture");
+  EXPECT_EQ(picture.at("columns"), 40);
+  EXPECT_EQ(picture.at("rows"), 30);
+  EXPECT_EQ(picture.at("bytes_per_pixel"), 2);
+  EXPECT_EQ(picture.at("rgb").get<std::string>().size(), 40u * 30 * 4);  // base64 of three bytes a pixel
+  // 640 columns cover 0.84 rad
+  EXPECT_NEAR(look.at("camera").at("edges").at(1).get<double>(), std::tan(0.42), 0.03);
+  page.good({{"do", "look"}, {"robot", "puck"}});
+  EXPECT_EQ(page.event("look", [](const Json& e) { return e.at("robot") == "puck"; }).at("parts"),
+            Json({{{"kind", "lis-turret"}, {"shows", "LEDs 00000"}}}));
+}
+
+TEST_F(Session, parts_are_plugged_in_and_unplugged) {
+  Page page(open("world.toml"));
+  const int robot = page.event("hello").at("world").at("robots").at(0).at("id");
+  page.good({{"do", "edit"},
+             {"op", "add_inner"},
+             {"thing", robot},
+             {"path", "robot.part"},
+             {"values", {{"kind", "ground-sensors"}}}});
+  const Json world = page.event("world").at("world");
+  EXPECT_EQ(world.at("robots").at(0).at("parts"), Json({"ground-sensors"}));
+  EXPECT_EQ(world.at("text"), std::string(kWorld) + "[[robot.part]]\nkind = \"ground-sensors\"\n");
+  page.good({{"do", "edit"}, {"op", "remove_inner"}, {"thing", robot}, {"path", "robot.part"}, {"index", 0}});
+  EXPECT_EQ(page.event("world").at("world").at("text"), kWorld);
+  EXPECT_EQ(page.ask({{"do", "edit"},
+                      {"op", "add_inner"},
+                      {"thing", robot},
+                      {"path", "robot.part"},
+                      {"values", {{"nonsense", 1}}}})
+                .at("error"),
+            "key: got 'nonsense', expected a key of robot.part");
 }
 
 TEST_F(Session, a_world_drawn_from_nothing_runs_from_the_command_line) {

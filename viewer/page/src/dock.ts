@@ -5,10 +5,12 @@ import { indentWithTab } from "@codemirror/commands";
 import { cpp } from "@codemirror/lang-cpp";
 import { setDiagnostics, lintGutter } from "@codemirror/lint";
 import { oneDark } from "@codemirror/theme-one-dark";
-import { EditorState, Compartment } from "@codemirror/state";
-import { keymap } from "@codemirror/view";
+import { EditorState, Compartment, StateEffect, StateField } from "@codemirror/state";
+import { Decoration, keymap } from "@codemirror/view";
+import type { DecorationSet } from "@codemirror/view";
 import uPlot from "uplot";
 import type { App } from "./main";
+import type { Look } from "./protocol";
 import { kPalette } from "./scene";
 import { byId, css, h } from "./dom";
 
@@ -40,6 +42,10 @@ export class Console {
     if (names.includes(was)) this.robot.value = was;
   }
   choose(name: string) { this.robot.value = name; }
+  /** What came later than what the scene shows is dim. */
+  shownUntil(time: number) {
+    for (const line of this.lines.children) line.classList.toggle("later", Number((line as HTMLElement).dataset.time ?? 0) > time);
+  }
   say(who: string, text: string, kind = "", time?: number) {
     const stays = this.lines.scrollHeight - this.lines.scrollTop - this.lines.clientHeight > 40;
     const parts = text.split(/\r\n|\r|\n/);
@@ -48,6 +54,7 @@ export class Console {
       if (!line && (part !== "" || i < parts.length - 1)) {
         if (part === "" && i < parts.length - 1) return;
         line = h("div", { className: kind }, time !== undefined && h("small", {}, `${time.toFixed(3)} `), h("b", {}, who + " "), h("span", {}));
+        if (time !== undefined) line.dataset.time = String(time);
         this.lines.append(line);
         this.open.set(who, line);
       }
@@ -63,7 +70,7 @@ export class Plots {
   readonly pane: HTMLElement;
   names: string[] = [];
   private times: number[] = [];
-  private series: number[][] = [];
+  private series: (number | null)[][] = [];
   private chart?: uPlot;
   private area = h("div", { id: "plot" });
   private chips = h("div", { className: "toolbar wrap" });
@@ -94,7 +101,7 @@ export class Plots {
   /** From the frames that are kept. */
   refill() {
     this.clear();
-    this.app.eachKept((time, values) => this.sample(time, values));
+    this.app.eachKept(this.names, (time, values) => this.sample(time, values));
     this.draw();
   }
   clear() {
@@ -113,12 +120,12 @@ export class Plots {
       series: [{ label: "s" }, ...this.names.map((label, i) => ({ label, stroke: kPalette[i], width: 1.5, points: { show: false } }))],
     }, [[], ...this.names.map(() => [])] as any, this.area);
   }
-  sample(time: number, values: Map<string, number>) {
+  sample(time: number, values: (number | null)[]) {
     if (this.names.length === 0) return;
     if (this.times.length > 0 && time < this.times[this.times.length - 1]) this.clear();
     if (time === this.times[this.times.length - 1]) return;
     this.times.push(time);
-    this.names.forEach((n, i) => this.series[i]?.push(values.get(n) ?? NaN));
+    values.forEach((v, i) => this.series[i]?.push(v));
     if (this.times.length > kMostSamples) {
       this.times.splice(0, kMostSamples / 4);
       this.series.forEach((s) => s.splice(0, kMostSamples / 4));
@@ -142,6 +149,17 @@ function editor(parent: HTMLElement, onSave: () => void, theme: Compartment, dar
 }
 const put = (view: EditorView, text: string) => view.dispatch({ changes: { from: 0, to: view.state.doc.length, insert: text } });
 
+/** A line with a mark, 0: none. */
+const markLine = StateEffect.define<number>();
+const markedLine = StateField.define<DecorationSet>({
+  create: () => Decoration.none,
+  update(marks, change) {
+    for (const e of change.effects) if (e.is(markLine)) return e.value ? Decoration.set(Decoration.line({ class: "stands" }).range(change.state.doc.line(e.value).from)) : Decoration.none;
+    return marks.map(change.changes);
+  },
+  provide: (field) => EditorView.decorations.from(field),
+});
+
 export class ProgramPane {
   readonly pane: HTMLElement;
   private view: EditorView;
@@ -149,10 +167,11 @@ export class ProgramPane {
   private messages = h("div", { id: "build-messages" });
   private theme = new Compartment();
   private saved = "";
+  private marked = 0;
   constructor(private app: App) {
     const area = h("div", { className: "editor", id: "source" });
     this.pane = h("div", { className: "pane column" }, h("div", { className: "toolbar" }, this.file, h("button", { id: "source-save", onclick: () => this.save(), title: "Save, build and start where the robots stand (Ctrl S)" }, "Save and run"), this.messages), area);
-    this.view = editor(area, () => this.save(), this.theme, app.dark, [cpp(), lintGutter()]);
+    this.view = editor(area, () => this.save(), this.theme, app.dark, [cpp(), lintGutter(), markedLine]);
   }
   setDark(dark: boolean) { this.view.dispatch({ effects: this.theme.reconfigure(dark ? oneDark : []) }); }
   programs() {
@@ -171,12 +190,15 @@ export class ProgramPane {
   private get place() { const [program, file] = this.file.value.split("\n"); return { program, file }; }
   text() { return this.view.state.doc.toString(); }
   setText(text: string) { put(this.view, text); }
+  get markedLine() { return this.marked; }
   async open() {
     if (!this.file.value) return;
     try {
       const text = (await this.app.connection.ask("source", this.place)).text;
       this.saved = text;
+      this.marked = 0;
       put(this.view, text);
+      this.stands(this.app.look);
     } catch (e) {
       this.app.notice((e as Error).message, true);
     }
@@ -184,6 +206,25 @@ export class ProgramPane {
   async save() {
     this.saved = this.text();
     await this.app.do("write_source", { ...this.place, text: this.saved });
+  }
+  /** Marks the line where the robot's program stands, if it is of this file. */
+  stands(look?: Look) {
+    const at = this.app.sourceOf(look), here = at && this.file.value === `${at.program}\n${at.file}` && at.line <= this.view.state.doc.lines ? at.line : 0;
+    if (here !== this.marked) this.view.dispatch({ effects: markLine.of(here) });
+    this.marked = here;
+  }
+  async goTo(look?: Look) {
+    const at = this.app.sourceOf(look);
+    if (!at) return;
+    const value = `${at.program}\n${at.file}`;
+    if (this.file.value !== value) {
+      this.file.value = value;
+      await this.open();
+    }
+    this.app.showDock("program");
+    this.stands(look);
+    const line = this.view.state.doc.line(Math.min(at.line, this.view.state.doc.lines));
+    this.view.dispatch({ effects: EditorView.scrollIntoView(line.from, { y: "center" }) });
   }
   building() { this.messages.replaceChildren(h("span", { className: "dim" }, "building…")); }
   async built(event: { ok: boolean; problems: string[]; warnings: string[]; took_s: number }) {

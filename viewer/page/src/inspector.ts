@@ -3,16 +3,16 @@
 // world file.
 import type { App } from "./main";
 import type { KeySpec, Robot, Thing } from "./protocol";
-import { readLiteral } from "./protocol";
-import { byId, css, h } from "./dom";
+import { readLiteral, RobotState } from "./protocol";
+import { drawEars, drawFan, drawPicture } from "./senses";
+import { byId, h } from "./dom";
 
 const kSwatches: [string, number[]][] = [["black", [0, 0, 0]], ["white", [1, 1, 1]], ["grey", [0.5, 0.5, 0.5]],
   ["red", [0.85, 0.1, 0.1]], ["green", [0.1, 0.6, 0.25]], ["blue", [0.1, 0.3, 0.8]], ["yellow", [0.95, 0.8, 0.1]]];
-const kGauges: [string, string, number, number][] = [["speed", "m/s", 0, 0.13], ["battery", "V", 3, 4.2], ["load", "%", 0, 100],
+const kGauges: [string, string, number, number][] = [["speed", "m/s", 0, 0.13], ["battery", "V", 3, 4.2], ["charge", "%", 0, 100], ["current", "mA", 0, 800], ["load", "%", 0, 100],
   ["left_steps", "steps", 0, 0], ["right_steps", "steps", 0, 0], ["distance", "m", 0, 0], ["collisions", "", 0, 0],
   ["acc_x", "counts", 0, 4095], ["acc_y", "counts", 0, 4095], ["acc_z", "counts", 0, 4095],
   ["mic0", "counts", 0, 4095], ["mic1", "counts", 0, 4095], ["mic2", "counts", 0, 4095]];
-const kFarCounts = 4095;
 // codes of RC-5, as televisions' remote controls send them
 const kRemote: [string, number, string][] = [...Array.from({ length: 10 }, (_, i): [string, number, string] => [String((i + 1) % 10), (i + 1) % 10, `key ${(i + 1) % 10}`]),
   ["⏻", 12, "standby"], ["V+", 16, "volume up"], ["V−", 17, "volume down"], ["P+", 32, "programme up"], ["P−", 33, "programme down"]];
@@ -25,6 +25,11 @@ const fromHex = (s: string) => [1, 3, 5].map((i) => Math.round((parseInt(s.slice
 export class Inspector {
   private shown = -1;
   private fan?: CanvasRenderingContext2D;
+  private ears?: CanvasRenderingContext2D;
+  private camera = h("canvas", { id: "camera", title: "What the program got from its camera last" });
+  private cameraBox = h("div", { id: "camera-box", hidden: true });
+  private stands = h("button", { id: "stands", className: "row", title: "Where its program stands; a click shows the line", onclick: () => this.app.program.goTo(this.app.look) });
+  private parts = h("div", { id: "parts" });
   private gauges = new Map<string, { text: HTMLElement; bar: HTMLElement; least: number; most: number; unit: string }>();
   private watched = new Map<string, string[]>();  // per robot: expressions
   private place?: HTMLElement;
@@ -36,7 +41,7 @@ export class Inspector {
   names(): string[] {
     const robot = this.app.selectedRobot();
     if (!robot) return [];
-    const own = ["x", "y", "heading", "selector", ...kGauges.map((g) => g[0])];
+    const own = ["x", "y", "heading", "selector", "sound_bearing", "speaker", "mic_level0", "mic_level1", "mic_level2", ...kGauges.map((g) => g[0])];
     for (let i = 0; i < 8; ++i) own.push(`ir${i}`, `light${i}`);
     return [...own, ...(this.watched.get(robot.name) ?? []).map(watchName)].map((n) => `${robot.name}.${n}`);
   }
@@ -47,8 +52,10 @@ export class Inspector {
     if (editing && this.shown === this.app.selected) return;
     this.shown = this.app.selected;
     this.gauges.clear();
-    this.fan = undefined;
+    this.fan = this.ears = undefined;
+    this.parts.dataset.said = "";
     byId("inspector").replaceChildren(...(robot ? this.robot(robot) : thing ? this.thing(thing) : this.worldPane()));
+    this.showLook();
     this.update();
   }
 
@@ -66,6 +73,8 @@ export class Inspector {
   private robot(robot: Robot): HTMLElement[] {
     const canvas = h("canvas", { width: 640, height: 440, id: "fan", title: "Proximity sensors: the fuller a wedge, the nearer something is (counts, 0 to 4095). Numbers are ir0 to ir7." });
     this.fan = canvas.getContext("2d")!;
+    const ears = h("canvas", { width: 640, height: 200, id: "ears", title: "Sound at the three microphones (counts, root mean square, without their noise), the arrow whence it comes; and what the loudspeaker plays, % of full scale" });
+    this.ears = ears.getContext("2d")!;
     const selector = h("input", { type: "range", min: "0", max: "15", value: "0", id: "selector", title: "Selector, 0 to 15: turn it while the program runs",
       oninput: () => { label.textContent = selector.value; this.app.do("selector", { robot: robot.name, position: Number(selector.value) }); } }) as HTMLInputElement;
     const label = h("b", { id: "selector-value" });
@@ -81,7 +90,7 @@ export class Inspector {
     this.place = h("p", { className: "dim number" });
     return [
       h("h2", {}, h("i", { style: `background:${hex(robot.colour)}` }), robot.name, h("small", {}, robot.firmware || "no program")),
-      this.place,
+      this.place, this.stands,
       h("div", { className: "buttons" },
         h("button", { onclick: () => this.app.do("reset", { robot: robot.name }), title: "The robot's reset button" }, "Reset"),
         h("button", { onclick: () => this.app.toggleRays(robot.name), title: "Rays of its proximity sensors (Y for all robots)" }, "Rays"),
@@ -91,6 +100,7 @@ export class Inspector {
         h("button", { onclick: () => this.app.removeSelected(), title: "Delete (Del)" }, "Delete")),
       canvas,
       h("div", { className: "field" }, h("label", {}, "Selector"), selector, label),
+      this.cameraBox, ears, this.parts,
       ...kGauges.map(gauge),
       h("h3", {}, "Variables, registers, pins"),
       ...(this.watched.get(robot.name) ?? []).map((v) => {
@@ -105,6 +115,32 @@ export class Inspector {
         h("div", { className: "field" }, h("label", {}, "Battery"), h("input", { type: "range", min: "3", max: "4.2", step: "0.05", value: "4", id: "battery", title: "Charge the battery to so many volts", onchange: (e: any) => this.app.do("battery", { robot: robot.name, volts: Number(e.target.value) }) }), h("span", { className: "unit" }, "V"))),
       ...this.keys("robot", robot.id),
     ];
+  }
+
+  /** What numbers do not say: place, picture, parts. */
+  showLook() {
+    const { look } = this.app, robot = this.app.selectedRobot();
+    if (!robot) return;
+    const at = look?.place, waits = (this.app.frame?.robotWords[2 * robot.body + 1] ?? 0) & RobotState.Waiting;
+    const own = this.app.sourceOf(look);
+    this.stands.textContent = !at?.function ? "" : `${waits ? "waits" : "is"} in ${at.function}()${at.line ? `, ${own?.file ?? at.file.split("/").pop()}:${at.line}` : ""}`;
+    this.stands.hidden = !at?.function;
+    this.stands.disabled = !own;
+    const picture = look?.picture;
+    this.cameraBox.hidden = !picture;
+    if (picture) {
+      drawPicture(this.camera, picture);
+      this.cameraBox.replaceChildren(this.camera, h("small", {}, `camera: ${picture.columns} × ${picture.rows}, ${picture.bytes_per_pixel} byte${picture.bytes_per_pixel > 1 ? "s" : ""} a pixel, picture ${picture.number}`),
+        h("button", { className: "tiny", title: "What it sees, in the scene (K)", onclick: () => this.app.toggleView() }, "Show in scene"));
+    }
+    const said = JSON.stringify([robot.parts, look?.parts]);
+    if (this.parts.dataset.said === said) return;
+    this.parts.dataset.said = said;
+    const kinds = this.app.schema["robot.part"]?.kinds ?? [];
+    const add = h("select", { id: "add-part", title: "Plug a part into the robot", onchange: () => this.app.change({ op: "add_inner", thing: robot.id, path: "robot.part", values: { kind: (add as HTMLSelectElement).value } }) },
+      h("option", { value: "" }, "Add a part…"), ...kinds.map((k) => h("option", { value: k.kind, title: k.doc }, k.kind)));
+    this.parts.replaceChildren(...robot.parts.map((kind, i) => h("div", { className: "field part" }, h("label", {}, kind), h("span", { className: "number" }, look?.parts[i]?.shows ?? ""),
+      h("button", { className: "tiny", title: "Unplug it", onclick: () => this.app.change({ op: "remove_inner", thing: robot.id, path: "robot.part", index: i }) }, "×"))), ...(kinds.length > 0 ? [add] : []));
   }
 
   private async watch(robot: string, expression: string) {
@@ -186,36 +222,7 @@ export class Inspector {
       g.text.textContent = Number.isInteger(v) ? String(v) : v.toFixed(3);
       g.bar.style.width = g.most > g.least ? `${(100 * Math.min(1, Math.max(0, (v - g.least) / (g.most - g.least)))).toFixed(1)}%` : "0";
     }
-    this.drawFan(robot, value);
-  }
-
-  private drawFan(robot: Robot, value: (name: string) => number | undefined) {
-    const c = this.fan;
-    if (!c) return;
-    const { width: w, height: hgt } = c.canvas, mx = w / 2, my = hgt / 2 + 10, r0 = 62, r1 = 185;
-    c.clearRect(0, 0, w, hgt);
-    c.lineWidth = 2;
-    robot.sensors.forEach((s, i) => {
-      const counts = value(`ir${i}`) ?? 0, a = -s[3] - Math.PI / 2, half = 0.2;
-      const reach = r0 + (r1 - r0) * Math.min(1, Math.sqrt(Math.max(0, counts) / kFarCounts));
-      c.fillStyle = css("--line");
-      c.beginPath(); c.arc(mx, my, r1, a - half, a + half); c.arc(mx, my, r0, a + half, a - half, true); c.fill();
-      c.fillStyle = css("--accent");
-      c.beginPath(); c.arc(mx, my, reach, a - half, a + half); c.arc(mx, my, r0, a + half, a - half, true); c.fill();
-      c.fillStyle = css("--text");
-      c.font = "600 21px system-ui";
-      c.textAlign = "center";
-      c.fillText(`${counts.toFixed(0)}`, mx + (r1 + 26) * Math.cos(a) * 1.08, my + (r1 + 18) * Math.sin(a) + 4);
-    });
-    c.fillStyle = css("--panel2");
-    c.strokeStyle = css("--dim");
-    c.beginPath(); c.arc(mx, my, r0 - 6, 0, 7); c.fill(); c.stroke();
-    c.beginPath(); c.moveTo(mx, my - 46); c.lineTo(mx - 14, my - 22); c.lineTo(mx + 14, my - 22); c.closePath(); c.fillStyle = css("--text"); c.fill();
-    const leds = this.app.leds(robot.body);
-    for (let i = 0; i < 8; ++i) {
-      const a = -Math.PI / 2 + (i * Math.PI) / 4;
-      c.fillStyle = leds & (1 << i) ? "#ff3b30" : css("--line");
-      c.beginPath(); c.arc(mx + 44 * Math.cos(a), my + 44 * Math.sin(a), 6, 0, 7); c.fill();
-    }
+    if (this.fan) drawFan(this.fan, robot, this.app.leds(robot.body), value);
+    if (this.ears) drawEars(this.ears, value);
   }
 }

@@ -6,10 +6,11 @@ import "./page.css";
 import { Connection, readFrame, RobotState } from "./protocol";
 import { Playback } from "./playback";
 import { TimeLine } from "./timeline";
-import type { Frame, Program, Robot, Schema, State, Thing, World } from "./protocol";
+import type { Frame, Look, Program, Robot, Schema, State, Thing, World } from "./protocol";
 import { Scene } from "./scene";
 import { Inspector } from "./inspector";
 import { Console, Plots, ProblemsPane, ProgramPane, WorldTextPane } from "./dock";
+import { imageOf } from "./senses";
 import { Touch } from "./touch";
 import { byId, css, h, icon } from "./dom";
 
@@ -18,6 +19,7 @@ const kSpeeds: [string, number][] = [["1/16", 1 / 16], ["1/8", 1 / 8], ["1/4", 1
 const kMostTrail = 3000;  // frames, of the paths in what was seen
 const kMostPast = 20000;          // frames
 const kMostPastBytes = 96 << 20;
+const kMostLooks = 3000;
 const kRedrawEvery = 4;           // frames, for numbers and plots: nobody reads faster
 
 export class App {
@@ -25,7 +27,7 @@ export class App {
   readonly recorded = document.getElementById("report") ? new Playback() : undefined;
   readonly connection = this.recorded ?? new Connection();
   readonly scene = new Scene(byId("stage"));
-  world: World = { title: "", file: "", text: "", step_s: 0.032, tick_s: 1 / 512, floor: { colour: [1, 1, 1], image: false }, things: [], robots: [], elements: [], problems: [] };
+  world: World = { title: "", file: "", text: "", step_s: 0.032, tick_s: 1 / 512, floor: { colour: [1, 1, 1], image: "" }, things: [], robots: [], elements: [], problems: [] };
   state: State = { playing: false, speed: 1, ended: false, time_s: 0, seed: 1, saved: true, undo: false, redo: false, steering: 0, runs: false };
   programs: Program[] = [];
   schema: Schema = {};
@@ -42,11 +44,16 @@ export class App {
   readonly timeline = new TimeLine(this);
   readonly touch = new Touch(this);
   frames = 0;
+  /** Milliseconds of script that the last frames took: scene, inspector, plots, but not the drawing of the scene. */
+  readonly work: number[] = [];
   frame?: Frame;
+  look?: Look;  // what is shown of the selected robot beside numbers
+  showView = true;
+  private looks: Look[] = [];
+  private floorImage = "";
   private me = 0;
   private revision = 0;
-  private names: string[] = [];
-  private subscription = -1;
+  private subscriptions = new Map<number, string[]>();  // names of each, since frames of all are kept
   private rays = new Set<string>();
   private past: { time: number; bytes: ArrayBuffer }[] = [];
   private shownAt = Infinity;  // the frame of the past that the paths lead to; live ones lead to now
@@ -55,6 +62,7 @@ export class App {
   private traps: string[] = [];
   private diagnoses: string[] = [];
   private noticeTimer = 0;
+  private answer?: () => void;  // no, to the question that stands
   private fresh = true;
   private player = 0;  // of a report: the timer
 
@@ -94,6 +102,7 @@ export class App {
     c.on("state", (e) => this.takeState(e.state));
     c.on("serial", (e) => this.console.say(e.robot + (e.port === 2 ? " uart2" : ""), e.text, "", e.time_s));
     c.on("trace", (e) => this.timeline.take(e));
+    c.on("look", (e) => this.takeLook(e));
     c.on("says", (e) => this.console.say("supervisor", e.text + "\n", "dim"));
     c.on("problems", (e) => this.notice(e.problems[0], true));
     c.on("building", () => this.program.building());
@@ -109,7 +118,12 @@ export class App {
       this.notice(text, true);
     });
     c.on("diagnoses", (e) => this.takeDiagnoses(e.diagnoses));
-    c.onFrame = (frame, bytes) => this.takeFrame(frame, bytes);
+    c.onFrame = (frame, bytes) => {
+      const begin = performance.now();
+      this.takeFrame(frame, bytes);
+      // behind what the plots have put off
+      queueMicrotask(() => { if (this.work.push(performance.now() - begin) > 600) this.work.shift(); });
+    };
     c.onClose = () => {
       document.body.dataset.ready = "gone";
       this.notice("twinpuck view has ended. Start it again and open the address that it prints.", true, true);
@@ -137,8 +151,39 @@ export class App {
     this.text.show(world.text);
     this.showProblems();
     byId("badges").replaceChildren(...world.problems.slice(0, 8).map((p) => h("button", { className: "bad", onclick: () => { if (p.id) this.select(p.id); this.goToLine(p.line); } }, `⚠ ${p.text}`)));
+    this.takeFloor(world.floor.image);
     this.rays.forEach((name) => { if (!world.robots.some((r) => r.name === name)) this.rays.delete(name); });
     this.subscribe().catch(() => {});
+  }
+
+  private async takeFloor(image: string) {
+    if (image === this.floorImage) return;
+    this.floorImage = image;
+    try {
+      const floor = image ? await this.connection.ask("floor") : undefined;
+      if (image === this.floorImage) this.scene.setFloor(floor && imageOf(floor.width, floor.height, floor.rgb));
+    } catch { /* the colour will do */ }
+  }
+
+  private takeLook(look: Look) {
+    this.looks.push(look);
+    if (this.looks.length > kMostLooks) this.looks.splice(0, kMostLooks / 4);
+    if (this.live) this.showLook(look);
+  }
+  private showLook(look?: Look) {
+    const robot = this.selectedRobot();
+    this.look = look && robot?.name === look.robot ? look : undefined;
+    this.scene.setView(robot?.body ?? -1, this.showView && this.look?.picture ? this.look.camera : undefined);
+    this.inspector.showLook();
+    this.program.stands(this.look);
+  }
+  /** A file of a controller, as a place names it. */
+  sourceOf(look?: Look) {
+    const at = look?.place;
+    // as it was compiled, which may be from elsewhere
+    for (const program of at?.line ? this.programs.filter((p) => p.robots.includes(look!.robot)) : [])
+      for (const file of program.files)
+        if (`/${program.folder}/${file}`.endsWith(`/${at!.file}`)) return { program: program.name, file, line: at!.line };
   }
 
   private takePrograms(programs: Program[]) {
@@ -169,7 +214,7 @@ export class App {
     this.past.push({ time: frame.time, bytes });
     this.pastBytes += bytes.byteLength;
     while (this.past.length > kMostPast || this.pastBytes > kMostPastBytes) this.pastBytes -= this.past.shift()!.bytes.byteLength;
-    if (this.takeValues(frame)) this.plots.sample(frame.time, this.values);
+    if (this.takeValues(frame)) this.plots.sample(frame.time, this.plots.names.map((n) => this.values.get(n) ?? null));
     if (this.live) {
       this.show(frame);
       this.shownAt = Infinity;
@@ -185,15 +230,19 @@ export class App {
   }
 
   private takeValues(frame: Frame) {
-    if (frame.subscription !== this.subscription) return false;
-    this.names.forEach((n, i) => this.values.set(n, frame.values[i]));
+    const names = this.subscriptions.get(frame.subscription);
+    if (!names) return false;
+    names.forEach((n, i) => this.values.set(n, frame.values[i]));
     return true;
   }
-  /** The values of every frame that is kept and has what is subscribed to now. */
-  eachKept(look: (time: number, values: Map<string, number>) => void) {
+  /** Values by name of every frame that is kept; null where it has none. */
+  eachKept(names: string[], look: (time: number, values: (number | null)[]) => void) {
+    const places = new Map<number, number[]>();  // by subscription
     for (const { bytes } of this.past) {
       const frame = readFrame(bytes);
-      if (this.takeValues(frame)) look(frame.time, this.values);
+      let at = places.get(frame.subscription);
+      if (!at) places.set(frame.subscription, (at = names.map((n) => (this.subscriptions.get(frame.subscription) ?? []).indexOf(n))));
+      look(frame.time, at.map((i) => (i < 0 ? null : frame.values[i])));
     }
   }
 
@@ -228,6 +277,11 @@ export class App {
     this.show(frame);
     this.inspector.update();
     this.timeline.goTo(frame.time);
+    this.console.shownUntil(this.live ? Infinity : frame.time);
+    const name = this.selectedRobot()?.name;
+    let i = this.looks.length - 1;
+    while (i >= 0 && (this.looks[i].robot !== name || this.looks[i].time_s > frame.time + 1e-9)) --i;
+    this.showLook(this.looks[i]);
   }
 
   // --- a report: all frames are there, and time passes here
@@ -275,6 +329,7 @@ export class App {
   private forgetPast() {
     this.past = [];
     this.pastBytes = 0;
+    this.looks = [];
     this.traps = [];
     this.live = true;
     byId("past").classList.remove("back");
@@ -285,21 +340,32 @@ export class App {
 
   // --- asking
 
-  async do(what: string, more: Record<string, unknown> = {}) {
+  async do(what: string, more: Record<string, unknown> = {}): Promise<Record<string, any> | undefined> {
     try {
       return await this.connection.ask(what, more);
     } catch (e) {
-      this.notice((e as Error).message, true);
+      const { message, anew } = e as Error & { anew?: boolean };
+      if (!anew) this.notice(message, true);
+      else if (await this.question(message)) return this.do(what, { ...more, anew: true });
       return undefined;
     }
   }
-  set(thing: number, values: Record<string, unknown>, group = 0) { return this.do("edit", { op: "set", thing, values, group }); }
+  change(edit: Record<string, unknown>) { return this.do("edit", edit); }
+  /** What an edit would cost, before it is done. A later question takes the place of this one. */
+  private question(text: string) {
+    return new Promise<boolean>((done) => {
+      const answer = (yes: boolean) => () => { byId("question").replaceChildren(); this.answer = undefined; done(yes); };
+      this.answer?.();
+      this.answer = answer(false);
+      byId("question").replaceChildren(h("span", {}, text), h("button", { id: "anew", className: "strong", onclick: answer(true) }, "Begin anew"), h("button", { id: "leave", onclick: answer(false) }, "Leave it"));
+    });
+  }
+  set(thing: number, values: Record<string, unknown>, group = 0) { return this.change({ op: "set", thing, values, group }); }
 
   async subscribe() {
     const names = [...new Set([...this.inspector.names(), ...this.plots.names])];
     const answer = await this.connection.ask("subscribe", { names });
-    this.names = answer.names ?? names;
-    this.subscription = answer.subscription;
+    this.subscriptions.set(answer.subscription, answer.names ?? names);
     if (!this.recorded) this.connection.ask("rays", { robots: [...this.rays] }).catch(() => {});
   }
   toggleRays(robot?: string) {
@@ -310,6 +376,10 @@ export class App {
     this.do("rays", { robots: [...this.rays] });
   }
   leds(body: number) { return this.frame && body < this.frame.robots ? this.frame.robotWords[2 * body] : 0; }
+  toggleView() {
+    this.showView = !this.showView;
+    this.showLook(this.look);
+  }
   follow(robot: string) {
     this.scene.followed = this.scene.followed === robot ? "" : robot;
     this.notice(this.scene.followed ? `the view goes with ${robot}` : "the view stays");
@@ -331,6 +401,8 @@ export class App {
     }
     if (changed) this.subscribe().catch(() => {});
     if (changed && this.timeline.shown) this.timeline.watch(true);
+    if (changed && !this.recorded) this.do("look", { robot: robot?.name ?? "" });
+    if (changed) this.showLook(this.looks.filter((l) => l.robot === robot?.name).pop());
   }
   copySelected() {
     const piece = this.selectedRobot() ?? this.selectedThing();
@@ -378,7 +450,7 @@ export class App {
       button("help", "?", "Keys", () => byId("keys").toggleAttribute("hidden")));
     byId("trails").classList.add("on");
     const keys: [string, string][] = [["Space", "play, pause"], ["N, Shift N", "one control step, one tick"], ["I", "to the next interrupt"], [", .", "slower, faster"], ["Ctrl R", "restart"],
-      ["1 2 F", "from above, aslant, fit"], ["Y P", "rays, paths"], ["V W B C O L R", "select; wall, box, cylinder, ball, lamp, robot"], ["Q E", "turn by 15°, with Shift 1°"], ["Arrows", "move by 1 cm, with Shift 1 mm"],
+      ["1 2 F", "from above, aslant, fit"], ["Y P K", "rays, paths, what the camera sees"], ["V W B C O L R", "select; wall, box, cylinder, ball, lamp, robot"], ["Q E", "turn by 15°, with Shift 1°"], ["Arrows", "move by 1 cm, with Shift 1 mm"],
       ["Ctrl D, Del", "copy, delete"], ["Ctrl Z Y S", "undo, redo, save"], ["Shift while dragging", "without the grid of 1 cm"], ["Left, right drag, wheel", "move the view, turn it, zoom"], ["Esc", "nothing selected"]];
     byId("stage").append(h("div", { id: "keys", hidden: true }, h("h3", {}, "Keys"), ...keys.map(([k, text]) => h("div", {}, h("kbd", {}, k), text))));
   }
@@ -475,7 +547,7 @@ export class App {
       " ": () => this.togglePlay(), n: () => this.do("step", { unit: e.shiftKey ? "tick" : "control" }), i: () => this.stepInterrupt(), ",": () => this.faster(-1), ".": () => this.faster(1),
       "1": () => this.scene.fit(true), "2": () => this.scene.fit(false), f: () => this.scene.fit(true), y: () => this.toggleRays(), p: () => this.toggleTrails(),
       q: () => this.turnSelected(e.shiftKey ? 1 : 15), e: () => this.turnSelected(e.shiftKey ? -1 : -15), Delete: () => this.removeSelected(), Backspace: () => this.removeSelected(),
-      Escape: () => { this.touch.choose("select"); this.select(0); }, ArrowLeft: () => move(-1, 0), ArrowRight: () => move(1, 0), ArrowUp: () => move(0, 1), ArrowDown: () => move(0, -1),
+      k: () => this.toggleView(), Escape: () => { this.answer?.(); this.touch.choose("select"); this.select(0); }, ArrowLeft: () => move(-1, 0), ArrowRight: () => move(1, 0), ArrowUp: () => move(0, 1), ArrowDown: () => move(0, -1),
       v: () => this.touch.choose("select"), w: () => this.touch.choose("wall"), b: () => this.touch.choose("box"), c: () => this.touch.choose("cylinder"), o: () => this.touch.choose("ball"), l: () => this.touch.choose("lamp"), r: () => this.touch.choose("robot"),
       "?": () => byId("keys").toggleAttribute("hidden"),
     };

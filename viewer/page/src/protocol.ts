@@ -5,19 +5,19 @@ export type Vec = number[];
 export interface Thing {
   id: number; kind: string; name?: string; position: Vec; heading?: number; size?: Vec; radius?: number;
   points?: Vec[]; closed?: boolean; thickness?: number; height?: number; z?: number; colour: Vec; corners?: Vec[];
-  movable?: boolean; body?: number; low?: number; high?: number; intensity?: number; on?: boolean;
+  movable?: boolean; body?: number; low?: number; high?: number; intensity?: number; attenuation?: Vec; on?: boolean; level?: number;
 }
 export interface Robot {
   id: number; kind: "robot"; name: string; firmware: string; body: number; position: Vec;
   heading: number; colour: Vec; radius: number; z0: number; height: number; wheel_radius: number; axle: number;
-  leds: Vec[]; sensors: Vec[];
+  leds: Vec[]; sensors: Vec[]; parts: string[];
 }
 export interface Problem { line: number; column: number; text: string; id: number }
 export interface Element { id: number; path: string; line: number; values: Record<string, string> }
 export interface World {
   title: string; file: string; text: string; step_s: number; tick_s: number;
   arena?: { id: number; size: Vec; centre: Vec; wall_height: number; wall_thickness: number; colour: Vec };
-  floor: { colour: Vec; image: boolean };
+  floor: { colour: Vec; image: string };
   things: Thing[]; robots: Robot[]; elements: Element[]; problems: Problem[];
 }
 export interface Program { name: string; robots: string[]; folder: string; files: string[] }
@@ -28,14 +28,19 @@ export interface State {
 export interface KeySpec {
   key: string; type: string; unit: string; default: string; doc: string; choices?: string; range?: Vec;
 }
-export type Schema = Record<string, { many: boolean; doc: string; keys: KeySpec[] }>;
+export type Schema = Record<string, { many: boolean; doc: string; keys: KeySpec[]; kinds?: { kind: string; doc: string }[] }>;
+export interface Look {
+  robot: string; time_s: number; way?: string; place?: { function: string; file: string; line: number };
+  parts: { kind: string; shows: string }[]; camera?: { at: Vec; edges: Vec; pictures: number };
+  picture?: { number: number; columns: number; rows: number; bytes_per_pixel: number; rgb: string };
+}
 
 /** A frame, looked at in place: nothing is copied. */
 export interface Frame {
   revision: number; time: number; pace: number; running: boolean; robots: number; bodies: number;
   subscription: number; values: Float64Array; poses: Float32Array; robotWords: Uint32Array; rays: Float32Array;
 }
-export const RobotState = { NoProgram: 1, Stopped: 2, Waiting: 4 };
+export const RobotState = { NoProgram: 1, Stopped: 2, Waiting: 4, Sounding: 8 };
 
 const kHead = 48;
 
@@ -70,6 +75,9 @@ export abstract class Link {
   abstract ask(what: string, more?: Record<string, unknown>): Promise<Answer>;
 }
 
+/** What start.ts has opened, and heard since then. */
+export interface Early { socket: WebSocket; heard: (string | ArrayBuffer)[] }
+
 export class Connection extends Link {
   private socket: WebSocket;
   private next = 1;
@@ -77,18 +85,24 @@ export class Connection extends Link {
 
   constructor() {
     super();
-    this.socket = new WebSocket(`ws://${location.host}${location.pathname.replace(/[^/]*$/, "")}live`);
-    this.socket.binaryType = "arraybuffer";
-    this.socket.onclose = () => this.onClose();
-    this.socket.onmessage = (message) => {
-      if (typeof message.data !== "string") return this.onFrame(readFrame(message.data), message.data);
-      const data = JSON.parse(message.data);
+    const { socket, heard }: Early = (window as any).early;
+    this.socket = socket;
+    socket.onclose = () => this.onClose();
+    const hear = (message: string | ArrayBuffer) => {
+      if (typeof message !== "string") return this.onFrame(readFrame(message), message);
+      const data = JSON.parse(message);
       if (!("answer" in data)) return this.tell(data);
       const asked = this.waiting.get(data.answer);
       this.waiting.delete(data.answer);
-      if (data.error) asked?.fail(new Error(data.error));
+      if (data.error) asked?.fail(Object.assign(new Error(data.error), { anew: data.anew }));
       else asked?.done(data);
     };
+    socket.onmessage = (message) => hear(message.data);
+    // once who listens is there
+    queueMicrotask(() => {
+      heard.forEach(hear);
+      if (socket.readyState > WebSocket.OPEN) this.onClose();
+    });
   }
   ask(what: string, more: Record<string, unknown> = {}): Promise<Answer> {
     const id = this.next++;

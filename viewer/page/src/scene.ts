@@ -3,6 +3,9 @@
 // matrices; nothing is drawn unless something changed.
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { frustum, lightMarks, soundingMaterial, soundingRing, soundMarks } from "./marks";
+import type { CameraView } from "./marks";
+import { RobotState } from "./protocol";
 import type { Frame, Robot, Thing, Vec, World } from "./protocol";
 
 export interface Picked { kind: "robot" | "thing" | "handle" | "floor"; id: number; point: THREE.Vector3; handle?: Handle }
@@ -57,10 +60,18 @@ export class Scene {
   private bodyMesh?: THREE.InstancedMesh;
   private leds?: THREE.InstancedMesh;
   private halo?: THREE.InstancedMesh;
+  private sounding?: THREE.InstancedMesh;
+  private turrets?: THREE.InstancedMesh;
+  private turretOf: number[] = [];  // bodies of robots that carry a part
+  private view = new THREE.Group();  // what a camera sees
+  private viewBody = -1;
+  private viewOf = "";
+  private floor?: THREE.Texture;
   private trails: Trail[] = [];
   private rays = new THREE.LineSegments(new THREE.BufferGeometry(),
     new THREE.LineBasicMaterial({ vertexColors: true, transparent: true, opacity: 0.9 }));
   private sun = new THREE.DirectionalLight(0xffffff, 1.1);
+  private compiling = true;  // the first world's shaders, beside the script
   private dirty = true;
   private drawing = true;
   private world?: World;
@@ -68,12 +79,10 @@ export class Scene {
   private last?: Frame;
   showTrails = true;
   followed = "";
-  /** Milliseconds of script that the last frames took, without drawing. */
-  readonly work: number[] = [];
-  onDraw: () => void = () => {};
 
   constructor(private stage: HTMLElement) {
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    this.renderer.debug.checkShaderErrors = false;  // asking waits for the compiler, and ours compile
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = THREE.PCFSoftShadowMap;
     stage.prepend(this.renderer.domElement);
@@ -84,7 +93,7 @@ export class Scene {
     this.controls.screenSpacePanning = false;
     this.controls.addEventListener("change", () => this.draw());
     this.scene.add(new THREE.HemisphereLight(0xffffff, 0xb8bcc4, 2.3), this.sun, this.static_, this.handles,
-      this.outline, this.rays);
+      this.outline, this.rays, this.view);
     this.rays.frustumCulled = false;
     this.sun.castShadow = true;
     this.sun.shadow.mapSize.set(2048, 2048);
@@ -92,10 +101,10 @@ export class Scene {
     new ResizeObserver(() => this.resize()).observe(stage);
     const loop = () => {
       requestAnimationFrame(loop);
-      if (!this.dirty || !this.drawing) return;
+      if (!this.dirty || !this.drawing || this.compiling) return;
       this.dirty = false;
       this.renderer.render(this.scene, this.camera);
-      this.onDraw();
+      document.getElementById("plan")?.remove();
     };
     loop();
   }
@@ -133,6 +142,7 @@ export class Scene {
     this.sun.shadow.camera.updateProjectionMatrix();
     this.select(this.selected);
     if (this.last) this.setFrame(this.last);
+    if (!keepCamera) this.renderer.compileAsync(this.scene, this.camera).finally(() => (this.compiling = false));
     this.draw();
   }
 
@@ -165,7 +175,9 @@ export class Scene {
   private addFloor(world: World) {
     const e = this.extent();
     const [w, h] = world.arena ? world.arena.size : [3 * e.size, 3 * e.size];
-    const floor = this.mesh(new THREE.PlaneGeometry(w, h), world.floor.colour, 0.95);
+    const drawn = world.floor.image ? this.floor : undefined;
+    const floor = this.mesh(new THREE.PlaneGeometry(w, h), drawn ? [1, 1, 1] : world.floor.colour, 0.95);
+    if (drawn) (floor.material as THREE.MeshStandardMaterial).map = drawn;
     floor.castShadow = false;
     floor.position.set(e.x, e.y, 0);
     this.static_.add(floor);
@@ -211,7 +223,10 @@ export class Scene {
       m.emissiveIntensity = t.on ? 1 : 0;
       bulb.castShadow = false;
       put(bulb, 0, 0, Math.max(0.02, t.position[2]));
-      if (t.on) group.add(new THREE.Mesh(new THREE.CircleGeometry(0.12, 48), new THREE.MeshBasicMaterial({ color: 0xffd54a, transparent: true, opacity: 0.25, depthWrite: false })).translateZ(0.001));
+      for (const mark of lightMarks(t)) group.add(mark);
+    } else if (t.kind === "sound") {
+      put(this.mesh(new THREE.BoxGeometry(0.03, 0.03, 0.03), t.colour), 0, 0, Math.max(0.015, t.position[2]));
+      for (const mark of soundMarks(t, 2 * this.extent().size)) group.add(mark);
     } else if (t.kind === "ramp") {
       const [lx, ly] = t.size!, low = t.low!, high = Math.max(t.high!, 0.001);
       const shape = new THREE.Shape([[-lx / 2, 0], [lx / 2, 0], [lx / 2, high], [-lx / 2, Math.max(low, 0.0005)]].map((p) => new THREE.Vector2(p[0], p[1])));
@@ -228,7 +243,7 @@ export class Scene {
       put(this.mesh(new THREE.ExtrudeGeometry(shape, { depth: t.size![2], bevelEnabled: false }), t.colour), 0, 0, 0);
     }
     if (t.kind !== "wall") {
-      group.position.set(t.position[0], t.position[1], t.kind === "lamp" ? 0 : z);
+      group.position.set(t.position[0], t.position[1], t.kind === "lamp" || t.kind === "sound" ? 0 : z);
       group.rotation.z = t.heading ?? 0;
     }
     group.userData.id = t.id;
@@ -238,13 +253,14 @@ export class Scene {
   }
 
   private addRobots(robots: Robot[]) {
-    for (const old of [...this.instances, this.leds, this.halo]) if (old) {
+    for (const old of [...this.instances, this.leds, this.halo, this.sounding, this.turrets]) if (old) {
       this.scene.remove(old);
       old.geometry.dispose();
       (old.material as THREE.Material).dispose();
     }
     this.instances = [];
-    this.leds = this.halo = this.bodyMesh = undefined;
+    this.leds = this.halo = this.bodyMesh = this.sounding = this.turrets = undefined;
+    this.turretOf = robots.filter((r) => r.parts.length > 0).map((r) => r.body);
     while (this.trails.length > robots.length) this.scene.remove(this.trails.pop()!.line);
     while (this.trails.length < robots.length) {
       const trail = new Trail(kPalette[this.trails.length % kPalette.length]);
@@ -277,33 +293,37 @@ export class Scene {
     // where it looks
     const nose = new THREE.Shape([[r.radius * 0.72, 0], [r.radius * 0.1, r.radius * 0.34], [r.radius * 0.26, 0], [r.radius * 0.1, -r.radius * 0.34]].map((p) => new THREE.Vector2(p[0], p[1])));
     add(new THREE.ShapeGeometry(nose).translate(0, 0, r.height * 0.975), new THREE.MeshBasicMaterial({ color: 0xffffff }), false);
-    const lamps = (radius: number, opacity: number) => {
-      const mesh = new THREE.InstancedMesh(new THREE.SphereGeometry(radius, 12, 8),
-        new THREE.MeshBasicMaterial({ transparent: opacity < 1, opacity, depthWrite: opacity === 1 }), n * Math.max(1, r.leds.length));
+    const some = (geometry: THREE.BufferGeometry, material: THREE.Material, most: number) => {
+      const mesh = new THREE.InstancedMesh(geometry, material, most);
       mesh.count = 0;
       mesh.frustumCulled = false;
       this.scene.add(mesh);
       return mesh;
     };
+    const lamps = (radius: number, opacity: number) => some(new THREE.SphereGeometry(radius, 12, 8),
+      new THREE.MeshBasicMaterial({ transparent: opacity < 1, opacity, depthWrite: opacity === 1 }), n * Math.max(1, r.leds.length));
     this.leds = lamps(0.0045, 1);
     this.halo = lamps(0.011, 0.35);
+    this.sounding = some(soundingRing(), soundingMaterial(), n);
+    // on top, and not wider than the robot
+    this.turrets = some(upright(new THREE.CylinderGeometry(r.radius * 0.86, r.radius * 0.86, 0.012, 32, 1, true), r.height + 0.004), new THREE.MeshStandardMaterial({ color: 0x0b6b4f, roughness: 0.5, side: THREE.DoubleSide }), Math.max(1, this.turretOf.length));
   }
 
   // --- frames
 
   setFrame(frame: Frame) {
-    const begin = performance.now();
     this.last = frame;
     const world = this.world;
     if (!world || !this.bodyMesh && world.robots.length > 0) return;
     const p = frame.poses, n = Math.min(frame.robots, world.robots.length);
     const matrices = this.bodyMesh?.instanceMatrix.array as Float32Array | undefined;
-    let lit = 0;
+    let lit = 0, sounding = 0;
     const leds = this.leds?.instanceMatrix.array as Float32Array | undefined;
     const halo = this.halo?.instanceMatrix.array as Float32Array | undefined;
     for (let i = 0; i < n && matrices; ++i) {
       const x = p[4 * i], y = p[4 * i + 1], z = p[4 * i + 2], c = Math.cos(p[4 * i + 3]), s = Math.sin(p[4 * i + 3]);
       matrices.set([c, s, 0, 0, -s, c, 0, 0, 0, 0, 1, 0, x, y, z, 1], 16 * i);
+      if (frame.robotWords[2 * i + 1] & RobotState.Sounding) (this.sounding!.instanceMatrix.array as Float32Array).set(matrices.subarray(16 * i, 16 * i + 16), 16 * sounding++);
       for (let bits = frame.robotWords[2 * i], bit = 0; bits !== 0; bits >>>= 1, ++bit) {
         const led = world.robots[i].leds[bit];
         if (!(bits & 1) || !led || !leds || !halo) continue;
@@ -323,6 +343,16 @@ export class Scene {
       mesh.instanceMatrix.needsUpdate = true;
       if (mesh.instanceColor) mesh.instanceColor.needsUpdate = true;
     }
+    if (this.sounding) {
+      this.sounding.count = sounding;
+      if (sounding) this.sounding.instanceMatrix.needsUpdate = true;
+    }
+    if (this.turrets && matrices) {
+      this.turrets.count = this.turretOf.length;
+      this.turretOf.forEach((body, i) => (this.turrets!.instanceMatrix.array as Float32Array).set(matrices.subarray(16 * body, 16 * body + 16), 16 * i));
+      this.turrets.instanceMatrix.needsUpdate = true;
+    }
+    this.placeView();
     for (const { object, body } of this.moving) if (body < frame.bodies) {
       object.position.set(p[4 * body], p[4 * body + 1], p[4 * body + 2]);
       object.rotation.z = p[4 * body + 3];
@@ -337,8 +367,41 @@ export class Scene {
     }
     this.placeOutline();
     this.draw();
-    this.work.push(performance.now() - begin);
-    if (this.work.length > 600) this.work.shift();
+  }
+
+  /** What a robot's camera sees, as a pyramid; no camera: none. */
+  setView(body: number, camera?: CameraView) {
+    this.viewBody = camera ? body : -1;
+    const of = camera ? JSON.stringify(camera) : "";
+    if (of !== this.viewOf) {
+      this.viewOf = of;
+      this.empty(this.view);
+      if (camera) this.view.add(frustum(camera));
+    }
+    this.placeView();
+    this.draw();
+  }
+  private placeView() {
+    const p = this.last?.poses, b = this.viewBody;
+    this.view.visible = b >= 0 && !!p && 4 * b < p.length;
+    if (!this.view.visible) return;
+    this.view.position.set(p![4 * b], p![4 * b + 1], p![4 * b + 2]);
+    this.view.rotation.z = p![4 * b + 3];
+  }
+  /** The picture on the floor, once it has come. */
+  setFloor(image?: ImageData) {
+    this.floor?.dispose();
+    this.floor = undefined;
+    if (image) {
+      const canvas = document.createElement("canvas");
+      canvas.width = image.width;
+      canvas.height = image.height;
+      canvas.getContext("2d")!.putImageData(image, 0, 0);
+      this.floor = new THREE.CanvasTexture(canvas);
+      this.floor.colorSpace = THREE.SRGBColorSpace;
+      this.floor.anisotropy = 4;
+    }
+    if (this.world) this.setWorld(this.world, true);
   }
 
   private setRays(rays: Float32Array) {

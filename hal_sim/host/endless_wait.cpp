@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include "hal_sim/host/endless_wait.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "sim_core/base/input_file.h"
+
+namespace host {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t kLongestSource = 4u << 20;  // bytes
+constexpr std::size_t kMostSources = 200;
+
+std::vector<std::string> lines_of(const std::string& file) {
+  std::string text, line;
+  std::vector<std::string> lines;
+  if (!sim::read_input_file(file, kLongestSource, text).empty()) return lines;
+  for (std::istringstream in(text); std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+bool is_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
+
+/// Words that a line of C begins to name something with.
+std::vector<std::string> names_in(const std::string& line) {
+  std::vector<std::string> names;
+  for (std::size_t at = 0, end; at < line.size(); at = std::max(end, at + 1)) {
+    for (end = at; end < line.size() && is_name(line[end]); ++end) continue;
+    if (end > at && !std::isdigit(static_cast<unsigned char>(line[at])))
+      names.push_back(line.substr(at, end - at));
+  }
+  return names;
+}
+
+struct Writer {
+  std::string function;
+  std::string place;  // "main.c:8"
+  bool is_handler() const {
+    const std::string end = "Interrupt";
+    return function.size() > end.size() && function[0] == '_' &&
+           function.compare(function.size() - end.size(), end.size(), end) == 0;
+  }
+};
+
+/// Functions in whose text a variable is written, or its address taken.
+std::vector<Writer> writers_of(const std::string& variable, const fs::path& folder) {
+  const std::regex writes("(\\+\\+|--|&)\\s*" + variable + "\\b|\\b" + variable +
+                          "\\b(\\s*(\\[[^\\]]*\\]|\\.\\w+))*\\s*(\\+\\+|--|(<<|>>|[-+*/%&|^])?=(?!=))");
+  std::vector<Writer> writers;
+  std::vector<fs::path> files;
+  std::error_code none;
+  for (fs::directory_iterator it(folder, none), end; !none && it != end && files.size() < kMostSources;
+       it.increment(none))
+    for (const char* kind : {".c", ".h", ".cpp", ".cc"})
+      if (it->path().extension() == kind) files.push_back(it->path());
+  std::sort(files.begin(), files.end());
+  for (const fs::path& file : files) {
+    std::string function;
+    int depth = 0, number = 0;
+    for (const std::string& line : lines_of(file.string())) {
+      ++number;
+      // the last word before the last parenthesis that opens: of a definition, its name
+      if (const std::size_t open = line.rfind('('); depth == 0 && open != std::string::npos) {
+        const auto names = names_in(line.substr(0, open));
+        if (!names.empty()) function = names.back();
+      }
+      const bool is_inside = depth > 0 || line.find('{') != std::string::npos;
+      if (is_inside && !function.empty() && std::regex_search(line, writes))
+        writers.push_back({function, file.filename().string() + ":" + std::to_string(number)});
+      depth += static_cast<int>(std::count(line.begin(), line.end(), '{') -
+                                std::count(line.begin(), line.end(), '}'));
+      if (depth <= 0 && line.find('}') != std::string::npos) function.clear();
+      depth = std::max(depth, 0);
+    }
+  }
+  return writers;
+}
+
+std::string joined(const std::vector<std::string>& parts) {
+  std::string out;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    out += (i == 0 ? "" : i + 1 == parts.size() ? " and " : ", ") + parts[i];
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::string> variables_in(const Runner& program, const Place& place) {
+  std::vector<std::string> found;
+  const auto lines = lines_of(place.file);
+  if (place.line < 1 || place.line > static_cast<int>(lines.size())) return found;
+  for (const std::string& name : names_in(lines[static_cast<std::size_t>(place.line - 1)])) {
+    std::string error;
+    // images of the chip know names, but not their types
+    if (std::find(found.begin(), found.end(), name) == found.end() &&
+        (program.find_variable(name, error) || !program.read_variable(name, 1).empty()))
+      found.push_back(name);
+  }
+  return found;
+}
+
+board::Diagnosis endless_wait(const Runner& program, const Place& place, Cycle since) {
+  board::Diagnosis wait{"endless wait", to_string(place), "", "", since};
+  wait.hint = "start the agendas or the timer, or enable the interrupt whose handler ends the wait";
+  std::vector<std::string> names = variables_in(program, place);
+  if (names.empty()) {
+    wait.message =
+        "the program waits here for ever: nothing that it looks at can change, for no interrupt is enabled";
+    return wait;
+  }
+  // who would end it, but for the function that waits
+  std::vector<std::string> handlers, others;
+  std::set<std::string> told;
+  for (const std::string& name : names)
+    for (const Writer& w : writers_of(name, fs::path(place.file).parent_path())) {
+      if (w.function == place.function || !told.insert(w.function).second) continue;
+      (w.is_handler() ? handlers : others).push_back(w.function + "() (" + w.place + ")");
+    }
+  for (std::string& name : names) name = "`" + name + "`";
+  wait.message = "the program waits here for " + joined(names) + "; nothing will ever set it: ";
+  if (!handlers.empty())
+    wait.message += "the interrupt of " + joined(handlers) + ", which writes it, is not enabled";
+  else if (!others.empty())
+    wait.message += joined(others) + " writes it, and no interrupt is enabled that would call it";
+  else {
+    wait.message += "no function but this one writes it";
+    wait.hint = "write it in a handler or an agenda, and see that it is volatile";
+  }
+  return wait;
+}
+
+}  // namespace host
