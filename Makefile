@@ -108,7 +108,7 @@ format:
 	@scripts/setup.sh check
 	@git ls-files '*.h' '*.cpp' | grep -v '^firmware/' | grep -v '^hal_sim/api/' | grep -v '^hal_dspic/' | grep -v '^firmware/library/' | xargs -r clang-format -i
 
-## bench: speed for 1 to 1000 robots, beside libenki
+## bench: speed for 1 to 1000 robots beside libenki, of the chip's core beside simavr
 bench: tool
 	@scripts/setup.sh bench
 	@$(CMAKE) -B $(BUILD) >/dev/null

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // make bench: processor time per robot-second in the common workload (docs/performance.md), ours with
 // compiled firmware inside, libenki beside it, and the floor under both (floor.h), turn and turn about. Then
-// the register way and what a user waits for. Exit code 1 when a promise was missed.
+// the register way, the chip's core beside simavr, and what a user waits for. Exit code 1 when a promise was
+// missed.
 //
 //   bench [--rounds 5] [--worlds DIR] [N ...]         only these sizes, and nothing but the workload
 //   bench --engines [--rounds 5] [--worlds DIR]      the three motion engines instead (engines.cpp)
 //   bench --register [--rounds 5]                     one robot of the register way alone (register_load.cpp)
+//   bench --core [--rounds 5]                         the chip's core beside simavr (core_speed.cpp)
 //   bench --waits [--rounds 5]                        what a user waits for alone (latency.cpp)
 #include <algorithm>
 #include <cstdio>
@@ -14,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/core_speed.h"
 #include "bench/engines.h"
 #include "bench/enki_swarm.h"
 #include "bench/floor.h"
@@ -95,7 +98,7 @@ int main(int argc, char** argv) {
   int rounds = 5;
   std::string worlds = twin::project_root() + "/bench/worlds";
   std::vector<int> sizes;
-  bool engines = false, registers = false, waits = false;
+  bool engines = false, registers = false, core = false, waits = false;
   for (int i = 1; i < argc; ++i) {
     if (!std::strcmp(argv[i], "--rounds") && i + 1 < argc)
       rounds = std::max(1, std::atoi(argv[++i]));
@@ -105,12 +108,15 @@ int main(int argc, char** argv) {
       engines = true;
     else if (!std::strcmp(argv[i], "--register"))
       registers = true;
+    else if (!std::strcmp(argv[i], "--core"))
+      core = true;
     else if (!std::strcmp(argv[i], "--waits"))
       waits = true;
     else
       sizes.push_back(std::atoi(argv[i]));
   }
   if (registers) return bench::measure_register_way(rounds) >= bench::kPromisedRegisterWay ? 0 : 1;
+  if (core) return bench::measure_core(rounds) ? 0 : 1;
   if (waits) return bench::measure_waits(rounds) ? 0 : 1;
   if (engines) return bench::compare_engines(worlds, rounds);
   const bool all = sizes.empty();
@@ -149,6 +155,7 @@ int main(int argc, char** argv) {
   if (all) {
     std::printf("\n");
     kept = bench::measure_register_way(rounds) >= bench::kPromisedRegisterWay && kept;
+    kept = bench::measure_core(rounds) && kept;
     kept = bench::measure_waits(rounds) && kept;
   }
   std::printf("%s\n", kept ? "every promise kept" : "a promise was missed in this run");

@@ -75,6 +75,16 @@ bool measure_waits(int rounds) {
   const double maze_s = median_s(rounds, nothing, [&] { run_maze("600"); });
   bool kept = row("twinpuck run worlds/maze.toml --for 600", 1e3 * maze_s, 1e3 * kMazeSeconds / kMazeSpeed);
   std::printf("  %.0f times real time\n", kMazeSeconds / maze_s);
+  // on the chip way a run's time is its own
+  const auto run_chip = [&] {
+    run_command({command, "run", maze, "--fw", "*=obstacle", "--way", "chip", "--for", "60", "-q"});
+  };
+  run_chip();
+  constexpr double kChipSeconds = 60, kChipSpeed = 100;
+  const double chip_s = median_s(rounds, nothing, run_chip);
+  kept &= row("twinpuck run maze --fw obstacle --way chip --for 60", 1e3 * chip_s,
+              1e3 * kChipSeconds / kChipSpeed);
+  std::printf("  %.0f times real time\n", kChipSeconds / chip_s);
   kept &= row("twinpuck run worlds/maze.toml --for 0.01, built before",
               1e3 * median_s(4 * rounds + 1, nothing, [&] { run_maze("0.01"); }), 5);
   kept &= row("a first build of firmware/blink",

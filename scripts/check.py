@@ -22,7 +22,7 @@ LARGEST_FILE = 1 << 20  # bytes
 # rooms of the simulator core, each may include itself and those to its left
 CORE = ["base", "time", "random", "geometry", "physics", "world", "light", "camera", "sound", "radio", "record",
         "load", "supervisor"]
-CHIP = ["memory", "periph", "device", "core", "asm", "load", "llvm"]
+CHIP = ["memory", "periph", "device", "core", "asm", "load", "llvm", "translate"]
 # other rooms -> what they may include, as prefixes of the path (their own folder is always allowed)
 MAY_INCLUDE = {
     "hal_sim/board": ["sim_core/base", "sim_core/world", "sim_core/light", "sim_core/camera", "sim_core/sound",
@@ -56,7 +56,7 @@ NAMESPACE_ROOMS = {"board": "hal_sim/board", "drivers": "hal_sim/drivers", "host
 # packages and the only room that may include them
 PACKAGE_ROOMS = {
     "box2d/": ["sim_core/physics"], "Eigen/": ["sim_core/simulation.cpp"], "ccd/": ["sim_core/geometry"], "boost/": ["hal_sim/host"],
-    "toml++/": ["sim_core/load/toml_parser.h"], "CLI/": ["tools"], "llvm/": ["hal_sim/cc", "dspic30/llvm"], "clang/": ["hal_sim/cc"],
+    "toml++/": ["sim_core/load/toml_parser.h"], "CLI/": ["tools"], "llvm/": ["hal_sim/cc", "dspic30/llvm", "dspic30/translate"], "clang/": ["hal_sim/cc"],
     "cairo": ["sim_core/record", "sim_core/load", "tools"], "enki/": ["bench"], "gelf.h": ["hal_sim", "dspic30"],
     "libelf.h": ["hal_sim", "dspic30"], "vpx/": ["sim_core/record"], "zlib.h": ["sim_core/record", "viewer/report.cpp"], "jpeglib.h": ["import"],
     "civetweb.h": ["viewer"],
@@ -117,7 +117,7 @@ def check_includes(path, text):
         target = match.group(2)
         if (ROOT / target).exists() and "/" in target and not may_include(path, target):
             problem(path, number, "%s may not include %s" % (room_of(path), target))
-        if path.startswith("dspic30/") and not path.startswith("dspic30/llvm/") and match.group(1) == "<" and re.search(r"[./]", target):
+        if path.startswith("dspic30/") and not path.startswith(("dspic30/llvm/", "dspic30/translate/")) and match.group(1) == "<" and re.search(r"[./]", target):
             if not (path.startswith("dspic30/load/") and target in ("gelf.h", "libelf.h")):
                 problem(path, number, "dspic30 uses the standard library only, not <%s>" % target)
         for package, rooms in PACKAGE_ROOMS.items():

@@ -13,7 +13,7 @@ build="g++ cmake ninja-build pkg-config python3 binutils zlib1g-dev
  libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libfmt-dev libelf-dev libdw-dev libcairo2-dev
  libcivetweb-dev libvpx-dev libjpeg62-turbo-dev libgtest-dev libwebm-dev"
 check="clang-format clang-tidy"
-bench="libenki-dev"
+bench="libenki-dev libsimavr-dev"
 fuzz="libclang-rt-14-dev"
 debug="gdb"
 view="esbuild nodejs"

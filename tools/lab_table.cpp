@@ -152,7 +152,7 @@ class Reader {
 
   LabStep step(const toml::table& t) {
     only(t, {"says", "worlds", "firmware", "seconds", "seeds", "noise_scales", "share", "spread", "start",
-             "region", "at_most", "at_least", "show", "by_world", "answer", "sensor"});
+             "region", "at_most", "at_least", "show", "by_world", "answer", "sensor", "needs_simulator"});
     LabStep s;
     s.says = text(t, "says");
     s.answer = text(t, "answer");
@@ -163,6 +163,7 @@ class Reader {
     if (s.kind != LabStep::Kind::Answer && s.worlds.empty())
       problem(t, "step: got no worlds, expected one or more");
     s.firmware = text(t, "firmware");
+    s.needs_simulator = t["needs_simulator"].value_or(false);
     s.seconds = s.full_seconds = number(t, "seconds", 60);
     if (t["seconds"].is_array()) {
       const Span both = span(t, "seconds", {60, 60});

@@ -42,7 +42,9 @@ LabPrograms build_images(const std::vector<const LabExercise*>& chosen, const st
   options.tell = [](const std::string& line) { std::cerr << line << '\n'; };
   for (const LabExercise* e : chosen)
     for (const LabStep& s : e->steps)
-      if (!s.firmware.empty() && !programs.images.count(s.firmware))
+      if (s.needs_simulator && way == "chip")
+        programs.missing[s.firmware] = "written for Webots' interfaces, which the chip has not";
+      else if (!s.firmware.empty() && !programs.images.count(s.firmware))
         programs.images[s.firmware] = twin::provide_image(s.firmware, "", options, problems);
   return programs;
 }
@@ -243,8 +245,8 @@ void add_lab(CLI::App& app, int& exit_code) {
       "folder with your programs (folders obstacle, u_obstacle, braiten), or one of them: run these "
       "in the place of the lab's solutions");
   verb->add_option("--way", a->way,
-                   "native or register, for all programs that are built from source; else the worlds'")
-      ->check(CLI::IsMember({"native", "register"}));
+                   "native, register or chip, for all programs that are built from source; else the worlds'")
+      ->check(CLI::IsMember({"native", "register", "chip"}));
   verb->add_option("--seeds", a->seeds, "runs of everything left to chance, instead of the table's")
       ->check(CLI::Range(1, 100000));
   verb->add_flag("--full", a->full, "as many runs as the figures in docs/lab.md rest on");

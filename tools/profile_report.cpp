@@ -28,7 +28,7 @@ std::string in_microseconds(const chip::Spread& s) {
                      us(static_cast<double>(s.max)));
 }
 
-bool is_library(const std::string& place) {
+bool comes_from_library(const std::string& place) {
   for (const char* room : {"hal_dspic/", "hal_sim/", "firmware/library/", "firmware/webots/"})
     if (place.rfind(room, 0) == 0) return true;
   return place.empty();
@@ -97,7 +97,7 @@ std::string to_text(const std::string& robot, const chip::ProfileReport& r) {
   std::size_t of_library = 0;
   for (const auto& f : r.functions) {
     const std::string place = from_here(f.place);
-    if (is_library(place) && ++of_library > kMostOfLibrary) continue;
+    if (comes_from_library(place) && ++of_library > kMostOfLibrary) continue;
     const std::string name = f.name + (f.is_agenda ? " (agenda)" : "");
     const std::string load = fmt::format("{:.2f}%", share(f.own, r));
     if (f.cycles.count == 0)

@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "tools/program_file.h"
 
-#include <filesystem>
-#include <fstream>
-#include <iterator>
+#include "sim_core/base/input_file.h"
 
 namespace tools {
 
 bool read_file(const std::string& name, std::string& bytes) {
-  std::ifstream in(name, std::ios::binary);
-  if (!in || std::filesystem::is_directory(name)) return false;
-  bytes.assign(std::istreambuf_iterator<char>(in), {});
-  return true;
+  return sim::read_input_file(name, dspic::kLongestFirmwareFile, bytes).empty();
 }
 
 bool read_program(const std::string& name, dspic::FirmwareFile& file, std::string& error) {

@@ -8,7 +8,7 @@ namespace dspic::assembly {
 
 namespace {
 
-constexpr int kDeepest = 50;  // parentheses and signs within one another
+constexpr int kDeepestParentheses = 50;  // parentheses and signs within one another
 constexpr int kBinaryLevels = 10;
 
 // operators by precedence, loosest first
@@ -90,7 +90,7 @@ class Parser {
 
   std::int64_t unary() {
     skip();
-    if (++depth_ > kDeepest) {
+    if (++depth_ > kDeepestParentheses) {
       fail("expression is nested too deeply");
       return 0;
     }
@@ -194,7 +194,7 @@ class Parser {
   }
 
   std::int64_t function(const std::string& name) {
-    if (++depth_ > kDeepest) {
+    if (++depth_ > kDeepestParentheses) {
       fail("expression is nested too deeply");
       return 0;
     }

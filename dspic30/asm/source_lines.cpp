@@ -9,7 +9,7 @@ namespace dspic::assembly {
 
 namespace {
 
-constexpr int kDeepest = 30;              // macros and includes within one another
+constexpr int kDeepestMacros = 30;        // macros and includes within one another
 constexpr long long kMostLines = 100000;  // after expansion
 constexpr std::int64_t kMostRepeats = 65536;
 
@@ -160,7 +160,7 @@ bool SourceLines::is_skipping() const {
 }
 
 void SourceLines::run(const std::vector<Line>& lines, const std::string& file) {
-  if (++depth_ > kDeepest) {
+  if (++depth_ > kDeepestMacros) {
     listener_.complain(file, lines.empty() ? 0 : lines[0].number, "macros or includes are nested too deeply");
     ended_ = true;
   }
@@ -310,7 +310,7 @@ void SourceLines::include(const Statement& s) {
   if (bare == "p30f6014a.inc" || bare == "p30fxxxx.inc" || bare == "xc.inc") return;  // registers are known
   const std::optional<std::string> text = includes_ ? includes_(name) : std::nullopt;
   if (!text) return complain(s, ".include: there is no file '" + name + "'");
-  if (depth_ >= kDeepest) return complain(s, "macros or includes are nested too deeply");
+  if (depth_ >= kDeepestMacros) return complain(s, "macros or includes are nested too deeply");
   read(*text, name);
 }
 

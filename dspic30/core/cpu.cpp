@@ -2,8 +2,9 @@
 #include "dspic30/core/cpu.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <string>
+
+#include "dspic30/memory/hex.h"
 
 namespace dspic {
 
@@ -19,7 +20,6 @@ constexpr unsigned kSplim = sfr("SPLIM"), kAccal = sfr("ACCAL"), kAccbu = sfr("A
 constexpr std::uint16_t kPsvOn = 0x0004, kIpl3 = 0x0008, kDl = 0x0700, kEdt = 0x0800,
                         kCorconKept = 0xFFFF & ~(kIpl3 | kDl | kEdt);
 constexpr std::uint16_t kCorconAtReset = 0x0020;
-constexpr unsigned kStackStart = 0x0800;
 constexpr int kDeepestDo = 7;  // DL has three bits
 
 // the course has not come there yet
@@ -34,12 +34,6 @@ const Decoded* fetch_nothing(Cpu& cpu, const Decoded* d) {
   return d;
 }
 
-std::string hex(unsigned address) {
-  char text[16];
-  std::snprintf(text, sizeof text, "0x%06x", address);
-  return text;
-}
-
 void set_low(unsigned& address, unsigned value) { address = (address & 0x7F0000) | (value & 0xFFFE); }
 void set_high(unsigned& address, unsigned value) { address = (address & 0xFFFF) | (value & 0x7F) << 16; }
 
@@ -47,6 +41,7 @@ Decoded not_decoded() {
   Decoded d{};
   d.run = &meet;
   d.cycles = 0;
+  d.stores = true;
   return d;
 }
 
@@ -62,13 +57,14 @@ void Cpu::forget_code() {
   const Decoded unknown = not_decoded();
   for (const std::uint32_t index : decoded_) code_[index] = unknown;
   decoded_.clear();
+  heads_.clear();
   if (code_.empty()) {
     code_.assign(kFlashWords + 1, unknown);
     code_.back().run = &fetch_nothing;
     code_.back().cycles = 1;
   }
   next = code_.data() + here;
-  stale_pointers = 0;
+  stale_pointers = unsteady_pointers = 0;
   find_loop_end();
 }
 
@@ -78,12 +74,19 @@ void Cpu::forget_pointers() {
                                     [&](std::uint32_t index) { return !uses(code_[index]); });
   std::for_each(stale, decoded_.end(), [&](std::uint32_t index) { code_[index] = not_decoded(); });
   decoded_.erase(stale, decoded_.end());
+  for (auto& [d, head] : heads_) {
+    if (!(head.pointers & stale_pointers)) continue;
+    if (d->is_head) d->run = head.plain;
+    d->is_head = false;
+    head.warmth = 0;
+  }
+  unsteady_pointers |= stale_pointers;
   stale_pointers = 0;
 }
 
 void Cpu::reset() {
   w.fill(0);
-  w[15] = kStackStart;
+  w[15] = kRamStart;
   n = 0;
   z = 1;
   c = ov = dc = 0;
@@ -121,11 +124,31 @@ const Decoded* Cpu::jump(unsigned address, const Decoded* from) {
 void Cpu::decode(const Decoded* d) {
   decoded_.push_back(static_cast<std::uint32_t>(d - code_.data()));
   code_[static_cast<std::size_t>(d - code_.data())] = decode_word(*this, address_of(d));
+  if (hot == 0) d->heat = 0xFF;
+}
+
+void Cpu::warm(const Decoded* target) {
+  if (!translator || target->is_head) return;
+  Head& head = heads_[target];
+  if (hot == 0) target->heat = 0xFF;
+  if (++head.warmth < hot) return;
+  head.warmth = 0;
+  head.plain = target->run;
+  if (const Translation translated = translator->translate(*this, target); translated.run) {
+    target->run = translated.run;
+    target->is_head = true;
+    head.pointers = translated.pointers;
+  }
+}
+
+int Cpu::translated() const {
+  return static_cast<int>(
+      std::count_if(heads_.begin(), heads_.end(), [](const auto& head) { return head.first->is_head; }));
 }
 
 void Cpu::trap(Trap which) {
   const char* name = vector_name(static_cast<int>(which));
-  const std::string place = std::string(name) + " at " + hex(address_of(at));
+  const std::string place = std::string(name) + " at " + hex(address_of(at), 6);
   parts.diagnostics.report(Cause::CpuTrap, place, place + ": the program goes on at the trap's vector", now);
   parts.events.run_to(now);
   parts.interrupts.raise_trap(which, now);
@@ -170,13 +193,13 @@ const Decoded* Cpu::run_repeated(const Decoded* d) {
     window = is_last || repeat_is_fresh ? Window::RepeatEdge : Window::Free;
     window_was_free = false;
     if (!repeat_is_fresh && (d->writes & d->pointers)) ++now;  // it stalls behind itself
-    const Decoded* following = d->run(*this, d);
+    const Decoded* following = plain(d)(*this, d);
     window = Window::Plain;
     repeat_is_fresh = false;
     now += d->cycles;
     if (is_last || reset_due) return following;
     if (rcount > 0) --rcount;
-    if (d->run == &no_operation && now < deadline) {  // a delay: as many at once as fit
+    if (plain(d) == &no_operation && now < deadline) {  // a delay: as many at once as fit
       const Cycle many = std::min<Cycle>(rcount, deadline - now);
       now += many;
       rcount = static_cast<std::uint16_t>(rcount - many);
@@ -349,7 +372,7 @@ void Cpu::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
 // --- pointers -------------------------------------------------------------------------------------------
 
 std::array<std::uint32_t, 2> Cpu::special_registers() const {
-  const std::uint32_t read = 1u << 15 | (modcon & 0x8000 ? 1u << (modcon & 15) : 0);
+  const std::uint32_t read = modcon & 0x8000 ? 1u << (modcon & 15) : 0;
   return {read, read | (xbrev & 0x8000 ? 1u << (modcon >> 8 & 15) : 0)};
 }
 
@@ -363,11 +386,6 @@ unsigned Cpu::stepped(unsigned reg, unsigned value, int step, bool y_space) cons
   if (place > end && step > 0) return static_cast<unsigned>(place - length) & 0xFFFF;
   if (place < start && step < 0) return static_cast<unsigned>(place + length) & 0xFFFF;
   return moved;
-}
-
-unsigned Cpu::stack_checked(unsigned ea) {
-  if (ea < kStackStart || (splim_on && ea > splim)) trap(Trap::StackError);
-  return ea;
 }
 
 // XB is added from the highest bit down, to words
@@ -391,17 +409,6 @@ unsigned Cpu::special_pointer(unsigned reg, int pre, int post, bool is_write) {
   const unsigned ea = step(w[reg], pre) & mask;
   w[reg] = static_cast<std::uint16_t>(step(ea, post) & mask);
   return reg == 15 ? stack_checked(ea) : ea;
-}
-
-void Cpu::push(unsigned value) {
-  const unsigned ea = stack_checked(w[15]);
-  w[15] = static_cast<std::uint16_t>(ea + 2);
-  write16(ea, value);
-}
-
-unsigned Cpu::pop() {
-  w[15] = static_cast<std::uint16_t>(w[15] - 2);
-  return read16(stack_checked(w[15]));
 }
 
 // --- data space beyond RAM ------------------------------------------------------------------------------

@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <cstring>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 #include "dspic30/core/instruction_table.h"
@@ -28,8 +29,11 @@ struct Decoded;
 /// Executes an instruction; returns the next one.
 using Run = const Decoded* (*)(Cpu&, const Decoded*);
 
+/// How a register serves as a pointer: by an addition, as the stack's, or modulo or bit-reversed.
+enum class Pointer : std::uint8_t { Plain, Stack, Special };
+
 struct Decoded {
-  Run run;
+  mutable Run run;
   std::int32_t imm = 0;         ///< literal, address, words of a branch, shift
   std::uint16_t writes = 0;     ///< registers written directly, or changed as a destination's pointer
   std::uint16_t pointers = 0;   ///< registers that form a source's address
@@ -39,13 +43,40 @@ struct Decoded {
   std::uint8_t lead = 0;    ///< stall cycles, when it follows the word before
   std::uint8_t psv = 2;     ///< what reading through the PSV window costs
   std::int8_t s_pre = 0, s_post = 0, d_pre = 0, d_post = 0;
-  std::uint8_t s_special = 0, d_special = 0;  ///< the pointer is W15, or modulo or bit-reversed
+  Pointer s_kind = Pointer::Plain, d_kind = Pointer::Plain;
+  bool stores : 1;            ///< may write to data space
+  mutable bool is_head : 1;   ///< `run` is translated code that begins here: Cpu::plain()
+  mutable std::uint8_t heat;  ///< jumps that came here, modulo 256; then warm()
 };
 static_assert(sizeof(Decoded) == 32);
+
+/// Native code of instructions that run often: the instructions' own functions put together, so it does what
+/// they would do, to the cycle (dspic30/translate). It runs one instruction at least; as with its own
+/// function, the cycles of the first one are not counted.
+struct Translation {
+  Run run = nullptr;           ///< null: not worth it
+  std::uint32_t pointers = 0;  ///< registers that it takes for plain pointers, a bit each
+};
+class Translator {
+ public:
+  virtual ~Translator() = default;
+  virtual Translation translate(const Cpu& cpu, const Decoded* head) = 0;
+};
+
+// jumps within translated code are the translator's affair
+#ifdef DSPIC_TRANSLATED
+#define DSPIC_JUMP __attribute__((noinline))
+#else
+#define DSPIC_JUMP
+#endif
 
 class Cpu final : public SfrOwner {
  public:
   Cpu(ChipParts& parts, ProgramMemory& program);
+  Translator* translator = nullptr;  ///< null: everything is interpreted
+  /// Jumps, in 256s, that make the place they lead to worth translating: by then interpreting it has taken
+  /// about as long as translating it will. 0: at once, for tests.
+  int hot = 256;
 
   void reset();
   /// All words are decoded again.
@@ -59,17 +90,25 @@ class Cpu final : public SfrOwner {
   const Decoded* jump(unsigned address, const Decoded* from);
   const Decoded* arrive(const Decoded* target) {
     if (!is_decoded(target)) decode(target);
+    if (++target->heat == 0) warm(target);
     now -= target->lead;
     return target;
   }
-  const Decoded* offset(const Decoded* from, std::int32_t words) {
+  DSPIC_JUMP const Decoded* offset(const Decoded* from, std::int32_t words) {
     const std::ptrdiff_t index = from - code_.data() + words;
     return index >= 0 && index < static_cast<std::ptrdiff_t>(kFlashWords)
                ? arrive(&code_[static_cast<std::size_t>(index)])
                : jump(static_cast<unsigned>(2 * index) & 0x7FFFFE, from);
   }
   bool is_decoded(const Decoded* d) const { return d->cycles != 0; }
+  static const Decoded* arrive_from(Cpu& cpu, const Decoded* from, std::int32_t words) {
+    return cpu.offset(from, words);
+  }
   void decode(const Decoded* d);
+  const Decoded* code() const { return code_.data(); }
+  /// The function of this one instruction.
+  Run plain(const Decoded* d) const { return d->is_head ? heads_.at(d).plain : d->run; }
+  int translated() const;
   const Decoded* loop_back(const Decoded* last, const Decoded* next);
   /// Iterations up to the last one or to `deadline`; then d itself is next.
   const Decoded* run_repeated(const Decoded* d);
@@ -143,24 +182,41 @@ class Cpu final : public SfrOwner {
   void write(unsigned ea, unsigned value) {
     Byte ? write8(ea, value) : write16(ea, value);
   }
-  void push(unsigned value);
-  unsigned pop();
+  void push(unsigned value) {
+    const unsigned ea = stack_checked(w[15]);
+    w[15] = static_cast<std::uint16_t>(ea + 2);
+    write16(ea, value);
+  }
+  unsigned pop() {
+    w[15] = static_cast<std::uint16_t>(w[15] - 2);
+    return read16(stack_checked(w[15]));
+  }
 
   // --- pointers
   unsigned source_address(const Decoded* d) {
-    if (d->s_special) return special_pointer(d->s, d->s_pre, d->s_post, false);
+    if (d->s_kind == Pointer::Stack) return stack_address(d->s_pre, d->s_post);
+    if (d->s_kind == Pointer::Special) return special_pointer(d->s, d->s_pre, d->s_post, false);
     const auto ea = static_cast<std::uint16_t>(w[d->s] + d->s_pre);
     w[d->s] = static_cast<std::uint16_t>(ea + d->s_post);
     return ea;
   }
   unsigned destination_address(const Decoded* d) {
-    if (d->d_special) return special_pointer(d->d, d->d_pre, d->d_post, true);
+    if (d->d_kind == Pointer::Stack) return stack_address(d->d_pre, d->d_post);
+    if (d->d_kind == Pointer::Special) return special_pointer(d->d, d->d_pre, d->d_post, true);
     const auto ea = static_cast<std::uint16_t>(w[d->d] + d->d_pre);
     w[d->d] = static_cast<std::uint16_t>(ea + d->d_post);
     return ea;
   }
   unsigned special_pointer(unsigned n, int pre, int post, bool write);
-  unsigned stack_checked(unsigned ea);
+  unsigned stack_address(int pre, int post) {
+    const unsigned ea = static_cast<unsigned>(w[15] + pre) & 0xFFFE;
+    w[15] = static_cast<std::uint16_t>((ea + static_cast<unsigned>(post)) & 0xFFFE);
+    return stack_checked(ea);
+  }
+  unsigned stack_checked(unsigned ea) {
+    if (ea < kRamStart || (splim_on && ea > splim)) trap(Trap::StackError);
+    return ea;
+  }
   /// A register moved by `step` within its modulo buffer, if it has one. `y_space`: by the Y address
   /// generator.
   unsigned stepped(unsigned n, unsigned value, int step, bool y_space) const;
@@ -204,7 +260,8 @@ class Cpu final : public SfrOwner {
   enum class Window : std::uint8_t { Plain, RepeatEdge, Free } window = Window::Plain;
   bool window_was_free = false;      ///< the last iteration read through the window at no cost
   std::uint32_t stale_pointers = 0;  ///< registers, a bit each: forget_pointers() before the next instruction
-  bool end_loop = false;             ///< CORCON.EDT
+  std::uint32_t unsteady_pointers = 0;  ///< those that ever were, since forget_code()
+  bool end_loop = false;                ///< CORCON.EDT
   bool splim_on = false;
   enum class Power : std::uint8_t { On, Idle, Sleep } power = Power::On;
   std::optional<ResetKind> reset_due;
@@ -238,7 +295,14 @@ class Cpu final : public SfrOwner {
   void write_elsewhere(unsigned ea, unsigned value, unsigned bits);
   unsigned read_psv(unsigned ea, unsigned bits);
   void find_loop_end();
+  void warm(const Decoded* target);
 
+  struct Head {
+    Run plain = nullptr;
+    int warmth = 0;
+    std::uint32_t pointers = 0;
+  };
+  std::unordered_map<const Decoded*, Head> heads_;
   std::vector<std::uint32_t> decoded_;  // words that were met since forget_code()
   std::vector<Decoded> code_;           // one a flash word, then one for addresses where no flash is
   unsigned bad_address_ = 0;            // that address
@@ -248,6 +312,8 @@ class Cpu final : public SfrOwner {
 /// written from now on, and a pointer that was never written makes it an illegal one. Depends on
 /// Cpu::special_registers().
 Decoded decode_word(Cpu& cpu, unsigned address);
+/// The function of a word, whatever registers were written before; null: it is no instruction.
+Run function_of(std::uint32_t word);
 
 /// NOP's.
 const Decoded* no_operation(Cpu& cpu, const Decoded* d);

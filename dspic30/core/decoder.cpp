@@ -12,12 +12,6 @@ namespace {
 
 constexpr std::uint16_t bit(unsigned n) { return static_cast<std::uint16_t>(1u << n); }
 
-bool has_kind(const Row& row, Operand kind) {
-  for (const Operand k : row.kinds)
-    if (k == kind) return true;
-  return false;
-}
-
 // what modes 1 to 5 do to a pointer before and after
 void pointer_steps(unsigned mode, int step, std::int8_t& pre, std::int8_t& post) {
   pre = static_cast<std::int8_t>(mode == 4 ? -step : mode == 5 ? step : 0);
@@ -224,12 +218,11 @@ void fill_registers(Decoded& d, const Row& row, const Fields& f) {
   d.d = static_cast<std::uint8_t>(f.d);
   d.b = static_cast<std::uint8_t>(f.w);
   if (row.id == Insn::Swap_Wn || row.id == Insn::Daw_B_Wn) d.d = d.s;
-  if (has_kind(row, Operand::RsPair)) d.s = static_cast<std::uint8_t>(2 * f.s);
-  if (has_kind(row, Operand::RdPair)) d.d = static_cast<std::uint8_t>(2 * f.d);
-  if (has_kind(row, Operand::Bit) || has_kind(row, Operand::FileBit)) d.b = static_cast<std::uint8_t>(f.b);
-  if (has_kind(row, Operand::Dividend) || has_kind(row, Operand::DividendLong))
-    d.b = static_cast<std::uint8_t>(f.v);
-  if (has_kind(row, Operand::DividendF)) d.b = static_cast<std::uint8_t>(f.t);
+  if (row.has(Operand::RsPair)) d.s = static_cast<std::uint8_t>(2 * f.s);
+  if (row.has(Operand::RdPair)) d.d = static_cast<std::uint8_t>(2 * f.d);
+  if (row.has(Operand::Bit) || row.has(Operand::FileBit)) d.b = static_cast<std::uint8_t>(f.b);
+  if (row.has(Operand::Dividend) || row.has(Operand::DividendLong)) d.b = static_cast<std::uint8_t>(f.v);
+  if (row.has(Operand::DividendF)) d.b = static_cast<std::uint8_t>(f.t);
   d.mask = d.d == 15 ? 0xFFFE : 0xFFFF;
 }
 
@@ -277,8 +270,40 @@ void fill_pointers(Decoded& d, const Row& row, const Fields& f, const Cpu& cpu, 
   pointer_steps(f.p | f.g, step, d.s_pre, d.s_post);
   pointer_steps(f.q | f.h, step, d.d_pre, d.d_post);
   const auto [read, written] = cpu.special_registers();
-  d.s_special = (r.sources & read & bit(d.s)) != 0;
-  d.d_special = (r.destinations & written & bit(d.d)) != 0;
+  const auto kind = [](std::uint32_t special, unsigned n) {
+    return special >> n & 1 ? Pointer::Special : n == 15 ? Pointer::Stack : Pointer::Plain;
+  };
+  if (r.sources & bit(d.s)) d.s_kind = kind(read, d.s);
+  if (r.destinations & bit(d.d)) d.d_kind = kind(written, d.d);
+}
+
+bool may_store(const Row& row, const Fields& f, const Registers& r) {
+  switch (row.id) {
+    case Insn::Mov_WREG_f:
+    case Insn::Mov_Wns_f:
+    case Insn::Clr_f:
+    case Insn::Setm_f:
+    case Insn::Bset_f_bit:
+    case Insn::Bclr_f_bit:
+    case Insn::Btg_f_bit:
+    case Insn::Btsts_f_bit:
+    case Insn::Push_f:
+    case Insn::Pop_f:
+    case Insn::Lnk_lit14:
+    case Insn::Call_Expr:
+    case Insn::Call_Wn:
+    case Insn::Rcall_Expr:
+    case Insn::Rcall_Wn:
+      return true;
+    case Insn::Bset_Ws_bit4:
+    case Insn::Bclr_Ws_bit4:
+    case Insn::Btg_Ws_bit4:
+    case Insn::Btsts_Ws_bit4:
+    case Insn::Bsw_Ws_Wb:
+      return f.p != 0;
+    default:
+      return r.destinations != 0 || (row.has(Operand::WregOption) && f.D);
+  }
 }
 
 bool is_skip(Insn id) {
@@ -307,6 +332,11 @@ std::uint16_t registers_written(std::uint32_t word) {
 
 }  // namespace
 
+Run function_of(std::uint32_t word) {
+  const Row* row = find_row(word);
+  return row ? choose(row->id, fields_of(*row, word)) : nullptr;
+}
+
 Decoded decode_word(Cpu& cpu, unsigned address) {
   const std::uint32_t word = cpu.program.read(address), second = cpu.program.read(address + 2);
   Decoded d{};
@@ -323,6 +353,7 @@ Decoded decode_word(Cpu& cpu, unsigned address) {
   fill_literal(d, *row, f, word, second);
   d.psv = psv_cycles(row->id);
   d.writes = r.written | r.moved;
+  d.stores = may_store(*row, f, r);
   d.pointers = r.sources | r.offsets;
   d.lead = address >= 2 && (registers_written(cpu.program.read(address - 2)) & d.pointers) ? 1 : 0;
   d.cycles = static_cast<std::uint8_t>(row->cycles + d.lead);
@@ -332,7 +363,7 @@ Decoded decode_word(Cpu& cpu, unsigned address) {
   }
   // a pointer that nobody has written since the reset resets the chip again
   if ((r.sources | r.destinations) & ~cpu.written & 0x7FFF) d.run = &illegal;
-  if (!f.B || has_kind(*row, Operand::Prefetch)) cpu.written |= r.written;
+  if (!f.B || row->has(Operand::Prefetch)) cpu.written |= r.written;
   return d;
 }
 

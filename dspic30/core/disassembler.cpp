@@ -2,21 +2,15 @@
 #include "dspic30/core/disassembler.h"
 
 #include <cctype>
-#include <cstdio>
 
 #include "dspic30/core/instruction_table.h"
+#include "dspic30/memory/hex.h"
 
 namespace dspic {
 
 namespace {
 
 constexpr std::uint32_t kPcMask = 0x7FFFFE;
-
-std::string hex(unsigned value, int digits = 1) {
-  char text[16];
-  std::snprintf(text, sizeof text, "0x%0*x", digits, value);
-  return text;
-}
 
 std::string w(unsigned n) { return "w" + std::to_string(n); }
 
@@ -59,32 +53,25 @@ std::uint32_t branch_target(unsigned n, std::uint32_t next) {
 
 // --- words that nobody writes ---------------------------------------------------------------------------
 
-bool has_kind(const Row& row, Operand kind) {
-  for (const Operand k : row.kinds)
-    if (k == kind) return true;
-  return false;
-}
-
 bool is_free_of_oddities(const Row& row, const Fields& f, std::uint32_t word, std::uint32_t second,
                          std::uint32_t address) {
   const std::uint32_t fixed = encode(row, f);
   if (fixed != word) return false;  // bits of NOP and BREAK
-  const bool offset_in = has_kind(row, Operand::SourceOffset),
-             offset_out = has_kind(row, Operand::DestinationOffset);
+  const bool offset_in = row.has(Operand::SourceOffset), offset_out = row.has(Operand::DestinationOffset);
   if (offset_in || offset_out) {
     if ((offset_in && f.g == 7) || (offset_out && f.h == 7)) return false;
     if (!(offset_in && f.g == 6) && !(offset_out && f.h == 6) && f.w != 0) return false;
   }
-  if (has_kind(row, Operand::Literal) && f.B && f.k > 0xFF) return false;
-  if (has_kind(row, Operand::File) && row.has(&Fields::B) && !f.B && (f.f & 1)) return false;
-  if (has_kind(row, Operand::Shift6) && (sign_extend(f.k, 6) < -16 || sign_extend(f.k, 6) > 16)) return false;
-  if (has_kind(row, Operand::Prefetch) && ((f.i == 4 && f.x) || (f.j == 4 && f.y))) return false;
-  if (has_kind(row, Operand::Distance) && (f.i == 4 || f.j == 4)) return false;
+  if (row.has(Operand::Literal) && f.B && f.k > 0xFF) return false;
+  if (row.has(Operand::File) && row.has(&Fields::B) && !f.B && (f.f & 1)) return false;
+  if (row.has(Operand::Shift6) && (sign_extend(f.k, 6) < -16 || sign_extend(f.k, 6) > 16)) return false;
+  if (row.has(Operand::Prefetch) && ((f.i == 4 && f.x) || (f.j == 4 && f.y))) return false;
+  if (row.has(Operand::Distance) && (f.i == 4 || f.j == 4)) return false;
   if (row.id == Insn::Mov_D_Wns_Wd && f.q == 0) return false;  // the other MOV.D
-  if (has_kind(row, Operand::Target) && second > 0x7F) return false;
-  if (has_kind(row, Operand::DoEnd) && (second > 0xFFFF || (branch_target(second, address + 4) & ~kPcMask)))
+  if (row.has(Operand::Target) && second > 0x7F) return false;
+  if (row.has(Operand::DoEnd) && (second > 0xFFFF || (branch_target(second, address + 4) & ~kPcMask)))
     return false;
-  return !has_kind(row, Operand::Branch) || !(branch_target(f.n, address + 2) & ~kPcMask);
+  return !row.has(Operand::Branch) || !(branch_target(f.n, address + 2) & ~kPcMask);
 }
 
 // --- operands -------------------------------------------------------------------------------------------
@@ -172,7 +159,7 @@ std::string mnemonic(const Row& row, const Fields& f) {
   if (row.id == Insn::Div_S_Wm_Wn || row.id == Insn::Div_U_Wm_Wn) return text + "w";
   if (row.id == Insn::Div_S_Wm_Wn_long || row.id == Insn::Div_U_Wm_Wn_long) return text + "d";
   if (row.has(&Fields::Z)) return text + (f.Z ? ".z" : ".c");
-  return f.B || has_kind(row, Operand::FileBit) ? text + ".b" : text;
+  return f.B || row.has(Operand::FileBit) ? text + ".b" : text;
 }
 
 }  // namespace

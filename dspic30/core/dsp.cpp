@@ -18,7 +18,7 @@ constexpr std::uint16_t kInteger = 0x01, kRound = 0x02, kSuperSaturation = 0x10,
                         kSaturateB = 0x40, kSaturateA = 0x80, kUnsigned = 0x1000;
 constexpr std::int64_t kMost31 = 0x7FFFFFFF, kLeast31 = -kMost31 - 1, kMost39 = 0x7FFFFFFFFF,
                        kLeast39 = -kMost39 - 1;
-constexpr int kMostShift = 16;
+constexpr int kMostAccumulatorShift = 16;
 
 std::int64_t wrapped_40(std::int64_t v) {
   return static_cast<std::int64_t>(static_cast<std::uint64_t>(v) << 24) >> 24;
@@ -176,7 +176,7 @@ const Decoded* negate_accumulator(Cpu& cpu, const Decoded* d) {
 }
 
 const Decoded* shift_by(Cpu& cpu, const Decoded* d, int right) {
-  if (right < -kMostShift || right > kMostShift) {
+  if (right < -kMostAccumulatorShift || right > kMostAccumulatorShift) {
     cpu.trap(Trap::MathError);
     return d + 1;
   }

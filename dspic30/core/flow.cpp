@@ -84,7 +84,9 @@ const Decoded* return_from_interrupt(Cpu& cpu, const Decoded* d) {
   cpu.parts.interrupts.leave_to(static_cast<int>((top >> 13 & 7) | (top >> 4 & 8)), cpu.now);
   hurry_to_exception(cpu);
   cpu.deadline = 0;
-  return cpu.jump((top & 0x7F) << 16 | (low & 0xFFFE), d);
+  const Decoded* const next = cpu.jump((top & 0x7F) << 16 | (low & 0xFFFE), d);
+  --next->heat;  // where an interrupt cut the program nothing begins
+  return next;
 }
 
 // --- loops ----------------------------------------------------------------------------------------------

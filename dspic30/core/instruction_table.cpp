@@ -78,18 +78,4 @@ unsigned field_limit(const Row& row, unsigned Fields::*member) {
   return 0;
 }
 
-PrefetchMode prefetch_mode(unsigned code, bool y_space) {
-  const int pointer = (y_space ? 10 : 8) + static_cast<int>(code >> 3 & 1);
-  const int low = static_cast<int>(code & 7);
-  if (code == 4) return {false, 0, false, 0};
-  if (code == 12) return {true, pointer, true, 0};
-  return {true, pointer, false, low < 4 ? 2 * low : 2 * low - 16};
-}
-
-void product_registers(unsigned m, int& first, int& second) {
-  static constexpr int kFirst[] = {4, 4, 4, 0, 5, 5, 6, 0}, kSecond[] = {5, 6, 7, 0, 6, 7, 7, 0};
-  first = kFirst[m & 7];
-  second = kSecond[m & 7];
-}
-
 }  // namespace dspic

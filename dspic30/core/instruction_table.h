@@ -7,6 +7,7 @@
 // A field is a letter of the manual's pattern: ADD Wb,Ws,Wd is 0100 0www wBqq qddd dppp ssss. Source: [chip
 // C], the columns of instructions.csv.
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -79,6 +80,7 @@ struct Row {
   bool (*legal)(const Fields&);  ///< null: always
 
   bool has(unsigned Fields::*member) const;
+  bool has(Operand kind) const { return std::find(kinds.begin(), kinds.end(), kind) != kinds.end(); }
 };
 
 /// All rows, in the order of Insn.
@@ -107,9 +109,19 @@ struct PrefetchMode {
   bool by_index;  ///< [W9+W12], [W11+W12]
   int step;       ///< bytes, after the read
 };
-PrefetchMode prefetch_mode(unsigned code, bool y_space);
+inline PrefetchMode prefetch_mode(unsigned code, bool y_space) {
+  const int pointer = (y_space ? 10 : 8) + static_cast<int>(code >> 3 & 1);
+  const int low = static_cast<int>(code & 7);
+  if (code == 4) return {false, 0, false, 0};
+  if (code == 12) return {true, pointer, true, 0};
+  return {true, pointer, false, low < 4 ? 2 * low : 2 * low - 16};
+}
 /// Registers W4 to W7 of m, for rows with Operand::Product: 0 W4*W5, 1 W4*W6, 2 W4*W7, 4 W5*W6, 5 W5*W7, 6
 /// W6*W7.
-void product_registers(unsigned m, int& first, int& second);
+inline void product_registers(unsigned m, int& first, int& second) {
+  constexpr int kFirst[] = {4, 4, 4, 0, 5, 5, 6, 0}, kSecond[] = {5, 6, 7, 0, 6, 7, 7, 0};
+  first = kFirst[m & 7];
+  second = kSecond[m & 7];
+}
 
 }  // namespace dspic

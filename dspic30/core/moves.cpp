@@ -12,30 +12,30 @@ using namespace operands;
 
 // --- more places ----------------------------------------------------------------------------------------
 
-unsigned indexed(Cpu& cpu, unsigned n, int offset, bool special) {
-  if (!special) return (cpu.w[n] + static_cast<unsigned>(offset)) & 0xFFFF;
-  const unsigned ea = cpu.stepped(n, cpu.w[n], offset, false);
-  return n == 15 ? cpu.stack_checked(ea) : ea;
+unsigned indexed(Cpu& cpu, unsigned n, int offset, Pointer kind) {
+  const unsigned ea = kind == Pointer::Special ? cpu.stepped(n, cpu.w[n], offset, false)
+                                               : (cpu.w[n] + static_cast<unsigned>(offset)) & 0xFFFF;
+  return kind != Pointer::Plain && n == 15 ? cpu.stack_checked(ea) : ea;
 }
 
 struct Indexed {  // [Ws+Wb], [Wd+Wb]
   template <bool Byte>
   static unsigned get(Cpu& cpu, const Decoded* d) {
-    return cpu.read<Byte>(indexed(cpu, d->s, sign_extend(cpu.w[d->b], 16), d->s_special));
+    return cpu.read<Byte>(indexed(cpu, d->s, sign_extend(cpu.w[d->b], 16), d->s_kind));
   }
   template <bool Byte>
   static void put(Cpu& cpu, const Decoded* d, unsigned value) {
-    cpu.write<Byte>(indexed(cpu, d->d, sign_extend(cpu.w[d->b], 16), d->d_special), value);
+    cpu.write<Byte>(indexed(cpu, d->d, sign_extend(cpu.w[d->b], 16), d->d_kind), value);
   }
 };
 struct WithLiteral {  // [Ws+lit], [Wd+lit]
   template <bool Byte>
   static unsigned get(Cpu& cpu, const Decoded* d) {
-    return cpu.read<Byte>(indexed(cpu, d->s, d->imm, d->s_special));
+    return cpu.read<Byte>(indexed(cpu, d->s, d->imm, d->s_kind));
   }
   template <bool Byte>
   static void put(Cpu& cpu, const Decoded* d, unsigned value) {
-    cpu.write<Byte>(indexed(cpu, d->d, d->imm, d->d_special), value);
+    cpu.write<Byte>(indexed(cpu, d->d, d->imm, d->d_kind), value);
   }
 };
 

@@ -2,10 +2,10 @@
 #include "dspic30/core/processor.h"
 
 #include <algorithm>
-#include <cstring>
 
 #include "dspic30/core/cpu.h"
 #include "dspic30/core/wait_samples.h"
+#include "dspic30/memory/state_hash.h"
 
 namespace dspic {
 
@@ -42,14 +42,16 @@ Cycle Processor::still_since() const { return cpu_->still_since; }
 // --- the loop -------------------------------------------------------------------------------------------
 
 // straight on until something else may happen; now and then, ever more rarely, a look whether the program
-// only waits
+// only waits; handlers seldom do, so they may work on for a while first
 void Processor::execute() {
   Cpu& cpu = *cpu_;
   const Cycle end = cpu.deadline;
   Cycle between = kFirstLooks;
   const std::int64_t writes = cpu.parts.bus.writes();
+  bool looks = cpu.parts.interrupts.nesting() == 0;
   while (cpu.now < end) {
-    const Cycle jumped = end - cpu.now > kWorthALook ? cpu.skip_wait() : 0;
+    const Cycle jumped = looks && end - cpu.now > kWorthALook ? cpu.skip_wait() : 0;
+    looks = true;
     jumped_ += jumped;
     if (jumped > 0) between = kFirstLooks;
     if (cpu.deadline != end || cpu.parts.bus.writes() != writes) return;
@@ -130,6 +132,12 @@ void Processor::enter_interrupt(int vector) {
 // --- what others look at --------------------------------------------------------------------------------
 
 Cycle Processor::waited() const { return waits_->waited(); }
+void Processor::set_translator(Translator* translator) { cpu_->translator = translator; }
+void Processor::translate_all() {
+  cpu_->hot = 0;
+  cpu_->forget_code();
+}
+int Processor::translated() const { return cpu_->translated(); }
 Cycle Processor::now() const { return cpu_->now; }
 void Processor::wait_until(Cycle at) { cpu_->now = std::max(cpu_->now, at); }
 bool Processor::is_asleep() const { return cpu_->power != Cpu::Power::On; }
@@ -149,11 +157,7 @@ void Processor::set_w(int n, std::uint16_t value) {
 std::uint64_t Processor::state_hash() const {
   std::uint64_t h = 0xCBF29CE484222325u;
   const auto add = [&h](std::uint64_t v) { h = (h ^ v) * 0x100000001B3u; };
-  for (std::size_t i = 0; i < cpu_->ram.size(); i += 8) {
-    std::uint64_t eight;
-    std::memcpy(&eight, &cpu_->ram[i], 8);
-    add(eight);
-  }
+  add(hash_of_memory(cpu_->ram.data(), cpu_->ram.size()));
   for (const std::uint16_t w : cpu_->w) add(w);
   for (const std::int64_t a : cpu_->acc) add(static_cast<std::uint64_t>(a));
   add(static_cast<std::uint64_t>(cpu_->now));

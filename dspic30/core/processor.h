@@ -17,6 +17,7 @@
 namespace dspic {
 
 class Cpu;
+class Translator;
 class WaitSamples;
 
 class Processor {
@@ -39,6 +40,13 @@ class Processor {
   Cycle slept() const { return slept_; }
   /// Cycles spent in loops that only wait, estimated by samples (wait_samples.h).
   Cycle waited() const;
+  /// Hot code runs translated from now on; null: no more is translated. Nothing but the PC's time depends on
+  /// it.
+  void set_translator(Translator* translator);
+  /// Translates whatever is jumped to, at once: for tests.
+  void translate_all();
+  /// Places where translated code begins.
+  int translated() const;
   /// Cycles of waits that were jumped over: how, not what was simulated. Depends on how run() is called.
   Cycle jumped() const { return jumped_; }
 

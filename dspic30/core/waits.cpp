@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Waits jumped over: a program that goes round without changing anything.
 //
-//   round 1: registers and flags are as they were  ->  round 2: and so is RAM  ->  all rounds to come are
-//   like it, until what it reads from peripherals may change
+//   round 1: registers and flags are as they were, and nothing was stored, or else
+//   round 2: and RAM is as it was  ->  all rounds to come are like it, until what it reads from
+//   peripherals may change
 //
 // A round that writes a register, reads a FIFO, loads a write latch or leads to a trap is no wait. So the
 // course is the same to the cycle as if every round had been run.
@@ -17,8 +18,8 @@ namespace {
 constexpr int kLongestRound = 40;  // instructions
 
 /// All that a round may change and that is neither RAM nor a peripheral's.
-struct Registers {
-  explicit Registers(const Cpu& c)
+struct CoreState {
+  explicit CoreState(const Cpu& c)
       : w(c.w),
         n(c.n),
         z(c.z),
@@ -32,7 +33,7 @@ struct Registers {
               c.end_loop << 5),
         shadow(c.shadow.w),
         shadow_flags(c.shadow.flags) {}
-  bool operator==(const Registers& o) const {
+  bool operator==(const CoreState& o) const {
     return w == o.w && n == o.n && (z == 0) == (o.z == 0) && c == o.c && ov == o.ov && dc == o.dc &&
            rcount == o.rcount && acc == o.acc && loop == o.loop && flags == o.flags && shadow == o.shadow &&
            shadow_flags == o.shadow_flags;
@@ -52,35 +53,40 @@ struct Registers {
 Cycle Cpu::skip_wait() {
   const Cycle end = deadline;
   const Decoded* const first = next;
-  const Registers before(*this);
+  const CoreState before(*this);
   watching = true;
   watched_until = kNever;
+  bool stores = false, is_still = false;
   looks_outside = false;
-  bool is_still = false;
   const Cycle began = now;
   // one round, at most so many instructions long; false: it is none, or no wait
   const auto goes_round = [&](int longest) {
     for (int i = 0; i < longest && now < deadline; ++i) {
       at = next;
-      const Decoded* following = at->run(*this, at);
+      stores |= at->stores;
+      const Decoded* following = plain(at)(*this, at);
       now += at->cycles;
       if (at == loop_end) following = loop_back(at, following);
       next = following;
       if (deadline != end || watched_until <= now) return false;
-      if (next == first) return before == Registers(*this);
+      if (next == first) return before == CoreState(*this);
     }
     return false;
   };
   Cycle skipped = 0;
-  if (goes_round(kLongestRound)) {
+  Cycle start = now;
+  const auto is_wait = [&] {
+    if (!goes_round(kLongestRound)) return false;
+    if (!stores) return true;
     const auto memory = ram;
-    const Cycle start = now;
-    if (goes_round(kLongestRound) && memory == ram) {
-      const Cycle round = now - start, rounds = (std::min(end, watched_until) - now) / round;
-      skipped = std::max<Cycle>(rounds, 0) * round;
-      now += skipped;
-      is_still = watched_until == kNever && !looks_outside;
-    }
+    start = now;
+    return goes_round(kLongestRound) && memory == ram;
+  };
+  if (is_wait()) {
+    const Cycle round = now - start, rounds = (std::min(end, watched_until) - now) / round;
+    skipped = std::max<Cycle>(rounds, 0) * round;
+    now += skipped;
+    is_still = watched_until == kNever && !looks_outside;
   }
   watching = false;
   still_since = is_still ? std::min(still_since, began) : kNever;

@@ -2,15 +2,20 @@
 #include "dspic30/device/dspic30f6014a.h"
 
 #include <algorithm>
-#include <cstring>
 
 #include "dspic30/device/chip_parts.h"
+#include "dspic30/memory/state_hash.h"
 
 namespace dspic {
 
 namespace {
 
 constexpr unsigned kFirstOc = sfr("OC1RS"), kFirstIc = sfr("IC1BUF");
+
+// PORTA to PORTG, whose bits are pins
+constexpr bool is_port(const SfrInfo& info) {
+  return info.name[0] == 'P' && info.name[1] == 'O' && info.name[2] == 'R';
+}
 
 }  // namespace
 
@@ -280,10 +285,10 @@ std::uint64_t Dspic30f6014a::state_hash(Cycle now, bool with_pins) {
   std::uint64_t h = 0xCBF29CE484222325u;
   const auto add = [&h](std::uint64_t v) { h = (h ^ v) * 0x100000001B3u; };
   for (const SfrInfo& info : kSfrRows)
-    if (with_pins || std::strncmp(info.name, "PORT", 4) != 0) add(parts_->bus.peek(info.address, now));
+    if (with_pins || !is_port(info)) add(parts_->bus.peek(info.address, now));
   for (const Uart& u : parts_->uarts) add(u.state_hash());
   add(static_cast<std::uint64_t>(parts_->interrupts.level()));
-  for (const std::uint16_t word : parts_->nvm.eeprom()) add(word);
+  add(hash_of_memory(parts_->nvm.eeprom().data(), sizeof(Eeprom)));
   return h;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dspic30/load/firmware_file.h"
+#include "dspic30/memory/hex.h"
 
 namespace dspic {
 
@@ -15,12 +16,6 @@ namespace {
 constexpr unsigned kMachine = 118, kDevice = 31;  // EM_DSPIC30F; the 6014A's number in e_flags
 constexpr std::uint32_t kPsv = 1u << 28, kEeprom = 1u << 29, kNoLoad = 1u << 23;
 constexpr std::uint32_t kOctetsAWord = 4;
-
-std::string hex(std::uint64_t value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "0x%llx", static_cast<unsigned long long>(value));
-  return text;
-}
 
 struct Closer {
   void operator()(Elf* elf) const { elf_end(elf); }

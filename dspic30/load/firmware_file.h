@@ -9,6 +9,7 @@
 // word; sections of data have no bytes of their own, .dinit brings them. Not read: relocatable objects.
 // Source: [chip C19].
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -25,6 +26,9 @@ struct FirmwareFile {
   std::map<std::string, std::uint32_t> object_bytes;  ///< their sizes, where told
   CodeMap code;
 };
+
+inline constexpr std::size_t kLongestFirmwareFile = 64u
+                                                    << 20;  // bytes [assumed: a hundred times the largest]
 
 enum class FileKind { Hex, Elf, Other };
 FileKind kind_of(const std::string& bytes);

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "dspic30/load/firmware_file.h"
+#include "dspic30/memory/hex.h"
 #include "dspic30/memory/program_memory.h"
 #include "dspic30/periph/nvm.h"
 
@@ -13,12 +14,6 @@ namespace {
 constexpr std::uint8_t kData = 0, kEnd = 1, kSegment = 2, kSegmentStart = 3, kUpper = 4, kStart = 5;
 constexpr int kRecordHead = 5;  // length, address, type, checksum
 constexpr std::size_t kRecordBytes = 16;
-
-std::string hex(unsigned value, int digits) {
-  char text[16];
-  std::snprintf(text, sizeof text, "0x%0*x", digits, value);
-  return text;
-}
 
 int digit(char c) {
   if (c >= '0' && c <= '9') return c - '0';

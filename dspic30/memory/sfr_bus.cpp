@@ -1,20 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "dspic30/memory/sfr_bus.h"
 
-#include <cstdio>
 #include <string>
 
+#include "dspic30/memory/hex.h"
+
 namespace dspic {
-
-namespace {
-
-std::string hex(unsigned value) {
-  char text[16];
-  std::snprintf(text, sizeof text, "0x%04X", value);
-  return text;
-}
-
-}  // namespace
 
 void SfrBus::attach(SfrOwner& owner, unsigned first, unsigned last) {
   for (unsigned a = first; a <= last; a += 2) {
@@ -59,8 +50,8 @@ std::uint16_t SfrBus::read_slowly(unsigned address, unsigned bits, Cycle now) {
 }
 
 void SfrBus::warn_of_hole(unsigned address, Cycle now) {
-  diagnostics_.report(Cause::UnimplementedAddress, hex(address),
-                      hex(address) + ": no register of this chip; the write is ignored", now);
+  diagnostics_.report(Cause::UnimplementedAddress, hex(address, 4),
+                      hex(address, 4) + ": no register of this chip; the write is ignored", now);
 }
 
 void SfrBus::warn(Slot& slot, std::uint16_t bits, Cycle now) {

@@ -71,7 +71,9 @@ std::uint16_t CodecLine::word(std::uint16_t word, Cycle end) {
   }
   asked_ = (word & kAsks) != 0;
   // with a control frame in between, samples are two frames apart
-  period_ = last_sample_ >= 0 ? end - last_sample_ : since;
+  const Cycle period = last_sample_ >= 0 ? end - last_sample_ : since;
+  is_even_ = period == period_;
+  period_ = period;
   last_sample_ = end;
   const double level = static_cast<std::int16_t>(word & ~kAsks) * gain_;
   sample(static_cast<std::int16_t>(std::clamp(std::lround(level), -32768L, 32767L)), end);
@@ -134,7 +136,7 @@ double CodecLine::register_rate_hz() const {
 }
 
 double CodecLine::frame_rate_hz() const {
-  return period_ > 0 ? static_cast<double>(kFcyHz) / static_cast<double>(period_) : 0;
+  return is_even_ && period_ > 0 ? static_cast<double>(kFcyHz) / static_cast<double>(period_) : 0;
 }
 
 const CodecLine::Stretch* CodecLine::publish() {

@@ -52,7 +52,8 @@ class CodecLine {
   bool take_activity();
   /// A sound goes on.
   bool is_heard() const { return open_; }
-  /// The sample rate that registers and bit clock give, and that of the frames, Hz; 0 where unknown.
+  /// The sample rate that registers and bit clock give, and that of the frames, Hz; 0 where unknown: a pause
+  /// of the DCI between two frames is no period.
   double register_rate_hz() const;
   double frame_rate_hz() const;
 
@@ -74,7 +75,8 @@ class CodecLine {
   bool active_ = false;  // words since take_activity()
   bool asked_ = false;   // the next frame is a control word
   bool news_ = false;
-  bool open_ = false;  // the last stretch goes on
+  bool open_ = false;     // the last stretch goes on
+  bool is_even_ = false;  // the latest period is as long as the one before
   Cycle bit_cycles_ = 0;
   Cycle last_end_ = -1, last_sample_ = -1, period_ = 0;
   int zeros_ = 0;  // in a row at the end of the open stretch

@@ -40,8 +40,6 @@ namespace {
 constexpr std::size_t kMostHeard = 65536;   // bytes [assumed: above, a sender is slowed down]
 constexpr std::size_t kMostUnheard = 4000;  // bytes [assumed: below the 4096 of Linux's line discipline]
 
-std::string why() { return std::strerror(errno); }
-
 class PtyEnd : public UartEnd {
  public:
   ~PtyEnd() override {
@@ -56,18 +54,18 @@ class PtyEnd : public UartEnd {
   bool open(const std::string& link, std::string& error) {
     master_.reset(::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
     if (!master_.valid() || ::grantpt(master_.get()) != 0 || ::unlockpt(master_.get()) != 0) {
-      error = "pty: cannot be opened: " + why();
+      error = "pty: cannot be opened: " + system_error();
       return false;
     }
     char path[128];
     if (::ptsname_r(master_.get(), path, sizeof path) != 0) {
-      error = "pty: has no name: " + why();
+      error = "pty: has no name: " + system_error();
       return false;
     }
     path_ = path;
     slave_.reset(::open(path, O_RDWR | O_NOCTTY | O_CLOEXEC));
     if (!slave_.valid()) {
-      error = "pty: " + path_ + ": " + why();
+      error = "pty: " + path_ + ": " + system_error();
       return false;
     }
     make_raw();
@@ -76,7 +74,7 @@ class PtyEnd : public UartEnd {
     if (watch_.valid() && ::inotify_add_watch(watch_.get(), path, IN_OPEN | IN_CLOSE) < 0) watch_.reset();
     stop_.reset(::eventfd(0, EFD_CLOEXEC));
     if (!stop_.valid()) {
-      error = "pty: no event descriptor: " + why();
+      error = "pty: no event descriptor: " + system_error();
       return false;
     }
     listener_ = std::thread([this] { listen(); });
@@ -89,7 +87,7 @@ class PtyEnd : public UartEnd {
     }
     if (target_of(link).rfind("/dev/pts/", 0) == 0) ::unlink(link.c_str());
     if (::symlink(path, link.c_str()) != 0) {
-      error = "pty: link " + link + ": " + why();
+      error = "pty: link " + link + ": " + system_error();
       return false;
     }
     link_ = link;

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 
 #include "hal_sim/board/uart_programs.h"
 
@@ -17,15 +16,13 @@ namespace board {
 
 namespace {
 
-std::string why() { return std::strerror(errno); }
-
 class TcpEnd : public UartEnd {
  public:
   bool open(int port, std::string& error) {
     const std::string where = "tcp:127.0.0.1:" + std::to_string(port);
     server_.reset(::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
     if (!server_.valid()) {
-      error = where + ": no socket: " + why();
+      error = where + ": no socket: " + system_error();
       return false;
     }
     const int yes = 1;
@@ -37,7 +34,7 @@ class TcpEnd : public UartEnd {
     if (::bind(server_.get(), reinterpret_cast<sockaddr*>(&address), sizeof address) != 0 ||
         ::listen(server_.get(), 1) != 0) {
       error = errno == EADDRINUSE ? where + ": port is in use; choose another, or 0 for any free port"
-                                  : where + ": cannot listen: " + why();
+                                  : where + ": cannot listen: " + system_error();
       return false;
     }
     socklen_t length = sizeof address;

@@ -7,7 +7,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <cstdlib>
 #include <cstring>
 
@@ -38,8 +37,6 @@ void MemoryEnd::inject(const std::string& bytes, Cycle at) {
 }
 
 namespace {
-
-std::string why() { return std::strerror(errno); }
 
 class FileEnd : public UartEnd {
  public:
@@ -72,7 +69,7 @@ class FileEnd : public UartEnd {
     in_.reset(::open(in.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY));
     struct stat info {};
     if (!in_.valid() || ::fstat(in_.get(), &info) != 0) {
-      error = "file:" + in + ": cannot be read: " + why();
+      error = "file:" + in + ": cannot be read: " + system_error();
       return false;
     }
     if (!S_ISDIR(info.st_mode)) return true;

@@ -5,7 +5,9 @@
 #pragma once
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstddef>
+#include <cstring>
 #include <memory>
 #include <string>
 
@@ -14,6 +16,9 @@
 namespace board {
 
 inline constexpr std::size_t kMostWaiting = std::size_t{1} << 20;  // bytes [assumed: ten minutes of pictures]
+
+/// What the system said to the last call that failed: the text of errno.
+inline std::string system_error() { return std::strerror(errno); }
 
 /// Owns a file descriptor.
 class Descriptor {

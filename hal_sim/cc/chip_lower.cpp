@@ -17,7 +17,7 @@ using namespace llvm;
 namespace {
 
 /// Words given by #pragma config, as _FOSC() and _FWDT() of the device header make them.
-void define_configuration(Unit& unit) {
+void place_configuration(Unit& unit) {
   Module& m = unit.module;
   for (const auto& [word, value] : unit.facts.configuration) {
     const std::string name = "tp_config_" + word;
@@ -276,7 +276,7 @@ bool lower_for_chip(Unit& unit) {
   Module& m = unit.module;
   take_notes(m);
   place_registers(m);
-  define_configuration(unit);
+  place_configuration(unit);
   define_initializers(m);
   simplify_fields(m);
   mend_calls(m);

@@ -227,7 +227,7 @@ void BoardOutside::follow_codec(dspic::Dspic30f6014a& chip, Cycle now) {
   line.set_bit_clock(2 * (Cycle{chip.peek(kDciCon3, now) & 0x0FFF} + 1));
   if (!line.is_heard()) return;
   const double by_registers = line.register_rate_hz(), by_frames = line.frame_rate_hz();
-  if (std::abs(by_registers - by_frames) <= kCodecRateTolerance * by_frames) return;
+  if (by_frames <= 0 || std::abs(by_registers - by_frames) <= kCodecRateTolerance * by_frames) return;
   chip.diagnostics().report(dspic::Cause::CodecRate, "codec",
                             "codec: its registers 3 and 4 and the bit clock give " + hertz(by_registers) +
                                 " samples a second, frames come " + hertz(by_frames) + " times a second",

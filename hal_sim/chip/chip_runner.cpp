@@ -5,6 +5,7 @@
 
 #include "hal_sim/board/board.h"
 #include "hal_sim/board/epuck_params.h"
+#include "hal_sim/chip/translation.h"
 #include "hal_sim/host/endless_wait.h"
 
 namespace chip {
@@ -35,6 +36,7 @@ ChipRunner::ChipRunner(std::string name, std::shared_ptr<const dspic::FirmwareFi
   configuration.program = &program_;
   chip_.power_up(configuration);
   processor_ = std::make_unique<dspic::Processor>(device(), program_);
+  processor_->set_translator(&translation());
   if (start <= 0) return;
   end_ = start;
   processor_->wait_until(start);

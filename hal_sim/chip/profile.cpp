@@ -15,6 +15,7 @@ namespace {
 constexpr int kTrustedRounds = 15;  // after one whose RAM was compared
 constexpr int kMostIgnored = 64;    // rounds of a loop that turned out to be no wait
 constexpr std::size_t kMostFrames = 512;
+constexpr unsigned kSplim = dspic::sfr("SPLIM");
 
 bool is_call(dspic::Insn id) { return id == dspic::Insn::Call_Expr || id == dspic::Insn::Rcall_Expr; }
 bool is_call_by_register(dspic::Insn id) { return id == dspic::Insn::Call_Wn || id == dspic::Insn::Rcall_Wn; }
@@ -39,8 +40,7 @@ Profile::Profile(const dspic::FirmwareFile& file, const dspic::Processor& proces
       kinds_(dspic::kFlashWords, Kind::Unknown),
       function_of_(dspic::kFlashWords, 0),
       contexts_(1),
-      functions_(file.code.functions.size() + 1),
-      ram_(dspic::Processor::kRamBytes) {
+      functions_(file.code.functions.size() + 1) {
   const auto& functions = file.code.functions;
   for (std::size_t f = 0; f < functions.size(); ++f)
     for (std::uint32_t a = functions[f].begin; a < functions[f].end && a / 2 < function_of_.size(); a += 2)
@@ -78,7 +78,7 @@ void Profile::after(const Step& step) {
   to_ = step.end;
   if (step.slept) {
     slept_ += took;
-    end_wait(here());
+    for (Frame& frame : here().frames) end_wait(frame.round);
     return;
   }
   ++steps_;
@@ -119,8 +119,10 @@ void Profile::after(const Step& step) {
 void Profile::was_reset(Cycle) {
   while (contexts_.size() > 1) contexts_.pop_back();
   cuts_.clear();
-  end_wait(here());
+  for (Frame& frame : here().frames) end_wait(frame.round);
+  const Cycle waited = here().waited;
   here() = Context{};
+  here().waited = waited;
   here().frames.push_back({function_of(0), 0, 0, to_});
   flags_ = 0;
   for (auto& [target, loop] : loops_) loop.last = -1;
@@ -145,6 +147,7 @@ void Profile::call(const Step& step, bool by_register) {
 void Profile::come_back(Context& context, unsigned sp) {
   while (context.frames.size() > 1 && context.frames.back().sp > sp) {
     finish(context, context.frames.back());
+    end_wait(context.frames.back().round);
     context.frames.pop_back();
   }
 }
@@ -172,7 +175,9 @@ void Profile::enter_handler(const Step& step) {
     flags_ &= ~(std::uint64_t{1} << (step.entered - dspic::kFirstIrqVector));
   }
   Cut cut;
-  if (here().round.has_ram) cut.ram.assign(processor_.ram(), processor_.ram() + dspic::Processor::kRamBytes);
+  const std::uint8_t* const ram = processor_.ram();
+  for (const Frame& frame : here().frames)
+    if (!frame.round.ram.empty() && cut.ram.empty()) cut.ram.assign(ram, ram + dspic::Processor::kRamBytes);
   cut.writes = device_.parts().bus.writes();
   cut.steps = steps_ - 1;  // this one
   cuts_.push_back(std::move(cut));
@@ -182,19 +187,20 @@ void Profile::enter_handler(const Step& step) {
 void Profile::leave_handler(const Step& step) {
   if (contexts_.size() == 1) return;
   Context& context = here();
-  end_wait(context);
   come_back(context, 0);
+  end_wait(context.frames[0].round);
   finish(context, context.frames[0]);
   interrupts_[context.vector].cycles.add(context.clock, context.at);
   contexts_.pop_back();
   // what the handler changed is no doing of the round that it cut
   const Cut& cut = cuts_.back();
-  Round& round = here().round;
-  round.writes += device_.parts().bus.writes() - cut.writes;
-  round.steps += steps_ - cut.steps;
-  for (std::size_t i = 0; i < cut.ram.size() && round.has_ram; ++i)
-    if (cut.ram[i] != processor_.ram()[i]) ram_[i] = processor_.ram()[i];
-  if (cut.ram.empty()) round.has_ram = false;
+  for (Frame& frame : here().frames) {
+    Round& round = frame.round;
+    round.writes += device_.parts().bus.writes() - cut.writes;
+    round.steps += steps_ - cut.steps;
+    for (std::size_t i = 0; i < round.ram.size(); ++i)
+      if (cut.ram[i] != processor_.ram()[i]) round.ram[i] = processor_.ram()[i];
+  }
   cuts_.pop_back();
 }
 
@@ -236,27 +242,30 @@ void Profile::turn_loop(const Step& step) {
 
 void Profile::look_for_wait(const Step& step) {
   Context& context = here();
-  Round& round = context.round;
+  Round& round = context.frames.back().round;
   const bool again = round.target == step.next && steps_ - round.steps <= dspic::WaitSamples::kLongestRound;
   bool counts = false;
   if (!again) {
-    end_wait(context);
+    end_wait(round);
     round = Round{};
     round.target = step.next;
   } else if (is_wait(step, round, counts)) {
-    if (context.waits_at != step.next) {
-      context.waits_at = step.next;
-      context.wait = 0;
-      context.wait_at = step.end;
+    const Cycle waited =
+        context.clock - round.clock - (context.waited - round.waited);  // not in what it calls
+    if (round.wait_at < 0) {
+      round.wait = 0;
+      round.wait_at = step.end;
     }
-    context.wait += context.clock - round.clock;
-    loops_[step.next].polled += counts ? 0 : context.clock - round.clock;
+    round.wait += waited;
+    context.waited += waited;
+    loops_[step.next].polled += counts ? 0 : waited;
   } else {
-    end_wait(context);
+    end_wait(round);
   }
   round.length = steps_ - round.steps;
   round.steps = steps_;
   round.clock = context.clock;
+  round.waited = context.waited;
   round.writes = device_.parts().bus.writes();
   for (std::size_t n = 0; n < round.w.size(); ++n) round.w[n] = processor_.w(static_cast<int>(n));
 }
@@ -265,7 +274,7 @@ bool Profile::is_wait(const Step& step, Round& round, bool& counts) {
   const int counter = changed_register(step, round);
   if (counter == kTooMany || device_.parts().bus.writes() != round.writes) {
     round.trusted = 0;
-    round.has_ram = false;
+    round.ram.clear();
     return false;
   }
   if (round.ignored > 0) {
@@ -277,15 +286,17 @@ bool Profile::is_wait(const Step& step, Round& round, bool& counts) {
   if (round.trusted > 0 && is_same_length) {
     --round.trusted;
     is_it = true;
-  } else if (round.has_ram) {
-    is_it = is_same_ram(counter, counts);
+  } else if (!round.ram.empty()) {
+    is_it = is_same_ram(round.ram, counter, counts);
     round.trusted = is_it ? kTrustedRounds : 0;
     round.failures = is_it ? 0 : round.failures + 1;
     if (!is_it) round.ignored = std::min(1 << std::min(round.failures, 6), kMostIgnored);
   }
   if (counter >= 0) counts = true;
-  round.has_ram = round.trusted == 0;
-  if (round.has_ram) std::memcpy(ram_.data(), processor_.ram(), ram_.size());
+  if (round.trusted > 0)
+    round.ram.clear();
+  else
+    round.ram.assign(processor_.ram(), processor_.ram() + dspic::Processor::kRamBytes);
   return is_it;
 }
 
@@ -318,27 +329,29 @@ unsigned Profile::pointers_of(unsigned begin, unsigned end) const {
   return registers & 0x7FFF;
 }
 
-// but for one word, a counter that passes through a register
-bool Profile::is_same_ram(int counter, bool& counts) const {
+// but for one word, a counter that passes through a register, and what lies beyond the stack's end
+bool Profile::is_same_ram(const std::vector<std::uint8_t>& before, int counter, bool& counts) const {
   const std::uint8_t* ram = processor_.ram();
-  if (std::memcmp(ram, ram_.data(), ram_.size()) == 0) return true;
+  if (std::memcmp(ram, before.data(), before.size()) == 0) return true;
+  const unsigned sp = processor_.w(15), limit = device_.peek(kSplim, to_) + 2u;
   int words = 0;
-  for (std::size_t i = 0; i < ram_.size(); i += 2) {
-    if (ram[i] == ram_[i] && ram[i + 1] == ram_[i + 1]) continue;
-    const auto old = static_cast<unsigned>(ram_[i] | ram_[i + 1] << 8),
+  for (std::size_t i = 0; i < before.size(); i += 2) {
+    if (ram[i] == before[i] && ram[i + 1] == before[i + 1]) continue;
+    const auto address = static_cast<unsigned>(i) + dspic::Processor::kRamStart;
+    if (address >= sp && address < limit) continue;
+    const auto old = static_cast<unsigned>(before[i] | before[i + 1] << 8),
                now = static_cast<unsigned>(ram[i] | ram[i + 1] << 8);
     const unsigned value = counter >= 0 ? processor_.w(counter) : now;
     if (++words > 1 || (value != now && value != old)) return false;
   }
-  counts = true;
+  counts |= words > 0;
   return true;
 }
 
-void Profile::end_wait(Context& context) {
-  if (context.waits_at == ~0u) return;
-  loops_[context.waits_at].wait.add(context.wait, context.wait_at);
-  if (context.vector == dspic::kNoVector) waited_ += context.wait;
-  context.waits_at = ~0u;
+void Profile::end_wait(Round& round) {
+  if (round.wait_at < 0) return;
+  loops_[round.target].wait.add(round.wait, round.wait_at);
+  round.wait_at = -1;
 }
 
 // --- the report
@@ -352,11 +365,8 @@ ProfileReport Profile::report() const {
   report.from = std::max<Cycle>(from_, 0);
   report.to = to_;
   report.slept = slept_;
-  report.waited = waited_;
+  report.waited = contexts_[0].waited;
   report.in_handlers = in_handlers_;
-  // the wait that goes on
-  const Context& main = contexts_[0];
-  if (main.waits_at != ~0u) report.waited += main.wait;
   for (std::size_t f = 1; f < functions_.size(); ++f) {
     const FunctionTally& tally = functions_[f];
     if (tally.own == 0) continue;
@@ -376,7 +386,9 @@ ProfileReport Profile::report() const {
   const Loop* main_loop = nullptr;
   for (const auto& [target, loop] : loops_) {
     Spread wait = loop.wait;
-    if (main.waits_at == target) wait.add(main.wait, main.wait_at);
+    for (const Frame& frame : contexts_[0].frames)  // that goes on
+      if (frame.round.target == target && frame.round.wait_at >= 0)
+        wait.add(frame.round.wait, frame.round.wait_at);
     if (wait.count > 0)
       report.waits.push_back({file_.code.describe(target), wait, 2 * loop.polled < wait.sum});
     const unsigned span = loop.end - target;

@@ -81,33 +81,33 @@ class Profile final : public StepWatch {
 
  private:
   enum class Kind : std::uint8_t { Unknown, Plain, Call, CallRegister, Return, Branch };
+  /// The latest turn of a loop, where a wait is looked for. A function that is called may have waits of its
+  /// own.
+  struct Round {
+    unsigned target = ~0u;
+    std::array<std::uint16_t, 16> w{};
+    std::int64_t writes = 0, steps = 0;  // of registers, and instructions, up to its end
+    std::int64_t length = 0;             // instructions
+    Cycle clock = 0, waited = 0;
+    int trusted = 0;                // rounds that pass without a look at RAM
+    int ignored = 0;                // rounds that are not looked at
+    int failures = 0;               // in a row
+    std::vector<std::uint8_t> ram;  // at its end; empty: not kept
+    Cycle wait = 0, wait_at = -1;   // the wait that goes on, and when it began; -1: none
+  };
   struct Frame {
     int function = 0;
     unsigned sp = 0;  // after the call
     Cycle began = 0;  // by the context's clock
     Cycle at = 0;     // by the robot's
     int caller = 0;
-  };
-  /// The latest turn of a loop, where a wait is looked for.
-  struct Round {
-    unsigned target = ~0u;
-    std::array<std::uint16_t, 16> w{};
-    std::int64_t writes = 0, steps = 0;  // of registers, and instructions, up to its end
-    std::int64_t length = 0;             // instructions
-    Cycle clock = 0;
-    int trusted = 0;       // rounds that pass without a look at RAM
-    int ignored = 0;       // rounds that are not looked at
-    int failures = 0;      // in a row
-    bool has_ram = false;  // ram_ is of its end
+    Round round = {};
   };
   struct Context {
     int vector = dspic::kNoVector;
-    Cycle clock = 0;
+    Cycle clock = 0, waited = 0;
     Cycle at = 0;  // when it began
     std::vector<Frame> frames;
-    Round round;
-    unsigned waits_at = ~0u;  // loop of the wait that goes on
-    Cycle wait = 0, wait_at = 0;
   };
   struct FunctionTally {
     Spread cycles;
@@ -150,9 +150,9 @@ class Profile final : public StepWatch {
   void look_for_wait(const Step& step);
   bool is_wait(const Step& step, Round& round, bool& counts);
   int changed_register(const Step& step, const Round& round);
-  bool is_same_ram(int counter, bool& counts) const;
+  bool is_same_ram(const std::vector<std::uint8_t>& before, int counter, bool& counts) const;
   unsigned pointers_of(unsigned begin, unsigned end) const;
-  void end_wait(Context& context);
+  void end_wait(Round& round);
   void watch_flags();
   void watch_stack(Cycle at);
 
@@ -165,10 +165,9 @@ class Profile final : public StepWatch {
   std::vector<FunctionTally> functions_;
   std::map<int, InterruptTally> interrupts_;
   std::map<unsigned, Loop> loops_;  // by their first instruction
-  std::vector<std::uint8_t> ram_;   // as it was when the latest round began
   std::vector<Cut> cuts_;           // one a handler
   std::uint64_t flags_ = 0;         // enabled ones, as they were
-  Cycle from_ = -1, to_ = 0, waited_ = 0, in_handlers_ = 0, slept_ = 0;
+  Cycle from_ = -1, to_ = 0, in_handlers_ = 0, slept_ = 0;
   std::int64_t steps_ = 0;
   unsigned stack_base_ = 0, stack_top_ = 0;
   Cycle stack_at_ = 0;

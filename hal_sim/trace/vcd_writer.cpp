@@ -10,7 +10,7 @@ namespace trace {
 namespace {
 
 // room for the comment and the last time stamp of a file that is cut
-constexpr std::int64_t kEndBytes = 200;
+constexpr std::int64_t kVcdEndBytes = 200;
 
 // printable characters, lowest digit first
 std::string code_of(std::size_t number) {
@@ -99,7 +99,7 @@ void VcdWriter::change(sim::Clicks at, int signal, std::uint64_t value) {
   const std::int64_t stamped = stamped_ns_;
   stamp(at);
   write_value(line);
-  if (bytes_ + static_cast<std::int64_t>(pending_.size()) + kEndBytes > window_.most_bytes) {
+  if (bytes_ + static_cast<std::int64_t>(pending_.size()) + kVcdEndBytes > window_.most_bytes) {
     pending_.resize(before);
     stamped_ns_ = stamped;
     cut_ = true;

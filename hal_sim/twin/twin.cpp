@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <atomic>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 
 #include "hal_sim/board/bluetooth_module.h"
@@ -19,6 +17,7 @@
 #include "hal_sim/host/oscillator.h"
 #include "hal_sim/register/chip_processor.h"
 #include "hal_sim/twin/world_file.h"
+#include "sim_core/base/input_file.h"
 #include "sim_core/radio/link_medium.h"
 #include "sim_core/record/image_file.h"
 #include "sim_core/world/variation.h"
@@ -104,10 +103,9 @@ struct Firmware {
 };
 
 Firmware open_firmware(const std::string& path, std::string& error) {
-  std::ifstream in(path, std::ios::binary);
-  std::string bytes(4, '\0');
-  in.read(bytes.data(), 4);
-  if (bytes[0] == ':' || bytes == "\177ELF") bytes.append(std::istreambuf_iterator<char>(in), {});
+  std::string bytes;
+  sim::read_input_file(path, dspic::kLongestFirmwareFile,
+                       bytes);  // what cannot be read, opening the image tells
   if (dspic::kind_of(bytes) == dspic::FileKind::Other) return {host::Image::open(path, error), nullptr};
   auto file = std::make_shared<dspic::FirmwareFile>();
   if (!dspic::load_firmware(bytes, path, *file, error)) return {};

@@ -11,7 +11,7 @@
 namespace sim {
 namespace {
 
-constexpr std::size_t kLongestFile = 256u << 20;  // bytes
+constexpr std::size_t kLongestPicture = 256u << 20;  // bytes
 constexpr int kMostPixels = 64'000'000;
 
 // what cairo has not read yet
@@ -40,7 +40,7 @@ std::string check_size(std::string_view bytes) {
 
 std::string read_floor_image(const std::string& path, FloorDesc& floor) {
   std::string bytes;
-  std::string wrong = read_input_file(path, kLongestFile, bytes);
+  std::string wrong = read_input_file(path, kLongestPicture, bytes);
   if (wrong.empty()) wrong = parse_floor_image(bytes, floor);
   return wrong.empty() ? wrong : fmt::format("got {} ({}), expected a PNG file", path, wrong);
 }

@@ -20,8 +20,8 @@
 namespace sim {
 namespace {
 
-constexpr std::size_t kLongestFile = 8u << 20;  // bytes; ten thousand robots need a tenth of it
-constexpr std::size_t kMostProblems = 200;      // reported; more would help nobody
+constexpr std::size_t kLongestWorld = 8u << 20;  // bytes; ten thousand robots need a tenth of it
+constexpr std::size_t kMostProblems = 200;       // reported; more would help nobody
 
 constexpr std::size_t kLongestQuote = 60;  // characters of a value that a message repeats
 
@@ -121,8 +121,8 @@ class Reader {
 
   LoadedWorld read(std::string_view text) {
     LoadedWorld out;
-    if (text.size() > kLongestFile) {
-      problem({}, fmt::format("got {} bytes, expected at most {}", text.size(), kLongestFile));
+    if (text.size() > kLongestWorld) {
+      problem({}, fmt::format("got {} bytes, expected at most {}", text.size(), kLongestWorld));
     } else if (const TomlTrap trap = find_toml_trap(text); trap.line > 0) {
       problems_.push_back({trap.line, trap.column, trap.text});
     } else {
@@ -484,7 +484,7 @@ std::string LoadedWorld::report(std::string_view file) const {
 LoadedWorld load_world(const std::string& path, const std::vector<RobotModel>& models,
                        const std::vector<PartKind>& part_kinds) {
   std::string text;
-  const std::string wrong = read_input_file(path, kLongestFile, text);
+  const std::string wrong = read_input_file(path, kLongestWorld, text);
   if (!wrong.empty()) {
     LoadedWorld out;
     out.problems.push_back({0, 0, wrong});

@@ -149,6 +149,55 @@ delay: dec w1, w1
   EXPECT_LT(report.load(), 0.01);
 }
 
+// a main loop of some 200 instructions that calls a function three times, which only reads, while a handler
+// counts: the handler is the load. With work in it, all is
+TEST_F(ProfileTest, a_long_round_that_changes_nothing_is_a_wait) {
+  for (const bool works : {false, true}) {
+    struct One : ProfileTest {
+      void TestBody() override {}
+      std::pair<double, double> loads(const std::string& work) {
+        const ProfileReport report = profile(R"(
+__reset: mov #__SP_init, w15
+    mov #__SPLIM_init, w0
+    mov w0, SPLIM
+    nop
+    clr w8
+    clr w9
+    mov #999, w0
+    mov w0, PR1
+    bset IEC0, #3
+    mov #0x8000, w0
+    mov w0, T1CON
+main: rcall ask
+    rcall ask
+    rcall ask
+)" + work + R"(
+    bra main
+ask:
+    .rept 60
+    mov PORTA, w0
+    .endr
+    return
+__T1Interrupt: push w0
+    mov ticks, w0
+    inc w0, w0
+    mov w0, ticks
+    bclr IFS0, #3
+    pop w0
+    retfie
+    .bss
+ticks: .space 2
+)",
+                                             1);
+        return {report.load(), runner().cpu_load()};
+      }
+    } one;
+    const auto [profiled, sampled] = one.loads(works ? "inc w8, w8\n add w9, w8, w9" : "nop");
+    EXPECT_NEAR(profiled, works ? 1 : 0.014, 0.003);
+    EXPECT_NEAR(sampled, works ? 1 : 0.014, works ? 1e-9 : 0.1);
+  }
+}
+
 TEST_F(ProfileTest, events_that_came_too_soon_are_merged_or_missed) {
   const ProfileReport merged = profile(R"(
 __reset: mov #__SP_init, w15

@@ -63,6 +63,20 @@ TEST_F(ChipProgram, controllers_source_becomes_an_image_and_drives) {
   EXPECT_NE(of_image.text.find(" 0.1"), std::string::npos) << "it drives some 0.1 m: " << of_image.text;
 }
 
+// long enough that handlers and loops run hot
+TEST_F(ChipProgram, translated_code_changes_no_result) {
+  const auto digest = [](const std::string& text) { return text.substr(text.find("digest "), 23); };
+  for (const char* controller : {"obstacle", "braitenberg_2a", "camera_follow"}) {
+    const std::string run = std::string("run maze --fw '*=") + controller + "' --way chip --for 8";
+    const auto translated = twinpuck(run);
+    ASSERT_EQ(translated.exit_code, 0) << translated.text;
+    setenv("TWINPUCK_INTERPRET", "1", 1);
+    const auto interpreted = twinpuck(run);
+    unsetenv("TWINPUCK_INTERPRET");
+    EXPECT_EQ(digest(translated.text), digest(interpreted.text)) << controller;
+  }
+}
+
 TEST_F(ChipProgram, mistakes_are_named_with_file_and_line) {
   const std::string source = file("wrong.s", "start:\n  mov #1, w16\n  bra nowhere\n");
   const auto said = twinpuck("asm '" + source + "' -o '" + (folder / "x.hex").string() + "'");

@@ -62,7 +62,7 @@ TEST(Bus, writes_to_nowhere_are_named) {
   b.chip.write(0x2D8, 1, 16, 5);  // port E, which this chip lacks
   EXPECT_EQ(b.chip.read(0x2D8, 16, 6), 0);
   ASSERT_EQ(b.notes.count(Cause::UnimplementedAddress), 1);
-  EXPECT_EQ(b.notes.all[0].place, "0x02D8");
+  EXPECT_EQ(b.notes.all[0].place, "0x02d8");
 }
 
 TEST(Bus, uninitialised_reads_are_named_when_asked_for) {

@@ -6,13 +6,15 @@
 
 #include "dspic30/asm/assembler.h"
 #include "dspic30/core/processor.h"
+#include "hal_sim/chip/translation.h"
 #include "tests/dspic30/bench.h"
 
 namespace bench {
 
 struct CoreBench {
-  /// `text` is assembled and programmed; the configuration words are those of `c`.
-  explicit CoreBench(const std::string& text, dspic::Configuration c = {}) {
+  /// `text` is assembled and programmed; the configuration words are those of `c`. `translates`: jumped to,
+  /// code is translated at once.
+  explicit CoreBench(const std::string& text, dspic::Configuration c = {}, bool translates = true) {
     image = dspic::assembly::assemble(text, "test.s");
     EXPECT_TRUE(image.is_whole()) << image.report();
     for (const auto& [address, word] : image.program) program.write(address, word);
@@ -20,6 +22,9 @@ struct CoreBench {
     c.synchronised_ports = true;
     chip = std::make_unique<dspic::Dspic30f6014a>(outside, &notes, c);
     cpu = std::make_unique<dspic::Processor>(*chip, program);
+    if (!translates) return;
+    cpu->set_translator(&chip::translation());
+    cpu->translate_all();
   }
   FakeOutside outside;
   Notes notes;

@@ -134,6 +134,30 @@ TEST(Instruction, cases_hold) {
   }
 }
 
+// each case in a loop, as often as it lasts: what is translated does what the interpreter does
+TEST(Instruction, cases_translated) {
+  int translated = 0;
+  for (const Case& c : read_cases()) {
+    SCOPED_TRACE("instruction_cases.txt:" + std::to_string(c.line) + ": " + c.row + ": " + c.text);
+    std::string text = ".section .cases, code, address(0)\n__reset: inc w10, w10 / " + c.text +
+                       " / nop / nop / nop / bra __reset";
+    for (char& letter : text)
+      if (letter == '/') letter = '\n';
+    CoreBench one(text, {}, false), other(text, {}, true);
+    for (CoreBench* b : {&one, &other})
+      for (const auto& [name, value] : pairs(c.before)) set(*b, name, value);
+    for (Cycle end = 40; end < 400; end += 40) {
+      one.run(end);
+      other.run(end);
+      ASSERT_EQ(one.cpu->state_hash(), other.cpu->state_hash()) << end;
+      ASSERT_EQ(one.chip->state_hash(end), other.chip->state_hash(end)) << end;
+    }
+    ASSERT_EQ(one.resets, other.resets);
+    translated += other.cpu->translated() > 0;
+  }
+  EXPECT_GT(translated, 200);
+}
+
 // and the row that a case names is one that its text assembles to
 TEST(Instruction, every_row_has_a_case) {
   std::set<std::string> named, met;

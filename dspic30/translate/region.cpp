@@ -1,0 +1,687 @@
+// SPDX-License-Identifier: MIT
+#include "dspic30/translate/region.h"
+
+#include <dlfcn.h>
+#include <llvm/ADT/MapVector.h>
+#include <llvm/Analysis/InstructionSimplify.h>
+#include <llvm/Analysis/ValueTracking.h>
+#include <llvm/IR/IRBuilder.h>
+#include <llvm/IR/InstIterator.h>
+#include <llvm/IR/IntrinsicInst.h>
+#include <llvm/IR/LegacyPassManager.h>
+#include <llvm/Pass.h>
+#include <llvm/Transforms/InstCombine/InstCombine.h>
+#include <llvm/Transforms/Scalar.h>
+#include <llvm/Transforms/Utils/BasicBlockUtils.h>
+#include <llvm/Transforms/Utils/Cloning.h>
+#include <llvm/Transforms/Utils/Local.h>
+
+#include <algorithm>
+#include <cstring>
+#include <set>
+
+namespace dspic::translate {
+
+namespace {
+
+using namespace llvm;
+
+constexpr StringLiteral kOffset = "_ZN5dspic3Cpu6offsetEPKNS_7DecodedEi",
+                        kRead = "_ZN5dspic3Cpu14read_elsewhereEjj",
+                        kWrite = "_ZN5dspic3Cpu15write_elsewhereEjjj", kTrap = "_ZN5dspic3Cpu4trapENS_4TrapE",
+                        kSpecial = "_ZN5dspic3Cpu15special_pointerEjiib";
+
+StringRef name_of(const CallBase& call) {
+  const Function* const callee = call.getCalledFunction();
+  return callee ? callee->getName() : StringRef();
+}
+bool is_real_call(const Instruction& i) {
+  return isa<CallInst>(i) && (!isa<IntrinsicInst>(i) || isa<MemIntrinsic>(i));
+}
+/// Address that read_elsewhere() or write_elsewhere() is called with, if it is known.
+const ConstantInt* address_in(const CallInst& call) {
+  return name_of(call) == kRead || name_of(call) == kWrite ? dyn_cast<ConstantInt>(call.getArgOperand(1))
+                                                           : nullptr;
+}
+/// Of no more than the clock: registers of peripherals, not those of the core.
+bool is_of_peripheral(const CallInst& call) {
+  const ConstantInt* const address = address_in(call);
+  return address && address->getZExtValue() > sfr("DISICNT") + 1 && address->getZExtValue() < kSfrBytes;
+}
+/// Seldom called, as RAM is what pointers point to.
+bool is_beyond_ram(const CallInst& call) {
+  const StringRef name = name_of(call);
+  return ((name == kRead || name == kWrite) && !address_in(call)) || name == kTrap || name == kSpecial;
+}
+
+// --- fields of the Cpu ----------------------------------------------------------------------------------
+
+std::uint64_t offset_of(const Cpu& cpu, const void* field) {
+  return static_cast<std::uint64_t>(static_cast<const char*>(field) - reinterpret_cast<const char*>(&cpu));
+}
+
+// those that a stretch keeps to itself, one after another: w, n, z, c, ov, dc, now
+struct Hot {
+  struct Field {
+    std::uint64_t offset;
+    unsigned bytes;
+    bool is_used = false;
+    std::set<const Item*> writers = {};
+  };
+  explicit Hot(const Cpu& cpu) : begin(offset_of(cpu, &cpu.w)), end(offset_of(cpu, &cpu.now) + 8) {
+    for (const std::uint16_t& w : cpu.w) fields.push_back({offset_of(cpu, &w), 2});
+    for (const std::uint16_t* f : {&cpu.n, &cpu.z}) fields.push_back({offset_of(cpu, f), 2});
+    for (const unsigned* f : {&cpu.c, &cpu.ov, &cpu.dc}) fields.push_back({offset_of(cpu, f), 4});
+    fields.push_back({offset_of(cpu, &cpu.now), 8});
+  }
+  bool holds(std::uint64_t offset) const { return offset >= begin && offset < end; }
+  /// `writer`: null where it is read.
+  void touch(std::uint64_t offset, std::uint64_t bytes, const Item* writer) {
+    for (Field& f : fields) {
+      if (f.offset >= offset + bytes || offset >= f.offset + f.bytes) continue;
+      f.is_used = true;
+      if (writer) f.writers.insert(writer);
+    }
+  }
+  std::uint64_t begin, end;
+  std::vector<Field> fields;  // the clock is the last
+};
+
+// --- one stretch ----------------------------------------------------------------------------------------
+
+class Maker {
+ public:
+  Maker(Semantics& semantics, const Cpu& cpu, const std::vector<Item>& items, const std::string& name);
+  ~Maker() {
+    if (function_) function_->eraseFromParent();
+  }
+  std::unique_ptr<Module> make();
+
+ private:
+  void put_entry();
+  bool put_item(const Item& item);
+  BasicBlock* aside(const Item& item, BasicBlock* first);
+  bool inlined(CallInst* call);
+  std::vector<BasicBlock*> blocks_from(BasicBlock* first);
+  void fold(const Item& item, BasicBlock* first);
+  void keep_jumps(const Item& item, BasicBlock* first);
+  void drop_dead(BasicBlock* first);
+  void find_effects(const Item& item, BasicBlock* first);
+  void leave(const Item& item, BasicBlock* block, Value* next);
+  BasicBlock* edge(const Item& item, Value* next);
+  bool keep_state();
+  void optimise();
+  std::unique_ptr<Module> moved_out();
+
+  /// A call of a function that is the simulator's, by its address.
+  CallInst* called(std::uint64_t address, ArrayRef<Value*> arguments) {
+    SmallVector<Type*, 3> types;
+    for (Value* argument : arguments) types.push_back(argument->getType());
+    FunctionType* const type = FunctionType::get(byte_->getPointerTo(), types, false);
+    return ir_.CreateCall(type, ir_.CreateIntToPtr(ir_.getInt64(address), type->getPointerTo()), arguments);
+  }
+  Value* field(const void* which, Type* type) {
+    return ir_.CreateBitCast(ir_.CreateConstInBoundsGEP1_64(byte_, cpu_arg_, offset_of(cpu_, which)),
+                             type->getPointerTo());
+  }
+  Value* place(std::ptrdiff_t words) {
+    return ir_.CreateConstInBoundsGEP1_64(byte_, head_arg_,
+                                          static_cast<std::uint64_t>(words) * sizeof(Decoded));
+  }
+  /// Base and constant offset of a pointer.
+  std::pair<Value*, std::int64_t> split(Value* pointer) const {
+    APInt offset(64, 0);
+    Value* const base = pointer->stripAndAccumulateConstantOffsets(layout_, offset, true);
+    return {base, offset.getSExtValue()};
+  }
+  /// Words from the head of a known Decoded*; and is it one that is jumped to, out of the stretch?
+  Optional<std::ptrdiff_t> place_of(Value* pointer, bool& arrives) const {
+    const auto [base, offset] = split(pointer);
+    if (base != head_arg_) return None;
+    arrives = offset & 1;
+    return (offset - arrives) / static_cast<std::int64_t>(sizeof(Decoded));
+  }
+  /// Most cycles from the beginning of this instruction to the beginning of the last one.
+  int span_from(std::ptrdiff_t place) const {
+    int sum = 0;
+    for (const Item& i : items_)
+      if (i.place >= place && &i != &items_.back()) sum += i.most_cycles;
+    return sum;
+  }
+  /// Is there time for the stretch from an instruction on, and does no DO loop end in it?
+  Value* fits(std::ptrdiff_t from) {
+    Value* last =
+        ir_.CreateAdd(ir_.CreateLoad(long_, field(&cpu_.now, long_)), ir_.getInt64(span_from(from)));
+    Value* in_time = ir_.CreateICmpSLT(last, ir_.CreateLoad(long_, field(&cpu_.deadline, long_)));
+    Value* loop_end = ir_.CreateLoad(long_, field(&cpu_.loop_end, long_));
+    Value* beyond = ir_.CreateSub(loop_end, ir_.CreatePtrToInt(head_arg_, long_));
+    const std::uint64_t bytes = (items_.back().place + 1) * sizeof(Decoded);
+    return ir_.CreateAnd(in_time, ir_.CreateICmpUGE(beyond, ir_.getInt64(bytes)));
+  }
+
+  Semantics& semantics_;
+  const Cpu& cpu_;
+  const std::vector<Item>& items_;
+  LLVMContext& context_;
+  const DataLayout& layout_;
+  IRBuilder<> ir_;
+  Type *byte_, *long_;
+  Function* function_;
+  Value *cpu_arg_, *head_arg_;
+  std::map<std::ptrdiff_t, BasicBlock*> blocks_;
+  BasicBlock *exit_, *arrival_;  // to where the interpreter goes on: the next word, or one that is jumped to
+  PHINode* exit_at_;
+  AllocaInst* left_ = nullptr;  // something was called that may have changed the deadline
+  bool may_leave_ = false;      // ... by the instruction that is being put
+  // calls, and stores to the deadline, of the instruction at a place
+  struct Effect {
+    WeakVH what;
+    std::ptrdiff_t place;
+    bool sees_clock_only;
+  };
+  std::vector<Effect> effects_;
+  // where the interpreter's function runs in an instruction's stead, from its beginning, and the stretch ends
+  struct Aside {
+    const Item* item;
+    BasicBlock *first, *block;
+  };
+  std::vector<Aside> asides_;
+  PHINode* arrive_at_;
+  std::set<const BasicBlock*> live_;
+  bool goes_back_ = false;
+};
+
+Maker::Maker(Semantics& semantics, const Cpu& cpu, const std::vector<Item>& items, const std::string& name)
+    : semantics_(semantics),
+      cpu_(cpu),
+      items_(items),
+      context_(semantics.module->getContext()),
+      layout_(semantics.module->getDataLayout()),
+      ir_(context_),
+      byte_(Type::getInt8Ty(context_)),
+      long_(Type::getInt64Ty(context_)) {
+  Type* const pointer = byte_->getPointerTo();
+  function_ = Function::Create(FunctionType::get(pointer, {pointer, pointer}, false),
+                               GlobalValue::ExternalLinkage, name, *semantics.module);
+  function_->setDoesNotThrow();
+  cpu_arg_ = function_->getArg(0);
+  head_arg_ = function_->getArg(1);
+  for (const Item& item : items_) blocks_[item.place] = BasicBlock::Create(context_);
+  exit_ = BasicBlock::Create(context_, "exit");
+  arrival_ = BasicBlock::Create(context_, "arrival");
+  exit_at_ = PHINode::Create(pointer, 8, "", exit_);
+  arrive_at_ = PHINode::Create(ir_.getInt32Ty(), 8, "", arrival_);
+}
+
+std::unique_ptr<Module> Maker::make() {
+  put_entry();
+  for (const Item& item : items_)
+    if (!put_item(item)) return nullptr;
+  for (BasicBlock* block : {arrival_, exit_}) function_->getBasicBlockList().push_back(block);
+  for (const Aside& aside : asides_) function_->getBasicBlockList().push_back(aside.block);
+  // whoever called counts the head's cycles
+  const auto pass = [&](int cycles) {
+    Value* const now = field(&cpu_.now, long_);
+    ir_.CreateStore(ir_.CreateAdd(ir_.CreateLoad(long_, now), ir_.getInt64(cycles)), now);
+  };
+  ir_.SetInsertPoint(exit_);
+  ir_.CreateRet(exit_at_);
+  ir_.SetInsertPoint(arrival_);
+  ir_.CreateRet(
+      called(reinterpret_cast<std::uint64_t>(&Cpu::arrive_from), {cpu_arg_, head_arg_, arrive_at_}));
+  for (const Aside& aside : asides_) {
+    ir_.SetInsertPoint(aside.block);
+    ir_.CreateUnreachable();
+  }
+  removeUnreachableBlocks(*function_);
+  for (BasicBlock& block : *function_) live_.insert(&block);
+  if (!keep_state()) return nullptr;
+  for (BasicBlock* block : {exit_, arrival_}) {
+    if (!live_.count(block)) continue;
+    ir_.SetInsertPoint(&*std::find_if(block->begin(), block->end(), [](const Instruction& i) {
+      return i.isTerminator() || is_real_call(i);
+    }));
+    pass(-items_[0].decoded.cycles);
+  }
+  for (const Aside& aside : asides_) {
+    if (!live_.count(aside.block)) continue;
+    Instruction* const end = aside.block->getTerminator();
+    ir_.SetInsertPoint(end);
+    Value* const d = place(aside.item->place);
+    ir_.CreateStore(d, field(&cpu_.at, byte_->getPointerTo()));
+    CallInst* const next = called(reinterpret_cast<std::uint64_t>(aside.item->plain), {cpu_arg_, d});
+    pass(aside.item->decoded.cycles - items_[0].decoded.cycles);
+    ir_.CreateRet(next);
+    end->eraseFromParent();
+  }
+  optimise();
+  return moved_out();
+}
+
+void Maker::put_entry() {
+  BasicBlock* const entry = BasicBlock::Create(context_, "entry", function_);
+  BasicBlock* const plain = BasicBlock::Create(context_, "plain", function_);
+  ir_.SetInsertPoint(entry);
+  left_ = ir_.CreateAlloca(ir_.getInt1Ty());
+  ir_.CreateStore(ir_.getFalse(), left_);
+  ir_.CreateCondBr(fits(0), blocks_[0], plain);
+  ir_.SetInsertPoint(plain);
+  ir_.CreateRet(called(reinterpret_cast<std::uint64_t>(items_[0].plain), {cpu_arg_, head_arg_}));
+}
+
+// --- an instruction -------------------------------------------------------------------------------------
+
+bool Maker::put_item(const Item& item) {
+  BasicBlock* const first = blocks_[item.place];
+  function_->getBasicBlockList().push_back(first);
+  ir_.SetInsertPoint(first);
+  if (item.is_last) {
+    ir_.CreateBr(aside(item, first));
+    return true;
+  }
+  Value* const d = place(item.place);
+  Function* const own = item.by_call ? nullptr : semantics_.of(item.word);
+  CallInst* call;
+  if (own) {
+    const FunctionType* const type = own->getFunctionType();
+    call = ir_.CreateCall(own, {ir_.CreateBitCast(cpu_arg_, type->getParamType(0)),
+                                ir_.CreateBitCast(d, type->getParamType(1))});
+  } else {
+    Type* const type = function_->getType();
+    call = ir_.CreateCall(function_->getFunctionType(),
+                          ir_.CreateLoad(type, ir_.CreateBitCast(d, type->getPointerTo())), {cpu_arg_, d});
+  }
+  ir_.CreateRet(ir_.CreateBitCast(call, byte_->getPointerTo()));
+  if (own) {
+    if (!inlined(call)) return false;
+    fold(item, first);
+    keep_jumps(item, first);
+  }
+  find_effects(item, first);
+  for (BasicBlock* block : blocks_from(first)) {
+    auto* const back = dyn_cast<ReturnInst>(block->getTerminator());
+    if (!back) continue;
+    Value* const next = back->getReturnValue();
+    back->eraseFromParent();
+    leave(item, block, next);
+    break;
+  }
+  return true;
+}
+
+BasicBlock* Maker::aside(const Item& item, BasicBlock* first) {
+  if (asides_.empty() || asides_.back().item != &item)
+    asides_.push_back({&item, first, BasicBlock::Create(context_)});
+  return asides_.back().block;
+}
+
+// with all that it calls, as far as that is bitcode; but not jumps
+bool Maker::inlined(CallInst* call) {
+  SmallVector<CallBase*, 8> work{call};
+  while (!work.empty()) {
+    CallBase* const c = work.pop_back_val();
+    Function* const callee = c->getCalledFunction();
+    if (!callee || callee->isIntrinsic() || (callee->getName() == kOffset && c != call)) continue;
+    if (callee->isMaterializable() && callee->materialize()) return false;
+    if (callee->isDeclaration()) continue;
+    InlineFunctionInfo info;
+    if (!InlineFunction(*c, info).isSuccess()) return false;
+    work.append(info.InlinedCallSites.begin(), info.InlinedCallSites.end());
+  }
+  return true;
+}
+
+std::vector<BasicBlock*> Maker::blocks_from(BasicBlock* first) {
+  std::vector<BasicBlock*> all;
+  for (auto block = first->getIterator(); block != function_->end(); ++block) all.push_back(&*block);
+  return all;
+}
+
+// what the Decoded says is known
+void Maker::fold(const Item& item, BasicBlock* first) {
+  const auto* const bytes = reinterpret_cast<const unsigned char*>(&item.decoded);
+  const auto known = [&](const Instruction& i) -> Constant* {
+    const auto* const load = dyn_cast<LoadInst>(&i);
+    if (!load || !load->getType()->isIntegerTy()) return nullptr;
+    const auto [base, all] = split(const_cast<Value*>(load->getPointerOperand()));
+    const std::int64_t offset = all - item.place * static_cast<std::int64_t>(sizeof(Decoded));
+    const std::uint64_t size = layout_.getTypeStoreSize(load->getType());
+    if (base != head_arg_ || offset < 8 || offset + size > sizeof(Decoded)) return nullptr;
+    std::uint64_t value = 0;
+    std::memcpy(&value, bytes + offset, size);
+    return ConstantInt::get(load->getType(), value);
+  };
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (BasicBlock* block : blocks_from(first)) {
+      for (Instruction& i : make_early_inc_range(*block)) {
+        Value* value = known(i);
+        if (!value) value = SimplifyInstruction(&i, {layout_});
+        if (value && value != &i && !i.use_empty()) i.replaceAllUsesWith(value);
+        if (isInstructionTriviallyDead(&i)) i.eraseFromParent();
+      }
+      changed |= ConstantFoldTerminator(block, true);
+    }
+    drop_dead(first);
+    for (BasicBlock* block : blocks_from(first))
+      if (block != first) MergeBlockIntoPredecessor(block);
+  }
+}
+
+void Maker::drop_dead(BasicBlock* first) {
+  SmallPtrSet<BasicBlock*, 16> live{first};
+  SmallVector<BasicBlock*, 16> work{first}, dead;
+  while (!work.empty())
+    for (BasicBlock* next : successors(work.pop_back_val()))
+      if (live.insert(next).second) work.push_back(next);
+  for (BasicBlock* block : blocks_from(first))
+    if (!live.count(block)) dead.push_back(block);
+  DeleteDeadBlocks(dead);
+}
+
+// a jump within the stretch is no call; one out of it is made at the end
+void Maker::keep_jumps(const Item& item, BasicBlock* first) {
+  std::vector<CallInst*> jumps;
+  for (BasicBlock* block : blocks_from(first))
+    for (Instruction& i : *block)
+      if (auto* const call = dyn_cast<CallInst>(&i); call && name_of(*call) == kOffset) jumps.push_back(call);
+  for (CallInst* jump : jumps) {
+    const std::ptrdiff_t to = item.place + cast<ConstantInt>(jump->getArgOperand(2))->getSExtValue();
+    const auto target =
+        std::find_if(items_.begin(), items_.end(), [&](const Item& i) { return i.place == to; });
+    ir_.SetInsertPoint(jump);
+    Value* where = place(to);
+    if (target == items_.end()) {
+      where = ir_.CreateConstInBoundsGEP1_64(byte_, where, 1);
+    } else if (const int lead = target->decoded.lead) {
+      Value* const now = field(&cpu_.now, long_);
+      ir_.CreateStore(ir_.CreateSub(ir_.CreateLoad(long_, now), ir_.getInt64(lead)), now);
+    }
+    jump->replaceAllUsesWith(ir_.CreateBitCast(where, jump->getType()));
+    jump->eraseFromParent();
+  }
+}
+
+// What leaves RAM leaves the stretch: the instruction is run anew, aside. But where an instruction names its
+// register, or calls something else, that is called from here.
+void Maker::find_effects(const Item& item, BasicBlock* first) {
+  may_leave_ = false;
+  std::vector<CallInst*> beyond;
+  bool others = false;
+  const auto deadline = static_cast<std::int64_t>(offset_of(cpu_, &cpu_.deadline));
+  for (BasicBlock* block : blocks_from(first))
+    for (Instruction& i : *block) {
+      if (is_real_call(i)) {
+        auto* const call = cast<CallInst>(&i);
+        if (is_beyond_ram(*call))
+          beyond.push_back(call);
+        else
+          others = true;
+        effects_.push_back({call, item.place, is_of_peripheral(*call)});
+        may_leave_ = true;
+      } else if (isa<StoreInst>(i) && split(i.getOperand(1)) == std::make_pair(cpu_arg_, deadline)) {
+        effects_.push_back({&i, item.place, false});
+        may_leave_ = true;
+      }
+    }
+  if (others || beyond.empty()) return;
+  for (CallInst* call : beyond) {
+    BasicBlock* const block = call->getParent();
+    block->splitBasicBlock(call);
+    block->getTerminator()->setSuccessor(0, aside(item, first));
+  }
+  drop_dead(first);
+  may_leave_ = false;
+}
+
+// --- on to the next one ---------------------------------------------------------------------------------
+
+// `block`, which has no end yet, goes where `next` says
+void Maker::leave(const Item& item, BasicBlock* block, Value* next) {
+  bool arrives = false;
+  if (place_of(next, arrives)) {
+    BranchInst::Create(edge(item, next), block);
+    return;
+  }
+  auto* const phi = dyn_cast<PHINode>(next->stripPointerCasts());
+  const auto is_bare = [&] {
+    return std::all_of(block->begin(), block->end(), [&](Instruction& i) {
+      return &i == phi || (isa<BitCastInst>(i) && i.getOperand(0) == phi);
+    });
+  };
+  if (phi && phi->getParent() == block && is_bare()) {
+    std::vector<std::pair<BasicBlock*, Value*>> ways;
+    for (unsigned i = 0; i < phi->getNumIncomingValues(); ++i)
+      ways.emplace_back(phi->getIncomingBlock(i), phi->getIncomingValue(i));
+    for (const auto& [from, value] : ways) {
+      Instruction* const end = from->getTerminator();
+      if (end->getNumSuccessors() == 1) {
+        end->eraseFromParent();
+        leave(item, from, value);
+      } else {
+        end->replaceSuccessorWith(block, edge(item, value));
+      }
+    }
+    block->dropAllReferences();
+    block->eraseFromParent();
+    return;
+  }
+  // behind a REPEAT, or a function that was called, the next one is likely
+  const Row& row = *find_row(item.word);
+  const bool repeats = row.id == Insn::Repeat_lit14 || row.id == Insn::Repeat_Wn;
+  ir_.SetInsertPoint(block);
+  Value* const likely = place(item.place + item.words + repeats);
+  Value* const same = ir_.CreateICmpEQ(ir_.CreateBitCast(next, likely->getType()), likely);
+  Instruction* const end = ir_.CreateCondBr(same, exit_, exit_);
+  end->setSuccessor(0, edge(item, likely));
+  end->setSuccessor(1, edge(item, next));
+}
+
+// the instruction's time passes; then the next one, unless something may happen before it
+BasicBlock* Maker::edge(const Item& item, Value* next) {
+  BasicBlock* const begin = BasicBlock::Create(context_, "", function_);
+  ir_.SetInsertPoint(begin);
+  Value* const now = field(&cpu_.now, long_);
+  ir_.CreateStore(ir_.CreateAdd(ir_.CreateLoad(long_, now), ir_.getInt64(item.decoded.cycles)), now);
+  bool arrives = false;
+  const Optional<std::ptrdiff_t> to = place_of(next, arrives);
+  if (arrives) {
+    ir_.CreateBr(arrival_);
+    arrive_at_->addIncoming(ir_.getInt32(static_cast<std::uint32_t>(*to)), begin);
+    return begin;
+  }
+  const auto target = to ? blocks_.find(*to) : blocks_.end();
+  Value* const pointer = to ? place(*to) : ir_.CreateBitCast(next, byte_->getPointerTo());
+  if (target == blocks_.end()) {
+    ir_.CreateBr(exit_);
+    exit_at_->addIncoming(pointer, begin);
+    return begin;
+  }
+  const bool is_back = *to <= item.place;
+  goes_back_ |= is_back;
+  if (!is_back && !may_leave_) {
+    ir_.CreateBr(target->second);
+    return begin;
+  }
+  BasicBlock* const check = BasicBlock::Create(context_, "", function_);
+  if (is_back)
+    ir_.CreateBr(check);
+  else
+    ir_.CreateCondBr(ir_.CreateLoad(ir_.getInt1Ty(), left_), check, target->second);
+  ir_.SetInsertPoint(check);
+  ir_.CreateStore(ir_.getFalse(), left_);
+  Value* const exit_pointer = place(*to);
+  ir_.CreateCondBr(fits(*to), target->second, exit_);
+  exit_at_->addIncoming(exit_pointer, check);
+  return begin;
+}
+
+// --- state ----------------------------------------------------------------------------------------------
+
+bool Maker::keep_state() {
+  Hot hot(cpu_);
+  const auto ram = static_cast<std::int64_t>(offset_of(cpu_, &cpu_.ram));
+  std::map<const BasicBlock*, const Item*> begins;
+  for (const Item& item : items_) begins[blocks_[item.place]] = &item;
+  const Item* current = nullptr;
+  std::vector<std::pair<Instruction*, unsigned>> accesses;  // and which operand is the pointer
+  for (Instruction& i : instructions(*function_)) {
+    if (&i == &i.getParent()->front())
+      if (const auto found = begins.find(i.getParent()); found != begins.end()) current = found->second;
+    if (!isa<LoadInst>(i) && !isa<StoreInst>(i)) continue;
+    const unsigned operand = isa<StoreInst>(i) ? 1 : 0;
+    Value* const pointer = i.getOperand(operand);
+    const auto [base, offset] = split(pointer);
+    if (base == cpu_arg_) {
+      if (!hot.holds(static_cast<std::uint64_t>(offset))) continue;
+      Type* const type = isa<StoreInst>(i) ? i.getOperand(0)->getType() : i.getType();
+      hot.touch(static_cast<std::uint64_t>(offset), layout_.getTypeStoreSize(type),
+                isa<StoreInst>(i) ? current : nullptr);
+      accesses.emplace_back(&i, operand);
+      continue;
+    }
+    // RAM is where a computed place may lie; anything else computed within the Cpu is not understood
+    SmallVector<const Value*, 4> objects;
+    getUnderlyingObjects(pointer, objects);
+    if (std::find(objects.begin(), objects.end(), cpu_arg_) == objects.end()) continue;
+    const auto* const step = dyn_cast<GEPOperator>(base);
+    MapVector<Value*, APInt> variable;
+    APInt constant(64, 0);
+    if (!step || !step->collectOffset(layout_, 64, variable, constant)) return false;
+    const auto [begin, before] = split(const_cast<Value*>(step->getPointerOperand()));
+    if (begin != cpu_arg_ || before + constant.getSExtValue() < ram) return false;
+  }
+  BasicBlock& entry = function_->getEntryBlock();
+  ir_.SetInsertPoint(&entry, entry.begin());
+  AllocaInst* const own = ir_.CreateAlloca(ArrayType::get(byte_, hot.end - hot.begin));
+  own->setAlignment(Align(8));
+  Value* const bytes = ir_.CreateBitCast(own, byte_->getPointerTo());
+  const auto inner = [&](const Hot::Field& f) {
+    return ir_.CreateBitCast(ir_.CreateConstInBoundsGEP1_64(byte_, bytes, f.offset - hot.begin),
+                             ir_.getIntNTy(8 * f.bytes)->getPointerTo());
+  };
+  const auto outer = [&](const Hot::Field& f) {
+    return ir_.CreateBitCast(ir_.CreateConstInBoundsGEP1_64(byte_, cpu_arg_, f.offset),
+                             ir_.getIntNTy(8 * f.bytes)->getPointerTo());
+  };
+  const auto put_back = [&](const Hot::Field& f) {
+    ir_.CreateStore(ir_.CreateLoad(ir_.getIntNTy(8 * f.bytes), inner(f)), outer(f));
+  };
+  const auto take = [&](const Hot::Field& f) {
+    ir_.CreateStore(ir_.CreateLoad(ir_.getIntNTy(8 * f.bytes), outer(f)), inner(f));
+  };
+  const auto put_back_all = [&] {
+    for (const Hot::Field& f : hot.fields)
+      if (!f.writers.empty()) put_back(f);
+  };
+  const auto take_all = [&] {
+    for (const Hot::Field& f : hot.fields)
+      if (f.is_used) take(f);
+  };
+  take_all();
+  for (const auto& [access, operand] : accesses) {
+    ir_.SetInsertPoint(access);
+    Value* const pointer = access->getOperand(operand);
+    const std::int64_t offset = split(pointer).second;
+    access->setOperand(operand,
+                       ir_.CreateBitCast(ir_.CreateConstInBoundsGEP1_64(
+                                             byte_, bytes, static_cast<std::uint64_t>(offset) - hot.begin),
+                                         pointer->getType()));
+  }
+  for (const Effect& effect : effects_) {
+    auto* const what = cast_or_null<Instruction>(static_cast<Value*>(effect.what));
+    if (!what) continue;
+    if (is_real_call(*what)) {
+      ir_.SetInsertPoint(what);
+      const Hot::Field& clock = hot.fields.back();
+      effect.sees_clock_only ? put_back(clock) : put_back_all();
+      ir_.CreateStore(place(effect.place), field(&cpu_.at, byte_->getPointerTo()));
+      ir_.SetInsertPoint(what->getNextNode());
+      effect.sees_clock_only ? take(clock) : take_all();
+    }
+    ir_.SetInsertPoint(what->getNextNode());
+    ir_.CreateStore(ir_.getTrue(), left_);
+  }
+  for (BasicBlock* block : {exit_, arrival_}) {
+    if (!live_.count(block)) continue;
+    ir_.SetInsertPoint(block, block->getFirstInsertionPt());
+    put_back_all();
+  }
+  for (const Aside& aside : asides_) {
+    if (!live_.count(aside.block)) continue;
+    for (const Hot::Field& f : hot.fields) {
+      const bool is_old = goes_back_ ? !f.writers.empty()
+                                     : std::any_of(f.writers.begin(), f.writers.end(), [&](const Item* i) {
+                                         return i->place < aside.item->place;
+                                       });
+      if (!is_old) continue;  // where it was when the stretch began, it still is
+      const bool is_own = std::count(f.writers.begin(), f.writers.end(), aside.item) > 0;
+      Type* const type = ir_.getIntNTy(8 * f.bytes);
+      ir_.SetInsertPoint(is_own ? &*aside.first->getFirstInsertionPt() : aside.block->getTerminator());
+      Value* const value = ir_.CreateLoad(type, inner(f));
+      ir_.SetInsertPoint(aside.block->getTerminator());
+      ir_.CreateStore(value, outer(f));
+    }
+  }
+  return true;
+}
+
+// --- the end --------------------------------------------------------------------------------------------
+
+void Maker::optimise() {
+  legacy::FunctionPassManager passes(semantics_.module.get());
+  passes.add(createSROAPass());
+  passes.add(createEarlyCSEPass());
+  passes.add(createInstructionCombiningPass());
+  passes.add(createCFGSimplificationPass());
+  passes.doInitialization();
+  passes.run(*function_);
+}
+
+// constants by value, functions by address
+class Outside final : public ValueMaterializer {
+ public:
+  explicit Outside(Module& into) : into_(into) {}
+  Value* materialize(Value* value) override {
+    const auto* const global = dyn_cast<GlobalValue>(value);
+    if (!global) return nullptr;
+    if (const auto* const table = dyn_cast<GlobalVariable>(global);
+        table && table->isConstant() && table->hasInitializer())
+      return new GlobalVariable(into_, table->getValueType(), true, GlobalValue::PrivateLinkage,
+                                const_cast<Constant*>(table->getInitializer()));
+    void* const address = dlsym(RTLD_DEFAULT, global->getName().str().c_str());
+    is_whole &= address != nullptr;
+    return ConstantExpr::getIntToPtr(
+        ConstantInt::get(Type::getInt64Ty(into_.getContext()), reinterpret_cast<std::uint64_t>(address)),
+        global->getType());
+  }
+  bool is_whole = true;
+
+ private:
+  Module& into_;
+};
+
+std::unique_ptr<Module> Maker::moved_out() {
+  auto module = std::make_unique<Module>(function_->getName(), context_);
+  module->setDataLayout(layout_);
+  module->setTargetTriple(semantics_.module->getTargetTriple());
+  Function* const moved = Function::Create(function_->getFunctionType(), GlobalValue::ExternalLinkage,
+                                           function_->getName(), *module);
+  moved->setDoesNotThrow();
+  ValueToValueMapTy map;
+  for (unsigned i = 0; i < 2; ++i) map[function_->getArg(i)] = moved->getArg(i);
+  SmallVector<ReturnInst*, 2> returns;
+  Outside outside(*module);
+  CloneFunctionInto(moved, function_, map, CloneFunctionChangeType::DifferentModule, returns, "", nullptr,
+                    nullptr, &outside);
+  return outside.is_whole ? std::move(module) : nullptr;
+}
+
+}  // namespace
+
+std::unique_ptr<Module> translate(Semantics& semantics, const Cpu& cpu, const std::vector<Item>& items,
+                                  const std::string& name) {
+  return Maker(semantics, cpu, items, name).make();
+}
+
+}  // namespace dspic::translate

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+// Translated code against the interpreter: random programs, and programs that write themselves.
+#include <gtest/gtest.h>
+
+#include "dspic30/core/instruction_table.h"
+#include "tests/dspic30/core_bench.h"
+
+namespace {
+
+using bench::CoreBench;
+using bench::Cycle;
+using dspic::Insn;
+using dspic::Operand;
+
+struct Draw {
+  std::uint32_t state;
+  unsigned operator()(unsigned below) {
+    state = state * 1664525u + 1013904223u;
+    return static_cast<unsigned>((std::uint64_t{state} * below) >> 32);
+  }
+};
+
+// W registers point into RAM, a timer interrupts, then comes the body. After a trap all that is set up anew,
+// and the body is entered somewhere
+constexpr const char* kFrame = R"(
+__reset:
+    mov #0x2700, w0
+    mov w0, SPLIM
+    nop
+    mov #151, w0
+    mov w0, PR1
+    mov #0x8000, w0
+    mov w0, T1CON
+    bset IEC0, #T1IE
+__AddressError:
+__StackError:
+__MathError:
+    mov #0x1F00, w15
+    clr INTCON1
+    mov TMR1, w0
+    and w0, #15, w0
+    sl w0, w0
+    mov #lo16(body), w1
+    add w0, w1, w0
+    push w0
+    clr w0
+    push w0
+    mov #0x0900, w0
+    mov #0x0A00, w1
+    mov #0x0B04, w2
+    mov #3, w3
+    mov #0x0C00, w4
+    mov #0x1800, w5
+    mov #0xFFF0, w6
+    mov #0x0D01, w7
+    mov #0x0E00, w8
+    mov #0x0F00, w9
+    mov #0x1900, w10
+    mov #0x1A00, w11
+    mov #2, w12
+    mov #0x1B00, w13
+    mov #0x1C00, w14
+    retfie
+__T1Interrupt:
+    push w0
+    bclr IFS0, #T1IF
+    mov 0x0910, w0
+    inc w0, w0
+    mov w0, 0x0910
+    pop w0
+    retfie
+body:
+)";
+constexpr unsigned kBodyWords = 24;
+
+bool has(const dspic::Row& row, Operand kind) {
+  return std::find(row.kinds.begin(), row.kinds.end(), kind) != row.kinds.end();
+}
+
+// an instruction at a word of the body: any row, any operands, but jumps stay in the body, mostly, and few
+// things end it
+std::uint32_t any_instruction(Draw& draw, unsigned at) {
+  const auto& rows = dspic::instruction_rows();
+  while (true) {
+    const dspic::Row& row = rows[draw(static_cast<unsigned>(rows.size()))];
+    if (row.words == 2 || row.id == Insn::Reset || row.id == Insn::Pwrsav_lit1) continue;
+    dspic::Fields f;
+    for (const dspic::Field& field : row.fields)
+      f.*field.member = draw(dspic::field_limit(row, field.member) + 1);
+    if (has(row, Operand::Branch)) {
+      if (row.id == Insn::Rcall_Expr && draw(8)) continue;
+      f.n = (draw(kBodyWords) - at - 1) & 0xFFFF;
+    }
+    if (row.id == Insn::Repeat_lit14) f.k = draw(20);
+    const bool jumps = row.id == Insn::Bra_Wn || row.id == Insn::Goto_Wn || row.id == Insn::Call_Wn ||
+                       row.id == Insn::Rcall_Wn || row.id == Insn::Return || row.id == Insn::Retfie ||
+                       row.id == Insn::Retlw_lit10_Wn;
+    if (jumps && draw(30)) continue;
+    // pointers point, and keep to RAM, mostly, and addresses are those of RAM
+    if (has(row, Operand::File) && draw(8)) f.f = 0x900 + draw(0x100);
+    if (has(row, Operand::FileWord)) f.f = draw(8) ? (0x900 + draw(0x100)) / 2 : f.f;
+    if (has(row, Operand::FileBit) && draw(3)) f.f = 0x900 + draw(0x100);
+    static constexpr unsigned kPointers[] = {1, 2, 4, 5, 8, 9, 10, 11, 13, 14}, kValues[] = {0, 3, 6, 7};
+    if (row.id != Insn::Mov_D_Ws_Wnd && row.id != Insn::Mov_D_Wns_Wd && draw(16)) {
+      if (f.p | f.g) f.s = kPointers[draw(10)];
+      f.d = f.q | f.h ? kPointers[draw(10)] : kValues[draw(4)];
+    }
+    if (row.legal && !row.legal(f)) continue;
+    const std::uint32_t word = dspic::encode(row, f);
+    if (dspic::find_row(word) == &row) return word;
+  }
+}
+
+// number of places where translated code began
+int compare(std::uint32_t seed) {
+  Draw draw{seed};
+  CoreBench one(kFrame, {}, false), other(kFrame, {}, true);
+  const unsigned body = one.symbol("body");
+  for (unsigned i = 0; i < kBodyWords; ++i) {
+    const std::uint32_t word =
+        i + 1 < kBodyWords ? any_instruction(draw, i) : 0x370000 | ((0 - kBodyWords) & 0xFFFF);
+    for (CoreBench* b : {&one, &other}) b->program.write(body + 2 * i, word);
+  }
+  for (CoreBench* b : {&one, &other}) b->cpu->restart();
+  for (Cycle end = 0; end < 12000; end += 1 + draw(draw(4) ? 700 : 5)) {
+    one.run(end);
+    other.run(end);
+    SCOPED_TRACE("seed " + std::to_string(seed) + " at " + std::to_string(end));
+    EXPECT_EQ(one.cpu->now(), other.cpu->now());
+    EXPECT_EQ(one.cpu->pc(), other.cpu->pc());
+    for (int n = 0; n < 16; ++n) EXPECT_EQ(one.w(n), other.w(n)) << "W" << n;
+    EXPECT_EQ(one.cpu->state_hash(), other.cpu->state_hash());
+    if (testing::Test::HasFailure()) return 0;
+  }
+  EXPECT_EQ(one.chip->state_hash(one.cpu->now()), other.chip->state_hash(other.cpu->now()))
+      << "seed " << seed;
+  EXPECT_EQ(one.resets, other.resets);
+  EXPECT_EQ(one.notes.all.size(), other.notes.all.size());
+  return other.cpu->translated();
+}
+
+TEST(Translation, random_programs_run_alike) {
+  const char* const wanted = std::getenv("TWINPUCK_TRANSLATION_PROGRAMS");  // more than a test's time allows
+  const unsigned programs = wanted ? static_cast<unsigned>(std::atoi(wanted)) : 60;
+  int translated = 0;
+  for (std::uint32_t seed = 1; seed <= programs && !HasFailure(); ++seed) translated += compare(seed);
+  EXPECT_GT(translated, static_cast<int>(programs));
+}
+
+// a routine runs translated, is written anew by the program, and runs as it is now
+TEST(Translation, self_written_code_is_translated_anew) {
+  CoreBench b(R"(
+    .macro go operation
+    mov #\operation, w0
+    mov w0, NVMCON
+    mov #0x55, w0
+    mov w0, NVMKEY
+    mov #0xAA, w0
+    mov w0, NVMKEY
+    bset NVMCON, #WR
+    nop
+    nop
+    .endm
+__reset: clr w9
+    mov #50, w10
+1:  rcall routine
+    add w9, w5, w9
+    dec w10, w10
+    bra nz, 1b
+written: clr TBLPAG
+    mov #routine, w1
+    mov w1, NVMADR
+    clr NVMADRU
+    go 0x4041
+    mov #0x0075, w2         ; mov #7, w5
+    mov #0x0020, w3
+    tblwtl w2, [w1]
+    tblwth w3, [w1++]
+    mov #0x0000, w2         ; return
+    mov #0x06, w3
+    tblwtl w2, [w1]
+    tblwth w3, [w1]
+    go 0x4001
+    mov #50, w10
+1:  rcall routine
+    add w9, w5, w9
+    dec w10, w10
+    bra nz, 1b
+end: bra end
+    .section .routine, code, address(0x1000)
+routine: mov #1, w5
+    inc w4, w4
+    inc w4, w4
+    return)");
+  b.run(400);
+  EXPECT_GE(b.cpu->translated(), 2);  // the routine, and the loop around it
+  b.run(100000);
+  EXPECT_EQ(b.cpu->pc(), b.symbol("end"));
+  EXPECT_EQ(b.w(4), 100u);
+  EXPECT_EQ(b.w(9), 50u + 7 * 50u);
+}
+
+}  // namespace
