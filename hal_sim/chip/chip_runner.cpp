@@ -123,10 +123,21 @@ void ChipRunner::add_endless_wait(std::vector<board::Diagnosis>& all) const {
   if (since == dspic::kNever || end_ - since < kLeastWait || processor_->is_asleep() ||
       device().nesting() > 0)
     return;
-  for (int v = dspic::kFirstIrqVector; v < dspic::kVectors; ++v)
-    if (device().is_enabled(v)) return;
-  const host::Place place = place_now();
-  if (!host::variables_in(*this, place).empty()) all.push_back(host::endless_wait(*this, place, since));
+  if (asked_since_ != since) {
+    asked_since_ = since;
+    wait_.reset();
+    bool any = false;
+    for (int v = dspic::kFirstIrqVector; v < dspic::kVectors; ++v) any = any || device().is_enabled(v);
+    const auto by_name = [this](const std::string& name) {
+      for (int v = dspic::kFirstIrqVector; v < dspic::kVectors; ++v)
+        if (dspic::vector_name(v) == name) return device().is_enabled(v);
+      return false;
+    };
+    const host::Place place = place_now();
+    if (any ? host::is_written_by_none(*this, place, by_name) : !host::variables_in(*this, place).empty())
+      wait_ = host::endless_wait(*this, place, since);
+  }
+  if (wait_) all.push_back(*wait_);
 }
 
 std::uint64_t ChipRunner::hash() const {

@@ -9,6 +9,7 @@
 // variables.
 #pragma once
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -94,6 +95,8 @@ class ChipRunner final : public host::Runner, private dspic::EventWatch {
   host::Observer* observer_ = nullptr;
   std::vector<StepWatch*> watches_;
   Cycle end_ = 0, idle_until_ = 0;
+  mutable Cycle asked_since_ = dspic::kNever;     // the wait that was looked at last
+  mutable std::optional<board::Diagnosis> wait_;  // what is told of it
   std::uint64_t turns_ = 0;
 };
 

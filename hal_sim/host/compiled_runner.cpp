@@ -515,7 +515,7 @@ void CompiledRunner::sleep_until(Cycle target, Cycle round, Cycle start) {
     const Cycle stop = std::min(target, find_interrupt_horizon());
     if (stop >= kNever && handler_depth_ > 0 && !looked_outside_)
       trap(TP_TRAP_INTERRUPT, "an interrupt handler waits for ever: nothing that it looks at can change");
-    if (stop >= kNever && !looked_outside_ && !resting_ && !enables_interrupts()) note_endless_wait();
+    if (stop >= kNever && !looked_outside_ && !resting_) look_for_endless_wait();
     if (stop > end_) {
       idling_ = true;
       doze(stop);

@@ -279,7 +279,8 @@ class CompiledRunner final : public Runner, public Context {
   void idle_to(Cycle at);     // jumps over a wait
   void pass_window();         // now_ >= end_: let the others run
   void run_main(Cycle main);  // spends main cycles, delivering on the way
-  bool enables_interrupts();
+  bool is_enabled(int vector);
+  void look_for_endless_wait();
   void note_endless_wait();
   // a wait since `start` that polls every `round` of its cycles; ends early when disturbed
   void sleep_until(Cycle target, Cycle round, Cycle start);
@@ -326,6 +327,7 @@ class CompiledRunner final : public Runner, public Context {
 
   Cycle end_ = 0;  // of the window
   Cycle window_start_ = 0;
+  std::int64_t asked_wait_ = -1;   // loop that was looked at last for that
   board::Diagnosis endless_wait_;  // the first one of this power-up; without a cause: none
   bool resting_ = false;           // in a loop that is empty on purpose
   bool stopped_ = false;

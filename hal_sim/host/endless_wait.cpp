@@ -50,11 +50,7 @@ struct Writer {
   }
 };
 
-/// Functions in whose text a variable is written, or its address taken.
-std::vector<Writer> writers_of(const std::string& variable, const fs::path& folder) {
-  const std::regex writes("(\\+\\+|--|&)\\s*" + variable + "\\b|\\b" + variable +
-                          "\\b(\\s*(\\[[^\\]]*\\]|\\.\\w+))*\\s*(\\+\\+|--|(<<|>>|[-+*/%&|^])?=(?!=))");
-  std::vector<Writer> writers;
+std::vector<fs::path> sources_in(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code none;
   for (fs::directory_iterator it(folder, none), end; !none && it != end && files.size() < kMostSources;
@@ -62,17 +58,35 @@ std::vector<Writer> writers_of(const std::string& variable, const fs::path& fold
     for (const char* kind : {".c", ".h", ".cpp", ".cc"})
       if (it->path().extension() == kind) files.push_back(it->path());
   std::sort(files.begin(), files.end());
-  for (const fs::path& file : files) {
+  return files;
+}
+
+/// Is it given to the library's agendas, which timer 2 serves?
+bool is_agenda(const std::string& function, const fs::path& folder) {
+  const std::regex given("\\be_activate_agenda\\s*\\(\\s*&?\\s*" + function + "\\b");
+  for (const fs::path& file : sources_in(folder))
+    for (const std::string& line : lines_of(file.string()))
+      if (std::regex_search(line, given)) return true;
+  return false;
+}
+
+/// Functions in whose text a variable is written, or its address taken.
+std::vector<Writer> writers_of(const std::string& variable, const fs::path& folder) {
+  const std::regex writes("(\\+\\+|--|(^|[^&])&)\\s*" + variable + "\\b|\\b" + variable +
+                          "\\b(\\s*(\\[[^\\]]*\\]|\\.\\w+))*\\s*(\\+\\+|--|(<<|>>|[-+*/%&|^])?=(?!=))");
+  std::vector<Writer> writers;
+  for (const fs::path& file : sources_in(folder)) {
     std::string function;
     int depth = 0, number = 0;
     for (const std::string& line : lines_of(file.string())) {
       ++number;
       // the last word before the last parenthesis that opens: of a definition, its name
-      if (const std::size_t open = line.rfind('('); depth == 0 && open != std::string::npos) {
+      const std::size_t body = line.find('{');
+      if (const std::size_t open = line.substr(0, body).rfind('('); depth == 0 && open != std::string::npos) {
         const auto names = names_in(line.substr(0, open));
         if (!names.empty()) function = names.back();
       }
-      const bool is_inside = depth > 0 || line.find('{') != std::string::npos;
+      const bool is_inside = depth > 0 || body != std::string::npos;
       if (is_inside && !function.empty() && std::regex_search(line, writes))
         writers.push_back({function, file.filename().string() + ":" + std::to_string(number)});
       depth += static_cast<int>(std::count(line.begin(), line.end(), '{') -
@@ -107,13 +121,29 @@ std::vector<std::string> variables_in(const Runner& program, const Place& place)
   return found;
 }
 
+bool is_written_by_none(const Runner& program, const Place& place, const IsEnabled& is_enabled) {
+  const fs::path folder = fs::path(place.file).parent_path();
+  const auto names = variables_in(program, place);
+  for (const std::string& name : names)
+    for (const Writer& w : writers_of(name, folder)) {
+      if (w.function == place.function) continue;
+      // "_T1Interrupt" is of T1
+      const std::string vector = w.is_handler() ? w.function.substr(1, w.function.size() - 10)
+                                 : is_agenda(w.function, folder) ? "T2"
+                                                                 : "";
+      if (vector.empty() || is_enabled(vector)) return false;
+    }
+  return !names.empty();
+}
+
 board::Diagnosis endless_wait(const Runner& program, const Place& place, Cycle since) {
   board::Diagnosis wait{"endless wait", to_string(place), "", "", since};
   wait.hint = "start the agendas or the timer, or enable the interrupt whose handler ends the wait";
   std::vector<std::string> names = variables_in(program, place);
   if (names.empty()) {
     wait.message =
-        "the program waits here for ever: nothing that it looks at can change, for no interrupt is enabled";
+        "the program waits here for ever: nothing that it looks at can change, for no "
+        "interrupt is enabled";
     return wait;
   }
   // who would end it, but for the function that waits
@@ -126,10 +156,15 @@ board::Diagnosis endless_wait(const Runner& program, const Place& place, Cycle s
     }
   for (std::string& name : names) name = "`" + name + "`";
   wait.message = "the program waits here for " + joined(names) + "; nothing will ever set it: ";
+  const auto only = [](const std::vector<std::string>& functions) {
+    return "only " + joined(functions) + " could, and ";
+  };
   if (!handlers.empty())
-    wait.message += "the interrupt of " + joined(handlers) + ", which writes it, is not enabled";
+    wait.message +=
+        only(handlers) + (handlers.size() > 1 ? "their interrupts are" : "its interrupt is") + " not enabled";
   else if (!others.empty())
-    wait.message += joined(others) + " writes it, and no interrupt is enabled that would call it";
+    wait.message +=
+        only(others) + "no interrupt is enabled that calls " + (others.size() > 1 ? "them" : "it");
   else {
     wait.message += "no function but this one writes it";
     wait.hint = "write it in a handler or an agenda, and see that it is volatile";

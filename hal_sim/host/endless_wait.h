@@ -2,6 +2,7 @@
 // What is told of a program that waits for ever: what it waits for, and who writes that, by the text of its
 // sources. Names are looked for as words; what happens by pointers is not seen.
 #pragma once
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,13 @@ namespace host {
 
 /// Global and static variables of the program in a line of its source.
 std::vector<std::string> variables_in(const Runner& program, const Place& place);
-/// Nothing that the loop at `place` looks at can change, since `since`, for no interrupt is enabled.
+/// Of an interrupt by its name in the library, "T1": is it enabled?
+using IsEnabled = std::function<bool(const std::string& name)>;
+/// Can nobody write what the line looks at, though some interrupts are enabled? True when all who do are
+/// handlers, or functions of agendas, whose interrupts are not. What other functions write may be called.
+bool is_written_by_none(const Runner& program, const Place& place, const IsEnabled& is_enabled);
+/// Nothing that the loop at `place` looks at can change, since `since`, for no interrupt that could is
+/// enabled.
 board::Diagnosis endless_wait(const Runner& program, const Place& place, Cycle since);
 
 }  // namespace host

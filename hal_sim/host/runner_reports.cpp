@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "dspic30/memory/irqs.h"
 #include "dspic30/memory/sfr_table.h"
 #include "hal_sim/board/board.h"
 #include "hal_sim/host/compiled_runner.h"
@@ -192,14 +193,25 @@ Place CompiledRunner::place_now() const {
   return stopped_ ? traps_.back().place : culprit(walk(0, fiber_.frame()));
 }
 
-/// May anything interrupt the program, now or when something comes from outside?
-bool CompiledRunner::enables_interrupts() {
-  if (native_) {
-    for (int vector = 0; vector < TP_VECTORS; ++vector)
-      if (native_->interrupts().source(vector).enabled) return true;
+/// May this interrupt the program, now or when something comes from outside?
+bool CompiledRunner::is_enabled(int vector) {
+  if (native_) return native_->interrupts().source(vector).enabled;
+  constexpr unsigned kIec0 = dspic::sfr("IEC0");
+  return peek(kIec0 + 2 * static_cast<unsigned>(vector / 16), now_) >> vector % 16 & 1;
+}
+
+/// The program sleeps in the loop `loop_`, which looks at nothing outside: told, when no handler can end it.
+void CompiledRunner::look_for_endless_wait() {
+  if (asked_wait_ == poll_loop_) return;
+  asked_wait_ = poll_loop_;
+  bool any = false;
+  for (int vector = 0; vector < dspic::kIrqs; ++vector) any = any || is_enabled(vector);
+  const auto by_name = [this](const std::string& name) {
+    for (int vector = 0; vector < dspic::kIrqs; ++vector)
+      if (dspic::irq_name(vector) == name) return is_enabled(vector);
     return false;
-  }
-  return peek(dspic::sfr("IEC0"), now_) || peek(dspic::sfr("IEC1"), now_) || peek(dspic::sfr("IEC2"), now_);
+  };
+  if (!any || is_written_by_none(*this, report_here(0, "").place, by_name)) note_endless_wait();
 }
 
 void CompiledRunner::note_endless_wait() {

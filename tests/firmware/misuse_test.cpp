@@ -78,8 +78,8 @@ int main(void) { e_init_port(); e_activate_agenda(tick, 320);
   run_for(0.1);
   EXPECT_NE(
       r.diagnoses_text().find("endless wait: the program waits here for `due` and `calls`; nothing will "
-                              "ever set it: tick() (main.c:5) writes it, and no interrupt is enabled that would "
-                              "call it"),
+                              "ever set it: only tick() (main.c:11) and work() (main.c:8) could, and no "
+                              "interrupt is enabled that calls them"),
       std::string::npos)
       << r.diagnoses_text();
 }

@@ -89,7 +89,7 @@ export class Inspector {
       onchange: () => { if (variable.value.trim()) this.watch(robot.name, variable.value.trim()); } }) as HTMLInputElement;
     this.place = h("p", { className: "dim number" });
     return [
-      h("h2", {}, h("i", { style: `background:${hex(robot.colour)}` }), robot.name, h("small", {}, robot.firmware || "no program")),
+      h("h2", {}, h("i", { style: `background:${hex(robot.colour)}` }), robot.name, h("small", {}, this.app.programOf(robot) || "no program")),
       this.place, this.stands,
       h("div", { className: "buttons" },
         h("button", { onclick: () => this.app.do("reset", { robot: robot.name }), title: "The robot's reset button" }, "Reset"),

@@ -177,6 +177,8 @@ export class App {
     this.inspector.showLook();
     this.program.stands(this.look);
   }
+  /** What it runs, which may be another program than its file says (--fw). */
+  programOf(robot: Robot) { return this.programs.find((p) => p.robots.includes(robot.name))?.name ?? robot.firmware; }
   /** A file of a controller, as a place names it. */
   sourceOf(look?: Look) {
     const at = look?.place;
@@ -397,7 +399,7 @@ export class App {
     const robot = this.selectedRobot();
     if (robot && changed) {
       this.console.choose(robot.name);
-      this.program.choose(robot.firmware);
+      this.program.choose(this.programOf(robot));
     }
     if (changed) this.subscribe().catch(() => {});
     if (changed && this.timeline.shown) this.timeline.watch(true);
