@@ -282,6 +282,8 @@ bool lower_for_chip(Unit& unit) {
   mend_calls(m);
   take_structs_from_lists(m);
   return_small_structs(m);
+  // as XC16: a delay loop waits at -O0 and -O1 and is gone at -O2 and -Os
+  if (unit.options.level < 2) keep_empty_loops(m, *Intrinsic::getDeclaration(&m, Intrinsic::sideeffect));
   return !unit.failed;
 }
 

@@ -268,9 +268,22 @@ void restore_library_calls(Unit& unit) {
 /// A whole variable, local or global.
 bool is_variable(const Value* pointer) { return isa<AllocaInst>(pointer) || isa<GlobalVariable>(pointer); }
 
-/// A loop that only counts must not vanish before it is recognised as a delay: it gets a mark in each round.
-void keep_empty_loops(Unit& unit) {
-  for (Function& f : unit.module) {
+/// What _FOSC() and _FWDT() of the device header make, for words given by #pragma config.
+void define_configuration(Unit& unit) {
+  for (const auto& [word, value] : unit.facts.configuration) {
+    const std::string name = "tp_config_" + word;
+    if (unit.module.getNamedGlobal(name)) continue;
+    Type* type = Type::getInt16Ty(unit.module.getContext());
+    auto* g = new GlobalVariable(unit.module, type, true, GlobalValue::WeakAnyLinkage,
+                                 ConstantInt::get(type, value), name);
+    g->setVisibility(GlobalValue::HiddenVisibility);
+  }
+}
+
+}  // namespace
+
+void keep_empty_loops(Module& m, Function& mark) {
+  for (Function& f : m) {
     if (f.isDeclaration()) continue;
     DominatorTree dom(f);
     LoopInfo loops(dom);
@@ -287,24 +300,10 @@ void keep_empty_loops(Unit& unit) {
         }
       if (!counts_only) continue;
       IRBuilder<> b(loop->getLoopLatch()->getTerminator());
-      b.CreateCall(marker(unit.module, kRound));
+      b.CreateCall(&mark);
     }
   }
 }
-
-/// What _FOSC() and _FWDT() of the device header make, for words given by #pragma config.
-void define_configuration(Unit& unit) {
-  for (const auto& [word, value] : unit.facts.configuration) {
-    const std::string name = "tp_config_" + word;
-    if (unit.module.getNamedGlobal(name)) continue;
-    Type* type = Type::getInt16Ty(unit.module.getContext());
-    auto* g = new GlobalVariable(unit.module, type, true, GlobalValue::WeakAnyLinkage,
-                                 ConstantInt::get(type, value), name);
-    g->setVisibility(GlobalValue::HiddenVisibility);
-  }
-}
-
-}  // namespace
 
 Function* marker(Module& m, const char* name) {
   auto* f = cast<Function>(
@@ -330,7 +329,7 @@ void lower_early(Unit& unit) {
   restore_library_calls(unit);
   widen_lengths(unit);
   trap_divisions(unit);
-  keep_empty_loops(unit);
+  keep_empty_loops(unit.module, *marker(unit.module, kRound));
   rename_for_c(unit);
 }
 

@@ -31,6 +31,8 @@ llvm::Function* marker(llvm::Module& m, const char* name);
 
 /// Inline assembler by its text: the statements that old programs use become calls and accesses.
 void lower_assembler(Unit& unit);
+/// A loop that only counts is a delay and must not vanish: each round calls `mark`.
+void keep_empty_loops(llvm::Module& m, llvm::Function& mark);
 /// Refused functions, sections, wide shifts, float to int, division by zero.
 void lower_early(Unit& unit);
 /// The accesses whose register is plain already. Before the optimiser, so that it cannot choose between two

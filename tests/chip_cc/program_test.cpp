@@ -70,6 +70,28 @@ TEST(ChipPrograms, public_functions_are_right_and_no_slower_than_xc16) {
   std::printf("cycles over XC16's at -O1, geometric mean of %d: %.3f\n", count, std::exp(sum / count));
 }
 
+// XC16's -O1 keeps such loops, of a global, of a local, and within another; its -O2 and -Os drop them
+TEST(ChipPrograms, delay_loops_wait_at_o0_and_o1_and_are_gone_at_o2) {
+  const char* source = R"(
+long i;
+void __attribute__((noinline)) wait(void) {
+  int j, k;
+  for (i = 0; i < 1000; i++);
+  for (j = 0; j < 10; j++) for (k = 0; k < 100; k++) {}
+}
+long bench_run(void) { wait(); return i; })";
+  for (const char* level : {"-O0", "-O1", "-O2", "-Os"}) {
+    ChipProgram program("delay_loops.c", source, level);
+    ASSERT_TRUE(program.is_whole()) << level << program.error();
+    dspic::Cycle own = 0;
+    EXPECT_EQ(program.run_counting("wait", own), 1000u) << level;
+    if (level[2] == '0' || level[2] == '1')
+      EXPECT_GT(own, 2 * 1000 * 3) << level;
+    else
+      EXPECT_LT(own, 100) << level;
+  }
+}
+
 /// Words of code of one function in our object.
 unsigned words_of(const fs::path& source, const std::string& function, const std::string& level) {
   const std::string root = TWINPUCK_SOURCE_DIR;

@@ -176,7 +176,7 @@ int main(void) {
 })");
   for (int i = 0; i < 12; ++i)
     add_robot("").bluetooth().at(0.1 + 0.1 * i, 0.5).settings().link.name = "fridge";
-  ASSERT_TRUE(run_until([&] { return a.variable("pucks") >= 0; }, 20));
+  ASSERT_TRUE(run_until([&] { return a.variable("devices") > 0 && a.variable("pucks") >= 0; }, 20));
   EXPECT_EQ(a.variable("devices"), 10);
   EXPECT_EQ(a.variable("pucks"), 0);
 }

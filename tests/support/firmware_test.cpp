@@ -122,7 +122,7 @@ FirmwareTest::FirmwareTest() {
   world.part_kinds = board::part_kinds();
   world.title = "test";
   world.proximity.noise_scale = 0;
-  // the same tests in the other way: TWINPUCK_WAY=register
+  // the same tests in another way: TWINPUCK_WAY=register or chip
   if (const char* way = std::getenv("TWINPUCK_WAY")) options.way = way;
 }
 FirmwareTest::~FirmwareTest() = default;
