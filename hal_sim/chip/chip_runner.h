@@ -91,6 +91,7 @@ class ChipRunner final : public host::Runner, private dspic::EventWatch {
   std::vector<host::TrapReport> traps_;
   host::Observer* observer_ = nullptr;
   std::vector<StepWatch*> watches_;
+  mutable std::map<std::string, host::Variable> variables_;  // that were asked for
   Cycle end_ = 0, idle_until_ = 0;
   std::uint64_t turns_ = 0;
 };
