@@ -5,7 +5,7 @@
 //   .debug_line --> lines ---+
 //
 // Addresses are program addresses (2 a word). Line tables of DWARF 2 to 4, with addresses of 2 or 4 bytes, as
-// our own compiler and XC16 write them. Not read: types, local variables, ranges of scopes.
+// our own compiler and XC16 write them. Types and variables: debug_info.h. Not read: ranges of scopes.
 #pragma once
 #include <cstdint>
 #include <string>

@@ -33,6 +33,7 @@ class ElfReader {
     for (Elf_Scn* s = nullptr; error_.empty() && (s = elf_nextscn(elf_.get(), s));) read_section(s);
     if (error_.empty() && file_.words.empty()) fail("there is no program in it");
     file_.code.sort();
+    file_.debug.add(debug_);
     error = error_;
     return error_.empty();
   }
@@ -66,7 +67,11 @@ class ElfReader {
     GElf_Shdr head;
     if (!gelf_getshdr(section, &head)) return fail("a section's header cannot be read: " + why());
     if (head.sh_type == SHT_SYMTAB) return read_symbols(section, head);
-    if (section_name(head) == ".debug_line") return read_lines(section);
+    const std::string name = section_name(head);
+    if (name == ".debug_line") return read_lines(section);
+    if (name.compare(0, 7, ".debug_") == 0)
+      if (const Elf_Data* data = elf_getdata(section, nullptr); data && data->d_buf)
+        debug_[name] = {static_cast<const unsigned char*>(data->d_buf), data->d_size};
     const bool is_program = (head.sh_flags & (SHF_EXECINSTR | kPsv | kEeprom)) != 0;
     if (head.sh_type != SHT_PROGBITS || !(head.sh_flags & SHF_ALLOC) || !is_program ||
         (head.sh_flags & kNoLoad) || head.sh_size == 0)
@@ -145,6 +150,7 @@ class ElfReader {
 
   const std::string& name_;
   FirmwareFile& file_;
+  std::map<std::string, DebugInfo::Section> debug_;
   std::unique_ptr<Elf, Closer> elf_;
   std::string error_;
 };

@@ -15,6 +15,7 @@
 #include <string>
 
 #include "dspic30/load/code_map.h"
+#include "dspic30/load/debug_info.h"
 
 namespace dspic {
 
@@ -25,6 +26,7 @@ struct FirmwareFile {
   std::map<std::string, std::uint32_t> objects;       ///< data addresses
   std::map<std::string, std::uint32_t> object_bytes;  ///< their sizes, where told
   CodeMap code;
+  DebugInfo debug;
 };
 
 inline constexpr std::size_t kLongestFirmwareFile = 64u

@@ -208,8 +208,29 @@ void ChipRunner::carry_out(Cycle at) { device().run_events(chip_.at(at)); }
 // --- data and code
 
 const host::Variable* ChipRunner::find_variable(const std::string& expression, std::string& error) const {
-  error = "got '" + expression + "', but types and members are not read from the chip's images yet";
-  return nullptr;
+  using Kind = dspic::DebugInfo::Kind;
+  const auto known = variables_.find(expression);
+  if (known != variables_.end()) return &known->second;
+  dspic::DebugInfo::Found found;
+  if (!file_->debug.find(expression, 0, found, error)) {
+    const auto object = file_->objects.find(expression);  // assembler text has no types
+    const auto bytes = file_->object_bytes.find(expression);
+    if (object == file_->objects.end() || bytes == file_->object_bytes.end() || bytes->second > 4)
+      return nullptr;
+    const host::Variable plain{object->second, bytes->second, host::Variable::Kind::Unsigned};
+    return &variables_.emplace(expression, plain).first->second;
+  }
+  const auto& type = file_->debug.types[static_cast<std::size_t>(found.type)];
+  host::Variable v;
+  v.address = static_cast<std::uintptr_t>(found.variable->places[0].value) + found.offset;
+  v.bytes = type.bytes;
+  v.kind = type.kind == Kind::Signed                                   ? host::Variable::Kind::Signed
+           : type.kind == Kind::Float                                  ? host::Variable::Kind::Float
+           : type.kind == Kind::Unsigned || type.kind == Kind::Pointer ? host::Variable::Kind::Unsigned
+                                                                       : host::Variable::Kind::Aggregate;
+  v.first_bit = found.bit;
+  v.bits = found.width;
+  return &variables_.emplace(expression, v).first->second;
 }
 
 std::vector<char> ChipRunner::read_variable(const std::string& variable, std::size_t bytes) const {

@@ -94,6 +94,7 @@ class ChipRunner final : public host::Runner, private dspic::EventWatch {
   std::vector<host::TrapReport> traps_;
   host::Observer* observer_ = nullptr;
   std::vector<StepWatch*> watches_;
+  mutable std::map<std::string, host::Variable> variables_;  // that were asked for
   Cycle end_ = 0, idle_until_ = 0;
   mutable Cycle asked_since_ = dspic::kNever;     // the wait that was looked at last
   mutable std::optional<board::Diagnosis> wait_;  // what is told of it

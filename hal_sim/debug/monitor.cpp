@@ -28,7 +28,8 @@ finish                  until this function has returned
 back, rs  backi, rsi    a source line or an instruction back; rc: back to the breakpoint before
 goto 1.5s | CYCLE       forwards or back to a time of the robot, or a cycle; past breakpoints
 where                   place and time; backtrace, bt: the calls that led here
-print EXPR, p           variables, registers (LATA, LATA.LATA6, w0, pc, sr, cycle), C's operators
+print EXPR, p           variables with members and elements (state.speed[1]), registers (LATA, LATA.LATA6, w0, pc, sr, cycle), C's operators
+locals                  parameters and variables of this function
 set NAME = EXPR         a variable or register
 x EXPR [WORDS]          words of data from an address
 regs                    the processor's registers; info interrupts: what is enabled or pending;
@@ -93,6 +94,7 @@ std::string Monitor::execute(const std::string& given) {
   if (word == "x") return memory(rest);
   if (word == "backtrace" || word == "bt") return backtrace();
   if (word == "regs") return registers();
+  if (word == "locals") return session_.locals();
   if (word == "list" || word == "l") return list(rest);
   if (word == "dis") return disassemble(rest);
   if (word == "goto") return go(rest);
@@ -213,6 +215,11 @@ std::string Monitor::world() {
 // --- data
 
 std::string Monitor::print(const std::string& expression) {
+  dspic::DebugInfo::Found found;
+  std::string unknown;
+  if (session_.file().debug.find(expression, session_.pc(), found, unknown))
+    return expression + " = " + session_.typed(found) + "\n";
+  if (expression.find('[') != std::string::npos) return unknown + "\n";
   const auto data = session_.find_data(expression);
   if (data && data->bytes > 4) {  // an array or structure: its words
     std::string text = expression + " =";

@@ -103,8 +103,13 @@ class Session final : private chip::StepWatch {
   struct Data {
     unsigned address = 0, bytes = 2;
     int bit = 0, width = 0;  ///< of a register's field; width 0: all of it
+    bool is_signed = false;
   };
   std::optional<Data> find_data(const std::string& name) const;
+  /// A variable of a known type as C would write it: "{mode = 1, speed = {-300, 300}}".
+  std::string typed(const dspic::DebugInfo::Found& found) const;
+  /// Parameters and variables of the function that runs, a line each.
+  std::string locals() const;
   unsigned read(unsigned address, unsigned bytes) const;
   /// As the debugger's doing, again in each repetition. False: not a place that can be written.
   bool write(const Data& data, unsigned value);
@@ -120,6 +125,7 @@ class Session final : private chip::StepWatch {
   const Breakpoint* find(int id) const;
 
  private:
+  std::optional<unsigned> address_of(const dspic::DebugInfo::Found& found) const;
   enum class State { Running, Stopped, Ended };
   struct Moment {
     Cycle at = 0;

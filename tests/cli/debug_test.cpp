@@ -43,6 +43,27 @@ int main(void) {
 }
 )";
 
+constexpr const char* kTypes = R"(#include <p30F6014A.h>
+struct motor { int speed; unsigned char on; unsigned mode : 3; unsigned rest : 5; };
+volatile struct motor motors[2] = {{-300, 1, 5, 9}, {300, 0, 2, 1}};
+volatile int table[2][3] = {{1, 2, 3}, {4, 5, -6}};
+volatile float gain = 1.5f;
+
+__attribute__((noinline)) int weigh(int n, volatile struct motor *m) {
+  int s = n * m->speed;
+  LATA = s + (int)gain;
+  return s + LATB;
+}
+
+int main(void) {
+  static int rounds;
+  while (1) {
+    rounds++;
+    table[0][0] = weigh(rounds, &motors[1]);
+  }
+}
+)";
+
 class Debug : public CommandTest {
  protected:
   Debug() {
@@ -186,6 +207,34 @@ TEST_F(Debug, mistakes_are_answered) {
   EXPECT_EQ(twinpuck("debug maze --fw '*=" + elf() + "' -x /nonexistent").exit_code, 2);
   EXPECT_EQ(twinpuck("debug maze --fw '*=" + elf() + "' --robot nobody").exit_code, 2);
   EXPECT_EQ(twinpuck("debug nowhere").exit_code, 2);
+}
+
+// values as C writes them, by the image's own debug information
+TEST_F(Debug, variables_have_types_and_functions_have_locals) {
+  write("mine/main.c", kTypes);
+  const auto built = twinpuck("build '" + path("mine") + "' --way chip -o '" + elf() + "'");
+  ASSERT_EQ(built.exit_code, 0) << built.text;
+  expect_in_order(
+      debug(
+          "break weigh\nc 2\nlocals\nprint motors\nprint motors[0].mode\nprint motors[1]\nprint table[1]\n"
+          "print table[1][2]\nprint gain\nset motors[1].speed = 17\nprint motors[1].speed\nprint motors[2]\n"
+          "print motors[1].colour\nprint nothing[1]\nfinish\nprint rounds\n"),
+      {"> locals", "  n = 2 (0x2)\n", "  m = 0x0", "> print motors\n",
+       "motors = {{speed = -300 (0xfed4), on = 1 (0x1), mode = 5 (0x5), rest = 9 (0x9)}, {speed = 300 "
+       "(0x12c)",
+       "motors[0].mode = 5 (0x5)",
+       "motors[1] = {speed = 300 (0x12c), on = 0 (0x0), mode = 2 (0x2), rest = 1 (0x1)}",
+       "table[1] = {4 (0x4), 5 (0x5), -6 (0xfffa)}", "table[1][2] = -6 (0xfffa)", "gain = 1.5",
+       "motors[1].speed = 17 (0x11)", "motors[1].speed = 17 (0x11)",
+       "got 'motors[2]', index 2, expected 0 to 1", "got 'motors[1].colour'",
+       "expected a variable of the image", "rounds = 2 (0x2)"});
+  // and so a trace knows them
+  const auto traced = twinpuck("run maze --fw '*=" + elf() + "' --for 0.01 --vcd '" + path("x.vcd") +
+                               "' --vcd-signals '*:motors[1].speed'");
+  EXPECT_EQ(traced.exit_code, 0) << traced.text;
+  std::ifstream in(path("x.vcd"));
+  const std::string vcd((std::istreambuf_iterator<char>(in)), {});
+  EXPECT_NE(vcd.find("b100101100 "), std::string::npos) << vcd;  // 300
 }
 
 }  // namespace

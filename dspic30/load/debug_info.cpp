@@ -1,0 +1,564 @@
+// SPDX-License-Identifier: MIT
+#include "dspic30/load/debug_info.h"
+
+#include <cstdlib>
+
+#include "dspic30/load/cursor.h"
+
+namespace dspic {
+
+namespace {
+
+// --- DWARF's numbers [DWARF 4, 7.5] ------------------------------------------------------------------------
+
+enum Tag : unsigned {
+  kArrayType = 0x01,
+  kEnumerationType = 0x04,
+  kFormalParameter = 0x05,
+  kLexicalBlock = 0x0B,
+  kMember = 0x0D,
+  kPointerType = 0x0F,
+  kCompileUnit = 0x11,
+  kStructureType = 0x13,
+  kTypedef = 0x16,
+  kUnionType = 0x17,
+  kInlinedSubroutine = 0x1D,
+  kSubrangeType = 0x21,
+  kBaseType = 0x24,
+  kConstType = 0x26,
+  kSubprogram = 0x2E,
+  kVariable = 0x34,
+  kVolatileType = 0x35
+};
+enum Attribute : unsigned {
+  kLocation = 0x02,
+  kName = 0x03,
+  kByteSize = 0x0B,
+  kBitOffset = 0x0C,
+  kBitSize = 0x0D,
+  kLowPc = 0x11,
+  kHighPc = 0x12,
+  kConstValue = 0x1C,
+  kUpperBound = 0x2F,
+  kAbstractOrigin = 0x31,
+  kCountOf = 0x37,
+  kDataMemberLocation = 0x38,
+  kDeclaration = 0x3C,
+  kEncoding = 0x3E,
+  kFrameBase = 0x40,
+  kSpecification = 0x47,
+  kType = 0x49,
+  kRanges = 0x55,
+  kDataBitOffset = 0x6B
+};
+enum Form : unsigned {
+  kAddr = 0x01,
+  kBlock2 = 0x03,
+  kBlock4 = 0x04,
+  kData2 = 0x05,
+  kData4 = 0x06,
+  kData8 = 0x07,
+  kString = 0x08,
+  kBlock = 0x09,
+  kBlock1 = 0x0A,
+  kData1 = 0x0B,
+  kFlag = 0x0C,
+  kSdata = 0x0D,
+  kStrp = 0x0E,
+  kUdata = 0x0F,
+  kRefAddr = 0x10,
+  kRef1 = 0x11,
+  kRef2 = 0x12,
+  kRef4 = 0x13,
+  kRef8 = 0x14,
+  kRefUdata = 0x15,
+  kSecOffset = 0x17,
+  kExprloc = 0x18,
+  kFlagPresent = 0x19
+};
+constexpr unsigned kFloatEncoding = 0x04, kSignedEncoding = 0x05, kSignedChar = 0x06;
+// operations of locations
+constexpr unsigned kOpAddr = 0x03, kOpPlusConst = 0x23, kOpReg0 = 0x50, kOpBreg0 = 0x70, kOpConst1u = 0x08,
+                   kOpConsts = 0x11, kOpConstu = 0x10, kOpFbreg = 0x91, kOpLit0 = 0x30, kOpStackValue = 0x9F;
+constexpr int kDeepest = 64;
+
+struct Value {
+  unsigned form = 0;
+  std::uint32_t number = 0;
+  std::string text;
+  DebugInfo::Section block;
+};
+/// One entry: its tag, attributes, and the entries in it.
+struct Entry {
+  unsigned tag = 0;
+  std::map<unsigned, Value> attributes;
+  std::vector<std::uint32_t> inner;  // offsets
+  const Value* find(unsigned attribute) const {
+    const auto found = attributes.find(attribute);
+    return found == attributes.end() ? nullptr : &found->second;
+  }
+  std::uint32_t number(unsigned attribute, std::uint32_t otherwise = 0) const {
+    const Value* const value = find(attribute);
+    return value ? value->number : otherwise;
+  }
+};
+
+class Reader {
+ public:
+  Reader(DebugInfo& out, const std::map<std::string, DebugInfo::Section>& sections)
+      : out_(out), sections_(sections) {}
+
+  void read() {
+    const DebugInfo::Section info = section(".debug_info");
+    Cursor all(info.bytes, info.size);
+    while (all.left() > 11) {
+      const auto unit = static_cast<std::uint32_t>(info.size - all.left());
+      const std::uint32_t length = all.number(4);
+      if (length < 7 || length > all.left()) return;
+      Cursor inner = all.part(length);
+      read_unit(unit, inner);
+    }
+  }
+
+ private:
+  struct Shape {
+    unsigned tag = 0;
+    bool has_inner = false;
+    std::vector<std::pair<unsigned, unsigned>> attributes;
+  };
+
+  DebugInfo::Section section(const char* name) const {
+    const auto found = sections_.find(name);
+    return found == sections_.end() ? DebugInfo::Section{} : found->second;
+  }
+  Cursor at(const char* name, std::uint32_t offset) const {
+    const DebugInfo::Section s = section(name);
+    return offset < s.size ? Cursor(s.bytes + offset, s.size - offset) : Cursor(nullptr, 0);
+  }
+
+  std::map<unsigned, Shape> shapes(std::uint32_t offset) const {
+    std::map<unsigned, Shape> all;
+    Cursor c = at(".debug_abbrev", offset);
+    while (const std::uint32_t code = c.leb()) {
+      Shape& shape = all[code];
+      shape.tag = c.leb();
+      shape.has_inner = c.byte() != 0;
+      shape.attributes.clear();
+      while (!c.is_at_end()) {
+        const unsigned attribute = c.leb(), form = c.leb();
+        if (!attribute && !form) break;
+        shape.attributes.emplace_back(attribute, form);
+      }
+    }
+    return all;
+  }
+
+  bool read_value(Cursor& c, unsigned form, Value& v) const {
+    v.form = form;
+    const auto block = [&](std::size_t size) {
+      v.block.bytes = c.here();
+      v.block.size = std::min(size, c.left());
+      c.part(size);
+    };
+    switch (form) {
+      case kAddr:
+        v.number = c.number(address_bytes_);
+        return true;
+      case kData1:
+      case kFlag:
+      case kRef1:
+        v.number = c.number(1);
+        break;
+      case kData2:
+      case kRef2:
+        v.number = c.number(2);
+        break;
+      case kData4:
+      case kRef4:
+      case kSecOffset:
+      case kRefAddr:
+        v.number = c.number(4);
+        break;
+      case kData8:
+      case kRef8:
+        v.number = c.number(8);
+        break;
+      case kSdata:
+        v.number = static_cast<std::uint32_t>(c.signed_leb());
+        return true;
+      case kUdata:
+      case kRefUdata:
+        v.number = c.leb();
+        break;
+      case kFlagPresent:
+        v.number = 1;
+        return true;
+      case kString:
+        v.text = c.text();
+        return true;
+      case kStrp:
+        v.text = at(".debug_str", c.number(4)).text();
+        return true;
+      case kBlock1:
+        block(c.number(1));
+        return true;
+      case kBlock2:
+        block(c.number(2));
+        return true;
+      case kBlock4:
+        block(c.number(4));
+        return true;
+      case kBlock:
+      case kExprloc:
+        block(c.leb());
+        return true;
+      default:
+        return false;
+    }
+    if (form == kRef1 || form == kRef2 || form == kRef4 || form == kRef8 || form == kRefUdata)
+      v.number += unit_;
+    return true;
+  }
+
+  void read_unit(std::uint32_t unit, Cursor& c) {
+    const std::size_t all = c.left() + 4;
+    unit_ = unit;
+    const unsigned version = c.number(2);
+    if (version < 2 || version > 4) return;
+    const auto known = shapes(c.number(4));
+    address_bytes_ = c.byte();
+    entries_.clear();
+    std::vector<std::uint32_t> open;  // entries that are not ended
+    std::uint32_t first = 0;
+    while (!c.is_at_end()) {
+      const auto offset = static_cast<std::uint32_t>(unit + all - c.left());
+      const std::uint32_t code = c.leb();
+      if (code == 0) {
+        if (!open.empty()) open.pop_back();
+        continue;
+      }
+      const auto shape = known.find(code);
+      if (shape == known.end() || open.size() > kDeepest) break;
+      Entry& entry = entries_[offset];
+      entry.tag = shape->second.tag;
+      if (!open.empty()) entries_[open.back()].inner.push_back(offset);
+      if (!first) first = offset;
+      for (const auto& [attribute, form] : shape->second.attributes)
+        if (!read_value(c, form, entry.attributes[attribute])) return;
+      if (shape->second.has_inner) open.push_back(offset);
+    }
+    types_.clear();
+    const auto top = entries_.find(first);
+    if (top == entries_.end() || top->second.tag != kCompileUnit) return;
+    if (const Value* name = top->second.find(kName)) file_ = name->text;
+    low_ = 2 * (top->second.number(kLowPc) / 2);
+    scope(top->second, 0, 0, 14, 0);
+  }
+
+  // --- types
+
+  int type_of(const Entry& entry, int depth = 0) {
+    const Value* const type = entry.find(kType);
+    return type ? type_at(type->number, depth) : 0;
+  }
+
+  int type_at(std::uint32_t offset, int depth) {
+    if (const auto known = types_.find(offset); known != types_.end()) return known->second;
+    const auto found = entries_.find(offset);
+    if (found == entries_.end() || depth > kDeepest) return 0;
+    types_[offset] = 0;  // while it is being read
+    const Entry& entry = found->second;
+    DebugInfo::Type type;
+    type.bytes = entry.number(kByteSize);
+    switch (entry.tag) {
+      case kTypedef:
+      case kConstType:
+      case kVolatileType:
+        return types_[offset] = type_of(entry, depth + 1);
+      case kBaseType: {
+        const unsigned encoding = entry.number(kEncoding);
+        type.kind = encoding == kFloatEncoding                               ? DebugInfo::Kind::Float
+                    : encoding == kSignedEncoding || encoding == kSignedChar ? DebugInfo::Kind::Signed
+                                                                             : DebugInfo::Kind::Unsigned;
+        break;
+      }
+      case kEnumerationType:
+        type.kind = DebugInfo::Kind::Unsigned;
+        if (!type.bytes) type.bytes = 2;
+        break;
+      case kPointerType:
+        type.kind = DebugInfo::Kind::Pointer;
+        type.bytes = 2;
+        break;
+      case kArrayType:
+        return types_[offset] = array(entry, depth);
+      case kStructureType:
+      case kUnionType:
+        type.kind = DebugInfo::Kind::Struct;
+        add_members(entry, type, depth);
+        break;
+      default:
+        return 0;
+    }
+    return types_[offset] = add(std::move(type));
+  }
+
+  int add(DebugInfo::Type&& type) {
+    out_.types.push_back(std::move(type));
+    return static_cast<int>(out_.types.size()) - 1;
+  }
+
+  int array(const Entry& entry, int depth) {
+    std::vector<unsigned> counts;
+    for (const std::uint32_t offset : entry.inner) {
+      const Entry& range = entries_.at(offset);
+      if (range.tag != kSubrangeType) continue;
+      counts.push_back(range.find(kCountOf)      ? range.number(kCountOf)
+                       : range.find(kUpperBound) ? range.number(kUpperBound) + 1
+                                                 : 0);
+    }
+    int of = type_of(entry, depth + 1);
+    for (auto count = counts.rbegin(); count != counts.rend(); ++count) {
+      DebugInfo::Type type;
+      type.kind = DebugInfo::Kind::Array;
+      type.element = of;
+      type.count = *count;
+      type.bytes = out_.types[static_cast<std::size_t>(of)].bytes * *count;
+      of = add(std::move(type));
+    }
+    return of;
+  }
+
+  void add_members(const Entry& entry, DebugInfo::Type& type, int depth) {
+    for (const std::uint32_t offset : entry.inner) {
+      const Entry& inner = entries_.at(offset);
+      if (inner.tag != kMember) continue;
+      DebugInfo::Member member;
+      if (const Value* name = inner.find(kName)) member.name = name->text;
+      member.type = type_of(inner, depth + 1);
+      if (const Value* at = inner.find(kDataMemberLocation)) {
+        Cursor c(at->block.bytes, at->block.size);
+        member.offset = !at->block.bytes ? at->number : c.byte() == kOpPlusConst ? c.leb() : 0;
+      }
+      if ((member.width = static_cast<int>(inner.number(kBitSize)))) {
+        const unsigned unit = std::max(1u, out_.types[static_cast<std::size_t>(member.type)].bytes);
+        if (const Value* bit = inner.find(kDataBitOffset)) {
+          member.offset = bit->number / (8 * unit) * unit;
+          member.bit = static_cast<int>(bit->number % (8 * unit));
+        } else {  // DWARF 2 counts from the highest bit of the storage unit
+          member.bit = static_cast<int>(8 * unit - inner.number(kBitOffset)) - member.width;
+        }
+      }
+      type.members.push_back(std::move(member));
+    }
+  }
+
+  // --- variables
+
+  // `begin` to `end`: code of the innermost function or block; end 0: of none
+  void scope(const Entry& entry, std::uint32_t begin, std::uint32_t end, int frame, int depth) {
+    if (depth > kDeepest) return;
+    for (const std::uint32_t offset : entry.inner) {
+      const Entry& inner = entries_.at(offset);
+      std::uint32_t from = begin, to = end;
+      switch (inner.tag) {
+        case kVariable:
+        case kFormalParameter:
+          add_variable(inner, begin, end, frame);
+          break;
+        case kSubprogram:
+        case kLexicalBlock:
+        case kInlinedSubroutine:
+          if (const Value* low = inner.find(kLowPc)) {
+            from = low->number;
+            const Value* const high = inner.find(kHighPc);
+            to = !high ? from : high->form == kAddr ? high->number : from + high->number;
+          } else if (inner.tag == kSubprogram) {
+            to = from = 1;  // only its statics are somewhere
+          }
+          scope(inner, from, to, inner.tag == kSubprogram ? frame_of(inner) : frame, depth + 1);
+          break;
+        default:
+          break;
+      }
+    }
+  }
+
+  int frame_of(const Entry& function) const {
+    const Value* const base = function.find(kFrameBase);
+    if (!base || !base->block.size) return 14;
+    const unsigned operation = base->block.bytes[0];
+    return operation >= kOpReg0 && operation < kOpReg0 + 16     ? static_cast<int>(operation - kOpReg0)
+           : operation >= kOpBreg0 && operation < kOpBreg0 + 16 ? static_cast<int>(operation - kOpBreg0)
+                                                                : 14;
+  }
+
+  void add_variable(const Entry& entry, std::uint32_t begin, std::uint32_t end, int frame) {
+    const Entry* about = &entry;  // where its name and type are
+    for (const unsigned link : {kAbstractOrigin, kSpecification})
+      if (const Value* to = entry.find(link))
+        if (const auto found = entries_.find(to->number); found != entries_.end()) about = &found->second;
+    const Value *const name = about->find(kName), *const location = entry.find(kLocation);
+    if (!name || name->text.empty() || entry.number(kDeclaration)) return;
+    DebugInfo::Variable v;
+    v.name = name->text;
+    v.file = file_;
+    v.type = type_of(*about);
+    v.begin = begin;
+    v.end = end;
+    v.is_static = false;
+    DebugInfo::Place place;
+    if (const Value* constant = entry.find(kConstValue)) {
+      place.in = DebugInfo::Place::In::Value;
+      place.value = static_cast<int>(constant->number);
+      v.places.push_back(place);
+    } else if (location && location->block.bytes) {
+      if (!read_place(location->block, frame, place)) return;
+      if (place.in == DebugInfo::Place::In::Memory && place.value == 0) return;  // the linker left it out
+      v.is_static = place.in == DebugInfo::Place::In::Memory;
+      v.places.push_back(place);
+    } else if (location) {
+      add_places(at(".debug_loc", location->number), frame, v);
+    }
+    if (!v.is_static && end <= begin) return;
+    if (!v.places.empty()) out_.variables.push_back(std::move(v));
+  }
+
+  void add_places(Cursor c, int frame, DebugInfo::Variable& v) const {
+    const std::uint32_t base_mark = address_bytes_ == 2 ? 0xFFFF : 0xFFFFFFFF;
+    std::uint32_t base = low_;
+    while (c.left() >= 2 * address_bytes_ && v.places.size() < 1000) {
+      DebugInfo::Place place;
+      place.begin = c.number(address_bytes_);
+      place.end = c.number(address_bytes_);
+      if (!place.begin && !place.end) return;
+      if (place.begin == base_mark) {
+        base = place.end;
+        continue;
+      }
+      const std::size_t size = c.number(2);
+      const DebugInfo::Section expression{c.here(), std::min(size, c.left())};
+      c.part(size);
+      place.begin += base;
+      place.end += base;
+      if (read_place(expression, frame, place)) v.places.push_back(place);
+    }
+  }
+
+  // of one operation, but for a value
+  bool read_place(DebugInfo::Section expression, int frame, DebugInfo::Place& place) const {
+    using In = DebugInfo::Place::In;
+    Cursor c(expression.bytes, expression.size);
+    const unsigned operation = c.byte();
+    if (operation == kOpAddr) {
+      place.in = In::Memory;
+      place.value = static_cast<int>(c.number(address_bytes_));
+    } else if (operation >= kOpReg0 && operation < kOpReg0 + 16) {
+      place.in = In::Register;
+      place.value = static_cast<int>(operation - kOpReg0);
+    } else if (operation == kOpFbreg || (operation >= kOpBreg0 && operation < kOpBreg0 + 16)) {
+      place.in = In::Frame;
+      place.base = operation == kOpFbreg ? frame : static_cast<int>(operation - kOpBreg0);
+      place.value = c.signed_leb();
+    } else {
+      place.in = In::Value;
+      if (operation >= kOpLit0 && operation < kOpLit0 + 32)
+        place.value = static_cast<int>(operation - kOpLit0);
+      else if (operation >= kOpConst1u && operation < kOpConst1u + 6)
+        place.value = static_cast<int>(c.number(std::size_t{1} << (operation - kOpConst1u) / 2));
+      else if (operation == kOpConsts)
+        place.value = c.signed_leb();
+      else if (operation == kOpConstu)
+        place.value = static_cast<int>(c.leb());
+      else
+        return false;
+      return c.byte() == kOpStackValue;
+    }
+    return c.is_at_end();
+  }
+
+  DebugInfo& out_;
+  const std::map<std::string, DebugInfo::Section>& sections_;
+  std::map<std::uint32_t, Entry> entries_;  // of the unit
+  std::map<std::uint32_t, int> types_;
+  std::string file_;
+  std::uint32_t unit_ = 0, low_ = 0;
+  std::size_t address_bytes_ = 4;
+};
+
+bool is_in(const DebugInfo::Variable& v, std::uint32_t pc) { return pc >= v.begin && pc < v.end; }
+
+}  // namespace
+
+void DebugInfo::add(const std::map<std::string, Section>& sections) { Reader(*this, sections).read(); }
+
+const DebugInfo::Place* DebugInfo::place_at(const Variable& variable, std::uint32_t pc) {
+  for (const Place& place : variable.places)
+    if (variable.is_static || (pc >= place.begin && pc < place.end)) return &place;
+  return nullptr;
+}
+
+bool DebugInfo::find(const std::string& expression, std::uint32_t pc, Found& found,
+                     std::string& error) const {
+  const std::size_t stop = expression.find_first_of(".[");
+  const std::string name = expression.substr(0, stop);
+  // the innermost scope that holds pc, then the files', then a static of another function
+  found = {};
+  const auto rank = [pc](const Variable& v) {
+    return is_in(v, pc) ? v.end - v.begin : v.end == 0 ? 1u << 30 : 1u << 31;
+  };
+  for (const Variable& v : variables)
+    if (v.name == name && (v.is_static || is_in(v, pc)) &&
+        (!found.variable || rank(v) < rank(*found.variable)))
+      found.variable = &v;
+  if (!found.variable) {
+    error = "got '" + expression + "', expected a variable of the image that is known here";
+    return false;
+  }
+  found.type = found.variable->type;
+  const auto wrong = [&](const std::string& what) {
+    error = "got '" + expression + "', " + what;
+    return false;
+  };
+  for (std::size_t at = stop; at < expression.size();) {
+    const Type& type = types[static_cast<std::size_t>(found.type)];
+    if (expression[at] == '[') {
+      char* end = nullptr;
+      const unsigned long index = std::strtoul(expression.c_str() + at + 1, &end, 0);
+      if (end == expression.c_str() + at + 1 || *end != ']') return wrong("expected a number in [ ]");
+      if (type.kind != Kind::Array) return wrong("but that is no array");
+      if (index >= type.count)
+        return wrong("index " + std::to_string(index) + ", expected 0 to " +
+                     std::to_string(static_cast<long>(type.count) - 1));
+      found.type = type.element;
+      found.offset += static_cast<unsigned>(index) * types[static_cast<std::size_t>(type.element)].bytes;
+      at = static_cast<std::size_t>(end - expression.c_str()) + 1;
+    } else if (expression[at] == '.') {
+      const std::size_t next = std::min(expression.find_first_of(".[", at + 1), expression.size());
+      if (!step_into(expression.substr(at + 1, next - at - 1), found))
+        return wrong("no member '" + expression.substr(at + 1, next - at - 1) + "' in it");
+      at = next;
+    } else {
+      return wrong("expected NAME, then .MEMBER and [INDEX] as C writes them");
+    }
+  }
+  return true;
+}
+
+bool DebugInfo::step_into(const std::string& name, Found& found, int depth) const {
+  for (const Member& member : types[static_cast<std::size_t>(found.type)].members) {
+    Found inner = found;
+    inner.type = member.type;
+    inner.offset += member.offset;
+    inner.bit = member.bit;
+    inner.width = member.width;
+    if (member.name != name &&
+        (!member.name.empty() || depth > kDeepest || !step_into(name, inner, depth + 1)))
+      continue;
+    found = inner;
+    return true;
+  }
+  return false;
+}
+
+}  // namespace dspic

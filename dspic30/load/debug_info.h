@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// Types of an image's variables, and its functions' local ones.
+//
+//   .debug_info, .debug_abbrev, .debug_str, .debug_loc --> DebugInfo: find("state.speed[1]", pc)
+//
+// DWARF 2 to 4, as our own compiler and XC16 write it. Not read: what pointers point to, C++.
+#pragma once
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace dspic {
+
+struct DebugInfo {
+  enum class Kind : std::uint8_t { Signed, Unsigned, Float, Pointer, Array, Struct, Unknown };
+  struct Member {
+    std::string name;  ///< empty: its own members stand for it
+    unsigned offset = 0;
+    int type = 0;
+    int bit = 0, width = 0;  ///< of a bit-field, from the lowest bit on; width 0: none
+  };
+  struct Type {
+    Kind kind = Kind::Unknown;
+    unsigned bytes = 0;
+    int element = 0;     ///< of an array
+    unsigned count = 0;  ///< its elements
+    std::vector<Member> members;
+  };
+  /// Where a variable is while the program counter is in [begin, end).
+  struct Place {
+    std::uint32_t begin = 0, end = 0xFFFFFFFF;
+    enum class In : std::uint8_t { Memory, Register, Frame, Value } in = In::Memory;
+    int value = 0;  ///< address, register, offset from `base`, or the value itself
+    int base = 14;  ///< register
+  };
+  struct Variable {
+    std::string name, file;
+    int type = 0;
+    std::uint32_t begin = 0, end = 0;  ///< code of the scope of a local or static one; end 0: of the file
+    bool is_static = true;             ///< one place, always
+    std::vector<Place> places;
+  };
+  /// Part of a variable.
+  struct Found {
+    const Variable* variable = nullptr;
+    int type = 0;
+    unsigned offset = 0;
+    int bit = 0, width = 0;
+  };
+
+  std::vector<Type> types{Type{}};  ///< 0: unknown
+  std::vector<Variable> variables;
+
+  /// "speed", "grid[2].x", seen from `pc`: locals of the innermost scope go before. False: `error` says why.
+  bool find(const std::string& expression, std::uint32_t pc, Found& found, std::string& error) const;
+  /// Where it is at `pc`; null: the optimiser keeps it nowhere there.
+  static const Place* place_at(const Variable& variable, std::uint32_t pc);
+
+  struct Section {
+    const unsigned char* bytes = nullptr;
+    std::size_t size = 0;
+  };
+  /// By name. What cannot be read is left out: nothing depends on it.
+  void add(const std::map<std::string, Section>& sections);
+
+ private:
+  bool step_into(const std::string& name, Found& found, int depth = 0) const;
+};
+
+}  // namespace dspic
