@@ -344,9 +344,10 @@ static BuildResult build_here(const BuildOptions& o) {
       if (!program.unlisted.count(source)) program.library_places.push_back(library_place(source));
   Plan p = plan(o, copies, program, false);
   if (p.is_webots && o.chip_way) {
-    result.errors.push_back(o.source_dir.string() +
-                            ": program: got one for Webots' interfaces, expected one for the e-puck's library; "
-                            "the chip has nothing behind the first, run it the native way");
+    result.errors.push_back(
+        o.source_dir.string() +
+        ": program: got one for Webots' interfaces, expected one for the e-puck's library; "
+        "the chip has nothing behind the first, run it the native way");
     return finish();
   }
   if (p.is_webots) own = p.user.size();
