@@ -66,6 +66,9 @@ export class Console {
   }
 }
 
+/** Of a plot: the first blue is too dark on a dark page. */
+const plotColour = (i: number, dark: boolean) => kPalette[dark && i === 0 ? 5 : dark && i === 5 ? 0 : i];
+
 export class Plots {
   readonly pane: HTMLElement;
   names: string[] = [];
@@ -110,14 +113,14 @@ export class Plots {
   }
   build() {
     this.chart?.destroy();
-    this.chips.replaceChildren(...this.names.map((n, i) => h("button", { className: "chip", title: "No more", onclick: () => this.toggle(n) }, h("i", { style: `background:${kPalette[i]}` }), n)));
+    this.chips.replaceChildren(...this.names.map((n, i) => h("button", { className: "chip", title: "No more", onclick: () => this.toggle(n) }, h("i", { style: `background:${plotColour(i, this.app.dark)}` }), n)));
     this.chart = undefined;
     if (this.names.length === 0) return this.area.replaceChildren(h("p", { className: "dim pad" }, "Nothing is plotted. Click a value of a robot, or type a name above."));
     this.area.replaceChildren();
     const axis = { stroke: css("--dim"), grid: { stroke: css("--line"), width: 1 }, ticks: { stroke: css("--line") } };
     this.chart = new uPlot({
       ...this.size(), scales: { x: { time: false } }, axes: [{ ...axis, size: 32, values: (_: uPlot, at: number[]) => at.map((t) => `${+t.toFixed(3)} s`) }, { ...axis, size: 64 }], legend: { show: false },
-      series: [{ label: "s" }, ...this.names.map((label, i) => ({ label, stroke: kPalette[i], width: 1.5, points: { show: false } }))],
+      series: [{ label: "s" }, ...this.names.map((label, i) => ({ label, stroke: plotColour(i, this.app.dark), width: 1.5, points: { show: false } }))],
     }, [[], ...this.names.map(() => [])] as any, this.area);
   }
   sample(time: number, values: (number | null)[]) {
