@@ -8,6 +8,7 @@
 #include <iostream>
 
 #include "hal_sim/twin/twin.h"
+#include "hal_sim/twin/world_file.h"
 #include "sim_core/load/world_loader.h"
 #include "tools/verbs.h"
 
@@ -45,6 +46,14 @@ std::string find_world(const std::string& name, std::vector<std::string>& proble
   problems.push_back(name + ": world: got a name that is neither a file nor one of worlds/" +
                      (guess.empty() ? "; `twinpuck list` shows them" : "; did you mean '" + guess + "'?"));
   return "";
+}
+
+std::optional<sim::WorldDesc> open_world(const std::string& name, std::vector<std::string>& problems) {
+  const std::string file = find_world(name, problems);
+  if (file.empty()) return std::nullopt;
+  sim::LoadedWorld loaded = twin::load_world(file);
+  if (!loaded.world) problems.push_back(loaded.report(file));
+  return std::move(loaded.world);
 }
 
 namespace {

@@ -2,6 +2,7 @@
 // What the verbs share of the command line: messages in the house's grammar, help, and the meaning of names.
 #pragma once
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,10 @@ CLI::Validator between(double least, double most);
 /// The world file that a name means: a path, or as `make run` has it, maze for worlds/maze.toml. Empty, with
 /// a line in `problems`, when there is none.
 std::string find_world(const std::string& name, std::vector<std::string>& problems);
+
+/// That world, read and checked; none, with lines in `problems`, when there is no such file or it has
+/// mistakes.
+std::optional<sim::WorldDesc> open_world(const std::string& name, std::vector<std::string>& problems);
 
 /// After parse() has thrown: one line that says what was wrong, and where help is. Returns the exit code.
 int usage_error(const CLI::App& app, const CLI::ParseError& e, int argc, char** argv);

@@ -9,7 +9,6 @@
 #include <map>
 
 #include "hal_sim/cc/build.h"
-#include "hal_sim/twin/world_file.h"
 #include "tools/budgets.h"
 #include "tools/command_line.h"
 #include "tools/profile_report.h"
@@ -53,17 +52,12 @@ std::vector<cc::FunctionCycles> estimates(const std::string& image, std::vector<
 /// A run of the image in the world, by the profile of its first robot.
 bool measure(const CyclesArguments& a, const std::string& image, const Budgets& budgets,
              chip::ProfileReport& report, std::vector<std::string>& problems) {
-  const std::string file = find_world(a.world, problems);
-  if (file.empty()) return false;
-  sim::LoadedWorld loaded = twin::load_world(file);
-  if (!loaded.world) {
-    problems.push_back(loaded.report(file));
-    return false;
-  }
+  std::optional<sim::WorldDesc> world = open_world(a.world, problems);
+  if (!world) return false;
   twin::Options options;
   options.firmware = {{"*", image}};
-  options.world_folder = fs::path(file).parent_path().string();
-  const auto twin = twin::Twin::open(std::move(*loaded.world), options, problems);
+  options.world_folder = fs::path(world->file).parent_path().string();
+  const auto twin = twin::Twin::open(std::move(*world), options, problems);
   if (!twin) return false;
   Profiles profiles(*twin);
   profiles.begin("cycles", problems);

@@ -9,7 +9,6 @@
 
 #include "hal_sim/debug/dap.h"
 #include "hal_sim/debug/monitor.h"
-#include "hal_sim/twin/world_file.h"
 #include "tools/command_line.h"
 #include "tools/serial_text.h"
 #include "tools/verbs.h"
@@ -33,15 +32,10 @@ volatile std::sig_atomic_t pause_asked = 0;
 /// What a world and its robots are, of the command line.
 bool set_up(const DebugArguments& a, debug::Session::Setup& setup, std::vector<std::string>& problems) {
   if (!split_choices(a.firmware, "--fw", setup.options.firmware)) return false;
-  const std::string file = find_world(a.world, problems);
-  if (file.empty()) return false;
-  sim::LoadedWorld loaded = twin::load_world(file);
-  if (!loaded.world) {
-    problems.push_back(loaded.report(file));
-    return false;
-  }
-  if (a.seed >= 0) loaded.world->seed = static_cast<std::uint64_t>(a.seed);
-  setup.world = std::move(*loaded.world);
+  std::optional<sim::WorldDesc> world = open_world(a.world, problems);
+  if (!world) return false;
+  if (a.seed >= 0) world->seed = static_cast<std::uint64_t>(a.seed);
+  setup.world = std::move(*world);
   setup.options.world_folder = fs::path(setup.world.file).parent_path().string();
   setup.options.way = "chip";
   setup.robot = a.robot;

@@ -8,8 +8,6 @@
 #include <iostream>
 
 #include "hal_sim/twin/twin.h"
-#include "hal_sim/twin/world_file.h"
-#include "sim_core/load/world_loader.h"
 #include "tools/command_line.h"
 #include "tools/curve_report.h"
 #include "tools/sensor_report.h"
@@ -115,20 +113,15 @@ int show_reading(const InspectArguments& a, const SensorReport& report, const si
 
 int inspect_world(const InspectArguments& a) {
   std::vector<std::string> problems;
-  const std::string file = find_world(a.world, problems);
-  if (file.empty()) {
+  std::optional<sim::WorldDesc> opened = open_world(a.world, problems);
+  if (!opened) {
     complain(problems);
     return kBadInput;
   }
-  sim::LoadedWorld loaded = twin::load_world(file);
-  if (!loaded.world) {
-    complain({loaded.report(file)});
-    return kBadInput;
-  }
-  sim::WorldDesc& world = *loaded.world;
+  sim::WorldDesc& world = *opened;
   if (a.seed >= 0) world.seed = static_cast<std::uint64_t>(a.seed);
   if (world.robots.empty())
-    return wrong(file + ": inspect: got a world without robots, expected one or more");
+    return wrong(world.file + ": inspect: got a world without robots, expected one or more");
   int robot = a.robot.empty() ? 0 : -1;
   std::vector<std::string> names;
   for (std::size_t i = 0; i < world.robots.size(); ++i) {
@@ -148,7 +141,7 @@ int inspect_world(const InspectArguments& a) {
   if (a.sensor < 0 && (!a.picture.empty() || !a.plot.empty() || !a.profile.empty()))
     return wrong(fmt::format("--sensor: got none, expected 0 to {} for a picture or a curve", sensors - 1));
   twin::Options options;
-  options.world_folder = fs::path(file).parent_path().string();
+  options.world_folder = fs::path(world.file).parent_path().string();
   options.tell = [](const std::string& line) { std::cerr << line << '\n'; };
   if (a.at_s == 0)
     for (sim::RobotDesc& r : world.robots) r.firmware.clear();  // nothing runs: no need to build anything

@@ -170,7 +170,13 @@ void SourceLines::run(const std::vector<Line>& lines, const std::string& file) {
       ended_ = true;
       break;
     }
-    const Statement s = parse(lines[at], file);
+    Statement s = parse(lines[at], file);
+    if (!s.labels.empty() && !is_skipping()) {  // they stand before whatever follows, a block too
+      Statement labels = s;
+      labels.name.clear();
+      listener_.statement(labels);
+      s.labels.clear();
+    }
     if (conditional(s) || open_block(s, lines, at) || is_skipping()) continue;
     const auto macro = macros_.find(s.name);
     if (s.name == ".end") {
@@ -178,14 +184,9 @@ void SourceLines::run(const std::vector<Line>& lines, const std::string& file) {
     } else if (s.name == ".include") {
       include(s);
     } else if (macro != macros_.end()) {
-      if (!s.labels.empty()) {
-        Statement labels = s;
-        labels.name.clear();
-        listener_.statement(labels);
-      }
       const Macro body = macro->second;
       expand(body, s);
-    } else if (!s.name.empty() || !s.labels.empty()) {
+    } else if (!s.name.empty()) {
       listener_.statement(s);
     }
   }

@@ -394,6 +394,30 @@ __T1Interrupt: bclr IFS0, #T1IF
   EXPECT_LT(b.cpu->now(), 1030);
 }
 
+// --- the assembler
+// -------------------------------------------------------------------------------------------
+
+TEST(Assembler, labels_stand_before_blocks_as_before_instructions) {
+  CoreBench b(R"(
+__reset: mov #0, w0
+    bra two
+    mov #99, w0
+two: .rept 3
+    inc w0, w0
+    .endr
+    bra three
+three: .if 1
+    add w0, #4, w0
+    .endif
+    bra four
+four: .irp step, 8, 16
+    add #\step, w0
+    .endr
+end: bra end)");
+  ASSERT_TRUE(b.run_to("end"));
+  EXPECT_EQ(b.w(0), 3 + 4 + 8 + 16);
+}
+
 // --- self-programming -----------------------------------------------------------------------------------
 
 TEST(Flash, erases_writes_and_runs_what_was_written) {
