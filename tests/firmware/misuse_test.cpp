@@ -84,6 +84,17 @@ int main(void) { e_init_port(); e_activate_agenda(tick, 320);
       << r.diagnoses_text();
 }
 
+// what looks for writers in the sources must not overflow the stack
+TEST_F(Misuse, an_endless_wait_beside_a_line_without_end_is_told) {
+  Robot& r = add_robot_with_source(std::string(kHead) + "volatile int due[2]; void set(void) { due[0" +
+                                   std::string(300000, ' ') + R"(] = 1; }
+int main(void) { e_init_port();
+  while (due[0] == 0) ;
+  set(); while (1); })");
+  run_for(0.1);
+  EXPECT_NE(r.diagnoses_text().find("waits here for `due`"), std::string::npos) << r.diagnoses_text();
+}
+
 TEST_F(Misuse, an_agenda_without_a_period_is_told_unless_it_gets_one) {
   Robot& r = add_robot_with_source(std::string(kHead) + R"(
 void other(void) { calls++; }
