@@ -71,13 +71,6 @@ bool measure(const CyclesArguments& a, const std::string& image, const Budgets& 
   return true;
 }
 
-bool is_library(const std::string& place) {
-  const std::string from_top = from_here(place);
-  for (const char* room : {"hal_dspic/", "hal_sim/", "firmware/library/", "firmware/webots/"})
-    if (from_top.rfind(room, 0) == 0) return true;
-  return place.empty();
-}
-
 /// "_T2Interrupt (interrupt)"
 bool is_handler(const std::string& name) {
   return name[0] == '_' && name.size() > 9 && name.compare(name.size() - 9, 9, "Interrupt") == 0;
@@ -122,7 +115,7 @@ void show_exact(const CyclesArguments& a, const chip::ProfileReport& report) {
       "calls");
   int of_library = 0;
   for (const auto& f : report.functions) {
-    if (is_library(f.place) && !a.with_library) {
+    if (is_library_place(from_here(f.place)) && !a.with_library) {
       ++of_library;
       continue;
     }

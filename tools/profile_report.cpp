@@ -28,17 +28,17 @@ std::string in_microseconds(const chip::Spread& s) {
                      us(static_cast<double>(s.max)));
 }
 
-bool comes_from_library(const std::string& place) {
-  for (const char* room : {"hal_dspic/", "hal_sim/", "firmware/library/", "firmware/webots/"})
-    if (place.rfind(room, 0) == 0) return true;
-  return place.empty();
-}
-
 nlohmann::ordered_json json_of(const chip::Spread& s) {
   return {{"count", s.count}, {"min", s.min}, {"mean", s.mean()}, {"max", s.max}, {"max_at_cycle", s.max_at}};
 }
 
 }  // namespace
+
+bool is_library_place(const std::string& place) {
+  for (const char* room : {"hal_dspic/", "hal_sim/", "firmware/library/", "firmware/webots/"})
+    if (place.rfind(room, 0) == 0) return true;
+  return place.empty();
+}
 
 std::string from_here(const std::string& path) {
   for (const std::string& folder : {std::filesystem::current_path().string(), twin::project_root()})
@@ -97,7 +97,7 @@ std::string to_text(const std::string& robot, const chip::ProfileReport& r) {
   std::size_t of_library = 0;
   for (const auto& f : r.functions) {
     const std::string place = from_here(f.place);
-    if (comes_from_library(place) && ++of_library > kMostOfLibrary) continue;
+    if (is_library_place(place) && ++of_library > kMostOfLibrary) continue;
     const std::string name = f.name + (f.is_agenda ? " (agenda)" : "");
     const std::string load = fmt::format("{:.2f}%", share(f.own, r));
     if (f.cycles.count == 0)

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "sim_core/base/input_file.h"
+#include "sim_core/load/world_loader.h"
 #include "tools/command_line.h"
 #include "tools/run_guard.h"
 #include "tools/verbs.h"
@@ -18,7 +19,6 @@ namespace tools {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::size_t kLongestWorld = 8u << 20;  // bytes
 constexpr auto kLook = std::chrono::milliseconds(50);
 
 struct ViewArguments {
@@ -33,7 +33,7 @@ int view(const ViewArguments& a) {
   viewer::Opening opening;
   opening.file = find_world(a.world, problems);
   const std::string wrong =
-      problems.empty() ? sim::read_input_file(opening.file, kLongestWorld, opening.text) : "";
+      problems.empty() ? sim::read_input_file(opening.file, sim::kLongestWorld, opening.text) : "";
   if (!wrong.empty()) problems.push_back(opening.file + ": " + wrong);
   if (!problems.empty() || !split_choices(a.firmware, "--fw", opening.options.firmware)) {
     complain(problems);

@@ -9,6 +9,7 @@
 
 #include "sim_core/base/input_file.h"
 #include "sim_core/base/output_file.h"
+#include "sim_core/load/world_loader.h"
 #include "viewer/base64.h"
 #include "viewer/events.h"
 #include "viewer/frame.h"
@@ -29,7 +30,7 @@ constexpr std::size_t kMostSources = 1u << 20;  // bytes
 constexpr std::size_t kMostLooked = 1u << 20;   // bytes
 constexpr sim::Clicks kLookEvery = sim::kClicksPerSecond / 10;
 constexpr std::size_t kMostTraced = 40000;  // spans and changes of the time line
-constexpr std::size_t kLongestWorld = 16u << 20, kLongestPage = 16u << 20;
+constexpr std::size_t kLongestPage = 16u << 20;
 
 // coils and steps would fill it
 const std::vector<std::string> kSignals{"LED0", "LED1",     "LED2",      "LED3",     "LED4", "LED5", "LED6",
@@ -181,7 +182,7 @@ std::string Report::finish(const std::string& summary) {
   sim::LoadedWorld loaded;
   loaded.world = twin_.world();
   std::string text;
-  sim::read_input_file(twin_.world().file, kLongestWorld, text);  // a world without a file has no text
+  sim::read_input_file(twin_.world().file, sim::kLongestWorld, text);  // a world without a file has no text
   const Json piece{{"hello",
                     {{"event", "hello"},
                      {"you", 0},

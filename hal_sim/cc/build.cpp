@@ -21,8 +21,8 @@
 #include "library_objects.h"
 #include "link_messages.h"
 #include "object_cache.h"
-#include "pattern.h"
 #include "program_files.h"
+#include "sim_core/base/pattern.h"
 #include "timer_owners.h"
 
 namespace cc {
@@ -41,7 +41,7 @@ constexpr const char* kVendorHeaders = "-I/twinpuck-vendor";
 
 /// Whether a program takes the address of a register anywhere: then its files may pass it on.
 bool takes_register_addresses(const std::vector<fs::path>& sources, const std::vector<fs::path>& headers) {
-  static const Pattern kAddress(
+  static const sim::Pattern kAddress(
       R"([=(,{\[?:)]\s*&\s*(ADC|PORT|LAT|TRIS|TMR|PR\d|T\dCON|IFS|IEC|IPC|INTCON|U[12]|I2C|DCI|TSCON|RSCON|[RT]XBUF|SPI|OC\d|IC\d|RCON|CN)[A-Z0-9]*(bits)?\b)");
   for (const auto* list : {&sources, &headers})
     for (const auto& file : *list)
@@ -52,7 +52,8 @@ bool takes_register_addresses(const std::vector<fs::path>& sources, const std::v
 /// Sources of a program for Webots, which compiles the file with the controller's name alone: not those that
 /// another one includes as text, and not further programs that lie beside it.
 std::vector<fs::path> webots_sources(const fs::path& folder, const std::vector<fs::path>& sources) {
-  static const Pattern kInclude(R"(#\s*include\s*"([^"]+\.(?:c|cpp|cc|cxx))\")"), kMain(R"(\bmain\s*\()");
+  static const sim::Pattern kInclude(R"(#\s*include\s*"([^"]+\.(?:c|cpp|cc|cxx))\")"),
+      kMain(R"(\bmain\s*\()");
   const std::string own = fs::weakly_canonical(folder).filename().string();
   std::set<fs::path> left_out;
   bool has_own_main = false;
@@ -216,7 +217,7 @@ void check_room(const fs::path& image, const fs::path& folder, BuildResult& resu
 void tell_of_assembler(const Program& program, const std::vector<CompileOutcome>& user, BuildResult& result) {
   for (const fs::path& file : program.assembler)
     for (const std::string& name : functions_in_assembler(file)) {
-      static const Pattern kHandler("_\\w+Interrupt");
+      static const sim::Pattern kHandler("_\\w+Interrupt");
       if (!std::regex_match(name, kHandler) || is_library_assembler(file)) continue;
       const bool is_in_c = std::any_of(user.begin(), user.end(), [&](const CompileOutcome& o) {
         const auto symbols = read_elf(o.object).symbols;

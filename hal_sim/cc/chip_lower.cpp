@@ -16,19 +16,10 @@ using namespace llvm;
 
 namespace {
 
-/// Words given by #pragma config, as _FOSC() and _FWDT() of the device header make them.
-void place_configuration(Unit& unit) {
-  Module& m = unit.module;
-  for (const auto& [word, value] : unit.facts.configuration) {
-    const std::string name = "tp_config_" + word;
-    if (m.getNamedGlobal(name)) continue;
-    auto* type = Type::getInt16Ty(m.getContext());
-    auto* g =
-        new GlobalVariable(m, type, true, GlobalValue::WeakAnyLinkage, ConstantInt::get(type, value), name);
-    g->setSection(word == "fosc" ? ".config@F80000" : ".config@F80002");
-    g->setAlignment(Align(2));
-    appendToUsed(m, {g});
-  }
+void place_configuration(GlobalVariable& g, StringRef word) {
+  g.setSection(word == "fosc" ? ".config@F80000" : ".config@F80002");
+  g.setAlignment(Align(2));
+  appendToUsed(*g.getParent(), {&g});
 }
 
 /// Registers are globals named tp_sfr_XXXX in C (XXXX: the address); here they are the addresses.
@@ -276,7 +267,7 @@ bool lower_for_chip(Unit& unit) {
   Module& m = unit.module;
   take_notes(m);
   place_registers(m);
-  place_configuration(unit);
+  define_configuration(unit, place_configuration);
   define_initializers(m);
   simplify_fields(m);
   mend_calls(m);

@@ -8,7 +8,7 @@
 #include "build_record.h"
 #include "library_copies.h"
 #include "object_cache.h"
-#include "pattern.h"
+#include "sim_core/base/pattern.h"
 
 namespace cc {
 namespace fs = std::filesystem;
@@ -64,10 +64,10 @@ std::set<std::string> functions_of(const DriverForm& form, const fs::path& inclu
   fs::path header = include_root / form.header;
   look_at(header);
   if (!fs::exists(header)) {
-    static const Pattern kTimer("_timer[23]\\.h$");
+    static const sim::Pattern kTimer("_timer[23]\\.h$");
     header = std::regex_replace(header.string(), kTimer, ".h");
   }
-  static const Pattern kFunction(R"(\b(e_\w+)\s*\()");
+  static const sim::Pattern kFunction(R"(\b(e_\w+)\s*\()");
   const std::string text = without_comments(read_text(header));
   std::set<std::string> names;
   for (std::sregex_iterator it(text.begin(), text.end(), kFunction), end; it != end; ++it)
@@ -83,7 +83,7 @@ std::set<std::string> functions_of(const Driver& driver, const fs::path& include
 
 /// Headers of a form that the texts include, by the trailing part of the path.
 bool is_included(const DriverForm& form, const std::vector<std::string>& texts) {
-  static const Pattern kInclude(R"(#[ \t]*include[ \t]*[<"]([^>"\n]+)[>"])");
+  static const sim::Pattern kInclude(R"(#[ \t]*include[ \t]*[<"]([^>"\n]+)[>"])");
   const std::string tail = std::string("/") + form.header;
   for (const std::string& text : texts)
     for (std::sregex_iterator it(text.begin(), text.end(), kInclude), end; it != end; ++it) {

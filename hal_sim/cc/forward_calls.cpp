@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "forward_calls.h"
-#include "pattern.h"
+#include "sim_core/base/pattern.h"
 
 #include <set>
 
@@ -28,20 +28,20 @@ std::string without_comments(const std::string& source) {
 
 std::string forward_declarations(const std::string& messages, const std::string& source) {
   std::set<std::string> names;
-  const Pattern conflict("error: conflicting types for '(\\w+)'");
+  const sim::Pattern conflict("error: conflicting types for '(\\w+)'");
   for (std::sregex_iterator it(messages.begin(), messages.end(), conflict), end; it != end; ++it)
     names.insert((*it)[1]);
   if (names.empty()) return "";
   const std::string text = without_comments(source);
   std::string declarations;
   for (const std::string& name : names) {
-    const Pattern definition(
+    const sim::Pattern definition(
         "(?:^|[;}\\n])\\s*((?:(?:void|char|short|int|long|unsigned|signed|float|double)\\b[\\s*]*)+)" + name +
         "\\s*\\(([^;{}()]*)\\)\\s*\\{");
     // parameters narrower than an int agree with a full prototype only
-    static const Pattern narrow(
+    static const sim::Pattern narrow(
         R"(\s*((void|char|short|int|long|unsigned|signed|float|double)\b[\s*]*)+\w*\s*(,\s*((void|char|short|int|long|unsigned|signed|float|double)\b[\s*]*)+\w*\s*)*)");
-    static const Pattern short_parameter(R"(\b(char|short|float)\b[^*,]*(,|$))");
+    static const sim::Pattern short_parameter(R"(\b(char|short|float)\b[^*,]*(,|$))");
     std::smatch found;
     if (!std::regex_search(text, found, definition)) continue;
     const std::string parameters = found[2].str();

@@ -8,7 +8,7 @@
 #include <tuple>
 
 #include "object_cache.h"
-#include "pattern.h"
+#include "sim_core/base/pattern.h"
 
 namespace cc {
 namespace fs = std::filesystem;
@@ -92,13 +92,13 @@ bool has_library_name(const std::string& name) {
 }
 
 const std::regex& camera_files() {
-  static const Pattern kCamera(R"(e_(calc|registers|timers|common|po\d+[kd]_registers|calc_po\w+)\.c)");
+  static const sim::Pattern kCamera(R"(e_(calc|registers|timers|common|po\d+[kd]_registers|calc_po\w+)\.c)");
   return kCamera;
 }
 
 /// Whether a file speaks of the camera's sensor, whatever its name.
 bool speaks_of_camera(const std::string& text) {
-  static const Pattern kCameraText(R"(po(3030k|6030k|8030d|xxxx))", std::regex::icase);
+  static const sim::Pattern kCameraText(R"(po(3030k|6030k|8030d|xxxx))", std::regex::icase);
   return std::regex_search(text, kCameraText);
 }
 
@@ -133,14 +133,15 @@ void leave_out_half_drivers(const fs::path& project, const std::set<fs::path>& u
     for (const auto& [source, folder] : folders) {
       if (folder != half.folder) continue;
       is_there = true;
-      const Pattern definition(std::string(half.handler) + R"(\s*\([^;{}]*\)\s*\{)");
+      const sim::Pattern definition(std::string(half.handler) + R"(\s*\([^;{}]*\)\s*\{)");
       is_whole = is_whole || std::regex_search(without_comments(read_text(source)), definition);
     }
     // a handler of the program's own is the other half, too
     for (const fs::path& source : split.kept)
-      is_whole = is_whole || (is_there && std::regex_search(
-                                              without_comments(read_text(source)),
-                                              Pattern(std::string(half.handler) + R"(\s*\([^;{}]*\)\s*\{)")));
+      is_whole =
+          is_whole ||
+          (is_there && std::regex_search(without_comments(read_text(source)),
+                                         sim::Pattern(std::string(half.handler) + R"(\s*\([^;{}]*\)\s*\{)")));
     if (is_there && !is_whole) ours.insert(half.folder);
   }
   // the slow driver stays where the project lists it alone, or the program asks for it by its folder's name
@@ -164,7 +165,7 @@ void leave_out_half_drivers(const fs::path& project, const std::set<fs::path>& u
 /// Whether a flat copy does what only the chip can: see limits.md, "The processor".
 bool needs_the_chip(const std::string& name, const std::string& text) {
   if (std::regex_match(name, camera_files()) && speaks_of_camera(text)) return true;
-  static const Pattern kChip(
+  static const sim::Pattern kChip(
       R"(\b(ADCON[1-3]|ADCHS|ADCSSL|ADCBUF[0-9A-F]|DCICON[1-3]|TSCON|RSCON|RXBUF[0-3]|TXBUF[0-3]|)"
       R"(I2C(CON|STAT|TRN|RCV|BRG)|U[12](MODE|STA|BRG|TXREG|RXREG)|SPI[12](STAT|CON|BUF))(bits)?\b|)"
       R"(\b__builtin_(tbl|psv)|\b(asm|__asm__)\s*(volatile\s*)?\(\s*"\s*(?!nop|reset|clrwdt|pwrsav|disi))",
@@ -175,7 +176,7 @@ bool needs_the_chip(const std::string& name, const std::string& text) {
 }  // namespace
 
 std::string without_comments(const std::string& text) {
-  static const Pattern kComment(R"(/\*[^*]*\*+(?:[^/*][^*]*\*+)*/|//[^\n]*)");
+  static const sim::Pattern kComment(R"(/\*[^*]*\*+(?:[^/*][^*]*\*+)*/|//[^\n]*)");
   return std::regex_replace(text, kComment, " ");
 }
 
@@ -216,7 +217,7 @@ LibraryCopies find_library_members(const fs::path& project, const std::vector<fs
   for (const fs::path& source : sources)
     (has_library_name(lower(source.filename().string())) ? split.replaced : split.kept).push_back(source);
   // a project that has nothing of its own is no project of copies
-  static const Pattern kMain(R"(\bmain\s*\()");
+  static const sim::Pattern kMain(R"(\bmain\s*\()");
   for (std::size_t i = 0; i < split.replaced.size();) {
     if (std::regex_search(without_comments(read_text(split.replaced[i])), kMain)) {
       split.kept.push_back(split.replaced[i]);
@@ -227,7 +228,7 @@ LibraryCopies find_library_members(const fs::path& project, const std::vector<fs
   }
   leave_out_half_drivers(project, unlisted, split);
   std::set<std::string> included;  // last two parts of every #include: "a_d/e_prox.h", "e_led.h"
-  static const Pattern kInclude(R"(#\s*include\s*[<"]([^>"]+)[>"])");
+  static const sim::Pattern kInclude(R"(#\s*include\s*[<"]([^>"]+)[>"])");
   for (const fs::path& source : split.kept) {
     const std::string text = without_comments(read_text(source));
     for (std::sregex_iterator it(text.begin(), text.end(), kInclude), end; it != end; ++it) {
@@ -251,14 +252,14 @@ LibraryCopies find_library_members(const fs::path& project, const std::vector<fs
 }
 
 bool is_library_assembler(const fs::path& file) {
-  static const Pattern kNames(
+  static const sim::Pattern kNames(
       R"((e_(interrupt|isr_dci|init_codec_slave|init_dci_master|sub_dci_kickoff|const_sound|init_uart[12]|)"
       R"(uart[12]_[rt]x_char\w*|fast_copy|subtract_mean)|dataeeprom)\.s)");
   return std::regex_match(lower(file.filename().string()), kNames);
 }
 
 std::vector<std::string> functions_in_assembler(const fs::path& file) {
-  static const Pattern kGlobal(R"((^|\n)[ \t]*\.glob(a)?l[ \t]+_(\w+))");
+  static const sim::Pattern kGlobal(R"((^|\n)[ \t]*\.glob(a)?l[ \t]+_(\w+))");
   const std::string text = read_text(file);
   std::vector<std::string> names;
   for (std::sregex_iterator it(text.begin(), text.end(), kGlobal), end; it != end; ++it)

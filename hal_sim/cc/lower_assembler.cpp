@@ -19,7 +19,7 @@
 #include "llvm/IR/InlineAsm.h"
 #include "llvm/IR/InstIterator.h"
 #include "passes.h"
-#include "pattern.h"
+#include "sim_core/base/pattern.h"
 
 namespace cc {
 namespace {
@@ -92,8 +92,8 @@ struct Operand {
 };
 
 Operand operand_of(Unit& unit, StringRef text) {
-  static const Pattern kWorking(R"(w(1[0-4]|[0-9]))", std::regex::icase);
-  static const Pattern kName(R"([A-Za-z_]\w*)");
+  static const sim::Pattern kWorking(R"(w(1[0-4]|[0-9]))", std::regex::icase);
+  static const sim::Pattern kName(R"([A-Za-z_]\w*)");
   text = text.trim();
   Operand operand;
   std::smatch match;
@@ -188,7 +188,7 @@ bool lower_move(Unit& unit, IRBuilder<>& b, StringRef text, Registers& w_registe
 
 /// Loads, changes and stores one byte or word.
 bool lower_in_place(Unit& unit, IRBuilder<>& b, const std::string& text) {
-  static const Pattern kForm(
+  static const sim::Pattern kForm(
       R"((clr|setm|inc|inc2|dec|dec2|com|neg|bset|bclr|btg)(\.b|\.w)?\s+([a-z_]\w*)\s*(?:\+\s*(\d+))?\s*(?:,\s*#\s*(0x[0-9a-f]+|\d+|[a-z]+))?)",
       std::regex::icase);
   std::smatch match;
@@ -241,10 +241,10 @@ bool lower_statement(Unit& unit, IRBuilder<>& b, StringRef text, Registers& w_re
   Type* none = b.getVoidTy();
   std::string lower = text.lower();
   std::smatch match;
-  static const Pattern kDisi(R"(disi\s+#\s*(0x[0-9a-f]+|[0-9]+))");
-  static const Pattern kRepeat(R"(repeat\s+#\s*(0x[0-9a-f]+|[0-9]+))");
-  static const Pattern kBreak(R"(\.pword\s+0xda4000)");  // of a debugger; nothing without one
-  static const Pattern kPwrsav(R"(pwrsav\s+#\s*(0|1|0x0|0x1|sleep_mode|idle_mode))");
+  static const sim::Pattern kDisi(R"(disi\s+#\s*(0x[0-9a-f]+|[0-9]+))");
+  static const sim::Pattern kRepeat(R"(repeat\s+#\s*(0x[0-9a-f]+|[0-9]+))");
+  static const sim::Pattern kBreak(R"(\.pword\s+0xda4000)");  // of a debugger; nothing without one
+  static const sim::Pattern kPwrsav(R"(pwrsav\s+#\s*(0|1|0x0|0x1|sleep_mode|idle_mode))");
   if (lower == "nop" || std::regex_match(lower, kBreak)) {
     b.CreateCall(marker(m, kNop));
   } else if (lower == "reset") {

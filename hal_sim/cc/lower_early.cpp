@@ -268,19 +268,18 @@ void restore_library_calls(Unit& unit) {
 /// A whole variable, local or global.
 bool is_variable(const Value* pointer) { return isa<AllocaInst>(pointer) || isa<GlobalVariable>(pointer); }
 
-/// What _FOSC() and _FWDT() of the device header make, for words given by #pragma config.
-void define_configuration(Unit& unit) {
+}  // namespace
+
+void define_configuration(Unit& unit, function_ref<void(GlobalVariable&, StringRef)> dress) {
   for (const auto& [word, value] : unit.facts.configuration) {
     const std::string name = "tp_config_" + word;
     if (unit.module.getNamedGlobal(name)) continue;
     Type* type = Type::getInt16Ty(unit.module.getContext());
-    auto* g = new GlobalVariable(unit.module, type, true, GlobalValue::WeakAnyLinkage,
-                                 ConstantInt::get(type, value), name);
-    g->setVisibility(GlobalValue::HiddenVisibility);
+    dress(*new GlobalVariable(unit.module, type, true, GlobalValue::WeakAnyLinkage,
+                              ConstantInt::get(type, value), name),
+          word);
   }
 }
-
-}  // namespace
 
 void keep_empty_loops(Module& m, Function& mark) {
   for (Function& f : m) {
@@ -322,7 +321,8 @@ void lower_early(Unit& unit) {
   }
   lower_assembler(unit);
   refuse_functions(unit);
-  define_configuration(unit);
+  define_configuration(unit,
+                       [](GlobalVariable& g, StringRef) { g.setVisibility(GlobalValue::HiddenVisibility); });
   drop_sections(unit);
   define_shifts(unit);
   define_conversions(unit);

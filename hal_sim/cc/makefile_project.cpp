@@ -10,7 +10,7 @@
 #include "build_record.h"
 #include "library_copies.h"
 #include "object_cache.h"
-#include "pattern.h"
+#include "sim_core/base/pattern.h"
 
 namespace cc {
 namespace fs = std::filesystem;
@@ -52,8 +52,8 @@ class Makefile {
     std::error_code ec;
     look_at(file);
     if (!fs::is_regular_file(file, ec) || !read_.insert(fs::canonical(file, ec)).second) return;
-    static const Pattern kAssignment(R"(^\s*(?:export\s+|override\s+)?([\w.-]+)\s*([:?+]?:?=)\s*(.*)$)");
-    static const Pattern kContinued(R"(\\\r?\n[ \t]*)"), kComment(R"((^|[^\\])#.*$)");
+    static const sim::Pattern kAssignment(R"(^\s*(?:export\s+|override\s+)?([\w.-]+)\s*([:?+]?:?=)\s*(.*)$)");
+    static const sim::Pattern kContinued(R"(\\\r?\n[ \t]*)"), kComment(R"((^|[^\\])#.*$)");
     std::istringstream lines(std::regex_replace(read_text(file), kContinued, " "));
     for (std::string line; std::getline(lines, line);) {
       if (!line.empty() && line[0] == '\t' && line.find('=') == std::string::npos) continue;  // of a recipe
@@ -100,7 +100,7 @@ class Makefile {
   /// What stands between $( and ).
   std::string reference(const std::string& inside, int depth) const {
     if (inside.rfind("wildcard ", 0) == 0) return wildcard(expand(inside.substr(9), depth + 1));
-    static const Pattern kReplaced(R"(^([\w.-]+):(%?)(\.\w+)=(%?)(\.\w+)$)");
+    static const sim::Pattern kReplaced(R"(^([\w.-]+):(%?)(\.\w+)=(%?)(\.\w+)$)");
     std::smatch m;
     if (!std::regex_match(inside, m, kReplaced)) return expand(raw(inside), depth + 1);
     std::string out;
@@ -124,7 +124,7 @@ class Makefile {
         form += c == '*'                                      ? std::string(".*")
                 : std::isalnum(static_cast<unsigned char>(c)) ? std::string(1, c)
                                                               : std::string("\\") + c;
-      const Pattern matches(form);
+      const sim::Pattern matches(form);
       std::vector<std::string> names;
       std::error_code ec;
       look_at(home_ / folder);
@@ -163,9 +163,10 @@ std::optional<MplabProject> read_makefile(const fs::path& folder) {
     if (const fs::path found = resolve_path(home, name).lexically_normal();
         fs::is_directory(found, ec) && std::find(places.begin(), places.end(), found) == places.end())
       places.push_back(found);
-  static const Pattern kSources(R"((C_?)?(SRCS?|SOURCES?)(_C|_FILES)?|\w*OBJ(S|ECTS)?)", std::regex::icase);
-  static const Pattern kOptions(R"(\w*(C(PP)?FLAGS|INCLUDES?|INC|DEFS|DEFINES)\w*)", std::regex::icase);
-  static const Pattern kFolders("INC_?DIRS?|INCLUDE_?DIRS?", std::regex::icase);  // without -I
+  static const sim::Pattern kSources(R"((C_?)?(SRCS?|SOURCES?)(_C|_FILES)?|\w*OBJ(S|ECTS)?)",
+                                     std::regex::icase);
+  static const sim::Pattern kOptions(R"(\w*(C(PP)?FLAGS|INCLUDES?|INC|DEFS|DEFINES)\w*)", std::regex::icase);
+  static const sim::Pattern kFolders("INC_?DIRS?|INCLUDE_?DIRS?", std::regex::icase);  // without -I
   std::string options;
   std::set<std::string> words;  // of all lists of sources
   for (const auto& [name, raw] : makefile.variables()) {

@@ -9,7 +9,7 @@
 #include "build_record.h"
 #include "library_copies.h"
 #include "object_cache.h"
-#include "pattern.h"
+#include "sim_core/base/pattern.h"
 
 namespace cc {
 namespace fs = std::filesystem;
@@ -73,11 +73,11 @@ std::string without_entities(std::string text) {
 
 Listed read_configurations(const std::string& text) {
   Listed listed;
-  static const Pattern kItem(R"(<itemPath>([^<]+)</itemPath>)");
-  static const Pattern kExcluded(R"re(<item path="([^"]+)" ex="true")re");
-  static const Pattern kInclude(R"re(key="(extra|common)-include-directories"\s+value="([^"]*)")re");
-  static const Pattern kMacros(R"re(key="preprocessor-macros"\s+value="([^"]*)")re");
-  static const Pattern kMore(R"re(<appendMe\s+value="([^"]*)")re");
+  static const sim::Pattern kItem(R"(<itemPath>([^<]+)</itemPath>)");
+  static const sim::Pattern kExcluded(R"re(<item path="([^"]+)" ex="true")re");
+  static const sim::Pattern kInclude(R"re(key="(extra|common)-include-directories"\s+value="([^"]*)")re");
+  static const sim::Pattern kMacros(R"re(key="preprocessor-macros"\s+value="([^"]*)")re");
+  static const sim::Pattern kMore(R"re(<appendMe\s+value="([^"]*)")re");
   std::vector<std::string> excluded;
   for (std::sregex_iterator it(text.begin(), text.end(), kExcluded), end; it != end; ++it)
     excluded.push_back((*it)[1]);
@@ -196,7 +196,7 @@ CompilerOptions compiler_options(const std::string& command_line) {
 }
 
 bool defines_main(const fs::path& source) {
-  static const Pattern kMain(R"(\bmain\s*\([^;{)]*\)\s*\{)");
+  static const sim::Pattern kMain(R"(\bmain\s*\([^;{)]*\)\s*\{)");
   return std::regex_search(without_comments(read_text(source)), kMain);
 }
 

@@ -33,6 +33,9 @@ llvm::Function* marker(llvm::Module& m, const char* name);
 void lower_assembler(Unit& unit);
 /// A loop that only counts is a delay and must not vanish: each round calls `mark`.
 void keep_empty_loops(llvm::Module& m, llvm::Function& mark);
+/// What _FOSC() and _FWDT() of the device header make, for words given by #pragma config: each is handed to
+/// `dress`, with the word's name.
+void define_configuration(Unit& unit, llvm::function_ref<void(llvm::GlobalVariable&, llvm::StringRef)> dress);
 /// Refused functions, sections, wide shifts, float to int, division by zero.
 void lower_early(Unit& unit);
 /// The accesses whose register is plain already. Before the optimiser, so that it cannot choose between two

@@ -6,7 +6,7 @@
 #include "makefile_project.h"
 #include "mplab_project.h"
 #include "object_cache.h"
-#include "pattern.h"
+#include "sim_core/base/pattern.h"
 
 namespace cc {
 namespace fs = std::filesystem;
@@ -52,7 +52,7 @@ std::vector<fs::path> headers_below(const fs::path& folder) {
 }
 
 bool names_webots(const std::vector<fs::path>& sources, const std::vector<fs::path>& headers) {
-  static const Pattern kInclude(R"(#\s*include\s*[<"](webots|device)[/\\])");
+  static const sim::Pattern kInclude(R"(#\s*include\s*[<"](webots|device)[/\\])");
   for (const auto* list : {&sources, &headers})
     for (const auto& file : *list)
       if (std::regex_search(read_text(file), kInclude)) return true;

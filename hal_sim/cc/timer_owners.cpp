@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // See timer_owners.h. Owners as the library has them; a driver counts as used when its header is included.
 #include "timer_owners.h"
-#include "pattern.h"
+#include "sim_core/base/pattern.h"
 
 #include <algorithm>
 #include <map>
@@ -49,9 +49,9 @@ constexpr Owner kOwners[] = {
 
 std::vector<std::string> timer_conflicts(const std::vector<std::pair<std::string, std::string>>& texts,
                                          const std::map<std::string, std::string>& replaced_headers) {
-  static const Pattern kInclude(R"(^[ \t]*#[ \t]*include[ \t]*[<"]([^>"]+)[>"])", std::regex::multiline);
-  static const Pattern kHandler(R"(\bvoid\b[^;{}]*?\b_([A-Z0-9]+)Interrupt\s*\([^;{}]*\)[^;{}]*\{)");
-  static const Pattern kCall(R"(\b(e_[a-z0-9_]+)\s*\()");
+  static const sim::Pattern kInclude(R"(^[ \t]*#[ \t]*include[ \t]*[<"]([^>"]+)[>"])", std::regex::multiline);
+  static const sim::Pattern kHandler(R"(\bvoid\b[^;{}]*?\b_([A-Z0-9]+)Interrupt\s*\([^;{}]*\)[^;{}]*\{)");
+  static const sim::Pattern kCall(R"(\b(e_[a-z0-9_]+)\s*\()");
   std::map<std::string, std::map<std::string, std::string>> users;  // vector -> driver -> file
   for (const auto& [file, text] : texts) {
     for (std::sregex_iterator it(text.begin(), text.end(), kInclude), end; it != end; ++it) {

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <regex>
 #include <set>
 #include <sstream>
 
 #include "sim_core/base/input_file.h"
+#include "sim_core/base/pattern.h"
 
 namespace host {
 
@@ -18,14 +18,12 @@ namespace {
 
 constexpr std::size_t kLongestSource = 4u << 20;  // bytes
 constexpr std::size_t kMostSources = 200;
-// of a line: std::regex calls itself once a character and overflows the stack from 50,000 on
-constexpr std::size_t kLongestLine = 2000;
 
 std::vector<std::string> lines_of(const std::string& file) {
   std::string text, line;
   std::vector<std::string> lines;
   if (!sim::read_input_file(file, kLongestSource, text).empty()) return lines;
-  for (std::istringstream in(text); std::getline(in, line);) lines.push_back(line.substr(0, kLongestLine));
+  for (std::istringstream in(text); std::getline(in, line);) lines.push_back(line);
   return lines;
 }
 
@@ -65,7 +63,7 @@ std::vector<fs::path> sources_in(const fs::path& folder) {
 
 /// Is it given to the library's agendas, which timer 2 serves?
 bool is_agenda(const std::string& function, const fs::path& folder) {
-  const std::regex given("\\be_activate_agenda\\s*\\(\\s*&?\\s*" + function + "\\b");
+  const sim::Pattern given("\\be_activate_agenda\\s*\\(\\s*&?\\s*" + function + "\\b");
   for (const fs::path& file : sources_in(folder))
     for (const std::string& line : lines_of(file.string()))
       if (std::regex_search(line, given)) return true;
@@ -74,8 +72,8 @@ bool is_agenda(const std::string& function, const fs::path& folder) {
 
 /// Functions in whose text a variable is written, or its address taken.
 std::vector<Writer> writers_of(const std::string& variable, const fs::path& folder) {
-  const std::regex writes("(\\+\\+|--|(^|[^&])&)\\s*" + variable + "\\b|\\b" + variable +
-                          "\\b(\\s*(\\[[^\\]]*\\]|\\.\\w+))*\\s*(\\+\\+|--|(<<|>>|[-+*/%&|^])?=(?!=))");
+  const sim::Pattern writes("(\\+\\+|--|(^|[^&])&)\\s*" + variable + "\\b|\\b" + variable +
+                            "\\b(\\s*(\\[[^\\]]*\\]|\\.\\w+))*\\s*(\\+\\+|--|(<<|>>|[-+*/%&|^])?=(?!=))");
   std::vector<Writer> writers;
   for (const fs::path& file : sources_in(folder)) {
     std::string function;

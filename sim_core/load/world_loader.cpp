@@ -20,8 +20,7 @@
 namespace sim {
 namespace {
 
-constexpr std::size_t kLongestWorld = 8u << 20;  // bytes; ten thousand robots need a tenth of it
-constexpr std::size_t kMostProblems = 200;       // reported; more would help nobody
+constexpr std::size_t kMostProblems = 200;  // reported; more would help nobody
 
 constexpr std::size_t kLongestQuote = 60;  // characters of a value that a message repeats
 

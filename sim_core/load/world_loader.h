@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // World files in, checked WorldDescs out. All problems of a file are found in one go; nothing here throws.
 #pragma once
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -9,6 +10,8 @@
 #include "sim_core/world/world_desc.h"
 
 namespace sim {
+
+inline constexpr std::size_t kLongestWorld = 8u << 20;  // bytes; ten thousand robots need a tenth of it
 
 /// One thing that is wrong with a world file.
 struct WorldProblem {

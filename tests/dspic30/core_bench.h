@@ -11,6 +11,21 @@
 
 namespace bench {
 
+/// The macro `go OPERATION`: writes or erases flash as NVMCON says, with the unlocking sequence.
+inline const std::string kFlashMacro = R"(
+    .macro go operation
+    mov #\operation, w0
+    mov w0, NVMCON
+    mov #0x55, w0
+    mov w0, NVMKEY
+    mov #0xAA, w0
+    mov w0, NVMKEY
+    bset NVMCON, #WR
+    nop
+    nop
+    .endm
+)";
+
 struct CoreBench {
   /// `text` is assembled and programmed; the configuration words are those of `c`. `translates`: jumped to,
   /// code is translated at once.

@@ -7,6 +7,7 @@ namespace {
 
 using bench::CoreBench;
 using bench::Cycle;
+using bench::kFlashMacro;
 using dspic::Cause;
 
 /// Cycles from label `from` to label `to`.
@@ -421,19 +422,7 @@ end: bra end)");
 // --- self-programming -----------------------------------------------------------------------------------
 
 TEST(Flash, erases_writes_and_runs_what_was_written) {
-  CoreBench b(R"(
-    .macro go operation
-    mov #\operation, w0
-    mov w0, NVMCON
-    mov #0x55, w0
-    mov w0, NVMKEY
-    mov #0xAA, w0
-    mov w0, NVMKEY
-    bset NVMCON, #WR
-    nop
-    nop
-    .endm
-__reset: rcall routine      ; gives 1
+  CoreBench b(kFlashMacro + R"(__reset: rcall routine      ; gives 1
     mov w5, w6
     clr TBLPAG
     mov #routine, w1

@@ -9,6 +9,7 @@ namespace {
 
 using bench::CoreBench;
 using bench::Cycle;
+using bench::kFlashMacro;
 using dspic::Insn;
 using dspic::Operand;
 
@@ -149,19 +150,7 @@ TEST(Translation, random_programs_run_alike) {
 
 // a routine runs translated, is written anew by the program, and runs as it is now
 TEST(Translation, self_written_code_is_translated_anew) {
-  CoreBench b(R"(
-    .macro go operation
-    mov #\operation, w0
-    mov w0, NVMCON
-    mov #0x55, w0
-    mov w0, NVMKEY
-    mov #0xAA, w0
-    mov w0, NVMKEY
-    bset NVMCON, #WR
-    nop
-    nop
-    .endm
-__reset: clr w9
+  CoreBench b(kFlashMacro + R"(__reset: clr w9
     mov #50, w10
 1:  rcall routine
     add w9, w5, w9

@@ -6,11 +6,11 @@
 #include <regex>
 #include <string>
 
-namespace cc {
+namespace sim {
 
 struct Pattern : std::regex {
   explicit Pattern(const std::string& form, flag_type more = {})
       : std::regex(form, std::regex::ECMAScript | std::regex_constants::__polynomial | more) {}
 };
 
-}  // namespace cc
+}  // namespace sim
