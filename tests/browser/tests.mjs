@@ -232,7 +232,8 @@ export const tests = {
     await steps(page, 5);
     await ask(page, "(app) => app.select(app.world.robots[0].id)");
     await page.keyboard.press("Control+d");
-    // the run has begun: it asks first
+    // the run has begun: it asks first, once the simulation has said why
+    await page.waitForSelector("#leave");
     assert.match(await page.textContent("#question"), /robots come and go only when a run begins/);
     await page.click("#leave");
     assert.equal(await ask(page, "(app) => app.world.robots.length"), 1);
