@@ -346,19 +346,23 @@ IrConversion Board::ir_conversion(int sensor, Cycle at, Cycle lit_for) const {
     c.offset_counts = setup_.ir_offset_counts[i];
     // the phototransistor follows the flash with one time constant; after 300 us nothing is missing
     if (lit_for < 40 * kIrSettleCycles) {
-      if (lit_for != settled_for_) {
-        settled_for_ = lit_for;
-        settled_share_ = 1.0 - std::exp(-static_cast<double>(lit_for) / static_cast<double>(kIrSettleCycles));
-      }
-      c.settled = settled_share_;
+      Settled& kept = settled_[i / 4 % settled_.size()];
+      if (lit_for != kept.lit_for)
+        kept = {lit_for,
+                1.0 - std::exp(-static_cast<double>(lit_for) / static_cast<double>(kIrSettleCycles))};
+      c.settled = kept.share;
     }
   }
   return c;
 }
 
+bool Board::is_dark() const {
+  return setup_.ambient_noise_counts == 0 && !(scene_ && sim::has_light(*scene_));
+}
+
 int Board::ir_counts(int sensor, Cycle at, Cycle lit_for) const {
   const bool lit = lit_for >= 0;
-  if (!lit && setup_.ambient_noise_counts == 0 && !(scene_ && sim::has_light(*scene_))) return kAdcMax;
+  if (!lit && is_dark()) return kAdcMax;
   const IrConversion c = ir_conversion(sensor, at, lit_for);
   double light = c.light_counts, reflection = c.reflection_counts;
   if (c.relative_noise > 0 && setup_.ir_noise_scale > 0) {

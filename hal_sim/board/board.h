@@ -233,6 +233,8 @@ class Board {
   /// Counts of a proximity sensor's phototransistor that is held at `at`, its emitter having been on for
   /// `lit_for` cycles (negative: off). Noise of this and of the other inputs: noise.h.
   int ir_counts(int sensor, Cycle at, Cycle lit_for) const;
+  /// Is every dark sample at the converter's top: no light, no noise?
+  bool is_dark() const;
   /// Counts of microphone 0 right, 1 left, 2 back that is held at `at`: 0 to 4095. Linear, all frequencies
   /// alike.
   int mic_counts(int microphone, Cycle at) const;
@@ -343,8 +345,12 @@ class Board {
   DataEeprom eeprom_;
   std::unique_ptr<Camera> camera_;
   std::vector<std::unique_ptr<Part>> parts_;
-  mutable Cycle settled_for_ = -1;  // the flash's length is nearly always the same: its exponential, once
-  mutable double settled_share_ = 0;
+  struct Settled {
+    Cycle lit_for = -1;
+    double share = 0;
+  };
+  mutable std::array<Settled, 2>
+      settled_;  // flashes have two lengths nearly always: their exponentials, once
   SampleNoise noise_;
   std::int64_t mic_noise_per_face_;                          // of SampleNoise::dice(), as levels
   std::shared_ptr<const std::vector<std::int16_t>> on_air_;  // samples of the codec's line that the air plays

@@ -99,7 +99,7 @@ class AgendaMotor {
       count.counter = 0;
     };
     // firing by firing until driver, rotor and rhythm agree
-    while (regular_ < kRegularSteps) {
+    while (regular_ < kRegularSteps - 1) {
       const std::int64_t fire_tick = count.tick + count.ticks_to_fire();
       if (fire_tick > tick) {
         count_idle(tick);
@@ -116,6 +116,7 @@ class AgendaMotor {
     const std::int64_t before_first = phase_on_is_new() ? last_firing : last_firing - kPowerSaveTicks;
     const std::int64_t steps = quotient(tick - before_first, period);
     if (steps > 0) {
+      regular_ = kRegularSteps;
       const int direction = step_direction(), turned = direction * forward_;
       const std::int64_t last_step = before_first + steps * period;
       commanded += steps * direction;
@@ -139,10 +140,6 @@ class AgendaMotor {
     return saves_power() ? kMotorHalfStepCycles + kMotorOffCycles : kMotorStepCycles;
   }
   std::int64_t full_period() const { return saves_power() ? save_period_ : count.cycle; }
-  /// What the firing that comes next takes.
-  Cycle firing_cycles() const {
-    return !saves_power() ? kMotorStepCycles : phase_on ? kMotorOffCycles : kMotorHalfStepCycles;
-  }
 
   /// Do steps come one period after the other, each beginning where the one before ended, until a command?
   bool is_regular() const { return regular_ >= kRegularSteps; }
@@ -165,8 +162,8 @@ class AgendaMotor {
   void disturb() { regular_ = 0; }
 
  private:
-  /// Steps in a row after which every one has had the time to finish, so that periods can be added up: two
-  /// that came a period after the one before.
+  /// Steps in a row after which every one has had the time to finish: two that came a period after the one
+  /// before. The last of them begins where the one before has ended, so it can be added up with what follows.
   static constexpr int kRegularSteps = 3;
   int forward_;
   int regular_ = 0;

@@ -58,6 +58,7 @@ void AgendaTimer::start(Cycle at) {
   line_.late_tick = walking_ ? tick : -1;
   line_.origin = at - tick * kAgendaTickCycles;
   running_ = enabled_ = true;
+  share_known_ = false;
   for (AgendaMotor& m : motors_) m.disturb();
   find_next_fire();
 }
@@ -65,7 +66,7 @@ void AgendaTimer::start(Cycle at) {
 void AgendaTimer::stop(Cycle at) {
   stopped_tick_ = ticks_at(at);
   settle_motors_at(at);
-  running_ = false;
+  running_ = share_known_ = false;
 }
 
 void AgendaTimer::reset(Cycle at) {
@@ -81,7 +82,7 @@ void AgendaTimer::reset(Cycle at) {
   }
   nodes_.clear();
   line_ = TickLine{};
-  running_ = enabled_ = walking_ = in_callback_ = false;
+  running_ = enabled_ = walking_ = in_callback_ = share_known_ = false;
   stopped_tick_ = 0;
   next_fire_ = -1;
   last_serial_ = 0;
@@ -179,6 +180,7 @@ int AgendaTimer::activate(Function function, int cycle, Cycle at) {
   AgendaCount& count = node.kind == Kind::User ? node.count : motor(wheel_of(node.kind)).count;
   count = AgendaCount{static_cast<std::uint16_t>(cycle), 0, true, done};
   nodes_.push_back(node);
+  share_known_ = false;
   if (!walking_) find_next_fire();
   return kDone;
 }
@@ -192,6 +194,7 @@ int AgendaTimer::destroy(Function function, Cycle at) {
     has_node_[static_cast<int>(wheel_of(node->kind))] = false;
   }
   nodes_.erase(nodes_.begin() + (node - nodes_.data()));
+  share_known_ = false;
   if (!walking_) find_next_fire();
   return kDone;
 }
@@ -202,6 +205,7 @@ int AgendaTimer::set_cycle(Function function, int cycle, Cycle at) {
   settle(*node, done_tick(node->serial, at));
   count_of(*node).cycle = static_cast<std::uint16_t>(cycle);
   disturb(*node);
+  share_known_ = false;
   if (!walking_) find_next_fire();
   return kDone;
 }
@@ -212,6 +216,7 @@ int AgendaTimer::reset_count(Function function, Cycle at) {
   settle(*node, done_tick(node->serial, at));
   count_of(*node).counter = 0;
   disturb(*node);
+  share_known_ = false;
   if (!walking_) find_next_fire();
   return kDone;
 }
@@ -221,6 +226,7 @@ int AgendaTimer::pause(Function function, Cycle at) {
   if (!node) return kNotFound;
   settle(*node, done_tick(node->serial, at));
   count_of(*node).active = false;
+  share_known_ = false;
   if (!walking_) find_next_fire();
   return kDone;
 }
@@ -231,6 +237,7 @@ int AgendaTimer::restart(Function function, Cycle at) {
   settle(*node, done_tick(node->serial, at));
   count_of(*node).active = true;
   disturb(*node);
+  share_known_ = false;
   if (!walking_) find_next_fire();
   return kDone;
 }
@@ -246,6 +253,7 @@ void AgendaTimer::set_speed(Wheel wheel, int speed, Cycle at) {
   const bool counted = m.count.counts(), was_handled = counted && m.speed() == 0;
   stepper(wheel).set_coils_only(0);
   m.disturb();
+  share_known_ = false;
   m.set_speed(std::clamp(speed, -kMaxSpeed, kMaxSpeed));
   if (speed != 0 && first_speed_ < 0) first_speed_ = at;
   if (has_node_[static_cast<int>(wheel)]) m.set_cycle(m.speed() == 0 ? 0 : kSpeedUnit / std::abs(m.speed()));
@@ -357,14 +365,13 @@ AgendaTimer::Function AgendaTimer::next(bool& divided_by_zero) {
       walk_serial_ = 0;
       return nullptr;
     }
-    settle(*node, walk_tick_ - 1);
-    walk_serial_ = node->serial;
     walk_cost_ += cost_of(*node);
-    if (!needs_handler(*node)) {
-      const AgendaMotor& m = motor(wheel_of(node->kind));
-      if (m.count.counts() && m.count.ticks_to_fire() == 1) walk_cost_ += m.firing_cycles();
+    if (!needs_handler(*node)) {  // a motor, whose firings are a share
+      walk_serial_ = node->serial;
       continue;
     }
+    settle(*node, walk_tick_ - 1);
+    walk_serial_ = node->serial;
     AgendaCount& count = count_of(*node);
     count.tick = walk_tick_;
     if (!count.counts()) continue;
@@ -425,7 +432,7 @@ Cycle AgendaTimer::cost_of(const Node& node) const {
 
 Cycle AgendaTimer::take_walk_cost() { return std::exchange(walk_cost_, 0); }
 
-std::uint64_t AgendaTimer::share_q32() const {
+std::uint64_t AgendaTimer::find_share_q32() const {
   if (!running_) return 0;
   const auto share = [](Cycle cycles, std::int64_t ticks) {
     return (static_cast<std::uint64_t>(cycles) << 32) / static_cast<std::uint64_t>(ticks * kAgendaTickCycles);

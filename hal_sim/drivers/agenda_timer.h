@@ -121,7 +121,13 @@ class AgendaTimer {
   std::int64_t ticks_at(Cycle at) const;
   /// What the ticks take of each cycle that call no function of the program, as a fraction of 2^32; those
   /// that do are run and charged one by one.
-  std::uint64_t share_q32() const;
+  std::uint64_t share_q32() const {
+    if (!share_known_) {
+      share_q32_ = find_share_q32();
+      share_known_ = true;
+    }
+    return share_q32_;
+  }
   /// Does the driver step this wheel on and on?
   bool runs(Wheel wheel) const {
     return running_ && motor(wheel).count.counts() && motor(wheel).speed() != 0;
@@ -173,6 +179,7 @@ class AgendaTimer {
   Cycle cost_of(const Node& node) const;
   void resume(std::int64_t done, Cycle at);
   void lose(std::int64_t ticks, Cycle at);
+  std::uint64_t find_share_q32() const;
   void find_next_fire();
 
   TickLine line_;
@@ -192,7 +199,9 @@ class AgendaTimer {
   std::uint32_t motor_serial_[2] = {0, 0};
   std::uint32_t last_serial_ = 0;
 
-  std::int64_t next_fire_ = -1;  // next tick that needs the handler, -1 none
+  mutable std::uint64_t share_q32_ = 0;
+  mutable bool share_known_ = false;  // false: the list, a cycle or a speed has changed
+  std::int64_t next_fire_ = -1;       // next tick that needs the handler, -1 none
   bool walking_ = false;
   std::int64_t walk_tick_ = 0;
   std::uint32_t walk_serial_ = 0;  // node being processed; those above are done

@@ -15,25 +15,21 @@
 
 namespace host {
 
-Context& Context::current() {
-  CHECK(detail::running_here, "a firmware function was called outside firmware");
-  return *detail::running_here;
-}
-
 CompiledRunner::CompiledRunner(CompiledSettings settings, std::shared_ptr<Image> image, std::size_t copy,
                                board::Board& board)
     : Runner(settings.name),
+      Context(board),
       settings_(std::move(settings)),
       image_(std::move(image)),
       copy_(image_->copy(copy)),
       control_(copy_.control()),
-      board_(board),
       fiber_(settings_.stack_bytes) {
   if (settings_.processor) {
     processor_ = settings_.processor(*this);
   } else {
     auto native = std::make_unique<NativeProcessor>(*this);
     native_ = native.get();
+    drivers_ = &native->drivers();
     processor_ = std::move(native);
   }
   program_eeprom();
@@ -90,12 +86,6 @@ void CompiledRunner::restart_program() {
   find_share();
   now_ += kStartUpCycles;
   fiber_.restart(enter_firmware, this);
-}
-
-drivers::Drivers& CompiledRunner::drivers() { return native().drivers(); }
-
-const drivers::Drivers* CompiledRunner::closed_drivers() const {
-  return native_ ? &native_->drivers() : nullptr;
 }
 
 NativeProcessor& CompiledRunner::native() {
@@ -166,7 +156,7 @@ void CompiledRunner::run_until(Cycle end) {
   if (asleep_until_ > end && !woken_) return processor_->end_window(end);
   catch_faults_on_this_thread();
   std::lock_guard<std::mutex> turn(copy_.turn);
-  CompiledRunner* outer = detail::running_here;
+  Context* outer = detail::running_here;
   detail::running_here = this;
   ++turns_;
   do {

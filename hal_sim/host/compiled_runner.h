@@ -25,13 +25,6 @@
 namespace host {
 
 class NativeProcessor;
-class CompiledRunner;
-
-namespace detail {
-// CompiledRunner::running(); in the executable itself, so no function needs to be asked for its place
-__attribute__((tls_model("initial-exec"))) inline thread_local CompiledRunner* running_here = nullptr;
-}  // namespace detail
-
 /// Every way a robot's processor can be set up.
 struct CompiledSettings {
   std::string name;
@@ -90,7 +83,7 @@ class CompiledRunner final : public Runner, public Context {
   std::uint16_t peek(unsigned address, Cycle at) override { return processor_->peek(address, at); }
   Cycle register_horizon(unsigned address, Cycle at) override { return processor_->horizon(address, at); }
   std::int64_t served(int vector) const override { return processor_->served(vector); }
-  const drivers::Drivers* closed_drivers() const override;
+  const drivers::Drivers* closed_drivers() const override { return drivers_; }
 
   /// Handlers that have returned, and how often the processor was asked what to do next, since the robot was
   /// made: what an interrupt costs, in a number that no other work on the machine changes.
@@ -102,13 +95,7 @@ class CompiledRunner final : public Runner, public Context {
   const tp_image& image() const { return copy_.description(); }
 
   // --- Context
-  board::Board& board() override { return board_; }
-  drivers::Drivers& drivers() override;
   Cycle now() override { return observer_ ? now_and_tell() : now_unobserved(); }
-  void lower_horizon(Cycle at) override {
-    if (at < horizon_) horizon_ = at;
-    looked_outside_ = true;
-  }
   void note_write() override { ++control_.writes; }
   void spend(Cycle cycles) override {
     control_.budget -= cycles;
@@ -214,7 +201,7 @@ class CompiledRunner final : public Runner, public Context {
                           std::uintptr_t stack);
 
   /// On this thread; null outside firmware.
-  static CompiledRunner* running() { return detail::running_here; }
+  static CompiledRunner* running() { return static_cast<CompiledRunner*>(detail::running_here); }
 
  private:
   static constexpr unsigned kQ = 32;  // of stolen_q32_
@@ -307,7 +294,6 @@ class CompiledRunner final : public Runner, public Context {
   std::shared_ptr<Image> image_;
   ImageCopy& copy_;
   tp_control& control_;  // of copy_
-  board::Board& board_;
   Fiber fiber_;
   std::unique_ptr<Processor> processor_;
   NativeProcessor* native_ = nullptr;  // processor_, or null in the register way
@@ -348,8 +334,6 @@ class CompiledRunner final : public Runner, public Context {
   std::uint64_t turns_ = 0;
 
   std::int64_t writes_ = 0;  // image_abi.h's counter while another robot of the copy runs
-  Cycle horizon_ = kNever;
-  bool looked_outside_ = false;  // since the last round of a wait
   std::int64_t poll_loop_ = -1;
   Cycle poll_main_ = 0;
   std::int64_t poll_served_ = 0;

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "hal_sim/board/cycle.h"
+#include "sim_core/base/check.h"
 
 namespace board {
 class Board;
@@ -19,21 +20,38 @@ namespace host {
 using board::Cycle;
 using board::kNever;
 
+class Context;
+
+namespace detail {
+// Context::current(); in the executable itself, so no function needs to be asked for its place
+__attribute__((tls_model("initial-exec"))) inline thread_local Context* running_here = nullptr;
+}  // namespace detail
+
 class Context {
  public:
+  explicit Context(board::Board& board) : board_(board) {}
   virtual ~Context() = default;
 
   /// The robot whose firmware is running on this thread. Calling it from outside firmware is our bug (CHECK).
-  static Context& current();
+  static Context& current() {
+    CHECK(detail::running_here, "a firmware function was called outside firmware");
+    return *detail::running_here;
+  }
 
-  virtual board::Board& board() = 0;
+  board::Board& board() { return board_; }
   /// Of the native way; calling it from the register way is our bug (CHECK).
-  virtual drivers::Drivers& drivers() = 0;
+  drivers::Drivers& drivers() {
+    CHECK(drivers_, "a function of the native way was called in the register way");
+    return *drivers_;
+  }
 
   /// Cycles now, background work included.
   virtual Cycle now() = 0;
   /// What was just read cannot change by itself before `at`.
-  virtual void lower_horizon(Cycle at) = 0;
+  void lower_horizon(Cycle at) {
+    if (at < horizon_) horizon_ = at;
+    looked_outside_ = true;
+  }
   /// Something the program can observe was changed by the program.
   virtual void note_write() = 0;
   /// Spends cycles; delivers interrupts; may let other robots run.
@@ -53,6 +71,12 @@ class Context {
 
   /// A trap of the running firmware; does not return. kind: TP_TRAP_*.
   [[noreturn]] virtual void trap(int kind, std::string_view message) = 0;
+
+ protected:
+  board::Board& board_;
+  drivers::Drivers* drivers_ = nullptr;  // null: the register way
+  Cycle horizon_ = kNever;               // the least of lower_horizon() since somebody set it
+  bool looked_outside_ = false;          // lower_horizon() was called since
 };
 
 /// After a change to the agendas: their next interrupt is asked for.

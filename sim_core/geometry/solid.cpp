@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Rays are clipped against half planes (prism), a circle (cylinder) or a sphere (ball), then against the
-// height range.
+// height range. Most solids are boxes and most rays level: these have a shorter way.
 #include "sim_core/geometry/solid.h"
 
 #include <algorithm>
@@ -12,6 +12,7 @@ namespace sim {
 namespace {
 
 constexpr double kParallel = 1e-12;       // below this a direction counts as parallel to a plane
+constexpr double kOnSideM = 1e-12;        // a point that near to a side lies on it
 constexpr double kSmallestAreaM2 = 1e-6;  // one square millimetre
 
 double signed_area_m2(const std::vector<Vec2>& corners) {
@@ -34,6 +35,43 @@ bool clip_heights(double z, double dz, double z0, double z1, double& near, doubl
   }
   far = std::min(far, last);
   return near <= far;
+}
+
+/// How far a point lies outside of a box's nearer side along each axis, m; negative: between the two sides.
+Vec2 outside_of_box(Vec2 p, Vec2 half) { return {std::fabs(p.x) - half.x, std::fabs(p.y) - half.y}; }
+
+/// How fast a direction comes nearer to the side of the box that a coordinate is nearer to.
+double approach(double coordinate, double dir) { return coordinate > 0 ? -dir : dir; }
+
+/// A level ray: it enters through the last of the sides that it has to cross.
+bool cast_level_box(const Ray& ray, const Placed& what, double& distance_m) {
+  const Vec2 half = what.solid->half_m;
+  const Vec2 from = what.frame.to_local({ray.from.x, ray.from.y});
+  const Vec2 outside = outside_of_box(from, half);
+  const Vec2 dir = what.frame.turn_back({ray.dir.x, ray.dir.y});
+  double near = 0;
+  if (outside.x > 0) {
+    const double speed = approach(from.x, dir.x);
+    if (speed < kParallel) return false;
+    near = outside.x / speed;
+    if (near >= distance_m) return false;
+  }
+  if (outside.y > 0) {
+    const double speed = approach(from.y, dir.y);
+    if (speed < kParallel) return false;
+    near = std::max(near, outside.y / speed);
+    if (near >= distance_m) return false;
+  }
+  const double z = ray.from.z - what.z_m;
+  if (z < what.solid->z0_m || z > what.solid->z1_m) return false;
+  if (near > 0) {
+    const Vec2 there = outside_of_box(from + near * dir, half);
+    if (there.x > kOnSideM || there.y > kOnSideM) return false;
+  } else if (distance_m <= 0) {
+    return false;
+  }
+  distance_m = near;
+  return true;
 }
 
 bool cast_prism(const Ray& ray, const Placed& what, double& distance_m, Vec3* normal) {
@@ -183,7 +221,9 @@ Solid Solid::prism(std::vector<Vec2> corners, double z0_m, double z1_m) {
 Solid Solid::box(double size_x_m, double size_y_m, double z0_m, double z1_m) {
   const double x = 0.5 * size_x_m;
   const double y = 0.5 * size_y_m;
-  return prism({{x, y}, {-x, y}, {-x, -y}, {x, -y}}, z0_m, z1_m);
+  Solid s = prism({{x, y}, {-x, y}, {-x, -y}, {x, -y}}, z0_m, z1_m);
+  s.half_m = {x, y};
+  return s;
 }
 
 Solid Solid::cylinder(double radius_m, double z0_m, double z1_m) {
@@ -220,6 +260,8 @@ double Solid::gyration_m2() const {
 bool cast_ray(const Ray& ray, const Placed& what, double& distance_m, Vec3* normal) {
   switch (what.solid->kind) {
     case SolidKind::Prism:
+      if (what.solid->is_box() && !normal && std::fabs(ray.dir.z) < kParallel)
+        return cast_level_box(ray, what, distance_m);
       return cast_prism(ray, what, distance_m, normal);
     case SolidKind::Cylinder:
       return cast_cylinder(ray, what, distance_m, normal);
@@ -239,15 +281,19 @@ bool out_of_sight(Vec2 from, Vec2 axis, double half_sin, double half_cos, double
   // each side that the point is outside of must come near fast enough along the best ray
   const Vec2 point = what.frame.turn_back(from - what.frame.at);
   const Vec2 dir = what.frame.turn_back(axis);
-  for (const HalfPlane& side : what.solid->sides) {
-    const double outside = dot(side.normal, point) - side.offset_m;
-    if (outside <= 0) continue;
+  const auto is_too_far = [&](double outside, double facing) {
+    if (outside <= 0) return false;
     if (outside > range_m) return true;
-    const double facing = -dot(side.normal, dir);
     const double best =
         facing >= half_cos ? 1 : facing * half_cos + std::sqrt(std::max(0.0, 1 - facing * facing)) * half_sin;
-    if (outside > range_m * best + 1e-12) return true;
+    return outside > range_m * best + 1e-12;
+  };
+  if (what.solid->is_box()) {
+    const Vec2 outside = outside_of_box(point, what.solid->half_m);
+    return is_too_far(outside.x, approach(point.x, dir.x)) || is_too_far(outside.y, approach(point.y, dir.y));
   }
+  for (const HalfPlane& side : what.solid->sides)
+    if (is_too_far(dot(side.normal, point) - side.offset_m, -dot(side.normal, dir))) return true;
   return false;
 }
 
@@ -255,7 +301,12 @@ bool is_beyond(Vec2 point, double reach_m, const Placed& what) {
   const Vec2 gap = what.frame.at - point;
   const double far = reach_m + what.solid->bound_m;
   if (dot(gap, gap) > far * far) return true;
+  if (what.solid->kind != SolidKind::Prism) return false;
   const Vec2 p = what.frame.to_local(point);
+  if (what.solid->is_box()) {
+    const Vec2 outside = outside_of_box(p, what.solid->half_m);
+    return outside.x > reach_m || outside.y > reach_m;
+  }
   for (const HalfPlane& side : what.solid->sides)
     if (dot(side.normal, p) - side.offset_m > reach_m) return true;
   return false;
@@ -270,6 +321,19 @@ double plan_distance_m(Vec2 point, const Placed& what, Vec2* toward) {
     return d - s.radius_m;
   }
   // inside: the least deep side; outside: the nearest edge
+  if (s.is_box()) {
+    const Vec2 outside = outside_of_box(p, s.half_m), side{p.x > 0 ? 1.0 : -1.0, p.y > 0 ? 1.0 : -1.0};
+    const Vec2 away{std::max(outside.x, 0.0), std::max(outside.y, 0.0)};
+    const bool is_x = outside.x > outside.y;
+    // beside a side: no root
+    if (away.x == 0 || away.y == 0) {
+      if (toward) *toward = what.frame.turn(is_x ? Vec2{side.x, 0} : Vec2{0, side.y});
+      return is_x ? outside.x : outside.y;
+    }
+    const double d = length(away);
+    if (toward) *toward = what.frame.turn({side.x * away.x / d, side.y * away.y / d});
+    return d;
+  }
   double deepest = -1e300;
   Vec2 normal;
   for (const HalfPlane& side : s.sides) {

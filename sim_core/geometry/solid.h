@@ -22,6 +22,7 @@ struct Solid {
   SolidKind kind = SolidKind::Cylinder;
   std::vector<Vec2> outline;     ///< prism: corners, counter-clockwise
   std::vector<HalfPlane> sides;  ///< prism: the same as half planes
+  Vec2 half_m;                   ///< box around the origin: half its sizes; 0, 0: no such box
   double radius_m = 0;           ///< cylinder and ball
   double z0_m = 0;               ///< bottom above the body's own z
   double z1_m = 0;               ///< top above the body's own z
@@ -33,6 +34,7 @@ struct Solid {
   /// Rests on the body's z: its centre is one radius above.
   static Solid ball(double radius_m);
 
+  bool is_box() const { return half_m.x > 0; }
   /// Second moment about the vertical axis through the origin, divided by the mass, m2.
   double gyration_m2() const;
 };

@@ -260,10 +260,6 @@ class DynamicMotion final : public Motion, b2ContactFilter {
     if (!parts_[r].body) build(robot);
     Part& part = parts_[r];
     place(robot);
-    if (!part.body->IsEnabled()) {
-      part.body->SetEnabled(true);
-      part.ghost->SetEnabled(true);
-    }
     part.body->SetLinearVelocity(units(bodies_[r].velocity_m_s));
     part.body->SetAngularVelocity(static_cast<float>(bodies_[r].spin_rad_s));
     const Wanted want = wanted(robot);
@@ -280,10 +276,12 @@ class DynamicMotion final : public Motion, b2ContactFilter {
     part.joint->SetMaxTorque(static_cast<float>(grip * 0.5 * desc_.robots[r].axle_m * kUnits * kUnits));
   }
 
+  /// Box2D passes through all its bodies at each step, whatever they do: who is free has none.
   void leave_solver(int robot) {
     Part& part = parts_[static_cast<std::size_t>(robot)];
-    part.body->SetEnabled(false);
-    part.ghost->SetEnabled(false);
+    world_.DestroyBody(part.body);
+    world_.DestroyBody(part.ghost);
+    part = Part{};
   }
 
   /// Moves our pose as far as Box2D moved its body: what float rounding swallowed stays in the double.

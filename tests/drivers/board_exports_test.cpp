@@ -8,10 +8,6 @@
 #include "tests/drivers/fake_context.h"
 #include "tests/drivers/scan_times.h"
 
-FakeContext* FakeContext::running = nullptr;
-
-host::Context& host::Context::current() { return *FakeContext::running; }
-
 namespace {
 
 using board::Board;

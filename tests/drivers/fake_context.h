@@ -10,16 +10,16 @@
 
 class FakeContext : public host::Context {
  public:
-  explicit FakeContext(DrivenBoard& robot) : robot_(robot) { running = this; }
-  ~FakeContext() override { running = nullptr; }
+  explicit FakeContext(DrivenBoard& robot) : Context(robot) {
+    drivers_ = &robot.drivers();
+    host::detail::running_here = this;
+  }
+  ~FakeContext() override { host::detail::running_here = nullptr; }
 
-  board::Board& board() override { return robot_; }
-  drivers::Drivers& drivers() override { return robot_.drivers(); }
   host::Cycle now() override { return cycle; }
-  void lower_horizon(host::Cycle at) override { horizon = std::min(horizon, at); }
   void note_write() override { ++writes; }
   void spend(host::Cycle cycles) override { spent += cycles; }
-  void follow_handlers() override { handler_share = robot_.drivers().handler_share_q32(); }
+  void follow_handlers() override { handler_share = drivers().handler_share_q32(); }
   void wait_until(host::Cycle at) override { cycle = std::max(cycle, at); }
   void irq_install(int vector, void (*handler)(), int, host::Cycle) override { handlers[vector] = handler; }
   void irq_at(int vector, host::Cycle at) override { requested[vector] = at; }
@@ -32,15 +32,10 @@ class FakeContext : public host::Context {
 
   host::Cycle cycle = 0;
   host::Cycle spent = 0;
-  host::Cycle horizon = host::kNever;
+  host::Cycle& horizon = horizon_;
   int writes = 0;
   std::uint64_t handler_share = 0;  // as told last
   std::map<int, void (*)()> handlers;
   std::map<int, host::Cycle> requested;
   std::map<int, std::pair<host::Cycle, host::Cycle>> background;
-
-  static FakeContext* running;
-
- private:
-  DrivenBoard& robot_;
 };

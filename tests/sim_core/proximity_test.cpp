@@ -264,10 +264,49 @@ TEST(Proximity, beyond_reach_is_only_what_no_ray_can_meet) {
     for (double x = -1; x < 2; x += 0.07)
       for (double y = -1; y < 2; y += 0.07, ++points) {
         const bool is_beyond = sim::is_beyond({x, y}, 0.2, what);
-        if (sim::plan_distance_m({x, y}, what) <= 0.2) EXPECT_FALSE(is_beyond) << x << " " << y;
+        if (sim::plan_distance_m({x, y}, what) <= 0.2) {
+          EXPECT_FALSE(is_beyond) << x << " " << y;
+        }
         beyond += is_beyond;
       }
   EXPECT_GT(beyond, points * 8 / 10) << "beside a long wall, too";
+}
+
+// a box has shorter formulas than other prisms; the same corners as a plain prism are what they must agree with
+TEST(Proximity, a_box_is_the_prism_of_its_corners) {
+  const sim::Solid box = sim::Solid::box(0.3, 0.1, 0.02, 0.1);
+  const sim::Solid prism = sim::Solid::prism(box.outline, 0.02, 0.1);
+  ASSERT_TRUE(box.is_box());
+  ASSERT_FALSE(prism.is_box());
+  const sim::Frame2 there(sim::Pose2{0.2, -0.1, 0.7});
+  const sim::Placed as_box{&box, there, 0}, as_prism{&prism, there, 0};
+  int hits = 0, inside = 0;
+  for (double x = -0.1; x < 0.5; x += 0.017)
+    for (double y = -0.4; y < 0.2; y += 0.019) {
+      sim::Vec2 to_box, to_prism;
+      const double d = sim::plan_distance_m({x, y}, as_box, &to_box);
+      EXPECT_NEAR(d, sim::plan_distance_m({x, y}, as_prism, &to_prism), 1e-12) << x << " " << y;
+      EXPECT_NEAR(to_box.x, to_prism.x, 1e-9) << x << " " << y;
+      EXPECT_NEAR(to_box.y, to_prism.y, 1e-9) << x << " " << y;
+      EXPECT_EQ(sim::is_beyond({x, y}, 0.05, as_box), sim::is_beyond({x, y}, 0.05, as_prism));
+      inside += d < 0;
+      for (double angle = 0; angle < 6.28; angle += 0.3) {
+        const sim::SinCos way = sim::sin_cos(angle);
+        const sim::Vec2 axis{way.c, way.s};
+        EXPECT_EQ(sim::out_of_sight({x, y}, axis, 0.25, 0.96, 0.1, as_box),
+                  sim::out_of_sight({x, y}, axis, 0.25, 0.96, 0.1, as_prism));
+        for (double z : {0.01, 0.05}) {
+          const sim::Ray ray{{x, y, z}, {way.c, way.s, 0}};
+          double near = 0.2, expected = 0.2;
+          const bool hit = sim::cast_ray(ray, as_box, near);
+          ASSERT_EQ(hit, sim::cast_ray(ray, as_prism, expected)) << x << " " << y << " " << angle;
+          EXPECT_NEAR(near, expected, 1e-12);
+          hits += hit;
+        }
+      }
+    }
+  EXPECT_GT(hits, 1000);
+  EXPECT_GT(inside, 50);
 }
 
 }  // namespace
