@@ -365,7 +365,7 @@ int Board::ir_counts(int sensor, Cycle at, Cycle lit_for) const {
   if (!lit && is_dark()) return kAdcMax;
   const IrConversion c = ir_conversion(sensor, at, lit_for);
   double light = c.light_counts, reflection = c.reflection_counts;
-  if (c.relative_noise > 0 && setup_.ir_noise_scale > 0) {
+  if (reflection != 0 && c.relative_noise > 0 && setup_.ir_noise_scale > 0) {
     const double noise = c.uniform_noise ? noise_.uniform(NoiseOf::Reflection, sensor, at)
                                          : noise_.normal(NoiseOf::Reflection, sensor, at);
     reflection *= 1.0 + noise * c.relative_noise * setup_.ir_noise_scale;

@@ -191,13 +191,22 @@ void CompiledRunner::find_share() {
   const auto share =
       std::min<std::uint64_t>(handlers + background_share_q32_, kOne / 100 * kMostBackgroundPercent);
   kept_q32_ = kOne - share;
-  stolen_q32_ = (share << kQ) / kept_q32_;
+  // it goes to and fro between none and the same: masked and not
+  if (share != 0 && share != share_q32_) {
+    share_q32_ = share;
+    stolen_of_share_q32_ = (share << kQ) / kept_q32_;
+  }
+  stolen_q32_ = share == 0 ? 0 : stolen_of_share_q32_;
 }
 
 void CompiledRunner::follow_handlers() {
+  follow_mask();
+  give_budget();
+}
+
+void CompiledRunner::follow_mask() {
   fold();
   find_share();
-  give_budget();
 }
 
 Cycle CompiledRunner::now_and_tell() {
@@ -290,7 +299,9 @@ void CompiledRunner::irq_every(int vector, Cycle at, Cycle period) {
   s.period = period;
   s.due = at < 0 ? kNever : at;
   if (at < 0) s.flag = false;
-  changed();
+  native_->interrupts().touch();
+  interrupt_horizon_ = 0;
+  fold();  // the next block looks, unless the handler ends before
 }
 
 void CompiledRunner::deliver_now() {

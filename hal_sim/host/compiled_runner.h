@@ -105,6 +105,8 @@ class CompiledRunner final : public Runner, public Context {
   void follow_handlers() override;
   void irq_install(int vector, void (*handler)(), int priority, Cycle entry_cycles) override;
   void irq_at(int vector, Cycle at) override;
+  /// The handlers' share at this moment; whoever calls it gives a new budget or leaves none.
+  void follow_mask();
   void irq_every(int vector, Cycle first, Cycle period);  ///< period 0: once; native way only
   void set_background(int slot, Cycle period, Cycle cost) override;
   void callback(const void* function) override;
@@ -303,8 +305,9 @@ class CompiledRunner final : public Runner, public Context {
   Cycle issued_ = 0;              // budget given at that moment
   std::uint64_t fraction_ = 0;    // of a cycle, Q32, left over from stretching
   std::uint64_t stolen_q32_ = 0;  // cycles background handlers take per main cycle, Q32
-  std::uint64_t kept_q32_ = 0;    // program's cycles per cycle of the clock, Q32, rounded down
-  Cycle main_ = 0;                // cycles of the program itself so far, up to the last fold
+  std::uint64_t share_q32_ = 0, stolen_of_share_q32_ = 0;  // the last share that was not 0
+  std::uint64_t kept_q32_ = 0;  // program's cycles per cycle of the clock, Q32, rounded down
+  Cycle main_ = 0;              // cycles of the program itself so far, up to the last fold
   struct Background {
     Cycle period = 0, cost = 0;
   };

@@ -86,7 +86,7 @@ void NativeProcessor::follow_mask(Cycle now) {
   if (masked == masked_) return;
   masked_ = masked;
   drivers_.mask_handlers(masked, now);
-  runner_.follow_handlers();
+  runner_.follow_mask();
   if (!masked) request_agenda_interrupt(runner_);  // ticks that were lost have moved it
 }
 
