@@ -26,16 +26,26 @@ int main(void) {
 }
 )";
 
+/// Of this process: programs one after the other, and the library's objects for all of them.
+struct Workplace {
+  fs::path path = fs::temp_directory_path() / ("twinpuck-chip-cc-" + std::to_string(getpid()));
+  ~Workplace() {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  }
+};
+
 }  // namespace
 
 ChipProgram::ChipProgram(const std::string& name, const std::string& source, const std::string& level) {
-  const fs::path folder = fs::temp_directory_path() / ("twinpuck-chip-cc-" + std::to_string(getpid())) / name;
+  static const Workplace workplace;
+  const fs::path folder = workplace.path / name;
   fs::create_directories(folder);
   std::ofstream(folder / "main.c") << kDeclaration << source << kMain;
   cc::BuildOptions options;
   options.source_dir = folder;
   options.output = folder / "program.elf";
-  options.cache_dir = folder / "cache";
+  options.cache_dir = workplace.path / "cache";
   options.optimisation = level;
   options.register_way = options.chip_way = true;
   const auto built = cc::build_image(options);

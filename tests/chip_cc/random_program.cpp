@@ -32,6 +32,8 @@ typedef int8_t i8; typedef uint8_t u8; typedef int16_t i16; typedef uint16_t u16
 typedef int32_t i32; typedef uint32_t u32; typedef int64_t i64; typedef uint64_t u64;
 #endif
 struct s { u8 a; i16 b; i8 c; i32 d; u16 e : 3; u16 f : 9; };
+)";
+constexpr const char* kVariables = R"(
 static struct s st = {1, 2, 3, 4, 5, 6};
 static volatile u16 flags;
 static i16 array16[8] = {5, -3, 12000, 7, -200, 9, 31, -32768};
@@ -45,7 +47,7 @@ class Generator {
 
   std::string program() {
     std::ostringstream out;
-    out << kHead;
+    out << kVariables;
     std::string calls;
     const int functions = 1 + below(3);
     for (int f = 0; f < functions; ++f) {
@@ -182,7 +184,23 @@ class Generator {
 
 }  // namespace
 
-std::string random_program(std::uint32_t seed) { return Generator(seed).program(); }
+std::string random_program(std::uint32_t seed) { return kHead + Generator(seed).program(); }
+
+std::string random_programs(std::uint32_t first, int count) {
+  constexpr const char* kNames[] = {"st", "flags", "array16", "array8",   "array32",
+                                    "f0", "f1",    "f2",      "bench_run"};
+  std::ostringstream out;
+  out << kHead;
+  for (int i = 0; i < count; ++i) {
+    for (const char* name : kNames) out << "#define " << name << " " << name << "_" << i << "\n";
+    out << Generator(first + std::uint32_t(i)).program();
+    for (const char* name : kNames) out << "#undef " << name << "\n";
+  }
+  out << "long bench_run(void) {\n  u32 h = 0;\n";
+  for (int i = 0; i < count; ++i) out << "  h = h * 31 + (u32)bench_run_" << i << "();\n";
+  out << "  return h;\n}\n";
+  return out.str();
+}
 
 std::uint32_t result_on_pc(const std::string& source) {
   const fs::path folder = fs::temp_directory_path() / ("twinpuck-chip-random-" + std::to_string(getpid()));

@@ -10,6 +10,8 @@
 namespace chip_cc {
 
 std::string random_program(std::uint32_t seed);
+/// Those of the seeds `first` on as one, whose checksum is made of theirs.
+std::string random_programs(std::uint32_t first, int count);
 /// Compiled by clang and run here.
 std::uint32_t result_on_pc(const std::string& source);
 
