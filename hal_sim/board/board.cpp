@@ -477,8 +477,9 @@ std::uint64_t Board::state_hash(Cycle at) const {
     sum += part * factor;
     factor += 0xD1B54A32D192ED02u;  // even, so the factor stays odd
   };
-  // as the program left them: what a driver has made of them since follows from its own state
-  for (const Stepper& motor : motors_) add(static_cast<std::uint64_t>(motor.steps()) << 4 ^ motor.coils());
+  // what a driver has made of them follows from its own state
+  if (!driver_)
+    for (const Stepper& motor : motors_) add(static_cast<std::uint64_t>(motor.steps()) << 4 ^ motor.coils());
   for (std::size_t i = 0; i < kPorts; ++i) add(lat_[i] | static_cast<std::uint64_t>(tris_[i]) << 16);
   for (const Uart& uart : uarts_) add(uart.state_hash());
   // every robot has a camera on its bus; it counts once a program films

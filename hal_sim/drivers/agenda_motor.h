@@ -98,8 +98,14 @@ class AgendaMotor {
       fire(line.cycle_of(fire_tick), stepper);
       count.counter = 0;
     };
-    // firing by firing until driver, rotor and rhythm agree
-    while (regular_ < kRegularSteps - 1) {
+    const std::int64_t period = full_period(), first = count.tick + count.ticks_to_fire();
+    std::int64_t before_first = first - period;
+    // a rotor that is where its driver believes it steps on at once: a new speed waits for at least its
+    // period, and after two periods how the first steps began is forgotten
+    const bool is_at_once = regular_ == 0 && !saves_power() && tick >= first + 2 * period &&
+                            first > line.late_tick && stepper.is_at(phase);
+    // otherwise firing by firing until driver, rotor and rhythm agree
+    while (!is_at_once && regular_ < kRegularSteps - 1) {
       const std::int64_t fire_tick = count.tick + count.ticks_to_fire();
       if (fire_tick > tick) {
         count_idle(tick);
@@ -112,8 +118,7 @@ class AgendaMotor {
         ++regular_;
     }
     // then all steps up to the last one at once: one every period
-    const std::int64_t period = full_period(), last_firing = count.tick - count.counter;
-    const std::int64_t before_first = phase_on_is_new() ? last_firing : last_firing - kPowerSaveTicks;
+    if (!is_at_once) before_first = count.tick - count.counter - (phase_on_is_new() ? 0 : kPowerSaveTicks);
     const std::int64_t steps = quotient(tick - before_first, period);
     if (steps > 0) {
       regular_ = kRegularSteps;

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "sim_core/base/hash.h"
-
 namespace drivers {
 
 using namespace board;
@@ -24,9 +22,7 @@ std::int64_t floor_div(std::int64_t a, std::int64_t b) {
 }  // namespace
 
 AgendaTimer::AgendaTimer(Stepper& left, Stepper& right)
-    : steppers_{&left, &right},
-      motors_{AgendaMotor(-1), AgendaMotor(+1)},
-      ahead_{{AgendaMotor(-1), Stepper(-1)}, {AgendaMotor(+1), Stepper(+1)}} {
+    : steppers_{&left, &right}, motors_{AgendaMotor(-1), AgendaMotor(+1)} {
   nodes_.reserve(8);
   for (AgendaMotor& m : motors_) m.count.active = false;
 }
@@ -58,7 +54,7 @@ void AgendaTimer::start(Cycle at) {
   line_.late_tick = walking_ ? tick : -1;
   line_.origin = at - tick * kAgendaTickCycles;
   running_ = enabled_ = true;
-  share_known_ = false;
+  shares_known_ = 0;
   for (AgendaMotor& m : motors_) m.disturb();
   find_next_fire();
 }
@@ -66,7 +62,8 @@ void AgendaTimer::start(Cycle at) {
 void AgendaTimer::stop(Cycle at) {
   stopped_tick_ = ticks_at(at);
   settle_motors_at(at);
-  running_ = share_known_ = false;
+  running_ = false;
+  shares_known_ = 0;
 }
 
 void AgendaTimer::reset(Cycle at) {
@@ -78,11 +75,12 @@ void AgendaTimer::reset(Cycle at) {
     motor(wheel).count.active = false;
     motor_functions_[static_cast<int>(wheel)] = nullptr;
     motor_serial_[static_cast<int>(wheel)] = 0;
-    has_ahead_[static_cast<int>(wheel)] = has_node_[static_cast<int>(wheel)] = false;
+    has_node_[static_cast<int>(wheel)] = false;
   }
   nodes_.clear();
   line_ = TickLine{};
-  running_ = enabled_ = walking_ = in_callback_ = share_known_ = false;
+  running_ = enabled_ = walking_ = in_callback_ = false;
+  shares_known_ = 0;
   stopped_tick_ = 0;
   next_fire_ = -1;
   last_serial_ = 0;
@@ -133,18 +131,6 @@ void AgendaTimer::disturb(const Node& node) {
   if (node.kind != Kind::User) motor(wheel_of(node.kind)).disturb();
 }
 
-AgendaMotor& AgendaTimer::bring(Wheel wheel, std::int64_t tick) {
-  const std::size_t i = static_cast<std::size_t>(wheel);
-  AgendaMotor& m = motors_[i];
-  if (has_ahead_[i] && ahead_[i].motor.count.tick <= tick) {
-    m = ahead_[i].motor;
-    *steppers_[i] = ahead_[i].stepper;
-  }
-  has_ahead_[i] = false;
-  m.advance_to(tick, line_, *steppers_[i]);
-  return m;
-}
-
 void AgendaTimer::settle_motors(std::int64_t tick) {
   for (Wheel wheel : {Wheel::Left, Wheel::Right}) bring(wheel, tick);
 }
@@ -180,7 +166,7 @@ int AgendaTimer::activate(Function function, int cycle, Cycle at) {
   AgendaCount& count = node.kind == Kind::User ? node.count : motor(wheel_of(node.kind)).count;
   count = AgendaCount{static_cast<std::uint16_t>(cycle), 0, true, done};
   nodes_.push_back(node);
-  share_known_ = false;
+  shares_known_ = 0;
   if (!walking_) find_next_fire();
   return kDone;
 }
@@ -194,7 +180,8 @@ int AgendaTimer::destroy(Function function, Cycle at) {
     has_node_[static_cast<int>(wheel_of(node->kind))] = false;
   }
   nodes_.erase(nodes_.begin() + (node - nodes_.data()));
-  share_known_ = false;
+  note(2, at);
+  shares_known_ = 0;
   if (!walking_) find_next_fire();
   return kDone;
 }
@@ -205,7 +192,8 @@ int AgendaTimer::set_cycle(Function function, int cycle, Cycle at) {
   settle(*node, done_tick(node->serial, at));
   count_of(*node).cycle = static_cast<std::uint16_t>(cycle);
   disturb(*node);
-  share_known_ = false;
+  note(3, at);
+  shares_known_ = 0;
   if (!walking_) find_next_fire();
   return kDone;
 }
@@ -216,7 +204,8 @@ int AgendaTimer::reset_count(Function function, Cycle at) {
   settle(*node, done_tick(node->serial, at));
   count_of(*node).counter = 0;
   disturb(*node);
-  share_known_ = false;
+  note(4, at);
+  shares_known_ = 0;
   if (!walking_) find_next_fire();
   return kDone;
 }
@@ -226,7 +215,8 @@ int AgendaTimer::pause(Function function, Cycle at) {
   if (!node) return kNotFound;
   settle(*node, done_tick(node->serial, at));
   count_of(*node).active = false;
-  share_known_ = false;
+  note(5, at);
+  shares_known_ = 0;
   if (!walking_) find_next_fire();
   return kDone;
 }
@@ -237,7 +227,8 @@ int AgendaTimer::restart(Function function, Cycle at) {
   settle(*node, done_tick(node->serial, at));
   count_of(*node).active = true;
   disturb(*node);
-  share_known_ = false;
+  note(6, at);
+  shares_known_ = 0;
   if (!walking_) find_next_fire();
   return kDone;
 }
@@ -253,10 +244,11 @@ void AgendaTimer::set_speed(Wheel wheel, int speed, Cycle at) {
   const bool counted = m.count.counts(), was_handled = counted && m.speed() == 0;
   stepper(wheel).set_coils_only(0);
   m.disturb();
-  share_known_ = false;
+  note(static_cast<std::uint64_t>(speed) << 1 | static_cast<std::uint64_t>(wheel), at);
   m.set_speed(std::clamp(speed, -kMaxSpeed, kMaxSpeed));
   if (speed != 0 && first_speed_ < 0) first_speed_ = at;
   if (has_node_[static_cast<int>(wheel)]) m.set_cycle(m.speed() == 0 ? 0 : kSpeedUnit / std::abs(m.speed()));
+  shares_known_ &= ~((m.count.counts() == counted ? 0 : kTicks) | 1u << static_cast<unsigned>(wheel));
   // a motor that runs, or stands without a cycle, needs no interrupt
   if (was_handled && !walking_) find_next_fire();
 }
@@ -264,23 +256,10 @@ void AgendaTimer::set_speed(Wheel wheel, int speed, Cycle at) {
 bool AgendaTimer::run_motor(Wheel wheel, Cycle at) {
   AgendaMotor& m = bring(wheel, done_tick(serial_of(wheel), at));
   const bool fine = m.fire(at, stepper(wheel));
+  note(1, at);
   m.disturb();
   if (!walking_) find_next_fire();
   return fine;
-}
-
-const AgendaTimer::Ahead* AgendaTimer::ahead_at(Wheel wheel, Cycle at) const {
-  const std::size_t i = static_cast<std::size_t>(wheel);
-  const AgendaMotor& m = motors_[i];
-  if (!m.count.counts() || m.speed() == 0) return nullptr;
-  const std::int64_t tick = done_tick(motor_serial_[i], at);
-  if (!has_ahead_[i] || ahead_[i].motor.count.tick > tick) {
-    if (tick < m.count.tick + m.count.ticks_to_fire()) return nullptr;
-    ahead_[i] = {m, *steppers_[i]};
-    has_ahead_[i] = true;
-  }
-  ahead_[i].motor.advance_to(tick, line_, ahead_[i].stepper);
-  return &ahead_[i];
 }
 
 std::int64_t AgendaTimer::commanded_steps(Wheel wheel, Cycle at) const {
@@ -288,20 +267,20 @@ std::int64_t AgendaTimer::commanded_steps(Wheel wheel, Cycle at) const {
 }
 
 const Stepper& AgendaTimer::stepper_at(Wheel wheel, Cycle at) const {
-  const Ahead* ahead = ahead_at(wheel, at);
-  return ahead ? ahead->stepper : *steppers_[static_cast<std::size_t>(wheel)];
+  motor_at(wheel, at);
+  return *steppers_[static_cast<std::size_t>(wheel)];
 }
 
 Stepper& AgendaTimer::stepper(Wheel wheel, Cycle at) {
   AgendaMotor& m = bring(wheel, done_tick(serial_of(wheel), at));
   m.disturb();  // the caller may write pins
+  note(0, at);
   return stepper(wheel);
 }
 
 board::RotorCourse AgendaTimer::course(Wheel wheel, Cycle at) const {
-  const Ahead* ahead = ahead_at(wheel, at);
-  const AgendaMotor& m = ahead ? ahead->motor : motor(wheel);
-  const Stepper& rotor = ahead ? ahead->stepper : *steppers_[static_cast<std::size_t>(wheel)];
+  const AgendaMotor& m = motor_at(wheel, at);
+  const Stepper& rotor = *steppers_[static_cast<std::size_t>(wheel)];
   board::RotorCourse course = rotor.course(at);
   const Cycle step = next_step(m);
   const bool is_even = step < kNever && !walking_ && m.is_regular() && rotor.is_at(m.phase) &&
@@ -432,17 +411,22 @@ Cycle AgendaTimer::cost_of(const Node& node) const {
 
 Cycle AgendaTimer::take_walk_cost() { return std::exchange(walk_cost_, 0); }
 
-std::uint64_t AgendaTimer::find_share_q32() const {
+std::uint64_t AgendaTimer::share_q32() const {
   if (!running_) return 0;
   const auto share = [](Cycle cycles, std::int64_t ticks) {
     return (static_cast<std::uint64_t>(cycles) << 32) / static_cast<std::uint64_t>(ticks * kAgendaTickCycles);
   };
-  Cycle tick = kAgendaIsrCycles + (nodes_.empty() ? 0 : kAgendaListCycles);
-  for (const Node& node : nodes_) tick += cost_of(node);
-  std::uint64_t sum = share(tick, 1);
-  for (const AgendaMotor& m : motors_)
-    if (m.count.counts() && m.speed() != 0) sum += share(m.period_cycles(), m.full_period());
-  return sum;
+  if (!(shares_known_ & kTicks)) {
+    Cycle tick = kAgendaIsrCycles + (nodes_.empty() ? 0 : kAgendaListCycles);
+    for (const Node& node : nodes_) tick += cost_of(node);
+    tick_share_q32_ = share(tick, 1);
+  }
+  for (std::size_t i = 0; i < 2; ++i)
+    if (const AgendaMotor& m = motors_[i]; !(shares_known_ >> i & 1))
+      motor_share_q32_[i] =
+          m.count.counts() && m.speed() != 0 ? share(m.period_cycles(), m.full_period()) : 0;
+  shares_known_ = kAllShares;
+  return tick_share_q32_ + motor_share_q32_[0] + motor_share_q32_[1];
 }
 
 std::uint64_t AgendaTimer::state_sum(Cycle at) const {
@@ -452,13 +436,8 @@ std::uint64_t AgendaTimer::state_sum(Cycle at) const {
     sum += part * factor;
     factor += 0xE7037ED1A0B428DAu;  // even, so the factor stays odd
   };
-  // motors as the last command left them: what they have done since follows from the ticks
-  for (const AgendaMotor& m : motors_) {
-    add(static_cast<std::uint64_t>(m.count.tick) << 16 | m.count.counter);
-    add(static_cast<std::uint64_t>(m.commanded));
-    add(static_cast<std::uint64_t>(m.phase) << 8 | static_cast<std::uint64_t>(m.speed() + kMaxSpeed) << 16 |
-        (m.phase_on ? 1ull << 40 : 0));
-  }
+  // motors: what they have done since a command follows from the ticks
+  add(history_);
   for (const Node& node : nodes_) add(node.count.cycle | std::uint64_t{node.serial} << 16);
   return sum;
 }

@@ -22,6 +22,7 @@
 
 #include "hal_sim/board/pin_driver.h"
 #include "hal_sim/drivers/agenda_motor.h"
+#include "sim_core/base/hash.h"
 
 namespace drivers {
 
@@ -88,7 +89,7 @@ class AgendaTimer {
   board::RotorCourse course(Wheel wheel, Cycle at) const;
   /// Cycle before which the coils keep their state without a command.
   Cycle coils_horizon(Wheel wheel, Cycle at) const;
-  /// The motor as it is at `at`; valid until the next call of anything here.
+  /// The motor as it is at `at`, which is not before the last instant that anybody asked for.
   const Stepper& stepper_at(Wheel wheel, Cycle at) const;
   /// The motor itself, brought to `at`; changing it is up to the caller (pins written directly, other
   /// drivers).
@@ -121,13 +122,7 @@ class AgendaTimer {
   std::int64_t ticks_at(Cycle at) const;
   /// What the ticks take of each cycle that call no function of the program, as a fraction of 2^32; those
   /// that do are run and charged one by one.
-  std::uint64_t share_q32() const {
-    if (!share_known_) {
-      share_q32_ = find_share_q32();
-      share_known_ = true;
-    }
-    return share_q32_;
-  }
+  std::uint64_t share_q32() const;
   /// Does the driver step this wheel on and on?
   bool runs(Wheel wheel) const {
     return running_ && motor(wheel).count.counts() && motor(wheel).speed() != 0;
@@ -144,12 +139,6 @@ class AgendaTimer {
     AgendaCount count;  // of user nodes; motors keep theirs in AgendaMotor
   };
 
-  /// A motor as it will be.
-  struct Ahead {
-    AgendaMotor motor;
-    Stepper stepper;
-  };
-
   AgendaMotor& motor(Wheel wheel) { return motors_[static_cast<int>(wheel)]; }
   const AgendaMotor& motor(Wheel wheel) const { return motors_[static_cast<int>(wheel)]; }
   static Wheel wheel_of(Kind kind) { return kind == Kind::Left ? Wheel::Left : Wheel::Right; }
@@ -163,14 +152,18 @@ class AgendaTimer {
   void settle_motors(std::int64_t tick);
   void settle_motors_at(Cycle at);
   void disturb(const Node& node);
-  /// The motor itself, brought to `tick`.
-  AgendaMotor& bring(Wheel wheel, std::int64_t tick);
+  void note(std::uint64_t command, Cycle at) {
+    history_ = sim::mix64(history_ ^ command << 48 ^ static_cast<std::uint64_t>(at));
+  }
+  /// The motor, brought to `tick`. Nothing that follows is earlier, whoever asks.
+  AgendaMotor& bring(Wheel wheel, std::int64_t tick) const {
+    AgendaMotor& m = motors_[static_cast<std::size_t>(wheel)];
+    m.advance_to(tick, line_, *steppers_[static_cast<std::size_t>(wheel)]);
+    return m;
+  }
   std::uint32_t serial_of(Wheel wheel) const { return motor_serial_[static_cast<int>(wheel)]; }
-  /// The copy kept for looking ahead, brought to `at`; null: the motor itself is as it is then.
-  const Ahead* ahead_at(Wheel wheel, Cycle at) const;
   const AgendaMotor& motor_at(Wheel wheel, Cycle at) const {
-    const Ahead* ahead = ahead_at(wheel, at);
-    return ahead ? ahead->motor : motor(wheel);
+    return bring(wheel, done_tick(serial_of(wheel), at));
   }
   Cycle next_step(const AgendaMotor& motor) const;
   Stepper& stepper(Wheel wheel) { return *steppers_[static_cast<int>(wheel)]; }
@@ -179,7 +172,6 @@ class AgendaTimer {
   Cycle cost_of(const Node& node) const;
   void resume(std::int64_t done, Cycle at);
   void lose(std::int64_t ticks, Cycle at);
-  std::uint64_t find_share_q32() const;
   void find_next_fire();
 
   TickLine line_;
@@ -190,18 +182,17 @@ class AgendaTimer {
   Cycle first_lost_ = 0, first_speed_ = -1;
   std::vector<Node> nodes_;  // oldest first; the list is walked from the back
   board::Stepper* steppers_[2];
-  AgendaMotor motors_[2];
-  // what queries have computed ahead of the last command; a cache, its presence changes no answer
-  mutable Ahead ahead_[2];
-  mutable bool has_ahead_[2] = {false, false};
+  mutable AgendaMotor motors_[2];  // as far as somebody has asked: when changes no answer
+  std::uint64_t history_ = 0;      // of commands, for the hash
   bool has_node_[2] = {false, false};
   Function motor_functions_[2] = {nullptr, nullptr};
   std::uint32_t motor_serial_[2] = {0, 0};
   std::uint32_t last_serial_ = 0;
 
-  mutable std::uint64_t share_q32_ = 0;
-  mutable bool share_known_ = false;  // false: the list, a cycle or a speed has changed
-  std::int64_t next_fire_ = -1;       // next tick that needs the handler, -1 none
+  static constexpr unsigned kTicks = 4, kAllShares = 7;  // bits 0 and 1: the motors
+  mutable std::uint64_t tick_share_q32_ = 0, motor_share_q32_[2] = {0, 0};
+  mutable unsigned shares_known_ = 0;  // cleared when the list, a cycle or a speed has changed
+  std::int64_t next_fire_ = -1;        // next tick that needs the handler, -1 none
   bool walking_ = false;
   std::int64_t walk_tick_ = 0;
   std::uint32_t walk_serial_ = 0;  // node being processed; those above are done

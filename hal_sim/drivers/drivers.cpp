@@ -126,7 +126,8 @@ void Drivers::add_diagnoses(std::vector<board::Diagnosis>& all, Cycle at) const 
 }
 
 std::uint64_t Drivers::state_sum(Cycle at) const {
-  return agendas_.state_sum(at) + static_cast<std::uint64_t>(scan_.interrupts(at)) * 0x9E3779B97F4A7C15u;
+  return agendas_.state_sum(at) + timer_motors_.state_sum() * 0xD6E8FEB86659FD93u +
+         static_cast<std::uint64_t>(scan_.interrupts(at)) * 0x9E3779B97F4A7C15u;
 }
 
 }  // namespace drivers

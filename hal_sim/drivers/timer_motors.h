@@ -55,6 +55,13 @@ class TimerMotors {
     return trains_[0][index(wheel)].running || trains_[1][index(wheel)].running ||
            trains_[1][index(wheel)].coils_off_at >= 0;
   }
+  /// The last commands, for a hash.
+  std::uint64_t state_sum() const {
+    std::uint64_t sum = 0;
+    for (const auto& of_driver : trains_)
+      for (const StepTrain& t : of_driver) sum = sum * 4099 + static_cast<std::uint64_t>(t.speed + 2048);
+    return sum;
+  }
   /// Cycles between two interrupts of the basic driver; 0 when stopped.
   Cycle interrupt_period(Wheel wheel) const;
   void reset();

@@ -64,9 +64,9 @@ TEST(AgendaMotors, seven_hundred_steps_every_fourteen_ticks) {
   d.timer.set_speed(Wheel::Right, 700, 0);
   EXPECT_EQ(d.timer.commanded_steps(Wheel::Right, 14 * kTick - 1), 0);
   EXPECT_EQ(d.timer.commanded_steps(Wheel::Right, 14 * kTick), 1);
+  EXPECT_EQ(d.timer.steps_horizon(Wheel::Right, 14 * kTick), 28 * kTick);
   EXPECT_EQ(d.timer.commanded_steps(Wheel::Right, 28 * kTick - 1), 1);
   EXPECT_EQ(d.timer.commanded_steps(Wheel::Right, 28 * kTick), 2);
-  EXPECT_EQ(d.timer.steps_horizon(Wheel::Right, 14 * kTick), 28 * kTick);
 }
 
 TEST(AgendaMotors, five_hundred_for_ten_seconds_makes_4998_steps) {
