@@ -197,6 +197,16 @@ int AdcScan::lit(int sensor, Cycle at) {
   return read(lit_[static_cast<std::size_t>(sensor)], sensor, at, true);
 }
 
+AdcScan::Pair AdcScan::pair(int sensor, Cycle at) {
+  const std::size_t s = static_cast<std::size_t>(sensor);
+  Pair now{kAdcMax, lit(sensor, at), lit_[s].until};
+  // in darkness, once there is a dark sample, the others are the same
+  if (dark_[s].is_regular && held_since_ < 0 && sensor < kRingSensors && board_.is_dark()) return now;
+  now.dark = dark(sensor, at);
+  now.until = std::min(now.until, dark_[s].until);
+  return now;
+}
+
 int AdcScan::peek_dark(int sensor, Cycle at) const {
   const Sample& kept = dark_[static_cast<std::size_t>(sensor)];
   const std::int64_t number = dark_number(sensor, at);
@@ -226,13 +236,6 @@ Cycle AdcScan::next_sample(std::int64_t filed, int slot, int shift, int pair) co
   std::int64_t period = (filed + kScanPeriod - 1 - slot) / kScanPeriod;
   period += (pair - pair_of_lit(period + shift) + pairs_) % pairs_;
   return full_cycle(period * kScanPeriod + slot) + kScanFileCycles;
-}
-
-Cycle AdcScan::horizon(int sensor, Cycle at) {
-  dark(sensor, at);
-  lit(sensor, at);
-  return std::min(dark_[static_cast<std::size_t>(sensor)].until,
-                  lit_[static_cast<std::size_t>(sensor)].until);
 }
 
 void AdcScan::fill_acc(std::int64_t count) {

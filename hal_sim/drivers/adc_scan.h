@@ -77,14 +77,17 @@ class AdcScan {
   /// the value.
   int dark(int sensor, Cycle at);
   int lit(int sensor, Cycle at);
-  /// Cycle before which what dark() or lit() returned last stays true.
-  Cycle dark_until(int sensor) const { return dark_[static_cast<std::size_t>(sensor)].until; }
-  Cycle lit_until(int sensor) const { return lit_[static_cast<std::size_t>(sensor)].until; }
+  /// Both, and the cycle before which neither changes.
+  struct Pair {
+    int dark = 0, lit = 0;
+    Cycle until = 0;
+  };
+  Pair pair(int sensor, Cycle at);
   /// The same without keeping anything.
   int peek_dark(int sensor, Cycle at) const;
   int peek_lit(int sensor, Cycle at) const;
   /// Cycle before which neither of the two changes.
-  Cycle horizon(int sensor, Cycle at);
+  Cycle horizon(int sensor, Cycle at) { return pair(sensor, at).until; }
 
   /// Counts of the `number`-th microphone sample since reset (from 0), which is one of the last 100. Nothing
   /// is kept: its instant is known, and the air's pressure at an instant does not change.

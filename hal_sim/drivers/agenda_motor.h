@@ -146,8 +146,9 @@ class AgendaMotor {
   }
   std::int64_t full_period() const { return saves_power() ? save_period_ : count.cycle; }
 
-  /// Do steps come one period after the other, each beginning where the one before ended, until a command?
-  bool is_regular() const { return regular_ >= kRegularSteps; }
+  /// Has it stepped since the last command, where its driver believes the rotor: do the next steps come one
+  /// period after the other?
+  bool has_stepped() const { return regular_ > 0; }
   /// left: forward only for v > 0; right: backward only for v < 0
   int step_direction() const {
     if (forward_ < 0) return speed_ > 0 ? 1 : -1;

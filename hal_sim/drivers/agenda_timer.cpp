@@ -281,11 +281,13 @@ Stepper& AgendaTimer::stepper(Wheel wheel, Cycle at) {
 board::RotorCourse AgendaTimer::course(Wheel wheel, Cycle at) const {
   const AgendaMotor& m = motor_at(wheel, at);
   const Stepper& rotor = *steppers_[static_cast<std::size_t>(wheel)];
+  const Cycle step = next_step(m), period = m.full_period() * kAgendaTickCycles;
+  if (step < kNever && !walking_ && m.has_stepped() && period <= kRotorMoveCycles && rotor.is_at(m.phase)) {
+    const double rate = m.step_direction() / static_cast<double>(period);
+    return {static_cast<double>(rotor.steps()) - rate * static_cast<double>(step - at), rate, kNever};
+  }
   board::RotorCourse course = rotor.course(at);
-  const Cycle step = next_step(m);
-  const bool is_even = step < kNever && !walking_ && m.is_regular() && rotor.is_at(m.phase) &&
-                       m.full_period() * kAgendaTickCycles <= kRotorMoveCycles;
-  course.until = is_even ? kNever : std::min(course.until, step);
+  course.until = std::min(course.until, step);
   return course;
 }
 

@@ -376,13 +376,10 @@ tp_i64 tp_scan_acc_samples(void) {
 
 tp_i64 tp_scan_pair(tp_i64 sensor) {
   Context& context = Context::current();
-  drivers::AdcScan& scan = context.drivers().scan();
   if (sensor < 0 || sensor > 9) return 0;
-  const int which = static_cast<int>(sensor);
-  const Cycle now = context.now();
-  const tp_i64 dark = scan.dark(which, now), lit = scan.lit(which, now);
-  context.lower_horizon(std::min(scan.dark_until(which), scan.lit_until(which)));
-  return dark | lit << 16;
+  const drivers::AdcScan::Pair now = context.drivers().scan().pair(static_cast<int>(sensor), context.now());
+  context.lower_horizon(now.until);
+  return tp_i64{now.dark} | tp_i64{now.lit} << 16;
 }
 
 tp_i64 tp_scan_mic_index(void) {
