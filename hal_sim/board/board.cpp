@@ -194,7 +194,7 @@ void Board::write_emitters(std::size_t port, std::uint16_t value, Cycle at) {
   const int lines = __builtin_popcount(static_cast<unsigned>(lat_[kF] & ~tris_[kF] & kEmitterMask[kF])) +
                     __builtin_popcount(static_cast<unsigned>(lat_[kG] & ~tris_[kG] & kEmitterMask[kG]));
   emitters_a_ = 2 * kIrEmitterA * lines;
-  battery_.draw(other_a_ + coils_a_ + emitters_a_, at);
+  draw(at);
 }
 
 void Board::outputs_changed(Cycle at) {

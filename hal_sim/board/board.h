@@ -254,8 +254,12 @@ class Board {
   }
   /// The same when it was only the motors.
   void follow_motors(Cycle at) {
-    coils_a_ = coils_a(at);
-    battery_.draw(other_a_ + coils_a_ + emitters_a_, at);
+    coils_a_[0] = coils_a(Wheel::Left, at);
+    follow_motor(Wheel::Right, at);
+  }
+  void follow_motor(Wheel wheel, Cycle at) {
+    coils_a_[static_cast<std::size_t>(wheel)] = coils_a(wheel, at);
+    draw(at);
   }
   /// The robot is switched off for good: nothing is drawn.
   void switch_off() { battery_.draw(0, 0); }
@@ -298,8 +302,9 @@ class Board {
   bool output_high(Pin pin) const;
   /// What everything that is on draws, A: the IR emitters, the motors, and all else.
   double emitters_a(Cycle at) const;
-  double coils_a(Cycle at) const;
+  double coils_a(Wheel wheel, Cycle at) const;
   double other_a(Cycle at) const;
+  void draw(Cycle at) { battery_.draw(other_a_ + coils_a_[0] + coils_a_[1] + emitters_a_, at); }
   /// Nothing but pins moves coils and emitters: no driver in closed form runs, no part hears of pins.
   bool is_led_by_pins() const;
   void write_coils(std::uint16_t value, Cycle at);
@@ -334,7 +339,8 @@ class Board {
   bool watches_inputs_ = true;
   bool may_hear_ =
       true;  // false: nothing sounds in the scene, found out once a tick for the models of the chip
-  double other_a_ = kProcessorA + kBluetoothA + kBoardA, coils_a_ = 0, emitters_a_ = 0;  // as followed last
+  double other_a_ = kProcessorA + kBluetoothA + kBoardA, coils_a_[2] = {0, 0},
+         emitters_a_ = 0;  // as followed last
 
   PinDriver* driver_ = nullptr;
   Stepper motors_[2] = {Stepper(-1), Stepper(+1)};

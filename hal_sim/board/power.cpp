@@ -29,9 +29,7 @@ double Board::coil_duty(Wheel wheel, Cycle at) const {
   return driven ? *driven : ones(coils(wheel, at)) / 2.0;
 }
 
-double Board::coils_a(Cycle at) const {
-  return 2 * kCoilA * (coil_duty(Wheel::Left, at) + coil_duty(Wheel::Right, at));
-}
+double Board::coils_a(Wheel wheel, Cycle at) const { return 2 * kCoilA * coil_duty(wheel, at); }
 
 double Board::other_a(Cycle at) const {
   double amps = kProcessorA + kBluetoothA + kBoardA;

@@ -337,36 +337,30 @@ AgendaTimer::Function AgendaTimer::next(bool& divided_by_zero) {
     for (Node& node : nodes_)
       if (node.serial == walk_serial_) node.count.counter = 0;
   }
-  for (;;) {
-    // newest node that is older than the one just processed
-    Node* node = nullptr;
-    for (std::size_t i = nodes_.size(); i-- > 0 && !node;)
-      if (nodes_[i].serial < walk_serial_) node = &nodes_[i];
-    if (!node) {
-      walk_serial_ = 0;
-      return nullptr;
-    }
-    walk_cost_ += cost_of(*node);
-    if (!needs_handler(*node)) {  // a motor, whose firings are a share
-      walk_serial_ = node->serial;
-      continue;
-    }
-    settle(*node, walk_tick_ - 1);
-    walk_serial_ = node->serial;
-    AgendaCount& count = count_of(*node);
+  // newest first, those that are older than the one just processed
+  for (std::size_t i = nodes_.size(); i-- > 0;) {
+    Node& node = nodes_[i];
+    if (node.serial >= walk_serial_) continue;
+    walk_cost_ += cost_of(node);
+    if (!needs_handler(node)) continue;  // a motor, whose firings are a share
+    settle(node, walk_tick_ - 1);
+    walk_serial_ = node.serial;
+    AgendaCount& count = count_of(node);
     count.tick = walk_tick_;
     if (!count.counts()) continue;
     ++count.counter;
     if (count.counter < count.cycle) continue;
-    if (node->kind == Kind::User) {
+    if (node.kind == Kind::User) {
       in_callback_ = true;
-      return node->function;
+      return node.function;
     }
-    AgendaMotor& m = motor(wheel_of(node->kind));
-    divided_by_zero = !m.fire(line_.cycle_of(walk_tick_), stepper(wheel_of(node->kind)));
+    AgendaMotor& m = motor(wheel_of(node.kind));
+    divided_by_zero = !m.fire(line_.cycle_of(walk_tick_), stepper(wheel_of(node.kind)));
     count.counter = 0;
     if (divided_by_zero) return nullptr;
   }
+  walk_serial_ = 0;
+  return nullptr;
 }
 
 void AgendaTimer::finish(Cycle at) {

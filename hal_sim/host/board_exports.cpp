@@ -3,6 +3,7 @@
 // host until when the answer holds (a read) or that something changed (a write).
 // Nothing is computed here; the numbers are hal_sim/board's.
 #include <algorithm>
+#include <optional>
 #include <string>
 
 #include "hal_sim/api/timings.h"
@@ -72,14 +73,14 @@ Cycle search_cost(const void* function, Cycle found_at_once = kListSearchCycles)
 
 Cycle hold_cost(const drivers::AgendaTimer& list) { return list.is_enabled() ? kHoldCycles : 0; }
 
-/// Shape of every change of the agenda list.
+/// Shape of every change of the agenda list; `only`: the one wheel that it moves otherwise.
 template <typename Change>
-tp_i64 change_list(Cycle cost, Change change) {
+tp_i64 change_list(Cycle cost, Change change, std::optional<Wheel> only = std::nullopt) {
   Context& context = Context::current();
   Board& robot = context.board();
   const Cycle now = context.now();
   const int result = change(context.drivers().agendas(), now);
-  robot.follow_motors(now);
+  only ? robot.follow_motor(*only, now) : robot.follow_motors(now);
   context.note_write();
   context.follow_handlers();
   host::request_agenda_interrupt(context);
@@ -253,16 +254,19 @@ void tp_motor_agenda(tp_i64 wheel, const void* function) {
 }
 
 void tp_motor_speed(tp_i64 wheel, tp_i64 speed_steps_s) {
-  note_speed(Context::current(), wheel, speed_steps_s, drivers::kMaxSpeed);
-  const int passed = Context::current().drivers().agendas().nodes_passed(wheel_of(wheel));
+  Context& context = Context::current();
+  note_speed(context, wheel, speed_steps_s, drivers::kMaxSpeed);
+  const Wheel which = wheel_of(wheel);
+  const int passed = context.drivers().agendas().nodes_passed(which);
   const Cycle cost =
       kSetSpeedCycles + kNodePassedCycles * passed + (speed_steps_s == 0 ? 0 : kDivisionCycles);
   // the agenda's cycle is set last
-  Context::current().spend(cost - kSpeedReturnCycles);
-  change_list(kSpeedReturnCycles, [&](drivers::AgendaTimer& agendas, Cycle now) {
-    agendas.set_speed(wheel_of(wheel), static_cast<int>(speed_steps_s), now);
+  context.spend(cost - kSpeedReturnCycles);
+  const auto set_speed = [&](drivers::AgendaTimer& agendas, Cycle now) {
+    agendas.set_speed(which, static_cast<int>(speed_steps_s), now);
     return 1;
-  });
+  };
+  change_list(kSpeedReturnCycles, set_speed, which);
 }
 
 void tp_motor_run(tp_i64 wheel) {

@@ -38,9 +38,9 @@ Cycle FirmwareMind::now() const {
 void FirmwareMind::run_until(const sim::Scene& scene, sim::Clicks end) {
   board_.look_at(&scene);
   const Cycle start = now();
-  board_.exchange(start);
+  if (start >= board_quiet_until_) board_.exchange(start);
   now_ = cycle_at(end);
-  if (!runner_) return set_idle_until(idle_until());
+  if (!runner_) return set_idle_until(find_idle_until());
   runner_->begin_window(start);
   runner_->run_until(now_);
   if (runner_->turns() != turns_) {
@@ -48,12 +48,12 @@ void FirmwareMind::run_until(const sim::Scene& scene, sim::Clicks end) {
     course_.until = 0;
     hash_ = board_.state_hash(now_) ^ runner_->hash() * 0xD6E8FEB86659FD93u;
   }
-  set_idle_until(idle_until());
+  set_idle_until(find_idle_until());
 }
 
-sim::Clicks FirmwareMind::idle_until() const {
-  const Cycle board = board_.horizon(now_), idle = runner_ ? runner_->idle_until() : kNever;
-  const Cycle until = std::min(board, idle);
+sim::Clicks FirmwareMind::find_idle_until() {
+  board_quiet_until_ = board_.horizon(now_);
+  const Cycle until = std::min(board_quiet_until_, runner_ ? runner_->idle_until() : kNever);
   return until >= kNever ? kNever : until <= now_ ? 0 : board_.clock().click_at(until);
 }
 

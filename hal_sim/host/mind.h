@@ -33,7 +33,10 @@ class FirmwareMind final : public sim::RobotMind {
   void press_key(const board::KeyPress& key);
 
   /// Something outside has changed: the robot looks at what is new in the next tick.
-  void wake() { set_idle_until(0); }
+  void wake() {
+    board_quiet_until_ = 0;
+    set_idle_until(0);
+  }
   /// For changing, too.
   board::Board& board() {
     wake();
@@ -57,12 +60,13 @@ class FirmwareMind final : public sim::RobotMind {
     return runner_.get();
   }
   void power_up(const RunnerFactory& make_runner);
-  sim::Clicks idle_until() const;
+  sim::Clicks find_idle_until();
   sim::WheelCourse course_at(sim::Clicks at) const;
 
   board::Board board_;
   std::unique_ptr<Runner> runner_;
   Cycle now_ = 0;  // the last end of run_until()
+  Cycle board_quiet_until_ = 0;
   sim::WheelCourse course_;
   std::uint64_t hash_ = 0, turns_ = 0;  // of the robot, when they were made
 };

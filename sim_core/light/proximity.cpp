@@ -197,8 +197,11 @@ double answer_singly(const SensorOptics& s, const RayEnd* ends) {
     const double d = ends[i].factor == 1 ? ends[i].distance_m : ends[i].distance_m / ends[i].factor;
     sum += s.curve.at(d).value;
     if (s.rays[i].off_axis_rad > 1e-9) continue;
+    double slant = 0, slanted = 0;
     for (const BodyRay& other : s.rays) {
-      if (other.off_axis_rad > 1e-9) sum -= s.curve.at(d * other.slant).value;
+      if (other.off_axis_rad <= 1e-9) continue;
+      if (other.slant != slant) slanted = s.curve.at(d * (slant = other.slant)).value;
+      sum -= slanted;
     }
   }
   return std::clamp(sum, 0.0, s.curve.at(0).value);
