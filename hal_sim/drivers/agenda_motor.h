@@ -58,6 +58,8 @@ class AgendaMotor {
   /// steps/s, clamped
   int speed() const { return speed_; }
   void set_speed(int speed) {
+    rolls_on_ = regular_ > 0 && (speed > 0) == (speed_ > 0) && speed != 0;
+    disturb();
     speed_ = speed;
     magnitude_ = std::abs(speed);
     save_period_ = speed == 0 ? 0 : kSpeedUnit / magnitude_;
@@ -146,9 +148,10 @@ class AgendaMotor {
   }
   std::int64_t full_period() const { return saves_power() ? save_period_ : count.cycle; }
 
-  /// Has it stepped since the last command, where its driver believes the rotor: do the next steps come one
-  /// period after the other?
-  bool has_stepped() const { return regular_ > 0; }
+  /// Does the wheel turn evenly until the next command? From the third step on, when each begins where the
+  /// one before ended; from the first one on when it rolled the same way before. (A wheel that starts from
+  /// rest has to be followed: how it does so decides on its slip.)
+  bool is_even() const { return regular_ >= kRegularSteps || (regular_ > 0 && rolls_on_); }
   /// left: forward only for v > 0; right: backward only for v < 0
   int step_direction() const {
     if (forward_ < 0) return speed_ > 0 ? 1 : -1;
@@ -172,7 +175,8 @@ class AgendaMotor {
   /// before. The last of them begins where the one before has ended, so it can be added up with what follows.
   static constexpr int kRegularSteps = 3;
   int forward_;
-  int regular_ = 0;
+  int regular_ = 0;        // steps since the last command
+  bool rolls_on_ = false;  // it stepped the same way before that
   int speed_ = 0, magnitude_ = 0;
   int save_period_ = 0;  // ticks from step to step in power save
 

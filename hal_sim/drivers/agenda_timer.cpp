@@ -243,7 +243,6 @@ void AgendaTimer::set_speed(Wheel wheel, int speed, Cycle at) {
   AgendaMotor& m = bring(wheel, done_tick(serial_of(wheel), at));
   const bool counted = m.count.counts(), was_handled = counted && m.speed() == 0;
   stepper(wheel).set_coils_only(0);
-  m.disturb();
   note(static_cast<std::uint64_t>(speed) << 1 | static_cast<std::uint64_t>(wheel), at);
   m.set_speed(std::clamp(speed, -kMaxSpeed, kMaxSpeed));
   if (speed != 0 && first_speed_ < 0) first_speed_ = at;
@@ -282,7 +281,7 @@ board::RotorCourse AgendaTimer::course(Wheel wheel, Cycle at) const {
   const AgendaMotor& m = motor_at(wheel, at);
   const Stepper& rotor = *steppers_[static_cast<std::size_t>(wheel)];
   const Cycle step = next_step(m), period = m.full_period() * kAgendaTickCycles;
-  if (step < kNever && !walking_ && m.has_stepped() && period <= kRotorMoveCycles && rotor.is_at(m.phase)) {
+  if (step < kNever && !walking_ && m.is_even() && period <= kRotorMoveCycles && rotor.is_at(m.phase)) {
     const double rate = m.step_direction() / static_cast<double>(period);
     return {static_cast<double>(rotor.steps()) - rate * static_cast<double>(step - at), rate, kNever};
   }
