@@ -279,7 +279,8 @@ std::vector<DriverChoice> choose_drivers(std::vector<CompileOutcome>& user,
 
 /// The chip way's last step: .elf, .hex, .lst and .map, which appear together or not at all.
 void link_chip(const std::vector<CompileOutcome>& user, const std::vector<CompileOutcome>& members,
-               const Library& library, const Renames& renames, const fs::path& output, BuildResult& result) {
+               const std::vector<fs::path>& objects, const Library& library, const Renames& renames,
+               const fs::path& output, BuildResult& result) {
   std::error_code ec;
   const fs::path half = unfinished(output);  // a folder
   fs::create_directories(half, ec);
@@ -287,6 +288,11 @@ void link_chip(const std::vector<CompileOutcome>& user, const std::vector<Compil
   std::vector<std::string> argv = {compiler_path().string(), "--link", "-o", made.string()};
   for (const auto& u : user) argv.push_back(u.object.string());
   for (const auto& [from, to] : renames) argv.insert(argv.end(), {"--rename", from + "=" + to});
+  for (const auto& file : objects) {
+    look_at(file);
+    if (file.extension() != ".o") argv.push_back("--library");  // of an archive what is asked for
+    argv.push_back(file.string());
+  }
   for (const auto& m : members) argv.insert(argv.end(), {"--library", m.object.string()});
   argv.insert(argv.end(), {"--library", library.archive.string()});
   const auto run = run_process(argv);
@@ -399,7 +405,7 @@ static BuildResult build_here(const BuildOptions& o) {
   fs::create_directories(output.parent_path(), ec);
   if (o.chip_way) {
     user.insert(user.end(), outcomes.begin() + long(p.user.size()), outcomes.end());
-    link_chip(user, members, library, renames, output, result);
+    link_chip(user, members, program.objects, library, renames, output, result);
     result.ok = result.errors.empty();
     return finish();
   }

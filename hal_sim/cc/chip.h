@@ -3,7 +3,7 @@
 // the same kind of passes, and the dsPIC30F's code generator (dspic30/llvm). Stages, in order:
 //
 //   chip_target.cpp      what clang must know of the chip; XC16's attributes
-//   chip_lower.cpp       registers, attributes, bit-fields, struct results: from C's terms to the code
+//   chip_lower.cpp       registers, attributes, bit-fields, lists of arguments: from C's terms to the code
 //   generator's chip_pipeline.cpp    optimiser's passes, in our own order chip_emit.cpp        object,
 //   assembler text or IR
 #pragma once

@@ -6,7 +6,6 @@
 #include "llvm/IR/IRBuilder.h"
 #include "llvm/IR/InstIterator.h"
 #include "llvm/IR/PatternMatch.h"
-#include "llvm/Transforms/Utils/Cloning.h"
 #include "llvm/Transforms/Utils/ModuleUtils.h"
 #include "passes.h"
 
@@ -92,105 +91,6 @@ void define_initializers(Module& m) {
     if (g.hasInitializer()) g.setInitializer(without_undefined(g.getInitializer()));
 }
 
-// --- a struct of up to 8 bytes comes back in W0 to W3. clang hands every struct over by an address it gets
-// first
-// ("sret"); of such functions a twin is made that returns words, and callers store them.
-
-constexpr uint64_t kLargestInRegisters = 8;
-
-/// The words a struct result takes, or null when it goes through memory.
-Type* words_of(const Function& f, const DataLayout& layout) {
-  if (f.arg_empty() || !f.hasStructRetAttr() || f.isIntrinsic()) return nullptr;
-  const uint64_t bytes = layout.getTypeAllocSize(f.getParamStructRetType(0));
-  if (bytes == 0 || bytes > kLargestInRegisters) return nullptr;
-  return ArrayType::get(Type::getInt16Ty(f.getContext()), (bytes + 1) / 2);
-}
-
-AttributeList without_first(const AttributeList& from, LLVMContext& context, unsigned parameters) {
-  SmallVector<AttributeSet, 8> rest;
-  for (unsigned i = 1; i < parameters; ++i) rest.push_back(from.getParamAttrs(i));
-  return AttributeList::get(context, from.getFnAttrs(), AttributeSet(), rest);
-}
-
-/// In the entry of `f`: room for the words, whose address serves as the struct's.
-AllocaInst* make_room(Function& f, Type* words) {
-  IRBuilder<> b(&*f.getEntryBlock().getFirstInsertionPt());
-  return b.CreateAlloca(words);
-}
-
-void return_words(Function& twin, Function& old, Type* words) {
-  ValueToValueMapTy map;
-  auto* entry = BasicBlock::Create(old.getContext(), "result", &twin);
-  IRBuilder<> b(entry);
-  auto* room = b.CreateAlloca(words);
-  map[old.getArg(0)] = b.CreateBitCast(room, old.getArg(0)->getType());
-  for (unsigned i = 1; i < old.arg_size(); ++i) {
-    map[old.getArg(i)] = twin.getArg(i - 1);
-    twin.getArg(i - 1)->setName(old.getArg(i)->getName());
-  }
-  SmallVector<ReturnInst*, 4> returns;
-  CloneFunctionInto(&twin, &old, map, CloneFunctionChangeType::LocalChangesOnly, returns);
-  b.CreateBr(cast<BasicBlock>(map[&old.getEntryBlock()]));
-  for (ReturnInst* r : returns) {
-    IRBuilder<> at(r);
-    at.CreateRet(at.CreateLoad(words, room));
-    r->eraseFromParent();
-  }
-}
-
-/// A call that hands over room for the result becomes one that gets words and stores them.
-void call_for_words(CallBase& call, FunctionType* type, Value* callee, Type* words) {
-  IRBuilder<> b(&call);
-  SmallVector<Value*, 8> arguments(std::next(call.arg_begin()), call.arg_end());
-  auto* made = b.CreateCall(type, callee, arguments);
-  made->setAttributes(without_first(call.getAttributes(), call.getContext(), call.arg_size()));
-  made->setDebugLoc(call.getDebugLoc());
-  // the room may be smaller than the words by a byte: a copy of its own, then just the struct
-  Value* to = call.getArgOperand(0);
-  const auto& layout = call.getModule()->getDataLayout();
-  const uint64_t bytes = layout.getTypeAllocSize(call.getParamAttr(0, Attribute::StructRet).getValueAsType());
-  auto* room = make_room(*call.getFunction(), words);
-  b.CreateStore(made, room);
-  b.CreateMemCpy(to, call.getParamAlign(0), room, Align(2), bytes);
-  call.eraseFromParent();
-}
-
-FunctionType* type_with_words(FunctionType* old, Type* words) {
-  return FunctionType::get(words, old->params().drop_front(), old->isVarArg());
-}
-
-void return_small_structs(Module& m) {
-  const DataLayout& layout = m.getDataLayout();
-  for (Function& f : make_early_inc_range(m)) {
-    Type* words = words_of(f, layout);
-    if (!words) continue;
-    auto* type = type_with_words(f.getFunctionType(), words);
-    auto* twin = Function::Create(type, f.getLinkage(), f.getAddressSpace(), "", &m);
-    twin->takeName(&f);
-    if (!f.isDeclaration()) return_words(*twin, f, words);
-    twin->setAttributes(without_first(f.getAttributes(), m.getContext(), f.arg_size()));
-    f.replaceAllUsesWith(ConstantExpr::getBitCast(twin, f.getType()));
-    f.eraseFromParent();
-  }
-  // by the call's own type: that finds calls through pointers as well
-  for (Function& f : m)
-    for (Instruction& i : make_early_inc_range(instructions(f))) {
-      auto* call = dyn_cast<CallBase>(&i);
-      if (!call || call->arg_empty() || !call->hasStructRetAttr() || isa<IntrinsicInst>(call)) continue;
-      const uint64_t bytes =
-          layout.getTypeAllocSize(call->getParamAttr(0, Attribute::StructRet).getValueAsType());
-      if (bytes == 0 || bytes > kLargestInRegisters) continue;
-      Type* words = ArrayType::get(Type::getInt16Ty(m.getContext()), (bytes + 1) / 2);
-      auto* type = type_with_words(call->getFunctionType(), words);
-      Value* callee = call->getCalledOperand()->stripPointerCasts();
-      if (callee->getType() != type->getPointerTo()) {
-        IRBuilder<> b(call);
-        callee = b.CreateBitCast(callee, type->getPointerTo());
-      }
-      call_for_words(*call, type, callee, words);
-    }
-}
-
 // --- variable arguments
 
 /// clang takes a struct behind "..." for handed over by its address; it lies among the arguments itself, as
@@ -263,6 +163,23 @@ void mend_calls(Module& m) {
 
 }  // namespace
 
+/// A char travels in the low byte of its word, and whoever reads it extends it: the function called its
+/// arguments, the caller the result, as with XC16. clang has it the other way round.
+void leave_upper_bytes_open(Module& m) {
+  for (Function& f : m) {
+    if (f.isIntrinsic()) continue;
+    const auto open = [](auto& called) {
+      for (const auto kind : {Attribute::SExt, Attribute::ZExt}) {
+        called.removeRetAttr(kind);
+        for (unsigned i = 0; i < called.arg_size(); ++i) called.removeParamAttr(i, kind);
+      }
+    };
+    open(f);
+    for (Instruction& i : instructions(f))
+      if (auto* call = dyn_cast<CallBase>(&i)) open(*call);
+  }
+}
+
 bool lower_for_chip(Unit& unit) {
   Module& m = unit.module;
   take_notes(m);
@@ -271,8 +188,8 @@ bool lower_for_chip(Unit& unit) {
   define_initializers(m);
   simplify_fields(m);
   mend_calls(m);
+  leave_upper_bytes_open(m);
   take_structs_from_lists(m);
-  return_small_structs(m);
   // as XC16: a delay loop waits at -O0 and -O1 and is gone at -O2 and -Os
   if (unit.options.level < 2) keep_empty_loops(m, *Intrinsic::getDeclaration(&m, Intrinsic::sideeffect));
   return !unit.failed;

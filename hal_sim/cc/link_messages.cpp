@@ -100,7 +100,9 @@ void sort_linker_messages(const std::string& text, const Program& program, const
       if (where.empty()) where = function.empty() ? "link" : function + "()";
       const std::string hint =
           in_assembler.count(name) ? "it is in " + in_assembler[name].filename().string() +
-                                         ", and assembler sources are not assembled here; write it in C"
+                                         ", and only the chip way assembles: --way chip, or write it in C"
+          : !program.objects.empty() ? program.objects.front().filename().string() +
+                                           " is code of the chip, which only the chip way links: --way chip"
           : is_of_webots(name)
               ? "a controller runs on the robot and has not this function of Webots; docs/webots.md lists "
                 "what there is, and supervisors are programs of their own"

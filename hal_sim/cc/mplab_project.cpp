@@ -117,6 +117,7 @@ std::optional<MplabProject> read_project(const fs::path& file, const fs::path& h
     const std::string extension = lower(fs::path(name).extension().string());
     const bool exists = !found.empty() && fs::is_regular_file(found, ec);
     if (extension == ".s" && exists) project.assembler.push_back(found);
+    if ((extension == ".o" || extension == ".a") && exists) project.objects.push_back(found);
     if (extension != ".c") continue;
     if (!exists) {
       ++project.missing;

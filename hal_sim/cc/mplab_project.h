@@ -23,6 +23,7 @@ struct MplabProject {
   std::vector<std::filesystem::path> sources;       ///< C files that exist, within the folder and without
   std::vector<std::filesystem::path> include_dirs;  ///< folders that exist
   std::vector<std::filesystem::path> assembler;     ///< assembler sources that exist
+  std::vector<std::filesystem::path> objects;       ///< objects and archives that exist
   std::vector<std::string> library_places;  ///< "a_d/e_prox.c" of what is listed of the library and missing
   std::vector<std::string> defines;         ///< "NAME=value"
   std::string standard;                     ///< of C, as -std= has it; "" unless given

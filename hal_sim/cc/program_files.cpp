@@ -110,6 +110,23 @@ void leave_out_other_programs(Program& program, const fs::path& folder, BuildRes
                             " is taken, and of the folders of the others what it asks for");
 }
 
+/// Archives of the chip's objects. Single objects beside sources are what somebody's compiler left there.
+std::vector<fs::path> archives_below(const fs::path& folder) {
+  std::vector<fs::path> archives = files_below(folder, ".a");
+  const auto is_foreign = [](const fs::path& file) {
+    constexpr std::size_t kMachine = 18;  // place of e_machine in an ELF file
+    constexpr char kDspic30f = 118;
+    const std::string text = read_text(file);
+    const std::size_t member = text.find(
+        "\x7f"
+        "ELF");
+    return text.rfind("!<arch>\n", 0) != 0 || member == std::string::npos ||
+           text.size() <= member + kMachine || text[member + kMachine] != kDspic30f;
+  };
+  archives.erase(std::remove_if(archives.begin(), archives.end(), is_foreign), archives.end());
+  return archives;
+}
+
 }  // namespace
 
 Program program_of(const BuildOptions& o, BuildResult& result) {
@@ -122,6 +139,7 @@ Program program_of(const BuildOptions& o, BuildResult& result) {
   if (!told.empty()) result.warnings.push_back(told);
   if (!project && (project = read_makefile(o.source_dir))) {
     project->assembler = files_below(o.source_dir, ".s");
+    project->objects = archives_below(o.source_dir);
     // its settings count in any case, its list when it has a program
     program.include_dirs = project->include_dirs;
     program.defines = project->defines;
@@ -134,10 +152,8 @@ Program program_of(const BuildOptions& o, BuildResult& result) {
     program.is_exact = true;
     return program;
   }
-  if (project)
-    program.assembler = project->assembler;
-  else
-    program.assembler = files_below(o.source_dir, ".s");
+  program.assembler = project ? project->assembler : files_below(o.source_dir, ".s");
+  program.objects = project ? project->objects : archives_below(o.source_dir);
   if (!project || is_webots) {
     if (!is_webots) leave_out_other_programs(program, o.source_dir, result);
     return program;

@@ -18,7 +18,8 @@ struct Program {
   std::vector<std::string> defines;
   std::string standard;
   std::vector<std::string> library_places;  // of what it lists of the library and is not compiled from it
-  std::vector<std::filesystem::path> assembler;  // sources of its own that nobody assembles
+  std::vector<std::filesystem::path> assembler;  // sources of its own that only the chip way assembles
+  std::vector<std::filesystem::path> objects;    // and objects and archives that only the chip way links
 
   /// The `own` first files to compile are the program's, the others members of a library: unlisted ones
   /// become the last of them. How many are own now.

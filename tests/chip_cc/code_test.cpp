@@ -86,19 +86,46 @@ void call(char *p) { print(p, (const char *)0x1234, 7); })";
   EXPECT_NE(call.find("sub #4, w15"), std::string::npos) << call;
 }
 
-TEST(ChipCode, struct_of_up_to_8_bytes_comes_back_in_registers) {
+// what XC16 1.22 makes of the same functions
+TEST(ChipCode, struct_comes_back_where_w0_points) {
   const char* source = R"(
-struct four { int v[4]; };
+struct one { int v; };
 struct five { int v[5]; };
-extern struct four a;
 extern struct five b;
-struct four small(void) { return a; }
-struct five large(void) { return b; }
-extern struct four get(void);
-int third(void) { return get().v[2]; })";
-  EXPECT_EQ(code_of(source, "small"), "mov _a, w0\nmov _a+2, w1\nmov _a+4, w2\nmov _a+6, w3\nreturn\n");
-  EXPECT_NE(code_of(source, "large").find("[w0"), std::string::npos);  // to where W0 points
-  EXPECT_NE(code_of(source, "third").find("mov w2, w0"), std::string::npos);
+struct one small(int k) { struct one r; r.v = k; return r; }
+struct five large(void) { return b; })";
+  EXPECT_EQ(code_of(source, "small"), "mov w1, [w0]\nreturn\n");
+  EXPECT_NE(code_of(source, "large").find("[w0"), std::string::npos);
+}
+
+TEST(ChipCode, struct_of_4_or_8_bytes_travels_as_a_number_of_that_size) {
+  const char* source = R"(
+struct c4 { char a[4]; };
+struct i2 { int v[2]; };
+struct i3 { int v[3]; };
+struct i4 { int v[4]; };
+int bytes(int z, struct c4 p) { return p.a[2]; }
+int pair(int z, struct i2 p) { return p.v[1]; }
+int three(int z, struct i3 p) { return p.v[2]; }
+int four(int z, struct i4 p) { return p.v[0]; }
+int gap(int z, struct i2 p, int k) { return p.v[1] + k; })";
+  EXPECT_NE(code_of(source, "bytes").find("w2"), std::string::npos);          // chars: from W1 on
+  EXPECT_NE(code_of(source, "pair").find("mov w3, w0"), std::string::npos);   // W3:W2
+  EXPECT_NE(code_of(source, "three").find("mov w3, w0"), std::string::npos);  // W1 to W3
+  EXPECT_NE(code_of(source, "four").find("mov w4, w0"), std::string::npos);   // W4 to W7
+  EXPECT_NE(code_of(source, "gap").find("add w3, w1, w0"), std::string::npos);
+}
+
+TEST(ChipCode, char_is_extended_by_who_reads_it) {
+  const char* source = R"(
+extern char got(char c);
+int taken(char c) { return c; }
+char given(int x) { return x; }
+int asked(char *p) { return got(p[0]); })";
+  EXPECT_EQ(code_of(source, "taken"), "se w0, w0\nreturn\n");
+  EXPECT_EQ(code_of(source, "given"), "return\n");
+  const std::string asked = code_of(source, "asked");
+  EXPECT_LT(asked.find("rcall _got"), asked.find("se w0, w0")) << asked;
 }
 
 TEST(ChipCode, handler_keeps_what_it_uses_and_returns_by_retfie) {

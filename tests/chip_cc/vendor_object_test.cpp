@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "dspic30/load/firmware_file.h"
+#include "hal_sim/cc/build.h"
 #include "hal_sim/cc/object_cache.h"
 #include "twinpuck_paths.h"
 
@@ -170,6 +171,33 @@ TEST(ChipLinker, object_of_xc16_links) {
     found |= word == 11 && file.words.at(address + 2) == 22 && file.words.at(address + 4) == 33 &&
              file.words.at(address + 6) == at;
   EXPECT_TRUE(found);
+}
+
+// _theirs alone is asked for; the program's own file and the archive lie in one folder
+TEST(ChipLinker, archive_beside_a_program_is_linked_the_chip_way) {
+  const fs::path work = fs::temp_directory_path() / ("twinpuck-archive-" + std::to_string(getpid()));
+  fs::create_directories(work / "program");
+  std::ofstream(work / "theirs.o", std::ios::binary) << object(kHandleInData).file();
+  std::ofstream(work / "program/main.c") << kMain;
+  const auto packed =
+      cc::run_process({"ar", "rc", (work / "program/libtheirs.a").string(), (work / "theirs.o").string()});
+  ASSERT_EQ(packed.status, 0) << packed.output;
+  cc::BuildOptions options;
+  options.source_dir = work / "program";
+  options.output = work / "x.elf";
+  options.cache_dir = work / "cache";
+  options.register_way = options.chip_way = true;
+  const auto chip = cc::build_image(options);
+  EXPECT_TRUE(chip.ok) << (chip.errors.empty() ? "" : chip.errors[0]);
+  options.register_way = options.chip_way = false;
+  options.output = work / "x.so";
+  const auto native = cc::build_image(options);
+  ASSERT_FALSE(native.errors.empty());
+  EXPECT_NE(
+      native.errors[0].find("libtheirs.a is code of the chip, which only the chip way links: --way chip"),
+      std::string::npos)
+      << native.errors[0];
+  fs::remove_all(work);
 }
 
 TEST(ChipLinker, unknown_relocation_is_named) {
