@@ -120,8 +120,9 @@ std::vector<board::Diagnosis> ChipRunner::diagnoses() const {
 /// For what no code can set any more. An empty loop is none, but the end of a program.
 void ChipRunner::add_endless_wait(std::vector<board::Diagnosis>& all) const {
   const Cycle since = processor_->still_since();
+  constexpr std::uint32_t kBranchToItself = 0x37FFFF;
   if (since == dspic::kNever || end_ - since < kLeastWait || processor_->is_asleep() ||
-      device().nesting() > 0)
+      device().nesting() > 0 || program_.read(processor_->pc()) == kBranchToItself)
     return;
   if (asked_since_ != since) {
     asked_since_ = since;

@@ -23,6 +23,13 @@ struct LedChanges {
   }
 };
 
+// its last line speaks of a variable, and the loop on it asks for none
+TEST_F(FirmwareTest, end_of_a_program_is_no_endless_wait) {
+  Robot& r = add_robot_with_source("volatile int done;\nint main(void) {\n  done = 1; for (;;);\n}\n");
+  run_for(0.1);
+  EXPECT_EQ(r.diagnoses_text(), "");
+}
+
 TEST_F(FirmwareTest, blink_toggles_every_thousand_agenda_ticks) {
   Robot& robot = add_robot("blink");
   run_for(0.05);
