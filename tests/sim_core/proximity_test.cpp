@@ -272,7 +272,8 @@ TEST(Proximity, beyond_reach_is_only_what_no_ray_can_meet) {
   EXPECT_GT(beyond, points * 8 / 10) << "beside a long wall, too";
 }
 
-// a box has shorter formulas than other prisms; the same corners as a plain prism are what they must agree with
+// a box has shorter formulas than other prisms; the same corners as a plain prism are what they must agree
+// with
 TEST(Proximity, a_box_is_the_prism_of_its_corners) {
   const sim::Solid box = sim::Solid::box(0.3, 0.1, 0.02, 0.1);
   const sim::Solid prism = sim::Solid::prism(box.outline, 0.02, 0.1);
