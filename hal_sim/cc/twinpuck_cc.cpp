@@ -15,6 +15,7 @@
 #include "llvm/Support/raw_ostream.h"
 #include "llvm/Target/TargetMachine.h"
 #include "passes.h"
+#include "twinpuck_paths.h"
 
 namespace {
 
@@ -92,6 +93,9 @@ bool parse(int argc, char** argv, cc::Options& o) {
   }
   const StringRef input = o.input;
   o.cxx = input.endswith(".cpp") || input.endswith(".cc") || input.endswith(".cxx");
+  if (o.chip && o.fallback.empty())  // called by hand: the library's and the libc's headers after all others
+    for (const char* folder : {"firmware/include", "hal_sim/cc/libc/include"})
+      o.passed_on.push_back(std::string("-I" TWINPUCK_SOURCE_DIR "/") + folder);
   if (o.input.empty() || o.output.empty()) {
     errs() << "usage: twinpuck-cc -c x.c -o x.o [-O0|-O1|-O2|-Os] [-I..] [-D..] [--sanitize] [--coverage] "
               "[--strict]\n";

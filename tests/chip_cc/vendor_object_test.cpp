@@ -173,6 +173,18 @@ TEST(ChipLinker, object_of_xc16_links) {
   EXPECT_TRUE(found);
 }
 
+TEST(ChipLinker, compiler_called_by_hand_finds_its_headers) {
+  const fs::path work = fs::path(TWINPUCK_BUILD_DIR) / "tests" / "by_hand";
+  fs::create_directories(work);
+  std::ofstream(work / "x.c")
+      << "#include <stdarg.h>\n#include <stdio.h>\n#include <p30F6014A.h>\n"
+         "#include <motor_led/e_led.h>\nint main(void) { e_set_led(0, 1); return TMR1; }\n";
+  const auto made =
+      cc::run_process({std::string(TWINPUCK_BUILD_DIR) + "/twinpuck-cc", "--target=dspic30f6014a", "-c",
+                       (work / "x.c").string(), "-o", (work / "x.o").string()});
+  EXPECT_EQ(made.status, 0) << made.output;
+}
+
 // _theirs alone is asked for; the program's own file and the archive lie in one folder
 TEST(ChipLinker, archive_beside_a_program_is_linked_the_chip_way) {
   const fs::path work = fs::temp_directory_path() / ("twinpuck-archive-" + std::to_string(getpid()));
