@@ -43,8 +43,7 @@ struct AgendaCount {
   }
 };
 
-/// The driver's statics for one wheel; the motor that they move is handed in. Copying it is how const queries
-/// look ahead.
+/// The driver's statics for one wheel; the motor that they move is handed in.
 class AgendaMotor {
  public:
   /// `forward` as the Stepper's.

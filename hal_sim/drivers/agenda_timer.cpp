@@ -180,7 +180,7 @@ int AgendaTimer::destroy(Function function, Cycle at) {
     has_node_[static_cast<int>(wheel_of(node->kind))] = false;
   }
   nodes_.erase(nodes_.begin() + (node - nodes_.data()));
-  note(2, at);
+  note(Command::Destroy, at);
   shares_known_ = 0;
   if (!walking_) find_next_fire();
   return kDone;
@@ -192,7 +192,7 @@ int AgendaTimer::set_cycle(Function function, int cycle, Cycle at) {
   settle(*node, done_tick(node->serial, at));
   count_of(*node).cycle = static_cast<std::uint16_t>(cycle);
   disturb(*node);
-  note(3, at);
+  note(Command::SetCycle, at);
   shares_known_ = 0;
   if (!walking_) find_next_fire();
   return kDone;
@@ -204,7 +204,7 @@ int AgendaTimer::reset_count(Function function, Cycle at) {
   settle(*node, done_tick(node->serial, at));
   count_of(*node).counter = 0;
   disturb(*node);
-  note(4, at);
+  note(Command::ResetCount, at);
   shares_known_ = 0;
   if (!walking_) find_next_fire();
   return kDone;
@@ -215,7 +215,7 @@ int AgendaTimer::pause(Function function, Cycle at) {
   if (!node) return kNotFound;
   settle(*node, done_tick(node->serial, at));
   count_of(*node).active = false;
-  note(5, at);
+  note(Command::Pause, at);
   shares_known_ = 0;
   if (!walking_) find_next_fire();
   return kDone;
@@ -227,7 +227,7 @@ int AgendaTimer::restart(Function function, Cycle at) {
   settle(*node, done_tick(node->serial, at));
   count_of(*node).active = true;
   disturb(*node);
-  note(6, at);
+  note(Command::Restart, at);
   shares_known_ = 0;
   if (!walking_) find_next_fire();
   return kDone;
@@ -255,7 +255,7 @@ void AgendaTimer::set_speed(Wheel wheel, int speed, Cycle at) {
 bool AgendaTimer::run_motor(Wheel wheel, Cycle at) {
   AgendaMotor& m = bring(wheel, done_tick(serial_of(wheel), at));
   const bool fine = m.fire(at, stepper(wheel));
-  note(1, at);
+  note(Command::Run, at);
   m.disturb();
   if (!walking_) find_next_fire();
   return fine;
@@ -273,7 +273,7 @@ const Stepper& AgendaTimer::stepper_at(Wheel wheel, Cycle at) const {
 Stepper& AgendaTimer::stepper(Wheel wheel, Cycle at) {
   AgendaMotor& m = bring(wheel, done_tick(serial_of(wheel), at));
   m.disturb();  // the caller may write pins
-  note(0, at);
+  note(Command::Pins, at);
   return stepper(wheel);
 }
 

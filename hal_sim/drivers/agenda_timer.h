@@ -153,6 +153,8 @@ class AgendaTimer {
   void settle_motors(std::int64_t tick);
   void settle_motors_at(Cycle at);
   void disturb(const Node& node);
+  enum class Command { Pins, Run, Destroy, SetCycle, ResetCount, Pause, Restart };
+  void note(Command command, Cycle at) { note(static_cast<std::uint64_t>(command), at); }
   void note(std::uint64_t command, Cycle at) {
     history_ = sim::mix64(history_ ^ command << 48 ^ static_cast<std::uint64_t>(at));
   }

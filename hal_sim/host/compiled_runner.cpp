@@ -246,7 +246,8 @@ Cycle CompiledRunner::find_interrupt_horizon() {
 void CompiledRunner::give_budget_anew() {
   Cycle until = std::min(end_, find_interrupt_horizon());
   if (observer_) until = std::min(until, now_ + observer_->look_every);
-  issued_ = main_until(until);
+  // an overflow that a host function met is told at the program's next block
+  issued_ = overflowed_ ? -1 : main_until(until);
   control_.budget = issued_;
 }
 

@@ -247,7 +247,7 @@ class CompiledRunner final : public Runner, public Context {
   void overspend(Cycle cycles);
   Cycle main_until(Cycle at) const;  // most program cycles that end at or before `at`
   void give_budget() {
-    if (now_ >= interrupt_horizon_ || observer_) return give_budget_anew();
+    if (now_ >= interrupt_horizon_ || observer_ || overflowed_) return give_budget_anew();
     issued_ = main_until(std::min(end_, interrupt_horizon_));
     control_.budget = issued_;
   }

@@ -164,7 +164,9 @@ void on_signal(int signal, siginfo_t* info, void* raw) {
   const auto address = reinterpret_cast<std::uintptr_t>(info->si_addr);
   bool ours = runner && runner->owns_code(pc);
   const bool is_fetch = signal == SIGSEGV && pc == address;
-  const bool on_stack = runner && runner->fiber().is_on_stack(sp);
+  // a function may have moved below the stack before it writes
+  const bool on_stack =
+      runner && (runner->fiber().is_on_stack(sp) || (signal == SIGSEGV && runner->fiber().is_in_reserve(sp)));
   bool is_library = false;
   if (runner && !ours && is_fetch) {
     // a jump to where no code is: a wild function pointer, whose caller left a return address, or a wild
@@ -181,8 +183,8 @@ void on_signal(int signal, siginfo_t* info, void* raw) {
     // or given a pointer that leads nowhere. On top of the stack, of a function without a frame, or along the
     // frames stands who called it
     ours = is_library = true;
-    std::uintptr_t back;
-    std::memcpy(&back, reinterpret_cast<const void*>(sp), sizeof back);
+    std::uintptr_t back = 0;
+    if (runner->fiber().is_on_stack(sp)) std::memcpy(&back, reinterpret_cast<const void*>(sp), sizeof back);
     pc = runner->owns_code(back) ? back - 1 : 0;
   }
   // out of stack anywhere on the firmware's stack
