@@ -79,15 +79,21 @@ export const tests = {
   async first_frame_comes_at_once(browser, live) {
     const [v] = await start(browser, live);
     const page = await browser.newPage();
-    await page.addInitScript(() => { window.began = performance.now(); });
+    // written down by the page itself: the plan may have come and gone before anybody asks from outside
+    await page.addInitScript(() => {
+      window.seen = {};
+      new MutationObserver(() => {
+        if (!document.getElementById("plan") || window.seen.plan) return;
+        window.seen = { plan: performance.now(), clock: document.getElementById("clock").textContent };
+      }).observe(document, { childList: true, subtree: true });
+    });
     await page.goto(v.address);
-    const after = () => page.evaluate(() => performance.now());
-    await page.waitForSelector("#plan", { state: "attached", timeout: 5000 });
-    const plan = await after();
-    assert.equal(await page.textContent("#clock"), "0.000 s");
     await page.waitForFunction(() => window.twinpuck?.frames > 0 && !document.getElementById("plan"));
-    console.log(`     state on the page ${plan.toFixed(0)} ms after opening, scene ${(await after()).toFixed(0)} ms (bar 1000)`);
-    assert.ok(plan < 3000);
+    const scene = await page.evaluate(() => performance.now());
+    const seen = await page.evaluate(() => window.seen);
+    assert.equal(seen.clock, "0.000 s");
+    console.log(`     state on the page ${seen.plan.toFixed(0)} ms after opening, scene ${scene.toFixed(0)} ms (bar 1000)`);
+    assert.ok(seen.plan < 3000);
   },
 
   async play_pause_step_and_speed(browser, live) {
