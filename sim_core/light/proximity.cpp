@@ -39,7 +39,7 @@ struct SensorOptics {
 
 /// Poses that sensors see are of whole quanta, so that the two sensors that a converter samples one right
 /// after the other share them: 0.14 ms, in which the fastest robot drives 18 um.
-constexpr Clicks kPoseQuantum = 2048;
+constexpr Clicks kPoseQuantum = 2048;  // [assumed: ten times what lies between the two]
 
 /// What one robot's rays may meet at one instant.
 struct Surroundings {
