@@ -346,7 +346,7 @@ IrConversion Board::ir_conversion(int sensor, Cycle at, Cycle lit_for) const {
     c.offset_counts = setup_.ir_offset_counts[i];
     // the phototransistor follows the flash with one time constant; after 300 us nothing is missing
     if (lit_for < 40 * kIrSettleCycles) {
-      Settled& kept = settled_[i / 4 % settled_.size()];
+      Settled& kept = settled_[i < kRingSensors / 2 ? 0 : 1];
       if (lit_for != kept.lit_for)
         kept = {lit_for,
                 1.0 - std::exp(-static_cast<double>(lit_for) / static_cast<double>(kIrSettleCycles))};

@@ -117,9 +117,7 @@ std::vector<fs::path> archives_below(const fs::path& folder) {
     constexpr std::size_t kMachine = 18;  // place of e_machine in an ELF file
     constexpr char kDspic30f = 118;
     const std::string text = read_text(file);
-    const std::size_t member = text.find(
-        "\x7f"
-        "ELF");
+    const std::size_t member = text.find("\177ELF");
     return text.rfind("!<arch>\n", 0) != 0 || member == std::string::npos ||
            text.size() <= member + kMachine || text[member + kMachine] != kDspic30f;
   };

@@ -164,8 +164,7 @@ int AdcScan::evaluate(int sensor, std::int64_t period, bool lit_sample) const {
 
 void AdcScan::keep(Sample& kept, int sensor, std::int64_t number, bool lit_sample) const {
   if (number < 0 || number == kept.number) return;
-  const bool is_dark = !lit_sample && sensor < kRingSensors && board_.is_dark();
-  kept.counts = is_dark ? kAdcMax : evaluate(sensor, number, lit_sample);
+  kept.counts = evaluate(sensor, number, lit_sample);
   kept.number = number;
 }
 

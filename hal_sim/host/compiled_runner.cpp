@@ -251,10 +251,14 @@ void CompiledRunner::give_budget_anew() {
   control_.budget = issued_;
 }
 
-void CompiledRunner::changed() {
+void CompiledRunner::look_again() {
   if (native_) native_->interrupts().touch();
   interrupt_horizon_ = 0;
   fold();
+}
+
+void CompiledRunner::changed() {
+  look_again();
   give_budget();
 }
 
@@ -300,9 +304,7 @@ void CompiledRunner::irq_every(int vector, Cycle at, Cycle period) {
   s.period = period;
   s.due = at < 0 ? kNever : at;
   if (at < 0) s.flag = false;
-  native_->interrupts().touch();
-  interrupt_horizon_ = 0;
-  fold();  // the next block looks, unless the handler ends before
+  look_again();  // mostly a handler ends here, and who goes on gets a budget then
 }
 
 void CompiledRunner::deliver_now() {

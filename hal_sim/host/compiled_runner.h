@@ -25,6 +25,7 @@
 namespace host {
 
 class NativeProcessor;
+
 /// Every way a robot's processor can be set up.
 struct CompiledSettings {
   std::string name;
@@ -105,8 +106,6 @@ class CompiledRunner final : public Runner, public Context {
   void follow_handlers() override;
   void irq_install(int vector, void (*handler)(), int priority, Cycle entry_cycles) override;
   void irq_at(int vector, Cycle at) override;
-  /// The handlers' share at this moment; whoever calls it gives a new budget or leaves none.
-  void follow_mask();
   void irq_every(int vector, Cycle first, Cycle period);  ///< period 0: once; native way only
   void set_background(int slot, Cycle period, Cycle cost) override;
   void callback(const void* function) override;
@@ -135,6 +134,8 @@ class CompiledRunner final : public Runner, public Context {
   const Processor& processor() const { return *processor_; }
   /// Interrupt state changed: look for something to deliver as soon as the current block ends.
   void changed();
+  /// The handlers' share at this moment; whoever calls it gives a new budget or leaves none.
+  void follow_mask();
   /// At `now` the program did something after which an interrupt may be served from `at` on, and not before
   /// unless that was known already; 0: not known.
   void note_interrupt_horizon(Cycle at, Cycle now) {
@@ -252,6 +253,7 @@ class CompiledRunner final : public Runner, public Context {
     control_.budget = issued_;
   }
   void give_budget_anew();
+  void look_again();  // at the interrupts, before the next block ends: no budget is left
   NativeProcessor& native();
   int look();  // the vector to serve now; kNoVector: interrupt_horizon_ is known afterwards
   void note_outlook(const Processor::Outlook& outlook);
