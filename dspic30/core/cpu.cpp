@@ -58,6 +58,7 @@ void Cpu::forget_code() {
   for (const std::uint32_t index : decoded_) code_[index] = unknown;
   decoded_.clear();
   heads_.clear();
+  asked_ = {};
   if (code_.empty()) {
     code_.assign(kFlashWords + 1, unknown);
     code_.back().run = &fetch_nothing;
@@ -133,6 +134,7 @@ void Cpu::warm(const Decoded* target) {
   if (hot == 0) target->heat = 0xFF;
   if (++head.warmth < hot) return;
   head.warmth = 0;
+  asked_ = {};
   head.plain = target->run;
   if (const Translation translated = translator->translate(*this, target); translated.run) {
     target->run = translated.run;
@@ -413,6 +415,19 @@ unsigned Cpu::special_pointer(unsigned reg, int pre, int post, bool is_write) {
 
 // --- data space beyond RAM ------------------------------------------------------------------------------
 
+Cpu::Saved Cpu::saved_register(unsigned ea) {
+  switch (ea) {
+    case kTblpag:
+      return {&Cpu::tblpag, 0x00FF};
+    case kPsvpag:
+      return {&Cpu::psvpag, 0x00FF};
+    case kRcount:
+      return {&Cpu::rcount, 0x3FFF};
+    default:
+      return {};
+  }
+}
+
 unsigned Cpu::read_elsewhere(unsigned ea, unsigned bits) {
   if (bits == 16 && (ea & 1)) {
     trap(Trap::AddressError);
@@ -420,6 +435,7 @@ unsigned Cpu::read_elsewhere(unsigned ea, unsigned bits) {
   }
   const Cycle t = now + at->lead;
   if (ea < kDisicnt) {
+    if (const Saved saved = saved_register(ea); saved.word && bits == 16) return this->*saved.word;
     const unsigned word = peek(ea & ~1u, t);
     if (watching) watched_until = std::min(watched_until, horizon(ea & ~1u, t));
     return bits == 16 ? word : word >> 8 * (ea & 1) & 0xFF;
@@ -451,8 +467,13 @@ unsigned Cpu::read_psv(unsigned ea, unsigned bits) {
 
 void Cpu::write_elsewhere(unsigned ea, unsigned value, unsigned bits) {
   if (bits == 16 && (ea & 1)) return trap(Trap::AddressError);
-  const Cycle t = now + at->lead;
   note_effect();
+  if (ea < kDisicnt && bits == 16)
+    if (const Saved saved = saved_register(ea); saved.word) {
+      this->*saved.word = static_cast<std::uint16_t>(value & saved.bits);
+      return;
+    }
+  const Cycle t = now + at->lead;
   if (ea >= kSfrBytes) return trap(Trap::AddressError);
   const Cycle calm = parts.write(ea, static_cast<std::uint16_t>(value), bits, t);
   deadline = std::min(deadline, calm);

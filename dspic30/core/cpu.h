@@ -107,7 +107,11 @@ class Cpu final : public SfrOwner {
   void decode(const Decoded* d);
   const Decoded* code() const { return code_.data(); }
   /// The function of this one instruction.
-  Run plain(const Decoded* d) const { return d->is_head ? heads_.at(d).plain : d->run; }
+  Run plain(const Decoded* d) const {
+    if (!d->is_head) return d->run;
+    if (d != asked_.head) asked_ = {d, heads_.at(d).plain};
+    return asked_.plain;
+  }
   int translated() const;
   const Decoded* loop_back(const Decoded* last, const Decoded* next);
   /// Iterations up to the last one or to `deadline`; then d itself is next.
@@ -191,6 +195,14 @@ class Cpu final : public SfrOwner {
     w[15] = static_cast<std::uint16_t>(w[15] - 2);
     return read16(stack_checked(w[15]));
   }
+
+  /// What handlers save and give back: a word that is nobody's affair but the core's, and its bits. Null:
+  /// another address.
+  struct Saved {
+    std::uint16_t Cpu::*word = nullptr;
+    std::uint16_t bits = 0;
+  };
+  static Saved saved_register(unsigned ea);
 
   // --- pointers
   unsigned source_address(const Decoded* d) {
@@ -303,6 +315,10 @@ class Cpu final : public SfrOwner {
     std::uint32_t pointers = 0;
   };
   std::unordered_map<const Decoded*, Head> heads_;
+  mutable struct {
+    const Decoded* head = nullptr;
+    Run plain = nullptr;
+  } asked_;  // the head that plain() was asked for last
   std::vector<std::uint32_t> decoded_;  // words that were met since forget_code()
   std::vector<Decoded> code_;           // one a flash word, then one for addresses where no flash is
   unsigned bad_address_ = 0;            // that address

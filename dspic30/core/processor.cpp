@@ -77,7 +77,7 @@ std::optional<ResetKind> Processor::run(Cycle until) {
   while (true) {
     if (cpu.reset_due) return cpu.reset_due;
     if (cpu.now >= until) return std::nullopt;
-    const Outlook outlook = cpu.parts.look(cpu.now);
+    Outlook outlook = cpu.parts.look(cpu.now);
     if (outlook.reset_due) return chip_.reset_due(cpu.now);
     if (cpu.program.version() != code_version_) {
       code_version_ = cpu.program.version();
@@ -90,7 +90,8 @@ std::optional<ResetKind> Processor::run(Cycle until) {
     }
     if (outlook.vector != kNoVector) {
       enter_interrupt(outlook.vector);
-      continue;
+      outlook.horizon = cpu.parts.interrupt_horizon(cpu.now, outlook.vector);
+      if (outlook.horizon <= cpu.now) continue;
     }
     cpu.deadline = std::min(until, outlook.horizon);
     if (cpu.now < waits_->next())
@@ -159,6 +160,7 @@ std::uint64_t Processor::state_hash() const {
   const auto add = [&h](std::uint64_t v) { h = (h ^ v) * 0x100000001B3u; };
   add(hash_of_memory(cpu_->ram.data(), cpu_->ram.size()));
   for (const std::uint16_t w : cpu_->w) add(w);
+  for (const std::uint16_t saved : {cpu_->tblpag, cpu_->psvpag, cpu_->rcount}) add(saved);
   for (const std::int64_t a : cpu_->acc) add(static_cast<std::uint64_t>(a));
   add(static_cast<std::uint64_t>(cpu_->now));
   add(pc());

@@ -8,6 +8,8 @@
 // A round that writes a register, reads a FIFO, loads a write latch or leads to a trap is no wait. So the
 // course is the same to the cycle as if every round had been run.
 #include <algorithm>
+#include <array>
+#include <cstring>
 
 #include "dspic30/core/cpu.h"
 
@@ -17,35 +19,26 @@ namespace {
 
 constexpr int kLongestRound = 40;  // instructions
 
-/// All that a round may change and that is neither RAM nor a peripheral's.
+/// All that a round may change and that is neither RAM nor a peripheral's, in words that compare quickly.
 struct CoreState {
-  explicit CoreState(const Cpu& c)
-      : w(c.w),
-        n(c.n),
-        z(c.z),
-        c(c.c & 1),
-        ov(c.ov & 0x8000),
-        dc(c.dc & 0x100),
-        rcount(c.rcount),
-        acc(c.acc),
-        loop(c.loop.count << 4 | static_cast<unsigned>(c.loop_depth)),
-        flags(static_cast<unsigned>(c.oa) | c.ob << 1 | c.sa << 2 | c.sb << 3 | c.repeating << 4 |
-              c.end_loop << 5),
-        shadow(c.shadow.w),
-        shadow_flags(c.shadow.flags) {}
-  bool operator==(const CoreState& o) const {
-    return w == o.w && n == o.n && (z == 0) == (o.z == 0) && c == o.c && ov == o.ov && dc == o.dc &&
-           rcount == o.rcount && acc == o.acc && loop == o.loop && flags == o.flags && shadow == o.shadow &&
-           shadow_flags == o.shadow_flags;
+  explicit CoreState(const Cpu& c) {
+    std::memcpy(words.data(), c.w.data(), sizeof c.w);
+    std::memcpy(&words[4], c.shadow.w.data(), sizeof c.shadow.w);
+    const std::uint64_t z = c.z == 0, carry = c.c & 1, ov = c.ov & 0x8000, dc = c.dc & 0x100;
+    words[5] = std::uint64_t{c.n} << 48 | std::uint64_t{c.rcount} << 32 | ov << 16 | dc << 16 | z << 16 |
+               carry << 17 | c.shadow.flags;
+    words[6] = static_cast<std::uint64_t>(c.acc[0]);
+    words[7] = static_cast<std::uint64_t>(c.acc[1]);
+    words[8] = static_cast<std::uint64_t>(c.loop_depth) << 32 | c.loop.count;
+    words[9] = static_cast<std::uint64_t>(c.oa | c.ob << 1 | c.sa << 2 | c.sb << 3 | c.repeating << 4 |
+                                          c.end_loop << 5);
   }
-  std::array<std::uint16_t, 16> w;
-  std::uint16_t n, z;
-  unsigned c, ov, dc;
-  std::uint16_t rcount;
-  std::array<std::int64_t, 2> acc;
-  unsigned loop, flags;
-  std::array<std::uint16_t, 4> shadow;
-  unsigned shadow_flags;
+  bool operator==(const CoreState& o) const {
+    std::uint64_t differs = 0;
+    for (std::size_t i = 0; i < words.size(); ++i) differs |= words[i] ^ o.words[i];
+    return differs == 0;
+  }
+  std::array<std::uint64_t, 10> words;
 };
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "dspic30/device/chip_parts.h"
-#include "dspic30/memory/state_hash.h"
 
 namespace dspic {
 
@@ -284,11 +283,11 @@ std::uint64_t Dspic30f6014a::state_hash(Cycle now, bool with_pins) {
   run_to(now);
   std::uint64_t h = 0xCBF29CE484222325u;
   const auto add = [&h](std::uint64_t v) { h = (h ^ v) * 0x100000001B3u; };
-  for (const SfrInfo& info : kSfrRows)
-    if (with_pins || !is_port(info)) add(parts_->bus.peek(info.address, now));
+  for (const SfrInfo* info : parts_->bus.written())
+    if (with_pins || !is_port(*info)) add(parts_->bus.peek(info->address, now));
   for (const Uart& u : parts_->uarts) add(u.state_hash());
   add(static_cast<std::uint64_t>(parts_->interrupts.level()));
-  add(hash_of_memory(parts_->nvm.eeprom().data(), sizeof(Eeprom)));
+  add(parts_->nvm.eeprom_hash());
   return h;
 }
 

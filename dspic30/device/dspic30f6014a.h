@@ -166,8 +166,9 @@ class Dspic30f6014a {
   /// Events that found their enabled flag still set, since power-up.
   std::int64_t missed_interrupts(int vector);
   std::int64_t served_interrupts(int vector) const;
-  /// Hash of all registers and FIFOs, for determinism checks. Not cheap. Without pins: what the outside puts
-  /// on the ports is left out, and not asked for.
+  /// Hash of FIFOs, of the registers that were written since power-on and of the EEPROM as operations left
+  /// it, for determinism checks. Without pins: what the outside puts on the ports is left out, and not asked
+  /// for.
   std::uint64_t state_hash(Cycle now, bool with_pins = true);
 
   /// For a host that includes chip_parts.h.

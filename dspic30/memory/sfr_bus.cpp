@@ -10,7 +10,7 @@ namespace dspic {
 void SfrBus::attach(SfrOwner& owner, unsigned first, unsigned last) {
   for (unsigned a = first; a <= last; a += 2) {
     const SfrInfo* info = sfr_info(a);
-    if (info) slots_[a / 2] = {&owner, info, info->implemented, 0, false, !info->defined};
+    if (info) slots_[a / 2] = {&owner, info, info->implemented, 0, false, false};
     find_reader(a);
   }
 }
@@ -29,24 +29,28 @@ void SfrBus::set_disabled(unsigned first, unsigned last, bool disabled) {
   }
 }
 
-void SfrBus::forget_writes() {
-  for (Slot& slot : slots_) slot.undefined = slot.info && !slot.info->defined;
+void SfrBus::note_written(Slot& slot) {
+  slot.is_written = true;
+  written_.push_back(slot.info);
 }
 
-// a byte, nothing, or perhaps the first read of a register that holds anything
+void SfrBus::forget_writes() {
+  for (Slot& slot : slots_) slot.is_written = false;
+  written_.clear();
+}
+
+// nothing, or perhaps the first read of a register that holds anything
 std::uint16_t SfrBus::read_slowly(unsigned address, unsigned bits, Cycle now) {
   Slot& slot = slots_[address / 2];
   if (!slot.owner || slot.disabled) return 0;
-  if (slot.undefined && warn_uninitialised_) {
-    slot.undefined = false;
+  if (warn_uninitialised_ && !slot.is_written && !slot.info->defined) {
+    note_written(slot);
     diagnostics_.report(Cause::UninitialisedRead, slot.info->name,
                         std::string(slot.info->name) +
                             " is read before it was written; after power-on it holds anything (here 0)",
                         now);
   }
-  const std::uint16_t word = slot.owner->read(address & ~1u, now);
-  if (bits > 8) return word;
-  return (address & 1) ? word >> 8 : word & 0xFF;
+  return lane(address, bits, slot.owner->read(address & ~1u, now));
 }
 
 void SfrBus::warn_of_hole(unsigned address, Cycle now) {

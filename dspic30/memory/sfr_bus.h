@@ -8,6 +8,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "dspic30/memory/cycle.h"
 #include "dspic30/memory/diagnosis.h"
@@ -47,8 +48,8 @@ class SfrBus {
   std::uint16_t read(unsigned address, unsigned bits, Cycle now) {
     if (address >= kSfrBytes) return 0;
     SfrOwner* owner = readers_[address / 2];
-    if (!owner || bits <= 8) return read_slowly(address, bits, now);
-    return owner->read(address & ~1u, now);
+    if (!owner) return read_slowly(address, bits, now);
+    return lane(address, bits, owner->read(address & ~1u, now));
   }
 
   /// Who answers a read of the word at `address` without further ado; null: read() knows.
@@ -69,7 +70,7 @@ class SfrBus {
   std::uint16_t accept_plain(unsigned address, std::uint16_t value) {
     ++writes_;
     Slot& slot = slots_[address / 2];
-    slot.undefined = false;
+    if (!slot.is_written) note_written(slot);
     return value & slot.implemented;
   }
   Store accept(unsigned address, std::uint16_t value, unsigned bits, Cycle now) {
@@ -86,7 +87,7 @@ class SfrBus {
       lanes = (address & 1) ? 0xFF00 : 0x00FF;
       value = static_cast<std::uint16_t>((address & 1) ? value << 8 : value & 0xFF);
     }
-    slot.undefined = false;
+    if (!slot.is_written) note_written(slot);
     value &= slot.implemented;
     if (value & slot.unmodelled) warn(slot, value & slot.unmodelled, now);
     return {slot.owner, value, lanes};
@@ -94,20 +95,27 @@ class SfrBus {
 
   std::uint16_t peek(unsigned address, Cycle now) const;
   Cycle horizon(unsigned address, Cycle now) const;
+  /// Registers that were written since power-on, in the order of their first write.
+  const std::vector<const SfrInfo*>& written() const { return written_; }
   /// Writes so far: two writes are consecutive when this differs by one.
   std::int64_t writes() const { return writes_; }
 
  private:
+  static std::uint16_t lane(unsigned address, unsigned bits, std::uint16_t word) {
+    if (bits > 8) return word;
+    return (address & 1) ? word >> 8 : word & 0xFF;
+  }
   struct Slot {
     SfrOwner* owner = nullptr;
     const SfrInfo* info = nullptr;
     std::uint16_t implemented = 0;
     std::uint16_t unmodelled = 0;  // and not reported yet
     bool disabled = false;
-    bool undefined = false;  // not written since power-on, and not defined then
+    bool is_written = false;  // since power-on; or it was told that it is read before
   };
   void warn(Slot& slot, std::uint16_t bits, Cycle now);
   std::uint16_t read_slowly(unsigned address, unsigned bits, Cycle now);
+  __attribute__((noinline)) void note_written(Slot& slot);
   void find_reader(unsigned address);
   void warn_of_hole(unsigned address, Cycle now);
 
@@ -116,6 +124,7 @@ class SfrBus {
   std::array<Slot, kSfrBytes / 2> slots_{};
   std::array<SfrOwner*, kSfrBytes / 2> readers_{};  // the owner where a word is read without further ado
   std::int64_t writes_ = 0;
+  std::vector<const SfrInfo*> written_;
 };
 
 }  // namespace dspic

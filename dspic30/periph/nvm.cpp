@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "dspic30/memory/state_hash.h"
+
 namespace dspic {
 
 namespace {
@@ -86,6 +88,7 @@ void Nvm::on_event(int id, Cycle at) {
     default:
       if (program_) carry_out_on_flash(con_ & 0x7F);
   }
+  eeprom_hash_ = hash_of_memory(eeprom_.data(), sizeof eeprom_);
   latches_.fill(kErasedWord);
   con_ &= static_cast<std::uint16_t>(~kWr);
   f_.interrupts.raise(irq::Nvm, at);

@@ -34,6 +34,8 @@ class Nvm final : public SfrOwner, public EventOwner {
   /// Loads the latch of that word: the bits of `lanes`, of 24.
   void table_write(unsigned program_address, std::uint32_t value, std::uint32_t lanes = 0xFFFF);
   Eeprom& eeprom() { return eeprom_; }
+  /// Of the EEPROM after the last operation; 0: there was none.
+  std::uint64_t eeprom_hash() const { return eeprom_hash_; }
   /// A flash operation holds the processor until here.
   Cycle stalled_until() const { return stalled_until_; }
   Cycle operation_cycles() const;
@@ -62,6 +64,7 @@ class Nvm final : public SfrOwner, public EventOwner {
   std::int64_t key_write_ = 0;
   Cycle stalled_until_ = 0;
   Eeprom& eeprom_;
+  std::uint64_t eeprom_hash_ = 0;
   ProgramMemory* program_;
 };
 

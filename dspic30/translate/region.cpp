@@ -106,6 +106,7 @@ class Maker {
   void fold(const Item& item, BasicBlock* first);
   void keep_jumps(const Item& item, BasicBlock* first);
   void drop_dead(BasicBlock* first);
+  void take_saved(BasicBlock* first);
   void find_effects(const Item& item, BasicBlock* first);
   void leave(const Item& item, BasicBlock* block, Value* next);
   BasicBlock* edge(const Item& item, Value* next);
@@ -296,6 +297,7 @@ bool Maker::put_item(const Item& item) {
     if (!inlined(call)) return false;
     fold(item, first);
     keep_jumps(item, first);
+    take_saved(first);
   }
   find_effects(item, first);
   for (BasicBlock* block : blocks_from(first)) {
@@ -400,6 +402,29 @@ void Maker::keep_jumps(const Item& item, BasicBlock* first) {
     jump->replaceAllUsesWith(ir_.CreateBitCast(where, jump->getType()));
     jump->eraseFromParent();
   }
+}
+
+// what handlers save and give back is read and written here
+void Maker::take_saved(BasicBlock* first) {
+  for (BasicBlock* block : blocks_from(first))
+    for (Instruction& i : make_early_inc_range(*block)) {
+      auto* const call = dyn_cast<CallInst>(&i);
+      const ConstantInt* const address = call ? address_in(*call) : nullptr;
+      const Cpu::Saved saved =
+          address ? Cpu::saved_register(static_cast<unsigned>(address->getZExtValue())) : Cpu::Saved{};
+      if (!saved.word) continue;
+      const bool reads = name_of(*call) == kRead;
+      const auto* const bits = dyn_cast<ConstantInt>(call->getArgOperand(reads ? 2 : 3));
+      if (!bits || bits->getZExtValue() != 16) continue;
+      ir_.SetInsertPoint(call);
+      Type* const word = ir_.getInt16Ty();
+      Value* const place = field(&(cpu_.*saved.word), word);
+      if (reads)
+        call->replaceAllUsesWith(ir_.CreateZExt(ir_.CreateLoad(word, place), call->getType()));
+      else
+        ir_.CreateStore(ir_.CreateTrunc(ir_.CreateAnd(call->getArgOperand(2), saved.bits), word), place);
+      call->eraseFromParent();
+    }
 }
 
 // What leaves RAM leaves the stretch: the instruction is run anew, aside. But where an instruction names its

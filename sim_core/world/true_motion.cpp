@@ -28,9 +28,11 @@ Footing footing_at(const Scene& scene, int body, const Pose2& pose) {
                                                                         : Footing{z, {}};
 }
 
+Vec3 place(const Pose2& pose, const Footing& under) { return {pose.x_m, pose.y_m, under.height_m}; }
+
 Vec3 place(const Scene& scene, int robot, Clicks at) {
   const Pose2 pose = scene.pose_on_way(robot, at);
-  return {pose.x_m, pose.y_m, footing_at(scene, robot, pose).height_m};
+  return place(pose, footing_at(scene, robot, pose));
 }
 
 BodyAxes axes_at(const Scene& scene, int robot, Clicks at) {
@@ -60,14 +62,16 @@ Vec3 specific_force_m_s2(const Scene& scene, int robot, Clicks at) {
   const Clicks tick = scene.tick_clicks();
   const Clicks window = std::max(tick, from_seconds(model_of(scene, robot).shock_s));
   // speeds are constant within a tick: the way of a whole tick gives a speed that changes evenly
-  const Vec3 way = minus(place(scene, robot, at), place(scene, robot, at - tick));
+  const Pose2 pose = scene.pose_on_way(robot, at);
+  const Footing under = footing_at(scene, robot, pose);
+  const Vec3 way = minus(place(pose, under), place(scene, robot, at - tick));
   const Vec3 before = minus(place(scene, robot, at - window), place(scene, robot, at - window - tick));
   const double per = 1 / (to_seconds(tick) * to_seconds(window));
   const Vec3& down = scene.layout().ground.down();
   const double g = scene.world().gravity_m_s2;
   const Vec3 f{(way.x - before.x) * per - g * down.x, (way.y - before.y) * per - g * down.y,
                (way.z - before.z) * per - g * down.z};
-  const BodyAxes axes = axes_at(scene, robot, at);
+  const BodyAxes axes = axes_on(under.slope, pose.heading_rad);
   return {dot(f, axes.forward), dot(f, axes.left), dot(f, axes.up)};
 }
 

@@ -100,6 +100,8 @@ std::uint32_t any_instruction(Draw& draw, unsigned at) {
     // pointers point, and keep to RAM, mostly, and addresses are those of RAM
     if (has(row, Operand::File) && draw(8)) f.f = 0x900 + draw(0x100);
     if (has(row, Operand::FileWord)) f.f = draw(8) ? (0x900 + draw(0x100)) / 2 : f.f;
+    if ((has(row, Operand::File) || has(row, Operand::FileWord)) && !draw(12))  // what handlers save
+      f.f = (0x32 + 2 * draw(3)) / (has(row, Operand::FileWord) ? 2 : 1);
     if (has(row, Operand::FileBit) && draw(3)) f.f = 0x900 + draw(0x100);
     static constexpr unsigned kPointers[] = {1, 2, 4, 5, 8, 9, 10, 11, 13, 14}, kValues[] = {0, 3, 6, 7};
     if (row.id != Insn::Mov_D_Ws_Wnd && row.id != Insn::Mov_D_Wns_Wd && draw(16)) {
@@ -146,6 +148,35 @@ TEST(Translation, random_programs_run_alike) {
   int translated = 0;
   for (std::uint32_t seed = 1; seed <= programs && !HasFailure(); ++seed) translated += compare(seed);
   EXPECT_GT(translated, static_cast<int>(programs));
+}
+
+// TBLPAG and PSVPAG have eight bits, RCOUNT fourteen
+TEST(Translation, what_handlers_save_keeps_the_bits_that_exist) {
+  for (const bool translated : {false, true}) {
+    CoreBench b(R"(__reset: mov #200, w10
+1:  setm w0
+    mov w0, TBLPAG
+    mov w0, PSVPAG
+    mov w0, RCOUNT
+    push TBLPAG
+    push PSVPAG
+    push RCOUNT
+    pop w3
+    pop w2
+    pop w1
+    clr TBLPAG
+    mov TBLPAG, w4
+    dec w10, w10
+    bra nz, 1b
+end: bra end)",
+                {}, translated);
+    b.run_to("end");
+    EXPECT_EQ(b.cpu->translated() > 0, translated);
+    EXPECT_EQ(b.w(1), 0x00FF);
+    EXPECT_EQ(b.w(2), 0x00FF);
+    EXPECT_EQ(b.w(3), 0x3FFF);
+    EXPECT_EQ(b.w(4), 0);
+  }
 }
 
 // a routine runs translated, is written anew by the program, and runs as it is now
