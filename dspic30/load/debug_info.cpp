@@ -248,11 +248,17 @@ class Reader {
       if (shape->second.has_inner) open.push_back(offset);
     }
     types_.clear();
+    points_.clear();
     const auto top = entries_.find(first);
     if (top == entries_.end() || top->second.tag != kCompileUnit) return;
     if (const Value* name = top->second.find(kName)) file_ = name->text;
     low_ = 2 * (top->second.number(kLowPc) / 2);
     scope(top->second, 0, 0, 14, 0);
+    for (std::size_t i = 0; i < points_.size(); ++i) {  // what they point to may hold more of them
+      const auto [pointer, offset] = points_[i];
+      const int to = type_of(entries_.at(offset));
+      out_.types[static_cast<std::size_t>(pointer)].element = to;
+    }
   }
 
   // --- types
@@ -289,7 +295,8 @@ class Reader {
       case kPointerType:
         type.kind = DebugInfo::Kind::Pointer;
         type.bytes = 2;
-        break;
+        points_.emplace_back(add(std::move(type)), offset);
+        return types_[offset] = points_.back().first;
       case kArrayType:
         return types_[offset] = array(entry, depth);
       case kStructureType:
@@ -481,6 +488,7 @@ class Reader {
   const std::map<std::string, DebugInfo::Section>& sections_;
   std::map<std::uint32_t, Entry> entries_;  // of the unit
   std::map<std::uint32_t, int> types_;
+  std::vector<std::pair<int, std::uint32_t>> points_;  // pointers, and their entries
   std::string file_;
   std::uint32_t unit_ = 0, low_ = 0;
   std::size_t address_bytes_ = 4;
@@ -516,33 +524,39 @@ bool DebugInfo::find(const std::string& expression, std::uint32_t pc, Found& fou
     return false;
   }
   found.type = found.variable->type;
-  const auto wrong = [&](const std::string& what) {
-    error = "got '" + expression + "', " + what;
-    return false;
-  };
   for (std::size_t at = stop; at < expression.size();) {
-    const Type& type = types[static_cast<std::size_t>(found.type)];
-    if (expression[at] == '[') {
-      char* end = nullptr;
-      const unsigned long index = std::strtoul(expression.c_str() + at + 1, &end, 0);
-      if (end == expression.c_str() + at + 1 || *end != ']') return wrong("expected a number in [ ]");
-      if (type.kind != Kind::Array) return wrong("but that is no array");
-      if (index >= type.count)
-        return wrong("index " + std::to_string(index) + ", expected 0 to " +
-                     std::to_string(static_cast<long>(type.count) - 1));
-      found.type = type.element;
-      found.offset += static_cast<unsigned>(index) * types[static_cast<std::size_t>(type.element)].bytes;
-      at = static_cast<std::size_t>(end - expression.c_str()) + 1;
-    } else if (expression[at] == '.') {
-      const std::size_t next = std::min(expression.find_first_of(".[", at + 1), expression.size());
-      if (!step_into(expression.substr(at + 1, next - at - 1), found))
-        return wrong("no member '" + expression.substr(at + 1, next - at - 1) + "' in it");
-      at = next;
-    } else {
-      return wrong("expected NAME, then .MEMBER and [INDEX] as C writes them");
+    const std::size_t next = std::min(expression.find_first_of(".[", at + 1), expression.size());
+    if (!follow(expression.substr(at, next - at), found, error)) {
+      error = "got '" + expression + "', " + error;
+      return false;
     }
+    at = next;
   }
   return true;
+}
+
+bool DebugInfo::follow(const std::string& step, Found& found, std::string& error) const {
+  const Type& type = types[static_cast<std::size_t>(found.type)];
+  if (step[0] == '.') {
+    if (step_into(step.substr(1), found)) return true;
+    error = "no member '" + step.substr(1) + "' in it";
+    return false;
+  }
+  char* end = nullptr;
+  const unsigned long index = std::strtoul(step.c_str() + 1, &end, 0);
+  if (step.size() < 3 || end != step.c_str() + step.size() - 1 || *end != ']')
+    error = "expected a number in [ ]";
+  else if (type.kind != Kind::Array)
+    error = "but that is no array";
+  else if (index >= type.count)
+    error = "index " + std::to_string(index) + ", expected 0 to " +
+            std::to_string(static_cast<long>(type.count) - 1);
+  else {
+    found.offset += static_cast<unsigned>(index) * types[static_cast<std::size_t>(type.element)].bytes;
+    found.type = type.element;
+    return true;
+  }
+  return false;
 }
 
 bool DebugInfo::step_into(const std::string& name, Found& found, int depth) const {

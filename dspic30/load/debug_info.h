@@ -3,7 +3,7 @@
 //
 //   .debug_info, .debug_abbrev, .debug_str, .debug_loc --> DebugInfo: find("state.speed[1]", pc)
 //
-// DWARF 2 to 4, as our own compiler and XC16 write it. Not read: what pointers point to, C++.
+// DWARF 2 to 4, as our own compiler and XC16 write it. Not read: C++.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -23,7 +23,7 @@ struct DebugInfo {
   struct Type {
     Kind kind = Kind::Unknown;
     unsigned bytes = 0;
-    int element = 0;     ///< of an array
+    int element = 0;     ///< of an array, or what a pointer points to
     unsigned count = 0;  ///< its elements
     std::vector<Member> members;
   };
@@ -54,6 +54,8 @@ struct DebugInfo {
 
   /// "speed", "grid[2].x", seen from `pc`: locals of the innermost scope go before. False: `error` says why.
   bool find(const std::string& expression, std::uint32_t pc, Found& found, std::string& error) const;
+  /// On from `found`'s type and offset by one ".MEMBER" or "[INDEX]". False: `error` says why.
+  bool follow(const std::string& step, Found& found, std::string& error) const;
   /// Where it is at `pc`; null: the optimiser keeps it nowhere there.
   static const Place* place_at(const Variable& variable, std::uint32_t pc);
 

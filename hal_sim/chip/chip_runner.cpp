@@ -13,7 +13,8 @@ namespace chip {
 namespace {
 
 constexpr unsigned kIfs0 = dspic::sfr("IFS0"), kInttreg = dspic::sfr("INTTREG"),
-                   kRamStart = dspic::Processor::kRamStart, kRamEnd = dspic::Processor::kRamEnd;
+                   kRamStart = dspic::Processor::kRamStart, kRamEnd = dspic::Processor::kRamEnd,
+                   kPsvStart = 0x8000, kPsvpag = dspic::sfr("PSVPAG");
 constexpr Cycle kLeastWait = board::kFcyHz / 100;  // a wait is called endless from then on
 
 }  // namespace
@@ -246,10 +247,13 @@ void ChipRunner::read_memory(std::uintptr_t address, void* to, std::size_t bytes
   auto* out = static_cast<unsigned char*>(to);
   for (std::size_t i = 0; i < bytes; ++i) {
     const auto at = static_cast<unsigned>(address + i);
+    const auto in_register = [&](unsigned reg) { return device().peek(reg, chip_.latest()); };
+    const auto in_flash = [&] {  // through the PSV window
+      return program_.read(in_register(kPsvpag) << 15 | (at & 0x7FFE));
+    };
+    const std::uint32_t word = at < kRamStart ? in_register(at & ~1u) : at >= kPsvStart ? in_flash() : 0;
     out[i] = at >= kRamStart && at < kRamEnd ? processor_->ram(at)
-             : at < kRamStart
-                 ? static_cast<unsigned char>(device().peek(at & ~1u, chip_.latest()) >> 8 * (at & 1))
-                 : 0;
+                                             : static_cast<unsigned char>(word >> 8 * (at & 1));
   }
 }
 

@@ -322,7 +322,7 @@ void DapServer::variables(const Json& request) {
     case kVariables:
       for (const auto& variable : session_->file().debug.variables)
         if (session_->pc() >= variable.begin && session_->pc() < variable.end)
-          add(variable.name, session_->typed({&variable, variable.type}));
+          add(variable.name, session_->typed({{&variable, variable.type}, {}, session_->pc()}));
       for (const auto& [name, address] : session_->file().objects) {
         const auto bytes = session_->file().object_bytes.find(name);
         if (bytes == session_->file().object_bytes.end() || bytes->second > 4) continue;

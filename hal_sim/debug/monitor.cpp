@@ -215,11 +215,9 @@ std::string Monitor::world() {
 // --- data
 
 std::string Monitor::print(const std::string& expression) {
-  dspic::DebugInfo::Found found;
+  Session::Part part;
   std::string unknown;
-  if (session_.file().debug.find(expression, session_.pc(), found, unknown))
-    return expression + " = " + session_.typed(found) + "\n";
-  if (expression.find('[') != std::string::npos) return unknown + "\n";
+  if (session_.find_part(expression, part, unknown)) return expression + " = " + session_.typed(part) + "\n";
   const auto data = session_.find_data(expression);
   if (data && data->bytes > 4) {  // an array or structure: its words
     std::string text = expression + " =";

@@ -396,7 +396,7 @@ const Breakpoint* Session::add_breakpoint(const std::string& where, const std::s
   std::int64_t value = 0;
   std::string wrong;
   if (b.addresses.empty()) return nullptr;
-  if (!condition.empty() && !evaluate(condition, value, wrong)) {
+  if (!condition.empty() && !evaluate(condition, value, wrong, b.addresses[0])) {
     error = "condition: " + wrong;
     return nullptr;
   }

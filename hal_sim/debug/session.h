@@ -96,18 +96,28 @@ class Session final : private chip::StepWatch {
   const std::string& robot() const { return setup_.robot; }
 
   // --- data
-  /// Value of an expression of C: numbers, variables, registers (LATA, LATA.LATA6, w0, pc, sr, cycle).
-  /// False: `error` says why.
-  bool evaluate(const std::string& expression, std::int64_t& value, std::string& error) const;
+  /// Value of an expression of C: numbers, variables and their parts (motors[n].speed, m->speed, *p),
+  /// registers (LATA, LATA.LATA6, w0, pc, sr, cycle). A float counts as its whole part. Names are those that
+  /// are known at `pc`; without it, where the program stands. False: `error` says why.
+  bool evaluate(const std::string& expression, std::int64_t& value, std::string& error,
+                std::optional<std::uint32_t> pc = {}) const;
   /// A variable or register by name: where it is, and its size in bytes.
   struct Data {
     unsigned address = 0, bytes = 2;
     int bit = 0, width = 0;  ///< of a register's field; width 0: all of it
-    bool is_signed = false;
   };
   std::optional<Data> find_data(const std::string& name) const;
-  /// A variable of a known type as C would write it: "{mode = 1, speed = {-300, 300}}".
-  std::string typed(const dspic::DebugInfo::Found& found) const;
+  /// A variable of a known type, a part of one, or what a pointer points to.
+  struct Part {
+    dspic::DebugInfo::Found found;
+    std::optional<unsigned> pointed;  ///< address that found.offset counts from; none: the variable's place
+    std::uint32_t pc = 0;             ///< where the program would have to stand
+  };
+  /// "speed", "grid[i + 1].x", "m->next->speed", "**p". False: `error` says why.
+  bool find_part(const std::string& expression, Part& part, std::string& error,
+                 std::optional<std::uint32_t> pc = {}) const;
+  /// As C would write it: "{mode = 1, speed = {-300, 300}}".
+  std::string typed(const Part& part) const;
   /// Parameters and variables of the function that runs, a line each.
   std::string locals() const;
   unsigned read(unsigned address, unsigned bytes) const;
@@ -125,7 +135,10 @@ class Session final : private chip::StepWatch {
   const Breakpoint* find(int id) const;
 
  private:
-  std::optional<unsigned> address_of(const dspic::DebugInfo::Found& found) const;
+  std::optional<unsigned> address_of(const Part& part) const;
+  std::optional<std::uint64_t> raw_value(const Part& part) const;
+  bool value_of(const Part& part, std::int64_t& value) const;
+  bool point(Part& part, std::int64_t index, std::string& error) const;
   enum class State { Running, Stopped, Ended };
   struct Moment {
     Cycle at = 0;

@@ -2,6 +2,9 @@
 // Names and expressions of the debugger: variables by their symbols, registers by the chip's table.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
+#include <cmath>
 #include <cstring>
 #include <sstream>
 
@@ -12,6 +15,9 @@
 namespace debug {
 
 namespace {
+
+using Kind = dspic::DebugInfo::Kind;
+using In = dspic::DebugInfo::Place::In;
 
 /// A field's place within its register; width 0: there is none of that name.
 void find_field(const dspic::SfrInfo& info, const std::string& name, int& bit, int& width) {
@@ -25,31 +31,157 @@ void find_field(const dspic::SfrInfo& info, const std::string& name, int& bit, i
   }
 }
 
+
+/// End of the name that begins at `at`.
+std::size_t end_of_name(const std::string& text, std::size_t at) {
+  while (at < text.size() && (std::isalnum(static_cast<unsigned char>(text[at])) || text[at] == '_')) ++at;
+  return at;
+}
+
+/// End of the step .NAME, ->NAME or [INDEX] that begins at `at`; `at` itself: none does.
+std::size_t end_of_step(const std::string& text, std::size_t at) {
+  if (text.compare(at, 1, ".") == 0 || text.compare(at, 2, "->") == 0) {
+    const std::size_t name = at + (text[at] == '.' ? 1 : 2), end = end_of_name(text, name);
+    return end > name ? end : at;
+  }
+  if (text.compare(at, 1, "[") != 0) return at;
+  int depth = 0;
+  for (std::size_t end = at; end < text.size(); ++end) {
+    depth += (text[end] == '[') - (text[end] == ']');
+    if (depth == 0) return end + 1;
+  }
+  return at;
+}
+
+/// End of the variable, or part of one, that begins at `at`; `at` itself: none does.
+std::size_t end_of_part(const std::string& text, std::size_t at) {
+  const std::size_t begin = at;
+  while (at < text.size() && (text[at] == '*' || text[at] == ' ')) ++at;
+  std::size_t end = at;
+  if (at < text.size() && !std::isdigit(static_cast<unsigned char>(text[at]))) end = end_of_name(text, at);
+  if (end == at) return begin;
+  for (std::size_t next = end_of_step(text, end); next != end; next = end_of_step(text, end)) end = next;
+  return end;
+}
+
 }  // namespace
 
+// --- parts of variables
+
+bool Session::find_part(const std::string& expression, Part& part, std::string& error,
+                        std::optional<std::uint32_t> at_pc) const {
+  const std::string text = dspic::assembly::trimmed(expression);
+  const auto wrong = [&](const std::string& why) {
+    error = "got '" + text + "', " + why;
+    return false;
+  };
+  if (!text.empty() && text[0] == '*')
+    return find_part(text.substr(1), part, error, at_pc) && (point(part, 0, error) || wrong(error));
+  part = {{}, {}, at_pc.value_or(pc())};
+  std::size_t at = end_of_name(text, 0);
+  if (!file().debug.find(text.substr(0, at), part.pc, part.found, error)) return false;
+  while (at < text.size()) {
+    const std::size_t end = end_of_step(text, at);
+    if (end == at) return wrong("expected NAME, then .MEMBER, ->MEMBER and [INDEX] as C writes them");
+    std::string step = text.substr(at, end - at);
+    at = end;
+    if (step[0] == '-') {
+      if (!point(part, 0, error)) return wrong(error);
+      step = step.substr(1);
+      step[0] = '.';
+    }
+    if (step[0] == '[') {
+      std::int64_t index = 0;
+      if (!evaluate(step.substr(1, step.size() - 2), index, error, at_pc)) return false;
+      if (file().debug.types[static_cast<std::size_t>(part.found.type)].kind == Kind::Pointer) {
+        if (!point(part, index, error)) return wrong(error);
+        continue;
+      }
+      step = "[" + std::to_string(index) + "]";
+    }
+    if (!file().debug.follow(step, part.found, error)) return wrong(error);
+  }
+  return true;
+}
+
+// from a pointer to what it points to
+bool Session::point(Part& part, std::int64_t index, std::string& error) const {
+  const auto& type = file().debug.types[static_cast<std::size_t>(part.found.type)];
+  const unsigned bytes = file().debug.types[static_cast<std::size_t>(type.element)].bytes;
+  const auto to = raw_value(part);
+  if (type.kind != Kind::Pointer || bytes == 0)
+    error = "expected a pointer to something of a known type";
+  else if (!to)
+    error = "but the optimiser keeps it nowhere here";
+  else {
+    part.pointed = static_cast<unsigned>(static_cast<std::int64_t>(*to) + index * bytes) & 0xFFFF;
+    part.found = {nullptr, type.element};
+    return true;
+  }
+  return false;
+}
+
 // registers are data, too
-std::optional<unsigned> Session::address_of(const dspic::DebugInfo::Found& found) const {
-  using In = dspic::DebugInfo::Place::In;
-  const auto* const place = dspic::DebugInfo::place_at(*found.variable, pc());
+std::optional<unsigned> Session::address_of(const Part& part) const {
+  if (part.pointed) return (*part.pointed + part.found.offset) & 0xFFFF;
+  const auto* const place = dspic::DebugInfo::place_at(*part.found.variable, part.pc);
   if (!place || place->in == In::Value) return {};
   const auto value = static_cast<unsigned>(place->value);
   const unsigned base = place->in == In::Register ? 2 * value
                         : place->in == In::Frame  ? value + read(2 * static_cast<unsigned>(place->base), 2)
                                                   : value;
-  return (base + found.offset) & 0xFFFF;
+  return (base + part.found.offset) & 0xFFFF;
 }
 
-std::string Session::typed(const dspic::DebugInfo::Found& found) const {
-  using Kind = dspic::DebugInfo::Kind;
+/// Its bits, from the lowest on; none: it is kept nowhere, or no number.
+std::optional<std::uint64_t> Session::raw_value(const Part& part) const {
+  const auto& type = file().debug.types[static_cast<std::size_t>(part.found.type)];
+  if (type.bytes == 0 || type.bytes > 8 || type.kind == Kind::Array || type.kind == Kind::Struct) return {};
+  std::uint64_t raw = 0;
+  if (const auto address = address_of(part)) {
+    runner_->read_memory(*address, &raw, type.bytes);
+  } else {
+    const auto* const place = dspic::DebugInfo::place_at(*part.found.variable, part.pc);
+    if (!place) return {};
+    raw = static_cast<std::uint64_t>(std::int64_t{place->value});
+  }
+  const unsigned bits = part.found.width > 0 ? static_cast<unsigned>(part.found.width) : 8 * type.bytes;
+  return raw << (64 - bits - static_cast<unsigned>(part.found.bit)) >> (64 - bits);
+}
+
+// an array counts as its address
+bool Session::value_of(const Part& part, std::int64_t& value) const {
+  const auto& type = file().debug.types[static_cast<std::size_t>(part.found.type)];
+  if (const auto address = address_of(part); address && type.kind == Kind::Array) {
+    value = *address;
+    return true;
+  }
+  const auto raw = raw_value(part);
+  if (!raw) return false;
+  if (type.kind == Kind::Float) {
+    float number;
+    std::memcpy(&number, &*raw, sizeof number);
+    constexpr float kMost = 9e18f;
+    value = std::isnan(number) ? 0 : static_cast<std::int64_t>(std::clamp(number, -kMost, kMost));
+    return true;
+  }
+  const unsigned bits = part.found.width > 0 ? static_cast<unsigned>(part.found.width) : 8 * type.bytes;
+  value = static_cast<std::int64_t>(*raw);
+  if (type.kind == Kind::Signed) value = static_cast<std::int64_t>(*raw << (64 - bits)) >> (64 - bits);
+  return true;
+}
+
+std::string Session::typed(const Part& whole) const {
   constexpr unsigned kMostElements = 32;
   const auto& debug = file().debug;
-  const auto& type = debug.types[static_cast<std::size_t>(found.type)];
-  dspic::DebugInfo::Found part = found;
+  const auto& type = debug.types[static_cast<std::size_t>(whole.found.type)];
+  Part part = whole;
   if (type.kind == Kind::Array) {
     std::string text;
     for (unsigned i = 0; i < std::min(type.count, kMostElements); ++i) {
-      part.type = type.element;
-      part.offset = found.offset + i * debug.types[static_cast<std::size_t>(type.element)].bytes;
+      part.found.type = type.element;
+      part.found.offset =
+          whole.found.offset + i * debug.types[static_cast<std::size_t>(type.element)].bytes;
       text += (i > 0 ? ", " : "") + typed(part);
     }
     return "{" + text + (type.count > kMostElements ? ", ..." : "") + "}";
@@ -57,45 +189,41 @@ std::string Session::typed(const dspic::DebugInfo::Found& found) const {
   if (type.kind == Kind::Struct) {
     std::string text;
     for (const auto& member : type.members) {
-      part = {found.variable, member.type, found.offset + member.offset, member.bit, member.width};
+      part.found = {whole.found.variable, member.type, whole.found.offset + member.offset, member.bit,
+                    member.width};
       text += (text.empty() ? "" : ", ") + (member.name.empty() ? "" : member.name + " = ") + typed(part);
     }
     return "{" + text + "}";
   }
-  const auto* const place = dspic::DebugInfo::place_at(*found.variable, pc());
-  if (!place) return "(not kept here)";
-  const auto address = address_of(found);
   if (type.bytes == 0 || type.bytes > 8) return "(of no known type)";
-  std::uint64_t raw = address ? 0 : static_cast<std::uint64_t>(std::int64_t{place->value});
-  if (address) runner_->read_memory(*address, &raw, type.bytes);
+  const auto raw = raw_value(whole);
+  if (!raw) return "(not kept here)";
   if (type.kind == Kind::Float) {
     float number;
-    std::memcpy(&number, &raw, sizeof number);
+    std::memcpy(&number, &*raw, sizeof number);
     return fmt::format("{}", number);
   }
-  const unsigned bits = found.width > 0 ? static_cast<unsigned>(found.width) : 8 * type.bytes;
-  const std::uint64_t value = raw << (64 - bits - static_cast<unsigned>(found.bit)) >> (64 - bits);
-  if (type.kind == Kind::Pointer) return fmt::format("{:#06x}", value);
-  if (type.kind == Kind::Signed && (value >> (bits - 1) & 1))
-    return fmt::format("{} ({:#x})", static_cast<std::int64_t>(value << (64 - bits)) >> (64 - bits), value);
-  return fmt::format("{} ({:#x})", value, value);
+  if (type.kind == Kind::Pointer) return fmt::format("{:#06x}", *raw);
+  std::int64_t value = 0;
+  value_of(whole, value);
+  return value < 0 ? fmt::format("{} ({:#x})", value, *raw) : fmt::format("{} ({:#x})", *raw, *raw);
 }
 
 std::string Session::locals() const {
   std::string text;
   for (const auto& variable : file().debug.variables)
     if (pc() >= variable.begin && pc() < variable.end)
-      text += "  " + variable.name + " = " + typed({&variable, variable.type}) + "\n";
+      text += "  " + variable.name + " = " + typed({{&variable, variable.type}, {}, pc()}) + "\n";
   return text.empty() ? "no variables of a function are known here\n" : text;
 }
 
 std::optional<Session::Data> Session::find_data(const std::string& name) const {
-  dspic::DebugInfo::Found found;
+  Part part;
   std::string error;
-  if (file().debug.find(name, pc(), found, error))
-    if (const auto address = address_of(found)) {
-      const auto& type = file().debug.types[static_cast<std::size_t>(found.type)];
-      return Data{*address, type.bytes, found.bit, found.width, type.kind == dspic::DebugInfo::Kind::Signed};
+  if (find_part(name, part, error))
+    if (const auto address = address_of(part)) {
+      const auto& type = file().debug.types[static_cast<std::size_t>(part.found.type)];
+      return Data{*address, type.bytes, part.found.bit, part.found.width};
     }
   if (const auto object = file().objects.find(name); object != file().objects.end()) {
     const auto bytes = file().object_bytes.find(name);
@@ -125,8 +253,12 @@ unsigned Session::read(unsigned address, unsigned bytes) const {
   return value;
 }
 
-bool Session::evaluate(const std::string& expression, std::int64_t& value, std::string& error) const {
-  const auto symbols = [this](const std::string& name, std::int64_t& out) {
+bool Session::evaluate(const std::string& expression, std::int64_t& value, std::string& error,
+                       std::optional<std::uint32_t> at_pc) const {
+  const auto symbols = [&](const std::string& name, std::int64_t& out) {
+    Part part;
+    std::string why;
+    if (find_part(name, part, why, at_pc) && value_of(part, out)) return true;
     if (name == "pc")
       out = static_cast<std::int64_t>(pc());
     else if (name == "cycle")
@@ -136,8 +268,6 @@ bool Session::evaluate(const std::string& expression, std::int64_t& value, std::
     else if (const auto data = find_data(name)) {
       out = read(data->address, data->bytes);
       if (data->width > 0) out = out >> data->bit & ((1 << data->width) - 1);
-      const int bits = data->width > 0 ? data->width : 8 * static_cast<int>(std::min(data->bytes, 4u));
-      if (data->is_signed && bits > 0 && (out >> (bits - 1) & 1)) out -= std::int64_t{1} << bits;
     } else if (const auto code = file().functions.find(name); code != file().functions.end()) {
       out = code->second;
     } else {
@@ -145,8 +275,35 @@ bool Session::evaluate(const std::string& expression, std::int64_t& value, std::
     }
     return true;
   };
+  // what the expressions of assembler text do not have: [ ], -> and the * before a pointer
+  std::string text;
+  bool is_operand = true;  // what comes next is one, or the sign before one
+  for (std::size_t at = 0; at < expression.size();) {
+    const auto c = static_cast<unsigned char>(expression[at]);
+    std::size_t end = at + 1;
+    if (is_operand && !std::isspace(c)) end = std::max(end, end_of_part(expression, at));
+    if (std::isdigit(c)) end = end_of_name(expression, at);
+    std::string piece = expression.substr(at, end - at);
+    at = end;
+    if (piece == "*" && is_operand) {
+      error = "got '" + expression + "', expected a variable behind the *";
+      return false;
+    }
+    if (piece[0] == '*' ? is_operand : piece.find_first_of("[>") != std::string::npos && piece.size() > 1) {
+      Part part;
+      std::int64_t number = 0;
+      if (!find_part(piece, part, error, at_pc)) return false;
+      if (!value_of(part, number)) {
+        error = "got '" + piece + "', expected something that has a value here";
+        return false;
+      }
+      piece = "(" + std::to_string(number) + ")";
+    }
+    text += piece;
+    if (!std::isspace(c)) is_operand = piece.size() == 1 && !std::isalnum(c) && c != '_' && c != ')';
+  }
   return dspic::assembly::evaluate(
-      expression, symbols, [](std::int64_t a) { return a; }, value, error);
+      text, symbols, [](std::int64_t a) { return a; }, value, error);
 }
 
 }  // namespace debug

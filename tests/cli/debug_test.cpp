@@ -237,4 +237,46 @@ TEST_F(Debug, variables_have_types_and_functions_have_locals) {
   EXPECT_NE(vcd.find("b100101100 "), std::string::npos) << vcd;  // 300
 }
 
+constexpr const char* kPointers = R"(#include <p30F6014A.h>
+struct node { int value; struct node *next; const char *name; };
+struct node nodes[3] = {{5, &nodes[1], "ab"}, {-7, &nodes[2], "cd"}, {9, 0, "ef"}};
+int counts[4] = {10, 20, 30, 40};
+int *volatile middle = &counts[1];
+volatile float level = -2.75f;
+
+__attribute__((noinline)) int visit(struct node *n, int round) {
+  LATA = n->value + *middle + (int)level;
+  return LATB + round;
+}
+
+int main(void) {
+  int round = 0;
+  while (1) {
+    struct node *n;
+    for (n = nodes; n; n = n->next) counts[3] += visit(n, round);
+    round++;
+  }
+}
+)";
+
+// pointers are followed, and conditions see what the function sees
+TEST_F(Debug, pointers_are_followed_and_conditions_know_locals) {
+  write("mine/main.c", kPointers);
+  const auto built = twinpuck("build '" + path("mine") + "' --way chip -o '" + elf() + "'");
+  ASSERT_EQ(built.exit_code, 0) << built.text;
+  expect_in_order(
+      debug("break visit if n->value == -7 && round == 2\nc\nprint round\nprint n->value\nprint *n\n"
+            "print n->next->value\nprint n->name[1]\nprint *middle\nprint middle[1] + counts[round]\n"
+            "print nodes[round - 1].value * 2\nprint -counts[0] * (*middle)\nprint level\nprint level + 1\n"
+            "set n->next->value = 77\nprint nodes[2].value\nprint round->value\n"
+            "print *round\nprint n->colour\nprint counts[9]\nprint *(n)\nprint n[\n"
+            "break visit if nothing[2] > 1\nwatch n->next->value\ninfo break\n"),
+      {"round = 2 (0x2)", "n->value = -7 (0xfff9)", "*n = {value = -7 (0xfff9), next = 0x0", "n->next->value = 9 (0x9)",
+       "n->name[1] = 100 (0x64)", "*middle = 20 (0x14)", "middle[1] + counts[round] = 60", "nodes[round - 1].value * 2 = -14",
+       "-counts[0] * (*middle) = -200", "level = -2.75", "level + 1 = -1", "n->next->value = 77",
+       "nodes[2].value = 77", "got 'round->value', expected a pointer", "got '*round', expected a pointer",
+       "got 'n->colour', no member 'colour'", "got 'counts[9]', index 9, expected 0 to 3",
+       "expected a variable behind the *", "condition: ", "nothing", "n->next->value"});
+}
+
 }  // namespace
