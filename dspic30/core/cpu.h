@@ -318,7 +318,7 @@ class Cpu final : public SfrOwner {
   mutable struct {
     const Decoded* head = nullptr;
     Run plain = nullptr;
-  } asked_;  // the head that plain() was asked for last
+  } asked_;                             // the head that plain() was asked for last
   std::vector<std::uint32_t> decoded_;  // words that were met since forget_code()
   std::vector<Decoded> code_;           // one a flash word, then one for addresses where no flash is
   unsigned bad_address_ = 0;            // that address

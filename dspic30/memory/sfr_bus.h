@@ -97,7 +97,8 @@ class SfrBus {
   Cycle horizon(unsigned address, Cycle now) const;
   /// Registers that were written since power-on, in the order of their first write.
   const std::vector<const SfrInfo*>& written() const { return written_; }
-  /// Writes so far: two writes are consecutive when this differs by one.
+  /// Writes so far: two writes are consecutive when this differs by one. Those that the core keeps to itself
+  /// (Cpu::saved_register()) do not count.
   std::int64_t writes() const { return writes_; }
 
  private:

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "dspic30/translate/region.h"
 
-#include <dlfcn.h>
 #include <llvm/ADT/MapVector.h>
 #include <llvm/Analysis/InstructionSimplify.h>
 #include <llvm/Analysis/ValueTracking.h>
@@ -19,6 +18,8 @@
 #include <algorithm>
 #include <cstring>
 #include <set>
+
+#include "dspic30/translate/outside_values.h"
 
 namespace dspic::translate {
 
@@ -663,29 +664,6 @@ void Maker::optimise() {
   passes.run(*function_);
 }
 
-// constants by value, functions by address
-class Outside final : public ValueMaterializer {
- public:
-  explicit Outside(Module& into) : into_(into) {}
-  Value* materialize(Value* value) override {
-    const auto* const global = dyn_cast<GlobalValue>(value);
-    if (!global) return nullptr;
-    if (const auto* const table = dyn_cast<GlobalVariable>(global);
-        table && table->isConstant() && table->hasInitializer())
-      return new GlobalVariable(into_, table->getValueType(), true, GlobalValue::PrivateLinkage,
-                                const_cast<Constant*>(table->getInitializer()));
-    void* const address = dlsym(RTLD_DEFAULT, global->getName().str().c_str());
-    is_whole &= address != nullptr;
-    return ConstantExpr::getIntToPtr(
-        ConstantInt::get(Type::getInt64Ty(into_.getContext()), reinterpret_cast<std::uint64_t>(address)),
-        global->getType());
-  }
-  bool is_whole = true;
-
- private:
-  Module& into_;
-};
-
 std::unique_ptr<Module> Maker::moved_out() {
   auto module = std::make_unique<Module>(function_->getName(), context_);
   module->setDataLayout(layout_);
@@ -696,7 +674,7 @@ std::unique_ptr<Module> Maker::moved_out() {
   ValueToValueMapTy map;
   for (unsigned i = 0; i < 2; ++i) map[function_->getArg(i)] = moved->getArg(i);
   SmallVector<ReturnInst*, 2> returns;
-  Outside outside(*module);
+  OutsideValues outside(*module);
   CloneFunctionInto(moved, function_, map, CloneFunctionChangeType::DifferentModule, returns, "", nullptr,
                     nullptr, &outside);
   return outside.is_whole ? std::move(module) : nullptr;

@@ -31,7 +31,6 @@ void find_field(const dspic::SfrInfo& info, const std::string& name, int& bit, i
   }
 }
 
-
 /// End of the name that begins at `at`.
 std::size_t end_of_name(const std::string& text, std::size_t at) {
   while (at < text.size() && (std::isalnum(static_cast<unsigned char>(text[at])) || text[at] == '_')) ++at;
@@ -180,8 +179,7 @@ std::string Session::typed(const Part& whole) const {
     std::string text;
     for (unsigned i = 0; i < std::min(type.count, kMostElements); ++i) {
       part.found.type = type.element;
-      part.found.offset =
-          whole.found.offset + i * debug.types[static_cast<std::size_t>(type.element)].bytes;
+      part.found.offset = whole.found.offset + i * debug.types[static_cast<std::size_t>(type.element)].bytes;
       text += (i > 0 ? ", " : "") + typed(part);
     }
     return "{" + text + (type.count > kMostElements ? ", ..." : "") + "}";

@@ -271,12 +271,27 @@ TEST_F(Debug, pointers_are_followed_and_conditions_know_locals) {
             "set n->next->value = 77\nprint nodes[2].value\nprint round->value\n"
             "print *round\nprint n->colour\nprint counts[9]\nprint *(n)\nprint n[\n"
             "break visit if nothing[2] > 1\nwatch n->next->value\ninfo break\n"),
-      {"round = 2 (0x2)", "n->value = -7 (0xfff9)", "*n = {value = -7 (0xfff9), next = 0x0", "n->next->value = 9 (0x9)",
-       "n->name[1] = 100 (0x64)", "*middle = 20 (0x14)", "middle[1] + counts[round] = 60", "nodes[round - 1].value * 2 = -14",
-       "-counts[0] * (*middle) = -200", "level = -2.75", "level + 1 = -1", "n->next->value = 77",
-       "nodes[2].value = 77", "got 'round->value', expected a pointer", "got '*round', expected a pointer",
-       "got 'n->colour', no member 'colour'", "got 'counts[9]', index 9, expected 0 to 3",
-       "expected a variable behind the *", "condition: ", "nothing", "n->next->value"});
+      {"round = 2 (0x2)",
+       "n->value = -7 (0xfff9)",
+       "*n = {value = -7 (0xfff9), next = 0x0",
+       "n->next->value = 9 (0x9)",
+       "n->name[1] = 100 (0x64)",
+       "*middle = 20 (0x14)",
+       "middle[1] + counts[round] = 60",
+       "nodes[round - 1].value * 2 = -14",
+       "-counts[0] * (*middle) = -200",
+       "level = -2.75",
+       "level + 1 = -1",
+       "n->next->value = 77",
+       "nodes[2].value = 77",
+       "got 'round->value', expected a pointer",
+       "got '*round', expected a pointer",
+       "got 'n->colour', no member 'colour'",
+       "got 'counts[9]', index 9, expected 0 to 3",
+       "expected a variable behind the *",
+       "condition: ",
+       "nothing",
+       "n->next->value"});
 }
 
 }  // namespace
