@@ -19,12 +19,12 @@ class OutsideValues final : public llvm::ValueMaterializer {
     if (const auto* const table = llvm::dyn_cast<llvm::GlobalVariable>(global);
         table && table->isConstant() && table->hasInitializer())
       return new llvm::GlobalVariable(into_, table->getValueType(), true, llvm::GlobalValue::PrivateLinkage,
-                                const_cast<llvm::Constant*>(table->getInitializer()));
+                                      const_cast<llvm::Constant*>(table->getInitializer()));
     void* const address = dlsym(RTLD_DEFAULT, global->getName().str().c_str());
     is_whole &= address != nullptr;
-    return llvm::ConstantExpr::getIntToPtr(
-        llvm::ConstantInt::get(llvm::Type::getInt64Ty(into_.getContext()), reinterpret_cast<std::uint64_t>(address)),
-        global->getType());
+    return llvm::ConstantExpr::getIntToPtr(llvm::ConstantInt::get(llvm::Type::getInt64Ty(into_.getContext()),
+                                                                  reinterpret_cast<std::uint64_t>(address)),
+                                           global->getType());
   }
   bool is_whole = true;
 
