@@ -4,9 +4,9 @@
 //   .hex or .elf --FirmwareFile--> flash --> dspic::Processor <--> SolderedChip <--> Board
 //
 // Time is the chip's, exact to the cycle as far as docs/chip-core.md says. Traps and resets are the chip's
-// own: the program goes on at their vectors; a reset that the program did not ask for is reported. Not
-// modelled: debug information of images (lines, types); a program is known by the names of its functions and
-// variables.
+// own: the program goes on at their vectors; a reset that the program did not ask for is reported. Lines,
+// variables and types are those of the image's debug information; without it, functions and variables are
+// known by name.
 #pragma once
 #include <memory>
 #include <optional>
