@@ -135,6 +135,8 @@ class Session final : private chip::StepWatch {
   const Breakpoint* find(int id) const;
 
  private:
+  /// Symbols and registers, whatever the debug information says.
+  std::optional<Data> find_untyped(const std::string& name) const;
   std::optional<unsigned> address_of(const Part& part) const;
   std::optional<std::uint64_t> raw_value(const Part& part) const;
   bool value_of(const Part& part, std::int64_t& value) const;

@@ -31,6 +31,16 @@ void find_field(const dspic::SfrInfo& info, const std::string& name, int& bit, i
   }
 }
 
+unsigned bits_of(const dspic::DebugInfo::Type& type, const dspic::DebugInfo::Found& found) {
+  return found.width > 0 ? static_cast<unsigned>(found.width) : 8 * type.bytes;
+}
+
+float float_of(std::uint64_t raw) {
+  float number;
+  std::memcpy(&number, &raw, sizeof number);
+  return number;
+}
+
 /// End of the name that begins at `at`.
 std::size_t end_of_name(const std::string& text, std::size_t at) {
   while (at < text.size() && (std::isalnum(static_cast<unsigned char>(text[at])) || text[at] == '_')) ++at;
@@ -144,7 +154,7 @@ std::optional<std::uint64_t> Session::raw_value(const Part& part) const {
     if (!place) return {};
     raw = static_cast<std::uint64_t>(std::int64_t{place->value});
   }
-  const unsigned bits = part.found.width > 0 ? static_cast<unsigned>(part.found.width) : 8 * type.bytes;
+  const unsigned bits = bits_of(type, part.found);
   return raw << (64 - bits - static_cast<unsigned>(part.found.bit)) >> (64 - bits);
 }
 
@@ -158,13 +168,12 @@ bool Session::value_of(const Part& part, std::int64_t& value) const {
   const auto raw = raw_value(part);
   if (!raw) return false;
   if (type.kind == Kind::Float) {
-    float number;
-    std::memcpy(&number, &*raw, sizeof number);
+    const float number = float_of(*raw);
     constexpr float kMost = 9e18f;
     value = std::isnan(number) ? 0 : static_cast<std::int64_t>(std::clamp(number, -kMost, kMost));
     return true;
   }
-  const unsigned bits = part.found.width > 0 ? static_cast<unsigned>(part.found.width) : 8 * type.bytes;
+  const unsigned bits = bits_of(type, part.found);
   value = static_cast<std::int64_t>(*raw);
   if (type.kind == Kind::Signed) value = static_cast<std::int64_t>(*raw << (64 - bits)) >> (64 - bits);
   return true;
@@ -196,11 +205,7 @@ std::string Session::typed(const Part& whole) const {
   if (type.bytes == 0 || type.bytes > 8) return "(of no known type)";
   const auto raw = raw_value(whole);
   if (!raw) return "(not kept here)";
-  if (type.kind == Kind::Float) {
-    float number;
-    std::memcpy(&number, &*raw, sizeof number);
-    return fmt::format("{}", number);
-  }
+  if (type.kind == Kind::Float) return fmt::format("{}", float_of(*raw));
   if (type.kind == Kind::Pointer) return fmt::format("{:#06x}", *raw);
   std::int64_t value = 0;
   value_of(whole, value);
@@ -223,6 +228,10 @@ std::optional<Session::Data> Session::find_data(const std::string& name) const {
       const auto& type = file().debug.types[static_cast<std::size_t>(part.found.type)];
       return Data{*address, type.bytes, part.found.bit, part.found.width};
     }
+  return find_untyped(name);
+}
+
+std::optional<Session::Data> Session::find_untyped(const std::string& name) const {
   if (const auto object = file().objects.find(name); object != file().objects.end()) {
     const auto bytes = file().object_bytes.find(name);
     return Data{object->second, bytes == file().object_bytes.end() ? 2u : bytes->second};
@@ -263,7 +272,7 @@ bool Session::evaluate(const std::string& expression, std::int64_t& value, std::
       out = now();
     else if (name == "nesting")
       out = runner_->device().nesting();
-    else if (const auto data = find_data(name)) {
+    else if (const auto data = find_untyped(name)) {
       out = read(data->address, data->bytes);
       if (data->width > 0) out = out >> data->bit & ((1 << data->width) - 1);
     } else if (const auto code = file().functions.find(name); code != file().functions.end()) {

@@ -270,7 +270,7 @@ TEST_F(Debug, pointers_are_followed_and_conditions_know_locals) {
             "print nodes[round - 1].value * 2\nprint -counts[0] * (*middle)\nprint level\nprint level + 1\n"
             "set n->next->value = 77\nprint nodes[2].value\nprint round->value\n"
             "print *round\nprint n->colour\nprint counts[9]\nprint *(n)\nprint n[\n"
-            "break visit if nothing[2] > 1\nwatch n->next->value\ninfo break\n"),
+            "break visit if nothing[2] > 1\nbreak main if n > 0\nwatch n->next->value\ninfo break\n"),
       {"round = 2 (0x2)",
        "n->value = -7 (0xfff9)",
        "*n = {value = -7 (0xfff9), next = 0x0",
