@@ -129,7 +129,7 @@ double chip_rate(const std::string& text, bool translated) {
   configuration.program = &program;
   dspic::Dspic30f6014a device(inputs, nullptr, configuration);
   dspic::Processor cpu(device, program);
-  if (translated) cpu.set_translator(&chip::translation());
+  if (translated) cpu.set_translator(chip::translation());
   const double from = processor_s();
   for (int tick = 0; tick < 512 * kSeconds; ++tick) cpu.run(static_cast<Cycle>(tick + 1) * 28800);
   return 1e-6 * kInstructionsPerCycle * static_cast<double>(cpu.now()) / (processor_s() - from);

@@ -132,11 +132,13 @@ void Cpu::warm(const Decoded* target) {
   if (!translator || target->is_head) return;
   Head& head = heads_[target];
   if (hot == 0) target->heat = 0xFF;
-  if (++head.warmth < hot) return;
-  head.warmth = 0;
+  const int warmth = ++head.warmth;
+  const bool only_ready = warmth < hot;
+  if (only_ready && (warmth & (warmth - 1)) != 0) return;  // asked 1, 2, 4, ... times on the way
+  if (!only_ready) head.warmth = 0;
   asked_ = {};
   head.plain = target->run;
-  if (const Translation translated = translator->translate(*this, target); translated.run) {
+  if (const Translation translated = translator->translate(*this, target, only_ready); translated.run) {
     target->run = translated.run;
     target->is_head = true;
     head.pointers = translated.pointers;

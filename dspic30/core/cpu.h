@@ -60,7 +60,8 @@ struct Translation {
 class Translator {
  public:
   virtual ~Translator() = default;
-  virtual Translation translate(const Cpu& cpu, const Decoded* head) = 0;
+  /// `only_ready`: what costs hardly anything, because an earlier run left it.
+  virtual Translation translate(const Cpu& cpu, const Decoded* head, bool only_ready) = 0;
 };
 
 // jumps within translated code are the translator's affair

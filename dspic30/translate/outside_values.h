@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a stretch refers to outside of itself, as it moves to a module of its own.
 #pragma once
-#include <dlfcn.h>
 #include <llvm/IR/Constants.h>
 #include <llvm/IR/GlobalVariable.h>
 #include <llvm/IR/Module.h>
@@ -9,7 +8,7 @@
 
 namespace dspic::translate {
 
-/// Constants by value, functions by their address in this process.
+/// Constants by value, functions by name.
 class OutsideValues final : public llvm::ValueMaterializer {
  public:
   explicit OutsideValues(llvm::Module& into) : into_(into) {}
@@ -20,13 +19,10 @@ class OutsideValues final : public llvm::ValueMaterializer {
         table && table->isConstant() && table->hasInitializer())
       return new llvm::GlobalVariable(into_, table->getValueType(), true, llvm::GlobalValue::PrivateLinkage,
                                       const_cast<llvm::Constant*>(table->getInitializer()));
-    void* const address = dlsym(RTLD_DEFAULT, global->getName().str().c_str());
-    is_whole &= address != nullptr;
-    return llvm::ConstantExpr::getIntToPtr(llvm::ConstantInt::get(llvm::Type::getInt64Ty(into_.getContext()),
-                                                                  reinterpret_cast<std::uint64_t>(address)),
-                                           global->getType());
+    const auto* const function = llvm::dyn_cast<llvm::Function>(global);
+    return function ? into_.getOrInsertFunction(function->getName(), function->getFunctionType()).getCallee()
+                    : nullptr;
   }
-  bool is_whole = true;
 
  private:
   llvm::Module& into_;

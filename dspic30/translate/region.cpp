@@ -19,6 +19,7 @@
 #include <cstring>
 #include <set>
 
+#include "dspic30/translate/machine_code.h"
 #include "dspic30/translate/outside_values.h"
 
 namespace dspic::translate {
@@ -115,12 +116,12 @@ class Maker {
   void optimise();
   std::unique_ptr<Module> moved_out();
 
-  /// A call of a function that is the simulator's, by its address.
-  CallInst* called(std::uint64_t address, ArrayRef<Value*> arguments) {
+  /// A call of a function that is the simulator's, by its name in MachineCode::Address.
+  CallInst* called(const std::string& name, ArrayRef<Value*> arguments) {
     SmallVector<Type*, 3> types;
     for (Value* argument : arguments) types.push_back(argument->getType());
     FunctionType* const type = FunctionType::get(byte_->getPointerTo(), types, false);
-    return ir_.CreateCall(type, ir_.CreateIntToPtr(ir_.getInt64(address), type->getPointerTo()), arguments);
+    return ir_.CreateCall(semantics_.module->getOrInsertFunction(name, type), arguments);
   }
   Value* field(const void* which, Type* type) {
     return ir_.CreateBitCast(ir_.CreateConstInBoundsGEP1_64(byte_, cpu_arg_, offset_of(cpu_, which)),
@@ -229,8 +230,7 @@ std::unique_ptr<Module> Maker::make() {
   ir_.SetInsertPoint(exit_);
   ir_.CreateRet(exit_at_);
   ir_.SetInsertPoint(arrival_);
-  ir_.CreateRet(
-      called(reinterpret_cast<std::uint64_t>(&Cpu::arrive_from), {cpu_arg_, head_arg_, arrive_at_}));
+  ir_.CreateRet(called(kArrive, {cpu_arg_, head_arg_, arrive_at_}));
   for (const Aside& aside : asides_) {
     ir_.SetInsertPoint(aside.block);
     ir_.CreateUnreachable();
@@ -251,7 +251,7 @@ std::unique_ptr<Module> Maker::make() {
     ir_.SetInsertPoint(end);
     Value* const d = place(aside.item->place);
     ir_.CreateStore(d, field(&cpu_.at, byte_->getPointerTo()));
-    CallInst* const next = called(reinterpret_cast<std::uint64_t>(aside.item->plain), {cpu_arg_, d});
+    CallInst* const next = called(interpreter(aside.item->word), {cpu_arg_, d});
     pass(aside.item->decoded.cycles - items_[0].decoded.cycles);
     ir_.CreateRet(next);
     end->eraseFromParent();
@@ -268,7 +268,7 @@ void Maker::put_entry() {
   ir_.CreateStore(ir_.getFalse(), left_);
   ir_.CreateCondBr(fits(0), blocks_[0], plain);
   ir_.SetInsertPoint(plain);
-  ir_.CreateRet(called(reinterpret_cast<std::uint64_t>(items_[0].plain), {cpu_arg_, head_arg_}));
+  ir_.CreateRet(called(interpreter(items_[0].word), {cpu_arg_, head_arg_}));
 }
 
 // --- an instruction -------------------------------------------------------------------------------------
@@ -677,7 +677,7 @@ std::unique_ptr<Module> Maker::moved_out() {
   OutsideValues outside(*module);
   CloneFunctionInto(moved, function_, map, CloneFunctionChangeType::DifferentModule, returns, "", nullptr,
                     nullptr, &outside);
-  return outside.is_whole ? std::move(module) : nullptr;
+  return module;
 }
 
 }  // namespace

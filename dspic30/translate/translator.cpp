@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-// The translator's front door: one for all robots of a process. Robots that run the same program share its
-// code. What is translated when depends on nothing but the programs' own course, and changes no result.
+// The compiler of stretches, in a library of its own: LLVM takes longer to load than most runs take.
 #include <llvm/Bitcode/BitcodeReader.h>
-#include <llvm/ExecutionEngine/Orc/LLJIT.h>
+#include <llvm/IR/LegacyPassManager.h>
+#include <llvm/MC/TargetRegistry.h>
+#include <llvm/Object/ELFObjectFile.h>
+#include <llvm/Support/SmallVectorMemoryBuffer.h>
 #include <llvm/Support/TargetSelect.h>
+#include <llvm/Target/TargetMachine.h>
 
-#include <mutex>
-
+#include "dspic30/translate/machine_code.h"
 #include "dspic30/translate/region.h"
 
 extern "C" const char dspic_semantics[], dspic_semantics_end[];
@@ -15,76 +17,103 @@ namespace dspic::translate {
 
 namespace {
 
-class SharedTranslator final : public Translator {
- public:
-  /// Null: LLVM cannot make code for this machine.
-  static std::unique_ptr<SharedTranslator> make();
-  Translation translate(const Cpu& cpu, const Decoded* head) override;
+using namespace llvm;
 
- private:
-  std::mutex mutex_;
-  llvm::orc::ThreadSafeContext context_{std::make_unique<llvm::LLVMContext>()};
-  std::unique_ptr<llvm::orc::LLJIT> jit_;
-  std::unique_ptr<Semantics> semantics_;
-  std::map<std::string, Translation> known_;
+// --- an object file as machine code ---------------------------------------------------------------------
+
+/// Sections that are loaded, one behind the other, that of the instructions first.
+std::map<object::SectionRef, std::uint64_t> laid_out(const object::ObjectFile& object, std::string& bytes) {
+  std::map<object::SectionRef, std::uint64_t> places;
+  for (const bool is_code : {true, false})
+    for (const object::ELFSectionRef section : object.sections()) {
+      if (!(section.getFlags() & ELF::SHF_ALLOC) || section.isText() != is_code || section.getSize() == 0)
+        continue;
+      bytes.resize(alignTo(bytes.size(), section.getAlignment()));
+      places[section] = bytes.size();
+      bytes += cantFail(section.getContents());
+    }
+  return places;
+}
+
+/// Whether each place that refers to another is one of 64 bits.
+bool take_addresses(const object::ObjectFile& object, MachineCode& code) {
+  const auto places = laid_out(object, code.bytes);
+  for (const object::SectionRef section : object.sections()) {
+    const auto holder =
+        section.relocations().empty() ? places.end() : places.find(*cantFail(section.getRelocatedSection()));
+    if (holder == places.end()) continue;
+    for (const object::ELFRelocationRef relocation : section.relocations()) {
+      const object::SymbolRef symbol = *relocation.getSymbol();
+      const object::section_iterator home = cantFail(symbol.getSection());
+      MachineCode::Address a;
+      a.offset = static_cast<std::uint32_t>(holder->second + relocation.getOffset());
+      a.addend = static_cast<std::uint64_t>(cantFail(relocation.getAddend()));
+      if (home == object.section_end())
+        a.name = cantFail(symbol.getName()).str();
+      else if (const auto place = places.find(*home); place != places.end())
+        a.addend += place->second + cantFail(symbol.getValue());
+      else
+        return false;
+      if (relocation.getType() != ELF::R_X86_64_64) return false;
+      code.addresses.push_back(std::move(a));
+    }
+  }
+  return true;
+}
+
+// --- the compiler ---------------------------------------------------------------------------------------
+
+struct Compiler {
+  LLVMContext context;
+  std::unique_ptr<TargetMachine> machine;
+  std::unique_ptr<Semantics> semantics;
+
+  Compiler() {
+    InitializeNativeTarget();
+    InitializeNativeTargetAsmPrinter();
+    std::string error;
+    const Target* const target = TargetRegistry::lookupTarget(LLVM_HOST_TRIPLE, error);
+    if (!target) return;
+    TargetOptions options;
+    options.EnableFastISel = true;  // makes code in two thirds of the time, hardly slower
+    // it may lie anywhere, and so may what it calls
+    machine.reset(target->createTargetMachine(LLVM_HOST_TRIPLE, "", "", options, Reloc::Static,
+                                              CodeModel::Large, CodeGenOpt::Less));
+    const StringRef bitcode(dspic_semantics, static_cast<std::size_t>(dspic_semantics_end - dspic_semantics));
+    if (auto module = getLazyBitcodeModule({bitcode, "semantics"}, context))
+      semantics = std::make_unique<Semantics>(std::move(*module));
+    else
+      consumeError(module.takeError());
+  }
+
+  /// Empty: it cannot be done.
+  SmallVector<char, 0> object_of(Module& module) const {
+    module.setDataLayout(machine->createDataLayout());
+    SmallVector<char, 0> bytes;
+    raw_svector_ostream out(bytes);
+    legacy::PassManager passes;
+    MCContext* context = nullptr;
+    if (!machine->addPassesToEmitMC(passes, context, out)) passes.run(module);
+    return bytes;
+  }
 };
-
-template <class T>
-bool take(llvm::Expected<T> from, T& to) {
-  if (from) {
-    to = std::move(*from);
-    return true;
-  }
-  llvm::consumeError(from.takeError());
-  return false;
-}
-
-std::unique_ptr<SharedTranslator> SharedTranslator::make() {
-  llvm::InitializeNativeTarget();
-  llvm::InitializeNativeTargetAsmPrinter();
-  auto made = std::make_unique<SharedTranslator>();
-  auto machine = llvm::orc::JITTargetMachineBuilder(llvm::Triple(LLVM_HOST_TRIPLE));
-  machine.setCodeGenOptLevel(llvm::CodeGenOpt::Less);
-  machine.getOptions().EnableFastISel = true;  // makes code in two thirds of the time, hardly slower
-  llvm::orc::LLJITBuilder builder;
-  builder.setJITTargetMachineBuilder(std::move(machine));
-  if (!take(builder.create(), made->jit_)) return nullptr;
-  const llvm::StringRef bitcode(dspic_semantics,
-                                static_cast<std::size_t>(dspic_semantics_end - dspic_semantics));
-  std::unique_ptr<llvm::Module> module;
-  if (!take(llvm::getLazyBitcodeModule({bitcode, "semantics"}, *made->context_.getContext()), module))
-    return nullptr;
-  made->semantics_ = std::make_unique<Semantics>(std::move(module));
-  return made;
-}
-
-Translation SharedTranslator::translate(const Cpu& cpu, const Decoded* head) {
-  const std::lock_guard lock(mutex_);
-  const std::vector<Item> items = stretch(cpu, head);
-  if (items.empty()) return {};
-  const auto [place, is_new] = known_.try_emplace(key_of(items));
-  Translation& made = place->second;
-  if (!is_new) return made;
-  const std::string name = "stretch" + std::to_string(known_.size());
-  auto module = dspic::translate::translate(*semantics_, cpu, items, name);
-  if (!module) return made;
-  if (llvm::Error e = jit_->addIRModule({std::move(module), context_})) {
-    llvm::consumeError(std::move(e));
-    return made;
-  }
-  llvm::JITEvaluatedSymbol symbol;
-  if (!take(jit_->lookup(name), symbol)) return made;
-  made.run = reinterpret_cast<Run>(symbol.getAddress());
-  for (const Item& item : items)
-    if (!item.by_call) made.pointers |= 1u << item.decoded.s | 1u << item.decoded.d;
-  return made;
-}
 
 }  // namespace
 }  // namespace dspic::translate
 
-/// Null: no translator on this machine. Lives as long as the process.
-extern "C" dspic::Translator* dspic_translator() {
-  static auto* translator = dspic::translate::SharedTranslator::make().release();
-  return translator;
+/// `code` stays empty where something in the stretch cannot be translated, or on a machine that LLVM does not
+/// know.
+extern "C" void dspic_translate(const dspic::Cpu& cpu, const std::vector<dspic::translate::Item>& items,
+                                dspic::translate::MachineCode& code) {
+  static auto* const compiler = new dspic::translate::Compiler;
+  if (!compiler->machine || !compiler->semantics) return;
+  const auto module = dspic::translate::translate(*compiler->semantics, cpu, items, "stretch");
+  if (!module) return;
+  const auto bytes = compiler->object_of(*module);
+  auto object = llvm::object::ObjectFile::createELFObjectFile({{bytes.data(), bytes.size()}, "stretch"});
+  if (!object) {
+    llvm::consumeError(object.takeError());
+  } else if (!dspic::translate::take_addresses(**object, code)) {
+    code = {};
+  }
 }

@@ -37,7 +37,7 @@ ChipRunner::ChipRunner(std::string name, std::shared_ptr<const dspic::FirmwareFi
   configuration.program = &program_;
   chip_.power_up(configuration);
   processor_ = std::make_unique<dspic::Processor>(device(), program_);
-  processor_->set_translator(&translation());
+  processor_->set_translator(translation());
   if (start <= 0) return;
   end_ = start;
   processor_->wait_until(start);

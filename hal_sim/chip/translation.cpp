@@ -1,37 +1,30 @@
 // SPDX-License-Identifier: MIT
 #include "hal_sim/chip/translation.h"
 
-#include <dlfcn.h>
-
 #include <cstdlib>
 #include <filesystem>
 
+#include "dspic30/translate/translations.h"
+
 namespace chip {
 
-namespace {
+namespace fs = std::filesystem;
 
-dspic::Translator* load() {
-  if (std::getenv("TWINPUCK_INTERPRET")) return nullptr;
+fs::path translator_library() {
   std::error_code none;
-  const auto here = std::filesystem::read_symlink("/proc/self/exe", none).parent_path();
-  for (const auto& folder : {here, here.parent_path()})
-    if (void* const library = dlopen((folder / "twinpuck-translate.so").c_str(), RTLD_NOW | RTLD_LOCAL))
-      if (void* const entry = dlsym(library, "dspic_translator"))
-        return reinterpret_cast<dspic::Translator* (*)()>(entry)();
-  return nullptr;
+  const fs::path here = fs::read_symlink("/proc/self/exe", none).parent_path();
+  for (const fs::path& folder : {here, here.parent_path()})
+    if (const fs::path library = folder / "twinpuck-translate.so"; fs::exists(library, none)) return library;
+  return {};
 }
 
-struct WhenHot final : dspic::Translator {
-  dspic::Translation translate(const dspic::Cpu& cpu, const dspic::Decoded* head) override {
-    static dspic::Translator* const translator = load();
-    return translator ? translator->translate(cpu, head) : dspic::Translation{};
-  }
-};
-
-}  // namespace
-
-dspic::Translator& translation() {
-  static WhenHot translator;
+dspic::Translator* translation() {
+  const auto make = [] {
+    const fs::path library = translator_library();
+    return new dspic::translate::Translations(library, library.parent_path() / "translations");
+  };
+  if (std::getenv("TWINPUCK_INTERPRET")) return nullptr;
+  static dspic::Translator* const translator = make();
   return translator;
 }
 

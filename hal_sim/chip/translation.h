@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: MIT
-// The translator of hot code (dspic30/translate), which lies beside the program that runs, or a folder above,
-// and is loaded when code is hot.
+// The translator of hot code (dspic30/translate). Its library lies beside the program that runs, or a folder
+// above; beside the library lies `translations/`, what earlier runs translated.
 #pragma once
+#include <filesystem>
+
 #include "dspic30/core/cpu.h"
 
 namespace chip {
 
-/// For Processor::set_translator(). Without the file, or with TWINPUCK_INTERPRET set, nothing is translated.
-dspic::Translator& translation();
+/// Empty: it is not there.
+std::filesystem::path translator_library();
+/// For Processor::set_translator(); null with TWINPUCK_INTERPRET set. Without the library, nothing is
+/// translated.
+dspic::Translator* translation();
 
 }  // namespace chip

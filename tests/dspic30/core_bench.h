@@ -6,6 +6,7 @@
 
 #include "dspic30/asm/assembler.h"
 #include "dspic30/core/processor.h"
+#include "dspic30/translate/translations.h"
 #include "hal_sim/chip/translation.h"
 #include "tests/dspic30/bench.h"
 
@@ -38,7 +39,8 @@ struct CoreBench {
     chip = std::make_unique<dspic::Dspic30f6014a>(outside, &notes, c);
     cpu = std::make_unique<dspic::Processor>(*chip, program);
     if (!translates) return;
-    cpu->set_translator(&chip::translation());
+    static dspic::translate::Translations translations(chip::translator_library(), {});
+    cpu->set_translator(&translations);
     cpu->translate_all();
   }
   FakeOutside outside;

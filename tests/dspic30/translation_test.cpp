@@ -1,6 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Translated code against the interpreter: random programs, and programs that write themselves.
+// Translated code against the interpreter: random programs, programs that write themselves, and what earlier
+// runs left.
 #include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
 
 #include "dspic30/core/instruction_table.h"
 #include "tests/dspic30/core_bench.h"
@@ -218,6 +226,88 @@ routine: mov #1, w5
   EXPECT_EQ(b.cpu->pc(), b.symbol("end"));
   EXPECT_EQ(b.w(4), 100u);
   EXPECT_EQ(b.w(9), 50u + 7 * 50u);
+}
+
+// --- what earlier runs left -----------------------------------------------------------------------------
+
+namespace fs = std::filesystem;
+
+struct KeptTranslations : testing::Test {
+  const fs::path folder = fs::temp_directory_path() / ("twinpuck_kept_" + std::to_string(getpid()));
+  ~KeptTranslations() override { fs::remove_all(folder); }
+  /// A run of its own; returns how much it compiled.
+  int run(const fs::path& where) {
+    dspic::translate::Translations translations(chip::translator_library(), where);
+    CoreBench b(R"(__reset: mov #300, w10
+1:  rcall routine
+    dec w10, w10
+    bra nz, 1b
+end: bra end
+routine: mov #0x0A00, w1
+    inc [w1], [w1]
+    add w4, #3, w4
+    btsc w4, #0
+    inc w5, w5
+    return)",
+                {}, false);
+    b.cpu->set_translator(&translations);
+    b.cpu->translate_all();
+    EXPECT_TRUE(b.run_to("end"));
+    EXPECT_GE(b.cpu->translated(), 1);
+    EXPECT_EQ(b.word(0x0A00), 300u);
+    EXPECT_EQ(b.w(4), 900u);
+    EXPECT_EQ(b.w(5), 150u);
+    return translations.compiled();
+  }
+  std::vector<fs::path> files() const {
+    std::vector<fs::path> all;
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+      if (entry.is_regular_file()) all.push_back(entry.path());
+    return all;
+  }
+};
+
+TEST_F(KeptTranslations, serve_the_next_run) {
+  const int compiled = run(folder);
+  EXPECT_GE(compiled, 1);
+  EXPECT_EQ(files().size(), static_cast<std::size_t>(compiled));
+  EXPECT_EQ(run(folder), 0);
+}
+
+TEST_F(KeptTranslations, are_made_anew_when_spoilt) {
+  const int compiled = run(folder);
+  for (const bool cut : {true, false}) {
+    for (const fs::path& file : files()) {
+      const auto size = fs::file_size(file);
+      if (cut) {
+        fs::resize_file(file, size / 2);
+      } else {
+        std::fstream out(file, std::ios::in | std::ios::out | std::ios::binary);
+        out.seekg(static_cast<std::streamoff>(size / 2));
+        const char one = static_cast<char>(out.get() ^ 1);
+        out.seekp(static_cast<std::streamoff>(size / 2));
+        out.put(one);
+      }
+    }
+    EXPECT_EQ(run(folder), compiled) << "cut " << cut;
+    EXPECT_EQ(run(folder), 0);
+  }
+}
+
+TEST_F(KeptTranslations, of_another_translator_are_removed) {
+  run(folder);
+  const fs::path old = folder / "0123456789abcdef";
+  fs::create_directories(old);
+  std::ofstream(old / "0000000000000000") << "of an older translator";
+  EXPECT_EQ(run(folder), 0);
+  EXPECT_FALSE(fs::exists(old));
+}
+
+TEST_F(KeptTranslations, are_not_kept_where_no_folder_can_be) {
+  std::ofstream(folder) << "a file";
+  EXPECT_GE(run(folder), 1);
+  EXPECT_GE(run(folder), 1);
+  EXPECT_GE(run({}), 1);
 }
 
 }  // namespace

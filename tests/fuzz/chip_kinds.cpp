@@ -9,6 +9,7 @@
 #include "dspic30/core/disassembler.h"
 #include "dspic30/core/processor.h"
 #include "dspic30/load/firmware_file.h"
+#include "dspic30/translate/translations.h"
 #include "hal_sim/chip/translation.h"
 #include "tests/fuzz/kinds.h"
 
@@ -37,7 +38,8 @@ std::uint64_t run(std::string_view bytes, dspic::Cycle window, bool translated =
   dspic::Dspic30f6014a chip(nobody, nullptr, configuration);
   dspic::Processor cpu(chip, program);
   if (translated) {
-    cpu.set_translator(&::chip::translation());
+    static dspic::translate::Translations translations(::chip::translator_library(), {});
+    cpu.set_translator(&translations);
     cpu.translate_all();
   }
   for (dspic::Cycle end = window; cpu.now() < kMoment; end += window)

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// A translated stretch as bytes that can lie anywhere: what the translator makes, what is kept in a file, and
+// what runs.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "dspic30/core/cpu.h"
+
+namespace dspic::translate {
+
+struct MachineCode {
+  /// Eight bytes at `offset` that become an address: of what is named, and so many bytes behind it.
+  struct Address {
+    std::uint32_t offset = 0;
+    std::string name;  ///< a function of the program's; interpreter(): of a word; "": these bytes themselves
+    std::uint64_t addend = 0;
+  };
+  std::string
+      bytes;  ///< instructions from the first byte on, and their constants; none: it cannot be translated
+  std::vector<Address> addresses;
+};
+
+/// What Address::name calls the function that interprets a word, and the one that jumps.
+std::string interpreter(std::uint32_t word);
+inline constexpr const char* kArrive = "arrive";
+
+/// Put into memory, for as long as the process lives. Null: a name is not known here, or no memory.
+Run placed(const MachineCode& code);
+
+/// As one text, and back; false: it is not one that text_of() made of this key.
+std::string text_of(const std::string& key, const MachineCode& code);
+bool read_text(const std::string& text, const std::string& key, MachineCode& code);
+
+}  // namespace dspic::translate

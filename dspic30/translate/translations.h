@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// The translator's front door: one for all robots of a process. Robots that run the same program share its
+// code, and what was translated once is kept in files for later runs.
+#pragma once
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <set>
+#include <string>
+
+#include "dspic30/translate/machine_code.h"
+#include "dspic30/translate/stretch.h"
+
+namespace dspic::translate {
+
+class Translations final : public Translator {
+ public:
+  /// `library`: the one with the compiler, loaded when it is first needed; without it, nothing is translated.
+  /// `folder`: where translations are kept; those of another library, and more than 4000, are removed from
+  /// it. Empty, or one that cannot be written: they are not kept.
+  Translations(std::filesystem::path library, const std::filesystem::path& folder);
+  Translation translate(const Cpu& cpu, const Decoded* head, bool only_ready) override;
+  int compiled() const { return compiled_; }  ///< not taken from a file
+
+ private:
+  void open(const std::filesystem::path& folder);
+  bool has_compiler();
+  void keep(const std::filesystem::path& file, const std::string& text) const;
+
+  using Compile = void (*)(const Cpu& cpu, const std::vector<Item>& items, MachineCode& code);
+  std::filesystem::path library_, folder_;
+  std::mutex mutex_;
+  bool is_loaded_ = false;
+  Compile compile_ = nullptr;
+  std::map<std::string, Translation> known_;
+  std::set<std::string> kept_;  // names of files
+  int compiled_ = 0;
+};
+
+}  // namespace dspic::translate
