@@ -99,6 +99,7 @@ check: tool
 	@scripts/check_contract.py
 	@scripts/gen_sfr_header.py --check
 	@scripts/gen_sfr_table.py --check
+	@scripts/gen_configuration.py --check
 	@scripts/gen_instruction_table.py --check
 	@scripts/instruction_coverage.py --check
 	@$(BUILD)/twinpuck timings --check

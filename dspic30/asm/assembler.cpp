@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "dspic30/asm/device_names.h"
 #include "dspic30/asm/expression.h"
 #include "dspic30/asm/instruction_text.h"
 #include "dspic30/asm/source_lines.h"
@@ -59,21 +60,12 @@ struct Item {
   std::vector<std::string> values;  // expressions
 };
 
-// what "name" or "_name" of the device header stands for: a register, or a field's lowest bit
+// what "name" or "_name" of the device header stands for
 bool device_value(const std::string& symbol, std::int64_t& value) {
   const std::string name = symbol.size() > 1 && symbol[0] == '_' ? symbol.substr(1) : symbol;
-  if (const SfrInfo* info = sfr_named(name)) {
-    value = info->address;
-    return true;
-  }
-  for (const SfrInfo& info : kSfrRows) {
-    const std::string fields = std::string(" ") + info.fields;
-    const std::size_t at = fields.find(" " + name + ":");
-    if (at == std::string::npos) continue;
-    value = std::stoi(fields.substr(at + name.size() + 2));
-    return true;
-  }
-  return false;
+  const SfrInfo* const info = sfr_named(name);
+  if (info) value = info->address;
+  return info || device_constant(name, value);
 }
 
 class Assembly final : private SourceLines::Listener {

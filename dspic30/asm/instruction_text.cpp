@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <map>
+#include <string_view>
 
 #include "dspic30/asm/expression.h"
 
@@ -300,7 +301,7 @@ Mnemonics make_mnemonics() {
     const bool file_bit = takes_byte(row) && !row.has(&Fields::B);
     if (row.has(&Fields::Z)) {
       all.insert({name + ".c", {&row, 0, 0, false}});
-      all.insert({name + ".z", {&row, 0, 1, false}});
+      for (const char* end : {".z", ""}) all.insert({name + end, {&row, 0, 1, false}});
       continue;
     }
     all.insert({name, {&row, 0, 0, file_bit}});
@@ -392,7 +393,11 @@ Choice choose(const std::string& mnemonic, const std::string& text, const Compla
     choice.row = c->second.row;
     choice.fields.B = c->second.B;
     choice.fields.Z = c->second.Z;
-    if (fits_row(*choice.row, operands, choice)) {
+    // the vendor's assembler takes "sub w3, #255" for "sub #255, w3"
+    const bool is_turned = operands.size() == 2 && operands[1].kind == Written::Immediate &&
+                           std::string_view(choice.row->operands) == "#lit10,Wn";
+    if (fits_row(*choice.row, is_turned ? std::vector<Written>{operands[1], operands[0]} : operands,
+                 choice)) {
       choice.word_bit = c->second.word_bit;
       return choice;
     }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "dspic30/asm/device_names.h"
 #include "dspic30/asm/instruction_text.h"
 
 namespace dspic::assembly {
@@ -305,10 +306,7 @@ void SourceLines::repeat(const Statement& s, const std::vector<Line>& body) {
 
 void SourceLines::include(const Statement& s) {
   const std::string name = unquoted(s.operands);
-  std::string bare = lower(name);
-  if (const std::size_t slash = bare.find_last_of("/\\"); slash != std::string::npos)
-    bare = bare.substr(slash + 1);
-  if (bare == "p30f6014a.inc" || bare == "p30fxxxx.inc" || bare == "xc.inc") return;  // registers are known
+  if (is_device_file(name)) return;  // what it defines is known
   const std::optional<std::string> text = includes_ ? includes_(name) : std::nullopt;
   if (!text) return complain(s, ".include: there is no file '" + name + "'");
   if (depth_ >= kDeepestMacros) return complain(s, "macros or includes are nested too deeply");

@@ -4,6 +4,7 @@
 // comes back as words. Operands with symbols are left to the linker, by the kind of field they stand in.
 #include <map>
 
+#include "dspic30/asm/device_names.h"
 #include "dspic30/asm/expression.h"
 #include "dspic30/asm/instruction_text.h"
 #include "dspic30/llvm/fixups.h"
@@ -117,13 +118,21 @@ class Parser : public MCTargetAsmParser {
     return failed;
   }
 
-  bool ParseDirective(AsmToken) override { return true; }  // none beside LLVM's
+  // beside LLVM's: the vendor's own file, whose names are known. True: another
+  bool ParseDirective(AsmToken directive) override {
+    if (directive.getString().lower() != ".include" || getLexer().isNot(AsmToken::String) ||
+        !assembly::is_device_file(getTok().getStringContents().str()))
+      return true;
+    Lex();
+    return getParser().parseToken(AsmToken::EndOfStatement);
+  }
 
  private:
   bool value_of(const std::string& text, std::int64_t& value, std::string& error) {
     const auto symbols = [this](const std::string& name, std::int64_t& v) {
       MCSymbol* symbol = getContext().lookupSymbol(name);
-      return symbol && symbol->isVariable() && symbol->getVariableValue()->evaluateAsAbsolute(v);
+      if (symbol && symbol->isVariable()) return symbol->getVariableValue()->evaluateAsAbsolute(v);
+      return (!symbol || symbol->isUndefined()) && assembly::device_constant(name, v);
     };
     return assembly::evaluate(text, symbols, nullptr, value, error);
   }

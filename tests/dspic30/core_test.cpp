@@ -419,6 +419,29 @@ end: bra end)");
   EXPECT_EQ(b.w(0), 3 + 4 + 8 + 16);
 }
 
+// [the vendor's programmer's manual, DS70157: "if no extension is provided, the .Z operation is assumed"]
+TEST(Assembler, tests_of_bits_in_registers_go_to_z_unless_they_name_c) {
+  const auto words = [](const std::string& text) {
+    const dspic::assembly::Image image = dspic::assembly::assemble(text, "test.s");
+    EXPECT_TRUE(image.is_whole()) << image.report();
+    return image.program;
+  };
+  EXPECT_EQ(words("btst w0, #3\n btsts [w1++], #15\n btst w2, w3\n bsw w4, w5"),
+            words("btst.z w0, #3\n btsts.z [w1++], #15\n btst.z w2, w3\n bsw.z w4, w5"));
+  EXPECT_NE(words("btst w0, #3"), words("btst.c w0, #3"));
+  CoreBench b(R"(
+__reset: mov #8, w0
+    btst w0, #3
+    bra z, end
+    inc w1, w1
+    btst w0, #4
+    bra nz, end
+    inc w1, w1
+end: bra end)");
+  ASSERT_TRUE(b.run_to("end"));
+  EXPECT_EQ(b.w(1), 2u);
+}
+
 // --- self-programming -----------------------------------------------------------------------------------
 
 TEST(Flash, erases_writes_and_runs_what_was_written) {

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#include "dspic30/asm/device_names.h"
+
+#include <map>
+#include <sstream>
+
+#include "dspic30/asm/expression.h"
+#include "dspic30/memory/sfr_table.h"
+
+namespace dspic::assembly {
+
+namespace {
+
+constexpr struct {
+  const char* name;
+  std::int64_t value;
+} kConfigurationValues[] = {
+#include "dspic30/asm/configuration_values.inc"
+};
+
+// a name that several registers have is the first one's
+std::map<std::string, std::int64_t> make_constants() {
+  std::map<std::string, std::int64_t> all;
+  for (const auto& [name, value] : kConfigurationValues) all.emplace(name, value);
+  for (const SfrInfo& info : kSfrRows) {
+    std::istringstream fields(info.fields);
+    for (std::string field; fields >> field;) {
+      const std::size_t first = field.find(':'), second = field.find(':', first + 1);
+      const std::string name = field.substr(0, first);
+      const int lowest = std::stoi(field.substr(first + 1)), width = std::stoi(field.substr(second + 1));
+      all.emplace(name, lowest);
+      for (int bit = 0; width > 1 && bit < width; ++bit)
+        all.emplace(name + std::to_string(bit), lowest + bit);
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+bool is_device_file(const std::string& name) {
+  std::string bare = lower(name);
+  if (const std::size_t slash = bare.find_last_of("/\\"); slash != std::string::npos)
+    bare = bare.substr(slash + 1);
+  return bare == "p30f6014a.inc" || bare == "p30fxxxx.inc" || bare == "xc.inc";
+}
+
+bool device_constant(const std::string& name, std::int64_t& value) {
+  static const std::map<std::string, std::int64_t> constants = make_constants();
+  const auto found = constants.find(name);
+  if (found == constants.end()) return false;
+  value = found->second;
+  return true;
+}
+
+}  // namespace dspic::assembly
