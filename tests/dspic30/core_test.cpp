@@ -442,6 +442,23 @@ end: bra end)");
   EXPECT_EQ(b.w(1), 2u);
 }
 
+// what the vendor's device file defines, and a turned operand as tinybld has it
+TEST(Assembler, knows_bits_and_configuration_words_by_name) {
+  const dspic::assembly::Image image = dspic::assembly::assemble(R"(
+    .include "p30F6014A.inc"
+    config __FOSC, CSW_FSCM_OFF & XT_PLL8
+__reset: bset U1STA, #URXISEL1
+    mov #BLEN1, w0
+    sub.b w3, #0xFF)",
+                                                                 "test.s");
+  ASSERT_TRUE(image.is_whole()) << image.report();
+  const unsigned begin = image.symbols.at("__reset");
+  EXPECT_EQ(image.program.at(0xF80000), 0xFFE6u);
+  EXPECT_EQ(image.program.at(begin), 0xA8E20Eu);     // bit 7 of the byte at 0x20E
+  EXPECT_EQ(image.program.at(begin + 2) & 0xF, 0u);  // into W0
+  EXPECT_EQ(image.program.at(begin + 4), 0xB14FF3u);
+}
+
 // --- self-programming -----------------------------------------------------------------------------------
 
 TEST(Flash, erases_writes_and_runs_what_was_written) {
