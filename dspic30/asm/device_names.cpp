@@ -2,7 +2,6 @@
 #include "dspic30/asm/device_names.h"
 
 #include <map>
-#include <sstream>
 
 #include "dspic30/asm/expression.h"
 #include "dspic30/memory/sfr_table.h"
@@ -22,17 +21,12 @@ constexpr struct {
 std::map<std::string, std::int64_t> make_constants() {
   std::map<std::string, std::int64_t> all;
   for (const auto& [name, value] : kConfigurationValues) all.emplace(name, value);
-  for (const SfrInfo& info : kSfrRows) {
-    std::istringstream fields(info.fields);
-    for (std::string field; fields >> field;) {
-      const std::size_t first = field.find(':'), second = field.find(':', first + 1);
-      const std::string name = field.substr(0, first);
-      const int lowest = std::stoi(field.substr(first + 1)), width = std::stoi(field.substr(second + 1));
-      all.emplace(name, lowest);
-      for (int bit = 0; width > 1 && bit < width; ++bit)
-        all.emplace(name + std::to_string(bit), lowest + bit);
+  for (const SfrInfo& info : kSfrRows)
+    for (const SfrField& field : fields_of(info)) {
+      all.emplace(field.name, field.bit);
+      for (int n = 0; field.width > 1 && n < field.width; ++n)
+        all.emplace(field.name + std::to_string(n), field.bit + n);
     }
-  }
   return all;
 }
 

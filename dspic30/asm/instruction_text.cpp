@@ -335,6 +335,17 @@ void rewrite_stack(std::string& name, std::vector<Written>& operands) {
   name = "mov" + name.substr(stem.size());
 }
 
+// "sub w3, #255" -> "sub #255, w3", as the vendor's assembler takes it
+void turn_literal(const std::string& name, std::vector<Written>& operands) {
+  if (operands.size() != 2 || operands[0].kind != Written::Register || operands[1].kind != Written::Immediate)
+    return;
+  const auto range = mnemonics().equal_range(name);
+  if (std::any_of(range.first, range.second, [](const auto& c) {
+        return c.second.row && std::string_view(c.second.row->operands) == "#lit10,Wn";
+      }))
+    std::swap(operands[0], operands[1]);
+}
+
 // "bra ltu, there" -> "bra ltu", "there"
 void take_condition(std::string& name, std::vector<Written>& operands) {
   if (name != "bra" || operands.size() != 2 || operands[0].kind != Written::Plain) return;
@@ -385,6 +396,7 @@ Choice choose(const std::string& mnemonic, const std::string& text, const Compla
   for (const std::string& part : split(text)) operands.push_back(read_operand(part));
   rewrite_stack(name, operands);
   take_condition(name, operands);
+  turn_literal(name, operands);
   const auto range = mnemonics().equal_range(name);
   std::string forms;
   for (auto c = range.first; c != range.second; ++c) {
@@ -393,11 +405,7 @@ Choice choose(const std::string& mnemonic, const std::string& text, const Compla
     choice.row = c->second.row;
     choice.fields.B = c->second.B;
     choice.fields.Z = c->second.Z;
-    // the vendor's assembler takes "sub w3, #255" for "sub #255, w3"
-    const bool is_turned = operands.size() == 2 && operands[1].kind == Written::Immediate &&
-                           std::string_view(choice.row->operands) == "#lit10,Wn";
-    if (fits_row(*choice.row, is_turned ? std::vector<Written>{operands[1], operands[0]} : operands,
-                 choice)) {
+    if (fits_row(*choice.row, operands, choice)) {
       choice.word_bit = c->second.word_bit;
       return choice;
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads debug information: numbers and texts one after the other, never beyond the end.
+// Reads debug information and other bytes: numbers and texts one after the other, never beyond the end.
 #pragma once
 #include <algorithm>
 #include <cstddef>

@@ -30,14 +30,20 @@ const SfrInfo* sfr_named(const std::string& name) {
   return nullptr;
 }
 
-std::string sfr_bit_name(const SfrInfo& info, int bit) {
+std::vector<SfrField> fields_of(const SfrInfo& info) {
+  std::vector<SfrField> all;
   std::istringstream fields(info.fields);
-  std::string field;
-  while (fields >> field) {
+  for (std::string field; fields >> field;) {
     const auto first = field.find(':'), second = field.find(':', first + 1);
-    const int lsb = std::atoi(field.c_str() + first + 1), width = std::atoi(field.c_str() + second + 1);
-    if (bit >= lsb && bit < lsb + width) return std::string(info.name) + "." + field.substr(0, first);
+    all.push_back({field.substr(0, first), std::atoi(field.c_str() + first + 1),
+                   std::atoi(field.c_str() + second + 1)});
   }
+  return all;
+}
+
+std::string sfr_bit_name(const SfrInfo& info, int bit) {
+  for (const SfrField& field : fields_of(info))
+    if (bit >= field.bit && bit < field.bit + field.width) return std::string(info.name) + "." + field.name;
   return std::string(info.name) + "." + std::to_string(bit);
 }
 

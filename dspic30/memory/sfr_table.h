@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace dspic {
 
@@ -39,6 +40,13 @@ constexpr unsigned sfr(std::string_view name) {
 const SfrInfo* sfr_info(unsigned address);
 /// Register of that name; null for unknown ones.
 const SfrInfo* sfr_named(const std::string& name);
+/// A field: bits `bit` to `bit + width - 1`.
+struct SfrField {
+  std::string name;
+  int bit = 0, width = 0;
+};
+/// In the table's order; none where no field is named.
+std::vector<SfrField> fields_of(const SfrInfo& info);
 /// "U1MODE.LPBACK", "TCKPS1" style for fields of several bits ("T1CON.TCKPS"), "PR1.3" where no field is
 /// named.
 std::string sfr_bit_name(const SfrInfo& info, int bit);

@@ -10,6 +10,8 @@
 #include <functional>
 #include <string_view>
 
+#include "dspic30/load/cursor.h"
+
 namespace dspic::translate {
 
 namespace {
@@ -25,32 +27,24 @@ void* address_of(const std::string& name, void* self) {
   return dlsym(RTLD_DEFAULT, name.c_str());
 }
 
-std::uint64_t sum_of(std::string_view text) { return std::hash<std::string_view>{}(text); }
+std::uint32_t sum_of(std::string_view text) {
+  return static_cast<std::uint32_t>(std::hash<std::string_view>{}(text));
+}
 
-void put(std::string& text, std::uint64_t number) {
-  text.append(reinterpret_cast<const char*>(&number), sizeof number);
+constexpr std::size_t kNumberBytes = 4;
+
+void put(std::string& text, std::size_t number) {
+  for (std::size_t i = 0; i < kNumberBytes; ++i) text += static_cast<char>(number >> 8 * i & 0xFF);
 }
 void put(std::string& text, const std::string& part) {
   put(text, part.size());
   text += part;
 }
 
-/// Past the end everything is 0 and empty.
-struct Reader {
-  std::string_view rest;
-  std::string_view take(std::uint64_t bytes) {
-    const std::string_view part = rest.substr(0, bytes);
-    rest.remove_prefix(part.size());
-    return part;
-  }
-  std::uint64_t number() {
-    std::uint64_t value = 0;
-    const std::string_view part = take(sizeof value);
-    std::memcpy(&value, part.data(), part.size());
-    return value;
-  }
-  std::string_view part() { return take(number()); }
-};
+std::string part_of(Cursor& in) {
+  const Cursor part = in.part(in.number(kNumberBytes));
+  return {reinterpret_cast<const char*>(part.here()), part.left()};
+}
 
 }  // namespace
 
@@ -92,16 +86,16 @@ std::string text_of(const std::string& key, const MachineCode& code) {
 }
 
 bool read_text(const std::string& text, const std::string& key, MachineCode& code) {
-  constexpr std::size_t kSumBytes = sizeof(std::uint64_t);
-  if (text.size() < kSumBytes) return false;
-  Reader in{std::string_view(text).substr(0, text.size() - kSumBytes)};
-  if (Reader{std::string_view(text).substr(in.rest.size())}.number() != sum_of(in.rest) || in.part() != key)
-    return false;
-  code.bytes = in.part();
-  for (std::uint64_t left = in.number(); left > 0 && !in.rest.empty(); --left) {
-    const auto offset = static_cast<std::uint32_t>(in.number());
-    std::string name(in.part());
-    code.addresses.push_back({offset, std::move(name), in.number()});
+  if (text.size() < kNumberBytes) return false;
+  const std::size_t size = text.size() - kNumberBytes;
+  Cursor in(reinterpret_cast<const unsigned char*>(text.data()), text.size());
+  Cursor body = in.part(size);
+  if (in.number(kNumberBytes) != sum_of({text.data(), size}) || part_of(body) != key) return false;
+  code.bytes = part_of(body);
+  for (std::uint32_t left = body.number(kNumberBytes); left > 0 && !body.is_at_end(); --left) {
+    const std::uint32_t offset = body.number(kNumberBytes);
+    std::string name = part_of(body);
+    code.addresses.push_back({offset, std::move(name), body.number(kNumberBytes)});
   }
   return true;
 }

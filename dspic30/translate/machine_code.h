@@ -15,7 +15,7 @@ struct MachineCode {
   struct Address {
     std::uint32_t offset = 0;
     std::string name;  ///< a function of the program's; interpreter(): of a word; "": these bytes themselves
-    std::uint64_t addend = 0;
+    std::uint32_t addend = 0;
   };
   std::string
       bytes;  ///< instructions from the first byte on, and their constants; none: it cannot be translated

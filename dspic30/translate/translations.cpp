@@ -8,6 +8,7 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <utility>
 
 namespace dspic::translate {
 
@@ -28,17 +29,15 @@ bool load(const fs::path& file, const std::string& key, MachineCode& code) {
 
 }  // namespace
 
-Translations::Translations(fs::path library, const fs::path& folder) : library_(std::move(library)) {
-  if (!folder.empty()) open(folder);
-}
-
 // a library that was built anew has another time or size
-void Translations::open(const fs::path& folder) {
+void Translations::open() {
+  is_open_ = true;
+  const fs::path all = std::exchange(folder_, {});
   std::error_code failed;
   const auto time = fs::last_write_time(library_, failed).time_since_epoch().count();
-  if (failed) return;
-  folder_ = folder / name_of(std::to_string(time) + " " + std::to_string(fs::file_size(library_, failed)));
-  for (fs::directory_iterator it(folder, failed), end; !failed && it != end; it.increment(failed)) {
+  if (failed || all.empty()) return;
+  folder_ = all / name_of(std::to_string(time) + " " + std::to_string(fs::file_size(library_, failed)));
+  for (fs::directory_iterator it(all, failed), end; !failed && it != end; it.increment(failed)) {
     std::error_code none;
     if (it->path() != folder_) fs::remove_all(it->path(), none);
   }
@@ -54,11 +53,12 @@ void Translations::open(const fs::path& folder) {
 
 Translation Translations::translate(const Cpu& cpu, const Decoded* head, bool only_ready) {
   const std::lock_guard lock(mutex_);
+  if (!is_open_) open();
   const std::vector<Item> items = stretch(cpu, head);
   if (items.empty()) return {};
-  const std::string key = key_of(items), name = name_of(key);
-  const auto known = known_.find(key);
-  if (known != known_.end()) return known->second;
+  const std::string key = key_of(items);
+  if (const auto known = known_.find(key); known != known_.end()) return known->second;
+  const std::string name = name_of(key);
   const bool is_kept = kept_.count(name) > 0;
   if (only_ready && !is_kept) return {};
   MachineCode code;

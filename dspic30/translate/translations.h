@@ -17,20 +17,21 @@ class Translations final : public Translator {
  public:
   /// `library`: the one with the compiler, loaded when it is first needed; without it, nothing is translated.
   /// `folder`: where translations are kept; those of another library, and more than 4000, are removed from
-  /// it. Empty, or one that cannot be written: they are not kept.
-  Translations(std::filesystem::path library, const std::filesystem::path& folder);
+  /// it, when one is first asked for. Empty, or one that cannot be written: they are not kept.
+  Translations(std::filesystem::path library, std::filesystem::path folder)
+      : library_(std::move(library)), folder_(std::move(folder)) {}
   Translation translate(const Cpu& cpu, const Decoded* head, bool only_ready) override;
   int compiled() const { return compiled_; }  ///< not taken from a file
 
  private:
-  void open(const std::filesystem::path& folder);
+  void open();
   bool has_compiler();
   void keep(const std::filesystem::path& file, const std::string& text) const;
 
   using Compile = void (*)(const Cpu& cpu, const std::vector<Item>& items, MachineCode& code);
-  std::filesystem::path library_, folder_;
+  std::filesystem::path library_, folder_;  // once open: the one of this library
   std::mutex mutex_;
-  bool is_loaded_ = false;
+  bool is_open_ = false, is_loaded_ = false;
   Compile compile_ = nullptr;
   std::map<std::string, Translation> known_;
   std::set<std::string> kept_;  // names of files

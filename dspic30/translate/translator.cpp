@@ -4,7 +4,6 @@
 #include <llvm/IR/LegacyPassManager.h>
 #include <llvm/MC/TargetRegistry.h>
 #include <llvm/Object/ELFObjectFile.h>
-#include <llvm/Support/SmallVectorMemoryBuffer.h>
 #include <llvm/Support/TargetSelect.h>
 #include <llvm/Target/TargetMachine.h>
 
@@ -47,11 +46,11 @@ bool take_addresses(const object::ObjectFile& object, MachineCode& code) {
       const object::section_iterator home = cantFail(symbol.getSection());
       MachineCode::Address a;
       a.offset = static_cast<std::uint32_t>(holder->second + relocation.getOffset());
-      a.addend = static_cast<std::uint64_t>(cantFail(relocation.getAddend()));
+      a.addend = static_cast<std::uint32_t>(cantFail(relocation.getAddend()));
       if (home == object.section_end())
         a.name = cantFail(symbol.getName()).str();
       else if (const auto place = places.find(*home); place != places.end())
-        a.addend += place->second + cantFail(symbol.getValue());
+        a.addend += static_cast<std::uint32_t>(place->second + cantFail(symbol.getValue()));
       else
         return false;
       if (relocation.getType() != ELF::R_X86_64_64) return false;
@@ -88,7 +87,6 @@ struct Compiler {
 
   /// Empty: it cannot be done.
   SmallVector<char, 0> object_of(Module& module) const {
-    module.setDataLayout(machine->createDataLayout());
     SmallVector<char, 0> bytes;
     raw_svector_ostream out(bytes);
     legacy::PassManager passes;

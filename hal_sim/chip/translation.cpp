@@ -2,7 +2,6 @@
 #include "hal_sim/chip/translation.h"
 
 #include <cstdlib>
-#include <filesystem>
 
 #include "dspic30/translate/translations.h"
 
@@ -19,13 +18,9 @@ fs::path translator_library() {
 }
 
 dspic::Translator* translation() {
-  const auto make = [] {
-    const fs::path library = translator_library();
-    return new dspic::translate::Translations(library, library.parent_path() / "translations");
-  };
-  if (std::getenv("TWINPUCK_INTERPRET")) return nullptr;
-  static dspic::Translator* const translator = make();
-  return translator;
+  static const fs::path library = translator_library();
+  static dspic::translate::Translations translations(library, library.parent_path() / "translations");
+  return std::getenv("TWINPUCK_INTERPRET") ? nullptr : &translations;
 }
 
 }  // namespace chip

@@ -6,7 +6,6 @@
 #include <cctype>
 #include <cmath>
 #include <cstring>
-#include <sstream>
 
 #include "dspic30/asm/expression.h"
 #include "dspic30/memory/sfr_table.h"
@@ -18,18 +17,6 @@ namespace {
 
 using Kind = dspic::DebugInfo::Kind;
 using In = dspic::DebugInfo::Place::In;
-
-/// A field's place within its register; width 0: there is none of that name.
-void find_field(const dspic::SfrInfo& info, const std::string& name, int& bit, int& width) {
-  std::istringstream fields(info.fields);
-  for (std::string field; fields >> field;) {
-    const auto first = field.find(':'), second = field.find(':', first + 1);
-    if (field.substr(0, first) != name) continue;
-    bit = std::stoi(field.substr(first + 1));
-    width = std::stoi(field.substr(second + 1));
-    return;
-  }
-}
 
 unsigned bits_of(const dspic::DebugInfo::Type& type, const dspic::DebugInfo::Found& found) {
   return found.width > 0 ? static_cast<unsigned>(found.width) : 8 * type.bytes;
@@ -248,10 +235,10 @@ std::optional<Session::Data> Session::find_untyped(const std::string& name) cons
     of.resize(of.size() - 4);
   const dspic::SfrInfo* info = dspic::sfr_named(of);
   if (!info) return {};
-  Data data{info->address, 2};
-  if (dot == std::string::npos) return data;
-  find_field(*info, name.substr(dot + 1), data.bit, data.width);
-  return data.width > 0 ? std::optional(data) : std::nullopt;
+  if (dot == std::string::npos) return Data{info->address, 2};
+  for (const dspic::SfrField& field : dspic::fields_of(*info))
+    if (field.name == name.substr(dot + 1)) return Data{info->address, 2, field.bit, field.width};
+  return {};
 }
 
 unsigned Session::read(unsigned address, unsigned bytes) const {

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
-#include <sstream>
 
 #include "dspic30/memory/irqs.h"
 #include "dspic30/memory/sfr_table.h"
@@ -90,15 +89,13 @@ bool register_signal(const std::string& name, Signal& out, std::string& error) {
   if (!info) return false;
   out = signal("registers", word, Source::Register, info->address, 0, 16);
   if (dot == std::string::npos) return true;
-  std::istringstream fields(info->fields);
-  std::string field, known;
-  while (fields >> field) {
-    const auto first = field.find(':'), second = field.find(':', first + 1);
-    known += (known.empty() ? "" : ", ") + field.substr(0, first);
-    if (field.substr(0, first) != name.substr(dot + 1)) continue;
-    out.name = word + "." + field.substr(0, first);
-    out.shift = std::atoi(field.c_str() + first + 1);
-    out.width = std::atoi(field.c_str() + second + 1);
+  std::string known;
+  for (const dspic::SfrField& field : dspic::fields_of(*info)) {
+    known += (known.empty() ? "" : ", ") + field.name;
+    if (field.name != name.substr(dot + 1)) continue;
+    out.name = word + "." + field.name;
+    out.shift = field.bit;
+    out.width = field.width;
     return true;
   }
   error = "got '" + name + "', expected a field of " + word +

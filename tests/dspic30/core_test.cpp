@@ -454,8 +454,8 @@ __reset: bset U1STA, #URXISEL1
   ASSERT_TRUE(image.is_whole()) << image.report();
   const unsigned begin = image.symbols.at("__reset");
   EXPECT_EQ(image.program.at(0xF80000), 0xFFE6u);
-  EXPECT_EQ(image.program.at(begin), 0xA8E20Eu);     // bit 7 of the byte at 0x20E
-  EXPECT_EQ(image.program.at(begin + 2) & 0xF, 0u);  // into W0
+  EXPECT_EQ(image.program.at(begin), 0xA8E20Eu);      // bit 7 of the byte at 0x20E
+  EXPECT_EQ(image.program.at(begin + 2), 0x2000B0u);  // bit 11 of DCICON2
   EXPECT_EQ(image.program.at(begin + 4), 0xB14FF3u);
 }
 
