@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "dspic30/load/cursor.h"
+#include "dspic30/memory/hex.h"
 
 namespace dspic::translate {
 

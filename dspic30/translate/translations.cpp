@@ -10,6 +10,8 @@
 #include <iterator>
 #include <utility>
 
+#include "dspic30/memory/hex.h"
+
 namespace dspic::translate {
 
 namespace fs = std::filesystem;
