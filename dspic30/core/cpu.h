@@ -105,13 +105,20 @@ class Cpu final : public SfrOwner {
   static const Decoded* arrive_from(Cpu& cpu, const Decoded* from, std::int32_t words) {
     return cpu.offset(from, words);
   }
+  /// Straight on to a place that counts as one that is jumped to: translated code ended before it.
+  static const Decoded* go_on(Cpu& cpu, const Decoded* from, std::int32_t words) {
+    const Decoded* const d = from + words;
+    if (cpu.is_decoded(d) && ++d->heat == 0) cpu.warm(d);
+    return d;
+  }
   void decode(const Decoded* d);
   const Decoded* code() const { return code_.data(); }
   /// The function of this one instruction.
   Run plain(const Decoded* d) const {
     if (!d->is_head) return d->run;
-    if (d != asked_.head) asked_ = {d, heads_.at(d).plain};
-    return asked_.plain;
+    Asked& asked = asked_[static_cast<std::size_t>(d - code_.data()) % asked_.size()];
+    if (d != asked.head) asked = {d, heads_.at(d).plain};
+    return asked.plain;
   }
   int translated() const;
   const Decoded* loop_back(const Decoded* last, const Decoded* next);
@@ -316,13 +323,14 @@ class Cpu final : public SfrOwner {
     std::uint32_t pointers = 0;
   };
   std::unordered_map<const Decoded*, Head> heads_;
-  mutable struct {
+  struct Asked {
     const Decoded* head = nullptr;
     Run plain = nullptr;
-  } asked_;                             // the head that plain() was asked for last
-  std::vector<std::uint32_t> decoded_;  // words that were met since forget_code()
-  std::vector<Decoded> code_;           // one a flash word, then one for addresses where no flash is
-  unsigned bad_address_ = 0;            // that address
+  };
+  mutable std::array<Asked, 64> asked_;  // heads that plain() was asked for lately
+  std::vector<std::uint32_t> decoded_;   // words that were met since forget_code()
+  std::vector<Decoded> code_;            // one a flash word, then one for addresses where no flash is
+  unsigned bad_address_ = 0;             // that address
 };
 
 /// The word at an address made ready, as its first execution begins: registers that it writes count as

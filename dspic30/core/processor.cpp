@@ -16,8 +16,7 @@ namespace {
 constexpr Cycle kResetCycles = 295;  // 20 us from a reset's cause to the first instruction [?]
 constexpr Cycle kIdleWakeCycles = 2, kSleepWakeCycles = 2048 + 295;
 
-// cycles that are worth a look for a wait, and between two looks
-constexpr Cycle kWorthALook = 100, kFirstLooks = 200, kRarestLooks = 4096;
+constexpr Cycle kWorthALook = 100;  // cycles
 
 }  // namespace
 
@@ -41,22 +40,24 @@ Cycle Processor::still_since() const { return cpu_->still_since; }
 
 // --- the loop -------------------------------------------------------------------------------------------
 
-// straight on until something else may happen; now and then, ever more rarely, a look whether the program
-// only waits; handlers seldom do, so they may work on for a while first
+// straight on until something else may happen; now and then a look whether the program only waits, ever more
+// rarely while it does not; handlers seldom do, so they may work on for a while first
 void Processor::execute() {
   Cpu& cpu = *cpu_;
   const Cycle end = cpu.deadline;
-  Cycle between = kFirstLooks;
   const std::int64_t writes = cpu.parts.bus.writes();
-  bool looks = cpu.parts.interrupts.nesting() == 0;
+  Cycle look_at = cpu.parts.interrupts.nesting() > 0 ? std::max(look_at_, cpu.now + kFirstLooks) : look_at_;
   while (cpu.now < end) {
-    const Cycle jumped = looks && end - cpu.now > kWorthALook ? cpu.skip_wait() : 0;
-    looks = true;
-    jumped_ += jumped;
-    if (jumped > 0) between = kFirstLooks;
-    if (cpu.deadline != end || cpu.parts.bus.writes() != writes) return;
-    cpu.deadline = std::min(end, cpu.now + between);
-    const Cycle pause = cpu.deadline;
+    if (look_at <= cpu.now && end - cpu.now > kWorthALook) {
+      const Cycle jumped = cpu.skip_wait();
+      jumped_ += jumped;
+      look_at = cpu.now + (jumped > 0 ? kFirstLooks : between_looks_);
+      look_at_ = jumped > 0 ? cpu.now : look_at;  // behind an interrupt the wait may go on
+      between_looks_ = jumped > 0 ? kFirstLooks : std::min(2 * between_looks_, kRarestLooks);
+      if (cpu.deadline != end || cpu.parts.bus.writes() != writes) return;
+    }
+    const Cycle pause = look_at > cpu.now ? std::min(end, look_at) : end;  // too near its end for a look
+    cpu.deadline = pause;
     const Decoded* d = cpu.next;
     while (cpu.now < cpu.deadline) {
       cpu.at = d;
@@ -68,7 +69,6 @@ void Processor::execute() {
     cpu.next = d;
     if (cpu.deadline != pause || cpu.repeating || cpu.parts.bus.writes() != writes) return;
     cpu.deadline = end;
-    between = std::min(2 * between, kRarestLooks);
   }
 }
 

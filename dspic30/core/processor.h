@@ -77,6 +77,8 @@ class Processor {
   Dspic30f6014a& chip_;
   std::uint64_t code_version_ = 0;
   Cycle slept_ = 0, jumped_ = 0;
+  static constexpr Cycle kFirstLooks = 200, kRarestLooks = 4096;  // cycles between two looks for a wait
+  Cycle look_at_ = 0, between_looks_ = kFirstLooks;
 };
 
 }  // namespace dspic

@@ -22,9 +22,10 @@ struct MachineCode {
   std::vector<Address> addresses;
 };
 
-/// What Address::name calls the function that interprets a word, and the one that jumps.
+/// What Address::name calls the function that interprets a word, and those that leave a stretch: by a jump,
+/// or straight on.
 std::string interpreter(std::uint32_t word);
-inline constexpr const char* kArrive = "arrive";
+inline constexpr const char *kArrive = "arrive", *kGoOn = "go on";
 
 /// Put into memory, for as long as the process lives. Null: a name is not known here, or no memory.
 Run placed(const MachineCode& code);

@@ -16,6 +16,7 @@
 #include <llvm/Transforms/Utils/Local.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <set>
 
@@ -113,6 +114,7 @@ class Maker {
   void leave(const Item& item, BasicBlock* block, Value* next);
   BasicBlock* edge(const Item& item, Value* next);
   bool keep_state();
+  std::array<BasicBlock*, 3> exits() const { return {exit_, ways_[0].block, ways_[1].block}; }
   void optimise();
   std::unique_ptr<Module> moved_out();
 
@@ -172,8 +174,15 @@ class Maker {
   Function* function_;
   Value *cpu_arg_, *head_arg_;
   std::map<std::ptrdiff_t, BasicBlock*> blocks_;
-  BasicBlock *exit_, *arrival_;  // to where the interpreter goes on: the next word, or one that is jumped to
+  BasicBlock* exit_;  // to where the interpreter goes on
   PHINode* exit_at_;
+  // ... beyond the stretch, where jumps to a place are counted: by a jump, or straight on
+  struct Way {
+    const char* name;
+    BasicBlock* block;
+    PHINode* words;
+  };
+  std::array<Way, 2> ways_;
   AllocaInst* left_ = nullptr;  // something was called that may have changed the deadline
   bool may_leave_ = false;      // ... by the instruction that is being put
   // calls, and stores to the deadline, of the instruction at a place
@@ -189,7 +198,6 @@ class Maker {
     BasicBlock *first, *block;
   };
   std::vector<Aside> asides_;
-  PHINode* arrive_at_;
   std::set<const BasicBlock*> live_;
   bool goes_back_ = false;
 };
@@ -211,16 +219,18 @@ Maker::Maker(Semantics& semantics, const Cpu& cpu, const std::vector<Item>& item
   head_arg_ = function_->getArg(1);
   for (const Item& item : items_) blocks_[item.place] = BasicBlock::Create(context_);
   exit_ = BasicBlock::Create(context_, "exit");
-  arrival_ = BasicBlock::Create(context_, "arrival");
   exit_at_ = PHINode::Create(pointer, 8, "", exit_);
-  arrive_at_ = PHINode::Create(ir_.getInt32Ty(), 8, "", arrival_);
+  for (std::size_t i = 0; i < ways_.size(); ++i) {
+    BasicBlock* const block = BasicBlock::Create(context_);
+    ways_[i] = {i == 0 ? kArrive : kGoOn, block, PHINode::Create(ir_.getInt32Ty(), 8, "", block)};
+  }
 }
 
 std::unique_ptr<Module> Maker::make() {
   put_entry();
   for (const Item& item : items_)
     if (!put_item(item)) return nullptr;
-  for (BasicBlock* block : {arrival_, exit_}) function_->getBasicBlockList().push_back(block);
+  for (BasicBlock* block : exits()) function_->getBasicBlockList().push_back(block);
   for (const Aside& aside : asides_) function_->getBasicBlockList().push_back(aside.block);
   // whoever called counts the head's cycles
   const auto pass = [&](int cycles) {
@@ -229,8 +239,10 @@ std::unique_ptr<Module> Maker::make() {
   };
   ir_.SetInsertPoint(exit_);
   ir_.CreateRet(exit_at_);
-  ir_.SetInsertPoint(arrival_);
-  ir_.CreateRet(called(kArrive, {cpu_arg_, head_arg_, arrive_at_}));
+  for (const Way& way : ways_) {
+    ir_.SetInsertPoint(way.block);
+    ir_.CreateRet(called(way.name, {cpu_arg_, head_arg_, way.words}));
+  }
   for (const Aside& aside : asides_) {
     ir_.SetInsertPoint(aside.block);
     ir_.CreateUnreachable();
@@ -238,7 +250,7 @@ std::unique_ptr<Module> Maker::make() {
   removeUnreachableBlocks(*function_);
   for (BasicBlock& block : *function_) live_.insert(&block);
   if (!keep_state()) return nullptr;
-  for (BasicBlock* block : {exit_, arrival_}) {
+  for (BasicBlock* block : exits()) {
     if (!live_.count(block)) continue;
     ir_.SetInsertPoint(&*std::find_if(block->begin(), block->end(), [](const Instruction& i) {
       return i.isTerminator() || is_real_call(i);
@@ -511,9 +523,10 @@ BasicBlock* Maker::edge(const Item& item, Value* next) {
   ir_.CreateStore(ir_.CreateAdd(ir_.CreateLoad(long_, now), ir_.getInt64(item.decoded.cycles)), now);
   bool arrives = false;
   const Optional<std::ptrdiff_t> to = place_of(next, arrives);
-  if (arrives) {
-    ir_.CreateBr(arrival_);
-    arrive_at_->addIncoming(ir_.getInt32(static_cast<std::uint32_t>(*to)), begin);
+  if (to && (arrives || *to == items_.back().place + items_.back().words)) {
+    const Way& way = ways_[arrives ? 0 : 1];
+    ir_.CreateBr(way.block);
+    way.words->addIncoming(ir_.getInt32(static_cast<std::uint32_t>(*to)), begin);
     return begin;
   }
   const auto target = to ? blocks_.find(*to) : blocks_.end();
@@ -628,7 +641,7 @@ bool Maker::keep_state() {
     ir_.SetInsertPoint(what->getNextNode());
     ir_.CreateStore(ir_.getTrue(), left_);
   }
-  for (BasicBlock* block : {exit_, arrival_}) {
+  for (BasicBlock* block : exits()) {
     if (!live_.count(block)) continue;
     ir_.SetInsertPoint(block, block->getFirstInsertionPt());
     put_back_all();
