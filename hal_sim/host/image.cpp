@@ -34,12 +34,16 @@ bool is_whole(const std::string& path) {
   return true;
 }
 
+constexpr unsigned char kCoffMagic[] = {0x36, 0x12};
+constexpr const char* kCoff = "a COFF of the dsPIC, as MPLAB C30 made by default";
+
 std::string what_is(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   unsigned char head[20] = {};
   file.read(reinterpret_cast<char*>(head), sizeof head);
   if (file.gcount() == 0) return "an empty file";
   if (head[0] == ':') return "an Intel hex file";
+  if (head[0] == kCoffMagic[0] && head[1] == kCoffMagic[1]) return kCoff;
   if (std::memcmp(head, ELFMAG, SELFMAG) != 0) return "a file that is no ELF";
   const unsigned machine = head[18] | head[19] << 8;
   if (head[16] == ET_DYN && machine == EM_X86_64 && head[4] == ELFCLASS64)
@@ -123,10 +127,9 @@ std::shared_ptr<Image> Image::open(const std::string& path, std::string& error) 
   }
   const std::string kind = what_is(path);
   if (kind != "a shared object of this PC") {
-    error = path + ": firmware image: got " + kind + ", expected a .so made by `twinpuck build`" +
-            (kind.find("dsPIC") != std::string::npos || kind.find("hex") != std::string::npos
-                 ? "; the chip way (.hex, .elf) is not simulated yet, see docs/limits.md"
-                 : "");
+    error = path + ": firmware image: got " + kind +
+            ", expected a .so made by `twinpuck build`, or the .hex or .elf of a dsPIC30F" +
+            (kind == kCoff ? "; take the .hex that was made beside it" : "");
     return nullptr;
   }
   std::shared_ptr<Image> image(new Image(path));
