@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: MIT
-// twinpuck debug: the chip way's debugger, as a monitor on the terminal or as a DAP server for editors.
+// twinpuck debug: the chip way's debugger, as a monitor on the terminal or as a DAP server for editors; in
+// the other ways, where a program is the PC's code, gdb.
 #include <unistd.h>
 
+#include <fmt/format.h>
+
+#include <cerrno>
 #include <csignal>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 
+#include "hal_sim/cc/library_objects.h"
 #include "hal_sim/debug/dap.h"
 #include "hal_sim/debug/monitor.h"
 #include "tools/command_line.h"
@@ -20,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct DebugArguments {
-  std::string world, robot, commands;
+  std::string world, robot, commands, way = "chip";
   std::vector<std::string> firmware;
   double seconds = 1e6;
   long long seed = -1;
@@ -105,15 +111,39 @@ int debug_in_terminal(const DebugArguments& a) {
   return kPass;
 }
 
+/// Becomes gdb, at main() of the first robot's program; returns only if there is none.
+int debug_with_gdb(const DebugArguments& a) {
+  const auto whole = [](double number) { return fmt::format("{}", number); };
+  std::vector<std::string> words{"gdb", "-q",
+                                 "-x",  (cc::source_root() / "scripts/firmware.gdb").string(),
+                                 "-ex", "set $stops_at_main = 1",
+                                 "-ex", "run"};
+  if (!a.commands.empty()) words.insert(words.end(), {"-batch", "-x", a.commands});
+  words.insert(words.end(), {"--args", fs::read_symlink("/proc/self/exe").string(), "run", a.world, "--way",
+                             a.way, "--opt", "-O0", "--for", whole(a.seconds)});
+  for (const std::string& firmware : a.firmware) words.insert(words.end(), {"--fw", firmware});
+  if (a.seed >= 0) words.insert(words.end(), {"--seed", std::to_string(a.seed)});
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  execvp(pointers[0], pointers.data());
+  complain({std::string("gdb: ") + std::strerror(errno) + ", expected gdb for --way " + a.way +
+            "; `make setup PACKAGES=debug` installs it"});
+  return kBadInput;
+}
+
 }  // namespace
 
 void add_debug(CLI::App& app, int& exit_code) {
   auto* verb =
-      app.add_subcommand("debug", "Debug a robot's program on the chip: breakpoints, steps, also backwards");
+      app.add_subcommand("debug", "Debug a robot's program: breakpoints, steps; on the chip also backwards");
   auto a = std::make_shared<DebugArguments>();
   auto* world = verb->add_option("WORLD", a->world, "world file, or the name of one in worlds/");
   one_each(verb->add_option("--fw", a->firmware,
                             "[ROBOT=]FILE: a .elf or .hex, a folder of C files, or a controller's name"));
+  verb->add_option("--way", a->way,
+                   "chip: our own debugger; native, register: gdb, with the program built at -O0")
+      ->check(CLI::IsMember({"native", "register", "chip"}));
   verb->add_option("-x,--commands", a->commands, "file of commands, instead of the terminal");
   verb->add_option("--robot", a->robot, "the robot to look at; else the first");
   verb->add_option("--for", a->seconds, "simulated seconds after which the world ends")
@@ -129,7 +159,8 @@ void add_debug(CLI::App& app, int& exit_code) {
       return;
     }
     if (world->count() == 0) throw CLI::RequiredError("WORLD or --dap");
-    exit_code = debug_in_terminal(*a);
+    if (a->way != "chip" && !a->robot.empty()) throw CLI::ValidationError("--robot", "chip way only");
+    exit_code = a->way == "chip" ? debug_in_terminal(*a) : debug_with_gdb(*a);
   });
 }
 

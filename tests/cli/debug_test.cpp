@@ -71,12 +71,7 @@ class Debug : public CommandTest {
     built_ = twinpuck("build '" + path("mine") + "' --way chip -o '" + elf() + "'");
   }
   void SetUp() override { ASSERT_EQ(built_.exit_code, 0) << built_.text; }
-  std::string path(const std::string& name) const { return (folder / name).string(); }
   std::string elf() const { return path("mine.elf"); }
-  void write(const std::string& name, const std::string& text) {
-    std::filesystem::create_directories((folder / name).parent_path());
-    std::ofstream(folder / name) << text;
-  }
   /// What the commands answer.
   std::string debug(const std::string& commands, const std::string& options = "") {
     write("commands", commands);
@@ -194,6 +189,24 @@ TEST_F(Debug, editors_speak_with_it) {
   for (char bytes[4096]; const std::size_t n = fread(bytes, 1, sizeof bytes, pipe);) text.append(bytes, n);
   EXPECT_EQ(pclose(pipe), 0) << text;
   EXPECT_EQ(text, "all as expected\n");
+}
+
+// gdb's own commands; the program stands in main() first
+TEST_F(Debug, native_and_register_ways_are_gdbs) {
+  if (std::system("command -v gdb >/dev/null") != 0) GTEST_SKIP() << "no gdb: scripts/setup.sh debug";
+  const auto gdb = [this](const std::string& rest, const std::string& commands) {
+    const auto said = twinpuck("debug maze " + rest + " -x '" + write("commands", commands) + "'");
+    EXPECT_EQ(said.exit_code, 0) << said.text;
+    return said.text;
+  };
+  expect_in_order(gdb("--fw '" + path("mine") + "' --way register",
+                      "break weigh\nignore 3 2\ncontinue\nbt\nfinish\nprint ticks\nwatch sum\ncontinue\n"),
+                  {"main () at", "weigh (n=3) at", "#1", "work (n=3) at", "#2", "main () at",
+                   "Value returned is $1 = 30", "$2 = 3", "Old value = 30", "New value = 60"});
+  expect_in_order(
+      gdb("--fw obstacle --way native --for 1", "break drive\ncontinue\nnext\nnext\nprint last_left\n"),
+      {"main () at", "drive (left=", "last_left = left;", "$1 = "});
+  EXPECT_EQ(twinpuck("debug maze --way native --robot puck").exit_code, 2);
 }
 
 TEST_F(Debug, mistakes_are_answered) {
