@@ -6,6 +6,7 @@
 #include "dspic30/asm/device_names.h"
 #include "dspic30/asm/expression.h"
 #include "dspic30/asm/instruction_text.h"
+#include "dspic30/asm/section_text.h"
 #include "dspic30/asm/source_lines.h"
 #include "dspic30/memory/program_memory.h"
 #include "dspic30/memory/sfr_table.h"
@@ -24,7 +25,7 @@ constexpr std::int64_t kMostAddress = 0xFFFFFE;
 constexpr std::size_t kMostMessages = 50;
 constexpr int kDeepestSymbols = 20;  // .equ in terms of .equ
 
-enum class Kind { Code, Constants, Eeprom, Ram };
+using Kind = SectionKind;
 
 /// Places count 2 for a word of program memory, 1 for a byte of data.
 struct Section {
@@ -230,16 +231,11 @@ class Assembly final : private SourceLines::Listener {
 
   // config __FOSC, value
   void configure(const Statement& s) {
-    static constexpr const char* kNames[] = {"FOSC", "FWDT", "FBORPOR", "FBS", "FSS", "FGS", "FICD"};
     const std::vector<std::string> parts = split(s.operands);
     if (parts.size() != 2) return complain("config: expected a word's name and its value");
-    for (std::uint32_t i = 0; i < kConfigurationWords; ++i)
-      if (parts[0] == std::string("__") + kNames[i]) {
-        image_.program[kConfigurationStart + 2 * i] =
-            static_cast<std::uint32_t>(value_now(parts[1])) & 0xFFFF;
-        return;
-      }
-    complain("config: unknown word '" + parts[0] + "'");
+    const std::uint32_t address = configuration_address(parts[0]);
+    if (address == 0) return complain("config: unknown word '" + parts[0] + "'");
+    image_.program[address] = static_cast<std::uint32_t>(value_now(parts[1])) & 0xFFFF;
   }
 
   void values(const Statement& s, int bytes) {
@@ -312,43 +308,17 @@ class Assembly final : private SourceLines::Listener {
   }
 
   void choose_section(const Statement& s) {
-    std::string text = s.operands;
-    const std::vector<std::string> parts = split(text);
-    if (parts.empty() || parts[0].empty()) return complain(".section: which?");
-    const std::string name = parts[0];
-    Kind kind = name.compare(0, 6, ".const") == 0    ? Kind::Constants
-                : name.compare(0, 7, ".eedata") == 0 ? Kind::Eeprom
-                : name.find("bss") != std::string::npos || name.find("data") != std::string::npos
-                    ? Kind::Ram
-                    : Kind::Code;
-    std::int64_t address = -1, alignment = 2;
-    for (std::size_t i = 1; i < parts.size(); ++i) {
-      const std::string a = lower(parts[i]);
-      const std::string inside =
-          a.find('(') == std::string::npos ? "" : a.substr(a.find('(') + 1, a.rfind(')') - a.find('(') - 1);
-      if (a == "code" || a == "\"x\"")
-        kind = Kind::Code;
-      else if (a == "psv" || a == "const" || a == "\"r\"")
-        kind = Kind::Constants;
-      else if (a == "eedata")
-        kind = Kind::Eeprom;
-      else if (a == "data" || a == "bss" || a == "xmemory" || a == "ymemory" || a == "\"b\"" || a == "\"d\"")
-        kind = Kind::Ram;
-      else if (a.compare(0, 8, "address(") == 0)
-        address = value_now(inside);
-      else if (a.compare(0, 6, "align(") == 0)
-        alignment = value_now(inside);
-      else if (a != "near" && a != "noload" && a != "persist" && a != "page" && a != "keep")
-        complain(".section: unknown attribute '" + parts[i] + "'");
-    }
-    enter_section(name, kind);
-    section().kind = kind;
+    SectionText text;
+    if (!read_section(s.operands, text, [this](const std::string& message) { complain(message); })) return;
+    enter_section(text.name, text.kind);
+    section().kind = text.kind;
+    const std::int64_t address = text.address.empty() ? -1 : value_now(text.address);
     if (address > kMostAddress)
       complain(".section: got address " + std::to_string(address) + ", expected at most " +
                std::to_string(kMostAddress));
     else if (address >= 0)
       section().address = address & ~std::int64_t{1};
-    if (alignment > 2) align(alignment);
+    if (!text.alignment.empty()) align(value_now(text.alignment));
   }
 
   bool directive(const Statement& s) {

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "dspic30/asm/expression.h"
+#include "dspic30/memory/program_memory.h"
 #include "dspic30/memory/sfr_table.h"
 
 namespace dspic::assembly {
@@ -36,7 +37,7 @@ bool is_device_file(const std::string& name) {
   std::string bare = lower(name);
   if (const std::size_t slash = bare.find_last_of("/\\"); slash != std::string::npos)
     bare = bare.substr(slash + 1);
-  return bare == "p30f6014a.inc" || bare == "p30fxxxx.inc" || bare == "xc.inc";
+  return bare == "p30f6014a.inc" || bare == "p30f6014.inc" || bare == "p30fxxxx.inc" || bare == "xc.inc";
 }
 
 bool device_constant(const std::string& name, std::int64_t& value) {
@@ -45,6 +46,14 @@ bool device_constant(const std::string& name, std::int64_t& value) {
   if (found == constants.end()) return false;
   value = found->second;
   return true;
+}
+
+std::uint32_t configuration_address(const std::string& word) {
+  static constexpr const char* kNames[kConfigurationWords] = {"FOSC", "FWDT", "FBORPOR", "FBS",
+                                                              "FSS",  "FGS",  "FICD"};
+  for (std::uint32_t i = 0; i < kConfigurationWords; ++i)
+    if (word == std::string("__") + kNames[i]) return kConfigurationStart + 2 * i;
+  return 0;
 }
 
 }  // namespace dspic::assembly

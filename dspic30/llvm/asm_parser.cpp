@@ -7,6 +7,7 @@
 #include "dspic30/asm/device_names.h"
 #include "dspic30/asm/expression.h"
 #include "dspic30/asm/instruction_text.h"
+#include "dspic30/llvm/asm_directives.h"
 #include "dspic30/llvm/fixups.h"
 #include "dspic30/llvm/tables.h"
 #include "dspic30/llvm/target.h"
@@ -62,8 +63,10 @@ unsigned fixup_named(StringRef function) {
       .Default(0);
 }
 
-bool holds_value(const assembly::Written& operand) {
+bool holds_value(const assembly::Written& operand, dspic::Operand kind) {
   using assembly::Written;
+  if (kind == dspic::Operand::Accumulator || kind == dspic::Operand::WriteBack)
+    return false;  // "A" is a name
   return operand.kind == Written::Immediate || operand.kind == Written::Plain ||
          operand.kind == Written::IndirectLiteral;
 }
@@ -78,7 +81,11 @@ class Parser : public MCTargetAsmParser {
  public:
   Parser(const MCSubtargetInfo& subtarget, MCAsmParser& parser, const MCInstrInfo& instructions,
          const MCTargetOptions& options)
-      : MCTargetAsmParser(options, subtarget, instructions) {
+      : MCTargetAsmParser(options, subtarget, instructions),
+        directives_(parser, [this](const std::string& text, std::int64_t& value) {
+          std::string error;
+          return value_of(text, value, error);
+        }) {
     MCAsmParserExtension::Initialize(parser);
   }
   bool ParseRegister(unsigned&, SMLoc&, SMLoc&) override { return true; }
@@ -98,6 +105,7 @@ class Parser : public MCTargetAsmParser {
                                bool) override {
     bool failed = false;
     const auto complain = [&](const std::string& message) { failed |= Error(at, message); };
+    if (StringRef(mnemonic_).lower() == "config") return directives_.configure(operands_, at);
     const assembly::Choice choice = assembly::choose(mnemonic_, operands_, complain);
     if (failed || !choice.row) return true;
     SmallVector<Symbolic, 2> symbolic;
@@ -105,7 +113,9 @@ class Parser : public MCTargetAsmParser {
     for (size_t i = 0; i < choice.operands.size(); ++i) {
       const std::string& text = choice.operands[i].text;
       std::string error;
-      if (text.empty() || !holds_value(choice.operands[i]) || value_of(text, values[text], error)) continue;
+      if (text.empty() || !holds_value(choice.operands[i], choice.row->kinds[i]) ||
+          value_of(text, values[text], error))
+        continue;
       Symbolic s{nullptr, fixup_of(choice.row->kinds[i], *choice.row)};
       if (!s.fixup || !address_of(text, s)) return Error(at, error);
       symbolic.push_back(s);
@@ -118,11 +128,12 @@ class Parser : public MCTargetAsmParser {
     return failed;
   }
 
-  // beside LLVM's: the vendor's own file, whose names are known. True: another
+  // beside LLVM's. True: it is none of these
   bool ParseDirective(AsmToken directive) override {
+    // the vendor's own file, whose names are known
     if (directive.getString().lower() != ".include" || getLexer().isNot(AsmToken::String) ||
         !assembly::is_device_file(getTok().getStringContents().str()))
-      return true;
+      return directives_.parse(directive.getString());
     Lex();
     return getParser().parseToken(AsmToken::EndOfStatement);
   }
@@ -181,6 +192,7 @@ class Parser : public MCTargetAsmParser {
     }
   }
 
+  DSPICDirectives directives_;
   std::string mnemonic_, operands_;
 };
 

@@ -22,7 +22,6 @@ using namespace llvm::dspic_elf;
 constexpr std::uint32_t kRamBegin = 0x0800, kRamEnd = 0x2800, kYBegin = 0x1800, kNearEnd = 0x2000;
 constexpr std::uint32_t kCodeBegin = 0x0100, kPsvPage = 0x8000, kEepromBegin = 0x7FF000,
                         kEepromEnd = 0x800000;
-constexpr std::uint32_t kWordOctets = 4;  // of code in objects; two program addresses
 
 /// Free memory, given away from below.
 class Space {
@@ -191,7 +190,8 @@ void place_flash(Program& program) {
   // start-up first: its place is then the same in every image
   const auto code = [&](Section& s) {
     const std::uint32_t units = s.size / kWordOctets * 2;
-    if (!flash.take(units, 2, 0, kFlashEnd, s.address)) no_room(readable(s), s.size / kWordOctets);
+    if (!flash.take(units, std::max(2u, s.align / 2), 0, kFlashEnd, s.address))
+      no_room(readable(s), s.size / kWordOctets);
     program.code_words += s.size / kWordOctets;
   };
   Section* start = program.global("__reset")->section;

@@ -17,6 +17,9 @@ namespace llvm {
 class GlobalVariable;
 namespace dspic_elf {
 
+/// Of a word of program memory in an object: its three bytes and an empty one.
+constexpr unsigned kWordOctets = 4;
+
 enum SectionFlag : unsigned {
   kNoload = 1u << 23,
   kNearSpace = 1u << 24,

@@ -3,6 +3,7 @@
 // are settled here. A word of program takes four octets, and addresses within a section count octets.
 #include "dspic30/llvm/fixups.h"
 #include "dspic30/llvm/mc.h"
+#include "dspic30/llvm/memory_spaces.h"
 #include "llvm/BinaryFormat/ELF.h"
 #include "llvm/MC/MCAsmBackend.h"
 #include "llvm/MC/MCAssembler.h"
@@ -16,8 +17,6 @@
 namespace llvm {
 
 namespace {
-
-constexpr int64_t kWordOctets = 4;
 
 class ElfWriter : public MCELFObjectTargetWriter {
  public:
@@ -76,7 +75,8 @@ class ObjectBackend : public MCAsmBackend {
         break;
       case DSPICFix::Branch:
       case DSPICFix::DoEnd: {
-        const int64_t words = (int64_t(value) - kWordOctets) / kWordOctets;  // from the next instruction
+        constexpr int64_t kWord = dspic_elf::kWordOctets;
+        const int64_t words = (int64_t(value) - kWord) / kWord;  // from the next instruction
         if (!isInt<16>(words))
           assembler.getContext().reportError(fixup.getLoc(), "branch of more than 32767 words");
         value = words & 0xFFFF;

@@ -173,16 +173,22 @@ void sort_messages(const std::string& text, BuildResult& result, bool failed) {
   }
 }
 
-void check_main(const std::vector<CompileOutcome>& outcomes, const std::vector<CompileJob>& jobs,
+/// `outcomes`: of the C files; for the chip those of assembler follow, whose labels are no functions, and
+/// which may have a start-up of their own instead.
+void check_main(const std::vector<CompileOutcome>& outcomes, const Plan& p, std::size_t c_files,
                 const fs::path& folder, BuildResult& result) {
   std::vector<std::string> with_main;
-  for (size_t i = 0; i < outcomes.size(); ++i) {
-    auto elf = read_elf(outcomes[i].object);
-    for (const auto& s : elf.symbols) {
-      if (s.name == "main" && s.is_defined && s.is_function)
-        with_main.push_back(jobs[i].source.filename().string());
+  bool starts_itself = false;
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    const bool is_c = i < c_files;
+    const fs::path& source = (is_c ? p.user[i] : p.assembler[i - c_files]).source;
+    for (const auto& s : read_elf(outcomes[i].object).symbols) {
+      if (!s.is_defined || (is_c ? !s.is_function : !s.is_global)) continue;
+      if (s.name == "main") with_main.push_back(source.filename().string());
+      starts_itself |= !is_c && s.name == "_reset";
     }
   }
+  if (starts_itself && with_main.empty()) return;
   if (with_main.empty())
     result.errors.push_back(folder.string() +
                             ": main(): got no definition, expected one; is this a controller's folder?");
@@ -326,7 +332,7 @@ static BuildResult build_here(const BuildOptions& o) {
   }
   Program program = program_of(o, result);
   const auto& sources = program.sources;
-  if (sources.empty()) {
+  if (sources.empty() && !(o.chip_way && !program.assembler.empty())) {
     result.errors.push_back(no_program(o.source_dir));
     return finish();
   }
@@ -390,7 +396,9 @@ static BuildResult build_here(const BuildOptions& o) {
   std::vector<CompileOutcome> members(outcomes.begin() + long(own), outcomes.begin() + long(p.user.size()));
   members.erase(std::remove_if(members.begin(), members.end(), [](const auto& m) { return !m.ok; }),
                 members.end());
-  check_main(user, p.user, o.source_dir, result);
+  std::vector<CompileOutcome> all_own = user;
+  if (o.chip_way) all_own.insert(all_own.end(), outcomes.begin() + long(p.user.size()), outcomes.end());
+  check_main(all_own, p, own, o.source_dir, result);
   if (!result.errors.empty()) return finish();
   if (!o.chip_way) tell_of_assembler(program, user, result);
   Renames renames;
@@ -404,8 +412,7 @@ static BuildResult build_here(const BuildOptions& o) {
   fs::path output = fs::absolute(o.output);
   fs::create_directories(output.parent_path(), ec);
   if (o.chip_way) {
-    user.insert(user.end(), outcomes.begin() + long(p.user.size()), outcomes.end());
-    link_chip(user, members, program.objects, library, renames, output, result);
+    link_chip(all_own, members, program.objects, library, renames, output, result);
     result.ok = result.errors.empty();
     return finish();
   }

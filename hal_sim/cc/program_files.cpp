@@ -83,6 +83,8 @@ std::string no_program(const fs::path& folder) {
            "firmware on the e-puck's library is C";
   if (!files_below(folder, ".py").empty())
     return got + "a program in Python, expected one in C or C++; Python controllers are not run yet";
+  if (!files_below(folder, ".s").empty())
+    return got + "assembler, expected C; only the chip way assembles: --way chip";
   return got + "no .c file, expected at least one";
 }
 

@@ -44,6 +44,59 @@ TEST_F(ChipProgram, text_becomes_a_program_that_is_shown_and_runs) {
   EXPECT_NE(json.find("\"way\": \"chip\""), std::string::npos) << json;
 }
 
+// a project without C, in the vendor's words: its own main, or its own start-up
+TEST_F(ChipProgram, project_of_assembler_alone_is_built) {
+  constexpr const char* kText = R"(
+        .include "p30f6014A.inc"
+        config __FWDT, WDT_ON & 0x9234
+        .section .letters, code
+letters: .hword 0x1234, 0x5678
+        .section .data, near
+count:  .byte 1
+        .hword 17
+        .section .place, data, xmemory, address(0x900)
+pair:   .word 3, 4
+        .text
+        .global BEGIN
+BEGIN:  mov count + 2, w0
+        mov #tblpage(letters), w1
+        mov w1, TBLPAG
+        mov #tbloffset(letters), w1
+        tblrdl [w1++], w2
+        tblrdl [w1], w3
+        mov #pair, w4
+        mov [w4+2], w5
+        mov #0x4000, w6
+        clr A
+        lac w6, A
+        add A
+        sac A, #1, w7
+1:      bra 1b
+)";
+  for (const std::string begin : {"_main", "__reset"}) {
+    std::string text = kText;
+    for (std::size_t at; (at = text.find("BEGIN")) != std::string::npos;) text.replace(at, 5, begin);
+    std::filesystem::create_directories(folder / begin);
+    file(begin + "/program.s", text);
+    const std::string project = (folder / begin).string(), elf = (folder / "x.elf").string();
+    const auto built = twinpuck("build '" + project + "' --way chip -o '" + elf + "'");
+    ASSERT_EQ(built.exit_code, 0) << built.text;
+    const auto stopped =
+        twinpuck("debug maze --fw '*=" + elf + "' -x '" + file("commands", "stepi 400\nregs\n") + "'");
+    const char* const first =
+        begin == "_main" ? "w0  0011   w1" : "w0  0000   w1";  // who copies start values?
+    for (const char* part : {first, "w2  1234   w3  5678   w4  0900", "w6  4000", "w7  2000"})
+      EXPECT_NE(stopped.text.find(part), std::string::npos) << part << " in:\n" << stopped.text;
+    std::ifstream in(folder / "x.hex");
+    const std::string hex((std::istreambuf_iterator<char>(in)), {});
+    EXPECT_NE(hex.find(":0200000401F009"), std::string::npos);
+    EXPECT_NE(hex.find(":0C000000E6FF000034920000"), std::string::npos) << hex;  // FOSC is the library's
+  }
+  const auto refused = twinpuck("run maze --fw '*=" + (folder / "_main").string() + "'");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.text.find("only the chip way assembles"), std::string::npos) << refused.text;
+}
+
 TEST_F(ChipProgram, controllers_source_becomes_an_image_and_drives) {
   const std::string elf = (folder / "obstacle.elf").string();
   const auto built = twinpuck("build obstacle --way chip -o '" + elf + "'");
