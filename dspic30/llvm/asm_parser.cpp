@@ -32,7 +32,7 @@ unsigned fixup_of(dspic::Operand kind, const dspic::Row& row) {
   using dspic::Operand;
   switch (kind) {
     case Operand::File:
-      return row.has(&dspic::Fields::B) ? DSPICFix::NearByte : DSPICFix::Near;
+      return row.has(&dspic::Fields::B) || row.has(Operand::FileBit) ? DSPICFix::NearByte : DSPICFix::Near;
     case Operand::FileWord:
       return StringRef(row.mnemonic) == "MOV" ? DSPICFix::FileOfMove : DSPICFix::File;
     case Operand::Branch:
@@ -124,8 +124,14 @@ class Parser : public MCTargetAsmParser {
     }
     const auto words = encode(
         choice, 0, [&](const std::string& text) { return values[text]; }, complain);
-    if (!failed) emit(out, words, symbolic);
-    return failed;
+    if (failed) return true;
+    // bits 8 to 15 of a word are those of its upper byte
+    if (choice.row->has(dspic::Operand::FileBit) && words[0] & 1)
+      for (Symbolic& s : symbolic)
+        s.expression =
+            MCBinaryExpr::createAdd(s.expression, MCConstantExpr::create(1, getContext()), getContext());
+    emit(out, words, symbolic);
+    return false;
   }
 
   // beside LLVM's. True: it is none of these

@@ -71,7 +71,18 @@ BEGIN:  mov count + 2, w0
         lac w6, A
         add A
         sac A, #1, w7
+        clr flags
+        bset flags, #9
+        btg flags, #3
+        bset.b flags + 1, #7
+        btss flags, #15
+        reset
+        btsc flags, #14
+        reset
+        mov flags, w8
 1:      bra 1b
+        .section .nbss, bss, near
+flags:  .space 2
 )";
   for (const std::string begin : {"_main", "__reset"}) {
     std::string text = kText;
@@ -85,7 +96,7 @@ BEGIN:  mov count + 2, w0
         twinpuck("debug maze --fw '*=" + elf + "' -x '" + file("commands", "stepi 400\nregs\n") + "'");
     const char* const first =
         begin == "_main" ? "w0  0011   w1" : "w0  0000   w1";  // who copies start values?
-    for (const char* part : {first, "w2  1234   w3  5678   w4  0900", "w6  4000", "w7  2000"})
+    for (const char* part : {first, "w2  1234   w3  5678   w4  0900", "w6  4000", "w7  2000", "w8  8208"})
       EXPECT_NE(stopped.text.find(part), std::string::npos) << part << " in:\n" << stopped.text;
     std::ifstream in(folder / "x.hex");
     const std::string hex((std::istreambuf_iterator<char>(in)), {});
