@@ -91,10 +91,8 @@ bool DSPICDirectives::section(const std::string& operands, SMLoc at) {
   const unsigned type = text.is_zeroed ? ELF::SHT_NOBITS : ELF::SHT_PROGBITS;
   parser_.getStreamer().SwitchSection(parser_.getContext().getELFSection(text.name, type, flags));
   if (text.alignment.empty()) return false;
-  if (!value_(text.alignment, number) || number <= 0 || !isPowerOf2_64(std::uint64_t(number)))
-    return parser_.Error(at, ".section: align: expected a power of two");
-  parser_.getStreamer().emitValueToAlignment(unsigned(number) * (text.kind == Kind::Code ? 2 : 1));
-  return false;
+  return !value_(text.alignment, number) ? parser_.Error(at, ".section: align: got no number")
+                                         : align(number, at);
 }
 
 bool DSPICDirectives::values(unsigned bytes) {
@@ -151,9 +149,15 @@ bool DSPICDirectives::bytes_in_code(SMLoc at, bool are_texts, bool with_zero) {
 bool DSPICDirectives::alignment_in_code(SMLoc at) {
   std::int64_t number;
   if (parser_.parseAbsoluteExpression(number) || parser_.parseToken(AsmToken::EndOfStatement)) return true;
-  if (number <= 0 || !isPowerOf2_64(std::uint64_t(number)))
-    return parser_.Error(at, "alignment: expected a power of two");
-  parser_.getStreamer().emitValueToAlignment(unsigned(number) * (kWordOctets / 2));
+  return align(number, at);
+}
+
+bool DSPICDirectives::align(std::int64_t to, SMLoc at) {
+  constexpr std::int64_t kMost = 0x8000;  // a page of the PSV window
+  if (to <= 0 || to > kMost || !isPowerOf2_64(std::uint64_t(to)))
+    return parser_.Error(at, "alignment: got " + std::to_string(to) + ", expected a power of two up to " +
+                                 std::to_string(kMost));
+  parser_.getStreamer().emitValueToAlignment(unsigned(to) * (is_in_code() ? kWordOctets / 2 : 1));
   return false;
 }
 

@@ -32,6 +32,7 @@ class DSPICDirectives {
   bool values(unsigned bytes);
   bool bytes_in_code(SMLoc at, bool are_texts, bool with_zero);
   bool alignment_in_code(SMLoc at);
+  bool align(std::int64_t to, SMLoc at);
 
   MCAsmParser& parser_;
   Value value_;
