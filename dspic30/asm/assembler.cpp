@@ -21,6 +21,7 @@ constexpr std::uint32_t kCodeStart = 0x100, kRamStart = 0x800, kRamEnd = 0x2800,
 constexpr std::uint32_t kStackReserve = 8;  // between SPLIM and the end of RAM
 constexpr std::uint32_t kVectors0 = 0x04, kAlternate0 = 0x84;
 constexpr std::int64_t kMostBytes = 0x18000;  // of a section
+constexpr std::int64_t kMostInAll = 2 * kMostBytes;
 constexpr std::int64_t kMostAddress = 0xFFFFFE;
 constexpr std::size_t kMostMessages = 50;
 constexpr int kDeepestSymbols = 20;  // .equ in terms of .equ
@@ -120,12 +121,18 @@ class Assembly final : private SourceLines::Listener {
     section().kind = kind;
   }
 
+  /// Is there for so many more bytes? Complains if not.
+  bool has_room(std::int64_t bytes) {
+    const bool is_section_full = bytes < 0 || section().size + bytes > kMostBytes;
+    if (!is_section_full && in_all_ + bytes <= kMostInAll) return true;
+    complain(std::string(is_section_full ? "the section grows" : "all sections grow") + " beyond " +
+             std::to_string(is_section_full ? kMostBytes : kMostInAll) + " bytes");
+    return false;
+  }
   void grow(std::int64_t bytes) {
-    if (bytes < 0 || section().size + bytes > kMostBytes) {
-      complain("the section grows beyond " + std::to_string(kMostBytes) + " bytes");
-      return;
-    }
+    if (!has_room(bytes)) return;
     section().size += static_cast<std::uint32_t>(bytes);
+    in_all_ += bytes;
   }
 
   void align(std::int64_t to) {
@@ -274,6 +281,7 @@ class Assembly final : private SourceLines::Listener {
     if (bytes < 0 || bytes > kMostBytes)
       return complain(s.name + ": got " + std::to_string(bytes) + " bytes, expected 0 to " +
                       std::to_string(kMostBytes));
+    if (!has_room(bytes)) return;
     if (section().kind != Kind::Ram) {
       Item item{s,
                 here(),
@@ -468,6 +476,7 @@ class Assembly final : private SourceLines::Listener {
   SourceLines lines_;
   Image image_;
   std::vector<Section> sections_;
+  std::int64_t in_all_ = 0;  // their sizes
   std::map<std::string, std::size_t> section_names_;
   std::size_t now_ = 0;
   std::map<std::string, Symbol> symbols_;

@@ -11,7 +11,7 @@ namespace dspic::assembly {
 namespace {
 
 constexpr int kDeepestMacros = 30;        // macros and includes within one another
-constexpr long long kMostLines = 100000;  // after expansion
+constexpr long long kMostLines = 200000;  // after expansion, blocks that are repeated or defined included
 constexpr std::int64_t kMostRepeats = 65536;
 
 // ";" to the end of the line, "//" too, outside quotes; "#" only where nothing stands before it
@@ -237,6 +237,7 @@ bool SourceLines::open_block(const Statement& s, const std::vector<Line>& lines,
   }
   if (i == lines.size()) complain(s, s.name + (is_macro ? " without .endm" : " without .endr"));
   at = i;
+  lines_ += static_cast<long long>(body.size());
   if (is_skipping()) return true;
   if (is_macro)
     define_macro(s, std::move(body));
