@@ -113,14 +113,13 @@ int debug_in_terminal(const DebugArguments& a) {
 
 /// Becomes gdb, at main() of the first robot's program; returns only if there is none.
 int debug_with_gdb(const DebugArguments& a) {
-  const auto whole = [](double number) { return fmt::format("{}", number); };
   std::vector<std::string> words{"gdb", "-q",
                                  "-x",  (cc::source_root() / "scripts/firmware.gdb").string(),
                                  "-ex", "set $stops_at_main = 1",
                                  "-ex", "run"};
   if (!a.commands.empty()) words.insert(words.end(), {"-batch", "-x", a.commands});
   words.insert(words.end(), {"--args", fs::read_symlink("/proc/self/exe").string(), "run", a.world, "--way",
-                             a.way, "--opt", "-O0", "--for", whole(a.seconds)});
+                             a.way, "--opt", "-O0", "--for", fmt::format("{}", a.seconds)});
   for (const std::string& firmware : a.firmware) words.insert(words.end(), {"--fw", firmware});
   if (a.seed >= 0) words.insert(words.end(), {"--seed", std::to_string(a.seed)});
   std::vector<char*> pointers;
@@ -153,13 +152,14 @@ void add_debug(CLI::App& app, int& exit_code) {
   verb->footer("Commands are read from the terminal, or from a pipe; help lists them. See docs/debug.md");
   verb->add_flag("--dap", a->dap, "speak the Debug Adapter Protocol with an editor, which says what to run");
   verb->callback([a, world, &exit_code] {
+    if (a->way != "chip" && (a->dap || !a->robot.empty()))
+      throw CLI::ValidationError(a->dap ? "--dap" : "--robot", "chip way only");
     if (a->dap) {
       std::signal(SIGPIPE, SIG_IGN);
       exit_code = debug::DapServer(0, 1, launched).serve() ? kPass : kBadInput;
       return;
     }
     if (world->count() == 0) throw CLI::RequiredError("WORLD or --dap");
-    if (a->way != "chip" && !a->robot.empty()) throw CLI::ValidationError("--robot", "chip way only");
     exit_code = a->way == "chip" ? debug_in_terminal(*a) : debug_with_gdb(*a);
   });
 }

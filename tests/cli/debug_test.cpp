@@ -206,7 +206,8 @@ TEST_F(Debug, native_and_register_ways_are_gdbs) {
   expect_in_order(
       gdb("--fw obstacle --way native --for 1", "break drive\ncontinue\nnext\nnext\nprint last_left\n"),
       {"main () at", "drive (left=", "last_left = left;", "$1 = "});
-  EXPECT_EQ(twinpuck("debug maze --way native --robot puck").exit_code, 2);
+  for (const char* words : {"--robot puck", "--dap"})
+    EXPECT_EQ(twinpuck(std::string("debug maze --way native ") + words).exit_code, 2);
 }
 
 TEST_F(Debug, mistakes_are_answered) {
