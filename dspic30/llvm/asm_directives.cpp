@@ -46,20 +46,28 @@ bool DSPICDirectives::parse(StringRef name) {
     if (!is_vendors_section(operands)) return true;
     parser_.eatToEndOfStatement();
     section(operands, at);
-    return false;
+  } else if (directive == ".hword" || directive == ".word") {
+    values(2);
+  } else if (directive == ".pword") {
+    values(3);
+  } else if (!is_in_code() && directive != ".palign") {
+    return true;
+  } else if (directive == ".short" || directive == ".2byte") {  // in data LLVM's, which align nothing
+    values(2);
+  } else if (directive == ".byte") {
+    bytes_in_code(at, false, false);
+  } else if (directive == ".ascii") {
+    bytes_in_code(at, true, false);
+  } else if (directive == ".asciz" || directive == ".string") {
+    bytes_in_code(at, true, true);
+  } else if (directive == ".align" || directive == ".palign") {
+    alignment(at);
+  } else if (directive == ".org") {
+    parser_.Error(at, "the linker says where code lies; `twinpuck asm` takes whole programs");
+  } else {
+    return true;
   }
-  const auto done = [](bool) { return false; };  // mistakes are reported
-  if (directive == ".hword" || directive == ".word" || directive == ".short" || directive == ".2byte")
-    return done(values(2));
-  if (directive == ".pword") return done(values(3));
-  if (!is_in_code()) return directive != ".palign";
-  if (directive == ".byte") return done(bytes_in_code(at, false, false));
-  if (directive == ".ascii") return done(bytes_in_code(at, true, false));
-  if (directive == ".asciz" || directive == ".string") return done(bytes_in_code(at, true, true));
-  if (directive == ".align" || directive == ".palign") return done(alignment_in_code(at));
-  if (directive == ".org")
-    return done(parser_.Error(at, "the linker says where code lies; `twinpuck asm` takes whole programs"));
-  return true;
+  return false;  // mistakes are reported
 }
 
 bool DSPICDirectives::section(const std::string& operands, SMLoc at) {
@@ -146,7 +154,7 @@ bool DSPICDirectives::bytes_in_code(SMLoc at, bool are_texts, bool with_zero) {
   return false;
 }
 
-bool DSPICDirectives::alignment_in_code(SMLoc at) {
+bool DSPICDirectives::alignment(SMLoc at) {
   std::int64_t number;
   if (parser_.parseAbsoluteExpression(number) || parser_.parseToken(AsmToken::EndOfStatement)) return true;
   return align(number, at);

@@ -2,8 +2,8 @@
 // Directives that the vendor's assembler has and LLVM's has not, or reads otherwise.
 //
 //   .section NAME, data, near     types and attributes as words (dspic30/asm/section_text.h)
-//   .hword .word .pword           values of 2 bytes; whole words of program memory
-//   .byte .ascii .asciz .string   in code: two bytes in the lower half of each word
+//   .hword .word .pword           values of 2 bytes, aligned; whole words of program memory
+//   .short .byte .ascii .asciz    in code: two bytes in the lower half of each word
 //   .align .palign                in code: counts 2 for a word
 //   config __FOSC, value          a configuration word
 #pragma once
@@ -31,7 +31,7 @@ class DSPICDirectives {
   bool section(const std::string& operands, SMLoc at);
   bool values(unsigned bytes);
   bool bytes_in_code(SMLoc at, bool are_texts, bool with_zero);
-  bool alignment_in_code(SMLoc at);
+  bool alignment(SMLoc at);
   bool align(std::int64_t to, SMLoc at);
 
   MCAsmParser& parser_;

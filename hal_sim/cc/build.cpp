@@ -173,29 +173,30 @@ void sort_messages(const std::string& text, BuildResult& result, bool failed) {
   }
 }
 
-/// `outcomes`: of the C files; for the chip those of assembler follow, whose labels are no functions, and
-/// which may have a start-up of their own instead.
-void check_main(const std::vector<CompileOutcome>& outcomes, const Plan& p, std::size_t c_files,
-                const fs::path& folder, BuildResult& result) {
+/// `outcomes`: of all C files, the program's own first; for the chip those of assembler follow, whose labels
+/// are no functions, and which may have a start-up of their own instead.
+void check_main(const std::vector<CompileOutcome>& outcomes, const Plan& p, std::size_t own,
+                const BuildOptions& o, BuildResult& result) {
   std::vector<std::string> with_main;
   bool starts_itself = false;
-  for (std::size_t i = 0; i < outcomes.size(); ++i) {
-    const bool is_c = i < c_files;
-    const fs::path& source = (is_c ? p.user[i] : p.assembler[i - c_files]).source;
-    for (const auto& s : read_elf(outcomes[i].object).symbols) {
+  const auto look = [&](const CompileOutcome& made, const CompileJob& job, bool is_c) {
+    for (const auto& s : read_elf(made.object).symbols) {
       if (!s.is_defined || (is_c ? !s.is_function : !s.is_global)) continue;
-      if (s.name == "main") with_main.push_back(source.filename().string());
+      if (s.name == "main") with_main.push_back(job.source.filename().string());
       starts_itself |= !is_c && s.name == "_reset";
     }
-  }
+  };
+  for (std::size_t i = 0; i < own; ++i) look(outcomes[i], p.user[i], true);
+  for (std::size_t i = 0; o.chip_way && i < p.assembler.size(); ++i)
+    look(outcomes[p.user.size() + i], p.assembler[i], false);
   if (starts_itself && with_main.empty()) return;
   if (with_main.empty())
-    result.errors.push_back(folder.string() +
+    result.errors.push_back(o.source_dir.string() +
                             ": main(): got no definition, expected one; is this a controller's folder?");
   if (with_main.size() > 1) {
     std::string list;
     for (const auto& f : with_main) list += (list.empty() ? "" : ", ") + f;
-    result.errors.push_back(folder.string() + ": main(): got " + std::to_string(with_main.size()) +
+    result.errors.push_back(o.source_dir.string() + ": main(): got " + std::to_string(with_main.size()) +
                             " definitions (" + list + "), expected 1; give each program a folder of its own");
   }
 }
@@ -396,9 +397,7 @@ static BuildResult build_here(const BuildOptions& o) {
   std::vector<CompileOutcome> members(outcomes.begin() + long(own), outcomes.begin() + long(p.user.size()));
   members.erase(std::remove_if(members.begin(), members.end(), [](const auto& m) { return !m.ok; }),
                 members.end());
-  std::vector<CompileOutcome> all_own = user;
-  if (o.chip_way) all_own.insert(all_own.end(), outcomes.begin() + long(p.user.size()), outcomes.end());
-  check_main(all_own, p, own, o.source_dir, result);
+  check_main(outcomes, p, own, o, result);
   if (!result.errors.empty()) return finish();
   if (!o.chip_way) tell_of_assembler(program, user, result);
   Renames renames;
@@ -412,7 +411,8 @@ static BuildResult build_here(const BuildOptions& o) {
   fs::path output = fs::absolute(o.output);
   fs::create_directories(output.parent_path(), ec);
   if (o.chip_way) {
-    link_chip(all_own, members, program.objects, library, renames, output, result);
+    user.insert(user.end(), outcomes.begin() + long(p.user.size()), outcomes.end());
+    link_chip(user, members, program.objects, library, renames, output, result);
     result.ok = result.errors.empty();
     return finish();
   }

@@ -78,6 +78,13 @@ TEST(ChipAssembler, data_in_code_fill_the_lower_half_of_words) {
   EXPECT_EQ(made.object.section(".table"), expected);
 }
 
+// .short is LLVM's: packed structs and debugging information have it at odd places
+TEST(ChipAssembler, words_in_data_are_aligned_but_not_shorts) {
+  const Assembled made("\t.data\n\t.byte 1\n\t.short 2\n\t.word 3\n");
+  EXPECT_EQ(made.messages, "");
+  EXPECT_EQ(made.object.section(".data"), std::string("\1\2\0\0\3\0", 6));
+}
+
 TEST(ChipAssembler, mistakes_say_what_is_wrong) {
   for (const auto& [text, message] : {
            std::pair{".section .x, code, wide", "x.s:1:10: error: .section: unknown attribute 'wide'"},
