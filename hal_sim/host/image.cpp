@@ -2,34 +2,33 @@
 #include "hal_sim/host/image.h"
 
 #include <elf.h>
-#include <sys/stat.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
-#include <fstream>
 
 #include "hal_sim/host/image_stamp.h"
 #include "hal_sim/host/symbols.h"
 #include "sim_core/base/check.h"
+#include "sim_core/base/input_file.h"
 
 namespace host {
 
 namespace {
 
-// do all segments lie inside the file? (the dynamic linker maps them unseen and would fault)
-bool is_whole(const std::string& path) {
-  std::ifstream file(path, std::ios::binary | std::ios::ate);
-  const auto size = static_cast<std::uint64_t>(file.tellg());
+constexpr std::size_t kLongest = 64u << 20;  // bytes [assumed: a hundred times the largest]
+
+// do all segments lie inside the file?
+bool is_whole(const std::string& file) {
   Elf64_Ehdr head;
-  file.seekg(0);
-  if (!file.read(reinterpret_cast<char*>(&head), sizeof head) || head.e_phentsize != sizeof(Elf64_Phdr))
-    return false;
+  if (file.size() < sizeof head) return false;
+  std::memcpy(&head, file.data(), sizeof head);
+  if (head.e_phentsize != sizeof(Elf64_Phdr)) return false;
   for (unsigned i = 0; i < head.e_phnum; ++i) {
     Elf64_Phdr segment;
-    file.seekg(static_cast<std::streamoff>(head.e_phoff + i * sizeof segment));
-    if (!file.read(reinterpret_cast<char*>(&segment), sizeof segment)) return false;
-    if (segment.p_offset > size || segment.p_filesz > size - segment.p_offset) return false;
+    const std::uint64_t at = head.e_phoff + i * sizeof segment;
+    if (at > file.size() || file.size() - at < sizeof segment) return false;
+    std::memcpy(&segment, file.data() + at, sizeof segment);
+    if (segment.p_offset > file.size() || segment.p_filesz > file.size() - segment.p_offset) return false;
   }
   return true;
 }
@@ -37,17 +36,16 @@ bool is_whole(const std::string& path) {
 constexpr unsigned char kCoffMagic[] = {0x36, 0x12};
 constexpr const char* kCoff = "a COFF of the dsPIC, as MPLAB C30 made by default";
 
-std::string what_is(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
+std::string what_is(const std::string& file) {
+  if (file.empty()) return "an empty file";
   unsigned char head[20] = {};
-  file.read(reinterpret_cast<char*>(head), sizeof head);
-  if (file.gcount() == 0) return "an empty file";
+  std::memcpy(head, file.data(), std::min(file.size(), sizeof head));
   if (head[0] == ':') return "an Intel hex file";
   if (head[0] == kCoffMagic[0] && head[1] == kCoffMagic[1]) return kCoff;
   if (std::memcmp(head, ELFMAG, SELFMAG) != 0) return "a file that is no ELF";
   const unsigned machine = head[18] | head[19] << 8;
   if (head[16] == ET_DYN && machine == EM_X86_64 && head[4] == ELFCLASS64)
-    return is_whole(path) ? "a shared object of this PC" : "a shared object that has been cut off";
+    return is_whole(file) ? "a shared object of this PC" : "a shared object that has been cut off";
   if (machine == 118) return "an ELF for the dsPIC30F";
   return "an ELF of another kind (type " + std::to_string(head[16]) + ", machine " + std::to_string(machine) +
          ")";
@@ -85,11 +83,8 @@ void ImageCopy::copy_in(const char* from) const {
   std::memcpy(image_->hole_end, from + before, private_bytes_ - before);
 }
 
-Image::Image(std::string path) : path_(std::move(path)), symbols_(std::make_unique<Symbols>(path_)) {
-  std::ifstream file(path_, std::ios::binary | std::ios::ate);
-  if (file) file_.resize(static_cast<std::size_t>(file.tellg()));
-  file.seekg(0).read(file_.data(), static_cast<std::streamsize>(file_.size()));
-}
+Image::Image(std::string path, std::string file)
+    : path_(std::move(path)), file_(std::move(file)), symbols_(std::make_unique<Symbols>(path_)) {}
 Image::~Image() = default;
 
 std::unique_ptr<ImageCopy> Image::load(std::string& error) const {
@@ -113,26 +108,27 @@ std::unique_ptr<ImageCopy> Image::load(std::string& error) const {
   return std::make_unique<ImageCopy>(path_, std::move(object), image);
 }
 
+bool Image::read(const std::string& path, std::string& file, std::string& error) {
+  const std::string wrong = sim::read_input_file(path, kLongest, file);
+  if (wrong.empty()) return true;
+  error = path + ": firmware image: " + wrong + "; build it, or name the program's folder";
+  return false;
+}
+
 std::shared_ptr<Image> Image::open(const std::string& path, std::string& error) {
-  struct stat status;
-  if (stat(path.c_str(), &status) != 0) {
-    error = path + ": firmware image: got '" + std::strerror(errno) + "', expected a readable file";
-    return nullptr;
-  }
-  if (!S_ISREG(status.st_mode)) {
-    error =
-        path +
-        ": firmware image: got something that is no regular file, expected a .so made by `twinpuck build`";
-    return nullptr;
-  }
-  const std::string kind = what_is(path);
+  std::string file;
+  return read(path, file, error) ? open(path, std::move(file), error) : nullptr;
+}
+
+std::shared_ptr<Image> Image::open(const std::string& path, std::string file, std::string& error) {
+  const std::string kind = what_is(file);
   if (kind != "a shared object of this PC") {
     error = path + ": firmware image: got " + kind +
             ", expected a .so made by `twinpuck build`, or the .hex or .elf of a dsPIC30F" +
             (kind == kCoff ? "; take the .hex that was made beside it" : "");
     return nullptr;
   }
-  std::shared_ptr<Image> image(new Image(path));
+  std::shared_ptr<Image> image(new Image(path, std::move(file)));
   const Stamp stamp = check_stamp(image->file_);
   if (stamp != Stamp::Right) {
     error = path + ": firmware image: got " +

@@ -59,6 +59,10 @@ class Image {
   /// Opens `path` and checks that it is one of ours. On failure returns null and `error` holds one line
   /// `where: what: got X, expected Y; hint`.
   static std::shared_ptr<Image> open(const std::string& path, std::string& error);
+  /// The same of a file that has been read.
+  static std::shared_ptr<Image> open(const std::string& path, std::string file, std::string& error);
+  /// Reads the bytes of a program's file, of whatever kind. False: `error` says why not.
+  static bool read(const std::string& path, std::string& file, std::string& error);
   ~Image();
 
   const std::string& path() const { return path_; }
@@ -68,7 +72,7 @@ class Image {
   const Symbols& symbols() const { return *symbols_; }
 
  private:
-  explicit Image(std::string path);
+  Image(std::string path, std::string file);
   std::unique_ptr<ImageCopy> load(std::string& error) const;
 
   std::string path_;

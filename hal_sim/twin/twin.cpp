@@ -104,9 +104,9 @@ struct Firmware {
 
 Firmware open_firmware(const std::string& path, std::string& error) {
   std::string bytes;
-  sim::read_input_file(path, dspic::kLongestFirmwareFile,
-                       bytes);  // what cannot be read, opening the image tells
-  if (dspic::kind_of(bytes) == dspic::FileKind::Other) return {host::Image::open(path, error), nullptr};
+  if (!host::Image::read(path, bytes, error)) return {};
+  if (dspic::kind_of(bytes) == dspic::FileKind::Other)
+    return {host::Image::open(path, std::move(bytes), error), nullptr};
   auto file = std::make_shared<dspic::FirmwareFile>();
   if (!dspic::load_firmware(bytes, path, *file, error)) return {};
   return {nullptr, file};

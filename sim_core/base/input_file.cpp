@@ -6,12 +6,14 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <array>
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
 namespace sim {
 namespace {
+
+constexpr std::size_t kPiece = 4096;  // bytes, at least that many at once
 
 std::string why() { return std::string("cannot be read: ") + std::strerror(errno); }
 
@@ -20,21 +22,27 @@ std::string read_open_file(int file, std::size_t most_bytes, std::string& text) 
   if (::fstat(file, &info) != 0) return why();
   if (S_ISDIR(info.st_mode)) return "got a folder, expected a file";
   if (!S_ISREG(info.st_mode) && !S_ISFIFO(info.st_mode)) return "got a device, expected a regular file";
-  std::array<char, 65536> piece;
-  for (;;) {
-    const ssize_t got = ::read(file, piece.data(), piece.size());
-    if (got == 0) return {};
+  // room for one byte more than it is said to hold, so that its end is met without more room
+  const std::size_t told = static_cast<std::size_t>(S_ISREG(info.st_mode) ? info.st_size : 0);
+  std::size_t had = 0;
+  text.resize(std::min(std::max(told, kPiece), most_bytes) + 1);
+  while (had <= most_bytes) {
+    if (had == text.size()) text.resize(std::min(2 * had, most_bytes + 1));
+    const ssize_t got = ::read(file, text.data() + had, text.size() - had);
+    if (got == 0) {
+      text.resize(had);
+      return {};
+    }
     if (got < 0 && errno == EAGAIN) {  // a pipe whose writer has not come to it yet
       pollfd wait{file, POLLIN, 0};
       ::poll(&wait, 1, -1);
     } else if (got < 0 && errno != EINTR) {
       return why();
     } else if (got > 0) {
-      text.append(piece.data(), static_cast<std::size_t>(got));
+      had += static_cast<std::size_t>(got);
     }
-    if (text.size() > most_bytes)
-      return "got more than " + std::to_string(most_bytes) + " bytes, expected at most that";
   }
+  return "got more than " + std::to_string(most_bytes) + " bytes, expected at most that";
 }
 
 }  // namespace

@@ -26,10 +26,11 @@ std::string write_file(const std::string& name, const std::string& bytes) {
 
 TEST(Image, a_missing_file_is_named) {
   EXPECT_EQ(refusal("/nowhere/x.so"),
-            "/nowhere/x.so: firmware image: got 'No such file or directory', expected a readable file");
+            "/nowhere/x.so: firmware image: cannot be read: No such file or directory; build it, or name the "
+            "program's folder");
 }
 
-TEST(Image, a_folder_is_refused) { EXPECT_NE(refusal("/tmp").find("no regular file"), std::string::npos); }
+TEST(Image, a_folder_is_refused) { EXPECT_NE(refusal("/tmp").find("got a folder"), std::string::npos); }
 
 TEST(Image, an_empty_file_is_refused) {
   EXPECT_NE(refusal(write_file("empty.so", "")).find("got an empty file"), std::string::npos);
