@@ -2,9 +2,10 @@
 // Waits jumped over: a program that goes round without changing anything.
 //
 //   round 1: registers and flags are as they were, and nothing was stored, or else
-//   round 2: and RAM is as it was  ->  all rounds to come are like it, until what it reads from
-//   peripherals may change
+//   round 2: they are as they were, and so is RAM  ->  all rounds to come are like it, until what it reads
+//   from peripherals may change
 //
+// The second chance is for a wait that an interrupt came into, too: RETFIE leaves the handler's DC behind.
 // A round that writes a register, reads a FIFO, loads a write latch or leads to a trap is no wait. So the
 // course is the same to the cycle as if every round had been run.
 #include <algorithm>
@@ -34,9 +35,10 @@ struct CoreState {
                                           c.end_loop << 5);
   }
   bool operator==(const CoreState& o) const {
-    std::uint64_t differs = 0;
-    for (std::size_t i = 0; i < words.size(); ++i) differs |= words[i] ^ o.words[i];
-    return differs == 0;
+    // one by one: what has just been stored in halves would be waited for if it were loaded as a whole
+    for (std::size_t i = 0; i < words.size(); ++i)
+      if (words[i] != o.words[i]) return false;
+    return true;
   }
   std::array<std::uint64_t, 10> words;
 };
@@ -52,9 +54,11 @@ Cycle Cpu::skip_wait() {
   bool stores = false, is_still = false;
   looks_outside = false;
   const Cycle began = now;
-  // one round, at most so many instructions long; false: it is none, or no wait
-  const auto goes_round = [&](int longest) {
-    for (int i = 0; i < longest && now < deadline; ++i) {
+  Cycle start = now, skipped = 0;
+  // one round; false: it is none, or no wait
+  const auto goes_round = [&] {
+    start = now;
+    for (int i = 0; i < kLongestRound && now < deadline; ++i) {
       at = next;
       stores |= at->stores;
       const Decoded* following = plain(at)(*this, at);
@@ -62,18 +66,16 @@ Cycle Cpu::skip_wait() {
       if (at == loop_end) following = loop_back(at, following);
       next = following;
       if (deadline != end || watched_until <= now) return false;
-      if (next == first) return before == CoreState(*this);
+      if (next == first) return true;
     }
     return false;
   };
-  Cycle skipped = 0;
-  Cycle start = now;
   const auto is_wait = [&] {
-    if (!goes_round(kLongestRound)) return false;
-    if (!stores) return true;
+    if (!goes_round()) return false;
+    const CoreState after(*this);
+    if (!stores) return before == after || (goes_round() && !stores && after == CoreState(*this));
     const auto memory = ram;
-    start = now;
-    return goes_round(kLongestRound) && memory == ram;
+    return goes_round() && after == CoreState(*this) && memory == ram;
   };
   if (is_wait()) {
     const Cycle round = now - start, rounds = (std::min(end, watched_until) - now) / round;
