@@ -602,6 +602,28 @@ TEST(Wait, is_jumped_over_without_a_change_of_course) {
   }
 }
 
+// RETFIE leaves DC as the handler left it, so the first round behind it ends in other flags than it began with
+TEST(Wait, goes_on_at_once_behind_an_interrupt) {
+  CoreBench b(R"(
+__reset: mov #__SP_init, w15
+    mov #1999, w0
+    mov w0, PR1
+    clr flag
+    bset IEC0, #T1IE
+    bset T1CON, #15
+1:  cp0 flag
+    bra z, 1b
+__T1Interrupt: bclr IFS0, #T1IF
+    mov #1, w2
+    add w2, w2, w2
+    retfie
+    .bss
+flag: .space 2)");
+  b.run(200000);
+  EXPECT_EQ(b.w(2), 2u);
+  EXPECT_GT(b.cpu->jumped(), 190000);
+}
+
 // rounds that look alike in registers, but count in RAM or take bytes out of a FIFO
 TEST(Wait, a_round_that_changes_something_is_none) {
   CoreBench b("__reset: clr w1\n1: inc 0x900\n bra 1b");
