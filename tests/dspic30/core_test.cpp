@@ -602,8 +602,7 @@ TEST(Wait, is_jumped_over_without_a_change_of_course) {
   }
 }
 
-// RETFIE leaves DC as the handler left it, so the first round behind it ends in other flags than it began
-// with
+// RETFIE leaves DC as the handler left it, so the first round behind it ends in other flags
 TEST(Wait, goes_on_at_once_behind_an_interrupt) {
   CoreBench b(R"(
 __reset: mov #__SP_init, w15
