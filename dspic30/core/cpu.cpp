@@ -443,9 +443,8 @@ unsigned Cpu::read_elsewhere(unsigned ea, unsigned bits) {
     return bits == 16 ? word : word >> 8 * (ea & 1) & 0xFF;
   }
   if (ea < kSfrBytes) {
-    looks_outside = true;
-    if (!watching && parts.is_result(ea, bits, t)) return parts.read_result(ea, t);
     const unsigned value = parts.read(ea, bits, t);
+    looks_outside = true;
     if (watching)
       watched_until =
           ChipParts::is_changed_by_reading(ea) ? 0 : std::min(watched_until, parts.horizon(ea, t));

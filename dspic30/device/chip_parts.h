@@ -98,6 +98,7 @@ struct ChipParts {
 
   // --- registers; as Dspic30f6014a has them
   std::uint16_t read(unsigned address, unsigned bits, Cycle now) {
+    if (is_result(address, bits, now)) return read_result(address, now);
     events.run_to(now);
     return bus.read(address, bits, now);
   }
