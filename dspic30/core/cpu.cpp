@@ -59,6 +59,7 @@ void Cpu::forget_code() {
   decoded_.clear();
   heads_.clear();
   asked_ = {};
+  known_waits.forget();
   if (code_.empty()) {
     code_.assign(kFlashWords + 1, unknown);
     code_.back().run = &fetch_nothing;
@@ -70,6 +71,7 @@ void Cpu::forget_code() {
 }
 
 void Cpu::forget_pointers() {
+  known_waits.forget();
   const auto uses = [this](const Decoded& d) { return (1u << d.s | 1u << d.d) & stale_pointers; };
   const auto stale = std::partition(decoded_.begin(), decoded_.end(),
                                     [&](std::uint32_t index) { return !uses(code_[index]); });

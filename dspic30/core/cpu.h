@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "dspic30/core/instruction_table.h"
+#include "dspic30/core/known_waits.h"
 #include "dspic30/device/chip_parts.h"
 #include "dspic30/memory/program_memory.h"
 
@@ -260,6 +261,7 @@ class Cpu final : public SfrOwner {
   Cycle watched_until = kNever;  ///< what was read since skip_wait() began to look stays as it is until here
   bool watching = false;
   bool looks_outside = false;  ///< since then a register of a peripheral was read
+  KnownWaits known_waits;
   Cycle still_since =
       kNever;  ///< since when nothing that the program looks at can change but by an interrupt
 

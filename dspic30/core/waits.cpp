@@ -3,7 +3,7 @@
 //
 //   round 1: registers and flags are as they were, and nothing was stored, or else
 //   round 2: they are as they were, and so is RAM  ->  all rounds to come are like it, until what it reads
-//   from peripherals may change
+//   from peripherals may change. What reads none is remembered (known_waits.h) and need not be run again.
 //
 // The second chance is for a wait that an interrupt came into, too: RETFIE leaves the handler's DC behind.
 // A round that writes a register, reads a FIFO, loads a write latch or leads to a trap is no wait. So the
@@ -16,56 +16,27 @@
 
 namespace dspic {
 
-namespace {
-
-constexpr int kLongestRound = 40;  // instructions
-
-/// All that a round may change and that is neither RAM nor a peripheral's, in words that compare quickly.
-struct CoreState {
-  explicit CoreState(const Cpu& c) {
-    std::memcpy(words.data(), c.w.data(), sizeof c.w);
-    std::memcpy(&words[4], c.shadow.w.data(), sizeof c.shadow.w);
-    const std::uint64_t z = c.z == 0, carry = c.c & 1, ov = c.ov & 0x8000, dc = c.dc & 0x100;
-    words[5] = std::uint64_t{c.n} << 48 | std::uint64_t{c.rcount} << 32 | ov << 16 | dc << 16 | z << 16 |
-               carry << 17 | c.shadow.flags;
-    words[6] = static_cast<std::uint64_t>(c.acc[0]);
-    words[7] = static_cast<std::uint64_t>(c.acc[1]);
-    words[8] = static_cast<std::uint64_t>(c.loop_depth) << 32 | c.loop.count;
-    words[9] = static_cast<std::uint64_t>(c.oa | c.ob << 1 | c.sa << 2 | c.sb << 3 | c.repeating << 4 |
-                                          c.end_loop << 5);
-  }
-  bool operator==(const CoreState& o) const {
-    // one by one: what has just been stored in halves would be waited for if it were loaded as a whole
-    for (std::size_t i = 0; i < words.size(); ++i)
-      if (words[i] != o.words[i]) return false;
-    return true;
-  }
-  std::array<std::uint64_t, 10> words;
-};
-
-}  // namespace
-
 Cycle Cpu::skip_wait() {
-  const Cycle end = deadline;
-  const Decoded* const first = next;
+  const Cycle end = deadline, began = now;
   const CoreState before(*this);
-  watching = true;
+  KnownWaits::Course course;
+  bool stores = false;
+  Cycle round = known_waits.round(*this, before);
   watched_until = kNever;
-  bool stores = false, is_still = false;
   looks_outside = false;
-  const Cycle began = now;
-  Cycle start = now, skipped = 0;
-  // one round; false: it is none, or no wait
+  // one round, run; false: it is none, or no wait
   const auto goes_round = [&] {
-    start = now;
-    for (int i = 0; i < kLongestRound && now < deadline; ++i) {
-      at = next;
+    const Decoded* const first = next;
+    const Cycle start = now;
+    for (course.count = 0; course.count < KnownWaits::Course::kLongest && now < deadline;) {
+      at = course.at[course.count++] = next;
       stores |= at->stores;
       const Decoded* following = plain(at)(*this, at);
       now += at->cycles;
       if (at == loop_end) following = loop_back(at, following);
       next = following;
       if (deadline != end || watched_until <= now) return false;
+      round = now - start;
       if (next == first) return true;
     }
     return false;
@@ -73,18 +44,24 @@ Cycle Cpu::skip_wait() {
   const auto is_wait = [&] {
     if (!goes_round()) return false;
     const CoreState after(*this);
-    if (!stores) return before == after || (goes_round() && !stores && after == CoreState(*this));
+    if (!stores && (before == after || known_waits.round(*this, after) == round)) return true;
+    if (!stores) return goes_round() && !stores && after == CoreState(*this);
     const auto memory = ram;
     return goes_round() && after == CoreState(*this) && memory == ram;
   };
-  if (is_wait()) {
-    const Cycle round = now - start, rounds = (std::min(end, watched_until) - now) / round;
-    skipped = std::max<Cycle>(rounds, 0) * round;
-    now += skipped;
-    is_still = watched_until == kNever && !looks_outside;
+  bool is_still = round > 0;
+  if (!is_still) {
+    watching = true;
+    const bool waits = is_wait();
+    watching = false;
+    is_still = waits && watched_until == kNever && !looks_outside;
+    if (is_still && !stores) known_waits.add(*this, course, round, CoreState(*this));
+    if (!waits) round = 0;
   }
-  watching = false;
   still_since = is_still ? std::min(still_since, began) : kNever;
+  const Cycle skipped =
+      round > 0 ? std::max<Cycle>((std::min(end, watched_until) - now) / round, 0) * round : 0;
+  now += skipped;
   return skipped;
 }
 
