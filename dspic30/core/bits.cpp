@@ -11,6 +11,7 @@ using operands::kMask;
 // --- where the bit is: read and written through one address ---------------------------------------------
 
 struct AtFile {
+  static constexpr bool kIsMemory = true;
   static unsigned address(Cpu&, const Decoded* d) { return static_cast<unsigned>(d->imm); }
   template <bool Byte>
   static unsigned read(Cpu& cpu, const Decoded*, unsigned ea) {
@@ -25,6 +26,7 @@ struct AtMemory : AtFile {
   static unsigned address(Cpu& cpu, const Decoded* d) { return cpu.source_address(d); }
 };
 struct AtRegister {
+  static constexpr bool kIsMemory = false;
   static unsigned address(Cpu&, const Decoded*) { return 0; }
   template <bool Byte>
   static unsigned read(Cpu& cpu, const Decoded* d, unsigned) {
@@ -48,21 +50,20 @@ struct ByRegister {
 
 // --- what is done ---------------------------------------------------------------------------------------
 
-struct Set {
-  static constexpr bool kWrites = true;
-  static unsigned of(Cpu&, unsigned x, unsigned bit) { return x | 1u << bit; }
+// kChanges: whatever the bit was, what is left of the old word and what is flipped then is known
+template <bool Keeps, bool Flips>
+struct Change {
+  static constexpr bool kWrites = true, kChanges = true;
+  static unsigned keep(unsigned bit) { return ~(Keeps ? 0 : 1u << bit); }
+  static unsigned flip(unsigned bit) { return Flips ? 1u << bit : 0; }
+  static unsigned of(Cpu&, unsigned x, unsigned bit) { return (x & keep(bit)) ^ flip(bit); }
 };
-struct Clear {
-  static constexpr bool kWrites = true;
-  static unsigned of(Cpu&, unsigned x, unsigned bit) { return x & ~(1u << bit); }
-};
-struct Toggle {
-  static constexpr bool kWrites = true;
-  static unsigned of(Cpu&, unsigned x, unsigned bit) { return x ^ 1u << bit; }
-};
+using Set = Change<false, true>;
+using Clear = Change<false, false>;
+using Toggle = Change<true, true>;
 template <bool IntoZ, bool ThenSet>
 struct Test {
-  static constexpr bool kWrites = ThenSet;
+  static constexpr bool kWrites = ThenSet, kChanges = false;
   static unsigned of(Cpu& cpu, unsigned x, unsigned bit) {
     if (IntoZ)
       cpu.set_z(!(x >> bit & 1));
@@ -73,7 +74,7 @@ struct Test {
 };
 template <bool FromZ>
 struct Write {
-  static constexpr bool kWrites = true;
+  static constexpr bool kWrites = true, kChanges = false;
   static unsigned of(Cpu& cpu, unsigned x, unsigned bit) {
     const unsigned value = FromZ ? !cpu.flag_z() : cpu.flag_c();
     return (x & ~(1u << bit)) | value << bit;
@@ -82,7 +83,15 @@ struct Write {
 
 template <class Op, bool Byte, class Where, class Which>
 const Decoded* change(Cpu& cpu, const Decoded* d) {
-  const unsigned ea = Where::address(cpu, d), x = Where::template read<Byte>(cpu, d, ea);
+  const unsigned ea = Where::address(cpu, d);
+  if constexpr (Op::kChanges && Where::kIsMemory) {
+    if (cpu.is_elsewhere(ea, Byte)) {
+      const unsigned bit = Which::bit(cpu, d);
+      cpu.modify_elsewhere(ea, Op::keep(bit), Op::flip(bit), Byte ? 8 : 16);
+      return d + 1;
+    }
+  }
+  const unsigned x = Where::template read<Byte>(cpu, d, ea);
   const unsigned y = Op::of(cpu, x, Which::bit(cpu, d));
   if (Op::kWrites) Where::template write<Byte>(cpu, d, ea, y);
   return d + 1;

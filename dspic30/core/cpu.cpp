@@ -433,11 +433,17 @@ Cpu::Saved Cpu::saved_register(unsigned ea) {
 }
 
 unsigned Cpu::read_elsewhere(unsigned ea, unsigned bits) {
+  const Cycle t = now + at->lead;
+  if (!(ea & 1) && !watching && parts.is_result(ea, bits, t)) return parts.read_result(ea, t);
+  return read_other(ea, bits, t);
+}
+
+// all but results of the converter
+unsigned Cpu::read_other(unsigned ea, unsigned bits, Cycle t) {
   if (bits == 16 && (ea & 1)) {
     trap(Trap::AddressError);
     return 0;
   }
-  const Cycle t = now + at->lead;
   if (ea < kDisicnt) {
     if (const Saved saved = saved_register(ea); saved.word && bits == 16) return this->*saved.word;
     const unsigned word = peek(ea & ~1u, t);
@@ -446,10 +452,9 @@ unsigned Cpu::read_elsewhere(unsigned ea, unsigned bits) {
   }
   if (ea < kSfrBytes) {
     const unsigned value = parts.read(ea, bits, t);
+    if (!watching) return value;
     looks_outside = true;
-    if (watching)
-      watched_until =
-          ChipParts::is_changed_by_reading(ea) ? 0 : std::min(watched_until, parts.horizon(ea, t));
+    watched_until = ChipParts::is_changed_by_reading(ea) ? 0 : std::min(watched_until, parts.horizon(ea, t));
     return value;
   }
   if (ea >= kPsvStart && (corcon & kPsvOn)) return read_psv(ea, bits);
@@ -467,6 +472,21 @@ unsigned Cpu::read_psv(unsigned ea, unsigned bits) {
   if (is_eeprom) note_effect();
   const unsigned word = (is_eeprom ? parts.nvm.table_read(address) : program.read(address)) & 0xFFFF;
   return bits == 16 ? word : word >> 8 * (ea & 1) & 0xFF;
+}
+
+void Cpu::modify_elsewhere(unsigned ea, unsigned keep, unsigned flip, unsigned bits) {
+  const unsigned word = ea & ~1u;
+  const Cycle t = now + at->lead;
+  const bool are_flags = parts.are_flags(word, t);
+  if ((!are_flags && !parts.is_latch(word)) || (bits == 16 && (ea & 1)))
+    return write_elsewhere(ea, (read_elsewhere(ea, bits) & keep) ^ flip, bits);
+  note_effect();
+  const int shift = bits == 8 && (ea & 1) ? 8 : 0;
+  const unsigned lanes = bits == 8 ? 0xFFu << shift : 0xFFFF;
+  const auto kept = static_cast<std::uint16_t>(keep << shift | ~lanes),
+             flipped = static_cast<std::uint16_t>(flip << shift & lanes);
+  deadline = std::min(deadline, are_flags ? parts.modify_flags(word, kept, flipped, t)
+                                          : parts.modify_latch(word, kept, flipped, t));
 }
 
 void Cpu::write_elsewhere(unsigned ea, unsigned value, unsigned bits) {

@@ -195,6 +195,13 @@ class Cpu final : public SfrOwner {
   void write(unsigned ea, unsigned value) {
     Byte ? write8(ea, value) : write16(ea, value);
   }
+  /// Is it no RAM, or not to be had?
+  static bool is_elsewhere(unsigned ea, bool byte) {
+    const unsigned i = ea - kRamStart;
+    return i >= kRamBytes || (!byte && (i & 1));
+  }
+  /// What stands there becomes (old & keep) ^ flip; as read and write, faster for what handlers change.
+  void modify_elsewhere(unsigned ea, unsigned keep, unsigned flip, unsigned bits);
   void push(unsigned value) {
     const unsigned ea = stack_checked(w[15]);
     w[15] = static_cast<std::uint16_t>(ea + 2);
@@ -314,6 +321,7 @@ class Cpu final : public SfrOwner {
     std::memcpy(&ram[i], &word, 2);
   }
   unsigned read_elsewhere(unsigned ea, unsigned bits);
+  __attribute__((noinline)) unsigned read_other(unsigned ea, unsigned bits, Cycle t);
   void write_elsewhere(unsigned ea, unsigned value, unsigned bits);
   unsigned read_psv(unsigned ea, unsigned bits);
   void find_loop_end();

@@ -20,7 +20,7 @@ Cycle Cpu::skip_wait() {
   const Cycle end = deadline, began = now;
   const CoreState before(*this);
   KnownWaits::Course course;
-  bool stores = false;
+  bool stores = false, is_known = false;
   Cycle round = known_waits.round(*this, before);
   watched_until = kNever;
   looks_outside = false;
@@ -44,7 +44,9 @@ Cycle Cpu::skip_wait() {
   const auto is_wait = [&] {
     if (!goes_round()) return false;
     const CoreState after(*this);
-    if (!stores && (before == after || known_waits.round(*this, after) == round)) return true;
+    if (!stores && before == after) return true;
+    is_known = !stores && known_waits.round(*this, after) == round;
+    if (is_known) return true;
     if (!stores) return goes_round() && !stores && after == CoreState(*this);
     const auto memory = ram;
     return goes_round() && after == CoreState(*this) && memory == ram;
@@ -55,7 +57,7 @@ Cycle Cpu::skip_wait() {
     const bool waits = is_wait();
     watching = false;
     is_still = waits && watched_until == kNever && !looks_outside;
-    if (is_still && !stores) known_waits.add(*this, course, round, CoreState(*this));
+    if (is_still && !stores && !is_known) known_waits.add(*this, course, round, CoreState(*this));
     if (!waits) round = 0;
   }
   still_since = is_still ? std::min(still_since, began) : kNever;

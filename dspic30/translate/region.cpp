@@ -32,7 +32,9 @@ using namespace llvm;
 
 constexpr StringLiteral kOffset = "_ZN5dspic3Cpu6offsetEPKNS_7DecodedEi",
                         kRead = "_ZN5dspic3Cpu14read_elsewhereEjj",
-                        kWrite = "_ZN5dspic3Cpu15write_elsewhereEjjj", kTrap = "_ZN5dspic3Cpu4trapENS_4TrapE",
+                        kWrite = "_ZN5dspic3Cpu15write_elsewhereEjjj",
+                        kModify = "_ZN5dspic3Cpu16modify_elsewhereEjjjj",
+                        kTrap = "_ZN5dspic3Cpu4trapENS_4TrapE",
                         kSpecial = "_ZN5dspic3Cpu15special_pointerEjiib";
 
 StringRef name_of(const CallBase& call) {
@@ -42,10 +44,13 @@ StringRef name_of(const CallBase& call) {
 bool is_real_call(const Instruction& i) {
   return isa<CallInst>(i) && (!isa<IntrinsicInst>(i) || isa<MemIntrinsic>(i));
 }
-/// Address that read_elsewhere() or write_elsewhere() is called with, if it is known.
+bool is_access(const CallInst& call) {
+  const StringRef name = name_of(call);
+  return name == kRead || name == kWrite || name == kModify;
+}
+/// Address that is read, written or modified elsewhere than in RAM, if it is known.
 const ConstantInt* address_in(const CallInst& call) {
-  return name_of(call) == kRead || name_of(call) == kWrite ? dyn_cast<ConstantInt>(call.getArgOperand(1))
-                                                           : nullptr;
+  return is_access(call) ? dyn_cast<ConstantInt>(call.getArgOperand(1)) : nullptr;
 }
 /// Of no more than the clock: registers of peripherals, not those of the core.
 bool is_of_peripheral(const CallInst& call) {
@@ -55,7 +60,7 @@ bool is_of_peripheral(const CallInst& call) {
 /// Seldom called, as RAM is what pointers point to.
 bool is_beyond_ram(const CallInst& call) {
   const StringRef name = name_of(call);
-  return ((name == kRead || name == kWrite) && !address_in(call)) || name == kTrap || name == kSpecial;
+  return (is_access(call) && !address_in(call)) || name == kTrap || name == kSpecial;
 }
 
 // --- one stretch ----------------------------------------------------------------------------------------
@@ -393,7 +398,7 @@ void Maker::take_saved(BasicBlock* first) {
       const ConstantInt* const address = call ? address_in(*call) : nullptr;
       const Cpu::Saved saved =
           address ? Cpu::saved_register(static_cast<unsigned>(address->getZExtValue())) : Cpu::Saved{};
-      if (!saved.word) continue;
+      if (!saved.word || name_of(*call) == kModify) continue;
       const bool reads = name_of(*call) == kRead;
       const auto* const bits = dyn_cast<ConstantInt>(call->getArgOperand(reads ? 2 : 3));
       if (!bits || bits->getZExtValue() != 16) continue;
