@@ -550,17 +550,17 @@ __T1Interrupt: bclr IFS0, #T1IF
     retfie
     .bss
 flag: .space 2)",
-    // two flags; one of two handlers changes neither, the other one of them in its third round
+    // of two handlers one changes nothing that the wait looks at, the other ends it: when is in w5
     R"(
 __reset: mov #__SP_init, w15
-    mov #999, w0
+    mov #2000, w0
     mov w0, PR1
-    mov #777, w0
+    mov #300, w0
     mov w0, PR2
     clr flags
     clr other
     clr w1
-    clr w3
+    clr w5
     bset IEC0, #T1IE
     bset IEC0, #T2IE
     bset T1CON, #15
@@ -569,51 +569,76 @@ __reset: mov #__SP_init, w15
     bra nz, 2f
     cp0.b flags+1
     bra z, 1b
-2:  clr flags
-    clr other
+2:  mov TMR1, w4
+    add w4, w5, w5
+    clr flags
     inc w1, w1
     bra 1b
 __T1Interrupt: bclr IFS0, #T1IF
-    inc w3, w3
-    cp w3, #3
-    bra nz, 3f
     bset.b flags+1, #2
-    clr w3
-3:  retfie
+    retfie
 __T2Interrupt: bclr IFS0, #T2IF
-    btst w1, #1
-    bra z, 5f
-    inc other
-5:  retfie
+    retfie
     .bss
 flags: .space 2
 other: .space 2)",
-    // a handler changes how the round rounds, and so what it comes to
+    // one handler changes how the round rounds, and so what it comes to; the other looks at that
     R"(
 __reset: mov #__SP_init, w15
-    mov #999, w0
+    mov #19997, w0
     mov w0, PR1
-    clr w1
+    mov #300, w0
+    mov w0, PR2
+    mov #6, w1
     mov #0x1234, w0
     lac w0, a
     mov #0x8000, w0
     mov w0, ACCAL
-    clr once
+    clr never
+    clr sum
     bset IEC0, #T1IE
+    bset IEC0, #T2IE
     bset T1CON, #15
+    bset T2CON, #15
 1:  sac.r a, w2
-    cp0 once
+    cp0 never
     bra z, 1b
-    clr once
-    add w1, w2, w1
-    bra 1b
 __T1Interrupt: bclr IFS0, #T1IF
     btg CORCON, #RND
-    btsc CORCON, #RND
-    setm once
+    retfie
+__T2Interrupt: bclr IFS0, #T2IF
+    mov w2, w0
+    xor sum
     retfie
     .bss
-once: .space 2)",
+sum: .space 2
+never: .space 2)",
+    // a handler changes a register
+    R"(
+__reset: mov #__SP_init, w15
+    mov #2000, w0
+    mov w0, PR1
+    mov #300, w0
+    mov w0, PR2
+    clr w1
+    clr w3
+    clr w5
+    bset IEC0, #T1IE
+    bset IEC0, #T2IE
+    bset T1CON, #15
+    bset T2CON, #15
+1:  cp0 w3
+    bra z, 1b
+    mov TMR1, w4
+    add w4, w5, w5
+    clr w3
+    inc w1, w1
+    bra 1b
+__T1Interrupt: bclr IFS0, #T1IF
+    mov #1, w3
+    retfie
+__T2Interrupt: bclr IFS0, #T2IF
+    retfie)",
     // a flag of the interrupt controller, polled
     R"(
 __reset: mov #1234, w0
