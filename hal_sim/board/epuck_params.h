@@ -41,7 +41,6 @@ inline constexpr int kUart1Brg = 7;                  // 115,200 baud exactly [li
 inline constexpr int kUartFifoBytes = 4;             // transmit buffer [DS70143 18.3]
 inline constexpr std::size_t kPacketBytes = 330;     // [assumed: Bluetooth serial profile's usual frame]
 inline constexpr Cycle kPacketCycles = kFcyHz / 50;  // [assumed: 20 ms, a module's latency]
-inline constexpr int kUartRingBytes = 64;            // receive ring [lib: uart/e_uart1_rx_char.s]
 
 // --- body, as the world sees it: x forward, y left, z up, origin between the wheels ----------------------
 inline constexpr double kBodyRadiusM = 0.037;     // m [FRM A1]

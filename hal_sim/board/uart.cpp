@@ -8,11 +8,10 @@
 
 namespace board {
 
-void Uart::init_library(int brg, Cycle at) {
+void Uart::switch_on(int brg, Cycle at) {
   settle(at);
-  enabled_ = library_ = true;
+  enabled_ = true;
   brg_ = brg & 0xFFFF;
-  received_count_ = read_count_ = 0;
 }
 
 void Uart::cut_off(Cycle at) {
@@ -34,8 +33,7 @@ void Uart::send_break(Cycle cycles, Cycle at) {
 void Uart::reset(Cycle at) {
   settle(at);
   cut_off(at);  // a byte cut off by the reset never arrives
-  enabled_ = library_ = false;
-  received_count_ = read_count_ = 0;
+  enabled_ = false;
   starts_.fill(at);
   last_start_ = free_at_ = at;
 }
@@ -75,21 +73,8 @@ void Uart::settle(Cycle at) {
     if (!enabled_) continue;
     ++received_;
     hash_ = sim::mix64(hash_ ^ (arrival.byte | static_cast<std::uint64_t>(arrival.at) << 8 | 1ull << 63));
-    if (!library_) continue;
-    ring_[received_count_ % kUartRingBytes] = arrival.byte;
-    ++received_count_;
+    if (receiver_) receiver_->take(arrival.byte);
   }
-}
-
-int Uart::unread(Cycle at) {
-  settle(at);
-  return static_cast<std::int16_t>(received_count_ - read_count_);
-}
-
-int Uart::take(Cycle at) {
-  settle(at);
-  if (received_count_ == read_count_) return -1;
-  return ring_[read_count_++ % kUartRingBytes];
 }
 
 Cycle Uart::next_arrival(Cycle at) {

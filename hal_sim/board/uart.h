@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
-// One UART of the processor and the library's receive ring behind it.
+// One UART of the processor.
 //
 //   program -> TXREG -> [ 4 bytes ] -> shift register -> wire      one byte = 10 bits = 160 (BRG + 1) cycles
-//   wire -> shift register -> receive interrupt -> ring of 64 (library), or [ 4 bytes ] without the library
+//   wire -> shift register -> UartReceiver: whoever takes each byte as its interrupt comes
 //
 // A byte's start is known when it is loaded: the end of the byte before, or now. So nothing is ticked.
-// Modelled: transmit buffer, break, times, bytes lost while disabled, overwriting of unread bytes in the
-// library's ring, 16-bit counters, hardware overrun of four bytes for programs with their own receive
-// interrupt. Not modelled: the transmitter's wait for the next edge of its bit clock (below one bit),
-// framing, parity. Source: [DS70143 18], [lib: uart/], facts restated.
+// Modelled: transmit buffer, break, times, bytes lost while disabled. Not modelled: the transmitter's wait
+// for the next edge of its bit clock (below one bit), framing, parity. Source: [DS70143 18].
 #pragma once
 #include <array>
 #include <cstdint>
@@ -30,16 +28,23 @@ class UartWatch {
   virtual void frame(int uart, bool sent, std::uint8_t byte, Cycle start, Cycle end) = 0;
 };
 
+/// Takes every byte that an enabled UART receives, in their order; told when somebody looks.
+class UartReceiver {
+ public:
+  virtual ~UartReceiver() = default;
+  virtual void take(std::uint8_t byte) = 0;
+};
+
 class Uart {
  public:
-  /// e_init_uartN(): enabled at BRG `brg`, ring emptied.
-  void init_library(int brg, Cycle at);
+  /// Enabled at BRG `brg` from `at` on.
+  void switch_on(int brg, Cycle at);
   void reset(Cycle at);
 
   bool enabled() const { return enabled_; }
   Cycle byte_cycles() const { return Cycle{kUartBitsPerByte} * kUartCyclesPerBrg * (brg_ + 1); }
 
-  // --- transmitter ----------------------------------------------------------------------------------------
+  // --- transmitter
   /// Write to TXREG. False: lost, because the buffer is full or the UART is disabled.
   bool load(std::uint8_t byte, Cycle at);
   bool buffer_full(Cycle at) const { return waiting(at) >= kUartFifoBytes; }
@@ -52,17 +57,17 @@ class Uart {
   /// For programs that wait on the buffer: loads as soon as there is room, and says when that is.
   Cycle load_when_room(std::uint8_t byte, Cycle at);
 
-  // --- receiver ------------------------------------------------------------------------------------------
-  /// Library: bytes received minus bytes read, as a 16-bit difference.
-  int unread(Cycle at);
-  /// Library: next byte of the ring, or -1.
-  int take(Cycle at);
+  // --- receiver
+  /// Null: what comes is counted and lost. The receiver outlives the UART or is taken away.
+  void set_receiver(UartReceiver* receiver) { receiver_ = receiver; }
+  /// Bytes that have come by `at` have been given to the receiver.
+  void settle(Cycle at);
   /// End of the next byte known to be on its way; kNever if none.
   Cycle next_arrival(Cycle at);
   /// Bytes received since power-up.
   std::int64_t received(Cycle at);
 
-  // --- outside -------------------------------------------------------------------------------------------
+  // --- outside
   void connect(std::shared_ptr<UartEnd> end) { end_ = std::move(end); }
   UartEnd* end() const { return end_.get(); }
   /// Null: nobody looks. `number` is told back.
@@ -79,11 +84,10 @@ class Uart {
   bool is_quiet() const {
     return (!end_ || (end_->idle && break_until_ < 0)) && out_ends_.empty() && on_wire_.empty();
   }
-  // --- a chip's own UART on the wire (the register way) ---------------------------------------------------
+  // --- a chip's own UART on the wire (the register way)
   /// Follows the chip's switch and rate; bytes come in at that rate.
   void follow_chip(bool enabled, int brg) {
     enabled_ = enabled;
-    library_ = false;
     brg_ = brg & 0xFFFF;
   }
   /// A byte leaves the chip, its stop bit over at `end`; not before the one before.
@@ -99,7 +103,6 @@ class Uart {
 
  private:
   int waiting(Cycle at) const;
-  void settle(Cycle at);
   void cut_off(Cycle at);
   void hand_out(Cycle at);
 
@@ -109,7 +112,6 @@ class Uart {
   };
 
   bool enabled_ = false;
-  bool library_ = false;
   int brg_ = kUart1Brg;
 
   std::array<Cycle, kUartFifoBytes> starts_{};  // of the last four bytes loaded
@@ -122,10 +124,8 @@ class Uart {
 
   std::deque<Arrival> on_wire_;
   Cycle wire_free_at_ = 0;
-  std::array<std::uint8_t, kUartRingBytes> ring_{};
-  std::uint16_t received_count_ = 0;
-  std::uint16_t read_count_ = 0;
   std::int64_t received_ = 0;
+  UartReceiver* receiver_ = nullptr;
 
   std::shared_ptr<UartEnd> end_;
   UartWatch* watch_ = nullptr;

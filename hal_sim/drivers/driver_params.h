@@ -104,4 +104,7 @@ inline constexpr Cycle kCodecGroupCycles = kCodecGroup * board::kCodecSampleCycl
 inline constexpr Cycle kDciBusyEntryCycles = 65;  // [estimated: 4 entry and exit, 12 saves, 4 samples of 11]
 inline constexpr Cycle kDciIdleIsrCycles = 26;    // [estimated: the same without samples]
 
+// --- serial lines
+inline constexpr int kUartRingBytes = 64;  // receive ring [lib: uart/e_uart1_rx_char.s]
+
 }  // namespace drivers

@@ -14,7 +14,8 @@ Drivers::Drivers(board::Board& board)
       scan_(board),
       basic_prox_(board),
       i2c_master_(board.i2c()),
-      sound_(board.codec()) {
+      sound_(board.codec()),
+      uart_rings_{UartRing(board.uart(1)), UartRing(board.uart(2))} {
   board_.attach(this);
 }
 
@@ -99,6 +100,7 @@ void Drivers::processor_reset(Cycle at) {
   scan_.reset(at);
   basic_prox_.reset(at);
   i2c_master_.processor_reset(at);
+  for (UartRing& ring : uart_rings_) ring.reset();
   requests = Requests{};
 }
 

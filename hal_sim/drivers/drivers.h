@@ -17,6 +17,7 @@
 #include "hal_sim/drivers/i2c_master.h"
 #include "hal_sim/drivers/sound_driver.h"
 #include "hal_sim/drivers/timer_motors.h"
+#include "hal_sim/drivers/uart_ring.h"
 
 namespace drivers {
 
@@ -36,6 +37,7 @@ class Drivers final : public board::PinDriver {
   BasicProx& basic_prox() { return basic_prox_; }
   I2cMaster& i2c_master() { return i2c_master_; }
   SoundDriver& sound() { return sound_; }
+  UartRing& uart_ring(int number) { return uart_rings_[number == 2 ? 1 : 0]; }
 
   /// What the handlers of the scan and of the agenda tick take of each cycle, as a fraction of 2^32.
   std::uint64_t handler_share_q32() const { return scan_.share_q32() + agendas_.share_q32(); }
@@ -80,6 +82,7 @@ class Drivers final : public board::PinDriver {
   BasicProx basic_prox_;
   I2cMaster i2c_master_;
   SoundDriver sound_;
+  std::array<UartRing, 2> uart_rings_;
   mutable Stepper seen_{+1};  // what motor_at() shows of a timer's train
 };
 

@@ -469,7 +469,7 @@ tp_i64 tp_convert(tp_i64 channel) {
 
 void tp_uart_init(tp_i64 number, tp_i64 brg) {
   Context& context = Context::current();
-  context.board().uart(number == 2 ? 2 : 1).init_library(static_cast<int>(brg), context.now());
+  context.drivers().uart_ring(static_cast<int>(number)).init(static_cast<int>(brg), context.now());
   context.note_write();
 }
 
@@ -484,18 +484,16 @@ void tp_uart_load(tp_i64 number, tp_i64 byte) {
 
 tp_i64 tp_uart_unread(tp_i64 number) {
   Context& context = Context::current();
-  board::Uart& uart = context.board().uart(number == 2 ? 2 : 1);
   const Cycle now = context.now();
-  context.lower_horizon(uart.next_arrival(now));
-  return uart.unread(now);
+  context.lower_horizon(context.board().uart(number == 2 ? 2 : 1).next_arrival(now));
+  return context.drivers().uart_ring(static_cast<int>(number)).unread(now);
 }
 
 tp_i64 tp_uart_take(tp_i64 number) {
   Context& context = Context::current();
-  board::Uart& uart = context.board().uart(number == 2 ? 2 : 1);
   const Cycle now = context.now();
-  context.lower_horizon(uart.next_arrival(now));
-  const int byte = uart.take(now);
+  context.lower_horizon(context.board().uart(number == 2 ? 2 : 1).next_arrival(now));
+  const int byte = context.drivers().uart_ring(static_cast<int>(number)).take(now);
   if (byte >= 0) context.note_write();
   return byte;
 }

@@ -18,9 +18,10 @@ constexpr Cycle kMs = 14746;
 
 std::string operator""_b(const char* s, std::size_t n) { return std::string(s, n); }
 
-struct Wired {
+struct Wired final : board::UartReceiver {
   board::RobotClock clock;
   board::Uart uart;
+  std::string bytes;  // heard since heard() was asked last
   MemoryEnd* computer = nullptr;
   std::shared_ptr<BluetoothModule> module;
   Cycle at = 0;
@@ -33,8 +34,10 @@ struct Wired {
     }
     module = std::make_shared<BluetoothModule>(setup, clock, 0, std::move(end));
     uart.connect(module);
-    uart.init_library(7, 0);
+    uart.set_receiver(this);
+    uart.switch_on(7, 0);
   }
+  void take(std::uint8_t byte) override { bytes += static_cast<char>(byte); }
   void say(const std::string& bytes) {
     for (char c : bytes) at = uart.load_when_room(static_cast<std::uint8_t>(c), at);
   }
@@ -42,9 +45,8 @@ struct Wired {
     for (int i = 0; i < ms; ++i) uart.exchange(at += kMs);
   }
   std::string heard() {
-    std::string all;
-    for (int c; (c = uart.take(at)) >= 0;) all += static_cast<char>(c);
-    return all;
+    uart.settle(at);
+    return std::exchange(bytes, "");
   }
 };
 
@@ -94,7 +96,7 @@ TEST(BluetoothModule, a_break_leaves_transparent_mode_and_the_computer_stays) {
   w.say("bb");
   w.uart.send_break(2 * kMs, w.at);  // cuts off what has not left
   w.run_ms(3);
-  w.uart.init_library(7, w.at);
+  w.uart.switch_on(7, w.at);
   EXPECT_EQ(w.computer->text().substr(0, 1), "a");
   w.say("\x02R\x4F\0\0\xA1\x03"_b);
   w.computer->inject("hi", 0);

@@ -242,7 +242,7 @@ TEST(UartPackets, bytes_without_a_pause_arrive_together) {
   auto own = std::make_unique<PacketEnd>();
   PacketEnd* end = own.get();
   uart.connect(std::move(own));
-  uart.init_library(7, 0);
+  uart.switch_on(7, 0);
   Cycle at = 0;
   for (int i = 0; i < 100; ++i) at = uart.load_when_room('x', at);
   for (Cycle tick = 28800; tick <= 6 * 28800; tick += 28800) uart.exchange(tick);
@@ -255,7 +255,7 @@ TEST(UartPackets, a_long_stream_arrives_in_pieces) {
   auto own = std::make_unique<PacketEnd>();
   PacketEnd* end = own.get();
   uart.connect(std::move(own));
-  uart.init_library(7, 0);
+  uart.switch_on(7, 0);
   Cycle at = 0;
   std::size_t total = 0;
   for (int i = 0; i < 1000; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// UART timing, the library's receive ring, and the ends outside.
+// UART timing, and the ends outside.
 #include "hal_sim/board/uart.h"
 
 #include <arpa/inet.h>
@@ -23,15 +23,28 @@ using board::Uart;
 
 constexpr Cycle kByte = 1280;  // 10 bits of 128 cycles at 115,200 baud
 
+struct Heard final : board::UartReceiver {
+  std::string text;
+  void take(std::uint8_t byte) override { text += static_cast<char>(byte); }
+};
+
 struct Wired {
   Uart uart;
   MemoryEnd* end;
-  Wired() : end(new MemoryEnd) { uart.connect(std::unique_ptr<MemoryEnd>(end)); }
+  Heard heard;
+  Wired() : end(new MemoryEnd) {
+    uart.connect(std::unique_ptr<MemoryEnd>(end));
+    uart.set_receiver(&heard);
+  }
+  std::string heard_by(Cycle at) {
+    uart.settle(at);
+    return heard.text;
+  }
 };
 
 TEST(Uart, a_byte_takes_ten_bits_at_115200_baud) {
   Wired w;
-  w.uart.init_library(7, 0);
+  w.uart.switch_on(7, 0);
   EXPECT_EQ(w.uart.byte_cycles(), kByte);
   EXPECT_NEAR(14'745'600.0 / static_cast<double>(w.uart.byte_cycles()), 11520, 1e-9);  // bytes/s
   EXPECT_TRUE(w.uart.load('a', 100));
@@ -44,7 +57,7 @@ TEST(Uart, a_byte_takes_ten_bits_at_115200_baud) {
 
 TEST(Uart, four_bytes_wait_and_a_sixth_is_lost) {
   Wired w;
-  w.uart.init_library(7, 0);
+  w.uart.switch_on(7, 0);
   for (char c : {'a', 'b', 'c', 'd', 'e'}) EXPECT_TRUE(w.uart.load(static_cast<std::uint8_t>(c), 0));
   EXPECT_TRUE(w.uart.buffer_full(0));
   EXPECT_FALSE(w.uart.load('f', 0));
@@ -69,15 +82,15 @@ TEST(Uart, disabled_sends_nothing_and_lets_the_outside_wait) {
   w.end->inject("hi", 0);
   w.uart.exchange(0);
   EXPECT_EQ(w.uart.received(10 * kByte), 0);
-  w.uart.init_library(7, 10 * kByte);
+  w.uart.switch_on(7, 10 * kByte);
   w.uart.exchange(11 * kByte);
-  EXPECT_EQ(w.uart.take(12 * kByte), 'h');
-  EXPECT_EQ(w.uart.take(13 * kByte), 'i');
+  EXPECT_EQ(w.heard_by(12 * kByte), "h");
+  EXPECT_EQ(w.heard_by(13 * kByte), "hi");
 }
 
 TEST(Uart, bytes_on_the_wire_are_lost_on_a_reset_processor) {
   Wired w;
-  w.uart.init_library(7, 0);
+  w.uart.switch_on(7, 0);
   w.end->inject("lost", 0);
   w.uart.exchange(0);
   w.uart.reset(10);
@@ -86,44 +99,28 @@ TEST(Uart, bytes_on_the_wire_are_lost_on_a_reset_processor) {
 
 TEST(Uart, bytes_arrive_one_after_another) {
   Wired w;
-  w.uart.init_library(7, 0);
+  w.uart.switch_on(7, 0);
   w.end->inject("abc", 28800);
   w.uart.exchange(28799);
   EXPECT_EQ(w.uart.next_arrival(28799), board::kNever);
   w.uart.exchange(28800);
   EXPECT_EQ(w.uart.next_arrival(28800), 28800 + kByte);
-  EXPECT_EQ(w.uart.unread(28800 + kByte - 1), 0);
-  EXPECT_EQ(w.uart.unread(28800 + kByte), 1);
-  EXPECT_EQ(w.uart.take(28800 + kByte), 'a');
-  EXPECT_EQ(w.uart.take(28800 + kByte), -1);
-  EXPECT_EQ(w.uart.unread(28800 + 3 * kByte), 2);
-}
-
-// 70 bytes into 64 places: the count says 70, the first six places hold the newest bytes
-TEST(Uart, ring_overwrites_silently) {
-  Wired w;
-  w.uart.init_library(7, 0);
-  std::string bytes;
-  for (int i = 0; i < 70; ++i) bytes += static_cast<char>(i);
-  w.end->inject(bytes, 0);
-  for (Cycle at = 0; at <= 80 * kByte; at += 10 * kByte) w.uart.exchange(at);
-  const Cycle late = 100 * kByte;
-  EXPECT_EQ(w.uart.unread(late), 70);
-  for (int i = 0; i < 70; ++i) EXPECT_EQ(w.uart.take(late), i < 6 ? i + 64 : i < 64 ? i : i);
-  EXPECT_EQ(w.uart.take(late), -1);
+  EXPECT_EQ(w.heard_by(28800 + kByte - 1), "");
+  EXPECT_EQ(w.heard_by(28800 + kByte), "a");
+  EXPECT_EQ(w.heard_by(28800 + 3 * kByte), "abc");
 }
 
 TEST(Uart, other_rates) {
   Uart uart;
-  uart.init_library(0, 0);
+  uart.switch_on(0, 0);
   EXPECT_EQ(uart.byte_cycles(), 160);  // 921,600 baud
-  uart.init_library(3, 0);
+  uart.switch_on(3, 0);
   EXPECT_EQ(uart.byte_cycles(), 640);
 }
 
 TEST(Uart, a_reset_cuts_off_what_has_not_left) {
   Wired w;
-  w.uart.init_library(7, 0);
+  w.uart.switch_on(7, 0);
   for (char c : {'a', 'b', 'c'}) w.uart.load(static_cast<std::uint8_t>(c), 0);
   w.uart.reset(kByte + 10);
   w.uart.exchange(10 * kByte);
@@ -273,14 +270,16 @@ TEST(UartEnd, file_takes_the_output_and_gives_the_input) {
   std::string error;
   {
     Uart uart;
+    Heard heard;
+    uart.set_receiver(&heard);
     auto end = board::open_uart_end("file:" + base + ".out," + base + ".in", "", error);
     ASSERT_TRUE(end) << error;
     uart.connect(std::move(end));
-    uart.init_library(7, 0);
+    uart.switch_on(7, 0);
     uart.load('!', 0);
     uart.exchange(2 * kByte);
-    EXPECT_EQ(uart.take(3 * kByte), 'g');
-    EXPECT_EQ(uart.take(4 * kByte), 'o');
+    uart.settle(4 * kByte);
+    EXPECT_EQ(heard.text, "go");
   }
   std::stringstream text;
   text << std::ifstream(base + ".out").rdbuf();

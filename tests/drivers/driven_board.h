@@ -12,6 +12,7 @@ class DrivenBoard : public board::Board {
   drivers::AgendaTimer& agendas() { return drivers_.agendas(); }
   drivers::TimerMotors& timer_motors() { return drivers_.timer_motors(); }
   drivers::AdcScan& scan() { return drivers_.scan(); }
+  drivers::UartRing& uart_ring(int number) { return drivers_.uart_ring(number); }
   drivers::BasicProx& basic_prox() { return drivers_.basic_prox(); }
   drivers::I2cMaster& i2c_master() { return drivers_.i2c_master(); }
 

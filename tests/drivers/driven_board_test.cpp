@@ -59,7 +59,7 @@ TEST(Board, a_reset_stops_everything_and_keeps_the_wheels) {
   drive(robot, 700, -700, 0);
   robot.latch_bit('A', 6, true, 0);
   robot.scan().start(false, false, 0);
-  robot.uart(1).init_library(7, 0);
+  robot.uart_ring(1).init(7, 0);
   const std::int64_t left = robot.left_steps(kSecond), right = robot.right_steps(kSecond);
   robot.processor_reset(kSecond);
   EXPECT_EQ(robot.leds(kSecond), 0u);
@@ -219,7 +219,7 @@ TEST(Board, equal_programs_give_equal_hashes_and_different_ones_do_not) {
   auto run = [](int speed, bool look) {
     DrivenBoard robot{board::Setup{}};
     drive(robot, speed, 300, 0);
-    robot.uart(1).init_library(7, 0);
+    robot.uart_ring(1).init(7, 0);
     robot.uart(1).load('x', 5);
     if (look)
       for (Cycle at = 0; at < kSecond; at += 12345) {
