@@ -148,7 +148,7 @@ struct ChipParts {
     outlook.reset_due = is_reset_due();
     if (outlook.vector != kNoVector) return outlook;
     outlook.horizon = std::max(
-        now + 1, std::min(events.notice_horizon(interrupts.enabled_mask()), interrupts.next_change(now)));
+        now + 1, std::min(events.notice_horizon(interrupts.enabled_mask()), interrupts.pending_horizon(now)));
     return outlook;
   }
   bool is_reset_due() const { return system.watchdog_bit() || interrupts.reset_due().has_value(); }

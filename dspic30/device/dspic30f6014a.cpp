@@ -167,7 +167,7 @@ Cycle Dspic30f6014a::next_event(Cycle now) {
   ChipParts& p = *parts_;
   p.events.run_to(now);
   const Cycle next =
-      std::min(p.events.notice_horizon(p.interrupts.enabled_mask()), p.interrupts.next_change(now));
+      std::min(p.events.notice_horizon(p.interrupts.enabled_mask()), p.interrupts.pending_horizon(now));
   return next >= kNever ? kNever : std::max(next, now + 1);
 }
 

@@ -139,7 +139,7 @@ void ChangeNotification::schedule(Cycle now) {
   if (enabled_)
     for (int p = 0; p < kPorts; ++p)
       if (const std::uint16_t pins = watched(static_cast<Port>(p)))
-        next = std::min(next, f_.outside.next_change(static_cast<Port>(p), pins, now));
+        next = std::min(next, f_.outside.levels_horizon(static_cast<Port>(p), pins, now));
   f_.events.set(slot_, next);
 }
 

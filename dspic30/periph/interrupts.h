@@ -88,7 +88,7 @@ class Interrupts final : public SfrOwner {
     return now + kInterruptEntryCycles;
   }
   /// Earliest cycle > now at which pending() changes without a new flag.
-  Cycle next_change(Cycle now) const;
+  Cycle pending_horizon(Cycle now) const;
   InterruptEntry enter(int vector, Cycle now);
   Cycle leave(Cycle now);
   /// leave() to the level that the program's stack tells.
@@ -118,7 +118,7 @@ class Interrupts final : public SfrOwner {
   }
   bool wakes() const { return (ifs_ & iec_ & ~at_priority_[0]) != 0; }
   const std::optional<ResetKind>& reset_due() const { return reset_due_; }
-  /// Did anything happen since forget_stir() after which pending() may answer a vector, or next_change()
+  /// Did anything happen since forget_stir() after which pending() may answer a vector, or pending_horizon()
   /// earlier? A flag that falls is no such thing.
   bool stirred() const { return stirred_; }
   void forget_stir() { stirred_ = false; }
@@ -201,7 +201,7 @@ inline int Interrupts::pending(Cycle now, int cpu_level) const {
   return kNoVector;
 }
 
-inline Cycle Interrupts::next_change(Cycle now) const {
+inline Cycle Interrupts::pending_horizon(Cycle now) const {
   Cycle next = kNever;
   const std::uint64_t ready = ifs_ & iec_ & ~at_priority_[0];
   if (!ready) return next;

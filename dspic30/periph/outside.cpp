@@ -29,7 +29,7 @@ void walk(Outside& outside, Pin pin, Edge edge, Cycle after, Each each) {
   bool before = level(after);
   Cycle at = after;
   for (int changes = 0; changes < kMostChanges; ++changes) {
-    const Cycle next = outside.next_change(pin.port, static_cast<std::uint16_t>(1 << pin.bit), at);
+    const Cycle next = outside.levels_horizon(pin.port, static_cast<std::uint16_t>(1 << pin.bit), at);
     if (next >= kNever || next <= at) return;
     at = next;
     const bool now = level(at);

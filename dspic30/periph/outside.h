@@ -3,7 +3,7 @@
 // overrides the two or three functions it needs, the others behave like open pins and an empty bus.
 //
 //   chip tells:   pins_driven, uart_sent, i2c_*, dci_frame_word, spi_word
-//   chip asks:    pin_levels, next_change, edges, nth_edge, analogue_counts
+//   chip asks:    pin_levels, levels_horizon, edges, nth_edge, analogue_counts
 //   outside says: Dspic30f6014a::uart_receive (a word comes in), ::outside_changed (an answer is no longer
 //   true)
 //
@@ -76,8 +76,8 @@ class Outside {
   virtual PinLevels pin_levels(Port port, Cycle at) { return {}; }
   /// First cycle after `after` at which pin_levels(port) may differ in one of `pins`, a bit each; kNever if
   /// they stay. Pixel clocks may be left out when edges() and nth_edge() know them.
-  virtual Cycle next_change(Port port, std::uint16_t pins, Cycle after) { return kNever; }
-  /// Edges of one pin in (after, until]. By default counted with next_change(); override for fast clocks.
+  virtual Cycle levels_horizon(Port port, std::uint16_t pins, Cycle after) { return kNever; }
+  /// Edges of one pin in (after, until]. By default counted with levels_horizon(); override for fast clocks.
   virtual std::int64_t edges(Pin pin, Edge edge, Cycle after, Cycle until);
   /// Instant of the n-th (1 = first) edge after `after`; kNever if it does not come as far as is known.
   virtual Cycle nth_edge(Pin pin, Edge edge, Cycle after, std::int64_t n);

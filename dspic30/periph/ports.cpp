@@ -224,7 +224,7 @@ Cycle Ports::horizon(unsigned address, Cycle now) const {
   const State& s = state(port);
   if (synchronised_ && s.changed >= now) return s.changed + 1;
   if ((s.driven & s.implemented) == s.implemented) return kNever;
-  return f_.outside.next_change(port, 0xFFFF, now);
+  return f_.outside.levels_horizon(port, 0xFFFF, now);
 }
 
 }  // namespace dspic

@@ -227,7 +227,7 @@ Cycle Board::port_horizon(char port, Cycle at) const {
                  : kNever;
     case kF:
       return std::min({driver_ ? driver_->pulses_horizon(at) : kNever, battery_.below(kBatteryLowV, at),
-                       remote_.next_change(at)});
+                       remote_.horizon(at)});
     case kC:
     case kG:
       return driver_ ? driver_->pulses_horizon(at) : kNever;

@@ -48,7 +48,7 @@ bool RemoteReceiver::level_at(sim::Clicks at) const {
   return true;
 }
 
-sim::Clicks RemoteReceiver::next_change(const Press& press, sim::Clicks at) {
+sim::Clicks RemoteReceiver::horizon(const Press& press, sim::Clicks at) {
   const std::int64_t end = press.frames * kRc5FrameHalves;
   std::int64_t half = at < press.start ? -1 : half_at(press, at);
   for (const bool before = carrier(press, half); half < end;)
@@ -56,12 +56,12 @@ sim::Clicks RemoteReceiver::next_change(const Press& press, sim::Clicks at) {
   return kNoClick;
 }
 
-Cycle RemoteReceiver::next_change(Cycle at) const {
+Cycle RemoteReceiver::horizon(Cycle at) const {
   const sim::Clicks from = clock_.click_at(at);
   const bool before = level_at(from);
   for (sim::Clicks now = from;;) {
     sim::Clicks next = kNoClick;
-    for (const Press& press : presses_) next = std::min(next, next_change(press, now));
+    for (const Press& press : presses_) next = std::min(next, horizon(press, now));
     if (next >= kNoClick) return kNever;
     now = next;
     if (level_at(now) == before) continue;  // another key's carrier covers the change
@@ -70,8 +70,8 @@ Cycle RemoteReceiver::next_change(Cycle at) const {
 }
 
 Cycle RemoteReceiver::next_edge(Cycle at, bool falling) const {
-  Cycle change = next_change(at);
-  if (change < kNever && level(change) == falling) change = next_change(change);
+  Cycle change = horizon(at);
+  if (change < kNever && level(change) == falling) change = horizon(change);
   return change;
 }
 

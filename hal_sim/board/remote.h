@@ -37,7 +37,7 @@ class RemoteReceiver {
   /// Level of the pin.
   bool level(Cycle at) const { return level_at(clock_.click_at(at)); }
   /// First cycle after `at` at which the level changes; kNever if it does not.
-  Cycle next_change(Cycle at) const;
+  Cycle horizon(Cycle at) const;
   /// First cycle after `at` at which the level falls (or rises); kNever if it does not.
   Cycle next_edge(Cycle at, bool falling) const;
 
@@ -49,7 +49,7 @@ class RemoteReceiver {
   };
   static bool carrier(const Press& press, std::int64_t half);
   static std::int64_t half_at(const Press& press, sim::Clicks at);
-  static sim::Clicks next_change(const Press& press, sim::Clicks at);
+  static sim::Clicks horizon(const Press& press, sim::Clicks at);
   bool level_at(sim::Clicks at) const;
 
   const RobotClock& clock_;

@@ -150,14 +150,14 @@ dspic::PinLevels BoardOutside::pin_levels(Port port, Cycle at) {
   }
 }
 
-Cycle BoardOutside::next_change(Port port, std::uint16_t pins, Cycle after) {
+Cycle BoardOutside::levels_horizon(Port port, std::uint16_t pins, Cycle after) {
   switch (port) {
     case Port::C:
-      return camera_.next_change(pins, after);
+      return camera_.horizon(pins, after);
     case Port::D:
       return pins & board::kCameraData ? camera_.next_byte(after) : dspic::kNever;
     case Port::F:
-      return std::min(board_.battery().below(board::kBatteryLowV, after), board_.remote().next_change(after));
+      return std::min(board_.battery().below(board::kBatteryLowV, after), board_.remote().horizon(after));
     default:
       return dspic::kNever;
   }

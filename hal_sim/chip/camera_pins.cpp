@@ -84,7 +84,7 @@ Cycle CameraPins::nth_edge(int bit, bool rising, Cycle after, std::int64_t n) {
   return instant(bit, rising, count(bit, rising, after) + n - 1);
 }
 
-Cycle CameraPins::next_change(std::uint16_t pins, Cycle after) {
+Cycle CameraPins::horizon(std::uint16_t pins, Cycle after) {
   Cycle next = board::kNever;
   for (const int bit : {Href, Vsync, Pclk})
     if (pins >> bit & 1)

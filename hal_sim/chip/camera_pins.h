@@ -34,7 +34,7 @@ class CameraPins {
   /// Byte on the data pins.
   std::uint8_t data(Cycle at);
   /// First change of HREF or VSYNC after `after`, or of the pixel clock; kNever without a camera.
-  Cycle next_change(std::uint16_t pins, Cycle after);
+  Cycle horizon(std::uint16_t pins, Cycle after);
   Cycle next_byte(Cycle after);
   std::int64_t edges(int bit, bool rising, Cycle after, Cycle until);
   Cycle nth_edge(int bit, bool rising, Cycle after, std::int64_t n);

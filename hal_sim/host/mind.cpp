@@ -38,7 +38,7 @@ Cycle FirmwareMind::now() const {
 void FirmwareMind::run_until(const sim::Scene& scene, sim::Clicks end) {
   board_.look_at(&scene);
   const Cycle start = now();
-  if (start >= board_quiet_until_) board_.exchange(start);
+  if (start >= board_horizon_) board_.exchange(start);
   now_ = cycle_at(end);
   if (!runner_) return set_idle_until(find_idle_until());
   runner_->begin_window(start);
@@ -52,8 +52,8 @@ void FirmwareMind::run_until(const sim::Scene& scene, sim::Clicks end) {
 }
 
 sim::Clicks FirmwareMind::find_idle_until() {
-  board_quiet_until_ = board_.horizon(now_);
-  const Cycle until = std::min(board_quiet_until_, runner_ ? runner_->idle_until() : kNever);
+  board_horizon_ = board_.horizon(now_);
+  const Cycle until = std::min(board_horizon_, runner_ ? runner_->idle_until() : kNever);
   return until >= kNever ? kNever : until <= now_ ? 0 : board_.clock().click_at(until);
 }
 

@@ -34,7 +34,7 @@ class FirmwareMind final : public sim::RobotMind {
 
   /// Something outside has changed: the robot looks at what is new in the next tick.
   void wake() {
-    board_quiet_until_ = 0;
+    board_horizon_ = 0;
     set_idle_until(0);
   }
   /// For changing, too.
@@ -66,7 +66,7 @@ class FirmwareMind final : public sim::RobotMind {
   board::Board board_;
   std::unique_ptr<Runner> runner_;
   Cycle now_ = 0;  // the last end of run_until()
-  Cycle board_quiet_until_ = 0;
+  Cycle board_horizon_ = 0;
   sim::WheelCourse course_;
   std::uint64_t hash_ = 0, turns_ = 0;  // of the robot, when they were made
 };

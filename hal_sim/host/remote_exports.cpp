@@ -12,7 +12,7 @@ tp_i64 tp_remote_level(void) {
   Context& context = Context::current();
   const host::Cycle now = context.now();
   const board::RemoteReceiver& remote = context.board().remote();
-  context.lower_horizon(remote.next_change(now));
+  context.lower_horizon(remote.horizon(now));
   return remote.level(now) ? 1 : 0;
 }
 

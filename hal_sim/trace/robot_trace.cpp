@@ -72,7 +72,7 @@ void RobotTrace::about_to_change(Cycle at) {
 
 void RobotTrace::show_until(Cycle at) {
   sample(last_);
-  for (Cycle t = next_change(last_); t < at; t = next_change(t)) sample(t);
+  for (Cycle t = horizon(last_); t < at; t = horizon(t)) sample(t);
   if (shows_counters_ && at - 1 > last_) sample(at - 1);
   last_ = at;
 }
@@ -141,7 +141,7 @@ std::uint64_t RobotTrace::value_of(const SignalSource& source, Cycle at) {
   return 0;
 }
 
-Cycle RobotTrace::next_change(Cycle at) {
+Cycle RobotTrace::horizon(Cycle at) {
   Cycle next = host::kNever;
   const auto port = [&](char letter) {
     // where a tick of the agendas is late, its own cycle has already passed

@@ -87,7 +87,7 @@ class RobotTrace final : public host::Observer, public board::UartWatch {
   void show_until(host::Cycle at);
   void sample(host::Cycle at);
   std::uint64_t value_of(const SignalSource& source, host::Cycle at);
-  host::Cycle next_change(host::Cycle at);
+  host::Cycle horizon(host::Cycle at);
   void end_callback(host::Cycle at);
   void end_wait();
 

@@ -35,7 +35,7 @@ TEST(Remote, line_is_high_for_ever_when_nobody_presses_anything) {
   RemoteReceiver remote(clock);
   EXPECT_FALSE(remote.in_use());
   EXPECT_TRUE(remote.level(0));
-  EXPECT_EQ(remote.next_change(0), board::kNever);
+  EXPECT_EQ(remote.horizon(0), board::kNever);
 }
 
 // 11, toggle 0, address 00101, key 100011
@@ -45,7 +45,7 @@ TEST(Remote, a_press_is_a_frame_of_fourteen_bits) {
   remote.press({35, 1.0, 0.05, 5});
   EXPECT_EQ(decoded(remote, 1.0), "11000101100011");
   EXPECT_TRUE(remote.level(cycle_of(1.0 + 14.5 * kBitS)));
-  EXPECT_EQ(remote.next_change(cycle_of(1.0 + 14.5 * kBitS)), board::kNever);
+  EXPECT_EQ(remote.horizon(cycle_of(1.0 + 14.5 * kBitS)), board::kNever);
 }
 
 TEST(Remote, first_falling_edge_is_in_the_middle_of_the_first_bit) {
@@ -56,7 +56,7 @@ TEST(Remote, first_falling_edge_is_in_the_middle_of_the_first_bit) {
   EXPECT_NEAR(static_cast<double>(edge) / 14745600, 0.5 + kBitS / 2, 1e-7);
   EXPECT_TRUE(remote.level(edge - 1));
   EXPECT_FALSE(remote.level(edge));
-  EXPECT_EQ(remote.next_change(edge - 1), edge);
+  EXPECT_EQ(remote.horizon(edge - 1), edge);
   // up again at the end of the first bit: the second one begins with silence
   EXPECT_NEAR(static_cast<double>(remote.next_edge(edge, false)) / 14745600, 0.5 + kBitS, 1e-7);
 }
@@ -90,7 +90,7 @@ TEST(Remote, changes_are_seen_at_the_first_cycle_after_them_on_any_clock) {
     RemoteReceiver remote(clock);
     remote.press({0x2A, 0.1, 0.2, 0x15});
     int changes = 0;
-    for (Cycle at = 0; (at = remote.next_change(at)) < board::kNever; ++changes)
+    for (Cycle at = 0; (at = remote.horizon(at)) < board::kNever; ++changes)
       ASSERT_NE(remote.level(at), remote.level(at - 1)) << "change " << changes << ", " << ppb << " ppb";
     EXPECT_GT(changes, 20);
     EXPECT_EQ(changes % 2, 0);  // ends idle, as it began
