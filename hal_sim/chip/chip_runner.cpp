@@ -32,7 +32,7 @@ ChipRunner::ChipRunner(std::string name, std::shared_ptr<const dspic::FirmwareFi
   dspic::Configuration configuration;
   configuration.fosc = static_cast<std::uint16_t>(program_.read(dspic::kConfigurationStart));
   configuration.fwdt = static_cast<std::uint16_t>(program_.read(dspic::kConfigurationStart + 2));
-  configuration.fcy_hz *= clock_factor;
+  configuration.fcy_hz = static_cast<double>(board::kFcyHz) * clock_factor;
   configuration.synchronised_ports = true;
   configuration.program = &program_;
   chip_.power_up(configuration);

@@ -19,7 +19,7 @@ const char* reason_of(dspic::ResetKind kind) {
 }
 
 /// What to do about it; empty where the message says so.
-const char* hint_for(dspic::Cause cause) {
+std::string hint_for(dspic::Cause cause) {
   using dspic::Cause;
   switch (cause) {
     case Cause::UnmodelledBit:
@@ -33,7 +33,8 @@ const char* hint_for(dspic::Cause cause) {
     case Cause::UartFrameError:
       return "compare baud rate, parity and stop bits of both ends";
     case Cause::BaudError:
-      return "UxBRG = FCY / (16 baud) - 1 with FCY = 14745600 Hz: 7 for 115200, 95 for 9600";
+      return "UxBRG = FCY / (16 baud) - 1 with FCY = " + std::to_string(board::kFcyHz) +
+             " Hz: 7 for 115200, 95 for 9600";
     case Cause::MissedInterrupt:
       return "make the handler shorter, raise its priority, or allow nesting (INTCON1.NSTDIS = 0)";
     case Cause::FlagNeverCleared:
