@@ -41,7 +41,6 @@ Decoded not_decoded() {
   Decoded d{};
   d.run = &meet;
   d.cycles = 0;
-  d.stores = true;
   return d;
 }
 
@@ -444,7 +443,12 @@ unsigned Cpu::read_other(unsigned ea, unsigned bits, Cycle t) {
     trap(Trap::AddressError);
     return 0;
   }
+  if (ea - kRamStart < kRamBytes) {
+    round_memory->note_read(ram.data(), ea - kRamStart);
+    return bits == 16 ? load(ea - kRamStart) : ram[ea - kRamStart];
+  }
   if (ea < kDisicnt) {
+    reads_core = true;
     if (const Saved saved = saved_register(ea); saved.word && bits == 16) return this->*saved.word;
     const unsigned word = peek(ea & ~1u, t);
     if (watching) watched_until = std::min(watched_until, horizon(ea & ~1u, t));
@@ -491,6 +495,11 @@ void Cpu::modify_elsewhere(unsigned ea, unsigned keep, unsigned flip, unsigned b
 
 void Cpu::write_elsewhere(unsigned ea, unsigned value, unsigned bits) {
   if (bits == 16 && (ea & 1)) return trap(Trap::AddressError);
+  if (const unsigned i = ea - kRamStart; i < kRamBytes) {
+    round_memory->note_write(ram.data(), i, bits == 16);
+    bits == 16 ? store(i, value) : static_cast<void>(ram[i] = static_cast<std::uint8_t>(value));
+    return;
+  }
   note_effect();
   if (ea < kDisicnt && bits == 16)
     if (const Saved saved = saved_register(ea); saved.word) {

@@ -45,7 +45,6 @@ struct Decoded {
   std::uint8_t psv = 2;     ///< what reading through the PSV window costs
   std::int8_t s_pre = 0, s_post = 0, d_pre = 0, d_post = 0;
   Pointer s_kind = Pointer::Plain, d_kind = Pointer::Plain;
-  bool stores : 1;            ///< may write to data space
   mutable bool is_head : 1;   ///< `run` is translated code that begins here: Cpu::plain()
   mutable std::uint8_t heat;  ///< jumps that came here, modulo 256; then warm()
 };
@@ -166,23 +165,23 @@ class Cpu final : public SfrOwner {
   // --- data space
   unsigned read16(unsigned ea) {
     const unsigned i = ea - kRamStart;
-    if (i < kRamBytes && !(i & 1)) return load(i);
+    if (i < plain_ram() && !(i & 1)) return load(i);
     return read_elsewhere(ea, 16);
   }
   unsigned read8(unsigned ea) {
     const unsigned i = ea - kRamStart;
-    return i < kRamBytes ? ram[i] : read_elsewhere(ea, 8);
+    return i < plain_ram() ? ram[i] : read_elsewhere(ea, 8);
   }
   void write16(unsigned ea, unsigned value) {
     const unsigned i = ea - kRamStart;
-    if (i < kRamBytes && !(i & 1))
+    if (i < plain_ram() && !(i & 1))
       store(i, value);
     else
       write_elsewhere(ea, value, 16);
   }
   void write8(unsigned ea, unsigned value) {
     const unsigned i = ea - kRamStart;
-    if (i < kRamBytes)
+    if (i < plain_ram())
       ram[i] = static_cast<std::uint8_t>(value);
     else
       write_elsewhere(ea, value, 8);
@@ -195,10 +194,10 @@ class Cpu final : public SfrOwner {
   void write(unsigned ea, unsigned value) {
     Byte ? write8(ea, value) : write16(ea, value);
   }
-  /// Is it no RAM, or not to be had?
-  static bool is_elsewhere(unsigned ea, bool byte) {
+  /// Is it no RAM, or not to be had as it is?
+  bool is_elsewhere(unsigned ea, bool byte) const {
     const unsigned i = ea - kRamStart;
-    return i >= kRamBytes || (!byte && (i & 1));
+    return i >= plain_ram() || (!byte && (i & 1));
   }
   /// What stands there becomes (old & keep) ^ flip; as read and write, faster for what handlers change.
   void modify_elsewhere(unsigned ea, unsigned keep, unsigned flip, unsigned bits);
@@ -267,7 +266,9 @@ class Cpu final : public SfrOwner {
   void note_effect() { watched_until = 0; }
   Cycle watched_until = kNever;  ///< what was read since skip_wait() began to look stays as it is until here
   bool watching = false;
-  bool looks_outside = false;  ///< since then a register of a peripheral was read
+  bool looks_outside = false;           ///< since then a register of a peripheral was read
+  bool reads_core = false;              ///< ... or one of the core's, by its address
+  RoundMemory* round_memory = nullptr;  ///< notes accesses to RAM
   KnownWaits known_waits;
   Cycle still_since =
       kNever;  ///< since when nothing that the program looks at can change but by an interrupt
@@ -311,6 +312,14 @@ class Cpu final : public SfrOwner {
   ProgramMemory& program;
 
  private:
+  /// Bytes of RAM that are accessed without further ado: none while somebody notes it.
+  unsigned plain_ram() const {
+#ifdef DSPIC_TRANSLATED
+    return kRamBytes;
+#else
+    return round_memory ? 0 : kRamBytes;
+#endif
+  }
   unsigned load(unsigned i) const {
     std::uint16_t value;
     std::memcpy(&value, &ram[i], 2);
@@ -326,6 +335,7 @@ class Cpu final : public SfrOwner {
   unsigned read_psv(unsigned ea, unsigned bits);
   void find_loop_end();
   void warm(const Decoded* target);
+  __attribute__((noinline)) bool find_wait(KnownWaits::Wait& wait);
 
   struct Head {
     Run plain = nullptr;

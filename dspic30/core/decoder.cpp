@@ -277,35 +277,6 @@ void fill_pointers(Decoded& d, const Row& row, const Fields& f, const Cpu& cpu, 
   if (r.destinations & bit(d.d)) d.d_kind = kind(written, d.d);
 }
 
-bool may_store(const Row& row, const Fields& f, const Registers& r) {
-  switch (row.id) {
-    case Insn::Mov_WREG_f:
-    case Insn::Mov_Wns_f:
-    case Insn::Clr_f:
-    case Insn::Setm_f:
-    case Insn::Bset_f_bit:
-    case Insn::Bclr_f_bit:
-    case Insn::Btg_f_bit:
-    case Insn::Btsts_f_bit:
-    case Insn::Push_f:
-    case Insn::Pop_f:
-    case Insn::Lnk_lit14:
-    case Insn::Call_Expr:
-    case Insn::Call_Wn:
-    case Insn::Rcall_Expr:
-    case Insn::Rcall_Wn:
-      return true;
-    case Insn::Bset_Ws_bit4:
-    case Insn::Bclr_Ws_bit4:
-    case Insn::Btg_Ws_bit4:
-    case Insn::Btsts_Ws_bit4:
-    case Insn::Bsw_Ws_Wb:
-      return f.p != 0;
-    default:
-      return r.destinations != 0 || (row.has(Operand::WregOption) && f.D);
-  }
-}
-
 bool is_skip(Insn id) {
   switch (id) {
     case Insn::Btss_f_bit:
@@ -353,7 +324,6 @@ Decoded decode_word(Cpu& cpu, unsigned address) {
   fill_literal(d, *row, f, word, second);
   d.psv = psv_cycles(row->id);
   d.writes = r.written | r.moved;
-  d.stores = may_store(*row, f, r);
   d.pointers = r.sources | r.offsets;
   d.lead = address >= 2 && (registers_written(cpu.program.read(address - 2)) & d.pointers) ? 1 : 0;
   d.cycles = static_cast<std::uint8_t>(row->cycles + d.lead);

@@ -1,59 +1,111 @@
 // SPDX-License-Identifier: MIT
 #include "dspic30/core/known_waits.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "dspic30/core/cpu.h"
 
 namespace dspic {
 
-CoreState::CoreState(const Cpu& c) {
-  std::memcpy(words.data(), c.w.data(), sizeof c.w);
-  std::memcpy(&words[4], c.shadow.w.data(), sizeof c.shadow.w);
-  const std::uint64_t z = c.z == 0, carry = c.c & 1, ov = c.ov & 0x8000, dc = c.dc & 0x100;
-  words[5] = std::uint64_t{c.n} << 48 | std::uint64_t{c.rcount} << 32 | ov << 16 | dc << 16 | z << 16 |
+namespace {
+
+std::uint64_t four(const std::uint16_t* of) {
+  std::uint64_t all;
+  std::memcpy(&all, of, sizeof all);
+  return all;
+}
+
+// word `i` of the state; a constant where it is called
+__attribute__((always_inline)) inline std::uint64_t state_word(const Cpu& c, std::size_t i) {
+  switch (i) {
+    case 0:
+    case 1:
+    case 2:
+    case 3:
+      return four(&c.w[4 * i]);
+    case 4:
+      return four(c.shadow.w.data());
+    case 5: {
+      const std::uint64_t z = c.z == 0, carry = c.c & 1, ov = c.ov & 0x8000, dc = c.dc & 0x100;
+      return std::uint64_t{c.n} << 48 | std::uint64_t{c.rcount} << 32 | ov << 16 | dc << 16 | z << 16 |
              carry << 17 | c.shadow.flags;
-  words[6] = static_cast<std::uint64_t>(c.acc[0]);
-  words[7] = static_cast<std::uint64_t>(c.acc[1]);
-  words[8] = static_cast<std::uint64_t>(c.loop_depth) << 32 | c.loop.count;
-  words[9] = static_cast<std::uint64_t>(c.oa | c.ob << 1 | c.sa << 2 | c.sb << 3 | c.repeating << 4 |
-                                        c.end_loop << 5);
+    }
+    case 6:
+    case 7:
+      return static_cast<std::uint64_t>(c.acc[i - 6]);
+    case 8:
+      return static_cast<std::uint64_t>(c.loop_depth) << 32 | c.loop.count;
+    case 9:
+      return static_cast<std::uint64_t>(c.oa | c.ob << 1 | c.sa << 2 | c.sb << 3 | c.repeating << 4 |
+                                        c.end_loop << 5 | c.splim_on << 6);
+    default:
+      return std::uint64_t{c.corcon} << 48 | std::uint64_t{c.splim} << 32 | std::uint64_t{c.psvpag} << 16 |
+             c.tblpag;
+  }
 }
 
-std::size_t KnownWaits::place_of(const Decoded* first) {
-  return reinterpret_cast<std::uintptr_t>(first) / sizeof(Decoded) % std::tuple_size_v<decltype(waits_)>;
+}  // namespace
+
+CoreState::CoreState(const Cpu& c) {
+#pragma GCC unroll 11
+  for (std::size_t i = 0; i < words.size(); ++i) words[i] = state_word(c, i);
 }
 
-Cycle KnownWaits::round(const Cpu& cpu, const CoreState& now) const {
-  const Wait& wait = waits_[place_of(cpu.next)];
-  if (wait.first != cpu.next || wait.corcon != cpu.corcon || cpu.loop_end || wait.state != now) return 0;
-  for (std::size_t i = 0; i < wait.words; ++i)
-    if (std::memcmp(&cpu.ram[wait.index[i]], &wait.value[i], 2) != 0) return 0;
-  return wait.took;
-}
-
-// notes what an instruction reads of RAM; false: that is more, or something else, than can be told from it
-bool KnownWaits::Wait::read(const Cpu& cpu, const Decoded* instruction) {
-  const Row* const row = find_row(cpu.program.read(cpu.address_of(instruction)));
-  if (!row || instruction->pointers || instruction->stores || row->id == Insn::Daw_B_Wn) return false;
-  if (!row->has(Operand::File) && !row->has(Operand::FileWord)) return true;
-  const unsigned at = (static_cast<unsigned>(instruction->imm) & ~1u) - Cpu::kRamStart;
-  if (at >= Cpu::kRamBytes || words == kMostWords) return false;
-  index[words] = static_cast<std::uint16_t>(at);
-  std::memcpy(&value[words++], &cpu.ram[at], 2);
+bool CoreState::is_of(const Cpu& c) const {
+#pragma GCC unroll 11
+  for (std::size_t i = 0; i < words.size(); ++i)
+    if (words[i] != state_word(c, i)) return false;
   return true;
 }
 
-void KnownWaits::add(const Cpu& cpu, const Course& course, Cycle took, const CoreState& now) {
-  if (cpu.loop_end) return;
-  Wait wait;
-  wait.first = cpu.next;
-  wait.took = took;
-  wait.corcon = cpu.corcon;
-  wait.state = now;
-  for (std::size_t i = 0; i < course.count; ++i)
-    if (!wait.read(cpu, course.at[i])) return;
-  waits_[place_of(cpu.next)] = wait;
+// --- words of RAM
+
+bool RoundMemory::Words::holds(unsigned at) const {
+  return std::find(place.begin(), place.begin() + static_cast<std::ptrdiff_t>(count), at) !=
+         place.begin() + static_cast<std::ptrdiff_t>(count);
+}
+
+bool RoundMemory::Words::add(const std::uint8_t* ram, unsigned at) {
+  if (count == kMost) return false;
+  place[count] = static_cast<std::uint16_t>(at);
+  std::memcpy(&value[count++], &ram[at], 2);
+  return true;
+}
+
+bool RoundMemory::Words::are_in(const std::uint8_t* ram) const {
+  for (std::size_t i = 0; i < count; ++i)
+    if (std::memcmp(&ram[place[i]], &value[i], 2) != 0) return false;
+  return true;
+}
+
+void RoundMemory::Words::take(const std::uint8_t* ram) {
+  for (std::size_t i = 0; i < count; ++i) std::memcpy(&value[i], &ram[place[i]], 2);
+}
+
+void RoundMemory::Words::put(std::uint8_t* ram) const {
+  for (std::size_t i = 0; i < count; ++i) std::memcpy(&ram[place[i]], &value[i], 2);
+}
+
+// --- waits
+
+std::size_t KnownWaits::place_of(const Decoded* first) {
+  return reinterpret_cast<std::uintptr_t>(first) / sizeof(Decoded) % kMost;
+}
+
+// no DO loop, whose place is not in the state; no modulo addressing
+bool KnownWaits::is_plain(const Cpu& cpu) { return !cpu.loop_end && cpu.modcon == 0; }
+
+const KnownWaits::Wait* KnownWaits::find(const Cpu& cpu) const {
+  const Wait& wait = waits_[place_of(cpu.next)];
+  return wait.first == cpu.next && is_plain(cpu) && wait.memory.are_as_read(cpu.ram.data()) &&
+                 wait.state.is_of(cpu)
+             ? &wait
+             : nullptr;
+}
+
+void KnownWaits::add(const Cpu& cpu, const Wait& wait) {
+  if (is_plain(cpu)) waits_[place_of(wait.first)] = wait;
 }
 
 }  // namespace dspic

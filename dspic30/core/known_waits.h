@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Waits that were proven, for when the program comes back to them from a handler.
 //
-// A round that only reads registers, flash and a few words of RAM at addresses of its instructions does the
-// same again whenever the core's state and these words are as they were. So it need not be run to be known.
-// What reads peripherals, or RAM through pointers, or stores, is no such round: skip_wait() runs it.
+//   round: state of the core, words of RAM that it reads --> the same state, words of RAM that it writes
+//
+// Whenever the state and the words that it reads are as they were, the round will do the same again. So it
+// need not be run to be known; what it writes (a call leaves its return address behind) is put there. Rounds
+// that read registers, of the core or of peripherals, by their addresses are not remembered.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -15,50 +17,80 @@ namespace dspic {
 class Cpu;
 struct Decoded;
 
-/// All that a round may change and that is neither RAM nor a peripheral's, in words that compare quickly.
+/// All that a round may change or depend on and that is neither RAM nor a peripheral's, in words that compare
+/// quickly. Not of DO loops: their places.
 struct CoreState {
   CoreState() = default;
   explicit CoreState(const Cpu& cpu);
-  bool operator==(const CoreState& other) const {
-    // one by one: what has just been stored in halves would be waited for if it were loaded as a whole
-    for (std::size_t i = 0; i < words.size(); ++i)
-      if (words[i] != other.words[i]) return false;
-    return true;
+  /// Is the core in this state?
+  bool is_of(const Cpu& cpu) const;
+  std::array<std::uint64_t, 11> words;
+};
+
+/// Words of RAM that a round reads before it writes them, with what it finds, and those that it writes.
+/// Places are bytes from RAM's start.
+class RoundMemory {
+ public:
+  void clear() {
+    reads_.count = writes_.count = 0;
+    is_whole_ = true;
   }
-  bool operator!=(const CoreState& other) const { return !(*this == other); }
-  std::array<std::uint64_t, 10> words{};
+  void note_read(const std::uint8_t* ram, unsigned place) {
+    if (!writes_.holds(place & ~1u) && !reads_.holds(place & ~1u)) is_whole_ &= reads_.add(ram, place & ~1u);
+  }
+  /// `whole`: a word, else a byte, of whose word the rest stays.
+  void note_write(const std::uint8_t* ram, unsigned place, bool whole) {
+    if (!whole) note_read(ram, place);
+    if (!writes_.holds(place & ~1u)) is_whole_ &= writes_.add(ram, place & ~1u);
+  }
+  /// False: there were too many.
+  bool is_whole() const { return is_whole_; }
+  /// Are words that it reads as they were when it read them?
+  bool are_as_read(const std::uint8_t* ram) const { return reads_.are_in(ram); }
+  /// The round is over: what it wrote is there.
+  void take_written(const std::uint8_t* ram) { writes_.take(ram); }
+  void put_written(std::uint8_t* ram) const { writes_.put(ram); }
+
+ private:
+  static constexpr std::size_t kMost = 24;
+  struct Words {
+    std::size_t count = 0;
+    std::array<std::uint16_t, kMost> place, value;
+    bool holds(unsigned at) const;
+    bool add(const std::uint8_t* ram, unsigned at);
+    bool are_in(const std::uint8_t* ram) const;
+    void take(const std::uint8_t* ram);
+    void put(std::uint8_t* ram) const;
+  };
+  Words reads_, writes_;
+  bool is_whole_ = true;
 };
 
 class KnownWaits {
  public:
-  /// Cycles of a round, if the program goes round from cpu.next on, reading nothing that can change without
-  /// an interrupt; 0: not known. `now`: CoreState(cpu).
-  Cycle round(const Cpu& cpu, const CoreState& now) const;
-  /// The instructions of a round, in their order.
-  struct Course {
-    static constexpr std::size_t kLongest = 40;
-    std::array<const Decoded*, kLongest> at;
-    std::size_t count = 0;
-  };
-  /// A round from cpu.next on has been proven to change nothing. `took`: cycles.
-  void add(const Cpu& cpu, const Course& course, Cycle took, const CoreState& now);
-  void forget() { waits_ = {}; }
-
- private:
-  static constexpr std::size_t kMostWords = 6;
   struct Wait {
     const Decoded* first = nullptr;
     Cycle took = 0;
-    std::size_t words = 0;
-    std::array<std::uint16_t, kMostWords> index{}, value{};  // in RAM, bytes from its start; what was read
-    std::uint16_t corcon = 0;
     CoreState state;
-    bool read(const Cpu& cpu, const Decoded* instruction);
+    RoundMemory memory;
   };
+  /// If the program goes round from cpu.next on, reading nothing that can change without an interrupt; null:
+  /// not known.
+  const Wait* find(const Cpu& cpu) const;
+  /// Proven, with cpu.next at its first instruction.
+  void add(const Cpu& cpu, const Wait& wait);
+  void forget() {
+    for (Wait& wait : waits_) wait.first = nullptr;
+  }
+
+ private:
+  static constexpr std::size_t kMost = 16;
   static std::size_t place_of(const Decoded* first);
+  /// Does a round depend on no more than Wait holds?
+  static bool is_plain(const Cpu& cpu);
 
   // by the instruction that a round is met at: an interrupt comes to any of them
-  std::array<Wait, 16> waits_{};
+  std::array<Wait, kMost> waits_{};
 };
 
 }  // namespace dspic

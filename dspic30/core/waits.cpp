@@ -1,70 +1,79 @@
 // SPDX-License-Identifier: MIT
 // Waits jumped over: a program that goes round without changing anything.
 //
-//   round 1: registers and flags are as they were, and nothing was stored, or else
-//   round 2: they are as they were, and so is RAM  ->  all rounds to come are like it, until what it reads
-//   from peripherals may change. What reads none is remembered (known_waits.h) and need not be run again.
+//   round 1, or else round 2: the core ends as it began, and what was read of RAM is as it was when it was
+//   read  ->  all rounds to come are like it, until what it reads from peripherals may change
 //
-// The second chance is for a wait that an interrupt came into, too: RETFIE leaves the handler's DC behind.
-// A round that writes a register, reads a FIFO, loads a write latch or leads to a trap is no wait. So the
-// course is the same to the cycle as if every round had been run.
+// The second chance is for a wait that an interrupt came into: RETFIE leaves the handler's DC behind. What
+// reads no peripheral is remembered (known_waits.h) and need not be run again. A round that writes a
+// register, reads a FIFO, loads a write latch or leads to a trap is no wait. So the course is the same to the
+// cycle as if every round had been run.
 #include <algorithm>
-#include <array>
-#include <cstring>
 
 #include "dspic30/core/cpu.h"
 
 namespace dspic {
 
+namespace {
+
+constexpr int kLongestRound = 40;  // instructions
+
+}  // namespace
+
 Cycle Cpu::skip_wait() {
-  const Cycle end = deadline, began = now;
-  const CoreState before(*this);
-  KnownWaits::Course course;
-  bool stores = false, is_known = false;
-  Cycle round = known_waits.round(*this, before);
   watched_until = kNever;
-  looks_outside = false;
-  // one round, run; false: it is none, or no wait
+  looks_outside = reads_core = false;
+  const Cycle began = now;
+  const KnownWaits::Wait* wait = known_waits.find(*this);
+  KnownWaits::Wait found;
+  if (!wait && find_wait(found)) wait = &found;
+  still_since = wait && watched_until == kNever && !looks_outside ? std::min(still_since, began) : kNever;
+  if (!wait) return 0;
+  const Cycle rounds = std::max<Cycle>(std::min(deadline, watched_until) - now, 0) / wait->took;
+  if (rounds > 0) wait->memory.put_written(ram.data());
+  now += rounds * wait->took;
+  return rounds * wait->took;
+}
+
+// runs a round or two
+bool Cpu::find_wait(KnownWaits::Wait& wait) {
+  const Cycle end = deadline;
+  // false: it is none, or no wait
   const auto goes_round = [&] {
-    const Decoded* const first = next;
-    const Cycle start = now;
-    for (course.count = 0; course.count < KnownWaits::Course::kLongest && now < deadline;) {
-      at = course.at[course.count++] = next;
-      stores |= at->stores;
+    for (int i = 0; i < kLongestRound && now < deadline; ++i) {
+      at = next;
       const Decoded* following = plain(at)(*this, at);
       now += at->cycles;
       if (at == loop_end) following = loop_back(at, following);
       next = following;
       if (deadline != end || watched_until <= now) return false;
-      round = now - start;
-      if (next == first) return true;
+      if (next == wait.first) return true;
     }
     return false;
   };
-  const auto is_wait = [&] {
-    if (!goes_round()) return false;
-    const CoreState after(*this);
-    if (!stores && before == after) return true;
-    is_known = !stores && known_waits.round(*this, after) == round;
-    if (is_known) return true;
-    if (!stores) return goes_round() && !stores && after == CoreState(*this);
-    const auto memory = ram;
-    return goes_round() && after == CoreState(*this) && memory == ram;
-  };
-  bool is_still = round > 0;
-  if (!is_still) {
+  for (int chances = 2; chances > 0; --chances) {
+    const Cycle start = now;
+    wait.first = next;
+    wait.state = CoreState(*this);
+    wait.memory.clear();
+    round_memory = &wait.memory;
     watching = true;
-    const bool waits = is_wait();
+    const bool is_round = goes_round();
     watching = false;
-    is_still = waits && watched_until == kNever && !looks_outside;
-    if (is_still && !stores && !is_known) known_waits.add(*this, course, round, CoreState(*this));
-    if (!waits) round = 0;
+    round_memory = nullptr;
+    if (!is_round || !wait.memory.is_whole()) return false;
+    wait.took = now - start;
+    if (wait.state.is_of(*this) && wait.memory.are_as_read(ram.data())) {
+      wait.memory.take_written(ram.data());
+      if (watched_until == kNever && !looks_outside && !reads_core) known_waits.add(*this, wait);
+      return true;
+    }
+    if (const KnownWaits::Wait* known = known_waits.find(*this)) {
+      wait = *known;
+      return true;
+    }
   }
-  still_since = is_still ? std::min(still_since, began) : kNever;
-  const Cycle skipped =
-      round > 0 ? std::max<Cycle>((std::min(end, watched_until) - now) / round, 0) * round : 0;
-  now += skipped;
-  return skipped;
+  return false;
 }
 
 }  // namespace dspic
