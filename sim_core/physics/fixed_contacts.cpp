@@ -62,13 +62,18 @@ void Motion::meet_fixed(int robot, const Neighbours& neighbours) {
     velocity = velocity + c.blow_m_s * c.normal + c.rub_m_s * Vec2{-c.normal.y, c.normal.x};
     spin -= turn_per_rub * c.rub_m_s;
   }
-  for (int round = 0; round < kVelocityIterations; ++round) {
+  bool is_settled = false;
+  for (int round = 0; round < kVelocityIterations && !is_settled; ++round) {
+    const Vec2 came = velocity;
+    const double came_spin = spin;
     const double twisted = std::clamp(twist + want.spin_rad_s - spin, -limits.spin_rad_s, limits.spin_rad_s);
+    is_settled = twisted == twist;
     spin += twisted - twist;
     twist = twisted;
     Vec2 pushed = push + want.velocity_m_s - velocity;
     const double size = length(pushed);
     if (size > limits.speed_m_s) pushed = (limits.speed_m_s / size) * pushed;
+    is_settled = is_settled && pushed == push;
     velocity = velocity + pushed - push;
     push = pushed;
     bool is_hit = false;
@@ -80,9 +85,11 @@ void Motion::meet_fixed(int robot, const Neighbours& neighbours) {
       const double rub = std::clamp(c->rub_m_s - sliding / (1 + me.bound_m * turn_per_rub), -most, most);
       velocity = velocity + (rub - c->rub_m_s) * along;
       spin -= turn_per_rub * (rub - c->rub_m_s);
+      is_settled = is_settled && rub == c->rub_m_s;
       c->rub_m_s = rub;
       const double blow = std::max(0.0, c->blow_m_s + c->least_m_s - dot(velocity, c->normal));
       velocity = velocity + (blow - c->blow_m_s) * c->normal;
+      is_settled = is_settled && blow == c->blow_m_s;
       c->blow_m_s = blow;
       is_hit = is_hit || blow > 0;
     }
@@ -90,6 +97,8 @@ void Motion::meet_fixed(int robot, const Neighbours& neighbours) {
       drive_freely(robot, want);  // nothing was met: the closed form holds exactly
       return;
     }
+    // what a round leaves as it found it stays so
+    is_settled = is_settled && velocity == came && spin == came_spin;
   }
   last.end = end_;
   last.count = count;
