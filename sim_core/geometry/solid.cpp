@@ -40,38 +40,81 @@ bool clip_heights(double z, double dz, double z0, double z1, double& near, doubl
 /// How far a point lies outside of a box's nearer side along each axis, m; negative: between the two sides.
 Vec2 outside_of_box(Vec2 p, Vec2 half) { return {std::fabs(p.x) - half.x, std::fabs(p.y) - half.y}; }
 
-/// How fast a direction comes nearer to the side of the box that a coordinate is nearer to.
-double approach(double coordinate, double dir) { return coordinate > 0 ? -dir : dir; }
+/// A side that the fan's point is outside of must come near fast enough along the best ray. Of the axis:
+/// the parts towards the side and along it.
+inline bool is_too_far(double outside, double facing, double along, double half_sin, double half_cos,
+                       double range_m) {
+  if (outside <= 0) return false;
+  if (outside > range_m) return true;
+  const double best = facing >= half_cos ? 1 : facing * half_cos + std::fabs(along) * half_sin;
+  return outside > range_m * best + 1e-12;
+}
 
-/// A level ray: it enters through the last of the sides that it has to cross.
-bool cast_level_box(const Ray& ray, const Placed& what, double& distance_m) {
-  const Vec2 half = what.solid->half_m;
-  const Vec2 from = what.frame.to_local({ray.from.x, ray.from.y});
-  const Vec2 outside = outside_of_box(from, half);
-  const Vec2 dir = what.frame.turn_back({ray.dir.x, ray.dir.y});
+/// A box as a point sees it: mirrored so that the point lies beside or behind its upper and right sides.
+class SeenBox {
+ public:
+  SeenBox(Vec2 point, const Placed& what)
+      : half_(what.solid->half_m), c_(what.frame.c), s_(what.frame.s), from_(what.frame.to_local(point)) {
+    mirror_ = {std::copysign(1.0, from_.x), std::copysign(1.0, from_.y)};
+    from_ = {std::fabs(from_.x), std::fabs(from_.y)};
+    outside_ = {from_.x - half_.x, from_.y - half_.y};
+  }
+
+  /// A level ray enters through the last of the sides that it has to cross.
+  bool let_in(double x, double y, double& distance_m) const {
+    const Vec2 speed = approach(x, y);
+    double near = 0;
+    if (outside_.x > 0) {
+      if (speed.x < kParallel) return false;
+      near = outside_.x / speed.x;
+    }
+    if (outside_.y > 0) {
+      if (speed.y < kParallel) return false;
+      near = std::max(near, outside_.y / speed.y);
+    }
+    if (near >= distance_m) return false;
+    if (near > 0 && (std::fabs(from_.x - near * speed.x) - half_.x > kOnSideM ||
+                     std::fabs(from_.y - near * speed.y) - half_.y > kOnSideM))
+      return false;
+    distance_m = near;
+    return true;
+  }
+  bool is_out_of_sight(Vec2 axis, double half_sin, double half_cos, double range_m) const {
+    const Vec2 facing = approach(axis.x, axis.y);
+    return is_too_far(outside_.x, facing.x, facing.y, half_sin, half_cos, range_m) ||
+           is_too_far(outside_.y, facing.y, facing.x, half_sin, half_cos, range_m);
+  }
+
+ private:
+  /// How fast a direction comes nearer to the two sides.
+  Vec2 approach(double x, double y) const {
+    return {-mirror_.x * (c_ * x + s_ * y), -mirror_.y * (c_ * y - s_ * x)};
+  }
+
+  Vec2 half_;
+  double c_, s_;
+  Vec2 from_, mirror_, outside_;
+};
+
+/// A level ray and a circle around the origin, which lies outside of it if `c`, the square of its distance
+/// less that of the radius, is positive.
+bool enter_circle(Vec2 from, double c, Vec2 dir, double& distance_m) {
   double near = 0;
-  if (outside.x > 0) {
-    const double speed = approach(from.x, dir.x);
-    if (speed < kParallel) return false;
-    near = outside.x / speed;
-    if (near >= distance_m) return false;
+  if (c > 0) {
+    const double a = dot(dir, dir), b = dot(from, dir);
+    if (b >= 0) return false;
+    const double disc = b * b - a * c;
+    if (disc < 0) return false;
+    near = std::max(0.0, (-b - std::sqrt(disc)) / a);
   }
-  if (outside.y > 0) {
-    const double speed = approach(from.y, dir.y);
-    if (speed < kParallel) return false;
-    near = std::max(near, outside.y / speed);
-    if (near >= distance_m) return false;
-  }
-  const double z = ray.from.z - what.z_m;
-  if (z < what.solid->z0_m || z > what.solid->z1_m) return false;
-  if (near > 0) {
-    const Vec2 there = outside_of_box(from + near * dir, half);
-    if (there.x > kOnSideM || there.y > kOnSideM) return false;
-  } else if (distance_m <= 0) {
-    return false;
-  }
+  if (near >= distance_m) return false;
   distance_m = near;
   return true;
+}
+
+bool is_at_height(double z_m, const Placed& what) {
+  const double z = z_m - what.z_m;
+  return z >= what.solid->z0_m && z <= what.solid->z1_m;
 }
 
 bool cast_prism(const Ray& ray, const Placed& what, double& distance_m, Vec3* normal) {
@@ -260,8 +303,10 @@ double Solid::gyration_m2() const {
 bool cast_ray(const Ray& ray, const Placed& what, double& distance_m, Vec3* normal) {
   switch (what.solid->kind) {
     case SolidKind::Prism:
-      if (what.solid->is_box() && !normal && std::fabs(ray.dir.z) < kParallel)
-        return cast_level_box(ray, what, distance_m);
+      if (what.solid->is_box() && !normal && std::fabs(ray.dir.z) < kParallel) {
+        return is_at_height(ray.from.z, what) &&
+               SeenBox({ray.from.x, ray.from.y}, what).let_in(ray.dir.x, ray.dir.y, distance_m);
+      }
       return cast_prism(ray, what, distance_m, normal);
     case SolidKind::Cylinder:
       return cast_cylinder(ray, what, distance_m, normal);
@@ -271,6 +316,55 @@ bool cast_ray(const Ray& ray, const Placed& what, double& distance_m, Vec3* norm
   return false;
 }
 
+namespace {
+
+template <typename Meets>
+bool cast_each(const Fan& fan, double factor, RayEnd* ends, Meets meets) {
+  bool any = false;
+  for (const Vec3& dir : fan.dirs) {
+    if (meets(dir, ends->distance_m)) {
+      ends->factor = factor;
+      any = true;
+    }
+    ++ends;
+  }
+  return any;
+}
+
+__attribute__((noinline)) bool cast_at_any(const Fan& fan, const Placed& what, double factor, RayEnd* ends) {
+  return cast_each(fan, factor, ends, [&](const Vec3& dir, double& distance_m) {
+    return cast_ray({fan.from, dir}, what, distance_m);
+  });
+}
+
+__attribute__((noinline)) bool cast_at_box(const Fan& fan, const Placed& what, double factor, RayEnd* ends) {
+  const SeenBox box({fan.from.x, fan.from.y}, what);
+  if (!fan.is_wide && box.is_out_of_sight(fan.axis, fan.half_sin, fan.half_cos, fan.range_m)) return false;
+  return cast_each(fan, factor, ends,
+                   [&](const Vec3& dir, double& distance_m) { return box.let_in(dir.x, dir.y, distance_m); });
+}
+
+}  // namespace
+
+bool cast_at_other(const Fan& fan, const Placed& what, double factor, RayEnd* ends) {
+  const Solid& solid = *what.solid;
+  const Vec2 point{fan.from.x, fan.from.y};
+  if (!fan.is_wide && out_of_sight(point, fan.axis, fan.half_sin, fan.half_cos, fan.range_m, what))
+    return false;
+  if (!fan.is_level || solid.kind != SolidKind::Cylinder) return cast_at_any(fan, what, factor, ends);
+  const Vec2 from = point - what.frame.at;
+  const double c = dot(from, from) - solid.radius_m * solid.radius_m;
+  return cast_each(fan, factor, ends, [&](const Vec3& dir, double& distance_m) {
+    return enter_circle(from, c, {dir.x, dir.y}, distance_m);
+  });
+}
+
+bool cast_fan(const Fan& fan, const Placed& what, double factor, RayEnd* ends) {
+  if (fan.is_level && !is_at_height(fan.from.z, what)) return false;
+  return fan.is_level && what.solid->is_box() ? cast_at_box(fan, what, factor, ends)
+                                              : cast_at_other(fan, what, factor, ends);
+}
+
 bool out_of_sight(Vec2 from, Vec2 axis, double half_sin, double half_cos, double range_m,
                   const Placed& what) {
   const Vec2 gap = what.frame.at - from;
@@ -278,22 +372,13 @@ bool out_of_sight(Vec2 from, Vec2 axis, double half_sin, double half_cos, double
   if (dot(gap, gap) > (range_m + bound) * (range_m + bound)) return true;
   if (dot(gap, axis) < -bound || std::fabs(cross(axis, gap)) > bound + range_m * half_sin) return true;
   if (what.solid->kind != SolidKind::Prism) return false;
-  // each side that the point is outside of must come near fast enough along the best ray
-  const Vec2 point = what.frame.turn_back(from - what.frame.at);
+  if (what.solid->is_box()) return SeenBox(from, what).is_out_of_sight(axis, half_sin, half_cos, range_m);
+  const Vec2 point = what.frame.to_local(from);
   const Vec2 dir = what.frame.turn_back(axis);
-  const auto is_too_far = [&](double outside, double facing) {
-    if (outside <= 0) return false;
-    if (outside > range_m) return true;
-    const double best =
-        facing >= half_cos ? 1 : facing * half_cos + std::sqrt(std::max(0.0, 1 - facing * facing)) * half_sin;
-    return outside > range_m * best + 1e-12;
-  };
-  if (what.solid->is_box()) {
-    const Vec2 outside = outside_of_box(point, what.solid->half_m);
-    return is_too_far(outside.x, approach(point.x, dir.x)) || is_too_far(outside.y, approach(point.y, dir.y));
-  }
   for (const HalfPlane& side : what.solid->sides)
-    if (is_too_far(dot(side.normal, point) - side.offset_m, -dot(side.normal, dir))) return true;
+    if (is_too_far(dot(side.normal, point) - side.offset_m, -dot(side.normal, dir), cross(side.normal, dir),
+                   half_sin, half_cos, range_m))
+      return true;
   return false;
 }
 

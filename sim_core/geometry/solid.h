@@ -62,6 +62,28 @@ struct Ray {
 /// distance 0.
 bool cast_ray(const Ray& ray, const Placed& what, double& distance_m, Vec3* normal = nullptr);
 
+/// Rays of one sensor: they leave one point and differ little in direction.
+struct Fan {
+  Vec3 from;
+  Vec2 axis;  ///< unit vector in plan, in their middle
+  double half_sin = 0,
+         half_cos = 1;   ///< of the angle in plan that no ray leaves the axis by; used unless is_wide
+  bool is_wide = false;  ///< rays may go anywhere
+  bool is_level = false;
+  double range_m = 0;
+  std::vector<Vec3> dirs;  ///< unit vectors
+};
+
+/// Where a ray of a fan ends, and what the caller has said of the solid that it meets there.
+struct RayEnd {
+  double distance_m;
+  double factor;
+};
+
+/// cast_ray() for each ray of a fan, whose ends are not beyond its range; `factor` for those that meet the
+/// solid. True when one does.
+bool cast_fan(const Fan& fan, const Placed& what, double factor, RayEnd* ends);
+
 /// True when no ray from a point can meet the solid within `range_m`, if it leaves within half_sin/half_cos
 /// (sine and cosine of the half angle) of the axis. Sure when true; when false, cast.
 bool out_of_sight(Vec2 from, Vec2 axis, double half_sin, double half_cos, double range_m, const Placed& what);

@@ -16,30 +16,28 @@
 
 namespace sim {
 
-/// One ray in the robot's frame.
-struct BodyRay {
-  Vec3 dir;
+/// What one ray counts for.
+struct RayShare {
   double weight = 1;
   double slant = 1;  // how much longer the ray is to a flat wall across the axis: 1 / cos(off axis)
   double off_axis_rad = 0;
 };
 
 struct SensorOptics {
+  explicit SensorOptics(const ProximityConfig& c) : config(c), curve(c.table) {}
   ProximityConfig config;
   ResponseCurve curve;
-  Vec3 at_m;
-  Vec3 axis;
-  double half_sin = 0;  // of the half angle around the axis, in plan, that holds every ray
-  double half_cos = 1;
-  bool wide = false;  // rays may go anywhere: no culling by direction
+  Fan fan;  // in the robot's frame
   bool meets_floor = false;
-  std::vector<BodyRay> rays;
-  ProximityResponse nothing;  // the answer where no ray meets anything
+  std::vector<RayShare> rays;  // as in the fan
+  ProximityResponse nothing;   // the answer where no ray meets anything
+  bool sees(const RayEnd& end) const { return end.distance_m < fan.range_m; }
 };
 
 /// Poses that sensors see are of whole quanta, so that the two sensors that a converter samples one right
 /// after the other share them: 0.14 ms, in which the fastest robot drives 18 um.
 constexpr Clicks kPoseQuantum = 2048;  // [assumed: ten times what lies between the two]
+static_assert((kPoseQuantum & (kPoseQuantum - 1)) == 0);
 
 /// What one robot's rays may meet at one instant.
 struct Surroundings {
@@ -79,7 +77,7 @@ const SensorOptics& optics_of(const Scene& scene, int robot, int sensor) {
 
 const Surroundings& surroundings(const Scene& scene, int robot, Clicks at) {
   ProximityOptics::Kept& kept = scene.optics()->around[static_cast<std::size_t>(robot)];
-  at -= at % kPoseQuantum;
+  at &= -kPoseQuantum;
   for (const Surroundings& s : kept.instants)
     if (s.at == at && s.version == scene.version()) return s;
   Surroundings& s = kept.instants[kept.oldest++ % kept.instants.size()];
@@ -89,14 +87,15 @@ const Surroundings& surroundings(const Scene& scene, int robot, Clicks at) {
   s.items.clear();
   const bool is_tilting = scene.layout().ground.has_ramps();
   const double reach = scene.optics()->reach_m[static_cast<std::size_t>(robot)];
-  const Neighbours& near = scene.neighbours();
-  for (const Candidate* c = near.begin(robot); c != near.end(robot); ++c) {
-    Placed placed =
-        c->moving ? scene.placed(c->index, at) : scene.layout().fixed[static_cast<std::size_t>(c->index)];
-    if (is_beyond(s.frame.at, reach, placed)) continue;
-    if (!is_tilting) placed.frame = s.frame.to_local(placed.frame);
-    s.items.push_back({placed, &scene.surface(*c)});
-  }
+  const auto add = [&](const Candidate& c, const Placed& placed) {
+    if (is_beyond(s.frame.at, reach, placed)) return;
+    Surroundings::Item& item = s.items.emplace_back(Surroundings::Item{placed, &scene.surface(c)});
+    if (!is_tilting) item.placed.frame = s.frame.to_local(placed.frame);
+  };
+  const Candidate* const end = scene.neighbours().end(robot);
+  for (const Candidate* c = scene.neighbours().begin(robot); c != end; ++c)
+    c->moving ? add(*c, scene.placed(c->index, at))
+              : add(*c, scene.layout().fixed[static_cast<std::size_t>(c->index)]);
   return s;
 }
 
@@ -106,13 +105,6 @@ double colour_factor(const ProximityConfig& config, const Surface& surface) {
   const double gloss = config.colour_rule == ColourRule::New ? 1 - 0.5 * surface.roughness : 1.0;
   return 0.2 + 0.8 * surface.ir_reflectance * gloss;
 }
-
-/// What each ray of a sensor met.
-struct RayEnd {
-  double distance_m;
-  double factor;
-  bool hit;
-};
 
 /// The robot's frame in space, for worlds with ramps: sensors tilt with their robot.
 struct TiltedFrame {
@@ -134,27 +126,24 @@ struct TiltedFrame {
 bool shoot_over_ramps(const Scene& scene, int robot, const SensorOptics& s, const Surroundings& around,
                       RayEnd* ends) {
   const TiltedFrame frame(scene, robot, around.at);
-  const Vec3 from = frame.to_world(s.at_m);
+  const Vec3 from = frame.to_world(s.fan.from);
   bool any = false;
   for (std::size_t i = 0; i < s.rays.size(); ++i) {
-    RayEnd& end = ends[i] = {s.config.max_range_m(), 1, false};
-    const Ray ray{from, frame.turn(s.rays[i].dir)};
+    RayEnd& end = ends[i] = {s.fan.range_m, 1};
+    const Ray ray{from, frame.turn(s.fan.dirs[i])};
     for (const Surroundings::Item& item : around.items) {
-      if (!cast_ray(ray, item.placed, end.distance_m)) continue;
-      end.factor = colour_factor(s.config, *item.surface);
-      end.hit = true;
+      if (cast_ray(ray, item.placed, end.distance_m)) end.factor = colour_factor(s.config, *item.surface);
     }
     if (ray.dir.z < -1e-9 && from.z < -ray.dir.z * end.distance_m) {
       const double d = -from.z / ray.dir.z;
-      end = {d, colour_factor(s.config, scene.floor({from.x + d * ray.dir.x, from.y + d * ray.dir.y})), true};
+      end = {d, colour_factor(s.config, scene.floor({from.x + d * ray.dir.x, from.y + d * ray.dir.y}))};
     }
     const int ramp = scene.layout().ground.cast(ray, end.distance_m);
     if (ramp >= 0) {
       const Material& material = scene.world().ramps[static_cast<std::size_t>(ramp)].material;
       end.factor = colour_factor(s.config, surface_of(material));
-      end.hit = true;
     }
-    any = any || end.hit;
+    any = any || s.sees(end);
   }
   return any;
 }
@@ -162,27 +151,18 @@ bool shoot_over_ramps(const Scene& scene, int robot, const SensorOptics& s, cons
 /// Fills one end per ray; returns false when none met anything.
 bool shoot(const Scene& scene, int robot, const SensorOptics& s, const Surroundings& around, RayEnd* ends) {
   if (scene.layout().ground.has_ramps()) return shoot_over_ramps(scene, robot, s, around, ends);
-  const double range = s.config.max_range_m();
-  const Vec2 from{s.at_m.x, s.at_m.y}, axis{s.axis.x, s.axis.y};
-  const std::size_t rays = s.rays.size();
-  for (std::size_t i = 0; i < rays; ++i) ends[i] = {range, 1, false};
+  for (std::size_t i = 0; i < s.rays.size(); ++i) ends[i] = {s.fan.range_m, 1};
   bool any = false;
-  for (const Surroundings::Item& item : around.items) {
-    if (!s.wide && out_of_sight(from, axis, s.half_sin, s.half_cos, range, item.placed)) continue;
-    const double factor = colour_factor(s.config, *item.surface);
-    for (std::size_t i = 0; i < rays; ++i) {
-      if (!cast_ray({s.at_m, s.rays[i].dir}, item.placed, ends[i].distance_m)) continue;
-      ends[i].factor = factor;
-      ends[i].hit = any = true;
-    }
-  }
+  for (const Surroundings::Item& item : around.items)
+    any |= cast_fan(s.fan, item.placed, colour_factor(s.config, *item.surface), ends);
   if (!s.meets_floor) return any;
-  for (std::size_t i = 0; i < rays; ++i) {
-    const Vec3& dir = s.rays[i].dir;
-    if (dir.z > -1e-9 || s.at_m.z >= -dir.z * ends[i].distance_m) continue;
-    const double d = -s.at_m.z / dir.z;
-    const Vec2 there = around.frame.to_world(from + d * Vec2{dir.x, dir.y});
-    ends[i] = {d, colour_factor(s.config, scene.floor(there)), true};
+  const Vec3& from = s.fan.from;
+  for (std::size_t i = 0; i < s.rays.size(); ++i) {
+    const Vec3& dir = s.fan.dirs[i];
+    if (dir.z > -1e-9 || from.z >= -dir.z * ends[i].distance_m) continue;
+    const double d = -from.z / dir.z;
+    const Vec2 there = around.frame.to_world(Vec2{from.x, from.y} + d * Vec2{dir.x, dir.y});
+    ends[i] = {d, colour_factor(s.config, scene.floor(there))};
     any = true;
   }
   return any;
@@ -193,18 +173,18 @@ bool shoot(const Scene& scene, int robot, const SensorOptics& s, const Surroundi
 double answer_singly(const SensorOptics& s, const RayEnd* ends) {
   double sum = 0;
   for (std::size_t i = 0; i < s.rays.size(); ++i) {
-    if (!ends[i].hit) continue;
+    if (!s.sees(ends[i])) continue;
     const double d = ends[i].factor == 1 ? ends[i].distance_m : ends[i].distance_m / ends[i].factor;
     sum += s.curve.at(d).value;
     if (s.rays[i].off_axis_rad > 1e-9) continue;
     double slant = 0, slanted = 0;
-    for (const BodyRay& other : s.rays) {
+    for (const RayShare& other : s.rays) {
       if (other.off_axis_rad <= 1e-9) continue;
       if (other.slant != slant) slanted = s.curve.at(d * (slant = other.slant)).value;
       sum -= slanted;
     }
   }
-  return std::clamp(sum, 0.0, s.curve.at(0).value);
+  return std::clamp(sum, 0.0, s.curve.first().value);
 }
 
 /// From the ends of the rays to the table's output.
@@ -231,8 +211,10 @@ ProximityResponse respond(const SensorOptics& s, const RayEnd* ends) {
 constexpr std::size_t kMostRays = 100;  // limit of the world format
 
 std::unique_ptr<SensorOptics> make_sensor(const ProximityConfig& config, const SensorMount& mount) {
-  auto s = std::make_unique<SensorOptics>(
-      SensorOptics{config, ResponseCurve(config.table), mount.at_m, {}, 0, 1, false, false, {}, {}});
+  auto s = std::make_unique<SensorOptics>(config);
+  Fan& fan = s->fan;
+  fan.from = mount.at_m;
+  fan.range_m = config.max_range_m();
   // sensor frame to robot frame: pitch up about the sensor's left axis, then yaw
   const SinCos yaw = sin_cos(mount.yaw_rad), pitch = sin_cos(mount.pitch_rad);
   const auto turn = [&](const Vec3& v) {
@@ -241,24 +223,26 @@ std::unique_ptr<SensorOptics> make_sensor(const ProximityConfig& config, const S
     return Vec3{yaw.c * x - yaw.s * v.y, yaw.s * x + yaw.c * v.y, z};
   };
   // culling works in plan, around the direction in which the sensor looks
-  s->axis = {yaw.c, yaw.s, 0};
+  fan.axis = {yaw.c, yaw.s};
+  fan.is_level = true;
   double widest = 0;
   for (const RayPlan& plan :
        plan_rays(config.rays, config.aperture_rad, config.gaussian_width, config.layout)) {
-    BodyRay ray{turn(plan.dir), plan.weight, 1 / sin_cos(plan.off_axis_rad).c, plan.off_axis_rad};
-    if (std::fabs(ray.dir.z) < 1e-15) ray.dir.z = 0;
-    s->meets_floor = s->meets_floor || -ray.dir.z * config.max_range_m() > mount.at_m.z;
-    const Vec2 plan_dir{ray.dir.x, ray.dir.y};
-    widest = std::max(widest,
-                      std::atan2(std::fabs(cross({yaw.c, yaw.s}, plan_dir)), dot({yaw.c, yaw.s}, plan_dir)));
-    s->rays.push_back(ray);
+    Vec3 dir = turn(plan.dir);
+    if (std::fabs(dir.z) < 1e-15) dir.z = 0;
+    fan.is_level = fan.is_level && dir.z == 0;
+    s->meets_floor = s->meets_floor || -dir.z * fan.range_m > fan.from.z;
+    const Vec2 plan_dir{dir.x, dir.y};
+    widest = std::max(widest, std::atan2(std::fabs(cross(fan.axis, plan_dir)), dot(fan.axis, plan_dir)));
+    fan.dirs.push_back(dir);
+    s->rays.push_back({plan.weight, 1 / sin_cos(plan.off_axis_rad).c, plan.off_axis_rad});
   }
   CHECK(s->rays.size() <= kMostRays, "the world format limits the number of rays");
-  s->wide = widest > 0.45 * kPi;
-  s->half_sin = std::min(1.0, std::sin(widest) + 1e-9);
-  s->half_cos = std::cos(widest) - 1e-9;
+  fan.is_wide = widest > 0.45 * kPi;
+  fan.half_sin = std::min(1.0, std::sin(widest) + 1e-9);
+  fan.half_cos = std::cos(widest) - 1e-9;
   RayEnd ends[kMostRays];
-  for (std::size_t i = 0; i < s->rays.size(); ++i) ends[i] = {config.max_range_m(), 1, false};
+  for (std::size_t i = 0; i < s->rays.size(); ++i) ends[i] = {fan.range_m, 1};
   s->nothing = respond(*s, ends);
   return s;
 }
@@ -320,7 +304,7 @@ ProximityResponse FlatWall::at(double distance_m) const {
   for (std::size_t i = 0; i < sensor_->rays.size(); ++i) {
     const double d = distance_m * sensor_->rays[i].slant;
     const bool hit = d < range;
-    ends[i] = hit ? RayEnd{d, factor_, true} : RayEnd{range, 1, false};
+    ends[i] = hit ? RayEnd{d, factor_} : RayEnd{range, 1};
     any = any || hit;
   }
   return any ? respond(*sensor_, ends) : sensor_->nothing;
@@ -337,16 +321,16 @@ Eye eye_of(const Scene& scene, int robot, int sensor, Clicks at) {
   const WorldDesc& world = scene.world();
   const SensorOptics& s = optics_of(scene, robot, sensor);
   const Frame2& frame = surroundings(scene, robot, at).frame;
-  const Vec2 at_m = frame.to_world({s.at_m.x, s.at_m.y});
+  const Vec2 at_m = frame.to_world({s.fan.from.x, s.fan.from.y});
   const SensorMount& mount = world.model_of(world.robots[static_cast<std::size_t>(robot)])
                                  ->proximity[static_cast<std::size_t>(sensor)];
   const SinCos pitch = sin_cos(mount.pitch_rad);
-  const Vec2 plan_axis = pitch.c * frame.turn({s.axis.x, s.axis.y});
-  Eye eye{{at_m.x, at_m.y, s.at_m.z}, {plan_axis.x, plan_axis.y, pitch.s}};
+  const Vec2 plan_axis = pitch.c * frame.turn(s.fan.axis);
+  Eye eye{{at_m.x, at_m.y, s.fan.from.z}, {plan_axis.x, plan_axis.y, pitch.s}};
   if (scene.layout().ground.has_ramps()) {
     const TiltedFrame tilted(scene, robot, at);
-    eye.from = tilted.to_world(s.at_m);
-    eye.axis = tilted.turn({pitch.c * s.axis.x, pitch.c * s.axis.y, pitch.s});
+    eye.from = tilted.to_world(s.fan.from);
+    eye.axis = tilted.turn({pitch.c * s.fan.axis.x, pitch.c * s.fan.axis.y, pitch.s});
   }
   return eye;
 }
@@ -403,15 +387,15 @@ std::vector<RayTrace> trace_proximity(const Scene& scene, int robot, int sensor,
   RayEnd ends[kMostRays];
   shoot(scene, robot, s, around, ends);
   const TiltedFrame frame(scene, robot, around.at);
-  const Vec3 from = frame.to_world(s.at_m);
+  const Vec3 from = frame.to_world(s.fan.from);
   std::vector<RayTrace> out;
   for (std::size_t i = 0; i < s.rays.size(); ++i) {
-    const Vec3 dir = frame.turn(s.rays[i].dir);
+    const Vec3 dir = frame.turn(s.fan.dirs[i]);
     const double d = ends[i].distance_m;
     out.push_back({from,
                    {from.x + d * dir.x, from.y + d * dir.y, from.z + d * dir.z},
                    d,
-                   ends[i].hit,
+                   s.sees(ends[i]),
                    ends[i].factor,
                    s.rays[i].weight});
   }

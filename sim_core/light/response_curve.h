@@ -11,25 +11,30 @@ namespace sim {
 class ResponseCurve {
  public:
   /// Rows sorted by distance, two or more.
-  explicit ResponseCurve(std::vector<ResponseRow> rows);
+  explicit ResponseCurve(const std::vector<ResponseRow>& rows);
+  ResponseCurve(const ResponseCurve&) = delete;
+  ResponseCurve& operator=(const ResponseCurve&) = delete;
 
   /// Value and relative noise at a distance, m.
   ResponseRow at(double distance_m) const {
-    if (!(distance_m > rows_.front().distance_m)) return rows_.front();
-    if (distance_m >= rows_.back().distance_m) return rows_.back();
-    std::size_t i = first_[static_cast<std::size_t>((distance_m - rows_.front().distance_m) * bins_per_m_)];
-    while (rows_[i + 1].distance_m <= distance_m) ++i;
-    const ResponseRow& a = rows_[i];
-    const ResponseRow& b = rows_[i + 1];
-    const double f = (distance_m - a.distance_m) * per_span_[i];
-    return {distance_m, a.value + f * (b.value - a.value),
-            a.relative_noise + f * (b.relative_noise - a.relative_noise)};
+    if (!(distance_m > first_.distance_m)) return first_;
+    if (distance_m >= last_.distance_m) return last_;
+    const Span* s = bins_[static_cast<int>((distance_m - first_.distance_m) * bins_per_m_)];
+    while (s->end_m <= distance_m) ++s;
+    const double f = (distance_m - s->from.distance_m) * s->per_m;
+    return {distance_m, s->from.value + f * s->value_rise, s->from.relative_noise + f * s->noise_rise};
   }
+  const ResponseRow& first() const { return first_; }
 
  private:
-  std::vector<ResponseRow> rows_;
-  std::vector<std::size_t> first_;  // per bin: the last row that begins at or before it
-  std::vector<double> per_span_;    // per row: 1 / distance to the next
+  /// From one row to the next.
+  struct Span {
+    ResponseRow from;
+    double end_m, per_m, value_rise, noise_rise;
+  };
+  ResponseRow first_, last_;
+  std::vector<Span> spans_;
+  std::vector<const Span*> bins_;  // the last that begins at or before it
   double bins_per_m_ = 0;
 };
 

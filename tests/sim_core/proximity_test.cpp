@@ -272,6 +272,45 @@ TEST(Proximity, beyond_reach_is_only_what_no_ray_can_meet) {
   EXPECT_GT(beyond, points * 8 / 10) << "beside a long wall, too";
 }
 
+// rays that go out together are culled together and have shorter formulas; one by one they end at the same
+// places
+TEST(Proximity, a_fan_ends_where_its_rays_do) {
+  const sim::Solid box = sim::Solid::box(0.3, 0.02, 0, 0.1), prism = sim::Solid::prism(box.outline, 0, 0.1),
+                   post = sim::Solid::cylinder(0.04, 0, 0.1), ball = sim::Solid::ball(0.05);
+  const sim::Frame2 there(sim::Pose2{0.2, -0.1, 0.7});
+  for (const sim::Solid* solid : {&box, &prism, &post, &ball}) {
+    const sim::Placed what{solid, there, 0.01};
+    int met = 0, missed = 0;
+    for (const double rise : {0.0, 0.2})
+      for (double x = 0; x < 0.4; x += 0.023)
+        for (double y = -0.3; y < 0.1; y += 0.029)
+          for (double angle = 0; angle < 6.28; angle += 0.31) {
+            sim::Fan fan{{x, y, 0.03}, {}, std::sin(0.26), std::cos(0.26), false, rise == 0, 0.12, {}};
+            const sim::SinCos axis = sim::sin_cos(angle);
+            fan.axis = {axis.c, axis.s};
+            for (const double aside : {-0.25, 0.0, 0.25}) {
+              const sim::SinCos way = sim::sin_cos(angle + aside);
+              const double level = std::sqrt(1 - rise * rise);
+              fan.dirs.push_back({level * way.c, level * way.s, rise});
+            }
+            sim::RayEnd ends[3] = {{0.12, 1}, {0.12, 1}, {0.05, 1}};
+            const bool any = sim::cast_fan(fan, what, 0.5, ends);
+            bool any_alone = false;
+            for (int i = 0; i < 3; ++i) {
+              double alone = i < 2 ? 0.12 : 0.05;
+              const bool hit = sim::cast_ray({fan.from, fan.dirs[static_cast<std::size_t>(i)]}, what, alone);
+              ASSERT_NEAR(ends[i].distance_m, alone, 1e-12) << x << " " << y << " " << angle << " ray " << i;
+              ASSERT_EQ(ends[i].factor, hit ? 0.5 : 1);
+              any_alone = any_alone || hit;
+              (hit ? met : missed) += 1;
+            }
+            ASSERT_EQ(any, any_alone);
+          }
+    EXPECT_GT(met, 1000);
+    EXPECT_GT(missed, 1000);
+  }
+}
+
 // a box has shorter formulas than other prisms; the same corners as a plain prism are what they must agree
 // with
 TEST(Proximity, a_box_is_the_prism_of_its_corners) {
