@@ -14,6 +14,8 @@ namespace {
 constexpr int kMostCells =
     4'000'000;  // of the grid: a huge empty arena gets larger cells' worth of border instead
 
+constexpr Clicks kLongest = 100'000'000;  // longer than lists last
+
 /// Axis-aligned box of a placed solid in the plane.
 struct Extent {
   double x0, y0, x1, y1;
@@ -30,6 +32,12 @@ Extent extent(const Placed& p) {
     e = {std::min(e.x0, w.x), std::min(e.y0, w.y), std::max(e.x1, w.x), std::max(e.y1, w.y)};
   }
   return e;
+}
+
+/// After a counting sort that moved each cell's end to its beginning: shifts back.
+void restore(std::vector<std::int32_t>& first, std::size_t items) {
+  std::copy(first.begin() + 1, first.end(), first.begin());
+  first.back() = static_cast<std::int32_t>(items);
 }
 
 }  // namespace
@@ -54,33 +62,27 @@ Neighbours::Neighbours(const std::vector<Placed>& fixed, std::vector<double> mov
   while (static_cast<double>(columns_) * rows_ > kMostCells) (columns_ > rows_ ? columns_ : rows_) /= 2;
 
   // counting sort of the fixed solids by every cell their box touches
-  fixed_cells_.assign(static_cast<std::size_t>(columns_) * rows_, {});
-  for (int pass = 0; pass < 2; ++pass) {
-    for (std::size_t i = 0; i < boxes.size(); ++i) {
-      for (int y = cell_y(boxes[i].y0); y <= cell_y(boxes[i].y1); ++y) {
-        for (int x = cell_x(boxes[i].x0); x <= cell_x(boxes[i].x1); ++x) {
-          Cell& cell = fixed_cells_[static_cast<std::size_t>(y) * columns_ + x];
-          if (pass == 1)
-            fixed_items_[static_cast<std::size_t>(cell.first + cell.count)] = static_cast<int>(i);
-          ++cell.count;
-        }
-      }
-    }
-    if (pass == 0) {
-      std::int32_t total = 0;
-      for (Cell& cell : fixed_cells_) {
-        cell.first = total;
-        total += cell.count;
-        cell.count = 0;
-      }
-      fixed_items_.resize(static_cast<std::size_t>(total));
-    }
-  }
-  moving_first_.assign(fixed_cells_.size() + 1, 0);
+  fixed_first_.assign(static_cast<std::size_t>(columns_) * rows_ + 1, 0);
+  const auto each_cell = [&](const Extent& box, auto visit) {
+    for (int y = cell_y(box.y0); y <= cell_y(box.y1); ++y)
+      for (int x = cell_x(box.x0); x <= cell_x(box.x1); ++x)
+        visit(fixed_first_.data() + static_cast<std::size_t>(y) * columns_ + x);
+  };
+  for (const Extent& box : boxes) each_cell(box, [](std::int32_t* first) { ++first[1]; });
+  for (std::size_t c = 1; c < fixed_first_.size(); ++c) fixed_first_[c] += fixed_first_[c - 1];
+  fixed_items_.resize(static_cast<std::size_t>(fixed_first_.back()));
+  // from the last one on, each cell's end is moved to its beginning
+  for (std::size_t i = boxes.size(); i-- > 0;)
+    each_cell(boxes[i], [&](std::int32_t* first) {
+      fixed_items_[static_cast<std::size_t>(--first[1])] = static_cast<int>(i);
+    });
+  restore(fixed_first_, fixed_items_.size());
+  moving_first_.assign(fixed_first_.size(), 0);
   moving_items_.resize(bound_m_.size());
   cell_of_.resize(bound_m_.size());
   place_.resize(bound_m_.size());
   clearance_.assign(static_cast<std::size_t>(robots_), 0.0);
+  alone_for_.assign(static_cast<std::size_t>(robots_), 0);
   first_.assign(static_cast<std::size_t>(robots_) + 1, 0);
 }
 
@@ -92,7 +94,7 @@ int Neighbours::cell_y(double y) const {
   return static_cast<int>(std::clamp((y - y0_) * (1 / kCellM), 0.0, static_cast<double>(rows_ - 1)));
 }
 
-void Neighbours::rebuild(const std::vector<Placed>& moving, double history_m) {
+void Neighbours::rebuild(const std::vector<Placed>& moving, double history_m, double pace_m_s, Clicks at) {
   CHECK(moving.size() == bound_m_.size(), "bodies neither come nor go");
   std::fill(moving_first_.begin(), moving_first_.end(), 0);
   for (std::size_t i = 0; i < moving.size(); ++i) {
@@ -106,11 +108,13 @@ void Neighbours::rebuild(const std::vector<Placed>& moving, double history_m) {
     const std::size_t c = static_cast<std::size_t>(cell_of_[i]);
     moving_items_[static_cast<std::size_t>(--moving_first_[c + 1])] = static_cast<int>(i);
   }
-  // the loop above moved each cell's end to its beginning: shift back
-  for (std::size_t c = 0; c + 1 < moving_first_.size(); ++c) moving_first_[c] = moving_first_[c + 1];
-  moving_first_.back() = static_cast<std::int32_t>(moving.size());
+  restore(moving_first_, moving.size());
 
   list_.clear();
+  far_for_.clear();
+  at_ = at;
+  // less than a click or two, which rounding may take
+  const double clicks_per_m = pace_m_s > 0 ? (kClicksPerSecond - 2) / pace_m_s : 1e18;
   for (int r = 0; r < robots_; ++r) {
     const std::size_t i = static_cast<std::size_t>(r);
     first_[i] = static_cast<std::int32_t>(list_.size());
@@ -119,6 +123,7 @@ void Neighbours::rebuild(const std::vector<Placed>& moving, double history_m) {
     gather(place_[i], reach, list_);
     // drop the robot itself and what is too far after all; measure the clearance on the way
     double clear = reach - own_m;
+    Clicks alone_for = kLongest;
     std::size_t kept = static_cast<std::size_t>(first_[i]);
     for (std::size_t k = kept; k < list_.size(); ++k) {
       const Candidate c = list_[k];
@@ -127,10 +132,16 @@ void Neighbours::rebuild(const std::vector<Placed>& moving, double history_m) {
                                                              : fixed_[static_cast<std::size_t>(c.index)]);
       if (gap > reach) continue;
       clear = std::min(clear, gap - own_m);
+      const double free_m = (c.moving ? 0.5 : 1) * (gap - reach_m_[i]);
+      far_for_.push_back(
+          free_m > 0 ? static_cast<Clicks>(std::min(free_m * clicks_per_m, static_cast<double>(kLongest)))
+                     : 0);
+      alone_for = std::min(alone_for, far_for_.back());
       list_[kept++] = c;
     }
     list_.resize(kept);
     clearance_[i] = clear;
+    alone_for_[i] = alone_for;
   }
   first_.back() = static_cast<std::int32_t>(list_.size());
 }
@@ -140,12 +151,9 @@ void Neighbours::gather(Vec2 point, double radius_m, std::vector<Candidate>& out
   const int fx0 = cell_x(point.x - radius_m), fx1 = cell_x(point.x + radius_m);
   const int fy0 = cell_y(point.y - radius_m), fy1 = cell_y(point.y + radius_m);
   for (int y = fy0; y <= fy1; ++y) {
-    for (int x = fx0; x <= fx1; ++x) {
-      const Cell& cell = fixed_cells_[static_cast<std::size_t>(y) * columns_ + x];
-      for (std::int32_t k = cell.first; k < cell.first + cell.count; ++k) {
-        out.push_back({fixed_items_[static_cast<std::size_t>(k)], false});
-      }
-    }
+    const std::size_t row = static_cast<std::size_t>(y) * columns_;
+    for (std::int32_t k = fixed_first_[row + fx0]; k < fixed_first_[row + fx1 + 1]; ++k)
+      out.push_back({fixed_items_[static_cast<std::size_t>(k)], false});
   }
   // a long wall lies in several cells: keep it once
   if (out.size() - begin > 1 && (fx1 > fx0 || fy1 > fy0)) {

@@ -7,8 +7,10 @@
 // run.
 #pragma once
 #include <cstdint>
+#include <cstdlib>
 #include <vector>
 
+#include "sim_core/base/clock.h"
 #include "sim_core/geometry/solid.h"
 
 namespace sim {
@@ -32,12 +34,22 @@ class Neighbours {
              std::vector<double> reach_m);
 
   /// Bins the moving bodies where they are now and gathers every robot's list. `history_m`: how far any body
-  /// has moved within the poses that readers may still ask for, or may be extrapolated.
-  void rebuild(const std::vector<Placed>& moving, double history_m);
+  /// has moved within the poses that readers may still ask for, or may be extrapolated. They are of `at`; no
+  /// body is, or was in those poses, faster than `pace_m_s`.
+  void rebuild(const std::vector<Placed>& moving, double history_m, double pace_m_s, Clicks at);
 
   /// Distance, m, that robot r had around its bound when the lists were gathered; negative: it may touch
   /// something.
   double clearance_m(int robot) const { return clearance_[static_cast<std::size_t>(robot)]; }
+
+  /// False: so near to the instant of the lists nothing on robot r's comes within the reach of its rays; or
+  /// not this one of them.
+  bool may_see(int robot, Clicks at) const {
+    return std::abs(at - at_) >= alone_for_[static_cast<std::size_t>(robot)];
+  }
+  bool may_see(const Candidate* listed, Clicks at) const {
+    return std::abs(at - at_) >= far_for_[static_cast<std::size_t>(listed - list_.data())];
+  }
 
   const Candidate* begin(int robot) const { return list_.data() + first_[static_cast<std::size_t>(robot)]; }
   const Candidate* end(int robot) const { return list_.data() + first_[static_cast<std::size_t>(robot) + 1]; }
@@ -47,10 +59,6 @@ class Neighbours {
   void gather(Vec2 point, double radius_m, std::vector<Candidate>& out) const;
 
  private:
-  struct Cell {
-    std::int32_t first = 0;
-    std::int32_t count = 0;
-  };
   int cell_x(double x) const;
   int cell_y(double y) const;
 
@@ -61,15 +69,16 @@ class Neighbours {
   std::vector<double> reach_m_;
   double x0_ = 0, y0_ = 0;
   int columns_ = 1, rows_ = 1;
-  std::vector<Cell> fixed_cells_;
+  std::vector<std::int32_t> fixed_first_, moving_first_;  // per cell, one more than cells
   std::vector<std::int32_t> fixed_items_;
-  std::vector<std::int32_t> moving_first_;  // per cell, one more than cells
   std::vector<std::int32_t> moving_items_;
   std::vector<std::int32_t> cell_of_;
   std::vector<Vec2> place_;
   std::vector<double> clearance_;
   std::vector<std::int32_t> first_;
   std::vector<Candidate> list_;
+  Clicks at_ = 0;
+  std::vector<Clicks> alone_for_, far_for_;  // per robot, per entry of the list
 };
 
 }  // namespace sim

@@ -75,9 +75,11 @@ const SensorOptics& optics_of(const Scene& scene, int robot, int sensor) {
   return *optics->sensors[static_cast<std::size_t>(optics->first[r] + sensor)];
 }
 
+constexpr Clicks quantised(Clicks at) { return at & -kPoseQuantum; }
+
 const Surroundings& surroundings(const Scene& scene, int robot, Clicks at) {
   ProximityOptics::Kept& kept = scene.optics()->around[static_cast<std::size_t>(robot)];
-  at &= -kPoseQuantum;
+  at = quantised(at);
   for (const Surroundings& s : kept.instants)
     if (s.at == at && s.version == scene.version()) return s;
   Surroundings& s = kept.instants[kept.oldest++ % kept.instants.size()];
@@ -92,10 +94,12 @@ const Surroundings& surroundings(const Scene& scene, int robot, Clicks at) {
     Surroundings::Item& item = s.items.emplace_back(Surroundings::Item{placed, &scene.surface(c)});
     if (!is_tilting) item.placed.frame = s.frame.to_local(placed.frame);
   };
-  const Candidate* const end = scene.neighbours().end(robot);
-  for (const Candidate* c = scene.neighbours().begin(robot); c != end; ++c)
+  const Neighbours& near = scene.neighbours();
+  for (const Candidate *c = near.begin(robot), *end = near.end(robot); c != end; ++c) {
+    if (!near.may_see(c, at)) continue;
     c->moving ? add(*c, scene.placed(c->index, at))
               : add(*c, scene.layout().fixed[static_cast<std::size_t>(c->index)]);
+  }
   return s;
 }
 
@@ -283,9 +287,8 @@ std::vector<double> optics_reach_m(const ProximityOptics& optics) { return optic
 
 ProximityResponse sense_proximity(const Scene& scene, int robot, int sensor, Clicks at) {
   const SensorOptics& s = optics_of(scene, robot, sensor);
-  const Neighbours& near = scene.neighbours();
   const bool sees_ground = s.meets_floor || scene.layout().ground.has_ramps();
-  if (!sees_ground && near.begin(robot) == near.end(robot)) return s.nothing;
+  if (!sees_ground && !scene.neighbours().may_see(robot, quantised(at))) return s.nothing;
   const Surroundings& around = surroundings(scene, robot, at);
   if (!sees_ground && around.items.empty()) return s.nothing;
   RayEnd ends[kMostRays];

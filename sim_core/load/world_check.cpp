@@ -103,7 +103,7 @@ void check_overlaps(const WorldDesc& world, int only, std::vector<WorldProblem>&
   std::vector<double> bounds;
   for (const Placed& p : layout.moving) bounds.push_back(p.solid->bound_m);
   Neighbours near(layout.fixed, bounds, 0, {});
-  near.rebuild(layout.moving, 0);
+  near.rebuild(layout.moving, 0, 0, 0);
   const auto line_of = [&](std::size_t body) {
     const std::size_t robots = world.robots.size();
     return body < robots ? world.robots[body].line

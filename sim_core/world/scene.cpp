@@ -240,7 +240,7 @@ void Scene::set_proximity_noise(int robot, double scale) {
 void Scene::regather(double pace_m_s) {
   for (int i = 0; i < bodies(); ++i) moving_[static_cast<std::size_t>(i)] = placed(i, now_);
   // readers may ask for poses of the past, and of the tick to come
-  neighbours_->rebuild(moving_, (kHistoryS + 2 * tick_s_) * pace_m_s);
+  neighbours_->rebuild(moving_, (kHistoryS + 2 * tick_s_) * pace_m_s, pace_m_s, now_);
 }
 
 }  // namespace sim

@@ -214,7 +214,7 @@ struct Thrown {
   const sim::BodyState& ball() const { return motion->body(0); }
   void run(double seconds, int hz) {
     for (int tick = 0; tick < seconds * hz; ++tick) {
-      near->rebuild({{&sphere, sim::Frame2(ball().pose), 0}}, 0);
+      near->rebuild({{&sphere, sim::Frame2(ball().pose), 0}}, 0, 0, 0);
       motion->step((tick + 1) * sim::kClicksPerSecond / hz, {}, nullptr, *near);
     }
   }

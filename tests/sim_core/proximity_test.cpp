@@ -311,6 +311,34 @@ TEST(Proximity, a_fan_ends_where_its_rays_do) {
   }
 }
 
+TEST(Proximity, what_is_far_is_left_out_for_as_long_as_it_cannot_come) {
+  // a post of 5 cm, another robot of 3 cm; rays reach 10 cm
+  const sim::Solid post = sim::Solid::cylinder(0.05, 0, 0.1), body = sim::Solid::cylinder(0.03, 0, 0.05);
+  const std::vector<sim::Placed> fixed{{&post, sim::Frame2(sim::Pose2{0.17, 0, 0}), 0}};
+  sim::Neighbours near(fixed, {0.03, 0.03}, 2, {0.1, 0.1});
+  const auto gather = [&](double pace_m_s) {
+    near.rebuild(
+        {{&body, sim::Frame2(sim::Pose2{0, 0, 0}), 0}, {&body, sim::Frame2(sim::Pose2{0, 0.15, 0}), 0}}, 0,
+        pace_m_s, sim::kClicksPerSecond);
+  };
+  const auto at = [](double s) { return sim::kClicksPerSecond + sim::from_seconds(s); };
+  // the post's side is 2 cm beyond reach: 0.2 s at 10 cm/s. The other's is, too, but both may drive: 0.1 s
+  gather(0.1);
+  ASSERT_EQ(near.end(0) - near.begin(0), 2);
+  const sim::Candidate *post_seen = near.begin(0), *robot_seen = post_seen + 1;
+  ASSERT_FALSE(post_seen->moving);
+  for (const double sign : {-1, 1}) {
+    EXPECT_FALSE(near.may_see(post_seen, at(sign * 0.199)));
+    EXPECT_TRUE(near.may_see(post_seen, at(sign * 0.2)));
+    EXPECT_FALSE(near.may_see(robot_seen, at(sign * 0.099)));
+    EXPECT_TRUE(near.may_see(robot_seen, at(sign * 0.1)));
+    EXPECT_FALSE(near.may_see(0, at(sign * 0.099)));
+    EXPECT_TRUE(near.may_see(0, at(sign * 0.1)));
+  }
+  gather(0);
+  EXPECT_FALSE(near.may_see(0, at(5))) << "nobody moves";
+}
+
 // a box has shorter formulas than other prisms; the same corners as a plain prism are what they must agree
 // with
 TEST(Proximity, a_box_is_the_prism_of_its_corners) {
