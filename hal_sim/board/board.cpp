@@ -356,10 +356,6 @@ IrConversion Board::ir_conversion(int sensor, Cycle at, Cycle lit_for) const {
   return c;
 }
 
-bool Board::is_dark() const {
-  return setup_.ambient_noise_counts == 0 && !(scene_ && sim::has_light(*scene_));
-}
-
 int Board::ir_counts(int sensor, Cycle at, Cycle lit_for) const {
   const bool lit = lit_for >= 0;
   if (!lit && is_dark()) return kAdcMax;

@@ -41,6 +41,7 @@
 namespace sim {
 class Scene;
 class SoundField;
+bool has_light(const Scene& scene);
 }  // namespace sim
 
 namespace board {
@@ -234,7 +235,7 @@ class Board {
   /// `lit_for` cycles (negative: off). Noise of this and of the other inputs: noise.h.
   int ir_counts(int sensor, Cycle at, Cycle lit_for) const;
   /// Is every dark sample at the converter's top: no light, no noise?
-  bool is_dark() const;
+  bool is_dark() const { return setup_.ambient_noise_counts == 0 && !is_lit(); }
   /// Counts of microphone 0 right, 1 left, 2 back that is held at `at`: 0 to 4095. Linear, all frequencies
   /// alike.
   int mic_counts(int microphone, Cycle at) const;
@@ -275,6 +276,8 @@ class Board {
 
  private:
   static int port_index(char port);
+  /// Do lamps shine, or ambient light?
+  bool is_lit() const { return scene_ && sim::has_light(*scene_); }
   /// Counts of a microphone without noise.
   double mic_level(int microphone, Cycle at) const;
   void find_sound();

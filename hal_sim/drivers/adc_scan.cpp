@@ -172,7 +172,7 @@ int AdcScan::read(Sample& kept, int sensor, Cycle at, bool lit_sample) {
   if (at < kept.until) return kept.counts;
   if (kept.is_regular && held_since_ < 0) {
     const Cycle turn = pairs_ * kScanPeriod * kScanFrameCycles;
-    const std::int64_t turns = 1 + (at - kept.until) / turn;
+    const std::int64_t turns = 1 + quotient(at - kept.until, turn);
     kept.until += turns * turn;
     keep(kept, sensor, kept.number + turns * pairs_, lit_sample);
     return kept.counts;
@@ -198,12 +198,12 @@ int AdcScan::lit(int sensor, Cycle at) {
 
 AdcScan::Pair AdcScan::pair(int sensor, Cycle at) {
   const std::size_t s = static_cast<std::size_t>(sensor);
-  Pair now{kAdcMax, lit(sensor, at), lit_[s].until};
+  const int lit = this->lit(sensor, at);
   // in darkness, once there is a dark sample, the others are the same
-  if (dark_[s].is_regular && held_since_ < 0 && sensor < kRingSensors && board_.is_dark()) return now;
-  now.dark = dark(sensor, at);
-  now.until = std::min(now.until, dark_[s].until);
-  return now;
+  if (dark_[s].is_regular && held_since_ < 0 && sensor < kRingSensors && board_.is_dark())
+    return {kAdcMax, lit, lit_[s].until};
+  const int dark = this->dark(sensor, at);
+  return {dark, lit, std::min(lit_[s].until, dark_[s].until)};
 }
 
 int AdcScan::peek_dark(int sensor, Cycle at) const {

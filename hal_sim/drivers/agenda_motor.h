@@ -61,9 +61,11 @@ class AgendaMotor {
     disturb();
     speed_ = speed;
     magnitude_ = std::abs(speed);
-    save_period_ = speed == 0 ? 0 : kSpeedUnit / magnitude_;
+    step_ticks_ = speed == 0 ? 0 : kSpeedUnit / magnitude_;
   }
 
+  /// Ticks from step to step that the speed asks for; speed 0: 0.
+  int step_ticks() const { return step_ticks_; }
   bool saves_power() const { return magnitude_ < kPowerSaveBelow; }
 
   /// What the agenda's function does once, at `at`. False: it divided by zero.
@@ -72,7 +74,7 @@ class AgendaMotor {
       stepper.set_coils_only(0);
       phase_on = false;
       if (speed_ == 0) return false;
-      set_cycle(save_period_ - kPowerSaveTicks);
+      set_cycle(step_ticks_ - kPowerSaveTicks);
       return true;
     }
     const int direction = step_direction();
@@ -120,7 +122,7 @@ class AgendaMotor {
     }
     // then all steps up to the last one at once: one every period
     if (!is_at_once) before_first = count.tick - count.counter - (phase_on_is_new() ? 0 : kPowerSaveTicks);
-    const std::int64_t steps = quotient(tick - before_first, period);
+    const std::int64_t steps = board::quotient(tick - before_first, period);
     if (steps > 0) {
       regular_ = kRegularSteps;
       const int direction = step_direction(), turned = direction * forward_;
@@ -145,7 +147,7 @@ class AgendaMotor {
   Cycle period_cycles() const {
     return saves_power() ? kMotorHalfStepCycles + kMotorOffCycles : kMotorStepCycles;
   }
-  std::int64_t full_period() const { return saves_power() ? save_period_ : count.cycle; }
+  std::int64_t full_period() const { return saves_power() ? step_ticks_ : count.cycle; }
 
   /// Does the wheel turn evenly until the next command? From the third step on, when each begins where the
   /// one before ended; from the first one on when it rolled the same way before. (A wheel that starts from
@@ -160,7 +162,7 @@ class AgendaMotor {
   std::int64_t next_step_tick() const {
     if (!count.counts() || speed_ == 0) return -1;
     std::int64_t next = count.tick + count.ticks_to_fire();
-    if (phase_on && saves_power()) next += save_period_ - kPowerSaveTicks;
+    if (phase_on && saves_power()) next += step_ticks_ - kPowerSaveTicks;
     return next;
   }
 
@@ -177,13 +179,8 @@ class AgendaMotor {
   int regular_ = 0;        // steps since the last command
   bool rolls_on_ = false;  // it stepped the same way before that
   int speed_ = 0, magnitude_ = 0;
-  int save_period_ = 0;  // ticks from step to step in power save
+  int step_ticks_ = 0;  // from step to step, as the driver divides
 
-  /// Of numbers that are small nearly always: a short division takes half the time.
-  static std::int64_t quotient(std::int64_t ticks, std::int64_t period) {
-    if (static_cast<std::uint64_t>(ticks) >> 32) return ticks / period;
-    return static_cast<std::uint32_t>(ticks) / static_cast<std::uint32_t>(period);
-  }
   /// In a regular rhythm: was the last firing a step (true) or the coils' switching off?
   bool phase_on_is_new() const { return !saves_power() || phase_on; }
   void count_idle(std::int64_t tick) {

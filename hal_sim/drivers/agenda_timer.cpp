@@ -246,7 +246,7 @@ void AgendaTimer::set_speed(Wheel wheel, int speed, Cycle at) {
   note(static_cast<std::uint64_t>(speed) << 1 | static_cast<std::uint64_t>(wheel), at);
   m.set_speed(std::clamp(speed, -kMaxSpeed, kMaxSpeed));
   if (speed != 0 && first_speed_ < 0) first_speed_ = at;
-  if (has_node_[static_cast<int>(wheel)]) m.set_cycle(m.speed() == 0 ? 0 : kSpeedUnit / std::abs(m.speed()));
+  if (has_node_[static_cast<int>(wheel)]) m.set_cycle(m.step_ticks());
   shares_known_ &= ~((m.count.counts() == counted ? 0 : kTicks) | 1u << static_cast<unsigned>(wheel));
   // a motor that runs, or stands without a cycle, needs no interrupt
   if (was_handled && !walking_) find_next_fire();
@@ -408,6 +408,11 @@ Cycle AgendaTimer::take_walk_cost() { return std::exchange(walk_cost_, 0); }
 
 std::uint64_t AgendaTimer::share_q32() const {
   if (!running_) return 0;
+  if (shares_known_ != kAllShares) find_shares();
+  return tick_share_q32_ + motor_share_q32_[0] + motor_share_q32_[1];
+}
+
+void AgendaTimer::find_shares() const {
   const auto share = [](Cycle cycles, std::int64_t ticks) {
     return (static_cast<std::uint64_t>(cycles) << 32) / static_cast<std::uint64_t>(ticks * kAgendaTickCycles);
   };
@@ -421,7 +426,6 @@ std::uint64_t AgendaTimer::share_q32() const {
       motor_share_q32_[i] =
           m.count.counts() && m.speed() != 0 ? share(m.period_cycles(), m.full_period()) : 0;
   shares_known_ = kAllShares;
-  return tick_share_q32_ + motor_share_q32_[0] + motor_share_q32_[1];
 }
 
 std::uint64_t AgendaTimer::state_sum(Cycle at) const {

@@ -176,6 +176,7 @@ class AgendaTimer {
   void resume(std::int64_t done, Cycle at);
   void lose(std::int64_t ticks, Cycle at);
   void find_next_fire();
+  void find_shares() const;
 
   TickLine line_;
   bool running_ = false, enabled_ = false;
