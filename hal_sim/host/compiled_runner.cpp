@@ -150,12 +150,12 @@ void CompiledRunner::begin_window(Cycle now) {
 }
 
 void CompiledRunner::run_until(Cycle end) {
+  fiber_.fetch();
   window_start_ = end_;
   end_ = end;
   if (stopped_ || end <= window_start_) return;
   if (asleep_until_ > end && !woken_) return processor_->end_window(end);
   catch_faults_on_this_thread();
-  std::lock_guard<std::mutex> turn(copy_.turn);
   Context* outer = detail::running_here;
   detail::running_here = this;
   ++turns_;
@@ -178,10 +178,10 @@ void CompiledRunner::run_until(Cycle end) {
 Cycle CompiledRunner::main_until(Cycle at) const {
   if (at <= now_) return 0;
   if (stolen_q32_ == 0) return at - now_;
-  // by the reciprocal: at most one too few
-  auto main = static_cast<Cycle>(static_cast<unsigned __int128>(at - now_) * kept_q32_ >> kQ);
+  // by the reciprocal, rounded down: never too many, at most one too few
+  const auto left = static_cast<std::uint64_t>(at - now_);
+  auto main = static_cast<Cycle>(static_cast<unsigned __int128>(left) * kept_q32_ >> kQ);
   while (after(main + 1) <= at) ++main;
-  while (main > 0 && after(main) > at) --main;
   return main;
 }
 

@@ -233,7 +233,8 @@ class CompiledRunner final : public Runner, public Context {
   // with the share that handlers take
   Cycle stretched(Cycle main, std::uint64_t& fraction) const {
     if (stolen_q32_ == 0) return main;
-    const unsigned __int128 stolen = static_cast<unsigned __int128>(main) * stolen_q32_ + fraction;
+    const unsigned __int128 stolen =
+        static_cast<unsigned __int128>(static_cast<std::uint64_t>(main)) * stolen_q32_ + fraction;
     fraction = static_cast<std::uint64_t>(stolen) & (kOne - 1);
     return main + static_cast<Cycle>(stolen >> kQ);
   }

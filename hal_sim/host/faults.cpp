@@ -219,6 +219,7 @@ void on_signal(int signal, siginfo_t* info, void* raw) {
 void set_fault_guest(FaultGuest* now) { guest = now; }
 
 void catch_faults_on_this_thread() {
+  if (stacks) return;
   static std::once_flag once;
   std::call_once(once, [] {
     struct sigaction action {};
@@ -230,7 +231,6 @@ void catch_faults_on_this_thread() {
     action.sa_sigaction = on_halt;
     CHECK(sigaction(kHaltSignal, &action, nullptr) == 0, "cannot install a handler");
   });
-  if (stacks) return;
   stacks = std::make_unique<ThreadStacks>();
   stack_t stack{};
   stack.ss_sp = stacks->signal.get();

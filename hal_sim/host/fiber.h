@@ -36,6 +36,13 @@ class Fiber {
   /// Runs the fiber until it yields. Called by the scheduler only.
   void enter();
 
+  /// It is entered soon: the top of its stack comes into the cache meanwhile.
+  void fetch() const {
+    __builtin_prefetch(inside_);
+    __builtin_prefetch(static_cast<const char*>(inside_) + 64);
+    __builtin_prefetch(static_cast<const char*>(inside_) + 128);
+  }
+
   /// Goes back to whoever called enter(). Called on the fiber only (or on a recovery stack standing in for
   /// it).
   void yield();

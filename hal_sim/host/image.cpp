@@ -73,14 +73,14 @@ void ImageCopy::copy_out(char* to) const {
   if (private_bytes_ == 0) return;
   const std::size_t before = static_cast<std::size_t>(image_->hole_begin - image_->data_begin);
   std::memcpy(to, image_->data_begin, before);
-  std::memcpy(to + before, image_->hole_end, private_bytes_ - before);
+  if (before < private_bytes_) std::memcpy(to + before, image_->hole_end, private_bytes_ - before);
 }
 
 void ImageCopy::copy_in(const char* from) const {
   if (private_bytes_ == 0) return;
   const std::size_t before = static_cast<std::size_t>(image_->hole_begin - image_->data_begin);
   std::memcpy(image_->data_begin, from, before);
-  std::memcpy(image_->hole_end, from + before, private_bytes_ - before);
+  if (before < private_bytes_) std::memcpy(image_->hole_end, from + before, private_bytes_ - before);
 }
 
 Image::Image(std::string path, std::string file)

@@ -3,7 +3,6 @@
 // worker thread; robots of one copy share its code and take turns in its data segment.
 #pragma once
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
@@ -14,7 +13,8 @@ namespace host {
 
 class Symbols;
 
-/// One loaded copy. Robots bound to it swap their private data in and out of its data segment.
+/// One loaded copy. Robots bound to it swap their private data in and out of its data segment, so they run on
+/// one thread at a time.
 class ImageCopy {
  public:
   ImageCopy(std::string path, std::unique_ptr<ImageMemory> memory, const tp_image* image);
@@ -42,7 +42,6 @@ class ImageCopy {
   const std::string& path() const { return path_; }
 
   const void* owner = nullptr;  ///< the robot whose data is live; null: start-up values or nobody's
-  std::mutex turn;              ///< held while a robot of this copy runs
 
  private:
   std::string path_;

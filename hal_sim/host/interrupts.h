@@ -46,6 +46,12 @@ class InterruptController {
   /// A source was changed from outside: the cached next due time is wrong now.
   void touch() { next_due_ = kUnknown; }
 
+  /// The handler of this vector begins, and its flag falls.
+  void take(int vector) {
+    source(vector).flag = false;
+    ready_ &= ~(std::uint64_t{1} << vector);
+  }
+
   /// External interrupt 0 rises at the edges of a line: `next_edge` answers the first one after a cycle.
   void watch_int0(std::function<Cycle(Cycle)> next_edge, Cycle now);
   /// The line's future or the polarity has changed.

@@ -50,11 +50,8 @@ Processor::Outlook NativeProcessor::look(Cycle now) {
 }
 
 Processor::Entry NativeProcessor::enter(int vector, Cycle now) {
-  InterruptSource& s = interrupts_.source(vector);
-  if (s.self_clearing) {
-    s.flag = false;
-    interrupts_.touch();
-  }
+  const InterruptSource& s = interrupts_.source(vector);
+  if (s.self_clearing) interrupts_.take(vector);
   outer_levels_.push_back(cpu_level_);
   cpu_level_ = registers_.nesting_disabled() ? 7 : s.priority;
   follow_mask(now);
