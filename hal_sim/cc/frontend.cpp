@@ -26,6 +26,7 @@
 #include "clang/Frontend/TextDiagnosticPrinter.h"
 #include "clang/Lex/PPCallbacks.h"
 #include "clang/Lex/Preprocessor.h"
+#include "field_widths.h"
 #include "forward_calls.h"
 #include "include_finder.h"
 #include "llvm/Support/Host.h"
@@ -97,7 +98,8 @@ class IncludeWatch : public PPCallbacks {
 /// Collects what later stages need from declarations, and mends the one type the widths break.
 class FactConsumer : public ASTConsumer {
  public:
-  FactConsumer(Facts& facts, bool for_chip) : facts_(facts), for_chip_(for_chip) {}
+  FactConsumer(Facts& facts, const Options& options)
+      : facts_(facts), for_chip_(options.chip), cxx_(options.cxx) {}
   void Initialize(ASTContext& context) override {
     context_ = &context;
     if (for_chip_) return;
@@ -111,6 +113,7 @@ class FactConsumer : public ASTConsumer {
   bool HandleTopLevelDecl(DeclGroupRef group) override {
     for (Decl* decl : group) {
       note(decl);
+      if (!cxx_) compute_in_field_widths(decl, *context_);
       if (!for_chip_) narrow_within(decl);
     }
     if (for_chip_) place_variables(*context_);
@@ -177,6 +180,7 @@ class FactConsumer : public ASTConsumer {
 
   Facts& facts_;
   const bool for_chip_;  // whose pointers are as wide as its int
+  const bool cxx_;       // where a bit-field is as wide as its type
   ASTContext* context_ = nullptr;
   std::set<const FunctionDecl*> narrowed_;
 };
@@ -315,7 +319,7 @@ class RobotAction : public EmitLLVMOnlyAction {
   }
   std::unique_ptr<ASTConsumer> CreateASTConsumer(CompilerInstance& ci, StringRef file) override {
     std::vector<std::unique_ptr<ASTConsumer>> all;
-    all.push_back(std::make_unique<FactConsumer>(facts_, options_.chip));
+    all.push_back(std::make_unique<FactConsumer>(facts_, options_));
     all.push_back(EmitLLVMOnlyAction::CreateASTConsumer(ci, file));
     return std::make_unique<MultiplexConsumer>(std::move(all));
   }

@@ -29,6 +29,22 @@ TEST(language, two_hundred_expressions_have_the_robots_values) {
   }
 }
 
+// gcc's rule: `long x : 20` has 20 bits in arithmetic, and becomes a long, signed, beside a long.
+TEST(language, wide_bit_fields_compute_in_their_own_width) {
+  const char* text =
+      "#include <stdio.h>\n"
+      "struct { unsigned long u : 20; long s : 20; unsigned long long w : 40; } x;\n"
+      "volatile long minus3 = -3;\n"
+      "int main(void) { long v[4] = {1, 2, 3, 4}, *p = v + 3; int i = -1;\n"
+      "x.u = 0xFFFFF; x.s = 0x7FFFF; x.w = 0xFFFFFFFFFFull;\n"
+      "printf(\"%ld %ld %ld \", (long)(x.u + 1), (long)(x.s + 1), (long)(x.w * x.w));\n"
+      "printf(\"%ld %d %d \", (long)(x.u / minus3), x.u < -1l, (int)(p - v) + (x.u == i));\n"
+      "x.u /= minus3; i /= x.u; printf(\"%ld %d %ld\", (long)x.u, i, v[x.w + 2]); return 0; }";
+  // x.u = -349525 in 20 bits: 699051, so i = 1048575 / 699051; v[0xFFFFFFFFFF + 2 in 40 bits] is v[1]
+  for (const char* level : {"-O0", "-O1", "-O2"})
+    EXPECT_EQ(run_c(text, level).console, "0 -524288 1 -349525 0 4 699051 1 2") << level;
+}
+
 TEST(language, variable_arguments_have_the_robots_widths) {
   const char* text =
       "#include <stdarg.h>\n#include <stdio.h>\n"
