@@ -12,6 +12,9 @@ constexpr std::uint8_t kUnitsPerWord = 2;
 std::uint32_t long_at(const Section& s, std::size_t at) {
   return s.bytes[at] | s.bytes[at + 1] << 8 | s.bytes[at + 2] << 16 | std::uint32_t(s.bytes[at + 3]) << 24;
 }
+void put_long(Section& s, std::size_t at, std::uint32_t v) {
+  for (std::size_t i = 0; i < 4; ++i) s.bytes[at + i] = std::uint8_t(v >> 8 * i);
+}
 std::uint32_t word_at(const Section& s, std::size_t at) { return s.bytes[at] | s.bytes[at + 1] << 8; }
 
 /// A line table's header says how long the shortest instruction is; its steps count in that.
@@ -34,19 +37,16 @@ void shorten_frames(Section& s) {
 
 /// Lists of [begin, end) are relative to the unit where they were not filled in.
 void halve_lists(Section& s, bool has_expressions) {
-  constexpr std::uint32_t kBase = 0xFFFF;
+  constexpr std::uint32_t kBase = 0xFFFFFFFF;
+  constexpr std::size_t kAddress = 4, kPair = 2 * kAddress;
   std::set<std::uint32_t> filled;
   for (const Relocation& r : s.relocations) filled.insert(r.offset);
-  for (std::size_t at = 0; at + 4 <= s.bytes.size();) {
-    const std::uint32_t begin = word_at(s, at), end = word_at(s, at + 2);
+  for (std::size_t at = 0; at + kPair <= s.bytes.size();) {
+    const std::uint32_t begin = long_at(s, at), end = long_at(s, at + kAddress);
     if (begin != kBase)
-      for (const std::size_t place : {at, at + 2}) {
-        if (filled.count(std::uint32_t(place))) continue;
-        const std::uint32_t half = word_at(s, place) / 2;
-        s.bytes[place] = std::uint8_t(half);
-        s.bytes[place + 1] = std::uint8_t(half >> 8);
-      }
-    at += 4;
+      for (const std::size_t place : {at, at + kAddress})
+        if (!filled.count(std::uint32_t(place))) put_long(s, place, long_at(s, place) / 2);
+    at += kPair;
     const bool is_range = begin != kBase && (begin || end);
     if (is_range && has_expressions && at + 2 <= s.bytes.size()) at += 2 + word_at(s, at);
   }

@@ -21,6 +21,15 @@ DSPICSubtarget::DSPICSubtarget(const Triple& triple, StringRef cpu, StringRef fe
 
 namespace {
 
+/// LLVM writes debugging information with pointers as wide as the machine's layout says, and everything else
+/// by the module's. Program addresses go to 0x18000: 32 bits here, as XC16 has them; C's pointers keep 16.
+std::string layout_for_debugging() {
+  constexpr StringRef kPointers = "p:16:16";
+  return (StringRef(kDspicDataLayout).split(kPointers).first + "p:32:16" +
+          StringRef(kDspicDataLayout).split(kPointers).second)
+      .str();
+}
+
 /// What the loop passes ask about costs.
 class Costs : public BasicTTIImplBase<Costs> {
   friend class BasicTTIImplBase<Costs>;
@@ -58,7 +67,7 @@ DSPICTargetMachine::DSPICTargetMachine(const Target& target, const Triple& tripl
                                        StringRef features, const TargetOptions& options,
                                        Optional<Reloc::Model>, Optional<CodeModel::Model>,
                                        CodeGenOpt::Level level, bool)
-    : LLVMTargetMachine(target, kDspicDataLayout, triple, cpu, features, options, Reloc::Static,
+    : LLVMTargetMachine(target, layout_for_debugging(), triple, cpu, features, options, Reloc::Static,
                         CodeModel::Small, level),
       sections_(create_dspic_sections()),
       subtarget_(triple, cpu, features, *this) {

@@ -25,7 +25,7 @@ namespace {
 class AsmSyntax : public MCAsmInfoELF {
  public:
   AsmSyntax() {
-    CodePointerSize = 2;  // LLVM writes debugging information with pointers as wide as C's
+    CodePointerSize = 4;  // of debugging information; machine.cpp says why
     CalleeSaveStackSlotSize = 2;
     MinInstAlignment = 4;
     MaxInstLength = 8;

@@ -127,6 +127,35 @@ TEST_F(ChipProgram, controllers_source_becomes_an_image_and_drives) {
   EXPECT_NE(of_image.text.find(" 0.1"), std::string::npos) << "it drives some 0.1 m: " << of_image.text;
 }
 
+// program memory goes to 0x18000: debugging information has addresses of 32 bits
+TEST_F(ChipProgram, code_beyond_64k_has_lines_and_locals) {
+  std::string source = "#define TEN(x) x x x x x x x x x x\nvolatile int v;\n", calls;
+  for (int i = 0; i < 11; ++i) {
+    const std::string name = "step" + std::to_string(i);
+    source += "__attribute__((noinline)) int " + name + "(int rounds) {\n  int n, s = 0;\n" +
+              "  __asm__ volatile(TEN(TEN(TEN(\"nop\\n nop\\n nop\\n nop\\n\"))));\n" +
+              "  for (n = 0; n < rounds; n++)\n    s += v;\n  return s;\n}\n";
+    calls += "  v = " + name + "(v + " + std::to_string(i) + ");\n";
+  }
+  std::filesystem::create_directories(folder / "large");
+  file("large/main.c", source + "int main(void) {\n  v = 1;\n" + calls + "  for (;;) ;\n}\n");
+  const std::string elf = (folder / "large.elf").string();
+  const auto built = twinpuck("build '" + (folder / "large").string() + "' --way chip -o '" + elf + "'");
+  ASSERT_EQ(built.exit_code, 0) << built.text;
+  // the last function is the last in memory; its loop is in line 77
+  const auto said =
+      twinpuck("debug maze --for 1 --fw '*=" + elf + "' -x '" +
+               file("commands", "break step10\nc\nprint rounds\nbreak main.c:77\nc\nbt\nprint s\n") + "'");
+  const std::size_t at = said.text.find("breakpoint 1 at 0x01");
+  EXPECT_NE(at, std::string::npos) << said.text;
+  EXPECT_NE(said.text.find("step10() (main.c:75)", at), std::string::npos) << said.text;
+  EXPECT_NE(said.text.find("rounds = 10", at), std::string::npos) << said.text;
+  EXPECT_NE(said.text.find("step10() (main.c:77)\n#1", at), std::string::npos) << said.text;
+  EXPECT_NE(said.text.find("s = ", at), std::string::npos) << said.text;
+  const auto shown = twinpuck("dis '" + elf + "'");
+  EXPECT_NE(shown.text.find("main.c:77"), std::string::npos);
+}
+
 // long enough that handlers and loops run hot
 TEST_F(ChipProgram, translated_code_changes_no_result) {
   const auto digest = [](const std::string& text) { return text.substr(text.find("digest "), 23); };
