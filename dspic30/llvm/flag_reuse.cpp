@@ -119,8 +119,101 @@ class FlagReuse : public MachineFunctionPass {
 };
 char FlagReuse::ID = 0;
 
+// --- longs: SUB and SUBB leave Z set if both words of the result are 0, as CP0 and CPB #0 would
+
+bool sets_z_of_long(unsigned opcode) {
+  switch (opcode) {
+    case DSPIC::ADDCrr:
+    case DSPIC::ADDCri:
+    case DSPIC::ADDCi10:
+    case DSPIC::SUBBrr:
+    case DSPIC::SUBBri:
+    case DSPIC::SUBBi10:
+      return true;
+  }
+  return false;
+}
+
+/// low = ..; high = .. with carry; what does not touch them; CP0 low; CPB high, #0; BRA Z or NZ. Both stand
+/// before the branch then, and the comparison goes. Before blocks are merged: the comparison of the counter
+/// before a loop and the one at its end would become one, in front.
+class LongFlagReuse : public MachineFunctionPass {
+ public:
+  static char ID;
+  LongFlagReuse() : MachineFunctionPass(ID) {}
+  StringRef getPassName() const override { return "dsPIC flag reuse of longs"; }
+  bool runOnMachineFunction(MachineFunction& mf) override {
+    tri_ = mf.getSubtarget().getRegisterInfo();
+    bool changed = false;
+    for (auto& block : mf) {
+      Instructions all;
+      for (MachineInstr& mi : block)
+        if (!mi.isDebugInstr()) all.push_back(&mi);
+      for (size_t i = 1; i < all.size(); ++i)
+        if (all[i]->getOpcode() == DSPIC::CPBri && reuse(all, i)) {
+          changed = true;
+          break;  // a block has one such end
+        }
+    }
+    return changed;
+  }
+
+ private:
+  using Instructions = SmallVector<MachineInstr*, 32>;
+
+  static Register result_of(const MachineInstr* mi) { return mi->getOperand(0).getReg(); }
+
+  bool reuse(const Instructions& all, size_t at) {
+    MachineInstr *compare_high = all[at], *compare_low = all[at - 1];
+    const MachineOperand& with = compare_high->getOperand(1);
+    if (compare_low->getOpcode() != DSPIC::CP0r || !with.isImm() || with.getImm() || !asks_z(*compare_high))
+      return false;
+    const Register low_word = result_of(compare_low), high_word = result_of(compare_high);
+    size_t h = at - 1;
+    while (h > 0 && !all[h - 1]->modifiesRegister(high_word, tri_)) --h;
+    if (h < 2) return false;
+    MachineInstr *high = all[h - 1], *low = all[h - 2];
+    if (!sets_z_of_long(high->getOpcode()) || !sets_n_and_z(low->getOpcode()) || low->mayLoad() ||
+        result_of(high) != high_word || result_of(low) != low_word || low_word == high_word)
+      return false;
+    for (size_t i = h; i < at - 1; ++i)
+      if (touches(*all[i], *low) || touches(*all[i], *high)) return false;
+    for (size_t i = h; i < at - 1; ++i) {  // nobody between asks for their flags
+      if (all[i]->readsRegister(DSPIC::SR, tri_)) return false;
+      if (all[i]->modifiesRegister(DSPIC::SR, tri_)) break;
+    }
+    for (size_t i = h; i < at - 1; ++i)  // what was read there last is read again behind
+      for (const MachineInstr* moved : {low, high})
+        for (const MachineOperand& o : moved->operands())
+          if (o.isReg() && o.getReg()) all[i]->clearRegisterKills(o.getReg(), tri_);
+    low->moveBefore(compare_low);
+    high->moveBefore(compare_low);
+    compare_low->eraseFromParent();
+    compare_high->eraseFromParent();
+    return true;
+  }
+  /// Would it matter which of the two comes first? Flags aside.
+  bool touches(const MachineInstr& other, const MachineInstr& moved) const {
+    for (const MachineOperand& o : moved.operands()) {
+      if (!o.isReg() || !o.getReg() || o.getReg() == DSPIC::SR) continue;
+      if (other.modifiesRegister(o.getReg(), tri_) || (o.isDef() && other.readsRegister(o.getReg(), tri_)))
+        return true;
+    }
+    return false;
+  }
+  bool asks_z(MachineInstr& compare) const {
+    SmallVector<MachineOperand*, 2> conditions;
+    return readers(compare, tri_, conditions) && all_of(conditions, [](const MachineOperand* c) {
+             return c->getImm() == DSPICCC::Z || c->getImm() == DSPICCC::NZ;
+           });
+  }
+  const TargetRegisterInfo* tri_ = nullptr;
+};
+char LongFlagReuse::ID = 0;
+
 }  // namespace
 
 FunctionPass* create_dspic_flag_reuse() { return new FlagReuse; }
+FunctionPass* create_dspic_long_flag_reuse() { return new LongFlagReuse; }
 
 }  // namespace llvm

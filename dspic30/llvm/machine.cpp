@@ -55,6 +55,7 @@ class PassConfig : public TargetPassConfig {
     addPass(create_dspic_selection(getTM<DSPICTargetMachine>(), getOptLevel()));
     return false;
   }
+  void addPostRegAlloc() override { addPass(create_dspic_long_flag_reuse()); }  // before blocks are merged
   void addPreEmitPass() override {
     addPass(create_dspic_flag_reuse());
     if (getOptLevel() > CodeGenOpt::Less) addPass(create_dspic_tail_calls());  // at -O0 every call is seen

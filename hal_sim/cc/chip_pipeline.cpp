@@ -161,6 +161,8 @@ ModulePassManager passes_for(const Options& options) {
   add_tidying(second, true);
   second.addPass(ADCEPass());
   second.addPass(PlainCfgPass());
+  second.addPass(LoopSimplifyPass());
+  second.addPass(CountDownPass());
   m.addPass(createModuleToFunctionPassAdaptor(std::move(second)));
   m.addPass(GlobalDCEPass());
   return m;

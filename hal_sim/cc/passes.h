@@ -58,6 +58,10 @@ void lower_delay_loops(Unit& unit, llvm::FunctionAnalysisManager& analyses);
 struct PlainCfgPass : llvm::PassInfoMixin<PlainCfgPass> {
   llvm::PreservedAnalyses run(llvm::Function& f, llvm::FunctionAnalysisManager& analyses);
 };
+/// Chip: a loop that a long counts does so down to 0.
+struct CountDownPass : llvm::PassInfoMixin<CountDownPass> {
+  llvm::PreservedAnalyses run(llvm::Function& f, llvm::FunctionAnalysisManager& analyses);
+};
 struct Charge {
   llvm::Instruction* before;
   double cycles;

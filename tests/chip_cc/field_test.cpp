@@ -118,8 +118,8 @@ class FieldPrograms {
   int below(int n) { return int(random_() % unsigned(n)); }
   std::string field() { return std::string(".") + "abcdefgh"[below(8)]; }
   Made leaf() {
-    static const Made plain[] = {{"l", 32},  {"ul", 32}, {"q", 64},    {"uq", 64}, {"s", 16},
-                                 {"us", 16}, {"5", 16},  {"(-7)", 16}, {"3u", 16}};
+    static const Made plain[] = {{"l", 32},  {"ul", 32}, {"q", 64},    {"uq", 64},    {"s", 16},
+                                 {"us", 16}, {"5", 16},  {"(-7)", 16}, {"(u32)3", 32}};
     return below(5) < 3 ? Made{"x" + field(), 64} : plain[below(9)];
   }
   Made wide_expression(int depth) {

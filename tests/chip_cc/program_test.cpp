@@ -221,6 +221,56 @@ TEST(ChipPrograms, random_programs_agree_with_the_pc) {
   }
 }
 
+// SUB, SUBB and BRA NZ, 4 cycles: XC16 keeps empty loops at -O0 and -O1, and this is its loop of a long
+// there. Before it cp, cpb, bra (3) or two mov; the last BRA takes 1, RETURN 3.
+TEST(ChipPrograms, long_counts_in_four_cycles_a_round) {
+  const std::string count = "__attribute__((noinline)) ";
+  struct Wait {
+    const char* text;
+    unsigned cycles;  // of 1,000 rounds
+  };
+  for (const Wait& wait :
+       {Wait{"void wait(long n) { long l; for (l = 0; l < 1000; l++) ; }", 2 + 3999 + 3},
+        {"void wait(long n) { long l; for (l = 0; l < n; l++) ; }", 3 + 3999 + 3},
+        {"void wait(unsigned long n) { while (n--) ; }", 3 + 3999 + 3},
+        {"void wait(long n) { long l; for (l = n; l > 0; l--) ; }", 3 + 3999 + 3},
+        {"void wait(long n) { long l; for (l = 0; l < n; l++) __asm__ volatile(\"nop\"); }", 3 + 4999 + 3}}) {
+    ChipProgram program("wait", count + wait.text + "\nvolatile long rounds = 1000;\n" +
+                                    "long bench_run(void) { wait(rounds); return 1; }");
+    ASSERT_TRUE(program.is_whole()) << program.error();
+    dspic::Cycle own = 0;
+    EXPECT_EQ(program.run_counting("wait", own), 1u);
+    EXPECT_EQ(own, wait.cycles) << wait.text;
+  }
+}
+
+// The same counter where there is work, whose index becomes a pointer. A round: mov, add, addc, add #4, sub,
+// subb, bra (2).
+TEST(ChipPrograms, long_counter_of_an_array_is_a_pointer) {
+  const std::string source = R"(
+long v[300], n = 300;
+__attribute__((noinline)) long sum(long *p, long n) { long s = 0, i; for (i = 0; i < n; i++) s += p[i]; return s; }
+__attribute__((noinline)) long last(long *p, long n) { long i; for (i = n - 1; i >= 0; i--) if (p[i] == 7) return i; return -1; }
+__attribute__((noinline)) long read(long n) { long i, s = 0; for (i = 1; i < n; i += 3) s++; return i * 1000 + s; }
+long bench_run(void) {
+  long i;
+  for (i = 0; i < n; i++) v[i] = i;
+  if (sum(v, n) != 44850 || sum(v, 0) != 0 || sum(v, -5) != 0) return 1;
+  if (last(v, n) != 7 || last(v, 7) != -1 || last(v, 0) != -1) return 2;
+  if (read(10) != 10003 || read(11) != 13004 || read(-1) != 1000) return 3;
+  return 0;
+})";
+  for (const char* level : {"-O0", "-O1", "-O2", "-Os"}) {
+    ChipProgram program("longs", source, level);
+    ASSERT_TRUE(program.is_whole()) << program.error();
+    dspic::Cycle own = 0;
+    EXPECT_EQ(program.run_counting("sum", own), 0u) << level;
+    if (level == std::string("-O1")) {
+      EXPECT_EQ(own, 6 + 300 * 8 - 1 + 3 + 2 * (6 + 1 + 3));  // twice without a round: a BRA taken
+    }
+  }
+}
+
 // A copy stood between the two moves that reloaded a pair of registers, and read half of the pair.
 TEST(ChipPrograms, spilled_pair_comes_back_whole) {
   for (const int seed : {100044, 203087, 204600, 204999}) {
