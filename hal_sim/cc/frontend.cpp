@@ -32,6 +32,7 @@
 #include "llvm/Support/Host.h"
 #include "llvm/Support/raw_ostream.h"
 #include "refused.h"
+#include "union_values.h"
 
 namespace cc {
 namespace {
@@ -113,7 +114,10 @@ class FactConsumer : public ASTConsumer {
   bool HandleTopLevelDecl(DeclGroupRef group) override {
     for (Decl* decl : group) {
       note(decl);
-      if (!cxx_) compute_in_field_widths(decl, *context_);
+      if (!cxx_) {
+        compute_in_field_widths(decl, *context_);
+        clear_unions(decl, *context_);
+      }
       if (!for_chip_) narrow_within(decl);
     }
     if (for_chip_) place_variables(*context_);

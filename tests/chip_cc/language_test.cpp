@@ -122,6 +122,39 @@ __attribute__((noinline)) static void dirty(void) { volatile char mud[40]; int i
 __attribute__((noinline)) static long empty(void) { union u x = {}; return x.l; }
 __attribute__((noinline)) static long member(void) { struct s x = {1}; return x.b.l; }
 long bench_run(void) { dirty(); if (empty()) return 1; dirty(); return member() ? 2 : 0; })"},
+    {"the rest of what a value of run time does not fill is cleared", R"(
+union u { char c; long l; };
+union f { unsigned b : 3; int w[3]; };
+struct s { int a; union u b; char d; long e[3]; };
+static volatile int n = 0x7E;
+__attribute__((noinline)) static void dirty(void) { volatile char mud[60]; int i; for (i = 0; i < 60; i++) mud[i] = 0x55; }
+__attribute__((noinline)) static long first(void) { union u x = {n}; return x.l; }
+__attribute__((noinline)) static long named(void) { union u x = {.c = n}; return x.l; }
+__attribute__((noinline)) static long literal(void) { return ((union u){n}).l; }
+__attribute__((noinline)) static int field(void) { union f x = {n}; return x.w[0] == 6 && !x.w[1] && !x.w[2]; }
+__attribute__((noinline)) static long within(void) { struct s x = {n, {n}}; return x.b.l ^ x.d ^ x.e[0] ^ x.e[1] ^ x.e[2]; }
+__attribute__((noinline)) static long constant_within(void) { struct s x = {n, {5}}; return x.b.l; }
+__attribute__((noinline)) static long of_array(void) { union u x[3] = {{1}, {n}}; return x[0].l ^ x[1].l << 8 ^ x[2].l; }
+__attribute__((noinline)) static long again(void) {
+  long sum = 0;
+  int i;
+  for (i = 0; i < 2; i++) { union u x = {n}; sum += x.l; x.l = -1; dirty(); }
+  return sum;
+}
+__attribute__((noinline)) static long rest(void) { struct s x = {n}; return x.b.l | x.d | x.e[0] | x.e[1] | x.e[2]; }
+__attribute__((noinline)) static long of_words(void) { int x[12] = {n, n}; int i; long s = 0; for (i = 2; i < 12; i++) s |= x[i]; return s; }
+long bench_run(void) {
+  dirty(); if (first() != 0x7E) return 1;
+  dirty(); if (named() != 0x7E) return 2;
+  dirty(); if (literal() != 0x7E) return 3;
+  dirty(); if (!field()) return 4;
+  dirty(); if (within() != 0x7E) return 5;
+  dirty(); if (constant_within() != 5) return 6;
+  dirty(); if (of_array() != 0x7E01) return 7;
+  dirty(); if (again() != 0xFC) return 8;
+  dirty(); if (rest() || of_words()) return 9;
+  return 0;
+})"},
     {"64-bit division", R"(
 typedef unsigned long long wide;
 static wide s = 88172645463325252ull;
