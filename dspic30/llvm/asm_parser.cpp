@@ -125,11 +125,9 @@ class Parser : public MCTargetAsmParser {
     const auto words = encode(
         choice, 0, [&](const std::string& text) { return values[text]; }, complain);
     if (failed) return true;
-    // bits 8 to 15 of a word are those of its upper byte
-    if (choice.row->has(dspic::Operand::FileBit) && words[0] & 1)
-      for (Symbolic& s : symbolic)
-        s.expression =
-            MCBinaryExpr::createAdd(s.expression, MCConstantExpr::create(1, getContext()), getContext());
+    // the lowest bit says which byte of a word it is: from the number of the bit, unless the text says .b
+    if (choice.row->has(dspic::Operand::FileBit) && !StringRef(mnemonic_).endswith_insensitive(".b"))
+      for (Symbolic& s : symbolic) s.fixup = DSPICFix::Near;
     emit(out, words, symbolic);
     return false;
   }

@@ -85,7 +85,7 @@ class Filler {
         return insert(r.offset, 0, 0x1FFF, value_);
       case kNear:
         checked(r, value_ < 0x2000 && !(value_ & 1), "even and below 0x2000: a near variable");
-        return insert(r.offset, 0, 0x1FFF, value_);
+        return insert(r.offset, 0, 0x1FFE, value_);  // the lowest bit is BSET's own
       case kFile:
         checked(r, !(value_ & 1), "even");
         return insert(r.offset, 0, 0xFFFF, value_);

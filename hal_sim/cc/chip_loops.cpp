@@ -130,7 +130,8 @@ void count_down(Loop& loop, LongCounter& c, const SCEV* rounds, ScalarEvolution&
 
 bool counts_down(const LongCounter& c) {
   auto* end = dyn_cast<ConstantInt>(c.test->getOperand(1));
-  return c.low_words.empty() && c.test->isEquality() && c.test->getOperand(0) == c.next && end && end->isZero();
+  return c.low_words.empty() && c.test->isEquality() && c.test->getOperand(0) == c.next && end &&
+         end->isZero();
 }
 
 }  // namespace

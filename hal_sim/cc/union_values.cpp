@@ -18,7 +18,8 @@ using namespace clang;
 bool is_partial(InitListExpr& list, ASTContext& context) {
   const FieldDecl* field = list.getInitializedFieldInUnion();
   if (!list.getType()->isUnionType() || !field || list.getNumInits() == 0) return false;
-  const auto bits = field->isBitField() ? field->getBitWidthValue(context) : context.getTypeSize(field->getType());
+  const auto bits =
+      field->isBitField() ? field->getBitWidthValue(context) : context.getTypeSize(field->getType());
   return bits < context.getTypeSize(list.getType());
 }
 
@@ -30,7 +31,8 @@ void clear_within(Stmt*& slot, bool at_run_time, ASTContext& context) {
   for (Stmt*& child : slot->children()) clear_within(child, at_run_time, context);
   if (!at_run_time || !is_partial(*list, context)) return;
   auto* zeros = new (context) ImplicitValueInitExpr(list->getType());
-  auto* both = new (context) DesignatedInitUpdateExpr(context, list->getLBraceLoc(), zeros, list->getRBraceLoc());
+  auto* both =
+      new (context) DesignatedInitUpdateExpr(context, list->getLBraceLoc(), zeros, list->getRBraceLoc());
   both->setUpdater(list);
   slot = both;
 }

@@ -271,6 +271,21 @@ long bench_run(void) {
   }
 }
 
+// BSET of a word keeps its lowest bit for the number of the bit: an odd address would be another word's
+TEST(ChipPrograms, bit_of_a_word_at_an_odd_address_is_refused) {
+  const std::string head =
+      "volatile int v[2] __attribute__((near)) = {0, 0};\nlong bench_run(void) { __asm__ volatile(\"";
+  ChipProgram even(
+      "bits", head + "bset _v, #9\\n bset _v+2, #1\\n bset.b _v+3, #7\"); return v[0] | (long)v[1] << 16; }");
+  ASSERT_TRUE(even.is_whole()) << even.error();
+  EXPECT_EQ(even.run(), 0x80020200u);
+  for (const char* odd : {"bset _v+1, #9", "btg _v+1, #2", "bclr _v+3, #15"}) {
+    ChipProgram refused("bits", head + odd + "\"); return 0; }");
+    EXPECT_NE(refused.error().find("v: got address 0x"), std::string::npos) << odd << refused.error();
+    EXPECT_NE(refused.error().find("expected even"), std::string::npos) << odd << refused.error();
+  }
+}
+
 // A copy stood between the two moves that reloaded a pair of registers, and read half of the pair.
 TEST(ChipPrograms, spilled_pair_comes_back_whole) {
   for (const int seed : {100044, 203087, 204600, 204999}) {
