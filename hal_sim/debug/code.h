@@ -10,6 +10,7 @@
 
 #include "dspic30/core/instruction_table.h"
 #include "dspic30/load/firmware_file.h"
+#include "hal_sim/debug/machine.h"
 
 namespace debug {
 
@@ -65,15 +66,6 @@ class Code {
   std::map<std::uint32_t, std::map<std::uint32_t, Depth>> depths_;  // by function, by address
 };
 
-/// One level of calls.
-struct Frame {
-  std::uint32_t pc = 0;
-  std::uint32_t call = 0;  ///< of the instruction that is under way: pc, or the call before it
-  unsigned base = 0;       ///< W15 as the function began; deeper ones have a higher one
-  const dspic::CodeMap::Function* function = nullptr;
-  bool is_handler = false;
-};
-
 /// From the innermost outwards. `word`: a word of RAM at an address.
 template <typename ReadWord>
 std::vector<Frame> trace_back(Code& code, std::uint32_t pc, unsigned sp, ReadWord word) {
@@ -91,9 +83,10 @@ std::vector<Frame> trace_back(Code& code, std::uint32_t pc, unsigned sp, ReadWor
     if (!depth || frame.base < kRamStart + 4 ||
         (function && first && first->target && code.file().code.function_at(*first->target) == function))
       break;
-    const unsigned low = word(frame.base - 4), high = word(frame.base - 2);
+    const auto base = static_cast<unsigned>(frame.base);
+    const unsigned low = word(base - 4), high = word(base - 2);
     pc = (high & 0x7F) << 16 | (low & 0xFFFE);
-    sp = frame.base - 4;
+    sp = base - 4;
     // a handler goes on with an instruction, a function behind one
     call = pc;
     if (!frame.is_handler) {

@@ -309,13 +309,9 @@ void DapServer::variables(const Json& request) {
   const auto add = [&](const std::string& name, const std::string& value) {
     all.push_back({{"name", name}, {"value", value}, {"variablesReference", 0}, {"evaluateName", name}});
   };
-  const auto word = [&](const std::string& name, unsigned address) {
-    add(name, fmt::format("{:#06x}", session_->read(address, 2)));
-  };
   switch (request.at("arguments").at("variablesReference").get<int>()) {
     case kRegisters:
-      for (unsigned n = 0; n < 16; ++n) word("w" + std::to_string(n), 2 * n);
-      word("sr", dspic::sfr("SR"));
+      for (const auto& [name, value] : session_->machine().register_list()) add(name, value);
       add("pc", fmt::format("{:#08x}", session_->pc()));
       add("cycle", std::to_string(session_->now()));
       break;
@@ -326,13 +322,15 @@ void DapServer::variables(const Json& request) {
       for (const auto& [name, address] : session_->file().objects) {
         const auto bytes = session_->file().object_bytes.find(name);
         if (bytes == session_->file().object_bytes.end() || bytes->second > 4) continue;
-        const unsigned value = session_->read(address, bytes->second);
+        const auto value = session_->read({session_->machine().data_base() + address, bytes->second});
         add(name, fmt::format("{} ({:#x})", value, value));
       }
       break;
     case kPeripherals:
       for (const dspic::SfrInfo& info : dspic::kSfrRows)
-        if (info.address > dspic::sfr("DISICNT")) word(info.name, info.address);
+        if (const auto data = session_->machine().find_register(info.name);
+            data && info.address > dspic::sfr("DISICNT"))
+          add(info.name, fmt::format("{:#06x}", session_->read(*data)));
       break;
     default:
       break;
@@ -348,9 +346,9 @@ void DapServer::set_variable(const Json& request) {
   const auto data = session_->find_data(name);
   if (!session_->evaluate(arguments.at("value").get<std::string>(), value, error))
     return refuse(request, error);
-  if (!data || !session_->write(*data, static_cast<unsigned>(value)))
+  if (!data || !session_->write(*data, static_cast<std::uint64_t>(value)))
     return refuse(request, name + " cannot be changed");
-  respond(request, {{"value", fmt::format("{}", session_->read(data->address, data->bytes))}});
+  respond(request, {{"value", fmt::format("{}", session_->read(*data))}});
 }
 
 void DapServer::evaluate(const Json& request) {

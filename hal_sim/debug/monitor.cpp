@@ -7,9 +7,6 @@
 #include <fstream>
 
 #include "dspic30/asm/expression.h"
-#include "dspic30/core/disassembler.h"
-#include "dspic30/memory/sfr_table.h"
-#include "hal_sim/debug/why.h"
 
 namespace debug {
 
@@ -93,14 +90,14 @@ std::string Monitor::execute(const std::string& given) {
   if (word == "set") return assign(rest);
   if (word == "x") return memory(rest);
   if (word == "backtrace" || word == "bt") return backtrace();
-  if (word == "regs") return registers();
+  if (word == "regs") return session_.machine().registers();
   if (word == "locals") return session_.locals();
   if (word == "list" || word == "l") return list(rest);
   if (word == "dis") return disassemble(rest);
   if (word == "goto") return go(rest);
   if (word == "trace") return trace(rest);
   if (word == "where") return where();
-  if (word == "why") return why(session_);
+  if (word == "why") return session_.machine().why();
   if (word == "delete" || word == "d") {
     if (rest.empty()) {
       while (!session_.breakpoints().empty()) session_.remove(session_.breakpoints().front().id);
@@ -148,13 +145,11 @@ std::string Monitor::trace(const std::string& rest) {
                        kMost);
   int n = 0;
   for (; n < wanted && !session_.has_ended(); ++n) {
+    std::uint32_t next = 0;
     const std::uint32_t pc = session_.pc();
-    const auto& words = session_.file().words;
-    const auto word = words.find(pc), second = words.find(pc + 2);
+    const std::string text = session_.machine().instruction(pc, next);
     out << fmt::format("{} {:06x} {:<28} ; {}\n", session_.now(), pc,
-                       word == words.end()
-                           ? "?"
-                           : dspic::disassemble(word->second, second == words.end() ? 0 : second->second, pc),
+                       text.empty() ? "?" : text.substr(text.find("  ") + 2),
                        session_.file().code.describe(pc));
     const Stop stop = session_.run(Plan::AnyInstruction, idle_);
     if (stop.why != Stop::Why::Step) break;
@@ -184,17 +179,18 @@ std::string Monitor::watch(const std::string& rest) {
   const std::string condition = condition_of(what);
   const Breakpoint* b = session_.add_watchpoint(what, condition, error);
   if (!b) return error + "\n";
-  return fmt::format("watchpoint {} on {} at {:#06x}, {} bytes\n", b->id, b->what, b->data, b->bytes);
+  return fmt::format("watchpoint {} on {} at {:#06x}, {} bytes\n", b->id, b->what, b->data.address,
+                     b->data.bytes);
 }
 
 std::string Monitor::info(const std::string& rest) {
-  if (rest == "interrupts") return interrupts(session_);
+  if (rest == "interrupts") return session_.machine().interrupts();
   if (rest == "world") return world();
   if (rest != "break" && rest != "b")
     return "got 'info " + rest + "', expected info break, interrupts or world\n";
   std::string text;
   for (const Breakpoint& b : session_.breakpoints())
-    text += fmt::format("{} {} {}{}, {} times\n", b.id, b.bytes ? "watch" : "break", b.what,
+    text += fmt::format("{} {} {}{}, {} times\n", b.id, b.data.bytes ? "watch" : "break", b.what,
                         b.condition.empty() ? "" : " if " + b.condition, b.hits);
   return text.empty() ? "none\n" : text;
 }
@@ -222,7 +218,7 @@ std::string Monitor::print(const std::string& expression) {
   if (data && data->bytes > 4) {  // an array or structure: its words
     std::string text = expression + " =";
     for (unsigned i = 0; i + 1 < data->bytes && i < 64; i += 2)
-      text += fmt::format(" {:#06x}", session_.read(data->address + i, 2));
+      text += fmt::format(" {:#06x}", session_.read({data->address + i, 2}));
     return text + (data->bytes > 64 ? " ...\n" : "\n");
   }
   std::int64_t value = 0;
@@ -243,7 +239,7 @@ std::string Monitor::assign(const std::string& rest) {
   std::string error;
   if (!session_.evaluate(rest.substr(equals + 1), value, error)) return error + "\n";
   const auto data = session_.find_data(name);
-  if (!data || !session_.write(*data, static_cast<unsigned>(value)))
+  if (!data || !session_.write(*data, static_cast<std::uint64_t>(value)))
     return "got '" + name + "', expected a variable of up to 4 bytes or a register\n";
   return print(name);
 }
@@ -257,24 +253,11 @@ std::string Monitor::memory(const std::string& rest) {
   const int words = std::clamp(count.empty() ? 8 : std::atoi(count.c_str()), 1, 4096);
   std::string text;
   for (int i = 0; i < words; ++i) {
-    const auto here = static_cast<unsigned>(address + 2 * i) & 0xFFFE;
+    const Address here = static_cast<Address>(address + 2 * i) & session_.machine().address_mask() & ~Address{1};
     if (i % 8 == 0) text += fmt::format("{}{:04x}:", i ? "\n" : "", here);
-    text += fmt::format(" {:04x}", session_.read(here, 2));
+    text += fmt::format(" {:04x}", session_.read({here, 2}));
   }
   return text + "\n";
-}
-
-std::string Monitor::registers() {
-  std::string text;
-  for (int n = 0; n < 16; ++n)
-    text += fmt::format("w{:<2} {:04x}{}", n, session_.runner().processor().w(n), n % 8 == 7 ? "\n" : "   ");
-  const unsigned sr = session_.runner().processor().sr();
-  text += fmt::format("pc  {:06x}  sr {:04x} (IPL {}{}{}{}{}{})  RCOUNT {:04x}  A {:#x}  B {:#x}\n",
-                      session_.pc(), sr, session_.runner().device().cpu_level(), sr & 1 ? " C" : "",
-                      sr & 2 ? " Z" : "", sr & 4 ? " OV" : "", sr & 8 ? " N" : "", sr & 0x10 ? " RA" : "",
-                      session_.read(dspic::sfr("RCOUNT"), 2), session_.runner().processor().accumulator(0),
-                      session_.runner().processor().accumulator(1));
-  return text;
 }
 
 // --- code
@@ -320,16 +303,14 @@ std::string Monitor::disassemble(const std::string& rest) {
   std::string text;
   std::uint32_t a = session_.pc();
   for (int n = std::clamp(rest.empty() ? 10 : std::atoi(rest.c_str()), 1, 1000); n > 0; --n) {
-    const auto i = session_.code().at(a);
-    const auto& words = session_.file().words;
-    const auto word = words.find(a), second = words.find(a + 2);
-    if (word == words.end()) break;
-    text += fmt::format("{} {:06x}  {:06x}  {:<28} ; {}\n", a == session_.pc() ? "=>" : "  ", a, word->second,
-                        dspic::disassemble(word->second, second == words.end() ? 0 : second->second, a),
+    std::uint32_t next = 0;
+    const std::string instruction = session_.machine().instruction(a, next);
+    if (instruction.empty()) break;
+    text += fmt::format("{} {:06x}  {} ; {}\n", a == session_.pc() ? "=>" : "  ", a, instruction,
                         session_.file().code.describe(a));
-    a = i ? i->next() : a + 2;
+    a = next;
   }
-  return text;
+  return text.empty() ? "no instructions are known here; debug --gdb shows the PC's\n" : text;
 }
 
 }  // namespace debug

@@ -32,7 +32,6 @@ class Monitor {
   std::string assign(const std::string& rest);
   std::string memory(const std::string& rest);
   std::string backtrace();
-  std::string registers();
   std::string list(const std::string& rest);
   std::string disassemble(const std::string& rest);
   std::string go(const std::string& rest);

@@ -3,18 +3,23 @@
 
 #include <algorithm>
 
-#include "dspic30/memory/sfr_table.h"
+#include "hal_sim/debug/chip_machine.h"
+#include "hal_sim/debug/pc_machine.h"
 
 namespace debug {
 
 namespace {
 
 constexpr auto kIdleEvery = std::chrono::milliseconds(20);
-constexpr unsigned kRepeating = 0x10;  // SR.RA
 // how far back is looked at first, cycles; then ever further
 constexpr Cycle kFirstLookBack = 50'000, kLookBackGrows = 30;
 
-unsigned sr_address() { return dspic::sfr("SR"); }
+/// Null: this kind of program, or none, cannot be stopped.
+std::unique_ptr<Machine> machine_of(host::Runner* runner) {
+  if (auto* chip = dynamic_cast<chip::ChipRunner*>(runner)) return std::make_unique<ChipMachine>(*chip);
+  if (auto* pc = dynamic_cast<host::CompiledRunner*>(runner)) return std::make_unique<PcMachine>(*pc);
+  return nullptr;
+}
 
 }  // namespace
 
@@ -24,9 +29,17 @@ std::unique_ptr<Session> Session::open(Setup setup, std::vector<std::string>& pr
   std::unique_ptr<Session> session(new Session(std::move(setup)));
   session->setup_.options.threads = 1;
   if (!session->open_world(problems)) return nullptr;
-  session->set_marks();
   session->start(0);
-  session->target_ = 0;
+  std::string error;
+  if (session->machine_->begins_in_main())
+    if (const Breakpoint* main = session->add_breakpoint("main", "", error)) {
+      const int id = main->id;
+      session->resume(nullptr);
+      session->remove(id);
+      session->last_id_ = 0;
+      return session;
+    }
+  session->target_ = Moment{};
   session->stop_.why = Stop::Why::Entry;
   session->resume(nullptr);
   return session;
@@ -35,21 +48,22 @@ std::unique_ptr<Session> Session::open(Setup setup, std::vector<std::string>& pr
 Session::~Session() { abandon(); }
 
 bool Session::open_world(std::vector<std::string>& problems) {
+  machine_.reset();
+  twin_.reset();  // the next world gets the addresses that this one had
   twin_ = twin::Twin::open(setup_.world, setup_.options, problems);
   if (!twin_) return false;
   robot_ = -1;
   for (int i = 0; i < twin_->robots() && robot_ < 0; ++i) {
     const std::string& name = twin_->world().robots[static_cast<std::size_t>(i)].name;
     if (!setup_.robot.empty() && name != setup_.robot) continue;
-    runner_ = dynamic_cast<chip::ChipRunner*>(twin_->mind(i).runner());
-    if (runner_) robot_ = i;
-    if (runner_) setup_.robot = name;
+    machine_ = machine_of(twin_->mind(i).runner());
+    if (machine_) robot_ = i;
+    if (machine_) setup_.robot = name;
   }
   if (robot_ < 0) {
     problems.push_back(setup_.robot.empty()
-                           ? "debug: no robot runs the chip way; add --way chip, or give a .elf or .hex"
-                           : "debug: robot '" + setup_.robot +
-                                 "' does not run the chip way, or is not there");
+                           ? "debug: no robot has a program; --fw gives it one"
+                           : "debug: robot '" + setup_.robot + "' has no program, or is not there");
     return false;
   }
   // the next world runs the same images, without building them
@@ -58,7 +72,7 @@ bool Session::open_world(std::vector<std::string>& problems) {
     if (!twin_->image_path(i).empty())
       setup_.options.firmware.push_back(
           {twin_->world().robots[static_cast<std::size_t>(i)].name, twin_->image_path(i)});
-  code_ = std::make_unique<Code>(file());
+  set_marks();
   if (setup_.opened) setup_.opened(*twin_);
   return true;
 }
@@ -73,6 +87,8 @@ void Session::start(Cycle fast_until) {
   was_reset_ = last_repeats_ = false;
   next_poke_ = 0;
   watched_.clear();
+  traps_ = 0;
+  stands_between_ = false;
   thread_ = std::thread([this] { run_world(); });
 }
 
@@ -94,15 +110,18 @@ void Session::run_world() {
   sim::Simulation& simulation = twin_->simulation();
   host::FirmwareMind& mind = twin_->mind(robot_);
   const sim::Clicks end = sim::from_seconds(setup_.seconds), tick = simulation.scene().tick_clicks();
-  bool watches = false;
   while (!abandoned_ && simulation.now() < end) {
-    const Cycle poke = next_poke_ < pokes_.size() ? pokes_[next_poke_].at : dspic::kNever;
-    const bool wanted = mind.cycle_at(simulation.now() + 2 * tick) >= std::min(fast_until_, poke);
-    if (wanted != watches) runner_->watch_steps(this, watches = wanted);
+    machine_->watch(this, mind.cycle_at(simulation.now() + 2 * tick) >= quiet_until());
     simulation.advance(simulation.now());
     if (setup_.ticked && !is_repeating_ && !abandoned_) setup_.ticked();
+    if (abandoned_ || !machine_->stands_between()) continue;
+    stands_between_ = true;
+    apply_pokes();
+    if (wants_stop_between()) stand();
+    stands_between_ = false;
   }
-  if (watches) runner_->watch_steps(this, false);
+  machine_->watch(this, false);
+  machine_->stands_between();
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     state_ = State::Ended;
@@ -132,7 +151,7 @@ Stop Session::run(Plan plan, const std::function<bool()>& idle) {
   if (plan >= Plan::BackInstruction) return go_back(plan, idle);
   if (has_ended()) return stop_;
   // what was changed by hand later than here has not happened
-  while (!pokes_.empty() && pokes_.back().at > now()) pokes_.pop_back();
+  while (!pokes_.empty() && pokes_.back().when.at > now()) pokes_.pop_back();
   next_poke_ = pokes_.size();
   plan_ = plan;
   from_ = moment(now());
@@ -140,15 +159,17 @@ Stop Session::run(Plan plan, const std::function<bool()>& idle) {
 }
 
 Stop Session::go_to(Cycle cycle, const std::function<bool()>& idle) {
-  if (cycle < now() || has_ended()) return repeat_to(cycle, cycle, idle);
+  const Moment to{cycle};
+  if (cycle < now() || has_ended()) return repeat_to(to, cycle, idle);
   plan_ = Plan::GoTo;
-  target_ = cycle;
+  target_ = to;
+  fast_until_ = cycle;
   stop_ = {Stop::Why::Step, 0, ""};
   return resume(idle);
 }
 
 // a new world, up to `cycle`; instruction by instruction from `look_from` on
-Stop Session::repeat_to(Cycle cycle, Cycle look_from, const std::function<bool()>& idle) {
+Stop Session::repeat_to(const Moment& to, Cycle look_from, const std::function<bool()>& idle) {
   abandon();
   std::vector<std::string> problems;
   is_repeating_ = true;
@@ -157,7 +178,7 @@ Stop Session::repeat_to(Cycle cycle, Cycle look_from, const std::function<bool()
     return stop_ = {Stop::Why::End, 0, problems.empty() ? "the world cannot be opened again" : problems[0]};
   }
   start(look_from);
-  target_ = cycle;
+  target_ = to;
   stop_ = {Stop::Why::Step, 0, ""};
   const Stop stop = resume(idle);
   is_repeating_ = false;
@@ -167,11 +188,11 @@ Stop Session::repeat_to(Cycle cycle, Cycle look_from, const std::function<bool()
 
 // runs again up to here, ever more of it instruction by instruction, for the latest moment that will do
 Stop Session::go_back(Plan plan, const std::function<bool()>& idle) {
-  const Cycle here = has_ended() ? runner_->cycles() : now();
+  from_ = has_ended() ? Moment{machine_->runner().cycles()} : moment(now());
+  const Moment here = from_;
   plan_ = plan;
-  from_ = has_ended() ? Moment{here} : moment(here);
   for (Cycle back = kFirstLookBack;; back *= kLookBackGrows) {
-    const Cycle look_from = std::max<Cycle>(0, here - back);
+    const Cycle look_from = std::max<Cycle>(0, here.at - back);
     latest_.reset();
     looks_back_ = true;
     repeat_to(here, look_from, idle);
@@ -180,26 +201,24 @@ Stop Session::go_back(Plan plan, const std::function<bool()>& idle) {
   }
   if (pause_) return {Stop::Why::Pause, 0, "paused"};
   const Moment to = latest_.value_or(Moment{});
-  Stop stop = repeat_to(to.at, to.at, idle);
+  Stop stop = repeat_to(to, to.at, idle);
   if (!latest_) return {Stop::Why::Entry, 0, "the beginning of the run"};
   if (to.hit) stop = {Stop::Why::Breakpoint, to.hit, "breakpoint " + std::to_string(to.hit)};
   return stop;
 }
 
-Cycle Session::now() const { return runner_->processor().now(); }
+Cycle Session::now() const { return machine_->now(); }
 
-double Session::seconds() const { return runner_->to_world_s ? runner_->to_world_s(now()) : 0; }
-
-std::vector<Frame> Session::frames() {
-  return trace_back(*code_, pc(), runner_->processor().w(15),
-                    [this](unsigned address) { return read(address, 2); });
+double Session::seconds() const {
+  const host::Runner& runner = machine_->runner();
+  return runner.to_world_s ? runner.to_world_s(now()) : 0;
 }
 
 // --- the world's side
 
 void Session::before(Cycle at) {
   if (abandoned_) return;
-  apply_pokes(at);
+  apply_pokes();
   if (!wants_stop(at)) return;
   stand();
 }
@@ -213,9 +232,9 @@ void Session::stand() {
 
 void Session::after(const chip::Step& step) {
   last_pc_ = step.pc;
-  last_repeats_ = !step.slept && step.next == step.pc && (read(sr_address(), 2) & kRepeating);
+  last_repeats_ = machine_->repeats(step);
   if (step.entered == dspic::kNoVector) return;
-  put_off_.push_back({step.pc, runner_->device().nesting() - 1});
+  put_off_.push_back({step.pc, machine_->nesting() - 1});
   if (step.entered < dspic::kFirstIrqVector)
     trap_ = std::string(dspic::vector_name(step.entered)) + " trap at " + file().code.describe(step.pc);
 }
@@ -226,13 +245,13 @@ void Session::was_reset(Cycle) {
 }
 
 bool Session::wants_stop(Cycle at) {
-  const int nesting = runner_->device().nesting();
+  const int nesting = machine_->nesting();
   while (!put_off_.empty() && put_off_.back().nesting > nesting) put_off_.pop_back();
   // an instruction that was put off has been stopped at already
   const bool comes_again =
       !put_off_.empty() && put_off_.back().nesting == nesting && put_off_.back().pc == pc();
   if (comes_again) put_off_.pop_back();
-  if (target_ && at >= *target_) return true;
+  if (target_ && is_reached(*target_)) return true;
   if (is_repeating_) {
     if (!looks_back_) return false;
     Moment here = moment(at);
@@ -294,7 +313,6 @@ bool Session::is_step_over(Cycle at) {
 }
 
 bool Session::is_way_back(const Moment& here) {
-  if (here.at >= from_.at) return false;
   if (plan_ == Plan::BackContinue) return here.hit != 0;
   if (here.nesting > from_.nesting || last_repeats_) return false;
   if (plan_ == Plan::BackInstruction) return true;
@@ -304,7 +322,10 @@ bool Session::is_way_back(const Moment& here) {
 
 bool Session::begins_line(std::uint32_t at) const {
   const auto* line = file().code.line_at(at);
-  return line && line->address == at && line->is_statement;
+  if (!line || line->address != at || !line->is_statement) return false;
+  // not before its parameters have their places
+  const auto* function = file().code.function_at(at);
+  return !function || function->begin != at || machine_->body_of(at) == at;
 }
 
 bool Session::is_same_line(std::uint32_t a, std::uint32_t b) const {
@@ -312,18 +333,57 @@ bool Session::is_same_line(std::uint32_t a, std::uint32_t b) const {
   return one && other && one->file == other->file && one->line == other->line;
 }
 
-Session::Moment Session::moment(Cycle at) { return {at, pc(), base_here(), runner_->device().nesting(), 0}; }
+Session::Moment Session::moment(Cycle at) {
+  using Where = Moment::Where;
+  return {at, pc(), machine_->base(), machine_->nesting(), 0,
+          stands_between_ ? Where::Between : Where::Instruction};
+}
 
-unsigned Session::base_here() {
-  const auto depth = code_->stack_depth(pc());
-  return depth ? runner_->processor().w(15) - static_cast<unsigned>(*depth) : 0;
+bool Session::is_reached(const Moment& moment) const {
+  using Where = Moment::Where;
+  if (stands_between_) return moment.where != Where::Instruction && now() >= moment.at;
+  if (moment.where == Where::Between) return false;
+  if (moment.where == Where::Anywhere || now() != moment.at) return now() >= moment.at;
+  return pc() == moment.pc && machine_->base() == moment.base;
+}
+
+// a wait, or a program that has stopped: between two windows
+bool Session::wants_stop_between() {
+  const host::Runner& runner = machine_->runner();
+  const std::size_t traps = runner.traps().size();
+  if (target_) return is_reached(*target_) || (pause_ && !is_repeating_);
+  if (pause_) {
+    stop_ = {Stop::Why::Pause, 0, "paused"};
+    return true;
+  }
+  if (traps <= traps_) return false;
+  traps_ = traps;
+  const host::TrapReport& last = runner.traps().back();
+  stop_ = {last.kind == 0 ? Stop::Why::Reset : Stop::Why::Trap, 0,
+           std::string(host::trap_name(last.kind)) + ": " + last.message + ", at " + host::to_string(last.place)};
+  return true;
+}
+
+Look Session::look() {
+  if (abandoned_) return Look::Nothing;
+  const auto watches = [](const Breakpoint& b) { return b.data.bytes > 0; };
+  if (target_ || is_repeating_ || pause_ || next_poke_ < pokes_.size() ||
+      std::any_of(breakpoints_.begin(), breakpoints_.end(), watches))
+    return Look::Everything;
+  if (plan_ == Plan::Continue) return Look::Breakpoints;
+  if (plan_ == Plan::AnyInstruction) return Look::Everything;
+  const Moment here = moment(now());
+  const bool is_handler = here.nesting > from_.nesting;
+  const bool is_over = plan_ == Plan::NextInstruction || plan_ == Plan::NextLine;
+  if (is_handler || plan_ == Plan::Finish || (is_over && here.base > from_.base)) return Look::Leaving;
+  return Look::Everything;
 }
 
 // --- breakpoints
 
 int Session::hit_here(bool count) {
   const std::uint32_t here = pc();
-  if (here / 2 >= marks_.size() || !marks_[here / 2]) return 0;
+  if (here >= marks_.size() || !marks_[here]) return 0;
   for (Breakpoint& b : breakpoints_) {
     if (std::find(b.addresses.begin(), b.addresses.end(), here) == b.addresses.end() || !holds(b)) continue;
     if (count) ++b.hits;
@@ -343,11 +403,11 @@ bool Session::watch_hit() {
   bool hit = false;
   std::size_t n = 0;
   for (Breakpoint& b : breakpoints_) {
-    if (b.bytes == 0) continue;
-    const std::uint32_t value = value_of(b);
+    if (b.data.bytes == 0) continue;
+    const std::uint64_t value = read(b.data);
     const bool is_new = n >= watched_.size();
     if (is_new) watched_.push_back(value);
-    std::uint32_t& old = watched_[n++];
+    std::uint64_t& old = watched_[n++];
     if (is_new || old == value) continue;
     const std::string change = b.what + ": " + std::to_string(old) + " -> " + std::to_string(value) +
                                ", by " + file().code.describe(last_pc_);
@@ -380,17 +440,17 @@ const Breakpoint* Session::add_breakpoint(const std::string& where, const std::s
     else
       b.what = source.substr(source.rfind('/') + 1) + ":" + std::to_string(found);
   } else if (const auto label = file().functions.find(where); label != file().functions.end()) {
-    b.addresses = {label->second};
+    b.addresses = {machine_->body_of(label->second)};
     b.what = where;
   } else {
     std::int64_t address = 0;
     const bool is_address = where.rfind("0x", 0) == 0 || where.rfind('*', 0) == 0;
     if (is_address && evaluate(where.substr(where[0] == '*'), address, error) && address >= 0 &&
-        address < dspic::kFlashEnd && address % 2 == 0) {
+        address < machine_->code_end() && machine_->is_code(static_cast<std::uint32_t>(address))) {
       b.addresses = {static_cast<std::uint32_t>(address)};
       b.what = where;
     } else {
-      error = "got '" + where + "', expected a function, file:line, or an even address such as 0x1a0";
+      error = "got '" + where + "', expected a function, file:line, or an address of code such as 0x1a0";
     }
   }
   std::int64_t value = 0;
@@ -414,13 +474,10 @@ const Breakpoint* Session::add_watchpoint(const std::string& what, const std::st
   std::int64_t value = 0;
   if (!what.empty() && what[0] == '*') {
     if (!evaluate(what.substr(1), value, error)) return nullptr;
-    b.data = static_cast<unsigned>(value & 0xFFFF);
-    b.bytes = 2;
+    b.data = {static_cast<Address>(value) & machine_->address_mask(), 2};
   } else if (const auto data = find_data(what)) {
-    b.data = data->address;
-    b.bytes = std::min(data->bytes, 4u);
-    b.bit = data->bit;
-    b.width = data->width;
+    b.data = *data;
+    b.data.bytes = std::min(data->bytes, 8u);
   } else {
     error = "got '" + what + "', expected a variable, a register or *address";
     return nullptr;
@@ -433,15 +490,10 @@ const Breakpoint* Session::add_watchpoint(const std::string& what, const std::st
   return &breakpoints_.back();
 }
 
-std::uint32_t Session::value_of(const Breakpoint& watch) const {
-  const std::uint32_t value = read(watch.data, watch.bytes);
-  return watch.width > 0 ? value >> watch.bit & ((1u << watch.width) - 1) : value;
-}
-
 void Session::look_at_watchpoints() {
   watched_.clear();
   for (const Breakpoint& b : breakpoints_)
-    if (b.bytes) watched_.push_back(value_of(b));
+    if (b.data.bytes) watched_.push_back(read(b.data));
 }
 
 bool Session::remove(int id) {
@@ -461,33 +513,41 @@ const Breakpoint* Session::find(int id) const {
 }
 
 void Session::set_marks() {
-  marks_.assign(dspic::kFlashWords, 0);
+  marks_.assign(machine_->code_end(), 0);
+  std::vector<std::uint32_t> all;
   for (const Breakpoint& b : breakpoints_)
-    for (const std::uint32_t a : b.addresses) marks_[a / 2] = 1;
+    for (const std::uint32_t a : b.addresses) {
+      marks_[a] = 1;
+      all.push_back(a);
+    }
+  machine_->mark(all);
 }
 
 // --- data
 
-bool Session::write(const Data& data, unsigned value) {
-  if (data.address + data.bytes > dspic::Processor::kRamEnd || data.bytes > 4) return false;
-  if (data.width > 0) {
-    const unsigned mask = ((1u << data.width) - 1) << data.bit;
-    value = (read(data.address, 2) & ~mask) | (value << data.bit & mask);
-  }
-  runner_->write_memory(data.address, &value, data.bytes);
-  if (has_ended()) return true;
+bool Session::write(const Data& data, std::uint64_t value) {
+  if (data.bytes > 8) return false;
   Data whole = data;
   whole.width = 0;
-  pokes_.push_back({now(), whole, value});
+  if (data.width > 0) {
+    const std::uint64_t mask = ((std::uint64_t{1} << data.width) - 1) << data.bit;
+    value = (read(whole) & ~mask) | (value << data.bit & mask);
+  }
+  if (!machine_->write(whole, &value)) return false;
+  if (has_ended()) return true;
+  pokes_.push_back({moment(now()), whole, value});
   next_poke_ = pokes_.size();
   return true;
 }
 
-void Session::apply_pokes(Cycle at) {
-  for (; next_poke_ < pokes_.size() && pokes_[next_poke_].at <= at; ++next_poke_) {
-    const Poke& p = pokes_[next_poke_];
-    runner_->write_memory(p.data.address, &p.value, p.data.bytes);
-  }
+void Session::apply_pokes() {
+  for (; next_poke_ < pokes_.size() && is_reached(pokes_[next_poke_].when); ++next_poke_)
+    machine_->write(pokes_[next_poke_].data, &pokes_[next_poke_].value);
+}
+
+/// Nobody has to look before.
+Cycle Session::quiet_until() const {
+  return next_poke_ < pokes_.size() ? std::min(fast_until_, pokes_[next_poke_].when.at) : fast_until_;
 }
 
 }  // namespace debug

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The debugger's core: a world in which one robot of the chip way stops where it is told to.
+// The debugger's core: a world in which one robot stops where it is told to, whatever way it runs.
 //
-//   face (monitor, DAP) --run(Plan)--> Session --world's thread--> Twin, ChipRunner --before(cycle)--> stop?
+//   face (monitor, DAP) --run(Plan)--> Session --world's thread--> Twin, Machine --before(cycle)--> stop?
 //
 // While the robot stands, the whole world stands: its time does not go on. So what a run does depends on
 // neither breakpoints nor patience. Going back is running again: a new world, the same seed, up to the cycle
@@ -19,13 +19,10 @@
 #include <thread>
 #include <vector>
 
-#include "hal_sim/chip/chip_runner.h"
-#include "hal_sim/debug/code.h"
+#include "hal_sim/debug/machine.h"
 #include "hal_sim/twin/twin.h"
 
 namespace debug {
-
-using chip::Cycle;
 
 struct Stop {
   enum class Why { Entry, Step, Breakpoint, Watchpoint, Pause, Trap, Reset, End };
@@ -55,24 +52,24 @@ struct Breakpoint {
   std::string what;                      ///< as it was asked for
   std::vector<std::uint32_t> addresses;  ///< empty: a watchpoint
   std::string condition;                 ///< an expression; empty: always
-  unsigned data = 0, bytes = 0;          ///< of a watchpoint
-  int bit = 0, width = 0;                ///< of a watchpoint on a register's field
+  Data data{0, 0};                       ///< of a watchpoint; no bytes: it is none
   bool once = false;
   std::int64_t hits = 0;
 };
 
-class Session final : private chip::StepWatch {
+class Session final : private Watcher {
  public:
   struct Setup {
     sim::WorldDesc world;
     twin::Options options;
-    std::string robot;                        ///< empty: the first that runs the chip way
+    std::string robot;                        ///< empty: the first that has a program
     double seconds = 1e6;                     ///< the world ends
     std::function<void(twin::Twin&)> opened;  ///< told of each new world; this and the others may be empty
     std::function<void()> ticked;             ///< after each tick that is not a repetition
     std::function<void()> repeated;           ///< after a repetition
   };
-  /// Stopped before the program's first instruction. Null with lines in `problems`.
+  /// Stopped before the program's first instruction, or in main() where nothing before it is the program's.
+  /// Null with lines in `problems`.
   static std::unique_ptr<Session> open(Setup setup, std::vector<std::string>& problems);
   ~Session() override;
 
@@ -86,12 +83,11 @@ class Session final : private chip::StepWatch {
   // --- where it stands
   Cycle now() const;
   double seconds() const;  ///< the world's time
-  std::uint32_t pc() const { return runner().processor().pc(); }
-  std::vector<Frame> frames();
-  const chip::ChipRunner& runner() const { return *runner_; }
-  chip::ChipRunner& runner() { return *runner_; }
-  const dspic::FirmwareFile& file() const { return runner_->file(); }
-  Code& code() { return *code_; }
+  std::uint32_t pc() const { return machine_->pc(); }
+  std::vector<Frame> frames() { return machine_->frames(); }
+  Machine& machine() { return *machine_; }
+  const Machine& machine() const { return *machine_; }
+  const dspic::FirmwareFile& file() const { return machine_->file(); }
   twin::Twin& twin() { return *twin_; }
   const std::string& robot() const { return setup_.robot; }
 
@@ -101,17 +97,13 @@ class Session final : private chip::StepWatch {
   /// are known at `pc`; without it, where the program stands. False: `error` says why.
   bool evaluate(const std::string& expression, std::int64_t& value, std::string& error,
                 std::optional<std::uint32_t> pc = {}) const;
-  /// A variable or register by name: where it is, and its size in bytes.
-  struct Data {
-    unsigned address = 0, bytes = 2;
-    int bit = 0, width = 0;  ///< of a register's field; width 0: all of it
-  };
+  /// A variable or register by name.
   std::optional<Data> find_data(const std::string& name) const;
   /// A variable of a known type, a part of one, or what a pointer points to.
   struct Part {
     dspic::DebugInfo::Found found;
-    std::optional<unsigned> pointed;  ///< address that found.offset counts from; none: the variable's place
-    std::uint32_t pc = 0;             ///< where the program would have to stand
+    std::optional<Address> pointed;  ///< address that found.offset counts from; none: the variable's place
+    std::uint32_t pc = 0;            ///< where the program would have to stand
   };
   /// "speed", "grid[i + 1].x", "m->next->speed", "**p". False: `error` says why.
   bool find_part(const std::string& expression, Part& part, std::string& error,
@@ -120,9 +112,10 @@ class Session final : private chip::StepWatch {
   std::string typed(const Part& part) const;
   /// Parameters and variables of the function that runs, a line each.
   std::string locals() const;
-  unsigned read(unsigned address, unsigned bytes) const;
+  /// At most 8 bytes; 0 where nothing can be read.
+  std::uint64_t read(const Data& data) const;
   /// As the debugger's doing, again in each repetition. False: not a place that can be written.
-  bool write(const Data& data, unsigned value);
+  bool write(const Data& data, std::uint64_t value);
 
   // --- breakpoints
   /// `where`: a function or label, file:line, line (of the current file), 0x-address. Null with `error`.
@@ -137,22 +130,24 @@ class Session final : private chip::StepWatch {
  private:
   /// Symbols and registers, whatever the debug information says.
   std::optional<Data> find_untyped(const std::string& name) const;
-  std::optional<unsigned> address_of(const Part& part) const;
+  std::optional<Address> address_of(const Part& part) const;
   std::optional<std::uint64_t> raw_value(const Part& part) const;
   bool value_of(const Part& part, std::int64_t& value) const;
   bool point(Part& part, std::int64_t index, std::string& error) const;
   enum class State { Running, Stopped, Ended };
   struct Moment {
+    enum class Where { Anywhere, Instruction, Between };
     Cycle at = 0;
     std::uint32_t pc = 0;
-    unsigned base = 0;
+    Address base = 0;
     int nesting = 0;
     int hit = 0;  // id of the breakpoint that would stop here
+    Where where = Where::Anywhere;  // of its cycle; of the chip one instruction has it
   };
   struct Poke {
-    Cycle at = 0;
+    Moment when;
     Data data;
-    unsigned value = 0;
+    std::uint64_t value = 0;
   };
 
   explicit Session(Setup setup) : setup_(std::move(setup)) {}
@@ -161,12 +156,15 @@ class Session final : private chip::StepWatch {
   void abandon();
   void run_world();
   Stop resume(const std::function<bool()>& idle);
-  Stop repeat_to(Cycle cycle, Cycle look_from, const std::function<bool()>& idle);
+  Stop repeat_to(const Moment& to, Cycle look_from, const std::function<bool()>& idle);
   Stop go_back(Plan plan, const std::function<bool()>& idle);
 
   void before(Cycle at) override;
   void after(const chip::Step& step) override;
   void was_reset(Cycle at) override;
+  Look look() override;
+  bool is_reached(const Moment& moment) const;
+  bool wants_stop_between();
   bool wants_stop(Cycle at);
   bool is_step_over(Cycle at);
   bool is_way_back(const Moment& here);
@@ -174,19 +172,17 @@ class Session final : private chip::StepWatch {
   bool is_same_line(std::uint32_t a, std::uint32_t b) const;
   int hit_here(bool count);
   bool watch_hit();
-  std::uint32_t value_of(const Breakpoint& watch) const;
   void look_at_watchpoints();
   Moment moment(Cycle at);
-  unsigned base_here();
-  void apply_pokes(Cycle at);
+  void apply_pokes();
+  Cycle quiet_until() const;
   void stand();
   bool holds(const Breakpoint& b) const;
   void set_marks();
 
   Setup setup_;
   std::unique_ptr<twin::Twin> twin_;
-  chip::ChipRunner* runner_ = nullptr;
-  std::unique_ptr<Code> code_;
+  std::unique_ptr<Machine> machine_;  // goes before its program
   int robot_ = 0;
 
   // the world's thread runs while state_ is Running, the face's otherwise
@@ -200,9 +196,11 @@ class Session final : private chip::StepWatch {
   // what it runs to
   Plan plan_ = Plan::Continue;
   Moment from_;  // where the step began
-  std::optional<Cycle> target_;
+  std::optional<Moment> target_;
   Stop stop_;
   std::string trap_;  // seen in the step before
+  std::size_t traps_ = 0;  // of the program that have been told, where it does not see them itself
+  bool stands_between_ = false;
   bool was_reset_ = false;
   std::uint32_t last_pc_ = 0;  // of the step before
   bool last_repeats_ = false;  // it was an iteration of a REPEAT
@@ -217,8 +215,8 @@ class Session final : private chip::StepWatch {
   std::optional<Moment> latest_;
 
   std::vector<Breakpoint> breakpoints_;
-  std::vector<char> marks_;             // by word: is there a breakpoint?
-  std::vector<std::uint32_t> watched_;  // values of watchpoints, in their order
+  std::vector<char> marks_;             // by address: is there a breakpoint?
+  std::vector<std::uint64_t> watched_;  // values of watchpoints, in their order
   int last_id_ = 0;
   std::vector<Poke> pokes_;
   std::size_t next_poke_ = 0;

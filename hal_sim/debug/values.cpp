@@ -28,6 +28,12 @@ float float_of(std::uint64_t raw) {
   return number;
 }
 
+double number_of(std::uint64_t raw, unsigned bytes) {
+  double number;
+  std::memcpy(&number, &raw, sizeof number);
+  return bytes == sizeof number ? number : static_cast<double>(float_of(raw));
+}
+
 /// End of the name that begins at `at`.
 std::size_t end_of_name(const std::string& text, std::size_t at) {
   while (at < text.size() && (std::isalnum(static_cast<unsigned char>(text[at])) || text[at] == '_')) ++at;
@@ -110,7 +116,8 @@ bool Session::point(Part& part, std::int64_t index, std::string& error) const {
   else if (!to)
     error = "but the optimiser keeps it nowhere here";
   else {
-    part.pointed = static_cast<unsigned>(static_cast<std::int64_t>(*to) + index * bytes) & 0xFFFF;
+    part.pointed =
+        static_cast<Address>(static_cast<std::int64_t>(*to) + index * bytes) & machine_->address_mask();
     part.found = {nullptr, type.element};
     return true;
   }
@@ -118,15 +125,22 @@ bool Session::point(Part& part, std::int64_t index, std::string& error) const {
 }
 
 // registers are data, too
-std::optional<unsigned> Session::address_of(const Part& part) const {
-  if (part.pointed) return (*part.pointed + part.found.offset) & 0xFFFF;
+std::optional<Address> Session::address_of(const Part& part) const {
+  const Address mask = machine_->address_mask();
+  if (part.pointed) return (*part.pointed + part.found.offset) & mask;
   const auto* const place = dspic::DebugInfo::place_at(*part.found.variable, part.pc);
   if (!place || place->in == In::Value) return {};
-  const auto value = static_cast<unsigned>(place->value);
-  const unsigned base = place->in == In::Register ? 2 * value
-                        : place->in == In::Frame  ? value + read(2 * static_cast<unsigned>(place->base), 2)
-                                                  : value;
-  return (base + part.found.offset) & 0xFFFF;
+  Address base = static_cast<Address>(static_cast<std::int64_t>(place->value));
+  if (place->in == In::Frame) {
+    base += machine_->register_value(place->base);
+  } else if (place->in == In::Memory) {
+    base += machine_->data_base();
+  } else {
+    const auto data = machine_->register_data(place->value);
+    if (!data) return {};
+    base = data->address;
+  }
+  return (base + part.found.offset) & mask;
 }
 
 /// Its bits, from the lowest on; none: it is kept nowhere, or no number.
@@ -135,11 +149,12 @@ std::optional<std::uint64_t> Session::raw_value(const Part& part) const {
   if (type.bytes == 0 || type.bytes > 8 || type.kind == Kind::Array || type.kind == Kind::Struct) return {};
   std::uint64_t raw = 0;
   if (const auto address = address_of(part)) {
-    runner_->read_memory(*address, &raw, type.bytes);
+    if (!machine_->read({*address, type.bytes}, &raw)) return {};
   } else {
     const auto* const place = dspic::DebugInfo::place_at(*part.found.variable, part.pc);
     if (!place) return {};
-    raw = static_cast<std::uint64_t>(std::int64_t{place->value});
+    raw = place->in == In::Register ? machine_->register_value(place->value)
+                                    : static_cast<std::uint64_t>(std::int64_t{place->value});
   }
   const unsigned bits = bits_of(type, part.found);
   return raw << (64 - bits - static_cast<unsigned>(part.found.bit)) >> (64 - bits);
@@ -149,14 +164,14 @@ std::optional<std::uint64_t> Session::raw_value(const Part& part) const {
 bool Session::value_of(const Part& part, std::int64_t& value) const {
   const auto& type = file().debug.types[static_cast<std::size_t>(part.found.type)];
   if (const auto address = address_of(part); address && type.kind == Kind::Array) {
-    value = *address;
+    value = static_cast<std::int64_t>(*address);
     return true;
   }
   const auto raw = raw_value(part);
   if (!raw) return false;
   if (type.kind == Kind::Float) {
-    const float number = float_of(*raw);
-    constexpr float kMost = 9e18f;
+    const double number = number_of(*raw, type.bytes);
+    constexpr double kMost = 9e18;
     value = std::isnan(number) ? 0 : static_cast<std::int64_t>(std::clamp(number, -kMost, kMost));
     return true;
   }
@@ -192,7 +207,9 @@ std::string Session::typed(const Part& whole) const {
   if (type.bytes == 0 || type.bytes > 8) return "(of no known type)";
   const auto raw = raw_value(whole);
   if (!raw) return "(not kept here)";
-  if (type.kind == Kind::Float) return fmt::format("{}", float_of(*raw));
+  if (type.kind == Kind::Float)
+    return type.bytes == sizeof(double) ? fmt::format("{}", number_of(*raw, type.bytes))
+                                        : fmt::format("{}", float_of(*raw));
   if (type.kind == Kind::Pointer) return fmt::format("{:#06x}", *raw);
   std::int64_t value = 0;
   value_of(whole, value);
@@ -207,7 +224,7 @@ std::string Session::locals() const {
   return text.empty() ? "no variables of a function are known here\n" : text;
 }
 
-std::optional<Session::Data> Session::find_data(const std::string& name) const {
+std::optional<Data> Session::find_data(const std::string& name) const {
   Part part;
   std::string error;
   if (find_part(name, part, error))
@@ -218,33 +235,21 @@ std::optional<Session::Data> Session::find_data(const std::string& name) const {
   return find_untyped(name);
 }
 
-std::optional<Session::Data> Session::find_untyped(const std::string& name) const {
+std::optional<Data> Session::find_untyped(const std::string& name) const {
   if (const auto object = file().objects.find(name); object != file().objects.end()) {
     const auto bytes = file().object_bytes.find(name);
-    return Data{object->second, bytes == file().object_bytes.end() ? 2u : bytes->second};
+    return Data{machine_->data_base() + object->second,
+                bytes == file().object_bytes.end() ? 2u : bytes->second};
   }
-  if (name == "sp") return Data{2 * 15, 2};
-  if (name == "sr") return Data{dspic::sfr("SR"), 2};
-  if (name.size() >= 2 && name.size() <= 3 && (name[0] == 'w' || name[0] == 'W') &&
-      name.find_first_not_of("0123456789", 1) == std::string::npos && std::stoi(name.substr(1)) < 16)
-    return Data{2 * static_cast<unsigned>(std::stoi(name.substr(1))), 2};
-  // REG, REG.FIELD, REGbits.FIELD
-  const std::size_t dot = name.find('.');
-  std::string of = name.substr(0, dot);
-  if (dot != std::string::npos && of.size() > 4 && of.compare(of.size() - 4, 4, "bits") == 0)
-    of.resize(of.size() - 4);
-  const dspic::SfrInfo* info = dspic::sfr_named(of);
-  if (!info) return {};
-  if (dot == std::string::npos) return Data{info->address, 2};
-  for (const dspic::SfrField& field : dspic::fields_of(*info))
-    if (field.name == name.substr(dot + 1)) return Data{info->address, 2, field.bit, field.width};
-  return {};
+  return machine_->find_register(name);
 }
 
-unsigned Session::read(unsigned address, unsigned bytes) const {
-  unsigned value = 0;
-  runner_->read_memory(address, &value, std::min(bytes, 4u));
-  return value;
+std::uint64_t Session::read(const Data& data) const {
+  std::uint64_t value = 0;
+  Data some = data;
+  some.bytes = std::min(data.bytes, 8u);
+  if (!machine_->read(some, &value)) return 0;
+  return data.width > 0 ? value >> data.bit & ((std::uint64_t{1} << data.width) - 1) : value;
 }
 
 bool Session::evaluate(const std::string& expression, std::int64_t& value, std::string& error,
@@ -258,10 +263,11 @@ bool Session::evaluate(const std::string& expression, std::int64_t& value, std::
     else if (name == "cycle")
       out = now();
     else if (name == "nesting")
-      out = runner_->device().nesting();
+      out = machine_->nesting();
     else if (const auto data = find_untyped(name)) {
-      out = read(data->address, data->bytes);
-      if (data->width > 0) out = out >> data->bit & ((1 << data->width) - 1);
+      Data some = *data;
+      some.bytes = std::min(data->bytes, 4u);
+      out = static_cast<std::int64_t>(read(some));
     } else if (const auto code = file().functions.find(name); code != file().functions.end()) {
       out = code->second;
     } else {

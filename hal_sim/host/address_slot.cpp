@@ -4,7 +4,7 @@
 #include <sys/mman.h>
 
 #include <mutex>
-#include <vector>
+#include <set>
 
 #include "sim_core/base/check.h"
 
@@ -23,15 +23,15 @@ constexpr std::uintptr_t place_of(int slot) {
 static_assert(place_of(kSlotsBelow - 1) + kSlotBytes == 0x5000'0000'0000);
 static_assert(place_of(kSlots - 1) + kSlotBytes == 0x7B00'0000'0000);
 std::mutex changing;
-std::vector<int> given_back;
+std::set<int> given_back;  // the lowest first: a world that is opened again gets the addresses it had
 int next = 0;
 
 // -1: none
 int take() {
   std::lock_guard<std::mutex> lock(changing);
   if (!given_back.empty()) {
-    const int slot = given_back.back();
-    given_back.pop_back();
+    const int slot = *given_back.begin();
+    given_back.erase(given_back.begin());
     return slot;
   }
   return next < kSlots ? next++ : -1;
@@ -63,7 +63,7 @@ AddressSlot::~AddressSlot() {
   munmap(reinterpret_cast<void*>(begin_), bytes_);
   if (number_ < 0) return;
   std::lock_guard<std::mutex> lock(changing);
-  given_back.push_back(number_);
+  given_back.insert(number_);
 }
 
 }  // namespace host

@@ -95,6 +95,16 @@ class CompiledRunner final : public Runner, public Context {
   /// The loaded image's description of itself.
   const tp_image& image() const { return copy_.description(); }
 
+  // --- for a debugger, which stands in the program's code or between two windows
+  const ImageCopy& copy() const { return copy_; }
+  /// Of the program's block that is under way.
+  Cycle now_in_code() const { return after(issued_ - control_.budget); }
+  /// Handlers that are under way, one in the other; closed forms are none.
+  int handler_depth() const { return handler_depth_; }
+  /// May this interrupt the program, now or when something comes from outside? Its priority.
+  bool is_enabled(int vector);
+  int priority(int vector);
+
   // --- Context
   Cycle now() override { return observer_ ? now_and_tell() : now_unobserved(); }
   void note_write() override { ++control_.writes; }
@@ -243,7 +253,7 @@ class CompiledRunner final : public Runner, public Context {
     return now_ + stretched(main, fraction);
   }
   void find_share();
-  Cycle now_unobserved() const { return after(issued_ - control_.budget); }
+  Cycle now_unobserved() const { return now_in_code(); }
   Cycle now_and_tell();
   void modify_in_two(unsigned address, std::uint16_t keep, std::uint16_t flip);
   void overspend(Cycle cycles);
@@ -271,7 +281,6 @@ class CompiledRunner final : public Runner, public Context {
   void idle_to(Cycle at);     // jumps over a wait
   void pass_window();         // now_ >= end_: let the others run
   void run_main(Cycle main);  // spends main cycles, delivering on the way
-  bool is_enabled(int vector);
   void look_for_endless_wait();
   void note_endless_wait();
   // a wait since `start` that polls every `round` of its cycles; ends early when disturbed

@@ -18,6 +18,7 @@ namespace {
 
 constexpr std::size_t kLongestSource = 4u << 20;  // bytes
 constexpr std::size_t kMostSources = 200;
+const std::string kHandlerEnd = "Interrupt";
 
 std::vector<std::string> lines_of(const std::string& file) {
   std::string text, line;
@@ -40,16 +41,6 @@ std::vector<std::string> names_in(const std::string& line) {
   return names;
 }
 
-struct Writer {
-  std::string function;
-  std::string place;  // "main.c:8"
-  bool is_handler() const {
-    const std::string end = "Interrupt";
-    return function.size() > end.size() && function[0] == '_' &&
-           function.compare(function.size() - end.size(), end.size(), end) == 0;
-  }
-};
-
 std::vector<fs::path> sources_in(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code none;
@@ -68,34 +59,6 @@ bool is_agenda(const std::string& function, const fs::path& folder) {
     for (const std::string& line : lines_of(file.string()))
       if (std::regex_search(line, given)) return true;
   return false;
-}
-
-/// Functions in whose text a variable is written, or its address taken.
-std::vector<Writer> writers_of(const std::string& variable, const fs::path& folder) {
-  const sim::Pattern writes("(\\+\\+|--|(^|[^&])&)\\s*" + variable + "\\b|\\b" + variable +
-                            "\\b(\\s*(\\[[^\\]]*\\]|\\.\\w+))*\\s*(\\+\\+|--|(<<|>>|[-+*/%&|^])?=(?!=))");
-  std::vector<Writer> writers;
-  for (const fs::path& file : sources_in(folder)) {
-    std::string function;
-    int depth = 0, number = 0;
-    for (const std::string& line : lines_of(file.string())) {
-      ++number;
-      // the last word before the last parenthesis that opens: of a definition, its name
-      const std::size_t body = line.find('{');
-      if (const std::size_t open = line.substr(0, body).rfind('('); depth == 0 && open != std::string::npos) {
-        const auto names = names_in(line.substr(0, open));
-        if (!names.empty()) function = names.back();
-      }
-      const bool is_inside = depth > 0 || body != std::string::npos;
-      if (is_inside && !function.empty() && std::regex_search(line, writes))
-        writers.push_back({function, file.filename().string() + ":" + std::to_string(number)});
-      depth += static_cast<int>(std::count(line.begin(), line.end(), '{') -
-                                std::count(line.begin(), line.end(), '}'));
-      if (depth <= 0 && line.find('}') != std::string::npos) function.clear();
-      depth = std::max(depth, 0);
-    }
-  }
-  return writers;
 }
 
 std::string joined(const std::vector<std::string>& parts) {
@@ -121,17 +84,50 @@ std::vector<std::string> variables_in(const Runner& program, const Place& place)
   return found;
 }
 
-bool is_written_by_none(const Runner& program, const Place& place, const IsEnabled& is_enabled) {
+bool Writer::is_handler() const {
+  return function.size() > kHandlerEnd.size() && function[0] == '_' &&
+         function.compare(function.size() - kHandlerEnd.size(), kHandlerEnd.size(), kHandlerEnd) == 0;
+}
+
+std::vector<Writer> writers_of(const std::string& variable, const Place& place) {
   const fs::path folder = fs::path(place.file).parent_path();
+  const sim::Pattern writes("(\\+\\+|--|(^|[^&])&)\\s*" + variable + "\\b|\\b" + variable +
+                            "\\b(\\s*(\\[[^\\]]*\\]|\\.\\w+))*\\s*(\\+\\+|--|(<<|>>|[-+*/%&|^])?=(?!=))");
+  std::vector<Writer> writers;
+  for (const fs::path& file : sources_in(folder)) {
+    std::string function;
+    int depth = 0, number = 0;
+    for (const std::string& line : lines_of(file.string())) {
+      ++number;
+      // the last word before the last parenthesis that opens: of a definition, its name
+      const std::size_t body = line.find('{');
+      if (const std::size_t open = line.substr(0, body).rfind('('); depth == 0 && open != std::string::npos) {
+        const auto names = names_in(line.substr(0, open));
+        if (!names.empty()) function = names.back();
+      }
+      const bool is_inside = depth > 0 || body != std::string::npos;
+      if (is_inside && !function.empty() && std::regex_search(line, writes))
+        writers.push_back({function, file.filename().string() + ":" + std::to_string(number), ""});
+      depth += static_cast<int>(std::count(line.begin(), line.end(), '{') -
+                                std::count(line.begin(), line.end(), '}'));
+      if (depth <= 0 && line.find('}') != std::string::npos) function.clear();
+      depth = std::max(depth, 0);
+    }
+  }
+  // "_T1Interrupt" is of T1
+  for (Writer& w : writers)
+    w.vector = w.is_handler() ? w.function.substr(1, w.function.size() - kHandlerEnd.size() - 1)
+               : is_agenda(w.function, folder) ? "T2"
+                                               : "";
+  return writers;
+}
+
+bool is_written_by_none(const Runner& program, const Place& place, const IsEnabled& is_enabled) {
   const auto names = variables_in(program, place);
   for (const std::string& name : names)
-    for (const Writer& w : writers_of(name, folder)) {
+    for (const Writer& w : writers_of(name, place)) {
       if (w.function == place.function) continue;
-      // "_T1Interrupt" is of T1
-      const std::string vector = w.is_handler() ? w.function.substr(1, w.function.size() - 10)
-                                 : is_agenda(w.function, folder) ? "T2"
-                                                                 : "";
-      if (vector.empty() || is_enabled(vector)) return false;
+      if (w.vector.empty() || is_enabled(w.vector)) return false;
     }
   return !names.empty();
 }
@@ -150,7 +146,7 @@ board::Diagnosis endless_wait(const Runner& program, const Place& place, Cycle s
   std::vector<std::string> handlers, others;
   std::set<std::string> told;
   for (const std::string& name : names)
-    for (const Writer& w : writers_of(name, fs::path(place.file).parent_path())) {
+    for (const Writer& w : writers_of(name, place)) {
       if (w.function == place.function || !told.insert(w.function).second) continue;
       (w.is_handler() ? handlers : others).push_back(w.function + "() (" + w.place + ")");
     }

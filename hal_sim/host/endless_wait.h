@@ -14,6 +14,15 @@ namespace host {
 std::vector<std::string> variables_in(const Runner& program, const Place& place);
 /// Of an interrupt by its name in the library, "T1": is it enabled?
 using IsEnabled = std::function<bool(const std::string& name)>;
+/// A function in whose text a variable is written, or its address taken.
+struct Writer {
+  std::string function;
+  std::string place;   ///< "main.c:8"
+  std::string vector;  ///< of the interrupt that comes to it, "T1": its own, or timer 2's for an agenda; empty
+  bool is_handler() const;
+};
+/// All of the sources beside `place`.
+std::vector<Writer> writers_of(const std::string& variable, const Place& place);
 /// Can nobody write what the line looks at, though some interrupts are enabled? True when all who do are
 /// handlers, or functions of agendas, whose interrupts are not. What other functions write may be called.
 bool is_written_by_none(const Runner& program, const Place& place, const IsEnabled& is_enabled);

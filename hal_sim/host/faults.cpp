@@ -42,6 +42,7 @@ struct Fault {
 };
 thread_local Fault last_fault;
 thread_local FaultGuest* guest = nullptr;
+thread_local StepGuest* step_guest = nullptr;
 
 /// A thread that was told to halt, and where it did.
 struct Halted {
@@ -56,7 +57,7 @@ std::vector<Halted*> threads;  // all that may run firmware or supervisors
 thread_local Halted* halted = nullptr;
 constexpr int kHaltSignal = SIGUSR2;
 
-constexpr std::size_t kSignalStackBytes = 64 * 1024;
+constexpr std::size_t kSignalStackBytes = 256 * 1024;  // a debugger judges conditions on it
 constexpr std::size_t kRecoveryStackBytes = 256 * 1024;
 struct ThreadStacks {
   std::unique_ptr<char[]> signal{new char[kSignalStackBytes]};
@@ -156,6 +157,7 @@ void on_halt(int, siginfo_t*, void* raw) {
 }
 
 void on_signal(int signal, siginfo_t* info, void* raw) {
+  if (signal == SIGTRAP && step_guest && step_guest->take(info->si_code, raw)) return;
   auto* context = static_cast<ucontext_t*>(raw);
   auto& r = context->uc_mcontext.gregs;
   CompiledRunner* runner = CompiledRunner::running();
@@ -195,6 +197,7 @@ void on_signal(int signal, siginfo_t* info, void* raw) {
               nullptr);  // not firmware: fault again with whoever was there before us
     return;
   }
+  if (step_guest) step_guest->note_fault(raw);
   Fault& f = last_fault;
   f.pc = pc;
   f.frame = static_cast<std::uintptr_t>(r[REG_RBP]);
@@ -217,6 +220,7 @@ void on_signal(int signal, siginfo_t* info, void* raw) {
 }  // namespace
 
 void set_fault_guest(FaultGuest* now) { guest = now; }
+void set_step_guest(StepGuest* now) { step_guest = now; }
 
 void catch_faults_on_this_thread() {
   if (stacks) return;

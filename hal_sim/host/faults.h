@@ -21,6 +21,20 @@ class FaultGuest {
 /// The guest that runs on this thread now; null: none.
 void set_fault_guest(FaultGuest* guest);
 
+/// Who runs a program's code on this thread instruction by instruction: a debugger.
+class StepGuest {
+ public:
+  virtual ~StepGuest() = default;
+  /// In the signal handler, on the thread's signal stack: an instruction has been carried out, or a
+  /// breakpoint was met. It may block: the code that was interrupted is the program's own. False: it is none
+  /// of its own.
+  virtual bool take(int code, void* context) = 0;
+  /// A fault of the program's code will be reported; `context` is as it was there.
+  virtual void note_fault(void* context) = 0;
+};
+/// Null: none.
+void set_step_guest(StepGuest* guest);
+
 /// Installs the fault handlers of this process (SIGSEGV, SIGBUS, SIGFPE, SIGILL) once, and this thread's
 /// signal and recovery stacks. Faults outside firmware go to the handlers that were there before.
 void catch_faults_on_this_thread();

@@ -35,6 +35,8 @@ class ImageCopy {
   void copy_in(const char* from) const;  ///< a robot's own copy -> live data
 
   bool is_code(std::uintptr_t address) const { return memory_->is_code(address); }
+  std::uintptr_t code_begin() const { return memory_->code_begin(); }
+  std::uintptr_t code_end() const { return memory_->code_end(); }
   /// Load address: address in the file = address in memory - base().
   std::uintptr_t base() const { return memory_->base(); }
   /// In the addresses that belong to this copy alone.

@@ -29,6 +29,8 @@ class ImageMemory {
   /// Address in the file = address in memory - base().
   std::uintptr_t base() const { return slot_.begin(); }
   bool is_code(std::uintptr_t address) const { return address >= code_begin_ && address < code_end_; }
+  std::uintptr_t code_begin() const { return code_begin_; }
+  std::uintptr_t code_end() const { return code_end_; }
   /// Anywhere in the addresses that belong to this copy.
   bool holds(std::uintptr_t address) const { return slot_.holds(address); }
 

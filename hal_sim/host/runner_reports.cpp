@@ -193,11 +193,16 @@ Place CompiledRunner::place_now() const {
   return stopped_ ? traps_.back().place : culprit(walk(0, fiber_.frame()));
 }
 
-/// May this interrupt the program, now or when something comes from outside?
 bool CompiledRunner::is_enabled(int vector) {
   if (native_) return native_->interrupts().source(vector).enabled;
   constexpr unsigned kIec0 = dspic::sfr("IEC0");
-  return peek(kIec0 + 2 * static_cast<unsigned>(vector / 16), now_) >> vector % 16 & 1;
+  return peek(kIec0 + 2 * static_cast<unsigned>(vector / 16), now_in_code()) >> vector % 16 & 1;
+}
+
+int CompiledRunner::priority(int vector) {
+  if (native_) return native_->interrupts().source(vector).priority;
+  constexpr unsigned kIpc0 = dspic::sfr("IPC0");
+  return peek(kIpc0 + 2 * static_cast<unsigned>(vector / 4), now_in_code()) >> vector % 4 * 4 & 7;
 }
 
 /// The program sleeps in the loop `loop_`, which looks at nothing outside: told, when no handler can end it.
