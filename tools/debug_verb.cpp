@@ -26,11 +26,11 @@ namespace {
 namespace fs = std::filesystem;
 
 struct DebugArguments {
-  std::string world, robot, commands, way = "chip";
+  std::string world, robot, commands, way = "chip", optimisation = "-O0";
   std::vector<std::string> firmware;
   double seconds = 1e6;
   long long seed = -1;
-  bool dap = false;
+  bool dap = false, gdb = false;
 };
 
 volatile std::sig_atomic_t pause_asked = 0;
@@ -43,7 +43,8 @@ bool set_up(const DebugArguments& a, debug::Session::Setup& setup, std::vector<s
   if (a.seed >= 0) world->seed = static_cast<std::uint64_t>(a.seed);
   setup.world = std::move(*world);
   setup.options.world_folder = fs::path(setup.world.file).parent_path().string();
-  setup.options.way = "chip";
+  setup.options.way = a.way;
+  if (a.way != "chip") setup.options.optimisation = a.optimisation;
   setup.robot = a.robot;
   setup.seconds = a.seconds;
   return true;
@@ -119,7 +120,7 @@ int debug_with_gdb(const DebugArguments& a) {
                                  "-ex", "run"};
   if (!a.commands.empty()) words.insert(words.end(), {"-batch", "-x", a.commands});
   words.insert(words.end(), {"--args", fs::read_symlink("/proc/self/exe").string(), "run", a.world, "--way",
-                             a.way, "--opt", "-O0", "--for", fmt::format("{}", a.seconds)});
+                             a.way, "--opt", a.optimisation, "--for", fmt::format("{}", a.seconds)});
   for (const std::string& firmware : a.firmware) words.insert(words.end(), {"--fw", firmware});
   if (a.seed >= 0) words.insert(words.end(), {"--seed", std::to_string(a.seed)});
   std::vector<char*> pointers;
@@ -151,16 +152,20 @@ void add_debug(CLI::App& app, int& exit_code) {
       ->check(CLI::NonNegativeNumber);
   verb->footer("Commands are read from the terminal, or from a pipe; help lists them. See docs/debug.md");
   verb->add_flag("--dap", a->dap, "speak the Debug Adapter Protocol with an editor, which says what to run");
+  verb->add_flag("--gdb", a->gdb, "gdb instead, in the native and register ways");
+  verb->add_option("--opt", a->optimisation, "of a native or register way's program that is built")
+      ->check(CLI::IsMember({"-O0", "-O1", "-O2", "-Os"}))
+      ->capture_default_str();
   verb->callback([a, world, &exit_code] {
-    if (a->way != "chip" && (a->dap || !a->robot.empty()))
-      throw CLI::ValidationError(a->dap ? "--dap" : "--robot", "chip way only");
+    if (a->gdb && (a->dap || !a->robot.empty() || a->way == "chip"))
+      throw CLI::ValidationError("--gdb", "with --way native or register, and without --dap and --robot");
     if (a->dap) {
       std::signal(SIGPIPE, SIG_IGN);
       exit_code = debug::DapServer(0, 1, launched).serve() ? kPass : kBadInput;
       return;
     }
     if (world->count() == 0) throw CLI::RequiredError("WORLD or --dap");
-    exit_code = a->way == "chip" ? debug_in_terminal(*a) : debug_with_gdb(*a);
+    exit_code = a->gdb ? debug_with_gdb(*a) : debug_in_terminal(*a);
   });
 }
 

@@ -294,7 +294,7 @@ class Reader {
         break;
       case kPointerType:
         type.kind = DebugInfo::Kind::Pointer;
-        type.bytes = 2;
+        type.bytes = address_bytes_ == 8 ? 8 : 2;  // the chip's are words, whatever addresses of code are
         points_.emplace_back(add(std::move(type)), offset);
         return types_[offset] = points_.back().first;
       case kArrayType:

@@ -10,6 +10,7 @@
 #include <cstring>
 
 #include "dspic30/memory/irqs.h"
+#include "dspic30/memory/sfr_table.h"
 #include "hal_sim/host/endless_wait.h"
 
 namespace debug {
@@ -18,6 +19,7 @@ namespace {
 
 constexpr std::size_t kMostFrames = 64;
 constexpr int kRbp = 6, kRsp = 7;  // numbers of the debug information
+constexpr Address kNvmcon = dspic::sfr("NVMCON");
 
 struct Register {
   const char* name;
@@ -37,9 +39,12 @@ bool is_runtime(const dspic::CodeMap::Function* function) {
 }  // namespace
 
 PcMachine::PcMachine(host::CompiledRunner& runner)
-    : runner_(runner), file_(read_pc_program(runner.copy().path())),
-      stepper_(runner, file_.code,
-                                [this](const Stepper::Place& place, void* c) { return reached(place, c); }) {}
+    : runner_(runner),
+      file_(read_pc_program(runner.copy().path())),
+      stepper_(runner, file_.code, [this](const Stepper::Place& place, void* c) { return reached(place, c); }),
+      starts_(runner.starts()) {
+  if (const auto* main = file_.code.function_named("main")) main_ = body_of(main->begin);
+}
 
 // --- being stopped
 
@@ -54,6 +59,7 @@ void PcMachine::watch(Watcher* watcher, bool on) {
 void PcMachine::mark(const std::vector<std::uint32_t>& addresses) {
   std::vector<std::uintptr_t> all;
   for (const std::uint32_t address : addresses) all.push_back(runner_.copy().base() + address);
+  if (main_) all.push_back(runner_.copy().base() + main_);  // a reset is noticed there
   stepper_.mark(std::move(all));
 }
 
@@ -68,6 +74,7 @@ Look PcMachine::reached(const Stepper::Place& place, void* context) {
     watcher_->after(step);
   }
   last_ = pc();
+  if (pc() == main_ && std::exchange(starts_, runner_.starts()) != runner_.starts()) watcher_->was_reset(now());
   watcher_->before(now());
   context_ = nullptr;
   return watcher_->look();
@@ -125,23 +132,24 @@ bool PcMachine::read(const Data& data, void* to) const {
     return true;
   }
   // asked of the system, for a pointer of the program may lead anywhere
-  iovec here{to, data.bytes}, there{reinterpret_cast<void*>(data.address), data.bytes};
+  const void* const value = runner_.value_at(data.address);
+  iovec here{to, data.bytes}, there{const_cast<void*>(value), data.bytes};
   return process_vm_readv(getpid(), &here, 1, &there, 1, 0) == static_cast<ssize_t>(data.bytes);
 }
 
 bool PcMachine::write(const Data& data, const void* from) {
-  if (data.is_register) {
-    if (!in_code_) return false;  // a call of the host is under way
-    std::uint16_t value = 0;
-    std::memcpy(&value, from, sizeof value);
-    runner_.write_register(static_cast<unsigned>(data.address), value, 16);
+  if (!data.is_register) {
+    if (!runner_.owns_data(data.address, data.bytes)) return false;
+    runner_.write_value(data.address, from, data.bytes);
     return true;
   }
-  iovec here{const_cast<void*>(from), data.bytes},
-      there{reinterpret_cast<void*>(data.address), data.bytes};
-  if (process_vm_writev(getpid(), &here, 1, &there, 1, 0) != static_cast<ssize_t>(data.bytes)) return false;
-  if (in_code_) runner_.note_write();
-  runner_.wake();
+  // within a line the program may be counting its cycles, which a change of the chip's interrupts would upset;
+  // a write of the flash or EEPROM would keep it waiting here
+  const auto* const line = file_.code.line_at(pc());
+  if ((in_code_ && (!line || line->address != pc())) || data.address == kNvmcon) return false;
+  std::uint16_t value = 0;
+  std::memcpy(&value, from, sizeof value);
+  runner_.poke_register(static_cast<unsigned>(data.address), value, in_code_);
   return true;
 }
 

@@ -63,6 +63,8 @@ class PcMachine final : public Machine {
   bool in_code_ = false;  // before an instruction
   void* context_ = nullptr;
   std::uint32_t last_ = 0;  // instruction before this one, 0: there was none
+  std::uint32_t main_ = 0;  // its body; 0: it has none
+  std::int64_t starts_;     // of the program, that have been told
 };
 
 /// Functions, lines, objects and types of a shared object of the PC. Addresses count from its load address.

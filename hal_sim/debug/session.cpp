@@ -114,6 +114,7 @@ void Session::run_world() {
     machine_->watch(this, mind.cycle_at(simulation.now() + 2 * tick) >= quiet_until());
     simulation.advance(simulation.now());
     if (setup_.ticked && !is_repeating_ && !abandoned_) setup_.ticked();
+    std::as_const(mind).runner();  // a robot that is idle has come as far as the world
     if (abandoned_ || !machine_->stands_between()) continue;
     stands_between_ = true;
     apply_pokes();
@@ -155,6 +156,7 @@ Stop Session::run(Plan plan, const std::function<bool()>& idle) {
   next_poke_ = pokes_.size();
   plan_ = plan;
   from_ = moment(now());
+  traps_ = machine_->runner().traps().size();
   return resume(idle);
 }
 
@@ -535,14 +537,17 @@ bool Session::write(const Data& data, std::uint64_t value) {
   }
   if (!machine_->write(whole, &value)) return false;
   if (has_ended()) return true;
+  twin_->mind(robot_).wake();
   pokes_.push_back({moment(now()), whole, value});
   next_poke_ = pokes_.size();
   return true;
 }
 
 void Session::apply_pokes() {
-  for (; next_poke_ < pokes_.size() && is_reached(pokes_[next_poke_].when); ++next_poke_)
+  for (; next_poke_ < pokes_.size() && is_reached(pokes_[next_poke_].when); ++next_poke_) {
     machine_->write(pokes_[next_poke_].data, &pokes_[next_poke_].value);
+    twin_->mind(robot_).wake();
+  }
 }
 
 /// Nobody has to look before.

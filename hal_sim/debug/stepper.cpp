@@ -29,17 +29,36 @@ Stepper::Place place_of(const greg_t* r) {
 
 }  // namespace
 
+/// The code, as long as this lives.
+class Stepper::Writable {
+ public:
+  explicit Writable(const Stepper& stepper) : stepper_(stepper) { allow(PROT_WRITE); }
+  ~Writable() { allow(0); }
+
+ private:
+  void allow(int write) const {
+    CHECK(mprotect(reinterpret_cast<void*>(stepper_.code_begin_), stepper_.code_bytes_,
+                   PROT_READ | PROT_EXEC | write) == 0,
+          "cannot put breakpoints into a program's code");
+  }
+  const Stepper& stepper_;
+};
+
 Stepper::Stepper(host::CompiledRunner& runner, const dspic::CodeMap& map, Reached reached)
     : runner_(runner), map_(map), reached_(std::move(reached)), base_(runner.copy().base()) {
-  for (const auto& function : map.functions) beginnings_.push_back(base_ + function.begin);
   const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
-  const std::uintptr_t begin = runner.copy().code_begin() & ~(page - 1);
-  const std::size_t bytes = (runner.copy().code_end() - begin + page - 1) & ~(page - 1);
-  CHECK(mprotect(reinterpret_cast<void*>(begin), bytes, PROT_READ | PROT_WRITE | PROT_EXEC) == 0,
-        "cannot put breakpoints into a program's code");
+  code_begin_ = runner.copy().code_begin() & ~(page - 1);
+  code_bytes_ = (runner.copy().code_end() - code_begin_ + page - 1) & ~(page - 1);
+  for (const auto& function : map.functions) beginnings_.push_back(base_ + function.begin);
+  std::sort(beginnings_.begin(), beginnings_.end());
 }
 
 Stepper::~Stepper() { insert({}); }
+
+void Stepper::mark(std::vector<std::uintptr_t> addresses) {
+  marks_ = std::move(addresses);
+  std::sort(marks_.begin(), marks_.end());
+}
 
 // --- the code's bytes
 
@@ -48,28 +67,42 @@ unsigned char Stepper::byte(std::uintptr_t address) const {
   return saved != inserted_.end() ? saved->second : *reinterpret_cast<const unsigned char*>(address);
 }
 
-void Stepper::insert(std::vector<std::uintptr_t> addresses) {
-  std::sort(addresses.begin(), addresses.end());
+void Stepper::put(std::uintptr_t address, unsigned char byte) {
+  *reinterpret_cast<volatile unsigned char*>(address) = byte;
+}
+
+void Stepper::insert(std::vector<std::uintptr_t> wanted) {
+  std::sort(wanted.begin(), wanted.end());
+  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+  wanted.erase(
+      std::remove_if(wanted.begin(), wanted.end(), [this](std::uintptr_t a) { return !owns(a); }),
+      wanted.end());
+  const auto is_there = [](const auto& saved, std::uintptr_t address) { return saved.first == address; };
+  if (wanted.size() == inserted_.size() &&
+      std::equal(inserted_.begin(), inserted_.end(), wanted.begin(), is_there))
+    return;
+  const Writable code(*this);
   for (auto it = inserted_.begin(); it != inserted_.end();) {
-    const bool stays = std::binary_search(addresses.begin(), addresses.end(), it->first);
-    if (!stays) *reinterpret_cast<unsigned char*>(it->first) = it->second;
+    const bool stays = std::binary_search(wanted.begin(), wanted.end(), it->first);
+    if (!stays) put(it->first, it->second);
     it = stays ? std::next(it) : inserted_.erase(it);
   }
-  for (const std::uintptr_t address : addresses) {
-    if (!owns(address)) continue;
-    auto* const at = reinterpret_cast<unsigned char*>(address);
-    if (inserted_.emplace(address, *at).second) *at = kInt3;
-  }
+  for (const std::uintptr_t address : wanted)
+    if (inserted_.emplace(address, *reinterpret_cast<const unsigned char*>(address)).second)
+      put(address, kInt3);
 }
 
 void Stepper::lift(std::uintptr_t address, void* context) {
+  const Writable code(*this);
   lifted_ = address;
-  *reinterpret_cast<unsigned char*>(address) = inserted_.at(address);
+  put(address, inserted_.at(address));
   registers_of(context)[REG_EFL] |= kTrapFlag;
 }
 
 void Stepper::put_back() {
-  if (lifted_) *reinterpret_cast<unsigned char*>(lifted_) = kInt3;
+  if (!lifted_) return;
+  const Writable code(*this);
+  put(lifted_, kInt3);
   lifted_ = 0;
 }
 
@@ -144,27 +177,50 @@ std::optional<Stepper::Place> Stepper::place_between() const {
 
 // --- running
 
-void Stepper::note_exit(const Place& place) {
-  const auto all = callers(place, 1);
-  exit_ = all.empty() ? std::nullopt : std::optional(all[0].place);
+void Stepper::begin(Look look) {
+  put_back();
+  is_passing_ = false;
+  last_ = 0;
+  const auto place = place_between();
+  look_for(look, place);
+  if (look == Look::Everything && place) wait_for_host(place->pc + 1);
 }
 
-void Stepper::begin(Look look) {
+// the breakpoints that a look needs
+void Stepper::look_for(Look look, const std::optional<Place>& place) {
+  forget_host();
   look_ = look;
-  is_passing_ = false;
-  lifted_ = 0;
-  const auto place = place_between();
+  exit_.reset();
   std::vector<std::uintptr_t> wanted;
+  if (look == Look::Everything) wanted = beginnings_;
   if (look == Look::Breakpoints || look == Look::Leaving) wanted = marks_;
-  if (look == Look::Everything) {
-    wanted = beginnings_;
-    if (place) wanted.push_back(place->pc + 1);
-  }
-  if (look == Look::Leaving && place) {
-    note_exit(*place);
-    if (exit_) wanted.push_back(exit_->pc);
-  }
+  if (look == Look::Leaving && place)
+    if (const auto all = callers(*place, 1); !all.empty()) exit_ = all[0].place;
+  if (exit_) wanted.push_back(exit_->pc);
   insert(std::move(wanted));
+}
+
+// it has gone there by a call, or because a handler has returned
+void Stepper::follow_host(const Place& place) {
+  const bool is_call = last_ && byte(last_) != kRet;
+  const auto outer = is_call ? std::nullopt : innermost(place.frame);
+  wait_for_host(is_call ? word(place.sp) : outer ? outer->pc + 1 : 0);
+}
+
+void Stepper::wait_for_host(std::uintptr_t back) {
+  if (!owns(back) || inserted_.count(back)) return;
+  const Writable code(*this);
+  inserted_.emplace(back, byte(back));
+  put(back, kInt3);
+  host_return_ = back;
+}
+
+void Stepper::forget_host() {
+  if (!host_return_) return;
+  const Writable code(*this);
+  put(host_return_, inserted_.at(host_return_));
+  inserted_.erase(host_return_);
+  host_return_ = 0;
 }
 
 bool Stepper::take(int code, void* context) {
@@ -173,50 +229,32 @@ bool Stepper::take(int code, void* context) {
   const bool is_breakpoint = code == SI_KERNEL && inserted_.count(place.pc - 1);
   if (!is_breakpoint && code != TRAP_TRACE) return false;
   put_back();
-  const bool was_passing = std::exchange(is_passing_, false);
+  r[REG_EFL] &= ~kTrapFlag;
   if (is_breakpoint) r[REG_RIP] = static_cast<greg_t>(--place.pc);
   if (host::CompiledRunner::running() != &runner_) {  // another robot with the same code
-    r[REG_EFL] &= ~kTrapFlag;
     if (is_breakpoint) lift(place.pc, context);
     return true;
   }
-  if (owns(place.pc) && (is_breakpoint || !was_passing)) {
-    const bool is_deeper = look_ == Look::Leaving && exit_ && place.pc == exit_->pc && place.sp < exit_->sp &&
-                           std::find(marks_.begin(), marks_.end(), place.pc) == marks_.end();
-    if (!is_deeper) {
-      look_ = reached_(place, context);
-      if (look_ == Look::Leaving) note_exit(place);
-    }
+  if (std::exchange(is_passing_, false) && !is_breakpoint) return true;
+  if (!owns(place.pc)) {
+    follow_host(place);
+    return true;
   }
-  go_on(place, context);
+  forget_host();
+  const bool is_deeper = look_ == Look::Leaving && exit_ && place.pc == exit_->pc && place.sp < exit_->sp &&
+                         !std::binary_search(marks_.begin(), marks_.end(), place.pc);
+  if (!is_deeper) look_for(reached_(place, context), place);
+  step_off(place, context);
   return true;
 }
 
-void Stepper::go_on(const Place& place, void* context) {
-  greg_t* const r = registers_of(context);
-  r[REG_EFL] &= ~kTrapFlag;
-  if (look_ == Look::Everything) {
-    if (owns(place.pc)) {
-      insert({});
-      r[REG_EFL] |= kTrapFlag;
-      return;
-    }
-    // in the host: back at a function's beginning, or where it returns to
-    std::vector<std::uintptr_t> wanted = beginnings_;
-    const std::uintptr_t back = word(place.sp);
-    if (owns(back))
-      wanted.push_back(back);
-    else if (const auto outer = innermost(place.frame))
-      wanted.push_back(outer->pc + 1);
-    insert(std::move(wanted));
-    return;
-  }
-  std::vector<std::uintptr_t> wanted;
-  if (look_ != Look::Nothing) wanted = marks_;
-  if (look_ == Look::Leaving && exit_) wanted.push_back(exit_->pc);
-  insert(std::move(wanted));
-  is_passing_ = inserted_.count(place.pc) > 0;
-  if (is_passing_) lift(place.pc, context);
+void Stepper::step_off(const Place& place, void* context) {
+  last_ = place.pc;
+  if (inserted_.count(place.pc))
+    lift(place.pc, context);
+  else if (look_ == Look::Everything)
+    registers_of(context)[REG_EFL] |= kTrapFlag;
+  is_passing_ = lifted_ && look_ != Look::Everything;
 }
 
 void Stepper::note_fault(void* context) {

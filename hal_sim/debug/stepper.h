@@ -7,7 +7,9 @@
 //
 // While the program is in the host, it is caught again at the beginning of each of its functions, for the
 // host calls its handlers, and where the host's function returns to. Frames are linked through the frame
-// pointer, which host and program keep. Source: Intel 64 manual, volume 3, 17.3 (debug exceptions).
+// pointer, which host and program keep. The code can be written only while a breakpoint is put in or taken
+// out, so what a wild pointer does is the same as without a debugger.
+// Source: Intel 64 manual, volume 3, 17.3 (debug exceptions).
 #pragma once
 #include <functional>
 #include <map>
@@ -36,7 +38,8 @@ class Stepper final : public host::StepGuest {
 
   /// On the program's thread while it is between two windows: from now on.
   void begin(Look look);
-  void mark(std::vector<std::uintptr_t> addresses) { marks_ = std::move(addresses); }
+  /// Breakpoints, from the next begin() or answer of `reached` on.
+  void mark(std::vector<std::uintptr_t> addresses);
   /// Where the program is between two windows, or was when a fault ended it; none: it has not begun.
   std::optional<Place> place_between() const;
 
@@ -55,28 +58,36 @@ class Stepper final : public host::StepGuest {
 
  private:
   enum class At { Beginning, Pushed, Body, Return };
+  class Writable;
   At at(const Place& place) const;
   std::uintptr_t word(std::uintptr_t address) const;
   unsigned char byte(std::uintptr_t address) const;
+  void put(std::uintptr_t address, unsigned char byte);
   bool owns(std::uintptr_t pc) const { return runner_.owns_code(pc); }
   std::optional<Place> innermost(std::uintptr_t frame) const;
-  void note_exit(const Place& place);
+  void look_for(Look look, const std::optional<Place>& place);
   void insert(std::vector<std::uintptr_t> addresses);
   void lift(std::uintptr_t address, void* context);  // for one instruction
   void put_back();
-  void go_on(const Place& place, void* context);
+  void step_off(const Place& place, void* context);
+  void follow_host(const Place& place);
+  void wait_for_host(std::uintptr_t back);
+  void forget_host();
 
   host::CompiledRunner& runner_;
   const dspic::CodeMap& map_;
   Reached reached_;
-  std::uintptr_t base_;
-  std::vector<std::uintptr_t> marks_, beginnings_;
+  std::uintptr_t base_, code_begin_;
+  std::size_t code_bytes_;
+  std::vector<std::uintptr_t> marks_, beginnings_;    // sorted
   std::map<std::uintptr_t, unsigned char> inserted_;  // breakpoints in the code, and what was there
   std::uintptr_t lifted_ = 0;                         // one that is passed over now
-  bool is_passing_ = false;                           // one instruction, which nobody asked to see
+  bool is_passing_ = false;                           // one instruction; nobody asked to see the next
   Look look_ = Look::Nothing;
-  std::optional<Place> exit_;   // Look::Leaving: the instruction, and the least stack pointer there
-  std::optional<Place> fault_;  // the last one
+  std::uintptr_t last_ = 0;         // Look::Everything: the instruction before
+  std::uintptr_t host_return_ = 0;  // ... and where the host returns to, if a breakpoint was put in for it
+  std::optional<Place> exit_;       // Look::Leaving: the instruction, and the least stack pointer there
+  std::optional<Place> fault_;      // the last one
   std::uint64_t fault_turn_ = 0;
 };
 

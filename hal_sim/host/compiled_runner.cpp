@@ -65,6 +65,7 @@ void CompiledRunner::power_up() {
 }
 
 void CompiledRunner::restart_program() {
+  ++starts_;
   if (observer_) observer_->ended(now_);
   data_ = copy_.start_values();
   // RAM that the start-up code does not clear holds anything, and the same each time

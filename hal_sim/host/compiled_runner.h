@@ -104,6 +104,16 @@ class CompiledRunner final : public Runner, public Context {
   /// May this interrupt the program, now or when something comes from outside? Its priority.
   bool is_enabled(int vector);
   int priority(int vector);
+  /// Where a value of this robot is now: the data of a copy's robots take turns at the program's addresses.
+  const void* value_at(std::uintptr_t address) const { return data_at(address - copy_.base()); }
+  /// May a debugger write there: in its variables or on its stack?
+  bool owns_data(std::uintptr_t address, std::size_t bytes) const;
+  /// As a debugger would, wherever the program stands; a wait looks again.
+  void write_value(std::uintptr_t address, const void* from, std::size_t bytes);
+  /// A register of the chip likewise: between two windows, or before a line of the program.
+  void poke_register(unsigned address, std::uint16_t value, bool is_in_code);
+  /// How often the program has begun.
+  std::int64_t starts() const { return starts_; }
 
   // --- Context
   Cycle now() override { return observer_ ? now_and_tell() : now_unobserved(); }
@@ -347,6 +357,7 @@ class CompiledRunner final : public Runner, public Context {
   std::int64_t served_ = 0;  // interrupts so far
   std::int64_t looks_ = 0;   // look() so far
   std::uint64_t turns_ = 0;
+  std::int64_t starts_ = 0;
 
   std::int64_t writes_ = 0;  // image_abi.h's counter while another robot of the copy runs
   std::int64_t poll_loop_ = -1;

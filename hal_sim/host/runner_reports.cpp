@@ -275,6 +275,34 @@ void CompiledRunner::write_memory(std::uintptr_t address, const void* from, std:
   wake();
 }
 
+bool CompiledRunner::owns_data(std::uintptr_t address, std::size_t bytes) const {
+  const tp_image& image = copy_.description();
+  const auto begin = reinterpret_cast<std::uintptr_t>(image.data_begin),
+             end = reinterpret_cast<std::uintptr_t>(image.data_end),
+             hole = reinterpret_cast<std::uintptr_t>(image.hole_begin),
+             hole_end = reinterpret_cast<std::uintptr_t>(image.hole_end);
+  const auto is_within = [&](std::uintptr_t low, std::uintptr_t high) {
+    return address >= low && address < high && high - address >= bytes;
+  };
+  return is_within(begin, hole) || is_within(hole_end, end) ||
+         (fiber_.is_on_stack(address) && fiber_.is_on_stack(address + bytes - 1));
+}
+
+void CompiledRunner::write_value(std::uintptr_t address, const void* from, std::size_t bytes) {
+  write_memory(address - copy_.base(), from, bytes);
+  note_write();
+}
+
+void CompiledRunner::poke_register(unsigned address, std::uint16_t value, bool is_in_code) {
+  processor_->write(address, value, 16, is_in_code ? now_in_code() : std::max(now_, end_));
+  wake();
+  if (is_in_code) return;
+  // the host, which is called, gives the budget
+  issued_ = control_.budget = 0;
+  interrupt_horizon_ = 0;
+  ++writes_;
+}
+
 void CompiledRunner::restart() {
   processor_->note_reset(ResetCause::Button);
   stopped_ = false;
