@@ -72,6 +72,8 @@ std::unique_ptr<debug::Session> launched(const nlohmann::json& launch,
   DebugArguments a;
   a.world = launch.value("world", "maze");
   a.robot = launch.value("robot", "");
+  a.way = launch.value("way", a.way);
+  a.optimisation = launch.value("opt", a.optimisation);
   a.seconds = launch.value("seconds", a.seconds);
   a.seed = launch.value("seed", a.seed);
   if (const std::string firmware = launch.value("firmware", ""); !firmware.empty())

@@ -75,11 +75,8 @@ std::string state_of(ChipMachine& machine, int vector) {
 
 /// The timer that a handler serves, if it stands still.
 std::string idle_timer(ChipMachine& machine, int vector) {
-  const std::string name = dspic::vector_name(vector);
-  if (name.size() != 2 || name[0] != 'T') return "";
-  const auto* control = dspic::sfr_named(name + "CON");
-  const bool is_on = control && (machine.word(control->address) & 0x8000);
-  return is_on ? "" : fmt::format("; timer {} is off ({}CON.TON = 0)", name[1], name);
+  return told_timer(std::string(dspic::vector_name(vector)),
+                    [&](unsigned address) { return machine.word(address); });
 }
 
 /// Who writes a variable, and whether he can come.

@@ -34,4 +34,11 @@ std::string told_interrupt(const std::string& name, bool flag, bool enabled, int
   return fmt::format("{}: {}, flag {}", name, held, flag ? "set" : "clear");
 }
 
+std::string told_timer(const std::string& name, const std::function<unsigned(unsigned address)>& word) {
+  if (name.size() != 2 || name[0] != 'T') return "";
+  const auto* control = dspic::sfr_named(name + "CON");
+  const bool is_on = control && (word(control->address) & 0x8000);
+  return is_on ? "" : fmt::format("; timer {} is off ({}CON.TON = 0)", name[1], name);
+}
+
 }  // namespace debug

@@ -8,6 +8,7 @@
 // Addresses of code are those of the image's debug information; those of data are the program's pointers.
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -118,5 +119,7 @@ std::optional<Data> find_sfr(const std::string& name);
 /// "T2: enabled, priority 4 above the processor's 0, flag clear"
 std::string told_interrupt(const std::string& name, bool flag, bool enabled, int priority, int level,
                            bool is_held_by_disi);
+/// Of a timer's interrupt, "T1": "; timer 1 is off (T1CON.TON = 0)", or nothing. `word`: of a register.
+std::string told_timer(const std::string& name, const std::function<unsigned(unsigned address)>& word);
 
 }  // namespace debug

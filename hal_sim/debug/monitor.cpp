@@ -25,13 +25,14 @@ finish                  until this function has returned
 back, rs  backi, rsi    a source line or an instruction back; rc: back to the breakpoint before
 goto 1.5s | CYCLE       forwards or back to a time of the robot, or a cycle; past breakpoints
 where                   place and time; backtrace, bt: the calls that led here
-print EXPR, p           variables with members and elements (state.speed[1]), registers (LATA, LATA.LATA6, w0, pc, sr, cycle), C's operators
+print EXPR, p           variables with members and elements (state.speed[1]), registers of the chip (LATA,
+                        LATA.LATA6; w0, sr where there is its processor), pc, cycle, C's operators
 locals                  parameters and variables of this function
 set NAME = EXPR         a variable or register
 x EXPR [WORDS]          words of data from an address
 regs                    the processor's registers; info interrupts: what is enabled or pending;
                         info world: the robots, and the digest of the run so far
-list [LINE]  dis [N]    source, instructions from here
+list [LINE]  dis [N]    source, the chip's instructions from here
 why                     what is waited for, who could set it, what is pending but held off
 trace FILE [N]          the next N instructions (10,000; at most 10,000,000) with cycles, as text
 help, quit
@@ -148,9 +149,9 @@ std::string Monitor::trace(const std::string& rest) {
     std::uint32_t next = 0;
     const std::uint32_t pc = session_.pc();
     const std::string text = session_.machine().instruction(pc, next);
-    out << fmt::format("{} {:06x} {:<28} ; {}\n", session_.now(), pc,
-                       text.empty() ? "?" : text.substr(text.find("  ") + 2),
-                       session_.file().code.describe(pc));
+    out << fmt::format("{} {:06x} ", session_.now(), pc);
+    if (!text.empty()) out << fmt::format("{:<28} ", text.substr(text.find("  ") + 2));
+    out << "; " << session_.file().code.describe(pc) << '\n';
     const Stop stop = session_.run(Plan::AnyInstruction, idle_);
     if (stop.why != Stop::Why::Step) break;
   }
@@ -240,7 +241,8 @@ std::string Monitor::assign(const std::string& rest) {
   if (!session_.evaluate(rest.substr(equals + 1), value, error)) return error + "\n";
   const auto data = session_.find_data(name);
   if (!data || !session_.write(*data, static_cast<std::uint64_t>(value)))
-    return "got '" + name + "', expected a variable of up to 4 bytes or a register\n";
+    return "got '" + name + "', expected a variable of up to 8 bytes or a register" +
+           (data && data->is_register ? "; here, only where a line of the program begins, and not NVMCON" : "") + "\n";
   return print(name);
 }
 
@@ -255,7 +257,8 @@ std::string Monitor::memory(const std::string& rest) {
   for (int i = 0; i < words; ++i) {
     const Address here = static_cast<Address>(address + 2 * i) & session_.machine().address_mask() & ~Address{1};
     if (i % 8 == 0) text += fmt::format("{}{:04x}:", i ? "\n" : "", here);
-    text += fmt::format(" {:04x}", session_.read({here, 2}));
+    unsigned word = 0;
+    text += session_.machine().read({here, 2}, &word) ? fmt::format(" {:04x}", word) : " ????";
   }
   return text + "\n";
 }
@@ -310,7 +313,7 @@ std::string Monitor::disassemble(const std::string& rest) {
                         session_.file().code.describe(a));
     a = next;
   }
-  return text.empty() ? "no instructions are known here; debug --gdb shows the PC's\n" : text;
+  return text.empty() ? "instructions of the PC are not shown here; debug --gdb does\n" : text;
 }
 
 }  // namespace debug

@@ -31,11 +31,6 @@ constexpr Register kPcRegisters[] = {{"rax", REG_RAX}, {"rdx", REG_RDX}, {"rcx",
                                    {"r8", REG_R8},   {"r9", REG_R9},   {"r10", REG_R10}, {"r11", REG_R11},
                                    {"r12", REG_R12}, {"r13", REG_R13}, {"r14", REG_R14}, {"r15", REG_R15}};
 
-/// The runtime's own functions.
-bool is_runtime(const dspic::CodeMap::Function* function) {
-  return !function || function->name.compare(0, 9, "tp_image_") == 0;
-}
-
 }  // namespace
 
 PcMachine::PcMachine(host::CompiledRunner& runner)
@@ -100,7 +95,7 @@ std::vector<Frame> PcMachine::frames() {
     f.call = is_return ? f.pc - 1 : f.pc;
     f.base = ~Address{stepper_.frame_end(place)};
     f.function = file_.code.function_at(f.call);
-    if (!is_runtime(f.function)) all.push_back(f);
+    if (stepper_.is_told(runner_.copy().base() + f.call)) all.push_back(f);
   };
   add(place_, false);
   for (const auto& caller : stepper_.callers(place_, kMostFrames)) {
@@ -186,8 +181,13 @@ std::string PcMachine::registers() const {
 }
 
 std::string PcMachine::told(int vector) {
+  const std::string timer = !runner_.has_chip() ? "" : told_timer(dspic::irq_name(vector), [this](unsigned address) {
+    return runner_.peek(address, now());
+  });
   return told_interrupt(dspic::irq_name(vector), runner_.flag(vector, now()), runner_.is_enabled(vector),
-                        runner_.priority(vector), runner_.processor().cpu_level(), false);
+                        runner_.priority(vector), runner_.processor().cpu_level(),
+                        runner_.is_held_by_disi()) +
+         timer;
 }
 
 std::string PcMachine::interrupts() {

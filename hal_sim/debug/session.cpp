@@ -190,7 +190,8 @@ Stop Session::repeat_to(const Moment& to, Cycle look_from, const std::function<b
 
 // runs again up to here, ever more of it instruction by instruction, for the latest moment that will do
 Stop Session::go_back(Plan plan, const std::function<bool()>& idle) {
-  from_ = has_ended() ? Moment{machine_->runner().cycles()} : moment(now());
+  from_ = moment(now());
+  if (has_ended()) from_.where = Moment::Where::Anywhere;
   const Moment here = from_;
   plan_ = plan;
   for (Cycle back = kFirstLookBack;; back *= kLookBackGrows) {
@@ -362,16 +363,19 @@ bool Session::wants_stop_between() {
   traps_ = traps;
   const host::TrapReport& last = runner.traps().back();
   stop_ = {last.kind == 0 ? Stop::Why::Reset : Stop::Why::Trap, 0,
-           std::string(host::trap_name(last.kind)) + ": " + last.message + ", at " + host::to_string(last.place)};
+           std::string(host::trap_name(last.kind)) + ": " + last.message + ", at " +
+               host::to_string(last.place) + ", cycle " + std::to_string(last.cycle)};
   return true;
 }
 
 Look Session::look() {
   if (abandoned_) return Look::Nothing;
-  const auto watches = [](const Breakpoint& b) { return b.data.bytes > 0; };
-  if (target_ || is_repeating_ || pause_ || next_poke_ < pokes_.size() ||
-      std::any_of(breakpoints_.begin(), breakpoints_.end(), watches))
-    return Look::Everything;
+  const bool watches = std::any_of(breakpoints_.begin(), breakpoints_.end(),
+                                   [](const Breakpoint& b) { return b.data.bytes > 0; });
+  if (watches || pause_ || next_poke_ < pokes_.size()) return Look::Everything;
+  if (looks_back_ && plan_ == Plan::BackContinue && now() < target_->at - kFirstLookBack)
+    return Look::Breakpoints;
+  if (target_ || is_repeating_) return Look::Everything;
   if (plan_ == Plan::Continue) return Look::Breakpoints;
   if (plan_ == Plan::AnyInstruction) return Look::Everything;
   const Moment here = moment(now());
@@ -482,6 +486,7 @@ const Breakpoint* Session::add_watchpoint(const std::string& what, const std::st
     b.data.bytes = std::min(data->bytes, 8u);
   } else {
     error = "got '" + what + "', expected a variable, a register or *address";
+    if (find_sfr(what)) error += "; the native way has no registers of the chip, --way register has";
     return nullptr;
   }
   if (!condition.empty() && !evaluate(condition, value, error)) return nullptr;

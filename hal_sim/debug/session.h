@@ -104,6 +104,7 @@ class Session final : private Watcher {
     dspic::DebugInfo::Found found;
     std::optional<Address> pointed;  ///< address that found.offset counts from; none: the variable's place
     std::uint32_t pc = 0;            ///< where the program would have to stand
+    bool is_elsewhere = false;       ///< it stands somewhere else: what cannot be read is 0
   };
   /// "speed", "grid[i + 1].x", "m->next->speed", "**p". False: `error` says why.
   bool find_part(const std::string& expression, Part& part, std::string& error,

@@ -49,7 +49,8 @@ Stepper::Stepper(host::CompiledRunner& runner, const dspic::CodeMap& map, Reache
   const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
   code_begin_ = runner.copy().code_begin() & ~(page - 1);
   code_bytes_ = (runner.copy().code_end() - code_begin_ + page - 1) & ~(page - 1);
-  for (const auto& function : map.functions) beginnings_.push_back(base_ + function.begin);
+  for (const auto& function : map.functions)
+    if (is_told(base_ + function.begin)) beginnings_.push_back(base_ + function.begin);
   std::sort(beginnings_.begin(), beginnings_.end());
 }
 
@@ -106,6 +107,11 @@ void Stepper::put_back() {
   lifted_ = 0;
 }
 
+bool Stepper::is_told(std::uintptr_t pc) const {
+  const auto* function = map_.function_at(static_cast<std::uint32_t>(pc - base_));
+  return function && function->name.compare(0, 9, "tp_image_") != 0;
+}
+
 // --- frames
 
 std::uintptr_t Stepper::word(std::uintptr_t address) const {
@@ -143,18 +149,13 @@ std::vector<Stepper::Caller> Stepper::callers(const Place& place, std::size_t mo
   std::uintptr_t end = frame_end(place), back = word(end - kWord);
   std::uintptr_t frame = at(place) == At::Body ? word(place.frame) : place.frame;
   bool by_host = false;
-  for (std::size_t depth = 0; depth < kDeepest && all.size() < most; ++depth) {
-    if (owns(back)) all.push_back({{back, end, frame}, by_host});
-    by_host = !owns(back);
-    if (!runner_.fiber().is_on_stack(frame) || frame < end - 2 * kWord) break;
+  for (std::size_t depth = 0; depth < kDeepest && all.size() < most && back; ++depth) {
+    if (owns(back) && is_told(back - 1)) all.push_back({{back, end, frame}, std::exchange(by_host, false)});
+    by_host = by_host || !owns(back);
+    if (frame < end) break;  // no frame of the stack
     back = word(frame + kWord);
     end = frame + 2 * kWord;
-    const std::uintptr_t next = word(frame);
-    if (next <= frame) {
-      if (owns(back)) all.push_back({{back, end, next}, by_host});
-      break;
-    }
-    frame = next;
+    frame = word(frame);
   }
   return all;
 }
@@ -241,11 +242,15 @@ bool Stepper::take(int code, void* context) {
     return true;
   }
   forget_host();
-  const bool is_deeper = look_ == Look::Leaving && exit_ && place.pc == exit_->pc && place.sp < exit_->sp &&
-                         !std::binary_search(marks_.begin(), marks_.end(), place.pc);
-  if (!is_deeper) look_for(reached_(place, context), place);
+  if (is_told(place.pc) && !is_for_another(place)) look_for(reached_(place, context), place);
   step_off(place, context);
   return true;
+}
+
+// where a function returns to that is left: another call of it, deeper
+bool Stepper::is_for_another(const Place& place) const {
+  return look_ == Look::Leaving && exit_ && place.pc == exit_->pc && place.sp < exit_->sp &&
+         !std::binary_search(marks_.begin(), marks_.end(), place.pc);
 }
 
 void Stepper::step_off(const Place& place, void* context) {

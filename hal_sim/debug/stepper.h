@@ -29,7 +29,8 @@ class Stepper final : public host::StepGuest {
     std::uintptr_t pc = 0, sp = 0, frame = 0;
     bool is_call = false;  ///< in a call of the host; pc is within the calling instruction
   };
-  /// Told of each instruction before it runs. May block; says what to look at next.
+  /// Told of each instruction of the program's functions before it runs; not of the image's own, between them
+  /// and the host. May block; says what to look at next.
   using Reached = std::function<Look(const Place&, void* context)>;
 
   /// `map`: of the program's code, from its base on.
@@ -52,6 +53,8 @@ class Stepper final : public host::StepGuest {
     bool by_host = false;
   };
   std::vector<Caller> callers(const Place& place, std::size_t most) const;
+  /// In a function of the program?
+  bool is_told(std::uintptr_t pc) const;
 
   bool take(int code, void* context) override;
   void note_fault(void* context) override;
@@ -66,6 +69,7 @@ class Stepper final : public host::StepGuest {
   bool owns(std::uintptr_t pc) const { return runner_.owns_code(pc); }
   std::optional<Place> innermost(std::uintptr_t frame) const;
   void look_for(Look look, const std::optional<Place>& place);
+  bool is_for_another(const Place& place) const;
   void insert(std::vector<std::uintptr_t> addresses);
   void lift(std::uintptr_t address, void* context);  // for one instruction
   void put_back();

@@ -34,6 +34,18 @@ double number_of(std::uint64_t raw, unsigned bytes) {
   return bytes == sizeof number ? number : static_cast<double>(float_of(raw));
 }
 
+/// Conditions are judged on a small stack.
+bool is_too_deep(const std::string& expression) {
+  constexpr int kMost = 8;
+  int brackets = 0, stars = 0, deepest = 0;
+  for (const char c : expression) {
+    brackets += (c == '[') - (c == ']');
+    stars = c == '*' ? stars + 1 : c == ' ' ? stars : 0;
+    deepest = std::max({deepest, brackets, stars});
+  }
+  return deepest > kMost;
+}
+
 /// End of the name that begins at `at`.
 std::size_t end_of_name(const std::string& text, std::size_t at) {
   while (at < text.size() && (std::isalnum(static_cast<unsigned char>(text[at])) || text[at] == '_')) ++at;
@@ -79,7 +91,7 @@ bool Session::find_part(const std::string& expression, Part& part, std::string& 
   };
   if (!text.empty() && text[0] == '*')
     return find_part(text.substr(1), part, error, at_pc) && (point(part, 0, error) || wrong(error));
-  part = {{}, {}, at_pc.value_or(pc())};
+  part = {{}, {}, at_pc.value_or(pc()), at_pc.has_value()};
   std::size_t at = end_of_name(text, 0);
   if (!file().debug.find(text.substr(0, at), part.pc, part.found, error)) return false;
   while (at < text.size()) {
@@ -149,7 +161,7 @@ std::optional<std::uint64_t> Session::raw_value(const Part& part) const {
   if (type.bytes == 0 || type.bytes > 8 || type.kind == Kind::Array || type.kind == Kind::Struct) return {};
   std::uint64_t raw = 0;
   if (const auto address = address_of(part)) {
-    if (!machine_->read({*address, type.bytes}, &raw)) return {};
+    if (!machine_->read({*address, type.bytes}, &raw) && !part.is_elsewhere) return {};
   } else {
     const auto* const place = dspic::DebugInfo::place_at(*part.found.variable, part.pc);
     if (!place) return {};
@@ -220,7 +232,7 @@ std::string Session::locals() const {
   std::string text;
   for (const auto& variable : file().debug.variables)
     if (pc() >= variable.begin && pc() < variable.end)
-      text += "  " + variable.name + " = " + typed({{&variable, variable.type}, {}, pc()}) + "\n";
+      text += "  " + variable.name + " = " + typed({{&variable, variable.type}, {}, pc(), false}) + "\n";
   return text.empty() ? "no variables of a function are known here\n" : text;
 }
 
@@ -254,6 +266,10 @@ std::uint64_t Session::read(const Data& data) const {
 
 bool Session::evaluate(const std::string& expression, std::int64_t& value, std::string& error,
                        std::optional<std::uint32_t> at_pc) const {
+  if (is_too_deep(expression)) {
+    error = "got '" + expression + "', expected at most 8 [ or * within one another";
+    return false;
+  }
   const auto symbols = [&](const std::string& name, std::int64_t& out) {
     Part part;
     std::string why;

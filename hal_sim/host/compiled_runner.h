@@ -104,6 +104,7 @@ class CompiledRunner final : public Runner, public Context {
   /// May this interrupt the program, now or when something comes from outside? Its priority.
   bool is_enabled(int vector);
   int priority(int vector);
+  bool is_held_by_disi();
   /// Where a value of this robot is now: the data of a copy's robots take turns at the program's addresses.
   const void* value_at(std::uintptr_t address) const { return data_at(address - copy_.base()); }
   /// May a debugger write there: in its variables or on its stack?

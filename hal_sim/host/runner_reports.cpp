@@ -3,6 +3,7 @@
 // board and chip noticed, values of variables. See robot.h.
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "dspic30/memory/irqs.h"
 #include "dspic30/memory/sfr_table.h"
@@ -194,15 +195,20 @@ Place CompiledRunner::place_now() const {
 }
 
 bool CompiledRunner::is_enabled(int vector) {
-  if (native_) return native_->interrupts().source(vector).enabled;
+  if (native_) return std::as_const(native_->interrupts()).source(vector).enabled;
   constexpr unsigned kIec0 = dspic::sfr("IEC0");
   return peek(kIec0 + 2 * static_cast<unsigned>(vector / 16), now_in_code()) >> vector % 16 & 1;
 }
 
 int CompiledRunner::priority(int vector) {
-  if (native_) return native_->interrupts().source(vector).priority;
+  if (native_) return std::as_const(native_->interrupts()).source(vector).priority;
   constexpr unsigned kIpc0 = dspic::sfr("IPC0");
   return peek(kIpc0 + 2 * static_cast<unsigned>(vector / 4), now_in_code()) >> vector % 4 * 4 & 7;
+}
+
+bool CompiledRunner::is_held_by_disi() {
+  constexpr unsigned kDisicnt = dspic::sfr("DISICNT");
+  return native_ ? native_->disi_active(now_in_code()) : peek(kDisicnt, now_in_code()) != 0;
 }
 
 /// The program sleeps in the loop `loop_`, which looks at nothing outside: told, when no handler can end it.

@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -55,8 +56,7 @@ class CommandTest : public ::testing::Test {
  protected:
   CommandTest()
       : folder(fs::path(::testing::TempDir()) /
-               ("twinpuck-" + std::to_string(getpid()) + "-" +
-                ::testing::UnitTest::GetInstance()->current_test_info()->name())) {
+               ("twinpuck-" + std::to_string(getpid()) + "-" + name())) {
     fs::remove_all(folder);
     fs::create_directories(folder);
   }
@@ -74,6 +74,13 @@ class CommandTest : public ::testing::Test {
   }
 
   const fs::path folder;
+
+ private:
+  static std::string name() {
+    std::string text = ::testing::UnitTest::GetInstance()->current_test_info()->name();
+    std::replace(text.begin(), text.end(), '/', '-');  // before a parameter
+    return text;
+  }
 };
 
 }  // namespace cli_test

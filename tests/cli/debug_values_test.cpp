@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+// twinpuck debug: values as C writes them, by the image's own debug information.
+#include "tests/cli/debug_fixture.h"
+
+namespace {
+
+using cli_test::twinpuck;
+
+class DebugValues : public cli_test::Debug {};
+INSTANTIATE_TEST_SUITE_P(, DebugValues, ::testing::Values("chip", "register", "native"), cli_test::way_name);
+
+constexpr const char* kTypes = R"(#include <p30F6014A.h>
+struct motor { int speed; unsigned char on; unsigned mode : 3; unsigned rest : 5; };
+volatile struct motor motors[2] = {{-300, 1, 5, 9}, {300, 0, 2, 1}};
+volatile int table[2][3] = {{1, 2, 3}, {4, 5, -6}};
+volatile float gain = 1.5f;
+
+__attribute__((noinline)) int weigh(int n, volatile struct motor *m) {
+  int s = n * m->speed;
+  LATA = s + (int)gain;
+  return s + LATB;
+}
+
+int main(void) {
+  static int rounds;
+  while (1) {
+    rounds++;
+    table[0][0] = weigh(rounds, &motors[1]);
+  }
+}
+)";
+
+TEST_P(DebugValues, variables_have_types_and_functions_have_locals) {
+  build(kTypes);
+  expect_in_order(
+      debug(
+          "break weigh\nc 2\nlocals\nprint motors\nprint motors[0].mode\nprint motors[1]\nprint table[1]\n"
+          "print table[1][2]\nprint gain\nset motors[1].speed = 17\nprint motors[1].speed\nprint motors[2]\n"
+          "print motors[1].colour\nprint nothing[1]\nfinish\nprint rounds\n"),
+      {"> locals", "  n = 2 (0x2)\n", "  m = 0x", "> print motors\n",
+       "motors = {{speed = -300 (0xfed4), on = 1 (0x1), mode = 5 (0x5), rest = 9 (0x9)}, {speed = 300 "
+       "(0x12c)",
+       "motors[0].mode = 5 (0x5)",
+       "motors[1] = {speed = 300 (0x12c), on = 0 (0x0), mode = 2 (0x2), rest = 1 (0x1)}",
+       "table[1] = {4 (0x4), 5 (0x5), -6 (0xfffa)}", "table[1][2] = -6 (0xfffa)", "gain = 1.5",
+       "motors[1].speed = 17 (0x11)", "motors[1].speed = 17 (0x11)",
+       "got 'motors[2]', index 2, expected 0 to 1", "got 'motors[1].colour'",
+       "expected a variable of the image", "rounds = 2 (0x2)"});
+  // and so a trace knows them
+  const auto traced = twinpuck("run maze --fw '*=" + program() + "' --for 0.01 --vcd '" + path("x.vcd") +
+                               "' --vcd-signals '*:motors[1].speed'");
+  EXPECT_EQ(traced.exit_code, 0) << traced.text;
+  std::ifstream in(path("x.vcd"));
+  const std::string vcd((std::istreambuf_iterator<char>(in)), {});
+  EXPECT_NE(vcd.find("b100101100 "), std::string::npos) << vcd;  // 300
+}
+
+constexpr const char* kPointers = R"(#include <p30F6014A.h>
+struct node { int value; struct node *next; const char *name; };
+struct node nodes[3] = {{5, &nodes[1], "ab"}, {-7, &nodes[2], "cd"}, {9, 0, "ef"}};
+int counts[4] = {10, 20, 30, 40};
+int *volatile middle = &counts[1];
+volatile float level = -2.75f;
+
+__attribute__((noinline)) int visit(struct node *n, int round) {
+  LATA = n->value + *middle + (int)level;
+  return LATB + round;
+}
+
+int main(void) {
+  int round = 0;
+  while (1) {
+    struct node *n;
+    for (n = nodes; n; n = n->next) counts[3] += visit(n, round);
+    round++;
+  }
+}
+)";
+
+// pointers are followed, and conditions see what the function sees
+TEST_P(DebugValues, pointers_are_followed_and_conditions_know_locals) {
+  build(kPointers);
+  expect_in_order(
+      debug("break visit if n->value == -7 && round == 2\nc\nprint round\nprint n->value\nprint *n\n"
+            "print n->next->value\nprint n->name[1]\nprint *middle\nprint middle[1] + counts[round]\n"
+            "print nodes[round - 1].value * 2\nprint -counts[0] * (*middle)\nprint level\nprint level + 1\n"
+            "set n->next->value = 77\nprint nodes[2].value\nprint round->value\n"
+            "print *round\nprint n->colour\nprint counts[9]\nprint *(n)\nprint n[\n"
+            "break visit if nothing[2] > 1\nbreak main if n > 0\nwatch n->next->value\ninfo break\n"),
+      {"round = 2 (0x2)",
+       "n->value = -7 (0xfff9)",
+       "*n = {value = -7 (0xfff9), next = 0x",
+       "n->next->value = 9 (0x9)",
+       "n->name[1] = 100 (0x64)",
+       "*middle = 20 (0x14)",
+       "middle[1] + counts[round] = 60",
+       "nodes[round - 1].value * 2 = -14",
+       "-counts[0] * (*middle) = -200",
+       "level = -2.75",
+       "level + 1 = -1",
+       "n->next->value = 77",
+       "nodes[2].value = 77",
+       "got 'round->value', expected a pointer",
+       "got '*round', expected a pointer",
+       "got 'n->colour', no member 'colour'",
+       "got 'counts[9]', index 9, expected 0 to 3",
+       "expected a variable behind the *",
+       "condition: ",
+       "nothing",
+       "n->next->value"});
+}
+
+}  // namespace
