@@ -242,7 +242,9 @@ std::string Monitor::assign(const std::string& rest) {
   const auto data = session_.find_data(name);
   if (!data || !session_.write(*data, static_cast<std::uint64_t>(value)))
     return "got '" + name + "', expected a variable of up to 8 bytes or a register" +
-           (data && data->is_register ? "; here, only where a line of the program begins, and not NVMCON" : "") + "\n";
+           (data && data->is_register ? "; here, only where a line of the program begins, and not NVMCON"
+                                      : "") +
+           "\n";
   return print(name);
 }
 
@@ -255,7 +257,8 @@ std::string Monitor::memory(const std::string& rest) {
   const int words = std::clamp(count.empty() ? 8 : std::atoi(count.c_str()), 1, 4096);
   std::string text;
   for (int i = 0; i < words; ++i) {
-    const Address here = static_cast<Address>(address + 2 * i) & session_.machine().address_mask() & ~Address{1};
+    const Address here =
+        static_cast<Address>(address + 2 * i) & session_.machine().address_mask() & ~Address{1};
     if (i % 8 == 0) text += fmt::format("{}{:04x}:", i ? "\n" : "", here);
     unsigned word = 0;
     text += session_.machine().read({here, 2}, &word) ? fmt::format(" {:04x}", word) : " ????";

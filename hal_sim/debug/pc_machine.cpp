@@ -27,16 +27,17 @@ struct Register {
 };
 /// In the order of their numbers in the debug information. Source: System V ABI, AMD64 supplement, 3.6.2.
 constexpr Register kPcRegisters[] = {{"rax", REG_RAX}, {"rdx", REG_RDX}, {"rcx", REG_RCX}, {"rbx", REG_RBX},
-                                   {"rsi", REG_RSI}, {"rdi", REG_RDI}, {"rbp", REG_RBP}, {"rsp", REG_RSP},
-                                   {"r8", REG_R8},   {"r9", REG_R9},   {"r10", REG_R10}, {"r11", REG_R11},
-                                   {"r12", REG_R12}, {"r13", REG_R13}, {"r14", REG_R14}, {"r15", REG_R15}};
+                                     {"rsi", REG_RSI}, {"rdi", REG_RDI}, {"rbp", REG_RBP}, {"rsp", REG_RSP},
+                                     {"r8", REG_R8},   {"r9", REG_R9},   {"r10", REG_R10}, {"r11", REG_R11},
+                                     {"r12", REG_R12}, {"r13", REG_R13}, {"r14", REG_R14}, {"r15", REG_R15}};
 
 }  // namespace
 
 PcMachine::PcMachine(host::CompiledRunner& runner)
     : runner_(runner),
       file_(read_pc_program(runner.copy().path())),
-      stepper_(runner, file_.code, [this](const Stepper::Place& place, void* c) { return reached(place, c); }),
+      stepper_(runner, file_.code,
+               [this](const Stepper::Place& place, void* c) { return reached(place, c); }),
       starts_(runner.starts()) {
   if (const auto* main = file_.code.function_named("main")) main_ = body_of(main->begin);
 }
@@ -69,7 +70,8 @@ Look PcMachine::reached(const Stepper::Place& place, void* context) {
     watcher_->after(step);
   }
   last_ = pc();
-  if (pc() == main_ && std::exchange(starts_, runner_.starts()) != runner_.starts()) watcher_->was_reset(now());
+  if (pc() == main_ && std::exchange(starts_, runner_.starts()) != runner_.starts())
+    watcher_->was_reset(now());
   watcher_->before(now());
   context_ = nullptr;
   return watcher_->look();
@@ -138,8 +140,8 @@ bool PcMachine::write(const Data& data, const void* from) {
     runner_.write_value(data.address, from, data.bytes);
     return true;
   }
-  // within a line the program may be counting its cycles, which a change of the chip's interrupts would upset;
-  // a write of the flash or EEPROM would keep it waiting here
+  // within a line the program may be counting its cycles, which a change of the chip's interrupts would
+  // upset; a write of the flash or EEPROM would keep it waiting here
   const auto* const line = file_.code.line_at(pc());
   if ((in_code_ && (!line || line->address != pc())) || data.address == kNvmcon) return false;
   std::uint16_t value = 0;
@@ -181,9 +183,10 @@ std::string PcMachine::registers() const {
 }
 
 std::string PcMachine::told(int vector) {
-  const std::string timer = !runner_.has_chip() ? "" : told_timer(dspic::irq_name(vector), [this](unsigned address) {
-    return runner_.peek(address, now());
-  });
+  const std::string timer =
+      !runner_.has_chip() ? "" : told_timer(dspic::irq_name(vector), [this](unsigned address) {
+        return runner_.peek(address, now());
+      });
   return told_interrupt(dspic::irq_name(vector), runner_.flag(vector, now()), runner_.is_enabled(vector),
                         runner_.priority(vector), runner_.processor().cpu_level(),
                         runner_.is_held_by_disi()) +
@@ -216,7 +219,8 @@ std::string PcMachine::why() {
     std::vector<char> bytes(variable ? variable->bytes : 0);
     const bool is_number = variable && variable->kind != host::Variable::Kind::Aggregate;
     if (is_number) runner_.read_memory(variable->address, bytes.data(), bytes.size());
-    text += "  " + name + (is_number ? fmt::format(" = {}", variable_value(*variable, bytes.data())) : "") + "\n";
+    text +=
+        "  " + name + (is_number ? fmt::format(" = {}", variable_value(*variable, bytes.data())) : "") + "\n";
     bool is_written = false;
     for (const host::Writer& w : host::writers_of(name, place)) {
       is_written = true;

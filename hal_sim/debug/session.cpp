@@ -338,7 +338,11 @@ bool Session::is_same_line(std::uint32_t a, std::uint32_t b) const {
 
 Session::Moment Session::moment(Cycle at) {
   using Where = Moment::Where;
-  return {at, pc(), machine_->base(), machine_->nesting(), 0,
+  return {at,
+          pc(),
+          machine_->base(),
+          machine_->nesting(),
+          0,
           stands_between_ ? Where::Between : Where::Instruction};
 }
 

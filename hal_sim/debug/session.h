@@ -142,7 +142,7 @@ class Session final : private Watcher {
     std::uint32_t pc = 0;
     Address base = 0;
     int nesting = 0;
-    int hit = 0;  // id of the breakpoint that would stop here
+    int hit = 0;                    // id of the breakpoint that would stop here
     Where where = Where::Anywhere;  // of its cycle; of the chip one instruction has it
   };
   struct Poke {
@@ -199,7 +199,7 @@ class Session final : private Watcher {
   Moment from_;  // where the step began
   std::optional<Moment> target_;
   Stop stop_;
-  std::string trap_;  // seen in the step before
+  std::string trap_;       // seen in the step before
   std::size_t traps_ = 0;  // of the program that have been told, where it does not see them itself
   bool stands_between_ = false;
   bool was_reset_ = false;

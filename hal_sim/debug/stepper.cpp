@@ -59,6 +59,7 @@ Stepper::~Stepper() { insert({}); }
 void Stepper::mark(std::vector<std::uintptr_t> addresses) {
   marks_ = std::move(addresses);
   std::sort(marks_.begin(), marks_.end());
+  begun_turn_ = kNoTurn;
 }
 
 // --- the code's bytes
@@ -75,9 +76,8 @@ void Stepper::put(std::uintptr_t address, unsigned char byte) {
 void Stepper::insert(std::vector<std::uintptr_t> wanted) {
   std::sort(wanted.begin(), wanted.end());
   wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
-  wanted.erase(
-      std::remove_if(wanted.begin(), wanted.end(), [this](std::uintptr_t a) { return !owns(a); }),
-      wanted.end());
+  wanted.erase(std::remove_if(wanted.begin(), wanted.end(), [this](std::uintptr_t a) { return !owns(a); }),
+               wanted.end());
   const auto is_there = [](const auto& saved, std::uintptr_t address) { return saved.first == address; };
   if (wanted.size() == inserted_.size() &&
       std::equal(inserted_.begin(), inserted_.end(), wanted.begin(), is_there))
@@ -179,6 +179,9 @@ std::optional<Stepper::Place> Stepper::place_between() const {
 // --- running
 
 void Stepper::begin(Look look) {
+  const bool is_as_before = look == look_ && runner_.turns() == begun_turn_;
+  begun_turn_ = runner_.turns();
+  if (is_as_before) return;  // it sleeps, and is not given the processor
   put_back();
   is_passing_ = false;
   last_ = 0;

@@ -93,6 +93,8 @@ class Stepper final : public host::StepGuest {
   std::optional<Place> exit_;       // Look::Leaving: the instruction, and the least stack pointer there
   std::optional<Place> fault_;      // the last one
   std::uint64_t fault_turn_ = 0;
+  static constexpr std::uint64_t kNoTurn = ~std::uint64_t{0};
+  std::uint64_t begun_turn_ = kNoTurn;  // of the last begin()
 };
 
 }  // namespace debug

@@ -17,8 +17,9 @@ using IsEnabled = std::function<bool(const std::string& name)>;
 /// A function in whose text a variable is written, or its address taken.
 struct Writer {
   std::string function;
-  std::string place;   ///< "main.c:8"
-  std::string vector;  ///< of the interrupt that comes to it, "T1": its own, or timer 2's for an agenda; empty
+  std::string place;  ///< "main.c:8"
+  std::string
+      vector;  ///< of the interrupt that comes to it, "T1": its own, or timer 2's for an agenda; empty
   bool is_handler() const;
 };
 /// All of the sources beside `place`.

@@ -55,8 +55,7 @@ inline std::string signal_once(const std::string& signal, const std::string& fil
 class CommandTest : public ::testing::Test {
  protected:
   CommandTest()
-      : folder(fs::path(::testing::TempDir()) /
-               ("twinpuck-" + std::to_string(getpid()) + "-" + name())) {
+      : folder(fs::path(::testing::TempDir()) / ("twinpuck-" + std::to_string(getpid()) + "-" + name())) {
     fs::remove_all(folder);
     fs::create_directories(folder);
   }

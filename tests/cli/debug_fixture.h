@@ -52,12 +52,13 @@ class Debug : public CommandTest, public ::testing::WithParamInterface<const cha
   /// Builds `source` (a main.c), for the PC at -O0.
   void build(const std::string& source) {
     write("mine/main.c", source);
-    const auto built = twinpuck("build '" + path("mine") + "' --way " + way() + (is_chip() ? "" : " --opt -O0") +
-                                " -o '" + program() + "'");
+    const auto built = twinpuck("build '" + path("mine") + "' --way " + way() +
+                                (is_chip() ? "" : " --opt -O0") + " -o '" + program() + "'");
     ASSERT_EQ(built.exit_code, 0) << built.text;
   }
   /// What the commands answer.
-  std::string debug(const std::string& commands, const std::string& options = "--for 1", const std::string& world = "maze") {
+  std::string debug(const std::string& commands, const std::string& options = "--for 1",
+                    const std::string& world = "maze") {
     const auto said = twinpuck("debug " + world + " --fw '*=" + program() + "' -x '" +
                                write("commands", commands) + "' " + options);
     EXPECT_EQ(said.exit_code, 0) << said.text;

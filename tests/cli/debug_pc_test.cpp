@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// twinpuck debug in the native and register ways, where a program is code of the PC: traps, resets, robots with
-// the same code, library controllers, and gdb.
+// twinpuck debug in the native and register ways, where a program is code of the PC: traps, resets, robots
+// with the same code, library controllers, and gdb.
 #include "tests/cli/debug_fixture.h"
 
 namespace {
@@ -55,11 +55,13 @@ int main(void) {
 }
 )");
   const std::string without = digest("--for 0.02");
-  expect_in_order(debug("c\nbt\nprint n\nc\ninfo world\nback\nwatch n\nrc\nprint n\ndelete\nc\nc\ninfo world\n", "--for 0.02"),
-                  {"> c\nmath error: division by zero, at divide", "main.c:2), cycle ", "> bt\n#0", "divide() (main.c:2)",
-                   "main() (main.c:6)", "n = 1000", "> c\nthe end of the world's time", without, "> back",
-                   "main() (main.c:6)", "> rc\nbreakpoint 1", "n = 1000", "> c\nmath error: division by zero",
-                   "> c\nthe end", without});
+  expect_in_order(
+      debug("c\nbt\nprint n\nc\ninfo world\nback\nwatch n\nrc\nprint n\ndelete\nc\nc\ninfo world\n",
+            "--for 0.02"),
+      {"> c\nmath error: division by zero, at divide", "main.c:2), cycle ", "> bt\n#0", "divide() (main.c:2)",
+       "main() (main.c:6)", "n = 1000", "> c\nthe end of the world's time", without, "> back",
+       "main() (main.c:6)", "> rc\nbreakpoint 1", "n = 1000", "> c\nmath error: division by zero",
+       "> c\nthe end", without});
 }
 
 // a program's stray write to its own code is caught though a debugger writes there
@@ -107,11 +109,12 @@ int main(void) {
   }
 }
 )");
-  expect_in_order(
-      debug("break main.c:7 if wild->next->value == 3\nprint nothing->value\nprint *wild\nprint wild->next->value\n"
-            "x wild 1\nset wild->value = 1\nset *nothing = 1\ndelete\nc\nbt\n",
-            "--for 0.1"),
-      {"breakpoint 1", "(not kept here)", "got 'wild->next->value'", "????", "got 'wild->value'", "> c\naddress error: read through a null pointer", "main() (main.c:8)"});
+  expect_in_order(debug("break main.c:7 if wild->next->value == 3\nprint nothing->value\nprint *wild\nprint "
+                        "wild->next->value\n"
+                        "x wild 1\nset wild->value = 1\nset *nothing = 1\ndelete\nc\nbt\n",
+                        "--for 0.1"),
+                  {"breakpoint 1", "(not kept here)", "got 'wild->next->value'", "????", "got 'wild->value'",
+                   "> c\naddress error: read through a null pointer", "main() (main.c:8)"});
 }
 
 TEST_P(PcDebug, a_reset_stops_in_main_again) {
@@ -124,10 +127,13 @@ int main(void) {
 }
 )");
   const std::string without = digest("--for 0.01");
-  expect_in_order(debug("break main.c:6\nc\nprint cycle\ndelete\nc\nback\nstep\nprint n\nc 9\ninfo world\n", "--for 0.01"),
-                  {"> c\nbreakpoint 1", "> c\nthe processor was reset", "main() (main.c:4)", "> back", "main() (main.c:6)",
-                   "> step\nthe processor was reset", "n = 0", "> c 9\nthe processor was reset"});
-  expect_in_order(debug("break main if 0\nc\nc\nc\ngoto 1s\ninfo world\n", "--for 0.01"), {"the end of the world's time", without});
+  expect_in_order(
+      debug("break main.c:6\nc\nprint cycle\ndelete\nc\nback\nstep\nprint n\nc 9\ninfo world\n",
+            "--for 0.01"),
+      {"> c\nbreakpoint 1", "> c\nthe processor was reset", "main() (main.c:4)", "> back",
+       "main() (main.c:6)", "> step\nthe processor was reset", "n = 0", "> c 9\nthe processor was reset"});
+  expect_in_order(debug("break main if 0\nc\nc\nc\ngoto 1s\ninfo world\n", "--for 0.01"),
+                  {"the end of the world's time", without});
 }
 
 // both robots run the same code and take turns in its data
@@ -135,33 +141,37 @@ TEST_P(PcDebug, another_robot_with_the_same_code_is_not_stopped) {
   build(kTicking);
   const std::string world = write("world.toml", kWorld), without = digest("--for 0.03", world);
   for (const char* robot : {"first", "second"})
-    expect_in_order(debug("break weigh if times == 0\nbreak main.c:20\nset ticks = 50\nc\nbt\nprint ticks\nfinish\nc\n"
-                          "step 3\nprint ticks\ngoto 0.01s\nprint ticks > 57\nback\n",
-                          std::string("--for 0.03 --robot ") + robot, world),
-                    {std::string(robot) + ": ", "main() (main.c:12)", "> c\nbreakpoint 1", "> bt\n#0", "weigh()", "weigh()",
-                     "weigh()", "weigh()", "main() (main.c:19)", "> print ticks\nticks = 51", "> finish", "weigh()",
-                     "> c\nbreakpoint 2", "> print ticks\nticks = ", "ticks > 57 = 1"});
+    expect_in_order(
+        debug("break weigh if times == 0\nbreak main.c:20\nset ticks = 50\nc\nbt\nprint ticks\nfinish\nc\n"
+              "step 3\nprint ticks\ngoto 0.01s\nprint ticks > 57\nback\n",
+              std::string("--for 0.03 --robot ") + robot, world),
+        {std::string(robot) + ": ", "main() (main.c:12)", "> c\nbreakpoint 1", "> bt\n#0", "weigh()",
+         "weigh()", "weigh()", "weigh()", "main() (main.c:19)", "> print ticks\nticks = 51", "> finish",
+         "weigh()", "> c\nbreakpoint 2", "> print ticks\nticks = ", "ticks > 57 = 1"});
   // the one that is looked at has its own variables while the other's are in their place
   expect_in_order(debug("set ticks = 50\ngoto 30000\nprint ticks\nset ticks = 70\ngoto 50000\nprint ticks\n",
                         "--for 0.03 --robot first", world),
                   {"> print ticks\nticks = 5", "> set ticks = 70\nticks = 70", "> print ticks\nticks = 7"});
-  expect_in_order(debug("break weigh if 0\nwatch total if 0\nc\ninfo world\n", "--for 0.03 --robot first", world),
-                  {"the end", without});
+  expect_in_order(
+      debug("break weigh if 0\nwatch total if 0\nc\ninfo world\n", "--for 0.03 --robot first", world),
+      {"the end", without});
 }
 
 TEST_P(PcDebug, calls_of_itself_are_stepped_over) {
   build(kTicking);
-  expect_in_order(debug("break weigh if times == 2\nc\nnext\nnext\nbt\nprint times\nfinish\nfinish\nprint total\n"),
-                  {"> c\nbreakpoint 1", "> bt\n#0", "weigh()", "main()", "times = 2", "> finish", "> finish", "main() (main.c:19)",
-                   "total = 0"});
+  expect_in_order(
+      debug("break weigh if times == 2\nc\nnext\nnext\nbt\nprint times\nfinish\nfinish\nprint total\n"),
+      {"> c\nbreakpoint 1", "> bt\n#0", "weigh()", "main()", "times = 2", "> finish", "> finish",
+       "main() (main.c:19)", "total = 0"});
 }
 
 TEST_P(PcDebug, why_names_the_wait_and_who_could_end_it) {
   build(kTicking);
-  expect_in_order(debug("goto 110000\nwhy\ninfo interrupts\n"),
-                  {"it stands in main", "main.c:17), which reads\n  ticks = ",
-                   "the handler _T1Interrupt (main.c:4) writes it; T1: enabled, priority 4 above the processor's 0",
-                   "the processor is at level 0", "T1: enabled"});
+  expect_in_order(
+      debug("goto 110000\nwhy\ninfo interrupts\n"),
+      {"it stands in main", "main.c:17), which reads\n  ticks = ",
+       "the handler _T1Interrupt (main.c:4) writes it; T1: enabled, priority 4 above the processor's 0",
+       "the processor is at level 0", "T1: enabled"});
   if (!has_registers()) return;
   expect_in_order(debug("goto 110000\nset IEC0.T1IE = 0\ngoto 140000\nwhy\n"),
                   {"T1: not enabled, flag set", "pending, but not served:\n  T1: not enabled"});
@@ -171,31 +181,38 @@ TEST_P(PcDebug, why_names_the_wait_and_who_could_end_it) {
 
 TEST_P(PcDebug, registers_are_written_where_a_line_begins) {
   build(kTicking);
-  const std::string text = debug("break main.c:20\nc\nset PR1 = 2000\nprint PR1\nstepi\nset PR1 = 3000\nset NVMCON = 1\n");
+  const std::string text =
+      debug("break main.c:20\nc\nset PR1 = 2000\nprint PR1\nstepi\nset PR1 = 3000\nset NVMCON = 1\n");
   if (has_registers())
-    expect_in_order(text, {"> set PR1 = 2000\nPR1 = 2000", "PR1 = 2000", "got 'PR1'", "where a line of the program begins",
-                           "got 'NVMCON'"});
+    expect_in_order(text, {"> set PR1 = 2000\nPR1 = 2000", "PR1 = 2000", "got 'PR1'",
+                           "where a line of the program begins", "got 'NVMCON'"});
   else
     expect_in_order(text, {"got 'PR1'", "unknown symbol 'PR1'"});
 }
 
 TEST_P(PcDebug, a_program_that_waits_for_ever_is_paused) {
   build("int main(void) {\n  while (1)\n    ;\n}\n");
-  const std::string said = write("said", "");
-  const auto done = twinpuck("debug maze --fw '*=" + program() + "' -x '" + write("commands", "c\nwhere\nbacki\n") + "' | tee '" + said + "'",
-                             cli_test::signal_once("INT", said, 60));
-  expect_in_order(done.text, {"> c\npaused", "main() (main.c:", "> backi", "main() (main.c:"});
+  const std::string said = path("said");
+  twinpuck("debug maze --fw '*=" + program() + "' -x '" +
+               write("commands", "where\nc\nwhere\ngoto 0.01s\nbacki\n") + "' >'" + said + "'",
+           cli_test::signal_once("INT", said, 60));
+  expect_in_order(read(said), {"> c\npaused", "main() (main.c:", "> goto 0.01s\n0.01",
+                               "main() (main.c:", "> backi\n0.000", "main() (main.c:"});
 }
 
 TEST_P(PcDebug, library_controllers_and_their_agendas_are_seen) {
   if (has_registers()) GTEST_SKIP() << "of the native way";
-  const auto said = twinpuck("debug maze --fw obstacle --way native --for 1 -x '" +
-                             write("commands", "break drive if left != last_left\nbreak control_tick\nc\nbt\nfinish\nc\nnext\n"
-                                               "next\nprint last_left\nlocals\ndelete\nc\ninfo world\n") + "'");
+  const auto said =
+      twinpuck("debug maze --fw obstacle --way native --for 1 -x '" +
+               write("commands",
+                     "break drive if left != last_left\nbreak control_tick\nc\nbt\nfinish\nc\nnext\n"
+                     "next\nprint last_left\nlocals\ndelete\nc\ninfo world\n") +
+               "'");
   EXPECT_EQ(said.exit_code, 0) << said.text;
   const auto run = twinpuck("run maze --fw obstacle --opt -O0 --for 1");
-  expect_in_order(said.text, {"> c\nbreakpoint 2", "control_tick() (main.c:", "<-- interrupt", "main()", "> finish", "> c\nbreakpoint 1",
-                              "drive() (main.c:44)", "> next", "main.c:45", "> next", "main.c:46", "last_left = 730", "  right = 230",
+  expect_in_order(said.text, {"> c\nbreakpoint 2", "control_tick() (main.c:", "<-- interrupt", "main()",
+                              "> finish", "> c\nbreakpoint 1", "drive() (main.c:44)", "> next", "main.c:45",
+                              "> next", "main.c:46", "last_left = 730", "  right = 230",
                               "the end of the world", run.text.substr(run.text.find("digest "), 23)});
 }
 
@@ -205,8 +222,10 @@ TEST_P(PcDebug, optimised_images_are_debugged_as_they_are) {
   const auto built = twinpuck("build '" + path("mine") + "' --way " + way() + " -o '" + program() + "'");
   ASSERT_EQ(built.exit_code, 0) << built.text;
   const std::string without = digest("--for 0.02");
-  expect_in_order(debug("break main.c:20\nc 2\nprint ticks\nback\nback\ndelete\nwatch total\nc\ndelete\nc\ninfo world\n", "--for 0.02"),
-                  {"> c 2\nbreakpoint 1", "ticks = 2", "> back", "> c\ntotal: ", "the end", without});
+  expect_in_order(
+      debug("break main.c:20\nc 2\nprint ticks\nback\nback\ndelete\nwatch total\nc\ndelete\nc\ninfo world\n",
+            "--for 0.02"),
+      {"> c 2\nbreakpoint 1", "ticks = 2", "> back", "> c\ntotal: ", "the end", without});
 }
 
 // gdb's own commands; the program stands in main() first

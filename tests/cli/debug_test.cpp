@@ -17,8 +17,8 @@ TEST_P(Debug, breakpoints_stop_and_calls_are_traced_back) {
       debug("break weigh\nbreak main.c:20\nc\nbt\nfinish\nc\nbt\nprint ticks\ndelete 1\ninfo break\n");
   // in the body: where parameters have their places at -O0
   const char* const body = is_chip() ? "weigh() (main.c:14)" : "weigh() (main.c:12)";
-  expect_in_order(text, {"breakpoint 1 at", body, "breakpoint 2 at", "work() (main.c:20)", "> c", "breakpoint",
-                         "> bt\n#0", "#1", "main()", is_chip() ? "_reset()" : "", "> finish",
+  expect_in_order(text, {"breakpoint 1 at", body, "breakpoint 2 at", "work() (main.c:20)", "> c",
+                         "breakpoint", "> bt\n#0", "#1", "main()", is_chip() ? "_reset()" : "", "> finish",
                          "> print ticks\nticks = 1 (0x1)", "2 break main.c:20, 1 times"});
 }
 
@@ -38,13 +38,15 @@ TEST_P(Debug, conditions_hold_before_it_stops) {
 
 TEST_P(Debug, watchpoints_say_who_changed_what) {
   expect_in_order(debug("watch ticks\nc\nbt\ndelete\nwatch sum if sum > 30\nc\n"),
-                  {"> c\nticks: 0 -> 1, by _T1Interrupt() (main.c:7)", "#0", "_T1Interrupt()", "<-- interrupt",
-                   "main()", "> c\nsum: 30 -> 60, by work() (main.c:19)"});
+                  {"> c\nticks: 0 -> 1, by _T1Interrupt() (main.c:7)", "#0", "_T1Interrupt()",
+                   "<-- interrupt", "main()", "> c\nsum: 30 -> 60, by work() (main.c:19)"});
   if (has_registers())
-    expect_in_order(debug("watch LATA.LATA6\nc\n"), {"> c\n", "LATA.LATA6: 0 -> 1", ", by work() (main.c:20)"});
+    expect_in_order(debug("watch LATA.LATA6\nc\n"),
+                    {"> c\n", "LATA.LATA6: 0 -> 1", ", by work() (main.c:20)"});
   else
-    expect_in_order(debug("watch LATA.LATA6\nprint LATA\n"),
-                    {"got 'LATA.LATA6'", "the native way has no registers of the chip", "unknown symbol 'LATA'"});
+    expect_in_order(
+        debug("watch LATA.LATA6\nprint LATA\n"),
+        {"got 'LATA.LATA6'", "the native way has no registers of the chip", "unknown symbol 'LATA'"});
 }
 
 TEST_P(Debug, steps_go_by_lines_and_over_calls_and_interrupts) {
@@ -80,16 +82,17 @@ TEST_P(Debug, time_goes_back_and_comes_again) {
 }
 
 TEST_P(Debug, lines_are_stepped_back_over) {
-  expect_in_order(debug("break main.c:20\nc 2\nprint sum\nback\nprint sum\nback\nwhere\n"),
-                  {"> print sum\nsum = 30", "> back", "work() (main.c:19)", "sum = 10", "> back", "main() (main.c:"});
+  expect_in_order(
+      debug("break main.c:20\nc 2\nprint sum\nback\nprint sum\nback\nwhere\n"),
+      {"> print sum\nsum = 30", "> back", "work() (main.c:19)", "sum = 10", "> back", "main() (main.c:"});
 }
 
 TEST_P(Debug, what_was_changed_by_hand_is_changed_again_on_the_way_back) {
-  expect_in_order(
-      debug("goto 50000\nset ticks = 100\ngoto 80000\nprint ticks\nbacki\nprint ticks\n"
-            "goto 40000\nprint ticks\ngoto 80000\nprint ticks\n"),
-      {"> set ticks = 100\nticks = 100", "> print ticks\nticks = 102", "> backi", "> print ticks\nticks = 102",
-       "> goto 40000", "> print ticks\nticks = 2", "> goto 80000", "> print ticks\nticks = "});
+  expect_in_order(debug("goto 50000\nset ticks = 100\ngoto 80000\nprint ticks\nbacki\nprint ticks\n"
+                        "goto 40000\nprint ticks\ngoto 80000\nprint ticks\n"),
+                  {"> set ticks = 100\nticks = 100", "> print ticks\nticks = 102", "> backi",
+                   "> print ticks\nticks = 102", "> goto 40000", "> print ticks\nticks = 2", "> goto 80000",
+                   "> print ticks\nticks = "});
 }
 
 TEST_P(Debug, a_debugger_changes_nothing) {
@@ -117,8 +120,8 @@ TEST_P(Debug, a_trace_has_an_instruction_a_line) {
 
 TEST_P(Debug, editors_speak_with_it) {
   const std::string line = "python3 '" TWINPUCK_SOURCE_DIR "/tests/cli/dap_client.py' '" +
-                           cli_test::executable() + "' '" + program() + "' '" + path("mine/main.c") + "' " + way() +
-                           " 2>&1";
+                           cli_test::executable() + "' '" + program() + "' '" + path("mine/main.c") + "' " +
+                           way() + " 2>&1";
   FILE* pipe = popen(line.c_str(), "r");
   std::string text;
   for (char bytes[4096]; const std::size_t n = fread(bytes, 1, sizeof bytes, pipe);) text.append(bytes, n);
@@ -136,8 +139,9 @@ TEST_P(Debug, mistakes_are_answered) {
        "got 'soon', expected a time", "there is no breakpoint 9"});
   std::string deep = "ticks";
   for (int i = 0; i < 500; ++i) deep = "table[" + deep + "]";
-  expect_in_order(debug("break work if " + deep + "\nprint " + std::string(9, '*') + "ticks\nbreak 0xfffffff0\n"),
-                  {"condition: got 'table[", "expected at most 8 [", "expected", "expected a function, file:line"});
+  expect_in_order(
+      debug("break work if " + deep + "\nprint " + std::string(9, '*') + "ticks\nbreak 0xfffffff0\n"),
+      {"condition: got 'table[", "expected at most 8 [", "expected", "expected a function, file:line"});
   EXPECT_EQ(twinpuck("debug maze --fw '*=" + program() + "' -x /nonexistent").exit_code, 2);
   EXPECT_EQ(twinpuck("debug maze --fw '*=" + program() + "' --robot nobody").exit_code, 2);
   EXPECT_EQ(twinpuck("debug nowhere").exit_code, 2);
