@@ -78,6 +78,8 @@ class Machine {
   virtual Address base() = 0;
   virtual int nesting() const = 0;  ///< handlers that are under way
   virtual std::vector<Frame> frames() = 0;
+  /// How many cycles before it are looked at first when it goes back; then ever more.
+  virtual Cycle first_look_back() const = 0;
   /// Will this instruction, which has just run, run again at once (REPEAT)?
   virtual bool repeats(const chip::Step& step) const { return false; }
 

@@ -30,6 +30,7 @@ class PcMachine final : public Machine {
   Address base() override;
   int nesting() const override { return runner_.handler_depth(); }
   std::vector<Frame> frames() override;
+  Cycle first_look_back() const override { return 2'000; }  // a look costs more than a cycle
 
   bool is_code(std::uint32_t address) const override { return file_.code.function_at(address) != nullptr; }
   std::uint32_t code_end() const override { return relative(runner_.copy().code_end()); }

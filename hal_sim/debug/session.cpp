@@ -11,8 +11,9 @@ namespace debug {
 namespace {
 
 constexpr auto kIdleEvery = std::chrono::milliseconds(20);
-// how far back is looked at first, cycles; then ever further
-constexpr Cycle kFirstLookBack = 50'000, kLookBackGrows = 30;
+constexpr Cycle kLookBackGrows = 30;
+// a program may run beyond the window's end, to the end of a block
+constexpr Cycle kLongestBlock = 10'000;
 
 /// Null: this kind of program, or none, cannot be stopped.
 std::unique_ptr<Machine> machine_of(host::Runner* runner) {
@@ -111,7 +112,7 @@ void Session::run_world() {
   host::FirmwareMind& mind = twin_->mind(robot_);
   const sim::Clicks end = sim::from_seconds(setup_.seconds), tick = simulation.scene().tick_clicks();
   while (!abandoned_ && simulation.now() < end) {
-    machine_->watch(this, mind.cycle_at(simulation.now() + 2 * tick) >= quiet_until());
+    machine_->watch(this, mind.cycle_at(simulation.now() + tick) + kLongestBlock >= quiet_until());
     simulation.advance(simulation.now());
     if (setup_.ticked && !is_repeating_ && !abandoned_) setup_.ticked();
     std::as_const(mind).runner();  // a robot that is idle has come as far as the world
@@ -194,7 +195,7 @@ Stop Session::go_back(Plan plan, const std::function<bool()>& idle) {
   if (has_ended()) from_.where = Moment::Where::Anywhere;
   const Moment here = from_;
   plan_ = plan;
-  for (Cycle back = kFirstLookBack;; back *= kLookBackGrows) {
+  for (Cycle back = machine_->first_look_back();; back *= kLookBackGrows) {
     const Cycle look_from = std::max<Cycle>(0, here.at - back);
     latest_.reset();
     looks_back_ = true;
@@ -377,7 +378,7 @@ Look Session::look() {
   const bool watches = std::any_of(breakpoints_.begin(), breakpoints_.end(),
                                    [](const Breakpoint& b) { return b.data.bytes > 0; });
   if (watches || pause_ || next_poke_ < pokes_.size()) return Look::Everything;
-  if (looks_back_ && plan_ == Plan::BackContinue && now() < target_->at - kFirstLookBack)
+  if (looks_back_ && plan_ == Plan::BackContinue && now() < target_->at - kLongestBlock)
     return Look::Breakpoints;
   if (target_ || is_repeating_) return Look::Everything;
   if (plan_ == Plan::Continue) return Look::Breakpoints;

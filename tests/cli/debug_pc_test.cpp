@@ -47,7 +47,7 @@ TEST_P(PcDebug, traps_stop_where_they_happen) {
   build(R"(volatile int zero, n;
 __attribute__((noinline)) int divide(int a) { return a / zero; }
 int main(void) {
-  for (n = 0; n < 1000; n++)
+  for (n = 0; n < 100; n++)
     ;
   n = divide(5);
   while (1)
@@ -59,8 +59,8 @@ int main(void) {
       debug("c\nbt\nprint n\nc\ninfo world\nback\nwatch n\nrc\nprint n\ndelete\nc\nc\ninfo world\n",
             "--for 0.02"),
       {"> c\nmath error: division by zero, at divide", "main.c:2), cycle ", "> bt\n#0", "divide() (main.c:2)",
-       "main() (main.c:6)", "n = 1000", "> c\nthe end of the world's time", without, "> back",
-       "main() (main.c:6)", "> rc\nbreakpoint 1", "n = 1000", "> c\nmath error: division by zero",
+       "main() (main.c:6)", "n = 100", "> c\nthe end of the world's time", without, "> back",
+       "main() (main.c:6)", "> rc\nbreakpoint 1", "n = 100", "> c\nmath error: division by zero",
        "> c\nthe end", without});
 }
 
@@ -121,7 +121,7 @@ TEST_P(PcDebug, a_reset_stops_in_main_again) {
   build(R"(#include <p30F6014A.h>
 volatile int n;
 int main(void) {
-  for (n = 0; n < 1000; n++)
+  for (n = 0; n < 100; n++)
     ;
   asm("reset");
 }
