@@ -1,5 +1,5 @@
 # Lets gdb see firmware, which the simulator puts into memory itself (file and address are the two arguments).
-# `twinpuck debug --way native` and `--way register` use it; by hand:
+# `twinpuck debug --gdb` uses it; by hand:
 #   gdb -x scripts/firmware.gdb -ex 'break main.c:63' -ex run --args build/twinpuck run worlds/maze.toml
 set breakpoint pending on
 set confirm off

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// twinpuck debug: the chip way's debugger, as a monitor on the terminal or as a DAP server for editors; in
-// the other ways, where a program is the PC's code, gdb.
+// twinpuck debug: the debugger as a monitor on the terminal or as a DAP server for editors; or gdb, where a
+// program is the PC's code.
 #include <unistd.h>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -32,6 +34,12 @@ struct DebugArguments {
   long long seed = -1;
   bool dap = false, gdb = false;
 };
+
+const std::vector<std::string> kWays{"native", "register", "chip"}, kLevels{"-O0", "-O1", "-O2", "-Os"};
+
+bool is_one_of(const std::string& word, const std::vector<std::string>& words) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
 
 volatile std::sig_atomic_t pause_asked = 0;
 
@@ -74,6 +82,11 @@ std::unique_ptr<debug::Session> launched(const nlohmann::json& launch,
   a.robot = launch.value("robot", "");
   a.way = launch.value("way", a.way);
   a.optimisation = launch.value("opt", a.optimisation);
+  if (!is_one_of(a.way, kWays) || !is_one_of(a.optimisation, kLevels)) {
+    problems.push_back(fmt::format("launch: got way '{}' and opt '{}', expected {} and {}", a.way, a.optimisation,
+                                   fmt::join(kWays, ", "), fmt::join(kLevels, ", ")));
+    return nullptr;
+  }
   a.seconds = launch.value("seconds", a.seconds);
   a.seed = launch.value("seed", a.seed);
   if (const std::string firmware = launch.value("firmware", ""); !firmware.empty())
@@ -138,14 +151,14 @@ int debug_with_gdb(const DebugArguments& a) {
 
 void add_debug(CLI::App& app, int& exit_code) {
   auto* verb =
-      app.add_subcommand("debug", "Debug a robot's program: breakpoints, steps; on the chip also backwards");
+      app.add_subcommand("debug", "Debug a robot's program: breakpoints, steps forwards and back");
   auto a = std::make_shared<DebugArguments>();
   auto* world = verb->add_option("WORLD", a->world, "world file, or the name of one in worlds/");
   one_each(verb->add_option("--fw", a->firmware,
-                            "[ROBOT=]FILE: a .elf or .hex, a folder of C files, or a controller's name"));
+                            "[ROBOT=]FILE: a .elf, .hex or .so, a folder of C files, or a controller's name"));
   verb->add_option("--way", a->way,
-                   "chip: our own debugger; native, register: gdb, with the program built at -O0")
-      ->check(CLI::IsMember({"native", "register", "chip"}));
+                   "what runs the program: chip, instruction by instruction; native, register: the PC's code")
+      ->check(CLI::IsMember(kWays));
   verb->add_option("-x,--commands", a->commands, "file of commands, instead of the terminal");
   verb->add_option("--robot", a->robot, "the robot to look at; else the first");
   verb->add_option("--for", a->seconds, "simulated seconds after which the world ends")
@@ -156,7 +169,7 @@ void add_debug(CLI::App& app, int& exit_code) {
   verb->add_flag("--dap", a->dap, "speak the Debug Adapter Protocol with an editor, which says what to run");
   verb->add_flag("--gdb", a->gdb, "gdb instead, in the native and register ways");
   verb->add_option("--opt", a->optimisation, "of a native or register way's program that is built")
-      ->check(CLI::IsMember({"-O0", "-O1", "-O2", "-Os"}))
+      ->check(CLI::IsMember(kLevels))
       ->capture_default_str();
   verb->callback([a, world, &exit_code] {
     if (a->gdb && (a->dap || !a->robot.empty() || a->way == "chip"))

@@ -267,6 +267,10 @@ bool Session::wants_stop(Cycle at) {
     stop_ = {Stop::Why::Pause, 0, "paused"};
     return true;
   }
+  if (plan_ == Plan::GoTo) {
+    was_reset_ = false;
+    trap_.clear();
+  }
   if (was_reset_ || !trap_.empty()) {
     stop_ =
         was_reset_ ? Stop{Stop::Why::Reset, 0, "the processor was reset"} : Stop{Stop::Why::Trap, 0, trap_};
