@@ -83,8 +83,8 @@ std::unique_ptr<debug::Session> launched(const nlohmann::json& launch,
   a.way = launch.value("way", a.way);
   a.optimisation = launch.value("opt", a.optimisation);
   if (!is_one_of(a.way, kWays) || !is_one_of(a.optimisation, kLevels)) {
-    problems.push_back(fmt::format("launch: got way '{}' and opt '{}', expected {} and {}", a.way, a.optimisation,
-                                   fmt::join(kWays, ", "), fmt::join(kLevels, ", ")));
+    problems.push_back(fmt::format("launch: got way '{}' and opt '{}', expected {} and {}", a.way,
+                                   a.optimisation, fmt::join(kWays, ", "), fmt::join(kLevels, ", ")));
     return nullptr;
   }
   a.seconds = launch.value("seconds", a.seconds);
@@ -150,12 +150,11 @@ int debug_with_gdb(const DebugArguments& a) {
 }  // namespace
 
 void add_debug(CLI::App& app, int& exit_code) {
-  auto* verb =
-      app.add_subcommand("debug", "Debug a robot's program: breakpoints, steps forwards and back");
+  auto* verb = app.add_subcommand("debug", "Debug a robot's program: breakpoints, steps forwards and back");
   auto a = std::make_shared<DebugArguments>();
   auto* world = verb->add_option("WORLD", a->world, "world file, or the name of one in worlds/");
-  one_each(verb->add_option("--fw", a->firmware,
-                            "[ROBOT=]FILE: a .elf, .hex or .so, a folder of C files, or a controller's name"));
+  one_each(verb->add_option(
+      "--fw", a->firmware, "[ROBOT=]FILE: a .elf, .hex or .so, a folder of C files, or a controller's name"));
   verb->add_option("--way", a->way,
                    "what runs the program: chip, instruction by instruction; native, register: the PC's code")
       ->check(CLI::IsMember(kWays));

@@ -16,7 +16,8 @@ namespace debug {
 namespace {
 
 constexpr greg_t kTrapFlag = 0x100;
-constexpr unsigned char kInt3 = 0xCC, kPushRbp = 0x55, kRet = 0xC3;
+constexpr unsigned char kInt3 = 0xCC, kRet = 0xC3;
+constexpr unsigned char kMakeFrame[] = {0x55, 0x48, 0x89, 0xE5};  // push %rbp; mov %rsp,%rbp
 constexpr std::uintptr_t kWord = sizeof(std::uintptr_t);
 constexpr std::size_t kDeepest = 256;  // frames
 
@@ -49,8 +50,13 @@ Stepper::Stepper(host::CompiledRunner& runner, const dspic::CodeMap& map, Reache
   const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
   code_begin_ = runner.copy().code_begin() & ~(page - 1);
   code_bytes_ = (runner.copy().code_end() - code_begin_ + page - 1) & ~(page - 1);
-  for (const auto& function : map.functions)
+  for (const auto& function : map.functions) {
     if (is_told(base_ + function.begin)) beginnings_.push_back(base_ + function.begin);
+    const auto* const end = reinterpret_cast<const unsigned char*>(base_ + function.end);
+    const auto* const make = std::search(reinterpret_cast<const unsigned char*>(base_ + function.begin), end,
+                                         std::begin(kMakeFrame), std::end(kMakeFrame));
+    frames_made_.push_back(reinterpret_cast<std::uintptr_t>(make));
+  }
   std::sort(beginnings_.begin(), beginnings_.end());
 }
 
@@ -126,9 +132,10 @@ Stepper::At Stepper::at(const Place& place) const {
   if (place.is_call) return At::Body;
   const auto* function = map_.function_at(static_cast<std::uint32_t>(place.pc - base_));
   if (!function) return At::Beginning;  // a jump into the host
-  const std::uintptr_t begin = base_ + function->begin;
-  if (place.pc == begin) return At::Beginning;
-  if (place.pc == begin + 1 && byte(begin) == kPushRbp) return At::Pushed;
+  // the optimiser may put a way out before the frame is made
+  const std::uintptr_t made = frames_made_[static_cast<std::size_t>(function - map_.functions.data())];
+  if (place.pc <= made) return At::Beginning;
+  if (place.pc == made + 1) return At::Pushed;
   return byte(place.pc) == kRet ? At::Return : At::Body;
 }
 

@@ -84,6 +84,7 @@ class Stepper final : public host::StepGuest {
   std::uintptr_t base_, code_begin_;
   std::size_t code_bytes_;
   std::vector<std::uintptr_t> marks_, beginnings_;    // sorted
+  std::vector<std::uintptr_t> frames_made_;           // of the map's functions: where
   std::map<std::uintptr_t, unsigned char> inserted_;  // breakpoints in the code, and what was there
   std::uintptr_t lifted_ = 0;                         // one that is passed over now
   bool is_passing_ = false;                           // one instruction; nobody asked to see the next
