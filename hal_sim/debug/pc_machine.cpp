@@ -128,8 +128,12 @@ bool PcMachine::read(const Data& data, void* to) const {
     std::memcpy(to, &value, std::min<std::size_t>(data.bytes, sizeof value));
     return true;
   }
-  // asked of the system, for a pointer of the program may lead anywhere
   const void* const value = runner_.value_at(data.address);
+  if (runner_.owns_data(data.address, data.bytes)) {
+    std::memcpy(to, value, data.bytes);
+    return true;
+  }
+  // asked of the system, for a pointer of the program may lead anywhere
   iovec here{to, data.bytes}, there{const_cast<void*>(value), data.bytes};
   return process_vm_readv(getpid(), &here, 1, &there, 1, 0) == static_cast<ssize_t>(data.bytes);
 }

@@ -274,6 +274,8 @@ bool Session::wants_stop(Cycle at) {
   if (was_reset_ || !trap_.empty()) {
     stop_ =
         was_reset_ ? Stop{Stop::Why::Reset, 0, "the processor was reset"} : Stop{Stop::Why::Trap, 0, trap_};
+    const auto& told = machine_->runner().traps();
+    if (was_reset_ && told.size() > traps_ && told.back().kind == 0) stop_.text += ": " + told.back().message;
     was_reset_ = false;
     trap_.clear();
     return true;

@@ -117,21 +117,27 @@ int main(void) {
                    "> c\naddress error: read through a null pointer", "main() (main.c:8)"});
 }
 
-TEST_P(PcDebug, a_reset_stops_in_main_again) {
-  build(R"(#include <p30F6014A.h>
+constexpr const char* kResetting = R"(#include <p30F6014A.h>
 volatile int n;
 int main(void) {
   for (n = 0; n < 100; n++)
     ;
   asm("reset");
 }
-)");
+)";
+
+TEST_P(PcDebug, a_reset_stops_in_main_again) {
+  build(kResetting);
   const std::string without = digest("--for 0.01");
   expect_in_order(
       debug("break main.c:6\nc\nprint cycle\ndelete\nc\nback\nstep\nprint n\nc 9\ninfo world\n",
             "--for 0.01"),
       {"> c\nbreakpoint 1", "> c\nthe processor was reset", "main() (main.c:4)", "> back",
        "main() (main.c:6)", "> step\nthe processor was reset", "n = 0", "> c 9\nthe processor was reset"});
+  build("int main(void) {\n  return 0;\n}\n");
+  expect_in_order(debug("c\nc\n", "--for 0.01"), {"> c\nthe processor was reset: main() returned",
+                                                  "main() (main.c:2)", "> c\nthe processor was reset"});
+  build(kResetting);
   expect_in_order(debug("break main if 0\nc\nc\nc\ngoto 1s\ninfo world\n", "--for 0.01"),
                   {"the end of the world's time", without});
 }
