@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+// Waits that are jumped over, against the same programs run instruction by instruction.
+#include "tests/dspic30/core_bench.h"
+
+#include <iterator>
+
+namespace {
+
+using bench::CoreBench;
+using bench::Cycle;
+
+const char* const kWaits[] = {
+    // a flag in RAM that a handler sets, in a function that is called
+    R"(
+__reset: mov #__SP_init, w15
+    mov #999, w0
+    mov w0, PR1
+    clr flag
+    clr w1
+    bset IEC0, #T1IE
+    bset T1CON, #15
+1:  rcall ready
+    cp0 w0
+    bra z, 1b
+    clr flag
+    inc w1, w1
+    bra 1b
+ready: push w2
+    mov flag, w0
+    pop w2
+    return
+__T1Interrupt: bclr IFS0, #T1IF
+    setm flag
+    retfie
+    .bss
+flag: .space 2)",
+    // of two handlers one changes nothing that the wait looks at, the other ends it: when is in w5
+    R"(
+__reset: mov #__SP_init, w15
+    mov #2000, w0
+    mov w0, PR1
+    mov #300, w0
+    mov w0, PR2
+    clr flags
+    clr other
+    clr w1
+    clr w5
+    bset IEC0, #T1IE
+    bset IEC0, #T2IE
+    bset T1CON, #15
+    bset T2CON, #15
+1:  cp0 other
+    bra nz, 2f
+    cp0.b flags+1
+    bra z, 1b
+2:  mov TMR1, w4
+    add w4, w5, w5
+    clr flags
+    inc w1, w1
+    bra 1b
+__T1Interrupt: bclr IFS0, #T1IF
+    bset.b flags+1, #2
+    retfie
+__T2Interrupt: bclr IFS0, #T2IF
+    retfie
+    .bss
+flags: .space 2
+other: .space 2)",
+    // one handler changes how the round rounds, and so what it comes to; the other looks at that
+    R"(
+__reset: mov #__SP_init, w15
+    mov #19997, w0
+    mov w0, PR1
+    mov #300, w0
+    mov w0, PR2
+    mov #6, w1
+    mov #0x1234, w0
+    lac w0, a
+    mov #0x8000, w0
+    mov w0, ACCAL
+    clr never
+    clr sum
+    bset IEC0, #T1IE
+    bset IEC0, #T2IE
+    bset T1CON, #15
+    bset T2CON, #15
+1:  sac.r a, w2
+    cp0 never
+    bra z, 1b
+__T1Interrupt: bclr IFS0, #T1IF
+    btg CORCON, #RND
+    retfie
+__T2Interrupt: bclr IFS0, #T2IF
+    mov w2, w0
+    xor sum
+    retfie
+    .bss
+sum: .space 2
+never: .space 2)",
+    // a handler changes a register
+    R"(
+__reset: mov #__SP_init, w15
+    mov #2000, w0
+    mov w0, PR1
+    mov #300, w0
+    mov w0, PR2
+    clr w1
+    clr w3
+    clr w5
+    bset IEC0, #T1IE
+    bset IEC0, #T2IE
+    bset T1CON, #15
+    bset T2CON, #15
+1:  cp0 w3
+    bra z, 1b
+    mov TMR1, w4
+    add w4, w5, w5
+    clr w3
+    inc w1, w1
+    bra 1b
+__T1Interrupt: bclr IFS0, #T1IF
+    mov #1, w3
+    retfie
+__T2Interrupt: bclr IFS0, #T2IF
+    retfie)",
+    // a flag of the interrupt controller, polled
+    R"(
+__reset: mov #1234, w0
+    mov w0, PR2
+    clr w1
+    bset T2CON, #15
+1:  btss IFS0, #T2IF
+    bra 1b
+    bclr IFS0, #T2IF
+    inc w1, w1
+    bra 1b)",
+    // room in a transmitter
+    R"(
+__reset: mov #95, w0
+    mov w0, U1BRG
+    mov #0x8000, w0
+    mov w0, U1MODE
+    bset U1STA, #10
+    clr w1
+1:  btsc U1STA, #9
+    bra 1b
+    inc w1, w1
+    mov w1, U1TXREG
+    bra 1b)",
+    // a counting register is no wait, but one can be seen through it
+    R"(
+__reset: mov #0xFFFF, w0
+    mov w0, PR3
+    clr w1
+    bset T3CON, #15
+1:  mov TMR3, w2
+    mov #30000, w3
+    cp w2, w3
+    bra ltu, 1b
+    clr TMR3
+    inc w1, w1
+    bra 1b)"};
+
+TEST(Wait, is_jumped_over_without_a_change_of_course) {
+  for (const char* text : kWaits) {
+    CoreBench whole(text), steps(text);
+    whole.run(300000);
+    for (Cycle to = 1; to < 300000; ++to) steps.run(to);
+    steps.run(whole.cpu->now());
+    EXPECT_GT(whole.w(1), 5u) << text;
+    EXPECT_EQ(steps.cpu->now(), whole.cpu->now()) << text;
+    EXPECT_EQ(steps.cpu->state_hash(), whole.cpu->state_hash()) << text;
+    EXPECT_EQ(steps.cpu->jumped(), 0) << text;
+    EXPECT_GT(whole.cpu->jumped(), text == *std::rbegin(kWaits) ? -1 : 200000) << text;
+  }
+}
+
+// RETFIE leaves DC as the handler left it, so the first round behind it ends in other flags
+TEST(Wait, goes_on_at_once_behind_an_interrupt) {
+  CoreBench b(R"(
+__reset: mov #__SP_init, w15
+    mov #1999, w0
+    mov w0, PR1
+    clr flag
+    bset IEC0, #T1IE
+    bset T1CON, #15
+1:  cp0 flag
+    bra z, 1b
+__T1Interrupt: bclr IFS0, #T1IF
+    mov #1, w2
+    add w2, w2, w2
+    retfie
+    .bss
+flag: .space 2)");
+  b.run(200000);
+  EXPECT_EQ(b.w(2), 2u);
+  EXPECT_GT(b.cpu->jumped(), 190000);
+}
+
+// rounds that look alike in registers, but count in RAM or take bytes out of a FIFO
+TEST(Wait, a_round_that_changes_something_is_none) {
+  CoreBench b("__reset: clr w1\n1: inc 0x900\n bra 1b");
+  b.run(100000);
+  EXPECT_EQ(b.cpu->jumped(), 0);
+  CoreBench fifo("__reset: clr w1\n1: mov U1RXREG, w0\n bra 1b");
+  fifo.run(100000);
+  EXPECT_EQ(fifo.cpu->jumped(), 0);
+}
+
+}  // namespace
