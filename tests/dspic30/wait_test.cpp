@@ -123,6 +123,67 @@ __T1Interrupt: bclr IFS0, #T1IF
     retfie
 __T2Interrupt: bclr IFS0, #T2IF
     retfie)",
+    // a handler looks at what the round left beyond the stack's end, and leaves something else there
+    R"(
+__reset: mov #__SP_init, w15
+    mov #300, w0
+    mov w0, PR2
+    mov #6, w1
+    mov #0x1111, w2
+    clr never
+    clr sum
+    bset IEC0, #T2IE
+    bset T2CON, #15
+1:  rcall ready
+    cp0 w4
+    bra z, 1b
+ready: push w2
+    mov never, w4
+    pop w2
+    return
+__T2Interrupt: bclr IFS0, #T2IF
+    mov [w15], w0
+    xor sum
+    mov #0x7777, w6
+    push w6
+    pop w6
+    retfie
+    .bss
+never: .space 2
+sum: .space 2)",
+    // a handler returns to another priority, which the round reads
+    R"(
+__reset: mov #__SP_init, w15
+    mov #19997, w0
+    mov w0, PR1
+    mov #300, w0
+    mov w0, PR2
+    mov #6, w1
+    clr never
+    clr sum
+    mov #0x2000, w8
+    clr w9
+    bset IEC0, #T1IE
+    bset IEC0, #T2IE
+    bset T1CON, #15
+    bset T2CON, #15
+1:  mov SR, w2
+    cp0 never
+    bra z, 1b
+__T1Interrupt: bclr IFS0, #T1IF
+    push w9
+    mov [w15-4], w9
+    xor w8, w9, w9
+    mov w9, [w15-4]
+    pop w9
+    retfie
+__T2Interrupt: bclr IFS0, #T2IF
+    mov w2, w0
+    xor sum
+    retfie
+    .bss
+never: .space 2
+sum: .space 2)",
     // a flag of the interrupt controller, polled
     R"(
 __reset: mov #1234, w0
