@@ -104,7 +104,7 @@ const Decoded* do_register(Cpu& cpu, const Decoded* d) {
 // the count is written before the next instruction runs, which belongs to this one's time
 const Decoded* repeat(Cpu& cpu, const Decoded* d, unsigned count) {
   cpu.rcount = static_cast<std::uint16_t>(count);
-  if (count == 0) return d + 1;
+  if (count == 0 || cpu.repeating) return d + 1;  // repeated itself, it only counts anew [?]
   cpu.repeating = cpu.repeat_is_fresh = true;
   cpu.now += d->cycles;
   const Decoded* next = cpu.run_repeated(d + 1);

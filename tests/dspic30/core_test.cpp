@@ -525,6 +525,18 @@ end: bra end)");
 
 // --- determinism
 
+// found by fuzzing: where a window ended within the inner one's repetitions, the outer one went on
+TEST(Core, a_repeat_that_is_repeated_goes_on_the_same_however_it_is_run) {
+  const std::string text = "__reset: repeat #7\n repeat #0x909\n inc w0, w0\n1: bra 1b\n";
+  CoreBench whole(text), steps(text);
+  whole.run(20000);
+  for (Cycle to = 37; to < 20000; to += 37) steps.run(to);
+  steps.run(20000);
+  EXPECT_EQ(steps.cpu->now(), whole.cpu->now());
+  EXPECT_EQ(steps.cpu->state_hash(), whole.cpu->state_hash());
+  EXPECT_EQ(whole.w(0), 0u);
+}
+
 TEST(Core, course_does_not_depend_on_how_it_is_run) {
   const std::string text = R"(
     .section .const, psv
