@@ -41,10 +41,10 @@ bool Cpu::find_wait(KnownWaits::Wait& wait) {
   // false: it is none, or no wait
   const auto goes_round = [&] {
     for (int i = 0; i < kLongestRound && now < deadline; ++i) {
-      at = next;
-      const Decoded* following = plain(at)(*this, at);
-      now += at->cycles;
-      if (at == loop_end) following = loop_back(at, following);
+      const Decoded* const d = at = next;  // a REPEAT moves `at` on
+      const Decoded* following = plain(d)(*this, d);
+      now += d->cycles;
+      if (d == loop_end) following = loop_back(d, following);
       next = following;
       if (deadline != end || watched_until <= now) return false;
       if (next == wait.first) return true;

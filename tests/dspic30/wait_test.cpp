@@ -258,6 +258,18 @@ flag: .space 2)");
   EXPECT_GT(b.cpu->jumped(), 190000);
 }
 
+// found by fuzzing: a look for a wait counted the cycles of what is repeated instead of the REPEAT's
+TEST(Wait, a_look_at_a_repeat_takes_its_time) {
+  const std::string text =
+      "__reset: mov #0x900, w1\n1: repeat #20\n mov.d [w1], w2\n inc w4, w4\n mov w4, 0x910\n bra 1b";
+  CoreBench whole(text), steps(text);
+  whole.run(20000);
+  for (Cycle to = 1; to < 20000; ++to) steps.run(to);
+  steps.run(whole.cpu->now());
+  EXPECT_EQ(steps.cpu->now(), whole.cpu->now());
+  EXPECT_EQ(steps.cpu->state_hash(), whole.cpu->state_hash());
+}
+
 // rounds that look alike in registers, but count in RAM or take bytes out of a FIFO
 TEST(Wait, a_round_that_changes_something_is_none) {
   CoreBench b("__reset: clr w1\n1: inc 0x900\n bra 1b");
