@@ -5,6 +5,7 @@
 #include <list>
 
 #include "dspic30/llvm/subtarget.h"
+#include "dspic30/llvm/target.h"
 #include "llvm/CodeGen/MachineFrameInfo.h"
 
 namespace llvm {
@@ -222,20 +223,52 @@ SDValue DSPICTargetLowering::next_variable_argument(SDValue op, SelectionDAG& da
 // --- inline assembler
 
 TargetLowering::ConstraintType DSPICTargetLowering::getConstraintType(StringRef constraint) const {
-  constexpr StringRef kRegisters = "abcdew";
-  if (constraint.size() == 1 && kRegisters.contains(constraint[0])) return C_RegisterClass;
+  if (constraint.size() == 1 && StringRef(kDspicRegisterLetters).contains(constraint[0]))
+    return C_RegisterClass;
+  if (constraint.size() == 1 && StringRef(kDspicNumberLetters).contains(constraint[0])) return C_Immediate;
   return TargetLowering::getConstraintType(constraint);
+}
+
+/// The front end has checked the range; what is left is any number.
+void DSPICTargetLowering::LowerAsmOperandForConstraint(SDValue value, std::string& constraint,
+                                                       std::vector<SDValue>& operands,
+                                                       SelectionDAG& dag) const {
+  std::string number = "n";
+  const bool is_number = getConstraintType(constraint) == C_Immediate && constraint != "i";
+  TargetLowering::LowerAsmOperandForConstraint(value, is_number ? number : constraint, operands, dag);
 }
 
 std::pair<unsigned, const TargetRegisterClass*> DSPICTargetLowering::getRegForInlineAsmConstraint(
     const TargetRegisterInfo* tri, StringRef constraint, MVT type) const {
-  // XC16's letters: a W0, b W1, c W2, d W3, e a divisor, r and w any
-  static const unsigned kSingle[] = {DSPIC::W0, DSPIC::W1, DSPIC::W2, DSPIC::W3};
-  if (constraint.size() == 1 && constraint[0] >= 'a' && constraint[0] <= 'd')
-    return {kSingle[constraint[0] - 'a'], &DSPIC::WRegClass};
-  if (constraint == "e") return {0, &DSPIC::WGE2RegClass};
-  if (constraint == "r" || constraint == "w") return {0, &DSPIC::WRegClass};
-  return TargetLowering::getRegForInlineAsmConstraint(tri, constraint, type);
+  if (constraint.size() != 1) return TargetLowering::getRegForInlineAsmConstraint(tri, constraint, type);
+  switch (constraint[0]) {
+    case 'a':
+      return {DSPIC::W0, &DSPIC::WRegClass};
+    case 'b':
+      return {DSPIC::W1, &DSPIC::WRegClass};
+    case 'c':
+      return {DSPIC::W2, &DSPIC::WRegClass};
+    case 'd':
+      return {0, &DSPIC::WConstraintDRegClass};
+    case 'e':
+      return {0, &DSPIC::WGE2RegClass};
+    case 't':
+      return {0, &DSPIC::WConstraintTRegClass};
+    case 'u':
+      return {0, &DSPIC::WConstraintURegClass};
+    case 'v':
+      return {DSPIC::W13, &DSPIC::WRegClass};
+    case 'x':
+      return {0, &DSPIC::WConstraintXRegClass};
+    case 'y':
+      return {0, &DSPIC::WConstraintYRegClass};
+    case 'z':
+      return {0, &DSPIC::WConstraintZRegClass};
+    case 'r':
+      return {0, &DSPIC::WRegClass};
+    default:
+      return TargetLowering::getRegForInlineAsmConstraint(tri, constraint, type);
+  }
 }
 
 }  // namespace llvm

@@ -83,6 +83,8 @@ class DSPICTargetLowering : public TargetLowering {
                                                                                StringRef constraint,
                                                                                MVT type) const override;
   ConstraintType getConstraintType(StringRef constraint) const override;
+  void LowerAsmOperandForConstraint(SDValue value, std::string& constraint, std::vector<SDValue>& operands,
+                                    SelectionDAG& dag) const override;
 
  private:
   /// Emits the comparison; `condition` is what BRA must ask. The last node's glue are the flags.

@@ -22,6 +22,13 @@ foreach n = [0, 2, 4, 6, 8, 10, 12] in
 
 def W : RegisterClass<"DSPIC", [i16], 16, (add (sequence "W%u", 0, 15))>;
 def WGE2 : RegisterClass<"DSPIC", [i16], 16, (add (sequence "W%u", 2, 13))>;  // a divisor
+// operands of assembler text in C, by XC16's letters
+def WConstraintD : RegisterClass<"DSPIC", [i16], 16, (add (sequence "W%u", 1, 13))>;
+def WConstraintT : RegisterClass<"DSPIC", [i16], 16, (add W7)>;
+def WConstraintU : RegisterClass<"DSPIC", [i16], 16, (add W4, W5, W6)>;
+def WConstraintX : RegisterClass<"DSPIC", [i16], 16, (add W8, W9)>;
+def WConstraintY : RegisterClass<"DSPIC", [i16], 16, (add W10, W11)>;
+def WConstraintZ : RegisterClass<"DSPIC", [i16], 16, (add W4, W5, W6, W7)>;
 def WP : RegisterClass<"DSPIC", [untyped], 16, (add D0, D2, D4, D6, D8, D10, D12)> { let Size = 32; }
 def CCR : RegisterClass<"DSPIC", [i16], 16, (add SR)> { let isAllocatable = 0; let CopyCost = -1; }
 

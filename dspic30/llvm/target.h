@@ -18,6 +18,11 @@ inline constexpr const char* kDspicDataLayout = "e-p:16:16-i16:16-i32:16-i64:16-
 inline constexpr const char* kDspicTriple = "dspic30f-microchip-none-elf";
 inline constexpr const char* kDspicCpu = "30f6014a";
 
+/// Operands of assembler text in C: XC16's letters of classes of registers (a W0, b W1, c W2, d W1 to W14,
+/// e W2 to W14, t W7, u W4 to W6, v W13, x W8 and W9, y W10 and W11, z W4 to W7), and of ranges of numbers.
+inline constexpr const char* kDspicRegisterLetters = "abcdetuvxyz";
+inline constexpr const char* kDspicNumberLetters = "IJKLMNOPWYZ";
+
 // parts that register themselves with the target
 void register_dspic_mc(Target& target);
 void register_dspic_printer(Target& target);

@@ -2,9 +2,10 @@
 // The chip's half of twinpuck-cc (--target=dspic30f6014a): the same front end on the chip's own data layout,
 // the same kind of passes, and the dsPIC30F's code generator (dspic30/llvm). Stages, in order:
 //
-//   chip_target.cpp      what clang must know of the chip; XC16's attributes
-//   chip_lower.cpp       registers, attributes, bit-fields, lists of arguments: from C's terms to the code
-//   generator's chip_pipeline.cpp    optimiser's passes, in our own order chip_emit.cpp        object,
+//   chip_target.cpp        what clang must know of the chip; XC16's attributes
+//   chip_accumulators.cpp  built-in functions of the DSP unit
+//   chip_lower.cpp         registers, attributes, bit-fields, lists of arguments: what the code generator
+//   takes chip_pipeline.cpp      the optimiser's passes, in our own order chip_emit.cpp          object,
 //   assembler text or IR
 #pragma once
 #include "frontend.h"
@@ -13,6 +14,7 @@ namespace clang {
 class TargetInfo;
 class TargetOptions;
 class ASTContext;
+class Decl;
 }  // namespace clang
 namespace llvm {
 class TargetMachine;
@@ -32,6 +34,13 @@ void place_variables(clang::ASTContext& context);
 /// Prefix of annotations by which attributes of functions travel from clang to chip_lower.cpp:
 /// "dspic:save=_a,_b".
 inline constexpr const char* kFunctionNote = "dspic:";
+
+/// Variables of a function in an accumulator of the DSP unit, `register int x asm("A")`, get a note that ends
+/// in its name.
+void note_accumulators(clang::Decl* decl, clang::ASTContext& context);
+inline constexpr const char* kAccumulatorNote = "dspic:accumulator ";
+/// Built-in functions that take or give accumulators (__builtin_mac and its like) become instructions.
+void lower_accumulators(Unit& unit);
 
 /// Before the optimiser; false after an error.
 bool lower_for_chip(Unit& unit);

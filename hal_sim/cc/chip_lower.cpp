@@ -182,6 +182,8 @@ void leave_upper_bytes_open(Module& m) {
 
 bool lower_for_chip(Unit& unit) {
   Module& m = unit.module;
+  lower_accumulators(unit);
+  if (unit.failed) return false;
   take_notes(m);
   place_registers(m);
   define_configuration(unit, place_configuration);

@@ -52,17 +52,34 @@ class ChipTarget : public TargetInfo {
   BuiltinVaListKind getBuiltinVaListKind() const override { return CharPtrBuiltinVaList; }
   const char* getClobbers() const override { return ""; }
   ArrayRef<const char*> getGCCRegNames() const override {
-    static const char* const names[] = {"w0", "w1",  "w2",  "w3",  "w4",  "w5",  "w6",  "w7", "w8",
-                                        "w9", "w10", "w11", "w12", "w13", "w14", "w15", "sr"};
+    static const char* const names[] = {"w0",  "w1",  "w2",  "w3",  "w4",  "w5",  "w6", "w7", "w8", "w9",
+                                        "w10", "w11", "w12", "w13", "w14", "w15", "sr", "A",  "B"};
     return names;
   }
   ArrayRef<GCCRegAlias> getGCCRegAliases() const override { return {}; }
   bool validateAsmConstraint(const char*& name, ConstraintInfo& info) const override {
-    if (!StringRef("abcdew").contains(*name)) return false;
+    if (StringRef(llvm::kDspicNumberLetters).contains(*name)) return require_number(*name, info);
+    if (!StringRef(llvm::kDspicRegisterLetters).contains(*name)) return false;
     info.setAllowsRegister();
     return true;
   }
   bool hasBitIntType() const override { return true; }
+
+ private:
+  static bool require_number(char letter, ConstraintInfo& info) {
+    struct Range {
+      char letter;
+      int least, most;
+    };
+    static constexpr Range kRanges[] = {{'I', 1, 1},      {'J', 0, 1023}, {'K', 0, 15},
+                                        {'M', -1023, -1}, {'N', -31, -1}, {'O', 0, 0},
+                                        {'P', 0, 31},     {'W', -16, 16}, {'Z', -8, 7}};
+    for (const Range& range : kRanges)
+      if (range.letter == letter) info.setRequiresImmediate(range.least, range.most);
+    if (letter == 'L') info.setRequiresImmediate({-2, -1, 1, 2});
+    if (letter == 'Y') info.setRequiresImmediate({-6, -4, -2, 2, 4, 6});
+    return true;
+  }
 };
 
 // --- attributes
@@ -164,6 +181,18 @@ namespace cc {
 
 clang::TargetInfo* make_chip_target(std::shared_ptr<clang::TargetOptions> options) {
   return new ChipTarget(std::move(options));
+}
+
+void note_accumulators(clang::Decl* decl, clang::ASTContext& context) {
+  auto* function = dyn_cast<FunctionDecl>(decl);
+  if (!function || !function->doesThisDeclarationHaveABody()) return;
+  for (Decl* inside : function->decls()) {
+    auto* variable = dyn_cast<VarDecl>(inside);
+    auto* label = variable ? variable->getAttr<AsmLabelAttr>() : nullptr;
+    if (!label || (label->getLabel() != "A" && label->getLabel() != "B")) continue;
+    const std::string note = kAccumulatorNote + label->getLabel().str();
+    variable->addAttr(AnnotateAttr::CreateImplicit(context, note, nullptr, 0));
+  }
 }
 
 void place_variables(clang::ASTContext& context) {

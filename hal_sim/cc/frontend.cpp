@@ -118,7 +118,10 @@ class FactConsumer : public ASTConsumer {
         compute_in_field_widths(decl, *context_);
         clear_unions(decl, *context_);
       }
-      if (!for_chip_) narrow_within(decl);
+      if (for_chip_)
+        note_accumulators(decl, *context_);
+      else
+        narrow_within(decl);
     }
     if (for_chip_) place_variables(*context_);
     return true;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * What XC16 has as built-in functions, known to every file without an #include. Those that name registers are
- * in p30F6014A.h. Not here: the accumulators of the DSP unit (__builtin_mac and its like).
+ * in p30F6014A.h.
  */
 #ifndef XC16_BUILTINS_H
 #define XC16_BUILTINS_H
@@ -69,9 +69,47 @@ extern "C" {
 /* single bits of a word; ff1l and ff1r: number of the first one from the left or right, from 1 on, 0 for
  * none; fbcl: minus the number of bits that only repeat the sign */
 #define __builtin_btg(pointer, bit) (*(pointer) ^= 1u << (bit))
+#ifdef __TWINPUCK_PC__
 #define __builtin_ff1l(word) tp_ff1l(word)
 #define __builtin_ff1r(word) tp_ff1r(word)
 #define __builtin_fbcl(word) tp_fbcl(word)
+#else
+#define TP_FIND_BIT(instruction, word)                           \
+  ({                                                             \
+    int __v;                                                     \
+    __asm__(instruction " %1, %0" : "=r"(__v) : "r"((int)(word))); \
+    __v;                                                         \
+  })
+#define __builtin_ff1l(word) TP_FIND_BIT("ff1l", word)
+#define __builtin_ff1r(word) TP_FIND_BIT("ff1r", word)
+#define __builtin_fbcl(word) TP_FIND_BIT("fbcl", word)
+#endif
+
+/* The DSP unit. An `acc` is a variable in an accumulator, register int x asm("A"), and so is the result of those
+ * that give one. x and y: address of the pointer to fetch from, place of the value, step; null pointers fetch
+ * nothing. back: place for the other accumulator, rounded. */
+#ifdef __TWINPUCK_CHIP__
+extern int __builtin_addab(int acc, int other_acc);
+extern int __builtin_subab(int acc, int other_acc);
+extern int __builtin_add(int acc, int value, int shift);
+extern int __builtin_lac(int value, int shift);
+extern int __builtin_clr(void);
+extern int __builtin_clr_prefetch(int** x, int* x_value, int x_step, int** y, int* y_value, int y_step, int* back,
+                                  int other_acc);
+extern int __builtin_mac(int acc, int a, int b, int** x, int* x_value, int x_step, int** y, int* y_value,
+                         int y_step, int* back, int other_acc);
+extern int __builtin_msc(int acc, int a, int b, int** x, int* x_value, int x_step, int** y, int* y_value,
+                         int y_step, int* back, int other_acc);
+extern int __builtin_mpy(int a, int b, int** x, int* x_value, int x_step, int** y, int* y_value, int y_step);
+extern int __builtin_mpyn(int a, int b, int** x, int* x_value, int x_step, int** y, int* y_value, int y_step);
+extern int __builtin_ed(int square, int** x, int x_step, int** y, int y_step, int* distance);
+extern int __builtin_edac(int acc, int square, int** x, int x_step, int** y, int y_step, int* distance);
+extern void __builtin_movsac(int** x, int* x_value, int x_step, int** y, int* y_value, int y_step, int* back,
+                             int other_acc);
+extern int __builtin_sac(int acc, int shift);
+extern int __builtin_sacr(int acc, int shift);
+extern int __builtin_sftac(int acc, int shift);
+#endif
 
 #ifdef __TWINPUCK_PC__
 extern void tp_disi(long long cycles);
