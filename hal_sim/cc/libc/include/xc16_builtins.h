@@ -74,28 +74,28 @@ extern "C" {
 #define __builtin_ff1r(word) tp_ff1r(word)
 #define __builtin_fbcl(word) tp_fbcl(word)
 #else
-#define TP_FIND_BIT(instruction, word)                           \
-  ({                                                             \
-    int __v;                                                     \
+#define TP_FIND_BIT(instruction, word)                             \
+  ({                                                               \
+    int __v;                                                       \
     __asm__(instruction " %1, %0" : "=r"(__v) : "r"((int)(word))); \
-    __v;                                                         \
+    __v;                                                           \
   })
 #define __builtin_ff1l(word) TP_FIND_BIT("ff1l", word)
 #define __builtin_ff1r(word) TP_FIND_BIT("ff1r", word)
 #define __builtin_fbcl(word) TP_FIND_BIT("fbcl", word)
 #endif
 
-/* The DSP unit. An `acc` is a variable in an accumulator, register int x asm("A"), and so is the result of those
- * that give one. x and y: address of the pointer to fetch from, place of the value, step; null pointers fetch
- * nothing. back: place for the other accumulator, rounded. */
+/* The DSP unit. An `acc` is a variable in an accumulator, register int x asm("A"), and so is the result of
+ * those that give one. x and y: address of the pointer to fetch from, place of the value, step; null pointers
+ * fetch nothing. back: place for the other accumulator, rounded. */
 #ifdef __TWINPUCK_CHIP__
 extern int __builtin_addab(int acc, int other_acc);
 extern int __builtin_subab(int acc, int other_acc);
 extern int __builtin_add(int acc, int value, int shift);
 extern int __builtin_lac(int value, int shift);
 extern int __builtin_clr(void);
-extern int __builtin_clr_prefetch(int** x, int* x_value, int x_step, int** y, int* y_value, int y_step, int* back,
-                                  int other_acc);
+extern int __builtin_clr_prefetch(int** x, int* x_value, int x_step, int** y, int* y_value, int y_step,
+                                  int* back, int other_acc);
 extern int __builtin_mac(int acc, int a, int b, int** x, int* x_value, int x_step, int** y, int* y_value,
                          int y_step, int* back, int other_acc);
 extern int __builtin_msc(int acc, int a, int b, int** x, int* x_value, int x_step, int** y, int* y_value,
