@@ -85,6 +85,8 @@ std::string handler_name(int vector);
 bool read_all(Program& program, const Options& options);
 /// Of an object of XC16: each byte of data has an octet behind it that says nothing.
 void drop_phantom_octets(Section& section);
+/// printf() and its like are called __printf_cdn there; the name of ours, or the name as it is.
+std::string name_of_library(const std::string& name);
 /// False: that type is not known. `offset` as the object has it.
 bool add_vendor_relocation(Section& section, std::uint32_t offset, unsigned type, Symbol& symbol);
 void keep_used(Program& program);

@@ -119,12 +119,15 @@ class Reader {
     return is_constant ? Kind::Constant : Kind::Ram;
   }
 
+  /// Flags name the chip; ours say nothing.
+  static bool is_of_vendor(const Elf& elf) { return elf.getHeader().e_flags != 0; }
+
   bool read(const Member& member, const Elf& elf) {
     auto headers = elf.sections();
     if (!headers) return problem(member.name, toString(headers.takeError()));
     std::vector<Section*> sections(headers->size(), nullptr);
     const Elf::Elf_Shdr* table = nullptr;
-    const bool is_vendors = elf.getHeader().e_flags != 0;  // the chip; ours say nothing
+    const bool is_vendors = is_of_vendor(elf);
     for (size_t i = 0; i < headers->size(); ++i) {
       const auto& h = (*headers)[i];
       auto name = elf.getSectionName(h);
@@ -164,6 +167,7 @@ class Reader {
     auto names = elf.getStringTableForSymtab(table);
     auto all = elf.symbols(&table);
     if (!names || !all) return problem(member.name, "damaged symbol table");
+    const bool is_vendors = is_of_vendor(elf);
     for (const auto& e : *all) {
       auto name = e.getName(*names);
       if (!name) return problem(member.name, toString(name.takeError()));
@@ -172,7 +176,7 @@ class Reader {
       own.from = member.name;
       own.value = e.st_value;
       if (e.st_shndx < sections.size()) own.section = sections[e.st_shndx];
-      if (elf.getHeader().e_flags && own.section && own.section->kind == Kind::Code) own.value *= 2;
+      if (is_vendors && own.section && own.section->kind == Kind::Code) own.value *= 2;
       own.size = e.st_size;
       own.is_function = e.getType() == ELF::STT_FUNC;
       own.is_common = e.st_shndx == ELF::SHN_COMMON;
@@ -180,6 +184,7 @@ class Reader {
       // what a program defines itself takes the place of a library's
       own.is_weak = e.getBinding() == ELF::STB_WEAK || (own.is_defined && member.is_of_library);
       if (own.is_common) own.align = e.st_value, own.value = 0;
+      if (is_vendors && !own.is_defined) own.name = name_of_library(own.name);
       if (!own.is_defined && !own.is_common && rename.count(own.name)) own.name = rename[own.name];
       const bool is_dropped = own.is_defined && !own.section && e.st_shndx != ELF::SHN_ABS;
       if (e.getBinding() == ELF::STB_LOCAL || is_dropped) {

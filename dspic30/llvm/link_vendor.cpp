@@ -4,6 +4,8 @@
 //   bytes of data    two octets each, of which the second says nothing, so sizes and offsets are twice ours
 //   labels of code   count program addresses, two a word; ours count octets, four a word
 //   relocations      without addend; what the place holds already is added, and two more types mean a handle
+//
+// Besides, its compiler writes into the name of a call of printf() and its like which conversions the format has.
 #include "dspic30/llvm/fixups.h"
 #include "dspic30/llvm/link.h"
 
@@ -65,6 +67,18 @@ bool is_known(unsigned type) {
 }
 
 }  // namespace
+
+std::string name_of_library(const std::string& name) {
+  static const char* const kFormatted[] = {"fprintf",  "fscanf",  "printf",   "scanf",   "snprintf", "sprintf",
+                                           "sscanf",   "vfprintf", "vprintf", "vsnprintf", "vsprintf"};
+  for (const char* function : kFormatted) {
+    const std::string start = std::string("__") + function + "_";
+    if (name.rfind(start, 0) != 0 || name.size() == start.size()) continue;
+    if (name.find_first_not_of("0123456789acdefginopsuxAEFGX", start.size()) == std::string::npos)
+      return std::string("_") + function;
+  }
+  return name;
+}
 
 void drop_phantom_octets(Section& s) {
   if (s.kind == Kind::Code) return;

@@ -118,14 +118,14 @@ int main(void) { return theirs(3) + table[1] + pointer(4); }
 
 /// _theirs: MOV _table+4,W1; MOV #_table+2,W2; RCALL _ours; RETURN. Data: three words, then a pointer to
 /// _theirs.
-VendorObject object(unsigned last_type) {
+VendorObject object(unsigned last_type, const char* called = "_ours") {
   VendorObject o;
   const unsigned code =
                      o.section(".text", {0, 0x800001 | 2 << 4, 0x200002 | 2 << 4, 0x070000, 0x060000}, true),
                  data = o.section(".ndata", {11, 22, 33, 0}, false), undefined = SHN_UNDEF;
   const unsigned theirs = o.symbol("_theirs", code, 2, STT_FUNC),
                  table = o.symbol("_table", data, 0, STT_OBJECT),
-                 ours = o.symbol("_ours", undefined, 0, STT_NOTYPE);
+                 ours = o.symbol(called, undefined, 0, STT_NOTYPE);
   o.symbol("_pointer", data, 6, STT_OBJECT);
   o.relocate(code, 4, kFileOfMove, table);
   o.relocate(code, 8, kLiteral16, table);
@@ -171,6 +171,18 @@ TEST(ChipLinker, object_of_xc16_links) {
     found |= word == 11 && file.words.at(address + 2) == 22 && file.words.at(address + 4) == 33 &&
              file.words.at(address + 6) == at;
   EXPECT_TRUE(found);
+}
+
+// its name says which conversions the format has
+TEST(ChipLinker, formatted_output_of_xc16_is_the_librarys) {
+  for (const auto& [called, expected] : {std::pair{"__ours_0", "ours_0: undefined"},
+                                         {"__sprintf_", "_sprintf_: undefined"},
+                                         {"__sprintf_0", "error: sprintf: undefined"},
+                                         {"__vfprintf_cdfFnopuxX", "error: vfprintf: undefined"}}) {
+    const auto run = link(object(kHandleInData, called), fs::path(TWINPUCK_BUILD_DIR) / "tests" / "vendor_printf");
+    EXPECT_NE(run.status, 0);
+    EXPECT_NE(run.output.find(expected), std::string::npos) << run.output;
+  }
 }
 
 TEST(ChipLinker, compiler_called_by_hand_finds_its_headers) {
