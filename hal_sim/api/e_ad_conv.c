@@ -15,8 +15,6 @@
 #define STARTED_CYCLES 24
 #define FILLED_CYCLES 7
 
-int e_mic_scan[3][MIC_SAMP_NB];
-int e_acc_scan[3][ACC_SAMP_NB];
 unsigned int e_last_mic_scan_id;
 unsigned int e_last_acc_scan_id;
 int e_ambient_ir[IR_CHANNELS];
@@ -41,22 +39,16 @@ void twinpuck_refresh_adc_counters(void) {
   e_last_acc_scan_id = (unsigned int)tp_scan_acc_index();
 }
 
-void twinpuck_refresh_acc(void) {
-  tp_scan_acc_values(e_acc_scan);
-  e_last_acc_scan_id = (unsigned int)tp_scan_acc_index();
-}
-
 void twinpuck_refresh_ir(unsigned int sensor) {
   unsigned long counts = (unsigned long)tp_scan_pair(sensor);
   e_ambient_ir[sensor] = (int)(counts & 0xFFFF);
   e_ambient_and_reflected_ir[sensor] = (int)(counts >> 16);
 }
 
-unsigned long twinpuck_mic_filed;
-
-void twinpuck_refresh_mic(void) {
-  twinpuck_mic_filed = (unsigned long)tp_mic_scan(e_mic_scan, twinpuck_mic_filed);
-  e_last_mic_scan_id = (unsigned int)(twinpuck_mic_filed % MIC_SAMP_NB);
+/* e_mic_scan and what fills it are there in programs that name them (e_ad_mic.c) */
+extern void twinpuck_refresh_mic(void) __attribute__((weak));
+TAKES(0) static void refresh_mic_if_wanted(void) {
+  if (twinpuck_refresh_mic) twinpuck_refresh_mic();
 }
 
 TAKES(0) static void refresh_all(void) {
@@ -81,14 +73,14 @@ TAKES(0) void e_init_ad_scan(unsigned char only_micro) {
 unsigned char e_ad_is_array_filled(void) {
   if (!tp_scan_array_filled()) return 0;
   refresh_all();
-  twinpuck_refresh_mic();
+  refresh_mic_if_wanted();
   return 1;
 }
 
 /* the program never runs inside the interrupt, so after the first sample it always sees 1 */
 unsigned char e_ad_is_acquisition_completed(void) {
   refresh_all();
-  twinpuck_refresh_mic();
+  refresh_mic_if_wanted();
   return twinpuck_interrupts_seen > 0;
 }
 
@@ -97,5 +89,5 @@ TAKES(T_SCAN_ON) void e_ad_scan_on(void) { tp_scan_switch(1); }
 TAKES(T_SCAN_OFF) void e_ad_scan_off(void) {
   tp_scan_switch(0);
   refresh_all();
-  twinpuck_refresh_mic(); /* later the past is forgotten */
+  refresh_mic_if_wanted(); /* later the past is forgotten */
 }
