@@ -28,7 +28,8 @@ constexpr std::size_t kReserveBytes =
 }  // namespace
 
 namespace {
-constexpr std::size_t kStackOffset = 0x4000'0000;  // in the slot; an image's memory lies elsewhere in its own
+// in the slot: above and below lies nothing, farther than an `int` reaches in an array of doubles
+constexpr std::size_t kStackOffset = std::size_t{1} << 20;
 std::size_t whole_pages(std::size_t bytes) {
   const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
   return (bytes + page - 1) / page * page;
@@ -36,7 +37,7 @@ std::size_t whole_pages(std::size_t bytes) {
 }  // namespace
 
 Fiber::Fiber(std::size_t stack_bytes)
-    : slot_(kStackOffset, whole_pages(stack_bytes) + kReserveBytes + kGuardBytes) {
+    : slot_(AddressSlot::Kind::Stack, kStackOffset, whole_pages(stack_bytes) + kReserveBytes + kGuardBytes) {
   low_ = slot_.begin() + kGuardBytes + kReserveBytes;
   high_ = slot_.begin() + slot_.bytes();
   CHECK(mprotect(reinterpret_cast<void*>(low_), high_ - low_, PROT_READ | PROT_WRITE) == 0,

@@ -64,7 +64,7 @@ class File {
 
 }  // namespace
 
-ImageMemory::ImageMemory(std::size_t bytes) : slot_(kImageOffset, bytes) {}
+ImageMemory::ImageMemory(std::size_t bytes) : slot_(AddressSlot::Kind::Image, kImageOffset, bytes) {}
 ImageMemory::~ImageMemory() = default;
 
 std::unique_ptr<ImageMemory> ImageMemory::load(const std::string& file, const std::string& path,

@@ -109,18 +109,26 @@ TEST(Image, every_copy_lies_at_the_same_place_as_far_as_32_bits_tell) {
   EXPECT_NE(image->copy(0).base(), image->copy(1).base());
 }
 
-TEST(AddressSlots, there_is_one_for_every_robot_of_the_largest_world) {
-  constexpr std::size_t kOffset = 0x4000'0000;
-#ifdef __SANITIZE_ADDRESS__
-  constexpr int kRobots = 10'000;  // its shadow lies where others would be
-#else
-  constexpr int kRobots = sim::kMostRobots;
-#endif
+TEST(AddressSlots, there_is_a_stack_for_every_robot_of_the_largest_world) {
+  constexpr std::size_t kOffset = 0x1'0000, kBytes = 4096, kLowBits = 0x3F'FFFF;
   std::deque<host::AddressSlot> stacks;
-  for (int r = 0; r < kRobots; ++r) {
-    stacks.emplace_back(kOffset, 4096);
-    ASSERT_EQ(stacks.back().begin() & 0xFFFFFFFFu, kOffset) << r;
+  for (int r = 0; r < sim::kMostRobots; ++r) {
+    const auto& stack = stacks.emplace_back(host::AddressSlot::Kind::Stack, kOffset, kBytes);
+    ASSERT_EQ(stack.begin() & kLowBits, kOffset) << r;
+    // an int that indexes an array of 64-byte structs meets no other robot's
+    ASSERT_TRUE(r == 0 || stack.begin() - stacks[r - 1].begin() > 32767 * 64) << r;
   }
+}
+
+TEST(AddressSlots, a_stack_that_is_given_back_is_given_again) {
+  using Kind = host::AddressSlot::Kind;
+  auto first = std::make_unique<host::AddressSlot>(Kind::Stack, 0, 4096);
+  const host::AddressSlot second(Kind::Stack, 0, 4096);
+  const auto begin = first->begin();
+  first.reset();
+  const host::AddressSlot image(Kind::Image, 0, 4096);
+  EXPECT_EQ(host::AddressSlot(Kind::Stack, 0, 4096).begin(), begin);
+  EXPECT_NE(image.begin(), begin);
 }
 
 }  // namespace
