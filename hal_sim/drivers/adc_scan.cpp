@@ -52,8 +52,8 @@ void AdcScan::settle(Cycle at) {
   for (int sensor = 0; sensor < kRingSensors; ++sensor) {
     const auto i = static_cast<std::size_t>(sensor);
     const std::int64_t count = full_interrupts(at);
-    keep(dark_[i], sensor, newest(count, kScanDarkSlot, 1, pair_of_sensor(sensor)), false);
-    keep(lit_[i], sensor, newest(count, kScanLitSlot, 0, pair_of_sensor(sensor)), true);
+    keep(sensors_[i].dark, sensor, newest(count, kScanDarkSlot, 1, pair_of_sensor(sensor)), false);
+    keep(sensors_[i].lit, sensor, newest(count, kScanLitSlot, 0, pair_of_sensor(sensor)), true);
   }
   fill_acc(acc_samples_of(full_interrupts(at)));
   const std::int64_t passed = frames(at);
@@ -63,8 +63,8 @@ void AdcScan::settle(Cycle at) {
       runs_.erase(runs_.begin());
   }
   run_ = {run_.first + passed, full_interrupts(at), at + kScanStartCycles, run_.micro_only};
-  for (auto* samples : {&dark_, &lit_})
-    for (Sample& s : *samples) s.until = 0, s.is_regular = false;
+  for (Sensor& sensor : sensors_)
+    for (Sample* s : {&sensor.dark, &sensor.lit}) s->until = 0, s->is_regular = false;
 }
 
 void AdcScan::start(bool micro_only, bool five_pairs, Cycle at) {
@@ -112,8 +112,7 @@ void AdcScan::reset(Cycle at) {
   period_base_ = 0;
   pair_base_ = 0;
   run_ = Run{};
-  dark_.fill(Sample{});
-  lit_.fill(Sample{});
+  sensors_.fill(Sensor{});
 }
 
 int AdcScan::pair_of_lit(std::int64_t period) const {
@@ -164,8 +163,8 @@ int AdcScan::evaluate(int sensor, std::int64_t period, bool lit_sample) const {
 
 void AdcScan::keep(Sample& kept, int sensor, std::int64_t number, bool lit_sample) const {
   if (number < 0 || number == kept.number) return;
-  kept.counts = evaluate(sensor, number, lit_sample);
-  kept.number = number;
+  kept.counts = static_cast<std::int16_t>(evaluate(sensor, number, lit_sample));
+  kept.number = static_cast<std::int32_t>(number);
 }
 
 int AdcScan::read(Sample& kept, int sensor, Cycle at, bool lit_sample) {
@@ -189,31 +188,31 @@ int AdcScan::read(Sample& kept, int sensor, Cycle at, bool lit_sample) {
 }
 
 int AdcScan::dark(int sensor, Cycle at) {
-  return read(dark_[static_cast<std::size_t>(sensor)], sensor, at, false);
+  return read(sensors_[static_cast<std::size_t>(sensor)].dark, sensor, at, false);
 }
 
 int AdcScan::lit(int sensor, Cycle at) {
-  return read(lit_[static_cast<std::size_t>(sensor)], sensor, at, true);
+  return read(sensors_[static_cast<std::size_t>(sensor)].lit, sensor, at, true);
 }
 
 AdcScan::Pair AdcScan::pair(int sensor, Cycle at) {
-  const std::size_t s = static_cast<std::size_t>(sensor);
+  const Sensor& kept = sensors_[static_cast<std::size_t>(sensor)];
   const int lit = this->lit(sensor, at);
   // in darkness, once there is a dark sample, the others are the same
-  if (dark_[s].is_regular && held_since_ < 0 && sensor < kRingSensors && board_.is_dark())
-    return {kAdcMax, lit, lit_[s].until};
+  if (kept.dark.is_regular && held_since_ < 0 && sensor < kRingSensors && board_.is_dark())
+    return {kAdcMax, lit, kept.lit.until};
   const int dark = this->dark(sensor, at);
-  return {dark, lit, std::min(lit_[s].until, dark_[s].until)};
+  return {dark, lit, std::min(kept.lit.until, kept.dark.until)};
 }
 
 int AdcScan::peek_dark(int sensor, Cycle at) const {
-  const Sample& kept = dark_[static_cast<std::size_t>(sensor)];
+  const Sample& kept = sensors_[static_cast<std::size_t>(sensor)].dark;
   const std::int64_t number = dark_number(sensor, at);
   return number < 0 || number == kept.number ? kept.counts : evaluate(sensor, number, false);
 }
 
 int AdcScan::peek_lit(int sensor, Cycle at) const {
-  const Sample& kept = lit_[static_cast<std::size_t>(sensor)];
+  const Sample& kept = sensors_[static_cast<std::size_t>(sensor)].lit;
   const std::int64_t number = lit_number(sensor, at);
   return number < 0 || number == kept.number ? kept.counts : evaluate(sensor, number, true);
 }

@@ -117,10 +117,15 @@ class AdcScan {
 
  private:
   struct Sample {
-    std::int64_t number = -1;
-    int counts = 0;
-    Cycle until = 0;          // the next sample of this kind arrives then; 0: not known
+    Cycle until = 0;           // the next sample of this kind arrives then; 0: not known
+    std::int32_t number = -1;  // lasts 3 months at 252 periods a second
+    std::int16_t counts = 0;
     bool is_regular = false;  // it does, and the others follow turn by turn
+  };
+  // a program reads all sensors one after the other: the less memory they take, the fewer waits for it
+  static_assert(sizeof(Sample) == 16);
+  struct Sensor {
+    Sample dark, lit;
   };
 
   /// A run of frames without a break.
@@ -172,8 +177,7 @@ class AdcScan {
   std::int64_t period_base_ = 0;  // from this period on ...
   int pair_base_ = 0;             // ... pairs count from here
   std::vector<Run> runs_;         // those over that the last 100 microphone samples come from
-  std::array<Sample, 10> dark_{};
-  std::array<Sample, 10> lit_{};
+  std::array<Sensor, 10> sensors_{};
   AccRing acc_{};
   bool acc_used_ = false;
   std::int64_t acc_kept_ = 0;  // samples in acc_
