@@ -7,6 +7,7 @@
 #include "llvm/CodeGen/MachineFunction.h"
 #include "llvm/CodeGen/MachineInstrBuilder.h"
 #include "llvm/CodeGen/RegisterScavenging.h"
+#include "llvm/IR/DiagnosticInfo.h"
 #include "llvm/IR/InlineAsm.h"
 
 namespace llvm {
@@ -120,7 +121,11 @@ void DSPICFrameLowering::emitPrologue(MachineFunction& mf, MachineBasicBlock& mb
   if (is_interrupt(f)) push_context(mf, mbb, it);
   if (!hasFP(mf)) return;
   const int64_t size = alignTo(mf.getFrameInfo().getStackSize(), 2);
-  if (size > kLargestFrame) report_fatal_error("dsPIC: a function needs " + Twine(size) + " bytes of stack");
+  if (size > kLargestFrame) {
+    const std::string text =
+        "needs " + std::to_string(size) + " bytes of stack, which the chip does not have";
+    f.getContext().diagnose(DiagnosticInfoUnsupported(f, text, DiagnosticLocation(f.getSubprogram())));
+  }
   BuildMI(mbb, it, DebugLoc(), ii.get(DSPIC::LNK)).addImm(size);
 }
 

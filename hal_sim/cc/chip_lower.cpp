@@ -142,7 +142,7 @@ void reserve_stack(CallInst& call) {
 /// The depth of __builtin_frame_address() is an int of C, but a long of the intrinsic function.
 void widen_constants(CallInst& call, FunctionType& type) {
   for (unsigned n = 0; n < call.arg_size(); ++n)
-    if (auto* c = dyn_cast<ConstantInt>(call.getArgOperand(n)))
+    if (auto* c = dyn_cast<ConstantInt>(call.getArgOperand(n)); c && c->getType() != type.getParamType(n))
       call.setArgOperand(n, ConstantInt::get(type.getParamType(n), c->getZExtValue()));
 }
 

@@ -112,6 +112,8 @@ class FactConsumer : public ASTConsumer {
     }
   }
   bool HandleTopLevelDecl(DeclGroupRef group) override {
+    // an erroneous expression may have no type
+    if (context_->getDiagnostics().hasErrorOccurred()) return true;
     for (Decl* decl : group) {
       note(decl);
       if (!cxx_) {

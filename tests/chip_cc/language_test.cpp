@@ -88,6 +88,10 @@ long bench_run(void) {
   if (!__builtin_mul_overflow(c, d, &s) || __builtin_mul_overflow(d, e, &s) || s != -15000000000ll) return 2;
   return 0;
 })"},
+    {"products of an unsigned and a signed number", R"(
+unsigned char a = 4;
+unsigned long long r;
+long bench_run(void) { return !__builtin_mul_overflow(a, -16, &r) || r != -64ull; })"},
     {"complex quotients", R"(
 _Complex float a = 1.0f + 2.0if, b = 3.0f - 4.0if, z;
 long bench_run(void) {
@@ -210,6 +214,23 @@ TEST(ChipLanguage, corners_are_right_at_every_level) {
       ASSERT_TRUE(program.is_whole()) << corner.name << level << ": " << program.error();
       EXPECT_EQ(program.run(), 0u) << corner.name << " " << level;
     }
+}
+
+TEST(ChipLanguage, mistakes_are_named_and_stop_no_compiler) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"struct big { int i[0x10000]; };\nlong bench_run(void) { struct big b = {}; return b.i[0]; }",
+       "main.c:2:20: error: array is too large (65536 elements)"},
+      {"long bench_run(void) { int f(int v) { return v; } return f(1); }",
+       "error: function definition is not allowed here"},
+      {"void g(char*);\nlong bench_run(void) { char a[20000]; g(a); return a[0]; }\nvoid g(char* a) { a[1] = "
+       "0; }",
+       "needs 20002 bytes of stack, which the chip does not have"}};
+  for (const auto& [source, message] : cases) {
+    const ChipProgram program("mistake", source, "-O0");
+    EXPECT_FALSE(program.is_whole()) << source;
+    EXPECT_NE(program.error().find(message), std::string::npos) << program.error();
+    EXPECT_EQ(program.error().find("status 134"), std::string::npos) << program.error();
+  }
 }
 
 TEST(ChipLanguage, optimiser_says_so_and_only_then) {
