@@ -5,7 +5,8 @@
 //   labels of code   count program addresses, two a word; ours count octets, four a word
 //   relocations      without addend; what the place holds already is added, and two more types mean a handle
 //
-// Besides, its compiler writes into the name of a call of printf() and its like which conversions the format has.
+// Besides, its compiler writes into the name of a call of printf() and its like which conversions the format
+// has.
 #include "dspic30/llvm/fixups.h"
 #include "dspic30/llvm/link.h"
 
@@ -69,8 +70,9 @@ bool is_known(unsigned type) {
 }  // namespace
 
 std::string name_of_library(const std::string& name) {
-  static const char* const kFormatted[] = {"fprintf",  "fscanf",  "printf",   "scanf",   "snprintf", "sprintf",
-                                           "sscanf",   "vfprintf", "vprintf", "vsnprintf", "vsprintf"};
+  static const char* const kFormatted[] = {"fprintf",  "fscanf",    "printf",  "scanf",
+                                           "snprintf", "sprintf",   "sscanf",  "vfprintf",
+                                           "vprintf",  "vsnprintf", "vsprintf"};
   for (const char* function : kFormatted) {
     const std::string start = std::string("__") + function + "_";
     if (name.rfind(start, 0) != 0 || name.size() == start.size()) continue;

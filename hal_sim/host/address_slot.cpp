@@ -23,8 +23,8 @@ struct Slots {
   std::uintptr_t place(int number) const { return first + static_cast<std::size_t>(number) * spacing; }
 };
 
-// below where programs of the PC lie; libraries come further up, a sanitizer's shadow further down. Stacks are
-// enough for the largest world
+// below where programs of the PC lie; libraries come further up, a sanitizer's shadow further down. Stacks
+// are enough for the largest world
 constexpr std::uintptr_t kStacksBegin = 0x1010'0000'0000, kImagesBegin = 0x1100'0000'0000,
                          kImagesEnd = 0x5000'0000'0000;
 constexpr std::size_t kStackSpacing = std::size_t{4} << 20, kImageSpacing = std::size_t{4} << 30;
@@ -32,7 +32,9 @@ Slots image_slots{kImagesBegin, kImageSpacing, (kImagesEnd - kImagesBegin) / kIm
 Slots stack_slots{kStacksBegin, kStackSpacing, (kImagesBegin - kStacksBegin) / kStackSpacing};
 std::mutex changing;
 
-Slots& slots_of(AddressSlot::Kind kind) { return kind == AddressSlot::Kind::Image ? image_slots : stack_slots; }
+Slots& slots_of(AddressSlot::Kind kind) {
+  return kind == AddressSlot::Kind::Image ? image_slots : stack_slots;
+}
 
 // -1: none
 int take(Slots& slots) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Memory of firmware lies at the same place in every run, as far as a program can tell. Each gets a stretch of
-// addresses for itself and lies at the same offset in it; what an index runs into beyond its memory is nothing.
+// Memory of firmware lies at the same place in every run, as far as a program can tell. Each gets a stretch
+// of addresses for itself and lies at the same offset in it; what an index runs into beyond its memory is
+// nothing.
 //
 //   images   4 GB apart: the lower 32 bits of an address are the same in every copy of an image
 //   stacks   4 MB apart: the lower 22 bits are the same for every robot. All robots take their turns, and the

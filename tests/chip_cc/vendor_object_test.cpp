@@ -179,7 +179,8 @@ TEST(ChipLinker, formatted_output_of_xc16_is_the_librarys) {
                                          {"__sprintf_", "_sprintf_: undefined"},
                                          {"__sprintf_0", "error: sprintf: undefined"},
                                          {"__vfprintf_cdfFnopuxX", "error: vfprintf: undefined"}}) {
-    const auto run = link(object(kHandleInData, called), fs::path(TWINPUCK_BUILD_DIR) / "tests" / "vendor_printf");
+    const auto run =
+        link(object(kHandleInData, called), fs::path(TWINPUCK_BUILD_DIR) / "tests" / "vendor_printf");
     EXPECT_NE(run.status, 0);
     EXPECT_NE(run.output.find(expected), std::string::npos) << run.output;
   }
