@@ -3,13 +3,15 @@
 //
 //   arguments   left to right, each takes the first free registers of W0..W7 that suit it: a word any, a long
 //               or float an even pair, 64 bits W0..W3 or W4..W7; a struct as many in a row as it has words,
-//               of 4 and 8 bytes as a number of that size. So a later short argument may fill a gap. What
-//               finds none goes on the stack, the first nearest to the return address; so do the last named
-//               argument before "..." and all behind it, structs as well.
+//               of 4 and 8 bytes as a number of that size, if no member is an array or struct of another size
+//               than numbers have. So a later short argument may fill a gap. What finds none goes on the
+//               stack, the first nearest to the return address; so do the last named argument before "..."
+//               and all behind it, structs as well.
 //   result      W0, W1:W0, W3..W0; a struct of whatever size where W0 points
 //   kept        W8 to W14; lost W0 to W7
 #include "dspic30/llvm/interrupts.h"
 #include "dspic30/llvm/subtarget.h"
+#include "dspic30/llvm/target.h"
 #include "llvm/CodeGen/MachineFrameInfo.h"
 #include "llvm/CodeGen/MachineRegisterInfo.h"
 
@@ -64,9 +66,11 @@ Places place(const SmallVectorImpl<Argument>& arguments, bool variadic) {
       while (!arguments[end++].Flags.isSplitEnd()) {
       }
     const unsigned size = is_struct(a) ? (a.Flags.getByValSize() + 1) / 2 : end - i;
-    // a struct that is a whole word, pair or four of them travels like an integer of its size
+    // a struct that is a whole word, pair or four of them travels like an integer of its size, unless it is
+    // odd
+    const Align align = is_struct(a) ? a.Flags.getNonZeroByValAlign() : Align(2);
     const bool is_whole =
-        !is_struct(a) || (a.Flags.getByValSize() == 2 * size && a.Flags.getNonZeroByValAlign() >= 2);
+        !is_struct(a) || (a.Flags.getByValSize() == 2 * size && align >= 2 && align != kDspicOddStruct);
     const unsigned step = is_whole && (size == 2 || size == 4) ? size : 1;
     const unsigned mask = (1u << size) - 1;
     unsigned first = 0;

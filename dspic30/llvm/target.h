@@ -7,6 +7,7 @@
 // chip's addresses.
 #pragma once
 #include "llvm/MC/TargetRegistry.h"
+#include "llvm/Support/Alignment.h"
 
 namespace llvm {
 
@@ -17,6 +18,10 @@ Target& dspic_target();
 inline constexpr const char* kDspicDataLayout = "e-p:16:16-i16:16-i32:16-i64:16-f32:16-f64:16-a:8-n16-S16";
 inline constexpr const char* kDspicTriple = "dspic30f-microchip-none-elf";
 inline constexpr const char* kDspicCpu = "30f6014a";
+
+/// Stack alignment of an argument that is a struct of 4 or 8 bytes and yet no number: a mark, nothing is
+/// aligned so.
+inline constexpr Align kDspicOddStruct = Align::Constant<4>();
 
 /// Operands of assembler text in C: XC16's letters of classes of registers (a W0, b W1, c W2, d W1 to W14,
 /// e W2 to W14, t W7, u W4 to W6, v W13, x W8 and W9, y W10 and W11, z W4 to W7), and of ranges of numbers.

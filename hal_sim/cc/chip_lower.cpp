@@ -2,6 +2,7 @@
 // From what C says to what the code generator takes: registers become addresses, notes become attributes,
 // small structs are returned in registers, unions without a value are zero.
 #include "chip.h"
+#include "dspic30/llvm/target.h"
 #include "llvm/IR/Constants.h"
 #include "llvm/IR/IRBuilder.h"
 #include "llvm/IR/InstIterator.h"
@@ -161,6 +162,36 @@ void mend_calls(Module& m) {
     }
 }
 
+// --- structs as arguments
+
+/// For gcc a struct of 4 or 8 bytes is a number of that size, unless an array or a struct in it has a size
+/// that no number has. What lies in a union clang does not say.
+bool has_odd_member(Type* type, const DataLayout& layout) {
+  if (auto* array = dyn_cast<ArrayType>(type)) return has_odd_member(array->getElementType(), layout);
+  auto* record = dyn_cast<StructType>(type);
+  if (!record || (record->hasName() && record->getName().startswith("union."))) return false;
+  return any_of(record->elements(), [&](Type* member) {
+    const bool is_number =
+        isPowerOf2_64(layout.getTypeAllocSize(member)) && layout.getTypeAllocSize(member) <= 8;
+    return member->isAggregateType() && (!is_number || has_odd_member(member, layout));
+  });
+}
+
+/// Such structs are marked for whoever gives arguments their registers (dspic30/llvm/calls.cpp).
+void mark_structs(Module& m) {
+  const auto of_odd = Attribute::getWithStackAlignment(m.getContext(), kDspicOddStruct);
+  const auto mark = [&](auto& called) {
+    for (unsigned i = 0; i < called.arg_size(); ++i)
+      if (Type* type = called.getParamByValType(i))
+        if (has_odd_member(type, m.getDataLayout())) called.addParamAttr(i, of_odd);
+  };
+  for (Function& f : m) {
+    if (!f.isIntrinsic()) mark(f);
+    for (Instruction& i : instructions(f))
+      if (auto* call = dyn_cast<CallBase>(&i)) mark(*call);
+  }
+}
+
 }  // namespace
 
 /// A char travels in the low byte of its word, and whoever reads it extends it: the function called its
@@ -192,6 +223,7 @@ bool lower_for_chip(Unit& unit) {
   mend_calls(m);
   leave_upper_bytes_open(m);
   take_structs_from_lists(m);
+  mark_structs(m);
   // as XC16: a delay loop waits at -O0 and -O1 and is gone at -O2 and -Os
   if (unit.options.level < 2) keep_empty_loops(m, *Intrinsic::getDeclaration(&m, Intrinsic::sideeffect));
   return !unit.failed;

@@ -116,6 +116,30 @@ int gap(int z, struct i2 p, int k) { return p.v[1] + k; })";
   EXPECT_NE(code_of(source, "gap").find("add w3, w1, w0"), std::string::npos);
 }
 
+// seen in XC16's assembler text
+TEST(ChipCode, struct_with_an_array_or_struct_of_odd_size_begins_anywhere) {
+  const char* source = R"(
+struct i3 { int v[3]; };
+struct array { int v[3]; int last; };
+struct inner { struct i3 v; int last; };
+struct deep { struct array v; };
+struct pairs { char a[4]; int b, last; };
+union either { int v; char all[8]; };
+struct other { union either u; };
+int array(int z, struct array p, int k) { return p.last + k; }
+int inner(int z, struct inner p, int k) { return p.last + k; }
+int deep(int z, struct deep p, int k) { return p.v.last + k; }
+int pairs(int z, struct pairs p, int k) { return p.last + k; }
+int either(int z, struct other p, int k) { return p.u.v + k; }
+extern int far(int, struct array, int);
+int call(struct array *p) { return far(1, *p, 2); })";
+  for (const char* odd : {"array", "inner", "deep"})  // W1 to W4
+    EXPECT_NE(code_of(source, odd).find("add w4, w5, w0"), std::string::npos) << code_of(source, odd);
+  EXPECT_NE(code_of(source, "pairs").find("add w7, w1, w0"), std::string::npos) << code_of(source, "pairs");
+  EXPECT_NE(code_of(source, "either").find("add w4, w1, w0"), std::string::npos) << code_of(source, "either");
+  EXPECT_NE(code_of(source, "call").find("mov #2, w5"), std::string::npos) << code_of(source, "call");
+}
+
 TEST(ChipCode, char_is_extended_by_who_reads_it) {
   const char* source = R"(
 extern char got(char c);
