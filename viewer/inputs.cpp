@@ -51,7 +51,7 @@ class TypedLine final : public board::UartEnd {
  public:
   void type(const std::string& bytes) {
     waiting_.insert(waiting_.end(), bytes.begin(), bytes.end());
-    idle = waiting_.empty();
+    set_idle(waiting_.empty());
   }
   void deliver(const std::uint8_t*, const board::Cycle*, std::size_t) override {}
   std::size_t collect(std::uint8_t* bytes, std::size_t room, board::Cycle) override {
@@ -60,7 +60,7 @@ class TypedLine final : public board::UartEnd {
       bytes[count] = static_cast<std::uint8_t>(waiting_.front());
       waiting_.pop_front();
     }
-    idle = waiting_.empty();
+    set_idle(waiting_.empty());
     return count;
   }
   std::string name() const override { return {}; }

@@ -33,13 +33,13 @@ BluetoothModule::BluetoothModule(const BluetoothSetup& setup, const RobotClock& 
 void BluetoothModule::connect_computer(std::shared_ptr<UartEnd> computer) {
   computer_ = std::move(computer);
   to_computer_ = transparent_ = true;
-  idle = false;
+  set_idle(false);
 }
 
 void BluetoothModule::settle_idle() {
-  idle = !computer_ && out_.empty() && inquiry_.until < 0 && naming_.until < 0 && paging_.until < 0 &&
-         linked_at_ < 0;
-  if (!idle && wake) wake();
+  set_idle(!computer_ && out_.empty() && inquiry_.until < 0 && naming_.until < 0 && paging_.until < 0 &&
+           linked_at_ < 0);
+  if (!is_idle() && wake) wake();
 }
 
 // --- UART 1 ----------------------------------------------------------------------------------------------

@@ -52,6 +52,12 @@ Board::Board(const Setup& setup)
                                                                            : 0xFFFF);
   }
   if (setup.revision == Revision::Rev13) i2c_.attach(std::make_unique<Lsm330>(*this));
+  for (Uart& uart : uarts_) uart.first_use.tell(is_any_used_);
+  codec_.first_use.tell(is_any_used_);
+  codec_.line().first_use.tell(is_any_used_);
+  eeprom_.first_use.tell(is_any_used_);
+  if (camera_) camera_->first_use.tell(is_any_used_);
+  is_any_used_ = setup.revision == Revision::Rev13;  // its sensors are asked at the start
 }
 
 Board::~Board() = default;
@@ -290,6 +296,7 @@ void Board::processor_reset(Cycle at) {
 
 void Board::plug_in(std::unique_ptr<Part> part) {
   part->board_ = this;
+  is_any_used_ = true;
   parts_.push_back(std::move(part));
   parts_.back()->connect();
 }
@@ -313,15 +320,18 @@ void Board::turn_selector(int position) { setup_.selector = position & 15; }
 void Board::set_battery(double volts, Cycle at) { battery_.set_voltage(volts, at); }
 
 void Board::exchange(Cycle at) {
-  for (Uart& uart : uarts_) uart.exchange(at);
-  codec_.forget(at);
+  if (is_any_used_) {
+    for (Uart& uart : uarts_) uart.exchange(at);
+    codec_.forget(at);
+  }
   if (driver_) driver_->exchange(at);
 }
 
 Cycle Board::horizon(Cycle at) const {
   // packets wait in their queues until the program looks
-  const bool has_news_of_its_own = !uarts_[0].is_quiet() || !uarts_[1].is_quiet() || !parts_.empty() ||
-                                   codec_.was_used() || (camera_ && camera_->is_used());
+  const bool has_news_of_its_own =
+      is_any_used_ && (!uarts_[0].is_quiet() || !uarts_[1].is_quiet() || !parts_.empty() || codec_.was_used() ||
+                       (camera_ && camera_->is_used()));
   if (has_news_of_its_own) return at;
   return driver_ ? driver_->horizon(at) : kNever;
 }
@@ -477,6 +487,7 @@ std::uint64_t Board::state_hash(Cycle at) const {
   if (!driver_)
     for (const Stepper& motor : motors_) add(static_cast<std::uint64_t>(motor.steps()) << 4 ^ motor.coils());
   for (std::size_t i = 0; i < kPorts; ++i) add(lat_[i] | static_cast<std::uint64_t>(tris_[i]) << 16);
+  if (!is_any_used_) return sim::mix64(sum);
   for (const Uart& uart : uarts_) add(uart.state_hash());
   // every robot has a camera on its bus; it counts once a program films
   const bool films = camera_ && camera_->is_used();

@@ -199,6 +199,10 @@ class Board {
   /// The motor of a wheel, brought to `at`.
   Stepper& stepper(Wheel wheel, Cycle at);
   /// UART 1 (Bluetooth) or 2 (RS232).
+  /// Is a byte on its way to the robot?
+  bool is_receiving(Cycle at) {
+    return is_any_used_ && (uarts_[0].next_arrival(at) < kNever || uarts_[1].next_arrival(at) < kNever);
+  }
   Uart& uart(int number) { return uarts_[static_cast<std::size_t>(number - 1)]; }
   /// Camera, motion sensors and turrets hang here.
   I2cBus& i2c() { return i2c_; }
@@ -346,6 +350,7 @@ class Board {
          emitters_a_ = 0;  // as followed last
 
   PinDriver* driver_ = nullptr;
+  bool is_any_used_ = false;  // of the devices below and the parts; until then nobody looks at them
   Stepper motors_[2] = {Stepper(-1), Stepper(+1)};
   Codec codec_;
   std::array<Uart, 2> uarts_;

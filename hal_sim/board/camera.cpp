@@ -60,6 +60,7 @@ Cycle Camera::launch(const Request& request, Cycle at) {
   refresh(at);
   request_ = request;
   ++launches_;
+  first_use.note();
   row_ = 0;
   rendered_ = 0;
   picture_.clear();

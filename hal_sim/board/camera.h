@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "hal_sim/board/camera_sensor.h"
+#include "hal_sim/board/first_use.h"
 #include "sim_core/camera/camera.h"
 
 namespace board {
@@ -51,6 +52,9 @@ std::vector<std::uint8_t> decode_picture(const CameraPicture& picture);
 
 class Camera {
  public:
+  /// First launch().
+  FirstUse first_use;
+
   /// `board` outlives the camera. The sensor belongs to the board's I2C bus.
   Camera(Board& board, CameraSensor& sensor, CameraMount mount, double noise);
 

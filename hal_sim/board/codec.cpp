@@ -25,6 +25,7 @@ void Codec::power(bool on, Cycle at) {
 void Codec::start_frames(Cycle at) {
   frames_since_ = at;
   used_ = true;
+  first_use.note();
 }
 
 void Codec::reset(Cycle at) {

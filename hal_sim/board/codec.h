@@ -17,6 +17,9 @@ namespace board {
 
 class Codec {
  public:
+  /// First start_frames(); the line has its own.
+  FirstUse first_use;
+
   /// One stretch of the loudspeaker's life.
   struct Play {
     Cycle from = 0;          ///< it counts from this cycle on, until the next one does

@@ -59,6 +59,7 @@ void CodecLine::write_register(unsigned number, std::uint8_t value) {
 
 std::uint16_t CodecLine::word(std::uint16_t word, Cycle end) {
   used_ = active_ = true;
+  first_use.note();
   const Cycle since = last_end_ >= 0 ? end - last_end_ : 0;
   last_end_ = end;
   if (!powered_) return 0;

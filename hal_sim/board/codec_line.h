@@ -19,11 +19,15 @@
 #include <vector>
 
 #include "hal_sim/board/cycle.h"
+#include "hal_sim/board/first_use.h"
 
 namespace board {
 
 class CodecLine {
  public:
+  /// First word.
+  FirstUse first_use;
+
   /// Samples that leave the loudspeaker one after the other, a period apart.
   struct Stretch {
     Cycle first_at = 0;                                    ///< cycle at which sample 0 is put out

@@ -9,12 +9,16 @@
 #include <cstdint>
 #include <memory>
 
+#include "hal_sim/board/first_use.h"
 #include "sim_core/base/hash.h"
 
 namespace board {
 
 class DataEeprom {
  public:
+  /// First write() or erase().
+  FirstUse first_use;
+
   static constexpr unsigned kFirst =
       0xF000;  ///< lower half of the address; the upper one is 0x7F [DS70143 3.1]
   static constexpr unsigned kWords = 2048;
@@ -53,6 +57,7 @@ class DataEeprom {
   }
   void put(unsigned address, unsigned value) {
     if (!holds(address)) return;
+    first_use.note();
     std::uint16_t& word = words()[index(address)];
     changes_ ^= hash(address, word) ^ hash(address, value);
     word = static_cast<std::uint16_t>(value);

@@ -22,6 +22,7 @@ void Uart::cut_off(Cycle at) {
 }
 
 void Uart::send_break(Cycle cycles, Cycle at) {
+  first_use.note();
   settle(at);
   cut_off(at);
   enabled_ = false;
@@ -46,6 +47,7 @@ int Uart::waiting(Cycle at) const {
 
 bool Uart::load(std::uint8_t byte, Cycle at) {
   if (!enabled_ || buffer_full(at)) return false;
+  first_use.note();
   last_start_ = std::max(at, free_at_);
   free_at_ = last_start_ + byte_cycles();
   newest_ = (newest_ + 1) % kUartFifoBytes;
@@ -88,6 +90,7 @@ std::int64_t Uart::received(Cycle at) {
 }
 
 void Uart::put_on_wire(std::uint8_t byte, Cycle end) {
+  first_use.note();
   last_start_ = end - byte_cycles();
   free_at_ = end;
   out_bytes_.push_back(byte);
@@ -98,6 +101,7 @@ void Uart::put_on_wire(std::uint8_t byte, Cycle end) {
 }
 
 void Uart::break_on_wire(Cycle end) {
+  first_use.note();
   free_at_ = break_until_ = end;
   hash_ = sim::mix64(hash_ ^ static_cast<std::uint64_t>(end));
 }

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "hal_sim/board/epuck_params.h"
+#include "hal_sim/board/first_use.h"
 #include "hal_sim/board/uart_end.h"
 
 namespace board {
@@ -37,6 +38,9 @@ class UartReceiver {
 
 class Uart {
  public:
+  /// First byte or break that is sent, or an end that may send.
+  FirstUse first_use;
+
   /// Enabled at BRG `brg` from `at` on.
   void switch_on(int brg, Cycle at);
   void reset(Cycle at);
@@ -68,7 +72,12 @@ class Uart {
   std::int64_t received(Cycle at);
 
   // --- outside
-  void connect(std::shared_ptr<UartEnd> end) { end_ = std::move(end); }
+  void connect(std::shared_ptr<UartEnd> end) {
+    end_ = std::move(end);
+    if (!end_) return;
+    end_->first_use = first_use;
+    if (!end_->is_idle()) first_use.note();
+  }
   UartEnd* end() const { return end_.get(); }
   /// Null: nobody looks. `number` is told back.
   void watch(UartWatch* watch, int number) {
@@ -82,7 +91,7 @@ class Uart {
   void exchange(Cycle at);
   /// Has exchange() nothing to do, now and until the program sends something or its end is idle no more?
   bool is_quiet() const {
-    return (!end_ || (end_->idle && break_until_ < 0)) && out_ends_.empty() && on_wire_.empty();
+    return (!end_ || (end_->is_idle() && break_until_ < 0)) && out_ends_.empty() && on_wire_.empty();
   }
   // --- a chip's own UART on the wire (the register way)
   /// Follows the chip's switch and rate; bytes come in at that rate.

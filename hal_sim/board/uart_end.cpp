@@ -26,14 +26,14 @@ std::size_t MemoryEnd::collect(std::uint8_t* bytes, std::size_t room, Cycle at) 
     bytes[count++] = waiting_.front().byte;
     waiting_.pop_front();
   }
-  idle = waiting_.empty();
+  set_idle(waiting_.empty());
   return count;
 }
 
 void MemoryEnd::inject(const std::string& bytes, Cycle at) {
   for (char c : bytes) waiting_.push_back({static_cast<std::uint8_t>(c), at});
-  idle = waiting_.empty();
-  if (!idle && wake) wake();
+  set_idle(waiting_.empty());
+  if (!is_idle() && wake) wake();
 }
 
 namespace {

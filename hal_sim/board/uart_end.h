@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "hal_sim/board/clock.h"
+#include "hal_sim/board/first_use.h"
 
 namespace board {
 
@@ -31,7 +32,9 @@ class UartEnd {
 
   /// Nothing will come out of collect() by itself: it need not be asked every tick. Written between ticks and
   /// by the robot's own thread.
-  bool idle = false;
+  bool is_idle() const { return idle_; }
+  /// First time that it is not.
+  FirstUse first_use;
   /// Called when it is idle no more: its robot may be asleep over many ticks. Empty: nobody asks.
   std::function<void()> wake;
 
@@ -46,12 +49,21 @@ class UartEnd {
   /// What was lost on the way out: "file:F: cannot be written: No space left on device"; empty while all is
   /// well.
   virtual std::string error() const { return {}; }
+
+ protected:
+  void set_idle(bool is) {
+    idle_ = is;
+    if (!is) first_use.note();
+  }
+
+ private:
+  bool idle_ = false;
 };
 
 /// Keeps everything in memory: for tests.
 class MemoryEnd : public UartEnd {
  public:
-  MemoryEnd() { idle = true; }
+  MemoryEnd() { set_idle(true); }
   void deliver(const std::uint8_t* bytes, const Cycle* ends, std::size_t count) override;
   std::size_t collect(std::uint8_t* bytes, std::size_t room, Cycle at) override;
   std::string name() const override { return "memory"; }

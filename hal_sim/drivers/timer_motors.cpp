@@ -40,7 +40,7 @@ void StepTrain::advance_to(Cycle at, Stepper& stepper) {
 }
 
 void TimerMotors::start_timer3(Cycle at) {
-  timer3_runs_ = true;
+  timer3_runs_ = was_used_ = true;
   timer3_origin_ = at;
   for (StepTrain& train : trains_[static_cast<int>(Driver::Timer3)]) {
     train.running = false;
@@ -50,6 +50,7 @@ void TimerMotors::start_timer3(Cycle at) {
 }
 
 void TimerMotors::set_speed(Driver driver, Wheel wheel, int speed, Cycle at, Stepper& stepper) {
+  was_used_ = true;
   move(wheel, at, stepper);
   StepTrain& t = train(driver, wheel);
   if (driver == Driver::Basic) {
@@ -98,6 +99,7 @@ Cycle TimerMotors::coils_horizon(Wheel wheel, Cycle at) const {
 
 Cycle TimerMotors::steps_horizon(Wheel wheel, Cycle at) const {
   Cycle earliest = kNever;
+  if (!was_used_) return earliest;
   for (const auto& driver : trains_) {
     const StepTrain& t = driver[index(wheel)];
     if (!t.running) continue;
@@ -126,7 +128,7 @@ Cycle TimerMotors::interrupt_period(Wheel wheel) const {
 void TimerMotors::reset() {
   for (auto& driver : trains_)
     for (StepTrain& t : driver) t = StepTrain{};
-  timer3_runs_ = false;
+  timer3_runs_ = was_used_ = false;
 }
 
 }  // namespace drivers

@@ -52,14 +52,16 @@ class TimerMotors {
   void move(Wheel wheel, Cycle at, Stepper& stepper);
   void peek(Wheel wheel, Cycle at, Stepper& copy) const;
   bool drives(Wheel wheel) const {
-    return trains_[0][index(wheel)].running || trains_[1][index(wheel)].running ||
-           trains_[1][index(wheel)].coils_off_at >= 0;
+    return was_used_ && (trains_[0][index(wheel)].running || trains_[1][index(wheel)].running ||
+                         trains_[1][index(wheel)].coils_off_at >= 0);
   }
   /// The last commands, for a hash.
   std::uint64_t state_sum() const {
+    constexpr std::uint64_t kFactor = 4099, kRest = 2048;
+    if (!was_used_) return ((kRest * kFactor + kRest) * kFactor + kRest) * kFactor + kRest;
     std::uint64_t sum = 0;
     for (const auto& of_driver : trains_)
-      for (const StepTrain& t : of_driver) sum = sum * 4099 + static_cast<std::uint64_t>(t.speed + 2048);
+      for (const StepTrain& t : of_driver) sum = sum * kFactor + static_cast<std::uint64_t>(t.speed) + kRest;
     return sum;
   }
   /// Cycles between two interrupts of the basic driver; 0 when stopped.
@@ -73,6 +75,7 @@ class TimerMotors {
     return trains_[static_cast<int>(driver)][index(wheel)];
   }
 
+  bool was_used_ = false;   // since the reset; else the trains need not be looked at
   StepTrain trains_[2][2];  // [driver][wheel]
   bool timer3_runs_ = false;
   Cycle timer3_origin_ = 0;

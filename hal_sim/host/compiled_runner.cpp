@@ -144,7 +144,7 @@ void CompiledRunner::swap_in() {
 void CompiledRunner::begin_window(Cycle now) {
   pass_to(now);
   // bytes are on their way: whoever waits for them looks again
-  if (board_.uart(1).next_arrival(now) < kNever || board_.uart(2).next_arrival(now) < kNever) wake();
+  if (board_.is_receiving(now)) wake();
   if (stopped_ || !processor_->begin_window(now)) return;
   interrupt_horizon_ = 0;
   wake();

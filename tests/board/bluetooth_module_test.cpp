@@ -57,21 +57,21 @@ TEST(BluetoothModule, with_a_computer_it_is_a_plain_line) {
   w.run_ms(5);
   EXPECT_EQ(w.computer->text(), "\x02R\x03\0\0U\x03hello"_b);
   EXPECT_EQ(w.heard(), "back");
-  EXPECT_FALSE(w.module->idle);
+  EXPECT_FALSE(w.module->is_idle());
 }
 
 TEST(BluetoothModule, answers_a_command_byte_for_byte) {
   BluetoothSetup setup;
   setup.number = 42;
   Wired w(false, setup);
-  EXPECT_TRUE(w.module->idle);
+  EXPECT_TRUE(w.module->is_idle());
   w.say("\x02R\x03\0\0U\x03"_b);  // read local name: 0x52 + 0x03 = 0x55 'U'
   w.run_ms(8);
   // confirm 0x43, opcode 3, 14 bytes: 0x43 + 3 + 14 = 0x54; status, 12 with the end of the text, the text
   EXPECT_EQ(w.heard(),
             "\x02\x43\x03\x0E\0\x54\0\x0C"
             "e-puck_0042\0\x03"_b);
-  EXPECT_TRUE(w.module->idle);
+  EXPECT_TRUE(w.module->is_idle());
 }
 
 TEST(BluetoothModule, noise_and_broken_packets_are_left_alone) {
