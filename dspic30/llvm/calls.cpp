@@ -5,8 +5,8 @@
 //               or float an even pair, 64 bits W0..W3 or W4..W7; a struct as many in a row as it has words,
 //               of 4 and 8 bytes as a number of that size, if no member is an array or struct of another size
 //               than numbers have. So a later short argument may fill a gap. What finds none goes on the
-//               stack, the first nearest to the return address; so do the last named argument before "..." and
-//               all behind it, structs as well.
+//               stack, the first nearest to the return address; so do the last named argument before "..."
+//               and all behind it, structs as well.
 //   result      W0, W1:W0, W3..W0; a struct of whatever size where W0 points
 //   kept        W8 to W14; lost W0 to W7
 #include "dspic30/llvm/interrupts.h"

@@ -330,8 +330,8 @@ void Board::exchange(Cycle at) {
 Cycle Board::horizon(Cycle at) const {
   // packets wait in their queues until the program looks
   const bool has_news_of_its_own =
-      is_any_used_ && (!uarts_[0].is_quiet() || !uarts_[1].is_quiet() || !parts_.empty() || codec_.was_used() ||
-                       (camera_ && camera_->is_used()));
+      is_any_used_ && (!uarts_[0].is_quiet() || !uarts_[1].is_quiet() || !parts_.empty() ||
+                       codec_.was_used() || (camera_ && camera_->is_used()));
   if (has_news_of_its_own) return at;
   return driver_ ? driver_->horizon(at) : kNever;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Most programs use few of a robot's devices, and looking at the others would take much of a swarm's time: their
-// memory has to be fetched. So a device says when it does something for the first time; before that it is as it
-// was delivered, and nobody need look.
+// Most programs use few of a robot's devices, and looking at the others would take much of a swarm's time:
+// their memory has to be fetched. So a device says when it does something for the first time; before that it
+// is as it was delivered, and nobody need look.
 #pragma once
 
 namespace board {
