@@ -25,9 +25,10 @@ void FrameFeed::run() {
     if (next_.empty()) return;
     frame.swap(next_);
     next_.clear();
+    const int stride_px = stride_px_;  // the next frame may come with another
     news_.notify_all();
     lock.unlock();
-    encoder_->add(frame.data(), stride_px_);
+    encoder_->add(frame.data(), stride_px);
     lock.lock();
     error_ = encoder_->error();
   }
