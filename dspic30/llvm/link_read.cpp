@@ -184,8 +184,10 @@ class Reader {
       // what a program defines itself takes the place of a library's
       own.is_weak = e.getBinding() == ELF::STB_WEAK || (own.is_defined && member.is_of_library);
       if (own.is_common) own.align = e.st_value, own.value = 0;
-      if (is_vendors && !own.is_defined) own.name = name_of_library(own.name);
-      if (!own.is_defined && !own.is_common && rename.count(own.name)) own.name = rename[own.name];
+      if (!own.is_defined && !own.is_common) {
+        if (is_vendors) own.name = name_of_library(own.name);
+        if (rename.count(own.name)) own.name = rename[own.name];
+      }
       const bool is_dropped = own.is_defined && !own.section && e.st_shndx != ELF::SHN_ABS;
       if (e.getBinding() == ELF::STB_LOCAL || is_dropped) {
         program_.symbols.push_back(own);

@@ -240,35 +240,21 @@ void DSPICTargetLowering::LowerAsmOperandForConstraint(SDValue value, std::strin
 
 std::pair<unsigned, const TargetRegisterClass*> DSPICTargetLowering::getRegForInlineAsmConstraint(
     const TargetRegisterInfo* tri, StringRef constraint, MVT type) const {
-  if (constraint.size() != 1) return TargetLowering::getRegForInlineAsmConstraint(tri, constraint, type);
-  switch (constraint[0]) {
-    case 'a':
-      return {DSPIC::W0, &DSPIC::WRegClass};
-    case 'b':
-      return {DSPIC::W1, &DSPIC::WRegClass};
-    case 'c':
-      return {DSPIC::W2, &DSPIC::WRegClass};
-    case 'd':
-      return {0, &DSPIC::WConstraintDRegClass};
-    case 'e':
-      return {0, &DSPIC::WGE2RegClass};
-    case 't':
-      return {0, &DSPIC::WConstraintTRegClass};
-    case 'u':
-      return {0, &DSPIC::WConstraintURegClass};
-    case 'v':
-      return {DSPIC::W13, &DSPIC::WRegClass};
-    case 'x':
-      return {0, &DSPIC::WConstraintXRegClass};
-    case 'y':
-      return {0, &DSPIC::WConstraintYRegClass};
-    case 'z':
-      return {0, &DSPIC::WConstraintZRegClass};
-    case 'r':
-      return {0, &DSPIC::WRegClass};
-    default:
-      return TargetLowering::getRegForInlineAsmConstraint(tri, constraint, type);
-  }
+  struct Letter {
+    char letter;
+    unsigned reg;  // 0: any of the class
+    const TargetRegisterClass* of;
+  };
+  static const Letter kLetters[] = {
+      {'a', DSPIC::W0, &DSPIC::WRegClass},    {'b', DSPIC::W1, &DSPIC::WRegClass},
+      {'c', DSPIC::W2, &DSPIC::WRegClass},    {'d', 0, &DSPIC::WConstraintDRegClass},
+      {'e', 0, &DSPIC::WGE2RegClass},         {'r', 0, &DSPIC::WRegClass},
+      {'t', DSPIC::W7, &DSPIC::WRegClass},    {'u', 0, &DSPIC::WConstraintURegClass},
+      {'v', DSPIC::W13, &DSPIC::WRegClass},   {'x', 0, &DSPIC::WConstraintXRegClass},
+      {'y', 0, &DSPIC::WConstraintYRegClass}, {'z', 0, &DSPIC::WConstraintZRegClass}};
+  for (const Letter& l : kLetters)
+    if (constraint.size() == 1 && constraint[0] == l.letter) return {l.reg, l.of};
+  return TargetLowering::getRegForInlineAsmConstraint(tri, constraint, type);
 }
 
 }  // namespace llvm

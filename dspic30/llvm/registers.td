@@ -24,7 +24,6 @@ def W : RegisterClass<"DSPIC", [i16], 16, (add (sequence "W%u", 0, 15))>;
 def WGE2 : RegisterClass<"DSPIC", [i16], 16, (add (sequence "W%u", 2, 13))>;  // a divisor
 // operands of assembler text in C, by XC16's letters
 def WConstraintD : RegisterClass<"DSPIC", [i16], 16, (add (sequence "W%u", 1, 13))>;
-def WConstraintT : RegisterClass<"DSPIC", [i16], 16, (add W7)>;
 def WConstraintU : RegisterClass<"DSPIC", [i16], 16, (add W4, W5, W6)>;
 def WConstraintX : RegisterClass<"DSPIC", [i16], 16, (add W8, W9)>;
 def WConstraintY : RegisterClass<"DSPIC", [i16], 16, (add W10, W11)>;

@@ -17,8 +17,10 @@ class ASTContext;
 class Decl;
 }  // namespace clang
 namespace llvm {
+class StringRef;
 class TargetMachine;
-}
+class Value;
+}  // namespace llvm
 
 namespace cc {
 struct Unit;
@@ -31,14 +33,16 @@ inline constexpr const char* kAttributePrefix = "tp_";
 /// Gives variables whose attributes were read since the last call their sections.
 void place_variables(clang::ASTContext& context);
 
-/// Prefix of annotations by which attributes of functions travel from clang to chip_lower.cpp:
-/// "dspic:save=_a,_b".
-inline constexpr const char* kFunctionNote = "dspic:";
+/// Prefix of annotations by which attributes of functions and variables travel from clang to the later
+/// stages: "dspic:save=_a,_b".
+inline constexpr const char* kNote = "dspic:";
+/// What the text of an annotation says behind it; empty when it is nobody's of ours.
+llvm::StringRef note_in(const llvm::Value* text);
 
 /// Variables of a function in an accumulator of the DSP unit, `register int x asm("A")`, get a note that ends
 /// in its name.
 void note_accumulators(clang::Decl* decl, clang::ASTContext& context);
-inline constexpr const char* kAccumulatorNote = "dspic:accumulator ";
+inline constexpr const char* kAccumulatorNote = "accumulator ";
 /// Built-in functions that take or give accumulators (__builtin_mac and its like) become instructions.
 void lower_accumulators(Unit& unit);
 

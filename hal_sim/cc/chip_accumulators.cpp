@@ -241,9 +241,7 @@ std::vector<std::pair<AllocaInst*, char>> take_variables(Function& f) {
   for (Instruction& i : make_early_inc_range(instructions(f))) {
     auto* call = dyn_cast<IntrinsicInst>(&i);
     if (!call || call->getIntrinsicID() != Intrinsic::var_annotation) continue;
-    auto* text = dyn_cast<GlobalVariable>(call->getArgOperand(1)->stripPointerCasts());
-    auto* bytes = text ? dyn_cast<ConstantDataArray>(text->getInitializer()) : nullptr;
-    StringRef note = bytes ? bytes->getAsCString() : "";
+    StringRef note = note_in(call->getArgOperand(1));
     auto* variable = dyn_cast<AllocaInst>(call->getArgOperand(0)->stripPointerCasts());
     if (!note.consume_front(kAccumulatorNote) || !variable) continue;
     found.push_back({variable, static_cast<char>(toLower(note[0]))});

@@ -42,11 +42,8 @@ void take_notes(Module& m) {
   for (auto& entry : cast<ConstantArray>(all->getInitializer())->operands()) {
     auto* record = cast<ConstantStruct>(entry);
     auto* f = dyn_cast<Function>(record->getOperand(0)->stripPointerCasts());
-    auto* text = dyn_cast<GlobalVariable>(record->getOperand(1)->stripPointerCasts());
-    auto* bytes = f && text ? dyn_cast<ConstantDataArray>(text->getInitializer()) : nullptr;
-    StringRef note = bytes ? bytes->getAsCString() : "";
-    if (!note.consume_front(kFunctionNote)) continue;
-    const auto [name, value] = note.split('=');
+    const auto [name, value] = note_in(record->getOperand(1)).split('=');
+    if (!f || name.empty()) continue;
     f->addFnAttr(name, value);
   }
   all->eraseFromParent();
@@ -171,8 +168,8 @@ bool has_odd_member(Type* type, const DataLayout& layout) {
   auto* record = dyn_cast<StructType>(type);
   if (!record || (record->hasName() && record->getName().startswith("union."))) return false;
   return any_of(record->elements(), [&](Type* member) {
-    const bool is_number =
-        isPowerOf2_64(layout.getTypeAllocSize(member)) && layout.getTypeAllocSize(member) <= 8;
+    const uint64_t bytes = layout.getTypeAllocSize(member);
+    const bool is_number = isPowerOf2_64(bytes) && bytes <= 8;
     return member->isAggregateType() && (!is_number || has_odd_member(member, layout));
   });
 }
@@ -209,6 +206,13 @@ void leave_upper_bytes_open(Module& m) {
     for (Instruction& i : instructions(f))
       if (auto* call = dyn_cast<CallBase>(&i)) open(*call);
   }
+}
+
+StringRef note_in(const Value* text) {
+  auto* variable = dyn_cast<GlobalVariable>(text->stripPointerCasts());
+  auto* bytes = variable ? dyn_cast<ConstantDataArray>(variable->getInitializer()) : nullptr;
+  StringRef note = bytes ? bytes->getAsCString() : "";
+  return note.consume_front(kNote) ? note : "";
 }
 
 bool lower_for_chip(Unit& unit) {

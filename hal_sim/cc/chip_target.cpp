@@ -111,8 +111,8 @@ std::string section_of(const Placement& place, bool has_value) {
 /// __save__(a,b) and __preprologue__("...") inside interrupt(...): calls, as the parser sees them.
 void note_interrupt_argument(Expr* argument, FunctionDecl* function, ASTContext& context);
 
-void note(FunctionDecl* function, const std::string& what, ASTContext& context) {
-  function->addAttr(AnnotateAttr::CreateImplicit(context, cc::kFunctionNote + what, nullptr, 0));
+void note(Decl* decl, const std::string& what, ASTContext& context) {
+  decl->addAttr(AnnotateAttr::CreateImplicit(context, cc::kNote + what, nullptr, 0));
 }
 
 void note_interrupt_argument(Expr* argument, FunctionDecl* function, ASTContext& context) {
@@ -190,8 +190,7 @@ void note_accumulators(clang::Decl* decl, clang::ASTContext& context) {
     auto* variable = dyn_cast<VarDecl>(inside);
     auto* label = variable ? variable->getAttr<AsmLabelAttr>() : nullptr;
     if (!label || (label->getLabel() != "A" && label->getLabel() != "B")) continue;
-    const std::string note = kAccumulatorNote + label->getLabel().str();
-    variable->addAttr(AnnotateAttr::CreateImplicit(context, note, nullptr, 0));
+    note(variable, kAccumulatorNote + label->getLabel().str(), context);
   }
 }
 

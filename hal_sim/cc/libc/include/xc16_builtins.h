@@ -83,12 +83,10 @@ extern "C" {
 #define __builtin_ff1l(word) TP_FIND_BIT("ff1l", word)
 #define __builtin_ff1r(word) TP_FIND_BIT("ff1r", word)
 #define __builtin_fbcl(word) TP_FIND_BIT("fbcl", word)
-#endif
 
 /* The DSP unit. An `acc` is a variable in an accumulator, register int x asm("A"), and so is the result of
  * those that give one. x and y: address of the pointer to fetch from, place of the value, step; null pointers
  * fetch nothing. back: place for the other accumulator, rounded. */
-#ifdef __TWINPUCK_CHIP__
 extern int __builtin_addab(int acc, int other_acc);
 extern int __builtin_subab(int acc, int other_acc);
 extern int __builtin_add(int acc, int value, int shift);
@@ -131,6 +129,7 @@ TP_BUILTIN unsigned tp_divmodud(unsigned long __a, unsigned __b, unsigned* __res
   return (unsigned)(__a / __b);
 }
 
+#ifdef __TWINPUCK_PC__
 TP_BUILTIN int tp_ff1r(unsigned __word) {
   int __bit;
   for (__bit = 1; __bit <= 16; __bit++, __word >>= 1)
@@ -151,6 +150,7 @@ TP_BUILTIN int tp_fbcl(int __word) {
   for (__count = 0; __count < 15 && !(__word & 0x4000); __count++) __word <<= 1;
   return -__count;
 }
+#endif
 
 #undef TP_BUILTIN
 
