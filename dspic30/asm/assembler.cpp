@@ -318,6 +318,7 @@ class Assembly final : private SourceLines::Listener {
   void choose_section(const Statement& s) {
     SectionText text;
     if (!read_section(s.operands, text, [this](const std::string& message) { complain(message); })) return;
+    if (text.is_info) return complain(".section: info is no part of a program; leave it out");
     enter_section(text.name, text.kind);
     section().kind = text.kind;
     const std::int64_t address = text.address.empty() ? -1 : value_now(text.address);

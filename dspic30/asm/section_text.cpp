@@ -61,6 +61,8 @@ bool read_section(const std::string& operands, SectionText& section, const Compl
       section.is_near = true;
     } else if (a == "noload" || a == "\"n\"") {
       section.is_noload = true;
+    } else if (a == "info") {
+      section.is_info = true;
     } else if (a != "page" && a != "keep") {
       return complain(".section: unknown attribute '" + parts[i] + "'"), false;
     }

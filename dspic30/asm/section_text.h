@@ -15,6 +15,7 @@ struct SectionText {
   SectionKind kind = SectionKind::Code;
   bool is_zeroed = false;  ///< bss, persist: it has no values of its own
   bool is_near = false, is_x = false, is_y = false, is_persistent = false, is_noload = false;
+  bool is_info = false;            ///< for tools: no part of the program
   std::string address, alignment;  ///< expressions; empty: any
 };
 

@@ -41,10 +41,11 @@ std::string DSPICDirectives::rest_of_line() {
 bool DSPICDirectives::parse(StringRef name) {
   const SMLoc at = parser_.getTok().getLoc();
   const std::string directive = name.lower();
-  if (directive == ".section") {
+  if (directive == ".section" || directive == ".pushsection") {
     const std::string operands = rest_of_line();
     if (!is_vendors_section(operands)) return true;
     parser_.eatToEndOfStatement();
+    if (directive == ".pushsection") parser_.getStreamer().PushSection();
     section(operands, at);
   } else if (directive == ".hword" || directive == ".word") {
     values(2);
@@ -77,8 +78,8 @@ bool DSPICDirectives::section(const std::string& operands, SMLoc at) {
   if (!assembly::read_section(operands, text, complain)) return true;
   using Kind = assembly::SectionKind;
   const dspic_elf::MemorySpace* const space = dspic_elf::space_of(text.name);
-  unsigned flags = ELF::SHF_ALLOC | (space ? space->flags : 0u);
-  if (text.kind == Kind::Code) flags |= ELF::SHF_EXECINSTR;
+  unsigned flags = (text.is_info ? 0u : ELF::SHF_ALLOC) | (space ? space->flags : 0u);
+  if (text.kind == Kind::Code && !text.is_info) flags |= ELF::SHF_EXECINSTR;
   if (text.kind == Kind::Constants) flags |= dspic_elf::kPsv;
   if (text.kind == Kind::Eeprom) flags |= dspic_elf::kEeprom | ELF::SHF_WRITE;
   if (text.kind == Kind::Ram) flags |= ELF::SHF_WRITE;

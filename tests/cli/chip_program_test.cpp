@@ -81,8 +81,12 @@ BEGIN:  mov count + 2, w0
         reset
         mov flags, w8
 1:      bra 1b
-        .section .nbss, bss, near
+        .pushsection .nbss, bss, near
 flags:  .space 2
+        .popsection
+        nop                             ; in the code again, or not assembled
+        .section __c30_signature, info, data
+        .word 1, 0, 0
 )";
   for (const std::string begin : {"_main", "__reset"}) {
     std::string text = kText;
