@@ -190,12 +190,12 @@ void ChipRunner::observe(host::Observer* observer) {
   chip_.watch(observer ? this : nullptr);
 }
 
-bool ChipRunner::flag(int vector, Cycle at) {
-  return device().has_flag(vector + dspic::kFirstIrqVector, chip_.at(at));
-}
+// at the observer's own instants, which may lie before the latest of the program: what comes between them
+// must not be carried out while somebody looks
+bool ChipRunner::flag(int vector, Cycle at) { return device().has_flag(vector + dspic::kFirstIrqVector, at); }
 
 Cycle ChipRunner::flag_horizon(int vector, Cycle at) {
-  return device().horizon(kIfs0 + 2 * static_cast<unsigned>(vector / 16), chip_.at(at));
+  return device().horizon(kIfs0 + 2 * static_cast<unsigned>(vector / 16), at);
 }
 
 std::int64_t ChipRunner::interrupts_served() const {
@@ -205,7 +205,7 @@ std::int64_t ChipRunner::interrupts_served() const {
   return all;
 }
 
-void ChipRunner::carry_out(Cycle at) { device().run_events(chip_.at(at)); }
+void ChipRunner::carry_out(Cycle at) { device().run_events(at); }
 
 // --- data and code
 

@@ -62,10 +62,8 @@ class ChipRunner final : public host::Runner, private dspic::EventWatch {
   Cycle flag_horizon(int vector, Cycle at) override;
   bool has_chip() const override { return true; }
   void carry_out(Cycle at) override;
-  std::uint16_t peek(unsigned address, Cycle at) override { return device().peek(address, chip_.at(at)); }
-  Cycle register_horizon(unsigned address, Cycle at) override {
-    return device().horizon(address, chip_.at(at));
-  }
+  std::uint16_t peek(unsigned address, Cycle at) override { return device().peek(address, at); }
+  Cycle register_horizon(unsigned address, Cycle at) override { return device().horizon(address, at); }
   std::int64_t interrupts_served() const override;
   std::int64_t served(int vector) const override {
     return chip_.device().served_interrupts(vector + dspic::kFirstIrqVector);

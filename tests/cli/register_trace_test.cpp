@@ -235,6 +235,21 @@ TEST_F(RegisterTraces, looking_changes_nothing) {
       without);
 }
 
+// the program of an image may be beyond what the chip does next by itself when a signal is looked at
+TEST_F(RegisterTraces, an_image_is_drawn_and_does_not_notice) {
+  const auto digest = [&](const std::string& options) {
+    const Said s = twinpuck("run maze --way chip --for 0.9 --summary " + path("s.json") + options);
+    EXPECT_EQ(s.exit_code, 0) << s.text;
+    return json::parse(read(path("s.json")))["digest"];
+  };
+  const json without = digest("");
+  EXPECT_EQ(digest(" --vcd " + path("i.vcd") + " --vcd-signals puck:ADC,puck:PULSE_IR0,puck:ADCBUF0"),
+            without);
+  const Dump dump = parse(read(path("i.vcd")));
+  // a pair's flash each 65 frames, four pairs
+  EXPECT_NEAR(static_cast<double>(dump.signals.at("puck/pins/PULSE_IR0").size()), 2 * 0.88 * 16384 / 260, 4);
+}
+
 TEST_F(RegisterTraces, registers_belong_to_the_register_way) {
   const auto refused = [&](const std::string& options, const char* what) {
     const Said s = run("--for 0.01 --vcd " + path("x") + " --vcd-signals " + options);
