@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: MIT
- * The library's own delay: about 10 cycles a round.
+ * The library's own delay: 10 cycles a round, as wait().
  */
 #include "hal.h"
 
 void hal_pause(unsigned int rounds) {
-  unsigned int i;
-  for (i = 0; i < rounds; i++) {
+  if (rounds == 0) return;
+  do {
     NOP();
     NOP();
     NOP();
     NOP();
     NOP();
     NOP();
-  }
+    NOP();
+  } while (--rounds != 0);
 }

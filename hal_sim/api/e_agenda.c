@@ -7,10 +7,11 @@
  */
 #include "motor_led/advance_one_timer/e_agenda.h"
 
+#include "hal_sim/api/takes.h"
 #include "hal_sim/host/pins.h"
 
 #define TIMER2_PRIORITY 4   /* reset value of IPC1 [DS70143 5.2] */
-#define TIMER2_ENTRY_CYCLES 19 /* beside the walk's own [measured: register way, tick to first callback] */
+#define TIMER2_ENTRY_CYCLES 15 /* beside the walk's own [measured: register way, tick to first callback] */
 
 /* Timer 2 interrupt: newest agenda first; what a callback does to the list counts at once */
 static void serve_timer2(void) {
@@ -20,12 +21,12 @@ static void serve_timer2(void) {
   tp_agenda_end();
 }
 
-void e_start_agendas_processing(void) {
+TAKES(T_AGENDAS_START) void e_start_agendas_processing(void) {
   tp_irq_install(TP_V_T2, serve_timer2, TIMER2_PRIORITY, TIMER2_ENTRY_CYCLES);
   tp_agenda_start();
 }
 
-void e_end_agendas_processing(void) { tp_agenda_stop(); }
+TAKES(T_AGENDAS_STOP) void e_end_agendas_processing(void) { tp_agenda_stop(); }
 
 int e_activate_agenda(void (*func)(void), int cycle) {
   return (int)tp_agenda_activate((const void *)func, cycle);

@@ -13,7 +13,7 @@
 
 /* bus start: three waiting loops of 10,000 rounds; then ports, and a read of four bytes at 90 kHz */
 #define I2C_START_CYCLES 300000 /* [estimated: 30,000 rounds of 10 cycles] */
-#define I2C_READ_CYCLES 8034    /* [estimated: 44 bit times of 164 cycles, 8 handlers and loops, as hal_dspic] */
+#define I2C_READ_CYCLES 7349    /* [estimated: 44 bit times of 164 cycles, 8 handlers and loops, as hal_dspic] */
 
 /* exported under this name by the library's object */
 unsigned char isPresentFlag;

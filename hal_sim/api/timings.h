@@ -6,47 +6,46 @@
 #ifndef TWINPUCK_API_TIMINGS_H
 #define TWINPUCK_API_TIMINGS_H
 
-#define T_INIT_UART 102 /* e_init_uart1(), e_init_uart2() */
+#define T_INIT_UART 29 /* e_init_uart1(), e_init_uart2() */
 #define T_GETSELECTOR 18 /* getselector() */
 #define T_WAIT 7 /* wait() */
 #define T_WAIT_ROUND 10 /* each of its rounds */
 #define T_PAUSE 5 /* pause inside the library */
 #define T_PAUSE_ROUND 10 /* each of its rounds */
-#define T_RING_OFF 24 /* a ring LED, off */
-#define T_RING_ON 27 /* on */
-#define T_RING_TOGGLE 29 /* toggled */
-#define T_LED_OFF 10 /* front or body LED, off */
-#define T_LED_ON 15 /* on */
-#define T_LED_TOGGLE 17 /* toggled */
-#define T_AGENDA_ACTIVATE 103 /* e_activate_agenda(), empty list */
+#define T_RING_OFF 19 /* a ring LED, off */
+#define T_RING_ON 18 /* on */
+#define T_RING_TOGGLE 17 /* toggled */
+#define T_LED_OFF 5 /* front or body LED, off */
+#define T_LED_ON 6 /* on */
+#define T_LED_TOGGLE 5 /* toggled */
+#define T_AGENDA_ACTIVATE 93 /* e_activate_agenda(), empty list */
 #define T_AGENDA_FOUND 11 /* pause, restart, reset: the newest of the list */
 #define T_AGENDA_CYCLE 7 /* e_set_agenda_cycle(), the newest */
 #define T_AGENDA_KNOWN 13 /* e_activate_agenda(), the newest again */
 #define T_AGENDA_ACTIVATE_PASSED 12 /* each agenda that it finds */
 #define T_AGENDA_PASSED 10 /* each newer agenda that a search passes */
-#define T_AGENDA_DESTROY 46 /* e_destroy_agenda(), empty list */
+#define T_AGENDA_DESTROY 36 /* e_destroy_agenda(), empty list */
 #define T_AGENDA_DESTROY_PASSED 8 /* each newer agenda that it passes */
 #define T_AGENDA_FREE 35 /* an agenda that it finds */
-#define T_AGENDAS_START 20 /* e_start_agendas_processing() */
-#define T_TICK 35 /* Timer 2's handler, entry and RETFIE included: empty list */
+#define T_AGENDAS_START 10 /* e_start_agendas_processing() */
+#define T_TICK 30 /* Timer 2's handler, entry and RETFIE included: empty list */
 #define T_TICK_FIRST 11 /* an agenda */
 #define T_TICK_NODE 13 /* each further one */
 #define T_TICK_COUNT 5 /* each that counts */
 #define T_AGENDAS_STOP 4 /* e_end_agendas_processing() */
-#define T_AGENDA_HOLD 9 /* activate, destroy: Timer 2 is enabled */
 #define T_INIT_MOTORS 5 /* e_init_motors() */
-#define T_SPEED 81 /* e_set_speed_left(), _right(): 0, the newest agenda */
+#define T_SPEED 65 /* e_set_speed_left(), _right(): 0, the newest agenda */
 #define T_SPEED_DIVISION 21 /* another speed */
 #define T_GET_STEPS 4 /* e_get_steps_left(), _right() */
 #define T_SET_STEPS 4 /* e_set_steps_left(), _right() */
-#define T_SCAN_INIT 103 /* e_init_ad_scan(), no wait */
-#define T_SCAN_OFF 9 /* e_ad_scan_off() */
-#define T_SCAN_ON 13 /* e_ad_scan_on() */
-#define T_SCAN_ROUND 7521 /* converter: 65 frames, one round */
-#define T_SCAN_ACC 186 /* of these, the frame with the accelerometer */
-#define T_SCAN_MICRO 83 /* converter: a frame of MICRO_ONLY */
-#define T_MOTOR_HALF 123 /* motor below 601: coils on */
-#define T_MOTOR_OFF 125 /* coils off */
-#define T_MOTOR_STEP 107 /* motor above 600: coils on */
+#define T_SCAN_INIT 61 /* e_init_ad_scan(), no wait */
+#define T_SCAN_OFF 2 /* e_ad_scan_off() */
+#define T_SCAN_ON 3 /* e_ad_scan_on() */
+#define T_SCAN_ROUND 7024 /* converter: 65 frames, one round */
+#define T_SCAN_ACC 160 /* of these, the frame with the accelerometer */
+#define T_SCAN_MICRO 79 /* converter: a frame of MICRO_ONLY */
+#define T_MOTOR_HALF 96 /* motor below 601: coils on */
+#define T_MOTOR_OFF 96 /* coils off */
+#define T_MOTOR_STEP 83 /* motor above 600: coils on */
 
 #endif

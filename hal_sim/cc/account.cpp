@@ -157,14 +157,12 @@ double spent_cycles(const Value* v, bool& bounded, int deep = 8) {
 double host_cycles(const CallBase& call, bool& bounded) {
   static const std::map<StringRef, int> kCharged = {
       {"tp_motor_speed", T_SPEED + T_SPEED_DIVISION},
-      {"tp_agenda_start", T_AGENDAS_START},
-      {"tp_agenda_stop", T_AGENDAS_STOP},
-      {"tp_agenda_activate", T_AGENDA_ACTIVATE + T_AGENDA_HOLD},
+      {"tp_agenda_activate", T_AGENDA_ACTIVATE},
       {"tp_agenda_set_cycle", T_AGENDA_CYCLE},
       {"tp_agenda_reset", T_AGENDA_FOUND},
       {"tp_agenda_pause", T_AGENDA_FOUND},
       {"tp_agenda_restart", T_AGENDA_FOUND},
-      {"tp_agenda_destroy", T_AGENDA_DESTROY + T_AGENDA_FREE + T_AGENDA_HOLD},
+      {"tp_agenda_destroy", T_AGENDA_DESTROY + T_AGENDA_FREE},
   };
   const StringRef name = call.getCalledFunction()->getName();
   const auto* number = call.arg_empty() ? nullptr : dyn_cast<ConstantInt>(call.getArgOperand(0));
@@ -369,7 +367,7 @@ CostPlan plan_costs(Unit& unit, FunctionAnalysisManager& analyses) {
   for (Function& f : m) {
     if (f.isDeclaration() || f.getName().startswith("tp_image_") || stands_for_handler(&f)) continue;
     free_stand_ins(f);
-    FunctionCost cost(f, analyses, unit.options.level, unit.options.library);
+    FunctionCost cost(f, analyses, unit.options.level);
     FunctionPlan function{&f, 0, 0, {}};
     const auto known = told.find(&f);
     for (Segment& s : cost.segments) {

@@ -36,12 +36,12 @@ namespace {
 
 class Model {
  public:
-  Model(Function& f, FunctionAnalysisManager& analyses, int level, bool registers_are_words)
+  Model(Function& f, FunctionAnalysisManager& analyses, int level)
       : f_(f),
         loops_(analyses.getResult<LoopAnalysis>(f)),
         se_(analyses.getResult<ScalarEvolutionAnalysis>(f)),
         level_(level),
-        registers_are_words_(registers_are_words),
+        registers_are_words_(level > 0),
         flow_(f, loops_, words_of, holds_register) {}
 
   void run(std::vector<Segment>& out);
@@ -266,9 +266,12 @@ bool Model::counts_down(const ICmpInst& compare) {
 /// The instruction before left the flags of v == 0 and v < 0.
 bool Model::sets_flags(const Value* v, const ICmpInst& at) const {
   auto* op = dyn_cast<BinaryOperator>(v);
-  if (!op || level_ == 0 || op->getType()->isFloatingPointTy() || words(op) != 1 ||
-      op->getOpcode() == Instruction::Mul || op->isIntDivRem())
+  if (!op || level_ == 0 || op->getType()->isFloatingPointTy() || op->getOpcode() == Instruction::Mul ||
+      op->isIntDivRem())
     return false;
+  // of a long: the carry's half of an addition leaves Z set only if both halves are 0
+  const bool is_sum = op->getOpcode() == Instruction::Add || op->getOpcode() == Instruction::Sub;
+  if (words(op) != 1 && !(words(op) == 2 && is_sum && at.isEquality())) return false;
   if (!at.isEquality() && at.getPredicate() != CmpInst::ICMP_SLT && at.getPredicate() != CmpInst::ICMP_SGE)
     return false;
   const Instruction* before = at.getPrevNode();
@@ -688,8 +691,8 @@ void Model::run(std::vector<Segment>& out) {
 
 }  // namespace
 
-FunctionCost::FunctionCost(Function& f, FunctionAnalysisManager& analyses, int level, bool is_library) {
-  Model(f, analyses, level, level > 0 && !is_library).run(segments);
+FunctionCost::FunctionCost(Function& f, FunctionAnalysisManager& analyses, int level) {
+  Model(f, analyses, level).run(segments);
 }
 
 }  // namespace cc

@@ -28,11 +28,9 @@ struct Segment {
 bool is_handler(const llvm::Function& function);
 
 /// All segments of a function, in block order. Entry and return overheads are part of them.
-/// `is_library`: operations on registers count as the handlers of the native way were measured with, 64 bits
-/// wide and with a full context for every handler; else as the chip has them.
 class FunctionCost {
  public:
-  FunctionCost(llvm::Function& function, llvm::FunctionAnalysisManager& analyses, int level, bool is_library);
+  FunctionCost(llvm::Function& function, llvm::FunctionAnalysisManager& analyses, int level);
   std::vector<Segment> segments;
 };
 

@@ -92,7 +92,7 @@ bool free_counter(Unit& unit, Function& f, FunctionAnalysisManager& analyses) {
     if (!counter) continue;
     // other delays may use the same counter; a loop that works with it stays as it is
     std::map<BasicBlock*, double> before;
-    FunctionCost cost(f, analyses, unit.options.level, unit.options.library);
+    FunctionCost cost(f, analyses, unit.options.level);
     bool only_delays = true;
     for (User* u : counter->users()) {
       Loop* around = loops.getLoopFor(cast<Instruction>(u)->getParent());
@@ -110,7 +110,7 @@ bool free_counter(Unit& unit, Function& f, FunctionAnalysisManager& analyses) {
     if (!isAllocaPromotable(counter)) return true;
     PromoteMemToReg(counter, dom);
     analyses.invalidate(f, PreservedAnalyses::none());
-    FunctionCost without(f, analyses, unit.options.level, unit.options.library);
+    FunctionCost without(f, analyses, unit.options.level);
     for (auto& [latch, cycles] : before) {
       IRBuilder<> b(latch->getTerminator());
       double missing = cycles - cycles_of(without, analyses.getResult<LoopAnalysis>(f).getLoopFor(latch));
@@ -193,7 +193,7 @@ void lower_delay_loops(Unit& unit, FunctionAnalysisManager& analyses) {
       auto& fresh_loops = analyses.getResult<LoopAnalysis>(f);
       auto& fresh_dom = analyses.getResult<DominatorTreeAnalysis>(f);
       auto& se = analyses.getResult<ScalarEvolutionAnalysis>(f);
-      FunctionCost cost(f, analyses, unit.options.level, unit.options.library);
+      FunctionCost cost(f, analyses, unit.options.level);
       for (Loop* loop : fresh_loops.getLoopsInPreorder()) {
         if (lower(unit, f, loop, se, fresh_dom, fresh_loops, cycles_of(cost, loop))) {
           again = true;

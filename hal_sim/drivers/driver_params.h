@@ -41,12 +41,12 @@ inline constexpr int kScanLitSlot = 3;  // PULSE_PERIOD - 1 [lib: a_d/advance_ad
 inline constexpr int kScanLitInterrupts =
     5;  // a flash lasts from slot 63 to 3 [lib: a_d/advance_ad_scan/e_ad_conv.c]
 inline constexpr Cycle kScanFlashCycles =
-    4720;  // of these, with the stops of the converter between them [measured: register way]
+    4676;  // of these, with the stops of the converter between them [measured: register way]
 inline constexpr int kScanAccSlot = 62;         // ACC_PROX_PERIOD - 2 [lib: a_d/advance_ad_scan/e_ad_conv.c]
 inline constexpr int kScanDarkSlot = 63;        // ACC_PROX_PERIOD - 1 [lib: a_d/advance_ad_scan/e_ad_conv.c]
-inline constexpr Cycle kScanLightCycles = 152;  // end of a frame to IR LED switched [measured: register way]
+inline constexpr Cycle kScanLightCycles = 119;  // end of a frame to IR LED switched [measured: register way]
 inline constexpr Cycle kScanFileCycles =
-    117;  // end of a frame to samples in the array [measured: register way]
+    92;  // end of a frame to samples in the array [measured: register way]
 inline constexpr Cycle kScanTadCycles = 12;  // five channels: ADCS 23 [lib: a_d/advance_ad_scan/e_ad_conv.h]
 inline constexpr Cycle kScanTadCycles3 =
     20;  // three channels: ADCS 39 [lib: a_d/advance_ad_scan/e_ad_conv.h]
@@ -62,8 +62,8 @@ inline constexpr Cycle kAccKeepCycles =
 inline constexpr Cycle kBasicPulseCycles = 646 * 8;  // PR1 = 645, prescale 8 [lib: a_d/e_prox.c]
 inline constexpr Cycle kBasicRestCycles = 3871 * 8;  // PR1 = 3870, prescale 8 [lib: a_d/e_prox.c]
 inline constexpr Cycle kReadAdSampleCycles =
-    320;  // call to end of sampling [estimated: 40 loop rounds of 7, set-up]
-inline constexpr Cycle kReadAdCycles = 470;  // call to return [estimated: sampling, 14 TAD of 9.5, return]
+    170;  // call to end of sampling [counted in XC16's code: 40 loop rounds of 4, set-up]
+inline constexpr Cycle kReadAdCycles = 315;  // call to return [the same; 15 TAD of 9.5]
 inline constexpr Cycle kBasicIsrEntryCycles =
     24;  // interrupt to first e_read_ad [estimated: context, switch]
 

@@ -28,7 +28,6 @@ constexpr Cycle kSpeedReturnCycles = 12;             // of these, after the new 
 constexpr Cycle kListSearchCycles = T_AGENDA_FOUND;
 constexpr Cycle kSetCycleCycles = T_AGENDA_CYCLE;
 constexpr Cycle kNodePassedCycles = T_AGENDA_PASSED;
-constexpr Cycle kStartCycles = T_AGENDAS_START;
 constexpr Cycle kReturnCycles = 6;              // from the end of the list to RETFIE
 constexpr Cycle kKnownCycles = T_AGENDA_KNOWN;  // activated although it is there
 constexpr Cycle kActivateCycles = T_AGENDA_ACTIVATE;
@@ -36,7 +35,6 @@ constexpr Cycle kNodeOfListCycles = T_AGENDA_ACTIVATE_PASSED;
 constexpr Cycle kDestroyCycles = T_AGENDA_DESTROY;
 constexpr Cycle kDestroyPassedCycles = T_AGENDA_DESTROY_PASSED;
 constexpr Cycle kFreeCycles = T_AGENDA_FREE;
-constexpr Cycle kHoldCycles = T_AGENDA_HOLD;  // more of both when Timer 2's interrupt is to be enabled again
 
 Wheel wheel_of(tp_i64 wheel) { return wheel == 0 ? Wheel::Left : Wheel::Right; }
 
@@ -70,8 +68,6 @@ void note_speed(Context& context, tp_i64 wheel, tp_i64 speed_steps_s, int most) 
 Cycle search_cost(const void* function, Cycle found_at_once = kListSearchCycles) {
   return found_at_once + kNodePassedCycles * Context::current().drivers().agendas().nodes_passed(function);
 }
-
-Cycle hold_cost(const drivers::AgendaTimer& list) { return list.is_enabled() ? kHoldCycles : 0; }
 
 /// Shape of every change of the agenda list; `only`: the one wheel that it moves otherwise.
 template <typename Change>
@@ -155,7 +151,6 @@ void tp_coils_write(tp_i64 wheel, tp_i64 coils) {
 // --- agendas ---------------------------------------------------------------------------------------------
 
 void tp_agenda_start(void) {
-  Context::current().spend(kStartCycles);  // the timer is switched on last
   change_list(0, [](drivers::AgendaTimer& agendas, Cycle now) {
     agendas.start(now);
     return 1;
@@ -163,7 +158,7 @@ void tp_agenda_start(void) {
 }
 
 void tp_agenda_stop(void) {
-  change_list(T_AGENDAS_STOP, [](drivers::AgendaTimer& agendas, Cycle now) {
+  change_list(0, [](drivers::AgendaTimer& agendas, Cycle now) {
     agendas.stop(now);
     return 1;
   });
@@ -183,7 +178,7 @@ tp_i64 tp_agenda_activate(const void* function, tp_i64 cycle) {
         function);
   const int passed = list.nodes_passed(function);
   const Cycle cost = list.has(function) ? kKnownCycles + kNodePassedCycles * passed
-                                        : kActivateCycles + kNodeOfListCycles * passed + hold_cost(list);
+                                        : kActivateCycles + kNodeOfListCycles * passed;
   return change_list(cost, [&](drivers::AgendaTimer& agendas, Cycle now) {
     return agendas.activate(function, static_cast<int>(cycle), now);
   });
@@ -192,7 +187,7 @@ tp_i64 tp_agenda_activate(const void* function, tp_i64 cycle) {
 tp_i64 tp_agenda_destroy(const void* function) {
   const drivers::AgendaTimer& list = Context::current().drivers().agendas();
   const Cycle cost = kDestroyCycles + kDestroyPassedCycles * list.nodes_passed(function) +
-                     (list.has(function) ? kFreeCycles : 0) + hold_cost(list);
+                     (list.has(function) ? kFreeCycles : 0);
   return change_list(
       cost, [&](drivers::AgendaTimer& agendas, Cycle now) { return agendas.destroy(function, now); });
 }

@@ -210,7 +210,7 @@ TEST(AdcScan, refreshes_each_sensor_63_times_a_second) {
 }
 
 // a flash lasts 5 interrupts, 4500 cycles; its samples are taken 349 and 169 cycles before the end of the
-// last. They are filed 117 cycles after it.
+// last. They are filed 92 cycles after it.
 TEST(AdcScan, flash_and_sample_instants) {
   sim::Scene scene;
   DrivenBoard robot{board::Setup{}};
@@ -239,9 +239,9 @@ TEST(AdcScan, initialisation_takes_194_ms) {
   robot.scan().start(false, false, 0);
   const Cycle filled = robot.scan().first_fill(0);
   EXPECT_NEAR(static_cast<double>(filled) / 14745.6, 194.3, 0.1);
-  // at the end of the handler, which takes 186 cycles
-  EXPECT_EQ(robot.scan().acc_samples(filled - 186 + kFiled - 1), 48);
-  EXPECT_EQ(robot.scan().acc_samples(filled - 186 + kFiled), 49);
+  // at the end of the handler, which takes 160 cycles
+  EXPECT_EQ(robot.scan().acc_samples(filled - 160 + kFiled - 1), 48);
+  EXPECT_EQ(robot.scan().acc_samples(filled - 160 + kFiled), 49);
   EXPECT_EQ(robot.scan().first_fill(filled), filled);
 }
 
@@ -363,8 +363,8 @@ TEST(IrCircuit, a_conversion_taken_apart_adds_up_to_its_counts) {
   EXPECT_EQ(dark.counts(), 4095 - 200);
   // from the LED's switching to the hold of the fourth channel: 286 us
   const board::Cycle flash = drivers::scan_flash_cycles(3);
-  EXPECT_EQ(flash, 4720 - kLight - 349);
-  EXPECT_EQ(drivers::scan_flash_cycles(4), 4720 - kLight - 169);
+  EXPECT_EQ(flash, 4676 - kLight - 349);
+  EXPECT_EQ(drivers::scan_flash_cycles(4), 4676 - kLight - 169);
   const board::IrConversion lit = robot.ir_conversion(3, 0, flash);
   EXPECT_EQ(lit.reflection_counts, 1200);
   EXPECT_EQ(lit.relative_noise, 0.1);  // told, and not drawn
@@ -406,7 +406,7 @@ TEST(BasicProx, closed_form_equals_the_ticked_state_machine) {
     EXPECT_EQ(robot.basic_prox().horizon(at - 1), at);
     for (int half = 0; half < 2; ++half) {
       const int s = pair + 4 * half;
-      const Cycle when = at + 24 + 320 + half * 470;
+      const Cycle when = at + 24 + 170 + half * 315;
       if (lit_phase)
         reflected[s] = dark[s] - robot.ir_counts(s, when, when - lit_at);
       else

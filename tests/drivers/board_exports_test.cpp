@@ -36,9 +36,9 @@ TEST_F(Exports, motors_alone_ask_for_no_interrupt) {
   init_motors();
   tp_motor_speed(0, 700);
   EXPECT_EQ(context.requested.count(TP_V_T2), 0u);
-  // every tick takes 35 cycles, 13 for each of two nodes less 2, and 5 for the one that counts; the left
-  // motor's firing every 14 ticks 107 more
-  const double share = (35 - 2 + 2 * 13 + 5) / 1475.0 + 107 / (14 * 1475.0);
+  // every tick takes 30 cycles, 13 for each of two nodes less 2, and 5 for the one that counts; the left
+  // motor's firing every 14 ticks 83 more
+  const double share = (30 - 2 + 2 * 13 + 5) / 1475.0 + 83 / (14 * 1475.0);
   EXPECT_NEAR(static_cast<double>(context.handler_share) / 0x1p32, share, 1e-6);
   tp_agenda_stop();
   EXPECT_EQ(context.handler_share, 0u);

@@ -16,8 +16,8 @@ inline std::vector<Cycle> calls(Cycle start, int count) {
   return all;
 }
 
-constexpr Cycle kFiled = 117;  // from a call to its samples in the array
-constexpr Cycle kLight = 152;  // to the IR LED's switching
+constexpr Cycle kFiled = 92;   // from a call to its samples in the array
+constexpr Cycle kLight = 119;  // to the IR LED's switching
 // 5 channels of 15 TAD of 12: the fourth is held after 46, the fifth after 61; the flag a cycle after the end
 constexpr Cycle kFourth = (75 - 46) * 12 + 1;
 constexpr Cycle kFifth = (75 - 61) * 12 + 1;

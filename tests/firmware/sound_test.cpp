@@ -170,7 +170,7 @@ int main(void) {
   for (int counts : r.variables("m", 3)) EXPECT_NEAR(counts, 2048, 10);
   EXPECT_EQ(r.variable("running_before"), 0);
   EXPECT_EQ(r.variable("running_after"), 1);
-  EXPECT_NEAR(r.variable<std::uint32_t>("cycles"), 3 * 470, 150);  // three blocking conversions and the calls
+  EXPECT_NEAR(r.variable<std::uint32_t>("cycles"), 3 * 315, 150);  // three blocking conversions and the calls
 }
 
 // --- transform -----------------------------------------------------------------------------------------

@@ -32,11 +32,11 @@ TEST_P(Golden, run_repeats_to_the_last_bit) {
 
 INSTANTIATE_TEST_SUITE_P(
     Of, Golden,
-    ::testing::Combine(::testing::Values(Pinned{"maze", "worlds/maze.toml", 20, "f20d134744a83606"},
-                                         Pinned{"swarm", "worlds/swarm.toml", 5, "a7659278b1f3e4d1"},
-                                         Pinned{"push", "worlds/push.toml", 10, "1bb7fe410312a4ad"},
+    ::testing::Combine(::testing::Values(Pinned{"maze", "worlds/maze.toml", 20, "d99bb3f883328622"},
+                                         Pinned{"swarm", "worlds/swarm.toml", 5, "4ffbbbb0cb774ec1"},
+                                         Pinned{"push", "worlds/push.toml", 10, "cbd10e5401a166e7"},
                                          Pinned{"braitenberg_10", "bench/worlds/brait_10.toml", 5,
-                                                "5b5edf395e51bd8c"}),
+                                                "03874cdbf98af79f"}),
                        ::testing::Values(1, 3)),
     [](const auto& info) {
       return std::string(std::get<0>(info.param).name) + "_threads_" +
