@@ -147,6 +147,18 @@ const Row kRows[] = {
     {"", 0, "", "sink = e_get_acc(0);", {}, "e_get_acc()", 4},
     {"", 0, "", "sink = e_get_micro(0);", {}, "e_get_micro()", 4},
     {"", 0, "", "e_calibrate_ir();", {}, "e_calibrate_ir()", 8},
+    // beside the time on the wires
+    {ROW(I2C_ENABLE), "", "e_i2c_enable();", {}, "e_i2c_enable(), e_i2c_disable()"},
+    {ROW(I2C_START),
+     "",
+     "e_i2c_start();",
+     {},
+     "e_i2c_start(), beside the time on the wires, as the following"},
+    {ROW(I2C_WRITE), "", "e_i2c_write(0);", {}, "e_i2c_write()"},
+    {ROW(I2C_RESTART), "", "e_i2c_restart();", {}, "e_i2c_restart()"},
+    {ROW(I2C_READ), "e_i2c_write(1);", "e_i2c_read(&byte);", {}, "e_i2c_read()"},
+    {ROW(I2C_ACKNOWLEDGE), "", "e_i2c_nack();", {}, "e_i2c_ack(), e_i2c_nack()"},
+    {ROW(I2C_STOP), "", "e_i2c_stop();", {}, "e_i2c_stop()"},
     // handlers, entry and RETFIE included; the list has the motors only
     {ROW(SCAN_ROUND), "e_ad_scan_on();", "", {}, "converter: 65 frames, one round", 10, {65}, 65},
     {ROW(SCAN_ACC), "", "", {}, "of these, the frame with the accelerometer", 2, {4, 150}},
@@ -186,6 +198,7 @@ const char* const kTableHead = R"(/* SPDX-License-Identifier: MIT
 )";
 
 const char* const kHead = R"(
+#include <I2C/e_I2C_master_module.h>
 #include <a_d/advance_ad_scan/e_ad_conv.h>
 #include <a_d/advance_ad_scan/e_acc.h>
 #include <a_d/advance_ad_scan/e_micro.h>
@@ -202,6 +215,7 @@ const char* const kHead = R"(
 void hal_pause(unsigned int rounds);
 void hal_set_ring(unsigned int led, unsigned int value);
 volatile int sink, done;
+char byte;
 unsigned int took[100];
 static void first(void) {}
 static void second(void) {}

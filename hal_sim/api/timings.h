@@ -41,6 +41,13 @@
 #define T_SCAN_INIT 61 /* e_init_ad_scan(), no wait */
 #define T_SCAN_OFF 2 /* e_ad_scan_off() */
 #define T_SCAN_ON 3 /* e_ad_scan_on() */
+#define T_I2C_ENABLE 6 /* e_i2c_enable(), e_i2c_disable() */
+#define T_I2C_START 20 /* e_i2c_start(), beside the time on the wires, as the following */
+#define T_I2C_WRITE 15 /* e_i2c_write() */
+#define T_I2C_RESTART 12 /* e_i2c_restart() */
+#define T_I2C_READ 36 /* e_i2c_read() */
+#define T_I2C_ACKNOWLEDGE 44 /* e_i2c_ack(), e_i2c_nack() */
+#define T_I2C_STOP 7 /* e_i2c_stop() */
 #define T_SCAN_ROUND 7024 /* converter: 65 frames, one round */
 #define T_SCAN_ACC 160 /* of these, the frame with the accelerometer */
 #define T_SCAN_MICRO 79 /* converter: a frame of MICRO_ONLY */

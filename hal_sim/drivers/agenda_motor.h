@@ -57,7 +57,6 @@ class AgendaMotor {
   /// steps/s, clamped
   int speed() const { return speed_; }
   void set_speed(int speed) {
-    rolls_on_ = regular_ > 0 && (speed > 0) == (speed_ > 0) && speed != 0;
     disturb();
     speed_ = speed;
     magnitude_ = std::abs(speed);
@@ -150,9 +149,9 @@ class AgendaMotor {
   std::int64_t full_period() const { return saves_power() ? step_ticks_ : count.cycle; }
 
   /// Does the wheel turn evenly until the next command? From the third step on, when each begins where the
-  /// one before ended; from the first one on when it rolled the same way before. (A wheel that starts from
-  /// rest has to be followed: how it does so decides on its slip.)
-  bool is_even() const { return regular_ >= kRegularSteps || (regular_ > 0 && rolls_on_); }
+  /// one before ended. (Before, the rotor is followed from step to step: how it catches up decides on the
+  /// wheel's slip, half a per cent of the way where speeds are set 20 times a second.)
+  bool is_even() const { return regular_ >= kRegularSteps; }
   /// left: forward only for v > 0; right: backward only for v < 0
   int step_direction() const {
     if (forward_ < 0) return speed_ > 0 ? 1 : -1;
@@ -176,8 +175,7 @@ class AgendaMotor {
   /// before. The last of them begins where the one before has ended, so it can be added up with what follows.
   static constexpr int kRegularSteps = 3;
   int forward_;
-  int regular_ = 0;        // steps since the last command
-  bool rolls_on_ = false;  // it stepped the same way before that
+  int regular_ = 0;  // steps since the last command
   int speed_ = 0, magnitude_ = 0;
   int step_ticks_ = 0;  // from step to step, as the driver divides
 

@@ -84,8 +84,7 @@ class AgendaTimer {
   std::int64_t commanded_steps(Wheel wheel, Cycle at) const;
   /// Cycle before which the step counter keeps its value without a command.
   Cycle steps_horizon(Wheel wheel, Cycle at) const { return next_step(motor_at(wheel, at)); }
-  /// How the wheel turns on. Once it does so evenly (AgendaMotor::is_even()), as if the rotor had followed
-  /// its steps at this rate before, which is off by less than a step until the third one; before, and when it
+  /// How the wheel turns on: once it does so evenly (AgendaMotor::is_even()), for ever; before, and when it
   /// rests between steps, up to the next step.
   board::RotorCourse course(Wheel wheel, Cycle at) const;
   /// Cycle before which the coils keep their state without a command.

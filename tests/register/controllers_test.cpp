@@ -82,7 +82,7 @@ class Controllers : public ::testing::TestWithParam<Course> {
 
 void expect_alike(const Course& course, const Seen& native, const Seen& chip) {
   EXPECT_NEAR(std::hypot(chip.x_m - native.x_m, chip.y_m - native.y_m), 0, 0.001);
-  EXPECT_NEAR(chip.distance_m, native.distance_m, 0.01);  // on the spot, late steps make a way
+  EXPECT_NEAR(chip.distance_m, native.distance_m, 0.001);
   EXPECT_EQ(chip.leds, native.leds);
   EXPECT_EQ(chip.sent, native.sent);
   EXPECT_EQ(native.collisions, 0) << "courses without contact are comparable";
