@@ -391,16 +391,6 @@ double Board::mic_level(int microphone, Cycle at) const {
                                                                 clock_.click_at(at));
 }
 
-inline int Board::with_mic_noise(std::int64_t level, int microphone, Cycle at) const {
-  level += mic_noise_per_face_ * noise_.dice(NoiseOf::Microphone, microphone, at);
-  return static_cast<int>(std::clamp<std::int64_t>(level >> kMicFraction, 0, kAdcMax));
-}
-
-int Board::mic_counts(int microphone, Cycle at) const {
-  constexpr auto kSilence = static_cast<std::int64_t>((kMicIdleCounts + 0.5) * (1 << kMicFraction));
-  return may_hear_ ? mic_counts_in_sound(microphone, at) : with_mic_noise(kSilence, microphone, at);
-}
-
 int Board::mic_counts_in_sound(int microphone, Cycle at) const {
   const double level = std::clamp(mic_level(microphone, at), -kMicLoudest, kMicLoudest);
   return with_mic_noise(std::llround((level + 0.5) * (1 << kMicFraction)), microphone, at);

@@ -13,6 +13,7 @@
 // that change something. Nothing depends on who looked before: const methods have no side effects, and a
 // sample has one value however often it is read. One Board is used by one thread at a time.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -34,6 +35,7 @@
 #include "hal_sim/board/part.h"
 #include "hal_sim/board/pin_driver.h"
 #include "hal_sim/board/remote.h"
+#include "hal_sim/board/sound_params.h"
 #include "hal_sim/board/uart.h"
 #include "hal_sim/board/virtual_devices.h"
 #include "hal_sim/board/wiring.h"
@@ -371,5 +373,17 @@ class Board {
   PacketDevices packets_{clock_, setup_.robot, setup_.devices};
   VirtualDevices virtual_;
 };
+
+// --- what a converter asks for 50,000 times a second
+
+inline int Board::with_mic_noise(std::int64_t level, int microphone, Cycle at) const {
+  level += mic_noise_per_face_ * noise_.dice(NoiseOf::Microphone, microphone, at);
+  return static_cast<int>(std::clamp<std::int64_t>(level >> kMicFraction, 0, kAdcMax));
+}
+
+inline int Board::mic_counts(int microphone, Cycle at) const {
+  constexpr auto kSilence = static_cast<std::int64_t>((kMicIdleCounts + 0.5) * (1 << kMicFraction));
+  return may_hear_ ? mic_counts_in_sound(microphone, at) : with_mic_noise(kSilence, microphone, at);
+}
 
 }  // namespace board

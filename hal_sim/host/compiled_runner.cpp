@@ -217,7 +217,7 @@ Cycle CompiledRunner::now_and_tell() {
 }
 
 void CompiledRunner::modify_in_two(unsigned address, std::uint16_t keep, std::uint16_t flip) {
-  const std::uint16_t old = read_register(address, 16);
+  const auto old = static_cast<std::uint16_t>(read_register(address, 16));
   write_register(address, static_cast<std::uint16_t>((old & keep) ^ flip), 16);
 }
 

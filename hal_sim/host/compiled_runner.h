@@ -189,12 +189,10 @@ class CompiledRunner final : public Runner, public Context {
     ++served_;
     note_write();
   }
-  std::uint16_t read_register(unsigned address, unsigned bits) {
-    return processor_->read(address, bits, now());
-  }
+  std::int64_t read_register(unsigned address, unsigned bits) { return processor_->read(address, bits); }
   void modify_register(unsigned address, std::uint16_t keep, std::uint16_t flip) {
     if (observer_) return modify_in_two(address, keep, flip);
-    processor_->modify(address, keep, flip, now_unobserved());
+    processor_->modify(address, keep, flip);
   }
   void write_register(unsigned address, std::uint16_t value, unsigned bits) {
     processor_->write(address, value, bits, now());

@@ -98,7 +98,7 @@ Cycle NativeProcessor::flag_horizon(int vector, Cycle at) {
   return s.due > at ? s.due : kNever;
 }
 
-void NativeProcessor::modify(unsigned address, std::uint16_t keep, std::uint16_t flip, Cycle) {
+void NativeProcessor::modify(unsigned address, std::uint16_t keep, std::uint16_t flip) {
   const std::uint16_t old = registers_.read(address, 16);
   registers_.write(address, static_cast<std::uint16_t>((old & keep) ^ flip), 16);
 }

@@ -22,14 +22,12 @@ class NativeProcessor final : public Processor {
   void stop(Cycle now) override { registers_.processor_stopped(); }
   void remote_changed(Cycle now) override { watch_remote(now); }
 
-  std::uint16_t read(unsigned address, unsigned bits, Cycle) override {
-    return registers_.read(address, bits);
-  }
+  std::int64_t read(unsigned address, unsigned bits) override { return registers_.read(address, bits); }
   void write(unsigned address, std::uint16_t value, unsigned bits, Cycle) override {
     registers_.write(address, value, bits);
   }
 
-  void modify(unsigned address, std::uint16_t keep, std::uint16_t flip, Cycle) override;
+  void modify(unsigned address, std::uint16_t keep, std::uint16_t flip) override;
 
   std::uint16_t table_read(unsigned, Cycle) override { registers_.refuse_table(); }
   void table_write(unsigned, std::uint16_t, Cycle) override { registers_.refuse_table(); }

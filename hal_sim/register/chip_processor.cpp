@@ -57,14 +57,14 @@ inline bool ChipProcessor::may_change_it(unsigned address) {
   return address - kFirstWithSideEffect <= kLastWithSideEffect - kFirstWithSideEffect;
 }
 
-std::uint16_t ChipProcessor::read(unsigned address, unsigned bits, Cycle now) {
-  const Cycle t = at(now);
+std::int64_t ChipProcessor::read(unsigned address, unsigned bits) {
+  const Cycle t = at(runner_.now());
   if (watched_reads_ > 0 || !parts_->is_result(address, bits, t)) return read_other(address, bits, t);
   runner_.lower_horizon(t);
   return parts_->read_result(address, t);
 }
 
-std::uint16_t ChipProcessor::read_other(unsigned address, unsigned bits, Cycle t) {
+std::int64_t ChipProcessor::read_other(unsigned address, unsigned bits, Cycle t) {
   if (may_change_it(address) || watched_reads_ > 0) return read_closely(address, bits, t);
   runner_.lower_horizon(t);
   return parts_->read(address, bits, t);
@@ -96,8 +96,8 @@ void ChipProcessor::write(unsigned address, std::uint16_t value, unsigned bits, 
   if (const Cycle stalled = parts_->nvm.stalled_until(); stalled > t) runner_.spend(stalled - t);
 }
 
-void ChipProcessor::modify(unsigned address, std::uint16_t keep, std::uint16_t flip, Cycle now) {
-  const Cycle t = at(now);
+void ChipProcessor::modify(unsigned address, std::uint16_t keep, std::uint16_t flip) {
+  const Cycle t = at(runner_.now());
   if (watched_reads_ > 0 || !parts_->are_flags(address, t)) return modify_other(address, keep, flip, t);
   runner_.lower_horizon(t);
   wrote(parts_->modify_flags(address, keep, flip, t));
@@ -108,7 +108,7 @@ void ChipProcessor::modify_other(unsigned address, std::uint16_t keep, std::uint
     runner_.lower_horizon(t);
     return wrote(parts_->modify_latch(address, keep, flip, t));
   }
-  const std::uint16_t old = read(address, 16, t);
+  const auto old = static_cast<std::uint16_t>(read_other(address, 16, t));
   write(address, static_cast<std::uint16_t>((old & keep) ^ flip), 16, t);
 }
 

@@ -38,9 +38,9 @@ class ChipProcessor final : public host::Processor, private dspic::EventWatch {
   void end_window(Cycle now) override { chip_.end_window(now); }
   void remote_changed(Cycle now) override { device().outside_changed(at(now)); }
 
-  std::uint16_t read(unsigned address, unsigned bits, Cycle now) override;
+  std::int64_t read(unsigned address, unsigned bits) override;
   void write(unsigned address, std::uint16_t value, unsigned bits, Cycle now) override;
-  void modify(unsigned address, std::uint16_t keep, std::uint16_t flip, Cycle now) override;
+  void modify(unsigned address, std::uint16_t keep, std::uint16_t flip) override;
   std::uint16_t table_read(unsigned program_address, Cycle now) override;
   void table_write(unsigned program_address, std::uint16_t value, Cycle now) override;
   void watch_reads(Cycle now) override { watched_reads_ = kWatchedReads; }
@@ -82,7 +82,7 @@ class ChipProcessor final : public host::Processor, private dspic::EventWatch {
   /// Rounds of a waiting loop with more reads than this are not jumped over.
   static constexpr int kWatchedReads = 64;
 
-  __attribute__((noinline)) std::uint16_t read_other(unsigned address, unsigned bits, Cycle t);
+  __attribute__((noinline)) std::int64_t read_other(unsigned address, unsigned bits, Cycle t);
   __attribute__((noinline)) void modify_other(unsigned address, std::uint16_t keep, std::uint16_t flip,
                                               Cycle t);
   static bool may_change_it(unsigned address);
