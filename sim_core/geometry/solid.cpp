@@ -398,13 +398,14 @@ bool is_beyond(Vec2 point, double reach_m, const Placed& what) {
 }
 
 double plan_distance_m(Vec2 point, const Placed& what, Vec2* toward) {
-  const Vec2 p = what.frame.to_local(point);
   const Solid& s = *what.solid;
-  if (s.kind != SolidKind::Prism) {
-    const double d = length(p);
-    if (toward) *toward = d > 0 ? what.frame.turn({p.x / d, p.y / d}) : Vec2{1, 0};
+  if (s.kind != SolidKind::Prism) {  // looks the same whichever way it has turned
+    const Vec2 gap = point - what.frame.at;
+    const double d = length(gap);
+    if (toward) *toward = d > 0 ? Vec2{gap.x / d, gap.y / d} : Vec2{1, 0};
     return d - s.radius_m;
   }
+  const Vec2 p = what.frame.to_local(point);
   // inside: the least deep side; outside: the nearest edge
   if (s.is_box()) {
     const Vec2 outside = outside_of_box(p, s.half_m), side{p.x > 0 ? 1.0 : -1.0, p.y > 0 ? 1.0 : -1.0};

@@ -36,7 +36,7 @@ INSTANTIATE_TEST_SUITE_P(
                                          Pinned{"swarm", "worlds/swarm.toml", 5, "9c2b94b77fb96466"},
                                          Pinned{"push", "worlds/push.toml", 10, "cbd10e5401a166e7"},
                                          Pinned{"braitenberg_10", "bench/worlds/brait_10.toml", 5,
-                                                "fe402366d33faf0f"}),
+                                                "ed452ce34b1a6e0c"}),
                        ::testing::Values(1, 3)),
     [](const auto& info) {
       return std::string(std::get<0>(info.param).name) + "_threads_" +
