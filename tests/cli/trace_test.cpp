@@ -221,8 +221,9 @@ TEST_F(Traces, a_killed_run_leaves_files_that_can_be_read) {
            cli_test::signal_once("KILL", path("k.json"), 20000));
   const Dump dump = parse(read(path("k.vcd")));
   EXPECT_GT(dump.last_ns, 0);
-  const std::string text = read(path("k.json"));
+  std::string text = read(path("k.json"));
   ASSERT_GT(text.size(), 1000u);
+  text.resize(text.rfind(",\n"));  // Linux cuts a write() at a page when it kills
   json events;
   EXPECT_NO_THROW(events = json::parse(text + "]"));
   EXPECT_GT(events.size(), 10u);
