@@ -41,7 +41,6 @@ class Model {
         loops_(analyses.getResult<LoopAnalysis>(f)),
         se_(analyses.getResult<ScalarEvolutionAnalysis>(f)),
         level_(level),
-        registers_are_words_(level > 0),
         flow_(f, loops_, words_of, holds_register) {}
 
   void run(std::vector<Segment>& out);
@@ -63,14 +62,13 @@ class Model {
   bool counts_down(const ICmpInst& compare);
   bool sets_flags(const Value* v, const ICmpInst& at) const;
   int words(const Value* v) const { return is_register_word(v) ? 1 : words_of(v); }
-  bool is_register_word(const Value* v) const { return registers_are_words_ && is_register_value(v); }
+  bool is_register_word(const Value* v) const { return level_ > 0 && is_register_value(v); }
   bool in_loop(const Instruction& i) const { return loops_.getLoopFor(i.getParent()) != nullptr; }
 
   Function& f_;
   LoopInfo& loops_;
   ScalarEvolution& se_;
-  int level_;
-  bool registers_are_words_;  // and not 64 bits wide, as the host has them
+  int level_;  // above 0 registers are words, and not 64 bits wide, as the host has them
   CostFlow flow_;
   const Value* last_result_ = nullptr;  // what lies in w0.. after the last library call
   bool no_call_yet_ = true;             // arguments are still where the caller put them
@@ -342,7 +340,7 @@ void Model::call(CallBase& c, Segment& s) {
   if (callee && callee->getName().startswith("tp_sfr_")) {
     s.features[k_load_word] += 1;
     s.features[k_alu] += double(needs_constant_.count(&c));
-    if (registers_are_words_ && calls(c, "tp_sfr_write"))
+    if (level_ > 0 && calls(c, "tp_sfr_write"))
       if (auto* value = dyn_cast<ConstantInt>(c.getArgOperand(1)))  // clr and setm need no constant
         if (const uint64_t word = value->getZExtValue() & 0xFFFF; word != 0 && word != 0xFFFF)
           s.features[in_loop(c) ? k_wide_constant_loop : k_alu] += 1;
@@ -643,7 +641,7 @@ void Model::run(std::vector<Segment>& out) {
         in_place_.insert(op);
         in_place_.insert(cast<LoadInst>(op->getOperand(0)));
       }
-  if (registers_are_words_) merge_register_changes(f_, in_place_, needs_constant_);
+  if (level_ > 0) merge_register_changes(f_, in_place_, needs_constant_);
   for (BasicBlock& block : f_) {
     Instruction* begin = &*block.getFirstInsertionPt();
     // local variables stay together at the entry, or the back end would treat them as of unknown size
@@ -658,7 +656,7 @@ void Model::run(std::vector<Segment>& out) {
       s.features[k_saved_word] += saved_words_;
       for (Argument& a : f_.args())
         if (kept_.count(&a)) s.features[k_kept_word] += words(&a);
-      if (registers_are_words_ && is_handler(f_)) s.library += context_saved();
+      if (level_ > 0 && is_handler(f_)) s.library += context_saved();
       entry = false;
     }
     bool after_call = false;
