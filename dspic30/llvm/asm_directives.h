@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Directives that the vendor's assembler has and LLVM's has not, or reads otherwise.
 //
-//   .section NAME, data, near     also .pushsection: types and attributes as words
-//   (dspic30/asm/section_text.h) .hword .word .pword           values of 2 bytes, aligned; whole words of
-//   program memory .short .byte .ascii .asciz    in code: two bytes in the lower half of each word .align
-//   .palign                in code: counts 2 for a word config __FOSC, value          a configuration word
+//   .section NAME, data, near     types and attributes as words (dspic30/asm/section_text.h)
+//   .pushsection NAME, data       the same
+//   .hword .word .pword           values of 2 bytes, aligned; whole words of program memory
+//   .short .byte .ascii .asciz    in code: two bytes in the lower half of each word
+//   .align .palign                in code: counts 2 for a word
+//   config __FOSC, value          a configuration word
 #pragma once
 #include <functional>
 #include <string>

@@ -397,6 +397,15 @@ bool is_beyond(Vec2 point, double reach_m, const Placed& what) {
   return false;
 }
 
+Placed placed_at(const Solid& solid, const Pose2& pose, double z_m) {
+  Placed out{&solid, Frame2(), z_m};
+  if (solid.kind == SolidKind::Prism)
+    out.frame = Frame2(pose);
+  else
+    out.frame.at = {pose.x_m, pose.y_m};
+  return out;
+}
+
 double plan_distance_m(Vec2 point, const Placed& what, Vec2* toward) {
   const Solid& s = *what.solid;
   if (s.kind != SolidKind::Prism) {  // looks the same whichever way it has turned

@@ -50,6 +50,8 @@ struct Placed {
   Frame2 frame;
   double z_m = 0;  ///< height of the body's origin above the floor
 };
+/// One at a pose: what is round looks the same whichever way it has turned, and needs no sine.
+Placed placed_at(const Solid& solid, const Pose2& pose, double z_m);
 
 /// A ray in space; `dir` has length 1, so distances along it are metres.
 struct Ray {

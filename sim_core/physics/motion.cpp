@@ -177,11 +177,7 @@ void Motion::look_around(int robot, const Neighbours& neighbours) {
     if (c->moving) {
       const std::size_t o = static_cast<std::size_t>(c->index);
       const Pose2 there = at_[o] == begin_ ? bodies_[o].pose : legs_[o].pose_at(begin_);
-      const Solid& solid = *desc_.solids[o];
-      // a disc looks the same whichever way it has turned
-      moving = std::min(moving, solid.kind == SolidKind::Prism
-                                    ? plan_distance_m(place, {&solid, Frame2(there), bodies_[o].z_m})
-                                    : length(place - Vec2{there.x_m, there.y_m}) - solid.radius_m);
+      moving = std::min(moving, plan_distance_m(place, placed_at(*desc_.solids[o], there, bodies_[o].z_m)));
       continue;
     }
     const Placed& other = (*desc_.fixed)[static_cast<std::size_t>(c->index)];

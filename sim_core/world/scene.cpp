@@ -78,14 +78,7 @@ BodyState Scene::state(int body) const {
 
 Placed Scene::placed(int body, Clicks at) const {
   const std::size_t i = static_cast<std::size_t>(body);
-  const Pose2 p = pose(body, at);
-  Placed out{layout_.moving[i].solid, Frame2(), heights_[i].z_m};
-  if (out.solid->kind == SolidKind::Prism) {
-    out.frame = Frame2(p);
-  } else {
-    out.frame.at = {p.x_m, p.y_m};
-  }
-  return out;
+  return placed_at(*layout_.moving[i].solid, pose(body, at), heights_[i].z_m);
 }
 
 Surface Scene::floor(Vec2 point_m) const {
