@@ -90,7 +90,7 @@ std::optional<ResetKind> Processor::run(Cycle until) {
     }
     if (outlook.vector != kNoVector) {
       enter_interrupt(outlook.vector);
-      outlook.horizon = cpu.parts.interrupt_horizon(cpu.now, outlook.vector);
+      outlook.horizon = cpu.parts.interrupt_horizon(outlook.vector);
       if (outlook.horizon <= cpu.now) continue;
     }
     cpu.deadline = std::min(until, outlook.horizon);

@@ -98,14 +98,13 @@ struct ChipParts {
 
   // --- registers; as Dspic30f6014a has them
   std::uint16_t read(unsigned address, unsigned bits, Cycle now) {
-    if (is_result(address, bits, now)) return read_result(address, now);
     events.run_to(now);
     return bus.read(address, bits, now);
   }
   /// Is read_result() the same as read()?
   bool is_result(unsigned address, unsigned bits, Cycle now) const {
     return address - Adc::kBuffer < Adc::kBufferEnd - Adc::kBuffer && bits > 8 && events.next() > now &&
-           bus.reader(address) == &adc;
+           adc.is_cruising();
   }
   __attribute__((always_inline)) std::uint16_t read_result(unsigned address, Cycle now) {
     return adc.read_result(static_cast<int>((address - Adc::kBuffer) / 2), now);
@@ -124,13 +123,10 @@ struct ChipParts {
   }
   Cycle modify_latch(unsigned address, std::uint16_t keep, std::uint16_t flip, Cycle now);
   /// Can modify_flags() do it?
-  bool are_flags(unsigned address, Cycle now) const {
-    return is_flags(address) && events.next() > now && bus.reader(address) == &interrupts;
-  }
+  bool are_flags(unsigned address, Cycle now) const { return is_flags(address) && events.next() > now; }
   __attribute__((always_inline)) Cycle modify_flags(unsigned address, std::uint16_t keep, std::uint16_t flip,
                                                     Cycle now) {
     const int word = flag_word(address);
-    events.forget_changes();
     interrupts.forget_stir();
     const std::uint16_t old = interrupts.read_flags(word, now);
     const std::uint16_t value = bus.accept_plain(address, static_cast<std::uint16_t>((old & keep) ^ flip));
@@ -147,15 +143,13 @@ struct ChipParts {
     outlook.vector = interrupts.pending(now, outlook.level);
     outlook.reset_due = is_reset_due();
     if (outlook.vector != kNoVector) return outlook;
-    outlook.horizon = std::max(
-        now + 1, std::min(events.notice_horizon(interrupts.enabled_mask()), interrupts.pending_horizon(now)));
+    outlook.horizon = std::max(now + 1, std::min(notice_horizon(), interrupts.pending_horizon(now)));
     return outlook;
   }
   bool is_reset_due() const { return system.watchdog_bit() || interrupts.reset_due().has_value(); }
   Cycle notice_horizon() { return events.notice_horizon(interrupts.enabled_mask()); }
-  __attribute__((always_inline)) Cycle interrupt_horizon(Cycle now, int served = kNoVector) {
-    if (!interrupts.has_no_other(served) || events.next() <= now) return 0;
-    return events.notice_horizon(interrupts.enabled_mask());
+  __attribute__((always_inline)) Cycle interrupt_horizon(int served = kNoVector) {
+    return interrupts.has_no_other(served) ? notice_horizon() : 0;
   }
 
   /// Until when a read of that register gives the same value; may lie in the past. As
@@ -193,10 +187,9 @@ struct ChipParts {
 
   void begin_write(Cycle now) {
     events.run_to(now);
-    events.forget_changes();
     interrupts.forget_stir();
   }
-  Cycle end_write() const { return interrupts.stirred() || events.was_put_off() ? 0 : events.earliest(); }
+  Cycle end_write() { return interrupts.stirred() ? 0 : notice_horizon(); }
   void store(unsigned address, std::uint16_t value, unsigned bits, Cycle now) {
     if (!is_flags(address)) return write_beyond(address, value, bits, now);
     const SfrBus::Store store = bus.accept(address, value, bits, now);

@@ -181,8 +181,8 @@ void Dspic30f6014a::outside_changed(Cycle now) {
   p.system.outside_changed(now);
 }
 
-void Dspic30f6014a::uart_receive(int uart, const UartFrame& frame) {
-  parts_->uarts[static_cast<std::size_t>(uart - 1)].receive(frame);
+void Dspic30f6014a::uart_receive(int uart, const UartFrame& frame, Cycle now) {
+  parts_->uarts[static_cast<std::size_t>(uart - 1)].receive(frame, now);
 }
 
 // --- interrupts -------------------------------------------------------------------------------------------
@@ -201,9 +201,7 @@ InterruptEntry Dspic30f6014a::enter_interrupt(int vector, Cycle now) {
 }
 Cycle Dspic30f6014a::return_from_interrupt(Cycle now) { return parts_->interrupts.leave(now); }
 
-Cycle Dspic30f6014a::interrupt_horizon(Cycle now, int served) {
-  return parts_->interrupt_horizon(now, served);
-}
+Cycle Dspic30f6014a::interrupt_horizon(int served) { return parts_->interrupt_horizon(served); }
 int Dspic30f6014a::cpu_level() const { return parts_->interrupts.level(); }
 void Dspic30f6014a::set_cpu_level(int level, Cycle now) { parts_->interrupts.set_level(level, now); }
 int Dspic30f6014a::nesting() const { return parts_->interrupts.nesting(); }

@@ -75,7 +75,7 @@ class Dspic30f6014a {
   /// odd one is the core's). Result in the low bits. Addresses with nothing behind them read 0.
   std::uint16_t read(unsigned address, unsigned bits, Cycle now);
   /// Returns the instant with which whoever remembers look().horizon or interrupt_horizon() has to compare
-  /// it: the earlier one of both is true now; 0: ask look() again.
+  /// it: the earlier one of both is true now; 0, or in the past: ask look() again.
   Cycle write(unsigned address, std::uint16_t value, unsigned bits, Cycle now);
   /// The register's value as a debugger shows it: no FIFO moves, no flag falls, no latch is loaded.
   std::uint16_t peek(unsigned address, Cycle now);
@@ -101,8 +101,8 @@ class Dspic30f6014a {
   /// Answers of the outside (edges to come, levels) are no longer what they were, from `now` on.
   void outside_changed(Cycle now);
   /// A word arrives at UART 1 or 2. Words are told in their order and may be told ahead of time; one that
-  /// begins in the past, or before the end of the one before, is moved to the next free instant.
-  void uart_receive(int uart, const UartFrame& frame);
+  /// begins before `now`, or before the end of the one before, is moved to the next free instant.
+  void uart_receive(int uart, const UartFrame& frame, Cycle now);
 
   // --- interrupts
 
@@ -118,9 +118,9 @@ class Dspic30f6014a {
   InterruptEntry enter_interrupt(int vector, Cycle now);
   /// RETFIE executes in cycle `now`: the level of before. Returns the cycle of the next instruction.
   Cycle return_from_interrupt(Cycle now);
-  /// next_event(), if no flag but that of the vector whose handler runs at `now` is set and enabled, and
-  /// nothing has happened up to `now` that is not known already; else 0: ask look(). Cheaper than that.
-  Cycle interrupt_horizon(Cycle now, int served = kNoVector);
+  /// The next instant at which something may be served, if no flag but that of the vector whose handler runs
+  /// is set and enabled; else, or in the past: ask look(). Cheaper than that.
+  Cycle interrupt_horizon(int served = kNoVector);
   /// SR.IPL, and IPL3 above 7. Levels 0 to 7 can be set (unless INTCON1.NSTDIS).
   int cpu_level() const;
   void set_cpu_level(int level, Cycle now);

@@ -230,13 +230,7 @@ void Adc::int0_edge(Cycle at) {
 
 // --- registers --------------------------------------------------------------------------------------------
 
-std::uint16_t Adc::read_irregularly(int slot, Cycle now) {
-  advance(now);
-  return cruising_ ? slot_now(slot, now) : buffer_[static_cast<std::size_t>(slot)];
-}
-
 std::uint16_t Adc::read(unsigned address, Cycle now) {
-  if (address < kBufferEnd) return read_result(static_cast<int>(address - kBuffer) / 2, now);
   advance(now);
   return peek(address, now);
 }

@@ -40,9 +40,10 @@ class Adc final : public SfrOwner, public EventOwner, public TimerListener {
   bool wants_int0() const { return sampling_ && ssrc() == 1; }
 
   static constexpr unsigned kBuffer = 0x280, kBufferEnd = 0x2A0;  ///< ADCBUF0 to F
-  /// read() of ADCBUF`slot`.
+  /// Does it run by itself, so that read_result() may be asked?
+  bool is_cruising() const { return cruising_; }
+  /// read() of ADCBUF`slot`, when all events up to `now` have happened.
   std::uint16_t read_result(int slot, Cycle now);
-  __attribute__((noinline)) std::uint16_t read_irregularly(int slot, Cycle now);
   std::uint16_t read(unsigned address, Cycle now) override;
   void write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycle now) override;
   std::uint16_t peek(unsigned address, Cycle now) const override;
@@ -135,7 +136,7 @@ inline std::uint16_t Adc::formatted(int counts) const {
 }
 
 inline std::uint16_t Adc::cruised_result(int channel, Half held) const {
-  return formatted(f_.outside.analogue_counts(channel, held / 2));
+  return formatted(f_.outside.analogue_counts(channel, held >> 1));
 }
 
 inline Adc::Half Adc::held_instant(int slot, Cycle now) const {
@@ -146,8 +147,6 @@ inline Adc::Half Adc::held_instant(int slot, Cycle now) const {
 
 __attribute__((always_inline)) inline std::uint16_t Adc::read_result(int slot, Cycle now) {
   const auto s = static_cast<std::size_t>(slot);
-  if (!cruising_) return read_irregularly(slot, now);
-  if (cruise_.start + cruise_.sequence <= 2 * now) cruise(now);
   const Half held = held_instant(slot, now);
   if (held < cruise_.first || result_of_[s] == held) return buffer_[s];
   result_of_[s] = held;

@@ -43,94 +43,99 @@ class Events {
     if (before < kNever) remove(slot);
     when_[static_cast<std::size_t>(slot)] = at;
     if (at < kNever) insert(slot, at);
-    if (!is_noticed(slot)) return;
     if (at < before)
-      earliest_ = std::min(earliest_, at + delay(slot));
+      note_nearer(slot, at);
     else
-      put_off_ = true;
+      note_gone(slot);
   }
   Cycle when(int slot) const { return when_[static_cast<std::size_t>(slot)]; }
-  Cycle next() const { return queue_[0].at; }
+  Cycle next() const { return next_; }
 
   void run_to(Cycle now) {
     if (next() <= now) serve_to(now);
-    reached_ = std::max(reached_, now);
+  }
+  /// run_to() where something is due nearly always.
+  __attribute__((always_inline)) void run_due(Cycle now) {
+    while (next() <= now) serve_first();
   }
   /// set() of a slot that is empty, as in its own on_event(), to an instant that comes.
   void fill(int slot, Cycle at) {
     when_[static_cast<std::size_t>(slot)] = at;
     insert(slot, at);
-    if (is_noticed(slot)) earliest_ = std::min(earliest_, at + delay(slot));
+    note_nearer(slot, at);
   }
   /// Null: nobody.
   void watch(EventWatch* watch) { watch_ = watch; }
-  /// What notice_horizon(), asked before with the same flags, answers now is the earlier one of its last
-  /// answer and earliest(), if nothing has happened since forget_changes() but what was set; was_put_off():
-  /// it may be later.
-  Cycle earliest() const { return earliest_; }
-  bool was_put_off() const { return put_off_; }
-  void forget_changes() {
-    earliest_ = kNever;
-    put_off_ = false;
-  }
-  /// Everything up to here has happened, and perhaps more.
-  Cycle reached() const { return reached_; }
-
   /// Earliest instant at which the processor may notice something: a slot that acts outwards, or one cycle
   /// after a slot that may set one of these flags.
   Cycle notice_horizon(std::uint64_t irqs) {
     if (irqs != noticed_irqs_) find_noticed(irqs);
-    Cycle notice = kNever;
-    for (const Instant* i = queue_.data(); i->at < notice; ++i)
-      if (is_noticed(i->slot)) notice = std::min(notice, i->at + delay(i->slot));
-    return notice;
+    if (notice_ == kUnknown) find_notice();
+    return notice_;
   }
   /// Earliest instant of a slot that may set one of these flags.
   Cycle next_for(std::uint64_t irqs) const {
-    const Instant* i = queue_.data();
-    while (i->at < kNever && !(slots_[static_cast<std::size_t>(i->slot)].irqs & irqs)) ++i;
-    return i->at;
+    const Known* i = soonest();
+    while (*i < kNone && !(slots_[static_cast<std::size_t>(slot_of(*i))].irqs & irqs)) --i;
+    return instant_of(*i);
   }
 
  private:
-  struct Instant {
-    Cycle at = kNever;
-    int slot = 0;
-  };
+  // an instant and its slot in one number, ordered as they are served
+  using Known = std::int64_t;
+  static constexpr int kSlotBits = 6;
+  static constexpr Known kNone = INT64_MAX;
+  static_assert(1 << kSlotBits == kMostSlots);
+  static int slot_of(Known known) { return static_cast<int>(known & (kMostSlots - 1)); }
+  static Cycle instant_of(Known known) { return known == kNone ? kNever : known >> kSlotBits; }
 
   Cycle delay(int slot) const { return static_cast<Cycle>(~outward_ >> slot & 1); }
   bool is_noticed(int slot) const { return (noticed_ >> slot & 1) != 0; }
-  void find_noticed(std::uint64_t irqs) {
+  void note_nearer(int slot, Cycle at) {
+    if (is_noticed(slot)) notice_ = std::min(notice_, at + delay(slot));
+  }
+  void note_gone(int slot) {
+    if (is_noticed(slot)) notice_ = kUnknown;
+  }
+  __attribute__((noinline)) void find_noticed(std::uint64_t irqs) {
     noticed_irqs_ = irqs;
     noticed_ = outward_;
     for (int s = 0; s < count_; ++s)
       if (slots_[static_cast<std::size_t>(s)].irqs & irqs) noticed_ |= std::uint64_t{1} << s;
+    notice_ = kUnknown;
+  }
+  void find_notice() {
+    notice_ = kNever;
+    for (const Known* i = soonest(); instant_of(*i) < notice_; --i) note_nearer(slot_of(*i), instant_of(*i));
   }
   void insert(int slot, Cycle at) {
-    Instant* place = &queue_[static_cast<std::size_t>(queued_++)];
-    place[1].at = kNever;
-    for (; place != queue_.data() && (place[-1].at > at || (place[-1].at == at && place[-1].slot > slot));
-         --place)
-      place[0] = place[-1];
-    *place = {at, slot};
+    const Known known = at << kSlotBits | slot;
+    Known* place = &queue_[static_cast<std::size_t>(++queued_)];
+    for (; place[-1] < known; --place) place[0] = place[-1];
+    *place = known;
+    next_ = std::min(next_, at);
   }
   void remove(int slot) {
-    Instant* place = queue_.data();
-    while (place->slot != slot) ++place;
-    for (; place->at < kNever; ++place) place[0] = place[1];
+    const Known* const last = soonest();
+    Known* place = &queue_[static_cast<std::size_t>(queued_)];
+    while (slot_of(*place) != slot) --place;
+    for (; place != last; ++place) place[0] = place[1];
     --queued_;
+    next_ = instant_of(*soonest());
   }
-  __attribute__((noinline)) void serve_to(Cycle now) {
-    while (next() <= now) {
-      const Instant first = queue_[0];
-      if (watch_) watch_->about_to_change(first.at);
-      remove(first.slot);
-      when_[static_cast<std::size_t>(first.slot)] = kNever;
-      put_off_ |= is_noticed(first.slot);
-      const Slot& slot = slots_[static_cast<std::size_t>(first.slot)];
-      slot.owner->on_event(slot.id, first.at);
-    }
+  const Known* soonest() const { return &queue_[static_cast<std::size_t>(queued_)]; }
+  __attribute__((always_inline)) void serve_first() {
+    const Cycle at = next_;
+    const int first = slot_of(*soonest());
+    if (watch_) watch_->about_to_change(at);
+    --queued_;
+    next_ = instant_of(*soonest());
+    when_[static_cast<std::size_t>(first)] = kNever;
+    note_gone(first);
+    const Slot& slot = slots_[static_cast<std::size_t>(first)];
+    slot.owner->on_event(slot.id, at);
   }
+  __attribute__((noinline)) void serve_to(Cycle now) { run_due(now); }
 
   struct Slot {
     EventOwner* owner = nullptr;
@@ -140,15 +145,15 @@ class Events {
   std::array<Cycle, kMostSlots> when_{};
   std::array<Slot, kMostSlots> slots_{};
   int count_ = 0;
-  std::array<Instant, kMostSlots + 1> queue_{};  // instants that are known, in order; then kNever
+  std::array<Known, kMostSlots + 1> queue_{kNone};  // and what is known, the soonest last
   int queued_ = 0;
+  Cycle next_ = kNever;        // the last one's
   std::uint64_t outward_ = 0;  // slots that act outwards
   // of notice_horizon(), for the flags of its last call; at the beginning for none
   std::uint64_t noticed_ = 0, noticed_irqs_ = ~std::uint64_t{0};
-  Cycle reached_ = 0;
+  static constexpr Cycle kUnknown = -1;  // below every instant, so that nothing that comes nearer is lost
+  Cycle notice_ = kUnknown;
   EventWatch* watch_ = nullptr;
-  Cycle earliest_ = kNever;
-  bool put_off_ = false;
 };
 
 }  // namespace dspic

@@ -13,8 +13,6 @@ namespace {
 constexpr unsigned kIntcon1 = sfr("INTCON1"), kIntcon2 = sfr("INTCON2"), kIfs0 = sfr("IFS0"),
                    kIec0 = sfr("IEC0"), kIpc0 = sfr("IPC0"), kInttreg = sfr("INTTREG");
 constexpr int kDefaultPriority = 4;
-// returns in a row with the flag untouched before it is taken for a mistake
-constexpr int kUnclearedReturns = 2;
 // of a hard trap, 13 or 14
 constexpr int kHardLevel = 13;
 
@@ -40,11 +38,11 @@ void Interrupts::reset(Cycle now) {
   intcon1_ = intcon2_ = 0;
   last_vector_ = last_level_ = 0;
   level_ = 0;
-  stack_.clear();
+  depth_ = 0;
   disi_until_ = 0;
   resumed_ = -1;
   reset_due_.reset();
-  uncleared_.fill(0);
+  uncleared_ = uncleared_again_ = 0;
 }
 
 // --- flags -------------------------------------------------------------------------------------------------
@@ -87,9 +85,19 @@ void Interrupts::set_priority(int irq, int priority) {
 
 // --- acceptance --------------------------------------------------------------------------------------------
 
+/// A program that leaves handlers by jumps.
+void Interrupts::forget_outermost() {
+  std::move(frames_.begin() + 1, frames_.end(), frames_.begin());
+  --depth_;
+}
+
 void Interrupts::check_cleared(int i, Cycle entered, Cycle now) {
   if (!flag(i) || !enabled(i) || since(i) > entered) return;
-  if (++uncleared_[static_cast<std::size_t>(i)] != kUnclearedReturns) return;
+  // the second time in turn is taken for a mistake, and told once
+  const std::uint64_t here = std::uint64_t{1} << i, again = uncleared_ & here & ~uncleared_again_;
+  uncleared_ |= here;
+  uncleared_again_ |= again;
+  if (!again) return;
   const std::string name = vector_name(kFirstIrqVector + i);
   const std::string bit = sfr_bit_name(*sfr_info(kIfs0 + 2 * static_cast<unsigned>(i / 16)), i % 16);
   diagnostics_.report(Cause::FlagNeverCleared, name,

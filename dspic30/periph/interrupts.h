@@ -13,7 +13,6 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <vector>
 
 #include "dspic30/memory/sfr_bus.h"
 #include "dspic30/periph/vectors.h"
@@ -37,7 +36,10 @@ class Interrupts final : public SfrOwner {
   explicit Interrupts(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
   void attach(SfrBus& bus);
   void reset(Cycle now);
-  void listen(int irq, FlagListener& listener) { listeners_[static_cast<std::size_t>(irq)] = &listener; }
+  void listen(int irq, FlagListener& listener) {
+    listeners_[static_cast<std::size_t>(irq)] = &listener;
+    heard_ |= std::uint64_t{1} << irq;
+  }
 
   // --- for peripherals
   /// The flag is set at `at`. `is_event`: one raise stands for one event, so that a second one is a loss.
@@ -66,27 +68,6 @@ class Interrupts final : public SfrOwner {
 
   // --- for the processor
   int pending(Cycle now, int cpu_level) const;
-  /// IRQ that pending() names where it is the only enabled one whose flag is set, and nothing holds it off
-  /// for a moment; -1: pending() knows.
-  int sole_pending(Cycle now) const {
-    const std::uint64_t ready = ifs_ & iec_;
-    if (!ready || (ready & (ready - 1)) || newest_ >= now || disi_active(now) || now <= resumed_ ||
-        (intcon1_ & 0x001E))
-      return -1;
-    const int i = __builtin_ctzll(ready);
-    return priority(i) > level_ ? i : -1;
-  }
-  /// enter() for that one; its handler's first instruction.
-  Cycle enter_sole(int irq, Cycle now) {
-    const int level = nesting_disabled() ? 7 : priority(irq), vector = kFirstIrqVector + irq;
-    stack_.emplace_back(vector, level_, now);
-    cleared_ &= ~(std::uint64_t{1} << irq);
-    level_ = level;
-    last_vector_ = static_cast<std::uint16_t>(vector);
-    last_level_ = static_cast<std::uint16_t>(level);
-    ++served_[static_cast<std::size_t>(vector)];
-    return now + kInterruptEntryCycles;
-  }
   /// Earliest cycle > now at which pending() changes without a new flag.
   Cycle pending_horizon(Cycle now) const;
   InterruptEntry enter(int vector, Cycle now);
@@ -101,7 +82,7 @@ class Interrupts final : public SfrOwner {
   }
   int level() const { return level_; }
   void set_level(int level, Cycle now);
-  int nesting() const { return static_cast<int>(stack_.size()); }
+  int nesting() const { return depth_; }
   void disi(unsigned count, Cycle now) {
     disi_until_ = now + 1 + static_cast<Cycle>(count & 0x3FFF);
     stirred_ = true;
@@ -141,20 +122,25 @@ class Interrupts final : public SfrOwner {
   Cycle horizon(unsigned address, Cycle now) const override;
 
  private:
-  static constexpr std::size_t kMostFrames = 64;
+  static constexpr int kMostFrames = 64;
   struct Frame {
     int vector;
     int outer_level;
     Cycle entered;
-    Frame(int v, int outer, Cycle at) : vector(v), outer_level(outer), entered(at) {}
   };
-  std::uint64_t younger_than(Cycle read, std::uint64_t flags) const;
-  void set_by_program(std::uint64_t flags, Cycle now);
+  void push(const Frame& frame) {
+    if (depth_ == kMostFrames) forget_outermost();
+    frames_[static_cast<std::size_t>(depth_++)] = frame;
+  }
+  __attribute__((noinline)) void forget_outermost();
+  __attribute__((noinline)) std::uint64_t younger_than(Cycle read, std::uint64_t flags) const;
+  __attribute__((noinline)) void set_by_program(std::uint64_t flags, Cycle now);
   void set_priority(int irq, int priority);
   __attribute__((noinline)) void check_cleared(int irq, Cycle entered, Cycle now);
 
   Diagnostics& diagnostics_;
   std::array<FlagListener*, kIrqs> listeners_{};
+  std::uint64_t heard_ = 0;  // bit i: IRQ i has one
   std::uint64_t ifs_ = 0, iec_ = 0;
   std::array<std::uint64_t, 8> at_priority_{};  // bit i: IRQ i has this priority
   std::array<std::uint8_t, kIrqs> priority_{};
@@ -164,7 +150,8 @@ class Interrupts final : public SfrOwner {
   std::uint16_t intcon1_ = 0, intcon2_ = 0;
   std::uint16_t last_vector_ = 0, last_level_ = 0;
   int level_ = 0;
-  std::vector<Frame> stack_;
+  std::array<Frame, kMostFrames> frames_{};  // of handlers under way, the innermost last
+  int depth_ = 0;
   std::uint64_t cleared_ = 0;  // bit i: software cleared the flag of IRQ i since its handler began
   Cycle disi_until_ = 0;
   Cycle resumed_ = -1;     // first instruction after RETFIE
@@ -174,7 +161,8 @@ class Interrupts final : public SfrOwner {
 
   std::array<std::int64_t, kIrqs> missed_{};
   std::array<std::int64_t, kVectors> served_{};
-  std::array<int, kIrqs> uncleared_{};
+  // bit i: the last handler of IRQ i returned with its flag untouched; more than one in turn did
+  std::uint64_t uncleared_ = 0, uncleared_again_ = 0;
 };
 
 // --- acceptance, asked after everything that may change it ------------------------------------------------
@@ -195,6 +183,10 @@ inline int Interrupts::pending(Cycle now, int cpu_level) const {
   int lowest = cpu_level + 1;
   if (disi_active(now)) lowest = std::max(lowest, 7);
   if (now <= resumed_) lowest = std::max(lowest, resumed_level_ + 1);
+  if (!(ready & (ready - 1))) {  // one alone, as nearly always
+    const int i = __builtin_ctzll(ready);
+    return ready && priority(i) >= lowest ? kFirstIrqVector + i : kNoVector;
+  }
   for (int level = 7; level >= lowest; --level)
     if (const std::uint64_t here = ready & at_priority_[static_cast<std::size_t>(level)])
       return kFirstIrqVector + __builtin_ctzll(here);
@@ -235,10 +227,11 @@ __attribute__((always_inline)) inline void Interrupts::write_flags(int word, std
   if (const std::uint64_t set = wanted & ~ifs_) set_by_program(set, now);
   ifs_ = wanted;
   cleared_ |= cleared;
-  for (; cleared; cleared &= cleared - 1) {
-    const int i = __builtin_ctzll(cleared);
-    uncleared_[static_cast<std::size_t>(i)] = 0;
-    if (FlagListener* listener = listeners_[static_cast<std::size_t>(i)]) listener->flag_cleared(i, now);
+  uncleared_ &= ~cleared;
+  uncleared_again_ &= ~cleared;
+  for (std::uint64_t told = cleared & heard_; told; told &= told - 1) {
+    const int i = __builtin_ctzll(told);
+    listeners_[static_cast<std::size_t>(i)]->flag_cleared(i, now);
   }
 }
 
@@ -251,8 +244,7 @@ __attribute__((always_inline)) inline InterruptEntry Interrupts::enter(int vecto
     entry.level = nesting_disabled() ? 7 : priority(vector - kFirstIrqVector);
   entry.address = (uses_alternate_table() ? 0x84u : 0x04u) + 2 * static_cast<unsigned>(vector);
   entry.first_instruction = now + kInterruptEntryCycles;
-  if (stack_.size() == kMostFrames) stack_.erase(stack_.begin());  // a program that leaves handlers by jumps
-  stack_.emplace_back(vector, level_, now);
+  push({vector, level_, now});
   if (vector >= kFirstIrqVector) cleared_ &= ~(std::uint64_t{1} << (vector - kFirstIrqVector));
   level_ = entry.level;
   last_vector_ = static_cast<std::uint16_t>(vector);
@@ -262,14 +254,13 @@ __attribute__((always_inline)) inline InterruptEntry Interrupts::enter(int vecto
 }
 
 __attribute__((always_inline)) inline Cycle Interrupts::leave(Cycle now) {
-  if (stack_.empty()) return now + kInterruptReturnCycles;
-  const Frame& frame = stack_.back();
+  if (depth_ == 0) return now + kInterruptReturnCycles;
+  const Frame& frame = frames_[static_cast<std::size_t>(--depth_)];
   resumed_ = now + kInterruptReturnCycles;
   resumed_level_ = std::min(level_, 7);
   level_ = frame.outer_level;
   const int irq = frame.vector - kFirstIrqVector;
   if (irq >= 0 && !(cleared_ >> irq & 1)) check_cleared(irq, frame.entered, now);
-  stack_.pop_back();
   return now + kInterruptReturnCycles;
 }
 

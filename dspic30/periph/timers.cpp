@@ -257,19 +257,14 @@ void Timers::tell_changed(int timer, Cycle at) {
 
 void Timers::on_event(int id, Cycle at) {
   Unit& u = unit(id);
-  if (u.mode == Mode::Internal && !u.wanted && u.pending_flag == kNever) {
-    // a period is over, and the next one is an event once the program has lowered the flag
-    u.lazy = true;
-    u.lazy_since = at;
-    if (at == u.next && u.pr != 0) {  // as next_internal() has it
-      u.next += (Cycle{u.pr} + 1) << u.prescale_bits;
-      u.next_from = at;
-    } else {
-      next_internal(id, at);
-    }
-    return f_.interrupts.raise(flag_of(id), at);
-  }
-  irregular_event(id, at);
+  const int flag = flag_of(id);
+  if (u.mode != Mode::Internal || u.wanted || at != u.next || u.pr == 0 || f_.interrupts.flag(flag))
+    return irregular_event(id, at);
+  // a period as the one before, and the flag was lowered meanwhile
+  u.next += (Cycle{u.pr} + 1) << u.prescale_bits;
+  u.next_from = at;
+  f_.events.fill(u.slot, u.next);
+  f_.interrupts.raise(flag, at);
 }
 
 void Timers::irregular_event(int id, Cycle at) {
@@ -297,15 +292,7 @@ void Timers::flag_cleared(int irq, Cycle now) {
   int t = kTimerOfFlag[static_cast<std::size_t>(irq)];
   if (unit(t).slave) --t;
   if (flag_of(t) != irq) return;  // of the low half of a pair
-  Unit& u = unit(t);
-  if (u.lazy && u.mode == Mode::Internal && u.pending_flag == kNever && !u.wanted && now < u.next &&
-      u.lazy_since >= u.next_from) {
-    // the usual case: lowered within the period, so nothing was missed and the next match is known
-    u.lazy = false;
-    u.lazy_since = now;
-    return f_.events.fill(u.slot, u.next);
-  }
-  catch_up(t, now);
+  if (unit(t).lazy) catch_up(t, now);
 }
 
 void Timers::catch_up(int timer, Cycle now) {

@@ -88,9 +88,9 @@ void Uart::move_to_shift_register(Cycle at) {
 
 // --- in ---------------------------------------------------------------------------------------------------
 
-void Uart::receive(const UartFrame& frame) {
+void Uart::receive(const UartFrame& frame, Cycle now) {
   const bool looped = (mode_ & kLpback) && enabled();
-  if (!looped) enqueue(frame, f_.events.reached());
+  if (!looped) enqueue(frame, now);
 }
 
 void Uart::enqueue(UartFrame frame, Cycle now) {

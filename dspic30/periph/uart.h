@@ -25,7 +25,7 @@ class Uart final : public SfrOwner, public EventOwner {
   void attach();
   void reset(Cycle now);
   /// A word comes in; frame.start may lie in the future.
-  void receive(const UartFrame& frame);
+  void receive(const UartFrame& frame, Cycle now);
   std::int64_t overruns() const { return overruns_; }
   std::uint64_t state_hash() const;
 

@@ -48,9 +48,8 @@ bool BoardOutside::begin_window(dspic::Dspic30f6014a& chip, Cycle now) {
     std::uint8_t byte = 0;
     while (uart.take_from_wire(byte, frame.start)) {
       frame.word = byte;
-      frame.start = std::max(frame.start, now);
       frame.bit = uart.byte_cycles() / board::kUartBitsPerByte;
-      chip.uart_receive(n, frame);
+      chip.uart_receive(n, frame, now);
       news = true;
     }
   }

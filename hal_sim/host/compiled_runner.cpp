@@ -176,9 +176,7 @@ void CompiledRunner::run_until(Cycle end) {
 
 // --- time
 
-Cycle CompiledRunner::main_until(Cycle at) const {
-  if (at <= now_) return 0;
-  if (stolen_q32_ == 0) return at - now_;
+Cycle CompiledRunner::main_beside_handlers(Cycle at) const {
   // by the reciprocal, rounded down: never too many, at most one too few
   const auto left = static_cast<std::uint64_t>(at - now_);
   auto main = static_cast<Cycle>(static_cast<unsigned __int128>(left) * kept_q32_ >> kQ);

@@ -266,7 +266,11 @@ class CompiledRunner final : public Runner, public Context {
   Cycle now_and_tell();
   void modify_in_two(unsigned address, std::uint16_t keep, std::uint16_t flip);
   void overspend(Cycle cycles);
-  Cycle main_until(Cycle at) const;  // most program cycles that end at or before `at`
+  Cycle main_until(Cycle at) const {  // most program cycles that end at or before `at`
+    if (at <= now_) return 0;
+    return stolen_q32_ == 0 ? at - now_ : main_beside_handlers(at);
+  }
+  Cycle main_beside_handlers(Cycle at) const;
   void give_budget() {
     if (now_ >= interrupt_horizon_ || observer_ || overflowed_) return give_budget_anew();
     issued_ = main_until(std::min(end_, interrupt_horizon_));

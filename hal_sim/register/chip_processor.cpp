@@ -154,22 +154,19 @@ __attribute__((always_inline)) inline host::Processor::Outlook ChipProcessor::ou
 
 __attribute__((always_inline)) inline host::Processor::Return ChipProcessor::left(Cycle now) {
   const Cycle next = parts_->interrupts.leave(at(now));
-  return {next, parts_->interrupt_horizon(next)};
+  return {next, parts_->interrupt_horizon()};
 }
 
 bool ChipProcessor::serve(Cycle now) {
   const Cycle t = at(now);
   dspic::ChipParts& p = *parts_;
-  p.events.run_to(t);
-  const int irq = p.interrupts.sole_pending(t);
-  if (irq < 0 || p.is_reset_due()) return false;
-  const bool alternate = p.interrupts.uses_alternate_table();
-  void (*handler)() = runner_.handler_of(irq, alternate);
+  p.events.run_due(t);
+  const int vector = p.interrupts.pending(t, p.interrupts.level());
+  if (vector < dspic::kFirstIrqVector || p.is_reset_due()) return false;
+  void (*handler)() =
+      runner_.handler_of(vector - dspic::kFirstIrqVector, p.interrupts.uses_alternate_table());
   if (!handler) return false;
-  watched_reads_ = 0;  // whatever waits looks again afterwards
-  const Cycle first = p.interrupts.enter_sole(irq, t);
-  const Cycle end = runner_.run_handler(
-      handler, {nullptr, first, p.events.next() <= first ? 0 : p.notice_horizon(), kSavingCycles, alternate});
+  const Cycle end = runner_.run_handler(handler, enter_at(vector, t));
   runner_.handler_returned(left(end));
   return true;
 }
@@ -184,7 +181,7 @@ host::Processor::Outlook ChipProcessor::take(Cycle now, Entry& entry) {
 __attribute__((always_inline)) inline host::Processor::Entry ChipProcessor::enter_at(int number, Cycle t) {
   watched_reads_ = 0;  // whatever waits looks again afterwards
   const Cycle first = parts_->interrupts.enter(number, t).first_instruction;
-  return {nullptr, first, parts_->interrupt_horizon(first, number), kSavingCycles,
+  return {nullptr, first, parts_->interrupt_horizon(number), kSavingCycles,
           parts_->interrupts.uses_alternate_table()};
 }
 

@@ -36,7 +36,7 @@ TEST(Bus, peek_changes_nothing) {
   f.start = 1000;
   b.write("U1MODE", 0x8000, 0);
   b.write("U1BRG", 7, 0);
-  b.chip.uart_receive(1, f);
+  b.chip.uart_receive(1, f, f.start);
   b.write("T2CON", 0x8008, 0);
   const std::uint64_t before = b.chip.state_hash(50000);
   for (unsigned a = 0; a < dspic::kSfrBytes; a += 2) b.chip.peek(a, 50000);

@@ -53,7 +53,7 @@ std::uint64_t wander(std::uint32_t seed, int peeks) {
         dspic::UartFrame f;
         f.word = static_cast<std::uint16_t>(value & 0xFF);
         f.start = now + draw(500);
-        b.chip.uart_receive(1 + static_cast<int>(draw(2)), f);
+        b.chip.uart_receive(1 + static_cast<int>(draw(2)), f, f.start);
         break;
       }
       default:

@@ -76,7 +76,7 @@ Cycle rxif_after_start() {
   b.write("U1MODE", 0x8000, 0);
   UartFrame f;
   f.start = 1001;
-  b.chip.uart_receive(1, f);
+  b.chip.uart_receive(1, f, f.start);
   return b.flag_rises(irq::U1Rx, 1) - f.start;
 }
 

@@ -22,7 +22,7 @@ struct Uart : ::testing::Test {
     UartFrame f;
     f.word = word;
     f.start = start;
-    b.chip.uart_receive(1, f);
+    b.chip.uart_receive(1, f, f.start);
   }
 };
 
@@ -121,7 +121,7 @@ TEST_F(Uart, receive_interrupt_waits_for_three_or_four_words) {
     for (int i = 0; i < 4; ++i) {
       UartFrame f;
       f.start = 1001 + 1280 * i;
-      fresh.chip.uart_receive(2, f);
+      fresh.chip.uart_receive(2, f, f.start);
     }
     EXPECT_EQ(fresh.flag_rises(irq::U2Rx, 1), 1001 + 1216 + (words - 1) * 1280);
   }
@@ -160,12 +160,12 @@ TEST_F(Uart, parity_is_sent_and_checked) {
   good.word = 0x07;
   good.parity = dspic::Parity::Even;
   good.start = 1001;
-  b.chip.uart_receive(1, good);
+  b.chip.uart_receive(1, good, good.start);
   EXPECT_EQ(b.read("U1STA", 3000) & 0x9, 0x1u);
   b.read("U1RXREG", 3000);
   good.parity = dspic::Parity::Odd;
   good.start = 4001;
-  b.chip.uart_receive(1, good);
+  b.chip.uart_receive(1, good, good.start);
   EXPECT_EQ(b.read("U1STA", 6000) & 0x9, 0x9u);
   b.read("U1RXREG", 6000);
   EXPECT_EQ(b.read("U1STA", 6001) & 0x8, 0u);  // belongs to the word
@@ -188,12 +188,12 @@ TEST_F(Uart, both_of_two_stop_bits_must_be_high) {
   f.word = 0x100;
   f.parity = dspic::Parity::Even;
   f.start = 1001;
-  b.chip.uart_receive(1, f);
+  b.chip.uart_receive(1, f, f.start);
   EXPECT_EQ(b.read("U1STA", 3000) & 0x5, 0x1u);
   b.read("U1RXREG", 3000);
   f.parity = dspic::Parity::Odd;
   f.start = 5001;
-  b.chip.uart_receive(1, f);
+  b.chip.uart_receive(1, f, f.start);
   EXPECT_EQ(b.read("U1STA", 8000) & 0x5, 0x5u);
 }
 
@@ -203,10 +203,10 @@ TEST_F(Uart, address_detection_drops_data_words) {
   f.data_bits = 9;
   f.word = 0x055;
   f.start = 1001;
-  b.chip.uart_receive(1, f);
+  b.chip.uart_receive(1, f, f.start);
   f.word = 0x1AA;
   f.start = 3001;
-  b.chip.uart_receive(1, f);
+  b.chip.uart_receive(1, f, f.start);
   b.chip.run_to(6000);
   EXPECT_EQ(b.read("U1RXREG", 6000), 0x1AAu);
   EXPECT_EQ(b.read("U1STA", 6001) & 1, 0u);
@@ -224,7 +224,7 @@ TEST_F(Uart, break_is_received_as_zero_with_a_frame_error) {
   UartFrame f;
   f.broken = true;
   f.start = 1001;
-  b.chip.uart_receive(1, f);
+  b.chip.uart_receive(1, f, f.start);
   EXPECT_EQ(b.read("U1STA", 3000) & 0x5, 0x5u);
   EXPECT_EQ(b.read("U1RXREG", 3000), 0u);
 }
@@ -246,7 +246,7 @@ TEST_F(Uart, wrong_rate_is_received_wrongly_and_named) {
   f.word = 0x00;
   f.bit = 256;
   f.start = 1001;
-  b.chip.uart_receive(1, f);
+  b.chip.uart_receive(1, f, f.start);
   b.chip.run_to(6000);
   EXPECT_EQ(b.notes.count(dspic::Cause::UartFrameError), 1);
   EXPECT_EQ(b.read("U1STA", 6000) & 0x4, 0x4u);
@@ -259,7 +259,7 @@ TEST_F(Uart, small_rate_error_is_tolerated) {
   f.word = 0xA5;
   f.bit = 123;
   f.start = 1001;
-  b.chip.uart_receive(1, f);
+  b.chip.uart_receive(1, f, f.start);
   EXPECT_EQ(b.read("U1RXREG", 3000), 0xA5u);
   EXPECT_EQ(b.notes.count(dspic::Cause::UartFrameError), 0);
 }
