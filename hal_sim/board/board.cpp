@@ -343,7 +343,7 @@ IrConversion Board::ir_conversion(int sensor, Cycle at, Cycle lit_for) const {
   IrConversion c;
   if (scene_) {
     const sim::Clicks when = clock_.click_at(at);
-    c.irradiance_w_m2 = sim::sense_irradiance_w_m2(*scene_, setup_.robot, sensor, when);
+    if (is_lit_) c.irradiance_w_m2 = sim::sense_irradiance_w_m2(*scene_, setup_.robot, sensor, when);
     if (lit_for >= 0) {
       const sim::ProximityResponse seen = sim::sense_proximity(*scene_, setup_.robot, sensor, when);
       c.reflection_counts = seen.value * setup_.ir_gain[i];

@@ -132,6 +132,7 @@ class Board {
   /// The frozen scene that sensors see until the next call; null: a dark void. Called before each run window.
   void look_at(const sim::Scene* scene) {
     scene_ = scene;
+    is_lit_ = scene && sim::has_light(*scene);
     if (!watches_inputs_) find_sound();
   }
   const sim::Scene* scene() const { return scene_; }
@@ -241,7 +242,7 @@ class Board {
   /// `lit_for` cycles (negative: off). Noise of this and of the other inputs: noise.h.
   int ir_counts(int sensor, Cycle at, Cycle lit_for) const;
   /// Is every dark sample at the converter's top: no light, no noise?
-  bool is_dark() const { return setup_.ambient_noise_counts == 0 && !is_lit(); }
+  bool is_dark() const { return setup_.ambient_noise_counts == 0 && !is_lit_; }
   /// Counts of microphone 0 right, 1 left, 2 back that is held at `at`: 0 to 4095. Linear, all frequencies
   /// alike.
   int mic_counts(int microphone, Cycle at) const;
@@ -282,8 +283,6 @@ class Board {
 
  private:
   static int port_index(char port);
-  /// Do lamps shine, or ambient light?
-  bool is_lit() const { return scene_ && sim::has_light(*scene_); }
   /// Counts of a microphone without noise.
   double mic_level(int microphone, Cycle at) const;
   void find_sound();
@@ -324,6 +323,7 @@ class Board {
   RobotClock clock_;
   RemoteReceiver remote_{clock_};
   const sim::Scene* scene_ = nullptr;
+  bool is_lit_ = false;  // do lamps shine in it, or ambient light?
 
   std::array<std::uint16_t, kPorts> lat_{};  // of D the high byte only: the low one is the coils
   std::array<std::uint16_t, kPorts> tris_{};

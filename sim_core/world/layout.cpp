@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "sim_core/base/check.h"
 
@@ -37,17 +38,20 @@ class Builder {
 
   void fixed(Solid solid, const Pose2& pose, double z_m, const Surface& surface, std::string name, int object,
              int line) {
-    out_.solids.push_back(std::move(solid));
-    out_.fixed.push_back({&out_.solids.back(), Frame2(pose), z_m});
+    out_.fixed.push_back({&keep(std::move(solid)), Frame2(pose), z_m});
     out_.fixed_surface.push_back(surface);
     out_.fixed_name.push_back(std::move(name));
     out_.fixed_object.push_back(object);
     out_.fixed_line.push_back(line);
   }
 
-  void moving(Solid solid, const Pose2& pose, double z_m, const Surface& surface, std::string name) {
+  const Solid& keep(Solid solid) {
     out_.solids.push_back(std::move(solid));
-    out_.moving.push_back({&out_.solids.back(), Frame2(pose), z_m});
+    return out_.solids.back();
+  }
+
+  void moving(const Solid& kept, const Pose2& pose, double z_m, const Surface& surface, std::string name) {
+    out_.moving.push_back({&kept, Frame2(pose), z_m});
     out_.moving_pose.push_back(pose);
     out_.moving_surface.push_back(surface);
     out_.moving_name.push_back(std::move(name));
@@ -176,16 +180,20 @@ Layout build_layout(const WorldDesc& world) {
   out.ground = Ground(ramps, world.floor.tilt_x_rad, world.floor.tilt_y_rad);
   for (std::size_t i = 0; i < ramps.size(); ++i) add_kerbs(world.ramps[i], i, out.ground, build);
 
+  std::map<const RobotModel*, const Solid*> bodies;  // robots of one model share theirs
   for (const RobotDesc& r : world.robots) {
     const RobotModel* model = world.model_of(r);
     CHECK(model, "every robot has a model");
+    const Solid*& body = bodies[model];
+    if (!body)
+      body = &build.keep(Solid::cylinder(model->body_radius_m, model->body_z0_m, model->body_height_m));
     Surface surface;
     surface.colour = r.colour ? *r.colour : model->colour;
     surface.ir_reflectance = model->ir_reflectance < 0 ? surface.colour.r : model->ir_reflectance;
     surface.roughness = model->roughness;
     surface.friction = model->side_friction;
-    build.moving(Solid::cylinder(model->body_radius_m, model->body_z0_m, model->body_height_m), r.pose,
-                 robot_footing(out.ground, *model, r.pose).height_m, surface, "robot '" + r.name + "'");
+    build.moving(*body, r.pose, robot_footing(out.ground, *model, r.pose).height_m, surface,
+                 "robot '" + r.name + "'");
   }
   for (std::size_t i = 0; i < world.objects.size(); ++i) {
     const ObjectDesc& o = world.objects[i];
@@ -197,7 +205,7 @@ Layout build_layout(const WorldDesc& world) {
       // what stands on a ramp starts there; what was written higher falls, or lies down where nothing is high
       const double ground_m = out.ground.height_m({pose.x_m, pose.y_m});
       const double z = world.engine == Engine::Planar ? ground_m : std::max(o.z_m, ground_m);
-      build.moving(std::move(solid), pose, z, surface_of(o.material), std::move(name));
+      build.moving(build.keep(std::move(solid)), pose, z, surface_of(o.material), std::move(name));
       out.loose_object.push_back(static_cast<int>(i));
     } else {
       build.fixed(std::move(solid), pose, o.z_m, surface_of(o.material), std::move(name), static_cast<int>(i),

@@ -309,8 +309,8 @@ TEST(IrCircuit, more_light_gives_lower_counts_and_the_ends_clamp) {
   setup.ir_offset_counts[2] = 7;
   DrivenBoard robot(setup);
   EXPECT_EQ(robot.ir_counts(0, 0, -1), 4095);  // darkness without a world
-  robot.look_at(&scene);
   scene.irradiance_w_m2 = 1.0;
+  robot.look_at(&scene);
   EXPECT_EQ(robot.ir_counts(0, 0, -1), 4095 - 400);
   scene.irradiance_w_m2 = 100;
   EXPECT_EQ(robot.ir_counts(0, 0, -1), 0);
