@@ -71,10 +71,10 @@ class DynamicMotion final : public Motion, b2ContactFilter {
     leaving_.swap(solved_);
     solved_.clear();
     for (int robot : near_) {
-      if (near(robot) == Near::Fixed && !is_sloping()) {
-        meet_fixed(robot, neighbours);
-      } else {
+      if (near(robot) == Near::Meets || is_sloping()) {
         solved_.push_back(robot);
+      } else {
+        meet_fixed(robot, neighbours);
       }
     }
     for (int robot : leaving_) {
@@ -89,7 +89,8 @@ class DynamicMotion final : public Motion, b2ContactFilter {
     // Box2D notices a meeting only once bodies overlap, by up to a tick's way, and separates them softly;
     // twice round settles a robot in a corner, and walls have the last word
     for (int round = 0; round < 2; ++round) {
-      for (int robot : solved_) push_out(robot, neighbours);
+      for (int robot : near_)
+        if (near(robot) >= Near::Bodies || is_sloping()) push_out(robot, neighbours);
     }
   }
 

@@ -52,6 +52,7 @@ void Motion::meet_fixed(int robot, const Neighbours& neighbours) {
   }
 
   const Wanted want = wanted(robot);
+  if (count == 0) return drive_freely(robot, want);
   const Drive& d = drives_[static_cast<std::size_t>(robot)];
   const Limits& limits = is_standing(want) ? d.standing : d.driving;
   const double turn_per_rub = me.bound_m * body.mass_kg / body.inertia_kg_m2;  // rad/s for 1 m/s

@@ -192,10 +192,12 @@ void Motion::look_around(int robot, const Neighbours& neighbours) {
       std::min(fixed - me.bound_m - kSolverMarginM, 0.5 * (moving - me.bound_m - kSolverMarginM - most));
   free_until_[static_cast<std::size_t>(robot)] =
       begin_ + (room_m > 0 ? from_seconds(std::min(1.0, room_m / pace_m_s_)) : 0);
-  nearness_[static_cast<std::size_t>(robot)] =
-      free_until_[static_cast<std::size_t>(robot)] >= end_ ? Near::Nothing
-      : moving - me.bound_m < kSolverMarginM + 3 * most    ? Near::Bodies
-                                                           : Near::Fixed;
+  const double gap_m = moving - me.bound_m;
+  nearness_[static_cast<std::size_t>(robot)] = free_until_[static_cast<std::size_t>(robot)] >= end_
+                                                   ? Near::Nothing
+                                               : gap_m < kMeetingM                 ? Near::Meets
+                                               : gap_m < kSolverMarginM + 3 * most ? Near::Bodies
+                                                                                   : Near::Fixed;
 }
 
 Placed Motion::placed(int body) const {

@@ -173,7 +173,7 @@ class Motion {
   /// robots.
   void push_out(int robot, const Neighbours& neighbours);
   /// What a robot may meet in the tick.
-  enum class Near : char { Nothing, Fixed, Bodies };
+  enum class Near : char { Nothing, Fixed, Bodies, Meets };  // Meets: touches one that moves
   Near near(int robot) const { return nearness_[static_cast<std::size_t>(robot)]; }
 
   MotionDesc desc_;

@@ -33,10 +33,10 @@ TEST_P(Golden, run_repeats_to_the_last_bit) {
 INSTANTIATE_TEST_SUITE_P(
     Of, Golden,
     ::testing::Combine(::testing::Values(Pinned{"maze", "worlds/maze.toml", 20, "08abdf305792fb90"},
-                                         Pinned{"swarm", "worlds/swarm.toml", 5, "9c2b94b77fb96466"},
+                                         Pinned{"swarm", "worlds/swarm.toml", 5, "a7dc06a34a009e79"},
                                          Pinned{"push", "worlds/push.toml", 10, "cbd10e5401a166e7"},
                                          Pinned{"braitenberg_10", "bench/worlds/brait_10.toml", 5,
-                                                "ed452ce34b1a6e0c"}),
+                                                "b918a28d001d0dff"}),
                        ::testing::Values(1, 3)),
     [](const auto& info) {
       return std::string(std::get<0>(info.param).name) + "_threads_" +

@@ -115,6 +115,30 @@ TEST(Motion, a_braked_robot_resists_the_push_of_another) {
   EXPECT_EQ(s->touches(1).longest_wall_touch_s, 0);
 }
 
+TEST(Motion, a_robot_passes_another_by_a_hair_as_if_alone_and_is_turned_aside_by_one_in_its_way) {
+  const auto run = [](double beside_m, sim::Pose2& other) {
+    const auto world =
+        world_of("twinpuck = 1\n[[robot]]\n[[robot]]\nposition = [0.15, " + std::to_string(beside_m) + "]\n");
+    auto s = simulation_of(
+        world, [](int r) { return std::make_unique<Cruise>(r ? 0 : kHalfTurn, r ? 0 : kHalfTurn); });
+    run_for(*s, 5);
+    other = s->pose(1);
+    return std::make_pair(s->pose(0), s->touches(0).collisions);
+  };
+  sim::Pose2 other;
+  const auto alone = run(1, other);
+  // radii 37 mm: rims pass 0.3 mm apart, then 1 mm too near
+  const auto [passing, none] = run(0.0743, other);
+  EXPECT_EQ(none, 0);
+  EXPECT_NEAR(passing.x_m, alone.first.x_m, 1e-9);
+  EXPECT_EQ(passing.y_m, alone.first.y_m);
+  EXPECT_EQ(other.x_m, 0.15);
+  const auto [turned, one] = run(0.073, other);
+  EXPECT_EQ(one, 1);
+  EXPECT_LT(turned.y_m, -0.0001);
+  EXPECT_GT(other.x_m, 0.1501);
+}
+
 TEST(Motion, slip_and_wheel_noise_change_the_way) {
   auto slipping = cruising(world_of("twinpuck = 1\n[[robot]]\nslip = 0.25\n"), kHalfTurn, kHalfTurn);
   run_for(*slipping, 10);
