@@ -38,6 +38,7 @@ class Events {
   }
 
   void set(int slot, Cycle at) {
+    if (at > kLatest) at = kNever;
     const Cycle before = when(slot);
     if (before == at) return;
     if (before < kNever) remove(slot);
@@ -85,6 +86,7 @@ class Events {
   using Known = std::int64_t;
   static constexpr int kSlotBits = 6;
   static constexpr Known kNone = INT64_MAX;
+  static constexpr Cycle kLatest = (kNone >> kSlotBits) - 1;  // 310 years
   static_assert(1 << kSlotBits == kMostSlots);
   static int slot_of(Known known) { return static_cast<int>(known & (kMostSlots - 1)); }
   static Cycle instant_of(Known known) { return known == kNone ? kNever : known >> kSlotBits; }

@@ -35,8 +35,8 @@ std::int64_t to_ppb(double ppm) { return static_cast<std::int64_t>(std::llround(
 }  // namespace
 
 Board::Board(const Setup& setup)
-    : setup_(setup),
-      clock_(to_ppb(setup.clock_ppm), sim::from_seconds(setup.boot_delay_s)),
+    : clock_(to_ppb(setup.clock_ppm), sim::from_seconds(setup.boot_delay_s)),
+      setup_(setup),
       battery_(setup.battery_wh, setup.battery_v, kProcessorA + kBluetoothA + kBoardA),
       noise_(setup.seed, setup.robot),
       mic_noise_per_face_(

@@ -197,6 +197,8 @@ class Board {
   /// The motor itself, for a PinDriver.
   Stepper& own_motor(Wheel wheel) { return motors_[static_cast<std::size_t>(wheel)]; }
 
+  /// Has publish_sound() anything to tell?
+  bool has_sound_news() const { return is_any_used_ && codec_.has_news(); }
   Codec& codec() { return codec_; }
   const Codec& codec() const { return codec_; }
   /// The motor of a wheel, brought to `at`.
@@ -319,11 +321,18 @@ class Board {
   /// Latch of a port of which only emitter lines change.
   void write_emitters(std::size_t port, std::uint16_t value, Cycle at);
 
-  Setup setup_;
-  RobotClock clock_;
-  RemoteReceiver remote_{clock_};
+  // what every run looks at, together
   const sim::Scene* scene_ = nullptr;
-  bool is_lit_ = false;  // do lamps shine in it, or ambient light?
+  PinDriver* driver_ = nullptr;
+  RobotClock clock_;
+  bool is_lit_ = false;       // do lamps shine in the scene, or ambient light?
+  bool is_any_used_ = false;  // of the devices below and the parts; until then nobody looks at them
+  bool watches_inputs_ = true;
+  bool may_hear_ =
+      true;  // false: nothing sounds in the scene, found out once a tick for the models of the chip
+
+  Setup setup_;
+  RemoteReceiver remote_{clock_};
 
   std::array<std::uint16_t, kPorts> lat_{};  // of D the high byte only: the low one is the coils
   std::array<std::uint16_t, kPorts> tris_{};
@@ -345,14 +354,9 @@ class Board {
     const void* about;
   };
   std::vector<Misuse> misuses_;
-  bool watches_inputs_ = true;
-  bool may_hear_ =
-      true;  // false: nothing sounds in the scene, found out once a tick for the models of the chip
   double other_a_ = kProcessorA + kBluetoothA + kBoardA, coils_a_[2] = {0, 0},
          emitters_a_ = 0;  // as followed last
 
-  PinDriver* driver_ = nullptr;
-  bool is_any_used_ = false;  // of the devices below and the parts; until then nobody looks at them
   Stepper motors_[2] = {Stepper(-1), Stepper(+1)};
   Codec codec_;
   std::array<Uart, 2> uarts_;

@@ -341,9 +341,7 @@ class CompiledRunner final : public Runner, public Context {
 
   Cycle end_ = 0;  // of the window
   Cycle window_start_ = 0;
-  std::int64_t asked_wait_ = -1;   // loop that was looked at last for that
-  board::Diagnosis endless_wait_;  // the first one of this power-up; without a cause: none
-  bool resting_ = false;           // in a loop that is empty on purpose
+  bool resting_ = false;  // in a loop that is empty on purpose
   bool stopped_ = false;
   bool reset_asked_ = false;
   bool woken_ = false;
@@ -369,6 +367,8 @@ class CompiledRunner final : public Runner, public Context {
 
   Observer* observer_ = nullptr;
   std::uint32_t rand_state_ = 1;
+  std::int64_t asked_wait_ = -1;   // loop that was looked at last for an endless wait
+  board::Diagnosis endless_wait_;  // the first one of this power-up; without a cause: none
   std::vector<TrapReport> traps_;
   std::string last_words_;
 };

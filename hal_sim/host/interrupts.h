@@ -17,7 +17,8 @@
 
 namespace host {
 
-struct InterruptSource {
+/// One line of the PC's cache each: most programs use two or three.
+struct alignas(64) InterruptSource {
   Cycle due = kNever;    ///< cycle at which the flag rises next
   Cycle period = 0;      ///< > 0: after rising, due moves on by this many cycles
   bool flag = false;     ///< IFS bit
@@ -72,12 +73,12 @@ class InterruptController {
 
  private:
   static constexpr Cycle kUnknown = -1;
-  std::array<InterruptSource, TP_VECTORS> sources_;
-  std::uint64_t used_ = 0;  // bit v: somebody has touched vector v; most programs use two or three
-  std::function<Cycle(Cycle)> next_int0_edge_;
+  std::uint64_t used_ = 0;     // bit v: somebody has touched vector v
   Cycle next_due_ = kUnknown;  // over enabled sources
   Cycle next_raise_ = 0;       // over all sources
   std::uint64_t ready_ = 0;    // bit v: flag and enable of vector v are both set
+  std::function<Cycle(Cycle)> next_int0_edge_;
+  std::array<InterruptSource, TP_VECTORS> sources_;
 };
 
 }  // namespace host

@@ -20,7 +20,7 @@ class FirmwareMind final : public sim::RobotMind {
   sim::MindReport report() const override;
   int proximity_counts(const sim::Scene& scene, int index) override;
   std::uint64_t state_hash() const override { return hash_; }
-  bool has_sound_news() const override { return board_.codec().has_news(); }
+  bool has_sound_news() const override { return board_.has_sound_news(); }
   void publish_sound(sim::SoundField& field, int, sim::Clicks now) override {
     board_.publish_sound(field, now);
   }
@@ -63,12 +63,13 @@ class FirmwareMind final : public sim::RobotMind {
   sim::Clicks find_idle_until();
   sim::WheelCourse course_at(sim::Clicks at) const;
 
-  board::Board board_;
-  std::unique_ptr<Runner> runner_;
+  // what every run looks at lies together, and the board's own head follows
   Cycle now_ = 0;  // the last end of run_until()
   Cycle board_horizon_ = 0;
-  sim::WheelCourse course_;
   std::uint64_t hash_ = 0, turns_ = 0;  // of the robot, when they were made
+  sim::WheelCourse course_;
+  board::Board board_;
+  std::unique_ptr<Runner> runner_;  // uses the board to its end
 };
 
 }  // namespace host
