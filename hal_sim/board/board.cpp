@@ -285,7 +285,6 @@ void Board::processor_reset(Cycle at) {
   }
   codec_.reset(at);
   for (Uart& uart : uarts_) uart.reset(at);
-  if (camera_) camera_->processor_reset();
   i2c_.processor_reset(at);
   for (std::size_t i = 0; i < kPorts; ++i) note_pulses(i, 0, tris_[i], at);
   lat_.fill(0);

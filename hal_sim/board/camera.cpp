@@ -56,12 +56,10 @@ Cycle Camera::frame_cycles() const {
   return Cycle{std::max(s.frame_lines, integration + kIntegrationMargin)} * s.line_cycles();
 }
 
-Cycle Camera::launch(const Request& request, Cycle at) {
+Cycle Camera::await_frame(Cycle at) {
   refresh(at);
-  request_ = request;
-  ++launches_;
+  ++awaited_;
   first_use.note();
-  row_ = 0;
   rendered_ = 0;
   picture_.clear();
   if (const sim::Scene* scene = board_.scene()) sim::watch_leds(*scene);
@@ -69,8 +67,9 @@ Cycle Camera::launch(const Request& request, Cycle at) {
   return frame_start_ + ((at - frame_start_) / frame + 1) * frame;
 }
 
-Cycle Camera::begin_frame(Cycle at) {
+void Camera::begin_frame(Cut cut, Cycle at) {
   refresh(at);
+  cut_ = std::move(cut);
   const Cycle frame = frame_cycles();
   const std::int64_t frames = (at - frame_start_) / frame;
   const Cycle vsync = frame_start_ + frames * frame;
@@ -88,34 +87,27 @@ Cycle Camera::begin_frame(Cycle at) {
   scale_[1] = seconds * kResponse * (taken_.auto_white ? 1.0 : taken_.green);
   scale_[2] = seconds * kResponse * (taken_.auto_white ? auto_blue_ : taken_.blue);
   plan_line();
-  row_ = 0;
   rendered_ = 0;
   picture_.clear();
-  next_line_ = vsync + Cycle{taken_.sub_sampling} * taken_.line_cycles();
-  return next_line_;
+  line_cycles_ = Cycle{taken_.sub_sampling} * taken_.line_cycles();
+  first_line_ = vsync + line_cycles_;
 }
 
-/// Which bytes of a line the driver's rhythm picks, and which pixels they need.
+/// Which pixels the cut's bytes need.
 void Camera::plan_line() {
   line_.clear();
   columns_.clear();
   const int bpp = taken_.bytes_per_pixel();
   const int first = taken_.first_x - taken_.sub_sampling;  // of the line as it comes out of the sensor
   int last_pixel = -1;
-  for (int column = 0; column < request_.columns; ++column) {
-    for (int part = 0; part < request_.bytes_per_pixel; ++part) {
-      const int turn = column * request_.bytes_per_pixel * (1 + request_.skipped_pixels) + part;
-      const int byte = request_.in_step ? turn
-                                        : static_cast<int>(2 * (kFirstByteCycles + kMaskCycles * turn) /
-                                                           std::max(1, taken_.byte_half_cycles));
-      const int pixel = byte / bpp;
-      if (pixel != last_pixel || columns_.empty()) {
-        columns_.push_back(first + (pixel + 0.5) * taken_.sub_sampling);
-        last_pixel = pixel;
-      }
-      line_.push_back({static_cast<std::uint16_t>(columns_.size() - 1), static_cast<std::uint8_t>(byte % bpp),
-                       (pixel & 1) != 0});
+  for (const int byte : cut_.bytes) {
+    const int pixel = byte / bpp;
+    if (pixel != last_pixel || columns_.empty()) {
+      columns_.push_back(first + (pixel + 0.5) * taken_.sub_sampling);
+      last_pixel = pixel;
     }
+    line_.push_back({static_cast<std::uint16_t>(columns_.size() - 1), static_cast<std::uint8_t>(byte % bpp),
+                     (pixel & 1) != 0});
   }
 }
 
@@ -139,7 +131,7 @@ std::array<double, 4> Camera::widest_edges() const {
 std::array<double, 4> Camera::edges() const {
   const auto [along, down] = scale();
   const double half = 0.5 * taken_.sub_sampling;
-  const double lines = (request_.rows - 1) * (1 + request_.skipped_lines) + 1;
+  const double lines = (cut_.rows - 1) * cut_.row_step + 1;
   const auto x = std::minmax({(columns_.front() - half - 0.5 * kArrayWidth) * along,
                               (columns_.back() + half - 0.5 * kArrayWidth) * along});
   const double top = (taken_.first_y - 0.5 * kArrayHeight) * down;
@@ -261,33 +253,30 @@ std::array<std::uint8_t, 3> Camera::develop(const sim::Light& light, std::uint64
 
 void Camera::render_rows(int first_row, Cycle at) {
   lines_.clear();
-  rendered_ = std::min(kRowsAtOnce, request_.rows - first_row);
+  rendered_ = std::min(kRowsAtOnce, cut_.rows - first_row);
   first_rendered_ = first_row;
   for (int row = first_row; row < first_row + rendered_; ++row)
-    lines_.push_back(taken_.first_y + (row * (1 + request_.skipped_lines) + 0.5) * taken_.sub_sampling);
+    lines_.push_back(taken_.first_y + (row * cut_.row_step + 0.5) * taken_.sub_sampling);
   render(columns_, lines_, at);
 }
 
-int Camera::take_line(std::uint8_t* to, int room, Cycle at) {
-  if (row_ >= request_.rows) return 0;
-  if (row_ >= first_rendered_ + rendered_ || rendered_ == 0) render_rows(row_, next_line_);
-  const std::size_t row = static_cast<std::size_t>(row_ - first_rendered_);
+void Camera::put_line(int number, std::uint8_t* to, Cycle at) {
+  if (number < first_rendered_ || number >= first_rendered_ + rendered_) render_rows(number, line_at(number));
+  const std::size_t row = static_cast<std::size_t>(number - first_rendered_);
   const std::size_t wide = columns_.size(), high = static_cast<std::size_t>(rendered_);
   const double y = lines_[row];
-  const int count = static_cast<int>(line_.size());
   std::array<std::uint8_t, 3> rgb{};
   int developed = -1;
-  for (int i = 0; i < count; ++i) {
-    const Byte& b = line_[static_cast<std::size_t>(i)];
+  for (const Byte& b : line_) {
     if (b.pixel != developed) {
       developed = b.pixel;
       const std::size_t p = static_cast<std::size_t>(b.pixel);
       const double x = columns_[p];
       // nothing comes out beyond the array
       const bool inside = x >= 0 && x < kArrayWidth && y >= 0 && y < kArrayHeight;
-      const std::uint64_t number =
-          (static_cast<std::uint64_t>(launches_) << 20) + static_cast<std::uint64_t>(row_) * 1024 + p;
-      rgb = inside ? develop(light_[transposed_ ? p * high + row : row * wide + p], number)
+      const std::uint64_t pixel =
+          (static_cast<std::uint64_t>(awaited_) << 20) + static_cast<std::uint64_t>(number) * 1024 + p;
+      rgb = inside ? develop(light_[transposed_ ? p * high + row : row * wide + p], pixel)
                    : std::array<std::uint8_t, 3>{};
     }
     std::uint8_t value = 0;
@@ -309,30 +298,13 @@ int Camera::take_line(std::uint8_t* to, int room, Cycle at) {
         }
         break;
     }
-    if (i < room) to[i] = value;
+    *to++ = value;
     hash_ = sim::fold(hash_, static_cast<std::uint64_t>(value));
     if (on_picture) picture_.push_back(value);
   }
-  ++row_;
-  next_line_ += Cycle{1 + request_.skipped_lines} * taken_.sub_sampling * taken_.line_cycles();
-  if (row_ == request_.rows) {
-    ++pictures_;
-    if (on_picture)
-      on_picture({taken_.format, request_.columns, request_.rows, pictures_, at, picture_, edges()});
-  }
-  return count;
-}
-
-void Camera::seek(int row) {
-  next_line_ += Cycle{row - row_} * (1 + request_.skipped_lines) * taken_.sub_sampling * taken_.line_cycles();
-  if (row < first_rendered_ || row > first_rendered_ + rendered_) rendered_ = 0;
-  row_ = row;
-}
-
-void Camera::processor_reset() {
-  row_ = request_.rows = 0;
-  rendered_ = 0;
-  picture_.clear();
+  if (number + 1 < cut_.rows) return;
+  ++pictures_;
+  if (on_picture) on_picture({taken_.format, cut_.columns, cut_.rows, pictures_, at, picture_, edges()});
 }
 
 void Camera::sensor_reset(Cycle at) {

@@ -5,8 +5,8 @@
 //   VSYNC, HREF (interrupts of timers 5 and 4) <- frames and lines of SensorSetup's clock
 //   world -> sim::render_camera -> exposure, gains, noise, gamma -> 8 bits -> RGB565, grey, YUV -> data pins
 //
-// Frames follow one another without end; none is computed before a driver takes a line. Lines are rendered at
-// the instant at which they begin, kRowsAtOnce of the driver's lines at a time. The automatics are a loop
+// Frames follow one another without end; none is computed before somebody takes a line. Lines are rendered at
+// the instant at which they begin, kRowsAtOnce of those that are taken at a time. The automatics are a loop
 // over frames, evaluated when a frame begins that is captured, for all the frames since the last one, with
 // what the camera sees now:
 //   exposure: times clamp(target / mean, 1/2, 2) per frame, target and mean as light, until within 6 %
@@ -41,7 +41,7 @@ struct CameraPicture {
   int columns, rows;
   std::int64_t number;              ///< of this robot's completed pictures, from 1
   Cycle at;                         ///< cycle of its last line
-  std::vector<std::uint8_t> bytes;  ///< what the driver stored
+  std::vector<std::uint8_t> bytes;  ///< what was taken
   /// Its edges as tangents of directions from the lens: left, right, low, high.
   std::array<double, 4> edges{};
 };
@@ -52,28 +52,32 @@ std::vector<std::uint8_t> decode_picture(const CameraPicture& picture);
 
 class Camera {
  public:
-  /// First launch().
+  /// First await_frame().
   FirstUse first_use;
 
   /// `board` outlives the camera. The sensor belongs to the board's I2C bus.
   Camera(Board& board, CameraSensor& sensor, CameraMount mount, double noise);
 
-  /// Which bytes of a frame a driver takes.
-  struct Request {
-    int rows = 0, columns = 0;
-    int bytes_per_pixel = 1;
-    int skipped_pixels = 0;  ///< between two that are taken
-    int skipped_lines = 0;   ///< between two that are taken
-    bool in_step = false;    ///< each byte has its own interrupt; false: one byte every kMaskCycles
+  /// What somebody takes of a frame as it comes over the data pins.
+  struct Cut {
+    std::vector<int> bytes;  ///< of a line, by their place in it, from 0, ascending
+    int columns = 0;         ///< pixels that these are
+    int rows = 0;            ///< lines, from the frame's first one
+    int row_step = 1;        ///< from one that is taken to the next
   };
-  /// A driver waits for the next frame. Replaces a request before it. Returns the cycle of VSYNC.
-  Cycle launch(const Request& request, Cycle at);
-  /// VSYNC has come: the frame is exposed as the sensor is set now. Returns the cycle of the first line.
-  Cycle begin_frame(Cycle at);
-  /// The next line's bytes: at most `room` are put to `to`; returns how many there are. `at`: its HREF.
-  int take_line(std::uint8_t* to, int room, Cycle at);
-  /// HREF of the line after the one taken last.
-  Cycle next_line() const { return next_line_; }
+  /// Somebody waits for a frame. Returns the cycle of the next VSYNC.
+  Cycle await_frame(Cycle at);
+  /// As the sensor is set at `at`.
+  const SensorSetup& setup_at(Cycle at) {
+    refresh(at);
+    return now_;
+  }
+  /// VSYNC has come: the frame is exposed as the sensor is set now, and this is taken of it.
+  void begin_frame(Cut cut, Cycle at);
+  /// HREF of a line of the cut, from 0.
+  Cycle line_at(int row) const { return first_line_ + row * cut_.row_step * line_cycles_; }
+  /// Puts that line's bytes to `to`; there must be such a line. `at`: when it was taken.
+  void put_line(int row, std::uint8_t* to, Cycle at);
 
   Cycle frame_cycles() const;
   /// A VSYNC from which frames are counted, as the sensor is set at `at`.
@@ -81,8 +85,6 @@ class Camera {
     refresh(at);
     return frame_start_;
   }
-  /// The next line taken is line `row` of the request, whatever came before.
-  void seek(int row);
   SensorSetup setup() const;
   double exposure_s() const { return exposure_s_; }
   CameraMount mount() const { return mount_; }
@@ -90,9 +92,8 @@ class Camera {
   /// As CameraPicture's, of all that the sensor could see.
   std::array<double, 4> widest_edges() const;
 
-  void processor_reset();
   void sensor_reset(Cycle at);
-  bool is_used() const { return launches_ > 0; }
+  bool is_used() const { return awaited_ > 0; }
   std::uint64_t state_hash() const { return hash_; }
 
   /// Told every completed picture on the thread that runs the robot.
@@ -125,11 +126,10 @@ class Camera {
   double exposure_s_;
   double auto_red_ = 1, auto_blue_ = 1;
 
-  Request request_;
-  SensorSetup taken_;     // of the frame being captured
-  double scale_[3] = {};  // light to share of full scale, per colour
-  int row_ = 0;
-  Cycle next_line_ = 0;
+  Cut cut_;
+  SensorSetup taken_;                       // of the frame being captured
+  double scale_[3] = {};                    // light to share of full scale, per colour
+  Cycle first_line_ = 0, line_cycles_ = 0;  // HREF of the cut's first line; from a line to the next
   std::vector<Byte> line_;
   std::vector<double> columns_;     // array x of the pixels that are taken
   std::vector<double> lines_;       // scratch: array y
@@ -141,7 +141,7 @@ class Camera {
   std::uint64_t curve_version_ = 0;
   std::vector<std::uint8_t> picture_;
   std::int64_t pictures_ = 0;
-  std::int64_t launches_ = 0;
+  std::int64_t awaited_ = 0;
   std::uint64_t hash_ = 0;
 };
 

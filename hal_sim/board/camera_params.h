@@ -31,12 +31,6 @@ inline constexpr int kPo8030FrameLines = 516;  // [lib: camera/fast_2_timer/e_po
 // longest integration of the two in automatic mode: the frame is stretched to twice its length
 inline constexpr int kLongestFrames = 2;  // [measured: documentation of epucklib, rate halves in the dark]
 
-inline constexpr Cycle kMaskCycles =
-    8;  // per byte of a line, taken or not [lib: camera/fast_2_timer/e_interrupt.s]
-// from HREF's rise to the first byte that the fast driver takes: 2 until timer 4 has counted it, 5 for the
-// interrupt's entry, 10 in the handler [lib: camera/fast_2_timer/e_interrupt.s, DS70143 5.4]
-inline constexpr Cycle kFirstByteCycles = 17;
-
 // --- light -------------------------------------------------------------------------------------------------
 // white under 1 W/m2, exposed for one second at gain 1, gives this share of full scale. An ordinary bright
 // scene then needs 0.25 s, where the authors' frame rates lie

@@ -2,6 +2,7 @@
 #include "hal_sim/chip/camera_pins.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "hal_sim/board/camera_params.h"
 
@@ -116,21 +117,19 @@ std::uint8_t CameraPins::data(Cycle at) {
   board::Camera& camera = *board_.camera();
   const Cycle start = f_.start + frame * f_.length;
   if (captured_ != start) {
-    const board::SensorSetup setup = camera.setup();
-    board::Camera::Request all;
+    board::Camera::Cut all;
     all.rows = static_cast<int>(f_.lines);
-    all.bytes_per_pixel = setup.bytes_per_pixel();
-    all.columns = static_cast<int>(f_.bytes) / all.bytes_per_pixel;
-    all.in_step = true;
-    camera.launch(all, at);
-    camera.begin_frame(at);
+    all.bytes.resize(static_cast<std::size_t>(f_.bytes));
+    std::iota(all.bytes.begin(), all.bytes.end(), 0);
+    all.columns = static_cast<int>(f_.bytes) / camera.setup().bytes_per_pixel();
+    camera.await_frame(at);
+    camera.begin_frame(std::move(all), at);
     captured_ = start;
     line_ = -1;
   }
   if (line != line_) {
     bytes_.resize(static_cast<std::size_t>(f_.bytes));
-    camera.seek(static_cast<int>(line));
-    camera.take_line(bytes_.data(), static_cast<int>(bytes_.size()), start + f_.first + line * f_.line);
+    camera.put_line(static_cast<int>(line), bytes_.data(), start + f_.first + line * f_.line);
     line_ = line;
   }
   const std::int64_t index = floor_div(2 * (phase - line * f_.line), f_.byte_half_cycles);

@@ -87,6 +87,13 @@ inline constexpr Cycle kBasicMotorIsrCycles =
     34;                                        // [estimated: shadow context, counter, phase, 4 bit writes]
 inline constexpr Cycle kTimer3IsrCycles = 40;  // [estimated: context, two counters, coil clearing]
 
+// --- camera
+inline constexpr Cycle kMaskCycles =
+    8;  // per byte of a line, taken or not [lib: camera/fast_2_timer/e_interrupt.s]
+// from HREF's rise to the first byte that the fast driver takes: 2 until timer 4 has counted it, 5 for the
+// interrupt's entry, 10 in the handler [lib: camera/fast_2_timer/e_interrupt.s, DS70143 5.4]
+inline constexpr Cycle kFirstByteCycles = 17;
+
 // --- I2C module
 inline constexpr int kI2cLibraryBrg = 150;   // I2CBRG [lib: I2C/e_I2C_master_module.c]
 inline constexpr Cycle kI2cEdgeCycles = 13;  // FCY / 1,111,111 Hz, the edges' share of a bit [DS70143 17.12]

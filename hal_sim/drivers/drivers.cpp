@@ -15,6 +15,7 @@ Drivers::Drivers(board::Board& board)
       basic_prox_(board),
       i2c_master_(board.i2c()),
       sound_(board.codec()),
+      camera_(board.camera()),
       uart_rings_{UartRing(board.uart(1)), UartRing(board.uart(2))} {
   board_.attach(this);
 }
@@ -100,6 +101,7 @@ void Drivers::processor_reset(Cycle at) {
   scan_.reset(at);
   basic_prox_.reset(at);
   i2c_master_.processor_reset(at);
+  camera_.reset();
   for (UartRing& ring : uart_rings_) ring.reset();
   requests = Requests{};
 }

@@ -14,6 +14,7 @@
 #include "hal_sim/drivers/adc_scan.h"
 #include "hal_sim/drivers/agenda_timer.h"
 #include "hal_sim/drivers/basic_prox.h"
+#include "hal_sim/drivers/camera_capture.h"
 #include "hal_sim/drivers/i2c_master.h"
 #include "hal_sim/drivers/sound_driver.h"
 #include "hal_sim/drivers/timer_motors.h"
@@ -37,6 +38,7 @@ class Drivers final : public board::PinDriver {
   BasicProx& basic_prox() { return basic_prox_; }
   I2cMaster& i2c_master() { return i2c_master_; }
   SoundDriver& sound() { return sound_; }
+  CameraCapture& camera() { return camera_; }
   UartRing& uart_ring(int number) { return uart_rings_[number == 2 ? 1 : 0]; }
 
   /// What the handlers of the scan and of the agenda tick take of each cycle, as a fraction of 2^32.
@@ -82,6 +84,7 @@ class Drivers final : public board::PinDriver {
   BasicProx basic_prox_;
   I2cMaster i2c_master_;
   SoundDriver sound_;
+  CameraCapture camera_;
   std::array<UartRing, 2> uart_rings_;
   mutable Stepper seen_{+1};  // what motor_at() shows of a timer's train
 };

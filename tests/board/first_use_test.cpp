@@ -45,7 +45,7 @@ TEST(FirstUse, each_device_is_looked_at_from_then_on) {
   EXPECT_TRUE(sound.of_hash && sound.of_horizon);
   const Change word = after([](Board& b) { b.codec().line().word(1, 100); });
   EXPECT_TRUE(word.of_hash && word.of_horizon);
-  const Change picture = after([](Board& b) { b.camera()->launch({}, 0); });
+  const Change picture = after([](Board& b) { b.camera()->await_frame(0); });
   EXPECT_TRUE(picture.of_hash && picture.of_horizon);
   const Change cell = after([](Board& b) { b.eeprom().write(0xF000, 0x1234); });
   EXPECT_TRUE(cell.of_hash);
