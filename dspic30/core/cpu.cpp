@@ -489,6 +489,7 @@ void Cpu::modify_elsewhere(unsigned ea, unsigned keep, unsigned flip, unsigned b
   const unsigned lanes = bits == 8 ? 0xFFu << shift : 0xFFFF;
   const auto kept = static_cast<std::uint16_t>(keep << shift | ~lanes),
              flipped = static_cast<std::uint16_t>(flip << shift & lanes);
+  if (are_flags && flipped == 0 && parts.lower_flags(word, kept, t)) return;
   deadline = std::min(deadline, are_flags ? parts.modify_flags(word, kept, flipped, t)
                                           : parts.modify_latch(word, kept, flipped, t));
 }

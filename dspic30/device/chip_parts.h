@@ -124,6 +124,13 @@ struct ChipParts {
   Cycle modify_latch(unsigned address, std::uint16_t keep, std::uint16_t flip, Cycle now);
   /// Can modify_flags() do it?
   bool are_flags(unsigned address, Cycle now) const { return is_flags(address) && events.next() > now; }
+  /// modify_flags() that flips none, where nothing else comes of it: no event moves, nothing can be served
+  /// sooner. False: nothing has happened.
+  __attribute__((always_inline)) bool lower_flags(unsigned address, std::uint16_t keep, Cycle now) {
+    if (!bus.was_written(address) || !interrupts.lower_flags(flag_word(address), keep, now)) return false;
+    bus.count_write();
+    return true;
+  }
   __attribute__((always_inline)) Cycle modify_flags(unsigned address, std::uint16_t keep, std::uint16_t flip,
                                                     Cycle now) {
     const int word = flag_word(address);

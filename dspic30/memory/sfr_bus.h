@@ -73,6 +73,9 @@ class SfrBus {
     if (!slot.is_written) note_written(slot);
     return value & slot.implemented;
   }
+  /// accept_plain() of a word that was written before, and whose bits are in order already.
+  bool was_written(unsigned address) const { return slots_[address / 2].is_written; }
+  void count_write() { ++writes_; }
   Store accept(unsigned address, std::uint16_t value, unsigned bits, Cycle now) {
     ++writes_;
     if (address >= kSfrBytes) return {nullptr, 0, 0};

@@ -38,7 +38,12 @@ class Interrupts final : public SfrOwner {
   void reset(Cycle now);
   void listen(int irq, FlagListener& listener) {
     listeners_[static_cast<std::size_t>(irq)] = &listener;
-    heard_ |= std::uint64_t{1} << irq;
+    hear(irq, true);
+  }
+  /// Does it want to hear of it now? From listen() on it does.
+  void hear(int irq, bool wants) {
+    const std::uint64_t bit = std::uint64_t{1} << irq;
+    heard_ = wants ? heard_ | bit : heard_ & ~bit;
   }
 
   // --- for peripherals
@@ -109,6 +114,16 @@ class Interrupts final : public SfrOwner {
     flags_read_[static_cast<std::size_t>(word)] = now;
     return static_cast<std::uint16_t>(ifs_ >> 16 * word);
   }
+  /// read_flags() and write_flags() of the same without the bits that `keep` has not, where all that this
+  /// does is lower flags of which nobody hears. False: it would do more, and nothing has happened.
+  bool lower_flags(int word, std::uint16_t keep, Cycle now) {
+    const auto lowered = static_cast<std::uint64_t>(static_cast<std::uint16_t>(~keep)) << 16 * word & ifs_;
+    if ((lowered & heard_) || newest_ > now) return false;
+    flags_read_[static_cast<std::size_t>(word)] = now;
+    ifs_ &= ~lowered;
+    note_lowered(lowered);
+    return true;
+  }
   /// `value` holds bits that exist.
   void write_flags(int word, std::uint16_t value, std::uint16_t lanes, Cycle now);
 
@@ -136,11 +151,16 @@ class Interrupts final : public SfrOwner {
   __attribute__((noinline)) std::uint64_t younger_than(Cycle read, std::uint64_t flags) const;
   __attribute__((noinline)) void set_by_program(std::uint64_t flags, Cycle now);
   void set_priority(int irq, int priority);
+  void note_lowered(std::uint64_t flags) {
+    cleared_ |= flags;
+    uncleared_ &= ~flags;
+    uncleared_again_ &= ~flags;
+  }
   __attribute__((noinline)) void check_cleared(int irq, Cycle entered, Cycle now);
 
   Diagnostics& diagnostics_;
   std::array<FlagListener*, kIrqs> listeners_{};
-  std::uint64_t heard_ = 0;  // bit i: IRQ i has one
+  std::uint64_t heard_ = 0;  // bit i: IRQ i has one that wants to hear
   std::uint64_t ifs_ = 0, iec_ = 0;
   std::array<std::uint64_t, 8> at_priority_{};  // bit i: IRQ i has this priority
   std::array<std::uint8_t, kIrqs> priority_{};
@@ -183,9 +203,10 @@ inline int Interrupts::pending(Cycle now, int cpu_level) const {
   int lowest = cpu_level + 1;
   if (disi_active(now)) lowest = std::max(lowest, 7);
   if (now <= resumed_) lowest = std::max(lowest, resumed_level_ + 1);
-  if (!(ready & (ready - 1))) {  // one alone, as nearly always
+  if (!(ready & (ready - 1))) {  // one alone at most, as nearly always
+    if (!ready) return kNoVector;
     const int i = __builtin_ctzll(ready);
-    return ready && priority(i) >= lowest ? kFirstIrqVector + i : kNoVector;
+    return priority(i) >= lowest ? kFirstIrqVector + i : kNoVector;
   }
   for (int level = 7; level >= lowest; --level)
     if (const std::uint64_t here = ready & at_priority_[static_cast<std::size_t>(level)])
@@ -226,9 +247,7 @@ __attribute__((always_inline)) inline void Interrupts::write_flags(int word, std
   }
   if (const std::uint64_t set = wanted & ~ifs_) set_by_program(set, now);
   ifs_ = wanted;
-  cleared_ |= cleared;
-  uncleared_ &= ~cleared;
-  uncleared_again_ &= ~cleared;
+  note_lowered(cleared);
   for (std::uint64_t told = cleared & heard_; told; told &= told - 1) {
     const int i = __builtin_ctzll(told);
     listeners_[static_cast<std::size_t>(i)]->flag_cleared(i, now);

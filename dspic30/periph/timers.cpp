@@ -235,6 +235,7 @@ void Timers::schedule(int timer, Cycle now) {
   } else {
     at = u.mode == Mode::Internal ? next_internal(timer, now) : next_flag(timer, now);
   }
+  f_.interrupts.hear(flag_of(timer), u.lazy);
   f_.events.set(u.slot, at);
 }
 

@@ -51,8 +51,8 @@ class Processor {
   /// By the running program, at its CompiledRunner::now(). Byte address, 8 or 16 bits; 0 to 0xFFFF.
   virtual std::int64_t read(unsigned address, unsigned bits) = 0;
   virtual void write(unsigned address, std::uint16_t value, unsigned bits, Cycle now) = 0;
-  /// By the running program: a word becomes (what is read & keep) ^ flip, both halves of an instruction that
-  /// changes a register.
+  /// By the running program, which nobody observes: a word becomes (what is read & keep) ^ flip, both halves
+  /// of an instruction that changes a register.
   virtual void modify(unsigned address, std::uint16_t keep, std::uint16_t flip) = 0;
   /// TBLRDL and TBLWTL at a 24-bit program address: data EEPROM.
   virtual std::uint16_t table_read(unsigned program_address, Cycle now) = 0;

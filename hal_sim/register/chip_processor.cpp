@@ -97,10 +97,12 @@ void ChipProcessor::write(unsigned address, std::uint16_t value, unsigned bits, 
 }
 
 void ChipProcessor::modify(unsigned address, std::uint16_t keep, std::uint16_t flip) {
-  const Cycle t = at(runner_.now());
-  if (watched_reads_ > 0 || !parts_->are_flags(address, t)) return modify_other(address, keep, flip, t);
+  const Cycle t = at(runner_.now_in_code());
+  if (watched_reads_ > 0 || flip != 0 || !parts_->are_flags(address, t) ||
+      !parts_->lower_flags(address, keep, t))
+    return modify_other(address, keep, flip, t);
   runner_.lower_horizon(t);
-  wrote(parts_->modify_flags(address, keep, flip, t));
+  runner_.note_write();
 }
 
 void ChipProcessor::modify_other(unsigned address, std::uint16_t keep, std::uint16_t flip, Cycle t) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Interrupt controller: acceptance, latency, priorities, nesting, DISI, traps.
+#include "dspic30/device/chip_parts.h"
 #include "tests/dspic30/bench.h"
 
 namespace {
@@ -205,6 +206,43 @@ TEST_F(Interrupts, hard_trap_during_a_hard_trap_asks_for_a_reset) {
   b.chip.reset(*b.chip.reset_due(9), 9);
   EXPECT_EQ(b.read("RCON", 10) & 0x8000, 0x8000u);
   EXPECT_FALSE(b.chip.reset_due(10).has_value());
+}
+
+// timers of short periods, lowered now and then: some matches find their flag set
+TEST(LowerFlags, is_reading_and_writing_the_flags_in_one) {
+  bench::Bench plain, quick;
+  for (bench::Bench* b : {&plain, &quick}) {
+    b->write("IEC0", 0x0048, 0);  // T1, T2
+    b->write("IFS0", 0, 0);
+    b->write("PR1", 39, 1);
+    b->write("PR2", 56, 1);
+    b->write("T1CON", 0x8000, 2);
+    b->write("T2CON", 0x8000, 2);
+  }
+  constexpr unsigned kIfs0 = dspic::sfr("IFS0");
+  std::uint32_t state = 1;
+  int taken = 0;
+  Cycle now = 10;
+  for (int i = 0; i < 2000; ++i) {
+    state = state * 1664525 + 1013904223;
+    now += 1 + (state >> 24) % 60;
+    const auto keep = static_cast<std::uint16_t>(~(state >> 20 & 1 ? 0x0008u : 0x0040u));
+    plain.chip.write(kIfs0, plain.chip.read(kIfs0, 16, now) & keep, 16, now);
+    dspic::ChipParts& parts = quick.chip.parts();
+    parts.events.run_to(now);
+    if (parts.lower_flags(kIfs0, keep, now))
+      ++taken;
+    else
+      quick.chip.write(kIfs0, quick.chip.read(kIfs0, 16, now) & keep, 16, now);
+    ASSERT_EQ(plain.chip.peek(kIfs0, now), quick.chip.peek(kIfs0, now)) << i;
+    ASSERT_EQ(plain.chip.next_event(now), quick.chip.next_event(now)) << i;
+  }
+  for (int irq : {irq::T1, irq::T2}) {
+    EXPECT_GT(plain.chip.missed_interrupts(vector(irq)), 100);
+    EXPECT_EQ(plain.chip.missed_interrupts(vector(irq)), quick.chip.missed_interrupts(vector(irq)));
+  }
+  EXPECT_GT(taken, 1000);
+  EXPECT_LT(taken, 2000);  // a timer that has been missed hears of it
 }
 
 TEST_F(Interrupts, handler_that_never_clears_its_flag_is_named) {
