@@ -52,8 +52,8 @@ void AdcScan::settle(Cycle at) {
   for (int sensor = 0; sensor < kRingSensors; ++sensor) {
     const auto i = static_cast<std::size_t>(sensor);
     const std::int64_t count = full_interrupts(at);
-    keep(sensors_[i].dark, sensor, newest(count, kScanDarkSlot, 1, pair_of_sensor(sensor)), false);
-    keep(sensors_[i].lit, sensor, newest(count, kScanLitSlot, 0, pair_of_sensor(sensor)), true);
+    keep(dark_[i], sensor, newest(count, kScanDarkSlot, 1, pair_of_sensor(sensor)), false);
+    keep(lit_[i], sensor, newest(count, kScanLitSlot, 0, pair_of_sensor(sensor)), true);
   }
   fill_acc(acc_samples_of(full_interrupts(at)));
   const std::int64_t passed = frames(at);
@@ -63,8 +63,9 @@ void AdcScan::settle(Cycle at) {
       runs_.erase(runs_.begin());
   }
   run_ = {run_.first + passed, full_interrupts(at), at + kScanStartCycles, run_.micro_only};
-  for (Sensor& sensor : sensors_)
-    for (Sample* s : {&sensor.dark, &sensor.lit}) s->until = 0, s->is_regular = false;
+  for (Samples* samples : {&dark_, &lit_})
+    for (Sample& s : *samples) s.until = 0, s.is_regular = false;
+  regular_dark_ = 0;
 }
 
 void AdcScan::start(bool micro_only, bool five_pairs, Cycle at) {
@@ -112,7 +113,9 @@ void AdcScan::reset(Cycle at) {
   period_base_ = 0;
   pair_base_ = 0;
   run_ = Run{};
-  sensors_.fill(Sensor{});
+  dark_.fill(Sample{});
+  lit_.fill(Sample{});
+  regular_dark_ = 0;
 }
 
 int AdcScan::pair_of_lit(std::int64_t period) const {
@@ -188,31 +191,35 @@ int AdcScan::read(Sample& kept, int sensor, Cycle at, bool lit_sample) {
 }
 
 int AdcScan::dark(int sensor, Cycle at) {
-  return read(sensors_[static_cast<std::size_t>(sensor)].dark, sensor, at, false);
+  Sample& kept = dark_[static_cast<std::size_t>(sensor)];
+  const int counts = read(kept, sensor, at, false);
+  const auto bit = static_cast<std::uint16_t>(1 << sensor);
+  regular_dark_ = static_cast<std::uint16_t>(kept.is_regular ? regular_dark_ | bit : regular_dark_ & ~bit);
+  return counts;
 }
 
 int AdcScan::lit(int sensor, Cycle at) {
-  return read(sensors_[static_cast<std::size_t>(sensor)].lit, sensor, at, true);
+  return read(lit_[static_cast<std::size_t>(sensor)], sensor, at, true);
 }
 
 AdcScan::Pair AdcScan::pair(int sensor, Cycle at) {
-  const Sensor& kept = sensors_[static_cast<std::size_t>(sensor)];
   const int lit = this->lit(sensor, at);
+  const Cycle until = lit_[static_cast<std::size_t>(sensor)].until;
   // in darkness, once there is a dark sample, the others are the same
-  if (kept.dark.is_regular && held_since_ < 0 && sensor < kRingSensors && board_.is_dark())
-    return {kAdcMax, lit, kept.lit.until};
+  if ((regular_dark_ >> sensor & 1) && held_since_ < 0 && sensor < kRingSensors && board_.is_dark())
+    return {kAdcMax, lit, until};
   const int dark = this->dark(sensor, at);
-  return {dark, lit, std::min(kept.lit.until, kept.dark.until)};
+  return {dark, lit, std::min(until, dark_[static_cast<std::size_t>(sensor)].until)};
 }
 
 int AdcScan::peek_dark(int sensor, Cycle at) const {
-  const Sample& kept = sensors_[static_cast<std::size_t>(sensor)].dark;
+  const Sample& kept = dark_[static_cast<std::size_t>(sensor)];
   const std::int64_t number = dark_number(sensor, at);
   return number < 0 || number == kept.number ? kept.counts : evaluate(sensor, number, false);
 }
 
 int AdcScan::peek_lit(int sensor, Cycle at) const {
-  const Sample& kept = sensors_[static_cast<std::size_t>(sensor)].lit;
+  const Sample& kept = lit_[static_cast<std::size_t>(sensor)];
   const std::int64_t number = lit_number(sensor, at);
   return number < 0 || number == kept.number ? kept.counts : evaluate(sensor, number, true);
 }

@@ -124,9 +124,7 @@ class AdcScan {
   };
   // a program reads all sensors one after the other: the less memory they take, the fewer waits for it
   static_assert(sizeof(Sample) == 16);
-  struct Sensor {
-    Sample dark, lit;
-  };
+  using Samples = std::array<Sample, 10>;
 
   /// A run of frames without a break.
   struct Run {
@@ -166,20 +164,22 @@ class AdcScan {
   void settle(Cycle at);
   void fill_acc(std::int64_t count);
 
+  Samples lit_{};
   const Board& board_;
   bool on_ = false;
-  int starts_ = 0;
+  bool acc_used_ = false;
+  std::uint16_t regular_dark_ = 0;  // bit i: dark_[i].is_regular
   int pairs_ = 4;
-  Run run_;                // the present one
   Cycle held_since_ = -1;  // -1: not held
+  Run run_;                // the present one
+  Samples dark_{};         // in darkness nobody looks at them
+  int starts_ = 0;
   std::int64_t lost_ = 0;
   Cycle first_lost_ = 0;
   std::int64_t period_base_ = 0;  // from this period on ...
   int pair_base_ = 0;             // ... pairs count from here
   std::vector<Run> runs_;         // those over that the last 100 microphone samples come from
-  std::array<Sensor, 10> sensors_{};
   AccRing acc_{};
-  bool acc_used_ = false;
   std::int64_t acc_kept_ = 0;  // samples in acc_
 };
 

@@ -23,7 +23,8 @@ CompiledRunner::CompiledRunner(CompiledSettings settings, std::shared_ptr<Image>
       image_(std::move(image)),
       copy_(image_->copy(copy)),
       control_(copy_.control()),
-      fiber_(settings_.stack_bytes) {
+      fiber_(settings_.stack_bytes),
+      unused_memory_(static_cast<char>(0x81 | (settings_.seed * 0x9E3779B97F4A7C15u >> 57))) {
   if (settings_.processor) {
     processor_ = settings_.processor(*this);
   } else {
@@ -69,7 +70,7 @@ void CompiledRunner::restart_program() {
   if (observer_) observer_->ended(now_);
   data_ = copy_.start_values();
   // RAM that the start-up code does not clear holds anything, and the same each time
-  std::fill_n(data_.data() + copy_.heap_offset(), copy_.heap_bytes(), unused_memory());
+  std::fill_n(data_.data() + copy_.heap_offset(), copy_.heap_bytes(), unused_memory_);
   if (copy_.owner == this) copy_.owner = nullptr;
   std::fill(background_.begin(), background_.end(), Background{});
   background_share_q32_ = 0;
@@ -165,7 +166,7 @@ void CompiledRunner::run_until(Cycle end) {
     swap_in();
     // what other robots of the copy wrote is no change that this one's loops could see
     control_.writes = writes_;
-    control_.fill = unused_memory();
+    control_.fill = unused_memory_;
     fiber_.enter();
     writes_ = control_.writes;
   } while (reset_asked_);

@@ -230,10 +230,6 @@ class CompiledRunner final : public Runner, public Context {
   static constexpr std::uint64_t kOne = std::uint64_t{1} << kQ;
 
   static void enter_firmware(void* self);
-  /// What memory holds before somebody writes it: a byte made from the seed, never 0.
-  char unused_memory() const {
-    return static_cast<char>(0x81 | (settings_.seed * 0x9E3779B97F4A7C15u >> 57));
-  }
   void power_up();
   void restart_program();
   void program_eeprom();
@@ -325,6 +321,8 @@ class CompiledRunner final : public Runner, public Context {
   std::unique_ptr<Processor> processor_;
   NativeProcessor* native_ = nullptr;  // processor_, or null in the register way
   std::vector<char> data_;             // private data while another robot of the copy is live
+
+  const char unused_memory_;  // what memory holds before somebody writes it: from the seed, never 0
 
   Cycle now_ = 0;                 // real cycles, up to the last fold
   Cycle issued_ = 0;              // budget given at that moment
