@@ -28,6 +28,8 @@ class Uart final : public SfrOwner, public EventOwner {
   void receive(const UartFrame& frame, Cycle now);
   std::int64_t overruns() const { return overruns_; }
   std::uint64_t state_hash() const;
+  bool enabled() const { return (mode_ & 0x8000) != 0; }
+  std::uint16_t brg() const { return brg_; }
 
   std::uint16_t read(unsigned address, Cycle now) override;
   void write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycle now) override;
@@ -56,7 +58,6 @@ class Uart final : public SfrOwner, public EventOwner {
   };
   enum : int { Transmit, Receive };
 
-  bool enabled() const { return (mode_ & 0x8000) != 0; }
   bool transmits() const { return enabled() && (sta_ & 0x0400); }
   Cycle sixteenth() const { return Cycle{brg_} + 1; }
   Cycle bit() const { return 16 * sixteenth(); }

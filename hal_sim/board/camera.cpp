@@ -70,6 +70,7 @@ Cycle Camera::await_frame(Cycle at) {
 void Camera::begin_frame(Cut cut, Cycle at) {
   refresh(at);
   cut_ = std::move(cut);
+  ++exposed_;
   const Cycle frame = frame_cycles();
   const std::int64_t frames = (at - frame_start_) / frame;
   const Cycle vsync = frame_start_ + frames * frame;
@@ -310,6 +311,7 @@ void Camera::put_line(int number, std::uint8_t* to, Cycle at) {
 void Camera::sensor_reset(Cycle at) {
   sensor_.reset(at);
   exposure_s_ = kStartExposureS;
+  ++exposed_;
   auto_red_ = auto_blue_ = 1;
   if (const sim::Scene* scene = board_.scene()) sim::watch_leds(*scene);
 }

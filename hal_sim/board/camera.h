@@ -79,6 +79,8 @@ class Camera {
   /// Puts that line's bytes to `to`; there must be such a line. `at`: when it was taken.
   void put_line(int row, std::uint8_t* to, Cycle at);
 
+  /// Grows whenever frames may have got another beginning or length.
+  std::uint64_t timing() const { return sensor_.version() + exposed_; }
   Cycle frame_cycles() const;
   /// A VSYNC from which frames are counted, as the sensor is set at `at`.
   Cycle frame_origin(Cycle at) {
@@ -142,6 +144,7 @@ class Camera {
   std::vector<std::uint8_t> picture_;
   std::int64_t pictures_ = 0;
   std::int64_t awaited_ = 0;
+  std::uint64_t exposed_ = 0;  // frames, and resets of the exposure
   std::uint64_t hash_ = 0;
 };
 

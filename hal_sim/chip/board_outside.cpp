@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "dspic30/device/chip_parts.h"
 #include "dspic30/memory/sfr_table.h"
 #include "hal_sim/board/accelerometer.h"
 
@@ -26,8 +27,6 @@ constexpr std::uint16_t kSelector = mask(board::kG, board::kSelectorPins),
 constexpr std::uint16_t kCameraClocks =
     mask(board::kC, board::kCameraHrefPin, board::kCameraVsyncPin, board::kCameraClockPin);
 
-constexpr unsigned kUartMode[2] = {sfr("U1MODE"), sfr("U2MODE")}, kUartBrg[2] = {sfr("U1BRG"), sfr("U2BRG")};
-constexpr std::uint16_t kUartEnabled = 0x8000;
 constexpr unsigned kDciCon3 = sfr("DCICON3");
 constexpr double kCodecRateTolerance = 0.01;
 
@@ -62,9 +61,10 @@ bool BoardOutside::begin_window(dspic::Dspic30f6014a& chip, Cycle now) {
 }
 
 void BoardOutside::end_window(dspic::Dspic30f6014a& chip, Cycle now) {
-  for (int n = 1; n <= 2; ++n)
-    board_.uart(n).follow_chip((chip.peek(kUartMode[n - 1], now) & kUartEnabled) != 0,
-                               chip.peek(kUartBrg[n - 1], now));
+  for (int n = 1; n <= 2; ++n) {
+    const dspic::Uart& own = chip.parts().uarts[static_cast<std::size_t>(n - 1)];
+    board_.uart(n).follow_chip(own.enabled(), own.brg());
+  }
   if (board_.codec().line().take_activity()) follow_codec(chip, now);
 }
 

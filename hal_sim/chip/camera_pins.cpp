@@ -18,9 +18,10 @@ std::int64_t ceil_div(std::int64_t a, std::int64_t b) { return -floor_div(-a, b)
 bool CameraPins::refresh(Cycle at) {
   board::Camera* camera = board_.camera();
   if (!camera) return false;
+  if (camera->timing() == timing_) return true;
+  timing_ = camera->timing();
   const Cycle origin = camera->frame_origin(at);
   const Cycle length = camera->frame_cycles();
-  if (origin == f_.start && length == f_.length && f_.lines > 0) return true;
   const board::SensorSetup setup = camera->setup();
   f_.start = origin;
   f_.length = length;

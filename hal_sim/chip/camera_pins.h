@@ -57,7 +57,7 @@ class CameraPins {
 
   board::Board& board_;
   Frames f_;
-  std::uint64_t version_ = 0;
+  std::uint64_t timing_ = UINT64_MAX;  // Camera::timing() that f_ is of
   Cycle told_start_ = -1, told_length_ = -1;
   Cycle captured_ = -1;  // start of the frame that the camera was asked for
   std::int64_t line_ = -1;
