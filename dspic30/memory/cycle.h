@@ -13,7 +13,8 @@ namespace dspic {
 
 using Cycle = std::int64_t;
 
-/// An instant that never comes. Sums of it and a few periods do not overflow.
-inline constexpr Cycle kNever = INT64_MAX / 4;
+/// An instant that never comes, in 155 years. Sums of it and a few periods do not overflow, nor does the
+/// 64fold.
+inline constexpr Cycle kNever = INT64_MAX >> 7;
 
 }  // namespace dspic

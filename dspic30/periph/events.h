@@ -38,16 +38,12 @@ class Events {
   }
 
   void set(int slot, Cycle at) {
-    if (at > kLatest) at = kNever;
+    at = std::min(at, kNever);
     const Cycle before = when(slot);
     if (before == at) return;
     if (before < kNever) remove(slot);
     when_[static_cast<std::size_t>(slot)] = at;
     if (at < kNever) insert(slot, at);
-    if (at < before)
-      note_nearer(slot, at);
-    else
-      note_gone(slot);
   }
   Cycle when(int slot) const { return when_[static_cast<std::size_t>(slot)]; }
   Cycle next() const { return next_; }
@@ -63,7 +59,6 @@ class Events {
   void fill(int slot, Cycle at) {
     when_[static_cast<std::size_t>(slot)] = at;
     insert(slot, at);
-    note_nearer(slot, at);
   }
   /// Null: nobody.
   void watch(EventWatch* watch) { watch_ = watch; }
@@ -71,13 +66,16 @@ class Events {
   /// after a slot that may set one of these flags.
   Cycle notice_horizon(std::uint64_t irqs) {
     if (irqs != noticed_irqs_) find_noticed(irqs);
-    if (notice_ == kUnknown) find_notice();
-    return notice_;
+    Cycle horizon = kNever;
+    for (const Known* i = soonest(); instant_of(*i) < horizon; --i)
+      if (const std::size_t slot = slot_of(*i); noticed_ >> slot & 1)
+        horizon = std::min(horizon, instant_of(*i) + delay(slot));
+    return horizon;
   }
   /// Earliest instant of a slot that may set one of these flags.
   Cycle next_for(std::uint64_t irqs) const {
     const Known* i = soonest();
-    while (*i < kNone && !(slots_[static_cast<std::size_t>(slot_of(*i))].irqs & irqs)) --i;
+    while (*i < kNone && !(slots_[slot_of(*i)].irqs & irqs)) --i;
     return instant_of(*i);
   }
 
@@ -85,56 +83,42 @@ class Events {
   // an instant and its slot in one number, ordered as they are served
   using Known = std::int64_t;
   static constexpr int kSlotBits = 6;
-  static constexpr Known kNone = INT64_MAX;
-  static constexpr Cycle kLatest = (kNone >> kSlotBits) - 1;  // 310 years
+  static constexpr Known kNone = kNever << kSlotBits;
   static_assert(1 << kSlotBits == kMostSlots);
-  static int slot_of(Known known) { return static_cast<int>(known & (kMostSlots - 1)); }
-  static Cycle instant_of(Known known) { return known == kNone ? kNever : known >> kSlotBits; }
+  static std::size_t slot_of(Known known) { return static_cast<std::size_t>(known & (kMostSlots - 1)); }
+  static Cycle instant_of(Known known) { return known >> kSlotBits; }
 
-  Cycle delay(int slot) const { return static_cast<Cycle>(~outward_ >> slot & 1); }
-  bool is_noticed(int slot) const { return (noticed_ >> slot & 1) != 0; }
-  void note_nearer(int slot, Cycle at) {
-    if (is_noticed(slot)) notice_ = std::min(notice_, at + delay(slot));
-  }
-  void note_gone(int slot) {
-    if (is_noticed(slot)) notice_ = kUnknown;
-  }
+  Cycle delay(std::size_t slot) const { return static_cast<Cycle>(~outward_ >> slot & 1); }
   __attribute__((noinline)) void find_noticed(std::uint64_t irqs) {
     noticed_irqs_ = irqs;
     noticed_ = outward_;
     for (int s = 0; s < count_; ++s)
       if (slots_[static_cast<std::size_t>(s)].irqs & irqs) noticed_ |= std::uint64_t{1} << s;
-    notice_ = kUnknown;
-  }
-  void find_notice() {
-    notice_ = kNever;
-    for (const Known* i = soonest(); instant_of(*i) < notice_; --i) note_nearer(slot_of(*i), instant_of(*i));
   }
   void insert(int slot, Cycle at) {
     const Known known = at << kSlotBits | slot;
-    Known* place = &queue_[static_cast<std::size_t>(++queued_)];
+    Known* place = &queue_[++queued_];
     for (; place[-1] < known; --place) place[0] = place[-1];
     *place = known;
     next_ = std::min(next_, at);
   }
   void remove(int slot) {
     const Known* const last = soonest();
-    Known* place = &queue_[static_cast<std::size_t>(queued_)];
-    while (slot_of(*place) != slot) --place;
+    Known* place = &queue_[queued_];
+    while (slot_of(*place) != static_cast<std::size_t>(slot)) --place;
     for (; place != last; ++place) place[0] = place[1];
     --queued_;
     next_ = instant_of(*soonest());
   }
-  const Known* soonest() const { return &queue_[static_cast<std::size_t>(queued_)]; }
+  const Known* soonest() const { return &queue_[queued_]; }
   __attribute__((always_inline)) void serve_first() {
     const Cycle at = next_;
-    const int first = slot_of(*soonest());
+    const std::size_t first = slot_of(*soonest());
     if (watch_) watch_->about_to_change(at);
     --queued_;
     next_ = instant_of(*soonest());
-    when_[static_cast<std::size_t>(first)] = kNever;
-    note_gone(first);
-    const Slot& slot = slots_[static_cast<std::size_t>(first)];
+    when_[first] = kNever;
+    const Slot& slot = slots_[first];
     slot.owner->on_event(slot.id, at);
   }
   __attribute__((noinline)) void serve_to(Cycle now) { run_due(now); }
@@ -148,13 +132,11 @@ class Events {
   std::array<Slot, kMostSlots> slots_{};
   int count_ = 0;
   std::array<Known, kMostSlots + 1> queue_{kNone};  // and what is known, the soonest last
-  int queued_ = 0;
+  std::size_t queued_ = 0;
   Cycle next_ = kNever;        // the last one's
   std::uint64_t outward_ = 0;  // slots that act outwards
-  // of notice_horizon(), for the flags of its last call; at the beginning for none
+  // slots that notice_horizon() looks for, and for which flags; at the beginning for none
   std::uint64_t noticed_ = 0, noticed_irqs_ = ~std::uint64_t{0};
-  static constexpr Cycle kUnknown = -1;  // below every instant, so that nothing that comes nearer is lost
-  Cycle notice_ = kUnknown;
   EventWatch* watch_ = nullptr;
 };
 

@@ -21,6 +21,7 @@
 namespace chip {
 
 using dspic::Cycle;
+static_assert(board::kNever == dspic::kNever, "horizons pass from one to the other");
 
 class BoardOutside final : public dspic::Outside {
  public:

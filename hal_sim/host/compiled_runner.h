@@ -115,6 +115,8 @@ class CompiledRunner final : public Runner, public Context {
   void poke_register(unsigned address, std::uint16_t value, bool is_in_code);
   /// How often the program has begun.
   std::int64_t starts() const { return starts_; }
+  /// Does an observer hear of every access, so that now() is to be asked for it?
+  bool is_observed() const { return observer_ != nullptr; }
 
   // --- Context
   Cycle now() override { return observer_ ? now_and_tell() : now_unobserved(); }
