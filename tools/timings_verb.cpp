@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// `twinpuck timings`: measures hal_sim/api/timings.h. One program makes every call once and reads Timer 4
+// `twinpuck timings`: measures hal_sim/api/timings.h. Programs make every call once and read a timer
 // before and after, in both ways: what the register way takes longer is missing in the table. Handlers are
-// the gaps in a loop that does nothing but read Timer 4.
+// the gaps in a loop that does nothing but read it.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -24,7 +25,7 @@ namespace fs = std::filesystem;
 namespace tools {
 namespace {
 
-constexpr double kMostS = 4;  // simulated; the program takes a quarter
+constexpr double kMostS = 4;  // simulated; a program takes a quarter
 
 struct Less {
   const char* name;  // a row before
@@ -32,9 +33,11 @@ struct Less {
 };
 
 /// A handler is measured by the mean of `count` gaps above `above` cycles, one of `every`, the first `skip`
-/// left out.
+/// left out. `runs_natively`: it is no share there, so that what it takes more in the register way is
+/// missing.
 struct Gaps {
   int count = 0, above = 40, every = 1, skip = 0;
+  bool runs_natively = false;
 };
 
 struct Row {
@@ -54,8 +57,16 @@ struct Timing {
   int cycles;  // measured: what the table should say
 };
 
+/// Drivers of which a program can have one variant each.
+struct Program {
+  const char* name;
+  const char* head;
+  std::vector<Row> rows;
+  const char* camera = nullptr;  // of the robot; null: its usual one
+};
+
 #define ROW(name) #name, T_##name
-const Row kRows[] = {
+const std::vector<Row> kUsualRows = {
     {"", 0, "", "sink = 1;", {}, "no call", 0},
     // the program's start: nothing runs, the list is empty
     {"", 0, "", "e_init_port();", {}, "e_init_port()"},
@@ -184,6 +195,76 @@ const Row kRows[] = {
      "motor above 600: coils on",
      4,
      {8, 120, 1, 0}},
+    // handlers that run in the native way, too
+    {ROW(UART_END),
+     "e_set_speed(0, 0); e_end_agendas_processing(); e_send_uart1_char(text, 5);",
+     "",
+     {},
+     "UART's transmit handler: nothing left",
+     2,
+     {1, 30, 1, 0, true}},
+    {ROW(UART_BURST), "e_send_uart1_char(text, 41);", "", {}, "four bytes", 3, {8, 30, 1, 0, true}},
+    {ROW(CAMERA_LAUNCH),
+     "while (e_uart1_sending()); e_poxxxx_init_cam(); "
+     "e_poxxxx_config_cam(240, 160, 160, 160, 4, 4, RGB_565_MODE); e_poxxxx_write_cam_registers();",
+     "e_poxxxx_launch_capture(text);",
+     {},
+     "e_poxxxx_launch_capture()",
+     4},
+    {ROW(CAMERA_FRAME), "", "", {}, "fast camera: a frame begins", 2, {1, 30, 1, 0, true}},
+    {ROW(CAMERA_LINE), "", "", {}, "a line, beside 8 cycles a byte", 2, {8, 30, 1, 0, true}},
+    {ROW(DCI_INIT),
+     "while (!e_poxxxx_is_img_ready()); AUDIO_ON = 1;",
+     "e_init_dci_master();",
+     {},
+     "e_init_dci_master()"},
+    {ROW(CODEC_INIT), "", "e_init_codec_slave();", {}, "e_init_codec_slave()", 100},
+    {ROW(DCI_IDLE), "", "", {}, "codec: four samples of silence", 2, {8, 30}},
+    {ROW(SOUND_KICKOFF),
+     "e_dci_unavailable = -1; e_stop_flag = 0;",
+     "e_sub_dci_kickoff(0, 2000);",
+     {},
+     "e_sub_dci_kickoff()",
+     4},
+    {ROW(DCI_BUSY), "", "", {}, "codec: four samples", 2, {8, 30, 1, 0, true}},
+};
+
+const std::vector<Row> kBasicRows = {
+    {ROW(INIT_AD), "e_init_port();", "e_init_ad();", {}, "e_init_ad()"},
+    {"", 0, "", "sink = e_read_ad(4);", {}, "e_read_ad()", 4},
+    {ROW(BASIC_STEP), "e_set_speed_left(500);", "", {}, "basic motors: a step of one wheel", 2, {8, 30}},
+    {ROW(BASIC_PROX),
+     "e_set_speed_left(0); e_init_prox();",
+     "",
+     {},
+     "basic proximity sensors: a pair",
+     4,
+     {8, 30}},
+};
+
+const std::vector<Row> kFastAgendaRows = {
+    {ROW(FAST_TIMER),
+     "e_configure_timer(0); e_activate_agenda(first, 10); e_start_timer_processing(0);",
+     "",
+     {},
+     "fast agenda: a timer's handler, beside its tasks",
+     2,
+     {8, 30, 1, 0, true}},
+};
+
+// a line's bytes: two that are taken, two that are skipped, and so on
+const std::vector<Row> kSlowCameraRows = {
+    {ROW(SLOW_LAUNCH),
+     "e_init_port(); e_po3030k_init_cam(); e_po3030k_config_cam(240, 160, 160, 160, 8, 8, RGB_565_MODE); "
+     "e_po3030k_write_cam_registers();",
+     "e_po3030k_launch_capture(image);",
+     {},
+     "e_po3030k_launch_capture(), slow camera",
+     4},
+    {ROW(SLOW_FRAME), "", "", {}, "a frame begins", 2, {1, 30}},
+    {ROW(SLOW_LINE), "", "", {}, "a line begins", 2, {1, 30}},
+    {ROW(SLOW_BYTE), "", "", {}, "a byte that is taken", 2, {8, 30, 4}},
+    {ROW(SLOW_SKIPPED), "", "", {}, "one that is skipped", 2, {8, 30, 4, 1}},
 };
 #undef ROW
 
@@ -197,82 +278,122 @@ const char* const kTableHead = R"(/* SPDX-License-Identifier: MIT
 
 )";
 
-const char* const kHead = R"(
-#include <I2C/e_I2C_master_module.h>
-#include <a_d/advance_ad_scan/e_ad_conv.h>
-#include <a_d/advance_ad_scan/e_acc.h>
-#include <a_d/advance_ad_scan/e_micro.h>
-#include <a_d/advance_ad_scan/e_prox.h>
-#include <motor_led/advance_one_timer/e_agenda.h>
-#include <motor_led/advance_one_timer/e_led.h>
-#include <motor_led/advance_one_timer/e_motors.h>
+const char* const kHarness = R"(
 #include <motor_led/e_epuck_ports.h>
-#include <motor_led/e_init_port.h>
-#include <uart/e_uart_char.h>
-#include <utility/utility.h>
+#ifndef WITH_TIMER
+#define WITH_TIMER 3
+#endif
+#define STOPWATCH(a, b) NAMED(a, WITH_TIMER, b)
+#define NAMED(a, n, b) PASTED(a, n, b)
+#define PASTED(a, n, b) a##n##b
 #define CALM 40
 #define APART static void __attribute__((noinline))
-void hal_pause(unsigned int rounds);
-void hal_set_ring(unsigned int led, unsigned int value);
 volatile int sink, done;
-char byte;
 unsigned int took[100];
-static void first(void) {}
-static void second(void) {}
-static void third(void) {}
 APART measure(int row, void (*call)(void)) {
-  TMR4 = 0; T4CONbits.TON = 1; call(); T4CONbits.TON = 0; took[row] = TMR4;
+  STOPWATCH(TMR, ) = 0; STOPWATCH(T, CONbits).TON = 1; call(); STOPWATCH(T, CONbits).TON = 0; took[row] = STOPWATCH(TMR, );
 }
 APART watch(int row, int count, unsigned int above, int every, int skip) {
   unsigned int now, last, gap, calm = 0, sum = 0;
   int seen = 0, left = count;
-  T4CONbits.TON = 1;
-  last = TMR4;
+  STOPWATCH(T, CONbits).TON = 1;
+  last = STOPWATCH(TMR, );
   while (left > 0) {
-    now = TMR4;
+    now = STOPWATCH(TMR, );
     gap = now - last;
     last = now;
     if (gap > above) {
       if (seen >= skip && (seen - skip) % every == 0) { sum += gap; left--; }
       seen++;
-      last = TMR4;
+      last = STOPWATCH(TMR, );
     } else if (gap < CALM) {
       calm = gap; /* a round without a handler */
     }
   }
-  T4CONbits.TON = 0;
+  STOPWATCH(T, CONbits).TON = 0;
   took[row] = sum - count * calm;
 }
 )";
 
-/// The program. Native handlers take a share of the time, which has no gaps to see.
-std::string program(bool with_handlers) {
-  std::string text = kHead, main = "int main(void) {\n  T4CON = 0; PR4 = 0xFFFF;\n";
+const char* const kUsualHead = R"(
+#include <I2C/e_I2C_master_module.h>
+#include <a_d/advance_ad_scan/e_ad_conv.h>
+#include <a_d/advance_ad_scan/e_acc.h>
+#include <a_d/advance_ad_scan/e_micro.h>
+#include <a_d/advance_ad_scan/e_prox.h>
+#include <camera/fast_2_timer/e_poxxxx.h>
+#include <codec/e_sound.h>
+#include <motor_led/advance_one_timer/e_agenda.h>
+#include <motor_led/advance_one_timer/e_led.h>
+#include <motor_led/advance_one_timer/e_motors.h>
+#include <motor_led/e_init_port.h>
+#include <uart/e_uart_char.h>
+#include <utility/utility.h>
+void hal_pause(unsigned int rounds);
+void hal_set_ring(unsigned int led, unsigned int value);
+extern int e_dci_unavailable, e_stop_flag;
+char byte, text[3200];
+static void first(void) {}
+static void second(void) {}
+static void third(void) {}
+)";
+
+const char* const kBasicHead = R"(
+#include <a_d/e_ad_conv.h>
+#include <a_d/e_prox.h>
+#include <motor_led/e_init_port.h>
+#include <motor_led/e_motors.h>
+)";
+
+const char* const kFastAgendaHead = R"(
+#include <motor_led/advance_one_timer/fast_agenda/e_agenda_fast.h>
+#define WITH_TIMER 4 /* the agenda has the first three */
+static void first(void) {}
+)";
+
+const char* const kSlowCameraHead = R"(
+#include <camera/slow_3_timer/e_po3030k.h>
+#include <motor_led/e_init_port.h>
+char image[3200];
+)";
+
+const Program kPrograms[] = {{"usual", kUsualHead, kUsualRows},
+                             {"basic", kBasicHead, kBasicRows},
+                             {"fast-agenda", kFastAgendaHead, kFastAgendaRows},
+                             {"slow-camera", kSlowCameraHead, kSlowCameraRows, "po3030k"}};
+
+/// Native handlers that are shares of the time have no gaps to see.
+std::string source(const Program& program, bool with_shares) {
+  std::string text = std::string(program.head) + kHarness;
+  std::string main = "int main(void) {\n  STOPWATCH(T, CON) = 0; STOPWATCH(PR, ) = 0xFFFF;\n";
   int n = 0;
-  for (const Row& row : kRows) {
+  for (const Row& row : program.rows) {
     text += fmt::format("APART f{}(void) {{ {} }}\n", n, row.call);
     const Gaps& g = row.gaps;
     main += fmt::format("  {}\n", row.before);
     if (g.count == 0)
       main += fmt::format("  measure({}, f{});\n", n, n);
-    else if (with_handlers)
+    else if (with_shares || g.runs_natively)
       main += fmt::format("  watch({}, {}, {}, {}, {});\n", n, g.count, g.above, g.every, g.skip);
     ++n;
   }
   return text + main + "  done = 1;\n  for (;;);\n}\n";
 }
 
-/// What Timer 4 has counted for each row, in one way. Empty, with lines in `problems`, on failure.
-std::vector<std::uint16_t> counts(const std::string& way, std::vector<std::string>& problems) {
-  const fs::path folder = fs::path(twin::build_folder()) / "controllers" / ("timings-" + way);
+/// What the timer has counted for each row, in one way. Empty, with lines in `problems`, on failure.
+std::vector<std::uint16_t> counts(const Program& program, const std::string& way,
+                                  std::vector<std::string>& problems) {
+  const fs::path folder =
+      fs::path(twin::build_folder()) / "controllers" / fmt::format("timings-{}-{}", program.name, way);
   fs::create_directories(folder);
-  std::ofstream(folder / "main.c") << program(way != "native");
+  std::ofstream(folder / "main.c") << source(program, way != "native");
   sim::WorldDesc world;
   world.models = twin::robot_models();
   world.proximity.noise_scale = 0;
   world.robots.resize(1);
   world.robots[0].name = "puck";
   world.robots[0].firmware = folder.string();
+  if (program.camera) world.robots[0].own["camera"] = program.camera;
   twin::Options options;
   options.way = way;
   const auto twin = twin::Twin::open(world, options, problems);
@@ -285,29 +406,34 @@ std::vector<std::uint16_t> counts(const std::string& way, std::vector<std::strin
   };
   while (read("done", 1)[0] == 0) {
     if (sim::to_seconds(twin->simulation().now()) > kMostS) {
-      problems.push_back(fmt::format("timings: {} way: the program did not end in {} s", way, kMostS));
+      problems.push_back(
+          fmt::format("timings: {} way: the {} program did not end in {} s", way, program.name, kMostS));
       return {};
     }
     twin->simulation().step();
   }
-  return read("took", std::size(kRows));
+  return read("took", program.rows.size());
 }
 
 /// Where a row stands against both measurements: what its number in the table should be. `way`: that whose
 /// drivers run.
 std::vector<Timing> measure(const std::string& way, std::vector<std::string>& problems) {
-  const auto chip = counts(way, problems), native = counts("native", problems);
   std::vector<Timing> all;
   std::map<std::string, int> cycles, missing;  // of each row: measured; of that, not in the table
-  for (std::size_t n = 0; problems.empty() && n < std::size(kRows); ++n) {
-    const Row& row = kRows[n];
-    const Gaps& g = row.gaps;
-    int found = g.count > 0 ? (chip[n] * row.times + g.count / 2) / g.count : chip[n] - native[n];
-    for (const Less& less : row.less) found -= less.times * (g.count > 0 ? cycles : missing).at(less.name);
-    if (g.count == 0) found = row.table + static_cast<int>(std::lround(double(found) / row.times));
-    cycles[row.name] = found;
-    missing[row.name] = found - row.table;
-    all.push_back({row, found});
+  for (const Program& program : kPrograms) {
+    const auto chip = counts(program, way, problems), native = counts(program, "native", problems);
+    for (std::size_t n = 0; problems.empty() && n < program.rows.size(); ++n) {
+      const Row& row = program.rows[n];
+      const Gaps& g = row.gaps;
+      const bool is_share = g.count > 0 && !g.runs_natively;
+      int found = is_share ? (chip[n] * row.times + g.count / 2) / g.count : chip[n] - native[n];
+      for (const Less& less : row.less) found -= less.times * (is_share ? cycles : missing).at(less.name);
+      if (!is_share)
+        found = row.table + static_cast<int>(std::lround(double(found) / std::max(row.times, g.count)));
+      cycles[row.name] = found;
+      missing[row.name] = found - row.table;
+      all.push_back({row, found});
+    }
   }
   return all;
 }

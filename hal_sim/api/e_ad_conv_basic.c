@@ -4,14 +4,14 @@
  */
 #include "a_d/e_ad_conv.h"
 
+#include "hal_sim/api/takes.h"
 #include "hal_sim/host/pins.h"
 
 #define LAST_CHANNEL 15
-#define SETUP_CYCLES 40      /* [estimated: 22 register and bit writes, call] */
 #define SAMPLING_CYCLES 166   /* 40 rounds of 4 cycles, set-up [measured: register way, a call takes 322] */
 #define CONVERSION_CYCLES 132 /* 14 TAD of 9.5 cycles [the same] */
 
-void e_init_ad(void) { tp_spend(SETUP_CYCLES); }
+TAKES(T_INIT_AD) void e_init_ad(void) {}
 
 int e_read_ad(unsigned int channel) {
   int counts;

@@ -10,23 +10,20 @@
 #include "camera/slow_3_timer/e_po3030k.h"
 
 #include "firmware/library/camera.h"
+#include "hal_sim/api/takes.h"
 #include "hal_sim/host/pins.h"
 #include "hal_sim/host/pins_camera.h"
 
-#define PRIORITY 4            /* as after a reset: this driver sets none */
-#define LINE_ENTRY_CYCLES 50  /* [estimated: context, counters, RETFIE] */
-#define FRAME_ENTRY_CYCLES 30 /* [estimated: context, three bits, RETFIE] */
-#define PIXEL_CYCLES 75       /* [estimated: 40 instructions of the byte's interrupt, context] */
-#define LAUNCH_CYCLES 90      /* [estimated: three timers set up] */
-#define LONGEST_LINE 1280     /* 640 pixels of two bytes */
-#define LED0_BIT 6            /* of port A */
+#define PRIORITY 4        /* as after a reset: this driver sets none */
+#define LONGEST_LINE 1280 /* 640 pixels of two bytes */
+#define LED0_BIT 6        /* of port A */
 
 static char* next_byte;
 static int ready, row;
 static int rows, columns, bytes_per_pixel = 1, skipped_pixels, skipped_lines;
 static char led_is_off = 1;
 
-static void line_interrupt(void) {
+TAKES(0) static void line_interrupt(void) {
   static unsigned char line[LONGEST_LINE];
   int i, count = (int)tp_camera_take_line(line, sizeof line);
   for (i = 0; i < count; i++) {
@@ -34,22 +31,21 @@ static void line_interrupt(void) {
     tp_latch_write('A', LED0_BIT, led_is_off);
     led_is_off = !led_is_off;
   }
-  tp_spend((tp_i64)PIXEL_CYCLES * columns * bytes_per_pixel * (1 + skipped_pixels));
+  tp_spend((tp_i64)columns * bytes_per_pixel * (T_SLOW_BYTE + T_SLOW_SKIPPED * skipped_pixels));
   if (++row == rows)
     ready = 1;
   else
     tp_irq_at(TP_V_T4, tp_camera_next_line());
 }
 
-static void frame_interrupt(void) { tp_irq_at(TP_V_T4, tp_camera_begin_frame()); }
+TAKES(0) static void frame_interrupt(void) { tp_irq_at(TP_V_T4, tp_camera_begin_frame()); }
 
-void e_po3030k_launch_capture(char* buf) {
-  tp_spend(LAUNCH_CYCLES);
+TAKES(T_SLOW_LAUNCH) void e_po3030k_launch_capture(char* buf) {
   row = 0;
   next_byte = buf;
   ready = 0;
-  tp_irq_install(TP_V_T4, line_interrupt, PRIORITY, LINE_ENTRY_CYCLES);
-  tp_irq_install(TP_V_T5, frame_interrupt, PRIORITY, FRAME_ENTRY_CYCLES);
+  tp_irq_install(TP_V_T4, line_interrupt, PRIORITY, T_SLOW_LINE);
+  tp_irq_install(TP_V_T5, frame_interrupt, PRIORITY, T_SLOW_FRAME);
   tp_irq_at(TP_V_T4, -1);
   tp_irq_at(TP_V_T5, tp_camera_launch(rows, columns, bytes_per_pixel, skipped_pixels, skipped_lines, 1));
 }

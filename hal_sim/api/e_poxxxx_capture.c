@@ -10,14 +10,12 @@
 #include "camera/fast_2_timer/e_poxxxx.h"
 
 #include "firmware/library/camera.h"
+#include "hal_sim/api/takes.h"
 #include "hal_sim/host/pins.h"
 #include "hal_sim/host/pins_camera.h"
 
 #define PRIORITY 6
-#define MASK_CYCLES 8         /* a byte of the line, taken or skipped */
-#define LINE_ENTRY_CYCLES 26  /* [estimated: entry, shadow registers, set-up, end of line, RETFIE] */
-#define FRAME_ENTRY_CYCLES 30 /* [estimated: context, three bits, RETFIE] */
-#define LAUNCH_CYCLES 60      /* [estimated: two timers set up] */
+#define MASK_CYCLES 8 /* a byte of the line, taken or skipped */
 
 /* the driver's public variables */
 char* _poxxxx_buffer;
@@ -28,30 +26,28 @@ char _poxxxx_line_conf[LINE_CONF_SIZE];
 
 static int columns, bytes_per_pixel, skipped_pixels, skipped_lines;
 
-static void line_interrupt(void) {
+TAKES(0) static void line_interrupt(void) {
   static unsigned char line[LINE_CONF_SIZE];
   unsigned char* to = (unsigned char*)_poxxxx_buffer;
   int count = (int)tp_camera_take_line(line, sizeof line);
   int i;
   for (i = 0; i < count; i++) *to++ = line[i];
   _poxxxx_buffer = (char*)to;
-  /* the bytes between those that are taken take as long */
-  tp_spend((tp_i64)MASK_CYCLES * columns * bytes_per_pixel * skipped_pixels);
+  tp_spend((tp_i64)MASK_CYCLES * columns * bytes_per_pixel * (1 + skipped_pixels));
   if (++_poxxxx_current_row == _poxxxx_row)
     _poxxxx_img_ready = 1;
   else
     tp_irq_at(TP_V_T4, tp_camera_next_line());
 }
 
-static void frame_interrupt(void) { tp_irq_at(TP_V_T4, tp_camera_begin_frame()); }
+TAKES(0) static void frame_interrupt(void) { tp_irq_at(TP_V_T4, tp_camera_begin_frame()); }
 
-void e_poxxxx_launch_capture(char* buf) {
-  tp_spend(LAUNCH_CYCLES);
+TAKES(T_CAMERA_LAUNCH) void e_poxxxx_launch_capture(char* buf) {
   _poxxxx_current_row = 0;
   _poxxxx_buffer = buf;
   _poxxxx_img_ready = 0;
-  tp_irq_install(TP_V_T4, line_interrupt, PRIORITY, LINE_ENTRY_CYCLES);
-  tp_irq_install(TP_V_T5, frame_interrupt, PRIORITY, FRAME_ENTRY_CYCLES);
+  tp_irq_install(TP_V_T4, line_interrupt, PRIORITY, T_CAMERA_LINE);
+  tp_irq_install(TP_V_T5, frame_interrupt, PRIORITY, T_CAMERA_FRAME);
   tp_irq_at(TP_V_T4, -1);
   tp_irq_at(TP_V_T5,
             tp_camera_launch(_poxxxx_row, columns, bytes_per_pixel, skipped_pixels, skipped_lines, 0));

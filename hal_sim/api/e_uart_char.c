@@ -9,12 +9,12 @@
  */
 #include "uart/e_uart_char.h"
 
-#include "hal_sim/api/timings.h"
+#include "hal_sim/api/takes.h"
 #include "hal_sim/host/pins.h"
 
 #define UART_PRIORITY 5
-#define UART_ENTRY_CYCLES 16 /* [estimated: entry 4, three words saved, RETFIE 3] */
-#define BURST 4              /* bytes an interrupt loads */
+#define BURST 4 /* bytes an interrupt loads */
+#define BYTE_CYCLES ((T_UART_BURST - T_UART_END) / BURST)
 
 /* one transmitter: the assembler variables of the library */
 struct transmitter {
@@ -26,7 +26,7 @@ struct transmitter {
 
 static struct transmitter uart1, uart2;
 
-static void load_burst(struct transmitter *t, int number) {
+TAKES(0) static void load_burst(struct transmitter *t, int number) {
   unsigned char burst = BURST;
   if (!t->busy) return;
   if (!t->next || t->left == 0) {
@@ -39,14 +39,15 @@ static void load_burst(struct transmitter *t, int number) {
       return;
     }
     t->left--;
+    tp_spend(BYTE_CYCLES);
     tp_uart_load(number, t->beyond ? 0 : (unsigned char)*t->next);
     if (!t->beyond) t->next++;
   }
 }
 
-static void serve_uart1(void) { load_burst(&uart1, 1); }
+TAKES(0) static void serve_uart1(void) { load_burst(&uart1, 1); }
 
-static void serve_uart2(void) { load_burst(&uart2, 2); }
+TAKES(0) static void serve_uart2(void) { load_burst(&uart2, 2); }
 
 static void begin(struct transmitter *t, int number, const char *buff, int length) {
   while (t->busy) continue;
@@ -66,7 +67,7 @@ static int take(int number, char *car) {
 
 void e_init_uart1(void) {
   tp_spend(T_INIT_UART);
-  tp_irq_install(TP_V_U1TX, serve_uart1, UART_PRIORITY, UART_ENTRY_CYCLES);
+  tp_irq_install(TP_V_U1TX, serve_uart1, UART_PRIORITY, T_UART_END);
   tp_uart_init(1, BAUD115200);
 }
 
@@ -80,7 +81,7 @@ int e_uart1_sending(void) { return uart1.busy; }
 
 void e_init_uart2(int baud) {
   tp_spend(T_INIT_UART);
-  tp_irq_install(TP_V_U2TX, serve_uart2, UART_PRIORITY, UART_ENTRY_CYCLES);
+  tp_irq_install(TP_V_U2TX, serve_uart2, UART_PRIORITY, T_UART_END);
   tp_uart_init(2, baud);
 }
 

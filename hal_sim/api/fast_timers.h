@@ -5,13 +5,13 @@
 #ifndef TWINPUCK_API_FAST_TIMERS_H
 #define TWINPUCK_API_FAST_TIMERS_H
 
+#include "hal_sim/api/timings.h"
 #include "hal_sim/host/pins.h"
 
 /* part of the functions that call it, charged as they are */
 #define INTO_CALLER inline __attribute__((always_inline))
 
 #define TIMER_PRIORITY 4
-#define TIMER_ENTRY_CYCLES 30 /* [estimated: entry 4, context 20, RETFIE 3, flag] */
 
 /* one hardware timer */
 struct timer {
@@ -120,7 +120,7 @@ static void configure(int index) {
   t->count = 0;
   t->pending = 0;
   t->period = (unsigned int)UNIT_CYCLES;
-  tp_irq_install(t->vector, handlers[index], TIMER_PRIORITY, TIMER_ENTRY_CYCLES);
+  tp_irq_install(t->vector, handlers[index], TIMER_PRIORITY, T_FAST_TIMER);
 }
 
 static char timer_runs(int index) { return timers[index].running; }

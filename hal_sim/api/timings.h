@@ -54,5 +54,24 @@
 #define T_MOTOR_HALF 96 /* motor below 601: coils on */
 #define T_MOTOR_OFF 96 /* coils off */
 #define T_MOTOR_STEP 83 /* motor above 600: coils on */
+#define T_UART_END 27 /* UART's transmit handler: nothing left */
+#define T_UART_BURST 85 /* four bytes */
+#define T_CAMERA_LAUNCH 19 /* e_poxxxx_launch_capture() */
+#define T_CAMERA_FRAME 21 /* fast camera: a frame begins */
+#define T_CAMERA_LINE 29 /* a line, beside 8 cycles a byte */
+#define T_DCI_INIT 24 /* e_init_dci_master() */
+#define T_CODEC_INIT 12751 /* e_init_codec_slave() */
+#define T_DCI_IDLE 39 /* codec: four samples of silence */
+#define T_SOUND_KICKOFF 128 /* e_sub_dci_kickoff() */
+#define T_DCI_BUSY 156 /* codec: four samples */
+#define T_INIT_AD 13 /* e_init_ad() */
+#define T_BASIC_STEP 76 /* basic motors: a step of one wheel */
+#define T_BASIC_PROX 773 /* basic proximity sensors: a pair */
+#define T_FAST_TIMER 21 /* fast agenda: a timer's handler, beside its tasks */
+#define T_SLOW_LAUNCH 22 /* e_po3030k_launch_capture(), slow camera */
+#define T_SLOW_FRAME 21 /* a frame begins */
+#define T_SLOW_LINE 23 /* a line begins */
+#define T_SLOW_BYTE 44 /* a byte that is taken */
+#define T_SLOW_SKIPPED 39 /* one that is skipped */
 
 #endif

@@ -83,8 +83,8 @@ inline constexpr Cycle kScanMicroIsrCycles = T_SCAN_MICRO;  // one frame of MICR
 inline constexpr Cycle kScanStartCycles = 15;  // [measured: register way]
 /// Of both Timer 2's and the converter's handler: the reset value [lib: neither file sets it; DS70143 5.2].
 inline constexpr int kHandlerPriority = 4;
-inline constexpr Cycle kBasicMotorIsrCycles =
-    34;                                        // [estimated: shadow context, counter, phase, 4 bit writes]
+inline constexpr Cycle kBasicMotorIsrCycles = T_BASIC_STEP;  // a step of one wheel
+inline constexpr Cycle kBasicProxIsrCycles = T_BASIC_PROX;   // both conversions of a pair
 inline constexpr Cycle kTimer3IsrCycles = 40;  // [estimated: context, two counters, coil clearing]
 
 // --- camera
@@ -108,8 +108,7 @@ inline constexpr int kI2cStopHalves = 3;           // [estimated: as dspic30/per
 // --- sound
 inline constexpr int kCodecGroup = 4;  // samples an interrupt [lib: codec/e_isr_dci.s]
 inline constexpr Cycle kCodecGroupCycles = kCodecGroup * board::kCodecSampleCycles;
-inline constexpr Cycle kDciBusyEntryCycles = 65;  // [estimated: 4 entry and exit, 12 saves, 4 samples of 11]
-inline constexpr Cycle kDciIdleIsrCycles = 26;    // [estimated: the same without samples]
+inline constexpr Cycle kDciIdleIsrCycles = T_DCI_IDLE;
 
 // --- serial lines
 inline constexpr int kUartRingBytes = 64;  // receive ring [lib: uart/e_uart1_rx_char.s]

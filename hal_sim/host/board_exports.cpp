@@ -52,7 +52,7 @@ void request_background(Context& context, Board& robot, int slot, Cycle period, 
 /// Two interrupts a pair, each with two conversions.
 void charge_basic_prox(Context& context, Board& robot) {
   request_background(context, robot, TP_BG_PROX, (drivers::kBasicPulseCycles + drivers::kBasicRestCycles) / 2,
-                     drivers::kBasicIsrEntryCycles + 2 * drivers::kReadAdCycles);
+                     drivers::kBasicProxIsrCycles);
 }
 
 void note_speed(Context& context, tp_i64 wheel, tp_i64 speed_steps_s, int most) {

@@ -28,8 +28,6 @@ tp_i64 tp_codec_next_group(void);
 /** What its handler costs while no sound plays is stolen from now on (1), or no longer (0). */
 void tp_codec_idle(tp_i64 idle);
 #define TP_BG_DCI 12
-/** Entry, context and four samples of a busy interrupt, for tp_irq_install(). Horizon: none. */
-tp_i64 tp_codec_entry_cycles(void);
 
 #ifdef __cplusplus
 }

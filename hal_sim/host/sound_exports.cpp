@@ -61,6 +61,4 @@ void tp_codec_idle(tp_i64 idle) {
                                     idle ? drivers::kDciIdleIsrCycles : 0);
 }
 
-tp_i64 tp_codec_entry_cycles(void) { return drivers::kDciBusyEntryCycles; }
-
 }  // extern "C"
