@@ -20,8 +20,9 @@ namespace board {
 
 /// Quantum of phototransistors and accelerometer, 1.1 ms. Shorter than the time between two samples of one
 /// sensor in any of the library's drivers (9.8 ms and more), whose noise is therefore independent. Long
-/// beside the distance of equal samples in the native and in the register way, 200 to 4,000 cycles in the
-/// first two seconds: six samples in seven have the same noise in both.
+/// beside the distance of equal samples in the native and in the register way: of obstacle's first two
+/// seconds in the maze 400 to 4,700 cycles, so that six samples in seven have the same noise in both; of
+/// braitenberg_2a's up to 13,600 and five in eight.
 inline constexpr Cycle kSlowNoiseQuantum = 16384;  // [assumed: see above]
 /// Quantum of microphones. Shorter than any conversion (14 TAD of at least 334 ns, 69 cycles), so no two
 /// samples of a recording share their noise; the library's lie 450 or 900 cycles apart. Between the ways it
