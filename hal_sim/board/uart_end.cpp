@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// See uart_end.h: the ends in memory and in files, and the choice among all of them. The ends that a program
+// See uart_end.h: the end in files, and the choice among all of them. The ends that a program
 // talks to are pty_end.cpp and tcp_end.cpp.
 #include "hal_sim/board/uart_end.h"
 
@@ -14,27 +14,6 @@
 #include "sim_core/base/output_file.h"
 
 namespace board {
-
-void MemoryEnd::deliver(const std::uint8_t* bytes, const Cycle* ends, std::size_t count) {
-  text_.append(reinterpret_cast<const char*>(bytes), count);
-  ends_.insert(ends_.end(), ends, ends + count);
-}
-
-std::size_t MemoryEnd::collect(std::uint8_t* bytes, std::size_t room, Cycle at) {
-  std::size_t count = 0;
-  while (count < room && !waiting_.empty() && waiting_.front().at <= at) {
-    bytes[count++] = waiting_.front().byte;
-    waiting_.pop_front();
-  }
-  set_idle(waiting_.empty());
-  return count;
-}
-
-void MemoryEnd::inject(const std::string& bytes, Cycle at) {
-  for (char c : bytes) waiting_.push_back({static_cast<std::uint8_t>(c), at});
-  set_idle(waiting_.empty());
-  if (!is_idle() && wake) wake();
-}
 
 namespace {
 

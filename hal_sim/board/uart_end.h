@@ -5,11 +5,9 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "hal_sim/board/clock.h"
 #include "hal_sim/board/first_use.h"
@@ -60,38 +58,12 @@ class UartEnd {
   bool idle_ = false;
 };
 
-/// Keeps everything in memory: for tests.
-class MemoryEnd : public UartEnd {
- public:
-  MemoryEnd() { set_idle(true); }
-  void deliver(const std::uint8_t* bytes, const Cycle* ends, std::size_t count) override;
-  std::size_t collect(std::uint8_t* bytes, std::size_t room, Cycle at) override;
-  std::string name() const override { return "memory"; }
-
-  /// These bytes come from outside at cycle `at` (not before the last ones).
-  void inject(const std::string& bytes, Cycle at);
-  /// Everything the robot has sent so far.
-  const std::string& text() const { return text_; }
-  /// Cycle at which the i-th byte of text() ended.
-  Cycle ended_at(std::size_t i) const { return ends_.at(i); }
-
- private:
-  struct Waiting {
-    std::uint8_t byte;
-    Cycle at;
-  };
-  std::string text_;
-  std::vector<Cycle> ends_;
-  std::deque<Waiting> waiting_;
-};
-
 /// Opens an end from its description:
 ///   "none"               no end (null)
 ///   "-"                  no end either: whoever runs the robot may show its text
-///   "pty" "pty:LINK"     a pseudo-terminal; LINK (default `default_link`) is a symbolic link to it. One that
-///   a
-///                        run left behind is replaced; a file, a link to a file or a link of a run that goes
-///                        on is not
+///   "pty" "pty:LINK"     a pseudo-terminal; LINK (default `default_link`) is a symbolic link to it. One
+///                        that a run left behind is replaced; a file, a link to a file or a link of a run
+///                        that goes on is not
 ///   "tcp:PORT"           a server on 127.0.0.1; 0 takes any free port; one client at a time
 ///   "file:OUT" "file:OUT,IN"  bytes go to OUT, bytes come from IN at the line's speed
 /// On failure null, and `error` says what was wrong (one line, without a full stop).

@@ -6,13 +6,14 @@
 #include <gtest/gtest.h>
 
 #include "hal_sim/board/uart.h"
+#include "tests/support/memory_end.h"
 
 namespace {
 
 using board::BluetoothModule;
 using board::BluetoothSetup;
 using board::Cycle;
-using board::MemoryEnd;
+using firmware_test::MemoryEnd;
 
 constexpr Cycle kMs = 14746;
 

@@ -6,6 +6,7 @@
 
 #include "hal_sim/board/board.h"
 #include "hal_sim/board/camera.h"
+#include "tests/support/memory_end.h"
 
 namespace {
 
@@ -53,7 +54,7 @@ TEST(FirstUse, each_device_is_looked_at_from_then_on) {
 
 TEST(FirstUse, an_end_that_was_idle_is_heard) {
   Board robot{board::Setup{}};
-  auto end = std::make_shared<board::MemoryEnd>();
+  auto end = std::make_shared<firmware_test::MemoryEnd>();
   robot.uart(1).connect(end);
   robot.uart(1).switch_on(7, 0);
   robot.exchange(kAt);

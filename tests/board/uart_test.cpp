@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // UART timing, and the ends outside.
 #include "hal_sim/board/uart.h"
+#include "tests/support/memory_end.h"
 
 #include <arpa/inet.h>
 #include <fcntl.h>
@@ -18,8 +19,8 @@
 namespace {
 
 using board::Cycle;
-using board::MemoryEnd;
 using board::Uart;
+using firmware_test::MemoryEnd;
 
 constexpr Cycle kByte = 1280;  // 10 bits of 128 cycles at 115,200 baud
 

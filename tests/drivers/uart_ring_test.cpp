@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "hal_sim/drivers/uart_ring.h"
+#include "tests/support/memory_end.h"
 
 #include <gtest/gtest.h>
 
@@ -15,8 +16,8 @@ constexpr Cycle kByte = 1280;  // 10 bits of 128 cycles at 115,200 baud
 struct Wired {
   board::Uart uart;
   drivers::UartRing ring{uart};
-  board::MemoryEnd* end = new board::MemoryEnd;
-  Wired() { uart.connect(std::unique_ptr<board::MemoryEnd>(end)); }
+  firmware_test::MemoryEnd* end = new firmware_test::MemoryEnd;
+  Wired() { uart.connect(std::unique_ptr<firmware_test::MemoryEnd>(end)); }
 };
 
 TEST(UartRing, counts_what_has_come_and_was_not_taken) {

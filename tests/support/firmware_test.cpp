@@ -10,6 +10,7 @@
 #include "hal_sim/twin/world_file.h"
 #include "sim_core/base/hash.h"
 #include "sim_core/load/world_loader.h"
+#include "tests/support/memory_end.h"
 #include "twinpuck_paths.h"
 
 namespace firmware_test {
@@ -211,7 +212,7 @@ void FirmwareTest::start(const Caller& caller) {
   }
   for (auto& r : robots_)
     for (int port = r->keeps_bluetooth_ ? 2 : 1; port <= 2; ++port) {
-      auto end = std::make_unique<board::MemoryEnd>();
+      auto end = std::make_unique<MemoryEnd>();
       r->serial_[port - 1] = end.get();
       end->wake = [mind = &r->mind()] { mind->wake(); };
       r->mind().board().uart(port).connect(std::move(end));

@@ -18,7 +18,6 @@
 #include <string>
 #include <vector>
 
-#include "hal_sim/board/uart_end.h"
 #include "hal_sim/cc/build.h"
 #include "hal_sim/twin/twin.h"
 #include "supervisor/team.h"
@@ -26,6 +25,7 @@
 namespace firmware_test {
 
 class FirmwareTest;
+class MemoryEnd;
 
 /// The line of the test that called: as a default argument, so that a failure names it and not this file's.
 struct Caller {
@@ -113,7 +113,7 @@ class Robot {
   FirmwareTest* test_ = nullptr;
   int index_ = 0;
   sim::RobotDesc desc_;
-  board::MemoryEnd* serial_[2] = {nullptr, nullptr};
+  MemoryEnd* serial_[2] = {nullptr, nullptr};
   std::vector<std::string> console_;
   bool keeps_bluetooth_ = false;
 };
