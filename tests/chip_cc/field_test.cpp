@@ -194,8 +194,9 @@ std::uint32_t result_with_gcc(const std::string& source) {
 
 TEST(ChipFields, random_expressions_agree_with_gcc) {
   int first = 1, count = 6;
-  if (const char* wish = std::getenv("TWINPUCK_RANDOM_PROGRAMS"))
+  if (const char* wish = std::getenv("TWINPUCK_RANDOM_PROGRAMS")) {
     ASSERT_EQ(std::sscanf(wish, "%d %d", &first, &count), 2) << wish;
+  }
   for (int seed = first; seed < first + count; ++seed) {
     const std::string source = FieldPrograms(std::uint32_t(seed)).program();
     const std::uint32_t expected = result_with_gcc(source);

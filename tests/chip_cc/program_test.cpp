@@ -195,8 +195,9 @@ TEST(ChipPrograms, loads_and_stores_work_at_every_offset_of_every_type_and_base)
 TEST(ChipPrograms, random_programs_agree_with_the_pc) {
   constexpr int kTogether = 50;
   int first = 1, count = kTogether;
-  if (const char* wish = std::getenv("TWINPUCK_RANDOM_PROGRAMS"))
+  if (const char* wish = std::getenv("TWINPUCK_RANDOM_PROGRAMS")) {
     ASSERT_EQ(std::sscanf(wish, "%d %d", &first, &count), 2) << wish;
+  }
   for (int seed = first; seed < first + count; seed += kTogether) {
     // from a file beside it: what a build looks for in a program's own text takes longer than to compile this
     const fs::path file =

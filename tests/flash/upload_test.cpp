@@ -172,8 +172,9 @@ TEST_F(UploadTest, a_line_that_dies_leaves_no_half_program) {
     run_for(3);
     const std::string said = robot.uart1_text().substr(before);
     // cut off before the first frame was through, the robot has its old program, all of it
-    if (bytes > 300 || !said.empty())
+    if (bytes > 300 || !said.empty()) {
       EXPECT_EQ(said, bytes > 300 ? "" : "A") << "after " << bytes << " bytes";
+    }
     EXPECT_EQ(said == "A", holds(plan('A'))) << "after " << bytes << " bytes";
   }
   runner().restart();
@@ -207,8 +208,12 @@ TEST_F(UploadTest, bad_lines_are_repeated_until_all_is_right) {
     const std::size_t before = robot.uart1_text().size();
     run_for(5);
     const std::string said = robot.uart1_text().substr(before);
-    if (result.state == State::Verified) EXPECT_EQ(said, std::string(1, name));
-    if (!said.empty()) EXPECT_TRUE(holds(plan(said[0]))) << "seed " << seed << ": " << said << " runs";
+    if (result.state == State::Verified) {
+      EXPECT_EQ(said, std::string(1, name));
+    }
+    if (!said.empty()) {
+      EXPECT_TRUE(holds(plan(said[0]))) << "seed " << seed << ": " << said << " runs";
+    }
   }
   std::cout << verified << " of " << uploads << " uploads verified, the others refused\n";
   EXPECT_GE(4 * verified, 3 * uploads);

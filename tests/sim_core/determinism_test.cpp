@@ -45,7 +45,9 @@ TEST(Determinism, where_a_step_ends_changes_nothing) {
     for (; s->now() < 5 * sim::kClicksPerSecond; ++steps) s->advance(5 * sim::kClicksPerSecond);
     EXPECT_EQ(s->digest(), digest_of(world, 1, 5)) << robots;
     EXPECT_EQ(s->now(), 5 * sim::kClicksPerSecond);
-    if (robots == 1) EXPECT_LT(steps, 5 * 96 / 2) << "free ways between control steps are passed over";
+    if (robots == 1) {
+      EXPECT_LT(steps, 5 * 96 / 2) << "free ways between control steps are passed over";
+    }
     auto stepped = simulation_of(world, [](int r) { return std::make_unique<Braitenberg>(r); });
     while (stepped->now() < s->now()) stepped->step();
     for (int r = 0; r < robots; ++r) {
