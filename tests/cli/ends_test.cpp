@@ -77,7 +77,7 @@ TEST_F(Ends, a_run_at_any_pace_ends_with_its_summary_at_a_signal) {
 }
 
 TEST_F(Ends, every_long_verb_ends_at_a_signal) {
-  const auto said = twinpuck("lab", kTerm);
+  const auto said = twinpuck("lab --full", kTerm);
   EXPECT_EQ(said.exit_code, 130) << said.text;
 }
 
