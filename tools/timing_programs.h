@@ -11,11 +11,13 @@ struct Less {
   int times = 1;
 };
 
+constexpr int kLeastGap = 30;  ///< cycles; a round of the loop that watches takes less without a handler
+
 /// A handler is measured by the mean of `count` gaps above `above` cycles, one of `every`, the first `skip`
 /// left out. `runs_natively`: it is no share there, so that what it takes more in the register way is
 /// missing.
 struct Gaps {
-  int count = 0, above = 40, every = 1, skip = 0;
+  int count = 0, above = kLeastGap, every = 1, skip = 0;
   bool runs_natively = false;
 };
 

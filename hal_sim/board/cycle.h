@@ -10,7 +10,7 @@ using Cycle = std::int64_t;
 /// Instruction cycles a second, nominally: 7.3728 MHz crystal, PLL x 8, four clocks an instruction.
 inline constexpr Cycle kFcyHz = 14'745'600;  // [DS70143 table 19-1; lib: motor_led/e_epuck_ports.h]
 
-/// A horizon that never comes, in 155 years; as the chip's.
+/// A horizon that never comes: after 155 years, as the chip's.
 inline constexpr Cycle kNever = INT64_MAX >> 7;
 
 /// a / b of positive cycles or counts that are small nearly always: a short division takes half the time.

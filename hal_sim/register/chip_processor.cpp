@@ -58,15 +58,18 @@ inline bool ChipProcessor::may_change_it(unsigned address) {
 }
 
 std::int64_t ChipProcessor::read(unsigned address, unsigned bits) {
-  if (watched_reads_ > 0 || runner_.is_observed()) return read_other(address, bits);
+  if (watched_reads_ > 0 || runner_.is_observed()) return read_watched(address, bits);
   const Cycle t = at(runner_.now_in_code());
-  if (!parts_->is_result(address, bits, t)) return read_other(address, bits);
+  if (!parts_->is_result(address, bits, t)) return read_other(address, bits, t);
   runner_.lower_horizon(t);
   return parts_->read_result(address, t);
 }
 
-std::int64_t ChipProcessor::read_other(unsigned address, unsigned bits) {
-  const Cycle t = at(runner_.now());
+std::int64_t ChipProcessor::read_watched(unsigned address, unsigned bits) {
+  return read_other(address, bits, at(runner_.now()));
+}
+
+std::int64_t ChipProcessor::read_other(unsigned address, unsigned bits, Cycle t) {
   if (may_change_it(address) || watched_reads_ > 0) return read_closely(address, bits, t);
   runner_.lower_horizon(t);
   return parts_->read(address, bits, t);
@@ -112,7 +115,7 @@ void ChipProcessor::modify_other(unsigned address, std::uint16_t keep, std::uint
     runner_.lower_horizon(t);
     return wrote(parts_->modify_latch(address, keep, flip, t));
   }
-  const auto old = static_cast<std::uint16_t>(read_other(address, 16));
+  const auto old = static_cast<std::uint16_t>(read_other(address, 16, t));
   write(address, static_cast<std::uint16_t>((old & keep) ^ flip), 16, t);
 }
 

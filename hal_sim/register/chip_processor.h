@@ -82,7 +82,10 @@ class ChipProcessor final : public host::Processor, private dspic::EventWatch {
   /// Rounds of a waiting loop with more reads than this are not jumped over.
   static constexpr int kWatchedReads = 64;
 
-  __attribute__((noinline)) std::int64_t read_other(unsigned address, unsigned bits);
+  /// read() within a loop that waits, or while an observer hears of it.
+  __attribute__((noinline)) std::int64_t read_watched(unsigned address, unsigned bits);
+  /// read() of all but the converter's results.
+  __attribute__((noinline)) std::int64_t read_other(unsigned address, unsigned bits, Cycle t);
   __attribute__((noinline)) void modify_other(unsigned address, std::uint16_t keep, std::uint16_t flip,
                                               Cycle t);
   static bool may_change_it(unsigned address);

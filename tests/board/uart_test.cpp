@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // UART timing, and the ends outside.
 #include "hal_sim/board/uart.h"
-#include "tests/support/memory_end.h"
 
 #include <arpa/inet.h>
 #include <fcntl.h>
@@ -15,6 +14,8 @@
 #include <cstring>
 #include <fstream>
 #include <sstream>
+
+#include "tests/support/memory_end.h"
 
 namespace {
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "hal_sim/drivers/uart_ring.h"
-#include "tests/support/memory_end.h"
 
 #include <gtest/gtest.h>
 
 #include <memory>
 #include <string>
+
+#include "tests/support/memory_end.h"
 
 namespace {
 

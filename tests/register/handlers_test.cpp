@@ -20,7 +20,6 @@ class HandlersTake : public firmware_test::FirmwareTest, public ::testing::WithP
 #include <codec/e_sound.h>
 #include <motor_led/e_init_port.h>
 #include <uart/e_uart_char.h>
-extern int e_dci_unavailable, e_stop_flag;
 extern volatile int _poxxxx_current_row;
 volatile int done;
 unsigned long rounds[2];
