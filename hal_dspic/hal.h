@@ -27,6 +27,8 @@
   } while (0)
 /** Ring LED 0 to 7, clockwise from the front. */
 void hal_set_ring(unsigned int led, unsigned int value);
+/** All eight at once. */
+void hal_set_rings(unsigned int value);
 #define set_ring(led, value) hal_set_ring(led, value)
 #define hal_note_led(led)
 #define set_front(value) HAL_SET_PIN(FRONT_LED, value)
@@ -41,7 +43,7 @@ extern const unsigned char hal_phase_coils[4];
 
 /* --- time --------------------------------------------------------------------------------------------- */
 
-/** Rounds of an empty loop over a long, about 10 cycles each. */
+/** Rounds of an empty loop over a long; what one takes is the compiler's (4 cycles at -O1). */
 void hal_pause(unsigned int rounds);
 
 /* --- converter ---------------------------------------------------------------------------------------- */

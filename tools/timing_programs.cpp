@@ -27,7 +27,10 @@ std::vector<Row> usual_rows() {
       {ROW(RING_OFF), "", "hal_set_ring(3, 0);", {}, "a ring LED, off"},
       {ROW(RING_ON), "", "hal_set_ring(3, 1);", {}, "on"},
       {ROW(RING_TOGGLE), "", "hal_set_ring(3, 2);", {}, "toggled"},
-      {"", 0, "", "e_set_led(8, 1);", {}, "e_set_led(8, 1)", 45},
+      {ROW(RINGS_OFF), "", "hal_set_rings(0);", {}, "all eight, off"},
+      {ROW(RINGS_ON), "", "hal_set_rings(1);", {}, "on"},
+      {ROW(RINGS_TOGGLE), "", "hal_set_rings(2);", {}, "toggled"},
+      {"", 0, "", "e_set_led(8, 1);", {}, "e_set_led(8, 1)", 4},
       {ROW(LED_OFF), "", "e_set_front_led(0);", {}, "front or body LED, off"},
       {ROW(LED_ON), "", "e_set_front_led(1);", {}, "on"},
       {ROW(LED_TOGGLE), "", "e_set_front_led(2);", {}, "toggled"},
@@ -95,16 +98,15 @@ std::vector<Row> usual_rows() {
       {ROW(GET_STEPS), "", "sink = e_get_steps_left();", {}, "e_get_steps_left(), _right()"},
       {ROW(SET_STEPS), "", "e_set_steps_left(7);", {}, "e_set_steps_left(), _right()"},
       {ROW(SCAN_INIT), "", "e_init_ad_scan(MICRO_ONLY);", {{"GETSELECTOR"}}, "e_init_ad_scan(), no wait", 8},
-      // natively its frames come at nominal instants; single ones are up to a quarter longer or shorter
-      {"", 0, "", "e_init_ad_scan(ALL_ADC);", {}, "e_init_ad_scan(ALL_ADC)", 250},
-      {ROW(SCAN_OFF), "", "e_ad_scan_off();", {}, "e_ad_scan_off()"},
+      {ROW(SCAN_OFF), "e_init_ad_scan(ALL_ADC);", "e_ad_scan_off();", {}, "e_ad_scan_off()"},
       {ROW(SCAN_ON), "", "e_ad_scan_on();", {}, "e_ad_scan_on()"},
       {"", 0, "e_ad_scan_off();", "sink = e_get_prox(3);", {}, "e_get_prox()", 4},
       {"", 0, "", "sink = e_get_calibrated_prox(3);", {}, "e_get_calibrated_prox()", 4},
       {"", 0, "", "sink = e_get_ambient_light(3);", {}, "e_get_ambient_light()", 4},
       {"", 0, "", "sink = e_get_acc(0);", {}, "e_get_acc()", 4},
       {"", 0, "", "sink = e_get_micro(0);", {}, "e_get_micro()", 4},
-      {"", 0, "", "e_calibrate_ir();", {}, "e_calibrate_ir()", 8},
+      // a thousand pauses, each a cycle off at most
+      {"", 0, "", "e_calibrate_ir();", {}, "e_calibrate_ir()", 1008},
       // beside the time on the wires
       {ROW(I2C_ENABLE), "", "e_i2c_enable();", {}, "e_i2c_enable(), e_i2c_disable()"},
       {ROW(I2C_START),
@@ -277,6 +279,7 @@ const char* const kUsualHead = R"(
 #include <utility/utility.h>
 void hal_pause(unsigned int rounds);
 void hal_set_ring(unsigned int led, unsigned int value);
+void hal_set_rings(unsigned int value);
 extern volatile int e_dci_unavailable, e_stop_flag;
 char byte, text[3200];
 static void first(void) {}

@@ -184,10 +184,10 @@ void e_acc_calibr(void) {
 
 void e_display_angle(void) {
   float angle = e_read_orientation();
-  unsigned int led, sector;
+  unsigned int sector;
   /* the library's abs() is that of whole numbers: 5.9 degrees count as 5 */
   if (!(abs((int)(shown_angle - angle)) > HYSTERESIS_DEGREES)) return;
-  for (led = 0; led < RING_LEDS; led++) set_ring(led, 0);
+  hal_set_rings(0);
   /* sectors begin above their lower limit and follow each other against the numbers of the LEDs */
   sector = 0;
   while (sector < RING_LEDS && angle > SECTOR_DEGREES * sector + SECTOR_DEGREES / 2) sector++;

@@ -5,18 +5,16 @@
 #include "motor_led/e_led.h"
 
 void e_set_led(unsigned int led_number, unsigned int value) {
-  unsigned int led;
   if (led_number < RING_LEDS) {
     set_ring(led_number, value);
     return;
   }
   hal_note_led(led_number);
-  for (led = 0; led < RING_LEDS; led++) set_ring(led, value);
+  hal_set_rings(value);
 }
 
 void e_led_clear(void) {
-  unsigned int led;
-  for (led = 0; led < RING_LEDS; led++) set_ring(led, 0);
+  hal_set_rings(0);
 }
 
 void e_set_body_led(unsigned int value) { set_body(value); }

@@ -3,20 +3,16 @@
  * "All" takes bit 0 of the value, so 2 switches all off and 3 all on.
  */
 void e_set_led(unsigned int led_number, unsigned int value) {
-  unsigned int led;
   if (led_number < RING_LEDS) {
     set_ring(led_number, value);
     return;
   }
   hal_note_led(led_number);
   /* the value passes through eight one-bit fields */
-  for (led = 0; led < RING_LEDS; led++) set_ring(led, value & 1);
+  hal_set_rings(value & 1);
 }
 
-void e_led_clear(void) {
-  unsigned int led;
-  for (led = 0; led < RING_LEDS; led++) set_ring(led, 0);
-}
+void e_led_clear(void) { hal_set_rings(0); }
 
 void e_set_body_led(unsigned int value) { set_body(value); }
 
@@ -24,10 +20,7 @@ void e_set_front_led(unsigned int value) { set_front(value); }
 
 #define TOGGLE 2
 
-void e_blink_led(void) {
-  unsigned int led;
-  for (led = 0; led < RING_LEDS; led++) set_ring(led, TOGGLE);
-}
+void e_blink_led(void) { hal_set_rings(TOGGLE); }
 
 void e_blink_led0(void) { set_ring(0, TOGGLE); }
 void e_blink_led1(void) { set_ring(1, TOGGLE); }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * I2C master, primitive by primitive: start the module's operation, wait for its interrupt, give up in the end.
  *
- * The original starts only when I2CSTAT.P says that a stop has been seen, and gets that stop when the module takes the
- * pins over. Here the bus also counts as stopped when no start has been seen since then.
+ * A start is made only when I2CSTAT.P says that a stop has been seen. After a reset there was none, so the very first
+ * transaction fails; its stop at the end is what the second one needs.
  * Source: [lib: I2C/e_I2C_master_module.c], facts restated; [DS70143 16].
  */
 #include "I2C/e_I2C_master_module.h"
@@ -61,6 +61,10 @@ char e_i2c_deinit(void) {
 
 char e_i2c_reset(void) {
   I2CCONbits.I2CEN = 0;
+  IFS0bits.MI2CIF = 0;
+  IFS0bits.SI2CIF = 0;
+  IEC0bits.SI2CIE = 0;
+  I2CSTAT = 0;
   hal_pause(DELAY_ROUNDS);
   e_i2c_init();
   e_i2c_enable();
@@ -82,7 +86,7 @@ char e_i2c_disable(void) {
 
 char e_i2c_start(void) {
   e_i2c_mode = START;
-  if (I2CSTATbits.S && !I2CSTATbits.P) return 0;
+  if (!I2CSTATbits.P) return 0;
   I2CCONbits.SEN = 1;
   return wait_for_end(PATIENCE);
 }

@@ -5,7 +5,7 @@
 #include "hal.h"
 
 #define BREAK_PAUSES 25
-#define PAUSE_ROUNDS 6016 /* 25 of them: 1,504,000 cycles, 102 ms */
+#define PAUSE_ROUNDS 15040 /* 25 of them at -O1: 1,504,000 cycles, 102 ms */
 
 void hal_uart1_break(void) {
   int i;

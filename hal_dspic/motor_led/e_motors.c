@@ -10,7 +10,7 @@
 
 #define LEFT 0
 #define RIGHT 1
-#define COUNTS_PER_SECOND 57600u /* FCY / 256 */
+#define COUNTS_PER_SECOND (FCY / 256) /* 57600, a float */
 #define PRESCALE_256 3
 #define LONGEST_PERIOD 0xFFFFu
 
@@ -47,10 +47,10 @@ void __attribute__((__interrupt__, __auto_psv__)) _T4Interrupt(void) {
     step(&right_wheel, RIGHT, 1, 1);
 }
 
-/* the period register; the magnitude of -32768 does not fit */
+/* the period register, by a division of floats as in the original; the magnitude of -32768 does not fit */
 static unsigned int period_of(int speed) {
   if (speed == -32767 - 1) return LONGEST_PERIOD;
-  return COUNTS_PER_SECOND / (unsigned int)(speed < 0 ? -speed : speed);
+  return (unsigned int)(COUNTS_PER_SECOND / (speed < 0 ? -speed : speed));
 }
 
 void e_set_speed_left(int motor_speed) {

@@ -18,6 +18,38 @@ void hal_set_ring(unsigned int led, unsigned int value) {
   }
 }
 
+/* one branch for all, and an instruction a pin */
+void hal_set_rings(unsigned int value) {
+  if (value > 1) {
+    LED0 ^= 1;
+    LED1 ^= 1;
+    LED2 ^= 1;
+    LED3 ^= 1;
+    LED4 ^= 1;
+    LED5 ^= 1;
+    LED6 ^= 1;
+    LED7 ^= 1;
+  } else if (value) {
+    LED0 = 1;
+    LED1 = 1;
+    LED2 = 1;
+    LED3 = 1;
+    LED4 = 1;
+    LED5 = 1;
+    LED6 = 1;
+    LED7 = 1;
+  } else {
+    LED0 = 0;
+    LED1 = 0;
+    LED2 = 0;
+    LED3 = 0;
+    LED4 = 0;
+    LED5 = 0;
+    LED6 = 0;
+    LED7 = 0;
+  }
+}
+
 /* phases 0 to 3: B D, B C, A C, A D */
 const unsigned char hal_phase_coils[4] = {0xA, 0x6, 0x5, 0x9};
 

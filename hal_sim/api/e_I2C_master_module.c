@@ -19,7 +19,7 @@
 #define DELAY_ROUNDS 10000
 #define PATIENCE 10000       /* rounds until a primitive gives up */
 #define READ_PATIENCE 100000 /* the same for a byte to arrive */
-#define DELAY_ROUND_CYCLES 10 /* [estimated: a long counted down and tested] */
+#define DELAY_ROUND_CYCLES T_PAUSE_ROUND /* a long counted down and tested */
 #define WAIT_ROUND_CYCLES 13  /* [estimated: the same and a byte tested] */
 
 /* operation under way; the interrupt clears it. In the library's object, not in its header. */

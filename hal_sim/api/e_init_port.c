@@ -8,12 +8,14 @@
 #include "motor_led/e_init_port.h"
 
 #include "acc_gyro/e_lsm330.h"
+#include "hal_sim/api/timings.h"
 #include "hal_sim/host/pins.h"
 #include "hal_sim/host/pins_acc.h"
 
-/* bus start: three waiting loops of 10,000 rounds; then ports, and a read of four bytes at 90 kHz */
-#define I2C_START_CYCLES 300000 /* [estimated: 30,000 rounds of 10 cycles] */
-#define I2C_READ_CYCLES 7349    /* [estimated: 44 bit times of 164 cycles, 8 handlers and loops, as hal_dspic] */
+/* bus start: a waiting loop of 10,000 rounds, then three for each of two resets; a read of four bytes at 90 kHz, after one
+ * that fails */
+#define I2C_START_CYCLES (7 * 10000L * T_PAUSE_ROUND)
+#define I2C_READ_CYCLES 13731 /* [measured: hal_dspic] */
 
 /* exported under this name by the library's object */
 unsigned char isPresentFlag;

@@ -25,6 +25,8 @@
 #define RING_LEDS 8
 /** A ring LED, the front LED, the body's: 0 or 1; above 1 toggles. */
 void hal_set_ring(unsigned int led, unsigned int value);
+/** All eight at once. */
+void hal_set_rings(unsigned int value);
 void hal_set_front(unsigned int value);
 void hal_set_body(unsigned int value);
 #define set_ring(led, value) hal_set_ring(led, value)

@@ -22,6 +22,12 @@ TAKES(0) void hal_set_ring(unsigned int led, unsigned int value) {
   set_pin('A', ring_pin[led], value);
 }
 
+TAKES(0) void hal_set_rings(unsigned int value) {
+  unsigned char led;
+  tp_spend(value > 1 ? T_RINGS_TOGGLE : value ? T_RINGS_ON : T_RINGS_OFF);
+  for (led = 0; led < RING_LEDS; led++) set_pin('A', ring_pin[led], value);
+}
+
 TAKES(0) void hal_note_led(unsigned int led) { tp_note_led(led); }
 
 TAKES(0) void hal_set_front(unsigned int value) {

@@ -9,12 +9,15 @@
 #define T_INIT_UART 29 /* e_init_uart1(), e_init_uart2() */
 #define T_GETSELECTOR 18 /* getselector() */
 #define T_WAIT 7 /* wait() */
-#define T_WAIT_ROUND 10 /* each of its rounds */
+#define T_WAIT_ROUND 6 /* each of its rounds */
 #define T_PAUSE 5 /* pause inside the library */
-#define T_PAUSE_ROUND 10 /* each of its rounds */
+#define T_PAUSE_ROUND 4 /* each of its rounds */
 #define T_RING_OFF 19 /* a ring LED, off */
 #define T_RING_ON 18 /* on */
 #define T_RING_TOGGLE 17 /* toggled */
+#define T_RINGS_OFF 17 /* all eight, off */
+#define T_RINGS_ON 18 /* on */
+#define T_RINGS_TOGGLE 71 /* toggled */
 #define T_LED_OFF 5 /* front or body LED, off */
 #define T_LED_ON 6 /* on */
 #define T_LED_TOGGLE 5 /* toggled */
@@ -34,7 +37,7 @@
 #define T_TICK_COUNT 5 /* each that counts */
 #define T_AGENDAS_STOP 4 /* e_end_agendas_processing() */
 #define T_INIT_MOTORS 5 /* e_init_motors() */
-#define T_SPEED 65 /* e_set_speed_left(), _right(): 0, the newest agenda */
+#define T_SPEED 37 /* e_set_speed_left(), _right(): 0, the newest agenda */
 #define T_SPEED_DIVISION 21 /* another speed */
 #define T_GET_STEPS 4 /* e_get_steps_left(), _right() */
 #define T_SET_STEPS 4 /* e_set_steps_left(), _right() */
@@ -48,9 +51,9 @@
 #define T_I2C_READ 36 /* e_i2c_read() */
 #define T_I2C_ACKNOWLEDGE 44 /* e_i2c_ack(), e_i2c_nack() */
 #define T_I2C_STOP 7 /* e_i2c_stop() */
-#define T_SCAN_ROUND 7024 /* converter: 65 frames, one round */
-#define T_SCAN_ACC 160 /* of these, the frame with the accelerometer */
-#define T_SCAN_MICRO 79 /* converter: a frame of MICRO_ONLY */
+#define T_SCAN_ROUND 8524 /* converter: 65 frames, one round */
+#define T_SCAN_ACC 161 /* of these, the frame with the accelerometer */
+#define T_SCAN_MICRO 82 /* converter: a frame of MICRO_ONLY */
 #define T_MOTOR_HALF 96 /* motor below 601: coils on */
 #define T_MOTOR_OFF 96 /* coils off */
 #define T_MOTOR_STEP 83 /* motor above 600: coils on */
@@ -60,7 +63,7 @@
 #define T_CAMERA_FRAME 21 /* fast camera: a frame begins */
 #define T_CAMERA_LINE 29 /* a line, beside 8 cycles a byte */
 #define T_DCI_INIT 24 /* e_init_dci_master() */
-#define T_CODEC_INIT 12751 /* e_init_codec_slave() */
+#define T_CODEC_INIT 12512 /* e_init_codec_slave() */
 #define T_DCI_IDLE 39 /* codec: four samples of silence */
 #define T_SOUND_KICKOFF 128 /* e_sub_dci_kickoff() */
 #define T_DCI_BUSY 156 /* codec: four samples */

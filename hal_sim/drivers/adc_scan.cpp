@@ -36,11 +36,11 @@ constexpr Cycle hold_to_end(Frame f, int channel) {
 Cycle hold_to_end(int sensor) {
   return hold_to_end(frame_of(kScanLitSlot), sensor < 4 ? 3 : sensor < 8 ? 4 : 9 - sensor);
 }
-// converter clocks of scans of 3, 5 and 6 channels give frames of one length
-static_assert(3 * kScanChannelTad * kScanTadCycles3 == kScanFrameCycles);
-static_assert(6 * kScanChannelTad * kScanTadCycles6 == kScanFrameCycles);
+// converter clocks of scans of 3, 5 and 6 channels give sequences of one length
+static_assert(3 * kScanChannelTad * kScanTadCycles3 == kScanSequenceCycles);
+static_assert(6 * kScanChannelTad * kScanTadCycles6 == kScanSequenceCycles);
 static_assert(3 * kScanChannelTad * kScanTadCycles6 == kScanMicroFrameCycles);
-static_assert(5 * kScanChannelTad * kScanTadCycles == kScanFrameCycles);
+static_assert(5 * kScanChannelTad * kScanTadCycles == kScanSequenceCycles);
 static_assert(hold_to_end(frame_of(kScanLitSlot), 3) == 349);
 
 }  // namespace
@@ -80,15 +80,16 @@ void AdcScan::start(bool micro_only, bool five_pairs, Cycle at) {
   ++starts_;
 }
 
-// The converter goes on meanwhile and sets the flag, which remembers one call.
+// The converter goes on meanwhile without a stop and sets the flag, which remembers one call. That call comes now
+// and begins a new sequence.
 void AdcScan::release(Cycle at) {
   const Cycle since = std::exchange(held_since_, -1);
   if (since < 0 || !on_) return;
-  const std::int64_t lost = frames(at) - frames(since) - 1;
+  const Cycle first = run_.cycle_of(run_.first + frames(since));
+  const std::int64_t lost = at < first ? 0 : (at - first) / run_.sequence();
   if (lost <= 0) return;
-  const Run before = run_;
   settle(since);
-  run_.origin = before.cycle_of(run_.first + lost - 1);
+  run_.origin = at - run_.sequence();
   if (lost_ == 0) first_lost_ = at;
   lost_ += lost;
 }

@@ -4,8 +4,9 @@
 //   slot (interrupts since the start mod 65):   3  lit pair arrives, IR LED off, next pair
 //                                              62  accelerometer arrives
 //                                              63  dark pair arrives, IR LED on
-//   every interrupt: 3 microphones. A frame takes 900 cycles (450 with MICRO_ONLY); a pair's samples are the
-//   4th and 5th channel of the frame that ends at its interrupt
+//   every interrupt: 3 microphones. A frame takes 965 cycles: 900 of conversions, and 65 in which the converter
+//   stands until the handler has listed the next channels (450 and none with MICRO_ONLY); a pair's samples are
+//   the 4th and 5th channel of the frame that ends at its interrupt
 //
 // Nothing is ticked: the number of interrupts so far follows from the clock by one division, and a sample is
 // evaluated when somebody asks for it, at its nominal instant. It is then kept, so it never changes.
@@ -13,8 +14,8 @@
 // Modelled: both rates, stopping and starting the converter, 4 or 5 pairs, the sample before the first flash.
 // Accelerometer samples are kept tick by tick from the first time that a program asks for one; those of
 // before are worked out then, from poses of at most 40 ms ago. Not modelled: turret sensors 8 and 9 (read 0),
-// which in their frames come before the microphones; that single frames are up to a quarter longer or
-// shorter, because the converter stands while its list changes. Source: [lib:
+// which in their frames come before the microphones; that four frames of 65 are up to 2 % longer; that the
+// converter stands longer when another handler runs at a sequence's end (0.2 % with agendas). Source: [lib:
 // a_d/advance_ad_scan/e_ad_conv.c], facts restated.
 #pragma once
 #include <array>
@@ -130,21 +131,23 @@ class AdcScan {
   struct Run {
     std::int64_t first = 0;  // number of its first interrupt
     std::int64_t full = 0;   // ALL_ADC interrupts before it: the driver's slot counter
-    Cycle origin = 0;        // its first frame begins
+    Cycle origin = 0;        // its first sequence begins
     bool micro_only = false;
 
     Cycle frame() const { return micro_only ? kScanMicroFrameCycles : kScanFrameCycles; }
+    Cycle sequence() const { return micro_only ? kScanMicroFrameCycles : kScanSequenceCycles; }
     /// When interrupt `number` comes.
-    Cycle cycle_of(std::int64_t number) const { return origin + (number - first + 1) * frame(); }
+    Cycle cycle_of(std::int64_t number) const { return origin + sequence() + (number - first) * frame(); }
   };
 
   Cycle seen(Cycle at) const { return held_since_ >= 0 && at > held_since_ ? held_since_ : at; }
   /// Of the present run.
   std::int64_t frames(Cycle at) const {
     at = seen(at);
-    if (!on_ || at <= run_.origin) return 0;
-    return static_cast<std::int64_t>(static_cast<std::uint64_t>(at - run_.origin) /
-                                     static_cast<std::uint64_t>(run_.frame()));
+    const Cycle first = run_.origin + run_.sequence();
+    if (!on_ || at < first) return 0;
+    return 1 + static_cast<std::int64_t>(static_cast<std::uint64_t>(at - first) /
+                                         static_cast<std::uint64_t>(run_.frame()));
   }
   static std::int64_t acc_samples_of(std::int64_t full_interrupts) {
     return (full_interrupts + kScanPeriod - 1 - kScanAccSlot) / kScanPeriod;
@@ -154,7 +157,7 @@ class AdcScan {
   std::int64_t newest(std::int64_t interrupts, int slot, int shift, int pair) const;
   /// Of ALL_ADC interrupt number (from 0).
   Cycle full_cycle(std::int64_t interrupt) const {
-    return run_.origin + (interrupt - run_.full + 1) * kScanFrameCycles;
+    return run_.origin + kScanSequenceCycles + (interrupt - run_.full) * kScanFrameCycles;
   }
   /// When the next sample is filed of `slot` and `pair`, after `filed` interrupts; kNever when none will.
   Cycle next_sample(std::int64_t filed, int slot, int shift, int pair) const;

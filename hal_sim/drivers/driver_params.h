@@ -30,8 +30,12 @@ inline constexpr Cycle kTimer3TickCycles =
 inline constexpr int kTimer3MaxSpeed = 999;  // steps/s [lib: motor_led/e_motors_timer3.c]
 
 // --- ADC scan --------------------------------------------------------------------------------------------
-inline constexpr Cycle kScanFrameCycles =
-    900;  // 3, 5 or 6 channels alike [lib: a_d/advance_ad_scan/e_ad_conv.h]
+inline constexpr Cycle kScanSequenceCycles =
+    900;  // conversions: 3, 5 or 6 channels alike [lib: a_d/advance_ad_scan/e_ad_conv.h]
+// the converter stands from a sequence's end until the handler has listed the next one's channels; the mean of
+// 65 frames at -O1, XC16's own code 67, at -O0 71 and 80 [measured: hal_dspic on the chip]
+inline constexpr Cycle kScanStopCycles = 65;
+inline constexpr Cycle kScanFrameCycles = kScanSequenceCycles + kScanStopCycles;
 inline constexpr Cycle kScanMicroFrameCycles =
     450;  // MICRO_ONLY, ADCS 19 [lib: a_d/advance_ad_scan/e_ad_conv.c]
 inline constexpr int kScanPeriod =
@@ -41,12 +45,13 @@ inline constexpr int kScanLitSlot = 3;  // PULSE_PERIOD - 1 [lib: a_d/advance_ad
 inline constexpr int kScanLitInterrupts =
     5;  // a flash lasts from slot 63 to 3 [lib: a_d/advance_ad_scan/e_ad_conv.c]
 inline constexpr Cycle kScanFlashCycles =
-    4676;  // of these, with the stops of the converter between them [measured: register way]
+    4841;  // of these, with the stops of the converter between them [measured: hal_dspic on the chip]
 inline constexpr int kScanAccSlot = 62;         // ACC_PROX_PERIOD - 2 [lib: a_d/advance_ad_scan/e_ad_conv.c]
 inline constexpr int kScanDarkSlot = 63;        // ACC_PROX_PERIOD - 1 [lib: a_d/advance_ad_scan/e_ad_conv.c]
-inline constexpr Cycle kScanLightCycles = 119;  // end of a frame to IR LED switched [measured: register way]
+inline constexpr Cycle kScanLightCycles =
+    125;  // end of a sequence to IR LED switched [measured: hal_dspic on the chip]
 inline constexpr Cycle kScanFileCycles =
-    92;  // end of a frame to samples in the array [measured: register way]
+    113;  // end of a sequence to samples in the array [measured: hal_dspic on the chip]
 inline constexpr Cycle kScanTadCycles = 12;  // five channels: ADCS 23 [lib: a_d/advance_ad_scan/e_ad_conv.h]
 inline constexpr Cycle kScanTadCycles3 =
     20;  // three channels: ADCS 39 [lib: a_d/advance_ad_scan/e_ad_conv.h]

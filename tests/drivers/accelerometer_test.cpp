@@ -112,14 +112,14 @@ TEST(AccScan, samples_are_taken_every_65_interrupts_in_a_six_channel_frame) {
   robot.scan().start(false, false, 0);
   const auto expected = [](int sample, int channel, double pole_hz) {
     // interrupt 65 k + 62 (from 0) ends a frame of six channels of 15 TAD of 10, held after the first
-    const double end = static_cast<double>(scan_times::calls(0, 63)[62]) + 58500.0 * sample;
+    const double end = static_cast<double>(scan_times::calls(0, 63)[62]) + 65.0 * scan_times::kFrame * sample;
     const double hold = end - ((6 - channel) * 15 - 1) * 10 - 1;
     const double tau = board::kFcyHz / (2 * sim::kPi * pole_hz);
     return 2048 + (hold - 28800 - tau) / 1000;
   };
   const Cycle first = scan_times::calls(0, 63)[62] + scan_times::kFiled;
   EXPECT_EQ(robot.scan().acc_until(0), first);
-  const Cycle after = first + 3 * 58500 + 5;
+  const Cycle after = first + 3 * 65 * scan_times::kFrame + 5;
   const drivers::AdcScan::AccRing ring = robot.scan().acc_scan(after);
   EXPECT_EQ(robot.scan().acc_samples(after), 4);
   for (int k = 0; k < 4; ++k) {
@@ -130,7 +130,7 @@ TEST(AccScan, samples_are_taken_every_65_interrupts_in_a_six_channel_frame) {
   }
   EXPECT_EQ(ring[0][0], 0);
   EXPECT_EQ(ring[0][5], 0);
-  EXPECT_EQ(robot.scan().acc_until(after), first + 4 * 58500);
+  EXPECT_EQ(robot.scan().acc_until(after), first + 4 * 65 * scan_times::kFrame);
 }
 
 TEST(AccScan, a_sample_has_one_value_however_often_it_is_read) {
@@ -141,7 +141,7 @@ TEST(AccScan, a_sample_has_one_value_however_often_it_is_read) {
   late.look_at(&scene);
   looked.scan().start(false, false, 0);
   late.scan().start(false, false, 0);
-  const Cycle end = 900 * 65 * 60;  // 60 samples: the ring has been round
+  const Cycle end = scan_times::kFrame * 65 * 60;  // 60 samples: the ring has been round
   for (Cycle at = 0; at < end; at += 12345) looked.scan().acc_scan(at);
   EXPECT_EQ(looked.scan().acc_scan(end), late.scan().acc_scan(end));
   // switching the converter off and on loses the frame under way and no sample
@@ -160,7 +160,7 @@ TEST(AccScan, pins_give_the_newest_sample_and_its_horizon) {
   host.cycle = first;
   host.horizon = host::kNever;
   EXPECT_EQ(tp_scan_acc_newest(2), 2816);
-  EXPECT_EQ(host.horizon, first + 58500);
+  EXPECT_EQ(host.horizon, first + 65 * scan_times::kFrame);
   std::int16_t samples[3][50];
   tp_scan_acc_values(samples);
   EXPECT_EQ(samples[0][1], 2048);

@@ -122,7 +122,7 @@ TEST_F(Exports, readings_hold_until_the_next_sample) {
   EXPECT_EQ(pair & 0xFFFF, 4095);
   EXPECT_EQ(pair >> 16, 4095 - 321);
   EXPECT_GT(context.horizon, context.cycle);
-  EXPECT_LT(context.horizon, context.cycle + 260 * 900);
+  EXPECT_LT(context.horizon, context.cycle + 260 * scan_times::kFrame);
   std::int16_t dark[10], lit[10];
   tp_scan_values(dark, lit);
   for (int sensor = 0; sensor < 8; ++sensor) EXPECT_EQ(dark[sensor] - lit[sensor], 321);

@@ -88,7 +88,7 @@ TEST_F(Microphones, samples_are_held_at_the_converters_instants) {
   EXPECT_EQ(tp_mic_scan(scan, 0), 3);
   EXPECT_EQ(context.horizon, calls[3]);
   // three channels of 15 TAD of 20, held after the first; the flag a cycle after the end
-  EXPECT_EQ(held, (std::vector<sim::Clicks>{5034, 5334, 5634, 5934, 6234, 6534, 6834, 7134, 7434}));
+  EXPECT_EQ(held, (std::vector<sim::Clicks>{5034, 5334, 5634, 5999, 6299, 6599, 6964, 7264, 7564}));
   // interrupt 3 delivers five channels (TAD 12), 62 six (TAD 10), 63 five again; 10 three
   EXPECT_EQ(robot.scan().mic_hold(1, 3), calls[3] - (4 * 15 - 1) * 12 - 1);
   EXPECT_EQ(robot.scan().mic_hold(0, 10), calls[10] - 44 * 20 - 1);
@@ -108,20 +108,20 @@ TEST_F(Microphones, only_new_samples_are_evaluated_and_at_most_a_buffer) {
   int asked = 0;
   scene.sound_pa = [&](const sim::Vec3&, sim::Clicks at) { return ++asked, static_cast<double>(at) / 1e7; };
   tp_scan_start(0, 0);
-  context.cycle = 15 + 50 * 900;
+  context.cycle = scan_times::calls(0, 50).back();
   const tp_i64 seen = tp_mic_scan(scan, 0);
   EXPECT_EQ(asked, 150);
-  context.cycle = 15 + 60 * 900;
+  context.cycle = scan_times::calls(0, 60).back();
   EXPECT_EQ(tp_mic_scan(scan, seen), 60);
   EXPECT_EQ(asked, 180);
   tp_mic_scan(scan, 60);
   EXPECT_EQ(asked, 180);
-  context.cycle = 15 + 1230 * 900;
+  context.cycle = scan_times::calls(0, 1230).back();
   EXPECT_EQ(tp_mic_scan(scan, 60), 1230);
   EXPECT_EQ(asked, 480);
   // sample 1229 is in place 29, sample 1130, the oldest, in place 30
   const auto counts = [&](int n) {
-    return static_cast<int>(std::floor(2048.5 + 0.0794 / 3.3 * 4096 * (n * 900 + 15 + 20) / 1e7));
+    return static_cast<int>(std::floor(2048.5 + 0.0794 / 3.3 * 4096 * (static_cast<double>(n * scan_times::kFrame) + 15 + 20) / 1e7));
   };
   EXPECT_EQ(scan[0][29], counts(1229));
   EXPECT_EQ(scan[0][30], counts(1130));
@@ -131,7 +131,7 @@ TEST_F(Microphones, only_new_samples_are_evaluated_and_at_most_a_buffer) {
 // their instants on both sides of the gap
 TEST_F(Microphones, samples_before_a_stop_keep_their_instants) {
   tp_scan_start(0, 0);
-  context.cycle = 250 * 900 + 321;
+  context.cycle = scan_times::calls(0, 250).back() + 321;
   tp_scan_switch(0);
   EXPECT_EQ(tp_mic_scan(scan, 250), 250);
   context.cycle += 12345;

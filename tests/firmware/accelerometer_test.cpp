@@ -203,7 +203,7 @@ TEST_F(Accelerometer, a_collision_at_10_cm_s_is_felt_backwards) {
   EXPECT_LT(r.variable("sideways"), 100);
 }
 
-TEST_F(Accelerometer, samples_come_252_times_a_second) {
+TEST_F(Accelerometer, samples_come_235_times_a_second) {
   Robot& r = quiet(add_robot_with_source(R"(
 #include <a_d/advance_ad_scan/e_acc.h>
 #include <a_d/advance_ad_scan/e_ad_conv.h>
@@ -223,8 +223,8 @@ int main(void) {
   run_for(0.4);
   const int first = r.variable("changes");
   run_for(10);
-  // 14745600 / (900 * 65) = 252.06; one in some hundred draws repeats the one before
-  EXPECT_NEAR(r.variable("changes") - first, 2520.6, 12);
+  // 14745600 / (965 * 65) = 235.08; one in some hundred draws repeats the one before
+  EXPECT_NEAR(r.variable("changes") - first, 2350.8, 12);
   EXPECT_LT(r.cpu_load(), 0.5);
 }
 

@@ -148,7 +148,7 @@ int main(void) {
   ASSERT_TRUE(run_until([&] { return r.led(1); }, 1));
   const double waited_s = now_s();
   ASSERT_TRUE(run_until([&] { return r.led(2); }, 1));
-  EXPECT_NEAR(waited_s, 100000 * 10 / 14745600.0, 0.02);
+  EXPECT_NEAR(waited_s, 100000 * 6 / 14745600.0, 0.004);
   EXPECT_NEAR(now_s() - waited_s, 100000 * 6 / 14745600.0, 0.03);
 }
 

@@ -1,19 +1,16 @@
 /* SPDX-License-Identifier: MIT
- * The ADC scan: the converter walks through its channels by itself and interrupts once a frame, 900 cycles after the
- * one before (450 with MICRO_ONLY). Frames count from 0 to 64:
+ * The ADC scan: the converter walks through its channels by itself, 900 cycles a frame (450 with MICRO_ONLY), and
+ * interrupts at the end of each. Frames count from 0 to 64:
  *
  *   frame   2: the next one holds the pair too        61: the next one holds the accelerometer too
  *           3: lit pair arrives, IR LED off,          62: accelerometer arrives; the next one holds the pair
- *              next pair; frames are short from here  63: dark pair arrives, IR LED on
- *          26: frames have their length again
+ *              next pair                              63: dark pair arrives, IR LED on
  *   all others: three microphones
  *
  * Channels are converted in the order of their numbers, so microphones (AN2 to AN4) come first, except before the
  * turret's pair (AN0, AN1), which joins the scan at selector position 10.
- * The converter must stand while its list changes. It is stopped in the six frames of 65 in which the list changes, for
- * about 87 cycles each (latency, entry, first lines of the handler) [measured: register way, and XC16 -O1], and runs on in
- * the others. The 23 frames from 4 to 26 are 22.5 cycles shorter, which catches that up: 16384 Hz on average, as the header
- * says.
+ * The converter must stand while its list changes. As in the original it stands in every frame, from the end of a
+ * sequence until the list is written, so the scan is slower than the 16384 Hz of its header: docs/limits.md.
  * Source: [lib: a_d/advance_ad_scan/e_ad_conv.c], facts restated; [DS70143 20].
  */
 #include "hal.h"
@@ -28,7 +25,6 @@
 #define LAST_FRAME 64
 #define LIST_PAIR_LIT 2
 #define TAKE_PAIR_LIT 3
-#define CAUGHT_UP 26
 #define LIST_ACC 61
 #define TAKE_ACC 62
 #define TAKE_PAIR_DARK 63
@@ -60,27 +56,27 @@ static unsigned char frame;
 static unsigned char pair;
 static unsigned char pairs = 4;
 
-/** What the next frames convert: `count` channels, at a clock that makes the frame 900 cycles long. */
-static void list_channels(unsigned int channels, unsigned int count, unsigned int clock) {
-  ADCON1bits.ADON = 0;
-  ADCSSL = channels;
-  ADCON2 = SCAN_INPUTS | (count - 1) << 2;
-  ADCON3 = SAMPLING_TAD | clock;
-  NOP(); /* the six stops take as long as the short frames save */
-  ADCON1bits.ADON = 1;
-}
+/* What the next frame converts: so many channels, at a clock that makes each frame 900 cycles long. */
+#define LIST_CHANNELS(channels, count, clock) \
+  do {                                        \
+    ADCSSL = (channels);                      \
+    ADCON2bits.SMPI = (count) - 1;            \
+    ADCON3bits.ADCS = (clock);                \
+  } while (0)
 
-static void list_microphones(void) { list_channels(MIC_CHANNELS, 3, ADCS_3_CHAN); }
-
-/* 877.5 cycles a frame */
-static void list_short_microphones(void) { list_channels(MIC_CHANNELS, 3, ADCS_3_CHAN - 1); }
-
-static void list_pair(void) {
-  if (pair == GUMSTIX_PAIR)
-    list_channels(MIC_CHANNELS | TURRET_CHANNELS, 5, ADCS_5_CHAN);
-  else
-    list_channels(MIC_CHANNELS | RING_PAIR(pair), 5, ADCS_5_CHAN);
-}
+/* Called while the converter stands, so each cycle here lengthens the frame. */
+#define LIST_PAIR()                                             \
+  do {                                                          \
+    ADCON2bits.SMPI = 5 - 1;                                    \
+    ADCON3bits.ADCS = ADCS_5_CHAN;                              \
+    switch (pair) {                                             \
+      case 0: ADCSSL = MIC_CHANNELS | RING_PAIR(0); break;      \
+      case 1: ADCSSL = MIC_CHANNELS | RING_PAIR(1); break;      \
+      case 2: ADCSSL = MIC_CHANNELS | RING_PAIR(2); break;      \
+      case 3: ADCSSL = MIC_CHANNELS | RING_PAIR(3); break;      \
+      default: ADCSSL = MIC_CHANNELS | TURRET_CHANNELS; break;  \
+    }                                                           \
+  } while (0)
 
 static void light_pair(void) {
   switch (pair) {
@@ -89,8 +85,8 @@ static void light_pair(void) {
     case 2: PULSE_IR2 = 1; break;
     case 3: PULSE_IR3 = 1; break;
     default:
-      FRONT_LED = 1;
       BODY_LED = 1;
+      FRONT_LED = 1;
   }
 }
 
@@ -101,8 +97,8 @@ static void darken_pair(void) {
     case 2: PULSE_IR2 = 0; break;
     case 3: PULSE_IR3 = 0; break;
     default:
-      FRONT_LED = 0;
       BODY_LED = 0;
+      FRONT_LED = 0;
   }
 }
 
@@ -117,71 +113,56 @@ static void file_pair(int *samples) {
   }
 }
 
-/* The six frames in which something besides the microphones arrives or the list changes. The list first, since the
- * converter stands meanwhile; the next frame begins to overwrite the results 150 cycles later. */
-static void __attribute__((__noinline__)) serve_special_frame(void) {
-  unsigned int newest;
-  switch (frame) {
-    case LIST_PAIR_LIT:
-      list_pair();
-      break;
-    case TAKE_PAIR_LIT:
-      list_short_microphones();
-      file_pair(e_ambient_and_reflected_ir);
-      darken_pair();
-      pair = pair + 1 < pairs ? pair + 1 : 0;
-      break;
-    case CAUGHT_UP:
-      list_microphones();
-      break;
-    case LIST_ACC:
-      list_channels(MIC_CHANNELS | ACC_CHANNELS, 6, ADCS_6_CHAN);
-      break;
-    case TAKE_ACC:
-      list_pair();
-      newest = e_last_acc_scan_id + 1 < ACC_SAMP_NB ? e_last_acc_scan_id + 1 : 0;
-      e_acc_scan[0][newest] = (int)ADCBUF3;
-      e_acc_scan[1][newest] = (int)ADCBUF4;
-      e_acc_scan[2][newest] = (int)ADCBUF5;
-      e_last_acc_scan_id = newest;
-      break;
-    case TAKE_PAIR_DARK:
-      list_microphones();
-      file_pair(e_ambient_ir);
-      light_pair();
-      break;
-    default:
-      break;
-  }
-}
-
 void __attribute__((__interrupt__, __auto_psv__)) _ADCInterrupt(void) {
-  unsigned int place = e_last_mic_scan_id;
-  int first = (int)ADCBUF0, second = (int)ADCBUF1, third = (int)ADCBUF2;
-  IFS0bits.ADIF = 0;
   is_completed = 0;
   is_filled = 0;
+  IFS0bits.ADIF = 0;
+  if (updateAccI2CCounter < ACC_COUNTER_MAX) updateAccI2CCounter++;
+  if (tickAdcIsr < TICK_COUNTER_MAX) tickAdcIsr++;
+
   if (!is_micro_only) {
-    if (pair == GUMSTIX_PAIR && (frame == TAKE_PAIR_LIT || frame == TAKE_PAIR_DARK)) {
-      first = (int)ADCBUF2;
-      second = (int)ADCBUF3;
-      third = (int)ADCBUF4;
-    }
-    /* early, since the converter stands while its list changes */
-    if (frame >= LIST_ACC || (frame & 0xFE) == LIST_PAIR_LIT || frame == CAUGHT_UP) serve_special_frame();
-    frame = frame < LAST_FRAME ? frame + 1 : 0;
+    /* the converter stands from here ... */
+    ADCON1bits.ADON = 0;
+    LIST_CHANNELS(MIC_CHANNELS, 3, ADCS_3_CHAN);
+    if (frame == LIST_ACC)
+      LIST_CHANNELS(MIC_CHANNELS | ACC_CHANNELS, 6, ADCS_6_CHAN);
+    else if (frame == TAKE_ACC)
+      LIST_PAIR();
+    else if (frame == LIST_PAIR_LIT)
+      LIST_PAIR();
+    ADCON1bits.ADON = 1; /* ... to here; the next frame overwrites the first result 300 cycles later */
   }
-  e_mic_scan[0][place] = first;
-  e_mic_scan[1][place] = second;
-  e_mic_scan[2][place] = third;
-  if (++place < MIC_SAMP_NB) {
-    e_last_mic_scan_id = place;
+
+  if (pair == GUMSTIX_PAIR && (frame == TAKE_PAIR_LIT || frame == TAKE_PAIR_DARK)) {
+    e_mic_scan[0][e_last_mic_scan_id] = (int)ADCBUF2;
+    e_mic_scan[1][e_last_mic_scan_id] = (int)ADCBUF3;
+    e_mic_scan[2][e_last_mic_scan_id] = (int)ADCBUF4;
   } else {
+    e_mic_scan[0][e_last_mic_scan_id] = (int)ADCBUF0;
+    e_mic_scan[1][e_last_mic_scan_id] = (int)ADCBUF1;
+    e_mic_scan[2][e_last_mic_scan_id] = (int)ADCBUF2;
+  }
+  if (++e_last_mic_scan_id >= MIC_SAMP_NB) {
     e_last_mic_scan_id = 0;
     is_filled = 1;
   }
-  if (tickAdcIsr < TICK_COUNTER_MAX) tickAdcIsr++;
-  if (updateAccI2CCounter < ACC_COUNTER_MAX) updateAccI2CCounter++;
+
+  if (!is_micro_only) {
+    if (frame == TAKE_ACC) {
+      if (++e_last_acc_scan_id >= ACC_SAMP_NB) e_last_acc_scan_id = 0;
+      e_acc_scan[0][e_last_acc_scan_id] = (int)ADCBUF3;
+      e_acc_scan[1][e_last_acc_scan_id] = (int)ADCBUF4;
+      e_acc_scan[2][e_last_acc_scan_id] = (int)ADCBUF5;
+    } else if (frame == TAKE_PAIR_DARK) {
+      file_pair(e_ambient_ir);
+      light_pair();
+    } else if (frame == TAKE_PAIR_LIT) {
+      file_pair(e_ambient_and_reflected_ir);
+      darken_pair();
+      pair = pair + 1 < pairs ? pair + 1 : 0;
+    }
+    if (frame++ >= LAST_FRAME) frame = 0;
+  }
   is_completed = 1;
 }
 
@@ -199,10 +180,10 @@ void e_init_ad_scan(unsigned char only_micro) {
   ADCON1 = AUTO_CONVERT;
   IFS0bits.ADIF = 0;
   IEC0bits.ADIE = 1;
-  if (is_micro_only)
-    list_channels(MIC_CHANNELS, 3, ADCS_6_CHAN); /* twice as fast */
-  else
-    list_microphones();
+  ADCON2 = SCAN_INPUTS;
+  ADCON3 = SAMPLING_TAD;
+  LIST_CHANNELS(MIC_CHANNELS, 3, is_micro_only ? ADCS_6_CHAN : ADCS_3_CHAN); /* 6 channels' clock: twice as fast */
+  ADCON1bits.ADON = 1;
   /* until the accelerometer's buffer has been filled once */
   if (!is_micro_only)
     while (*(volatile unsigned int *)&e_last_acc_scan_id < ACC_SAMP_NB - 1) continue;

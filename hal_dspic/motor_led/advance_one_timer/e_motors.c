@@ -80,22 +80,33 @@ void e_init_motors(void) {
   e_activate_agenda(run_right_motor, 0);
 }
 
-static void set_speed(struct wheel *w, int which, int speed, void (*run)(void)) {
+static void set_speed(struct wheel *w, int speed, void (*run)(void)) {
   if (speed > MAX_SPEED) speed = MAX_SPEED;
   if (speed < -MAX_SPEED) speed = -MAX_SPEED;
-  hal_coils(which, 0);
   if (speed == 0) {
     e_set_agenda_cycle(run, 0);
     w->speed = 0;
   } else {
     w->speed = speed;
-    e_set_agenda_cycle(run, SPEED_UNIT / magnitude(speed));
+    e_set_agenda_cycle(run, SPEED_UNIT / (speed < 0 ? -speed : speed));
   }
 }
 
-void e_set_speed_left(int motor_speed) { set_speed(&left_wheel, LEFT, motor_speed, run_left_motor); }
+void e_set_speed_left(int motor_speed) {
+  MOTOR1_PHA = 0;
+  MOTOR1_PHB = 0;
+  MOTOR1_PHC = 0;
+  MOTOR1_PHD = 0;
+  set_speed(&left_wheel, motor_speed, run_left_motor);
+}
 
-void e_set_speed_right(int motor_speed) { set_speed(&right_wheel, RIGHT, motor_speed, run_right_motor); }
+void e_set_speed_right(int motor_speed) {
+  MOTOR2_PHA = 0;
+  MOTOR2_PHB = 0;
+  MOTOR2_PHC = 0;
+  MOTOR2_PHD = 0;
+  set_speed(&right_wheel, motor_speed, run_right_motor);
+}
 
 void e_set_speed(int linear_speed, int angular_speed) {
   /* magnitudes and sums wrap at 16 bits */
