@@ -120,6 +120,12 @@ class Cpu final : public SfrOwner {
     if (d != asked.head) asked = {d, heads_.at(d).plain};
     return asked.plain;
   }
+  /// This one instruction alone, with its own function: not the translated code that begins there, and
+  /// decoded first where a pointer of it became stale.
+  static const Decoded* run_alone(Cpu& cpu, const Decoded* d) {
+    if (!cpu.is_decoded(d)) cpu.decode(d);
+    return cpu.plain(d)(cpu, d);
+  }
   int translated() const;
   const Decoded* loop_back(const Decoded* last, const Decoded* next);
   /// Iterations up to the last one or to `deadline`; then d itself is next.

@@ -23,6 +23,7 @@ void* address_of(const std::string& name, void* self) {
   if (name.empty()) return self;
   if (name == kArrive) return reinterpret_cast<void*>(&Cpu::arrive_from);
   if (name == kGoOn) return reinterpret_cast<void*>(&Cpu::go_on);
+  if (name == kAlone) return reinterpret_cast<void*>(&Cpu::run_alone);
   if (name[0] == kWordMark)
     return reinterpret_cast<void*>(
         function_of(static_cast<std::uint32_t>(std::strtoul(name.c_str() + 1, nullptr, 16))));

@@ -236,7 +236,9 @@ std::unique_ptr<Module> Maker::make() {
     ir_.SetInsertPoint(end);
     Value* const d = place(aside.item->place);
     ir_.CreateStore(d, field(&cpu_.at, byte_->getPointerTo()));
-    CallInst* const next = called(interpreter(aside.item->word), {cpu_arg_, d});
+    // a pointer that changes its kind makes the word one that is to be decoded anew
+    CallInst* const next =
+        called(aside.item->by_call ? kAlone : interpreter(aside.item->word), {cpu_arg_, d});
     pass(aside.item->decoded.cycles - items_[0].decoded.cycles);
     ir_.CreateRet(next);
     end->eraseFromParent();
@@ -273,10 +275,8 @@ bool Maker::put_item(const Item& item) {
     const FunctionType* const type = own->getFunctionType();
     call = ir_.CreateCall(own, {ir_.CreateBitCast(cpu_arg_, type->getParamType(0)),
                                 ir_.CreateBitCast(d, type->getParamType(1))});
-  } else {
-    Type* const type = function_->getType();
-    call = ir_.CreateCall(function_->getFunctionType(),
-                          ir_.CreateLoad(type, ir_.CreateBitCast(d, type->getPointerTo())), {cpu_arg_, d});
+  } else {  // not by Decoded::run, which at the head is this very stretch
+    call = called(kAlone, {cpu_arg_, d});
   }
   ir_.CreateRet(ir_.CreateBitCast(call, byte_->getPointerTo()));
   if (own) {

@@ -158,6 +158,76 @@ TEST(Instruction, cases_translated) {
   EXPECT_GT(translated, 200);
 }
 
+// The registers that serve as a word's pointers, or are its operands, if it has none: source, destination.
+std::pair<unsigned, unsigned> pointers_of(std::uint32_t word) {
+  const dspic::Row* const row = dspic::find_row(word);
+  if (!row) return {0, 0};
+  const dspic::Fields f = dspic::fields_of(*row, word);
+  if (!row->has(dspic::Operand::Prefetch) && !row->has(dspic::Operand::Distance))
+    return {row->has(dspic::Operand::RsPair) ? 2 * f.s : f.s,
+            row->has(dspic::Operand::RdPair) ? 2 * f.d : f.d};
+  const dspic::PrefetchMode x = dspic::prefetch_mode(f.i, false);
+  return {x.on ? static_cast<unsigned>(x.pointer) : 8, 13};
+}
+
+// A case as the head of a loop. Its pointers become modulo and bit-reversed ones, plain ones again, other
+// ones, and then all code is decoded anew as they stand: in each of these the loop runs hot
+int run_as_head(const Case& c, unsigned modcon_of_pointers(unsigned source, unsigned destination)) {
+  std::string text = ".section .cases, code, address(0)\n__reset: " + c.text +
+                     " / nop / nop / inc w10, w10 / bra __reset\n__AddressError: bclr INTCON1, #ADDRERR / "
+                     "retfie / __StackError: bclr INTCON1, #STKERR / mov #0xA00, w15 / retfie / __MathError: "
+                     "bclr INTCON1, #MATHERR / retfie";
+  for (char& letter : text)
+    if (letter == '/') letter = '\n';
+  CoreBench one(text, {}, false), other(text, {}, true);
+  const auto [source, destination] = pointers_of(one.image.program.at(0));
+  const unsigned modcon = modcon_of_pointers(source, destination);
+  for (CoreBench* b : {&one, &other}) {
+    for (const auto& [name, value] : pairs(c.before)) set(*b, name, value);
+    for (const auto& [name, value] :
+         {std::pair("XMODSRT", 0x8FCu), {"XMODEND", 0x90Bu}, {"YMODSRT", 0x1900u}, {"YMODEND", 0x190Bu}})
+      b->chip->write(bench::Bench::at(name), static_cast<std::uint16_t>(value), 16, 0);
+    b->chip->write(bench::Bench::at("XBREV"), 0x8008, 16, 0);
+  }
+  int translated = 0;
+  Cycle end = 0;
+  for (const unsigned mode : {modcon, 0u, modcon, modcon ^ 0x8000u, modcon}) {
+    for (CoreBench* b : {&one, &other})
+      b->chip->write(bench::Bench::at("MODCON"), static_cast<std::uint16_t>(mode), 16, b->cpu->now());
+    for (int i = 0; i < 3; ++i) {
+      end += 40;
+      one.run(end);
+      other.run(end);
+      EXPECT_EQ(one.cpu->now(), other.cpu->now()) << end;
+      EXPECT_EQ(one.cpu->state_hash(), other.cpu->state_hash()) << end;
+      EXPECT_EQ(one.chip->state_hash(end), other.chip->state_hash(end)) << end;
+      if (testing::Test::HasFailure()) return 0;
+    }
+    translated += other.cpu->translated() > 0;
+  }
+  other.cpu->translate_all();  // special from the first decoding on
+  one.run(end + 120);
+  other.run(end + 120);
+  EXPECT_EQ(one.cpu->state_hash(), other.cpu->state_hash()) << "decoded anew";
+  EXPECT_EQ(one.resets, other.resets);
+  return translated;
+}
+
+TEST(Instruction, cases_are_heads_of_hot_code_with_special_pointers) {
+  int translated = 0;
+  for (const Case& c : read_cases()) {
+    SCOPED_TRACE("instruction_cases.txt:" + std::to_string(c.line) + ": " + c.row + ": " + c.text);
+    translated += run_as_head(c, [](unsigned source, unsigned destination) {
+      return 0xC000u | (destination & 15) << 8 | 10u << 4 | (source & 15);  // modulo reads, reversed writes
+    });
+    translated += run_as_head(c, [](unsigned source, unsigned destination) {
+      return 0xC000u | 15u << 8 | (source & 15) << 4 | (destination & 15);  // modulo writes
+    });
+    ASSERT_FALSE(HasFailure());
+  }
+  EXPECT_GT(translated, 1500);
+}
+
 // and the row that a case names is one that its text assembles to
 TEST(Instruction, every_row_has_a_case) {
   std::set<std::string> named, met;

@@ -122,8 +122,9 @@ std::uint32_t any_instruction(Draw& draw, unsigned at) {
   }
 }
 
-// number of places where translated code began
-int compare(std::uint32_t seed) {
+// number of places where translated code began; `pointers_change`: now and then other registers are modulo
+// and bit-reversed pointers
+int compare(std::uint32_t seed, bool pointers_change = false) {
   Draw draw{seed};
   CoreBench one(kFrame, {}, false), other(kFrame, {}, true);
   const unsigned body = one.symbol("body");
@@ -134,6 +135,17 @@ int compare(std::uint32_t seed) {
   }
   for (CoreBench* b : {&one, &other}) b->cpu->restart();
   for (Cycle end = 0; end < 12000; end += 1 + draw(draw(4) ? 700 : 5)) {
+    if (pointers_change && draw(6) == 0) {
+      const unsigned modcon = draw(0x10000), xbrev = draw(2) << 15 | 1u << draw(6);
+      for (CoreBench* b : {&one, &other}) {
+        b->chip->write(bench::Bench::at("MODCON"), static_cast<std::uint16_t>(modcon), 16, b->cpu->now());
+        b->chip->write(bench::Bench::at("XBREV"), static_cast<std::uint16_t>(xbrev), 16, b->cpu->now());
+        b->chip->write(bench::Bench::at("XMODSRT"), 0x900, 16, b->cpu->now());
+        b->chip->write(bench::Bench::at("XMODEND"), 0x91F, 16, b->cpu->now());
+        b->chip->write(bench::Bench::at("YMODSRT"), 0x1900, 16, b->cpu->now());
+        b->chip->write(bench::Bench::at("YMODEND"), 0x191F, 16, b->cpu->now());
+      }
+    }
     one.run(end);
     other.run(end);
     SCOPED_TRACE("seed " + std::to_string(seed) + " at " + std::to_string(end));
@@ -156,6 +168,81 @@ TEST(Translation, random_programs_run_alike) {
   int translated = 0;
   for (std::uint32_t seed = 1; seed <= programs && !HasFailure(); ++seed) translated += compare(seed);
   EXPECT_GT(translated, static_cast<int>(programs));
+}
+
+TEST(Translation, random_programs_run_alike_while_pointers_change) {
+  int translated = 0;
+  for (std::uint32_t seed = 1001; seed <= 1040 && !HasFailure(); ++seed) translated += compare(seed, true);
+  EXPECT_GT(translated, 40);
+}
+
+// a FIR loop as people write it: its first word reads through a modulo pointer, so the stretch that begins
+// there must not take itself for that word's own function
+TEST(Translation, a_loop_may_begin_with_a_modulo_pointer) {
+  for (const bool translated : {false, true}) {
+    CoreBench b(R"(__reset: mov #0x0900, w8
+    mov #0x0900, w0
+    mov w0, XMODSRT
+    mov #0x0907, w0
+    mov w0, XMODEND
+    mov #0x80F8, w0
+    mov w0, MODCON
+    nop
+    mov #0x8F08, w3
+    clr w2
+    mov #1000, w5
+loop: mov [w8++], w1
+    add w1, w2, w2
+    dec w5, w5
+    bra nz, loop
+    clr MODCON
+    mov #1000, w5
+    mov #loop, w6
+again: mov [w8], w1
+    add w1, w2, w2
+    dec w5, w5
+    bra nz, again
+end: bra end)",
+                {}, translated);
+    for (unsigned i = 0; i < 4; ++i) b.cpu->set_ram(0x900 + 2 * i, static_cast<std::uint8_t>(1 + i));
+    b.run(100000);
+    ASSERT_EQ(b.cpu->pc(), b.symbol("end"));
+    EXPECT_EQ(b.w(2), 250u * 10 + 1000 * 1);
+    EXPECT_EQ(b.w(8), 0x900u);
+    EXPECT_EQ(b.cpu->translated() > 0, translated);
+  }
+}
+
+// a stretch ends with a jump through a register that was a modulo pointer, and becomes one again: its word is
+// decoded anew then, while the stretch stays
+TEST(Translation, a_jump_through_a_pointer_that_changes_its_kind_goes_where_it_leads) {
+  for (const bool translated : {false, true}) {
+    CoreBench b(R"(__reset: mov #0x0900, w9
+    mov #50, w10
+    mov #0x80F8, w7
+    clr w6
+next: mov w7, MODCON
+    nop
+    mov #20, w5
+loop: inc w1, w1
+    inc w2, w2
+    mov #handle(back), w8
+    goto w8
+    inc w3, w3
+back: dec w5, w5
+    bra nz, loop
+    btg w7, #15
+    dec w10, w10
+    bra nz, next
+end: bra end)",
+                {}, translated);
+    b.run(100000);
+    ASSERT_EQ(b.cpu->pc(), b.symbol("end"));
+    EXPECT_EQ(b.w(1), 1000u);
+    EXPECT_EQ(b.w(2), 1000u);
+    EXPECT_EQ(b.w(3), 0u);
+    EXPECT_EQ(b.cpu->translated() > 0, translated);
+  }
 }
 
 // TBLPAG and PSVPAG have eight bits, RCOUNT fourteen
