@@ -17,10 +17,17 @@ constexpr unsigned kSplim = sfr("SPLIM"), kAccal = sfr("ACCAL"), kAccbu = sfr("A
                    kSr = sfr("SR"), kCorcon = sfr("CORCON"), kModcon = sfr("MODCON"),
                    kXmodsrt = sfr("XMODSRT"), kYmodend = sfr("YMODEND"), kXbrev = sfr("XBREV"),
                    kDisicnt = sfr("DISICNT"), kLast = kDisicnt;
-constexpr std::uint16_t kPsvOn = 0x0004, kIpl3 = 0x0008, kDl = 0x0700, kEdt = 0x0800,
-                        kCorconKept = 0xFFFF & ~(kIpl3 | kDl | kEdt);
-constexpr std::uint16_t kCorconAtReset = 0x0020;
-constexpr int kDeepestDo = 7;  // DL has three bits
+constexpr SfrBits kDl = sfr_field("CORCON", "DL"), kXwm = sfr_field("MODCON", "XWM"),
+                  kYwm = sfr_field("MODCON", "YWM"), kBwm = sfr_field("MODCON", "BWM"),
+                  kXb = sfr_field("XBREV", "XB"), kIpl = sfr_field("SR", "IPL");
+constexpr std::uint16_t kPsvOn = sfr_bits("CORCON", "PSV"), kIpl3 = sfr_bits("CORCON", "IPL3"),
+                        kEdt = sfr_bits("CORCON", "EDT"), kXmoden = sfr_bits("MODCON", "XMODEN"),
+                        kYmoden = sfr_bits("MODCON", "YMODEN"), kBren = sfr_bits("XBREV", "BREN"),
+                        kCorconKept = 0xFFFF & ~(kIpl3 | kDl.mask | kEdt);
+constexpr std::uint16_t kSab = sfr_bits("SR", "SAB"), kSa = sfr_bits("SR", "SA"), kSb = sfr_bits("SR", "SB");
+constexpr std::uint16_t kCorconAtReset = sfr_bits("CORCON", "SATDW");
+constexpr int kDeepestDo = kDl.mask >> kDl.lowest;
+constexpr unsigned kNoPointer = 15;  // as XWM, YWM or BWM: none is chosen [DS70143 4.2.2]
 
 // the course has not come there yet
 const Decoded* meet(Cpu& cpu, const Decoded* d) {
@@ -236,14 +243,14 @@ void Cpu::set_flags(unsigned bits) {
 void Cpu::set_sr(unsigned value, unsigned lanes) {
   if (lanes & 0xFF) {
     set_flags(value);
-    parts.interrupts.set_level(static_cast<int>(value >> 5 & 7) | (parts.interrupts.level() & 8), now);
+    parts.interrupts.set_level(static_cast<int>(kIpl.of(value)) | (parts.interrupts.level() & 8), now);
     deadline = 0;
   }
   if (!(lanes & 0xFF00)) return;
   dc = value & 0x100;
-  const bool both_stay = !(sa || sb) || (value & 0x400);
-  sa = sa && both_stay && (value & 0x2000);
-  sb = sb && both_stay && (value & 0x1000);
+  const bool both_stay = !(sa || sb) || (value & kSab);
+  sa = sa && both_stay && (value & kSa);
+  sb = sb && both_stay && (value & kSb);
 }
 
 // --- registers 0x000 to 0x052 ---------------------------------------------------------------------------
@@ -283,13 +290,14 @@ std::uint16_t Cpu::peek(unsigned address, Cycle when) const {
       return static_cast<std::uint16_t>(sr());
     case kCorcon:
       return static_cast<std::uint16_t>(corcon | (parts.interrupts.level() > 7 ? kIpl3 : 0) |
-                                        loop_depth << 8);
+                                        loop_depth << kDl.lowest);
     case kModcon:
       return modcon;
     case kXbrev:
       return xbrev;
     case kDisicnt:
-      return static_cast<std::uint16_t>(std::clamp<Cycle>(parts.interrupts.disi_until() - when, 0, 0x3FFF));
+      return static_cast<std::uint16_t>(
+          std::clamp<Cycle>(parts.interrupts.disi_until() - when, 0, kMostDisi));
     default:
       return 0;
   }
@@ -377,15 +385,16 @@ void Cpu::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
 // --- pointers -------------------------------------------------------------------------------------------
 
 std::array<std::uint32_t, 2> Cpu::special_registers() const {
-  const std::uint32_t read = modcon & 0x8000 ? 1u << (modcon & 15) : 0;
-  return {read, read | (xbrev & 0x8000 ? 1u << (modcon >> 8 & 15) : 0)};
+  const auto chosen = [](unsigned n) { return n == kNoPointer ? 0u : 1u << n; };
+  const std::uint32_t read = modcon & kXmoden ? chosen(kXwm.of(modcon)) : 0;
+  return {read, read | (xbrev & kBren ? chosen(kBwm.of(modcon)) : 0)};
 }
 
 unsigned Cpu::stepped(unsigned reg, unsigned value, int step, bool y_space) const {
   const unsigned moved = (value + static_cast<unsigned>(step)) & 0xFFFF;
   const bool on =
-      y_space ? (modcon & 0x4000) && (modcon >> 4 & 15) == reg : (modcon & 0x8000) && (modcon & 15) == reg;
-  if (!on) return moved;
+      y_space ? (modcon & kYmoden) && kYwm.of(modcon) == reg : (modcon & kXmoden) && kXwm.of(modcon) == reg;
+  if (!on || reg == kNoPointer) return moved;
   const int start = modulo[y_space ? 2 : 0], end = modulo[y_space ? 3 : 1], length = end - start + 1;
   const int place = static_cast<int>(value) + step;
   if (place > end && step > 0) return static_cast<unsigned>(place - length) & 0xFFFF;
@@ -395,7 +404,7 @@ unsigned Cpu::stepped(unsigned reg, unsigned value, int step, bool y_space) cons
 
 // XB is added from the highest bit down, to words
 static unsigned reversed_step(unsigned value, unsigned xb) {
-  unsigned sum = value >> 1, carry = xb & 0x7FFF;
+  unsigned sum = value >> 1, carry = xb & kXb.mask;
   while (carry) {
     const unsigned both = sum & carry;
     sum ^= carry;
@@ -405,15 +414,14 @@ static unsigned reversed_step(unsigned value, unsigned xb) {
 }
 
 unsigned Cpu::special_pointer(unsigned reg, int pre, int post, bool is_write) {
-  const bool reversed = is_write && (xbrev & 0x8000) && (modcon >> 8 & 15) == reg;
+  const bool reversed = is_write && (xbrev & kBren) && kBwm.of(modcon) == reg;
   const auto step = [&](unsigned value, int by) {
     if (reversed && by == 2) return reversed_step(value, xbrev);
     return by ? stepped(reg, value, by, false) : value;
   };
-  const unsigned mask = reg == 15 ? 0xFFFE : 0xFFFF;
-  const unsigned ea = step(w[reg], pre) & mask;
-  w[reg] = static_cast<std::uint16_t>(step(ea, post) & mask);
-  return reg == 15 ? stack_checked(ea) : ea;
+  const unsigned ea = step(w[reg], pre);
+  w[reg] = static_cast<std::uint16_t>(step(ea, post));
+  return ea;
 }
 
 // --- data space beyond RAM ------------------------------------------------------------------------------

@@ -13,9 +13,13 @@ namespace dspic {
 namespace {
 
 constexpr unsigned kIntcon1 = sfr("INTCON1");
-constexpr unsigned kOvate = 1u << 10, kOvbte = 1u << 9, kCovte = 1u << 8;
-constexpr std::uint16_t kInteger = 0x01, kRound = 0x02, kSuperSaturation = 0x10, kSaturateStores = 0x20,
-                        kSaturateB = 0x40, kSaturateA = 0x80, kUnsigned = 0x1000;
+constexpr unsigned kOvate = sfr_bits("INTCON1", "OVATE"), kOvbte = sfr_bits("INTCON1", "OVBTE"),
+                   kCovte = sfr_bits("INTCON1", "COVTE");
+constexpr std::uint16_t kInteger = sfr_bits("CORCON", "IF"), kRound = sfr_bits("CORCON", "RND"),
+                        kSuperSaturation = sfr_bits("CORCON", "ACCSAT"),
+                        kSaturateStores = sfr_bits("CORCON", "SATDW"),
+                        kSaturateB = sfr_bits("CORCON", "SATB"), kSaturateA = sfr_bits("CORCON", "SATA"),
+                        kUnsigned = sfr_bits("CORCON", "US");
 constexpr std::int64_t kMost31 = 0x7FFFFFFF, kLeast31 = -kMost31 - 1, kMost39 = 0x7FFFFFFFFF,
                        kLeast39 = -kMost39 - 1;
 constexpr int kMostAccumulatorShift = 16;

@@ -11,6 +11,9 @@ namespace {
 
 constexpr unsigned kFirstOc = sfr("OC1RS"), kFirstIc = sfr("IC1BUF");
 
+constexpr int module_bit(const char* name) { return sfr_field("PMD1", name).lowest; }
+static_assert(sfr_field("PMD2", "OC1MD").lowest == 0 && sfr_field("PMD2", "IC1MD").lowest == 8);
+
 // PORTA to PORTG, whose bits are pins
 constexpr bool is_port(const SfrInfo& info) {
   return info.name[0] == 'P' && info.name[1] == 'O' && info.name[2] == 'R';
@@ -30,19 +33,29 @@ void ChipParts::switch_modules(std::uint16_t next1, std::uint16_t next2, Cycle n
     int bit;
     unsigned first, last;
   };
-  static constexpr Module kModules[] = {
-      {0, sfr("ADCBUF0"), sfr("ADCHS")},    {0, sfr("ADCSSL"), sfr("ADCSSL")},
-      {1, sfr("C1RXF0SID"), sfr("C1EC")},   {2, sfr("C2RXF0SID"), sfr("C2EC")},
-      {3, sfr("SPI1STAT"), sfr("SPI1BUF")}, {4, sfr("SPI2STAT"), sfr("SPI2BUF")},
-      {5, sfr("U1MODE"), sfr("U1BRG")},     {6, sfr("U2MODE"), sfr("U2BRG")},
-      {7, sfr("I2CRCV"), sfr("I2CADD")},    {8, sfr("DCICON1"), sfr("TXBUF3")},
-      {11, sfr("TMR1"), sfr("T1CON")},      {12, sfr("TMR2"), sfr("TMR2")},
-      {12, sfr("PR2"), sfr("PR2")},         {12, sfr("T2CON"), sfr("T2CON")},
-      {13, sfr("TMR3HLD"), sfr("TMR3")},    {13, sfr("PR3"), sfr("PR3")},
-      {13, sfr("T3CON"), sfr("T3CON")},     {14, sfr("TMR4"), sfr("TMR4")},
-      {14, sfr("PR4"), sfr("PR4")},         {14, sfr("T4CON"), sfr("T4CON")},
-      {15, sfr("TMR5HLD"), sfr("TMR5")},    {15, sfr("PR5"), sfr("PR5")},
-      {15, sfr("T5CON"), sfr("T5CON")}};
+  static constexpr Module kModules[] = {{module_bit("ADCMD"), sfr("ADCBUF0"), sfr("ADCHS")},
+                                        {module_bit("ADCMD"), sfr("ADCSSL"), sfr("ADCSSL")},
+                                        {module_bit("C1MD"), sfr("C1RXF0SID"), sfr("C1EC")},
+                                        {module_bit("C2MD"), sfr("C2RXF0SID"), sfr("C2EC")},
+                                        {module_bit("SPI1MD"), sfr("SPI1STAT"), sfr("SPI1BUF")},
+                                        {module_bit("SPI2MD"), sfr("SPI2STAT"), sfr("SPI2BUF")},
+                                        {module_bit("U1MD"), sfr("U1MODE"), sfr("U1BRG")},
+                                        {module_bit("U2MD"), sfr("U2MODE"), sfr("U2BRG")},
+                                        {module_bit("I2CMD"), sfr("I2CRCV"), sfr("I2CADD")},
+                                        {module_bit("DCIMD"), sfr("DCICON1"), sfr("TXBUF3")},
+                                        {module_bit("T1MD"), sfr("TMR1"), sfr("T1CON")},
+                                        {module_bit("T2MD"), sfr("TMR2"), sfr("TMR2")},
+                                        {module_bit("T2MD"), sfr("PR2"), sfr("PR2")},
+                                        {module_bit("T2MD"), sfr("T2CON"), sfr("T2CON")},
+                                        {module_bit("T3MD"), sfr("TMR3HLD"), sfr("TMR3")},
+                                        {module_bit("T3MD"), sfr("PR3"), sfr("PR3")},
+                                        {module_bit("T3MD"), sfr("T3CON"), sfr("T3CON")},
+                                        {module_bit("T4MD"), sfr("TMR4"), sfr("TMR4")},
+                                        {module_bit("T4MD"), sfr("PR4"), sfr("PR4")},
+                                        {module_bit("T4MD"), sfr("T4CON"), sfr("T4CON")},
+                                        {module_bit("T5MD"), sfr("TMR5HLD"), sfr("TMR5")},
+                                        {module_bit("T5MD"), sfr("PR5"), sfr("PR5")},
+                                        {module_bit("T5MD"), sfr("T5CON"), sfr("T5CON")}};
   for (const Module& m : kModules)
     if (turned(pmd1, next1, m.bit)) {
       // what a module does must end before its registers fall silent

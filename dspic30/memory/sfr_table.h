@@ -36,6 +36,47 @@ constexpr unsigned sfr(std::string_view name) {
   return 0;
 }
 
+namespace detail {
+constexpr unsigned decimal(std::string_view digits) {
+  unsigned value = 0;
+  for (const char digit : digits) value = 10 * value + static_cast<unsigned>(digit - '0');
+  return value;
+}
+constexpr std::string_view fields_of(std::string_view name) {
+  for (const SfrInfo& row : kSfrRows)
+    if (name == row.name) return row.fields;
+  no_such_register();
+  return {};
+}
+}  // namespace detail
+
+/// Where a field lies in its register, and what it holds.
+struct SfrBits {
+  std::uint16_t mask = 0;
+  int lowest = 0;
+  constexpr unsigned of(unsigned word) const { return (word & mask) >> lowest; }
+};
+
+/// Field of a register by the table's names, for constants: what the models know of bits is from here.
+constexpr SfrBits sfr_field(std::string_view name, std::string_view field) {
+  for (std::string_view rest = detail::fields_of(name); !rest.empty();) {
+    const std::string_view one = rest.substr(0, rest.find(' '));
+    rest.remove_prefix(one.size() < rest.size() ? one.size() + 1 : one.size());
+    const auto first = one.find(':'), second = one.find(':', first + 1);
+    if (one.substr(0, first) != field) continue;
+    const unsigned lowest = detail::decimal(one.substr(first + 1, second - first - 1)),
+                   width = detail::decimal(one.substr(second + 1));
+    return {static_cast<std::uint16_t>(((1u << width) - 1) << lowest), static_cast<int>(lowest)};
+  }
+  detail::no_such_register();
+  return {};
+}
+/// All bits of these fields.
+template <class... Fields>
+constexpr std::uint16_t sfr_bits(std::string_view name, Fields... fields) {
+  return static_cast<std::uint16_t>((sfr_field(name, fields).mask | ...));
+}
+
 /// Register at a byte address (the odd byte belongs to its word); null where nothing is.
 const SfrInfo* sfr_info(unsigned address);
 /// Register of that name; null for unknown ones.

@@ -10,8 +10,13 @@ namespace {
 
 constexpr unsigned kCon1 = sfr("ADCON1"), kCon2 = sfr("ADCON2"), kCon3 = sfr("ADCON3"), kChs = sfr("ADCHS"),
                    kCssl = sfr("ADCSSL");
-constexpr std::uint16_t kDone = 0x0001, kSamp = 0x0002, kAdon = 0x8000, kBufs = 0x0080, kCscna = 0x0400,
-                        kAlts = 0x0001, kBufm = 0x0002, kAdrc = 0x0080;
+constexpr std::uint16_t kDone = sfr_bits("ADCON1", "DONE"), kSamp = sfr_bits("ADCON1", "SAMP"),
+                        kAdon = sfr_bits("ADCON1", "ADON"), kBufs = sfr_bits("ADCON2", "BUFS"),
+                        kCscna = sfr_bits("ADCON2", "CSCNA"), kAlts = sfr_bits("ADCON2", "ALTS"),
+                        kBufm = sfr_bits("ADCON2", "BUFM"), kAdrc = sfr_bits("ADCON3", "ADRC");
+constexpr SfrBits kForm = sfr_field("ADCON1", "FORM"), kAdcs = sfr_field("ADCON3", "ADCS"),
+                  kSamc = sfr_field("ADCON3", "SAMC"), kCh0sa = sfr_field("ADCHS", "CH0SA"),
+                  kCh0sb = sfr_field("ADCHS", "CH0SB");
 constexpr int kConversionTads = 14;       // [chip P4]
 constexpr int kManualStartTads = 1;       // between clearing SAMP and the conversion [?]
 constexpr Cycle kEndToFlag = 1;           // [?]
@@ -23,9 +28,9 @@ constexpr int kSoftware = 0, kInt0 = 1, kTimer3 = 2, kAutomatic = 7;
 void Adc::attach() {
   f_.bus.attach(*this, kBuffer, kChs);
   f_.bus.attach(*this, kCssl, kCssl);
-  f_.bus.mark_unmodelled(kCon1, 0x2000);
-  f_.bus.mark_unmodelled(kCon2, 0xE000);
-  f_.bus.mark_unmodelled(kChs, 0x1010);
+  f_.bus.mark_unmodelled(kCon1, sfr_bits("ADCON1", "ADSIDL"));
+  f_.bus.mark_unmodelled(kCon2, sfr_bits("ADCON2", "VCFG"));
+  f_.bus.mark_unmodelled(kChs, sfr_bits("ADCHS", "CH0NA", "CH0NB"));
   slot_ = f_.events.add(*this, 0, std::uint64_t{1} << irq::Adc, false);
   timers_.listen(*this);
 }
@@ -44,8 +49,9 @@ void Adc::reset(Cycle now) {
 }
 
 void Adc::set_times() {
-  tad_ = (con3_ & kAdrc) ? static_cast<Half>(2 * kRcTadSeconds * f_.fcy_hz) : (con3_ & 63) + 1;
-  sample_time_ = (con3_ >> 8 & 31) * tad_;
+  tad_ = (con3_ & kAdrc) ? static_cast<Half>(2 * kRcTadSeconds * f_.fcy_hz)
+                         : static_cast<Half>(kAdcs.of(con3_)) + 1;
+  sample_time_ = static_cast<Half>(kSamc.of(con3_)) * tad_;
   conversion_time_ = kConversionTads * tad_;
 }
 
@@ -59,9 +65,9 @@ void Adc::restart_sequence() {
 }
 
 int Adc::channel() const {
-  if (mux_b_) return chs_ >> 8 & 15;
+  if (mux_b_) return static_cast<int>(kCh0sb.of(chs_));
   if ((con2_ & kCscna) && scan_at_ >= 0) return scan_at_;
-  return chs_ & 15;
+  return static_cast<int>(kCh0sa.of(chs_));
 }
 
 void Adc::next_channel() {
@@ -132,7 +138,7 @@ void Adc::start_cruising(Half at) {
   for (int i = 0; i < cruise_.count; ++i) {
     if (!left) left = scanned;
     cruise_.channel[static_cast<std::size_t>(i)] =
-        static_cast<std::uint8_t>(scanned ? __builtin_ctz(left) : chs_ & 15);
+        static_cast<std::uint8_t>(scanned ? __builtin_ctz(left) : kCh0sa.of(chs_));
     left &= static_cast<std::uint16_t>(left - 1);
     cruise_.held[static_cast<std::size_t>(i)] = i * cruise_.cycle + cruise_.sample;
     cruise_.done[static_cast<std::size_t>(i)] = (i + 1) * cruise_.cycle;
@@ -280,7 +286,7 @@ void Adc::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
       const std::uint16_t before = con1_, wanted = merge_lanes(con1_, value, lanes);
       con1_ = static_cast<std::uint16_t>((wanted & ~(kSamp | kDone)) | (before & kSamp) |
                                          (before & wanted & kDone));
-      form_ = kForms[con1_ >> 8 & 3];
+      form_ = kForms[kForm.of(con1_)];
       if (const bool waits = on() && ssrc() == kTimer3; waits != wants_timer_) {
         wants_timer_ = waits;
         timers_.want_matches(3, waits, now);

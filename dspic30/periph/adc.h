@@ -56,10 +56,12 @@ class Adc final : public SfrOwner, public EventOwner, public TimerListener {
   using Half = std::int64_t;
   static Cycle up(Half h) { return (h + 1) >> 1; }
   void set_times();
-  int ssrc() const { return con1_ >> 5 & 7; }
-  bool asam() const { return (con1_ & 0x0004) != 0; }
-  bool on() const { return (con1_ & 0x8000) != 0; }
-  int per_interrupt() const { return (con2_ >> 2 & 15) + 1; }
+  static constexpr SfrBits kSsrc = sfr_field("ADCON1", "SSRC"), kSmpi = sfr_field("ADCON2", "SMPI");
+  static constexpr std::uint16_t kAsam = sfr_bits("ADCON1", "ASAM"), kOn = sfr_bits("ADCON1", "ADON");
+  int ssrc() const { return static_cast<int>(kSsrc.of(con1_)); }
+  bool asam() const { return (con1_ & kAsam) != 0; }
+  bool on() const { return (con1_ & kOn) != 0; }
+  int per_interrupt() const { return static_cast<int>(kSmpi.of(con2_)) + 1; }
 
   /// Does the converter run by itself, each sequence as the one before?
   bool is_regular() const;

@@ -10,6 +10,9 @@ namespace {
 constexpr unsigned kIc = sfr("IC1BUF"), kOc = sfr("OC1RS");
 constexpr int kIcFlags[] = {irq::Ic1, irq::Ic2, irq::Ic3, irq::Ic4, irq::Ic5, irq::Ic6, irq::Ic7, irq::Ic8};
 constexpr int kOcFlags[] = {irq::Oc1, irq::Oc2, irq::Oc3, irq::Oc4, irq::Oc5, irq::Oc6, irq::Oc7, irq::Oc8};
+constexpr std::uint16_t kIctmr = sfr_bits("IC1CON", "ICTMR"), kIcov = sfr_bits("IC1CON", "ICOV"),
+                        kIcbne = sfr_bits("IC1CON", "ICBNE"), kOcflt = sfr_bits("OC1CON", "OCFLT");
+constexpr SfrBits kIcm = sfr_field("IC1CON", "ICM"), kIci = sfr_field("IC1CON", "ICI");
 constexpr Cycle kEdgeToCapture = 1;  // synchroniser
 constexpr Cycle kMatchToPin = 1;     // [chip P9]
 enum Mode : int { Off, LowToHigh, HighToLow, Toggle, SinglePulse, Pulses, Pwm, PwmFault };
@@ -26,7 +29,7 @@ void InputCapture::attach() {
   for (int n = 0; n < kCaptures; ++n) {
     units_[static_cast<std::size_t>(n)].slot =
         f_.events.add(*this, n, std::uint64_t{1} << kIcFlags[n], false);
-    f_.bus.mark_unmodelled(kIc + 4 * static_cast<unsigned>(n) + 2, 0x2000);
+    f_.bus.mark_unmodelled(kIc + 4 * static_cast<unsigned>(n) + 2, sfr_bits("IC1CON", "ICSIDL"));
   }
 }
 
@@ -44,7 +47,7 @@ void InputCapture::schedule(int n, Cycle after) {
   const Pin pin = capture_pin(n);
   const auto nth = [&](Edge e, int k) { return f_.ports.nth_edge(pin, e, after, k); };
   Cycle edge = kNever;
-  switch (u.con & 7) {
+  switch (kIcm.of(u.con)) {
     case 1:
       edge = std::min(nth(Edge::Rising, 1), nth(Edge::Falling, 1));
       break;
@@ -72,8 +75,9 @@ void InputCapture::capture(Unit& u, int n, Cycle at) {
     return;
   }
   u.words[static_cast<std::size_t>(u.waiting++)] =
-      static_cast<std::uint16_t>(timers_.count((u.con & 0x0080) ? 2 : 3, at));
-  const int each = (u.con & 7) == 1 ? 1 : (u.con >> 5 & 3) + 1;  // ICI does not count in mode 1
+      static_cast<std::uint16_t>(timers_.count((u.con & kIctmr) ? 2 : 3, at));
+  const int each =
+      kIcm.of(u.con) == 1 ? 1 : static_cast<int>(kIci.of(u.con)) + 1;  // ICI does not count in mode 1
   if (++u.since_interrupt >= each) {
     u.since_interrupt = 0;
     f_.interrupts.raise(kIcFlags[n], at);
@@ -87,7 +91,7 @@ void InputCapture::on_event(int id, Cycle at) {
 
 void InputCapture::outside_changed(Cycle now) {
   for (int n = 0; n < kCaptures; ++n)
-    if (units_[static_cast<std::size_t>(n)].con & 7) schedule(n, now - kEdgeToCapture);
+    if (units_[static_cast<std::size_t>(n)].con & kIcm.mask) schedule(n, now - kEdgeToCapture);
 }
 
 std::uint16_t InputCapture::read(unsigned address, Cycle now) {
@@ -104,20 +108,20 @@ std::uint16_t InputCapture::read(unsigned address, Cycle now) {
 std::uint16_t InputCapture::peek(unsigned address, Cycle now) const {
   const Unit& u = units_[(address - kIc) / 4];
   if ((address & 2) == 0) return u.waiting ? u.words[0] : 0;
-  return static_cast<std::uint16_t>(u.con | (u.overflow ? 0x10 : 0) | (u.waiting ? 0x08 : 0));
+  return static_cast<std::uint16_t>(u.con | (u.overflow ? kIcov : 0) | (u.waiting ? kIcbne : 0));
 }
 
 void InputCapture::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycle now) {
   if ((address & 2) == 0) return;
   const int n = static_cast<int>(address - kIc) / 4;
   Unit& u = units_[static_cast<std::size_t>(n)];
-  const int before = u.con & 7;
-  u.con = merge_lanes(u.con, value, lanes) & static_cast<std::uint16_t>(~0x0018);
-  if ((u.con & 7) == 0) {
+  const unsigned before = kIcm.of(u.con);
+  u.con = merge_lanes(u.con, value, lanes) & static_cast<std::uint16_t>(~(kIcov | kIcbne));
+  if (kIcm.of(u.con) == 0) {
     u.waiting = 0;
     u.overflow = false;
   }
-  if ((u.con & 7) != before) {
+  if (kIcm.of(u.con) != before) {
     u.since_interrupt = 0;
     schedule(n, now + 1);
   }
@@ -133,7 +137,7 @@ void OutputCompare::attach() {
   f_.bus.attach(*this, kOc, kOc + 6 * kCompares - 2);
   for (int n = 0; n < kCompares; ++n) {
     units_[static_cast<std::size_t>(n)].slot = f_.events.add(*this, n, std::uint64_t{1} << kOcFlags[n], true);
-    f_.bus.mark_unmodelled(kOc + 6 * static_cast<unsigned>(n) + 4, 0x2000);
+    f_.bus.mark_unmodelled(kOc + 6 * static_cast<unsigned>(n) + 4, sfr_bits("OC1CON", "OCSIDL"));
   }
   timers_.listen(*this);
 }
@@ -247,7 +251,7 @@ void OutputCompare::write(unsigned address, std::uint16_t value, std::uint16_t l
       break;
     default: {
       const int before = mode(u);
-      u.con = merge_lanes(u.con, value, lanes) & static_cast<std::uint16_t>(~0x0010);
+      u.con = merge_lanes(u.con, value, lanes) & static_cast<std::uint16_t>(~kOcflt);
       if (mode(u) == before) break;
       u.done = false;
       u.duty = u.r;

@@ -67,8 +67,10 @@ class OutputCompare final : public SfrOwner, public EventOwner, public TimerList
     Cycle compared = -1;     // last tick dealt with
     int slot = -1;
   };
-  int timer(const Unit& u) const { return (u.con & 0x0008) ? 3 : 2; }
-  static int mode(const Unit& u) { return u.con & 7; }
+  static constexpr std::uint16_t kOctsel = sfr_bits("OC1CON", "OCTSEL");
+  static constexpr SfrBits kOcm = sfr_field("OC1CON", "OCM");
+  int timer(const Unit& u) const { return (u.con & kOctsel) ? 3 : 2; }
+  static int mode(const Unit& u) { return static_cast<int>(kOcm.of(u.con)); }
   void schedule(int n, Cycle after);
   void drive(int n, bool high, Cycle at);
 

@@ -10,8 +10,11 @@ namespace {
 constexpr unsigned kCon1 = sfr("DCICON1"), kCon2 = sfr("DCICON2"), kCon3 = sfr("DCICON3"),
                    kStat = sfr("DCISTAT"), kTscon = sfr("TSCON"), kRscon = sfr("RSCON"), kRx = sfr("RXBUF0"),
                    kTx = sfr("TXBUF0");
-constexpr std::uint16_t kDcien = 0x8000, kDloop = 0x0800, kUnfm = 0x0080, kDjst = 0x0020;
-constexpr std::uint16_t kTmpty = 0x0001, kTunf = 0x0002, kRful = 0x0004, kRov = 0x0008;
+constexpr std::uint16_t kDcien = sfr_bits("DCICON1", "DCIEN"), kDloop = sfr_bits("DCICON1", "DLOOP"),
+                        kUnfm = sfr_bits("DCICON1", "UNFM"), kDjst = sfr_bits("DCICON1", "DJST");
+constexpr std::uint16_t kTmpty = sfr_bits("DCISTAT", "TMPTY"), kTunf = sfr_bits("DCISTAT", "TUNF"),
+                        kRful = sfr_bits("DCISTAT", "RFUL"), kRov = sfr_bits("DCISTAT", "ROV");
+constexpr SfrBits kSlot = sfr_field("DCISTAT", "SLOT");
 constexpr Cycle kStartBits = 1;  // bit clocks from DCIEN to the first frame [?]
 constexpr Pin kCsdi{Port::G, 12}, kCsdo{Port::G, 13}, kCsck{Port::G, 14}, kCofs{Port::G, 15};
 
@@ -24,7 +27,7 @@ int nth_bit(std::uint16_t mask, std::int64_t n) {
 
 void Dci::attach() {
   f_.bus.attach(*this, kCon1, kTx + 6);
-  f_.bus.mark_unmodelled(kCon1, 0x2503);  // DCISIDL, CSCKD, COFSD, COFSM
+  f_.bus.mark_unmodelled(kCon1, sfr_bits("DCICON1", "DCISIDL", "CSCKD", "COFSD", "COFSM"));
   slot_ = f_.events.add(*this, 0, std::uint64_t{1} << irq::Dci, false);
 }
 
@@ -124,7 +127,7 @@ std::uint16_t Dci::peek(unsigned address, Cycle now) const {
     case kCon3:
       return con3_;
     case kStat:
-      return static_cast<std::uint16_t>(stat_ | slot_in_progress(now) << 8);
+      return static_cast<std::uint16_t>(stat_ | slot_in_progress(now) << kSlot.lowest);
     case kTscon:
       return tscon_;
     default:

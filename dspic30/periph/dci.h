@@ -33,11 +33,14 @@ class Dci final : public SfrOwner, public EventOwner {
   void on_event(int id, Cycle at) override;
 
  private:
-  bool runs() const { return (con1_ & 0x8000) && (con3_ & 0x0FFF); }
-  int bits() const { return (con2_ & 15) + 1; }
-  int frame_words() const { return (con2_ >> 5 & 15) + 1; }
-  int buffer_words() const { return (con2_ >> 10 & 3) + 1; }
-  Cycle bit() const { return 2 * (Cycle{con3_ & 0x0FFF} + 1); }
+  static constexpr std::uint16_t kOn = sfr_bits("DCICON1", "DCIEN");
+  static constexpr SfrBits kWs = sfr_field("DCICON2", "WS"), kCofsg = sfr_field("DCICON2", "COFSG"),
+                           kBlen = sfr_field("DCICON2", "BLEN"), kBcg = sfr_field("DCICON3", "BCG");
+  bool runs() const { return (con1_ & kOn) && kBcg.of(con3_); }
+  int bits() const { return static_cast<int>(kWs.of(con2_)) + 1; }
+  int frame_words() const { return static_cast<int>(kCofsg.of(con2_)) + 1; }
+  int buffer_words() const { return static_cast<int>(kBlen.of(con2_)) + 1; }
+  Cycle bit() const { return 2 * (Cycle{kBcg.of(con3_)} + 1); }
   Cycle word() const { return bits() * bit(); }
   std::uint16_t slots() const;
   Cycle slot_end(std::int64_t n) const;  // of the n-th enabled slot, 0 first

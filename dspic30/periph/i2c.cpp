@@ -10,10 +10,14 @@ namespace {
 
 constexpr unsigned kRcv = sfr("I2CRCV"), kTrn = sfr("I2CTRN"), kBrg = sfr("I2CBRG"), kCon = sfr("I2CCON"),
                    kStat = sfr("I2CSTAT"), kAdd = sfr("I2CADD");
-constexpr std::uint16_t kSen = 0x01, kRsen = 0x02, kPen = 0x04, kRcen = 0x08, kAcken = 0x10, kAckdt = 0x20,
-                        kOperations = 0x1F;
-constexpr std::uint16_t kTbf = 0x0001, kRbf = 0x0002, kS = 0x0008, kP = 0x0010, kI2cov = 0x0040,
-                        kIwcol = 0x0080, kTrstat = 0x4000, kAckstat = 0x8000;
+constexpr std::uint16_t con(const char* bit) { return sfr_bits("I2CCON", bit); }
+constexpr std::uint16_t stat(const char* bit) { return sfr_bits("I2CSTAT", bit); }
+constexpr std::uint16_t kSen = con("SEN"), kRsen = con("RSEN"), kPen = con("PEN"), kRcen = con("RCEN"),
+                        kAcken = con("ACKEN"), kAckdt = con("ACKDT"),
+                        kOperations = kSen | kRsen | kPen | kRcen | kAcken;
+constexpr std::uint16_t kTbf = stat("TBF"), kRbf = stat("RBF"), kS = stat("S"), kP = stat("P"),
+                        kI2cov = stat("I2COV"), kIwcol = stat("IWCOL"), kTrstat = stat("TRSTAT"),
+                        kAckstat = stat("ACKSTAT");
 constexpr double kFixedHz = 1111111;  // I2CBRG = FCY/FSCL - FCY/1,111,111 - 1 [chip P6]
 // half SCL periods of each operation [?]
 constexpr Cycle kStartHalves = 2, kRestartHalves = 4, kStopHalves = 3, kByteHalves = 16, kBitHalves = 2;
@@ -25,13 +29,13 @@ void I2c::attach() {
   f_.bus.attach(*this, kRcv, kAdd);
   // I2CSIDL, SCLREL is 1 after reset, IPMIEN, A10M, GCEN, STREN; slew rate and levels of the pins (DISSLW,
   // SMEN) have no digital effect
-  f_.bus.mark_unmodelled(kCon, 0x2CC0);
-  f_.bus.mark_unmodelled(kAdd, 0x03FF);
+  f_.bus.mark_unmodelled(kCon, sfr_bits("I2CCON", "I2CSIDL", "IPMIEN", "A10M", "GCEN", "STREN"));
+  f_.bus.mark_unmodelled(kAdd, sfr_bits("I2CADD", "I2CADD"));
   slot_ = f_.events.add(*this, 0, std::uint64_t{1} << irq::MasterI2c, false);
 }
 
 void I2c::reset(Cycle now) {
-  con_ = 0x1000;
+  con_ = con("SCLREL");
   stat_ = brg_ = add_ = 0;
   rcv_ = 0;
   trn_ = 0xFF;

@@ -32,7 +32,8 @@ class I2c final : public SfrOwner, public EventOwner {
  private:
   enum class Operation { None, Start, Restart, Stop, Receive, Acknowledge, Transmit };
 
-  bool on() const { return (con_ & 0x8000) != 0; }
+  static constexpr std::uint16_t kOn = sfr_bits("I2CCON", "I2CEN");
+  bool on() const { return (con_ & kOn) != 0; }
   Cycle scl() const;  // one SCL period
   void begin(Operation operation, Cycle half_periods, Cycle now);
   void finish(Cycle at);

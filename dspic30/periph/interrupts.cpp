@@ -12,6 +12,8 @@ namespace {
 
 constexpr unsigned kIntcon1 = sfr("INTCON1"), kIntcon2 = sfr("INTCON2"), kIfs0 = sfr("IFS0"),
                    kIec0 = sfr("IEC0"), kIpc0 = sfr("IPC0"), kInttreg = sfr("INTTREG");
+constexpr SfrBits kIlr = sfr_field("INTTREG", "ILR");
+constexpr std::uint16_t kDisi = sfr_bits("INTCON2", "DISI");
 constexpr int kDefaultPriority = 4;
 // of a hard trap, 13 or 14
 constexpr int kHardLevel = 13;
@@ -113,14 +115,14 @@ void Interrupts::set_level(int level, Cycle now) {
 
 void Interrupts::raise_trap(Trap trap, Cycle now) {
   const int number = static_cast<int>(trap), level = trap_level(number);
-  const bool hard_pending = (intcon1_ & 0x0006) != 0;
+  const bool hard_pending = (intcon1_ & (trap_flag(1) | trap_flag(2))) != 0;
   if (level >= kHardLevel && (level_ >= level || hard_pending)) {
     diagnostics_.report(Cause::TrapConflict, vector_name(number),
                         std::string(vector_name(number)) + ": a hard trap during another one resets the chip",
                         now);
     reset_due_ = ResetKind::TrapConflict;
   }
-  intcon1_ |= static_cast<std::uint16_t>(1 << number);
+  intcon1_ |= trap_flag(number);
   stirred_ = true;
 }
 
@@ -133,8 +135,8 @@ std::uint16_t Interrupts::read(unsigned address, Cycle now) {
 
 std::uint16_t Interrupts::peek(unsigned address, Cycle now) const {
   if (address == kIntcon1) return intcon1_;
-  if (address == kIntcon2) return static_cast<std::uint16_t>(intcon2_ | (disi_active(now) ? 0x4000 : 0));
-  if (address == kInttreg) return static_cast<std::uint16_t>(last_vector_ | last_level_ << 8);
+  if (address == kIntcon2) return static_cast<std::uint16_t>(intcon2_ | (disi_active(now) ? kDisi : 0));
+  if (address == kInttreg) return static_cast<std::uint16_t>(last_vector_ | last_level_ << kIlr.lowest);
   if (address < kIec0) return static_cast<std::uint16_t>(ifs_ >> 8 * (address - kIfs0));
   if (address < kIpc0) return static_cast<std::uint16_t>(iec_ >> 8 * (address - kIec0));
   std::uint16_t word = 0;
@@ -153,7 +155,7 @@ void Interrupts::write(unsigned address, std::uint16_t value, std::uint16_t lane
     intcon1_ = merge_lanes(intcon1_, value, lanes);
   } else if (address == kIntcon2) {
     const std::uint16_t before = intcon2_;
-    intcon2_ = merge_lanes(intcon2_, value, lanes) & 0x801F;
+    intcon2_ = merge_lanes(intcon2_, value, lanes) & static_cast<std::uint16_t>(~kDisi);
     for (int n = 0; n < 5; ++n) {  // the other edge counts from now on
       constexpr int kExternal[] = {irq::Int0, irq::Int1, irq::Int2, irq::Int3, irq::Int4};
       FlagListener* listener = listeners_[static_cast<std::size_t>(kExternal[n])];

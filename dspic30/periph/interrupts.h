@@ -30,6 +30,16 @@ class FlagListener {
 
 /// Level of trap 1 to 4 [chip C11].
 constexpr int trap_level(int trap) { return 15 - trap; }
+/// Its flag in INTCON1, where the order is another than that of the vectors.
+constexpr std::uint16_t trap_flag(int trap) {
+  constexpr std::uint16_t kFlags[] = {0, sfr_bits("INTCON1", "OSCFAIL"), sfr_bits("INTCON1", "ADDRERR"),
+                                      sfr_bits("INTCON1", "STKERR"), sfr_bits("INTCON1", "MATHERR")};
+  return kFlags[trap];
+}
+inline constexpr std::uint16_t kTrapFlags = trap_flag(1) | trap_flag(2) | trap_flag(3) | trap_flag(4);
+inline constexpr std::uint16_t kMostDisi = sfr_bits("DISICNT", "DISICNT"),
+                               kNstdis = sfr_bits("INTCON1", "NSTDIS"),
+                               kAltivt = sfr_bits("INTCON2", "ALTIVT");
 
 class Interrupts final : public SfrOwner {
  public:
@@ -65,7 +75,7 @@ class Interrupts final : public SfrOwner {
   bool enabled(int irq) const { return (iec_ >> irq & 1) != 0; }
   std::uint64_t flags() const { return ifs_; }
   std::uint64_t enabled_mask() const { return iec_; }
-  bool uses_alternate_table() const { return (intcon2_ & 0x8000) != 0; }  ///< INTCON2.ALTIVT
+  bool uses_alternate_table() const { return (intcon2_ & kAltivt) != 0; }  ///< INTCON2.ALTIVT
   int priority(int irq) const { return priority_[static_cast<std::size_t>(irq)]; }
   Cycle since(int irq) const { return since_[static_cast<std::size_t>(irq)]; }
   /// 1: external interrupt n waits for the falling edge.
@@ -89,18 +99,20 @@ class Interrupts final : public SfrOwner {
   void set_level(int level, Cycle now);
   int nesting() const { return depth_; }
   void disi(unsigned count, Cycle now) {
-    disi_until_ = now + 1 + static_cast<Cycle>(count & 0x3FFF);
+    disi_until_ = now + 1 + static_cast<Cycle>(count & kMostDisi);
     stirred_ = true;
   }
   bool disi_active(Cycle now) const { return now < disi_until_; }
   Cycle disi_until() const { return disi_until_; }
   void raise_trap(Trap trap, Cycle now);
-  bool nesting_disabled() const { return (intcon1_ & 0x8000) != 0; }
+  /// Is its flag set?
+  bool has_trap(Trap trap) const { return (intcon1_ & trap_flag(static_cast<int>(trap))) != 0; }
+  bool nesting_disabled() const { return (intcon1_ & kNstdis) != 0; }
   /// Is neither a trap nor an enabled flag set but that of `vector`?
   bool has_no_other(int vector) const {
     std::uint64_t ready = ifs_ & iec_;
     if (vector >= kFirstIrqVector) ready &= ~(std::uint64_t{1} << (vector - kFirstIrqVector));
-    return !ready && !(intcon1_ & 0x001E);
+    return !ready && !(intcon1_ & kTrapFlags);
   }
   bool wakes() const { return (ifs_ & iec_ & ~at_priority_[0]) != 0; }
   const std::optional<ResetKind>& reset_due() const { return reset_due_; }
@@ -188,9 +200,9 @@ class Interrupts final : public SfrOwner {
 // --- acceptance, asked after everything that may change it ------------------------------------------------
 
 inline int Interrupts::pending(Cycle now, int cpu_level) const {
-  if (intcon1_ & 0x001E) {
+  if (intcon1_ & kTrapFlags) {
     for (int trap = 1; trap <= 4; ++trap)
-      if ((intcon1_ >> trap & 1) && trap_level(trap) > cpu_level) return trap;
+      if ((intcon1_ & trap_flag(trap)) && trap_level(trap) > cpu_level) return trap;
   }
   std::uint64_t ready = ifs_ & iec_;
   if (!ready) return kNoVector;

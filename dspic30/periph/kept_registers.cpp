@@ -9,7 +9,9 @@ namespace {
 
 constexpr unsigned kPcl = sfr("PCL"), kPch = sfr("PCH"), kSr = sfr("SR"), kCorcon = sfr("CORCON"),
                    kDisicnt = sfr("DISICNT");
-constexpr std::uint16_t kIpl = 0x00E0, kIpl3 = 0x0008, kEdt = 0x0800;
+constexpr SfrBits kIpl = sfr_field("SR", "IPL"), kReqop = sfr_field("C1CTRL", "REQOP"),
+                  kOpmode = sfr_field("C1CTRL", "OPMODE");
+constexpr std::uint16_t kIpl3 = sfr_bits("CORCON", "IPL3"), kEdt = sfr_bits("CORCON", "EDT");
 constexpr Cycle kCanModeChange = 4;  // a few cycles without a bus [?]
 
 std::uint16_t reset_value(unsigned address) {
@@ -32,11 +34,11 @@ std::uint16_t CpuRegisters::peek(unsigned address, Cycle now) const {
   const int level = f_.interrupts.level();
   switch (address) {
     case kSr:
-      return static_cast<std::uint16_t>((word & ~kIpl) | (level & 7) << 5);
+      return static_cast<std::uint16_t>((word & ~kIpl.mask) | (level & 7) << kIpl.lowest);
     case kCorcon:
       return static_cast<std::uint16_t>((word & ~(kIpl3 | kEdt)) | (level > 7 ? kIpl3 : 0));
     case kDisicnt:
-      return static_cast<std::uint16_t>(std::clamp<Cycle>(f_.interrupts.disi_until() - now, 0, 0x3FFF));
+      return static_cast<std::uint16_t>(std::clamp<Cycle>(f_.interrupts.disi_until() - now, 0, kMostDisi));
     default:
       return word;
   }
@@ -46,7 +48,8 @@ void CpuRegisters::write(unsigned address, std::uint16_t value, std::uint16_t la
   if (address == kPcl || address == kPch) return;
   const std::uint16_t wanted = merge_lanes(peek(address, now), value, lanes);
   words_[address / 2] = wanted;
-  if (address == kSr) f_.interrupts.set_level((wanted & kIpl) >> 5 | (f_.interrupts.level() & 8), now);
+  if (address == kSr)
+    f_.interrupts.set_level(static_cast<int>(kIpl.of(wanted)) | (f_.interrupts.level() & 8), now);
   if (address == kDisicnt) f_.interrupts.disi(wanted, now);
   if (address == kCorcon && !(wanted & kIpl3) && f_.interrupts.level() > 7)
     f_.interrupts.set_level(f_.interrupts.level() & 7, now);
@@ -70,9 +73,9 @@ std::uint16_t PlainRegisters::word(unsigned address) const {
 // --- CAN
 
 void Can::attach() {
-  f_.bus.attach(*this, base_, base_ + 0x9A);
-  for (const unsigned transmit : {0x4Eu, 0x5Eu, 0x6Eu})
-    f_.bus.mark_unmodelled(base_ + transmit, 0x0008);  // TXREQ
+  f_.bus.attach(*this, base_, errors());
+  for (const unsigned transmit : {sfr("C1TX0CON"), sfr("C1TX1CON"), sfr("C1TX2CON")})
+    f_.bus.mark_unmodelled(base_ - kBases[0] + transmit, sfr_bits("C1TX0CON", "TXREQ"));
 }
 
 void Can::reset() {
@@ -86,15 +89,15 @@ std::uint16_t Can::peek(unsigned address, Cycle now) const {
   const std::uint16_t word = found == words_.end() ? reset_value(address) : found->second;
   if (address != control()) return word;
   const int mode = now >= mode_from_ ? next_mode_ : mode_;
-  return static_cast<std::uint16_t>((word & ~0x00E0) | mode << 5);
+  return static_cast<std::uint16_t>((word & ~kOpmode.mask) | mode << kOpmode.lowest);
 }
 
 void Can::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycle now) {
-  if (address == base_ + 0x9A) return;  // error counters
+  if (address == errors()) return;
   const std::uint16_t before = peek(address, now);
   words_[address] = merge_lanes(before, value, lanes);
   if (address != control()) return;
-  const int wanted = words_[address] >> 8 & 7;
+  const auto wanted = static_cast<int>(kReqop.of(words_[address]));
   if (wanted == next_mode_) return;
   mode_ = now >= mode_from_ ? next_mode_ : mode_;
   next_mode_ = wanted;

@@ -63,7 +63,8 @@ class Can final : public SfrOwner {
 
  private:
   static constexpr unsigned kBases[2] = {sfr("C1RXF0SID"), sfr("C2RXF0SID")};
-  unsigned control() const { return base_ + 0x90; }
+  unsigned control() const { return base_ - kBases[0] + sfr("C1CTRL"); }
+  unsigned errors() const { return base_ - kBases[0] + sfr("C1EC"); }
   Fabric f_;
   unsigned base_;
   std::map<unsigned, std::uint16_t> words_;

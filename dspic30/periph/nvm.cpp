@@ -10,7 +10,9 @@ namespace dspic {
 namespace {
 
 constexpr unsigned kCon = sfr("NVMCON"), kAdr = sfr("NVMADR"), kAdru = sfr("NVMADRU"), kKey = sfr("NVMKEY");
-constexpr std::uint16_t kWr = 0x8000, kWren = 0x4000, kWrerr = 0x2000;
+constexpr std::uint16_t kWr = sfr_bits("NVMCON", "WR"), kWren = sfr_bits("NVMCON", "WREN"),
+                        kWrerr = sfr_bits("NVMCON", "WRERR");
+constexpr SfrBits kProgop = sfr_field("NVMCON", "PROGOP");
 constexpr int kEraseWord = 0x44, kEraseRow = 0x45, kEraseAll = 0x46, kWriteWord = 0x04, kWriteRow = 0x05;
 constexpr int kEraseFlashRow = 0x41, kWriteFlashRow = 0x01, kWriteConfiguration = 0x08;
 constexpr double kOperationSeconds = 0.002;  // [?] 0.8 to 2.6 ms
@@ -55,7 +57,7 @@ void Nvm::begin(Cycle now) {
   if (!(con_ & kWren)) return;
   con_ = static_cast<std::uint16_t>((con_ | kWr) & ~kWrerr);
   const Cycle end = now + operation_cycles();
-  const int operation = con_ & 0x7F;
+  const auto operation = static_cast<int>(kProgop.of(con_));
   const bool on_eeprom = operation == kEraseWord || operation == kEraseRow || operation == kEraseAll ||
                          operation == kWriteWord || operation == kWriteRow;
   if (!on_eeprom) stalled_until_ = end;
@@ -65,7 +67,7 @@ void Nvm::begin(Cycle now) {
 void Nvm::on_event(int id, Cycle at) {
   const int word = word_index();
   const int row = word < 0 ? -1 : word - word % kRowWords;
-  switch (con_ & 0x7F) {
+  switch (kProgop.of(con_)) {
     case kEraseAll:
       eeprom_.fill(0xFFFF);
       break;
@@ -86,7 +88,7 @@ void Nvm::on_event(int id, Cycle at) {
             latches_[(kEepromStart / 2 + static_cast<unsigned>(row + i)) % kFlashRowWords]);
       break;
     default:
-      if (program_) carry_out_on_flash(con_ & 0x7F);
+      if (program_) carry_out_on_flash(static_cast<int>(kProgop.of(con_)));
   }
   eeprom_hash_ = hash_of_memory(eeprom_.data(), sizeof eeprom_);
   latches_.fill(kErasedWord);

@@ -6,16 +6,19 @@ namespace dspic {
 namespace {
 
 constexpr unsigned kStat = 0, kCon = 2;
-constexpr std::uint16_t kSpirov = 0x0040, kSpitbf = 0x0002, kSpirbf = 0x0001, kMsten = 0x0020,
-                        kDissdo = 0x0800;
+constexpr std::uint16_t kSpien = sfr_bits("SPI1STAT", "SPIEN"), kSpisidl = sfr_bits("SPI1STAT", "SPISIDL"),
+                        kSpirov = sfr_bits("SPI1STAT", "SPIROV"), kSpitbf = sfr_bits("SPI1STAT", "SPITBF"),
+                        kSpirbf = sfr_bits("SPI1STAT", "SPIRBF"), kMsten = sfr_bits("SPI1CON", "MSTEN"),
+                        kDissdo = sfr_bits("SPI1CON", "DISSDO"), kCkp = sfr_bits("SPI1CON", "CKP");
+constexpr SfrBits kPpre = sfr_field("SPI1CON", "PPRE"), kSpre = sfr_field("SPI1CON", "SPRE");
 constexpr Cycle kPrimary[] = {64, 16, 4, 1};
 
 }  // namespace
 
 void Spi::attach() {
   f_.bus.attach(*this, base_, base_ + 4);
-  f_.bus.mark_unmodelled(base_ + kStat, 0x2000);
-  f_.bus.mark_unmodelled(base_ + kCon, 0x6080);  // FRMEN, SPIFSD, SSEN
+  f_.bus.mark_unmodelled(base_ + kStat, kSpisidl);
+  f_.bus.mark_unmodelled(base_ + kCon, sfr_bits("SPI1CON", "FRMEN", "SPIFSD", "SSEN"));
   slot_ = f_.events.add(*this, 0, std::uint64_t{1} << (number_ == 1 ? irq::Spi1 : irq::Spi2), false);
 }
 
@@ -25,7 +28,7 @@ void Spi::reset(Cycle now) {
   f_.events.set(slot_, kNever);
 }
 
-Cycle Spi::clock() const { return (8 - (con_ >> 2 & 7)) * kPrimary[con_ & 3]; }
+Cycle Spi::clock() const { return (8 - Cycle{kSpre.of(con_)}) * kPrimary[kPpre.of(con_)]; }
 
 void Spi::start(Cycle now) {
   if (!on() || !(con_ & kMsten) || is_shifting_ || !has_waiting_) return;
@@ -69,9 +72,10 @@ void Spi::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
   switch (address - base_) {
     case kStat: {
       const std::uint16_t wanted = merge_lanes(stat_, value, lanes);
-      stat_ = static_cast<std::uint16_t>((wanted & 0xA000) | (stat_ & wanted & kSpirov) | (stat_ & kSpirbf));
+      stat_ = static_cast<std::uint16_t>((wanted & (kSpien | kSpisidl)) | (stat_ & wanted & kSpirov) |
+                                         (stat_ & kSpirbf));
       if (!on()) {
-        stat_ &= 0x2000;
+        stat_ &= kSpisidl;
         has_waiting_ = is_shifting_ = false;
         f_.events.set(slot_, kNever);
       }
@@ -99,7 +103,7 @@ void Spi::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
     else
       f_.ports.own_output(out, false, now + 1);
     if (con_ & kMsten)
-      f_.ports.own_output(clock_pin, (con_ & 0x0040) != 0, now + 1);
+      f_.ports.own_output(clock_pin, (con_ & kCkp) != 0, now + 1);
     else
       f_.ports.own_input(clock_pin, now + 1);
   } else {

@@ -25,8 +25,9 @@ class Spi final : public SfrOwner, public EventOwner {
 
  private:
   static constexpr unsigned kBases[2] = {sfr("SPI1STAT"), sfr("SPI2STAT")};
-  bool on() const { return (stat_ & 0x8000) != 0; }
-  int bits() const { return (con_ & 0x0400) ? 16 : 8; }
+  static constexpr std::uint16_t kOn = sfr_bits("SPI1STAT", "SPIEN"), kMode16 = sfr_bits("SPI1CON", "MODE16");
+  bool on() const { return (stat_ & kOn) != 0; }
+  int bits() const { return (con_ & kMode16) ? 16 : 8; }
   Cycle clock() const;
   void start(Cycle now);
 

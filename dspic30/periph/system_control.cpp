@@ -8,11 +8,17 @@ namespace dspic {
 namespace {
 
 constexpr unsigned kRcon = sfr("RCON"), kOsccon = sfr("OSCCON"), kOsctun = sfr("OSCTUN");
-constexpr std::uint16_t kPor = 1 << 0, kBor = 1 << 1, kIdle = 1 << 2, kSleep = 1 << 3, kWdto = 1 << 4,
-                        kSwdten = 1 << 5, kSwr = 1 << 6, kExtr = 1 << 7, kLvdl = 0x0F00, kLvden = 1 << 12,
-                        kBgst = 1 << 13, kIopuwr = 1 << 14, kTrapr = 1 << 15;
-constexpr std::uint16_t kDefaultLvdl = 0x0500;
-constexpr std::uint16_t kOswen = 0x0001, kCf = 0x0008, kLock = 0x0020;
+constexpr std::uint16_t rcon(const char* bit) { return sfr_bits("RCON", bit); }
+constexpr std::uint16_t kPor = rcon("POR"), kBor = rcon("BOR"), kIdle = rcon("IDLE"), kSleep = rcon("SLEEP"),
+                        kWdto = rcon("WDTO"), kSwdten = rcon("SWDTEN"), kSwr = rcon("SWR"),
+                        kExtr = rcon("EXTR"), kLvden = rcon("LVDEN"), kBgst = rcon("BGST"),
+                        kIopuwr = rcon("IOPUWR"), kTrapr = rcon("TRAPR");
+constexpr SfrBits kLvdl = sfr_field("RCON", "LVDL"), kNosc = sfr_field("OSCCON", "NOSC"),
+                  kCosc = sfr_field("OSCCON", "COSC");
+constexpr std::uint16_t kDefaultLvdl = 5 << kLvdl.lowest;
+constexpr std::uint16_t kOswen = sfr_bits("OSCCON", "OSWEN"), kCf = sfr_bits("OSCCON", "CF"),
+                        kLock = sfr_bits("OSCCON", "LOCK"),
+                        kIdleBits = sfr_bits("OSCCON", "LPOSCEN", "POST");  // kept, without effect
 constexpr std::uint16_t kUnlockLow[] = {0x46, 0x57}, kUnlockHigh[] = {0x78, 0x9A};
 constexpr int kPllSource = 7;
 // postscaler A, and the shortest time-out: 256 periods of 128 kHz [chip C16]
@@ -26,7 +32,7 @@ constexpr double kLvdVolts[] = {0, 0, 0, 0, 2.5, 2.7, 2.8, 3.0, 3.3, 3.5, 3.6, 3
 void SystemControl::attach() {
   f_.bus.attach(*this, kRcon, kOsctun);
   f_.bus.take_all_bits(kOsccon);
-  f_.bus.mark_unmodelled(kOsctun, 0x000F);
+  f_.bus.mark_unmodelled(kOsctun, sfr_bits("OSCTUN", "TUN0", "TUN1", "TUN2", "TUN3"));
   slot_ = f_.events.add(*this, 0, std::uint64_t{1} << irq::Lvd, true);
 }
 
@@ -37,7 +43,7 @@ Cycle SystemControl::watchdog_period() const {
 
 void SystemControl::reset(ResetKind kind, Cycle now) {
   bitten_ = asleep_ = woke_ = false;
-  const auto kept = static_cast<std::uint16_t>(rcon_ & ~(kSwdten | kLvden | kBgst | kLvdl));
+  const auto kept = static_cast<std::uint16_t>(rcon_ & ~(kSwdten | kLvden | kBgst | kLvdl.mask));
   switch (kind) {
     case ResetKind::PowerOn:
       rcon_ = kPor | kBor;
@@ -64,7 +70,8 @@ void SystemControl::reset(ResetKind kind, Cycle now) {
   rcon_ |= kDefaultLvdl;
   osctun_ = 0;
   const int source = fosc_ >> 8 & 7;
-  osccon_ = static_cast<std::uint16_t>(source << 12 | source << 8 | (source == kPllSource ? kLock : 0));
+  osccon_ = static_cast<std::uint16_t>(source << kCosc.lowest | source << kNosc.lowest |
+                                       (source == kPllSource ? kLock : 0));
   low_ = high_ = Lock{};
   clear_watchdog(now);
 }
@@ -92,7 +99,7 @@ void SystemControl::on_event(int id, Cycle at) {
 
 void SystemControl::watch_supply(Cycle now) {
   if (!(rcon_ & kLvden)) return;
-  const double limit = kLvdVolts[(rcon_ & kLvdl) >> 8];
+  const double limit = kLvdVolts[kLvdl.of(rcon_)];
   if (limit > 0 && f_.outside.supply_v(now) < limit) f_.interrupts.raise(irq::Lvd, now + 1, false);
 }
 
@@ -109,11 +116,11 @@ void SystemControl::write_osccon(std::uint16_t value, std::uint16_t lanes, Cycle
   const bool follows = lock.at_write + 1 == f_.bus.writes();
   if (is_low || is_high) {
     if (lock.step == 2 && follows) {
-      const std::uint16_t writable = is_high ? 0x0700 : 0x00C3;
+      const std::uint16_t writable = is_high ? kNosc.mask : kOswen | kIdleBits;
       const std::uint16_t clear_only = is_high ? 0 : kCf;
       osccon_ = static_cast<std::uint16_t>((osccon_ & ~writable) | (value & writable));
       if (!(value & clear_only)) osccon_ &= static_cast<std::uint16_t>(~clear_only);
-      if (osccon_ & (kOswen | 0x00C2))
+      if (osccon_ & (kOswen | kIdleBits))
         f_.diagnostics.report(
             Cause::UnmodelledBit, "OSCCON",
             "OSCCON: clock switching, postscaler and the 32 kHz oscillator are not modelled; the "
@@ -146,7 +153,7 @@ void SystemControl::write(unsigned address, std::uint16_t value, std::uint16_t l
   rcon_ = static_cast<std::uint16_t>((merge_lanes(rcon_, value, lanes) & ~kBgst));
   if (rcon_ & kLvden) rcon_ |= kBgst;  // the reference is ready at once
   if (watchdog_runs() != ran) clear_watchdog(now);
-  if ((rcon_ & (kLvden | kLvdl)) != (before & (kLvden | kLvdl))) watch_supply(now);
+  if ((rcon_ & (kLvden | kLvdl.mask)) != (before & (kLvden | kLvdl.mask))) watch_supply(now);
 }
 
 }  // namespace dspic

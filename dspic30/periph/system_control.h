@@ -31,7 +31,8 @@ class SystemControl final : public SfrOwner, public EventOwner {
   void awake() { asleep_ = woke_ = false; }
   /// Cycles from a clear to the time-out.
   Cycle watchdog_period() const;
-  bool watchdog_runs() const { return (fwdt_ & 0x8000) || (rcon_ & 0x0020); }
+  static constexpr std::uint16_t kSwdtenBit = sfr_bits("RCON", "SWDTEN");
+  bool watchdog_runs() const { return (fwdt_ & 0x8000) || (rcon_ & kSwdtenBit); }
 
   std::uint16_t read(unsigned address, Cycle now) override { return peek(address, now); }
   void write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycle now) override;

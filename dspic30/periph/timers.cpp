@@ -19,7 +19,9 @@ constexpr Addresses kAt[kTimers] = {{sfr("TMR1"), sfr("PR1"), sfr("T1CON")},
 constexpr unsigned kHold23 = sfr("TMR3HLD"), kHold45 = sfr("TMR5HLD");
 constexpr int kFlags[kTimers] = {irq::T1, irq::T2, irq::T3, irq::T4, irq::T5};
 constexpr Pin kClockPins[kTimers] = {{Port::C, 14}, {Port::C, 1}, {Port::C, 2}, {Port::C, 3}, {Port::C, 4}};
-constexpr std::uint16_t kTon = 0x8000, kTgate = 0x0040, kT32 = 0x0008, kTcs = 0x0002;
+constexpr std::uint16_t kTon = sfr_bits("T2CON", "TON"), kTgate = sfr_bits("T2CON", "TGATE"),
+                        kT32 = sfr_bits("T2CON", "T32"), kTcs = sfr_bits("T2CON", "TCS");
+constexpr SfrBits kTckps = sfr_field("T2CON", "TCKPS");
 constexpr int kPrescaleBits[] = {0, 3, 6, 8};  // 1, 8, 64, 256
 constexpr Cycle kEdgeToTick = 1;               // synchroniser of TxCK
 constexpr Cycle kMatchToFlag = 1;              // [chip P2]
@@ -63,7 +65,7 @@ void Timers::attach() {
     unit(t).slot = f_.events.add(*this, t, flags, false);
     f_.interrupts.listen(kFlags[t - 1], *this);
     f_.ports.watch(kClockPins[t - 1], *this);
-    f_.bus.mark_unmodelled(kAt[t - 1].con, 0x2000);
+    f_.bus.mark_unmodelled(kAt[t - 1].con, sfr_bits("T1CON", "TSIDL"));
   }
 }
 
@@ -211,7 +213,7 @@ void Timers::configure(int timer, Cycle at) {
     u.mode = Mode::External;
   else
     u.mode = (u.con & kTgate) ? Mode::Gated : Mode::Internal;
-  u.prescale_bits = kPrescaleBits[u.con >> 4 & 3];
+  u.prescale_bits = kPrescaleBits[kTckps.of(u.con)];
   u.next = -1;
   u.pr = u.wide ? u.pr16 | std::uint32_t{unit(timer + 1).pr16} << 16 : u.pr16;
   u.residue = std::min(u.residue, u.prescale() - 1);

@@ -12,11 +12,15 @@ namespace {
 
 constexpr unsigned kMode = 0, kSta = 2, kTxReg = 4, kRxReg = 6;
 constexpr unsigned kU1Mode = sfr("U1MODE"), kU2Mode = sfr("U2MODE");
-constexpr std::uint16_t kUarten = 0x8000, kAltio = 0x0400, kLpback = 0x0040;
-constexpr std::uint16_t kUtxisel = 0x8000, kUtxbrk = 0x0800, kUtxen = 0x0400, kUtxbf = 0x0200, kTrmt = 0x0100,
-                        kAdden = 0x0020, kRidle = 0x0010, kPerr = 0x0008, kFerr = 0x0004, kOerr = 0x0002,
-                        kUrxda = 0x0001;
-constexpr std::uint16_t kControls = kUtxisel | kUtxbrk | kUtxen | 0x00C0 | kAdden;
+constexpr std::uint16_t sta(const char* bit) { return sfr_bits("U1STA", bit); }
+constexpr std::uint16_t kAltio = sfr_bits("U1MODE", "ALTIO"), kLpback = sfr_bits("U1MODE", "LPBACK"),
+                        kStsel = sfr_bits("U1MODE", "STSEL");
+constexpr std::uint16_t kUtxisel = sta("UTXISEL"), kUtxbrk = sta("UTXBRK"), kUtxen = sta("UTXEN"),
+                        kUtxbf = sta("UTXBF"), kTrmt = sta("TRMT"), kAdden = sta("ADDEN"),
+                        kRidle = sta("RIDLE"), kPerr = sta("PERR"), kFerr = sta("FERR"), kOerr = sta("OERR"),
+                        kUrxda = sta("URXDA");
+constexpr SfrBits kPdsel = sfr_field("U1MODE", "PDSEL"), kUrxisel = sfr_field("U1STA", "URXISEL");
+constexpr std::uint16_t kControls = kUtxisel | kUtxbrk | kUtxen | kUrxisel.mask | kAdden;
 constexpr Cycle kWriteToShift = 1;
 // rates that the other end may be set to
 constexpr double kRates[] = {300,   600,   1200,  2400,   4800,   9600,   14400,  19200,  28800,
@@ -34,7 +38,7 @@ Uart::Uart(const Fabric& fabric, int number)
 
 void Uart::attach() {
   f_.bus.attach(*this, base_, base_ + 8);
-  f_.bus.mark_unmodelled(base_ + kMode, 0x20A0);  // USIDL, WAKE, ABAUD
+  f_.bus.mark_unmodelled(base_ + kMode, sfr_bits("U1MODE", "USIDL", "WAKE", "ABAUD"));
   slot_tx_ = f_.events.add(*this, Transmit, std::uint64_t{1} << tx_irq_, true);
   slot_rx_ = f_.events.add(*this, Receive, std::uint64_t{1} << rx_irq_, false);
 }
@@ -58,10 +62,10 @@ Cycle Uart::align(Cycle at) const {
 
 UartFrame Uart::format(std::uint16_t word, Cycle start) const {
   UartFrame frame;
-  const int format = mode_ >> 1 & 3;
+  const unsigned format = kPdsel.of(mode_);
   frame.data_bits = format == 3 ? 9 : 8;
   frame.parity = format == 1 ? Parity::Even : format == 2 ? Parity::Odd : Parity::None;
-  frame.stop_bits = (mode_ & 1) ? 2 : 1;
+  frame.stop_bits = (mode_ & kStsel) ? 2 : 1;
   frame.word = static_cast<std::uint16_t>(word & (format == 3 ? 0x1FF : 0xFF));
   frame.start = start;
   frame.bit = bit();
@@ -150,7 +154,7 @@ void Uart::take_in(const UartFrame& frame, Cycle at) {
     return;
   }
   in_.push(received);
-  const int select = sta_ >> 6 & 3;
+  const unsigned select = kUrxisel.of(sta_);
   const std::size_t needed = select == 3 ? 4 : select == 2 ? 3 : 1;
   if (in_.count >= needed) f_.interrupts.raise(rx_irq_, at, false);
 }

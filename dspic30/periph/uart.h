@@ -28,7 +28,8 @@ class Uart final : public SfrOwner, public EventOwner {
   void receive(const UartFrame& frame, Cycle now);
   std::int64_t overruns() const { return overruns_; }
   std::uint64_t state_hash() const;
-  bool enabled() const { return (mode_ & 0x8000) != 0; }
+  static constexpr std::uint16_t kOn = sfr_bits("U1MODE", "UARTEN"), kSends = sfr_bits("U1STA", "UTXEN");
+  bool enabled() const { return (mode_ & kOn) != 0; }
   std::uint16_t brg() const { return brg_; }
 
   std::uint16_t read(unsigned address, Cycle now) override;
@@ -58,7 +59,7 @@ class Uart final : public SfrOwner, public EventOwner {
   };
   enum : int { Transmit, Receive };
 
-  bool transmits() const { return enabled() && (sta_ & 0x0400); }
+  bool transmits() const { return enabled() && (sta_ & kSends); }
   Cycle sixteenth() const { return Cycle{brg_} + 1; }
   Cycle bit() const { return 16 * sixteenth(); }
   Cycle align(Cycle at) const;
