@@ -52,10 +52,12 @@ const Decoded* divided(Cpu& cpu, const Decoded* d, std::int64_t quotient, std::i
   return d + 1;
 }
 
-// is there nothing to compute yet? A zero divisor traps in the first iteration
+// is there nothing to compute yet? A zero divisor traps in the first iteration alone, whatever its handler
+// does
 bool is_on_its_way(Cpu& cpu, const Decoded* d) {
   if (cpu.w[d->s] == 0) {
-    if (cpu.rcount == kIterations - 1 || !cpu.repeating) cpu.trap(Trap::MathError);
+    const bool is_repeated = cpu.window != Cpu::Window::Plain;
+    if (cpu.rcount == kIterations - 1 || !is_repeated) cpu.trap(Trap::MathError);
     return true;
   }
   return cpu.rcount != 0;
