@@ -90,6 +90,37 @@ void Uart::move_to_shift_register(Cycle at) {
   schedule_transmit(at);
 }
 
+// how long the line is low is known at the end; the own receiver has a word of zeros long before
+void Uart::begin_break(Cycle now) {
+  break_since_ = std::max(now + 1, busy_until_);
+  if (!(mode_ & kLpback)) return;
+  UartFrame low = format(0, break_since_);
+  low.broken = true;
+  enqueue(low, now);
+}
+
+void Uart::end_break(Cycle now) {
+  UartFrame low = format(0, break_since_);
+  low.broken = true;
+  const Cycle length = now + 1 - break_since_;
+  break_since_ = -1;
+  if (length > 0) {
+    low.bit = std::max<Cycle>(1, length / low.bits());
+    f_.outside.uart_sent(number_, low);
+    busy_until_ = std::max(busy_until_, low.end());
+  }
+  if (!(mode_ & kLpback)) return;
+  // one that was shorter than a word, or never began
+  const auto own = std::find_if(line_.begin(), line_.end(),
+                                [&](const UartFrame& f) { return f.broken && f.start == low.start; });
+  if (own != line_.end() && length <= 0)
+    line_.erase(own);
+  else if (own != line_.end())
+    own->bit = std::min(own->bit, low.bit);
+  line_free_ = std::max(length > 0 ? low.end() : now, line_.empty() ? now : line_.back().end());
+  schedule_receive(now);
+}
+
 // --- in ---------------------------------------------------------------------------------------------------
 
 void Uart::receive(const UartFrame& frame, Cycle now) {
@@ -218,18 +249,8 @@ void Uart::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cyc
       if (!enabled()) sta_ &= static_cast<std::uint16_t>(~(kUtxen | kUtxbrk));
       if ((before & kOerr) && !(sta_ & kOerr)) in_.count = 0;
       if (!(before & kUtxen) && (sta_ & kUtxen)) f_.interrupts.raise(tx_irq_, now + 1, false);
-      if (!(before & kUtxbrk) && (sta_ & kUtxbrk)) break_since_ = std::max(now + 1, busy_until_);
-      if ((before & kUtxbrk) && !(sta_ & kUtxbrk) && break_since_ >= 0) {
-        UartFrame low = format(0, break_since_);
-        low.broken = true;
-        const Cycle length = now + 1 - break_since_;
-        if (length > 0) {
-          low.bit = std::max<Cycle>(1, length / low.bits());
-          f_.outside.uart_sent(number_, low);
-          busy_until_ = std::max(busy_until_, low.end());
-        }
-        break_since_ = -1;
-      }
+      if (!(before & kUtxbrk) && (sta_ & kUtxbrk)) begin_break(now);
+      if ((before & kUtxbrk) && !(sta_ & kUtxbrk) && break_since_ >= 0) end_break(now);
       if ((before ^ sta_) & kUtxen) own_pins(now + 1);
       schedule_transmit(now);
       break;

@@ -67,6 +67,8 @@ class Uart final : public SfrOwner, public EventOwner {
   Cycle transfer_time(const UartFrame& frame) const;
   void move_to_shift_register(Cycle at);
   void schedule_transmit(Cycle now);
+  void begin_break(Cycle now);
+  void end_break(Cycle now);
   void schedule_receive(Cycle now);
   void enqueue(UartFrame frame, Cycle now);
   void take_in(const UartFrame& frame, Cycle at);

@@ -229,6 +229,53 @@ TEST_F(Uart, break_is_received_as_zero_with_a_frame_error) {
   EXPECT_EQ(b.read("U1RXREG", 3000), 0u);
 }
 
+// the receiver has its word of zeros while the line is still low, and no second one before it was high
+TEST_F(Uart, a_break_comes_back_in_loop_back) {
+  open(0x8040);
+  b.set("U1STA", 0x0800, 1000);
+  EXPECT_EQ(b.read("U1STA", 1001 + 9 * 128) & 0x5, 0u);
+  EXPECT_EQ(b.flag_rises(irq::U1Rx, 1001), 1001 + 9 * 128 + 64);
+  EXPECT_EQ(b.read("U1STA", 3000) & 0xF, 0x5u);  // FERR, URXDA
+  EXPECT_EQ(b.read("U1RXREG", 3001), 0u);
+  b.clear("U1STA", 0x0800, 21000);
+  b.write("U1TXREG", 'a', 21001);
+  EXPECT_EQ(b.read("U1STA", 22000) & 0x1, 0u);
+  EXPECT_EQ(b.read("U1STA", 23000) & 0xF, 0x1u);
+  EXPECT_EQ(b.read("U1RXREG", 23001), unsigned{'a'});
+  ASSERT_EQ(b.outside.sent.size(), 2u);
+  EXPECT_TRUE(b.outside.sent[0].broken);
+}
+
+// 512 cycles are a start bit and three data bits
+TEST_F(Uart, a_break_shorter_than_a_word_comes_back_as_the_word_that_it_looks_like) {
+  open(0x8040);
+  b.set("U1STA", 0x0800, 1000);
+  b.clear("U1STA", 0x0800, 1512);
+  EXPECT_EQ(b.read("U1STA", 3000) & 0xF, 0x1u);
+  EXPECT_EQ(b.read("U1RXREG", 3001), 0xF8u);
+  b.set("U1STA", 0x0800, 4000);  // shorter than half a bit: nothing
+  b.clear("U1STA", 0x0800, 4032);
+  EXPECT_EQ(b.read("U1STA", 8000) & 0x1, 0u);
+}
+
+// behind what is being sent
+TEST_F(Uart, a_break_waits_for_the_word_before_it) {
+  open(0x8040);
+  b.write("U1TXREG", 'a', 100);
+  b.set("U1STA", 0x0800, 200);
+  EXPECT_EQ(b.read("U1STA", 2000) & 0xF, 0x1u);
+  EXPECT_EQ(b.read("U1RXREG", 2001), unsigned{'a'});
+  EXPECT_EQ(b.read("U1STA", 4000) & 0xF, 0x5u);
+  b.read("U1RXREG", 4001);
+  b.clear("U1STA", 0x0800, 5000);
+  b.write("U1TXREG", 'b', 5001);
+  b.set("U1STA", 0x0800, 5002);  // withdrawn before the word is out
+  b.clear("U1STA", 0x0800, 5100);
+  EXPECT_EQ(b.read("U1STA", 9000) & 0xF, 0x1u);
+  EXPECT_EQ(b.read("U1RXREG", 9001), unsigned{'b'});
+  EXPECT_EQ(b.read("U1STA", 9002) & 0x1, 0u);
+}
+
 TEST_F(Uart, break_is_sent_for_as_long_as_it_is_asked_for) {
   open();
   b.set("U1STA", 0x0800, 1000);
