@@ -18,7 +18,9 @@ namespace dspic::assembly {
 namespace {
 
 constexpr std::uint32_t kCodeStart = 0x100, kRamStart = 0x800, kRamEnd = 0x2800, kPsvPage = 0x8000;
-constexpr std::uint32_t kStackReserve = 8;  // between SPLIM and the end of RAM
+// between the last word below SPLIM and the end of RAM, bytes: the call that goes beyond it, the trap's entry
+// and the pushes of its handler; a frame comes on top
+constexpr std::uint32_t kLeastGuard = 16;
 constexpr std::uint32_t kVectors0 = 0x04, kAlternate0 = 0x84;
 constexpr std::int64_t kMostBytes = 0x18000;  // of a section
 constexpr std::int64_t kMostInAll = 2 * kMostBytes;
@@ -77,6 +79,7 @@ class Assembly final : private SourceLines::Listener {
   Image run(const std::string& text, const std::string& file) {
     lines_.read(text, file);
     place_sections();
+    if (image_.is_whole()) find_guard();
     if (image_.is_whole())
       for (const Item& item : items_) put(item);
     if (image_.is_whole()) put_vectors();
@@ -203,7 +206,7 @@ class Assembly final : private SourceLines::Listener {
     if (name == "__SP_init")
       value = stack_start_;
     else if (name == "__SPLIM_init")
-      value = kRamEnd - kStackReserve;
+      value = kRamEnd - guard_ - 2;
     else
       return false;
     return placed_;
@@ -406,6 +409,24 @@ class Assembly final : private SourceLines::Listener {
     ++generation_;
   }
 
+  // the largest frame finds RAM above SPLIM; but frames that fit one above another are not stopped for that
+  void find_guard() {
+    std::uint32_t largest = 0, all = 0;
+    for (const Item& item : items_) {
+      if (!item.choice.row || item.choice.row->id != Insn::Lnk_lit14) continue;
+      current_ = item.where;
+      const auto words = encode(
+          item.choice, 0, [&](const std::string& text) { return value(text, item.index, item.place); },
+          [](const std::string&) {});
+      if (words.empty()) continue;
+      const std::uint32_t frame = 2 + 2 * fields_of(*item.choice.row, words[0]).k;
+      largest = std::max(largest, frame);
+      all += frame;
+    }
+    const std::uint32_t room = kRamEnd - std::min(stack_start_, kRamEnd), taken = all + kLeastGuard;
+    guard_ = std::max(kLeastGuard, std::min(largest + kLeastGuard, room > taken ? room - taken : 0)) & ~1u;
+  }
+
   // --- values
   void put(const Item& item) {
     current_ = item.where;
@@ -488,7 +509,7 @@ class Assembly final : private SourceLines::Listener {
   bool placed_ = false;
   std::uint64_t generation_ = 1;  // of symbols: what was evaluated before is old
   int depth_ = 0;
-  std::uint32_t stack_start_ = kRamStart;
+  std::uint32_t stack_start_ = kRamStart, guard_ = kLeastGuard;
   const Handles handles_ = [this](std::int64_t address) {
     if (address > 0xFFFF) complain("handle(): the function lies beyond 0xFFFF");
     return address;

@@ -159,6 +159,15 @@ int Cpu::translated() const {
 }
 
 void Cpu::trap(Trap which) {
+  const int level = parts.interrupts.level(), own_level = trap_level(static_cast<int>(which));
+  if (level < own_level && parts.interrupts.has_trap(which))
+    return;                                               // of this instruction, or as it is entered
+  if (which == Trap::StackError && level == own_level) {  // its handler works above the limit: the flag alone
+    parts.interrupts.raise_trap(which, now);
+    deadline = 0;
+    return;
+  }
+  latest_trap = {which, address_of(at), w[15], splim_on ? splim : 0u, now};
   const char* name = vector_name(static_cast<int>(which));
   const std::string place = std::string(name) + " at " + hex(address_of(at), 6);
   parts.diagnostics.report(Cause::CpuTrap, place, place + ": the program goes on at the trap's vector", now);

@@ -30,6 +30,15 @@ struct Decoded;
 /// Executes an instruction; returns the next one.
 using Run = const Decoded* (*)(Cpu&, const Decoded*);
 
+/// What led to a trap.
+struct TrapRecord {
+  Trap trap = Trap::AddressError;
+  unsigned pc = 0;             ///< of the instruction; where an interrupt was entered, of the one that it cut
+  unsigned stack_pointer = 0;  ///< W15 as the instruction had left it by then
+  unsigned stack_limit = 0;    ///< SPLIM; 0: not set
+  Cycle at = 0;
+};
+
 /// How a register serves as a pointer: by an addition, as the stack's, or modulo or bit-reversed.
 enum class Pointer : std::uint8_t { Plain, Stack, Special };
 
@@ -135,6 +144,8 @@ class Cpu final : public SfrOwner {
     reset_due = kind;
     deadline = 0;
   }
+  /// The instruction at `at` does what the chip does not allow: the flag is set, and the trap's handler comes
+  /// before the next instruction.
   void trap(Trap which);
 
   // --- flags
@@ -316,6 +327,7 @@ class Cpu final : public SfrOwner {
   } shadow;
   ChipParts& parts;
   ProgramMemory& program;
+  std::optional<TrapRecord> latest_trap;  ///< resets do not forget it
 
  private:
   /// Bytes of RAM that are accessed without further ado: none while somebody notes it.

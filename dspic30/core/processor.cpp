@@ -132,6 +132,7 @@ void Processor::enter_interrupt(int vector) {
 
 // --- what others look at --------------------------------------------------------------------------------
 
+const TrapRecord* Processor::latest_trap() const { return cpu_->latest_trap ? &*cpu_->latest_trap : nullptr; }
 Cycle Processor::waited() const { return waits_->waited(); }
 void Processor::set_translator(Translator* translator) { cpu_->translator = translator; }
 void Processor::translate_all() {

@@ -17,6 +17,7 @@
 namespace dspic {
 
 class Cpu;
+struct TrapRecord;  // cpu.h
 class Translator;
 class WaitSamples;
 
@@ -55,6 +56,10 @@ class Processor {
   Cycle still_since() const;
 
   // --- for debuggers, tests and reports: no side effects
+  /// What led to the last trap that was told (Cause::CpuTrap), through all resets; null: there was none. Of a
+  /// stack error, the instruction that went beyond the limit; an address error with the stack pointer beyond
+  /// the limit, or beyond RAM, is one that overran it at once.
+  const TrapRecord* latest_trap() const;
   unsigned pc() const;
   std::uint16_t w(int n) const;
   std::uint16_t sr() const;

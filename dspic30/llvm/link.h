@@ -68,9 +68,9 @@ struct Program {
   std::map<std::uint32_t, std::uint32_t> handles;  ///< function beyond 16 bits to its GOTO
   std::uint32_t dinit = 0, dinit_words = 0;        ///< start-up table
   std::uint32_t handles_at = 0;                    ///< where the GOTOs lie
-  std::uint32_t stack_begin = 0, stack_end = 0;
-  std::uint32_t stack_bytes = 0;  ///< at most, if nothing is recursive
-  std::string recursive;          ///< a function that calls itself
+  std::uint32_t stack_begin = 0, stack_end = 0;    ///< from bound_stack() on without the guard: SPLIM + 2
+  std::uint32_t stack_bytes = 0;                   ///< at most, if nothing is recursive
+  std::string recursive;                           ///< a function that calls itself
   std::uint32_t code_words = 0, constant_words = 0, ram_bytes = 0;
 
   Symbol* global(const std::string& name);
@@ -92,6 +92,8 @@ bool add_vendor_relocation(Section& section, std::uint32_t offset, unsigned type
 void keep_used(Program& program);
 void place_all(Program& program, const Options& options);
 void fill_all(Program& program);
+/// Once more where `symbol` is asked for, which has another value now.
+void fill_for(Program& program, const Symbol& symbol);
 void bound_stack(Program& program);
 bool write_all(Program& program, const Options& options);
 std::string report(const Program& program);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Addresses into instructions, data and debugging information; then the words of the image.
+#include <algorithm>
+
 #include "dspic30/llvm/fixups.h"
 #include "dspic30/llvm/link.h"
 #include "dspic30/llvm/memory_spaces.h"
@@ -206,6 +208,17 @@ std::uint32_t Program::address_of(const Symbol& symbol, std::int32_t addend) con
   if (!symbol.section) return offset;
   // code counts four octets a word, two addresses
   return symbol.section->address + (symbol.section->kind == Kind::Code ? offset / 2 : offset);
+}
+
+void fill_for(Program& program, const Symbol& symbol) {
+  for (Section& s : program.sections) {
+    const bool asks = std::any_of(s.relocations.begin(), s.relocations.end(),
+                                  [&](const Relocation& r) { return r.symbol == &symbol; });
+    if (!s.used || !asks) continue;
+    Filler(program, s).fill();
+    if (s.kind == Kind::Ram || s.kind == Kind::Debug) continue;
+    s.kind == Kind::Code ? put_code(program, s) : put_bytes(program, s);
+  }
 }
 
 void fill_all(Program& program) {

@@ -14,6 +14,9 @@ namespace dspic::link {
 namespace {
 
 constexpr unsigned kStackPointer = 15, kReturnAddress = 4, kInterruptEntry = 4;
+constexpr unsigned kLeastGuard =
+    16;  // between SPLIM and the end, bytes: as XC16's linker without --stackguard
+constexpr const char* kStackLimit = "__SPLIM_init";
 
 struct Function {
   unsigned own = 0;                     // bytes that it pushes
@@ -51,6 +54,13 @@ class Depths {
         if (!open_.count(callee)) below = std::max(below, of(callee) + kReturnAddress);
     open_.erase(s);
     return known_[s] = f.own + below;
+  }
+
+  /// What the function with the largest frame pushes by itself.
+  unsigned largest_frame() const {
+    unsigned most = 0;
+    for (const auto& [section, function] : functions_) most = std::max(most, function.own);
+    return most;
   }
 
   std::string recursive;  ///< a function that calls itself; then there is no bound
@@ -122,6 +132,23 @@ class Depths {
   std::map<const Section*, unsigned> known_;
 };
 
+// SPLIM lies so far below the end that who goes beyond it still finds RAM: the frame of the function that
+// does, the call that is told, the trap's entry, its handler. But no program that fits is stopped for that.
+void guard_stack(Program& program, Depths& depths) {
+  const auto handler = program.globals.find("__StackError");
+  const Section* const section = handler == program.globals.end()
+                                     ? program.global("__DefaultInterrupt")->section
+                                     : handler->second->section;
+  const unsigned trap = kReturnAddress + kInterruptEntry + depths.of(section),
+                 least = std::max(kLeastGuard, trap), wanted = std::max(least, depths.largest_frame() + trap),
+                 all = program.stack_end - program.stack_begin;
+  const unsigned spare = all > program.stack_bytes ? all - program.stack_bytes : 0;
+  const unsigned guard = std::min(std::min(std::max(spare, least), wanted), all) & ~1u;
+  program.stack_end -= guard;
+  program.define(kStackLimit, program.stack_end - 2);
+  fill_for(program, *program.globals[kStackLimit]);
+}
+
 }  // namespace
 
 void bound_stack(Program& program) {
@@ -132,6 +159,7 @@ void bound_stack(Program& program) {
     if (symbol->section && is_handler(name))
       program.stack_bytes += kInterruptEntry + depths.of(symbol->section);
   program.recursive = depths.recursive;
+  guard_stack(program, depths);
   const unsigned room = program.stack_end - program.stack_begin;
   if (program.stack_bytes > room)
     program.warnings.push_back("stack: got " + std::to_string(program.stack_bytes) +

@@ -78,6 +78,10 @@ unsigned ChipProgram::address_of(const std::string& variable) const {
   return found == file_.objects.end() ? 0x800 : found->second;
 }
 
+unsigned ChipProgram::sfr(const std::string& name) const {
+  return chip_->peek(bench::Bench::at(name), cpu_->now());
+}
+
 std::uint64_t ChipProgram::peek(unsigned address, unsigned bytes) const {
   std::uint64_t value = 0;
   for (unsigned i = 0; i < bytes; ++i) value |= std::uint64_t{cpu_->ram(address + i)} << 8 * i;

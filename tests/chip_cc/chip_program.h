@@ -41,6 +41,9 @@ class ChipProgram {
   void poke(unsigned address, std::uint64_t value, unsigned bytes);
 
   const dspic::FirmwareFile& file() const { return file_; }
+  const dspic::Processor& processor() const { return *cpu_; }
+  /// What is in a register of that name.
+  unsigned sfr(const std::string& name) const;
 
  private:
   bool has_ended() const { return peek(done_, 2) != 0; }

@@ -336,6 +336,93 @@ TEST(Trap, each_has_its_vector) {
   }
 }
 
+// flags by the names of the device header, which the assembler takes from sfr.csv. No clock fails here, so
+// that flag is set by the program
+TEST(Trap, a_handler_that_clears_its_flag_by_name_is_entered_once) {
+  struct {
+    const char *trap, *flag, *cause;
+  } const kTraps[] = {
+      {"OscillatorFail", "OSCFAIL", "bset INTCON1, #OSCFAIL"},
+      {"AddressError", "ADDRERR", "mov #0x901, w1\n mov [w1], w2"},
+      {"AddressError", "ADDRERR", "mov #0x3000, w1\n mov w1, [w1]"},
+      {"AddressError", "ADDRERR", "bset INTCON1, #ADDRERR"},
+      {"StackError", "STKERR", "mov #0xA00, w1\n mov w1, SPLIM\n nop\n mov [w15+0x120], w2"},
+      {"StackError", "STKERR", "bset INTCON1, #STKERR"},
+      {"MathError", "MATHERR", "clr w3\n repeat #17\n div.u w4, w3"},
+      {"MathError", "MATHERR", "clr w3\n repeat #17\n div.sd w4, w3"},
+      {"MathError", "MATHERR", "clr w3\n div.u w4, w3"},
+      {"MathError", "MATHERR", "mov #17, w3\n sftac A, w3"},
+      {"MathError", "MATHERR", "bset INTCON1, #MATHERR"},
+  };
+  for (const bool translated : {false, true})
+    for (const auto& t : kTraps) {
+      SCOPED_TRACE(std::string(t.trap) + ": " + t.cause);
+      CoreBench b("__reset: mov #0x900, w15\n clr w4\n clr w5\n clr w7\n clr w8\n " + std::string(t.cause) +
+                      "\n nop\n inc w8, w8\nend: bra end\n__" + t.trap +
+                      ": inc w7, w7\n mov INTCON1, w6\n bclr INTCON1, #" + t.flag + "\n retfie",
+                  {}, translated);
+      b.run(2000);
+      EXPECT_EQ(b.cpu->pc(), b.symbol("end"));
+      EXPECT_EQ(b.w(7), 1u);
+      EXPECT_EQ(b.w(8), 1u);
+      EXPECT_EQ(b.sfr("INTCON1"), 0u);
+      const dspic::SfrInfo& intcon1 = *dspic::sfr_named("INTCON1");
+      EXPECT_EQ(dspic::sfr_bit_name(intcon1, __builtin_ctz(b.w(6))), std::string("INTCON1.") + t.flag);
+      EXPECT_LE(b.notes.count(dspic::Cause::CpuTrap), 1);
+      EXPECT_EQ(b.resets, 0);
+    }
+}
+
+// the trap's own entry and its handler work above the limit, and that is no further error
+TEST(Trap, a_stack_that_goes_beyond_its_limit_is_told_once_and_by_whom) {
+  CoreBench b(R"(__reset: mov #__SP_init, w15
+    mov #__SPLIM_init, w0
+    mov w0, SPLIM
+    nop
+    clr w7
+    rcall deeper
+end: bra end
+deeper: lnk #20
+    push w1
+    rcall deeper
+    ulnk
+    return
+__StackError: push.d w0
+    push w2
+    inc w7, w7
+    bclr INTCON1, #STKERR
+told: bra told
+__AddressError: mov #99, w7
+1:  bra 1b)");
+  b.run(100000);
+  EXPECT_EQ(b.cpu->pc(), b.symbol("told"));
+  EXPECT_EQ(b.w(7), 1u);
+  EXPECT_EQ(b.notes.count(dspic::Cause::CpuTrap), 1);
+  EXPECT_EQ(b.chip->diagnostics().count(dspic::Cause::CpuTrap), 1);
+  const dspic::TrapRecord* const trap = b.cpu->latest_trap();
+  ASSERT_NE(trap, nullptr);
+  EXPECT_EQ(trap->trap, dspic::Trap::StackError);
+  EXPECT_GE(trap->pc, b.symbol("deeper"));
+  EXPECT_LT(trap->pc, b.symbol("__StackError"));
+  EXPECT_EQ(trap->stack_limit, b.sfr("SPLIM"));
+  EXPECT_GT(trap->stack_pointer, trap->stack_limit);
+  EXPECT_LE(b.w(15), dspic::Processor::kRamEnd);
+}
+
+TEST(Trap, the_assembler_leaves_a_guard_above_the_stack) {
+  const auto limit = [](const std::string& text) {
+    CoreBench b("__reset: mov #__SPLIM_init, w0\n mov w0, SPLIM\nend: bra end\n" + text);
+    EXPECT_TRUE(b.run_to("end"));
+    return b.sfr("SPLIM") + 2;
+  };
+  constexpr unsigned kEnd = dspic::Processor::kRamEnd;
+  EXPECT_LE(limit(""), kEnd - 16);
+  EXPECT_LE(limit("f: lnk #1000\n ulnk\n return"), kEnd - 1000 - 16);
+  // those that fit as they are stay so
+  EXPECT_GE(limit("f: lnk #7000\n ulnk\n return"), 0x800u + 7000 + 16);
+  EXPECT_GE(limit("f: lnk #3000\n ulnk\n return\ng: lnk #4000\n ulnk\n return"), 0x800u + 7000 + 16);
+}
+
 TEST(Trap, a_push_at_splim_itself_is_allowed) {
   CoreBench b(
       "__reset: mov #0x900, w15\n mov #0x902, w0\n mov w0, SPLIM\n nop\n push w0\n push w0\nend: bra "

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// Traps of programs in C: handlers that clear their flags by the header's names, and stacks that overflow.
+#include "tests/chip_cc/chip_program.h"
+
+#include "dspic30/core/cpu.h"
+
+namespace chip_cc {
+namespace {
+
+constexpr const char* kTraps = R"(
+#include <p30F6014A.h>
+volatile int oscillator, address, stack, math, sum;
+volatile int zero, odd = 0x1001, beyond = 0x2F00;
+void __attribute__((interrupt, no_auto_psv)) _OscillatorFail(void) { ++oscillator; INTCON1bits.OSCFAIL = 0; }
+void __attribute__((interrupt, no_auto_psv)) _AddressError(void) { ++address; INTCON1bits.ADDRERR = 0; }
+void __attribute__((interrupt, no_auto_psv)) _StackError(void) { ++stack; SPLIM += 400; INTCON1bits.STKERR = 0; }
+void __attribute__((interrupt, no_auto_psv)) _MathError(void) { ++math; _MATHERR = 0; }
+__attribute__((noinline)) int deep(int n) {
+  volatile int room[8];
+  room[n & 7] = n;
+  return n ? deep(n - 1) + room[n & 7] : 0;
+}
+long bench_run(void) {
+  const unsigned limit = SPLIM;
+  INTCON1bits.OSCFAIL = 1;
+  sum += *(volatile int *)odd;
+  sum += *(volatile int *)beyond;
+  sum += 5 / zero;
+  sum += 5u % (unsigned)zero;
+  SPLIM = WREG15 + 16;
+  sum += deep(4);
+  SPLIM = limit;
+  return oscillator | address << 4 | math << 8 | stack << 12;
+}
+)";
+
+TEST(TrapProgram, each_handler_that_clears_its_flag_is_entered_once_a_trap) {
+  for (const char* level : {"-O0", "-O1"}) {
+    ChipProgram p("traps", kTraps, level);
+    ASSERT_TRUE(p.is_whole()) << p.error();
+    EXPECT_EQ(p.run(1'000'000), 0x1221u) << level;
+    EXPECT_EQ(p.sfr("INTCON1"), 0u) << level;
+  }
+}
+
+/// Of `bytes` of locals: once, or without end.
+std::string recursion(unsigned bytes, bool without_end) {
+  return "#include <p30F6014A.h>\n"
+         "volatile int told, stop = " +
+         std::to_string(!without_end) +
+         ";\n"
+         "void __attribute__((interrupt, no_auto_psv)) _StackError(void) {\n"
+         "  INTCON1bits.STKERR = 0; ++told; for (;;) ; }\n"
+         "void __attribute__((interrupt, no_auto_psv)) _AddressError(void) { told = 99; for (;;) ; }\n"
+         "__attribute__((noinline)) int over(int n) {\n"
+         "  volatile char room[" +
+         std::to_string(bytes) +
+         "]; unsigned i;\n"
+         "  for (i = 0; i < sizeof room; ++i) room[i] = n;\n"
+         "  return stop ? 0 : over(n + 1) + room[n & 1]; }\n"
+         "long bench_run(void) { return over(0); }\n";
+}
+
+TEST(TrapProgram, an_overflow_of_the_stack_runs_its_handler_whatever_the_frame) {
+  for (const unsigned bytes : {2u, 30u, 200u, 1000u, 3500u}) {
+    SCOPED_TRACE(bytes);
+    ChipProgram p("overflow", recursion(bytes, true));
+    ASSERT_TRUE(p.is_whole()) << p.error();
+    p.run_until("told");
+    p.run_for(1000);
+    EXPECT_EQ(p.peek(p.address_of("told"), 2), 1u);
+    const unsigned end = p.sfr("SPLIM") + 2;
+    EXPECT_LE(end + std::max(16u, bytes), dspic::Processor::kRamEnd);
+    EXPECT_LE(p.processor().w(15), dspic::Processor::kRamEnd);
+    // by whom
+    const dspic::TrapRecord* const trap = p.processor().latest_trap();
+    ASSERT_NE(trap, nullptr);
+    EXPECT_EQ(trap->trap, dspic::Trap::StackError);
+    const dspic::CodeMap::Function* const function = p.file().code.function_at(trap->pc);
+    ASSERT_NE(function, nullptr);
+    EXPECT_EQ(function->name, "over");
+  }
+}
+
+TEST(TrapProgram, a_frame_that_fits_is_not_stopped_for_the_guard) {
+  for (const unsigned bytes : {4000u, 7000u, 7800u}) {
+    SCOPED_TRACE(bytes);
+    ChipProgram p("fits", recursion(bytes, false));
+    ASSERT_TRUE(p.is_whole()) << p.error();
+    p.run();
+    EXPECT_EQ(p.peek(p.address_of("told"), 2), 0u);
+  }
+}
+
+}  // namespace
+}  // namespace chip_cc
