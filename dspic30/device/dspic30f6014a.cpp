@@ -198,6 +198,28 @@ void Dspic30f6014a::uart_receive(int uart, const UartFrame& frame, Cycle now) {
   parts_->uarts[static_cast<std::size_t>(uart - 1)].receive(frame, now);
 }
 
+void Dspic30f6014a::i2c_start(Cycle now) {
+  parts_->events.run_to(now);
+  parts_->i2c.hear_start(now);
+}
+bool Dspic30f6014a::i2c_write(std::uint8_t byte, Cycle now) {
+  parts_->events.run_to(now);
+  return parts_->i2c.hear_byte(byte, now);
+}
+std::uint8_t Dspic30f6014a::i2c_read(Cycle now) {
+  parts_->events.run_to(now);
+  return parts_->i2c.say_byte();
+}
+void Dspic30f6014a::i2c_acknowledge(bool acknowledged, Cycle now) {
+  parts_->events.run_to(now);
+  parts_->i2c.hear_acknowledge(acknowledged, now);
+}
+void Dspic30f6014a::i2c_stop(Cycle now) {
+  parts_->events.run_to(now);
+  parts_->i2c.hear_stop(now);
+}
+bool Dspic30f6014a::i2c_holds_clock() const { return parts_->i2c.holds_clock(); }
+
 // --- interrupts -------------------------------------------------------------------------------------------
 
 Outlook Dspic30f6014a::look(Cycle now) { return parts_->look(now); }

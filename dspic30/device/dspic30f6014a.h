@@ -103,6 +103,17 @@ class Dspic30f6014a {
   /// A word arrives at UART 1 or 2. Words are told in their order and may be told ahead of time; one that
   /// begins before `now`, or before the end of the one before, is moved to the next free instant.
   void uart_receive(int uart, const UartFrame& frame, Cycle now);
+  // Another master of the I2C bus, to which the chip is a slave. Each is complete in `now`; the program has
+  // run up to there. A master whose byte is over goes on only when i2c_holds_clock() has become false, which
+  // takes as long as the program takes.
+  void i2c_start(Cycle now);  ///< or a repeated one
+  /// A byte of the master's with its ninth bit. True: acknowledged.
+  bool i2c_write(std::uint8_t byte, Cycle now);
+  /// Eight bits of the slave's, then the master's ninth; 0xFF is the released line.
+  std::uint8_t i2c_read(Cycle now);
+  void i2c_acknowledge(bool acknowledged, Cycle now);
+  void i2c_stop(Cycle now);
+  bool i2c_holds_clock() const;
 
   // --- interrupts
 

@@ -17,7 +17,10 @@ constexpr std::uint16_t kSen = con("SEN"), kRsen = con("RSEN"), kPen = con("PEN"
                         kOperations = kSen | kRsen | kPen | kRcen | kAcken;
 constexpr std::uint16_t kTbf = stat("TBF"), kRbf = stat("RBF"), kS = stat("S"), kP = stat("P"),
                         kI2cov = stat("I2COV"), kIwcol = stat("IWCOL"), kTrstat = stat("TRSTAT"),
-                        kAckstat = stat("ACKSTAT");
+                        kAckstat = stat("ACKSTAT"), kReads = stat("R_NOT_W"), kData = stat("D_NOT_A"),
+                        kGeneral = stat("GCSTAT");
+constexpr std::uint16_t kSclrel = con("SCLREL"), kStren = con("STREN"), kGcen = con("GCEN");
+constexpr std::uint8_t kReleased = 0xFF;
 constexpr double kFixedHz = 1111111;  // I2CBRG = FCY/FSCL - FCY/1,111,111 - 1 [chip P6]
 // half SCL periods of each operation [?]
 constexpr Cycle kStartHalves = 2, kRestartHalves = 4, kStopHalves = 3, kByteHalves = 16, kBitHalves = 2;
@@ -27,15 +30,14 @@ constexpr Pin kScl{Port::G, 2}, kSda{Port::G, 3};
 
 void I2c::attach() {
   f_.bus.attach(*this, kRcv, kAdd);
-  // I2CSIDL, SCLREL is 1 after reset, IPMIEN, A10M, GCEN, STREN; slew rate and levels of the pins (DISSLW,
-  // SMEN) have no digital effect
-  f_.bus.mark_unmodelled(kCon, sfr_bits("I2CCON", "I2CSIDL", "IPMIEN", "A10M", "GCEN", "STREN"));
-  f_.bus.mark_unmodelled(kAdd, sfr_bits("I2CADD", "I2CADD"));
+  // slew rate and levels of the pins (DISSLW, SMEN) have no digital effect
+  f_.bus.mark_unmodelled(kCon, sfr_bits("I2CCON", "I2CSIDL", "IPMIEN", "A10M"));
   slot_ = f_.events.add(*this, 0, std::uint64_t{1} << irq::MasterI2c, false);
 }
 
 void I2c::reset(Cycle now) {
-  con_ = con("SCLREL");
+  con_ = kSclrel;
+  slave_ = Slave::Idle;
   stat_ = brg_ = add_ = 0;
   rcv_ = 0;
   trn_ = 0xFF;
@@ -137,6 +139,73 @@ void I2c::finish(Cycle at) {
   f_.interrupts.raise(irq::MasterI2c, at);
 }
 
+// --- as a slave -------------------------------------------------------------------------------------------
+
+bool I2c::holds_clock() const { return on() && slave_ != Slave::Idle && !(con_ & kSclrel); }
+
+void I2c::hear_start(Cycle at) {
+  if (!on()) return;
+  stat_ = static_cast<std::uint16_t>((stat_ | kS) & ~kP);
+  slave_ = Slave::Addressing;
+}
+
+void I2c::hear_stop(Cycle at) {
+  if (!on()) return;
+  stat_ = static_cast<std::uint16_t>((stat_ | kP) & ~kS);
+  slave_ = Slave::Idle;
+}
+
+bool I2c::hear_byte(std::uint8_t byte, Cycle at) {
+  if (!on()) return false;
+  if (slave_ == Slave::Receiving) {
+    stat_ |= kData;
+    return take_in(byte, at);
+  }
+  if (slave_ != Slave::Addressing) return false;
+  const bool reads = (byte & 1) != 0, is_general = byte == 0 && (con_ & kGcen);
+  slave_ = Slave::Idle;
+  if (!is_general && (add_ == 0 || byte >> 1 != (add_ & 0x7F))) return false;
+  stat_ = static_cast<std::uint16_t>((stat_ & ~(kData | kReads | kGeneral)) | (reads ? kReads : 0) |
+                                     (is_general ? kGeneral : 0));
+  const bool acknowledged = take_in(byte, at);
+  if (!acknowledged) return false;
+  slave_ = reads ? Slave::Sending : Slave::Receiving;
+  if (reads && !(stat_ & kTbf)) con_ &= static_cast<std::uint16_t>(~kSclrel);
+  return true;
+}
+
+// what was not read before is kept, the byte is lost and not acknowledged, and the interrupt comes all the
+// same
+bool I2c::take_in(std::uint8_t byte, Cycle at) {
+  f_.interrupts.raise(irq::SlaveI2c, at);
+  if (stat_ & kRbf) {
+    stat_ |= kI2cov;
+    return false;
+  }
+  rcv_ = byte;
+  stat_ |= kRbf;
+  if (con_ & kStren) con_ &= static_cast<std::uint16_t>(~kSclrel);
+  return !(stat_ & kI2cov);
+}
+
+std::uint8_t I2c::say_byte() {
+  if (!on() || slave_ != Slave::Sending) return kReleased;
+  stat_ = static_cast<std::uint16_t>((stat_ & ~kTbf) | kData);
+  return trn_;
+}
+
+void I2c::hear_acknowledge(bool acknowledged, Cycle at) {
+  if (!on() || slave_ != Slave::Sending) return;
+  f_.interrupts.raise(irq::SlaveI2c, at);
+  stat_ = static_cast<std::uint16_t>((stat_ & ~kAckstat) | (acknowledged ? 0 : kAckstat));
+  if (!acknowledged)
+    slave_ = Slave::Idle;
+  else if (!(stat_ & kTbf))
+    con_ &= static_cast<std::uint16_t>(~kSclrel);
+}
+
+// --- registers --------------------------------------------------------------------------------------------
+
 std::uint16_t I2c::read(unsigned address, Cycle now) {
   if (address == kRcv) stat_ &= static_cast<std::uint16_t>(~kRbf);
   return peek(address, now);
@@ -170,6 +239,9 @@ void I2c::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
         f_.diagnostics.report(Cause::I2cMisuse, "I2CCON.I2CEN",
                               "I2CTRN is written while I2CCON.I2CEN = 0; nothing is sent", now);
         trn_ = static_cast<std::uint8_t>(value);
+      } else if (slave_ == Slave::Sending) {
+        trn_ = static_cast<std::uint8_t>(value);
+        stat_ |= kTbf;
       } else if (operation_ != Operation::None) {
         refuse("a byte", now);
       } else {
@@ -183,7 +255,8 @@ void I2c::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
       break;
     case kCon: {
       const bool was_on = on();
-      const std::uint16_t wanted = merge_lanes(con_, value, lanes);
+      std::uint16_t wanted = merge_lanes(con_, value, lanes);
+      if (!(wanted & kStren)) wanted |= con_ & kSclrel;  // then the program can only release the clock
       const auto fresh = static_cast<std::uint16_t>(wanted & kOperations & ~con_);
       // a bit under way cannot be taken back
       con_ = static_cast<std::uint16_t>((wanted & ~kOperations) | (con_ & kOperations));
@@ -191,6 +264,8 @@ void I2c::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
         con_ &= static_cast<std::uint16_t>(~kOperations);
         stat_ &= kP;  // a start is over; a stop stays seen: the library waits for it before its first start
         operation_ = Operation::None;
+        slave_ = Slave::Idle;
+        con_ |= kSclrel;
         f_.events.set(slot_, kNever);
         if (was_on) {
           f_.ports.release(kScl, now + 1);
@@ -215,6 +290,12 @@ void I2c::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
     }
     case kAdd:
       add_ = merge_lanes(add_, value, lanes);
+      if (add_ == 0 || told_alone_ || f_.outside.i2c_has_master()) break;
+      told_alone_ = true;
+      f_.diagnostics.report(Cause::UnmodelledBit, "I2CADD",
+                            "I2CADD: the chip is alone in being a master of its I2C bus, so as a slave it is "
+                            "never spoken to",
+                            now);
       break;
     default:
       break;

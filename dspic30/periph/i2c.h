@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: MIT
-// I2C module as the bus's master: I2CCON, I2CSTAT, I2CTRN, I2CRCV, I2CBRG, I2CADD.
+// I2C module, as the bus's master and as a slave: I2CCON, I2CSTAT, I2CTRN, I2CRCV, I2CBRG, I2CADD.
 //
 //   SEN RSEN PEN RCEN ACKEN or I2CTRN --> one operation at a time, some SCL periods --> the bit clears,
 //   MI2CIF
+//   start, byte for I2CADD, bytes, stop of another master --> I2CRCV or I2CTRN, SI2CIF; SCLREL = 0 holds SCL
 //
 // Modelled: all master operations with their times, ACKSTAT, TRSTAT, TBF, RBF, I2COV, IWCOL, S, P, clock
-// stretching as the outside reports it, pins taken from the ports. Kept without effect: slave mode (I2CADD,
-// STREN, GCEN, A10M, IPMIEN, SCLREL), DISSLW, SMEN, I2CSIDL. Not modelled: collisions (BCL), other masters.
-// An operation reaches the outside when it is complete. S and P stay when the module is switched off: drivers
-// that start only while P is set, and reset the module after a failure, work on the robot [lib: I2C/].
-// Source: [chip P6]; [?] lengths of start, restart, stop and the fixed part of the SCL period.
+// stretching as the outside reports it, pins taken from the ports; as a slave 7-bit addresses, the general
+// call, D_A, R_W, RBF, TBF, I2COV, SI2CIF after each byte, SCL held for transmission always and for reception
+// with STREN. Kept without effect: A10M, IPMIEN, DISSLW, SMEN, I2CSIDL. Not modelled: collisions (BCL), a
+// master that speaks while the chip does, the module addressing itself. An operation reaches the outside when
+// it is complete. S and P stay when the module is switched off: drivers that start only while P is set, and
+// reset the module after a failure, work on the robot [lib: I2C/]. Source: [chip P6], slave [DS70143 17.3 to
+// 17.6]; [?] lengths of start, restart, stop and the fixed part of the SCL period; I2CADD = 0 answers nobody.
 #pragma once
 #include <cstdint>
 
@@ -29,6 +32,18 @@ class I2c final : public SfrOwner, public EventOwner {
   Cycle horizon(unsigned address, Cycle now) const override;
   void on_event(int id, Cycle at) override;
 
+  // --- another master on the bus; each when it is complete there
+  void hear_start(Cycle at);
+  /// A byte of the master's, its ninth bit included; the first after a start is an address. Acknowledged?
+  bool hear_byte(std::uint8_t byte, Cycle at);
+  /// Eight bits that the master clocks out of the slave; 0xFF where it sends nothing.
+  std::uint8_t say_byte();
+  /// The master's ninth bit behind them.
+  void hear_acknowledge(bool acknowledged, Cycle at);
+  void hear_stop(Cycle at);
+  /// Does the slave hold SCL? Then the master waits.
+  bool holds_clock() const;
+
  private:
   enum class Operation { None, Start, Restart, Stop, Receive, Acknowledge, Transmit };
 
@@ -39,6 +54,7 @@ class I2c final : public SfrOwner, public EventOwner {
   void finish(Cycle at);
   void request(std::uint16_t bits, Cycle now);
   void refuse(const char* what, Cycle now);
+  bool take_in(std::uint8_t byte, Cycle at);
 
   Fabric f_;
   int slot_ = -1;
@@ -49,6 +65,8 @@ class I2c final : public SfrOwner, public EventOwner {
   bool answered_ = false;  // the outside has said its part and stretched the clock
   bool acknowledged_ = false;
   std::uint8_t byte_ = 0;
+  enum class Slave { Idle, Addressing, Receiving, Sending } slave_ = Slave::Idle;
+  bool told_alone_ = false;
 };
 
 }  // namespace dspic

@@ -4,8 +4,8 @@
 //
 //   chip tells:   pins_driven, uart_sent, i2c_*, dci_frame_word, spi_word
 //   chip asks:    pin_levels, levels_horizon, edges, nth_edge, analogue_counts
-//   outside says: Dspic30f6014a::uart_receive (a word comes in), ::outside_changed (an answer is no longer
-//   true)
+//   outside says: Dspic30f6014a::uart_receive (a word comes in), ::i2c_start and its kin (another master),
+//   ::outside_changed (an answer is no longer true)
 //
 // Contract: answers are functions of time. What was asked once stays true until outside_changed() is called,
 // or until a pins_driven() of the chip that it depends on. Instants passed to the telling functions and to
@@ -107,6 +107,8 @@ class Outside {
   /// The master's ninth bit after a byte read.
   virtual void i2c_acknowledge(bool acknowledged, Cycle at) {}
   virtual void i2c_stop(Cycle at) {}
+  /// Is there another master, which speaks by Dspic30f6014a::i2c_start() and its kin?
+  virtual bool i2c_has_master() const { return false; }
 
   // --- DCI (codec)
   /// A word of an enabled slot has passed; its last bit ends at `end`. `transmitted`: what CSDO carried,
