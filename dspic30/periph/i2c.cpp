@@ -141,6 +141,15 @@ void I2c::finish(Cycle at) {
 
 // --- as a slave -------------------------------------------------------------------------------------------
 
+void I2c::tell_alone(const char* place, Cycle now) {
+  if (f_.outside.i2c_has_master()) return;
+  f_.diagnostics.report(Cause::UnmodelledBit, place,
+                        std::string(place) +
+                            ": the chip is the only master of its I2C bus here, so as a slave it is never "
+                            "spoken to",
+                        now);
+}
+
 bool I2c::holds_clock() const { return on() && slave_ != Slave::Idle && !(con_ & kSclrel); }
 
 void I2c::hear_start(Cycle at) {
@@ -256,6 +265,7 @@ void I2c::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
     case kCon: {
       const bool was_on = on();
       std::uint16_t wanted = merge_lanes(con_, value, lanes);
+      if (wanted & kGcen) tell_alone("I2CCON.GCEN", now);
       if (!(wanted & kStren)) wanted |= con_ & kSclrel;  // then the program can only release the clock
       const auto fresh = static_cast<std::uint16_t>(wanted & kOperations & ~con_);
       // a bit under way cannot be taken back
@@ -290,12 +300,7 @@ void I2c::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
     }
     case kAdd:
       add_ = merge_lanes(add_, value, lanes);
-      if (add_ == 0 || told_alone_ || f_.outside.i2c_has_master()) break;
-      told_alone_ = true;
-      f_.diagnostics.report(Cause::UnmodelledBit, "I2CADD",
-                            "I2CADD: the chip is alone in being a master of its I2C bus, so as a slave it is "
-                            "never spoken to",
-                            now);
+      if (add_ != 0) tell_alone("I2CADD", now);
       break;
     default:
       break;

@@ -55,6 +55,7 @@ class I2c final : public SfrOwner, public EventOwner {
   void request(std::uint16_t bits, Cycle now);
   void refuse(const char* what, Cycle now);
   bool take_in(std::uint8_t byte, Cycle at);
+  void tell_alone(const char* place, Cycle now);
 
   Fabric f_;
   int slot_ = -1;
@@ -66,7 +67,6 @@ class I2c final : public SfrOwner, public EventOwner {
   bool acknowledged_ = false;
   std::uint8_t byte_ = 0;
   enum class Slave { Idle, Addressing, Receiving, Sending } slave_ = Slave::Idle;
-  bool told_alone_ = false;
 };
 
 }  // namespace dspic

@@ -134,4 +134,38 @@ TEST(Bus, state_does_not_depend_on_who_looks) {
   EXPECT_EQ(run(0), run(997));
 }
 
+// the models number the sources by irqs.inc; the header's and the assembler's names are sfr.csv's
+TEST(SfrTable, flags_enables_and_priorities_stand_where_the_sources_are) {
+  for (int irq = 0; irq < dspic::kIrqs; ++irq) {
+    const std::string name = dspic::irq_name(irq) == std::string("ADC") ? "AD" : dspic::irq_name(irq);
+    if (name == "?") continue;
+    SCOPED_TRACE(name);
+    const auto field_at = [](const std::string& word, int bit) {
+      return dspic::sfr_bit_name(*dspic::sfr_named(word), bit);
+    };
+    const std::string n = std::to_string(irq / 16), ifs = "IFS" + n, iec = "IEC" + n,
+                      ipc = "IPC" + std::to_string(irq / 4);
+    EXPECT_EQ(field_at(ifs, irq % 16), ifs + "." + name + "IF");
+    EXPECT_EQ(field_at(iec, irq % 16), iec + "." + name + "IE");
+    for (int bit = 0; bit < 3; ++bit) EXPECT_EQ(field_at(ipc, 4 * (irq % 4) + bit), ipc + "." + name + "IP");
+  }
+}
+
+TEST(SfrTable, constants_are_what_the_table_says) {
+  static_assert(dspic::sfr_bits("INTCON1", "STKERR", "ADDRERR") == 0x000C);
+  for (const dspic::SfrInfo& row : dspic::kSfrRows) {
+    std::uint16_t all = 0;
+    for (const dspic::SfrField& field : dspic::fields_of(row)) {
+      const dspic::SfrBits bits = dspic::sfr_field(row.name, field.name);
+      EXPECT_EQ(bits.lowest, field.bit) << row.name << "." << field.name;
+      EXPECT_EQ(bits.mask, ((1 << field.width) - 1) << field.bit) << row.name << "." << field.name;
+      EXPECT_EQ(bits.of(0xFFFF), (1u << field.width) - 1) << row.name << "." << field.name;
+      all |= bits.mask;
+    }
+    if (all != 0) {
+      EXPECT_EQ(all, row.implemented) << row.name;
+    }
+  }
+}
+
 }  // namespace
