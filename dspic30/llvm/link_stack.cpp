@@ -14,8 +14,7 @@ namespace dspic::link {
 namespace {
 
 constexpr unsigned kStackPointer = 15, kReturnAddress = 4, kInterruptEntry = 4;
-constexpr unsigned kLeastGuard =
-    16;  // between SPLIM and the end, bytes: as XC16's linker without --stackguard
+constexpr unsigned kLeastGuard = 16;  // bytes between the last word below SPLIM and the end
 constexpr const char* kStackLimit = "__SPLIM_init";
 
 struct Function {

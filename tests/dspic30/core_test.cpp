@@ -336,6 +336,31 @@ TEST(Trap, each_has_its_vector) {
   }
 }
 
+// as a program leaves them that has a buffer in one space alone [DS70143 4.2.2]
+TEST(Modulo, register_15_is_none) {
+  for (const bool translated : {false, true}) {
+    CoreBench b(R"(__reset: mov #0x0900, w15
+    mov w15, XMODSRT
+    mov #0x0903, w0
+    mov w0, XMODEND
+    mov #0x8004, w0
+    mov w0, XBREV
+    mov #0x8FFF, w0
+    mov w0, MODCON
+    nop
+    mov #20, w1
+1:  push w1
+    dec w1, w1
+    bra nz, 1b
+end: bra end)",
+                {}, translated);
+    b.run(500);
+    EXPECT_EQ(b.cpu->pc(), b.symbol("end"));
+    EXPECT_EQ(b.w(15), 0x900u + 40);
+    EXPECT_EQ(b.word(0x902), 19u);
+  }
+}
+
 // flags by the names of the device header, which the assembler takes from sfr.csv. No clock fails here, so
 // that flag is set by the program
 TEST(Trap, a_handler_that_clears_its_flag_by_name_is_entered_once) {

@@ -20,12 +20,10 @@ using dspic::assembly::trimmed;
 constexpr unsigned kFlags = 0x10F;  // DC, N, OV, Z, C
 
 unsigned flag_bits(const std::string& names) {
-  static const std::map<std::string, unsigned> kBits = {
-      {"C", 1},       {"Z", 2},       {"OV", 4},      {"N", 8},       {"DC", 0x100},  {"SAB", 0x400},
-      {"OAB", 0x800}, {"SB", 0x1000}, {"SA", 0x2000}, {"OB", 0x4000}, {"OA", 0x8000}, {"-", 0}};
   unsigned bits = 0;
   std::istringstream parts(names);
-  for (std::string name; std::getline(parts, name, '+');) bits |= kBits.at(name);
+  for (std::string name; std::getline(parts, name, '+');)
+    if (name != "-") bits |= dspic::sfr_field("SR", name).mask;
   return bits;
 }
 
