@@ -167,7 +167,10 @@ void Cpu::trap(Trap which) {
     deadline = 0;
     return;
   }
-  latest_trap = {which, address_of(at), w[15], splim_on ? splim : 0u, now};
+  // beyond the limit and beyond RAM at once: the limit is what the program was to keep
+  const bool follows = which == Trap::AddressError && parts.interrupts.has_trap(Trap::StackError) &&
+                       latest_trap && latest_trap->pc == address_of(at);
+  if (!follows) latest_trap = {which, address_of(at), w[15], splim_on ? splim : 0u, now};
   const char* name = vector_name(static_cast<int>(which));
   const std::string place = std::string(name) + " at " + hex(address_of(at), 6);
   parts.diagnostics.report(Cause::CpuTrap, place, place + ": the program goes on at the trap's vector", now);

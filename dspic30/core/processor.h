@@ -57,8 +57,9 @@ class Processor {
 
   // --- for debuggers, tests and reports: no side effects
   /// What led to the last trap that was told (Cause::CpuTrap), through all resets; null: there was none. Of a
-  /// stack error, the instruction that went beyond the limit; an address error with the stack pointer beyond
-  /// the limit, or beyond RAM, is one that overran it at once.
+  /// stack error, the instruction that went beyond the limit, also where that was beyond RAM and so an
+  /// address error as well. A store to a frame beyond RAM is an address error with the stack pointer above
+  /// the limit.
   const TrapRecord* latest_trap() const;
   unsigned pc() const;
   std::uint16_t w(int n) const;

@@ -123,6 +123,27 @@ __DefaultInterrupt: reset)");
   EXPECT_LT(trap->pc, b.symbol("__DefaultInterrupt"));
 }
 
+// a frame that ends beyond RAM: the push behind it breaks both rules, and there is no room for any handler
+TEST(Trap, an_overflow_beyond_ram_is_a_stack_error_first) {
+  CoreBench b(R"(__reset: mov #__SP_init, w15
+    mov #__SPLIM_init, w0
+    mov w0, SPLIM
+    btsc RCON, #SWR
+end: bra end
+    rcall large
+large: lnk #8190
+guilty: push w1
+    bra guilty
+__DefaultInterrupt: reset)");
+  b.run(10000);
+  EXPECT_EQ(b.resets, 1);
+  const dspic::TrapRecord* const trap = b.cpu->latest_trap();
+  ASSERT_NE(trap, nullptr);
+  EXPECT_EQ(trap->trap, dspic::Trap::StackError);
+  EXPECT_EQ(trap->pc, b.symbol("guilty"));
+  EXPECT_GT(trap->stack_pointer, dspic::Processor::kRamEnd);
+}
+
 // the entry of an interrupt may be what goes beyond; its handler has not begun by then
 TEST(Trap, an_interrupt_that_finds_no_stack_is_a_stack_error_of_what_it_cut) {
   CoreBench b(R"(__reset: mov #__SPLIM_init, w15
