@@ -6,10 +6,14 @@
 // (printer.cpp). Where an instruction lies is counted in octets, four a word; the linker halves them to the
 // chip's addresses.
 #pragma once
+#include <string>
+
 #include "llvm/MC/TargetRegistry.h"
 #include "llvm/Support/Alignment.h"
 
 namespace llvm {
+
+class Module;
 
 /// Registers the target; again does nothing.
 Target& dspic_target();
@@ -27,6 +31,10 @@ inline constexpr Align kDspicOddStruct = Align::Constant<4>();
 /// e W2 to W14, t W7, u W4 to W6, v W13, x W8 and W9, y W10 and W11, z W4 to W7), and of ranges of numbers.
 inline constexpr const char* kDspicRegisterLetters = "abcdetuvxyz";
 inline constexpr const char* kDspicNumberLetters = "IJKLMNOPWYZ";
+
+/// Sections with attributes in their names, "mine, data, ymemory", become those of memory_spaces.h. What is
+/// wrong with one, else "".
+std::string name_dspic_sections(Module& module);
 
 // parts that register themselves with the target
 void register_dspic_mc(Target& target);

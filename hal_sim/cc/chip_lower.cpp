@@ -219,6 +219,8 @@ bool lower_for_chip(Unit& unit) {
   Module& m = unit.module;
   lower_accumulators(unit);
   if (unit.failed) return false;
+  if (const std::string wrong = name_dspic_sections(m); !wrong.empty()) unit.error(DebugLoc(), wrong);
+  if (unit.failed) return false;
   take_notes(m);
   place_registers(m);
   define_configuration(unit, place_configuration);
