@@ -9,6 +9,7 @@ namespace dspic::link {
 
 bool run(const Options& options) {
   Program program;
+  program.sources = options.sources;
   if (read_all(program, options)) {
     keep_used(program);
     place_debug(program);
@@ -21,7 +22,9 @@ bool run(const Options& options) {
     }
   }
   for (const std::string& w : program.warnings) std::fprintf(stderr, "link: warning: %s\n", w.c_str());
-  for (const std::string& e : program.errors) std::fprintf(stderr, "link: error: %s\n", e.c_str());
+  for (const std::string& e : program.errors)
+    std::fprintf(stderr, "%s%s\n", e.find(": error: ") == std::string::npos ? "link: error: " : "",
+                 e.c_str());
   if (program.errors.empty()) std::fputs(report(program).c_str(), stdout);
   return program.errors.empty();
 }

@@ -2,12 +2,14 @@
 // The linker: objects to an image of the chip.
 //
 //   link_read.cpp    objects and archives in; what is undefined is looked for in the libraries
-//   link_vendor.cpp  objects of XC16, made what ours are
+//   link_vendor.cpp  objects of XC16 and the older C30, made what ours are
+//   link_where.cpp   function and line of code, for messages
 //   link_place.cpp   what is used gets its place: near, X, Y and other RAM; constants in one PSV page; code;
-//   start-up table link_fill.cpp    addresses into instructions, data and debugging information; vectors
+//                    start-up table
+//   link_fill.cpp    addresses into instructions, data and debugging information; vectors
 //   link_stack.cpp   how deep the stack can grow
-//   link_write.cpp   .elf, .hex, .map; link_listing.cpp .lst
-//   link_report.cpp  sizes against the chip's, and what is largest
+//   link_write.cpp   .elf, .hex; link_listing.cpp .lst; link_map.cpp .map
+//   link_report.cpp  sizes against the chip's
 #pragma once
 #include <cstdint>
 #include <deque>
@@ -15,15 +17,22 @@
 #include <string>
 #include <vector>
 
+#include "dspic30/load/code_map.h"
+
 namespace dspic::link {
 
 struct Options {
-  std::vector<std::string> inputs;     ///< .o: all of it; .a: members that somebody needs
+  std::vector<std::string> inputs;   ///< .o: all of it; .a: members that somebody needs
+  std::vector<std::string> drivers;  ///< .o that somebody needs, or with a handler of a driver that is linked
   std::vector<std::string> libraries;  ///< .o and .a, of which only what somebody needs
   std::string output;                  ///< x.elf; x.hex, x.lst and x.map lie beside it
-  std::map<std::string, std::string>
-      renames;                ///< what `inputs` ask for by the first name is the second, both as in C
-  unsigned heap_bytes = 512;  ///< for malloc(), if it is used
+  /// What objects outside of archives ask for by the first name is the second, both as in C.
+  std::map<std::string, std::string> renames;
+  std::map<std::string, std::string> library_renames;  ///< the same for what archives ask for
+  unsigned heap_bytes = 512;                           ///< for malloc(), if it is used
+  /// Object to source, archive to its name for people. Line tables may have been written for a copy
+  /// elsewhere.
+  std::map<std::string, std::string> sources;
 };
 
 /// What memory a section goes to.
@@ -37,7 +46,7 @@ struct Symbol {
   std::uint32_t value = 0;     ///< octets from the section's start
   std::uint32_t size = 0, align = 1;
   bool is_defined = false, is_weak = false, is_common = false, is_function = false;
-  std::string from;  ///< the object that defines it
+  std::string from;  ///< the module that defines it: "main.c", "libmotor.a(step.o)"
 };
 
 struct Relocation {
@@ -48,7 +57,8 @@ struct Relocation {
 };
 
 struct Section {
-  std::string name, from;
+  std::string name;
+  std::string from;  ///< its module
   Kind kind = Kind::Ram;
   std::uint32_t flags = 0;  ///< memory_spaces.h
   std::uint32_t size = 0, align = 1;
@@ -63,7 +73,11 @@ struct Program {
   std::deque<Section> sections;
   std::deque<Symbol> symbols;
   std::map<std::string, Symbol*> globals;
+  /// "main.c:12: error: ..." where a place is known.
   std::vector<std::string> errors, warnings;
+  std::string unread;  ///< an archive of a format that is not read, for what stays undefined
+  std::vector<std::pair<Symbol, Symbol>> twice;    ///< two definitions of one name, the first one first
+  std::map<std::string, std::string> sources;      ///< of Options
   std::map<std::uint32_t, std::uint32_t> words;    ///< the image: program address to word
   std::map<std::uint32_t, std::uint32_t> handles;  ///< function beyond 16 bits to its GOTO
   std::uint32_t dinit = 0, dinit_words = 0;        ///< start-up table
@@ -71,7 +85,7 @@ struct Program {
   std::uint32_t stack_begin = 0, stack_end = 0;    ///< from bound_stack() on without the guard: SPLIM + 2
   std::uint32_t stack_bytes = 0;                   ///< at most, if nothing is recursive
   std::string recursive;                           ///< a function that calls itself
-  std::uint32_t code_words = 0, constant_words = 0, ram_bytes = 0;
+  std::uint32_t ram_bytes = 0;
 
   Symbol* global(const std::string& name);
   /// Where the program sees it; of code its program address.
@@ -79,11 +93,30 @@ struct Program {
   void define(const std::string& name, std::uint32_t value);
 };
 
+/// A name of C, without XC16's underscore.
+std::string in_c(const std::string& name);
+
+/// Where code stands, before and after it has its place.
+class Whereabouts {
+ public:
+  explicit Whereabouts(const Program& program);
+  /// "src/main.c:12", or the module where no line is known. `offset`: octets from the section's start.
+  std::string line(const Section& section, std::uint32_t offset) const;
+  std::string line(const Symbol& symbol) const;
+  /// "main"; empty: no function is known there.
+  std::string function(const Section& section, std::uint32_t offset) const;
+
+ private:
+  const Program& program_;
+  std::map<const Section*, std::uint32_t> begins_;  // in octets; nothing begins at 0
+  CodeMap lines_;
+};
+
 /// "T1Interrupt", "MathError": what a handler is called, without underscores.
 std::string handler_name(int vector);
 
 bool read_all(Program& program, const Options& options);
-/// Of an object of XC16: each byte of data has an octet behind it that says nothing.
+/// Of an object of XC16 or C30: each byte of data has an octet behind it that says nothing.
 void drop_phantom_octets(Section& section);
 /// printf() and its like are called __printf_cdn there; the name of ours, or the name as it is.
 std::string name_of_library(const std::string& name);
@@ -96,8 +129,15 @@ void fill_all(Program& program);
 void fill_for(Program& program, const Symbol& symbol);
 void bound_stack(Program& program);
 bool write_all(Program& program, const Options& options);
+/// "flash N of M words (...)", "RAM N of M bytes", "stack N bytes at most", a line each: the build reads
+/// them.
 std::string report(const Program& program);
-std::string listing(const Program& program);
+std::string listing(const Program& program, const Options& options);
+std::string map_file(const Program& program);
+/// A line a symbol, by memory and address.
+std::string symbol_table(const Program& program);
+/// Which of the sources a name in a line table means: that whose path ends most like it; else the name.
+std::string source_named(const std::string& name, const std::map<std::string, std::string>& sources);
 /// Is that the name of a handler, as vectors look for it?
 bool is_handler(const std::string& name);
 

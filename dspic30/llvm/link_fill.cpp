@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Addresses into instructions, data and debugging information; then the words of the image.
 #include <algorithm>
+#include <memory>
+#include <set>
 
 #include "dspic30/llvm/fixups.h"
 #include "dspic30/llvm/link.h"
@@ -15,13 +17,42 @@ using namespace llvm::dspic_elf;
 
 constexpr std::uint32_t kGoto = 0x040000;
 
-/// XC16 puts an underscore before names of C.
-std::string in_c(const std::string& name) { return name.substr(name.size() > 1 && name[0] == '_'); }
+/// Messages with function and line; of one name in one function one.
+class Mistakes {
+ public:
+  explicit Mistakes(Program& program) : program_(program) {}
+
+  void add(const Section& section, std::uint32_t offset, const std::string& text) {
+    program_.errors.push_back(places().line(section, offset) + ": error: " + text);
+  }
+
+  /// "main.c:12: error: drive() calls blink(): got no definition, ...".
+  void add_undefined(const Section& section, const Relocation& r) {
+    const bool is_call = r.type == kBranch || r.type == kCallLow || r.type == kCallHigh;
+    std::string user = section.kind == Kind::Code ? places().function(section, r.offset) : "";
+    if (!told_.insert(section.from + " " + user + " " + r.symbol->name).second) return;
+    user = user.empty() ? "uses " : user + (is_call ? "() calls " : "() uses ");
+    add(section, r.offset,
+        user + in_c(r.symbol->name) + (is_call ? "()" : "") +
+            ": got no definition, expected one in the program or the library" +
+            (program_.unread.empty() ? "" : "; " + program_.unread));
+  }
+
+ private:
+  const Whereabouts& places() {
+    if (!places_) places_ = std::make_unique<Whereabouts>(program_);
+    return *places_;
+  }
+  Program& program_;
+  std::unique_ptr<Whereabouts> places_;
+  std::set<std::string> told_;
+};
 
 /// Fills one section's places.
 class Filler {
  public:
-  Filler(Program& program, Section& section) : program_(program), section_(section) {}
+  Filler(Program& program, Section& section, Mistakes& mistakes)
+      : program_(program), section_(section), mistakes_(mistakes) {}
 
   void fill() {
     for (const Relocation& r : section_.relocations) {
@@ -38,7 +69,7 @@ class Filler {
   static std::uint32_t width(unsigned type) { return type == kByte ? 1 : type == kWord ? 2 : 4; }
 
   void complain(const Relocation& r, const std::string& text) {
-    program_.errors.push_back(section_.from + ": " + in_c(r.symbol->name) + ": " + text);
+    mistakes_.add(section_, r.offset, in_c(r.symbol->name) + ": " + text);
   }
 
   /// False: nothing to fill in.
@@ -49,8 +80,7 @@ class Filler {
       return true;  // of a function that was left out
     if (!s.is_defined) {
       if (s.is_weak) return true;
-      const std::string user = section_.name.substr(section_.name.rfind('.') + 1);
-      program_.errors.push_back(in_c(s.name) + ": undefined; used in " + in_c(user));
+      mistakes_.add_undefined(section_, r);
       return false;
     }
     value_ = program_.address_of(s, r.addend);
@@ -96,13 +126,13 @@ class Filler {
         return insert(r.offset, 4, 0x7FFF, value_ >> 1);
       case kLiteral16:
         return insert(r.offset, 4, 0xFFFF, handle());
-      case kPsvOffset:
+      case llvm::dspic_elf::kPsvOffset:
         return insert(r.offset, 4, 0xFFFF, (program_address(r) & 0x7FFF) | 0x8000);
-      case kPsvPage:
+      case llvm::dspic_elf::kPsvPage:
         return insert(r.offset, 4, 0xFFFF, program_address(r) >> 15);
-      case kTableOffset:
+      case llvm::dspic_elf::kTableOffset:
         return insert(r.offset, 4, 0xFFFF, program_address(r) & 0xFFFF);
-      case kTablePage:
+      case llvm::dspic_elf::kTablePage:
         return insert(r.offset, 4, 0xFFFF, program_address(r) >> 16);
       case kBranch:
       case kDoEnd: {
@@ -141,6 +171,7 @@ class Filler {
 
   Program& program_;
   Section& section_;
+  Mistakes& mistakes_;
   std::uint32_t value_ = 0;
   bool is_code_ = false;
 };
@@ -211,19 +242,21 @@ std::uint32_t Program::address_of(const Symbol& symbol, std::int32_t addend) con
 }
 
 void fill_for(Program& program, const Symbol& symbol) {
+  Mistakes mistakes(program);
   for (Section& s : program.sections) {
     const bool asks = std::any_of(s.relocations.begin(), s.relocations.end(),
                                   [&](const Relocation& r) { return r.symbol == &symbol; });
     if (!s.used || !asks) continue;
-    Filler(program, s).fill();
+    Filler(program, s, mistakes).fill();
     if (s.kind == Kind::Ram || s.kind == Kind::Debug) continue;
     s.kind == Kind::Code ? put_code(program, s) : put_bytes(program, s);
   }
 }
 
 void fill_all(Program& program) {
+  Mistakes mistakes(program);
   for (Section& s : program.sections)
-    if (s.used) Filler(program, s).fill();
+    if (s.used) Filler(program, s, mistakes).fill();
   if (!program.errors.empty()) return;
   put_dinit(program);
   put_jumps(program);

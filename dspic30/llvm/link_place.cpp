@@ -20,7 +20,7 @@ namespace {
 using namespace llvm::dspic_elf;
 
 constexpr std::uint32_t kRamBegin = 0x0800, kRamEnd = 0x2800, kYBegin = 0x1800, kNearEnd = 0x2000;
-constexpr std::uint32_t kCodeBegin = 0x0100, kPsvPage = 0x8000, kEepromBegin = 0x7FF000,
+constexpr std::uint32_t kCodeBegin = 0x0100, kPageUnits = 0x8000, kEepromBegin = 0x7FF000,
                         kEepromEnd = 0x800000;
 
 /// Free memory, given away from below.
@@ -192,10 +192,21 @@ void place_flash(Program& program) {
     const std::uint32_t units = s.size / kWordOctets * 2;
     if (!flash.take(units, std::max(2u, s.align / 2), 0, kFlashEnd, s.address))
       no_room(readable(s), s.size / kWordOctets);
-    program.code_words += s.size / kWordOctets;
   };
+  // what a vendor's object wants at an address
+  std::uint32_t fixed = 0;
+  const auto is_at_address = [&](const Section& s) {
+    return s.kind == Kind::Code && fixed_address(s, fixed);
+  };
+  for (Section& s : program.sections) {
+    if (!s.used || !is_at_address(s)) continue;
+    const std::uint32_t units = s.size / kWordOctets * 2;
+    if (!flash.take(units, 2, fixed, fixed + units, s.address))
+      program.errors.push_back("flash: " + readable(s) + " is to lie at " + hex(fixed) +
+                               ", where something else lies");
+  }
   Section* start = program.global("__reset")->section;
-  if (start && start->used) code(*start);
+  if (start && start->used && !is_at_address(*start)) code(*start);
   // a RCALL reaches the middle of flash from everywhere
   constexpr std::uint32_t kMiddle = 0x8000, kHandlesEnd = 0x10000;
   const bool far = is_far(program);
@@ -204,9 +215,10 @@ void place_flash(Program& program) {
     no_room("handles", 2 * handles);
 
   // all constants in one page of the window, at the beginning of flash if they fit there
-  std::uint32_t bytes = 0;
+  std::uint32_t bytes = 0, align = 2;
   for (Section& s : program.sections)
     if (s.used && s.kind == Kind::Constant) {
+      align = std::max(align, s.align);
       bytes = (bytes + s.align - 1) / s.align * s.align;
       s.load = bytes;
       bytes += s.size;
@@ -214,28 +226,28 @@ void place_flash(Program& program) {
   const std::uint32_t units = (bytes + 1) & ~1u;
   std::uint32_t at = 0;
   bool placed = false;
-  for (std::uint32_t page = 0; page < kFlashEnd && !placed; page += kPsvPage)
-    placed = flash.take(units, 2, page, std::min(page + kPsvPage, kFlashEnd), at);
+  for (std::uint32_t page = 0; page < kFlashEnd && !placed; page += kPageUnits)
+    placed = flash.take(units, align, page, std::min(page + kPageUnits, kFlashEnd), at);
   if (!placed)
     program.errors.push_back("constants: got " + std::to_string(bytes) + " bytes, expected at most " +
-                             std::to_string(kPsvPage) +
+                             std::to_string(kPageUnits) +
                              " in one page; largest: " + largest_of(program, Kind::Constant));
   for (Section& s : program.sections)
     if (s.used && s.kind == Kind::Constant) {
       s.load += at;
-      s.address = (s.load & (kPsvPage - 1)) | kPsvPage;
+      s.address = (s.load & (kPageUnits - 1)) | kPageUnits;
     }
-  program.constant_words = units / 2;
-  program.define("__const_psvpage", at / kPsvPage);
+  program.define("__const_psvpage", at / kPageUnits);
 
   program.dinit_words = dinit_words(program);
   if (!flash.take(2 * program.dinit_words, 2, 0, kFlashEnd, program.dinit))
     no_room("start values", program.dinit_words);
   for (Section& s : program.sections)
-    if (s.used && s.kind == Kind::Code && &s != start) code(s);
+    if (s.used && s.kind == Kind::Code && &s != start && !is_at_address(s)) code(s);
   for (Section& s : program.sections)
     if (s.used && s.kind == Kind::Table) {
-      if (!flash.take((s.size + 1) & ~1u, 2, 0, kFlashEnd, s.address)) no_room(readable(s), s.size / 2);
+      const std::uint32_t units = (s.size + 1) & ~1u;
+      if (!flash.take(units, std::max(2u, s.align), 0, kFlashEnd, s.address)) no_room(readable(s), units / 2);
       s.load = s.address;
     }
 }

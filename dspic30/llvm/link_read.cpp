@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Objects and archives in. A library's object is read when it defines what is undefined so far.
+#include <set>
+
 #include "dspic30/llvm/fixups.h"
 #include "dspic30/llvm/link.h"
 #include "dspic30/llvm/memory_spaces.h"
+#include "dspic30/memory/program_memory.h"
 #include "dspic30/memory/sfr_table.h"
 #include "llvm/Object/Archive.h"
 #include "llvm/Object/ELF.h"
@@ -31,16 +34,19 @@ void Program::define(const std::string& name, std::uint32_t value) {
 namespace {
 
 struct Member {
-  std::string name;
+  std::string name;  // as messages and the map have it
   StringRef bytes;
-  bool is_taken = false, is_of_library = false;
+  bool is_taken = false, is_of_library = false, is_of_archive = false, is_driver = false;
 };
+
+/// COFF, which C30 wrote before it wrote ELF.
+bool is_coff(StringRef bytes) { return bytes.startswith("\x36\x12"); }
 
 class Reader {
  public:
   explicit Reader(Program& program) : program_(program) {}
 
-  std::map<std::string, std::string> rename;  ///< of what objects ask for
+  std::map<std::string, std::string> rename, rename_in_archives;  ///< of what objects ask for
 
   bool open(const std::string& path, std::vector<Member>& members) {
     auto buffer = MemoryBuffer::getFile(path);
@@ -63,6 +69,8 @@ class Reader {
         return problem(path, "damaged archive");
       }
       members.push_back({path + "(" + name->str() + ")", *data});
+      members.back().is_of_archive = true;
+      if (is_coff(*data)) program_.unread = path + " holds COFF, C30's first format, which is not read";
     }
     archives_.push_back(std::move(*archive));
     return error ? problem(path, toString(std::move(error))) : true;
@@ -70,11 +78,32 @@ class Reader {
 
   bool take(Member& member) {
     member.is_taken = true;
+    if (is_coff(member.bytes))
+      return problem(member.name,
+                     "got an object in COFF, C30's first format, expected ELF; have it compiled "
+                     "with -omf=elf, or give its source");
     auto elf = Elf::create(member.bytes);
     if (!elf) return problem(member.name, toString(elf.takeError()));
     if (elf->getHeader().e_machine != ELF::EM_DSPIC30F || elf->getHeader().e_type != ELF::ET_REL)
-      return problem(member.name, "got no object for this chip, expected one of twinpuck-cc or XC16");
+      return problem(member.name, "got no object for this chip, expected one of twinpuck-cc, XC16 or C30");
     return read(member, *elf);
+  }
+
+  /// A driver's object with a handler that nobody has, and with names of what is linked: the other half of
+  /// what a project lists. Not a second form of what is linked already.
+  bool is_missing_handler(const Member& member) {
+    if (member.is_taken || !member.is_driver) return false;
+    bool has_handler = false, is_second = false, is_at_home = false;
+    for_globals(member, [&](const Elf::Elf_Sym& s, StringRef name) {
+      const auto known = program_.globals.find(name.str());
+      const bool is_there =
+          known != program_.globals.end() && (known->second->is_defined || known->second->is_common);
+      const bool is_ours = s.st_shndx != ELF::SHN_UNDEF;
+      has_handler |= is_ours && is_handler(name.str());
+      is_second |= is_ours && is_there;
+      is_at_home |= !is_ours && is_there && of_program_.count(known->second->from);
+    });
+    return has_handler && is_at_home && !is_second;
   }
 
   /// Names that the object defines.
@@ -93,7 +122,13 @@ class Reader {
   }
 
   template <class Visit>
-  void for_globals(const Member& member, const Visit& visit) {
+  static void for_globals(const Member& member, const Visit& visit) {
+    for_symbols(member, [&](const Elf::Elf_Sym& s, StringRef name) {
+      if (s.getBinding() != ELF::STB_LOCAL) visit(s, name);
+    });
+  }
+  template <class Visit>
+  static void for_symbols(const Member& member, const Visit& visit) {
     auto elf = Elf::create(member.bytes);
     auto sections = elf ? elf->sections() : elf.takeError();
     if (!sections) return consumeError(sections.takeError());
@@ -104,7 +139,7 @@ class Reader {
       if (!names || !symbols) return;
       for (const auto& s : *symbols) {
         auto name = s.getName(*names);
-        if (s.getBinding() != ELF::STB_LOCAL && name) visit(s, *name);
+        name ? visit(s, *name) : consumeError(name.takeError());
       }
     }
   }
@@ -119,15 +154,51 @@ class Reader {
     return is_constant ? Kind::Constant : Kind::Ram;
   }
 
-  /// Flags name the chip; ours say nothing.
-  static bool is_of_vendor(const Elf& elf) { return elf.getHeader().e_flags != 0; }
+  /// Flags name the chip; ours say nothing. Those of C30 say nothing either, but have __C30ELF.
+  static bool is_of_vendor(const Member& member, const Elf& elf) {
+    if (elf.getHeader().e_flags != 0) return true;
+    bool is_c30 = false;
+    for_symbols(member, [&](const Elf::Elf_Sym& s, StringRef name) {
+      is_c30 |= s.st_shndx == ELF::SHN_ABS && name == "__C30ELF";
+    });
+    return is_c30;
+  }
 
-  bool read(const Member& member, const Elf& elf) {
+  /// By its source, where that is known: "src/main.c", "library(e_led.c)".
+  void name_by_source(Member& member, bool is_vendors) const {
+    const auto known = program_.sources.find(member.name);
+    if (known != program_.sources.end()) {
+      member.name = known->second;
+    } else if (!is_vendors) {
+      std::string source;
+      for_symbols(member, [&](const Elf::Elf_Sym& s, StringRef of) {
+        if (s.getType() == ELF::STT_FILE && source.empty()) source = of.str();
+      });
+      const auto archive = program_.sources.find(member.name.substr(0, member.name.rfind('(')));
+      if (archive == program_.sources.end())
+        member.name = source.empty() ? member.name : source;
+      else
+        member.name = archive->second +
+                      (source.empty() ? member.name.substr(member.name.rfind('(')) : "(" + source + ")");
+    }
+  }
+
+  /// A word of the configuration, which C30 and XC16 make a section "__FOSC.sec" at the word's address.
+  static void make_configuration(Section& s, std::uint32_t address) {
+    s.kind = Kind::Configuration;
+    s.bytes.resize(2);
+    s.size = 2;
+    s.name = ".config@" + utohexstr(address);
+  }
+
+  bool read(Member& member, const Elf& elf) {
     auto headers = elf.sections();
     if (!headers) return problem(member.name, toString(headers.takeError()));
     std::vector<Section*> sections(headers->size(), nullptr);
     const Elf::Elf_Shdr* table = nullptr;
-    const bool is_vendors = is_of_vendor(elf);
+    const bool is_vendors = is_of_vendor(member, elf);
+    name_by_source(member, is_vendors);
+    if (!member.is_of_archive) of_program_.insert(member.name);
     for (size_t i = 0; i < headers->size(); ++i) {
       const auto& h = (*headers)[i];
       auto name = elf.getSectionName(h);
@@ -152,22 +223,30 @@ class Reader {
       }
       if (is_vendors) {
         drop_phantom_octets(s);
-        if (h.sh_flags & dspic_elf::kAbsolute) s.name += "@" + utohexstr(h.sh_addr);
+        if (h.sh_flags & dspic_elf::kAbsolute && h.sh_addr >= kConfigurationStart && s.bytes.size() >= 2) {
+          make_configuration(s, h.sh_addr);
+          // named as C's, so that the library's own word stays out
+          Symbol* word = program_.global(
+              "_tp_config_" + name->drop_front(2).take_until([](char c) { return c == '.'; }).lower());
+          if (!word->is_defined || word->is_weak) word->section = &s;
+          word->is_defined = word->is_weak = true;
+        } else if (h.sh_flags & dspic_elf::kAbsolute) {
+          s.name += "@" + utohexstr(h.sh_addr);
+        }
       }
       sections[i] = &s;
     }
     if (!table) return true;
     std::vector<Symbol*> symbols;
-    return read_symbols(member, elf, *table, sections, symbols) &&
+    return read_symbols(member, elf, *table, sections, symbols, is_vendors) &&
            read_relocations(member, elf, sections, symbols);
   }
 
   bool read_symbols(const Member& member, const Elf& elf, const Elf::Elf_Shdr& table,
-                    const std::vector<Section*>& sections, std::vector<Symbol*>& symbols) {
+                    const std::vector<Section*>& sections, std::vector<Symbol*>& symbols, bool is_vendors) {
     auto names = elf.getStringTableForSymtab(table);
     auto all = elf.symbols(&table);
     if (!names || !all) return problem(member.name, "damaged symbol table");
-    const bool is_vendors = is_of_vendor(elf);
     for (const auto& e : *all) {
       auto name = e.getName(*names);
       if (!name) return problem(member.name, toString(name.takeError()));
@@ -186,7 +265,8 @@ class Reader {
       if (own.is_common) own.align = e.st_value, own.value = 0;
       if (!own.is_defined && !own.is_common) {
         if (is_vendors) own.name = name_of_library(own.name);
-        if (rename.count(own.name)) own.name = rename[own.name];
+        const auto& names = member.is_of_archive ? rename_in_archives : rename;
+        if (const auto other = names.find(own.name); other != names.end()) own.name = other->second;
       }
       const bool is_dropped = own.is_defined && !own.section && e.st_shndx != ELF::SHN_ABS;
       if (e.getBinding() == ELF::STB_LOCAL || is_dropped) {
@@ -212,8 +292,7 @@ class Reader {
       return s.is_defined && !s.is_weak ? 3 : s.is_common ? 2 : s.is_defined ? 1 : 0;
     };
     if (strength(own) == 3 && strength(*known) == 3) {
-      problem(own.from, own.name.substr(own.name[0] == '_') + ": got a second definition, the first is in " +
-                            known->from);
+      program_.twice.emplace_back(*known, own);
     } else if (own.is_common && known->is_common) {
       known->size = std::max(known->size, own.size);
       known->align = std::max(known->align, own.align);
@@ -258,6 +337,7 @@ class Reader {
   }
 
   Program& program_;
+  std::set<std::string> of_program_;  // modules outside of archives
   std::vector<std::unique_ptr<MemoryBuffer>> buffers_;
   std::vector<std::unique_ptr<object::Archive>> archives_;
 };
@@ -270,6 +350,16 @@ void define_registers(Program& program) {
       if (program.globals.count(name) && !program.globals[name]->is_defined) program.define(name, r.address);
 }
 
+/// What the robot's linker calls a multiple definition.
+void tell_of_twice(Program& program) {
+  if (program.twice.empty()) return;
+  const Whereabouts places(program);
+  for (const auto& [first, second] : program.twice)
+    program.errors.push_back(
+        places.line(second) + ": error: " + in_c(second.name) + (second.is_function ? "()" : "") +
+        ": got a second definition, expected one; the first is in " + places.line(first));
+}
+
 }  // namespace
 
 bool read_all(Program& program, const Options& options) {
@@ -277,6 +367,10 @@ bool read_all(Program& program, const Options& options) {
   std::vector<Member> members, lazy;
   for (const std::string& path : options.inputs)
     if (!reader.open(path, StringRef(path).endswith(".a") ? lazy : members)) return false;
+  for (const std::string& path : options.drivers) {
+    if (!reader.open(path, lazy)) return false;
+    lazy.back().is_driver = true;
+  }
   for (const std::string& path : options.libraries)
     if (!reader.open(path, lazy)) return false;
   std::map<std::string, Member*> who;  // the first that defines a name
@@ -285,30 +379,38 @@ bool read_all(Program& program, const Options& options) {
     for (const std::string& name : reader.defined_by(m)) who.emplace(name, &m);
   }
   // names with a label of their own have no underscore
-  for (const auto& [from, to] : options.renames) {
-    const std::string target = who.count(to) ? to : "_" + to;
-    reader.rename[from] = reader.rename["_" + from] = target;
-  }
+  const auto add_names = [&](const std::map<std::string, std::string>& pairs, auto& names) {
+    for (const auto& [from, to] : pairs) names[from] = names["_" + from] = who.count(to) ? to : "_" + to;
+  };
+  add_names(options.renames, reader.rename);
+  add_names(options.library_renames, reader.rename_in_archives);
   for (Member& m : members)
     if (!reader.take(m)) return false;
-  reader.rename.clear();
   program.global("__reset");
   program.global("_tp_config_fosc");  // the robot's configuration words, if the program has none
-  for (bool again = true; again;) {
-    again = false;
-    std::vector<Member*> needed;
-    for (const auto& [name, symbol] : program.globals) {
-      if (symbol->is_defined || symbol->is_common || symbol->is_weak) continue;
-      const auto it = who.find(name);
-      if (it != who.end() && !it->second->is_taken) needed.push_back(it->second);
+  const auto take_needed = [&] {
+    for (bool again = true; again;) {
+      again = false;
+      std::vector<Member*> needed;
+      for (const auto& [name, symbol] : program.globals) {
+        if (symbol->is_defined || symbol->is_common || symbol->is_weak) continue;
+        const auto it = who.find(name);
+        if (it != who.end() && !it->second->is_taken) needed.push_back(it->second);
+      }
+      for (Member* m : needed) {
+        if (m->is_taken) continue;
+        if (!reader.take(*m)) return false;
+        again = true;
+      }
     }
-    for (Member* m : needed) {
-      if (m->is_taken) continue;
-      if (!reader.take(*m)) return false;
-      again = true;
-    }
-  }
+    return true;
+  };
+  if (!take_needed()) return false;
+  // nobody asks for a driver's handler by name
+  for (Member& m : lazy)
+    if (reader.is_missing_handler(m) && (!reader.take(m) || !take_needed())) return false;
   define_registers(program);
+  tell_of_twice(program);
   return program.errors.empty();
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Objects of XC16, made what ours are. They differ in three ways (facts that its objects show):
+// Objects of XC16 and of the older C30, made what ours are. They differ in three ways (facts that their
+// objects show; those of C30 say the chip's number 0 and have a symbol __C30ELF instead):
 //
 //   bytes of data    two octets each, of which the second says nothing, so sizes and offsets are twice ours
 //   labels of code   count program addresses, two a word; ours count octets, four a word

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The image as files: Intel HEX, a map, and ELF in the vendor's manner, which the simulator, debuggers and
+// The image as files: Intel HEX and ELF in the vendor's manner, which the simulator, debuggers and
 // programmers read.
 #include <elf.h>
 
@@ -38,7 +38,8 @@ void record(std::string& out, unsigned type, unsigned address, const std::vector
 std::string hex_file(const Program& program) {
   constexpr std::size_t kLine = 16;
   std::string out;
-  std::uint32_t upper = 0, begin = 0;
+  // the first record says where the first data go: an uploader may know no place before one of them
+  std::uint32_t upper = ~0u, begin = 0;
   std::vector<std::uint8_t> line;
   const auto flush = [&] {
     if (!line.empty()) record(out, 0, begin, line);
@@ -57,28 +58,6 @@ std::string hex_file(const Program& program) {
   }
   flush();
   record(out, 1, 0, {});
-  return out;
-}
-
-// --- map: sections by address, then symbols
-
-std::string map_file(const Program& program) {
-  std::vector<const Section*> sections;
-  for (const Section& s : program.sections)
-    if (s.used && s.kind != Kind::Debug) sections.push_back(&s);
-  std::stable_sort(sections.begin(), sections.end(), [](auto* a, auto* b) {
-    return std::make_pair(a->kind, a->address) < std::make_pair(b->kind, b->address);
-  });
-  std::string out = report(program) + "\naddress      bytes  section                          from\n";
-  char line[400];
-  for (const Section* s : sections) {
-    std::snprintf(line, sizeof line, "0x%06X %10u  %-32s %s\n",
-                  s->kind == Kind::Ram    ? s->address
-                  : s->kind == Kind::Code ? s->address
-                                          : s->load,
-                  s->kind == Kind::Code ? s->size / 4 * 3 : s->size, s->name.c_str(), s->from.c_str());
-    out += line;
-  }
   return out;
 }
 
@@ -272,7 +251,7 @@ bool write_all(Program& program, const Options& options) {
   const std::string stem = options.output.substr(0, options.output.rfind('.'));
   return write_file(program, options.output, ElfFile(program).make()) &&
          write_file(program, stem + ".hex", hex_file(program)) &&
-         write_file(program, stem + ".lst", listing(program)) &&
+         write_file(program, stem + ".lst", listing(program, options)) &&
          write_file(program, stem + ".map", map_file(program));
 }
 

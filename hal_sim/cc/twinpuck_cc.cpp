@@ -134,7 +134,7 @@ bool emit(Module& m, const cc::Options& o) {
   return true;
 }
 
-/// twinpuck-cc --link -o x.elf a.o b.o [--library c.o]... [--heap N]
+/// twinpuck-cc --link -o x.elf a.o b.o [--library c.o]... [--driver d.o]... [--source O=C]... [--heap N]
 int link(int argc, char** argv) {
   dspic::link::Options o;
   for (int i = 2; i < argc; ++i) {
@@ -144,17 +144,21 @@ int link(int argc, char** argv) {
       o.output = value();
     else if (a == "--library")
       o.libraries.push_back(value());
-    else if (a == "--rename") {
+    else if (a == "--driver")
+      o.drivers.push_back(value());
+    else if (a == "--source" || a == "--rename" || a == "--rename-library") {
       const std::string pair = value();
       const auto [from, to] = StringRef(pair).split('=');
-      o.renames[from.str()] = to.str();
+      auto& pairs = a == "--source" ? o.sources : a == "--rename" ? o.renames : o.library_renames;
+      pairs[from.str()] = to.str();
     } else if (a == "--heap")
       o.heap_bytes = unsigned(std::strtoul(value().c_str(), nullptr, 0));
     else
       o.inputs.push_back(a.str());
   }
   if (o.output.empty() || o.inputs.empty()) {
-    errs() << "usage: twinpuck-cc --link -o x.elf a.o b.o [--library c.o]... [--rename FROM=TO]... [--heap "
+    errs() << "usage: twinpuck-cc --link -o x.elf a.o b.o [--library c.o]... [--driver d.o]... [--source "
+              "O=C]... [--rename FROM=TO]... [--heap "
               "BYTES]\n";
     return 2;
   }

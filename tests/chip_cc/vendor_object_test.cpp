@@ -50,6 +50,12 @@ class VendorObject {
     relocations_[section].append(reinterpret_cast<const char*>(&r), sizeof r);
   }
 
+  /// As the older C30 makes them: the header names no chip, a symbol says who wrote it.
+  void make_c30() {
+    flags_ = 0;
+    symbol("__C30ELF", SHN_ABS, 1, STT_NOTYPE);
+  }
+
   std::string file() {
     for (const auto& [of, bytes] : relocations_)
       sections_.push_back({".rel" + sections_[of].name, SHT_REL, 0, bytes, 0, of});
@@ -86,7 +92,7 @@ class VendorObject {
     e.e_type = ET_REL;
     e.e_machine = 118;  // dsPIC30F
     e.e_version = EV_CURRENT;
-    e.e_flags = 0x1F;  // the chip
+    e.e_flags = flags_;
     e.e_ehsize = sizeof e;
     e.e_shentsize = sizeof(Elf32_Shdr);
     e.e_shoff = Elf32_Off(sizeof e + body.size());
@@ -108,6 +114,7 @@ class VendorObject {
   std::vector<Elf32_Sym> symbols_;
   std::map<unsigned, std::string> relocations_;
   std::string names_;
+  unsigned flags_ = 0x1F;  // the chip
 };
 
 const char* const kMain = R"(
@@ -150,9 +157,8 @@ cc::ProcessResult link(VendorObject o, const fs::path& work) {
                           (work / "start.s.o").string(), (work / "theirs.o").string()});
 }
 
-TEST(ChipLinker, object_of_xc16_links) {
-  const fs::path work = fs::path(TWINPUCK_BUILD_DIR) / "tests" / "vendor_object";
-  const auto run = link(object(kHandleInData), work);
+void expect_linked(VendorObject theirs, const fs::path& work) {
+  const auto run = link(std::move(theirs), work);
   ASSERT_EQ(run.status, 0) << run.output;
   std::ostringstream bytes;
   bytes << std::ifstream(work / "x.elf", std::ios::binary).rdbuf();
@@ -173,12 +179,52 @@ TEST(ChipLinker, object_of_xc16_links) {
   EXPECT_TRUE(found);
 }
 
+TEST(ChipLinker, object_of_xc16_links) {
+  expect_linked(object(kHandleInData), fs::path(TWINPUCK_BUILD_DIR) / "tests" / "vendor_object");
+}
+
+// the e-puck's FFT comes with such a library
+TEST(ChipLinker, object_of_the_older_c30_links_alike) {
+  VendorObject theirs = object(kHandleInData);
+  theirs.make_c30();
+  expect_linked(std::move(theirs), fs::path(TWINPUCK_BUILD_DIR) / "tests" / "c30_object");
+}
+
+TEST(ChipLinker, objects_in_coff_are_refused_by_name) {
+  const fs::path work = fs::path(TWINPUCK_BUILD_DIR) / "tests" / "coff_object";
+  fs::create_directories(work);
+  std::ofstream(work / "old.o", std::ios::binary) << std::string("\x36\x12\1\0", 4) + std::string(60, '\0');
+  fs::remove(work / "libold.a");
+  cc::run_process({"ar", "rcS", (work / "libold.a").string(), (work / "old.o").string()});
+  std::ofstream(work / "main.c") << "int old(int);\nint main(void) { return old(1); }\n";
+  const std::string compiler = std::string(TWINPUCK_BUILD_DIR) + "/twinpuck-cc";
+  cc::run_process({compiler, "--target=dspic30f6014a", "-c", (work / "main.c").string(), "-o",
+                   (work / "main.o").string()});
+  std::ofstream(work / "start.s")
+      << "        .section .text.__reset, \"ax\"\n        .global __reset\n__reset: rcall _main\n";
+  cc::run_process({compiler, "--target=dspic30f6014a", "-c", (work / "start.s").string(), "-o",
+                   (work / "start.o").string()});
+  const auto alone = cc::run_process({compiler, "--link", "-o", (work / "x.elf").string(),
+                                      (work / "main.o").string(), (work / "old.o").string()});
+  EXPECT_NE(alone.status, 0);
+  EXPECT_NE(alone.output.find("old.o: got an object in COFF, C30's first format, expected ELF"),
+            std::string::npos)
+      << alone.output;
+  const auto packed =
+      cc::run_process({compiler, "--link", "-o", (work / "x.elf").string(), (work / "main.o").string(),
+                       (work / "start.o").string(), "--library", (work / "libold.a").string()});
+  EXPECT_NE(packed.status, 0);
+  EXPECT_NE(packed.output.find("main.c:2: error: main() calls old(): got no definition"), std::string::npos)
+      << packed.output;
+  EXPECT_NE(packed.output.find("libold.a holds COFF"), std::string::npos) << packed.output;
+}
+
 // its name says which conversions the format has
 TEST(ChipLinker, formatted_output_of_xc16_is_the_librarys) {
-  for (const auto& [called, expected] : {std::pair{"__ours_0", "ours_0: undefined"},
-                                         {"__sprintf_", "_sprintf_: undefined"},
-                                         {"__sprintf_0", "error: sprintf: undefined"},
-                                         {"__vfprintf_cdfFnopuxX", "error: vfprintf: undefined"}}) {
+  for (const auto& [called, expected] : {std::pair{"__ours_0", "calls _ours_0(): got no definition"},
+                                         {"__sprintf_", "calls _sprintf_(): got no definition"},
+                                         {"__sprintf_0", "calls sprintf(): got no definition"},
+                                         {"__vfprintf_cdfFnopuxX", "calls vfprintf(): got no definition"}}) {
     const auto run =
         link(object(kHandleInData, called), fs::path(TWINPUCK_BUILD_DIR) / "tests" / "vendor_printf");
     EXPECT_NE(run.status, 0);
