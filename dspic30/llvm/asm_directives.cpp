@@ -2,6 +2,7 @@
 #include "dspic30/llvm/asm_directives.h"
 
 #include "dspic30/asm/device_names.h"
+#include "dspic30/asm/expression.h"
 #include "dspic30/asm/section_text.h"
 #include "dspic30/llvm/memory_spaces.h"
 #include "llvm/ADT/StringExtras.h"
@@ -27,6 +28,33 @@ bool is_vendors_section(const std::string& operands) {
 
 }  // namespace
 
+std::string without_asm_comments(StringRef text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const StringRef here = text.substr(i);
+    if (here.startswith("/*")) {
+      out += ' ';
+      i = std::min(text.find("*/", i + 2), text.size()) + 1;
+    } else if (here[0] == ';' || here.startswith("//")) {
+      i = std::min(text.find('\n', i), text.size());
+      out += ' ';
+    } else if (here[0] == '\n' || here[0] == '\r') {
+      out += ' ';
+    } else if (here[0] == '\'') {  // a character, whose second quote may be missing
+      const std::size_t length = here.size() > 1 && here[1] == '\\' ? 3 : 2;
+      out += here.take_front(length);
+      i += std::min(length, here.size()) - 1;
+    } else if (here[0] == '"') {
+      const std::size_t end = std::min(text.find('"', i + 1), text.size() - 1);
+      out += text.slice(i, end + 1);
+      i = end;
+    } else {
+      out += here[0];
+    }
+  }
+  return out;
+}
+
 bool DSPICDirectives::is_in_code() const {
   const auto* section = cast_or_null<MCSectionELF>(parser_.getStreamer().getCurrentSectionOnly());
   return section && section->getFlags() & ELF::SHF_EXECINSTR;
@@ -35,7 +63,8 @@ bool DSPICDirectives::is_in_code() const {
 // what follows on the line, which stays unread
 std::string DSPICDirectives::rest_of_line() {
   const StringRef text = parser_.getTok().getLoc().getPointer();
-  return text.take_until([](char c) { return c == '\n' || c == '\r' || c == ';'; }).trim().str();
+  return assembly::trimmed(
+      without_asm_comments(text.take_until([](char c) { return c == '\n' || c == '\r'; })));
 }
 
 bool DSPICDirectives::parse(StringRef name) {

@@ -15,6 +15,9 @@
 
 namespace llvm {
 
+/// Text without what stands between /* and */ or behind ; and //, but for quoted ones: mov #';', w0.
+std::string without_asm_comments(StringRef text);
+
 class DSPICDirectives {
  public:
   /// The value of an expression of constants; false: it has none.

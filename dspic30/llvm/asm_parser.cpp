@@ -20,6 +20,7 @@
 #include "llvm/MC/MCParser/MCParsedAsmOperand.h"
 #include "llvm/MC/MCParser/MCTargetAsmParser.h"
 #include "llvm/MC/MCStreamer.h"
+#include "llvm/Support/SourceMgr.h"
 
 namespace llvm {
 
@@ -96,7 +97,8 @@ class Parser : public MCTargetAsmParser {
     mnemonic_ = name.str();
     const char* begin = at.getPointer() + name.size();
     while (getLexer().isNot(AsmToken::EndOfStatement)) Lex();
-    operands_ = StringRef(begin, getLexer().getLoc().getPointer() - begin).split(';').first.trim().str();
+    operands_ =
+        assembly::trimmed(without_asm_comments(StringRef(begin, getLexer().getLoc().getPointer() - begin)));
     Lex();
     return false;
   }
@@ -134,6 +136,11 @@ class Parser : public MCTargetAsmParser {
 
   // beside LLVM's. True: it is none of these
   bool ParseDirective(AsmToken directive) override {
+    if (directive.getString().lower() == ".include" && has_too_many_includes(directive.getLoc())) {
+      getParser().eatToEndOfStatement();
+      Error(directive.getLoc(), "includes are nested too deeply, or too many");
+      return false;  // mistakes are reported
+    }
     // the vendor's own file, whose names are known
     if (directive.getString().lower() != ".include" || getLexer().isNot(AsmToken::String) ||
         !assembly::is_device_file(getTok().getStringContents().str()))
@@ -143,6 +150,18 @@ class Parser : public MCTargetAsmParser {
   }
 
  private:
+  /// A file that includes itself would never end.
+  bool has_too_many_includes(SMLoc at) {
+    constexpr unsigned kDeepest = 30, kMost = 1000;
+    SourceMgr& sources = getParser().getSourceManager();
+    unsigned depth = 0;
+    while (at.isValid() && depth <= kDeepest) {
+      const unsigned buffer = sources.FindBufferContainingLoc(at);
+      at = buffer ? sources.getParentIncludeLoc(buffer) : SMLoc();
+      ++depth;
+    }
+    return depth > kDeepest || sources.getNumBuffers() > kMost;
+  }
   bool value_of(const std::string& text, std::int64_t& value, std::string& error) {
     const auto symbols = [this](const std::string& name, std::int64_t& v) {
       MCSymbol* symbol = getContext().lookupSymbol(name);

@@ -16,12 +16,101 @@
 #include "llvm/MC/MCStreamer.h"
 #include "llvm/MC/MCSubtargetInfo.h"
 #include "llvm/Support/FileSystem.h"
+#include "llvm/Support/Path.h"
 #include "llvm/Support/SourceMgr.h"
 #include "llvm/Support/raw_ostream.h"
 
 namespace cc {
 
 using namespace llvm;
+
+namespace {
+
+/// A file that a name means, whatever its case and its slashes; empty: there is none.
+std::string file_below(const std::string& folder, StringRef name) {
+  SmallString<128> at(folder);
+  std::string rest = name.str();
+  std::replace(rest.begin(), rest.end(), '\\', '/');
+  if (sys::path::is_absolute(rest)) return sys::fs::is_regular_file(rest) ? rest : "";
+  SmallVector<StringRef, 8> parts;
+  StringRef(rest).split(parts, '/', -1, /*KeepEmpty=*/false);
+  for (const StringRef part : parts) {
+    SmallString<128> next(at);
+    sys::path::append(next, part);
+    std::error_code ec;
+    if (!sys::fs::exists(next))
+      for (sys::fs::directory_iterator it(at, ec), end; it != end && !ec; it.increment(ec))
+        if (sys::path::filename(it->path()).equals_insensitive(part)) next = it->path();
+    at = next;
+  }
+  return !parts.empty() && sys::fs::is_regular_file(at) ? at.str().str() : "";
+}
+
+/// `.include "E_Common.INC"` and .incbin say the file that is meant. Lines stay where they are. `found`:
+/// those files.
+std::string with_found_files(StringRef text, const std::vector<std::string>& folders,
+                             std::vector<std::string>& found) {
+  std::string out;
+  while (!text.empty()) {
+    const auto [line, rest] = text.split('\n');
+    const StringRef statement = line.trim();
+    const bool names_file =
+        statement.startswith_insensitive(".include") || statement.startswith_insensitive(".incbin");
+    const auto [before, quoted] = line.split('"');
+    const auto [name, after] = quoted.split('"');
+    std::string path;
+    // as written; then, as for headers, by the end of what its author's PC had there
+    for (std::string said = names_file ? name.str() : ""; path.empty() && !said.empty();) {
+      for (const std::string& folder : folders)
+        if (path.empty()) path = file_below(folder, said);
+      const std::size_t slash = said.find_first_of("/\\");
+      said.erase(0, slash == std::string::npos ? said.size() : slash + 1);
+    }
+    if (!names_file) {
+      out += line;
+    } else {
+      std::string said = path.empty() ? name.str() : path;
+      std::replace(said.begin(), said.end(), '\\', '/');
+      out += (before + "\"" + said + "\"" + after).str();
+      if (!path.empty()) found.push_back(path);
+    }
+    if (text.size() > line.size()) out += '\n';
+    text = rest;
+  }
+  return out;
+}
+
+std::vector<std::string> include_folders(const Options& options) {
+  const StringRef beside = sys::path::parent_path(options.input);
+  std::vector<std::string> folders = {beside.empty() ? "." : beside.str()};
+  for (size_t i = 0; i < options.passed_on.size(); ++i) {
+    StringRef word = options.passed_on[i];
+    if (!word.consume_front("-I")) continue;
+    if (word.empty() && i + 1 < options.passed_on.size()) word = options.passed_on[++i];
+    folders.push_back(word.str());
+  }
+  return folders;
+}
+
+/// A rule with every file that was read.
+void write_depfile(const std::string& depfile, const std::string& input, const SourceMgr& sources,
+                   const std::vector<std::string>& found) {
+  std::error_code ec;
+  raw_fd_ostream out(depfile, ec);
+  const auto put = [&](StringRef name) {
+    out << ' ';
+    for (const char c : name) out << (c == ' ' ? "\\ " : std::string(1, c));
+  };
+  out << "x:";
+  put(input);
+  for (const std::string& name : found) put(name);
+  for (unsigned i = 2; i <= sources.getNumBuffers(); ++i)
+    if (const StringRef name = sources.getMemoryBuffer(i)->getBufferIdentifier(); sys::fs::exists(name))
+      put(name);
+  out << '\n';
+}
+
+}  // namespace
 
 int assemble_for_chip(const Options& options) {
   constexpr int kUsersFault = 1;
@@ -33,19 +122,18 @@ int assemble_for_chip(const Options& options) {
   std::unique_ptr<MCInstrInfo> instructions(target.createMCInstrInfo());
   std::unique_ptr<MCSubtargetInfo> subtarget(target.createMCSubtargetInfo(kDspicTriple, kDspicCpu, ""));
 
-  if (!options.depfile.empty()) {
-    std::error_code ec;
-    raw_fd_ostream(options.depfile, ec) << "x: " << options.input << "\n";
-  }
   auto text = MemoryBuffer::getFile(options.input);
   if (!text) {
     errs() << options.input << ": cannot read: " << text.getError().message() << "\n";
     return kUsersFault;
   }
   SourceMgr sources;
-  sources.AddNewSourceBuffer(std::move(*text), SMLoc());
-  for (size_t i = 0; i + 1 < options.passed_on.size(); ++i)
-    if (options.passed_on[i] == "-I") sources.setIncludeDirs({options.passed_on[i + 1]});
+  const std::vector<std::string> folders = include_folders(options);
+  std::vector<std::string> found;
+  sources.AddNewSourceBuffer(
+      MemoryBuffer::getMemBufferCopy(with_found_files((*text)->getBuffer(), folders, found), options.input),
+      SMLoc());
+  sources.setIncludeDirs(folders);
   MCContext context(triple, syntax.get(), registers.get(), subtarget.get(), &sources, &mc_options);
   std::unique_ptr<MCObjectFileInfo> files(target.createMCObjectFileInfo(context, /*PIC=*/false));
   context.setObjectFileInfo(files.get());
@@ -62,11 +150,14 @@ int assemble_for_chip(const Options& options) {
   std::unique_ptr<MCStreamer> streamer(target.createMCObjectStreamer(
       triple, context, std::move(backend), std::move(writer), std::move(encoder), *subtarget, false, false,
       /*DWARFMustBeAtTheEnd=*/false));
+  streamer->emitFileDirective(sys::path::filename(options.input));
   std::unique_ptr<MCAsmParser> parser(createMCAsmParser(sources, context, *streamer, *syntax));
   std::unique_ptr<MCTargetAsmParser> of_target(
       target.createMCAsmParser(*subtarget, *parser, *instructions, mc_options));
   parser->setTargetParser(*of_target);
-  return parser->Run(/*NoInitialTextSection=*/false) ? kUsersFault : 0;
+  const bool has_failed = parser->Run(/*NoInitialTextSection=*/false);
+  if (!options.depfile.empty()) write_depfile(options.depfile, options.input, sources, found);
+  return has_failed ? kUsersFault : 0;
 }
 
 }  // namespace cc
