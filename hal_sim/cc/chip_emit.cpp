@@ -3,10 +3,13 @@
 #include "chip.h"
 #include "dspic30/llvm/target.h"
 #include "llvm/Analysis/TargetLibraryInfo.h"
+#include "llvm/IR/DiagnosticHandler.h"
+#include "llvm/IR/DiagnosticInfo.h"
 #include "llvm/IR/LegacyPassManager.h"
 #include "llvm/IR/Verifier.h"
 #include "llvm/Support/CommandLine.h"
 #include "llvm/Support/FileSystem.h"
+#include "llvm/Support/SourceMgr.h"
 #include "llvm/Support/raw_ostream.h"
 #include "llvm/Target/TargetMachine.h"
 #include "passes.h"
@@ -42,6 +45,41 @@ void add_underscores(Module& m) {
   for (GlobalAlias& a : m.aliases()) rename(a);
 }
 
+/// Mistakes in assembler text of C: each with its place, so that all of them are told.
+class AssemblerMistakes : public DiagnosticHandler {
+ public:
+  AssemblerMistakes(const Facts& facts, bool& has_failed) : facts_(facts), has_failed_(has_failed) {}
+
+  bool handleDiagnostics(const DiagnosticInfo& info) override {
+    if (const auto* of_parser = dyn_cast<DiagnosticInfoSrcMgr>(&info)) {
+      const SMDiagnostic& d = of_parser->getSMDiag();
+      const char* kind = d.getKind() == SourceMgr::DK_Error     ? "error"
+                         : d.getKind() == SourceMgr::DK_Warning ? "warning"
+                                                                : "note";
+      has_failed_ |= d.getKind() == SourceMgr::DK_Error;
+      errs() << place(of_parser->getLocCookie()) << ": " << kind << ": " << d.getMessage() << "; in asm(\""
+             << d.getLineContents().trim() << "\")\n";
+      return true;
+    }
+    if (const auto* of_operands = dyn_cast<DiagnosticInfoInlineAsm>(&info)) {
+      has_failed_ |= info.getSeverity() == DS_Error;
+      errs() << place(of_operands->getLocCookie()) << ": "
+             << (info.getSeverity() == DS_Error ? "error" : "warning")
+             << ": asm: " << of_operands->getMsgStr() << "\n";
+      return true;
+    }
+    return false;
+  }
+
+ private:
+  std::string place(std::uint64_t number) const {
+    const bool is_known = number > 0 && number <= facts_.assembler_places.size();
+    return is_known ? facts_.assembler_places[number - 1] : "asm";
+  }
+  const Facts& facts_;
+  bool& has_failed_;
+};
+
 std::unique_ptr<TargetMachine> make_machine(const Options& o) {
   TargetOptions options;
   // "None" would split what must be one instruction: LATAbits.LATA6 = 1
@@ -50,7 +88,8 @@ std::unique_ptr<TargetMachine> make_machine(const Options& o) {
       dspic_target().createTargetMachine(kDspicTriple, kDspicCpu, "", options, None, None, level));
 }
 
-bool write(Module& m, const Options& o, TargetMachine& machine) {
+bool write(Module& m, const Unit& unit, TargetMachine& machine) {
+  const Options& o = unit.options;
   std::error_code ec;
   raw_fd_ostream out(o.output, ec, sys::fs::OF_None);
   if (ec) {
@@ -67,8 +106,10 @@ bool write(Module& m, const Options& o, TargetMachine& machine) {
   passes.add(new TargetLibraryInfoWrapperPass(library));
   const auto kind = o.emit_text ? CGFT_AssemblyFile : CGFT_ObjectFile;
   if (machine.addPassesToEmitFile(passes, out, nullptr, kind)) return false;
+  bool has_failed = false;
+  m.getContext().setDiagnosticHandler(std::make_unique<AssemblerMistakes>(unit.facts, has_failed));
   passes.run(m);
-  return true;
+  return !has_failed;
 }
 
 }  // namespace
@@ -85,7 +126,7 @@ int compile_for_chip(Unit& unit) {
     errs() << unit.options.input << ": internal error: malformed code after the pipeline\n";
     return kOurFault;
   }
-  return write(m, unit.options, *machine) ? 0 : kUsersFault;
+  return write(m, unit, *machine) ? 0 : kUsersFault;
 }
 
 }  // namespace cc

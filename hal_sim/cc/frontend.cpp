@@ -29,6 +29,8 @@
 #include "field_widths.h"
 #include "forward_calls.h"
 #include "include_finder.h"
+#include "llvm/IR/Constants.h"
+#include "llvm/IR/Metadata.h"
 #include "llvm/Support/Host.h"
 #include "llvm/Support/raw_ostream.h"
 #include "refused.h"
@@ -355,11 +357,11 @@ const std::vector<const char*> kForChip = {"--target=msp430", "-ffreestanding", 
 std::vector<std::string> clang_arguments(const Options& o, const std::string& standard) {
   std::vector<std::string> a = {"/usr/lib/llvm-14/bin/clang",
                                 "-c",
+                                "-x",  // whatever the name says: MAIN.C would be C++
+                                o.cxx ? "c++" : "c",
                                 o.input,
                                 "-o",
                                 o.output,
-                                "-x",
-                                o.cxx ? "c++" : "c",
                                 "-std=" + standard,
                                 "-fcommon",
                                 "-fsigned-char",
@@ -447,6 +449,33 @@ void note_missing(const std::string& file, const std::set<std::string>& missing)
     if (!name.startswith(kFallbackRoot) && !name.startswith(kVendorRoot)) out << name << "\n";
 }
 
+/// What clang notes of assembler text in C are numbers that it alone can read: they become places in `facts`,
+/// one a line of the text, counted from 1.
+void place_assembler(llvm::Module& module, const SourceManager& sources, Facts& facts) {
+  const auto number = [&](const llvm::MDOperand& of_clang) {
+    const auto* raw = llvm::mdconst::dyn_extract<llvm::ConstantInt>(of_clang);
+    const PresumedLoc at =
+        raw ? sources.getPresumedLoc(sources.getExpansionLoc(
+                  SourceLocation::getFromRawEncoding(SourceLocation::UIntTy(raw->getZExtValue()))))
+            : PresumedLoc();
+    facts.assembler_places.push_back(at.isValid() ? std::string(at.getFilename()) + ":" +
+                                                        std::to_string(at.getLine()) + ":" +
+                                                        std::to_string(at.getColumn())
+                                                  : "");
+    return llvm::ConstantAsMetadata::get(
+        llvm::ConstantInt::get(llvm::Type::getInt64Ty(module.getContext()), facts.assembler_places.size()));
+  };
+  for (llvm::Function& f : module)
+    for (llvm::BasicBlock& block : f)
+      for (llvm::Instruction& i : block) {
+        const llvm::MDNode* places = i.getMetadata("srcloc");
+        if (!places) continue;
+        std::vector<llvm::Metadata*> numbers;
+        for (const llvm::MDOperand& place : places->operands()) numbers.push_back(number(place));
+        i.setMetadata("srcloc", llvm::MDNode::get(module.getContext(), numbers));
+      }
+}
+
 /// One attempt in one standard of C; `declarations` go in front of the file. Messages go to `out`.
 std::unique_ptr<llvm::Module> attempt(const Options& options, llvm::LLVMContext& context, Facts& facts,
                                       const std::string& standard, const std::string& declarations,
@@ -493,7 +522,9 @@ std::unique_ptr<llvm::Module> attempt(const Options& options, llvm::LLVMContext&
   RobotAction action(context, facts, options);
   const bool is_done = ci.ExecuteAction(action);
   if (!options.depfile.empty()) note_missing(options.depfile + ".missing", missing);
-  return is_done ? action.takeModule() : nullptr;
+  auto module = is_done ? action.takeModule() : nullptr;
+  if (module && options.chip) place_assembler(*module, ci.getSourceManager(), facts);
+  return module;
 }
 
 /// Attempts as the file stands, then with declarations of its own functions that it lacks.

@@ -44,6 +44,7 @@ struct Facts {
   std::set<std::string> poll_safe;                    // functions with annotate("tp_poll")
   std::set<std::string> interrupts;                   // functions with the interrupt attribute
   std::map<std::string, unsigned> configuration;      // "fosc", "fwdt": words given by #pragma config
+  std::vector<std::string> assembler_places;          // chip: "main.c:12:9" of a number in !srcloc, from 1
 };
 
 /// Null after errors (already printed).
