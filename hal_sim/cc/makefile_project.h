@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A Makefile beside a controller, read for what it says of the program: sources, where they and headers lie,
 // macros. Webots' controllers have C_SOURCES, VPATH, INCLUDE and CFLAGS; others CSRCS, SRCS, OBJS and the
-// like. Nothing is run: variables, $(wildcard), $(X:.c=.o) and `include` of files that exist are understood,
-// conditions count as true, other functions of make as empty.
+// like, or lists of any name of which a target is linked. Nothing is run: variables, $(X:.c=.o), `include` of
+// files that exist and the functions wildcard, patsubst, subst, notdir, dir, basename, addprefix, addsuffix,
+// filter, filter-out, foreach and if are understood, conditions count as true, other functions as empty.
 #pragma once
 #include <filesystem>
 #include <optional>

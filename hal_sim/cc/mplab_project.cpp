@@ -51,12 +51,13 @@ std::vector<std::string> values_of(const std::string& text, const std::string& s
 struct Listed {
   std::vector<std::string> files, include_dirs;  // as written; folders separated by ';'
   CompilerOptions options;
+  std::vector<std::string> archives;  // that are linked, as written
 };
 
 Listed read_mcp(const std::string& text) {
   // the settings of C30 and XC16 among those of the other tools
   constexpr const char* kCompiler = "TS{25AC22BD-2378-4FDB-BFB6-7345A15512D3}";
-  Listed listed{values_of(text, "FILE_INFO", "file_"), values_of(text, "PATH_INFO", "dir_inc"), {}};
+  Listed listed{values_of(text, "FILE_INFO", "file_"), values_of(text, "PATH_INFO", "dir_inc"), {}, {}};
   std::string options;
   for (const std::string& value : values_of(text, "TOOL_SETTINGS", kCompiler)) options += value + " ";
   listed.options = compiler_options(options);
@@ -75,9 +76,17 @@ Listed read_configurations(const std::string& text) {
   Listed listed;
   static const sim::Pattern kItem(R"(<itemPath>([^<]+)</itemPath>)");
   static const sim::Pattern kExcluded(R"re(<item path="([^"]+)" ex="true")re");
-  static const sim::Pattern kInclude(R"re(key="(extra|common)-include-directories"\s+value="([^"]*)")re");
+  static const sim::Pattern kInclude(
+      R"re(key="(extra|common)-include-directories(?:-for-assembler)?"\s+value="([^"]*)")re");
   static const sim::Pattern kMacros(R"re(key="preprocessor-macros"\s+value="([^"]*)")re");
   static const sim::Pattern kMore(R"re(<appendMe\s+value="([^"]*)")re");
+  static const sim::Pattern kArchive(R"(<linkerLibFileItem>([^<]+)</linkerLibFileItem>)");
+  for (std::sregex_iterator it(text.begin(), text.end(), kArchive), end; it != end; ++it)
+    listed.archives.push_back(without_entities((*it)[1]));
+  // of another project: its folder, and where below it the archive is made
+  static const sim::Pattern kProject(R"re(<makeArtifact\s[^>]*?\bPL="([^"]*)"[^>]*?\bOP="([^"]*)")re");
+  for (std::sregex_iterator it(text.begin(), text.end(), kProject), end; it != end; ++it)
+    listed.archives.push_back(without_entities((*it)[1]) + "/" + without_entities((*it)[2]));
   std::vector<std::string> excluded;
   for (std::sregex_iterator it(text.begin(), text.end(), kExcluded), end; it != end; ++it)
     excluded.push_back((*it)[1]);
@@ -99,6 +108,48 @@ Listed read_configurations(const std::string& text) {
     options += without_entities((*it)[1]) + " ";
   listed.options = compiler_options(options);
   return listed;
+}
+
+/// The part of one configuration; all of the text where there is none of that name.
+std::string part_of_configuration(const std::string& text, const std::string& name) {
+  const std::size_t first = text.find("<conf "), begin = text.find("<conf name=\"" + name + "\"");
+  if (begin == std::string::npos) return text;
+  return text.substr(0, first) + text.substr(begin, text.find("</conf>", begin) - begin);
+}
+
+/// An archive that a project links: the file, or the C files of the project that makes it,
+/// "../lib.X/dist/default/production/lib.X.a", which are there for whatever asks for them.
+void add_archive(MplabProject& project, const fs::path& home, const std::string& archive) {
+  std::error_code ec;
+  if (const fs::path file = resolve_path(home, archive).lexically_normal();
+      !file.empty() && fs::is_regular_file(file, ec)) {
+    project.objects.push_back(file);
+    return;
+  }
+  std::string written = archive;
+  std::replace(written.begin(), written.end(), '\\', '/');
+  const std::size_t made = written.rfind("/dist/");
+  if (made == std::string::npos) return;
+  const fs::path sister = resolve_path(home, written.substr(0, made)).lexically_normal();
+  const fs::path file = sister / "nbproject/configurations.xml";
+  look_at(file);
+  if (sister.empty() || !fs::is_regular_file(file, ec)) return;
+  const std::size_t name = made + std::char_traits<char>::length("/dist/");
+  const Listed listed = read_configurations(
+      part_of_configuration(read_text(file), written.substr(name, written.find('/', name) - name)));
+  for (const std::string& source : listed.files) {
+    const fs::path found = resolve_path(sister, source).lexically_normal();
+    if (found.empty() || !fs::is_regular_file(found, ec)) continue;
+    const std::string kind = lower(found.extension().string());
+    if (kind == ".c" && !defines_main(found)) project.library_sources.push_back(found);
+    if (kind == ".s") project.assembler.push_back(found);
+  }
+  project.include_dirs.push_back(sister);
+  for (const std::string& list : listed.include_dirs)
+    for (std::istringstream in(list); std::getline(in, written, ';');)
+      if (const fs::path folder = resolve_path(sister, written).lexically_normal();
+          !folder.empty() && fs::is_directory(folder, ec))
+        project.include_dirs.push_back(folder);
 }
 
 /// A project and its home: the folder that its relative paths start from.
@@ -132,6 +183,7 @@ std::optional<MplabProject> read_project(const fs::path& file, const fs::path& h
     has_main = has_main || defines_main(found);
   }
   if (!has_main) return std::nullopt;
+  for (const std::string& archive : listed.archives) add_archive(project, home, archive);
   const auto add_folder = [&](const std::string& name) {
     const fs::path found = resolve_path(home, name).lexically_normal();
     if (!found.empty() && fs::is_directory(found, ec)) project.include_dirs.push_back(found);

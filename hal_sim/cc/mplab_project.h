@@ -6,7 +6,7 @@
 // Read are *.mcp (MPLAB 6 to 8) and nbproject/configurations.xml (MPLAB X), also in a folder *.X, which name
 // files relative to themselves or by the path they had on their author's PC. Of an absolute path the longest
 // end that exists in the folder or in one of three folders above it is taken. Of the compiler's options -I,
-// -D and -std count.
+// -D and -std count. Of another project whose archive is linked the C files are taken.
 //
 // Of several projects those with a main() are looked at. When they list the same files, the first is taken;
 // when one lists fewer files that are missing than all others, that one; else a project of MPLAB X, which is
@@ -24,6 +24,8 @@ struct MplabProject {
   std::vector<std::filesystem::path> include_dirs;  ///< folders that exist
   std::vector<std::filesystem::path> assembler;     ///< assembler sources that exist
   std::vector<std::filesystem::path> objects;       ///< objects and archives that exist
+  /// C files of other projects of which it links the archive.
+  std::vector<std::filesystem::path> library_sources;
   std::vector<std::string> library_places;  ///< "a_d/e_prox.c" of what is listed of the library and missing
   std::vector<std::string> defines;         ///< "NAME=value"
   std::string standard;                     ///< of C, as -std= has it; "" unless given

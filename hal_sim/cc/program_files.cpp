@@ -138,7 +138,12 @@ Program program_of(const BuildOptions& o, BuildResult& result) {
   auto project = is_webots ? std::nullopt : find_mplab_project(o.source_dir, told);
   if (!told.empty()) result.warnings.push_back(told);
   if (!project && (project = read_makefile(o.source_dir))) {
-    project->assembler = files_below(o.source_dir, ".s");
+    for (const fs::path& file : files_below(o.source_dir, ".s"))
+      if (std::find(project->assembler.begin(), project->assembler.end(),
+                    fs::absolute(file).lexically_normal()) == project->assembler.end()) {
+        project->assembler.push_back(file);
+        program.unlisted_assembler.insert(file);
+      }
     project->objects = archives_below(o.source_dir);
     // its settings count in any case, its list when it has a program
     program.include_dirs = project->include_dirs;
@@ -168,17 +173,26 @@ Program program_of(const BuildOptions& o, BuildResult& result) {
   for (const fs::path& source : program.sources)
     if (!listed.erase(fs::weakly_canonical(source))) program.unlisted.insert(source);
   // what lies elsewhere and is the library's is ours to bring
-  const std::size_t in_folder = program.sources.size();
+  const std::size_t in_folder = program.sources.size(),
+                    listed_in_folder = in_folder - program.unlisted.size();
   for (const fs::path& source : listed)
     if (const std::string place = library_place(source); place.empty())
       program.sources.push_back(source);
     else
       program.library_places.push_back(place);
-  if (!program.unlisted.empty() || program.sources.size() > in_folder)
+  const std::size_t of_program = program.sources.size();
+  for (const fs::path& source : project->library_sources)
+    if (std::none_of(program.sources.begin(), program.sources.end(), [&](const fs::path& known) {
+          return fs::weakly_canonical(known) == fs::weakly_canonical(source);
+        })) {
+      program.sources.push_back(source);
+      program.unlisted.insert(source);
+    }
+  if (in_folder > listed_in_folder || of_program > in_folder)
     result.warnings.push_back(
-        project->file.string() + ": project: lists " + std::to_string(in_folder - program.unlisted.size()) +
+        project->file.string() + ": project: lists " + std::to_string(listed_in_folder) +
         " of the folder's " + std::to_string(in_folder) + " C files and " +
-        std::to_string(program.sources.size() - in_folder) +
+        std::to_string(of_program - in_folder) +
         " elsewhere; files that it does not list are linked only where something asks for them");
   return program;
 }

@@ -41,6 +41,37 @@ TEST(makefile_project, sources_folders_and_macros_are_the_makefiles) {
   EXPECT_EQ(said(folder), "321");
 }
 
+// one program of two, its objects named in each way that public Makefiles have
+TEST(makefile_project, objects_named_by_functions_of_make_are_found) {
+  for (const std::string list : {
+           "OBJS = $(patsubst %.c,%.o,$(wildcard *.c)) $(patsubst %.c,%.o,$(wildcard parts/*/*.c))\n",
+           "SRC = $(wildcard *.c parts/*/*.c)\nOBJ = $(SRC:.c=.o)\n",
+           "SRC = $(wildcard *.c) $(wildcard parts/*/*.c)\nOBJ = $(subst .c,.o,$(SRC))\n",
+           "NAMES = main part\nOBJS = $(addsuffix .o,$(NAMES))\nVPATH = parts/one\n",
+           "DIRS = . parts/one\nSRCS = $(foreach d,$(DIRS),$(wildcard $(d)/*.c))\n",
+           "SRCS = $(filter-out tries/%,$(wildcard *.c */*.c */*/*.c))\n",
+           "OBJS = $(addprefix build/,$(notdir $(patsubst %.c,%.o,$(wildcard *.c) parts/one/part.c)))\n",
+           // lists of any name, which a target is linked of
+           "MINE := $(patsubst %.c,%.o,$(wildcard *.c))\nTHEIRS := $(patsubst %.c,%.o,$(wildcard "
+           "parts/*/*.c))\n"
+           "all: x.hex\nx.cof: $(MINE) $(THEIRS)\n\t$(CC) $^ -o $@\n",
+           "x.elf: main.o part.o\n\t$(LD) $^\nother.elf: tries/other.o\n\t$(LD) $^\n",
+       }) {
+    Folder folder;
+    folder.file("controllers/prog/main.c",
+                "#include <stdio.h>\nint part(void);\nint main(void) { printf(\"%d\", part()); return 0; }");
+    folder.file("controllers/prog/parts/one/part.c", "int part(void) { return 21; }");
+    folder.file("controllers/prog/tries/part.c", "int part(void) { return 9; }");
+    folder.file("controllers/prog/tries/other.c", "int main(void) { return 9; }");
+    if (list.find("part.o") != std::string::npos)  // the object's name alone: one file of that name
+      std::filesystem::remove(folder.path / "controllers/prog/tries/part.c");
+    folder.file("controllers/prog/Makefile", list);
+    auto built = build_folder(folder);
+    ASSERT_TRUE(built.ok) << list << text_of(built);
+    EXPECT_EQ(said(folder), "21") << list;
+  }
+}
+
 TEST(makefile_project, settings_count_without_a_list_of_sources) {
   Folder folder;
   folder.file("controllers/prog/main.c", kMain);

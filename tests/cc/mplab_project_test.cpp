@@ -86,6 +86,33 @@ TEST(mplab_project, a_project_of_mplab_x_lists_files_from_its_own_folder) {
   EXPECT_EQ(said(folder), "6");
 }
 
+// by the archive's file or by the project that makes it; of its configurations the one that is linked
+TEST(mplab_project, an_archive_of_another_project_is_made_of_its_files) {
+  for (const std::string item :
+       {"<linkerLibFileItem>../../lib.X/dist/Small/production/lib.X.a</linkerLibFileItem>",
+        "<linkerLibProjectItem><makeArtifact PL=\"../../lib.X\" CT=\"3\" CN=\"Small\" "
+        "OP=\"dist/Small/production/lib.X.a\"></makeArtifact></linkerLibProjectItem>"}) {
+    Folder folder;
+    folder.file(
+        "tries/prog.X/main.c",
+        "#include <stdio.h>\n#include \"part.h\"\nint main(void) { printf(\"%d\", part()); return 0; }");
+    folder.file("tries/prog.X/nbproject/configurations.xml",
+                "<itemPath>main.c</itemPath><conf name=\"default\" type=\"2\"><linkerLibItems>" + item +
+                    "</linkerLibItems><C30></C30></conf>");
+    folder.file("lib.X/part.c", "#include \"part.h\"\nint part(void) { return OTHER; }");
+    folder.file("lib.X/big.c", "int part(void) { return 9; }");
+    folder.file("lib.X/try.c", "int main(void) { return 9; }");
+    folder.file("lib.X/part.h", "int part(void);\n#define OTHER 5\n");
+    folder.file("lib.X/nbproject/configurations.xml",
+                "<itemPath>part.c</itemPath><itemPath>big.c</itemPath><itemPath>try.c</itemPath>"
+                "<conf name=\"Big\" type=\"3\"><item path=\"part.c\" ex=\"true\"></item></conf>"
+                "<conf name=\"Small\" type=\"3\"><item path=\"big.c\" ex=\"true\"></item></conf>");
+    auto built = build_folder(folder, "tries/prog.X");
+    ASSERT_TRUE(built.ok) << text_of(built);
+    EXPECT_EQ(said(folder), "5");
+  }
+}
+
 TEST(mplab_project, two_projects_of_different_programs_decide_nothing) {
   Folder folder;
   folder.file("prog/main.c", kMain);
