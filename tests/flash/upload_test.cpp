@@ -256,6 +256,106 @@ TEST_F(UploadTest, the_bootloader_keeps_its_own_rows) {
   EXPECT_EQ(flash(0x17EC0), extension);
 }
 
+// --- people's uploaders: models of two, which know flash by halves of 64 KB of the .hex
+
+/// What such an uploader makes of a .hex: octets by twice the address, a half each.
+struct OfPeople {
+  std::map<std::uint32_t, std::vector<std::uint8_t>> halves;
+  bool has_crashed = false;
+
+  /// `drops`: data before the first extended-address record are left out; else there is no place for them.
+  static OfPeople read(const std::string& hex, bool drops) {
+    OfPeople made;
+    std::vector<std::uint8_t>* half = nullptr;
+    bool is_beyond = false;  // configuration words
+    std::istringstream lines(hex);
+    for (std::string line; std::getline(lines, line);) {
+      const auto byte = [&](std::size_t i) { return std::stoul(line.substr(1 + 2 * i, 2), nullptr, 16); };
+      const std::size_t length = byte(0), address = byte(1) << 8 | byte(2), type = byte(3);
+      if (type == 4) {
+        const std::uint32_t upper = static_cast<std::uint32_t>(byte(4) << 8 | byte(5));
+        is_beyond = upper >= 4;
+        half = is_beyond ? nullptr : &made.halves[upper << 16];
+      } else if (type == 0 && half) {
+        half->resize(std::max(half->size(), address + length), 0xFF);
+        for (std::size_t i = 0; i < length; ++i)
+          (*half)[address + i] = static_cast<std::uint8_t>(byte(4 + i));
+      } else if (type == 0 && !is_beyond && !drops) {
+        made.has_crashed = true;
+        return made;
+      }
+    }
+    return made;
+  }
+
+  /// The way into the bootloader at 0, the way into the program where the bootloader looks for it.
+  void lead_in() {
+    constexpr std::uint32_t kUser = 2 * 0x17F00;
+    std::vector<std::uint8_t>& first = halves[0];
+    first.resize(std::max<std::size_t>(first.size(), 8), 0xFF);
+    std::vector<std::uint8_t>& user = halves[kUser];
+    user.assign(120, 0xFF);
+    const std::uint8_t way_in[] = {first[0], first[1], 0x04, 0, first[4], 0, 0, 0};
+    std::copy(std::begin(way_in), std::end(way_in), user.begin() + 112);
+    const std::uint8_t bootloader[] = {0x40, 0x7F, 0x04, 0, 0x01, 0, 0, 0};
+    std::copy(std::begin(bootloader), std::end(bootloader), first.begin());
+  }
+
+  /// False: a row was not taken.
+  bool send(tools::SerialLine& line) const {
+    bool is_there = false;
+    for (int i = 0; i < 100 && !is_there; ++i) {
+      line.write({0xC1});
+      is_there = line.read(0.05) == std::optional<std::uint8_t>('q') &&
+                 line.read(0.05) == std::optional<std::uint8_t>('K');
+    }
+    for (const auto& [begin, octets] : halves)
+      for (std::size_t at = 0; is_there && at < octets.size(); at += 128) {
+        const std::size_t row = (begin + at) / 2;
+        std::vector<std::uint8_t> frame = {static_cast<std::uint8_t>(row),
+                                           static_cast<std::uint8_t>(row >> 8),
+                                           static_cast<std::uint8_t>(row >> 16), 0x60};
+        for (std::size_t i = 0; i < 128; ++i)
+          if (i % 4 < 3) frame.push_back(at + i < octets.size() ? octets[at + i] : 0xFF);
+        unsigned sum = 0;
+        for (const std::uint8_t b : frame) sum += b;
+        frame.push_back(static_cast<std::uint8_t>(-sum));
+        line.write(frame);
+        if (line.read(0.5) != std::optional<std::uint8_t>('K')) return false;
+      }
+    line.write({0x95, 0, 0, 0xFF});
+    return is_there;
+  }
+};
+
+// one drops what stands before the first extended-address record, the other fails there
+TEST_F(UploadTest, uploaders_that_people_have_write_our_hex_whole) {
+  Robot& robot = add_robot(hex(bootloader_));
+  for (const bool drops : {true, false}) {
+    const char name = drops ? 'A' : 'B';
+    const dspic::FirmwareFile file = assembled(program(name));
+    const std::string text = dspic::to_hex(file);
+    OfPeople uploader = OfPeople::read(text, drops);
+    ASSERT_FALSE(uploader.has_crashed);
+    uploader.lead_in();
+    Line line(*this, robot, 0, 1);
+    ASSERT_TRUE(uploader.send(line)) << drops;
+    run_for(0.1);
+    int wrong = 0;
+    for (const auto& [address, word] : file.words)  // but for the way in
+      if (address >= 4 && address < dspic::kFlashEnd) wrong += flash(address) != word;
+    EXPECT_EQ(wrong, 0) << drops;
+    const std::size_t before = robot.uart1_text().size();
+    run_for(3);
+    EXPECT_EQ(robot.uart1_text().substr(before), std::string(1, name)) << drops;
+    // they need that record: without it half of the program is gone, or all
+    const std::string cut = text.substr(text.find('\n') + 1);
+    EXPECT_TRUE(drops ? OfPeople::read(cut, drops).halves[0].empty()
+                      : OfPeople::read(cut, drops).has_crashed);
+    runner().restart();
+  }
+}
+
 // no answer, or a program that talks
 TEST_F(UploadTest, silence_is_told) {
   Robot& robot = add_robot(hex("__reset: bra __reset\n"));
