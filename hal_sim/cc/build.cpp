@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <map>
 #include <set>
@@ -31,6 +32,7 @@ namespace {
 
 struct Plan {
   std::vector<CompileJob> user, assembler;
+  std::set<fs::path> assembler_members;
   bool is_webots = false;  // a program for Webots' interfaces, with the library behind them
   bool has_cxx = false;
   CompileJob runtime;
@@ -73,6 +75,41 @@ std::vector<fs::path> webots_sources(const fs::path& folder, const std::vector<f
   for (const auto& source : sources)
     if (!left_out.count(fs::weakly_canonical(source))) kept.push_back(source);
   return kept.empty() ? sources : kept;
+}
+
+enum class AssemblerRole {
+  Own,     // linked whatever asks for it
+  Member,  // of a copy of the library: linked when something asks for it, or for its handler
+  Ours,    // a file of the library that the project has elsewhere: ours is taken, as of its C files
+};
+
+AssemblerRole role_of(const fs::path& file, const fs::path& folder, const Program& program) {
+  if (!is_library_assembler(file)) return AssemblerRole::Own;
+  const std::string below =
+      fs::weakly_canonical(file).lexically_relative(fs::weakly_canonical(folder)).generic_string();
+  const bool is_elsewhere = below.empty() || below.rfind("..", 0) == 0;
+  if (is_elsewhere && is_in_library_folder(file)) return AssemblerRole::Ours;
+  if (program.has_project && !program.unlisted_assembler.count(file)) return AssemblerRole::Own;
+  const bool has_c_half = std::any_of(program.sources.begin(), program.sources.end(), [&](const fs::path& s) {
+    return s.parent_path() == file.parent_path() && !library_place(s).empty();
+  });
+  return is_in_library_folder(file) || has_c_half ? AssemblerRole::Member : AssemblerRole::Own;
+}
+
+/// Where .include and .incbin look: beside the file (the assembler does), in the project's folder, in those
+/// that are named, in those of the program that hold such files.
+std::vector<std::string> assembler_flags(const BuildOptions& o, const Program& program,
+                                         const std::vector<fs::path>& own) {
+  std::vector<std::string> flags = {"--target=dspic30f6014a"};
+  std::vector<fs::path> folders = {fs::absolute(o.source_dir)};
+  for (const auto& d : o.include_dirs) folders.push_back(fs::absolute(d));
+  folders.insert(folders.end(), program.include_dirs.begin(), program.include_dirs.end());
+  for (const fs::path& file : files_below(o.source_dir, ".inc")) folders.push_back(file.parent_path());
+  folders.insert(folders.end(), own.begin(), own.end());
+  std::set<fs::path> known;
+  for (const fs::path& folder : folders)
+    if (known.insert(folder).second) flags.push_back("-I" + folder.string());
+  return flags;
 }
 
 Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& program, bool lint) {
@@ -134,8 +171,10 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& pro
 
   if (o.chip_way)
     for (const auto& s : program.assembler)
-      if (!is_library_assembler(s))
-        p.assembler.push_back({s, {"--target=dspic30f6014a"}, salt, contract.string()});
+      if (const AssemblerRole role = role_of(s, o.source_dir, program); role != AssemblerRole::Ours) {
+        p.assembler.push_back({s, assembler_flags(o, program, own), salt, contract.string()});
+        if (role == AssemblerRole::Member) p.assembler_members.insert(s);
+      }
 
   std::string name =
       o.name.empty() ? fs::absolute(o.source_dir).lexically_normal().filename().string() : o.name;
@@ -238,11 +277,15 @@ void tell_of_assembler(const Program& program, const std::vector<CompileOutcome>
     }
 }
 
-using Renames = std::vector<std::pair<std::string, std::string>>;
+/// For the chip's linker: in the program's objects, in the library's.
+struct Renames {
+  std::map<std::string, std::string> of_program, of_library;
+};
 
 /// Makes the program's objects call the forms of drivers that are chosen (driver_variants.h); for the chip
 /// its linker does, by `renames`.
 std::vector<DriverChoice> choose_drivers(std::vector<CompileOutcome>& user,
+                                         const std::vector<CompileOutcome>& members,
                                          const std::vector<CompileJob>& jobs, const Program& program,
                                          const BuildOptions& o, BuildResult& result, Renames& renames) {
   const fs::path contract = include_root(o);
@@ -257,14 +300,25 @@ std::vector<DriverChoice> choose_drivers(std::vector<CompileOutcome>& user,
     symbols.wanted.insert(wanted[i].begin(), wanted[i].end());
     texts.push_back(read_text(jobs[i].source));
   }
+  // a driver that the project brings along is the program's own, whatever header declares it
+  std::set<std::string> wanted_by_members;
+  if (o.chip_way)
+    for (const CompileOutcome& member : members)
+      for (const auto& s : read_elf(member.object).symbols)
+        if (!s.name.empty() && s.is_global)
+          (s.is_defined || s.is_common ? symbols.defined : wanted_by_members).insert(s.name);
   for (const fs::path& header : files_below(o.source_dir, ".h"))
     if (library_place(fs::path(header).replace_extension(".c")).empty()) texts.push_back(read_text(header));
   auto choices = choose_driver_forms(symbols, program.library_places, texts, contract);
+  if (o.chip_way)
+    for (const std::string& wrong : functions_of_two_drivers(symbols, choices, contract))
+      result.errors.push_back(o.source_dir.string() + ": " + wrong);
+  symbols.wanted.insert(wanted_by_members.begin(), wanted_by_members.end());
   const auto renamed = renamed_functions(symbols, choices, contract);
   for (const DriverChoice& choice : choices)
     if (!choice.told.empty()) result.conflicts.push_back(o.source_dir.string() + ": warning: " + choice.told);
   if (o.chip_way) {
-    renames.assign(renamed.begin(), renamed.end());
+    renames = {renamed, own_functions(symbols, contract)};
     return choices;
   }
   for (std::size_t i = 0; i < user.size(); ++i) {
@@ -284,27 +338,56 @@ std::vector<DriverChoice> choose_drivers(std::vector<CompileOutcome>& user,
   return choices;
 }
 
+/// The linker's numbers, of its report (dspic30/llvm/link_report.cpp).
+void take_sizes(const std::string& report, const fs::path& folder, BuildResult& result) {
+  result.size_report = report;
+  const auto number_behind = [&](const std::string& word) {
+    const std::size_t at = report.find("\n" + word);
+    return at == std::string::npos ? 0 : std::strtol(report.c_str() + at + 1 + word.size(), nullptr, 10);
+  };
+  result.ram_bytes = number_behind("RAM ");
+  result.stack_bytes = number_behind("stack ");
+  if (const std::size_t at = report.find("(no bound: "); at != std::string::npos) {
+    const std::size_t begin = at + std::strlen("(no bound: ");
+    result.recursive = report.substr(begin, report.find("()", begin) - begin);
+  }
+  static const std::string kOfLinker = "link: warning: stack: ";
+  for (std::string& warning : result.warnings)
+    if (warning.rfind(kOfLinker, 0) == 0)
+      warning = result.no_room = folder.string() + warning.substr(std::strlen("link"));
+}
+
 /// The chip way's last step: .elf, .hex, .lst and .map, which appear together or not at all.
-void link_chip(const std::vector<CompileOutcome>& user, const std::vector<CompileOutcome>& members,
-               const std::vector<fs::path>& objects, const Library& library, const Renames& renames,
-               const fs::path& output, BuildResult& result) {
+void link_chip(const std::vector<CompileOutcome>& user, const std::vector<CompileOutcome>& drivers,
+               const std::vector<CompileOutcome>& members, const Program& program, const Library& library,
+               const Renames& renames, const fs::path& folder, const fs::path& output, BuildResult& result) {
   std::error_code ec;
   const fs::path half = unfinished(output);  // a folder
   fs::create_directories(half, ec);
   const fs::path made = half / (output.stem().string() + ".elf");
   std::vector<std::string> argv = {compiler_path().string(), "--link", "-o", made.string()};
   for (const auto& u : user) argv.push_back(u.object.string());
-  for (const auto& [from, to] : renames) argv.insert(argv.end(), {"--rename", from + "=" + to});
-  for (const auto& file : objects) {
+  for (const auto& [from, to] : renames.of_program) argv.insert(argv.end(), {"--rename", from + "=" + to});
+  for (const auto& [from, to] : renames.of_library)
+    argv.insert(argv.end(), {"--rename-library", from + "=" + to});
+  const auto made_of = [&](const fs::path& object, const std::string& source) {
+    argv.insert(argv.end(), {"--source", object.string() + "=" + source});
+  };
+  for (const auto* list : {&user, &drivers, &members})
+    for (const auto& made : *list) made_of(made.object, made.source.string());
+  made_of(library.archive, "library");
+  for (const auto& file : program.objects) {
     look_at(file);
     if (file.extension() != ".o") argv.push_back("--library");  // of an archive what is asked for
     argv.push_back(file.string());
   }
+  for (const auto& d : drivers) argv.insert(argv.end(), {"--driver", d.object.string()});
   for (const auto& m : members) argv.insert(argv.end(), {"--library", m.object.string()});
   argv.insert(argv.end(), {"--library", library.archive.string()});
   const auto run = run_process(argv);
-  sort_messages(run.output, result, run.status != 0);
-  if (run.status == 0) result.size_report = run.output.substr(run.output.find("flash"));
+  sort_messages(with_hints(run.output), result, run.status != 0);
+  if (const std::size_t at = run.output.find("flash "); run.status == 0 && at != std::string::npos)
+    take_sizes(run.output.substr(at), folder, result);
   for (const char* kind : {".hex", ".lst", ".map", ".elf"}) {
     if (!result.errors.empty()) break;
     fs::path from = made, to = output;
@@ -341,7 +424,8 @@ static BuildResult build_here(const BuildOptions& o) {
   std::size_t own = 0;  // of p.user, what is not a member of a copy of the library
   if (o.register_way) {
     // drivers that a project brings along reach the registers they were written for
-    const LibraryCopies split = find_library_members(o.source_dir, sources, program.unlisted);
+    const LibraryCopies split = find_library_members(
+        o.source_dir, sources, program.unlisted, o.chip_way ? program.assembler : std::vector<fs::path>());
     own = split.kept.size();
     copies.replaced_whole = split.replaced_whole;
     copies.kept = split.kept;
@@ -401,7 +485,8 @@ static BuildResult build_here(const BuildOptions& o) {
   if (!result.errors.empty()) return finish();
   if (!o.chip_way) tell_of_assembler(program, user, result);
   Renames renames;
-  const auto choices = choose_drivers(user, p.user, program, o, result, renames);
+  const auto choices = choose_drivers(user, members, p.user, program, o, result, renames);
+  if (!result.errors.empty()) return finish();
   std::vector<std::pair<std::string, std::string>> texts;
   for (const auto& s : o.register_way ? find_library_copies(o.source_dir, sources).kept : copies.kept)
     if (!program.unlisted.count(s)) texts.emplace_back(s.filename().string(), read_text(s));
@@ -411,8 +496,16 @@ static BuildResult build_here(const BuildOptions& o) {
   fs::path output = fs::absolute(o.output);
   fs::create_directories(output.parent_path(), ec);
   if (o.chip_way) {
-    user.insert(user.end(), outcomes.begin() + long(p.user.size()), outcomes.end());
-    link_chip(user, members, program.objects, library, renames, output, result);
+    std::vector<CompileOutcome> drivers;  // linked for their handlers, too
+    for (auto it = outcomes.begin() + long(p.user.size()); it != outcomes.end(); ++it)
+      (p.assembler_members.count(it->source) ? drivers : user).push_back(*it);
+    // on the robot what a project lists is linked
+    const auto is_listed = [&](const CompileOutcome& member) {
+      return program.has_project && !program.unlisted.count(member.source);
+    };
+    std::copy_if(members.begin(), members.end(), std::back_inserter(drivers), is_listed);
+    members.erase(std::remove_if(members.begin(), members.end(), is_listed), members.end());
+    link_chip(user, drivers, members, program, library, renames, o.source_dir, output, result);
     result.ok = result.errors.empty();
     return finish();
   }

@@ -35,12 +35,12 @@ struct BuildResult {
   std::vector<std::string> conflicts;  ///< two drivers with one timer or vector; found at each build
   std::vector<std::string> warnings;   ///< same grammar; 16-bit warnings of the compiler included
   int compiled = 0, reused = 0;        ///< translation units compiled now, taken from the cache
-  long ram_bytes = 0;                  ///< estimate of static data on the chip
-  long stack_bytes = 0;                ///< estimate of the stack on the chip, the deepest interrupt included
-  std::string recursive;               ///< a function that calls itself: then the stack has no bound
-  std::string no_room;                 ///< one of the warnings: data and stack are more than the chip's RAM
-  std::string size_report;             ///< chip way: what the linker says of flash and RAM
-  double seconds = 0;                  ///< wall time of this build
+  long ram_bytes = 0;       ///< static data on the chip: the linker's number, other ways an estimate
+  long stack_bytes = 0;     ///< the stack at most, every handler included: the linker's bound, or an estimate
+  std::string recursive;    ///< a function that calls itself: then the stack has no bound
+  std::string no_room;      ///< one of the warnings: data and stack are more than the chip's RAM
+  std::string size_report;  ///< chip way: what the linker says of flash and RAM
+  double seconds = 0;       ///< wall time of this build
 };
 
 /// Compiles and links. On failure the output file is left as it was.

@@ -170,6 +170,7 @@ std::optional<BuildResult> BuildRecord::recall() const {
   result.stack_bytes = record.number();
   result.recursive = record.next();
   result.no_room = record.next();
+  result.size_report = record.next();
   result.warnings = record.list();
   result.conflicts = record.list();
   std::map<std::string, BuildInputs::Input> inputs;
@@ -196,7 +197,8 @@ void BuildRecord::keep(const BuildResult& result,
                                     std::to_string(result.ram_bytes),
                                     std::to_string(result.stack_bytes),
                                     result.recursive,
-                                    result.no_room};
+                                    result.no_room,
+                                    result.size_report};
   put(texts, result.warnings);
   put(texts, result.conflicts);
   for (const auto& [path, input] : inputs)

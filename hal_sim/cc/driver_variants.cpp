@@ -165,6 +165,57 @@ std::map<std::string, std::string> replaced_headers(const std::vector<DriverChoi
   return replaced;
 }
 
+std::map<std::string, std::string> own_functions(const ProgramSymbols& symbols,
+                                                 const fs::path& include_root) {
+  std::map<std::string, std::string> own;
+  for (const Driver& driver : kDrivers)
+    each_form(driver, [&](const DriverForm& form) {
+      if (!*form.prefix) return;
+      for (const std::string& name : functions_of(form, include_root))
+        if (symbols.defined.count(name)) own[form.prefix + name] = name;
+    });
+  return own;
+}
+
+std::vector<std::string> functions_of_two_drivers(const ProgramSymbols& symbols,
+                                                  const std::vector<DriverChoice>& choices,
+                                                  const fs::path& include_root) {
+  std::vector<std::string> messages;
+  for (const Driver& driver : kDrivers) {
+    // the chosen form, or the usual one, which is linked under the functions' own names
+    const auto chosen = std::find_if(choices.begin(), choices.end(),
+                                     [&](const DriverChoice& c) { return c.driver == &driver; });
+    if (!driver.is_exchangeable && chosen == choices.end()) continue;
+    const DriverForm& form = chosen == choices.end() ? driver.forms[0] : *chosen->form;
+    const auto has = functions_of(form, include_root);
+    const auto is_wanted = [&](const std::string& name) {
+      bool is = false;
+      each_form(driver, [&](const DriverForm& f) { is = is || symbols.wanted.count(f.prefix + name); });
+      return is && !symbols.defined.count(name);
+    };
+    // of a driver that is the program's own nothing is ours
+    const bool is_used = std::any_of(has.begin(), has.end(), is_wanted);
+    each_form(driver, [&](const DriverForm& other) {
+      std::string names, twice;
+      for (const std::string& name : functions_of(other, include_root))
+        if (has.count(name))
+          twice = twice.empty() ? name : twice;
+        else if (is_wanted(name))
+          names += (names.empty() ? "" : ", ") + name + "()";
+      const bool is_told = std::any_of(messages.begin(), messages.end(), [&](const std::string& m) {
+        return m.find(": got " + names + " of ") != std::string::npos;
+      });
+      if (!is_used || names.empty() || twice.empty() || is_told) return;
+      messages.push_back(std::string(driver.name) + ": got " + names + " of " + other.source + ", but " +
+                         form.source +
+                         " is linked, expected functions of one of them; the robot's linker "
+                         "refuses both: multiple definition of " +
+                         twice + "()");
+    });
+  }
+  return messages;
+}
+
 std::map<std::string, std::string> renamed_functions(const ProgramSymbols& symbols,
                                                      const std::vector<DriverChoice>& choices,
                                                      const fs::path& include_root) {
@@ -182,6 +233,10 @@ std::map<std::string, std::string> renamed_functions(const ProgramSymbols& symbo
           renamed[label] = choice.form->prefix + name;
         }
       }
+      // a function that only another form has, called without its header
+      for (const std::string& name : functions_of(form, include_root))
+        if (*form.prefix && !has.count(name) && symbols.wanted.count(name) && !symbols.defined.count(name))
+          renamed.emplace(name, form.prefix + name);
     });
   }
   return renamed;

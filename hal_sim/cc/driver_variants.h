@@ -55,4 +55,15 @@ std::map<std::string, std::string> renamed_functions(const ProgramSymbols& symbo
                                                      const std::vector<DriverChoice>& choices,
                                                      const std::filesystem::path& include_root);
 
+/// What the library itself shall call by another name, since the program has the function: its drivers of one
+/// form call one another by their labels.
+std::map<std::string, std::string> own_functions(const ProgramSymbols& symbols,
+                                                 const std::filesystem::path& include_root);
+
+/// What the program calls that the linked form of a driver has not, but another form has, where the two share
+/// names of functions, so that the robot's linker takes only one of them. A message each.
+std::vector<std::string> functions_of_two_drivers(const ProgramSymbols& symbols,
+                                                  const std::vector<DriverChoice>& choices,
+                                                  const std::filesystem::path& include_root);
+
 }  // namespace cc

@@ -123,7 +123,7 @@ std::string driver_folder(const fs::path& source, const std::string& below) {
 
 /// Takes from the members those drivers of which only one half is C.
 void leave_out_half_drivers(const fs::path& project, const std::set<fs::path>& unlisted,
-                            LibraryCopies& split) {
+                            const std::vector<fs::path>& assembler, LibraryCopies& split) {
   std::vector<std::pair<fs::path, std::string>> folders;  // source, its driver
   for (const fs::path& source : split.replaced)
     folders.emplace_back(source, driver_folder(source, source.lexically_relative(project).generic_string()));
@@ -135,6 +135,10 @@ void leave_out_half_drivers(const fs::path& project, const std::set<fs::path>& u
       is_there = true;
       const sim::Pattern definition(std::string(half.handler) + R"(\s*\([^;{}]*\)\s*\{)");
       is_whole = is_whole || std::regex_search(without_comments(read_text(source)), definition);
+    }
+    for (const fs::path& file : assembler) {
+      const auto names = functions_in_assembler(file);
+      is_whole = is_whole || std::find(names.begin(), names.end(), half.handler) != names.end();
     }
     // a handler of the program's own is the other half, too
     for (const fs::path& source : split.kept)
@@ -212,7 +216,8 @@ LibraryCopies find_library_copies(const fs::path& project, const std::vector<fs:
 }
 
 LibraryCopies find_library_members(const fs::path& project, const std::vector<fs::path>& sources,
-                                   const std::set<fs::path>& unlisted) {
+                                   const std::set<fs::path>& unlisted,
+                                   const std::vector<fs::path>& assembler) {
   LibraryCopies split;
   for (const fs::path& source : sources)
     (has_library_name(lower(source.filename().string())) ? split.replaced : split.kept).push_back(source);
@@ -226,7 +231,7 @@ LibraryCopies find_library_members(const fs::path& project, const std::vector<fs
       ++i;
     }
   }
-  leave_out_half_drivers(project, unlisted, split);
+  leave_out_half_drivers(project, unlisted, assembler, split);
   std::set<std::string> included;  // last two parts of every #include: "a_d/e_prox.h", "e_led.h"
   static const sim::Pattern kInclude(R"(#\s*include\s*[<"]([^>"]+)[>"])");
   for (const fs::path& source : split.kept) {
@@ -256,6 +261,11 @@ bool is_library_assembler(const fs::path& file) {
       R"((e_(interrupt|isr_dci|init_codec_slave|init_dci_master|sub_dci_kickoff|const_sound|init_uart[12]|)"
       R"(uart[12]_[rt]x_char\w*|fast_copy|subtract_mean)|dataeeprom)\.s)");
   return std::regex_match(lower(file.filename().string()), kNames);
+}
+
+bool is_in_library_folder(const fs::path& assembler) {
+  const std::string folder = lower(assembler.parent_path().filename().string());
+  return folder == "codec" || folder == "uart" || folder == "fft" || folder == "fast_2_timer";
 }
 
 std::vector<std::string> functions_in_assembler(const fs::path& file) {

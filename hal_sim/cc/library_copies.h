@@ -35,10 +35,12 @@ LibraryCopies find_library_copies(const std::filesystem::path& project,
 /// A driver of which the original has one half in assembler (the fast camera's, the codec's) is taken from
 /// Twinpuck's library as a whole (`replaced_whole`), unless the project's C files have the handler too. With
 /// the fast camera goes the slow one that lies beside it: the same functions, which nobody asked for.
-/// `unlisted`: sources that the project file does not name; what it names wins.
+/// `unlisted`: sources that the project file does not name; what it names wins. `assembler`: the program's
+/// files that are assembled, which may have the other halves.
 LibraryCopies find_library_members(const std::filesystem::path& project,
                                    const std::vector<std::filesystem::path>& sources,
-                                   const std::set<std::filesystem::path>& unlisted = {});
+                                   const std::set<std::filesystem::path>& unlisted = {},
+                                   const std::vector<std::filesystem::path>& assembler = {});
 
 /// File names differ in case from system to system: `text` in lower case.
 std::string lower(std::string text);
@@ -53,6 +55,9 @@ std::vector<std::string> functions_in_assembler(const std::filesystem::path& fil
 
 /// Whether an assembler source has the name of one of the library's, which Twinpuck's library has in C.
 bool is_library_assembler(const std::filesystem::path& file);
+
+/// Whether such a file lies where the library has it, "codec/e_isr_dci.s".
+bool is_in_library_folder(const std::filesystem::path& assembler);
 
 /// The line that tells of it; "" when nothing was left out.
 std::string library_copies_message(const std::filesystem::path& project, const LibraryCopies& copies);

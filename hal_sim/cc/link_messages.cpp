@@ -81,7 +81,35 @@ bool is_of_webots(const std::string& name) {
   return std::any_of(kPrefixes.begin(), kPrefixes.end(), [&](const char* p) { return starts_with(name, p); });
 }
 
+/// What may be the matter with a name that nobody defines.
+std::string hint_for(const std::string& name) {
+  if (is_of_webots(name))
+    return "a controller runs on the robot and has not this function of Webots; docs/webots.md lists what "
+           "there "
+           "is, and supervisors are programs of their own";
+  if (starts_with(name, "e_"))
+    return "this function of the e-puck library is not simulated yet, or its name is misspelt";
+  return "is a .c file missing from the folder, or the name misspelt?";
+}
+
 }  // namespace
+
+std::string with_hints(const std::string& text) {
+  static const std::string kMissing = ": got no definition, expected one in the program or the library";
+  std::string out;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t at = line.find(kMissing);
+    if (at != std::string::npos && at + kMissing.size() == line.size()) {
+      const std::size_t begin = line.rfind(' ', at) + 1;
+      std::string name = line.substr(begin, at - begin);
+      if (name.size() > 2 && name.compare(name.size() - 2, 2, "()") == 0) name.resize(name.size() - 2);
+      line += "; " + hint_for(name);
+    }
+    out += line + "\n";
+  }
+  return out;
+}
 
 void sort_linker_messages(const std::string& text, const Program& program, const fs::path& root,
                           BuildResult& result) {
@@ -103,12 +131,7 @@ void sort_linker_messages(const std::string& text, const Program& program, const
                                          ", and only the chip way assembles: --way chip, or write it in C"
           : !program.objects.empty() ? program.objects.front().filename().string() +
                                            " is code of the chip, which only the chip way links: --way chip"
-          : is_of_webots(name)
-              ? "a controller runs on the robot and has not this function of Webots; docs/webots.md lists "
-                "what there is, and supervisors are programs of their own"
-          : starts_with(name, "e_")
-              ? "this function of the e-puck library is not simulated yet, or its name is misspelt"
-              : "is a .c file missing from the folder, or the name misspelt?";
+                                     : hint_for(name);
       result.errors.push_back(where + ": " + (function.empty() ? "" : function + "() calls ") + name +
                               "(): got no definition, expected one in the project or the library; " + hint);
     } else if (const std::string twice = quoted_after(line, "multiple definition of `"); !twice.empty()) {

@@ -13,4 +13,7 @@ namespace cc {
 void sort_linker_messages(const std::string& text, const Program& program, const std::filesystem::path& root,
                           BuildResult& result);
 
+/// What twinpuck-cc --link prints, with what may help behind names that have no definition.
+std::string with_hints(const std::string& text);
+
 }  // namespace cc

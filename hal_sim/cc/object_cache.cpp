@@ -162,6 +162,7 @@ bool is_fresh(const fs::path& object, const fs::path& deps, BuildInputs& inputs)
 CompileOutcome compile(const CompileJob& job, const fs::path& compiler, const std::string& salt,
                        const fs::path& cache, BuildInputs& inputs) {
   CompileOutcome outcome;
+  outcome.source = job.source;
   std::string key = job.source.string() + "\n" + job.salt + "\n" + salt;
   for (const auto& f : job.flags) key += "\n" + f;
   fs::path base = cache / (job.source.stem().string() + "-" + content_hash(key));

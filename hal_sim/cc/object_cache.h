@@ -48,7 +48,7 @@ struct CompileJob {
 
 struct CompileOutcome {
   bool ok = false, reused = false;
-  std::filesystem::path object;
+  std::filesystem::path source, object;
   std::string messages;
 };
 

@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: MIT
+// Folders built for the chip by the command that ships: what is linked, what is told, what lies beside the
+// image.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "dspic30/load/firmware_file.h"
+#include "dspic30/memory/program_memory.h"
+#include "hal_sim/cc/object_cache.h"
+#include "twinpuck_paths.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string text_at(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+/// A program's folder, built by `twinpuck build --way chip`.
+class Built : public ::testing::Test {
+ protected:
+  Built() : folder(fs::temp_directory_path() / ("twinpuck-link-" + std::to_string(getpid()))) {
+    fs::remove_all(folder);
+    fs::create_directories(folder / "prog");
+  }
+  ~Built() override { fs::remove_all(folder); }
+
+  void file(const std::string& name, const std::string& text) const {
+    fs::create_directories((folder / "prog" / name).parent_path());
+    std::ofstream(folder / "prog" / name) << text;
+  }
+  /// What the command says; `is_good`: that it ended so.
+  std::string build(bool is_good = true) {
+    const auto run =
+        cc::run_process({std::string(TWINPUCK_BUILD_DIR) + "/twinpuck", "build", (folder / "prog").string(),
+                         "--way", "chip", "-o", (folder / "x.elf").string()});
+    EXPECT_EQ(run.status == 0, is_good) << run.output;
+    return run.output;
+  }
+  std::string beside(const char* kind) const { return text_at(folder / (std::string("x.") + kind)); }
+  dspic::FirmwareFile image() const {
+    dspic::FirmwareFile made;
+    std::string error;
+    EXPECT_TRUE(dspic::load_firmware(beside("elf"), "x.elf", made, error)) << error;
+    return made;
+  }
+  /// A symbol's address by the map.
+  unsigned long place_of(const std::string& symbol) const {
+    std::istringstream lines(beside("map"));
+    for (std::string line; std::getline(lines, line);)
+      if (has(line, " " + symbol + " ")) return std::strtoul(line.c_str(), nullptr, 16);
+    ADD_FAILURE() << symbol;
+    return 0;
+  }
+  /// The first lines of the map: modules that are linked.
+  std::string modules() const {
+    const std::string map = beside("map");
+    const std::size_t begin = map.find("\nmodules");
+    return begin == std::string::npos ? "" : map.substr(begin, map.find("\n\n", begin + 1) - begin);
+  }
+  static bool has(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+  }
+  fs::path folder;
+};
+
+const char* const kSounds = R"(
+        .section .sounds, code
+        .global _sounds
+_sounds:
+        .rept 5000
+        .hword 0x1234
+        .endr
+)";
+
+TEST_F(Built, size_report_counts_every_word_of_the_hex) {
+  file("main.c",
+       "extern int sounds;\nconst char far_table[2001] __attribute__((space(prog))) = {1};\n"
+       "const int near_table[9] = {7};\n"
+       "int main(void) { return near_table[1] + __builtin_tbloffset(&far_table) + "
+       "__builtin_tbloffset(&sounds); }\n");
+  file("sounds.s", kSounds);
+  const std::string told = build();
+  dspic::FirmwareFile hex;
+  std::string error;
+  ASSERT_TRUE(dspic::load_hex(beside("hex"), "x.hex", hex, error)) << error;
+  const auto words = std::distance(hex.words.begin(), hex.words.lower_bound(dspic::kFlashEnd));
+  EXPECT_GT(words, 6000);
+  std::size_t at = told.find("flash");
+  ASSERT_NE(at, std::string::npos) << told;
+  EXPECT_EQ(std::strtol(told.c_str() + at + 5, nullptr, 10), words) << told;
+  // the kinds add up to it, and what has not changed is told again
+  at = told.find("code ");
+  long sum = 0;
+  for (const char* kind : {"code ", "constants ", "tables ", "start values ", "jumps "})
+    sum += std::strtol(told.c_str() + told.find(kind, at) + std::string(kind).size(), nullptr, 10);
+  EXPECT_EQ(sum, words) << told;
+  EXPECT_TRUE(has(build(), told.substr(told.find("flash"))));
+}
+
+TEST_F(Built, bound_of_ram_and_stack_is_the_linkers_for_every_caller) {
+  file("main.c", "char large[7000];\nint main(void) { volatile char deep[1800]; return deep[large[0]]; }\n");
+  const std::string told = build();
+  EXPECT_TRUE(has(told, "RAM     7000 of 8192 bytes")) << told;
+  EXPECT_TRUE(has(told, "prog: warning: stack: got 18")) << told;
+}
+
+TEST_F(Built, listing_has_the_lines_of_the_source_and_the_map_its_modules) {
+  file("main.c",
+       "int part(int);\nint counted;\nint main(void) {\n  counted = part(4711);  // here\n  return "
+       "counted;\n}\n");
+  file("part.c", "static int kept;\nint part(int v) {\n  kept += v;\n  return kept;\n}\n");
+  build();
+  const std::string listing = beside("lst");
+  const std::size_t line = listing.find(";     4    counted = part(4711);  // here\n");
+  ASSERT_NE(line, std::string::npos) << listing.substr(0, 2000);
+  EXPECT_LT(listing.rfind("_main:", line), line);
+  EXPECT_TRUE(has(listing.substr(line, 400), "mov #0x1267, w0")) << listing.substr(line, 400);
+  EXPECT_TRUE(has(listing, "; " + (folder / "prog/part.c").string() + "\n"));
+  const std::string symbols = listing.substr(listing.find("; symbols"));
+  for (const char* name : {"_main", "_part", "_counted", "_kept"}) EXPECT_TRUE(has(symbols, name)) << name;
+  EXPECT_TRUE(has(modules(), "2  " + (folder / "prog/main.c").string())) << modules();
+  EXPECT_TRUE(has(modules(), "library(start.s)"));
+  EXPECT_TRUE(has(beside("map"), (folder / "prog/part.c").string() + "\n  0x")) << beside("map");
+}
+
+TEST_F(Built, link_errors_name_function_and_line_of_the_c) {
+  file("main.c",
+       "extern int nowhere;\nint missing(int);\n"
+       "int twice(void) { return 1; }\n"
+       "int main(void) {\n  nowhere = 1;\n  e_set_sped(3);\n  return missing(2);\n}\n");
+  std::string told = build(false);
+  const std::string main = (folder / "prog/main.c").string();
+  EXPECT_TRUE(has(told, main + ":5: error: main() uses nowhere: got no definition")) << told;
+  EXPECT_TRUE(has(told, main + ":6: error: main() calls e_set_sped(): got no definition")) << told;
+  EXPECT_TRUE(has(told, "its name is misspelt")) << told;
+  EXPECT_TRUE(has(told, main + ":7: error: main() calls missing(): got no definition")) << told;
+  file("other.c", "\nint twice(void) { return 2; }\n");
+  told = build(false);
+  EXPECT_TRUE(
+      has(told, "prog/other.c:2: error: twice(): got a second definition, expected one; the first is in " +
+                    main + ":3"))
+      << told;
+  EXPECT_FALSE(has(told, "firmware-cache")) << told;
+}
+
+TEST_F(Built, mistakes_in_assembler_text_are_all_told_with_their_lines) {
+  file("main.c",
+       "#define WRONG asm(\"mov #5, w99\")\n"
+       "void first(void) {\n"
+       "  asm(\"nop\\n\"\n"
+       "      \"foo w1\\n\"\n"
+       "      \"bar w2\");\n"
+       "}\n"
+       "int main(void) {\n  WRONG;\n  first();\n  return 0;\n}\n");
+  const std::string told = build(false);
+  for (const char* message :
+       {"main.c:4:8: error: unknown instruction 'foo'", "main.c:5:8: error: unknown instruction 'bar'",
+        "main.c:8:3: error: mov: operands '#5, w99'"})
+    EXPECT_TRUE(has(told, message)) << message << "\n" << told;
+}
+
+TEST_F(Built, assembler_has_pages_of_code_comments_and_includes) {
+  file("main.c", "extern int page(void), place(void);\nint main(void) { return page() + place(); }\n");
+  file("sound/sounds.s", kSounds);
+  file("sound/Names.INC", "        .equ THREE, 3 /* a\n   comment */\n");
+  file("shared/more.inc", "        .equiv FOUR, THREE + 1\n");
+  file("sound/use.s", R"(
+        .include "names.inc"            ; beside the file, in another case
+        .include "C:\work\shared\More.inc"
+        .text
+        .global _page
+_page:  mov #psvpage(_sounds), w0       /* the page */
+        mov #THREE, w1                  /* over
+                                           lines */
+        mov #FOUR, w2 // four
+        mov #';', w3
+        return
+        .global _place
+_place: mov #psvoffset(_sounds), w0
+        mov #psvoffset(here), w1
+        mov #tblpage(_sounds), w2
+here:   return
+)");
+  build();
+  const dspic::FirmwareFile made = image();
+  const std::uint32_t sounds = made.functions.at("sounds"), page = made.functions.at("page"),
+                      place = made.functions.at("place");
+  EXPECT_EQ(made.words.at(page), 0x200000u | (sounds >> 15) << 4);
+  EXPECT_EQ(made.words.at(page + 2), 0x200031u);
+  EXPECT_EQ(made.words.at(page + 4), 0x200042u);
+  EXPECT_EQ(made.words.at(page + 6), 0x2003B3u);
+  EXPECT_EQ(made.words.at(place), 0x200000u | ((sounds & 0x7FFF) | 0x8000) << 4);
+  EXPECT_EQ(made.words.at(place + 2), 0x200001u | ((place + 6) | 0x8000) << 4);
+  EXPECT_EQ(made.words.at(place + 4), 0x200002u | (sounds >> 16) << 4);
+}
+
+TEST_F(Built, assembler_that_includes_itself_ends) {
+  file("main.c", "int main(void) { return 0; }\n");
+  file("again.s", "        .include \"again.s\"\n        .include \"again.s\"\n");
+  EXPECT_TRUE(has(build(false), "includes are nested too deeply, or too many"));
+}
+
+TEST_F(Built, sections_with_attributes_and_alignment_place_variables) {
+  file("main.c",
+       "int samples[64] __attribute__((section(\".ydata, data, ymemory\"), aligned(128))) = {1};\n"
+       "int zeros[8] __attribute__((section(\".mine, bss, xmemory, address(0x1000)\")));\n"
+       "const int odd = 5;\nconst int table[128] __attribute__((space(auto_psv), aligned(256))) = {1, 2};\n"
+       "int main(void) { return samples[0] + zeros[1] + table[zeros[2]] + (int)&odd; }\n");
+  build();
+  EXPECT_GE(place_of("_samples"), 0x1800u);
+  EXPECT_EQ(place_of("_samples") % 128, 0u);
+  EXPECT_EQ(place_of("_zeros"), 0x1000u);
+  EXPECT_EQ(place_of("_table") % 256, 0u);
+}
+
+// the original's fast agenda, in short: its e_motors.c calls its own e_agenda_fast.c, and main includes our
+// header, which labels the functions
+TEST_F(Built, drivers_of_a_project_are_never_mixed_with_ours) {
+  const std::string place = "library/motor_led/advance_one_timer/fast_agenda/";
+  file("main.c",
+       "#include <motor_led/advance_one_timer/fast_agenda/e_motors.h>\n"
+       "#include <motor_led/advance_one_timer/fast_agenda/e_agenda_fast.h>\n"
+       "int main(void) { e_start_agendas_processing(); e_init_motors(); e_set_speed_left(200); for (;;) ; "
+       "}\n");
+  file(place + "e_agenda_fast.c",
+       "static int started; void e_start_agendas_processing(void) { started = 1; }\n"
+       "void e_activate_motors(void (*a)(void), void (*b)(void)) { if (started) a(), b(); }\n");
+  file(place + "e_motors.c",
+       "void e_activate_motors(void (*)(void), void (*)(void)); static int speed; static void run(void) { "
+       "speed++; }\n"
+       "void e_init_motors(void) { e_activate_motors(run, run); }\nvoid e_set_speed_left(int v) { speed = v; "
+       "}\n");
+  build();
+  EXPECT_TRUE(has(modules(), place + "e_agenda_fast.c")) << modules();
+  EXPECT_TRUE(has(modules(), place + "e_motors.c")) << modules();
+  EXPECT_FALSE(has(modules(), "library(e_agenda")) << modules();
+  EXPECT_FALSE(has(modules(), "library(e_motors")) << modules();
+}
+
+// our motors of the fast form run on the agendas that the program has
+TEST_F(Built, our_drivers_call_what_the_program_has_itself) {
+  file("main.c",
+       "#include <motor_led/advance_one_timer/fast_agenda/e_motors.h>\n"
+       "int main(void) { e_init_motors(); e_set_speed_left(200); for (;;) ; }\n");
+  file("agenda.c",
+       "int steps; void e_activate_motors(void (*a)(void), void (*b)(void)) { a(), b(); }\n"
+       "int e_set_motor_speed(void (*f)(void), unsigned cycle) { steps += cycle; return 1; }\n"
+       "int e_set_agenda_cycle(void (*f)(void), unsigned cycle) { steps += cycle; return 1; }\n");
+  build();
+  EXPECT_TRUE(has(modules(), "library(e_motors_fast.c)")) << modules();
+  EXPECT_FALSE(has(modules(), "library(e_agenda")) << modules();
+}
+
+TEST_F(Built, functions_of_two_drivers_of_one_device_are_refused) {
+  struct Case {
+    const char *headers, *calls, *expected;  // expected: "" builds
+  };
+  for (const Case& c : {
+           Case{"motor_led/e_motors.h", "e_init_motors(); e_set_speed(100, 0);",
+                "motors: got e_set_speed() of motor_led/advance_one_timer/e_motors.c, but "
+                "motor_led/e_motors.c is "
+                "linked, expected functions of one of them; the robot's linker refuses both: multiple "
+                "definition of "},
+           Case{"motor_led/advance_one_timer/e_motors.h", "e_init_motors(); e_set_speed(100, 0);", ""},
+           Case{"motor_led/e_led.h", "e_set_led(1, 1); e_blink_led0();", "LEDs: got e_blink_led0() of"},
+           Case{"a_d/advance_ad_scan/e_prox.h", "e_calibrate_ir(); e_init_prox();", "proximity sensors: got"},
+           // the two drivers of the converter share no name
+           Case{"a_d/advance_ad_scan/e_ad_conv.h", "e_init_ad_scan(1); e_init_ad();", ""},
+       }) {
+    file("main.c",
+         std::string("#include <") + c.headers + ">\nint main(void) { " + c.calls + " for (;;) ; }\n");
+    const std::string told = build(!*c.expected);
+    EXPECT_TRUE(has(told, c.expected)) << told;
+  }
+  // what the program has itself is nobody's
+  file("main.c",
+       "#include <motor_led/e_motors.h>\nvoid e_set_speed(int a, int b) { e_set_speed_left(a - b); }\n"
+       "int main(void) { e_init_motors(); e_set_speed(100, 0); for (;;) ; }\n");
+  build();
+}
+
+TEST_F(Built, assembler_of_a_project_named_like_ours_is_taken) {
+  file("main.c",
+       "extern int e_getchar_uart1(char *);\nint main(void) { char c; return e_getchar_uart1(&c); }\n");
+  file("e_uart1_rx_char.s",
+       "        .global _e_getchar_uart1\n_e_getchar_uart1: mov #0x4711, w0\n        return\n"
+       "        .global __U1RXInterrupt\n__U1RXInterrupt: bclr _IFS0, #9\n        retfie\n");
+  build();
+  const dspic::FirmwareFile made = image();
+  EXPECT_EQ(made.words.at(made.functions.at("e_getchar_uart1")), 0x247110u);
+  EXPECT_FALSE(has(modules(), "library(e_uart1")) << modules();
+}
+
+// the handler's half of a driver, which nobody calls by name, comes with the other half
+TEST_F(Built, handler_in_assembler_comes_with_its_driver) {
+  file("main.c",
+       "#include <camera/fast_2_timer/e_poxxxx.h>\nint main(void) { e_poxxxx_init_cam(); for (;;) ; }\n");
+  file("lib/camera/fast_2_timer/e_timers.c",
+       "int line_of_camera;\nvoid e_poxxxx_init_cam(void) { line_of_camera = 1; }\n");
+  file("lib/camera/fast_2_timer/e_interrupt.s",
+       "        .global __T4Interrupt\n__T4Interrupt: inc _line_of_camera\n        bclr _IFS1, #5\n        "
+       "retfie\n");
+  file("lib/codec/e_isr_dci.s", "        .global __DCIInterrupt\n__DCIInterrupt: retfie\n");
+  build();
+  EXPECT_TRUE(has(modules(), "e_interrupt.s")) << modules();
+  EXPECT_FALSE(has(modules(), "e_isr_dci.s")) << modules();
+  EXPECT_FALSE(has(modules(), "library(e_timers")) << modules();
+}
+
+TEST_F(Built, c_in_upper_case_is_no_cxx) {
+  file("MAIN.C", "int main(void) { int class = 3, new; new = class; return new; }\n");
+  build();
+}
+
+TEST_F(Built, hex_begins_with_an_extended_address_record) {
+  file("main.c", "int main(void) { return 0; }\n");
+  build();
+  EXPECT_EQ(beside("hex").substr(0, 16), ":020000040000FA\n");
+}
+
+}  // namespace
