@@ -167,9 +167,8 @@ void add_build(CLI::App& app, int& exit_code) {
       ->required();
   verb->add_option("-o,--output", o->output,
                    "the image to write, a .so (chip: .elf); without it, where runs keep theirs");
-  verb->add_option("--opt", o->optimisation, "-O0 -O1 -O2 -Os")
-      ->check(CLI::IsMember({"-O0", "-O1", "-O2", "-Os"}))
-      ->capture_default_str();
+  verb->add_option("--opt", o->optimisation, "-O0 -O1 -O2 -Os; default: for the chip the project's, else -O1")
+      ->check(CLI::IsMember({"-O0", "-O1", "-O2", "-Os"}));
   one_each(verb->add_option("-D", o->defines, "NAME or NAME=value for the preprocessor"));
   one_each(verb->add_option("-I", o->include_dirs, "folder that is searched for headers first"));
   verb->add_option("--std", o->standard, "standard of C, such as gnu99; default: the project's, or XC16's");

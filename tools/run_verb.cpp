@@ -45,7 +45,7 @@ struct RunArguments {
   long long seed = -1;
   int threads = 1;
   double host_limit_s = 0;
-  std::string optimisation = "-O1", way;
+  std::string optimisation, way;
   bool sanitize = false, quiet = false, strict = false, live = false;
   OutputArguments outputs;
   ProfileArguments profile;
@@ -306,9 +306,11 @@ void add_run(CLI::App& app, int& exit_code) {
       "exit code 1 when board or chip have anything to say about a program (docs/diagnoses.md), or "
       "its data and stack do not fit the chip");
   verb->add_flag("--sanitize", a->sanitize, "build controllers with address and 16-bit overflow checks");
-  verb->add_option("--opt", a->optimisation, "level for controllers built from source")
-      ->check(CLI::IsMember({"-O0", "-O1", "-O2", "-Os"}))
-      ->capture_default_str();
+  verb->add_option(
+          "--opt", a->optimisation,
+          "level for controllers built from source; without it, in the chip way, that of a program's project "
+          "file, else -O1")
+      ->check(CLI::IsMember({"-O0", "-O1", "-O2", "-Os"}));
   verb->add_flag("--live", a->live,
                  "show arena, robots, LEDs and serial text in this terminal (80 by 24), in real time unless "
                  "--speed says otherwise");

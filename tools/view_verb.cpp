@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 constexpr auto kLook = std::chrono::milliseconds(50);
 
 struct ViewArguments {
-  std::string world, record, way, optimisation = "-O1", files = "twinpuck-files";
+  std::string world, record, way, optimisation, files = "twinpuck-files";
   std::vector<std::string> firmware, supervisors;
   int port = 0, threads = 1;
   long long seed = -1;
@@ -85,9 +85,11 @@ void add_view(CLI::App& app, int& exit_code) {
   verb->add_option("--threads", a->threads, "threads that run firmware; the result does not depend on it")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
-  verb->add_option("--opt", a->optimisation, "level for controllers built from source")
-      ->check(CLI::IsMember({"-O0", "-O1", "-O2", "-Os"}))
-      ->capture_default_str();
+  verb->add_option(
+          "--opt", a->optimisation,
+          "level for controllers built from source; without it, in the chip way, that of a program's project "
+          "file, else -O1")
+      ->check(CLI::IsMember({"-O0", "-O1", "-O2", "-Os"}));
   verb->add_option("--files", a->files, "folder for files that programs for Webots write")
       ->capture_default_str();
   verb->footer("Example: twinpuck view maze --fw obstacle\nExit codes: 0 ended by Ctrl-C, 2 bad input");

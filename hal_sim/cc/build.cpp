@@ -23,6 +23,7 @@
 #include "link_messages.h"
 #include "object_cache.h"
 #include "program_files.h"
+#include "shared_variables.h"
 #include "sim_core/base/pattern.h"
 #include "timer_owners.h"
 
@@ -166,7 +167,7 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& pro
   for (const auto& s :
        p.is_webots && !program.is_exact ? webots_sources(o.source_dir, copies.kept) : copies.kept) {
     p.has_cxx = p.has_cxx || is_cxx(s);
-    p.user.push_back({s, is_cxx(s) ? cxx_flags(flags) : flags, salt, contract.string()});
+    p.user.push_back({s, is_cxx(s) ? cxx_flags(flags) : flags, salt, contract.string(), o.chip_way});
   }
 
   if (o.chip_way)
@@ -357,6 +358,53 @@ void take_sizes(const std::string& report, const fs::path& folder, BuildResult& 
       warning = result.no_room = folder.string() + warning.substr(std::strlen("link"));
 }
 
+/// What an assembler source may do, by its symbols: each of its labels uses all that it names.
+std::string facts_of_assembler(const fs::path& object) {
+  std::string labels, names;
+  const auto symbols = read_elf(object).symbols;
+  for (const ElfSymbol& s : symbols) {
+    if (!s.is_global || s.name.empty()) continue;
+    const bool is_handler =
+        s.name.size() > 9 && s.name[0] == '_' && s.name.compare(s.name.size() - 9, 9, "Interrupt") == 0;
+    if (s.is_defined) labels += "F " + s.name + (is_handler ? " h-\n" : " -\n");
+    for (const ElfSymbol& other : symbols)
+      if (s.is_defined && other.is_global && !other.name.empty() && other.name != s.name)
+        names += "N " + s.name + " " + other.name + "\n";
+  }
+  return labels + names;
+}
+
+/// Chip way: what handlers of any file write is read where it stands in all files. A file that was compiled
+/// without knowing of them all is compiled again. `own`: how many of `all` are the program's C files, which
+/// come first; members of its copy of the library follow, `in_c` in all, then assembler.
+void read_shared_variables_in_place(std::vector<CompileJob>& all, std::vector<CompileOutcome>& outcomes,
+                                    std::size_t own, std::size_t in_c, const Library& library,
+                                    const BuildOptions& o, BuildResult& result) {
+  std::vector<FileFacts> files;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    files.push_back({i < in_c         ? outcomes[i].facts
+                     : outcomes[i].ok ? facts_of_assembler(outcomes[i].object)
+                                      : "",
+                     true, i < own});
+  for (const std::string& facts : library.facts) files.push_back({facts, false, false});
+  const SharedVariables shared = shared_variables(files);
+  std::vector<CompileJob> again;
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < in_c; ++i) {
+    if (!outcomes[i].ok || shared.nodes[i] == marked_nodes(outcomes[i].facts)) continue;
+    all[i].flags.push_back("--shared=" + list_of_nodes(shared.nodes[i]));
+    again.push_back(all[i]);
+    places.push_back(i);
+  }
+  const auto made = compile_all(again, compiler_path(), o.cache_dir, o.jobs);
+  for (std::size_t i = 0; i < made.size(); ++i) outcomes[places[i]] = made[i];
+  if (o.optimisation == "-O0") return;
+  for (const SharedRead& read : shared.reads)
+    result.warnings.push_back(read.where + ": warning: '" + read.variable + "' is written by " + read.writer +
+                              "() and is not volatile; here it is read where it stands, XC16 at " +
+                              o.optimisation + " may read it once and wait for ever");
+}
+
 /// The chip way's last step: .elf, .hex, .lst and .map, which appear together or not at all.
 void link_chip(const std::vector<CompileOutcome>& user, const std::vector<CompileOutcome>& drivers,
                const std::vector<CompileOutcome>& members, const Program& program, const Library& library,
@@ -401,7 +449,8 @@ void link_chip(const std::vector<CompileOutcome>& user, const std::vector<Compil
 
 }  // namespace
 
-static BuildResult build_here(const BuildOptions& o) {
+static BuildResult build_here(const BuildOptions& asked) {
+  BuildOptions o = asked;
   auto start = std::chrono::steady_clock::now();
   BuildResult result;
   auto finish = [&]() -> BuildResult& {
@@ -415,6 +464,7 @@ static BuildResult build_here(const BuildOptions& o) {
     return finish();
   }
   Program program = program_of(o, result);
+  if (o.optimisation.empty()) o.optimisation = o.chip_way && !program.level.empty() ? program.level : "-O1";
   const auto& sources = program.sources;
   if (sources.empty() && !(o.chip_way && !program.assembler.empty())) {
     result.errors.push_back(no_program(o.source_dir));
@@ -459,6 +509,7 @@ static BuildResult build_here(const BuildOptions& o) {
   const Library library = provide_library(o, p.is_webots, p.has_cxx);
   result.compiled += library.compiled;
   result.reused += library.reused;
+  if (o.chip_way) read_shared_variables_in_place(all, outcomes, own, p.user.size(), library, o, result);
   bool ok = true;
   for (size_t i = 0; i < outcomes.size(); ++i) {
     if (!outcomes[i].ok && i >= own && i < p.user.size()) {
@@ -551,7 +602,9 @@ static BuildResult lint_here(const BuildOptions& options) {
     return result;
   }
   BuildResult of_project;
-  Plan p = plan(o, find_library_copies(o.source_dir, sources), program_of(o, of_project), true);
+  const Program program = program_of(o, of_project);
+  if (o.optimisation.empty()) o.optimisation = "-O1";  // what would be said of -O0 holds at no other level
+  Plan p = plan(o, find_library_copies(o.source_dir, sources), program, true);
   auto outcomes = compile_all(p.user, compiler_path(), o.cache_dir, o.jobs);
   for (const auto& outcome : outcomes) sort_messages(outcome.messages, result, !outcome.ok);
   std::vector<std::pair<std::string, std::string>> texts;

@@ -12,7 +12,7 @@ namespace cc {
 struct BuildOptions {
   std::filesystem::path source_dir;  ///< every .c below it is compiled
   std::filesystem::path output;      ///< the image; its folder is created
-  std::string optimisation = "-O1";  ///< -O0 -O1 -O2 -Os
+  std::string optimisation;          ///< -O0 -O1 -O2 -Os; default: for the chip the project's, else -O1
   bool sanitize = false;             ///< address and 16-bit overflow checks
   bool coverage = false;             ///< line counters
   bool strict = false;               ///< more warnings

@@ -5,8 +5,10 @@
 //   chip_target.cpp        what clang must know of the chip; XC16's attributes
 //   chip_accumulators.cpp  built-in functions of the DSP unit
 //   chip_lower.cpp         registers, attributes, bit-fields, lists of arguments: what the code generator
-//   takes chip_pipeline.cpp      the optimiser's passes, in our own order chip_emit.cpp          object,
-//   assembler text or IR
+//                          takes
+//   chip_shared.cpp        loads of what an interrupt may change, done where they stand
+//   chip_pipeline.cpp      the optimiser's passes, in our own order
+//   chip_emit.cpp          object, assembler text or IR
 #pragma once
 #include "frontend.h"
 

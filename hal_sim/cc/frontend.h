@@ -23,8 +23,11 @@ struct Options {
   std::string standard;                // of C, "gnu99"; empty: gnu89 as XC16, gnu99 where that fails
   std::string
       depfile;  // a rule with every file read; beside it .missing, names that were not there, a line each
-  std::string cost_dump;  // block features for fitting the cost model
-  int level = 1;          // 0, 1, 2
+  std::string facts;        // chip: where what this file does with addresses is written (shared_variables.h)
+  bool has_shared = false;  // chip: `shared` says which loads are done where they stand
+  std::vector<std::string> shared;  // nodes of shared_variables.h
+  std::string cost_dump;            // block features for fitting the cost model
+  int level = 1;                    // 0, 1, 2
   bool for_size = false;
   bool sanitize = false, coverage = false, strict = false, lint = false, emit_ir = false;
   bool uncounted = false;     // part of the runtime: costs no cycles

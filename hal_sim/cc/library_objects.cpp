@@ -117,6 +117,8 @@ std::vector<CompileJob> library_jobs(const BuildOptions& o, bool is_webots, bool
   const auto add = [&](const fs::path& source, const std::vector<std::string>& with) {
     jobs.push_back({source, with, salt, root.string()});
     if (is_precompiled(source)) jobs.back().flags.front() = "-O1";
+    // what the drivers do with a program's variables and functions, those do not
+    jobs.back().has_facts = o.chip_way && !is_precompiled(source) && source.extension() == ".c";
   };
   // some take the place of a file of the libc
   if (is_webots)
@@ -184,6 +186,7 @@ Library provide_library(const BuildOptions& o, bool is_webots, bool has_cxx) {
   library.ok = true;
   for (const CompileOutcome& outcome : outcomes) {
     library.messages += outcome.messages;
+    if (!outcome.facts.empty()) library.facts.push_back(outcome.facts);
     library.ok = library.ok && outcome.ok;
     ++(outcome.reused ? library.reused : library.compiled);
   }
@@ -202,6 +205,7 @@ std::vector<Library> provide_usual_libraries(int jobs) {
     o.register_way = register_way;
     o.chip_way = chip_way;
     o.jobs = jobs;
+    o.optimisation = "-O1";
     made.push_back(provide_library(o, is_webots, has_cxx));
   };
   for (const bool register_way : {false, true})

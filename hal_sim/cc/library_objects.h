@@ -30,7 +30,8 @@ std::string names_of_headers(const std::vector<std::filesystem::path>& folders);
 struct Library {
   bool ok = false;
   std::filesystem::path archive;
-  std::string messages;  ///< of compilers and archiver
+  std::string messages;            ///< of compilers and archiver
+  std::vector<std::string> facts;  ///< chip: what the drivers do with addresses (shared_variables.h)
   int compiled = 0, reused = 0;
 };
 

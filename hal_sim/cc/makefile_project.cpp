@@ -430,6 +430,7 @@ std::optional<MplabProject> read_makefile(const fs::path& folder) {
   const CompilerOptions found = compiler_options(options);
   project.defines = found.defines;
   project.standard = found.standard;
+  project.level = found.level;
   for (const std::string& name : found.include_dirs)
     if (const fs::path at = resolve_path(home, name).lexically_normal(); fs::is_directory(at, ec))
       if (std::find(project.include_dirs.begin(), project.include_dirs.end(), at) ==

@@ -48,6 +48,8 @@ std::vector<std::string> values_of(const std::string& text, const std::string& s
   return values;
 }
 
+constexpr const char* kLevelUnsaid = "-O0";  // gcc's
+
 struct Listed {
   std::vector<std::string> files, include_dirs;  // as written; folders separated by ';'
   CompilerOptions options;
@@ -61,6 +63,7 @@ Listed read_mcp(const std::string& text) {
   std::string options;
   for (const std::string& value : values_of(text, "TOOL_SETTINGS", kCompiler)) options += value + " ";
   listed.options = compiler_options(options);
+  if (listed.options.level.empty() && !options.empty()) listed.options.level = kLevelUnsaid;
   return listed;
 }
 
@@ -79,6 +82,7 @@ Listed read_configurations(const std::string& text) {
   static const sim::Pattern kInclude(
       R"re(key="(extra|common)-include-directories(?:-for-assembler)?"\s+value="([^"]*)")re");
   static const sim::Pattern kMacros(R"re(key="preprocessor-macros"\s+value="([^"]*)")re");
+  static const sim::Pattern kLevel(R"re(key="optimization-level"\s+value="([^"]*)")re");
   static const sim::Pattern kMore(R"re(<appendMe\s+value="([^"]*)")re");
   static const sim::Pattern kArchive(R"(<linkerLibFileItem>([^<]+)</linkerLibFileItem>)");
   for (std::sregex_iterator it(text.begin(), text.end(), kArchive), end; it != end; ++it)
@@ -104,9 +108,14 @@ Listed read_configurations(const std::string& text) {
     for (std::string macro; std::getline(in, macro, ';');)
       if (!macro.empty()) options += "-D" + macro + " ";
   }
+  // "", "0", "1" or "-O1"
+  if (std::smatch m; std::regex_search(compiler, m, kLevel))
+    if (const std::string level = m[1]; !level.empty())
+      options += (level[0] == '-' ? "" : "-O") + level + " ";
   for (std::sregex_iterator it(compiler.begin(), compiler.end(), kMore), end; it != end; ++it)
     options += without_entities((*it)[1]) + " ";
   listed.options = compiler_options(options);
+  if (listed.options.level.empty() && !compiler.empty()) listed.options.level = kLevelUnsaid;
   return listed;
 }
 
@@ -161,6 +170,7 @@ std::optional<MplabProject> read_project(const fs::path& file, const fs::path& h
   project.file = file;
   project.defines = listed.options.defines;
   project.standard = listed.options.standard;
+  project.level = listed.options.level;
   bool has_main = false;
   std::error_code ec;
   for (const std::string& name : listed.files) {
@@ -220,6 +230,16 @@ fs::path resolve_path(const fs::path& home, std::string text) {
   return {};
 }
 
+namespace {
+
+/// "1" of "-O1" as ours; -O is -O1, -O3 does what -O2 does here.
+std::string level_of(const std::string& written) {
+  if (written == "0" || written == "1" || written == "2" || written == "s") return "-O" + written;
+  return written.empty() ? "-O1" : written == "3" ? "-O2" : "";
+}
+
+}  // namespace
+
 CompilerOptions compiler_options(const std::string& command_line) {
   // words, in which quotes join
   std::vector<std::string> words(1);
@@ -244,6 +264,8 @@ CompilerOptions compiler_options(const std::string& command_line) {
       options.defines.push_back(value());
     else if (word.rfind("-std=", 0) == 0)
       options.standard = word.substr(5);
+    else if (word.rfind("-O", 0) == 0)
+      options.level = level_of(word.substr(2));
   }
   return options;
 }

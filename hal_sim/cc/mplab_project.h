@@ -6,7 +6,8 @@
 // Read are *.mcp (MPLAB 6 to 8) and nbproject/configurations.xml (MPLAB X), also in a folder *.X, which name
 // files relative to themselves or by the path they had on their author's PC. Of an absolute path the longest
 // end that exists in the folder or in one of three folders above it is taken. Of the compiler's options -I,
-// -D and -std count. Of another project whose archive is linked the C files are taken.
+// -D, -std and -O count. Where the compiler's options say no level it is gcc's, 0. Of another project whose
+// archive is linked the C files are taken.
 //
 // Of several projects those with a main() are looked at. When they list the same files, the first is taken;
 // when one lists fewer files that are missing than all others, that one; else a project of MPLAB X, which is
@@ -29,6 +30,7 @@ struct MplabProject {
   std::vector<std::string> library_places;  ///< "a_d/e_prox.c" of what is listed of the library and missing
   std::vector<std::string> defines;         ///< "NAME=value"
   std::string standard;                     ///< of C, as -std= has it; "" unless given
+  std::string level;                        ///< -O0 -O1 -O2 -Os; "" when it says nothing
   int missing = 0;                          ///< C files that are listed and do not exist
 };
 
@@ -36,10 +38,10 @@ struct MplabProject {
 /// about which of several is taken.
 std::optional<MplabProject> find_mplab_project(const std::filesystem::path& folder, std::string& told);
 
-/// -I, -D and -std of a compiler's command line; folders as they are written.
+/// -I, -D, -std and -O of a compiler's command line; folders as they are written.
 struct CompilerOptions {
   std::vector<std::string> include_dirs, defines;
-  std::string standard;
+  std::string standard, level;
 };
 CompilerOptions compiler_options(const std::string& command_line);
 

@@ -167,16 +167,18 @@ CompileOutcome compile(const CompileJob& job, const fs::path& compiler, const st
   for (const auto& f : job.flags) key += "\n" + f;
   fs::path base = cache / (job.source.stem().string() + "-" + content_hash(key));
   outcome.object = base.string() + ".o";
-  fs::path deps = base.string() + ".deps", notes = base.string() + ".txt";
+  fs::path deps = base.string() + ".deps", notes = base.string() + ".txt", facts = base.string() + ".facts";
   if (fs::exists(outcome.object) && is_fresh(outcome.object, deps, inputs)) {
     outcome.ok = outcome.reused = true;
     outcome.messages = bytes_of(notes);
+    if (job.has_facts) outcome.facts = bytes_of(facts);
     return outcome;
   }
   const std::string half = unfinished(base).string();
   std::vector<std::string> argv = {compiler.string(), "-c",       job.source.string(), "-o", half,
                                    "--depfile",       half + ".d"};
   argv.insert(argv.end(), job.flags.begin(), job.flags.end());
+  if (job.has_facts) argv.insert(argv.end(), {"--facts", half + ".facts"});
   const int64_t began_ns = now_ns();
   auto result = run_process(argv);
   outcome.messages = result.output;
@@ -191,6 +193,10 @@ CompileOutcome compile(const CompileJob& job, const fs::path& compiler, const st
       if (job.listed_below.empty() || name.rfind(job.listed_below, 0) != 0)
         lines += inputs.look_at(name, began_ns) + "\t" + name + "\n";
     write_text(notes, result.output);
+    if (job.has_facts) {
+      outcome.facts = bytes_of(half + ".facts");
+      fs::rename(half + ".facts", facts, ec);
+    }
     fs::rename(half, outcome.object, ec);
     if (ec || !write_text(deps, lines)) {
       outcome.ok = false;
@@ -202,6 +208,7 @@ CompileOutcome compile(const CompileJob& job, const fs::path& compiler, const st
   }
   fs::remove(half, ec);
   fs::remove(half + ".d", ec);
+  fs::remove(half + ".facts", ec);
   fs::remove(half + ".d.missing", ec);
   return outcome;
 }

@@ -44,12 +44,14 @@ struct CompileJob {
   std::vector<std::string> flags;
   std::string salt = {};          // anything else the result hangs on
   std::string listed_below = {};  // a folder of which the salt says which headers there are
+  bool has_facts = false;         // the compiler tells what the file does with addresses (shared_variables.h)
 };
 
 struct CompileOutcome {
   bool ok = false, reused = false;
   std::filesystem::path source, object;
   std::string messages;
+  std::string facts;
 };
 
 /// All jobs, at most `parallel` at once; outcomes in the order of the jobs. Within a build (build_record.h).

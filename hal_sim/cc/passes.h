@@ -94,6 +94,9 @@ void check_addresses(Unit& unit);
 /// Runs all stages; false after an error. Then the module is ready for the back end.
 bool run_pipeline(Unit& unit);
 
+/// Chip: loads of variables that an interrupt may change are done where they stand. Before the optimiser.
+void read_shared_in_place(Unit& unit);
+
 // --- small tools
 llvm::FunctionCallee host_function(llvm::Module& m, const char* name, llvm::Type* result,
                                    llvm::ArrayRef<llvm::Type*> parameters);

@@ -149,6 +149,7 @@ Program program_of(const BuildOptions& o, BuildResult& result) {
     program.include_dirs = project->include_dirs;
     program.defines = project->defines;
     program.standard = project->standard;
+    program.level = project->level;
     if (std::none_of(project->sources.begin(), project->sources.end(), defines_main)) project.reset();
   }
   if (is_webots && project &&
@@ -165,6 +166,7 @@ Program program_of(const BuildOptions& o, BuildResult& result) {
   }
   program.defines = project->defines;
   program.standard = project->standard;
+  program.level = project->level;
   program.library_places = project->library_places;
   program.include_dirs = project->include_dirs;
   program.has_project = true;

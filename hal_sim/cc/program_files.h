@@ -16,7 +16,7 @@ struct Program {
   bool has_project = false;  // a file that lists the sources
   bool is_exact = false;     // of a Makefile for Webots: nothing else is compiled
   std::vector<std::string> defines;
-  std::string standard;
+  std::string standard, level;              // "" unless given
   std::vector<std::string> library_places;  // of what it lists of the library and is not compiled from it
   std::vector<std::filesystem::path> assembler;        // sources of its own that only the chip way assembles
   std::set<std::filesystem::path> unlisted_assembler;  // of those what a Makefile does not list

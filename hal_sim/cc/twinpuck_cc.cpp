@@ -73,7 +73,14 @@ bool parse(int argc, char** argv, cc::Options& o) {
       o.depfile = value();
     else if (a == "--cost-dump")
       o.cost_dump = value();
-    else if (a == "--fallback")
+    else if (a == "--facts")
+      o.facts = value();
+    else if (a.consume_front("--shared=")) {
+      o.has_shared = true;
+      SmallVector<StringRef, 8> nodes;
+      a.split(nodes, ',', -1, /*KeepEmpty=*/false);
+      for (StringRef n : nodes) o.shared.push_back(n.str());
+    } else if (a == "--fallback")
       o.fallback.push_back(value());
     else if (a == "-I" || a == "-D" || a == "-U" || a == "-include") {
       o.passed_on.push_back(a.str());

@@ -37,7 +37,7 @@ struct Options {
   std::string
       world_folder;  ///< where relative firmware paths of the world file start; empty: the current folder
   std::string way;   ///< of controllers built from source, all robots: native or register; empty: the world's
-  std::string optimisation = "-O1";  ///< of controllers that are built from source: -O0 -O1 -O2 -Os
+  std::string optimisation;  ///< of controllers built from source, as in cc::BuildOptions: "" -O0 -O1 -O2 -Os
   /// Below it each robot has a folder of its name for files that its program writes; empty: none can be
   /// opened.
   std::string files_folder;

@@ -37,11 +37,14 @@ struct Workplace {
 
 }  // namespace
 
-ChipProgram::ChipProgram(const std::string& name, const std::string& source, const std::string& level) {
+ChipProgram::ChipProgram(const std::string& name, const std::string& source, const std::string& level,
+                         const std::vector<std::string>& others) {
   static const Workplace workplace;
   const fs::path folder = workplace.path / name;
   fs::create_directories(folder);
   std::ofstream(folder / "main.c") << kDeclaration << source << kMain;
+  for (std::size_t i = 0; i < others.size(); ++i)
+    std::ofstream(folder / ("other" + std::to_string(i) + ".c")) << others[i];
   cc::BuildOptions options;
   options.source_dir = folder;
   options.output = folder / "program.elf";
@@ -50,6 +53,7 @@ ChipProgram::ChipProgram(const std::string& name, const std::string& source, con
   options.register_way = options.chip_way = true;
   const auto built = cc::build_image(options);
   for (const std::string& e : built.errors) error_ += e + "\n";
+  warnings_ = built.warnings;
   if (built.ok) {
     std::ostringstream bytes;
     bytes << std::ifstream(options.output, std::ios::binary).rdbuf();

@@ -18,10 +18,14 @@ class ChipProgram {
  public:
   /// Compiles `source`; `name` is that of the files made. Without a program is_whole() is false, error() says
   /// why.
-  ChipProgram(const std::string& name, const std::string& source, const std::string& level = "-O1");
+  /// `others`: further files of the program.
+  ChipProgram(const std::string& name, const std::string& source, const std::string& level = "-O1",
+              const std::vector<std::string>& others = {});
 
   bool is_whole() const { return error_.empty(); }
   const std::string& error() const { return error_; }
+  /// Of the build.
+  const std::vector<std::string>& warnings() const { return warnings_; }
 
   /// Runs to the end: what bench_run() returned, 32 bits. A program that does not end within `most` cycles
   /// fails.
@@ -50,6 +54,7 @@ class ChipProgram {
   void step(dspic::Cycle until);
 
   std::string error_;
+  std::vector<std::string> warnings_;
   dspic::FirmwareFile file_;
   bench::FakeOutside outside_;
   bench::Notes notes_;
