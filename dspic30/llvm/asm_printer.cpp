@@ -32,6 +32,14 @@ class DSPICAsmPrinter : public AsmPrinter {
       EmitToStreamer(*OutStreamer, MCInstBuilder(DSPIC::REPEATi).addImm(kRoundsButOne));
       opcode = opcode == DSPIC::DIVS ? DSPIC::DIVSW : DSPIC::DIVUW;
     }
+    if (opcode == DSPIC::COPY_WORDS || opcode == DSPIC::COPY_BYTES) {
+      EmitToStreamer(*OutStreamer, MCInstBuilder(DSPIC::REPEATi).addImm(mi->getOperand(4).getImm() - 1));
+      EmitToStreamer(*OutStreamer,
+                     MCInstBuilder(opcode == DSPIC::COPY_WORDS ? DSPIC::MOVpipi : DSPIC::MOVBpipi)
+                         .addReg(mi->getOperand(3).getReg())
+                         .addReg(mi->getOperand(2).getReg()));
+      return;
+    }
     MCInst inst;
     inst.setOpcode(opcode);
     for (const auto& operand : mi->operands()) {
@@ -61,8 +69,9 @@ class DSPICAsmPrinter : public AsmPrinter {
     }
     if (op.isReg()) return out << 'w' << number_of(op), false;
     if (op.isImm()) return out << '#' << op.getImm(), false;
-    if (op.isGlobal()) return out << getSymbol(op.getGlobal())->getName(), false;
-    return true;
+    MCOperand address;
+    if (!(op.isGlobal() || op.isBlockAddress() || op.isSymbol()) || !lower(op, address)) return true;
+    return address.getExpr()->print(out, MAI), false;
   }
   bool PrintAsmMemoryOperand(const MachineInstr* mi, unsigned n, const char*, raw_ostream& out) override {
     out << "[w" << number_of(mi->getOperand(n));

@@ -69,8 +69,7 @@ Places place(const SmallVectorImpl<Argument>& arguments, bool variadic) {
     // a struct that is a whole word, pair or four of them travels like an integer of its size, unless it is
     // odd
     const Align align = is_struct(a) ? a.Flags.getNonZeroByValAlign() : Align(2);
-    const bool is_whole =
-        !is_struct(a) || (a.Flags.getByValSize() == 2 * size && align >= 2 && align != kDspicOddStruct);
+    const bool is_whole = !is_struct(a) || (a.Flags.getByValSize() == 2 * size && align == Align(2));
     const unsigned step = is_whole && (size == 2 || size == 4) ? size : 1;
     const unsigned mask = (1u << size) - 1;
     unsigned first = 0;
@@ -104,7 +103,8 @@ SDValue load_word(SDValue chain, SDValue base, unsigned n, unsigned size, Align 
   SDValue at = word_of(base, n, where, dag);
   if (2 * n + 1 == size)
     return dag.getExtLoad(ISD::ZEXTLOAD, where, MVT::i16, chain, at, MachinePointerInfo(), MVT::i8);
-  return dag.getLoad(MVT::i16, where, chain, at, MachinePointerInfo(), std::min(align, Align(2)));
+  const Align at_least = align == kDspicOddStruct ? Align(2) : align == kDspicOddBytes ? Align(1) : align;
+  return dag.getLoad(MVT::i16, where, chain, at, MachinePointerInfo(), std::min(at_least, Align(2)));
 }
 
 }  // namespace
@@ -112,9 +112,11 @@ SDValue load_word(SDValue chain, SDValue base, unsigned n, unsigned size, Align 
 SDValue DSPICTargetLowering::LowerFormalArguments(SDValue chain, CallingConv::ID, bool variadic,
                                                   const SmallVectorImpl<ISD::InputArg>& ins,
                                                   const SDLoc& where, SelectionDAG& dag,
-                                                  SmallVectorImpl<SDValue>& values) const {
+                                                  SmallVectorImpl<SDValue>& all) const {
   auto& mf = dag.getMachineFunction();
   auto& frame = mf.getFrameInfo();
+  // structs without members take no word; nothing is at their address
+  SmallVector<SDValue, 8> values(ins.size(), dag.getConstant(0, where, MVT::i16));
   const Places places = place(ins, variadic);
   if (variadic) mf.getInfo<DSPICFunctionInfo>()->named_stack_bytes = places.stack_bytes;
   SDValue object;  // of the struct being received
@@ -127,27 +129,26 @@ SDValue DSPICTargetLowering::LowerFormalArguments(SDValue chain, CallingConv::ID
       if (w.of_value) continue;
       const int fixed = frame.CreateFixedObject(alignTo(size, 2), -kReturnAddress + w.offset, !starts_struct);
       SDValue at = dag.getFrameIndex(fixed, MVT::i16);
-      values.push_back(starts_struct ? at
-                                     : dag.getLoad(MVT::i16, where, chain, at,
-                                                   MachinePointerInfo::getFixedStack(mf, fixed)));
+      values[w.value] = starts_struct ? at
+                                      : dag.getLoad(MVT::i16, where, chain, at,
+                                                    MachinePointerInfo::getFixedStack(mf, fixed));
       continue;
     }
     const Register v = mf.getRegInfo().createVirtualRegister(&DSPIC::WRegClass);
     mf.getRegInfo().addLiveIn(w.reg, v);
     SDValue word = dag.getCopyFromReg(chain, where, v, MVT::i16);
     if (!is_struct(ins[w.value])) {
-      values.push_back(word);
+      values[w.value] = word;
       continue;
     }
     if (starts_struct) {
       object = dag.getFrameIndex(frame.CreateStackObject(alignTo(size, 2), Align(2), false), MVT::i16);
-      values.push_back(object);
+      values[w.value] = object;
     }
     stores.push_back(dag.getStore(word.getValue(1), where, word, word_of(object, w.of_value, where, dag),
                                   MachinePointerInfo()));
   }
-  for (unsigned i = values.size(); i < ins.size(); ++i)  // structs without members take no word
-    if (ins[i].Flags.isByVal()) values.push_back(dag.getConstant(0, where, MVT::i16));
+  all.append(values.begin(), values.end());
   if (stores.empty()) return chain;
   stores.push_back(chain);
   return dag.getNode(ISD::TokenFactor, where, MVT::Other, stores);

@@ -39,7 +39,9 @@ bool needs_rcount(const MachineFunction& mf) {
   if (mf.getFrameInfo().hasCalls()) return true;
   for (auto& block : mf)
     for (auto& i : block)
-      if (i.getOpcode() == DSPIC::DIVS || i.getOpcode() == DSPIC::DIVU || i.isInlineAsm()) return true;
+      if (i.getOpcode() == DSPIC::DIVS || i.getOpcode() == DSPIC::DIVU ||
+          i.getOpcode() == DSPIC::COPY_WORDS || i.getOpcode() == DSPIC::COPY_BYTES || i.isInlineAsm())
+        return true;
   return false;
 }
 

@@ -31,8 +31,9 @@ DSPICTargetLowering::DSPICTargetLowering(const TargetMachine& machine, const DSP
   setMinimumJumpTableEntries(UINT_MAX);  // a chain of comparisons is shorter and, here, no slower
   setSchedulingPreference(Sched::RegPressure);
   setMaxAtomicSizeInBitsSupported(16);
-  MaxStoresPerMemcpy = MaxStoresPerMemset = MaxStoresPerMemmove = 8;
-  MaxStoresPerMemcpyOptSize = MaxStoresPerMemsetOptSize = MaxStoresPerMemmoveOptSize = 4;
+  MaxStoresPerMemset = MaxStoresPerMemmove = 8;
+  MaxStoresPerMemsetOptSize = MaxStoresPerMemmoveOptSize = 4;
+  MaxStoresPerMemcpy = MaxStoresPerMemcpyOptSize = 3;  // more: copies.cpp
 
   const auto act = [this](std::initializer_list<unsigned> operations, MVT type, LegalizeAction action) {
     for (unsigned op : operations) setOperationAction(op, type, action);
@@ -92,7 +93,7 @@ const char* DSPICTargetLowering::getTargetNodeName(unsigned opcode) const {
                                       "WRAP",    "CMP",    "CMPB",
                                       "BTST",    "BRANCH", "SELECT",
                                       "SELECT2", "SHLV",   "LSRV",
-                                      "ASRV"};
+                                      "ASRV",    "COPY"};
   static_assert(std::size(names) == DSPICISD::END - DSPICISD::FIRST - 1, "one name a node");
   return opcode > DSPICISD::FIRST && opcode < DSPICISD::END ? names[opcode - DSPICISD::FIRST - 1] : nullptr;
 }

@@ -32,6 +32,7 @@ enum Node : unsigned {
   SHLV,     // shifts whose amount may be 16 to 31
   LSRV,
   ASRV,
+  COPY,  // words or bytes from one address on to another, by REPEAT
   END
 };
 }
@@ -69,6 +70,8 @@ class DSPICTargetLowering : public TargetLowering {
   bool isOffsetFoldingLegal(const GlobalAddressSDNode*) const override { return true; }
   bool isLegalICmpImmediate(int64_t v) const override { return v >= 0 && v < 32; }
   bool isLegalAddImmediate(int64_t v) const override { return v > -1024 && v < 1024; }
+  // what counts must stay an addition: loops look for one, and the carry is in no register that C can ask
+  bool shouldFormOverflowOp(unsigned, EVT, bool) const override { return false; }
   bool isSelectSupported(SelectSupportKind) const override {
     return false;
   }  // a branch, as early as possible

@@ -67,6 +67,16 @@ def : Pat<(store W:$s, (addrrr W:$d, W:$b)), (MOVstx W:$s, W:$d, W:$b)>;
 def : Pat<(truncstorei8 W:$s, (addrrr W:$d, W:$b)), (MOVBstx W:$s, W:$d, W:$b)>;
 def : Pat<(post_store W:$s, W:$d, (i16 2)), (MOVstpi W:$s, W:$d)>;
 def : Pat<(post_truncsti8 W:$s, W:$d, (i16 1)), (MOVBstpi W:$s, W:$d)>;
+// REPEAT and MOV [Ws++], [Wd++]: nothing may come between them, so both are one instruction up to the very end
+// (asm_printer.cpp)
+let mayLoad = 1, mayStore = 1, Size = 8, Constraints = "$d2 = $d,$s2 = $s" in {
+  def COPY_WORDS : Pseudo<(outs W:$d2, W:$s2), (ins W:$d, W:$s, i16imm:$n), []>;
+  def COPY_BYTES : Pseudo<(outs W:$d2, W:$s2), (ins W:$d, W:$s, i16imm:$n), []>;
+}
+let mayLoad = 1, mayStore = 1 in {
+  def MOVpipi : MoveIndirect<3, 3, 0, (outs), (ins W:$s, W:$d), "mov\t[$s++], [$d++]", []> { let b = 0; }
+  def MOVBpipi : MoveIndirect<3, 3, 1, (outs), (ins W:$s, W:$d), "mov.b\t[$s++], [$d++]", []> { let b = 0; }
+}
 // a pair to and from the stack; both become two moves when the frame is laid out
 let mayLoad = 1 in def LOAD_PAIR : Pseudo<(outs WP:$d), (ins mem16:$m)>;
 let mayStore = 1 in def STORE_PAIR : Pseudo<(outs), (ins WP:$s, mem16:$m)>;

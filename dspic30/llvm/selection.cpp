@@ -132,6 +132,8 @@ class Selection : public SelectionDAGISel {
       case ISD::LOAD:
         if (cast<LoadSDNode>(n)->getAddressingMode() == ISD::POST_INC) return select_post_increment(n);
         break;
+      case DSPICISD::COPY:
+        return select_copy(n);
       case DSPICISD::SELECT2: {
         SmallVector<SDValue, 6> ops(n->op_begin(), n->op_end());
         return ReplaceNode(n, machine_node(DSPIC::SELECT2, SDLoc(n), {MVT::i16, MVT::i16}, ops));
@@ -170,6 +172,14 @@ class Selection : public SelectionDAGISel {
       glue = v.getValue(2);
       ReplaceUses(SDValue(n, i), v);
     }
+    CurDAG->RemoveDeadNode(n);
+  }
+  void select_copy(SDNode* n) {
+    const bool by_words = cast<ConstantSDNode>(n->getOperand(4))->getZExtValue() == 2;
+    SDNode* made = machine_node(by_words ? DSPIC::COPY_WORDS : DSPIC::COPY_BYTES, SDLoc(n),
+                                {MVT::i16, MVT::i16, MVT::Other},
+                                {n->getOperand(1), n->getOperand(2), n->getOperand(3), n->getOperand(0)});
+    ReplaceUses(SDValue(n, 0), SDValue(made, 2));
     CurDAG->RemoveDeadNode(n);
   }
   void select_post_increment(SDNode* n) {

@@ -8,6 +8,15 @@
 
 namespace llvm {
 
+/// Copies of a size that is known.
+class DSPICSelectionInfo : public SelectionDAGTargetInfo {
+ public:
+  SDValue EmitTargetCodeForMemcpy(SelectionDAG& dag, const SDLoc& where, SDValue chain, SDValue to,
+                                  SDValue from, SDValue bytes, Align align, bool is_volatile,
+                                  bool always_inline, MachinePointerInfo to_info,
+                                  MachinePointerInfo from_info) const override;
+};
+
 class DSPICSubtarget : public DSPICGenSubtargetInfo {
  public:
   DSPICSubtarget(const Triple& triple, StringRef cpu, StringRef features, const TargetMachine& machine);
@@ -22,7 +31,7 @@ class DSPICSubtarget : public DSPICGenSubtargetInfo {
   DSPICInstrInfo instructions_;
   DSPICFrameLowering frames_;
   DSPICTargetLowering lowering_;
-  SelectionDAGTargetInfo selection_;
+  DSPICSelectionInfo selection_;
 };
 
 }  // namespace llvm

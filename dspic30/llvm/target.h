@@ -26,6 +26,8 @@ inline constexpr const char* kDspicCpu = "30f6014a";
 /// Stack alignment of an argument that is a struct of 4 or 8 bytes and yet no number: a mark, nothing is
 /// aligned so.
 inline constexpr Align kDspicOddStruct = Align::Constant<4>();
+/// The same of a struct of chars, which may lie at an odd address.
+inline constexpr Align kDspicOddBytes = Align::Constant<8>();
 
 /// Operands of assembler text in C: XC16's letters of classes of registers (a W0, b W1, c W2, d W1 to W14,
 /// e W2 to W14, t W7, u W4 to W6, v W13, x W8 and W9, y W10 and W11, z W4 to W7), and of ranges of numbers.

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: MIT
  * IEEE arithmetic on the bits of a number, for the format that the including file describes:
  *
- *   BITS     unsigned type as wide as the number        FRACTION  bits of its fraction        EXPONENT  bits of its exponent
- *   OF_ANY(x) __any_addsf3 or __adddf3 of add; NAME(x, n) alike              PRODUCT   product(): upper half of a product, lowest bit sticky
+ *   BITS     unsigned type as wide as the number        FRACTION  bits of its fraction        EXPONENT  bits
+ * of its exponent OF_ANY(x) __any_addsf3 or __adddf3 of add; NAME(x, n) alike              PRODUCT product():
+ * upper half of a product, lowest bit sticky
  *
- * Rounds to nearest, ties to even; subnormal numbers, infinities and not-a-number as on any PC. A fraction being worked on
- * has three bits more: two that decide the rounding and one that says whether anything lay below.
+ * Rounds to nearest, ties to even; subnormal numbers, infinities and not-a-number as on any PC. A fraction
+ * being worked on has three bits more: two that decide the rounding and one that says whether anything lay
+ * below.
  */
 #define WIDTH (1 + EXPONENT + FRACTION)
 #define SIGN ((BITS)1 << (WIDTH - 1))
@@ -21,8 +23,7 @@ static int exponent(BITS a) { return (int)(magnitude(a) >> FRACTION); }
 static BITS fraction(BITS a) { return exponent(a) ? (a & (HIDDEN - 1)) | HIDDEN : a & (HIDDEN - 1); }
 
 /* m with its leading bit at FRACTION + GUARD, or below it when e is 1 */
-static BITS packed(BITS sign, int e, BITS m)
-{
+static BITS packed(BITS sign, int e, BITS m) {
   const unsigned rest = (unsigned)m & 7u;
   if (e >= LARGEST) return sign | INFINITE;
   m >>= GUARD;
@@ -32,15 +33,13 @@ static BITS packed(BITS sign, int e, BITS m)
 }
 
 /* as >>, but what falls out stays visible in the lowest bit */
-static BITS shifted_down(BITS m, int n)
-{
+static BITS shifted_down(BITS m, int n) {
   if (n >= WIDTH) return m != 0;
   if (n == 0) return m;
   return m >> n | ((m << (WIDTH - n)) != 0);
 }
 
-static BITS sum(BITS a, BITS b)
-{
+static BITS sum(BITS a, BITS b) {
   BITS sign, m, n;
   int e, f;
   if (magnitude(a) < magnitude(b)) {
@@ -69,8 +68,7 @@ static BITS sum(BITS a, BITS b)
 }
 
 /* a normal fraction, and its exponent, of a number that may be subnormal */
-static BITS normal(BITS a, int *e)
-{
+static BITS normal(BITS a, int* e) {
   BITS m = fraction(a);
   *e = exponent(a);
   if (*e) return m;
@@ -80,14 +78,12 @@ static BITS normal(BITS a, int *e)
 }
 
 /* leading bit of m at FRACTION + GUARD; e may be anything */
-static BITS packed_far(BITS sign, int e, BITS m)
-{
+static BITS packed_far(BITS sign, int e, BITS m) {
   if (e > 0) return packed(sign, e, m);
   return packed(sign, 1, shifted_down(m, 1 - e));
 }
 
-static BITS times(BITS a, BITS b)
-{
+static BITS times(BITS a, BITS b) {
   const BITS sign = (a ^ b) & SIGN;
   BITS m;
   int e, f;
@@ -106,8 +102,7 @@ static BITS times(BITS a, BITS b)
   return packed_far(sign, e, shifted_down(m, EXPONENT - GUARD));
 }
 
-static BITS quotient(BITS a, BITS b)
-{
+static BITS quotient(BITS a, BITS b) {
   const BITS sign = (a ^ b) & SIGN;
   BITS rest, by, m = 0;
   int e, f, i;
@@ -130,8 +125,7 @@ static BITS quotient(BITS a, BITS b)
 }
 
 /* -1, 0, 1; `unordered` where one is not a number */
-static int order(BITS a, BITS b, int unordered)
-{
+static int order(BITS a, BITS b, int unordered) {
   if (magnitude(a) > INFINITE || magnitude(b) > INFINITE) return unordered;
   if (!magnitude(a) && !magnitude(b)) return 0;
   if (a == b) return 0;
@@ -139,8 +133,7 @@ static int order(BITS a, BITS b, int unordered)
   return (a < b) == !(a & SIGN) ? -1 : 1;
 }
 
-static BITS from_unsigned(unsigned long long v, BITS sign)
-{
+static BITS from_unsigned(unsigned long long v, BITS sign) {
   int e = BIAS + FRACTION;
   if (!v) return 0;
   while (v >> (FRACTION + 1)) {
@@ -160,8 +153,7 @@ static BITS from_unsigned(unsigned long long v, BITS sign)
 }
 
 /* towards zero; what does not fit is the nearest that does, not-a-number is 0 */
-static unsigned long long to_unsigned(BITS a, unsigned long long most)
-{
+static unsigned long long to_unsigned(BITS a, unsigned long long most) {
   const int e = exponent(a) - BIAS;
   unsigned long long v;
   if (e < 0 || magnitude(a) > INFINITE) return 0;
@@ -171,8 +163,7 @@ static unsigned long long to_unsigned(BITS a, unsigned long long most)
   return v > most ? most : v;
 }
 
-static long long to_signed(BITS a, unsigned long long most)
-{
+static long long to_signed(BITS a, unsigned long long most) {
   if (a & SIGN) return -(long long)to_unsigned(a, most + 1);
   return (long long)to_unsigned(a, most);
 }
@@ -189,11 +180,20 @@ int NAME(le, 2)(BITS a, BITS b) { return order(a, b, 1); }
 int NAME(gt, 2)(BITS a, BITS b) { return order(a, b, -1); }
 int NAME(ge, 2)(BITS a, BITS b) { return order(a, b, -1); }
 int NAME(unord, 2)(BITS a, BITS b) { return magnitude(a) > INFINITE || magnitude(b) > INFINITE; }
-BITS FROM(floatsi)(long v) { return from_unsigned(v < 0 ? 0ul - (unsigned long)v : (unsigned long)v, v < 0 ? SIGN : 0); }
+BITS FROM(floatsi)(long v) {
+  return from_unsigned(v < 0 ? 0ul - (unsigned long)v : (unsigned long)v, v < 0 ? SIGN : 0);
+}
 BITS FROM(floatunsi)(unsigned long v) { return from_unsigned(v, 0); }
-BITS FROM(floatdi)(long long v) { return from_unsigned(v < 0 ? 0ull - (unsigned long long)v : (unsigned long long)v, v < 0 ? SIGN : 0); }
+BITS FROM(floatdi)(long long v) {
+  return from_unsigned(v < 0 ? 0ull - (unsigned long long)v : (unsigned long long)v, v < 0 ? SIGN : 0);
+}
 BITS FROM(floatundi)(unsigned long long v) { return from_unsigned(v, 0); }
 long TO(fix, si)(BITS a) { return (long)to_signed(a, 0x7FFFFFFF); }
-unsigned long TO(fixuns, si)(BITS a) { return a & SIGN ? 0 : (unsigned long)to_unsigned(a, 0xFFFFFFFF); }
+/* of a negative number that of the signed conversion, as XC16's */
+unsigned long TO(fixuns, si)(BITS a) {
+  return a & SIGN ? (unsigned long)to_signed(a, 0x7FFFFFFF) : (unsigned long)to_unsigned(a, 0xFFFFFFFF);
+}
 long long TO(fix, di)(BITS a) { return to_signed(a, 0x7FFFFFFFFFFFFFFF); }
-unsigned long long TO(fixuns, di)(BITS a) { return a & SIGN ? 0 : to_unsigned(a, 0xFFFFFFFFFFFFFFFF); }
+unsigned long long TO(fixuns, di)(BITS a) {
+  return a & SIGN ? (unsigned long long)to_signed(a, 0x7FFFFFFFFFFFFFFF) : to_unsigned(a, 0xFFFFFFFFFFFFFFFF);
+}

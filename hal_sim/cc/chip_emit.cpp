@@ -29,7 +29,9 @@ void set_flags(const Options& o) {
   const char* flags[] = {"twinpuck-cc",
                          // no speculation: a branch round a BSET must stay one
                          "-phi-node-folding-threshold=0", "-two-entry-phi-node-folding-threshold=0",
-                         "-scalarize-load-store", unrolled};
+                         "-scalarize-load-store",
+                         // a look-up in a table stays one: tests of the index in its place take longer here
+                         "-instcombine-maxarray-size=0", unrolled};
   cl::ParseCommandLineOptions(std::size(flags), flags);
 }
 

@@ -159,6 +159,43 @@ void mend_calls(Module& m) {
     }
 }
 
+/// What clang has found undefined in a constant is 0 and not what a register happens to hold, as with gcc.
+void define_poison(Module& m) {
+  for (Function& f : m)
+    for (Instruction& i : instructions(f))
+      for (Use& operand : i.operands())
+        if (isa<PoisonValue>(operand) && !isa<InsertElementInst>(i) && !isa<ShuffleVectorInst>(i))
+          operand.set(Constant::getNullValue(operand->getType()));
+}
+
+/// A negative number becomes an unsigned one by way of the signed one of its width, an int by way of a long,
+/// as by XC16: gcc widens to 32 bits and calls __fixunssfsi, which wraps [gcc 4.5.1: expand_fix(), libgcc2.c;
+/// its cost in xc16-cycles/library_cost.csv is that of a comparison and __fixsfsi]. For LLVM it is undefined.
+void wrap_conversions(Module& m) {
+  for (Function& f : m)
+    for (Instruction& i : make_early_inc_range(instructions(f))) {
+      auto* to_unsigned = dyn_cast<FPToUIInst>(&i);
+      if (!to_unsigned) continue;
+      IRBuilder<> b(to_unsigned);
+      Value* from = to_unsigned->getOperand(0);
+      const unsigned bits = to_unsigned->getType()->getIntegerBitWidth();
+      Value* made = nullptr;
+      if (bits <= 16) {
+        made = b.CreateTrunc(b.CreateFPToSI(from, b.getInt32Ty()), to_unsigned->getType());
+      } else {
+        const std::string name = std::string("__fixuns") + (from->getType()->isFloatTy() ? "sf" : "df") +
+                                 (bits == 32 ? "si" : "di");
+        auto callee = m.getOrInsertFunction(name, to_unsigned->getType(), from->getType());
+        auto* call = b.CreateCall(callee, {from});
+        call->setDoesNotAccessMemory();
+        call->setDoesNotThrow();
+        made = call;
+      }
+      to_unsigned->replaceAllUsesWith(made);
+      to_unsigned->eraseFromParent();
+    }
+}
+
 // --- structs as arguments
 
 /// For gcc a struct of 4 or 8 bytes is a number of that size, unless an array or a struct in it has a size
@@ -176,11 +213,14 @@ bool has_odd_member(Type* type, const DataLayout& layout) {
 
 /// Such structs are marked for whoever gives arguments their registers (dspic30/llvm/calls.cpp).
 void mark_structs(Module& m) {
-  const auto of_odd = Attribute::getWithStackAlignment(m.getContext(), kDspicOddStruct);
   const auto mark = [&](auto& called) {
-    for (unsigned i = 0; i < called.arg_size(); ++i)
-      if (Type* type = called.getParamByValType(i))
-        if (has_odd_member(type, m.getDataLayout())) called.addParamAttr(i, of_odd);
+    for (unsigned i = 0; i < called.arg_size(); ++i) {
+      Type* type = called.getParamByValType(i);
+      if (!type || !has_odd_member(type, m.getDataLayout())) continue;
+      const bool is_bytes = called.getParamAlign(i).valueOrOne() == 1;
+      called.addParamAttr(
+          i, Attribute::getWithStackAlignment(m.getContext(), is_bytes ? kDspicOddBytes : kDspicOddStruct));
+    }
   };
   for (Function& f : m) {
     if (!f.isIntrinsic()) mark(f);
@@ -227,6 +267,8 @@ bool lower_for_chip(Unit& unit) {
   define_initializers(m);
   simplify_fields(m);
   mend_calls(m);
+  define_poison(m);
+  if (!unit.options.library) wrap_conversions(m);
   leave_upper_bytes_open(m);
   take_structs_from_lists(m);
   mark_structs(m);
