@@ -67,6 +67,11 @@ defm DEC2 : Un<0b111010011, "dec2", (add W:$s, -2), (add (load addrind:$s), -2)>
 defm NEG : Un<0b111010100, "neg", (sub 0, W:$s), (sub 0, (load addrind:$s))>;
 defm COM : Un<0b111010101, "com", (xor W:$s, -1), (xor (load addrind:$s), -1)>;
 
+// of bytes, where a variable without optimiser is counted in place (unoptimised.cpp)
+let Defs = [SR], mayLoad = 1, mayStore = 1 in {
+  def INCBmm : Alu2<0b111010000, 1, 1, 1, (outs), (ins W:$s), "inc.b\t[$s], [$s]", []> { let d = s; }
+  def DECBmm : Alu2<0b111010010, 1, 1, 1, (outs), (ins W:$s), "dec.b\t[$s], [$s]", []> { let d = s; }
+}
 // near memory in place: one instruction, so nothing comes between read and write; volatile registers take it too
 multiclass InPlace<bits<9> op, string mn, dag val> {
   let Defs = [SR], mayLoad = 1, mayStore = 1, AddedComplexity = 30 in

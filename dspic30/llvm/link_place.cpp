@@ -8,6 +8,7 @@
 // Order within a kind is that of the inputs, so the same inputs give the same image.
 #include <algorithm>
 
+#include "dspic30/llvm/fixups.h"
 #include "dspic30/llvm/link.h"
 #include "dspic30/llvm/memory_spaces.h"
 #include "dspic30/memory/program_memory.h"

@@ -57,6 +57,7 @@ class PassConfig : public TargetPassConfig {
   }
   void addPostRegAlloc() override { addPass(create_dspic_long_flag_reuse()); }  // before blocks are merged
   void addPreEmitPass() override {
+    if (getOptLevel() <= CodeGenOpt::Less) addPass(create_dspic_unoptimised());
     addPass(create_dspic_flag_reuse());
     if (getOptLevel() > CodeGenOpt::Less) addPass(create_dspic_tail_calls());  // at -O0 every call is seen
   }

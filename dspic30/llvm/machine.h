@@ -26,6 +26,7 @@ class DSPICTargetMachine : public LLVMTargetMachine {
 FunctionPass* create_dspic_selection(TargetMachine& machine, CodeGenOpt::Level level);
 /// Drops a CP0 whose flags are there already.
 FunctionPass* create_dspic_flag_reuse();
+FunctionPass* create_dspic_unoptimised();
 FunctionPass* create_dspic_long_flag_reuse();
 FunctionPass* create_dspic_tail_calls();
 std::unique_ptr<TargetLoweringObjectFile> create_dspic_sections();

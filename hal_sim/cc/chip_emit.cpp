@@ -31,7 +31,10 @@ void set_flags(const Options& o) {
                          "-phi-node-folding-threshold=0", "-two-entry-phi-node-folding-threshold=0",
                          "-scalarize-load-store",
                          // a look-up in a table stays one: tests of the index in its place take longer here
-                         "-instcombine-maxarray-size=0", unrolled};
+                         "-instcombine-maxarray-size=0", unrolled,
+                         // equal ends of blocks become one where size counts: the end of a loop and what
+                         // stands before it would, and the loop lose its flags
+                         o.level <= 1 ? "-enable-tail-merge=0" : "-enable-tail-merge=1"};
   cl::ParseCommandLineOptions(std::size(flags), flags);
 }
 

@@ -275,6 +275,10 @@ bool lower_for_chip(Unit& unit) {
   read_shared_in_place(unit);
   // as XC16: a delay loop waits at -O0 and -O1 and is gone at -O2 and -Os
   if (unit.options.level < 2) keep_empty_loops(m, *Intrinsic::getDeclaration(&m, Intrinsic::sideeffect));
+  if (unit.options.level == 0) {
+    wait_as_unoptimised(m);
+    place_locals_first(m);
+  }
   return !unit.failed;
 }
 

@@ -148,6 +148,12 @@ ModulePassManager passes_for(const Options& options) {
   m.addPass(createModuleToFunctionPassAdaptor(ScalarizerPass()));  // the chip has no vectors
   if (options.level == 0) return m;
   FunctionPassManager first, second;
+  if (options.level == 1) {
+    // before anything is moved: the form of a loop says what XC16 makes of it
+    first.addPass(SROAPass());
+    first.addPass(LoopSimplifyPass());
+    first.addPass(DelayRoundsPass());
+  }
   add_tidying(first, false);
   first.addPass(MergeFieldReadsPass());
   m.addPass(createModuleToFunctionPassAdaptor(std::move(first)));

@@ -62,6 +62,14 @@ struct PlainCfgPass : llvm::PassInfoMixin<PlainCfgPass> {
 struct CountDownPass : llvm::PassInfoMixin<CountDownPass> {
   llvm::PreservedAnalyses run(llvm::Function& f, llvm::FunctionAnalysisManager& analyses);
 };
+/// Chip, -O1: a loop that only counts takes as many cycles a round as XC16's.
+struct DelayRoundsPass : llvm::PassInfoMixin<DelayRoundsPass> {
+  llvm::PreservedAnalyses run(llvm::Function& f, llvm::FunctionAnalysisManager& analyses);
+};
+/// Chip, -O0: the same of `while (n--)`.
+void wait_as_unoptimised(llvm::Module& m);
+/// Chip, -O0: variables lie below parameters in the frame, as with XC16; what lies first is counted in place.
+void place_locals_first(llvm::Module& m);
 struct Charge {
   llvm::Instruction* before;
   double cycles;

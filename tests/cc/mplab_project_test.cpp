@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "fake_host.h"
+#include "hal_sim/cc/makefile_project.h"
 #include "hal_sim/cc/mplab_project.h"
 
 using namespace fake;
@@ -110,6 +111,71 @@ TEST(mplab_project, an_archive_of_another_project_is_made_of_its_files) {
     auto built = build_folder(folder, "tries/prog.X");
     ASSERT_TRUE(built.ok) << text_of(built);
     EXPECT_EQ(said(folder), "5");
+  }
+}
+
+// XC16 without -O is gcc's -O0; the chip alone is built so, and --opt wins
+TEST(mplab_project, a_projects_optimisation_level_is_the_chips) {
+  const auto mplab_x = [](const std::string& settings) {
+    return "<configurationDescriptor><logicalFolder><itemPath>../main.c</itemPath></logicalFolder>"
+           "<confs><conf><C30>" +
+           settings +
+           "</C30><C30-LD><property key=\"optimization-level\" value=\"3\"/></C30-LD></conf></confs>";
+  };
+  const std::string key = "<property key=\"optimization-level\" value=\"";
+  const std::string compiler = "[TOOL_SETTINGS]\r\nTS{25AC22BD-2378-4FDB-BFB6-7345A15512D3}=";
+  const std::string program = mcp("file_000=main.c\r\n");
+  struct Row {
+    const char* file;
+    std::string text;
+    const char* level;
+  };
+  for (const Row& row :
+       {Row{"robot.X/nbproject/configurations.xml", mplab_x(key + "0\"/>"), "-O0"},
+        {"robot.X/nbproject/configurations.xml", mplab_x(key + "1\"/>"), "-O1"},
+        {"robot.X/nbproject/configurations.xml", mplab_x(key + "2\"/>"), "-O2"},
+        {"robot.X/nbproject/configurations.xml", mplab_x(key + "3\"/>"), "-O2"},
+        {"robot.X/nbproject/configurations.xml", mplab_x(key + "s\"/>"), "-Os"},
+        {"robot.X/nbproject/configurations.xml", mplab_x(key + "\"/>"), "-O0"},
+        {"robot.X/nbproject/configurations.xml", mplab_x("<property key=\"x\" value=\"1\"/>"), "-O0"},
+        {"robot.mcp", program + compiler + "-g -Wall\r\n", "-O0"},
+        {"robot.mcp", program + compiler + "-g -Wall -O1\r\n", "-O1"},
+        {"robot.mcp", program + compiler + "-Os -g\r\n", "-Os"},
+        {"robot.mcp", program, ""},
+        {"Makefile", "SRCS = main.c\nCFLAGS = -mcpu=30F6014A -O2\n", "-O2"},
+        {"Makefile", "SRCS = main.c\nCFLAGS = -Wall -O\n", "-O1"},
+        {"Makefile", "SRCS = main.c\n", ""}}) {
+    Folder folder;
+    // what is compiled says at which level: 0, 1 or 2, for size
+    folder.file(
+        "prog/main.c",
+        "#ifdef __OPTIMIZE_SIZE__\n#warning level: -Os\n#elif defined __OPTIMIZE__\n"
+        "#warning level: more than 0\n#else\n#warning level: -O0\n#endif\nint main(void) { return 0; }");
+    folder.file(std::string("prog/") + row.file, row.text);
+    cc::BuildOptions options;
+    options.source_dir = folder.path / "prog";
+    options.output = folder.path / "out.elf";
+    options.cache_dir = folder.path / "cache";
+    options.chip_way = options.register_way = true;
+    const std::string level = row.level;
+    const auto says = [&](const cc::BuildResult& built, const std::string& told) {
+      ASSERT_TRUE(built.ok) << text_of(built);
+      EXPECT_NE(text_of(built).find("level: " + told), std::string::npos) << row.text << text_of(built);
+    };
+    says(cc::build_image(options), level == "-O0" || level == "-Os" ? level : "more than 0");
+    std::string told;
+    const auto project = std::string(row.file) == "Makefile"
+                             ? cc::read_makefile(options.source_dir)
+                             : cc::find_mplab_project(options.source_dir, told);
+    ASSERT_TRUE(project) << row.text;
+    EXPECT_EQ(project->level, level) << row.text;
+    if (level != "-O0") continue;
+    options.optimisation = "-O1";
+    says(cc::build_image(options), "more than 0");
+    options.optimisation = "";
+    options.chip_way = options.register_way = false;
+    options.output = folder.path / "out.so";
+    says(cc::build_image(options), "more than 0");
   }
 }
 
