@@ -591,6 +591,32 @@ static BuildResult build_here(const BuildOptions& asked) {
   return finish();
 }
 
+/// Variables that a handler writes, from a compilation for the chip: whoever reads one in a loop waits for
+/// ever on the robot. What is told of a line already is not told twice.
+static void lint_shared_variables(BuildOptions o, const LibraryCopies& copies, const Program& program,
+                                  BuildResult& result) {
+  o.chip_way = o.register_way = true;
+  o.strict = o.sanitize = o.coverage = false;
+  const Plan p = plan(o, copies, program, false);
+  if (p.is_webots) return;
+  std::vector<FileFacts> files;
+  for (const CompileOutcome& made : compile_all(p.user, compiler_path(), o.cache_dir, o.jobs))
+    files.push_back({made.facts, true, true});
+  for (const std::string& facts : provide_library(o, false, false).facts)
+    files.push_back({facts, false, false});
+  for (const SharedRead& read : shared_variables(files).reads) {
+    const auto is_told = [&](const std::string& warning) {
+      return warning.rfind(read.where + ":", 0) == 0 &&
+             warning.find("expected volatile") != std::string::npos;
+    };
+    if (std::none_of(result.warnings.begin(), result.warnings.end(), is_told))
+      result.warnings.push_back(
+          read.where + ": warning: " + read.variable + ": written by " + read.writer +
+          "(); got a plain variable, expected volatile; XC16 may read it once at -O1 and "
+          "wait for ever");
+  }
+}
+
 static BuildResult lint_here(const BuildOptions& options) {
   BuildResult result;
   BuildOptions o = options;
@@ -604,9 +630,11 @@ static BuildResult lint_here(const BuildOptions& options) {
   BuildResult of_project;
   const Program program = program_of(o, of_project);
   if (o.optimisation.empty()) o.optimisation = "-O1";  // what would be said of -O0 holds at no other level
-  Plan p = plan(o, find_library_copies(o.source_dir, sources), program, true);
+  const LibraryCopies copies = find_library_copies(o.source_dir, sources);
+  Plan p = plan(o, copies, program, true);
   auto outcomes = compile_all(p.user, compiler_path(), o.cache_dir, o.jobs);
   for (const auto& outcome : outcomes) sort_messages(outcome.messages, result, !outcome.ok);
+  if (result.errors.empty()) lint_shared_variables(o, copies, program, result);
   std::vector<std::pair<std::string, std::string>> texts;
   for (const auto& s : sources) texts.emplace_back(s.filename().string(), read_text(s));
   for (auto& conflict : timer_conflicts(texts, {})) result.warnings.push_back(conflict);

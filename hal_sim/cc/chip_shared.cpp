@@ -242,11 +242,7 @@ class FactWriter {
   static std::string place(const Instruction& i) {
     const DebugLoc& where = i.getDebugLoc();
     if (!where) return "?";
-    auto* scope = cast<DIScope>(where.getScope());
-    const std::string file = scope->getFilename().str();
-    const bool is_whole = file.empty() || file[0] == '/' || scope->getDirectory().empty();
-    return (is_whole ? file : scope->getDirectory().str() + "/" + file) + ":" +
-           std::to_string(where.getLine());
+    return cast<DIScope>(where.getScope())->getFilename().str() + ":" + std::to_string(where.getLine());
   }
 
   Module& module_;

@@ -223,8 +223,8 @@ TEST(ChipPrograms, random_programs_agree_with_the_pc) {
 }
 
 // SUB, SUBB and BRA NZ, 4 cycles: XC16 keeps empty loops at -O0 and -O1, and this is its loop of a long
-// there; up to a variable, and for while (n--), it compares in 2 more (delay_test.cpp). Before it cp, cpb, bra
-// (3) or two mov; the last BRA takes 1, RETURN 3.
+// there; up to a variable, and for while (n--), it compares in 2 more (delay_test.cpp). Before it cp, cpb,
+// bra (3) or two mov; the last BRA takes 1, RETURN 3.
 TEST(ChipPrograms, long_counts_in_as_many_cycles_as_xc16_s) {
   const std::string count = "__attribute__((noinline)) ";
   struct Wait {
