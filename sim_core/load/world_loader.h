@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sim_core/base/did_you_mean.h"
 #include "sim_core/world/world_desc.h"
 
 namespace sim {
@@ -46,8 +47,5 @@ bool has_room(const WorldDesc& world, int robot);
 
 /// A file name as written in a world file, resolved against the world's own folder.
 std::string resolve_path(const WorldDesc& world, const std::string& name);
-
-/// The candidate most like `word`, or an empty string when none is near enough to be meant.
-std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates);
 
 }  // namespace sim

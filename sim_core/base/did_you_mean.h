@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+// What somebody may have meant by a word that is not known.
+#pragma once
+#include <string>
+#include <vector>
+
+namespace sim {
+
+/// The candidate most like `word`, or an empty string when none is near enough to be meant.
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates);
+
+}  // namespace sim
