@@ -41,6 +41,12 @@ const Decoded* fetch_nothing(Cpu& cpu, const Decoded* d) {
   return d;
 }
 
+// where a function begins that the onlooker wants to know of
+const Decoded* tell(Cpu& cpu, const Decoded* d) {
+  if (cpu.onlooker) cpu.onlooker->entered(cpu.address_of(d));
+  return cpu.plain(d)(cpu, d);
+}
+
 void set_low(unsigned& address, unsigned value) { address = (address & 0x7F0000) | (value & 0xFFFE); }
 void set_high(unsigned& address, unsigned value) { address = (address & 0xFFFF) | (value & 0x7F) << 16; }
 
@@ -134,6 +140,21 @@ void Cpu::decode(const Decoded* d) {
   decoded_.push_back(static_cast<std::uint32_t>(d - code_.data()));
   code_[static_cast<std::size_t>(d - code_.data())] = decode_word(*this, address_of(d));
   if (hot == 0) d->heat = 0xFF;
+  if (std::binary_search(probes_.begin(), probes_.end(), address_of(d))) probe(d);
+}
+
+void Cpu::probe(const Decoded* d) {
+  asked_ = {};
+  Head& head = heads_[d];
+  head = Head{d->run, 0, 0, true};
+  d->run = &tell;
+  d->is_head = true;
+}
+
+void Cpu::tell_calls(std::vector<std::uint32_t> addresses) {
+  std::sort(addresses.begin(), addresses.end());
+  probes_ = std::move(addresses);
+  forget_code();
 }
 
 void Cpu::warm(const Decoded* target) {
@@ -154,8 +175,9 @@ void Cpu::warm(const Decoded* target) {
 }
 
 int Cpu::translated() const {
-  return static_cast<int>(
-      std::count_if(heads_.begin(), heads_.end(), [](const auto& head) { return head.first->is_head; }));
+  return static_cast<int>(std::count_if(heads_.begin(), heads_.end(), [](const auto& head) {
+    return head.first->is_head && !head.second.is_probe;
+  }));
 }
 
 void Cpu::trap(Trap which) {
@@ -175,8 +197,13 @@ void Cpu::trap(Trap which) {
   const std::string place = std::string(name) + " at " + hex(address_of(at), 6);
   parts.diagnostics.report(Cause::CpuTrap, place, place + ": the program goes on at the trap's vector", now);
   parts.events.run_to(now);
+  if (onlooker) onlooker->trapped(which, address_of(at));
   parts.interrupts.raise_trap(which, now);
   deadline = 0;
+}
+
+void Cpu::tell_null_pointer(unsigned from) {
+  if (onlooker) onlooker->went_to_reset_vector(from);
 }
 
 // --- loops ----------------------------------------------------------------------------------------------

@@ -20,6 +20,7 @@
 
 #include "dspic30/core/instruction_table.h"
 #include "dspic30/core/known_waits.h"
+#include "dspic30/core/program_watch.h"
 #include "dspic30/device/chip_parts.h"
 #include "dspic30/memory/program_memory.h"
 
@@ -84,6 +85,7 @@ class Cpu final : public SfrOwner {
  public:
   Cpu(ChipParts& parts, ProgramMemory& program);
   Translator* translator = nullptr;  ///< null: everything is interpreted
+  ProgramWatch* onlooker = nullptr;  ///< null: nobody
   /// Jumps, in 256s, that make the place they lead to worth translating: by then interpreting it has taken
   /// about as long as translating it will. 0: at once, for tests.
   int hot = 256;
@@ -91,6 +93,8 @@ class Cpu final : public SfrOwner {
   void reset();
   /// All words are decoded again.
   void forget_code();
+  /// The onlooker hears when the instructions at these program addresses begin, from now on.
+  void tell_calls(std::vector<std::uint32_t> addresses);
   /// What uses stale_pointers is decoded anew.
   void forget_pointers();
 
@@ -147,6 +151,11 @@ class Cpu final : public SfrOwner {
   /// The instruction at `at` does what the chip does not allow: the flag is set, and the trap's handler comes
   /// before the next instruction.
   void trap(Trap which);
+  /// Of a register or the stack: where it leads. A null pointer is told.
+  unsigned pointed(unsigned address, const Decoded* from) {
+    if (address == 0) tell_null_pointer(address_of(from));
+    return address;
+  }
 
   // --- flags
   template <bool Byte>
@@ -288,7 +297,8 @@ class Cpu final : public SfrOwner {
   RoundMemory* round_memory = nullptr;  ///< notes accesses to RAM
   KnownWaits known_waits;
   Cycle still_since =
-      kNever;  ///< since when nothing that the program looks at can change but by an interrupt
+      kNever;                ///< since when nothing that the program looks at can change but by an interrupt
+  bool still_reads = false;  ///< does such a round read anything at all?
 
   static constexpr unsigned kRamStart = 0x800, kRamBytes = 0x2000, kRamEnd = kRamStart + kRamBytes,
                             kPsvStart = 0x8000, kYStart = 0x1800;
@@ -352,6 +362,8 @@ class Cpu final : public SfrOwner {
   void write_elsewhere(unsigned ea, unsigned value, unsigned bits);
   unsigned read_psv(unsigned ea, unsigned bits);
   void find_loop_end();
+  __attribute__((noinline)) void tell_null_pointer(unsigned from);
+  void probe(const Decoded* d);
   void warm(const Decoded* target);
   __attribute__((noinline)) bool find_wait(KnownWaits::Wait& wait);
 
@@ -359,6 +371,7 @@ class Cpu final : public SfrOwner {
     Run plain = nullptr;
     int warmth = 0;
     std::uint32_t pointers = 0;
+    bool is_probe = false;  // it tells the onlooker, and is not translated
   };
   std::unordered_map<const Decoded*, Head> heads_;
   struct Asked {
@@ -366,6 +379,7 @@ class Cpu final : public SfrOwner {
     Run plain = nullptr;
   };
   mutable std::array<Asked, 64> asked_;  // heads that plain() was asked for lately
+  std::vector<std::uint32_t> probes_;    // addresses that are told of, in order
   std::vector<std::uint32_t> decoded_;   // words that were met since forget_code()
   std::vector<Decoded> code_;            // one a flash word, then one for addresses where no flash is
   unsigned bad_address_ = 0;             // that address

@@ -34,7 +34,9 @@ const Decoded* branch_register(Cpu& cpu, const Decoded* d) {
   return cpu.offset(d, 1 + sign_extend(cpu.w[d->s], 16));
 }
 const Decoded* go_to(Cpu& cpu, const Decoded* d) { return cpu.jump(static_cast<unsigned>(d->imm), d); }
-const Decoded* go_to_register(Cpu& cpu, const Decoded* d) { return cpu.jump(cpu.w[d->s] & 0xFFFE, d); }
+const Decoded* go_to_register(Cpu& cpu, const Decoded* d) {
+  return cpu.jump(cpu.pointed(cpu.w[d->s] & 0xFFFE, d), d);
+}
 
 void push_return(Cpu& cpu, unsigned address) {
   cpu.push(address & 0xFFFF);
@@ -46,7 +48,7 @@ const Decoded* call(Cpu& cpu, const Decoded* d) {
 }
 const Decoded* call_register(Cpu& cpu, const Decoded* d) {
   push_return(cpu, cpu.address_of(d) + 2);
-  return cpu.jump(cpu.w[d->s] & 0xFFFE, d);
+  return cpu.jump(cpu.pointed(cpu.w[d->s] & 0xFFFE, d), d);
 }
 const Decoded* call_relative(Cpu& cpu, const Decoded* d) {
   push_return(cpu, cpu.address_of(d) + 2);
@@ -69,7 +71,7 @@ void hurry_to_exception(Cpu& cpu) {
 const Decoded* return_from_call(Cpu& cpu, const Decoded* d) {
   const unsigned high = cpu.pop() & 0x7F, low = cpu.pop();
   hurry_to_exception(cpu);
-  return cpu.jump(high << 16 | (low & 0xFFFE), d);
+  return cpu.jump(cpu.pointed(high << 16 | (low & 0xFFFE), d), d);
 }
 template <bool Byte>
 const Decoded* return_literal(Cpu& cpu, const Decoded* d) {

@@ -43,6 +43,8 @@ class RoundMemory {
     if (!whole) note_read(ram, place);
     if (!writes_.holds(place & ~1u)) is_whole_ &= writes_.add(ram, place & ~1u);
   }
+  /// Does a round read anything of RAM?
+  bool reads() const { return reads_.count > 0; }
   /// False: there were too many.
   bool is_whole() const { return is_whole_; }
   /// Are words that it reads as they were when it read them?

@@ -37,6 +37,7 @@ void Processor::restart() {
 }
 
 Cycle Processor::still_since() const { return cpu_->still_since; }
+bool Processor::still_reads() const { return cpu_->still_reads; }
 
 // --- the loop -------------------------------------------------------------------------------------------
 
@@ -135,6 +136,10 @@ void Processor::enter_interrupt(int vector) {
 const TrapRecord* Processor::latest_trap() const { return cpu_->latest_trap ? &*cpu_->latest_trap : nullptr; }
 Cycle Processor::waited() const { return waits_->waited(); }
 void Processor::set_translator(Translator* translator) { cpu_->translator = translator; }
+void Processor::tell_calls(ProgramWatch* watch, std::vector<std::uint32_t> addresses) {
+  cpu_->onlooker = watch;
+  cpu_->tell_calls(std::move(addresses));
+}
 void Processor::translate_all() {
   cpu_->hot = 0;
   cpu_->forget_code();
@@ -144,6 +149,7 @@ Cycle Processor::now() const { return cpu_->now; }
 void Processor::wait_until(Cycle at) { cpu_->now = std::max(cpu_->now, at); }
 bool Processor::is_asleep() const { return cpu_->power != Cpu::Power::On; }
 unsigned Processor::pc() const { return cpu_->address_of(cpu_->next); }
+unsigned Processor::pc_of_access() const { return cpu_->at ? cpu_->address_of(cpu_->at) : pc(); }
 std::uint16_t Processor::w(int n) const { return cpu_->w[static_cast<std::size_t>(n)]; }
 std::uint16_t Processor::sr() const { return static_cast<std::uint16_t>(cpu_->sr()); }
 std::int64_t Processor::accumulator(int n) const { return cpu_->acc[static_cast<std::size_t>(n)]; }

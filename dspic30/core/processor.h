@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "dspic30/device/dspic30f6014a.h"
 #include "dspic30/memory/program_memory.h"
@@ -17,6 +18,7 @@
 namespace dspic {
 
 class Cpu;
+class ProgramWatch;
 struct TrapRecord;  // cpu.h
 class Translator;
 class WaitSamples;
@@ -44,6 +46,9 @@ class Processor {
   /// Hot code runs translated from now on; null: no more is translated. Nothing but the PC's time depends on
   /// it.
   void set_translator(Translator* translator);
+  /// Whoever hears of traps, null pointers, and of the beginning of the functions at `addresses`; it outlives
+  /// this. Nothing but the PC's time depends on it.
+  void tell_calls(ProgramWatch* watch, std::vector<std::uint32_t> addresses);
   /// Translates whatever is jumped to, at once: for tests.
   void translate_all();
   /// Places where translated code begins.
@@ -54,6 +59,8 @@ class Processor {
   /// Since when it has been in a loop in which nothing that it reads can change unless an interrupt comes;
   /// kNever: it is in none. Depends, by some looks, on how run() is called.
   Cycle still_since() const;
+  /// Does a round of that loop look at anything? One that does not is no wait, but the end of a program.
+  bool still_reads() const;
 
   // --- for debuggers, tests and reports: no side effects
   /// What led to the last trap that was told (Cause::CpuTrap), through all resets; null: there was none. Of a
@@ -62,6 +69,8 @@ class Processor {
   /// the limit.
   const TrapRecord* latest_trap() const;
   unsigned pc() const;
+  /// Of the instruction that runs, or ran last.
+  unsigned pc_of_access() const;
   std::uint16_t w(int n) const;
   std::uint16_t sr() const;
   std::int64_t accumulator(int n) const;

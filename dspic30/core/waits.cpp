@@ -28,6 +28,7 @@ Cycle Cpu::skip_wait() {
   KnownWaits::Wait found;
   if (!wait && find_wait(found)) wait = &found;
   still_since = wait && watched_until == kNever && !looks_outside ? std::min(still_since, began) : kNever;
+  still_reads = wait && (wait->memory.reads() || reads_core);
   if (!wait) return 0;
   const Cycle rounds = std::max<Cycle>(std::min(deadline, watched_until) - now, 0) / wait->took;
   if (rounds > 0) wait->memory.put_written(ram.data());
