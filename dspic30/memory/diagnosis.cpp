@@ -15,6 +15,8 @@ const char* cause_name(Cause cause) {
       return "UART overrun";
     case Cause::UartFrameError:
       return "UART frame error";
+    case Cause::UartOff:
+      return "UART off";
     case Cause::BaudError:
       return "baud rate error";
     case Cause::MissedInterrupt:
@@ -31,6 +33,8 @@ const char* cause_name(Cause cause) {
       return "changed while on";
     case Cause::NotUnlocked:
       return "not unlocked";
+    case Cause::NvmBusy:
+      return "EEPROM busy";
     case Cause::I2cMisuse:
       return "I2C misuse";
     case Cause::WatchdogReset:

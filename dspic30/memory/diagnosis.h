@@ -18,6 +18,7 @@ enum class Cause : std::uint8_t {
   UninitialisedRead,     ///< a register whose power-on value is not defined was read before it was written
   UartOverrun,           ///< a received word was lost: four waited, the fifth stayed in the shift register
   UartFrameError,        ///< a received word without its stop bit: wrong baud rate or format
+  UartOff,               ///< a word was written to a transmitter that is off: it is lost
   BaudError,             ///< the nearest standard rate is more than 2 % off
   MissedInterrupt,       ///< an event found its flag, enabled, still set: one handler run for two events
   FlagNeverCleared,      ///< a handler returned twice without having cleared its flag: it runs for ever
@@ -26,6 +27,7 @@ enum class Cause : std::uint8_t {
   DigitalAnalogue,       ///< a port was read where a driven pin reads 0, because ADPCFG says analogue
   ChangedWhileOn,        ///< converter set-up written while ADON = 1, which the manual forbids
   NotUnlocked,           ///< OSCCON or NVMCON.WR written without its unlock sequence; nothing happened
+  NvmBusy,               ///< an operation on EEPROM or flash was asked for while another one ran
   I2cMisuse,             ///< an operation was asked for while another was under way (IWCOL), or I2CEN is 0
   WatchdogReset,         ///< the watchdog was not cleared in time
   CodecRate,             ///< the codec's own sample rate is not that of the frames it gets

@@ -39,7 +39,7 @@ Cycle Nvm::operation_cycles() const {
 }
 
 int Nvm::word_index() const {
-  return in_eeprom(address()) ? static_cast<int>(address() - kEepromStart) / 2 : -1;
+  return in_eeprom(operation_at_) ? static_cast<int>(operation_at_ - kEepromStart) / 2 : -1;
 }
 
 std::uint16_t Nvm::table_read(unsigned program_address) const {
@@ -56,6 +56,7 @@ void Nvm::table_write(unsigned program_address, std::uint32_t value, std::uint32
 void Nvm::begin(Cycle now) {
   if (!(con_ & kWren)) return;
   con_ = static_cast<std::uint16_t>((con_ | kWr) & ~kWrerr);
+  operation_at_ = address();
   const Cycle end = now + operation_cycles();
   const auto operation = static_cast<int>(kProgop.of(con_));
   const bool on_eeprom = operation == kEraseWord || operation == kEraseRow || operation == kEraseAll ||
@@ -80,7 +81,7 @@ void Nvm::on_event(int id, Cycle at) {
     case kWriteWord:
       if (word >= 0)
         eeprom_[static_cast<std::size_t>(word)] &=
-            static_cast<std::uint16_t>(latches_[address() / 2 % kFlashRowWords]);
+            static_cast<std::uint16_t>(latches_[operation_at_ / 2 % kFlashRowWords]);
       break;
     case kWriteRow:
       for (int i = 0; row >= 0 && i < kRowWords; ++i)
@@ -97,10 +98,10 @@ void Nvm::on_event(int id, Cycle at) {
 }
 
 void Nvm::carry_out_on_flash(int operation) {
-  if (operation == kEraseFlashRow) program_->erase_row(address());
-  if (operation == kWriteFlashRow) program_->program_row(address(), latches_);
-  if (operation == kWriteConfiguration && address() >= kConfigurationStart)
-    program_->write(address(), latches_[address() / 2 % kFlashRowWords]);
+  if (operation == kEraseFlashRow) program_->erase_row(operation_at_);
+  if (operation == kWriteFlashRow) program_->program_row(operation_at_, latches_);
+  if (operation == kWriteConfiguration && operation_at_ >= kConfigurationStart)
+    program_->write(operation_at_, latches_[operation_at_ / 2 % kFlashRowWords]);
 }
 
 std::uint16_t Nvm::peek(unsigned address, Cycle now) const {
@@ -127,7 +128,12 @@ void Nvm::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
       break;
     }
     case kCon: {
-      if (busy) break;  // registers are locked while an operation runs
+      if (busy) {  // registers are locked while an operation runs
+        f_.diagnostics.report(
+            Cause::NvmBusy, "NVMCON.WR",
+            "NVMCON is written while an operation runs (WR is 1): the new one does not happen", now);
+        break;
+      }
       const std::uint16_t wanted = merge_lanes(con_, value, lanes);
       con_ = static_cast<std::uint16_t>(wanted & ~kWr);
       if (!(wanted & kWr)) break;

@@ -58,6 +58,7 @@ class Nvm final : public SfrOwner, public EventOwner {
 
   Fabric f_;
   int slot_ = -1;
+  unsigned operation_at_ = 0;  // address of the operation under way
   std::uint16_t con_ = 0, adr_ = 0, adru_ = 0;
   std::array<std::uint32_t, kFlashRowWords> latches_{};
   int key_step_ = 0;

@@ -223,6 +223,11 @@ std::uint16_t Uart::peek(unsigned address, Cycle now) const {
       return word;
     }
     case kTxReg:
+      if (!enabled())
+        f_.diagnostics.report(Cause::UartOff, name("TXREG"),
+                              name("TXREG") + " is written while " + name("MODE.UARTEN") +
+                                  " is 0: nothing is sent, and what is written is lost",
+                              now);
       return 0;
     case kRxReg:
       return in_.count ? in_.words[0].word : 0;

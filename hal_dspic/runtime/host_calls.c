@@ -20,21 +20,21 @@ void tp_image_assert(const char *file, int line, const char *text)
   tp_reset();
 }
 
-/* to the UART, which the program has set up; one that is off would never take anything */
+/* to the UART, which the program has set up; one that is off loses what it is given, and would never be ready for more */
 void tp_console(const char *bytes, tp_i64 length, tp_i64 uart)
 {
   int n = (int)length;
   for (; n > 0; n--, bytes++)
     if ((int)uart == 2) {
-      if (!U2MODEbits.UARTEN) return;
-      while (U2STAbits.UTXBF) {
+      while (U2MODEbits.UARTEN && U2STAbits.UTXBF) {
       }
       U2TXREG = (unsigned char)*bytes;
+      if (!U2MODEbits.UARTEN) return;
     } else {
-      if (!U1MODEbits.UARTEN) return;
-      while (U1STAbits.UTXBF) {
+      while (U1MODEbits.UARTEN && U1STAbits.UTXBF) {
       }
       U1TXREG = (unsigned char)*bytes;
+      if (!U1MODEbits.UARTEN) return;
     }
 }
 

@@ -32,6 +32,8 @@ std::string hint_for(dspic::Cause cause) {
       return "read UxRXREG in the receive interrupt until URXDA is 0, and clear UxSTA.OERR";
     case Cause::UartFrameError:
       return "compare baud rate, parity and stop bits of both ends";
+    case Cause::UartOff:
+      return "call e_init_uart1() or e_init_uart2() first, or set UxMODE.UARTEN";
     case Cause::BaudError:
       return "UxBRG = FCY / (16 baud) - 1 with FCY = " + std::to_string(board::kFcyHz) +
              " Hz: 7 for 115200, 95 for 9600";
@@ -49,6 +51,8 @@ std::string hint_for(dspic::Cause cause) {
       return "clear ADCON1.ADON first";
     case Cause::NotUnlocked:
       return "write the unlock sequence directly before, with interrupts off";
+    case Cause::NvmBusy:
+      return "call _wait_eedata(), or wait until NVMCON.WR is 0, before the next operation";
     case Cause::I2cMisuse:
       return "wait until SEN, RSEN, PEN, RCEN, ACKEN and I2CSTAT.TRSTAT are 0";
     case Cause::CodecRate:
@@ -87,11 +91,9 @@ void SolderedChip::reset(Cycle now) {
   board_.processor_reset(latest_);
 }
 
-const char* SolderedChip::note_reset_due() { return note_reset_due(*device_->reset_due(latest_)); }
-
-const char* SolderedChip::note_reset_due(dspic::ResetKind kind) {
-  next_reset_ = kind;
-  return reason_of(kind);
+const char* SolderedChip::note_reset_due() {
+  next_reset_ = *device_->reset_due(latest_);
+  return reason_of(next_reset_);
 }
 
 void SolderedChip::stop(Cycle now) {

@@ -9,6 +9,7 @@
 // that estimates may ask twice for nearly the same cycle. Modelled: everything dspic30/ models. The processor
 // core is the runner's.
 #pragma once
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -31,7 +32,6 @@ class SolderedChip final : private dspic::DiagnosticSink {
   void note_reset(dspic::ResetKind cause) { next_reset_ = cause; }
   /// The chip wants a reset (look() said reset_due): its cause is noted. Returns one sentence that says why.
   const char* note_reset_due();
-  const char* note_reset_due(dspic::ResetKind kind);
   /// The program has ended for good: pins are released.
   void stop(Cycle now);
 
@@ -60,11 +60,18 @@ class SolderedChip final : private dspic::DiagnosticSink {
   };
   Waiting longest_waiting(Cycle now);
 
+  /// Whoever may add to the sentence of a diagnosis when it comes up: where the program is then.
+  void comment_on(std::function<std::string(const dspic::Diagnosis&)> comment) {
+    comment_ = std::move(comment);
+  }
   /// What the models have to say about the program so far, in order of time.
   std::vector<board::Diagnosis> diagnoses() const;
 
  private:
-  void report(const dspic::Diagnosis& diagnosis) override { diagnoses_.push_back(diagnosis); }
+  void report(const dspic::Diagnosis& diagnosis) override {
+    diagnoses_.push_back(diagnosis);
+    if (comment_) diagnoses_.back().message += comment_(diagnosis);
+  }
   std::int64_t count_of(const dspic::Diagnosis& diagnosis) const;
 
   board::Board& board_;
@@ -75,6 +82,7 @@ class SolderedChip final : private dspic::DiagnosticSink {
   dspic::ResetKind next_reset_ = dspic::ResetKind::PowerOn;
   Cycle latest_ = 0;
   std::vector<dspic::Diagnosis> diagnoses_;
+  std::function<std::string(const dspic::Diagnosis&)> comment_;
 };
 
 }  // namespace chip

@@ -195,7 +195,9 @@ long bench_run(void) {
   _memcpy_p2d16(back, place, 32);
   for (i = 0; i < 16; i++) if (back[i] != 1000 + i) return 2;
   _erase_eedata(place + 4, _EE_WORD);
+  _wait_eedata();
   _write_eedata_word(place + 4, -5);
+  _wait_eedata();
   _memcpy_p2d16(back, place, 8);
   return back[1] != 1001 || back[2] != -5 || back[3] != 1003;
 })"},
