@@ -31,6 +31,7 @@ std::string hex(std::uint64_t digest) { return fmt::format("{:016x}", digest); }
 nlohmann::ordered_json json_of(const host::TrapReport& t) {
   nlohmann::ordered_json j;
   j["kind"] = host::trap_name(t.kind);
+  if (!t.vector.empty()) j["vector"] = t.vector;
   j["message"] = t.message;
   j["function"] = t.place.function;
   j["file"] = t.place.file;

@@ -12,9 +12,9 @@ namespace chip {
 
 namespace {
 
-constexpr unsigned kIfs0 = dspic::sfr("IFS0"), kInttreg = dspic::sfr("INTTREG"),
-                   kRamStart = dspic::Processor::kRamStart, kRamEnd = dspic::Processor::kRamEnd,
-                   kPsvStart = 0x8000, kPsvpag = dspic::sfr("PSVPAG");
+constexpr unsigned kIfs0 = dspic::sfr("IFS0"), kRamStart = dspic::Processor::kRamStart,
+                   kRamEnd = dspic::Processor::kRamEnd, kPsvStart = 0x8000, kPsvpag = dspic::sfr("PSVPAG");
+constexpr std::size_t kMostReports = 64;
 constexpr Cycle kLeastWait = board::kFcyHz / 100;  // a wait is called endless from then on
 
 }  // namespace
@@ -38,6 +38,11 @@ ChipRunner::ChipRunner(std::string name, std::shared_ptr<const dspic::FirmwareFi
   chip_.power_up(configuration);
   processor_ = std::make_unique<dspic::Processor>(device(), program_);
   processor_->set_translator(translation());
+  places_ = std::make_unique<ProgramPlaces>(*file_, program_, *processor_, chip_);
+  endings_ = std::make_unique<Endings>(*file_, program_, *processor_, chip_, *places_);
+  calls_ = std::make_unique<LibraryCalls>(*file_, *processor_, *places_, chip_, board);
+  processor_->tell_calls(this, calls_->addresses());
+  chip_.comment_on([this](const dspic::Diagnosis& d) { return comment(d); });
   if (start <= 0) return;
   end_ = start;
   processor_->wait_until(start);
@@ -62,6 +67,7 @@ void ChipRunner::run_until(Cycle end) {
   }
   end_ = std::max(end_, end);
   chip_.end_window(std::max(end_, processor_->now()));
+  if (end_ >= calls_->next_look()) calls_->look(end_);
   idle_until_ = processor_->is_asleep() ? device().next_event(chip_.latest()) : 0;
 }
 
@@ -89,24 +95,56 @@ void ChipRunner::restart() {
 void ChipRunner::tell_reset(Cycle at) {
   if (observer_) observer_->ended(at);
   for (StepWatch* watch : watches_) watch->was_reset(at);
+  calls_->forget_starts();
+}
+
+void ChipRunner::report(const Ending& ending) {
+  host::TrapReport report;
+  report.robot = name();
+  report.kind = ending.kind;
+  report.vector = ending.vector;
+  report.message = ending.message;
+  report.place = place_of(ending.place);
+  if (report.place.function == "?") report.place.function = places_->text_of(ending.place);
+  report.cycle = processor_->now();
+  report.time_s = to_world_s ? to_world_s(report.cycle) : 0;
+  // it may come ten thousand times a second, from here and from there
+  const auto same = std::find_if(traps_.begin(), traps_.end(), [&](const host::TrapReport& known) {
+    return known.message == report.message && known.place.function == report.place.function &&
+           known.place.file == report.place.file && known.place.line == report.place.line;
+  });
+  if (same != traps_.end())
+    ++same->count;
+  else if (traps_.size() < kMostReports)
+    traps_.push_back(std::move(report));
+  else
+    ++traps_.back().count;
+}
+
+void ChipRunner::went_to_reset_vector(unsigned from) {
+  report(endings_->of_null_pointer(from));
+  calls_->forget_starts();
+}
+
+/// Where the program is, of what its course has to do with.
+std::string ChipRunner::comment(const dspic::Diagnosis& d) const {
+  switch (d.cause) {
+    case dspic::Cause::MissedInterrupt:
+      return places_->who_runs();
+    case dspic::Cause::UartOff:
+    case dspic::Cause::NvmBusy:
+    case dspic::Cause::CpuTrap:
+      return "; at " + places_->text_of(places_->own(processor_->pc_of_access()));
+    default:
+      return "";
+  }
 }
 
 // what the program asked for by RESET goes unsaid
 void ChipRunner::reset(dspic::ResetKind kind) {
   const Cycle at = processor_->now();
-  const char* why = chip_.note_reset_due(kind);
-  if (kind != dspic::ResetKind::Instruction) {
-    host::TrapReport report;
-    report.robot = name();
-    report.place = place_of(processor_->pc());
-    report.message = std::string(why) + ", at " + file_->code.describe(processor_->pc());
-    report.cycle = at;
-    report.time_s = to_world_s ? to_world_s(at) : 0;
-    if (!traps_.empty() && traps_.back().message == report.message)
-      ++traps_.back().count;
-    else
-      traps_.push_back(report);
-  }
+  if (const auto ending = endings_->of_reset(kind)) report(*ending);
+  chip_.note_reset(kind);
   tell_reset(at);
   chip_.reset(at);
   processor_->restart();
@@ -114,16 +152,19 @@ void ChipRunner::reset(dspic::ResetKind kind) {
 
 std::vector<board::Diagnosis> ChipRunner::diagnoses() const {
   std::vector<board::Diagnosis> all = chip_.diagnoses();
+  // what has ended in a reset is a trap report
+  all.erase(std::remove_if(all.begin(), all.end(), [this](const auto& d) { return is_ending(d); }),
+            all.end());
+  for (board::Diagnosis& of_library : calls_->diagnoses(end_)) all.push_back(std::move(of_library));
   add_endless_wait(all);
   return dated(std::move(all), board_.diagnoses(lived_cycles()));
 }
 
-/// For what no code can set any more. An empty loop is none, but the end of a program.
+/// For what no code can set any more. A loop that looks at nothing is none, but the end of a program.
 void ChipRunner::add_endless_wait(std::vector<board::Diagnosis>& all) const {
   const Cycle since = processor_->still_since();
-  constexpr std::uint32_t kBranchToItself = 0x37FFFF;
   if (since == dspic::kNever || end_ - since < kLeastWait || processor_->is_asleep() ||
-      device().nesting() > 0 || program_.read(processor_->pc()) == kBranchToItself)
+      device().nesting() > 0 || !processor_->still_reads())
     return;
   if (asked_since_ != since) {
     asked_since_ = since;
@@ -135,8 +176,10 @@ void ChipRunner::add_endless_wait(std::vector<board::Diagnosis>& all) const {
         if (dspic::vector_name(v) == name) return device().is_enabled(v);
       return false;
     };
-    const host::Place place = place_now();
-    if (any ? host::is_written_by_none(*this, place, by_name) : !host::variables_in(*this, place).empty())
+    // a wait inside a function of the library is its caller's; who writes what that one looks at is not known
+    const unsigned here = processor_->pc(), own = places_->own(here);
+    const host::Place place = place_of(own);
+    if (any ? own == here && host::is_written_by_none(*this, place, by_name) : place.line > 0)
       wait_ = host::endless_wait(*this, place, since);
   }
   if (wait_) all.push_back(*wait_);
@@ -163,7 +206,8 @@ void ChipRunner::run_watched(Cycle end) {
     }
     step.end = processor_->now();
     step.next = processor_->pc();
-    if (device().nesting() > nesting) step.entered = device().peek(kInttreg, chip_.at(step.end)) & 0x3F;
+    if (device().nesting() > nesting)
+      step.entered = device().peek(dspic::sfr("INTTREG"), chip_.at(step.end)) & 0x3F;
     step.left = device().nesting() < nesting;
     if (observer_) tell_observer(step, nesting);
     for (StepWatch* watch : watches_) watch->after(step);
@@ -267,15 +311,19 @@ void ChipRunner::write_memory(std::uintptr_t address, const void* from, std::siz
   wake();
 }
 
+bool ChipRunner::is_ending(const board::Diagnosis& d) const {
+  using dspic::Cause;
+  for (const Cause reset : {Cause::WatchdogReset, Cause::TrapConflict, Cause::IllegalOpcode})
+    if (d.cause == dspic::cause_name(reset)) return true;
+  if (d.cause != dspic::cause_name(Cause::CpuTrap)) return false;
+  const auto is_of = [&](int trap) { return d.place.rfind(dspic::vector_name(trap), 0) == 0; };
+  for (int trap = 1; trap < dspic::kFirstIrqVector; ++trap)
+    if (is_of(trap)) return !places_->has_handler(trap);
+  return false;
+}
+
 host::Place ChipRunner::place_of(std::uintptr_t code) const {
-  host::Place place{"?", "", 0};
-  const auto address = static_cast<std::uint32_t>(code);
-  if (const auto* function = file_->code.function_at(address)) place.function = function->name;
-  if (const auto* line = file_->code.line_at(address)) {
-    place.file = file_->code.files[line->file];
-    place.line = line->line;
-  }
-  return place;
+  return places_->place_of(static_cast<unsigned>(code));
 }
 
 }  // namespace chip

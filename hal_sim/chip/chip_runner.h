@@ -4,7 +4,8 @@
 //   .hex or .elf --FirmwareFile--> flash --> dspic::Processor <--> SolderedChip <--> Board
 //
 // Time is the chip's, exact to the cycle as far as docs/chip-core.md says. Traps and resets are the chip's
-// own: the program goes on at their vectors; a reset that the program did not ask for is reported. Lines,
+// own: the program goes on at their vectors; a beginning that the program did not ask for is reported
+// (endings.h), and so is what it makes of the library (library_calls.h). Lines,
 // variables and types are those of the image's debug information; without it, functions and variables are
 // known by name.
 #pragma once
@@ -14,7 +15,11 @@
 #include <vector>
 
 #include "dspic30/core/processor.h"
+#include "dspic30/core/program_watch.h"
 #include "dspic30/load/firmware_file.h"
+#include "hal_sim/chip/endings.h"
+#include "hal_sim/chip/library_calls.h"
+#include "hal_sim/chip/program_places.h"
 #include "hal_sim/chip/soldered_chip.h"
 #include "hal_sim/chip/step_watch.h"
 #include "hal_sim/host/runner.h"
@@ -23,7 +28,7 @@ namespace chip {
 
 using dspic::Cycle;
 
-class ChipRunner final : public host::Runner, private dspic::EventWatch {
+class ChipRunner final : public host::Runner, private dspic::EventWatch, private dspic::ProgramWatch {
  public:
   /// `board` outlives the runner. `clock_factor`: the program's instruction rate over the usual one.
   /// `start`: when it is powered up.
@@ -84,6 +89,12 @@ class ChipRunner final : public host::Runner, private dspic::EventWatch {
   void add_endless_wait(std::vector<board::Diagnosis>& all) const;
   void tell_observer(const Step& step, int nesting);
   void tell_reset(Cycle at);
+  void trapped(dspic::Trap trap, unsigned from) override { endings_->note_trap(trap, from); }
+  void went_to_reset_vector(unsigned from) override;
+  void entered(unsigned address) override { calls_->entered(address); }
+  void report(const Ending& ending);
+  bool is_ending(const board::Diagnosis& diagnosis) const;
+  std::string comment(const dspic::Diagnosis& diagnosis) const;
   void reset(dspic::ResetKind kind);
 
   std::shared_ptr<const dspic::FirmwareFile> file_;
@@ -91,6 +102,9 @@ class ChipRunner final : public host::Runner, private dspic::EventWatch {
   mutable SolderedChip chip_;  // looking advances closed forms
   dspic::ProgramMemory program_;
   std::unique_ptr<dspic::Processor> processor_;
+  std::unique_ptr<ProgramPlaces> places_;
+  std::unique_ptr<Endings> endings_;
+  std::unique_ptr<LibraryCalls> calls_;
   std::vector<host::TrapReport> traps_;
   host::Observer* observer_ = nullptr;
   std::vector<StepWatch*> watches_;

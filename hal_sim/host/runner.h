@@ -35,12 +35,13 @@ namespace host {
 struct TrapReport {
   std::string robot;
   int kind = 0;                  ///< TP_TRAP_* (image_abi.h); 0: an unexpected reset (the robot went on)
+  std::string vector;            ///< "MathError", "T1"; "Reset": of none; empty: not the chip way
   std::string message;           ///< one sentence
   Place place;                   ///< where in the firmware
   Cycle cycle = 0;               ///< cycles since power-up
   double time_s = 0;             ///< world time
   std::vector<Place> backtrace;  ///< from `place` outwards, at most 16
-  int count = 1;                 ///< how often (unexpected resets only)
+  int count = 1;                 ///< how often (where the robot went on)
 };
 
 /// "division by zero", "address error" ...

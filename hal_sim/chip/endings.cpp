@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: MIT
+#include "hal_sim/chip/endings.h"
+
+#include <algorithm>
+
+#include "dspic30/core/instruction_table.h"
+#include "hal_sim/host/image_abi.h"
+#include "sim_core/base/did_you_mean.h"
+
+namespace chip {
+
+namespace {
+
+using dspic::Trap;
+
+constexpr unsigned kStackLimit = dspic::sfr("SPLIM"), kIntcon1 = dspic::sfr("INTCON1"), kTrapFlags = 0x001E;
+constexpr std::uint32_t kNop = 0x000000, kHalt = 0xDA4000;  // the second one stops a debugger, no chip
+constexpr std::uint32_t kReturn = 0x060000, kSetsLimit = 0x880100;  // MOV Wn, SPLIM [chip C4]
+constexpr unsigned kLongestStart = 0x400;  // bytes of program counter: of a start-up code
+constexpr unsigned kStackPointer = 15;
+
+bool does_nothing(std::uint32_t word) { return word == kNop || word == kHalt; }
+
+int kind_of(Trap trap) {
+  switch (trap) {
+    case Trap::AddressError:
+      return TP_TRAP_ADDRESS;
+    case Trap::StackError:
+      return TP_TRAP_STACK;
+    case Trap::MathError:
+      return TP_TRAP_MATH;
+    default:
+      return TP_TRAP_INTERRUPT;
+  }
+}
+
+bool is_vector(const std::string& function) {
+  for (int v = 1; v < dspic::kVectors; ++v)
+    if (function == handler_of(v)) return true;
+  return false;
+}
+
+}  // namespace
+
+void Endings::note_trap(Trap trap, unsigned from) {
+  if ((chip_.device().peek(kIntcon1, chip_.latest()) & kTrapFlags) != 0) return;
+  // what a stack does that has outgrown its limit, or RAM, fails in more ways than one
+  const unsigned stack = processor_.w(kStackPointer),
+                 limit = chip_.device().peek(kStackLimit, chip_.latest());
+  const bool overflows =
+      trap == Trap::StackError || (trap == Trap::AddressError && limit != 0 && stack > limit);
+  noted_ = {trap, from, places_.own(from), overflows, dspic::kNoVector};
+  // a vector that holds no address leads nowhere
+  const int vector = places_.open_vector();
+  if (vector == dspic::kNoVector || places_.handler(vector) != from || file_.words.count(from)) return;
+  noted_.missing = vector;
+  noted_.place = cut_off();
+}
+
+/// What the interrupt that has just been entered cut off: its frame is the stack's last.
+unsigned Endings::cut_off() const {
+  const unsigned stack = processor_.w(kStackPointer);
+  const unsigned cut = (places_.stack_word(stack - 2) & 0x7F) << 16 | places_.stack_word(stack - 4);
+  return places_.own(cut, stack - 4);
+}
+
+std::optional<Ending> Endings::of_reset(dspic::ResetKind kind) const {
+  const unsigned here = processor_.pc();
+  switch (kind) {
+    case dspic::ResetKind::Instruction:
+      return of_instruction(here);
+    case dspic::ResetKind::TrapConflict:
+      if (noted_.missing != dspic::kNoVector) return of_interrupt(noted_.missing, noted_.place);
+      return of_trap(noted_.trap,
+                     "a second trap came before the first one's handler, so the processor resets");
+    case dspic::ResetKind::IllegalOpcode: {
+      const bool is_pointer = dspic::find_row(program_.read(here)) != nullptr;
+      return Ending{TP_TRAP_ILLEGAL, "Reset",
+                    is_pointer
+                        ? "an address in a register that was never written resets the processor"
+                        : "an illegal opcode resets the processor: the program ran into what is no code",
+                    places_.own(here)};
+    }
+    case dspic::ResetKind::Watchdog:
+      return Ending{0, "Reset", "the watchdog was not cleared in time, so it resets the processor",
+                    places_.own(here)};
+    default:
+      return Ending{0, "Reset", "the processor resets", places_.own(here)};
+  }
+}
+
+Ending Endings::of_null_pointer(unsigned from) const {
+  const dspic::Row* row = dspic::find_row(program_.read(from));
+  const bool returned = row && (row->id == dspic::Insn::Return || row->id == dspic::Insn::Retlw_lit10_Wn);
+  return {0, "Reset",
+          returned ? "a return to address 0: something has overwritten the stack; the program begins anew, "
+                     "and nothing is reset"
+                   : "a call through a null pointer leads to address 0: the program begins anew, and nothing "
+                     "is reset",
+          places_.own(from)};
+}
+
+// --- RESET ------------------------------------------------------------------------------------------------
+
+std::optional<Ending> Endings::of_instruction(unsigned at) const {
+  if (const auto given_up = of_giving_up(at)) return given_up;
+  const int vector = places_.open_vector();
+  if (vector != dspic::kNoVector && is_default_handler(vector, at))
+    return vector < dspic::kFirstIrqVector
+               ? of_trap(static_cast<Trap>(vector),
+                         "the program has no " + handler_of(vector) + "(), so the processor resets")
+               : of_interrupt(vector, resets_at_once(vector, at) ? cut_off() : at);
+  if (vector != dspic::kNoVector) return std::nullopt;
+  const unsigned main_at = called_main(at);
+  if (main_at == 0) return std::nullopt;
+  // its last line, where one is known
+  unsigned last = main_at;
+  const auto* function = file_.code.function_at(main_at);
+  for (unsigned a = main_at; function && a < function->end; a += 2)
+    if (file_.code.line_at(a) && places_.is_own(a) && program_.read(a) == kReturn) last = a;
+  return Ending{0, "Reset", "main() returned: there is nothing to return to, so the processor resets", last};
+}
+
+/// What our C library does for abort(), a failed assert() and exit() with a failure.
+std::optional<Ending> Endings::of_giving_up(unsigned at) const {
+  const auto is_in = [this](unsigned address, const char* name) {
+    const auto* function = file_.code.function_at(address);
+    return function && function->name == name;
+  };
+  const unsigned from = is_in(at, "tp_reset") ? places_.caller() : at;
+  const bool asserted = is_in(from, "tp_image_assert");
+  if (!asserted && !is_in(from, "tp_trap_message") && !is_in(from, "abort")) return std::nullopt;
+  return Ending{TP_TRAP_ABORT, "Reset",
+                asserted ? "an assert() failed, so the processor resets"
+                         : "abort(), or exit() with a failure, resets the processor",
+                places_.own(at)};
+}
+
+/// A handler that many vectors share and that resets at once; a program's own one has a name.
+bool Endings::is_default_handler(int vector, unsigned reset_at) const {
+  if (places_.has_handler(vector)) return false;
+  const auto* function = file_.code.function_at(reset_at);
+  return (function && function->name == "_DefaultInterrupt") || resets_at_once(vector, reset_at);
+}
+
+bool Endings::resets_at_once(int vector, unsigned reset_at) const {
+  unsigned at = places_.handler(vector);
+  while (at < reset_at && does_nothing(program_.read(at))) at += 2;
+  return at == reset_at;
+}
+
+/// A RESET that comes straight behind a call, where the stack is as empty as the start-up code made it:
+/// the address of what was called; 0: it is none.
+unsigned Endings::called_main(unsigned reset_at) const {
+  unsigned behind = reset_at;
+  while (behind > 2 && does_nothing(program_.read(behind - 2)) && !places_.call_before(behind)) behind -= 2;
+  const unsigned call = places_.call_before(behind);
+  if (call == 0) return 0;
+  const std::uint32_t word = program_.read(call);
+  const dspic::Row* row = dspic::find_row(word);
+  if (!row) return 0;
+  const dspic::Fields f = dspic::fields_of(*row, word);
+  unsigned to = 0;
+  if (row->id == dspic::Insn::Call_Expr)
+    to = (program_.read(call + 2) & 0x7F) << 16 | f.n << 1;
+  else if (row->id == dspic::Insn::Rcall_Expr)
+    to = (call + 2 + 2 * static_cast<unsigned>(dspic::sign_extend(f.n, 16))) & 0x7FFFFE;
+  if (to == 0) return 0;
+  if (const auto* main_function = file_.code.function_named("main"))
+    return main_function->begin == to ? to : 0;
+  // without names: the code before sets the stack's limit, and its pointer to what it is now
+  bool has_limit = false;
+  for (unsigned at = call; at >= 2 && at + kLongestStart > call; at -= 2) {
+    const std::uint32_t before = program_.read(at - 2);
+    has_limit |= (before & 0xFFFFF0) == kSetsLimit;
+    if ((before & 0xF0000F) == (0x200000 | kStackPointer))
+      return has_limit && (before >> 4 & 0xFFFF) == processor_.w(kStackPointer) ? to : 0;
+    if (before == kReturn) break;
+  }
+  return 0;
+}
+
+Ending Endings::of_trap(Trap trap, const std::string& then) const {
+  Ending ending{kind_of(trap), dspic::vector_name(static_cast<int>(trap)), "", processor_.pc()};
+  if (noted_.trap == trap) {
+    ending.place = noted_.place;
+    if (noted_.overflows) trap = Trap::StackError;
+    ending.kind = kind_of(trap);
+  }
+  const host::Place place = places_.place_of(ending.place);
+  switch (trap) {
+    case Trap::StackError:
+      ending.message = "stack overflow in " +
+                       (place.function == "?" ? places_.text_of(ending.place) : place.function + "()");
+      break;
+    case Trap::MathError:
+      ending.message = "division by zero, or an overflow of an accumulator";
+      break;
+    case Trap::AddressError:
+      ending.message = "an access to an address that is not there, or to a word at an odd one";
+      break;
+    default:
+      ending.message = "the oscillator failed";
+  }
+  ending.message += "; " + then;
+  return ending;
+}
+
+/// A function of the program whose name is nearly that of a handler.
+std::string Endings::handler_like(const std::string& wanted) const {
+  std::vector<std::string> names;
+  for (const auto& function : file_.code.functions)
+    if (!is_vector(function.name) && function.name != "_DefaultInterrupt" && function.name[0] == '_')
+      names.push_back(function.name);
+  return sim::did_you_mean(wanted, names);
+}
+
+Ending Endings::of_interrupt(int vector, unsigned place) const {
+  const std::string name = dspic::vector_name(vector), wanted = handler_of(vector);
+  Ending ending{TP_TRAP_INTERRUPT, name, "", place};
+  if (vector < dspic::kFirstIrqVector) ending.kind = kind_of(static_cast<Trap>(vector));
+  ending.message = (vector < dspic::kFirstIrqVector ? "the trap " + name + " came"
+                                                    : "the interrupt of " + name + " is enabled") +
+                   ", but the program has no " + wanted + "(), so the processor resets";
+  const auto [meant, is_new] = meant_.emplace(vector, "");
+  if (is_new) meant->second = handler_like(wanted);
+  if (!meant->second.empty()) ending.message += "; is " + meant->second + "() meant for it?";
+  return ending;
+}
+
+}  // namespace chip

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: MIT
+#include "hal_sim/chip/library_calls.h"
+
+#include <algorithm>
+
+#include "hal_sim/board/epuck_params.h"
+
+namespace chip {
+
+namespace {
+
+constexpr Cycle kSpeedGrace =
+    board::kFcyHz / 10;  // a speed may be set a little before the motors are started
+constexpr Cycle kStandsStill = 10 * board::kFcyHz, kLookEvery = board::kFcyHz;
+constexpr int kMaxSpeed = 1000;  // steps/s [lib: motor_led/e_epuck_ports.h]
+constexpr int kAllLeds = 8, kProximity = 8, kAxes = 3, kMicrophones = 3;
+constexpr unsigned kAdcon1 = dspic::sfr("ADCON1"), kAdon = 0x8000;
+constexpr const char* kForms[] = {"", "tpbasic_", "tptimer3_", "tpfast_", "tpt2_"};  // cc/driver_variants.cpp
+
+}  // namespace
+
+enum class LibraryCalls::Function : std::uint8_t {
+  InitMotors,
+  StartAgendas,
+  StartScan,
+  SpeedLeft,
+  SpeedRight,
+  Speed,
+  Proximity,
+  Acceleration,
+  Microphone,
+  Led,
+  ActivateAgenda,
+  SetAgendaCycle,
+};
+
+struct LibraryCalls::Known {
+  const char* name;
+  Function function;
+};
+
+bool LibraryCalls::starts(Function f) { return f <= Function::StartScan; }
+
+const LibraryCalls::Known LibraryCalls::kKnown[] = {
+    {"e_init_motors", Function::InitMotors},
+    {"e_start_agendas_processing", Function::StartAgendas},
+    {"e_init_ad_scan", Function::StartScan},
+    {"e_set_speed_left", Function::SpeedLeft},
+    {"e_set_speed_right", Function::SpeedRight},
+    {"e_set_speed", Function::Speed},
+    {"e_get_prox", Function::Proximity},
+    {"e_get_ambient_light", Function::Proximity},
+    {"e_get_calibrated_prox", Function::Proximity},
+    {"e_get_acc", Function::Acceleration},
+    {"e_get_acc_filtered", Function::Acceleration},
+    {"e_get_micro", Function::Microphone},
+    {"e_get_micro_average", Function::Microphone},
+    {"e_get_micro_volume", Function::Microphone},
+    {"e_set_led", Function::Led},
+    {"e_activate_agenda", Function::ActivateAgenda},
+    {"e_set_agenda_cycle", Function::SetAgendaCycle},
+};
+
+LibraryCalls::LibraryCalls(const dspic::FirmwareFile& file, const dspic::Processor& processor,
+                           const ProgramPlaces& places, SolderedChip& chip, const board::Board& board)
+    : processor_(processor), places_(places), chip_(chip), board_(board) {
+  // a program's own function of such a name is its own affair, where lines tell; but it starts what it says
+  for (const Known& known : kKnown)
+    for (const char* form : kForms) {
+      const auto found = file.functions.find(std::string(form) + known.name);
+      if (found == file.functions.end()) continue;
+      if (!starts(known.function) && !file.code.lines.empty() && places_.is_own(found->second)) continue;
+      sites_[found->second] = {&known, form};
+    }
+  for (const char* name : {"run_left_motor", "run_right_motor"})
+    if (const auto found = file.functions.find(name); found != file.functions.end())
+      motors_.insert(found->second);
+}
+
+std::vector<std::uint32_t> LibraryCalls::addresses() const {
+  std::vector<std::uint32_t> all;
+  for (const auto& [address, site] : sites_) all.push_back(address);
+  return all;
+}
+
+void LibraryCalls::forget_starts() {
+  look(processor_.now());
+  started_.clear();
+  wheels_ = {};
+  first_speed_ = -1;
+  idle_agendas_.clear();
+}
+
+// --- what a call says
+// ---------------------------------------------------------------------------------------
+
+void LibraryCalls::entered(unsigned address) {
+  const auto found = sites_.find(address);
+  if (found == sites_.end()) return;
+  const Site& site = found->second;
+  const auto signed_w = [this](int n) {
+    return static_cast<int>(static_cast<std::int16_t>(processor_.w(n)));
+  };
+  const auto index = [&](const char* what, int count) {
+    if (processor_.w(0) >= count)
+      note_range(site, what, processor_.w(0), 0, count - 1, "what lies behind the array is read");
+  };
+  const auto scanned = [&] {
+    if (!site.prefix.empty() || started_.count(Function::StartScan)) return;
+    if (chip_.device().peek(kAdcon1, chip_.latest()) & kAdon) return;  // started by other means
+    note("sensors not started", "e_init_ad_scan()",
+         std::string(site.known->name) +
+             "() reads what no scan has written, for e_init_ad_scan() was not called",
+         "call e_init_ad_scan(ALL_ADC) before the loop");
+  };
+  switch (site.known->function) {
+    case Function::SpeedLeft:
+      return set_speed(site, 0, signed_w(0));
+    case Function::SpeedRight:
+      return set_speed(site, 1, signed_w(0));
+    case Function::Speed: {
+      const int all = std::abs(signed_w(0)) + std::abs(signed_w(1));
+      if (all > kMaxSpeed)
+        note("speed out of range", "e_set_speed()",
+             "got " + std::to_string(signed_w(0)) + " and " + std::to_string(signed_w(1)) +
+                 " steps/s, expected magnitudes of together at most " + std::to_string(kMaxSpeed) +
+                 "; the library leaves the speed as it is",
+             "the motors are not faster");
+      return;
+    }
+    case Function::Proximity:
+      index("sensor", kProximity);
+      return scanned();
+    case Function::Acceleration:
+      if (!site.prefix.empty()) return;
+      index("axis", kAxes);
+      return scanned();
+    case Function::Microphone:
+      if (!site.prefix.empty()) return;
+      index("microphone", kMicrophones);
+      return scanned();
+    case Function::Led:
+      if (processor_.w(0) > kAllLeds)
+        note("LED out of range", "e_set_led()",
+             "got LED " + std::to_string(processor_.w(0)) +
+                 ", expected 0 to 7, or 8 for all; the library sets all eight",
+             "count from 0; body and front have functions of their own");
+      return;
+    case Function::ActivateAgenda:
+      return activate_agenda(site);
+    case Function::SetAgendaCycle:
+      if (processor_.w(1) != 0) idle_agendas_.erase(processor_.w(0));
+      return;
+    default:
+      started_.insert(site.known->function);
+  }
+}
+
+void LibraryCalls::set_speed(const Site& site, int wheel, int speed) {
+  Wheel& w = wheels_[static_cast<std::size_t>(wheel)];
+  const Cycle now = processor_.now();
+  if (speed > kMaxSpeed || speed < -kMaxSpeed)
+    note(std::string("speed out of range ") + (wheel == 0 ? "left" : "right"),
+         std::string(site.known->name) + "()",
+         "got " + std::to_string(speed) + " steps/s, expected -" + std::to_string(kMaxSpeed) + " to " +
+             std::to_string(kMaxSpeed) + "; the library takes the nearest of these",
+         "the motors are not faster");
+  if (speed != 0 && w.speed == 0) {
+    w.since = now;
+    w.steps = steps_of(wheel, now);
+    w.place = places_.own(places_.caller());
+    if (is_of_agendas(site) && first_speed_ < 0) {
+      first_speed_ = now;
+      first_speed_at_ = w.place;
+      first_steps_ = steps_of(0, now) + steps_of(1, now);
+    }
+  }
+  if (speed == 0) look(now);
+  w.speed = speed;
+}
+
+void LibraryCalls::activate_agenda(const Site& site) {
+  const unsigned function = processor_.w(0), cycle = processor_.w(1);
+  if (function == 0)
+    note("agenda without a function", "e_activate_agenda()",
+         "got a null pointer, expected a function: the first tick calls address 0, and the program begins "
+         "anew",
+         "name the function");
+  if (cycle != 0 || !site.prefix.empty() || motors_.count(function)) return;
+  board::Diagnosis& idle = idle_agendas_[function];
+  if (!idle.cause.empty()) return;
+  idle = {"agenda without a period",
+          "e_activate_agenda()",
+          "got cycle 0, expected 1 to 65535 (0.1 ms each): the agenda's function is never called" + where(),
+          "give it a cycle, now or with e_set_agenda_cycle()",
+          processor_.now(),
+          0,
+          1};
+}
+
+// --- standing still
+// -----------------------------------------------------------------------------------------
+
+std::int64_t LibraryCalls::steps_of(int wheel, Cycle now) const {
+  return wheel == 0 ? board_.left_steps(now) : board_.right_steps(now);
+}
+
+void LibraryCalls::look(Cycle now) {
+  next_look_ = now + kLookEvery;
+  for (int wheel = 0; wheel < 2; ++wheel) {
+    Wheel& w = wheels_[static_cast<std::size_t>(wheel)];
+    if (w.speed == 0) continue;
+    const std::int64_t steps = steps_of(wheel, now);
+    if (steps != w.steps) {
+      w.steps = steps;
+      w.since = now;
+    } else if (now - w.since >= kStandsStill) {
+      const std::string side = wheel == 0 ? "left" : "right";
+      const std::string place = "e_set_speed_" + side + "()";
+      const bool is_told = std::any_of(diagnoses_.begin(), diagnoses_.end(), [&](const board::Diagnosis& d) {
+        return d.cause == "wheel stands" && d.place == place;
+      });
+      if (!is_told)
+        diagnoses_.push_back({"wheel stands", place,
+                              "the " + side + " wheel was given " + std::to_string(w.speed) +
+                                  " steps/s, and has not turned for 10 s; set at " + places_.text_of(w.place),
+                              "see that e_init_port() and e_init_motors() were called, that the timer of the "
+                              "motors runs, and that nothing holds its interrupt off",
+                              w.since, 0, 1});
+    }
+  }
+}
+
+std::vector<board::Diagnosis> LibraryCalls::diagnoses(Cycle now) const {
+  std::vector<board::Diagnosis> all = diagnoses_;
+  for (const auto& [function, idle] : idle_agendas_) all.push_back(idle);
+  if (first_speed_ < 0 || now - first_speed_ < kSpeedGrace) return all;
+  if (steps_of(0, now) + steps_of(1, now) != first_steps_) return all;  // started by other means
+  for (const auto& [start, name] : {std::pair{Function::InitMotors, "e_init_motors()"},
+                                    std::pair{Function::StartAgendas, "e_start_agendas_processing()"}}) {
+    if (started_.count(start)) continue;
+    all.push_back({"motors stand", name,
+                   "speed set, but " + std::string(name) + " was never called: no motor turns; set at " +
+                       places_.text_of(first_speed_at_),
+                   "call " + std::string(name) + " before the loop", first_speed_, 0, 1});
+    break;
+  }
+  return all;
+}
+
+// --- telling
+// ------------------------------------------------------------------------------------------------
+
+std::string LibraryCalls::where() const {
+  return "; called at " + places_.text_of(places_.own(places_.caller()));
+}
+
+void LibraryCalls::note_range(const Site& site, const std::string& what, int got, int least, int most,
+                              const std::string& then) {
+  note(what + " out of range", std::string(site.known->name) + "()",
+       "got " + what + " " + std::to_string(got) + ", expected " + std::to_string(least) + " to " +
+           std::to_string(most) + "; " + then,
+       "count from 0");
+}
+
+void LibraryCalls::note(const std::string& cause, const std::string& place, const std::string& message,
+                        const std::string& hint) {
+  for (board::Diagnosis& known : diagnoses_)
+    if (known.cause == cause && known.place == place) {
+      ++known.count;
+      return;
+    }
+  diagnoses_.push_back({cause, place, message + where(), hint, processor_.now(), 0, 1});
+}
+
+}  // namespace chip

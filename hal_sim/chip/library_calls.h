@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// What a program makes of the e-puck library, seen where its functions begin: arguments out of range, what
+// was never started, a speed that moves nothing. Functions are known by the image's symbols (also of the
+// other forms of a driver, whose labels our headers give a prefix), so images without symbols are not
+// watched. A call that is right costs the PC a look; nothing else in the program does, and nothing of its
+// course changes.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "dspic30/load/firmware_file.h"
+#include "hal_sim/board/board.h"
+#include "hal_sim/chip/program_places.h"
+
+namespace chip {
+
+class LibraryCalls final {
+ public:
+  /// All of them outlive this.
+  LibraryCalls(const dspic::FirmwareFile& file, const dspic::Processor& processor,
+               const ProgramPlaces& places, SolderedChip& chip, const board::Board& board);
+
+  /// Functions that this wants to hear of.
+  std::vector<std::uint32_t> addresses() const;
+  /// The function at `address` begins.
+  void entered(unsigned address);
+  /// A reset, or a jump to address 0: everything is to be started again.
+  void forget_starts();
+  /// To be called from time to time, at least each second: does the robot stand?
+  void look(Cycle now);
+  /// The next look is due then.
+  Cycle next_look() const { return next_look_; }
+  std::vector<board::Diagnosis> diagnoses(Cycle now) const;
+
+ private:
+  enum class Function : std::uint8_t;
+  struct Known;
+  static const Known kKnown[];
+  struct Site {
+    const Known* known = nullptr;
+    std::string prefix;  // of the form of the driver
+  };
+  struct Wheel {
+    int speed = 0;           // steps/s, as asked for
+    Cycle since = 0;         // when it began to be other than 0, or the wheel was last seen to turn
+    std::int64_t steps = 0;  // at that time
+    unsigned place = 0;      // of the call that set it
+  };
+
+  void note(const std::string& cause, const std::string& place, const std::string& message,
+            const std::string& hint);
+  void note_range(const Site& site, const std::string& what, int got, int least, int most,
+                  const std::string& then);
+  static bool starts(Function f);
+  void set_speed(const Site& site, int wheel, int speed);
+  void activate_agenda(const Site& site);
+  bool is_of_agendas(const Site& site) const { return site.prefix.empty(); }
+  std::int64_t steps_of(int wheel, Cycle now) const;
+  std::string where() const;
+
+  const dspic::Processor& processor_;
+  const ProgramPlaces& places_;
+  SolderedChip& chip_;
+  const board::Board& board_;
+  std::map<unsigned, Site> sites_;
+  std::set<unsigned> motors_;  // the library's own agendas
+  std::set<Function> started_;
+  std::array<Wheel, 2> wheels_;
+  Cycle first_speed_ = -1;  // of one that agendas shall turn into steps
+  unsigned first_speed_at_ = 0;
+  std::int64_t first_steps_ = 0;                       // of both wheels, then
+  std::map<unsigned, board::Diagnosis> idle_agendas_;  // by function, until they get a period
+  std::vector<board::Diagnosis> diagnoses_;
+  Cycle next_look_ = 0;
+};
+
+}  // namespace chip

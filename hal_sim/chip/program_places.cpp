@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include "hal_sim/chip/program_places.h"
+
+#include <algorithm>
+#include <map>
+
+#include "dspic30/core/instruction_table.h"
+
+namespace chip {
+
+namespace {
+
+constexpr unsigned kTable = 0x04, kAlternateTable = 0x84, kAltivt = 0x8000, kVectorMask = 0x3F;
+constexpr unsigned kInttregAddress = dspic::sfr("INTTREG");
+constexpr unsigned kIntcon2 = dspic::sfr("INTCON2");
+constexpr int kSharedByMany = 3;          // vectors: it is the default handler
+constexpr unsigned kDeepestLook = 0x400;  // bytes of stack
+// CALL lit23, RCALL, CALL Wn and RCALL Wn [chip C4]
+constexpr bool is_call(std::uint32_t word) { return (word & 0xFF0001) == 0x020000; }
+constexpr bool is_short_call(std::uint32_t word) {
+  return (word & 0xFF0000) == 0x070000 || (word & 0xFFFFF0) == 0x010000 || (word & 0xFFFFF0) == 0x010200;
+}
+
+bool is_of_library(const std::string& file) {
+  for (const char* room : {"hal_dspic/", "hal_sim/cc/", "firmware/library/", "firmware/include/"})
+    if (file.find(room) != std::string::npos) return true;
+  return false;
+}
+
+}  // namespace
+
+std::string handler_of(int vector) {
+  return std::string("_") + dspic::vector_name(vector) + (vector < dspic::kFirstIrqVector ? "" : "Interrupt");
+}
+
+ProgramPlaces::ProgramPlaces(const dspic::FirmwareFile& file, const dspic::ProgramMemory& program,
+                             const dspic::Processor& processor, SolderedChip& chip)
+    : file_(file), program_(program), processor_(processor), chip_(chip) {
+  std::map<unsigned, int> users;
+  for (int v = 1; v < dspic::kVectors; ++v) {
+    const unsigned to = program_.read(kTable + 2 * static_cast<unsigned>(v)) & 0x7FFFFE;
+    if (file_.words.count(to) && ++users[to] >= kSharedByMany && users[to] > users[shared_]) shared_ = to;
+  }
+}
+
+host::Place ProgramPlaces::place_of(unsigned address) const {
+  host::Place place{"?", "", 0};
+  if (const auto* function = file_.code.function_at(address)) place.function = function->name;
+  if (const auto* line = file_.code.line_at(address)) {
+    place.file = file_.code.files[line->file];
+    place.line = line->line;
+  }
+  return place;
+}
+
+bool ProgramPlaces::is_own(unsigned address) const {
+  if (!file_.words.count(address)) return false;
+  if (file_.code.lines.empty()) return true;
+  const auto* line = file_.code.line_at(address);
+  return line && !is_of_library(file_.code.files[line->file]);
+}
+
+unsigned ProgramPlaces::stack_word(unsigned address) const {
+  if (address < dspic::Processor::kRamStart || address + 1 >= dspic::Processor::kRamEnd) return 0;
+  return processor_.ram(address) | static_cast<unsigned>(processor_.ram(address + 1)) << 8;
+}
+
+unsigned ProgramPlaces::call_before(unsigned address) const {
+  if (address % 2 || address < 4 || !file_.words.count(address - 2)) return 0;
+  if (is_short_call(program_.read(address - 2))) return address - 2;
+  return is_call(program_.read(address - 4)) ? address - 4 : 0;
+}
+
+bool ProgramPlaces::is_handler_code(unsigned address) const {
+  const auto* function = file_.code.function_at(address);
+  for (int v = 1; function && v < dspic::kVectors; ++v)
+    if (handler(v) == function->begin) return true;
+  return false;
+}
+
+// return addresses are looked for from the top of the stack down, to the frame of an interrupt: what that cut
+// off has nothing to do with it
+unsigned ProgramPlaces::own(unsigned address, unsigned stack) const {
+  if (is_own(address) || is_handler_code(address)) return address;
+  unsigned at = std::min(stack, dspic::Processor::kRamEnd) & ~1u;
+  const unsigned end = std::max(at, kDeepestLook) - kDeepestLook;
+  for (; at >= dspic::Processor::kRamStart + 4 && at > end; at -= 2) {
+    const unsigned high = stack_word(at - 2);
+    const unsigned call = high <= 0x7F ? call_before(high << 16 | stack_word(at - 4)) : 0;
+    if (call == 0) continue;
+    if (is_own(call)) return last_jump(call, address);
+    if (is_handler_code(call)) break;
+  }
+  return address;
+}
+
+/// A function may end in a jump to the next one, which leaves nothing on the stack: the jump to the function
+/// of `to` in the one that is called at `call`, if that is the program's own; else `call`.
+unsigned ProgramPlaces::last_jump(unsigned call, unsigned to) const {
+  const auto target = [this](unsigned at) -> unsigned {
+    const dspic::Row* row = dspic::find_row(program_.read(at));
+    if (!row) return 0;
+    const dspic::Fields f = dspic::fields_of(*row, program_.read(at));
+    if (row->id == dspic::Insn::Call_Expr || row->id == dspic::Insn::Goto_Expr)
+      return (program_.read(at + 2) & 0x7F) << 16 | f.n << 1;
+    if (row->id == dspic::Insn::Rcall_Expr || row->id == dspic::Insn::Bra_Expr)
+      return (at + 2 + 2 * static_cast<unsigned>(dspic::sign_extend(f.n, 16))) & 0x7FFFFE;
+    return 0;
+  };
+  const unsigned called = target(call);
+  const auto *between = called ? file_.code.function_at(called) : nullptr, *end = file_.code.function_at(to);
+  if (!between || !end || between == end || !is_own(called)) return call;
+  for (unsigned at = between->begin; at < between->end; at += 2)
+    if (target(at) == end->begin && is_own(at)) return at;
+  return call;
+}
+
+unsigned ProgramPlaces::caller() const {
+  const unsigned stack = processor_.w(15);
+  return call_before((stack_word(stack - 2) & 0x7F) << 16 | stack_word(stack - 4));
+}
+
+unsigned ProgramPlaces::handler(int vector) const {
+  const bool alternate = (chip_.device().peek(kIntcon2, chip_.latest()) & kAltivt) != 0;
+  return program_.read((alternate ? kAlternateTable : kTable) + 2 * static_cast<unsigned>(vector)) & 0x7FFFFE;
+}
+
+bool ProgramPlaces::has_handler(int vector) const {
+  const unsigned to = handler(vector);
+  return to != shared_ && file_.words.count(to) != 0;
+}
+
+int ProgramPlaces::open_vector() const {
+  if (chip_.device().nesting() == 0) return dspic::kNoVector;
+  return chip_.device().peek(kInttregAddress, chip_.latest()) & kVectorMask;
+}
+
+std::string ProgramPlaces::who_runs() const {
+  const unsigned here = processor_.pc_of_access(), own_code = own(here);
+  const int vector = open_vector();
+  std::string text = "; meanwhile " + text_of(own_code) + " ran";
+  if (vector == dspic::kNoVector) return text + " with the interrupt masked";
+  const auto* function = file_.code.function_at(own_code);
+  const bool is_handler = function && function->begin == handler(vector);
+  return text + (is_handler ? "" : ", called by the handler of " + std::string(dspic::vector_name(vector)));
+}
+
+}  // namespace chip

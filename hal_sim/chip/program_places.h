@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// Where in the program's own text something that the chip noticed comes from: the function and line that a
+// student wrote, not the library's or the start-up code's. By the image's lines; what calls led there is read
+// from the stack, where each return address stands behind a call. Looks only, and only when asked.
+#pragma once
+#include <cstdint>
+#include <string>
+
+#include "dspic30/core/processor.h"
+#include "dspic30/load/firmware_file.h"
+#include "hal_sim/chip/soldered_chip.h"
+#include "hal_sim/host/runner.h"
+
+namespace chip {
+
+class ProgramPlaces final {
+ public:
+  /// All of them outlive this.
+  ProgramPlaces(const dspic::FirmwareFile& file, const dspic::ProgramMemory& program,
+                const dspic::Processor& processor, SolderedChip& chip);
+
+  /// Function, file and line of an instruction; "?" where there is none.
+  host::Place place_of(unsigned address) const;
+  /// "control() (main.c:98)" as far as known.
+  std::string text_of(unsigned address) const { return file_.code.describe(address); }
+  /// Of the instruction at `address`, or of the call that led to it: the innermost one that is the program's
+  /// own. `stack`: W15. The instruction itself, where nothing is.
+  unsigned own(unsigned address, unsigned stack) const;
+  unsigned own(unsigned address) const { return own(address, processor_.w(15)); }
+  /// The call whose return address lies on the stack last, as at a function's first instruction; 0: none.
+  unsigned caller() const;
+  bool is_own(unsigned address) const;
+  /// Where a vector leads.
+  unsigned handler(int vector) const;
+  /// Does the handler of `vector` belong to it alone?
+  bool has_handler(int vector) const;
+  /// The vector whose handler runs, the innermost; kNoVector: none.
+  int open_vector() const;
+  /// "; meanwhile f() (main.c:12) ran, called by the handler of T2": who has the processor now.
+  std::string who_runs() const;
+  /// A word of RAM; 0 where there is none.
+  unsigned stack_word(unsigned address) const;
+  /// The call that stands in front of an address; 0: there is none.
+  unsigned call_before(unsigned address) const;
+
+ private:
+  unsigned last_jump(unsigned call, unsigned to) const;
+  bool is_handler_code(unsigned address) const;
+
+  const dspic::FirmwareFile& file_;
+  const dspic::ProgramMemory& program_;
+  const dspic::Processor& processor_;
+  SolderedChip& chip_;
+  unsigned shared_ = 0;  // what many vectors lead to: the default handler; 0: nothing
+};
+
+/// "__T1Interrupt"'s name in C: "_T1Interrupt", "_MathError".
+std::string handler_of(int vector);
+
+}  // namespace chip

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+// Why programs began anew, told by structure alone: images without symbols, as other tools make them.
+#include "tests/chip/chip_fixture.h"
+
+namespace {
+
+using firmware_test::Robot;
+
+// what XC16's start-up code does: stack, a call, main(), a word that stops a debugger, RESET
+const std::string kStart = R"(
+__reset: mov #__SP_init, w15
+    mov #__SPLIM_init, w0
+    mov w0, SPLIM
+    nop
+    rcall prepare
+    call _main
+    .pword 0xDA4000
+    reset
+prepare: return
+)";
+const std::string kDefault = R"(
+__DefaultInterrupt: .pword 0xDA4000
+    reset
+)";
+// Timer 1, its interrupt enabled, after a millisecond
+const std::string kTimer = R"(
+    mov #14745, w0
+    mov w0, PR1
+    bset IEC0, #3
+    bset T1CON, #15
+)";
+
+struct Case {
+  const char* what;
+  std::string text;
+  const char* vector;   // null: silence
+  const char* message;  // part of it
+  const char* function = nullptr;
+};
+
+class Endings : public chip_test::ChipTest {
+ protected:
+  static std::vector<host::TrapReport> traps_of(const std::string& text) {
+    struct One : Endings {
+      void TestBody() override {}
+      std::vector<host::TrapReport> run(const std::string& program) {
+        Robot& robot = add_robot(hex(program));
+        run_for(0.05);
+        return robot.traps();
+      }
+    } one;
+    return one.run(text);
+  }
+};
+
+TEST_F(Endings, resets_that_nobody_asked_for_are_told_with_vector_and_place) {
+  const Case cases[] = {
+      {"an interrupt without a handler", kStart + "_main:" + kTimer + "1: bra 1b\n" + kDefault, "T1",
+       "the program has no _T1Interrupt()", "sub_"},
+      {"a trap without a handler", kStart + "_main: mov #0x1235, w1\n mov [w1], w2\n1: bra 1b\n" + kDefault,
+       "AddressError", "the program has no _AddressError()", "sub_"},
+      {"a division by zero",
+       kStart + "_main: clr w2\n mov #5, w0\n repeat #17\n div.s w0, w2\n1: bra 1b\n" + kDefault, "MathError",
+       "division by zero", "sub_"},
+      {"main() returns", kStart + "_main: nop\n nop\n return\n" + kDefault, "Reset", "main() returned",
+       "sub_"},
+      {"a call through a null pointer", kStart + "_main: clr w1\n call w1\n1: bra 1b\n" + kDefault, "Reset",
+       "call through a null pointer", "sub_"},
+      {"a jump through a null pointer", kStart + "_main: clr w1\n goto w1\n" + kDefault, "Reset",
+       "call through a null pointer", "sub_"},
+      {"a stack that was overwritten",
+       kStart +
+           "_main: rcall f\n1: bra 1b\nf: clr [--w15]\n clr [--w15]\n inc2 w15, w15\n inc2 w15, w15\n "
+           "return\n" +
+           kDefault,
+       "Reset", "a return to address 0", "sub_"},
+      {"an illegal opcode", kStart + "_main: .pword 0x018001\n" + kDefault, "Reset", "illegal opcode",
+       "sub_"},
+      {"a register that nobody wrote", kStart + "_main: mov [w9], w1\n" + kDefault, "Reset", "never written",
+       "sub_"},
+      {"a stack without end", kStart + "_main: push w0\n bra _main\n" + kDefault, "StackError",
+       "stack overflow", "sub_"},
+      {"an interrupt whose vector is empty", kStart + "_main:" + kTimer + "1: bra 1b\n", "T1",
+       "the program has no _T1Interrupt()"},
+      {"a bootloader before it, as far as the stack says",
+       "__reset: mov #0x900, w15\n goto start\n"
+       "start: mov #__SP_init, w15\n mov #__SPLIM_init, w0\n mov w0, SPLIM\n nop\n call _main\n "
+       "reset\n_main: return\n" +
+           kDefault,
+       "Reset", "main() returned"},
+
+      {"RESET in main()", kStart + "_main: btss RCON, #SWR\n reset\n1: bra 1b\n" + kDefault, nullptr, ""},
+      {"RESET behind a call in main()",
+       kStart + "_main: rcall prepare\n btss RCON, #SWR\n bra 2f\n1: bra 1b\n2: call prepare\n reset\n" +
+           kDefault,
+       nullptr, ""},
+      {"a bootloader that has done its work",
+       "__reset: mov #__SP_init, w15\n btsc RCON, #SWR\n1: bra 1b\n rcall write_row\n"
+       " reset\nwrite_row: return\n" +
+           kDefault,
+       nullptr, ""},
+      {"RESET in a handler of its own",
+       kStart + "_main: btsc RCON, #SWR\n1: bra 1b\n" + kTimer + "2: bra 2b\n" + kDefault +
+           "__T1Interrupt: reset\n",
+       nullptr, ""},
+      {"a jump to the start by its address",
+       kStart + "_main: btsc RCON, #SWR\n1: bra 1b\n bset RCON, #SWR\n goto 0\n" + kDefault, nullptr, ""},
+      {"a trap with a handler that ends it",
+       kStart + "_main: clr w2\n mov #5, w0\n repeat #17\n div.s w0, w2\n1: bra 1b\n" + kDefault +
+           "__MathError: clr INTCON1\n mov #7, w2\n retfie\n",
+       nullptr, ""},
+  };
+  for (const Case& c : cases) {
+    SCOPED_TRACE(c.what);
+    const auto traps = traps_of(c.text);
+    ASSERT_EQ(traps.size(), c.vector ? 1u : 0u) << (traps.empty() ? "" : traps[0].message);
+    if (!c.vector) continue;
+    EXPECT_EQ(traps[0].vector, c.vector) << traps[0].message;
+    EXPECT_NE(traps[0].message.find(c.message), std::string::npos) << traps[0].message;
+    if (c.function) {
+      EXPECT_NE(traps[0].place.function.find(c.function), std::string::npos) << traps[0].place.function;
+    }
+    EXPECT_GT(traps[0].cycle, 0);
+    EXPECT_GE(traps[0].count, 2) << "the program begins anew again and again";
+  }
+}
+
+// ten thousand resets a second are one line with a count, also where two alternate
+TEST_F(Endings, what_comes_again_is_counted) {
+  const auto traps = traps_of(kStart + R"(
+_main: btg 0x900, #0
+    btsc 0x900, #0
+    bra 1f
+    clr w2
+    call w2
+1:  .pword 0x018001
+)" + kDefault);
+  ASSERT_EQ(traps.size(), 2u);
+  EXPECT_GT(traps[0].count, 100);
+  EXPECT_GT(traps[1].count, 100);
+}
+
+// whoever looks changes nothing: a program whose functions are watched takes the same course
+TEST_F(Endings, functions_that_are_watched_run_as_they_would) {
+  const std::string text = kStart + R"(
+_main: mov #100, w1
+1:  mov w1, w0
+    call _e_set_led
+    dec w1, w1
+    bra nz, 1b
+    bra _main
+_e_set_led: inc 0x900
+    add w0, w1, w2
+    xor w2, w3, w3
+    mov w3, 0x902
+    return
+)" + kDefault;
+  dspic::FirmwareFile plain = with_labels(text), watched = plain;
+  plain.functions.clear();
+  std::uint64_t hashes[2];
+  int i = 0;
+  for (const dspic::FirmwareFile& file : {plain, watched}) {
+    board::Setup setup;
+    board::Board board(setup);
+    chip::ChipRunner runner("puck", std::make_shared<dspic::FirmwareFile>(file), 1, board);
+    runner.begin_window(0);
+    runner.run_until(3000000);
+    hashes[i++] = runner.hash();
+    if (i == 1) {
+      EXPECT_TRUE(runner.diagnoses().empty());
+    } else {
+      ASSERT_FALSE(runner.diagnoses().empty());
+      EXPECT_EQ(runner.diagnoses()[0].cause, "LED out of range");
+      EXPECT_GT(runner.diagnoses()[0].count, 1000);
+    }
+  }
+  EXPECT_EQ(hashes[0], hashes[1]);
+}
+
+}  // namespace
