@@ -17,7 +17,7 @@
 
 #define STEPS_PER_RAD (WEBOTS_WHEEL_STEPS / (2 * WEBOTS_PI))
 #define USUAL_SPEED_UNIT 0.00628f /* rad/s: 1000 is a turn a second [Webots: e-puck of versions 6 to 8] */
-#define WATCH_TICKS 200           /* of 0.1 ms */
+#define WATCH_TICKS 100           /* of 0.1 ms, for one wheel after the other */
 #define GAIN 10                   /* steps/s for each step that is missing [Webots: Motor.controlPID] */
 
 struct wheel {
@@ -28,10 +28,15 @@ struct wheel {
   float velocity;   /* rad/s, of position control the most */
   float target;     /* rad; infinite: none */
   long target_steps;
+  int most;              /* steps/s, of velocity */
+  unsigned char is_free; /* there is no target */
 };
 
-static struct wheel wheels[2] = {{0, 0, 0, 0, WEBOTS_MAX_RAD_S, 0, 0}, {0, 0, 0, 0, WEBOTS_MAX_RAD_S, 0, 0}};
+#define MOST_STEPS_S 1000 /* WEBOTS_MAX_RAD_S */
+static struct wheel wheels[2] = {{0, 0, 0, 0, WEBOTS_MAX_RAD_S, 0, 0, MOST_STEPS_S, 0},
+                                 {0, 0, 0, 0, WEBOTS_MAX_RAD_S, 0, 0, MOST_STEPS_S, 0}};
 static unsigned char watching; /* the agenda runs */
+static unsigned char watched;  /* the wheel whose turn it is */
 
 /* repeating a speed would restart the motor's half step: only what changes is told */
 static void command(int wheel, int steps_s) {
@@ -52,25 +57,33 @@ static void count(int wheel) {
 
 static int to_steps_s(float rad_s) { return (int)(rad_s * STEPS_PER_RAD + (rad_s < 0 ? -0.5f : 0.5f)); }
 
+static void set_velocity(struct wheel* w, float rad_s) {
+  w->velocity = rad_s;
+  w->most = to_steps_s(fabsf(rad_s));
+}
+
+/* integers alone: this runs in an agenda, and the converter's next frame comes within 60 us */
 static void approach(int wheel) {
   struct wheel* w = &wheels[wheel];
-  long missing = w->target_steps - w->steps, most = to_steps_s(fabsf(w->velocity)), speed;
-  if (isinf(w->target)) return;
-  speed = missing > 3000 ? 30000 : missing < -3000 ? -30000 : missing * GAIN;
-  if (speed > most) speed = most;
-  if (speed < -most) speed = -most;
+  long missing;
+  int speed, change, tenth;
+  if (w->is_free) return;
+  missing = w->target_steps - w->steps;
+  speed = missing > 200 ? 200 * GAIN : missing < -200 ? -200 * GAIN : (int)missing * GAIN;
+  if (speed > w->most) speed = w->most;
+  if (speed < -w->most) speed = -w->most;
+  if (speed == w->command) return;
   /* near the target each step would bring another speed; a tenth is near enough */
-  if (speed != 0 && w->command != 0 && (speed > 0) == (w->command > 0) &&
-      labs(speed - w->command) * 10 < labs((long)w->command))
-    return;
-  command(wheel, (int)speed);
+  change = speed > w->command ? speed - w->command : w->command - speed;
+  tenth = w->command < 0 ? -w->command : w->command;
+  if (speed != 0 && (speed > 0) == (w->command > 0) && change * 10 < tenth) return;
+  command(wheel, speed);
 }
 
 static void watch(void) {
-  count(0);
-  count(1);
-  approach(0);
-  approach(1);
+  watched ^= 1;
+  count(watched);
+  approach(watched);
 }
 
 void webots_wheels_step(void) {
@@ -100,7 +113,9 @@ static float limited(float rad_s) {
 void webots_wheel_speed(int wheel, float rad_s) {
   if (isnan(rad_s)) return; /* of a sensor that had no value yet */
   wheels[wheel].target = INFINITY;
-  wheels[wheel].speed = wheels[wheel].velocity = limited(rad_s);
+  wheels[wheel].is_free = 1;
+  wheels[wheel].speed = limited(rad_s);
+  set_velocity(&wheels[wheel], wheels[wheel].speed);
   command(wheel, to_steps_s(wheels[wheel].speed));
 }
 
@@ -180,12 +195,13 @@ void wb_motor_set_position(WbDeviceTag tag, double position) {
   if (isinf(position)) {
     float velocity = w->velocity;
     webots_wheel_speed(d->index, position > 0 ? velocity : -velocity);
-    w->velocity = velocity;
+    set_velocity(w, velocity);
     return;
   }
   if (watching) e_pause_agenda(watch);
   w->target = position;
   w->target_steps = (long)(position * STEPS_PER_RAD + (position < 0 ? -0.5f : 0.5f));
+  w->is_free = 0;
   if (!watching) {
     watching = 1;
     e_activate_agenda(watch, WATCH_TICKS);
@@ -211,7 +227,7 @@ void wb_motor_set_velocity(WbDeviceTag tag, double velocity) {
   if (isinf(w->target))
     webots_wheel_speed(d->index, velocity);
   else
-    w->velocity = limited(velocity);
+    set_velocity(w, limited(velocity));
 }
 
 /* steppers start at once and hold what they can */
