@@ -118,6 +118,7 @@ struct MergeFieldReadsPass : PassInfoMixin<MergeFieldReadsPass> {
 /// Values and control flow made plain; with `memory` loads and stores as well.
 void add_tidying(FunctionPassManager& passes, bool memory) {
   passes.addPass(SROAPass());
+  passes.addPass(KeepDivisionsPass());
   passes.addPass(EarlyCSEPass(true));
   passes.addPass(PlainCfgPass());
   passes.addPass(InstCombinePass());
@@ -146,7 +147,10 @@ ModulePassManager passes_for(const Options& options) {
   m.addPass(createModuleToFunctionPassAdaptor(EntryExitInstrumenterPass(/*PostInlining=*/false)));
   m.addPass(AlwaysInlinerPass());
   m.addPass(createModuleToFunctionPassAdaptor(ScalarizerPass()));  // the chip has no vectors
-  if (options.level == 0) return m;
+  if (options.level == 0) {
+    m.addPass(createModuleToFunctionPassAdaptor(KeepPlainDivisionsPass()));
+    return m;
+  }
   FunctionPassManager first, second;
   if (options.level == 1) {
     // before anything is moved: the form of a loop says what XC16 makes of it
@@ -158,6 +162,7 @@ ModulePassManager passes_for(const Options& options) {
   first.addPass(MergeFieldReadsPass());
   m.addPass(createModuleToFunctionPassAdaptor(std::move(first)));
   const bool more = options.level >= 2 && !options.for_size;
+  m.addPass(KeepZeroArgumentsPass());
   m.addPass(ModuleInlinerWrapperPass(getInlineParams(more ? kInlineMore : kInlineFew)));
   m.addPass(GlobalOptPass());
   m.addPass(IPSCCPPass());

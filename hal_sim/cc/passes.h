@@ -58,6 +58,16 @@ void lower_delay_loops(Unit& unit, llvm::FunctionAnalysisManager& analyses);
 struct PlainCfgPass : llvm::PassInfoMixin<PlainCfgPass> {
   llvm::PreservedAnalyses run(llvm::Function& f, llvm::FunctionAnalysisManager& analyses);
 };
+/// Chip: a division that may be by 0 is done, and traps.
+struct KeepDivisionsPass : llvm::PassInfoMixin<KeepDivisionsPass> {
+  llvm::PreservedAnalyses run(llvm::Function& f, llvm::FunctionAnalysisManager& analyses);
+};
+struct KeepPlainDivisionsPass : llvm::PassInfoMixin<KeepPlainDivisionsPass> {
+  llvm::PreservedAnalyses run(llvm::Function& f, llvm::FunctionAnalysisManager& analyses);
+};
+struct KeepZeroArgumentsPass : llvm::PassInfoMixin<KeepZeroArgumentsPass> {
+  llvm::PreservedAnalyses run(llvm::Module& m, llvm::ModuleAnalysisManager& analyses);
+};
 /// Chip: a loop that a long counts does so down to 0.
 struct CountDownPass : llvm::PassInfoMixin<CountDownPass> {
   llvm::PreservedAnalyses run(llvm::Function& f, llvm::FunctionAnalysisManager& analyses);
