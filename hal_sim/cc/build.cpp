@@ -628,12 +628,26 @@ static BuildResult lint_here(const BuildOptions& options) {
     return result;
   }
   BuildResult of_project;
+  const LibraryCopies copies = find_library_copies(o.source_dir, sources);
   const Program program = program_of(o, of_project);
   if (o.optimisation.empty()) o.optimisation = "-O1";  // what would be said of -O0 holds at no other level
-  const LibraryCopies copies = find_library_copies(o.source_dir, sources);
-  Plan p = plan(o, copies, program, true);
-  auto outcomes = compile_all(p.user, compiler_path(), o.cache_dir, o.jobs);
-  for (const auto& outcome : outcomes) sort_messages(outcome.messages, result, !outcome.ok);
+  // for the robot; then for the PC, whose stages know flags that want to be volatile: nothing else counts
+  // there
+  BuildOptions for_chip = o;
+  for_chip.register_way = for_chip.chip_way = true;
+  const Plan on_chip = plan(for_chip, copies, program, true), on_pc = plan(o, copies, program, true);
+  for (const Plan* p : {&on_chip, &on_pc}) {
+    if (p == &on_chip && p->is_webots) continue;
+    BuildResult found;
+    for (const auto& outcome : compile_all(p->user, compiler_path(), o.cache_dir, o.jobs))
+      sort_messages(outcome.messages, found, !outcome.ok);
+    if (p == &on_chip || p->is_webots)
+      result.errors.insert(result.errors.end(), found.errors.begin(), found.errors.end());
+    for (const std::string& warning : found.warnings)
+      if ((p == &on_chip || p->is_webots || warning.find("[-W") == std::string::npos) &&
+          std::find(result.warnings.begin(), result.warnings.end(), warning) == result.warnings.end())
+        result.warnings.push_back(warning);
+  }
   if (result.errors.empty()) lint_shared_variables(o, copies, program, result);
   std::vector<std::pair<std::string, std::string>> texts;
   for (const auto& s : sources) texts.emplace_back(s.filename().string(), read_text(s));

@@ -33,6 +33,7 @@
 #include "llvm/IR/Metadata.h"
 #include "llvm/Support/Host.h"
 #include "llvm/Support/raw_ostream.h"
+#include "program_checks.h"
 #include "refused.h"
 #include "union_values.h"
 
@@ -102,7 +103,11 @@ class IncludeWatch : public PPCallbacks {
 class FactConsumer : public ASTConsumer {
  public:
   FactConsumer(Facts& facts, const Options& options)
-      : facts_(facts), for_chip_(options.chip), cxx_(options.cxx) {}
+      : facts_(facts),
+        for_chip_(options.chip),
+        cxx_(options.cxx),
+        checks_(options.chip && !options.library && !options.weak),
+        strict_(options.lint) {}
   void Initialize(ASTContext& context) override {
     context_ = &context;
     if (for_chip_) return;
@@ -129,6 +134,9 @@ class FactConsumer : public ASTConsumer {
     }
     if (for_chip_) place_variables(*context_);
     return true;
+  }
+  void HandleTranslationUnit(ASTContext& context) override {
+    if (checks_ && !context.getDiagnostics().hasErrorOccurred()) check_program(context, strict_);
   }
   void HandleTopLevelDeclInObjCContainer(DeclGroupRef) override {}
   void HandleInlineFunctionDefinition(FunctionDecl* function) override { narrow_within(function); }
@@ -190,8 +198,9 @@ class FactConsumer : public ASTConsumer {
   }
 
   Facts& facts_;
-  const bool for_chip_;  // whose pointers are as wide as its int
-  const bool cxx_;       // where a bit-field is as wide as its type
+  const bool for_chip_;         // whose pointers are as wide as its int
+  const bool cxx_;              // where a bit-field is as wide as its type
+  const bool checks_, strict_;  // program_checks.h
   ASTContext* context_ = nullptr;
   std::set<const FunctionDecl*> narrowed_;
 };
@@ -415,6 +424,15 @@ std::vector<std::string> clang_arguments(const Options& o, const std::string& st
   } else {
     a.push_back("-fwrapv");
   }
+  // what is a fault wherever it stands; the strict ones ask for more than old programs can give
+  if (o.chip && !o.library && !o.weak)
+    for (const char* w :
+         {"-Wuninitialized", "-Wsometimes-uninitialized", "-Winfinite-recursion", "-Warray-bounds",
+          "-Wdivision-by-zero", "-Winteger-overflow", "-Wself-assign", "-Wparentheses", "-Wunused-comparison",
+          "-Wtautological-constant-out-of-range-compare", "-Wtautological-compare", "-Wfor-loop-analysis",
+          "-Wsizeof-pointer-memaccess", "-Wstrncat-size", "-Wreturn-type", "-Wreturn-stack-address",
+          "-Wnull-dereference", "-Wbool-operation", "-Wshift-count-overflow"})
+      a.push_back(w);
   if (o.strict || o.lint)
     for (const char* w :
          {"-Wall", "-Wextra", "-Wimplicit-function-declaration", "-Wshadow", "-Wwrite-strings",
