@@ -78,9 +78,11 @@ class Depths {
       const Row* row = find_row(word);
       if (!row) continue;
       const Fields v = fields_of(*row, word);
+      // a jump to its own beginning is a loop, a call a recursion
+      const bool is_jump = row->id == Insn::Goto_Expr || row->id == Insn::Bra_Expr;
       const auto calls = [&](std::uint32_t target) {
         const Section* callee = at(target);
-        if (callee && callee != &s) f.callees.push_back(callee);
+        if (callee && (callee != &s || (!is_jump && target == s.address))) f.callees.push_back(callee);
       };
       const auto behind = [&](unsigned words) {
         return here + 2 + 2 * std::uint32_t(sign_extend(words, 16));
