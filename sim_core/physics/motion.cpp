@@ -13,6 +13,7 @@ namespace sim {
 Motion::Motion(MotionDesc desc, bool has_heights, bool loose_moves, bool follows_wheels)
     : desc_(std::move(desc)),
       tick_s_(to_seconds(desc_.tick)),
+      touch_gap_(std::max(from_seconds(kTouchGapS), kTouchGapTicks * desc_.tick + 1)),
       bodies_(desc_.start),
       before_(bodies_.size()),
       at_(bodies_.size(), desc_.begin),

@@ -178,6 +178,7 @@ class Motion {
 
   MotionDesc desc_;
   double tick_s_;
+  Clicks touch_gap_;  // a touch that ends and begins again sooner is one touch
   /// As at the tick's beginning, then at its end; velocities are those of the middle of the tick before. Of a
   /// robot that is not active: some time on its leg.
   std::vector<BodyState> bodies_;
@@ -267,7 +268,7 @@ class Motion {
     Clicks first = 0, last = -kEver;
     double lasts_s() const { return to_seconds(last - first); }
   };
-  bool lasts(const Touch& touch) const { return end_ - touch.last < from_seconds(kTouchGapS); }
+  bool lasts(const Touch& touch) const { return end_ - touch.last < touch_gap_; }
   struct Touching {
     TouchReport report;
     Touch wall, any;

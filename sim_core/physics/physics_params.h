@@ -19,8 +19,10 @@ inline constexpr double kHeightOverlapM =
 inline constexpr double kTouchM = 0.0001;  // [assumed: the skin that Box2D leaves in the dynamic engine]
 /// Overlap of bodies in contact, m.
 inline constexpr double kContactDepthM = 0.00005;  // [Box2D: b2_linearSlop, 0.005 units]
-/// A touch that ends and begins again within this time is one touch, s.
-inline constexpr double kTouchGapS = 0.02;  // [assumed: two of the slowest ticks]
+/// A touch that ends and begins again within this time, or within so many ticks of its last one, is one
+/// touch, s.
+inline constexpr double kTouchGapS = 0.02;  // [assumed: a bounce that nobody would count twice]
+inline constexpr int kTouchGapTicks = 2;    // [assumed: one tick without touch is the solver's]
 /// Solver iterations for speeds and positions.
 inline constexpr int kVelocityIterations = 8;  // [Box2D manual: 8 and 3 suggested]
 inline constexpr int kPositionIterations = 3;  // [Box2D manual: 8 and 3 suggested]

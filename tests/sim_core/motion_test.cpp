@@ -67,6 +67,44 @@ TEST(Motion, pushed_against_a_wall_the_robot_stays) {
   }
 }
 
+/// Every rate that a world may choose.
+std::vector<int> all_rates() {
+  std::vector<int> rates;
+  for (int hz = 32; hz <= 4096; ++hz)
+    if (sim::kClicksPerSecond % hz == 0) rates.push_back(hz);
+  return rates;
+}
+
+TEST(Motion, a_lasting_touch_is_one_collision_at_every_rate) {
+  struct Case {
+    const char *name, *things;
+    bool at_wall;
+  };
+  // what it drives against is 0.063 m (wall) and 0.05 m away: it arrives after 0.98 s and 0.78 s
+  const Case cases[] = {
+      {"wall", "[[box]]\nposition = [0.15, 0]\nsize = [0.1, 0.4, 0.1]\n[[robot]]\n", true},
+      {"corner",
+       "[[box]]\nposition = [0.15, 0]\nsize = [0.1, 0.6, 0.1]\n[[box]]\nposition = [0, 0.15]\n"
+       "size = [0.2, 0.1, 0.1]\n[[robot]]\nheading = 45\n",
+       true},
+      {"robot", "[[robot]]\n[[robot]]\nposition = [0.124, 0]\nheading = 180\n", false}};
+  const std::vector<int> rates = all_rates();
+  EXPECT_GT(rates.size(), 40u);
+  for (const char* engine : {"dynamic", "kinematic", "planar"})
+    for (const int hz : rates)
+      for (const Case& c : cases) {
+        const auto world = world_of("twinpuck = 1\n[world]\nengine = \"" + std::string(engine) +
+                                    "\"\nphysics_hz = " + std::to_string(hz) + "\n" + c.things);
+        auto s = simulation_of(
+            world, [](int r) { return std::make_unique<Cruise>(r ? 0 : kHalfTurn, r ? 0 : kHalfTurn); });
+        run_for(*s, 3);
+        const std::string what = std::string(engine) + " " + c.name + " " + std::to_string(hz);
+        EXPECT_EQ(s->touches(0).collisions, 1) << what;
+        EXPECT_GT(s->touches(0).longest_touch_s, 1.5) << what;
+        if (c.at_wall) EXPECT_GT(s->touches(0).longest_wall_touch_s, 1.5) << what;
+      }
+}
+
 TEST(Motion, in_a_corner_the_wheels_still_turn_it) {
   for (int hz : {96, 512}) {
     auto s =
