@@ -2,9 +2,6 @@
 #include "tools/trace_outputs.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <cstring>
 
 #include "sim_core/load/world_loader.h"
 #include "tools/command_line.h"
@@ -133,11 +130,10 @@ bool TraceOutputs::choose(std::vector<std::vector<trace::Signal>>& signals, trac
   const int robot = twin_.find(trigger_robot);
   const auto meant = trace::find_signals(trigger_name, twin_.mind(robot).runner(), error);
   const std::string text = a.trigger.substr(a.trigger.rfind('=') + 1);
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  const std::int64_t whole = std::strtoll(text.c_str(), nullptr, 0);
-  if (end == nullptr || *end != 0 || !std::isfinite(value)) {
-    problems.push_back("command line: --vcd-trigger: got value '" + text + "', expected a number");
+  if (meant.front().group == "variables" && meant.size() > 1)
+    error = "got '" + trigger_name + "', an array, expected one of its elements";
+  if (!error.empty() || !trace::value_of_signal(meant.front(), text, window.trigger_value, error)) {
+    problems.push_back("command line: --vcd-trigger: " + trigger_robot + ":" + trigger_name + ": " + error);
     return false;
   }
   int number = 0;
@@ -146,13 +142,6 @@ bool TraceOutputs::choose(std::vector<std::vector<trace::Signal>>& signals, trac
       if (r == robot && is_same(s, meant.front())) window.trigger = number;
       ++number;
     }
-  if (meant.front().real) {
-    std::memcpy(&window.trigger_value, &value, sizeof value);
-  } else {
-    const int width = meant.front().width;
-    window.trigger_value = static_cast<std::uint64_t>(whole);
-    if (width < 64) window.trigger_value &= (std::uint64_t{1} << width) - 1;
-  }
   return true;
 }
 
@@ -275,7 +264,11 @@ void TraceOutputs::finish(std::vector<std::string>& problems) {
   write_spans();
   if (vcd_) {
     vcd_->finish(now);
-    if (!vcd_->error().empty()) problems.push_back(vcd_->error());
+    if (!vcd_->error().empty())
+      problems.push_back(vcd_->error());
+    else if (!arguments_.trigger.empty() && !vcd_->has_begun())
+      problems.push_back(arguments_.vcd + ": --vcd-trigger: got no " + arguments_.trigger +
+                         " in the window, expected it once; the dump is empty");
   }
   if (timeline_) {
     timeline_->finish();

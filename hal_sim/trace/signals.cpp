@@ -3,7 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
+#include <cmath>
 #include <cstdlib>
+#include <cstring>
+#include <limits>
 
 #include "dspic30/memory/irqs.h"
 #include "dspic30/memory/sfr_table.h"
@@ -88,6 +92,7 @@ bool register_signal(const std::string& name, Signal& out, std::string& error) {
   const dspic::SfrInfo* info = dspic::sfr_named(word);
   if (!info) return false;
   out = signal("registers", word, Source::Register, info->address, 0, 16);
+  out.possible = info->implemented;
   if (dot == std::string::npos) return true;
   std::string known;
   for (const dspic::SfrField& field : dspic::fields_of(*info)) {
@@ -96,6 +101,7 @@ bool register_signal(const std::string& name, Signal& out, std::string& error) {
     out.name = word + "." + field.name;
     out.shift = field.bit;
     out.width = field.width;
+    out.possible >>= field.bit;
     return true;
   }
   error = "got '" + name + "', expected a field of " + word +
@@ -113,6 +119,7 @@ void take_from_chip(Signal& port) {
   const dspic::SfrInfo* info = dspic::sfr_named(std::string(kind) + static_cast<char>(port.source.index));
   port.source.kind = Source::Register;
   port.source.index = info->address;
+  port.possible = info->implemented >> port.shift;
 }
 
 // LATA, PORTB3, TRISD, RA6; false: not a port
@@ -166,6 +173,7 @@ std::string add_variable(const std::string& name, const host::Runner& runner, st
   if (s.width > 64) return "got '" + name + "', which is wider than 64 bits, expected a number";
   s.source.variable = *v;
   s.real = v->kind == host::Variable::Kind::Float;
+  s.is_signed = v->kind == host::Variable::Kind::Signed;
   if (s.real) s.width = 64;
   out.push_back(std::move(s));
   return "";
@@ -179,6 +187,7 @@ std::vector<Signal> find_signals(const std::string& name, const host::Runner* ru
   for (const Named& n : kNamed)
     if (name == n.name) {
       Signal found = signal(n.group, n.name, n.source, n.index, n.shift, n.width);
+      found.is_signed = n.source == Source::Steps;
       if (has_chip) take_from_chip(found);
       return {found};
     }
@@ -223,6 +232,42 @@ std::vector<Signal> find_signals(const std::string& name, const host::Runner* ru
       "got '{}', expected a pin, a port, a register, an interrupt, a UART's line or a variable ({}){}", name,
       wrong, guess.empty() ? "" : "; did you mean '" + guess + "'?");
   return {};
+}
+
+bool value_of_signal(const Signal& signal, const std::string& text, std::uint64_t& bits, std::string& error) {
+  const auto refuse = [&](const std::string& expected) {
+    error = "got value '" + text + "', expected " + expected;
+    return false;
+  };
+  char* end = nullptr;
+  const double number = std::strtod(text.c_str(), &end);
+  const bool is_number = !text.empty() && !std::isspace(static_cast<unsigned char>(text[0])) && *end == 0;
+  if (signal.real) {
+    const bool is_float = signal.source.variable.bytes == sizeof(float);
+    const double most = is_float ? static_cast<double>(std::numeric_limits<float>::max())
+                                 : std::numeric_limits<double>::max();
+    if (!is_number || !std::isfinite(number) || std::fabs(number) > most)
+      return refuse(fmt::format("a number from {:g} to {:g}", -most, most));
+    // what a float of the robot holds of 0.1
+    const double held = is_float ? static_cast<double>(static_cast<float>(number)) : number;
+    std::memcpy(&bits, &held, sizeof bits);
+    return true;
+  }
+  const std::uint64_t all = signal.width < 64 ? (std::uint64_t{1} << signal.width) - 1 : ~std::uint64_t{0};
+  const std::uint64_t top = signal.is_signed ? all >> 1 : all & signal.possible;
+  const std::string range = signal.is_signed ? fmt::format("a whole number from -{} to {}", top + 1, top)
+                                             : fmt::format("a whole number from 0 to {}", all);
+  if (!is_number) return refuse(range);
+  errno = 0;
+  const bool is_negative = text[0] == '-';
+  const std::uint64_t size = std::strtoull(text.c_str() + (is_negative || text[0] == '+'), &end, 0);
+  const bool is_bits = text.compare(0, 2, "0x") == 0 || text.compare(0, 2, "0X") == 0;
+  const std::uint64_t most = signal.is_signed ? (is_bits ? all : top + (is_negative ? 1 : 0)) : all;
+  if (*end != 0 || errno != 0 || size > most || (is_negative && !signal.is_signed && size != 0))
+    return refuse(range);
+  bits = (is_negative ? 0 - size : size) & all;
+  if (!signal.is_signed && (bits & ~top) != 0) return refuse(fmt::format("bits of {:#x} only", top));
+  return true;
 }
 
 const std::vector<std::string>& usual_signals() {

@@ -44,7 +44,13 @@ struct Signal {
   int shift = 0;
   int width = 1;      ///< bits, 1 to 64
   bool real = false;  ///< the value is a double's bits
+  bool is_signed = false;
+  std::uint64_t possible = ~std::uint64_t{0};  ///< bits that may be set, from `shift` on
 };
+
+/// Bits of the value that a person writes: "3", "-2", "0x8010", "1.5". False: the signal cannot have it, with
+/// "got value '65536', expected a whole number from -32768 to 32767" in `error`.
+bool value_of_signal(const Signal& signal, const std::string& text, std::uint64_t& bits, std::string& error);
 
 /// Signals that a name means, several for an interrupt, a line or an array. `runner` null: no firmware, no
 /// variables. Empty with a sentence in `error` ("got ..., expected ..."): there is no such thing.

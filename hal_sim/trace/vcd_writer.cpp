@@ -109,6 +109,7 @@ void VcdWriter::change(sim::Clicks at, int signal, std::uint64_t value) {
 
 void VcdWriter::begin(sim::Clicks at) {
   state_ = State::Writing;
+  has_begun_ = true;
   stamp(at);
   pending_ += "$dumpvars\n";
   for (const Line& line : lines_) write_value(line);

@@ -45,6 +45,8 @@ class VcdWriter {
 
   /// The window is over or the file is as large as it may be: nothing more will be written.
   bool is_done() const { return state_ == State::Done; }
+  /// Has the window been reached, and its trigger come?
+  bool has_begun() const { return has_begun_; }
   /// Empty while all is well.
   const std::string& error() const { return file_.error(); }
 
@@ -68,7 +70,7 @@ class VcdWriter {
   Window window_;
   std::vector<Line> lines_;
   State state_ = State::Before;
-  bool armed_ = false;
+  bool armed_ = false, has_begun_ = false;
   bool cut_ = false;
   std::int64_t stamped_ns_ = -1;
   std::int64_t bytes_ = 0;

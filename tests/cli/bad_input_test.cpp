@@ -160,7 +160,8 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"roughness_is_nan", "inspect --profile all --roughness nan", 2, "--roughness: got nan"},
         Bad{"colour_is_nan", "inspect --profile all --colour nan,0,0", 2, "--colour: got nan"},
         Bad{"period_is_nan", "cycles blink --period nan", 2, "--period: got nan"},
-        Bad{"trigger_is_nan", "run maze --vcd @/x.vcd --vcd-trigger puck:LED0=nan", 2, "got value 'nan'"},
+        Bad{"trigger_is_nan", "run maze --vcd @/x.vcd --vcd-trigger puck:LED0=nan", 2,
+            "got value 'nan', expected a whole number from 0 to 1"},
         Bad{"bad_name", "new 'My Robot'", 2, "lower-case"}, Bad{"name_taken", "new blink", 2, "exists"}),
     [](const auto& info) { return std::string(info.param.name); });
 

@@ -197,6 +197,39 @@ TEST_F(Traces, a_window_and_a_trigger_bound_the_dump) {
   EXPECT_EQ(triggered.signals.at("puck/variables/count").front().second, "11");
 }
 
+TEST_F(Traces, a_trigger_that_cannot_come_is_refused_and_one_that_did_not_is_told) {
+  const auto tried = [&](const std::string& trigger) {
+    return run("--way chip --for 0.02 --vcd " + path("t.vcd") + " --vcd-trigger puck:" + trigger);
+  };
+  struct Case {
+    const char *trigger, *expected;
+  };
+  for (const Case& c :
+       {Case{"LED0=2", "from 0 to 1"}, Case{"LED0=-1", "from 0 to 1"}, Case{"left_coils=16", "from 0 to 15"},
+        Case{"TX1=256", "from 0 to 255"}, Case{"T1=2", "from 0 to 1"},
+        Case{"count=32768", "from -32768 to 32767"}, Case{"count=-32769", "from -32768 to 32767"},
+        Case{"count=1.5", "a whole number"}, Case{"count=0x10000", "from -32768 to 32767"},
+        Case{"ticks=-1", "from 0 to 65535"}, Case{"ticks=65536", "from 0 to 65535"},
+        Case{"half=1e40", "a number from"}, Case{"half=much", "a number from"},
+        Case{"pair=3", "one of its elements"}, Case{"left_steps=4294967296", "from -2147483648"},
+        Case{"T1CON=0x10000", "from 0 to 65535"}, Case{"T1CON=1", "bits of 0xa076 only"},
+        Case{"T1CON.TCKPS=4", "from 0 to 3"}}) {
+    const Said s = tried(c.trigger);
+    EXPECT_EQ(s.exit_code, 2) << c.trigger;
+    EXPECT_NE(s.text.find(c.expected), std::string::npos) << c.trigger << ": " << s.text;
+  }
+  for (const char* never : {"count=-5", "count=0xFFFB", "half=0.1", "pair[0]=4", "LED7=1"}) {
+    const Said s = tried(never);
+    EXPECT_EQ(s.exit_code, 7) << never << s.text;
+    EXPECT_NE(s.text.find(std::string("--vcd-trigger: got no puck:") + never), std::string::npos) << s.text;
+  }
+  for (const char* comes : {"pair[1]=-4", "pair[1]=0xFFFC", "T1CON=0x8000", "ticks=3"}) {
+    const Said s = tried(comes);
+    EXPECT_EQ(s.exit_code, 0) << comes << s.text;
+    EXPECT_NE(read(path("t.vcd")).find("$dumpvars"), std::string::npos) << comes;
+  }
+}
+
 TEST_F(Traces, a_full_dump_ends_cleanly) {
   ASSERT_EQ(run("--for 1 --vcd-max-mb 0.01 --vcd " + path("c.vcd")).exit_code, 0);
   const std::string text = read(path("c.vcd"));
@@ -239,7 +272,7 @@ TEST_F(Traces, wrong_requests_are_refused_before_the_run) {
   refused("--vcd " + path("x") + " --vcd-signals puck:LDE0", "did you mean 'LED0'?");
   refused("--vcd " + path("x") + " --vcd-signals puk:LED0", "did you mean 'puck'?");
   refused("--vcd " + path("x") + " --vcd-signals LED0", "expected ROBOT:SIGNAL");
-  refused("--vcd " + path("x") + " --vcd-trigger puck:LED0=on", "expected a number");
+  refused("--vcd " + path("x") + " --vcd-trigger puck:LED0=on", "expected a whole number from 0 to 1");
   refused("--vcd-signals puck:LED0", "expected --vcd FILE too");
   refused("--vcd " + path("no/such/folder/x.vcd"), "--vcd: ");
   refused("--trace " + path("no/such/folder/x.json"), "--trace: ");
