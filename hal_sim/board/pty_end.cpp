@@ -5,9 +5,8 @@
 // - Raw mode from the start, and again after each program: a terminal that echoes would send the robot its
 //   own replies as commands. Our hand on the far side keeps the mode between programs. One that claimed the
 //   terminal for itself alone does not keep the next one out.
-// - What the robot says while nobody has the terminal open waits for who comes and listens. Who comes and
-//   speaks first gets the answer to that, and not the old words: a Bluetooth link to a robot that has been
-//   on for a while begins silent.
+// - What the robot says while nobody has the terminal open is lost, and so is what a program left unread: a
+//   Bluetooth link to a robot that has been on for a while begins silent.
 // - A thread takes what programs write as soon as it is there: many flush a port before each command and
 //   when they close it, and what had not been taken by then would be lost. Robots see it at the next tick.
 #include <fcntl.h>
@@ -36,9 +35,7 @@ namespace board {
 
 namespace {
 
-// what the kernel surely keeps for a terminal that nobody reads
-constexpr std::size_t kMostHeard = 65536;   // bytes [assumed: above, a sender is slowed down]
-constexpr std::size_t kMostUnheard = 4000;  // bytes [assumed: below the 4096 of Linux's line discipline]
+constexpr std::size_t kMostHeard = 65536;  // bytes [assumed: above, a sender is slowed down]
 
 class PtyEnd : public UartEnd {
  public:
@@ -95,27 +92,24 @@ class PtyEnd : public UartEnd {
   }
 
   void deliver(const std::uint8_t* bytes, const Cycle*, std::size_t count) override {
+    std::lock_guard<std::mutex> hold(said_lock_);
     look_who_is_there();
-    std::size_t room = kMostWaiting - waiting_.size();
-    if (is_alone()) room = kMostUnheard - std::min(kMostUnheard, unheard_ + waiting_.size());
+    if (is_alone()) return;
+    const std::size_t room = kMostWaiting - waiting_.size();
     waiting_.append(reinterpret_cast<const char*>(bytes), std::min(count, room));
     write_waiting();
   }
 
   std::size_t collect(std::uint8_t* bytes, std::size_t room, Cycle) override {
-    if (!waiting_.empty()) write_waiting();
-    std::size_t count;
     {
-      std::lock_guard<std::mutex> hold(heard_lock_);
-      count = std::min(room, heard_.size());
-      std::memcpy(bytes, heard_.data(), count);
-      heard_.erase(0, count);
+      std::lock_guard<std::mutex> hold(said_lock_);
+      look_who_is_there();
+      write_waiting();
     }
-    if (count > 0 && unheard_ > 0) {
-      ::tcflush(slave_.get(), TCIFLUSH);
-      waiting_.clear();
-      unheard_ = 0;
-    }
+    std::lock_guard<std::mutex> hold(heard_lock_);
+    const std::size_t count = std::min(room, heard_.size());
+    std::memcpy(bytes, heard_.data(), count);
+    heard_.erase(0, count);
     return count;
   }
 
@@ -164,15 +158,20 @@ class PtyEnd : public UartEnd {
     ::ioctl(slave_.get(), TIOCNXCL);
   }
 
+  // With said_lock_. Who opens the terminal finds nothing in it: what is there now was said before.
   void look_who_is_there() {
     alignas(inotify_event) char events[4096];
     for (ssize_t got; watch_.valid() && (got = ::read(watch_.get(), events, sizeof events)) > 0;)
       for (ssize_t at = 0; at < got;) {
         const auto* event = reinterpret_cast<const inotify_event*>(events + at);
+        const bool was_alone = is_alone();
         if (event->mask & IN_OPEN) ++programs_;
         if (event->mask & IN_CLOSE) --programs_;
         at += static_cast<ssize_t>(sizeof(inotify_event) + event->len);
         if (programs_ <= 0) make_raw();
+        if (was_alone == is_alone()) continue;
+        waiting_.clear();
+        ::tcflush(slave_.get(), TCIFLUSH);
       }
   }
 
@@ -180,16 +179,21 @@ class PtyEnd : public UartEnd {
     while (!waiting_.empty()) {
       const ssize_t done = ::write(master_.get(), waiting_.data(), waiting_.size());
       if (done <= 0) return;
-      if (is_alone()) unheard_ += static_cast<std::size_t>(done);
       waiting_.erase(0, static_cast<std::size_t>(done));
     }
   }
 
-  // the thread: from the terminal to heard_
+  // the thread: from the terminal to heard_; and who left is noticed before the next one can read what it
+  // left
   void listen() {
-    pollfd watched[2] = {{master_.get(), POLLIN, 0}, {stop_.get(), POLLIN, 0}};
-    while (::poll(watched, 2, -1) >= 0 || errno == EINTR) {
+    pollfd watched[3] = {{master_.get(), POLLIN, 0}, {stop_.get(), POLLIN, 0}, {watch_.get(), POLLIN, 0}};
+    while (::poll(watched, watch_.valid() ? 3 : 2, -1) >= 0 || errno == EINTR) {
       if (watched[1].revents != 0) return;
+      if (watched[2].revents != 0) {
+        std::lock_guard<std::mutex> hold(said_lock_);
+        look_who_is_there();
+      }
+      if (watched[0].revents == 0) continue;
       // a program that sends faster than the line carries waits, as flow control makes it wait
       char bytes[4096];
       const ssize_t got = has_room() ? ::read(master_.get(), bytes, sizeof bytes) : 0;
@@ -211,9 +215,9 @@ class PtyEnd : public UartEnd {
   std::mutex heard_lock_;
   std::string heard_;  // said by programs, not yet taken by the robot's line
   std::string path_, link_;
-  std::string waiting_;      // delivered, not yet taken by the kernel
-  int programs_ = 0;         // that have the terminal open
-  std::size_t unheard_ = 0;  // bytes that were said to nobody since somebody last spoke
+  std::mutex said_lock_;  // what follows
+  std::string waiting_;   // delivered, not yet taken by the kernel
+  int programs_ = 0;      // that have the terminal open
 };
 
 }  // namespace

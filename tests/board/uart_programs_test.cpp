@@ -118,16 +118,32 @@ TEST_F(Pty, is_raw_again_when_a_program_has_left_it_otherwise) {
   EXPECT_EQ(heard(*end, 1), "");
   fd = open();
   ASSERT_GE(fd, 0) << "claimed by a program that has left";
+  EXPECT_EQ(read_now(fd), "");
+  say(*end, "d\r\n");
   EXPECT_EQ(read_now(fd), "d\r\n");
   ASSERT_EQ(::write(fd, "V\r", 2), 2);
   EXPECT_EQ(heard(*end, 2), "V\r");
   ::close(fd);
 }
 
-TEST_F(Pty, old_words_wait_for_who_listens) {
+TEST_F(Pty, who_opens_it_finds_no_old_words) {
   say(*end, "welcome\r\n");
-  const int fd = open();
-  EXPECT_EQ(read_now(fd), "welcome\r\n");
+  int fd = open();
+  EXPECT_EQ(read_now(fd), "");
+  say(*end, "hello\r\n");
+  EXPECT_EQ(read_now(fd), "hello\r\n");
+  // nor what the one before left unread, or was told when it had gone
+  say(*end, "unread");
+  ::close(fd);
+  say(*end, "unheard");
+  fd = open();
+  EXPECT_EQ(read_now(fd), "");
+  // a second program beside it changes nothing for the first
+  say(*end, "both");
+  const int second = open();
+  ::close(second);
+  EXPECT_EQ(heard(*end, 1), "");
+  EXPECT_EQ(read_now(fd), "both");
   ::close(fd);
 }
 
