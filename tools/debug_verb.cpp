@@ -19,6 +19,7 @@
 #include "hal_sim/debug/monitor.h"
 #include "tools/command_line.h"
 #include "tools/serial_text.h"
+#include "tools/summary.h"
 #include "tools/verbs.h"
 
 namespace tools {
@@ -116,7 +117,7 @@ int debug_in_terminal(const DebugArguments& a) {
   }
   std::istream& in = a.commands.empty() ? std::cin : file;
   const bool is_person = a.commands.empty() && isatty(0) != 0;
-  std::cout << session->robot() << ": " << monitor.where();
+  std::cout << programs_text(session->twin()) << session->robot() << ": " << monitor.where();
   if (is_person) std::cout << "help lists the commands\n";
   for (std::string line; !monitor.wants_end();) {
     if (is_person) std::cout << "(twinpuck) " << std::flush;

@@ -125,6 +125,7 @@ int run(const RunArguments& arguments) {
     complain(problems);
     return kBadInput;
   }
+  if (!arguments.quiet) std::cout << programs_text(*twin) << std::flush;
   RunOutputs outputs(arguments.outputs, *twin, team.get());
   ProfileOutputs profile(arguments.profile, *twin);
   if (!outputs.open(problems) || !profile.open(problems)) {

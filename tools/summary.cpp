@@ -2,9 +2,11 @@
 #include "tools/summary.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 namespace tools {
@@ -70,6 +72,7 @@ Summary summarise(const twin::Twin& twin, double wall_s) {
     RobotSummary r;
     r.name = twin.world().robots[static_cast<std::size_t>(i)].name;
     r.firmware = twin.image_path(i);
+    r.program = twin.program(i);
     r.way = mind.runner() ? mind.runner()->way() : "none";
     const auto& pose = simulation.pose(i);
     r.x_m = pose.x_m;
@@ -118,6 +121,29 @@ std::string to_text(const Summary& s) {
   return text;
 }
 
+std::string programs_text(const twin::Twin& twin) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> runs;  // what, and who
+  for (int i = 0; i < twin.robots(); ++i) {
+    if (twin.program(i).path.empty()) continue;
+    const std::string what = said(twin.program(i));
+    auto known = std::find_if(runs.begin(), runs.end(), [&](const auto& run) { return run.first == what; });
+    if (known == runs.end()) known = runs.insert(known, {what, {}});
+    known->second.push_back(twin.world().robots[static_cast<std::size_t>(i)].name);
+  }
+  std::string text;
+  for (std::size_t i = 0; i < runs.size() && i < kRobotsInText; ++i) {
+    const auto& [what, who] = runs[i];
+    constexpr std::size_t kMostNames = 4;
+    if (who.size() <= kMostNames)
+      text += fmt::format("{}: {}\n", fmt::join(who, ", "), what);
+    else
+      text += fmt::format("{} to {}, {} robots: {}\n", who.front(), who.back(), who.size(), what);
+  }
+  if (runs.size() > kRobotsInText)
+    text += fmt::format("... and {} programs more\n", runs.size() - kRobotsInText);
+  return text;
+}
+
 std::string to_json(const Summary& s) {
   nlohmann::ordered_json j;
   j["version"] = TWINPUCK_VERSION;
@@ -144,6 +170,9 @@ std::string to_json(const Summary& s) {
     nlohmann::ordered_json robot;
     robot["name"] = r.name;
     robot["firmware"] = r.firmware;
+    robot["program"] =
+        r.program.path.empty() ? "" : std::filesystem::absolute(r.program.path).lexically_normal().string();
+    robot["files"] = r.program.files;
     robot["way"] = r.way;
     robot["x_m"] = r.x_m;
     robot["y_m"] = r.y_m;

@@ -11,6 +11,7 @@ namespace tools {
 
 struct RobotSummary {
   std::string name, firmware, way;
+  twin::Program program;
   double x_m = 0, y_m = 0, heading_rad = 0, distance_m = 0;
   int collisions = 0;
   double longest_wall_touch_s = 0;
@@ -35,6 +36,8 @@ struct Summary {
 Summary summarise(const twin::Twin& twin, double wall_s);
 std::string to_text(const Summary& summary);
 std::string to_json(const Summary& summary);
+/// What each robot runs: "puck: ./obstacle, 2 files", a line for robots that run the same.
+std::string programs_text(const twin::Twin& twin);
 /// A report of a few lines: what, who, where, when, back-trace.
 std::string to_text(const host::TrapReport& trap);
 /// One line: who, when, where, what, what to do.

@@ -499,6 +499,7 @@ static BuildResult build_here(const BuildOptions& asked) {
     return finish();
   }
   if (p.is_webots) own = p.user.size();
+  result.files = int(own + p.assembler.size());
   for (std::size_t i = own; i < p.user.size(); ++i) p.user[i].flags.push_back("--weak");
   std::vector<CompileJob> all = p.user;
   if (o.chip_way)

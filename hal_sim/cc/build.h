@@ -35,6 +35,7 @@ struct BuildResult {
   std::vector<std::string> conflicts;  ///< two drivers with one timer or vector; found at each build
   std::vector<std::string> warnings;   ///< same grammar; 16-bit warnings of the compiler included
   int compiled = 0, reused = 0;        ///< translation units compiled now, taken from the cache
+  int files = 0;                       ///< sources of the program itself
   long ram_bytes = 0;       ///< static data on the chip: the linker's number, other ways an estimate
   long stack_bytes = 0;     ///< the stack at most, every handler included: the linker's bound, or an estimate
   std::string recursive;    ///< a function that calls itself: then the stack has no bound

@@ -166,6 +166,7 @@ std::optional<BuildResult> BuildRecord::recall() const {
   BuildResult result;
   result.ok = true;
   result.reused = int(record.number());
+  result.files = int(record.number());
   result.ram_bytes = record.number();
   result.stack_bytes = record.number();
   result.recursive = record.next();
@@ -194,6 +195,7 @@ void BuildRecord::keep(const BuildResult& result,
                        const std::map<std::string, BuildInputs::Input>& inputs) const {
   std::vector<std::string> texts = {question_,
                                     std::to_string(result.compiled + result.reused),
+                                    std::to_string(result.files),
                                     std::to_string(result.ram_bytes),
                                     std::to_string(result.stack_bytes),
                                     result.recursive,

@@ -29,19 +29,42 @@ bool holds_c(const fs::path& folder) {
 }
 
 // rooms of firmware/ that are no controllers
-bool is_room(const std::string& name) { return name == "include" || name == "webots" || name == "lab"; }
+bool is_room(const std::string& name) {
+  return name == "include" || name == "library" || name == "webots" || name == "lab";
+}
 
 std::vector<std::string> controller_names() {
   std::vector<std::string> names;
   std::error_code none;
   for (const char* room : {"firmware", "firmware/lab"})
     for (const auto& entry : fs::directory_iterator(fs::path(project_root()) / room, none))
-      if (entry.is_directory(none) && !is_room(entry.path().filename().string()))
+      if (entry.is_directory(none) && !is_room(entry.path().filename().string()) && holds_c(entry.path()))
         names.push_back(entry.path().filename().string());
   return names;
 }
 
 }  // namespace
+
+namespace {
+
+/// As people say it: from the current folder on, if it lies in there.
+std::string said_path(const fs::path& path) {
+  std::error_code none;
+  const fs::path whole = fs::weakly_canonical(path, none);
+  const fs::path from_here = whole.lexically_relative(fs::current_path(none));
+  const bool is_here = !from_here.empty() && *from_here.begin() != ".." && from_here != ".";
+  return is_here ? "./" + from_here.string() : whole.string();
+}
+
+}  // namespace
+
+std::string said(const Program& program) {
+  std::string text = said_path(program.path);
+  if (program.files > 0)
+    text += ", " + std::to_string(program.files) + (program.files == 1 ? " file" : " files");
+  if (!program.other.empty()) text += "; not " + said_path(program.other) + ", which has that name, too";
+  return text;
+}
 
 std::string stored_controller(const std::string& name) {
   const fs::path firmware = fs::path(project_root()) / "firmware";
@@ -85,7 +108,7 @@ std::string image_file(const std::string& folder, const Options& options) {
 }
 
 std::string find_firmware(const std::string& name, const std::string& from_folder,
-                          std::vector<std::string>& problems) {
+                          std::vector<std::string>& problems, std::string* other) {
   std::error_code none;
   const auto is_firmware = [&](const fs::path& p) {
     return fs::exists(p, none) && (!fs::is_directory(p, none) || holds_c(p));
@@ -109,12 +132,21 @@ std::string find_firmware(const std::string& name, const std::string& from_folde
                        (guess.empty() ? "" : "; did you mean '" + guess + "'?"));
     return "";
   }
+  if (!other) return path.string();
+  const fs::path of_lab = fs::path(project_root()) / "firmware" / "lab" / name;
+  const bool is_name = name.find('/') == std::string::npos;
+  for (const fs::path& same : {fs::path(name), fs::path(stored_controller(name)), is_name ? of_lab : ""})
+    if (other->empty() && !same.empty() && is_firmware(same) &&
+        fs::weakly_canonical(same, none) != fs::weakly_canonical(path, none))
+      *other = same.string();
   return path.string();
 }
 
 std::string provide_image(const std::string& name, const std::string& from_folder, const Options& options,
-                          std::vector<std::string>& problems) {
-  const fs::path path = find_firmware(name, from_folder, problems);
+                          std::vector<std::string>& problems, Program* program) {
+  Program found;
+  const fs::path path = found.path = find_firmware(name, from_folder, problems, &found.other);
+  if (program) *program = found;
   std::error_code none;
   if (path.empty() || !fs::is_directory(path, none)) return path.string();
   cc::BuildOptions build;
@@ -126,6 +158,7 @@ std::string provide_image(const std::string& name, const std::string& from_folde
   build.chip_way = options.way == "chip";
   build.register_way = options.way == "register" || build.chip_way;
   const cc::BuildResult result = cc::build_image(build);
+  if (program) program->files = result.files;
   if (options.tell)
     for (const auto& w : result.warnings) options.tell(w);
   if (options.tell)

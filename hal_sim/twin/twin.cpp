@@ -232,6 +232,7 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
 
   // every distinct firmware is found, built and loaded once
   std::map<std::string, std::string> paths;
+  std::map<std::string, Program> programs;
   std::map<std::string, Firmware> images;
   std::vector<std::string> firmware;
   for (auto& robot : world.robots) {
@@ -243,7 +244,7 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
     robot.firmware = name;  // what it runs, for pictures and supervisors
     if (name.empty() || paths.count(key)) continue;
     std::string& path = paths[key];
-    path = provide_image(name, options.world_folder, of_robot, problems);
+    path = provide_image(name, options.world_folder, of_robot, problems, &programs[key]);
     if (path.empty()) continue;
     std::string error;
     const Firmware& opened = images[key] = open_firmware(path, error);
@@ -312,6 +313,7 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
     }
     twin->minds_.push_back(mind.get());
     twin->image_paths_.push_back(firmware[i].empty() ? "" : paths[firmware[i]]);
+    twin->programs_.push_back(firmware[i].empty() ? Program{} : programs[firmware[i]]);
     minds.push_back(std::move(mind));
   }
   if (problems.size() != problems_before) return nullptr;
@@ -336,6 +338,7 @@ std::string Twin::flash(const std::vector<int>& robots, const std::string& path)
       return where + "got a program with another clock in its configuration words; restart the run";
     minds_[r]->flash(make_runner);
     image_paths_[r] = path;
+    programs_[r] = {path, "", 0};
     simulation_->note_intervention(r);
   }
   if (program.image) images_.push_back(program.image);

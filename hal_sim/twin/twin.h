@@ -53,10 +53,20 @@ struct Options {
 /// also called "lab/NAME"). Empty when there is none.
 std::string stored_controller(const std::string& name);
 
+/// What a robot runs, for people.
+struct Program {
+  std::string path;   ///< a file, or a folder of sources
+  std::string other;  ///< another one that the name means as well, and that was not taken
+  int files = 0;      ///< sources; 0: an image
+};
+/// "./obstacle, 2 files; not /usr/share/twinpuck/firmware/lab/obstacle, which has that name, too"
+std::string said(const Program& program);
+
 /// The .so, file or folder that `name` means: a path (relative ones begin in `from_folder`, then here), or
-/// else a controller of the project. Empty, with a line in `problems`, when there is none.
+/// else a controller of the project. Empty, with a line in `problems`, when there is none. `other`: the next
+/// of these places that holds another one.
 std::string find_firmware(const std::string& name, const std::string& from_folder,
-                          std::vector<std::string>& problems);
+                          std::vector<std::string>& problems, std::string* other = nullptr);
 
 /// Where the image of a folder of C files is kept that is built with these options.
 std::string image_file(const std::string& folder, const Options& options);
@@ -64,7 +74,7 @@ std::string image_file(const std::string& folder, const Options& options);
 /// Finds the controller that `name` means and builds it when it is source. Returns the path of the image;
 /// empty on failure, with lines appended to `problems`. Builds go to build/controllers/ and are incremental.
 std::string provide_image(const std::string& name, const std::string& from_folder, const Options& options,
-                          std::vector<std::string>& problems);
+                          std::vector<std::string>& problems, Program* program = nullptr);
 
 class Twin {
  public:
@@ -82,6 +92,8 @@ class Twin {
   int find(const std::string& name) const;
   /// Image file each robot runs; empty for a robot without firmware.
   const std::string& image_path(int robot) const { return image_paths_[static_cast<std::size_t>(robot)]; }
+  /// What that was made of; no path for a robot without firmware.
+  const Program& program(int robot) const { return programs_[static_cast<std::size_t>(robot)]; }
   /// Where a robot's UART 1 or 2 goes, in open_uart_end()'s words: by the options, or by the world.
   const std::string& uart_choice(int robot, int port) const {
     return uart_choices_[static_cast<std::size_t>(robot)][static_cast<std::size_t>(port - 1)];
@@ -106,6 +118,7 @@ class Twin {
   std::unique_ptr<sim::Simulation> simulation_;  // owns the minds
   std::vector<host::FirmwareMind*> minds_;
   std::vector<std::string> image_paths_;
+  std::vector<Program> programs_;
   std::vector<std::size_t> copies_;  // of its image, that each robot lives in
   std::vector<std::array<std::string, 2>> uart_choices_;
   std::vector<std::shared_ptr<host::Image>> images_;
