@@ -1,23 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "supervisor/build.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
+#include "hal_sim/cc/child_process.h"
 #include "hal_sim/twin/twin.h"
 #include "sim_core/base/hash.h"
 #include "sim_core/load/world_loader.h"
-
-extern char** environ;
 
 namespace supervisor {
 
@@ -44,6 +39,20 @@ std::vector<fs::path> files_in(const fs::path& folder) {
   return files;
 }
 
+/// What has the name of a header or source and is no file: reading a pipe would never end. Empty: nothing.
+std::string odd_file_in(const fs::path& folder) {
+  std::error_code none, odd;
+  const auto skip = fs::directory_options::skip_permission_denied;
+  for (fs::recursive_directory_iterator it(folder, skip, none), end; !none && it != end; it.increment(none)) {
+    const fs::file_type type = it->status(odd).type();
+    if ((type == fs::file_type::fifo || type == fs::file_type::character || type == fs::file_type::block ||
+         type == fs::file_type::socket) &&
+        (is_source(it->path()) || it->path().extension().string().rfind(".h", 0) == 0))
+      return it->path().string();
+  }
+  return "";
+}
+
 std::string content_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
@@ -67,37 +76,11 @@ std::uint64_t hash_of_ours(const fs::path& library) {
 
 /// Runs a command; its stdout and stderr become lines. False: it failed.
 bool run(const std::vector<std::string>& words, std::vector<std::string>& lines) {
-  int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) {
-    lines.push_back(std::string("pipe: ") + std::strerror(errno));
-    return false;
-  }
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, ends[1], 1);
-  posix_spawn_file_actions_adddup2(&actions, ends[1], 2);
-  std::vector<char*> argv;
-  for (const std::string& w : words) argv.push_back(const_cast<char*>(w.c_str()));
-  argv.push_back(nullptr);
-  pid_t child = 0;
-  const int wrong = posix_spawnp(&child, argv[0], &actions, nullptr, argv.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  close(ends[1]);
-  std::string text;
-  char buffer[4096];
-  for (ssize_t n; wrong == 0 && (n = read(ends[0], buffer, sizeof buffer)) > 0;)
-    text.append(buffer, static_cast<std::size_t>(n));
-  close(ends[0]);
-  if (wrong != 0) {
-    lines.push_back(fmt::format("{}: got '{}', expected a C and C++ compiler; run scripts/setup.sh", argv[0],
-                                std::strerror(wrong)));
-    return false;
-  }
-  int status = 0;
-  waitpid(child, &status, 0);
-  std::istringstream in(text);
+  const cc::ProcessResult done = cc::run_process(words);
+  std::istringstream in(done.output);
   for (std::string line; std::getline(in, line);) lines.push_back(line);
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  if (done.status < 0) lines.push_back("expected a C and C++ compiler; run scripts/setup.sh");
+  return done.status == 0;
 }
 
 fs::path find(const std::string& name, const std::string& from_folder) {
@@ -162,6 +145,11 @@ std::string provide_program(const std::string& name, const std::string& from_fol
   }
   if (path.extension() == ".so") return path.string();
   std::vector<fs::path> sources;
+  const std::string odd = folder ? odd_file_in(path) : "";
+  if (!odd.empty()) {
+    problems.push_back(odd + ": supervisor: got a pipe or a device, expected a file");
+    return "";
+  }
   std::uint64_t h = 1;
   for (const fs::path& file : folder ? files_in(path) : std::vector<fs::path>{path}) {
     h = hash_of(hash_of(h, file.string()), content_of(file));

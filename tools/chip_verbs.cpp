@@ -11,6 +11,7 @@
 #include "dspic30/core/disassembler.h"
 #include "dspic30/load/firmware_file.h"
 #include "dspic30/memory/program_memory.h"
+#include "hal_sim/cc/memory_limit.h"
 #include "tools/command_line.h"
 #include "tools/program_file.h"
 #include "tools/verbs.h"
@@ -55,6 +56,7 @@ int disassemble(const std::string& name) {
 }
 
 int assemble(const std::string& name, const std::string& output) {
+  cc::limit_own_memory(name);
   std::string text;
   if (!read_file(name, text)) {
     complain({name + ": cannot be read, expected assembler text"});

@@ -14,6 +14,7 @@
 #include <map>
 #include <memory>
 
+#include "hal_sim/cc/child_process.h"
 #include "hal_sim/twin/twin.h"
 #include "tools/command_line.h"
 #include "tools/lab_mine.h"
@@ -77,12 +78,14 @@ struct Told {
 
 void run_in_processes(std::vector<TrialResult>& trials, int jobs) {
   std::vector<std::pair<pid_t, int>> children;
+  std::vector<std::unique_ptr<cc::ChildGroup>> groups;  // of theirs; they end with this process
   for (int j = 0; j < jobs; ++j) {
     int ends[2];
     if (pipe(ends) != 0) throw std::runtime_error("no pipe");
-    const pid_t pid = fork();
+    const pid_t parent = getpid(), pid = fork();
     if (pid < 0) throw std::runtime_error("no process");
     if (pid == 0) {
+      cc::lead_child_group(parent);
       close(ends[0]);
       for (std::size_t i = static_cast<std::size_t>(j); i < trials.size();
            i += static_cast<std::size_t>(jobs)) {
@@ -95,9 +98,11 @@ void run_in_processes(std::vector<TrialResult>& trials, int jobs) {
       _exit(0);
     }
     close(ends[1]);
+    groups.push_back(std::make_unique<cc::ChildGroup>(pid));
     children.emplace_back(pid, ends[0]);
   }
-  for (const auto& [pid, end] : children) {
+  for (std::size_t c = 0; c < children.size(); ++c) {
+    const auto [pid, end] = children[c];
     Told told;
     for (std::size_t got = 0;;) {
       const ssize_t n = read(end, reinterpret_cast<char*>(&told) + got, sizeof told - got);
@@ -110,6 +115,7 @@ void run_in_processes(std::vector<TrialResult>& trials, int jobs) {
       trials[told.index].said = told.said;
     }
     close(end);
+    groups[c].reset();  // what is waited for has no number any more
     int status;
     waitpid(pid, &status, 0);
   }

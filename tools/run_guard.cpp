@@ -15,6 +15,7 @@
 #include <string>
 #include <thread>
 
+#include "hal_sim/cc/child_process.h"
 #include "hal_sim/host/faults.h"
 #include "sim_core/base/check.h"
 #include "tools/verbs.h"
@@ -137,6 +138,7 @@ void watch() {
       wait_for_news(limited ? &at : nullptr);
       continue;
     }
+    cc::end_children();
     if (!graceful || signals > 1) end_hard();
     if (finishing) {
       wait_for_news(nullptr);

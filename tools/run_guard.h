@@ -4,6 +4,8 @@
 // or the simulator loops for ever, is ended by a thread of its own: that stops the other threads where they
 // are, says what ran, and leaves with the documented exit code.
 //
+// Compilers and other children end at once.
+//
 //   asked --- grace --> rescue: files written as far as safe --- grace --> end without anything
 #pragma once
 #include <functional>

@@ -657,10 +657,25 @@ static BuildResult lint_here(const BuildOptions& options) {
   return result;
 }
 
-/// Files that are longer than any program's: what looks for words in them would take a stack to match.
-static std::vector<std::string> too_long(const fs::path& folder) {
+/// Files that are longer than any program's: what looks for words in them would take a stack to match. And
+/// what has a source's name and is no file: a pipe would never end.
+static std::vector<std::string> no_sources(const fs::path& folder) {
   std::vector<std::string> wrong;
   std::error_code ec;
+  const auto skip = fs::directory_options::skip_permission_denied;
+  for (fs::recursive_directory_iterator it(folder, skip, ec), end; !ec && it != end; it.increment(ec)) {
+    std::error_code odd;
+    const fs::file_type type = it->status(odd).type();
+    if (odd || type == fs::file_type::regular || type == fs::file_type::directory ||
+        type == fs::file_type::not_found)
+      continue;
+    std::string kind = it->path().extension().string();
+    std::transform(kind.begin(), kind.end(), kind.begin(), ::tolower);
+    for (const char* of_source : {".c", ".h", ".s", ".inc", ".cpp", ".cc", ".cxx", ".hpp", ".o", ".a"})
+      if (kind == of_source)
+        wrong.push_back(it->path().string() + ": source: got a pipe or a device, expected a file");
+  }
+  ec.clear();
   for (const char* kind : {".c", ".h", ".mcp", ".xml"})
     for (const fs::path& file : files_below(folder, kind))
       if (const auto bytes = fs::file_size(file, ec); !ec && bytes > kLongestSourceBytes)
@@ -673,7 +688,7 @@ static std::vector<std::string> too_long(const fs::path& folder) {
 template <typename Work>
 static BuildResult begin(const BuildOptions& options, BuildInputs& inputs, const Work& work) {
   BuildResult refused;
-  refused.errors = too_long(options.source_dir);
+  refused.errors = no_sources(options.source_dir);
   if (!refused.errors.empty()) return refused;
   return on_large_stack([&] {
     const NotingInputs noting(inputs);

@@ -70,6 +70,11 @@ std::string with_found_files(StringRef text, const std::vector<std::string>& fol
       out += line;
     } else {
       std::string said = path.empty() ? name.str() : path;
+      const auto is_there = [&](const std::string& folder) {
+        return sys::fs::exists(Twine(folder) + "/" + name);
+      };
+      if (path.empty() && (sys::fs::exists(name) || any_of(folders, is_there)))
+        said += " (expected a file)";  // a pipe would never end
       std::replace(said.begin(), said.end(), '\\', '/');
       out += (before + "\"" + said + "\"" + after).str();
       if (!path.empty()) found.push_back(path);
@@ -122,6 +127,10 @@ int assemble_for_chip(const Options& options) {
   std::unique_ptr<MCInstrInfo> instructions(target.createMCInstrInfo());
   std::unique_ptr<MCSubtargetInfo> subtarget(target.createMCSubtargetInfo(kDspicTriple, kDspicCpu, ""));
 
+  if (!sys::fs::is_regular_file(options.input)) {  // a pipe would never end
+    errs() << options.input << ": cannot read: expected a file\n";
+    return kUsersFault;
+  }
   auto text = MemoryBuffer::getFile(options.input);
   if (!text) {
     errs() << options.input << ": cannot read: " << text.getError().message() << "\n";

@@ -82,6 +82,10 @@ class ForgivingFileSystem : public llvm::vfs::ProxyFileSystem {
   llvm::ErrorOr<std::unique_ptr<llvm::vfs::File>> openFileForRead(const llvm::Twine& path) override {
     std::string ours = replaced_copy(path.str());
     if (!ours.empty()) return ProxyFileSystem::openFileForRead(ours);
+    // a pipe or a device is no file that ends
+    auto known = ProxyFileSystem::status(path);
+    if (known && !known->isRegularFile() && !known->isDirectory())
+      return std::make_error_code(std::errc::invalid_argument);
     auto exact = ProxyFileSystem::openFileForRead(path);
     if (exact) return exact;
     missing_.insert(path.str());

@@ -5,9 +5,7 @@
 #include "object_cache.h"
 
 #include <fcntl.h>
-#include <spawn.h>
 #include <sys/file.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -22,43 +20,8 @@
 
 #include "build_record.h"
 
-extern char** environ;
-
 namespace cc {
 namespace fs = std::filesystem;
-
-ProcessResult run_process(const std::vector<std::string>& argv) {
-  ProcessResult result;
-  int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) return result;
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, ends[1], 1);
-  posix_spawn_file_actions_adddup2(&actions, ends[1], 2);
-  std::vector<char*> raw;
-  for (const auto& a : argv) raw.push_back(const_cast<char*>(a.c_str()));
-  raw.push_back(nullptr);
-  pid_t pid;
-  int failed = posix_spawnp(&pid, raw[0], &actions, nullptr, raw.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  close(ends[1]);
-  if (failed) {
-    close(ends[0]);
-    result.output = argv[0] + ": cannot start it: " + std::string(strerror(failed)) + "\n";
-    return result;
-  }
-  char buffer[4096];
-  for (ssize_t n; (n = read(ends[0], buffer, sizeof buffer)) != 0;) {
-    if (n < 0 && errno != EINTR) break;
-    if (n > 0) result.output.append(buffer, size_t(n));
-  }
-  close(ends[0]);
-  int status = 0;
-  while (waitpid(pid, &status, 0) < 0 && errno == EINTR) {
-  }
-  result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  return result;
-}
 
 std::string content_hash(const std::string& bytes) {
   // two sums of words with different factors: 128 bits, plenty against accidents
@@ -77,6 +40,8 @@ std::string content_hash(const std::string& bytes) {
 }
 
 std::string bytes_of(const fs::path& path) {
+  std::error_code none;
+  if (!fs::is_regular_file(path, none)) return "";  // a pipe would never end
   std::ifstream in(path, std::ios::binary | std::ios::ate);
   std::string all(in ? size_t(std::max<std::streamoff>(0, in.tellg())) : 0, '\0');
   in.seekg(0);
@@ -163,7 +128,9 @@ CompileOutcome compile(const CompileJob& job, const fs::path& compiler, const st
                        const fs::path& cache, BuildInputs& inputs) {
   CompileOutcome outcome;
   outcome.source = job.source;
+  // debug information and messages name the files as the compiler was given them, from where it ran
   std::string key = job.source.string() + "\n" + job.salt + "\n" + salt;
+  if (job.source.is_relative()) key += "\n" + fs::current_path().string();
   for (const auto& f : job.flags) key += "\n" + f;
   fs::path base = cache / (job.source.stem().string() + "-" + content_hash(key));
   outcome.object = base.string() + ".o";

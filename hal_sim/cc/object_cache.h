@@ -6,15 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "child_process.h"
+
 namespace cc {
-
-struct ProcessResult {
-  int status = -1;
-  std::string output;  // standard output and error together
-};
-
-/// Runs a program and collects what it prints.
-ProcessResult run_process(const std::vector<std::string>& argv);
 
 /// A short name for a content; equal contents give equal names.
 std::string content_hash(const std::string& bytes);

@@ -10,10 +10,12 @@
 #include "llvm/IR/LegacyPassManager.h"
 #include "llvm/IR/Verifier.h"
 #include "llvm/MC/TargetRegistry.h"
+#include "llvm/Support/ErrorHandling.h"
 #include "llvm/Support/FileSystem.h"
 #include "llvm/Support/TargetSelect.h"
 #include "llvm/Support/raw_ostream.h"
 #include "llvm/Target/TargetMachine.h"
+#include "memory_limit.h"
 #include "passes.h"
 #include "twinpuck_paths.h"
 
@@ -141,6 +143,12 @@ bool emit(Module& m, const cc::Options& o) {
   return true;
 }
 
+/// What is too large ends with a message, whichever way it asks for memory.
+void limit_memory(const std::string& what) {
+  cc::limit_own_memory(what);
+  install_bad_alloc_error_handler([](void*, const char*, bool) { cc::end_without_memory(); });
+}
+
 /// twinpuck-cc --link -o x.elf a.o b.o [--library c.o]... [--driver d.o]... [--source O=C]... [--heap N]
 int link(int argc, char** argv) {
   dspic::link::Options o;
@@ -169,6 +177,7 @@ int link(int argc, char** argv) {
               "BYTES]\n";
     return 2;
   }
+  limit_memory(o.output);
   return dspic::link::run(o) ? 0 : 1;
 }
 
@@ -178,6 +187,7 @@ int main(int argc, char** argv) {
   if (argc > 1 && StringRef(argv[1]) == "--link") return link(argc, argv);
   cc::Options options;
   if (!parse(argc, argv, options)) return 2;
+  limit_memory(options.input);
   if (options.chip && StringRef(options.input).endswith_insensitive(".s"))
     return cc::assemble_for_chip(options);
   InitializeNativeTarget();

@@ -39,6 +39,7 @@ class Ends : public CommandTest {
 };
 
 TEST_F(Ends, a_supervisor_s_endless_loop_ends_at_the_host_limit) {
+  ASSERT_EQ(twinpuck("build " + endless_supervisor()).exit_code, 0);  // the limit counts building, too
   const auto said =
       twinpuck("run empty --host-limit 1 --record " + path("r.csv") + " --supervisor " + endless_supervisor(),
                kPatient);

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "memory_limit.h"
+
+#include <signal.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <new>
+
+namespace cc {
+namespace {
+
+struct LastWords {
+  std::string of_memory, of_file;
+};
+LastWords& last_words() {
+  static LastWords words;
+  return words;
+}
+
+[[noreturn]] void say_and_end(const std::string& words) {
+  const ssize_t written = write(STDERR_FILENO, words.data(), words.size());
+  _exit(written < 0 ? 2 : 1);
+}
+
+void bound(int what, std::uint64_t bytes) {
+  rlimit limit;
+  if (getrlimit(what, &limit) != 0) return;
+  limit.rlim_cur = std::min<rlim_t>(limit.rlim_cur, bytes);
+  setrlimit(what, &limit);
+}
+
+}  // namespace
+
+void bound_memory(std::uint64_t bytes) { bound(RLIMIT_AS, bytes); }
+
+void limit_own_memory(const std::string& what) {
+  const auto words = [&](const char* of, std::uint64_t bytes) {
+    return what + ": " + of + ": got more than " + std::to_string(bytes >> 20) +
+           " MB, expected at most that; does a macro, an array or .space grow without end?\n";
+  };
+  last_words() = {words("memory", kMostToolBytes), words("output", kMostToolFileBytes)};
+  bound(RLIMIT_FSIZE, kMostToolFileBytes);
+  signal(SIGXFSZ, [](int) { say_and_end(last_words().of_file); });
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  bound_memory(kMostToolBytes);
+  std::set_new_handler(end_without_memory);
+#endif
+}
+
+void end_without_memory() { say_and_end(last_words().of_memory); }
+
+}  // namespace cc
