@@ -15,7 +15,8 @@ constexpr std::size_t kMostLines = 1u << 20;  // of a hostile file
 /// One unit's line program [DWARF 4, 6.2].
 class LineProgram {
  public:
-  LineProgram(CodeMap& map, Cursor unit) : map_(map), unit_(unit) {}
+  LineProgram(CodeMap& map, Cursor unit, std::string folder)
+      : map_(map), unit_(unit), folder_(std::move(folder)) {}
 
   void run() {
     if (!read_head()) return;
@@ -63,8 +64,8 @@ class LineProgram {
       const std::size_t folder = head.leb();
       head.leb();
       head.leb();
-      const bool is_whole = name[0] == '/' || folder >= folders.size() || folders[folder].empty();
-      files_.push_back(file_number(is_whole ? name : folders[folder] + "/" + name));
+      const std::string in = folder < folders.size() ? whole_path(folder_, folders[folder]) : folder_;
+      files_.push_back(file_number(whole_path(in, name)));
     }
     begin();
     return true;
@@ -113,7 +114,7 @@ class LineProgram {
         row_.address = rest.number(rest.left());
         return;
       case DefineFile:
-        files_.push_back(file_number(rest.text()));
+        files_.push_back(file_number(whole_path(folder_, rest.text())));
         return;
       default:
         return;
@@ -147,6 +148,7 @@ class LineProgram {
 
   CodeMap& map_;
   Cursor unit_;
+  std::string folder_;  // that names are relative to; empty: not known
   std::vector<std::uint8_t> operands_;
   std::vector<std::uint16_t> files_;  // numbers in the map; the unit counts from 1
   bool starts_statement_ = true;
@@ -155,11 +157,6 @@ class LineProgram {
   std::size_t sequence_ = 0;  // its first row
   CodeMap::Line row_;
 };
-
-bool ends_with(const std::string& path, const std::string& end) {
-  if (path.size() < end.size() || path.compare(path.size() - end.size(), end.size(), end) != 0) return false;
-  return path.size() == end.size() || path[path.size() - end.size() - 1] == '/' || end[0] == '/';
-}
 
 /// The last of `rows`, sorted by `address`, that begins at or before one; end() if none does.
 template <typename Rows, typename Address>
@@ -171,12 +168,44 @@ typename Rows::const_iterator last_before(const Rows& rows, std::uint32_t addres
 
 }  // namespace
 
-void CodeMap::add_lines(const unsigned char* bytes, std::size_t size) {
+std::string whole_path(const std::string& folder, const std::string& path) {
+  const auto is_letter = [](char c) { return (c | 0x20) >= 'a' && (c | 0x20) <= 'z'; };
+  const auto is_whole = [&](const std::string& p) {
+    const bool has_drive = p.size() > 2 && is_letter(p[0]) && p[1] == ':' && (p[2] == '/' || p[2] == '\\');
+    return has_drive || (!p.empty() && (p[0] == '/' || p[0] == '\\'));
+  };
+  std::string all = is_whole(path) || folder.empty() ? path : folder + "/" + path;
+  // Windows' separators, where nothing says that the name has a backslash in it
+  if (all.find('/') == std::string::npos || (all.size() > 1 && all[1] == ':'))
+    std::replace(all.begin(), all.end(), '\\', '/');
+  std::vector<std::string> parts;
+  for (std::size_t from = 0; from <= all.size();) {
+    const std::size_t end = std::min(all.find('/', from), all.size());
+    const std::string part = all.substr(from, end - from);
+    from = end + 1;
+    if (part == ".." && !parts.empty() && parts.back() != "..")
+      parts.pop_back();
+    else if (!part.empty() && part != ".")
+      parts.push_back(part);
+  }
+  std::string out = all[0] == '/' ? "/" : "";
+  for (std::size_t i = 0; i < parts.size(); ++i) out += (i > 0 ? "/" : "") + parts[i];
+  return out;
+}
+
+bool ends_path(const std::string& path, const std::string& end) {
+  if (path.size() < end.size() || path.compare(path.size() - end.size(), end.size(), end) != 0) return false;
+  return path.size() == end.size() || path[path.size() - end.size() - 1] == '/' || end[0] == '/';
+}
+
+void CodeMap::add_lines(const unsigned char* bytes, std::size_t size,
+                        const std::map<std::uint32_t, std::string>& folders) {
   Cursor section(bytes, size);
   while (section.left() > 4) {
+    const auto folder = folders.find(static_cast<std::uint32_t>(size - section.left()));
     const std::uint32_t length = section.number(4);
     if (length > section.left()) return;
-    LineProgram(*this, section.part(length)).run();
+    LineProgram(*this, section.part(length), folder == folders.end() ? "" : folder->second).run();
   }
 }
 
@@ -210,15 +239,25 @@ const CodeMap::Line* CodeMap::line_at(std::uint32_t address) const {
 }
 
 std::vector<std::uint32_t> CodeMap::addresses_of(const std::string& file, int line, int& found) const {
+  std::vector<std::size_t> among;
+  for (std::size_t i = 0; i < files.size(); ++i)
+    if (ends_path(files[i], file)) among.push_back(i);
+  return addresses_of(among, line, found);
+}
+
+std::vector<std::uint32_t> CodeMap::addresses_of(const std::vector<std::size_t>& among, int line,
+                                                 int& found) const {
   std::vector<std::uint32_t> addresses;
+  std::vector<char> is_meant(files.size());
+  for (const std::size_t file : among) is_meant[file] = 1;
   found = 0;
   for (const Line& l : lines)
-    if (l.is_statement && l.line >= line && (found == 0 || l.line < found) && ends_with(files[l.file], file))
+    if (l.is_statement && l.line >= line && (found == 0 || l.line < found) && is_meant[l.file])
       found = l.line;
   if (found == 0) return addresses;
   const Line* before = nullptr;
   for (const Line& l : lines) {
-    const bool is_it = l.line == found && ends_with(files[l.file], file);
+    const bool is_it = l.line == found && is_meant[l.file];
     const bool goes_on = before && before->line == l.line && before->file == l.file;
     // of a loop's several pieces only the first in each function
     if (is_it && l.is_statement && !goes_on &&

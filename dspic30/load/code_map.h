@@ -8,6 +8,7 @@
 // our own compiler and XC16 write them. Types and variables: debug_info.h. Not read: ranges of scopes.
 #pragma once
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -29,7 +30,7 @@ struct CodeMap {
   };
   std::vector<Function> functions;  ///< by address
   std::vector<Line> lines;          ///< by address
-  std::vector<std::string> files;   ///< as compiled
+  std::vector<std::string> files;   ///< whole paths where the folder of the compilation is known
 
   /// Null where there is none.
   const Function* function_at(std::uint32_t address) const;
@@ -40,13 +41,23 @@ struct CodeMap {
   /// Where code of that line, or of the next one that has any, begins: statements' first words, one a
   /// function and inlined copy. `file`: the end of a path. `found`: the line.
   std::vector<std::uint32_t> addresses_of(const std::string& file, int line, int& found) const;
+  /// The same in any of `among`: numbers of `files`.
+  std::vector<std::uint32_t> addresses_of(const std::vector<std::size_t>& among, int line, int& found) const;
   /// "control() (main.c:98)" as far as known, else "0x0003a6".
   std::string describe(std::uint32_t address) const;
 
-  /// A .debug_line section. What cannot be read ends it: lines help, nothing depends on them.
-  void add_lines(const unsigned char* bytes, std::size_t size);
+  /// A .debug_line section. What cannot be read ends it: lines help, nothing depends on them. `folders`:
+  /// where the compiler stood, by the place of a unit's lines in the section (DebugInfo::folders).
+  void add_lines(const unsigned char* bytes, std::size_t size,
+                 const std::map<std::uint32_t, std::string>& folders = {});
   /// After the last addition.
   void sort();
 };
+
+/// "/robot/main.c" of "/robot/build" and "..\\main.c": slashes, no dots. A `path` that is
+/// whole by itself, "C:/robot/main.c" too, has no need of the folder.
+std::string whole_path(const std::string& folder, const std::string& path);
+/// Is `end` the end of a path, from a name's first letter on? "motors/speed.c", "speed.c".
+bool ends_path(const std::string& path, const std::string& end);
 
 }  // namespace dspic

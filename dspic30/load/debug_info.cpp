@@ -25,6 +25,7 @@ enum Tag : unsigned {
   kInlinedSubroutine = 0x1D,
   kSubrangeType = 0x21,
   kBaseType = 0x24,
+  kEnumerator = 0x28,
   kConstType = 0x26,
   kSubprogram = 0x2E,
   kVariable = 0x34,
@@ -33,11 +34,13 @@ enum Tag : unsigned {
 enum Attribute : unsigned {
   kLocation = 0x02,
   kName = 0x03,
+  kStatements = 0x10,
   kByteSize = 0x0B,
   kBitOffset = 0x0C,
   kBitSize = 0x0D,
   kLowPc = 0x11,
   kHighPc = 0x12,
+  kCompileFolder = 0x1B,
   kConstValue = 0x1C,
   kUpperBound = 0x2F,
   kAbstractOrigin = 0x31,
@@ -252,6 +255,9 @@ class Reader {
     const auto top = entries_.find(first);
     if (top == entries_.end() || top->second.tag != kCompileUnit) return;
     if (const Value* name = top->second.find(kName)) file_ = name->text;
+    const Value *const lines = top->second.find(kStatements), *const folder =
+                                                                  top->second.find(kCompileFolder);
+    if (lines && folder) out_.folders[lines->number] = folder->text;
     low_ = 2 * (top->second.number(kLowPc) / 2);
     scope(top->second, 0, 0, 14, 0);
     for (std::size_t i = 0; i < points_.size(); ++i) {  // what they point to may hold more of them
@@ -289,7 +295,7 @@ class Reader {
         break;
       }
       case kEnumerationType:
-        type.kind = DebugInfo::Kind::Unsigned;
+        type.kind = add_enumerators(entry) ? DebugInfo::Kind::Signed : DebugInfo::Kind::Unsigned;
         if (!type.bytes) type.bytes = 2;
         break;
       case kPointerType:
@@ -308,6 +314,27 @@ class Reader {
         return 0;
     }
     return types_[offset] = add(std::move(type));
+  }
+
+  /// True: one of them is negative.
+  bool add_enumerators(const Entry& entry) {
+    bool has_negative = false;
+    for (const std::uint32_t offset : entry.inner) {
+      const Entry& inner = entries_.at(offset);
+      const Value *const name = inner.find(kName), *const value = inner.find(kConstValue);
+      if (inner.tag != kEnumerator || !name || !value) continue;
+      const auto number = static_cast<std::int32_t>(value->number);
+      has_negative |= number < 0;
+      out_.enumerators.emplace(name->text, number);
+    }
+    return has_negative;
+  }
+
+  /// For casts; the first of a name counts.
+  void note_name(const Entry& entry, std::uint32_t offset) {
+    const Value* const name = entry.find(kName);
+    if (!name || name->text.empty() || entry.number(kDeclaration)) return;
+    out_.named.emplace((entry.tag == kTypedef ? "" : "struct ") + name->text, type_at(offset, 0));
   }
 
   int add(DebugInfo::Type&& type) {
@@ -369,6 +396,12 @@ class Reader {
       const Entry& inner = entries_.at(offset);
       std::uint32_t from = begin, to = end;
       switch (inner.tag) {
+        case kTypedef:
+        case kStructureType:
+        case kUnionType:
+        case kEnumerationType:
+          note_name(inner, offset);
+          break;
         case kVariable:
         case kFormalParameter:
           add_variable(inner, begin, end, frame);

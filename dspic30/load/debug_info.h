@@ -51,6 +51,9 @@ struct DebugInfo {
 
   std::vector<Type> types{Type{}};  ///< 0: unknown
   std::vector<Variable> variables;
+  std::map<std::string, int> named;                 ///< types: "u8", "struct node" (of unions and enums too)
+  std::map<std::string, std::int32_t> enumerators;  ///< constants that enums name
+  std::map<std::uint32_t, std::string> folders;     ///< where the compiler stood, by place in .debug_line
 
   /// "speed", "grid[2].x", seen from `pc`: locals of the innermost scope go before. False: `error` says why.
   bool find(const std::string& expression, std::uint32_t pc, Found& found, std::string& error) const;

@@ -32,8 +32,10 @@ class ElfReader {
     if (error_.empty()) check_header(bytes.size());
     for (Elf_Scn* s = nullptr; error_.empty() && (s = elf_nextscn(elf_.get(), s));) read_section(s);
     if (error_.empty() && file_.words.empty()) fail("there is no program in it");
-    file_.code.sort();
     file_.debug.add(debug_);
+    if (const auto lines = debug_.find(".debug_line"); lines != debug_.end())
+      file_.code.add_lines(lines->second.bytes, lines->second.size, file_.debug.folders);
+    file_.code.sort();
     error = error_;
     return error_.empty();
   }
@@ -68,7 +70,6 @@ class ElfReader {
     if (!gelf_getshdr(section, &head)) return fail("a section's header cannot be read: " + why());
     if (head.sh_type == SHT_SYMTAB) return read_symbols(section, head);
     const std::string name = section_name(head);
-    if (name == ".debug_line") return read_lines(section);
     if (name.compare(0, 7, ".debug_") == 0)
       if (const Elf_Data* data = elf_getdata(section, nullptr); data && data->d_buf)
         debug_[name] = {static_cast<const unsigned char*>(data->d_buf), data->d_size};
@@ -112,12 +113,6 @@ class ElfReader {
     elf_getshdrstrndx(elf_.get(), &names);
     const char* name = elf_strptr(elf_.get(), names, section.sh_name);
     return name ? name : "";
-  }
-
-  void read_lines(Elf_Scn* section) {
-    const Elf_Data* data = elf_getdata(section, nullptr);
-    if (data && data->d_buf)
-      file_.code.add_lines(static_cast<const unsigned char*>(data->d_buf), data->d_size);
   }
 
   void read_symbols(Elf_Scn* section, const GElf_Shdr& head) {

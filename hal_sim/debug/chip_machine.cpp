@@ -36,6 +36,18 @@ std::vector<Frame> ChipMachine::frames() {
                     [this](unsigned address) { return word(address); });
 }
 
+// what a reset jumps to runs, or something that it has called, and not yet main()
+bool ChipMachine::is_starting_up() {
+  if (!file().functions.count("main") || nesting() > 0) return false;
+  const auto first = code_.at(0);
+  if (pc() == 0) return true;
+  const auto* reset = first && first->target ? file().code.function_at(*first->target) : nullptr;
+  const std::vector<Frame> all = frames();
+  const auto is_main = [](const Frame& f) { return f.function && f.function->name == "main"; };
+  return reset && reset->name != "main" && !all.empty() && all.back().function == reset &&
+         std::none_of(all.begin(), all.end(), is_main);
+}
+
 bool ChipMachine::repeats(const chip::Step& step) const {
   static constexpr unsigned kSr = dspic::sfr("SR");
   return !step.slept && step.next == step.pc && (word(kSr) & kRepeating);

@@ -24,6 +24,7 @@ class ChipMachine final : public Machine {
   int nesting() const override { return runner_.device().nesting(); }
   std::vector<Frame> frames() override;
   Cycle first_look_back() const override { return 50'000; }
+  bool is_starting_up() override;
   bool repeats(const chip::Step& step) const override;
 
   bool is_code(std::uint32_t address) const override;

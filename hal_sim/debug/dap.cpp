@@ -5,11 +5,14 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include "dspic30/asm/expression.h"
 #include "dspic30/memory/sfr_table.h"
 
 namespace debug {
 
 namespace {
+
+using dspic::assembly::trimmed;
 
 constexpr std::size_t kLongestMessage = 16u << 20;
 enum Scope { kRegisters = 1, kVariables, kPeripherals };
@@ -169,6 +172,9 @@ void DapServer::handle(const Json& request) {
                              {"supportsSetVariable", true},
                              {"supportsStepBack", true},
                              {"supportsSteppingGranularity", true},
+                             {"supportsReadMemoryRequest", true},
+                             {"supportsDisassembleRequest", true},
+                             {"supportsInstructionBreakpoints", true},
                              {"supportsTerminateRequest", true}});
   if (command == "disconnect" || command == "terminate") {
     respond(request);
@@ -193,6 +199,9 @@ void DapServer::handle(const Json& request) {
                     {{"name", "Peripherals"}, {"variablesReference", kPeripherals}, {"expensive", true}}}}});
   if (command == "variables") return variables(request);
   if (command == "setVariable") return set_variable(request);
+  if (command == "setInstructionBreakpoints") return set_instruction_breakpoints(request);
+  if (command == "readMemory") return read_memory(request);
+  if (command == "disassemble") return disassemble(request);
   if (command == "evaluate") return evaluate(request);
   if (command == "configurationDone") {
     respond(request);
@@ -238,6 +247,7 @@ void DapServer::set_breakpoints(const Json& request) {
   const Json& arguments = request.at("arguments");
   const std::string path = arguments.at("source").at("path");
   replace(of_source_[path], {});
+  for (const std::size_t file : session_->files_meant(path)) paths_[file] = path;
   Json all = Json::array();
   for (const Json& wanted : arguments.value("breakpoints", Json::array())) {
     std::string error;
@@ -257,6 +267,22 @@ void DapServer::set_function_breakpoints(const Json& request) {
     const Breakpoint* b =
         session_->add_breakpoint(wanted.at("name").get<std::string>(), wanted.value("condition", ""), error);
     if (b) of_functions_.insert(b->id);
+    all.push_back(told(b, error));
+  }
+  respond(request, {{"breakpoints", all}});
+}
+
+void DapServer::set_instruction_breakpoints(const Json& request) {
+  replace(of_instructions_, {});
+  Json all = Json::array();
+  for (const Json& wanted : request.at("arguments").at("breakpoints")) {
+    std::string error;
+    const std::string reference = wanted.at("instructionReference");
+    const auto address = static_cast<std::int64_t>(std::strtoll(reference.c_str(), nullptr, 0)) +
+                         wanted.value("offset", std::int64_t{0});
+    const Breakpoint* b =
+        session_->add_breakpoint(fmt::format("{:#x}", address), wanted.value("condition", ""), error);
+    if (b) of_instructions_.insert(b->id);
     all.push_back(told(b, error));
   }
   respond(request, {{"breakpoints", all}});
@@ -297,17 +323,31 @@ void DapServer::stack_trace(const Json& request) {
                {"instructionPointerReference", fmt::format("{:#x}", f.pc)}};
     if (const auto* line = map.line_at(f.call)) {
       frame["line"] = line->line;
-      frame["source"] = {{"name", file_name(map.files[line->file])}, {"path", map.files[line->file]}};
+      frame["source"] = told_source(line->file);
     }
     frames.push_back(frame);
   }
   respond(request, {{"stackFrames", frames}, {"totalFrames", frames.size()}});
 }
 
+nlohmann::json DapServer::told_source(std::size_t file) const {
+  const auto known = paths_.find(file);
+  const std::string& path = known == paths_.end() ? session_->file().code.files[file] : known->second;
+  return {{"name", file_name(path)}, {"path", path}};
+}
+
+nlohmann::json DapServer::reference(const CValue& value) const {
+  std::optional<Address> address;
+  if (value.type.stars > 0 && !value.part && !value.data) address = value.raw;
+  if (const auto place = session_->place_of(value); place && !place->is_register) address = place->address;
+  return address ? Json(fmt::format("{:#x}", *address)) : Json();
+}
+
 void DapServer::variables(const Json& request) {
   Json all = Json::array();
-  const auto add = [&](const std::string& name, const std::string& value) {
+  const auto add = [&](const std::string& name, const std::string& value, const Json& memory = {}) {
     all.push_back({{"name", name}, {"value", value}, {"variablesReference", 0}, {"evaluateName", name}});
+    if (!memory.is_null()) all.back()["memoryReference"] = memory;
   };
   switch (request.at("arguments").at("variablesReference").get<int>()) {
     case kRegisters:
@@ -317,13 +357,21 @@ void DapServer::variables(const Json& request) {
       break;
     case kVariables:
       for (const auto& variable : session_->file().debug.variables)
-        if (session_->pc() >= variable.begin && session_->pc() < variable.end)
-          add(variable.name, session_->typed({{&variable, variable.type}, {}, session_->pc()}));
+        if (session_->pc() >= variable.begin && session_->pc() < variable.end) {
+          CValue value;
+          value.part = Part{{&variable, variable.type}, {}, session_->pc()};
+          add(variable.name, session_->typed(*value.part), reference(value));
+        }
       for (const auto& [name, address] : session_->file().objects) {
         const auto bytes = session_->file().object_bytes.find(name);
         if (bytes == session_->file().object_bytes.end() || bytes->second > 4) continue;
-        const auto value = session_->read({session_->machine().data_base() + address, bytes->second});
-        add(name, fmt::format("{} ({:#x})", value, value));
+        CValue known;
+        std::string none;
+        if (!session_->compute(name, Want::Place, known, none)) continue;
+        const Address at = session_->machine().data_base() + address;
+        const auto value = session_->read({at, bytes->second});
+        add(name, known.part ? session_->typed(*known.part) : fmt::format("{} ({:#x})", value, value),
+            fmt::format("{:#x}", at));
       }
       break;
     case kPeripherals:
@@ -341,14 +389,12 @@ void DapServer::variables(const Json& request) {
 void DapServer::set_variable(const Json& request) {
   const Json& arguments = request.at("arguments");
   const std::string name = arguments.at("name");
-  std::int64_t value = 0;
   std::string error;
-  const auto data = session_->find_data(name);
-  if (!session_->evaluate(arguments.at("value").get<std::string>(), value, error))
-    return refuse(request, error);
-  if (!data || !session_->write(*data, static_cast<std::uint64_t>(value)))
-    return refuse(request, name + " cannot be changed");
-  respond(request, {{"value", fmt::format("{}", session_->read(*data))}});
+  if (!session_->assign(name, arguments.at("value").get<std::string>(), error)) return refuse(request, error);
+  CValue now;
+  if (!session_->compute(name, Want::Number, now, error)) return refuse(request, error);
+  const std::string text = session_->shown(now);
+  respond(request, {{"value", text.substr(0, text.find(" ("))}});
 }
 
 void DapServer::evaluate(const Json& request) {
@@ -362,10 +408,124 @@ void DapServer::evaluate(const Json& request) {
       send_event("stopped", {{"reason", "step"}, {"threadId", 1}, {"allThreadsStopped", true}});
     return;
   }
-  std::int64_t value = 0;
+  CValue value, number;
   std::string error;
-  if (!session_->evaluate(text, value, error)) return refuse(request, error);
-  respond(request, {{"result", fmt::format("{} ({:#x})", value, value)}, {"variablesReference", 0}});
+  if (!session_->compute(text, Want::Place, value, error)) return refuse(request, error);
+  // what pointers point to is what one wants to see
+  const bool is_pointer = value.type.stars > 0 && session_->compute(text, Want::Number, number, error);
+  if (!value.part && !session_->compute(text, Want::Number, number, error)) return refuse(request, error);
+  Json body{{"result", value.part ? session_->shown(value) : session_->shown(number)},
+            {"variablesReference", 0}};
+  if (const Json memory = reference(is_pointer ? number : value); !memory.is_null())
+    body["memoryReference"] = memory;
+  respond(request, body);
+}
+
+// --- memory and instructions
+
+namespace {
+
+std::string base64(const std::vector<std::uint8_t>& bytes) {
+  static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t left = std::min<std::size_t>(3, bytes.size() - i);
+    unsigned three = 0;
+    for (std::size_t k = 0; k < 3; ++k) three = three << 8 | (k < left ? bytes[i + k] : 0u);
+    for (std::size_t k = 0; k < 4; ++k) text += k <= left ? kDigits[three >> (18 - 6 * k) & 63] : '=';
+  }
+  return text;
+}
+
+/// "0x900", or a number alone. False: it is none.
+bool reference_of(const nlohmann::json& arguments, std::int64_t& address) {
+  const std::string text = arguments.at("memoryReference");
+  char* end = nullptr;
+  address = std::strtoll(text.c_str(), &end, 0) + arguments.value("offset", std::int64_t{0});
+  return !text.empty() && *end == 0;
+}
+
+}  // namespace
+
+void DapServer::read_memory(const Json& request) {
+  const Json& arguments = request.at("arguments");
+  std::int64_t address = 0;
+  const std::int64_t wanted = arguments.at("count").get<std::int64_t>();
+  constexpr std::int64_t kMost = 1 << 16;
+  if (!reference_of(arguments, address) || wanted < 0)
+    return refuse(request, "readMemory: expected an address as a memoryReference, and a count of 0 or more");
+  std::vector<std::uint8_t> bytes;
+  const Address last = session_->machine().address_mask();
+  for (std::int64_t i = 0; i < std::min(wanted, kMost) && address + i >= 0; ++i) {
+    const auto at = static_cast<Address>(address + i);
+    std::uint8_t byte = 0;
+    if (at > last || !session_->machine().read({at, 1}, &byte)) break;
+    bytes.push_back(byte);
+  }
+  Json body{{"address", fmt::format("{:#x}", std::max<std::int64_t>(0, address))}, {"data", base64(bytes)}};
+  if (const auto missing = wanted - static_cast<std::int64_t>(bytes.size()); missing > 0)
+    body["unreadableBytes"] = missing;
+  respond(request, body);
+}
+
+void DapServer::disassemble(const Json& request) {
+  const Json& arguments = request.at("arguments");
+  std::int64_t wanted = 0;
+  const auto from = arguments.value("instructionOffset", std::int64_t{0});
+  const auto count = arguments.at("instructionCount").get<std::int64_t>();
+  constexpr std::int64_t kMost = 10000;
+  const Machine& machine = session_->machine();
+  if (!reference_of(arguments, wanted) || count < 0 || count > kMost || std::abs(from) > kMost)
+    return refuse(
+        request,
+        fmt::format("disassemble: expected an address as a memoryReference, and counts up to {}", kMost));
+  std::uint32_t next = 0;
+  if (machine.instruction(session_->pc(), next).empty())
+    return refuse(request, "instructions of the PC are not shown here; debug --gdb does");
+  // instructions have one word or two: begin so far before that it does not matter how the first are taken
+  const std::int64_t end = machine.code_end(),
+                     begin = std::max<std::int64_t>(
+                         0, (wanted & ~std::int64_t{1}) + 4 * std::min<std::int64_t>(0, from) - 64);
+  std::vector<std::uint32_t> places;
+  std::int64_t here = -1;  // among them
+  for (std::int64_t at = begin; at < end; at = next) {
+    if (at >= wanted && here < 0) here = static_cast<std::int64_t>(places.size());
+    if (here >= 0 &&
+        static_cast<std::int64_t>(places.size()) >= here + std::max<std::int64_t>(0, from) + count)
+      break;
+    places.push_back(static_cast<std::uint32_t>(at));
+    machine.instruction(static_cast<std::uint32_t>(at), next);
+    // a place where something begins is where an instruction begins
+    if (at<wanted&& static_cast<std::int64_t>(next)> wanted) next = static_cast<std::uint32_t>(wanted);
+  }
+  if (here < 0) here = static_cast<std::int64_t>(places.size());
+  Json all = Json::array();
+  const dspic::CodeMap& map = session_->file().code;
+  const dspic::CodeMap::Line* told_line = nullptr;
+  for (std::int64_t i = here + from; i < here + from + count; ++i) {
+    if (i < 0 || i >= static_cast<std::int64_t>(places.size())) {
+      const std::int64_t beyond = i < 0 ? 0 : end + 2 * (i - static_cast<std::int64_t>(places.size()));
+      all.push_back({{"address", fmt::format("{:#08x}", beyond)},
+                     {"instruction", "(no memory)"},
+                     {"presentationHint", "invalid"}});
+      continue;
+    }
+    const std::uint32_t at = places[static_cast<std::size_t>(i)];
+    const std::string text = machine.instruction(at, next);
+    const std::size_t gap = text.find("  ");
+    Json one{{"address", fmt::format("{:#08x}", at)},
+             {"instruction", text.empty() ? "(erased)" : trimmed(text.substr(gap))}};
+    if (!text.empty()) one["instructionBytes"] = text.substr(0, gap);
+    if (const auto* function = map.function_at(at); function && function->begin == at)
+      one["symbol"] = function->name;
+    if (const auto* line = map.line_at(at); line && line != told_line) {
+      one["location"] = told_source(line->file);
+      one["line"] = line->line;
+      told_line = line;
+    }
+    all.push_back(std::move(one));
+  }
+  respond(request, {{"instructions", all}});
 }
 
 }  // namespace debug

@@ -53,6 +53,13 @@ class DapServer {
   void variables(const Json& request);
   void set_variable(const Json& request);
   void evaluate(const Json& request);
+  void set_instruction_breakpoints(const Json& request);
+  void read_memory(const Json& request);
+  void disassemble(const Json& request);
+  /// Of what lies in memory: where.
+  Json reference(const CValue& value) const;
+  /// Name and path of a source, the path as the editor has it.
+  Json told_source(std::size_t file) const;
   void begin_run(Plan plan);
   void go_on();
   void replace(std::set<int>& old, std::set<int> now);
@@ -66,7 +73,8 @@ class DapServer {
   std::unique_ptr<Session> session_;
   std::unique_ptr<Monitor> monitor_;
   std::map<std::string, std::set<int>> of_source_;
-  std::set<int> of_functions_, of_data_;
+  std::map<std::size_t, std::string> paths_;  // of sources, as the editor named them
+  std::set<int> of_functions_, of_data_, of_instructions_;
   bool stops_on_entry_ = false, runs_ = false, pause_asked_ = false, ended_ = false, is_broken_ = false;
   Plan plan_ = Plan::Continue;
 };

@@ -90,6 +90,8 @@ class Machine {
   virtual std::uint32_t body_of(std::uint32_t function) const { return function; }
   /// Does a run begin in main(), because nothing before it is the program's?
   virtual bool begins_in_main() const { return false; }
+  /// Has main() not been called yet?
+  virtual bool is_starting_up() { return false; }
   /// The instruction at an address as text; empty: that is not known here. `next`: the one behind it.
   virtual std::string instruction(std::uint32_t address, std::uint32_t& next) const = 0;
 

@@ -212,40 +212,35 @@ std::string Monitor::world() {
 // --- data
 
 std::string Monitor::print(const std::string& expression) {
-  Session::Part part;
-  std::string unknown;
-  if (session_.find_part(expression, part, unknown)) return expression + " = " + session_.typed(part) + "\n";
-  const auto data = session_.find_data(expression);
-  if (data && data->bytes > 4) {  // an array or structure: its words
+  CValue value;
+  std::string error;
+  const bool is_known = session_.compute(expression, Want::Place, value, error);
+  const auto data = is_known && !value.part ? session_.find_data(expression) : std::nullopt;
+  if (data && data->bytes > 4 &&
+      !session_.machine().find_register(expression)) {  // of no known type: its words
     std::string text = expression + " =";
     for (unsigned i = 0; i + 1 < data->bytes && i < 64; i += 2)
       text += fmt::format(" {:#06x}", session_.read({data->address + i, 2}));
     return text + (data->bytes > 64 ? " ...\n" : "\n");
   }
-  std::int64_t value = 0;
-  std::string error;
-  if (!session_.evaluate(expression, value, error)) return error + "\n";
-  const unsigned bits = data && data->width == 0 ? 8 * data->bytes : 0;
-  std::string other;
-  if (bits > 0 && bits <= 32 && (value >> (bits - 1) & 1))
-    other = fmt::format(", signed {}", value - (std::int64_t{1} << bits));
-  return fmt::format("{} = {} ({:#x}{})\n", expression, value, value, other);
+  if (is_known && value.part) return expression + " = " + session_.shown(value) + "\n";
+  if (!session_.compute(expression, Want::Number, value, error)) return error + "\n";
+  std::string text = session_.shown(value);
+  // a register, or a symbol without a type, has no sign of its own
+  const unsigned bits =
+      data && data->width == 0 && value.type.kind == CType::Kind::Unsigned ? 8 * data->bytes : 0;
+  if (bits > 0 && bits <= 32 && value.type.stars == 0 && (value.raw >> (bits - 1) & 1))
+    text.insert(text.size() - 1,
+                fmt::format(", signed {}", static_cast<std::int64_t>(value.raw) - (std::int64_t{1} << bits)));
+  return expression + " = " + text + "\n";
 }
 
 std::string Monitor::assign(const std::string& rest) {
   const std::size_t equals = rest.find('=');
   if (equals == std::string::npos) return "expected NAME = EXPRESSION\n";
   const std::string name = trimmed(rest.substr(0, equals));
-  std::int64_t value = 0;
   std::string error;
-  if (!session_.evaluate(rest.substr(equals + 1), value, error)) return error + "\n";
-  const auto data = session_.find_data(name);
-  if (!data || !session_.write(*data, static_cast<std::uint64_t>(value)))
-    return "got '" + name + "', expected a variable of up to 8 bytes or a register" +
-           (data && data->is_register ? "; here, only where a line of the program begins, and not NVMCON"
-                                      : "") +
-           "\n";
-  return print(name);
+  return session_.assign(name, rest.substr(equals + 1), error) ? print(name) : error + "\n";
 }
 
 std::string Monitor::memory(const std::string& rest) {

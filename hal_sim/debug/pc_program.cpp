@@ -57,10 +57,10 @@ dspic::FirmwareFile read_pc_program(const std::string& path) {
       if (const Elf_Data* data = elf_getdata(s, nullptr); data && data->d_buf)
         sections[name] = {static_cast<const unsigned char*>(data->d_buf), data->d_size};
     }
-    if (const auto lines = sections.find(".debug_line"); lines != sections.end())
-      file.code.add_lines(lines->second.bytes, lines->second.size);
-    file.code.sort();
     file.debug.add(sections);
+    if (const auto lines = sections.find(".debug_line"); lines != sections.end())
+      file.code.add_lines(lines->second.bytes, lines->second.size, file.debug.folders);
+    file.code.sort();
   }
   close(descriptor);
   return file;

@@ -2,9 +2,11 @@
 #include "hal_sim/debug/session.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "hal_sim/debug/chip_machine.h"
 #include "hal_sim/debug/pc_machine.h"
+#include "sim_core/base/input_file.h"
 
 namespace debug {
 
@@ -12,6 +14,7 @@ namespace {
 
 constexpr auto kIdleEvery = std::chrono::milliseconds(20);
 constexpr Cycle kLookBackGrows = 30;
+constexpr std::size_t kLongestSource = 4u << 20;  // bytes
 // a program may run beyond the window's end, to the end of a block
 constexpr Cycle kLongestBlock = 10'000;
 
@@ -20,6 +23,13 @@ std::unique_ptr<Machine> machine_of(host::Runner* runner) {
   if (auto* chip = dynamic_cast<chip::ChipRunner*>(runner)) return std::make_unique<ChipMachine>(*chip);
   if (auto* pc = dynamic_cast<host::CompiledRunner*>(runner)) return std::make_unique<PcMachine>(*pc);
   return nullptr;
+}
+
+/// May code that was made of `source` be of a file that lies at `path`? Not if both are there and differ.
+bool is_possibly(const std::string& source, const std::string& path) {
+  std::string one, other;
+  if (!sim::read_input_file(source, kLongestSource, one).empty()) return true;
+  return sim::read_input_file(path, kLongestSource, other).empty() && one == other;
 }
 
 }  // namespace
@@ -155,10 +165,25 @@ Stop Session::run(Plan plan, const std::function<bool()>& idle) {
   // what was changed by hand later than here has not happened
   while (!pokes_.empty() && pokes_.back().when.at > now()) pokes_.pop_back();
   next_poke_ = pokes_.size();
+  traps_ = machine_->runner().traps().size();
+  if ((plan == Plan::Line || plan == Plan::NextLine) && machine_->is_starting_up()) return go_to_main(idle);
   plan_ = plan;
   from_ = moment(now());
-  traps_ = machine_->runner().traps().size();
   return resume(idle);
+}
+
+// a step by lines in the start-up, which has none of the program's
+Stop Session::go_to_main(const std::function<bool()>& idle) {
+  std::string error;
+  const Breakpoint* main = add_breakpoint("main", "", error);
+  if (!main) return {Stop::Why::End, 0, error};
+  const int id = main->id;
+  plan_ = Plan::Continue;
+  Stop stop = resume(idle);
+  remove(id);
+  last_id_ = id - 1;
+  if (stop.id == id) stop = {Stop::Why::Step, 0, ""};
+  return stop;
 }
 
 Stop Session::go_to(Cycle cycle, const std::function<bool()>& idle) {
@@ -410,10 +435,10 @@ int Session::hit_here(bool count) {
 }
 
 bool Session::holds(const Breakpoint& b) const {
-  std::int64_t value = 1;
+  CValue value;
   std::string error;
-  return b.condition.empty() || !evaluate(b.condition, value, error) ||
-         value != 0;  // what cannot be told stops
+  return b.condition.empty() || !compute(b.condition, Want::Number, value, error) ||
+         value.is_true();  // what cannot be told stops
 }
 
 bool Session::watch_hit() {
@@ -450,10 +475,13 @@ const Breakpoint* Session::add_breakpoint(const std::string& where, const std::s
                                : line                     ? map.files[line->file]
                                                           : "";
     int found = 0;
-    b.addresses = map.addresses_of(source, std::stoi(number), found);
+    const std::vector<std::size_t> files = files_meant(source);
+    b.addresses = map.addresses_of(files, std::stoi(number), found);
     if (b.addresses.empty())
       error = "got '" + where + "', expected a line with code in a file of the program" +
-              (map.lines.empty() ? "; this image has no lines" : "");
+              (map.lines.empty() ? "; this image has no lines"
+               : files.empty()   ? "; it has no such file"
+                                 : "");
     else
       b.what = source.substr(source.rfind('/') + 1) + ":" + std::to_string(found);
   } else if (const auto label = file().functions.find(where); label != file().functions.end()) {
@@ -484,17 +512,48 @@ const Breakpoint* Session::add_breakpoint(const std::string& where, const std::s
   return &breakpoints_.back();
 }
 
+std::vector<std::size_t> Session::files_meant(const std::string& path) const {
+  namespace fs = std::filesystem;
+  std::error_code none;
+  const auto& files = file().code.files;
+  std::vector<std::size_t> found;
+  if (path.empty()) return found;
+  const fs::path wanted = fs::weakly_canonical(path, none);
+  for (std::size_t i = 0; i < files.size(); ++i)
+    if (fs::path(files[i]).is_absolute() && fs::weakly_canonical(files[i], none) == wanted)
+      found.push_back(i);
+  if (!found.empty()) return found;
+  const std::string end = dspic::whole_path("", path);
+  for (std::size_t i = 0; i < files.size(); ++i)
+    if (dspic::ends_path(files[i], end)) found.push_back(i);
+  if (!found.empty() || !fs::path(path).is_absolute()) return found;
+  // the image was made somewhere else, or of files that were copied
+  std::size_t longest = 0;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const std::string &a = files[i], b = wanted.string();
+    std::size_t same = 0, names = 0;
+    while (same < a.size() && same < b.size() && a[a.size() - 1 - same] == b[b.size() - 1 - same])
+      names += b[b.size() - 1 - same++] == '/';
+    names += same == a.size() ? 1 : 0;
+    if (names == 0 || names < longest || !is_possibly(a, b)) continue;
+    if (names > longest) found.clear();
+    longest = names;
+    found.push_back(i);
+  }
+  return found;
+}
+
 const Breakpoint* Session::add_watchpoint(const std::string& what, const std::string& condition,
                                           std::string& error) {
   Breakpoint b;
   b.what = what;
   std::int64_t value = 0;
-  if (!what.empty() && what[0] == '*') {
-    if (!evaluate(what.substr(1), value, error)) return nullptr;
-    b.data = {static_cast<Address>(value) & machine_->address_mask(), 2};
-  } else if (const auto data = find_data(what)) {
+  if (const auto data = find_data(what)) {
     b.data = *data;
     b.data.bytes = std::min(data->bytes, 8u);
+  } else if (!what.empty() && what[0] == '*') {  // a word at an address
+    if (!evaluate(what.substr(1), value, error)) return nullptr;
+    b.data = {static_cast<Address>(value) & machine_->address_mask(), 2};
   } else {
     error = "got '" + what + "', expected a variable, a register or *address";
     if (find_sfr(what)) error += "; the native way has no registers of the chip, --way register has";

@@ -19,6 +19,7 @@
 #include <thread>
 #include <vector>
 
+#include "hal_sim/debug/expression.h"
 #include "hal_sim/debug/machine.h"
 #include "hal_sim/twin/twin.h"
 
@@ -92,23 +93,22 @@ class Session final : private Watcher {
   const std::string& robot() const { return setup_.robot; }
 
   // --- data
-  /// Value of an expression of C: numbers, variables and their parts (motors[n].speed, m->speed, *p),
-  /// registers (LATA, LATA.LATA6, w0, pc, sr, cycle). A float counts as its whole part. Names are those that
-  /// are known at `pc`; without it, where the program stands. False: `error` says why.
+  /// An expression of C (expression.h): variables and their parts (motors[n].speed, m->speed, *p), registers
+  /// (LATA, LATA.LATA6, w0, sr), pc, cycle, nesting. Names are those that are known at `pc`; without it,
+  /// where the program stands. False: `error` says why.
+  bool compute(const std::string& expression, Want want, CValue& value, std::string& error,
+               std::optional<std::uint32_t> pc = {}) const;
+  /// The same as a whole number, a float cut to its whole part: an address, a count.
   bool evaluate(const std::string& expression, std::int64_t& value, std::string& error,
                 std::optional<std::uint32_t> pc = {}) const;
-  /// A variable or register by name.
+  /// "3 (0x3)", "-1.75", "{mode = 1, speed = {-300, 300}}".
+  std::string shown(const CValue& value) const;
+  /// Where it lies, if it lies somewhere.
+  std::optional<Data> place_of(const CValue& value) const;
+  /// A variable, a part of one, a register.
   std::optional<Data> find_data(const std::string& name) const;
-  /// A variable of a known type, a part of one, or what a pointer points to.
-  struct Part {
-    dspic::DebugInfo::Found found;
-    std::optional<Address> pointed;  ///< address that found.offset counts from; none: the variable's place
-    std::uint32_t pc = 0;            ///< where the program would have to stand
-    bool is_elsewhere = false;       ///< it stands somewhere else: what cannot be read is 0
-  };
-  /// "speed", "grid[i + 1].x", "m->next->speed", "**p". False: `error` says why.
-  bool find_part(const std::string& expression, Part& part, std::string& error,
-                 std::optional<std::uint32_t> pc = {}) const;
+  /// As C's assignment. False: `error` says why.
+  bool assign(const std::string& name, const std::string& expression, std::string& error);
   /// As C would write it: "{mode = 1, speed = {-300, 300}}".
   std::string typed(const Part& part) const;
   /// Parameters and variables of the function that runs, a line each.
@@ -124,17 +124,20 @@ class Session final : private Watcher {
                                    std::string& error);
   /// `what`: a variable, a register or *address.
   const Breakpoint* add_watchpoint(const std::string& what, const std::string& condition, std::string& error);
+  /// The program's source files (of file().code.files) that a path means: the very file, or, of a path that
+  /// does not begin at the root, those that end so. Of a program that was built somewhere else, or from a
+  /// copy: the file of that name whose path agrees furthest.
+  std::vector<std::size_t> files_meant(const std::string& path) const;
   bool remove(int id);
   std::vector<Breakpoint>& breakpoints() { return breakpoints_; }
   const Breakpoint* find(int id) const;
 
  private:
+  class SeenNames;
   /// Symbols and registers, whatever the debug information says.
   std::optional<Data> find_untyped(const std::string& name) const;
   std::optional<Address> address_of(const Part& part) const;
   std::optional<std::uint64_t> raw_value(const Part& part) const;
-  bool value_of(const Part& part, std::int64_t& value) const;
-  bool point(Part& part, std::int64_t index, std::string& error) const;
   enum class State { Running, Stopped, Ended };
   struct Moment {
     enum class Where { Anywhere, Instruction, Between };
@@ -157,6 +160,7 @@ class Session final : private Watcher {
   void abandon();
   void run_world();
   Stop resume(const std::function<bool()>& idle);
+  Stop go_to_main(const std::function<bool()>& idle);
   Stop repeat_to(const Moment& to, Cycle look_from, const std::function<bool()>& idle);
   Stop go_back(Plan plan, const std::function<bool()>& idle);
 

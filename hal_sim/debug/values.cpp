@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Names and expressions of the debugger: variables by their symbols, registers by the chip's table.
+// Names and values of the debugger: variables by their symbols and types, registers by the chip's table.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
-#include <cmath>
 #include <cstring>
 
 #include "dspic30/asm/expression.h"
@@ -22,16 +20,10 @@ unsigned bits_of(const dspic::DebugInfo::Type& type, const dspic::DebugInfo::Fou
   return found.width > 0 ? static_cast<unsigned>(found.width) : 8 * type.bytes;
 }
 
-float float_of(std::uint64_t raw) {
-  float number;
-  std::memcpy(&number, &raw, sizeof number);
-  return number;
-}
-
-double number_of(std::uint64_t raw, unsigned bytes) {
-  double number;
-  std::memcpy(&number, &raw, sizeof number);
-  return bytes == sizeof number ? number : static_cast<double>(float_of(raw));
+/// A bit-field may reach beyond the type that it was declared with.
+unsigned bytes_of(const dspic::DebugInfo::Type& type, const dspic::DebugInfo::Found& found) {
+  if (found.width <= 0) return type.bytes;
+  return std::min(8u, std::max(type.bytes, (static_cast<unsigned>(found.bit + found.width) + 7) / 8));
 }
 
 /// Conditions are judged on a small stack.
@@ -46,95 +38,87 @@ bool is_too_deep(const std::string& expression) {
   return deepest > kMost;
 }
 
-/// End of the name that begins at `at`.
-std::size_t end_of_name(const std::string& text, std::size_t at) {
-  while (at < text.size() && (std::isalnum(static_cast<unsigned char>(text[at])) || text[at] == '_')) ++at;
-  return at;
-}
-
-/// End of the step .NAME, ->NAME or [INDEX] that begins at `at`; `at` itself: none does.
-std::size_t end_of_step(const std::string& text, std::size_t at) {
-  if (text.compare(at, 1, ".") == 0 || text.compare(at, 2, "->") == 0) {
-    const std::size_t name = at + (text[at] == '.' ? 1 : 2), end = end_of_name(text, name);
-    return end > name ? end : at;
-  }
-  if (text.compare(at, 1, "[") != 0) return at;
-  int depth = 0;
-  for (std::size_t end = at; end < text.size(); ++end) {
-    depth += (text[end] == '[') - (text[end] == ']');
-    if (depth == 0) return end + 1;
-  }
-  return at;
-}
-
-/// End of the variable, or part of one, that begins at `at`; `at` itself: none does.
-std::size_t end_of_part(const std::string& text, std::size_t at) {
-  const std::size_t begin = at;
-  while (at < text.size() && (text[at] == '*' || text[at] == ' ')) ++at;
-  std::size_t end = at;
-  if (at < text.size() && !std::isdigit(static_cast<unsigned char>(text[at]))) end = end_of_name(text, at);
-  if (end == at) return begin;
-  for (std::size_t next = end_of_step(text, end); next != end; next = end_of_step(text, end)) end = next;
-  return end;
+/// "-5536 (0xea60)", "1.5", "0x0a3c": as the type wants it.
+std::string number_text(const CValue& value) {
+  const CType& type = value.type;
+  if (type.stars > 0) return fmt::format("{:#06x}", value.raw);
+  if (type.is_float())
+    return type.bits > 32 ? fmt::format("{}", value.real) : fmt::format("{}", static_cast<float>(value.real));
+  const bool is_whole = type.bits >= 64 || type.bits == 0;
+  const std::uint64_t raw = is_whole ? value.raw : value.raw & ((std::uint64_t{1} << type.bits) - 1);
+  const bool is_negative = type.kind == CType::Kind::Signed && static_cast<std::int64_t>(value.raw) < 0;
+  return is_negative ? fmt::format("{} ({:#x})", static_cast<std::int64_t>(value.raw), raw)
+                     : fmt::format("{} ({:#x})", raw, raw);
 }
 
 }  // namespace
 
-// --- parts of variables
+/// What expressions see of the program.
+class Session::SeenNames final : public Names {
+ public:
+  SeenNames(const Session& session, std::optional<std::uint32_t> pc)
+      : session_(session), pc_(pc.value_or(session.pc())), is_elsewhere_(pc.has_value()) {}
 
-bool Session::find_part(const std::string& expression, Part& part, std::string& error,
-                        std::optional<std::uint32_t> at_pc) const {
-  const std::string text = dspic::assembly::trimmed(expression);
-  const auto wrong = [&](const std::string& why) {
-    error = "got '" + text + "', " + why;
-    return false;
-  };
-  if (!text.empty() && text[0] == '*')
-    return find_part(text.substr(1), part, error, at_pc) && (point(part, 0, error) || wrong(error));
-  part = {{}, {}, at_pc.value_or(pc()), at_pc.has_value()};
-  std::size_t at = end_of_name(text, 0);
-  if (!file().debug.find(text.substr(0, at), part.pc, part.found, error)) return false;
-  while (at < text.size()) {
-    const std::size_t end = end_of_step(text, at);
-    if (end == at) return wrong("expected NAME, then .MEMBER, ->MEMBER and [INDEX] as C writes them");
-    std::string step = text.substr(at, end - at);
-    at = end;
-    if (step[0] == '-') {
-      if (!point(part, 0, error)) return wrong(error);
-      step = step.substr(1);
-      step[0] = '.';
-    }
-    if (step[0] == '[') {
-      std::int64_t index = 0;
-      if (!evaluate(step.substr(1, step.size() - 2), index, error, at_pc)) return false;
-      if (file().debug.types[static_cast<std::size_t>(part.found.type)].kind == Kind::Pointer) {
-        if (!point(part, index, error)) return wrong(error);
-        continue;
-      }
-      step = "[" + std::to_string(index) + "]";
-    }
-    if (!file().debug.follow(step, part.found, error)) return wrong(error);
+  const dspic::DebugInfo& debug_info() const override { return session_.file().debug; }
+  unsigned pointer_bits() const override { return session_.machine().address_mask() == 0xFFFF ? 16 : 64; }
+  bool find_variable(const std::string& name, Part& part) const override {
+    std::string none;
+    part = {{}, {}, pc_, is_elsewhere_};
+    return debug_info().find(name, pc_, part.found, none);
   }
+  bool find_other(const std::string& name, CValue& value) const override {
+    const auto known = [&](CType::Kind kind, unsigned bits, std::int64_t raw) {
+      value = {};
+      value.type = {kind, bits};
+      value.raw = static_cast<std::uint64_t>(raw);
+      return true;
+    };
+    if (name == "pc") return known(CType::Kind::Signed, 64, session_.pc());
+    if (name == "cycle") return known(CType::Kind::Signed, 64, session_.now());
+    if (name == "nesting") return known(CType::Kind::Signed, 64, session_.machine().nesting());
+    if (const auto data = session_.find_untyped(name)) {
+      Data some = *data;
+      some.bytes = std::min(data->bytes, 4u);
+      known(CType::Kind::Unsigned, some.width > 0 ? static_cast<unsigned>(some.width) : 8 * some.bytes, 0);
+      value.data = some;
+      return true;
+    }
+    const auto code = session_.file().functions.find(name);
+    return code != session_.file().functions.end() &&
+           known(CType::Kind::Unsigned, code->second > 0xFFFF ? 32 : 16, code->second);
+  }
+  std::optional<Address> address_of(const Part& part) const override { return session_.address_of(part); }
+  std::optional<std::uint64_t> raw_value(const Part& part) const override { return session_.raw_value(part); }
+  std::optional<std::uint64_t> raw_value(const Data& data) const override {
+    std::uint64_t value = 0;
+    if (data.bytes > 8 || (!session_.machine().read(data, &value) && !is_elsewhere_)) return {};
+    return session_.read(data);
+  }
+
+ private:
+  const Session& session_;
+  const std::uint32_t pc_;
+  const bool is_elsewhere_;
+};
+
+bool Session::compute(const std::string& expression, Want want, CValue& value, std::string& error,
+                      std::optional<std::uint32_t> at_pc) const {
+  if (!is_too_deep(expression))
+    return debug::compute(SeenNames(*this, at_pc), dspic::assembly::trimmed(expression), want,
+                          at_pc.has_value(), value, error);
+  error = "got '" + expression + "', expected at most 8 [ or * within one another";
+  return false;
+}
+
+bool Session::evaluate(const std::string& expression, std::int64_t& value, std::string& error,
+                       std::optional<std::uint32_t> at_pc) const {
+  CValue number;
+  if (!compute(expression, Want::Number, number, error, at_pc)) return false;
+  value = number.whole();
   return true;
 }
 
-// from a pointer to what it points to
-bool Session::point(Part& part, std::int64_t index, std::string& error) const {
-  const auto& type = file().debug.types[static_cast<std::size_t>(part.found.type)];
-  const unsigned bytes = file().debug.types[static_cast<std::size_t>(type.element)].bytes;
-  const auto to = raw_value(part);
-  if (type.kind != Kind::Pointer || bytes == 0)
-    error = "expected a pointer to something of a known type";
-  else if (!to)
-    error = "but the optimiser keeps it nowhere here";
-  else {
-    part.pointed =
-        static_cast<Address>(static_cast<std::int64_t>(*to) + index * bytes) & machine_->address_mask();
-    part.found = {nullptr, type.element};
-    return true;
-  }
-  return false;
-}
+// --- parts of variables
 
 // registers are data, too
 std::optional<Address> Session::address_of(const Part& part) const {
@@ -161,7 +145,7 @@ std::optional<std::uint64_t> Session::raw_value(const Part& part) const {
   if (type.bytes == 0 || type.bytes > 8 || type.kind == Kind::Array || type.kind == Kind::Struct) return {};
   std::uint64_t raw = 0;
   if (const auto address = address_of(part)) {
-    if (!machine_->read({*address, type.bytes}, &raw) && !part.is_elsewhere) return {};
+    if (!machine_->read({*address, bytes_of(type, part.found)}, &raw) && !part.is_elsewhere) return {};
   } else {
     const auto* const place = dspic::DebugInfo::place_at(*part.found.variable, part.pc);
     if (!place) return {};
@@ -170,27 +154,6 @@ std::optional<std::uint64_t> Session::raw_value(const Part& part) const {
   }
   const unsigned bits = bits_of(type, part.found);
   return raw << (64 - bits - static_cast<unsigned>(part.found.bit)) >> (64 - bits);
-}
-
-// an array counts as its address
-bool Session::value_of(const Part& part, std::int64_t& value) const {
-  const auto& type = file().debug.types[static_cast<std::size_t>(part.found.type)];
-  if (const auto address = address_of(part); address && type.kind == Kind::Array) {
-    value = static_cast<std::int64_t>(*address);
-    return true;
-  }
-  const auto raw = raw_value(part);
-  if (!raw) return false;
-  if (type.kind == Kind::Float) {
-    const double number = number_of(*raw, type.bytes);
-    constexpr double kMost = 9e18;
-    value = std::isnan(number) ? 0 : static_cast<std::int64_t>(std::clamp(number, -kMost, kMost));
-    return true;
-  }
-  const unsigned bits = bits_of(type, part.found);
-  value = static_cast<std::int64_t>(*raw);
-  if (type.kind == Kind::Signed) value = static_cast<std::int64_t>(*raw << (64 - bits)) >> (64 - bits);
-  return true;
 }
 
 std::string Session::typed(const Part& whole) const {
@@ -219,13 +182,25 @@ std::string Session::typed(const Part& whole) const {
   if (type.bytes == 0 || type.bytes > 8) return "(of no known type)";
   const auto raw = raw_value(whole);
   if (!raw) return "(not kept here)";
-  if (type.kind == Kind::Float)
-    return type.bytes == sizeof(double) ? fmt::format("{}", number_of(*raw, type.bytes))
-                                        : fmt::format("{}", float_of(*raw));
-  if (type.kind == Kind::Pointer) return fmt::format("{:#06x}", *raw);
-  std::int64_t value = 0;
-  value_of(whole, value);
-  return value < 0 ? fmt::format("{} ({:#x})", value, *raw) : fmt::format("{} ({:#x})", *raw, *raw);
+  CValue value;
+  value.type = type_of(debug, whole.found.type);
+  if (whole.found.width > 0) value.type.bits = static_cast<unsigned>(whole.found.width);
+  value.raw = *raw;
+  if (value.type.is_float() && value.type.bits > 32) {
+    std::memcpy(&value.real, &*raw, sizeof value.real);
+  } else if (value.type.is_float()) {
+    float number;
+    std::memcpy(&number, &*raw, sizeof number);
+    value.real = static_cast<double>(number);
+  } else if (value.type.stars == 0 && value.type.kind == CType::Kind::Signed) {
+    const unsigned spare = 64 - bits_of(type, whole.found);
+    value.raw = static_cast<std::uint64_t>(static_cast<std::int64_t>(*raw << spare) >> spare);
+  }
+  return number_text(value);
+}
+
+std::string Session::shown(const CValue& value) const {
+  return value.part ? typed(*value.part) : number_text(value);
 }
 
 std::string Session::locals() const {
@@ -236,15 +211,23 @@ std::string Session::locals() const {
   return text.empty() ? "no variables of a function are known here\n" : text;
 }
 
+std::optional<Data> Session::place_of(const CValue& value) const {
+  if (!value.part) return value.data;
+  const auto address = address_of(*value.part);
+  if (!address) return {};
+  const dspic::DebugInfo::Found& found = value.part->found;
+  return Data{*address, bytes_of(file().debug.types[static_cast<std::size_t>(found.type)], found), found.bit,
+              found.width};
+}
+
 std::optional<Data> Session::find_data(const std::string& name) const {
-  Part part;
+  CValue value;
   std::string error;
-  if (find_part(name, part, error))
-    if (const auto address = address_of(part)) {
-      const auto& type = file().debug.types[static_cast<std::size_t>(part.found.type)];
-      return Data{*address, type.bytes, part.found.bit, part.found.width};
-    }
-  return find_untyped(name);
+  if (compute(name, Want::Place, value, error))
+    if (const auto place = place_of(value); place && value.part) return place;
+  // a symbol is as large as it is, a register's place its own
+  if (const auto known = find_untyped(name)) return known;
+  return error.empty() ? value.data : std::nullopt;
 }
 
 std::optional<Data> Session::find_untyped(const std::string& name) const {
@@ -264,62 +247,29 @@ std::uint64_t Session::read(const Data& data) const {
   return data.width > 0 ? value >> data.bit & ((std::uint64_t{1} << data.width) - 1) : value;
 }
 
-bool Session::evaluate(const std::string& expression, std::int64_t& value, std::string& error,
-                       std::optional<std::uint32_t> at_pc) const {
-  if (is_too_deep(expression)) {
-    error = "got '" + expression + "', expected at most 8 [ or * within one another";
+bool Session::assign(const std::string& name, const std::string& expression, std::string& error) {
+  CValue to, value;
+  if (!compute(expression, Want::Number, value, error)) return false;
+  const auto data = find_data(name);
+  const bool is_typed = compute(name, Want::Place, to, error) && (to.part || to.data);
+  if (!data || data->bytes > 8 || (is_typed && to.type.kind == CType::Kind::Image && to.type.stars == 0)) {
+    error = "got '" + name + "', expected a variable of up to 8 bytes or a register";
     return false;
   }
-  const auto symbols = [&](const std::string& name, std::int64_t& out) {
-    Part part;
-    std::string why;
-    if (find_part(name, part, why, at_pc) && value_of(part, out)) return true;
-    if (name == "pc")
-      out = static_cast<std::int64_t>(pc());
-    else if (name == "cycle")
-      out = now();
-    else if (name == "nesting")
-      out = machine_->nesting();
-    else if (const auto data = find_untyped(name)) {
-      Data some = *data;
-      some.bytes = std::min(data->bytes, 4u);
-      out = static_cast<std::int64_t>(read(some));
-    } else if (const auto code = file().functions.find(name); code != file().functions.end()) {
-      out = code->second;
-    } else {
-      return false;
-    }
-    return true;
-  };
-  // what the expressions of assembler text do not have: [ ], -> and the * before a pointer
-  std::string text;
-  bool is_operand = true;  // what comes next is one, or the sign before one
-  for (std::size_t at = 0; at < expression.size();) {
-    const auto c = static_cast<unsigned char>(expression[at]);
-    std::size_t end = at + 1;
-    if (is_operand && !std::isspace(c)) end = std::max(end, end_of_part(expression, at));
-    if (std::isdigit(c)) end = end_of_name(expression, at);
-    std::string piece = expression.substr(at, end - at);
-    at = end;
-    if (piece == "*" && is_operand) {
-      error = "got '" + expression + "', expected a variable behind the *";
-      return false;
-    }
-    if (piece[0] == '*' ? is_operand : piece.find_first_of("[>") != std::string::npos && piece.size() > 1) {
-      Part part;
-      std::int64_t number = 0;
-      if (!find_part(piece, part, error, at_pc)) return false;
-      if (!value_of(part, number)) {
-        error = "got '" + piece + "', expected something that has a value here";
-        return false;
-      }
-      piece = "(" + std::to_string(number) + ")";
-    }
-    text += piece;
-    if (!std::isspace(c)) is_operand = piece.size() == 1 && !std::isalnum(c) && c != '_' && c != ')';
+  // as an assignment of C converts it
+  const CValue held = is_typed ? converted(value, to.type) : value;
+  std::uint64_t raw = held.raw;
+  if (held.type.is_float() && held.type.bits > 32) {
+    std::memcpy(&raw, &held.real, sizeof raw);
+  } else if (held.type.is_float()) {
+    const auto number = static_cast<float>(held.real);
+    raw = 0;
+    std::memcpy(&raw, &number, sizeof number);
   }
-  return dspic::assembly::evaluate(
-      text, symbols, [](std::int64_t a) { return a; }, value, error);
+  if (write(*data, raw)) return true;
+  error = "got '" + name + "', expected a variable of up to 8 bytes or a register";
+  if (data->is_register) error += "; here, only where a line of the program begins, and not NVMCON";
+  return false;
 }
 
 }  // namespace debug

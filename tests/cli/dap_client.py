@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """An editor's side of the Debug Adapter Protocol: dap_client.py TWINPUCK FIRMWARE SOURCE WAY. Exit code 0: all as expected."""
+import base64
 import json
 import subprocess
 import sys
@@ -59,7 +60,8 @@ def value(expression):
     return good("evaluate", expression=expression, context="watch")["result"]
 
 
-assert good("initialize", adapterID="twinpuck")["supportsStepBack"]
+abilities = good("initialize", adapterID="twinpuck")
+assert all(abilities[a] for a in ("supportsStepBack", "supportsReadMemoryRequest", "supportsDisassembleRequest", "supportsInstructionBreakpoints"))
 assert not ask("stackTrace", threadId=1)["success"]
 good("launch", world="maze", firmware=FIRMWARE, way=WAY, seconds=0.03)
 event("initialized")
@@ -99,6 +101,41 @@ expect((value("cycle"), value("pc")), (cycle, pc))
 good("stepOut", threadId=1)
 event("stopped")
 expect(top()[0], "main")
+
+# memory and instructions
+memory = {v["name"]: v.get("memoryReference") for v in good("variables", variablesReference=2)["variables"]}
+expect(good("evaluate", expression="ticks", context="watch")["memoryReference"], memory["ticks"])
+expect(good("evaluate", expression="&ticks", context="watch")["memoryReference"], memory["ticks"])
+read = good("readMemory", memoryReference=memory["ticks"], count=2)
+expect((int(read["address"], 16), base64.b64decode(read["data"])), (int(memory["ticks"], 16), b"\3\0"))
+table = memory["ticks"]
+expect(base64.b64decode(good("readMemory", memoryReference=table, offset=1, count=1)["data"]), b"\0")
+expect(good("readMemory", memoryReference=table, count=0)["data"], "")
+assert not ask("readMemory", memoryReference="here", count=2)["success"]
+assert not ask("readMemory", memoryReference=table, count=-1)["success"]
+frame = good("stackTrace", threadId=1)["stackFrames"][0]["instructionPointerReference"]
+if WAY == "chip":
+    end = good("readMemory", memoryReference="0xfff0", count=64)
+    expect((len(base64.b64decode(end["data"])), end["unreadableBytes"]), (16, 48))
+    shown = good("disassemble", memoryReference=frame, instructionOffset=-20, instructionCount=50)["instructions"]
+    expect(len(shown), 50)
+    expect(int(shown[20]["address"], 16), int(frame, 16))
+    addresses = [int(one["address"], 16) for one in shown]
+    assert all(2 <= b - a <= 4 for a, b in zip(addresses, addresses[1:])), addresses
+    assert all(one["instruction"] for one in shown), shown
+    assert any(one.get("symbol") == "main" for one in good("disassemble", memoryReference=frame, instructionOffset=0, instructionCount=300)["instructions"]) or \
+        any(one.get("symbol") == "main" for one in good("disassemble", memoryReference=frame, instructionOffset=-300, instructionCount=300)["instructions"])
+    assert {one["line"] for one in shown if "line" in one} >= {lines["toggle"]}, shown
+    assert all(one["location"]["path"] == SOURCE for one in shown if one.get("line") == lines["toggle"]), shown
+    expect(good("disassemble", memoryReference=frame, offset=addresses[21] - addresses[20], instructionCount=1)["instructions"][0]["address"], shown[21]["address"])
+    # at both ends of memory there are as many as were asked for
+    expect(len(good("disassemble", memoryReference="0x0", instructionOffset=-5, instructionCount=10)["instructions"]), 10)
+    expect(len(good("disassemble", memoryReference="0x17ffc", instructionOffset=0, instructionCount=10)["instructions"]), 10)
+    at = next(one["address"] for one in shown[21:] if one.get("line", lines["toggle"]) == lines["toggle"])
+    expect([b["verified"] for b in good("setInstructionBreakpoints", breakpoints=[{"instructionReference": at}, {"instructionReference": "0x3"}])["breakpoints"]], [True, False])
+    good("setInstructionBreakpoints", breakpoints=[])
+else:
+    assert not ask("disassemble", memoryReference=frame, instructionCount=1)["success"]
 
 # changed by hand, watched, the monitor's commands
 expect(good("setVariable", variablesReference=2, name="ticks", value="10 + 1")["value"], "11")
