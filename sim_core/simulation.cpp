@@ -95,7 +95,7 @@ Simulation::~Simulation() = default;
 
 /// What the world says about every robot's wheels.
 void Simulation::read_wheels() {
-  wheels_.assign(minds_.size(), {});
+  wheels_.resize(minds_.size());  // when their noise began stays
   for (std::size_t r = 0; r < minds_.size(); ++r) {
     const RobotDesc& robot = scene_->world().robots[r];
     Wheels& w = wheels_[r];
@@ -210,7 +210,8 @@ RimSpeed Simulation::rim_speed(const Wheels& w, double left_rad_s, double right_
                                Clicks tick_end) const {
   RimSpeed rims{left_rad_s * w.left_radius_m * w.grip, right_rad_s * w.right_radius_m * w.grip};
   if (w.noise == 0) return rims;
-  const auto counter = static_cast<std::uint64_t>(tick_end / from_seconds(kWheelNoisePeriodS));
+  const auto counter =
+      static_cast<std::uint64_t>((tick_end - w.noise_from) / from_seconds(kWheelNoisePeriodS));
   const auto draw = [&](std::uint32_t stream) {
     const RandomKey key{w.seed, 0, stream};
     // a wheel never turns against its motor
@@ -248,7 +249,7 @@ void Simulation::turn_wheels(int robot, Clicks end) {
   rims_until_[static_cast<std::size_t>(robot)] = course.until;
   if (w.noise > 0) {  // the next tick's is the last with its noise
     const Clicks period = from_seconds(kWheelNoisePeriodS);
-    const Clicks next_draw = ((end + tick) / period + 1) * period;
+    const Clicks next_draw = ((end + tick - w.noise_from) / period + 1) * period + w.noise_from;
     rims_until_[static_cast<std::size_t>(robot)] = std::min(course.until, (next_draw - 1) / tick * tick - 1);
   }
 }
@@ -369,6 +370,15 @@ void Simulation::set_proximity_noise(int robot, double scale) {
   scene_->attach_optics(optics_);
   note_intervention(static_cast<std::uint64_t>(robot));
   digest_ = fold(digest_, scale);
+}
+
+void Simulation::begin_again(int robot) {
+  const std::size_t r = static_cast<std::size_t>(robot);
+  wheels_[r].noise_from = now();
+  courses_[r] = minds_[r]->wheel_course(now());
+  rims_[r] = {};
+  rims_until_[r] = now();
+  note_intervention(r);
 }
 
 void Simulation::set_wheel_noise(int robot, double half_width) {

@@ -79,6 +79,9 @@ class Simulation {
   void set_proximity_noise(int robot, double scale);
   /// Half width of the factor on a robot's wheel travel; 0 none.
   void set_wheel_noise(int robot, double half_width);
+  /// A robot that was put back stands as when the world began: its wheels at rest, their noise from its first
+  /// draw on.
+  void begin_again(int robot);
   /// Anything else that somebody from outside changed, as a number that differs when the change does.
   void note_intervention(std::uint64_t what) { digest_ = fold(digest_, what); }
 
@@ -114,6 +117,7 @@ class Simulation {
     bool gaussian = false;  // which of them
     double grip = 1;        // 1 - slip
     std::uint64_t seed = 0;
+    Clicks noise_from = 0;  // when its first draw was
   };
   RimSpeed rim_speed(const Wheels& wheels, double left_rad_s, double right_rad_s, Clicks tick_end) const;
   std::vector<Wheels> wheels_;

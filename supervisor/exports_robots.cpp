@@ -156,6 +156,7 @@ int sv_restart(int robot) {
     if (!firmware) return -1;
     firmware->restart();
     note(me, r, "restart", nullptr, 0);
+    me.team.note_reset(r, true);
     return 0;
   });
 }

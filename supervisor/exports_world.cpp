@@ -184,6 +184,7 @@ int sv_reset(int thing) {
   const auto body = static_cast<std::size_t>(me.team.things().body(thing));
   me.team.simulation().move(static_cast<int>(body), layout.moving_pose[body], layout.moving[body].z_m);
   me.team.note_move(thing);
+  if (me.team.things().is_robot(thing)) me.team.note_reset(thing, false);
   return 0;
 }
 

@@ -207,6 +207,14 @@ void Team::note_move(int thing) {
   }
 }
 
+void Team::note_reset(int robot, bool program) {
+  Reset& reset = resets_[robot];
+  (program ? reset.program : reset.place) = simulation().now();
+  if (reset.place != reset.program) return;
+  twin_.mind(robot).begin_again();
+  simulation().begin_again(robot);
+}
+
 std::string Team::file_of_run(const char* file) const {
   return file && *file ? (std::filesystem::path(run_folder_) / file).string() : "";
 }

@@ -139,6 +139,9 @@ class Team final : public sim::Attendant {
   void set_label(int member, const sim::PictureLabel& label);
   /// Everybody's tracks of a thing that was moved by hand are broken there.
   void note_move(int thing);
+  /// A robot was put back to its start, or its program begun anew. One to which both is done at the same
+  /// instant begins as when the world began: rotors, noise.
+  void note_reset(int robot, bool program);
   /// Ways of the robots since the first track was asked for.
   sim::Trajectories* ways() { return ways_.get(); }
   /// A file that a function of supervisor.h writes: names without a path are of the folder of the run, not
@@ -161,6 +164,10 @@ class Team final : public sim::Attendant {
   std::map<std::pair<int, int>, sim::PictureLabel> labels_;
   std::set<int> moved_;
   std::unique_ptr<sim::Trajectories> ways_;
+  struct Reset {
+    sim::Clicks place = -1, program = -1;  // when it was last reset
+  };
+  std::map<int, Reset> resets_;  // by robot
 };
 
 }  // namespace supervisor

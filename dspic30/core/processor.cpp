@@ -36,6 +36,12 @@ void Processor::restart() {
   code_version_ = cpu_->program.version();
 }
 
+void Processor::power_up(Cycle at) {
+  restart();
+  cpu_->ram.fill(0);
+  cpu_->now = at;
+}
+
 Cycle Processor::still_since() const { return cpu_->still_since; }
 bool Processor::still_reads() const { return cpu_->still_reads; }
 

@@ -34,6 +34,9 @@ class Processor {
   std::optional<ResetKind> run(Cycle until);
   /// As after a reset: PC = 0; RAM stays.
   void restart();
+  /// As in the constructor: RAM is empty, and its first instruction comes at `at`. Behind restart(), before
+  /// anything has run; not before the end of the last window.
+  void power_up(Cycle at);
 
   Cycle now() const;
   /// Time passes without the processor, which stands still: before it was switched on, in a reset.

@@ -293,6 +293,11 @@ void Board::processor_reset(Cycle at) {
   for (const auto& part : parts_) part->processor_reset(at);
 }
 
+void Board::begin_again(Cycle at) {
+  for (Stepper& motor : motors_) motor.put_back(at);
+  noise_.begin_at(at);
+}
+
 void Board::plug_in(std::unique_ptr<Part> part) {
   part->board_ = this;
   is_any_used_ = true;

@@ -171,6 +171,8 @@ class Board {
   /// First cycle after `at` at which a PORT or LAT word can change by itself; kNever if it cannot.
   Cycle port_horizon(char port, Cycle at) const;
 
+  /// As when it was first switched on: rotors and noise. Behind processor_reset().
+  void begin_again(Cycle at);
   /// The reset button, or asm("reset"): pins to inputs, drivers stop, wheels stay where they are. Wiring,
   /// selector, UART ends and the noise's sample numbers stay.
   void processor_reset(Cycle at);

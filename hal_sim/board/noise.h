@@ -43,6 +43,9 @@ class SampleNoise {
   SampleNoise(std::uint64_t seed, int robot)
       : key_(sim::mix64(sim::mix64(seed) ^ (static_cast<std::uint64_t>(robot) << 32 | sim::kStreamBoard))) {}
 
+  /// The noise of the run's beginning comes again, from this cycle on.
+  void begin_at(Cycle at) { origin_ = at; }
+
   /// Nearly normal, mean 0, standard deviation 1: the sum of eight dice with 256 faces. Nothing lies beyond
   /// 4.9, and 1.6 in a thousand beyond 3 (of a normal distribution 2.7).
   double normal(NoiseOf what, int sensor, Cycle at) const { return kPerFace * dice(what, sensor, at); }
@@ -63,11 +66,12 @@ class SampleNoise {
   std::uint64_t bits(NoiseOf what, int sensor, Cycle at) const {
     const Cycle quantum = what == NoiseOf::Microphone ? kMicNoiseQuantum : kSlowNoiseQuantum;
     const std::uint64_t who = static_cast<std::uint32_t>(what) + static_cast<std::uint32_t>(sensor);
-    return sim::mix64(key_ ^
-                      (static_cast<std::uint64_t>(at) / static_cast<std::uint64_t>(quantum) << 5 | who));
+    return sim::mix64(
+        key_ ^ (static_cast<std::uint64_t>(at - origin_) / static_cast<std::uint64_t>(quantum) << 5 | who));
   }
 
   std::uint64_t key_;
+  Cycle origin_ = 0;
 };
 
 }  // namespace board

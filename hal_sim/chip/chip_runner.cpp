@@ -86,10 +86,18 @@ void ChipRunner::remote_changed() {
 void ChipRunner::restart() {
   chip_.note_reset(dspic::ResetKind::Pin);
   processor_->wait_until(end_);
-  chip_.reset(processor_->now());
+  restarted_at_ = processor_->now();
+  chip_.reset(restarted_at_);
   processor_->restart();
   tell_reset(processor_->now());
   wake();
+}
+
+void ChipRunner::begin_again() {
+  chip_.note_reset(dspic::ResetKind::PowerOn);
+  chip_.reset(restarted_at_);
+  // an instruction that was under way reached beyond the window's end; the first run began at one
+  processor_->power_up(end_);
 }
 
 void ChipRunner::tell_reset(Cycle at) {

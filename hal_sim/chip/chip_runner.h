@@ -45,6 +45,7 @@ class ChipRunner final : public host::Runner, private dspic::EventWatch, private
   void wake() override { idle_until_ = 0; }
   void remote_changed() override;
   void restart() override;
+  void begin_again() override;
 
   Cycle cycles() const override { return end_; }
   Cycle lived_cycles() const override { return end_; }
@@ -109,7 +110,7 @@ class ChipRunner final : public host::Runner, private dspic::EventWatch, private
   host::Observer* observer_ = nullptr;
   std::vector<StepWatch*> watches_;
   mutable std::map<std::string, host::Variable> variables_;  // that were asked for
-  Cycle end_ = 0, idle_until_ = 0;
+  Cycle end_ = 0, idle_until_ = 0, restarted_at_ = 0;
   mutable Cycle asked_since_ = dspic::kNever;     // the wait that was looked at last
   mutable std::optional<board::Diagnosis> wait_;  // what is told of it
   std::uint64_t turns_ = 0;

@@ -24,6 +24,14 @@ void FirmwareMind::flash(const RunnerFactory& make_runner) {
   wake();
 }
 
+void FirmwareMind::begin_again() {
+  if (runner_) runner_->begin_again();
+  board_.begin_again(now());
+  course_.until = 0;
+  turns_ = 0;
+  wake();
+}
+
 void FirmwareMind::power_up(const RunnerFactory& make_runner) {
   runner_ = make_runner(board_);
   runner_->to_world_s = [this](Cycle at) { return sim::to_seconds(board_.clock().click_at(at)); };

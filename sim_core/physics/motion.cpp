@@ -212,6 +212,7 @@ void Motion::move(int body, const Pose2& pose, double z_m) {
     way_m_[i] = distance_m(body);
     leg_until_[static_cast<std::size_t>(body)] = end_;
     guessed_[i] = true;
+    fixed_pushes_[i] = FixedPush{};  // of where it was
   }
   legs_[i] = {end_, pose, {}, 0, false};
   at_[i] = end_;
