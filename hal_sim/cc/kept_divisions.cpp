@@ -29,11 +29,6 @@ bool divides(const Instruction& i) {
          code == Instruction::URem;
 }
 
-const Value* without_casts(const Value* v) {
-  while (const auto* cast = dyn_cast<CastInst>(v)) v = cast->getOperand(0);
-  return v;
-}
-
 }  // namespace
 
 /// Functions are about to be inlined: a 0 that is handed over as a divisor is hidden first.

@@ -108,8 +108,8 @@ std::vector<CompileJob> library_jobs(const BuildOptions& o, bool is_webots, bool
   const std::string salt =
       names_of_headers({contract, cc_dir / "libc", api, root / "firmware/library", root / "hal_sim/host"});
   std::vector<CompileJob> jobs;
-  // what XC16 brings compiled takes the same cycles at every level of a program; the e-puck's library is compiled
-  // with it
+  // what XC16 brings compiled takes the same cycles at every level of a program; the e-puck's library is
+  // compiled with it
   const auto is_precompiled = [&](const fs::path& source) {
     return o.chip_way && (source.parent_path() == root / "hal_dspic/runtime" ||
                           source.parent_path() == cc_dir / "libc/src");

@@ -80,8 +80,8 @@ void AdcScan::start(bool micro_only, bool five_pairs, Cycle at) {
   ++starts_;
 }
 
-// The converter goes on meanwhile without a stop and sets the flag, which remembers one call. That call comes now
-// and begins a new sequence.
+// The converter goes on meanwhile without a stop and sets the flag, which remembers one call. That call comes
+// now and begins a new sequence.
 void AdcScan::release(Cycle at) {
   const Cycle since = std::exchange(held_since_, -1);
   if (since < 0 || !on_) return;

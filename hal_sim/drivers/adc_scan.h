@@ -4,9 +4,9 @@
 //   slot (interrupts since the start mod 65):   3  lit pair arrives, IR LED off, next pair
 //                                              62  accelerometer arrives
 //                                              63  dark pair arrives, IR LED on
-//   every interrupt: 3 microphones. A frame takes 965 cycles: 900 of conversions, and 65 in which the converter
-//   stands until the handler has listed the next channels (450 and none with MICRO_ONLY); a pair's samples are
-//   the 4th and 5th channel of the frame that ends at its interrupt
+//   every interrupt: 3 microphones. A frame takes 965 cycles: 900 of conversions, and 65 in which the
+//   converter stands until the handler has listed the next channels (450 and none with MICRO_ONLY); a pair's
+//   samples are the 4th and 5th channel of the frame that ends at its interrupt
 //
 // Nothing is ticked: the number of interrupts so far follows from the clock by one division, and a sample is
 // evaluated when somebody asks for it, at its nominal instant. It is then kept, so it never changes.

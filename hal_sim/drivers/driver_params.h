@@ -32,8 +32,8 @@ inline constexpr int kTimer3MaxSpeed = 999;  // steps/s [lib: motor_led/e_motors
 // --- ADC scan --------------------------------------------------------------------------------------------
 inline constexpr Cycle kScanSequenceCycles =
     900;  // conversions: 3, 5 or 6 channels alike [lib: a_d/advance_ad_scan/e_ad_conv.h]
-// the converter stands from a sequence's end until the handler has listed the next one's channels; the mean of
-// 65 frames at -O1, XC16's own code 67, at -O0 71 and 80 [measured: hal_dspic on the chip]
+// the converter stands from a sequence's end until the handler has listed the next one's channels; the mean
+// of 65 frames at -O1, XC16's own code 67, at -O0 71 and 80 [measured: hal_dspic on the chip]
 inline constexpr Cycle kScanStopCycles = 65;
 inline constexpr Cycle kScanFrameCycles = kScanSequenceCycles + kScanStopCycles;
 inline constexpr Cycle kScanMicroFrameCycles =
@@ -46,8 +46,8 @@ inline constexpr int kScanLitInterrupts =
     5;  // a flash lasts from slot 63 to 3 [lib: a_d/advance_ad_scan/e_ad_conv.c]
 inline constexpr Cycle kScanFlashCycles =
     4841;  // of these, with the stops of the converter between them [measured: hal_dspic on the chip]
-inline constexpr int kScanAccSlot = 62;         // ACC_PROX_PERIOD - 2 [lib: a_d/advance_ad_scan/e_ad_conv.c]
-inline constexpr int kScanDarkSlot = 63;        // ACC_PROX_PERIOD - 1 [lib: a_d/advance_ad_scan/e_ad_conv.c]
+inline constexpr int kScanAccSlot = 62;   // ACC_PROX_PERIOD - 2 [lib: a_d/advance_ad_scan/e_ad_conv.c]
+inline constexpr int kScanDarkSlot = 63;  // ACC_PROX_PERIOD - 1 [lib: a_d/advance_ad_scan/e_ad_conv.c]
 inline constexpr Cycle kScanLightCycles =
     125;  // end of a sequence to IR LED switched [measured: hal_dspic on the chip]
 inline constexpr Cycle kScanFileCycles =

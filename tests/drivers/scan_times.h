@@ -9,7 +9,7 @@ namespace scan_times {
 
 using board::Cycle;
 
-constexpr Cycle kSequence = 900;        // the conversions
+constexpr Cycle kSequence = 900;          // the conversions
 constexpr Cycle kFrame = kSequence + 65;  // and the stop before them, but for the first
 /// The calls after the converter was switched on at `start`: 15 cycles, a sequence, then frames.
 inline std::vector<Cycle> calls(Cycle start, int count) {

@@ -121,7 +121,8 @@ TEST_F(Microphones, only_new_samples_are_evaluated_and_at_most_a_buffer) {
   EXPECT_EQ(asked, 480);
   // sample 1229 is in place 29, sample 1130, the oldest, in place 30
   const auto counts = [&](int n) {
-    return static_cast<int>(std::floor(2048.5 + 0.0794 / 3.3 * 4096 * (static_cast<double>(n * scan_times::kFrame) + 15 + 20) / 1e7));
+    return static_cast<int>(std::floor(
+        2048.5 + 0.0794 / 3.3 * 4096 * (static_cast<double>(n * scan_times::kFrame) + 15 + 20) / 1e7));
   };
   EXPECT_EQ(scan[0][29], counts(1229));
   EXPECT_EQ(scan[0][30], counts(1130));

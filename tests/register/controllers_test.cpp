@@ -22,8 +22,8 @@ struct Course {
   double within_m = 0.001;
 };
 
-/// What a robot drives in one control period of 32 ms at 480 steps/s: where it stands at its thresholds from the
-/// start, a sample a fifth of a millisecond apart decides a period earlier or later.
+/// What a robot drives in one control period of 32 ms at 480 steps/s: where it stands at its thresholds from
+/// the start, a sample a fifth of a millisecond apart decides a period earlier or later.
 constexpr double kControlPeriod_m = 0.0021;
 
 std::ostream& operator<<(std::ostream& out, const Course& c) {
@@ -109,23 +109,25 @@ TEST_P(Controllers, behave_alike_as_images) {
 
 INSTANTIATE_TEST_SUITE_P(
     Repository, Controllers,
-    ::testing::Values(
-        Course{"blink"}, Course{"square"}, Course{"serial_echo"}, Course{"selector_demo", "floor", 3},
-        Course{"asercom"}, Course{"sound_locate"}, Course{"obstacle", "wall"}, Course{"u_obstacle", "wall"},
-        Course{"braiten", "wall"}, Course{"braitenberg", "wall"}, Course{"follow_wall", "wall"},
-        Course{"bench_braitenberg", "wall"}, Course{"tilt", "worlds/ramp.toml"},
-        Course{"line_follow", "worlds/line.toml"}, Course{"follow_light", "lamp"},
-        Course{"braitenberg_2a", "worlds/braitenberg.toml"},
-        Course{"braitenberg_2b", "worlds/braitenberg.toml"},
-        Course{"braitenberg_3a", "worlds/braitenberg.toml"},
-        Course{"braitenberg_3b", "worlds/braitenberg.toml"}, Course{"radio_flock"}, Course{"soccer_player"},
-        Course{"obstacle", "worlds/obstacle.toml"}, Course{"obstacle", "worlds/corridor.toml"},
-        Course{"obstacle", "worlds/corners.toml"}, Course{"obstacle", "worlds/pillars.toml"},
-        Course{"obstacle", "worlds/maze.toml"}, Course{"obstacle", "worlds/u_obstacle.toml", 0, "", 2.0, kControlPeriod_m},
-        Course{"braitenberg", "worlds/arena.toml"}, Course{"braitenberg", "worlds/lamp.toml"},
-        Course{"sound_locate", "worlds/clap.toml"}, Course{"e-puck", "worlds/myobstacle.toml"},
-        Course{"e-puck", "wall"},  // a line of the picture holds agenda ticks off, as on the robot
-        Course{"camera_follow", "worlds/red_ball.toml", 0, "T2: missed interrupt"}),
+    ::testing::Values(Course{"blink"}, Course{"square"}, Course{"serial_echo"},
+                      Course{"selector_demo", "floor", 3}, Course{"asercom"}, Course{"sound_locate"},
+                      Course{"obstacle", "wall"}, Course{"u_obstacle", "wall"}, Course{"braiten", "wall"},
+                      Course{"braitenberg", "wall"}, Course{"follow_wall", "wall"},
+                      Course{"bench_braitenberg", "wall"}, Course{"tilt", "worlds/ramp.toml"},
+                      Course{"line_follow", "worlds/line.toml"}, Course{"follow_light", "lamp"},
+                      Course{"braitenberg_2a", "worlds/braitenberg.toml"},
+                      Course{"braitenberg_2b", "worlds/braitenberg.toml"},
+                      Course{"braitenberg_3a", "worlds/braitenberg.toml"},
+                      Course{"braitenberg_3b", "worlds/braitenberg.toml"}, Course{"radio_flock"},
+                      Course{"soccer_player"}, Course{"obstacle", "worlds/obstacle.toml"},
+                      Course{"obstacle", "worlds/corridor.toml"}, Course{"obstacle", "worlds/corners.toml"},
+                      Course{"obstacle", "worlds/pillars.toml"}, Course{"obstacle", "worlds/maze.toml"},
+                      Course{"obstacle", "worlds/u_obstacle.toml", 0, "", 2.0, kControlPeriod_m},
+                      Course{"braitenberg", "worlds/arena.toml"}, Course{"braitenberg", "worlds/lamp.toml"},
+                      Course{"sound_locate", "worlds/clap.toml"}, Course{"e-puck", "worlds/myobstacle.toml"},
+                      Course{"e-puck",
+                             "wall"},  // a line of the picture holds agenda ticks off, as on the robot
+                      Course{"camera_follow", "worlds/red_ball.toml", 0, "T2: missed interrupt"}),
     [](const auto& p) {
       const std::string where = p.param.where;
       std::string name = p.param.controller + std::string("_at_") +

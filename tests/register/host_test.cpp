@@ -36,9 +36,9 @@ TEST_F(RegisterTest, an_interrupt_costs_the_chip_one_question_or_two) {
 }
 
 // Both interrupts have the priority of a reset, 4, as in the library: while an agenda's callback runs, the
-// scan waits, and of the frames that end meanwhile one is kept. 475 us also hold off 3 of Timer 2's ticks, so the
-// callback comes every 1.3 ms, 769 times a second. The 825 us between hold 12.5 frames of 66 us; and the one that
-// waited: 13 each time, half a one more or less.
+// scan waits, and of the frames that end meanwhile one is kept. 475 us also hold off 3 of Timer 2's ticks, so
+// the callback comes every 1.3 ms, 769 times a second. The 825 us between hold 12.5 frames of 66 us; and the
+// one that waited: 13 each time, half a one more or less.
 TEST_F(RegisterTest, a_long_callback_costs_the_scan_its_frames) {
   Robot& robot = add_robot_with_source(R"(
 #include <p30F6014A.h>

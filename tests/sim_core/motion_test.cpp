@@ -101,7 +101,9 @@ TEST(Motion, a_lasting_touch_is_one_collision_at_every_rate) {
         const std::string what = std::string(engine) + " " + c.name + " " + std::to_string(hz);
         EXPECT_EQ(s->touches(0).collisions, 1) << what;
         EXPECT_GT(s->touches(0).longest_touch_s, 1.5) << what;
-        if (c.at_wall) EXPECT_GT(s->touches(0).longest_wall_touch_s, 1.5) << what;
+        if (c.at_wall) {
+          EXPECT_GT(s->touches(0).longest_wall_touch_s, 1.5) << what;
+        }
       }
 }
 
