@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * I2C master, primitive by primitive: start the module's operation, wait for its interrupt, give up in the end.
  *
- * A start is made only when I2CSTAT.P says that a stop has been seen. After a reset there was none, so the very first
- * transaction fails; its stop at the end is what the second one needs.
+ * The original starts only when I2CSTAT.P says that a stop has been seen, and gets that stop when the module takes over
+ * pins that e_init_port() holds low. Here the bus also counts as stopped when no start has been seen since then.
  * Source: [lib: I2C/e_I2C_master_module.c], facts restated; [DS70143 16].
  */
 #include "I2C/e_I2C_master_module.h"
@@ -86,7 +86,7 @@ char e_i2c_disable(void) {
 
 char e_i2c_start(void) {
   e_i2c_mode = START;
-  if (!I2CSTATbits.P) return 0;
+  if (I2CSTATbits.S && !I2CSTATbits.P) return 0;
   I2CCONbits.SEN = 1;
   return wait_for_end(PATIENCE);
 }

@@ -78,15 +78,22 @@ static void set_directions(void) {
   CAM_y7_DIR = INPUT_PIN;
 }
 
-/* An empty bus answers 0xFF. The first transaction after a reset fails for want of a stop, so this takes two. */
+/* one try: an empty bus answers 0xFF, and a bus that hangs must not hang the program */
 static unsigned char sensor_answers(void) {
-  char identity;
+  char identity = 0;
+  char fine;
   e_i2cp_init();
   e_i2c_reset();
-  e_i2cp_enable();
-  identity = e_i2cp_read(ACC_ADDRESS, WHO_AM_I);
-  e_i2cp_disable();
-  return identity == ACC_IDENTITY;
+  fine = e_i2c_start();
+  fine &= e_i2c_write(ACC_ADDRESS);
+  fine &= e_i2c_write(WHO_AM_I);
+  fine &= e_i2c_restart();
+  fine &= e_i2c_write(ACC_ADDRESS + 1);
+  fine &= e_i2c_read(&identity);
+  e_i2c_nack();
+  e_i2c_stop();
+  e_i2c_disable();
+  return fine && identity == ACC_IDENTITY;
 }
 
 void e_init_port(void) {

@@ -12,10 +12,9 @@
 #include "hal_sim/host/pins.h"
 #include "hal_sim/host/pins_acc.h"
 
-/* bus start: a waiting loop of 10,000 rounds, then three for each of two resets; a read of four bytes at 90 kHz, after one
- * that fails */
-#define I2C_START_CYCLES (7 * 10000L * T_PAUSE_ROUND)
-#define I2C_READ_CYCLES 13731 /* [measured: hal_dspic] */
+/* bus start: four waiting loops of 10,000 rounds; then ports, and a read of four bytes at 90 kHz */
+#define I2C_START_CYCLES (4 * 10000L * T_PAUSE_ROUND)
+#define I2C_READ_CYCLES 7201 /* [measured: hal_dspic] */
 
 /* exported under this name by the library's object */
 unsigned char isPresentFlag;

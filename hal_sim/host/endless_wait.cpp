@@ -41,6 +41,19 @@ std::vector<std::string> names_in(const std::string& line) {
   return names;
 }
 
+/// What stands between the parentheses behind the last `while` of a line; empty: there is none.
+std::string last_condition(const std::string& line) {
+  static const sim::Pattern kWhile("\\bwhile\\s*\\(");
+  std::size_t begin = std::string::npos;
+  for (std::sregex_iterator it(line.begin(), line.end(), kWhile), end; it != end; ++it)
+    begin = static_cast<std::size_t>(it->position() + it->length());
+  if (begin == std::string::npos) return "";
+  int depth = 1;
+  std::size_t at = begin;
+  for (; at < line.size() && depth > 0; ++at) depth += (line[at] == '(') - (line[at] == ')');
+  return line.substr(begin, at - begin);
+}
+
 std::vector<fs::path> sources_in(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code none;
@@ -71,16 +84,28 @@ std::string joined(const std::vector<std::string>& parts) {
 }  // namespace
 
 std::vector<std::string> variables_in(const Runner& program, const Place& place) {
-  std::vector<std::string> found;
   const auto lines = lines_of(place.file);
-  if (place.line < 1 || place.line > static_cast<int>(lines.size())) return found;
-  for (const std::string& name : names_in(lines[static_cast<std::size_t>(place.line - 1)])) {
-    std::string error;
-    // images of the chip know names, but not their types
-    if (std::find(found.begin(), found.end(), name) == found.end() &&
-        (program.find_variable(name, error) || !program.read_variable(name, 1).empty()))
-      found.push_back(name);
-  }
+  if (place.line < 1 || place.line > static_cast<int>(lines.size())) return {};
+  const auto known = [&](const std::string& text) {
+    std::vector<std::string> found;
+    for (const std::string& name : names_in(text)) {
+      std::string error;
+      // images of the chip know names, but not their types
+      if (std::find(found.begin(), found.end(), name) == found.end() &&
+          (program.find_variable(name, error) || !program.read_variable(name, 1).empty()))
+        found.push_back(name);
+    }
+    return found;
+  };
+  const std::string& line = lines[static_cast<std::size_t>(place.line - 1)];
+  if (const auto asked = known(last_condition(line)); !asked.empty()) return asked;
+  // a line without a condition: what it sets itself, it does not wait for
+  std::vector<std::string> found = known(line);
+  found.erase(std::remove_if(found.begin(), found.end(),
+                             [&](const std::string& name) {
+                               return std::regex_search(line, sim::Pattern("\\b" + name + "\\s*=(?!=)"));
+                             }),
+              found.end());
   return found;
 }
 

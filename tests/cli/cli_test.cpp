@@ -284,7 +284,7 @@ TEST_F(Command, typed_keys_and_files_of_a_webots_program_come_from_the_command_l
         "  while (wb_robot_step(64) != -1)\n"
         "    if ((key = wb_keyboard_get_key()) > 0) fprintf(out, \"%d \", key), fflush(out); }\n");
   const Said s = twinpuck("run empty --fw '*=" + path("typist") + "' --for 2 --files " + path("files") +
-                          " --key '*=keyboard:UP@1+0.06' --key 'puck=keyboard:w@1.5+0.06'");
+                          " --key '*=keyboard:UP@1+0.064' --key 'puck=keyboard:w@1.5+0.064'");
   EXPECT_EQ(s.exit_code, 0) << s.text;
   EXPECT_EQ(read(path("files/puck/keys.txt")), "315 87 ");
   EXPECT_NE(s.text.find("puck: files written: " + path("files/puck")), std::string::npos) << s.text;

@@ -64,6 +64,22 @@ TEST_F(I2c, status_follows_a_transmission) {
   EXPECT_EQ(b.read("I2CCON", now) & 0x1F, 0u);
 }
 
+// the library's port set-up holds both pins low until the module lets them go, which is a stop; pins that
+// were high all the time show none
+TEST(I2cPins, taking_over_pins_that_were_low_is_a_stop) {
+  for (const bool low : {false, true}) {
+    bench::Bench b;
+    b.outside.wired[Port::G] = 0x000C;
+    b.outside.waves[Port::G][0] = 0x000C;
+    if (low) b.clear("TRISG", 0x000C, 1);  // outputs; the latches are 0
+    b.write("I2CBRG", 150, 10);
+    b.write("I2CCON", 0x9000, 20);
+    EXPECT_EQ(b.read("I2CSTAT", 40) & 0x18, low ? 0x10u : 0u);
+    b.write("I2CCON", 0x1000, 50);
+    EXPECT_EQ(b.read("I2CSTAT", 60) & 0x18, low ? 0x10u : 0u);  // it stays seen
+  }
+}
+
 TEST_F(I2c, second_operation_is_refused) {
   b.set("I2CCON", 0x01, now);
   b.write("I2CTRN", 0x42, now + 10);

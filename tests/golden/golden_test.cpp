@@ -32,11 +32,11 @@ TEST_P(Golden, run_repeats_to_the_last_bit) {
 
 INSTANTIATE_TEST_SUITE_P(
     Of, Golden,
-    ::testing::Combine(::testing::Values(Pinned{"maze", "worlds/maze.toml", 20, "53e067f27fa395ed"},
-                                         Pinned{"swarm", "worlds/swarm.toml", 5, "4d2fbd692670368d"},
-                                         Pinned{"push", "worlds/push.toml", 10, "26d836e15f3201d3"},
+    ::testing::Combine(::testing::Values(Pinned{"maze", "worlds/maze.toml", 20, "1b935046cf09ffb4"},
+                                         Pinned{"swarm", "worlds/swarm.toml", 5, "b0c462ea98367b2d"},
+                                         Pinned{"push", "worlds/push.toml", 10, "dee7b807c098b138"},
                                          Pinned{"braitenberg_10", "bench/worlds/brait_10.toml", 5,
-                                                "61f895f02fe831a2"}),
+                                                "ac85724751f6ed62"}),
                        ::testing::Values(1, 3)),
     [](const auto& info) {
       return std::string(std::get<0>(info.param).name) + "_threads_" +
