@@ -247,7 +247,7 @@ TEST_F(RegisterTraces, an_image_is_drawn_and_does_not_notice) {
             without);
   const Dump dump = parse(read(path("i.vcd")));
   // a pair's flash each 65 frames, four pairs
-  EXPECT_NEAR(static_cast<double>(dump.signals.at("puck/pins/PULSE_IR0").size()), 2 * 0.88 * 16384 / 260, 4);
+  EXPECT_NEAR(static_cast<double>(dump.signals.at("puck/pins/PULSE_IR0").size()), 2 * 0.88 * 15280 / 260, 4);
 }
 
 TEST_F(RegisterTraces, registers_belong_to_the_register_way) {

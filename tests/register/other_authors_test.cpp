@@ -173,7 +173,7 @@ int main(void)
   EXPECT_NE(on.traps()[0].message.find("_T5Interrupt"), std::string::npos) << on.traps()[0].message;
 }
 
-// the converter's driver counts its interrupts, 16384 a second; programs wait for the count, declared
+// the converter's driver counts its interrupts, about 15,280 a second; programs wait for the count, declared
 // plainly, in loops that do something beside
 TEST_F(RegisterTest, plain_variables_of_drivers_are_read_each_round) {
   Robot& robot = add_robot_with_source(R"(
