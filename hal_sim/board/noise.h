@@ -25,7 +25,7 @@ namespace board {
 /// braitenberg_2a's up to 13,600 and five in eight.
 inline constexpr Cycle kSlowNoiseQuantum = 16384;  // [assumed: see above]
 /// Quantum of microphones. Shorter than any conversion (14 TAD of at least 334 ns, 69 cycles), so no two
-/// samples of a recording share their noise; the library's lie 450 or 900 cycles apart. Between the ways it
+/// samples of a recording share their noise; the library's lie 450 or 965 cycles apart. Between the ways it
 /// differs.
 inline constexpr Cycle kMicNoiseQuantum = 64;  // [assumed: see above]
 

@@ -119,7 +119,7 @@ class AdcScan {
  private:
   struct Sample {
     Cycle until = 0;           // the next sample of this kind arrives then; 0: not known
-    std::int32_t number = -1;  // lasts 3 months at 252 periods a second
+    std::int32_t number = -1;  // lasts 3 months at 235 periods a second
     std::int16_t counts = 0;
     bool is_regular = false;  // it does, and the others follow turn by turn
   };

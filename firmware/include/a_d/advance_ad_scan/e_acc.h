@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * Accelerometer, advanced variant: reads what the ADC scan has filed; call e_init_ad_scan(ALL_ADC) first.
  *
- * Robots before revision 1.3: analogue, 12 bits, fresh at 252 Hz, 0 g at about 2048, about 800 counts per g.
+ * Robots before revision 1.3: analogue, 12 bits, fresh at 235 Hz, 0 g at about 2048, about 800 counts per g.
  * Revision 1.3: over I2C (a reading older than 3.9 ms is refreshed, which blocks for about 1 ms), 768
  * counts per g, x and y exchanged.
  * Axes: x to the left, y to the front, z up; at rest 1 g on z, and a lower side makes its axis negative: y < 0

@@ -2,8 +2,8 @@
  * Analogue inputs, advanced variant (the usual one): the converter scans by itself, and its interrupt
  * (priority 4) files the samples. Getters of e_prox.h, e_acc.h and e_micro.h then only read memory.
  *
- * One interrupt every 61 us (16384 Hz nominal). Three microphones each time; the accelerometer once in 65,
- * which is 252 Hz; one pair of IR sensors once in 65, all eight every 15.87 ms (63 Hz). The scan takes a
+ * One interrupt every 65 us (16384 Hz nominal, 15.28 kHz at -O1). Three microphones each time; the accelerometer once in 65,
+ * which is 235 Hz; one pair of IR sensors once in 65, all eight every 17.0 ms (59 Hz). The scan takes a
  * noticeable share of the processor. All samples are 12 bits, 0 to 4095.
  * Shares its guard with the basic e_ad_conv.h.
  */
@@ -26,8 +26,8 @@
 #define ADCS_6_CHAN (int)(2.0*FCY/(MIC_SAMP_FREQ*(14+1)*6)-1)
 #define ADCS_2_CHAN (int)(2.0*FCY/(MIC_SAMP_FREQ*(14+1)*2)-1)
 
-#define MIC_SAMP_NB 100 /* samples kept per microphone, 6.1 ms */
-#define ACC_SAMP_NB 50  /* samples kept per axis, 198 ms */
+#define MIC_SAMP_NB 100 /* samples kept per microphone, 6.5 ms */
+#define ACC_SAMP_NB 50  /* samples kept per axis, 213 ms */
 
 /* argument of e_init_ad_scan() */
 #define MICRO_ONLY 1 /* microphones alone, at 32768 Hz */
@@ -35,7 +35,7 @@
 
 #define ADC_ISR_PERIOD_MS 0.061 /* ms */
 
-/** Starts the scan. ALL_ADC: blocks for about 194 ms, until the accelerometer's buffer is full. MICRO_ONLY:
+/** Starts the scan. ALL_ADC: blocks for about 208 ms, until the accelerometer's buffer is full. MICRO_ONLY:
  *  does not block; IR and accelerometer values then never change. With selector 10 two more IR sensors
  *  (gumstix turret, pins AN0 and AN1) join the scan and the interrupt's priority is 6. */
 void e_init_ad_scan(unsigned char only_micro);
@@ -44,7 +44,7 @@ void e_init_ad_scan(unsigned char only_micro);
 TP_OLDER_CALL void e_init_ad_scan(void) { e_init_ad_scan(ALL_ADC); }
 #endif
 
-/** 1 for one interrupt period (61 us) after the microphone buffers have wrapped, else 0. Poll it without
+/** 1 for one interrupt period (65 us) after the microphone buffers have wrapped, else 0. Poll it without
  *  pause. */
 TP_POLL unsigned char e_ad_is_array_filled(void);
 
