@@ -22,8 +22,8 @@ struct Course {
   double within_m = 0.001;
 };
 
-/// What a robot drives in one control period of 32 ms at 480 steps/s, and two steps more: where it stands at its
-/// thresholds from the start, a sample a fifth of a millisecond apart decides a period earlier or later.
+/// What a robot drives in one control period of 32 ms at 480 steps/s, and two steps more: where it stands at
+/// its thresholds from the start, a sample a fifth of a millisecond apart decides a period earlier or later.
 constexpr double kControlPeriod_m = (0.032 * 480 + 2) * 0.000129;
 
 std::ostream& operator<<(std::ostream& out, const Course& c) {
