@@ -114,6 +114,7 @@ void Simulation::advance(Clicks at) {
     attended_ = true;
     attendant_->before_first_tick();
   }
+  if (begins_) begin_world();
   const Clicks tick = scene_->tick_clicks(), end = next_tick(at);
   if (end - tick > now()) scene_->advance_to(end - tick);
   due_.clear();
@@ -375,10 +376,38 @@ void Simulation::set_proximity_noise(int robot, double scale) {
 void Simulation::begin_again(int robot) {
   const std::size_t r = static_cast<std::size_t>(robot);
   wheels_[r].noise_from = now();
-  courses_[r] = minds_[r]->wheel_course(now());
+  courses_[r] = WheelCourse{};
+  courses_[r].angle = minds_[r]->wheel_course(now()).angle;
   rims_[r] = {};
   rims_until_[r] = now();
   note_intervention(r);
+}
+
+void Simulation::begin_world() {
+  begins_ = false;
+  scene_->forget_history();
+  std::vector<BodyState> start = states_of(*scene_);
+  const auto same_place = [](const Pose2& a, const Pose2& b) {
+    return a.x_m == b.x_m && a.y_m == b.y_m && a.heading_rad == b.heading_rad;
+  };
+  // on slopes an engine knows better how high a robot stands than where it was told to begin
+  for (std::size_t r = 0; r < minds_.size(); ++r)
+    if (same_place(scene_->layout().moving_pose[r], start[r].pose))
+      start[r].z_m = scene_->layout().moving[r].z_m;
+  auto motion = make_motion(scene_->world(), scene_->layout(), start, now());
+  motion->carry_on(*motion_);
+  motion->forget_touches();
+  motion_ = std::move(motion);
+  // as in the constructor nothing is fast, and lists are made by whoever is first
+  pace_m_s_ = 0;
+  quick_at_ = lists_until_ = now();
+  scene_->regather(0);
+  const auto moves = [](const BodyState& b) {
+    return b.velocity_m_s.x != 0 || b.velocity_m_s.y != 0 || b.spin_rad_s != 0;
+  };
+  if (std::any_of(start.begin(), start.end(), moves)) gather_neighbours(0);
+  sound_->begin_again(now());
+  for (const auto& medium : media_) medium->begin_again(now());
 }
 
 void Simulation::set_wheel_noise(int robot, double half_width) {

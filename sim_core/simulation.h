@@ -82,10 +82,14 @@ class Simulation {
   /// A robot that was put back stands as when the world began: its wheels at rest, their noise from its first
   /// draw on.
   void begin_again(int robot);
+  /// All robots did: with the next tick the world begins again, from where bodies are then. Nothing is in the
+  /// air, nobody remembers where bodies were or what they touched; time, counts and the digest go on.
+  void begin_again() { begins_ = true; }
   /// Anything else that somebody from outside changed, as a number that differs when the change does.
   void note_intervention(std::uint64_t what) { digest_ = fold(digest_, what); }
 
  private:
+  void begin_world();
   void read_wheels();
   Clicks find_horizons();
   Clicks next_tick(Clicks at);
@@ -108,6 +112,7 @@ class Simulation {
   std::vector<std::unique_ptr<Medium>> media_;
   Attendant* attendant_ = nullptr;
   bool attended_ = false;  // the attendant has been told that the world begins
+  bool begins_ = false;    // again, with the next tick
   std::unique_ptr<WorkerPool> workers_;
 
   struct Wheels {

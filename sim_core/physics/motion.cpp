@@ -212,7 +212,9 @@ void Motion::move(int body, const Pose2& pose, double z_m) {
     way_m_[i] = distance_m(body);
     leg_until_[static_cast<std::size_t>(body)] = end_;
     guessed_[i] = true;
-    fixed_pushes_[i] = FixedPush{};  // of where it was
+    // of where it was
+    nearness_[i] = Near::Nothing;
+    fixed_pushes_[i] = FixedPush{};
   }
   legs_[i] = {end_, pose, {}, 0, false};
   at_[i] = end_;
@@ -318,6 +320,10 @@ void Motion::note_touch(int robot, bool wall) {
 void Motion::carry_on(const Motion& before) {
   touches_ = before.touches_;
   for (int r = 0; r < robots(); ++r) way_m_[static_cast<std::size_t>(r)] = before.distance_m(r);
+}
+
+void Motion::forget_touches() {
+  for (Touching& touching : touches_) touching.wall = touching.any = Touch{};
 }
 
 TouchReport Motion::touches(int robot) const {

@@ -109,6 +109,8 @@ class Motion {
   double distance_m(int robot) const;
   /// What the robots have done so far is carried on from another engine with the same robots.
   void carry_on(const Motion& before);
+  /// Touches that last are over; they stay counted.
+  void forget_touches();
   /// Puts a body somewhere else, at rest.
   virtual void move(int body, const Pose2& pose, double z_m);
   /// Gives a body another speed, m/s and rad/s; robots and objects on the floor keep it as long as grip

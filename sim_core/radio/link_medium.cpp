@@ -139,10 +139,20 @@ void LinkMedium::supervise(const Scene& scene, Clicks now) {
   }
 }
 
+void LinkMedium::begin_again(Clicks now) {
+  for (LinkPort* port : ports_) port->outbox_.clear();
+  somebody_sends_ = false;
+  by_chance_.assign(ports_.size(), {});
+  ways_.clear();
+  silent_since_.clear();
+  has_links_ = false;
+  begun_ = last_ = now;
+}
+
 void LinkMedium::exchange(const Scene& scene, Clicks now) {
   last_ = std::max(last_, now - scene.tick_clicks());  // nothing was under way before
   if (has_dropouts_)
-    for (std::size_t p = 0; p < ports_.size(); ++p) ports_[p]->blocked = drops_out(p, now);
+    for (std::size_t p = 0; p < ports_.size(); ++p) ports_[p]->blocked = drops_out(p, now - begun_);
   const bool sends = somebody_sends_.exchange(false, std::memory_order_relaxed);
   if (sends) take_outboxes(now);
   // links come about by messages, so nothing can be linked where nothing was ever sent

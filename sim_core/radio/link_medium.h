@@ -66,6 +66,7 @@ class LinkMedium final : public Medium {
              std::vector<std::vector<Dropout>> own_dropouts);
 
   void exchange(const Scene& scene, Clicks now) override;
+  void begin_again(Clicks now) override;
   bool is_busy() const override { return has_dropouts_ || has_links_ || !ways_.empty(); }
 
  private:
@@ -98,7 +99,7 @@ class LinkMedium final : public Medium {
   std::map<std::pair<int, int>, Clicks> silent_since_;  // blocked links
   std::atomic<bool> somebody_sends_{false};
   bool has_links_ = false;
-  Clicks last_ = 0;
+  Clicks last_ = 0, begun_ = 0;
 };
 
 }  // namespace sim

@@ -60,6 +60,13 @@ class PacketPort {
 
   int robot = -1;  ///< whose pose counts; -1: it has no place
 
+ protected:
+  /// Nothing is on its way out.
+  void forget_sent() {
+    outbox_.clear();
+    free_at_.clear();
+  }
+
  private:
   friend class PacketMedium;
   std::deque<Packet> outbox_;

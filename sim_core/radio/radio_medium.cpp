@@ -187,6 +187,16 @@ bool RadioMedium::is_busy() const {
          std::any_of(waiting_.begin(), waiting_.end(), [](const Waiting& w) { return w.queued; });
 }
 
+void RadioMedium::begin_again(Clicks now) {
+  for (RadioPort* port : ports_) port->outbox.clear();
+  waiting_.assign(ports_.size(), {});
+  numbers_.assign(ports_.size(), 0);
+  waits_.assign(ports_.size(), 0);
+  free_at_.assign(ports_.size(), now);
+  on_air_.clear();
+  resolved_until_ = now;
+}
+
 void RadioMedium::exchange(const Scene& scene, Clicks now) {
   contend(scene, now);
   if (!on_air_.empty()) resolve(scene, now);

@@ -73,6 +73,7 @@ class RadioMedium final : public Medium {
   RadioMedium(const RadioDesc& desc, std::uint64_t seed, std::vector<RadioPort*> ports);
 
   void exchange(const Scene& scene, Clicks now) override;
+  void begin_again(Clicks now) override;
   bool is_busy() const override;
   const RadioCounters& counters() const { return counters_; }
 

@@ -54,10 +54,15 @@ double SoundField::pressure_pa(const Vec3& place_m, double at_s) const {
   double sum = 0;
   for (const SoundSource& source : sources_) {
     const double way_m = distance(place_m, source.position_m());
-    sum += source.pressure_pa(at_s - way_m / kSoundSpeedMs) / std::max(way_m, kNearestM);
+    sum += source.pressure_pa(at_s - begun_s_ - way_m / kSoundSpeedMs) / std::max(way_m, kNearestM);
   }
   for (const Voice& voice : voices_) sum += heard_pa(voice, place_m, at_s);
   return sum;
+}
+
+void SoundField::begin_again(Clicks now) {
+  begun_s_ = to_seconds(now);
+  voices_.clear();
 }
 
 void SoundField::play(int robot, const SpeakerTrack& track, Clicks now) {

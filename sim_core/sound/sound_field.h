@@ -61,6 +61,9 @@ class SoundField {
 
   /// Other sources from now on; what robots play goes on.
   void refurnish(const WorldDesc& world);
+  /// The world begins again: its sources sound as at the beginning, from `now` on, and nothing else is in the
+  /// air.
+  void begin_again(Clicks now);
   /// The robot's loudspeaker plays this from `now` on instead of whatever it played.
   void play(int robot, const SpeakerTrack& track, Clicks now);
   /// It falls silent at `now`.
@@ -83,6 +86,7 @@ class SoundField {
   double heard_pa(const Voice& voice, const Vec3& place_m, double at_s) const;
 
   std::vector<SoundSource> sources_;
+  double begun_s_ = 0;  // when their time began
   std::vector<Voice> voices_;
   Clicks tick_;
   double tick_s_;

@@ -180,6 +180,16 @@ void Scene::relocate(int body, const Leg& leg, double z_m) {
   begin_leg(body, leg, z_m, 0);
 }
 
+void Scene::forget_history() {
+  for (int i = 0; i < bodies(); ++i) {
+    const BodyState s = state(i);
+    const Leg leg{now_, s.pose, s.velocity_m_s, s.spin_rad_s, false};
+    relocate(i, leg, s.z_m);
+    begin_leg(i, leg, s.z_m, s.climb_m_s);
+  }
+  std::fill(leds_.begin(), leds_.end(), 0);
+}
+
 void Scene::refurnish(const WorldDesc& world, const std::vector<int>& before, std::vector<double> reach_m) {
   const std::vector<Leg> legs = std::move(legs_);
   const std::vector<int> newest = std::move(newest_);

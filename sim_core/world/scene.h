@@ -101,6 +101,8 @@ class Scene {
   // Changes by hand, between ticks only; Simulation's methods of these names book them.
   /// A body was put somewhere else: its history is forgotten.
   void relocate(int body, const Leg& leg, double z_m);
+  /// Where and how fast bodies are stays; where they were, and what LEDs showed, is forgotten.
+  void forget_history();
   /// Everything but the robots is as `world` says. `before`: for each body the one it was, whose course it
   /// goes on with; -1: a new one. The optics must be made anew.
   void refurnish(const WorldDesc& world, const std::vector<int>& before, std::vector<double> reach_m);
