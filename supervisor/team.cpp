@@ -211,8 +211,14 @@ void Team::note_reset(int robot, bool program) {
   Reset& reset = resets_[robot];
   (program ? reset.program : reset.place) = simulation().now();
   if (reset.place != reset.program) return;
-  twin_.mind(robot).begin_again();
-  simulation().begin_again(robot);
+  twin_.begin_again(robot);
+  // whoever is switched off does nothing that could differ
+  for (int r = 0; r < twin_.robots(); ++r) {
+    const Reset& other = resets_[r];
+    const bool begins = other.place == simulation().now() && other.program == simulation().now();
+    if (!begins && !twin_.image_path(r).empty()) return;
+  }
+  simulation().begin_again();
 }
 
 std::string Team::file_of_run(const char* file) const {

@@ -140,7 +140,7 @@ class Team final : public sim::Attendant {
   /// Everybody's tracks of a thing that was moved by hand are broken there.
   void note_move(int thing);
   /// A robot was put back to its start, or its program begun anew. One to which both is done at the same
-  /// instant begins as when the world began: rotors, noise.
+  /// instant begins as when the world began; when that is done to all that run a program, the world does.
   void note_reset(int robot, bool program);
   /// Ways of the robots since the first track was asked for.
   sim::Trajectories* ways() { return ways_.get(); }

@@ -94,6 +94,11 @@ void Battery::set_voltage(double volts, Cycle at) {
   rest_v_ = rest_v(charge_);
 }
 
+void Battery::begin_again(double volts, double amps, Cycle at) {
+  draw(amps, at);
+  set_voltage(volts, at);
+}
+
 Cycle Battery::below(double volts, Cycle at) const {
   if (voltage(at) < volts || amps_ <= 0) return kNever;
   const double left = charge(at) - charge_at(volts + amps_ * kInnerResistanceOhm);

@@ -22,6 +22,8 @@ class Battery {
   void draw(double amps, Cycle at);
   /// Another battery state, as if charged: terminal voltage at `at` with the present current.
   void set_voltage(double volts, Cycle at);
+  /// As in the constructor, from `at` on; what was used stays counted.
+  void begin_again(double volts, double amps, Cycle at);
 
   double amps() const { return amps_; }
   /// V at the terminals.

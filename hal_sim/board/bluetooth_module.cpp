@@ -22,12 +22,33 @@ BluetoothModule::BluetoothModule(const BluetoothSetup& setup, const RobotClock& 
                                  std::unique_ptr<UartEnd> computer)
     : setup_(setup), clock_(clock), address_(bt_address_of(setup.number)), computer_(std::move(computer)) {
   robot = robot_index;
+  power_up();
+}
+
+void BluetoothModule::power_up() {
   char digits[8];
-  std::snprintf(digits, sizeof digits, "%04d", std::clamp(setup.number, 0, 9999));
-  name_ = setup.name.empty() ? std::string("e-puck_") + digits : setup.name;
-  pin_ = setup.pin.empty() ? digits : setup.pin;
+  std::snprintf(digits, sizeof digits, "%04d", std::clamp(setup_.number, 0, 9999));
+  name_ = setup_.name.empty() ? std::string("e-puck_") + digits : setup_.name;
+  pin_ = setup_.pin.empty() ? digits : setup_.pin;
   to_computer_ = transparent_ = computer_ != nullptr;
   settle_idle();
+}
+
+void BluetoothModule::begin_again() {
+  peer = kNobody;
+  blocked = lost_computer_ = false;
+  paired_.clear();
+  event_filter_ = kBtDefaultFilter;
+  to_send_.clear();
+  blocked_since_ = linked_at_ = -1;
+  command_.clear();
+  out_.clear();
+  inquiry_ = {};
+  inquiries_ = 0;
+  naming_ = paging_ = {};
+  page_status_ = kBtOk;
+  other_ = {};
+  power_up();
 }
 
 void BluetoothModule::connect_computer(std::shared_ptr<UartEnd> computer) {

@@ -56,6 +56,8 @@ class BluetoothModule final : public UartEnd, public sim::LinkPort {
   std::string name() const override { return computer_ ? computer_->name() : ""; }
   std::string error() const override { return computer_ ? computer_->error() : ""; }
 
+  void begin_again() override;
+
   // --- the air, between ticks
   void on_message(const sim::LinkMessage& message, sim::Clicks now) override;
   void on_link_lost(sim::Clicks now) override;
@@ -92,6 +94,7 @@ class BluetoothModule final : public UartEnd, public sim::LinkPort {
   bool is_paired(const BtAddress& other) const;
   std::uint8_t answer_page(const BtAddress& from, const std::string& pin) const;
   void settle_idle();
+  void power_up();
 
   BluetoothSetup setup_;
   const RobotClock& clock_;

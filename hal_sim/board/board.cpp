@@ -293,9 +293,19 @@ void Board::processor_reset(Cycle at) {
   for (const auto& part : parts_) part->processor_reset(at);
 }
 
-void Board::begin_again(Cycle at) {
-  for (Stepper& motor : motors_) motor.put_back(at);
+void Board::begin_again(sim::Clicks now, Cycle at) {
+  clock_.begin_again(now);
+  for (Stepper& motor : motors_) motor.begin_again(at);
+  for (Uart& uart : uarts_) uart.begin_again(at);
+  i2c_.begin_again(at);
+  if (camera_) camera_->begin_again(at);
+  packets_.begin_again();
+  eeprom_.begin_again();
+  line_since_.fill(at);
+  lit_since_.fill(at);
   noise_.begin_at(at);
+  battery_.begin_again(setup_.battery_v, kProcessorA + kBluetoothA + kBoardA, at);
+  follow_power(at);
 }
 
 void Board::plug_in(std::unique_ptr<Part> part) {

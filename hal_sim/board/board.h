@@ -171,8 +171,12 @@ class Board {
   /// First cycle after `at` at which a PORT or LAT word can change by itself; kNever if it cannot.
   Cycle port_horizon(char port, Cycle at) const;
 
-  /// As when it was first switched on: rotors and noise. Behind processor_reset().
-  void begin_again(Cycle at);
+  /// As when it was first switched on, from world time `now` on, which is cycle `at`: rotors, devices, parts,
+  /// battery, data EEPROM, noise, the clock's fractions and the boot delay. Selector, sensors that somebody
+  /// defined, keys and the ends of UARTs stay. Behind processor_reset().
+  void begin_again(sim::Clicks now, Cycle at);
+  /// When that was last; 0: never.
+  Cycle begun_at() const { return noise_.begun_at(); }
   /// The reset button, or asm("reset"): pins to inputs, drivers stop, wheels stay where they are. Wiring,
   /// selector, UART ends and the noise's sample numbers stay.
   void processor_reset(Cycle at);

@@ -275,8 +275,8 @@ void Camera::put_line(int number, std::uint8_t* to, Cycle at) {
       const double x = columns_[p];
       // nothing comes out beyond the array
       const bool inside = x >= 0 && x < kArrayWidth && y >= 0 && y < kArrayHeight;
-      const std::uint64_t pixel =
-          (static_cast<std::uint64_t>(awaited_) << 20) + static_cast<std::uint64_t>(number) * 1024 + p;
+      const std::uint64_t pixel = (static_cast<std::uint64_t>(awaited_ - awaited_before_) << 20) +
+                                  static_cast<std::uint64_t>(number) * 1024 + p;
       rgb = inside ? develop(light_[transposed_ ? p * high + row : row * wide + p], pixel)
                    : std::array<std::uint8_t, 3>{};
     }
@@ -314,6 +314,15 @@ void Camera::sensor_reset(Cycle at) {
   ++exposed_;
   auto_red_ = auto_blue_ = 1;
   if (const sim::Scene* scene = board_.scene()) sim::watch_leds(*scene);
+}
+
+void Camera::begin_again(Cycle at) {
+  sensor_reset(at);
+  refresh(at);
+  frame_start_ = at;
+  awaited_before_ = awaited_;
+  first_rendered_ = rendered_ = 0;
+  picture_.clear();
 }
 
 }  // namespace board

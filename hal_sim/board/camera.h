@@ -95,6 +95,8 @@ class Camera {
   std::array<double, 4> widest_edges() const;
 
   void sensor_reset(Cycle at);
+  /// As when it was switched on, at `at`: registers, frames, automatics, noise.
+  void begin_again(Cycle at);
   bool is_used() const { return awaited_ > 0; }
   std::uint64_t state_hash() const { return hash_; }
 
@@ -144,7 +146,8 @@ class Camera {
   std::vector<std::uint8_t> picture_;
   std::int64_t pictures_ = 0;
   std::int64_t awaited_ = 0;
-  std::uint64_t exposed_ = 0;  // frames, and resets of the exposure
+  std::int64_t awaited_before_ = 0;  // it began again
+  std::uint64_t exposed_ = 0;        // frames, and resets of the exposure
   std::uint64_t hash_ = 0;
 };
 

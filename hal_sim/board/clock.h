@@ -2,9 +2,12 @@
 // One robot's oscillator seen from the world's clock. The robot counts instruction cycles from the moment its
 // processor starts (world time 0 plus the boot delay); its crystal is off by a fixed number of parts per
 // billion. Conversions are exact rationals in integers: monotone, without drift, the same on every machine.
+// A robot that begins again counts on, and starts its processor anew: each stretch keeps its own beginning.
 // Not modelled: a crystal whose rate changes with temperature.
 #pragma once
+#include <algorithm>
 #include <cstdint>
+#include <vector>
 
 #include "hal_sim/board/cycle.h"
 #include "sim_core/base/clock.h"
@@ -17,26 +20,61 @@ class RobotClock {
   /// -1,000,000,000; 1,000,000,000 is twice as fast.
   /// `boot_clicks`: world time at which cycle 0 begins; not negative.
   explicit RobotClock(std::int64_t ppb = 0, sim::Clicks boot_clicks = 0)
-      : ppb_(ppb), boot_clicks_(boot_clicks) {}
+      : ppb_(ppb), boot_(boot_clicks), boot_delay_(boot_clicks) {}
 
-  /// Last cycle that has begun at world time `at`; negative before the robot has booted.
+  /// At world time `at` the robot is as at world time 0; its cycles count on. Not before the last beginning.
+  void begin_again(sim::Clicks at) {
+    const Cycle first = std::max<Cycle>(0, cycle_at(at));
+    past_.push_back({begun_, boot_, first_});
+    begun_ = at;
+    boot_ = at + boot_delay_;
+    first_ = first;
+  }
+
+  /// Last cycle that has begun at world time `at`; negative before the robot has booted for the first time.
   Cycle cycle_at(sim::Clicks at) const {
-    const sim::Clicks since = at - boot_clicks_;
-    if (ppb_ == 0) return since;
-    return floor_div(static_cast<Wide>(since) * (kBillion + ppb_), kBillion);
+    const sim::Clicks since = at - boot_;
+    if (begun_ > 0) {
+      if (at < begun_) return before(at).cycle_at(at);
+      if (since < 0) return first_;  // it boots again
+    }
+    if (ppb_ == 0) return since + first_;
+    return floor_div(static_cast<Wide>(since) * (kBillion + ppb_), kBillion) + first_;
   }
 
   /// First click at which cycle `cycle` has begun: cycle_at(click_at(c)) >= c, and click_at(cycle_at(t)) <=
-  /// t.
+  /// t while it does not boot again.
   sim::Clicks click_at(Cycle cycle) const {
-    if (ppb_ == 0) return cycle + boot_clicks_;
-    return -floor_div(-static_cast<Wide>(cycle) * kBillion, kBillion + ppb_) + boot_clicks_;
+    if (begun_ > 0 && cycle < first_) return std::min(begun_, before_cycle(cycle).click_at(cycle));
+    if (ppb_ == 0) return cycle - first_ + boot_;
+    return -floor_div(-static_cast<Wide>(cycle - first_) * kBillion, kBillion + ppb_) + boot_;
   }
 
   std::int64_t ppb() const { return ppb_; }
-  sim::Clicks boot_clicks() const { return boot_clicks_; }
 
  private:
+  struct Stretch {
+    sim::Clicks begun, boot;
+    Cycle first;
+  };
+  RobotClock alone(const Stretch& stretch) const {
+    RobotClock clock(ppb_);
+    clock.boot_ = stretch.boot;
+    clock.first_ = stretch.first;
+    return clock;
+  }
+  // questions about what is over are rare
+  RobotClock before(sim::Clicks at) const {
+    std::size_t n = past_.size() - 1;
+    while (n > 0 && at < past_[n].begun) --n;
+    return alone(past_[n]);
+  }
+  RobotClock before_cycle(Cycle cycle) const {
+    std::size_t n = past_.size() - 1;
+    while (n > 0 && cycle < past_[n].first) --n;
+    return alone(past_[n]);
+  }
+
   using Wide = __int128;
   static constexpr std::int64_t kBillion = 1'000'000'000;
 
@@ -47,7 +85,11 @@ class RobotClock {
   }
 
   std::int64_t ppb_;
-  sim::Clicks boot_clicks_;
+  sim::Clicks boot_;  // when cycle first_ begins
+  sim::Clicks boot_delay_;
+  sim::Clicks begun_ = 0;  // since when this holds
+  Cycle first_ = 0;
+  std::vector<Stretch> past_;
 };
 
 }  // namespace board

@@ -45,6 +45,13 @@ class DataEeprom {
     return *words_;
   }
 
+  /// As it was delivered: whoever programs the chip writes anew what the program's file holds.
+  void begin_again() {
+    if (!words_) return;
+    words_->fill(kBlank);
+    words_->back() = factory_;
+  }
+
   /// Of the changes by write() and erase(); 0: there were none.
   std::uint64_t state_hash() const { return changes_; }
 

@@ -50,6 +50,11 @@ void I2cBus::processor_reset(Cycle at) {
   for (I2cDevice* device : devices_) device->processor_reset(at);
 }
 
+void I2cBus::begin_again(Cycle at) {
+  processor_reset(at);
+  for (I2cDevice* device : devices_) device->begin_again(at);
+}
+
 std::uint64_t I2cBus::state_hash() const {
   std::uint64_t sum = open_;
   for (const I2cDevice* device : devices_) sum = sum * 0x9E3779B97F4A7C15u + device->state_hash();

@@ -38,6 +38,8 @@ class I2cBus {
   bool is_stopped() const { return !open_; }
 
   void processor_reset(Cycle at);
+  /// It and its devices begin as when they were first switched on.
+  void begin_again(Cycle at);
   std::uint64_t state_hash() const;
 
  private:

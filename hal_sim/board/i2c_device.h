@@ -30,6 +30,9 @@ class I2cDevice {
   /// nothing.
   virtual void processor_reset(Cycle at) {}
 
+  /// It begins as when it was first switched on.
+  virtual void begin_again(Cycle at) {}
+
   /// Everything that must repeat from run to run.
   virtual std::uint64_t state_hash() const { return 0; }
 };

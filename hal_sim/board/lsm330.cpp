@@ -39,7 +39,14 @@ constexpr double kDegPerRad = 57.29577951308232;
 
 }  // namespace
 
-Lsm330::Lsm330(const Board& robot) : robot_(robot) {
+Lsm330::Lsm330(const Board& robot) : robot_(robot) { begin_again(0); }
+
+void Lsm330::begin_again(Cycle at) {
+  acc_ = gyro_ = Half{};
+  acc_.since = gyro_.since = at;
+  addressed_ = nullptr;
+  expects_register_ = increments_ = false;
+  number_ = 0;
   gyro_.gyro = true;
   acc_.registers[kLsmWhoAmI] = kLsmAccWho;
   acc_.registers[kCtrlRate] = 0x07;

@@ -29,6 +29,7 @@ class Lsm330 final : public I2cDevice {
   void begin(std::uint8_t address, bool reading, Cycle at) override;
   bool write(std::uint8_t byte, Cycle at) override;
   std::uint8_t read(Cycle at) override;
+  void begin_again(Cycle at) override;
   std::uint64_t state_hash() const override;
 
  private:

@@ -45,6 +45,7 @@ class SampleNoise {
 
   /// The noise of the run's beginning comes again, from this cycle on.
   void begin_at(Cycle at) { origin_ = at; }
+  Cycle begun_at() const { return origin_; }
 
   /// Nearly normal, mean 0, standard deviation 1: the sum of eight dice with 256 faces. Nothing lies beyond
   /// 4.9, and 1.6 in a thousand beyond 3 (of a normal distribution 2.7).

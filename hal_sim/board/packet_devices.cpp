@@ -29,6 +29,14 @@ PacketDevices::PacketDevices(const RobotClock& clock, int robot_index,
       r.channel = d.channel;
     }
   }
+  emitters_at_first_ = emitters_;
+  receivers_at_first_ = receivers_;
+}
+
+void PacketDevices::begin_again() {
+  forget_sent();
+  emitters_ = emitters_at_first_;
+  receivers_ = receivers_at_first_;
 }
 
 void PacketDevices::set_emitter_range_m(int e, double range_m) {

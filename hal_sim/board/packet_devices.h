@@ -27,6 +27,9 @@ class PacketDevices final : public sim::PacketPort {
   /// `emitter` and `receiver` of channel 1 first, unless `devices` names them.
   PacketDevices(const RobotClock& clock, int robot, const std::vector<sim::DeviceDesc>& devices);
 
+  /// As in the constructor: channels, ranges, empty queues.
+  void begin_again();
+
   // --- emitters, by number from 0
   int emitters() const { return static_cast<int>(emitters_.size()); }
   const std::string& emitter_name(int e) const { return emitters_[index(e)].name; }
@@ -79,8 +82,8 @@ class PacketDevices final : public sim::PacketPort {
   }
 
   const RobotClock& clock_;
-  std::vector<Emitter> emitters_;
-  std::vector<Receiver> receivers_;
+  std::vector<Emitter> emitters_, emitters_at_first_;
+  std::vector<Receiver> receivers_, receivers_at_first_;
 };
 
 }  // namespace board

@@ -73,6 +73,8 @@ class Part {
   sim::Pose2 pose(Cycle at) const;
   /// World coordinates of a point of the robot (x forward, y left), m.
   sim::Vec2 to_world(sim::Vec2 point_m, Cycle at) const;
+  /// Cycles since the robot began, for the first time or again: what samples are numbered by.
+  Cycle since_begin(Cycle at) const;
   /// Key of one of this part's noises, `stream` 0 to 15; draw with a number that is the sample's own.
   sim::RandomKey random(int stream) const;
 

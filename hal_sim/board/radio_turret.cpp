@@ -137,4 +137,17 @@ void RadioTurret::on_sent(bool given_up, sim::Clicks) {
   mix(given_up);
 }
 
+void RadioTurret::begin_again(Cycle) {
+  outbox.clear();
+  listening_since = kOff;
+  status_ = kRadioIdle;
+  config_ = 0;
+  soft_attenuator_ = 1;
+  group_ = kRadioDefaultGroup;
+  own_address_ = 0;
+  send_ = receive_ = {};
+  written_ = 0;
+  has_length_ = false;
+}
+
 }  // namespace board

@@ -36,6 +36,7 @@ class RadioTurret final : public I2cRegisters, public sim::RadioPort {
   /// Packets for this turret that found the buffer full, since power-up.
   std::int64_t lost() const { return lost_; }
   std::uint64_t state_hash() const override { return hash_; }
+  void begin_again(Cycle at) override;
 
   /// Power of what is sent by the attenuators, dB below full power (0 to -50).
   double power_db() const;

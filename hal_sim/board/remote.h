@@ -31,6 +31,8 @@ class RemoteReceiver {
 
   /// Adds a press. The toggle bit differs from that of the press added before.
   void press(const KeyPress& key);
+  /// Nobody has pressed a key yet: the world begins again.
+  void forget() { presses_.clear(); }
   /// False: nobody ever pressed a key; the pin is high for ever.
   bool in_use() const { return !presses_.empty(); }
 

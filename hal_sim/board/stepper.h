@@ -112,13 +112,9 @@ class Stepper {
 
   void set_coils_only(unsigned coils) { coils_ = coils; }
 
-  /// As if somebody had turned the rotor by hand to where it stood when the robot was first switched on; the
-  /// wheel's angle is not seen to change.
-  void put_back(Cycle at) {
-    const std::int64_t steps = motion_.steps;
+  /// As when the robot was first switched on: no step was made yet. What was told of its driver stays.
+  void begin_again(Cycle at) {
     motion_ = Motion{};
-    motion_.steps = origin_ = steps;
-    motion_.from = static_cast<double>(steps);
     motion_.moved_at = motion_.ready_at = at;
     motion_.stepped_at = at - kPatternCycles;
     motion_.pulled_at = at - kPullOutCycles;
@@ -180,7 +176,7 @@ class Stepper {
                   kPhase[kPhaseCoils[3]] == 3);
     return kPhase[coils & 15];
   }
-  int rotor_phase() const { return static_cast<int>((motion_.steps - origin_) * forward_) & 3; }
+  int rotor_phase() const { return static_cast<int>(motion_.steps * forward_) & 3; }
 
   void step(int direction, Cycle at, Cycle move) {
     if (motion_.ready_at - at > kPullOutCycles) return faults_.too_fast.note(at);
@@ -202,8 +198,7 @@ class Stepper {
   int forward_;
   bool connected_ = false;
   unsigned coils_ = 0;
-  Cycle changed_at_ = 0;     // when the present pattern began
-  std::int64_t origin_ = 0;  // steps at which the rotor is in phase 0
+  Cycle changed_at_ = 0;  // when the present pattern began
   Motion motion_, before_;
   StepperFaults faults_;
 };

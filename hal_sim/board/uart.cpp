@@ -39,6 +39,14 @@ void Uart::reset(Cycle at) {
   last_start_ = free_at_ = at;
 }
 
+void Uart::begin_again(Cycle at) {
+  reset(at);
+  on_wire_.clear();
+  wire_free_at_ = at;
+  break_until_ = -1;
+  if (end_) end_->begin_again();
+}
+
 int Uart::waiting(Cycle at) const {
   int count = 0;
   for (Cycle start : starts_) count += start > at ? 1 : 0;

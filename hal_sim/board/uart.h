@@ -44,6 +44,8 @@ class Uart {
   /// Enabled at BRG `brg` from `at` on.
   void switch_on(int brg, Cycle at);
   void reset(Cycle at);
+  /// Behind reset(): nothing is on the wire.
+  void begin_again(Cycle at);
 
   bool enabled() const { return enabled_; }
   Cycle byte_cycles() const { return Cycle{kUartBitsPerByte} * kUartCyclesPerBrg * (brg_ + 1); }

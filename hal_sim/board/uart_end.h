@@ -28,6 +28,9 @@ class UartEnd {
   /// The line was held low for longer than a byte; over at cycle `at`. Nothing, on most lines.
   virtual void on_break(Cycle at) {}
 
+  /// The robot begins as when it was first switched on. Nothing, for ends that are no part of it.
+  virtual void begin_again() {}
+
   /// Nothing will come out of collect() by itself: it need not be asked every tick. Written between ticks and
   /// by the robot's own thread.
   bool is_idle() const { return idle_; }

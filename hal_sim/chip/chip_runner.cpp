@@ -23,12 +23,8 @@ ChipRunner::ChipRunner(std::string name, std::shared_ptr<const dspic::FirmwareFi
                        board::Board& board, Cycle start)
     : Runner(std::move(name)), file_(std::move(file)), board_(board), chip_(board) {
   // what a programmer writes: flash and configuration words, and the EEPROM, which is the board's
-  for (const auto& [address, word] : file_->words) {
-    if (program_.write(address, word)) continue;
-    const unsigned low = address & 0xFFFF;
-    board.eeprom().erase(low);
-    board.eeprom().write(low, static_cast<std::uint16_t>(word));
-  }
+  for (const auto& [address, word] : file_->words) program_.write(address, word);
+  program_eeprom();
   dspic::Configuration configuration;
   configuration.fosc = static_cast<std::uint16_t>(program_.read(dspic::kConfigurationStart));
   configuration.fwdt = static_cast<std::uint16_t>(program_.read(dspic::kConfigurationStart + 2));
@@ -48,6 +44,15 @@ ChipRunner::ChipRunner(std::string name, std::shared_ptr<const dspic::FirmwareFi
   processor_->wait_until(start);
   chip_.reset(start);
   processor_->restart();
+}
+
+void ChipRunner::program_eeprom() {
+  for (const auto& [address, word] : file_->words) {
+    if (address >> 16 != dspic::kEepromStart >> 16) continue;
+    const unsigned low = address & 0xFFFF;
+    board_.eeprom().erase(low);
+    board_.eeprom().write(low, static_cast<std::uint16_t>(word));
+  }
 }
 
 // --- time -------------------------------------------------------------------------------------------------
@@ -86,18 +91,18 @@ void ChipRunner::remote_changed() {
 void ChipRunner::restart() {
   chip_.note_reset(dspic::ResetKind::Pin);
   processor_->wait_until(end_);
-  restarted_at_ = processor_->now();
-  chip_.reset(restarted_at_);
+  chip_.reset(processor_->now());
   processor_->restart();
   tell_reset(processor_->now());
   wake();
 }
 
 void ChipRunner::begin_again() {
-  chip_.note_reset(dspic::ResetKind::PowerOn);
-  chip_.reset(restarted_at_);
+  program_eeprom();
   // an instruction that was under way reached beyond the window's end; the first run began at one
+  chip_.begin_again(end_);
   processor_->power_up(end_);
+  wake();
 }
 
 void ChipRunner::tell_reset(Cycle at) {

@@ -86,6 +86,7 @@ class ChipRunner final : public host::Runner, private dspic::EventWatch, private
 
  private:
   void about_to_change(Cycle at) override { observer_->about_to_change(at); }
+  void program_eeprom();
   void run_watched(Cycle end);
   void add_endless_wait(std::vector<board::Diagnosis>& all) const;
   void tell_observer(const Step& step, int nesting);
@@ -110,7 +111,7 @@ class ChipRunner final : public host::Runner, private dspic::EventWatch, private
   host::Observer* observer_ = nullptr;
   std::vector<StepWatch*> watches_;
   mutable std::map<std::string, host::Variable> variables_;  // that were asked for
-  Cycle end_ = 0, idle_until_ = 0, restarted_at_ = 0;
+  Cycle end_ = 0, idle_until_ = 0;
   mutable Cycle asked_since_ = dspic::kNever;     // the wait that was looked at last
   mutable std::optional<board::Diagnosis> wait_;  // what is told of it
   std::uint64_t turns_ = 0;

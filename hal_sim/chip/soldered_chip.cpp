@@ -91,6 +91,13 @@ void SolderedChip::reset(Cycle now) {
   board_.processor_reset(latest_);
 }
 
+void SolderedChip::begin_again(Cycle now) {
+  latest_ = now;
+  next_reset_ = dspic::ResetKind::PowerOn;
+  reset(now);
+  next_reset_ = dspic::ResetKind::PowerOn;
+}
+
 const char* SolderedChip::note_reset_due() {
   next_reset_ = *device_->reset_due(latest_);
   return reason_of(next_reset_);

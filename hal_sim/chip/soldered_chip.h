@@ -29,6 +29,9 @@ class SolderedChip final : private dspic::DiagnosticSink {
   /// Chip and board: registers and pins to their reset values, for the cause noted last; without one for an
   /// instruction.
   void reset(Cycle now);
+  /// Behind a reset whose instant may lie some cycles beyond the end of the last window: as when it was
+  /// powered up, at `now`.
+  void begin_again(Cycle now);
   void note_reset(dspic::ResetKind cause) { next_reset_ = cause; }
   /// The chip wants a reset (look() said reset_due): its cause is noted. Returns one sentence that says why.
   const char* note_reset_due();

@@ -24,9 +24,10 @@ void FirmwareMind::flash(const RunnerFactory& make_runner) {
   wake();
 }
 
-void FirmwareMind::begin_again() {
+void FirmwareMind::begin_again(sim::Clicks at) {
+  now_ = cycle_at(at);
+  board_.begin_again(at, now_);
   if (runner_) runner_->begin_again();
-  board_.begin_again(now());
   course_.until = 0;
   turns_ = 0;
   wake();

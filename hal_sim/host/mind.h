@@ -29,8 +29,9 @@ class FirmwareMind final : public sim::RobotMind {
   /// ticks.
   void flash(const RunnerFactory& make_runner);
 
-  /// Its program, rotors and noise begin as when the world began. Between ticks, behind a restart.
-  void begin_again();
+  /// The robot is, from world time `now` on, as when the world began (Board::begin_again()). Between ticks,
+  /// behind a restart.
+  void begin_again(sim::Clicks now);
 
   /// Somebody presses a key of a remote control; not before what has already run.
   void press_key(const board::KeyPress& key);

@@ -195,15 +195,17 @@ class ConsoleMedium final : public sim::Medium {
   std::atomic<bool> somebody_writes_{false};
 };
 
-// in the order of time: the toggle bit changes from press to press
-void press_keys(host::FirmwareMind& mind, std::vector<sim::KeyDesc> keys) {
+// in the order of time: the toggle bit changes from press to press; `from_s`: when the robot began
+void press_keys(host::FirmwareMind& mind, std::vector<sim::KeyDesc> keys, double from_s = 0) {
   std::stable_sort(keys.begin(), keys.end(),
                    [](const sim::KeyDesc& a, const sim::KeyDesc& b) { return a.at_s < b.at_s; });
-  for (const sim::KeyDesc& key : keys)
+  for (const sim::KeyDesc& key : keys) {
+    const double at_s = from_s + key.at_s;
     if (key.typed)
-      mind.board().virtual_devices().typed.push_back({key.typed, key.at_s, key.at_s + key.hold_s});
+      mind.board().virtual_devices().typed.push_back({key.typed, at_s, at_s + key.hold_s});
     else
-      mind.press_key({key.code, key.at_s, key.hold_s, key.address});
+      mind.press_key({key.code, at_s, key.hold_s, key.address});
+  }
 }
 
 /// Robots' names as those of folders; names that cannot be one, or come twice, get the robot's number.
@@ -343,6 +345,16 @@ std::string Twin::flash(const std::vector<int>& robots, const std::string& path)
   }
   if (program.image) images_.push_back(program.image);
   return "";
+}
+
+void Twin::begin_again(int robot) {
+  host::FirmwareMind& mind = *minds_[static_cast<std::size_t>(robot)];
+  const sim::Clicks now = simulation_->now();
+  mind.begin_again(now);
+  mind.board().remote().forget();
+  mind.board().virtual_devices().typed.clear();
+  press_keys(mind, world().robots[static_cast<std::size_t>(robot)].keys, sim::to_seconds(now));
+  simulation_->begin_again(robot);
 }
 
 // what passes between robots; a world whose robots have nothing of the kind gets nothing

@@ -101,6 +101,8 @@ class Twin {
   /// Flashes another image into robots that run programs; they start it where they stand. Returns what is
   /// wrong with the image, or an empty string. Between ticks.
   std::string flash(const std::vector<int>& robots, const std::string& path);
+  /// A robot that was restarted begins as when the world began; its keys are pressed again. Between ticks.
+  void begin_again(int robot);
   /// All traps and unexpected resets so far, robot by robot.
   std::vector<host::TrapReport> traps() const;
   const std::vector<std::shared_ptr<host::Image>>& images() const { return images_; }

@@ -111,7 +111,9 @@ int sv_set_pose(int thing, const struct sv_pose* pose);
 /** Sets a movable thing going; it loses the speed again as physics wants. Engines without forces ignore all
  * but z. */
 int sv_set_velocity(int thing, const struct sv_velocity* velocity);
-/** Back to where it stood when the world began, at rest. Firmware goes on; see sv_restart(). */
+/** Back to where it stood when the world began, at rest. Firmware goes on; see sv_restart(). Both at the same
+ *  instant, in any order: the robot begins as when the world began, its steps and its noise as well; done to
+ *  all robots that run programs, the world takes its first course again (docs/supervisor.md). */
 int sv_reset(int thing);
 /** Presses the robot's reset button: its program begins anew with its start-up values, also after a trap.
  *  Traps stay in the report. SV_ALL: every robot. */

@@ -37,4 +37,27 @@ TEST(RobotClock, conversions_are_monotone_and_fit_each_other) {
   }
 }
 
+// a robot that begins again counts on; its cycles lie as they lay after the world's beginning
+TEST(RobotClock, a_new_beginning_is_as_the_first_one_and_forgets_nothing) {
+  for (std::int64_t ppb : {-37'123, 0, 131'000}) {
+    const RobotClock first(ppb, 12'345);
+    RobotClock clock(ppb, 12'345);
+    const sim::Clicks at[] = {1'000'003, 5'000'077};
+    board::Cycle begun[2];
+    for (int n = 0; n < 2; ++n) {
+      begun[n] = clock.cycle_at(at[n]);
+      clock.begin_again(at[n]);
+    }
+    for (sim::Clicks t = 12'345; t < 3'900'000; t += 7'919) {
+      EXPECT_EQ(clock.cycle_at(at[1] + t), begun[1] + first.cycle_at(t));
+      EXPECT_EQ(clock.cycle_at(at[0] + t), begun[0] + first.cycle_at(t));
+      EXPECT_EQ(clock.click_at(begun[1] + first.cycle_at(t)), at[1] + first.click_at(first.cycle_at(t)));
+      EXPECT_EQ(clock.click_at(begun[0] + first.cycle_at(t)), at[0] + first.click_at(first.cycle_at(t)));
+    }
+    EXPECT_EQ(clock.cycle_at(900'000), first.cycle_at(900'000));
+    EXPECT_EQ(clock.click_at(first.cycle_at(900'000)), first.click_at(first.cycle_at(900'000)));
+    EXPECT_EQ(clock.cycle_at(at[1] + 100), begun[1]) << "it boots again";
+  }
+}
+
 }  // namespace

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
-// A supervisor puts a robot back and presses its reset button: it takes its first way again, up to what a
-// program does of an instruction that was under way (a cycle of its speed is 7 nm).
+// A supervisor puts robots back and restarts their programs: the course of the world after it is the first
+// one again, to the last bit.
+#include <vector>
+
 #include "tests/cli/command.h"
+#include "tests/cli/vcd_reader.h"
 
 using namespace cli_test;
 
@@ -9,57 +12,234 @@ namespace {
 
 class Resets : public CommandTest {};
 
-TEST_F(Resets, reset_and_restart_give_the_first_run_again) {
-  const std::string head =
-      "#include <math.h>\n#include <stdio.h>\n#include <stdlib.h>\n#include <supervisor.h>\n"
-      "static struct sv_pose first[60];\n"
-      "static int round_, number;\nstatic double worst, way;\n"
-      "static void look(void) {\n"
-      "  struct sv_pose now; double off;\n"
-      "  sv_get_pose(0, &now);\n"
-      "  if (!round_) { first[number] = now; return; }\n"
-      "  off = hypot(now.x - first[number].x, now.y - first[number].y) + fabs(now.heading - "
-      "first[number].heading);\n"
-      "  if (off > worst) worst = off;\n"
-      "  way += hypot(now.x - first[0].x, now.y - first[0].y);\n"
-      "}\n";
-  const std::string tail =
-      "  if (worst > 1e-6 || way < 0.1) sv_end(1, \"off by %g after a way of %g\", worst, way);\n"
-      "  sv_end(0, \"the same\");\n  return 0;\n}\n";
-  write("ours.c", head +
-                      "int main(void) {\n"
-                      "  for (; round_ < 3; round_++) {\n"
-                      "    for (number = 0; number < 60; number++) { sv_step(0.1); look(); }\n"
-                      "    if (round_) { sv_restart(SV_ALL); sv_reset(0); sv_reset(1); }\n"
-                      "    else { sv_reset(0); sv_reset(1); sv_restart(SV_ALL); }\n"
-                      "  }\n" +
-                      tail);
+/// Prints what it sees and remembers, also what is in its EEPROM, and shows it on its LEDs.
+const char* const kTeller = R"(
+#include <stdio.h>
+#include <libpic30.h>
+#include <p30F6014A.h>
+#include <a_d/advance_ad_scan/e_ad_conv.h>
+#include <a_d/advance_ad_scan/e_prox.h>
+#include <a_d/advance_ad_scan/e_acc.h>
+#include <a_d/advance_ad_scan/e_micro.h>
+#include <motor_led/advance_one_timer/e_agenda.h>
+#include <motor_led/advance_one_timer/e_led.h>
+#include <motor_led/advance_one_timer/e_motors.h>
+#include <motor_led/e_init_port.h>
+#include <uart/e_uart_char.h>
+static int _EEDATA(_EE_ROW) kept[16] = {70, 80};
+static volatile int due;
+static void tick(void) { due = 1; }
+int main(void) {
+  static int number; /* RAM begins empty */
+  static char text[80];
+  int runs = 0;
+  _prog_addressT place;
+  _init_prog_address(place, kept);
+  _memcpy_p2d16(&runs, place, _EE_WORD);
+  _erase_eedata(place, _EE_WORD);
+  _wait_eedata();
+  _write_eedata_word(place, runs + 1);
+  _wait_eedata();
+  e_init_port();
+  e_init_uart1();
+  e_init_motors();
+  e_start_agendas_processing();
+  e_init_ad_scan(ALL_ADC);
+  e_activate_agenda(tick, 1000);
+  e_set_speed_left(600);
+  e_set_speed_right(500);
+  while (1) {
+    int ambient, length;
+    while (!due);
+    due = 0;
+    ambient = e_get_ambient_light(2);
+    e_set_led(ambient & 7, 2);
+    length = sprintf(text, "%d %d %d %d %d %d %x\n", runs, number++, ambient, e_get_prox(0), e_get_acc(0),
+                     e_get_micro(1), (unsigned)RCON);
+    e_send_uart1_char(text, length);
+    if (number == 20) { e_set_speed_left(-400); e_set_speed_right(-300); }
+  }
+}
+)";
+
+/// Notes everything that a supervisor sees of the world, and compares it with that of the first stretch.
+const char* const kWitness = R"(
+#include <math.h>
+#include <string.h>
+#include <supervisor.h>
+#define ROBOTS 4
+static struct seen {
+  struct sv_pose pose;
+  struct sv_velocity velocity;
+  double battery;
+  long steps[2];
+  int leds, proximity[8];
+} first[ROBOTS + 1][256];
+static int round_, number, different;
+static double way;
+static void look(void) {
+  int thing, i;
+  for (thing = 0; thing <= ROBOTS; thing++) {
+    struct seen now;
+    memset(&now, 0, sizeof now);
+    sv_get_pose(thing, &now.pose);
+    sv_get_velocity(thing, &now.velocity);
+    if (thing < ROBOTS) {
+      now.battery = sv_battery(thing);
+      now.steps[0] = sv_left_steps(thing);
+      now.steps[1] = sv_right_steps(thing);
+      now.leds = sv_leds(thing);
+      for (i = 0; i < 8; i++) now.proximity[i] = sv_proximity(thing, i);
+    }
+    if (!round_) first[thing][number] = now;
+    else if (memcmp(&now, &first[thing][number], sizeof now)) different++;
+    way += hypot(now.pose.x - first[thing][0].pose.x, now.pose.y - first[thing][0].pose.y);
+  }
+}
+static void go_on(void) {
+  /* six ticks are one step, so 256 are three seconds */
+  for (number = 0; number < 256; number++) { sv_step(0.01); look(); }
+}
+static void judge(void) {
+  if (different) sv_end(1, "%d looks are different", different);
+  sv_end(way > 10 ? 0 : 1, "way %g", way);
+}
+)";
+
+/// Noise of everything, clocks that are off, one that boots later, a lamp, a line, walls and a ball to meet.
+std::string world_of(const std::string& engine) {
+  return "twinpuck = 1\n[world]\nengine = \"" + engine +
+         "\"\nambient = 0.3\nwheel_noise = 0.05\n[arena]\nsize = [0.5, 0.5]\n"
+         "[[lamp]]\nposition = [0.1, 0.1, 0.3]\nintensity = 3\n"
+         "[[sound]]\nkind = \"noise\"\nposition = [0.1, 0.1, 0.3]\n"
+         "[[robot]]\nname = \"light\"\nheading = 30\nfirmware = \"braitenberg_3b\"\n"
+         "[robot.variation]\nclock_ppm = 131\n"
+         "[[robot]]\nname = \"other\"\nposition = [0.15, 0.1]\nfirmware = \"obstacle\"\n"
+         "[robot.variation]\nclock_ppm = -57\nboot_delay = 0.0123\n"
+         "[[robot]]\nname = \"teller\"\nposition = [-0.1, -0.12]\nheading = 20\nfirmware = \"teller\"\n"
+         "[[robot]]\nname = \"line\"\nposition = [-0.12, 0.15]\nfirmware = \"line_follow\"\n"
+         "[[robot.part]]\nkind = \"ground-sensors\"\n"
+         "[[ball]]\nposition = [0.0, -0.08]\nradius = 0.02\nmass = 0.01\nmovable = true\n";
+}
+
+TEST_F(Resets, reset_and_restart_give_the_first_run_again_to_the_last_bit) {
+  write("teller/teller.c", kTeller);
+  std::vector<std::string> programs = {write("ours.c", std::string(kWitness) + R"(
+int main(void) {
+  int thing;
+  for (; round_ < 3; round_++) {
+    go_on();
+    if (round_) sv_restart(SV_ALL);
+    for (thing = 0; thing <= ROBOTS; thing++) sv_reset(thing);
+    if (!round_) sv_restart(SV_ALL);
+  }
+  judge();
+  return 0;
+}
+)")};
   for (const char* call :
        {"wb_supervisor_simulation_reset", "wb_supervisor_simulation_revert", "wb_supervisor_world_reload"})
-    write(std::string(call) + ".c",
-          head +
-              "#include <webots/robot.h>\n#include <webots/supervisor.h>\n"
-              "int main(void) {\n  wb_robot_init();\n"
-              "  for (; round_ < 3; round_++) {\n"
-              "    for (number = 0; number < 60; number++) { wb_robot_step(125); look(); }\n"
-              "    " +
-              call + "();\n  }\n" + tail);
-  for (const char* engine : {"dynamic", "planar"})
-    for (const char* firmware : {"obstacle", "square"}) {
-      // noise of sensors and wheels, walls to meet, another robot, a box
-      write("world.toml",
-            std::string("twinpuck = 1\n[world]\nengine = \"") + engine +
-                "\"\nwheel_noise = 0.05\n[arena]\nsize = [0.5, 0.5]\n"
-                "[[robot]]\nname = \"puck\"\nheading = 30\nfirmware = \"" +
-                firmware +
-                "\"\n[[robot]]\nname = \"other\"\nposition = [0.15, 0.1]\nfirmware = \"obstacle\"\n");
-      for (const char* program : {"ours.c", "wb_supervisor_simulation_reset.c",
-                                  "wb_supervisor_simulation_revert.c", "wb_supervisor_world_reload.c"}) {
-        const Said said = twinpuck("run '" + path("world.toml") + "' --way chip --for 60 --supervisor '" +
-                                   path(program) + "'");
-        EXPECT_EQ(said.exit_code, 0) << engine << " " << firmware << " " << program << "\n" << said.text;
+    programs.push_back(write(std::string(call) + ".c", std::string(kWitness) +
+                                                           "#include <webots/robot.h>\n"
+                                                           "#include <webots/supervisor.h>\n"
+                                                           "int main(void) {\n  wb_robot_init();\n"
+                                                           "  for (; round_ < 3; round_++) { go_on(); " +
+                                                           call + "(); }\n  judge();\n  return 0;\n}\n"));
+  for (const char* engine : {"dynamic", "kinematic", "planar"})
+    for (const std::string& program : programs) {
+      SCOPED_TRACE(std::string(engine) + " " + program);
+      const Said said =
+          twinpuck("run '" + write("world.toml", world_of(engine)) + "' --way chip --for 20 --supervisor '" +
+                   program + "' --uart 'teller=file:" + path("words") + "'");
+      EXPECT_EQ(said.exit_code, 0) << said.text;
+      // 29 lines of each stretch; the EEPROM is as programmed, RAM empty, and it was switched on
+      const std::string words = read(path("words")), once = words.substr(0, words.size() / 3);
+      EXPECT_EQ(once.substr(0, 5), "70 0 ");
+      EXPECT_GT(std::count(once.begin(), once.end(), '\n'), 20);
+      EXPECT_EQ(words, once + once + once);
+    }
+}
+
+// what a signal does in a stretch of half a second, counted from its beginning; not the changes that are the
+// reset itself, seen when a robot runs again
+Dump::Changes stretch(const Dump::Changes& all, int number) {
+  constexpr long long kStretch = 500'000'000, kBoot = 15'000'000, kMargin = 1'000'000;  // ns
+  Dump::Changes part;
+  for (const auto& [ns, value] : all) {
+    const long long since = ns - number * kStretch;
+    if (since > kBoot && since < kStretch - kMargin) part.emplace_back(since, value);
+  }
+  return part;
+}
+
+TEST_F(Resets, pins_motors_and_words_come_again_at_the_same_instants) {
+  write("teller/teller.c", kTeller);
+  const std::string program = write("ours.c", R"(
+#include <supervisor.h>
+int main(void) {
+  int round, thing;
+  for (round = 0; round < 2; round++) {
+    sv_step(0.5);
+    for (thing = 0; thing < 5; thing++) sv_reset(thing);
+    sv_restart(SV_ALL);
+  }
+  return 0;
+}
+)");
+  const Said said =
+      twinpuck("run '" + write("world.toml", world_of("dynamic")) + "' --way chip --for 1 --supervisor '" +
+               program + "' --vcd '" + path("run.vcd") + "'");
+  EXPECT_EQ(said.exit_code, 0) << said.text;
+  const Dump dump = parse(read(path("run.vcd")));
+  std::size_t words = 0, lights = 0, coils = 0;
+  for (const auto& [name, changes] : dump.signals) {
+    const Dump::Changes once = stretch(changes, 0);
+    EXPECT_EQ(once, stretch(changes, 1)) << name;
+    if (name.find("TX1") != std::string::npos) words += once.size();
+    if (name.find("LED") != std::string::npos) lights += once.size();
+    if (name.find("MOTOR") != std::string::npos) coils += once.size();
+  }
+  EXPECT_GT(words, 40u);
+  EXPECT_GT(lights, 2u);
+  EXPECT_GT(coils, 100u);
+}
+
+// radio, claps, slopes, a floor image, a camera, things that are pushed
+TEST_F(Resets, our_worlds_take_their_first_course_again) {
+  const std::string program = write("any.c", R"(
+#include <math.h>
+#include <string.h>
+#include <supervisor.h>
+static struct sv_pose first[40][200];
+int main(void) {
+  int round, number, thing, different = 0;
+  double way = 0;
+  for (round = 0; round < 2; round++) {
+    for (number = 0; number < 200; number++) {
+      sv_step(0.01);
+      for (thing = 0; thing < sv_things() && thing < 40; thing++) {
+        struct sv_pose now;
+        memset(&now, 0, sizeof now);
+        sv_get_pose(thing, &now);
+        if (!round) first[thing][number] = now;
+        else if (memcmp(&now, &first[thing][number], sizeof now)) different++;
+        way += hypot(now.x - first[thing][0].x, now.y - first[thing][0].y);
       }
     }
+    for (thing = 0; thing < sv_things(); thing++)
+      if (sv_is_movable(thing)) sv_reset(thing);
+    for (thing = 0; thing < sv_robots(); thing++)
+      if (*sv_firmware(thing)) sv_restart(thing);
+  }
+  sv_end(different || way == 0, "%d poses are different, way %g", different, way);
+  return 0;
+}
+)");
+  for (const char* world : {"flock", "clap", "ramp", "line", "red_ball", "push", "multi_obstacle"}) {
+    const Said said =
+        twinpuck(std::string("run ") + world + " --way chip --for 20 --supervisor '" + program + "'");
+    EXPECT_EQ(said.exit_code, 0) << world << "\n" << said.text;
+  }
 }
 
 }  // namespace

@@ -47,10 +47,10 @@ class Compass final : public Part, public I2cRegisters {
   }
 
   int tenths(Cycle at) const {
-    const Cycle taken = at / kCompassPeriod * kCompassPeriod;
+    const Cycle sample = since_begin(at) / kCompassPeriod;
+    const Cycle taken = at - since_begin(at) % kCompassPeriod;
     double bearing_deg = 90 - sim::degrees(pose(taken).heading_rad) + offset_deg_;
-    bearing_deg +=
-        noise_deg_ * sim::random_gaussian(random(0), static_cast<std::uint64_t>(taken / kCompassPeriod));
+    bearing_deg += noise_deg_ * sim::random_gaussian(random(0), static_cast<std::uint64_t>(sample));
     const int tenths = static_cast<int>(std::floor(bearing_deg * 10 + 0.5)) % kCompassTurn;
     return tenths < 0 ? tenths + kCompassTurn : tenths;
   }

@@ -27,6 +27,8 @@ class FloorColour final : public Part, public I2cRegisters {
   void connect() override { board().i2c().attach(*this); }
   std::uint64_t state_hash() const override { return static_cast<std::uint64_t>(gain_); }
 
+  void begin_again(Cycle) override { gain_ = 1; }
+
  private:
   bool write_register(std::uint8_t number, std::uint8_t value, Cycle) override {
     if (number != 3) return false;  // not acknowledged
@@ -39,7 +41,7 @@ class FloorColour final : public Part, public I2cRegisters {
     if (number > 3 || !board().scene()) return 0;
     const sim::Colour seen = board().scene()->floor(to_world({forward_m_, 0}, at)).colour;
     double level = 255 * gain_ * (number == 0 ? seen.r : number == 1 ? seen.g : seen.b);
-    level += noise_ * sim::random_gaussian(random(number), static_cast<std::uint64_t>(at));
+    level += noise_ * sim::random_gaussian(random(number), static_cast<std::uint64_t>(since_begin(at)));
     return static_cast<std::uint8_t>(std::clamp(std::floor(level + 0.5), 0.0, 255.0));
   }
 

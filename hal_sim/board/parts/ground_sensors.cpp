@@ -54,7 +54,7 @@ class GroundSensors final : public Part, public I2cRegisters {
     double value =
         kGroundNearCounts + (kGroundFarCounts - kGroundNearCounts) * std::min(apparent_m / kGroundFarM, 1.0);
     // one sample a period, however often it is read
-    const std::uint64_t sample = static_cast<std::uint64_t>(at / kGroundPeriod);
+    const std::uint64_t sample = static_cast<std::uint64_t>(since_begin(at) / kGroundPeriod);
     if (noise_ > 0) value *= 1 + noise_ * sim::random_gaussian(random(sensor), sample);
     return static_cast<int>(std::clamp(std::floor(value + 0.5), 0.0, 65535.0));
   }

@@ -43,6 +43,11 @@ class LisTurret final : public Part, public I2cRegisters {
 
   void processor_reset(Cycle at) override { pins_changed(at); }
 
+  void begin_again(Cycle) override {
+    memory_.fill(kErased);
+    busy_until_ = 0;
+  }
+
   std::optional<double> analogue_v(int channel, Cycle at) const override {
     if (channel != kSharpChannel) return std::nullopt;
     const Cycle measured = is_on_ ? (at - on_since_) / kSharpPeriod : 0;

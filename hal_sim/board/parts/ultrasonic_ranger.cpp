@@ -35,6 +35,14 @@ class UltrasonicRanger final : public Part, public I2cRegisters {
 
   void connect() override { board().i2c().attach(*this); }
 
+  void begin_again(Cycle) override {
+    busy_until_ = 0;
+    range_ = 255;
+    result_ = 0;
+    light_ = kRangerLightDark;
+    rangings_ = 0;
+  }
+
   std::uint64_t state_hash() const override {
     return static_cast<std::uint64_t>(busy_until_) * 0x9E3779B97F4A7C15u +
            (static_cast<std::uint64_t>(result_) << 24 ^ static_cast<std::uint64_t>(light_) << 16 ^
