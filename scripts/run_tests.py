@@ -79,10 +79,9 @@ def main():
     parser.add_argument("--programs", default="")
     options = parser.parse_args()
     with open(f"{options.build}/tests/programs.txt", encoding="utf-8") as file:
-        programs = [line.split() for line in file.read().split("\n") if line]  # its name, then the target to build
-    if options.programs:
-        wanted = options.programs.split(",")
-        programs = [p for p in programs if p[0] in wanted]
+        programs = [line.split() for line in file.read().split("\n") if line]  # its name, the target to build, "asked"
+    wanted = options.programs.split(",")
+    programs = [p for p in programs if (p[0] in wanted if options.programs else "asked" not in p)]
 
     built = queue.Queue()
 

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: MIT
 # Installs what building and testing need on Debian 12, and says nothing when all is there.
 #
-#   scripts/setup.sh [GROUP]    GROUP: build (default), check, bench, fuzz, debug, view (make view), browser (make test-view)
+#   scripts/setup.sh [GROUP]    GROUP: build (default), check, bench, second, fuzz, debug, view (make view),
+#                               browser (make test-view)
 #
 # Needs root or sudo only when something is missing.
 set -eu
@@ -14,6 +15,7 @@ build="g++ cmake ninja-build pkg-config python3 binutils zlib1g-dev
  libcivetweb-dev libvpx-dev libjpeg62-turbo-dev libgtest-dev libwebm-dev"
 check="clang-format clang-tidy"
 bench="libenki-dev libsimavr-dev"
+second="gcc-avr avr-libc simavr"
 fuzz="libclang-rt-14-dev"
 debug="gdb"
 view="esbuild nodejs"
@@ -25,12 +27,13 @@ case $group in
   build) packages=$build ;;
   check) packages=$check ;;
   bench) packages=$bench ;;
+  second) packages=$second ;;
   fuzz) packages=$fuzz ;;
   debug) packages=$debug ;;
   view) packages=$view ;;
   browser) packages=$browser ;;
   *)
-    echo "setup.sh: group: got '$group', expected build, check, bench, fuzz, debug, view or browser" >&2
+    echo "setup.sh: group: got '$group', expected build, check, bench, second, fuzz, debug, view or browser" >&2
     exit 2
     ;;
 esac
