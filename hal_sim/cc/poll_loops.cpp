@@ -11,6 +11,7 @@
 #include "llvm/Support/MD5.h"
 #include "llvm/Transforms/Utils/BasicBlockUtils.h"
 #include "passes.h"
+#include "shared_variables.h"
 
 namespace cc {
 
@@ -87,7 +88,7 @@ void keep_loop(Unit& unit, Loop* loop) {
         load->setVolatile(true);
         if (unit.options.lint || unit.options.strict)
           unit.warning(load->getDebugLoc(),
-                       g->getName() +
+                       name_in_c(g->getName().str()) +
                            ": polled in a loop; got a plain variable, expected volatile; "
                            "XC16 reads it once at -O1 and waits for ever");
       }

@@ -4,6 +4,7 @@
 #include "shared_variables.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <map>
 #include <sstream>
@@ -49,7 +50,7 @@ class SharedSolver {
     SharedVariables all;
     all.nodes.resize(files.size());
     find_shared();
-    std::set<std::string> told;
+    std::set<int> told;
     for (const PlainRead& read : reads_)
       for (int o : nodes_[std::size_t(read.node)].points_to) {
         const auto writers = writers_.find(o);
@@ -60,7 +61,7 @@ class SharedSolver {
         all.nodes[read.file].insert(read.token);
         const MemoryObject& variable = objects_[std::size_t(o)];
         if (!read.may_be_once || !files[read.file].is_told) continue;
-        if (told.insert(variable.name).second)
+        if (told.insert(o).second)
           all.reads.push_back(
               {read.where, variable.name, objects_[std::size_t(*writers->second.begin())].name});
       }
@@ -83,8 +84,7 @@ class SharedSolver {
     if (is_new) {
       objects_.emplace_back();
       // "f.count" is the variable count of f that lasts, "%7.n" one that does not
-      const std::size_t dot = name.rfind('.');
-      objects_.back().name = dot == std::string::npos ? name : name.substr(dot + 1);
+      objects_.back().name = name_in_c(name);
       objects_.back().is_local = name[0] == '%';
       objects_.back().content = new_node();
     }
@@ -321,6 +321,17 @@ class SharedSolver {
 
 SharedVariables shared_variables(const std::vector<FileFacts>& files) {
   return SharedSolver(files).answer(files);
+}
+
+std::string name_in_c(const std::string& name) {
+  std::size_t end = name.size(), dot = name.rfind('.');
+  // no name of C begins with a digit
+  while (dot != std::string::npos && dot > 0 && dot + 1 < end &&
+         std::isdigit(static_cast<unsigned char>(name[dot + 1]))) {
+    end = dot;
+    dot = name.rfind('.', dot - 1);
+  }
+  return dot == std::string::npos ? name.substr(0, end) : name.substr(dot + 1, end - dot - 1);
 }
 
 std::set<std::string> marked_nodes(const std::string& facts) {

@@ -47,6 +47,10 @@ struct SharedVariables {
 /// Of two files that define a function the first counts.
 SharedVariables shared_variables(const std::vector<FileFacts>& files);
 
+/// What C calls a variable that is "flag", "main.flag" or "main.flag.3" (the fourth of that name) in the
+/// compiler.
+std::string name_in_c(const std::string& name);
+
 /// The nodes of the line M.
 std::set<std::string> marked_nodes(const std::string& facts);
 /// "a,b,c", for the compiler's --shared=; "*" where that would be too long: all loads.
