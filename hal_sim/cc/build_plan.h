@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// What a program's files are compiled with: which files, in which order they look for headers, for which way.
+#pragma once
+#include <filesystem>
+#include <set>
+#include <vector>
+
+#include "build.h"
+#include "library_copies.h"
+#include "object_cache.h"
+#include "program_files.h"
+
+namespace cc {
+
+struct Plan {
+  std::vector<CompileJob> user, assembler;
+  std::set<std::filesystem::path> assembler_members;
+  bool is_webots = false;  // a program for Webots' interfaces, with the library behind them
+  bool has_cxx = false;
+  CompileJob runtime;
+};
+
+/// `lint`: what is told beyond what a build needs.
+Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& program, bool lint);
+
+}  // namespace cc
