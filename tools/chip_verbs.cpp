@@ -2,6 +2,7 @@
 // The verbs for the chip's own programs: dis writes an image as assembler text, asm makes one from such text.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -12,6 +13,7 @@
 #include "dspic30/load/firmware_file.h"
 #include "dspic30/memory/program_memory.h"
 #include "hal_sim/cc/memory_limit.h"
+#include "sim_core/base/pattern.h"
 #include "tools/command_line.h"
 #include "tools/program_file.h"
 #include "tools/verbs.h"
@@ -62,12 +64,38 @@ int assemble(const std::string& name, const std::string& output) {
     complain({name + ": cannot be read, expected assembler text"});
     return kBadInput;
   }
+  // upper case: the vendor's compiler has its preprocessor read such a file first
+  static const sim::Pattern kForPreprocessor(
+      R"((^|\n)[ \t]*#[ \t]*(include|define|undef|if|ifdef|ifndef)\b)");
+  if (std::smatch found;
+      fs::path(name).extension() == ".S" && std::regex_search(text, found, kForPreprocessor)) {
+    const auto line = 1 + std::count(text.begin(), text.begin() + found.position(2), '\n');
+    complain({fmt::format(
+        "{}:{}: #{}: asm has no preprocessor, expected .include, .equ or .if; `twinpuck build DIR "
+        "--way chip` has one",
+        name, line, found[2].str())});
+    return kBadInput;
+  }
   const fs::path folder = fs::path(name).parent_path();
+  bool is_no_file = false;
   const dspic::assembly::Image image =
       dspic::assembly::assemble(text, name, [&](const std::string& other) -> std::optional<std::string> {
+        // a pipe may never end
+        std::error_code none;
+        const fs::path file = folder / other;
+        if (fs::exists(file, none) && !fs::is_regular_file(file, none)) {
+          complain({fmt::format("{}: .include: got a pipe, a device or a folder, expected a file",
+                                file.string())});
+          is_no_file = true;
+          return std::nullopt;
+        }
         std::string included;
-        return read_file((folder / other).string(), included) ? std::optional(included) : std::nullopt;
+        return read_file(file.string(), included) ? std::optional(included) : std::nullopt;
       });
+  if (is_no_file) {
+    std::cerr << image.report();
+    return kBadInput;
+  }
   if (!image.is_whole()) {
     std::cerr << image.report();
     return kTestFailed;

@@ -20,6 +20,7 @@
 #include "llvm/MC/MCParser/MCParsedAsmOperand.h"
 #include "llvm/MC/MCParser/MCTargetAsmParser.h"
 #include "llvm/MC/MCStreamer.h"
+#include "llvm/Support/FileSystem.h"
 #include "llvm/Support/SourceMgr.h"
 
 namespace llvm {
@@ -141,6 +142,10 @@ class Parser : public MCTargetAsmParser {
       Error(directive.getLoc(), "includes are nested too deeply, or too many");
       return false;  // mistakes are reported
     }
+    if (names_no_file(directive.getString())) {
+      getParser().eatToEndOfStatement();
+      return false;  // the mistake is reported
+    }
     // the vendor's own file, whose names are known
     if (directive.getString().lower() != ".include" || getLexer().isNot(AsmToken::String) ||
         !assembly::is_device_file(getTok().getStringContents().str()))
@@ -150,6 +155,21 @@ class Parser : public MCTargetAsmParser {
   }
 
  private:
+  /// Of .include and .incbin: a pipe without a writer would never be open, a device never end.
+  bool names_no_file(StringRef directive) {
+    const std::string what = directive.lower();
+    if ((what != ".include" && what != ".incbin") || getLexer().isNot(AsmToken::String)) return false;
+    const StringRef name = getTok().getStringContents();
+    // LLVM's order
+    std::vector<std::string> places = {name.str()};
+    for (const std::string& folder : getTargetOptions().IASSearchPaths)
+      places.push_back(folder + "/" + name.str());
+    const auto first = find_if(places, [](const std::string& place) { return sys::fs::exists(place); });
+    if (first == places.end() || sys::fs::is_regular_file(*first)) return false;
+    Error(getTok().getLoc(),
+          Twine(what) + ": " + *first + ": got a pipe, a device or a folder, expected a file");
+    return true;
+  }
   /// A file that includes itself would never end.
   bool has_too_many_includes(SMLoc at) {
     constexpr unsigned kDeepest = 30, kMost = 1000;
@@ -220,6 +240,8 @@ class Parser : public MCTargetAsmParser {
 };
 
 }  // namespace
+
+bool is_dspic_device_file(const std::string& name) { return assembly::is_device_file(name); }
 
 void register_dspic_parser(Target& target) { RegisterMCAsmParser<Parser> parser(target); }
 

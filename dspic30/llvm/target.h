@@ -34,6 +34,9 @@ inline constexpr Align kDspicOddBytes = Align::Constant<8>();
 inline constexpr const char* kDspicRegisterLetters = "abcdetuvxyz";
 inline constexpr const char* kDspicNumberLetters = "IJKLMNOPWYZ";
 
+/// The vendor's own files, p30f6014A.inc and the like, whose names assembler text has in any case.
+bool is_dspic_device_file(const std::string& name);
+
 /// Sections with attributes in their names, "mine, data, ymemory", become those of memory_spaces.h. What is
 /// wrong with one, else "".
 std::string name_dspic_sections(Module& module);

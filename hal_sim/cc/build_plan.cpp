@@ -73,7 +73,11 @@ AssemblerRole role_of(const fs::path& file, const fs::path& folder, const Progra
 /// that are named, in those of the program that hold such files.
 std::vector<std::string> assembler_flags(const BuildOptions& o, const Program& program,
                                          const std::vector<fs::path>& own) {
-  std::vector<std::string> flags = {"--target=dspic30f6014a"};
+  std::vector<std::string> flags = {"--target=dspic30f6014a", "--project",
+                                    fs::weakly_canonical(o.source_dir).string()};
+  // those of .S files
+  for (const auto& d : program.defines) flags.push_back("-D" + d);
+  for (const auto& d : o.defines) flags.push_back("-D" + d);
   std::vector<fs::path> folders = {fs::absolute(o.source_dir)};
   for (const auto& d : o.include_dirs) folders.push_back(fs::absolute(d));
   folders.insert(folders.end(), program.include_dirs.begin(), program.include_dirs.end());

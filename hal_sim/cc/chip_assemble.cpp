@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A .s file to an object: LLVM reads lines, labels and directives, dspic30/llvm/asm_parser.cpp the
-// instructions.
+// instructions. A .S file goes through the preprocessor first.
 #include "chip.h"
 #include "dspic30/llvm/target.h"
 #include "llvm/MC/MCAsmBackend.h"
@@ -66,18 +66,12 @@ std::string with_found_files(StringRef text, const std::vector<std::string>& fol
       const std::size_t slash = said.find_first_of("/\\");
       said.erase(0, slash == std::string::npos ? said.size() : slash + 1);
     }
-    if (!names_file) {
+    if (path.empty()) {
       out += line;
     } else {
-      std::string said = path.empty() ? name.str() : path;
-      const auto is_there = [&](const std::string& folder) {
-        return sys::fs::exists(Twine(folder) + "/" + name);
-      };
-      if (path.empty() && (sys::fs::exists(name) || any_of(folders, is_there)))
-        said += " (expected a file)";  // a pipe would never end
-      std::replace(said.begin(), said.end(), '\\', '/');
-      out += (before + "\"" + said + "\"" + after).str();
-      if (!path.empty()) found.push_back(path);
+      found.push_back(path);
+      std::replace(path.begin(), path.end(), '\\', '/');
+      out += (before + "\"" + path + "\"" + after).str();
     }
     if (text.size() > line.size()) out += '\n';
     text = rest;
@@ -139,10 +133,13 @@ int assemble_for_chip(const Options& options) {
   SourceMgr sources;
   const std::vector<std::string> folders = include_folders(options);
   std::vector<std::string> found;
+  std::string source = (*text)->getBuffer().str();
+  if (StringRef(options.input).endswith(".S") && !preprocess_assembler(options, source, found))
+    return kUsersFault;
   sources.AddNewSourceBuffer(
-      MemoryBuffer::getMemBufferCopy(with_found_files((*text)->getBuffer(), folders, found), options.input),
-      SMLoc());
+      MemoryBuffer::getMemBufferCopy(with_found_files(source, folders, found), options.input), SMLoc());
   sources.setIncludeDirs(folders);
+  mc_options.IASSearchPaths = folders;
   MCContext context(triple, syntax.get(), registers.get(), subtarget.get(), &sources, &mc_options);
   std::unique_ptr<MCObjectFileInfo> files(target.createMCObjectFileInfo(context, /*PIC=*/false));
   context.setObjectFileInfo(files.get());

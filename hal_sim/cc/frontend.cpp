@@ -438,12 +438,7 @@ std::vector<std::string> clang_arguments(const Options& o, const std::string& st
          {"-Wall", "-Wextra", "-Wimplicit-function-declaration", "-Wshadow", "-Wwrite-strings",
           "-Wfloat-conversion", "-Wshorten-64-to-32", "-Wsign-compare", "-Wno-unused-parameter"})
       a.push_back(w);
-  // what XC16 v1.22 for this chip predefines, and nothing of the PC
-  for (const char* d : {"__dsPIC30F__=1", "__dsPIC30F6014A__=1", "dsPIC30F6014A=1", "dsPIC30=1",
-                        "__dsPIC30=1", "__dsPIC30__=1", "__C30__=1", "__C30=1", "C30=1", "__XC16__=1",
-                        "__XC16=1", "XC16=1", "__XC__=1", "__XC16_VERSION__=1022", "__C30_VERSION__=1022",
-                        "__C30ELF=1", "__C30ELF__=1", "__HAS_DSP__=1", "__TWINPUCK__=1"})
-    a.push_back(std::string("-D") + d);
+  for (const char* d : kVendorMacros) a.push_back(std::string("-D") + d);
   if (!o.chip) a.push_back("-D__TWINPUCK_PC__=1");
   if (!o.chip)
     for (const char* u : {"__x86_64__", "__x86_64", "__amd64__", "__amd64", "__linux__", "__linux", "linux",

@@ -50,6 +50,27 @@ struct Facts {
   std::vector<std::string> assembler_places;          // chip: "main.c:12:9" of a number in !srcloc, from 1
 };
 
+/// What XC16 v1.22 for this chip predefines.
+inline constexpr const char* kVendorMacros[] = {"__dsPIC30F__=1",
+                                                "__dsPIC30F6014A__=1",
+                                                "dsPIC30F6014A=1",
+                                                "dsPIC30=1",
+                                                "__dsPIC30=1",
+                                                "__dsPIC30__=1",
+                                                "__C30__=1",
+                                                "__C30=1",
+                                                "C30=1",
+                                                "__XC16__=1",
+                                                "__XC16=1",
+                                                "XC16=1",
+                                                "__XC__=1",
+                                                "__XC16_VERSION__=1022",
+                                                "__C30_VERSION__=1022",
+                                                "__C30ELF=1",
+                                                "__C30ELF__=1",
+                                                "__HAS_DSP__=1",
+                                                "__TWINPUCK__=1"};
+
 /// Null after errors (already printed).
 std::unique_ptr<llvm::Module> compile_to_module(const Options& options, llvm::LLVMContext& context,
                                                 Facts& facts);

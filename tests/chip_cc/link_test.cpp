@@ -286,6 +286,31 @@ TEST_F(Built, functions_of_two_drivers_of_one_device_are_refused) {
   build();
 }
 
+// XC16 has its preprocessor read a .S file, not a .s file
+TEST_F(Built, assembler_in_upper_case_is_preprocessed) {
+  file("main.c", "extern int limit(void); int main(void) { return limit(); }\n");
+  file("inc/limit.h",
+       "#define LIMIT 0x471\n#ifdef __ASSEMBLER__\n#define FUNCTION(name) .global _##name\n#endif\n");
+  file(
+      "limit.S",
+      "#include <p30F6014A.inc>\n#include \"inc/LIMIT.H\"\n; don't mind\nFUNCTION(limit)\n#if "
+      "defined(__dsPIC30F6014A__) && LIMIT > 1\n_limit: mov #LIMIT, w0 // comment\n        return\n#endif\n");
+  build();
+  const dspic::FirmwareFile made = image();
+  EXPECT_EQ(made.words.at(made.functions.at("limit")), 0x204710u);
+  struct Case {
+    const char *text, *expected;
+  };
+  for (const Case& c :
+       {Case{"#include \"inc/limit.h\"\nFUNCTION(limit)\n_limit: mov #LIMIT, w99\n", "limit.S:3:"},
+        Case{"\n#include \"nowhere.h\"\n", "limit.S:2:10: fatal error: 'nowhere.h' file not found"},
+        Case{"#error of the program\n", "limit.S:1:2: error: of the program"}}) {
+    file("limit.S", c.text);
+    const std::string told = build(false);
+    EXPECT_TRUE(has(told, c.expected)) << told;
+  }
+}
+
 TEST_F(Built, assembler_of_a_project_named_like_ours_is_taken) {
   file("main.c",
        "extern int e_getchar_uart1(char *);\nint main(void) { char c; return e_getchar_uart1(&c); }\n");

@@ -145,4 +145,36 @@ TEST_F(Limits, nothing_waits_for_a_pipe) {
     }
 }
 
+// within .s files as well, and within what those include
+TEST_F(Limits, assembler_that_includes_a_pipe_ends) {
+  const std::string main = "int main(void) { for (;;) ; }\n";
+  ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
+  struct Case {
+    const char *folder, *statement, *message;
+  };
+  for (const Case& c :
+       {Case{"plain", ".include \"../pipe\"\n", "pipe: got a pipe, a device or a folder, expected a file"},
+        Case{"binary", ".incbin \"../pipe\"\n", ".incbin: "},
+        Case{"inner", ".include \"inner.inc\"\n", "inner.inc:2:"},
+        Case{"device", ".include \"/dev/zero\"\n", "/dev/zero: got a pipe"},
+        Case{"macro", ".macro m name\n.include \"../\\name\"\n.endm\nm pipe\n", "pipe: got a pipe"}}) {
+    const std::string folder = c.folder;
+    write(folder + "/main.c", main);
+    write(folder + "/more.s", c.statement);
+    write(folder + "/inner.inc", "\n.include \"../pipe\"\n");
+    const Said built = twinpuck("build '" + path(folder) + "' --way chip -o " + path("o.elf"), "timeout 60");
+    EXPECT_EQ(built.exit_code, 1) << built.text;
+    EXPECT_NE(built.text.find(c.message), std::string::npos) << c.statement << built.text;
+    if (folder == "binary") continue;
+    const Said made = twinpuck("asm '" + path(folder + "/more.s") + "' -o " + path("o.hex"), "timeout 60");
+    EXPECT_EQ(made.exit_code, folder == "macro" ? made.exit_code : 2) << made.text;
+    EXPECT_NE(made.exit_code, 124) << made.text;
+  }
+  // which has no preprocessor, and says so
+  write("upper.S", "\n#define N 5\n        mov #N, w0\n");
+  const Said upper = twinpuck("asm '" + path("upper.S") + "' -o " + path("o.hex"), "timeout 60");
+  EXPECT_EQ(upper.exit_code, 2);
+  EXPECT_NE(upper.text.find("upper.S:2: #define: asm has no preprocessor"), std::string::npos) << upper.text;
+}
+
 }  // namespace
