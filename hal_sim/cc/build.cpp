@@ -23,6 +23,7 @@
 #include "library_objects.h"
 #include "link_messages.h"
 #include "object_cache.h"
+#include "original_objects.h"
 #include "program_files.h"
 #include "shared_variables.h"
 #include "sim_core/base/pattern.h"
@@ -178,6 +179,29 @@ std::vector<DriverChoice> choose_drivers(std::vector<CompileOutcome>& user,
     user[i].object = changed;
   }
   return choices;
+}
+
+/// What the original's linker would call a multiple definition, since its library lies in larger objects.
+/// `listed`: of `outcomes`, in the order of the plan, what is linked whatever asks for it.
+void check_second_definitions(const std::vector<CompileOutcome>& outcomes, const std::vector<bool>& listed,
+                              const Program& program, const std::vector<DriverChoice>& choices,
+                              BuildResult& result) {
+  ProgramFunctions functions;
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    const std::string file = outcomes[i].source.filename().string();
+    for (const ElfSymbol& s : read_elf(outcomes[i].object).symbols) {
+      if (!s.is_global || s.name.empty()) continue;
+      if (s.is_defined || s.is_common) functions.defined.insert(s.name);
+      if (!listed[i]) continue;
+      if (!s.is_defined)
+        functions.wanted.emplace(s.name, file);
+      else if (!s.is_weak)
+        functions.own.emplace(s.name, outcomes[i].source.string());
+    }
+  }
+  for (const fs::path& file : program.objects)
+    for (const std::string& name : names_defined_by(file)) functions.defined.insert(name);
+  for (const std::string& wrong : second_definitions(functions, choices)) result.errors.push_back(wrong);
 }
 
 /// The linker's numbers, of its report (dspic30/llvm/link_report.cpp).
@@ -379,6 +403,12 @@ static BuildResult build_here(const BuildOptions& asked) {
   if (!o.chip_way) tell_of_assembler(program, user, result);
   Renames renames;
   const auto choices = choose_drivers(user, members, p.user, program, o, result, renames);
+  if (o.chip_way) {
+    std::vector<bool> is_listed(outcomes.size());
+    for (std::size_t i = 0; i < outcomes.size(); ++i)
+      is_listed[i] = i < own || (i >= p.user.size() && !p.assembler_members.count(outcomes[i].source));
+    check_second_definitions(outcomes, is_listed, program, choices, result);
+  }
   if (!result.errors.empty()) return finish();
   std::vector<std::pair<std::string, std::string>> texts;
   for (const auto& s : o.register_way ? find_library_copies(o.source_dir, sources).kept : copies.kept)

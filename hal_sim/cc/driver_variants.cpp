@@ -165,6 +165,25 @@ std::map<std::string, std::string> replaced_headers(const std::vector<DriverChoi
   return replaced;
 }
 
+FormOfSource form_of_source(const std::string& source, const std::vector<DriverChoice>& choices) {
+  FormOfSource found;
+  for (const Driver& driver : kDrivers)
+    each_form(driver, [&](const DriverForm& form) {
+      if (source != form.source) return;
+      const auto chosen = std::find_if(choices.begin(), choices.end(),
+                                       [&](const DriverChoice& c) { return c.driver == &driver; });
+      found.prefixes = {form.prefix};
+      if (chosen != choices.end())
+        found.is_linked = chosen->form == &form;
+      else if (driver.is_exchangeable)
+        found.is_linked = &form == &driver.forms[0];
+      // whatever header a file includes, one form is linked
+      if (driver.is_exchangeable || chosen != choices.end())
+        each_form(driver, [&](const DriverForm& other) { found.prefixes.push_back(other.prefix); });
+    });
+  return found;
+}
+
 std::map<std::string, std::string> own_functions(const ProgramSymbols& symbols,
                                                  const fs::path& include_root) {
   std::map<std::string, std::string> own;

@@ -50,6 +50,13 @@ std::vector<DriverChoice> choose_driver_forms(const ProgramSymbols& symbols,
 /// Headers of forms that are not linked -> the header of that which is.
 std::map<std::string, std::string> replaced_headers(const std::vector<DriverChoice>& choices);
 
+/// A source of the library as a form of a driver.
+struct FormOfSource {
+  bool is_linked = true;                     ///< false: another form of its driver is
+  std::vector<std::string> prefixes = {""};  ///< of labels by which the program may call its functions
+};
+FormOfSource form_of_source(const std::string& source, const std::vector<DriverChoice>& choices);
+
 /// Names to replace in the program's objects so that the choices and the program's own functions are linked.
 std::map<std::string, std::string> renamed_functions(const ProgramSymbols& symbols,
                                                      const std::vector<DriverChoice>& choices,

@@ -4,6 +4,7 @@
 
 #include <elf.h>
 
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <optional>
@@ -110,6 +111,35 @@ ElfFile read_elf(const std::filesystem::path& path) {
     }
   }
   return file;
+}
+
+std::vector<std::string> names_defined_by(const std::filesystem::path& path) {
+  std::vector<std::string> names;
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream all;
+  all << in.rdbuf();
+  const std::string bytes = all.str();
+  static const std::string kArchive = "!<arch>\n";
+  if (bytes.compare(0, kArchive.size(), kArchive) != 0) {
+    for (const ElfSymbol& s : read_elf(path).symbols)
+      if (s.is_global && (s.is_defined || s.is_common)) names.push_back(s.name);
+    return names;
+  }
+  // its first member, "/": how many, the place of each name's member, then the names; big endian
+  constexpr std::size_t kHeader = 60, kSizeAt = 48, kSizeDigits = 10;
+  const std::size_t head = kArchive.size(), body = head + kHeader;
+  if (bytes.size() < body + 4 || bytes.compare(head, 2, "/ ") != 0) return names;
+  const std::size_t size = std::strtoul(bytes.substr(head + kSizeAt, kSizeDigits).c_str(), nullptr, 10);
+  const std::string table = bytes.substr(body, size);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < 4 && i < table.size(); ++i) count = count << 8 | (unsigned char)table[i];
+  for (std::size_t at = 4 + 4 * count; count > 0 && at < table.size(); --count) {
+    std::string name = table.c_str() + at;
+    at += name.size() + 1;
+    if (name.size() > 1 && name[0] == '_') name.erase(0, 1);
+    names.push_back(name);
+  }
+  return names;
 }
 
 }  // namespace cc

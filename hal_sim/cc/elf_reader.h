@@ -24,4 +24,7 @@ struct ElfFile {
 
 ElfFile read_elf(const std::filesystem::path& path);
 
+/// Names as in C that an object or an archive for the chip defines; of an archive by its own table.
+std::vector<std::string> names_defined_by(const std::filesystem::path& path);
+
 }  // namespace cc

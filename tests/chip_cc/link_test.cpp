@@ -286,6 +286,57 @@ TEST_F(Built, functions_of_two_drivers_of_one_device_are_refused) {
   build();
 }
 
+// the robot's linker takes a file of the library whole
+TEST_F(Built, part_of_a_driver_beside_the_rest_of_the_librarys_is_refused) {
+  struct Case {
+    const char *headers, *own, *calls, *expected;  // expected: "" builds
+  };
+  const char* const kLeds = "motor_led/advance_one_timer/e_led.h";
+  for (const Case& c : {
+           Case{
+               kLeds, "void e_set_led(unsigned n, unsigned v) { LATA = n; }",
+               "e_set_led(1, 1); e_led_clear();",
+               "other.c: error: e_set_led(): got a second definition, expected one; the library's "
+               "motor_led/advance_one_timer/e_led.c has it too and is linked for e_led_clear(), which main.c "
+               "calls: the robot's linker refuses that; define e_led_clear() as well, or give your function "
+               "another name"},
+           Case{"motor_led/e_led.h", "void e_set_led(unsigned n, unsigned v) { LATA = n; }", "e_led_clear();",
+                "the library's motor_led/e_led.c has it too and is linked for e_led_clear()"},
+           Case{"motor_led/e_motors.h", "void e_set_speed_left(int v) { LATA = v; }", "e_set_speed_right(1);",
+                "e_set_speed_left(): got a second definition"},
+           Case{"utility/utility.h", "void wait(long n) { while (n--) ; }", "wait(9); LATA = getselector();",
+                "the library's utility/utility.c has it too and is linked for getselector()"},
+           Case{"motor_led/advance_one_timer/e_agenda.h",
+                "void __attribute__((interrupt, auto_psv)) _T2Interrupt(void) { IFS0bits.T2IF = 0; }",
+                "e_start_agendas_processing();", "_T2Interrupt(): got a second definition"},
+           Case{"uart/e_uart_char.h", "int e_uart1_sending(void) { return 0; }",
+                "e_send_uart1_char(\"a\", 1);", "the library's uart/e_uart1_tx_char.s has it too"},
+           // whole, weak, of other files, or not in older copies
+           Case{kLeds,
+                "void e_set_led(unsigned n, unsigned v) { LATA = n; } void e_led_clear(void) { LATA = 0; }",
+                "e_set_led(1, 1); e_led_clear();", ""},
+           Case{kLeds, "void e_set_led(unsigned n, unsigned v) { LATA = n; }", "e_set_led(1, 1);", ""},
+           Case{kLeds,
+                "static void e_set_led(unsigned n, unsigned v) { LATA = n; } void f(void) { e_set_led(1, 1); "
+                "}",
+                "f(); e_led_clear();", ""},
+           Case{kLeds, "void __attribute__((weak)) e_set_led(unsigned n, unsigned v) { LATA = n; }",
+                "e_led_clear();", ""},
+           Case{kLeds, "void snake_led(void) { LATA = 0; }", "snake_led(); e_led_clear();", ""},
+           Case{"utility/utility.h", "void wait(long n) { while (n--) ; }", "wait(9);", ""},
+           Case{"uart/e_uart_char.h", "int e_uart1_sending(void) { return 0; }",
+                "char c; e_init_uart1(); e_getchar_uart1(&c);", ""},
+           Case{"motor_led/advance_one_timer/e_motors.h", "void e_init_port(void) { LATA = 0; }",
+                "e_init_port(); e_init_motors(); e_set_speed_left(1);", ""},
+       }) {
+    file("other.c", std::string("#include <p30F6014A.h>\n") + c.own + "\n");
+    file("main.c", std::string("#include <p30F6014A.h>\n#include <") + c.headers +
+                       ">\nvoid f(void);\nint main(void) { " + c.calls + " for (;;) ; }\n");
+    const std::string told = build(!*c.expected);
+    EXPECT_TRUE(has(told, c.expected)) << c.own << ": " << told;
+  }
+}
+
 // XC16 has its preprocessor read a .S file, not a .s file
 TEST_F(Built, assembler_in_upper_case_is_preprocessed) {
   file("main.c", "extern int limit(void); int main(void) { return limit(); }\n");
