@@ -28,6 +28,7 @@
 #include "clang/Lex/Preprocessor.h"
 #include "field_widths.h"
 #include "forward_calls.h"
+#include "implicit_functions.h"
 #include "include_finder.h"
 #include "llvm/IR/Constants.h"
 #include "llvm/IR/Metadata.h"
@@ -335,6 +336,8 @@ class RobotAction : public EmitLLVMOnlyAction {
     pp.AddPragmaHandler(new ConfigPragma(facts_));
     filter_ = std::make_shared<AttributeFilter>(pp, options_.chip);
     pp.setTokenWatcher([f = filter_](const Token& token) { (*f)(token); });
+    if (options_.chip && !options_.cxx && !options_.library)
+      ci.setExternalSemaSource(implicit_functions(options_.strict || options_.lint));
     return EmitLLVMOnlyAction::BeginSourceFileAction(ci);
   }
   std::unique_ptr<ASTConsumer> CreateASTConsumer(CompilerInstance& ci, StringRef file) override {

@@ -35,6 +35,24 @@ long bench_run(void) {
   for (n = 1; n < 20; n++) { char *p = alloca(n); int i; for (i = 0; i < n; i++) p[i] = n; s += sum(p, n); }
   return s != 19 * 20 * 39 / 6;
 })"},
+    // gcc knows these by itself; as int f() they would take and give the wrong things
+    {"functions of the library without their headers", R"(
+volatile float two = 2.0f;
+volatile int minus = -7;
+__attribute__((noinline)) static int same(const char *a, const char *b) { return strcmp(a, b) == 0; }
+long bench_run(void) {
+  char text[40];
+  if (sprintf(text, "%i %ld %s", minus, 70000L, "end") != 12 || !same(text, "-7 70000 end")) return 1;
+  if ((int)(1000 * sqrt(two)) != 1414 || pow(two, 3) != 8 || fabs(-two) != 2 || floor(two + 0.5) != 2) return 2;
+  if (strlen(text) != 12 || abs(minus) != 7 || labs(-70000L) != 70000L || toupper('a') != 'A') return 3;
+  memset(text, 'x', 3);
+  return memcmp(text, "xxx70", 5) != 0 && text[0] != 'x';
+})"},
+    {"functions of the program that are named like the library's", R"(
+static int round(int x) { return x + 1; }
+long bench_run(void) { return round(3) != 4 || log(5) != 10 || puts(2, 3) != 5; }
+int log(int x) { return 2 * x; }
+int puts(int a, int b) { return a + b; })"},
     {"structs behind ...", R"(
 #include <stdarg.h>
 struct three { char c[3]; };
