@@ -74,6 +74,20 @@ bool is_agenda(const std::string& function, const fs::path& folder) {
   return false;
 }
 
+/// Is it one of the C sources' own? The library's variables, and those of assembler, have writers that no
+/// text here shows.
+bool is_defined_in(const fs::path& folder, const std::string& variable) {
+  const sim::Pattern defines("^\\s*(\\w+[\\s*]+)+([^;=(){}]*,[\\s*]*)?" + variable +
+                             "\\s*(=[^=]|[;,\\[]|__attribute__)");
+  const sim::Pattern no_definition("\\b(extern|return|goto)\\b");
+  for (const fs::path& file : sources_in(folder))
+    for (const std::string& line : lines_of(file.string()))
+      if (line.find(variable) != std::string::npos && std::regex_search(line, defines) &&
+          !std::regex_search(line, no_definition))
+        return true;
+  return false;
+}
+
 std::string joined(const std::vector<std::string>& parts) {
   std::string out;
   for (std::size_t i = 0; i < parts.size(); ++i)
@@ -149,11 +163,16 @@ std::vector<Writer> writers_of(const std::string& variable, const Place& place) 
 
 bool is_written_by_none(const Runner& program, const Place& place, const IsEnabled& is_enabled) {
   const auto names = variables_in(program, place);
-  for (const std::string& name : names)
+  for (const std::string& name : names) {
+    if (!is_defined_in(fs::path(place.file).parent_path(), name)) return false;
     for (const Writer& w : writers_of(name, place)) {
+      // what the line itself writes, as `x = f();`, is not what it waits for
+      if (w.place == fs::path(place.file).filename().string() + ":" + std::to_string(place.line))
+        return false;
       if (w.function == place.function) continue;
       if (w.vector.empty() || is_enabled(w.vector)) return false;
     }
+  }
   return !names.empty();
 }
 

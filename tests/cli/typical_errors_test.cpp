@@ -69,6 +69,10 @@ const Case kCases[] = {
      kCourse},
     {"printf() before the UART is set up", "int main(void) { e_init_port(); printf(\"hello\"); while (1); }",
      0, nullptr, nullptr, "UART off: U1TXREG", kCourse},
+    {"a wait for what the library's interrupt writes, at the end of the run",
+     "#include <codec/e_sound.h>\nextern volatile int e_dci_unavailable; int main(void) { e_init_port(); "
+     "e_init_sound(); e_play_sound(0, 16000);\nwhile (e_dci_unavailable);\nwhile (1); }",
+     0, nullptr, nullptr, nullptr, "nothing is wrong: the sound ends after 2.2 s"},
     {"e_calibrate_ir() forgotten",
      "volatile int p; int main(void) { e_init_port(); e_init_ad_scan(ALL_ADC); while (1) p = "
      "e_get_calibrated_prox(0); }",
