@@ -5,6 +5,7 @@
 #include "dspic30/llvm/target.h"
 #include "llvm/IR/Constants.h"
 #include "llvm/IR/IRBuilder.h"
+#include "llvm/IR/InlineAsm.h"
 #include "llvm/IR/InstIterator.h"
 #include "llvm/IR/PatternMatch.h"
 #include "llvm/Transforms/Utils/ModuleUtils.h"
@@ -229,6 +230,20 @@ void mark_structs(Module& m) {
   }
 }
 
+/// An array of variable length stays where nothing reads it, as with XC16: programs that run several stacks
+/// make room between them so.
+void keep_dynamic_arrays(Module& m) {
+  for (Function& f : m)
+    for (BasicBlock& block : f)
+      for (Instruction& i : make_early_inc_range(block)) {
+        auto* array = dyn_cast<AllocaInst>(&i);
+        if (!array || isa<Constant>(array->getArraySize())) continue;
+        IRBuilder<> at(array->getNextNode());
+        auto* type = FunctionType::get(at.getVoidTy(), {array->getType()}, false);
+        at.CreateCall(InlineAsm::get(type, "", "r", /*hasSideEffects=*/true), {array});
+      }
+}
+
 }  // namespace
 
 /// A char travels in the low byte of its word, and whoever reads it extends it: the function called its
@@ -256,6 +271,7 @@ StringRef note_in(const Value* text) {
 }
 
 bool lower_for_chip(Unit& unit) {
+  keep_dynamic_arrays(unit.module);
   Module& m = unit.module;
   lower_accumulators(unit);
   if (unit.failed) return false;

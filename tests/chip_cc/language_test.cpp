@@ -53,6 +53,17 @@ static int round(int x) { return x + 1; }
 long bench_run(void) { return round(3) != 4 || log(5) != 10 || puts(2, 3) != 5; }
 int log(int x) { return 2 * x; }
 int puts(int a, int b) { return a + b; })"},
+    {"an array of variable length makes room, read or not", R"(
+static unsigned place;
+__attribute__((noinline)) static void here(void) { volatile char c = 0; place = (unsigned)&c + c; }
+__attribute__((noinline)) static void beyond(int n) { char pad[n]; pad[n - 1] = 0; here(); place = place; }
+long bench_run(void) {
+  unsigned near_by;
+  beyond(2);
+  near_by = place;
+  beyond(402);
+  return place - near_by != 400;
+})"},
     {"structs behind ...", R"(
 #include <stdarg.h>
 struct three { char c[3]; };
