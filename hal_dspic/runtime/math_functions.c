@@ -233,9 +233,7 @@ float tp_m_powf(float x, float y)
   if (y == 0 || x == 1) return 1;
   if (whole == y && y > -1024 && y < 1024) return whole_power(x, (long)y);
   if (x == 0) return y < 0 ? (float)INFINITY : 0;
-  if (x < 0) {
-    if (whole != y) return NAN;
-    return tp_m_fmodf(y, 2) != 0 ? -tp_m_powf(-x, y) : tp_m_powf(-x, y);
-  }
-  return tp_m_expf(y * tp_m_logf(x));
+  if (x < 0 && whole != y) return NAN;
+  const float magnitude = tp_m_expf(y * tp_m_logf(x < 0 ? -x : x));
+  return x < 0 && tp_m_fmodf(y, 2) != 0 ? -magnitude : magnitude;
 }
