@@ -81,7 +81,7 @@ def main():
     with open(f"{options.build}/tests/programs.txt", encoding="utf-8") as file:
         programs = [line.split() for line in file.read().split("\n") if line]  # its name, the target to build, "asked"
     wanted = options.programs.split(",")
-    programs = [p for p in programs if (p[0] in wanted if options.programs else "asked" not in p)]
+    programs = [p[:2] for p in programs if (p[0] in wanted if options.programs else "asked" not in p)]
 
     built = queue.Queue()
 
