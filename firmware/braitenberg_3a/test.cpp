@@ -31,7 +31,8 @@ TEST_F(FirmwareTest, braitenberg_3a_drives_on_when_the_lamp_is_off) {
   Robot& vehicle = robot(0);
   vehicle.settings().firmware = "braitenberg_3a";
   run_for(8);
-  EXPECT_EQ(vehicle.left_steps(), vehicle.right_steps());
+  // equal speeds; the run may end between the two steps of a tick
+  EXPECT_NEAR(static_cast<double>(vehicle.left_steps()), static_cast<double>(vehicle.right_steps()), 1);
   EXPECT_NEAR(static_cast<double>(vehicle.left_steps()), 500 * 8, 300);
 }
 

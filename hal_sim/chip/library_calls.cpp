@@ -12,7 +12,7 @@ namespace {
 constexpr Cycle kSpeedGrace =
     board::kFcyHz / 10;  // a speed may be set a little before the motors are started
 constexpr Cycle kStandsStill = 10 * board::kFcyHz, kLookEvery = board::kFcyHz;
-constexpr int kMaxSpeed = 1000;  // steps/s [lib: motor_led/e_epuck_ports.h]
+constexpr int kMaxSpeed = 1000;  // steps/s [lib: motor_led/advance_one_timer/e_motors.c]
 constexpr int kAllLeds = 8, kProximity = 8, kAxes = 3, kMicrophones = 3;
 constexpr unsigned kAdcon1 = dspic::sfr("ADCON1"), kAdon = 0x8000;
 constexpr const char* kForms[] = {"", "tpbasic_", "tptimer3_", "tpfast_", "tpt2_"};  // cc/driver_variants.cpp
@@ -91,8 +91,7 @@ void LibraryCalls::forget_starts() {
   idle_agendas_.clear();
 }
 
-// --- what a call says
-// ---------------------------------------------------------------------------------------
+// --- what a call says ------------------------------------------------------------------------------------
 
 void LibraryCalls::entered(unsigned address) {
   const auto found = sites_.find(address);
@@ -198,8 +197,7 @@ void LibraryCalls::activate_agenda(const Site& site) {
           1};
 }
 
-// --- standing still
-// -----------------------------------------------------------------------------------------
+// --- standing still --------------------------------------------------------------------------------------
 
 std::int64_t LibraryCalls::steps_of(int wheel, Cycle now) const {
   return wheel == 0 ? board_.left_steps(now) : board_.right_steps(now);
@@ -248,8 +246,7 @@ std::vector<board::Diagnosis> LibraryCalls::diagnoses(Cycle now) const {
   return all;
 }
 
-// --- telling
-// ------------------------------------------------------------------------------------------------
+// --- telling ---------------------------------------------------------------------------------------------
 
 std::string LibraryCalls::where() const {
   return "; called at " + places_.text_of(places_.own(places_.caller()));

@@ -390,8 +390,7 @@ __T1Interrupt: bclr IFS0, #T1IF
   EXPECT_LT(b.cpu->now(), 1030);
 }
 
-// --- the assembler
-// -------------------------------------------------------------------------------------------
+// --- the assembler ---------------------------------------------------------------------------------------
 
 TEST(Assembler, labels_stand_before_blocks_as_before_instructions) {
   CoreBench b(R"(
