@@ -328,32 +328,62 @@ struct OfPeople {
   }
 };
 
+/// What `twinpuck build` writes for the robot: a C program that says its name, with the library's bank of
+/// sounds.
+std::string linked_hex(char name) {
+  const std::filesystem::path folder =
+      std::filesystem::path(TWINPUCK_BUILD_DIR) / "tests/flash-linked" / std::string(1, name);
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "main.c") << "#include <motor_led/e_init_port.h>\n#include <uart/e_uart_char.h>\n"
+                                      "#include <codec/e_sound.h>\n"
+                                      "int main(void) { e_init_port(); e_init_uart1(); e_send_uart1_char(\"" +
+                                          std::string(1, name) +
+                                          "\", 1); e_init_sound(); e_play_sound(0, 2112); while (1); }\n";
+  cc::BuildOptions options;
+  options.source_dir = folder;
+  options.output = folder / "x.elf";
+  options.cache_dir = folder / "cache";
+  options.chip_way = options.register_way = true;
+  const cc::BuildResult built = cc::build_image(options);
+  EXPECT_TRUE(built.ok);
+  std::ifstream in(folder / "x.hex", std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
 // one drops what stands before the first extended-address record, the other fails there
 TEST_F(UploadTest, uploaders_that_people_have_write_our_hex_whole) {
   Robot& robot = add_robot(hex(bootloader_));
-  for (const bool drops : {true, false}) {
-    const char name = drops ? 'A' : 'B';
-    const dspic::FirmwareFile file = assembled(program(name));
-    const std::string text = dspic::to_hex(file);
-    OfPeople uploader = OfPeople::read(text, drops);
-    ASSERT_FALSE(uploader.has_crashed);
-    uploader.lead_in();
-    Line line(*this, robot, 0, 1);
-    ASSERT_TRUE(uploader.send(line)) << drops;
-    run_for(0.1);
-    int wrong = 0;
-    for (const auto& [address, word] : file.words)  // but for the way in
-      if (address >= 4 && address < dspic::kFlashEnd) wrong += flash(address) != word;
-    EXPECT_EQ(wrong, 0) << drops;
-    const std::size_t before = robot.uart1_text().size();
-    run_for(3);
-    EXPECT_EQ(robot.uart1_text().substr(before), std::string(1, name)) << drops;
-    // they need that record: without it half of the program is gone, or all
-    const std::string cut = text.substr(text.find('\n') + 1);
-    EXPECT_TRUE(drops ? OfPeople::read(cut, drops).halves[0].empty()
-                      : OfPeople::read(cut, drops).has_crashed);
-    runner().restart();
-  }
+  for (const bool is_linked : {false, true})
+    for (const bool drops : {true, false}) {
+      const char name = static_cast<char>((is_linked ? 'C' : 'A') + !drops);
+      SCOPED_TRACE(name);
+      const std::string text = is_linked ? linked_hex(name) : dspic::to_hex(assembled(program(name)));
+      dspic::FirmwareFile file;
+      std::string error;
+      ASSERT_TRUE(dspic::load_hex(text, "x.hex", file, error)) << error;
+      OfPeople uploader = OfPeople::read(text, drops);
+      ASSERT_FALSE(uploader.has_crashed);
+      uploader.lead_in();
+      Line line(*this, robot, 0, 1);
+      ASSERT_TRUE(uploader.send(line));
+      run_for(0.1);
+      int wrong = 0, words = 0;
+      for (const auto& [address, word] : file.words)  // but for the way in
+        if (address >= 4 && address < dspic::kFlashEnd) {
+          wrong += flash(address) != word;
+          ++words;
+        }
+      EXPECT_EQ(wrong, 0);
+      EXPECT_GT(words, is_linked ? 19000 : 100);
+      const std::size_t before = robot.uart1_text().size();
+      run_for(3);
+      EXPECT_EQ(robot.uart1_text().substr(before), std::string(1, name));
+      // they need that record: without it half of the program is gone, or all
+      const std::string cut = text.substr(text.find('\n') + 1);
+      EXPECT_TRUE(drops ? OfPeople::read(cut, drops).halves[0].empty()
+                        : OfPeople::read(cut, drops).has_crashed);
+      runner().restart();
+    }
 }
 
 // no answer, or a program that talks
