@@ -9,6 +9,7 @@
 // variables and types are those of the image's debug information; without it, functions and variables are
 // known by name.
 #pragma once
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -49,7 +50,8 @@ class ChipRunner final : public host::Runner, private dspic::EventWatch, private
 
   Cycle cycles() const override { return end_; }
   Cycle lived_cycles() const override { return end_; }
-  Cycle idle_cycles() const override { return processor_->slept() + processor_->waited(); }
+  /// Waiting is sampled, so a sum may come out above what there was.
+  Cycle idle_cycles() const override { return std::min(end_, processor_->slept() + processor_->waited()); }
   Cycle waiting_since() const override { return dspic::kNever; }
   bool has_stopped() const override { return false; }
   const std::vector<host::TrapReport>& traps() const override { return traps_; }
