@@ -1,50 +1,24 @@
 # SPDX-License-Identifier: MIT
 """An editor's side of the Debug Adapter Protocol: dap_client.py TWINPUCK FIRMWARE SOURCE WAY. Exit code 0: all as expected."""
 import base64
-import json
-import subprocess
 import sys
 
+from dap import Server
+
 TWINPUCK, FIRMWARE, SOURCE, WAY = sys.argv[1:]
-server = subprocess.Popen([TWINPUCK, "debug", "--dap"], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
-sequence = 0
-events = []
-
-
-def receive():
-    length = 0
-    while (line := server.stdout.readline().strip()):
-        length = int(line.split(b":")[1])
-    assert length > 0, "the server has ended"
-    return json.loads(server.stdout.read(length))
+server = Server(TWINPUCK)
 
 
 def ask(command, **arguments):
-    """The response; events that come before it are kept."""
-    global sequence
-    sequence += 1
-    text = json.dumps({"seq": sequence, "type": "request", "command": command, "arguments": arguments}).encode()
-    server.stdin.write(b"Content-Length: %d\r\n\r\n%s" % (len(text), text))
-    server.stdin.flush()
-    while (message := receive())["type"] == "event":
-        events.append(message)
-    assert message["request_seq"] == sequence and message["command"] == command, message
-    return message
+    return server.ask(command, **arguments)
 
 
 def event(name):
-    while True:
-        for e in events:
-            if e["event"] == name:
-                events.remove(e)
-                return e.get("body", {})
-        events.append(receive())
+    return server.event(name)
 
 
 def good(command, **arguments):
-    response = ask(command, **arguments)
-    assert response["success"], response
-    return response["body"]
+    return server.good(command, **arguments)
 
 
 def expect(got, wanted):
@@ -166,11 +140,10 @@ good("continue", threadId=1)
 good("setFunctionBreakpoints", breakpoints=[])
 event("terminated")
 good("disconnect")
-expect(server.wait(10), 0)
+expect(server.process.wait(10), 0)
 
 # another one, paused while it runs
-server = subprocess.Popen([TWINPUCK, "debug", "--dap"], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
-events.clear()
+server = Server(TWINPUCK)
 good("initialize", adapterID="twinpuck")
 assert not ask("launch", world="nowhere")["success"]
 event("terminated")
@@ -186,10 +159,10 @@ good("pause", threadId=1)
 expect(event("stopped")["reason"], "pause")
 assert int(value("cycle").split()[0]) > 0
 good("disconnect")
-expect(server.wait(10), 0)
+expect(server.process.wait(10), 0)
 
 # what is no message ends it
-server = subprocess.Popen([TWINPUCK, "debug", "--dap"], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
-server.communicate(b"Content-Length: 5\r\n\r\n[[[[[", timeout=10)
-expect(server.returncode, 2)
+server = Server(TWINPUCK)
+server.process.communicate(b"Content-Length: 5\r\n\r\n[[[[[", timeout=10)
+expect(server.process.returncode, 2)
 print("all as expected")

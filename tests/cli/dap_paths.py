@@ -1,43 +1,12 @@
 # SPDX-License-Identifier: MIT
 """An editor that opens a file and sets breakpoints in it: dap_paths.py TWINPUCK FIRMWARE SOURCE [--any-line | --stranger]."""
-import json
-import subprocess
 import sys
 
+from dap import Server
+
 TWINPUCK, FIRMWARE, SOURCE, *OPTIONS = sys.argv[1:]
-server = subprocess.Popen([TWINPUCK, "debug", "--dap"], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
-sequence = 0
-events = []
-
-
-def receive():
-    length = 0
-    while (line := server.stdout.readline().strip()):
-        length = int(line.split(b":")[1])
-    assert length > 0, "the server has ended"
-    return json.loads(server.stdout.read(length))
-
-
-def ask(command, **arguments):
-    global sequence
-    sequence += 1
-    text = json.dumps({"seq": sequence, "type": "request", "command": command, "arguments": arguments}).encode()
-    server.stdin.write(b"Content-Length: %d\r\n\r\n%s" % (len(text), text))
-    server.stdin.flush()
-    while (message := receive())["type"] == "event":
-        events.append(message)
-    assert message["success"], message
-    return message.get("body", {})
-
-
-def event(name):
-    while True:
-        for e in events:
-            if e["event"] == name:
-                events.remove(e)
-                return e.get("body", {})
-        events.append(receive())
-
+server = Server(TWINPUCK)
+ask, event = server.good, server.event
 
 ask("initialize", adapterID="twinpuck")
 ask("launch", world="maze", firmware=FIRMWARE, seconds=1)
@@ -58,5 +27,5 @@ else:
     assert top["source"]["path"] == SOURCE, top
     assert top["line"] == points[0]["line"], top
 ask("disconnect")
-server.wait(10)
+server.process.wait(10)
 print("all as expected")
