@@ -146,9 +146,16 @@ void watch() {
     }
     static const timespec grace = after(kGrace_s);
     static const double cpu_before_s = process_cpu_s();
-    if (has_passed(grace) || process_cpu_s() - cpu_before_s > kGraceCpu_s) end_hard();
-    const timespec next = after(kLook_s);
-    wait_for_news(&next);
+    if (!has_passed(grace) && process_cpu_s() - cpu_before_s <= kGraceCpu_s) {
+      const timespec next = after(kLook_s);
+      wait_for_news(&next);
+      continue;
+    }
+    {
+      std::lock_guard<std::mutex> lock(changing);
+      if (is_finishing) continue;  // it came back meanwhile
+    }
+    end_hard();
   }
 }
 
@@ -198,7 +205,8 @@ GracefulEnd::GracefulEnd(std::function<void()> write_rest) {
 GracefulEnd::~GracefulEnd() {
   std::lock_guard<std::mutex> lock(changing);
   rescue = nullptr;
-  is_graceful = is_finishing = false;
+  // whoever was asked to end has done so and returns: what it said is yet to be written
+  is_graceful = is_finishing = asked.load() != 0;
   limit_s = 0;
 }
 
