@@ -80,6 +80,10 @@ void link_end(struct link_packet* packet) {
   memcpy(packet->bytes + packet->record + 4, &bytes, 4);
 }
 
+void link_append(struct link_packet* packet, const struct link_packet* from) {
+  if (from->size) memcpy(room(packet, from->size), from->bytes, from->size);
+}
+
 void link_clear(struct link_packet* packet) { packet->size = 0; }
 
 void link_free(struct link_packet* packet) {

@@ -60,6 +60,8 @@ void link_bytes(struct link_packet* packet, const void* bytes, size_t size);
 void link_text(struct link_packet* packet, const char* text); /* null: empty */
 void link_numbers(struct link_packet* packet, const double* values, size_t count);
 void link_end(struct link_packet* packet);
+/** All records of another packet, as they are. */
+void link_append(struct link_packet* packet, const struct link_packet* from);
 /** Nothing is in it any more. */
 void link_clear(struct link_packet* packet);
 void link_free(struct link_packet* packet);

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "programs/puck/camera.h"
+
+#include <algorithm>
+
+#include "hal_sim/board/camera.h"
+
+namespace programs {
+
+namespace {
+
+constexpr int kAddress = 0xDC;    // [lib: camera/fast_2_timer/e_po3030k.c]
+constexpr int kBytesPerPixel = 2;  // RGB565
+constexpr int kSkipped = 0;        // the sensor's own sub-sampling and the driver's take each eighth pixel
+
+#include "programs/puck/camera_setup.inc"
+
+}  // namespace
+
+void PuckCamera::write(int number, int value, Cycle at) {
+  board::I2cBus& bus = board_.i2c();
+  bus.start(at);
+  bus.write(kAddress, at);
+  bus.write(static_cast<std::uint8_t>(number), at);
+  bus.write(static_cast<std::uint8_t>(value), at);
+  bus.stop(at);
+}
+
+void PuckCamera::start(Cycle at) {
+  if (is_on_) return;
+  is_on_ = true;
+  taken_.assign(kCameraColumns * kCameraRows * kBytesPerPixel, 0);
+  shown_.assign(kCameraColumns * kCameraRows * 4, 0);
+  for (std::size_t i = 3; i < shown_.size(); i += 4) shown_[i] = 255;
+  const board::Pin reset = board::kCameraResetPin;
+  board_.latch_bit(reset.letter(), reset.bit, false, at);
+  board_.latch_bit(reset.letter(), reset.bit, true, at);
+  for (const CameraRegister& r : setup_of(board_.setup().camera)) write(r.number, r.value, at);
+  wait_for_frame(at);
+}
+
+void PuckCamera::wait_for_frame(Cycle at) {
+  next_ = capture_.launch(request_of(board_.setup().camera), at);
+  awaits_frame_ = true;
+  is_whole_ = false;
+}
+
+void PuckCamera::run(Cycle at) {
+  while (next_ <= at) {
+    if (awaits_frame_) {
+      awaits_frame_ = false;
+      rows_ = 0;
+      next_ = capture_.begin_frame(next_);
+      continue;
+    }
+    constexpr int kLine = kCameraColumns * kBytesPerPixel;
+    capture_.take_line(taken_.data() + rows_ * kLine, kLine, next_);
+    if (++rows_ < kCameraRows) {
+      next_ = capture_.next_line();
+    } else {
+      next_ = board::kNever;
+      is_whole_ = true;
+    }
+  }
+}
+
+const std::vector<std::uint8_t>& PuckCamera::picture(Cycle at) {
+  if (!is_whole_) return shown_;
+  for (std::size_t from = 0, to = 0; from < taken_.size(); from += 2, to += 4) {
+    const int first = taken_[from], second = taken_[from + 1];
+    const int red = first >> 3, green = (first & 7) << 3 | second >> 5, blue = second & 31;
+    // the upper bits again below: full is 255
+    shown_[to] = static_cast<std::uint8_t>(blue << 3 | blue >> 2);
+    shown_[to + 1] = static_cast<std::uint8_t>(green << 2 | green >> 4);
+    shown_[to + 2] = static_cast<std::uint8_t>(red << 3 | red >> 2);
+  }
+  wait_for_frame(at);
+  return shown_;
+}
+
+}  // namespace programs

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "programs/puck/program_runner.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace programs {
+
+namespace {
+constexpr sim::Clicks kClicksPer5Ms = sim::kClicksPerSecond / 200;  // a ms is no whole number of them
+}
+
+ProgramRunner::ProgramRunner(std::string name, std::shared_ptr<Seat> seat, board::Board& board, Cycle start)
+    : Runner(std::move(name)), seat_(std::move(seat)), board_(board), puck_(std::make_unique<Puck>(board, start)), end_(start),
+      began_(board.clock().click_at(start)) {
+  seat_->runner = this;
+  ++seat_->began;
+}
+
+ProgramRunner::~ProgramRunner() {
+  if (seat_->runner == this) seat_->runner = nullptr;
+  link_free(&samples_);
+}
+
+/// Exact, however many steps there were: rounded from the whole time.
+Cycle ProgramRunner::step_end() const {
+  const std::int64_t ms = time_ms_ + step_ms_;
+  const sim::Clicks clicks = (ms * kClicksPer5Ms + 2) / 5;
+  return board_.clock().cycle_at(began_ + clicks);
+}
+
+void ProgramRunner::begin_step(std::int64_t milliseconds) {
+  step_ms_ = std::max<std::int64_t>(1, milliseconds);
+  ++turns_;
+}
+
+void ProgramRunner::run_until(Cycle end) {
+  if (step_ms_ > 0 && step_end() <= end) {
+    const Cycle at = std::max(step_end(), end_);
+    puck_->run(at);
+    link_clear(&samples_);
+    puck_->sample(step_ms_, at, samples_);
+    time_ms_ += step_ms_;
+    step_ms_ = 0;
+    is_due_ = true;
+  }
+  puck_->run(end);
+  end_ = std::max(end_, end);
+  ++turns_;
+}
+
+Cycle ProgramRunner::idle_until() const {
+  const Cycle step = step_ms_ > 0 ? step_end() : board::kNever;
+  return std::min(step, puck_->next_event());
+}
+
+void ProgramRunner::end() {
+  step_ms_ = 0;
+  ++turns_;
+}
+
+void ProgramRunner::fail(host::TrapReport report) {
+  traps_.push_back(std::move(report));
+  has_failed_ = true;
+  puck_->stop(end_);
+  end();
+}
+
+void ProgramRunner::restart() {
+  board_.processor_reset(end_);
+  puck_.reset();  // its drivers let go of the pins first
+  puck_ = std::make_unique<Puck>(board_, end_);
+  began_ = board_.clock().click_at(end_);
+  time_ms_ = step_ms_ = 0;
+  is_due_ = has_failed_ = false;
+  link_clear(&samples_);
+  ++turns_;
+  ++seat_->began;
+}
+
+const host::Variable* ProgramRunner::find_variable(const std::string& expression, std::string& error) const {
+  error = "got '" + expression + "', but " + name() + " runs a program of the PC, whose variables nobody sees";
+  return nullptr;
+}
+
+void ProgramRunner::read_memory(std::uintptr_t, void* to, std::size_t bytes) const { std::memset(to, 0, bytes); }
+
+}  // namespace programs
