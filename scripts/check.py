@@ -36,11 +36,12 @@ MAY_INCLUDE = {
     "hal_sim/cc": ["dspic30/memory/irqs.inc", "dspic30/memory/irqs.h", "hal_sim/board/cycle.h", "hal_sim/host/image_abi.h", "hal_sim/host/image_stamp.h", "hal_sim/host/pins",
                    "hal_sim/api/timings.h", "dspic30/llvm/target.h", "dspic30/llvm/link.h", "sim_core/base/pattern.h"],  # its libc calls the host
     "hal_sim/trace": ["hal_sim/board", "hal_sim/drivers/driver_params.h", "hal_sim/host", "dspic30", "sim_core/base", "sim_core/load"],
-    "hal_sim/twin": ["hal_sim/", "sim_core/"],  # ties board, host and world together
+    "hal_sim/twin": ["hal_sim/", "sim_core/", "programs/build/build.h"],  # ties board, host and world together
     "hal_sim/debug": ["hal_sim/chip", "hal_sim/host", "hal_sim/twin", "dspic30", "sim_core"],
     "hal_sim/register": ["hal_sim/host", "hal_sim/chip", "hal_sim/board", "dspic30"],
     "hal_sim/chip": ["hal_sim/board", "hal_sim/host/runner.h", "hal_sim/host/image_abi.h", "hal_sim/host/endless_wait.h", "dspic30", "sim_core/base"],
     "hal_dspic": ["firmware/include", "firmware/library", "hal_sim/host/image_abi.h"],  # runtime: what the libc asks for
+    "programs/build": ["hal_sim/cc/child_process.h", "hal_sim/cc/memory_limit.h", "sim_core/base"],
     "supervisor": ["hal_sim/", "sim_core/"],  # a whole twin, seen from outside
     # linked into supervisors' programs, which see nothing but supervisor.h
     "supervisor/webots": ["supervisor/include", "firmware/include"],
@@ -80,7 +81,7 @@ def committed_files():
 
 def room_of(path):
     parts = path.split("/")
-    if path.startswith(("supervisor/webots/", "supervisor/programs/", "firmware/library/")):
+    if path.startswith(("supervisor/webots/", "supervisor/programs/", "firmware/library/", "programs/")):
         return "/".join(parts[:2])
     if parts[0] in ("sim_core", "dspic30", "hal_sim") and len(parts) > 2:
         return "/".join(parts[:2])

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+// See places.h.
+#include "places.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdlib>
+#include <fstream>
+#include <set>
+
+#include "sim_core/base/hash.h"
+#include "twinpuck_paths.h"
+
+namespace programs {
+
+fs::path source_root() {
+  if (const char* root = std::getenv("TWINPUCK_ROOT")) return root;
+  std::error_code none;
+  for (fs::path at = fs::read_symlink("/proc/self/exe", none).parent_path(); at.has_relative_path();
+       at = at.parent_path())
+    if (fs::exists(at / "firmware" / "include", none)) return at;
+  return TWINPUCK_SOURCE_DIR;
+}
+
+fs::path product_folder() {
+  std::error_code none;
+  const fs::path here = fs::read_symlink("/proc/self/exe", none).parent_path();
+  for (const fs::path& folder : {here, here.parent_path()})
+    if (fs::exists(folder / "libcontroller.so", none) || fs::exists(folder / "twinpuck-cc", none))
+      return folder;
+  return source_root() / "build";
+}
+
+std::vector<fs::path> files_below(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::set<fs::path> seen;  // folders behind links
+  std::error_code none;
+  const auto how =
+      fs::directory_options::skip_permission_denied | fs::directory_options::follow_directory_symlink;
+  for (fs::recursive_directory_iterator it(folder, how, none), end;
+       !none && it != end && files.size() < kMostFiles; it.increment(none)) {
+    std::error_code odd;  // what cannot be looked at is no source
+    const bool is_hidden = it->path().filename().string()[0] == '.';
+    if (it->is_directory(odd)) {
+      if (is_hidden || (it->is_symlink(odd) && !seen.insert(fs::canonical(it->path(), odd)).second))
+        it.disable_recursion_pending();
+    } else if (!is_hidden && it->is_regular_file(odd)) {
+      files.push_back(it->path());
+    }
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+fs::path odd_file_below(const fs::path& folder) {
+  std::error_code none, odd;
+  const auto skip = fs::directory_options::skip_permission_denied;
+  std::size_t looked = 0;
+  for (fs::recursive_directory_iterator it(folder, skip, none), end;
+       !none && it != end && looked++ < kMostFiles; it.increment(none)) {
+    const fs::file_type type = it->status(odd).type();
+    const bool is_odd = type == fs::file_type::fifo || type == fs::file_type::character ||
+                        type == fs::file_type::block || type == fs::file_type::socket;
+    const fs::path& file = it->path();
+    if (is_odd && (is_c(file) || is_cxx(file) || is_header(file) || kind_of(file) == ".py" ||
+                   file.filename() == "Makefile" || file.filename() == "runtime.ini"))
+      return file;
+  }
+  return {};
+}
+
+std::string text_of(const fs::path& file) {
+  std::error_code odd;
+  if (!fs::is_regular_file(file, odd)) return "";
+  std::ifstream in(file, std::ios::binary);
+  std::string text;
+  std::array<char, 65536> part;
+  while (text.size() < kMostText && (in.read(part.data(), part.size()) || in.gcount() > 0))
+    text.append(part.data(), std::size_t(in.gcount()));
+  return text;
+}
+
+std::string without_comments(const std::string& source) {
+  std::string bare;
+  bare.reserve(source.size());
+  for (std::size_t i = 0; i < source.size(); ++i) {
+    const char c = source[i], next = i + 1 < source.size() ? source[i + 1] : '\0';
+    if (c == '/' && next == '/') {
+      while (i < source.size() && source[i] != '\n') ++i;
+      bare += '\n';
+    } else if (c == '/' && next == '*') {
+      const std::size_t end = source.find("*/", i + 2);
+      i = end == std::string::npos ? source.size() : end + 1;
+      bare += ' ';
+    } else if (c == '"' || c == '\'') {
+      bare += c;
+      for (++i; i < source.size() && source[i] != c && source[i] != '\n'; ++i)
+        if (source[i] == '\\') ++i;
+      bare += c;
+    } else {
+      bare += c;
+    }
+  }
+  return bare;
+}
+
+bool defines_main(const std::string& bare) {
+  const auto is_name = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+  const auto is_blank = [](char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; };
+  for (std::size_t at = 0; (at = bare.find("main", at)) != std::string::npos; at += 4) {
+    if (at > 0 && (is_name(bare[at - 1]) || bare[at - 1] == '.' || bare[at - 1] == ':')) continue;
+    std::size_t i = at + 4;
+    while (i < bare.size() && is_blank(bare[i])) ++i;
+    if (i >= bare.size() || bare[i] != '(') continue;
+    int level = 0;
+    for (; i < bare.size(); ++i) {
+      level += bare[i] == '(' ? 1 : bare[i] == ')' ? -1 : 0;
+      if (level == 0) break;
+    }
+    // a body follows, or parameters of old C and then a body; a call is followed by ; or an operator
+    for (++i; i < bare.size() && is_blank(bare[i]);) ++i;
+    if (i < bare.size() && bare[i] == '{') return true;
+    if (i < bare.size() && is_name(bare[i])) {
+      const std::size_t body = bare.find('{', i), other = bare.find_first_of("()}", i);
+      if (body != std::string::npos && body < other) return true;
+    }
+  }
+  return false;
+}
+
+std::string lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return char(std::tolower(c)); });
+  return text;
+}
+
+std::string kind_of(const fs::path& file) {
+  const std::string kind = file.extension().string();
+  return kind == ".C" ? ".cpp" : lower_case(kind);
+}
+bool is_c(const fs::path& file) { return kind_of(file) == ".c"; }
+bool is_cxx(const fs::path& file) {
+  const std::string kind = kind_of(file);
+  return kind == ".cpp" || kind == ".cc" || kind == ".cxx" || kind == ".c++";
+}
+bool is_header(const fs::path& file) {
+  const std::string kind = kind_of(file);
+  return kind == ".h" || kind == ".hpp" || kind == ".hh" || kind == ".hxx";
+}
+
+fs::path resolve(const fs::path& folder, const std::string& name) {
+  std::string plain = name;
+  std::replace(plain.begin(), plain.end(), '\\', '/');
+  std::error_code none;
+  const fs::path direct = folder / plain;
+  if (fs::is_regular_file(direct, none)) return direct;
+  // part by part, in any case
+  fs::path at = fs::path(plain).is_absolute() ? fs::path("/") : folder;
+  for (const fs::path& part : fs::path(plain).relative_path()) {
+    if (part == "." || part == ".." || fs::exists(at / part, none)) {
+      at /= part;
+      continue;
+    }
+    std::vector<fs::path> same;
+    for (fs::directory_iterator it(at, none), end; !none && it != end; it.increment(none))
+      if (lower_case(it->path().filename().string()) == lower_case(part.string())) same.push_back(it->path());
+    if (same.empty()) return {};
+    at = *std::min_element(same.begin(), same.end());
+  }
+  return fs::is_regular_file(at, none) ? at : fs::path();
+}
+
+fs::path on_path(const std::string& name) {
+  std::error_code none;
+  const auto can_run = [&](const fs::path& file) {
+    return fs::is_regular_file(file, none) && access(file.c_str(), X_OK) == 0;
+  };
+  if (name.empty()) return {};
+  if (name.find('/') != std::string::npos) return can_run(name) ? fs::absolute(name, none) : fs::path();
+  const char* path = std::getenv("PATH");
+  for (const std::string& folder : words_of(path ? path : "/usr/bin:/bin", ":"))
+    if (can_run(fs::path(folder) / name)) return fs::absolute(fs::path(folder) / name, none);
+  return {};
+}
+
+std::vector<std::string> names_of(const fs::path& folder) {
+  std::error_code none;
+  fs::path whole = fs::absolute(folder, none).lexically_normal();
+  if (whole.filename().empty()) whole = whole.parent_path();
+  std::vector<std::string> names = {whole.filename().string()};
+  const std::string real = fs::weakly_canonical(whole, none).filename().string();
+  if (real != names[0]) names.push_back(real);
+  return names;
+}
+
+std::vector<std::string> words_of(const std::string& text, const char* separators) {
+  std::vector<std::string> words;
+  for (std::size_t at = 0; (at = text.find_first_not_of(separators, at)) != std::string::npos;) {
+    const std::size_t end = std::min(text.find_first_of(separators, at), text.size());
+    words.push_back(text.substr(at, end - at));
+    at = end;
+  }
+  return words;
+}
+
+std::uint64_t hash_of(std::uint64_t h, const std::string& bytes) {
+  for (const unsigned char c : bytes) h = sim::fold(h, std::uint64_t{c});
+  return sim::fold(h, std::uint64_t{bytes.size()});
+}
+
+}  // namespace programs

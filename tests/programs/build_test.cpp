@@ -1,0 +1,517 @@
+// SPDX-License-Identifier: MIT
+// What a folder is, and how it becomes a program: small projects as people have them.
+#include "programs/build/build.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+#include <thread>
+
+#include "hal_sim/cc/child_process.h"
+#include "twinpuck_paths.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using Files = std::map<std::string, std::string>;
+
+const char* const kMakeEnd =
+    "null :=\nspace := $(null) $(null)\n"
+    "WEBOTS_HOME_PATH?=$(subst $(space),\\ ,$(strip $(subst \\,/,$(WEBOTS_HOME))))\n"
+    "include $(WEBOTS_HOME_PATH)/resources/Makefile.include\n";
+
+class BuildTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    char name[] = "/tmp/programs-XXXXXX";
+    home_ = mkdtemp(name);
+    // a stand-in where the product's own library is not built
+    const fs::path library = home_ / "libcontroller.so";
+    const fs::path source = home_ / "stand_in.c";
+    std::ofstream(source)
+        << "int wb_robot_init(void){return 1;} int wb_robot_step(int d){return -1;}\n"
+           "void wb_robot_cleanup(void){} int robot_step(int d){return 0;}\n"
+           "void robot_live(void (*r)(void)){} unsigned short wb_robot_get_device(const char* n){return 1;}\n"
+           "void wb_motor_set_velocity(unsigned short t, double v){}\n";
+    ASSERT_EQ(cc::run_process({"gcc", "-shared", "-fPIC", "-o", library.string(), source.string()}).status,
+              0);
+    setenv("TWINPUCK_LIBCONTROLLER", library.c_str(), 1);
+  }
+  void TearDown() override {
+    unsetenv("TWINPUCK_LIBCONTROLLER");
+    std::error_code none;
+    fs::remove_all(home_, none);
+  }
+
+  std::string folder(const std::string& name, const Files& files) {
+    const fs::path at = home_ / "controllers" / name;
+    fs::create_directories(at);
+    for (const auto& [file, text] : files) {
+      fs::create_directories((at / file).parent_path());
+      std::ofstream(at / file, std::ios::binary) << text;
+    }
+    return at.string();
+  }
+
+  bool prepare(const std::string& path) {
+    problems_.clear();
+    told_.clear();
+    return programs::prepare(
+        path, (home_ / "cache").string(), [&](const std::string& line) { told_.push_back(line); }, problems_,
+        launch_);
+  }
+
+  /// What the program prints when it is started as `launch_` says, in its folder.
+  std::string output() {
+    std::vector<std::string> words = {"env", "--chdir=" + launch_.folder};
+    words.insert(words.end(), launch_.environment.begin(), launch_.environment.end());
+    words.insert(words.end(), launch_.words.begin(), launch_.words.end());
+    return cc::run_process(words).output;
+  }
+
+  std::string all_problems() const {
+    std::string all;
+    for (const std::string& line : problems_) all += line + "\n";
+    return all;
+  }
+  bool has_problem(const std::string& part) const { return all_problems().find(part) != std::string::npos; }
+  bool has_environment(const std::string& setting) const {
+    return std::find(launch_.environment.begin(), launch_.environment.end(), setting) !=
+           launch_.environment.end();
+  }
+
+  fs::path home_;
+  std::vector<std::string> problems_, told_;
+  programs::Launch launch_;
+};
+
+// --- what a folder or file is
+// ---------------------------------------------------------------------------------
+
+TEST_F(BuildTest, folders_are_told_apart) {
+  const struct {
+    const char* name;
+    Files files;
+    bool is_pc;
+  } kCases[] = {
+      {"today", {{"today.c", "#include <webots/robot.h>\nint main() {}\n"}}, true},
+      {"of2005", {{"of2005.c", "#include \"device/robot.h\"\nint main() {}\n"}}, true},
+      {"other_device", {{"main.c", "#include \"device/flash_chip.h\"\nint main() {}\n"}}, false},
+      {"by_header",
+       {{"a.c", "#include \"my.h\"\nint main() {}\n"}, {"my.h", "#include <webots/motor.h>\n"}},
+       true},
+      {"firmware", {{"main.c", "#include <p30F6014A.h>\nint main() {}\n"}}, false},
+      {"plain_c", {{"main.c", "int main(void) { return 0; }\n"}}, false},
+      {"cpp", {{"cpp.cpp", "int main() {}\n"}}, true},
+      {"pc_side",
+       {{"main.c", "#include \"motor_led/e_led.h\"\nint main() {}\n"}, {"pc/tool.cpp", "int main() {}\n"}},
+       false},
+      {"python", {{"python.py", "print(1)\n"}}, true},
+      {"plots",
+       {{"main.c", "#include <e_epuck_ports.h>\nint main() {}\n"}, {"plots.py", "print(1)\n"}},
+       false},
+      {"java", {{"java.java", "class java {}\n"}}, true},
+      {"matlab", {{"matlab.m", "x = 1;\n"}}, true},
+      {"elsewhere", {{"Makefile", "C_SOURCES = ../shared/x.c\n" + std::string(kMakeEnd)}}, true},
+      {"empty", {{"notes.txt", "nothing\n"}}, false},
+  };
+  for (const auto& c : kCases) EXPECT_EQ(programs::is_pc_program(folder(c.name, c.files)), c.is_pc) << c.name;
+  EXPECT_TRUE(programs::is_pc_program("<extern>"));
+  EXPECT_FALSE(programs::is_pc_program((home_ / "nothing").string()));
+}
+
+TEST_F(BuildTest, files_are_told_apart) {
+  const fs::path at = folder("files", {{"a.py", "1\n"},
+                                       {"a.c", "int main(){}\n"},
+                                       {"script", "#!/bin/sh\necho 1\n"},
+                                       {"chip.hex", ":00000001FF\n"},
+                                       {"text", "words\n"}});
+  EXPECT_TRUE(programs::is_pc_program((at / "a.py").string()));
+  EXPECT_TRUE(programs::is_pc_program((at / "a.c").string()));
+  EXPECT_TRUE(programs::is_pc_program((at / "script").string()));
+  EXPECT_TRUE(programs::is_pc_program("/bin/sh"));
+  EXPECT_FALSE(programs::is_pc_program((at / "chip.hex").string()));
+  EXPECT_FALSE(programs::is_pc_program((at / "text").string()));
+  EXPECT_FALSE(programs::is_pc_program((home_ / "libcontroller.so").string()));  // no main() to start
+}
+
+TEST_F(BuildTest, controllers_of_this_project_stay_firmware) {
+  for (const char* name : {"asercom", "braitenberg", "camera_follow", "blink"})
+    EXPECT_FALSE(programs::is_pc_program(TWINPUCK_SOURCE_DIR "/firmware/" + std::string(name))) << name;
+}
+
+// --- C and C++
+// ------------------------------------------------------------------------------------------------
+
+TEST_F(BuildTest, projects_compile_and_run) {
+  const std::string robot = "#include <stdio.h>\n#include <webots/robot.h>\n";
+  const struct {
+    const char* name;
+    Files files;
+    int sources;
+    const char* prints;
+  } kCases[] = {
+      {"c", {{"c.c", robot + "int main() { printf(\"%d\", (int)sizeof(int)); return 0; }\n"}}, 1, "4"},
+      {"cpp",
+       {{"cpp.cpp",
+         "#include <iostream>\n#include \"Body.hpp\"\nint main() { std::cout << Body(3).twice(); }\n"},
+        {"Body.hpp", "class Body { int n; public: explicit Body(int n); int twice() const; };\n"},
+        {"Body.cpp",
+         "#include \"Body.hpp\"\nBody::Body(int n) : n(n) {}\nint Body::twice() const { return 2 * n; }\n"}},
+       2,
+       "6"},
+      {"makefile",
+       {{"makefile.c", robot + "#include \"half.h\"\nint main() { printf(\"%.1f\", half(3)); return 0; }\n"},
+        {"sub/half.c",
+         "#include <math.h>\n#include \"half.h\"\ndouble half(double x) { return fabs(x) / 2 + BIAS; }\n"},
+        {"inc/half.h", "double half(double);\n"},
+        {"unfinished.c", "this does not compile\n"},
+        {"Makefile",
+         "C_SOURCES = makefile.c \\\n sub/half.c\nINCLUDE = -I\"inc\"\nLIBRARIES = -L\"lib\" -lm\n"
+         "CFLAGS = -DBIAS=1 -Werror\n" +
+             std::string(kMakeEnd)}},
+       2,
+       "2.5"},
+      {"c_api",
+       {{"c_api.cpp",
+         "#include <webots/robot.h>\n#include <iostream>\nint main() { wb_robot_init(); std::cout << NAME; "
+         "}\n"},
+        {"Makefile", "CXX_SOURCES = c_api.cpp\nUSE_C_API = true\nCFLAGS = -DNAME=\\\"$(NAME)\\\"\n" +
+                         std::string(kMakeEnd)}},
+       1,
+       "c_api"},
+      {"named_alone",
+       {{"named_alone.c", robot + "int main() { printf(\"ok\"); return 0; }\n"},
+        {"old.c", "int broken = ;\n"},
+        {"Makefile",
+         "WEBOTS_HOME = C:\\PROGRA~1\\Webots\nWEBOTS_HOME_PATH=C:/PROGRA~1/Webots\n"
+         "include $(WEBOTS_HOME_PATH)/resources/Makefile.include\n"}},
+       1,
+       "ok"},
+      {"two_mains",
+       {{"two_mains.c", robot + "int f(void);\nint main() { printf(\"%d\", f()); return 0; }\n"},
+        {"trial.c", "#include <stdio.h>\nint main(void)\n{ return 1; }\n"},
+        {"f.c", "int f(void) { return 7; }\n"}},
+       2,
+       "7"},
+      {"as_text",
+       {{"as_text.c", robot + "#include \"part.c\"\nint main() { printf(\"%d\", part()); return 0; }\n"},
+        {"part.c", "static int part(void) { return 5; }\nint shared;\n"}},
+       1,
+       "5"},
+      {"old_c",
+       {{"old_c.c", robot +
+                        "#include \"common.h\"\ninline int twice(int n) { return 2 * n; }\n"
+                        "main() { shared = 4; printf(\"%d %d\", twice(helper(1)), shared); return 0; }\n"},
+        {"helper.c", "#include \"common.h\"\nhelper(n) int n; { return n + 1; }\n"},
+        {"common.h", "int shared;\n"}},
+       2,
+       "4 4"},
+      {"slashes",
+       {{"slashes.c", robot + "#include \"Sub\\Part.H\"\nint main() { printf(\"%d\", PART); return 0; }\n"},
+        {"sub/part.h", "#include \"more.h\"\n"},
+        {"sub/more.h", "#define PART 9\n"}},
+       1,
+       "9"},
+      {"by_hand",
+       {{"by_hand.c", robot + "#include <math.h>\nint main(int argc, char** argv) { printf(\"%.0f\", "
+                              "pow(argc, 3)); return 0; }\n"},
+        {"Makefile",
+         "by_hand: by_hand.o\n\tgcc -o by_hand by_hand.o -L$(WEBOTS_HOME)/lib -lController -lm\n"}},
+       1,
+       "1"},
+      {"-odd (name) 'x'",
+       {{"-odd.c", robot + "int main() { printf(\"odd\"); return 0; }\n"}, {"._odd.c", "binary"}},
+       1,
+       "odd"},
+      {"old_cpp",
+       {{"old_cpp.cpp",
+         "#include <cstdio>\nint f(int n) throw(int) { return n; }\nint main() { register int i = 3; "
+         "std::printf(\"%d\", f(i)); }\n"}},
+       1,
+       "3"},
+  };
+  for (const auto& c : kCases) {
+    ASSERT_TRUE(prepare(folder(c.name, c.files))) << c.name << "\n" << all_problems();
+    EXPECT_EQ(launch_.files, c.sources) << c.name;
+    EXPECT_EQ(launch_.folder, (home_ / "controllers" / c.name).string());
+    EXPECT_EQ(output(), c.prints) << c.name;
+  }
+}
+
+TEST_F(BuildTest, a_conditional_and_a_call_in_a_makefile_count) {
+  folder("../libraries/shapes", {{"shapes.c", "int corners(void) { return 4; }\n"},
+                                 {"shapes.h", "int corners(void);\n"},
+                                 {"Makefile", "C_SOURCES = shapes.c\n" + std::string(kMakeEnd)}});
+  const std::string at = folder(
+      "cond", {{"a.c",
+                "#include <stdio.h>\n#include \"shapes.h\"\n#include <webots/robot.h>\n"
+                "int main() { printf(\"%d\", N + corners()); return 0; }\n"},
+               {"Makefile",
+                "ifeq ($(OSTYPE),linux)\nCFLAGS += -DN=$(shell echo 2)\nendif\nC_SOURCES = $(wildcard *.c)\n"
+                "INCLUDE = -I../../libraries/shapes\nLIBRARIES = -L../../libraries/shapes -lshapes\n" +
+                    std::string(kMakeEnd)}});
+  ASSERT_TRUE(prepare(at)) << all_problems();  // the project's own library was never built
+  EXPECT_EQ(output(), "6");
+}
+
+TEST_F(BuildTest, an_include_beside_the_project_is_followed) {
+  folder("../controllers",
+         {{"Makefile.include",
+           "CFLAGS += -DFROM=8\ninclude $(WEBOTS_HOME)/projects/default/controllers/Makefile.include\n"}});
+  const std::string at = folder(
+      "six",
+      {{"six.c",
+        "#include <device/robot.h>\n#include <stdio.h>\nint main() { printf(\"%d\", FROM); return 0; }\n"},
+       {"Makefile", "include ../Makefile.include\n"}});
+  ASSERT_TRUE(prepare(at)) << all_problems();
+  EXPECT_EQ(output(), "8");
+}
+
+TEST_F(BuildTest, a_link_to_a_controller_is_one) {
+  const fs::path real = folder(
+      "real",
+      {{"real.c", "#include <webots/robot.h>\n#include <stdio.h>\nint main() { printf(\"r\"); return 0; }\n"},
+       {"other.c", "int main() { return 0; }\n"}});
+  const fs::path link = home_ / "controllers" / "linked";
+  fs::create_directory_symlink(real, link);
+  EXPECT_TRUE(programs::is_pc_program(link.string()));
+  ASSERT_TRUE(prepare(link.string() + "/")) << all_problems();
+  EXPECT_EQ(output(), "r");
+}
+
+TEST_F(BuildTest, a_file_is_a_program) {
+  const fs::path at = folder("single", {{"b.cpp", "#include <cstdio>\nint main() { std::printf(\"b\"); }\n"},
+                                        {"c.c", "int broken = ;\n"}});
+  ASSERT_TRUE(prepare((at / "b.cpp").string())) << all_problems();
+  EXPECT_EQ(output(), "b");
+  EXPECT_EQ(launch_.files, 1);
+}
+
+TEST_F(BuildTest, what_does_not_change_is_compiled_once) {
+  const fs::path at = folder("kept", {{"kept.c",
+                                       "#include <webots/robot.h>\n#include <stdio.h>\n#include "
+                                       "\"../n.h\"\nint main() { printf(\"%d\", N); return 0; }\n"}});
+  std::ofstream(home_ / "controllers" / "n.h") << "#define N 1\n";
+  ASSERT_TRUE(prepare(at.string())) << all_problems();
+  const std::string first = launch_.words[0];
+  const auto when = fs::last_write_time(first);
+  ASSERT_TRUE(prepare(at.string()));
+  EXPECT_EQ(launch_.words[0], first);
+  EXPECT_EQ(launch_.files, 1);
+  EXPECT_EQ(fs::last_write_time(first), when);
+  // a header outside of the folder counts as well
+  std::ofstream(home_ / "controllers" / "n.h") << "#define N 2\n";
+  ASSERT_TRUE(prepare(at.string()));
+  EXPECT_NE(launch_.words[0], first);
+  EXPECT_EQ(output(), "2");
+}
+
+TEST_F(BuildTest, several_runs_at_once_build_one_program) {
+  const std::string at =
+      folder("shared",
+             {{"shared.c",
+               "#include <webots/robot.h>\n#include <stdio.h>\nint main() { printf(\"s\"); return 0; }\n"}});
+  std::vector<std::thread> runs;
+  std::vector<programs::Launch> launches(6);
+  std::vector<char> good(6);
+  for (std::size_t i = 0; i < launches.size(); ++i)
+    runs.emplace_back([&, i] {
+      std::vector<std::string> problems;
+      good[i] = programs::prepare(at, (home_ / "cache").string(), {}, problems, launches[i]);
+    });
+  for (auto& run : runs) run.join();
+  for (std::size_t i = 0; i < launches.size(); ++i) {
+    ASSERT_TRUE(good[i]);
+    launch_ = launches[i];
+    EXPECT_EQ(launch_.words[0], launches[0].words[0]);
+    EXPECT_EQ(output(), "s");
+  }
+  // nothing of the builds is left but the program and what it needs
+  std::set<std::string> left;
+  for (const auto& entry : fs::directory_iterator(home_ / "cache"))
+    left.insert(entry.path().filename().string());
+  EXPECT_EQ(left.size(), 2u) << *left.begin() << " " << *left.rbegin();
+}
+
+// --- what cannot be
+// ---------------------------------------------------------------------------------------------
+
+TEST_F(BuildTest, broken_code_is_named_with_its_line) {
+  const std::string at =
+      folder("broken", {{"broken.c", "#include <webots/robot.h>\nint main() {\n  int n = ;\n}\n"}});
+  EXPECT_FALSE(prepare(at));
+  EXPECT_TRUE(has_problem(at + ": controller: does not compile:\n")) << all_problems();
+  EXPECT_TRUE(has_problem(at + "/broken.c:3:11: error: ")) << all_problems();
+  const std::string link =
+      folder("misses",
+             {{"misses.c", "#include <webots/robot.h>\nint gone(void);\nint main() { return gone(); }\n"}});
+  EXPECT_FALSE(prepare(link));
+  EXPECT_TRUE(has_problem("misses.c:3: undefined reference to `gone'")) << all_problems();
+}
+
+TEST_F(BuildTest, missing_packages_are_named) {
+  // a header and a library that nobody has under the names of a known package
+  const std::string at = folder(
+      "needs",
+      {{"needs.c", "#include <webots/robot.h>\n#include <gsl/gsl_nothing.h>\nint main() { return 0; }\n"}});
+  EXPECT_FALSE(prepare(at));
+  EXPECT_TRUE(has_problem("gsl: apt install libgsl-dev")) << all_problems();
+  const std::string link =
+      folder("links", {{"links.c", "#include <webots/robot.h>\nint main() { return 0; }\n"},
+                       {"Makefile", "LIBRARIES = -lopencv_nothing\n" + std::string(kMakeEnd)}});
+  EXPECT_FALSE(prepare(link));
+  EXPECT_TRUE(has_problem("opencv: apt install libopencv-dev")) << all_problems();
+}
+
+TEST_F(BuildTest, lines_of_compilers_and_python_have_a_hint) {
+  const std::pair<const char*, const char*> kLines[] = {
+      {"x.c:2:10: fatal error: gsl/gsl_rng.h: No such file or directory", "gsl: apt install libgsl-dev"},
+      {"x.cpp:2:10: fatal error: Eigen/Dense: No such file or directory", "eigen: apt install libeigen3-dev"},
+      {"/usr/bin/ld: cannot find -lgslcblas: No such file or directory", "gsl: apt install libgsl-dev"},
+      {"/usr/bin/ld: cannot find -lz: No such file or directory", "zlib: apt install zlib1g-dev"},
+      {"/usr/bin/ld: cannot find -lglut", "glut: apt install freeglut3-dev"},
+      {"ModuleNotFoundError: No module named 'numpy'", "numpy: apt install python3-numpy"},
+      {"ModuleNotFoundError: No module named 'scipy.optimize'", "scipy: apt install python3-scipy"},
+      {"ImportError: No module named cv2", "cv2: apt install python3-opencv"},
+      {"Package opencv was not found in the pkg-config search path.", "opencv: apt install libopencv-dev"},
+      {"x.c:2:10: fatal error: mine.h: No such file or directory", ""},
+      {"ModuleNotFoundError: No module named 'my_own'", ""},
+      {"all is well", ""},
+  };
+  for (const auto& [line, hint] : kLines) EXPECT_EQ(programs::package_hint(line), hint) << line;
+}
+
+TEST_F(BuildTest, a_pipe_in_place_of_a_source_is_refused) {
+  const fs::path at =
+      folder("pipe", {{"pipe.c", "#include <webots/robot.h>\n#include \"x.h\"\nint main() { return 0; }\n"}});
+  ASSERT_EQ(mkfifo((at / "x.h").c_str(), 0600), 0);
+  EXPECT_FALSE(prepare(at.string()));
+  EXPECT_TRUE(has_problem("x.h: controller: got a pipe or a device, expected a file")) << all_problems();
+  EXPECT_FALSE(prepare((at / "x.h").string()));
+}
+
+TEST_F(BuildTest, what_is_not_run_is_named) {
+  EXPECT_FALSE(prepare(folder("mat", {{"mat.m", "x = 1;\n"}})));
+  EXPECT_TRUE(has_problem("MATLAB programs are not run"));
+  EXPECT_FALSE(prepare(folder("stale", {{"Makefile", "C_SOURCES = gone.c\n" + std::string(kMakeEnd)},
+                                        {"stale.c", "#include <webots/robot.h>\n"}})));
+  EXPECT_TRUE(has_problem("got gone.c, which is not there")) << all_problems();
+  EXPECT_FALSE(prepare(
+      folder("twice", {{"a.c", "#include <webots/robot.h>\nint main() {}\n"}, {"b.c", "int main() {}\n"}})));
+  EXPECT_TRUE(has_problem("got main() in each of a.c, b.c, expected one")) << all_problems();
+  EXPECT_FALSE(prepare(folder("windows", {{"windows.exe", "MZ"}})));
+  EXPECT_TRUE(has_problem("got a program of Windows")) << all_problems();
+  EXPECT_FALSE(prepare(folder("chip", {{"main.c", "#include <p30F6014A.h>\nint main() {}\n"}})));
+  EXPECT_TRUE(has_problem("got firmware of the e-puck")) << all_problems();
+}
+
+TEST_F(BuildTest, a_makefile_without_end_does_not_hold_a_run) {
+  const std::string at =
+      folder("loop", {{"loop.c", "#include <webots/robot.h>\nint main() { return 0; }\n"},
+                      {"Makefile", "include Makefile\nA = $(B)\nB = $(A)\nC_SOURCES = $(A)\n"}});
+  ASSERT_TRUE(prepare(at)) << all_problems();  // make gives up, and the folder's files are taken
+  EXPECT_EQ(launch_.files, 1);
+}
+
+// --- Python, Java, ready-made
+// -------------------------------------------------------------------------------------
+
+TEST_F(BuildTest, python_runs_as_runtime_ini_says) {
+  const std::string at = folder(
+      "py",
+      {{"py.py",
+        "import os, sys\nprint(sys.flags.optimize, os.environ['A'], os.environ['PLACE'], "
+        "os.environ['PYTHONHASHSEED'], __file__, sys.path[1])\n"},
+       {"helper.py", "from controller import Robot\n"},
+       {"runtime.ini",
+        "; mine\r\n[environment variables]\r\nA = one ; two\n[environment variables for Windows]\nA = no\n"
+        "[environment variables with paths]\nPLACE = lib:$(NOBODY_SET_IT):../../x\nPYTHONPATH = mods\n"
+        "[python]\nCOMMAND = python3\nOPTIONS = -O -B\n"}});
+  ASSERT_TRUE(prepare(at)) << all_problems();
+  EXPECT_EQ(launch_.files, 0);
+  const std::string ours = TWINPUCK_SOURCE_DIR "/programs/controller/python";
+  EXPECT_EQ(output(), "1 one " + at + "/lib:" + home_.string() + "/x 0 " + at + "/py.py " + ours + "\n");
+  EXPECT_TRUE(has_environment("PYTHONUNBUFFERED=1"));
+  EXPECT_TRUE(std::any_of(launch_.environment.begin(), launch_.environment.end(), [&](const std::string& e) {
+    return e.rfind("PYTHONPATH=" + ours + ":" + at + "/mods", 0) == 0;
+  }));
+}
+
+TEST_F(BuildTest, an_interpreter_that_is_not_here_is_told) {
+  const std::string at = folder(
+      "mac", {{"other_name.py", "print(5)\n"},
+              {"runtime.ini", "[python]\nCOMMAND = /opt/local/bin/python3.8\n[colours]\nx = 1\nodd\n"}});
+  ASSERT_TRUE(prepare(at)) << all_problems();
+  EXPECT_EQ(output(), "5\n");
+  ASSERT_EQ(told_.size(), 3u);
+  EXPECT_NE(told_[0].find("runtime.ini:3: got section [colours]"), std::string::npos) << told_[0];
+  EXPECT_NE(told_[1].find("runtime.ini:5: got a line without ="), std::string::npos) << told_[1];
+  EXPECT_NE(told_[2].find("got /opt/local/bin/python3.8, which is not here; python3 is taken"),
+            std::string::npos)
+      << told_[2];
+}
+
+TEST_F(BuildTest, of_several_python_files_one_must_be_the_main_one) {
+  EXPECT_FALSE(prepare(folder("many", {{"a.py", "1\n"}, {"b.py", "2\n"}})));
+  EXPECT_TRUE(has_problem("expected one that is named as the folder: many.py")) << all_problems();
+  ASSERT_TRUE(prepare(folder("uses", {{"a.py", "1\n"}, {"b.py", "from controller import Robot\n"}})));
+  EXPECT_EQ(launch_.words.back(), "b.py");
+}
+
+TEST_F(BuildTest, a_virtual_environment_in_the_folder_is_taken) {
+  const fs::path at =
+      folder("with_env", {{"with_env.py", "print(1)\n"}, {"venv/pyvenv.cfg", "home = /usr/bin\n"}});
+  fs::create_directories(at / "venv/bin");
+  fs::create_symlink("/bin/echo", at / "venv/bin/python3");
+  ASSERT_TRUE(prepare(at.string()));
+  EXPECT_EQ(launch_.words[0], (at / "venv/bin/python3").string());
+}
+
+TEST_F(BuildTest, a_ready_made_program_runs_as_it_is) {
+  const fs::path at = folder("ready", {});
+  fs::copy_file("/bin/echo", at / "ready");
+  ASSERT_TRUE(programs::is_pc_program(at.string()));
+  ASSERT_TRUE(prepare(at.string())) << all_problems();
+  EXPECT_EQ(launch_.words, std::vector<std::string>{(at / "ready").string()});
+  EXPECT_EQ(launch_.files, 0);
+  // Webots' name of the library leads to ours
+  EXPECT_TRUE(fs::equivalent(home_ / "cache/names/libController.so", home_ / "libcontroller.so"));
+  EXPECT_TRUE(std::any_of(launch_.environment.begin(), launch_.environment.end(), [&](const std::string& e) {
+    return e.rfind("LD_LIBRARY_PATH=", 0) == 0 && e.find("cache/names") != std::string::npos;
+  }));
+}
+
+TEST_F(BuildTest, a_program_from_outside_is_waited_for) {
+  ASSERT_TRUE(prepare("<extern>"));
+  EXPECT_TRUE(launch_.is_extern);
+  EXPECT_TRUE(launch_.words.empty());
+}
+
+TEST_F(BuildTest, java_is_compiled_where_there_is_a_compiler) {
+  const std::string at = folder(
+      "Jay",
+      {{"Jay.java",
+        "public class Jay { public static void main(String[] a) { System.out.println(Other.n()); } }\n"},
+       {"Other.java", "class Other { static int n() { return 11; } }\n"}});
+  const bool has_compiler = cc::run_process({"sh", "-c", "command -v javac"}).status == 0;
+  EXPECT_EQ(prepare(at), has_compiler);
+  if (!has_compiler) {
+    EXPECT_TRUE(has_problem("apt install default-jdk-headless")) << all_problems();
+    return;
+  }
+  EXPECT_EQ(launch_.files, 2);
+  EXPECT_EQ(output(), "11\n");
+  const auto kept = launch_.words;
+  ASSERT_TRUE(prepare(at));
+  EXPECT_EQ(launch_.words, kept);
+}
+
+}  // namespace
