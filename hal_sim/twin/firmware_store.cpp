@@ -9,6 +9,7 @@
 
 #include "hal_sim/cc/build.h"
 #include "hal_sim/twin/twin.h"
+#include "programs/build/build.h"
 #include "sim_core/base/hash.h"
 #include "sim_core/load/world_loader.h"
 #include "twinpuck_paths.h"
@@ -111,11 +112,18 @@ std::string find_firmware(const std::string& name, const std::string& from_folde
                           std::vector<std::string>& problems, std::string* other) {
   std::error_code none;
   const auto is_firmware = [&](const fs::path& p) {
-    return fs::exists(p, none) && (!fs::is_directory(p, none) || holds_c(p));
+    return fs::exists(p, none) &&
+           (!fs::is_directory(p, none) || holds_c(p) || programs::is_pc_program(p.string()));
   };
   // beside the world, then here, then ours: who makes a folder of the name has it run
   fs::path path =
       fs::path(name).is_absolute() || from_folder.empty() ? fs::path(name) : fs::path(from_folder) / name;
+  // a project of Webots has its worlds beside its controllers
+  if (!is_firmware(path) && name.find('/') == std::string::npos)
+    for (const char* controllers : {"controllers", "../controllers"})
+      if (const fs::path of_project = fs::path(from_folder) / controllers / name;
+          !is_firmware(path) && is_firmware(of_project))
+        path = of_project.lexically_normal();
   if (!is_firmware(path)) {
     const std::string stored = stored_controller(name);
     if (is_firmware(name) || (stored.empty() && !fs::exists(path, none) && fs::exists(name, none)))
@@ -127,7 +135,7 @@ std::string find_firmware(const std::string& name, const std::string& from_folde
     const std::string guess = sim::did_you_mean(name, controller_names());
     problems.push_back(name +
                        ": firmware: got a name that is neither a file nor a controller, expected a .so, a "
-                       "folder with C files "
+                       "folder with C files, a program of the PC "
                        "or a folder under firmware/" +
                        (guess.empty() ? "" : "; did you mean '" + guess + "'?"));
     return "";
