@@ -9,6 +9,7 @@
 #ifndef WB_CAMERA_H
 #define WB_CAMERA_H
 
+#include "camera_recognition_object.h"
 #include "types.h"
 
 TP_C_BEGIN
@@ -29,6 +30,39 @@ int wb_camera_get_height(WbDeviceTag tag);
 
 /** Horizontal, rad. It cannot be changed. */
 double wb_camera_get_fov(WbDeviceTag tag);
+double wb_camera_get_min_fov(WbDeviceTag tag);
+double wb_camera_get_max_fov(WbDeviceTag tag);
+
+/* --- programs of the PC: lens and exposure cannot be set, which a warning says; their values are 1 (exposure) and 0 */
+void wb_camera_set_fov(WbDeviceTag tag, double fov);
+double wb_camera_get_exposure(WbDeviceTag tag);
+void wb_camera_set_exposure(WbDeviceTag tag, double exposure);
+double wb_camera_get_focal_length(WbDeviceTag tag);
+double wb_camera_get_focal_distance(WbDeviceTag tag);
+double wb_camera_get_min_focal_distance(WbDeviceTag tag);
+double wb_camera_get_max_focal_distance(WbDeviceTag tag);
+void wb_camera_set_focal_distance(WbDeviceTag tag, double focal_distance);
+
+/** Writes the newest picture, PNG or (`quality` 1 to 100) JPEG by the name's ending; relative names begin in the
+ *  program's folder. 0; -1: it could not be written. */
+int wb_camera_save_image(WbDeviceTag tag, const char* filename, int quality);
+
+/* --- programs of the PC: objects with recognitionColors on the picture, of cameras that have a Recognition in the
+ * world. Period in ms. The array is valid until the next step */
+bool wb_camera_has_recognition(WbDeviceTag tag);
+void wb_camera_recognition_enable(WbDeviceTag tag, int sampling_period);
+void wb_camera_recognition_disable(WbDeviceTag tag);
+int wb_camera_recognition_get_sampling_period(WbDeviceTag tag);
+int wb_camera_recognition_get_number_of_objects(WbDeviceTag tag);
+const WbCameraRecognitionObject* wb_camera_recognition_get_objects(WbDeviceTag tag);
+const WbCameraRecognitionObject* wb_camera_recognition_get_object(WbDeviceTag tag, int index);
+/** There is no segmentation: false, null, and -1. */
+bool wb_camera_recognition_has_segmentation(WbDeviceTag tag);
+void wb_camera_recognition_enable_segmentation(WbDeviceTag tag);
+void wb_camera_recognition_disable_segmentation(WbDeviceTag tag);
+bool wb_camera_recognition_is_segmentation_enabled(WbDeviceTag tag);
+const unsigned char* wb_camera_recognition_get_segmentation_image(WbDeviceTag tag);
+int wb_camera_recognition_save_segmentation_image(WbDeviceTag tag, const char* filename, int quality);
 
 /** Nearest distance that is seen, m: 0. */
 double wb_camera_get_near(WbDeviceTag tag);

@@ -10,6 +10,11 @@
 
 TP_C_BEGIN
 
+#define WB_IMAGE_RGB 3
+#define WB_IMAGE_RGBA 4
+#define WB_IMAGE_ARGB 5
+#define WB_IMAGE_BGRA 6
+#define WB_IMAGE_ABGR 7
 #define WB_DISPLAY_RGB 3
 #define WB_DISPLAY_RGBA 4
 #define WB_DISPLAY_ARGB 5

@@ -25,6 +25,14 @@ const double* wb_gps_get_values(WbDeviceTag tag);
 double wb_gps_get_speed(WbDeviceTag tag);
 const double* wb_gps_get_speed_vector(WbDeviceTag tag);
 
+typedef enum { WB_GPS_LOCAL_COORDINATE = 0, WB_GPS_WGS84_COORDINATE } WbGpsCoordinateSystem;
+
+/** Programs of the PC: the world's own axes, always. */
+WbGpsCoordinateSystem wb_gps_get_coordinate_system(WbDeviceTag tag);
+
+/** Programs of the PC: an angle as text, such as 46 degrees 31' 2''; valid until the next call. */
+const char* wb_gps_convert_to_degrees_minutes_seconds(double decimal_degrees);
+
 TP_C_END
 
 #endif

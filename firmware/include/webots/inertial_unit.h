@@ -20,6 +20,10 @@ int wb_inertial_unit_get_sampling_period(WbDeviceTag tag);
  * the flat floor. NaN before the first period is over. Does not block. */
 const double* wb_inertial_unit_get_roll_pitch_yaw(WbDeviceTag tag);
 
+/** Programs of the PC: the same as x, y, z, w, valid until the next call; and its noise, 0. */
+const double* wb_inertial_unit_get_quaternion(WbDeviceTag tag);
+double wb_inertial_unit_get_noise(WbDeviceTag tag);
+
 TP_C_END
 
 #endif

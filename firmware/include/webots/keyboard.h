@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Keys pressed in the simulator's window. Firmware runs without one: nothing is ever pressed.
+ * Keys that somebody presses, which the command says (`--key`, docs/webots.md).
  */
 #ifndef WB_KEYBOARD_H
 #define WB_KEYBOARD_H
@@ -16,7 +16,8 @@ enum {
   WB_KEYBOARD_PAGEUP = 366,
   WB_KEYBOARD_PAGEDOWN,
   WB_KEYBOARD_NUMPAD_HOME = 375,
-  WB_KEYBOARD_NUMPAD_UP = 377,
+  WB_KEYBOARD_NUMPAD_LEFT,
+  WB_KEYBOARD_NUMPAD_UP,
   WB_KEYBOARD_NUMPAD_RIGHT,
   WB_KEYBOARD_NUMPAD_DOWN,
   WB_KEYBOARD_NUMPAD_END = 382

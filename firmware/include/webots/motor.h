@@ -24,6 +24,22 @@ void wb_motor_set_velocity(WbDeviceTag tag, double velocity);
 void wb_motor_set_acceleration(WbDeviceTag tag, double acceleration);
 void wb_motor_set_available_torque(WbDeviceTag tag, double torque);
 void wb_motor_set_available_force(WbDeviceTag tag, double force);
+/** Programs of the PC: a warning, as of all functions of force and torque below. */
+void wb_motor_set_force(WbDeviceTag tag, double force);
+void wb_motor_set_torque(WbDeviceTag tag, double torque);
+void wb_motor_enable_force_feedback(WbDeviceTag tag, int sampling_period);
+void wb_motor_disable_force_feedback(WbDeviceTag tag);
+int wb_motor_get_force_feedback_sampling_period(WbDeviceTag tag);
+double wb_motor_get_force_feedback(WbDeviceTag tag);
+void wb_motor_enable_torque_feedback(WbDeviceTag tag, int sampling_period);
+void wb_motor_disable_torque_feedback(WbDeviceTag tag);
+int wb_motor_get_torque_feedback_sampling_period(WbDeviceTag tag);
+double wb_motor_get_torque_feedback(WbDeviceTag tag);
+double wb_motor_get_available_force(WbDeviceTag tag);
+double wb_motor_get_max_force(WbDeviceTag tag);
+double wb_motor_get_available_torque(WbDeviceTag tag);
+double wb_motor_get_max_torque(WbDeviceTag tag);
+double wb_motor_get_multiplier(WbDeviceTag tag);
 void wb_motor_set_control_pid(WbDeviceTag tag, double p, double i, double d);
 
 /** rad, rad/s. */

@@ -16,6 +16,19 @@
 
 typedef enum { WB_MODE_SIMULATION = 0, WB_MODE_CROSS_COMPILATION, WB_MODE_REMOTE_CONTROL } WbRobotMode;
 
+typedef enum {
+  WB_EVENT_QUIT = -1,
+  WB_EVENT_NO_EVENT = 0,
+  WB_EVENT_MOUSE_CLICK = 1,
+  WB_EVENT_MOUSE_MOVE = 2,
+  WB_EVENT_KEYBOARD = 4,
+  WB_EVENT_JOYSTICK_BUTTON = 8,
+  WB_EVENT_JOYSTICK_AXIS = 16,
+  WB_EVENT_JOYSTICK_POV = 32
+} WbUserInputEvent;
+
+typedef void* WbMutexRef;
+
 TP_C_BEGIN
 
 /** Starts the library and the clock. Blocks for about 0.2 s, until the ADC scan has filled its buffers.
@@ -84,6 +97,21 @@ void wb_robot_battery_sensor_enable(int sampling_period);
 void wb_robot_battery_sensor_disable(void);
 int wb_robot_battery_sensor_get_sampling_period(void);
 double wb_robot_battery_sensor_get_value(void);
+
+/* --- programs of the PC */
+
+/** Nobody is at a window: WB_EVENT_NO_EVENT, at once. */
+WbUserInputEvent wb_robot_wait_for_user_input_event(WbUserInputEvent event_type, int timeout);
+/** There is no URDF: an empty text, and a warning. */
+const char* wb_robot_get_urdf(const char* prefix);
+/** Does nothing. */
+void wb_robot_pin_to_static_environment(bool pin);
+/** A thread, and locks for threads. Only one thread at a time may call functions of this interface. */
+void wb_robot_task_new(void (*task)(void*), void* param);
+WbMutexRef wb_robot_mutex_new(void);
+void wb_robot_mutex_lock(WbMutexRef mutex);
+void wb_robot_mutex_unlock(WbMutexRef mutex);
+void wb_robot_mutex_delete(WbMutexRef mutex);
 
 /* names of versions 5 to 8 */
 void wb_robot_live(void (*reset)(void));

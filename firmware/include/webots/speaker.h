@@ -22,6 +22,14 @@ void wb_speaker_stop(WbDeviceTag tag, const char* sound);
 /** Whether it sounds. */
 bool wb_speaker_is_sound_playing(WbDeviceTag tag, const char* sound);
 
+/* --- programs of the PC: text is not spoken, which a warning says; engine and language are kept */
+bool wb_speaker_set_engine(WbDeviceTag tag, const char* engine);
+bool wb_speaker_set_language(WbDeviceTag tag, const char* language);
+const char* wb_speaker_get_engine(WbDeviceTag tag);
+const char* wb_speaker_get_language(WbDeviceTag tag);
+void wb_speaker_speak(WbDeviceTag tag, const char* text, double volume);
+bool wb_speaker_is_speaking(WbDeviceTag tag);
+
 TP_C_END
 
 #endif

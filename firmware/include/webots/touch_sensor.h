@@ -20,6 +20,14 @@ int wb_touch_sensor_get_sampling_period(WbDeviceTag tag);
 /** What the supervisor says, NaN without one. Does not block. */
 double wb_touch_sensor_get_value(WbDeviceTag tag);
 
+typedef enum { WB_TOUCH_SENSOR_BUMPER = 0, WB_TOUCH_SENSOR_FORCE, WB_TOUCH_SENSOR_FORCE3D } WbTouchSensorType;
+
+/* programs of the PC */
+const double* wb_touch_sensor_get_values(WbDeviceTag tag);
+WbTouchSensorType wb_touch_sensor_get_type(WbDeviceTag tag);
+int wb_touch_sensor_get_lookup_table_size(WbDeviceTag tag);
+const double* wb_touch_sensor_get_lookup_table(WbDeviceTag tag);
+
 TP_C_END
 
 #endif

@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: MIT
+ * What no e-puck has here, and no simulation without a window: each function warns of a wrong tag and answers 0.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "programs/controller/c/library.h"
+
+/* --- devices of kinds that the simulator does not have ---------------------------------------------------- */
+
+#define DO(KIND, function, ...) \
+  void function(WbDeviceTag tag, ##__VA_ARGS__) { (void)device_of(tag, KIND, #function); }
+#define TELL(KIND, type, otherwise, function, ...) \
+  type function(WbDeviceTag tag, ##__VA_ARGS__) { return (void)device_of(tag, KIND, #function), otherwise; }
+
+DO(WB_NODE_BRAKE, wb_brake_set_damping_constant, double damping_constant)
+TELL(WB_NODE_BRAKE, WbJointType, WB_ROTATIONAL, wb_brake_get_type)
+TELL(WB_NODE_BRAKE, WbDeviceTag, 0, wb_brake_get_motor)
+TELL(WB_NODE_BRAKE, WbDeviceTag, 0, wb_brake_get_position_sensor)
+
+DO(WB_NODE_CONNECTOR, wb_connector_enable_presence, int sampling_period)
+DO(WB_NODE_CONNECTOR, wb_connector_disable_presence)
+TELL(WB_NODE_CONNECTOR, int, 0, wb_connector_get_presence_sampling_period)
+TELL(WB_NODE_CONNECTOR, int, 0, wb_connector_get_presence)
+TELL(WB_NODE_CONNECTOR, bool, false, wb_connector_is_locked)
+DO(WB_NODE_CONNECTOR, wb_connector_lock)
+DO(WB_NODE_CONNECTOR, wb_connector_unlock)
+
+DO(WB_NODE_LIDAR, wb_lidar_enable, int sampling_period)
+DO(WB_NODE_LIDAR, wb_lidar_disable)
+TELL(WB_NODE_LIDAR, int, 0, wb_lidar_get_sampling_period)
+DO(WB_NODE_LIDAR, wb_lidar_enable_point_cloud)
+DO(WB_NODE_LIDAR, wb_lidar_disable_point_cloud)
+TELL(WB_NODE_LIDAR, bool, false, wb_lidar_is_point_cloud_enabled)
+TELL(WB_NODE_LIDAR, const float*, NULL, wb_lidar_get_range_image)
+TELL(WB_NODE_LIDAR, const float*, NULL, wb_lidar_get_layer_range_image, int layer)
+TELL(WB_NODE_LIDAR, const WbLidarPoint*, NULL, wb_lidar_get_point_cloud)
+TELL(WB_NODE_LIDAR, const WbLidarPoint*, NULL, wb_lidar_get_layer_point_cloud, int layer)
+TELL(WB_NODE_LIDAR, int, 0, wb_lidar_get_number_of_points)
+TELL(WB_NODE_LIDAR, int, 0, wb_lidar_get_horizontal_resolution)
+TELL(WB_NODE_LIDAR, int, 0, wb_lidar_get_number_of_layers)
+TELL(WB_NODE_LIDAR, double, 0, wb_lidar_get_min_frequency)
+TELL(WB_NODE_LIDAR, double, 0, wb_lidar_get_max_frequency)
+TELL(WB_NODE_LIDAR, double, 0, wb_lidar_get_frequency)
+DO(WB_NODE_LIDAR, wb_lidar_set_frequency, double frequency)
+TELL(WB_NODE_LIDAR, double, 0, wb_lidar_get_fov)
+TELL(WB_NODE_LIDAR, double, 0, wb_lidar_get_vertical_fov)
+TELL(WB_NODE_LIDAR, double, 0, wb_lidar_get_min_range)
+TELL(WB_NODE_LIDAR, double, 0, wb_lidar_get_max_range)
+
+DO(WB_NODE_RANGE_FINDER, wb_range_finder_enable, int sampling_period)
+DO(WB_NODE_RANGE_FINDER, wb_range_finder_disable)
+TELL(WB_NODE_RANGE_FINDER, int, 0, wb_range_finder_get_sampling_period)
+TELL(WB_NODE_RANGE_FINDER, const float*, NULL, wb_range_finder_get_range_image)
+TELL(WB_NODE_RANGE_FINDER, int, 0, wb_range_finder_get_width)
+TELL(WB_NODE_RANGE_FINDER, int, 0, wb_range_finder_get_height)
+TELL(WB_NODE_RANGE_FINDER, double, 0, wb_range_finder_get_fov)
+TELL(WB_NODE_RANGE_FINDER, double, 0, wb_range_finder_get_min_range)
+TELL(WB_NODE_RANGE_FINDER, double, 0, wb_range_finder_get_max_range)
+TELL(WB_NODE_RANGE_FINDER, int, -1, wb_range_finder_save_image, const char* filename, int quality)
+
+DO(WB_NODE_RADAR, wb_radar_enable, int sampling_period)
+DO(WB_NODE_RADAR, wb_radar_disable)
+TELL(WB_NODE_RADAR, int, 0, wb_radar_get_sampling_period)
+TELL(WB_NODE_RADAR, int, 0, wb_radar_get_number_of_targets)
+TELL(WB_NODE_RADAR, const WbRadarTarget*, NULL, wb_radar_get_targets)
+TELL(WB_NODE_RADAR, double, 0, wb_radar_get_min_range)
+TELL(WB_NODE_RADAR, double, 0, wb_radar_get_max_range)
+TELL(WB_NODE_RADAR, double, 0, wb_radar_get_horizontal_fov)
+TELL(WB_NODE_RADAR, double, 0, wb_radar_get_vertical_fov)
+
+DO(WB_NODE_PEN, wb_pen_write, bool write)
+DO(WB_NODE_PEN, wb_pen_set_ink_color, int color, double density)
+
+DO(WB_NODE_VACUUM_GRIPPER, wb_vacuum_gripper_enable_presence, int sampling_period)
+DO(WB_NODE_VACUUM_GRIPPER, wb_vacuum_gripper_disable_presence)
+TELL(WB_NODE_VACUUM_GRIPPER, int, 0, wb_vacuum_gripper_get_presence_sampling_period)
+TELL(WB_NODE_VACUUM_GRIPPER, bool, false, wb_vacuum_gripper_get_presence)
+DO(WB_NODE_VACUUM_GRIPPER, wb_vacuum_gripper_turn_on)
+DO(WB_NODE_VACUUM_GRIPPER, wb_vacuum_gripper_turn_off)
+TELL(WB_NODE_VACUUM_GRIPPER, bool, false, wb_vacuum_gripper_is_on)
+
+/* --- windows ---------------------------------------------------------------------------------------------- */
+
+void* wb_remote_control_custom_function(void* argument) { return (void)argument, NULL; }
+void* wb_robot_window_custom_function(void* argument) { return (void)argument, NULL; }
+void wb_robot_wwi_send(const char* data, int size) { (void)data, (void)size; }
+void wb_robot_wwi_send_text(const char* text) { (void)text; }
+const char* wb_robot_wwi_receive(int* size) {
+  if (size) *size = 0;
+  return NULL;
+}
+const char* wb_robot_wwi_receive_text(void) { return NULL; }
+void wbu_default_robot_window_configure(void) {}
+void wbu_default_robot_window_update(void) {}
+void wbu_default_robot_window_set_images_max_size(int max_width, int max_height) { (void)max_width, (void)max_height; }
+
+/* --- the system ------------------------------------------------------------------------------------------- */
+
+const char* wbu_system_getenv(const char* variable) { return getenv(variable); }
+const char* wbu_system_short_path(const char* path) { return path; }
+const char* wbu_system_tmpdir(void) {
+  const char* folder = getenv("TMPDIR");
+  return folder && *folder ? folder : "/tmp";
+}
+const char* wbu_system_webots_instance_path(bool refresh) { return (void)refresh, wbu_system_tmpdir(); }
+
+const char* wb_gps_convert_to_degrees_minutes_seconds(double decimal_degrees) {
+  static char text[64];
+  double degrees = floor(fabs(decimal_degrees)), minutes = floor((fabs(decimal_degrees) - degrees) * 60);
+  double seconds = ((fabs(decimal_degrees) - degrees) * 60 - minutes) * 60;
+  snprintf(text, sizeof text, "%s%.0f\302\260 %.0f' %.0f''", decimal_degrees < 0 ? "-" : "", degrees, minutes, seconds);
+  return text;
+}
