@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""`from webots.controller import Robot`: the package `controller` by another name."""
