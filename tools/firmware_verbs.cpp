@@ -11,7 +11,7 @@
 #include "hal_sim/twin/world_file.h"
 #include "sim_core/light/profiles.h"
 #include "sim_core/load/world_loader.h"
-#include "supervisor/build.h"
+#include "programs/build/build.h"
 #include "tools/command_line.h"
 #include "tools/verbs.h"
 
@@ -31,20 +31,33 @@ std::string controller_folder(const std::string& name, const char* verb) {
   return problems.empty() ? path : "";
 }
 
-/// A supervisor's program is the PC's compiler's business.
-int build_supervisor(const std::string& name, const fs::path& output) {
+/// A program of the PC is the PC's compiler's business.
+int build_program(const std::string& name, const fs::path& output) {
   std::vector<std::string> problems;
-  const std::string made = supervisor::provide_program(
-      name, "", [](const std::string& line) { std::cerr << line << '\n'; }, problems);
+  twin::Options options;
+  options.tell = [](const std::string& line) { std::cerr << line << '\n'; };
+  programs::Launch launch;
+  const bool good = twin::provide_launch(name, "", options, problems, launch);
   complain(problems);
-  if (made.empty()) return kTestFailed;
-  std::error_code wrong;
-  if (!output.empty()) fs::copy_file(made, output, fs::copy_options::overwrite_existing, wrong);
-  if (wrong) {
-    complain({output.string() + ": -o: cannot be written: " + wrong.message()});
-    return kBadInput;
+  if (!good) return kTestFailed;
+  std::string words;
+  for (const std::string& word : launch.words) words += (words.empty() ? "" : " ") + word;
+  if (!output.empty()) {
+    if (launch.files == 0) {
+      complain({output.string() + ": -o: got a program that needs no compiler, expected one in C or C++"});
+      return kBadInput;
+    }
+    std::error_code wrong;
+    fs::copy_file(launch.words.front(), output, fs::copy_options::overwrite_existing, wrong);
+    if (wrong) {
+      complain({output.string() + ": -o: cannot be written: " + wrong.message()});
+      return kBadInput;
+    }
+    words = output.string();
   }
-  std::cout << (output.empty() ? made : output.string()) << ": a supervisor's program\n";
+  std::cout << words << ": a program of the PC"
+            << (launch.files > 0 ? fmt::format(", {} {}", launch.files, launch.files == 1 ? "file" : "files") : "")
+            << '\n';
   return kPass;
 }
 
@@ -72,11 +85,8 @@ int build(cc::BuildOptions options) {
   if (!may_replace(options.output)) return kBadInput;
   const std::string given = options.source_dir.string();
   std::vector<std::string> no_controller;
-  const std::string folder = twin::find_firmware(given, "", no_controller);
-  const fs::path known = fs::path(twin::project_root()) / "supervisor" / "programs" / given;
-  if (folder.empty() ? fs::exists(given) || (given.find('/') == std::string::npos && fs::is_directory(known))
-                     : !fs::is_directory(folder) || supervisor::is_program_folder(folder))
-    return build_supervisor(given, options.output);
+  const std::string found = twin::find_firmware(given, "", no_controller);
+  if (!options.chip_way && !found.empty() && programs::is_pc_program(found)) return build_program(given, options.output);
   options.source_dir = controller_folder(given, "build");
   if (options.source_dir.empty()) return kBadInput;
   if (options.output.empty()) {
@@ -128,7 +138,7 @@ std::vector<std::string> missing_files(const sim::WorldDesc& world, const std::s
       missing.back() = file + ": robot '" + robot.name + "': " + missing.back();
   }
   for (const auto& program : world.supervisors)
-    if (supervisor::find_program(program.program, folder, missing).empty())
+    if (twin::find_firmware(program.program, folder, missing).empty())
       missing.back() = file + ": " + missing.back();
   return missing;
 }
@@ -161,9 +171,9 @@ int check(const std::vector<std::string>& names) {
 
 void add_build(CLI::App& app, int& exit_code) {
   auto* verb =
-      app.add_subcommand("build", "Compile a folder of firmware into an image for this PC, or a supervisor");
+      app.add_subcommand("build", "Compile a folder of firmware into an image, or a program of the PC");
   auto o = std::make_shared<cc::BuildOptions>();
-  verb->add_option("DIR", o->source_dir, "folder with C files, or a controller's or supervisor's name")
+  verb->add_option("DIR", o->source_dir, "folder with C files, or a controller's name; Webots' too")
       ->required();
   verb->add_option("-o,--output", o->output,
                    "the image to write, a .so (chip: .elf); without it, where runs keep theirs");

@@ -50,7 +50,7 @@ int import(const std::string& file, std::string output, bool without_firmware) {
   options.has_firmware = [](const std::string& name) { return !twin::stored_controller(name).empty(); };
   options.has_program = [](const std::string& name) {
     std::error_code none;
-    return fs::is_directory(fs::path(twin::project_root()) / "supervisor" / "programs" / name, none);
+    return fs::is_directory(fs::path(twin::project_root()) / "programs" / "supervisors" / name, none);
   };
   options.model = board::epuck_model();
   const wbt::Imported made = wbt::import_world(text, options);

@@ -13,7 +13,7 @@
 #include "sim_core/random/counter_random.h"
 #include "sim_core/world/layout.h"
 #include "sim_core/world/scene.h"
-#include "supervisor/team.h"
+#include "programs/team/team.h"
 #include "tools/summary.h"
 
 namespace tools {
@@ -145,7 +145,7 @@ class Lifts {
   std::vector<double> heights_m_;
 };
 
-void run(twin::Twin& twin, supervisor::Team& team, const Trial& trial, Measures& m) {
+void run(twin::Twin& twin, programs::Team& team, const Trial& trial, Measures& m) {
   const LabStep& step = *trial.step;
   auto& simulation = twin.simulation();
   Lifts lifts(simulation);  // sees the kick-off
@@ -269,7 +269,7 @@ bool run_trial(const Trial& trial, Measures& measures, std::string& said,
   if (!trial.image.empty()) options.firmware = {{"*", trial.image}};
   auto twin = twin::Twin::open(std::move(world), options, problems);
   if (!twin) return false;
-  const auto team = supervisor::Team::open(*twin, options, {}, problems);
+  const auto team = programs::Team::open(*twin, options, {}, problems);
   if (!team) return false;
   // "NAME TIME s: TEXT"
   team->say = [&said](const std::string& line) {

@@ -65,7 +65,7 @@ int list(const std::string& what) {
   for (const auto& entry : fs::directory_iterator(root / "worlds", none))
     if (entry.path().extension() == ".toml")
       worlds.emplace_back(entry.path().stem().string(), description_of(entry.path()));
-  for (const auto& entry : fs::directory_iterator(root / "supervisor" / "programs", none))
+  for (const auto& entry : fs::directory_iterator(root / "programs" / "supervisors", none))
     supervisors.emplace_back(entry.path().filename().string(), first_line(entry.path() / "README.md"));
   if (controllers.empty() && worlds.empty()) {
     complain(

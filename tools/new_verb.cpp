@@ -99,26 +99,28 @@ TEST_F(@NAME@, drives_and_keeps_off_the_wall) {
 }
 )";
 
-const char* const kSupervisor = R"(/* SPDX-License-Identifier: MIT
- * @NAME@: ends the run once every robot has driven half a metre, or as failed when one has touched something. A
- * start for your own supervisor; docs/supervisor.md is the guide. */
-#include <supervisor.h>
+const char* const kSupervisor = R"(# SPDX-License-Identifier: MIT
+"""@NAME@: ends the run once every robot has driven half a metre, or as failed when one has touched something. A start
+for your own supervisor; docs/supervisor.md is the guide."""
+import sys
 
-int main(void)
-{
-  while (sv_step(0.1) >= 0) {
-    int robot, there = 0;
+from controller import Supervisor
 
-    for (robot = 0; robot < sv_robots(); robot++) {
-      if (sv_collisions(robot) > 0)
-        sv_end(1, "%s touched something", sv_thing_name(robot));
-      there += sv_distance(robot) > 0.5;
-    }
-    if (there == sv_robots())
-      sv_end(0, "all there after %.1f s", sv_time());
-  }
-  return 0;
-}
+world = Supervisor()
+children = world.getRoot().getField("children")
+nodes = [children.getMFNode(i) for i in range(children.getCount())]
+robots = [node for node in nodes if node.getField("collisions")]
+
+while world.step(100) != -1:
+    for robot in robots:
+        if robot.getField("collisions").getSFInt32() > 0:
+            print(robot.getField("name").getSFString(), "touched something")
+            world.simulationQuit(1)
+            sys.exit()
+    if all(robot.getField("distance").getSFFloat() > 0.5 for robot in robots):
+        print(f"all there after {world.getTime():.1f} s")
+        world.simulationQuit(0)
+        sys.exit()
 )";
 
 const char* const kSupervisorReadme = R"(# @NAME@
@@ -144,7 +146,7 @@ int make(const std::string& name, bool supervisor) {
               "', expected lower-case letters, digits and underscores, a letter first"});
     return kBadInput;
   }
-  const std::string room = supervisor ? "supervisor/programs" : "firmware";
+  const std::string room = supervisor ? "programs/supervisors" : "firmware";
   const char* const what = supervisor ? "new supervisor" : "new controller";
   const fs::path folder = fs::path(twin::project_root()) / room / name;
   if (fs::exists(folder)) {
@@ -155,7 +157,7 @@ int make(const std::string& name, bool supervisor) {
   fs::create_directories(folder, error);
   std::vector<std::pair<std::string, const char*>> files{
       {"main.c", kMain}, {"README.md", kReadme}, {"test.cpp", kTest}};
-  if (supervisor) files = {{name + ".c", kSupervisor}, {"README.md", kSupervisorReadme}};
+  if (supervisor) files = {{name + ".py", kSupervisor}, {"README.md", kSupervisorReadme}};
   for (const auto& [file, text] : files) {
     std::ofstream out(folder / file);
     out << replace_all(text, "@NAME@", name);
@@ -165,7 +167,7 @@ int make(const std::string& name, bool supervisor) {
     }
   }
   if (supervisor) {
-    std::cout << "Made supervisor/programs/" << name << ".\n  build/twinpuck run maze --supervisor " << name
+    std::cout << "Made programs/supervisors/" << name << ".\n  build/twinpuck run maze --supervisor " << name
               << "\n";
     return kPass;
   }
@@ -180,7 +182,7 @@ void add_new(CLI::App& app, int& exit_code) {
   auto* verb = app.add_subcommand(
       "new", "Make a new controller, or a supervisor, that builds and runs, to start from");
   auto name = std::make_shared<std::string>();
-  verb->add_option("NAME", *name, "its name: a folder under firmware/ or supervisor/programs/")->required();
+  verb->add_option("NAME", *name, "its name: a folder under firmware/ or programs/supervisors/")->required();
   auto supervisor = std::make_shared<bool>(false);
   verb->add_flag("--supervisor", *supervisor, "a supervisor instead of a controller");
   verb->callback([name, supervisor, &exit_code] { exit_code = make(*name, *supervisor); });

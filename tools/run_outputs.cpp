@@ -80,7 +80,7 @@ void add_output_options(CLI::App& verb, OutputArguments& a) {
   add_trace_options(verb, a.traces);
 }
 
-RunOutputs::RunOutputs(const OutputArguments& arguments, twin::Twin& twin, const supervisor::Team* team)
+RunOutputs::RunOutputs(const OutputArguments& arguments, twin::Twin& twin, const programs::Team* team)
     : arguments_(arguments),
       twin_(twin),
       team_(team),

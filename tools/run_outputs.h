@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "hal_sim/twin/twin.h"
-#include "supervisor/team.h"
+#include "programs/team/team.h"
 #include "tools/picture_outputs.h"
 #include "tools/saved_images.h"
 #include "tools/sound_output.h"
@@ -36,7 +36,7 @@ void add_output_options(CLI::App& verb, OutputArguments& arguments);
 class RunOutputs {
  public:
   /// `team` may be null; its labels are shown in the picture.
-  RunOutputs(const OutputArguments& arguments, twin::Twin& twin, const supervisor::Team* team = nullptr);
+  RunOutputs(const OutputArguments& arguments, twin::Twin& twin, const programs::Team* team = nullptr);
   ~RunOutputs();
   /// Opens what can be opened; false and one line per problem otherwise.
   bool open(std::vector<std::string>& problems);
@@ -57,7 +57,7 @@ class RunOutputs {
 
   const OutputArguments arguments_;
   twin::Twin& twin_;
-  const supervisor::Team* team_;
+  const programs::Team* team_;
   std::unique_ptr<sim::CsvRecorder> recorder_;
   std::unique_ptr<SavedImages> images_;
   std::unique_ptr<SoundOutput> sound_;

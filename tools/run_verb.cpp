@@ -14,7 +14,7 @@
 #include "hal_sim/twin/world_file.h"
 #include "sim_core/light/profiles.h"
 #include "sim_core/load/world_loader.h"
-#include "supervisor/team.h"
+#include "programs/team/team.h"
 #include "tools/command_line.h"
 #include "tools/profile_outputs.h"
 #include "tools/progress.h"
@@ -38,7 +38,7 @@ constexpr double kLongestSleep_s = 0.1;  // with a look whether the end was aske
 
 struct RunArguments {
   std::string world;
-  std::vector<std::string> firmware, uart1, uart2, keys, supervisors;
+  std::vector<std::string> firmware, uart1, uart2, keys, supervisors, externs;
   std::string files = "twinpuck-files", replay;
   double seconds = 60;
   std::string speed = "max";
@@ -121,12 +121,13 @@ int run(const RunArguments& arguments) {
     complain(problems);
     return kBadInput;
   }
-  auto team = supervisor::Team::open(*twin, options,
+  auto team = programs::Team::open(*twin, options,
                                      replay ? replay->opening.supervisors : arguments.supervisors, problems);
   if (!team) {
     complain(problems);
     return kBadInput;
   }
+  team->should_give_up = [] { return end_asked() != 0; };
   if (!arguments.quiet) std::cout << programs_text(*twin) << std::flush;
   RunOutputs outputs(arguments.outputs, *twin, team.get());
   ProfileOutputs profile(arguments.profile, *twin);
@@ -160,10 +161,6 @@ int run(const RunArguments& arguments) {
   double next_picture_s = 0;
   const auto start = Wall::now();
   const auto wall_s = [&] { return std::chrono::duration<double>(Wall::now() - start).count(); };
-  is_stepping = true;
-  team->before_first_tick();
-  is_stepping = false;
-  outputs.before_run();
   const auto say = [&](const std::string& line) {
     if (screen) return terminal->say(line);
     progress.clear();
@@ -177,6 +174,10 @@ int run(const RunArguments& arguments) {
       say(name + ": " + line);
     };
   }
+  is_stepping = true;
+  team->before_first_tick();
+  is_stepping = false;
+  outputs.before_run();
   SerialText serial(say);
   for (int i = 0; i < twin->robots(); ++i)
     for (int port = 1; port <= 2; ++port) {
@@ -287,8 +288,10 @@ void add_run(CLI::App& app, int& exit_code) {
                    "folder for files that programs for Webots write, below it one for each robot")
       ->capture_default_str();
   one_each(verb->add_option("--supervisor", a->supervisors,
-                            "a program attached to the world: a C or C++ file, a folder, or one of "
-                            "supervisor/programs/"));
+                            "[NAME=]PROGRAM: a supervisor's program, a file or a folder; takes the place of the "
+                            "world's supervisor of that NAME, without NAME of its only one, or is added"));
+  one_each(verb->add_option("--extern", a->externs,
+                            "a robot whose program is started outside and connects; * for all"));
   verb->option_defaults()->group("Time and chance");
   verb->add_option("--for", a->seconds, "simulated seconds")->check(between(0, 1e7))->capture_default_str();
   auto* speed = verb->add_option("--speed", a->speed, "pace: 1 is real time, max as fast as possible")

@@ -113,7 +113,7 @@ bool Session::reopen(std::vector<std::string>& problems) {
   twin_ = twin::Twin::open(world, options, problems);
   if (!twin_) return false;
   was_open_ = true;
-  team_ = supervisor::Team::open(*twin_, options, opening_.supervisors, problems);
+  team_ = programs::Team::open(*twin_, options, opening_.supervisors, problems);
   if (!team_) {
     twin_.reset();
     return false;
@@ -140,6 +140,7 @@ bool Session::reopen(std::vector<std::string>& problems) {
     if (robot.firmware.empty()) continue;
     program_named(robot.firmware).robots.push_back(r);
   }
+  team_->should_give_up = [this] { return ending_.load(); };
   team_->say = [this](const std::string& line) { tell_all({{"event", "says"}, {"text", line}}); };
   team_->before_first_tick();
   resubscribe();

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "hal_sim/twin/twin.h"
-#include "supervisor/team.h"
+#include "programs/team/team.h"
 #include "viewer/document.h"
 #include "viewer/frame.h"
 #include "viewer/inputs.h"
@@ -139,7 +139,7 @@ class Session {
   Document document_;
 
   std::unique_ptr<twin::Twin> twin_;
-  std::unique_ptr<supervisor::Team> team_;
+  std::unique_ptr<programs::Team> team_;
   std::unique_ptr<Inputs> inputs_;
   std::unique_ptr<Recorder> recorder_;
   std::unique_ptr<TraceFeed> trace_;  // while a page shows a time line

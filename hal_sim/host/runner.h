@@ -31,6 +31,9 @@ class Drivers;
 
 namespace host {
 
+/// Kind of a TrapReport: a program of the PC ended by a signal, or with a status that says so.
+inline constexpr int kProgramEnded = 9;
+
 /// Why a robot stopped or restarted, for reports.
 struct TrapReport {
   std::string robot;

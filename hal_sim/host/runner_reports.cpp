@@ -62,6 +62,8 @@ const char* trap_name(int kind) {
       return "sanitizer";
     case TP_TRAP_UNSIMULATED:
       return "not simulated";
+    case kProgramEnded:
+      return "its program";
     default:
       return "trap";
   }

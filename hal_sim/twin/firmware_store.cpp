@@ -76,7 +76,10 @@ std::string stored_controller(const std::string& name) {
   // a controller of one's own in firmware/ goes before the lab's solution of that name
   if (!of_lab && fs::is_directory(firmware / plain, none)) return (firmware / plain).string();
   const fs::path solution = firmware / "lab" / plain;
-  return fs::is_directory(solution, none) ? solution.string() : "";
+  if (fs::is_directory(solution, none)) return solution.string();
+  // supervisors have names of their own
+  const fs::path supervisor = fs::path(project_root()) / "programs" / "supervisors" / plain;
+  return !of_lab && fs::is_directory(supervisor, none) ? supervisor.string() : "";
 }
 
 std::string project_root() {
@@ -111,6 +114,7 @@ std::string image_file(const std::string& folder, const Options& options) {
 std::string find_firmware(const std::string& name, const std::string& from_folder,
                           std::vector<std::string>& problems, std::string* other) {
   std::error_code none;
+  if (name == kExtern) return name;
   const auto is_firmware = [&](const fs::path& p) {
     return fs::exists(p, none) &&
            (!fs::is_directory(p, none) || holds_c(p) || programs::is_pc_program(p.string()));
@@ -156,7 +160,8 @@ std::string provide_image(const std::string& name, const std::string& from_folde
   const fs::path path = found.path = find_firmware(name, from_folder, problems, &found.other);
   if (program) *program = found;
   std::error_code none;
-  if (path.empty() || !fs::is_directory(path, none)) return path.string();
+  if (path.empty() || (options.way != "chip" && programs::is_pc_program(path.string()))) return path.string();
+  if (!fs::is_directory(path, none)) return path.string();
   cc::BuildOptions build;
   build.source_dir = path;
   build.output = image_file(path.string(), options);
@@ -177,6 +182,13 @@ std::string provide_image(const std::string& name, const std::string& from_folde
     return "";
   }
   return build.output.string();
+}
+
+bool provide_launch(const std::string& name, const std::string& from_folder, const Options& options,
+                    std::vector<std::string>& problems, programs::Launch& launch) {
+  const std::string path = find_firmware(name, from_folder, problems);
+  return !path.empty() &&
+         programs::prepare(path, (fs::path(build_folder()) / "programs").string(), options.tell, problems, launch);
 }
 
 }  // namespace twin

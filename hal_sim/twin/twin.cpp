@@ -100,16 +100,26 @@ board::BluetoothSetup bluetooth_of(const sim::WorldDesc& world, int index) {
 struct Firmware {
   std::shared_ptr<host::Image> image;
   std::shared_ptr<const dspic::FirmwareFile> chip;
+  std::shared_ptr<const programs::Launch> program;  // or a program of the PC
+
+  bool is_open() const { return image || chip || program; }
 };
 
-Firmware open_firmware(const std::string& path, std::string& error) {
+Firmware open_firmware(const std::string& path, const Options& options, std::string& error) {
+  if (programs::is_pc_program(path)) {
+    auto launch = std::make_shared<programs::Launch>();
+    std::vector<std::string> problems;
+    if (provide_launch(path, "", options, problems, *launch)) return {nullptr, nullptr, launch};
+    for (const std::string& problem : problems) error += (error.empty() ? "" : "\n") + problem;
+    return {};
+  }
   std::string bytes;
   if (!host::Image::read(path, bytes, error)) return {};
   if (dspic::kind_of(bytes) == dspic::FileKind::Other)
-    return {host::Image::open(path, std::move(bytes), error), nullptr};
+    return {host::Image::open(path, std::move(bytes), error), nullptr, nullptr};
   auto file = std::make_shared<dspic::FirmwareFile>();
   if (!dspic::load_firmware(bytes, path, *file, error)) return {};
-  return {nullptr, file};
+  return {nullptr, file, nullptr};
 }
 
 std::uint16_t fosc_of(const dspic::FirmwareFile& file) {
@@ -120,7 +130,11 @@ std::uint16_t fosc_of(const dspic::FirmwareFile& file) {
 /// What executes a program on a board, of whose thread's share it is, powered up at `start`. The program's
 /// configuration words make the clock of the robot that is set up.
 host::RunnerFactory runner_for(const Firmware& program, std::size_t share, board::Setup& setup,
-                               host::Cycle start) {
+                               host::Cycle start, const std::shared_ptr<programs::Seat>& seat) {
+  if (program.program)
+    return [=, name = setup.name](board::Board& board) {
+      return std::make_unique<programs::ProgramRunner>(name, seat, board, start);
+    };
   if (program.chip) {
     const std::uint16_t fosc = fosc_of(*program.chip);
     setup.clock_ppm = host::clock_ppm(setup.clock_ppm, fosc);
@@ -229,6 +243,9 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
   const std::size_t problems_before = problems.size();
   check_names(world, options.firmware, "--fw", problems);
   check_names(world, options.uart1, "--uart", problems);
+  std::vector<Choice> externs;
+  for (const std::string& name : options.externs) externs.push_back({name, ""});
+  check_names(world, externs, "--extern", problems);
   check_names(world, options.uart2, "--uart2", problems);
   if (problems.size() != problems_before) return nullptr;
 
@@ -238,7 +255,9 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
   std::map<std::string, Firmware> images;
   std::vector<std::string> firmware;
   for (auto& robot : world.robots) {
-    const std::string name = chosen(options.firmware, robot.name, robot.firmware);
+    std::string name = chosen(options.firmware, robot.name, robot.firmware);
+    for (const std::string& outside : options.externs)
+      if (outside == robot.name || outside == "*") name = kExtern;
     Options of_robot = options;
     if (of_robot.way.empty()) of_robot.way = own_settings(world, robot).text("way");
     const std::string key = name.empty() ? name : of_robot.way + ":" + name;
@@ -249,9 +268,11 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
     path = provide_image(name, options.world_folder, of_robot, problems, &programs[key]);
     if (path.empty()) continue;
     std::string error;
-    const Firmware& opened = images[key] = open_firmware(path, error);
-    if (!opened.image && !opened.chip) {
+    const Firmware& opened = images[key] = open_firmware(path, options, error);
+    if (!opened.is_open()) {
       problems.push_back(error);
+    } else if (opened.program) {
+      programs[key].files = opened.program->files;
     } else if (of_robot.way == "register" && opened.chip) {
       problems.push_back("robot '" + robot.name + "': way: got register, but " + path +
                          " is a program of the chip; leave the way out");
@@ -264,6 +285,7 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
   if (problems.size() != problems_before) return nullptr;
 
   std::unique_ptr<Twin> twin(new Twin);
+  twin->options_ = options;
   const std::size_t n = world.robots.size();
   const std::size_t shares =
       std::max<std::size_t>(1, std::min(n, static_cast<std::size_t>(std::max(1, options.threads))));
@@ -277,7 +299,9 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
     const auto& robot = world.robots[i];
     board::Setup setup = setup_of(world, static_cast<int>(i));
     host::RunnerFactory make_runner;
-    if (!firmware[i].empty()) make_runner = runner_for(images[firmware[i]], share, setup, 0);
+    twin->seats_.push_back(std::make_shared<programs::Seat>());
+    twin->launches_.push_back(firmware[i].empty() ? nullptr : images[firmware[i]].program);
+    if (!firmware[i].empty()) make_runner = runner_for(images[firmware[i]], share, setup, 0, twin->seats_.back());
     auto mind = std::make_unique<host::FirmwareMind>(setup, make_runner);
     twin->copies_.push_back(share);
     plug_in_parts(robot, mind->board(), problems);
@@ -328,18 +352,19 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
 
 std::string Twin::flash(const std::vector<int>& robots, const std::string& path) {
   std::string error;
-  const Firmware program = open_firmware(path, error);
+  const Firmware program = open_firmware(path, options_, error);
   if (!error.empty()) return error;
   for (int robot : robots) {
     const auto r = static_cast<std::size_t>(robot);
     const std::string where = "robot '" + world().robots[r].name + "': ";
     if (!minds_[r]->runner()) return where + "got one that is switched off";
     board::Setup setup = setup_of(world(), robot);
-    const auto make_runner = runner_for(program, copies_[r], setup, minds_[r]->now());
+    const auto make_runner = runner_for(program, copies_[r], setup, minds_[r]->now(), seats_[r]);
     if (setup.clock_ppm != minds_[r]->board().setup().clock_ppm)
       return where + "got a program with another clock in its configuration words; restart the run";
     minds_[r]->flash(make_runner);
     image_paths_[r] = path;
+    launches_[r] = program.program;
     programs_[r] = {path, "", 0};
     simulation_->note_intervention(r);
   }

@@ -10,6 +10,8 @@
 
 #include "hal_sim/host/image.h"
 #include "hal_sim/host/mind.h"
+#include "programs/build/build.h"
+#include "programs/puck/program_runner.h"
 #include "sim_core/radio/packet_medium.h"
 #include "sim_core/radio/radio_medium.h"
 #include "sim_core/simulation.h"
@@ -20,6 +22,9 @@ class BluetoothModule;
 }
 
 namespace twin {
+
+/// What a robot runs whose program comes from outside.
+inline constexpr const char* kExtern = "<extern>";
 
 /// One `--fw` or `--uart`: what a robot gets instead of what the world file says. Robot "*" means every
 /// robot.
@@ -36,7 +41,11 @@ struct Options {
   int threads = 1;  ///< 1 or more; results do not depend on it
   std::string
       world_folder;  ///< where relative firmware paths of the world file start; empty: the current folder
-  std::string way;   ///< of controllers built from source, all robots: native or register; empty: the world's
+  /// Of controllers built from source, all robots: native, register or chip; empty: the world's. Programs for
+  /// Webots' interfaces are programs of the PC in every way but chip.
+  std::string way;
+  /// Robots whose program comes from outside; "*": all.
+  std::vector<std::string> externs;
   std::string optimisation;  ///< of controllers built from source, as in cc::BuildOptions: "" -O0 -O1 -O2 -Os
   /// Below it each robot has a folder of its name for files that its program writes; empty: none can be
   /// opened.
@@ -76,6 +85,11 @@ std::string image_file(const std::string& folder, const Options& options);
 std::string provide_image(const std::string& name, const std::string& from_folder, const Options& options,
                           std::vector<std::string>& problems, Program* program = nullptr);
 
+/// How the program of the PC that `name` means is started, built if need be; found as find_firmware() does. False,
+/// with lines in `problems`.
+bool provide_launch(const std::string& name, const std::string& from_folder, const Options& options,
+                    std::vector<std::string>& problems, programs::Launch& launch);
+
 class Twin {
  public:
   /// Joins world and firmware. Null when anything is wrong; every problem is one line in `problems`.
@@ -94,6 +108,11 @@ class Twin {
   const std::string& image_path(int robot) const { return image_paths_[static_cast<std::size_t>(robot)]; }
   /// What that was made of; no path for a robot without firmware.
   const Program& program(int robot) const { return programs_[static_cast<std::size_t>(robot)]; }
+  /// How a robot's program of the PC is started, by whoever gives programs their turns (programs/team); null: it
+  /// runs something else.
+  const programs::Launch* launch(int robot) const { return launches_[static_cast<std::size_t>(robot)].get(); }
+  /// Where its runner is found.
+  const std::shared_ptr<programs::Seat>& seat(int robot) const { return seats_[static_cast<std::size_t>(robot)]; }
   /// Where a robot's UART 1 or 2 goes, in open_uart_end()'s words: by the options, or by the world.
   const std::string& uart_choice(int robot, int port) const {
     return uart_choices_[static_cast<std::size_t>(robot)][static_cast<std::size_t>(port - 1)];
@@ -121,6 +140,9 @@ class Twin {
   std::vector<host::FirmwareMind*> minds_;
   std::vector<std::string> image_paths_;
   std::vector<Program> programs_;
+  std::vector<std::shared_ptr<const programs::Launch>> launches_;
+  std::vector<std::shared_ptr<programs::Seat>> seats_;
+  Options options_;                  // as it was opened with
   std::vector<std::size_t> copies_;  // of its image, that each robot lives in
   std::vector<std::array<std::string, 2>> uart_choices_;
   std::vector<std::shared_ptr<host::Image>> images_;

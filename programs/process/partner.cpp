@@ -310,18 +310,18 @@ Partner::Got Partner::receive(int milliseconds) {
   }
 }
 
-bool Partner::send(const link_packet& packet, int milliseconds) {
+Partner::Sent Partner::send(const link_packet& packet, int milliseconds) {
   const timespec until = in(milliseconds);
   while (socket_ >= 0) {
     const ssize_t n = ::send(socket_, packet.bytes, packet.size, MSG_NOSIGNAL | MSG_DONTWAIT);
-    if (n >= 0) return true;
+    if (n >= 0) return Sent::Yes;
     if (errno == EINTR) continue;
-    if (errno != EAGAIN && errno != EWOULDBLOCK) return false;
+    if (errno != EAGAIN && errno != EWOULDBLOCK) break;
     pollfd room{socket_, POLLOUT, 0};
     const int left = remaining(until);
-    if (left == 0 || (poll(&room, 1, left) < 0 && errno != EINTR)) return false;
+    if (left == 0 || (poll(&room, 1, left) < 0 && errno != EINTR)) return Sent::Deaf;
   }
-  return false;
+  return Sent::Gone;
 }
 
 std::optional<ProcessEnd> Partner::await_end(int milliseconds) {

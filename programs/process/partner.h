@@ -67,8 +67,9 @@ class Partner {
   const void* packet() const { return buffer_.data(); }
   std::size_t packet_bytes() const { return bytes_; }
 
-  /// False: nobody takes it (any more). Waits for at most `milliseconds` until there is room.
-  bool send(const link_packet& packet, int milliseconds = 1000);
+  enum class Sent { Yes, Gone, Deaf };
+  /// Gone: nobody is there any more, which receive() tells as well. Deaf: it takes nothing for `milliseconds`.
+  Sent send(const link_packet& packet, int milliseconds = 1000);
 
   /// Waits up to `milliseconds` for its process to end, and tells what it still printed. Empty: it goes on.
   std::optional<ProcessEnd> await_end(int milliseconds);

@@ -10,10 +10,29 @@ namespace programs {
 namespace {
 
 constexpr int kAddress = 0xDC;    // [lib: camera/fast_2_timer/e_po3030k.c]
+constexpr int kBankRegister = 3;   // of the later sensors [lib: camera/fast_2_timer/e_po6030k.c]
 constexpr int kBytesPerPixel = 2;  // RGB565
-constexpr int kSkipped = 0;        // the sensor's own sub-sampling and the driver's take each eighth pixel
 
 #include "programs/puck/camera_setup.inc"
+
+struct Registers {
+  const CameraRegister* first;
+  std::size_t count;
+};
+template <std::size_t n>
+Registers all_of(const CameraRegister (&rows)[n]) {
+  return {rows, n};
+}
+Registers setup_of(board::CameraKind kind) {
+  return kind == board::CameraKind::Po6030k   ? all_of(kPo6030k)
+         : kind == board::CameraKind::Po8030d ? all_of(kPo8030d)
+                                              : all_of(kPo3030k);
+}
+
+/// The sensor gives each fourth pixel, of which the driver takes each second.
+drivers::CameraCapture::Request request() {
+  return {kCameraRows, kCameraColumns, kBytesPerPixel, 1, 1, false};
+}
 
 }  // namespace
 
@@ -35,12 +54,18 @@ void PuckCamera::start(Cycle at) {
   const board::Pin reset = board::kCameraResetPin;
   board_.latch_bit(reset.letter(), reset.bit, false, at);
   board_.latch_bit(reset.letter(), reset.bit, true, at);
-  for (const CameraRegister& r : setup_of(board_.setup().camera)) write(r.number, r.value, at);
+  const Registers setup = setup_of(board_.setup().camera);
+  int bank = 0;
+  for (const CameraRegister* r = setup.first; r != setup.first + setup.count; ++r) {
+    if (r->bank != bank) write(kBankRegister, r->bank, at);
+    bank = r->bank;
+    write(r->number, r->value, at);
+  }
   wait_for_frame(at);
 }
 
 void PuckCamera::wait_for_frame(Cycle at) {
-  next_ = capture_.launch(request_of(board_.setup().camera), at);
+  next_ = capture_.launch(request(), at);
   awaits_frame_ = true;
   is_whole_ = false;
 }

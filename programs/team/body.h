@@ -91,7 +91,7 @@ class BodilessBody final : public Body, public sim::PacketPort {
     int channel = 0;      // of emitters and receivers
     double range_m = -1;  // of emitters
     std::int64_t period_ms = 0, elapsed_ms = 0;
-    std::deque<sim::ReceivedPacket> queue;
+    std::deque<sim::ReceivedPacket> queue{};
   };
   void tell(std::size_t device, link_packet& to) const;
 

@@ -205,11 +205,8 @@ void FirmwareTest::start(const Caller& caller) {
       robot->console_.push_back(line);
     };
   }
-  if (!world.supervisors.empty()) {
-    team_ = supervisor::Team::open(*twin_, options, {}, problems);
-    if (!team_)
-      throw std::runtime_error(where + "the test's supervisors cannot start:\n" + all_lines(problems));
-  }
+  team_ = programs::Team::open(*twin_, options, {}, problems);
+  if (!team_) throw std::runtime_error(where + "the test's programs cannot start:\n" + all_lines(problems));
   for (auto& r : robots_)
     for (int port = r->keeps_bluetooth_ ? 2 : 1; port <= 2; ++port) {
       auto end = std::make_unique<MemoryEnd>();
@@ -240,13 +237,12 @@ bool FirmwareTest::run_until(const std::function<bool()>& done, double at_most_s
   return true;
 }
 
-supervisor::Team& FirmwareTest::team() {
+programs::Team& FirmwareTest::team() {
   twin();
-  if (!team_) throw std::runtime_error("the test's world has no supervisor");
   return *team_;
 }
 
-const supervisor::Outcome& FirmwareTest::finish() {
+const programs::Outcome& FirmwareTest::finish() {
   team().finish();
   return team().outcome();
 }

@@ -20,7 +20,7 @@
 
 #include "hal_sim/cc/build.h"
 #include "hal_sim/twin/twin.h"
-#include "supervisor/team.h"
+#include "programs/team/team.h"
 
 namespace firmware_test {
 
@@ -156,9 +156,9 @@ class FirmwareTest : public ::testing::Test {
   /// No diagnosis of any robot.
   void expect_no_diagnoses(Caller caller = Caller::here()) const;
   /// The world's supervisors; started on first use.
-  supervisor::Team& team();
+  programs::Team& team();
   /// The run is over: every supervisor has its last go. How they ended it.
-  const supervisor::Outcome& finish();
+  const programs::Outcome& finish();
   /// Number of threads, extra flags for twinpuck-cc; before the first run.
   twin::Options options;
   twin::Twin& twin(Caller caller = Caller::here());
@@ -169,7 +169,7 @@ class FirmwareTest : public ::testing::Test {
 
   std::vector<std::unique_ptr<Robot>> robots_;
   std::unique_ptr<twin::Twin> twin_;
-  std::unique_ptr<supervisor::Team> team_;
+  std::unique_ptr<programs::Team> team_;
 };
 
 }  // namespace firmware_test

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// What supervisors ask of the team: ends, resets, labels, pictures.
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "programs/team/team.h"
+#include "sim_core/record/picture.h"
+
+namespace programs {
+
+void Team::end_run(int status, const std::string& why) {
+  if (!outcome_.ended) outcome_ = {true, false, status == 0 ? 0 : 1, why};
+}
+
+void Team::reset(bool reload) { (reload ? wants_reload_ : wants_reset_) = true; }
+
+void Team::restart_program(int robot) { wants_restart_.insert(robot); }
+
+/// Everything back to its beginning; programs of robots begin anew, with a reload all.
+void Team::carry_out_resets() {
+  sim::Simulation& simulation = twin_.simulation();
+  const bool resets = wants_reset_ || wants_reload_;
+  for (int r = 0; r < twin_.robots(); ++r) {
+    if (!resets && wants_restart_.count(r) == 0) continue;
+    if (host::Runner* runner = twin_.mind(r).runner()) runner->restart();
+  }
+  if (resets) {
+    nodes_->put_back();
+    for (int r = 0; r < twin_.robots(); ++r) {
+      moved_.insert(r);
+      twin_.begin_again(r);
+    }
+    simulation.begin_again();
+  }
+  if (wants_reload_)
+    for (const auto& member : members_)
+      if (member->bodiless) member->starts_anew = true;
+  for (const int r : wants_restart_) simulation.note_intervention(static_cast<std::uint64_t>(r));
+  wants_reset_ = wants_reload_ = false;
+  wants_restart_.clear();
+}
+
+void Team::set_label(int program, const sim::PictureLabel& label) {
+  if (label.text.empty())
+    labels_.erase({program, label.id});
+  else
+    labels_[{program, label.id}] = label;
+}
+
+std::vector<sim::PictureLabel> Team::labels() const {
+  std::vector<sim::PictureLabel> all;
+  for (const auto& [key, label] : labels_) all.push_back(label);
+  return all;
+}
+
+void Team::picture(const std::string& file) {
+  sim::PictureOptions options;
+  options.caption = fmt::format("{:g} s, seed {}", now_s(), twin_.world().seed);
+  options.labels = labels();
+  // names without a path are of the folder of the run
+  const std::string path = (std::filesystem::path(run_folder_) / file).string();
+  const std::string error =
+      sim::write_picture(path, twin_.simulation().scene(), twin_.simulation().minds(), nullptr, options);
+  if (!error.empty()) say(error);
+}
+
+void Team::note_custom_data(int robot, const std::string& text) {
+  for (const auto& member : members_)
+    if (member->robot == robot) {
+      member->custom = text;
+      member->has_new_custom = true;
+    }
+}
+
+}  // namespace programs
