@@ -268,7 +268,8 @@ bool Partner::accept() {
 void Partner::read_text() {
   char text[65536];
   // at most what a pipe holds: a program that prints without end is looked at again with the next packet
-  const ssize_t n = text_ < 0 ? -1 : read(text_, text, sizeof text);
+  if (text_ < 0) return;
+  const ssize_t n = read(text_, text, sizeof text);
   if (n > 0) {
     if (on_text) on_text(text, static_cast<std::size_t>(n));
   } else if (n == 0) {
@@ -277,7 +278,24 @@ void Partner::read_text() {
   }
 }
 
+/// Of what has come; Nothing: nothing has.
+Partner::Got Partner::take_packet() {
+  iovec part{buffer_.data(), LINK_MOST_BYTES};
+  msghdr message{};
+  message.msg_iov = &part;
+  message.msg_iovlen = 1;
+  const ssize_t n = recvmsg(socket_, &message, MSG_DONTWAIT);
+  if (n < 0 && (errno == EAGAIN || errno == EINTR)) return Got::Nothing;
+  if (n <= 0) return Got::Gone;
+  bytes_ = static_cast<std::size_t>(n);
+  read_text();  // what it printed before
+  return message.msg_flags & MSG_TRUNC ? Got::Too_long : Got::Packet;
+}
+
 Partner::Got Partner::receive(int milliseconds) {
+  // of many programs most have answered by the time that they are asked
+  if (socket_ >= 0)
+    if (const Got got = take_packet(); got != Got::Nothing) return got;
   const timespec until = in(milliseconds);
   for (;;) {
     // a negative descriptor is left out
@@ -290,20 +308,11 @@ Partner::Got Partner::receive(int milliseconds) {
     if (ready < 0) continue;
     if (watched[1].revents) read_text();
     if (socket_ < 0) {
-      if (watched[0].revents && accept() == false) continue;
+      if (watched[0].revents) accept();
       continue;
     }
     if (watched[0].revents) {
-      iovec part{buffer_.data(), LINK_MOST_BYTES};
-      msghdr message{};
-      message.msg_iov = &part;
-      message.msg_iovlen = 1;
-      const ssize_t n = recvmsg(socket_, &message, MSG_DONTWAIT);
-      if (n > 0) {
-        bytes_ = static_cast<std::size_t>(n);
-        return message.msg_flags & MSG_TRUNC ? Got::Too_long : Got::Packet;
-      }
-      if (n == 0 || (errno != EAGAIN && errno != EINTR)) return Got::Gone;
+      if (const Got got = take_packet(); got != Got::Nothing) return got;
     } else if (watched[2].revents) {
       return Got::Gone;
     }

@@ -81,6 +81,7 @@ class Partner {
  private:
   Partner() : buffer_(LINK_MOST_BYTES / sizeof(std::uint64_t)) {}
   void read_text();
+  Got take_packet();
   bool accept();
 
   int socket_ = -1, listener_ = -1, text_ = -1, process_ = -1;
