@@ -168,8 +168,6 @@ struct RobotDesc {
   std::string def;       ///< second name, by which supervisors may look it up; may be empty
   std::string model;     ///< empty: the only or first model the caller knows
   std::string firmware;  ///< name or path as written; may be empty
-  std::string args;
-  bool supervisor = false;
   OwnValues own;         ///< of the keys that its model lists
   Pose2 pose;
   std::optional<std::uint64_t> seed;  ///< unset: made of the world's seed and the robot's index
@@ -305,7 +303,6 @@ struct SupervisorDesc {
   std::string name;
   std::string program;  ///< name or path as written
   std::string args;     ///< what its main() gets, words between blanks
-  std::vector<DeviceDesc> devices;
   double period_s = 0;  ///< how often it runs when it does not say so itself; 0: every tick
   int line = 0;
 };
