@@ -78,6 +78,8 @@ const char* type_name(sim::ValueType type) {
       return "numbers";
     case sim::ValueType::Points:
       return "points";
+    case sim::ValueType::Colours:
+      return "colours";
     case sim::ValueType::Rows:
       break;
   }

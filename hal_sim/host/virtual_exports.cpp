@@ -112,8 +112,9 @@ tp_i64 tp_virtual_device(tp_i64 index, char* name, tp_i64 size) {
       return TP_DEVICE_DISTANCE;
     case sim::DeviceKind::Display:
       return TP_DEVICE_DISPLAY;
+    default:  // of programs of the PC; 0 would end the list
+      return TP_DEVICE_DISTANCE;
   }
-  return 0;
 }
 
 tp_i64 tp_virtual_sensor(const char* name, tp_f32* value) {

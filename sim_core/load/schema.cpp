@@ -68,6 +68,10 @@ std::vector<KeySpec> object_keys(ObjectKind kind, std::vector<KeySpec> shape) {
   for (KeySpec& k : material_keys<T>()) keys.push_back(std::move(k));
   keys.push_back({"restitution", ValueType::Number, "", 0, 1, "", "", "bounce; overrides the material's",
                   into<T>([](T& o, const Value& v) { o.material.restitution = v.number; })});
+  keys.push_back({"model", ValueType::Text, "", 0, 0, "", "", "what cameras that recognise objects call it",
+                  into<T>([](T& o, const Value& v) { o.model = v.text; })});
+  keys.push_back(recognition_key<T>());
+  keys.push_back(node_key<T>());
   shape.insert(shape.end(), keys.begin(), keys.end());
   return shape;
 }
@@ -430,6 +434,7 @@ std::vector<SectionSpec> make_schema() {
            into<P>([](P& p, const Value& v) { p.colour = colour_of(v); })},
           {"on", ValueType::Flag, "", 0, 0, "", "true", "",
            into<P>([](P& p, const Value& v) { p.on = v.flag; })},
+          node_key<P>(),
       });
   for (SectionSpec& spec : sound_sections()) s.push_back(std::move(spec));
   section("proximity", false,
@@ -466,6 +471,14 @@ std::vector<SectionSpec> make_schema() {
               {"firmware", ValueType::Text, "", 0, 0, "", "\"\"",
                "controller by name, or a file relative to this one",
                into<R>([](R& r, const Value& v) { r.firmware = v.text; })},
+              {"args", ValueType::Text, "", 0, 0, "", "\"\"",
+               "what a controller that runs on the PC gets as its arguments: words between blanks, `'two words'` "
+               "in quotes; firmware has none",
+               into<R>([](R& r, const Value& v) { r.args = v.text; })},
+              {"supervisor", ValueType::Flag, "", 0, 0, "", "false",
+               "its controller, which runs on the PC, may do what supervisors may (docs/supervisor.md)",
+               into<R>([](R& r, const Value& v) { r.supervisor = v.flag; })},
+              custom_data_key<R>(),
               {"position", ValueType::Pair, "m", -kFar, kFar, "", "[0, 0]",
                "x and y of the middle between its wheels",
                into<R>([](R& r, const Value& v) { r.pose.x_m = v.numbers[0], r.pose.y_m = v.numbers[1]; })},
@@ -490,6 +503,8 @@ std::vector<SectionSpec> make_schema() {
                checked<R>([](R& r, const Value& v, const WorldDesc&) { return uart_text(v, r.uart2); })},
           });
   for (KeySpec& key : wheel_keys<R>("", "")) s.back().keys.push_back(std::move(key));
+  s.back().keys.push_back(recognition_key<R>());
+  s.back().keys.push_back(node_key<R>());
   section("robot.variation", false, "How this robot differs from its model.", variation_keys());
   section("robot.proximity", false, "Proximity sensors of this robot; keys as in `[proximity]`.",
           proximity_keys<ProximitySettings>([](ProximitySettings& p) -> ProximitySettings& { return p; }));
@@ -511,6 +526,7 @@ std::vector<SectionSpec> make_schema() {
   s.push_back(remote_key_section());
   s.push_back(robot_device_section());
   s.push_back(supervisor_section());
+  s.push_back(supervisor_device_section());
   return s;
 }
 

@@ -26,6 +26,7 @@ enum class ValueType {
   Colour,   ///< two or three numbers
   Numbers,  ///< a list of numbers
   Points,   ///< a list of [x, y]
+  Colours,  ///< a list of [red, green, blue]
   Rows      ///< a list of [distance, value, noise]
 };
 

@@ -47,6 +47,51 @@ KeySpec def_key() {
           into<T>([](T& t, const Value& v) { t.def = v.text; })};
 }
 
+/// The line of the node that something was made of.
+template <typename T>
+KeySpec node_key() {
+  return {"node",
+          ValueType::Integer,
+          "",
+          0,
+          kMany,
+          "",
+          "0",
+          "line of its node in the file that `[webots] world` names; 0 is none",
+          into<T>([](T& t, const Value& v) { t.node = static_cast<int>(v.integer); })};
+}
+
+/// What cameras that recognise tell of robots and objects.
+template <typename T>
+KeySpec recognition_key() {
+  return {"recognition_colours",
+          ValueType::Colours,
+          "",
+          0,
+          1,
+          "",
+          "[]",
+          "what cameras that recognise objects tell of it, red, green, blue each; without one they do not notice it",
+          into<T>([](T& t, const Value& v) {
+            t.recognition_colours.clear();
+            for (const std::vector<double>& c : v.rows) t.recognition_colours.push_back({c[0], c[1], c[2]});
+          })};
+}
+
+/// A text that programs may read and change.
+template <typename T>
+KeySpec custom_data_key() {
+  return {"custom_data",
+          ValueType::Text,
+          "",
+          0,
+          0,
+          "",
+          "\"\"",
+          "a text that it and supervisors may read and change (Webots' `customData`)",
+          into<T>([](T& t, const Value& v) { t.custom_data = v.text; })};
+}
+
 inline Colour colour_of(const Value& v) { return {v.numbers[0], v.numbers[1], v.numbers[2]}; }
 
 inline std::vector<Vec2> points_of(const Value& v) {
@@ -62,6 +107,7 @@ SectionSpec remote_key_section();
 /// schema_webots.cpp
 SectionSpec webots_section();
 SectionSpec robot_device_section();
+SectionSpec supervisor_device_section();
 SectionSpec supervisor_section();  ///< schema_supervisor.cpp
 
 }  // namespace sim

@@ -22,11 +22,14 @@ SectionSpec supervisor_section() {
                  return std::string(v.text.empty() ? "got \"\", expected the name of a program" : "");
                })},
               {"args", ValueType::Text, "", 0, 0, "", "\"\"",
-               "what `main()` gets as its arguments, words between blanks",
+               "what `main()` gets as its arguments: words between blanks, `'two words'` in quotes",
                into<S>([](S& s, const Value& v) { s.args = v.text; })},
               {"period", ValueType::Number, "s", 0, 1e6, "", "0",
                "how often it runs when it does not say so itself; 0: every tick",
                into<S>([](S& s, const Value& v) { s.period_s = v.number; })},
+              def_key<S>(),
+              custom_data_key<S>(),
+              node_key<S>(),
           }};
 }
 

@@ -32,6 +32,8 @@ const char* type_name(ValueType type) {
       return "list of numbers";
     case ValueType::Points:
       return "list of points [[x, y], ...]";
+    case ValueType::Colours:
+      return "list of colours [[red, green, blue], ...]";
     case ValueType::Rows:
       return "list of rows [[distance, value, noise], ...]";
   }

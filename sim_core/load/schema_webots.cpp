@@ -27,7 +27,37 @@ SectionSpec webots_section() {
                "of positions and directions that programs are told. enu: x east, y north, z up (R2022 and "
                "later); nue: x to the right, y up, z towards the reader (before)",
                into<W>([](W& w, const Value& v) { w.axes = v.text == "nue" ? Axes::Nue : Axes::Enu; })},
+              {"world", ValueType::Text, "", 0, 0, "", "\"\"",
+               "the `.wbt` file that this world was made of, relative to this one: supervisors find all its nodes, "
+               "also those that are nothing here",
+               into<W>([](W& w, const Value& v) { w.world = v.text; })},
+              {"floor", ValueType::Number, "m", -kFar, kFar, "", "0", "how high the floor lies in that file",
+               into<W>([](W& w, const Value& v) { w.floor_m = v.number; })},
           }};
+}
+
+namespace {
+
+struct KindWord {
+  const char* word;
+  DeviceKind kind;
+};
+constexpr KindWord kKindWords[] = {
+    {"gps", DeviceKind::Gps},           {"compass", DeviceKind::Compass}, {"inertial", DeviceKind::Inertial},
+    {"gyro", DeviceKind::Gyro},         {"emitter", DeviceKind::Emitter}, {"receiver", DeviceKind::Receiver},
+    {"distance", DeviceKind::Distance}, {"display", DeviceKind::Display}, {"motor", DeviceKind::Motor},
+    {"camera", DeviceKind::Camera},     {"touch", DeviceKind::Touch},     {"light", DeviceKind::Light},
+    {"led", DeviceKind::Led},           {"speaker", DeviceKind::Speaker}, {"pen", DeviceKind::Pen}};
+
+}  // namespace
+
+SectionSpec supervisor_device_section() {
+  SectionSpec spec = robot_device_section();
+  spec.path = "supervisor.device";
+  spec.doc =
+      "A device of a supervisor, found by its name. `emitter` and `receiver` of channel 1 are there without "
+      "being written; writing them changes them.";
+  return spec;
 }
 
 SectionSpec robot_device_section() {
@@ -46,19 +76,14 @@ SectionSpec robot_device_section() {
                  return std::string();
                })},
               {"kind", ValueType::Choice, "", 0, 0,
-               "gps|compass|inertial|gyro|emitter|receiver|distance|display", "required",
-               "gps, compass, inertial, gyro: the truth, without noise; distance: a virtual sensor, whose "
-               "value a "
-               "supervisor sets; display: a picture that the program draws",
+               "gps|compass|inertial|gyro|emitter|receiver|distance|display|motor|camera|touch|light|led|speaker|pen",
+               "required",
+               "gps, compass, inertial, gyro: the truth, without noise; distance: a virtual sensor, whose value a "
+               "supervisor sets; display: a picture that the program draws; motor to pen: there for the program, "
+               "but they move, see, feel and show nothing",
                into<D>([](D& d, const Value& v) {
-                 d.kind = v.text == "compass"    ? DeviceKind::Compass
-                          : v.text == "inertial" ? DeviceKind::Inertial
-                          : v.text == "gyro"     ? DeviceKind::Gyro
-                          : v.text == "emitter"  ? DeviceKind::Emitter
-                          : v.text == "receiver" ? DeviceKind::Receiver
-                          : v.text == "distance" ? DeviceKind::Distance
-                          : v.text == "display"  ? DeviceKind::Display
-                                                 : DeviceKind::Gps;
+                 for (const KindWord& k : kKindWords)
+                   if (v.text == k.word) d.kind = k.kind;
                })},
               {"channel", ValueType::Integer, "", -1, 32767, "", "1",
                "of an emitter or receiver when the program begins; -1 is all",
@@ -82,7 +107,7 @@ SectionSpec robot_device_section() {
               {"infra_red", ValueType::Flag, "", 0, 0, "", "false",
                "of an emitter: packets need a free line of sight",
                into<D>([](D& d, const Value& v) { d.infra_red = v.flag; })},
-              {"width", ValueType::Integer, "", 1, 4096, "", "128", "of a display, in pixels",
+              {"width", ValueType::Integer, "", 1, 4096, "", "128", "of a display or camera, in pixels",
                into<D>([](D& d, const Value& v) { d.width = static_cast<int>(v.integer); })},
               {"height", ValueType::Integer, "", 1, 4096, "", "64", "likewise",
                into<D>([](D& d, const Value& v) { d.height = static_cast<int>(v.integer); })},

@@ -96,6 +96,7 @@ bool read_value(const KeySpec& k, const toml::node& node, Value& v) {
     case ValueType::Numbers:
       return numbers(node, v.numbers, 0, true);
     case ValueType::Points:
+    case ValueType::Colours:
     case ValueType::Rows: {
       const toml::array* a = node.as_array();
       if (!a) return false;
@@ -350,6 +351,7 @@ class Reader {
       SupervisorDesc s;
       s.line = line_of(t);
       read_table("supervisor", t, &s);
+      read_devices("supervisor.device", t, s.devices);
       world_.supervisors.push_back(std::move(s));
     });
   }
@@ -408,19 +410,22 @@ class Reader {
         read_table("robot.key", kt, &key);
         r.keys.push_back(key);
       });
-      read_many("robot.device", t, "device", [&](const toml::table& dt) {
-        DeviceDesc device;
-        device.line = line_of(dt);
-        read_table("robot.device", dt, &device);
-        for (const DeviceDesc& other : r.devices) {
-          if (other.name == device.name)
-            problem(dt.source(),
-                    fmt::format("robot.device.name: got \"{}\" a second time, expected each device once",
-                                device.name));
-        }
-        r.devices.push_back(std::move(device));
-      });
+      read_devices("robot.device", t, r.devices);
       world_.robots.push_back(std::move(r));
+    });
+  }
+
+  void read_devices(const char* path, const toml::table& table, std::vector<DeviceDesc>& devices) {
+    read_many(path, table, "device", [&](const toml::table& dt) {
+      DeviceDesc device;
+      device.line = line_of(dt);
+      read_table(path, dt, &device);
+      for (const DeviceDesc& other : devices) {
+        if (other.name == device.name)
+          problem(dt.source(), fmt::format("{}.name: got \"{}\" a second time, expected each device once", path,
+                                           device.name));
+      }
+      devices.push_back(std::move(device));
     });
   }
 

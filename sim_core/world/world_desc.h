@@ -131,9 +131,26 @@ struct LinkEndDesc {
   std::vector<Dropout> dropouts;    ///< of this robot alone, growing
 };
 
-enum class DeviceKind { Gps, Compass, Inertial, Gyro, Emitter, Receiver, Distance, Display };
+/// Motor to Pen are there for a program, and do and sense nothing.
+enum class DeviceKind {
+  Gps,
+  Compass,
+  Inertial,
+  Gyro,
+  Emitter,
+  Receiver,
+  Distance,
+  Display,
+  Motor,
+  Camera,
+  Touch,
+  Light,
+  Led,
+  Speaker,
+  Pen
+};
 
-/// A device that programs written for Webots' interfaces find on a robot by its name.
+/// A device that programs written for Webots' interfaces find on a robot, or a supervisor, by its name.
 struct DeviceDesc {
   std::string name;
   DeviceKind kind = DeviceKind::Gps;
@@ -141,7 +158,7 @@ struct DeviceDesc {
   double range_m = -1;          ///< of emitters; negative: unlimited
   double baud_rate_bit_s = -1;  ///< of emitters; negative: unlimited
   bool infra_red = false;       ///< of emitters: a free line of sight is needed
-  int width = 128;              ///< of displays, pixels
+  int width = 128;              ///< of displays and cameras, pixels
   int height = 64;              ///< likewise
   int line = 0;                 ///< line in the world file; 0 when built in C++
 };
@@ -168,6 +185,11 @@ struct RobotDesc {
   std::string def;       ///< second name, by which supervisors may look it up; may be empty
   std::string model;     ///< empty: the only or first model the caller knows
   std::string firmware;  ///< name or path as written; may be empty
+  std::string args;      ///< what a program of the PC gets, words as argument_words() has them
+  bool supervisor = false;  ///< its program may do what supervisors may
+  std::string custom_data;  ///< a text of the robot that programs may read and change
+  std::vector<Colour> recognition_colours;  ///< what cameras that recognise tell of it; empty: nothing
+  int node = 0;  ///< line of its node in WebotsDesc::world; 0: none
   OwnValues own;         ///< of the keys that its model lists
   Pose2 pose;
   std::optional<std::uint64_t> seed;  ///< unset: made of the world's seed and the robot's index
@@ -206,6 +228,9 @@ struct ObjectDesc {
   /// 0.03]
   double rolling_friction = 0.02;
   Material material;
+  std::string model;  ///< what cameras that recognise call it
+  std::vector<Colour> recognition_colours;  ///< ... and its colours; empty: they do not notice it
+  int node = 0;  ///< line of its node in WebotsDesc::world; 0: none
   int line = 0;
 };
 
@@ -258,6 +283,7 @@ struct LampDesc {
   std::array<double, 3> attenuation{1, 0, 0};  ///< a0 + a1 d + a2 d2 divides the intensity; d in m
   Colour colour;
   bool on = true;
+  int node = 0;  ///< line of its node in WebotsDesc::world; 0: none
 };
 
 /// What cameras see where nothing stands, and the light that is everywhere for them.
@@ -296,13 +322,22 @@ struct WebotsDesc {
   double speed_unit_rad_s = -1;  ///< rad/s per unit of differential_wheels_set_speed; negative: the usual one
   std::string sensor_order;      ///< how proximity and light sensors are numbered, a name the caller knows
   Axes axes = Axes::Enu;         ///< of positions and rotations that programs are told
+  std::string world;             ///< the .wbt file this world was made of, whose nodes supervisors find; or empty
+  double floor_m = 0;            ///< how high the floor lies in that file
 };
+
+/// Words between blanks; a word in "" or '' may hold blanks.
+std::vector<std::string> argument_words(const std::string& args);
 
 /// A program attached to the world.
 struct SupervisorDesc {
   std::string name;
   std::string program;  ///< name or path as written
-  std::string args;     ///< what its main() gets, words between blanks
+  std::string args;     ///< what its main() gets, words as argument_words() has them
+  std::string def;      ///< second name, by which supervisors may look it up; may be empty
+  std::string custom_data;          ///< a text that programs may read and change
+  std::vector<DeviceDesc> devices;  ///< of its own
+  int node = 0;                     ///< line of its node in WebotsDesc::world; 0: none
   double period_s = 0;  ///< how often it runs when it does not say so itself; 0: every tick
   int line = 0;
 };

@@ -43,6 +43,48 @@ TEST(WebotsKeys, every_key_arrives) {
   EXPECT_TRUE(devices[1].infra_red);
 }
 
+TEST(WebotsKeys, supervisors_have_devices_and_robots_may_supervise) {
+  const auto loaded = parse(
+      "[webots]\nworld = \"a.wbt\"\nfloor = 0.3\n"
+      "[[box]]\nposition = [1, 1]\nmodel = \"gate\"\nrecognition_colours = [[1, 0, 0], [0, 0.5, 1]]\nnode = 12\n"
+      "[[lamp]]\nposition = [0, 0, 1]\nnode = 3\n"
+      "[[robot]]\nposition = [0, 0]\nargs = \"fast 'two words'\"\nsupervisor = true\ncustom_data = \"me\"\n"
+      "recognition_colours = [[0, 1, 0]]\nnode = 9\n"
+      "[[supervisor]]\nprogram = \"<extern>\"\ndef = \"BOSS\"\ncustom_data = \"hi\"\nnode = 4\n"
+      "[[supervisor.device]]\nname = \"e\"\nkind = \"emitter\"\nchannel = 2\nrange = 1.5\n"
+      "[[supervisor.device]]\nname = \"m\"\nkind = \"motor\"\n");
+  ASSERT_TRUE(loaded.world) << loaded.report("w.toml");
+  const sim::WorldDesc& w = *loaded.world;
+  EXPECT_EQ(w.webots.world, "a.wbt");
+  EXPECT_DOUBLE_EQ(w.webots.floor_m, 0.3);
+  EXPECT_EQ(w.objects[0].model, "gate");
+  ASSERT_EQ(w.objects[0].recognition_colours.size(), 2u);
+  EXPECT_DOUBLE_EQ(w.objects[0].recognition_colours[1].g, 0.5);
+  EXPECT_EQ(w.objects[0].node, 12);
+  EXPECT_EQ(w.lamps[0].node, 3);
+  EXPECT_TRUE(w.robots[0].supervisor);
+  EXPECT_EQ(sim::argument_words(w.robots[0].args), (std::vector<std::string>{"fast", "two words"}));
+  EXPECT_EQ(w.robots[0].custom_data, "me");
+  EXPECT_EQ(w.robots[0].recognition_colours.size(), 1u);
+  EXPECT_EQ(w.robots[0].node, 9);
+  const sim::SupervisorDesc& s = w.supervisors[0];
+  EXPECT_EQ(s.def, "BOSS");
+  EXPECT_EQ(s.custom_data, "hi");
+  EXPECT_EQ(s.node, 4);
+  ASSERT_EQ(s.devices.size(), 2u);
+  EXPECT_EQ(s.devices[0].channel, 2);
+  EXPECT_DOUBLE_EQ(s.devices[0].range_m, 1.5);
+  EXPECT_EQ(s.devices[1].kind, sim::DeviceKind::Motor);
+}
+
+TEST(WebotsKeys, words_stand_between_blanks_or_in_quotes) {
+  using Words = std::vector<std::string>;
+  EXPECT_EQ(sim::argument_words(""), Words{});
+  EXPECT_EQ(sim::argument_words("  a  b\t"), (Words{"a", "b"}));
+  EXPECT_EQ(sim::argument_words("'' \"it's\" x'y z'"), (Words{"", "it's", "xy z"}));
+  EXPECT_EQ(sim::argument_words("'open"), Words{"open"});
+}
+
 struct Mistake {
   const char* text;
   const char* expected;
@@ -73,6 +115,14 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"[[robot]]\nposition = [0, 0]\n[[robot.device]]\nname = \"a\"\nkind = "
                 "\"gps\"\n[[robot.device]]\nname = "
                 "\"a\"\nkind = \"compass\"\n",
-                "got \"a\" a second time"}));
+                "got \"a\" a second time"},
+        Mistake{"[[supervisor]]\nprogram = \"p\"\n[[supervisor.device]]\nname = \"a\"\nkind = \"wing\"\n",
+                "supervisor.device.kind: got \"wing\""},
+        Mistake{"[[supervisor]]\nprogram = \"p\"\n[[supervisor.device]]\nname = \"a\"\nkind = "
+                "\"gps\"\n[[supervisor.device]]\nname = \"a\"\nkind = \"gps\"\n",
+                "supervisor.device.name: got \"a\" a second time"},
+        Mistake{"[[box]]\nposition = [0, 0]\nrecognition_colours = [1, 0, 0]\n",
+                "box.recognition_colours: got [1, 0, 0], expected list of colours"},
+        Mistake{"[[box]]\nposition = [0, 0]\nrecognition_colours = [[1, 0, 2]]\n", "box.recognition_colours"}));
 
 }  // namespace
