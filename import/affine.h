@@ -18,7 +18,7 @@ inline double dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 inline Vec3 cross(Vec3 a, Vec3 b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-inline double length(Vec3 a) { return std::sqrt(dot(a, a)); }
+inline double length(Vec3 a) { return std::sqrt(wbt::dot(a, a)); }
 inline bool is_finite(Vec3 a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
 
 struct Affine {
@@ -40,7 +40,7 @@ inline Affine turned(Vec3 axis, double angle_rad) {
   if (!(n > 1e-12) || !std::isfinite(n) || !std::isfinite(angle_rad)) return out;
   const Vec3 u = (1 / n) * axis;
   const double c = std::cos(angle_rad), s = std::sin(angle_rad);
-  for (Vec3& e : out.axes) e = c * e + s * cross(u, e) + (1 - c) * dot(u, e) * u;
+  for (Vec3& e : out.axes) e = c * e + s * wbt::cross(u, e) + (1 - c) * wbt::dot(u, e) * u;
   return out;
 }
 

@@ -23,11 +23,13 @@ struct Carried {
   std::vector<std::vector<Device>> robot_devices;
   std::vector<std::vector<std::string>> robot_parts;
   std::vector<std::string> supervisor_from;
+  std::vector<std::vector<Device>> supervisor_devices;
   std::vector<std::string> cosmetic;
 };
 
 /// Decides what the floor is and turns every body into objects that our worlds can hold.
-Carried settle(const Scene& scene, const Options& options, Report& report);
+/// `floor_z`: where it lies when that is known, and what is found is furniture for a world that has a floor.
+Carried settle(const Scene& scene, const Options& options, Report& report, std::optional<double> floor_z = {});
 
 /// A place or measure in m as the world file has it: to 0.1 mm.
 double as_written(double metres);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "import/wbt_node.h"
+#include "import/wbt_reader.h"
 #include "sim_core/world/world_desc.h"
 
 namespace wbt {
@@ -29,6 +30,19 @@ struct Imported {
   int robots = 0;
   int objects = 0;
 };
+
+/// Things for a world that runs already.
+struct Furniture {
+  std::vector<sim::ObjectDesc> objects;  ///< `node`: the line of the node that each was
+  std::vector<sim::LampDesc> lamps;
+  std::vector<Remark> report;
+  int robots = 0;  ///< that were found, and left out
+};
+
+/// What nodes become in the world that `of` is the text of, whose floor lies at `floor_z` (m, upwards): its
+/// release, axes, PROTOs and contactProperties count, not its nodes.
+Furniture furniture_of(const std::vector<NodePtr>& nodes, const WorldText& of, const Options& options,
+                       double floor_z);
 
 /// `text`: a .wbt file. Never fails but by `errors`; time and memory are bounded for any input.
 Imported import_world(std::string_view text, const Options& options);

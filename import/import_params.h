@@ -69,6 +69,7 @@ inline constexpr int kMostVisits = 200'000;    // [assumed: nodes looked at, USE
 inline constexpr int kMostBodies = 5000;       // [assumed: larger worlds are of no use here]
 inline constexpr int kMostPieces = 20'000;     // [assumed: of all bodies]
 inline constexpr int kMostRobots = 1000;       // [assumed: as the one above]
+inline constexpr std::size_t kMostRecognition = 20;  // [assumed: colours of one thing]
 inline constexpr int kMostMovable = 500;       // [assumed: as the one above]
 inline constexpr int kMostContacts = 200;      // [assumed: as the one above]
 inline constexpr int kMostNeighbours = 300;    // [assumed: a robot among more has no room]

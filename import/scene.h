@@ -20,6 +20,8 @@ struct Body {
   double density_kg_m3 = kDensityKgM3;
   std::string contact = "default";  ///< material of WorldInfo.contactProperties
   bool robot_like = false;          ///< a Robot node that is no e-puck
+  std::string model;                ///< what cameras that recognise call it
+  std::vector<sim::Colour> recognition;
   bool untouched = false;           ///< without boundingObject: neither wheels nor distance sensors notice it
 };
 
@@ -28,11 +30,14 @@ struct Device {
   std::optional<int> channel;
   std::optional<double> range_m;
   std::optional<double> baud_rate_bit_s;
+  std::optional<int> width, height;
   bool infra_red = false;
 };
 
 struct FoundRobot {
-  std::string type, name, def, controller;
+  std::string type, name, def, controller, args, custom_data;
+  bool supervisor = false;
+  std::vector<sim::Colour> recognition;
   int line = 0;
   sim::Pose2 pose;
   double z_m = 0;
@@ -62,7 +67,8 @@ struct FoundArena {
 };
 
 struct FoundSupervisor {
-  std::string name, def, controller, args;
+  std::string type, name, def, controller, args, custom_data;
+  std::vector<Device> devices;
   int line = 0;
 };
 

@@ -27,6 +27,9 @@ constexpr const char* kTooLarge = "larger or further away than a world of ours m
 // names in our files: no control characters, not endless
 std::string clean(const std::string& text) { return printable(text, 80); }
 
+// what programs are told
+std::string clean_line(const std::string& text) { return printable(text, kLongestText); }
+
 // a robot's name: messages and tables part names by these
 std::string robot_name(const std::string& text) {
   std::string out = text.empty() ? "robot" : clean(text);
@@ -43,7 +46,10 @@ std::string relative_name(const std::string& file, const Options& o) {
 
 class Settler {
  public:
-  Settler(const Scene& s, const Options& o, Report& r) : scene_(s), options_(o), report_(r) {}
+  Settler(const Scene& s, const Options& o, Report& r, std::optional<double> floor_z)
+      : scene_(s), options_(o), report_(r), is_furniture_(floor_z.has_value()) {
+    floor_z_ = floor_z.value_or(0);
+  }
 
   Carried carried() {
     out_.cosmetic = scene_.cosmetic;
@@ -61,10 +67,16 @@ class Settler {
       if (scene_.uniform_noise) w.proximity.noise_law = sim::NoiseLaw::Uniform;
     }
     engine();
-    find_floor();
+    if (!is_furniture_) find_floor();
+    if (!is_furniture_ && !options_.folder.empty()) {
+      w.webots.world = relative_name((fs::path(options_.folder) / options_.file).string(), options_);
+      if (printable(w.webots.world, 10000) != w.webots.world) w.webots.world.clear();
+      w.webots.floor_m = as_written(floor_z_);
+    }
     for (const FoundArena& a : scene_.arenas) arena(a);
     for (std::size_t b = 0; b < scene_.bodies.size(); ++b) body(b);
     for (const FoundLamp& l : scene_.lamps) lamp(l);
+    if (is_furniture_) return std::move(out_);
     for (const FoundRobot& r : scene_.robots) robot(r);
     for (const FoundSupervisor& s : scene_.supervisors) supervisor(s);
     return std::move(out_);
@@ -288,7 +300,7 @@ class Settler {
       return report_.add(p.line, title, "a flat sheet above the floor");
     if (!p.approximation.empty() && !(p.ramp && !b.movable))
       report_.add(p.line, title, "its exact shape", p.approximation);
-    if (p.ramp && !b.movable && !scene_.planar && ramp(b, p)) return;
+    if (p.ramp && !b.movable && !scene_.planar && !is_furniture_ && ramp(b, p)) return;
     if (p.ramp && !b.movable) report_.add(p.line, title, "its exact shape", p.approximation);
     if (static_cast<int>(out_.world.objects.size()) >= kMostBodies)
       return report_.add(p.line, title, fmt::format("more than {} objects", kMostBodies));
@@ -296,6 +308,9 @@ class Settler {
     o.kind = p.kind;
     o.name = clean(b.name);
     o.def = clean(b.def);
+    o.model = clean(b.model);
+    o.recognition_colours = b.recognition;
+    o.node = b.line;
     o.pose = {p.at.x, p.at.y, p.heading_rad};
     o.movable = b.movable && movable_ < kMostMovable;
     if (b.movable && ++movable_ > kMostMovable)
@@ -361,10 +376,11 @@ class Settler {
 
   void lamp(const FoundLamp& l) {
     out_.world.ambient_w_m2 = std::min(kLightMax, out_.world.ambient_w_m2 + l.ambient_w_m2);
-    if (!(l.lamp.intensity_w_m2 > 0)) return;
+    if (!(l.lamp.intensity_w_m2 > 0) && l.lamp.name.empty()) return;  // nobody can turn it up
     sim::LampDesc d = l.lamp;
     d.name = clean(d.name);
     d.position_m.z -= floor_z_;
+    d.node = l.line;
     if (!(std::abs(d.position_m.z) <= kFarthestM)) return report_.add(l.line, l.type, "too far away");
     out_.world.lamps.push_back(d);
     out_.lamp_from.push_back(from(l.type, "", d.name, l.line));
@@ -372,8 +388,9 @@ class Settler {
 
   // the controller's own sources beside the world, a controller of the project, or just its name
   std::string program(const std::string& name, int line, const std::string& type, const char* what) {
-    if (name.empty() || name == "void" || name == "<none>" || name == "<extern>" || name == "<generic>") {
-      if (name == "<extern>" || name == "<generic>")
+    if (name == "<extern>") return name;
+    if (name.empty() || name == "void" || name == "<none>" || name == "<generic>") {
+      if (name == "<generic>")
         report_.add(line, type, "controller \"" + name + "\"", std::string("no ") + what);
       return {};
     }
@@ -389,15 +406,9 @@ class Settler {
       std::set<std::string> kinds;
       for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
         kinds.insert(at->path().extension().string());
-      const bool cpp = kinds.count(".cpp") + kinds.count(".cc") + kinds.count(".cxx") > 0;
-      if (kinds.count(".c") > 0 || cpp) return relative_name(folder.lexically_normal().string(), options_);
-      const char* language = kinds.count(".py")      ? "Python"
-                             : kinds.count(".java")  ? "Java"
-                             : kinds.count(".class") ? "Java"
-                             : kinds.count(".jar")   ? "Java"
-                             : kinds.count(".m")     ? "MATLAB"
-                             : kinds.count(".bsg")   ? "BotStudio"
-                                                     : nullptr;
+      for (const char* source : {".c", ".cpp", ".cc", ".cxx", ".py", ".java", ".class", ".jar"})
+        if (kinds.count(source)) return relative_name(folder.lexically_normal().string(), options_);
+      const char* language = kinds.count(".m") ? "MATLAB" : kinds.count(".bsg") ? "BotStudio" : nullptr;
       if (language) {
         const std::string found = fmt::format("controller \"{}\", a {} program", plain, language);
         // a program of ours that happens to have the name is not this one
@@ -416,11 +427,31 @@ class Settler {
     return plain;
   }
 
-  // robots and supervisors of one name are numbered
+  // robots and supervisors of one name are numbered, as Webots does
   std::string name_of_its_own(const std::string& plain) {
     std::string name = plain;
-    for (int& i = used_[plain]; !names_.insert(name).second;) name = fmt::format("{} {}", plain, ++i + 1);
+    for (int& i = used_[plain]; !names_.insert(name).second;) name = fmt::format("{}({})", plain, ++i);
     return name;
+  }
+
+  // devices of one name: the first counts
+  std::vector<Device> devices_of(const std::vector<Device>& found, int line, const std::string& type) {
+    std::vector<Device> devices;
+    for (Device d : found) {
+      d.name = clean(d.name);
+      const bool twice =
+          std::any_of(devices.begin(), devices.end(), [&](const Device& o) { return o.name == d.name; });
+      if (twice || d.name.empty() || d.name.size() > kLongestDevice)
+        report_.add(line, type,
+                    fmt::format("{} \"{}\"",
+                                twice            ? "a second device"
+                                : d.name.empty() ? "a device without a name"
+                                                 : "a device of so long a name",
+                                d.name));
+      else
+        devices.push_back(d);
+    }
+    return devices;
   }
 
   void robot(const FoundRobot& f) {
@@ -433,6 +464,11 @@ class Settler {
       report_.add(f.line, f.type, fmt::format("the name \"{}\" a second time", plain), "\"" + r.name + "\"");
     r.def = clean(f.def);
     r.pose = f.pose;
+    r.args = clean_line(f.args);
+    r.supervisor = f.supervisor;
+    r.custom_data = clean_line(f.custom_data);
+    r.recognition_colours = f.recognition;
+    r.node = f.line;
     r.firmware = program(f.controller, f.line, f.type, "firmware");
     if (f.controller.empty() && f.by_proto)
       report_.add(f.line, f.type, "the controller that its PROTO names", "no firmware");
@@ -456,33 +492,21 @@ class Settler {
     out_.world.robots.push_back(r);
     out_.robot_from.push_back(from(f.type, "", f.def, f.line));
     out_.robot_parts.push_back(f.parts);
-    // devices of one name: the first counts
-    std::vector<Device> devices;
-    for (Device d : f.devices) {
-      d.name = clean(d.name);
-      const bool twice =
-          std::any_of(devices.begin(), devices.end(), [&](const Device& o) { return o.name == d.name; });
-      if (twice || d.name.empty() || d.name.size() > kLongestDevice)
-        report_.add(f.line, f.type,
-                    fmt::format("{} \"{}\"",
-                                twice            ? "a second device"
-                                : d.name.empty() ? "a device without a name"
-                                                 : "a device of so long a name",
-                                d.name));
-      else
-        devices.push_back(d);
-    }
-    out_.robot_devices.push_back(devices);
+    out_.robot_devices.push_back(devices_of(f.devices, f.line, f.type));
   }
 
   void supervisor(const FoundSupervisor& f) {
     sim::SupervisorDesc s;
-    s.name = name_of_its_own(clean(f.name));
-    s.program = program(f.controller, f.line, "Supervisor", "program");
-    s.args = f.args;
+    s.name = name_of_its_own(robot_name(f.name));
+    s.program = program(f.controller, f.line, f.type, "program");
+    s.args = clean_line(f.args);
+    s.def = clean(f.def);
+    s.custom_data = clean_line(f.custom_data);
+    s.node = f.line;
     if (s.program.empty()) return;
     out_.world.supervisors.push_back(s);
-    out_.supervisor_from.push_back(from("Supervisor", "", f.def, f.line));
+    out_.supervisor_from.push_back(from(f.type, "", f.def, f.line));
+    out_.supervisor_devices.push_back(devices_of(f.devices, f.line, f.type));
   }
 
   int movable_ = 0;
@@ -492,6 +516,7 @@ class Settler {
   Carried out_;
   double floor_z_ = 0;
   bool have_floor_ = false;
+  const bool is_furniture_;
   const Piece* floor_ = nullptr;
   const Body* floor_body_ = nullptr;
   std::set<std::string> names_;
@@ -500,8 +525,8 @@ class Settler {
 
 }  // namespace
 
-Carried settle(const Scene& scene, const Options& options, Report& report) {
-  return Settler(scene, options, report).carried();
+Carried settle(const Scene& scene, const Options& options, Report& report, std::optional<double> floor_z) {
+  return Settler(scene, options, report, floor_z).carried();
 }
 
 }  // namespace wbt

@@ -95,6 +95,10 @@ class Writer {
       key("name", quoted(w_.supervisors[i].name));
       key("program", quoted(w_.supervisors[i].program));
       if (!w_.supervisors[i].args.empty()) key("args", quoted(w_.supervisors[i].args));
+      if (!w_.supervisors[i].def.empty()) key("def", quoted(w_.supervisors[i].def));
+      if (!w_.supervisors[i].custom_data.empty()) key("custom_data", quoted(w_.supervisors[i].custom_data));
+      node(w_.supervisors[i].node);
+      devices("[[supervisor.device]]", c_.supervisor_devices[i]);
     }
     return out_;
   }
@@ -235,6 +239,9 @@ class Writer {
     }
     surface(o.material);
     if (o.material.restitution > 0) key("restitution", num(o.material.restitution));
+    if (!o.model.empty()) key("model", quoted(o.model));
+    recognition(o.recognition_colours);
+    node(o.node);
   }
 
   void lamp(std::size_t i) {
@@ -248,6 +255,7 @@ class Writer {
           fmt::format("[{}, {}, {}]", num(l.attenuation[0]), num(l.attenuation[1]), num(l.attenuation[2])));
     if (l.colour.r != 1 || l.colour.g != 1 || l.colour.b != 1) key("colour", colour(l.colour));
     if (!l.on) key("on", "false");
+    node(l.node);
   }
 
   void webots() {
@@ -255,6 +263,21 @@ class Writer {
     key("time_step", num(w_.webots.time_step_s));
     if (w_.webots.speed_unit_rad_s > 0) key("speed_unit", num(w_.webots.speed_unit_rad_s, 6));
     if (w_.webots.axes == sim::Axes::Nue) key("axes", "\"nue\"");
+    if (!w_.webots.world.empty()) {
+      key("world", quoted(w_.webots.world));
+      if (w_.webots.floor_m != 0) key("floor", metres(w_.webots.floor_m));
+    }
+  }
+
+  // which node of that world it was
+  void node(int line_of) {
+    if (line_of > 0 && !w_.webots.world.empty()) key("node", fmt::format("{}", line_of));
+  }
+
+  void recognition(const std::vector<sim::Colour>& colours) {
+    std::string list;
+    for (const sim::Colour& c : colours) list += (list.empty() ? "" : ", ") + colour(c);
+    if (!colours.empty()) key("recognition_colours", "[" + list + "]");
   }
 
   void proximity(const sim::ProximitySettings& p) {
@@ -277,11 +300,16 @@ class Writer {
     key("name", quoted(r.name));
     if (!r.def.empty()) key("def", quoted(r.def));
     key("firmware", quoted(r.firmware));
+    if (!r.args.empty()) key("args", quoted(r.args));
+    if (r.supervisor) key("supervisor", "true");
+    if (!r.custom_data.empty()) key("custom_data", quoted(r.custom_data));
     key("position", pair(r.pose.x_m, r.pose.y_m));
     key("heading", degrees(r.pose.heading_rad));
     if (r.battery_wh > 0) key("battery_wh", num(r.battery_wh));
     if (r.wheels.noise) key("wheel_noise", num(*r.wheels.noise));
     for (const auto& [name, value] : r.own) key(name.c_str(), quoted(value.text));
+    recognition(r.recognition_colours);
+    node(r.node);
     const bool own = r.proximity.table || r.proximity.type == sim::SensorType::Generic || r.proximity.rays ||
                      r.proximity.aperture_rad || r.proximity.gaussian_width;
     if (own) {
@@ -297,14 +325,20 @@ class Writer {
       line("[[robot.part]]");
       key("kind", quoted(part));
     }
-    for (const Device& d : c_.robot_devices[i]) {
-      line("[[robot.device]]");
+    devices("[[robot.device]]", c_.robot_devices[i]);
+  }
+
+  void devices(const char* head, const std::vector<Device>& list) {
+    for (const Device& d : list) {
+      line(head);
       key("name", quoted(d.name));
       key("kind", quoted(d.kind));
       if (d.channel) key("channel", fmt::format("{}", *d.channel));
       if (d.range_m) key("range", num(*d.range_m));
       if (d.baud_rate_bit_s) key("baud_rate", num(*d.baud_rate_bit_s));
       if (d.infra_red) key("infra_red", "true");
+      if (d.width) key("width", fmt::format("{}", *d.width));
+      if (d.height) key("height", fmt::format("{}", *d.height));
     }
   }
 

@@ -4,14 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
-
-#include "sim_core/base/input_file.h"
 
 namespace wbt {
 namespace {
-
-namespace fs = std::filesystem;
 
 bool is_group(const std::string& t) {
   return t == "Group" || t == "Transform" || t == "Pose" || t == "Billboard";
@@ -69,7 +64,11 @@ bool is_epuck_name(const std::string& type) {
 }
 
 Walk::Walk(const WorldText& text, const Options& options, Report& report)
-    : text_(text), options_(options), report_(report), surfaces_(options.folder, report) {
+    : text_(text),
+      options_(options),
+      report_(report),
+      surfaces_(options.folder, report),
+      protos_(text, options.folder) {
   scene_.version = text.version;
   const Node* info = nullptr;
   for (const NodePtr& n : text.nodes) {
@@ -290,7 +289,19 @@ Body Walk::body_of(const Node& n) {
   b.name = n.text("name");
   b.def = n.def;
   b.line = n.line;
+  b.model = n.text("model");
+  b.recognition = recognition_of(n);
   return b;
+}
+
+std::vector<sim::Colour> Walk::recognition_of(const Node& n) {
+  std::vector<sim::Colour> colours;
+  const Field* f = n.field("recognitionColors");
+  for (std::size_t i = 0; f && i + 2 < f->numbers.size() && colours.size() < kMostRecognition; i += 3) {
+    const auto part = [&](std::size_t k) { return std::clamp(f->numbers[i + k], 0.0, 1.0); };
+    colours.push_back({part(0), part(1), part(2)});
+  }
+  return colours;
 }
 
 void Walk::solid(const Node& n, const Affine& frame, int depth) {
@@ -357,39 +368,8 @@ void Walk::add_body(Body body) {
   if (scene_.bodies.size() <= kMostBodies) scene_.bodies.push_back(std::move(body));
 }
 
-const Proto* Walk::proto_of(const Node& n) {
-  const auto declared = text_.protos.find(n.type);
-  const Proto* proto = declared != text_.protos.end() ? &declared->second : nullptr;
-  if (!proto && !options_.folder.empty() && !missing_.count(n.type) && n.type.size() < 100 &&
-      n.type.find('/') == std::string::npos) {
-    auto read = files_.find(n.type);
-    if (read == files_.end()) {
-      std::vector<fs::path> places{fs::path(options_.folder) / ".." / "protos" / (n.type + ".proto"),
-                                   fs::path(options_.folder) / (n.type + ".proto")};
-      for (const std::string& url : text_.extern_protos) {
-        if (url.find("://") == std::string::npos && fs::path(url).stem().string() == n.type)
-          places.insert(places.begin(), fs::path(options_.folder) / url);
-      }
-      std::error_code error;
-      for (const fs::path& p : places) {
-        Proto found;
-        std::string text;
-        if (!fs::is_regular_file(p, error) || !sim::read_input_file(p, kLongestFile, text).empty()) continue;
-        if (!read_proto_text(text, found)) continue;
-        read = files_.emplace(n.type, std::move(found)).first;
-        break;
-      }
-    }
-    if (read == files_.end())
-      missing_.insert(n.type);
-    else
-      proto = &read->second;
-  }
-  return proto;
-}
-
 NodePtr Walk::unfolded(const Node& n) {
-  const Proto* proto = proto_of(n);
+  const Proto* proto = protos_.find(n.type);
   if (!proto || budget_ == 0 || proto->has_script) return nullptr;
   return unfold(*proto, n, budget_);
 }

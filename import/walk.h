@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "import/import.h"
+#include "import/proto_files.h"
 #include "import/scene.h"
 #include "import/surface.h"
 #include "import/wbt_reader.h"
@@ -35,7 +36,6 @@ class Walk {
   void background(const Node& n);
   bool afford(const Node& n);
   Affine inside(const Node& n, const Affine& frame) const;
-  const Proto* proto_of(const Node& n);  ///< in the file or beside it; null: none
   NodePtr unfolded(const Node& n);
 
   // walk_proto.cpp: PROTOs known by name
@@ -56,7 +56,8 @@ class Walk {
   void proto_body(const Node& n, FoundRobot& out);
   void equipment(const Node& n, FoundRobot& out);
   std::string words_of(const Node& n);
-  void arguments(const Node& n, const char* instead);
+  void program_fields(const Node& n, FoundRobot& out);
+  static std::vector<sim::Colour> recognition_of(const Node& n);
   void slot(const Node& n, const char* field, FoundRobot& out);
   void device(const Node& n, FoundRobot& out, int depth);
   void collect(const Node& n, const std::set<std::string>& types, std::vector<const Node*>& out, int depth);
@@ -67,6 +68,7 @@ class Walk {
   const Options& options_;
   Report& report_;
   Surfaces surfaces_;
+  ProtoFiles protos_;
   Scene scene_;
   Affine world_;       // from the file's axes to ours
   bool z_up_ = false;  // shapes and robots of R2022 on
@@ -74,8 +76,6 @@ class Walk {
   int pieces_ = 0;
   bool exhausted_ = false;
   std::size_t budget_ = kMostNodes;  // of PROTOs to be unfolded
-  std::map<std::string, Proto> files_;
-  std::set<std::string> missing_;
   std::vector<NodePtr> kept_;  // unfolded nodes
 };
 

@@ -210,7 +210,8 @@ void Walk::by_measures(const Node& n, const Affine& frame) {
   const bool box = size && size->numbers.size() == 3;
   const bool round = n.field("radius") && n.field("height");
   if ((!box && !round) || !n.field("translation")) {
-    const bool script = files_.count(n.type) && files_[n.type].has_script;
+    const Proto* proto = protos_.find(n.type);
+    const bool script = proto && proto->has_script;
     report_.add(n, script ? "a PROTO with a script"
                           : "a node that is not known here, and no PROTO file is beside the world");
     return;

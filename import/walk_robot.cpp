@@ -38,6 +38,50 @@ int ps_index(const std::string& name) {
                                                                                                : -1;
 }
 
+// what robots may have beside their body
+const std::set<std::string> kDeviceTypes{"DistanceSensor",
+                                         "E-puckDistanceSensor",
+                                         "EPuck_DistanceSensor",
+                                         "E-puckGroundSensors",
+                                         "EPuck_GroundSensorsModule",
+                                         "GPS",
+                                         "Compass",
+                                         "Gyro",
+                                         "Emitter",
+                                         "Receiver",
+                                         "Lidar",
+                                         "InertialUnit",
+                                         "Display",
+                                         "TouchSensor",
+                                         "Radar",
+                                         "RangeFinder",
+                                         "Pen",
+                                         "Gripper",
+                                         "LightSensor",
+                                         "Connector",
+                                         "LinearMotor",
+                                         "RotationalMotor",
+                                         "Motor",
+                                         "Camera",
+                                         "LED",
+                                         "Speaker",
+                                         "VacuumGripper",
+                                         "Propeller",
+                                         "Altimeter",
+                                         "Microphone"};
+
+// an e-puck has it without being told
+bool is_own(const Node& d) {
+  const std::string name = d.text("name");
+  if (d.type == "Camera") return name.empty() || name == "camera";
+  if (d.type == "RotationalMotor" || d.type == "Motor")
+    return name.find("wheel") != std::string::npos || name.find("motor") != std::string::npos;
+  if (d.type == "LED") return name.rfind("led", 0) == 0;
+  if (d.type == "Speaker") return name.empty() || name == "speaker";
+  if (d.type == "Microphone") return name.rfind("mic", 0) == 0;
+  return false;
+}
+
 bool between(double x, double low, double high) { return x >= low && x <= high; }
 
 bool same(const sim::ProximitySettings& a, const sim::ProximitySettings& b) {
@@ -96,26 +140,34 @@ void Walk::robot(const Node& n, const Affine& frame, int depth) {
   const std::string controller = n.text("controller");
   const bool runs =
       !controller.empty() && controller != "void" && controller != "<none>" && controller != "<generic>";
-  if (n.type == "Supervisor" || n.truth("supervisor", false)) {
+  const bool supervises = n.type == "Supervisor" || n.truth("supervisor", false);
+  if (runs) {
+    // a program with devices of its own and no wheels: it may do more than it asks for
+    FoundRobot program;
+    program_fields(n, program);
     FoundSupervisor s;
-    s.name = n.text("name", "supervisor");
+    s.type = n.type;
+    s.name = n.text("name", supervises && n.type == "Supervisor" ? "supervisor" : "robot");
     s.def = n.def;
-    s.controller = runs ? controller : "";
+    s.controller = controller;
+    s.args = program.args;
+    s.custom_data = program.custom_data;
     s.line = n.line;
-    if (runs) s.args = words_of(n);
-    if (runs)
-      scene_.supervisors.push_back(s);
-    else
-      report_.add(n, "a supervisor without a controller of its own");
     std::vector<const Node*> devices;
-    collect(n, {"Emitter", "Receiver", "Display", "Camera"}, devices, 0);
+    collect(n, kDeviceTypes, devices, 0);
+    bool moves = false;
     for (const Node* d : devices) {
-      if (d->type == "Display" || d->type == "Camera") report_.add(*d, "a device of a supervisor");
+      if (d->type == "RotationalMotor" || d->type == "LinearMotor" || d->type == "Motor") moves = true;
+      device(*d, program, 0);
     }
+    s.devices = program.devices;
+    scene_.supervisors.push_back(s);
+    if (!supervises) report_.add(n, "a robot that is no e-puck", "its program runs, its body stands there");
+    if (moves) report_.add(n, "what its motors move", "the program turns them for nothing");
+  } else if (supervises) {
+    report_.add(n, "a supervisor without a controller of its own");
   } else {
-    report_.add(n, "a robot that is no e-puck",
-                runs ? "its body stands there without its controller \"" + printable(controller) + "\""
-                     : "its body stands there");
+    report_.add(n, "a robot that is no e-puck", "its body stands there");
   }
   solid(n, frame, depth);
 }
@@ -148,11 +200,7 @@ void Walk::epuck(const Node& n, const Affine& frame, bool by_proto) {
   } else {
     plain_fields(n, out);
   }
-  const std::string data = n.text("customData", n.text("data"));
-  if (!data.empty()) report_.add(n, "customData \"" + printable(data) + "\"", "firmware gets no text");
-  arguments(n, "firmware has none; the selector switch may serve");
-  if (n.truth("supervisor", false))
-    report_.add(n, "that this robot is a supervisor too", "attach a program as [[supervisor]] to the world");
+  program_fields(n, out);
   if (const Field* battery = n.field("battery")) {
     if (battery->numbers.size() >= 2 && battery->numbers[1] > 0) {
       out.battery_wh = std::clamp(battery->numbers[1] / 3600, 0.001, 1000.0);
@@ -163,28 +211,33 @@ void Walk::epuck(const Node& n, const Affine& frame, bool by_proto) {
   scene_.robots.push_back(std::move(out));
 }
 
-// a supervisor's arguments, as a world has them: words between blanks
+// what its program gets. One word of the world's, with blanks, was a line of several until lists came
 std::string Walk::words_of(const Node& n) {
   const Field* arguments = n.field("controllerArgs");
   std::string words;
   if (!arguments) return words;
+  const bool line = arguments->strings.size() == 1 && !text_.at_least(2020, 'b');
   for (const std::string& word : arguments->strings) {
-    if (word.find_first_of(" \t") != std::string::npos)
-      report_.add(n, *arguments, "blanks within an argument", "it becomes several");
-    if (!word.empty()) words += (words.empty() ? "" : " ") + word;
+    if (word.empty() && arguments->strings.size() == 1) break;
+    const bool plain = line || (!word.empty() && word.find_first_of(" \t\"'") == std::string::npos);
+    const char* quote = word.find('\'') == std::string::npos ? "'" : "\"";
+    if (!plain && word.find('\'') != std::string::npos && word.find('"') != std::string::npos)
+      report_.add(n, *arguments, "both kinds of quotes within an argument", "it becomes several");
+    words += (words.empty() ? "" : " ") + (plain ? word : quote + word + quote);
   }
   return words;
 }
 
-void Walk::arguments(const Node& n, const char* instead) {
-  const Field* arguments = n.field("controllerArgs");
-  if (arguments && !arguments->strings.empty() && !arguments->strings.front().empty())
-    report_.add(n, *arguments, "arguments of the controller", instead);
+void Walk::program_fields(const Node& n, FoundRobot& out) {
+  if (n.field("controllerArgs")) out.args = words_of(n);
+  if (n.field("customData") || n.field("data")) out.custom_data = n.text("customData", n.text("data"));
+  if (n.truth("supervisor", false)) out.supervisor = true;
+  if (n.field("recognitionColors")) out.recognition = recognition_of(n);
 }
 
 // what a PROTO of the project makes of the robot: its controller and what it is equipped with
 void Walk::proto_body(const Node& n, FoundRobot& out) {
-  const Proto* proto = proto_of(n);
+  const Proto* proto = protos_.find(n.type);
   if (!proto) return;
   // what was put into its slots has been looked at
   Node bare = n;
@@ -202,7 +255,7 @@ void Walk::proto_body(const Node& n, FoundRobot& out) {
   }
   kept_.push_back(body);
   if (!n.field("controller")) out.controller = body->text("controller");
-  if (!n.field("controllerArgs")) arguments(*body, "firmware has none; the selector switch may serve");
+  program_fields(*body, out);  // the world's own go before, in epuck()
   FoundRobot own;
   equipment(*body, own);
   if (!own.sensors.empty()) out.sensors = own.sensors;
@@ -224,7 +277,8 @@ void Walk::proto_fields(const Node& n, FoundRobot& out) {
     report_.add(n, "that it is an e-puck 2 (faster motors, time of flight, Wi-Fi)", "an e-puck");
   for (const Field& f : n.fields) {
     if (kSilent.count(f.name) || f.name == "kinematic" || f.name == "customData" ||
-        f.name == "controllerArgs" || f.name == "supervisor" || f.name == "battery" || f.name == "version")
+        f.name == "controllerArgs" || f.name == "supervisor" || f.name == "battery" || f.name == "version" ||
+        f.name == "recognitionColors")
       continue;
     if (!f.nodes.empty() || (f.name.size() > 4 && f.name.compare(f.name.size() - 4, 4, "Slot") == 0)) {
       slot(n, f.name.c_str(), out);
@@ -279,33 +333,7 @@ void Walk::plain_fields(const Node& n, FoundRobot& out) {
 
 void Walk::equipment(const Node& n, FoundRobot& out) {
   std::vector<const Node*> found;
-  collect(n,
-          {"DistanceSensor",
-           "E-puckDistanceSensor",
-           "EPuck_DistanceSensor",
-           "E-puckGroundSensors",
-           "EPuck_GroundSensorsModule",
-           "GPS",
-           "Compass",
-           "Gyro",
-           "Emitter",
-           "Receiver",
-           "Lidar",
-           "InertialUnit",
-           "Display",
-           "TouchSensor",
-           "Radar",
-           "RangeFinder",
-           "Pen",
-           "Gripper",
-           "LightSensor",
-           "Connector",
-           "LinearMotor",
-           "VacuumGripper",
-           "Propeller",
-           "Altimeter",
-           "Microphone"},
-          found, 0);
+  collect(n, kDeviceTypes, found, 0);
   std::vector<const Node*> ring;
   const Node* tables = nullptr;  // a light sensor's own: one line tells it of all
   for (const Node* d : found) {
@@ -313,7 +341,7 @@ void Walk::equipment(const Node& n, FoundRobot& out) {
       ring.push_back(d);
     else if (d->type == "LightSensor")
       tables = tables || !d->field("lookupTable") ? tables : d;
-    else if (d->type.find("DistanceSensor") == std::string::npos || !d->field("id"))
+    else if (!is_own(*d) && (d->type.find("DistanceSensor") == std::string::npos || !d->field("id")))
       device(*d, out, 0);
   }
   if (tables)
@@ -394,13 +422,32 @@ void Walk::device(const Node& n, FoundRobot& out, int depth) {
                   {"Gyro", "gyro", "gyro"},
                   {"InertialUnit", "inertial", "inertial unit"},
                   {"Emitter", "emitter", "emitter"},
-                  {"Receiver", "receiver", "receiver"}};
+                  {"Receiver", "receiver", "receiver"},
+                  {"Display", "display", "display"},
+                  {"Camera", "camera", "camera"},
+                  {"RotationalMotor", "motor", "rotational motor"},
+                  {"LinearMotor", "motor", "linear motor"},
+                  {"Motor", "motor", "motor"},
+                  {"TouchSensor", "touch", "touch sensor"},
+                  {"LightSensor", "light", "light sensor"},
+                  {"DistanceSensor", "distance", "distance sensor"},
+                  {"LED", "led", "led"},
+                  {"Speaker", "speaker", "speaker"},
+                  {"Pen", "pen", "pen"}};
   for (const auto& d : kDevices) {
     if (n.type != d.type) continue;
     Device made;
     made.name = n.text("name", d.name);
     made.kind = d.kind;
-    const bool talks = n.type == "Emitter" || n.type == "Receiver";
+    const bool talks = n.type == "Emitter" || n.type == "Receiver", shows = n.type == "Display";
+    const bool deaf = !talks && !shows && made.kind != "gps" && made.kind != "compass" &&
+                      made.kind != "inertial" && made.kind != "gyro";
+    if (shows || n.type == "Camera") {
+      made.width = static_cast<int>(std::clamp(n.number("width", 64), 1.0, 4096.0));
+      made.height = static_cast<int>(std::clamp(n.number("height", 64), 1.0, 4096.0));
+    }
+    if (n.type == "Camera" || n.type == "TouchSensor" || n.type == "LightSensor" || n.type == "DistanceSensor")
+      report_.add(n, "what this sensor measures", "it is there for the program, and measures nothing");
     if (talks) {
       made.channel = static_cast<int>(std::clamp(n.number("channel", 0), -1.0, 32767.0));
       if (n.number("range", -1) > 0) made.range_m = std::min(n.number("range", -1), kFarthestM);
@@ -414,7 +461,7 @@ void Walk::device(const Node& n, FoundRobot& out, int depth) {
       for (const char* limit : {"aperture", "signalStrengthNoise", "directionNoise"}) {
         if (n.number(limit, -1) > 0) report_.add(n, *n.field(limit), "no such limit here");
       }
-    } else {
+    } else if (!shows && !deaf) {
       for (const char* less : {"accuracy", "resolution", "lookupTable", "noise"}) {
         const Field* f = n.field(less);
         if (f && !f->numbers.empty() && (f->numbers.size() > 1 || f->numbers[0] > 0))

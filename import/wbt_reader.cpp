@@ -252,6 +252,8 @@ class Reader {
   }
 
   std::size_t used() const { return used_; }
+  /// What USE may name before any DEF.
+  void know(const std::map<std::string, NodePtr>& defs) { defs_ = defs; }
 
  private:
   bool is_word(std::string_view w) const { return lexer_.now().kind == Kind::Word && lexer_.now().text == w; }
@@ -425,6 +427,27 @@ WorldText read_world_text(std::string_view text) {
   }
   try {
     Reader(text, kMostNodes).world(out);
+  } catch (const Broken& broken) {
+    out.errors.push_back(broken.remark);
+  }
+  return out;
+}
+
+WorldText read_nodes_text(std::string_view text, const WorldText& of,
+                          const std::map<std::string, NodePtr>& defs) {
+  WorldText out;
+  out.version = of.version;
+  out.year = of.year;
+  out.letter = of.letter;
+  out.major = of.major;
+  if (text.size() > kLongestFile) {
+    out.errors.push_back({1, 1, fmt::format("got {} bytes, expected at most {}", text.size(), kLongestFile)});
+    return out;
+  }
+  try {
+    Reader reader(text, kMostNodes);
+    reader.know(defs);
+    reader.world(out);
   } catch (const Broken& broken) {
     out.errors.push_back(broken.remark);
   }

@@ -67,7 +67,7 @@ TEST(ImportRobots, slots_and_channels_become_parts_and_devices) {
   EXPECT_NE(toml.find("name = \"loud\"\nkind = \"emitter\"\nchannel = 7\nrange = 0.5\ninfra_red = true\n"),
             std::string::npos);
   EXPECT_TRUE(reports(made, 10, "Lidar: not carried"));
-  EXPECT_TRUE(reports(made, 2, "customData \"blue\""));
+  EXPECT_EQ(world.robots[0].custom_data, "blue");
   EXPECT_TRUE(reports(made, 13, "camera_width"));
 }
 
@@ -111,14 +111,17 @@ E-puck { translation 0.5 0.5 0 controller "a" }
 )");
   const auto world = world_of(made);
   EXPECT_EQ(world.robots.size(), 2u);
-  EXPECT_EQ(world.robots[1].name, "e-puck 2");
+  EXPECT_EQ(world.robots[1].name, "e-puck(1)");
   EXPECT_TRUE(reports(made, 6, "\"e-puck\" a second time"));
   ASSERT_EQ(world.objects.size(), 1u);
   EXPECT_EQ(world.objects[0].name, "feeder");
-  EXPECT_TRUE(reports(made, 3, "controller \"food\""));
-  ASSERT_EQ(world.supervisors.size(), 1u);
-  EXPECT_EQ(world.supervisors[0].name, "referee");
-  EXPECT_EQ(world.supervisors[0].program, "soccer_supervisor");
+  EXPECT_TRUE(reports(made, 3, "its program runs, its body stands there"));
+  ASSERT_EQ(world.supervisors.size(), 2u);
+  EXPECT_EQ(world.supervisors[0].name, "feeder");
+  EXPECT_EQ(world.supervisors[0].program, "food");
+  EXPECT_EQ(world.supervisors[1].name, "referee");
+  EXPECT_EQ(world.supervisors[1].def, "REF");
+  EXPECT_EQ(world.supervisors[1].program, "soccer_supervisor");
 }
 
 TEST(ImportRobots, a_robot_inside_a_wall_steps_aside_and_says_so) {
@@ -161,8 +164,8 @@ Strange { translation 2 0 0 }
   fs::remove_all(top);
   ASSERT_EQ(world.robots.size(), 3u);
   EXPECT_EQ(world.robots[0].firmware, "../controllers/mine");
-  EXPECT_EQ(world.robots[1].firmware, "snake");
-  EXPECT_TRUE(reports(made, 5, "a Python program"));
+  EXPECT_EQ(world.robots[1].firmware, "../controllers/snake");
+  EXPECT_FALSE(reports(made, 5, "controller"));
   EXPECT_TRUE(reports(made, 6, "\"gone\", whose sources are not beside the world"));
   ASSERT_EQ(world.objects.size(), 2u) << made.toml;
   EXPECT_NEAR(world.objects[0].size_m.x, 0.3, 1e-6);
@@ -203,8 +206,7 @@ Robot { name "t" supervisor TRUE controller "rules" controllerArgs [ "fast" ] }
   fs::remove_all(top);
   const auto world = world_of(made);
   ASSERT_EQ(world.robots.size(), 5u);
-  EXPECT_EQ(world.robots[0].firmware, "");
-  EXPECT_TRUE(reports(made, 2, "a Python program; no firmware; firmware/braitenberg is another program"));
+  EXPECT_EQ(world.robots[0].firmware, "../controllers/braitenberg");
   EXPECT_EQ(world.robots[1].firmware, "");
   EXPECT_TRUE(reports(made, 3, "a BotStudio program; no firmware; firmware/obstacle is another program"));
   EXPECT_EQ(world.robots[2].firmware, "e-puck");
@@ -237,9 +239,11 @@ E-puck { name "b" translation 1 0 0 groundSensorsSlot [ Emitter { name "e" } ] }
   ASSERT_EQ(world.robots.size(), 2u);
   ASSERT_EQ(world.robots[0].parts.size(), 1u);
   EXPECT_EQ(world.robots[0].parts[0].kind, "ground-sensors");
-  ASSERT_EQ(world.robots[0].devices.size(), 2u);
+  ASSERT_EQ(world.robots[0].devices.size(), 3u);
   EXPECT_EQ(world.robots[0].devices[0].name, "floor");
-  EXPECT_EQ(world.robots[0].devices[1].name, "compass");
+  EXPECT_EQ(world.robots[0].devices[1].name, "below");
+  EXPECT_EQ(world.robots[0].devices[1].kind, sim::DeviceKind::Camera);
+  EXPECT_EQ(world.robots[0].devices[2].name, "compass");
   EXPECT_TRUE(reports(made, 6, "Camera: not carried"));
   EXPECT_TRUE(reports(made, 8, "Lidar: not carried"));
   EXPECT_TRUE(reports(made, 9, "Radar: not carried"));
@@ -280,8 +284,96 @@ EPuckScript { }
   EXPECT_EQ(world.robots[0].devices[0].name, "gps");
   EXPECT_EQ(world.robots[0].devices[1].name, "gyro");
   EXPECT_TRUE(reports(made, 0, "LightSensor.lookupTable: not carried: tables of light sensors"));
-  EXPECT_TRUE(reports(made, 0, "controllerArgs: not carried"));
+  EXPECT_EQ(world.robots[0].args, "a");
   EXPECT_TRUE(reports(made, 0, "a PROTO with a script"));
+}
+
+TEST(ImportRobots, supervisors_keep_their_devices_and_words) {
+  const auto made = raw(kNew + R"(RectangleArena { floorSize 3 3 }
+DEF BOSS Robot {
+  name "boss"
+  controller "<extern>"
+  supervisor TRUE
+  customData "round 1"
+  controllerArgs [ "fast" "two words" "it's" "" ]
+  children [
+    Emitter { channel 5 range 2 }
+    Receiver { name "ears" channel -1 }
+    Group { children [ Display { name "score" width 200 height 100 } ] }
+    HingeJoint { device [ RotationalMotor { name "wheel motor" } PositionSensor { name "angle" } ] }
+    Camera { width 320 height 240 }
+  ]
+}
+E-puck { supervisor TRUE controller "a" controllerArgs [ "one" ] customData "me" recognitionColors [ 1 0 0, 0 0 1 ] }
+Robot { name "plain" }
+)");
+  const auto world = world_of(made);
+  ASSERT_EQ(world.supervisors.size(), 1u) << made.toml;
+  const sim::SupervisorDesc& s = world.supervisors[0];
+  EXPECT_EQ(s.program, "<extern>");
+  EXPECT_EQ(s.def, "BOSS");
+  EXPECT_EQ(s.custom_data, "round 1");
+  EXPECT_EQ(sim::argument_words(s.args), (std::vector<std::string>{"fast", "two words", "it's", ""}));
+  ASSERT_EQ(s.devices.size(), 5u);
+  EXPECT_EQ(s.devices[0].name, "emitter");
+  EXPECT_EQ(s.devices[0].kind, sim::DeviceKind::Emitter);
+  EXPECT_EQ(s.devices[0].channel, 5);
+  EXPECT_EQ(s.devices[0].range_m, 2);
+  EXPECT_EQ(s.devices[1].name, "ears");
+  EXPECT_EQ(s.devices[1].channel, -1);
+  EXPECT_EQ(s.devices[2].kind, sim::DeviceKind::Display);
+  EXPECT_EQ(s.devices[2].width, 200);
+  EXPECT_EQ(s.devices[2].height, 100);
+  EXPECT_EQ(s.devices[3].kind, sim::DeviceKind::Motor);
+  EXPECT_EQ(s.devices[4].kind, sim::DeviceKind::Camera);
+  EXPECT_TRUE(reports(made, 3, "its motors move"));
+  EXPECT_TRUE(reports(made, 14, "what this sensor measures"));
+  ASSERT_EQ(world.robots.size(), 1u);
+  EXPECT_TRUE(world.robots[0].supervisor);
+  EXPECT_EQ(world.robots[0].args, "one");
+  EXPECT_EQ(world.robots[0].custom_data, "me");
+  ASSERT_EQ(world.robots[0].recognition_colours.size(), 2u);
+  EXPECT_EQ(world.robots[0].recognition_colours[1].b, 1);
+}
+
+// until R2020a a world had one text, which became several words
+TEST(ImportRobots, old_arguments_are_a_line_of_words) {
+  const auto made = raw("#VRML_SIM R2019a utf8\nE-puck { controller \"a\" controllerArgs \"fast 3\" }\n");
+  EXPECT_EQ(sim::argument_words(world_of(made).robots[0].args), (std::vector<std::string>{"fast", "3"}));
+  const auto now = raw(kNew + "E-puck { controller \"a\" controllerArgs \"fast 3\" }\n");
+  EXPECT_EQ(sim::argument_words(world_of(now).robots[0].args), (std::vector<std::string>{"fast 3"}));
+}
+
+// supervisors find nodes by the file's own lines
+TEST(ImportRobots, what_stands_there_knows_its_node) {
+  const fs::path top = fs::path(::testing::TempDir()) / ("twinpuck-node-" + std::to_string(getpid()));
+  fs::create_directories(top);
+  wbt::Options options;
+  options.file = "w.wbt";
+  options.folder = options.out_folder = top.string();
+  options.model = board::epuck_model();
+  const auto made = wbt::import_world(kNew + R"(Solid { translation 0 0 0.1 boundingObject Box { size 2 2 0.2 } }
+E-puck { translation 0 0 0.2 }
+Solid {
+  translation 0.5 0 0.25 boundingObject Box { size 0.1 0.1 0.1 } recognitionColors [ 0 1 0 ] model "gate" }
+PointLight { location 0 0 2 }
+Robot { controller "x" supervisor TRUE }
+)",
+                                      options);
+  fs::remove_all(top);
+  const auto world = world_of(made);
+  EXPECT_EQ(world.webots.world, "w.wbt");
+  EXPECT_NEAR(world.webots.floor_m, 0.2, 1e-9);
+  ASSERT_EQ(world.robots.size(), 1u);
+  EXPECT_EQ(world.robots[0].node, 3);
+  ASSERT_EQ(world.objects.size(), 1u);
+  EXPECT_EQ(world.objects[0].node, 4);
+  EXPECT_EQ(world.objects[0].model, "gate");
+  ASSERT_EQ(world.objects[0].recognition_colours.size(), 1u);
+  ASSERT_EQ(world.lamps.size(), 1u);
+  EXPECT_EQ(world.lamps[0].node, 6);
+  ASSERT_EQ(world.supervisors.size(), 1u);
+  EXPECT_EQ(world.supervisors[0].node, 7);
 }
 
 TEST(ImportRobots, hundreds_on_one_spot_find_room_or_go) {
