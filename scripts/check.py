@@ -46,6 +46,7 @@ MAY_INCLUDE = {
     # linked into supervisors' programs, which see nothing but supervisor.h
     "supervisor/webots": ["supervisor/include", "firmware/include"],
     "supervisor/programs": ["supervisor/include", "firmware/include"],
+    "programs/world": ["hal_sim/", "sim_core/", "import/", "programs/link"],  # nodes of a whole twin
     "viewer": ["hal_sim/", "sim_core/", "supervisor/team.h"],  # a whole twin, seen and touched from outside
     "import": ["sim_core/base", "sim_core/geometry", "sim_core/world", "sim_core/load"],  # it knows e-pucks by their nodes only
     "firmware": ["tests/support/firmware_test.h"],  # a controller brings its own test.cpp

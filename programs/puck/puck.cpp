@@ -167,6 +167,27 @@ void Puck::add_of_world() {
       case sim::DeviceKind::Emitter:
       case sim::DeviceKind::Receiver:
         break;  // the packet devices know them
+      case sim::DeviceKind::Motor:
+        add(device.name, Kind::Idle, WB_NODE_ROTATIONAL_MOTOR, 0, {kMostWheelRadS, 0});
+        break;
+      case sim::DeviceKind::Touch:
+        add(device.name, Kind::Virtual, WB_NODE_TOUCH_SENSOR, 0, {0});
+        break;
+      case sim::DeviceKind::Light:
+        add(device.name, Kind::Virtual, WB_NODE_LIGHT_SENSOR, 0);
+        break;
+      case sim::DeviceKind::Led:
+        add(device.name, Kind::Idle, WB_NODE_LED, 0);
+        break;
+      case sim::DeviceKind::Camera:
+        add(device.name, Kind::Idle, WB_NODE_CAMERA, 0, {double(device.width), double(device.height), kCameraFovRad, 0, 0});
+        break;
+      case sim::DeviceKind::Speaker:
+        add(device.name, Kind::Idle, WB_NODE_SPEAKER, 0);
+        break;
+      case sim::DeviceKind::Pen:
+        add(device.name, Kind::Idle, WB_NODE_PEN, 0);
+        break;
     }
 }
 
@@ -211,6 +232,7 @@ std::string Puck::command(const link_record& record, Cycle at) {
     return std::find(kinds.begin(), kinds.end(), device.kind) != kinds.end();
   };
   const auto wrong = [&] { return fmt::format("{}: got '{}', which is no device for that", row->name, device.name); };
+  if (device.kind == Kind::Idle) return "";
   note(static_cast<std::uint64_t>(record.number) << 32 ^ static_cast<std::uint64_t>(tag));
   board::PacketDevices& packets = board_.packets();
   switch (record.number) {
@@ -380,6 +402,7 @@ void Puck::take(const Device& device, std::size_t number, Cycle at, link_packet&
     case Kind::Speaker:
     case Kind::Emitter:
     case Kind::Display:
+    case Kind::Idle:
       return;  // nothing to measure
   }
 }

@@ -36,6 +36,11 @@ class Puck {
   /// Appends DEVICE for one that was defined meanwhile (a supervisor's sensor), or NOTHING.
   void find_device(const std::string& name, link_packet& to);
 
+  /// Name of the device with this tag; empty: there is none.
+  std::string device_name(std::int64_t tag) const {
+    return tag >= 1 && tag <= static_cast<std::int64_t>(devices_.size()) ? devices_[static_cast<std::size_t>(tag - 1)].name : "";
+  }
+
   /// A PROGRAM's record about a device (ENABLE to RECOGNISE). Empty, or what was wrong with it.
   std::string command(const link_record& record, Cycle at);
   /// `milliseconds` are over: samples of what is due, appended.
@@ -74,7 +79,8 @@ class Puck {
     Display,
     Selector,
     Battery,
-    Keyboard
+    Keyboard,
+    Idle  // there for the program, and does nothing
   };
   struct Device {
     std::string name, model;

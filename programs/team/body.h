@@ -22,6 +22,8 @@ class Body {
   virtual void tell_devices(link_packet& to) = 0;
   /// Appends DEVICE or NOTHING.
   virtual void find_device(const std::string& name, link_packet& to) = 0;
+  /// Name of the device with this tag; empty: there is none.
+  virtual std::string device_name(std::int64_t tag) const = 0;
   /// Empty, or what was wrong with the command.
   virtual std::string command(const link_record& record) = 0;
   /// The next step, of 1 ms or more, begins.
@@ -45,6 +47,7 @@ class RobotBody final : public Body {
 
   void tell_devices(link_packet& to) override { runner()->puck().tell_devices(to); }
   void find_device(const std::string& name, link_packet& to) override { runner()->puck().find_device(name, to); }
+  std::string device_name(std::int64_t tag) const override { return runner() ? runner()->puck().device_name(tag) : ""; }
   std::string command(const link_record& record) override {
     runner()->note_command();
     return runner()->puck().command(record, runner()->now());
@@ -71,6 +74,9 @@ class BodilessBody final : public Body, public sim::PacketPort {
 
   void tell_devices(link_packet& to) override;
   void find_device(const std::string& name, link_packet& to) override;
+  std::string device_name(std::int64_t tag) const override {
+    return tag >= 1 && tag <= static_cast<std::int64_t>(devices_.size()) ? devices_[static_cast<std::size_t>(tag - 1)].name : "";
+  }
   std::string command(const link_record& record) override;
   void begin_step(std::int64_t milliseconds) override { step_ms_ = milliseconds; }
   bool is_due(sim::Clicks now) override;

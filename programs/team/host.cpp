@@ -26,12 +26,19 @@ void Team::carry_out_resets() {
     if (host::Runner* runner = twin_.mind(r).runner()) runner->restart();
   }
   if (resets) {
-    nodes_->put_back();
+    // all that lies about is new; what came with the run is gone
+    int movable = 0;
+    for (const sim::ObjectDesc& object : at_first_.objects) movable += object.movable;
+    simulation.refurnish(at_first_, std::vector<int>(static_cast<std::size_t>(movable), -1));
     for (int r = 0; r < twin_.robots(); ++r) {
       moved_.insert(r);
+      simulation.move(r, at_first_.robots[static_cast<std::size_t>(r)].pose);
       twin_.begin_again(r);
     }
     simulation.begin_again();
+    for (const auto& member : members_)
+      if (member->robot >= 0) member->custom = at_first_.robots[static_cast<std::size_t>(member->robot)].custom_data;
+    make_nodes();
   }
   if (wants_reload_)
     for (const auto& member : members_)
@@ -52,6 +59,10 @@ std::vector<sim::PictureLabel> Team::labels() const {
   std::vector<sim::PictureLabel> all;
   for (const auto& [key, label] : labels_) all.push_back(label);
   return all;
+}
+
+std::string Team::device_name(int program, int tag) {
+  return members_[static_cast<std::size_t>(program)]->body->device_name(tag);
 }
 
 void Team::picture(const std::string& file) {

@@ -27,7 +27,7 @@ std::vector<NamedSupervisor> supervisors_of(const sim::WorldDesc& world, const s
                                             std::vector<std::string>& problems) {
   std::vector<NamedSupervisor> all;
   for (const sim::SupervisorDesc& desc : world.supervisors) {
-    all.push_back({desc, world_folder});
+    all.push_back({desc, world_folder, static_cast<int>(all.size())});
     if (desc.name.empty()) all.back().desc.name = stem_of(desc.program);
   }
   const std::size_t of_world = all.size();
@@ -54,26 +54,6 @@ std::vector<NamedSupervisor> supervisors_of(const sim::WorldDesc& world, const s
     place->folder.clear();
   }
   return all;
-}
-
-std::vector<std::string> words_in(const std::string& text) {
-  std::vector<std::string> words;
-  bool is_word = false;
-  char quote = 0;
-  for (const char c : text) {
-    if (quote ? c == quote : c == '"' || c == '\'') {
-      quote = quote ? 0 : c;
-      if (!is_word) words.emplace_back();
-      is_word = true;
-    } else if (!quote && (c == ' ' || c == '\t' || c == '\n')) {
-      is_word = false;
-    } else {
-      if (!is_word) words.emplace_back();
-      is_word = true;
-      words.back() += c;
-    }
-  }
-  return words;
 }
 
 std::uint64_t seed_of(const sim::WorldDesc& world, int robot, const std::string& name) {

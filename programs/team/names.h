@@ -18,14 +18,12 @@ inline constexpr std::int64_t kMostStepMs = 2147483647;  // an int of the PC
 struct NamedSupervisor {
   sim::SupervisorDesc desc;
   std::string folder;
+  int of_world = -1;  ///< its number there; -1: added by the command line
 };
 /// The world's, and those of the command line in their places; each with a name.
 std::vector<NamedSupervisor> supervisors_of(const sim::WorldDesc& world, const std::string& world_folder,
                                             const std::vector<std::string>& of_command_line,
                                             std::vector<std::string>& problems);
-
-/// Words between blanks; quotes hold blanks together.
-std::vector<std::string> words_in(const std::string& text);
 
 /// Chance for a program: made of the world's seed, and the robot's or the supervisor's name.
 std::uint64_t seed_of(const sim::WorldDesc& world, int robot, const std::string& name);

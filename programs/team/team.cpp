@@ -14,7 +14,7 @@ namespace programs {
 
 namespace fs = std::filesystem;
 
-Team::Team(twin::Twin& twin, const twin::Options&) : twin_(twin), run_folder_(fs::current_path().string()) {
+Team::Team(twin::Twin& twin, const twin::Options&) : twin_(twin), run_folder_(fs::current_path().string()), at_first_(twin.world()) {
   say = [](const std::string& text) { std::fprintf(stderr, "%s\n", text.c_str()); };
 }
 
@@ -37,6 +37,7 @@ std::unique_ptr<Team> Team::open(twin::Twin& twin, const twin::Options& options,
     member->is_supervisor = robot.supervisor;
     member->launch = *twin.launch(r);
     member->arguments = robot.args;
+    member->custom = robot.custom_data;
     auto body = std::make_shared<RobotBody>(twin.seat(r));
     member->of_robot = body.get();
     member->body = std::move(body);
@@ -47,6 +48,8 @@ std::unique_ptr<Team> Team::open(twin::Twin& twin, const twin::Options& options,
     member->name = named.desc.name;
     member->is_supervisor = true;
     member->arguments = named.desc.args;
+    member->custom = named.desc.custom_data;
+    member->supervisor = named.of_world;
     if (!twin::provide_launch(named.desc.program, named.folder, options, problems, member->launch)) continue;
     auto body = std::make_shared<BodilessBody>(named.desc);
     twin.packets().add(*body);
@@ -55,9 +58,15 @@ std::unique_ptr<Team> Team::open(twin::Twin& twin, const twin::Options& options,
     team->members_.push_back(std::move(member));
   }
   if (problems.size() != before) return nullptr;
-  team->nodes_ = std::make_unique<Nodes>(static_cast<SupervisorHost&>(*team));
+  team->make_nodes();
   if (!team->members_.empty()) twin.simulation().attend(team.get());
   return team;
+}
+
+void Team::make_nodes() {
+  nodes_ = std::make_unique<Nodes>(static_cast<SupervisorHost&>(*this));
+  for (const auto& member : members_)
+    if (member->supervisor >= 0) nodes_->attach(number_of(*member), member->supervisor);
 }
 
 int Team::number_of(const Member& member) const {
@@ -124,7 +133,7 @@ void Team::begin(Member& member) {
       say(fmt::format("{}: waits for its program: TWINPUCK_CONTROLLER=unix:{}", member.name, member.partner->path()));
   } else {
     Start start{member.launch.words, member.launch.environment, member.launch.folder};
-    for (const std::string& word : words_in(member.arguments)) start.words.push_back(word);
+    for (const std::string& word : sim::argument_words(member.arguments)) start.words.push_back(word);
     member.partner = Partner::start(start, why);
   }
   if (!member.partner) return fail(member, why);
@@ -278,10 +287,9 @@ void Team::welcome(Member& member) {
        {std::int64_t{LINK_VERSION}, std::int64_t{member.is_supervisor}, std::int64_t{world.webots.axes == sim::Axes::Nue},
         std::int64_t{is_lab}, static_cast<std::int64_t>(seed_of(world, member.robot, member.name) >> 1)})
     link_int(&packet_, number);
-  const std::string custom = member.robot >= 0 ? nodes_->custom_data(member.robot) : member.custom;
   const std::string project = fs::path(member.launch.folder).parent_path().parent_path().string();
   for (const std::string& text :
-       {member.name, std::string(member.robot >= 0 ? "GCtronic e-puck" : ""), project, world.file, world.title, custom})
+       {member.name, std::string(member.robot >= 0 ? "GCtronic e-puck" : ""), project, world.file, world.title, member.custom})
     link_text(&packet_, text.c_str());
   link_number(&packet_, world.webots.time_step_s * 1000);
   link_number(&packet_, world.webots.speed_unit_rad_s > 0 ? world.webots.speed_unit_rad_s : kUsualSpeedUnit);

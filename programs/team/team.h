@@ -77,6 +77,7 @@ class Team final : public sim::Attendant, private SupervisorHost {
     std::shared_ptr<Body> body;
     RobotBody* of_robot = nullptr;      // body, if it is one
     BodilessBody* bodiless = nullptr;   // body, if it is one
+    int supervisor = -1;                // number in the world's list; -1: of the command line, or a robot's
     std::unique_ptr<Partner> partner;   // null: not started, or over
     std::uint64_t began = 0;            // of the seat, when it was started
     bool has_said_hello = false, is_over = false;
@@ -122,12 +123,15 @@ class Team final : public sim::Attendant, private SupervisorHost {
   void picture(const std::string& file) override;
   void warn(int program, const std::string& text) override;
   void note_custom_data(int robot, const std::string& text) override;
-  void note_move(int robot) override { moved_.insert(robot); }
+  void note_moved(int robot) override { moved_.insert(robot); }
+  std::string device_name(int program, int tag) override;
 
   twin::Twin& twin_;
   const std::string run_folder_;
   std::vector<std::unique_ptr<Member>> members_;
+  void make_nodes();
   std::unique_ptr<Nodes> nodes_;
+  const sim::WorldDesc at_first_;  // the world as it was opened
   Outcome outcome_;
   link_packet packet_{};
   bool began_ = false, finished_ = false;
