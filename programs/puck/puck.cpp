@@ -98,8 +98,6 @@ Puck::Puck(board::Board& board, Cycle start) : board_(board), drivers_(board), w
     write_register(bus, board::kLsmGyroAddress, 0x23, 0x00, start);  // +-250 degrees a second
   }
   if (board_.camera()) camera_ = std::make_unique<PuckCamera>(board_, drivers_.camera());
-  add_own();
-  add_of_world();
 }
 
 // --- the list ------------------------------------------------------------------------------------------------
@@ -124,7 +122,8 @@ void Puck::add_own() {
   add("left wheel sensor", Kind::Encoder, WB_NODE_POSITION_SENSOR, 0, {left});
   add("right wheel sensor", Kind::Encoder, WB_NODE_POSITION_SENSOR, 1, {left + 1});
   add("accelerometer", Kind::Accelerometer, WB_NODE_ACCELEROMETER, 0);
-  if (has_lsm_) add("gyro", Kind::Gyro, WB_NODE_GYRO, 0);
+  // a robot without a gyroscope of its own has Webots'
+  add("gyro", has_lsm_ ? Kind::Gyro : Kind::TrueGyro, WB_NODE_GYRO, 0);
   if (camera_) add("camera", Kind::Camera, WB_NODE_CAMERA, 0, {kCameraColumns, kCameraRows, kCameraFovRad, 0, 1});
   for (int i = 0; i < board::kMicrophones; ++i)
     add("mic" + std::to_string(i), Kind::Microphone, WB_NODE_MICROPHONE, i);
@@ -202,7 +201,12 @@ void Puck::tell(std::size_t number, link_packet& to) const {
   link_end(&to);
 }
 
-void Puck::tell_devices(link_packet& to) const {
+void Puck::tell_devices(link_packet& to) {
+  // not before: parts are plugged in behind the constructor
+  if (devices_.empty()) {
+    add_own();
+    add_of_world();
+  }
   for (std::size_t i = 0; i < devices_.size(); ++i) tell(i, to);
 }
 

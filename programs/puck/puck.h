@@ -32,7 +32,7 @@ class Puck {
   Puck(board::Board& board, Cycle start);
 
   /// Appends a DEVICE for each device.
-  void tell_devices(link_packet& to) const;
+  void tell_devices(link_packet& to);
   /// Appends DEVICE for one that was defined meanwhile (a supervisor's sensor), or NOTHING.
   void find_device(const std::string& name, link_packet& to);
 
