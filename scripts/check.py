@@ -60,7 +60,7 @@ PACKAGE_ROOMS = {
     "box2d/": ["sim_core/physics"], "Eigen/": ["sim_core/simulation.cpp"], "ccd/": ["sim_core/geometry"], "boost/": ["hal_sim/host"],
     "toml++/": ["sim_core/load/toml_parser.h"], "CLI/": ["tools"], "llvm/": ["hal_sim/cc", "dspic30/llvm", "dspic30/translate"], "clang/": ["hal_sim/cc"],
     "cairo": ["sim_core/record", "sim_core/load", "tools"], "enki/": ["bench"], "gelf.h": ["hal_sim", "dspic30"],
-    "libelf.h": ["hal_sim", "dspic30"], "vpx/": ["sim_core/record"], "zlib.h": ["sim_core/record", "viewer/report.cpp"], "jpeglib.h": ["import"],
+    "libelf.h": ["hal_sim", "dspic30"], "vpx/": ["sim_core/record"], "zlib.h": ["sim_core/record", "viewer/report.cpp"], "jpeglib.h": ["import", "programs/controller"], "png.h": ["programs/controller"],
     "civetweb.h": ["viewer"],
 }
 FREE_ROOMS = ("tools", "tests", "bench")  # may include anything

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * Shapes on a picture: a shape marks the pixels that it covers, once each, and then they take its colour. Edges are
- * hard. Coordinates are pixels from the upper left corner; what lies outside is left out, however far away it is.
+ * Shapes on a picture: a shape marks the pixels that it covers, once each, and then they take its colour.
+ * Edges are hard. Coordinates are pixels from the upper left corner; what lies outside is left out, however
+ * far away it is.
  */
 #ifndef PROGRAMS_CONTROLLER_C_DRAWING_H
 #define PROGRAMS_CONTROLLER_C_DRAWING_H
@@ -10,11 +11,11 @@
 /** A picture, and what is drawn on it from now on. */
 struct canvas {
   struct image picture;
-  unsigned char* marks; /* a byte a pixel, all 0 between shapes */
+  unsigned char* marks;         /* a byte a pixel, all 0 between shapes */
   int left, top, right, bottom; /* where marks are, ends included */
-  int colour;           /* 0xRRGGBB */
-  double alpha;         /* 0 transparent to 1: what a pixel becomes */
-  double opacity;       /* 0 leaves what is there, 1 covers it */
+  int colour;                   /* 0xRRGGBB */
+  double alpha;                 /* 0 transparent to 1: what a pixel becomes */
+  double opacity;               /* 0 leaves what is there, 1 covers it */
 };
 
 /** Black, drawn on in white. */

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: MIT
- * libcontroller inside: one connection to the simulator, the robot's devices, and what every file needs of both.
+ * libcontroller inside: one connection to the simulator, the robot's devices, and what every file needs of
+ * both.
  *
- *   a getter reads what the last step brought; a setter writes a record into `session.out`; wb_robot_step() sends
- *   the packet and takes the samples until DONE; a question (ask()) is sent at once and waits for its answer.
+ *   a getter reads what the last step brought; a setter writes a record into `session.out`; wb_robot_step()
+ * sends the packet and takes the samples until DONE; a question (ask()) is sent at once and waits for its
+ * answer.
  *
  * Assumptions: one thread calls (as in Webots); the simulator is another process, whose records the codec has
  * checked for their form but not for their numbers. Nothing is allocated in a step but by what grows.
@@ -17,13 +19,13 @@
 #include "programs/controller/c/public.h"
 #include "programs/link/packet.h"
 
-/* --- the connection: session.c ---------------------------------------------------------------------------- */
+/* --- the connection: session.c */
 
 enum session_state {
-  SESSION_NONE,    /* not begun */
-  SESSION_RUNS,    /* steps are answered */
-  SESSION_OVER,    /* the run has ended: questions are answered, steps not */
-  SESSION_CLOSED,  /* nobody is there any more */
+  SESSION_NONE,   /* not begun */
+  SESSION_RUNS,   /* steps are answered */
+  SESSION_OVER,   /* the run has ended: questions are answered, steps not */
+  SESSION_CLOSED, /* nobody is there any more */
 };
 
 struct session {
@@ -33,8 +35,8 @@ struct session {
   bool stepping;   /* between wb_robot_step_begin() and its end */
   bool told_end;   /* a step has returned -1 */
   int64_t seed;
-  int64_t time_ns;        /* since the program began */
-  int64_t passed_ms;      /* by the last step */
+  int64_t time_ns;   /* since the program began */
+  int64_t passed_ms; /* by the last step */
   double basic_step_ms;
   double speed_unit_rad_s; /* of differential wheels */
   char *robot, *model, *project, *world, *title, *custom;
@@ -43,7 +45,8 @@ struct session {
 };
 extern struct session session;
 
-/** Begins the session if it has not begun. A program that cannot reach the simulator ends here, with status 1. */
+/** Begins the session if it has not begun. A program that cannot reach the simulator ends here, with
+ * status 1. */
 void session_begin(void);
 static inline void session_ready(void) {
   if (session.state == SESSION_NONE) session_begin();
@@ -53,8 +56,8 @@ static inline void session_ready(void) {
 struct link_packet* command(int record);
 void command_end(void);
 
-/** Sends what has been said, with the question as its last record, and waits for the answer. Its number; 0: there is
- *  none, because the run is closed. The members are valid until the next question or step. */
+/** Sends what has been said, with the question as its last record, and waits for the answer. Its number; 0:
+ * there is none, because the run is closed. The members are valid until the next question or step. */
 int ask(struct link_record* answer);
 
 /** Sends what has been said so far. */
@@ -63,12 +66,12 @@ void session_flush(void);
 /** 0 for HELLO: C; others call twinpuck_language(). */
 extern int session_language;
 
-/* --- warnings: "Warning: ..." on stderr, 20 times from one place ------------------------------------------ */
+/* --- warnings: "Warning: ..." on stderr, 20 times from one place */
 
 void warn(int* told, const char* format, ...) __attribute__((format(printf, 2, 3)));
-#define WARN(...)             \
-  do {                        \
-    static int told_;         \
+#define WARN(...)              \
+  do {                         \
+    static int told_;          \
     warn(&told_, __VA_ARGS__); \
   } while (0)
 
@@ -82,17 +85,17 @@ void* grow(void* old, size_t bytes);
 /** The absolute path of a file of the program's folder; valid until the next call. */
 const char* absolute_path(const char* file);
 
-/* --- devices: devices.c ----------------------------------------------------------------------------------- */
+/* --- devices: devices.c */
 
 #define DEVICE_VALUES 8
 
 struct device {
   WbDeviceTag tag;
-  bool fresh;        /* a sample has come */
+  bool fresh; /* a sample has come */
   WbNodeType kind;
-  int period;        /* ms; 0: disabled */
-  int count;         /* of values that came */
-  int info_count;    /* of numbers of DEVICE */
+  int period;     /* ms; 0: disabled */
+  int count;      /* of values that came */
+  int info_count; /* of numbers of DEVICE */
   double values[DEVICE_VALUES];
   float floats[DEVICE_VALUES]; /* the same, in the interface of 2005 */
   double* info;
@@ -147,25 +150,28 @@ void take_keys(const struct link_record* record);
 void take_playing(const struct link_record* record);
 /* at the end of a step, once its samples have come */
 void emitters_step(void);
+void speakers_step(void);
 void old_supervisor_step(void);
 void keyboard_step(void);
 
 /** A key that is down, each once a step, then `none`. */
 long next_key(long none);
 
-/* --- images: picture.c ------------------------------------------------------------------------------------ */
+/* --- images: picture.c */
 
 /** Rows from the top, 4 bytes a pixel: blue, green, red, alpha. */
 struct image {
   int width, height;
   unsigned char* bgra;
 };
-/** Writes a PNG, or a JPEG where the name says so (quality 1 to 100). False, and a warning: it could not be written. */
-bool image_write(const struct image* image, const char* file, int quality, bool with_alpha, const char* function);
+/** Writes a PNG, or a JPEG where the name says so (quality 1 to 100). False, and a warning: it could not be
+ * written. */
+bool image_write(const struct image* image, const char* file, int quality, bool with_alpha,
+                 const char* function);
 /** Reads a PNG or JPEG; false, and a warning: it could not be read. */
 bool image_read(struct image* image, const char* file, const char* function);
 
-/* --- signals: crash.c ------------------------------------------------------------------------------------- */
+/* --- signals: crash.c */
 
 void crash_install(int socket);
 

@@ -341,6 +341,7 @@ int wb_robot_step_end(void) {
   session.stepping = false;
   session.stamp++;
   emitters_step();
+  speakers_step();
   if (session.state != SESSION_RUNS) return ended();
   old_supervisor_step();
   return 0;

@@ -49,10 +49,15 @@ int wb_microphone_get_sample_size(WbDeviceTag tag) {
 
 /* --- speaker ---------------------------------------------------------------------------------------------- */
 
+#define NAME_BYTES 128 /* of a sound */
+
 struct speaker {
-  char* playing; /* a line a sound */
+  char* playing;           /* a line a sound, as the simulator says */
+  char begun[NAME_BYTES];  /* by this program since the last step: it plays, as far as can be seen */
   char language[16], engine[16];
+  struct speaker* next;
 };
+static struct speaker* speakers;
 
 static struct device* speaker_device(WbDeviceTag tag, const char* function) {
   return device_of(tag, WB_NODE_SPEAKER, function);
@@ -60,11 +65,12 @@ static struct device* speaker_device(WbDeviceTag tag, const char* function) {
 static struct speaker* speaker_of(struct device* d) {
   struct speaker* s = d->own;
   if (s) return s;
-  d->own = s = grow(0, sizeof *s);
+  d->own = s = memset(grow(0, sizeof *s), 0, sizeof *s);
   s->playing = copy_text("", 0);
   strcpy(s->language, "en-US");
   strcpy(s->engine, "pico");
-  return s;
+  s->next = speakers;
+  return speakers = s;
 }
 static struct speaker* speaker(WbDeviceTag tag, const char* function) {
   struct device* d = speaker_device(tag, function);
@@ -80,34 +86,49 @@ void take_playing(const struct link_record* record) {
   s->playing = copy_text(record->texts[0].bytes, record->texts[0].size);
 }
 
+/* from here on it is the simulator's word that counts: it may have refused the sound */
+void speakers_step(void) {
+  struct speaker* s;
+  for (s = speakers; s; s = s->next) s->begun[0] = 0;
+}
+
 /* a file of the program's folder by its whole path, anything else as it was named */
 static const char* name_of(const char* sound) { return access(sound, R_OK) == 0 ? absolute_path(sound) : sound; }
 
-static const char* line_of(const char* lines, const char* sound) {
-  size_t n = strlen(sound);
-  const char* at;
-  for (at = lines; *at; at += strcspn(at, "\n"), at += *at == '\n')
-    if (strcspn(at, "\n") == n && strncmp(at, sound, n) == 0) return at;
-  return 0;
+/* "sounds/haa.wav" is "haa": the simulator may say either */
+static size_t stem_of(const char* text, size_t size, const char** stem) {
+  const char* at = text + size;
+  while (at > text && at[-1] != '/') at--;
+  *stem = at;
+  for (size = (size_t)(text + size - at); memchr(at, '.', size); size--) continue;
+  return size;
+}
+
+static bool is_same(const char* line, size_t size, const char* sound) {
+  const char *a, *b;
+  size_t n = stem_of(line, size, &a);
+  return stem_of(sound, strlen(sound), &b) == n && memcmp(a, b, n) == 0;
+}
+
+static bool is_among(const char* lines, const char* sound) {
+  for (; *lines; lines += *lines == '\n') {
+    size_t size = strcspn(lines, "\n");
+    if (is_same(lines, size, sound)) return true;
+    lines += size;
+  }
+  return false;
 }
 
 static void play(struct device* d, const char* sound, double volume, double pitch, double balance, bool loop) {
-  struct speaker* s = speaker_of(d);
   struct link_packet* out = command(LINK_PLAY);
   link_int(out, d->tag);
-  link_text(out, sound);
+  link_text(out, name_of(sound));
   link_number(out, volume);
   link_number(out, pitch);
   link_number(out, balance);
   link_int(out, loop);
   command_end();
-  /* it plays from now on, as far as the program can see */
-  if (!line_of(s->playing, sound)) {
-    size_t n = strlen(s->playing), m = strlen(sound);
-    s->playing = grow(s->playing, n + m + 2);
-    memcpy(s->playing + n, sound, m);
-    strcpy(s->playing + n + m, "\n");
-  }
+  snprintf(speaker_of(d)->begun, NAME_BYTES, "%s", sound);
 }
 
 void wb_speaker_play_sound(WbDeviceTag left, WbDeviceTag right, const char* sound, double volume, double pitch,
@@ -118,7 +139,6 @@ void wb_speaker_play_sound(WbDeviceTag left, WbDeviceTag right, const char* soun
     WARN("wb_speaker_play_sound(): got no sound, expected a file or a name");
     return;
   }
-  sound = name_of(sound);
   play(d, sound, volume, pitch, balance, loop);
   if (left && right && left != right) {
     d = speaker_device(right, "wb_speaker_play_sound");
@@ -130,23 +150,19 @@ void wb_speaker_stop(WbDeviceTag tag, const char* sound) {
   struct speaker* s = speaker(tag, "wb_speaker_stop");
   struct link_packet* out;
   if (!s) return;
-  sound = sound && *sound ? name_of(sound) : "";
   out = command(LINK_SILENCE);
   link_int(out, tag);
-  link_text(out, sound);
+  link_text(out, sound && *sound ? name_of(sound) : "");
   command_end();
-  if (!*sound) {
-    s->playing[0] = 0;
-  } else {
-    char* at = (char*)line_of(s->playing, sound);
-    if (at) memmove(at, at + strlen(sound) + 1, strlen(at + strlen(sound) + 1) + 1);
-  }
+  if (!sound || !*sound) s->playing[0] = 0;
+  if (!sound || !*sound || is_among(s->begun, sound)) s->begun[0] = 0;
 }
 
 bool wb_speaker_is_sound_playing(WbDeviceTag tag, const char* sound) {
   const struct speaker* s = speaker(tag, "wb_speaker_is_sound_playing");
   if (!s) return false;
-  return sound && *sound ? line_of(s->playing, name_of(sound)) != 0 : s->playing[0] != 0;
+  if (!sound || !*sound) return s->playing[0] || s->begun[0];
+  return is_among(s->playing, sound) || is_among(s->begun, sound);
 }
 
 /* the robot cannot speak */

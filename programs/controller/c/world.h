@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * Nodes and fields of the world, as the simulator numbers them. A supervisor's references are these structs; each
- * number has one, for as long as the program lives. What was asked is kept until the world may have changed.
+ * Nodes and fields of the world, as the simulator numbers them. A supervisor's references are these structs;
+ * each number has one, for as long as the program lives. What was asked is kept until the world may have
+ * changed.
  */
 #ifndef PROGRAMS_CONTROLLER_C_WORLD_H
 #define PROGRAMS_CONTROLLER_C_WORLD_H
@@ -17,7 +18,17 @@ struct asked {
 };
 
 /* what of a node, as ASK_NODE and DO_NODE number it */
-enum { ASK_POSITION, ASK_ORIENTATION, ASK_VELOCITY, ASK_MASS_CENTRE, ASK_CONTACTS, ASK_POSE, ASK_BALANCE, ASK_FIELDS, ASKED };
+enum {
+  ASK_POSITION,
+  ASK_ORIENTATION,
+  ASK_VELOCITY,
+  ASK_MASS_CENTRE,
+  ASK_CONTACTS,
+  ASK_POSE,
+  ASK_BALANCE,
+  ASK_FIELDS,
+  ASKED
+};
 enum { DO_VELOCITY, DO_REST, DO_RESTART, DO_REMOVE, DO_FORCE, DO_TORQUE, DO_KEEP, DO_TAKE };
 enum { FIND_ROOT, FIND_SELF, FIND_DEF, FIND_NUMBER, FIND_DEVICE, FIND_SELECTED };
 

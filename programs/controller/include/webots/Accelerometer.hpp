@@ -3,8 +3,8 @@
 #ifndef WB_ACCELEROMETER_HPP
 #define WB_ACCELEROMETER_HPP
 
-#include "Device.hpp"
 #include <webots/accelerometer.h>
+#include "Device.hpp"
 
 namespace webots {
 

@@ -3,8 +3,8 @@
 #ifndef WB_ALTIMETER_HPP
 #define WB_ALTIMETER_HPP
 
-#include "Device.hpp"
 #include <webots/altimeter.h>
+#include "Device.hpp"
 
 namespace webots {
 

@@ -3,8 +3,8 @@
 #ifndef WB_BRAKE_HPP
 #define WB_BRAKE_HPP
 
-#include "Device.hpp"
 #include <webots/brake.h>
+#include "Device.hpp"
 
 namespace webots {
 

@@ -3,8 +3,8 @@
 #ifndef WB_CAMERA_HPP
 #define WB_CAMERA_HPP
 
-#include "Device.hpp"
 #include <webots/camera.h>
+#include "Device.hpp"
 
 namespace webots {
 
@@ -48,19 +48,27 @@ class Camera : public Device {
   virtual void setFov(double fov) { wb_camera_set_fov(tag(), fov); }
   virtual void setExposure(double exposure) { wb_camera_set_exposure(tag(), exposure); }
   virtual void setFocalDistance(double distance) { wb_camera_set_focal_distance(tag(), distance); }
-  int saveImage(const std::string& file, int quality) const { return wb_camera_save_image(tag(), file.c_str(), quality); }
+  int saveImage(const std::string& file, int quality) const {
+    return wb_camera_save_image(tag(), file.c_str(), quality);
+  }
 
   bool hasRecognition() const { return wb_camera_has_recognition(tag()); }
   virtual void recognitionEnable(int samplingPeriod) { wb_camera_recognition_enable(tag(), samplingPeriod); }
   virtual void recognitionDisable() { wb_camera_recognition_disable(tag()); }
   int getRecognitionSamplingPeriod() const { return wb_camera_recognition_get_sampling_period(tag()); }
   int getRecognitionNumberOfObjects() const { return wb_camera_recognition_get_number_of_objects(tag()); }
-  const CameraRecognitionObject* getRecognitionObjects() const { return wb_camera_recognition_get_objects(tag()); }
+  const CameraRecognitionObject* getRecognitionObjects() const {
+    return wb_camera_recognition_get_objects(tag());
+  }
   bool hasRecognitionSegmentation() const { return wb_camera_recognition_has_segmentation(tag()); }
   void enableRecognitionSegmentation() { wb_camera_recognition_enable_segmentation(tag()); }
   void disableRecognitionSegmentation() { wb_camera_recognition_disable_segmentation(tag()); }
-  bool isRecognitionSegmentationEnabled() const { return wb_camera_recognition_is_segmentation_enabled(tag()); }
-  const unsigned char* getRecognitionSegmentationImage() const { return wb_camera_recognition_get_segmentation_image(tag()); }
+  bool isRecognitionSegmentationEnabled() const {
+    return wb_camera_recognition_is_segmentation_enabled(tag());
+  }
+  const unsigned char* getRecognitionSegmentationImage() const {
+    return wb_camera_recognition_get_segmentation_image(tag());
+  }
   int saveRecognitionSegmentationImage(const std::string& file, int quality) {
     return wb_camera_recognition_save_segmentation_image(tag(), file.c_str(), quality);
   }

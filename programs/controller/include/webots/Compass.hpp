@@ -3,8 +3,8 @@
 #ifndef WB_COMPASS_HPP
 #define WB_COMPASS_HPP
 
-#include "Device.hpp"
 #include <webots/compass.h>
+#include "Device.hpp"
 
 namespace webots {
 

@@ -3,8 +3,8 @@
 #ifndef WB_CONNECTOR_HPP
 #define WB_CONNECTOR_HPP
 
-#include "Device.hpp"
 #include <webots/connector.h>
+#include "Device.hpp"
 
 namespace webots {
 

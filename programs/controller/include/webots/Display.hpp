@@ -55,7 +55,9 @@ class Display : public Device {
   ImageRef* imageCopy(int x, int y, int width, int height) const {
     return made(wb_display_image_copy(tag(), x, y, width, height));
   }
-  ImageRef* imageLoad(const std::string& file) const { return made(wb_display_image_load(tag(), file.c_str())); }
+  ImageRef* imageLoad(const std::string& file) const {
+    return made(wb_display_image_load(tag(), file.c_str()));
+  }
   void imagePaste(ImageRef* image, int x, int y, bool blend = false) {
     wb_display_image_paste(tag(), image ? image->image() : 0, x, y, blend);
   }

@@ -3,8 +3,8 @@
 #ifndef WB_DISTANCESENSOR_HPP
 #define WB_DISTANCESENSOR_HPP
 
-#include "Device.hpp"
 #include <webots/distance_sensor.h>
+#include "Device.hpp"
 
 namespace webots {
 

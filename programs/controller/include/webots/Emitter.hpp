@@ -3,8 +3,8 @@
 #ifndef WB_EMITTER_HPP
 #define WB_EMITTER_HPP
 
-#include "Device.hpp"
 #include <webots/emitter.h>
+#include "Device.hpp"
 
 namespace webots {
 

@@ -42,7 +42,9 @@ class Field {
   std::string getTypeName() const { return wb_supervisor_field_get_type_name(field_); }
   int getCount() const { return wb_supervisor_field_get_count(field_); }
   Field* getActualField() const { return findField(wb_supervisor_field_get_actual_field(field_)); }
-  void enableSFTracking(int samplingPeriod) { wb_supervisor_field_enable_sf_tracking(field_, samplingPeriod); }
+  void enableSFTracking(int samplingPeriod) {
+    wb_supervisor_field_enable_sf_tracking(field_, samplingPeriod);
+  }
   void disableSFTracking() { wb_supervisor_field_disable_sf_tracking(field_); }
 
   bool getSFBool() const { return wb_supervisor_field_get_sf_bool(field_); }
@@ -75,19 +77,39 @@ class Field {
   void setMFBool(int index, bool value) { wb_supervisor_field_set_mf_bool(field_, index, value); }
   void setMFInt32(int index, int value) { wb_supervisor_field_set_mf_int32(field_, index, value); }
   void setMFFloat(int index, double value) { wb_supervisor_field_set_mf_float(field_, index, value); }
-  void setMFVec2f(int index, const double values[2]) { wb_supervisor_field_set_mf_vec2f(field_, index, values); }
-  void setMFVec3f(int index, const double values[3]) { wb_supervisor_field_set_mf_vec3f(field_, index, values); }
-  void setMFRotation(int index, const double values[4]) { wb_supervisor_field_set_mf_rotation(field_, index, values); }
-  void setMFColor(int index, const double values[3]) { wb_supervisor_field_set_mf_color(field_, index, values); }
-  void setMFString(int index, const std::string& value) { wb_supervisor_field_set_mf_string(field_, index, value.c_str()); }
+  void setMFVec2f(int index, const double values[2]) {
+    wb_supervisor_field_set_mf_vec2f(field_, index, values);
+  }
+  void setMFVec3f(int index, const double values[3]) {
+    wb_supervisor_field_set_mf_vec3f(field_, index, values);
+  }
+  void setMFRotation(int index, const double values[4]) {
+    wb_supervisor_field_set_mf_rotation(field_, index, values);
+  }
+  void setMFColor(int index, const double values[3]) {
+    wb_supervisor_field_set_mf_color(field_, index, values);
+  }
+  void setMFString(int index, const std::string& value) {
+    wb_supervisor_field_set_mf_string(field_, index, value.c_str());
+  }
   void insertMFBool(int index, bool value) { wb_supervisor_field_insert_mf_bool(field_, index, value); }
   void insertMFInt32(int index, int value) { wb_supervisor_field_insert_mf_int32(field_, index, value); }
   void insertMFFloat(int index, double value) { wb_supervisor_field_insert_mf_float(field_, index, value); }
-  void insertMFVec2f(int index, const double values[2]) { wb_supervisor_field_insert_mf_vec2f(field_, index, values); }
-  void insertMFVec3f(int index, const double values[3]) { wb_supervisor_field_insert_mf_vec3f(field_, index, values); }
-  void insertMFRotation(int index, const double values[4]) { wb_supervisor_field_insert_mf_rotation(field_, index, values); }
-  void insertMFColor(int index, const double values[3]) { wb_supervisor_field_insert_mf_color(field_, index, values); }
-  void insertMFString(int index, const std::string& value) { wb_supervisor_field_insert_mf_string(field_, index, value.c_str()); }
+  void insertMFVec2f(int index, const double values[2]) {
+    wb_supervisor_field_insert_mf_vec2f(field_, index, values);
+  }
+  void insertMFVec3f(int index, const double values[3]) {
+    wb_supervisor_field_insert_mf_vec3f(field_, index, values);
+  }
+  void insertMFRotation(int index, const double values[4]) {
+    wb_supervisor_field_insert_mf_rotation(field_, index, values);
+  }
+  void insertMFColor(int index, const double values[3]) {
+    wb_supervisor_field_insert_mf_color(field_, index, values);
+  }
+  void insertMFString(int index, const std::string& value) {
+    wb_supervisor_field_insert_mf_string(field_, index, value.c_str());
+  }
   void removeMF(int index) { wb_supervisor_field_remove_mf(field_, index); }
   void removeMFNode(int position) { removeMF(position); }
   void removeSF() { wb_supervisor_field_remove_sf(field_); }

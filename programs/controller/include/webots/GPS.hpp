@@ -3,8 +3,8 @@
 #ifndef WB_GPS_HPP
 #define WB_GPS_HPP
 
-#include "Device.hpp"
 #include <webots/gps.h>
+#include "Device.hpp"
 
 namespace webots {
 

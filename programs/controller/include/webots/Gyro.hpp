@@ -3,8 +3,8 @@
 #ifndef WB_GYRO_HPP
 #define WB_GYRO_HPP
 
-#include "Device.hpp"
 #include <webots/gyro.h>
+#include "Device.hpp"
 
 namespace webots {
 

@@ -3,8 +3,8 @@
 #ifndef WB_INERTIALUNIT_HPP
 #define WB_INERTIALUNIT_HPP
 
-#include "Device.hpp"
 #include <webots/inertial_unit.h>
+#include "Device.hpp"
 
 namespace webots {
 

@@ -3,8 +3,8 @@
 #ifndef WB_LED_HPP
 #define WB_LED_HPP
 
-#include "Device.hpp"
 #include <webots/led.h>
+#include "Device.hpp"
 
 namespace webots {
 

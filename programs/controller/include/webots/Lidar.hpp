@@ -3,8 +3,8 @@
 #ifndef WB_LIDAR_HPP
 #define WB_LIDAR_HPP
 
-#include "Device.hpp"
 #include <webots/lidar.h>
+#include "Device.hpp"
 
 namespace webots {
 
@@ -24,7 +24,9 @@ class Lidar : public Device {
   virtual void disablePointCloud() { wb_lidar_disable_point_cloud(tag()); }
   bool isPointCloudEnabled() const { return wb_lidar_is_point_cloud_enabled(tag()); }
   const WbLidarPoint* getPointCloud() const { return wb_lidar_get_point_cloud(tag()); }
-  const WbLidarPoint* getLayerPointCloud(int layer) const { return wb_lidar_get_layer_point_cloud(tag(), layer); }
+  const WbLidarPoint* getLayerPointCloud(int layer) const {
+    return wb_lidar_get_layer_point_cloud(tag(), layer);
+  }
   int getNumberOfPoints() const { return wb_lidar_get_number_of_points(tag()); }
   int getHorizontalResolution() const { return wb_lidar_get_horizontal_resolution(tag()); }
   int getNumberOfLayers() const { return wb_lidar_get_number_of_layers(tag()); }

@@ -3,8 +3,8 @@
 #ifndef WB_LIGHTSENSOR_HPP
 #define WB_LIGHTSENSOR_HPP
 
-#include "Device.hpp"
 #include <webots/light_sensor.h>
+#include "Device.hpp"
 
 namespace webots {
 

@@ -3,8 +3,8 @@
 #ifndef WB_MICROPHONE_HPP
 #define WB_MICROPHONE_HPP
 
-#include "Device.hpp"
 #include <webots/microphone.h>
+#include "Device.hpp"
 
 namespace webots {
 

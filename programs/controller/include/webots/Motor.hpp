@@ -3,9 +3,9 @@
 #ifndef WB_MOTOR_HPP
 #define WB_MOTOR_HPP
 
+#include <webots/motor.h>
 #include "Device.hpp"
 #include "PositionSensor.hpp"
-#include <webots/motor.h>
 
 namespace webots {
 

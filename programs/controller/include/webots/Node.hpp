@@ -137,7 +137,9 @@ class Node {
     return wb_supervisor_node_get_pose(node_, from ? from->node_ : 0);
   }
   const double* getCenterOfMass() const { return wb_supervisor_node_get_center_of_mass(node_); }
-  const double* getContactPoint(int index) const { return wb_supervisor_node_get_contact_point(node_, index); }
+  const double* getContactPoint(int index) const {
+    return wb_supervisor_node_get_contact_point(node_, index);
+  }
   Node* getContactPointNode(int index) const {
     return findNode(wb_supervisor_node_get_contact_point_node(node_, index));
   }
@@ -152,11 +154,15 @@ class Node {
   std::string exportString() const { return wb_supervisor_node_export_string(node_); }
 
   void setVelocity(const double velocity[6]) { wb_supervisor_node_set_velocity(node_, velocity); }
-  void addForce(const double force[3], bool relative) { wb_supervisor_node_add_force(node_, force, relative); }
+  void addForce(const double force[3], bool relative) {
+    wb_supervisor_node_add_force(node_, force, relative);
+  }
   void addForceWithOffset(const double force[3], const double offset[3], bool relative) {
     wb_supervisor_node_add_force_with_offset(node_, force, offset, relative);
   }
-  void addTorque(const double torque[3], bool relative) { wb_supervisor_node_add_torque(node_, torque, relative); }
+  void addTorque(const double torque[3], bool relative) {
+    wb_supervisor_node_add_torque(node_, torque, relative);
+  }
   void resetPhysics() { wb_supervisor_node_reset_physics(node_); }
   void restartController() { wb_supervisor_node_restart_controller(node_); }
   virtual void remove() { wb_supervisor_node_remove(node_); }
@@ -198,7 +204,9 @@ class Node {
 };
 
 inline Node* Field::getSFNode() const { return Node::findNode(wb_supervisor_field_get_sf_node(field_)); }
-inline Node* Field::getMFNode(int index) const { return Node::findNode(wb_supervisor_field_get_mf_node(field_, index)); }
+inline Node* Field::getMFNode(int index) const {
+  return Node::findNode(wb_supervisor_field_get_mf_node(field_, index));
+}
 
 }  // namespace webots
 

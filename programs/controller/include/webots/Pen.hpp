@@ -3,8 +3,8 @@
 #ifndef WB_PEN_HPP
 #define WB_PEN_HPP
 
-#include "Device.hpp"
 #include <webots/pen.h>
+#include "Device.hpp"
 
 namespace webots {
 

@@ -3,9 +3,9 @@
 #ifndef WB_POSITIONSENSOR_HPP
 #define WB_POSITIONSENSOR_HPP
 
-#include "Device.hpp"
-#include "Brake.hpp"
 #include <webots/position_sensor.h>
+#include "Brake.hpp"
+#include "Device.hpp"
 
 namespace webots {
 

@@ -3,8 +3,8 @@
 #ifndef WB_RADAR_HPP
 #define WB_RADAR_HPP
 
-#include "Device.hpp"
 #include <webots/radar.h>
+#include "Device.hpp"
 
 namespace webots {
 

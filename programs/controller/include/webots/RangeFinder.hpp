@@ -3,8 +3,8 @@
 #ifndef WB_RANGEFINDER_HPP
 #define WB_RANGEFINDER_HPP
 
-#include "Device.hpp"
 #include <webots/range_finder.h>
+#include "Device.hpp"
 
 namespace webots {
 
@@ -17,7 +17,9 @@ class RangeFinder : public Device {
   virtual void disable() { wb_range_finder_disable(tag()); }
   int getSamplingPeriod() const { return wb_range_finder_get_sampling_period(tag()); }
   const float* getRangeImage() const { return wb_range_finder_get_range_image(tag()); }
-  static float rangeImageGetDepth(const float* image, int width, int x, int y) { return image[y * width + x]; }
+  static float rangeImageGetDepth(const float* image, int width, int x, int y) {
+    return image[y * width + x];
+  }
   int getWidth() const { return wb_range_finder_get_width(tag()); }
   int getHeight() const { return wb_range_finder_get_height(tag()); }
   double getFov() const { return wb_range_finder_get_fov(tag()); }

@@ -3,8 +3,8 @@
 #ifndef WB_RECEIVER_HPP
 #define WB_RECEIVER_HPP
 
-#include "Device.hpp"
 #include <webots/receiver.h>
+#include "Device.hpp"
 
 namespace webots {
 

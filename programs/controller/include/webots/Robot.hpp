@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The robot in C++, as Webots' controllers know it; see webots/robot.h. Classes are thin: each function is the one
-// of C with the same name. The end of the robot is the end of its connection to the simulation.
+// The robot in C++, as Webots' controllers know it; see webots/robot.h. Classes are thin: each function is
+// the one of C with the same name. The end of the robot is the end of its connection to the simulation.
 #ifndef WB_ROBOT_HPP
 #define WB_ROBOT_HPP
 
@@ -101,7 +101,9 @@ class Robot {
   std::string getControllerName() const { return wb_robot_get_controller_name(); }
   std::string getControllerArguments() const { return ""; }
   Mode getMode() const { return static_cast<Mode>(wb_robot_get_mode()); }
-  void setMode(Mode mode, const char* argument) { wb_robot_set_mode(static_cast<WbRobotMode>(mode), argument); }
+  void setMode(Mode mode, const char* argument) {
+    wb_robot_set_mode(static_cast<WbRobotMode>(mode), argument);
+  }
   bool getSynchronization() const { return wb_robot_get_synchronization(); }
   bool getSupervisor() const { return wb_robot_get_supervisor(); }
   std::string getProjectPath() const { return wb_robot_get_project_path(); }
@@ -190,7 +192,9 @@ class Robot {
     }
   }
   static int getDeviceTypeFromTag(int tag) { return wb_device_get_node_type(static_cast<WbDeviceTag>(tag)); }
-  static std::string getDeviceNameFromTag(int tag) { return wb_device_get_name(static_cast<WbDeviceTag>(tag)); }
+  static std::string getDeviceNameFromTag(int tag) {
+    return wb_device_get_name(static_cast<WbDeviceTag>(tag));
+  }
   static int getDeviceTagFromIndex(int index) { return wb_robot_get_device_by_index(index); }
   static int getDeviceTagFromName(const std::string& name) { return wb_robot_get_device(name.c_str()); }
   Accelerometer* getAccelerometer(const std::string& name) { return get<Accelerometer>(name); }

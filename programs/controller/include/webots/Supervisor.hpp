@@ -17,7 +17,14 @@ class Supervisor : public Robot {
  public:
   typedef enum { SIMULATION_MODE_PAUSE = 0, SIMULATION_MODE_REAL_TIME, SIMULATION_MODE_FAST } SimulationMode;
   enum { SIMULATION_MODE_RUN = SIMULATION_MODE_FAST };
-  enum { MOVIE_READY = 0, MOVIE_RECORDING, MOVIE_SAVING, MOVIE_WRITE_ERROR, MOVIE_ENCODING_ERROR, MOVIE_SIMULATION_ERROR };
+  enum {
+    MOVIE_READY = 0,
+    MOVIE_RECORDING,
+    MOVIE_SAVING,
+    MOVIE_WRITE_ERROR,
+    MOVIE_ENCODING_ERROR,
+    MOVIE_SIMULATION_ERROR
+  };
 
   static Supervisor* internalGetInstance() { return dynamic_cast<Supervisor*>(Robot::internalGetInstance()); }
 
@@ -59,8 +66,8 @@ class Supervisor : public Robot {
   bool movieIsReady() const { return wb_supervisor_movie_is_ready(); }
   bool movieFailed() const { return wb_supervisor_movie_failed(); }
   int movieGetStatus() const { return wb_supervisor_movie_get_status(); }
-  virtual void startMovie(const std::string& file, int width, int height, int codec, int quality, int acceleration,
-                          bool caption) {
+  virtual void startMovie(const std::string& file, int width, int height, int codec, int quality,
+                          int acceleration, bool caption) {
     movieStartRecording(file, width, height, codec, quality, acceleration, caption);
   }
   virtual void stopMovie() { movieStopRecording(); }

@@ -3,8 +3,8 @@
 #ifndef WB_TOUCHSENSOR_HPP
 #define WB_TOUCHSENSOR_HPP
 
-#include "Device.hpp"
 #include <webots/touch_sensor.h>
+#include "Device.hpp"
 
 namespace webots {
 

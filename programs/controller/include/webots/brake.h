@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Brakes. No e-puck has one here: no device of the kind exists, so each function warns of its tag, and answers 0.
+ * Brakes. No e-puck has one here: no device of the kind exists, so each function warns of its tag, and
+ * answers 0.
  */
 #ifndef WB_BRAKE_H
 #define WB_BRAKE_H

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Connectors. No e-puck has one here: no device of the kind exists, so each function warns of its tag, and answers 0.
+ * Connectors. No e-puck has one here: no device of the kind exists, so each function warns of its tag, and
+ * answers 0.
  */
 #ifndef WB_CONNECTOR_H
 #define WB_CONNECTOR_H

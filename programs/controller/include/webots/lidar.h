@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Lidars. No e-puck has one here: no device of the kind exists, so each function warns of its tag, and answers 0.
+ * Lidars. No e-puck has one here: no device of the kind exists, so each function warns of its tag, and
+ * answers 0.
  */
 #ifndef WB_LIDAR_H
 #define WB_LIDAR_H

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Pens. The floor takes no ink: where the world has a pen, nothing happens; else each function warns of its tag.
+ * Pens. The floor takes no ink: where the world has a pen, nothing happens; else each function warns of its
+ * tag.
  */
 #ifndef WB_PEN_H
 #define WB_PEN_H

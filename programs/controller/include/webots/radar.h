@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Radars. No e-puck has one here: no device of the kind exists, so each function warns of its tag, and answers 0.
+ * Radars. No e-puck has one here: no device of the kind exists, so each function warns of its tag, and
+ * answers 0.
  */
 #ifndef WB_RADAR_H
 #define WB_RADAR_H

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Range finders. No e-puck has one here: no device of the kind exists, so each function warns of its tag, and answers 0.
+ * Range finders. No e-puck has one here: no device of the kind exists, so each function warns of its tag, and
+ * answers 0.
  */
 #ifndef WB_RANGE_FINDER_H
 #define WB_RANGE_FINDER_H

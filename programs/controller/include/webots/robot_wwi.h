@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Messages between the program and its robot's window. There is no window: nothing comes (NULL, size 0), and what is
- * sent is lost, as in Webots while no window is open.
+ * Messages between the program and its robot's window. There is no window: nothing comes (NULL, size 0), and
+ * what is sent is lost, as in Webots while no window is open.
  */
 #ifndef WB_ROBOT_WWI_H
 #define WB_ROBOT_WWI_H

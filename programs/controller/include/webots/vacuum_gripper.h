@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Vacuum grippers. No e-puck has one here: no device of the kind exists, so each function warns of its tag, and answers 0.
+ * Vacuum grippers. No e-puck has one here: no device of the kind exists, so each function warns of its tag,
+ * and answers 0.
  */
 #ifndef WB_VACUUM_GRIPPER_H
 #define WB_VACUUM_GRIPPER_H
