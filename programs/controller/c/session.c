@@ -6,6 +6,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
+#include <poll.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -315,6 +316,11 @@ int wb_robot_step_begin(int duration) {
   session_flush();
   session.stepping = true;
   return 0;
+}
+
+int twinpuck_wait(void) {
+  struct pollfd line = {link_socket, POLLIN, 0};
+  return !session.stepping || poll(&line, 1, -1) != -1;
 }
 
 int wb_robot_step_end(void) {
