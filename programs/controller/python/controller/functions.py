@@ -2,12 +2,12 @@
 """The functions of libcontroller.so that this package calls, without `wb_`.
 
 A line: the result, the name, the arguments. v nothing, i int, l long, t a device's tag, b bool, d double, s text,
-p an address, D numbers, I whole numbers. tests/programs/functions_test.py compares them with the headers of C.
+p an address, B bytes, D numbers, I whole numbers. tests/programs/functions_test.py compares them with the headers of C.
 """
 
 _TABLE = """
 v twinpuck_language i s
-v twinpuck_wait
+i twinpuck_wait
 
 i robot_init
 i robot_step i
@@ -179,7 +179,7 @@ D inertial_unit_get_roll_pitch_yaw t
 D inertial_unit_get_quaternion t
 d inertial_unit_get_noise t
 
-i emitter_send t p i
+i emitter_send t B i
 v emitter_set_channel t i
 i emitter_get_channel t
 v emitter_set_range t d
@@ -231,7 +231,7 @@ v display_draw_text t s i i
 v display_fill_rectangle t i i i i
 v display_fill_oval t i i i i
 v display_fill_polygon t I I i
-p display_image_new t i i p i
+p display_image_new t i i B i
 p display_image_copy t i i i i
 v display_image_paste t p i i b
 p display_image_load t s

@@ -7,7 +7,6 @@ first called; after that a call costs what ctypes takes.
 
 It is found by TWINPUCK_LIBCONTROLLER, a path, or else beside this package: in its clone's build/, or where it is installed.
 """
-import _thread
 import ctypes
 import math
 import os
@@ -47,7 +46,7 @@ class Ints:
 
 RESULTS = {"v": None, "i": ctypes.c_int, "l": ctypes.c_long, "t": ctypes.c_ushort, "b": ctypes.c_bool, "d": ctypes.c_double, "s": ctypes.c_char_p,
            "p": ctypes.c_void_p, "D": ctypes.POINTER(ctypes.c_double)}
-ARGUMENTS = {"i": ctypes.c_int, "l": ctypes.c_long, "t": ctypes.c_ushort, "b": ctypes.c_bool, "d": ctypes.c_double, "s": Text, "p": ctypes.c_void_p,
+ARGUMENTS = {"i": ctypes.c_int, "l": ctypes.c_long, "t": ctypes.c_ushort, "b": ctypes.c_bool, "d": ctypes.c_double, "s": Text, "p": ctypes.c_void_p, "B": ctypes.c_void_p,
              "D": Numbers, "I": Ints}
 NOTHING = {"v": None, "i": 0, "l": 0, "t": 0, "b": False, "d": math.nan, "s": "", "p": None, "D": None}
 
@@ -127,18 +126,10 @@ c = _Library()
 
 def step(ms):
     """A step, for which other threads of the program do not have to wait. 0; -1: the run is over."""
-    global steps, over
     if over:
         raise SystemExit(0)  # it was told and goes on; the library would end the process with words unprinted
-    steps += 1
-    if _thread._count():
-        c.robot_step_begin(ms)
-        c.twinpuck_wait()
-        result = c.robot_step_end()
-    else:
-        result = c.robot_step(ms)
-    over = result < 0
-    return result
+    c.robot_step_begin(ms)
+    return step_end()
 
 
 def step_end():
@@ -146,8 +137,9 @@ def step_end():
     global steps, over
     if over:
         raise SystemExit(0)
+    while not c.twinpuck_wait():
+        pass  # a signal: Python handles it here
     steps += 1
-    c.twinpuck_wait()
     result = c.robot_step_end()
     over = result < 0
     return result

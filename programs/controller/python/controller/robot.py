@@ -85,7 +85,7 @@ class Robot:
             return
         Robot.created = self
         if not sys.stdout.isatty():
-            sys.stdout.reconfigure(line_buffering=True)  # the console has each line when it is printed
+            sys.stdout.reconfigure(line_buffering=True, write_through=False)  # the console has each line at once, whole
         c.robot_init()
         atexit.register(c.robot_cleanup)
 

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// Programs in Python against a simulator that Python plays: the package controller with the library of this build.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <string>
+
+#include "twinpuck_paths.h"
+
+namespace {
+
+/// What a test in Python said; empty when it passed.
+std::string failed(const std::string& file, const std::string& words) {
+  const std::string folder = TWINPUCK_SOURCE_DIR "/tests/programs";
+  std::string environment = "TWINPUCK_LIBCONTROLLER='" TWINPUCK_BUILD_DIR "/libcontroller.so'";
+#ifdef __SANITIZE_ADDRESS__
+  environment += " ASAN_OPTIONS=detect_leaks=0 LD_PRELOAD=$(gcc -print-file-name=libasan.so)";
+#endif
+  const std::string command = "cd '" + folder + "' && " + environment + " python3 -B " + file + " " + words + " 2>&1";
+  std::string out;
+  FILE* pipe = ::popen(command.c_str(), "r");
+  for (char piece[256]; std::fgets(piece, sizeof piece, pipe);) out += piece;
+  return ::pclose(pipe) == 0 ? "" : out;
+}
+
+class PythonPrograms : public testing::TestWithParam<const char*> {};
+
+TEST_P(PythonPrograms, of_robots) { EXPECT_EQ(failed("controller_test.py", GetParam()), ""); }
+INSTANTIATE_TEST_SUITE_P(Of, PythonPrograms, testing::Values("Beginning", "Devices", "Pictures", "Radio", "Ends"),
+                         [](const auto& info) { return std::string(info.param); });
+
+TEST(PythonController, supervisors) { EXPECT_EQ(failed("controller_supervisor_test.py", ""), ""); }
+TEST(PythonController, calls_functions_as_the_headers_declare_them) {
+  EXPECT_EQ(failed("functions_test.py", "'" TWINPUCK_SOURCE_DIR "'"), "");
+}
+
+}  // namespace
