@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Programs in Python against a simulator that Python plays: the package controller with the library of this build.
+// Programs in Python and Java against a simulator that Python plays: the package controller, and the classes where a JDK
+// is, with the library of this build.
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <string>
 
 #include "twinpuck_paths.h"
@@ -32,6 +34,12 @@ INSTANTIATE_TEST_SUITE_P(Of, PythonPrograms, testing::Values("Beginning", "Devic
 TEST(PythonController, supervisors) { EXPECT_EQ(failed("controller_supervisor_test.py", ""), ""); }
 TEST(PythonController, calls_functions_as_the_headers_declare_them) {
   EXPECT_EQ(failed("functions_test.py", "'" TWINPUCK_SOURCE_DIR "'"), "");
+}
+
+TEST(JavaPrograms, see_and_do_the_same) {
+  if (!std::filesystem::exists(TWINPUCK_BUILD_DIR "/Controller.jar"))
+    GTEST_SKIP() << "no JDK was there when this was built; apt install default-jdk-headless";
+  EXPECT_EQ(failed("java_test.py", "'" TWINPUCK_BUILD_DIR "'"), "");
 }
 
 }  // namespace
