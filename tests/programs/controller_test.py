@@ -499,9 +499,9 @@ while robot.step(32) != -1:
 done = True
 for thread in threads:
     thread.join()
-print(steps, calls > 60)
-""", Simulator(PUCK, lambda step: record("NUMBERS", 1, [step]), steps=60))
-        self.assertEqual((run.out, run.err), ("60 True\n", ""))
+print(steps, calls > 20)
+""", Simulator(PUCK, lambda step: record("NUMBERS", 1, [step]), steps=20))
+        self.assertEqual((run.out, run.err), ("20 True\n", ""))
 
     def test_half_a_step(self):
         self.assertEqual(self.lines("""

@@ -140,5 +140,5 @@ def python(program, simulator, *arguments, interpreter=sys.executable, environme
         name = os.path.join(folder, "program.py")
         with open(name, "w", encoding="utf-8") as file:
             file.write(program)
-        package = os.path.join(ROOT, "programs", "controller", "python")
-        return simulator.run([interpreter, "-B", name, *arguments], folder, environment={"PYTHONPATH": package, **(environment or {})})
+        paths = os.pathsep.join([os.path.join(ROOT, "programs", "controller", "python"), os.environ.get("PYTHONPATH", "")])
+        return simulator.run([interpreter, "-B", name, *arguments], folder, environment={"PYTHONPATH": paths, **(environment or {})})

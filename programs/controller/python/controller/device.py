@@ -1,19 +1,22 @@
 # SPDX-License-Identifier: MIT
 """Device and Sensor: what all devices of a robot have in common."""
-from typing import Optional, Union
+from typing import Any, Callable, Generic, Optional, TypeVar, Union
 
 from .library import c
 
 
-class reading:
+T = TypeVar("T")
+
+
+class reading(Generic[T]):
     """A read-only attribute that a program may hide by one of its own: `self.name = "bob"` in a class of its own."""
 
-    def __init__(self, get):
+    def __init__(self, get: Callable[[Any], T]):
         self.get = get
         self.__doc__ = get.__doc__
 
-    def __get__(self, owner, kind=None):
-        return self if owner is None else self.get(owner)
+    def __get__(self, owner: Any, kind: Any = None) -> T:
+        return self if owner is None else self.get(owner)  # type: ignore
 
 
 class Device:

@@ -84,7 +84,7 @@ class Robot:
             warn("Robot: got a second one, expected one in a program; it is the same robot")
             return
         Robot.created = self
-        if not sys.stdout.isatty():
+        if hasattr(sys.stdout, "reconfigure") and not sys.stdout.isatty():
             sys.stdout.reconfigure(line_buffering=True, write_through=False)  # the console has each line at once, whole
         c.robot_init()
         atexit.register(c.robot_cleanup)
