@@ -413,6 +413,7 @@ void Simulation::begin_world() {
 void Simulation::set_wheel_noise(int robot, double half_width) {
   Wheels& w = wheels_[static_cast<std::size_t>(robot)];
   w.noise = half_width;
+  scene_->set_wheel_noise(robot, half_width);
   rims_until_[static_cast<std::size_t>(robot)] = now();
   note_intervention(static_cast<std::uint64_t>(robot));
   digest_ = fold(digest_, half_width);

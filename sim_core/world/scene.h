@@ -112,6 +112,10 @@ class Scene {
   /// Factor on the noise of a robot's proximity sensors, whatever single sensors said. The optics must be
   /// made anew.
   void set_proximity_noise(int robot, double scale);
+  /// Half width of the factor on a robot's wheel travel.
+  void set_wheel_noise(int robot, double half_width) {
+    world_.robots[static_cast<std::size_t>(robot)].wheels.noise = half_width;
+  }
 
  private:
   /// Newest leg of a body that had begun at an instant, or its oldest kept one; `next`, if given, gets the
