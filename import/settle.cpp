@@ -388,6 +388,7 @@ class Settler {
 
   // the controller's own sources beside the world, a controller of the project, or just its name
   std::string program(const std::string& name, int line, const std::string& type, const char* what) {
+    if (options_.without_firmware) return {};
     if (name == "<extern>") return name;
     if (name.empty() || name == "void" || name == "<none>" || name == "<generic>") {
       if (name == "<generic>")
@@ -395,7 +396,6 @@ class Settler {
       return {};
     }
     const std::string plain = clean(name);
-    if (options_.without_firmware) return {};
     const bool for_robot = std::string(what) == "firmware";
     const auto& is_ours = for_robot ? options_.has_firmware : options_.has_program;
     const bool ours = is_ours && plain == name && is_ours(name);
