@@ -485,7 +485,9 @@ void Bodies::refurnish(const sim::WorldDesc& world) {
 }
 
 std::string Bodies::import(int parent, const std::string& field, int index, const std::string& text) {
-  const wbt::WorldText read = wbt::read_nodes_text(text, text_, tree_.defs());
+  const bool uses = text.find("USE") != std::string::npos;
+  const wbt::WorldText read =
+      wbt::read_nodes_text(text, text_, uses ? tree_.defs() : std::map<std::string, wbt::NodePtr>{});
   if (!read.errors.empty())
     return "line " + std::to_string(read.errors.front().line) + ": " + read.errors.front().text;
   if (read.nodes.empty()) return "got no node, expected one such as Solid { }";
@@ -495,7 +497,7 @@ std::string Bodies::import(int parent, const std::string& field, int index, cons
   }
   for (const wbt::NodePtr& n : read.nodes) {
     const int id = tree_.add(*n, parent, field, index, *protos_);
-    if (id == 0) return "got too many nodes";
+    if (id == 0) return "got too many nodes, or nodes in nodes";
     if (index >= 0) ++index;
     const bool is_part = pieces_.count(parent) || (parent != Tree::kRoot && field != "children");
     if (is_part)
@@ -525,6 +527,8 @@ void Bodies::remove(int id, std::string& told) {
     }
   }
   const int parent = tree_.node(id).parent;
+  for (const int n : tree_.below(id))
+    states_.erase(states_.lower_bound({n, ""}), states_.lower_bound({n + 1, ""}));
   tree_.remove(id);
   if (!cleared.empty())
     apply(cleared, {}, false);
@@ -568,7 +572,8 @@ void Bodies::set_recognition(int id, const std::vector<double>& numbers) {
   const TreeNode& n = tree_.node(id);
   std::vector<sim::Colour> colours;
   for (std::size_t i = 0; i + 2 < numbers.size(); i += 3)
-    colours.push_back({numbers[i], numbers[i + 1], numbers[i + 2]});
+    colours.push_back({std::clamp(numbers[i], 0.0, 1.0), std::clamp(numbers[i + 1], 0.0, 1.0),
+                       std::clamp(numbers[i + 2], 0.0, 1.0)});
   sim::WorldDesc w = twin_.world();
   if (n.is == Is::Robot)
     w.robots[static_cast<std::size_t>(n.number)].recognition_colours = colours;
@@ -585,7 +590,9 @@ void Bodies::lamp_changed(int id) {
   sim::LampDesc l = twin_.world().lamps[static_cast<std::size_t>(n.number)];
   if (n.base != "DirectionalLight") {
     const std::vector<double> at = n.numbers("location", {0, 0, 0});
-    l.position_m = in(pose(n.parent).place({at[0], at[1], at[2]}));
+    Affine there;
+    there.at = pose(n.parent).place({at[0], at[1], at[2]});
+    if (is_near(there)) l.position_m = in(there.at);
   }
   constexpr double kBrightest = 10000;  // W/m2
   twin_.simulation().set_lamp(n.number, n.numbers("on", {1})[0] != 0,

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -17,6 +18,7 @@ namespace programs {
 namespace {
 
 constexpr std::size_t kMostMembers = 1'000'000;  // numbers or texts of one list
+constexpr double kFastest = 1000;                // m/s, rad/s
 constexpr std::size_t kMostText = 4096;          // characters of a field; Webots' own are shorter
 
 std::string text_of(const link_record& r, int which) {
@@ -38,8 +40,12 @@ bool is_place(const std::string& field) { return field == "translation" || field
 }  // namespace
 
 struct Nodes::Inside {
-  explicit Inside(SupervisorHost& its_host) : host(its_host), bodies(its_host.twin()) {
-    bodies.moved = [this](int robot) { host.note_moved(robot); };
+  explicit Inside(SupervisorHost& its_host) : host(its_host) { begin(); }
+
+  /// Handles stay: the same world gives the same numbers.
+  void begin() {
+    its_bodies.emplace(host.twin());
+    its_bodies->moved = [this](int robot) { host.note_moved(robot); };
   }
 
   /// A field that a program has asked for.
@@ -51,13 +57,14 @@ struct Nodes::Inside {
   };
 
   SupervisorHost& host;
-  Bodies bodies;
+  std::optional<Bodies> its_bodies;
   std::map<int, int> supervisors;  // program, supervisor
   std::vector<Handle> handles;
   std::map<std::pair<int, std::string>, int> numbers;  // of handles
   std::set<std::pair<int, std::string>> warned;
 
-  Tree& tree() { return bodies.tree(); }
+  Bodies& bodies() { return *its_bodies; }
+  Tree& tree() { return bodies().tree(); }
 
   void warn(int program, const std::string& text) {
     constexpr std::size_t kMostTold = 200;  // different texts; more would help nobody
@@ -92,10 +99,10 @@ struct Nodes::Inside {
     link_end(&out);
   }
 
-  int own_node(int program, int robot) const {
-    if (robot >= 0) return bodies.node_of(Is::Robot, robot);
+  int own_node(int program, int robot) {
+    if (robot >= 0) return bodies().node_of(Is::Robot, robot);
     const auto found = supervisors.find(program);
-    return found == supervisors.end() ? 0 : bodies.node_of(Is::Supervisor, found->second);
+    return found == supervisors.end() ? 0 : bodies().node_of(Is::Supervisor, found->second);
   }
 
   void find_node(const link_record& r, int program, int robot, link_packet& out) {
@@ -141,7 +148,7 @@ struct Nodes::Inside {
   void ask_node(const link_record& r, link_packet& out) {
     const int id = static_cast<int>(r.ints[0]);
     if (!tree().has(id)) return nothing(out, fmt::format("node {} is not there any more", id));
-    const wbt::Affine at = bodies.pose(id);
+    const wbt::Affine at = bodies().pose(id);
     const auto& [x, y, z] = at.axes;
     std::vector<double> values;
     int count = -1;
@@ -154,7 +161,7 @@ struct Nodes::Inside {
         values = {x.x, y.x, z.x, x.y, y.y, z.y, x.z, y.z, z.z};
         break;
       case 2:
-        values = bodies.velocity(id);
+        values = bodies().velocity(id);
         break;
       case 4:
         count = 0;
@@ -194,11 +201,13 @@ struct Nodes::Inside {
     switch (r.ints[1]) {
       case Velocity:
         v.resize(6);
-        if (!are_finite(v)) return warn(program, "a velocity: got no finite numbers");
-        if (!bodies.set_velocity(id, v)) warn(program, name + " stands fast: it gets no velocity");
+        for (const double part : v)
+          if (!(std::abs(part) <= kFastest))
+            return warn(program, fmt::format("a velocity: got {}, expected at most {:g} m/s or rad/s", part, kFastest));
+        if (!bodies().set_velocity(id, v)) warn(program, name + " stands fast: it gets no velocity");
         break;
       case Rest:
-        bodies.set_velocity(id, std::vector<double>(6));
+        bodies().set_velocity(id, std::vector<double>(6));
         break;
       case Restart:
         if (n.is != Is::Robot) return warn(program, name + " is no robot whose program could begin again");
@@ -212,10 +221,10 @@ struct Nodes::Inside {
         warn(program, "forces and torques from outside do nothing here; set a velocity");
         break;
       case Save:
-        bodies.save(id, text);
+        bodies().save(id, text);
         break;
       case Load:
-        if (!bodies.load(id, text)) warn(program, fmt::format("{}: no state '{}' was kept", name, text));
+        if (!bodies().load(id, text)) warn(program, fmt::format("{}: no state '{}' was kept", name, text));
         break;
       default:
         warn(program, fmt::format("got command {} for a node, expected 0 to 7", r.ints[1]));
@@ -225,7 +234,7 @@ struct Nodes::Inside {
   void remove(int id, int program) {
     if (id == Tree::kRoot) return warn(program, "the root of the world stays");
     std::string told;
-    bodies.remove(id, told);
+    bodies().remove(id, told);
     note(id, "remove", {}, "");
     if (!told.empty()) warn(program, told);
   }
@@ -247,7 +256,7 @@ struct Nodes::Inside {
     } else if (const RobotField* f = robot_field(name); f && n.is == Is::Robot) {
       made.type = f->type;
       made.of = Handle::Of::Robot;
-    } else if ((name == "baseColor" || name == "diffuseColor") && bodies.colour(id, colour)) {
+    } else if ((name == "baseColor" || name == "diffuseColor") && bodies().colour(id, colour)) {
       made.type = kColour;
       made.of = Handle::Of::Colour;
     } else if (name == "data" && n.find("customData")) {  // as it was called
@@ -281,12 +290,12 @@ struct Nodes::Inside {
     if (h.of == Handle::Of::Robot) return get_robot_field(host.twin(), n.number, h.name, value.numbers, value.texts);
     if (h.of == Handle::Of::Colour) {
       sim::Colour c;
-      bodies.colour(h.node, c);
+      bodies().colour(h.node, c);
       value.numbers = {c.r, c.g, c.b};
       return {};
     }
     if (const Value* v = n.find(h.name)) value = *v;
-    if (is_place(h.name)) value.numbers = bodies.place(h.node, h.name);
+    if (is_place(h.name)) value.numbers = bodies().place(h.node, h.name);
     return {};
   }
 
@@ -337,6 +346,7 @@ struct Nodes::Inside {
       return tell_value(out, count, node, {}, "");
     }
     if (member_of(v.type) == kText) return tell_value(out, count, 0, {}, at < v.texts.size() ? v.texts[at] : "");
+    v.numbers.resize(std::max(v.numbers.size(), (at + 1) * width));
     std::vector<double> values(v.numbers.begin() + static_cast<std::ptrdiff_t>(at * width),
                                v.numbers.begin() + static_cast<std::ptrdiff_t>((at + 1) * width));
     tell_value(out, count, 0, values, "");
@@ -364,9 +374,11 @@ struct Nodes::Inside {
     if (h->of == Handle::Of::Robot) {
       wrong = set_robot_field(host.twin(), n.number, h->name, given.empty() ? 0 : given[0]);
     } else if (h->of == Handle::Of::Colour) {
-      bodies.set_colour(h->node, {given[0], given[1], given[2]});
+      const auto part = [&](std::size_t i) { return std::min(1.0, std::max(0.0, given[i])); };
+      bodies().set_colour(h->node, {part(0), part(1), part(2)});
+      note(h->node, h->name, given, "");
     } else if (is_place(h->name) && !given.empty() && n.find(h->name)) {
-      wrong = bodies.set_place(h->node, h->name, given);
+      wrong = bodies().set_place(h->node, h->name, given);
       note(h->node, h->name, given, "");
     } else if (is_settled(n, h->name)) {
       wrong = "stays as it is during a run";
@@ -399,13 +411,13 @@ struct Nodes::Inside {
   void follow(const Handle& h, const std::vector<double>& given, const std::string& text) {
     const TreeNode& n = tree().node(h.node);
     note(h.node, h.name, given, text);
-    if (n.is == Is::Lamp) return bodies.lamp_changed(h.node);
+    if (n.is == Is::Lamp) return bodies().lamp_changed(h.node);
     if (h.name == "customData" && n.is == Is::Robot) return host.note_custom_data(n.number, text);
-    if (h.name == "recognitionColors") return bodies.set_recognition(h.node, n.find(h.name)->numbers);
+    if (h.name == "recognitionColors") return bodies().set_recognition(h.node, n.find(h.name)->numbers);
     static const std::set<std::string> kSilent{"name",         "customData",      "model",        "description",
                                                "controller",   "translationStep", "rotationStep", "contactMaterial",
                                                "transparency", "emissiveColor",   "castShadows"};
-    if (!kSilent.count(h.name)) bodies.changed(h.node);
+    if (!kSilent.count(h.name)) bodies().changed(h.node);
   }
 
   void insert(const link_record& r, int program) {
@@ -467,7 +479,7 @@ struct Nodes::Inside {
     const std::string text = text_of(r, 0);
     const int node = h->node;
     const std::string name = h->name;
-    const std::string wrong = bodies.import(node, name, index >= count ? -1 : static_cast<int>(index), text);
+    const std::string wrong = bodies().import(node, name, index >= count ? -1 : static_cast<int>(index), text);
     if (!wrong.empty()) return nothing(out, name_of(*h) + ": " + wrong);
     note(node, name, {}, text);
     tell_field(static_cast<int>(r.ints[0]), out);
@@ -491,7 +503,7 @@ struct Nodes::Inside {
         host.reset(r.ints[0] == Reload);
         break;
       case RestAll:
-        bodies.rest_all();
+        bodies().rest_all();
         break;
       case Label: {
         v.resize(6);
@@ -526,10 +538,12 @@ struct Nodes::Inside {
 Nodes::Nodes(SupervisorHost& host) : inside_(std::make_unique<Inside>(host)) {}
 Nodes::~Nodes() = default;
 
+void Nodes::begin_again() { inside_->begin(); }
+
 void Nodes::attach(int program, int supervisor) { inside_->supervisors[program] = supervisor; }
 
 void Nodes::set_custom_data(int robot, const std::string& text) {
-  if (const int id = inside_->bodies.node_of(Is::Robot, robot)) inside_->tree().set(id, "customData", text);
+  if (const int id = inside_->bodies().node_of(Is::Robot, robot)) inside_->tree().set(id, "customData", text);
 }
 
 void Nodes::answer(const link_record& question, int program, int robot, link_packet& answer) {

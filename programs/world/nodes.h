@@ -34,12 +34,16 @@ class SupervisorHost {
 
 class Nodes {
  public:
-  /// Reads the world's nodes. `host` outlives this. After a reset of the simulation make another.
+  /// Reads the world's nodes. `host` outlives this.
   explicit Nodes(SupervisorHost& host);
   ~Nodes();
 
   /// The program is that of a supervisor of the world (WorldDesc::supervisors), which has a node.
   void attach(int program, int supervisor);
+  /// The world was put back to its beginning (Simulation::refurnish() with the world as it was first): nodes
+  /// that were imported are gone, those that were removed are back. Numbers that programs have of the others, and
+  /// of their fields, stay good; states that they kept are forgotten.
+  void begin_again();
   /// The robot's own program changed its custom data.
   void set_custom_data(int robot, const std::string& text);
 

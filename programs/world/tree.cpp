@@ -71,6 +71,7 @@ TreeNode& Tree::make(const std::string& type, const std::string& def, int parent
   nodes_.emplace_back();
   TreeNode& n = nodes_.back();
   n.id = count();
+  ++there_;
   n.parent = parent;
   n.type = type;
   n.base = base_of(type);
@@ -112,7 +113,9 @@ int Tree::add(const std::string& type, const std::string& def, int parent, const
 }
 
 int Tree::add(const wbt::Node& from, int parent, const std::string& field, int index, wbt::ProtoFiles& protos) {
-  if (nodes_.size() >= kMostTreeNodes) return 0;
+  int depth = 0;
+  for (int at = parent; at != 0; at = node(at).parent) ++depth;
+  if (there_ >= kMostTreeNodes || depth >= kDeepest) return 0;
   TreeNode& n = make(from.type, from.def, parent);
   const int id = n.id;
   lines_[from.line].push_back(id);
@@ -178,6 +181,7 @@ Value& Tree::set(int id, const std::string& name, int type, std::vector<double> 
     v->name = name;
     v->type = type;
   }
+  v->type = type;
   v->numbers = std::move(numbers);
   v->written = true;
   return *v;
@@ -188,8 +192,13 @@ void Tree::set(int id, const std::string& name, const std::string& text) {
 }
 
 void Tree::remove(int id) {
-  for (const int n : below(id)) node(n).gone = true;
-  if (const int parent = node(id).parent) {
+  const int parent = node(id).parent;
+  for (const int n : below(id)) {
+    node(n).gone = true;
+    node(n).values.clear();
+    --there_;
+  }
+  if (parent != 0) {
     for (Value& v : node(parent).values)
       v.nodes.erase(std::remove(v.nodes.begin(), v.nodes.end(), id), v.nodes.end());
   }

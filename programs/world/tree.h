@@ -50,7 +50,8 @@ class Tree {
   Tree();
 
   static constexpr int kRoot = 1;
-  static constexpr std::size_t kMostTreeNodes = 200'000;
+  static constexpr int kMostTreeNodes = 200'000;  // that are there at once
+  static constexpr int kDeepest = 200;            // nodes in nodes
 
   TreeNode& node(int id) { return nodes_[static_cast<std::size_t>(id - 1)]; }
   const TreeNode& node(int id) const { return nodes_[static_cast<std::size_t>(id - 1)]; }
@@ -59,7 +60,7 @@ class Tree {
   bool has(int id) const { return id >= 1 && id <= count() && !node(id).gone; }
 
   /// Adds what was read under a node, in its field, before member `index`; -1: at the end. Lines of the file
-  /// are kept. Returns its number; 0: there are too many nodes.
+  /// are kept. Returns its number; 0: there are too many nodes, or too many in one another.
   int add(const wbt::Node& from, int parent, const std::string& field, int index, wbt::ProtoFiles& protos);
   /// Adds a node without fields, but for what its kind has.
   int add(const std::string& type, const std::string& def, int parent, const std::string& field);
@@ -91,6 +92,7 @@ class Tree {
 
   std::deque<TreeNode> nodes_;
   std::map<int, std::vector<int>> lines_;
+  int there_ = 0;  // nodes that are not gone
 };
 
 /// Axis and angle of a turn.

@@ -552,6 +552,92 @@ TEST_F(NodesTest, the_same_commands_give_the_same_digest) {
   EXPECT_EQ(digests[0], digests[1]);
 }
 
+// what the team does when a program resets the simulation
+TEST_F(NodesTest, numbers_of_nodes_and_fields_outlive_a_reset) {
+  open_wbt(kHead + "RectangleArena { }\nDEF B Solid { translation 0.2 0 0.05 boundingObject Box { size 0.1 0.1 0.1 } }\n"
+                   "DEF R E-puck { translation -0.2 0 0 controller \"void\" customData \"first\" }\n");
+  const sim::WorldDesc first = world();
+  const int b = def("B"), r = def("R"), place = field(b, "translation"), children = field(root(), "children");
+  set(b, "translation", {0.4, 0.4, 0.05});
+  set(r, "customData", {}, "second");
+  ASSERT_EQ(ask(LINK_IMPORT, {{children, -1}, {}, "DEF N Solid { translation 0 0.3 0.05 boundingObject Box { size 0.1 0.1 0.1 } }"}).number, LINK_FIELD);
+  host_.its_twin->simulation().refurnish(first, {});
+  nodes_->begin_again();
+  EXPECT_EQ(def("B"), b);
+  EXPECT_EQ(def("N"), 0);
+  expect(ask(LINK_GET, {{place, -1}, {}, ""}).numbers, {0.2, 0, 0.05}, 1e-6);
+  EXPECT_EQ(get(r, "customData").texts.at(0), "first");
+  command(LINK_SET, {{place, 0, 0}, {0.3, 0, 0.05}, ""});
+  EXPECT_NEAR(world().objects[0].pose.x_m, 0.3, 1e-6);
+}
+
+TEST_F(NodesTest, noise_that_was_set_stays_when_something_comes) {
+  open(kOurs);
+  set(def("A"), "wheelNoise", {0.25});
+  set(def("A"), "proximityNoise", {3});
+  ask(LINK_IMPORT, {{field(root(), "children"), -1}, {}, "Solid { translation 0 0.3 0.05 boundingObject Box { size 0.1 0.1 0.1 } }"});
+  EXPECT_EQ(get(def("A"), "wheelNoise").numbers.at(0), 0.25);
+  EXPECT_EQ(get(def("A"), "proximityNoise").numbers.at(0), 3);
+}
+
+// a program that imports and removes for hours
+TEST_F(NodesTest, removed_nodes_make_room) {
+  open_wbt(kHead + "RectangleArena { }\nE-puck { translation -0.2 0 0 controller \"void\" }\n");
+  const int children = field(root(), "children");
+  for (int i = 0; i < 300; ++i) {
+    const Reply made = ask(LINK_IMPORT, {{children, -1}, {}, "DEF M Solid { translation 0.3 0.3 0.05 boundingObject Box { size 0.1 0.1 0.1 } }"});
+    ASSERT_EQ(made.number, LINK_FIELD) << made.texts.at(0);
+    ASSERT_EQ(made.ints[2], 4);
+    command(LINK_DO_NODE, {{def("M"), 3}, {}, ""});
+  }
+  EXPECT_TRUE(world().objects.empty());
+  // but not without end in one another
+  int inner_most = root();
+  int made = 0;
+  for (; made < 1000; ++made) {
+    if (ask(LINK_IMPORT, {{field(inner_most, "children"), 0}, {}, "Group { children [ ] }"}).number != LINK_FIELD) break;
+    inner_most = inner(inner_most, "children");
+  }
+  EXPECT_GT(made, 50);
+  EXPECT_LT(made, 300);
+}
+
+// whatever a program sends, the world stays whole
+TEST_F(NodesTest, no_record_of_chance_breaks_the_world) {
+  open_wbt(kHead + R"(RectangleArena { floorSize 2 2 }
+DEF B Solid { translation 0.2 0 0.05 children [ DEF S Shape { geometry Box { size 0.1 0.1 0.1 } } ] boundingObject USE S physics Physics { } recognitionColors [ 1 0 0 ] }
+DEF R E-puck { translation -0.2 0 0 controller "void" }
+PointLight { location 0 0 1 }
+)");
+  std::uint64_t state = 7;
+  const auto draw = [&](std::uint64_t below) {
+    state = state * 6364136223846793005u + 1442695040888963407u;
+    return (state >> 33) % below;
+  };
+  const char* names[] = {"translation", "rotation", "children", "size",   "name",     "recognitionColors", "geometry", "boundingObject",
+                         "physics",     "mass",     "location", "on",     "selector", "controllerArgs",    "traps",    "proximity"};
+  const char* texts[] = {"", "B", "R.S", "Solid { translation 1 1 1 }", "Shape { geometry Sphere { radius 0.02 } }", "__init__", "Physics { }", "USE S", "\xff{"};
+  const double values[] = {0, 1, -1, 0.05, 1e300, -1e300, NAN, INFINITY, 0.3, 2e9};
+  const int rows[] = {LINK_FIND_NODE, LINK_FIND_FIELD, LINK_GET, LINK_IMPORT, LINK_ASK_NODE, LINK_SET, LINK_INSERT, LINK_REMOVE, LINK_DO_NODE, LINK_DO_WORLD};
+  for (int i = 0; i < 20000; ++i) {
+    const int row = rows[draw(10)];
+    Words words;
+    for (int k = 0; k < 3; ++k) words.ints.push_back(static_cast<std::int64_t>(draw(40)) - 3);
+    if (draw(50) == 0) words.ints[draw(3)] = draw(2) ? INT64_MAX : INT64_MIN;
+    const std::size_t count = draw(8);
+    for (std::size_t k = 0; k < count; ++k) words.list.push_back(values[draw(10)]);
+    words.text = row == LINK_FIND_FIELD ? names[draw(16)] : texts[draw(9)];
+    if (row == LINK_FIND_FIELD && draw(4)) words.ints[1] = -1;
+    if (row == LINK_FIND_NODE || row == LINK_FIND_FIELD || row == LINK_GET || row == LINK_IMPORT || row == LINK_ASK_NODE)
+      ask(row, words, static_cast<int>(draw(3)), static_cast<int>(draw(2)) - 1);
+    else
+      command(row, words);
+    if (i % 1000 == 0) run(0.01);
+  }
+  for (const sim::ObjectDesc& o : world().objects) EXPECT_LE(std::abs(o.pose.x_m), 1000);
+  run(0.05);
+}
+
 TEST_F(NodesTest, lists_of_values_grow_and_shrink) {
   open_wbt(kHead + "RectangleArena { }\nDEF B Solid { translation 0.2 0 0.05 boundingObject Box { size 0.1 0.1 0.1 } recognitionColors [ 1 0 0 ] }\nE-puck { translation -0.2 0 0 controller \"void\" }\n");
   const int colours = field(def("B"), "recognitionColors", kColour + kList);
