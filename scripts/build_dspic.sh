@@ -59,7 +59,7 @@ compile() {
 }
 
 library=""
-for source in $(find hal_dspic firmware/library -name '*.[cs]' | sort); do
+for source in $(find hal_dspic firmware/library firmware/webots -name '*.[cs]' | sort); do
   case $source in hal_dspic/motor_led/configuration.c | hal_dspic/runtime/* | hal_dspic/bootloader/*) continue ;; esac
   object="$objects/library/$(echo "$source" | tr / -).o"
   compile "-Ihal_dspic -I." "$source" "$object"

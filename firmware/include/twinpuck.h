@@ -20,6 +20,11 @@
 #define TP_POLL
 #endif
 
+/* the program is one of the robot's chip, by either compiler: no simulator is behind it, and memory is 8 KB */
+#if defined(__TWINPUCK_CHIP__) || (defined(__C30__) && !defined(__TWINPUCK__))
+#define TP_ON_CHIP
+#endif
+
 /* around prototypes that supervisor programs in C++ include as well */
 #ifdef __cplusplus
 #define TP_C_BEGIN extern "C" {

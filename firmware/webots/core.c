@@ -7,6 +7,9 @@
  */
 #include "core.h"
 
+#ifndef __TWINPUCK_PC__
+#include <p30F6014A.h>
+#endif
 #include <stdio.h>
 #include <string.h>
 
@@ -33,8 +36,6 @@
 
 static struct webots_device devices[WEBOTS_MOST_DEVICES];
 static int device_count;
-static char extra_names[WEBOTS_MOST_DEVICES / 4][WEBOTS_NAME_SIZE];
-static int extra_count;
 
 static unsigned char is_running;
 static unsigned int leds_on;
@@ -78,10 +79,13 @@ static int wait_piece(int ms) {
   return before > 32767u / (unsigned int)ms ? 32767 : (int)before * ms;
 }
 
+void (*webots_before_step)(void);
+
 int webots_step(int ms) {
   int passed = 0, i;
   webots_init();
   if (ms <= 0) return 0;
+  if (webots_before_step) webots_before_step();
   while (ms - passed > LONGEST_MS) passed += wait_piece(LONGEST_MS);
   if (ms > passed) passed += wait_piece(ms - passed);
   time_ms += (unsigned int)passed;
@@ -113,6 +117,10 @@ struct webots_device* webots_add(const char* name, WbNodeType node, int index, i
   return d;
 }
 
+#ifdef __TWINPUCK_PC__
+static char extra_names[WEBOTS_MOST_DEVICES / 4][WEBOTS_NAME_SIZE];
+static int extra_count;
+
 static struct webots_device* add_extra(const char* name, WbNodeType node, int index, int source) {
   if (extra_count == WEBOTS_MOST_DEVICES / 4) return 0;
   strncpy(extra_names[extra_count], name, WEBOTS_NAME_SIZE - 1);
@@ -120,7 +128,6 @@ static struct webots_device* add_extra(const char* name, WbNodeType node, int in
 }
 
 static void add_simulated(void) {
-#ifdef __TWINPUCK__
   char name[WEBOTS_NAME_SIZE];
   int i, kind;
   webots_add("emitter", WB_NODE_EMITTER, twin_emitter_find("emitter"), WEBOTS_TRUTH);
@@ -143,8 +150,15 @@ static void add_simulated(void) {
     else if (kind == TWIN_DISPLAY)
       add_extra(name, WB_NODE_DISPLAY, i, WEBOTS_VIRTUAL);
   }
-#endif
 }
+#else
+/* packets go over the radio turret; whether it is there is asked when a program uses them */
+static void add_simulated(void) {
+  webots_add("emitter", WB_NODE_EMITTER, 0, WEBOTS_ROBOT);
+  webots_add("receiver", WB_NODE_RECEIVER, 0, WEBOTS_ROBOT);
+}
+#define add_extra(name, node, index, source) 0
+#endif
 
 static void add_devices(void) {
   static const char* const kProximity[RING] = {"ps0", "ps1", "ps2", "ps3", "ps4", "ps5", "ps6", "ps7"};
@@ -201,7 +215,9 @@ static int too_many(void) {
 unsigned short webots_find(const char* name, const char* function) {
   const char* wanted = name;
   char ground[4];
+#ifdef __TWINPUCK_PC__
   float value;
+#endif
   int i;
   webots_init();
   /* floor sensors had other names once */
@@ -298,10 +314,30 @@ void webots_show_leds(void) {
 
 /* --- the beginning ------------------------------------------------------------------------------------ */
 
+#ifndef __TWINPUCK_PC__
+#define UART_115200 7 /* FCY / (16 * 115200) - 1, FCY 14.7456 MHz [DS70143 17.0] */
+static unsigned char is_of_2005;
+
+int webots_is_of_2005(void) { return is_of_2005; }
+void webots_begin_2005(void) {
+  if (!is_running) is_of_2005 = 1;
+}
+
+/* text goes to UART 1, which sends without interrupts, as printf() on the chip does */
+static void open_console(void) {
+  U1BRG = UART_115200;
+  U1MODE = 0x8000;
+  U1STA = 0x0400;
+}
+#endif
+
 void webots_init(void) {
   if (is_running) return;
   is_running = 1;
   e_init_port();
+#ifndef __TWINPUCK_PC__
+  open_console();
+#endif
   e_init_motors();
   e_start_agendas_processing();
   e_init_ad_scan(ALL_ADC);

@@ -8,7 +8,11 @@
 #include "simulator.h"
 #include "webots/nodes.h"
 
+#ifdef __TWINPUCK_PC__
 #define WEBOTS_MOST_DEVICES 64
+#else
+#define WEBOTS_MOST_DEVICES 48 /* 43 of the robot, the turret's two, what programs do not see; each takes 16 bytes */
+#endif
 #define WEBOTS_NAME_SIZE 32 /* characters of a device's name, with the 0 */
 #define WEBOTS_WHEEL_STEPS 1000 /* a turn */
 #define WEBOTS_MAX_RAD_S 6.2831853f /* 1000 steps/s */
@@ -17,14 +21,14 @@
 
 struct webots_device {
   const char* name;
+  void (*sample)(struct webots_device* device);
+  int period;           /* ms; 0 disabled */
+  int elapsed;          /* ms since the last sample */
+  float value;          /* of sensors with one number */
   unsigned char node;   /* WbNodeType */
   unsigned char index;  /* among its kind: sensor number, wheel 0 left 1 right, end of packets */
   unsigned char source; /* enum webots_source */
-  int period;           /* ms; 0 disabled */
-  int elapsed;          /* ms since the last sample */
   unsigned char fresh;  /* a first sample has been taken */
-  float value;          /* of sensors with one number */
-  void (*sample)(struct webots_device* device);
 };
 
 /* where a device's values come from */
@@ -73,5 +77,8 @@ float webots_speed_unit(void);
 
 /** Called at the end of every step. */
 void webots_wheels_step(void);
+
+/** Called at the beginning of every step if it is not null: a picture is taken while the program waits. */
+extern void (*webots_before_step)(void);
 
 #endif

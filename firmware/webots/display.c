@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * Displays: shapes become lists of points, which the simulator draws. Empty on the robot.
  */
-#ifdef __TWINPUCK__
+#ifdef __TWINPUCK_PC__
 #include "webots/display.h"
 
 #include <math.h>

@@ -37,7 +37,7 @@ static void sample_rates(struct webots_device* device) {
   int x, y, z; /* forward, left, up */
   float scale = RAD_PER_DEG * GYRO_SCALE;
   (void)device;
-#ifdef __TWINPUCK__
+#ifdef __TWINPUCK_PC__
   if (device->source == WEBOTS_TRUTH) {
     int axis;
     twin_rates(rates);

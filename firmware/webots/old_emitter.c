@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: MIT
  * Emitters of versions before 5.1.10: a buffer that is filled and sent. In a file of its own, so that only programs
- * that use the buffer carry it. Empty on the robot.
+ * that use the buffer carry it; on the robot it holds what the turret sends at once.
  */
-#ifdef __TWINPUCK__
 #include "core.h"
 #include "device/emitter.h"
 
+#ifdef __TWINPUCK_PC__
 #define BUFFER_BYTES 1024
+#else
+#define BUFFER_BYTES 108
+#endif
 
 static char buffer[BUFFER_BYTES];
 
@@ -14,4 +17,3 @@ void* emitter_get_buffer(DeviceTag tag) { return (void)tag, buffer; }
 int emitter_send(DeviceTag tag, int size) {
   return emitter_send_packet(tag, buffer, size > BUFFER_BYTES ? BUFFER_BYTES : size);
 }
-#endif

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * Emitters and receivers, by either interface: the simulator's packets. Empty on the robot, whose radios speak
- * other protocols (contrib/SWIS_com_module, bluetooth/).
+ * Emitters and receivers, by either interface: the simulator's packets. Empty on the robot, where turret_packets.c has
+ * what the radio turret can do.
  */
-#ifdef __TWINPUCK__
+#ifdef __TWINPUCK_PC__
 #include <math.h>
 
 #include "core.h"

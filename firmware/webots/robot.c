@@ -20,11 +20,8 @@ static int step_begun;              /* ms, between wb_robot_step_begin() and its
 static char custom_data[CUSTOM_SIZE];
 static struct webots_device* battery; /* null until a program wants it */
 
-static int next_key;                  /* of those that are down, since the last step */
-
 static int step(int ms) {
   webots_step(ms);
-  next_key = 0;
   return 0;
 }
 
@@ -45,7 +42,6 @@ static void run_for_ever(int (*run)(int)) {
   for (;;) {
     int next = run(passed);
     passed = webots_step(next > 0 ? next : (int)basic_step());
-    next_key = 0;
   }
 }
 
@@ -66,20 +62,14 @@ static void enable_battery(int period) {
 }
 
 static int mode(void) {
-#ifdef __TWINPUCK__
+#ifdef __TWINPUCK_PC__
   return WB_MODE_SIMULATION;
 #else
   return WB_MODE_CROSS_COMPILATION;
 #endif
 }
 
-static void write_text(const char* format, va_list list) {
-#ifdef __TWINPUCK__
-  vprintf(format, list);
-#else
-  (void)format, (void)list;
-#endif
-}
+static void write_text(const char* format, va_list list) { vprintf(format, list); }
 
 /* --- webots/robot.h ----------------------------------------------------------------------------------- */
 
@@ -122,26 +112,6 @@ double wb_robot_battery_sensor_get_value(void) {
 void wb_robot_live(void (*reset)(void)) { live(reset); }
 void wb_robot_run(int (*run)(int)) { run_for_ever(run); }
 
-/* --- keyboard ----------------------------------------------------------------------------------------- */
-
-static int keyboard_period;
-
-/* each key that is down once a step; then `none`, which was 0 in versions 5 to 8 */
-static long key(long none) {
-  int found = keyboard_period > 0 ? twin_key(next_key) : 0;
-  if (!found) return none;
-  next_key++;
-  return found;
-}
-
-void wb_keyboard_enable(int sampling_period) { keyboard_period = sampling_period; }
-void wb_keyboard_disable(void) { keyboard_period = 0; }
-int wb_keyboard_get_sampling_period(void) { return keyboard_period; }
-long wb_keyboard_get_key(void) { return key(-1); }
-void wb_robot_keyboard_enable(int ms) { keyboard_period = ms; }
-void wb_robot_keyboard_disable(void) { keyboard_period = 0; }
-long wb_robot_keyboard_get_key(void) { return key(0); }
-
 /* --- console ------------------------------------------------------------------------------------------ */
 
 void wb_robot_console_printf(const char* format, ...) {
@@ -158,7 +128,12 @@ void wb_console_print(const char* text, int stream) {
 
 /* --- device/robot.h ----------------------------------------------------------------------------------- */
 
-void robot_live(void (*reset)(void)) { live(reset); }
+void robot_live(void (*reset)(void)) {
+#ifndef __TWINPUCK_PC__
+  webots_begin_2005();
+#endif
+  live(reset);
+}
 void robot_run(int (*run)(int ms)) { run_for_ever(run); }
 void robot_die(void (*die)(void)) { (void)die; }
 int robot_step(int ms) { return step(ms); }
@@ -177,9 +152,6 @@ void robot_console_printf(const char* format, ...) {
   va_end(list);
 }
 
-void robot_keyboard_enable(int ms) { keyboard_period = ms; }
-void robot_keyboard_disable(void) { keyboard_period = 0; }
-long robot_keyboard_get_key(void) { return key(0); }
 void robot_battery_sensor_enable(int ms) { enable_battery(ms); }
 void robot_battery_sensor_disable(void) { enable_battery(0); }
 float robot_battery_sensor_get_value(void) { return battery && battery->fresh ? battery->value : 0; }

@@ -132,6 +132,8 @@ unsigned short light_sensor_get_value(DeviceTag tag) {
 
 /* --- touch sensors ------------------------------------------------------------------------------------ */
 
+#ifdef __TWINPUCK_PC__ /* the robot has none */
+
 void wb_touch_sensor_enable(WbDeviceTag tag, int sampling_period) {
   enable_distance(distance(tag, "wb_touch_sensor_enable"), sampling_period);
 }
@@ -148,3 +150,4 @@ void touch_sensor_disable(DeviceTag tag) { enable_distance(distance(tag, "touch_
 unsigned short touch_sensor_get_value(DeviceTag tag) {
   return counts_of(distance(tag, "touch_sensor_get_value"));
 }
+#endif

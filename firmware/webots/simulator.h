@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * What the library behind webots/ and device/ takes from the simulator: settings of the world, the console, and
  * devices that no e-puck has. Implemented in hal_sim/api/webots_simulator.c.
- * On the robot settings have their usual values and text goes nowhere; packets.c, truth.c and world.c are empty
- * there, so a program that needs them does not link.
+ * On the robot a program of 2005 has the settings of the lab's worlds and others the usual ones, and text goes to
+ * UART 1; display.c, keyboard.c, truth.c and world.c are empty there, so a program that needs them does not link.
  */
 #ifndef WEBOTS_SIMULATOR_H
 #define WEBOTS_SIMULATOR_H
@@ -21,7 +21,7 @@ enum twin_kind {
   TWIN_DISPLAY
 };
 
-#ifdef __TWINPUCK__
+#ifdef __TWINPUCK_PC__
 
 /** [webots] of the world: ms; rad/s a unit, 0 for the usual one; whether sensors are numbered as in the lab; whether
  *  axes are nue. */
@@ -82,14 +82,16 @@ void twin_receiver_set_channel(int receiver, int channel);
 
 #else
 
+/** Whether the program began with robot_live(), of 2005. */
+int webots_is_of_2005(void);
+void webots_begin_2005(void);
+
 #define twin_time_step_ms() 32.0
-#define twin_speed_unit() 0.0f
-#define twin_lab_order() 0
+#define twin_speed_unit() (webots_is_of_2005() ? 0.1f : 0.0f) /* rad/s a unit, as worlds/obstacle.toml */
+#define twin_lab_order() webots_is_of_2005()
 #define twin_nue() 0
 #define twin_robot_name(name, size) ((void)(size), (name)[0] = 0)
-#define twin_device(index, name, size) TWIN_NONE
 #define twin_virtual_sensor(name, value) 0
-#define twin_key(index) 0
 
 #endif
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * GPS, compass and inertial unit, by either interface: the simulator's truth. Empty on the robot.
  */
-#ifdef __TWINPUCK__
+#ifdef __TWINPUCK_PC__
 #include <math.h>
 
 #include "core.h"

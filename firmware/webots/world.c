@@ -2,7 +2,7 @@
  * What a robot's controller may ask of the world through webots/supervisor.h: where robots and objects are.
  * Everything that changes the world is left to supervisor programs, and does not link here. Empty on the robot.
  */
-#ifdef __TWINPUCK__
+#ifdef __TWINPUCK_PC__
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

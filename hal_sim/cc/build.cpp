@@ -356,11 +356,12 @@ static BuildResult build_here(const BuildOptions& asked) {
     for (const fs::path& source : copies.replaced)
       if (!program.unlisted.count(source)) program.library_places.push_back(library_place(source));
   Plan p = plan(o, copies, program, false);
-  if (p.is_webots && o.chip_way) {
-    result.errors.push_back(
-        o.source_dir.string() +
-        ": program: got one for Webots' interfaces, expected one for the e-puck's library; "
-        "the chip has nothing behind the first, run it the native way");
+  if (p.has_cxx && o.chip_way) {
+    for (const CompileJob& job : p.user)
+      if (is_cxx(job.source))
+        result.errors.push_back(
+            job.source.string() +
+            ": program: got C++, expected C; programs of the chip are in C, as XC16 has it");
     return finish();
   }
   if (p.is_webots) own = p.user.size();

@@ -120,10 +120,11 @@ std::vector<CompileJob> library_jobs(const BuildOptions& o, bool is_webots, bool
     // what the drivers do with a program's variables and functions, those do not
     jobs.back().has_facts = o.chip_way && !is_precompiled(source) && source.extension() == ".c";
   };
-  // some take the place of a file of the libc
   if (is_webots)
-    for (const auto& folder : {root / "firmware/webots", cc_dir / "libc/webots"})
-      for (const auto& s : files_below(folder, ".c")) add(s, flags);
+    for (const auto& s : files_below(root / "firmware/webots", ".c")) add(s, flags);
+  // some take the place of a file of the libc; they ask the simulator
+  if (is_webots && !o.chip_way)
+    for (const auto& s : files_below(cc_dir / "libc/webots", ".c")) add(s, flags);
   if (has_cxx)
     for (const auto& s : files_below(cc_dir / "libc/cxx/src", ".cpp")) add(s, cxx_flags(flags));
   // what exists in the simulator alone has one form for both ways
@@ -137,7 +138,7 @@ std::vector<CompileJob> library_jobs(const BuildOptions& o, bool is_webots, bool
     const bool is_of_chip = file.parent_path() == root / "hal_dspic/runtime";
     if (is_of_chip != o.chip_way && (is_of_chip || is_for_host(file))) return true;
     if (file.parent_path() == root / "hal_dspic/bootloader") return true;  // a program of its own
-    return is_webots && file.parent_path() == cc_dir / "libc/src" &&
+    return is_webots && !o.chip_way && file.parent_path() == cc_dir / "libc/src" &&
            fs::exists(cc_dir / "libc/webots" / file.filename());
   };
   for (const auto& folder : folders)
@@ -213,6 +214,7 @@ std::vector<Library> provide_usual_libraries(int jobs) {
          {std::pair(false, false), std::pair(true, false), std::pair(true, true)})
       make(register_way, false, is_webots, has_cxx);
   make(true, true, false, false);
+  make(true, true, true, false);
   return made;
 }
 

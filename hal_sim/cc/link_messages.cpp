@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "object_cache.h"
+#include "robot_lacks.h"
 
 namespace cc {
 namespace fs = std::filesystem;
@@ -104,7 +105,10 @@ std::string with_hints(const std::string& text) {
       const std::size_t begin = line.rfind(' ', at) + 1;
       std::string name = line.substr(begin, at - begin);
       if (name.size() > 2 && name.compare(name.size() - 2, 2, "()") == 0) name.resize(name.size() - 2);
-      line += "; " + hint_for(name);
+      if (const std::string lack = what_the_robot_lacks(name); !lack.empty())
+        line.replace(at, std::string::npos, ": " + lack);
+      else
+        line += "; " + hint_for(name);
     }
     out += line + "\n";
   }

@@ -35,7 +35,8 @@ void refuse_functions(Unit& unit) {
     const char* instead = refused_function(f.getName());
     if (!instead) continue;
     // programs for Webots' interfaces have a calendar and files, which the simulator keeps
-    if ((unit.options.webots || unit.options.cxx) && is_for_webots(f.getName())) continue;
+    if ((unit.options.webots || unit.options.cxx) && !unit.options.chip && is_for_webots(f.getName()))
+      continue;
     for (User* user : f.users()) {
       // a call without prototype goes through a cast of the function
       while (isa<Constant>(user) && !user->use_empty()) user = user->user_back();

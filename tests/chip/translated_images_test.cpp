@@ -13,16 +13,13 @@ namespace fs = std::filesystem;
 
 constexpr double kSeconds = 1.0;
 
-/// Folders under firmware/ with a program for the e-puck's library in them.
+/// Folders under firmware/ with a program in them.
 std::vector<std::string> controllers() {
   std::vector<std::string> all;
   for (const char* parent : {"firmware", "firmware/lab"})
     for (const auto& entry : fs::directory_iterator(fs::path(TWINPUCK_SOURCE_DIR) / parent)) {
       const std::string name = entry.path().filename().string();
-      // e-puck is a program for Webots' interfaces, of which the chip has none
-      if (!entry.is_directory() || name == "library" || name == "include" || name == "webots" ||
-          name == "e-puck")
-        continue;
+      if (!entry.is_directory() || name == "library" || name == "include" || name == "webots") continue;
       const auto is_program = [](const auto& file) { return file.path().extension() == ".c"; };
       if (std::any_of(fs::directory_iterator(entry.path()), fs::directory_iterator(), is_program))
         all.push_back(name);

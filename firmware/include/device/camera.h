@@ -14,7 +14,7 @@ TP_C_BEGIN
 void camera_enable(DeviceTag tag, int ms);
 void camera_disable(DeviceTag tag);
 
-/** Rows from the top, 4 bytes a pixel: blue, green, red, 255. Black before the first,
+/** Rows from the top, 4 bytes a pixel: blue, green, red, 255; on the robot 2. Black before the first,
  * null when the camera is not enabled. Does not block. */
 unsigned char* camera_get_image(DeviceTag tag);
 
@@ -29,12 +29,28 @@ float camera_get_fov(DeviceTag tag);
 void camera_move_window(DeviceTag tag, int x, int y);
 
 /** Colour of a pixel, 0 to 255; x from the left, y from the top. */
+#ifdef TP_ON_CHIP
+/* RGB565, two bytes a pixel, the one with red first; what five or six bits hold is told as eight */
+#define TP_RGB565_BYTE(image, width, x, y, which) \
+  ((unsigned)((const unsigned char*)(image))[2 * ((unsigned)(y) * (unsigned)(width) + (unsigned)(x)) + (which)])
+#define camera_image_get_red(image, width, x, y)                        \
+  ((unsigned char)((TP_RGB565_BYTE(image, width, x, y, 0) & 0xF8u) | \
+                   TP_RGB565_BYTE(image, width, x, y, 0) >> 5))
+#define camera_image_get_green(image, width, x, y)                           \
+  ((unsigned char)((TP_RGB565_BYTE(image, width, x, y, 0) & 7u) << 5 |    \
+                   (TP_RGB565_BYTE(image, width, x, y, 1) >> 3 & 0x1Cu) | \
+                   (TP_RGB565_BYTE(image, width, x, y, 0) >> 1 & 3u)))
+#define camera_image_get_blue(image, width, x, y)                            \
+  ((unsigned char)((TP_RGB565_BYTE(image, width, x, y, 1) & 0x1Fu) << 3 | \
+                   (TP_RGB565_BYTE(image, width, x, y, 1) >> 2 & 7u)))
+#else
 #define camera_image_get_red(image, width, x, y) \
   ((image)[4 * ((unsigned)(y) * (unsigned)(width) + (unsigned)(x)) + 2])
 #define camera_image_get_green(image, width, x, y) \
   ((image)[4 * ((unsigned)(y) * (unsigned)(width) + (unsigned)(x)) + 1])
 #define camera_image_get_blue(image, width, x, y) \
   ((image)[4 * ((unsigned)(y) * (unsigned)(width) + (unsigned)(x))])
+#endif
 #define camera_image_get_grey(image, width, x, y)                        \
   ((unsigned char)(((unsigned)camera_image_get_red(image, width, x, y) + \
                     camera_image_get_green(image, width, x, y) +         \

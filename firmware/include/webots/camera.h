@@ -3,8 +3,8 @@
  * has.
  *
  * The picture is taken as RGB565 and told as BGRA, 8112 bytes, which the robot's memory does not hold: on the
- * robot the functions are missing, and the program does not link. The camera runs freely; a step finds the
- * newest whole picture.
+ * robot it stays RGB565, 4056 bytes, and is read by wb_camera_image_get_red() and its like alone. The camera runs
+ * freely; a step finds the newest whole picture, on the robot one that is taken into the place of the last.
  */
 #ifndef WB_CAMERA_H
 #define WB_CAMERA_H
@@ -20,7 +20,7 @@ void wb_camera_enable(WbDeviceTag tag, int sampling_period);
 void wb_camera_disable(WbDeviceTag tag);
 int wb_camera_get_sampling_period(WbDeviceTag tag);
 
-/** Rows from the top, 4 bytes a pixel: blue, green, red, 255. Black before the first,
+/** Rows from the top, 4 bytes a pixel: blue, green, red, 255; on the robot 2. Black before the first,
  * null when the camera is not enabled. Does not block. */
 const unsigned char* wb_camera_get_image(WbDeviceTag tag);
 
@@ -68,12 +68,28 @@ int wb_camera_recognition_save_segmentation_image(WbDeviceTag tag, const char* f
 double wb_camera_get_near(WbDeviceTag tag);
 
 /** Colour of a pixel, 0 to 255; x from the left, y from the top. */
+#ifdef TP_ON_CHIP
+/* RGB565, two bytes a pixel, the one with red first; what five or six bits hold is told as eight */
+#define TP_RGB565_BYTE(image, width, x, y, which) \
+  ((unsigned)((const unsigned char*)(image))[2 * ((unsigned)(y) * (unsigned)(width) + (unsigned)(x)) + (which)])
+#define wb_camera_image_get_red(image, width, x, y)                        \
+  ((unsigned char)((TP_RGB565_BYTE(image, width, x, y, 0) & 0xF8u) | \
+                   TP_RGB565_BYTE(image, width, x, y, 0) >> 5))
+#define wb_camera_image_get_green(image, width, x, y)                           \
+  ((unsigned char)((TP_RGB565_BYTE(image, width, x, y, 0) & 7u) << 5 |    \
+                   (TP_RGB565_BYTE(image, width, x, y, 1) >> 3 & 0x1Cu) | \
+                   (TP_RGB565_BYTE(image, width, x, y, 0) >> 1 & 3u)))
+#define wb_camera_image_get_blue(image, width, x, y)                            \
+  ((unsigned char)((TP_RGB565_BYTE(image, width, x, y, 1) & 0x1Fu) << 3 | \
+                   (TP_RGB565_BYTE(image, width, x, y, 1) >> 2 & 7u)))
+#else
 #define wb_camera_image_get_red(image, width, x, y) \
   ((image)[4 * ((unsigned)(y) * (unsigned)(width) + (unsigned)(x)) + 2])
 #define wb_camera_image_get_green(image, width, x, y) \
   ((image)[4 * ((unsigned)(y) * (unsigned)(width) + (unsigned)(x)) + 1])
 #define wb_camera_image_get_blue(image, width, x, y) \
   ((image)[4 * ((unsigned)(y) * (unsigned)(width) + (unsigned)(x))])
+#endif
 #define wb_camera_image_get_gray(image, width, x, y)                        \
   ((unsigned char)(((unsigned)wb_camera_image_get_red(image, width, x, y) + \
                     wb_camera_image_get_green(image, width, x, y) +         \

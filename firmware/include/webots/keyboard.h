@@ -49,7 +49,7 @@ void wb_keyboard_disable(void);
 int wb_keyboard_get_sampling_period(void);
 
 /** Next key that is down, once a step each; -1: no more. Keys are those of `--key ROBOT=keyboard:UP@TIME`
- * (docs/webots.md): letters as capitals, arrows as above. Always -1 on the robot. */
+ * (docs/webots.md): letters as capitals, arrows as above. The robot has no keyboard: it does not link there. */
 long wb_keyboard_get_key(void);
 
 TP_C_END
