@@ -274,6 +274,7 @@ void Session::build_program(Program& program) {
   options.world_folder = fs::path(opening_.file).parent_path().string();
   const int robot = program.robots.empty() ? building_for_.front() : program.robots.front();
   if (options.way.empty()) options.way = twin_->mind(robot).runner()->way();
+  options.webots_settings = twin::webots_settings_of(twin_->world());
   build_ = std::async(std::launch::async, [options, name = program.name]() mutable {
     Built built;
     built.name = name;

@@ -86,10 +86,18 @@ void twin_receiver_set_channel(int receiver, int channel);
 int webots_is_of_2005(void);
 void webots_begin_2005(void);
 
-#define twin_time_step_ms() 32.0
-#define twin_speed_unit() (webots_is_of_2005() ? 0.1f : 0.0f) /* rad/s a unit, as worlds/obstacle.toml */
-#define twin_lab_order() webots_is_of_2005()
-#define twin_nue() 0
+extern const float webots_world_speed_unit;
+extern const int webots_world_lab_order, webots_world_nue, webots_world_step_ms;
+
+/* rad/s a unit, as worlds/obstacle.toml has it */
+#define OF_2005_SPEED_UNIT 0.1f
+#define twin_time_step_ms() ((double)webots_world_step_ms)
+#define twin_speed_unit()                                  \
+  (webots_world_speed_unit > 0   ? webots_world_speed_unit \
+   : webots_is_of_2005() ? OF_2005_SPEED_UNIT              \
+                         : 0.0f)
+#define twin_lab_order() (webots_world_lab_order >= 0 ? webots_world_lab_order : webots_is_of_2005())
+#define twin_nue() webots_world_nue
 #define twin_robot_name(name, size) ((void)(size), (name)[0] = 0)
 #define twin_virtual_sensor(name, value) 0
 

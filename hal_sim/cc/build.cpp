@@ -364,8 +364,19 @@ static BuildResult build_here(const BuildOptions& asked) {
             ": program: got C++, expected C; programs of the chip are in C, as XC16 has it");
     return finish();
   }
+  const bool has_settings = p.is_webots && o.chip_way && !o.webots_settings.empty();
+  if (has_settings) {
+    const fs::path settings = o.cache_dir / ("webots-" + content_hash(o.webots_settings) + ".c");
+    if (!fs::exists(settings, ec) && !write_text(settings, o.webots_settings)) {
+      result.errors.push_back(settings.string() + ": cannot be written");
+      return finish();
+    }
+    CompileJob job = p.user.front();
+    job.source = settings;
+    p.user.push_back(job);
+  }
   if (p.is_webots) own = p.user.size();
-  result.files = int(own + p.assembler.size());
+  result.files = int(own + p.assembler.size()) - (has_settings ? 1 : 0);
   for (std::size_t i = own; i < p.user.size(); ++i) p.user[i].flags.push_back("--weak");
   std::vector<CompileJob> all = p.user;
   if (o.chip_way)

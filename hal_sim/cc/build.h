@@ -22,7 +22,10 @@ struct BuildOptions {
   std::string name;                  ///< controller's name; default: the folder's
   std::filesystem::path cache_dir;   ///< objects kept between builds; default: below the build folder
   std::vector<std::string> defines;  ///< "NAME=value"
-  std::string standard;              ///< of C, as -std= has it; default: the project's, or XC16's gnu89
+  /// C that defines the constants of firmware/webots/settings.c, for a program of Webots' interfaces on the
+  /// chip; empty: what that file says.
+  std::string webots_settings;
+  std::string standard;  ///< of C, as -std= has it; default: the project's, or XC16's gnu89
   std::vector<std::filesystem::path> include_dirs;  ///< searched first
   std::vector<std::filesystem::path> sources;       ///< instead of every .c of source_dir
   std::filesystem::path api_dir,

@@ -148,6 +148,7 @@ BuildRecord::BuildRecord(const BuildOptions& o) {
                                     : o.register_way ? "register"
                                                      : "",
                                     o.name,
+                                    o.webots_settings,
                                     o.standard,
                                     o.api_dir.string(),
                                     o.include_root.string()};

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <climits>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 
@@ -102,13 +103,35 @@ std::string build_folder() {
 std::string image_file(const std::string& folder, const Options& options) {
   std::uint64_t h = 0;
   for (unsigned char c : fs::weakly_canonical(folder).string()) h = sim::mix64(h ^ c);
-  char tag[20];
+  char tag[32];
   std::snprintf(tag, sizeof tag, "-%08x", static_cast<unsigned>(h));
   std::string kind = options.sanitize ? "-sanitize" : options.coverage ? "-coverage" : "";
   if (options.way != "native" && !options.way.empty()) kind += "-" + options.way;
+  // the same program has another image in a world that says something else
+  if (options.way == "chip" && !options.webots_settings.empty() && programs::is_pc_program(folder)) {
+    std::uint64_t of_world = 0;
+    for (unsigned char c : options.webots_settings) of_world = sim::mix64(of_world ^ c);
+    std::snprintf(tag + 9, sizeof tag - 9, "-%06x", static_cast<unsigned>(of_world & 0xffffff));
+  }
   return (fs::path(build_folder()) / "controllers" /
           (fs::path(folder).filename().string() + tag + kind + (options.way == "chip" ? ".elf" : ".so")))
       .string();
+}
+
+std::string webots_settings_of(const sim::WorldDesc& world) {
+  constexpr double kUsualUnit_rad_s =
+      0.00628;  // [Webots: e-puck of versions 6 to 8], as firmware/webots/wheels.c
+  char text[300];
+  const double unit = world.webots.speed_unit_rad_s;
+  std::snprintf(text, sizeof text,
+                "extern const float webots_world_speed_unit;\n"
+                "extern const int webots_world_lab_order, webots_world_nue, webots_world_step_ms;\n"
+                "const float webots_world_speed_unit = %.9gf;\nconst int webots_world_lab_order = %d;\n"
+                "const int webots_world_nue = %d;\nconst int webots_world_step_ms = %d;\n",
+                unit > 0 ? unit : kUsualUnit_rad_s, world.webots.sensor_order == "lab" ? 1 : 0,
+                world.webots.axes == sim::Axes::Nue ? 1 : 0,
+                int(std::lround(world.webots.time_step_s * 1000)));
+  return text;
 }
 
 std::string find_firmware(const std::string& name, const std::string& from_folder,
@@ -169,6 +192,7 @@ std::string provide_image(const std::string& name, const std::string& from_folde
   build.sanitize = options.sanitize;
   build.coverage = options.coverage;
   build.chip_way = options.way == "chip";
+  build.webots_settings = options.webots_settings;
   build.register_way = options.way == "register" || build.chip_way;
   const cc::BuildResult result = cc::build_image(build);
   if (program) program->files = result.files;

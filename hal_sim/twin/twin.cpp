@@ -259,6 +259,7 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
     for (const std::string& outside : options.externs)
       if (outside == robot.name || outside == "*") name = kExtern;
     Options of_robot = options;
+    of_robot.webots_settings = webots_settings_of(world);
     if (of_robot.way.empty()) of_robot.way = own_settings(world, robot).text("way");
     const std::string key = name.empty() ? name : of_robot.way + ":" + name;
     firmware.push_back(key);

@@ -50,6 +50,8 @@ struct Options {
   /// Below it each robot has a folder of its name for files that its program writes; empty: none can be
   /// opened.
   std::string files_folder;
+  /// Of the world, for programs of Webots' interfaces on the chip (cc::BuildOptions); Twin::open() sets it.
+  std::string webots_settings;
   bool sanitize = false;  ///< ... with address and 16-bit overflow checks
   bool coverage = false;  ///< ... with line counters
   /// Told the compiler's warnings, a line each; may be empty.
@@ -61,6 +63,9 @@ struct Options {
 /// The folder of a controller of the project: firmware/NAME, else firmware/lab/NAME (a solution of the lab,
 /// also called "lab/NAME"). Empty when there is none.
 std::string stored_controller(const std::string& name);
+
+/// The world's [webots] as Options::webots_settings has it.
+std::string webots_settings_of(const sim::WorldDesc& world);
 
 /// What a robot runs, for people.
 struct Program {

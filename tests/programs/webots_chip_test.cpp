@@ -101,10 +101,22 @@ int main(void) {
   expect_no_traps();
 }
 
+/// What `make dspic` flashes: no world has been asked.
+std::string image_of(const std::string& controller) {
+  cc::BuildOptions o;
+  o.source_dir = fs::path(TWINPUCK_SOURCE_DIR) / "firmware" / controller;
+  o.output = fs::path(TWINPUCK_BUILD_DIR) / "tests" / ("flashed_" + controller + ".elf");
+  o.optimisation = "-O1";
+  o.chip_way = o.register_way = true;
+  const auto result = cc::build_image(o);
+  EXPECT_TRUE(result.ok);
+  return o.output.string();
+}
+
 // the interface of 2005 has the lab's units and numbers on the robot: 20 and 16 are 2 and 1.6 rad/s (see
 // firmware/e-puck/test.cpp), ps2 is one of the two in front
 TEST_F(WebotsOnChip, the_lab_s_example_drives_as_in_its_worlds) {
-  Robot& r = add_robot("e-puck");
+  Robot& r = add_robot(image_of("e-puck"));
   run_for(0.3);
   const auto left = r.left_steps(), right = r.right_steps();
   run_for(4.0);
@@ -116,15 +128,37 @@ TEST_F(WebotsOnChip, the_lab_s_example_drives_as_in_its_worlds) {
 
 TEST_F(WebotsOnChip, the_lab_s_example_sees_a_wall_ahead_with_its_one_sensor) {
   wall(0.055, -0.2, 0.055, 0.2);
-  Robot& r = add_robot("e-puck");
+  Robot& r = add_robot(image_of("e-puck"));
   const double start = r.heading_deg();
   run_for(1.5);
   EXPECT_LT(r.heading_deg(), start - 60);  // it spins clockwise
 }
 
+// in a world that says nothing 20 units are 20 * 0.00628 = 0.126 rad/s, 20 steps/s, as for the program of the
+// PC
+TEST_F(WebotsOnChip, a_world_s_settings_go_before_those_of_the_interface) {
+  Robot& r = add_robot("e-puck");
+  run_for(4.3);
+  EXPECT_NEAR(r.left_steps(), 4 * 20, 4);
+}
+
+TEST_F(WebotsOnChip, the_same_controller_has_the_settings_of_another_world) {
+  world.webots.speed_unit_rad_s = 0.05;
+  world.webots.sensor_order = "product";
+  wall(-0.2, -0.055, 0.2, -0.055);  // to its right, where ps2 of the product looks
+  Robot& r = add_robot("e-puck");
+  run_for(1);
+  const std::string text = r.uart1_text();
+  const std::size_t last = text.rfind("v=", text.rfind('\n'));
+  ASSERT_NE(last, std::string::npos) << text;
+  EXPECT_GT(std::atoi(text.c_str() + last + 2), 512) << text;
+}
+
 // obstacle avoidance as the lab has it: numbers of the lab, speeds of up to 20 units, no main loop
 TEST_F(WebotsOnChip, a_program_of_2005_avoids_the_walls_of_a_maze) {
   load_world("worlds/maze.toml");
+  world.webots.speed_unit_rad_s = 0.1;
+  world.webots.sensor_order = "lab";
   const fs::path folder = fs::path(TWINPUCK_BUILD_DIR) / "tests" / "chip_avoid_2005";
   fs::create_directories(folder);
   std::ofstream(folder / "chip_avoid_2005.c") << R"(
