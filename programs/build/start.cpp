@@ -102,6 +102,8 @@ class Starter {
     const Compiled made = compile(found_, said_, cache_, tell_, problems_);
     launch_.files = made.files;
     launch_.words = {made.program.string()};
+    // what it believes to be called: Webots' programs lie in their folder
+    launch_.name = (found_.folder / found_.folder.filename()).string();
     return !made.program.empty();
   }
 
@@ -176,8 +178,12 @@ class Starter {
     const auto options = ini_.options.find("python");
     if (options != ini_.options.end())
       launch_.words.insert(launch_.words.end(), options->second.begin(), options->second.end());
-    launch_.words.push_back(found_.main.lexically_relative(found_.folder).string());
     const fs::path ours = source_root() / "programs" / "controller" / "python";
+    // a copy of Webots' own package beside the program would hide ours, and is nothing without Webots
+    const fs::path copy = found_.folder / "controller.py";
+    if (copy != found_.main && text_of(copy).find("_controller") != std::string::npos)
+      launch_.words.push_back((ours / "run_program.py").string());
+    launch_.words.push_back(found_.main.lexically_relative(found_.folder).string());
     launch_.environment.push_back(joined("PYTHONPATH", {ours.string()}, ini_));
     for (const char* setting :
          {"PYTHONUNBUFFERED=1", "PYTHONHASHSEED=0", "PYTHONIOENCODING=UTF-8", "PYTHONDONTWRITEBYTECODE=1"})

@@ -57,7 +57,7 @@ std::vector<std::string> merged_environment(const std::vector<std::string>& ours
 }
 
 /// The child's side of vfork(): system calls only, for its memory is the parent's. Returns when it cannot.
-void become(char* const* words, char* const* environment, const char* folder, int socket, int text, int nothing,
+void become(const char* program, char* const* words, char* const* environment, const char* folder, int socket, int text, int nothing,
             pid_t parent, const sigset_t& before, int* why) {
   setsid();
   prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -73,7 +73,7 @@ void become(char* const* words, char* const* environment, const char* folder, in
       dup2(high, kSocketInProgram) >= 0) {
     syscall(SYS_close_range, kSocketInProgram + 1, ~0U, 0);
     sigprocmask(SIG_SETMASK, &before, nullptr);
-    execvpe(words[0], words, environment);
+    execvpe(program, words, environment);
   }
   *why = errno;
 }
@@ -178,7 +178,9 @@ std::unique_ptr<Partner> Partner::start(const Start& start, std::string& why) {
   pid_t pid = -1;
   if (have_all) {
     const std::vector<std::string> environment = merged_environment(start.environment);
-    const CallWords words(start.words), assignments(environment);
+    std::vector<std::string> named = start.words;
+    if (!start.name.empty()) named[0] = start.name;
+    const CallWords words(named), assignments(environment);
     sigset_t all, before;
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &before);
@@ -186,7 +188,7 @@ std::unique_ptr<Partner> Partner::start(const Start& start, std::string& why) {
     volatile int failed = 0;
     pid = vfork();
     if (pid == 0) {
-      become(words.pointers.data(), assignments.pointers.data(), start.folder.c_str(), sockets[1], pipes[1], nothing,
+      become(start.words[0].c_str(), words.pointers.data(), assignments.pointers.data(), start.folder.c_str(), sockets[1], pipes[1], nothing,
              parent, before, const_cast<int*>(&failed));
       _exit(127);
     }

@@ -24,6 +24,7 @@ namespace programs {
 /// What is started, and where.
 struct Start {
   std::vector<std::string> words;        ///< argv; the first is found as a shell would
+  std::string name;                      ///< argv[0] in the first word's place; empty: that one
   std::vector<std::string> environment;  ///< NAME=VALUE, in addition to ours, or instead of the same name
   std::string folder;                    ///< where it works
 };

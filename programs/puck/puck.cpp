@@ -13,6 +13,7 @@
 #include "hal_sim/board/true_state.h"
 #include "hal_sim/drivers/driver_params.h"
 #include "sim_core/base/hash.h"
+#include "sim_core/world/scene.h"
 
 namespace programs {
 
@@ -22,7 +23,9 @@ constexpr int kRing = board::kRingSensors, kLeds = 10;
 constexpr int kFullScale = 4095;
 constexpr double kGroundScale = 1000;      // [Webots: E-puckGroundSensors.proto, lookup table]
 constexpr double kRingApertureRad = 0.3;   // [assumed: as the usual profile's lobe]
-constexpr double kInfraRed = 1, kGeneric = 0;  // WbDistanceSensorType
+constexpr double kInfraRed = 1, kGeneric = 0, kLaser = 3;  // WbDistanceSensorType
+// the e-puck 2's sensor of the time of flight, which looks ahead [Webots: E-puck.proto, version 2: 0 to 2 m in mm]
+constexpr double kTofMostMm = 2000, kTofForwardM = 0.035, kTofHeightM = 0.028;
 constexpr double kMicZero = 2048, kMicScale = 16;  // 12 bits of the converter to signed 16
 constexpr double kAccZero = 2048, kAccPerG = 768;  // counts [lib: a_d/advance_ad_scan/e_acc.h]
 constexpr int kAccMean = 5;                        // samples
@@ -132,6 +135,7 @@ void Puck::add_own() {
     for (int i = 0; i < 3; ++i)
       for (const char* name : {"gs", "fs"})  // floor sensors had other names once
         add(name + std::to_string(i), Kind::Ground, WB_NODE_DISTANCE_SENSOR, i, {0, kGroundScale, 0, kInfraRed});
+  add("tof", Kind::Tof, WB_NODE_DISTANCE_SENSOR, 0, {0, kTofMostMm, 0, kLaser});
   add("selector", Kind::Selector, WB_NODE_DISTANCE_SENSOR, 0, {0, 15, 0, kGeneric});
   add("battery", Kind::Battery, WB_NODE_NO_NODE, 0);
   add("keyboard", Kind::Keyboard, WB_NODE_NO_NODE, 0);
@@ -374,6 +378,8 @@ void Puck::take(const Device& device, std::size_t number, Cycle at, link_packet&
       return put3(board::true_state(board_, at).north);
     case Kind::Inertial:
       return put3(board::true_state(board_, at).attitude_rad);
+    case Kind::Tof:
+      return put(to, tag, {time_of_flight(at)});
     case Kind::Selector:
       return put(to, tag, {static_cast<double>(board_.selector())});
     case Kind::Battery:
@@ -435,6 +441,19 @@ double Puck::ground(int sensor, Cycle at) {
   read_registers(board_.i2c(), board::kGroundAddress, 2 * sensor, &high, 1, at);
   read_registers(board_.i2c(), board::kGroundAddress, 2 * sensor + 1, &low, 1, at);
   return high << 8 | low;
+}
+
+/// mm to the first thing straight ahead.
+double Puck::time_of_flight(Cycle at) const {
+  const sim::Scene* scene = board_.scene();
+  if (!scene) return kTofMostMm;
+  const sim::Clicks now = board_.clock().click_at(at);
+  const sim::Pose2 pose = scene->pose(board_.setup().robot, now);
+  const sim::Vec2 ahead = sim::Frame2(pose).turn({1, 0});
+  const sim::Ray ray{{pose.x_m + kTofForwardM * ahead.x, pose.y_m + kTofForwardM * ahead.y, kTofHeightM}, {ahead.x, ahead.y, 0}};
+  sim::SceneHit hit;
+  if (!scene->cast(ray, kTofMostMm / 1000, board_.setup().robot, now, &hit)) return kTofMostMm;
+  return std::round(hit.distance_m * 1000);
 }
 
 /// m/s2: forward, left, up.

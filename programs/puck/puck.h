@@ -80,6 +80,7 @@ class Puck {
     Selector,
     Battery,
     Keyboard,
+    Tof,
     Idle  // there for the program, and does nothing
   };
   struct Device {
@@ -100,6 +101,7 @@ class Puck {
   double proximity(int sensor, Cycle at);
   double light(int sensor, Cycle at);
   double ground(int sensor, Cycle at);
+  double time_of_flight(Cycle at) const;
   sim::Vec3 acceleration(Cycle at);
   sim::Vec3 rates(Cycle at);
   void take_sound(int microphone, std::int64_t tag, Cycle at, link_packet& to);

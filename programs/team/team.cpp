@@ -118,7 +118,7 @@ void Team::take_turns() {
 void Team::begin(Member& member) {
   member.starts_anew = false;
   member.partner.reset();
-  member.has_said_hello = member.is_over = member.is_waiting = false;
+  member.has_said_hello = member.is_over = member.is_waiting = member.is_told_end = false;
   member.text.clear();
   member.place = {};
   if (member.of_robot) member.began = member.of_robot->began();
@@ -132,7 +132,7 @@ void Team::begin(Member& member) {
     if (member.partner)
       say(fmt::format("{}: waits for its program: TWINPUCK_CONTROLLER=unix:{}", member.name, member.partner->path()));
   } else {
-    Start start{member.launch.words, member.launch.environment, member.launch.folder};
+    Start start{member.launch.words, member.launch.name, member.launch.environment, member.launch.folder};
     for (const std::string& word : sim::argument_words(member.arguments)) start.words.push_back(word);
     member.partner = Partner::start(start, why);
   }
@@ -167,6 +167,7 @@ void Team::tell_end(Member& member) {
   link_begin(&packet_, LINK_END);
   link_end(&packet_);
   member.is_waiting = false;
+  member.is_told_end = true;
   reply(member);
 }
 
@@ -343,6 +344,12 @@ void Team::note_gone(Member& member) {
   const bool is_extern = member.launch.is_extern;
   const std::optional<ProcessEnd> end = is_extern ? std::nullopt : member.partner->await_end(kAfterLinkMs);
   if (!end && !is_extern) return fail(member, "closed its link and went on; it was ended");
+  if (end && member.is_told_end && (end->signal != 0 || end->status != 0)) {
+    // the run is over, and what it simulated is good
+    line(member, "its program, told that the run is over, ended " +
+                     (end->signal ? "by " + words_of(*end) : "with " + words_of(*end)));
+    return over(member);
+  }
   if (end && end->signal != 0) return fail(member, "ended by " + words_of(*end));
   if (end && end->status != 0) return fail(member, "ended with " + words_of(*end));
   // a program from outside that crashed said so before

@@ -81,6 +81,7 @@ class Team final : public sim::Attendant, private SupervisorHost {
     std::unique_ptr<Partner> partner;   // null: not started, or over
     std::uint64_t began = 0;            // of the seat, when it was started
     bool has_said_hello = false, is_over = false;
+    bool is_told_end = false;
     bool is_waiting = false;  // for DONE or END: the simulator speaks to nobody else
     bool starts_anew = false;
     std::string text;   // printed, up to the next newline
