@@ -385,6 +385,9 @@ void Simulation::begin_again(int robot) {
 
 void Simulation::begin_world() {
   begins_ = false;
+  begun_ = now();
+  digest_ = mix64(scene_->world().seed);
+  std::fill(told_.begin(), told_.end(), 0);
   scene_->forget_history();
   std::vector<BodyState> start = states_of(*scene_);
   const auto same_place = [](const Pose2& a, const Pose2& b) {

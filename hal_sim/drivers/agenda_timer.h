@@ -36,6 +36,8 @@ class AgendaTimer {
 
   /// The board's motors, left and right; they outlive this.
   explicit AgendaTimer(board::Stepper& left, board::Stepper& right);
+  /// The state's hash counts cycles from here on, so that one begun later has that of one begun at 0.
+  void count_from(Cycle origin) { origin_ = origin; }
 
   // --- the timer -----------------------------------------------------------------------------------------
   /// Timer 2 starts from 0: the first tick is one period later.
@@ -155,7 +157,7 @@ class AgendaTimer {
   enum class Command { Pins, Run, Destroy, SetCycle, ResetCount, Pause, Restart };
   void note(Command command, Cycle at) { note(static_cast<std::uint64_t>(command), at); }
   void note(std::uint64_t command, Cycle at) {
-    history_ = sim::mix64(history_ ^ command << 48 ^ static_cast<std::uint64_t>(at));
+    history_ = sim::mix64(history_ ^ command << 48 ^ static_cast<std::uint64_t>(at - origin_));
   }
   /// The motor, brought to `tick`. Nothing that follows is earlier, whoever asks.
   AgendaMotor& bring(Wheel wheel, std::int64_t tick) const {
@@ -187,6 +189,7 @@ class AgendaTimer {
   board::Stepper* steppers_[2];
   mutable AgendaMotor motors_[2];  // as far as somebody has asked: when changes no answer
   std::uint64_t history_ = 0;      // of commands, for the hash
+  Cycle origin_ = 0;               // ... which counts from here
   bool has_node_[2] = {false, false};
   Function motor_functions_[2] = {nullptr, nullptr};
   std::uint32_t motor_serial_[2] = {0, 0};

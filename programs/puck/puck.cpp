@@ -86,6 +86,7 @@ std::string text_of(const link_record& record, int number) {
 }  // namespace
 
 Puck::Puck(board::Board& board, Cycle start) : board_(board), drivers_(board), wheels_(board, drivers_.agendas()), start_(start) {
+  drivers_.agendas().count_from(start);
   drivers_.init_ports(start);
   wheels_.start(start);
   drivers_.scan().start(false, false, start);
