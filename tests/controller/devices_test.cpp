@@ -22,6 +22,7 @@
 #include <webots/microphone.h>
 #include <webots/motor.h>
 #include <webots/position_sensor.h>
+#include <webots/radio.h>
 #include <webots/receiver.h>
 #include <webots/robot.h>
 #include <webots/robot_wwi.h>
@@ -204,10 +205,9 @@ TEST(ControllerDevices, differential_wheels_are_the_motors) {
   EXPECT_EQ(sim.output(), "500 -1000 0 50 -7 10 0");
 }
 
-TEST(ControllerDevices, leds_say_what_changes) {
+TEST(ControllerDevices, leds_are_set) {
   Simulator sim([] {
     wb_led_set(wb_robot_get_device("led0"), 1);
-    wb_led_set(6, 1);
     led_set(6, 0);
     wb_led_set(6, 0xFF0000);
     printf("%d", wb_led_get(6));
@@ -408,6 +408,22 @@ TEST(ControllerDevices, sounds_are_recorded_and_played) {
   sim.done(2 * kStep);
   EXPECT_EQ(sim.wait(), 0);
   EXPECT_EQ(sim.output(), "1 10 4 16 11 10");
+}
+
+TEST(ControllerDevices, kinds_that_no_robot_has_are_harmless) {
+  Simulator sim([] {
+    const WbDeviceTag lidar = 0;
+    wb_lidar_enable(lidar, 32);
+    wb_radio_send(0, nullptr, 0);
+    WbRadioMessage message = wb_radio_message_new(3, "abc", "there");
+    printf("%d %s %s %d", wb_lidar_get_range_image(lidar) == nullptr, wb_radio_message_get_body(message),
+           wb_radio_message_get_destination(message), wb_camera_get_type(7));
+    wb_radio_message_delete(message);
+  });
+  sim.welcome(puck());
+  EXPECT_EQ(sim.wait(), 0);
+  EXPECT_EQ(sim.output(), "1 abc there " + std::to_string(int{WB_CAMERA_COLOR}));
+  EXPECT_NE(sim.errors().find("wb_lidar_enable(): got tag 0"), std::string::npos);
 }
 
 TEST(ControllerDevices, battery_and_window_answer_as_without_one) {

@@ -33,6 +33,13 @@ double wb_camera_get_fov(WbDeviceTag tag);
 double wb_camera_get_min_fov(WbDeviceTag tag);
 double wb_camera_get_max_fov(WbDeviceTag tag);
 
+/** Versions 5 to 7: there is no window, nothing happens; always WB_CAMERA_COLOR. */
+#define WB_CAMERA_COLOR 'c'
+#define WB_CAMERA_RANGE_FINDER 'r'
+#define WB_CAMERA_BOTH 'b'
+void wb_camera_move_window(WbDeviceTag tag, int x, int y);
+int wb_camera_get_type(WbDeviceTag tag);
+
 /* --- programs of the PC: lens and exposure cannot be set, which a warning says; their values are 1 (exposure) and 0 */
 void wb_camera_set_fov(WbDeviceTag tag, double fov);
 double wb_camera_get_exposure(WbDeviceTag tag);

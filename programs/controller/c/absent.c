@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "programs/controller/c/library.h"
 
@@ -80,6 +81,60 @@ TELL(WB_NODE_VACUUM_GRIPPER, bool, false, wb_vacuum_gripper_get_presence)
 DO(WB_NODE_VACUUM_GRIPPER, wb_vacuum_gripper_turn_on)
 DO(WB_NODE_VACUUM_GRIPPER, wb_vacuum_gripper_turn_off)
 TELL(WB_NODE_VACUUM_GRIPPER, bool, false, wb_vacuum_gripper_is_on)
+
+DO(WB_NODE_SKIN, wb_skin_set_bone_orientation, int index, const double orientation[4], bool absolute)
+DO(WB_NODE_SKIN, wb_skin_set_bone_position, int index, const double position[3], bool absolute)
+TELL(WB_NODE_SKIN, int, 0, wb_skin_get_bone_count)
+TELL(WB_NODE_SKIN, const char*, "", wb_skin_get_bone_name, int index)
+TELL(WB_NODE_SKIN, const double*, NULL, wb_skin_get_bone_orientation, int index, bool absolute)
+TELL(WB_NODE_SKIN, const double*, NULL, wb_skin_get_bone_position, int index, bool absolute)
+
+DO(WB_NODE_RADIO, wb_radio_enable, int sampling_period)
+DO(WB_NODE_RADIO, wb_radio_disable)
+DO(WB_NODE_RADIO, wb_radio_set_address, const char* address)
+TELL(WB_NODE_RADIO, const char*, "", wb_radio_get_address)
+DO(WB_NODE_RADIO, wb_radio_set_frequency, double hz)
+TELL(WB_NODE_RADIO, double, 0, wb_radio_get_frequency)
+DO(WB_NODE_RADIO, wb_radio_set_channel, int channel)
+TELL(WB_NODE_RADIO, int, 0, wb_radio_get_channel)
+DO(WB_NODE_RADIO, wb_radio_set_bitrate, int bits_per_second)
+TELL(WB_NODE_RADIO, int, 0, wb_radio_get_bitrate)
+DO(WB_NODE_RADIO, wb_radio_set_rx_sensitivity, double dBm)
+TELL(WB_NODE_RADIO, double, 0, wb_radio_get_rx_sensitivity)
+DO(WB_NODE_RADIO, wb_radio_set_tx_power, double dBm)
+TELL(WB_NODE_RADIO, double, 0, wb_radio_get_tx_power)
+DO(WB_NODE_RADIO, wb_radio_set_callback, void (*callback)(const WbRadioEvent))
+DO(WB_NODE_RADIO, wb_radio_send, const WbRadioMessage message, double delay)
+
+struct message {
+  int length;
+  char *body, *destination;
+};
+WbRadioMessage wb_radio_message_new(int length, const char* body, const char* destination) {
+  struct message* message = grow(0, sizeof *message);
+  message->length = body && length > 0 ? length : 0;
+  message->body = copy_text(body, (size_t)message->length);
+  message->destination = copy_text(destination, destination ? strlen(destination) : 0);
+  return message;
+}
+void wb_radio_message_delete(WbRadioMessage message) {
+  if (!message) return;
+  free(((struct message*)message)->body);
+  free(((struct message*)message)->destination);
+  free(message);
+}
+const char* wb_radio_message_get_destination(WbRadioMessage message) {
+  return message ? ((const struct message*)message)->destination : "";
+}
+int wb_radio_message_get_length(WbRadioMessage message) { return message ? ((const struct message*)message)->length : 0; }
+const char* wb_radio_message_get_body(WbRadioMessage message) {
+  return message ? ((const struct message*)message)->body : "";
+}
+WbDeviceTag wb_radio_event_get_radio(const WbRadioEvent event) { return (void)event, 0; }
+char* wb_radio_event_get_data(const WbRadioEvent event) { return (void)event, NULL; }
+int wb_radio_event_get_data_size(const WbRadioEvent event) { return (void)event, 0; }
+char* wb_radio_event_get_emitter(const WbRadioEvent event) { return (void)event, NULL; }
+double wb_radio_event_get_rssi(const WbRadioEvent event) { return (void)event, 0; }
 
 /* --- windows ---------------------------------------------------------------------------------------------- */
 

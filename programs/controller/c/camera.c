@@ -109,6 +109,9 @@ double wb_camera_get_focal_distance(WbDeviceTag tag) { return device(tag, "wb_ca
 double wb_camera_get_min_focal_distance(WbDeviceTag tag) { return device(tag, "wb_camera_get_min_focal_distance") ? 0 : NAN; }
 double wb_camera_get_max_focal_distance(WbDeviceTag tag) { return device(tag, "wb_camera_get_max_focal_distance") ? 0 : NAN; }
 
+void wb_camera_move_window(WbDeviceTag tag, int x, int y) { (void)x, (void)y, (void)device(tag, "wb_camera_move_window"); }
+int wb_camera_get_type(WbDeviceTag tag) { return (void)device(tag, "wb_camera_get_type"), WB_CAMERA_COLOR; }
+
 int wb_camera_save_image(WbDeviceTag tag, const char* filename, int quality) {
   struct device* d = device(tag, "wb_camera_save_image");
   if (!d) return -1;

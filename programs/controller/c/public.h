@@ -49,12 +49,14 @@
 #include <webots/pen.h>
 #include <webots/position_sensor.h>
 #include <webots/radar.h>
+#include <webots/radio.h>
 #include <webots/range_finder.h>
 #include <webots/receiver.h>
 #include <webots/remote_control.h>
 #include <webots/robot.h>
 #include <webots/robot_window.h>
 #include <webots/robot_wwi.h>
+#include <webots/skin.h>
 #include <webots/speaker.h>
 #include <webots/supervisor.h>
 #include <webots/touch_sensor.h>

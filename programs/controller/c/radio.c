@@ -75,7 +75,6 @@ void wb_emitter_set_channel(WbDeviceTag tag, int channel) {
     WARN("wb_emitter_set_channel(): got %d, expected 0 or more, or -1 for all", channel);
     return;
   }
-  if (e->channel == channel) return;
   e->channel = channel;
   say_channel(tag, channel);
 }
@@ -228,7 +227,6 @@ void wb_receiver_set_channel(WbDeviceTag tag, int channel) {
     WARN("wb_receiver_set_channel(): got %d, expected 0 or more, or -1 for all", channel);
     return;
   }
-  if (r->channel == channel) return;
   r->channel = channel;
   say_channel(tag, channel);
 }

@@ -83,8 +83,7 @@ WbUserInputEvent wb_robot_wait_for_user_input_event(WbUserInputEvent event_type,
 void wb_led_set(WbDeviceTag tag, long value) {
   struct device* d = device_of(tag, WB_NODE_LED, "wb_led_set");
   struct link_packet* out;
-  if (!d || (d->fresh && d->count == (int)value)) return;
-  d->fresh = true;
+  if (!d) return;
   d->count = (int)value;
   out = command(LINK_LED);
   link_int(out, tag);
