@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: MIT
- * The robot itself and its clock, as Webots' controllers of 2005 to 2008 (versions 5.x) know them, on the
- * e-puck's library. The present interface is webots/robot.h; a program may use either.
+ * The robot itself and its clock, as Webots' controllers of 2005 to 2008 (versions 5.x) know them. The present
+ * interface is webots/robot.h, which says more; a program may use either.
  *
- * robot_live() starts the library: ports, agendas, motors, ADC scan. All functions below need it. Only
- * robot_live(), robot_run() and robot_step() block. Sensors hold the value they had at the end of the last
- * step; see docs/webots.md. Supervisor programs (docs/supervisor.md) include this header too. Source:
- * programs of that time, and the change log of versions 5.
+ * robot_live() begins, as wb_robot_init() does. Only robot_live(), robot_run() and robot_step() block. Sensors hold
+ * the value they had at the end of the last step; see docs/webots.md. Source: programs of that time, and the change
+ * log of versions 5.
  */
 #ifndef DEVICE_ROBOT_H
 #define DEVICE_ROBOT_H
@@ -31,21 +30,19 @@
 
 TP_C_BEGIN
 
-/** Starts the library and the clock, then calls `reset` (may be null) once. Blocks for about 0.2 s. */
+/** Begins, then calls `reset` (may be null) once. */
 void robot_live(void (*reset)(void));
 
-/** Calls `run` for ever. Its argument is the time since its call before, ms (0 the first time); its result
- * the time until its next call, ms, 1 to 32767 (0 or less: at once, after one world time step). Does not
- * return. */
+/** Calls `run` until the run is over; then what robot_die() was given, and the program ends with status 0. The
+ *  argument of `run` is the time since its call before, ms (0 the first time); its result the time until its next
+ *  call, ms, 1 to 32767 (0 or less: one world time step). Does not return. */
 void robot_run(int (*run)(int ms));
 
-/** `die` would be called at the end of the simulation, which firmware does not live to see: remembered only.
- */
+/** `die` is called at the end of the run, which the robot does not live to see. */
 void robot_die(void (*die)(void));
 
-/** Waits for the end of the next step and samples the sensors that are due. Steps are multiples of `ms` (1 to
- *  32767) since the step before; what a slow program missed is skipped. 0 returns at once. Returns 0; -1 at
- * the end of the simulation, which firmware does not live to see. */
+/** As wb_robot_step(): the world goes on for `ms`, and sensors that are due are sampled. 0 returns at once. Returns
+ *  0; -1 when the run is over. */
 int robot_step(int ms);
 
 /** The device of that name, and a warning on the console and 0 when there is none. Names: docs/webots.md. */
@@ -54,7 +51,7 @@ DeviceTag robot_get_device(const char* name);
 /** Name of the robot in the world; "e-puck" on the robot. */
 const char* robot_get_name(void);
 
-/** Seconds since robot_live(), by the robot's clock: the sum of all steps. */
+/** Seconds since the program began: the sum of all steps. */
 double robot_get_time(void);
 
 /** ROBOT_MODE_SIMULATION in the simulator, ROBOT_MODE_CROSS_COMPILATION on the robot. */
@@ -66,7 +63,7 @@ int robot_get_synchronization(void);
 /** The world's time step, ms: the key time_step of [webots]; 32 on the robot. */
 double robot_get_basic_time_step(void);
 
-/** Folders do not exist for firmware: an empty text. */
+/** The project's folder; empty on the robot. */
 const char* robot_get_project_path(void);
 
 /** Writes to the simulator's console, formatted as printf() does; nothing on the robot. */
@@ -75,14 +72,12 @@ __attribute__((format(printf, 1, 2)))
 #endif
 void robot_console_printf(const char *format, ...);
 
-/** Keys in the simulator's window. Firmware runs without one: the answer is 0 for none, always. Period in ms.
- */
+/** Keys that are down, once a step each (`--key`, docs/webots.md); 0: no more. Period in ms. */
 void robot_keyboard_enable(int ms);
 void robot_keyboard_disable(void);
 long robot_keyboard_get_key(void);
 
-/** Battery, period in ms. J left by the voltage, revision 1.3 only; 0 elsewhere and before the first period
- * is over. */
+/** Battery, period in ms. J left, 0 before the first period is over. On the robot by the voltage, revision 1.3 only. */
 void robot_battery_sensor_enable(int ms);
 void robot_battery_sensor_disable(void);
 float robot_battery_sensor_get_value(void);

@@ -9,8 +9,8 @@
 
 TP_C_BEGIN
 
-/** Samples of 16 bits, `size` bytes. The robot's library plays stored sounds only (codec/e_sound.h): a
- * program that calls this does not link. */
+/** Samples of 16 bits, `size` bytes. The e-puck plays stored sounds only (codec/e_sound.h): a warning; on the robot
+ *  a program that calls this does not link. */
 void speaker_emit_sample(DeviceTag tag, const void* data, int size);
 
 TP_C_END

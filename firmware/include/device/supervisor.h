@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * device/supervisor.h: the supervisor's functions as programs of 2005 to 2007 call them. For programs of the PC
- * that a world names in [[supervisor]]; implemented in supervisor/webots/. Positions are m, rotations an axis and
+ * device/supervisor.h: the supervisor's functions as programs of 2005 to 2007 call them. For programs of the PC.
+ * Positions are m, rotations an axis and
  * rad, always with x to the right, y up and z towards the reader, whatever the world's axes.
  * Interface: [Webots: changelog and archived controllers of versions 5.0 to 5.8]. */
 #ifndef DEVICE_SUPERVISOR_H
@@ -38,7 +38,7 @@ void supervisor_set_label(int id, const char *text, float x, float y, float size
 void supervisor_export_image(const char *filename, int quality);
 /** The run ends, passed. */
 void supervisor_simulation_quit(void);
-/** Every robot and object back to its start, firmware restarted; time and this program go on. */
+/** Every robot and object back to its start, robots' programs restarted. */
 void supervisor_simulation_revert(void);
 /** Every robot and object comes to rest. */
 void supervisor_simulation_physics_reset(void);

@@ -1,11 +1,9 @@
 /* SPDX-License-Identifier: MIT
- * The robot itself, its clock and its list of devices, as Webots' controllers know them, on the e-puck's
- * library.
+ * The robot itself, its clock and its list of devices, as Webots' controllers know them.
  *
- * wb_robot_init() starts the library: ports, agendas, motors, ADC scan. All functions below need it. Only
- * wb_robot_init() and wb_robot_step() block.
- * Sensors hold the value they had at the end of the last step; see docs/webots.md.
- * Supervisor programs (docs/supervisor.md) include this header too.
+ * In a program of the PC wb_robot_init() connects to the simulation, and the program's code takes no simulated time.
+ * On the robot it starts the e-puck's library: ports, agendas, motors, ADC scan. Only wb_robot_init() and
+ * wb_robot_step() block. Sensors hold the value they had at the end of the last step; see docs/webots.md.
  */
 #ifndef WB_ROBOT_H
 #define WB_ROBOT_H
@@ -31,24 +29,27 @@ typedef void* WbMutexRef;
 
 TP_C_BEGIN
 
-/** Starts the library and the clock. Blocks for about 0.2 s, until the ADC scan has filled its buffers.
- *  Repeating it does nothing. Returns 1. */
+/** Begins. Repeating it does nothing. Returns 1; a program of the PC that no simulation waits for ends here, with a
+ *  message and status 1. On the robot it blocks for about 0.2 s, until the ADC scan has filled its buffers. */
 int wb_robot_init(void);
 
-/** Waits for the end of the next step and samples the sensors that are due. Steps are multiples of
- *  `duration` ms (1 to 32767) since the step before; a program that took longer than a step skips what it
- *  missed. 0 samples nothing and returns at once. Returns 0; -1 at the end of the simulation, which firmware
- *  does not live to see. Blocks for up to `duration`. */
+/** What has been commanded is done, the world goes on for `duration` ms, and sensors that are due are sampled. 0 passes
+ *  no time and returns at once. Returns 0; -1 when the run is over: the program may still ask and write files, and
+ *  should end within a second; a program that steps once more ends there, with status 0.
+ *  On the robot it waits for the end of the step: steps are multiples of `duration` ms (1 to 32767) since the step
+ *  before, and a program that took longer than a step skips what it missed. */
 int wb_robot_step(int duration);
 
-/** The two halves of wb_robot_step(): the first remembers `duration` (ms), the second waits. */
+/** The two halves of wb_robot_step(): the first says `duration` (ms), the second waits. Between them nothing can be
+ *  asked. */
 int wb_robot_step_begin(int duration);
 int wb_robot_step_end(void);
 
-/** Nothing is left to do: the program ends when main() returns. Wheels keep their speed. */
+/** Sends what has been commanded and leaves the simulation; the program should end soon. Wheels keep their speed. On
+ *  the robot: nothing. */
 void wb_robot_cleanup(void);
 
-/** Seconds since wb_robot_init(), by the robot's clock: the sum of all steps. */
+/** Seconds since the program began, simulated: the sum of all steps. On the robot by its clock. */
 double wb_robot_get_time(void);
 
 /** Name of the robot in the world; "e-puck" on the robot. */
@@ -57,7 +58,8 @@ const char* wb_robot_get_name(void);
 /** "GCtronic e-puck". */
 const char* wb_robot_get_model(void);
 
-/** A text the program may keep, up to 63 characters; empty at the start. */
+/** The robot's customData, which supervisors see and set as well. On the robot a text of its own, up to 63
+ *  characters, empty at the start. Valid until the next step. */
 const char* wb_robot_get_custom_data(void);
 void wb_robot_set_custom_data(const char* data);
 const char* wb_robot_get_data(void);
@@ -70,10 +72,10 @@ void wb_robot_set_mode(WbRobotMode mode, const char* arg);
 /** Always 1: world and program wait for each other. */
 bool wb_robot_get_synchronization(void);
 
-/** 1: programs may look at the world through webots/supervisor.h; 0 on the robot. */
+/** Whether the robot is a supervisor in the world (webots/supervisor.h); 0 on the robot. */
 bool wb_robot_get_supervisor(void);
 
-/** Folders do not exist for firmware: empty texts. */
+/** The project's folder, the world's file, the name of the controller's folder; empty on the robot. */
 const char* wb_robot_get_project_path(void);
 const char* wb_robot_get_world_path(void);
 const char* wb_robot_get_controller_name(void);
@@ -91,8 +93,8 @@ WbDeviceTag wb_robot_get_device_by_index(int index);
 /** WB_NODE_ROBOT. */
 WbNodeType wb_robot_get_type(void);
 
-/** Battery. Period in ms. Value: charge left in J by the voltage, revision 1.3 only; NaN elsewhere, and
- * before the first period is over. */
+/** Battery. Period in ms. Value: charge left in J; NaN before the first period is over. On the robot by the voltage,
+ *  revision 1.3 only; NaN elsewhere. */
 void wb_robot_battery_sensor_enable(int sampling_period);
 void wb_robot_battery_sensor_disable(void);
 int wb_robot_battery_sensor_get_sampling_period(void);

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Loudspeaker, device "speaker". Firmware has no sound files, but five sounds of its own. Nothing here
- * blocks.
+ * Loudspeaker, device "speaker". The e-puck plays no files, but five sounds of its own. Nothing here blocks.
  */
 #ifndef WB_SPEAKER_H
 #define WB_SPEAKER_H

@@ -34,7 +34,7 @@ typedef enum {
 /* --- the simulation --- */
 /** The run ends with this status: 0 passed, else failed. Returns; leave by wb_robot_cleanup(). */
 void wb_supervisor_simulation_quit(int status);
-/** Every robot and object back to its start, firmware restarted; time and this program go on. */
+/** Every robot and object back to its start. */
 void wb_supervisor_simulation_reset(void);
 void wb_supervisor_simulation_revert(void);
 /** Every robot and object comes to rest. */
