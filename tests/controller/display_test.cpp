@@ -172,11 +172,12 @@ TEST(ControllerDisplay, images_are_made_copied_pasted_saved_and_loaded) {
         WbImageRef again = wb_display_image_load(d, "copy.png");
         wb_display_image_paste(d, again, 4, 4, false);
         wb_display_image_save(d, copy, "copy.jpg");
-        printf("%d", wb_display_image_load(d, "copy.jpg") != nullptr);
+        WbImageRef jpeg = wb_display_image_load(d, "copy.jpg");
+        printf("%d", jpeg != nullptr);
         wb_display_image_save(d, copy, "no/such/folder.png");
         printf("%d%d", wb_display_image_load(d, "nothing.png") == nullptr,
                wb_display_image_new(d, -1, 5, rgb, WB_IMAGE_RGB) == nullptr);
-        wb_display_image_delete(d, copy);
+        for (WbImageRef image : {two, red, copy, again, jpeg}) wb_display_image_delete(d, image);
         wb_display_image_delete(d, nullptr);
       },
       &output);
