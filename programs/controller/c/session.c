@@ -7,6 +7,7 @@
 #include <fcntl.h>
 #include <limits.h>
 #include <poll.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -183,6 +184,13 @@ static int connect_to(const char* path) {
   return fd;
 }
 
+/* A socket begins with the number of its simulator's process, which may have been killed since. */
+static bool is_left_over(const char* name) {
+  char* rest;
+  long pid = strtol(name, &rest, 10);
+  return pid > 0 && *rest == '-' && kill((pid_t)pid, 0) != 0 && errno == ESRCH;
+}
+
 /* The one robot that waits for a program from outside. */
 static int connect_to_the_one(void) {
   const char* base = getenv("XDG_RUNTIME_DIR");
@@ -194,7 +202,7 @@ static int connect_to_the_one(void) {
   dir = opendir(folder);
   while (dir && (entry = readdir(dir))) {
     size_t n = strlen(entry->d_name);
-    if (n < 6 || strcmp(entry->d_name + n - 5, ".sock") != 0) continue;
+    if (n < 6 || strcmp(entry->d_name + n - 5, ".sock") != 0 || is_left_over(entry->d_name)) continue;
     count++;
     snprintf(found, sizeof found, "%s/%s", folder, entry->d_name);
     if (strlen(names) + n + 2 < sizeof names) strcat(strcat(names, " "), entry->d_name);
