@@ -26,6 +26,7 @@
 #include <webots/receiver.h>
 #include <webots/robot.h>
 #include <webots/robot_wwi.h>
+#include <webots/servo.h>
 #include <webots/speaker.h>
 
 #include <cmath>
@@ -175,6 +176,27 @@ TEST(ControllerDevices, motors_are_commanded_and_limited) {
   EXPECT_EQ(said[2].reals[0], -6.28);
   EXPECT_EQ(sim.wait(), 0);
   EXPECT_EQ(sim.output(), "6.28 6.28 3.5 -6.28 5 2");
+}
+
+TEST(ControllerDevices, servos_of_old_are_motors) {
+  Simulator sim([] {
+    wb_robot_init();
+    wb_servo_enable_position(2, 32);
+    wb_servo_set_position(2, WB_SERVO_INFINITY);
+    wb_servo_set_velocity(2, 1);
+    wb_robot_step(32);
+    printf("%g", wb_servo_get_position(2));
+  });
+  sim.welcome(puck());
+  const auto said = sim.until_step();
+  ASSERT_EQ(said.size(), 3u);
+  EXPECT_EQ(said[0].ints, (std::vector<std::int64_t>{4, 32}));
+  EXPECT_EQ(said[2].reals[0], 1);
+  Packet samples;
+  samples.add(LINK_NUMBERS, 4, std::vector<double>{0.5});
+  sim.done(kStep, samples);
+  EXPECT_EQ(sim.wait(), 0);
+  EXPECT_EQ(sim.output(), "0.5");
 }
 
 TEST(ControllerDevices, differential_wheels_are_the_motors) {

@@ -56,6 +56,7 @@
 #include <webots/robot.h>
 #include <webots/robot_window.h>
 #include <webots/robot_wwi.h>
+#include <webots/servo.h>
 #include <webots/skin.h>
 #include <webots/speaker.h>
 #include <webots/supervisor.h>

@@ -8,9 +8,14 @@
 #include <webots/device.h>
 #include <webots/robot.h>
 
-#include <iostream>  // programs rely on it
+// other libraries' headers bring these along, and programs rely on it
+#include <algorithm>
+#include <functional>
+#include <iostream>
 #include <map>
+#include <memory>
 #include <string>
+#include <vector>
 
 namespace webots {
 
