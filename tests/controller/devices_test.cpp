@@ -111,7 +111,7 @@ TEST(ControllerDevices, wrong_tags_are_told_and_harmless) {
   Simulator sim([] {
     wb_robot_init();
     for (int i = 0; i < 30; ++i) wb_distance_sensor_enable(6, 64);
-    printf("%d %d ", std::isnan(wb_distance_sensor_get_value(200)), wb_gps_get_values(0) == nullptr);
+    printf("%d %d ", std::isnan(wb_distance_sensor_get_value(200)), std::isnan(wb_gps_get_values(0)[2]));
     wb_motor_set_velocity(0, 1);
     wb_led_set(65535, 1);
     printf("%d %d %d", wb_lidar_get_number_of_points(1), wb_receiver_get_queue_length(1),

@@ -2,7 +2,8 @@
  * webots/supervisor.h: what a supervisor may ask of the world and do to it, in the names that programs for Webots
  * use since 2008. For programs of the PC. Positions are m, rotations an axis and rad, in the axes of the world's
  * [webots] axes. A node or field that there is none of is NULL, and a warning names it; a function that gets NULL
- * warns and answers 0. Questions are answered at once; commands are done at the latest with the next step.
+ * warns and answers 0, or NaN where it answers several numbers. Questions are answered at once; commands are done
+ * at the latest with the next step.
  * Interface: [Webots: reference manual, Supervisor]. */
 #ifndef WEBOTS_SUPERVISOR_H
 #define WEBOTS_SUPERVISOR_H

@@ -131,8 +131,10 @@ WbDeviceTag find_device(const char* name, const char* function);
 void device_enable(struct device* device, int period);
 /** One number of a sensor, NaN before the first; a warning where it is not enabled. */
 double device_value(const struct device* device, const char* function);
-/** Several numbers, NaN before the first; null for no device. */
+/** Several numbers, NaN before the first and for no device. */
 const double* device_values(const struct device* device, const char* function);
+/** Where there is nothing to point to: 16 NaN, so that a program that was warned goes on. */
+const double* no_numbers(void);
 /** As the interface of 2005 has them: zeros before the first. */
 const float* device_floats(struct device* device);
 

@@ -161,12 +161,12 @@ static bool ask_node(WbNodeRef node, int what, struct link_record* answer, const
   return ask_world(answer, function) == LINK_VALUE;
 }
 
-/* numbers of a node, as kept or as asked; null: it has none */
+/* numbers of a node, as kept or as asked; NaN: it has none */
 static const double* numbers(WbNodeRef node, int what, int count, const char* function) {
   struct asked* a = node ? &node->asked[what] : 0;
   struct link_record answer;
   if (a && a->stamp == session.stamp && a->count == count) return a->numbers;
-  if (!ask_node(node, what, &answer, function) || answer.lists[0].count != (size_t)count) return 0;
+  if (!ask_node(node, what, &answer, function) || answer.lists[0].count != (size_t)count) return no_numbers();
   memcpy(a->numbers, answer.lists[0].values, (size_t)count * sizeof(double));
   a->count = count;
   a->stamp = session.stamp;
@@ -187,7 +187,7 @@ const double* wb_supervisor_node_get_center_of_mass(WbNodeRef node) {
 }
 bool wb_supervisor_node_get_static_balance(WbNodeRef node) {
   const double* answer = numbers(node, ASK_BALANCE, 1, "wb_supervisor_node_get_static_balance");
-  return answer && answer[0] != 0;
+  return answer[0] == 1;
 }
 
 /* the inverse of a pose's turn, applied to what lies between them */
@@ -195,8 +195,7 @@ const double* wb_supervisor_node_get_pose(WbNodeRef node, WbNodeRef from_node) {
   const double* m = numbers(node, ASK_POSE, 16, "wb_supervisor_node_get_pose");
   const double* f = from_node ? numbers(from_node, ASK_POSE, 16, "wb_supervisor_node_get_pose") : 0;
   int row, column, k;
-  if (!m || !from_node) return m;
-  if (!f) return 0;
+  if (!node || !from_node) return m;
   for (row = 0; row < 3; row++)
     for (column = 0; column < 4; column++) {
       double sum = 0;
@@ -289,9 +288,8 @@ static bool in_world(WbNodeRef node, const double given[3], bool relative, doubl
   memcpy(out, given, 3 * sizeof *out);
   if (!relative || !node) return true;
   o = wb_supervisor_node_get_orientation(node);
-  if (!o) return false;
   for (i = 0; i < 3; i++) out[i] = o[3 * i] * given[0] + o[3 * i + 1] * given[1] + o[3 * i + 2] * given[2];
-  return true;
+  return are_finite(out, 3, function);
 }
 
 void wb_supervisor_node_add_force(WbNodeRef node, const double force[3], bool relative) {

@@ -122,7 +122,7 @@ const float* receiver_get_emitter_direction(DeviceTag tag) {
   static float direction[3];
   const double* from = wb_receiver_get_emitter_direction(tag);
   int i;
-  for (i = 0; i < 3; i++) direction[i] = from ? (float)from[i] : 0;
+  for (i = 0; i < 3; i++) direction[i] = isnan(from[i]) ? 0 : (float)from[i];
   return direction;
 }
 void receiver_set_channel(DeviceTag tag, int channel) { wb_receiver_set_channel(tag, channel); }

@@ -46,13 +46,18 @@ static void find(NodeRef node) {
 static void get_pose(NodeRef node, double pose[7]) {
   const double* t = wb_supervisor_field_get_sf_vec3f(node->translation);
   const double* r = wb_supervisor_field_get_sf_rotation(node->rotation);
-  memset(pose, 0, 7 * sizeof *pose);
-  if (t) memcpy(pose, t, 3 * sizeof *t);
-  if (r) memcpy(pose + 3, r, 4 * sizeof *r);
+  int i;
+  memcpy(pose, t, 3 * sizeof *t);
+  memcpy(pose + 3, r, 4 * sizeof *r);
+  for (i = 0; i < 7; i++)
+    if (isnan(pose[i])) pose[i] = 0;
   if (session.nue) return;
   /* in a world with z up the same axes are x, z, -y; at angle 0 robots look along x there and along -z here */
-  if (t) pose[1] = t[2], pose[2] = -t[1];
-  if (r) pose[3] = r[0], pose[4] = r[2], pose[5] = -r[1];
+  for (i = 0; i < 4; i += 3) {
+    double y = pose[i + 1];
+    pose[i + 1] = pose[i + 2];
+    pose[i + 2] = -y;
+  }
   if (fabs(pose[4]) > 0.999999 && wb_supervisor_node_get_type(node->node) == WB_NODE_ROBOT)
     pose[6] -= pose[4] * 1.5707963267948966;
 }

@@ -217,7 +217,7 @@ double wb_receiver_get_signal_strength(WbDeviceTag tag) {
 }
 const double* wb_receiver_get_emitter_direction(WbDeviceTag tag) {
   const struct received* p = head(tag, "wb_receiver_get_emitter_direction");
-  return p ? p->direction : 0;
+  return p ? p->direction : no_numbers();
 }
 
 void wb_receiver_set_channel(WbDeviceTag tag, int channel) {

@@ -101,11 +101,11 @@ SENSOR(gps, WB_NODE_GPS)
 SOME_VALUES(gps)
 const double* wb_gps_get_speed_vector(WbDeviceTag tag) {
   const double* values = device_values(gps(tag, "wb_gps_get_speed_vector"), "wb_gps_get_speed_vector");
-  return values ? values + 3 : 0;
+  return values + 3;
 }
 double wb_gps_get_speed(WbDeviceTag tag) {
   const double* v = device_values(gps(tag, "wb_gps_get_speed"), "wb_gps_get_speed");
-  return v ? sqrt(v[3] * v[3] + v[4] * v[4] + v[5] * v[5]) : NAN;
+  return sqrt(v[3] * v[3] + v[4] * v[4] + v[5] * v[5]);
 }
 WbGpsCoordinateSystem wb_gps_get_coordinate_system(WbDeviceTag tag) {
   (void)gps(tag, "wb_gps_get_coordinate_system");
@@ -126,7 +126,6 @@ const double* wb_inertial_unit_get_quaternion(WbDeviceTag tag) {
   struct device* d = inertial_unit(tag, "wb_inertial_unit_get_quaternion");
   const double* v = device_values(d, "wb_inertial_unit_get_quaternion");
   double cr, sr, cp, sp, cy, sy;
-  if (!v) return 0;
   cr = cos(v[0] / 2), sr = sin(v[0] / 2), cp = cos(v[1] / 2), sp = sin(v[1] / 2), cy = cos(v[2] / 2), sy = sin(v[2] / 2);
   q[0] = sr * cp * cy - cr * sp * sy;
   q[1] = cr * sp * cy + sr * cp * sy;
