@@ -386,6 +386,8 @@ print(receiver.getQueueLength(), receiver.getData(), receiver.getString(), recei
 print(receiver.getSignalStrength(), receiver.getEmitterDirection())
 receiver.nextPacket()
 print(receiver.getString(), receiver.getBytes() == receiver.getData() == receiver.data)
+data = receiver.getData()
+print(data == "grüße", data != "grüße", "üß" in data, data.startswith("gr"), data.split("ü"), data.split(b"r"), data[0])
 receiver.nextPacket()
 print(receiver.getFloats())
 receiver.nextPacket()
@@ -397,7 +399,8 @@ print(receiver.queue_length)
 receiver.setChannel(-1)
 """, Simulator(PUCK, samples))
         self.assertEqual(run.out.splitlines(), [
-            "0 b'' 1", "5 b'hello\\x00' hello 6", "4.0 [0.6, 0.8, 0.0]", "grüße True", "(0.5, -1.0)", "(1, -2, 3)",
+            "0 b'' 1", "5 b'hello\\x00' hello 6", "4.0 [0.6, 0.8, 0.0]", "grüße True",
+            "True False True True ['gr', 'ße'] [b'g', b'\\xc3\\xbc\\xc3\\x9fe'] 103", "(0.5, -1.0)", "(1, -2, 3)",
             "(True, False)", "0"])
         self.assertEqual(run.of("CHANNEL"), [(9, -1)])
 

@@ -5,8 +5,8 @@
 
 `help(controller.Robot)`, `help(controller.DistanceSensor)` ... say what there is, in which units.
 """
-from .absent import (Altimeter, Brake, Connector, Lidar, LidarPoint, Pen, Radar, RadarTarget, RangeFinder, Skin,
-                     VacuumGripper)
+from .absent import (Altimeter, Brake, Connector, Lidar, LidarPoint, Motion, Pen, Radar, RadarTarget, RangeFinder,
+                     Skin, VacuumGripper)
 from .accelerometer import Accelerometer
 from .ansi_codes import AnsiCodes
 from .camera import Camera, CameraRecognitionObject
@@ -34,6 +34,6 @@ from .touch_sensor import TouchSensor
 
 __all__ = ["Accelerometer", "Altimeter", "AnsiCodes", "Brake", "Camera", "CameraRecognitionObject", "Compass", "Connector",
            "ContactPoint", "Device", "DifferentialWheels", "Display", "DistanceSensor", "Emitter", "Field", "GPS", "Gyro",
-           "InertialUnit", "Joystick", "Keyboard", "LED", "Lidar", "LidarPoint", "LightSensor", "Microphone", "Motor",
+           "InertialUnit", "Joystick", "Keyboard", "LED", "Lidar", "LidarPoint", "LightSensor", "Microphone", "Motion", "Motor",
            "Mouse", "MouseState", "Node", "Pen", "PositionSensor", "Radar", "RadarTarget", "RangeFinder", "Receiver",
            "Robot", "Sensor", "Skin", "Speaker", "Supervisor", "TouchSensor", "VacuumGripper"]

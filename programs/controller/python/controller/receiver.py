@@ -8,6 +8,38 @@ from .device import Sensor, numbers
 from .library import c
 
 
+class Data(bytes):
+    """A packet's bytes, as getData() gives them up to R2022. Where R2023 gives text, programs compare and search with text:
+    `data == "go"`, `"go" in data`, `data.startswith("go")`, `data.split(",")` do so."""
+
+    def __eq__(self, other):
+        return self.decode() == other if isinstance(other, str) else bytes.__eq__(self, other)
+
+    def __ne__(self, other):
+        return not self == other
+
+    __hash__ = bytes.__hash__
+
+    def __contains__(self, part):
+        return part in self.decode() if isinstance(part, str) else bytes.__contains__(self, part)
+
+
+def _of_text_too(name):
+    of_bytes = getattr(bytes, name)
+
+    def method(self, *arguments):
+        if any(isinstance(a, str) for a in arguments):
+            return getattr(self.decode(), name)(*arguments)
+        return of_bytes(self, *arguments)
+    method.__name__ = name
+    return method
+
+
+for _name in ("startswith", "endswith", "split", "rsplit", "partition", "rpartition", "strip", "lstrip", "rstrip", "find",
+              "rfind", "index", "count", "replace"):
+    setattr(Data, _name, _of_text_too(_name))
+
+
 class Receiver(Sensor):
     """Hears packets on its channel.
 
@@ -34,9 +66,9 @@ class Receiver(Sensor):
         address = c.receiver_get_data(self._tag)
         return ctypes.string_at(address, c.receiver_get_data_size(self._tag)) if address else b""
 
-    def getData(self) -> bytes:
-        """The same as getBytes(), as versions up to R2022 have it."""
-        return self.getBytes()
+    def getData(self) -> Data:
+        """The same as getBytes(), as versions up to R2022 have it; compared with text it is text, as R2023 has it."""
+        return Data(self.getBytes())
 
     def getString(self) -> str:
         """The packet as UTF-8 text, without the 0 that programs in C send at its end."""
