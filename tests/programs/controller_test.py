@@ -327,7 +327,8 @@ robot.step(numpy.int64(32))
                 "RECOGNISED", 8, 77, "red ball", [0.3, 0.1, 0, 0, 0, 1, 0.5, 0.06, 0.05, 26, 19, 10, 8],
                 [1, 0, 0, 0.5, 0.5, 0.5]) if step == 1 else b"")
         run = self.run_program("""
-from controller import Robot
+from controller import Robot, CameraRecognitionObject
+CameraRecognitionObject()
 robot = Robot()
 camera = robot.getDevice("camera")
 print(camera.hasRecognition(), camera.getRecognitionObjects())
@@ -438,6 +439,7 @@ steps = 0
 while robot.step(32) != -1:
     steps += 1
 print(steps)
+robot.cleanup()
 """, Simulator(PUCK, steps=5))
         self.assertEqual((run.out, run.err), ("5\n", ""))
 

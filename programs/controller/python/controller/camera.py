@@ -20,7 +20,8 @@ class _Recognised(ctypes.Structure):
 class CameraRecognitionObject:
     """An object on the picture. It stays as it was seen, also after the next step."""
 
-    def __init__(self, seen):
+    def __init__(self, seen=None):
+        seen = _Recognised() if seen is None else seen
         self.id: int = seen.id
         self.position: List[float] = seen.position[:]
         self.orientation: List[float] = seen.orientation[:]

@@ -89,6 +89,10 @@ class Robot:
         c.robot_init()
         atexit.register(c.robot_cleanup)
 
+    def cleanup(self) -> None:
+        """Leaves the simulation, which goes on without the program; it happens by itself when the program ends."""
+        c.robot_cleanup()
+
     # --- time
 
     def step(self, time_step: Optional[int] = None) -> int:
