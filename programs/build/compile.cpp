@@ -187,18 +187,43 @@ class Build {
     return (base / name).lexically_normal().string() + line.substr(colon);
   }
 
+  /// A compiler and the words that make it take a program.
+  struct Attempt {
+    std::string compiler;
+    Words words;
+  };
+
   /// One source becomes an object. Headers that are there by another name are put where they are asked for.
   bool compile_one(const fs::path& source, const fs::path& object, const Words& more, Words& lines) {
     const bool cxx = is_cxx(source);
     Words own = options_;
     if (cxx) own.insert(own.end(), cxx_options_.begin(), cxx_options_.end());
-    std::vector<std::string> standards = {""};
-    if (!has_standard(own))
-      standards = cxx ? Words{"-std=gnu++17", "-std=gnu++20", "-std=gnu++11"} : Words{"-std=gnu17"};
-    for (const std::string& standard : standards) {
+    // a language of today; with headers that older libraries brought along unasked; other languages
+    std::vector<Attempt> attempts;
+    const std::string compiler = cxx ? "g++" : "gcc";
+    if (has_standard(own))
+      attempts = {{compiler, {}}};
+    else
+      attempts = {{compiler, {cxx ? "-std=gnu++17" : "-std=gnu17"}}};
+    if (cxx) {
+      Words with_all = attempts[0].words;
+      with_all.insert(with_all.end(), {"-include", "bits/stdc++.h"});
+      attempts.push_back({compiler, with_all});
+      if (!has_standard(own))
+        for (const char* standard : {"-std=gnu++20", "-std=gnu++11"})
+          attempts.push_back({compiler, {standard}});
+    } else if (!on_path("clang").empty()) {
+      // of programs from a Mac: arrays of a constant's size
+      attempts.push_back({"clang", attempts[0].words});
+    }
+    for (const Attempt& attempt : attempts) {
       Words said;
-      if (!compile_in(source, object, standard, own, more, said)) {
+      if (!compile_in(source, object, attempt, own, more, said)) {
         if (lines.empty()) lines = said;
+        const bool misses_header = std::any_of(said.begin(), said.end(), [](const std::string& line) {
+          return line.find("fatal error: ") != std::string::npos;
+        });
+        if (misses_header) return false;
         continue;
       }
       lines = said;
@@ -207,14 +232,16 @@ class Build {
     return false;
   }
 
-  bool compile_in(const fs::path& source, const fs::path& object, const std::string& standard,
-                  const Words& own, const Words& more, Words& lines) {
+  bool compile_in(const fs::path& source, const fs::path& object, const Attempt& attempt, const Words& own,
+                  const Words& more, Words& lines) {
     const bool cxx = is_cxx(source);
     for (int found = 0;; ++found) {
-      Words command = {cxx ? "g++" : "gcc",
+      // asserts are off in what Webots builds
+      Words command = {attempt.compiler,
                        "-c",
                        "-g",
                        "-O1",
+                       "-DNDEBUG",
                        "-Wall",
                        "-Wno-unknown-pragmas",
                        "-fno-omit-frame-pointer",
@@ -226,7 +253,7 @@ class Build {
         command.insert(command.end(),
                        {"-fcommon", "-Wno-error=implicit-function-declaration", "-Wno-error=implicit-int",
                         "-Wno-error=int-conversion", "-Wno-error=incompatible-pointer-types"});
-      if (!standard.empty()) command.push_back(standard);
+      command.insert(command.end(), attempt.words.begin(), attempt.words.end());
       command.insert(command.end(), own.begin(), own.end());
       command.insert(command.end(), more.begin(), more.end());
       command.insert(command.end(), ours_.begin(), ours_.end());

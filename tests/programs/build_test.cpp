@@ -237,6 +237,19 @@ TEST_F(BuildTest, projects_compile_and_run) {
          "std::printf(\"%d\", f(i)); }\n"}},
        1,
        "3"},
+      // headers that older libraries of C++ brought along
+      {"no_headers",
+       {{"no_headers.cpp",
+         "#include <cstdio>\nusing namespace std;\nint main() { function<int(int)> f = [](int n) { return n; "
+         "};\n"
+         "unique_ptr<array<int, 2>> a(new array<int, 2>); (*a)[1] = f(6); printf(\"%d\", (*a)[1]); }\n"}},
+       1,
+       "6"},
+      // asserts are off, as in what Webots builds
+      {"asserts",
+       {{"asserts.c", robot + "#include <assert.h>\nint main() { assert(0); printf(\"on\"); return 0; }\n"}},
+       1,
+       "on"},
   };
   for (const auto& c : kCases) {
     ASSERT_TRUE(prepare(folder(c.name, c.files))) << c.name << "\n" << all_problems();
@@ -244,6 +257,21 @@ TEST_F(BuildTest, projects_compile_and_run) {
     EXPECT_EQ(launch_.folder, (home_ / "controllers" / c.name).string());
     EXPECT_EQ(output(), c.prints) << c.name;
   }
+}
+
+// as clang, the Mac's compiler, takes it
+TEST_F(BuildTest, an_array_may_have_a_constant_s_size) {
+  const std::string at = folder(
+      "mac_c", {{"mac_c.c",
+                 "#include <stdio.h>\n#include <webots/robot.h>\nstatic const int N = 3;\n"
+                 "double weights[N];\nint main() { printf(\"%d\", (int)sizeof weights); return 0; }\n"}});
+  if (cc::run_process({"sh", "-c", "command -v clang"}).status != 0) {
+    EXPECT_FALSE(prepare(at));
+    EXPECT_TRUE(has_problem("mac_c.c:4:8: error: variably modified")) << all_problems();
+    return;
+  }
+  ASSERT_TRUE(prepare(at)) << all_problems();
+  EXPECT_EQ(output(), "24");
 }
 
 TEST_F(BuildTest, a_conditional_and_a_call_in_a_makefile_count) {
