@@ -26,6 +26,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 constexpr const char* kCompilerSeconds = "300";  // for one source; templates without end shall not hold a run
+constexpr int kRecipe = 1;               // of compilers' words in this file: kept programs of other words are others
 constexpr int kMostFoundHeaders = 40;            // of other case or slash, a source
 
 /// Headers that Debian keeps in folders of their own, and what programs with them link.
@@ -462,7 +463,7 @@ Compiled compile(const Found& found, const std::string& said, const fs::path& ca
 
   // one that was made of the same content is kept
   Build build(found, said, scratch.folder(), says);
-  const std::uint64_t key = build.key(hash_of(1, controller_library().string()), lists);
+  const std::uint64_t key = build.key(hash_of(kRecipe, controller_library().string()), lists);
   const std::string stem = (found.main.empty() ? found.folder.filename() : found.main.stem()).string();
   const fs::path list_file = home / fmt::format("{}-{:016x}.needs", stem, key);
   const auto program_of = [&](const Words& needs) {
