@@ -26,8 +26,8 @@ namespace {
 
 using Words = std::vector<std::string>;
 constexpr const char* kCompilerSeconds = "300";  // for one source; templates without end shall not hold a run
-constexpr int kRecipe = 1;               // of compilers' words in this file: kept programs of other words are others
-constexpr int kMostFoundHeaders = 40;            // of other case or slash, a source
+constexpr int kRecipe = 1;  // of compilers' words in this file: kept programs of other words are others
+constexpr int kMostFoundHeaders = 40;  // of other case or slash, a source
 
 /// Headers that Debian keeps in folders of their own, and what programs with them link.
 struct Home {
@@ -158,9 +158,8 @@ class Build {
 
  private:
   Words run(const Words& command, int& status) const {
-    Words whole = {
-        "env",           "--chdir=" + folder_.string(), "LC_ALL=C", "timeout", "--foreground", "-s", "KILL",
-        kCompilerSeconds};
+    Words whole = {"env",           "--chdir=" + folder_.string(), "LC_ALL=C", "timeout", "-s", "KILL",
+                   kCompilerSeconds};
     whole.insert(whole.end(), command.begin(), command.end());
     const cc::ProcessResult done = cc::run_process(whole);
     status = done.status;

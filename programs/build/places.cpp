@@ -34,42 +34,65 @@ fs::path product_folder() {
   return source_root() / "build";
 }
 
-std::vector<fs::path> files_below(const fs::path& folder) {
-  std::vector<fs::path> files;
-  std::set<fs::path> seen;  // folders behind links
+namespace {
+
+/// Folders with thousands of files of others.
+bool is_foreign(const fs::path& folder) {
   std::error_code none;
-  const auto how =
-      fs::directory_options::skip_permission_denied | fs::directory_options::follow_directory_symlink;
-  for (fs::recursive_directory_iterator it(folder, how, none), end;
-       !none && it != end && files.size() < kMostFiles; it.increment(none)) {
-    std::error_code odd;  // what cannot be looked at is no source
-    const bool is_hidden = it->path().filename().string()[0] == '.';
-    if (it->is_directory(odd)) {
-      if (is_hidden || (it->is_symlink(odd) && !seen.insert(fs::canonical(it->path(), odd)).second))
-        it.disable_recursion_pending();
-    } else if (!is_hidden && it->is_regular_file(odd)) {
-      files.push_back(it->path());
+  const std::string name = folder.filename().string();
+  return name[0] == '.' || name == "node_modules" || name == "__pycache__" || name == "site-packages" ||
+         fs::exists(folder / "pyvenv.cfg", none);
+}
+
+/// Every entry below a folder, those of the folder itself first; `look` is false when it has seen enough.
+template <typename Look>
+void look_below(const fs::path& top, const Look& look) {
+  std::set<fs::path> seen;  // folders, so that links in a circle end
+  std::vector<fs::path> folders = {top};
+  for (std::size_t i = 0; i < folders.size() && i < kMostFiles; ++i) {
+    std::error_code none, odd;
+    if (!seen.insert(fs::canonical(folders[i], none)).second) continue;
+    std::vector<fs::path> entries;
+    for (fs::directory_iterator it(folders[i], none), end; !none && it != end && entries.size() < kMostFiles;
+         it.increment(none))
+      entries.push_back(it->path());
+    std::sort(entries.begin(), entries.end());
+    for (const fs::path& entry : entries) {
+      if (fs::is_directory(entry, odd)) {
+        if (!is_foreign(entry)) folders.push_back(entry);
+      } else if (!look(entry)) {
+        return;
+      }
     }
   }
+}
+
+}  // namespace
+
+std::vector<fs::path> files_below(const fs::path& folder) {
+  std::vector<fs::path> files;
+  look_below(folder, [&](const fs::path& file) {
+    std::error_code odd;  // what cannot be looked at is no source
+    if (file.filename().string()[0] != '.' && fs::is_regular_file(file, odd)) files.push_back(file);
+    return files.size() < kMostFiles;
+  });
   std::sort(files.begin(), files.end());
   return files;
 }
 
 fs::path odd_file_below(const fs::path& folder) {
-  std::error_code none, odd;
-  const auto skip = fs::directory_options::skip_permission_denied;
-  std::size_t looked = 0;
-  for (fs::recursive_directory_iterator it(folder, skip, none), end;
-       !none && it != end && looked++ < kMostFiles; it.increment(none)) {
-    const fs::file_type type = it->status(odd).type();
+  fs::path found;
+  look_below(folder, [&](const fs::path& file) {
+    std::error_code odd;
+    const fs::file_type type = fs::status(file, odd).type();
     const bool is_odd = type == fs::file_type::fifo || type == fs::file_type::character ||
                         type == fs::file_type::block || type == fs::file_type::socket;
-    const fs::path& file = it->path();
-    if (is_odd && (is_c(file) || is_cxx(file) || is_header(file) || kind_of(file) == ".py" ||
-                   file.filename() == "Makefile" || file.filename() == "runtime.ini"))
-      return file;
-  }
-  return {};
+    const bool is_read = is_c(file) || is_cxx(file) || is_header(file) || kind_of(file) == ".py" ||
+                         file.filename() == "Makefile" || file.filename() == "runtime.ini";
+    if (is_odd && is_read) found = file;
+    return found.empty();
+  });
+  return found;
 }
 
 std::string text_of(const fs::path& file) {

@@ -79,10 +79,9 @@ TEST_F(DspicBuild, library_and_program_become_elf_and_hex_with_a_report) {
       << said.text;
   EXPECT_NE(said.text.find("stack      24 bytes at most, 7373 left for it"), std::string::npos) << said.text;
   const std::string calls = read(path("calls"));
-  for (const char* part :
-       {"-mcpu=30F6014A", "-T p30F6014A.gld", "-Wl,--heap=512", "hal_dspic/uart/e_uart1.c",
-        "firmware/library/e_prox.c", "firmware/webots/core.c", "e_line_interrupt.s",
-        "hal_dspic/motor_led/configuration.c"})
+  for (const char* part : {"-mcpu=30F6014A", "-T p30F6014A.gld", "-Wl,--heap=512", "hal_dspic/uart/e_uart1.c",
+                           "firmware/library/e_prox.c", "firmware/webots/core.c", "e_line_interrupt.s",
+                           "hal_dspic/motor_led/configuration.c"})
     EXPECT_NE(calls.find(part), std::string::npos) << part;
 }
 

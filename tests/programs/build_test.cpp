@@ -320,6 +320,20 @@ TEST_F(BuildTest, a_link_to_a_controller_is_one) {
   EXPECT_EQ(output(), "r");
 }
 
+TEST_F(BuildTest, thousands_of_files_of_others_hide_no_source) {
+  const fs::path at = folder("zoo", {{"zoo.c",
+                                      "#include <webots/robot.h>\n#include <stdio.h>\nint main() { "
+                                      "printf(\"z\"); return 0; }\n"},
+                                     {"venv/pyvenv.cfg", "home = /usr/bin\n"},
+                                     {"venv/lib/extension.c", "int main() { return 1; }\n"}});
+  fs::create_directories(at / "a_log");
+  for (int i = 0; i < 6000; ++i) std::ofstream(at / "a_log" / std::to_string(i)).flush();
+  fs::create_directory_symlink(at, at / "circle");
+  ASSERT_TRUE(prepare(at.string())) << all_problems();
+  EXPECT_EQ(launch_.files, 1);
+  EXPECT_EQ(output(), "z");
+}
+
 TEST_F(BuildTest, a_file_is_a_program) {
   const fs::path at = folder("single", {{"b.cpp", "#include <cstdio>\nint main() { std::printf(\"b\"); }\n"},
                                         {"c.c", "int broken = ;\n"}});
