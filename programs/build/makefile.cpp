@@ -16,6 +16,8 @@ namespace {
 
 constexpr const char* kMakeSeconds = "60";  // make may run programs: pkg-config and the like
 
+constexpr int kKilled = 128 + 9;
+
 // in the order of a command line; of Webots' Makefile.include, of older ones, and of hand-written Makefiles
 constexpr const char* kSources[] = {"C_SOURCES", "CXX_SOURCES", "CC_SOURCES", "CPP_SOURCES"};
 constexpr const char* kOtherSources[] = {"SOURCES", "SRCS", "SRC", "SOURCE", "OBJECTS", "OBJS", "OBJ"};
@@ -133,6 +135,9 @@ MakeSays ask_makefile(const fs::path& folder, const fs::path& scratch,
       complaints.push_back(line);
   }
   says.is_read = !values.empty();
+  if (tell && !says.is_read && done.status == kKilled)
+    tell(makefile.string() + ": make: got no end after " + kMakeSeconds +
+         " s, expected one; the folder's files are taken");
   // a package that pkg-config misses is said here, where it is known; of make's words one is enough
   for (const std::string& line : complaints)
     if (tell && (!package_hint(line).empty() || (!says.is_read && &line == &complaints.front())))

@@ -185,9 +185,11 @@ class Starter {
       launch_.words.push_back((ours / "run_program.py").string());
     launch_.words.push_back(found_.main.lexically_relative(found_.folder).string());
     launch_.environment.push_back(joined("PYTHONPATH", {ours.string()}, ini_));
-    for (const char* setting :
-         {"PYTHONUNBUFFERED=1", "PYTHONHASHSEED=0", "PYTHONIOENCODING=UTF-8", "PYTHONDONTWRITEBYTECODE=1"})
+    for (const char* setting : {"PYTHONUNBUFFERED=1", "PYTHONHASHSEED=0", "PYTHONIOENCODING=UTF-8"})
       launch_.environment.push_back(setting);
+    // what Python compiles is kept, and the controller's folder stays as it is
+    std::error_code none;
+    launch_.environment.push_back("PYTHONPYCACHEPREFIX=" + (fs::absolute(cache_, none) / "python").string());
     return true;
   }
 

@@ -492,6 +492,15 @@ TEST_F(BuildTest, python_runs_as_runtime_ini_says) {
   }));
 }
 
+TEST_F(BuildTest, a_folder_of_python_stays_as_it_is) {
+  const fs::path at =
+      folder("clean", {{"clean.py", "import helper\nprint(helper.n)\n"}, {"helper.py", "n = 3\n"}});
+  ASSERT_TRUE(prepare(at.string()));
+  EXPECT_EQ(output(), "3\n");
+  EXPECT_FALSE(fs::exists(at / "__pycache__"));
+  EXPECT_TRUE(fs::exists(home_ / "cache/python"));  // and is read faster the second time
+}
+
 TEST_F(BuildTest, an_interpreter_that_is_not_here_is_told) {
   const std::string at = folder(
       "mac", {{"other_name.py", "print(5)\n"},
