@@ -29,7 +29,8 @@ struct Carried {
 
 /// Decides what the floor is and turns every body into objects that our worlds can hold.
 /// `floor_z`: where it lies when that is known, and what is found is furniture for a world that has a floor.
-Carried settle(const Scene& scene, const Options& options, Report& report, std::optional<double> floor_z = {});
+Carried settle(const Scene& scene, const Options& options, Report& report,
+               std::optional<double> floor_z = {});
 
 /// A place or measure in m as the world file has it: to 0.1 mm.
 double as_written(double metres);

@@ -22,7 +22,7 @@ struct Body {
   bool robot_like = false;          ///< a Robot node that is no e-puck
   std::string model;                ///< what cameras that recognise call it
   std::vector<sim::Colour> recognition;
-  bool untouched = false;           ///< without boundingObject: neither wheels nor distance sensors notice it
+  bool untouched = false;  ///< without boundingObject: neither wheels nor distance sensors notice it
 };
 
 struct Device {

@@ -401,13 +401,21 @@ class Settler {
     const bool ours = is_ours && plain == name && is_ours(name);
     const std::string home = std::string(for_robot ? "firmware/" : "supervisor/programs/") + plain;
     if (!options_.folder.empty() && plain == name && name.find('/') == std::string::npos && name != "..") {
-      const fs::path folder = fs::path(options_.folder) / ".." / "controllers" / name;
+      const char* kSources[] = {".c", ".cpp", ".cc", ".cxx", ".py", ".java", ".class", ".jar"};
+      const fs::path here = options_.folder;
       std::error_code error;
       std::set<std::string> kinds;
-      for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
-        kinds.insert(at->path().extension().string());
-      for (const char* source : {".c", ".cpp", ".cc", ".cxx", ".py", ".java", ".class", ".jar"})
-        if (kinds.count(source)) return relative_name(folder.lexically_normal().string(), options_);
+      // as Webots has it; then, for what somebody keeps without its folders, beside the world
+      for (const fs::path& folder :
+           {here / ".." / "controllers" / name, here / "controllers" / name, here / name}) {
+        for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
+          kinds.insert(at->path().extension().string());
+        for (const char* source : kSources)
+          if (kinds.count(source)) return relative_name(folder.lexically_normal().string(), options_);
+      }
+      for (const char* source : kSources)
+        if (fs::is_regular_file(here / (name + source), error))
+          return relative_name((here / (name + source)).lexically_normal().string(), options_);
       const char* language = kinds.count(".m") ? "MATLAB" : kinds.count(".bsg") ? "BotStudio" : nullptr;
       if (language) {
         const std::string found = fmt::format("controller \"{}\", a {} program", plain, language);

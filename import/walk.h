@@ -76,7 +76,7 @@ class Walk {
   int pieces_ = 0;
   bool exhausted_ = false;
   std::size_t budget_ = kMostNodes;  // of PROTOs to be unfolded
-  std::vector<NodePtr> kept_;  // unfolded nodes
+  std::vector<NodePtr> kept_;        // unfolded nodes
 };
 
 /// True when the type is an e-puck by its name: E-puck, EPuck, E-puck2, EPuckNoPhysics, EPuckSound.

@@ -446,7 +446,8 @@ void Walk::device(const Node& n, FoundRobot& out, int depth) {
       made.width = static_cast<int>(std::clamp(n.number("width", 64), 1.0, 4096.0));
       made.height = static_cast<int>(std::clamp(n.number("height", 64), 1.0, 4096.0));
     }
-    if (n.type == "Camera" || n.type == "TouchSensor" || n.type == "LightSensor" || n.type == "DistanceSensor")
+    if (n.type == "Camera" || n.type == "TouchSensor" || n.type == "LightSensor" ||
+        n.type == "DistanceSensor")
       report_.add(n, "what this sensor measures", "it is there for the program, and measures nothing");
     if (talks) {
       made.channel = static_cast<int>(std::clamp(n.number("channel", 0), -1.0, 32767.0));

@@ -46,7 +46,8 @@ struct WorldText {
 WorldText read_world_text(std::string_view text);
 
 /// Reads nodes for a world that is there already, as `of` is: its release counts. `defs`: what USE may name.
-WorldText read_nodes_text(std::string_view text, const WorldText& of, const std::map<std::string, NodePtr>& defs);
+WorldText read_nodes_text(std::string_view text, const WorldText& of,
+                          const std::map<std::string, NodePtr>& defs);
 
 /// Reads a .proto file. False when it cannot be understood.
 bool read_proto_text(std::string_view text, Proto& proto);

@@ -84,7 +84,8 @@ void Bodies::tie_file() {
     return best;
   };
   const sim::WorldDesc& w = twin_.world();
-  const auto tie_one = [&](int line, const std::string& def, const std::string& name, Is is, std::size_t number) {
+  const auto tie_one = [&](int line, const std::string& def, const std::string& name, Is is,
+                           std::size_t number) {
     const int id = line > 0 ? node_at(line, def, name, is) : 0;
     if (id == 0) return;
     tree_.node(id).is = is;
@@ -94,8 +95,7 @@ void Bodies::tie_file() {
     tie_one(w.robots[i].node, w.robots[i].def, w.robots[i].name, Is::Robot, i);
   for (std::size_t i = 0; i < w.supervisors.size(); ++i)
     tie_one(w.supervisors[i].node, w.supervisors[i].def, w.supervisors[i].name, Is::Supervisor, i);
-  for (std::size_t i = 0; i < w.lamps.size(); ++i)
-    tie_one(w.lamps[i].node, w.lamps[i].name, "", Is::Lamp, i);
+  for (std::size_t i = 0; i < w.lamps.size(); ++i) tie_one(w.lamps[i].node, w.lamps[i].name, "", Is::Lamp, i);
   owner_.assign(w.objects.size(), 0);
   for (std::size_t i = 0; i < w.objects.size(); ++i) {
     const sim::ObjectDesc& o = w.objects[i];
@@ -109,7 +109,8 @@ void Bodies::tie_file() {
 void Bodies::add_rest() {
   const sim::WorldDesc& w = twin_.world();
   owner_.resize(w.objects.size(), 0);
-  const auto add = [&](const char* type, const std::string& def, const std::string& name, Is is, std::size_t number) {
+  const auto add = [&](const char* type, const std::string& def, const std::string& name, Is is,
+                       std::size_t number) {
     const int id = tree_.add(type, def, Tree::kRoot, "children");
     tree_.node(id).is = is;
     tree_.node(id).number = static_cast<int>(number);
@@ -287,9 +288,11 @@ Affine Bodies::pose(int id) const {
 
 std::vector<double> Bodies::place(int id, const std::string& field) const {
   const TreeNode& n = tree_.node(id);
-  if (moving_body(id) < 0) return n.numbers(field, field == "translation" ? std::vector<double>(3) : std::vector<double>(4));
+  if (moving_body(id) < 0)
+    return n.numbers(field, field == "translation" ? std::vector<double>(3) : std::vector<double>(4));
   const Affine own = inverse(pose(n.parent)).then(pose(id));
-  return field == "translation" ? std::vector<double>{own.at.x, own.at.y, own.at.z} : axis_angle(own, is_nue());
+  return field == "translation" ? std::vector<double>{own.at.x, own.at.y, own.at.z}
+                                : axis_angle(own, is_nue());
 }
 
 /// The tree's own fields say what the engine has.
@@ -431,8 +434,7 @@ void Bodies::derive(int id, bool keep_course) {
     outer->fields.push_back({"children", 0, {}, {}, {}, {text}});
     text = outer;
   }
-  const wbt::Furniture found =
-      wbt::furniture_of({text}, text_, options_, twin_.world().webots.floor_m);
+  const wbt::Furniture found = wbt::furniture_of({text}, text_, options_, twin_.world().webots.floor_m);
   Made made;
   for (const sim::ObjectDesc& o : found.objects)
     if (tree_.has(o.node)) made[o.node].push_back(o);
@@ -492,7 +494,7 @@ std::string Bodies::import(int parent, const std::string& field, int index, cons
     return "line " + std::to_string(read.errors.front().line) + ": " + read.errors.front().text;
   if (read.nodes.empty()) return "got no node, expected one such as Solid { }";
   for (const wbt::NodePtr& n : read.nodes) {
-    if (base_of(n->type) == "Robot")
+    if (base_of(n->type) == "Robot" || n->type == "Supervisor")
       return "got a robot, " + n->type + ": robots come and go only when a run begins";
   }
   for (const wbt::NodePtr& n : read.nodes) {
@@ -578,7 +580,8 @@ void Bodies::set_recognition(int id, const std::vector<double>& numbers) {
   if (n.is == Is::Robot)
     w.robots[static_cast<std::size_t>(n.number)].recognition_colours = colours;
   else if (const auto piece = pieces_.find(id); piece != pieces_.end())
-    for (const int o : piece->second.objects) w.objects[static_cast<std::size_t>(o)].recognition_colours = colours;
+    for (const int o : piece->second.objects)
+      w.objects[static_cast<std::size_t>(o)].recognition_colours = colours;
   else
     return;
   refurnish(w);

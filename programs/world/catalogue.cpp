@@ -10,26 +10,30 @@ namespace programs {
 
 namespace {
 
-// name, type, and what it holds: B bool, I whole, F number, 2 and V vectors, R rotation, C colour, S text, N node,
+// name, type, and what it holds: B bool, I whole, F number, 2 and V vectors, R rotation, C colour, S text, N
+// node,
 // * list
 const std::string kPlaced =
-    "translation V 0 0 0|rotation R 0 0 1 0|scale V 1 1 1|children N*|translationStep F 0.01|rotationStep F 0.261799";
-const std::string kSolid = kPlaced +
-                           "|name S solid|model S|description S|contactMaterial S default|immersionProperties N*|"
-                           "boundingObject N|physics N|locked B 0|radarCrossSection F 0|recognitionColors C*";
-const std::string kRobot = kSolid +
-                           "|controller S <generic>|controllerArgs S*|customData S|supervisor B 0|synchronization B 1|"
-                           "battery F*|cpuConsumption F 10|selfCollision B 0|window S <generic>|remoteControl S "
-                           "<generic>";
-const std::string kLight =
-    "ambientIntensity F 0|color C 1 1 1|intensity F 1|on B 1|castShadows B 0|";
+    "translation V 0 0 0|rotation R 0 0 1 0|scale V 1 1 1|children N*|translationStep F 0.01|rotationStep F "
+    "0.261799";
+const std::string kSolid =
+    kPlaced +
+    "|name S solid|model S|description S|contactMaterial S default|immersionProperties N*|"
+    "boundingObject N|physics N|locked B 0|radarCrossSection F 0|recognitionColors C*";
+const std::string kRobot =
+    kSolid +
+    "|controller S <generic>|controllerArgs S*|customData S|supervisor B 0|synchronization B 1|"
+    "battery F*|cpuConsumption F 10|selfCollision B 0|window S <generic>|remoteControl S "
+    "<generic>";
+const std::string kLight = "ambientIntensity F 0|color C 1 1 1|intensity F 1|on B 1|castShadows B 0|";
 const std::string kBlock = kPlaced +
                            "|name S|mass F 0|size V 0.1 0.1 0.1|locked B 0|physics N|recognitionColors C*|"
                            "contactMaterial S default|appearance N|color C 1 1 1";
-const std::string kArena = kPlaced +
-                           "|name S rectangle arena|floorSize 2 1 1|floorTileSize 2 0.5 0.5|floorAppearance N|"
-                           "wallThickness F 0.01|wallHeight F 0.1|wallTileSize 2 0.5 0.5|wallAppearance N|"
-                           "contactMaterial S default";
+const std::string kArena =
+    kPlaced +
+    "|name S rectangle arena|floorSize 2 1 1|floorTileSize 2 0.5 0.5|floorAppearance N|"
+    "wallThickness F 0.01|wallHeight F 0.1|wallTileSize 2 0.5 0.5|wallAppearance N|"
+    "contactMaterial S default";
 
 struct KindRow {
   const char* type;
@@ -44,22 +48,27 @@ const std::vector<KindRow>& kinds() {
       {"Pose", "Pose", kPlaced},
       {"Solid", "Solid", kSolid},
       {"Robot", "Robot", kRobot},
-      {"Supervisor", "Robot", kRobot},
+      {"Supervisor", "Supervisor", kRobot},  // a kind of its own until R2018
       {"CustomRobot", "Robot", kRobot},
       {"DifferentialWheels", "Robot",
-       kRobot + "|axleLength F 0.1|wheelRadius F 0.01|maxSpeed F 10|speedUnit F 0.1|slipNoise F 0.1|encoderNoise F -1"},
+       kRobot + "|axleLength F 0.1|wheelRadius F 0.01|maxSpeed F 10|speedUnit F 0.1|slipNoise F "
+                "0.1|encoderNoise F -1"},
       {"E-puck", "Robot",
-       kRobot + "|version S 1|camera_fieldOfView F 0.84|camera_width I 52|camera_height I 39|camera_antiAliasing B 0|"
-                "camera_rotation R 1 0 0 0|emitter_channel I 1|receiver_channel I 1|distance_sensor_numberOfRays I 1|"
+       kRobot + "|version S 1|camera_fieldOfView F 0.84|camera_width I 52|camera_height I "
+                "39|camera_antiAliasing B 0|"
+                "camera_rotation R 1 0 0 0|emitter_channel I 1|receiver_channel I "
+                "1|distance_sensor_numberOfRays I 1|"
                 "kinematic B 0|max_velocity F 6.28|turretSlot N*|groundSensorsSlot N*"},
       {"Charger", "Charger", kSolid + "|battery F*|radius F 0.04|emissiveColor C 0 1 0|gradual B 1"},
       {"Shape", "Shape", "appearance N|geometry N|castShadows B 1|isPickable B 1"},
       {"Appearance", "Appearance", "material N|texture N|textureTransform N|name S appearance"},
       {"PBRAppearance", "PBRAppearance",
-       "baseColor C 1 1 1|baseColorMap N|transparency F 0|roughness F 0|roughnessMap N|metalness F 1|emissiveColor C 0 "
+       "baseColor C 1 1 1|baseColorMap N|transparency F 0|roughness F 0|roughnessMap N|metalness F "
+       "1|emissiveColor C 0 "
        "0 0|emissiveIntensity F 1|textureTransform N|name S PBRAppearance|IBLStrength F 1"},
       {"Material", "Material",
-       "ambientIntensity F 0.2|diffuseColor C 0.8 0.8 0.8|emissiveColor C 0 0 0|shininess F 0.2|specularColor C 0 0 0|"
+       "ambientIntensity F 0.2|diffuseColor C 0.8 0.8 0.8|emissiveColor C 0 0 0|shininess F "
+       "0.2|specularColor C 0 0 0|"
        "transparency F 0"},
       {"ImageTexture", "ImageTexture", "url S*|repeatS B 1|repeatT B 1|filtering I 4"},
       {"TextureTransform", "TextureTransform", "center 2 0 0|rotation F 0|scale 2 1 1|translation 2 0 0"},
@@ -75,22 +84,28 @@ const std::vector<KindRow>& kinds() {
       {"Coordinate", "Coordinate", "point V*"},
       {"Color", "Color", "color C*"},
       {"ElevationGrid", "ElevationGrid",
-       "height F*|xDimension I 0|xSpacing F 1|zDimension I 0|zSpacing F 1|yDimension I 0|ySpacing F 1|thickness F 1"},
+       "height F*|xDimension I 0|xSpacing F 1|zDimension I 0|zSpacing F 1|yDimension I 0|ySpacing F "
+       "1|thickness F 1"},
       {"Physics", "Physics", "density F 1000|mass F -1|centerOfMass V*|inertiaMatrix V*|damping N"},
       {"WorldInfo", "WorldInfo",
-       "info S*|title S|window S|gravity F 9.81|CFM F 0.00001|ERP F 0.2|physics S|basicTimeStep F 32|FPS F 60|"
-       "coordinateSystem S ENU|northDirection V 1 0 0|randomSeed I 0|contactProperties N*|gpsReference V 0 0 0"},
+       "info S*|title S|window S|gravity F 9.81|CFM F 0.00001|ERP F 0.2|physics S|basicTimeStep F 32|FPS F "
+       "60|"
+       "coordinateSystem S ENU|northDirection V 1 0 0|randomSeed I 0|contactProperties N*|gpsReference V 0 0 "
+       "0"},
       {"ContactProperties", "ContactProperties",
-       "material1 S default|material2 S default|coulombFriction F*|bounce F 0.5|bounceVelocity F 0.01|softCFM F 0.001|"
+       "material1 S default|material2 S default|coulombFriction F*|bounce F 0.5|bounceVelocity F "
+       "0.01|softCFM F 0.001|"
        "softERP F 0.2"},
       {"Viewpoint", "Viewpoint",
-       "fieldOfView F 0.785398|orientation R 0 0 1 0|position V -10 0 0|near F 0.05|far F 0|follow S|exposure F 1"},
+       "fieldOfView F 0.785398|orientation R 0 0 1 0|position V -10 0 0|near F 0.05|far F 0|follow "
+       "S|exposure F 1"},
       {"Background", "Background", "skyColor C*|luminosity F 1"},
       {"TexturedBackground", "Background", "texture S mountains|luminosity F 1|skyColor C*|skybox B 1"},
       {"TexturedBackgroundLight", "DirectionalLight", "texture S mountains|luminosity F 1|castShadows B 1"},
       {"PointLight", "PointLight", kLight + "attenuation V 1 0 0|location V 0 0 0.3|radius F 100"},
       {"SpotLight", "SpotLight",
-       kLight + "attenuation V 1 0 0|location V 0 0 10|direction V 0 1 -1|beamWidth F 0.7|cutOffAngle F 0.785398|radius F "
+       kLight + "attenuation V 1 0 0|location V 0 0 10|direction V 0 1 -1|beamWidth F 0.7|cutOffAngle F "
+                "0.785398|radius F "
                 "100"},
       {"DirectionalLight", "DirectionalLight", kLight + "direction V 0 0 -1"},
       {"HingeJoint", "HingeJoint", "device N*|jointParameters N|endPoint N"},
@@ -99,44 +114,60 @@ const std::vector<KindRow>& kinds() {
        "position F 0|axis V 1 0 0|anchor V 0 0 0|minStop F 0|maxStop F 0"},
       {"JointParameters", "JointParameters", "position F 0|axis V 0 0 1|minStop F 0|maxStop F 0"},
       {"RotationalMotor", "RotationalMotor",
-       "name S rotational motor|maxVelocity F 10|maxTorque F 10|minPosition F 0|maxPosition F 0|controlPID V 10 0 0"},
+       "name S rotational motor|maxVelocity F 10|maxTorque F 10|minPosition F 0|maxPosition F 0|controlPID V "
+       "10 0 0"},
       {"LinearMotor", "LinearMotor",
-       "name S linear motor|maxVelocity F 10|maxForce F 10|minPosition F 0|maxPosition F 0|controlPID V 10 0 0"},
+       "name S linear motor|maxVelocity F 10|maxForce F 10|minPosition F 0|maxPosition F 0|controlPID V 10 0 "
+       "0"},
       {"PositionSensor", "PositionSensor", "name S position sensor|noise F 0|resolution F -1"},
       {"Emitter", "Emitter",
-       kSolid + "|type S radio|range F -1|maxRange F -1|aperture F -1|channel I 0|baudRate I -1|byteSize I 8|bufferSize I "
+       kSolid + "|type S radio|range F -1|maxRange F -1|aperture F -1|channel I 0|baudRate I -1|byteSize I "
+                "8|bufferSize I "
                 "-1|allowedChannels I*"},
       {"Receiver", "Receiver",
-       kSolid + "|type S radio|aperture F -1|channel I 0|baudRate I -1|byteSize I 8|bufferSize I -1|signalStrengthNoise F "
+       kSolid + "|type S radio|aperture F -1|channel I 0|baudRate I -1|byteSize I 8|bufferSize I "
+                "-1|signalStrengthNoise F "
                 "0|directionNoise F 0|allowedChannels I*"},
       {"Display", "Display", kSolid + "|width I 64|height I 64|windowPosition 2 0 0|pixelSize F 1"},
       {"Camera", "Camera",
        kSolid + "|fieldOfView F 0.7854|width I 64|height I 64|near F 0.01|far F 0|recognition N"},
-      {"Recognition", "Recognition", "maxRange F 100|maxObjects I -1|occlusion I 1|frameColor C 1 0 0|frameThickness I 1"},
+      {"Recognition", "Recognition",
+       "maxRange F 100|maxObjects I -1|occlusion I 1|frameColor C 1 0 0|frameThickness I 1"},
       {"DistanceSensor", "DistanceSensor",
-       kSolid + "|lookupTable V*|type S generic|numberOfRays I 1|aperture F 1.5708|gaussianWidth F 1|resolution F -1"},
-      {"LightSensor", "LightSensor", kSolid + "|lookupTable V*|colorFilter C 1 1 1|occlusion B 0|resolution F -1"},
+       kSolid + "|lookupTable V*|type S generic|numberOfRays I 1|aperture F 1.5708|gaussianWidth F "
+                "1|resolution F -1"},
+      {"LightSensor", "LightSensor",
+       kSolid + "|lookupTable V*|colorFilter C 1 1 1|occlusion B 0|resolution F -1"},
       {"GPS", "GPS", kSolid + "|type S satellite|accuracy F 0|noiseCorrelation F 0|resolution F -1"},
       {"Compass", "Compass", kSolid + "|lookupTable V*|xAxis B 1|yAxis B 1|zAxis B 1|resolution F -1"},
       {"Gyro", "Gyro", kSolid + "|lookupTable V*|xAxis B 1|yAxis B 1|zAxis B 1|resolution F -1"},
-      {"Accelerometer", "Accelerometer", kSolid + "|lookupTable V*|xAxis B 1|yAxis B 1|zAxis B 1|resolution F -1"},
+      {"Accelerometer", "Accelerometer",
+       kSolid + "|lookupTable V*|xAxis B 1|yAxis B 1|zAxis B 1|resolution F -1"},
       {"InertialUnit", "InertialUnit", kSolid + "|lookupTable V*|xAxis B 1|yAxis B 1|zAxis B 1|noise F 0"},
       {"TouchSensor", "TouchSensor", kSolid + "|type S bumper|lookupTable V*"},
       {"LED", "LED", kSolid + "|color C*|gradual B 0"},
-      {"Pen", "Pen", kSolid + "|inkColor C 0 0 0|inkDensity F 0.5|leadSize F 0.002|maxDistance F 0|write B 1"},
+      {"Pen", "Pen",
+       kSolid + "|inkColor C 0 0 0|inkDensity F 0.5|leadSize F 0.002|maxDistance F 0|write B 1"},
       {"Speaker", "Speaker", kSolid},
       {"RectangleArena", "Solid", kArena},
       {"CircleArena", "Solid",
-       kPlaced + "|name S circle arena|radius F 1|subdivision I 48|floorAppearance N|wallThickness F 0.01|wallHeight F "
+       kPlaced + "|name S circle arena|radius F 1|subdivision I 48|floorAppearance N|wallThickness F "
+                 "0.01|wallHeight F "
                  "0.1|wallAppearance N|contactMaterial S default"},
-      {"Floor", "Solid", kPlaced + "|name S floor|size 2 10 10|tileSize 2 1 1|appearance N|contactMaterial S default"},
-      {"Wall", "Solid", kBlock}, {"WoodenBox", "Solid", kBlock}, {"CardboardBox", "Solid", kBlock},
-      {"MetalStorageBox", "Solid", kBlock}, {"PlasticCrate", "Solid", kBlock}, {"SolidBox", "Solid", kBlock},
+      {"Floor", "Solid",
+       kPlaced + "|name S floor|size 2 10 10|tileSize 2 1 1|appearance N|contactMaterial S default"},
+      {"Wall", "Solid", kBlock},
+      {"WoodenBox", "Solid", kBlock},
+      {"CardboardBox", "Solid", kBlock},
+      {"MetalStorageBox", "Solid", kBlock},
+      {"PlasticCrate", "Solid", kBlock},
+      {"SolidBox", "Solid", kBlock},
       {"SolidPipe", "Solid", kBlock + "|radius F 0.05|height F 0.2|thickness F 0"},
       {"Obstacle", "Solid", kBlock + "|radius F 0.04|height F 0.05"},
       {"OilBarrel", "Solid", kBlock + "|radius F 0.305|height F 0.88"},
       {"WoodenBarrel", "Solid", kBlock + "|radius F 0.4|height F 1"},
-      {"SoccerBall", "Solid", kBlock + "|radius F 0.1"}, {"Ball", "Solid", kBlock + "|radius F 0.1"},
+      {"SoccerBall", "Solid", kBlock + "|radius F 0.1"},
+      {"Ball", "Solid", kBlock + "|radius F 0.1"},
   };
   return all;
 }
@@ -171,41 +202,107 @@ std::string plain_type(const std::string& type) {
   std::string t;
   for (const char c : type)
     if (c != '-' && c != '_') t += static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-  return t.rfind("epuck", 0) == 0 && t.find("sensor") == std::string::npos && t.find("turret") == std::string::npos
+  return t.rfind("epuck", 0) == 0 && t.find("sensor") == std::string::npos &&
+                 t.find("turret") == std::string::npos
              ? "E-puck"
              : type;
 }
 
 // as webots/nodes.h counts from 1
-const char* const kKinds[] = {
-    "Appearance",       "Background",       "Billboard",       "Box",
-    "CadShape",         "Capsule",          "Color",           "Cone",
-    "Coordinate",       "Cylinder",         "DirectionalLight", "ElevationGrid",
-    "Fog",              "Group",            "ImageTexture",    "IndexedFaceSet",
-    "IndexedLineSet",   "Material",         "Mesh",            "Muscle",
-    "Normal",           "PBRAppearance",    "Plane",           "PointLight",
-    "PointSet",         "Pose",             "Shape",           "Sphere",
-    "SpotLight",        "TextureCoordinate", "TextureTransform", "Transform",
-    "Viewpoint",        "Robot",            "Accelerometer",   "Altimeter",
-    "Brake",            "Camera",           "Compass",         "Connector",
-    "Display",          "DistanceSensor",   "Emitter",         "GPS",
-    "Gyro",             "InertialUnit",     "LED",             "Lidar",
-    "LightSensor",      "LinearMotor",      "Pen",             "PositionSensor",
-    "Propeller",        "Radar",            "RangeFinder",     "Receiver",
-    "RotationalMotor",  "Skin",             "Speaker",         "TouchSensor",
-    "VacuumGripper",    "BallJoint",        "BallJointParameters", "Charger",
-    "ContactProperties", "Damping",         "Fluid",           "Focus",
-    "HingeJoint",       "HingeJointParameters", "Hinge2Joint", "ImmersionProperties",
-    "JointParameters",  "Lens",             "LensFlare",       "Physics",
-    "Recognition",      "SliderJoint",      "Slot",            "Solid",
-    "SolidReference",   "Track",            "TrackWheel",      "WorldInfo",
-    "Zoom",             "Microphone",       "Radio"};
+const char* const kKinds[] = {"Appearance",
+                              "Background",
+                              "Billboard",
+                              "Box",
+                              "CadShape",
+                              "Capsule",
+                              "Color",
+                              "Cone",
+                              "Coordinate",
+                              "Cylinder",
+                              "DirectionalLight",
+                              "ElevationGrid",
+                              "Fog",
+                              "Group",
+                              "ImageTexture",
+                              "IndexedFaceSet",
+                              "IndexedLineSet",
+                              "Material",
+                              "Mesh",
+                              "Muscle",
+                              "Normal",
+                              "PBRAppearance",
+                              "Plane",
+                              "PointLight",
+                              "PointSet",
+                              "Pose",
+                              "Shape",
+                              "Sphere",
+                              "SpotLight",
+                              "TextureCoordinate",
+                              "TextureTransform",
+                              "Transform",
+                              "Viewpoint",
+                              "Robot",
+                              "Accelerometer",
+                              "Altimeter",
+                              "Brake",
+                              "Camera",
+                              "Compass",
+                              "Connector",
+                              "Display",
+                              "DistanceSensor",
+                              "Emitter",
+                              "GPS",
+                              "Gyro",
+                              "InertialUnit",
+                              "LED",
+                              "Lidar",
+                              "LightSensor",
+                              "LinearMotor",
+                              "Pen",
+                              "PositionSensor",
+                              "Propeller",
+                              "Radar",
+                              "RangeFinder",
+                              "Receiver",
+                              "RotationalMotor",
+                              "Skin",
+                              "Speaker",
+                              "TouchSensor",
+                              "VacuumGripper",
+                              "BallJoint",
+                              "BallJointParameters",
+                              "Charger",
+                              "ContactProperties",
+                              "Damping",
+                              "Fluid",
+                              "Focus",
+                              "HingeJoint",
+                              "HingeJointParameters",
+                              "Hinge2Joint",
+                              "ImmersionProperties",
+                              "JointParameters",
+                              "Lens",
+                              "LensFlare",
+                              "Physics",
+                              "Recognition",
+                              "SliderJoint",
+                              "Slot",
+                              "Solid",
+                              "SolidReference",
+                              "Track",
+                              "TrackWheel",
+                              "WorldInfo",
+                              "Zoom",
+                              "Microphone",
+                              "Radio",
+                              "Supervisor"};
 
 }  // namespace
 
 std::string field_type_name(int type) {
-  static const char* const kNames[] = {"",       "Bool",     "Int32", "Float",  "Vec2f",
-                                       "Vec3f",  "Rotation", "Color", "String", "Node"};
+  static const char* const kNames[] = {"",      "Bool",     "Int32", "Float",  "Vec2f",
+                                       "Vec3f", "Rotation", "Color", "String", "Node"};
   const int member = member_of(type);
   if (member <= kNoField || member > kNode) return "";
   return (is_list(type) ? "MF" : "SF") + std::string(kNames[member]);

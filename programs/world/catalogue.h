@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What Webots' kinds of nodes are called, which fields they have, and what those hold when a file does not say.
-// Source: [Webots: docs/reference]; only what programs ask worlds of e-pucks for.
+// What Webots' kinds of nodes are called, which fields they have, and what those hold when a file does not
+// say. Source: [Webots: docs/reference]; only what programs ask worlds of e-pucks for.
 #pragma once
 #include <string>
 #include <vector>
@@ -8,7 +8,19 @@
 namespace programs {
 
 /// Numbered as WbFieldType; kList is added to a list's.
-enum FieldType : int { kNoField, kBool, kInt, kFloat, kVec2, kVec3, kTurn, kColour, kText, kNode, kList = 0x10 };
+enum FieldType : int {
+  kNoField,
+  kBool,
+  kInt,
+  kFloat,
+  kVec2,
+  kVec3,
+  kTurn,
+  kColour,
+  kText,
+  kNode,
+  kList = 0x10
+};
 
 constexpr bool is_list(int type) { return (type & kList) != 0; }
 constexpr int member_of(int type) { return type & ~kList; }

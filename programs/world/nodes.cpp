@@ -80,7 +80,8 @@ struct Nodes::Inside {
   /// Whatever a program writes is in the digest.
   void note(int id, const std::string& name, const std::vector<double>& values, const std::string& text) {
     std::uint64_t h = static_cast<std::uint64_t>(id);
-    for (const char c : name + "=" + text) h = sim::fold(h, static_cast<std::uint64_t>(static_cast<unsigned char>(c)));
+    for (const char c : name + "=" + text)
+      h = sim::fold(h, static_cast<std::uint64_t>(static_cast<unsigned char>(c)));
     for (const double v : values) h = sim::fold(h, v);
     host.twin().simulation().note_intervention(h);
   }
@@ -203,7 +204,8 @@ struct Nodes::Inside {
         v.resize(6);
         for (const double part : v)
           if (!(std::abs(part) <= kFastest))
-            return warn(program, fmt::format("a velocity: got {}, expected at most {:g} m/s or rad/s", part, kFastest));
+            return warn(program, fmt::format("a velocity: got {}, expected at most {:g} m/s or rad/s", part,
+                                             kFastest));
         if (!bodies().set_velocity(id, v)) warn(program, name + " stands fast: it gets no velocity");
         break;
       case Rest:
@@ -287,7 +289,8 @@ struct Nodes::Inside {
     value.name = h.name;
     value.type = h.type;
     const TreeNode& n = tree().node(h.node);
-    if (h.of == Handle::Of::Robot) return get_robot_field(host.twin(), n.number, h.name, value.numbers, value.texts);
+    if (h.of == Handle::Of::Robot)
+      return get_robot_field(host.twin(), n.number, h.name, value.numbers, value.texts);
     if (h.of == Handle::Of::Colour) {
       sim::Colour c;
       bodies().colour(h.node, c);
@@ -323,7 +326,8 @@ struct Nodes::Inside {
       name = n.values[static_cast<std::size_t>(r.ints[1])].name;
     }
     int number = 0;
-    if (!find_handle(id, name, number)) return nothing(out, fmt::format("a {} has no field '{}' here", n.type, name));
+    if (!find_handle(id, name, number))
+      return nothing(out, fmt::format("a {} has no field '{}' here", n.type, name));
     tell_field(number, out);
   }
 
@@ -338,14 +342,16 @@ struct Nodes::Inside {
     if (count >= 0) {
       index = r.ints[1] < 0 ? r.ints[1] + count : r.ints[1];  // from the end
       if (index < 0 || index >= count)
-        return nothing(out, fmt::format("{}: got member {}, expected one of {}", name_of(*h), r.ints[1], count));
+        return nothing(out,
+                       fmt::format("{}: got member {}, expected one of {}", name_of(*h), r.ints[1], count));
     }
     const std::size_t at = static_cast<std::size_t>(index), width = width_of(v.type);
     if (member_of(v.type) == kNode) {
       const int node = at < v.nodes.size() ? v.nodes[at] : 0;
       return tell_value(out, count, node, {}, "");
     }
-    if (member_of(v.type) == kText) return tell_value(out, count, 0, {}, at < v.texts.size() ? v.texts[at] : "");
+    if (member_of(v.type) == kText)
+      return tell_value(out, count, 0, {}, at < v.texts.size() ? v.texts[at] : "");
     v.numbers.resize(std::max(v.numbers.size(), (at + 1) * width));
     std::vector<double> values(v.numbers.begin() + static_cast<std::ptrdiff_t>(at * width),
                                v.numbers.begin() + static_cast<std::ptrdiff_t>((at + 1) * width));
@@ -355,7 +361,8 @@ struct Nodes::Inside {
   /// What a field of a running robot cannot be set to any more.
   static bool is_settled(const TreeNode& n, const std::string& name) {
     if (n.is != Is::Robot && n.is != Is::Supervisor) return false;
-    return name == "controller" || name == "controllerArgs" || name == "supervisor" || name == "synchronization";
+    return name == "controller" || name == "controllerArgs" || name == "supervisor" ||
+           name == "synchronization";
   }
 
   void set(const link_record& r, int program) {
@@ -366,9 +373,11 @@ struct Nodes::Inside {
     const std::size_t width = width_of(h->type);
     const auto refuse = [&](const std::string& why) { warn(program, name_of(*h) + ": " + why); };
     if (given.size() != width)
-      return refuse(fmt::format("got {} numbers, expected {} ({})", given.size(), width, field_type_name(h->type)));
+      return refuse(
+          fmt::format("got {} numbers, expected {} ({})", given.size(), width, field_type_name(h->type)));
     if (!are_finite(given)) return refuse("got a number that is none, expected finite ones");
-    if (text.size() > kMostText) return refuse(fmt::format("got {} characters, expected at most {}", text.size(), kMostText));
+    if (text.size() > kMostText)
+      return refuse(fmt::format("got {} characters, expected at most {}", text.size(), kMostText));
     TreeNode& n = tree().node(h->node);
     std::string wrong;
     if (h->of == Handle::Of::Robot) {
@@ -403,7 +412,8 @@ struct Nodes::Inside {
     if (member_of(v->type) == kText)
       v->texts.resize(std::max(v->texts.size(), at + 1)), v->texts[at] = text;
     else
-      std::copy(given.begin(), given.end(), v->numbers.begin() + static_cast<std::ptrdiff_t>(at * given.size()));
+      std::copy(given.begin(), given.end(),
+                v->numbers.begin() + static_cast<std::ptrdiff_t>(at * given.size()));
     follow(h, given, text);
     return {};
   }
@@ -414,9 +424,9 @@ struct Nodes::Inside {
     if (n.is == Is::Lamp) return bodies().lamp_changed(h.node);
     if (h.name == "customData" && n.is == Is::Robot) return host.note_custom_data(n.number, text);
     if (h.name == "recognitionColors") return bodies().set_recognition(h.node, n.find(h.name)->numbers);
-    static const std::set<std::string> kSilent{"name",         "customData",      "model",        "description",
-                                               "controller",   "translationStep", "rotationStep", "contactMaterial",
-                                               "transparency", "emissiveColor",   "castShadows"};
+    static const std::set<std::string> kSilent{
+        "name",         "customData",      "model",        "description",   "controller", "translationStep",
+        "rotationStep", "contactMaterial", "transparency", "emissiveColor", "castShadows"};
     if (!kSilent.count(h.name)) bodies().changed(h.node);
   }
 
@@ -454,7 +464,8 @@ struct Nodes::Inside {
     const int count = v->count();
     const std::int64_t index = r.ints[1] < 0 ? r.ints[1] + count : r.ints[1];
     if (index < 0 || index >= count)
-      return warn(program, fmt::format("{}: got member {}, expected one of {}", name_of(*h), r.ints[1], count));
+      return warn(program,
+                  fmt::format("{}: got member {}, expected one of {}", name_of(*h), r.ints[1], count));
     if (member_of(v->type) == kNode) return remove(v->nodes[static_cast<std::size_t>(index)], program);
     const std::ptrdiff_t width = static_cast<std::ptrdiff_t>(width_of(v->type));
     if (member_of(v->type) == kText)
@@ -469,17 +480,20 @@ struct Nodes::Inside {
     if (!h) return nothing(out, fmt::format("field {} is not there any more", r.ints[0]));
     const Value* v = h->of == Handle::Of::Tree ? tree().node(h->node).find(h->name) : nullptr;
     if (!v || member_of(v->type) != kNode)
-      return nothing(out, fmt::format("{}: got a field of {}, expected one of nodes", name_of(*h), field_type_name(h->type)));
+      return nothing(out, fmt::format("{}: got a field of {}, expected one of nodes", name_of(*h),
+                                      field_type_name(h->type)));
     const int count = v->count();
     std::int64_t index = r.ints[1];
     if (index < 0) index = index + count + 1;  // -1: at the end
     if (count >= 0 && (index < 0 || index > count))
-      return nothing(out, fmt::format("{}: got place {}, expected -{} to {}", name_of(*h), r.ints[1], count + 1, count));
+      return nothing(
+          out, fmt::format("{}: got place {}, expected -{} to {}", name_of(*h), r.ints[1], count + 1, count));
     if (count < 0 && !v->nodes.empty()) return nothing(out, name_of(*h) + ": holds a node already");
     const std::string text = text_of(r, 0);
     const int node = h->node;
     const std::string name = h->name;
-    const std::string wrong = bodies().import(node, name, index >= count ? -1 : static_cast<int>(index), text);
+    const std::string wrong =
+        bodies().import(node, name, index >= count ? -1 : static_cast<int>(index), text);
     if (!wrong.empty()) return nothing(out, name_of(*h) + ": " + wrong);
     note(node, name, {}, text);
     tell_field(static_cast<int>(r.ints[0]), out);
@@ -515,7 +529,8 @@ struct Nodes::Inside {
         label.x = part(v[1]);
         label.y = part(v[2]);
         label.size = part(v[3]);
-        label.rgb = static_cast<std::uint32_t>(static_cast<std::int64_t>(std::min(4294967295.0, std::max(0.0, v[4])))) &
+        label.rgb = static_cast<std::uint32_t>(
+                        static_cast<std::int64_t>(std::min(4294967295.0, std::max(0.0, v[4])))) &
                     0xFFFFFF;
         label.transparency = part(v[5]);
         host.set_label(program, label);

@@ -20,7 +20,8 @@ const host::Variable* scalar_of(host::FirmwareMind& mind, const std::string& exp
   }
   const host::Variable* v = mind.runner()->find_variable(expression, wrong);
   if (!v || (v->kind != host::Variable::Kind::Aggregate && v->bytes <= 8)) return v;
-  wrong = fmt::format("got '{}', which has {} bytes, expected a number; name a member or element", expression, v->bytes);
+  wrong = fmt::format("got '{}', which has {} bytes, expected a number; name a member or element", expression,
+                      v->bytes);
   return nullptr;
 }
 
@@ -33,13 +34,13 @@ std::string range(const std::string& name, double value, double least, double mo
 
 const std::vector<RobotField>& robot_fields() {
   static const std::vector<RobotField> all{
-      {"collisions", kInt, false},       {"longestWallTouch", kFloat, false},
-      {"distance", kFloat, false},       {"selector", kInt, true},
-      {"batteryVoltage", kFloat, true},  {"leds", kInt, false},
+      {"collisions", kInt, false},          {"longestWallTouch", kFloat, false},
+      {"distance", kFloat, false},          {"selector", kInt, true},
+      {"batteryVoltage", kFloat, true},     {"leds", kInt, false},
       {"proximity", kFloat + kList, false}, {"leftSteps", kFloat, false},
-      {"rightSteps", kFloat, false},     {"cpuLoad", kFloat, false},
-      {"traps", kText + kList, false},   {"proximityNoise", kFloat, true},
-      {"wheelNoise", kFloat, true},      {"sensor:", kFloat, true},
+      {"rightSteps", kFloat, false},        {"cpuLoad", kFloat, false},
+      {"traps", kText + kList, false},      {"proximityNoise", kFloat, true},
+      {"wheelNoise", kFloat, true},         {"sensor:", kFloat, true},
       {"variable:", kFloat, true},
   };
   return all;
@@ -54,8 +55,8 @@ const RobotField* robot_field(const std::string& name) {
   return nullptr;
 }
 
-std::string get_robot_field(twin::Twin& twin, int robot, const std::string& name, std::vector<double>& numbers,
-                            std::vector<std::string>& texts) {
+std::string get_robot_field(twin::Twin& twin, int robot, const std::string& name,
+                            std::vector<double>& numbers, std::vector<std::string>& texts) {
   host::FirmwareMind& mind = twin.mind(robot);
   const sim::Simulation& simulation = twin.simulation();
   const sim::WorldDesc& world = twin.world();
@@ -76,7 +77,8 @@ std::string get_robot_field(twin::Twin& twin, int robot, const std::string& name
     numbers[0] = mind.report().leds;
   } else if (name == "proximity") {
     numbers.clear();
-    for (int s = 0; s < board::kRingSensors; ++s) numbers.push_back(mind.proximity_counts(simulation.scene(), s));
+    for (int s = 0; s < board::kRingSensors; ++s)
+      numbers.push_back(mind.proximity_counts(simulation.scene(), s));
   } else if (name == "leftSteps") {
     numbers[0] = static_cast<double>(mind.report().left_steps);
   } else if (name == "rightSteps") {
@@ -87,10 +89,11 @@ std::string get_robot_field(twin::Twin& twin, int robot, const std::string& name
     numbers.clear();
     if (mind.runner())
       for (const host::TrapReport& t : mind.runner()->traps())
-        texts.push_back(
-            fmt::format("{}: {} at {}, {:.6f} s", host::trap_name(t.kind), t.message, to_string(t.place), t.time_s));
+        texts.push_back(fmt::format("{}: {} at {}, {:.6f} s", host::trap_name(t.kind), t.message,
+                                    to_string(t.place), t.time_s));
   } else if (name == "proximityNoise") {
-    numbers[0] = desc.proximity.noise_scale ? *desc.proximity.noise_scale : world.proximity.noise_scale.value_or(1);
+    numbers[0] =
+        desc.proximity.noise_scale ? *desc.proximity.noise_scale : world.proximity.noise_scale.value_or(1);
   } else if (name == "wheelNoise") {
     numbers[0] = desc.wheels.noise ? *desc.wheels.noise : world.wheels.noise.value_or(0);
   } else if (name.rfind("sensor:", 0) == 0) {

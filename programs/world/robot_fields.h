@@ -22,8 +22,8 @@ const RobotField* robot_field(const std::string& name);
 const std::vector<RobotField>& robot_fields();
 
 /// What one holds. What is wrong is said; empty: done.
-std::string get_robot_field(twin::Twin& twin, int robot, const std::string& name, std::vector<double>& numbers,
-                            std::vector<std::string>& texts);
+std::string get_robot_field(twin::Twin& twin, int robot, const std::string& name,
+                            std::vector<double>& numbers, std::vector<std::string>& texts);
 /// Between ticks; the change is in the digest.
 std::string set_robot_field(twin::Twin& twin, int robot, const std::string& name, double value);
 

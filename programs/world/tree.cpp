@@ -112,7 +112,8 @@ int Tree::add(const std::string& type, const std::string& def, int parent, const
   return id;
 }
 
-int Tree::add(const wbt::Node& from, int parent, const std::string& field, int index, wbt::ProtoFiles& protos) {
+int Tree::add(const wbt::Node& from, int parent, const std::string& field, int index,
+              wbt::ProtoFiles& protos) {
   int depth = 0;
   for (int at = parent; at != 0; at = node(at).parent) ++depth;
   if (there_ >= kMostTreeNodes || depth >= kDeepest) return 0;

@@ -447,61 +447,61 @@ std::vector<SectionSpec> make_schema() {
   s.push_back(webots_section());
 
   using R = RobotDesc;
-  section("robot", true, "A robot.",
-          {
-              {"name", ValueType::Text, "", 0, 0, "", "\"robotN\"", "N counts from 0; names differ",
-               checked<R>([](R& r, const Value& v, const WorldDesc&) {
-                 if (v.text.empty() || v.text.find_first_of(",\"\n\r=") != std::string::npos) {
-                   return fmt::format("got \"{}\", expected a name without comma, quote, = or line break",
-                                      v.text);
-                 }
-                 r.name = v.text;
-                 return std::string();
-               })},
-              def_key<R>(),
-              {"model", ValueType::Text, "", 0, 0, "", "", "kind of robot; the first that the program knows",
-               checked<R>([](R& r, const Value& v, const WorldDesc& d) {
-                 r.model = v.text;
-                 std::string known;
-                 for (const RobotModel& m : d.models) known += (known.empty() ? "" : ", ") + m.name;
-                 return d.model_of(r)
-                            ? std::string()
-                            : fmt::format("got \"{}\", expected one of the models: {}", v.text, known);
-               })},
-              {"firmware", ValueType::Text, "", 0, 0, "", "\"\"",
-               "controller by name, or a file relative to this one",
-               into<R>([](R& r, const Value& v) { r.firmware = v.text; })},
-              {"args", ValueType::Text, "", 0, 0, "", "\"\"",
-               "what a controller that runs on the PC gets as its arguments: words between blanks, `'two words'` "
-               "in quotes; firmware has none",
-               into<R>([](R& r, const Value& v) { r.args = v.text; })},
-              {"supervisor", ValueType::Flag, "", 0, 0, "", "false",
-               "its controller, which runs on the PC, may do what supervisors may (docs/supervisor.md)",
-               into<R>([](R& r, const Value& v) { r.supervisor = v.flag; })},
-              custom_data_key<R>(),
-              {"position", ValueType::Pair, "m", -kFar, kFar, "", "[0, 0]",
-               "x and y of the middle between its wheels",
-               into<R>([](R& r, const Value& v) { r.pose.x_m = v.numbers[0], r.pose.y_m = v.numbers[1]; })},
-              {"heading", ValueType::Number, "deg", -kMany, kMany, "", "0", "counter-clockwise from +x",
-               into<R>([](R& r, const Value& v) { r.pose.heading_rad = radians(v.number); })},
-              {"seed", ValueType::Integer, "", 0, 9e18, "", "",
-               "its own seed; otherwise made of the world's seed and its number",
-               into<R>([](R& r, const Value& v) { r.seed = static_cast<std::uint64_t>(v.integer); })},
-              {"battery", ValueType::Number, "V", 2.5, 5, "", "",
-               "voltage at the beginning, only the electronics being on; the model's otherwise",
-               into<R>([](R& r, const Value& v) { r.battery_v = v.number; })},
-              {"battery_wh", ValueType::Number, "Wh", 1e-3, 1000, "", "",
-               "energy of its battery when full; the model's otherwise",
-               into<R>([](R& r, const Value& v) { r.battery_wh = v.number; })},
-              {"colour", ValueType::Colour, "", 0, 1, "", "", "of the body; the model's otherwise",
-               into<R>([](R& r, const Value& v) { r.colour = colour_of(v); })},
-              {"uart1", ValueType::Text, "", 0, 0, "", "\"-\"",
-               "- (text is shown on the terminal), none, pty, pty:LINK, tcp:PORT or file:PATH",
-               checked<R>([](R& r, const Value& v, const WorldDesc&) { return uart_text(v, r.uart1); })},
-              {"uart2", ValueType::Text, "", 0, 0, "", "\"none\"",
-               "none, -, pty, pty:LINK, tcp:PORT or file:PATH",
-               checked<R>([](R& r, const Value& v, const WorldDesc&) { return uart_text(v, r.uart2); })},
-          });
+  section(
+      "robot", true, "A robot.",
+      {
+          {"name", ValueType::Text, "", 0, 0, "", "\"robotN\"", "N counts from 0; names differ",
+           checked<R>([](R& r, const Value& v, const WorldDesc&) {
+             if (v.text.empty() || v.text.find_first_of(",\"\n\r=") != std::string::npos) {
+               return fmt::format("got \"{}\", expected a name without comma, quote, = or line break",
+                                  v.text);
+             }
+             r.name = v.text;
+             return std::string();
+           })},
+          def_key<R>(),
+          {"model", ValueType::Text, "", 0, 0, "", "", "kind of robot; the first that the program knows",
+           checked<R>([](R& r, const Value& v, const WorldDesc& d) {
+             r.model = v.text;
+             std::string known;
+             for (const RobotModel& m : d.models) known += (known.empty() ? "" : ", ") + m.name;
+             return d.model_of(r) ? std::string()
+                                  : fmt::format("got \"{}\", expected one of the models: {}", v.text, known);
+           })},
+          {"firmware", ValueType::Text, "", 0, 0, "", "\"\"",
+           "controller by name, or a file relative to this one",
+           into<R>([](R& r, const Value& v) { r.firmware = v.text; })},
+          {"args", ValueType::Text, "", 0, 0, "", "\"\"",
+           "what a controller that runs on the PC gets as its arguments: words between blanks, `'two words'` "
+           "in quotes; firmware has none",
+           into<R>([](R& r, const Value& v) { r.args = v.text; })},
+          {"supervisor", ValueType::Flag, "", 0, 0, "", "false",
+           "its controller, which runs on the PC, may do what supervisors may (docs/supervisor.md)",
+           into<R>([](R& r, const Value& v) { r.supervisor = v.flag; })},
+          custom_data_key<R>(),
+          {"position", ValueType::Pair, "m", -kFar, kFar, "", "[0, 0]",
+           "x and y of the middle between its wheels",
+           into<R>([](R& r, const Value& v) { r.pose.x_m = v.numbers[0], r.pose.y_m = v.numbers[1]; })},
+          {"heading", ValueType::Number, "deg", -kMany, kMany, "", "0", "counter-clockwise from +x",
+           into<R>([](R& r, const Value& v) { r.pose.heading_rad = radians(v.number); })},
+          {"seed", ValueType::Integer, "", 0, 9e18, "", "",
+           "its own seed; otherwise made of the world's seed and its number",
+           into<R>([](R& r, const Value& v) { r.seed = static_cast<std::uint64_t>(v.integer); })},
+          {"battery", ValueType::Number, "V", 2.5, 5, "", "",
+           "voltage at the beginning, only the electronics being on; the model's otherwise",
+           into<R>([](R& r, const Value& v) { r.battery_v = v.number; })},
+          {"battery_wh", ValueType::Number, "Wh", 1e-3, 1000, "", "",
+           "energy of its battery when full; the model's otherwise",
+           into<R>([](R& r, const Value& v) { r.battery_wh = v.number; })},
+          {"colour", ValueType::Colour, "", 0, 1, "", "", "of the body; the model's otherwise",
+           into<R>([](R& r, const Value& v) { r.colour = colour_of(v); })},
+          {"uart1", ValueType::Text, "", 0, 0, "", "\"-\"",
+           "- (text is shown on the terminal), none, pty, pty:LINK, tcp:PORT or file:PATH",
+           checked<R>([](R& r, const Value& v, const WorldDesc&) { return uart_text(v, r.uart1); })},
+          {"uart2", ValueType::Text, "", 0, 0, "", "\"none\"",
+           "none, -, pty, pty:LINK, tcp:PORT or file:PATH",
+           checked<R>([](R& r, const Value& v, const WorldDesc&) { return uart_text(v, r.uart2); })},
+      });
   for (KeySpec& key : wheel_keys<R>("", "")) s.back().keys.push_back(std::move(key));
   s.back().keys.push_back(recognition_key<R>());
   s.back().keys.push_back(node_key<R>());

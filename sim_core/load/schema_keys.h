@@ -71,7 +71,8 @@ KeySpec recognition_key() {
           1,
           "",
           "[]",
-          "what cameras that recognise objects tell of it, red, green, blue each; without one they do not notice it",
+          "what cameras that recognise objects tell of it, red, green, blue each; without one they do not "
+          "notice it",
           into<T>([](T& t, const Value& v) {
             t.recognition_colours.clear();
             for (const std::vector<double>& c : v.rows) t.recognition_colours.push_back({c[0], c[1], c[2]});

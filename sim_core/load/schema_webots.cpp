@@ -28,7 +28,8 @@ SectionSpec webots_section() {
                "later); nue: x to the right, y up, z towards the reader (before)",
                into<W>([](W& w, const Value& v) { w.axes = v.text == "nue" ? Axes::Nue : Axes::Enu; })},
               {"world", ValueType::Text, "", 0, 0, "", "\"\"",
-               "the `.wbt` file that this world was made of, relative to this one: supervisors find all its nodes, "
+               "the `.wbt` file that this world was made of, relative to this one: supervisors find all its "
+               "nodes, "
                "also those that are nothing here",
                into<W>([](W& w, const Value& v) { w.world = v.text; })},
               {"floor", ValueType::Number, "m", -kFar, kFar, "", "0", "how high the floor lies in that file",
@@ -62,56 +63,59 @@ SectionSpec supervisor_device_section() {
 
 SectionSpec robot_device_section() {
   using D = DeviceDesc;
-  return {"robot.device",
-          true,
-          "A device that this robot does not have in truth and that programs written for Webots' interfaces "
-          "find by its name. `emitter` and `receiver` of channel 1 are there without being written; writing "
-          "them changes them.",
-          {
-              {"name", ValueType::Text, "", 0, 0, "", "required", "by which programs ask for it",
-               checked<D>([](D& d, const Value& v, const WorldDesc&) {
-                 if (v.text.empty() || v.text.size() > 31)
-                   return fmt::format("got {} characters, expected 1 to 31", v.text.size());
-                 d.name = v.text;
-                 return std::string();
-               })},
-              {"kind", ValueType::Choice, "", 0, 0,
-               "gps|compass|inertial|gyro|emitter|receiver|distance|display|motor|camera|touch|light|led|speaker|pen",
-               "required",
-               "gps, compass, inertial, gyro: the truth, without noise; distance: a virtual sensor, whose value a "
-               "supervisor sets; display: a picture that the program draws; motor to pen: there for the program, "
-               "but they move, see, feel and show nothing",
-               into<D>([](D& d, const Value& v) {
-                 for (const KindWord& k : kKindWords)
-                   if (v.text == k.word) d.kind = k.kind;
-               })},
-              {"channel", ValueType::Integer, "", -1, 32767, "", "1",
-               "of an emitter or receiver when the program begins; -1 is all",
-               into<D>([](D& d, const Value& v) { d.channel = static_cast<int>(v.integer); })},
-              {"range", ValueType::Number, "m", -1, kFar, "", "-1",
-               "of an emitter, and the most that the program may set; -1 is unlimited",
-               checked<D>([](D& d, const Value& v, const WorldDesc&) {
-                 if (v.number < 0 && v.number != -1)
-                   return fmt::format("got {} m, expected -1 (unlimited), or 0 and above", v.number);
-                 d.range_m = v.number;
-                 return std::string();
-               })},
-              {"baud_rate", ValueType::Number, "bit/s", -1, 1e9, "", "-1",
-               "of an emitter, 8 bits a byte; -1 is unlimited",
-               checked<D>([](D& d, const Value& v, const WorldDesc&) {
-                 if (v.number < 1 && v.number != -1)
-                   return fmt::format("got {} bit/s, expected -1 (unlimited), or 1 and above", v.number);
-                 d.baud_rate_bit_s = v.number;
-                 return std::string();
-               })},
-              {"infra_red", ValueType::Flag, "", 0, 0, "", "false",
-               "of an emitter: packets need a free line of sight",
-               into<D>([](D& d, const Value& v) { d.infra_red = v.flag; })},
-              {"width", ValueType::Integer, "", 1, 4096, "", "128", "of a display or camera, in pixels",
-               into<D>([](D& d, const Value& v) { d.width = static_cast<int>(v.integer); })},
-              {"height", ValueType::Integer, "", 1, 4096, "", "64", "likewise",
-               into<D>([](D& d, const Value& v) { d.height = static_cast<int>(v.integer); })},
-          }};
+  return {
+      "robot.device",
+      true,
+      "A device that this robot does not have in truth and that programs written for Webots' interfaces "
+      "find by its name. `emitter` and `receiver` of channel 1 are there without being written; writing "
+      "them changes them.",
+      {
+          {"name", ValueType::Text, "", 0, 0, "", "required", "by which programs ask for it",
+           checked<D>([](D& d, const Value& v, const WorldDesc&) {
+             if (v.text.empty() || v.text.size() > 31)
+               return fmt::format("got {} characters, expected 1 to 31", v.text.size());
+             d.name = v.text;
+             return std::string();
+           })},
+          {"kind", ValueType::Choice, "", 0, 0,
+           "gps|compass|inertial|gyro|emitter|receiver|distance|display|motor|camera|touch|light|led|speaker|"
+           "pen",
+           "required",
+           "gps, compass, inertial, gyro: the truth, without noise; distance: a virtual sensor, whose value "
+           "a "
+           "supervisor sets; display: a picture that the program draws; motor to pen: there for the program, "
+           "but they move, see, feel and show nothing",
+           into<D>([](D& d, const Value& v) {
+             for (const KindWord& k : kKindWords)
+               if (v.text == k.word) d.kind = k.kind;
+           })},
+          {"channel", ValueType::Integer, "", -1, 32767, "", "1",
+           "of an emitter or receiver when the program begins; -1 is all",
+           into<D>([](D& d, const Value& v) { d.channel = static_cast<int>(v.integer); })},
+          {"range", ValueType::Number, "m", -1, kFar, "", "-1",
+           "of an emitter, and the most that the program may set; -1 is unlimited",
+           checked<D>([](D& d, const Value& v, const WorldDesc&) {
+             if (v.number < 0 && v.number != -1)
+               return fmt::format("got {} m, expected -1 (unlimited), or 0 and above", v.number);
+             d.range_m = v.number;
+             return std::string();
+           })},
+          {"baud_rate", ValueType::Number, "bit/s", -1, 1e9, "", "-1",
+           "of an emitter, 8 bits a byte; -1 is unlimited",
+           checked<D>([](D& d, const Value& v, const WorldDesc&) {
+             if (v.number < 1 && v.number != -1)
+               return fmt::format("got {} bit/s, expected -1 (unlimited), or 1 and above", v.number);
+             d.baud_rate_bit_s = v.number;
+             return std::string();
+           })},
+          {"infra_red", ValueType::Flag, "", 0, 0, "", "false",
+           "of an emitter: packets need a free line of sight",
+           into<D>([](D& d, const Value& v) { d.infra_red = v.flag; })},
+          {"width", ValueType::Integer, "", 1, 4096, "", "128", "of a display or camera, in pixels",
+           into<D>([](D& d, const Value& v) { d.width = static_cast<int>(v.integer); })},
+          {"height", ValueType::Integer, "", 1, 4096, "", "64", "likewise",
+           into<D>([](D& d, const Value& v) { d.height = static_cast<int>(v.integer); })},
+      }};
 }
 
 }  // namespace sim

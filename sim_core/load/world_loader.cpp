@@ -422,8 +422,8 @@ class Reader {
       read_table(path, dt, &device);
       for (const DeviceDesc& other : devices) {
         if (other.name == device.name)
-          problem(dt.source(), fmt::format("{}.name: got \"{}\" a second time, expected each device once", path,
-                                           device.name));
+          problem(dt.source(), fmt::format("{}.name: got \"{}\" a second time, expected each device once",
+                                           path, device.name));
       }
       devices.push_back(std::move(device));
     });

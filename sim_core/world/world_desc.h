@@ -182,15 +182,15 @@ struct WheelSettings {
 
 struct RobotDesc {
   std::string name;
-  std::string def;       ///< second name, by which supervisors may look it up; may be empty
-  std::string model;     ///< empty: the only or first model the caller knows
-  std::string firmware;  ///< name or path as written; may be empty
-  std::string args;      ///< what a program of the PC gets, words as argument_words() has them
+  std::string def;          ///< second name, by which supervisors may look it up; may be empty
+  std::string model;        ///< empty: the only or first model the caller knows
+  std::string firmware;     ///< name or path as written; may be empty
+  std::string args;         ///< what a program of the PC gets, words as argument_words() has them
   bool supervisor = false;  ///< its program may do what supervisors may
   std::string custom_data;  ///< a text of the robot that programs may read and change
   std::vector<Colour> recognition_colours;  ///< what cameras that recognise tell of it; empty: nothing
-  int node = 0;  ///< line of its node in WebotsDesc::world; 0: none
-  OwnValues own;         ///< of the keys that its model lists
+  int node = 0;                             ///< line of its node in WebotsDesc::world; 0: none
+  OwnValues own;                            ///< of the keys that its model lists
   Pose2 pose;
   std::optional<std::uint64_t> seed;  ///< unset: made of the world's seed and the robot's index
   double battery_v = -1;              ///< V; negative: the model's
@@ -228,9 +228,9 @@ struct ObjectDesc {
   /// 0.03]
   double rolling_friction = 0.02;
   Material material;
-  std::string model;  ///< what cameras that recognise call it
+  std::string model;                        ///< what cameras that recognise call it
   std::vector<Colour> recognition_colours;  ///< ... and its colours; empty: they do not notice it
-  int node = 0;  ///< line of its node in WebotsDesc::world; 0: none
+  int node = 0;                             ///< line of its node in WebotsDesc::world; 0: none
   int line = 0;
 };
 
@@ -322,8 +322,8 @@ struct WebotsDesc {
   double speed_unit_rad_s = -1;  ///< rad/s per unit of differential_wheels_set_speed; negative: the usual one
   std::string sensor_order;      ///< how proximity and light sensors are numbered, a name the caller knows
   Axes axes = Axes::Enu;         ///< of positions and rotations that programs are told
-  std::string world;             ///< the .wbt file this world was made of, whose nodes supervisors find; or empty
-  double floor_m = 0;            ///< how high the floor lies in that file
+  std::string world;   ///< the .wbt file this world was made of, whose nodes supervisors find; or empty
+  double floor_m = 0;  ///< how high the floor lies in that file
 };
 
 /// Words between blanks; a word in "" or '' may hold blanks.
@@ -332,13 +332,13 @@ std::vector<std::string> argument_words(const std::string& args);
 /// A program attached to the world.
 struct SupervisorDesc {
   std::string name;
-  std::string program;  ///< name or path as written
-  std::string args;     ///< what its main() gets, words as argument_words() has them
-  std::string def;      ///< second name, by which supervisors may look it up; may be empty
+  std::string program;              ///< name or path as written
+  std::string args;                 ///< what its main() gets, words as argument_words() has them
+  std::string def;                  ///< second name, by which supervisors may look it up; may be empty
   std::string custom_data;          ///< a text that programs may read and change
   std::vector<DeviceDesc> devices;  ///< of its own
   int node = 0;                     ///< line of its node in WebotsDesc::world; 0: none
-  double period_s = 0;  ///< how often it runs when it does not say so itself; 0: every tick
+  double period_s = 0;              ///< how often it runs when it does not say so itself; 0: every tick
   int line = 0;
 };
 

@@ -174,6 +174,30 @@ Strange { translation 2 0 0 }
   EXPECT_TRUE(reports(made, 9, "Strange: not carried: a node that is not known here"));
 }
 
+// as people keep them who never had Webots' folders
+TEST(ImportRobots, programs_may_lie_beside_the_world) {
+  const fs::path top = fs::path(::testing::TempDir()) / ("twinpuck-beside-" + std::to_string(getpid()));
+  fs::create_directories(top / "controllers" / "one");
+  fs::create_directories(top / "two");
+  std::ofstream(top / "controllers" / "one" / "one.py") << "pass\n";
+  std::ofstream(top / "two" / "two.c") << "int main() { return 0; }\n";
+  std::ofstream(top / "three.py") << "pass\n";
+  const auto made = raw(kNew + R"(E-puck { controller "one" }
+E-puck { name "b" translation 0 1 0 controller "two" }
+E-puck { name "c" translation 0 -1 0 controller "three" }
+Robot { name "s" supervisor TRUE controller "three" }
+)",
+                        top.string());
+  fs::remove_all(top);
+  const auto world = world_of(made);
+  ASSERT_EQ(world.robots.size(), 3u);
+  EXPECT_EQ(world.robots[0].firmware, "controllers/one");
+  EXPECT_EQ(world.robots[1].firmware, "two");
+  EXPECT_EQ(world.robots[2].firmware, "three.py");
+  ASSERT_EQ(world.supervisors.size(), 1u);
+  EXPECT_EQ(world.supervisors[0].program, "three.py");
+}
+
 // braitenberg, obstacle and e-puck are names of ours too
 TEST(ImportRobots, a_program_of_ours_never_drives_in_silence) {
   const fs::path top = fs::path(::testing::TempDir()) / ("twinpuck-names-" + std::to_string(getpid()));
@@ -352,14 +376,15 @@ TEST(ImportRobots, what_stands_there_knows_its_node) {
   options.file = "w.wbt";
   options.folder = options.out_folder = top.string();
   options.model = board::epuck_model();
-  const auto made = wbt::import_world(kNew + R"(Solid { translation 0 0 0.1 boundingObject Box { size 2 2 0.2 } }
+  const auto made =
+      wbt::import_world(kNew + R"(Solid { translation 0 0 0.1 boundingObject Box { size 2 2 0.2 } }
 E-puck { translation 0 0 0.2 }
 Solid {
   translation 0.5 0 0.25 boundingObject Box { size 0.1 0.1 0.1 } recognitionColors [ 0 1 0 ] model "gate" }
 PointLight { location 0 0 2 }
 Robot { controller "x" supervisor TRUE }
 )",
-                                      options);
+                        options);
   fs::remove_all(top);
   const auto world = world_of(made);
   EXPECT_EQ(world.webots.world, "w.wbt");

@@ -46,7 +46,8 @@ TEST(WebotsKeys, every_key_arrives) {
 TEST(WebotsKeys, supervisors_have_devices_and_robots_may_supervise) {
   const auto loaded = parse(
       "[webots]\nworld = \"a.wbt\"\nfloor = 0.3\n"
-      "[[box]]\nposition = [1, 1]\nmodel = \"gate\"\nrecognition_colours = [[1, 0, 0], [0, 0.5, 1]]\nnode = 12\n"
+      "[[box]]\nposition = [1, 1]\nmodel = \"gate\"\nrecognition_colours = [[1, 0, 0], [0, 0.5, 1]]\nnode = "
+      "12\n"
       "[[lamp]]\nposition = [0, 0, 1]\nnode = 3\n"
       "[[robot]]\nposition = [0, 0]\nargs = \"fast 'two words'\"\nsupervisor = true\ncustom_data = \"me\"\n"
       "recognition_colours = [[0, 1, 0]]\nnode = 9\n"
@@ -123,6 +124,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "supervisor.device.name: got \"a\" a second time"},
         Mistake{"[[box]]\nposition = [0, 0]\nrecognition_colours = [1, 0, 0]\n",
                 "box.recognition_colours: got [1, 0, 0], expected list of colours"},
-        Mistake{"[[box]]\nposition = [0, 0]\nrecognition_colours = [[1, 0, 2]]\n", "box.recognition_colours"}));
+        Mistake{"[[box]]\nposition = [0, 0]\nrecognition_colours = [[1, 0, 2]]\n",
+                "box.recognition_colours"}));
 
 }  // namespace

@@ -93,7 +93,8 @@ typedef enum {
   WB_NODE_WORLD_INFO,
   WB_NODE_ZOOM,
   WB_NODE_MICROPHONE,
-  WB_NODE_RADIO
+  WB_NODE_RADIO,
+  WB_NODE_SUPERVISOR /* until R2018; such nodes of old worlds */
 } WbNodeType;
 
 /* the wheels' robot node of versions up to R2018 */
