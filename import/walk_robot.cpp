@@ -75,11 +75,18 @@ bool is_own(const Node& d) {
   const std::string name = d.text("name");
   if (d.type == "Camera") return name.empty() || name == "camera";
   if (d.type == "RotationalMotor" || d.type == "Motor")
-    return name.find("wheel") != std::string::npos || name.find("motor") != std::string::npos;
+    return name.find("wheel") != std::string::npos || name.rfind("left", 0) == 0 ||
+           name.rfind("right", 0) == 0;
   if (d.type == "LED") return name.rfind("led", 0) == 0;
   if (d.type == "Speaker") return name.empty() || name == "speaker";
   if (d.type == "Microphone") return name.rfind("mic", 0) == 0;
   return false;
+}
+
+// both names have been in use
+bool is_floor_sensor(const std::string& name) {
+  return name.size() >= 3 && (name.compare(0, 2, "gs") == 0 || name.compare(0, 2, "fs") == 0) &&
+         name[2] >= '0' && name[2] <= '9';
 }
 
 bool between(double x, double low, double high) { return x >= low && x <= high; }
@@ -410,7 +417,7 @@ void Walk::slot(const Node& n, const char* field, FoundRobot& out) {
 void Walk::device(const Node& n, FoundRobot& out, int depth) {
   if (depth > kDeepestNode || !afford(n)) return;
   if (n.type.find("GroundSensors") != std::string::npos ||
-      (n.type == "DistanceSensor" && n.text("name").rfind("gs", 0) == 0)) {
+      (n.type == "DistanceSensor" && is_floor_sensor(n.text("name")))) {
     if (std::find(out.parts.begin(), out.parts.end(), "ground-sensors") == out.parts.end())
       out.parts.push_back("ground-sensors");
     return;

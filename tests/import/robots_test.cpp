@@ -258,9 +258,13 @@ TEST(ImportRobots, every_slot_is_looked_into) {
   children [ Compass { } ]
 }
 E-puck { name "b" translation 1 0 0 groundSensorsSlot [ Emitter { name "e" } ] }
+E-puck { name "c" translation 0 1 0 turretSlot [ DistanceSensor { name "fs0" } RotationalMotor { name "grip motor" } ] }
 )");
   const auto world = world_of(made);
-  ASSERT_EQ(world.robots.size(), 2u);
+  ASSERT_EQ(world.robots.size(), 3u);
+  EXPECT_EQ(world.robots[2].parts.size(), 1u) << "floor sensors by their old name";
+  ASSERT_EQ(world.robots[2].devices.size(), 1u);
+  EXPECT_EQ(world.robots[2].devices[0].kind, sim::DeviceKind::Motor);
   ASSERT_EQ(world.robots[0].parts.size(), 1u);
   EXPECT_EQ(world.robots[0].parts[0].kind, "ground-sensors");
   ASSERT_EQ(world.robots[0].devices.size(), 3u);
