@@ -64,6 +64,8 @@ std::unique_ptr<Team> Team::open(twin::Twin& twin, const twin::Options& options,
 }
 
 void Team::make_nodes() {
+  // after a reset programs go on with the numbers of nodes and fields that they have
+  if (nodes_) return nodes_->begin_again();
   nodes_ = std::make_unique<Nodes>(static_cast<SupervisorHost&>(*this));
   for (const auto& member : members_)
     if (member->supervisor >= 0) nodes_->attach(number_of(*member), member->supervisor);

@@ -20,6 +20,12 @@ const std::string kSolid =
     kPlaced +
     "|name S solid|model S|description S|contactMaterial S default|immersionProperties N*|"
     "boundingObject N|physics N|locked B 0|radarCrossSection F 0|recognitionColors C*";
+/// A device, by its usual name.
+std::string named(const std::string& name) {
+  const std::string usual = "name S solid";
+  std::string fields = kSolid;
+  return fields.replace(fields.find(usual), usual.size(), "name S " + name);
+}
 const std::string kRobot =
     kSolid +
     "|controller S <generic>|controllerArgs S*|customData S|supervisor B 0|synchronization B 1|"
@@ -121,34 +127,38 @@ const std::vector<KindRow>& kinds() {
        "0"},
       {"PositionSensor", "PositionSensor", "name S position sensor|noise F 0|resolution F -1"},
       {"Emitter", "Emitter",
-       kSolid + "|type S radio|range F -1|maxRange F -1|aperture F -1|channel I 0|baudRate I -1|byteSize I "
-                "8|bufferSize I "
-                "-1|allowedChannels I*"},
+       named("emitter") +
+           "|type S radio|range F -1|maxRange F -1|aperture F -1|channel I 0|baudRate I -1|byteSize I "
+           "8|bufferSize I "
+           "-1|allowedChannels I*"},
       {"Receiver", "Receiver",
-       kSolid + "|type S radio|aperture F -1|channel I 0|baudRate I -1|byteSize I 8|bufferSize I "
-                "-1|signalStrengthNoise F "
-                "0|directionNoise F 0|allowedChannels I*"},
-      {"Display", "Display", kSolid + "|width I 64|height I 64|windowPosition 2 0 0|pixelSize F 1"},
+       named("receiver") + "|type S radio|aperture F -1|channel I 0|baudRate I -1|byteSize I 8|bufferSize I "
+                           "-1|signalStrengthNoise F "
+                           "0|directionNoise F 0|allowedChannels I*"},
+      {"Display", "Display", named("display") + "|width I 64|height I 64|windowPosition 2 0 0|pixelSize F 1"},
       {"Camera", "Camera",
-       kSolid + "|fieldOfView F 0.7854|width I 64|height I 64|near F 0.01|far F 0|recognition N"},
+       named("camera") + "|fieldOfView F 0.7854|width I 64|height I 64|near F 0.01|far F 0|recognition N"},
       {"Recognition", "Recognition",
        "maxRange F 100|maxObjects I -1|occlusion I 1|frameColor C 1 0 0|frameThickness I 1"},
       {"DistanceSensor", "DistanceSensor",
-       kSolid + "|lookupTable V*|type S generic|numberOfRays I 1|aperture F 1.5708|gaussianWidth F "
-                "1|resolution F -1"},
+       named("distance sensor") +
+           "|lookupTable V*|type S generic|numberOfRays I 1|aperture F 1.5708|gaussianWidth F "
+           "1|resolution F -1"},
       {"LightSensor", "LightSensor",
-       kSolid + "|lookupTable V*|colorFilter C 1 1 1|occlusion B 0|resolution F -1"},
-      {"GPS", "GPS", kSolid + "|type S satellite|accuracy F 0|noiseCorrelation F 0|resolution F -1"},
-      {"Compass", "Compass", kSolid + "|lookupTable V*|xAxis B 1|yAxis B 1|zAxis B 1|resolution F -1"},
-      {"Gyro", "Gyro", kSolid + "|lookupTable V*|xAxis B 1|yAxis B 1|zAxis B 1|resolution F -1"},
+       named("light sensor") + "|lookupTable V*|colorFilter C 1 1 1|occlusion B 0|resolution F -1"},
+      {"GPS", "GPS", named("gps") + "|type S satellite|accuracy F 0|noiseCorrelation F 0|resolution F -1"},
+      {"Compass", "Compass",
+       named("compass") + "|lookupTable V*|xAxis B 1|yAxis B 1|zAxis B 1|resolution F -1"},
+      {"Gyro", "Gyro", named("gyro") + "|lookupTable V*|xAxis B 1|yAxis B 1|zAxis B 1|resolution F -1"},
       {"Accelerometer", "Accelerometer",
-       kSolid + "|lookupTable V*|xAxis B 1|yAxis B 1|zAxis B 1|resolution F -1"},
-      {"InertialUnit", "InertialUnit", kSolid + "|lookupTable V*|xAxis B 1|yAxis B 1|zAxis B 1|noise F 0"},
-      {"TouchSensor", "TouchSensor", kSolid + "|type S bumper|lookupTable V*"},
-      {"LED", "LED", kSolid + "|color C*|gradual B 0"},
+       named("accelerometer") + "|lookupTable V*|xAxis B 1|yAxis B 1|zAxis B 1|resolution F -1"},
+      {"InertialUnit", "InertialUnit",
+       named("inertial unit") + "|lookupTable V*|xAxis B 1|yAxis B 1|zAxis B 1|noise F 0"},
+      {"TouchSensor", "TouchSensor", named("touch sensor") + "|type S bumper|lookupTable V*"},
+      {"LED", "LED", named("led") + "|color C*|gradual B 0"},
       {"Pen", "Pen",
-       kSolid + "|inkColor C 0 0 0|inkDensity F 0.5|leadSize F 0.002|maxDistance F 0|write B 1"},
-      {"Speaker", "Speaker", kSolid},
+       named("pen") + "|inkColor C 0 0 0|inkDensity F 0.5|leadSize F 0.002|maxDistance F 0|write B 1"},
+      {"Speaker", "Speaker", named("speaker")},
       {"RectangleArena", "Solid", kArena},
       {"CircleArena", "Solid",
        kPlaced + "|name S circle arena|radius F 1|subdivision I 48|floorAppearance N|wallThickness F "

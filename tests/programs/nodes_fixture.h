@@ -43,6 +43,7 @@ struct FakeHost final : programs::SupervisorHost {
     said.push_back("custom " + std::to_string(robot) + " " + text);
   }
   void note_moved(int robot) override { said.push_back("moved " + std::to_string(robot)); }
+  std::string device_name(int, int tag) override { return tag == 1 ? "emitter" : ""; }
   bool has(const std::string& part) const {
     for (const std::string& s : said)
       if (s.find(part) != std::string::npos) return true;
@@ -78,7 +79,6 @@ class NodesTest : public ::testing::Test {
     wbt::Options options;
     options.file = "w.wbt";
     options.folder = options.out_folder = folder_.string();
-    options.without_firmware = true;
     options.model = board::epuck_model();
     const wbt::Imported made = wbt::import_world(wbt, options);
     ASSERT_TRUE(made.errors.empty()) << made.errors.front().text;

@@ -40,6 +40,11 @@ DEF BOSS Robot { name "boss" controller "<extern>" supervisor TRUE children [ Em
   expect(position(def("POS")), {0.2, -0.3, 0}, 1e-3);
   EXPECT_NEAR(simulation().pose(0).heading_rad, 1, 1e-4) << "where it looks stays";
   EXPECT_EQ(get(inner(def("BOSS"), "children"), "channel").numbers.at(0), 5);
+  EXPECT_EQ(get(inner(def("BOSS"), "children"), "name").texts.at(0), "emitter") << "its usual name";
+  nodes_->attach(3, 0);
+  const Reply device = ask(LINK_FIND_NODE, {{4, 1}, {}, ""}, 3, -1);
+  ASSERT_EQ(device.number, LINK_NODE) << device.texts.at(0);
+  EXPECT_EQ(device.texts.at(1), "Emitter");
   EXPECT_EQ(ask(LINK_FIND_NODE, {{2, 0}, {}, "BALL"}).texts.at(1), "Solid");
   // root: WorldInfo, Viewpoint, arena, mark, group, ball, robot, supervisor
   EXPECT_EQ(ask(LINK_FIND_FIELD, {{root(), -1}, {}, "children"}).ints[2], 8);
