@@ -71,6 +71,7 @@ int run(const RunArguments& arguments) {
   options.threads = arguments.threads;
   options.optimisation = arguments.optimisation;
   options.way = arguments.way;
+  options.externs = arguments.externs;
   options.sanitize = arguments.sanitize;
   options.coverage = !arguments.outputs.coverage.empty();
   options.files_folder = arguments.files;

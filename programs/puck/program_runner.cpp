@@ -66,16 +66,29 @@ void ProgramRunner::fail(host::TrapReport report) {
   end();
 }
 
-void ProgramRunner::restart() {
+void ProgramRunner::begin_anew() {
   board_.processor_reset(end_);
-  puck_.reset();  // its drivers let go of the pins first
-  puck_ = std::make_unique<Puck>(board_, end_);
   began_ = board_.clock().click_at(end_);
-  time_ms_ = step_ms_ = 0;
+  time_ms_ = 0;
   is_due_ = has_failed_ = false;
   link_clear(&samples_);
   ++turns_;
+}
+
+void ProgramRunner::restart() {
+  begin_anew();
+  puck_.reset();  // its drivers let go of the pins first
+  puck_ = std::make_unique<Puck>(board_, end_);
+  step_ms_ = 0;
   ++seat_->began;
+}
+
+void ProgramRunner::reset_under_program() {
+  begin_anew();
+  const auto kept = puck_->keep();
+  puck_.reset();  // its drivers let go of the pins first
+  puck_ = std::make_unique<Puck>(board_, end_);
+  puck_->adopt(*kept, end_);
 }
 
 const host::Variable* ProgramRunner::find_variable(const std::string& expression, std::string& error) const {

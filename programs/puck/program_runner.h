@@ -47,6 +47,9 @@ class ProgramRunner final : public host::Runner {
   std::int64_t time_ms() const { return time_ms_; }
   /// The next step, of 1 ms or more.
   void begin_step(std::int64_t milliseconds);
+  /// The robot is put back to its beginning, and the program goes on: its time begins anew, a step that it has begun is
+  /// as long as it said.
+  void reset_under_program();
   /// A command was carried out: courses and the hash are other ones.
   void note_command() { ++turns_; }
   /// The program is over: its robot goes on as it was told last, or stops for good after a fault.
@@ -90,6 +93,7 @@ class ProgramRunner final : public host::Runner {
 
  private:
   Cycle step_end() const;
+  void begin_anew();
 
   std::shared_ptr<Seat> seat_;
   board::Board& board_;

@@ -328,6 +328,7 @@ std::string Puck::play(std::int64_t, const std::string& sound, bool again, Cycle
     drivers_.sound().start(at);
   }
   sound_ = static_cast<int>(found - std::begin(kSounds));
+  sound_name_ = sound;
   again_ = again;
   drivers_.sound().play(found->offset, found->samples, at);
   sound_until_ = drivers_.sound().next_group(at) + found->samples * drivers::kCodecGroupCycles / drivers::kCodecGroup;
@@ -373,7 +374,7 @@ void Puck::take(const Device& device, std::size_t number, Cycle at, link_packet&
     case Kind::Gps: {
       const board::TrueState state = board::true_state(board_, at);
       const sim::Vec3 &p = state.position_m, &v = state.velocity_m_s;
-      return put(to, tag, {p.x, p.y, p.z, v.x, v.y, v.z});
+      return put(to, tag, {p.x, p.y, p.z, v.x, v.y, v.z, state.attitude_rad.z});
     }
     case Kind::Compass:
       return put3(board::true_state(board_, at).north);
@@ -517,14 +518,14 @@ void Puck::take_packets(const Device& device, std::int64_t tag, link_packet& to)
 }
 
 void Puck::tell_playing(Cycle at, link_packet& to) {
-  const bool plays = sound_ >= 0 && at < sound_until_;
-  if (plays == told_playing_) return;
-  told_playing_ = plays;
+  const int plays = at < sound_until_ ? sound_ : -1;
+  if (plays == told_sound_) return;
+  told_sound_ = plays;
   for (std::size_t i = 0; i < devices_.size(); ++i)
     if (devices_[i].kind == Kind::Speaker) {
       link_begin(&to, LINK_PLAYING);
       link_int(&to, static_cast<std::int64_t>(i) + 1);
-      link_text(&to, plays ? kSounds[sound_].name : "");
+      link_text(&to, plays >= 0 ? sound_name_.c_str() : "");
       link_end(&to);
     }
 }
@@ -549,6 +550,22 @@ void Puck::run(Cycle at) {
           drivers_.sound().next_group(next) + sound.samples * drivers::kCodecGroupCycles / drivers::kCodecGroup;
     }
   }
+}
+
+struct Puck::Kept {
+  std::vector<Device> devices;
+  std::int64_t recognition_period_ms;
+};
+
+std::shared_ptr<const Puck::Kept> Puck::keep() const {
+  return std::make_shared<Kept>(Kept{devices_, recognition_period_ms_});
+}
+
+void Puck::adopt(const Kept& kept, Cycle at) {
+  devices_ = kept.devices;
+  for (Device& device : devices_)
+    if (device.period_ms > 0) enable(device, device.period_ms, at);
+  recognition_period_ms_ = kept.recognition_period_ms;
 }
 
 void Puck::stop(Cycle at) {

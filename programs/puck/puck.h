@@ -50,6 +50,10 @@ class Puck {
   Cycle next_event() const;
   /// What is due up to `at` is done.
   void run(Cycle at);
+  struct Kept;
+  /// What a program that goes on after a reset relies on: its devices, with their tags and periods.
+  std::shared_ptr<const Kept> keep() const;
+  void adopt(const Kept& kept, Cycle at);
   /// Motors and lights stop; nothing is sampled.
   void stop(Cycle at);
   /// Of what was commanded and sampled.
@@ -122,8 +126,9 @@ class Puck {
 
   // the loudspeaker
   int sound_ = -1;  // number of the stored sound that plays
+  std::string sound_name_;  // as the program calls it
   bool again_ = false, speaks_ = false;
-  bool told_playing_ = false;
+  int told_sound_ = -1;  // what the program believes to play
 
   std::int64_t recognition_period_ms_ = 0, recognition_elapsed_ms_ = 0;
   Cycle sound_until_ = 0;

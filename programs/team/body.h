@@ -83,6 +83,12 @@ class BodilessBody final : public Body, public sim::PacketPort {
   std::int64_t take_samples(link_packet& to) override;
   std::int64_t time_ms() const override { return time_ms_; }
   void restart() override;
+  /// The world begins again and the program goes on: its time begins anew.
+  void begin_again(sim::Clicks now) {
+    began_ = now;
+    time_ms_ = 0;
+    for (Device& device : devices_) device.queue.clear();
+  }
   /// World time at which the program begins.
   void begin(sim::Clicks now) { began_ = now; }
 

@@ -13,16 +13,24 @@ void Team::end_run(int status, const std::string& why) {
   if (!outcome_.ended) outcome_ = {true, false, status == 0 ? 0 : 1, why};
 }
 
-void Team::reset(bool reload) { (reload ? wants_reload_ : wants_reset_) = true; }
+void Team::reset(bool reload) {
+  (reload ? wants_reload_ : wants_reset_) = true;
+  resetter_ = in_turn_;
+}
 
 void Team::restart_program(int robot) { wants_restart_.insert(robot); }
 
-/// Everything back to its beginning; programs of robots begin anew, with a reload all.
+/// Everything back to its beginning. Programs of robots begin anew, but for the one that asked for it, as in Webots;
+/// with a reload all do.
 void Team::carry_out_resets() {
   sim::Simulation& simulation = twin_.simulation();
   const bool resets = wants_reset_ || wants_reload_;
   for (int r = 0; r < twin_.robots(); ++r) {
     if (!resets && wants_restart_.count(r) == 0) continue;
+    if (wants_reset_ && !wants_reload_ && resetter_ && resetter_->robot == r && resetter_->partner) {
+      resetter_->of_robot->runner()->reset_under_program();
+      continue;
+    }
     if (host::Runner* runner = twin_.mind(r).runner()) runner->restart();
   }
   if (resets) {
@@ -40,9 +48,14 @@ void Team::carry_out_resets() {
       if (member->robot >= 0) member->custom = at_first_.robots[static_cast<std::size_t>(member->robot)].custom_data;
     make_nodes();
   }
-  if (wants_reload_)
-    for (const auto& member : members_)
-      if (member->bodiless) member->starts_anew = true;
+  for (const auto& member : members_) {
+    if (!resets || !member->bodiless) continue;
+    if (wants_reload_)
+      member->starts_anew = true;
+    else
+      member->bodiless->begin_again(simulation.now());
+  }
+  resetter_ = nullptr;
   for (const int r : wants_restart_) simulation.note_intervention(static_cast<std::uint64_t>(r));
   wants_reset_ = wants_reload_ = false;
   wants_restart_.clear();

@@ -108,7 +108,9 @@ void Team::take_turns() {
       if (member->has_said_hello) hand_over_samples(*member);
     for (Member* member : due) {
       if (outcome_.ended) return;  // the others have their last go in finish()
+      in_turn_ = member;
       if (member->partner) turn(*member);
+      in_turn_ = nullptr;
       if (member->robot >= 0) twin_.mind(member->robot).wake();
     }
     if (!wants_reset_ && !wants_reload_ && wants_restart_.empty()) break;

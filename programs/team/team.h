@@ -137,6 +137,8 @@ class Team final : public sim::Attendant, private SupervisorHost {
   link_packet packet_{};
   bool began_ = false, finished_ = false;
   bool wants_reset_ = false, wants_reload_ = false;
+  Member* in_turn_ = nullptr;   // whose turn it is
+  Member* resetter_ = nullptr;  // who asked for the reset, and goes on
   std::set<int> wants_restart_;
   std::map<std::pair<int, int>, sim::PictureLabel> labels_;
   std::set<int> moved_;
