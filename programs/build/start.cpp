@@ -189,6 +189,7 @@ class Starter {
       launch_.environment.push_back(setting);
     // what Python compiles is kept, and the controller's folder stays as it is
     std::error_code none;
+    launch_.environment.push_back("PYTHONDONTWRITEBYTECODE=");
     launch_.environment.push_back("PYTHONPYCACHEPREFIX=" + (fs::absolute(cache_, none) / "python").string());
     return true;
   }
