@@ -70,7 +70,8 @@ class Settler {
     if (!is_furniture_) find_floor();
     if (!is_furniture_ && !options_.folder.empty()) {
       w.webots.world = relative_name((fs::path(options_.folder) / options_.file).string(), options_);
-      if (printable(w.webots.world, 10000) != w.webots.world) w.webots.world.clear();
+      if (printable(w.webots.world, 10000) != w.webots.world || std::abs(floor_z_) > kFarthestM)
+        w.webots.world.clear();
       w.webots.floor_m = as_written(floor_z_);
     }
     for (const FoundArena& a : scene_.arenas) arena(a);
