@@ -143,7 +143,8 @@ struct Broken {
 };
 
 const char* const kUnknownBoxKeys =
-    " (keys: size, name, def, position, z, heading, movable, mass, friction, material, colour, restitution)";
+    " (keys: size, name, def, position, z, heading, movable, mass, friction, material, colour, restitution, "
+    "model, recognition_colours, node)";
 
 TEST(Loader, every_kind_of_mistake_has_its_sentence) {
   const Broken cases[] = {
