@@ -72,9 +72,7 @@ void check_main(const std::vector<CompileOutcome>& outcomes, const Plan& p, std:
   for (std::size_t i = 0; o.chip_way && i < p.assembler.size(); ++i)
     look(outcomes[p.user.size() + i], p.assembler[i], false);
   if (starts_itself && with_main.empty()) return;
-  if (with_main.empty())
-    result.errors.push_back(o.source_dir.string() +
-                            ": main(): got no definition, expected one; is this a controller's folder?");
+  if (with_main.empty()) result.errors.push_back(no_program(o.source_dir));
   if (with_main.size() > 1) {
     std::string list;
     for (const auto& f : with_main) list += (list.empty() ? "" : ", ") + f;
@@ -356,15 +354,13 @@ static BuildResult build_here(const BuildOptions& asked) {
     for (const fs::path& source : copies.replaced)
       if (!program.unlisted.count(source)) program.library_places.push_back(library_place(source));
   Plan p = plan(o, copies, program, false);
-  if (p.has_cxx && o.chip_way) {
-    for (const CompileJob& job : p.user)
-      if (is_cxx(job.source))
-        result.errors.push_back(
-            job.source.string() +
-            ": program: got C++, expected C; programs of the chip are in C, as XC16 has it");
+  if (p.is_webots && !o.chip_way) {
+    result.errors.push_back(o.source_dir.string() +
+                            ": program: got one for Webots' interfaces, expected one for the e-puck's "
+                            "library; the first runs on the PC as it is, or on the robot: --way chip");
     return finish();
   }
-  const bool has_settings = p.is_webots && o.chip_way && !o.webots_settings.empty();
+  const bool has_settings = p.is_webots && !o.webots_settings.empty();
   if (has_settings) {
     const fs::path settings = o.cache_dir / ("webots-" + content_hash(o.webots_settings) + ".c");
     if (!fs::exists(settings, ec) && !write_text(settings, o.webots_settings)) {
@@ -384,7 +380,7 @@ static BuildResult build_here(const BuildOptions& asked) {
   else
     all.push_back(p.runtime);
   auto outcomes = compile_all(all, compiler_path(), o.cache_dir, o.jobs);
-  const Library library = provide_library(o, p.is_webots, p.has_cxx);
+  const Library library = provide_library(o, p.is_webots);
   result.compiled += library.compiled;
   result.reused += library.reused;
   if (o.chip_way) read_shared_variables_in_place(all, outcomes, own, p.user.size(), library, o, result);
@@ -482,11 +478,10 @@ static void lint_shared_variables(BuildOptions o, const LibraryCopies& copies, c
   o.chip_way = o.register_way = true;
   o.strict = o.sanitize = o.coverage = false;
   const Plan p = plan(o, copies, program, false);
-  if (p.is_webots) return;
   std::vector<FileFacts> files;
   for (const CompileOutcome& made : compile_all(p.user, compiler_path(), o.cache_dir, o.jobs))
     files.push_back({made.facts, true, true});
-  for (const std::string& facts : provide_library(o, false, false).facts)
+  for (const std::string& facts : provide_library(o, p.is_webots).facts)
     files.push_back({facts, false, false});
   for (const SharedRead& read : shared_variables(files).reads) {
     const auto is_told = [&](const std::string& warning) {
@@ -506,7 +501,7 @@ static BuildResult lint_here(const BuildOptions& options) {
   BuildOptions o = options;
   o.strict = true;
   std::error_code ec;
-  auto sources = o.sources.empty() ? sources_below(o.source_dir) : o.sources;
+  auto sources = o.sources.empty() ? files_below(o.source_dir, ".c") : o.sources;
   if (sources.empty()) {
     result.errors.push_back(no_program(o.source_dir));
     return result;
@@ -521,14 +516,13 @@ static BuildResult lint_here(const BuildOptions& options) {
   for_chip.register_way = for_chip.chip_way = true;
   const Plan on_chip = plan(for_chip, copies, program, true), on_pc = plan(o, copies, program, true);
   for (const Plan* p : {&on_chip, &on_pc}) {
-    if (p == &on_chip && p->is_webots) continue;
+    if (p == &on_pc && p->is_webots) continue;
     BuildResult found;
     for (const auto& outcome : compile_all(p->user, compiler_path(), o.cache_dir, o.jobs))
       sort_messages(outcome.messages, found, !outcome.ok);
-    if (p == &on_chip || p->is_webots)
-      result.errors.insert(result.errors.end(), found.errors.begin(), found.errors.end());
+    if (p == &on_chip) result.errors.insert(result.errors.end(), found.errors.begin(), found.errors.end());
     for (const std::string& warning : found.warnings)
-      if ((p == &on_chip || p->is_webots || warning.find("[-W") == std::string::npos) &&
+      if ((p == &on_chip || warning.find("[-W") == std::string::npos) &&
           std::find(result.warnings.begin(), result.warnings.end(), warning) == result.warnings.end())
         result.warnings.push_back(warning);
   }

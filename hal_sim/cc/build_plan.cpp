@@ -27,8 +27,7 @@ bool takes_register_addresses(const std::vector<fs::path>& sources, const std::v
 /// Sources of a program for Webots, which compiles the file with the controller's name alone: not those that
 /// another one includes as text, and not further programs that lie beside it.
 std::vector<fs::path> webots_sources(const fs::path& folder, const std::vector<fs::path>& sources) {
-  static const sim::Pattern kInclude(R"(#\s*include\s*"([^"]+\.(?:c|cpp|cc|cxx))\")"),
-      kMain(R"(\bmain\s*\()");
+  static const sim::Pattern kInclude(R"(#\s*include\s*"([^"]+\.c)\")"), kMain(R"(\bmain\s*\()");
   const std::string own = fs::weakly_canonical(folder).filename().string();
   std::set<fs::path> left_out;
   bool has_own_main = false;
@@ -101,7 +100,7 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& pro
   for (const auto& d : program.include_dirs) user_include.push_back("-I" + d.string());
   user_include.push_back("-I" + (cc_dir / "libc/include").string());
   user_include.push_back(kVendorHeaders);
-  auto headers = headers_below(o.source_dir);
+  auto headers = files_below(o.source_dir, ".h");
   std::vector<fs::path> own = {o.source_dir};
   for (const auto& h : headers)
     if (std::find(own.begin(), own.end(), h.parent_path()) == own.end()) own.push_back(h.parent_path());
@@ -143,10 +142,8 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& pro
   flags.insert(flags.end(), user_include.begin(), user_include.end());
   const std::string salt = names_of_headers({o.source_dir, contract});
   for (const auto& s :
-       p.is_webots && !program.is_exact ? webots_sources(o.source_dir, copies.kept) : copies.kept) {
-    p.has_cxx = p.has_cxx || is_cxx(s);
-    p.user.push_back({s, is_cxx(s) ? cxx_flags(flags) : flags, salt, contract.string(), o.chip_way});
-  }
+       p.is_webots && !program.is_exact ? webots_sources(o.source_dir, copies.kept) : copies.kept)
+    p.user.push_back({s, flags, salt, contract.string(), o.chip_way});
 
   if (o.chip_way)
     for (const auto& s : program.assembler)
@@ -165,7 +162,6 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& pro
                 "-DTP_IMAGE_NAME=\"" + name + "\"", "-DTP_IMAGE_FLAGS=\"" + image_flags + "\""},
                ""};
   if (o.coverage) p.runtime.flags.push_back("-DTP_COVERAGE");
-  if (p.is_webots) p.runtime.flags.push_back("-DTP_WEBOTS");
   return p;
 }
 

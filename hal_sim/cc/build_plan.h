@@ -16,7 +16,6 @@ struct Plan {
   std::vector<CompileJob> user, assembler;
   std::set<std::filesystem::path> assembler_members;
   bool is_webots = false;  // a program for Webots' interfaces, with the library behind them
-  bool has_cxx = false;
   CompileJob runtime;
 };
 

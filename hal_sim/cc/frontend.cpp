@@ -12,7 +12,6 @@
 #include "clang/AST/ASTContext.h"
 #include "clang/AST/Attr.h"
 #include "clang/AST/Decl.h"
-#include "clang/AST/DeclCXX.h"
 #include "clang/AST/Expr.h"
 #include "clang/AST/Stmt.h"
 #include "clang/Basic/TargetInfo.h"
@@ -106,7 +105,6 @@ class FactConsumer : public ASTConsumer {
   FactConsumer(Facts& facts, const Options& options)
       : facts_(facts),
         for_chip_(options.chip),
-        cxx_(options.cxx),
         checks_(options.chip && !options.library && !options.weak),
         strict_(options.lint) {}
   void Initialize(ASTContext& context) override {
@@ -124,14 +122,12 @@ class FactConsumer : public ASTConsumer {
     if (context_->getDiagnostics().hasErrorOccurred()) return true;
     for (Decl* decl : group) {
       note(decl);
-      if (!cxx_) {
-        compute_in_field_widths(decl, *context_);
-        clear_unions(decl, *context_);
-      }
+      compute_in_field_widths(decl, *context_);
+      clear_unions(decl, *context_);
       if (for_chip_)
         note_accumulators(decl, *context_);
-      else
-        narrow_within(decl);
+      else if (auto* function = dyn_cast<FunctionDecl>(decl))
+        if (function->doesThisDeclarationHaveABody()) narrow_differences(function->getBody());
     }
     if (for_chip_) place_variables(*context_);
     return true;
@@ -140,7 +136,6 @@ class FactConsumer : public ASTConsumer {
     if (checks_ && !context.getDiagnostics().hasErrorOccurred()) check_program(context, strict_);
   }
   void HandleTopLevelDeclInObjCContainer(DeclGroupRef) override {}
-  void HandleInlineFunctionDefinition(FunctionDecl* function) override { narrow_within(function); }
 
  private:
   void note(Decl* decl) {
@@ -163,18 +158,6 @@ class FactConsumer : public ASTConsumer {
     var->addAttr(AsmLabelAttr::CreateImplicit(*context_, section->getName(), /*IsLiteralLabel*/ true));
     var->dropAttr<SectionAttr>();
     var->setStorageClass(SC_Extern);
-  }
-  /// Functions of C++ stand in name spaces and classes as well. Templates come when they are made.
-  void narrow_within(Decl* decl) {
-    if (auto* function = dyn_cast<FunctionDecl>(decl)) {
-      if (!function->doesThisDeclarationHaveABody() || function->isDependentContext()) return;
-      if (!narrowed_.insert(function).second) return;
-      if (auto* constructor = dyn_cast<CXXConstructorDecl>(function))
-        for (CXXCtorInitializer* member : constructor->inits()) narrow_differences(member->getInit());
-      narrow_differences(function->getBody());
-    } else if (isa<NamespaceDecl>(decl) || isa<LinkageSpecDecl>(decl) || isa<CXXRecordDecl>(decl)) {
-      for (Decl* inner : cast<DeclContext>(decl)->decls()) narrow_within(inner);
-    }
   }
   /// The code generator makes p - q and sizeof(int[n]) as wide as the PC's pointers, whatever ptrdiff_t is.
   /// Say so in the tree, and narrow the result to the robot's int.
@@ -200,10 +183,8 @@ class FactConsumer : public ASTConsumer {
 
   Facts& facts_;
   const bool for_chip_;         // whose pointers are as wide as its int
-  const bool cxx_;              // where a bit-field is as wide as its type
   const bool checks_, strict_;  // program_checks.h
   ASTContext* context_ = nullptr;
-  std::set<const FunctionDecl*> narrowed_;
 };
 
 /// Inside __attribute__((...)) some names mean something else to x86 or need a special signature there.
@@ -336,7 +317,7 @@ class RobotAction : public EmitLLVMOnlyAction {
     pp.AddPragmaHandler(new ConfigPragma(facts_));
     filter_ = std::make_shared<AttributeFilter>(pp, options_.chip);
     pp.setTokenWatcher([f = filter_](const Token& token) { (*f)(token); });
-    if (options_.chip && !options_.cxx && !options_.library)
+    if (options_.chip && !options_.library)
       ci.setExternalSemaSource(implicit_functions(options_.strict || options_.lint));
     return EmitLLVMOnlyAction::BeginSourceFileAction(ci);
   }
@@ -370,7 +351,7 @@ std::vector<std::string> clang_arguments(const Options& o, const std::string& st
   std::vector<std::string> a = {"/usr/lib/llvm-14/bin/clang",
                                 "-c",
                                 "-x",  // whatever the name says: MAIN.C would be C++
-                                o.cxx ? "c++" : "c",
+                                "c",
                                 o.input,
                                 "-o",
                                 o.output,
@@ -413,13 +394,7 @@ std::vector<std::string> clang_arguments(const Options& o, const std::string& st
   for (const char* word : o.chip ? kForChip : kForPc) a.push_back(word);
   if (o.chip) a.push_back("-funroll-loops");  // what the optimiser may, not what it does (chip_emit.cpp)
   if (o.chip && o.level == 0) a.insert(a.end(), {"-Xclang", "-disable-O0-optnone"});
-  if (o.cxx)
-    for (const char* word : {"-fno-exceptions", "-fno-threadsafe-statics", "-fno-use-cxa-atexit",
-                             "-fnew-alignment=8",  // of our heap, libc/webots/malloc.c
-                             "-Wno-c++11-narrowing", "-Wno-reorder"})
-      a.push_back(word);
-  else
-    a.push_back("-fgnu89-inline");
+  a.push_back("-fgnu89-inline");
   a.push_back(o.level == 0 ? "-O0" : o.for_size ? "-Os" : o.level == 1 ? "-O1" : "-O2");
   if (o.sanitize && !o.library) {
     a.push_back("-fsanitize=signed-integer-overflow,shift-exponent,array-bounds");
@@ -449,7 +424,7 @@ std::vector<std::string> clang_arguments(const Options& o, const std::string& st
                           "__SSE2__", "__MMX__", "__k8", "__k8__"})
       a.push_back(std::string("-U") + u);
   for (const auto& p : o.passed_on) a.push_back(p);
-  a.push_back(std::string(o.cxx ? "-idirafter" : "-I") + kFallbackRoot);
+  a.push_back(std::string("-I") + kFallbackRoot);
   return a;
 }
 
@@ -565,13 +540,10 @@ std::unique_ptr<llvm::Module> attempts(const Options& options, llvm::LLVMContext
 
 std::unique_ptr<llvm::Module> compile_to_module(const Options& options, llvm::LLVMContext& context,
                                                 Facts& facts) {
-  const std::string first = options.cxx                 ? "gnu++17"
-                            : !options.standard.empty() ? options.standard
-                            : options.webots            ? "gnu11"
-                                                        : "gnu89";
+  const std::string first = !options.standard.empty() ? options.standard : options.webots ? "gnu11" : "gnu89";
   std::string messages;
   auto module = attempts(options, context, facts, first, messages);
-  if (!module && options.standard.empty() && !options.webots && !options.cxx) {
+  if (!module && options.standard.empty() && !options.webots) {
     // what XC16 takes with -std=gnu99 only: a variable of each loop's own, for one
     std::string messages_of_c99;
     module = attempts(options, context, facts, "gnu99", messages_of_c99);

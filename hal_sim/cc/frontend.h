@@ -31,10 +31,9 @@ struct Options {
   bool for_size = false;
   bool sanitize = false, coverage = false, strict = false, lint = false, emit_ir = false;
   bool uncounted = false;     // part of the runtime: costs no cycles
-  bool webots = false;        // written for Webots' interfaces: C of today, and a calendar
+  bool webots = false;        // chip: written for Webots' interfaces, in C of today
   bool register_way = false;  // the library reaches registers; nothing of it is evaluated by the host
   bool by_pointer = false;    // the program hands pointers to registers from file to file
-  bool cxx = false;           // C++: neither exceptions nor threads
   bool weak = false;          // a file of a copy of the library: of two definitions the first wins
   bool chip = false;          // code for the dsPIC30F6014A instead of the PC
   bool emit_text = false;     // chip: assembler text

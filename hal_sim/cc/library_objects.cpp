@@ -5,7 +5,6 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstdlib>
 
 #include "build_record.h"
@@ -31,19 +30,6 @@ fs::path include_root(const BuildOptions& o) {
 
 namespace {
 
-/// Headers of the newest C++ library that is installed; empty: there is none.
-std::vector<fs::path> cxx_library_folders() {
-  int newest = 0;
-  std::error_code none;
-  look_at("/usr/include/c++");
-  for (const auto& entry : fs::directory_iterator("/usr/include/c++", none))
-    newest = std::max(newest, std::atoi(entry.path().filename().c_str()));
-  if (newest == 0) return {};
-  const std::string version = std::to_string(newest);
-  return {"/usr/include/c++/" + version, "/usr/include/x86_64-linux-gnu/c++/" + version,
-          "/usr/include/c++/" + version + "/backward"};
-}
-
 /// Files of the libc that read and write the program's strings and arrays: --sanitize checks those, too.
 bool takes_strings(const fs::path& file) {
   const std::string name = file.filename().string();
@@ -52,21 +38,6 @@ bool takes_strings(const fs::path& file) {
 }
 
 }  // namespace
-
-std::vector<std::string> cxx_flags(const std::vector<std::string>& flags) {
-  const fs::path cc_dir = source_root() / "hal_sim/cc";
-  std::vector<fs::path> folders = cxx_library_folders(),
-                        c_folders = {cc_dir / "libc/webots/include", cc_dir / "libc/include"};
-  folders.insert(folders.begin(), cc_dir / "libc/cxx/include");
-  folders.insert(folders.end(), c_folders.begin(), c_folders.end());
-  std::vector<std::string> changed;
-  for (const std::string& flag : flags)
-    if (std::none_of(c_folders.begin(), c_folders.end(),
-                     [&](const fs::path& folder) { return flag == "-I" + folder.string(); }))
-      changed.push_back(flag);
-  for (const fs::path& folder : folders) changed.push_back("-isystem" + folder.string());
-  return changed;
-}
 
 std::vector<fs::path> contract_folders(const fs::path& root) {
   std::vector<fs::path> folders = {root};
@@ -81,7 +52,7 @@ std::vector<fs::path> contract_folders(const fs::path& root) {
 std::string names_of_headers(const std::vector<fs::path>& folders) {
   std::string names;
   for (const fs::path& folder : folders)
-    for (const fs::path& header : headers_below(folder)) names += header.string() + "\n";
+    for (const fs::path& header : files_below(folder, ".h")) names += header.string() + "\n";
   return content_hash(names);
 }
 
@@ -94,7 +65,7 @@ bool is_for_host(const fs::path& file) {
   return file.filename() == "image_support.c" || file.filename() == "program_memory.c";
 }
 
-std::vector<CompileJob> library_jobs(const BuildOptions& o, bool is_webots, bool has_cxx) {
+std::vector<CompileJob> library_jobs(const BuildOptions& o, bool is_webots) {
   const fs::path root = source_root(), cc_dir = root / "hal_sim/cc", libc = cc_dir / "libc/include";
   const fs::path contract = include_root(o);
   const fs::path api = o.api_dir.empty() ? root / (o.register_way ? "hal_dspic" : "hal_sim/api") : o.api_dir;
@@ -122,14 +93,8 @@ std::vector<CompileJob> library_jobs(const BuildOptions& o, bool is_webots, bool
   };
   if (is_webots)
     for (const auto& s : files_below(root / "firmware/webots", ".c")) add(s, flags);
-  // some take the place of a file of the libc; they ask the simulator
-  if (is_webots && !o.chip_way)
-    for (const auto& s : files_below(cc_dir / "libc/webots", ".c")) add(s, flags);
-  if (has_cxx)
-    for (const auto& s : files_below(cc_dir / "libc/cxx/src", ".cpp")) add(s, cxx_flags(flags));
   // what exists in the simulator alone has one form for both ways
-  if (o.register_way && !o.chip_way)
-    for (const char* name : {"virtual.c", "webots_simulator.c"}) add(root / "hal_sim/api" / name, flags);
+  if (o.register_way && !o.chip_way) add(root / "hal_sim/api/virtual.c", flags);
   const std::initializer_list<const char*> c_sources = {".c"}, chip_sources = {".c", ".s"};
   std::vector<fs::path> folders = {api, cc_dir / "libc/src"};
   // the half of the library that needs no pins, for a HAL that has the other half
@@ -137,9 +102,7 @@ std::vector<CompileJob> library_jobs(const BuildOptions& o, bool is_webots, bool
   const auto is_replaced = [&](const fs::path& file) {
     const bool is_of_chip = file.parent_path() == root / "hal_dspic/runtime";
     if (is_of_chip != o.chip_way && (is_of_chip || is_for_host(file))) return true;
-    if (file.parent_path() == root / "hal_dspic/bootloader") return true;  // a program of its own
-    return is_webots && !o.chip_way && file.parent_path() == cc_dir / "libc/src" &&
-           fs::exists(cc_dir / "libc/webots" / file.filename());
+    return file.parent_path() == root / "hal_dspic/bootloader";  // a program of its own
   };
   for (const auto& folder : folders)
     for (const auto& s : files_below(folder, o.chip_way ? chip_sources : c_sources)) {
@@ -178,11 +141,11 @@ Archive archive(const std::vector<CompileOutcome>& objects, const fs::path& fold
   return {file, ""};
 }
 
-Library provide_library(const BuildOptions& o, bool is_webots, bool has_cxx) {
+Library provide_library(const BuildOptions& o, bool is_webots) {
   // a library from elsewhere, as tests have, is no part of the product
   const bool is_ours = o.api_dir.empty() && o.include_root.empty() && source_root() == TWINPUCK_SOURCE_DIR;
   const fs::path folder = is_ours ? build_root() / "library" : o.cache_dir;
-  const auto outcomes = compile_all(library_jobs(o, is_webots, has_cxx), compiler_path(), folder, o.jobs);
+  const auto outcomes = compile_all(library_jobs(o, is_webots), compiler_path(), folder, o.jobs);
   Library library;
   library.ok = true;
   for (const CompileOutcome& outcome : outcomes) {
@@ -201,20 +164,18 @@ Library provide_library(const BuildOptions& o, bool is_webots, bool has_cxx) {
 
 std::vector<Library> provide_usual_libraries(int jobs) {
   std::vector<Library> made;
-  const auto make = [&](bool register_way, bool chip_way, bool is_webots, bool has_cxx) {
+  const auto make = [&](bool register_way, bool chip_way, bool is_webots) {
     BuildOptions o;
     o.register_way = register_way;
     o.chip_way = chip_way;
     o.jobs = jobs;
     o.optimisation = "-O1";
-    made.push_back(provide_library(o, is_webots, has_cxx));
+    made.push_back(provide_library(o, is_webots));
   };
-  for (const bool register_way : {false, true})
-    for (const auto& [is_webots, has_cxx] :
-         {std::pair(false, false), std::pair(true, false), std::pair(true, true)})
-      make(register_way, false, is_webots, has_cxx);
-  make(true, true, false, false);
-  make(true, true, true, false);
+  make(false, false, false);
+  make(true, false, false);
+  make(true, true, false);
+  make(true, true, true);
   return made;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What is linked behind every program: the e-puck library of one way, the firmware's libc, and for programs
-// written for Webots its interfaces and the C++ library. Its objects and archives lie beside the executable
+// of the chip that are written for Webots its interfaces. Its objects and archives lie beside the executable
 // in library/; `make build` fills it, and whatever changes later is compiled when a build asks for it.
 #pragma once
 #include <filesystem>
@@ -21,9 +21,6 @@ std::filesystem::path compiler_path();
 std::vector<std::filesystem::path> contract_folders(const std::filesystem::path& root);
 /// Where the headers of the e-puck library are.
 std::filesystem::path include_root(const BuildOptions& options);
-/// The flags of a C file for a C++ file: headers of the C library stand behind those of C++, which include
-/// them.
-std::vector<std::string> cxx_flags(const std::vector<std::string>& flags);
 /// Names of headers, each in its folder: one that appears or goes away can change what an #include finds.
 std::string names_of_headers(const std::vector<std::filesystem::path>& folders);
 
@@ -36,7 +33,7 @@ struct Library {
 };
 
 /// Compiles what is not there yet. Within a build (build_record.h).
-Library provide_library(const BuildOptions& options, bool is_webots, bool has_cxx);
+Library provide_library(const BuildOptions& options, bool is_webots);
 
 struct Archive {
   std::filesystem::path file;

@@ -13,7 +13,6 @@
 #include "llvm/IR/InstIterator.h"
 #include "llvm/IR/IntrinsicInst.h"
 #include "llvm/Transforms/Utils/BasicBlockUtils.h"
-#include "llvm/Transforms/Utils/ModuleUtils.h"
 #include "passes.h"
 #include "refused.h"
 
@@ -22,21 +21,11 @@ namespace {
 
 using namespace llvm;
 
-bool is_for_webots(StringRef function) {
-  for (const char* name : {"time", "clock", "fopen", "fclose", "fread", "fwrite", "fgets", "fgetc", "fscanf",
-                           "fseek", "ftell", "remove"})
-    if (function == name) return true;
-  return false;
-}
-
 void refuse_functions(Unit& unit) {
   for (Function& f : unit.module) {
     if (!f.isDeclaration() || f.use_empty()) continue;
     const char* instead = refused_function(f.getName());
     if (!instead) continue;
-    // programs for Webots' interfaces have a calendar and files, which the simulator keeps
-    if ((unit.options.webots || unit.options.cxx) && !unit.options.chip && is_for_webots(f.getName()))
-      continue;
     for (User* user : f.users()) {
       // a call without prototype goes through a cast of the function
       while (isa<Constant>(user) && !user->use_empty()) user = user->user_back();
@@ -46,52 +35,6 @@ void refuse_functions(Unit& unit) {
       break;
     }
   }
-}
-
-/// Constructors of global objects become entries of the image's own table "tpinit", which the image runs
-/// before main() (image_runtime.c).
-void list_constructors(Unit& unit) {
-  Module& m = unit.module;
-  GlobalVariable* list = m.getGlobalVariable("llvm.global_ctors");
-  if (!list) return;
-  SmallVector<GlobalValue*, 4> entries;
-  if (auto* all = dyn_cast<ConstantArray>(list->getInitializer()))
-    for (const Use& one : all->operands()) {
-      auto* function = cast<Constant>(cast<ConstantStruct>(one)->getOperand(1));
-      auto* entry = new GlobalVariable(m, function->getType(), true, GlobalValue::InternalLinkage, function,
-                                       "tpinit.entry");
-      entry->setSection("tpinit");
-      entry->setAlignment(Align(8));
-      entries.push_back(entry);
-    }
-  list->eraseFromParent();
-  if (!entries.empty()) appendToCompilerUsed(m, entries);
-}
-
-/// The code generator of C++ computes sizes (new T[n], lengths of lists) as wide as the PC's pointers, and
-/// gives them to what has 16 bits. They are cut there, as the robot's size_t is.
-void cut_sizes(Unit& unit) {
-  const auto fitted = [](Instruction& at, Value* value, Type* type) {
-    return IRBuilder<>(&at).CreateZExtOrTrunc(value, type);
-  };
-  const auto differ = [](Type* a, Type* b) { return a != b && a->isIntegerTy() && b->isIntegerTy(); };
-  for (Function& f : unit.module)
-    for (Instruction& i : make_early_inc_range(instructions(f))) {
-      if (auto* widen = dyn_cast<ZExtInst>(&i)) {
-        if (widen->getSrcTy()->getScalarSizeInBits() < widen->getDestTy()->getScalarSizeInBits()) continue;
-        widen->replaceAllUsesWith(fitted(i, widen->getOperand(0), widen->getType()));
-        widen->eraseFromParent();
-      } else if (auto* store = dyn_cast<StoreInst>(&i)) {
-        Type* place = store->getPointerOperandType()->getPointerElementType();
-        if (differ(store->getValueOperand()->getType(), place))
-          store->setOperand(0, fitted(i, store->getValueOperand(), place));
-      } else if (auto* call = dyn_cast<CallBase>(&i)) {
-        FunctionType* type = call->getFunctionType();
-        for (unsigned a = 0; a < type->getNumParams() && a < call->arg_size(); ++a)
-          if (differ(call->getArgOperand(a)->getType(), type->getParamType(a)))
-            call->setArgOperand(a, fitted(i, call->getArgOperand(a), type->getParamType(a)));
-      }
-    }
 }
 
 /// Data of the controller must lie in the image's own data segment, whatever section XC16 was told to use.
@@ -316,10 +259,6 @@ Function* marker(Module& m, const char* name) {
 }
 
 void lower_early(Unit& unit) {
-  if (unit.options.cxx) {
-    cut_sizes(unit);
-    list_constructors(unit);
-  }
   lower_assembler(unit);
   refuse_functions(unit);
   define_configuration(unit,

@@ -9,7 +9,7 @@ namespace cc {
 /// Memory that one compiler, assembler or linker of ours may ask for, bytes.
 inline constexpr std::uint64_t kMostToolBytes =
     std::uint64_t{1} << 30;  // [measured: the largest file of our programs takes 250 MB]
-/// And one of others', such as that of supervisors, bytes.
+/// And one of others', such as that of programs of the PC, bytes.
 inline constexpr std::uint64_t kMostChildBytes = std::uint64_t{3}
                                                  << 30;  // [assumed: templates of C++ take some]
 

@@ -42,15 +42,6 @@ std::vector<fs::path> files_below(const fs::path& folder, const char* extension)
   return files_below(folder, {extension});
 }
 
-bool is_cxx(const fs::path& file) {
-  const std::string kind = file.extension();
-  return kind == ".cpp" || kind == ".cc" || kind == ".cxx";
-}
-
-std::vector<fs::path> headers_below(const fs::path& folder) {
-  return files_below(folder, {".h", ".hpp", ".hh", ".hxx"});
-}
-
 bool names_webots(const std::vector<fs::path>& sources, const std::vector<fs::path>& headers) {
   static const sim::Pattern kInclude(R"(#\s*include\s*[<"](webots|device)[/\\])");
   for (const auto* list : {&sources, &headers})
@@ -59,30 +50,17 @@ bool names_webots(const std::vector<fs::path>& sources, const std::vector<fs::pa
   return false;
 }
 
-std::vector<fs::path> sources_below(const fs::path& folder) {
-  std::vector<fs::path> sources = files_below(folder, ".c");
-  std::vector<fs::path> cxx = files_below(folder, {".cpp", ".cc", ".cxx"});
-  // a controller's own test lies beside it
-  cxx.erase(std::remove_if(cxx.begin(), cxx.end(),
-                           [](const fs::path& file) {
-                             return file.filename() == "test.cpp" &&
-                                    read_text(file).find("tests/support/firmware_test.h") !=
-                                        std::string::npos;
-                           }),
-            cxx.end());
-  if (!cxx.empty() && (names_webots(cxx, headers_below(folder)) || names_webots(sources, {})))
-    sources.insert(sources.end(), cxx.begin(), cxx.end());
-  return sources;
-}
-
 std::string no_program(const fs::path& folder) {
+  // a controller's own test lies beside it, with programs in its texts
+  const bool has_c = !files_below(folder, ".c").empty();
+  for (const fs::path& file : files_below(folder, {".cpp", ".cc", ".cxx"}))
+    if (!has_c || (file.filename() != "test.cpp" && defines_main(file)))
+      return file.string() + ": program: got C++, expected C; programs of the robot are in C, as XC16 has it";
   const std::string got = folder.string() + ": controller: got ";
-  if (!files_below(folder, {".cpp", ".cc", ".cxx"}).empty())
-    return got +
-           "C++ that includes none of Webots' headers, expected C, or C++ with webots/Robot.hpp; "
-           "firmware on the e-puck's library is C";
+  if (has_c)
+    return folder.string() + ": main(): got no definition, expected one; is this a controller's folder?";
   if (!files_below(folder, ".py").empty())
-    return got + "a program in Python, expected one in C or C++; Python controllers are not run yet";
+    return got + "a program in Python, expected one in C; Python runs on the PC alone";
   if (!files_below(folder, ".s").empty())
     return got + "assembler, expected C; only the chip way assembles: --way chip";
   return got + "no .c file, expected at least one";
@@ -131,9 +109,9 @@ std::vector<fs::path> archives_below(const fs::path& folder) {
 
 Program program_of(const BuildOptions& o, BuildResult& result) {
   Program program;
-  program.sources = o.sources.empty() ? sources_below(o.source_dir) : o.sources;
+  program.sources = o.sources.empty() ? files_below(o.source_dir, ".c") : o.sources;
   if (!o.sources.empty()) return program;
-  const bool is_webots = names_webots(program.sources, headers_below(o.source_dir));
+  const bool is_webots = names_webots(program.sources, files_below(o.source_dir, ".h"));
   std::string told;
   auto project = is_webots ? std::nullopt : find_mplab_project(o.source_dir, told);
   if (!told.empty()) result.warnings.push_back(told);

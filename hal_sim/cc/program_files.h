@@ -37,13 +37,7 @@ struct Program {
 std::vector<std::filesystem::path> files_below(const std::filesystem::path& folder, const char* extension);
 std::vector<std::filesystem::path> files_below(const std::filesystem::path& folder,
                                                std::initializer_list<const char*> extensions);
-/// Headers of C and C++.
-std::vector<std::filesystem::path> headers_below(const std::filesystem::path& folder);
-/// C files, and those in C++ of a program for Webots' interfaces.
-std::vector<std::filesystem::path> sources_below(const std::filesystem::path& folder);
-/// C++ is compiled for programs of Webots' interfaces alone.
-bool is_cxx(const std::filesystem::path& file);
-/// What is said of a folder without a program.
+/// What is said of a folder in whose C files there is no program.
 std::string no_program(const std::filesystem::path& folder);
 
 /// Whether a program is written for Webots' interfaces: one of its files, or a header of its own, says so.

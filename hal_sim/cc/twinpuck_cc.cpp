@@ -87,8 +87,8 @@ bool parse(int argc, char** argv, cc::Options& o) {
     else if (a == "-I" || a == "-D" || a == "-U" || a == "-include") {
       o.passed_on.push_back(a.str());
       o.passed_on.push_back(value());
-    } else if (a.startswith("-I") || a.startswith("-isystem") || a.startswith("-D") || a.startswith("-U") ||
-               a.startswith("-W") || a.startswith("-g") || a.startswith("-f")) {
+    } else if (a.startswith("-I") || a.startswith("-D") || a.startswith("-U") || a.startswith("-W") ||
+               a.startswith("-g") || a.startswith("-f")) {
       o.passed_on.push_back(a.str());
     } else if (a.startswith("-")) {
       errs() << "twinpuck-cc: command line: got " << a << ", expected a known option\n";
@@ -100,8 +100,6 @@ bool parse(int argc, char** argv, cc::Options& o) {
       return false;
     }
   }
-  const StringRef input = o.input;
-  o.cxx = input.endswith(".cpp") || input.endswith(".cc") || input.endswith(".cxx");
   if (o.chip && o.fallback.empty())  // called by hand: the library's and the libc's headers after all others
     for (const char* folder : {"firmware/include", "hal_sim/cc/libc/include"})
       o.passed_on.push_back(std::string("-I" TWINPUCK_SOURCE_DIR "/") + folder);

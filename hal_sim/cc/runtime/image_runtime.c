@@ -18,25 +18,10 @@ __attribute__((preserve_most, noinline)) void tp_image_event(void)
 
 extern int main(void);
 
-#ifdef TP_WEBOTS
-/* constructors of C++, those of libraries last */
-extern void (*const tp_inits_begin[])(void), (*const tp_inits_end[])(void);
-
-/* a program for Webots' interfaces looks at its arguments, and has ended when main() returns */
-static void tp_image_start(void)
-{
-  static char *arguments[2] = {(char *)TP_IMAGE_NAME, 0};
-  void (*const *init)(void) = tp_inits_end;
-  while (init != tp_inits_begin) (*--init)();
-  ((int (*)(int, char **))main)(1, arguments);
-  for (;;) tp_power_save(1); /* the robot's interrupts go on */
-}
-#else
 static void tp_image_start(void)
 {
   main();
 }
-#endif
 
 /* the linker script puts these around the image's data and tables */
 extern char tp_data_begin[], tp_data_end[];

@@ -15,9 +15,6 @@ extern const struct object tp_objects_begin[], tp_objects_end[];
 extern char tp_data_begin[], tp_data_end[], tp_text_begin[];
 extern char tp_image_heap[] __attribute__((weak));
 extern unsigned int tp_image_heap_bytes __attribute__((weak));
-/* of programs for Webots' interfaces: 1 MB outside the image, whose blocks are not told apart */
-extern char *tp_webots_heap __attribute__((weak));
-#define WEBOTS_HEAP_BYTES (1L << 20)
 
 #define LOCALS 256
 static struct { char *begin; tp_i64 size; } locals[LOCALS];
@@ -75,8 +72,6 @@ void tp_image_check(char *p, tp_i64 size, tp_i64 writes, const char *where)
     char here;
     if (p > &here && p < &here + 262144L) return; /* deeper than the table: the stack as a whole */
   }
-  if (&tp_webots_heap && tp_webots_heap && p >= tp_webots_heap && p + size <= tp_webots_heap + WEBOTS_HEAP_BYTES)
-    return;
   if (in_heap(p, size, &what)) {
     if (what) report(where, what, 0);
     return;
@@ -95,7 +90,7 @@ void tp_image_check(char *p, tp_i64 size, tp_i64 writes, const char *where)
       return;
     }
   if (p >= tp_data_begin && p < tp_data_end) return; /* data of the library, which is not instrumented */
-  if (!writes && p >= tp_text_begin && p < tp_data_begin) return; /* constants, and tables of C++'s classes */
+  if (!writes && p >= tp_text_begin && p < tp_data_begin) return; /* constants, those that hold addresses, too */
   {
     char here; /* locals of functions whose address escaped before they were registered, interrupt frames */
     if (p > &here - 4096 && p < &here + 262144L) return;

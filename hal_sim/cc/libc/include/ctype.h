@@ -2,9 +2,6 @@
  * Firmware libc: kinds of characters (ASCII). */
 #ifndef TP_LIBC_CTYPE_H
 #define TP_LIBC_CTYPE_H
-#ifdef __cplusplus
-extern "C" {
-#endif
 int isalpha(int __c);
 int isdigit(int __c);
 int isalnum(int __c);
@@ -18,7 +15,4 @@ int iscntrl(int __c);
 int ispunct(int __c);
 int toupper(int __c);
 int tolower(int __c);
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -2,13 +2,7 @@
  * Firmware libc: errno. */
 #ifndef TP_LIBC_ERRNO_H
 #define TP_LIBC_ERRNO_H
-#ifdef __cplusplus
-extern "C" {
-#endif
 extern int errno;
 #define EDOM 33
 #define ERANGE 34
-#ifdef __cplusplus
-}
-#endif
 #endif

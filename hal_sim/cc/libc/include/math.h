@@ -18,14 +18,9 @@
 #define HUGE_VAL (__builtin_huge_valf())
 #define INFINITY (__builtin_inff())
 #define NAN (__builtin_nanf(""))
-#ifndef __cplusplus
 #define isnan(x) ((x) != (x))
 #define isinf(x) ((x) == HUGE_VAL || (x) == -HUGE_VAL)
 #define signbit(x) __builtin_signbitf(x)
-#endif
-#ifdef __cplusplus
-extern "C" {
-#endif
 double sin(double __x);
 float sinf(float __x);
 double cos(double __x);
@@ -84,7 +79,4 @@ double frexp(double __x, int* __e);
 float frexpf(float __x, int* __e);
 double modf(double __x, double* __whole);
 float modff(float __x, float* __whole);
-#ifdef __cplusplus
-}
-#endif
 #endif

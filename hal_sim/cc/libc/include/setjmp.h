@@ -8,16 +8,10 @@ typedef struct {
   void* __caller; /* of the function that called setjmp() */
   int __value;
 } jmp_buf[1];
-#ifdef __cplusplus
-extern "C" {
-#endif
 void tp_image_longjmp(void* __state, int* __value, int __v) __attribute__((__noreturn__));
 int tp_image_note_caller(void* __state);
 #define setjmp(b) (__builtin_setjmp((b)->__state) ? (b)->__value : tp_image_note_caller((b)->__state))
 #define longjmp(b, v) tp_image_longjmp((b)->__state, &(b)->__value, v)
-#ifdef __cplusplus
-}
-#endif
 #else
 typedef unsigned int jmp_buf[11]; /* W8 to W15, return address, SPLIM */
 int setjmp(jmp_buf __state) __attribute__((__returns_twice__));

@@ -12,12 +12,6 @@ typedef int sig_atomic_t;
 #define SIG_DFL ((void (*)(int))0)
 #define SIG_IGN ((void (*)(int))1)
 #define SIG_ERR ((void (*)(int)) - 1)
-#ifdef __cplusplus
-extern "C" {
-#endif
 void (*signal(int __number, void (*__handler)(int)))(int);
 int raise(int __number);
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * Firmware libc: formatted text; printf() ends in write(), which sends to the UART that __C30_UART names,
- * as with XC16. Files are for programs written for Webots' interfaces alone (docs/webots.md); others are told
- * so when they call what is declared for them. */
+ * as with XC16. There are no files: who calls what is declared for them is told so. */
 #ifndef TP_LIBC_STDIO_H
 #define TP_LIBC_STDIO_H
 #include <stdarg.h>
@@ -9,9 +8,6 @@
 #define EOF (-1)
 #define BUFSIZ 128
 typedef struct tp_file FILE;
-#ifdef __cplusplus
-extern "C" {
-#endif
 extern FILE* const tp_stdout;
 #define stdout tp_stdout
 #define stderr tp_stdout
@@ -54,7 +50,4 @@ int remove(const char* __name);
 void perror(const char* __text);
 /* 1 or 2: the UART that printf() and its like write to */
 extern int __C30_UART;
-#ifdef __cplusplus
-}
-#endif
 #endif

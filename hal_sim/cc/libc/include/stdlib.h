@@ -12,9 +12,6 @@ typedef struct {
 typedef struct {
   long quot, rem;
 } ldiv_t;
-#ifdef __cplusplus
-extern "C" {
-#endif
 void* malloc(size_t __bytes);
 void* calloc(size_t __n, size_t __bytes);
 void* realloc(void* __old, size_t __bytes);
@@ -38,7 +35,4 @@ void exit(int __status) __attribute__((__noreturn__));
 void abort(void) __attribute__((__noreturn__));
 int atexit(void (*__function)(void));
 char* itoa(char* __to, int __value, int __base);
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -3,9 +3,6 @@
 #ifndef TP_LIBC_STRING_H
 #define TP_LIBC_STRING_H
 #include <stddef.h>
-#ifdef __cplusplus
-extern "C" {
-#endif
 void* memcpy(void* __to, const void* __from, size_t __n);
 void* memmove(void* __to, const void* __from, size_t __n);
 void* memset(void* __to, int __value, size_t __n);
@@ -28,7 +25,4 @@ size_t strcspn(const char* __s, const char* __set);
 char* strpbrk(const char* __s, const char* __set);
 char* strtok(char* __s, const char* __separators);
 char* strerror(int __number);
-#ifdef __cplusplus
-}
-#endif
 #endif

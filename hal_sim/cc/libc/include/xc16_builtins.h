@@ -5,10 +5,6 @@
 #ifndef XC16_BUILTINS_H
 #define XC16_BUILTINS_H
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 #define __builtin_nop() __asm__ volatile("nop")
 #define __builtin_clrwdt() __asm__ volatile("clrwdt")
 #define __builtin_software_breakpoint() __asm__ volatile("nop")
@@ -154,7 +150,4 @@ TP_BUILTIN int tp_fbcl(int __word) {
 
 #undef TP_BUILTIN
 
-#ifdef __cplusplus
-}
-#endif
 #endif

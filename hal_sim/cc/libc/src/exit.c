@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Firmware libc: exit(), alone, since programs for Webots' interfaces have another one (libc/webots). */
+ * Firmware libc: exit(). */
 #include <stdlib.h>
 #include "hal_sim/host/image_abi.h"
 

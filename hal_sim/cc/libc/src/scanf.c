@@ -21,9 +21,7 @@ static int in_set(const char *set, const char *end, char c)
   return inside != negated;
 }
 
-/* as vsscanf(); how many characters were taken goes to `taken` (fscanf() of libc/webots asks) */
-int tp_image_scan(const char *s, const char *format, va_list given, int *taken);
-int tp_image_scan(const char *s, const char *format, va_list given, int *taken)
+int vsscanf(const char *s, const char *format, va_list given)
 {
   int done = 0;
   const char *start = s;
@@ -110,14 +108,7 @@ int tp_image_scan(const char *s, const char *format, va_list given, int *taken)
     done += !skip;
   }
   va_end(list);
-  *taken = (int)(s - start);
   return done;
-}
-
-int vsscanf(const char *s, const char *format, va_list given)
-{
-  int taken;
-  return tp_image_scan(s, format, given, &taken);
 }
 
 int sscanf(const char *s, const char *format, ...)

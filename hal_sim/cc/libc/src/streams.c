@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Firmware libc: stdout and stderr, the only streams, which are the console; alone, since programs for Webots' interfaces
- * have files as well (libc/webots). */
+ * Firmware libc: stdout and stderr, the only streams, which are the console. */
 #include <stdio.h>
 #include <string.h>
 

@@ -3,12 +3,6 @@
  * declares is refused when it is called: simulated time passes in wb_robot_step(). */
 #ifndef TP_LIBC_UNISTD_H
 #define TP_LIBC_UNISTD_H
-#ifdef __cplusplus
-extern "C" {
-#endif
 unsigned int sleep(unsigned int seconds);
 int usleep(unsigned long microseconds);
-#ifdef __cplusplus
-}
-#endif
 #endif
