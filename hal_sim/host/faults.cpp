@@ -41,7 +41,6 @@ struct Fault {
   bool is_library = false;  // a function of the host was at it for the program
 };
 thread_local Fault last_fault;
-thread_local FaultGuest* guest = nullptr;
 thread_local StepGuest* step_guest = nullptr;
 
 /// A thread that was told to halt, and where it did.
@@ -49,11 +48,10 @@ struct Halted {
   pthread_t thread = pthread_self();
   std::atomic<bool> has_halted{false};
   CompiledRunner* runner = nullptr;
-  FaultGuest* guest = nullptr;
   std::uintptr_t pc = 0, frame = 0;
 };
 std::mutex threads_changing;
-std::vector<Halted*> threads;  // all that may run firmware or supervisors
+std::vector<Halted*> threads;  // all that may run firmware
 thread_local Halted* halted = nullptr;
 constexpr int kHaltSignal = SIGUSR2;
 
@@ -149,7 +147,6 @@ void on_halt(int, siginfo_t*, void* raw) {
   if (!halted) return;
   const auto& r = static_cast<ucontext_t*>(raw)->uc_mcontext.gregs;
   halted->runner = CompiledRunner::running();
-  halted->guest = guest;
   halted->pc = static_cast<std::uintptr_t>(r[REG_RIP]);
   halted->frame = static_cast<std::uintptr_t>(r[REG_RBP]);
   halted->has_halted = true;
@@ -191,7 +188,6 @@ void on_signal(int signal, siginfo_t* info, void* raw) {
   }
   // out of stack anywhere on the firmware's stack
   if (runner && signal == SIGSEGV && runner->fiber().is_in_guard(address)) ours = true;
-  if (!runner && guest && guest->take(signal, raw, info->si_code == SI_KERNEL ? 0 : address)) return;
   if (!ours) {
     sigaction(signal, &previous[signal],
               nullptr);  // not firmware: fault again with whoever was there before us
@@ -219,7 +215,6 @@ void on_signal(int signal, siginfo_t* info, void* raw) {
 
 }  // namespace
 
-void set_fault_guest(FaultGuest* now) { guest = now; }
 void set_step_guest(StepGuest* now) { step_guest = now; }
 
 void catch_faults_on_this_thread() {
@@ -251,13 +246,9 @@ std::string halt_threads() {
   for (int ms = 0; ms < 100 && !all_have(); ++ms) usleep(1000);
   std::string text;
   for (const Halted* t : threads) {
-    if (!t->has_halted) continue;
-    const std::string ran = t->runner
-                                ? "robot '" + t->runner->name() +
-                                      "' was running: " + to_string(t->runner->place_of_code(t->pc, t->frame))
-                            : t->guest ? t->guest->what_runs(t->pc, t->frame)
-                                       : "";
-    if (!ran.empty()) text += (text.empty() ? "" : ", ") + ran;
+    if (!t->has_halted || !t->runner) continue;
+    text += (text.empty() ? "robot '" : ", robot '") + t->runner->name() +
+            "' was running: " + to_string(t->runner->place_of_code(t->pc, t->frame));
   }
   return text;
 }
