@@ -12,9 +12,9 @@
 
 #include "hal_sim/twin/twin.h"
 #include "hal_sim/twin/world_file.h"
+#include "programs/team/team.h"
 #include "sim_core/light/profiles.h"
 #include "sim_core/load/world_loader.h"
-#include "programs/team/team.h"
 #include "tools/command_line.h"
 #include "tools/profile_outputs.h"
 #include "tools/progress.h"
@@ -39,7 +39,7 @@ constexpr double kLongestSleep_s = 0.1;  // with a look whether the end was aske
 struct RunArguments {
   std::string world;
   std::vector<std::string> firmware, uart1, uart2, keys, supervisors, externs;
-  std::string files = "twinpuck-files", replay;
+  std::string replay;
   double seconds = 60;
   std::string speed = "max";
   long long seed = -1;
@@ -74,7 +74,6 @@ int run(const RunArguments& arguments) {
   options.externs = arguments.externs;
   options.sanitize = arguments.sanitize;
   options.coverage = !arguments.outputs.coverage.empty();
-  options.files_folder = arguments.files;
   options.tell = [](const std::string& line) { std::cerr << line << '\n'; };
   bool fits_the_chip = true;
   options.no_room = [&fits_the_chip] { fits_the_chip = false; };
@@ -123,7 +122,7 @@ int run(const RunArguments& arguments) {
     return kBadInput;
   }
   auto team = programs::Team::open(*twin, options,
-                                     replay ? replay->opening.supervisors : arguments.supervisors, problems);
+                                   replay ? replay->opening.supervisors : arguments.supervisors, problems);
   if (!team) {
     complain(problems);
     return kBadInput;
@@ -225,10 +224,6 @@ int run(const RunArguments& arguments) {
   serial.finish();
   const Summary summary = summarise(*twin, took_s);
   outputs.finish(summary, problems);
-  for (int i = 0; i < twin->robots() && !arguments.quiet; ++i)
-    if (const auto& files = twin->mind(i).board().virtual_devices().files; files.has_written())
-      std::cerr << twin->world().robots[static_cast<std::size_t>(i)].name
-                << ": files written: " << files.folder().string() << '\n';
   complain(problems);
   if (!arguments.quiet) {
     std::cout << to_text(summary);
@@ -285,12 +280,10 @@ void add_run(CLI::App& app, int& exit_code) {
       "[ROBOT=]KEY@TIME[+HOLD]: a remote control's key, 0 to 63 or a name such as VOL_UP, "
       "pressed at TIME s for HOLD s (0.1); ADDRESS:KEY for another address than 0; keyboard:UP or "
       "keyboard:W for a keyboard's, which programs for Webots ask for"));
-  verb->add_option("--files", a->files,
-                   "folder for files that programs for Webots write, below it one for each robot")
-      ->capture_default_str();
-  one_each(verb->add_option("--supervisor", a->supervisors,
-                            "[NAME=]PROGRAM: a supervisor's program, a file or a folder; takes the place of the "
-                            "world's supervisor of that NAME, without NAME of its only one, or is added"));
+  one_each(
+      verb->add_option("--supervisor", a->supervisors,
+                       "[NAME=]PROGRAM: a supervisor's program, a file or a folder; takes the place of the "
+                       "world's supervisor of that NAME, without NAME of its only one, or is added"));
   one_each(verb->add_option("--extern", a->externs,
                             "a robot whose program is started outside and connects; * for all"));
   verb->option_defaults()->group("Time and chance");

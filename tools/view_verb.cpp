@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 constexpr auto kLook = std::chrono::milliseconds(50);
 
 struct ViewArguments {
-  std::string world, record, way, optimisation, files = "twinpuck-files";
+  std::string world, record, way, optimisation;
   std::vector<std::string> firmware, supervisors;
   int port = 0, threads = 1;
   long long seed = -1;
@@ -43,7 +43,6 @@ int view(const ViewArguments& a) {
   opening.options.way = a.way;
   opening.options.optimisation = a.optimisation;
   opening.options.threads = a.threads;
-  opening.options.files_folder = a.files;
   opening.supervisors = a.supervisors;
   const viewer::Document first(opening.file, opening.text);
   opening.seed = a.seed >= 0 ? static_cast<std::uint64_t>(a.seed)
@@ -90,8 +89,6 @@ void add_view(CLI::App& app, int& exit_code) {
           "level for controllers built from source; without it, in the chip way, that of a program's project "
           "file, else -O1")
       ->check(CLI::IsMember({"-O0", "-O1", "-O2", "-Os"}));
-  verb->add_option("--files", a->files, "folder for files that programs for Webots write")
-      ->capture_default_str();
   verb->footer("Example: twinpuck view maze --fw obstacle\nExit codes: 0 ended by Ctrl-C, 2 bad input");
   verb->callback([a, &exit_code] { exit_code = view(*a); });
 }

@@ -50,7 +50,6 @@ class PacketDevices final : public sim::PacketPort {
   void switch_receiver(int r, bool on) { receivers_[index(r)].on = on; }
   /// The end of a sampling period: what has come in becomes visible.
   void latch(int r) { receivers_[index(r)].visible = static_cast<int>(receivers_[index(r)].queue.size()); }
-  int visible(int r) const { return receivers_[index(r)].visible; }
   /// Visible packet at the head; null without one. Stays valid until drop().
   const sim::ReceivedPacket* head(int r) const;
   void drop(int r);

@@ -2,8 +2,6 @@
 // What a robot truly does, for the devices that tell the truth to programs written for Webots' interfaces
 // (GPS, compass, inertial unit, gyroscope). No e-puck has them.
 #pragma once
-#include <string>
-
 #include "hal_sim/board/cycle.h"
 #include "sim_core/world/world_desc.h"
 
@@ -22,11 +20,5 @@ struct TrueState {
 
 /// At `at`; all zero where there is no world.
 TrueState true_state(const Board& board, Cycle at);
-
-/// Number of the robot or object, movable or fixed, with that def or name; -1: there is none.
-int find_body(const Board& board, const std::string& name);
-/// Where it is, in the world file's axes: a robot's middle on the floor, an object's middle; the angle about
-/// the upward axis, 0 as above, rad, not wrapped.
-void true_pose(const Board& board, int body, Cycle at, sim::Vec3& position_m, double& angle_rad);
 
 }  // namespace board

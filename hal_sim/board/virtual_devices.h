@@ -11,9 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "hal_sim/board/displays.h"
-#include "hal_sim/board/robot_files.h"
-
 namespace board {
 
 class VirtualDevices {
@@ -38,20 +35,6 @@ class VirtualDevices {
   };
   std::vector<TypedKey> typed;
 
-  /// Files that firmware may open.
-  RobotFiles files;
-
-  /// Displays that firmware has used, by number, and who writes their pictures.
-  std::map<int, Display> displays;
-  std::function<bool(const std::string& path, const DisplayImage&)> write_picture;
-
-  /// Memory for malloc() of programs written for PCs, which are not sparing with it; made when it is first
-  /// asked for, and the robot's for life.
-  char* heap(std::size_t bytes) {
-    if (heap_.size() < bytes) heap_.resize(bytes);
-    return heap_.data();
-  }
-
   // --- the console
   /// From the robot's own thread: text of firmware, on its way to on_console.
   void write(const char* text, std::size_t length) {
@@ -75,9 +58,7 @@ class VirtualDevices {
       const std::size_t end = text_.find('\n', begin);
       if (end == std::string::npos && text_.size() - begin <= longest) break;
       std::string line = text_.substr(begin, end == std::string::npos ? end : end - begin);
-      // a form feed clears Webots' console; a carriage return belongs to the line's end
-      line.erase(std::remove_if(line.begin(), line.end(), [](char c) { return c == '\f' || c == '\r'; }),
-                 line.end());
+      line.erase(std::remove(line.begin(), line.end(), '\r'), line.end());
       if (on_console) on_console(line);
       begin = end == std::string::npos ? text_.size() : end + 1;
     }
@@ -86,7 +67,6 @@ class VirtualDevices {
 
   std::map<std::string, double> sensors_;
   std::string text_;
-  std::vector<char> heap_;
   std::atomic<bool>* somebody_writes_ = nullptr;
 };
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <filesystem>
 #include <map>
 
 #include "hal_sim/board/bluetooth_module.h"
@@ -19,7 +18,6 @@
 #include "hal_sim/twin/world_file.h"
 #include "sim_core/base/input_file.h"
 #include "sim_core/radio/link_medium.h"
-#include "sim_core/record/image_file.h"
 #include "sim_core/world/variation.h"
 
 namespace twin {
@@ -222,20 +220,6 @@ void press_keys(host::FirmwareMind& mind, std::vector<sim::KeyDesc> keys, double
   }
 }
 
-/// Robots' names as those of folders; names that cannot be one, or come twice, get the robot's number.
-std::vector<std::string> folders_of(const sim::WorldDesc& world) {
-  std::map<std::string, int> times;
-  for (const auto& robot : world.robots) ++times[robot.name];
-  std::vector<std::string> folders;
-  for (const auto& robot : world.robots) {
-    const std::string& name = robot.name;
-    const bool good =
-        times[name] == 1 && !name.empty() && name[0] != '.' && name.find('/') == std::string::npos;
-    folders.push_back(good ? name : "robot" + std::to_string(folders.size()));
-  }
-  return folders;
-}
-
 }  // namespace
 
 std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
@@ -291,8 +275,6 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
   const std::size_t shares =
       std::max<std::size_t>(1, std::min(n, static_cast<std::size_t>(std::max(1, options.threads))));
   std::vector<std::unique_ptr<sim::RobotMind>> minds;
-  std::map<std::string, std::filesystem::path> sources;
-  const std::vector<std::string> folders = folders_of(world);
   std::size_t share = 0;
   for (std::size_t i = 0; i < n; ++i) {
     // robots that one thread runs share a copy of their image, as Simulation divides them
@@ -302,7 +284,8 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
     host::RunnerFactory make_runner;
     twin->seats_.push_back(std::make_shared<programs::Seat>());
     twin->launches_.push_back(firmware[i].empty() ? nullptr : images[firmware[i]].program);
-    if (!firmware[i].empty()) make_runner = runner_for(images[firmware[i]], share, setup, 0, twin->seats_.back());
+    if (!firmware[i].empty())
+      make_runner = runner_for(images[firmware[i]], share, setup, 0, twin->seats_.back());
     auto mind = std::make_unique<host::FirmwareMind>(setup, make_runner);
     twin->copies_.push_back(share);
     plug_in_parts(robot, mind->board(), problems);
@@ -326,18 +309,6 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
       }
     }
     press_keys(*mind, robot.keys);
-    mind->board().virtual_devices().write_picture = [](const std::string& path,
-                                                       const board::DisplayImage& image) {
-      return sim::write_png(path, image.width, image.height, image.rgb()).empty();
-    };
-    if (!options.files_folder.empty() && !robot.firmware.empty()) {
-      auto [source_at, is_new] = sources.try_emplace(robot.firmware);  // looked for once for all that run it
-      if (is_new) source_at->second = find_firmware(robot.firmware, options.world_folder, problems);
-      const std::filesystem::path& source = source_at->second;
-      mind->board().virtual_devices().files.place(
-          std::filesystem::path(options.files_folder) / folders[i],
-          std::filesystem::is_directory(source) ? source : std::filesystem::path());
-    }
     twin->minds_.push_back(mind.get());
     twin->image_paths_.push_back(firmware[i].empty() ? "" : paths[firmware[i]]);
     twin->programs_.push_back(firmware[i].empty() ? Program{} : programs[firmware[i]]);

@@ -47,9 +47,6 @@ struct Options {
   /// Robots whose program comes from outside; "*": all.
   std::vector<std::string> externs;
   std::string optimisation;  ///< of controllers built from source, as in cc::BuildOptions: "" -O0 -O1 -O2 -Os
-  /// Below it each robot has a folder of its name for files that its program writes; empty: none can be
-  /// opened.
-  std::string files_folder;
   /// Of the world, for programs of Webots' interfaces on the chip (cc::BuildOptions); Twin::open() sets it.
   std::string webots_settings;
   bool sanitize = false;  ///< ... with address and 16-bit overflow checks
@@ -90,8 +87,8 @@ std::string image_file(const std::string& folder, const Options& options);
 std::string provide_image(const std::string& name, const std::string& from_folder, const Options& options,
                           std::vector<std::string>& problems, Program* program = nullptr);
 
-/// How the program of the PC that `name` means is started, built if need be; found as find_firmware() does. False,
-/// with lines in `problems`.
+/// How the program of the PC that `name` means is started, built if need be; found as find_firmware() does.
+/// False, with lines in `problems`.
 bool provide_launch(const std::string& name, const std::string& from_folder, const Options& options,
                     std::vector<std::string>& problems, programs::Launch& launch);
 
@@ -113,11 +110,13 @@ class Twin {
   const std::string& image_path(int robot) const { return image_paths_[static_cast<std::size_t>(robot)]; }
   /// What that was made of; no path for a robot without firmware.
   const Program& program(int robot) const { return programs_[static_cast<std::size_t>(robot)]; }
-  /// How a robot's program of the PC is started, by whoever gives programs their turns (programs/team); null: it
-  /// runs something else.
+  /// How a robot's program of the PC is started, by whoever gives programs their turns (programs/team); null:
+  /// it runs something else.
   const programs::Launch* launch(int robot) const { return launches_[static_cast<std::size_t>(robot)].get(); }
   /// Where its runner is found.
-  const std::shared_ptr<programs::Seat>& seat(int robot) const { return seats_[static_cast<std::size_t>(robot)]; }
+  const std::shared_ptr<programs::Seat>& seat(int robot) const {
+    return seats_[static_cast<std::size_t>(robot)];
+  }
   /// Where a robot's UART 1 or 2 goes, in open_uart_end()'s words: by the options, or by the world.
   const std::string& uart_choice(int robot, int port) const {
     return uart_choices_[static_cast<std::size_t>(robot)][static_cast<std::size_t>(port - 1)];
