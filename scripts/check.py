@@ -20,8 +20,7 @@ LONGEST_FILE = 700      # lines
 LARGEST_FILE = 1 << 20  # bytes
 
 # rooms of the simulator core, each may include itself and those to its left
-CORE = ["base", "time", "random", "geometry", "physics", "world", "light", "camera", "sound", "radio", "record",
-        "load", "supervisor"]
+CORE = ["base", "random", "geometry", "physics", "world", "light", "camera", "sound", "radio", "record", "load"]
 CHIP = ["memory", "periph", "device", "core", "asm", "load", "llvm", "translate"]
 # other rooms -> what they may include, as prefixes of the path (their own folder is always allowed)
 MAY_INCLUDE = {
@@ -30,24 +29,26 @@ MAY_INCLUDE = {
     "hal_sim/drivers": ["hal_sim/board", "hal_sim/api/timings.h", "sim_core/base"],
     "hal_sim/host": ["dspic30/memory", "hal_sim/board", "hal_sim/drivers", "hal_sim/api/timings.h", "sim_core/base", "sim_core/world/robot_mind.h",
                      "sim_core/world/scene.h"],
-    "hal_sim/api": ["hal_sim/host/pins", "hal_sim/host/image_abi.h", "firmware/include", "firmware/library",
-                    "firmware/webots/simulator.h"],  # what Webots' interfaces take from the simulator
+    "hal_sim/api": ["hal_sim/host/pins", "hal_sim/host/image_abi.h", "firmware/include", "firmware/library"],
     "firmware/library": ["firmware/include"],
     "hal_sim/cc": ["dspic30/memory/irqs.inc", "dspic30/memory/irqs.h", "hal_sim/board/cycle.h", "hal_sim/host/image_abi.h", "hal_sim/host/image_stamp.h", "hal_sim/host/pins",
                    "hal_sim/api/timings.h", "dspic30/llvm/target.h", "dspic30/llvm/link.h", "sim_core/base/pattern.h"],  # its libc calls the host
     "hal_sim/trace": ["hal_sim/board", "hal_sim/drivers/driver_params.h", "hal_sim/host", "dspic30", "sim_core/base", "sim_core/load"],
-    "hal_sim/twin": ["hal_sim/", "sim_core/", "programs/build/build.h"],  # ties board, host and world together
+    # ties board, host and world together
+    "hal_sim/twin": ["hal_sim/", "sim_core/", "programs/build/build.h", "programs/puck/program_runner.h"],
     "hal_sim/debug": ["hal_sim/chip", "hal_sim/host", "hal_sim/twin", "dspic30", "sim_core"],
     "hal_sim/register": ["hal_sim/host", "hal_sim/chip", "hal_sim/board", "dspic30"],
     "hal_sim/chip": ["hal_sim/board", "hal_sim/host/runner.h", "hal_sim/host/image_abi.h", "hal_sim/host/endless_wait.h", "dspic30", "sim_core/base"],
     "hal_dspic": ["firmware/include", "firmware/library", "hal_sim/host/image_abi.h"],  # runtime: what the libc asks for
+    "programs/process": ["programs/link"],
     "programs/build": ["hal_sim/cc/child_process.h", "hal_sim/cc/memory_limit.h", "sim_core/base"],
-    "supervisor": ["hal_sim/", "sim_core/"],  # a whole twin, seen from outside
-    # linked into supervisors' programs, which see nothing but supervisor.h
-    "supervisor/webots": ["supervisor/include", "firmware/include"],
-    "supervisor/programs": ["supervisor/include", "firmware/include"],
+    "programs/puck": ["hal_sim/board", "hal_sim/drivers", "hal_sim/host", "sim_core", "programs/link",
+                      "firmware/include/webots/nodes.h"],
     "programs/world": ["hal_sim/", "sim_core/", "import/", "programs/link"],  # nodes of a whole twin
-    "viewer": ["hal_sim/", "sim_core/", "supervisor/team.h"],  # a whole twin, seen and touched from outside
+    "programs/team": ["hal_sim/", "sim_core/", "programs/", "firmware/include/webots/nodes.h"],
+    # linked into programs, of which it knows the link
+    "programs/controller": ["programs/link", "firmware/include"],
+    "viewer": ["hal_sim/", "sim_core/", "programs/team/team.h"],  # a whole twin, seen and touched from outside
     "import": ["sim_core/base", "sim_core/geometry", "sim_core/world", "sim_core/load"],  # it knows e-pucks by their nodes only
     "firmware": ["tests/support/firmware_test.h"],  # a controller brings its own test.cpp
 }
@@ -60,7 +61,8 @@ PACKAGE_ROOMS = {
     "box2d/": ["sim_core/physics"], "Eigen/": ["sim_core/simulation.cpp"], "ccd/": ["sim_core/geometry"], "boost/": ["hal_sim/host"],
     "toml++/": ["sim_core/load/toml_parser.h"], "CLI/": ["tools"], "llvm/": ["hal_sim/cc", "dspic30/llvm", "dspic30/translate"], "clang/": ["hal_sim/cc"],
     "cairo": ["sim_core/record", "sim_core/load", "tools"], "enki/": ["bench"], "gelf.h": ["hal_sim", "dspic30"],
-    "libelf.h": ["hal_sim", "dspic30"], "vpx/": ["sim_core/record"], "zlib.h": ["sim_core/record", "viewer/report.cpp"], "jpeglib.h": ["import", "programs/controller"], "png.h": ["programs/controller"],
+    "libelf.h": ["hal_sim", "dspic30"], "vpx/": ["sim_core/record"], "zlib.h": ["sim_core/record", "viewer/report.cpp"],
+    "jpeglib.h": ["import", "programs/controller"], "png.h": ["programs/controller"],
     "civetweb.h": ["viewer"],
 }
 FREE_ROOMS = ("tools", "tests", "bench")  # may include anything
@@ -82,7 +84,7 @@ def committed_files():
 
 def room_of(path):
     parts = path.split("/")
-    if path.startswith(("supervisor/webots/", "supervisor/programs/", "firmware/library/", "programs/")):
+    if path.startswith(("firmware/library/", "programs/")):
         return "/".join(parts[:2])
     if parts[0] in ("sim_core", "dspic30", "hal_sim") and len(parts) > 2:
         return "/".join(parts[:2])
@@ -94,7 +96,7 @@ def may_include(path, target):
     room = room_of(path)
     own = room_of(target)
     if room.startswith(FREE_ROOMS) or own == room or \
-            re.fullmatch(r"(firmware|firmware/lab|supervisor/programs)/[^/]+/test\.cpp", path):
+            re.fullmatch(r"(firmware|firmware/lab|programs/supervisors)/[^/]+/test\.cpp", path):
         return True  # a controller's own test is a test
     if room.startswith("sim_core"):
         if path.count("/") == 1:  # sim_core/simulation.*: the front door of all rooms

@@ -7,7 +7,8 @@ firmware/library with hal_dspic (the chip).
 
 A prototype's linker name is its own name, or that with the prefix its header gives it (TP_VARIANT). A definition
 takes the linker name of the first header that its file includes and that declares it, as the compiler does. What
-webots/, device/ and twinpuck/ declare is the simulator's own and not asked of the chip.
+webots/ and device/ declare is for programs of the PC and not asked of firmware, what twinpuck/ declares is the
+simulator's own and not asked of the chip.
 """
 import collections
 import pathlib
@@ -19,15 +20,13 @@ INCLUDE = ROOT / "firmware/include"
 COMMON = ROOT / "firmware/library"
 API = ROOT / "hal_sim/api"
 CHIP = ROOT / "hal_dspic"
-WEBOTS = ROOT / "firmware/webots"  # the library behind webots/ and device/, on top of the API
 
 # headers without prototypes of the contract, or that only include others
 NO_PROTOTYPES = {"p30F6014A.h",
-                 "supervisor.h"}  # of programs of the PC: supervisor/ defines them; a few are firmware's as well
+                 "supervisor.h"}  # of programs of the PC; a few are firmware's as well
 # declared by the original library's headers and contained in none of its versions: not linked there, nor here
 ONLY_DECLARED = {"e_i2cp_read_string", "e_i2cp_write_string",
-                 "e_po6030k_set_color_mode", "e_po8030d_set_color_mode",
-                 "speaker_emit_sample"}  # the robot plays stored sounds only: refused when a program is linked
+                 "e_po6030k_set_color_mode", "e_po8030d_set_color_mode"}
 # of the vendor's libpic30 on the chip, of hal_sim/cc/libc/src/eedata.c here
 VENDORS_LIBRARY = {"_erase_eedata", "_erase_eedata_all", "_memcpy_p2d16", "_wait_eedata", "_write_eedata_row", "_write_eedata_word"}
 # a header's own variant macro -> (switch, prefix with the switch, prefix without)
@@ -109,7 +108,7 @@ def main():
             for prefix in choices.values():
                 declared.setdefault(prefix + name, header)
     problems = []
-    ways = [("native way", sorted(COMMON.glob("*.c")) + sorted(API.glob("*.c")) + sorted(WEBOTS.glob("*.c")), ()),
+    ways = [("native way", sorted(COMMON.glob("*.c")) + sorted(API.glob("*.c")), ("webots/", "device/")),
             ("chip", sorted(COMMON.glob("*.c")) + sorted(CHIP.rglob("*.c")), ("webots/", "device/", "twinpuck/"))]
     counts = []
     for way, sources, not_asked in ways:
