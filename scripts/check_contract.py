@@ -7,12 +7,13 @@ firmware/library with hal_dspic (the chip).
 
 A prototype's linker name is its own name, or that with the prefix its header gives it (TP_VARIANT). A definition
 takes the linker name of the first header that its file includes and that declares it, as the compiler does. What
-webots/ and device/ declare is for programs of the PC and not asked of firmware, what twinpuck/ declares is the
-simulator's own and not asked of the chip.
+webots/ and device/ declare is for programs of the PC: asked of build/libcontroller.so where that is built, and not of
+firmware. What twinpuck/ declares is the simulator's own and not asked of the chip.
 """
 import collections
 import pathlib
 import re
+import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -20,6 +21,7 @@ INCLUDE = ROOT / "firmware/include"
 COMMON = ROOT / "firmware/library"
 API = ROOT / "hal_sim/api"
 CHIP = ROOT / "hal_dspic"
+CONTROLLER = ROOT / "build/libcontroller.so"  # what programs of the PC link with
 
 # headers without prototypes of the contract, or that only include others
 NO_PROTOTYPES = {"p30F6014A.h",
@@ -126,6 +128,16 @@ def main():
             if len(places) > 1 and name in declared:
                 problems.append("%s: %s: defined again, first in %s" % (places[1], name, places[0]))
         counts.append("%s %d of %d" % (way, sum(1 for name in asked if defined[name]), len(asked)))
+    if CONTROLLER.exists():  # its functions come from macros, too: only the compiler knows them
+        listing = subprocess.run(["nm", "-D", "--defined-only", CONTROLLER], capture_output=True, text=True, check=True)
+        exported = {line.split()[-1] for line in listing.stdout.splitlines()}
+        asked = {name: header for name, header in declared.items() if header.startswith(("webots/", "device/"))}
+        for name, header in sorted(asked.items()):
+            if name not in exported:
+                problems.append("firmware/include/%s: %s: declared, but libcontroller.so has it not" % (header, name))
+        counts.append("PC %d of %d" % (len(exported & set(asked)), len(asked)))
+    else:
+        counts.append("PC not built")
 
     for problem in problems:
         print(problem)
