@@ -18,7 +18,7 @@ namespace host {
 
 namespace {
 bool is_library(const std::string& file) {
-  for (const char* room : {"hal_sim/", "firmware/library/", "hal_dspic/", "firmware/webots/"})
+  for (const char* room : {"hal_sim/", "firmware/library/", "hal_dspic/"})
     if (file.find(room) != std::string::npos) return true;
   return false;
 }

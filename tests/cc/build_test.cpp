@@ -53,6 +53,37 @@ TEST(build, several_mains_and_none_are_said_clearly) {
   EXPECT_NE(text_of(cc::build_image(nowhere)).find("got no such folder"), std::string::npos);
 }
 
+TEST(build, programs_that_are_no_firmware_are_named) {
+  struct Case {
+    const char *file, *text, *told;
+  };
+  const Case cases[] = {
+      {"prog/mine.cpp", "#include <webots/Robot.hpp>\nint main() { return 0; }",
+       "prog/mine.cpp: program: got C++, expected C"},
+      {"prog/mine.py", "from controller import Robot",
+       "prog: controller: got a program in Python, expected one in C"},
+      {"prog/mine.c", "#include <webots/robot.h>\nint main(void) { wb_robot_init(); return 0; }",
+       "prog: program: got one for Webots' interfaces, expected one for the e-puck's library"}};
+  for (const Case& c : cases) {
+    Folder folder;
+    folder.file(c.file, c.text);
+    cc::BuildOptions options;
+    options.source_dir = folder.path / "prog";
+    options.output = folder.path / "prog.so";
+    const auto built = cc::build_image(options);
+    EXPECT_FALSE(built.ok) << c.file;
+    EXPECT_NE(text_of(built).find(c.told), std::string::npos) << text_of(built);
+  }
+  // main() may be in C++ where the rest is in C; a test beside is no part of a program
+  Folder folder;
+  folder.file("prog/test.cpp", "#include \"tests/support/firmware_test.h\"\nint main(void) {}");
+  EXPECT_NE(text_of(build(folder, "int part;")).find("main(): got no definition"), std::string::npos);
+  folder.file("prog/start.cc", "int main() { return 0; }");
+  const auto mixed = build(folder, "int part;");
+  EXPECT_NE(text_of(mixed).find("start.cc: program: got C++"), std::string::npos) << text_of(mixed);
+  EXPECT_TRUE(build(folder, "int main(void) { return 0; }").ok);
+}
+
 TEST(build, sixteen_bit_warnings_are_passed_on) {
   Folder folder;
   auto built = build(folder,

@@ -11,8 +11,9 @@ using namespace fake;
 
 namespace {
 
-cc::BuildResult build_folder(const Folder& folder) {
+cc::BuildResult build_folder(const Folder& folder, bool for_chip = false) {
   cc::BuildOptions options;
+  options.chip_way = options.register_way = for_chip;
   options.source_dir = folder.path / "controllers/prog";
   options.output = folder.path / "out.so";
   return cc::build_image(options);
@@ -92,7 +93,7 @@ TEST(makefile_project, a_makefile_of_webots_names_all_sources) {
   folder.file("controllers/prog/prog.c", head + "int main(void) { return not_to_be_compiled; }");
   folder.file("controllers/shared/part.c", "int part(void) { return 0; }");
   folder.file("controllers/prog/Makefile", "C_SOURCES = start.c part.c\nVPATH = ../shared\n");
-  auto built = build_folder(folder);
+  auto built = build_folder(folder, true);
   EXPECT_TRUE(built.ok) << text_of(built);
 }
 
