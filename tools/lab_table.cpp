@@ -151,8 +151,8 @@ class Reader {
   }
 
   LabStep step(const toml::table& t) {
-    only(t, {"says", "worlds", "firmware", "seconds", "seeds", "noise_scales", "share", "spread", "start",
-             "region", "at_most", "at_least", "show", "by_world", "answer", "sensor", "needs_simulator"});
+    only(t, {"says", "worlds", "firmware", "supervisor", "seconds", "seeds", "noise_scales", "share", "spread", "start",
+             "region", "at_most", "at_least", "show", "by_world", "answer", "sensor"});
     LabStep s;
     s.says = text(t, "says");
     s.answer = text(t, "answer");
@@ -163,7 +163,7 @@ class Reader {
     if (s.kind != LabStep::Kind::Answer && s.worlds.empty())
       problem(t, "step: got no worlds, expected one or more");
     s.firmware = text(t, "firmware");
-    s.needs_simulator = t["needs_simulator"].value_or(false);
+    s.supervisor = text(t, "supervisor");
     s.seconds = s.full_seconds = number(t, "seconds", 60);
     if (t["seconds"].is_array()) {
       const Span both = span(t, "seconds", {60, 60});

@@ -69,7 +69,7 @@ struct LabStep {
   /// For every robot; empty: as the world says. "lab/NAME": the solution of an exercise in which a student
   /// writes NAME.
   std::string firmware;
-  bool needs_simulator = false;  ///< written for Webots' interfaces, which no chip has
+  std::string supervisor;  ///< in the place of the world's; empty: the world's
   double seconds = 60, full_seconds = 60;
   int quick_seeds = 1, full_seeds = 1;
   std::vector<double> noise_scales;  ///< of the proximity sensors; empty: as the world says

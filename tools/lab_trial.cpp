@@ -269,7 +269,9 @@ bool run_trial(const Trial& trial, Measures& measures, std::string& said,
   if (!trial.image.empty()) options.firmware = {{"*", trial.image}};
   auto twin = twin::Twin::open(std::move(world), options, problems);
   if (!twin) return false;
-  const auto team = programs::Team::open(*twin, options, {}, problems);
+  std::vector<std::string> supervisors;
+  if (!step.supervisor.empty()) supervisors.push_back(step.supervisor);
+  const auto team = programs::Team::open(*twin, options, supervisors, problems);
   if (!team) return false;
   // "NAME TIME s: TEXT"
   team->say = [&said](const std::string& line) {

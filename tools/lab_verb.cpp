@@ -43,9 +43,7 @@ LabPrograms build_images(const std::vector<const LabExercise*>& chosen, const st
   options.tell = [](const std::string& line) { std::cerr << line << '\n'; };
   for (const LabExercise* e : chosen)
     for (const LabStep& s : e->steps)
-      if (s.needs_simulator && way == "chip")
-        programs.missing[s.firmware] = "written for Webots' interfaces, which the chip has not";
-      else if (!s.firmware.empty() && !programs.images.count(s.firmware))
+      if (!s.firmware.empty() && !programs.images.count(s.firmware))
         programs.images[s.firmware] = twin::provide_image(s.firmware, "", options, problems);
   return programs;
 }
