@@ -14,6 +14,18 @@ struct Source {
   bool has_main = false;
 };
 
+/// main() in the text itself, or in C that it includes as text, here or elsewhere.
+bool has_main(const fs::path& file, const std::string& text, int depth = 0) {
+  constexpr int kDeepest = 4;
+  if (defines_main(without_comments(text))) return true;
+  if (depth == kDeepest) return false;
+  for (const std::string& name : includes_of(text))
+    if (const fs::path other = resolve(file.parent_path(), name);
+        !other.empty() && (is_c(other) || is_cxx(other)) && other != file && has_main(other, text_of(other), depth + 1))
+      return true;
+  return false;
+}
+
 /// All sources below a folder, but for those that another one includes as text.
 std::vector<Source> sources_below(const fs::path& folder) {
   std::vector<Source> sources;
@@ -27,7 +39,7 @@ std::vector<Source> sources_below(const fs::path& folder) {
       if (const fs::path other = resolve(file.parent_path(), name);
           !other.empty() && (is_c(other) || is_cxx(other)) && other.lexically_normal() != file)
         included.insert(other.lexically_normal());
-    if (is_source) sources.push_back({file, defines_main(without_comments(text))});
+    if (is_source) sources.push_back({file, has_main(file, text)});
   }
   sources.erase(std::remove_if(sources.begin(), sources.end(),
                                [&](const Source& s) { return included.count(s.file) != 0; }),
