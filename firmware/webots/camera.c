@@ -15,45 +15,6 @@
 #define PIXELS (COLUMNS * ROWS)
 #define FOV_RAD 0.84f /* [Webots: E-puck.proto] */
 
-#ifdef __TWINPUCK_PC__
-
-static char taken[2 * PIXELS];
-static unsigned char shown[4 * PIXELS];
-static unsigned char is_on;
-
-static void start(void) {
-  int i;
-  if (is_on) return;
-  is_on = 1;
-  e_poxxxx_init_cam(); /* clears the ports: motors go on with their next step */
-  webots_show_leds();
-  e_poxxxx_config_cam((ARRAY_WIDTH - COLUMNS * ZOOM) / 2, (ARRAY_HEIGHT - ROWS * ZOOM) / 2, COLUMNS * ZOOM,
-                      ROWS * ZOOM, ZOOM, ZOOM, RGB_565_MODE);
-  e_poxxxx_write_cam_registers();
-  e_poxxxx_launch_capture(taken);
-  for (i = 3; i < 4 * PIXELS; i += 4) shown[i] = 255; /* black, until there is a picture */
-}
-
-/* the newest picture that is whole, if there is a new one */
-static void sample(struct webots_device* device) {
-  const unsigned char* from = (const unsigned char*)taken;
-  unsigned char* to = shown;
-  int i;
-  (void)device;
-  if (!e_poxxxx_is_img_ready()) return;
-  for (i = 0; i < PIXELS; i++, from += 2, to += 4) {
-    unsigned int red = from[0] >> 3, green = (from[0] & 7u) << 3 | from[1] >> 5, blue = from[1] & 31u;
-    /* the upper bits again below: full is 255 */
-    to[0] = (unsigned char)(blue << 3 | blue >> 2);
-    to[1] = (unsigned char)(green << 2 | green >> 4);
-    to[2] = (unsigned char)(red << 3 | red >> 2);
-    to[3] = 255;
-  }
-  e_poxxxx_launch_capture(taken);
-}
-
-#else
-
 static char shown[2 * PIXELS];
 static unsigned char is_on;
 static unsigned char is_wanted; /* the program has seen the picture */
@@ -82,8 +43,6 @@ static void sample(struct webots_device* device) {
   seen_by = device;
   if (e_poxxxx_is_img_ready()) is_wanted = 1;
 }
-
-#endif
 
 static struct webots_device* camera(WbDeviceTag tag, const char* function) {
   return webots_device_of(tag, WB_NODE_CAMERA, function);

@@ -7,9 +7,7 @@
  */
 #include "core.h"
 
-#ifndef __TWINPUCK_PC__
 #include <p30F6014A.h>
-#endif
 #include <stdio.h>
 #include <string.h>
 
@@ -117,49 +115,6 @@ struct webots_device* webots_add(const char* name, WbNodeType node, int index, i
   return d;
 }
 
-#ifdef __TWINPUCK_PC__
-static char extra_names[WEBOTS_MOST_DEVICES / 4][WEBOTS_NAME_SIZE];
-static int extra_count;
-
-static struct webots_device* add_extra(const char* name, WbNodeType node, int index, int source) {
-  if (extra_count == WEBOTS_MOST_DEVICES / 4) return 0;
-  strncpy(extra_names[extra_count], name, WEBOTS_NAME_SIZE - 1);
-  return webots_add(extra_names[extra_count++], node, index, source);
-}
-
-static void add_simulated(void) {
-  char name[WEBOTS_NAME_SIZE];
-  int i, kind;
-  webots_add("emitter", WB_NODE_EMITTER, twin_emitter_find("emitter"), WEBOTS_TRUTH);
-  webots_add("receiver", WB_NODE_RECEIVER, twin_receiver_find("receiver"), WEBOTS_TRUTH);
-  for (i = 0; (kind = twin_device(i, name, WEBOTS_NAME_SIZE)) != TWIN_NONE; i++) {
-    if (kind == TWIN_EMITTER && strcmp(name, "emitter") != 0)
-      add_extra(name, WB_NODE_EMITTER, twin_emitter_find(name), WEBOTS_TRUTH);
-    else if (kind == TWIN_RECEIVER && strcmp(name, "receiver") != 0)
-      add_extra(name, WB_NODE_RECEIVER, twin_receiver_find(name), WEBOTS_TRUTH);
-    else if (kind == TWIN_GPS)
-      add_extra(name, WB_NODE_GPS, 0, WEBOTS_TRUTH);
-    else if (kind == TWIN_COMPASS)
-      add_extra(name, WB_NODE_COMPASS, 0, WEBOTS_TRUTH);
-    else if (kind == TWIN_INERTIAL)
-      add_extra(name, WB_NODE_INERTIAL_UNIT, 0, WEBOTS_TRUTH);
-    else if (kind == TWIN_GYRO)
-      add_extra(name, WB_NODE_GYRO, 0, WEBOTS_TRUTH);
-    else if (kind == TWIN_DISTANCE)
-      add_extra(name, WB_NODE_DISTANCE_SENSOR, 0, WEBOTS_VIRTUAL);
-    else if (kind == TWIN_DISPLAY)
-      add_extra(name, WB_NODE_DISPLAY, i, WEBOTS_VIRTUAL);
-  }
-}
-#else
-/* packets go over the radio turret; whether it is there is asked when a program uses them */
-static void add_simulated(void) {
-  webots_add("emitter", WB_NODE_EMITTER, 0, WEBOTS_ROBOT);
-  webots_add("receiver", WB_NODE_RECEIVER, 0, WEBOTS_ROBOT);
-}
-#define add_extra(name, node, index, source) 0
-#endif
-
 static void add_devices(void) {
   static const char* const kProximity[RING] = {"ps0", "ps1", "ps2", "ps3", "ps4", "ps5", "ps6", "ps7"};
   static const char* const kLight[RING] = {"ls0", "ls1", "ls2", "ls3", "ls4", "ls5", "ls6", "ls7"};
@@ -184,7 +139,9 @@ static void add_devices(void) {
   webots_add("mic1", WB_NODE_MICROPHONE, 1, WEBOTS_ROBOT);
   webots_add("mic2", WB_NODE_MICROPHONE, 2, WEBOTS_ROBOT);
   webots_add("speaker", WB_NODE_SPEAKER, 0, WEBOTS_ROBOT);
-  add_simulated();
+  /* packets go over the radio turret; whether it is there is asked when a program uses them */
+  webots_add("emitter", WB_NODE_EMITTER, 0, WEBOTS_ROBOT);
+  webots_add("receiver", WB_NODE_RECEIVER, 0, WEBOTS_ROBOT);
 }
 
 /* The bus is asked only when a program wants these; who has none leaves it unused. */
@@ -215,9 +172,6 @@ static int too_many(void) {
 unsigned short webots_find(const char* name, const char* function) {
   const char* wanted = name;
   char ground[4];
-#ifdef __TWINPUCK_PC__
-  float value;
-#endif
   int i;
   webots_init();
   /* floor sensors had other names once */
@@ -229,8 +183,6 @@ unsigned short webots_find(const char* name, const char* function) {
   if (wanted[0] == 'g' && wanted[1] == 's' && strlen(wanted) == 3) add_ground_sensors();
   for (i = 0; i < device_count; i++)
     if (strcmp(devices[i].name, wanted) == 0) return (unsigned short)(i + 1);
-  if (twin_virtual_sensor(name, &value) && add_extra(name, WB_NODE_DISTANCE_SENSOR, 0, WEBOTS_VIRTUAL))
-    return (unsigned short)device_count;
   if (too_many()) return 0;
   printf("Warning: %s(): got device \"%s\", expected one that this robot has\n", function, name);
   return 0;
@@ -314,7 +266,6 @@ void webots_show_leds(void) {
 
 /* --- the beginning ------------------------------------------------------------------------------------ */
 
-#ifndef __TWINPUCK_PC__
 #define UART_115200 7 /* FCY / (16 * 115200) - 1, FCY 14.7456 MHz [DS70143 17.0] */
 static unsigned char is_of_2005;
 
@@ -329,15 +280,12 @@ static void open_console(void) {
   U1MODE = 0x8000;
   U1STA = 0x0400;
 }
-#endif
 
 void webots_init(void) {
   if (is_running) return;
   is_running = 1;
   e_init_port();
-#ifndef __TWINPUCK_PC__
   open_console();
-#endif
   e_init_motors();
   e_start_agendas_processing();
   e_init_ad_scan(ALL_ADC);

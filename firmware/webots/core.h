@@ -8,12 +8,7 @@
 #include "simulator.h"
 #include "webots/nodes.h"
 
-#ifdef __TWINPUCK_PC__
-#define WEBOTS_MOST_DEVICES 64
-#else
 #define WEBOTS_MOST_DEVICES 48 /* 43 of the robot, the turret's two, what programs do not see; each takes 16 bytes */
-#endif
-#define WEBOTS_NAME_SIZE 32 /* characters of a device's name, with the 0 */
 #define WEBOTS_WHEEL_STEPS 1000 /* a turn */
 #define WEBOTS_MAX_RAD_S 6.2831853f /* 1000 steps/s */
 #define WEBOTS_PI 3.14159265f
@@ -32,7 +27,7 @@ struct webots_device {
 };
 
 /* where a device's values come from */
-enum webots_source { WEBOTS_ROBOT, WEBOTS_GROUND, WEBOTS_VIRTUAL, WEBOTS_TRUTH };
+enum webots_source { WEBOTS_ROBOT, WEBOTS_GROUND };
 
 /** Starts library and clock, once. Blocks for about 0.2 s the first time. */
 void webots_init(void);

@@ -37,14 +37,6 @@ static void sample_rates(struct webots_device* device) {
   int x, y, z; /* forward, left, up */
   float scale = RAD_PER_DEG * GYRO_SCALE;
   (void)device;
-#ifdef __TWINPUCK_PC__
-  if (device->source == WEBOTS_TRUTH) {
-    int axis;
-    twin_rates(rates);
-    for (axis = 0; axis < 3; axis++) rates[axis] *= GYRO_SCALE;
-    return;
-  }
-#endif
   getAllAxesGyro(&x, &y, &z);
   webots_robot_axes(rawToDps(x) * scale, rawToDps(y) * scale, rawToDps(z) * scale, rates);
 }

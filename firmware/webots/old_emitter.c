@@ -5,11 +5,7 @@
 #include "core.h"
 #include "device/emitter.h"
 
-#ifdef __TWINPUCK_PC__
-#define BUFFER_BYTES 1024
-#else
 #define BUFFER_BYTES 108
-#endif
 
 static char buffer[BUFFER_BYTES];
 

@@ -25,11 +25,7 @@ static int step(int ms) {
   return 0;
 }
 
-static const char* name(void) {
-  static char text[WEBOTS_NAME_SIZE];
-  if (!text[0]) twin_robot_name(text, WEBOTS_NAME_SIZE);
-  return text[0] ? text : "e-puck";
-}
+static const char* name(void) { return "e-puck"; }
 
 /* sums of whole ms; a float counts them to 16,777 s */
 static double seconds(void) { return (double)webots_time_ms() / 1000; }
@@ -62,11 +58,7 @@ static void enable_battery(int period) {
 }
 
 static int mode(void) {
-#ifdef __TWINPUCK_PC__
-  return WB_MODE_SIMULATION;
-#else
   return WB_MODE_CROSS_COMPILATION;
-#endif
 }
 
 static void write_text(const char* format, va_list list) { vprintf(format, list); }
@@ -129,9 +121,7 @@ void wb_console_print(const char* text, int stream) {
 /* --- device/robot.h ----------------------------------------------------------------------------------- */
 
 void robot_live(void (*reset)(void)) {
-#ifndef __TWINPUCK_PC__
   webots_begin_2005();
-#endif
   live(reset);
 }
 void robot_run(int (*run)(int ms)) { run_for_ever(run); }

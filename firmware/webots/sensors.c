@@ -33,25 +33,14 @@ static void sample_ground(struct webots_device* device) {
   device->value = (float)(high << 8 | low);
 }
 
-static void sample_virtual(struct webots_device* device) {
-  float value = NAN; /* nobody has defined it yet */
-  (void)twin_virtual_sensor(device->name, &value);
-  device->value = value;
-}
-
 static void sample_light(struct webots_device* device) {
   device->value = (float)e_get_ambient_light(device->index);
 }
 
 static void enable_distance(struct webots_device* d, int period) {
-  if (!d) return;
-  webots_enable(d, period,
-                d->source == WEBOTS_GROUND    ? sample_ground
-                : d->source == WEBOTS_VIRTUAL ? sample_virtual
-                                              : sample_ring);
+  if (d) webots_enable(d, period, d->source == WEBOTS_GROUND ? sample_ground : sample_ring);
 }
 
-/* touch sensors are virtual ones, which core.c knows as distance sensors */
 static struct webots_device* distance(WbDeviceTag tag, const char* function) {
   return webots_device_of(tag, WB_NODE_DISTANCE_SENSOR, function);
 }
@@ -91,10 +80,7 @@ double wb_distance_sensor_get_aperture(WbDeviceTag tag) {
   const struct webots_device* d = distance(tag, "wb_distance_sensor_get_aperture");
   return d && d->source == WEBOTS_ROBOT ? RING_APERTURE_RAD : 0;
 }
-WbDistanceSensorType wb_distance_sensor_get_type(WbDeviceTag tag) {
-  const struct webots_device* d = distance(tag, "wb_distance_sensor_get_type");
-  return d && d->source == WEBOTS_VIRTUAL ? WB_DISTANCE_SENSOR_GENERIC : WB_DISTANCE_SENSOR_INFRA_RED;
-}
+WbDistanceSensorType wb_distance_sensor_get_type(WbDeviceTag tag) { return (void)tag, WB_DISTANCE_SENSOR_INFRA_RED; }
 int wb_distance_sensor_get_lookup_table_size(WbDeviceTag tag) { return (void)tag, 0; }
 const double* wb_distance_sensor_get_lookup_table(WbDeviceTag tag) { return (void)tag, (const double*)0; }
 
@@ -132,22 +118,3 @@ unsigned short light_sensor_get_value(DeviceTag tag) {
 
 /* --- touch sensors ------------------------------------------------------------------------------------ */
 
-#ifdef __TWINPUCK_PC__ /* the robot has none */
-
-void wb_touch_sensor_enable(WbDeviceTag tag, int sampling_period) {
-  enable_distance(distance(tag, "wb_touch_sensor_enable"), sampling_period);
-}
-void wb_touch_sensor_disable(WbDeviceTag tag) { enable_distance(distance(tag, "wb_touch_sensor_disable"), 0); }
-int wb_touch_sensor_get_sampling_period(WbDeviceTag tag) {
-  const struct webots_device* d = distance(tag, "wb_touch_sensor_get_sampling_period");
-  return d ? d->period : 0;
-}
-double wb_touch_sensor_get_value(WbDeviceTag tag) {
-  return value_of(distance(tag, "wb_touch_sensor_get_value"));
-}
-void touch_sensor_enable(DeviceTag tag, int ms) { enable_distance(distance(tag, "touch_sensor_enable"), ms); }
-void touch_sensor_disable(DeviceTag tag) { enable_distance(distance(tag, "touch_sensor_disable"), 0); }
-unsigned short touch_sensor_get_value(DeviceTag tag) {
-  return counts_of(distance(tag, "touch_sensor_get_value"));
-}
-#endif

@@ -4,7 +4,6 @@
  * 0.5 ms of the bus. The turret keeps one packet: a step takes it over, and a queue of two waits for the program.
  * Not there: range, signal strength and direction, of which the turret knows nothing.
  */
-#ifndef __TWINPUCK_PC__
 #include <string.h>
 
 #include "contrib/SWIS_com_module/ComModule.h"
@@ -130,4 +129,3 @@ int receiver_get_data_size(DeviceTag tag) { return wb_receiver_get_data_size(tag
 const void* receiver_get_data(DeviceTag tag) { return wb_receiver_get_data(tag); }
 void receiver_set_channel(DeviceTag tag, int channel) { wb_receiver_set_channel(tag, channel); }
 int receiver_get_channel(DeviceTag tag) { return wb_receiver_get_channel(tag); }
-#endif
