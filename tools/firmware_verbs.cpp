@@ -139,7 +139,7 @@ std::vector<std::string> missing_files(const sim::WorldDesc& world, const std::s
   }
   for (const auto& program : world.supervisors)
     if (twin::find_firmware(program.program, folder, missing).empty())
-      missing.back() = file + ": " + missing.back();
+      missing.back() = file + ": supervisor '" + (program.name.empty() ? program.program : program.name) + "': " + missing.back();
   return missing;
 }
 

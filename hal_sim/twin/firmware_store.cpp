@@ -38,7 +38,7 @@ bool is_room(const std::string& name) {
 std::vector<std::string> controller_names() {
   std::vector<std::string> names;
   std::error_code none;
-  for (const char* room : {"firmware", "firmware/lab"})
+  for (const char* room : {"firmware", "firmware/lab", "programs/supervisors"})
     for (const auto& entry : fs::directory_iterator(fs::path(project_root()) / room, none))
       if (entry.is_directory(none) && !is_room(entry.path().filename().string()) && holds_c(entry.path()))
         names.push_back(entry.path().filename().string());

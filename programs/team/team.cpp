@@ -50,7 +50,12 @@ std::unique_ptr<Team> Team::open(twin::Twin& twin, const twin::Options& options,
     member->arguments = named.desc.args;
     member->custom = named.desc.custom_data;
     member->supervisor = named.of_world;
-    if (!twin::provide_launch(named.desc.program, named.folder, options, problems, member->launch)) continue;
+    const std::size_t of_others = problems.size();
+    if (!twin::provide_launch(named.desc.program, named.folder, options, problems, member->launch)) {
+      if (problems.size() > of_others)
+        problems[of_others] = "supervisor '" + named.desc.name + "': " + problems[of_others];
+      continue;
+    }
     auto body = std::make_shared<BodilessBody>(named.desc);
     twin.packets().add(*body);
     member->bodiless = body.get();

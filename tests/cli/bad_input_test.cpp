@@ -137,7 +137,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"lab_table_is_a_device", "lab --table /dev/zero", 2, "expected a regular file"},
         Bad{"firmware_is_a_device", "run maze --fw puck=/dev/zero", 2, "regular file"},
         Bad{"firmware_is_a_loop", "run maze --fw puck=@/loop", 2, "loop"},
-        Bad{"supervisor_is_a_device", "run maze --supervisor /dev/zero", 2, "got a device"},
+        Bad{"supervisor_is_a_device", "run maze --supervisor /dev/zero", 2, "got a pipe or a device"},
         Bad{"supervisor_is_a_loop", "run maze --supervisor @/loop", 2, "loop"},
         Bad{"cycles_of_a_device", "cycles /dev/zero", 2, "got a device"},
         Bad{"build_of_a_loop", "build @/loop -o @/x.so", 2, "Too many levels of symbolic links"},
