@@ -19,6 +19,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <mutex>
+#include <set>
 
 extern char** environ;
 
@@ -128,6 +129,37 @@ std::vector<pid_t> family_of(pid_t leader) {
   return family;
 }
 
+/// Programs that were started and not yet ended. What else is our child, in a session of its own, is an orphan of theirs.
+struct Leaders {
+  std::mutex changing;
+  std::set<pid_t> pids;
+};
+Leaders& leaders() {
+  static Leaders all;
+  return all;
+}
+
+/// Orphans in sessions of their own belong to nobody's family: they end with the last program.
+void note_end(pid_t leader) {
+  Leaders& all = leaders();
+  const std::lock_guard<std::mutex> lock(all.changing);
+  all.pids.erase(leader);
+  if (!all.pids.empty()) return;
+  constexpr int kRounds = 50;
+  const pid_t we = getpid(), session = getsid(0);
+  for (int round = 0; round < kRounds; ++round) {
+    bool is_any = false;
+    for (const ProcessLine& p : all_processes())
+      if (p.parent == we && p.session != session) {
+        is_any = true;
+        // its children are ours in the next round
+        ::kill(p.pid, SIGKILL);
+        waitpid(p.pid, nullptr, 0);
+      }
+    if (!is_any) break;
+  }
+}
+
 int remaining(const timespec& until) {
   timespec now;
   clock_gettime(CLOCK_MONOTONIC, &now);
@@ -207,6 +239,10 @@ std::unique_ptr<Partner> Partner::start(const Start& start, std::string& why) {
     why = start.words[0] + ": cannot be started: " + std::strerror(wrong);
     return nullptr;
   }
+  {
+    const std::lock_guard<std::mutex> lock(leaders().changing);
+    leaders().pids.insert(pid);
+  }
   std::unique_ptr<Partner> p(new Partner);
   p->socket_ = sockets[0];
   p->text_ = pipes[0];
@@ -245,6 +281,7 @@ std::unique_ptr<Partner> Partner::listen(const std::string& name, std::string& w
 
 Partner::~Partner() {
   kill();
+  if (pid_ > 0) note_end(pid_);
   for (const int fd : {socket_, listener_, text_, process_})
     if (fd >= 0) close(fd);
   if (!path_.empty()) unlink(path_.c_str());
