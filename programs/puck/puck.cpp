@@ -324,12 +324,15 @@ std::string Puck::play(std::int64_t, const std::string& sound, bool again, Cycle
     return "speaker: got sound '" + sound + "', expected one that the robot stores: haa, spaah, ouah, yaouh, wouaaaah";
   if (!speaks_) {
     speaks_ = true;
-    drivers_.sound().codec().configure();
+    // as e_init_sound() does
+    const board::Pin power = board::kCodecOnPin;
+    board_.latch_bit(power.letter(), power.bit, true, at);
     drivers_.sound().start(at);
+    drivers_.sound().codec().configure();
   }
   sound_ = static_cast<int>(found - std::begin(kSounds));
-  sound_name_ = sound;
   again_ = again;
+  playing_ = sound;
   drivers_.sound().play(found->offset, found->samples, at);
   sound_until_ = drivers_.sound().next_group(at) + found->samples * drivers::kCodecGroupCycles / drivers::kCodecGroup;
   return "";
@@ -518,14 +521,14 @@ void Puck::take_packets(const Device& device, std::int64_t tag, link_packet& to)
 }
 
 void Puck::tell_playing(Cycle at, link_packet& to) {
-  const int plays = at < sound_until_ ? sound_ : -1;
-  if (plays == told_sound_) return;
-  told_sound_ = plays;
+  const std::string plays = sound_ >= 0 && at < sound_until_ ? playing_ : "";
+  if (plays == told_playing_) return;
+  told_playing_ = plays;
   for (std::size_t i = 0; i < devices_.size(); ++i)
     if (devices_[i].kind == Kind::Speaker) {
       link_begin(&to, LINK_PLAYING);
       link_int(&to, static_cast<std::int64_t>(i) + 1);
-      link_text(&to, plays >= 0 ? sound_name_.c_str() : "");
+      link_text(&to, plays.c_str());
       link_end(&to);
     }
 }

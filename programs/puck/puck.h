@@ -121,14 +121,13 @@ class Puck {
   std::unique_ptr<PuckCamera> camera_;
   std::vector<Device> devices_;
   Cycle start_;
-  bool has_lsm_ = false;
+  bool has_lsm_ = false, has_ground_ = false;
   std::uint64_t hash_ = 1;
 
   // the loudspeaker
   int sound_ = -1;  // number of the stored sound that plays
-  std::string sound_name_;  // as the program calls it
   bool again_ = false, speaks_ = false;
-  int told_sound_ = -1;  // what the program believes to play
+  std::string playing_, told_playing_;  // as the program names it; empty: nothing
 
   std::int64_t recognition_period_ms_ = 0, recognition_elapsed_ms_ = 0;
   Cycle sound_until_ = 0;
