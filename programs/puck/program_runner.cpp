@@ -32,18 +32,21 @@ Cycle ProgramRunner::step_end() const {
 void ProgramRunner::begin_step(std::int64_t milliseconds) {
   step_ms_ = std::max<std::int64_t>(1, milliseconds);
   ++turns_;
+  // of steps shorter than a tick several end in one
+  if (step_end() <= end_) end_step(end_);
+}
+
+void ProgramRunner::end_step(Cycle at) {
+  puck_->run(at);
+  link_clear(&samples_);
+  puck_->sample(step_ms_, at, samples_);
+  time_ms_ += step_ms_;
+  step_ms_ = 0;
+  is_due_ = true;
 }
 
 void ProgramRunner::run_until(Cycle end) {
-  if (step_ms_ > 0 && step_end() <= end) {
-    const Cycle at = std::max(step_end(), end_);
-    puck_->run(at);
-    link_clear(&samples_);
-    puck_->sample(step_ms_, at, samples_);
-    time_ms_ += step_ms_;
-    step_ms_ = 0;
-    is_due_ = true;
-  }
+  if (step_ms_ > 0 && step_end() <= end) end_step(std::max(step_end(), end_));
   puck_->run(end);
   end_ = std::max(end_, end);
   ++turns_;

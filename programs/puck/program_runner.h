@@ -94,6 +94,7 @@ class ProgramRunner final : public host::Runner {
  private:
   Cycle step_end() const;
   void begin_anew();
+  void end_step(Cycle at);
 
   std::shared_ptr<Seat> seat_;
   board::Board& board_;

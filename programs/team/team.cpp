@@ -118,8 +118,11 @@ void Team::take_turns() {
       in_turn_ = nullptr;
       if (member->robot >= 0) twin_.mind(member->robot).wake();
     }
-    if (!wants_reset_ && !wants_reload_ && wants_restart_.empty()) break;
-    carry_out_resets();
+    // steps shorter than a tick: the next one may have ended as well
+    if (wants_reset_ || wants_reload_ || !wants_restart_.empty())
+      carry_out_resets();
+    else if (due.empty())
+      break;
   }
 }
 
