@@ -215,14 +215,14 @@ void Team::turn(Member& member) {
                                           member.has_said_hello ? "has not stepped" : "has not called wb_robot_init()",
                                           std::chrono::duration<double>(Clock::now() - began).count(), now_s());
     if (should_give_up && should_give_up()) {
-      line(member, "its program " + since + "; it was ended");
+      say(member.name + ": its program " + since + "; it was ended");
       return over(member);
     }
     if (const int processes = member.partner->processes(); processes > kMostProcesses)
       return fail(member, fmt::format("has started {} processes, expected at most {}", processes, kMostProcesses));
     if (!is_told && Clock::now() - began > kSlow && !member.launch.is_extern) {
       is_told = true;
-      line(member, "its program " + since + "; the world waits for it");
+      say(member.name + ": its program " + since + "; the world waits for it");
     }
   }
 }
