@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "programs/team/names.h"
 
+#include <cxxabi.h>
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <cstring>
 
 #include "hal_sim/host/symbols.h"
@@ -68,6 +70,12 @@ host::Place place_of_crash(const link_record& record) {
   const host::Symbols symbols(file);
   host::Place place = symbols.find(static_cast<std::uintptr_t>(record.ints[1]));
   if (place.function.empty()) place.function = function;
+  // as the program writes it
+  int wrong = 0;
+  if (char* readable = abi::__cxa_demangle(place.function.c_str(), nullptr, nullptr, &wrong)) {
+    place.function = readable;
+    std::free(readable);
+  }
   return place;
 }
 
