@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Evolves the weights of controllers/candidate, with a simulation on every core. evolve.py --help"""
 import argparse
+import atexit
 import os
 import queue
 import signal
@@ -30,6 +31,7 @@ listener = Listener(family="AF_UNIX", backlog=options.cores)
 command = [options.twinpuck, "run", os.path.join(HERE, "evolve.toml"), "--for", "1e6", "--speed", "max", "--quiet"]
 signal.signal(signal.SIGCHLD, lambda *_: sys.exit("evolve.py: a simulation ended before it began: " + " ".join(command)))
 runs = [subprocess.Popen(command, env=dict(os.environ, EVOLVE=listener.address, OMP_NUM_THREADS="1")) for _ in range(options.cores)]
+atexit.register(lambda: [run.terminate() for run in runs])
 free = queue.Queue()
 for _ in runs:
     free.put(listener.accept())
@@ -39,10 +41,13 @@ signal.signal(signal.SIGCHLD, signal.SIG_DFL)
 def judged(weights):
     """The fitness of a candidate, by whichever simulation is free."""
     line = free.get()
-    line.send(weights)
-    fitness = line.recv()
-    free.put(line)
-    return fitness
+    try:
+        line.send(weights)
+        return line.recv()
+    except (EOFError, OSError):
+        raise SystemExit("evolve.py: a simulation ended early; its words are above") from None
+    finally:
+        free.put(line)
 
 
 def children(parents, count):

@@ -5,7 +5,7 @@ from controller import Robot
 
 TIME_STEP = 64
 MOST = 6.28          # rad/s of a wheel
-NEAR = 0.10          # part of the picture that is red when it is near enough
+NEAR = 0.25          # part of the picture that is red when it is near enough
 
 robot = Robot()
 camera = robot.getDevice("camera")
