@@ -38,6 +38,10 @@ TEST(PythonController, calls_functions_as_the_headers_declare_them) {
   EXPECT_EQ(failed("functions_test.py", "'" TWINPUCK_SOURCE_DIR "'"), "");
 }
 
+TEST(ExamplePrograms, do_what_their_pages_say) {
+  EXPECT_EQ(failed("examples_test.py", "'" TWINPUCK_BUILD_DIR "'"), "");
+}
+
 TEST(JavaPrograms, see_and_do_the_same) {
 #ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "Java's machine brings its own memory";
