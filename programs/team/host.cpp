@@ -20,7 +20,7 @@ void Team::reset(bool reload) {
 
 void Team::restart_program(int robot) { wants_restart_.insert(robot); }
 
-/// Everything back to its beginning. Programs of robots begin anew, but for the one that asked for it, as in Webots;
+/// At once, so that what the program commands next finds the world as it began. Everything back to its beginning. Programs of robots begin anew, but for the one that asked for it, as in Webots;
 /// with a reload all do.
 void Team::carry_out_resets() {
   sim::Simulation& simulation = twin_.simulation();
@@ -50,7 +50,7 @@ void Team::carry_out_resets() {
   }
   for (const auto& member : members_) {
     if (!resets || !member->bodiless) continue;
-    if (wants_reload_)
+    if (wants_reload_ || member.get() != resetter_)
       member->starts_anew = true;
     else
       member->bodiless->begin_again(simulation.now());

@@ -100,10 +100,7 @@ void Team::take_turns() {
   for (;;) {
     // all that are to begin are started before anybody waits for one of them
     for (const auto& member : members_) {
-      if (member->of_robot && member->of_robot->runner() && member->began != member->of_robot->began())
-        member->starts_anew = true;
-      if (!member->partner && !member->is_over && !member->starts_anew) member->starts_anew = true;
-      if (member->starts_anew) begin(*member);
+      if (is_to_begin(*member) || (!member->partner && !member->is_over)) begin(*member);
     }
     const sim::Clicks now = twin_.simulation().now();
     std::vector<Member*> due;
@@ -114,16 +111,19 @@ void Team::take_turns() {
     for (Member* member : due) {
       if (outcome_.ended) return;  // the others have their last go in finish()
       in_turn_ = member;
-      if (member->partner) turn(*member);
+      if (member->partner && !is_to_begin(*member)) turn(*member);
       in_turn_ = nullptr;
       if (member->robot >= 0) twin_.mind(member->robot).wake();
     }
-    // steps shorter than a tick: the next one may have ended as well
-    if (wants_reset_ || wants_reload_ || !wants_restart_.empty())
-      carry_out_resets();
-    else if (due.empty())
-      break;
+    // steps shorter than a tick: the next one may have ended as well; and a reset has programs begin
+    if (due.empty()) break;
   }
+}
+
+/// It was not started since its robot, or the world, began anew.
+bool Team::is_to_begin(const Member& member) const {
+  return member.starts_anew ||
+         (member.of_robot && member.of_robot->runner() && member.began != member.of_robot->began());
 }
 
 /// Its process is started, or is waited for.
@@ -277,9 +277,11 @@ bool Team::carry_out(Member& member, const link_record& record) {
     return false;
   }
   if (record.number >= LINK_SET) {
-    if (member.is_supervisor)
+    if (member.is_supervisor) {
       nodes_->carry_out(record, number_of(member), member.robot);
-    else
+      if (wants_reset_ || wants_reload_ || !wants_restart_.empty()) carry_out_resets();
+      return is_to_begin(member);
+    } else
       line(member, fmt::format("{}: got a program without the right of a supervisor; set supervisor = true for its robot",
                                row->name));
     return false;

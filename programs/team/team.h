@@ -92,6 +92,7 @@ class Team final : public sim::Attendant, private SupervisorHost {
   };
 
   Team(twin::Twin& twin, const twin::Options& options);
+  bool is_to_begin(const Member& member) const;
   void begin(Member& member);
   void take_turns();
   void hand_over_samples(Member& member);
