@@ -25,7 +25,7 @@ class Limits : public CommandTest {
   /// Takes a compiler of C a quarter of a minute, and one of C++ longer.
   void write_slow() const {
     write("slow/main.c", macros(14, '+') + "#if A14 > 5\nint x;\n#endif\nint main(void) { while (1); }\n");
-    write("referee.c", "#include <webots/supervisor.h>\n" + macros(12, '+') +
+    write("referee.c", "#include <webots/robot.h>\n" + macros(12, '+') +
                            "#if A12 > 5\nint x;\n#endif\nint main(void) { return 0; }\n");
   }
   /// Compilers that work on this test's files.
@@ -120,7 +120,8 @@ TEST_F(Limits, nothing_waits_for_a_pipe) {
   write("beside/main.c", "#include \"../header/pipe.h\"\n" + main);
   write("source/main.c", main);
   write("assembler/main.c", main);
-  write("referee/referee.c", "#include <webots/supervisor.h>\n#include \"pipe.h\"\nint main(void) { return 0; }\n");
+  write("referee/referee.c",
+        "#include <webots/robot.h>\n#include \"pipe.h\"\nint main(void) { return 0; }\n");
   for (const char* pipe : {"header/pipe.h", "source/more.c", "assembler/more.s", "referee/pipe.h", "alone.s"})
     ASSERT_EQ(mkfifo(path(pipe).c_str(), 0600), 0);
   struct Case {
