@@ -46,6 +46,7 @@ TEST_F(Devices, all_devices_of_the_page_are_there_with_their_kinds) {
       {"north", "COMPASS"},
       {"imu", "INERTIAL_UNIT"},
       {"screen", "DISPLAY"},
+      {"tof", "DISTANCE_SENSOR"},
       {"beacon", "DISTANCE_SENSOR"}};
   std::string before = "printf(\"count %d\\n\", wb_robot_get_number_of_devices());\n";
   for (const auto& [name, kind] : expected)
@@ -62,9 +63,9 @@ TEST_F(Devices, all_devices_of_the_page_are_there_with_their_kinds) {
                           device("beacon", sim::DeviceKind::Distance)};
   run_for(0.1);
   for (const auto& [name, kind] : expected) EXPECT_EQ(value(r, name), 1) << name << " is a " << kind;
-  // 8 + 8 + 6 of the ground, 10 LEDs, 4 of wheels, 2 of motion, camera, 3 + 1 of sound, 2 of radio, 5 of the
-  // world, selector: 51
-  EXPECT_EQ(value(r, "count"), 51);
+  // 8 + 8 + 6 of the ground, tof, 10 LEDs, 4 of wheels, 2 of motion, camera, 3 + 1 of sound, 2 of radio, 5 of
+  // the world, selector: 52
+  EXPECT_EQ(value(r, "count"), 52);
   EXPECT_EQ(value(r, "none"), 0);
   const auto& lines = r.console();
   EXPECT_TRUE(std::any_of(lines.begin(), lines.end(), [](const std::string& l) {
@@ -74,14 +75,13 @@ TEST_F(Devices, all_devices_of_the_page_are_there_with_their_kinds) {
 
 TEST_F(Devices, what_a_robot_does_not_carry_has_no_tag) {
   Robot& r = add_c("", R"(
-    const char *const names[] = {"gs0", "fs1", "gyro", "gps", "display", "camera"};
-    for (int i = 0; i < 6; i++) printf("%s %d\n", names[i], wb_robot_get_device(names[i]));
+    const char *const names[] = {"gs0", "fs1", "gps", "display", "camera"};
+    for (int i = 0; i < 5; i++) printf("%s %d\n", names[i], wb_robot_get_device(names[i]));
     printf("end 0\n");)",
                    "");
   r.settings().own["camera"] = "none";
   run_for(0.1);
-  for (const char* name : {"gs0", "fs1", "gyro", "gps", "display", "camera"})
-    EXPECT_EQ(value(r, name), 0) << name;
+  for (const char* name : {"gs0", "fs1", "gps", "display", "camera"}) EXPECT_EQ(value(r, name), 0) << name;
 }
 
 // --- time -------------------------------------------------------------------------------------------------
@@ -281,6 +281,22 @@ TEST_F(Devices, a_program_keeps_a_text_with_its_robot) {
   run_for(0.2);
   EXPECT_EQ(value(r, "first_given"), 1);
   EXPECT_EQ(value(r, "then_mine"), 1);
+}
+
+TEST_F(Devices, a_display_is_drawn_on_and_saved_as_a_picture) {
+  Robot& r = add_c("", R"(
+    WbDeviceTag d = wb_robot_get_device("screen"); WbImageRef part;
+    printf("size %d %d\n", wb_display_get_width(d), wb_display_get_height(d));
+    wb_display_set_color(d, 0xFF8000); wb_display_fill_rectangle(d, 2, 1, 3, 2);
+    part = wb_display_image_copy(d, 0, 0, 6, 4); wb_display_image_save(d, part, "part.png"); wb_display_image_delete(d, part);
+    FILE *in = fopen("part.png", "rb"); char head[4] = ""; if (in) { if (fread(head, 1, 4, in) != 4) head[0] = 0; fclose(in); }
+    printf("png %d\n", !memcmp(head, "\211PNG", 4)); remove("part.png");)",
+                   "");
+  r.settings().devices.push_back(device("screen", sim::DeviceKind::Display));
+  r.settings().devices.back().width = 200;
+  run_for(0.1);
+  EXPECT_EQ(told(r, "size"), (std::vector<double>{200, 64}));
+  EXPECT_EQ(value(r, "png"), 1);
 }
 
 // --- the interface of 2005 --------------------------------------------------------------------------------

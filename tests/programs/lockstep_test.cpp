@@ -240,7 +240,6 @@ TEST_F(Lockstep, a_supervisor_ends_the_run_with_its_status) {
 }
 
 TEST_F(Lockstep, labels_and_pictures) {
-  const fs::path folder = fresh("pictures"), before = fs::current_path();
   add_c("", "", "");
   add_supervisor_in_c(
       "", "",
@@ -248,10 +247,12 @@ TEST_F(Lockstep, labels_and_pictures) {
       "wb_supervisor_set_label(1, \"gone\", 0, 0, 0.1, 0, 0, \"Arial\"); "
       "wb_supervisor_export_image(\"moment.svg\", 100); }\n"
       "if (steps == 2) wb_supervisor_set_label(1, \"\", 0, 0, 0.1, 0, 0, \"Arial\");");
-  fs::current_path(folder);
+  // a name without a path is of the program's folder
+  const fs::path picture = fs::path(world.supervisors.back().program) / "moment.svg";
+  fs::remove(picture);
   listen();
   run_for(0.3);
-  fs::current_path(before);
+  EXPECT_NE(text_of(picture).find("<svg"), std::string::npos);
   ASSERT_EQ(team().labels().size(), 1u);
   EXPECT_EQ(team().labels()[0].text, "2 : 1");
 }

@@ -101,6 +101,18 @@ TEST_F(Sensing, sensors_are_numbered_as_the_world_says) {
   }
 }
 
+// the wall's face is at 0.2 m less half of 1 cm, the sensor 3.5 cm before the middle: 160 mm
+TEST_F(Sensing, tof_tells_how_many_mm_are_free_ahead) {
+  const char* const before = "tof = wb_robot_get_device(\"tof\"); wb_distance_sensor_enable(tof, 64);";
+  const char* const loop = "printf(\"tof %g\\n\", wb_distance_sensor_get_value(tof));";
+  Robot& r = add_c("WbDeviceTag tof;", before, loop);
+  Robot& away = add_c("WbDeviceTag tof;", before, loop).at(0, 1, 90);
+  wall(0.2, -0.1, 0.2, 0.1);
+  run_for(0.2);
+  EXPECT_NEAR(value(r, "tof"), 160, 1);
+  EXPECT_EQ(value(away, "tof"), 2000);
+}
+
 TEST_F(Sensing, ground_sensors_tell_white_from_black) {
   const char* const before =
       "for (int i = 0; i < 3; i++) { char name[4]; sprintf(name, \"gs%d\", i); gs[i] = "

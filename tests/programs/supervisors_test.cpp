@@ -199,6 +199,7 @@ TEST_F(Supervisors, noise_is_set_for_each_robot) {
   add_robot_with_source(kIdle, "alice");
   add_judge(
       "set(\"alice\", \"proximityNoise\", 2); set(\"alice\", \"wheelNoise\", 0.05); wb_robot_step(10);\n"
+      "EXPECT(get(\"alice\", \"proximityNoise\") == 2 && get(\"alice\", \"wheelNoise\") == 0.05);\n"
       "set(\"alice\", \"wheelNoise\", 3);");
   expect_pass();
   EXPECT_TRUE(was_said("wheelNoise: got 3, expected 0 to 1"));
