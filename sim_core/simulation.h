@@ -57,8 +57,8 @@ class Simulation {
   /// Collisions and how long they lasted.
   TouchReport touches(int robot) const { return motion_->touches(robot); }
 
-  /// Hash of every change of a way, a wheel's course and a mind since the world began, or began again, and of the time
-  /// since then.
+  /// Hash of every change of a way, a wheel's course and a mind since the world began, or began again, and of
+  /// the time since then.
   std::uint64_t digest() const { return fold(digest_, static_cast<std::uint64_t>(now() - begun_)); }
 
   /// Who is called between ticks; null: nobody. Outlives the simulation or takes itself away.
@@ -84,7 +84,8 @@ class Simulation {
   /// draw on.
   void begin_again(int robot);
   /// All robots did: with the next tick the world begins again, from where bodies are then. Nothing is in the
-  /// air, nobody remembers where bodies were or what they touched; the digest begins anew; time and counts go on.
+  /// air, nobody remembers where bodies were or what they touched; the digest begins anew; time and counts go
+  /// on.
   void begin_again() { begins_ = true; }
   /// Anything else that somebody from outside changed, as a number that differs when the change does.
   void note_intervention(std::uint64_t what) { digest_ = fold(digest_, what); }

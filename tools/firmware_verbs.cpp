@@ -9,9 +9,9 @@
 #include "hal_sim/cc/build.h"
 #include "hal_sim/twin/twin.h"
 #include "hal_sim/twin/world_file.h"
+#include "programs/build/build.h"
 #include "sim_core/light/profiles.h"
 #include "sim_core/load/world_loader.h"
-#include "programs/build/build.h"
 #include "tools/command_line.h"
 #include "tools/verbs.h"
 
@@ -56,7 +56,8 @@ int build_program(const std::string& name, const fs::path& output) {
     words = output.string();
   }
   std::cout << words << ": a program of the PC"
-            << (launch.files > 0 ? fmt::format(", {} {}", launch.files, launch.files == 1 ? "file" : "files") : "")
+            << (launch.files > 0 ? fmt::format(", {} {}", launch.files, launch.files == 1 ? "file" : "files")
+                                 : "")
             << '\n';
   return kPass;
 }
@@ -86,7 +87,8 @@ int build(cc::BuildOptions options) {
   const std::string given = options.source_dir.string();
   std::vector<std::string> no_controller;
   const std::string found = twin::find_firmware(given, "", no_controller);
-  if (!options.chip_way && !found.empty() && programs::is_pc_program(found)) return build_program(given, options.output);
+  if (!options.chip_way && !found.empty() && programs::is_pc_program(found))
+    return build_program(given, options.output);
   options.source_dir = controller_folder(given, "build");
   if (options.source_dir.empty()) return kBadInput;
   if (options.output.empty()) {
@@ -139,7 +141,8 @@ std::vector<std::string> missing_files(const sim::WorldDesc& world, const std::s
   }
   for (const auto& program : world.supervisors)
     if (twin::find_firmware(program.program, folder, missing).empty())
-      missing.back() = file + ": supervisor '" + (program.name.empty() ? program.program : program.name) + "': " + missing.back();
+      missing.back() = file + ": supervisor '" + (program.name.empty() ? program.program : program.name) +
+                       "': " + missing.back();
   return missing;
 }
 

@@ -151,8 +151,8 @@ class Reader {
   }
 
   LabStep step(const toml::table& t) {
-    only(t, {"says", "worlds", "firmware", "supervisor", "seconds", "seeds", "noise_scales", "share", "spread", "start",
-             "region", "at_most", "at_least", "show", "by_world", "answer", "sensor"});
+    only(t, {"says", "worlds", "firmware", "supervisor", "seconds", "seeds", "noise_scales", "share",
+             "spread", "start", "region", "at_most", "at_least", "show", "by_world", "answer", "sensor"});
     LabStep s;
     s.says = text(t, "says");
     s.answer = text(t, "answer");

@@ -8,12 +8,12 @@
 
 #include "hal_sim/twin/twin.h"
 #include "hal_sim/twin/world_file.h"
+#include "programs/team/team.h"
 #include "sim_core/light/proximity.h"
 #include "sim_core/load/world_loader.h"
 #include "sim_core/random/counter_random.h"
 #include "sim_core/world/layout.h"
 #include "sim_core/world/scene.h"
-#include "programs/team/team.h"
 #include "tools/summary.h"
 
 namespace tools {

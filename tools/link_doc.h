@@ -16,9 +16,12 @@ inline std::string link_table() {
   const link_row* rows = link_rows(&count);
   for (std::size_t i = 0; i < count; ++i) {
     const link_row& row = rows[i];
-    const char* const who = row.who == LINK_FROM_SIMULATOR ? "simulator" : row.who == LINK_FROM_ASKS ? "program, asks" : "program";
+    const char* const who = row.who == LINK_FROM_SIMULATOR ? "simulator"
+                            : row.who == LINK_FROM_ASKS    ? "program, asks"
+                                                           : "program";
     const std::string members = *row.members ? "`" + std::string(row.members) + "` " + row.what : "";
-    table += "| " + std::to_string(row.number) + " | `" + row.name + "` | " + who + " | " + members + " | " + row.text + " |\n";
+    table += "| " + std::to_string(row.number) + " | `" + row.name + "` | " + who + " | " + members + " | " +
+             row.text + " |\n";
   }
   return table;
 }

@@ -206,8 +206,9 @@ std::string to_text(const std::string& robot, const board::Diagnosis& d) {
 std::string to_text(const host::TrapReport& t) {
   std::string text = fmt::format("{}: {}: {}", t.robot, host::trap_name(t.kind), t.message);
   if (t.count > 1) text += fmt::format(" ({} times)", t.count);
-  const std::string place = !t.place.function.empty()         ? to_string(t.place) + ", "
-                            : t.kind == host::kProgramEnded ? "" : "an unknown place, ";
+  const std::string place = !t.place.function.empty()       ? to_string(t.place) + ", "
+                            : t.kind == host::kProgramEnded ? ""
+                                                            : "an unknown place, ";
   text += fmt::format("\n  at {}cycle {}, {:.6f} s\n", place, t.cycle, t.time_s);
   for (std::size_t i = 1; i < t.backtrace.size(); ++i)
     text += fmt::format("  called from {}\n", to_string(t.backtrace[i]));

@@ -74,9 +74,11 @@ bool Session::open_world(std::vector<std::string>& problems) {
   for (int i = 0; i < twin_->robots() && robot_ < 0; ++i) {
     const std::string& name = twin_->world().robots[static_cast<std::size_t>(i)].name;
     if (!twin_->launch(i) || (!setup_.robot.empty() && name != setup_.robot)) continue;
-    problems.push_back("debug: robot '" + name +
-                       "' runs a program of the PC, expected firmware; start it in a debugger of its language, and the run "
-                       "with --extern " + name);
+    problems.push_back(
+        "debug: robot '" + name +
+        "' runs a program of the PC, expected firmware; start it in a debugger of its language, and the run "
+        "with --extern " +
+        name);
     return false;
   }
   if (robot_ < 0) {

@@ -210,12 +210,16 @@ std::string provide_image(const std::string& name, const std::string& from_folde
 
 namespace {
 
-/// Where compiled programs of the PC are kept: the user's, for who runs them may not be who built the product.
+/// Where compiled programs of the PC are kept: the user's, for who runs them may not be who built the
+/// product.
 std::string program_cache() {
   const char* const xdg = std::getenv("XDG_CACHE_HOME");
   const char* const home = std::getenv("HOME");
-  const fs::path base = xdg && *xdg == '/' ? fs::path(xdg) : home && *home == '/' ? fs::path(home) / ".cache" : fs::path();
-  return ((base.empty() ? fs::temp_directory_path() / ("twinpuck-" + std::to_string(getuid())) : base / "twinpuck") /
+  const fs::path base = xdg && *xdg == '/'     ? fs::path(xdg)
+                        : home && *home == '/' ? fs::path(home) / ".cache"
+                                               : fs::path();
+  return ((base.empty() ? fs::temp_directory_path() / ("twinpuck-" + std::to_string(getuid()))
+                        : base / "twinpuck") /
           "programs")
       .string();
 }
@@ -225,8 +229,7 @@ std::string program_cache() {
 bool provide_launch(const std::string& name, const std::string& from_folder, const Options& options,
                     std::vector<std::string>& problems, programs::Launch& launch) {
   const std::string path = find_firmware(name, from_folder, problems);
-  return !path.empty() &&
-         programs::prepare(path, program_cache(), options.tell, problems, launch);
+  return !path.empty() && programs::prepare(path, program_cache(), options.tell, problems, launch);
 }
 
 }  // namespace twin

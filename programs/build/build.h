@@ -13,7 +13,7 @@ namespace programs {
 /// How a program of the PC is started.
 struct Launch {
   std::vector<std::string> words;  ///< argv: the program (absolute) and what precedes the user's arguments
-  std::string name;                      ///< argv[0] where it is another one; empty: words[0]
+  std::string name;                ///< argv[0] where it is another one; empty: words[0]
   std::vector<std::string> environment;  ///< NAME=VALUE, in addition to the simulator's own
   std::string folder;                    ///< where it works: the controller's folder, absolute
   std::string source;                    ///< what people know it by: the file or folder

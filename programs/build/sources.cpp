@@ -21,7 +21,8 @@ bool has_main(const fs::path& file, const std::string& text, int depth = 0) {
   if (depth == kDeepest) return false;
   for (const std::string& name : includes_of(text))
     if (const fs::path other = resolve(file.parent_path(), name);
-        !other.empty() && (is_c(other) || is_cxx(other)) && other != file && has_main(other, text_of(other), depth + 1))
+        !other.empty() && (is_c(other) || is_cxx(other)) && other != file &&
+        has_main(other, text_of(other), depth + 1))
       return true;
   return false;
 }

@@ -4,8 +4,9 @@
  *   packet = records;  record = u32 number, u32 bytes of its members, members;  all little endian
  *   member = i: i64   f: f64   s: i64 bytes, bytes, zeros up to 8   F: i64 how many, f64 each
  *
- * A packet is one message of a socket of kind SOCK_SEQPACKET, at most LINK_MOST_BYTES long. The records and their
- * members are the table messages.def. Nothing here blocks, allocates (but a packet's growing) or keeps state.
+ * A packet is one message of a socket of kind SOCK_SEQPACKET, at most LINK_MOST_BYTES long. The records and
+ * their members are the table messages.def. Nothing here blocks, allocates (but a packet's growing) or keeps
+ * state.
  */
 #ifndef PROGRAMS_LINK_PACKET_H
 #define PROGRAMS_LINK_PACKET_H
@@ -19,7 +20,8 @@ extern "C" {
 
 #define LINK_VERSION 1
 #define LINK_MOST_BYTES 131072 /* a packet; half of what a socket of Linux takes by default */
-#define LINK_FLUSH_BYTES 65536 /* a program that has said so much sends it, and goes on with the next packet */
+#define LINK_FLUSH_BYTES \
+  65536 /* a program that has said so much sends it, and goes on with the next packet */
 
 #define LINK_RECORD(number, name, who, members, what, text) LINK_##name = number,
 enum link_record_number {
@@ -43,9 +45,11 @@ const struct link_row* link_row_of(int number);
 /** All rows, and how many. */
 const struct link_row* link_rows(size_t* count);
 
-/* --- writing --------------------------------------------------------------------------------------------- */
+/* --- writing ---------------------------------------------------------------------------------------------
+ */
 
-/** A packet that is being written. Begin with zeros; link_free() in the end. Out of memory ends the process. */
+/** A packet that is being written. Begin with zeros; link_free() in the end. Out of memory ends the process.
+ */
 struct link_packet {
   unsigned char* bytes;
   size_t size, capacity;
@@ -66,11 +70,13 @@ void link_append(struct link_packet* packet, const struct link_packet* from);
 void link_clear(struct link_packet* packet);
 void link_free(struct link_packet* packet);
 
-/* --- reading --------------------------------------------------------------------------------------------- */
+/* --- reading ---------------------------------------------------------------------------------------------
+ */
 
 #define LINK_MOST_MEMBERS 8 /* of one kind in a record */
 
-/** A record as it was read: members by kind, each counted from 0 in their order. They point into the packet. */
+/** A record as it was read: members by kind, each counted from 0 in their order. They point into the packet.
+ */
 struct link_record {
   int number;
   int64_t ints[LINK_MOST_MEMBERS];
@@ -95,8 +101,8 @@ struct link_reader {
 
 /** Begins; `bytes` are aligned to 8. */
 void link_read(struct link_reader* reader, const void* bytes, size_t size);
-/** The next record. 1: there was one; 0: the end, or error is set. Every record that is handed out has the members of
- *  its row; numbers may be anything, NaN included. */
+/** The next record. 1: there was one; 0: the end, or error is set. Every record that is handed out has the
+ * members of its row; numbers may be anything, NaN included. */
 int link_next(struct link_reader* reader, struct link_record* record);
 
 #ifdef __cplusplus

@@ -28,8 +28,9 @@ namespace programs {
 namespace {
 
 constexpr int kSocketInProgram = 3;
-constexpr rlim_t kMostDataBytes = rlim_t{8} << 30;  // of a program; NumPy's threads reserve much and use little
-constexpr int kSocketBytes = 212992;                // Linux's usual limit [man 7 socket: wmem_max]
+constexpr rlim_t kMostDataBytes = rlim_t{8}
+                                  << 30;  // of a program; NumPy's threads reserve much and use little
+constexpr int kSocketBytes = 212992;      // Linux's usual limit [man 7 socket: wmem_max]
 
 std::string error_text() { return std::strerror(errno); }
 
@@ -58,8 +59,8 @@ std::vector<std::string> merged_environment(const std::vector<std::string>& ours
 }
 
 /// The child's side of vfork(): system calls only, for its memory is the parent's. Returns when it cannot.
-void become(const char* program, char* const* words, char* const* environment, const char* folder, int socket, int text, int nothing,
-            pid_t parent, const sigset_t& before, int* why) {
+void become(const char* program, char* const* words, char* const* environment, const char* folder, int socket,
+            int text, int nothing, pid_t parent, const sigset_t& before, int* why) {
   setsid();
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(127);  // it has ended meanwhile
@@ -109,7 +110,8 @@ std::vector<ProcessLine> all_processes() {
     const char* behind = std::strrchr(text, ')');
     char state;
     int parent, group, session;
-    if (behind && std::sscanf(behind + 1, " %c %d %d %d", &state, &parent, &group, &session) == 4 && state != 'Z')
+    if (behind && std::sscanf(behind + 1, " %c %d %d %d", &state, &parent, &group, &session) == 4 &&
+        state != 'Z')
       all.push_back({static_cast<pid_t>(pid), parent, session});
   }
   closedir(folder);
@@ -129,7 +131,8 @@ std::vector<pid_t> family_of(pid_t leader) {
   return family;
 }
 
-/// Programs that were started and not yet ended. What else is our child, in a session of its own, is an orphan of theirs.
+/// Programs that were started and not yet ended. What else is our child, in a session of its own, is an
+/// orphan of theirs.
 struct Leaders {
   std::mutex changing;
   std::set<pid_t> pids;
@@ -186,8 +189,10 @@ std::string socket_folder(std::string& why) {
       std::string(base && *base == '/' ? base : "/tmp") + "/twinpuck-" + std::to_string(getuid());
   mkdir(folder.c_str(), 0700);
   struct stat is;
-  if (lstat(folder.c_str(), &is) != 0 || !S_ISDIR(is.st_mode) || is.st_uid != getuid() || (is.st_mode & 077)) {
-    why = folder + ": got a folder that others may write or that is not yours, expected your own with mode 0700";
+  if (lstat(folder.c_str(), &is) != 0 || !S_ISDIR(is.st_mode) || is.st_uid != getuid() ||
+      (is.st_mode & 077)) {
+    why = folder +
+          ": got a folder that others may write or that is not yours, expected your own with mode 0700";
     return "";
   }
   return folder;
@@ -220,8 +225,8 @@ std::unique_ptr<Partner> Partner::start(const Start& start, std::string& why) {
     volatile int failed = 0;
     pid = vfork();
     if (pid == 0) {
-      become(start.words[0].c_str(), words.pointers.data(), assignments.pointers.data(), start.folder.c_str(), sockets[1], pipes[1], nothing,
-             parent, before, const_cast<int*>(&failed));
+      become(start.words[0].c_str(), words.pointers.data(), assignments.pointers.data(), start.folder.c_str(),
+             sockets[1], pipes[1], nothing, parent, before, const_cast<int*>(&failed));
       _exit(127);
     }
     wrong = pid < 0 ? errno : failed;
@@ -264,7 +269,8 @@ std::unique_ptr<Partner> Partner::listen(const std::string& name, std::string& w
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
   if (p->path_.size() >= sizeof address.sun_path) {
-    why = p->path_ + ": got a path of " + std::to_string(p->path_.size()) + " characters, expected fewer than 108";
+    why = p->path_ + ": got a path of " + std::to_string(p->path_.size()) +
+          " characters, expected fewer than 108";
     p->path_.clear();
     return nullptr;
   }

@@ -9,7 +9,7 @@ namespace programs {
 
 namespace {
 
-constexpr int kAddress = 0xDC;    // [lib: camera/fast_2_timer/e_po3030k.c]
+constexpr int kAddress = 0xDC;     // [lib: camera/fast_2_timer/e_po3030k.c]
 constexpr int kBankRegister = 3;   // of the later sensors [lib: camera/fast_2_timer/e_po6030k.c]
 constexpr int kBytesPerPixel = 2;  // RGB565
 

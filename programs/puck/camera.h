@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The camera of Webots' e-puck, 52 x 39 pixels, taken with the robot's own: each eighth pixel of the middle of its
-// array in RGB565, frame after frame at its own rate, one being taken while the program looks at the one before.
+// The camera of Webots' e-puck, 52 x 39 pixels, taken with the robot's own: each eighth pixel of the middle
+// of its array in RGB565, frame after frame at its own rate, one being taken while the program looks at the
+// one before.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -12,8 +13,9 @@ namespace programs {
 
 using board::Cycle;
 
-inline constexpr int kCameraColumns = 52, kCameraRows = 39;  ///< [Webots: E-puck.proto, camera_width, camera_height]
-inline constexpr double kCameraFovRad = 0.84;                ///< [Webots: E-puck.proto, camera_fieldOfView]
+inline constexpr int kCameraColumns = 52,
+                     kCameraRows = 39;         ///< [Webots: E-puck.proto, camera_width, camera_height]
+inline constexpr double kCameraFovRad = 0.84;  ///< [Webots: E-puck.proto, camera_fieldOfView]
 
 class PuckCamera {
  public:
@@ -22,8 +24,8 @@ class PuckCamera {
 
   /// Resets the sensor, sets it up and waits for the first frame; once.
   void start(Cycle at);
-  /// The newest picture that is whole, four bytes a pixel: blue, green, red, 255; black before the first. The next
-  /// frame is waited for.
+  /// The newest picture that is whole, four bytes a pixel: blue, green, red, 255; black before the first. The
+  /// next frame is waited for.
   const std::vector<std::uint8_t>& picture(Cycle at);
 
   /// A frame or a line begins; kNever: nothing is waited for.

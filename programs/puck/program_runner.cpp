@@ -11,7 +11,11 @@ constexpr sim::Clicks kClicksPer5Ms = sim::kClicksPerSecond / 200;  // a ms is n
 }
 
 ProgramRunner::ProgramRunner(std::string name, std::shared_ptr<Seat> seat, board::Board& board, Cycle start)
-    : Runner(std::move(name)), seat_(std::move(seat)), board_(board), puck_(std::make_unique<Puck>(board, start)), end_(start),
+    : Runner(std::move(name)),
+      seat_(std::move(seat)),
+      board_(board),
+      puck_(std::make_unique<Puck>(board, start)),
+      end_(start),
       began_(board.clock().click_at(start)) {
   seat_->runner = this;
   ++seat_->began;
@@ -95,10 +99,13 @@ void ProgramRunner::reset_under_program() {
 }
 
 const host::Variable* ProgramRunner::find_variable(const std::string& expression, std::string& error) const {
-  error = "got '" + expression + "', but " + name() + " runs a program of the PC, whose variables nobody sees";
+  error =
+      "got '" + expression + "', but " + name() + " runs a program of the PC, whose variables nobody sees";
   return nullptr;
 }
 
-void ProgramRunner::read_memory(std::uintptr_t, void* to, std::size_t bytes) const { std::memset(to, 0, bytes); }
+void ProgramRunner::read_memory(std::uintptr_t, void* to, std::size_t bytes) const {
+  std::memset(to, 0, bytes);
+}
 
 }  // namespace programs

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// A robot that a program of the PC commands, as a Runner: what it commanded holds until its step ends, and at that very
-// cycle its sensors are sampled. Code takes no time, as in Webots.
+// A robot that a program of the PC commands, as a Runner: what it commanded holds until its step ends, and at
+// that very cycle its sensors are sampled. Code takes no time, as in Webots.
 //
 //   run_until(end) ... step ends in the window: samples are taken, it is due
 //   between ticks: whoever owns the program (team/) hands the samples over, takes commands, begin_step()
 //
-// So samples are those of the exact instant; commands act from the tick boundary behind it (1 ms later on average at
-// 512 Hz). Until somebody begins a step, the robot stands: a program that has not answered yet.
+// So samples are those of the exact instant; commands act from the tick boundary behind it (1 ms later on
+// average at 512 Hz). Until somebody begins a step, the robot stands: a program that has not answered yet.
 #pragma once
 #include <memory>
 #include <string>
@@ -47,8 +47,8 @@ class ProgramRunner final : public host::Runner {
   std::int64_t time_ms() const { return time_ms_; }
   /// The next step, of 1 ms or more.
   void begin_step(std::int64_t milliseconds);
-  /// The robot is put back to its beginning, and the program goes on: its time begins anew, a step that it has begun is
-  /// as long as it said.
+  /// The robot is put back to its beginning, and the program goes on: its time begins anew, a step that it
+  /// has begun is as long as it said.
   void reset_under_program();
   /// A command was carried out: courses and the hash are other ones.
   void note_command() { ++turns_; }

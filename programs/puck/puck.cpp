@@ -21,10 +21,11 @@ namespace {
 
 constexpr int kRing = board::kRingSensors, kLeds = 10;
 constexpr int kFullScale = 4095;
-constexpr double kGroundScale = 1000;      // [Webots: E-puckGroundSensors.proto, lookup table]
-constexpr double kRingApertureRad = 0.3;   // [assumed: as the usual profile's lobe]
+constexpr double kGroundScale = 1000;     // [Webots: E-puckGroundSensors.proto, lookup table]
+constexpr double kRingApertureRad = 0.3;  // [assumed: as the usual profile's lobe]
 constexpr double kInfraRed = 1, kGeneric = 0, kLaser = 3;  // WbDistanceSensorType
-// the e-puck 2's sensor of the time of flight, which looks ahead [Webots: E-puck.proto, version 2: 0 to 2 m in mm]
+// the e-puck 2's sensor of the time of flight, which looks ahead [Webots: E-puck.proto, version 2: 0 to 2 m
+// in mm]
 constexpr double kTofMostMm = 2000, kTofForwardM = 0.035, kTofHeightM = 0.028;
 constexpr double kMicZero = 2048, kMicScale = 16;  // 12 bits of the converter to signed 16
 constexpr double kAccZero = 2048, kAccPerG = 768;  // counts [lib: a_d/advance_ad_scan/e_acc.h]
@@ -33,7 +34,8 @@ constexpr double kG = 9.81;
 constexpr double kGyroScale = 7509.9;  // per rad/s [Webots: E-puck.proto, lookup table of the gyroscope]
 constexpr double kGyroDegPerCount = 0.00875;  // +-250 degrees/s [LSM330 table 4]
 constexpr double kRadPerDeg = 3.14159265358979323846 / 180;
-constexpr double kUsualSpeedUnit = 0.00628;  // rad/s: 1000 is a turn a second [Webots: e-puck of versions 6 to 8]
+constexpr double kUsualSpeedUnit =
+    0.00628;  // rad/s: 1000 is a turn a second [Webots: e-puck of versions 6 to 8]
 constexpr const char* kModel = "GCtronic e-puck";
 
 /// The five sounds that the robot stores. [lib: codec/e_sound.h]
@@ -41,8 +43,11 @@ struct StoredSound {
   const char* name;
   int offset, samples;
 };
-constexpr StoredSound kSounds[] = {
-    {"haa", 0, 2112}, {"spaah", 2116, 1760}, {"ouah", 3878, 3412}, {"yaouh", 7294, 3732}, {"wouaaaah", 11028, 8016}};
+constexpr StoredSound kSounds[] = {{"haa", 0, 2112},
+                                   {"spaah", 2116, 1760},
+                                   {"ouah", 3878, 3412},
+                                   {"yaouh", 7294, 3732},
+                                   {"wouaaaah", 11028, 8016}};
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
@@ -85,7 +90,8 @@ std::string text_of(const link_record& record, int number) {
 
 }  // namespace
 
-Puck::Puck(board::Board& board, Cycle start) : board_(board), drivers_(board), wheels_(board, drivers_.agendas()), start_(start) {
+Puck::Puck(board::Board& board, Cycle start)
+    : board_(board), drivers_(board), wheels_(board, drivers_.agendas()), start_(start) {
   drivers_.agendas().count_from(start);
   drivers_.init_ports(start);
   wheels_.start(start);
@@ -104,7 +110,8 @@ Puck::Puck(board::Board& board, Cycle start) : board_(board), drivers_(board), w
   if (board_.camera()) camera_ = std::make_unique<PuckCamera>(board_, drivers_.camera());
 }
 
-// --- the list ------------------------------------------------------------------------------------------------
+// --- the list
+// ------------------------------------------------------------------------------------------------
 
 void Puck::add(const std::string& name, Kind kind, int node, int index, std::vector<double> needs) {
   devices_.push_back({name, "", kind, node, index, std::move(needs)});
@@ -128,14 +135,16 @@ void Puck::add_own() {
   add("accelerometer", Kind::Accelerometer, WB_NODE_ACCELEROMETER, 0);
   // a robot without a gyroscope of its own has Webots'
   add("gyro", has_lsm_ ? Kind::Gyro : Kind::TrueGyro, WB_NODE_GYRO, 0);
-  if (camera_) add("camera", Kind::Camera, WB_NODE_CAMERA, 0, {kCameraColumns, kCameraRows, kCameraFovRad, 0, 1});
+  if (camera_)
+    add("camera", Kind::Camera, WB_NODE_CAMERA, 0, {kCameraColumns, kCameraRows, kCameraFovRad, 0, 1});
   for (int i = 0; i < board::kMicrophones; ++i)
     add("mic" + std::to_string(i), Kind::Microphone, WB_NODE_MICROPHONE, i);
   add("speaker", Kind::Speaker, WB_NODE_SPEAKER, 0);
   if (board_.i2c().find(board::kGroundAddress))
     for (int i = 0; i < 3; ++i)
       for (const char* name : {"gs", "fs"})  // floor sensors had other names once
-        add(name + std::to_string(i), Kind::Ground, WB_NODE_DISTANCE_SENSOR, i, {0, kGroundScale, 0, kInfraRed});
+        add(name + std::to_string(i), Kind::Ground, WB_NODE_DISTANCE_SENSOR, i,
+            {0, kGroundScale, 0, kInfraRed});
   add("tof", Kind::Tof, WB_NODE_DISTANCE_SENSOR, 0, {0, kTofMostMm, 0, kLaser});
   add("selector", Kind::Selector, WB_NODE_DISTANCE_SENSOR, 0, {0, 15, 0, kGeneric});
   add("battery", Kind::Battery, WB_NODE_NO_NODE, 0);
@@ -184,7 +193,8 @@ void Puck::add_of_world() {
         add(device.name, Kind::Idle, WB_NODE_LED, 0);
         break;
       case sim::DeviceKind::Camera:
-        add(device.name, Kind::Idle, WB_NODE_CAMERA, 0, {double(device.width), double(device.height), kCameraFovRad, 0, 0});
+        add(device.name, Kind::Idle, WB_NODE_CAMERA, 0,
+            {double(device.width), double(device.height), kCameraFovRad, 0, 0});
         break;
       case sim::DeviceKind::Speaker:
         add(device.name, Kind::Idle, WB_NODE_SPEAKER, 0);
@@ -216,7 +226,8 @@ void Puck::tell_devices(link_packet& to) {
 }
 
 void Puck::find_device(const std::string& name, link_packet& to) {
-  const auto found = std::find_if(devices_.begin(), devices_.end(), [&](const Device& d) { return d.name == name; });
+  const auto found =
+      std::find_if(devices_.begin(), devices_.end(), [&](const Device& d) { return d.name == name; });
   if (found != devices_.end()) return tell(static_cast<std::size_t>(found - devices_.begin()), to);
   if (board_.virtual_devices().get(name)) {
     add(name, Kind::Virtual, WB_NODE_DISTANCE_SENSOR, 0, {0, kFullScale, 0, kGeneric});
@@ -227,7 +238,8 @@ void Puck::find_device(const std::string& name, link_packet& to) {
   link_end(&to);
 }
 
-// --- commands ------------------------------------------------------------------------------------------------
+// --- commands
+// ------------------------------------------------------------------------------------------------
 
 void Puck::note(std::uint64_t what) { hash_ = sim::fold(hash_, what); }
 
@@ -240,7 +252,9 @@ std::string Puck::command(const link_record& record, Cycle at) {
   const auto is = [&](std::initializer_list<Kind> kinds) {
     return std::find(kinds.begin(), kinds.end(), device.kind) != kinds.end();
   };
-  const auto wrong = [&] { return fmt::format("{}: got '{}', which is no device for that", row->name, device.name); };
+  const auto wrong = [&] {
+    return fmt::format("{}: got '{}', which is no device for that", row->name, device.name);
+  };
   if (device.kind == Kind::Idle) return "";
   note(static_cast<std::uint64_t>(record.number) << 32 ^ static_cast<std::uint64_t>(tag));
   board::PacketDevices& packets = board_.packets();
@@ -267,8 +281,9 @@ std::string Puck::command(const link_record& record, Cycle at) {
       for (std::size_t i = 0; i < size; ++i) note(bytes[i]);
       if (size > static_cast<std::size_t>(board::kPacketQueueBytes) ||
           !packets.send(device.index, bytes, static_cast<int>(size), at))
-        return fmt::format("emitter '{}': got a packet of {} bytes that its queue of {} has no room for; it is lost",
-                           device.name, size, board::kPacketQueueBytes);
+        return fmt::format(
+            "emitter '{}': got a packet of {} bytes that its queue of {} has no room for; it is lost",
+            device.name, size, board::kPacketQueueBytes);
       return "";
     }
     case LINK_CHANNEL: {
@@ -312,16 +327,20 @@ void Puck::enable(Device& device, std::int64_t period_ms, Cycle at) {
 }
 
 void Puck::set_led(int led, bool on, Cycle at) {
-  const board::Pin pin = led < 8 ? board::kRingLedPins[led] : led == 8 ? board::kBodyLedPin : board::kFrontLedPin;
+  const board::Pin pin = led < 8    ? board::kRingLedPins[led]
+                         : led == 8 ? board::kBodyLedPin
+                                    : board::kFrontLedPin;
   board_.latch_bit(pin.letter(), pin.bit, on, at);
 }
 
 std::string Puck::play(std::int64_t, const std::string& sound, bool again, Cycle at) {
   // "sounds/haa.wav" is "haa"
   const std::string file = sound.substr(sound.find_last_of('/') + 1), stem = file.substr(0, file.find('.'));
-  const auto found = std::find_if(std::begin(kSounds), std::end(kSounds), [&](const StoredSound& s) { return stem == s.name; });
+  const auto found = std::find_if(std::begin(kSounds), std::end(kSounds),
+                                  [&](const StoredSound& s) { return stem == s.name; });
   if (found == std::end(kSounds))
-    return "speaker: got sound '" + sound + "', expected one that the robot stores: haa, spaah, ouah, yaouh, wouaaaah";
+    return "speaker: got sound '" + sound +
+           "', expected one that the robot stores: haa, spaah, ouah, yaouh, wouaaaah";
   if (!speaks_) {
     speaks_ = true;
     // as e_init_sound() does
@@ -334,11 +353,13 @@ std::string Puck::play(std::int64_t, const std::string& sound, bool again, Cycle
   again_ = again;
   playing_ = sound;
   drivers_.sound().play(found->offset, found->samples, at);
-  sound_until_ = drivers_.sound().next_group(at) + found->samples * drivers::kCodecGroupCycles / drivers::kCodecGroup;
+  sound_until_ =
+      drivers_.sound().next_group(at) + found->samples * drivers::kCodecGroupCycles / drivers::kCodecGroup;
   return "";
 }
 
-// --- samples -------------------------------------------------------------------------------------------------
+// --- samples
+// -------------------------------------------------------------------------------------------------
 
 void Puck::sample(std::int64_t milliseconds, Cycle at, link_packet& to) {
   for (std::size_t i = 0; i < devices_.size(); ++i) {
@@ -430,7 +451,8 @@ double Puck::proximity(int sensor, Cycle at) {
     counts = pair.dark - pair.lit;
   } else {
     // the scan has not come round yet, which a program of the robot would have waited for
-    counts = board_.ir_counts(sensor, at, -1) - board_.ir_counts(sensor, at, drivers::scan_flash_cycles(sensor));
+    counts =
+        board_.ir_counts(sensor, at, -1) - board_.ir_counts(sensor, at, drivers::scan_flash_cycles(sensor));
   }
   return std::clamp(counts, 0, kFullScale);
 }
@@ -455,7 +477,8 @@ double Puck::time_of_flight(Cycle at) const {
   const sim::Clicks now = board_.clock().click_at(at);
   const sim::Pose2 pose = scene->pose(board_.setup().robot, now);
   const sim::Vec2 ahead = sim::Frame2(pose).turn({1, 0});
-  const sim::Ray ray{{pose.x_m + kTofForwardM * ahead.x, pose.y_m + kTofForwardM * ahead.y, kTofHeightM}, {ahead.x, ahead.y, 0}};
+  const sim::Ray ray{{pose.x_m + kTofForwardM * ahead.x, pose.y_m + kTofForwardM * ahead.y, kTofHeightM},
+                     {ahead.x, ahead.y, 0}};
   sim::SceneHit hit;
   if (!scene->cast(ray, kTofMostMm / 1000, board_.setup().robot, now, &hit)) return kTofMostMm;
   return std::round(hit.distance_m * 1000);
@@ -467,14 +490,17 @@ sim::Vec3 Puck::acceleration(Cycle at) {
     std::uint8_t bytes[6];
     read_registers(board_.i2c(), board::kLsmAccAddress, 0x28, bytes, 6, at);
     // the library's own scale, 768 counts of 1 g; its first axis is the sensor's second
-    const auto scaled = [&](int axis) { return ((word_of(bytes + 2 * axis) >> 4) - (word_of(bytes + 2 * axis) >> 6)) * kG / kAccPerG; };
+    const auto scaled = [&](int axis) {
+      return ((word_of(bytes + 2 * axis) >> 4) - (word_of(bytes + 2 * axis) >> 6)) * kG / kAccPerG;
+    };
     return {scaled(0), scaled(1), scaled(2)};
   }
   drivers::AdcScan& scan = drivers_.scan();
   const drivers::AdcScan::AccRing& ring = scan.acc_scan(at);
   const std::int64_t samples = scan.acc_samples(at);
   const auto mean = [&](std::size_t axis) {
-    if (samples == 0) return static_cast<double>(board_.convert(board::kAccChannel + static_cast<int>(axis), at));
+    if (samples == 0)
+      return static_cast<double>(board_.convert(board::kAccChannel + static_cast<int>(axis), at));
     double sum = 0;
     const int count = static_cast<int>(std::min<std::int64_t>(samples, kAccMean));
     for (int back = 0; back < count; ++back)
@@ -489,13 +515,16 @@ sim::Vec3 Puck::acceleration(Cycle at) {
 sim::Vec3 Puck::rates(Cycle at) {
   std::uint8_t bytes[6];
   read_registers(board_.i2c(), board::kLsmGyroAddress, 0x28 | 0x80, bytes, 6, at);
-  const auto scaled = [&](int axis) { return word_of(bytes + 2 * axis) * kGyroDegPerCount * kRadPerDeg * kGyroScale; };
+  const auto scaled = [&](int axis) {
+    return word_of(bytes + 2 * axis) * kGyroDegPerCount * kRadPerDeg * kGyroScale;
+  };
   return {scaled(0), scaled(1), scaled(2)};
 }
 
 void Puck::take_sound(int microphone, std::int64_t tag, Cycle at, link_packet& to) {
   const drivers::AdcScan& scan = drivers_.scan();
-  const std::int64_t count = scan.interrupts(at), first = std::max<std::int64_t>(0, count - drivers::kMicSamples);
+  const std::int64_t count = scan.interrupts(at),
+                     first = std::max<std::int64_t>(0, count - drivers::kMicSamples);
   std::vector<std::int16_t> samples;
   for (std::int64_t n = first; n < count; ++n)
     samples.push_back(static_cast<std::int16_t>((scan.mic_sample(microphone, n) - kMicZero) * kMicScale));
@@ -533,7 +562,8 @@ void Puck::tell_playing(Cycle at, link_packet& to) {
     }
 }
 
-// --- time ------------------------------------------------------------------------------------------------------
+// --- time
+// ------------------------------------------------------------------------------------------------------
 
 Cycle Puck::next_event() const {
   Cycle next = wheels_.next_event();
@@ -549,8 +579,8 @@ void Puck::run(Cycle at) {
     if (again_ && sound_until_ <= next) {
       const StoredSound& sound = kSounds[sound_];
       drivers_.sound().play(sound.offset, sound.samples, next);
-      sound_until_ =
-          drivers_.sound().next_group(next) + sound.samples * drivers::kCodecGroupCycles / drivers::kCodecGroup;
+      sound_until_ = drivers_.sound().next_group(next) +
+                     sound.samples * drivers::kCodecGroupCycles / drivers::kCodecGroup;
     }
   }
 }

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
-// The e-puck as a program of the PC commands it: devices with names and tags, on the board and the library's drivers.
+// The e-puck as a program of the PC commands it: devices with names and tags, on the board and the library's
+// drivers.
 //
 //   records of commands -> Puck -> drivers/ and board/ -> pins, coils, codec ...
 //   board/, drivers/ -> Puck -> records of samples
 //
-// Units, ranges, refresh and noise are those of the robot's own library: proximity and light in counts of the scan
-// (one pair each 17 ms), motors in steps, the camera at its own rate of frames, the accelerometer as the mean of five
-// samples. GPS, compass, inertial unit and devices of [[robot.device]] are the simulator's truth. Sources: docs/webots.md.
-// Instants are cycles of the robot's clock and never go back. One thread at a time.
+// Units, ranges, refresh and noise are those of the robot's own library: proximity and light in counts of the
+// scan (one pair each 17 ms), motors in steps, the camera at its own rate of frames, the accelerometer as the
+// mean of five samples. GPS, compass, inertial unit and devices of [[robot.device]] are the simulator's
+// truth. Sources: docs/webots.md. Instants are cycles of the robot's clock and never go back. One thread at a
+// time.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -27,8 +29,8 @@ using board::kNever;
 
 class Puck {
  public:
-  /// Takes the board over: pins as e_init_port() leaves them, scan and motors' agendas run from `start` on. The board
-  /// outlives it.
+  /// Takes the board over: pins as e_init_port() leaves them, scan and motors' agendas run from `start` on.
+  /// The board outlives it.
   Puck(board::Board& board, Cycle start);
 
   /// Appends a DEVICE for each device.
@@ -38,7 +40,9 @@ class Puck {
 
   /// Name of the device with this tag; empty: there is none.
   std::string device_name(std::int64_t tag) const {
-    return tag >= 1 && tag <= static_cast<std::int64_t>(devices_.size()) ? devices_[static_cast<std::size_t>(tag - 1)].name : "";
+    return tag >= 1 && tag <= static_cast<std::int64_t>(devices_.size())
+               ? devices_[static_cast<std::size_t>(tag - 1)].name
+               : "";
   }
 
   /// A PROGRAM's record about a device (ENABLE to RECOGNISE). Empty, or what was wrong with it.

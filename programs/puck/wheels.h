@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The two wheels as motors of Webots on the library's motor driver: a speed, or a position that is approached with a
-// speed in proportion to what is missing (10 a second for each radian [Webots: Motor.controlPID]), looked at every
-// 20 ms, one wheel 10 ms after the other.
+// The two wheels as motors of Webots on the library's motor driver: a speed, or a position that is approached
+// with a speed in proportion to what is missing (10 a second for each radian [Webots: Motor.controlPID]),
+// looked at every 20 ms, one wheel 10 ms after the other.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace programs {
 
 using board::Cycle;
 
-inline constexpr int kWheelSteps = 1000;            ///< a turn [lib: motor_led/advance_one_timer/e_motors.h]
+inline constexpr int kWheelSteps = 1000;             ///< a turn [lib: motor_led/advance_one_timer/e_motors.h]
 inline constexpr double kMostWheelRadS = 6.2831853;  ///< 1000 steps/s
 
 class Wheels {
@@ -36,9 +36,10 @@ class Wheels {
 
  private:
   struct Wheel {
-    double velocity_rad_s = kMostWheelRadS;  // of a position the most [Webots: Motor.velocity begins with the most]
-    int command = 0;                         // steps/s, what the motor was told
-    bool is_free = false;                    // there is no position
+    double velocity_rad_s =
+        kMostWheelRadS;    // of a position the most [Webots: Motor.velocity begins with the most]
+    int command = 0;       // steps/s, what the motor was told
+    bool is_free = false;  // there is no position
     std::int64_t target_steps = 0;
   };
   void command(int wheel, int steps_s, Cycle at);

@@ -35,7 +35,11 @@ void BodilessBody::restart() {
   for (const sim::DeviceDesc& d : desc_.devices) switch (d.kind) {
       case sim::DeviceKind::Emitter:
         has_emitter = true;
-        devices_.push_back({d.name, WB_NODE_EMITTER, {double(d.channel), d.range_m, board::kPacketQueueBytes}, d.channel, d.range_m});
+        devices_.push_back({d.name,
+                            WB_NODE_EMITTER,
+                            {double(d.channel), d.range_m, board::kPacketQueueBytes},
+                            d.channel,
+                            d.range_m});
         break;
       case sim::DeviceKind::Receiver:
         has_receiver = true;
@@ -87,7 +91,9 @@ std::string BodilessBody::command(const link_record& record) {
     return fmt::format("{}: got tag {}, expected 1 to {}", row->name, tag, devices_.size());
   Device& device = devices_[static_cast<std::size_t>(tag - 1)];
   const bool emits = device.node == WB_NODE_EMITTER, hears_packets = device.node == WB_NODE_RECEIVER;
-  const auto wrong = [&] { return fmt::format("{}: got '{}', which is no device for that", row->name, device.name); };
+  const auto wrong = [&] {
+    return fmt::format("{}: got '{}', which is no device for that", row->name, device.name);
+  };
   switch (record.number) {
     case LINK_ENABLE:
       device.period_ms = std::max<std::int64_t>(0, record.ints[1]);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a program stands for in the world: a robot, or a supervisor's node without a body. The team asks it for devices,
-// hands it commands and takes its samples.
+// What a program stands for in the world: a robot, or a supervisor's node without a body. The team asks it
+// for devices, hands it commands and takes its samples.
 #pragma once
 #include <cstdint>
 #include <deque>
@@ -46,8 +46,12 @@ class RobotBody final : public Body {
   std::uint64_t began() const { return seat_->began; }
 
   void tell_devices(link_packet& to) override { runner()->puck().tell_devices(to); }
-  void find_device(const std::string& name, link_packet& to) override { runner()->puck().find_device(name, to); }
-  std::string device_name(std::int64_t tag) const override { return runner() ? runner()->puck().device_name(tag) : ""; }
+  void find_device(const std::string& name, link_packet& to) override {
+    runner()->puck().find_device(name, to);
+  }
+  std::string device_name(std::int64_t tag) const override {
+    return runner() ? runner()->puck().device_name(tag) : "";
+  }
   std::string command(const link_record& record) override {
     runner()->note_command();
     return runner()->puck().command(record, runner()->now());
@@ -66,8 +70,8 @@ class RobotBody final : public Body {
   std::int64_t step_ms_ = 0;
 };
 
-/// A supervisor of the world's: emitters and receivers without a place, displays, a keyboard on which nobody types.
-/// Motors it may name turn nothing.
+/// A supervisor of the world's: emitters and receivers without a place, displays, a keyboard on which nobody
+/// types. Motors it may name turn nothing.
 class BodilessBody final : public Body, public sim::PacketPort {
  public:
   explicit BodilessBody(const sim::SupervisorDesc& desc);
@@ -75,7 +79,9 @@ class BodilessBody final : public Body, public sim::PacketPort {
   void tell_devices(link_packet& to) override;
   void find_device(const std::string& name, link_packet& to) override;
   std::string device_name(std::int64_t tag) const override {
-    return tag >= 1 && tag <= static_cast<std::int64_t>(devices_.size()) ? devices_[static_cast<std::size_t>(tag - 1)].name : "";
+    return tag >= 1 && tag <= static_cast<std::int64_t>(devices_.size())
+               ? devices_[static_cast<std::size_t>(tag - 1)].name
+               : "";
   }
   std::string command(const link_record& record) override;
   void begin_step(std::int64_t milliseconds) override { step_ms_ = milliseconds; }

@@ -20,8 +20,9 @@ void Team::reset(bool reload) {
 
 void Team::restart_program(int robot) { wants_restart_.insert(robot); }
 
-/// At once, so that what the program commands next finds the world as it began. Everything back to its beginning. Programs of robots begin anew, but for the one that asked for it, as in Webots;
-/// with a reload all do.
+/// At once, so that what the program commands next finds the world as it began. Everything back to its
+/// beginning. Programs of robots begin anew, but for the one that asked for it, as in Webots; with a reload
+/// all do.
 void Team::carry_out_resets() {
   sim::Simulation& simulation = twin_.simulation();
   const bool resets = wants_reset_ || wants_reload_;
@@ -45,7 +46,8 @@ void Team::carry_out_resets() {
     }
     simulation.begin_again();
     for (const auto& member : members_)
-      if (member->robot >= 0) member->custom = at_first_.robots[static_cast<std::size_t>(member->robot)].custom_data;
+      if (member->robot >= 0)
+        member->custom = at_first_.robots[static_cast<std::size_t>(member->robot)].custom_data;
     make_nodes();
   }
   for (const auto& member : members_) {
@@ -82,7 +84,7 @@ void Team::picture(const std::string& file) {
   sim::PictureOptions options;
   options.caption = fmt::format("{:g} s, seed {}", now_s(), twin_.world().seed);
   options.labels = labels();
-  // names without a path are of the folder of the run
+  // programs say where: their own folder
   const std::string path = (std::filesystem::path(run_folder_) / file).string();
   const std::string error =
       sim::write_picture(path, twin_.simulation().scene(), twin_.simulation().minds(), nullptr, options);

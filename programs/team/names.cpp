@@ -39,12 +39,13 @@ std::vector<NamedSupervisor> supervisors_of(const sim::WorldDesc& world, const s
     const std::string program = equals == std::string::npos ? given : given.substr(equals + 1);
     NamedSupervisor* place = nullptr;
     for (std::size_t i = 0; i < of_world; ++i)
-      if (name.empty() ? of_world == 1 || all[i].desc.name == stem_of(program) : all[i].desc.name == name) place = &all[i];
+      if (name.empty() ? of_world == 1 || all[i].desc.name == stem_of(program) : all[i].desc.name == name)
+        place = &all[i];
     if (!place && name.empty() && of_world > 1) {
       std::string names;
       for (std::size_t i = 0; i < of_world; ++i) names += (i ? ", " : "") + all[i].desc.name;
-      problems.push_back("command line: --supervisor: got '" + given + "' for a world with several (" + names +
-                         "), expected NAME=PROGRAM: whose place it takes, or another name to add it");
+      problems.push_back("command line: --supervisor: got '" + given + "' for a world with several (" +
+                         names + "), expected NAME=PROGRAM: whose place it takes, or another name to add it");
       continue;
     }
     if (!place) {
@@ -66,7 +67,8 @@ std::uint64_t seed_of(const sim::WorldDesc& world, int robot, const std::string&
 }
 
 host::Place place_of_crash(const link_record& record) {
-  const std::string file(record.texts[0].bytes, record.texts[0].size), function(record.texts[1].bytes, record.texts[1].size);
+  const std::string file(record.texts[0].bytes, record.texts[0].size),
+      function(record.texts[1].bytes, record.texts[1].size);
   const host::Symbols symbols(file);
   host::Place place = symbols.find(static_cast<std::uintptr_t>(record.ints[1]));
   if (place.function.empty()) place.function = function;

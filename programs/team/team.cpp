@@ -14,7 +14,8 @@ namespace programs {
 
 namespace fs = std::filesystem;
 
-Team::Team(twin::Twin& twin, const twin::Options&) : twin_(twin), run_folder_(fs::current_path().string()), at_first_(twin.world()) {
+Team::Team(twin::Twin& twin, const twin::Options&)
+    : twin_(twin), run_folder_(fs::current_path().string()), at_first_(twin.world()) {
   say = [](const std::string& text) { std::fprintf(stderr, "%s\n", text.c_str()); };
 }
 
@@ -24,7 +25,8 @@ Team::~Team() {
 }
 
 std::unique_ptr<Team> Team::open(twin::Twin& twin, const twin::Options& options,
-                                 const std::vector<std::string>& supervisors, std::vector<std::string>& problems) {
+                                 const std::vector<std::string>& supervisors,
+                                 std::vector<std::string>& problems) {
   const std::size_t before = problems.size();
   std::unique_ptr<Team> team(new Team(twin, options));
   const sim::WorldDesc& world = twin.world();
@@ -82,7 +84,8 @@ int Team::number_of(const Member& member) const {
   return -1;
 }
 
-// --- between ticks ---------------------------------------------------------------------------------------------
+// --- between ticks
+// ---------------------------------------------------------------------------------------------
 
 void Team::before_first_tick() {
   if (began_) return;
@@ -105,7 +108,8 @@ void Team::take_turns() {
     const sim::Clicks now = twin_.simulation().now();
     std::vector<Member*> due;
     for (const auto& member : members_)
-      if (member->partner && (!member->has_said_hello || member->body->is_due(now))) due.push_back(member.get());
+      if (member->partner && (!member->has_said_hello || member->body->is_due(now)))
+        due.push_back(member.get());
     for (Member* member : due)
       if (member->has_said_hello) hand_over_samples(*member);
     for (Member* member : due) {
@@ -142,14 +146,17 @@ void Team::begin(Member& member) {
   if (member.launch.is_extern) {
     member.partner = Partner::listen(member.name, why);
     if (member.partner)
-      say(fmt::format("{}: waits for its program: TWINPUCK_CONTROLLER=unix:{}", member.name, member.partner->path()));
+      say(fmt::format("{}: waits for its program: TWINPUCK_CONTROLLER=unix:{}", member.name,
+                      member.partner->path()));
   } else {
     Start start{member.launch.words, member.launch.name, member.launch.environment, member.launch.folder};
     for (const std::string& word : sim::argument_words(member.arguments)) start.words.push_back(word);
     member.partner = Partner::start(start, why);
   }
   if (!member.partner) return fail(member, why);
-  member.partner->on_text = [this, &member](const char* text, std::size_t bytes) { print(member, text, bytes); };
+  member.partner->on_text = [this, &member](const char* text, std::size_t bytes) {
+    print(member, text, bytes);
+  };
 }
 
 void Team::hand_over_samples(Member& member) {
@@ -211,15 +218,17 @@ void Team::turn(Member& member) {
       case Partner::Got::Nothing:
         break;
     }
-    const std::string since = fmt::format("{} for {:.0f} s (t={:.3f} s)",
-                                          member.has_said_hello ? "has not stepped" : "has not called wb_robot_init()",
-                                          std::chrono::duration<double>(Clock::now() - began).count(), now_s());
+    const std::string since =
+        fmt::format("{} for {:.0f} s (t={:.3f} s)",
+                    member.has_said_hello ? "has not stepped" : "has not called wb_robot_init()",
+                    std::chrono::duration<double>(Clock::now() - began).count(), now_s());
     if (should_give_up && should_give_up()) {
       say(member.name + ": its program " + since + "; it was ended");
       return over(member);
     }
     if (const int processes = member.partner->processes(); processes > kMostProcesses)
-      return fail(member, fmt::format("has started {} processes, expected at most {}", processes, kMostProcesses));
+      return fail(member,
+                  fmt::format("has started {} processes, expected at most {}", processes, kMostProcesses));
     if (!is_told && Clock::now() - began > kSlow && !member.launch.is_extern) {
       is_told = true;
       say(member.name + ": its program " + since + "; the world waits for it");
@@ -227,7 +236,8 @@ void Team::turn(Member& member) {
   }
 }
 
-// --- what a program says ---------------------------------------------------------------------------------------
+// --- what a program says
+// ---------------------------------------------------------------------------------------
 
 bool Team::carry_out(Member& member) {
   link_reader reader;
@@ -244,14 +254,17 @@ bool Team::carry_out(Member& member) {
 
 bool Team::carry_out(Member& member, const link_record& record) {
   const link_row* row = link_row_of(record.number);
-  if (row->who == LINK_FROM_SIMULATOR) return refuse(member, fmt::format("got {}, which the simulator sends", row->name)), true;
+  if (row->who == LINK_FROM_SIMULATOR)
+    return refuse(member, fmt::format("got {}, which the simulator sends", row->name)), true;
   if (!member.has_said_hello && record.number != LINK_HELLO)
     return refuse(member, fmt::format("got {}, expected HELLO first", row->name)), true;
   switch (record.number) {
     case LINK_HELLO:
       if (member.has_said_hello) return refuse(member, "got HELLO again"), true;
       if (record.ints[0] != LINK_VERSION)
-        return refuse(member, fmt::format("got version {} of the link, expected {}", record.ints[0], LINK_VERSION)), true;
+        return refuse(member,
+                      fmt::format("got version {} of the link, expected {}", record.ints[0], LINK_VERSION)),
+               true;
       welcome(member);
       return false;
     case LINK_STEP:
@@ -282,8 +295,10 @@ bool Team::carry_out(Member& member, const link_record& record) {
       if (wants_reset_ || wants_reload_ || !wants_restart_.empty()) carry_out_resets();
       return is_to_begin(member);
     } else
-      line(member, fmt::format("{}: got a program without the right of a supervisor; set supervisor = true for its robot",
-                               row->name));
+      line(member,
+           fmt::format(
+               "{}: got a program without the right of a supervisor; set supervisor = true for its robot",
+               row->name));
     return false;
   }
   const std::string wrong = member.body->command(record);
@@ -295,16 +310,18 @@ void Team::welcome(Member& member) {
   member.has_said_hello = true;
   const sim::WorldDesc& world = twin_.world();
   const bool is_lab = world.webots.sensor_order == "lab";
-  constexpr double kUsualSpeedUnit = 0.00628;  // rad/s: 1000 is a turn a second [Webots: e-puck of versions 6 to 8]
+  constexpr double kUsualSpeedUnit =
+      0.00628;  // rad/s: 1000 is a turn a second [Webots: e-puck of versions 6 to 8]
   link_clear(&packet_);
   link_begin(&packet_, LINK_WELCOME);
   for (const std::int64_t number :
-       {std::int64_t{LINK_VERSION}, std::int64_t{member.is_supervisor}, std::int64_t{world.webots.axes == sim::Axes::Nue},
-        std::int64_t{is_lab}, static_cast<std::int64_t>(seed_of(world, member.robot, member.name) >> 1)})
+       {std::int64_t{LINK_VERSION}, std::int64_t{member.is_supervisor},
+        std::int64_t{world.webots.axes == sim::Axes::Nue}, std::int64_t{is_lab},
+        static_cast<std::int64_t>(seed_of(world, member.robot, member.name) >> 1)})
     link_int(&packet_, number);
   const std::string project = fs::path(member.launch.folder).parent_path().parent_path().string();
-  for (const std::string& text :
-       {member.name, std::string(member.robot >= 0 ? "GCtronic e-puck" : ""), project, world.file, world.title, member.custom})
+  for (const std::string& text : {member.name, std::string(member.robot >= 0 ? "GCtronic e-puck" : ""),
+                                  project, world.file, world.title, member.custom})
     link_text(&packet_, text.c_str());
   link_number(&packet_, world.webots.time_step_s * 1000);
   link_number(&packet_, world.webots.speed_unit_rad_s > 0 ? world.webots.speed_unit_rad_s : kUsualSpeedUnit);
@@ -323,7 +340,8 @@ void Team::answer(Member& member, const link_record& question) {
     nodes_->answer(question, number_of(member), member.robot, packet_);
   } else {
     link_begin(&packet_, LINK_NOTHING);
-    link_text(&packet_, "got a program without the right of a supervisor, expected supervisor = true for its robot");
+    link_text(&packet_,
+              "got a program without the right of a supervisor, expected supervisor = true for its robot");
     link_end(&packet_);
   }
   reply(member);
@@ -341,7 +359,8 @@ void Team::step(Member& member, std::int64_t milliseconds) {
   done(member, 0);
 }
 
-// --- how programs end ------------------------------------------------------------------------------------------
+// --- how programs end
+// ------------------------------------------------------------------------------------------
 
 void Team::refuse(Member& member, const std::string& why) {
   link_clear(&packet_);
@@ -394,8 +413,9 @@ void Team::fail(Member& member, const std::string& what) {
   }
   if (outcome_.ended && !outcome_.crashed && !finished_) return;
   const std::string place = member.place.function.empty() ? "" : " at " + to_string(member.place);
-  outcome_ = {true, true, 1,
-              fmt::format("supervisor '{}', t={:.6f} s: its program {}{}", member.name, now_s(), what, place)};
+  outcome_ = {
+      true, true, 1,
+      fmt::format("supervisor '{}', t={:.6f} s: its program {}{}", member.name, now_s(), what, place)};
 }
 
 void Team::finish() {
@@ -407,7 +427,8 @@ void Team::finish() {
     if (member->partner && member->is_waiting) tell_end(*member);
   // a second for all together, less where somebody wants the command to end
   using Clock = std::chrono::steady_clock;
-  const auto until = Clock::now() + std::chrono::milliseconds(should_give_up && should_give_up() ? 300 : 1000);
+  const auto until =
+      Clock::now() + std::chrono::milliseconds(should_give_up && should_give_up() ? 300 : 1000);
   for (const auto& member : members_) {
     while (member->partner && member->has_said_hello) {
       const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(until - Clock::now()).count();
@@ -424,7 +445,8 @@ void Team::finish() {
   }
 }
 
-// --- text ------------------------------------------------------------------------------------------------------
+// --- text
+// ------------------------------------------------------------------------------------------------------
 
 void Team::print(Member& member, const char* text, std::size_t bytes) {
   constexpr std::size_t kLongestLine = 4096;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// All programs of the PC in a world, robots' and supervisors', in lock-step with it: starts them, gives each its turn
-// between ticks when its step has ended, carries out what they ask for, and knows how they ended.
+// All programs of the PC in a world, robots' and supervisors', in lock-step with it: starts them, gives each
+// its turn between ticks when its step has ended, carries out what they ask for, and knows how they ended.
 //
 //   tick -- steps that have ended: samples go out to all of them, they compute side by side
 //        -- in the order of robots, then of supervisors: commands, questions, up to the next step
 //        -- next tick
 //
-// So the outcome depends on no scheduler: what a program says is looked at in its turn, whoever was faster. The world
-// stands while a program computes, as long as it likes; `should_give_up` ends that. The command, the page and the test
-// fixture own one beside their Twin.
+// So the outcome depends on no scheduler: what a program says is looked at in its turn, whoever was faster.
+// The world stands while a program computes, as long as it likes; `should_give_up` ends that. The command,
+// the page and the test fixture own one beside their Twin.
 #pragma once
 #include <chrono>
 #include <functional>
@@ -39,12 +39,13 @@ struct Outcome {
 
 class Team final : public sim::Attendant, private SupervisorHost {
  public:
-  /// The programs of the twin's robots and of its world's supervisors, built and attached to its simulation, which must
-  /// not step any more once the team is gone; nothing is started yet. Null when anything is wrong; every problem is one
-  /// line. `supervisors`, of the command line: [NAME=]PROGRAM takes the place of the world's supervisor of that name,
-  /// without NAME of its only one, or is added.
+  /// The programs of the twin's robots and of its world's supervisors, built and attached to its simulation,
+  /// which must not step any more once the team is gone; nothing is started yet. Null when anything is wrong;
+  /// every problem is one line. `supervisors`, of the command line: [NAME=]PROGRAM takes the place of the
+  /// world's supervisor of that name, without NAME of its only one, or is added.
   static std::unique_ptr<Team> open(twin::Twin& twin, const twin::Options& options,
-                                    const std::vector<std::string>& supervisors, std::vector<std::string>& problems);
+                                    const std::vector<std::string>& supervisors,
+                                    std::vector<std::string>& problems);
   ~Team() override;
   Team(const Team&) = delete;
   Team& operator=(const Team&) = delete;
@@ -75,11 +76,11 @@ class Team final : public sim::Attendant, private SupervisorHost {
     Launch launch;
     std::string arguments;
     std::shared_ptr<Body> body;
-    RobotBody* of_robot = nullptr;      // body, if it is one
-    BodilessBody* bodiless = nullptr;   // body, if it is one
-    int supervisor = -1;                // number in the world's list; -1: of the command line, or a robot's
-    std::unique_ptr<Partner> partner;   // null: not started, or over
-    std::uint64_t began = 0;            // of the seat, when it was started
+    RobotBody* of_robot = nullptr;     // body, if it is one
+    BodilessBody* bodiless = nullptr;  // body, if it is one
+    int supervisor = -1;               // number in the world's list; -1: of the command line, or a robot's
+    std::unique_ptr<Partner> partner;  // null: not started, or over
+    std::uint64_t began = 0;           // of the seat, when it was started
     bool has_said_hello = false, is_over = false;
     bool is_told_end = false;
     bool is_waiting = false;  // for DONE or END: the simulator speaks to nobody else

@@ -236,8 +236,9 @@ TEST_F(Command, check_finds_what_is_missing_and_what_is_wrong_in_one_pass) {
         "[[supervisor]]\nprogram = \"socce\"\n");
   const Said s = twinpuck("check " + path("bad.toml"));
   EXPECT_EQ(s.exit_code, 2);
-  for (const char* part : {"bad.toml:3:1: unknown key 'sed'", "robot 'a': blnk: firmware: ",
-                           "did you mean 'blink'?", "supervisor 'socce': socce: firmware: ", "did you mean 'soccer'?"})
+  for (const char* part :
+       {"bad.toml:3:1: unknown key 'sed'", "robot 'a': blnk: firmware: ", "did you mean 'blink'?",
+        "supervisor 'socce': socce: firmware: ", "did you mean 'soccer'?"})
     EXPECT_NE(s.text.find(part), std::string::npos) << part << " in " << s.text;
   EXPECT_EQ(twinpuck("check maze").text.substr(twinpuck("check maze").text.find("good")),
             "good: 1 robot, 2 objects, 512 Hz\n");

@@ -19,8 +19,8 @@ TP_C_BEGIN
  * handlers of signals); and the program's name, null: the process's. Before wb_robot_init(). */
 void twinpuck_language(int language, const char* program);
 
-/** Blocks from wb_robot_step_begin() until wb_robot_step_end() would not have to wait. 1: it would not; 0: a signal came.
- *  It changes nothing, so other threads may call the library meanwhile, one at a time. */
+/** Blocks from wb_robot_step_begin() until wb_robot_step_end() would not have to wait. 1: it would not; 0: a
+ * signal came. It changes nothing, so other threads may call the library meanwhile, one at a time. */
 int twinpuck_wait(void);
 
 TP_C_END
