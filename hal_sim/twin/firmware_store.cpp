@@ -158,6 +158,12 @@ std::string find_firmware(const std::string& name, const std::string& from_folde
     else if (!stored.empty())
       path = stored;
   }
+  std::error_code wrong;
+  if (!fs::exists(path, wrong) && wrong && wrong != std::errc::no_such_file_or_directory &&
+      wrong != std::errc::not_a_directory) {
+    problems.push_back(path.string() + ": firmware: " + wrong.message());
+    return "";
+  }
   if (!fs::exists(path, none)) {
     const std::string guess = sim::did_you_mean(name, controller_names());
     problems.push_back(name +

@@ -110,8 +110,7 @@ Puck::Puck(board::Board& board, Cycle start)
   if (board_.camera()) camera_ = std::make_unique<PuckCamera>(board_, drivers_.camera());
 }
 
-// --- the list
-// ------------------------------------------------------------------------------------------------
+// --- the list ------------------------------------------------------------------------------------
 
 void Puck::add(const std::string& name, Kind kind, int node, int index, std::vector<double> needs) {
   devices_.push_back({name, "", kind, node, index, std::move(needs)});
@@ -238,8 +237,7 @@ void Puck::find_device(const std::string& name, link_packet& to) {
   link_end(&to);
 }
 
-// --- commands
-// ------------------------------------------------------------------------------------------------
+// --- commands ------------------------------------------------------------------------------------
 
 void Puck::note(std::uint64_t what) { hash_ = sim::fold(hash_, what); }
 
@@ -358,8 +356,7 @@ std::string Puck::play(std::int64_t, const std::string& sound, bool again, Cycle
   return "";
 }
 
-// --- samples
-// -------------------------------------------------------------------------------------------------
+// --- samples -------------------------------------------------------------------------------------
 
 void Puck::sample(std::int64_t milliseconds, Cycle at, link_packet& to) {
   for (std::size_t i = 0; i < devices_.size(); ++i) {
@@ -562,8 +559,7 @@ void Puck::tell_playing(Cycle at, link_packet& to) {
     }
 }
 
-// --- time
-// ------------------------------------------------------------------------------------------------------
+// --- time ----------------------------------------------------------------------------------------
 
 Cycle Puck::next_event() const {
   Cycle next = wheels_.next_event();

@@ -84,8 +84,7 @@ int Team::number_of(const Member& member) const {
   return -1;
 }
 
-// --- between ticks
-// ---------------------------------------------------------------------------------------------
+// --- between ticks -------------------------------------------------------------------------------
 
 void Team::before_first_tick() {
   if (began_) return;
@@ -100,9 +99,18 @@ void Team::after_tick() {
 }
 
 void Team::take_turns() {
-  for (;;) {
+  constexpr int kMostRounds = 1000;
+  for (int round = 0;; ++round) {
+    if (should_give_up && should_give_up()) return;
+    // whoever reloads the world as soon as it begins would do so for ever
+    if (round == kMostRounds) return end_beginners();
     // all that are to begin are started before anybody waits for one of them
     for (const auto& member : members_) {
+      // another program was flashed into its robot
+      if (member->of_robot && !member->of_robot->runner()) {
+        if (member->partner) over(*member);
+        continue;
+      }
       if (is_to_begin(*member) || (!member->partner && !member->is_over)) begin(*member);
     }
     const sim::Clicks now = twin_.simulation().now();
@@ -121,6 +129,15 @@ void Team::take_turns() {
     }
     // steps shorter than a tick: the next one may have ended as well; and a reset has programs begin
     if (due.empty()) break;
+  }
+}
+
+void Team::end_beginners() {
+  for (const auto& member : members_) {
+    if (!is_to_begin(*member)) continue;
+    member->starts_anew = false;
+    if (member->of_robot) member->began = member->of_robot->began();
+    fail(*member, "has the world begin again and again at one instant; it was ended");
   }
 }
 
@@ -236,8 +253,7 @@ void Team::turn(Member& member) {
   }
 }
 
-// --- what a program says
-// ---------------------------------------------------------------------------------------
+// --- what a program says -------------------------------------------------------------------------
 
 bool Team::carry_out(Member& member) {
   link_reader reader;
@@ -359,8 +375,7 @@ void Team::step(Member& member, std::int64_t milliseconds) {
   done(member, 0);
 }
 
-// --- how programs end
-// ------------------------------------------------------------------------------------------
+// --- how programs end ----------------------------------------------------------------------------
 
 void Team::refuse(Member& member, const std::string& why) {
   link_clear(&packet_);
@@ -445,8 +460,7 @@ void Team::finish() {
   }
 }
 
-// --- text
-// ------------------------------------------------------------------------------------------------------
+// --- text ----------------------------------------------------------------------------------------
 
 void Team::print(Member& member, const char* text, std::size_t bytes) {
   constexpr std::size_t kLongestLine = 4096;

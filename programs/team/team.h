@@ -93,6 +93,7 @@ class Team final : public sim::Attendant, private SupervisorHost {
   };
 
   Team(twin::Twin& twin, const twin::Options& options);
+  void end_beginners();
   bool is_to_begin(const Member& member) const;
   void begin(Member& member);
   void take_turns();
