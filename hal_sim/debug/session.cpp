@@ -67,19 +67,17 @@ bool Session::open_world(std::vector<std::string>& problems) {
   for (int i = 0; i < twin_->robots() && robot_ < 0; ++i) {
     const std::string& name = twin_->world().robots[static_cast<std::size_t>(i)].name;
     if (!setup_.robot.empty() && name != setup_.robot) continue;
+    if (twin_->launch(i)) {
+      problems.push_back(
+          "debug: robot '" + name +
+          "' runs a program of the PC, expected firmware; start it in a debugger of its language, and "
+          "the run with --extern " +
+          name);
+      return false;
+    }
     machine_ = machine_of(twin_->mind(i).runner());
     if (machine_) robot_ = i;
     if (machine_) setup_.robot = name;
-  }
-  for (int i = 0; i < twin_->robots() && robot_ < 0; ++i) {
-    const std::string& name = twin_->world().robots[static_cast<std::size_t>(i)].name;
-    if (!twin_->launch(i) || (!setup_.robot.empty() && name != setup_.robot)) continue;
-    problems.push_back(
-        "debug: robot '" + name +
-        "' runs a program of the PC, expected firmware; start it in a debugger of its language, and the run "
-        "with --extern " +
-        name);
-    return false;
   }
   if (robot_ < 0) {
     problems.push_back(setup_.robot.empty()

@@ -99,7 +99,7 @@ void Team::after_tick() {
 }
 
 void Team::take_turns() {
-  constexpr int kMostRounds = 1000;
+  constexpr int kMostRounds = 100;
   for (int round = 0;; ++round) {
     if (should_give_up && should_give_up()) return;
     // whoever reloads the world as soon as it begins would do so for ever
