@@ -12,6 +12,7 @@
 #include "hal_sim/board/parts_params.h"
 #include "hal_sim/board/true_state.h"
 #include "hal_sim/drivers/driver_params.h"
+#include "programs/puck/ranging.h"
 #include "sim_core/base/hash.h"
 #include "sim_core/world/scene.h"
 
@@ -157,7 +158,8 @@ void Puck::add_of_world() {
         {double(packets.emitter_channel(e)), packets.emitter_range_m(e), board::kPacketQueueBytes});
   for (int r = 0; r < packets.receivers(); ++r)
     add(packets.receiver_name(r), Kind::Receiver, WB_NODE_RECEIVER, r, {double(packets.receiver_channel(r))});
-  for (const sim::DeviceDesc& device : board_.setup().devices) switch (device.kind) {
+  int number = -1;  // of the setup's devices
+  for (const sim::DeviceDesc& device : board_.setup().devices) switch (++number, device.kind) {
       case sim::DeviceKind::Gps:
         add(device.name, Kind::Gps, WB_NODE_GPS, 0);
         break;
@@ -170,9 +172,27 @@ void Puck::add_of_world() {
       case sim::DeviceKind::Gyro:
         add(device.name, Kind::TrueGyro, WB_NODE_GYRO, 0);
         break;
-      case sim::DeviceKind::Distance:
-        add(device.name, Kind::Virtual, WB_NODE_DISTANCE_SENSOR, 0, {0, kFullScale, 0, kGeneric});
+      case sim::DeviceKind::Distance: {
+        if (device.table.empty()) {
+          add(device.name, Kind::Virtual, WB_NODE_DISTANCE_SENSOR, 0, {0, kFullScale, 0, kGeneric});
+          break;
+        }
+        const auto [least, most] = std::minmax_element(device.table.begin(), device.table.end(),
+                                                       [](const auto& a, const auto& b) { return a.value < b.value; });
+        std::vector<double> needs{least->value, most->value, device.aperture_rad, kGeneric};
+        for (const sim::ResponseRow& row : device.table)
+          needs.insert(needs.end(), {row.distance_m, row.value, row.relative_noise});
+        add(device.name, Kind::Distance, WB_NODE_DISTANCE_SENSOR, number, std::move(needs));
         break;
+      }
+      case sim::DeviceKind::Lidar:
+      case sim::DeviceKind::RangeFinder: {
+        const RangeGrid grid = range_grid(device);
+        add(device.name, Kind::Ranges, device.kind == sim::DeviceKind::Lidar ? WB_NODE_LIDAR : WB_NODE_RANGE_FINDER, number,
+            {double(grid.columns), double(grid.rows), device.fov_rad, device.near_m, device.far_m,
+             device.kind == sim::DeviceKind::Lidar ? device.vertical_fov_rad : 0});
+        break;
+      }
       case sim::DeviceKind::Display:
         add(device.name, Kind::Display, WB_NODE_DISPLAY, 0, {double(device.width), double(device.height)});
         break;
@@ -200,6 +220,9 @@ void Puck::add_of_world() {
         break;
       case sim::DeviceKind::Pen:
         add(device.name, Kind::Idle, WB_NODE_PEN, 0);
+        break;
+      case sim::DeviceKind::Position:
+        add(device.name, Kind::Idle, WB_NODE_POSITION_SENSOR, 0, {0});
         break;
     }
 }
@@ -403,6 +426,14 @@ void Puck::take(const Device& device, std::size_t number, Cycle at, link_packet&
       return put3(board::true_state(board_, at).attitude_rad);
     case Kind::Tof:
       return put(to, tag, {time_of_flight(at)});
+    case Kind::Distance: {
+      const sim::DeviceDesc& desc = board_.setup().devices[static_cast<std::size_t>(device.index)];
+      const sim::Scene* scene = board_.scene();
+      return put(to, tag, {scene ? measured_distance(*scene, board_.setup().robot, desc, board_.clock().click_at(at))
+                                 : desc.table.back().value});
+    }
+    case Kind::Ranges:
+      return take_ranges(board_.setup().devices[static_cast<std::size_t>(device.index)], tag, at, to);
     case Kind::Selector:
       return put(to, tag, {static_cast<double>(board_.selector())});
     case Kind::Battery:
@@ -479,6 +510,16 @@ double Puck::time_of_flight(Cycle at) const {
   sim::SceneHit hit;
   if (!scene->cast(ray, kTofMostMm / 1000, board_.setup().robot, now, &hit)) return kTofMostMm;
   return std::round(hit.distance_m * 1000);
+}
+
+void Puck::take_ranges(const sim::DeviceDesc& desc, std::int64_t tag, Cycle at, link_packet& to) const {
+  std::vector<double> seen;
+  if (const sim::Scene* scene = board_.scene())
+    seen = ranges(*scene, board_.setup().robot, desc, board_.clock().click_at(at));
+  link_begin(&to, LINK_NUMBERS);
+  link_int(&to, tag);
+  link_numbers(&to, seen.data(), seen.size());
+  link_end(&to);
 }
 
 /// m/s2: forward, left, up.

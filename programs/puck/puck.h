@@ -89,13 +89,15 @@ class Puck {
     Battery,
     Keyboard,
     Tof,
+    Distance,  // of [[robot.device]], with a table
+    Ranges,
     Idle  // there for the program, and does nothing
   };
   struct Device {
     std::string name, model;
     Kind kind;
     int node;   // WbNodeType
-    int index;  // among its kind
+    int index;  // among its kind; of Distance and Ranges among the setup's devices
     std::vector<double> needs;
     std::int64_t period_ms = 0, elapsed_ms = 0;
   };
@@ -110,6 +112,7 @@ class Puck {
   double light(int sensor, Cycle at);
   double ground(int sensor, Cycle at);
   double time_of_flight(Cycle at) const;
+  void take_ranges(const sim::DeviceDesc& desc, std::int64_t tag, Cycle at, link_packet& to) const;
   sim::Vec3 acceleration(Cycle at);
   sim::Vec3 rates(Cycle at);
   void take_sound(int microphone, std::int64_t tag, Cycle at, link_packet& to);

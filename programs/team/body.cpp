@@ -7,6 +7,7 @@
 
 #include "firmware/include/webots/nodes.h"
 #include "hal_sim/board/packet_devices.h"
+#include "programs/puck/ranging.h"
 
 namespace programs {
 
@@ -51,8 +52,49 @@ void BodilessBody::restart() {
       case sim::DeviceKind::Distance:
         devices_.push_back({d.name, WB_NODE_DISTANCE_SENSOR, {0, 4095, 0, 0}});
         break;
-      default:
+      case sim::DeviceKind::Motor:
         devices_.push_back({d.name, WB_NODE_ROTATIONAL_MOTOR, {10, 0}});
+        break;
+      case sim::DeviceKind::Camera:
+        devices_.push_back({d.name, WB_NODE_CAMERA, {double(d.width), double(d.height), d.fov_rad, 0, 0}});
+        break;
+      case sim::DeviceKind::Lidar:
+      case sim::DeviceKind::RangeFinder: {
+        const RangeGrid grid = range_grid(d);
+        devices_.push_back({d.name, d.kind == sim::DeviceKind::Lidar ? WB_NODE_LIDAR : WB_NODE_RANGE_FINDER,
+                            {double(grid.columns), double(grid.rows), d.fov_rad, d.near_m, d.far_m,
+                             d.kind == sim::DeviceKind::Lidar ? d.vertical_fov_rad : 0}});
+        break;
+      }
+      case sim::DeviceKind::Gps:
+        devices_.push_back({d.name, WB_NODE_GPS, {}});
+        break;
+      case sim::DeviceKind::Compass:
+        devices_.push_back({d.name, WB_NODE_COMPASS, {}});
+        break;
+      case sim::DeviceKind::Inertial:
+        devices_.push_back({d.name, WB_NODE_INERTIAL_UNIT, {}});
+        break;
+      case sim::DeviceKind::Gyro:
+        devices_.push_back({d.name, WB_NODE_GYRO, {}});
+        break;
+      case sim::DeviceKind::Touch:
+        devices_.push_back({d.name, WB_NODE_TOUCH_SENSOR, {0}});
+        break;
+      case sim::DeviceKind::Light:
+        devices_.push_back({d.name, WB_NODE_LIGHT_SENSOR, {}});
+        break;
+      case sim::DeviceKind::Led:
+        devices_.push_back({d.name, WB_NODE_LED, {}});
+        break;
+      case sim::DeviceKind::Speaker:
+        devices_.push_back({d.name, WB_NODE_SPEAKER, {}});
+        break;
+      case sim::DeviceKind::Pen:
+        devices_.push_back({d.name, WB_NODE_PEN, {}});
+        break;
+      case sim::DeviceKind::Position:
+        devices_.push_back({d.name, WB_NODE_POSITION_SENSOR, {0}});
         break;
     }
   // a world file that names none had these
@@ -102,6 +144,9 @@ std::string BodilessBody::command(const link_record& record) {
     case LINK_VELOCITY:
     case LINK_POSITION:
     case LINK_LED:
+    case LINK_PLAY:
+    case LINK_SILENCE:
+    case LINK_RECOGNISE:
       return "";
     case LINK_SEND: {
       if (!emits) return wrong();

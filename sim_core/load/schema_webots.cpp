@@ -43,12 +43,24 @@ struct KindWord {
   const char* word;
   DeviceKind kind;
 };
-constexpr KindWord kKindWords[] = {
-    {"gps", DeviceKind::Gps},           {"compass", DeviceKind::Compass}, {"inertial", DeviceKind::Inertial},
-    {"gyro", DeviceKind::Gyro},         {"emitter", DeviceKind::Emitter}, {"receiver", DeviceKind::Receiver},
-    {"distance", DeviceKind::Distance}, {"display", DeviceKind::Display}, {"motor", DeviceKind::Motor},
-    {"camera", DeviceKind::Camera},     {"touch", DeviceKind::Touch},     {"light", DeviceKind::Light},
-    {"led", DeviceKind::Led},           {"speaker", DeviceKind::Speaker}, {"pen", DeviceKind::Pen}};
+constexpr KindWord kKindWords[] = {{"gps", DeviceKind::Gps},
+                                   {"compass", DeviceKind::Compass},
+                                   {"inertial", DeviceKind::Inertial},
+                                   {"gyro", DeviceKind::Gyro},
+                                   {"emitter", DeviceKind::Emitter},
+                                   {"receiver", DeviceKind::Receiver},
+                                   {"distance", DeviceKind::Distance},
+                                   {"display", DeviceKind::Display},
+                                   {"motor", DeviceKind::Motor},
+                                   {"camera", DeviceKind::Camera},
+                                   {"touch", DeviceKind::Touch},
+                                   {"light", DeviceKind::Light},
+                                   {"led", DeviceKind::Led},
+                                   {"speaker", DeviceKind::Speaker},
+                                   {"pen", DeviceKind::Pen},
+                                   {"lidar", DeviceKind::Lidar},
+                                   {"range-finder", DeviceKind::RangeFinder},
+                                   {"position", DeviceKind::Position}};
 
 }  // namespace
 
@@ -79,11 +91,14 @@ SectionSpec robot_device_section() {
            })},
           {"kind", ValueType::Choice, "", 0, 0,
            "gps|compass|inertial|gyro|emitter|receiver|distance|display|motor|camera|touch|light|led|speaker|"
-           "pen",
+           "pen|lidar|range-finder|position",
            "required",
-           "gps, compass, inertial, gyro: the truth, without noise; distance: a virtual sensor, whose value "
-           "a "
-           "supervisor sets; display: a picture that the program draws; motor to pen: there for the program, "
+           "gps, compass, inertial, gyro: the truth, without noise; distance: measured where it has a "
+           "`table`, "
+           "otherwise a virtual sensor, whose value a supervisor sets; lidar: a row of distances in m, from "
+           "the "
+           "left to the right; range-finder: a picture of distances; display: a picture that the program "
+           "draws; motor to pen, and position: there for the program, "
            "but they move, see, feel and show nothing",
            into<D>([](D& d, const Value& v) {
              for (const KindWord& k : kKindWords)
@@ -111,10 +126,48 @@ SectionSpec robot_device_section() {
           {"infra_red", ValueType::Flag, "", 0, 0, "", "false",
            "of an emitter: packets need a free line of sight",
            into<D>([](D& d, const Value& v) { d.infra_red = v.flag; })},
-          {"width", ValueType::Integer, "", 1, 4096, "", "128", "of a display or camera, in pixels",
+          {"width", ValueType::Integer, "", 1, 4096, "", "128",
+           "of a display or camera, in pixels; of a lidar, its points; of a range finder, its columns",
            into<D>([](D& d, const Value& v) { d.width = static_cast<int>(v.integer); })},
           {"height", ValueType::Integer, "", 1, 4096, "", "64", "likewise",
            into<D>([](D& d, const Value& v) { d.height = static_cast<int>(v.integer); })},
+          {"at", ValueType::Triple, "m", -1, 1, "", "[0, 0, 0]",
+           "of what measures distances: its place on the robot, from the middle on the floor: ahead, left, "
+           "up",
+           into<D>([](D& d, const Value& v) {
+             d.at_m = {v.numbers[0], v.numbers[1], v.numbers[2]};
+           })},
+          {"heading", ValueType::Number, "degrees", -360, 360, "", "0", "likewise: from ahead to the left",
+           into<D>([](D& d, const Value& v) { d.heading_rad = radians(v.number); })},
+          {"fov", ValueType::Number, "rad", 0, 6.2832, "", "1.5708",
+           "of a lidar or range finder: from the left edge to the right one",
+           into<D>([](D& d, const Value& v) { d.fov_rad = v.number; })},
+          {"vertical_fov", ValueType::Number, "rad", 0, 3.1416, "", "0.2",
+           "of a lidar with several rows (`height`): from the uppermost to the lowest",
+           into<D>([](D& d, const Value& v) { d.vertical_fov_rad = v.number; })},
+          {"near", ValueType::Number, "m", 0, kFar, "", "0.01", "likewise: what is nearer counts as far away",
+           into<D>([](D& d, const Value& v) { d.near_m = v.number; })},
+          {"far", ValueType::Number, "m", 0.001, kFar, "", "1", "likewise: what is farther is infinitely far",
+           into<D>([](D& d, const Value& v) { d.far_m = v.number; })},
+          {"table", ValueType::Rows, "m, value, fraction", -1e9, 1e9, "", "",
+           "of a distance sensor: rows of distance, value and relative noise (not drawn), distances growing; "
+           "linear "
+           "in between, clamped beyond the ends",
+           checked<D>([](D& d, const Value& v, const WorldDesc&) {
+             d.table.clear();
+             for (const std::vector<double>& row : v.rows) {
+               if (row[0] < 0 || (!d.table.empty() && row[0] <= d.table.back().distance_m))
+                 return fmt::format("got a distance of {} m, expected growing ones from 0 m on", row[0]);
+               d.table.push_back({row[0], row[1], row[2]});
+             }
+             if (d.table.size() < 2) return fmt::format("got {} row(s), expected at least 2", d.table.size());
+             return std::string();
+           })},
+          {"rays", ValueType::Integer, "", 1, 100, "", "1",
+           "likewise: over the aperture, whose mean distance counts",
+           into<D>([](D& d, const Value& v) { d.rays = static_cast<int>(v.integer); })},
+          {"aperture", ValueType::Number, "rad", 0, 6.2832, "", "1.5708", "likewise",
+           into<D>([](D& d, const Value& v) { d.aperture_rad = v.number; })},
       }};
 }
 

@@ -131,7 +131,7 @@ struct LinkEndDesc {
   std::vector<Dropout> dropouts;    ///< of this robot alone, growing
 };
 
-/// Motor to Pen are there for a program, and do and sense nothing.
+/// Motor to Pen, and Position, are there for a program, and do and sense nothing.
 enum class DeviceKind {
   Gps,
   Compass,
@@ -147,7 +147,10 @@ enum class DeviceKind {
   Light,
   Led,
   Speaker,
-  Pen
+  Pen,
+  Lidar,
+  RangeFinder,
+  Position
 };
 
 /// A device that programs written for Webots' interfaces find on a robot, or a supervisor, by its name.
@@ -160,7 +163,15 @@ struct DeviceDesc {
   bool infra_red = false;       ///< of emitters: a free line of sight is needed
   int width = 128;              ///< of displays and cameras, pixels
   int height = 64;              ///< likewise
-  int line = 0;                 ///< line in the world file; 0 when built in C++
+  Vec3 at_m;  ///< of what measures distances: from the robot's middle on the floor: ahead, left, up
+  double heading_rad = 0;           ///< likewise, from ahead to the left
+  double fov_rad = kPi / 2;         ///< of lidars and range finders: from the left to the right edge
+  double vertical_fov_rad = 0.2;    ///< of lidars of several rows
+  double near_m = 0.01, far_m = 1;  ///< likewise: what is nearer or farther is not there
+  std::vector<ResponseRow> table;   ///< of distance sensors; empty: a supervisor sets the value
+  int rays = 1;                     ///< of distance sensors
+  double aperture_rad = kPi / 2;    ///< likewise
+  int line = 0;                     ///< line in the world file; 0 when built in C++
 };
 
 /// A key of a remote control that somebody presses for a robot.

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// What an e-puck's [[robot.device]] that measure distances see: distance sensors with a table, lidars, range
+// finders. Rays in the scene at one instant, without noise. Pure functions; any thread.
+#pragma once
+#include <vector>
+
+#include "sim_core/world/scene.h"
+#include "sim_core/world/world_desc.h"
+
+namespace programs {
+
+/// Most distances of a lidar or range finder: what a packet holds.
+inline constexpr int kMostRanges = 12000;
+
+/// Columns and rows that are measured: those of the description, or, if these were too many, each n-th of
+/// both.
+struct RangeGrid {
+  int columns = 1, rows = 1;
+};
+RangeGrid range_grid(const sim::DeviceDesc& device);
+
+/// m, rows from the top, each from the left to the right: of a lidar along the ray, of a range finder along
+/// its line of sight. Infinite: nothing from `near_m` to `far_m`.
+std::vector<double> ranges(const sim::Scene& scene, int robot, const sim::DeviceDesc& device, sim::Clicks at);
+
+/// What a distance sensor's table makes of the mean distance over its rays.
+double measured_distance(const sim::Scene& scene, int robot, const sim::DeviceDesc& device, sim::Clicks at);
+
+/// The value of a table at a distance, m: linear in between, the ends' beyond them. Two rows or more.
+double looked_up(const std::vector<sim::ResponseRow>& table, double distance_m);
+
+}  // namespace programs
