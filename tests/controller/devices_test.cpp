@@ -23,6 +23,7 @@
 #include <webots/motor.h>
 #include <webots/position_sensor.h>
 #include <webots/radio.h>
+#include <webots/range_finder.h>
 #include <webots/receiver.h>
 #include <webots/robot.h>
 #include <webots/robot_wwi.h>
@@ -430,6 +431,39 @@ TEST(ControllerDevices, sounds_are_recorded_and_played) {
   sim.done(2 * kStep);
   EXPECT_EQ(sim.wait(), 0);
   EXPECT_EQ(sim.output(), "1 10 4 16 11 10");
+}
+
+TEST(ControllerDevices, lidars_and_range_finders_give_rows_of_distances) {
+  Simulator sim([] {
+    wb_robot_init();
+    wb_lidar_enable(20, 32);
+    wb_lidar_enable_point_cloud(20);
+    wb_range_finder_enable(21, 32);
+    printf("%d ", std::isinf(wb_lidar_get_range_image(20)[3]));
+    wb_robot_step(32);
+    const float* seen = wb_lidar_get_layer_range_image(20, 1);
+    const WbLidarPoint* points = wb_lidar_get_point_cloud(20);
+    printf("%d %d %g %g %g ", wb_lidar_get_number_of_points(20), wb_lidar_get_horizontal_resolution(20), seen[0], seen[1],
+           wb_lidar_get_max_range(20));
+    // the left half's middle is a quarter of 2 rad to the left, the upper layer 0.1 rad up
+    printf("%.4f %.4f %.4f %d %d ", points[0].x, points[0].y, points[0].z, std::isinf(points[1].x), points[3].layer_id);
+    const float* depth = wb_range_finder_get_range_image(21);
+    printf("%d %g %d", wb_range_finder_get_width(21), wb_range_finder_image_get_depth(depth, 3, 2, 0),
+           wb_lidar_get_layer_range_image(20, 2) == nullptr);
+  });
+  World world = puck();
+  world.devices.push_back({20, WB_NODE_LIDAR, "lidar", {2, 2, 2, 0.1, 3.5, 0.2}});
+  world.devices.push_back({21, WB_NODE_RANGE_FINDER, "range-finder", {3, 1, 1, 0.01, 1, 0}});
+  sim.welcome(world);
+  sim.until_step();
+  Packet samples;
+  samples.add(LINK_NUMBERS, 20, std::vector<double>{2, INFINITY, 0.5, 0.75});
+  samples.add(LINK_NUMBERS, 21, std::vector<double>{0.1, 0.2, 0.3});
+  samples.add(LINK_DONE, kStep, 32);
+  sim.send(samples);
+  EXPECT_EQ(sim.wait(), 0);
+  EXPECT_EQ(sim.output(), "1 4 2 0.5 0.75 3.5 1.7464 0.9541 0.1997 1 1 3 0.3 1");
+  EXPECT_EQ(sim.errors(), "");
 }
 
 TEST(ControllerDevices, kinds_that_no_robot_has_are_harmless) {

@@ -12,6 +12,7 @@ from fake_simulator import Simulator, python, record
 # kinds, as in webots/nodes.h
 ACCELEROMETER, CAMERA, COMPASS, DISPLAY, DISTANCE_SENSOR, EMITTER, GPS, GYRO, INERTIAL_UNIT, LED, LIGHT_SENSOR = \
     35, 38, 39, 41, 42, 43, 44, 45, 46, 47, 49
+LIDAR, RANGE_FINDER = 48, 55
 POSITION_SENSOR, RECEIVER, MOTOR, SPEAKER, TOUCH_SENSOR, MICROPHONE = 52, 56, 57, 59, 60, 86
 
 PUCK = [(1, DISTANCE_SENSOR, "ps0", [0, 4095, 0.3, 1]), (2, DISTANCE_SENSOR, "ps1", [0, 4095, 0.3, 1]),
@@ -139,6 +140,26 @@ for get, name in (("DistanceSensor", "ps0"), ("LED", "led0"), ("Camera", "camera
                   ("Speaker", "speaker"), ("Microphone", "mic0")):
     assert type(getattr(robot, "get" + get)(name)) is globals()[get], get
 """), ["Motor True True", "True True", "20 ps0 True"])
+
+    def test_lidars_and_range_finders_give_rows_of_distances(self):
+        inf = float("inf")
+        simulator = Simulator(PUCK + [(30, LIDAR, "lidar", [4, 1, 3.14, 0.1, 3.5, 0.2]),
+                                      (31, RANGE_FINDER, "range-finder", [2, 2, 1, 0.01, 1, 0])],
+                              lambda step: record("NUMBERS", 30, [0.5, inf, 1, 2]) + record("NUMBERS", 31, [0.25, 1, 2, 4]))
+        self.assertEqual(self.lines("""
+from controller import Robot
+robot = Robot()
+lidar, finder = robot.getDevice("lidar"), robot.getRangeFinder("range-finder")
+lidar.enable(32)
+finder.enable(32)
+print(lidar.getPointCloud.__name__, lidar.getRangeImage())
+lidar.enablePointCloud()
+robot.step(32)
+print(lidar.getRangeImage(), lidar.getHorizontalResolution(), lidar.getMaxRange())
+print(len(lidar.getPointCloud()), lidar.getPointCloud()[1].x, "%.3f" % lidar.getPointCloud()[3].x)
+print(finder.getRangeImageArray(), finder.rangeImageGetDepth(finder.getRangeImage(), 2, 0, 1))
+""", simulator), ["getPointCloud [inf, inf, inf, inf]", "[0.5, inf, 1.0, 2.0] 4 3.5", "4 inf 0.766",
+                 "[[0.25, 2.0], [1.0, 4.0]] 2.0"])
 
     def test_a_device_that_is_not_there_is_none(self):
         run = self.run_program("""

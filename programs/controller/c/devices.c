@@ -175,7 +175,7 @@ const float* device_floats(struct device* device) {
 static void take_numbers(const struct link_record* record) {
   struct device* device = any_device(record->ints[0]);
   size_t i, count = record->lists[0].count;
-  if (!device) return;
+  if (!device || take_ranges(device, record->lists[0].values, count)) return;
   if (count > DEVICE_VALUES) count = DEVICE_VALUES;
   for (i = 0; i < count; i++) {
     double value = record->lists[0].values[i];

@@ -145,6 +145,8 @@ void take_sample(const struct link_record* record);
 
 /* what each kind does with its records */
 void take_picture(const struct link_record* record);
+/** Of a lidar or range finder; false: it is none. */
+bool take_ranges(struct device* device, const double* values, size_t count);
 void take_recognition(const struct link_record* record);
 void take_sound(const struct link_record* record);
 void take_packet(const struct link_record* record);

@@ -5,8 +5,7 @@
 
 `help(controller.Robot)`, `help(controller.DistanceSensor)` ... say what there is, in which units.
 """
-from .absent import (Altimeter, Brake, Connector, Lidar, LidarPoint, Motion, Pen, Radar, RadarTarget, RangeFinder,
-                     Skin, VacuumGripper)
+from .absent import Altimeter, Brake, Connector, Motion, Pen, Radar, RadarTarget, Skin, VacuumGripper
 from .accelerometer import Accelerometer
 from .ansi_codes import AnsiCodes
 from .camera import Camera, CameraRecognitionObject
@@ -22,6 +21,7 @@ from .gyro import Gyro
 from .inertial_unit import InertialUnit
 from .keyboard import Joystick, Keyboard, Mouse, MouseState
 from .led import LED
+from .lidar import Lidar, LidarPoint, RangeFinder
 from .light_sensor import LightSensor
 from .motor import Motor
 from .node import ContactPoint, Node

@@ -29,20 +29,8 @@ class Altimeter(Sensor):
     """No e-puck has one."""
 
 
-class Lidar(Sensor):
-    """No e-puck has one."""
-
-
 class Radar(Sensor):
     """No e-puck has one."""
-
-
-class RangeFinder(Sensor):
-    """No e-puck has one."""
-
-
-class LidarPoint:
-    """What a lidar would see."""
 
 
 class RadarTarget:

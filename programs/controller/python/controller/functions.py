@@ -157,6 +157,39 @@ D gyro_get_values t
 i gyro_get_lookup_table_size t
 D gyro_get_lookup_table t
 
+v lidar_enable t i
+v lidar_disable t
+i lidar_get_sampling_period t
+p lidar_get_range_image t
+d lidar_get_fov t
+d lidar_get_min_range t
+d lidar_get_max_range t
+p lidar_get_layer_range_image t i
+v lidar_enable_point_cloud t
+v lidar_disable_point_cloud t
+b lidar_is_point_cloud_enabled t
+p lidar_get_point_cloud t
+p lidar_get_layer_point_cloud t i
+i lidar_get_number_of_points t
+i lidar_get_horizontal_resolution t
+i lidar_get_number_of_layers t
+d lidar_get_vertical_fov t
+d lidar_get_frequency t
+d lidar_get_min_frequency t
+d lidar_get_max_frequency t
+v lidar_set_frequency t d
+
+v range_finder_enable t i
+v range_finder_disable t
+i range_finder_get_sampling_period t
+p range_finder_get_range_image t
+d range_finder_get_fov t
+d range_finder_get_min_range t
+d range_finder_get_max_range t
+i range_finder_get_width t
+i range_finder_get_height t
+i range_finder_save_image t s i
+
 v compass_enable t i
 v compass_disable t
 i compass_get_sampling_period t

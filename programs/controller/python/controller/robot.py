@@ -5,7 +5,7 @@ import sys
 from typing import Dict, Optional
 
 from . import library
-from .absent import Altimeter, Brake, Connector, Lidar, Pen, Radar, RangeFinder, Skin, VacuumGripper
+from .absent import Altimeter, Brake, Connector, Pen, Radar, Skin, VacuumGripper
 from .accelerometer import Accelerometer
 from .camera import Camera
 from .compass import Compass
@@ -19,6 +19,7 @@ from .inertial_unit import InertialUnit
 from .keyboard import Joystick, Keyboard, Mouse
 from .led import LED
 from .library import c, warn
+from .lidar import Lidar, RangeFinder
 from .light_sensor import LightSensor
 from .motor import Motor
 from .node import Node
@@ -31,7 +32,7 @@ _CLASSES = {Node.ACCELEROMETER: Accelerometer, Node.CAMERA: Camera, Node.COMPASS
             Node.DISTANCE_SENSOR: DistanceSensor, Node.EMITTER: Emitter, Node.GPS: GPS, Node.GYRO: Gyro,
             Node.INERTIAL_UNIT: InertialUnit, Node.LED: LED, Node.LIGHT_SENSOR: LightSensor, Node.LINEAR_MOTOR: Motor,
             Node.ROTATIONAL_MOTOR: Motor, Node.POSITION_SENSOR: PositionSensor, Node.RECEIVER: Receiver,
-            Node.SPEAKER: Speaker, Node.MICROPHONE: Microphone, Node.TOUCH_SENSOR: TouchSensor}
+            Node.LIDAR: Lidar, Node.RANGE_FINDER: RangeFinder, Node.SPEAKER: Speaker, Node.MICROPHONE: Microphone, Node.TOUCH_SENSOR: TouchSensor}
 
 _devices: Dict[int, Device] = {}  # by tag: one object for each
 _tags: Dict[str, int] = {}        # by name
@@ -333,7 +334,7 @@ def _creator(kind):
     return create
 
 
-for _kind in set(_CLASSES.values()) | {Altimeter, Brake, Connector, Lidar, Pen, Radar, RangeFinder, Skin, VacuumGripper}:
+for _kind in set(_CLASSES.values()) | {Altimeter, Brake, Connector, Pen, Radar, Skin, VacuumGripper}:
     setattr(Robot, "create" + _kind.__name__, _creator(_kind))
 
 _KEYBOARD, _MOUSE, _JOYSTICK = Keyboard(0), Mouse(0), Joystick(0)
