@@ -280,14 +280,16 @@ class Writer {
     if (!colours.empty()) key("recognition_colours", "[" + list + "]");
   }
 
+  static std::string rows(const std::vector<sim::ResponseRow>& table) {
+    std::string rows;
+    for (const auto& r : table)
+      rows += fmt::format("{}[{}, {}, {}]", rows.empty() ? "" : ", ", num(r.distance_m, 9), num(r.value),
+                          num(r.relative_noise, 5));
+    return "[" + rows + "]";
+  }
+
   void proximity(const sim::ProximitySettings& p) {
-    if (p.table) {
-      std::string rows;
-      for (const auto& r : *p.table)
-        rows += fmt::format("{}[{}, {}, {}]", rows.empty() ? "" : ", ", num(r.distance_m, 9), num(r.value),
-                            num(r.relative_noise, 5));
-      key("table", "[" + rows + "]");
-    }
+    if (p.table) key("table", rows(*p.table));
     if (p.type == sim::SensorType::Generic) key("type", "\"generic\"");
     if (p.rays) key("rays", fmt::format("{}", *p.rays));
     if (p.aperture_rad) key("aperture_rad", num(*p.aperture_rad));
@@ -339,6 +341,16 @@ class Writer {
       if (d.infra_red) key("infra_red", "true");
       if (d.width) key("width", fmt::format("{}", *d.width));
       if (d.height) key("height", fmt::format("{}", *d.height));
+      if (d.at.x != 0 || d.at.y != 0 || d.at.z != 0)
+        key("at", fmt::format("[{}, {}, {}]", num(d.at.x), num(d.at.y), num(d.at.z)));
+      if (d.heading_rad != 0) key("heading", degrees(d.heading_rad));
+      if (d.fov_rad) key("fov", num(*d.fov_rad));
+      if (d.vertical_fov_rad) key("vertical_fov", num(*d.vertical_fov_rad));
+      if (d.near_m) key("near", num(*d.near_m));
+      if (d.far_m) key("far", num(*d.far_m));
+      if (!d.table.empty()) key("table", rows(d.table));
+      if (d.rays > 1) key("rays", fmt::format("{}", d.rays));
+      if (d.aperture_rad) key("aperture", num(*d.aperture_rad));
     }
   }
 

@@ -368,10 +368,10 @@ void Walk::add_body(Body body) {
   if (scene_.bodies.size() <= kMostBodies) scene_.bodies.push_back(std::move(body));
 }
 
-NodePtr Walk::unfolded(const Node& n) {
+NodePtr Walk::unfolded(const Node& n, bool without_script) {
   const Proto* proto = protos_.find(n.type);
-  if (!proto || budget_ == 0 || proto->has_script) return nullptr;
-  return unfold(*proto, n, budget_);
+  if (!proto || budget_ == 0 || (proto->has_script && !without_script)) return nullptr;
+  return unfold(*proto, n, budget_, without_script);
 }
 
 }  // namespace wbt

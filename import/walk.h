@@ -36,7 +36,7 @@ class Walk {
   void background(const Node& n);
   bool afford(const Node& n);
   Affine inside(const Node& n, const Affine& frame) const;
-  NodePtr unfolded(const Node& n);
+  NodePtr unfolded(const Node& n, bool without_script = false);
 
   // walk_proto.cpp: PROTOs known by name
   bool known_proto(const Node& n, const Affine& frame, int depth);
@@ -53,14 +53,21 @@ class Walk {
   void epuck(const Node& n, const Affine& frame, bool by_proto);
   void plain_fields(const Node& n, FoundRobot& out);
   void proto_fields(const Node& n, FoundRobot& out);
-  void proto_body(const Node& n, FoundRobot& out);
+  void proto_body(const Node& n, FoundRobot& out, int depth);
   void equipment(const Node& n, FoundRobot& out);
   std::string words_of(const Node& n);
   void program_fields(const Node& n, FoundRobot& out);
   static std::vector<sim::Colour> recognition_of(const Node& n);
   void slot(const Node& n, const char* field, FoundRobot& out);
-  void device(const Node& n, FoundRobot& out, int depth);
-  void collect(const Node& n, const std::set<std::string>& types, std::vector<const Node*>& out, int depth);
+  void device(const Node& n, const Affine& at, FoundRobot& out, int depth);
+  void ranging(const Node& n, const Affine& at, Device& made);
+  std::vector<sim::ResponseRow> rows_of(const Node& n);
+  struct Placed {
+    const Node* node;
+    Affine at;  ///< within the robot
+  };
+  void collect(const Node& n, const Affine& at, const std::set<std::string>& types, std::vector<Placed>& out,
+               int depth);
   void sensors(const std::vector<const Node*>& nodes, FoundRobot& out);
   bool is_plain_epuck(const Node& n);
 

@@ -33,9 +33,15 @@ const std::set<std::string> kSilent{"window",
                                     "physics",
                                     "data"};
 
+constexpr int kMostProtosInside = 8;  // of one e-puck, in one another
+
 int ps_index(const std::string& name) {
   return name.size() == 3 && name.compare(0, 2, "ps") == 0 && name[2] >= '0' && name[2] <= '7' ? name[2] - '0'
                                                                                                : -1;
+}
+
+bool is_ring_light(const std::string& name) {
+  return name.size() == 3 && name.compare(0, 2, "ls") == 0 && name[2] >= '0' && name[2] <= '7';
 }
 
 // what robots may have beside their body
@@ -68,17 +74,22 @@ const std::set<std::string> kDeviceTypes{"DistanceSensor",
                                          "VacuumGripper",
                                          "Propeller",
                                          "Altimeter",
-                                         "Microphone"};
+                                         "Microphone",
+                                         "RobotisLds01",
+                                         "SharpGP2D120",
+                                         "PositionSensor"};
 
 // an e-puck has it without being told
 bool is_own(const Node& d) {
   const std::string name = d.text("name");
   if (d.type == "Camera") return name.empty() || name == "camera";
-  if (d.type == "RotationalMotor" || d.type == "Motor")
+  if (d.type == "RotationalMotor" || d.type == "Motor" || d.type == "PositionSensor")
     return name.find("wheel") != std::string::npos || name.rfind("left", 0) == 0 ||
            name.rfind("right", 0) == 0;
   if (d.type == "LED") return name.rfind("led", 0) == 0;
   if (d.type == "Speaker") return name.empty() || name == "speaker";
+  if (d.type == "DistanceSensor") return name == "tof";
+  if (d.type == "Gyro") return name == "gyro";
   if (d.type == "Microphone") return name.rfind("mic", 0) == 0;
   return false;
 }
@@ -87,6 +98,49 @@ bool is_own(const Node& d) {
 bool is_floor_sensor(const std::string& name) {
   return name.size() >= 3 && (name.compare(0, 2, "gs") == 0 || name.compare(0, 2, "fs") == 0) &&
          name[2] >= '0' && name[2] <= '9';
+}
+
+// the turret's place on the robot: ahead, left, up [Webots: E-puck.proto, TURRET_SLOT]
+constexpr Vec3 kTurretAt{-0.0095, 0, 0.0486};
+
+// sensors that come with Webots as PROTOs, as the nodes that these are; null: it is none
+NodePtr known_device(const Node& n) {
+  const auto made = std::make_shared<Node>(n);
+  const auto give = [&](const char* name, std::vector<double> numbers) {
+    made->fields.push_back({name, n.line, std::move(numbers), {}, {}, {}});
+  };
+  const auto call = [&](const char* name) {
+    if (!n.field("name")) made->fields.push_back({"name", n.line, {}, {name}, {}, {}});
+  };
+  if (n.type == "RobotisLds01") {  // [Webots: RobotisLds01.proto]
+    made->type = "Lidar";
+    call("LDS-01");
+    give("horizontalResolution", {360});
+    give("fieldOfView", {6.28318});
+    give("numberOfLayers", {1});
+    give("minRange", {0.12});
+    give("maxRange", {3.5});
+    Field turns{"children", n.line, {}, {}, {}, {}};
+    for (const char* part : {"_main_motor", "_secondary_motor"}) {
+      Node motor;
+      motor.type = "RotationalMotor";
+      motor.line = n.line;
+      motor.fields.push_back({"name", n.line, {}, {made->text("name") + part}, {}, {}});
+      turns.nodes.push_back(std::make_shared<Node>(motor));
+    }
+    made->fields.push_back(std::move(turns));
+  } else if (n.type == "SharpGP2D120") {  // [Webots: SharpGP2D120.proto, volts]
+    made->type = "DistanceSensor";
+    call("Sharp's IR sensor GP2D120");
+    give("lookupTable",
+         {0.03,  3.03,  0.005, 0.035, 2.78,  0.005, 0.04,  2.72,  0.005, 0.05,  2.33,  0.005, 0.06,  2.01,
+          0.005, 0.07,  1.76,  0.005, 0.08,  1.55,  0.005, 0.09,  1.4,   0.005, 0.1,   1.25,  0.005, 0.12,
+          1.04,  0.005, 0.14,  0.92,  0.005, 0.16,  0.82,  0.005, 0.18,  0.73,  0.005, 0.2,   0.66,  0.005,
+          0.25,  0.53,  0.005, 0.3,   0.42,  0.005, 0.35,  0.37,  0.005, 0.4,   0.31,  0.005});
+  } else {
+    return nullptr;
+  }
+  return made;
 }
 
 bool between(double x, double low, double high) { return x >= low && x <= high; }
@@ -105,22 +159,32 @@ bool same(const sim::ProximitySettings& a, const sim::ProximitySettings& b) {
 
 }  // namespace
 
-void Walk::collect(const Node& n, const std::set<std::string>& types, std::vector<const Node*>& out,
-                   int depth) {
+void Walk::collect(const Node& n, const Affine& at, const std::set<std::string>& types,
+                   std::vector<Placed>& out, int depth) {
   if (depth > 2 * kDeepestNode || !afford(n)) return;
-  if (types.count(n.type)) out.push_back(&n);
+  if (types.count(n.type)) {
+    out.push_back({&n, at});
+  } else if (depth > 0 && protos_.find(n.type)) {
+    if (const NodePtr body = unfolded(n, true)) {
+      kept_.push_back(body);
+      collect(*body, at, types, out, depth + 1);
+    }
+    return;
+  }
   for (const char* f : {"children", "endPoint", "device"}) {
     const Field* list = n.field(f);
     for (std::size_t i = 0; list && i < list->nodes.size(); ++i)
-      collect(*list->nodes[i], types, out, depth + 1);
+      collect(*list->nodes[i], inside(*list->nodes[i], at), types, out, depth + 1);
   }
 }
 
 bool Walk::is_plain_epuck(const Node& n) {
-  std::vector<const Node*> found;
-  collect(n, {"DistanceSensor", "E-puckDistanceSensor", "EPuck_DistanceSensor", "RotationalMotor"}, found, 0);
+  std::vector<Placed> found;
+  collect(n, {}, {"DistanceSensor", "E-puckDistanceSensor", "EPuck_DistanceSensor", "RotationalMotor"}, found,
+          0);
   int rings = 0, motors = 0;
-  for (const Node* d : found) {
+  for (const Placed& each : found) {
+    const Node* d = each.node;
     if (d->type == "RotationalMotor")
       ++motors;
     else if (ps_index(d->text("name")) >= 0 || d->field("id"))
@@ -160,12 +224,13 @@ void Walk::robot(const Node& n, const Affine& frame, int depth) {
     s.args = program.args;
     s.custom_data = program.custom_data;
     s.line = n.line;
-    std::vector<const Node*> devices;
-    collect(n, kDeviceTypes, devices, 0);
+    std::vector<Placed> devices;
+    collect(n, {}, kDeviceTypes, devices, 0);
     bool moves = false;
-    for (const Node* d : devices) {
-      if (d->type == "RotationalMotor" || d->type == "LinearMotor" || d->type == "Motor") moves = true;
-      device(*d, program, 0);
+    for (const Placed& d : devices) {
+      const std::string& t = d.node->type;
+      if (t == "RotationalMotor" || t == "LinearMotor" || t == "Motor") moves = true;
+      device(*d.node, d.at, program, 0);
     }
     s.devices = program.devices;
     scene_.supervisors.push_back(s);
@@ -203,7 +268,7 @@ void Walk::epuck(const Node& n, const Affine& frame, bool by_proto) {
   if (!by_proto && !n.field("physics")) out.kinematic = true;
   if (by_proto) {
     proto_fields(n, out);
-    proto_body(n, out);
+    proto_body(n, out, 0);
   } else {
     plain_fields(n, out);
   }
@@ -243,23 +308,25 @@ void Walk::program_fields(const Node& n, FoundRobot& out) {
 }
 
 // what a PROTO of the project makes of the robot: its controller and what it is equipped with
-void Walk::proto_body(const Node& n, FoundRobot& out) {
+void Walk::proto_body(const Node& n, FoundRobot& out, int depth) {
   const Proto* proto = protos_.find(n.type);
-  if (!proto) return;
+  if (!proto || depth > kMostProtosInside) return;
   // what was put into its slots has been looked at
   Node bare = n;
   bare.fields.erase(
       std::remove_if(bare.fields.begin(), bare.fields.end(), [](const Field& f) { return !f.nodes.empty(); }),
       bare.fields.end());
-  const NodePtr body = unfolded(bare);
+  const NodePtr body = unfolded(bare, true);
   if (!body) {
     for (const Field& f : proto->defaults) {
       if (f.name == "controller" && !f.strings.empty() && !n.field("controller"))
         out.controller = f.strings.front();
     }
-    report_.add(n, "what a PROTO with a script is equipped with", "a plain e-puck");
+    report_.add(n, "what its PROTO is equipped with, which cannot be read", "a plain e-puck");
     return;
   }
+  if (proto->has_script)
+    report_.add(n, "the script of its PROTO", "what stands in its text, whatever the script says");
   kept_.push_back(body);
   if (!n.field("controller")) out.controller = body->text("controller");
   program_fields(*body, out);  // the world's own go before, in epuck()
@@ -268,6 +335,12 @@ void Walk::proto_body(const Node& n, FoundRobot& out) {
   if (!own.sensors.empty()) out.sensors = own.sensors;
   const bool alike = own.proximity.table || own.proximity.rays || own.proximity.aperture_rad;
   if (alike) out.proximity = own.proximity;
+  // a PROTO made of another e-puck's
+  if (is_epuck_name(body->type) && body->type != n.type) {
+    proto_fields(*body, own);
+    proto_body(*body, own, depth + 1);
+    if (out.sensors.empty()) out.sensors = own.sensors;
+  }
   for (const std::string& part : own.parts) {
     if (std::find(out.parts.begin(), out.parts.end(), part) == out.parts.end()) out.parts.push_back(part);
   }
@@ -339,17 +412,18 @@ void Walk::plain_fields(const Node& n, FoundRobot& out) {
 }
 
 void Walk::equipment(const Node& n, FoundRobot& out) {
-  std::vector<const Node*> found;
-  collect(n, kDeviceTypes, found, 0);
+  std::vector<Placed> found;
+  collect(n, {}, kDeviceTypes, found, 0);
   std::vector<const Node*> ring;
   const Node* tables = nullptr;  // a light sensor's own: one line tells it of all
-  for (const Node* d : found) {
+  for (const Placed& each : found) {
+    const Node* d = each.node;
     if (ps_index(d->text("name")) >= 0 && d->type != "LightSensor")
       ring.push_back(d);
-    else if (d->type == "LightSensor")
+    else if (d->type == "LightSensor" && is_ring_light(d->text("name")))
       tables = tables || !d->field("lookupTable") ? tables : d;
     else if (!is_own(*d) && (d->type.find("DistanceSensor") == std::string::npos || !d->field("id")))
-      device(*d, out, 0);
+      device(*d, each.at, out, 0);
   }
   if (tables)
     report_.add(*tables, *tables->field("lookupTable"), "tables of light sensors", "those of the real robot");
@@ -411,10 +485,61 @@ void Walk::sensors(const std::vector<const Node*>& nodes, FoundRobot& out) {
 
 void Walk::slot(const Node& n, const char* field, FoundRobot& out) {
   const Field* f = n.field(field);
-  for (std::size_t i = 0; f && i < f->nodes.size(); ++i) device(*f->nodes[i], out, 0);
+  Affine base;
+  if (std::string_view(field) == "turretSlot")
+    base.at = z_up_ ? kTurretAt : Vec3{0, kTurretAt.z, -kTurretAt.x};
+  for (std::size_t i = 0; f && i < f->nodes.size(); ++i)
+    device(*f->nodes[i], inside(*f->nodes[i], base), out, 0);
 }
 
-void Walk::device(const Node& n, FoundRobot& out, int depth) {
+std::vector<sim::ResponseRow> Walk::rows_of(const Node& n) {
+  const Field* table = n.field("lookupTable");
+  if (!table) return {{0, 0, 0}, {0.1, 1000, 0}};  // [Webots: DistanceSensor, the field's default]
+  std::vector<sim::ResponseRow> rows;
+  for (std::size_t i = 0; i + 2 < std::min(table->numbers.size(), 3 * kMostRows + 3); i += 3)
+    rows.push_back({table->numbers[i], table->numbers[i + 1], std::max(0.0, table->numbers[i + 2])});
+  std::sort(rows.begin(), rows.end(),
+            [](const sim::ResponseRow& a, const sim::ResponseRow& b) { return a.distance_m < b.distance_m; });
+  bool good = rows.size() >= 2 && rows.size() <= kMostRows;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    good = good && rows[i].distance_m >= 0 && rows[i].distance_m <= kFarthestM &&
+           std::abs(rows[i].value) <= 1e9 && rows[i].relative_noise <= 1e9 &&
+           (i == 0 || rows[i].distance_m > rows[i - 1].distance_m + 1e-7);
+  if (good) return rows;
+  report_.add(n, *table, "a table with fewer than two rows, or without order", "it measures nothing");
+  return {};
+}
+
+// where it is on the robot, where it looks, and what it sees
+void Walk::ranging(const Node& n, const Affine& at, Device& made) {
+  const bool beam = made.kind == "distance";
+  const Vec3 look = at.turn(beam || z_up_ ? Vec3{1, 0, 0} : Vec3{0, 0, -1});
+  const auto ours = [&](Vec3 v) { return z_up_ ? v : Vec3{-v.z, -v.x, v.y}; };
+  const Vec3 way = ours(look), place = ours(at.at);
+  if (is_finite(place) && length(place) < 1) made.at = place;
+  if (is_finite(way) && std::hypot(way.x, way.y) > 1e-6) made.heading_rad = std::atan2(way.y, way.x);
+  if (is_finite(way) && std::hypot(way.x, way.y) < 0.9 * length(way))
+    report_.add(n, "that it looks up or down", "it looks level");
+  if (beam) {
+    made.table = rows_of(n);
+    made.rays = static_cast<int>(std::clamp(n.number("numberOfRays", 1), 1.0, 100.0));
+    if (n.field("aperture")) made.aperture_rad = std::clamp(n.number("aperture", 0), 0.0, 2 * sim::kPi);
+    return;
+  }
+  // [Webots: defaults of the fields of Lidar and RangeFinder]
+  const bool lidar = made.kind == "lidar";
+  made.width = static_cast<int>(
+      std::clamp(lidar ? n.number("horizontalResolution", 512) : n.number("width", 64), 1.0, 4096.0));
+  made.height = static_cast<int>(
+      std::clamp(lidar ? n.number("numberOfLayers", 4) : n.number("height", 64), 1.0, 4096.0));
+  made.fov_rad = std::clamp(n.number("fieldOfView", lidar ? 1.5708 : 0.7854), 0.001, 6.2831);
+  if (lidar) made.vertical_fov_rad = std::clamp(n.number("verticalFieldOfView", 0.2), 0.0, 3.14);
+  made.near_m = std::clamp(n.number("minRange", 0.01), 0.0, kFarthestM);
+  made.far_m = std::clamp(n.number("maxRange", 1), 0.001, kFarthestM);
+  if (n.number("noise", 0) > 0) report_.add(n, *n.field("noise"), "noise of distances", "they are exact");
+}
+
+void Walk::device(const Node& n, const Affine& at, FoundRobot& out, int depth) {
   if (depth > kDeepestNode || !afford(n)) return;
   if (n.type.find("GroundSensors") != std::string::npos ||
       (n.type == "DistanceSensor" && is_floor_sensor(n.text("name")))) {
@@ -439,6 +564,9 @@ void Walk::device(const Node& n, FoundRobot& out, int depth) {
                   {"LightSensor", "light", "light sensor"},
                   {"DistanceSensor", "distance", "distance sensor"},
                   {"LED", "led", "led"},
+                  {"Lidar", "lidar", "lidar"},
+                  {"RangeFinder", "range-finder", "range-finder"},
+                  {"PositionSensor", "position", "position sensor"},
                   {"Speaker", "speaker", "speaker"},
                   {"Pen", "pen", "pen"}};
   for (const auto& d : kDevices) {
@@ -453,8 +581,8 @@ void Walk::device(const Node& n, FoundRobot& out, int depth) {
       made.width = static_cast<int>(std::clamp(n.number("width", 64), 1.0, 4096.0));
       made.height = static_cast<int>(std::clamp(n.number("height", 64), 1.0, 4096.0));
     }
-    if (n.type == "Camera" || n.type == "TouchSensor" || n.type == "LightSensor" ||
-        n.type == "DistanceSensor")
+    if (made.kind == "distance" || made.kind == "lidar" || made.kind == "range-finder") ranging(n, at, made);
+    if (n.type == "Camera" || n.type == "TouchSensor" || n.type == "LightSensor")
       report_.add(n, "what this sensor measures", "it is there for the program, and measures nothing");
     if (talks) {
       made.channel = static_cast<int>(std::clamp(n.number("channel", 0), -1.0, 32767.0));
@@ -477,6 +605,15 @@ void Walk::device(const Node& n, FoundRobot& out, int depth) {
       }
     }
     out.devices.push_back(made);
+    // what turns within it
+    std::vector<Placed> inner;
+    collect(n, at, {"RotationalMotor", "LinearMotor", "PositionSensor"}, inner, depth + 1);
+    for (const Placed& i : inner) {
+      const std::string name = i.node->text("name");
+      if (i.node != &n && std::none_of(out.devices.begin(), out.devices.end(),
+                                       [&](const Device& o) { return o.name == name; }))
+        device(*i.node, i.at, out, depth + 1);
+    }
     return;
   }
   if (n.type == "Group" || n.type == "Transform" || n.type == "Pose" || n.type == "Solid") {
@@ -486,9 +623,15 @@ void Walk::device(const Node& n, FoundRobot& out, int depth) {
       if (f->nodes[i]->type == "Shape")
         shapes = true;
       else
-        device(*f->nodes[i], out, depth + 1);
+        device(*f->nodes[i], inside(*f->nodes[i], at), out, depth + 1);
     }
     if (shapes) report_.add(n, "the shape of what the robot carries");
+  } else if (const NodePtr known = known_device(n)) {
+    kept_.push_back(known);
+    device(*known, at, out, depth + 1);
+  } else if (const NodePtr body = unfolded(n, true)) {
+    kept_.push_back(body);
+    device(*body, at, out, depth + 1);
   } else if (n.type != "Shape") {
     report_.add(n, "a device that this robot does not have");
   }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -269,28 +270,80 @@ class Reader {
     lexer_.take();
   }
 
-  // `%{= fields.length.value }%` and `%<= fields.length.value >%` become `IS length`; any other script cannot
-  // be unfolded
+  // `%{= fields.length.value }%` and `%<= fields.length.value >%` become `IS length`. Of any other script
+  // what it decides is unknown: it is left out, and both its branches stay
   static void unscript(Proto& p) {
     std::string plain;
     std::size_t done = 0;  // of the body, in `plain`
     for (std::size_t at = p.body.find('%'); at != std::string::npos; at = p.body.find('%', at + 1)) {
       if (at + 2 >= p.body.size() || (p.body[at + 1] != '{' && p.body[at + 1] != '<')) continue;
-      const std::string close = p.body[at + 1] == '{' ? "}%" : ">%";
-      const std::size_t end = p.body.find(close, at);
-      const std::size_t fields = p.body.find("fields.", at), from = fields + 7;
-      const std::size_t to = p.body.find(".value", from);
-      if (p.body[at + 2] != '=' || end == std::string::npos || fields == std::string::npos || to > end ||
-          p.body.find_first_not_of(" \t", to + 6) != end ||
-          p.body.find_first_not_of(" \t", at + 3) != fields) {
+      const std::size_t end = p.body.find(p.body[at + 1] == '{' ? "}%" : ">%", at + 2);
+      plain += p.body.substr(done, at - done);
+      if (end == std::string::npos) {
         p.has_script = true;
-        return;
+        done = p.body.size();
+        break;
       }
-      plain += p.body.substr(done, at - done) + " IS " + p.body.substr(from, to - from) + " ";
+      if (p.body[at + 2] == '=') {
+        const std::string_view script = std::string_view(p.body).substr(at + 3, end - at - 3);
+        const std::string field = field_of(script);
+        const bool alone =
+            !field.empty() && script.find_first_not_of(" \t") == script.find("fields.") &&
+            script.find_first_not_of(" \t", script.find(".value") + 6) == std::string_view::npos;
+        const std::string joined = alone ? "" : joined_text(script);
+        plain += !joined.empty() ? joined : field.empty() ? "0" : " IS " + field + " ";
+        if (!alone) p.has_script = true;
+      } else {
+        p.has_script = true;
+        plain += ' ';
+      }
       done = end + 2;
       at = end + 1;
     }
     p.body = plain + p.body.substr(done);
+  }
+
+  // "length" of `... fields.length.value ...`; empty: it names none
+  static std::string field_of(std::string_view script) {
+    const std::size_t fields = script.find("fields.");
+    if (fields == std::string_view::npos) return {};
+    const std::size_t from = fields + 7, to = script.find(".value", from);
+    if (to == std::string_view::npos || to == from) return {};
+    for (const char c : script.substr(from, to - from))
+      if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_') return {};
+    return std::string(script.substr(from, to - from));
+  }
+
+  // `'"' + fields.name.value + '_motor"'`, and the same with `..`: a text of literals and one field, which
+  // becomes `JOIN name "" "_motor"`; empty: it is something else
+  static std::string joined_text(std::string_view script) {
+    std::string parts[2], field;
+    for (std::size_t at = 0; at < script.size();) {
+      const char c = script[at];
+      if (c == '"' || c == '\'') {
+        std::string& part = parts[field.empty() ? 0 : 1];
+        for (++at; at < script.size() && script[at] != c; ++at) {
+          if (script[at] == '\\' && at + 1 < script.size()) ++at;
+          part += script[at];
+        }
+        ++at;
+      } else if (c == ' ' || c == '\t' || c == '+' || c == '.') {
+        ++at;
+      } else {
+        const std::string name = field_of(script.substr(at));
+        if (!field.empty() || name.empty() || script.substr(at, 7) != "fields.") return {};
+        field = name;
+        at = script.find(".value", at) + 6;
+      }
+    }
+    if (field.empty() || parts[0].empty() || parts[1].empty() || parts[0].front() != '"' ||
+        parts[1].back() != '"')
+      return {};
+    parts[0].erase(0, 1);
+    parts[1].pop_back();
+    for (const std::string& part : parts)
+      if (part.find_first_of("\"\\") != std::string::npos) return {};
+    return " JOIN " + field + " \"" + parts[0] + "\" \"" + parts[1] + "\" ";
   }
 
   NodePtr node(int depth) {
@@ -375,6 +428,17 @@ class Reader {
         if (given.truth) f.truth = given.truth;
         break;
       }
+    } else if (values_ && is_word("JOIN")) {  // of joined_text()
+      lexer_.take();
+      const std::string name = word("the name of a PROTO's field");
+      std::string text = unescaped(lexer_.take().text);
+      for (const Field& given : *values_)
+        if (given.name == name)
+          text += !given.strings.empty()  ? given.strings.front()
+                  : given.numbers.empty() ? ""
+                                          : fmt::format("{}", given.numbers[0]);
+      f.strings.push_back(text + unescaped(lexer_.take().text));
+      spend(f.strings.back().size() / 64, t);
     } else if (t.kind == Kind::Word) {
       if (const NodePtr n = node(depth)) f.nodes.push_back(n);
     } else {
@@ -466,8 +530,8 @@ bool read_proto_text(std::string_view text, Proto& proto) {
   }
 }
 
-NodePtr unfold(const Proto& proto, const Node& instance, std::size_t& budget) {
-  if (proto.has_script) return nullptr;
+NodePtr unfold(const Proto& proto, const Node& instance, std::size_t& budget, bool without_script) {
+  if (proto.has_script && !without_script) return nullptr;
   std::vector<Field> values = proto.defaults;
   for (Field& v : values) {
     if (const Field* given = instance.field(v.name)) v = *given;

@@ -22,7 +22,7 @@ inline constexpr std::size_t kLongestFile = 32u << 20;  // bytes
 /// A PROTO: its fields' defaults and the text of its body.
 struct Proto {
   std::vector<Field> defaults;
-  std::string body;         ///< from behind the opening brace on
+  std::string body;         ///< from behind the opening brace on, its script left out
   bool has_script = false;  ///< a template that only Webots can unfold
 };
 
@@ -53,7 +53,9 @@ WorldText read_nodes_text(std::string_view text, const WorldText& of,
 bool read_proto_text(std::string_view text, Proto& proto);
 
 /// The node that `instance` of a PROTO stands for; null when it has a script or is broken. Its lines are the
-/// instance's. `budget`: how many nodes it may still make; lowered by what it made.
-NodePtr unfold(const Proto& proto, const Node& instance, std::size_t& budget);
+/// instance's. `budget`: how many nodes it may still make; lowered by what it made. `without_script`: one
+/// with a script is read as if its conditions held, all of them; what it computes is 0, or the field that it
+/// begins with.
+NodePtr unfold(const Proto& proto, const Node& instance, std::size_t& budget, bool without_script = false);
 
 }  // namespace wbt

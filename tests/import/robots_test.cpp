@@ -66,7 +66,10 @@ TEST(ImportRobots, slots_and_channels_become_parts_and_devices) {
   EXPECT_NE(toml.find("name = \"north\"\nkind = \"compass\"\n"), std::string::npos);
   EXPECT_NE(toml.find("name = \"loud\"\nkind = \"emitter\"\nchannel = 7\nrange = 0.5\ninfra_red = true\n"),
             std::string::npos);
-  EXPECT_TRUE(reports(made, 10, "Lidar: not carried"));
+  EXPECT_NE(
+      toml.find("name = \"lidar\"\nkind = \"lidar\"\nwidth = 512\nheight = 4\nat = [-0.0095, 0.0, 0.0486]\n"),
+      std::string::npos)
+      << toml;
   EXPECT_EQ(world.robots[0].custom_data, "blue");
   EXPECT_TRUE(reports(made, 13, "camera_width"));
 }
@@ -267,16 +270,66 @@ E-puck { name "c" translation 0 1 0 turretSlot [ DistanceSensor { name "fs0" } R
   EXPECT_EQ(world.robots[2].devices[0].kind, sim::DeviceKind::Motor);
   ASSERT_EQ(world.robots[0].parts.size(), 1u);
   EXPECT_EQ(world.robots[0].parts[0].kind, "ground-sensors");
-  ASSERT_EQ(world.robots[0].devices.size(), 3u);
+  ASSERT_EQ(world.robots[0].devices.size(), 4u);
   EXPECT_EQ(world.robots[0].devices[0].name, "floor");
   EXPECT_EQ(world.robots[0].devices[1].name, "below");
   EXPECT_EQ(world.robots[0].devices[1].kind, sim::DeviceKind::Camera);
-  EXPECT_EQ(world.robots[0].devices[2].name, "compass");
+  EXPECT_EQ(world.robots[0].devices[2].name, "lidar");
+  EXPECT_EQ(world.robots[0].devices[3].name, "compass");
   EXPECT_TRUE(reports(made, 6, "Camera: not carried"));
-  EXPECT_TRUE(reports(made, 8, "Lidar: not carried"));
   EXPECT_TRUE(reports(made, 9, "Radar: not carried"));
   EXPECT_TRUE(world.robots[1].parts.empty());
   EXPECT_EQ(world.robots[1].devices.size(), 1u);
+}
+
+TEST(ImportRobots, what_measures_distances_keeps_its_place_and_way) {
+  // half a turn about the upward axis, and a tenth of a metre further
+  const auto now = raw(kNew + R"(E-puck { turretSlot [
+  Pose { translation 0.01 0 0.02 rotation 0 0 1 1.5708 children [
+    DistanceSensor { name "left" translation 0.03 0 0 rotation 0 0 1 1.5708
+      lookupTable [ 0 10 0 0.4 2 0.1 ] numberOfRays 3 aperture 0.5 } ] }
+  RangeFinder { width 32 height 8 fieldOfView 1 minRange 0.05 maxRange 2 }
+  RobotisLds01 { translation 0 0 0.02 }
+  SharpGP2D120 { name "front" }
+] })");
+  const auto world = world_of(now);
+  ASSERT_EQ(world.robots.size(), 1u);
+  const auto& d = world.robots[0].devices;
+  ASSERT_EQ(d.size(), 6u) << now.toml;
+  EXPECT_EQ(d[0].kind, sim::DeviceKind::Distance);
+  EXPECT_NEAR(d[0].at_m.x, -0.0095 + 0.01, 1e-4);
+  EXPECT_NEAR(d[0].at_m.y, 0.03, 1e-4);
+  EXPECT_NEAR(d[0].at_m.z, 0.0486 + 0.02, 1e-4);
+  EXPECT_NEAR(std::abs(d[0].heading_rad), sim::kPi, 1e-3);
+  ASSERT_EQ(d[0].table.size(), 2u);
+  EXPECT_EQ(d[0].table[1].value, 2);
+  EXPECT_EQ(d[0].rays, 3);
+  EXPECT_NEAR(d[0].aperture_rad, 0.5, 1e-6);
+  EXPECT_EQ(d[1].kind, sim::DeviceKind::RangeFinder);
+  EXPECT_EQ(d[1].width * 100 + d[1].height, 3208);
+  EXPECT_NEAR(d[1].near_m, 0.05, 1e-9);
+  EXPECT_NEAR(d[1].far_m, 2, 1e-9);
+  EXPECT_EQ(d[2].name, "LDS-01");
+  EXPECT_EQ(d[2].width * 100 + d[2].height, 36001);
+  EXPECT_NEAR(d[2].far_m, 3.5, 1e-9);
+  EXPECT_EQ(d[3].name, "LDS-01_main_motor");
+  EXPECT_EQ(d[5].name, "front");
+  EXPECT_EQ(d[5].table.size(), 18u);
+
+  // before R2022 a beam goes along x, to the right, and a lidar looks along -z, ahead
+  const auto old = raw("#VRML_SIM R2020a utf8\n" + std::string(R"(E-puck { turretSlot [
+  DistanceSensor { translation 0.01 0.02 -0.03 }
+  Lidar { }
+] })"));
+  const auto before = world_of(old);
+  ASSERT_EQ(before.robots.size(), 1u);
+  const auto& o = before.robots[0].devices;
+  ASSERT_EQ(o.size(), 2u) << old.toml;
+  EXPECT_NEAR(o[0].heading_rad, -sim::kPi / 2, 1e-3);
+  EXPECT_NEAR(o[0].at_m.x, 0.03 - 0.0095, 1e-4);
+  EXPECT_NEAR(o[0].at_m.y, -0.01, 1e-4);
+  EXPECT_NEAR(o[0].at_m.z, 0.0486 + 0.02, 1e-4);
+  EXPECT_NEAR(o[1].heading_rad, 0, 1e-3);
 }
 
 TEST(ImportRobots, a_proto_of_the_project_brings_its_controller_and_sensors) {
@@ -313,7 +366,59 @@ EPuckScript { }
   EXPECT_EQ(world.robots[0].devices[1].name, "gyro");
   EXPECT_TRUE(reports(made, 0, "LightSensor.lookupTable: not carried: tables of light sensors"));
   EXPECT_EQ(world.robots[0].args, "a");
-  EXPECT_TRUE(reports(made, 0, "a PROTO with a script"));
+  EXPECT_TRUE(reports(made, 0, "the script of its PROTO"));
+}
+
+TEST(ImportRobots, devices_of_a_proto_with_a_script_stand_in_its_text) {
+  const auto made = raw(
+      kNew +
+      R"(PROTO MyLight [ field SFInt32 id 1 ] { LightSensor { name %{= "\"ls" .. fields.id.value .. "\"" }% } }
+PROTO EPuckTwo [
+  field SFString version "1"
+  field MFNode turretSlot [ ]
+] {
+%<
+  const v2 = fields.version.value == '2';
+>%
+Robot {
+  supervisor TRUE
+  children [
+    RotationalMotor {
+      name "left wheel motor"
+      %< if (v2) { >%
+        maxVelocity 7
+      %< } else { >%
+        maxVelocity 6
+      %< } >%
+    }
+    %< if (v2) { >%
+    GPS { name "mine" translation 0 %<= 2 * height >% 0 }
+    Gyro { name "gyro" }
+    %< } >%
+    LightSensor { name "ls0" }
+    MyLight { id 8 }
+    TouchSensor { name %<= '"v' + fields.version.value + '_bump"' >% }
+    Group { children IS turretSlot }
+  ]
+} }
+PROTO EPuckOnTop [ field MFNode turretSlot [ ] ] {
+  %{ io.stderr:write("old") }%
+  EPuckTwo { turretSlot [ Compass { } Group { children IS turretSlot } ] }
+}
+EPuckTwo { }
+EPuckOnTop { translation 1 0 0 }
+)");
+  const auto world = world_of(made);
+  ASSERT_EQ(world.robots.size(), 2u) << made.toml;
+  EXPECT_TRUE(world.robots[0].supervisor);
+  const auto names = [&](int robot) {
+    std::string all;
+    for (const sim::DeviceDesc& d : world.robots[static_cast<std::size_t>(robot)].devices)
+      all += d.name + ";";
+    return all;
+  };
+  EXPECT_EQ(names(0), "mine;ls8;v1_bump;") << "each e-puck has a gyroscope and eight light sensors";
+  EXPECT_EQ(names(1), "compass;mine;ls8;v1_bump;");
 }
 
 TEST(ImportRobots, supervisors_keep_their_devices_and_words) {
@@ -342,7 +447,7 @@ Robot { name "plain" }
   EXPECT_EQ(s.def, "BOSS");
   EXPECT_EQ(s.custom_data, "round 1");
   EXPECT_EQ(sim::argument_words(s.args), (std::vector<std::string>{"fast", "two words", "it's", ""}));
-  ASSERT_EQ(s.devices.size(), 5u);
+  ASSERT_EQ(s.devices.size(), 6u);
   EXPECT_EQ(s.devices[0].name, "emitter");
   EXPECT_EQ(s.devices[0].kind, sim::DeviceKind::Emitter);
   EXPECT_EQ(s.devices[0].channel, 5);
@@ -353,7 +458,8 @@ Robot { name "plain" }
   EXPECT_EQ(s.devices[2].width, 200);
   EXPECT_EQ(s.devices[2].height, 100);
   EXPECT_EQ(s.devices[3].kind, sim::DeviceKind::Motor);
-  EXPECT_EQ(s.devices[4].kind, sim::DeviceKind::Camera);
+  EXPECT_EQ(s.devices[4].kind, sim::DeviceKind::Position);
+  EXPECT_EQ(s.devices[5].kind, sim::DeviceKind::Camera);
   EXPECT_TRUE(reports(made, 3, "its motors move"));
   EXPECT_TRUE(reports(made, 14, "what this sensor measures"));
   ASSERT_EQ(world.robots.size(), 1u);
