@@ -360,8 +360,14 @@ Json Session::state_json() const {
 }
 
 void Session::send_serial() {
+  constexpr std::size_t kMostUnread = 1 << 16;
   for (const auto& line : lines_) {
     if (line->text.empty()) continue;
+    // what is said before there is a page waits for the first one
+    if (pages_.empty()) {
+      if (line->text.size() > kMostUnread) line->text.erase(0, line->text.size() - kMostUnread);
+      continue;
+    }
     const std::string some = line->text.substr(0, kLongestSerial);
     line->text.erase(0, some.size());
     tell_all(serial_event(*twin_, line->robot, line->port, some));

@@ -330,6 +330,10 @@ std::string Twin::flash(const std::vector<int>& robots, const std::string& path)
     const auto r = static_cast<std::size_t>(robot);
     const std::string where = "robot '" + world().robots[r].name + "': ";
     if (!minds_[r]->runner()) return where + "got one that is switched off";
+    // whoever gives programs of the PC their turns knows them from the beginning
+    if ((program.program != nullptr) != (launches_[r] != nullptr))
+      return where + (program.program ? "got a program of the PC in firmware's place; restart the run"
+                                      : "got firmware in the place of a program of the PC; restart the run");
     board::Setup setup = setup_of(world(), robot);
     const auto make_runner = runner_for(program, copies_[r], setup, minds_[r]->now(), seats_[r]);
     if (setup.clock_ppm != minds_[r]->board().setup().clock_ppm)

@@ -154,7 +154,10 @@ void Team::begin(Member& member) {
   member.has_said_hello = member.is_over = member.is_waiting = member.is_told_end = false;
   member.text.clear();
   member.place = {};
-  if (member.of_robot) member.began = member.of_robot->began();
+  if (member.of_robot) {
+    member.began = member.of_robot->began();
+    member.launch = *twin_.launch(member.robot);  // may have been built anew
+  }
   if (member.bodiless) {
     member.bodiless->restart();
     member.bodiless->begin(twin_.simulation().now());
