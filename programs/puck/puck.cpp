@@ -111,6 +111,8 @@ Puck::Puck(board::Board& board, Cycle start)
   if (board_.camera()) camera_ = std::make_unique<PuckCamera>(board_, drivers_.camera());
 }
 
+sim::Vec3 Puck::in_world_axes(const sim::Vec3& v) const { return in_axes(board_, v); }
+
 // --- the list ------------------------------------------------------------------------------------
 
 void Puck::add(const std::string& name, Kind kind, int node, int index, std::vector<double> needs) {
@@ -118,6 +120,11 @@ void Puck::add(const std::string& name, Kind kind, int node, int index, std::vec
 }
 
 void Puck::add_own() {
+  // with the tags that they have in Webots, which programs have written down
+  add("left wheel motor", Kind::Motor, WB_NODE_ROTATIONAL_MOTOR, 0, {kMostWheelRadS, 2});
+  add("left wheel sensor", Kind::Encoder, WB_NODE_POSITION_SENSOR, 0, {1});
+  add("right wheel motor", Kind::Motor, WB_NODE_ROTATIONAL_MOTOR, 1, {kMostWheelRadS, 4});
+  add("right wheel sensor", Kind::Encoder, WB_NODE_POSITION_SENSOR, 1, {3});
   // the lab counts clockwise from the left, the product from the front right
   const bool of_lab = board_.setup().webots.sensor_order == "lab";
   for (int i = 0; i < kRing; ++i) {
@@ -127,11 +134,6 @@ void Puck::add_own() {
     add("ls" + std::to_string(i), Kind::Light, WB_NODE_LIGHT_SENSOR, sensor);
   }
   for (int i = 0; i < kLeds; ++i) add("led" + std::to_string(i), Kind::Led, WB_NODE_LED, i);
-  const double left = static_cast<double>(devices_.size()) + 1;
-  add("left wheel motor", Kind::Motor, WB_NODE_ROTATIONAL_MOTOR, 0, {kMostWheelRadS, left + 2});
-  add("right wheel motor", Kind::Motor, WB_NODE_ROTATIONAL_MOTOR, 1, {kMostWheelRadS, left + 3});
-  add("left wheel sensor", Kind::Encoder, WB_NODE_POSITION_SENSOR, 0, {left});
-  add("right wheel sensor", Kind::Encoder, WB_NODE_POSITION_SENSOR, 1, {left + 1});
   add("accelerometer", Kind::Accelerometer, WB_NODE_ACCELEROMETER, 0);
   // a robot without a gyroscope of its own has Webots'
   add("gyro", has_lsm_ ? Kind::Gyro : Kind::TrueGyro, WB_NODE_GYRO, 0);
@@ -177,8 +179,9 @@ void Puck::add_of_world() {
           add(device.name, Kind::Virtual, WB_NODE_DISTANCE_SENSOR, 0, {0, kFullScale, 0, kGeneric});
           break;
         }
-        const auto [least, most] = std::minmax_element(device.table.begin(), device.table.end(),
-                                                       [](const auto& a, const auto& b) { return a.value < b.value; });
+        const auto [least, most] =
+            std::minmax_element(device.table.begin(), device.table.end(),
+                                [](const auto& a, const auto& b) { return a.value < b.value; });
         std::vector<double> needs{least->value, most->value, device.aperture_rad, kGeneric};
         for (const sim::ResponseRow& row : device.table)
           needs.insert(needs.end(), {row.distance_m, row.value, row.relative_noise});
@@ -188,7 +191,8 @@ void Puck::add_of_world() {
       case sim::DeviceKind::Lidar:
       case sim::DeviceKind::RangeFinder: {
         const RangeGrid grid = range_grid(device);
-        add(device.name, Kind::Ranges, device.kind == sim::DeviceKind::Lidar ? WB_NODE_LIDAR : WB_NODE_RANGE_FINDER, number,
+        add(device.name, Kind::Ranges,
+            device.kind == sim::DeviceKind::Lidar ? WB_NODE_LIDAR : WB_NODE_RANGE_FINDER, number,
             {double(grid.columns), double(grid.rows), device.fov_rad, device.near_m, device.far_m,
              device.kind == sim::DeviceKind::Lidar ? device.vertical_fov_rad : 0});
         break;
@@ -276,7 +280,7 @@ std::string Puck::command(const link_record& record, Cycle at) {
   const auto wrong = [&] {
     return fmt::format("{}: got '{}', which is no device for that", row->name, device.name);
   };
-  if (device.kind == Kind::Idle) return "";
+  if (device.kind == Kind::Idle && record.number != LINK_ENABLE) return "";
   note(static_cast<std::uint64_t>(record.number) << 32 ^ static_cast<std::uint64_t>(tag));
   board::PacketDevices& packets = board_.packets();
   switch (record.number) {
@@ -390,6 +394,7 @@ void Puck::sample(std::int64_t milliseconds, Cycle at, link_packet& to) {
     device.elapsed_ms = 0;
     take(device, i, at, to);
   }
+  recognise(milliseconds, at, to);
   tell_playing(at, to);
 }
 
@@ -429,8 +434,9 @@ void Puck::take(const Device& device, std::size_t number, Cycle at, link_packet&
     case Kind::Distance: {
       const sim::DeviceDesc& desc = board_.setup().devices[static_cast<std::size_t>(device.index)];
       const sim::Scene* scene = board_.scene();
-      return put(to, tag, {scene ? measured_distance(*scene, board_.setup().robot, desc, board_.clock().click_at(at))
-                                 : desc.table.back().value});
+      return put(to, tag,
+                 {scene ? measured_distance(*scene, board_.setup().robot, desc, board_.clock().click_at(at))
+                        : desc.table.back().value});
     }
     case Kind::Ranges:
       return take_ranges(board_.setup().devices[static_cast<std::size_t>(device.index)], tag, at, to);
@@ -461,12 +467,15 @@ void Puck::take(const Device& device, std::size_t number, Cycle at, link_packet&
       return take_sound(device.index, tag, at, to);
     case Kind::Receiver:
       return take_packets(device, tag, to);
+    case Kind::Idle:
+      // nothing turns it
+      if (device.node == WB_NODE_POSITION_SENSOR) put(to, tag, {0});
+      return;
     case Kind::Led:
     case Kind::Motor:
     case Kind::Speaker:
     case Kind::Emitter:
     case Kind::Display:
-    case Kind::Idle:
       return;  // nothing to measure
   }
 }

@@ -119,6 +119,8 @@ class Puck {
   void take_packets(const Device& device, std::int64_t tag, link_packet& to);
   void set_led(int led, bool on, Cycle at);
   std::string play(std::int64_t tag, const std::string& sound, bool again, Cycle at);
+  sim::Vec3 in_world_axes(const sim::Vec3& forward_left_up) const;
+  void recognise(std::int64_t milliseconds, Cycle at, link_packet& to);
   void tell_playing(Cycle at, link_packet& to);
   void note(std::uint64_t what);
 

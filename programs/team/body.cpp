@@ -187,6 +187,13 @@ std::int64_t BodilessBody::take_samples(link_packet& to) {
     if (device.elapsed_ms < device.period_ms) continue;
     device.elapsed_ms = 0;
     const auto tag = static_cast<std::int64_t>(i) + 1;
+    if (device.node == WB_NODE_POSITION_SENSOR) {  // nothing turns it
+      const double angle = 0;
+      link_begin(&to, LINK_NUMBERS);
+      link_int(&to, tag);
+      link_numbers(&to, &angle, 1);
+      link_end(&to);
+    }
     for (const sim::ReceivedPacket& packet : device.queue) {
       link_begin(&to, LINK_PACKET);
       link_int(&to, tag);

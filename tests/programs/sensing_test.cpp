@@ -267,6 +267,52 @@ TEST_P(Cameras, show_a_red_ball_in_red) {
 }
 INSTANTIATE_TEST_SUITE_P(Sensors, Cameras, ::testing::Values("po3030k", "po6030k", "po8030d"));
 
+// a ball of 4 cm, 20 cm before the lens and 2 cm to its left; one behind a wall; one at the robot's back
+TEST_F(Sensing, a_camera_recognises_what_has_colours_and_is_in_sight) {
+  const auto ball = [&](double x_m, double y_m, sim::Colour colour) {
+    sim::ObjectDesc b;
+    b.kind = sim::ObjectKind::Ball;
+    b.radius_m = 0.02;
+    b.size_m.z = 0.04;
+    b.model = "ball";
+    b.recognition_colours = {colour};
+    b.pose = {x_m, y_m, 0};
+    world.objects.push_back(b);
+  };
+  ball(0.23, 0.02, {1, 0, 0});
+  ball(0.45, -0.1, {0, 1, 0});
+  ball(-0.3, 0, {0, 0, 1});
+  sim::ObjectDesc wall;
+  wall.size_m = {0.02, 0.2, 0.2};
+  wall.pose = {0.35, -0.1, 0};
+  world.objects.push_back(wall);
+  Robot& r = add_c("#include <webots/camera_recognition_object.h>\nWbDeviceTag cam;",
+                   "cam = wb_robot_get_device(\"camera\"); wb_camera_enable(cam, 64);\n"
+                   "wb_camera_recognition_enable(cam, 64);",
+                   "const WbCameraRecognitionObject *o = wb_camera_recognition_get_objects(cam);\n"
+                   "printf(\"count %d\\n\", wb_camera_recognition_get_number_of_objects(cam));\n"
+                   "printf(\"place %g %g %g\\n\", o->position[0], o->position[1], o->position[2]);\n"
+                   "printf(\"size %g %g\\n\", o->size[0], o->size[1]);\n"
+                   "printf(\"pixel %d %d\\n\", o->position_on_image[0], o->position_on_image[1]);\n"
+                   "printf(\"pixels %d %d\\n\", o->size_on_image[0], o->size_on_image[1]);\n"
+                   "printf(\"colour %g %g %g\\n\", o->colors[0], o->colors[1], o->colors[2]);\n"
+                   "printf(\"model %d\\n\", strcmp(o->model, \"ball\"));");
+  run_for(0.1);
+  EXPECT_EQ(value(r, "count"), 1);
+  const auto place = told(r, "place");
+  ASSERT_EQ(place.size(), 3u);
+  // the lens is 3 cm before the axle and 2.8 cm above the floor
+  EXPECT_NEAR(place[0], 0.2, 1e-6);
+  EXPECT_NEAR(place[1], 0.02, 1e-6);
+  EXPECT_NEAR(place[2], -0.008, 1e-6);
+  EXPECT_EQ(told(r, "size"), (std::vector<double>{0.04, 0.04}));
+  // 26 / tan(0.42) = 58.2 pixels: 58.2 * 0.1 to the left of 26, 58.2 * 0.04 below 19.5, 11.6 wide
+  EXPECT_EQ(told(r, "pixel"), (std::vector<double>{20, 21}));
+  EXPECT_EQ(told(r, "pixels"), (std::vector<double>{12, 12}));
+  EXPECT_EQ(told(r, "colour"), (std::vector<double>{1, 0, 0}));
+  EXPECT_EQ(value(r, "model"), 0);
+}
+
 const char* const kEars =
     "static int loud(WbDeviceTag mic) { const short *s = wb_microphone_get_sample_data(mic); int i, low = "
     "32767, high = -32768;\n"
