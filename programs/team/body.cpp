@@ -61,7 +61,8 @@ void BodilessBody::restart() {
       case sim::DeviceKind::Lidar:
       case sim::DeviceKind::RangeFinder: {
         const RangeGrid grid = range_grid(d);
-        devices_.push_back({d.name, d.kind == sim::DeviceKind::Lidar ? WB_NODE_LIDAR : WB_NODE_RANGE_FINDER,
+        devices_.push_back({d.name,
+                            d.kind == sim::DeviceKind::Lidar ? WB_NODE_LIDAR : WB_NODE_RANGE_FINDER,
                             {double(grid.columns), double(grid.rows), d.fov_rad, d.near_m, d.far_m,
                              d.kind == sim::DeviceKind::Lidar ? d.vertical_fov_rad : 0}});
         break;

@@ -2,11 +2,12 @@
 // Runs the browser tests one after the other: a line each, then "N passed, N failed". An argument selects by name.
 import { launch } from "./harness.mjs";
 import { tests } from "./tests.mjs";
+import { webots } from "./webots.mjs";
 
 const filter = process.argv[2] ?? "";
 const browser = await launch();
 let passed = 0, failed = 0;
-for (const [name, test] of Object.entries(tests)) {
+for (const [name, test] of Object.entries({ ...tests, ...webots })) {
   if (!name.includes(filter)) continue;
   const begin = Date.now();
   const live = [];

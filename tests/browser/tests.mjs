@@ -7,7 +7,7 @@ import net from "node:net";
 import path from "node:path";
 import { ask, at, drag, open, root, until, view } from "./harness.mjs";
 
-const kWorld = `# a driver and a wall
+export const kWorld = `# a driver and a wall
 twinpuck = 1
 [arena]
 size = [1.0, 1.0]
@@ -62,12 +62,12 @@ function swarm(n) {
 }
 
 /** A view and a page of it; both end with the test. */
-async function start(browser, live, world = kWorld, programs = { drive: program(400) }, more = [], size = undefined) {
+export async function start(browser, live, world = kWorld, programs = { drive: program(400) }, more = [], size = undefined) {
   const v = await view(world, programs, more);
   live.push(v);
   return [v, await open(browser, v, size)];
 }
-const x = (page, body = 0) => ask(page, "(app, b) => app.frame.poses[4 * b]", body);
+export const x = (page, body = 0) => ask(page, "(app, b) => app.frame.poses[4 * b]", body);
 const time = (page) => ask(page, "(app) => app.frame.time");
 const steps = async (page, count) => {
   const before = await time(page);
@@ -300,39 +300,6 @@ export const tests = {
     const still = await x(page);
     await until(page, "(app, x) => app.frame.poses[0] < x - 0.005", still);
     assert.ok(await page.locator("#source .cm-lintRange-error, #source .cm-lint-marker-error").count() > 0, "the message stands in its line");
-  },
-
-  async a_program_for_webots_is_driven_and_rewritten(browser, live) {
-    const drive = (speed) => `#include <stdio.h>
-#include <math.h>
-#include <webots/robot.h>
-#include <webots/motor.h>
-int main(void) {
-  WbDeviceTag left, right;
-  wb_robot_init();
-  left = wb_robot_get_device("left wheel motor");
-  right = wb_robot_get_device("right wheel motor");
-  wb_motor_set_position(left, INFINITY);
-  wb_motor_set_position(right, INFINITY);
-  wb_motor_set_velocity(left, ${speed});
-  wb_motor_set_velocity(right, ${speed});
-  printf("speed ${speed}\\n");
-  while (wb_robot_step(32) != -1);
-  return 0;
-}
-`;
-    const [v, page] = await start(browser, live, kWorld.replace("[-0.4, 0]", "[0.2, 0]"), { drive: drive(0.5) });
-    await page.click("#play");
-    await until(page, "(app) => app.frame.poses[0] > 0.203");
-    await page.waitForFunction(() => document.querySelector("#console-lines").textContent.includes("speed 0.5"));
-    await page.click("#tab-program");
-    await until(page, "(app) => app.program.text().includes('wb_motor_set_velocity')");
-    await ask(page, "(app, text) => { app.program.setText(text); return app.program.save(); }", drive(-0.5));
-    await page.waitForFunction(() => document.querySelector("#build-messages").dataset.ok === "true");
-    const turned = await x(page);
-    await until(page, "(app, x) => app.frame.poses[0] < x - 0.003", turned);
-    v.write("drive/main.c", drive(1).replace("int main", "int main nonsense"));
-    await page.waitForFunction(() => document.querySelector("#build-messages").dataset.ok === "false");
   },
 
   async rays_and_plots(browser, live) {

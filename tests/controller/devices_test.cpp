@@ -443,10 +443,11 @@ TEST(ControllerDevices, lidars_and_range_finders_give_rows_of_distances) {
     wb_robot_step(32);
     const float* seen = wb_lidar_get_layer_range_image(20, 1);
     const WbLidarPoint* points = wb_lidar_get_point_cloud(20);
-    printf("%d %d %g %g %g ", wb_lidar_get_number_of_points(20), wb_lidar_get_horizontal_resolution(20), seen[0], seen[1],
-           wb_lidar_get_max_range(20));
+    printf("%d %d %g %g %g ", wb_lidar_get_number_of_points(20), wb_lidar_get_horizontal_resolution(20),
+           seen[0], seen[1], wb_lidar_get_max_range(20));
     // the left half's middle is a quarter of 2 rad to the left, the upper layer 0.1 rad up
-    printf("%.4f %.4f %.4f %d %d ", points[0].x, points[0].y, points[0].z, std::isinf(points[1].x), points[3].layer_id);
+    printf("%.4f %.4f %.4f %d %d ", points[0].x, points[0].y, points[0].z, std::isinf(points[1].x),
+           points[3].layer_id);
     const float* depth = wb_range_finder_get_range_image(21);
     printf("%d %g %d", wb_range_finder_get_width(21), wb_range_finder_image_get_depth(depth, 3, 2, 0),
            wb_lidar_get_layer_range_image(20, 2) == nullptr);

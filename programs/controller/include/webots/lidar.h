@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * Lidars, of [[robot.device]]: a row of distances in m from the left to the right. What is nearer or farther than
- * they see is infinite, and everything is before the first sample. Null: no such device, or it is not enabled.
+ * Lidars, of [[robot.device]]: a row of distances in m from the left to the right. What is nearer or farther
+ * than they see is infinite, and everything is before the first sample. Null: no such device, or it is not
+ * enabled.
  */
 #ifndef WB_LIDAR_H
 #define WB_LIDAR_H

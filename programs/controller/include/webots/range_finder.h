@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Range finders, of [[robot.device]]: a picture of distances in m along their line of sight. What is nearer or
- * farther than they see is infinite, and everything is before the first sample. Null: as for lidars.
+ * Range finders, of [[robot.device]]: a picture of distances in m along their line of sight. What is nearer
+ * or farther than they see is infinite, and everything is before the first sample. Null: as for lidars.
  */
 #ifndef WB_RANGE_FINDER_H
 #define WB_RANGE_FINDER_H
