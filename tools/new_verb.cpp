@@ -109,7 +109,7 @@ from controller import Supervisor
 world = Supervisor()
 children = world.getRoot().getField("children")
 nodes = [children.getMFNode(i) for i in range(children.getCount())]
-robots = [node for node in nodes if node.getField("collisions")]
+robots = [node for node in nodes if node.getTypeName() == "E-puck"]
 
 while world.step(100) != -1:
     for robot in robots:
