@@ -35,9 +35,6 @@ constexpr double kG = 9.81;
 constexpr double kGyroScale = 7509.9;  // per rad/s [Webots: E-puck.proto, lookup table of the gyroscope]
 constexpr double kGyroDegPerCount = 0.00875;  // +-250 degrees/s [LSM330 table 4]
 constexpr double kRadPerDeg = 3.14159265358979323846 / 180;
-constexpr double kUsualSpeedUnit =
-    0.00628;  // rad/s: 1000 is a turn a second [Webots: e-puck of versions 6 to 8]
-constexpr const char* kModel = "GCtronic e-puck";
 
 /// The five sounds that the robot stores. [lib: codec/e_sound.h]
 struct StoredSound {
@@ -92,7 +89,7 @@ std::string text_of(const link_record& record, int number) {
 }  // namespace
 
 Puck::Puck(board::Board& board, Cycle start)
-    : board_(board), drivers_(board), wheels_(board, drivers_.agendas()), start_(start) {
+    : board_(board), drivers_(board), wheels_(board, drivers_.agendas()) {
   drivers_.agendas().count_from(start);
   drivers_.init_ports(start);
   wheels_.start(start);

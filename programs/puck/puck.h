@@ -129,7 +129,6 @@ class Puck {
   Wheels wheels_;
   std::unique_ptr<PuckCamera> camera_;
   std::vector<Device> devices_;
-  Cycle start_;
   bool has_lsm_ = false, has_ground_ = false;
   std::uint64_t hash_ = 1;
 
