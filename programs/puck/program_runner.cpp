@@ -4,11 +4,9 @@
 #include <algorithm>
 #include <cstring>
 
-namespace programs {
+#include "programs/puck/records.h"
 
-namespace {
-constexpr sim::Clicks kClicksPer5Ms = sim::kClicksPerSecond / 200;  // a ms is no whole number of them
-}
+namespace programs {
 
 ProgramRunner::ProgramRunner(std::string name, std::shared_ptr<Seat> seat, board::Board& board, Cycle start)
     : Runner(std::move(name)),
@@ -29,7 +27,7 @@ ProgramRunner::~ProgramRunner() {
 /// Exact, however many steps there were: rounded from the whole time.
 Cycle ProgramRunner::step_end() const {
   const std::int64_t ms = time_ms_ + step_ms_;
-  const sim::Clicks clicks = (ms * kClicksPer5Ms + 2) / 5;
+  const sim::Clicks clicks = clicks_of_ms(ms);
   return board_.clock().cycle_at(began_ + clicks);
 }
 

@@ -13,6 +13,7 @@
 #include "hal_sim/board/true_state.h"
 #include "hal_sim/drivers/driver_params.h"
 #include "programs/puck/ranging.h"
+#include "programs/puck/records.h"
 #include "sim_core/base/hash.h"
 #include "sim_core/world/scene.h"
 
@@ -113,7 +114,7 @@ sim::Vec3 Puck::in_world_axes(const sim::Vec3& v) const { return in_axes(board_,
 // --- the list ------------------------------------------------------------------------------------
 
 void Puck::add(const std::string& name, Kind kind, int node, int index, std::vector<double> needs) {
-  devices_.push_back({name, "", kind, node, index, std::move(needs)});
+  devices_.push_back({name, kind, node, index, std::move(needs)});
 }
 
 void Puck::add_own() {
@@ -230,13 +231,7 @@ void Puck::add_of_world() {
 
 void Puck::tell(std::size_t number, link_packet& to) const {
   const Device& device = devices_[number];
-  link_begin(&to, LINK_DEVICE);
-  link_int(&to, static_cast<std::int64_t>(number) + 1);
-  link_int(&to, device.node);
-  link_text(&to, device.name.c_str());
-  link_text(&to, device.model.c_str());
-  link_numbers(&to, device.needs.data(), device.needs.size());
-  link_end(&to);
+  put_device(to, number, device.node, device.name, device.needs);
 }
 
 void Puck::tell_devices(link_packet& to) {
@@ -256,9 +251,7 @@ void Puck::find_device(const std::string& name, link_packet& to) {
     add(name, Kind::Virtual, WB_NODE_DISTANCE_SENSOR, 0, {0, kFullScale, 0, kGeneric});
     return tell(devices_.size() - 1, to);
   }
-  link_begin(&to, LINK_NOTHING);
-  link_text(&to, ("got device \"" + name + "\", expected one that this robot has").c_str());
-  link_end(&to);
+  put_nothing(to, "got device \"" + name + "\", expected one that this robot has");
 }
 
 // --- commands ------------------------------------------------------------------------------------
@@ -582,13 +575,7 @@ void Puck::take_packets(const Device& device, std::int64_t tag, link_packet& to)
   board::PacketDevices& packets = board_.packets();
   packets.latch(device.index);
   while (const sim::ReceivedPacket* packet = packets.head(device.index)) {
-    const sim::Vec3 way = in_axes(board_, packet->direction);
-    link_begin(&to, LINK_PACKET);
-    link_int(&to, tag);
-    link_int(&to, packet->channel);
-    link_bytes(&to, packet->bytes.data(), packet->bytes.size());
-    for (const double number : {packet->strength, way.x, way.y, way.z}) link_number(&to, number);
-    link_end(&to);
+    put_packet(to, tag, *packet, in_axes(board_, packet->direction));
     packets.drop(device.index);
   }
 }

@@ -94,7 +94,7 @@ class Puck {
     Idle  // there for the program, and does nothing
   };
   struct Device {
-    std::string name, model;
+    std::string name;
     Kind kind;
     int node;   // WbNodeType
     int index;  // among its kind; of Distance and Ranges among the setup's devices

@@ -8,13 +8,11 @@
 #include "firmware/include/webots/nodes.h"
 #include "hal_sim/board/packet_devices.h"
 #include "programs/puck/ranging.h"
+#include "programs/puck/records.h"
 
 namespace programs {
 
 namespace {
-
-/// End of a step, rounded from the whole time: a ms is no whole number of clicks.
-sim::Clicks clicks_of_ms(std::int64_t ms) { return (ms * (sim::kClicksPerSecond / 200) + 2) / 5; }
 
 bool hears(int channel, int sent) {
   return channel == sim::kAllChannels || sent == sim::kAllChannels || channel == sent;
@@ -106,13 +104,7 @@ void BodilessBody::restart() {
 
 void BodilessBody::tell(std::size_t number, link_packet& to) const {
   const Device& device = devices_[number];
-  link_begin(&to, LINK_DEVICE);
-  link_int(&to, static_cast<std::int64_t>(number) + 1);
-  link_int(&to, device.node);
-  link_text(&to, device.name.c_str());
-  link_text(&to, "");
-  link_numbers(&to, device.needs.data(), device.needs.size());
-  link_end(&to);
+  put_device(to, number, device.node, device.name, device.needs);
 }
 
 void BodilessBody::tell_devices(link_packet& to) {
@@ -122,9 +114,7 @@ void BodilessBody::tell_devices(link_packet& to) {
 void BodilessBody::find_device(const std::string& name, link_packet& to) {
   for (std::size_t i = 0; i < devices_.size(); ++i)
     if (devices_[i].name == name) return tell(i, to);
-  link_begin(&to, LINK_NOTHING);
-  link_text(&to, ("got device \"" + name + "\", expected one that this supervisor has").c_str());
-  link_end(&to);
+  put_nothing(to, "got device \"" + name + "\", expected one that this supervisor has");
 }
 
 std::string BodilessBody::command(const link_record& record) {
@@ -196,13 +186,7 @@ std::int64_t BodilessBody::take_samples(link_packet& to) {
       link_end(&to);
     }
     for (const sim::ReceivedPacket& packet : device.queue) {
-      link_begin(&to, LINK_PACKET);
-      link_int(&to, tag);
-      link_int(&to, packet.channel);
-      link_bytes(&to, packet.bytes.data(), packet.bytes.size());
-      // it has no place: no direction
-      for (const double number : {packet.strength, 0.0, 0.0, 0.0}) link_number(&to, number);
-      link_end(&to);
+      put_packet(to, tag, packet, {});  // it has no place: no direction
     }
     device.queue.clear();
   }
