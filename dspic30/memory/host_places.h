@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// Program addresses beyond the flash at which the simulator stands in for code, as in semihosting. A program
+// reaches them through the linker's handles (a GOTO each), so its own code is as it is on the chip.
+//
+//   kHostStart + 2 i    function i of whoever plays the library (core/host_calls.h)
+//   kHostHandlerReturn  where what a handler known by heart has called returns to
+#pragma once
+
+namespace dspic {
+
+inline constexpr unsigned kHostStart = 0x400000;
+inline constexpr unsigned kMostHostFunctions = 256;
+inline constexpr unsigned kHostHandlerReturn = kHostStart + 2 * kMostHostFunctions;
+inline constexpr unsigned kHostEnd = kHostHandlerReturn + 2;
+
+inline constexpr bool is_host_place(unsigned address) { return address >= kHostStart && address < kHostEnd; }
+
+/// An absolute symbol of an image that is linked with functions of the host: the RAM address at which plain
+/// RAM begins. From RAM's start to there the library's registers lie, and the host serves them.
+inline constexpr const char* kServedEndSymbol = "_tp_served_end";
+/// Another one: a sum over the table of the host's functions that the image was linked for.
+inline constexpr const char* kHostTableSymbol = "_tp_host_table";
+
+}  // namespace dspic
