@@ -5,6 +5,7 @@
 #include <string>
 
 #include "dspic30/memory/hex.h"
+#include "dspic30/memory/host_places.h"
 
 namespace dspic {
 
@@ -47,6 +48,19 @@ const Decoded* tell(Cpu& cpu, const Decoded* d) {
   return cpu.plain(d)(cpu, d);
 }
 
+// a wait is known to begin here
+const Decoded* meet_head(Cpu& cpu, const Decoded* d) {
+  const bool passes = cpu.passes_head;
+  cpu.passes_head = false;
+  if (passes || cpu.watching || !cpu.is_own_head(d) || cpu.true_now() < cpu.heads_from)
+    return cpu.inner_of(d)(cpu, d);
+  cpu.head_met = true;
+  cpu.kept_deadline = cpu.deadline;
+  cpu.deadline = 0;
+  cpu.now -= d->cycles;
+  return d;
+}
+
 void set_low(unsigned& address, unsigned value) { address = (address & 0x7F0000) | (value & 0xFFFE); }
 void set_high(unsigned& address, unsigned value) { address = (address & 0xFFFF) | (value & 0x7F) << 16; }
 
@@ -72,6 +86,8 @@ void Cpu::forget_code() {
   heads_.clear();
   asked_ = {};
   known_waits.forget();
+  own_heads_ = no_heads();
+  heads_marked_ = 0;
   if (code_.empty()) {
     code_.assign(kFlashWords + 1, unknown);
     code_.back().run = &fetch_nothing;
@@ -126,12 +142,17 @@ void Cpu::reset() {
 // --- flow -----------------------------------------------------------------------------------------------
 
 unsigned Cpu::address_of(const Decoded* d) const {
+  if (const unsigned place = address_of_host_place(d)) return place;
   const auto index = static_cast<unsigned>(d - code_.data());
   return index < kFlashWords ? 2 * index : bad_address_;
 }
 
 const Decoded* Cpu::jump(unsigned address, const Decoded* from) {
   if (address < kFlashEnd) return arrive(&code_[address / 2]);
+  if (host && is_host_place(address)) {
+    host_again = false;
+    return host_place(address);
+  }
   bad_address_ = address;
   return &code_.back();
 }
@@ -157,6 +178,26 @@ void Cpu::tell_calls(std::vector<std::uint32_t> addresses) {
   forget_code();
 }
 
+// what was translated with the head in its middle would run past it
+void Cpu::mark_head(const Decoded* first) {
+  constexpr std::ptrdiff_t kReach = 256;
+  if (hot == 0) return;  // all shall be translated
+  if (!is_own_head(first)) own_heads_[heads_marked_++ % own_heads_.size()] = first - code_.data();
+  if (first->run == &meet_head) return;
+  asked_ = {};
+  for (auto& [d, head] : heads_) {
+    if (!d->is_head || head.inner || head.is_probe || d >= first || first - d > kReach) continue;
+    d->run = head.plain;
+    d->is_head = false;
+    head.warmth = 0;
+  }
+  Head& head = heads_[first];
+  if (!first->is_head) head.plain = first->run;
+  head.inner = first->run;
+  first->run = &meet_head;
+  first->is_head = true;
+}
+
 void Cpu::warm(const Decoded* target) {
   if (!translator || target->is_head) return;
   Head& head = heads_[target];
@@ -176,11 +217,12 @@ void Cpu::warm(const Decoded* target) {
 
 int Cpu::translated() const {
   return static_cast<int>(std::count_if(heads_.begin(), heads_.end(), [](const auto& head) {
-    return head.first->is_head && !head.second.is_probe;
+    return head.first->is_head && !head.second.is_probe && head.second.inner != head.second.plain;
   }));
 }
 
 void Cpu::trap(Trap which) {
+  settle();
   const int level = parts.interrupts.level(), own_level = trap_level(static_cast<int>(which));
   if (level < own_level && parts.interrupts.has_trap(which))
     return;                                               // of this instruction, or as it is entered
@@ -238,6 +280,11 @@ const Decoded* Cpu::loop_back(const Decoded* last, const Decoded* following) {
 const Decoded* Cpu::run_repeated(const Decoded* d) {
   if (!is_decoded(d)) decode(d);
   at = d;
+  const bool only_passes_time = plain(d) == &no_operation;
+  const Cycle began = now;
+  const auto counted = [&] {
+    if (only_passes_time) delayed += now - began;
+  };
   do {
     const bool is_last = rcount == 0;
     if (is_last) repeating = false;
@@ -248,14 +295,18 @@ const Decoded* Cpu::run_repeated(const Decoded* d) {
     window = Window::Plain;
     repeat_is_fresh = false;
     now += d->cycles;
-    if (is_last || reset_due) return following;
+    if (is_last || reset_due) {
+      counted();
+      return following;
+    }
     if (rcount > 0) --rcount;
-    if (plain(d) == &no_operation && now < deadline) {  // a delay: as many at once as fit
+    if (only_passes_time && now < deadline) {  // a delay: as many at once as fit
       const Cycle many = std::min<Cycle>(rcount, deadline - now);
       now += many;
       rcount = static_cast<std::uint16_t>(rcount - many);
     }
   } while (now < deadline);
+  counted();
   return d;
 }
 
@@ -281,6 +332,7 @@ void Cpu::set_flags(unsigned bits) {
 // the overflow bits are the engine's; saturation bits can only be cleared, both by SAB
 void Cpu::set_sr(unsigned value, unsigned lanes) {
   if (lanes & 0xFF) {
+    settle();
     set_flags(value);
     parts.interrupts.set_level(static_cast<int>(kIpl.of(value)) | (parts.interrupts.level() & 8), now);
     deadline = 0;
@@ -479,7 +531,7 @@ Cpu::Saved Cpu::saved_register(unsigned ea) {
 }
 
 unsigned Cpu::read_elsewhere(unsigned ea, unsigned bits) {
-  const Cycle t = now + at->lead;
+  const Cycle t = true_now() + at->lead;
   if (!(ea & 1) && !watching && parts.is_result(ea, bits, t)) return parts.read_result(ea, t);
   return read_other(ea, bits, t);
 }
@@ -489,6 +541,11 @@ unsigned Cpu::read_other(unsigned ea, unsigned bits, Cycle t) {
   if (bits == 16 && (ea & 1)) {
     trap(Trap::AddressError);
     return 0;
+  }
+  if (ea - kRamStart < plain_start - kRamStart) {
+    if (watching) note_look(host->horizon(ea & ~1u, t));
+    const unsigned word = host->read(ea & ~1u, t);
+    return bits == 16 ? word : word >> 8 * (ea & 1) & 0xFF;
   }
   if (ea - kRamStart < kRamBytes) {
     round_memory->note_read(ram.data(), ea - kRamStart);
@@ -527,7 +584,7 @@ unsigned Cpu::read_psv(unsigned ea, unsigned bits) {
 
 void Cpu::modify_elsewhere(unsigned ea, unsigned keep, unsigned flip, unsigned bits) {
   const unsigned word = ea & ~1u;
-  const Cycle t = now + at->lead;
+  const Cycle t = true_now() + at->lead;
   const bool are_flags = parts.are_flags(word, t);
   if ((!are_flags && !parts.is_latch(word)) || (bits == 16 && (ea & 1)))
     return write_elsewhere(ea, (read_elsewhere(ea, bits) & keep) ^ flip, bits);
@@ -537,13 +594,19 @@ void Cpu::modify_elsewhere(unsigned ea, unsigned keep, unsigned flip, unsigned b
   const auto kept = static_cast<std::uint16_t>(keep << shift | ~lanes),
              flipped = static_cast<std::uint16_t>(flip << shift & lanes);
   if (are_flags && flipped == 0 && parts.lower_flags(word, kept, t)) return;
-  deadline = std::min(deadline, are_flags ? parts.modify_flags(word, kept, flipped, t)
-                                          : parts.modify_latch(word, kept, flipped, t));
+  hurry_to(are_flags ? parts.modify_flags(word, kept, flipped, t)
+                     : parts.modify_latch(word, kept, flipped, t));
 }
 
 void Cpu::write_elsewhere(unsigned ea, unsigned value, unsigned bits) {
   if (bits == 16 && (ea & 1)) return trap(Trap::AddressError);
-  if (const unsigned i = ea - kRamStart; i < kRamBytes) {
+  if (const unsigned i = ea - kRamStart; i < plain_start - kRamStart) {
+    note_effect();
+    const unsigned shift = bits == 8 && (ea & 1) ? 8 : 0;
+    host->write(ea & ~1u, static_cast<std::uint16_t>(value << shift),
+                static_cast<std::uint16_t>(bits == 16 ? 0xFFFFu : 0xFFu << shift), true_now() + at->lead);
+    return;
+  } else if (i < kRamBytes) {
     round_memory->note_write(ram.data(), i, bits == 16);
     bits == 16 ? store(i, value) : static_cast<void>(ram[i] = static_cast<std::uint8_t>(value));
     return;
@@ -554,10 +617,9 @@ void Cpu::write_elsewhere(unsigned ea, unsigned value, unsigned bits) {
       this->*saved.word = static_cast<std::uint16_t>(value & saved.bits);
       return;
     }
-  const Cycle t = now + at->lead;
+  const Cycle t = true_now() + at->lead;
   if (ea >= kSfrBytes) return trap(Trap::AddressError);
-  const Cycle calm = parts.write(ea, static_cast<std::uint16_t>(value), bits, t);
-  deadline = std::min(deadline, calm);
+  hurry_to(parts.write(ea, static_cast<std::uint16_t>(value), bits, t));
   if (parts.nvm.stalled_until() > t) {  // flash is being programmed
     now += parts.nvm.stalled_until() - t;
     deadline = 0;

@@ -3,14 +3,16 @@
 //
 //   flash word --decode once--> Decoded {run, registers, literal, cycles} --run(cpu, decoded)--> next Decoded
 //
-// Time: `now` is the cycle in which an instruction begins; a stall delays its accesses by `lead`. Straight
-// code runs until `deadline`, the next instant at which anything else may happen; whatever changes that
-// instant lowers it. Stalls, and the check for pointers that were never written, are found when a word is
+// Time: `now` is the cycle in which an instruction begins, by the program's clock (two_clocks.h); a stall
+// delays its accesses by `lead`. Straight code runs until `deadline`, the next instant at which anything else
+// may happen, by the same clock; whatever changes that instant lowers it. What leaves the core sees the true
+// time. Stalls, and the check for pointers that were never written, are found when a word is
 // decoded, at its first execution. Flags are kept as they fall out of an operation and put together when SR
 // is read.
 //
 // Modelled: see docs/chip-core.md. Source: [chip C2] to [chip C16].
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
@@ -18,9 +20,11 @@
 #include <unordered_map>
 #include <vector>
 
+#include "dspic30/core/host_calls.h"
 #include "dspic30/core/instruction_table.h"
 #include "dspic30/core/known_waits.h"
 #include "dspic30/core/program_watch.h"
+#include "dspic30/core/two_clocks.h"
 #include "dspic30/device/chip_parts.h"
 #include "dspic30/memory/program_memory.h"
 
@@ -190,25 +194,21 @@ class Cpu final : public SfrOwner {
 
   // --- data space
   unsigned read16(unsigned ea) {
-    const unsigned i = ea - kRamStart;
-    if (i < plain_ram() && !(i & 1)) return load(i);
+    if (ea - plain_start < plain_ram() && !(ea & 1)) return load(ea - kRamStart);
     return read_elsewhere(ea, 16);
   }
   unsigned read8(unsigned ea) {
-    const unsigned i = ea - kRamStart;
-    return i < plain_ram() ? ram[i] : read_elsewhere(ea, 8);
+    return ea - plain_start < plain_ram() ? ram[ea - kRamStart] : read_elsewhere(ea, 8);
   }
   void write16(unsigned ea, unsigned value) {
-    const unsigned i = ea - kRamStart;
-    if (i < plain_ram() && !(i & 1))
-      store(i, value);
+    if (ea - plain_start < plain_ram() && !(ea & 1))
+      store(ea - kRamStart, value);
     else
       write_elsewhere(ea, value, 16);
   }
   void write8(unsigned ea, unsigned value) {
-    const unsigned i = ea - kRamStart;
-    if (i < plain_ram())
-      ram[i] = static_cast<std::uint8_t>(value);
+    if (ea - plain_start < plain_ram())
+      ram[ea - kRamStart] = static_cast<std::uint8_t>(value);
     else
       write_elsewhere(ea, value, 8);
   }
@@ -222,8 +222,7 @@ class Cpu final : public SfrOwner {
   }
   /// Is it no RAM, or not to be had as it is?
   bool is_elsewhere(unsigned ea, bool byte) const {
-    const unsigned i = ea - kRamStart;
-    return i >= plain_ram() || (!byte && (i & 1));
+    return ea - plain_start >= plain_ram() || (!byte && (ea & 1));
   }
   /// What stands there becomes (old & keep) ^ flip; as read and write, faster for what handlers change.
   void modify_elsewhere(unsigned ea, unsigned keep, unsigned flip, unsigned bits);
@@ -284,17 +283,64 @@ class Cpu final : public SfrOwner {
 
   /// Reading through the PSV window in the first and last iteration of a REPEAT, and around an interrupt.
   static constexpr Cycle kRepeatWindow = 2;
-  // --- waits
-  /// If the program goes round and nothing changes from round to round, nor can before `deadline`, time goes
-  /// on by as many rounds as fit; returns how much. Runs a few instructions in any case.
-  Cycle skip_wait();
+  // --- time
+  /// The true time.
+  Cycle true_now() const { return clocks.true_at(now); }
+  /// Both clocks agree from here on. Not where straight code goes on: `deadline` is by the clock of before.
+  void settle() { clocks.settle(now); }
+  TwoClocks clocks;
+  Cycle delayed = 0;  ///< cycles spent in repeated NOPs, and in functions of the host that wait
+
+  // --- whoever plays the library (host_calls.h)
+  HostCalls* host = nullptr;  ///< null: the program is all there is
+  /// Plain RAM begins here; what is below is served by the host.
+  void serve_ram(unsigned plain_from) { plain_start = plain_from, watch_round(round_memory); }
+  /// For host functions that look at something which stays so until then.
+  void note_look(Cycle until) {
+    looks_outside = true;
+    watched_until = std::min(watched_until, until);
+  }
+  /// What handlers take, or when one comes, may be another from now on.
+  void host_changed() {
+    host_stale = true;
+    deadline = 0;
+  }
+  bool host_stale = true;
+  bool host_again = false;  ///< the function of the host that stands there has been called already
+  int host_handlers = 0;    ///< handlers known by heart under way
+  /// A handler known by heart is due: it begins, as an interrupt does.
+  void begin_handler();
+  /// What the handler does next, behind its entry or a return to it. The clock is where that begins.
+  const Decoded* go_on_with_handler(const Decoded* from);
+  /// RETFIE's work: level, flags and place of the program from the stack.
+  const Decoded* return_from_handler(const Decoded* from);
+  /// A function of the host waits here.
+  void stand(Cycle until, const Decoded* d);
+  Cycle stands_until = 0;
+
+  // --- waits (waits.h)
   /// Something was done that a wait does not do.
   void note_effect() { watched_until = 0; }
+  /// Accesses to RAM are noted from now on; null: no longer.
+  void watch_round(RoundMemory* memory) {
+    round_memory = memory;
+    watching = memory != nullptr;
+    plain_bytes = memory ? 0 : kRamEnd - plain_start;
+  }
+  /// A wait was proven that begins here: from now on the program stops there to look, if heads_from says so.
+  void mark_head(const Decoded* first);
+  bool has_heads() const { return heads_marked_ > 0; }
+  bool is_own_head(const Decoded* d) const {
+    return std::find(own_heads_.begin(), own_heads_.end(), d - code_.data()) != own_heads_.end();
+  }
+  bool head_met = false;     ///< the program has stopped at one; kept_deadline was its deadline
+  bool passes_head = false;  ///< the one where it stands is passed
+  Cycle heads_from = 0, kept_deadline = 0;
   Cycle watched_until = kNever;  ///< what was read since skip_wait() began to look stays as it is until here
   bool watching = false;
   bool looks_outside = false;           ///< since then a register of a peripheral was read
   bool reads_core = false;              ///< ... or one of the core's, by its address
-  RoundMemory* round_memory = nullptr;  ///< notes accesses to RAM
+  RoundMemory* round_memory = nullptr;  ///< notes accesses to RAM: watch_round()
   KnownWaits known_waits;
   Cycle still_since =
       kNever;                ///< since when nothing that the program looks at can change but by an interrupt
@@ -302,6 +348,7 @@ class Cpu final : public SfrOwner {
 
   static constexpr unsigned kRamStart = 0x800, kRamBytes = 0x2000, kRamEnd = kRamStart + kRamBytes,
                             kPsvStart = 0x8000, kYStart = 0x1800;
+  unsigned plain_start = kRamStart;  ///< serve_ram()
 
   // --- state; handlers use it freely
   std::array<std::uint16_t, 16> w{};
@@ -343,9 +390,9 @@ class Cpu final : public SfrOwner {
   /// Bytes of RAM that are accessed without further ado: none while somebody notes it.
   unsigned plain_ram() const {
 #ifdef DSPIC_TRANSLATED
-    return kRamBytes;
+    return kRamEnd - plain_start;
 #else
-    return round_memory ? 0 : kRamBytes;
+    return plain_bytes;
 #endif
   }
   unsigned load(unsigned i) const {
@@ -362,16 +409,19 @@ class Cpu final : public SfrOwner {
   void write_elsewhere(unsigned ea, unsigned value, unsigned bits);
   unsigned read_psv(unsigned ea, unsigned bits);
   void find_loop_end();
+  /// The deadline is no later than `at`, which is true time.
+  void hurry_to(Cycle at) { deadline = std::min(deadline, clocks.program_at(at)); }
+  unsigned plain_bytes = kRamBytes;  // 0 while accesses are noted
   __attribute__((noinline)) void tell_null_pointer(unsigned from);
+  static constexpr std::array<std::ptrdiff_t, 8> no_heads() { return {-1, -1, -1, -1, -1, -1, -1, -1}; }
   void probe(const Decoded* d);
   void warm(const Decoded* target);
-  __attribute__((noinline)) bool find_wait(KnownWaits::Wait& wait);
-
   struct Head {
     Run plain = nullptr;
     int warmth = 0;
     std::uint32_t pointers = 0;
     bool is_probe = false;  // it tells the onlooker, and is not translated
+    Run inner = nullptr;    // where a wait begins: what runs there else
   };
   std::unordered_map<const Decoded*, Head> heads_;
   struct Asked {
@@ -383,7 +433,27 @@ class Cpu final : public SfrOwner {
   std::vector<std::uint32_t> decoded_;   // words that were met since forget_code()
   std::vector<Decoded> code_;            // one a flash word, then one for addresses where no flash is
   unsigned bad_address_ = 0;             // that address
+  std::array<std::ptrdiff_t, 8> own_heads_ = no_heads();  // words of flash where waits of this program begin
+  std::size_t heads_marked_ = 0;
+
+ public:
+  Run inner_of(const Decoded* head) const { return heads_.at(head).inner; }
+  /// Is it known, of whichever robot, that a wait begins here?
+  bool is_wait_head(const Decoded* d) const { return d->is_head && heads_.at(d).inner; }
 };
+
+/// A call, or a jump, to a function of the host, whose number is Decoded::imm.
+const Decoded* call_host(Cpu& cpu, const Decoded* d);
+const Decoded* jump_to_host(Cpu& cpu, const Decoded* d);
+/// Where the host stands in for code: is_host_place(address).
+const Decoded* host_place(unsigned address);
+/// The address of such a place; 0: it is none.
+unsigned address_of_host_place(const Decoded* d);
+
+#ifdef DSPIC_TRANSLATED
+/// All files meet the types in one order, or else their bitcode has types of its own for each.
+__attribute__((used)) static void meet_types(Cpu&) {}
+#endif
 
 /// The word at an address made ready, as its first execution begins: registers that it writes count as
 /// written from now on, and a pointer that was never written makes it an illegal one. Depends on

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "dspic30/core/cpu.h"
+#include "dspic30/memory/host_places.h"
 
 namespace dspic {
 
@@ -308,6 +309,33 @@ Run function_of(std::uint32_t word) {
   return row ? choose(row->id, fields_of(*row, word)) : nullptr;
 }
 
+namespace {
+
+// calls and jumps to the linker's handle of a function of the host (a GOTO beyond the flash) lead there
+// without the GOTO, which the chip's image has not
+void lead_to_host(Decoded& d, const Row& row, const Cpu& cpu, unsigned address) {
+  if (!cpu.host) return;
+  const bool is_relative = row.id == Insn::Rcall_Expr || row.id == Insn::Bra_Expr,
+             is_call = row.id == Insn::Rcall_Expr || row.id == Insn::Call_Expr;
+  if (!is_relative && !is_call && row.id != Insn::Goto_Expr) return;
+  const unsigned to =
+      is_relative ? (address + 2 * static_cast<unsigned>(d.imm)) & 0x7FFFFE : static_cast<unsigned>(d.imm);
+  unsigned target = to;
+  if (!is_host_place(to)) {
+    const std::uint32_t word = cpu.program.read(to);
+    const Row* const there = find_row(word);
+    if (!there || there->id != Insn::Goto_Expr) return;
+    target = (cpu.program.read(to + 2) & 0x7F) << 16 | (word & 0xFFFE);
+  }
+  if (!is_host_place(target) || target >= kHostHandlerReturn) return;
+  if (row.id == Insn::Goto_Expr && is_host_place(to)) return;  // the handle itself: somebody's pointer
+  d.run = is_call ? &call_host : &jump_to_host;
+  d.imm = static_cast<std::int32_t>((target - kHostStart) / 2);
+  d.b = static_cast<std::uint8_t>(row.words);
+}
+
+}  // namespace
+
 Decoded decode_word(Cpu& cpu, unsigned address) {
   const std::uint32_t word = cpu.program.read(address), second = cpu.program.read(address + 2);
   Decoded d{};
@@ -331,6 +359,7 @@ Decoded decode_word(Cpu& cpu, unsigned address) {
     const Row* next = find_row(second);
     d.d = static_cast<std::uint8_t>(next ? next->words : 1);
   }
+  lead_to_host(d, *row, cpu, address);
   // a pointer that nobody has written since the reset resets the chip again
   if ((r.sources | r.destinations) & ~cpu.written & 0x7FFF) d.run = &illegal;
   if (!f.B || row->has(Operand::Prefetch)) cpu.written |= r.written;

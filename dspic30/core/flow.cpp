@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Branches, calls, returns, loops.
 #include "dspic30/core/operands.h"
+#include "dspic30/memory/host_places.h"
 
 namespace dspic {
 
@@ -63,9 +64,10 @@ const Decoded* call_relative_register(Cpu& cpu, const Decoded* d) {
 
 void hurry_to_exception(Cpu& cpu) {
   if (cpu.deadline > cpu.now + kInterruptReturnCycles) return;  // nothing comes so soon
-  cpu.parts.events.run_to(cpu.now);
+  const Cycle now = cpu.true_now();
+  cpu.parts.events.run_to(now);
   const Interrupts& interrupts = cpu.parts.interrupts;
-  if (interrupts.pending(cpu.now + 2, interrupts.level()) != kNoVector) --cpu.now;
+  if (interrupts.pending(now + 2, interrupts.level()) != kNoVector) --cpu.now;
 }
 
 const Decoded* return_from_call(Cpu& cpu, const Decoded* d) {
@@ -78,18 +80,7 @@ const Decoded* return_literal(Cpu& cpu, const Decoded* d) {
   operands::put_register<Byte>(cpu, d, static_cast<unsigned>(d->imm) & operands::kMask<Byte>);
   return return_from_call(cpu, d);
 }
-const Decoded* return_from_interrupt(Cpu& cpu, const Decoded* d) {
-  const unsigned top = cpu.pop(), low = cpu.pop();
-  cpu.set_flags(top >> 8);
-  cpu.repeating = cpu.repeat_is_fresh = (top >> 12 & 1) != 0;
-  cpu.parts.events.run_to(cpu.now);
-  cpu.parts.interrupts.leave_to(static_cast<int>((top >> 13 & 7) | (top >> 4 & 8)), cpu.now);
-  hurry_to_exception(cpu);
-  cpu.deadline = 0;
-  const Decoded* const next = cpu.jump((top & 0x7F) << 16 | (low & 0xFFFE), d);
-  --next->heat;  // where an interrupt cut the program nothing begins
-  return next;
-}
+const Decoded* return_from_interrupt(Cpu& cpu, const Decoded* d) { return cpu.return_from_handler(d); }
 
 // --- loops ----------------------------------------------------------------------------------------------
 
@@ -119,6 +110,25 @@ const Decoded* repeat_literal(Cpu& cpu, const Decoded* d) {
 const Decoded* repeat_register(Cpu& cpu, const Decoded* d) { return repeat(cpu, d, cpu.w[d->s] & 0x3FFF); }
 
 }  // namespace
+
+// a function of the host that was cut goes on waiting
+const Decoded* Cpu::return_from_handler(const Decoded* from) {
+  settle();
+  const unsigned top = pop(), low = pop();
+  set_flags(top >> 8);
+  repeating = repeat_is_fresh = (top >> 12 & 1) != 0;
+  parts.events.run_to(now);
+  parts.interrupts.leave_to(static_cast<int>((top >> 13 & 7) | (top >> 4 & 8)), now);
+  hurry_to_exception(*this);
+  deadline = 0;
+  const unsigned address = (top & 0x7F) << 16 | (low & 0xFFFE);
+  const Decoded* const following = jump(address, from);
+  if (is_host_place(address))
+    host_again = true;
+  else
+    --following->heat;  // where an interrupt cut the program nothing begins
+  return following;
+}
 
 Run choose_flow(Insn id, const Fields& f) {
   switch (id) {

@@ -79,6 +79,11 @@ class KnownWaits {
   /// If the program goes round from cpu.next on, reading nothing that can change without an interrupt; null:
   /// not known.
   const Wait* find(const Cpu& cpu) const;
+  /// The one that begins at an instruction; null: none is known.
+  const Wait* at(const Decoded* first) const {
+    const Wait& wait = waits_[place_of(first)];
+    return wait.first == first ? &wait : nullptr;
+  }
   /// Proven, with cpu.next at its first instruction.
   void add(const Cpu& cpu, const Wait& wait);
   void forget() {

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "dspic30/core/cpu.h"
-#include "dspic30/core/wait_samples.h"
+#include "dspic30/core/waits.h"
 #include "dspic30/memory/state_hash.h"
 
 namespace dspic {
@@ -16,23 +16,26 @@ namespace {
 constexpr Cycle kResetCycles = 295;  // 20 us from a reset's cause to the first instruction [?]
 constexpr Cycle kIdleWakeCycles = 2, kSleepWakeCycles = 2048 + 295;
 
-constexpr Cycle kWorthALook = 100;  // cycles
-
 }  // namespace
 
-Processor::Processor(Dspic30f6014a& chip, ProgramMemory& program)
+Processor::Processor(Dspic30f6014a& chip, ProgramMemory& program, HostCalls* host, unsigned plain_from)
     : cpu_(std::make_unique<Cpu>(chip.parts(), program)),
-      waits_(std::make_unique<WaitSamples>()),
+      waits_(std::make_unique<Waits>()),
       chip_(chip),
-      code_version_(program.version()) {}
+      code_version_(program.version()) {
+  cpu_->host = host;
+  cpu_->serve_ram(plain_from);
+}
 
 Processor::~Processor() = default;
 
 void Processor::restart() {
+  waits_->forget(*cpu_);
   cpu_->reset();
   cpu_->now += kResetCycles;
   cpu_->still_since = kNever;
-  waits_->forget(*cpu_);
+  cpu_->clocks.reset(cpu_->now);
+  held_.fill(true);
   code_version_ = cpu_->program.version();
 }
 
@@ -40,6 +43,7 @@ void Processor::power_up(Cycle at) {
   restart();
   cpu_->ram.fill(0);
   cpu_->now = at;
+  cpu_->clocks.reset(at);
 }
 
 Cycle Processor::still_since() const { return cpu_->still_since; }
@@ -47,23 +51,18 @@ bool Processor::still_reads() const { return cpu_->still_reads; }
 
 // --- the loop -------------------------------------------------------------------------------------------
 
-// straight on until something else may happen; now and then a look whether the program only waits, ever more
-// rarely while it does not; handlers seldom do, so they may work on for a while first
+// straight on until something else may happen; looks for waits come in between, and are jumped over
 void Processor::execute() {
   Cpu& cpu = *cpu_;
   const Cycle end = cpu.deadline;
   const std::int64_t writes = cpu.parts.bus.writes();
-  Cycle look_at = cpu.parts.interrupts.nesting() > 0 ? std::max(look_at_, cpu.now + kFirstLooks) : look_at_;
   while (cpu.now < end) {
-    if (look_at <= cpu.now && end - cpu.now > kWorthALook) {
-      const Cycle jumped = cpu.skip_wait();
-      jumped_ += jumped;
-      look_at = cpu.now + (jumped > 0 ? kFirstLooks : between_looks_);
-      look_at_ = jumped > 0 ? cpu.now : look_at;  // behind an interrupt the wait may go on
-      between_looks_ = jumped > 0 ? kFirstLooks : std::min(2 * between_looks_, kRarestLooks);
+    if (waits_->is_due(cpu)) {
+      waits_->go_on(cpu);
       if (cpu.deadline != end || cpu.parts.bus.writes() != writes) return;
+      if (cpu.now >= end) return;
     }
-    const Cycle pause = look_at > cpu.now ? std::min(end, look_at) : end;  // too near its end for a look
+    const Cycle pause = std::min(end, cpu.clocks.program_at(std::max(waits_->look_at(cpu), cpu.now + 1)));
     cpu.deadline = pause;
     const Decoded* d = cpu.next;
     while (cpu.now < cpu.deadline) {
@@ -74,6 +73,7 @@ void Processor::execute() {
       d = next;
     }
     cpu.next = d;
+    if (cpu.head_met) cpu.deadline = cpu.kept_deadline;
     if (cpu.deadline != pause || cpu.repeating || cpu.parts.bus.writes() != writes) return;
     cpu.deadline = end;
   }
@@ -83,6 +83,7 @@ std::optional<ResetKind> Processor::run(Cycle until) {
   Cpu& cpu = *cpu_;
   while (true) {
     if (cpu.reset_due) return cpu.reset_due;
+    cpu.settle();
     if (cpu.now >= until) return std::nullopt;
     Outlook outlook = cpu.parts.look(cpu.now);
     if (outlook.reset_due) return chip_.reset_due(cpu.now);
@@ -91,20 +92,25 @@ std::optional<ResetKind> Processor::run(Cycle until) {
       cpu.forget_code();
     }
     if (cpu.stale_pointers) cpu.forget_pointers();
+    if (cpu.host) follow_host();
     if (cpu.power != Cpu::Power::On) {
       sleep(until);
       continue;
     }
+    if (cpu.host && is_host_first(outlook.vector)) {
+      waits_->cut(cpu);
+      cpu.begin_handler();
+      continue;
+    }
     if (outlook.vector != kNoVector) {
+      waits_->cut(cpu);
       enter_interrupt(outlook.vector);
+      if (cpu.host) continue;  // its level may hold handlers off
       outlook.horizon = cpu.parts.interrupt_horizon(outlook.vector);
       if (outlook.horizon <= cpu.now) continue;
     }
     cpu.deadline = std::min(until, outlook.horizon);
-    if (cpu.now < waits_->next())
-      cpu.deadline = std::min(cpu.deadline, waits_->next());
-    else if (waits_->look(cpu))
-      cpu.deadline = cpu.now + 1;
+    if (cpu.host) cpu.deadline = cpu.clocks.program_at(std::min(cpu.deadline, host_horizon()));
     if (cpu.repeating) cpu.next = cpu.run_repeated(cpu.next);
     execute();
   }
@@ -113,16 +119,80 @@ std::optional<ResetKind> Processor::run(Cycle until) {
 // an enabled flag wakes whatever its priority, and so does the watchdog
 void Processor::sleep(Cycle until) {
   Cpu& cpu = *cpu_;
-  if (cpu.parts.interrupts.wakes() || cpu.parts.system.woke()) {
+  if (cpu.parts.interrupts.wakes() || cpu.parts.system.woke() || due_ <= cpu.now) {
     cpu.now += cpu.power == Cpu::Power::Sleep ? kSleepWakeCycles : kIdleWakeCycles;
     cpu.power = Cpu::Power::On;
     cpu.parts.system.awake();
     return;
   }
-  const Cycle next = std::clamp(chip_.next_event(cpu.now), cpu.now + 1, std::max(until, cpu.now + 1));
-  slept_ += next - cpu.now;
-  cpu.now = next;
+  const Cycle next = std::min(chip_.next_event(cpu.now), host_horizon());
+  const Cycle own = cpu.clocks.own_cycles(cpu.now);
+  cpu.now = std::clamp(next, cpu.now + 1, std::max(until, cpu.now + 1));
+  slept_ += cpu.clocks.own_cycles(cpu.now) - own;
 }
+
+// --- whoever plays the library --------------------------------------------------------------------------
+
+// which handlers known by heart the program holds off, when the next one comes, and what they take
+void Processor::follow_host() {
+  Cpu& cpu = *cpu_;
+  const Interrupts& interrupts = cpu.parts.interrupts;
+  for (int h = 0; h < HostCalls::kHandlers; ++h) {
+    const int vector = cpu.host->vector(h);
+    if (vector == kNoVector) continue;
+    const int irq = vector - kFirstIrqVector, priority = interrupts.priority(irq);
+    const bool sleeps = cpu.power == Cpu::Power::Sleep;  // timer and converter stand
+    const bool held = sleeps || !interrupts.enabled(irq) || priority <= interrupts.level() ||
+                      (priority < 7 && interrupts.disi_active(cpu.now));
+    bool& was_held = held_[static_cast<std::size_t>(h)];
+    if (held == was_held) continue;
+    was_held = held;
+    cpu.host->hold_handler(h, held, cpu.now);
+    cpu.host_stale = true;
+  }
+  if (!cpu.host_stale) return;
+  cpu.host_stale = false;
+  cpu.clocks.set_share(cpu.host->share_q32());
+  // held off by its level alone it wakes the processor all the same
+  const int irq = cpu.host->vector(0) - kFirstIrqVector;
+  const bool comes = irq >= 0 && interrupts.enabled(irq) && cpu.power != Cpu::Power::Sleep;
+  due_ = comes ? cpu.host->due() : kNever;
+}
+
+/// Does the handler known by heart begin now, rather than that of `vector`?
+bool Processor::is_host_first(int vector) const {
+  const Cpu& cpu = *cpu_;
+  if (due_ > cpu.now || held_[0]) return false;
+  if (vector == kNoVector) return true;
+  if (vector < kFirstIrqVector) return false;
+  const Interrupts& interrupts = cpu.parts.interrupts;
+  const int own = cpu.host->vector(0), priority = interrupts.priority(own - kFirstIrqVector),
+            other = interrupts.priority(vector - kFirstIrqVector);
+  return priority > other || (priority == other && own < vector);
+}
+
+/// The next instant at which something comes of the host's handlers.
+Cycle Processor::host_horizon() const {
+  const Cpu& cpu = *cpu_;
+  if (!cpu.host) return kNever;
+  const Interrupts& interrupts = cpu.parts.interrupts;
+  const Cycle disi = interrupts.disi_active(cpu.now) ? interrupts.disi_until() : kNever;
+  return std::min(disi, held_[0] && due_ <= cpu.now ? kNever : due_);
+}
+
+Cycle Processor::idle_until() const {
+  const Cpu& cpu = *cpu_;
+  const bool stands = stands_in_host();
+  if (!stands && !is_asleep() && !waits_->is_waiting()) return 0;
+  Cycle until = std::min(chip_.next_event(cpu.now), host_horizon());
+  if (stands) until = std::min(until, cpu.stands_until);
+  if (waits_->is_waiting()) until = std::min(until, waits_->until());
+  return until;
+}
+
+bool Processor::stands_in_host() const { return cpu_->host_again && address_of_host_place(cpu_->next) != 0; }
+
+void Processor::stir() { waits_->stir(*cpu_); }
 
 void Processor::enter_interrupt(int vector) {
   Cpu& cpu = *cpu_;
@@ -140,7 +210,14 @@ void Processor::enter_interrupt(int vector) {
 // --- what others look at --------------------------------------------------------------------------------
 
 const TrapRecord* Processor::latest_trap() const { return cpu_->latest_trap ? &*cpu_->latest_trap : nullptr; }
-Cycle Processor::waited() const { return waits_->waited(); }
+Cycle Processor::idle(Cycle at) const {
+  const Cpu& cpu = *cpu_;
+  const Cycle now = std::max(cpu.now, cpu.clocks.program_at(at));
+  const Cycle own = cpu.clocks.own_cycles(now) - cpu.clocks.own_cycles(cpu.now);
+  const bool passes = is_asleep() || stands_in_host();
+  return slept_ + cpu.delayed + waits_->waited(cpu, now) + (passes ? own : 0);
+}
+Cycle Processor::jumped() const { return waits_->jumped(); }
 void Processor::set_translator(Translator* translator) { cpu_->translator = translator; }
 void Processor::tell_calls(ProgramWatch* watch, std::vector<std::uint32_t> addresses) {
   cpu_->onlooker = watch;
@@ -152,7 +229,10 @@ void Processor::translate_all() {
 }
 int Processor::translated() const { return cpu_->translated(); }
 Cycle Processor::now() const { return cpu_->now; }
-void Processor::wait_until(Cycle at) { cpu_->now = std::max(cpu_->now, at); }
+void Processor::wait_until(Cycle at) {
+  cpu_->now = std::max(cpu_->now, at);
+  cpu_->clocks.reset(cpu_->now);
+}
 bool Processor::is_asleep() const { return cpu_->power != Cpu::Power::On; }
 unsigned Processor::pc() const { return cpu_->address_of(cpu_->next); }
 unsigned Processor::pc_of_access() const { return cpu_->at ? cpu_->address_of(cpu_->at) : pc(); }

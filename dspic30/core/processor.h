@@ -7,6 +7,7 @@
 // Deterministic: cycles depend on the program and the chip alone, not on how run() is called.
 // What is modelled and what is doubted: docs/chip-core.md.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -18,15 +19,18 @@
 namespace dspic {
 
 class Cpu;
+class HostCalls;
 class ProgramWatch;
 struct TrapRecord;  // cpu.h
 class Translator;
-class WaitSamples;
+class Waits;
 
 class Processor {
  public:
-  /// `chip` and `program`, which is the chip's Configuration::program, outlive this.
-  Processor(Dspic30f6014a& chip, ProgramMemory& program);
+  /// `chip` and `program`, which is the chip's Configuration::program, outlive this, and so does `host`:
+  /// whoever plays the library's drivers, and serves RAM below `plain_from`; null: nobody.
+  Processor(Dspic30f6014a& chip, ProgramMemory& program, HostCalls* host = nullptr,
+            unsigned plain_from = kRamStart);
   ~Processor();
 
   /// Runs until the cycle `until`, or a few more: instructions are whole. A reset ends it earlier: its kind
@@ -44,8 +48,15 @@ class Processor {
   bool is_asleep() const;
   /// Cycles spent in Idle or Sleep.
   Cycle slept() const { return slept_; }
-  /// Cycles spent in loops that only wait, estimated by samples (wait_samples.h).
-  Cycle waited() const;
+  /// Cycles of the program up to `at` in which it only waited: in Idle and Sleep, in waits (waits.h), in
+  /// repeated NOPs, in functions of the host that wait. Exact, and the same however run() is called. `at` may
+  /// be ahead of now() up to idle_until().
+  Cycle idle(Cycle at) const;
+  /// Until when nothing happens but that time passes, so that run() need not be called; in the past: the
+  /// program is at work.
+  Cycle idle_until() const;
+  /// Something from outside, or a debugger, may have changed what the program waits for.
+  void stir();
   /// Hot code runs translated from now on; null: no more is translated. Nothing but the PC's time depends on
   /// it.
   void set_translator(Translator* translator);
@@ -57,7 +68,7 @@ class Processor {
   /// Places where translated code begins.
   int translated() const;
   /// Cycles of waits that were jumped over: how, not what was simulated. Depends on how run() is called.
-  Cycle jumped() const { return jumped_; }
+  Cycle jumped() const;
 
   /// Since when it has been in a loop in which nothing that it reads can change unless an interrupt comes;
   /// kNever: it is in none. Depends, by some looks, on how run() is called.
@@ -89,14 +100,18 @@ class Processor {
   void enter_interrupt(int vector);
   void execute();
   void sleep(Cycle until);
+  void follow_host();
+  bool is_host_first(int vector) const;
+  Cycle host_horizon() const;
+  bool stands_in_host() const;
 
   std::unique_ptr<Cpu> cpu_;
-  std::unique_ptr<WaitSamples> waits_;
+  std::unique_ptr<Waits> waits_;
   Dspic30f6014a& chip_;
   std::uint64_t code_version_ = 0;
-  Cycle slept_ = 0, jumped_ = 0;
-  static constexpr Cycle kFirstLooks = 200, kRarestLooks = 4096;  // cycles between two looks for a wait
-  Cycle look_at_ = 0, between_looks_ = kFirstLooks;
+  Cycle slept_ = 0;
+  std::array<bool, 2> held_{true, true};  // handlers known by heart that the program holds off
+  Cycle due_ = kNever;                    // when the next of them comes
 };
 
 }  // namespace dspic

@@ -8,6 +8,7 @@ namespace dspic {
 namespace {
 
 const Decoded* clear_watchdog(Cpu& cpu, const Decoded* d) {
+  cpu.settle();
   cpu.parts.events.run_to(cpu.now);
   cpu.parts.system.clear_watchdog(cpu.now);
   cpu.deadline = 0;
@@ -15,6 +16,7 @@ const Decoded* clear_watchdog(Cpu& cpu, const Decoded* d) {
 }
 
 const Decoded* save_power(Cpu& cpu, const Decoded* d) {
+  cpu.settle();
   cpu.power = d->imm ? Cpu::Power::Idle : Cpu::Power::Sleep;
   cpu.parts.events.run_to(cpu.now);
   cpu.parts.system.power_save(d->imm == 0, cpu.now);
@@ -29,6 +31,7 @@ const Decoded* reset(Cpu& cpu, const Decoded* d) {
 }
 
 const Decoded* disable_interrupts(Cpu& cpu, const Decoded* d) {
+  cpu.settle();
   cpu.parts.interrupts.disi(static_cast<unsigned>(d->imm), cpu.now);
   cpu.deadline = 0;
   return d + 1;

@@ -37,8 +37,9 @@ constexpr StringLiteral kOffset = "_ZN5dspic3Cpu6offsetEPKNS_7DecodedEi",
                         kTrap = "_ZN5dspic3Cpu4trapENS_4TrapE",
                         kSpecial = "_ZN5dspic3Cpu15special_pointerEjiib";
 
+// the files' bitcode may have types of its own for one class, and then calls through a cast
 StringRef name_of(const CallBase& call) {
-  const Function* const callee = call.getCalledFunction();
+  const auto* const callee = dyn_cast<Function>(call.getCalledOperand()->stripPointerCasts());
   return callee ? callee->getName() : StringRef();
 }
 bool is_real_call(const Instruction& i) {
@@ -325,13 +326,15 @@ std::vector<BasicBlock*> Maker::blocks_from(BasicBlock* first) {
   return all;
 }
 
-// what the Decoded says is known
+// what the Decoded says is known, and so is where plain RAM begins
 void Maker::fold(const Item& item, BasicBlock* first) {
   const auto* const bytes = reinterpret_cast<const unsigned char*>(&item.decoded);
   const auto known = [&](const Instruction& i) -> Constant* {
     const auto* const load = dyn_cast<LoadInst>(&i);
     if (!load || !load->getType()->isIntegerTy()) return nullptr;
     const auto [base, all] = split(const_cast<Value*>(load->getPointerOperand()));
+    if (base == cpu_arg_ && static_cast<std::uint64_t>(all) == offset_of(cpu_, &cpu_.plain_start))
+      return ConstantInt::get(load->getType(), cpu_.plain_start);
     const std::int64_t offset = all - item.place * static_cast<std::int64_t>(sizeof(Decoded));
     const std::uint64_t size = layout_.getTypeStoreSize(load->getType());
     if (base != head_arg_ || offset < 8 || offset + size > sizeof(Decoded)) return nullptr;

@@ -55,6 +55,7 @@ std::vector<Item> stretch(const Cpu& cpu, const Decoded* head) {
     item.word = cpu.program.read(cpu.address_of(d));
     const Row* const row = find_row(item.word);
     if (!row || d == cpu.loop_end) break;
+    if (place > 0 && cpu.is_wait_head(d)) break;  // the program stops there to look
     const bool is_known = cpu.is_decoded(d) && cpu.plain(d) == function_of(item.word);
     if (!is_known && (items.empty() || place >= reach)) break;
     const bool ends = ends_a_stretch(row->id);
@@ -79,11 +80,12 @@ std::vector<Item> stretch(const Cpu& cpu, const Decoded* head) {
   return items;
 }
 
-std::string key_of(const std::vector<Item>& items) {
+std::string key_of(const Cpu& cpu, const std::vector<Item>& items) {
   std::string key;
   const auto add = [&key](const auto& value) {
     key.append(reinterpret_cast<const char*>(&value), sizeof value);
   };
+  add(cpu.plain_start);
   for (const Item& item : items) {
     add(item.place);
     add(item.word);

@@ -23,6 +23,6 @@ struct Item {
 /// The instructions from `head` on, as far as they were met and jumps lead; empty: not worth translating.
 std::vector<Item> stretch(const Cpu& cpu, const Decoded* head);
 /// Names a stretch: equal ones are translated alike.
-std::string key_of(const std::vector<Item>& items);
+std::string key_of(const Cpu& cpu, const std::vector<Item>& items);
 
 }  // namespace dspic::translate

@@ -58,7 +58,7 @@ Translation Translations::translate(const Cpu& cpu, const Decoded* head, bool on
   if (!is_open_) open();
   const std::vector<Item> items = stretch(cpu, head);
   if (items.empty()) return {};
-  const std::string key = key_of(items);
+  const std::string key = key_of(cpu, items);
   if (const auto known = known_.find(key); known != known_.end()) return known->second;
   const std::string name = name_of(key);
   const bool is_kept = kept_.count(name) > 0;

@@ -59,7 +59,7 @@ void ChipRunner::program_eeprom() {
 
 void ChipRunner::begin_window(Cycle now) {
   end_ = std::max(end_, now);
-  chip_.begin_window(now);
+  if (chip_.begin_window(now)) processor_->stir();
 }
 
 void ChipRunner::run_until(Cycle end) {

@@ -43,15 +43,17 @@ class ChipRunner final : public host::Runner, private dspic::EventWatch, private
   Cycle idle_until() const override { return idle_until_; }
   void pass_to(Cycle end) override;
   std::uint64_t turns() const override { return turns_; }
-  void wake() override { idle_until_ = 0; }
+  void wake() override {
+    idle_until_ = 0;
+    processor_->stir();
+  }
   void remote_changed() override;
   void restart() override;
   void begin_again() override;
 
   Cycle cycles() const override { return end_; }
   Cycle lived_cycles() const override { return end_; }
-  /// Waiting is sampled, so a sum may come out above what there was.
-  Cycle idle_cycles() const override { return std::min(end_, processor_->slept() + processor_->waited()); }
+  Cycle idle_cycles() const override { return processor_->idle(end_); }
   Cycle waiting_since() const override { return dspic::kNever; }
   bool has_stopped() const override { return false; }
   const std::vector<host::TrapReport>& traps() const override { return traps_; }

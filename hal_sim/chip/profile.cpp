@@ -5,13 +5,13 @@
 #include <cstring>
 
 #include "dspic30/core/instruction_table.h"
-#include "dspic30/core/wait_samples.h"
 #include "dspic30/device/chip_parts.h"
 
 namespace chip {
 
 namespace {
 
+constexpr int kLongestRound = 4096;  // instructions
 constexpr int kTrustedRounds = 15;  // after one whose RAM was compared
 constexpr int kMostIgnored = 64;    // rounds of a loop that turned out to be no wait
 constexpr std::size_t kMostFrames = 512;
@@ -243,7 +243,7 @@ void Profile::turn_loop(const Step& step) {
 void Profile::look_for_wait(const Step& step) {
   Context& context = here();
   Round& round = context.frames.back().round;
-  const bool again = round.target == step.next && steps_ - round.steps <= dspic::WaitSamples::kLongestRound;
+  const bool again = round.target == step.next && steps_ - round.steps <= kLongestRound;
   bool counts = false;
   if (!again) {
     end_wait(round);

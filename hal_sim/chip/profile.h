@@ -8,7 +8,7 @@
 // A context's clock stands while another one interrupts it. So a function's cycles are those of its code and
 // of what it calls, from its first instruction to RETURN, without the handlers served meanwhile: the same as
 // twinpuck cycles estimates. A turn of the main loop is told in the robot's time, handlers included.
-// A wait is what dspic30/core/wait_samples.h calls one, found by looking at every round of every loop.
+// A wait is a round of a loop that changes nothing but one counter that is no pointer: polling, or a delay.
 #pragma once
 #include <array>
 #include <cstdint>

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+// The host's places as instructions: functions that somebody else plays, and the way back from what a handler
+// known by heart has called.
+#include "dspic30/memory/host_places.h"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+
+#include "dspic30/core/cpu.h"
+
+namespace dspic {
+
+namespace {
+
+constexpr unsigned kPlaces = (kHostEnd - kHostStart) / 2;
+constexpr unsigned kRcount = sfr("RCOUNT"), kPsvpag = sfr("PSVPAG");
+
+void push_address(Cpu& cpu, unsigned address) {
+  cpu.push(address & 0xFFFF);
+  cpu.push(address >> 16);
+}
+
+/// Calls function `index`. False: it waits, or there is none.
+bool is_done(Cpu& cpu, unsigned index, Cycle at, bool again, HostResult& result) {
+  result = cpu.host->call(cpu, index, at, again);
+  cpu.written |= 0x00FF;  // what a function may leave
+  return result.cycles > 0;
+}
+
+// the function is called here, or asked again: it stands until its time has come, then it returns
+const Decoded* at_function(Cpu& cpu, const Decoded* d) {
+  const Cycle at = cpu.true_now();
+  HostResult result;
+  if (is_done(cpu, static_cast<unsigned>(d->imm), at, cpu.host_again, result)) {
+    cpu.host_again = false;
+    cpu.now += result.cycles - d->cycles;
+    const unsigned high = cpu.pop() & 0x7F, low = cpu.pop();
+    return cpu.jump(high << 16 | (low & 0xFFFE), d);
+  }
+  if (result.wait_until <= at) {
+    cpu.trap(Trap::AddressError);  // there is none
+    return d;
+  }
+  cpu.note_effect();
+  cpu.host_again = true;
+  cpu.stand(result.wait_until, d);
+  return d;
+}
+
+// what the handler has called is over
+const Decoded* at_handler_return(Cpu& cpu, const Decoded* d) {
+  cpu.now -= d->cycles;
+  if (cpu.host_handlers > 0) return cpu.go_on_with_handler(d);
+  cpu.trap(Trap::AddressError);
+  cpu.now += d->cycles;
+  return d;
+}
+
+std::array<Decoded, kPlaces> make_places() {
+  std::array<Decoded, kPlaces> places;
+  for (unsigned i = 0; i < kPlaces; ++i) {
+    Decoded& d = places[i];
+    d = Decoded{};
+    d.run = i < kMostHostFunctions ? &at_function : &at_handler_return;
+    d.imm = static_cast<std::int32_t>(i);
+    d.cycles = 1;
+  }
+  return places;
+}
+
+const std::array<Decoded, kPlaces>& places() {
+  static const std::array<Decoded, kPlaces> all = make_places();
+  return all;
+}
+
+}  // namespace
+
+const Decoded* host_place(unsigned address) { return &places()[(address - kHostStart) / 2]; }
+
+unsigned address_of_host_place(const Decoded* d) {
+  const Decoded* const first = places().data();
+  return d >= first && d < first + kPlaces ? kHostStart + 2 * static_cast<unsigned>(d - first) : 0;
+}
+
+// a function that does not wait needs no return address; d->cycles are the call's
+const Decoded* call_host(Cpu& cpu, const Decoded* d) {
+  const auto index = static_cast<unsigned>(d->imm);
+  const Cycle at = cpu.clocks.true_at(cpu.now + d->cycles);
+  HostResult result;
+  if (is_done(cpu, index, at, false, result)) {
+    cpu.now += result.cycles;
+    return d + d->b;
+  }
+  push_address(cpu, cpu.address_of(d) + 2u * d->b);
+  cpu.host_again = result.wait_until > at;
+  cpu.note_effect();
+  return host_place(kHostStart + 2 * index);
+}
+
+const Decoded* jump_to_host(Cpu& cpu, const Decoded* d) {
+  cpu.host_again = false;
+  return host_place(kHostStart + 2 * static_cast<unsigned>(d->imm));
+}
+
+// time goes on without the program, up to `until` or the deadline
+void Cpu::stand(Cycle until, const Decoded* d) {
+  const Cycle began = now;
+  stands_until = until;
+  now = std::max(now + 1, std::min(deadline, clocks.program_at(until)));
+  delayed += now - began;
+  now -= d->cycles;
+}
+
+// --- handlers known by heart
+
+// as the interrupt and the handler's first instructions do
+void Cpu::begin_handler() {
+  const unsigned pc = address_of(next), level = static_cast<unsigned>(parts.interrupts.level());
+  at = next;
+  if (repeating && window_was_free) now += kRepeatWindow;
+  push(pc & 0xFFFF);
+  push(sr_low() << 8 | (level & 8) << 4 | pc >> 16);
+  repeating = false;
+  const int vector = host->vector(0);
+  now = parts.interrupts.enter(vector, now).first_instruction;
+  parts.interrupts.note_cleared(vector);
+  const unsigned registers = host->saved_registers();
+  for (unsigned i = 0; i < 15; ++i)
+    if (registers >> i & 1) push(w[i]);
+  const int words = host->saved_words();
+  for (int i = 0; i < words; ++i) push(i == 0 ? rcount : i == 1 ? psvpag : 0);
+  ++host_handlers;
+  host->begin_handler(now);
+  next = go_on_with_handler(next);
+}
+
+const Decoded* Cpu::go_on_with_handler(const Decoded* from) {
+  note_effect();
+  settle();
+  const HandlerStep step = host->next_in_handler(now);
+  now += step.cycles;
+  deadline = 0;
+  if (step.divides_by_zero) {
+    at = host_place(kHostHandlerReturn);
+    trap(Trap::MathError);
+    return at;
+  }
+  if (step.function) {
+    push_address(*this, kHostHandlerReturn);
+    return jump(step.function, from);
+  }
+  host->end_handler(now);
+  --host_handlers;
+  host_stale = true;
+  for (int i = host->saved_words(); i-- > 0;) {
+    const auto word = static_cast<std::uint16_t>(pop());
+    if (i == 0) rcount = word & saved_register(kRcount).bits;
+    if (i == 1) psvpag = word & saved_register(kPsvpag).bits;
+  }
+  const unsigned registers = host->saved_registers();
+  for (unsigned i = 15; i-- > 0;)
+    if (registers >> i & 1) w[i] = static_cast<std::uint16_t>(pop());
+  now += kInterruptReturnCycles;
+  const Decoded* const following = return_from_handler(from);
+  return following;
+}
+
+}  // namespace dspic

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// The program's clock and the true one. What handlers known by heart take is no lump at an instant but a
+// share of each cycle: the true clock is ahead of the program's by so much.
+//
+//   true = settled + x + floor((x * stolen + rest) / 2^32),   x: cycles of the program since settled
+//
+// The rest is carried on, so settling now and later is the same as settling later: nothing depends on when.
+#pragma once
+#include <cstdint>
+
+#include "dspic30/memory/cycle.h"
+
+namespace dspic {
+
+class TwoClocks {
+ public:
+  /// The true time at which the program's clock shows `now`, which is not before the last settle().
+  Cycle true_at(Cycle now) const { return stolen_q32_ == 0 ? now : now + stolen(now - settled_); }
+  /// The first instant of the program's clock at which the true one has come to `at`.
+  Cycle program_at(Cycle at) const {
+    return stolen_q32_ == 0 || at <= settled_ || at >= kNever ? at : first_at(at - settled_);
+  }
+  /// From here on both show the true time.
+  void settle(Cycle& now) {
+    if (stolen_q32_ == 0) {
+      settled_ = now;
+      return;
+    }
+    const Wide sum = Wide{static_cast<std::uint64_t>(now - settled_)} * stolen_q32_ + rest_;
+    const auto taken = static_cast<Cycle>(sum >> 32);
+    rest_ = static_cast<std::uint32_t>(sum);
+    taken_ += taken;
+    now += taken;
+    settled_ = now;
+  }
+  /// `share_q32`: of each true cycle, as a fraction of 2^32, below 2^32. Behind settle().
+  void set_share(std::uint64_t share_q32) {
+    const std::uint64_t kept = (std::uint64_t{1} << 32) - share_q32;
+    stolen_q32_ = static_cast<std::uint64_t>((Wide{share_q32} << 32) / kept);
+    kept_q32_ = kept;
+  }
+  void reset(Cycle now) {
+    settled_ = now;
+    stolen_q32_ = rest_ = 0;
+  }
+  /// Cycles of the program so far when its clock shows `now`: true ones without what was taken.
+  Cycle own_cycles(Cycle now) const { return now - taken_; }
+
+ private:
+  using Wide = unsigned __int128;
+  Cycle stolen(Cycle own) const {
+    return static_cast<Cycle>((Wide{static_cast<std::uint64_t>(own)} * stolen_q32_ + rest_) >> 32);
+  }
+  Cycle first_at(Cycle wanted) const {
+    auto own = static_cast<Cycle>(Wide{static_cast<std::uint64_t>(wanted)} * kept_q32_ >> 32);
+    while (own + stolen(own) < wanted) ++own;
+    while (own > 0 && own - 1 + stolen(own - 1) >= wanted) --own;
+    return settled_ + own;
+  }
+
+  Cycle settled_ = 0, taken_ = 0;
+  std::uint64_t stolen_q32_ = 0, kept_q32_ = std::uint64_t{1} << 32, rest_ = 0;
+};
+
+}  // namespace dspic
