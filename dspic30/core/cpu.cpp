@@ -27,33 +27,16 @@ constexpr std::uint16_t kPsvOn = sfr_bits("CORCON", "PSV"), kIpl3 = sfr_bits("CO
                         kCorconKept = 0xFFFF & ~(kIpl3 | kDl.mask | kEdt);
 constexpr std::uint16_t kSab = sfr_bits("SR", "SAB"), kSa = sfr_bits("SR", "SA"), kSb = sfr_bits("SR", "SB");
 constexpr std::uint16_t kCorconAtReset = sfr_bits("CORCON", "SATDW");
+constexpr int kLongestLook = 10000;  // instructions; most start-ups are over by then
 constexpr int kDeepestDo = kDl.mask >> kDl.lowest;
 constexpr unsigned kNoPointer = 15;  // as XWM, YWM or BWM: none is chosen [DS70143 4.2.2]
-
-// the course has not come there yet
-const Decoded* meet(Cpu& cpu, const Decoded* d) {
-  cpu.decode(d);
-  return d->run(cpu, d);
-}
-
-// no flash at that address
-const Decoded* fetch_nothing(Cpu& cpu, const Decoded* d) {
-  cpu.trap(Trap::AddressError);
-  return d;
-}
-
-// where a function begins that the onlooker wants to know of
-const Decoded* tell(Cpu& cpu, const Decoded* d) {
-  if (cpu.onlooker) cpu.onlooker->entered(cpu.address_of(d));
-  return cpu.plain(d)(cpu, d);
-}
 
 // a wait is known to begin here
 const Decoded* meet_head(Cpu& cpu, const Decoded* d) {
   const bool passes = cpu.passes_head;
   cpu.passes_head = false;
   if (passes || cpu.watching || !cpu.is_own_head(d) || cpu.true_now() < cpu.heads_from)
-    return cpu.inner_of(d)(cpu, d);
+    return cpu.beside_wait(d)(cpu, d);
   cpu.head_met = true;
   cpu.kept_deadline = cpu.deadline;
   cpu.deadline = 0;
@@ -64,55 +47,92 @@ const Decoded* meet_head(Cpu& cpu, const Decoded* d) {
 void set_low(unsigned& address, unsigned value) { address = (address & 0x7F0000) | (value & 0xFFFE); }
 void set_high(unsigned& address, unsigned value) { address = (address & 0xFFFF) | (value & 0x7F) << 16; }
 
-Decoded not_decoded() {
-  Decoded d{};
-  d.run = &meet;
-  d.cycles = 0;
-  return d;
-}
-
 }  // namespace
 
-Cpu::Cpu(ChipParts& chip, ProgramMemory& memory) : parts(chip), program(memory) {
+Cpu::Cpu(ChipParts& chip, ProgramMemory& memory, std::shared_ptr<CodeStore> store)
+    : parts(chip), program(memory), store_(std::move(store)), code_version_(memory.version()) {
   parts.bus.attach(*this, 0, kLast);
+  if (!store_) forget_code();
   reset();
 }
 
+// --- code -----------------------------------------------------------------------------------------------
+
 void Cpu::forget_code() {
-  const std::ptrdiff_t here = next ? next - code_.data() : 0;
-  const Decoded unknown = not_decoded();
-  for (const std::uint32_t index : decoded_) code_[index] = unknown;
-  decoded_.clear();
-  heads_.clear();
-  asked_ = {};
+  if (is_own_)
+    store_->forget();
+  else
+    have_own_store(store_ ? store_->told() : std::vector<std::uint32_t>{});
+  code_is_stale = true;
+}
+
+void Cpu::tell_calls(std::vector<std::uint32_t> addresses) {
+  std::sort(addresses.begin(), addresses.end());
+  if (!store_->tell(addresses)) have_own_store(addresses);
+  code_is_stale = true;
+}
+
+void Cpu::have_own_store(const std::vector<std::uint32_t>& told) {
+  store_ = std::make_shared<CodeStore>();
+  store_->tell(told);
+  is_own_ = true;
+}
+
+// while registers are still being written, it runs on the table for all of them, each instruction looked at
+void Cpu::choose_code() {
+  if (program.version() != code_version_) {
+    code_version_ = program.version();
+    forget_code();
+  }
+  const auto [reads, writes] = special_registers();
+  const unsigned so_far = written & kAllWritten;
+  const bool lasts = hot == 0 || looked_at_ >= kLongestLook;
+  std::shared_ptr<CodeTable> table = store_->table({so_far, reads, writes}, lasts);
+  looks_at_each_ = !table && so_far != kAllWritten;
+  run_on(table ? table : store_->table({kAllWritten, reads, writes}, true));
+}
+
+void Cpu::run_on(std::shared_ptr<CodeTable> table) {
+  const Decoded* const words = table->words();
+  if (at) at = words + (at - code_);
+  next = words + (next ? next - code_ : 0);
+  code_ = words;
+  table_ = std::move(table);
   known_waits.forget();
   own_heads_ = no_heads();
   heads_marked_ = 0;
-  if (code_.empty()) {
-    code_.assign(kFlashWords + 1, unknown);
-    code_.back().run = &fetch_nothing;
-    code_.back().cycles = 1;
-  }
-  next = code_.data() + here;
-  stale_pointers = unsteady_pointers = 0;
   find_loop_end();
+  code_is_stale = false;
 }
 
-void Cpu::forget_pointers() {
-  known_waits.forget();
-  const auto uses = [this](const Decoded& d) { return (1u << d.s | 1u << d.d) & stale_pointers; };
-  const auto stale = std::partition(decoded_.begin(), decoded_.end(),
-                                    [&](std::uint32_t index) { return !uses(code_[index]); });
-  std::for_each(stale, decoded_.end(), [&](std::uint32_t index) { code_[index] = not_decoded(); });
-  decoded_.erase(stale, decoded_.end());
-  for (auto& [d, head] : heads_) {
-    if (!(head.pointers & stale_pointers)) continue;
-    if (d->is_head) d->run = head.plain;
-    d->is_head = false;
-    head.warmth = 0;
+// an address in a register that was never written resets the chip
+Run Cpu::looked_at(const Decoded* d) {
+  if (address_of_host_place(d)) return plain(d);
+  if (!is_decoded(d)) decode(d);
+  const WordRegisters& registers = registers_of(d);
+  if (registers.uses & ~written & kAllWritten) return &illegal;
+  note_written(registers.gives);
+  return table_->tells(d) ? d->run.load(std::memory_order_acquire) : plain(d);
+}
+
+void Cpu::run_each() {
+  while (now < deadline) {
+    const Decoded* const d = at = next;
+    const Decoded* following = looked_at(d)(*this, d);
+    now += d->cycles;
+    if (d == loop_end) following = loop_back(d, following);
+    next = following;
+    if (++looked_at_ < kLongestLook || watching) continue;
+    code_is_stale = true;
+    return;
   }
-  unsteady_pointers |= stale_pointers;
-  stale_pointers = 0;
+}
+
+void Cpu::warm(const Decoded* target) {
+  if (translator)
+    table_->warm(*this, target, *translator, hot);
+  else
+    target->heat.store(0xFF, std::memory_order_relaxed);
 }
 
 void Cpu::reset() {
@@ -134,91 +154,42 @@ void Cpu::reset() {
   acc.fill(0);
   oa = ob = sa = sb = false;
   shadow = {};
-  next = code_.data();
+  next = code_;
   deadline = 0;
-  forget_code();
+  looked_at_ = 0;
+  choose_code();
 }
 
 // --- flow -----------------------------------------------------------------------------------------------
 
 unsigned Cpu::address_of(const Decoded* d) const {
   if (const unsigned place = address_of_host_place(d)) return place;
-  const auto index = static_cast<unsigned>(d - code_.data());
+  const auto index = static_cast<unsigned>(d - code_);
   return index < kFlashWords ? 2 * index : bad_address_;
 }
 
 const Decoded* Cpu::jump(unsigned address, const Decoded* from) {
-  if (address < kFlashEnd) return arrive(&code_[address / 2]);
+  if (address < kFlashEnd) return arrive(code_ + address / 2);
   if (host && is_host_place(address)) {
     host_again = false;
     return host_place(address);
   }
   bad_address_ = address;
-  return &code_.back();
+  return code_ + kFlashWords;
 }
 
-void Cpu::decode(const Decoded* d) {
-  decoded_.push_back(static_cast<std::uint32_t>(d - code_.data()));
-  code_[static_cast<std::size_t>(d - code_.data())] = decode_word(*this, address_of(d));
-  if (hot == 0) d->heat = 0xFF;
-  if (std::binary_search(probes_.begin(), probes_.end(), address_of(d))) probe(d);
-}
-
-void Cpu::probe(const Decoded* d) {
-  asked_ = {};
-  Head& head = heads_[d];
-  head = Head{d->run, 0, 0, true};
-  d->run = &tell;
-  d->is_head = true;
-}
-
-void Cpu::tell_calls(std::vector<std::uint32_t> addresses) {
-  std::sort(addresses.begin(), addresses.end());
-  probes_ = std::move(addresses);
-  forget_code();
-}
-
-// what was translated with the head in its middle would run past it
 void Cpu::mark_head(const Decoded* first) {
-  constexpr std::ptrdiff_t kReach = 256;
   if (hot == 0) return;  // all shall be translated
-  if (!is_own_head(first)) own_heads_[heads_marked_++ % own_heads_.size()] = first - code_.data();
-  if (first->run == &meet_head) return;
-  asked_ = {};
-  for (auto& [d, head] : heads_) {
-    if (!d->is_head || head.inner || head.is_probe || d >= first || first - d > kReach) continue;
-    d->run = head.plain;
-    d->is_head = false;
-    head.warmth = 0;
-  }
-  Head& head = heads_[first];
-  if (!first->is_head) head.plain = first->run;
-  head.inner = first->run;
-  first->run = &meet_head;
-  first->is_head = true;
+  if (!is_own_head(first)) own_heads_[heads_marked_++ % own_heads_.size()] = first - code_;
+  table_->mark_wait(first, &meet_head);
 }
 
-void Cpu::warm(const Decoded* target) {
-  if (!translator || target->is_head) return;
-  Head& head = heads_[target];
-  if (hot == 0) target->heat = 0xFF;
-  const int warmth = ++head.warmth;
-  const bool only_ready = warmth < hot;
-  if (only_ready && (warmth & (warmth - 1)) != 0) return;  // asked 1, 2, 4, ... times on the way
-  if (!only_ready) head.warmth = 0;
-  asked_ = {};
-  head.plain = target->run;
-  if (const Translation translated = translator->translate(*this, target, only_ready); translated.run) {
-    target->run = translated.run;
-    target->is_head = true;
-    head.pointers = translated.pointers;
-  }
-}
-
-int Cpu::translated() const {
-  return static_cast<int>(std::count_if(heads_.begin(), heads_.end(), [](const auto& head) {
-    return head.first->is_head && !head.second.is_probe && head.second.inner != head.second.plain;
-  }));
+const Decoded* Cpu::jump_back(unsigned address, const Decoded* from) {
+  if (address >= kFlashEnd) return jump(address, from);
+  const Decoded* const target = code_ + address / 2;
+  if (!is_decoded(target)) decode(target);
+  now -= target->lead;
+  return target;
 }
 
 void Cpu::trap(Trap which) {
@@ -252,14 +223,14 @@ void Cpu::tell_null_pointer(unsigned from) {
 
 void Cpu::begin_do(unsigned count, const Decoded* first, const Decoded* last) {
   outer_loop = loop;
-  const auto index = static_cast<unsigned>(last - code_.data());
+  const auto index = static_cast<unsigned>(last - code_);
   loop = {count, address_of(first), 2 * index & 0x7FFFFE};
   loop_depth = std::min(loop_depth + 1, kDeepestDo);
   find_loop_end();
 }
 
 void Cpu::find_loop_end() {
-  loop_end = loop_depth > 0 && loop.end < kFlashEnd ? &code_[loop.end / 2] : nullptr;
+  loop_end = loop_depth > 0 && loop.end < kFlashEnd ? code_ + loop.end / 2 : nullptr;
 }
 
 const Decoded* Cpu::loop_back(const Decoded* last, const Decoded* following) {
@@ -280,7 +251,8 @@ const Decoded* Cpu::loop_back(const Decoded* last, const Decoded* following) {
 const Decoded* Cpu::run_repeated(const Decoded* d) {
   if (!is_decoded(d)) decode(d);
   at = d;
-  const bool only_passes_time = plain(d) == &no_operation;
+  const Run run = looks_at_each_ ? looked_at(d) : plain(d);
+  const bool only_passes_time = run == &no_operation;
   const Cycle began = now;
   const auto counted = [&] {
     if (only_passes_time) delayed += now - began;
@@ -291,7 +263,7 @@ const Decoded* Cpu::run_repeated(const Decoded* d) {
     window = is_last || repeat_is_fresh ? Window::RepeatEdge : Window::Free;
     window_was_free = false;
     if (!repeat_is_fresh && (d->writes & d->pointers)) ++now;  // it stalls behind itself
-    const Decoded* following = plain(d)(*this, d);
+    const Decoded* following = run(*this, d);
     window = Window::Plain;
     repeat_is_fresh = false;
     now += d->cycles;
@@ -402,7 +374,7 @@ void Cpu::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
   const std::uint16_t wanted = merge_lanes(peek(address, when), value, lanes);
   if (address < kSplim) {
     w[address / 2] = address == 0x1E ? wanted & 0xFFFE : wanted;
-    if (lanes == 0xFFFF) written |= 1u << address / 2;
+    if (lanes == 0xFFFF) note_written(1u << address / 2);
     return;
   }
   if (address >= kAccal && address <= kAccbu) {
@@ -466,9 +438,9 @@ void Cpu::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
       if (address == kXbrev) xbrev = wanted;
       if (address >= kXmodsrt && address <= kYmodend)
         modulo[(address - kXmodsrt) / 2] = address & 2 ? wanted | 1 : wanted & 0xFFFE;
-      const auto now_special = special_registers();
-      stale_pointers |= (special[0] ^ now_special[0]) | (special[1] ^ now_special[1]);
-      if (stale_pointers) deadline = 0;
+      if (special == special_registers()) break;
+      code_is_stale = true;
+      deadline = 0;
     }
   }
 }

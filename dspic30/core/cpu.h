@@ -2,13 +2,13 @@
 // The processor's state, as its instructions see it; Processor (processor.h) is the front door.
 //
 //   flash word --decode once--> Decoded {run, registers, literal, cycles} --run(cpu, decoded)--> next Decoded
+//                                  in a CodeTable (code_store.h), which robots with the same image share
 //
 // Time: `now` is the cycle in which an instruction begins, by the program's clock (two_clocks.h); a stall
 // delays its accesses by `lead`. Straight code runs until `deadline`, the next instant at which anything else
 // may happen, by the same clock; whatever changes that instant lowers it. What leaves the core sees the true
-// time. Stalls, and the check for pointers that were never written, are found when a word is
-// decoded, at its first execution. Flags are kept as they fall out of an operation and put together when SR
-// is read.
+// time. Stalls are found when a word is decoded. Flags are kept as they fall out of an operation and put
+// together when SR is read.
 //
 // Modelled: see docs/chip-core.md. Source: [chip C2] to [chip C16].
 #pragma once
@@ -16,10 +16,11 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <memory>
 #include <optional>
-#include <unordered_map>
 #include <vector>
 
+#include "dspic30/core/code_store.h"
 #include "dspic30/core/host_calls.h"
 #include "dspic30/core/instruction_table.h"
 #include "dspic30/core/known_waits.h"
@@ -30,11 +31,6 @@
 
 namespace dspic {
 
-class Cpu;
-struct Decoded;
-/// Executes an instruction; returns the next one.
-using Run = const Decoded* (*)(Cpu&, const Decoded*);
-
 /// What led to a trap.
 struct TrapRecord {
   Trap trap = Trap::AddressError;
@@ -44,32 +40,11 @@ struct TrapRecord {
   Cycle at = 0;
 };
 
-/// How a register serves as a pointer: by an addition, as the stack's, or modulo or bit-reversed.
-enum class Pointer : std::uint8_t { Plain, Stack, Special };
-
-struct Decoded {
-  mutable Run run;
-  std::int32_t imm = 0;         ///< literal, address, words of a branch, shift
-  std::uint16_t writes = 0;     ///< registers written directly, or changed as a destination's pointer
-  std::uint16_t pointers = 0;   ///< registers that form a source's address
-  std::uint16_t mask = 0xFFFF;  ///< of what register d can hold: W15 is even
-  std::uint8_t s = 0, d = 0, b = 0;
-  std::uint8_t cycles = 1;  ///< stall included
-  std::uint8_t lead = 0;    ///< stall cycles, when it follows the word before
-  std::uint8_t psv = 2;     ///< what reading through the PSV window costs
-  std::int8_t s_pre = 0, s_post = 0, d_pre = 0, d_post = 0;
-  Pointer s_kind = Pointer::Plain, d_kind = Pointer::Plain;
-  mutable bool is_head : 1;   ///< `run` is translated code that begins here: Cpu::plain()
-  mutable std::uint8_t heat;  ///< jumps that came here, modulo 256; then warm()
-};
-static_assert(sizeof(Decoded) == 32);
-
 /// Native code of instructions that run often: the instructions' own functions put together, so it does what
 /// they would do, to the cycle (dspic30/translate). It runs one instruction at least; as with its own
 /// function, the cycles of the first one are not counted.
 struct Translation {
-  Run run = nullptr;           ///< null: not worth it
-  std::uint32_t pointers = 0;  ///< registers that it takes for plain pointers, a bit each
+  Run run = nullptr;  ///< null: not worth it
 };
 class Translator {
  public:
@@ -85,9 +60,15 @@ class Translator {
 #define DSPIC_JUMP
 #endif
 
+/// Where the host stands in for code: is_host_place(address).
+const Decoded* host_place(unsigned address);
+/// The address of such a place; 0: it is none.
+unsigned address_of_host_place(const Decoded* d);
+
 class Cpu final : public SfrOwner {
  public:
-  Cpu(ChipParts& parts, ProgramMemory& program);
+  /// `store`: of the image that `program` holds; null: its own.
+  Cpu(ChipParts& parts, ProgramMemory& program, std::shared_ptr<CodeStore> store);
   Translator* translator = nullptr;  ///< null: everything is interpreted
   ProgramWatch* onlooker = nullptr;  ///< null: nobody
   /// Jumps, in 256s, that make the place they lead to worth translating: by then interpreting it has taken
@@ -95,12 +76,14 @@ class Cpu final : public SfrOwner {
   int hot = 256;
 
   void reset();
-  /// All words are decoded again.
+  /// All words are decoded again, for this robot alone.
   void forget_code();
+  /// Is it time for choose_code()? Before an instruction.
+  bool is_code_stale() const { return code_is_stale || program.version() != code_version_; }
+  /// Moves to the code that goes with its flash, the registers that were written, and special pointers.
+  void choose_code();
   /// The onlooker hears when the instructions at these program addresses begin, from now on.
   void tell_calls(std::vector<std::uint32_t> addresses);
-  /// What uses stale_pointers is decoded anew.
-  void forget_pointers();
 
   // --- flow
   unsigned address_of(const Decoded* d) const;
@@ -108,42 +91,53 @@ class Cpu final : public SfrOwner {
   const Decoded* jump(unsigned address, const Decoded* from);
   const Decoded* arrive(const Decoded* target) {
     if (!is_decoded(target)) decode(target);
-    if (++target->heat == 0) warm(target);
     now -= target->lead;
+    count_jump(target);
     return target;
   }
   DSPIC_JUMP const Decoded* offset(const Decoded* from, std::int32_t words) {
-    const std::ptrdiff_t index = from - code_.data() + words;
+    const std::ptrdiff_t index = from - code_ + words;
     return index >= 0 && index < static_cast<std::ptrdiff_t>(kFlashWords)
-               ? arrive(&code_[static_cast<std::size_t>(index)])
+               ? arrive(code_ + index)
                : jump(static_cast<unsigned>(2 * index) & 0x7FFFFE, from);
   }
-  bool is_decoded(const Decoded* d) const { return d->cycles != 0; }
+  /// Back to where an interrupt cut the program: as jump(), but nothing begins there.
+  const Decoded* jump_back(unsigned address, const Decoded* from);
+  bool is_decoded(const Decoded* d) const { return d->run.load(std::memory_order_acquire) != &meet; }
   static const Decoded* arrive_from(Cpu& cpu, const Decoded* from, std::int32_t words) {
     return cpu.offset(from, words);
   }
   /// Straight on to a place that counts as one that is jumped to: translated code ended before it.
   static const Decoded* go_on(Cpu& cpu, const Decoded* from, std::int32_t words) {
     const Decoded* const d = from + words;
-    if (cpu.is_decoded(d) && ++d->heat == 0) cpu.warm(d);
+    if (cpu.is_decoded(d)) cpu.count_jump(d);
     return d;
   }
-  void decode(const Decoded* d);
-  const Decoded* code() const { return code_.data(); }
+  void decode(const Decoded* d) { table_->decode(d, program, hot == 0 ? 1 : 0xFF); }
+  const Decoded* code() const { return code_; }
+  const WordRegisters& registers_of(const Decoded* d) const { return table_->registers(d); }
   /// The function of this one instruction.
   Run plain(const Decoded* d) const {
-    if (!d->is_head) return d->run;
-    Asked& asked = asked_[static_cast<std::size_t>(d - code_.data()) % asked_.size()];
-    if (d != asked.head) asked = {d, heads_.at(d).plain};
-    return asked.plain;
+    return address_of_host_place(d) ? d->run.load(std::memory_order_relaxed) : table_->plain(d);
   }
-  /// This one instruction alone, with its own function: not the translated code that begins there, and
-  /// decoded first where a pointer of it became stale.
+  /// This one instruction alone, with its own function: not the translated code that begins there.
   static const Decoded* run_alone(Cpu& cpu, const Decoded* d) {
     if (!cpu.is_decoded(d)) cpu.decode(d);
     return cpu.plain(d)(cpu, d);
   }
-  int translated() const;
+  int translated() const { return table_->translated(); }
+  /// Runs up to `deadline` as long as not all registers are written, when each instruction has to be looked
+  /// at.
+  bool looks_at_each() const { return looks_at_each_; }
+  void run_each();
+  /// These registers were written since the reset, a bit each.
+  void note_written(unsigned registers) {
+    if ((registers & ~written & kAllWritten) == 0) return;
+    written |= registers;
+    looked_at_ = 0;
+    code_is_stale = true;
+    deadline = 0;
+  }
   const Decoded* loop_back(const Decoded* last, const Decoded* next);
   /// Iterations up to the last one or to `deadline`; then d itself is next.
   const Decoded* run_repeated(const Decoded* d);
@@ -327,11 +321,15 @@ class Cpu final : public SfrOwner {
     watching = memory != nullptr;
     plain_bytes = memory ? 0 : kRamEnd - plain_start;
   }
+  /// What runs where a wait is known to begin, when it is not looked for.
+  Run beside_wait(const Decoded* d) const { return table_->beside_wait(d); }
+  /// Is it known, of whichever robot, that a wait begins here?
+  bool is_wait_head(const Decoded* d) const { return table_->is_wait(d); }
   /// A wait was proven that begins here: from now on the program stops there to look, if heads_from says so.
   void mark_head(const Decoded* first);
   bool has_heads() const { return heads_marked_ > 0; }
   bool is_own_head(const Decoded* d) const {
-    return std::find(own_heads_.begin(), own_heads_.end(), d - code_.data()) != own_heads_.end();
+    return std::find(own_heads_.begin(), own_heads_.end(), d - code_) != own_heads_.end();
   }
   bool head_met = false;     ///< the program has stopped at one; kept_deadline was its deadline
   bool passes_head = false;  ///< the one where it stands is passed
@@ -362,10 +360,9 @@ class Cpu final : public SfrOwner {
   bool repeating = false;        ///< RA
   bool repeat_is_fresh = false;  ///< the next iteration is the first one, or the first after an interrupt
   enum class Window : std::uint8_t { Plain, RepeatEdge, Free } window = Window::Plain;
-  bool window_was_free = false;      ///< the last iteration read through the window at no cost
-  std::uint32_t stale_pointers = 0;  ///< registers, a bit each: forget_pointers() before the next instruction
-  std::uint32_t unsteady_pointers = 0;  ///< those that ever were, since forget_code()
-  bool end_loop = false;                ///< CORCON.EDT
+  bool window_was_free = false;  ///< the last iteration read through the window at no cost
+  bool code_is_stale = false;    ///< choose_code() before the next instruction
+  bool end_loop = false;         ///< CORCON.EDT
   bool splim_on = false;
   enum class Power : std::uint8_t { On, Idle, Sleep } power = Power::On;
   std::optional<ResetKind> reset_due;
@@ -414,53 +411,38 @@ class Cpu final : public SfrOwner {
   unsigned plain_bytes = kRamBytes;  // 0 while accesses are noted
   __attribute__((noinline)) void tell_null_pointer(unsigned from);
   static constexpr std::array<std::ptrdiff_t, 8> no_heads() { return {-1, -1, -1, -1, -1, -1, -1, -1}; }
-  void probe(const Decoded* d);
-  void warm(const Decoded* target);
-  struct Head {
-    Run plain = nullptr;
-    int warmth = 0;
-    std::uint32_t pointers = 0;
-    bool is_probe = false;  // it tells the onlooker, and is not translated
-    Run inner = nullptr;    // where a wait begins: what runs there else
-  };
-  std::unordered_map<const Decoded*, Head> heads_;
-  struct Asked {
-    const Decoded* head = nullptr;
-    Run plain = nullptr;
-  };
-  mutable std::array<Asked, 64> asked_;  // heads that plain() was asked for lately
-  std::vector<std::uint32_t> probes_;    // addresses that are told of, in order
-  std::vector<std::uint32_t> decoded_;   // words that were met since forget_code()
-  std::vector<Decoded> code_;            // one a flash word, then one for addresses where no flash is
-  unsigned bad_address_ = 0;             // that address
+  void count_jump(const Decoded* target) {
+    const std::uint8_t left = target->heat.load(std::memory_order_relaxed);
+    if (left > 1)
+      target->heat.store(static_cast<std::uint8_t>(left - 1), std::memory_order_relaxed);
+    else if (left == 1)
+      warm(target);
+  }
+  __attribute__((noinline)) void warm(const Decoded* target);
+  Run looked_at(const Decoded* d);
+  void run_on(std::shared_ptr<CodeTable> table);
+  void have_own_store(const std::vector<std::uint32_t>& told);
+
+  std::shared_ptr<CodeStore> store_;
+  std::shared_ptr<CodeTable> table_;
+  const Decoded* code_ = nullptr;   // the table's words
+  std::uint64_t code_version_ = 0;  // of the flash that they were made of
+  bool is_own_ = false;             // the store: nobody else has it
+  bool looks_at_each_ = false;
+  int looked_at_ = 0;                                     // instructions, since a register was written first
+  unsigned bad_address_ = 0;                              // where no flash is
   std::array<std::ptrdiff_t, 8> own_heads_ = no_heads();  // words of flash where waits of this program begin
   std::size_t heads_marked_ = 0;
-
- public:
-  Run inner_of(const Decoded* head) const { return heads_.at(head).inner; }
-  /// Is it known, of whichever robot, that a wait begins here?
-  bool is_wait_head(const Decoded* d) const { return d->is_head && heads_.at(d).inner; }
 };
 
 /// A call, or a jump, to a function of the host, whose number is Decoded::imm.
 const Decoded* call_host(Cpu& cpu, const Decoded* d);
 const Decoded* jump_to_host(Cpu& cpu, const Decoded* d);
-/// Where the host stands in for code: is_host_place(address).
-const Decoded* host_place(unsigned address);
-/// The address of such a place; 0: it is none.
-unsigned address_of_host_place(const Decoded* d);
 
 #ifdef DSPIC_TRANSLATED
 /// All files meet the types in one order, or else their bitcode has types of its own for each.
 __attribute__((used)) static void meet_types(Cpu&) {}
 #endif
-
-/// The word at an address made ready, as its first execution begins: registers that it writes count as
-/// written from now on, and a pointer that was never written makes it an illegal one. Depends on
-/// Cpu::special_registers().
-Decoded decode_word(Cpu& cpu, unsigned address);
-/// The function of a word, whatever registers were written before; null: it is no instruction.
-Run function_of(std::uint32_t word);
 
 /// NOP's.
 const Decoded* no_operation(Cpu& cpu, const Decoded* d);

@@ -198,20 +198,6 @@ Run choose(Insn id, const Fields& f) {
   return nullptr;
 }
 
-const Decoded* illegal(Cpu& cpu, const Decoded* d) {
-  char place[24];
-  const unsigned address = cpu.address_of(d);
-  std::snprintf(place, sizeof place, "0x%06x", address);
-  cpu.parts.diagnostics.report(
-      Cause::IllegalOpcode, place,
-      find_row(cpu.program.read(address))
-          ? std::string(place) + ": an address in a register that was never written resets the chip"
-          : std::string(place) + ": a word that is no instruction resets the chip",
-      cpu.now);
-  cpu.ask_reset(ResetKind::IllegalOpcode);
-  return d;
-}
-
 // --- operands of a Decoded ------------------------------------------------------------------------------
 
 void fill_registers(Decoded& d, const Row& row, const Fields& f) {
@@ -263,19 +249,18 @@ void fill_literal(Decoded& d, const Row& row, const Fields& f, std::uint32_t wor
   }
 }
 
-void fill_pointers(Decoded& d, const Row& row, const Fields& f, const Cpu& cpu, const Registers& r) {
+void fill_pointers(Decoded& d, const Row& row, const Fields& f, const CodeState& state, const Registers& r) {
   const bool is_pair = row.id == Insn::Mov_D_Ws_Wnd || row.id == Insn::Mov_D_Wns_Wd;
   const bool is_byte = f.B || row.id == Insn::Se_Ws_Wnd || row.id == Insn::Ze_Ws_Wnd;
   // a table is read and written by the width of the access
   const int step = is_pair ? 4 : is_byte ? 1 : 2;
   pointer_steps(f.p | f.g, step, d.s_pre, d.s_post);
   pointer_steps(f.q | f.h, step, d.d_pre, d.d_post);
-  const auto [read, written] = cpu.special_registers();
   const auto kind = [](std::uint32_t special, unsigned n) {
     return special >> n & 1 ? Pointer::Special : n == 15 ? Pointer::Stack : Pointer::Plain;
   };
-  if (r.sources & bit(d.s)) d.s_kind = kind(read, d.s);
-  if (r.destinations & bit(d.d)) d.d_kind = kind(written, d.d);
+  if (r.sources & bit(d.s)) d.s_kind = kind(state.special_reads, d.s);
+  if (r.destinations & bit(d.d)) d.d_kind = kind(state.special_writes, d.d);
 }
 
 bool is_skip(Insn id) {
@@ -304,6 +289,20 @@ std::uint16_t registers_written(std::uint32_t word) {
 
 }  // namespace
 
+const Decoded* illegal(Cpu& cpu, const Decoded* d) {
+  char place[24];
+  const unsigned address = cpu.address_of(d);
+  std::snprintf(place, sizeof place, "0x%06x", address);
+  cpu.parts.diagnostics.report(
+      Cause::IllegalOpcode, place,
+      find_row(cpu.program.read(address))
+          ? std::string(place) + ": an address in a register that was never written resets the chip"
+          : std::string(place) + ": a word that is no instruction resets the chip",
+      cpu.now);
+  cpu.ask_reset(ResetKind::IllegalOpcode);
+  return d;
+}
+
 Run function_of(std::uint32_t word) {
   const Row* row = find_row(word);
   return row ? choose(row->id, fields_of(*row, word)) : nullptr;
@@ -313,8 +312,7 @@ namespace {
 
 // calls and jumps to the linker's handle of a function of the host (a GOTO beyond the flash) lead there
 // without the GOTO, which the chip's image has not
-void lead_to_host(Decoded& d, const Row& row, const Cpu& cpu, unsigned address) {
-  if (!cpu.host) return;
+void lead_to_host(Decoded& d, const Row& row, const ProgramMemory& program, unsigned address) {
   const bool is_relative = row.id == Insn::Rcall_Expr || row.id == Insn::Bra_Expr,
              is_call = row.id == Insn::Rcall_Expr || row.id == Insn::Call_Expr;
   if (!is_relative && !is_call && row.id != Insn::Goto_Expr) return;
@@ -322,10 +320,10 @@ void lead_to_host(Decoded& d, const Row& row, const Cpu& cpu, unsigned address) 
       is_relative ? (address + 2 * static_cast<unsigned>(d.imm)) & 0x7FFFFE : static_cast<unsigned>(d.imm);
   unsigned target = to;
   if (!is_host_place(to)) {
-    const std::uint32_t word = cpu.program.read(to);
+    const std::uint32_t word = program.read(to);
     const Row* const there = find_row(word);
     if (!there || there->id != Insn::Goto_Expr) return;
-    target = (cpu.program.read(to + 2) & 0x7F) << 16 | (word & 0xFFFE);
+    target = (program.read(to + 2) & 0x7F) << 16 | (word & 0xFFFE);
   }
   if (!is_host_place(target) || target >= kHostHandlerReturn) return;
   if (row.id == Insn::Goto_Expr && is_host_place(to)) return;  // the handle itself: somebody's pointer
@@ -336,9 +334,11 @@ void lead_to_host(Decoded& d, const Row& row, const Cpu& cpu, unsigned address) 
 
 }  // namespace
 
-Decoded decode_word(Cpu& cpu, unsigned address) {
-  const std::uint32_t word = cpu.program.read(address), second = cpu.program.read(address + 2);
-  Decoded d{};
+Decoded decode_word(const ProgramMemory& program, unsigned address, const CodeState& state,
+                    WordRegisters& registers) {
+  const std::uint32_t word = program.read(address), second = program.read(address + 2);
+  Decoded d;
+  registers = {};
   const Row* row = find_row(word);
   if (!row) {
     d.run = &illegal;
@@ -348,21 +348,22 @@ Decoded decode_word(Cpu& cpu, unsigned address) {
   const Registers r = registers_of(*row, f);
   d.run = choose(row->id, f);
   fill_registers(d, *row, f);
-  fill_pointers(d, *row, f, cpu, r);
+  fill_pointers(d, *row, f, state, r);
   fill_literal(d, *row, f, word, second);
   d.psv = psv_cycles(row->id);
   d.writes = r.written | r.moved;
   d.pointers = r.sources | r.offsets;
-  d.lead = address >= 2 && (registers_written(cpu.program.read(address - 2)) & d.pointers) ? 1 : 0;
+  d.lead = address >= 2 && (registers_written(program.read(address - 2)) & d.pointers) ? 1 : 0;
   d.cycles = static_cast<std::uint8_t>(row->cycles + d.lead);
   if (is_skip(row->id)) {
     const Row* next = find_row(second);
     d.d = static_cast<std::uint8_t>(next ? next->words : 1);
   }
-  lead_to_host(d, *row, cpu, address);
+  lead_to_host(d, *row, program, address);
+  registers.uses = (r.sources | r.destinations) & kAllWritten;
+  if (!f.B || row->has(Operand::Prefetch)) registers.gives = r.written & kAllWritten;
   // a pointer that nobody has written since the reset resets the chip again
-  if ((r.sources | r.destinations) & ~cpu.written & 0x7FFF) d.run = &illegal;
-  if (!f.B || row->has(Operand::Prefetch)) cpu.written |= r.written;
+  if (registers.uses & ~state.written) d.run = &illegal;
   return d;
 }
 

@@ -122,11 +122,8 @@ const Decoded* Cpu::return_from_handler(const Decoded* from) {
   hurry_to_exception(*this);
   deadline = 0;
   const unsigned address = (top & 0x7F) << 16 | (low & 0xFFFE);
-  const Decoded* const following = jump(address, from);
-  if (is_host_place(address))
-    host_again = true;
-  else
-    --following->heat;  // where an interrupt cut the program nothing begins
+  const Decoded* const following = jump_back(address, from);
+  if (is_host_place(address)) host_again = true;
   return following;
 }
 

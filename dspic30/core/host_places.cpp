@@ -24,7 +24,7 @@ void push_address(Cpu& cpu, unsigned address) {
 /// Calls function `index`. False: it waits, or there is none.
 bool is_done(Cpu& cpu, unsigned index, Cycle at, bool again, HostResult& result) {
   result = cpu.host->call(cpu, index, at, again);
-  cpu.written |= 0x00FF;  // what a function may leave
+  cpu.note_written(0x00FF);  // what a function may leave
   return result.cycles > 0;
 }
 

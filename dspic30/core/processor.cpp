@@ -2,6 +2,7 @@
 #include "dspic30/core/processor.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "dspic30/core/cpu.h"
 #include "dspic30/core/waits.h"
@@ -18,11 +19,11 @@ constexpr Cycle kIdleWakeCycles = 2, kSleepWakeCycles = 2048 + 295;
 
 }  // namespace
 
-Processor::Processor(Dspic30f6014a& chip, ProgramMemory& program, HostCalls* host, unsigned plain_from)
-    : cpu_(std::make_unique<Cpu>(chip.parts(), program)),
+Processor::Processor(Dspic30f6014a& chip, ProgramMemory& program, std::shared_ptr<CodeStore> code,
+                     HostCalls* host, unsigned plain_from)
+    : cpu_(std::make_unique<Cpu>(chip.parts(), program, std::move(code))),
       waits_(std::make_unique<Waits>()),
-      chip_(chip),
-      code_version_(program.version()) {
+      chip_(chip) {
   cpu_->host = host;
   cpu_->serve_ram(plain_from);
 }
@@ -36,7 +37,6 @@ void Processor::restart() {
   cpu_->still_since = kNever;
   cpu_->clocks.reset(cpu_->now);
   held_.fill(true);
-  code_version_ = cpu_->program.version();
 }
 
 void Processor::power_up(Cycle at) {
@@ -54,6 +54,7 @@ bool Processor::still_reads() const { return cpu_->still_reads; }
 // straight on until something else may happen; looks for waits come in between, and are jumped over
 void Processor::execute() {
   Cpu& cpu = *cpu_;
+  if (cpu.looks_at_each()) return cpu.run_each();
   const Cycle end = cpu.deadline;
   const std::int64_t writes = cpu.parts.bus.writes();
   while (cpu.now < end) {
@@ -67,7 +68,7 @@ void Processor::execute() {
     const Decoded* d = cpu.next;
     while (cpu.now < cpu.deadline) {
       cpu.at = d;
-      const Decoded* next = d->run(cpu, d);
+      const Decoded* next = d->run.load(std::memory_order_acquire)(cpu, d);
       cpu.now += d->cycles;
       if (d == cpu.loop_end) next = cpu.loop_back(d, next);
       d = next;
@@ -87,11 +88,10 @@ std::optional<ResetKind> Processor::run(Cycle until) {
     if (cpu.now >= until) return std::nullopt;
     Outlook outlook = cpu.parts.look(cpu.now);
     if (outlook.reset_due) return chip_.reset_due(cpu.now);
-    if (cpu.program.version() != code_version_) {
-      code_version_ = cpu.program.version();
-      cpu.forget_code();
+    if (cpu.is_code_stale()) {
+      cpu.choose_code();
+      waits_->stir(cpu);
     }
-    if (cpu.stale_pointers) cpu.forget_pointers();
     if (cpu.host) follow_host();
     if (cpu.power != Cpu::Power::On) {
       sleep(until);
@@ -245,7 +245,7 @@ void Processor::set_ram(unsigned address, std::uint8_t value) { cpu_->ram[addres
 
 void Processor::set_w(int n, std::uint16_t value) {
   cpu_->w[static_cast<std::size_t>(n)] = value;
-  cpu_->written |= 1u << n;
+  cpu_->note_written(1u << n);
 }
 
 std::uint64_t Processor::state_hash() const {

@@ -18,6 +18,7 @@
 
 namespace dspic {
 
+class CodeStore;  // code_store.h
 class Cpu;
 class HostCalls;
 class ProgramWatch;
@@ -28,9 +29,10 @@ class Waits;
 class Processor {
  public:
   /// `chip` and `program`, which is the chip's Configuration::program, outlive this, and so does `host`:
-  /// whoever plays the library's drivers, and serves RAM below `plain_from`; null: nobody.
-  Processor(Dspic30f6014a& chip, ProgramMemory& program, HostCalls* host = nullptr,
-            unsigned plain_from = kRamStart);
+  /// whoever plays the library's drivers, and serves RAM below `plain_from`; null: nobody. `code`: of the
+  /// image that `program` holds, shared by all that run it, threads included; null: its own.
+  Processor(Dspic30f6014a& chip, ProgramMemory& program, std::shared_ptr<CodeStore> code = nullptr,
+            HostCalls* host = nullptr, unsigned plain_from = kRamStart);
   ~Processor();
 
   /// Runs until the cycle `until`, or a few more: instructions are whole. A reset ends it earlier: its kind
@@ -108,7 +110,6 @@ class Processor {
   std::unique_ptr<Cpu> cpu_;
   std::unique_ptr<Waits> waits_;
   Dspic30f6014a& chip_;
-  std::uint64_t code_version_ = 0;
   Cycle slept_ = 0;
   std::array<bool, 2> held_{true, true};  // handlers known by heart that the program holds off
   Cycle due_ = kNever;                    // when the next of them comes

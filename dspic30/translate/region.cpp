@@ -237,9 +237,7 @@ std::unique_ptr<Module> Maker::make() {
     ir_.SetInsertPoint(end);
     Value* const d = place(aside.item->place);
     ir_.CreateStore(d, field(&cpu_.at, byte_->getPointerTo()));
-    // a pointer that changes its kind makes the word one that is to be decoded anew
-    CallInst* const next =
-        called(aside.item->by_call ? kAlone : interpreter(aside.item->word), {cpu_arg_, d});
+    CallInst* const next = called(interpreter(aside.item->word), {cpu_arg_, d});
     pass(aside.item->decoded.cycles - items_[0].decoded.cycles);
     ir_.CreateRet(next);
     end->eraseFromParent();
@@ -270,7 +268,7 @@ bool Maker::put_item(const Item& item) {
     return true;
   }
   Value* const d = place(item.place);
-  Function* const own = item.by_call ? nullptr : semantics_.of(item.word);
+  Function* const own = semantics_.of(item.word);
   CallInst* call;
   if (own) {
     const FunctionType* const type = own->getFunctionType();

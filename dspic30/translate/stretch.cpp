@@ -65,7 +65,6 @@ std::vector<Item> stretch(const Cpu& cpu, const Decoded* head) {
       item.decoded = *d;
       item.plain = cpu.plain(d);
       item.words = row->words;
-      item.by_call = ((1u << d->s | 1u << d->d) & cpu.unsteady_pointers) != 0;
       // a branch that is taken, and a skip over two words, take longer
       item.most_cycles = d->cycles + (has(*row, Operand::Branch) ? 1 : is_skip(*row) ? 2 : 0);
       if (has(*row, Operand::Branch) && row->id != Insn::Rcall_Expr)
@@ -93,7 +92,6 @@ std::string key_of(const Cpu& cpu, const std::vector<Item>& items) {
     add(item.decoded.d);
     add(item.decoded.s_kind);
     add(item.decoded.d_kind);
-    add(item.by_call);
   }
   return key;
 }

@@ -17,7 +17,6 @@ struct Item {
   int words = 1;
   int most_cycles = 0;
   bool is_last = false;  ///< it runs by the interpreter's function, and the stretch ends
-  bool by_call = false;  ///< it is called (Cpu::run_alone()), as its pointers may be of another kind by then
 };
 
 /// The instructions from `head` on, as far as they were met and jumps lead; empty: not worth translating.

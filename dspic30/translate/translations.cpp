@@ -72,8 +72,6 @@ Translation Translations::translate(const Cpu& cpu, const Decoded* head, bool on
   }
   Translation made;
   if (!code.bytes.empty()) made.run = placed(code);
-  for (const Item& item : items)
-    if (!item.by_call) made.pointers |= 1u << item.decoded.s | 1u << item.decoded.d;
   return known_[key] = made;
 }
 

@@ -19,11 +19,11 @@ constexpr Cycle kLeastWait = board::kFcyHz / 100;  // a wait is called endless f
 
 }  // namespace
 
-ChipRunner::ChipRunner(std::string name, std::shared_ptr<const dspic::FirmwareFile> file, double clock_factor,
+ChipRunner::ChipRunner(std::string name, std::shared_ptr<const ChipImage> image, double clock_factor,
                        board::Board& board, Cycle start)
-    : Runner(std::move(name)), file_(std::move(file)), board_(board), chip_(board) {
+    : Runner(std::move(name)), image_(std::move(image)), file_(image_->file()), board_(board), chip_(board) {
   // what a programmer writes: flash and configuration words, and the EEPROM, which is the board's
-  for (const auto& [address, word] : file_->words) program_.write(address, word);
+  for (const auto& [address, word] : file_.words) program_.write(address, word);
   program_eeprom();
   dspic::Configuration configuration;
   configuration.fosc = static_cast<std::uint16_t>(program_.read(dspic::kConfigurationStart));
@@ -32,11 +32,11 @@ ChipRunner::ChipRunner(std::string name, std::shared_ptr<const dspic::FirmwareFi
   configuration.synchronised_ports = true;
   configuration.program = &program_;
   chip_.power_up(configuration);
-  processor_ = std::make_unique<dspic::Processor>(device(), program_);
+  processor_ = std::make_unique<dspic::Processor>(device(), program_, image_->code());
   processor_->set_translator(translation());
-  places_ = std::make_unique<ProgramPlaces>(*file_, program_, *processor_, chip_);
-  endings_ = std::make_unique<Endings>(*file_, program_, *processor_, chip_, *places_);
-  calls_ = std::make_unique<LibraryCalls>(*file_, *processor_, *places_, chip_, board);
+  places_ = std::make_unique<ProgramPlaces>(file_, program_, *processor_, chip_);
+  endings_ = std::make_unique<Endings>(file_, program_, *processor_, chip_, *places_);
+  calls_ = std::make_unique<LibraryCalls>(file_, *processor_, *places_, chip_, board);
   processor_->tell_calls(this, calls_->addresses());
   chip_.comment_on([this](const dspic::Diagnosis& d) { return comment(d); });
   if (start <= 0) return;
@@ -47,7 +47,7 @@ ChipRunner::ChipRunner(std::string name, std::shared_ptr<const dspic::FirmwareFi
 }
 
 void ChipRunner::program_eeprom() {
-  for (const auto& [address, word] : file_->words) {
+  for (const auto& [address, word] : file_.words) {
     if (address >> 16 != dspic::kEepromStart >> 16) continue;
     const unsigned low = address & 0xFFFF;
     board_.eeprom().erase(low);
@@ -271,15 +271,15 @@ const host::Variable* ChipRunner::find_variable(const std::string& expression, s
   const auto known = variables_.find(expression);
   if (known != variables_.end()) return &known->second;
   dspic::DebugInfo::Found found;
-  if (!file_->debug.find(expression, 0, found, error)) {
-    const auto object = file_->objects.find(expression);  // assembler text has no types
-    const auto bytes = file_->object_bytes.find(expression);
-    if (object == file_->objects.end() || bytes == file_->object_bytes.end() || bytes->second > 4)
+  if (!file_.debug.find(expression, 0, found, error)) {
+    const auto object = file_.objects.find(expression);  // assembler text has no types
+    const auto bytes = file_.object_bytes.find(expression);
+    if (object == file_.objects.end() || bytes == file_.object_bytes.end() || bytes->second > 4)
       return nullptr;
     const host::Variable plain{object->second, bytes->second, host::Variable::Kind::Unsigned};
     return &variables_.emplace(expression, plain).first->second;
   }
-  const auto& type = file_->debug.types[static_cast<std::size_t>(found.type)];
+  const auto& type = file_.debug.types[static_cast<std::size_t>(found.type)];
   host::Variable v;
   v.address = static_cast<std::uintptr_t>(found.variable->places[0].value) + found.offset;
   v.bytes = type.bytes;
@@ -293,8 +293,8 @@ const host::Variable* ChipRunner::find_variable(const std::string& expression, s
 }
 
 std::vector<char> ChipRunner::read_variable(const std::string& variable, std::size_t bytes) const {
-  const auto found = file_->objects.find(variable);
-  if (found == file_->objects.end()) return {};
+  const auto found = file_.objects.find(variable);
+  if (found == file_.objects.end()) return {};
   std::vector<char> data(bytes ? bytes : 2);
   read_memory(found->second, data.data(), data.size());
   return data;

@@ -17,7 +17,7 @@
 
 #include "dspic30/core/processor.h"
 #include "dspic30/core/program_watch.h"
-#include "dspic30/load/firmware_file.h"
+#include "hal_sim/chip/chip_image.h"
 #include "hal_sim/chip/endings.h"
 #include "hal_sim/chip/library_calls.h"
 #include "hal_sim/chip/program_places.h"
@@ -33,7 +33,7 @@ class ChipRunner final : public host::Runner, private dspic::EventWatch, private
  public:
   /// `board` outlives the runner. `clock_factor`: the program's instruction rate over the usual one.
   /// `start`: when it is powered up.
-  ChipRunner(std::string name, std::shared_ptr<const dspic::FirmwareFile> file, double clock_factor,
+  ChipRunner(std::string name, std::shared_ptr<const ChipImage> image, double clock_factor,
              board::Board& board, Cycle start = 0);
 
   const char* way() const override { return "chip"; }
@@ -84,7 +84,7 @@ class ChipRunner final : public host::Runner, private dspic::EventWatch, private
   void translate_all() { processor_->translate_all(); }
   const dspic::ProgramMemory& program() const { return program_; }
   dspic::Dspic30f6014a& device() const { return chip_.device(); }
-  const dspic::FirmwareFile& file() const { return *file_; }
+  const dspic::FirmwareFile& file() const { return file_; }
   /// `watch` sees every step from now on, or no longer. It outlives the runner or is taken away.
   void watch_steps(StepWatch* watch, bool on);
 
@@ -103,7 +103,8 @@ class ChipRunner final : public host::Runner, private dspic::EventWatch, private
   std::string comment(const dspic::Diagnosis& diagnosis) const;
   void reset(dspic::ResetKind kind);
 
-  std::shared_ptr<const dspic::FirmwareFile> file_;
+  std::shared_ptr<const ChipImage> image_;
+  const dspic::FirmwareFile& file_;
   board::Board& board_;
   mutable SolderedChip chip_;  // looking advances closed forms
   dspic::ProgramMemory program_;

@@ -97,7 +97,7 @@ board::BluetoothSetup bluetooth_of(const sim::WorldDesc& world, int index) {
 /// What a robot runs, loaded once for all that run it: code for the PC, or the chip's own.
 struct Firmware {
   std::shared_ptr<host::Image> image;
-  std::shared_ptr<const dspic::FirmwareFile> chip;
+  std::shared_ptr<const chip::ChipImage> chip;
   std::shared_ptr<const programs::Launch> program;  // or a program of the PC
 
   bool is_open() const { return image || chip || program; }
@@ -115,9 +115,9 @@ Firmware open_firmware(const std::string& path, const Options& options, std::str
   if (!host::Image::read(path, bytes, error)) return {};
   if (dspic::kind_of(bytes) == dspic::FileKind::Other)
     return {host::Image::open(path, std::move(bytes), error), nullptr, nullptr};
-  auto file = std::make_shared<dspic::FirmwareFile>();
-  if (!dspic::load_firmware(bytes, path, *file, error)) return {};
-  return {nullptr, file, nullptr};
+  dspic::FirmwareFile file;
+  if (!dspic::load_firmware(bytes, path, file, error)) return {};
+  return {nullptr, std::make_shared<chip::ChipImage>(std::move(file)), nullptr};
 }
 
 std::uint16_t fosc_of(const dspic::FirmwareFile& file) {
@@ -134,10 +134,10 @@ host::RunnerFactory runner_for(const Firmware& program, std::size_t share, board
       return std::make_unique<programs::ProgramRunner>(name, seat, board, start);
     };
   if (program.chip) {
-    const std::uint16_t fosc = fosc_of(*program.chip);
+    const std::uint16_t fosc = fosc_of(program.chip->file());
     setup.clock_ppm = host::clock_ppm(setup.clock_ppm, fosc);
-    return [=, name = setup.name, file = program.chip](board::Board& board) {
-      return std::make_unique<chip::ChipRunner>(name, file, host::clock_factor(fosc), board, start);
+    return [=, name = setup.name, image = program.chip](board::Board& board) {
+      return std::make_unique<chip::ChipRunner>(name, image, host::clock_factor(fosc), board, start);
     };
   }
   const tp_image& image = program.image->copy(share).description();

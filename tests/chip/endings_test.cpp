@@ -162,7 +162,7 @@ _e_set_led: inc 0x900
   for (const dspic::FirmwareFile& file : {plain, watched}) {
     board::Setup setup;
     board::Board board(setup);
-    chip::ChipRunner runner("puck", std::make_shared<dspic::FirmwareFile>(file), 1, board);
+    chip::ChipRunner runner("puck", std::make_shared<chip::ChipImage>(file), 1, board);
     runner.begin_window(0);
     runner.run_until(3000000);
     hashes[i++] = runner.hash();

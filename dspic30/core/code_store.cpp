@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+#include "dspic30/core/code_store.h"
+
+#include <algorithm>
+
+#include "dspic30/core/cpu.h"
+
+namespace dspic {
+
+namespace {
+
+constexpr int kMostRefusals = 4;  // then a place is not asked for again: threads share the line it lies in
+
+// no flash at that address
+const Decoded* fetch_nothing(Cpu& cpu, const Decoded* d) {
+  cpu.trap(Trap::AddressError);
+  return d;
+}
+
+// where a function begins that the onlooker wants to know of
+const Decoded* tell(Cpu& cpu, const Decoded* d) {
+  if (cpu.onlooker) cpu.onlooker->entered(cpu.address_of(d));
+  return cpu.plain(d)(cpu, d);
+}
+
+// writes a register that this table's robots have not written
+const Decoded* write_first(Cpu& cpu, const Decoded* d) {
+  cpu.note_written(cpu.registers_of(d).gives);
+  return function_of(cpu.program.read(cpu.address_of(d)))(cpu, d);
+}
+
+Decoded unknown_word() {
+  Decoded d;
+  d.run.store(&meet, std::memory_order_relaxed);
+  d.cycles = 0;
+  return d;
+}
+
+}  // namespace
+
+// the course has not come there yet
+const Decoded* meet(Cpu& cpu, const Decoded* d) {
+  cpu.decode(d);
+  return d->run.load(std::memory_order_acquire)(cpu, d);
+}
+
+Decoded& Decoded::operator=(const Decoded& o) {
+  if (this == &o) return *this;
+  imm = o.imm;
+  writes = o.writes;
+  pointers = o.pointers;
+  mask = o.mask;
+  s = o.s;
+  d = o.d;
+  b = o.b;
+  cycles = o.cycles;
+  lead = o.lead;
+  psv = o.psv;
+  s_pre = o.s_pre;
+  s_post = o.s_post;
+  d_pre = o.d_pre;
+  d_post = o.d_post;
+  s_kind = o.s_kind;
+  d_kind = o.d_kind;
+  heat.store(o.heat.load(std::memory_order_relaxed), std::memory_order_relaxed);
+  is_head.store(o.is_head.load(std::memory_order_relaxed), std::memory_order_relaxed);
+  run.store(o.run.load(std::memory_order_relaxed), std::memory_order_release);
+  return *this;
+}
+
+// --- one table ------------------------------------------------------------------------------------------
+
+CodeTable::CodeTable(const CodeState& state, std::vector<std::uint32_t> told)
+    : state_(state),
+      told_(std::move(told)),
+      words_(kFlashWords + 1, unknown_word()),
+      beside_(static_cast<Beside*>(std::calloc(kFlashWords + 1, sizeof(Beside)))) {
+  if (!beside_) throw std::bad_alloc();
+  words_.back().cycles = 1;
+  words_.back().run = &fetch_nothing;
+  beside_[kFlashWords].plain = &fetch_nothing;
+}
+
+void CodeTable::decode(const Decoded* d, const ProgramMemory& program, std::uint8_t jumps) {
+  const std::lock_guard lock(mutex_);
+  if (d->run.load(std::memory_order_relaxed) != &meet) return;
+  const std::size_t index = index_of(d);
+  Beside& beside = beside_[index];
+  Decoded word = decode_word(program, static_cast<unsigned>(2 * index), state_, beside.registers);
+  Run run = word.run;
+  if (run != &illegal && (beside.registers.gives & ~state_.written)) run = &write_first;
+  word.heat = jumps;
+  beside.plain = run;
+  beside.tells = std::binary_search(told_.begin(), told_.end(), static_cast<std::uint32_t>(2 * index));
+  word.is_head = beside.tells;
+  word.run = beside.tells ? &tell : run;
+  words_[index] = word;
+  decoded_.push_back(static_cast<std::uint32_t>(index));
+}
+
+// `is_head` is stored before `run`: who sees the translation also sees that it is one
+void CodeTable::warm(const Cpu& cpu, const Decoded* d, Translator& translator, int hot) {
+  const std::uint8_t again = hot == 0 ? 1 : 0xFF;
+  bool only_ready;
+  {
+    const std::lock_guard lock(mutex_);
+    d->heat.store(0, std::memory_order_relaxed);
+    if (d->is_head.load(std::memory_order_relaxed)) return;
+    Warmth& warmth = warmth_[d];
+    if (warmth.is_busy) return;
+    const int times = ++warmth.times;
+    only_ready = times < hot;
+    if (only_ready && (times & (times - 1)) != 0) {  // asked 1, 2, 4, ... times on the way
+      d->heat.store(again, std::memory_order_relaxed);
+      return;
+    }
+    if (!only_ready) warmth.times = 0;
+    warmth.is_busy = true;
+  }
+  const Translation translation = translator.translate(cpu, d, only_ready);
+  const std::lock_guard lock(mutex_);
+  Warmth& warmth = warmth_[d];
+  warmth.is_busy = false;
+  if (translation.run) {
+    d->is_head.store(true, std::memory_order_release);
+    d->run.store(translation.run, std::memory_order_release);
+    ++translated_;
+  } else if (only_ready || hot == 0 || ++warmth.refusals < kMostRefusals) {
+    d->heat.store(again, std::memory_order_relaxed);
+  }
+}
+
+void CodeTable::mark_wait(const Decoded* d, Run stop) {
+  constexpr std::size_t kReach = 256;  // words, more than a stretch has
+  const std::lock_guard lock(mutex_);
+  const std::size_t index = index_of(d);
+  if (beside_[index].wait.load(std::memory_order_relaxed)) return;
+  for (std::size_t i = index - std::min(index, kReach); i < index; ++i) {
+    const Decoded& before = words_[i];
+    const Beside& beside = beside_[i];
+    if (!before.is_head.load(std::memory_order_relaxed) || beside.tells ||
+        beside.wait.load(std::memory_order_relaxed))
+      continue;
+    before.run.store(beside.plain, std::memory_order_release);
+    before.is_head.store(false, std::memory_order_release);
+    before.heat.store(0xFF, std::memory_order_relaxed);
+    --translated_;
+  }
+  beside_[index].wait.store(d->run.load(std::memory_order_relaxed), std::memory_order_release);
+  d->is_head.store(true, std::memory_order_release);
+  d->run.store(stop, std::memory_order_release);
+}
+
+int CodeTable::translated() const {
+  const std::lock_guard lock(mutex_);
+  return translated_;
+}
+
+void CodeTable::forget() {
+  const std::lock_guard lock(mutex_);
+  const Decoded unknown = unknown_word();
+  for (const std::uint32_t index : decoded_) {
+    words_[index] = unknown;
+    beside_[index].wait.store(nullptr, std::memory_order_relaxed);
+  }
+  decoded_.clear();
+  warmth_.clear();
+  translated_ = 0;
+}
+
+// --- all of an image ------------------------------------------------------------------------------------
+
+bool CodeStore::tell(const std::vector<std::uint32_t>& addresses) {
+  const std::lock_guard lock(mutex_);
+  if (told_ == addresses) return true;
+  if (!told_.empty()) return false;
+  told_ = addresses;
+  tables_.clear();
+  return true;
+}
+
+std::vector<std::uint32_t> CodeStore::told() const {
+  const std::lock_guard lock(mutex_);
+  return told_;
+}
+
+std::shared_ptr<CodeTable> CodeStore::table(const CodeState& state, bool make) {
+  const std::lock_guard lock(mutex_);
+  for (const auto& table : tables_)
+    if (table->state() == state) return table;
+  if (!make) return nullptr;
+  // what nobody runs on goes, but for the state that every reset begins with
+  const auto is_idle = [](const auto& table) {
+    return table.use_count() == 1 && !(table->state() == CodeState{});
+  };
+  if (tables_.size() >= kMost)
+    tables_.erase(std::remove_if(tables_.begin(), tables_.end(), is_idle), tables_.end());
+  return tables_.emplace_back(std::make_shared<CodeTable>(state, told_));
+}
+
+void CodeStore::forget() {
+  const std::lock_guard lock(mutex_);
+  for (const auto& table : tables_) table->forget();
+}
+
+}  // namespace dspic

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+// The words of an image made ready to run, and their translations, for all robots that run it, on whatever
+// thread.
+//
+//   image --CodeStore--> CodeTable of {registers written, special pointers} <--runs on-- Cpu, Cpu, ...
+//
+// How a word is to be run depends on its robot in two respects: on the registers that the program has written
+// since its reset, since an address in one that it has not written resets the chip; and on those that are
+// modulo or bit-reversed pointers. So there is a table for each such state that lasts, and a Cpu whose state
+// changes moves to another one. A Cpu that changes its flash gets a store of its own.
+//
+// A word is published by its function, which is stored last; until then it is met(). Decoding is guarded by
+// the table's mutex, running is not. The store outlives nothing: whoever runs on a table keeps it.
+#pragma once
+#include <atomic>
+#include <cstdint>
+#include <cstdlib>
+#include <memory>
+#include <mutex>
+#include <unordered_map>
+#include <vector>
+
+#include "dspic30/memory/program_memory.h"
+
+namespace dspic {
+
+class Cpu;
+struct Decoded;
+class Translator;
+/// Executes an instruction; returns the next one.
+using Run = const Decoded* (*)(Cpu&, const Decoded*);
+
+/// How a register serves as a pointer: by an addition, as the stack's, or modulo or bit-reversed.
+enum class Pointer : std::uint8_t { Plain, Stack, Special };
+
+struct Decoded {
+  mutable std::atomic<Run> run{nullptr};
+  std::int32_t imm = 0;         ///< literal, address, words of a branch, shift
+  std::uint16_t writes = 0;     ///< registers written directly, or changed as a destination's pointer
+  std::uint16_t pointers = 0;   ///< registers that form a source's address
+  std::uint16_t mask = 0xFFFF;  ///< of what register d can hold: W15 is even
+  std::uint8_t s = 0, d = 0, b = 0;
+  std::uint8_t cycles = 1;  ///< stall included
+  std::uint8_t lead = 0;    ///< stall cycles, when it follows the word before
+  std::uint8_t psv = 2;     ///< what reading through the PSV window costs
+  std::int8_t s_pre = 0, s_post = 0, d_pre = 0, d_post = 0;
+  Pointer s_kind = Pointer::Plain, d_kind = Pointer::Plain;
+  mutable std::atomic<bool> is_head{false};  ///< `run` is not its own function: CodeTable::plain()
+  /// Counts jumps to here down to 1, when it is warm; 0: they do not count.
+  mutable std::atomic<std::uint8_t> heat{0};
+
+  Decoded() = default;
+  Decoded(const Decoded& other) { *this = other; }
+  /// `run` is stored last.
+  Decoded& operator=(const Decoded& other);
+};
+static_assert(sizeof(Decoded) == 32);
+
+/// W0 to W14, a bit each.
+inline constexpr unsigned kAllWritten = 0x7FFF;
+
+/// What a robot's state means to its code.
+struct CodeState {
+  unsigned written = kAllWritten;                       ///< registers that were written since the reset
+  std::uint32_t special_reads = 0, special_writes = 0;  ///< Cpu::special_registers()
+  bool operator==(const CodeState& o) const {
+    return written == o.written && special_reads == o.special_reads && special_writes == o.special_writes;
+  }
+};
+
+/// Registers of a word that matter to what may run.
+struct WordRegisters {
+  std::uint16_t uses = 0;   ///< as pointers
+  std::uint16_t gives = 0;  ///< they count as written from then on
+};
+
+/// The functions of words that are no instructions, and of those that are not decoded yet.
+const Decoded* illegal(Cpu& cpu, const Decoded* d);
+const Decoded* meet(Cpu& cpu, const Decoded* d);
+
+class CodeTable {
+ public:
+  /// `told`: program addresses whose instructions tell the onlooker that they begin, in order.
+  CodeTable(const CodeState& state, std::vector<std::uint32_t> told);
+
+  /// One a flash word, then one for addresses where no flash is.
+  const Decoded* words() const { return words_.data(); }
+  const CodeState& state() const { return state_; }
+  /// Makes a word of `program`, which holds this store's image, ready, unless it is. `jumps`: so many to it
+  /// make it warm.
+  void decode(const Decoded* d, const ProgramMemory& program, std::uint8_t jumps);
+  /// Its own function, not what was put in front of it.
+  Run plain(const Decoded* d) const {
+    const Run run = d->run.load(std::memory_order_acquire);
+    return run == &meet ? run : beside_[index_of(d)].plain;
+  }
+  /// Of a word that is decoded.
+  const WordRegisters& registers(const Decoded* d) const { return beside_[index_of(d)].registers; }
+  bool tells(const Decoded* d) const { return beside_[index_of(d)].tells; }
+  /// The jumps are over that Decoded::heat counts: translates it, unless it is too early. `hot`: as
+  /// Cpu::hot.
+  void warm(const Cpu& cpu, const Decoded* d, Translator& translator, int hot);
+  /// A wait is known to begin at a word that was met: `stop` runs there, and what ran before is
+  /// beside_wait(). What was translated with it in its middle would run past it, so it is forgotten.
+  void mark_wait(const Decoded* d, Run stop);
+  bool is_wait(const Decoded* d) const { return beside_[index_of(d)].wait.load(std::memory_order_acquire); }
+  Run beside_wait(const Decoded* d) const {
+    return beside_[index_of(d)].wait.load(std::memory_order_acquire);
+  }
+  /// Places where translated code begins.
+  int translated() const;
+  /// Words are decoded again. Nobody else runs on this table.
+  void forget();
+
+ private:
+  struct Beside {
+    Run plain;
+    WordRegisters registers;
+    bool tells;
+    std::atomic<Run> wait;  // null: no wait is known to begin here
+  };
+  struct Warmth {
+    int times = 0, refusals = 0;
+    bool is_busy = false;  // somebody translates it
+  };
+  struct Free {
+    void operator()(void* memory) const { std::free(memory); }
+  };
+  std::size_t index_of(const Decoded* d) const { return static_cast<std::size_t>(d - words_.data()); }
+
+  const CodeState state_;
+  const std::vector<std::uint32_t> told_;
+  mutable std::mutex mutex_;  // of all that follows, but what was published
+  std::vector<Decoded> words_;
+  std::unique_ptr<Beside[], Free> beside_;  // pages of words that are not met take no memory
+  std::vector<std::uint32_t> decoded_;
+  std::unordered_map<const Decoded*, Warmth> warmth_;
+  int translated_ = 0;
+};
+
+/// The tables of one image: what flash holds is the same for all that run on them.
+class CodeStore {
+ public:
+  /// From now on, the onlooker is told of these addresses, in order. False: it is told of others already.
+  bool tell(const std::vector<std::uint32_t>& addresses);
+  std::vector<std::uint32_t> told() const;
+  /// The table of a state; null: `make` is false, and nobody has needed it.
+  std::shared_ptr<CodeTable> table(const CodeState& state, bool make);
+  /// As CodeTable::forget(), of all tables.
+  void forget();
+
+ private:
+  static constexpr std::size_t kMost = 8;  // tables; those in use do not count
+  mutable std::mutex mutex_;
+  std::vector<std::shared_ptr<CodeTable>> tables_;
+  std::vector<std::uint32_t> told_;
+};
+
+/// A word made ready for a state. Of the function itself: illegal(), where the state does not allow it.
+Decoded decode_word(const ProgramMemory& program, unsigned address, const CodeState& state,
+                    WordRegisters& registers);
+/// The function of a word, whatever registers were written before; null: it is no instruction.
+Run function_of(std::uint32_t word);
+
+}  // namespace dspic

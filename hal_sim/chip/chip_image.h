@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// A program of the chip, loaded once for all robots that run it, on whatever thread: its file, and what is
+// made of it on the way.
+#pragma once
+#include <memory>
+#include <utility>
+
+#include "dspic30/core/code_store.h"
+#include "dspic30/load/firmware_file.h"
+
+namespace chip {
+
+class ChipImage final {
+ public:
+  explicit ChipImage(dspic::FirmwareFile file) : file_(std::move(file)) {}
+
+  const dspic::FirmwareFile& file() const { return file_; }
+  /// Its words, ready to run.
+  const std::shared_ptr<dspic::CodeStore>& code() const { return code_; }
+
+ private:
+  const dspic::FirmwareFile file_;
+  const std::shared_ptr<dspic::CodeStore> code_ = std::make_shared<dspic::CodeStore>();
+};
+
+}  // namespace chip
