@@ -244,19 +244,30 @@ Cycle AdcScan::next_sample(std::int64_t filed, int slot, int shift, int pair) co
   return full_cycle(period * kScanPeriod + slot) + kScanFileCycles;
 }
 
+int AdcScan::evaluate_acc(int axis, std::int64_t sample) const {
+  const Cycle end = full_cycle(sample * kScanPeriod + kScanAccSlot);
+  const Cycle hold = end - hold_to_end(frame_of(kScanAccSlot), 3 + axis);
+  const auto other = board_.counts_of_others(kAccChannel + axis, hold);
+  return other ? *other : accelerometer_counts(board_, axis, hold);
+}
+
 void AdcScan::fill_acc(std::int64_t count) {
   // what the ring has lost again need not be known
-  for (std::int64_t k = std::max(acc_kept_, count - kAccSamples); k < count; ++k) {
-    const Cycle end = full_cycle(k * kScanPeriod + kScanAccSlot);
-    for (int axis = 0; axis < 3; ++axis) {
-      const Cycle hold = end - hold_to_end(frame_of(kScanAccSlot), 3 + axis);
-      const auto other = board_.counts_of_others(kAccChannel + axis, hold);
-      const int counts = other ? *other : accelerometer_counts(board_, axis, hold);
+  for (std::int64_t k = std::max(acc_kept_, count - kAccSamples); k < count; ++k)
+    for (int axis = 0; axis < 3; ++axis)
       acc_[static_cast<std::size_t>(axis)][static_cast<std::size_t>((k + 1) % kAccSamples)] =
-          static_cast<std::int16_t>(counts);
-    }
-  }
+          static_cast<std::int16_t>(evaluate_acc(axis, k));
   acc_kept_ = count;
+}
+
+int AdcScan::peek_acc(int axis, int index, Cycle at) const {
+  const std::int64_t count = acc_samples(at), newest = count - 1;
+  // the newest sample of that index
+  const std::int64_t ago = ((newest + 1 - index) % kAccSamples + kAccSamples) % kAccSamples;
+  const std::int64_t sample = newest - ago;
+  if (sample < 0) return 0;
+  if (sample < acc_kept_) return acc_[static_cast<std::size_t>(axis)][static_cast<std::size_t>(index)];
+  return evaluate_acc(axis, sample);
 }
 
 const AdcScan::AccRing& AdcScan::acc_scan(Cycle at) {

@@ -99,6 +99,8 @@ class AdcScan {
   using AccRing = std::array<std::array<std::int16_t, kAccSamples>, 3>;
   /// e_acc_scan at `at`: 0 where nothing was sampled yet. Index 0 is filled last, as in the driver.
   const AccRing& acc_scan(Cycle at);
+  /// One of its entries without keeping anything.
+  int peek_acc(int axis, int index, Cycle at) const;
   /// Cycle at which the next accelerometer sample arrives; kNever when none will.
   Cycle acc_until(Cycle at) const;
   bool keeps_acc() const { return acc_used_; }
@@ -165,6 +167,7 @@ class AdcScan {
   int read(Sample& kept, int sensor, Cycle at, bool lit_sample);
   void keep(Sample& kept, int sensor, std::int64_t number, bool lit_sample) const;
   void settle(Cycle at);
+  int evaluate_acc(int axis, std::int64_t sample) const;
   void fill_acc(std::int64_t count);
 
   Samples lit_{};

@@ -142,10 +142,7 @@ class AgendaMotor {
     count_idle(tick);
   }
 
-  /// What the processor spends on one step and what belongs to it, on average; ticks from one to the next.
-  Cycle period_cycles() const {
-    return saves_power() ? kMotorHalfStepCycles + kMotorOffCycles : kMotorStepCycles;
-  }
+  /// Ticks from one step to the next.
   std::int64_t full_period() const { return saves_power() ? step_ticks_ : count.cycle; }
 
   /// Does the wheel turn evenly until the next command? From the third step on, when each begins where the

@@ -14,6 +14,7 @@ namespace {
 constexpr int kDone = 1;      // EXIT_OK of the library, AG_ALREADY_CREATED too
 constexpr int kNotFound = 2;  // AG_NOT_FOUND
 constexpr std::uint32_t kBeforeAll = UINT32_MAX;
+constexpr std::uint64_t kAllTicks = std::uint64_t{1} << 32;
 
 std::int64_t floor_div(std::int64_t a, std::int64_t b) {
   const std::int64_t q = a / b;
@@ -239,10 +240,16 @@ void AgendaTimer::name_motor(Wheel wheel, Function function) {
 
 // --- motors ----------------------------------------------------------------------------------------------
 
-void AgendaTimer::set_speed(Wheel wheel, int speed, Cycle at) {
+void AgendaTimer::set_speed(Wheel wheel, int speed, Cycle coils_off_at, Cycle at) {
+  if (coils_off_at < at) {
+    // a tick between may switch them on again
+    bring(wheel, done_tick(serial_of(wheel), coils_off_at));
+    stepper(wheel).set_coils_only(0);
+    motor(wheel).disturb();
+  }
   AgendaMotor& m = bring(wheel, done_tick(serial_of(wheel), at));
   const bool counted = m.count.counts(), was_handled = counted && m.speed() == 0;
-  stepper(wheel).set_coils_only(0);
+  if (coils_off_at == at) stepper(wheel).set_coils_only(0);
   note(static_cast<std::uint64_t>(speed) << 1 | static_cast<std::uint64_t>(wheel), at);
   m.set_speed(std::clamp(speed, -kMaxSpeed, kMaxSpeed));
   if (speed != 0 && first_speed_ < 0) first_speed_ = at;
@@ -333,14 +340,18 @@ AgendaTimer::Function AgendaTimer::next(bool& divided_by_zero) {
   // the callback has returned: its counter is zeroed now, whatever it did itself
   if (in_callback_) {
     in_callback_ = false;
-    for (Node& node : nodes_)
-      if (node.serial == walk_serial_) node.count.counter = 0;
+    Node* node = nullptr;
+    for (Node& one : nodes_)
+      if (one.serial == walk_serial_) node = &one;
+    if (node) node->count.counter = 0;
+    walk_cost_ += node ? costs_.after : costs_.after_destroyed;
   }
   // newest first, those that are older than the one just processed
   for (std::size_t i = nodes_.size(); i-- > 0;) {
     Node& node = nodes_[i];
     if (node.serial >= walk_serial_) continue;
-    walk_cost_ += cost_of(node);
+    const Cycle cost = cost_of(node);
+    walk_cost_ += cost;
     if (!needs_handler(node)) continue;  // a motor, whose firings are a share
     settle(node, walk_tick_ - 1);
     walk_serial_ = node.serial;
@@ -350,6 +361,7 @@ AgendaTimer::Function AgendaTimer::next(bool& divided_by_zero) {
     ++count.counter;
     if (count.counter < count.cycle) continue;
     if (node.kind == Kind::User) {
+      walk_cost_ += costs_.fires - cost;
       in_callback_ = true;
       return node.function;
     }
@@ -401,7 +413,26 @@ void AgendaTimer::release(Cycle at) {
 // --- costs and digest ------------------------------------------------------------------------------------
 
 Cycle AgendaTimer::cost_of(const Node& node) const {
-  return kAgendaNodeCycles + (count_of(node).counts() ? kAgendaCountCycles : 0);
+  const AgendaCount& count = count_of(node);
+  return !count.active ? costs_.paused : count.cycle == 0 ? costs_.resting : costs_.counts;
+}
+
+const AgendaTimer::Node* AgendaTimer::node_of(std::uint32_t serial) const {
+  for (const Node& node : nodes_)
+    if (node.serial == serial) return &node;
+  return nullptr;
+}
+
+AgendaTimer::Function AgendaTimer::running() const {
+  const Node* node = walking_ && in_callback_ ? node_of(walk_serial_) : nullptr;
+  return node ? node->function : nullptr;
+}
+
+AgendaTimer::Function AgendaTimer::following() const {
+  if (!walking_) return nullptr;
+  for (std::size_t i = nodes_.size(); i-- > 0;)
+    if (nodes_[i].serial < walk_serial_) return nodes_[i].function;
+  return nullptr;
 }
 
 Cycle AgendaTimer::take_walk_cost() { return std::exchange(walk_cost_, 0); }
@@ -412,19 +443,32 @@ std::uint64_t AgendaTimer::share_q32() const {
   return tick_share_q32_ + motor_share_q32_[0] + motor_share_q32_[1];
 }
 
+std::uint64_t AgendaTimer::calling_share_q32() const {
+  if (!running_) return 0;
+  if (shares_known_ != kAllShares) find_shares();
+  return calling_share_q32_;
+}
+
 void AgendaTimer::find_shares() const {
   const auto share = [](Cycle cycles, std::int64_t ticks) {
     return (static_cast<std::uint64_t>(cycles) << 32) / static_cast<std::uint64_t>(ticks * kAgendaTickCycles);
   };
   if (!(shares_known_ & kTicks)) {
-    Cycle tick = kAgendaIsrCycles + (nodes_.empty() ? 0 : kAgendaListCycles);
+    Cycle tick = nodes_.empty() ? costs_.empty : costs_.list;
     for (const Node& node : nodes_) tick += cost_of(node);
     tick_share_q32_ = share(tick, 1);
+    std::uint64_t calling = 0;  // ticks that do, of all
+    for (const Node& node : nodes_)
+      if (needs_handler(node) && count_of(node).counts()) calling += kAllTicks / count_of(node).cycle;
+    calling_share_q32_ = tick_share_q32_ * (std::min(calling, kAllTicks) >> 8) / (kAllTicks >> 8);
   }
   for (std::size_t i = 0; i < 2; ++i)
     if (const AgendaMotor& m = motors_[i]; !(shares_known_ >> i & 1))
       motor_share_q32_[i] =
-          m.count.counts() && m.speed() != 0 ? share(m.period_cycles(), m.full_period()) : 0;
+          m.count.counts() && m.speed() != 0
+              ? share(m.saves_power() ? costs_.motor_half + costs_.motor_off : costs_.motor_step,
+                      m.full_period())
+              : 0;
   shares_known_ = kAllShares;
 }
 

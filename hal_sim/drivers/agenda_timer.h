@@ -29,6 +29,18 @@ namespace drivers {
 using board::Stepper;
 using board::Wheel;
 
+/// What the handler takes, in processor cycles.
+struct AgendaCosts {
+  // a tick that calls nothing, entry and RETFIE included: without agendas, with some beside the nodes' own
+  Cycle empty = kAgendaIsrCycles, list = kAgendaIsrCycles + kAgendaListCycles;
+  // each node of a walk that is paused, has no cycle, counts
+  Cycle paused = kAgendaNodeCycles, resting = kAgendaNodeCycles,
+        counts = kAgendaNodeCycles + kAgendaCountCycles;
+  // of a walk: a node whose function is called, which has returned, whose node it has destroyed
+  Cycle fires = counts, after = 0, after_destroyed = 0;
+  Cycle motor_half = kMotorHalfStepCycles, motor_off = kMotorOffCycles, motor_step = kMotorStepCycles;
+};
+
 class AgendaTimer {
  public:
   /// Identifies an agenda: the address of its C function. Only compared, never followed here.
@@ -36,6 +48,11 @@ class AgendaTimer {
 
   /// The board's motors, left and right; they outlive this.
   explicit AgendaTimer(board::Stepper& left, board::Stepper& right);
+  /// What the handler takes from now on; without it, as the native way charges.
+  void set_costs(const AgendaCosts& costs) {
+    costs_ = costs;
+    shares_known_ = 0;
+  }
   /// The state's hash counts cycles from here on, so that one begun later has that of one begun at 0.
   void count_from(Cycle origin) { origin_ = origin; }
 
@@ -72,10 +89,15 @@ class AgendaTimer {
   void name_motor(Wheel wheel, Function function);
 
   // --- motors --------------------------------------------------------------------------------------------
-  /// e_set_speed_left / right: coils off, clamp, new cycle.
-  void set_speed(Wheel wheel, int speed, Cycle at);
+  /// e_set_speed_left / right: coils off, clamp, new cycle; the coils may be off before the cycle is new.
+  void set_speed(Wheel wheel, int speed, Cycle at) { set_speed(wheel, speed, at, at); }
+  void set_speed(Wheel wheel, int speed, Cycle coils_off_at, Cycle at);
   /// run_left_motor() called as a function, from wherever. False: division by zero.
   bool run_motor(Wheel wheel, Cycle at);
+  /// Would that switch the coils off, rather than step?
+  bool switches_off(Wheel wheel, Cycle at) const {
+    return motor_at(wheel, at).phase_on && motor(wheel).saves_power();
+  }
   /// When a speed other than 0 was set for the first time since the reset; -1: never.
   Cycle first_speed() const { return first_speed_; }
   /// Has e_init_motors() put this motor into the list?
@@ -117,6 +139,10 @@ class AgendaTimer {
   bool is_motor(Function function) const {
     return function && (function == motor_functions_[0] || function == motor_functions_[1]);
   }
+  int nodes() const { return static_cast<int>(nodes_.size()); }
+  /// The function that runs, while its node is there; which comes next in the walk. Null: none.
+  Function running() const;
+  Function following() const;
   bool has(Function function) const { return nodes_passed(function) < static_cast<int>(nodes_.size()); }
   int nodes_passed(Wheel wheel) const { return nodes_passed(motor_functions_[static_cast<int>(wheel)]); }
 
@@ -125,6 +151,8 @@ class AgendaTimer {
   /// What the ticks take of each cycle that call no function of the program, as a fraction of 2^32; those
   /// that do are run and charged one by one.
   std::uint64_t share_q32() const;
+  /// The part of it that ticks take which do call one, so that these may be charged in full.
+  std::uint64_t calling_share_q32() const;
   /// Does the driver step this wheel on and on?
   bool runs(Wheel wheel) const {
     return running_ && motor(wheel).count.counts() && motor(wheel).speed() != 0;
@@ -174,11 +202,13 @@ class AgendaTimer {
   /// Does this node need the handler when it fires?
   bool needs_handler(const Node& node) const;
   Cycle cost_of(const Node& node) const;
+  const Node* node_of(std::uint32_t serial) const;
   void resume(std::int64_t done, Cycle at);
   void lose(std::int64_t ticks, Cycle at);
   void find_next_fire();
   void find_shares() const;
 
+  AgendaCosts costs_;
   TickLine line_;
   bool running_ = false, enabled_ = false;
   std::int64_t stopped_tick_ = 0;  // ticks processed while not running
@@ -196,7 +226,7 @@ class AgendaTimer {
   std::uint32_t last_serial_ = 0;
 
   static constexpr unsigned kTicks = 4, kAllShares = 7;  // bits 0 and 1: the motors
-  mutable std::uint64_t tick_share_q32_ = 0, motor_share_q32_[2] = {0, 0};
+  mutable std::uint64_t tick_share_q32_ = 0, calling_share_q32_ = 0, motor_share_q32_[2] = {0, 0};
   mutable unsigned shares_known_ = 0;  // cleared when the list, a cycle or a speed has changed
   std::int64_t next_fire_ = -1;        // next tick that needs the handler, -1 none
   bool walking_ = false;
