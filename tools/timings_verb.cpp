@@ -16,6 +16,7 @@
 
 #include "hal_sim/twin/twin.h"
 #include "hal_sim/twin/world_file.h"
+#include "tools/call_cycles.h"
 #include "tools/command_line.h"
 #include "tools/timing_programs.h"
 #include "tools/verbs.h"
@@ -131,6 +132,30 @@ int timings(const std::string& file, bool is_check) {
   return is_right ? kPass : kTestFailed;
 }
 
+/// call_cycles.inc: written where it is not what was measured, or said to be otherwise.
+int call_timings(const std::string& file, bool is_check) {
+  std::vector<std::string> problems;
+  std::vector<std::map<std::string, int>> levels;
+  for (const char* level : {"-O0", "-O1", "-O2", "-Os"})
+    levels.push_back(timing::call_cycles(level, problems));
+  complain(problems);
+  if (!problems.empty()) return kInternal;
+  const std::string wanted = timing::call_cycles_text(levels);
+  std::ifstream in(file);
+  const std::string got{std::istreambuf_iterator<char>(in), {}};
+  if (got == wanted) return kPass;
+  if (is_check) {
+    complain(
+        {file + ": is not what hal_dspic's functions take on the chip; twinpuck timings writes it anew"});
+    return kTestFailed;
+  }
+  if (!(std::ofstream(file) << wanted << std::flush)) {
+    complain({file + ": cannot be written"});
+    return kBadInput;
+  }
+  return kPass;
+}
+
 /// The table beside what the drivers take on the chip. Nothing is written: the native way shall agree with
 /// the register way, whose code it is.
 int show_exact() {
@@ -157,8 +182,10 @@ void add_timings(CLI::App& app, int& exit_code) {
   verb->add_flag("--exact", *is_exact,
                  "show the table beside what the calls take on the chip; writes nothing");
   verb->callback([=, &exit_code] {
-    exit_code =
-        *is_exact ? show_exact() : timings(twin::project_root() + "/hal_sim/api/timings.h", *is_check);
+    const std::string api = twin::project_root() + "/hal_sim/api/";
+    exit_code = *is_exact ? show_exact() : timings(api + "timings.h", *is_check);
+    if (*is_exact) return;
+    if (const int calls = call_timings(api + "call_cycles.inc", *is_check); calls != kPass) exit_code = calls;
   });
 }
 
