@@ -29,7 +29,8 @@ MAY_INCLUDE = {
     "hal_sim/drivers": ["hal_sim/board", "hal_sim/api/timings.h", "sim_core/base"],
     "hal_sim/host": ["dspic30/memory", "hal_sim/board", "hal_sim/drivers", "hal_sim/api/timings.h", "sim_core/base", "sim_core/world/robot_mind.h",
                      "sim_core/world/scene.h"],
-    "hal_sim/api": ["hal_sim/host/pins", "hal_sim/host/image_abi.h", "firmware/include", "firmware/library"],
+    "hal_sim/api": ["hal_sim/host/pins", "hal_sim/host/image_abi.h", "firmware/include", "firmware/library", "hal_sim/drivers", "hal_sim/board",
+                    "dspic30/memory", "dspic30/core", "dspic30/periph/vectors.h", "sim_core/base"],
     "firmware/library": ["firmware/include"],
     "hal_sim/cc": ["dspic30/memory/irqs.inc", "dspic30/memory/irqs.h", "hal_sim/board/cycle.h", "hal_sim/host/image_abi.h", "hal_sim/host/image_stamp.h", "hal_sim/host/pins",
                    "hal_sim/api/timings.h", "dspic30/llvm/target.h", "dspic30/llvm/link.h", "sim_core/base/pattern.h"],  # its libc calls the host
@@ -38,7 +39,7 @@ MAY_INCLUDE = {
     "hal_sim/twin": ["hal_sim/", "sim_core/", "programs/build/build.h", "programs/puck/program_runner.h"],
     "hal_sim/debug": ["hal_sim/chip", "hal_sim/host", "hal_sim/twin", "dspic30", "sim_core"],
     "hal_sim/register": ["hal_sim/host", "hal_sim/chip", "hal_sim/board", "dspic30"],
-    "hal_sim/chip": ["hal_sim/board", "hal_sim/host/runner.h", "hal_sim/host/image_abi.h", "hal_sim/host/endless_wait.h", "dspic30", "sim_core/base"],
+    "hal_sim/chip": ["hal_sim/api", "hal_sim/board", "hal_sim/host/runner.h", "hal_sim/host/image_abi.h", "hal_sim/host/endless_wait.h", "dspic30", "sim_core/base"],
     "hal_dspic": ["firmware/include", "firmware/library", "hal_sim/host/image_abi.h"],  # runtime: what the libc asks for
     "programs/process": ["programs/link"],
     "programs/build": ["hal_sim/cc/child_process.h", "hal_sim/cc/memory_limit.h", "sim_core/base"],
@@ -55,7 +56,7 @@ MAY_INCLUDE = {
 # whose classes a namespace holds
 NAMESPACE_ROOMS = {"board": "hal_sim/board", "drivers": "hal_sim/drivers", "host": "hal_sim/host",
                    "chip": "hal_sim/chip", "register_way": "hal_sim/register", "trace": "hal_sim/trace",
-                   "twin": "hal_sim/twin", "debug": "hal_sim/debug", "dspic": "dspic30/device"}
+                   "twin": "hal_sim/twin", "api": "hal_sim/api", "debug": "hal_sim/debug", "dspic": "dspic30/device"}
 # packages and the only room that may include them
 PACKAGE_ROOMS = {
     "box2d/": ["sim_core/physics"], "Eigen/": ["sim_core/simulation.cpp"], "ccd/": ["sim_core/geometry"], "boost/": ["hal_sim/host"],

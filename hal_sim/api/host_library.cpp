@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include "hal_sim/api/host_library.h"
+
+#include <algorithm>
+
+#include "dspic30/memory/irqs.h"
+#include "dspic30/periph/vectors.h"
+#include "hal_sim/api/host_functions.h"
+#include "hal_sim/board/board.h"
+#include "sim_core/base/hash.h"
+
+namespace api {
+
+namespace {
+
+constexpr int kAgendaHandler = 0, kScanHandler = 1;
+constexpr Cycle kEntryCycles = 4, kRetfieCycles = 3;  // of a real handler, in its share [DS70143 5.4]
+
+drivers::AgendaCosts costs_of(const CallCycles& c) {
+  drivers::AgendaCosts costs;
+  costs.empty = kEntryCycles + c.walk_empty + kRetfieCycles;
+  costs.list = kEntryCycles + c.walk_begin + c.walk_end + kRetfieCycles;
+  costs.paused = c.walk_paused;
+  costs.resting = c.walk_resting;
+  costs.counts = c.walk_counts;
+  costs.fires = 0;
+  costs.after = c.walk_after;
+  costs.after_destroyed = c.walk_destroyed;
+  costs.motor_half = c.share_motor_half;
+  costs.motor_off = c.share_motor_off;
+  costs.motor_step = c.share_motor_step;
+  return costs;
+}
+
+}  // namespace
+
+const std::array<HostLibrary::Method, kHostFunctions> HostLibrary::kMethods = {
+#define HOST_FUNCTION(driver, name) &HostLibrary::name,
+#define HOST_REGISTER(driver, name, bytes)
+#include "hal_sim/api/host_table.inc"
+#undef HOST_FUNCTION
+#undef HOST_REGISTER
+};
+
+HostLibrary::HostLibrary(board::Board& board, Served served)
+    : board_(board),
+      served_(served),
+      cycles_(call_cycles(served.level)),
+      drivers_(std::make_unique<drivers::Drivers>(board)),
+      variables_(drivers_->scan()) {
+  drivers_->leave_motors_to_others();
+  agendas().set_costs(costs_of(cycles_));
+  agendas().name_motor(board::Wheel::Left, key_of(HostFunction::run_left_motor));
+  agendas().name_motor(board::Wheel::Right, key_of(HostFunction::run_right_motor));
+}
+
+// --- calls -----------------------------------------------------------------------------------------------
+
+HostResult HostLibrary::call(Cpu& cpu, unsigned index, Cycle at, bool again) {
+  if (index >= kHostFunctions) return HostResult::done(0);
+  if (watch_ && !again) watch_->called(static_cast<HostFunction>(index));
+  cpu.written |= kCallersRegisters;
+  return (this->*kMethods[index])({cpu, index, at, again});
+}
+
+void HostLibrary::note(std::uint64_t what, Cycle at) {
+  digest_ += sim::mix64(what ^ sim::mix64(static_cast<std::uint64_t>(at)));
+}
+
+/// The call changes something: by its function and arguments, in the digest.
+void HostLibrary::effect(const Call& call) {
+  call.cpu.note_effect();
+  note(std::uint64_t{call.index} << 48 | std::uint64_t{call.word(1)} << 16 | call.word(0), call.at);
+}
+
+void HostLibrary::reset(Cycle at) {
+  // the board tells the drivers of it, who forget their names
+  agendas().name_motor(board::Wheel::Left, key_of(HostFunction::run_left_motor));
+  agendas().name_motor(board::Wheel::Right, key_of(HostFunction::run_right_motor));
+  variables_.reset();
+  heap_ = {};
+  zero_steps_ = {};
+  held_ = 0;
+  walk_begins_ = false;
+  note(~std::uint64_t{0}, at);
+}
+
+// --- registers -------------------------------------------------------------------------------------------
+
+std::uint16_t HostLibrary::read(unsigned address, Cycle at) { return variables_.read(address, at); }
+
+void HostLibrary::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycle at) {
+  variables_.write(address, value, lanes, at);
+}
+
+Cycle HostLibrary::horizon(unsigned address, Cycle at) { return variables_.horizon(address, at); }
+
+std::uint16_t HostLibrary::peek(unsigned address, Cycle at) const { return variables_.peek(address, at); }
+
+// --- handlers --------------------------------------------------------------------------------------------
+
+int HostLibrary::vector(int handler) const {
+  if (handler == kAgendaHandler)
+    return served_.agenda ? dspic::kFirstIrqVector + dspic::irq::T2 : dspic::kNoVector;
+  return served_.scan ? dspic::kFirstIrqVector + dspic::irq::Adc : dspic::kNoVector;
+}
+
+Cycle HostLibrary::due() const { return agendas().next_interrupt(); }
+
+std::uint64_t HostLibrary::share_q32() const {
+  std::uint64_t share = 0;
+  if (!(held_ >> kAgendaHandler & 1)) share += agendas().share_q32() - agendas().calling_share_q32();
+  if (!(held_ >> kScanHandler & 1)) share += variables_.share_q32(cycles_);
+  return share;
+}
+
+void HostLibrary::hold_handler(int handler, bool held, Cycle at) {
+  const auto bit = static_cast<std::uint8_t>(1u << handler);
+  held_ = static_cast<std::uint8_t>(held ? held_ | bit : held_ & ~bit);
+  if (handler == kAgendaHandler)
+    held ? agendas().hold(at) : agendas().release(at);
+  else
+    held ? scan().hold(at) : scan().release(at);
+}
+
+void HostLibrary::begin_handler(Cycle at) {
+  agendas().begin(at);
+  walk_begins_ = true;
+}
+
+HandlerStep HostLibrary::next_in_handler(Cycle at) {
+  HandlerStep step;
+  const Function function = agendas().next(step.divides_by_zero);
+  step.cycles = agendas().take_walk_cost();
+  if (walk_begins_) step.cycles += agendas().nodes() == 0 ? cycles_.walk_empty : cycles_.walk_begin;
+  // a walk that begins with no list has no end of its own
+  const bool is_empty = walk_begins_ && agendas().nodes() == 0;
+  walk_begins_ = false;
+  step.function = address_of(function);
+  if (!function && !is_empty) step.cycles += cycles_.walk_end;
+  if (step.divides_by_zero) step.cycles += cycles_.run_divides;
+  note(step.function, at);
+  return step;
+}
+
+void HostLibrary::end_handler(Cycle at) {
+  agendas().finish(at);
+  note(2, at);
+}
+
+}  // namespace api

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+#include "hal_sim/api/scan_variables.h"
+
+#include <algorithm>
+
+namespace api {
+
+namespace {
+
+constexpr int kMostTicks = 65535, kMostRefresh = 64;  // where tickAdcIsr and updateAccI2CCounter stop
+// end of a sequence to the counters' steps and to the microphones' samples [measured: hal_dspic on the chip]
+constexpr Cycle kCountCycles = 28, kMicFileCycles = 81;
+
+std::uint16_t word_of(int value) { return static_cast<std::uint16_t>(value); }
+
+}  // namespace
+
+ScanVariables::Place ScanVariables::place_of(unsigned address) {
+  unsigned start = kServedStart;
+  for (std::size_t i = 0; i < kHostRegisters; ++i) {
+    const unsigned end = start + ((kHostRegisterRows[i].bytes + 1) & ~1u);
+    if (address < end) return {static_cast<HostRegister>(i), (address - start) / 2};
+    start = end;
+  }
+  return {};
+}
+
+std::uint16_t ScanVariables::Counter::at(std::int64_t interrupts, int most) const {
+  if (base >= most) return base;
+  return static_cast<std::uint16_t>(std::min<std::int64_t>(most, base + interrupts - since));
+}
+
+void ScanVariables::reset() {
+  overlay_.reset();
+  ticks_.since = acc_refresh_.since = 0;
+  mic_offset_ = acc_offset_ = 0;
+}
+
+void ScanVariables::started(int selector) {
+  selector_ = word_of(selector);
+  ++starts_;
+}
+
+std::uint64_t ScanVariables::share_q32(const CallCycles& cycles) const {
+  if (!scan_.is_on()) return 0;
+  const auto q32 = [](Cycle taken, Cycle of) {
+    return (static_cast<std::uint64_t>(taken) << 32) / static_cast<std::uint64_t>(of);
+  };
+  return scan_.micro_only() ? q32(cycles.share_scan_micro, drivers::kScanMicroFrameCycles)
+                            : q32(cycles.share_scan_round, drivers::kScanRoundCycles);
+}
+
+// --- samples ---------------------------------------------------------------------------------------------
+
+std::int64_t ScanVariables::filed(Cycle at) const { return scan_.interrupts(at - kMicFileCycles); }
+
+std::int64_t ScanVariables::newest(std::int64_t count, std::int64_t offset, unsigned index, int ring) {
+  // number n lies at (n + offset) mod ring
+  const std::int64_t last = count - 1;
+  const std::int64_t ago = ((last + offset - static_cast<std::int64_t>(index)) % ring + ring) % ring;
+  return last - ago;
+}
+
+ScanVariables::Written* ScanVariables::written_at(Place place) const {
+  if (!overlay_) return nullptr;
+  switch (place.which) {
+    case HostRegister::e_ambient_ir:
+      return &overlay_->dark[place.index];
+    case HostRegister::e_ambient_and_reflected_ir:
+      return &overlay_->lit[place.index];
+    case HostRegister::e_mic_scan:
+      return &overlay_->mic[place.index];
+    case HostRegister::e_acc_scan:
+      return &overlay_->acc[place.index];
+    default:
+      return nullptr;
+  }
+}
+
+std::int64_t ScanVariables::number_of(Place place, Cycle at) const {
+  switch (place.which) {
+    case HostRegister::e_ambient_ir:
+      return scan_.dark_number(static_cast<int>(place.index), at);
+    case HostRegister::e_ambient_and_reflected_ir:
+      return scan_.lit_number(static_cast<int>(place.index), at);
+    case HostRegister::e_mic_scan:
+      return newest(filed(at), mic_offset_, place.index % drivers::kMicSamples, drivers::kMicSamples);
+    default:
+      // sample n of the accelerometer lies at n + 1
+      return newest(scan_.acc_samples(at), acc_offset_ + 1, place.index % drivers::kAccSamples,
+                    drivers::kAccSamples);
+  }
+}
+
+std::uint16_t ScanVariables::sample(Place place, Cycle at, bool keep) const {
+  if (const Written* written = written_at(place);
+      written && written->number != kNobody &&
+      std::max<std::int64_t>(-1, number_of(place, at)) <= written->number)
+    return written->value;
+  const int index = static_cast<int>(place.index);
+  switch (place.which) {
+    case HostRegister::e_ambient_ir:
+      return word_of(keep ? scan_.dark(index, at) : scan_.peek_dark(index, at));
+    case HostRegister::e_ambient_and_reflected_ir:
+      return word_of(keep ? scan_.lit(index, at) : scan_.peek_lit(index, at));
+    case HostRegister::e_mic_scan: {
+      const std::int64_t number = number_of(place, at);
+      return number < 0 ? std::uint16_t{0} : word_of(scan_.mic_sample(index / drivers::kMicSamples, number));
+    }
+    default: {
+      const std::int64_t number = number_of(place, at);
+      if (number < 0) return 0;
+      const int axis = index / drivers::kAccSamples;
+      const int own = static_cast<int>((number + 1) % drivers::kAccSamples);
+      if (!keep) return word_of(scan_.peek_acc(axis, own, at));
+      return word_of(scan_.acc_scan(at)[static_cast<std::size_t>(axis)][static_cast<std::size_t>(own)]);
+    }
+  }
+}
+
+// --- words -----------------------------------------------------------------------------------------------
+
+std::uint16_t ScanVariables::value(unsigned address, Cycle at, bool keep) const {
+  const Place place = place_of(address);
+  const auto ring_index = [](std::int64_t count, std::int64_t offset, int ring) {
+    return static_cast<std::uint16_t>(((count + offset) % ring + ring) % ring);
+  };
+  switch (place.which) {
+    case HostRegister::e_last_mic_scan_id:
+      return ring_index(filed(at), mic_offset_, drivers::kMicSamples);
+    case HostRegister::e_last_acc_scan_id:
+      return ring_index(scan_.acc_samples(at), acc_offset_, drivers::kAccSamples);
+    case HostRegister::selector:
+      return selector_;
+    case HostRegister::tickAdcIsr:
+      return ticks_.at(scan_.interrupts(at - kCountCycles), kMostTicks);
+    case HostRegister::updateAccI2CCounter:
+      return static_cast<std::uint16_t>(acc_refresh_.at(scan_.interrupts(at - kCountCycles), kMostRefresh) |
+                                        beside_refresh_ << 8);
+    case HostRegister::hal_starts:
+      return starts_;
+    case HostRegister::Count:
+      return 0;
+    default:
+      return sample(place, at, keep);
+  }
+}
+
+std::uint16_t ScanVariables::read(unsigned address, Cycle at) { return value(address, at, true); }
+
+std::uint16_t ScanVariables::peek(unsigned address, Cycle at) const { return value(address, at, false); }
+
+void ScanVariables::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycle at) {
+  const Place place = place_of(address);
+  const std::uint16_t old = read(address, at);
+  value = static_cast<std::uint16_t>((old & ~lanes) | (value & lanes));
+  const std::int64_t interrupts = scan_.interrupts(at - kCountCycles);
+  // a ring that goes on elsewhere keeps what it holds
+  const auto move_ring = [&](HostRegister ring, int words) {
+    const unsigned start = served_address(ring);
+    for (int i = 0; i < words; ++i) {
+      const unsigned one = start + 2 * static_cast<unsigned>(i);
+      write(one, read(one, at), 0xFFFF, at);
+    }
+  };
+  switch (place.which) {
+    case HostRegister::e_last_mic_scan_id:
+      if (value == old) return;
+      if (scan_.starts() > 0) move_ring(HostRegister::e_mic_scan, kMicWords);
+      mic_offset_ = value % drivers::kMicSamples - filed(at);
+      if (overlay_)
+        for (Written& w : overlay_->mic)
+          if (w.number != kNobody) w.number = filed(at) - 1;
+      return;
+    case HostRegister::e_last_acc_scan_id:
+      if (value == old) return;
+      if (scan_.starts() > 0) move_ring(HostRegister::e_acc_scan, kAccWords);
+      acc_offset_ = value % drivers::kAccSamples - scan_.acc_samples(at);
+      if (overlay_)
+        for (Written& w : overlay_->acc)
+          if (w.number != kNobody) w.number = scan_.acc_samples(at) - 1;
+      return;
+    case HostRegister::selector:
+      selector_ = value;
+      return;
+    case HostRegister::tickAdcIsr:
+      ticks_ = {value, interrupts};
+      return;
+    case HostRegister::updateAccI2CCounter:
+      beside_refresh_ = static_cast<std::uint8_t>(value >> 8);
+      if (lanes & 0xFF) acc_refresh_ = {static_cast<std::uint16_t>(value & 0xFF), interrupts};
+      return;
+    case HostRegister::hal_starts:
+      starts_ = value;
+      return;
+    case HostRegister::Count:
+      return;
+    default:
+      break;
+  }
+  // what is there already, as behind the start-up code, needs no memory
+  Written* written = written_at(place);
+  if (value == old && !written) return;
+  if (!overlay_) overlay_ = std::make_unique<Overlay>();
+  if (!written) written = written_at(place);
+  *written = {value, std::max<std::int64_t>(-1, number_of(place, at))};
+}
+
+Cycle ScanVariables::horizon(unsigned address, Cycle at) {
+  const Place place = place_of(address);
+  const auto after = [&](std::int64_t count, Cycle delay) {
+    const Cycle when = scan_.interrupt_cycle(count);
+    return when >= board::kNever ? board::kNever : when + delay;
+  };
+  switch (place.which) {
+    case HostRegister::e_last_mic_scan_id:
+      return after(filed(at) + 1, kMicFileCycles);
+    case HostRegister::tickAdcIsr:
+    case HostRegister::updateAccI2CCounter:
+      return after(scan_.interrupts(at - kCountCycles) + 1, kCountCycles);
+    case HostRegister::e_mic_scan:
+      return after(number_of(place, at) + drivers::kMicSamples + 1, kMicFileCycles);
+    case HostRegister::e_last_acc_scan_id:
+    case HostRegister::e_acc_scan:
+      return scan_.acc_until(at);
+    case HostRegister::e_ambient_ir:
+    case HostRegister::e_ambient_and_reflected_ir:
+      return scan_.horizon(static_cast<int>(place.index), at);
+    default:
+      return board::kNever;
+  }
+}
+
+}  // namespace api
