@@ -1,75 +1,48 @@
 // SPDX-License-Identifier: MIT
-// Names, places and numbers of what hal_sim fills of the library: host_table.inc as constants.
+// The rows of host_table.inc, for who links images, and the sum by which an image says which table it was
+// linked for.
 #pragma once
 #include <cstddef>
 #include <cstdint>
 
-#include "dspic30/memory/host_places.h"
-
 namespace api {
 
-/// A driver is filled as a whole or not at all.
-enum class Driver : std::uint8_t { agenda, scan };
-
-/// By their places in the table.
-enum class HostFunction : unsigned {
-#define HOST_FUNCTION(driver, name) name,
-#define HOST_REGISTER(driver, name, bytes)
-#include "hal_sim/api/host_table.inc"
-#undef HOST_FUNCTION
-#undef HOST_REGISTER
-  Count
+struct HostName {
+  const char *driver, *name;
 };
-inline constexpr std::size_t kHostFunctions = static_cast<std::size_t>(HostFunction::Count);
-
-struct HostFunctionRow {
-  Driver driver;
-  const char* name;
-};
-inline constexpr HostFunctionRow kHostFunctionRows[] = {
-#define HOST_FUNCTION(driver, name) {Driver::driver, #name},
-#define HOST_REGISTER(driver, name, bytes)
-#include "hal_sim/api/host_table.inc"
-#undef HOST_FUNCTION
-#undef HOST_REGISTER
-};
-
-/// The program address of a function.
-inline constexpr unsigned host_place(HostFunction function) {
-  return dspic::kHostStart + 2 * static_cast<unsigned>(function);
-}
-
-enum class HostRegister : unsigned {
-#define HOST_FUNCTION(driver, name)
-#define HOST_REGISTER(driver, name, bytes) name,
-#include "hal_sim/api/host_table.inc"
-#undef HOST_FUNCTION
-#undef HOST_REGISTER
-  Count
-};
-inline constexpr std::size_t kHostRegisters = static_cast<std::size_t>(HostRegister::Count);
-
-struct HostRegisterRow {
-  Driver driver;
-  const char* name;
+struct HostRegister {
+  const char *driver, *name;
   unsigned bytes;
 };
-inline constexpr HostRegisterRow kHostRegisterRows[] = {
-#define HOST_FUNCTION(driver, name)
-#define HOST_REGISTER(driver, name, bytes) {Driver::driver, #name, bytes},
+
+#define HOST_FUNCTION(driver, name) {#driver, #name},
+/// At their places.
+inline constexpr HostName kHostFunctions[] = {
 #include "hal_sim/api/host_table.inc"
-#undef HOST_FUNCTION
-#undef HOST_REGISTER
 };
 
-inline constexpr unsigned kServedStart = 0x800;  ///< RAM's first address [DS70143 3.2]
-/// The data address of a register, each at an even one; of Count: where the last one ends.
-inline constexpr unsigned served_address(HostRegister which) {
-  unsigned address = kServedStart;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(which); ++i)
-    address += (kHostRegisterRows[i].bytes + 1) & ~1u;
-  return address;
+#define HOST_REGISTER(driver, name, bytes) {#driver, #name, bytes},
+/// In the order in which they lie.
+inline constexpr HostRegister kHostRegisters[] = {
+#include "hal_sim/api/host_table.inc"
+};
+
+#define HOST_OWNED(driver, name) {#driver, #name},
+/// Registers and handlers of the drivers.
+inline constexpr HostName kHostOwned[] = {
+#include "hal_sim/api/host_table.inc"
+};
+
+/// Value of the symbol dspic::kHostTableSymbol: other rows give another one (FNV-1a).
+constexpr std::uint32_t host_table_sum() {
+  std::uint32_t sum = 0x811C9DC5;
+  const auto add = [&sum](const char* text) {
+    for (; *text; ++text) sum = (sum ^ static_cast<unsigned char>(*text)) * 0x01000193;
+    sum = (sum ^ 0xFF) * 0x01000193;
+  };
+  for (const HostName& f : kHostFunctions) add(f.driver), add(f.name);
+  for (const HostRegister& r : kHostRegisters) add(r.driver), add(r.name), sum = (sum ^ r.bytes) * 0x01000193;
+  return sum;
 }
-inline constexpr unsigned kServedEnd = served_address(HostRegister::Count);
 
 }  // namespace api
