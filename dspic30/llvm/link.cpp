@@ -12,12 +12,15 @@ bool run(const Options& options) {
   program.sources = options.sources;
   if (read_all(program, options)) {
     keep_used(program);
+    choose_filled(program, options);
     place_debug(program);
     place_all(program, options);
     fill_all(program);
-    halve_addresses(program);
     if (program.errors.empty()) {
       bound_stack(program);
+      program.sizes = report(program);
+      if (options.is_filled_by_host) fill_by_host(program, options);
+      halve_addresses(program);
       write_all(program, options);
     }
   }
@@ -25,7 +28,7 @@ bool run(const Options& options) {
   for (const std::string& e : program.errors)
     std::fprintf(stderr, "%s%s\n", e.find(": error: ") == std::string::npos ? "link: error: " : "",
                  e.c_str());
-  if (program.errors.empty()) std::fputs(report(program).c_str(), stdout);
+  if (program.errors.empty()) std::fputs(program.sizes.c_str(), stdout);
   return program.errors.empty();
 }
 

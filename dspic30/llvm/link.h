@@ -7,6 +7,7 @@
 //   link_place.cpp   what is used gets its place: near, X, Y and other RAM; constants in one PSV page; code;
 //                    start-up table
 //   link_fill.cpp    addresses into instructions, data and debugging information; vectors
+//   link_host.cpp    what the host stands in for
 //   link_stack.cpp   how deep the stack can grow
 //   link_write.cpp   .elf, .hex; link_listing.cpp .lst; link_map.cpp .map
 //   link_report.cpp  sizes against the chip's
@@ -14,12 +15,21 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "dspic30/load/code_map.h"
 
 namespace dspic::link {
+
+/// A driver of the library that the host can stand in for. Names as in C.
+struct HostDriver {
+  std::string name;
+  std::map<std::string, unsigned> functions;                ///< and their places (host_places.h)
+  std::vector<std::pair<std::string, unsigned>> registers;  ///< public variables, in order, and their bytes
+  std::set<std::string> owned;  ///< registers and handlers: "T2CON", "T2Interrupt"
+};
 
 struct Options {
   std::vector<std::string> inputs;   ///< .o: all of it; .a: members that somebody needs
@@ -33,6 +43,10 @@ struct Options {
   /// Object to source, archive to its name for people. Line tables may have been written for a copy
   /// elsewhere.
   std::map<std::string, std::string> sources;
+  std::string host_library;      ///< of `libraries` the archive with the drivers below
+  std::vector<HostDriver> host;  ///< their variables come first in RAM, whether the host fills them or not
+  bool is_filled_by_host = false;
+  std::uint32_t host_table = 0;  ///< value of kHostTableSymbol
 };
 
 /// What memory a section goes to.
@@ -46,7 +60,8 @@ struct Symbol {
   std::uint32_t value = 0;     ///< octets from the section's start
   std::uint32_t size = 0, align = 1;
   bool is_defined = false, is_weak = false, is_common = false, is_function = false;
-  std::string from;  ///< the module that defines it: "main.c", "libmotor.a(step.o)"
+  bool is_hal = false;  ///< of Options::host_library
+  std::string from;     ///< the module that defines it: "main.c", "libmotor.a(step.o)"
 };
 
 struct Relocation {
@@ -63,10 +78,18 @@ struct Section {
   std::uint32_t flags = 0;  ///< memory_spaces.h
   std::uint32_t size = 0, align = 1;
   bool zeroed = false, used = false;
+  bool is_hal = false;  ///< of Options::host_library
   std::vector<std::uint8_t> bytes;
   std::vector<Relocation> relocations;
   std::uint32_t address = 0;  ///< as the program sees it: bytes of data, program address of code
   std::uint32_t load = 0;     ///< of constants: program address
+};
+
+/// A driver that the program uses, and what keeps the host from filling it; empty: nothing.
+struct HostChoice {
+  const HostDriver* driver;
+  bool is_linked;  ///< false: all that is used of it is the program's own
+  std::string why_not;
 };
 
 struct Program {
@@ -86,6 +109,9 @@ struct Program {
   std::uint32_t stack_bytes = 0;                   ///< at most, if nothing is recursive
   std::string recursive;                           ///< a function that calls itself
   std::uint32_t ram_bytes = 0;
+  std::string sizes;  ///< report(), of the image with all drivers
+  std::vector<HostChoice> host;
+  std::uint32_t served_end = 0x0800;  ///< behind the variables that the host serves
 
   Symbol* global(const std::string& name);
   /// Where the program sees it; of code its program address.
@@ -123,14 +149,27 @@ std::string name_of_library(const std::string& name);
 /// False: that type is not known. `offset` as the object has it.
 bool add_vendor_relocation(Section& section, std::uint32_t offset, unsigned type, Symbol& symbol);
 void keep_used(Program& program);
+/// Which drivers the host can fill. Before anything has its place.
+void choose_filled(Program& program, const Options& options);
+/// Puts the host in their place. The last thing, when all is filled and measured.
+void fill_by_host(Program& program, const Options& options);
+/// The address after '@' in a section's name.
+bool fixed_address(const Section& section, std::uint32_t& address);
+/// No address, and neither X nor Y memory, is asked for.
+bool can_lie_anywhere(const Section& section);
 void place_all(Program& program, const Options& options);
 void fill_all(Program& program);
+/// The words of a section.
+void put_section(Program& program, const Section& section);
+void put_vectors(Program& program);
+/// Debugging information, of sections that are used by now.
+void refill_debug(Program& program);
 /// Once more where `symbol` is asked for, which has another value now.
 void fill_for(Program& program, const Symbol& symbol);
 void bound_stack(Program& program);
 bool write_all(Program& program, const Options& options);
-/// "flash N of M words (...)", "RAM N of M bytes", "stack N bytes at most", a line each: the build reads
-/// them.
+/// "flash N of M words (...)", "RAM N of M bytes", "stack N bytes at most", "host DRIVER", "host
+/// DRIVER chip: why" or "host DRIVER own: why", a line each: the build reads them.
 std::string report(const Program& program);
 std::string listing(const Program& program, const Options& options);
 std::string map_file(const Program& program);

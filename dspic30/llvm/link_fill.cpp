@@ -217,11 +217,22 @@ void put_jumps(Program& program) {
   jump(0, program.address_of(*program.global("__reset")));
 }
 
+}  // namespace
+
+std::uint32_t Program::address_of(const Symbol& symbol, std::int32_t addend) const {
+  const std::uint32_t offset = symbol.value + std::uint32_t(addend);
+  if (!symbol.section) return offset;
+  // code counts four octets a word, two addresses
+  return symbol.section->address + (symbol.section->kind == Kind::Code ? offset / 2 : offset);
+}
+
 void put_vectors(Program& program) {
   constexpr std::uint32_t kVectors0 = 0x04, kAlternate0 = 0x84;
   const auto target = [&](const std::string& name) -> std::uint32_t {
     const auto it = program.globals.find(name);
-    return it != program.globals.end() && it->second->is_defined ? program.address_of(*it->second) : 0;
+    const bool is_there = it != program.globals.end() && it->second->is_defined &&
+                          (!it->second->section || it->second->section->used);
+    return is_there ? program.address_of(*it->second) : 0;
   };
   const std::uint32_t otherwise = target("__DefaultInterrupt");
   for (int v = 0; v < kVectors; ++v) {
@@ -232,13 +243,15 @@ void put_vectors(Program& program) {
   }
 }
 
-}  // namespace
+void put_section(Program& program, const Section& s) {
+  if (s.kind == Kind::Ram || s.kind == Kind::Debug) return;
+  s.kind == Kind::Code ? put_code(program, s) : put_bytes(program, s);
+}
 
-std::uint32_t Program::address_of(const Symbol& symbol, std::int32_t addend) const {
-  const std::uint32_t offset = symbol.value + std::uint32_t(addend);
-  if (!symbol.section) return offset;
-  // code counts four octets a word, two addresses
-  return symbol.section->address + (symbol.section->kind == Kind::Code ? offset / 2 : offset);
+void refill_debug(Program& program) {
+  Mistakes mistakes(program);
+  for (Section& s : program.sections)
+    if (s.kind == Kind::Debug) Filler(program, s, mistakes).fill();
 }
 
 void fill_for(Program& program, const Symbol& symbol) {
@@ -248,8 +261,7 @@ void fill_for(Program& program, const Symbol& symbol) {
                                   [&](const Relocation& r) { return r.symbol == &symbol; });
     if (!s.used || !asks) continue;
     Filler(program, s, mistakes).fill();
-    if (s.kind == Kind::Ram || s.kind == Kind::Debug) continue;
-    s.kind == Kind::Code ? put_code(program, s) : put_bytes(program, s);
+    put_section(program, s);
   }
 }
 
@@ -261,10 +273,8 @@ void fill_all(Program& program) {
   put_dinit(program);
   put_jumps(program);
   put_vectors(program);
-  for (const Section& s : program.sections) {
-    if (!s.used || s.kind == Kind::Ram || s.kind == Kind::Debug) continue;
-    s.kind == Kind::Code ? put_code(program, s) : put_bytes(program, s);
-  }
+  for (const Section& s : program.sections)
+    if (s.used) put_section(program, s);
 }
 
 }  // namespace dspic::link

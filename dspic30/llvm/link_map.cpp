@@ -77,7 +77,7 @@ std::string map_file(const Program& program) {
   const auto by_place = [](const Section* a, const Section* b) {
     return std::make_pair(a->kind, place_of(*a)) < std::make_pair(b->kind, place_of(*b));
   };
-  std::string out = report(program);
+  std::string out = program.sizes;
   char line[600];
 
   out += "\nmodules: words of code, of constants and tables, bytes of RAM\n";

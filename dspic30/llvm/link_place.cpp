@@ -77,14 +77,6 @@ std::string largest_of(const Program& program, Kind kind) {
   return text;
 }
 
-/// The address after '@' in a section's name.
-bool fixed_address(const Section& s, std::uint32_t& address) {
-  const auto at = s.name.find('@');
-  if (at == std::string::npos) return false;
-  address = std::uint32_t(std::stoul(s.name.substr(at + 1), nullptr, 16));
-  return true;
-}
-
 /// A common variable becomes a section like any other.
 void place_commons(Program& program) {
   constexpr std::uint32_t kSmall = 32;  // as in sections.cpp
@@ -93,6 +85,7 @@ void place_commons(Program& program) {
     Section& s = program.sections.emplace_back();
     s.name = (symbol->size <= kSmall ? ".nbss." : ".bss.") + name;
     s.from = symbol->from;
+    s.is_hal = symbol->is_hal;
     s.flags = symbol->size <= kSmall ? unsigned(kNearSpace) : 0u;
     s.size = symbol->size;
     s.align = symbol->align;
@@ -113,6 +106,25 @@ Range range_of(const Section& s) {
   return {kRamBegin, kRamEnd};
 }
 
+/// Variables of drivers that the host can fill come first, each at its place of the table, used or not.
+std::set<const Section*> place_registers(Program& program, Space& ram) {
+  std::set<const Section*> placed;
+  std::uint32_t end = kRamBegin;
+  for (const HostChoice& choice : program.host) {
+    if (!choice.why_not.empty()) continue;
+    for (const auto& [name, bytes] : choice.driver->registers) {
+      Section* s = program.global("_" + name)->section;
+      if (s && s->used && placed.insert(s).second) s->address = end;
+      end += (bytes + 1) & ~1u;
+    }
+  }
+  std::uint32_t at;
+  if (end > kRamBegin && !ram.take(end - kRamBegin, 2, kRamBegin, end, at))
+    program.errors.push_back("RAM: no room for the library's registers at its beginning");
+  program.served_end = end;
+  return placed;
+}
+
 void place_ram(Program& program, const Options& options) {
   Space ram(kRamBegin, kRamEnd);
   const auto place = [&](Section& s, Range r, std::uint32_t align) {
@@ -126,6 +138,7 @@ void place_ram(Program& program, const Options& options) {
       if (s.used && s.kind == Kind::Ram && wanted(s)) act(s);
   };
   std::uint32_t at;
+  const std::set<const Section*> served = place_registers(program, ram);
   const auto is_fixed = [&](const Section& s) { return fixed_address(s, at); };
   each(is_fixed, [&](Section& s) {
     fixed_address(s, at);
@@ -135,7 +148,7 @@ void place_ram(Program& program, const Options& options) {
   });
   for (std::uint32_t space : {kYSpace, kXSpace, kNearSpace, SectionFlag(0)}) {
     const auto belongs = [&](const Section& s) {
-      return !is_fixed(s) && (s.flags & (kXSpace | kYSpace | kNearSpace)) == space;
+      return !is_fixed(s) && !served.count(&s) && (s.flags & (kXSpace | kYSpace | kNearSpace)) == space;
     };
     each(belongs, [&](Section& s) { place(s, range_of(s), s.align); });
   }
@@ -267,6 +280,18 @@ void place_rest(Program& program) {
 }
 
 }  // namespace
+
+bool fixed_address(const Section& s, std::uint32_t& address) {
+  const auto at = s.name.find('@');
+  if (at == std::string::npos) return false;
+  address = std::uint32_t(std::stoul(s.name.substr(at + 1), nullptr, 16));
+  return true;
+}
+
+bool can_lie_anywhere(const Section& section) {
+  std::uint32_t at;
+  return !fixed_address(section, at) && !(section.flags & (kXSpace | kYSpace));
+}
 
 std::string handler_name(int vector) {
   const std::string name = vector_name(vector);

@@ -36,7 +36,7 @@ namespace {
 struct Member {
   std::string name;  // as messages and the map have it
   StringRef bytes;
-  bool is_taken = false, is_of_library = false, is_of_archive = false, is_driver = false;
+  bool is_taken = false, is_of_library = false, is_of_archive = false, is_driver = false, is_hal = false;
 };
 
 /// COFF, which C30 wrote before it wrote ELF.
@@ -211,6 +211,7 @@ class Reader {
       Section& s = program_.sections.emplace_back();
       s.name = name->str();
       s.from = member.name;
+      s.is_hal = member.is_hal;
       s.kind = kind_of(h, *name);
       s.flags = h.sh_flags;
       s.size = h.sh_size;
@@ -253,6 +254,7 @@ class Reader {
       Symbol own;
       own.name = name->str();
       own.from = member.name;
+      own.is_hal = member.is_hal;
       own.value = e.st_value;
       if (e.st_shndx < sections.size()) own.section = sections[e.st_shndx];
       if (is_vendors && own.section && own.section->kind == Kind::Code) own.value *= 2;
@@ -371,8 +373,11 @@ bool read_all(Program& program, const Options& options) {
     if (!reader.open(path, lazy)) return false;
     lazy.back().is_driver = true;
   }
-  for (const std::string& path : options.libraries)
+  for (const std::string& path : options.libraries) {
+    const std::size_t before = lazy.size();
     if (!reader.open(path, lazy)) return false;
+    for (std::size_t i = before; i < lazy.size(); ++i) lazy[i].is_hal = path == options.host_library;
+  }
   std::map<std::string, Member*> who;  // the first that defines a name
   for (Member& m : lazy) {
     m.is_of_library = true;

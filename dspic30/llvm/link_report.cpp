@@ -42,7 +42,11 @@ std::string report(const Program& program) {
       words, kFlashWords, 100 * words / kFlashWords, code, constants, tables, program.dinit_words, others,
       program.ram_bytes, kRamBytes, 100 * program.ram_bytes / kRamBytes, program.stack_bytes,
       no_bound.c_str(), program.stack_end - program.stack_begin);
-  return text;
+  std::string all = text;
+  for (const HostChoice& choice : program.host)
+    all += "host  " + choice.driver->name +
+           (choice.why_not.empty() ? "" : (choice.is_linked ? " chip: " : " own: ") + choice.why_not) + "\n";
+  return all;
 }
 
 }  // namespace dspic::link

@@ -122,6 +122,8 @@ class ElfReader {
       GElf_Sym symbol;
       if (!gelf_getsym(data, static_cast<int>(i), &symbol)) return;
       const char* name = elf_strptr(elf_.get(), head.sh_link, symbol.st_name);
+      if (name && symbol.st_shndx == SHN_ABS && std::string(name).rfind("_tp_", 0) == 0)
+        file_.marks[name] = static_cast<std::uint32_t>(symbol.st_value);
       if (!name || !*name || symbol.st_shndx == SHN_UNDEF || symbol.st_shndx >= SHN_LORESERVE) continue;
       const int type = GELF_ST_TYPE(symbol.st_info);
       GElf_Shdr home;

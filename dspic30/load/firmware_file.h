@@ -25,6 +25,8 @@ struct FirmwareFile {
   std::map<std::string, std::uint32_t> functions;     ///< program addresses, of labels too
   std::map<std::string, std::uint32_t> objects;       ///< data addresses
   std::map<std::string, std::uint32_t> object_bytes;  ///< their sizes, where told
+  /// Absolute symbols that begin with "_tp_": what the linker says of the image (memory/host_places.h).
+  std::map<std::string, std::uint32_t> marks;
   CodeMap code;
   DebugInfo debug;
 };

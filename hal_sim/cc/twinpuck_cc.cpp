@@ -147,7 +147,23 @@ void limit_memory(const std::string& what) {
   install_bad_alloc_error_handler([](void*, const char*, bool) { cc::end_without_memory(); });
 }
 
+/// "DRIVER:NAME=NUMBER" or "DRIVER:NAME": the driver, and what is told of it.
+dspic::link::HostDriver& host_driver(dspic::link::Options& o, StringRef text, std::string& name,
+                                     unsigned& number) {
+  const auto [driver, rest] = text.split(':');
+  const auto [of, value] = rest.split('=');
+  name = of.str();
+  number = 0;
+  value.getAsInteger(0, number);
+  for (auto& known : o.host)
+    if (known.name == driver) return known;
+  o.host.push_back({driver.str(), {}, {}, {}});
+  return o.host.back();
+}
+
 /// twinpuck-cc --link -o x.elf a.o b.o [--library c.o]... [--driver d.o]... [--source O=C]... [--heap N]
+/// Of drivers that the host can fill: [--host-library A.a] [--host DRIVER:FUNCTION=PLACE]...
+/// [--register DRIVER:VARIABLE=BYTES]... [--owned DRIVER:T2CON]...; --fill SUM fills them.
 int link(int argc, char** argv) {
   dspic::link::Options o;
   for (int i = 2; i < argc; ++i) {
@@ -164,6 +180,22 @@ int link(int argc, char** argv) {
       const auto [from, to] = StringRef(pair).split('=');
       auto& pairs = a == "--source" ? o.sources : a == "--rename" ? o.renames : o.library_renames;
       pairs[from.str()] = to.str();
+    } else if (a == "--host" || a == "--register" || a == "--owned") {
+      std::string name;
+      unsigned number;
+      auto& driver = host_driver(o, value(), name, number);
+      if (a == "--host")
+        driver.functions[name] = number;
+      else if (a == "--register")
+        driver.registers.emplace_back(name, number);
+      else
+        driver.owned.insert(name);
+    } else if (a == "--host-library") {
+      o.libraries.push_back(value());
+      o.host_library = o.libraries.back();
+    } else if (a == "--fill") {
+      o.is_filled_by_host = true;
+      o.host_table = std::uint32_t(std::strtoul(value().c_str(), nullptr, 0));
     } else if (a == "--heap")
       o.heap_bytes = unsigned(std::strtoul(value().c_str(), nullptr, 0));
     else
