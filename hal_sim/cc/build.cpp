@@ -18,6 +18,7 @@
 #include "build_record.h"
 #include "driver_variants.h"
 #include "elf_reader.h"
+#include "hal_sim/api/host_table.h"
 #include "hal_sim/host/image_stamp.h"
 #include "large_stack.h"
 #include "library_objects.h"
@@ -268,10 +269,37 @@ void read_shared_variables_in_place(std::vector<CompileJob>& all, std::vector<Co
                               o.optimisation + " may read it once and wait for ever");
 }
 
+/// For the chip's linker: the library, and what of it the host can fill, or does.
+void add_host_table(std::vector<std::string>& argv, const fs::path& library, bool fills) {
+  argv.insert(argv.end(), {"--host-library", library.string()});
+  const auto of = [](const auto& row) { return std::string(row.driver) + ":" + row.name; };
+  int place = 0;
+  for (const auto& row : api::kHostFunctions)
+    argv.insert(argv.end(), {"--host", of(row) + "=" + std::to_string(place++)});
+  for (const auto& row : api::kHostRegisters)
+    argv.insert(argv.end(), {"--register", of(row) + "=" + std::to_string(row.bytes)});
+  for (const auto& row : api::kHostOwned) argv.insert(argv.end(), {"--owned", of(row)});
+  if (fills) argv.insert(argv.end(), {"--fill", std::to_string(api::host_table_sum())});
+}
+
+/// The linker's lines of drivers, which end its report: "host  agenda chip: main.c:12 uses T2CON".
+void take_drivers(std::string& report, bool is_filled, BuildResult& result) {
+  const std::size_t begin = report.find("\nhost  ");
+  if (begin == std::string::npos) return;
+  std::istringstream lines(report.substr(begin + 1));
+  report.resize(begin + 1);
+  for (std::string line; is_filled && std::getline(lines, line);)
+    for (const auto& [word, whose] :
+         {std::pair(" chip: ", "the chip's own driver"), std::pair(" own: ", "the program's own driver")})
+      if (const std::size_t at = line.find(word); at != std::string::npos)
+        result.notes.push_back(line.substr(6, at - 6) + ": " + whose + ", since " +
+                               line.substr(at + std::strlen(word)));
+}
+
 /// The chip way's last step: .elf, .hex, .lst and .map, which appear together or not at all.
 void link_chip(const std::vector<CompileOutcome>& user, const std::vector<CompileOutcome>& drivers,
                const std::vector<CompileOutcome>& members, const Program& program, const Library& library,
-               const Renames& renames, const fs::path& folder, const fs::path& output, BuildResult& result) {
+               const Renames& renames, const BuildOptions& o, const fs::path& output, BuildResult& result) {
   std::error_code ec;
   const fs::path half = unfinished(output);  // a folder
   fs::create_directories(half, ec);
@@ -294,11 +322,14 @@ void link_chip(const std::vector<CompileOutcome>& user, const std::vector<Compil
   }
   for (const auto& d : drivers) argv.insert(argv.end(), {"--driver", d.object.string()});
   for (const auto& m : members) argv.insert(argv.end(), {"--library", m.object.string()});
-  argv.insert(argv.end(), {"--library", library.archive.string()});
+  add_host_table(argv, library.archive, o.hal == "sim");
   const auto run = run_process(argv);
   sort_messages(with_hints(run.output), result, run.status != 0);
-  if (const std::size_t at = run.output.find("flash "); run.status == 0 && at != std::string::npos)
-    take_sizes(run.output.substr(at), folder, result);
+  if (const std::size_t at = run.output.find("flash "); run.status == 0 && at != std::string::npos) {
+    std::string report = run.output.substr(at);
+    take_drivers(report, o.hal == "sim", result);
+    take_sizes(report, o.source_dir, result);
+  }
   for (const char* kind : {".hex", ".lst", ".map", ".elf"}) {
     if (!result.errors.empty()) break;
     fs::path from = made, to = output;
@@ -436,7 +467,7 @@ static BuildResult build_here(const BuildOptions& asked) {
     };
     std::copy_if(members.begin(), members.end(), std::back_inserter(drivers), is_listed);
     members.erase(std::remove_if(members.begin(), members.end(), is_listed), members.end());
-    link_chip(user, drivers, members, program, library, renames, o.source_dir, output, result);
+    link_chip(user, drivers, members, program, library, renames, o, output, result);
     result.ok = result.errors.empty();
     return finish();
   }
@@ -576,6 +607,8 @@ static BuildResult begin(const BuildOptions& options, BuildInputs& inputs, const
 static BuildOptions with_cache(BuildOptions o) {
   if (o.cache_dir.empty()) o.cache_dir = build_root() / "firmware-cache";
   o.cache_dir = fs::absolute(o.cache_dir);
+  if (!o.hal.empty()) o.chip_way = o.register_way = true;
+  if (o.chip_way && o.hal.empty()) o.hal = "dspic";
   return o;
 }
 

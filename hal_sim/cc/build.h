@@ -18,6 +18,9 @@ struct BuildOptions {
   bool strict = false;               ///< more warnings
   bool register_way = false;         ///< for the models of the chip: hal_dspic's drivers, registers for all
   bool chip_way = false;             ///< an image of the chip, .elf with .hex and .map; with register_way
+  /// An image of the chip for this HAL: "sim", whose busy drivers are the simulator's, or "dspic", the image
+  /// that is flashed. Implies chip_way, which alone means dspic.
+  std::string hal;
   int jobs = 2;                      ///< compilers at once
   std::string name;                  ///< controller's name; default: the folder's
   std::filesystem::path cache_dir;   ///< objects kept between builds; default: below the build folder
@@ -37,9 +40,12 @@ struct BuildResult {
   std::vector<std::string> errors;     ///< "file:line: what: got X, expected Y; hint"
   std::vector<std::string> conflicts;  ///< two drivers with one timer or vector; found at each build
   std::vector<std::string> warnings;   ///< same grammar; 16-bit warnings of the compiler included
-  int compiled = 0, reused = 0;        ///< translation units compiled now, taken from the cache
-  int files = 0;                       ///< sources of the program itself
-  long ram_bytes = 0;       ///< static data on the chip: the linker's number, other ways an estimate
+  /// hal sim: which drivers are not the simulator's: "agenda: the chip's own driver, since main.c:12 uses
+  /// T2CON"
+  std::vector<std::string> notes;
+  int compiled = 0, reused = 0;  ///< translation units compiled now, taken from the cache
+  int files = 0;                 ///< sources of the program itself
+  long ram_bytes = 0;            ///< static data on the chip: the linker's number, other ways an estimate
   long stack_bytes = 0;     ///< the stack at most, every handler included: the linker's bound, or an estimate
   std::string recursive;    ///< a function that calls itself: then the stack has no bound
   std::string no_room;      ///< one of the warnings: data and stack are more than the chip's RAM

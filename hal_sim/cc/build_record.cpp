@@ -147,6 +147,7 @@ BuildRecord::BuildRecord(const BuildOptions& o) {
                                     o.chip_way       ? "chip"
                                     : o.register_way ? "register"
                                                      : "",
+                                    o.hal,
                                     o.name,
                                     o.webots_settings,
                                     o.standard,
@@ -175,6 +176,7 @@ std::optional<BuildResult> BuildRecord::recall() const {
   result.size_report = record.next();
   result.warnings = record.list();
   result.conflicts = record.list();
+  result.notes = record.list();
   std::map<std::string, BuildInputs::Input> inputs;
   bool is_touched = false;  // the same content at another time: the record learns it
   while (!record.is_over()) {
@@ -204,6 +206,7 @@ void BuildRecord::keep(const BuildResult& result,
                                     result.size_report};
   put(texts, result.warnings);
   put(texts, result.conflicts);
+  put(texts, result.notes);
   for (const auto& [path, input] : inputs)
     texts.insert(texts.end(), {path, numbers(input.state), input.hash});
   write_text(file_, joined(texts));
