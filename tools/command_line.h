@@ -30,6 +30,8 @@ void add_help(CLI::App& app);
 /// An option that may be given several times, each time with one value: so that what follows is not
 /// swallowed.
 CLI::Option* one_each(CLI::Option* option);
+/// "--hal sim|dspic" of a verb that runs controllers.
+void add_hal(CLI::App& verb, std::string& hal);
 
 /// "ROBOT=VALUE" of each word; what names no robot is for every robot. False, told, when one is neither.
 bool split_choices(const std::vector<std::string>& words, const char* option,

@@ -94,6 +94,7 @@ int build(cc::BuildOptions options) {
   if (options.output.empty()) {
     twin::Options of_run;
     of_run.way = options.chip_way ? "chip" : options.register_way ? "register" : "native";
+    of_run.hal = options.hal;
     of_run.sanitize = options.sanitize;
     of_run.coverage = options.coverage;
     options.output = twin::image_file(options.source_dir.string(), of_run);
@@ -101,6 +102,7 @@ int build(cc::BuildOptions options) {
   const auto result = cc::build_image(options);
   complain(result.conflicts);
   complain(result.warnings);
+  complain(result.notes);
   complain(result.errors);
   if (!result.ok) return kTestFailed;
   if (options.chip_way) {
@@ -191,10 +193,14 @@ void add_build(CLI::App& app, int& exit_code) {
                    "for the robot itself, .elf, with .hex and .map beside it")
       ->check(CLI::IsMember({"native", "register", "chip"}))
       ->capture_default_str();
+  verb->add_option("--hal", o->hal,
+                   "for the robot's own processor, .elf: sim, whose busy drivers are the simulator's, or "
+                   "dspic, the image that is flashed")
+      ->check(CLI::IsMember({"sim", "dspic"}));
   verb->add_flag("--sanitize", o->sanitize, "address and 16-bit overflow checks");
   verb->add_flag("--coverage", o->coverage, "line counters, for run --coverage");
   verb->callback([o, way, &exit_code] {
-    o->chip_way = *way == "chip";
+    o->chip_way = *way == "chip" || !o->hal.empty();
     o->register_way = *way == "register" || o->chip_way;
     exit_code = build(*o);
   });

@@ -45,7 +45,7 @@ struct RunArguments {
   long long seed = -1;
   int threads = 1;
   double host_limit_s = 0;
-  std::string optimisation, way;
+  std::string optimisation, way, hal;
   bool sanitize = false, quiet = false, strict = false, live = false;
   OutputArguments outputs;
   ProfileArguments profile;
@@ -71,6 +71,7 @@ int run(const RunArguments& arguments) {
   options.threads = arguments.threads;
   options.optimisation = arguments.optimisation;
   options.way = arguments.way;
+  options.hal = arguments.hal;
   options.externs = arguments.externs;
   options.sanitize = arguments.sanitize;
   options.coverage = !arguments.outputs.coverage.empty();
@@ -270,6 +271,7 @@ void add_run(CLI::App& app, int& exit_code) {
           "--way", a->way,
           "native, register or chip, for all robots whose controller is built from source; else the world's")
       ->check(CLI::IsMember({"native", "register", "chip"}));
+  add_hal(*verb, a->hal);
   one_each(verb->add_option(
       "--uart", a->uart1,
       "[ROBOT=]-|none|pty|pty:LINK|tcp:PORT|file:PATH: the other end of UART 1; - shows text "

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 constexpr auto kLook = std::chrono::milliseconds(50);
 
 struct ViewArguments {
-  std::string world, record, way, optimisation;
+  std::string world, record, way, hal, optimisation;
   std::vector<std::string> firmware, supervisors;
   int port = 0, threads = 1;
   long long seed = -1;
@@ -41,6 +41,7 @@ int view(const ViewArguments& a) {
   }
   opening.file = fs::absolute(opening.file).lexically_normal().string();
   opening.options.way = a.way;
+  opening.options.hal = a.hal;
   opening.options.optimisation = a.optimisation;
   opening.options.threads = a.threads;
   opening.supervisors = a.supervisors;
@@ -78,6 +79,7 @@ void add_view(CLI::App& app, int& exit_code) {
   verb->add_option("--way", a->way,
                    "native, register or chip, for all robots whose controller is built from source")
       ->check(CLI::IsMember({"native", "register", "chip"}));
+  add_hal(*verb, a->hal);
   one_each(verb->add_option("--supervisor", a->supervisors, "a program attached to the world"));
   verb->add_option("--seed", a->seed, "the world's seed, 0 or more, instead of the file's")
       ->check(CLI::NonNegativeNumber);

@@ -100,21 +100,29 @@ std::string build_folder() {
   return (fs::path(project_root()) / "build").string();
 }
 
+std::string hal_of(const Options& options) {
+  return !options.hal.empty() ? options.hal : options.way == "chip" ? "dspic" : "";
+}
+
 std::string image_file(const std::string& folder, const Options& options) {
   std::uint64_t h = 0;
   for (unsigned char c : fs::weakly_canonical(folder).string()) h = sim::mix64(h ^ c);
   char tag[32];
   std::snprintf(tag, sizeof tag, "-%08x", static_cast<unsigned>(h));
   std::string kind = options.sanitize ? "-sanitize" : options.coverage ? "-coverage" : "";
-  if (options.way != "native" && !options.way.empty()) kind += "-" + options.way;
+  const std::string hal = hal_of(options);
+  if (!hal.empty())
+    kind += "-" + hal;
+  else if (options.way == "register")
+    kind += "-register";
   // the same program has another image in a world that says something else
-  if (options.way == "chip" && !options.webots_settings.empty() && programs::is_pc_program(folder)) {
+  if (!hal.empty() && !options.webots_settings.empty() && programs::is_pc_program(folder)) {
     std::uint64_t of_world = 0;
     for (unsigned char c : options.webots_settings) of_world = sim::mix64(of_world ^ c);
     std::snprintf(tag + 9, sizeof tag - 9, "-%06x", static_cast<unsigned>(of_world & 0xffffff));
   }
   return (fs::path(build_folder()) / "controllers" /
-          (fs::path(folder).filename().string() + tag + kind + (options.way == "chip" ? ".elf" : ".so")))
+          (fs::path(folder).filename().string() + tag + kind + (hal.empty() ? ".so" : ".elf")))
       .string();
 }
 
@@ -189,7 +197,8 @@ std::string provide_image(const std::string& name, const std::string& from_folde
   const fs::path path = found.path = find_firmware(name, from_folder, problems, &found.other);
   if (program) *program = found;
   std::error_code none;
-  if (path.empty() || (options.way != "chip" && programs::is_pc_program(path.string()))) return path.string();
+  if (path.empty() || (hal_of(options).empty() && programs::is_pc_program(path.string())))
+    return path.string();
   if (!fs::is_directory(path, none)) return path.string();
   cc::BuildOptions build;
   build.source_dir = path;
@@ -197,15 +206,16 @@ std::string provide_image(const std::string& name, const std::string& from_folde
   build.optimisation = options.optimisation;
   build.sanitize = options.sanitize;
   build.coverage = options.coverage;
-  build.chip_way = options.way == "chip";
+  build.hal = hal_of(options);
   build.webots_settings = options.webots_settings;
-  build.register_way = options.way == "register" || build.chip_way;
+  build.register_way = options.way == "register";
   const cc::BuildResult result = cc::build_image(build);
   if (program) program->files = result.files;
   if (options.tell)
     for (const auto& w : result.warnings) options.tell(w);
   if (options.tell)
-    for (const auto& c : result.conflicts) options.tell(c);
+    for (const auto* lines : {&result.conflicts, &result.notes})
+      for (const auto& line : *lines) options.tell(line);
   if (options.no_room && !result.no_room.empty()) options.no_room();
   if (!result.ok) {
     problems.insert(problems.end(), result.errors.begin(), result.errors.end());

@@ -244,8 +244,12 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
       if (outside == robot.name || outside == "*") name = kExtern;
     Options of_robot = options;
     of_robot.webots_settings = webots_settings_of(world);
-    if (of_robot.way.empty()) of_robot.way = own_settings(world, robot).text("way");
-    const std::string key = name.empty() ? name : of_robot.way + ":" + name;
+    if (of_robot.way.empty() && of_robot.hal.empty()) {
+      const sim::OwnSettings own = own_settings(world, robot);
+      if (robot.own.count("hal")) of_robot.hal = own.text("hal");
+      of_robot.way = own.text("way");
+    }
+    const std::string key = name.empty() ? name : hal_of(of_robot) + "/" + of_robot.way + ":" + name;
     firmware.push_back(key);
     robot.firmware = name;  // what it runs, for pictures and supervisors
     if (name.empty() || paths.count(key)) continue;

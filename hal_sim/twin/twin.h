@@ -44,6 +44,9 @@ struct Options {
   /// Of controllers built from source, all robots: native, register or chip; empty: the world's. Programs for
   /// Webots' interfaces are programs of the PC in every way but chip.
   std::string way;
+  /// Of controllers built from source, all robots, for the robot's own processor: sim or dspic
+  /// (cc::BuildOptions); goes before any way. Empty: the way says.
+  std::string hal;
   /// Robots whose program comes from outside; "*": all.
   std::vector<std::string> externs;
   std::string optimisation;  ///< of controllers built from source, as in cc::BuildOptions: "" -O0 -O1 -O2 -Os
@@ -56,6 +59,10 @@ struct Options {
   /// Called when a controller's data and stack do not fit the chip; may be empty. `tell` has told it.
   std::function<void()> no_room;
 };
+
+/// Which HAL controllers are linked with that are built with these options: sim or dspic; empty: code for the
+/// PC.
+std::string hal_of(const Options& options);
 
 /// The folder of a controller of the project: firmware/NAME, else firmware/lab/NAME (a solution of the lab,
 /// also called "lab/NAME"). Empty when there is none.

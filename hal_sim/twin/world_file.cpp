@@ -11,6 +11,9 @@ std::vector<sim::RobotModel> robot_models() {
   model.keys.push_back(
       {"way", sim::OwnKeyType::Choice, "", 0, 0, "native|register", "\"native\"",
        "how firmware built from source reaches the hardware: by the library's functions, or by registers"});
+  model.keys.push_back({"hal", sim::OwnKeyType::Choice, "", 0, 0, "sim|dspic", "",
+                        "firmware built from source runs as the robot's own code, linked with this HAL: its "
+                        "busy drivers are the simulator's, or the image is the one that is flashed"});
   return {std::move(model)};
 }
 
