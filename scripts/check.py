@@ -21,7 +21,7 @@ LARGEST_FILE = 1 << 20  # bytes
 
 # rooms of the simulator core, each may include itself and those to its left
 CORE = ["base", "random", "geometry", "physics", "world", "light", "camera", "sound", "radio", "record", "load"]
-CHIP = ["memory", "periph", "device", "core", "asm", "load", "llvm", "translate"]
+CHIP = ["memory", "periph", "device", "core", "routines", "asm", "load", "llvm", "translate"]
 # other rooms -> what they may include, as prefixes of the path (their own folder is always allowed)
 MAY_INCLUDE = {
     "hal_sim/board": ["sim_core/base", "sim_core/world", "sim_core/light", "sim_core/camera", "sim_core/sound",

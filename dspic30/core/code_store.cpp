@@ -23,6 +23,13 @@ const Decoded* tell(Cpu& cpu, const Decoded* d) {
   return cpu.plain(d)(cpu, d);
 }
 
+// where a routine begins that is known by heart
+const Decoded* answer(Cpu& cpu, const Decoded* d) {
+  if (const KnownRoutine* const routine = cpu.known_at(cpu.address_of(d)))
+    if (const Decoded* const behind = recall(cpu, d, *routine)) return behind;
+  return cpu.plain(d)(cpu, d);
+}
+
 // writes a register that this table's robots have not written
 const Decoded* write_first(Cpu& cpu, const Decoded* d) {
   cpu.note_written(cpu.registers_of(d).gives);
@@ -70,9 +77,11 @@ Decoded& Decoded::operator=(const Decoded& o) {
 
 // --- one table ------------------------------------------------------------------------------------------
 
-CodeTable::CodeTable(const CodeState& state, std::vector<std::uint32_t> told)
+CodeTable::CodeTable(const CodeState& state, std::vector<std::uint32_t> told,
+                     std::shared_ptr<const KnownCalls> known)
     : state_(state),
       told_(std::move(told)),
+      known_(std::move(known)),
       words_(kFlashWords + 1, unknown_word()),
       beside_(static_cast<Beside*>(std::calloc(kFlashWords + 1, sizeof(Beside)))) {
   if (!beside_) throw std::bad_alloc();
@@ -91,9 +100,11 @@ void CodeTable::decode(const Decoded* d, const ProgramMemory& program, std::uint
   if (run != &illegal && (beside.registers.gives & ~state_.written)) run = &write_first;
   word.heat = jumps;
   beside.plain = run;
-  beside.tells = std::binary_search(told_.begin(), told_.end(), static_cast<std::uint32_t>(2 * index));
+  const auto address = static_cast<std::uint32_t>(2 * index);
+  const bool is_told = std::binary_search(told_.begin(), told_.end(), address);
+  beside.tells = is_told || known_at(address);
   word.is_head = beside.tells;
-  word.run = beside.tells ? &tell : run;
+  word.run = is_told ? &tell : beside.tells ? &answer : run;
   words_[index] = word;
   decoded_.push_back(static_cast<std::uint32_t>(index));
 }
@@ -184,6 +195,13 @@ std::vector<std::uint32_t> CodeStore::told() const {
   return told_;
 }
 
+void CodeStore::know(std::shared_ptr<const KnownCalls> calls) {
+  const std::lock_guard lock(mutex_);
+  if (known_) return;
+  known_ = std::move(calls);
+  tables_.clear();
+}
+
 std::shared_ptr<CodeTable> CodeStore::table(const CodeState& state, bool make) {
   const std::lock_guard lock(mutex_);
   for (const auto& table : tables_)
@@ -195,7 +213,7 @@ std::shared_ptr<CodeTable> CodeStore::table(const CodeState& state, bool make) {
   };
   if (tables_.size() >= kMost)
     tables_.erase(std::remove_if(tables_.begin(), tables_.end(), is_idle), tables_.end());
-  return tables_.emplace_back(std::make_shared<CodeTable>(state, told_));
+  return tables_.emplace_back(std::make_shared<CodeTable>(state, told_, known_));
 }
 
 void CodeStore::forget() {

@@ -20,6 +20,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "dspic30/core/known_calls.h"
 #include "dspic30/memory/program_memory.h"
 
 namespace dspic {
@@ -81,7 +82,8 @@ const Decoded* meet(Cpu& cpu, const Decoded* d);
 class CodeTable {
  public:
   /// `told`: program addresses whose instructions tell the onlooker that they begin, in order.
-  CodeTable(const CodeState& state, std::vector<std::uint32_t> told);
+  /// `known`: its routines that are known by heart; null: none.
+  CodeTable(const CodeState& state, std::vector<std::uint32_t> told, std::shared_ptr<const KnownCalls> known);
 
   /// One a flash word, then one for addresses where no flash is.
   const Decoded* words() const { return words_.data(); }
@@ -97,6 +99,8 @@ class CodeTable {
   /// Of a word that is decoded.
   const WordRegisters& registers(const Decoded* d) const { return beside_[index_of(d)].registers; }
   bool tells(const Decoded* d) const { return beside_[index_of(d)].tells; }
+  /// The routine known by heart that begins at a program address; null: none.
+  const KnownRoutine* known_at(unsigned address) const { return known_ ? known_->find(address) : nullptr; }
   /// The jumps are over that Decoded::heat counts: translates it, unless it is too early. `hot`: as
   /// Cpu::hot.
   void warm(const Cpu& cpu, const Decoded* d, Translator& translator, int hot);
@@ -116,7 +120,7 @@ class CodeTable {
   struct Beside {
     Run plain;
     WordRegisters registers;
-    bool tells;
+    bool tells;  // the onlooker, or is known by heart
     std::atomic<Run> wait;  // null: no wait is known to begin here
   };
   struct Warmth {
@@ -130,6 +134,7 @@ class CodeTable {
 
   const CodeState state_;
   const std::vector<std::uint32_t> told_;
+  const std::shared_ptr<const KnownCalls> known_;
   mutable std::mutex mutex_;  // of all that follows, but what was published
   std::vector<Decoded> words_;
   std::unique_ptr<Beside[], Free> beside_;  // pages of words that are not met take no memory
@@ -144,6 +149,8 @@ class CodeStore {
   /// From now on, the onlooker is told of these addresses, in order. False: it is told of others already.
   bool tell(const std::vector<std::uint32_t>& addresses);
   std::vector<std::uint32_t> told() const;
+  /// The image's routines that are known by heart, from now on; what was known first stays.
+  void know(std::shared_ptr<const KnownCalls> calls);
   /// The table of a state; null: `make` is false, and nobody has needed it.
   std::shared_ptr<CodeTable> table(const CodeState& state, bool make);
   /// As CodeTable::forget(), of all tables.
@@ -154,6 +161,7 @@ class CodeStore {
   mutable std::mutex mutex_;
   std::vector<std::shared_ptr<CodeTable>> tables_;
   std::vector<std::uint32_t> told_;
+  std::shared_ptr<const KnownCalls> known_;
 };
 
 /// A word made ready for a state. Of the function itself: illegal(), where the state does not allow it.

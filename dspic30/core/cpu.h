@@ -84,6 +84,14 @@ class Cpu final : public SfrOwner {
   void choose_code();
   /// The onlooker hears when the instructions at these program addresses begin, from now on.
   void tell_calls(std::vector<std::uint32_t> addresses);
+  /// These routines are answered by heart from now on, as long as flash stays as it is. Nothing but the PC's
+  /// time depends on it.
+  void know(std::shared_ptr<const KnownCalls> calls) {
+    store_->know(std::move(calls));
+    code_is_stale = true;
+  }
+  /// What begins at a program address; null: no known routine.
+  const KnownRoutine* known_at(unsigned address) const { return table_->known_at(address); }
 
   // --- flow
   unsigned address_of(const Decoded* d) const;

@@ -223,6 +223,7 @@ void Processor::tell_calls(ProgramWatch* watch, std::vector<std::uint32_t> addre
   cpu_->onlooker = watch;
   cpu_->tell_calls(std::move(addresses));
 }
+void Processor::know(std::shared_ptr<const KnownCalls> calls) { cpu_->know(std::move(calls)); }
 void Processor::translate_all() {
   cpu_->hot = 0;
   cpu_->forget_code();

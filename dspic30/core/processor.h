@@ -21,6 +21,7 @@ namespace dspic {
 class CodeStore;  // code_store.h
 class Cpu;
 class HostCalls;
+class KnownCalls;  // known_calls.h
 class ProgramWatch;
 struct TrapRecord;  // cpu.h
 class Translator;
@@ -65,6 +66,9 @@ class Processor {
   /// Whoever hears of traps, null pointers, and of the beginning of the functions at `addresses`; it outlives
   /// this. Nothing but the PC's time depends on it.
   void tell_calls(ProgramWatch* watch, std::vector<std::uint32_t> addresses);
+  /// Routines of the program that are answered by heart from now on; null: none. Nothing but the PC's time
+  /// depends on it.
+  void know(std::shared_ptr<const KnownCalls> calls);
   /// Translates whatever is jumped to, at once: for tests.
   void translate_all();
   /// Places where translated code begins.

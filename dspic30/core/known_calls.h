@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// Where an image has routines that are known by heart (known_routine.h), and what the core does when its
+// course comes there: the routine's answer and its return at once, if nothing else can happen before.
+//
+// As the routine itself would leave them: W registers that it returns, W8 to W15, RAM from the caller's frame
+// down, RCOUNT, the clock, DO and REPEAT, registers of peripherals. Not: the other registers of W0 to W7, the
+// flags, and the stack below W15, which no C program looks at.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "dspic30/core/known_routine.h"
+
+namespace dspic {
+
+struct Decoded;
+
+class KnownCalls {
+ public:
+  /// The routine begins at this program address. A second one for an address is ignored.
+  void add(unsigned address, const KnownRoutine& routine);
+  /// Null: none begins there.
+  const KnownRoutine* find(unsigned address) const {
+    if (places_.empty()) return nullptr;
+    for (std::size_t i = slot(address);; i = (i + 1) & (places_.size() - 1)) {
+      if (places_[i].address == address) return places_[i].routine;
+      if (!places_[i].routine) return nullptr;
+    }
+  }
+  std::size_t size() const { return count_; }
+
+  /// W registers that count as written once a known routine has been called: the ones that C's callees use
+  /// freely.
+  static constexpr unsigned kWrites = 0x00FF;
+  /// Bytes of stack that a routine of registers alone may use. Where the stack has less, it runs.
+  static constexpr unsigned kStack = 384;
+
+ private:
+  struct Place {
+    unsigned address = 1;  // odd: nobody's
+    const KnownRoutine* routine = nullptr;
+  };
+  std::size_t slot(unsigned address) const {
+    return (address / 2 * 0x9E3779B1u >> 16) & (places_.size() - 1);
+  }
+  void put(const Place& place);
+
+  std::vector<Place> places_;  // open addressing, a power of two, half empty
+  std::size_t count_ = 0;
+};
+
+/// The course has come to `d`, where `routine` begins, and its return address is on top of the stack. Where
+/// it can be answered, all is done up to behind its RETURN, and the instruction there is returned; as with an
+/// instruction's own function, Decoded::cycles of `d` are not counted yet. Null: nothing was done.
+const Decoded* recall(Cpu& cpu, const Decoded* d, const KnownRoutine& routine);
+
+}  // namespace dspic

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+// Every routine that is known by heart against itself on the core: results and cycles, on random and on
+// awkward operands.
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "dspic30/routines/known_routines.h"
+#include "tests/routines/routine_program.h"
+#include "twinpuck_paths.h"
+
+namespace {
+
+using namespace routines_test;
+
+/// Operands a routine; `make routines` asks for ten million.
+long operands() {
+  const char* const asked = std::getenv("TWINPUCK_ROUTINES");
+  return asked ? std::atol(asked) : 100000;
+}
+
+std::string source() {
+  std::ostringstream text;
+  text << std::ifstream(std::string(TWINPUCK_SOURCE_DIR) + "/tests/routines/every_routine.c").rdbuf();
+  return text.str();
+}
+
+RoutineProgram& program() {
+  static RoutineProgram all(source());
+  return all;
+}
+
+struct Draw {
+  std::uint64_t state;
+  std::uint64_t operator()() {
+    state ^= state << 13;
+    state ^= state >> 7;
+    state ^= state << 17;
+    return state * 0x2545F4914F6CDD1Du;
+  }
+  unsigned below(unsigned n) { return static_cast<unsigned>((*this)() >> 32) % n; }
+};
+
+/// As a float and as an integer: ends of ranges, powers of two and their neighbours, few bits set.
+std::uint32_t awkward(Draw& draw) {
+  static constexpr std::uint32_t kEnds[] = {
+      0,          0x80000000, 1,          0x80000001, 0x007FFFFF, 0x00800000, 0x7F7FFFFF, 0xFF7FFFFF,
+      0x7F800000, 0xFF800000, 0x7FC00000, 0x7F800001, 0x3F800000, 0xBF800000, 0x3F800001, 0x3F7FFFFF,
+      0xFFFFFFFF, 0x7FFFFFFF, 0x0000FFFF, 0x00010000, 0x00010001, 0xFFFF0000, 0x4B000000, 0x4B7FFFFF,
+      0x4F000000, 0xCF000000, 0x4EFFFFFF, 0x4F7FFFFF, 0x5F000000, 0x3F000000, 2,          3};
+  const auto bits = static_cast<std::uint32_t>(draw());
+  switch (draw.below(8)) {
+    case 0:
+      return kEnds[draw.below(sizeof kEnds / sizeof *kEnds)];
+    case 1:
+      return (1u << (bits & 31)) + (bits >> 8 & 3) - 1;
+    case 2:  // a float of few digits
+      return (bits & 0x80000000u) | ((bits & 0x7F800000u) + (bits << 20 & 0x700000));
+    case 3:  // a float near 1
+      return (bits & 0x807FFFFFu) | ((0x78 + (bits >> 24 & 15)) << 23);
+    case 4:
+      return bits >> (bits & 31);
+    case 5:
+      return static_cast<std::uint32_t>(static_cast<std::int32_t>(bits) >> (bits & 31));
+    default:
+      return bits;
+  }
+}
+
+Words draw_operands(Draw& draw) {
+  std::array<std::uint32_t, 4> pairs;
+  for (std::uint32_t& pair : pairs) pair = awkward(draw);
+  // the second is often near the first one, or its opposite
+  for (const std::size_t of : {0u, 1u}) switch (draw.below(6)) {
+      case 0:
+        pairs[of + 1] = pairs[of] + draw.below(5) - 2;
+        break;
+      case 1:
+        pairs[of + 1] = pairs[of] ^ 0x80000000u ^ (1u << draw.below(32));
+        break;
+      case 2:
+        pairs[of + 1] = ((pairs[of] & 0xFF800000u) + (draw.below(33) << 23)) | (pairs[of + 1] & 0x007FFFFFu);
+        break;
+      default:
+        break;
+    }
+  Words w;
+  std::memcpy(w.data(), pairs.data(), sizeof w);
+  return w;
+}
+
+std::uint64_t first_four(const Words& w) {
+  std::uint64_t all;
+  std::memcpy(&all, w.data(), sizeof all);
+  return all;
+}
+
+class Routine : public ::testing::TestWithParam<const dspic::KnownRoutine*> {};
+
+TEST_P(Routine, GivesWhatItGivesAndTakesWhatItTakes) {
+  const dspic::KnownRoutine& routine = *GetParam();
+  ASSERT_TRUE(program().is_whole()) << program().error();
+  const unsigned address = program().address_of(routine.name + 1);
+  ASSERT_NE(address, 0u);
+  EXPECT_EQ(dspic::code_sum(program().program(), address), routine.code)
+      << routine.name << "'s code is another one: look at its form again, then this is its sum: 0x"
+      << std::hex << dspic::code_sum(program().program(), address);
+  if (!routine.function) return;
+  Draw draw{0x9E3779B97F4A7C15u};
+  long known = 0, wrong = 0;
+  for (long i = 0; i < operands(); ++i) {
+    const Words w = draw_operands(draw);
+    const dspic::KnownAnswer form = routine.function(first_four(w));
+    if (form.cycles == 0) continue;
+    ++known;
+    const Outcome real = program().call(address, w);
+    const auto result = static_cast<std::uint32_t>(first_four(real.w));
+    if (static_cast<std::uint32_t>(form.w0_to_w3) == result && form.cycles == real.cycles) continue;
+    if (++wrong > 5) continue;
+    ADD_FAILURE() << std::hex << routine.name << " of " << first_four(w) << ": " << form.w0_to_w3 << " in "
+                  << std::dec << form.cycles << " cycles by heart, on the core " << std::hex
+                  << first_four(real.w) << " in " << std::dec << real.cycles;
+  }
+  EXPECT_EQ(wrong, 0);
+  RecordProperty("known", std::to_string(known));
+  printf("%s: %ld known\n", routine.name, known);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Routine, ::testing::ValuesIn(dspic::known_routines()), [](const auto& info) {
+  std::string name = info.param->name;
+  return name.substr(name.find_first_not_of('_'));
+});
+
+}  // namespace
