@@ -21,7 +21,7 @@ constexpr unsigned kSplim = sfr("SPLIM"), kAccal = sfr("ACCAL"), kAccbu = sfr("A
 constexpr SfrBits kDl = sfr_field("CORCON", "DL"), kXwm = sfr_field("MODCON", "XWM"),
                   kYwm = sfr_field("MODCON", "YWM"), kBwm = sfr_field("MODCON", "BWM"),
                   kXb = sfr_field("XBREV", "XB"), kIpl = sfr_field("SR", "IPL");
-constexpr std::uint16_t kPsvOn = sfr_bits("CORCON", "PSV"), kIpl3 = sfr_bits("CORCON", "IPL3"),
+constexpr std::uint16_t kIpl3 = sfr_bits("CORCON", "IPL3"),
                         kEdt = sfr_bits("CORCON", "EDT"), kXmoden = sfr_bits("MODCON", "XMODEN"),
                         kYmoden = sfr_bits("MODCON", "YMODEN"), kBren = sfr_bits("XBREV", "BREN"),
                         kCorconKept = 0xFFFF & ~(kIpl3 | kDl.mask | kEdt);

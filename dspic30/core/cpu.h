@@ -56,8 +56,10 @@ class Translator {
 // jumps within translated code are the translator's affair
 #ifdef DSPIC_TRANSLATED
 #define DSPIC_JUMP __attribute__((noinline))
+inline constexpr bool kIsTranslated = true;
 #else
 #define DSPIC_JUMP
+inline constexpr bool kIsTranslated = false;
 #endif
 
 /// Where the host stands in for code: is_host_place(address).
@@ -197,10 +199,25 @@ class Cpu final : public SfrOwner {
   // --- data space
   unsigned read16(unsigned ea) {
     if (ea - plain_start < plain_ram() && !(ea & 1)) return load(ea - kRamStart);
+    if constexpr (kIsTranslated)
+      if (is_flash_constant(ea) && !(ea & 1)) return flash_constant(ea);
     return read_elsewhere(ea, 16);
   }
+  /// The second word of a pair: through the PSV window it costs nothing.
+  unsigned read16_behind(unsigned ea) {
+    if constexpr (kIsTranslated)
+      if (is_flash_constant(ea) && !(ea & 1)) return flash_word(ea);
+    const Window before = window;
+    window = Window::Free;
+    const unsigned value = read16(ea);
+    window = before;
+    return value;
+  }
   unsigned read8(unsigned ea) {
-    return ea - plain_start < plain_ram() ? ram[ea - kRamStart] : read_elsewhere(ea, 8);
+    if (ea - plain_start < plain_ram()) return ram[ea - kRamStart];
+    if constexpr (kIsTranslated)
+      if (is_flash_constant(ea)) return flash_constant(ea) >> 8 * (ea & 1) & 0xFF;
+    return read_elsewhere(ea, 8);
   }
   void write16(unsigned ea, unsigned value) {
     if (ea - plain_start < plain_ram() && !(ea & 1))
@@ -235,7 +252,8 @@ class Cpu final : public SfrOwner {
   }
   unsigned pop() {
     w[15] = static_cast<std::uint16_t>(w[15] - 2);
-    return read16(stack_checked(w[15]));
+    const unsigned ea = stack_checked(w[15]);
+    return ea - plain_start < plain_ram() && !(ea & 1) ? load(ea - kRamStart) : read_elsewhere(ea, 16);
   }
 
   /// What handlers save and give back: a word that is nobody's affair but the core's, and its bits. Null:
@@ -355,6 +373,8 @@ class Cpu final : public SfrOwner {
   static constexpr unsigned kRamStart = 0x800, kRamBytes = 0x2000, kRamEnd = kRamStart + kRamBytes,
                             kPsvStart = 0x8000, kYStart = 0x1800;
   unsigned plain_start = kRamStart;  ///< serve_ram()
+  static constexpr unsigned kFlashPages = kFlashEnd >> 15;  ///< of the PSV window
+  static constexpr std::uint16_t kPsvOn = sfr_bits("CORCON", "PSV");
 
   // --- state; handlers use it freely
   std::array<std::uint16_t, 16> w{};
@@ -409,6 +429,19 @@ class Cpu final : public SfrOwner {
     const auto word = static_cast<std::uint16_t>(value);
     std::memcpy(&ram[i], &word, 2);
   }
+  /// In translated code, of which none is repeated: a word of the flash through the PSV window, and what that
+  /// costs (Decoded::psv; the translator knows it).
+  bool is_flash_constant(unsigned ea) const {
+    return ea >= kPsvStart && (corcon & kPsvOn) && psvpag < kFlashPages;
+  }
+  unsigned flash_constant(unsigned ea) {
+    now += psv_cost();
+    return flash_word(ea);
+  }
+  unsigned flash_word(unsigned ea) const {
+    return program.flash()[static_cast<unsigned>(psvpag) << 14 | (ea & 0x7FFE) >> 1] & 0xFFFF;
+  }
+  static int psv_cost();
   unsigned read_elsewhere(unsigned ea, unsigned bits);
   __attribute__((noinline)) unsigned read_other(unsigned ea, unsigned bits, Cycle t);
   void write_elsewhere(unsigned ea, unsigned value, unsigned bits);

@@ -66,10 +66,7 @@ const Decoded* move_pair_from_registers(Cpu& cpu, const Decoded* d) {
 // the window costs once
 const Decoded* move_pair_from_memory(Cpu& cpu, const Decoded* d) {
   const unsigned ea = cpu.source_address(d), low = cpu.read16(ea);
-  const Cpu::Window window = cpu.window;
-  cpu.window = Cpu::Window::Free;
-  const unsigned high = cpu.read16((ea + 2) & 0xFFFF);
-  cpu.window = window;
+  const unsigned high = cpu.read16_behind((ea + 2) & 0xFFFF);
   put_register<false>(cpu, d, low);
   cpu.w[d->d + 1u] = static_cast<std::uint16_t>(d->d == 14 ? high & 0xFFFE : high);
   return d + 1;

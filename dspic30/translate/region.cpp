@@ -35,7 +35,8 @@ constexpr StringLiteral kOffset = "_ZN5dspic3Cpu6offsetEPKNS_7DecodedEi",
                         kWrite = "_ZN5dspic3Cpu15write_elsewhereEjjj",
                         kModify = "_ZN5dspic3Cpu16modify_elsewhereEjjjj",
                         kTrap = "_ZN5dspic3Cpu4trapENS_4TrapE",
-                        kSpecial = "_ZN5dspic3Cpu15special_pointerEjiib";
+                        kSpecial = "_ZN5dspic3Cpu15special_pointerEjiib",
+                        kPsvCost = "_ZN5dspic3Cpu8psv_costEv";
 
 // the files' bitcode may have types of its own for one class, and then calls through a cast
 StringRef name_of(const CallBase& call) {
@@ -83,6 +84,7 @@ class Maker {
   void fold(const Item& item, BasicBlock* first);
   void keep_jumps(const Item& item, BasicBlock* first);
   void drop_dead(BasicBlock* first);
+  void put_costs(const Item& item, BasicBlock* first);
   void take_saved(BasicBlock* first);
   void find_effects(const Item& item, BasicBlock* first);
   void leave(const Item& item, BasicBlock* block, Value* next);
@@ -282,6 +284,7 @@ bool Maker::put_item(const Item& item) {
     if (!inlined(call)) return false;
     fold(item, first);
     keep_jumps(item, first);
+    put_costs(item, first);
     take_saved(first);
   }
   find_effects(item, first);
@@ -389,6 +392,17 @@ void Maker::keep_jumps(const Item& item, BasicBlock* first) {
     jump->replaceAllUsesWith(ir_.CreateBitCast(where, jump->getType()));
     jump->eraseFromParent();
   }
+}
+
+// of a read through the PSV window
+void Maker::put_costs(const Item& item, BasicBlock* first) {
+  for (BasicBlock* block : blocks_from(first))
+    for (Instruction& i : make_early_inc_range(*block)) {
+      auto* const call = dyn_cast<CallInst>(&i);
+      if (!call || name_of(*call) != kPsvCost) continue;
+      call->replaceAllUsesWith(ConstantInt::get(call->getType(), item.decoded.psv));
+      call->eraseFromParent();
+    }
 }
 
 // what handlers save and give back is read and written here

@@ -9,6 +9,7 @@ namespace dspic::translate {
 namespace {
 
 constexpr std::ptrdiff_t kLongest = 48;  // words
+constexpr int kMostReads = 2;            // of an instruction
 
 bool has(const Row& row, Operand kind) {
   return std::find(row.kinds.begin(), row.kinds.end(), kind) != row.kinds.end();
@@ -65,8 +66,12 @@ std::vector<Item> stretch(const Cpu& cpu, const Decoded* head) {
       item.decoded = *d;
       item.plain = cpu.plain(d);
       item.words = row->words;
-      // a branch that is taken, and a skip over two words, take longer
-      item.most_cycles = d->cycles + (has(*row, Operand::Branch) ? 1 : is_skip(*row) ? 2 : 0);
+      // a branch that is taken, a skip over two words, and reading through the PSV window take longer
+      item.most_cycles = d->cycles +
+                         (has(*row, Operand::Branch) ? 1
+                          : is_skip(*row)            ? 2
+                                                     : 0) +
+                         (d->pointers ? kMostReads * d->psv : 0);
       if (has(*row, Operand::Branch) && row->id != Insn::Rcall_Expr)
         reach = std::max<std::ptrdiff_t>(reach, place + d->imm);
       if (is_skip(*row)) reach = std::max<std::ptrdiff_t>(reach, place + 1 + d->d);
@@ -90,6 +95,7 @@ std::string key_of(const Cpu& cpu, const std::vector<Item>& items) {
     add(item.word);
     add(item.decoded.lead);
     add(item.decoded.d);
+    add(item.decoded.psv);
     add(item.decoded.s_kind);
     add(item.decoded.d_kind);
   }
