@@ -185,11 +185,11 @@ struct ChipParts {
   void switch_modules(std::uint16_t next1, std::uint16_t next2, Cycle now);
 
  private:
-  static constexpr unsigned kIfs0 = sfr("IFS0"), kIec0 = sfr("IEC0"), kAdcon1 = sfr("ADCON1"),
+  static constexpr unsigned kIfs0 = sfr("IFS0"), kIfsEnd = sfr("IFS2") + 2, kAdcon1 = sfr("ADCON1"),
                             kAdpcfg = sfr("ADPCFG"), kFirstPort = sfr("TRISA"), kLastPort = sfr("LATG"),
                             kBsram = sfr("BSRAM"), kSsram = sfr("SSRAM"), kPmd1 = sfr("PMD1"),
                             kPmd2 = sfr("PMD2"), kPmd3 = sfr("PMD3");
-  static bool is_flags(unsigned address) { return address - kIfs0 < kIec0 - kIfs0; }
+  static bool is_flags(unsigned address) { return address - kIfs0 < kIfsEnd - kIfs0; }
   static int flag_word(unsigned address) { return static_cast<int>((address - kIfs0) / 2); }
 
   void begin_write(Cycle now) {

@@ -37,6 +37,15 @@ end: bra end)");
   EXPECT_EQ(b.cpu->now(), 2 + 2 + 10 * 4 - 1);
 }
 
+// between IFS2 and IEC0 there is none
+TEST(Core, bits_where_no_register_is_are_told_and_ignored) {
+  CoreBench b("bset 0x8A, #3\n bclr.b 0x8B, #0\n mov 0x8A, w0\nend: bra end");
+  ASSERT_TRUE(b.run_to("end"));
+  EXPECT_EQ(b.w(0), 0u);
+  EXPECT_GT(b.notes.count(Cause::UnimplementedAddress), 0);
+  b.chip->state_hash(b.cpu->now());
+}
+
 // --- stalls: the table of core.md, section 6 -------------------------------------------------------------
 
 TEST(Stall, direct_write_before_indirect_source) {
