@@ -135,28 +135,24 @@ void CodeTable::warm(const Cpu& cpu, const Decoded* d, Translator& translator, i
   if (translation.run) {
     d->is_head.store(true, std::memory_order_release);
     d->run.store(translation.run, std::memory_order_release);
-    ++translated_;
+    translated_.push_back(static_cast<std::uint32_t>(index_of(d)));
   } else if (only_ready || hot == 0 || ++warmth.refusals < kMostRefusals) {
     d->heat.store(again, std::memory_order_relaxed);
   }
 }
 
 void CodeTable::mark_wait(const Decoded* d, Run stop) {
-  constexpr std::size_t kReach = 256;  // words, more than a stretch has
   const std::lock_guard lock(mutex_);
   const std::size_t index = index_of(d);
   if (beside_[index].wait.load(std::memory_order_relaxed)) return;
-  for (std::size_t i = index - std::min(index, kReach); i < index; ++i) {
-    const Decoded& before = words_[i];
-    const Beside& beside = beside_[i];
-    if (!before.is_head.load(std::memory_order_relaxed) || beside.tells ||
-        beside.wait.load(std::memory_order_relaxed))
-      continue;
-    before.run.store(beside.plain, std::memory_order_release);
-    before.is_head.store(false, std::memory_order_release);
-    before.heat.store(0xFF, std::memory_order_relaxed);
-    --translated_;
+  for (const std::uint32_t i : translated_) {
+    const Decoded& other = words_[i];
+    if (i == index || beside_[i].wait.load(std::memory_order_relaxed)) continue;
+    other.run.store(beside_[i].plain, std::memory_order_release);
+    other.is_head.store(false, std::memory_order_release);
+    other.heat.store(0xFF, std::memory_order_relaxed);
   }
+  translated_.clear();
   beside_[index].wait.store(d->run.load(std::memory_order_relaxed), std::memory_order_release);
   d->is_head.store(true, std::memory_order_release);
   d->run.store(stop, std::memory_order_release);
@@ -164,7 +160,7 @@ void CodeTable::mark_wait(const Decoded* d, Run stop) {
 
 int CodeTable::translated() const {
   const std::lock_guard lock(mutex_);
-  return translated_;
+  return static_cast<int>(translated_.size());
 }
 
 void CodeTable::forget() {
@@ -176,7 +172,7 @@ void CodeTable::forget() {
   }
   decoded_.clear();
   warmth_.clear();
-  translated_ = 0;
+  translated_.clear();
 }
 
 // --- all of an image ------------------------------------------------------------------------------------

@@ -105,7 +105,7 @@ class CodeTable {
   /// Cpu::hot.
   void warm(const Cpu& cpu, const Decoded* d, Translator& translator, int hot);
   /// A wait is known to begin at a word that was met: `stop` runs there, and what ran before is
-  /// beside_wait(). What was translated with it in its middle would run past it, so it is forgotten.
+  /// beside_wait(). What was translated is forgotten, since it would run past it.
   void mark_wait(const Decoded* d, Run stop);
   bool is_wait(const Decoded* d) const { return beside_[index_of(d)].wait.load(std::memory_order_acquire); }
   Run beside_wait(const Decoded* d) const {
@@ -120,7 +120,7 @@ class CodeTable {
   struct Beside {
     Run plain;
     WordRegisters registers;
-    bool tells;  // the onlooker, or is known by heart
+    bool tells;             // the onlooker, or is known by heart
     std::atomic<Run> wait;  // null: no wait is known to begin here
   };
   struct Warmth {
@@ -140,7 +140,7 @@ class CodeTable {
   std::unique_ptr<Beside[], Free> beside_;  // pages of words that are not met take no memory
   std::vector<std::uint32_t> decoded_;
   std::unordered_map<const Decoded*, Warmth> warmth_;
-  int translated_ = 0;
+  std::vector<std::uint32_t> translated_;  // words where translated code begins
 };
 
 /// The tables of one image: what flash holds is the same for all that run on them.

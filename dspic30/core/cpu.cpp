@@ -21,10 +21,9 @@ constexpr unsigned kSplim = sfr("SPLIM"), kAccal = sfr("ACCAL"), kAccbu = sfr("A
 constexpr SfrBits kDl = sfr_field("CORCON", "DL"), kXwm = sfr_field("MODCON", "XWM"),
                   kYwm = sfr_field("MODCON", "YWM"), kBwm = sfr_field("MODCON", "BWM"),
                   kXb = sfr_field("XBREV", "XB"), kIpl = sfr_field("SR", "IPL");
-constexpr std::uint16_t kIpl3 = sfr_bits("CORCON", "IPL3"),
-                        kEdt = sfr_bits("CORCON", "EDT"), kXmoden = sfr_bits("MODCON", "XMODEN"),
-                        kYmoden = sfr_bits("MODCON", "YMODEN"), kBren = sfr_bits("XBREV", "BREN"),
-                        kCorconKept = 0xFFFF & ~(kIpl3 | kDl.mask | kEdt);
+constexpr std::uint16_t kIpl3 = sfr_bits("CORCON", "IPL3"), kEdt = sfr_bits("CORCON", "EDT"),
+                        kXmoden = sfr_bits("MODCON", "XMODEN"), kYmoden = sfr_bits("MODCON", "YMODEN"),
+                        kBren = sfr_bits("XBREV", "BREN"), kCorconKept = 0xFFFF & ~(kIpl3 | kDl.mask | kEdt);
 constexpr std::uint16_t kSab = sfr_bits("SR", "SAB"), kSa = sfr_bits("SR", "SA"), kSb = sfr_bits("SR", "SB");
 constexpr std::uint16_t kCorconAtReset = sfr_bits("CORCON", "SATDW");
 constexpr int kLongestLook = 10000;  // instructions; most start-ups are over by then

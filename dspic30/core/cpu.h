@@ -113,6 +113,16 @@ class Cpu final : public SfrOwner {
   }
   /// Back to where an interrupt cut the program: as jump(), but nothing begins there.
   const Decoded* jump_back(unsigned address, const Decoded* from);
+  /// A call of the function at a program address, with the one that it returns to; and a return.
+  DSPIC_JUMP const Decoded* call_to(unsigned address, const Decoded* from, [[maybe_unused]] unsigned back) {
+    return jump(address, from);
+  }
+  DSPIC_JUMP const Decoded* return_to(unsigned address, const Decoded* from) {
+    return jump(pointed(address, from), from);
+  }
+  static const Decoded* return_from(Cpu& cpu, const Decoded* from, unsigned address) {
+    return cpu.return_to(address, from);
+  }
   bool is_decoded(const Decoded* d) const { return d->run.load(std::memory_order_acquire) != &meet; }
   static const Decoded* arrive_from(Cpu& cpu, const Decoded* from, std::int32_t words) {
     return cpu.offset(from, words);
@@ -136,6 +146,9 @@ class Cpu final : public SfrOwner {
     return cpu.plain(d)(cpu, d);
   }
   int translated() const { return table_->translated(); }
+  /// Does somebody hear when it begins, or is it known by heart? Then it is not translated, nor is anything
+  /// with it in the middle.
+  bool is_told(const Decoded* d) const { return table_->tells(d); }
   /// Runs up to `deadline` as long as not all registers are written, when each instruction has to be looked
   /// at.
   bool looks_at_each() const { return looks_at_each_; }
@@ -372,7 +385,7 @@ class Cpu final : public SfrOwner {
 
   static constexpr unsigned kRamStart = 0x800, kRamBytes = 0x2000, kRamEnd = kRamStart + kRamBytes,
                             kPsvStart = 0x8000, kYStart = 0x1800;
-  unsigned plain_start = kRamStart;  ///< serve_ram()
+  unsigned plain_start = kRamStart;                         ///< serve_ram()
   static constexpr unsigned kFlashPages = kFlashEnd >> 15;  ///< of the PSV window
   static constexpr std::uint16_t kPsvOn = sfr_bits("CORCON", "PSV");
 

@@ -44,16 +44,18 @@ void push_return(Cpu& cpu, unsigned address) {
   cpu.push(address >> 16);
 }
 const Decoded* call(Cpu& cpu, const Decoded* d) {
-  push_return(cpu, cpu.address_of(d) + 4);
-  return cpu.jump(static_cast<unsigned>(d->imm), d);
+  const unsigned back = cpu.address_of(d) + 4;
+  push_return(cpu, back);
+  return cpu.call_to(static_cast<unsigned>(d->imm), d, back);
 }
 const Decoded* call_register(Cpu& cpu, const Decoded* d) {
   push_return(cpu, cpu.address_of(d) + 2);
   return cpu.jump(cpu.pointed(cpu.w[d->s] & 0xFFFE, d), d);
 }
 const Decoded* call_relative(Cpu& cpu, const Decoded* d) {
-  push_return(cpu, cpu.address_of(d) + 2);
-  return cpu.offset(d, d->imm);
+  const unsigned here = cpu.address_of(d), back = here + 2;
+  push_return(cpu, back);
+  return cpu.call_to((here + 2 * static_cast<unsigned>(d->imm)) & 0x7FFFFE, d, back);
 }
 const Decoded* call_relative_register(Cpu& cpu, const Decoded* d) {
   push_return(cpu, cpu.address_of(d) + 2);
@@ -72,8 +74,8 @@ void hurry_to_exception(Cpu& cpu) {
 
 const Decoded* return_from_call(Cpu& cpu, const Decoded* d) {
   const unsigned high = cpu.pop() & 0x7F, low = cpu.pop();
-  hurry_to_exception(cpu);
-  return cpu.jump(cpu.pointed(high << 16 | (low & 0xFFFE), d), d);
+  if constexpr (!kIsTranslated) hurry_to_exception(cpu);  // translated, it runs only if nothing comes so soon
+  return cpu.return_to(high << 16 | (low & 0xFFFE), d);
 }
 template <bool Byte>
 const Decoded* return_literal(Cpu& cpu, const Decoded* d) {

@@ -22,11 +22,11 @@ struct MachineCode {
   std::vector<Address> addresses;
 };
 
-/// What Address::name calls the function that interprets a word, those that leave a stretch, by a jump or
-/// straight on, and the one that runs an instruction as it is decoded by then: never the stretch that begins
-/// there.
+/// What Address::name calls the function that interprets a word, those that leave a stretch, by a jump,
+/// straight on or by a return, and the one that runs an instruction as it is decoded by then: never the
+/// stretch that begins there.
 std::string interpreter(std::uint32_t word);
-inline constexpr const char *kArrive = "arrive", *kGoOn = "go on", *kAlone = "alone";
+inline constexpr const char *kArrive = "arrive", *kGoOn = "go on", *kReturn = "return", *kAlone = "alone";
 
 /// Put into memory, for as long as the process lives. Null: a name is not known here, or no memory.
 Run placed(const MachineCode& code);

@@ -31,6 +31,9 @@ namespace {
 using namespace llvm;
 
 constexpr StringLiteral kOffset = "_ZN5dspic3Cpu6offsetEPKNS_7DecodedEi",
+                        kJump = "_ZN5dspic3Cpu4jumpEjPKNS_7DecodedE",
+                        kCallTo = "_ZN5dspic3Cpu7call_toEjPKNS_7DecodedEj",
+                        kReturnTo = "_ZN5dspic3Cpu9return_toEjPKNS_7DecodedE",
                         kRead = "_ZN5dspic3Cpu14read_elsewhereEjj",
                         kWrite = "_ZN5dspic3Cpu15write_elsewhereEjjj",
                         kModify = "_ZN5dspic3Cpu16modify_elsewhereEjjjj",
@@ -42,6 +45,9 @@ constexpr StringLiteral kOffset = "_ZN5dspic3Cpu6offsetEPKNS_7DecodedEi",
 StringRef name_of(const CallBase& call) {
   const auto* const callee = dyn_cast<Function>(call.getCalledOperand()->stripPointerCasts());
   return callee ? callee->getName() : StringRef();
+}
+bool is_jump(StringRef name) {
+  return name == kOffset || name == kJump || name == kCallTo || name == kReturnTo;
 }
 bool is_real_call(const Instruction& i) {
   return isa<CallInst>(i) && (!isa<IntrinsicInst>(i) || isa<MemIntrinsic>(i));
@@ -64,6 +70,10 @@ bool is_beyond_ram(const CallInst& call) {
   const StringRef name = name_of(call);
   return (is_access(call) && !address_in(call)) || name == kTrap || name == kSpecial;
 }
+
+// most cycles between two looks at the time: what is left of them before something happens is interpreted
+constexpr int kSection = 40;
+constexpr std::ptrdiff_t kGap = 16;  // words that were not met, within a piece
 
 // --- one stretch ----------------------------------------------------------------------------------------
 
@@ -88,9 +98,12 @@ class Maker {
   void take_saved(BasicBlock* first);
   void find_effects(const Item& item, BasicBlock* first);
   void leave(const Item& item, BasicBlock* block, Value* next);
-  BasicBlock* edge(const Item& item, Value* next);
+  void leave_by_return(const Item& item, BasicBlock* block);
+  BasicBlock* edge(const Item& item, Value* next, int frame);
+  BasicBlock* passed(const Item& item);
+  Value* jump_to(std::ptrdiff_t place, int frame);
   bool keep_state();
-  std::array<BasicBlock*, 3> exits() const { return {exit_, ways_[0].block, ways_[1].block}; }
+  std::array<BasicBlock*, 4> exits() const { return {exit_, ways_[0].block, ways_[1].block, ways_[2].block}; }
   void optimise();
   std::unique_ptr<Module> moved_out();
 
@@ -122,22 +135,39 @@ class Maker {
     arrives = offset & 1;
     return (offset - arrives) / static_cast<std::int64_t>(sizeof(Decoded));
   }
-  /// Most cycles from the beginning of this instruction to the beginning of the last one.
-  int span_from(std::ptrdiff_t place) const {
-    int sum = 0;
-    for (const Item& i : items_)
-      if (i.place >= place && &i != &items_.back()) sum += i.most_cycles;
-    return sum;
+  std::size_t index_of(const Item& item) const { return static_cast<std::size_t>(&item - items_.data()); }
+  /// Which item of a frame is at a place; null: none.
+  const Item* find(std::ptrdiff_t place, int frame) const {
+    const auto found = index_.find({frame, place});
+    return found == index_.end() ? nullptr : &items_[found->second];
   }
-  /// Is there time for the stretch from an instruction on, and does no DO loop end in it?
-  Value* fits(std::ptrdiff_t from) {
-    Value* last =
+  /// Most cycles from the beginning of this instruction to the beginning of the last one of its section; a
+  /// return is not run when something comes right behind it.
+  int span_from(const Item& from) const {
+    int sum = 0, most = 0;
+    for (const Item* i = &from; i <= &items_.back() && sections_[index_of(*i)] == sections_[index_of(from)];
+         ++i) {
+      most = std::max<int>(most, sum + (i->returns ? kInterruptReturnCycles : 0));
+      sum += i->most_cycles;
+    }
+    return most;
+  }
+  /// Is there time for the section from an instruction on?
+  Value* is_in_time(const Item& from) {
+    Value* const last =
         ir_.CreateAdd(ir_.CreateLoad(long_, field(&cpu_.now, long_)), ir_.getInt64(span_from(from)));
-    Value* in_time = ir_.CreateICmpSLT(last, ir_.CreateLoad(long_, field(&cpu_.deadline, long_)));
-    Value* loop_end = ir_.CreateLoad(long_, field(&cpu_.loop_end, long_));
-    Value* beyond = ir_.CreateSub(loop_end, ir_.CreatePtrToInt(head_arg_, long_));
-    const std::uint64_t bytes = (items_.back().place + 1) * sizeof(Decoded);
-    return ir_.CreateAnd(in_time, ir_.CreateICmpUGE(beyond, ir_.getInt64(bytes)));
+    return ir_.CreateICmpSLT(last, ir_.CreateLoad(long_, field(&cpu_.deadline, long_)));
+  }
+  /// ... and does no DO loop end in the stretch?
+  Value* fits(const Item& from) {
+    Value* all = is_in_time(from);
+    Value* const loop_end = ir_.CreateLoad(long_, field(&cpu_.loop_end, long_));
+    for (const auto& [begin, end] : pieces_) {
+      Value* const beyond = ir_.CreateSub(loop_end, ir_.CreatePtrToInt(place(begin), long_));
+      const auto bytes = static_cast<std::uint64_t>(end - begin) * sizeof(Decoded);
+      all = ir_.CreateAnd(all, ir_.CreateICmpUGE(beyond, ir_.getInt64(bytes)));
+    }
+    return all;
   }
 
   Semantics& semantics_;
@@ -149,22 +179,27 @@ class Maker {
   Type *byte_, *long_;
   Function* function_;
   Value *cpu_arg_, *head_arg_;
-  std::map<std::ptrdiff_t, BasicBlock*> blocks_;
-  BasicBlock* exit_;  // to where the interpreter goes on
+  std::map<std::pair<int, std::ptrdiff_t>, std::size_t> index_;  // by frame and place
+  std::vector<int> sections_;                                    // of the items: time is checked for each
+  std::set<std::pair<std::ptrdiff_t, std::ptrdiff_t>> pieces_;   // places: begin and end
+  std::vector<BasicBlock*> blocks_;
+  std::vector<AllocaInst*> backs_;   // of the frames: program address to which they return
+  Value* return_address_ = nullptr;  // ... to which the instruction returns that is being put
+  BasicBlock* exit_;                 // to where the interpreter goes on
   PHINode* exit_at_;
-  // ... beyond the stretch, where jumps to a place are counted: by a jump, or straight on
+  // ... beyond the stretch, where jumps to a place are counted: by a jump, straight on, or by a return
   struct Way {
     const char* name;
     BasicBlock* block;
-    PHINode* words;
+    PHINode* where;  // words from the head; of a return, a program address
   };
-  std::array<Way, 2> ways_;
+  std::array<Way, 3> ways_;
   AllocaInst* left_ = nullptr;  // something was called that may have changed the deadline
   bool may_leave_ = false;      // ... by the instruction that is being put
   // calls, and stores to the deadline, of the instruction at a place
   struct Effect {
     WeakVH what;
-    std::ptrdiff_t place;
+    const Item* item;
     bool sees_clock_only;
   };
   std::vector<Effect> effects_;
@@ -175,6 +210,7 @@ class Maker {
   };
   std::vector<Aside> asides_;
   std::set<const BasicBlock*> live_;
+  std::ptrdiff_t end_ = 0;  // place behind the stretch itself
   bool goes_back_ = false;
 };
 
@@ -193,12 +229,36 @@ Maker::Maker(Semantics& semantics, const Cpu& cpu, const std::vector<Item>& item
   function_->setDoesNotThrow();
   cpu_arg_ = function_->getArg(0);
   head_arg_ = function_->getArg(1);
-  for (const Item& item : items_) blocks_[item.place] = BasicBlock::Create(context_);
+  int cycles = 0;
+  for (const Item& item : items_) {
+    cycles += item.most_cycles;
+    const bool is_new = !sections_.empty() && cycles > kSection;
+    if (is_new) cycles = item.most_cycles;
+    sections_.push_back(sections_.empty() ? 0 : sections_.back() + is_new);
+    index_[{item.frame, item.place}] = blocks_.size();
+    if (item.frame == 0) end_ = item.place + item.words;
+    blocks_.push_back(BasicBlock::Create(context_));
+  }
+  for (const Item& item : items_) {
+    const std::ptrdiff_t end = item.place + item.words;
+    const auto goes_on = std::find_if(pieces_.begin(), pieces_.end(), [&](const auto& piece) {
+      return item.place >= piece.first && item.place <= piece.second + kGap;
+    });
+    std::pair<std::ptrdiff_t, std::ptrdiff_t> piece{item.place, end};
+    if (goes_on != pieces_.end()) {
+      piece = {goes_on->first, std::max(goes_on->second, end)};
+      pieces_.erase(goes_on);
+    }
+    pieces_.insert(piece);
+  }
   exit_ = BasicBlock::Create(context_, "exit");
   exit_at_ = PHINode::Create(pointer, 8, "", exit_);
   for (std::size_t i = 0; i < ways_.size(); ++i) {
     BasicBlock* const block = BasicBlock::Create(context_);
-    ways_[i] = {i == 0 ? kArrive : kGoOn, block, PHINode::Create(ir_.getInt32Ty(), 8, "", block)};
+    ways_[i] = {i == 0   ? kArrive
+                : i == 1 ? kGoOn
+                         : kReturn,
+                block, PHINode::Create(ir_.getInt32Ty(), 8, "", block)};
   }
 }
 
@@ -217,7 +277,7 @@ std::unique_ptr<Module> Maker::make() {
   ir_.CreateRet(exit_at_);
   for (const Way& way : ways_) {
     ir_.SetInsertPoint(way.block);
-    ir_.CreateRet(called(way.name, {cpu_arg_, head_arg_, way.words}));
+    ir_.CreateRet(called(way.name, {cpu_arg_, head_arg_, way.where}));
   }
   for (const Aside& aside : asides_) {
     ir_.SetInsertPoint(aside.block);
@@ -254,7 +314,11 @@ void Maker::put_entry() {
   ir_.SetInsertPoint(entry);
   left_ = ir_.CreateAlloca(ir_.getInt1Ty());
   ir_.CreateStore(ir_.getFalse(), left_);
-  ir_.CreateCondBr(fits(0), blocks_[0], plain);
+  for (const Item& item : items_) {
+    const auto frames = static_cast<std::size_t>(std::max(item.frame, item.callee)) + 1;
+    while (backs_.size() < frames) backs_.push_back(ir_.CreateAlloca(ir_.getInt32Ty()));
+  }
+  ir_.CreateCondBr(fits(items_[0]), blocks_[0], plain);
   ir_.SetInsertPoint(plain);
   ir_.CreateRet(called(interpreter(items_[0].word), {cpu_arg_, head_arg_}));
 }
@@ -262,7 +326,7 @@ void Maker::put_entry() {
 // --- an instruction -------------------------------------------------------------------------------------
 
 bool Maker::put_item(const Item& item) {
-  BasicBlock* const first = blocks_[item.place];
+  BasicBlock* const first = blocks_[index_of(item)];
   function_->getBasicBlockList().push_back(first);
   ir_.SetInsertPoint(first);
   if (item.is_last) {
@@ -293,7 +357,10 @@ bool Maker::put_item(const Item& item) {
     if (!back) continue;
     Value* const next = back->getReturnValue();
     back->eraseFromParent();
-    leave(item, block, next);
+    if (item.returns && own)
+      leave_by_return(item, block);
+    else
+      leave(item, block, next);
     break;
   }
   return true;
@@ -311,7 +378,7 @@ bool Maker::inlined(CallInst* call) {
   while (!work.empty()) {
     CallBase* const c = work.pop_back_val();
     Function* const callee = c->getCalledFunction();
-    if (!callee || callee->isIntrinsic() || (callee->getName() == kOffset && c != call)) continue;
+    if (!callee || callee->isIntrinsic() || (is_jump(callee->getName()) && c != call)) continue;
     if (callee->isMaterializable() && callee->materialize()) return false;
     if (callee->isDeclaration()) continue;
     InlineFunctionInfo info;
@@ -376,22 +443,33 @@ void Maker::keep_jumps(const Item& item, BasicBlock* first) {
   std::vector<CallInst*> jumps;
   for (BasicBlock* block : blocks_from(first))
     for (Instruction& i : *block)
-      if (auto* const call = dyn_cast<CallInst>(&i); call && name_of(*call) == kOffset) jumps.push_back(call);
+      if (auto* const call = dyn_cast<CallInst>(&i); call && is_jump(name_of(*call))) jumps.push_back(call);
   for (CallInst* jump : jumps) {
-    const std::ptrdiff_t to = item.place + cast<ConstantInt>(jump->getArgOperand(2))->getSExtValue();
-    const auto target =
-        std::find_if(items_.begin(), items_.end(), [&](const Item& i) { return i.place == to; });
     ir_.SetInsertPoint(jump);
-    Value* where = place(to);
-    if (target == items_.end()) {
-      where = ir_.CreateConstInBoundsGEP1_64(byte_, where, 1);
-    } else if (const int lead = target->decoded.lead) {
-      Value* const now = field(&cpu_.now, long_);
-      ir_.CreateStore(ir_.CreateSub(ir_.CreateLoad(long_, now), ir_.getInt64(lead)), now);
+    Value* where = place(item.place);
+    if (name_of(*jump) == kReturnTo) {
+      return_address_ = jump->getArgOperand(1);
+    } else {
+      if (item.callee) ir_.CreateStore(jump->getArgOperand(3), backs_[static_cast<std::size_t>(item.callee)]);
+      const bool is_near = name_of(*jump) == kOffset;
+      const std::ptrdiff_t to =
+          is_near ? item.place + cast<ConstantInt>(jump->getArgOperand(2))->getSExtValue() : item.target;
+      where = jump_to(to, item.callee ? item.callee : item.frame);
     }
     jump->replaceAllUsesWith(ir_.CreateBitCast(where, jump->getType()));
     jump->eraseFromParent();
   }
+}
+
+// as Cpu::arrive(), unless it leads out of the stretch
+Value* Maker::jump_to(std::ptrdiff_t to, int frame) {
+  const Item* const target = find(to, frame);
+  if (!target) return ir_.CreateConstInBoundsGEP1_64(byte_, place(to), 1);
+  if (const int lead = target->decoded.lead) {
+    Value* const now = field(&cpu_.now, long_);
+    ir_.CreateStore(ir_.CreateSub(ir_.CreateLoad(long_, now), ir_.getInt64(lead)), now);
+  }
+  return place(to);
 }
 
 // of a read through the PSV window
@@ -443,10 +521,10 @@ void Maker::find_effects(const Item& item, BasicBlock* first) {
           beyond.push_back(call);
         else
           others = true;
-        effects_.push_back({call, item.place, is_of_peripheral(*call)});
+        effects_.push_back({call, &item, is_of_peripheral(*call)});
         may_leave_ = true;
       } else if (isa<StoreInst>(i) && split(i.getOperand(1)) == std::make_pair(cpu_arg_, deadline)) {
-        effects_.push_back({&i, item.place, false});
+        effects_.push_back({&i, &item, false});
         may_leave_ = true;
       }
     }
@@ -464,9 +542,10 @@ void Maker::find_effects(const Item& item, BasicBlock* first) {
 
 // `block`, which has no end yet, goes where `next` says
 void Maker::leave(const Item& item, BasicBlock* block, Value* next) {
+  const int frame = item.callee ? item.callee : item.frame;
   bool arrives = false;
   if (place_of(next, arrives)) {
-    BranchInst::Create(edge(item, next), block);
+    BranchInst::Create(edge(item, next, frame), block);
     return;
   }
   auto* const phi = dyn_cast<PHINode>(next->stripPointerCasts());
@@ -485,7 +564,7 @@ void Maker::leave(const Item& item, BasicBlock* block, Value* next) {
         end->eraseFromParent();
         leave(item, from, value);
       } else {
-        end->replaceSuccessorWith(block, edge(item, value));
+        end->replaceSuccessorWith(block, edge(item, value, frame));
       }
     }
     block->dropAllReferences();
@@ -499,46 +578,74 @@ void Maker::leave(const Item& item, BasicBlock* block, Value* next) {
   Value* const likely = place(item.place + item.words + repeats);
   Value* const same = ir_.CreateICmpEQ(ir_.CreateBitCast(next, likely->getType()), likely);
   Instruction* const end = ir_.CreateCondBr(same, exit_, exit_);
-  end->setSuccessor(0, edge(item, likely));
-  end->setSuccessor(1, edge(item, next));
+  end->setSuccessor(0, edge(item, likely, frame));
+  end->setSuccessor(1, edge(item, next, frame));
 }
 
-// the instruction's time passes; then the next one, unless something may happen before it
-BasicBlock* Maker::edge(const Item& item, Value* next) {
+// on behind the call, if that is where the stack leads
+void Maker::leave_by_return(const Item& item, BasicBlock* block) {
+  BasicBlock* const out = passed(item);
+  ir_.SetInsertPoint(out);
+  ir_.CreateBr(ways_[2].block);
+  ways_[2].where->addIncoming(return_address_, out);
+  if (item.caller < 0) {
+    BranchInst::Create(out, block);
+    return;
+  }
+  const Item& caller = items_[static_cast<std::size_t>(item.caller)];
+  BasicBlock* const back = BasicBlock::Create(context_, "", function_);
+  ir_.SetInsertPoint(back);
+  Value* const where = jump_to(caller.place + caller.words, caller.frame);
+  BranchInst::Create(edge(item, where, caller.frame), back);
+  ir_.SetInsertPoint(block);
+  Value* const expected = ir_.CreateLoad(ir_.getInt32Ty(), backs_[static_cast<std::size_t>(item.frame)]);
+  ir_.CreateCondBr(ir_.CreateICmpEQ(return_address_, expected), back, out);
+}
+
+// a block in which the instruction's time passes
+BasicBlock* Maker::passed(const Item& item) {
   BasicBlock* const begin = BasicBlock::Create(context_, "", function_);
   ir_.SetInsertPoint(begin);
   Value* const now = field(&cpu_.now, long_);
   ir_.CreateStore(ir_.CreateAdd(ir_.CreateLoad(long_, now), ir_.getInt64(item.decoded.cycles)), now);
+  return begin;
+}
+
+// the instruction's time passes; then the next one, unless something may happen before it
+BasicBlock* Maker::edge(const Item& item, Value* next, int frame) {
+  BasicBlock* const begin = passed(item);
   bool arrives = false;
   const Optional<std::ptrdiff_t> to = place_of(next, arrives);
-  if (to && (arrives || *to == items_.back().place + items_.back().words)) {
+  if (to && (arrives || (frame == 0 && *to == end_))) {
     const Way& way = ways_[arrives ? 0 : 1];
     ir_.CreateBr(way.block);
-    way.words->addIncoming(ir_.getInt32(static_cast<std::uint32_t>(*to)), begin);
+    way.where->addIncoming(ir_.getInt32(static_cast<std::uint32_t>(*to)), begin);
     return begin;
   }
-  const auto target = to ? blocks_.find(*to) : blocks_.end();
+  const Item* const target = to ? find(*to, frame) : nullptr;
   Value* const pointer = to ? place(*to) : ir_.CreateBitCast(next, byte_->getPointerTo());
-  if (target == blocks_.end()) {
+  if (!target) {
     ir_.CreateBr(exit_);
     exit_at_->addIncoming(pointer, begin);
     return begin;
   }
-  const bool is_back = *to <= item.place;
+  BasicBlock* const first = blocks_[index_of(*target)];
+  const bool is_back = target <= &item;
+  const bool begins_section = is_back || sections_[index_of(*target)] != sections_[index_of(item)];
   goes_back_ |= is_back;
-  if (!is_back && !may_leave_) {
-    ir_.CreateBr(target->second);
+  if (!begins_section && !may_leave_) {
+    ir_.CreateBr(first);
     return begin;
   }
   BasicBlock* const check = BasicBlock::Create(context_, "", function_);
-  if (is_back)
+  if (begins_section)
     ir_.CreateBr(check);
   else
-    ir_.CreateCondBr(ir_.CreateLoad(ir_.getInt1Ty(), left_), check, target->second);
+    ir_.CreateCondBr(ir_.CreateLoad(ir_.getInt1Ty(), left_), check, first);
   ir_.SetInsertPoint(check);
   ir_.CreateStore(ir_.getFalse(), left_);
   Value* const exit_pointer = place(*to);
-  ir_.CreateCondBr(fits(*to), target->second, exit_);
+  ir_.CreateCondBr(may_leave_ ? fits(*target) : is_in_time(*target), first, exit_);
   exit_at_->addIncoming(exit_pointer, check);
   return begin;
 }
@@ -549,7 +656,7 @@ bool Maker::keep_state() {
   Hot hot(cpu_);
   const auto ram = static_cast<std::int64_t>(offset_of(cpu_, &cpu_.ram));
   std::map<const BasicBlock*, const Item*> begins;
-  for (const Item& item : items_) begins[blocks_[item.place]] = &item;
+  for (const Item& item : items_) begins[blocks_[index_of(item)]] = &item;
   const Item* current = nullptr;
   std::vector<std::pair<Instruction*, unsigned>> accesses;  // and which operand is the pointer
   for (Instruction& i : instructions(*function_)) {
@@ -622,7 +729,7 @@ bool Maker::keep_state() {
       ir_.SetInsertPoint(what);
       const Hot::Field& clock = hot.fields.back();
       effect.sees_clock_only ? put_back(clock) : put_back_all();
-      ir_.CreateStore(place(effect.place), field(&cpu_.at, byte_->getPointerTo()));
+      ir_.CreateStore(place(effect.item->place), field(&cpu_.at, byte_->getPointerTo()));
       ir_.SetInsertPoint(what->getNextNode());
       effect.sees_clock_only ? take(clock) : take_all();
     }
@@ -638,9 +745,8 @@ bool Maker::keep_state() {
     if (!live_.count(aside.block)) continue;
     for (const Hot::Field& f : hot.fields) {
       const bool is_old = goes_back_ ? !f.writers.empty()
-                                     : std::any_of(f.writers.begin(), f.writers.end(), [&](const Item* i) {
-                                         return i->place < aside.item->place;
-                                       });
+                                     : std::any_of(f.writers.begin(), f.writers.end(),
+                                                   [&](const Item* i) { return i < aside.item; });
       if (!is_old) continue;  // where it was when the stretch began, it still is
       const bool is_own = std::count(f.writers.begin(), f.writers.end(), aside.item) > 0;
       Type* const type = ir_.getIntNTy(8 * f.bytes);

@@ -7,10 +7,14 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "dspic30/core/cpu.h"
 #include "dspic30/core/instruction_table.h"
+#include "dspic30/translate/stretch.h"
 #include "tests/dspic30/core_bench.h"
 
 namespace {
@@ -104,9 +108,9 @@ bool has(const dspic::Row& row, Operand kind) {
   return std::find(row.kinds.begin(), row.kinds.end(), kind) != row.kinds.end();
 }
 
-// an instruction at a word of the body: any row, any operands, but jumps stay in the body, mostly, and few
-// things end it
-std::uint32_t any_instruction(Draw& draw, unsigned at) {
+// an instruction at a word of the body: any row, any operands, but jumps stay in the body or in these words
+// of it, mostly, and few things end it
+std::uint32_t any_instruction(Draw& draw, unsigned at, unsigned first = 0, unsigned words = kBodyWords) {
   const auto& rows = dspic::instruction_rows();
   while (true) {
     const dspic::Row& row = rows[draw(static_cast<unsigned>(rows.size()))];
@@ -116,7 +120,7 @@ std::uint32_t any_instruction(Draw& draw, unsigned at) {
       f.*field.member = draw(dspic::field_limit(row, field.member) + 1);
     if (has(row, Operand::Branch)) {
       if (row.id == Insn::Rcall_Expr && draw(8)) continue;
-      f.n = (draw(kBodyWords) - at - 1) & 0xFFFF;
+      f.n = (first + draw(words) - at - 1) & 0xFFFF;
     }
     if (row.id == Insn::Repeat_lit14) f.k = draw(20);
     const bool jumps = row.id == Insn::Bra_Wn || row.id == Insn::Goto_Wn || row.id == Insn::Call_Wn ||
@@ -140,21 +144,60 @@ std::uint32_t any_instruction(Draw& draw, unsigned at) {
   }
 }
 
-// number of places where translated code began; `pointers_change`: now and then other registers are modulo
-// and bit-reversed pointers; `constants`: some pointers lead into the PSV window
-int compare(std::uint32_t seed, bool pointers_change = false, bool constants = false) {
+// small functions behind the body, and ways to them; the body calls them, and they call those before them
+constexpr unsigned kFunctions = 5, kFunctionWords = 7, kWaysStart = kBodyWords + kFunctions * kFunctionWords;
+
+std::uint32_t rcall(unsigned at, unsigned to) { return 0x070000 | ((to - at - 1) & 0xFFFF); }
+void put_pair(std::vector<std::uint32_t>& words, unsigned at, std::uint32_t first, unsigned address) {
+  words[at] = first | (address & 0xFFFF);
+  words[at + 1] = address >> 16;
+}
+void put_call(Draw& draw, std::vector<std::uint32_t>& words, unsigned at, unsigned last, unsigned body,
+              unsigned functions) {
+  const unsigned which = draw(functions), function = kBodyWords + which * kFunctionWords;
+  const unsigned how = draw(3);
+  if (how == 1 && at + 1 < last)
+    put_pair(words, at, 0x020000, body + 2 * function);
+  else
+    words[at] = rcall(at, how == 2 ? kWaysStart + 2 * which : function);
+}
+std::vector<std::uint32_t> with_functions(Draw& draw, unsigned body) {
+  std::vector<std::uint32_t> words(kWaysStart + 2 * kFunctions);
+  for (unsigned i = 0; i + 1 < kBodyWords; ++i) words[i] = any_instruction(draw, i);
+  words[kBodyWords - 1] = 0x370000 | ((0 - kBodyWords) & 0xFFFF);
+  for (unsigned f = 0; f < kFunctions; ++f) {
+    const unsigned first = kBodyWords + f * kFunctionWords, last = first + kFunctionWords - 1;
+    for (unsigned i = first; i < last; ++i) words[i] = any_instruction(draw, i, first, kFunctionWords);
+    words[last] = draw(4) ? 0x060000 : 0x050000 | draw(0x400) << 4 | draw(4);  // RETURN, RETLW
+    if (f > 0) put_call(draw, words, first + draw(kFunctionWords - 1), last, body, f);
+    put_pair(words, kWaysStart + 2 * f, 0x040000, body + 2 * first);
+  }
+  for (unsigned i = draw(4); i + 1 < kBodyWords; i += 2 + draw(6))
+    put_call(draw, words, i, kBodyWords - 1, body, kFunctions);
+  return words;
+}
+
+enum class Programs { Any, PointersChange, ReadConstants, CallFunctions };
+
+// number of places where translated code began. PointersChange: now and then other registers are modulo and
+// bit-reversed pointers
+int compare(std::uint32_t seed, Programs kind = Programs::Any) {
   Draw draw{seed};
-  const std::string frame = constants ? with_constants(kFrame) : kFrame;
+  const std::string frame = kind == Programs::ReadConstants ? with_constants(kFrame) : kFrame;
   CoreBench one(frame, {}, false), other(frame, {}, true);
   const unsigned body = one.symbol("body");
-  for (unsigned i = 0; i < kBodyWords; ++i) {
-    const std::uint32_t word =
-        i + 1 < kBodyWords ? any_instruction(draw, i) : 0x370000 | ((0 - kBodyWords) & 0xFFFF);
-    for (CoreBench* b : {&one, &other}) b->program.write(body + 2 * i, word);
+  std::vector<std::uint32_t> words;
+  if (kind == Programs::CallFunctions) {
+    words = with_functions(draw, body);
+  } else {
+    for (unsigned i = 0; i + 1 < kBodyWords; ++i) words.push_back(any_instruction(draw, i));
+    words.push_back(0x370000 | ((0 - kBodyWords) & 0xFFFF));
   }
+  for (unsigned i = 0; i < words.size(); ++i)
+    for (CoreBench* b : {&one, &other}) b->program.write(body + 2 * i, words[i]);
   for (CoreBench* b : {&one, &other}) b->cpu->restart();
   for (Cycle end = 0; end < 12000; end += 1 + draw(draw(4) ? 700 : 5)) {
-    if (pointers_change && draw(6) == 0) {
+    if (kind == Programs::PointersChange && draw(6) == 0) {
       const unsigned modcon = draw(0x10000), xbrev = draw(2) << 15 | 1u << draw(6);
       for (CoreBench* b : {&one, &other}) {
         b->chip->write(bench::Bench::at("MODCON"), static_cast<std::uint16_t>(modcon), 16, b->cpu->now());
@@ -181,25 +224,36 @@ int compare(std::uint32_t seed, bool pointers_change = false, bool constants = f
   return other.cpu->translated();
 }
 
-TEST(Translation, random_programs_run_alike) {
+unsigned programs(unsigned usual) {
   const char* const wanted = std::getenv("TWINPUCK_TRANSLATION_PROGRAMS");  // more than a test's time allows
-  const unsigned programs = wanted ? static_cast<unsigned>(std::atoi(wanted)) : 60;
+  return wanted ? static_cast<unsigned>(std::atoi(wanted)) : usual;
+}
+
+TEST(Translation, random_programs_run_alike) {
   int translated = 0;
-  for (std::uint32_t seed = 1; seed <= programs && !HasFailure(); ++seed) translated += compare(seed);
-  EXPECT_GT(translated, static_cast<int>(programs));
+  for (std::uint32_t seed = 1; seed <= programs(60) && !HasFailure(); ++seed) translated += compare(seed);
+  EXPECT_GT(translated, 60);
 }
 
 TEST(Translation, random_programs_run_alike_while_pointers_change) {
   int translated = 0;
-  for (std::uint32_t seed = 1001; seed <= 1040 && !HasFailure(); ++seed) translated += compare(seed, true);
+  for (std::uint32_t seed = 1001; seed <= 1000 + programs(40) && !HasFailure(); ++seed)
+    translated += compare(seed, Programs::PointersChange);
   EXPECT_GT(translated, 40);
 }
 
 TEST(Translation, random_programs_run_alike_while_they_read_constants) {
   int translated = 0;
-  for (std::uint32_t seed = 2001; seed <= 2040 && !HasFailure(); ++seed)
-    translated += compare(seed, false, true);
+  for (std::uint32_t seed = 2001; seed <= 2000 + programs(40) && !HasFailure(); ++seed)
+    translated += compare(seed, Programs::ReadConstants);
   EXPECT_GT(translated, 40);
+}
+
+TEST(Translation, random_programs_run_alike_while_they_call_functions) {
+  int translated = 0;
+  for (std::uint32_t seed = 3001; seed <= 3000 + programs(60) && !HasFailure(); ++seed)
+    translated += compare(seed, Programs::CallFunctions);
+  EXPECT_GT(translated, 60);
 }
 
 // one more cycle for a MOV, two for what computes; words of a page that is not the first, bytes of both
@@ -242,6 +296,102 @@ table: .pword 0xAB0102
     EXPECT_EQ(b.w(9), 3u);
     EXPECT_EQ(b.cpu->translated() > 0, translated);
   }
+}
+
+// --- functions that are called -----------------------------------------------------------------------------
+
+/// Keeps what was translated together, by the address where it begins.
+struct Onlooker final : dspic::Translator {
+  std::map<unsigned, std::vector<dspic::translate::Item>> stretches;
+  dspic::translate::Translations translations{chip::translator_library(), {}};
+  dspic::Translation translate(const dspic::Cpu& cpu, const dspic::Decoded* head, bool only_ready) override {
+    stretches[cpu.address_of(head)] = dspic::translate::stretch(cpu, head);
+    return translations.translate(cpu, head, only_ready);
+  }
+};
+
+// a function within a function, one by a handle, and one that ends in another: three cycles for a RETURN
+TEST(Translation, short_functions_become_part_of_the_loop_that_calls_them) {
+  const std::string text = R"(__reset: mov #100, w5
+    mov #3, w0
+loop: rcall outer
+    call far
+    dec w5, w5
+    bra nz, loop
+end: bra end
+outer: rcall inner
+    inc w2, w2
+    return
+inner: inc w1, w1
+    btsc w1, #0
+    inc w3, w3
+    retlw #7, w4
+    .section .far, code, address(0x9000)
+far: goto farther
+    .section .farther, code, address(0x9800)
+farther: add w6, w4, w6
+    bra inner)";
+  Onlooker onlooker;
+  CoreBench plain(text, {}, false), b(text, {}, false);
+  b.cpu->set_translator(&onlooker);
+  b.cpu->translate_all();
+  for (CoreBench* which : {&plain, &b}) {
+    EXPECT_TRUE(which->run_to("loop"));
+    const Cycle start = which->cpu->now();
+    EXPECT_TRUE(which->run_to("end", 10000));
+    // calls 2 each, returns 3 each; BTSC over INC or not takes as long
+    const Cycle inner = 1 + 2 + 3, outer = 2 + inner + 1 + 3, far = 2 + 2 + 1 + 2 + inner;
+    EXPECT_EQ(which->cpu->now() - start, 100 * (2 + outer + far + 1 + 2) - 1);
+    EXPECT_EQ(which->w(1), 200u);
+    EXPECT_EQ(which->w(2), 100u);
+    EXPECT_EQ(which->w(3), 100u);
+    EXPECT_EQ(which->w(6), 700u);
+    EXPECT_EQ(which->w(15), 0x800u);
+  }
+  EXPECT_EQ(plain.cpu->state_hash(), b.cpu->state_hash());
+  std::set<int> frames;
+  for (const auto& item : onlooker.stretches[b.symbol("loop")]) frames.insert(item.frame);
+  EXPECT_EQ(frames.size(), 4u);  // the loop, outer, inner, far with all it jumps to
+}
+
+// a function may return to where it was not called from; and its call may break the stack's limit
+TEST(Translation, a_function_returns_where_the_stack_says) {
+  for (const bool translated : {false, true}) {
+    CoreBench b(R"(__reset: mov #0x0810, w0
+    mov w0, SPLIM
+    nop
+    mov #100, w5
+loop: rcall function
+    inc w2, w2
+    inc w3, w3
+    dec w5, w5
+    bra nz, loop
+    mov #0x0810, w15
+    bra loop
+end: bra end
+function: inc w1, w1
+    dec2 w15, w15
+    btsc w5, #0
+    inc2 [--w15], [w15++]
+    inc2 w15, w15
+    return
+__StackError: bra __StackError)",
+                {}, translated);
+    EXPECT_TRUE(b.run_to("__StackError", 10000));
+    EXPECT_EQ(b.cpu->translated() > 0, translated);
+    EXPECT_EQ(b.w(1), 100u);
+    EXPECT_EQ(b.w(2), 50u);
+    EXPECT_EQ(b.w(3), 100u);
+    EXPECT_EQ(b.w(15), 0x0810u + 4 + 4);  // RCALL's two words, then the trap's
+  }
+}
+
+// two words that go round are worth it
+TEST(Translation, short_loops_are_translated) {
+  CoreBench b("__reset: mov #5000, w0\n1: dec w0, w0\n bra nz, 1b\nend: bra end");
+  b.run(2 + 1 + 5000 * 3 - 1);
+  EXPECT_EQ(b.cpu->pc(), b.symbol("end"));
+  EXPECT_EQ(b.cpu->translated(), 1);
 }
 
 // a FIR loop as people write it: its first word reads through a modulo pointer, so the stretch that begins
