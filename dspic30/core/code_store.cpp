@@ -191,11 +191,14 @@ std::vector<std::uint32_t> CodeStore::told() const {
   return told_;
 }
 
-void CodeStore::know(std::shared_ptr<const KnownCalls> calls) {
+bool CodeStore::know(std::shared_ptr<const KnownCalls> calls) {
   const std::lock_guard lock(mutex_);
-  if (known_) return;
+  if (known_ == calls) return true;
+  if (is_told_known_) return false;
+  is_told_known_ = true;
   known_ = std::move(calls);
   tables_.clear();
+  return true;
 }
 
 std::shared_ptr<CodeTable> CodeStore::table(const CodeState& state, bool make) {

@@ -149,8 +149,8 @@ class CodeStore {
   /// From now on, the onlooker is told of these addresses, in order. False: it is told of others already.
   bool tell(const std::vector<std::uint32_t>& addresses);
   std::vector<std::uint32_t> told() const;
-  /// The image's routines that are known by heart, from now on; what was known first stays.
-  void know(std::shared_ptr<const KnownCalls> calls);
+  /// The image's routines that are known by heart, from now on; null: none. False: others are known already.
+  bool know(std::shared_ptr<const KnownCalls> calls);
   /// The table of a state; null: `make` is false, and nobody has needed it.
   std::shared_ptr<CodeTable> table(const CodeState& state, bool make);
   /// As CodeTable::forget(), of all tables.
@@ -162,6 +162,7 @@ class CodeStore {
   std::vector<std::shared_ptr<CodeTable>> tables_;
   std::vector<std::uint32_t> told_;
   std::shared_ptr<const KnownCalls> known_;
+  bool is_told_known_ = false;
 };
 
 /// A word made ready for a state. Of the function itself: illegal(), where the state does not allow it.

@@ -89,7 +89,10 @@ class Cpu final : public SfrOwner {
   /// These routines are answered by heart from now on, as long as flash stays as it is. Nothing but the PC's
   /// time depends on it.
   void know(std::shared_ptr<const KnownCalls> calls) {
-    store_->know(std::move(calls));
+    if (!store_->know(calls)) {
+      have_own_store(store_->told());
+      store_->know(calls);
+    }
     code_is_stale = true;
   }
   /// What begins at a program address; null: no known routine.

@@ -53,6 +53,7 @@ const Decoded* recall(Cpu& cpu, const Decoded* d, const KnownRoutine& routine) {
   // what comes at its very end may come before its RETURN is over, which is shorter then
   const Cycle begin = cpu.now + d->lead, limit = cpu.deadline - begin - 1;
   Cycle cycles;
+  cpu.at = d;
   if (routine.function) {
     const KnownAnswer answer = routine.function(first_registers(cpu));
     cycles = answer.cycles;

@@ -2,9 +2,10 @@
 // Where an image has routines that are known by heart (known_routine.h), and what the core does when its
 // course comes there: the routine's answer and its return at once, if nothing else can happen before.
 //
-// As the routine itself would leave them: W registers that it returns, W8 to W15, RAM from the caller's frame
-// down, RCOUNT, the clock, DO and REPEAT, registers of peripherals. Not: the other registers of W0 to W7, the
-// flags, and the stack below W15, which no C program looks at.
+// A KnownAction leaves what the routine itself leaves: all registers, flags, RCOUNT, RAM with the stack below
+// W15. So nothing shows which of both was done, and nothing depends on where the time is cut into windows. Of
+// a KnownFunction, W4 to W7, flags and the stack below W15 stay as they were; then programs that look at
+// what they never wrote can tell.
 #pragma once
 #include <cstddef>
 #include <cstdint>

@@ -3,6 +3,7 @@
 // made of it on the way.
 #pragma once
 #include <memory>
+#include <mutex>
 #include <utility>
 
 #include "dspic30/core/code_store.h"
@@ -17,10 +18,15 @@ class ChipImage final {
   const dspic::FirmwareFile& file() const { return file_; }
   /// Its words, ready to run.
   const std::shared_ptr<dspic::CodeStore>& code() const { return code_; }
+  /// Its routines that are known by heart. `program` holds its words. Null: nothing shall be, as the
+  /// environment (TWINPUCK_INTERPRET) says.
+  std::shared_ptr<const dspic::KnownCalls> known(const dspic::ProgramMemory& program) const;
 
  private:
   const dspic::FirmwareFile file_;
   const std::shared_ptr<dspic::CodeStore> code_ = std::make_shared<dspic::CodeStore>();
+  mutable std::once_flag looked_for_;
+  mutable std::shared_ptr<const dspic::KnownCalls> known_;
 };
 
 }  // namespace chip

@@ -34,6 +34,7 @@ ChipRunner::ChipRunner(std::string name, std::shared_ptr<const ChipImage> image,
   chip_.power_up(configuration);
   processor_ = std::make_unique<dspic::Processor>(device(), program_, image_->code());
   processor_->set_translator(translation());
+  processor_->know(image_->known(program_));
   places_ = std::make_unique<ProgramPlaces>(file_, program_, *processor_, chip_);
   endings_ = std::make_unique<Endings>(file_, program_, *processor_, chip_, *places_);
   calls_ = std::make_unique<LibraryCalls>(file_, *processor_, *places_, chip_, board);

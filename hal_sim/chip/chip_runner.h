@@ -82,6 +82,8 @@ class ChipRunner final : public host::Runner, private dspic::EventWatch, private
   const dspic::Processor& processor() const { return *processor_; }
   /// Whatever the program jumps to is translated at once: for tests.
   void translate_all() { processor_->translate_all(); }
+  /// No routine is known by heart any more: for tests.
+  void know_nothing() { processor_->know(nullptr); }
   const dspic::ProgramMemory& program() const { return program_; }
   dspic::Dspic30f6014a& device() const { return chip_.device(); }
   const dspic::FirmwareFile& file() const { return file_; }

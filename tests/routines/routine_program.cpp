@@ -55,26 +55,76 @@ unsigned RoutineProgram::address_of(const std::string& function) const {
   return found == file_.functions.end() ? 0 : found->second;
 }
 
-Outcome RoutineProgram::call(unsigned address, const Words& w) {
+void RoutineProgram::fill_ram(std::uint32_t seed) {
+  for (std::uint8_t& byte : cpu_->ram) {
+    seed = seed * 1664525u + 1013904223u;
+    byte = static_cast<std::uint8_t>(seed >> 24);
+  }
+}
+
+void RoutineProgram::begin(const Words& w, unsigned flags) {
   dspic::Cpu& cpu = *cpu_;
   std::copy(w.begin(), w.end(), cpu.w.begin());
   cpu.w[15] = kStack - 4;
   cpu.push(kBehind & 0xFFFF);
   cpu.push(kBehind >> 16);
+  cpu.set_flags(flags);
+  cpu.dc = flags << 4;
   cpu.now = 0;
   cpu.deadline = dspic::kNever;
+}
+
+void RoutineProgram::call(unsigned address, const Words& w, unsigned flags) {
+  dspic::Cpu& cpu = *cpu_;
+  begin(w, flags);
   const dspic::Decoded* const end = cpu.code() + kBehind / 2;
   const dspic::Decoded* d = cpu.jump(address, cpu.code());
-  while (d != end && !cpu.reset_due) {
+  while (d != end && !cpu.reset_due && cpu.now < 1000000) {
     cpu.at = d;
     const dspic::Decoded* const next = d->run(cpu, d);
     cpu.now += d->cycles;
     d = next;
   }
-  Outcome outcome;
-  std::copy_n(cpu.w.begin(), outcome.w.size(), outcome.w.begin());
-  outcome.cycles = cpu.now;
-  return outcome;
+}
+
+bool RoutineProgram::recall(const dspic::KnownRoutine& routine, unsigned address, const Words& w,
+                            unsigned flags) {
+  dspic::Cpu& cpu = *cpu_;
+  begin(w, flags);
+  const dspic::Decoded* const d = cpu.jump(address, cpu.code());
+  if (!dspic::recall(cpu, d, routine)) return false;
+  cpu.now += d->cycles;
+  return true;
+}
+
+void RoutineProgram::look(State& state) const {
+  state.w = cpu_->w;
+  state.sr = cpu_->sr();
+  state.rcount = cpu_->rcount;
+  std::memcpy(state.stack.data(), &cpu_->ram[kStack - kBelow - dspic::Cpu::kRamStart], state.stack.size());
+  state.cycles = cpu_->now;
+}
+
+void RoutineProgram::restore_stack(const State& state) {
+  std::memcpy(&cpu_->ram[kStack - kBelow - dspic::Cpu::kRamStart], state.stack.data(), state.stack.size());
+  cpu_->rcount = static_cast<std::uint16_t>(state.rcount);
+}
+
+std::string difference(const State& a, const State& b) {
+  std::ostringstream text;
+  const auto tell = [&](const std::string& what, auto by_heart, auto on_the_core) {
+    if (by_heart != on_the_core)
+      text << what << " " << by_heart << " by heart, " << on_the_core << " on the core; ";
+  };
+  tell("cycles", a.cycles, b.cycles);
+  text << std::hex;
+  for (std::size_t i = 0; i < a.w.size(); ++i) tell("w" + std::to_string(i), a.w[i], b.w[i]);
+  tell("sr", a.sr, b.sr);
+  tell("rcount", a.rcount, b.rcount);
+  if (a.stack != b.stack)
+    for (std::size_t i = 0; i < a.stack.size(); ++i)
+      tell("stack+" + std::to_string(static_cast<int>(i) - 32), unsigned{a.stack[i]}, unsigned{b.stack[i]});
+  return text.str();
 }
 
 }  // namespace routines_test

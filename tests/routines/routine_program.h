@@ -14,12 +14,17 @@
 
 namespace routines_test {
 
-using Words = std::array<std::uint16_t, 8>;  ///< W0 to W7
+using Words = std::array<std::uint16_t, 15>;  ///< W0 to W14
 
-struct Outcome {
-  Words w{};
-  dspic::Cycle cycles = 0;  ///< from the routine's first instruction to behind RETURN
+/// What a routine finds or leaves.
+struct State {
+  std::array<std::uint16_t, 16> w{};
+  unsigned sr = 0, rcount = 0;
+  std::array<std::uint8_t, 512> stack{};  ///< from a little below W15 on
+  dspic::Cycle cycles = 0;                ///< from the routine's first instruction to behind RETURN
 };
+/// "" or the first thing that differs.
+std::string difference(const State& by_heart, const State& on_the_core);
 
 class RoutineProgram {
  public:
@@ -33,11 +38,22 @@ class RoutineProgram {
   unsigned address_of(const std::string& function) const;
   dspic::Cpu& cpu() { return *cpu_; }
 
-  /// The routine itself runs, as if it was called.
-  Outcome call(unsigned address, const Words& w);
+  /// RAM is filled, so that what a routine leaves alone is seen.
+  void fill_ram(std::uint32_t seed);
+  /// The routine itself runs, as if it was called with these registers and flags.
+  void call(unsigned address, const Words& w, unsigned flags);
+  /// The same by heart; false: it is not known, and nothing has changed but what the call does.
+  bool recall(const dspic::KnownRoutine& routine, unsigned address, const Words& w, unsigned flags);
+  /// Behind a call.
+  void look(State& state) const;
+  /// The stack as it was.
+  void restore_stack(const State& state);
   static constexpr unsigned kStack = 0x2000;  ///< W15 as it is called, behind the return address
 
  private:
+  static constexpr unsigned kBelow = 32;  // bytes of the caller's that are looked at
+  void begin(const Words& w, unsigned flags);
+
   std::string error_;
   dspic::FirmwareFile file_;
   dspic::ProgramMemory program_;
