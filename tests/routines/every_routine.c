@@ -1,3 +1,5 @@
+/* SPDX-License-Identifier: MIT
+ * Refers to every routine of the chip's runtime, and to the C library's that are known by heart. */
 #include <math.h>
 #include <string.h>
 #include <stdlib.h>
@@ -7,7 +9,7 @@ volatile long long qa=5, qb=3, qr; volatile unsigned long long va=5, vb=3, vr;
 volatile long double da=1, db=2, dr;
 volatile int ia=3, ir; volatile unsigned wa=3;
 char b1[40], b2[40] = "hello";
-const char k[]="const text";
+const char k[] = "aaa\0aab\0aaaaab\0\0aaaaaaaaaaaaaa, a constant text\0aa";
 int main(void)
 {
   fr = fa + fb; fr = fa - fb; fr = fa * fb; fr = fa / fb; fr = -fa;

@@ -48,12 +48,15 @@ RoutineProgram::RoutineProgram(const std::string& source) {
   chip_ = std::make_unique<dspic::Dspic30f6014a>(outside_, &notes_, c);
   cpu_ = std::make_unique<dspic::Cpu>(chip_->parts(), program_);
   cpu_->written = 0xFFFF;
+  cpu_->corcon |= dspic::sfr_bits("CORCON", "PSV");  // page 0, as the start-up code sets it
 }
 
 unsigned RoutineProgram::address_of(const std::string& function) const {
   const auto found = file_.functions.find(function);
   return found == file_.functions.end() ? 0 : found->second;
 }
+
+unsigned RoutineProgram::constants() const { return 0x8000 | file_.functions.at("k"); }
 
 void RoutineProgram::fill_ram(std::uint32_t seed) {
   for (std::uint8_t& byte : cpu_->ram) {
@@ -102,10 +105,12 @@ void RoutineProgram::look(State& state) const {
   state.sr = cpu_->sr();
   state.rcount = cpu_->rcount;
   std::memcpy(state.stack.data(), &cpu_->ram[kStack - kBelow - dspic::Cpu::kRamStart], state.stack.size());
+  std::memcpy(state.data.data(), &cpu_->ram[kData - dspic::Cpu::kRamStart], state.data.size());
   state.cycles = cpu_->now;
 }
 
-void RoutineProgram::restore_stack(const State& state) {
+void RoutineProgram::restore(const State& state) {
+  std::memcpy(&cpu_->ram[kData - dspic::Cpu::kRamStart], state.data.data(), state.data.size());
   std::memcpy(&cpu_->ram[kStack - kBelow - dspic::Cpu::kRamStart], state.stack.data(), state.stack.size());
   cpu_->rcount = static_cast<std::uint16_t>(state.rcount);
 }
@@ -124,6 +129,9 @@ std::string difference(const State& a, const State& b) {
   if (a.stack != b.stack)
     for (std::size_t i = 0; i < a.stack.size(); ++i)
       tell("stack+" + std::to_string(static_cast<int>(i) - 32), unsigned{a.stack[i]}, unsigned{b.stack[i]});
+  if (a.data != b.data)
+    for (std::size_t i = 0; i < a.data.size(); ++i)
+      tell("data+" + std::to_string(i), unsigned{a.data[i]}, unsigned{b.data[i]});
   return text.str();
 }
 

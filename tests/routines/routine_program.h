@@ -21,6 +21,7 @@ struct State {
   std::array<std::uint16_t, 16> w{};
   unsigned sr = 0, rcount = 0;
   std::array<std::uint8_t, 512> stack{};  ///< from a little below W15 on
+  std::array<std::uint8_t, 256> data{};   ///< RAM from RoutineProgram::kData on
   dspic::Cycle cycles = 0;                ///< from the routine's first instruction to behind RETURN
 };
 /// "" or the first thing that differs.
@@ -36,6 +37,8 @@ class RoutineProgram {
   const dspic::ProgramMemory& program() const { return program_; }
   const dspic::FirmwareFile& file() const { return file_; }
   unsigned address_of(const std::string& function) const;
+  /// Address of a text among the constants, in the PSV window.
+  unsigned constants() const;
   dspic::Cpu& cpu() { return *cpu_; }
 
   /// RAM is filled, so that what a routine leaves alone is seen.
@@ -46,9 +49,10 @@ class RoutineProgram {
   bool recall(const dspic::KnownRoutine& routine, unsigned address, const Words& w, unsigned flags);
   /// Behind a call.
   void look(State& state) const;
-  /// The stack as it was.
-  void restore_stack(const State& state);
+  /// RAM as it was.
+  void restore(const State& state);
   static constexpr unsigned kStack = 0x2000;  ///< W15 as it is called, behind the return address
+  static constexpr unsigned kData = 0x1000;   ///< where memory is copied and compared
 
  private:
   static constexpr unsigned kBelow = 32;  // bytes of the caller's that are looked at

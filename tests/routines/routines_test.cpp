@@ -89,11 +89,34 @@ Words draw_operands(Draw& draw) {
   return w;
 }
 
+/// Two places in RAM or among the constants, near one another at times, and few bytes; texts end soon.
+Words draw_memory(Draw& draw) {
+  Words w = draw_operands(draw);
+  const auto place = [&] {
+    const unsigned in_ram = RoutineProgram::kData + 32 + draw.below(160);
+    return draw.below(4) ? in_ram : program().constants() + draw.below(30);
+  };
+  w[0] = static_cast<std::uint16_t>(place());
+  w[1] = static_cast<std::uint16_t>(draw.below(3) ? place() : w[0] + draw.below(9) - 4);
+  w[2] = static_cast<std::uint16_t>(draw.below(32));
+  std::uint8_t* const data = &program().cpu().ram[RoutineProgram::kData - dspic::Cpu::kRamStart];
+  for (int i = 0; i < 256; ++i) {
+    if (draw.below(4) == 0) data[i] = draw.below(3) ? 'a' : 0;
+    if (i > 32 && draw.below(8) == 0) data[i] = data[i - draw.below(32)];
+  }
+  return w;
+}
+
 std::string hex_of(const Words& w) {
   std::ostringstream text;
   text << std::hex;
   for (int i = 7; i >= 0; --i) text << w[static_cast<std::size_t>(i)] << (i ? " " : "");
   return text.str();
+}
+
+bool is_of_memory(const dspic::KnownRoutine& routine) {
+  const std::string name = routine.name;
+  return name.rfind("_mem", 0) == 0 || name.rfind("_str", 0) == 0;
 }
 
 class Routine : public ::testing::TestWithParam<const dspic::KnownRoutine*> {};
@@ -111,13 +134,13 @@ TEST_P(Routine, GivesWhatItGivesAndTakesWhatItTakes) {
   static State before, by_heart, on_the_core;
   program().fill_ram(1);
   for (long i = 0; i < operands(); ++i) {
-    const Words w = draw_operands(draw);
+    const Words w = is_of_memory(routine) ? draw_memory(draw) : draw_operands(draw);
     const unsigned flags = draw.below(32);
     program().look(before);
     if (!program().recall(routine, address, w, flags)) continue;
     ++known;
     program().look(by_heart);
-    program().restore_stack(before);
+    program().restore(before);
     program().call(address, w, flags);
     program().look(on_the_core);
     const std::string wrong_here = difference(by_heart, on_the_core);
