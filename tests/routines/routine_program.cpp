@@ -28,7 +28,7 @@ struct Folder {
 
 }  // namespace
 
-RoutineProgram::RoutineProgram(const std::string& source) {
+bool build(const std::string& source, dspic::FirmwareFile& file, std::string& error) {
   const Folder folder;
   std::ofstream(folder.path / "main.c") << source;
   cc::BuildOptions options;
@@ -37,11 +37,15 @@ RoutineProgram::RoutineProgram(const std::string& source) {
   options.optimisation = "-O1";
   options.register_way = options.chip_way = true;
   const auto built = cc::build_image(options);
-  for (const std::string& e : built.errors) error_ += e + "\n";
-  if (!built.ok) return;
+  for (const std::string& e : built.errors) error += e + "\n";
+  if (!built.ok) return false;
   std::ostringstream bytes;
   bytes << std::ifstream(options.output, std::ios::binary).rdbuf();
-  if (!dspic::load_firmware(bytes.str(), options.output.string(), file_, error_)) return;
+  return dspic::load_firmware(bytes.str(), options.output.string(), file, error);
+}
+
+RoutineProgram::RoutineProgram(const std::string& source) {
+  if (!build(source, file_, error_)) return;
   for (const auto& [address, word] : file_.words) program_.write(address, word);
   dspic::Configuration c;
   c.program = &program_;

@@ -27,6 +27,9 @@ struct State {
 /// "" or the first thing that differs.
 std::string difference(const State& by_heart, const State& on_the_core);
 
+/// C, compiled and linked for the chip at -O1; false: `error` says why not.
+bool build(const std::string& source, dspic::FirmwareFile& file, std::string& error);
+
 class RoutineProgram {
  public:
   /// `source`: C of the program.
