@@ -30,7 +30,7 @@ void leave_operands(Cpu& cpu) {
   leave_registers(cpu, 4, 8, 2);
 }
 
-void end(Cpu& cpu, std::uint32_t result, const Registers& r, unsigned w4, unsigned w7) {
+void leave_result(Cpu& cpu, std::uint32_t result, const Registers& r, unsigned w4, unsigned w7) {
   leave_operands(cpu);
   set_pair(cpu, 0, result);
   set_pair(cpu, 2, r.w3_w2);
@@ -50,7 +50,7 @@ int rounded(Cpu& cpu, std::int64_t limit, unsigned flip, const Registers& r, int
     cycles += 8 + kFinish;
     if (cycles > limit) return 0;
     set(cpu, 3, cpu.w[3] ^ flip);
-    end(cpu, sign | kInfinity, r, static_cast<unsigned>(exponent), kLargest);
+    leave_result(cpu, sign | kInfinity, r, static_cast<unsigned>(exponent), kLargest);
     return cycles;
   }
   const std::uint64_t sum = std::uint64_t{m} + 0x7F + (m >> 8 & 1);
@@ -61,7 +61,7 @@ int rounded(Cpu& cpu, std::int64_t limit, unsigned flip, const Registers& r, int
   const std::uint32_t up = static_cast<std::uint32_t>(sum) | (carries ? kSign : 0);
   // the hidden bit counts the exponent up by one
   const auto e = static_cast<std::uint32_t>(exponent + carries - 1);
-  end(cpu, sign | ((up >> 8) + (e << kFraction)), r, e << 7, up >> 16 << 8);
+  leave_result(cpu, sign | ((up >> 8) + (e << kFraction)), r, e << 7, up >> 16 << 8);
   return cycles;
 }
 
@@ -126,7 +126,7 @@ int sum(Cpu& cpu, std::int64_t limit, unsigned flip, int cycles) {
     cycles += 17;
     if (cycles > limit) return 0;
     set(cpu, 3, cpu.w[3] ^ flip);
-    end(cpu, 0, r, static_cast<unsigned>(e - 16), 0);
+    leave_result(cpu, 0, r, static_cast<unsigned>(e - 16), 0);
     return cycles;
   }
   const int up = __builtin_clz(m);

@@ -13,7 +13,7 @@ constexpr int kEntry = 3, kExit = 4;  // what it gives for not-a-number, and the
 constexpr unsigned kSmaller = 0xFFFF;
 
 // at order()'s last step the operands are in place and flags are as they have fallen out so far
-int end(Cpu& cpu, unsigned result, int cycles) {
+int ordered(Cpu& cpu, unsigned result, int cycles) {
   set(cpu, 0, result);
   set(cpu, 4, result);
   return cycles;
@@ -28,12 +28,12 @@ int order(Cpu& cpu, std::int64_t limit, unsigned unordered) {
   set(cpu, 7, kInfinity >> 16);
   if (x > kInfinity) {
     sub_pair(cpu, x, kInfinity);
-    return end(cpu, unordered, kEntry + 7 + kExit);
+    return ordered(cpu, unordered, kEntry + 7 + kExit);
   }
   set(cpu, 6, y >> 16);
   if (y > kInfinity) {
     sub_pair(cpu, y, kInfinity);
-    return end(cpu, unordered, kEntry + 12 + kExit);
+    return ordered(cpu, unordered, kEntry + 12 + kExit);
   }
   int cycles = kEntry + 13;
   if (x) {
@@ -42,23 +42,23 @@ int order(Cpu& cpu, std::int64_t limit, unsigned unordered) {
     cycles += 4;
   } else {
     sub_pair(cpu, 0, 0);
-    return end(cpu, 0, cycles + 5 + kExit + 1);
+    return ordered(cpu, 0, cycles + 5 + kExit + 1);
   }
   if (a == b) {
     sub_pair(cpu, a, b);
-    return end(cpu, 0, cycles + 5 + kExit);
+    return ordered(cpu, 0, cycles + 5 + kExit);
   }
   sub_pair(cpu, a, b);
   if ((a ^ b) & kSign) {
     const bool is_less = a & kSign;
     sub(cpu, a >> 16, 0);
-    return end(cpu, is_less ? kSmaller : 1, cycles + 9 + (is_less ? 3 : 1) + kExit);
+    return ordered(cpu, is_less ? kSmaller : 1, cycles + 9 + (is_less ? 3 : 1) + kExit);
   }
   const unsigned is_less = a < b, is_positive = ~a >> 31;
   sub(cpu, is_positive, is_less);
   set(cpu, 1, is_positive);
-  return end(cpu, is_less == is_positive ? kSmaller : 1,
-             cycles + 16 + (is_less == is_positive ? 2 : 4) + kExit);
+  return ordered(cpu, is_less == is_positive ? kSmaller : 1,
+                 cycles + 16 + (is_less == is_positive ? 2 : 4) + kExit);
 }
 
 int order_or_more(Cpu& cpu, std::int64_t limit) { return order(cpu, limit, 1); }

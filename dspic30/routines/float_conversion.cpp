@@ -10,11 +10,6 @@ namespace {
 
 using namespace float_parts;
 
-/// Where the BRA or RCALL at an address leads.
-unsigned target(const Cpu& cpu, unsigned address) {
-  return address + 2 +
-         2 * static_cast<unsigned>(static_cast<std::int16_t>(cpu.program.read(address) & 0xFFFF));
-}
 unsigned entry(const Cpu& cpu) { return cpu.address_of(cpu.at); }
 
 // --- packed(): rounds m, whose leading bit is at 26, and puts exponent and sign to it

@@ -40,10 +40,15 @@ inline void leave(Cpu& cpu, unsigned place, unsigned value) {
 inline void leave_registers(Cpu& cpu, unsigned place, unsigned n, unsigned count) {
   std::memcpy(&cpu.ram[cpu.w[15] - Cpu::kRamStart + 2 * place], &cpu.w[n], 2 * count);
 }
-/// A return address, of a call `words` from the routine's first instruction.
 inline void leave_return(Cpu& cpu, unsigned place, unsigned address) {
   leave(cpu, place, address & 0xFFFF);
   leave(cpu, place + 1, address >> 16);
+}
+
+/// Where the BRA or RCALL at an address leads.
+inline unsigned target(const Cpu& cpu, unsigned address) {
+  return address + 2 +
+         2 * static_cast<unsigned>(static_cast<std::int16_t>(cpu.program.read(address) & 0xFFFF));
 }
 
 // --- the chip's operations, for their flags

@@ -18,6 +18,7 @@ namespace dspic {
 
 /// By kind.
 const std::vector<KnownRoutine>& long_division_routines();
+const std::vector<KnownRoutine>& long_long_routines();
 const std::vector<KnownRoutine>& float_routines();
 const std::vector<KnownRoutine>& float_comparison_routines();
 const std::vector<KnownRoutine>& float_conversion_routines();

@@ -2,6 +2,8 @@
 // Quotients and remainders of 32 bits (hal_dspic/runtime/long_division.s). A divisor of one word takes two
 // divisions of the chip; a longer one sixteen steps, each of which takes two cycles more where the quotient
 // has a 1. Division by 0 traps, so it runs.
+#include "dspic30/routines/long_division.h"
+
 #include "dspic30/routines/forms.h"
 #include "dspic30/routines/known_routines.h"
 
@@ -10,16 +12,19 @@ namespace dspic {
 namespace {
 
 using namespace forms;
+using long_division::divide;
+using long_division::Division;
+using long_division::leave_division;
 
 constexpr int kShortDivisor = 51, kLongDivisor = 171, kBitOfQuotient = 2;  // cycles of __divide_long
 
 bool is_negative(std::uint32_t x) { return x >> 31 != 0; }
 std::uint32_t magnitude_of(std::uint32_t x) { return is_negative(x) ? 0 - x : x; }
 
-struct Division {
-  std::uint32_t dividend = 0, divisor = 0, quotient = 0, remainder = 0;
-  int cycles = 0;  // of __divide_long; 0: divided by 0
-};
+}  // namespace
+
+namespace long_division {
+
 Division divide(std::uint32_t dividend, std::uint32_t divisor) {
   if (divisor == 0) return {};
   Division d{dividend, divisor, dividend / divisor, dividend % divisor, kShortDivisor};
@@ -27,7 +32,6 @@ Division divide(std::uint32_t dividend, std::uint32_t divisor) {
   return d;
 }
 
-// registers as __divide_long leaves them: quotient, remainder, what it has worked with
 void leave_division(Cpu& cpu, const Division& d) {
   set_pair(cpu, 0, d.quotient);
   set_pair(cpu, 2, d.remainder);
@@ -48,6 +52,10 @@ void leave_division(Cpu& cpu, const Division& d) {
   cpu.n = 0;
   cpu.c = cpu.ov = 0;
 }
+
+}  // namespace long_division
+
+namespace {
 
 int divide_long(Cpu& cpu, std::int64_t limit) {
   const Division d = divide(pair(cpu, 0), pair(cpu, 2));

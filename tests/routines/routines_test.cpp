@@ -86,6 +86,20 @@ Words draw_operands(Draw& draw) {
     }
   Words w;
   std::memcpy(w.data(), pairs.data(), sizeof w);
+  // 64 bits: often less of the divisor; by how much to shift
+  switch (draw.below(4)) {
+    case 0:
+      w[7] = w[6] = 0;
+      break;
+    case 1:
+      w[3] = w[2] = w[7] = w[6] = 0;
+      break;
+    case 2:
+      w[4] = static_cast<std::uint16_t>(draw.below(64));
+      break;
+    default:
+      break;
+  }
   return w;
 }
 
