@@ -19,10 +19,10 @@ std::uint64_t first_registers(const Cpu& cpu) {
 
 // nobody looks on, no loop of the chip can end in it, and pointers and stack are as everywhere
 bool can_be_answered(const Cpu& cpu) {
-  const unsigned top = cpu.w[15],
-                 end = cpu.splim_on ? std::min<unsigned>(cpu.splim, Cpu::kRamEnd) : Cpu::kRamEnd;
-  return !cpu.watching && !cpu.round_memory && !cpu.loop_end && !cpu.repeating && cpu.rcount == 0 &&
-         cpu.modcon == 0 && top >= Cpu::kRamStart + kReturnAddress && top + KnownCalls::kStack <= end;
+  const unsigned top = cpu.w[15], full = top + KnownCalls::kStack;
+  return !(cpu.watching | cpu.repeating | (cpu.rcount | cpu.modcon) | (cpu.loop_end != nullptr)) &&
+         top >= Cpu::kRamStart + kReturnAddress && full <= Cpu::kRamEnd &&
+         (!cpu.splim_on || full <= cpu.splim);
 }
 
 }  // namespace
@@ -48,7 +48,9 @@ const Decoded* recall(Cpu& cpu, const Decoded* d, const KnownRoutine& routine) {
   cpu.note_written(KnownCalls::kWrites);
   if (!can_be_answered(cpu)) return nullptr;
   const unsigned top = cpu.w[15];
-  const unsigned address = (cpu.read16(top - 2) & 0x7F) << 16 | (cpu.read16(top - 4) & 0xFFFE);
+  std::uint32_t address;
+  std::memcpy(&address, &cpu.ram[top - kReturnAddress - Cpu::kRamStart], sizeof address);
+  address &= 0x7FFFFE;
   if (address == 0 || address >= kFlashEnd) return nullptr;
   // what comes at its very end may come before its RETURN is over, which is shorter then
   const Cycle begin = cpu.now + d->lead, limit = cpu.deadline - begin - 1;

@@ -35,7 +35,7 @@ class KnownCalls {
   /// freely.
   static constexpr unsigned kWrites = 0x00FF;
   /// Bytes of stack that a routine of registers alone may use. Where the stack has less, it runs.
-  static constexpr unsigned kStack = 384;
+  static constexpr unsigned kStack = 128;
 
  private:
   struct Place {

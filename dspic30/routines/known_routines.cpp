@@ -36,8 +36,9 @@ bool is_known_name(const std::string& name) {
 
 std::vector<const KnownRoutine*> known_routines() {
   std::vector<const KnownRoutine*> all;
-  for (const auto* of_kind : {&long_division_routines(), &long_long_routines(), &float_routines(),
-                              &float_comparison_routines(), &float_conversion_routines(), &memory_routines()})
+  for (const auto* of_kind :
+       {&long_division_routines(), &long_long_routines(), &float_routines(), &float_comparison_routines(),
+        &float_conversion_routines(), &float_root_routines(), &memory_routines()})
     for (const KnownRoutine& routine : *of_kind) all.push_back(&routine);
   return all;
 }

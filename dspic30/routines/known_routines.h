@@ -22,6 +22,7 @@ const std::vector<KnownRoutine>& long_long_routines();
 const std::vector<KnownRoutine>& float_routines();
 const std::vector<KnownRoutine>& float_comparison_routines();
 const std::vector<KnownRoutine>& float_conversion_routines();
+const std::vector<KnownRoutine>& float_root_routines();
 const std::vector<KnownRoutine>& memory_routines();
 
 std::vector<const KnownRoutine*> known_routines();
