@@ -15,7 +15,7 @@ CMAKE  := cmake -G Ninja -S .
 NINJA  := python3 scripts/progress.py $(BUILD) $(JOBS)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup tool build run test page view test-view dspic check format bench asan tsan fuzz second levels clean
+.PHONY: help setup tool build run test page view test-view dspic check format bench asan tsan fuzz second routines levels clean
 
 ## help: this list
 help:
@@ -56,6 +56,10 @@ run: tool $(if $(findstring --report,$(ARGS)),page)
 test: setup
 	$(call configure,$(BUILD),)
 	@scripts/run_tests.py $(BUILD) $(JOBS) --filter '$(T)'
+
+## routines: routines of the runtime known by heart beside themselves, on ten million operands each: 25 minutes
+routines: tool
+	@TWINPUCK_ROUTINES=10000000 scripts/run_tests.py $(BUILD) $(JOBS) --programs routines_test --filter '$(T)'
 
 ## second: the chip's compiler beside avr-gcc on simavr: arguments and results of all shapes
 second: tool
