@@ -135,7 +135,9 @@ void CodeTable::warm(const Cpu& cpu, const Decoded* d, Translator& translator, i
   if (translation.run) {
     d->is_head.store(true, std::memory_order_release);
     d->run.store(translation.run, std::memory_order_release);
-    translated_.push_back(static_cast<std::uint32_t>(index_of(d)));
+    warmth.first = translation.first;
+    warmth.last = translation.last;
+    ++translated_;
   } else if (only_ready || hot == 0 || ++warmth.refusals < kMostRefusals) {
     d->heat.store(again, std::memory_order_relaxed);
   }
@@ -145,14 +147,17 @@ void CodeTable::mark_wait(const Decoded* d, Run stop) {
   const std::lock_guard lock(mutex_);
   const std::size_t index = index_of(d);
   if (beside_[index].wait.load(std::memory_order_relaxed)) return;
-  for (const std::uint32_t i : translated_) {
-    const Decoded& other = words_[i];
-    if (i == index || beside_[i].wait.load(std::memory_order_relaxed)) continue;
-    other.run.store(beside_[i].plain, std::memory_order_release);
-    other.is_head.store(false, std::memory_order_release);
-    other.heat.store(0xFF, std::memory_order_relaxed);
+  for (const auto& [head, warmth] : warmth_) {
+    const std::ptrdiff_t place = d - head;
+    if (place == 0 || place < warmth.first || place > warmth.last) continue;
+    const Beside& beside = beside_[index_of(head)];
+    if (!head->is_head.load(std::memory_order_relaxed) || beside.wait.load(std::memory_order_relaxed))
+      continue;
+    head->run.store(beside.plain, std::memory_order_release);
+    head->is_head.store(false, std::memory_order_release);
+    head->heat.store(0xFF, std::memory_order_relaxed);
+    --translated_;
   }
-  translated_.clear();
   beside_[index].wait.store(d->run.load(std::memory_order_relaxed), std::memory_order_release);
   d->is_head.store(true, std::memory_order_release);
   d->run.store(stop, std::memory_order_release);
@@ -160,7 +165,7 @@ void CodeTable::mark_wait(const Decoded* d, Run stop) {
 
 int CodeTable::translated() const {
   const std::lock_guard lock(mutex_);
-  return static_cast<int>(translated_.size());
+  return translated_;
 }
 
 void CodeTable::forget() {
@@ -172,7 +177,7 @@ void CodeTable::forget() {
   }
   decoded_.clear();
   warmth_.clear();
-  translated_.clear();
+  translated_ = 0;
 }
 
 // --- all of an image ------------------------------------------------------------------------------------

@@ -105,7 +105,7 @@ class CodeTable {
   /// Cpu::hot.
   void warm(const Cpu& cpu, const Decoded* d, Translator& translator, int hot);
   /// A wait is known to begin at a word that was met: `stop` runs there, and what ran before is
-  /// beside_wait(). What was translated is forgotten, since it would run past it.
+  /// beside_wait(). What was translated with it in its middle would run past it, so it is forgotten.
   void mark_wait(const Decoded* d, Run stop);
   bool is_wait(const Decoded* d) const { return beside_[index_of(d)].wait.load(std::memory_order_acquire); }
   Run beside_wait(const Decoded* d) const {
@@ -125,7 +125,8 @@ class CodeTable {
   };
   struct Warmth {
     int times = 0, refusals = 0;
-    bool is_busy = false;  // somebody translates it
+    bool is_busy = false;                // somebody translates it
+    std::ptrdiff_t first = 0, last = 0;  // words from it that its translation holds
   };
   struct Free {
     void operator()(void* memory) const { std::free(memory); }
@@ -140,7 +141,7 @@ class CodeTable {
   std::unique_ptr<Beside[], Free> beside_;  // pages of words that are not met take no memory
   std::vector<std::uint32_t> decoded_;
   std::unordered_map<const Decoded*, Warmth> warmth_;
-  std::vector<std::uint32_t> translated_;  // words where translated code begins
+  int translated_ = 0;
 };
 
 /// The tables of one image: what flash holds is the same for all that run on them.

@@ -44,7 +44,8 @@ struct TrapRecord {
 /// they would do, to the cycle (dspic30/translate). It runs one instruction at least; as with its own
 /// function, the cycles of the first one are not counted.
 struct Translation {
-  Run run = nullptr;  ///< null: not worth it
+  Run run = nullptr;                   ///< null: not worth it
+  std::ptrdiff_t first = 0, last = 0;  ///< words from the head, all that it holds is between them
 };
 class Translator {
  public:

@@ -27,6 +27,11 @@ struct Hot {
     for (const unsigned* f : {&cpu.c, &cpu.ov, &cpu.dc}) fields.push_back({offset_of(cpu, f), 4});
     fields.push_back({offset_of(cpu, &cpu.now), 8});
   }
+  /// W0 to W7 and the stack pointer: what a function that is called sees and may change.
+  bool is_of_call(const Field& f) const {
+    const std::uint64_t n = (f.offset - begin) / 2;
+    return n <= 7 || n == 15;
+  }
   bool holds(std::uint64_t offset) const { return offset >= begin && offset < end; }
   /// `writer`: null where it is read.
   void touch(std::uint64_t offset, std::uint64_t bytes, const Item* writer) {

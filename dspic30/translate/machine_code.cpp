@@ -24,6 +24,7 @@ void* address_of(const std::string& name, void* self) {
   if (name == kArrive) return reinterpret_cast<void*>(&Cpu::arrive_from);
   if (name == kGoOn) return reinterpret_cast<void*>(&Cpu::go_on);
   if (name == kReturn) return reinterpret_cast<void*>(&Cpu::return_from);
+  if (name == kHost) return reinterpret_cast<void*>(&call_host);
   if (name == kAlone) return reinterpret_cast<void*>(&Cpu::run_alone);
   if (name[0] == kWordMark)
     return reinterpret_cast<void*>(

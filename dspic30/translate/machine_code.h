@@ -23,10 +23,11 @@ struct MachineCode {
 };
 
 /// What Address::name calls the function that interprets a word, those that leave a stretch, by a jump,
-/// straight on or by a return, and the one that runs an instruction as it is decoded by then: never the
-/// stretch that begins there.
+/// straight on or by a return, the one that runs an instruction as it is decoded by then: never the stretch
+/// that begins there; and the one of a call of the host's.
 std::string interpreter(std::uint32_t word);
-inline constexpr const char *kArrive = "arrive", *kGoOn = "go on", *kReturn = "return", *kAlone = "alone";
+inline constexpr const char *kArrive = "arrive", *kGoOn = "go on", *kReturn = "return", *kAlone = "alone",
+                            *kHost = "host";
 
 /// Put into memory, for as long as the process lives. Null: a name is not known here, or no memory.
 Run placed(const MachineCode& code);

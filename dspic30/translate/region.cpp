@@ -107,6 +107,8 @@ class Maker {
   void optimise();
   std::unique_ptr<Module> moved_out();
 
+  /// What runs an instruction in the interpreter's stead, by its name in MachineCode::Address.
+  static std::string alone(const Item& item) { return item.is_host ? kHost : interpreter(item.word); }
   /// A call of a function that is the simulator's, by its name in MachineCode::Address.
   CallInst* called(const std::string& name, ArrayRef<Value*> arguments) {
     SmallVector<Type*, 3> types;
@@ -200,7 +202,7 @@ class Maker {
   struct Effect {
     WeakVH what;
     const Item* item;
-    bool sees_clock_only;
+    enum Scope { All, ClockOnly, HostCall } scope;  // what is put back before it and taken behind it
   };
   std::vector<Effect> effects_;
   // where the interpreter's function runs in an instruction's stead, from its beginning, and the stretch ends
@@ -299,7 +301,7 @@ std::unique_ptr<Module> Maker::make() {
     ir_.SetInsertPoint(end);
     Value* const d = place(aside.item->place);
     ir_.CreateStore(d, field(&cpu_.at, byte_->getPointerTo()));
-    CallInst* const next = called(interpreter(aside.item->word), {cpu_arg_, d});
+    CallInst* const next = called(alone(*aside.item), {cpu_arg_, d});
     pass(aside.item->decoded.cycles - items_[0].decoded.cycles);
     ir_.CreateRet(next);
     end->eraseFromParent();
@@ -320,7 +322,7 @@ void Maker::put_entry() {
   }
   ir_.CreateCondBr(fits(items_[0]), blocks_[0], plain);
   ir_.SetInsertPoint(plain);
-  ir_.CreateRet(called(interpreter(items_[0].word), {cpu_arg_, head_arg_}));
+  ir_.CreateRet(called(alone(items_[0]), {cpu_arg_, head_arg_}));
 }
 
 // --- an instruction -------------------------------------------------------------------------------------
@@ -334,14 +336,14 @@ bool Maker::put_item(const Item& item) {
     return true;
   }
   Value* const d = place(item.place);
-  Function* const own = semantics_.of(item.word);
+  Function* const own = item.is_host ? nullptr : semantics_.of(item.word);
   CallInst* call;
   if (own) {
     const FunctionType* const type = own->getFunctionType();
     call = ir_.CreateCall(own, {ir_.CreateBitCast(cpu_arg_, type->getParamType(0)),
                                 ir_.CreateBitCast(d, type->getParamType(1))});
   } else {  // not by Decoded::run, which at the head is this very stretch
-    call = called(kAlone, {cpu_arg_, d});
+    call = called(item.is_host ? kHost : kAlone, {cpu_arg_, d});
   }
   ir_.CreateRet(ir_.CreateBitCast(call, byte_->getPointerTo()));
   if (own) {
@@ -521,10 +523,13 @@ void Maker::find_effects(const Item& item, BasicBlock* first) {
           beyond.push_back(call);
         else
           others = true;
-        effects_.push_back({call, &item, is_of_peripheral(*call)});
+        effects_.push_back({call, &item,
+                            item.is_host              ? Effect::HostCall
+                            : is_of_peripheral(*call) ? Effect::ClockOnly
+                                                      : Effect::All});
         may_leave_ = true;
       } else if (isa<StoreInst>(i) && split(i.getOperand(1)) == std::make_pair(cpu_arg_, deadline)) {
-        effects_.push_back({&i, &item, false});
+        effects_.push_back({&i, &item, Effect::All});
         may_leave_ = true;
       }
     }
@@ -728,10 +733,16 @@ bool Maker::keep_state() {
     if (is_real_call(*what)) {
       ir_.SetInsertPoint(what);
       const Hot::Field& clock = hot.fields.back();
-      effect.sees_clock_only ? put_back(clock) : put_back_all();
+      const auto sees = [&](const Hot::Field& f) {
+        return effect.scope == Effect::All || &f == &clock ||
+               (effect.scope == Effect::HostCall && hot.is_of_call(f));
+      };
+      for (const Hot::Field& f : hot.fields)
+        if (!f.writers.empty() && sees(f)) put_back(f);
       ir_.CreateStore(place(effect.item->place), field(&cpu_.at, byte_->getPointerTo()));
       ir_.SetInsertPoint(what->getNextNode());
-      effect.sees_clock_only ? take(clock) : take_all();
+      for (const Hot::Field& f : hot.fields)
+        if (f.is_used && sees(f)) take(f);
     }
     ir_.SetInsertPoint(what->getNextNode());
     ir_.CreateStore(ir_.getTrue(), left_);

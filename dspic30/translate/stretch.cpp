@@ -94,13 +94,15 @@ bool Scanner::add_piece(std::ptrdiff_t begin, std::ptrdiff_t longest, int frame,
     const Row* const row = find_row(item.word);
     if (!row || d == cpu_.loop_end) return false;
     if (cpu_.is_wait_head(d) && d != head_) return false;  // the program stops there to look
-    const bool is_known = cpu_.is_decoded(d) && !cpu_.is_told(d) && cpu_.plain(d) == function_of(item.word);
+    const Run plain = cpu_.is_decoded(d) && !cpu_.is_told(d) ? cpu_.plain(d) : nullptr;
+    item.is_host = plain == &call_host;
+    const bool is_known = plain && (item.is_host || plain == function_of(item.word));
     if (!is_known && (items.size() == first || place >= reach)) return false;
-    bool ends = ends_a_stretch(row->id);
+    bool ends = ends_a_stretch(row->id) && !item.is_host;
     if (is_known) {
       item.place = place;
       item.decoded = *d;
-      item.plain = cpu_.plain(d);
+      item.plain = plain;
       item.words = row->words;
       item.frame = frame;
       item.caller = caller;
@@ -120,7 +122,8 @@ bool Scanner::add_piece(std::ptrdiff_t begin, std::ptrdiff_t longest, int frame,
       if (branches) is_reached(place + d->imm);
       if (is_skip(*row)) is_reached(place + 1 + d->d);
       items.push_back(item);
-      if (is_direct_call(row->id) && !item.is_last && add_function(items.size() - 1, depth)) ends = false;
+      if (is_direct_call(row->id) && ends && !item.is_last && add_function(items.size() - 1, depth))
+        ends = false;
     }
     place += row->words;
     if (ends && place > reach) return true;
@@ -187,6 +190,7 @@ std::string key_of(const Cpu& cpu, const std::vector<Item>& items) {
     add(item.target);
     add(item.frame);
     add(item.callee);
+    add(item.is_host);
   }
   return key;
 }

@@ -17,6 +17,7 @@ struct Item {
   int words = 1;
   int most_cycles = 0;
   bool is_last = false;       ///< it runs by the interpreter's function, and the stretch ends
+  bool is_host = false;       ///< it calls a function of the host's: call_host()
   bool returns = false;       ///< RETURN or RETLW
   std::ptrdiff_t target = 0;  ///< of a GOTO or a call: words from the head
   int frame = 0;              ///< 0: the stretch itself; else the call that it belongs to (Item::callee)

@@ -72,6 +72,10 @@ Translation Translations::translate(const Cpu& cpu, const Decoded* head, bool on
   }
   Translation made;
   if (!code.bytes.empty()) made.run = placed(code);
+  for (const Item& item : items) {
+    made.first = std::min(made.first, item.place);
+    made.last = std::max(made.last, item.place);
+  }
   return known_[key] = made;
 }
 

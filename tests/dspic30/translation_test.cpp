@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -384,6 +385,111 @@ __StackError: bra __StackError)",
     EXPECT_EQ(b.w(3), 100u);
     EXPECT_EQ(b.w(15), 0x0810u + 4 + 4);  // RCALL's two words, then the trap's
   }
+}
+
+// --- functions of the host --------------------------------------------------------------------------------
+
+/// Function 0 looks: W0 becomes the time in 64s, in 20 cycles, and stays so. Function 1 changes something: W0
+/// and W1 are added up at 0x0900, and each seventh time the outlook is another. Function 2 waits until a
+/// thousand's multiple.
+struct Host final : dspic::HostCalls {
+  std::vector<Cycle> calls;
+  dspic::HostResult call(dspic::Cpu& cpu, unsigned index, Cycle at, bool again) override {
+    if (!again) calls.push_back(at);
+    if (index == 0) {
+      cpu.w[0] = static_cast<std::uint16_t>(at >> 6);
+      cpu.note_look((at >> 6) + 1 << 6);
+      return dspic::HostResult::done(20);
+    }
+    if (index == 2) {
+      const Cycle until = (at + 999) / 1000 * 1000;
+      return at < until ? dspic::HostResult::waits(until) : dspic::HostResult::done(5);
+    }
+    cpu.write16(0x0900, cpu.read16(0x0900) + cpu.w[0] + cpu.w[1]);
+    cpu.w[0] = static_cast<std::uint16_t>(calls.size());
+    cpu.note_effect();
+    if (calls.size() % 7 == 0) cpu.host_changed();
+    return dspic::HostResult::done(33);
+  }
+  std::uint16_t read(unsigned, Cycle) override { return 0; }
+  void write(unsigned, std::uint16_t, std::uint16_t, Cycle) override {}
+  Cycle horizon(unsigned, Cycle) override { return dspic::kNever; }
+  std::uint16_t peek(unsigned, Cycle) const override { return 0; }
+  Cycle due() const override { return dspic::kNever; }
+  std::uint64_t share_q32() const override { return calls.size() % 3 << 28; }
+  void begin_handler(Cycle) override {}
+  dspic::HandlerStep next_in_handler(Cycle) override { return {}; }
+  void end_handler(Cycle) override {}
+  int vector(int) const override { return dspic::kNoVector; }
+  int priority() const override { return 4; }
+  void hold_handler(int, bool, Cycle) override {}
+  std::uint16_t saved_registers() const override { return 0; }
+  int saved_words() const override { return 0; }
+  void reset(Cycle) override {}
+};
+
+// calls of the host stand in a loop as any instruction does, and it goes on behind them
+TEST(Translation, functions_of_the_host_are_called_from_within_a_stretch) {
+  const std::string text = R"(__reset: mov #0x2700, w0
+    mov w0, SPLIM
+    nop
+    mov #99, w0
+    mov w0, PR1
+    mov #0x8000, w0
+    mov w0, T1CON
+    bset IEC0, #T1IE
+    mov #0x0A00, w8
+    clr w9
+    clr w7
+loop: rcall query
+    xor w9, w0, w9
+    add w9, #3, w9
+    mov w9, w1
+    call change
+    mov w0, [w8]
+    add w9, [w8], w9
+    btsc w9, #5
+    rcall wait
+    inc w7, w7
+    bra loop
+__T1Interrupt: bclr IFS0, #T1IF
+    inc 0x0904
+    retfie
+query: nop
+    nop
+change: nop
+    nop
+wait: nop
+    nop)";
+  Host hosts[2];
+  CoreBench benches[2] = {CoreBench(text, {}, false), CoreBench(text, {}, false)};
+  Onlooker onlooker;
+  for (int i = 0; i < 2; ++i) {
+    CoreBench& b = benches[i];
+    unsigned index = 0;
+    for (const char* name : {"query", "change", "wait"}) {  // a GOTO beyond the flash
+      b.program.write(b.symbol(name), 0x040000 + 2 * index++);
+      b.program.write(b.symbol(name) + 2, 0x40);
+    }
+    b.cpu = std::make_unique<dspic::Processor>(*b.chip, b.program, &hosts[i]);
+    if (i == 0) continue;
+    b.cpu->set_translator(&onlooker);
+    b.cpu->translate_all();
+  }
+  Draw draw{7};
+  for (Cycle end = 0; end < 100000; end += 1 + draw(draw(3) ? 3000 : 60)) {
+    for (CoreBench& b : benches) b.run(end);
+    ASSERT_EQ(benches[0].cpu->now(), benches[1].cpu->now());
+    ASSERT_EQ(benches[0].cpu->pc(), benches[1].cpu->pc());
+    ASSERT_EQ(benches[0].cpu->state_hash(), benches[1].cpu->state_hash());
+  }
+  EXPECT_EQ(hosts[0].calls, hosts[1].calls);
+  EXPECT_GT(hosts[0].calls.size(), 300u);
+  EXPECT_GT(benches[1].word(0x0904), 500u);
+  const auto& items = onlooker.stretches[benches[1].symbol("loop")];
+  // the third one was not met yet when the loop was translated
+  EXPECT_EQ(std::count_if(items.begin(), items.end(), [](const auto& item) { return item.is_host; }), 2);
+  EXPECT_EQ(items.size(), 10u);
 }
 
 // two words that go round are worth it
