@@ -271,7 +271,7 @@ const Decoded* Cpu::run_repeated(const Decoded* d) {
       return following;
     }
     if (rcount > 0) --rcount;
-    if (only_passes_time && now < deadline) {  // a delay: as many at once as fit
+    if ((only_passes_time || is_idle_step(run, rcount)) && now < deadline) {  // as many at once as fit
       const Cycle many = std::min<Cycle>(rcount, deadline - now);
       now += many;
       rcount = static_cast<std::uint16_t>(rcount - many);

@@ -502,6 +502,9 @@ const Decoded* jump_to_host(Cpu& cpu, const Decoded* d);
 __attribute__((used)) static void meet_types(Cpu&) {}
 #endif
 
+/// Does it do nothing in iterations of REPEAT with this RCOUNT and less, until the last one? Division's.
+bool is_idle_step(Run run, unsigned rcount);
+
 /// NOP's.
 const Decoded* no_operation(Cpu& cpu, const Decoded* d);
 

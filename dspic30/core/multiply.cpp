@@ -92,6 +92,12 @@ const Decoded* divide_fraction(Cpu& cpu, const Decoded* d) {
 
 }  // namespace
 
+bool is_idle_step(Run run, unsigned rcount) {
+  return rcount < kIterations - 1 &&
+         (run == &divide_signed<false> || run == &divide_signed<true> || run == &divide_unsigned<false> ||
+          run == &divide_unsigned<true> || run == &divide_fraction);
+}
+
 Run choose_multiply(Insn id, const Fields& f) {
   switch (id) {
     case Insn::Mul_f:
