@@ -17,15 +17,21 @@ namespace dspic::translate {
 
 namespace {
 
-constexpr char kWordMark = '#';
+constexpr char kWordMark = '#', kKnownMark = '!';
 
-void* address_of(const std::string& name, void* self) {
+void* address_of(const std::string& name, void* self, const std::vector<Item>& items) {
   if (name.empty()) return self;
   if (name == kArrive) return reinterpret_cast<void*>(&Cpu::arrive_from);
   if (name == kGoOn) return reinterpret_cast<void*>(&Cpu::go_on);
   if (name == kReturn) return reinterpret_cast<void*>(&Cpu::return_from);
   if (name == kHost) return reinterpret_cast<void*>(&call_host);
   if (name == kAlone) return reinterpret_cast<void*>(&Cpu::run_alone);
+  if (name[0] == kKnownMark) {
+    const auto item = static_cast<std::size_t>(std::strtoul(name.c_str() + 1, nullptr, 10));
+    return item < items.size() && items[item].routine
+               ? reinterpret_cast<void*>(items[item].routine->function)
+               : nullptr;
+  }
   if (name[0] == kWordMark)
     return reinterpret_cast<void*>(
         function_of(static_cast<std::uint32_t>(std::strtoul(name.c_str() + 1, nullptr, 16))));
@@ -55,7 +61,9 @@ std::string part_of(Cursor& in) {
 
 std::string interpreter(std::uint32_t word) { return kWordMark + hex(word, 6).substr(2); }
 
-Run placed(const MachineCode& code) {
+std::string known_function(std::size_t item) { return kKnownMark + std::to_string(item); }
+
+Run placed(const MachineCode& code, const std::vector<Item>& items) {
   const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
   const std::size_t room = (code.bytes.size() + page - 1) / page * page;
   void* const memory = mmap(nullptr, room, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
@@ -64,7 +72,7 @@ Run placed(const MachineCode& code) {
   std::memcpy(bytes, code.bytes.data(), code.bytes.size());
   bool is_whole = true;
   for (const MachineCode::Address& a : code.addresses) {
-    void* const target = address_of(a.name, memory);
+    void* const target = address_of(a.name, memory, items);
     const std::uint64_t value = reinterpret_cast<std::uint64_t>(target) + a.addend;
     is_whole &= target != nullptr && a.offset + sizeof value <= code.bytes.size();
     if (is_whole) std::memcpy(bytes + a.offset, &value, sizeof value);

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "dspic30/core/cpu.h"
+#include "dspic30/translate/stretch.h"
 
 namespace dspic::translate {
 
@@ -29,8 +29,12 @@ std::string interpreter(std::uint32_t word);
 inline constexpr const char *kArrive = "arrive", *kGoOn = "go on", *kReturn = "return", *kAlone = "alone",
                             *kHost = "host";
 
-/// Put into memory, for as long as the process lives. Null: a name is not known here, or no memory.
-Run placed(const MachineCode& code);
+/// What it calls the function of the known routine that an item calls.
+std::string known_function(std::size_t item);
+
+/// Put into memory, for as long as the process lives, as the code of these items. Null: a name is not known
+/// here, or no memory.
+Run placed(const MachineCode& code, const std::vector<Item>& items);
 
 /// As one text, and back; false: it is not one that text_of() made of this key.
 std::string text_of(const std::string& key, const MachineCode& code);

@@ -73,6 +73,7 @@ bool is_beyond_ram(const CallInst& call) {
 
 // most cycles between two looks at the time: what is left of them before something happens is interpreted
 constexpr int kSection = 40;
+constexpr std::uint16_t kReturnAddressBytes = 4;
 constexpr std::ptrdiff_t kGap = 16;  // words that were not met, within a piece
 
 // --- one stretch ----------------------------------------------------------------------------------------
@@ -99,6 +100,8 @@ class Maker {
   void find_effects(const Item& item, BasicBlock* first);
   void leave(const Item& item, BasicBlock* block, Value* next);
   void leave_by_return(const Item& item, BasicBlock* block);
+  void leave_by_answer(const Item& item, BasicBlock* block);
+  Value* can_be_answered();
   BasicBlock* edge(const Item& item, Value* next, int frame);
   BasicBlock* passed(const Item& item);
   Value* jump_to(std::ptrdiff_t place, int frame);
@@ -211,6 +214,7 @@ class Maker {
     BasicBlock *first, *block;
   };
   std::vector<Aside> asides_;
+  bool takes_long_ = false;  // more than Item::most_cycles
   std::set<const BasicBlock*> live_;
   std::ptrdiff_t end_ = 0;  // place behind the stretch itself
   bool goes_back_ = false;
@@ -361,6 +365,8 @@ bool Maker::put_item(const Item& item) {
     back->eraseFromParent();
     if (item.returns && own)
       leave_by_return(item, block);
+    else if (item.routine)
+      leave_by_answer(item, block);
     else
       leave(item, block, next);
     break;
@@ -451,7 +457,7 @@ void Maker::keep_jumps(const Item& item, BasicBlock* first) {
     Value* where = place(item.place);
     if (name_of(*jump) == kReturnTo) {
       return_address_ = jump->getArgOperand(1);
-    } else {
+    } else if (!item.routine) {
       if (item.callee) ir_.CreateStore(jump->getArgOperand(3), backs_[static_cast<std::size_t>(item.callee)]);
       const bool is_near = name_of(*jump) == kOffset;
       const std::ptrdiff_t to =
@@ -607,6 +613,70 @@ void Maker::leave_by_return(const Item& item, BasicBlock* block) {
   ir_.CreateCondBr(ir_.CreateICmpEQ(return_address_, expected), back, out);
 }
 
+// the answer of the routine that is called, or else a jump there; as recall() (known_calls.h)
+void Maker::leave_by_answer(const Item& item, BasicBlock* block) {
+  Type* const word = ir_.getInt16Ty();
+  ir_.SetInsertPoint(block);
+  Value* const now = field(&cpu_.now, long_);
+  BasicBlock* const ask = BasicBlock::Create(context_, "", function_);
+  BasicBlock* const done = BasicBlock::Create(context_, "", function_);
+  BasicBlock* const out = passed(item);
+  ir_.SetInsertPoint(out);
+  ir_.CreateBr(ways_[0].block);
+  ways_[0].where->addIncoming(ir_.getInt32(static_cast<std::uint32_t>(item.target)), out);
+  ir_.SetInsertPoint(block);
+  ir_.CreateCondBr(can_be_answered(), ask, out);
+  // its function, of W0 to W3
+  ir_.SetInsertPoint(ask);
+  Value* registers = ir_.getInt64(0);
+  for (unsigned i = 0; i < 4; ++i) {
+    Value* const w = ir_.CreateZExt(ir_.CreateLoad(word, field(&cpu_.w[i], word)), long_);
+    registers = ir_.CreateOr(registers, ir_.CreateShl(w, 16 * i));
+  }
+  FunctionType* const type =
+      FunctionType::get(StructType::get(long_, ir_.getInt32Ty()), {long_}, false);  // KnownAnswer, by the ABI
+  Value* const answer =
+      ir_.CreateCall(semantics_.module->getOrInsertFunction(known_function(index_of(item)), type), registers);
+  Value* const cycles = ir_.CreateSExt(ir_.CreateExtractValue(answer, 1), long_);
+  Value* const until = ir_.CreateAdd(ir_.CreateAdd(ir_.CreateLoad(long_, now), cycles),
+                                     ir_.getInt64(item.decoded.cycles + item.way));
+  Value* const in_time = ir_.CreateICmpSLT(until, ir_.CreateLoad(long_, field(&cpu_.deadline, long_)));
+  ir_.CreateCondBr(ir_.CreateAnd(in_time, ir_.CreateICmpSGT(cycles, ir_.getInt64(0))), done, out);
+  // behind its RETURN
+  ir_.SetInsertPoint(done);
+  for (unsigned i = 0; i < 4; ++i)
+    ir_.CreateStore(ir_.CreateTrunc(ir_.CreateLShr(ir_.CreateExtractValue(answer, 0), 16 * i), word),
+                    field(&cpu_.w[i], word));
+  Value* const stack = field(&cpu_.w[15], word);
+  ir_.CreateStore(ir_.CreateSub(ir_.CreateLoad(word, stack), ir_.getInt16(kReturnAddressBytes)), stack);
+  ir_.CreateStore(ir_.CreateSub(until, ir_.getInt64(item.decoded.cycles)), now);
+  Value* const where = jump_to(item.place + item.words, item.frame);
+  takes_long_ = true;
+  BranchInst::Create(edge(item, where, item.frame), done);
+  takes_long_ = false;
+}
+
+// no loop of the chip can end in the routine, and pointers and stack are as everywhere
+Value* Maker::can_be_answered() {
+  Type *const word = ir_.getInt16Ty(), *const number = ir_.getInt32Ty();
+  const auto is_zero = [&](const void* which, Type* type) {
+    return ir_.CreateICmpEQ(ir_.CreateLoad(type, field(which, type)), ConstantInt::get(type, 0));
+  };
+  Value* all = ir_.CreateAnd(is_zero(&cpu_.loop_end, long_),
+                             ir_.CreateAnd(is_zero(&cpu_.rcount, word), is_zero(&cpu_.modcon, word)));
+  Value* const top = ir_.CreateZExt(ir_.CreateLoad(word, field(&cpu_.w[15], word)), number);
+  Value* const limit = ir_.CreateZExt(ir_.CreateLoad(word, field(&cpu_.splim, word)), number);
+  Value* const has_limit = ir_.CreateICmpNE(ir_.CreateLoad(byte_, field(&cpu_.splim_on, byte_)),
+                                            ConstantInt::get(byte_, 0));
+  Value* const ram_end = ir_.getInt32(Cpu::kRamEnd);
+  Value* const end =
+      ir_.CreateSelect(ir_.CreateAnd(has_limit, ir_.CreateICmpULT(limit, ram_end)), limit, ram_end);
+  Value* const lowest = ir_.getInt32(Cpu::kRamStart + kReturnAddressBytes);
+  all = ir_.CreateAnd(all, ir_.CreateICmpUGE(top, lowest));
+  return ir_.CreateAnd(all,
+                       ir_.CreateICmpULE(ir_.CreateAdd(top, ir_.getInt32(KnownCalls::kStack)), end));
+}
+
 // a block in which the instruction's time passes
 BasicBlock* Maker::passed(const Item& item) {
   BasicBlock* const begin = BasicBlock::Create(context_, "", function_);
@@ -636,7 +706,7 @@ BasicBlock* Maker::edge(const Item& item, Value* next, int frame) {
   }
   BasicBlock* const first = blocks_[index_of(*target)];
   const bool is_back = target <= &item;
-  const bool begins_section = is_back || sections_[index_of(*target)] != sections_[index_of(item)];
+  const bool begins_section = is_back || takes_long_ || sections_[index_of(*target)] != sections_[index_of(item)];
   goes_back_ |= is_back;
   if (!begins_section && !may_leave_) {
     ir_.CreateBr(first);

@@ -13,6 +13,7 @@ constexpr std::ptrdiff_t kLongestFunction = 32;  // of one that is called
 constexpr std::size_t kMostItems = 120;          // with the functions that are called
 constexpr int kDeepest = 3;                      // calls within calls
 constexpr int kMostPieces = 3;                   // of a function, from GOTO to GOTO
+constexpr int kGotoCycles = 2;
 constexpr int kMostReads = 2;                    // of an instruction
 
 bool has(const Row& row, Operand kind) {
@@ -70,6 +71,7 @@ class Scanner {
   }
   std::ptrdiff_t target_of(const Item& item, Insn id) const;
   bool add_function(std::size_t caller, int depth);
+  bool is_answered(Item& call) const;
 
   const Cpu& cpu_;
   const Decoded* head_;
@@ -121,14 +123,30 @@ bool Scanner::add_piece(std::ptrdiff_t begin, std::ptrdiff_t longest, int frame,
                          (d->pointers ? kMostReads * d->psv : 0);
       if (branches) is_reached(place + d->imm);
       if (is_skip(*row)) is_reached(place + 1 + d->d);
+      const bool calls = is_direct_call(row->id) && ends && !item.is_last;
+      const bool is_answered = calls && this->is_answered(item);
       items.push_back(item);
-      if (is_direct_call(row->id) && ends && !item.is_last && add_function(items.size() - 1, depth))
-        ends = false;
+      if (is_answered || (calls && add_function(items.size() - 1, depth))) ends = false;
     }
     place += row->words;
     if (ends && place > reach) return true;
   }
   return false;
+}
+
+// does it call a routine that is known by heart, perhaps by a handle?
+bool Scanner::is_answered(Item& call) const {
+  if (~cpu_.written & KnownCalls::kWrites) return false;
+  auto address = static_cast<unsigned>(2 * (head_ - cpu_.code() + call.target));
+  const std::uint32_t word = cpu_.program.read(address);
+  const Row* const row = find_row(word);
+  const bool by_handle = row && row->id == Insn::Goto_Expr && !cpu_.known_at(address);
+  if (by_handle) address = (cpu_.program.read(address + 2) & 0x7F) << 16 | (word & 0xFFFE);
+  const KnownRoutine* const routine = cpu_.known_at(address);
+  if (!routine || !routine->function) return false;
+  call.routine = routine;
+  call.way = by_handle ? kGotoCycles : 0;
+  return true;
 }
 
 // a short function becomes part of the stretch: from its first word to its RETURN, over jumps out of it
@@ -191,6 +209,9 @@ std::string key_of(const Cpu& cpu, const std::vector<Item>& items) {
     add(item.frame);
     add(item.callee);
     add(item.is_host);
+    add(item.way);
+    add(item.routine ? item.routine->code : 0);
+    if (item.routine) key += item.routine->name;
   }
   return key;
 }

@@ -18,7 +18,9 @@ struct Item {
   int most_cycles = 0;
   bool is_last = false;       ///< it runs by the interpreter's function, and the stretch ends
   bool is_host = false;       ///< it calls a function of the host's: call_host()
-  bool returns = false;       ///< RETURN or RETLW
+  const KnownRoutine* routine = nullptr;  ///< that it calls, and whose answer is a function of W0 to W3
+  int way = 0;                            ///< cycles from the call to there: a GOTO's
+  bool returns = false;                   ///< RETURN or RETLW
   std::ptrdiff_t target = 0;  ///< of a GOTO or a call: words from the head
   int frame = 0;              ///< 0: the stretch itself; else the call that it belongs to (Item::callee)
   int callee = 0;             ///< frame of the function that it calls, whose instructions come next; 0: none

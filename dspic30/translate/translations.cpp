@@ -56,6 +56,7 @@ void Translations::open() {
 Translation Translations::translate(const Cpu& cpu, const Decoded* head, bool only_ready) {
   const std::lock_guard lock(mutex_);
   if (!is_open_) open();
+  if (only_ready && kept_.empty() && known_.empty()) return {};
   const std::vector<Item> items = stretch(cpu, head);
   if (items.empty()) return {};
   const std::string key = key_of(cpu, items);
@@ -71,7 +72,7 @@ Translation Translations::translate(const Cpu& cpu, const Decoded* head, bool on
     keep(folder_ / name, text_of(key, code));
   }
   Translation made;
-  if (!code.bytes.empty()) made.run = placed(code);
+  if (!code.bytes.empty()) made.run = placed(code, items);
   for (const Item& item : items) {
     made.first = std::min(made.first, item.place);
     made.last = std::max(made.last, item.place);

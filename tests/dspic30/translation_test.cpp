@@ -15,6 +15,7 @@
 
 #include "dspic30/core/cpu.h"
 #include "dspic30/core/instruction_table.h"
+#include "dspic30/core/known_calls.h"
 #include "dspic30/translate/stretch.h"
 #include "tests/dspic30/core_bench.h"
 
@@ -471,7 +472,7 @@ wait: nop
       b.program.write(b.symbol(name), 0x040000 + 2 * index++);
       b.program.write(b.symbol(name) + 2, 0x40);
     }
-    b.cpu = std::make_unique<dspic::Processor>(*b.chip, b.program, &hosts[i]);
+    b.cpu = std::make_unique<dspic::Processor>(*b.chip, b.program, nullptr, &hosts[i]);
     if (i == 0) continue;
     b.cpu->set_translator(&onlooker);
     b.cpu->translate_all();
@@ -490,6 +491,78 @@ wait: nop
   // the third one was not met yet when the loop was translated
   EXPECT_EQ(std::count_if(items.begin(), items.end(), [](const auto& item) { return item.is_host; }), 2);
   EXPECT_EQ(items.size(), 10u);
+}
+
+// --- routines that are known by heart ----------------------------------------------------------------------
+
+// W2 where W1 is odd, else W1; but where W1 is a multiple of 16 it is not known
+dspic::KnownAnswer choice_of(std::uint64_t w0_to_w3) {
+  const auto w1 = static_cast<std::uint16_t>(w0_to_w3 >> 16), w2 = static_cast<std::uint16_t>(w0_to_w3 >> 32);
+  if (w1 % 16 == 0) return {};
+  return {(w0_to_w3 & ~std::uint64_t{0xFFFF}) | (w1 & 1 ? w2 : w1), 6};
+}
+
+// the answer is asked for in the loop, by a handle too; where the time is short, a loop of the chip ends
+// somewhere, or RCOUNT is none, the routine runs
+TEST(Translation, known_routines_are_answered_within_a_stretch) {
+  const std::string text = R"(__reset: mov #0x2700, w0
+    mov w0, SPLIM
+    mov #99, w0
+    mov w0, PR1
+    mov #0x8000, w0
+    mov w0, T1CON
+    bset IEC0, #T1IE
+    clr w2
+    clr w3
+    clr w4
+    clr w5
+    clr w6
+    clr w7
+    clr w8
+    clr w9
+    clr w10
+loop: mov w8, w2
+    mov w9, w1
+    call choice
+    mov w0, w8
+    add w9, #5, w9
+    mov w9, w1
+    call handle
+    add w10, w0, w10
+    do #2, last
+    call choice
+last: add w10, w0, w10
+    bra loop
+__T1Interrupt: bclr IFS0, #T1IF
+    inc 0x0904
+    retfie
+handle: goto choice
+    .section .choice, code, address(0x4000)
+choice: mov w1, w0      ; no flags: after an answer they are as before, too
+    btsc w1, #0
+    mov w2, w0
+    return)";
+  const dspic::KnownRoutine routine{"_choice", 1, &choice_of, nullptr};
+  Onlooker onlooker;
+  CoreBench runs(text, {}, false), answers(text, {}, false), translated(text, {}, false);
+  for (CoreBench* b : {&answers, &translated}) {
+    auto calls = std::make_shared<dspic::KnownCalls>();
+    calls->add(b->symbol("choice"), routine);
+    b->cpu->know(calls);
+  }
+  translated.cpu->set_translator(&onlooker);
+  translated.cpu->translate_all();
+  Draw draw{3};
+  for (Cycle end = 0; end < 60000; end += 1 + draw(draw(3) ? 3000 : 40)) {
+    for (CoreBench* b : {&runs, &answers, &translated}) b->run(end);
+    for (CoreBench* b : {&answers, &translated}) {
+      ASSERT_EQ(b->cpu->now(), runs.cpu->now()) << end;
+      ASSERT_EQ(b->cpu->pc(), runs.cpu->pc()) << end;
+      ASSERT_EQ(b->cpu->state_hash(), runs.cpu->state_hash()) << end;
+    }
+  }
+  const auto& items = onlooker.stretches[translated.symbol("loop")];
+  EXPECT_GE(std::count_if(items.begin(), items.end(), [](const auto& item) { return item.routine; }), 2);
 }
 
 // two words that go round are worth it
