@@ -93,11 +93,13 @@ void Cpu::choose_code() {
 
 void Cpu::run_on(std::shared_ptr<CodeTable> table) {
   const Decoded* const words = table->words();
-  if (at) at = words + (at - code_);
-  next = words + (next ? next - code_ : 0);
+  const auto moved = [&](const Decoded* d) { return address_of_host_place(d) ? d : words + (d - code_); };
+  if (at) at = moved(at);
+  next = next ? moved(next) : words;
   code_ = words;
   table_ = std::move(table);
   known_waits.forget();
+  known_counts.forget();
   own_heads_ = no_heads();
   heads_marked_ = 0;
   find_loop_end();

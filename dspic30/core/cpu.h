@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "dspic30/core/code_store.h"
+#include "dspic30/core/counting.h"
 #include "dspic30/core/host_calls.h"
 #include "dspic30/core/instruction_table.h"
 #include "dspic30/core/known_waits.h"
@@ -383,6 +384,7 @@ class Cpu final : public SfrOwner {
   bool reads_core = false;              ///< ... or one of the core's, by its address
   RoundMemory* round_memory = nullptr;  ///< notes accesses to RAM: watch_round()
   KnownWaits known_waits;
+  KnownCounts known_counts;
   Cycle still_since =
       kNever;                ///< since when nothing that the program looks at can change but by an interrupt
   bool still_reads = false;  ///< does such a round read anything at all?

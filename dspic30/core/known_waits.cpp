@@ -79,6 +79,18 @@ bool RoundMemory::Words::are_in(const std::uint8_t* ram) const {
   return true;
 }
 
+bool RoundMemory::Words::are_in(const std::uint8_t* ram, unsigned but_for) const {
+  for (std::size_t i = 0; i < count; ++i)
+    if (place[i] != but_for && std::memcmp(&ram[place[i]], &value[i], 2) != 0) return false;
+  return true;
+}
+
+std::uint16_t RoundMemory::Words::value_at(unsigned at) const {
+  for (std::size_t i = 0; i < count; ++i)
+    if (place[i] == at) return value[i];
+  return 0;
+}
+
 void RoundMemory::Words::take(const std::uint8_t* ram) {
   for (std::size_t i = 0; i < count; ++i) std::memcpy(&value[i], &ram[place[i]], 2);
 }

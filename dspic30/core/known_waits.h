@@ -24,6 +24,7 @@ struct CoreState {
   explicit CoreState(const Cpu& cpu);
   /// Is the core in this state?
   bool is_of(const Cpu& cpu) const;
+  std::uint16_t w(unsigned n) const { return static_cast<std::uint16_t>(words[n / 4] >> 16 * (n % 4)); }
   std::array<std::uint64_t, 11> words;
 };
 
@@ -31,29 +32,48 @@ struct CoreState {
 /// Places are bytes from RAM's start.
 class RoundMemory {
  public:
+  /// Places that one instruction reads, or writes: those are odd.
+  struct Touched {
+    std::uint8_t count = 0;  // above the array's size: there were more
+    std::array<std::uint16_t, 4> places{};
+  };
+
   void clear() {
     reads_.count = writes_.count = 0;
     is_whole_ = true;
   }
+  /// An instruction begins.
+  void begin_step() { touched_.count = 0; }
+  const Touched& touched() const { return touched_; }
   void note_read(const std::uint8_t* ram, unsigned place) {
+    touch(place & ~1u);
     if (!writes_.holds(place & ~1u) && !reads_.holds(place & ~1u)) is_whole_ &= reads_.add(ram, place & ~1u);
   }
   /// `whole`: a word, else a byte, of whose word the rest stays.
   void note_write(const std::uint8_t* ram, unsigned place, bool whole) {
     if (!whole) note_read(ram, place);
+    touch(place | 1u);
     if (!writes_.holds(place & ~1u)) is_whole_ &= writes_.add(ram, place & ~1u);
   }
   /// Does a round read anything of RAM?
   bool reads() const { return reads_.count > 0; }
   /// False: there were too many.
   bool is_whole() const { return is_whole_; }
-  /// Are words that it reads as they were when it read them?
+  /// Are words that it reads as they were when it read them? `but_for`: a place that does not matter.
   bool are_as_read(const std::uint8_t* ram) const { return reads_.are_in(ram); }
+  bool are_as_read(const std::uint8_t* ram, unsigned but_for) const { return reads_.are_in(ram, but_for); }
+  /// What it finds at a place that it reads before it writes it.
+  std::uint16_t found(unsigned place) const { return reads_.value_at(place); }
   /// The round is over: what it wrote is there.
   void take_written(const std::uint8_t* ram) { writes_.take(ram); }
   void put_written(std::uint8_t* ram) const { writes_.put(ram); }
 
  private:
+  void touch(unsigned place) {
+    if (touched_.count < touched_.places.size())
+      touched_.places[touched_.count] = static_cast<std::uint16_t>(place);
+    ++touched_.count;
+  }
   static constexpr std::size_t kMost = 24;
   struct Words {
     std::size_t count = 0;
@@ -61,11 +81,14 @@ class RoundMemory {
     bool holds(unsigned at) const;
     bool add(const std::uint8_t* ram, unsigned at);
     bool are_in(const std::uint8_t* ram) const;
+    bool are_in(const std::uint8_t* ram, unsigned but_for) const;
+    std::uint16_t value_at(unsigned at) const;
     void take(const std::uint8_t* ram);
     void put(std::uint8_t* ram) const;
   };
   Words reads_, writes_;
   bool is_whole_ = true;
+  Touched touched_;
 };
 
 class KnownWaits {

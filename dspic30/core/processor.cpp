@@ -61,7 +61,7 @@ void Processor::execute() {
     if (waits_->is_due(cpu)) {
       waits_->go_on(cpu);
       if (cpu.deadline != end || cpu.parts.bus.writes() != writes) return;
-      if (cpu.now >= end) return;
+      if (cpu.now >= end || cpu.repeating) return;
     }
     const Cycle pause = std::min(end, cpu.clocks.program_at(std::max(waits_->look_at(cpu), cpu.now + 1)));
     cpu.deadline = pause;
@@ -111,7 +111,7 @@ std::optional<ResetKind> Processor::run(Cycle until) {
     }
     cpu.deadline = std::min(until, outlook.horizon);
     if (cpu.host) cpu.deadline = cpu.clocks.program_at(std::min(cpu.deadline, host_horizon()));
-    if (cpu.repeating) cpu.next = cpu.run_repeated(cpu.next);
+    if (cpu.repeating && waits_->is_away()) cpu.next = cpu.run_repeated(cpu.next);
     execute();
   }
 }
@@ -186,7 +186,7 @@ Cycle Processor::idle_until() const {
   if (!stands && !is_asleep() && !waits_->is_waiting()) return 0;
   Cycle until = std::min(chip_.next_event(cpu.now), host_horizon());
   if (stands) until = std::min(until, cpu.stands_until);
-  if (waits_->is_waiting()) until = std::min(until, waits_->until());
+  if (waits_->is_waiting()) until = std::min(until, waits_->until(cpu));
   return until;
 }
 

@@ -5,8 +5,12 @@
 
 namespace dspic {
 
-// one instruction, by its own function
+// one instruction, by its own function, or the rest of a REPEAT that the last window cut
 void Waits::step(Cpu& cpu) {
+  if (cpu.repeating) {
+    cpu.next = cpu.run_repeated(cpu.next);
+    return;
+  }
   const Decoded* const d = cpu.at = cpu.next;  // a REPEAT moves `at` on
   const Decoded* following = Cpu::run_alone(cpu, d);
   cpu.now += d->cycles;
@@ -27,10 +31,19 @@ void Waits::begin(Cpu& cpu) {
   cpu.head_met = false;
   look_began_ = cpu.true_now();
   round_began_ = cpu.clocks.own_cycles(cpu.now);
-  if (was_cut_) resumed_ = round_began_;
+  round_delayed_ = cpu.delayed;
+  if (was_cut_) {
+    resumed_ = round_began_;
+    resumed_delayed_ = round_delayed_;
+  }
   cpu.looks_outside = cpu.reads_core = false;
   cpu.watched_until = kNever;
   if (const KnownWaits::Wait* known = cpu.known_waits.find(cpu)) return enter(cpu, known);
+  if (const Count* known = cpu.known_counts.at(cpu.next); known && known->is_plain(cpu)) {
+    const Cycle rounds = known->rounds_from(cpu);
+    if (rounds >= kFewestRounds) return enter_count(cpu, known, rounds);
+    if (is_passed(cpu, *known, rounds)) return;
+  }
   const KnownWaits::Wait* const of_head = at_head_ ? cpu.known_waits.at(cpu.next) : nullptr;
   // what it waited for has come: the program goes on, and will come back
   if (of_head && !of_head->memory.are_as_read(cpu.ram.data())) {
@@ -49,7 +62,23 @@ void Waits::begin(Cpu& cpu) {
   was_cut_ = false;
   state_ = State::Looking;
   chances_ = 2;
+  again_ = 0;
   begin_round(cpu);
+}
+
+// a loop that counts is soon over, or comes to where its flags change: it goes on for so long. False: it does
+// so still
+bool Waits::is_passed(Cpu& cpu, const Count& count, Cycle rounds) {
+  const Cycle took = count.round().took, own = cpu.clocks.own_cycles(cpu.now);
+  if (rounds < 0 || (passed_ == &count && own - passed_at_ <= (kFewestRounds + 4) * took)) return false;
+  passed_ = &count;
+  passed_at_ = own;
+  cpu.still_since = kNever;
+  cpu.heads_from = look_began_ + (rounds + 2) * took;
+  cpu.passes_head = at_head_;
+  was_cut_ = false;
+  if (schedule(cpu).at <= look_began_) schedule(cpu).at = look_began_ + (rounds + 2) * took;
+  return true;
 }
 
 void Waits::begin_round(Cpu& cpu) {
@@ -57,7 +86,10 @@ void Waits::begin_round(Cpu& cpu) {
   round_.state = CoreState(cpu);
   round_.memory.clear();
   round_began_ = cpu.clocks.own_cycles(cpu.now);
+  round_delayed_ = cpu.delayed;
   steps_ = 0;
+  trace_.clear();
+  behind_ = {};
   cpu.looks_outside = cpu.reads_core = false;
   cpu.watched_until = kNever;
 }
@@ -67,37 +99,66 @@ void Waits::look(Cpu& cpu) {
   const Cycle end = cpu.deadline;
   cpu.watch_round(&round_.memory);
   while (cpu.now < end && state_ == State::Looking) {
+    const Decoded* const d = cpu.next;
+    if (!cpu.repeating) {
+      round_.memory.begin_step();
+      ++steps_;
+    }
+    const bool goes_on = cpu.repeating;
     step(cpu);
-    ++steps_;
-    if (cpu.deadline != end || cpu.watched_until <= cpu.true_now())
+    if (chances_ == 1 && !goes_on) trace_.push_back({d, cpu.n, round_.memory.touched()});
+    if (cpu.deadline != end) {
       fail(cpu);
-    else if (cpu.next == round_.first)
-      is_proven(cpu);
-    else if (steps_ == kLongestRound)
+      break;
+    }
+    if (cpu.repeating) continue;  // the window cuts it
+    if (behind_.first) {
+      if (goes_elsewhere(cpu)) begin_round(cpu);
+    } else if (cpu.watched_until <= cpu.true_now()) {
       fail(cpu);
+    } else if (cpu.next == round_.first) {
+      end_round(cpu);
+    } else if (steps_ == kLongestRound) {
+      fail(cpu);
+    }
   }
   cpu.watch_round(nullptr);
 }
 
-bool Waits::is_proven(Cpu& cpu) {
+bool Waits::goes_elsewhere(Cpu& cpu) {
+  if (cpu.next >= behind_.first && cpu.next <= behind_.last && --behind_in_ > 0) return false;
+  chances_ = 2;
+  return true;
+}
+
+void Waits::end_round(Cpu& cpu) {
   round_.took = cpu.clocks.own_cycles(cpu.now) - round_began_;
-  if (round_.memory.is_whole() && round_.state.is_of(cpu) && round_.memory.are_as_read(cpu.ram.data())) {
+  const bool is_whole = round_.memory.is_whole(), is_fixed = cpu.watched_until == kNever &&
+                                                            !cpu.looks_outside && !cpu.reads_core;
+  if (is_whole && round_.state.is_of(cpu) && round_.memory.are_as_read(cpu.ram.data())) {
     round_.memory.take_written(cpu.ram.data());
-    if (cpu.watched_until == kNever && !cpu.looks_outside && !cpu.reads_core)
-      cpu.known_waits.add(cpu, round_);
+    if (is_fixed) cpu.known_waits.add(cpu, round_);
     cpu.mark_head(round_.first);
-    enter(cpu, &round_);
-    return true;
+    return enter(cpu, &round_);
   }
-  if (const KnownWaits::Wait* known = cpu.known_waits.find(cpu)) {
-    enter(cpu, known);
-    return true;
+  if (const KnownWaits::Wait* known = cpu.known_waits.find(cpu)) return enter(cpu, known);
+  if (!is_whole) return fail(cpu);
+  if (--chances_ > 0) return begin_round(cpu);
+  if (cpu.reads_core || !proven_.prove(cpu, round_, trace_)) return fail(cpu);
+  const Cycle rounds = proven_.rounds_from(cpu);
+  if (rounds >= kFewestRounds) {
+    cpu.mark_head(round_.first);
+    return enter_count(cpu, is_fixed && proven_.is_plain(cpu) ? &cpu.known_counts.add(proven_) : &proven_,
+                       rounds);
   }
-  if (round_.memory.is_whole() && --chances_ > 0)
-    begin_round(cpu);
-  else
-    fail(cpu);
-  return false;
+  // soon over: a longer round that it is a part of may be one
+  if (again_++ == kMostAgain) return fail(cpu);
+  behind_ = {trace_.front().at, trace_.front().at};
+  for (const CountStep& step : trace_) {
+    behind_.first = std::min(behind_.first, step.at);
+    behind_.last = std::max(behind_.last, step.at);
+  }
+  behind_in_ = static_cast<int>(std::max<Cycle>(rounds, 0) + 2) * steps_;
 }
 
 void Waits::fail(Cpu& cpu) {
@@ -123,7 +184,12 @@ void Waits::enter(Cpu& cpu, const KnownWaits::Wait* wait) {
   until_ = cpu.watched_until;
   entered_ = round_began_;  // the round that proved it was one of it
   // ... and so was the rest of the one that an interrupt had come into
-  if (resumed_ >= 0 && cut_ == wait->first && entered_ - resumed_ <= wait->took) entered_ = resumed_;
+  delayed_ = round_delayed_;
+  if (resumed_ >= 0 && cut_ == wait->first && entered_ - resumed_ <= wait->took) {
+    entered_ = resumed_;
+    delayed_ = resumed_delayed_;
+  }
+  cpu.delayed = delayed_;
   resumed_ = -1;
   head_pause_ = kFirstPause;
   cpu.heads_from = 0;
@@ -132,23 +198,46 @@ void Waits::enter(Cpu& cpu, const KnownWaits::Wait* wait) {
   cpu.still_reads = wait->memory.reads() || cpu.reads_core;
 }
 
+void Waits::enter_count(Cpu& cpu, const Count* count, Cycle rounds) {
+  enter(cpu, &count->round());
+  counts_ = count;
+  ends_ = cpu.clocks.own_cycles(cpu.now) + rounds * count->round().took;
+  cpu.still_since = kNever;
+}
+
 void Waits::wait(Cpu& cpu) {
-  const Cycle end = std::min(cpu.deadline, cpu.clocks.program_at(until_));
-  while (cpu.now < end && cpu.next != wait_->first) step(cpu);  // the rest of a round
-  if (const Cycle rounds = std::max<Cycle>(end - cpu.now, 0) / wait_->took; rounds > 0) {
-    wait_->memory.put_written(cpu.ram.data());
-    cpu.now += rounds * wait_->took;
-    jumped_ += rounds * wait_->took;
+  Cycle end = std::min(cpu.deadline, cpu.clocks.program_at(until_));
+  if (counts_) end = std::min(end, end_of_count(cpu));
+  // the rest of a round, then whole ones; behind a count one is run, as it writes more than the counter
+  while (cpu.now < end && (cpu.repeating || cpu.next != wait_->first)) step(cpu);
+  const Cycle took = wait_->took, fit = std::max<Cycle>(end - cpu.now, 0) / took;
+  if (const Cycle rounds = counts_ ? fit - 1 : fit; rounds > 0) {
+    if (counts_)
+      counts_->advance(cpu, rounds);
+    else
+      wait_->memory.put_written(cpu.ram.data());
+    cpu.now += rounds * took;
+    jumped_ += rounds * took;
   }
   while (cpu.now < end) step(cpu);
-  if (cpu.true_now() < until_) return;
+  cpu.delayed = delayed_;
+  const Cycle now = cpu.true_now();
+  if (counts_ && cpu.clocks.own_cycles(cpu.now) >= ends_) {
+    leave(cpu);
+    // it ends now, or its flags change
+    cpu.heads_from = now + 2 * took;
+    schedule(cpu).at = now + 2 * took;
+    return;
+  }
+  if (now < until_) return;
   leave(cpu);
-  schedule(cpu).at = cpu.true_now();  // perhaps it goes on
+  schedule(cpu).at = now;  // perhaps it goes on
 }
 
 void Waits::leave(Cpu& cpu) {
   waited_ += cpu.clocks.own_cycles(cpu.now) - entered_;
   state_ = State::Away;
+  counts_ = nullptr;
 }
 
 void Waits::cut(Cpu& cpu) {

@@ -10,13 +10,15 @@
 //
 // The second chance is for a wait that an interrupt came into: RETFIE leaves the handler's DC behind. What
 // reads no peripheral is remembered (known_waits.h) and need not be run again. A round that writes a
-// register, reads a FIFO, loads a write latch or leads to a trap is no wait. So the course is the same to the
-// cycle as if every round had been run. When a look begins, and how far it has come, depends on the program
-// and its clock alone, not on how Processor::run() is called; so the time counted as waited does not either.
+// register, reads a FIFO, loads a write latch or leads to a trap is no wait. A loop that only counts is one
+// (counting.h) for so many rounds as are alike. So the course is the same to the cycle as if every round had
+// been run. When a look begins, and how far it has come, depends on the program and its clock alone, not on
+// how Processor::run() is called; so the time counted as waited does not either.
 #pragma once
 #include <array>
 #include <vector>
 
+#include "dspic30/core/counting.h"
 #include "dspic30/core/cpu.h"
 
 namespace dspic {
@@ -38,9 +40,12 @@ class Waits {
   /// A reset.
   void forget(Cpu& cpu);
 
+  bool is_away() const { return state_ == State::Away; }
   bool is_waiting() const { return state_ == State::Waiting; }
-  /// When what the present wait looks at may change but by an interrupt; kNever: never.
-  Cycle until() const { return until_; }
+  /// When the present wait may end but by an interrupt; kNever: never.
+  Cycle until(const Cpu& cpu) const {
+    return counts_ ? std::min(until_, cpu.clocks.true_at(end_of_count(cpu))) : until_;
+  }
   /// Cycles of the program in waits so far, when its clock shows `now` (which may be ahead, in a wait).
   Cycle waited(const Cpu& cpu, Cycle now) const {
     return waited_ + (is_waiting() ? cpu.clocks.own_cycles(now) - entered_ : 0);
@@ -56,6 +61,8 @@ class Waits {
   static constexpr Cycle kFirstLooks = 200, kRarestLooks = 65536;  // cycles between two looks
   static constexpr Cycle kFirstPause = 50;                         // ... at a wait's first instruction
   static constexpr int kLongestRound = 256;                        // instructions
+  static constexpr Cycle kFewestRounds = 16;  // of a loop that counts: fewer are not jumped over
+  static constexpr int kMostAgain = 2;
 
   const Schedule& schedule(const Cpu& cpu) const {
     return schedules_[cpu.parts.interrupts.nesting() > 0 ? 1 : 0];
@@ -64,9 +71,14 @@ class Waits {
   void begin(Cpu& cpu);
   void begin_round(Cpu& cpu);
   void look(Cpu& cpu);
-  bool is_proven(Cpu& cpu);
+  void end_round(Cpu& cpu);
+  bool goes_elsewhere(Cpu& cpu);
+  bool is_passed(Cpu& cpu, const Count& count, Cycle rounds);
   void fail(Cpu& cpu);
   void enter(Cpu& cpu, const KnownWaits::Wait* wait);
+  void enter_count(Cpu& cpu, const Count* count, Cycle rounds);
+  /// By the program's clock.
+  Cycle end_of_count(const Cpu& cpu) const { return cpu.now + ends_ - cpu.clocks.own_cycles(cpu.now); }
   void wait(Cpu& cpu);
   void leave(Cpu& cpu);
   static void step(Cpu& cpu);
@@ -77,14 +89,28 @@ class Waits {
   bool was_cut_ = false;               // ... behind an interrupt that came into a wait
   const Decoded* cut_ = nullptr;       // its first instruction
   Cycle resumed_ = -1;                 // cycles of the program behind the interrupt; -1: there was none
+  Cycle resumed_delayed_ = 0;          // Cpu::delayed then
   Cycle head_pause_ = kFirstPause;
   // the round that is looked at
   KnownWaits::Wait round_;
   Cycle look_began_ = 0, round_began_ = 0;  // true time; cycles of the program
+  Cycle round_delayed_ = 0;                 // Cpu::delayed then
   int chances_ = 0, steps_ = 0;
+  std::vector<CountStep> trace_;  // of the last chance
+  Count proven_;
+  // a loop that counts, with few rounds to go: the look goes on behind it, or when it still runs then
+  struct Range {
+    const Decoded *first = nullptr, *last = nullptr;
+  } behind_;
+  int behind_in_ = 0, again_ = 0;  // instructions; looks
+  const Count* passed_ = nullptr;  // such a loop, met at its head
+  Cycle passed_at_ = 0;            // cycles of the program
   // the wait
   const KnownWaits::Wait* wait_ = nullptr;  // round_, or a known one
+  const Count* counts_ = nullptr;           // it is a loop that counts
   Cycle until_ = kNever, entered_ = 0;      // true time; cycles of the program
+  Cycle ends_ = 0;                          // of a loop that counts: cycles of the program
+  Cycle delayed_ = 0;                       // Cpu::delayed as it began: what passes in it counts once
   Cycle waited_ = 0, jumped_ = 0;
 };
 

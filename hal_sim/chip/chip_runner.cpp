@@ -58,7 +58,9 @@ void ChipRunner::program_eeprom() {
 
 // --- time -------------------------------------------------------------------------------------------------
 
+// what came from outside finds the program where it is by now; who looks on sees it sleep up to then
 void ChipRunner::begin_window(Cycle now) {
+  if (!is_watched()) pass_to(now);
   end_ = std::max(end_, now);
   if (chip_.begin_window(now)) processor_->stir();
 }
@@ -66,7 +68,7 @@ void ChipRunner::begin_window(Cycle now) {
 void ChipRunner::run_until(Cycle end) {
   if (processor_->now() < end) {
     ++turns_;
-    if (observer_ || !watches_.empty())
+    if (is_watched())
       run_watched(end);
     else
       while (const auto kind = processor_->run(end)) reset(*kind);
@@ -74,13 +76,19 @@ void ChipRunner::run_until(Cycle end) {
   end_ = std::max(end_, end);
   chip_.end_window(std::max(end_, processor_->now()));
   if (end_ >= calls_->next_look()) calls_->look(end_);
-  idle_until_ = processor_->is_asleep() ? device().next_event(chip_.latest()) : 0;
+  idle_until_ = find_idle_until();
+}
+
+// whoever looks at each instruction sees those of waits, too
+Cycle ChipRunner::find_idle_until() {
+  if (is_watched() && !processor_->is_asleep()) return 0;
+  return std::min(processor_->idle_until(), calls_->next_look());
 }
 
 void ChipRunner::pass_to(Cycle end) {
   if (end <= end_) return;
   end_ = end;
-  while (const auto kind = processor_->run(end)) reset(*kind);  // it sleeps: nothing but its clock goes on
+  while (const auto kind = processor_->run(end)) reset(*kind);  // it is idle: nothing but its clock goes on
   chip_.end_window(end);
 }
 

@@ -93,6 +93,8 @@ class ChipRunner final : public host::Runner, private dspic::EventWatch, private
  private:
   void about_to_change(Cycle at) override { observer_->about_to_change(at); }
   void program_eeprom();
+  bool is_watched() const { return observer_ || !watches_.empty(); }
+  Cycle find_idle_until();
   void run_watched(Cycle end);
   void add_endless_wait(std::vector<board::Diagnosis>& all) const;
   void tell_observer(const Step& step, int nesting);

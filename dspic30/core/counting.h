@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// Loops that do nothing but count: waits with an end.
+//
+//   a round as it was run --prove()--> Count: which word counts, by how much, what moves with it
+//   Count, state of the core --rounds_from()--> so many rounds will be like that one
+//
+// All that a round does to what moves are copies, sums and differences of words, so each moving value is a
+// constant and a multiple of the counter for as long as the carries stay. N, C and OV follow from the top
+// bits of the two operands, of which one moves, and of the result; Z from whether the result is 0. So while
+// no moving value leaves its half of the 16 bits, and no result comes to 0, all flags stay as they are round
+// by round, and with them the way and the time of a round.
+//
+// One word counts: W register, word of RAM, or the count of a DO loop; it forms no address. What is read of
+// it may pass through other words, which are then written before they are read. All else that the round looks
+// at stays.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "dspic30/core/known_waits.h"
+
+namespace dspic {
+
+/// One instruction of a round.
+struct CountStep {
+  const Decoded* at = nullptr;
+  std::uint16_t result = 0;      ///< as N saw it
+  RoundMemory::Touched touched;  ///< words of RAM, in order
+};
+
+class Count {
+ public:
+  /// Is `round`, run from its state to where `cpu` is now, a round of a loop that counts?
+  bool prove(const Cpu& cpu, const KnownWaits::Wait& round, const std::vector<CountStep>& steps);
+  const KnownWaits::Wait& round() const { return round_; }
+  /// Rounds from here on, at the first instruction, that are like the one that was proven; -1: what it looks
+  /// at is another.
+  Cycle rounds_from(const Cpu& cpu) const;
+  /// `rounds` later, but for what the next round writes before it looks at it.
+  void advance(Cpu& cpu, Cycle rounds) const;
+  /// Does the round depend on no more than this holds?
+  bool is_plain(const Cpu& cpu) const;
+
+ private:
+  friend class KnownCounts;
+  friend class CountProof;
+  struct Moving {
+    std::uint16_t value = 0, times = 0;  // in the proven round; per step of the counter
+    bool is_result = false;
+  };
+  static constexpr std::size_t kMostMoving = 24;
+  // places: W registers, the DO loop's count, then RAM
+  static constexpr int kLoopCount = 16, kRam = 32;
+
+  std::uint16_t counter_now(const Cpu& cpu) const;
+
+  KnownWaits::Wait round_;
+  int counter_ = 0;
+  std::uint16_t value_ = 0, step_ = 0;  // of the counter as the round began; per round
+  std::uint16_t registers_ = 0;         // that it looks at, but for the counter
+  bool reads_flags_ = false;            // before it sets them
+  std::uint8_t flags_ = 0;
+  std::array<Moving, kMostMoving> moving_{};
+  std::size_t moving_count_ = 0;
+};
+
+/// Those that were proven, by their first instruction.
+class KnownCounts {
+ public:
+  /// null: none is known there.
+  const Count* at(const Decoded* first) const {
+    const Count& count = counts_[place_of(first)];
+    return count.round_.first == first ? &count : nullptr;
+  }
+  const Count& add(const Count& count) { return counts_[place_of(count.round_.first)] = count; }
+  void forget() {
+    for (Count& count : counts_) count.round_.first = nullptr;
+  }
+
+ private:
+  static std::size_t place_of(const Decoded* first) {
+    return reinterpret_cast<std::uintptr_t>(first) / 32 % kMost;
+  }
+  static constexpr std::size_t kMost = 8;
+  std::array<Count, kMost> counts_{};
+};
+
+}  // namespace dspic
