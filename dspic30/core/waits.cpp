@@ -133,8 +133,8 @@ bool Waits::goes_elsewhere(Cpu& cpu) {
 
 void Waits::end_round(Cpu& cpu) {
   round_.took = cpu.clocks.own_cycles(cpu.now) - round_began_;
-  const bool is_whole = round_.memory.is_whole(), is_fixed = cpu.watched_until == kNever &&
-                                                            !cpu.looks_outside && !cpu.reads_core;
+  const bool is_whole = round_.memory.is_whole(),
+             is_fixed = cpu.watched_until == kNever && !cpu.looks_outside && !cpu.reads_core;
   if (is_whole && round_.state.is_of(cpu) && round_.memory.are_as_read(cpu.ram.data())) {
     round_.memory.take_written(cpu.ram.data());
     if (is_fixed) cpu.known_waits.add(cpu, round_);
