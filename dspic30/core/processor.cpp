@@ -61,7 +61,8 @@ void Processor::execute() {
     if (waits_->is_due(cpu)) {
       waits_->go_on(cpu);
       if (cpu.deadline != end || cpu.parts.bus.writes() != writes) return;
-      if (cpu.now >= end || cpu.repeating) return;
+      if (cpu.repeating) return;
+      continue;  // it may be due again at once, as it would be in a window that begins here
     }
     const Cycle pause = std::min(end, cpu.clocks.program_at(std::max(waits_->look_at(cpu), cpu.now + 1)));
     cpu.deadline = pause;
