@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "dspic30/memory/program_memory.h"
 
+#include <algorithm>
+
 namespace dspic {
 
 namespace {
@@ -14,8 +16,13 @@ constexpr bool is_within(unsigned address, unsigned start, unsigned words) {
 
 }  // namespace
 
+std::uint32_t* ProgramMemory::own_flash() {
+  if (flash_.use_count() > 1) flash_ = std::make_shared<std::vector<std::uint32_t>>(*flash_);
+  return flash_->data();
+}
+
 std::uint32_t ProgramMemory::read(unsigned address) const {
-  if (address < kFlashEnd) return flash_[address / 2];
+  if (address < kFlashEnd) return (*flash_)[address / 2];
   if (is_within(address, kUnitIdStart, kUnitIdWords)) return unit_id_[(address - kUnitIdStart) / 2];
   if (is_within(address, kConfigurationStart, kConfigurationWords))
     return configuration_[(address - kConfigurationStart) / 2];
@@ -25,7 +32,7 @@ std::uint32_t ProgramMemory::read(unsigned address) const {
 
 bool ProgramMemory::write(unsigned address, std::uint32_t word) {
   if (address < kFlashEnd)
-    flash_[address / 2] = word & 0xFFFFFF;
+    own_flash()[address / 2] = word & 0xFFFFFF;
   else if (is_within(address, kUnitIdStart, kUnitIdWords))
     unit_id_[(address - kUnitIdStart) / 2] = word & 0xFFFFFF;
   else if (is_within(address, kConfigurationStart, kConfigurationWords))
@@ -38,13 +45,14 @@ bool ProgramMemory::write(unsigned address, std::uint32_t word) {
 
 void ProgramMemory::erase_row(unsigned address) {
   if (address >= kFlashEnd) return;
-  for (unsigned i = 0; i < kFlashRowWords; ++i) flash_[row_of(address) + i] = kErasedWord;
+  std::fill_n(own_flash() + row_of(address), kFlashRowWords, kErasedWord);
   ++version_;
 }
 
 void ProgramMemory::program_row(unsigned address, const std::array<std::uint32_t, kFlashRowWords>& latches) {
   if (address >= kFlashEnd) return;
-  for (unsigned i = 0; i < kFlashRowWords; ++i) flash_[row_of(address) + i] &= latches[i];
+  std::uint32_t* const row = own_flash() + row_of(address);
+  for (unsigned i = 0; i < kFlashRowWords; ++i) row[i] &= latches[i];
   ++version_;
 }
 

@@ -5,10 +5,12 @@
 //   0x000000 flash, 48K words of 24 bits, 2 addresses each     0x8005C0 unit ID, 32 words
 //   0xF80000 configuration, 7 words of 16 bits                 0xFF0000 device ID, revision
 //
-// Erased flash is all ones. Source: [chip C1]; [?] DEVID.
+// Erased flash is all ones. Copies share their flash until one of them is written to, so a robot more costs a
+// few words; on several threads, copies of one that outlives them. Source: [chip C1]; [?] DEVID.
 #pragma once
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace dspic {
@@ -28,7 +30,6 @@ class ProgramMemory {
   std::uint32_t read(unsigned address) const;
   /// From outside, as a programmer does; false: nothing can be written there.
   bool write(unsigned address, std::uint32_t word);
-  const std::uint32_t* flash() const { return flash_.data(); }
 
   // --- self-programming; addresses anywhere in the row
   void erase_row(unsigned address);
@@ -39,7 +40,10 @@ class ProgramMemory {
  private:
   static unsigned row_of(unsigned address) { return address / 2 / kFlashRowWords * kFlashRowWords; }
 
-  std::vector<std::uint32_t> flash_ = std::vector<std::uint32_t>(kFlashWords, kErasedWord);
+  std::uint32_t* own_flash();
+
+  std::shared_ptr<std::vector<std::uint32_t>> flash_ =
+      std::make_shared<std::vector<std::uint32_t>>(kFlashWords, kErasedWord);
   std::array<std::uint32_t, kUnitIdWords> unit_id_;
   // as the e-puck's programs set them: XT with PLL x8, watchdog off, brown-out reset, no protection [chip
   // C17]

@@ -21,9 +21,12 @@ constexpr Cycle kLeastWait = board::kFcyHz / 100;  // a wait is called endless f
 
 ChipRunner::ChipRunner(std::string name, std::shared_ptr<const ChipImage> image, double clock_factor,
                        board::Board& board, Cycle start)
-    : Runner(std::move(name)), image_(std::move(image)), file_(image_->file()), board_(board), chip_(board) {
-  // what a programmer writes: flash and configuration words, and the EEPROM, which is the board's
-  for (const auto& [address, word] : file_.words) program_.write(address, word);
+    : Runner(std::move(name)),
+      image_(std::move(image)),
+      file_(image_->file()),
+      board_(board),
+      chip_(board),
+      program_(image_->program()) {
   program_eeprom();
   dspic::Configuration configuration;
   configuration.fosc = static_cast<std::uint16_t>(program_.read(dspic::kConfigurationStart));
