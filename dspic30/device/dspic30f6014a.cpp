@@ -316,8 +316,8 @@ std::uint64_t Dspic30f6014a::state_hash(Cycle now, bool with_pins) {
   run_to(now);
   std::uint64_t h = 0xCBF29CE484222325u;
   const auto add = [&h](std::uint64_t v) { h = (h ^ v) * 0x100000001B3u; };
-  for (const SfrInfo* info : parts_->bus.written())
-    if (with_pins || !is_port(*info)) add(parts_->bus.peek(info->address, now));
+  for (const unsigned address : parts_->bus.written())
+    if (with_pins || !is_port(*sfr_info(address))) add(parts_->bus.peek(address, now));
   for (const Uart& u : parts_->uarts) add(u.state_hash());
   add(static_cast<std::uint64_t>(parts_->interrupts.level()));
   add(parts_->nvm.eeprom_hash());

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "dspic30/memory/sfr_bus.h"
 
+#include <algorithm>
+#include <cstdlib>
 #include <string>
 
 #include "dspic30/memory/hex.h"
@@ -8,49 +10,52 @@
 namespace dspic {
 
 void SfrBus::attach(SfrOwner& owner, unsigned first, unsigned last) {
-  for (unsigned a = first; a <= last; a += 2) {
-    const SfrInfo* info = sfr_info(a);
-    if (info) slots_[a / 2] = {&owner, info, info->implemented, 0, false, false};
-    find_reader(a);
-  }
+  // nobody has number 0
+  const auto own =
+      std::find_if(owners_.begin() + 1, owners_.end(), [&](const SfrOwner* o) { return !o || o == &owner; });
+  if (own == owners_.end()) std::abort();
+  *own = &owner;
+  const auto number = static_cast<unsigned>(own - owners_.begin());
+  for (unsigned a = first; a <= last; a += 2)
+    if (sfr_info(a)) slots_[a / 2] = static_cast<Slot>(number | (warn_uninitialised_ ? kSlow : 0));
 }
 
-void SfrBus::find_reader(unsigned address) {
-  const Slot& slot = slots_[address / 2];
-  readers_[address / 2] = slot.disabled || warn_uninitialised_ ? nullptr : slot.owner;
+void SfrBus::mark_unmodelled(unsigned address, std::uint16_t bits) {
+  if (bits == 0) return;
+  slots_[address / 2] |= kUnmodelled;
+  unmodelled_.push_back({static_cast<std::uint16_t>(address & ~1u), bits});
 }
-
-void SfrBus::mark_unmodelled(unsigned address, std::uint16_t bits) { slots_[address / 2].unmodelled |= bits; }
 
 void SfrBus::set_disabled(unsigned first, unsigned last, bool disabled) {
-  for (unsigned a = first; a <= last; a += 2) {
-    slots_[a / 2].disabled = disabled;
-    find_reader(a);
-  }
+  const unsigned slow = kDisabled | (warn_uninitialised_ ? 0 : kSlow);
+  for (unsigned a = first; a <= last; a += 2)
+    slots_[a / 2] = static_cast<Slot>(disabled ? slots_[a / 2] | slow : slots_[a / 2] & ~slow);
 }
 
-void SfrBus::note_written(Slot& slot) {
-  slot.is_written = true;
-  written_.push_back(slot.info);
+void SfrBus::note_written(unsigned address) {
+  slots_[address / 2] |= kWritten;
+  written_.push_back(static_cast<std::uint16_t>(address & ~1u));
 }
 
 void SfrBus::forget_writes() {
-  for (Slot& slot : slots_) slot.is_written = false;
+  for (Slot& slot : slots_) slot &= static_cast<Slot>(~kWritten);
   written_.clear();
 }
 
 // nothing, or perhaps the first read of a register that holds anything
 std::uint16_t SfrBus::read_slowly(unsigned address, unsigned bits, Cycle now) {
-  Slot& slot = slots_[address / 2];
-  if (!slot.owner || slot.disabled) return 0;
-  if (warn_uninitialised_ && !slot.is_written && !slot.info->defined) {
-    note_written(slot);
-    diagnostics_.report(Cause::UninitialisedRead, slot.info->name,
-                        std::string(slot.info->name) +
-                            " is read before it was written; after power-on it holds anything (here 0)",
-                        now);
+  const unsigned slot = slots_[address / 2];
+  SfrOwner* const owner = owner_of(slot);
+  if (!owner || (slot & kDisabled)) return 0;
+  const SfrInfo& info = *sfr_info(address);
+  if (warn_uninitialised_ && !(slot & kWritten) && !info.defined) {
+    note_written(address);
+    diagnostics_.report(
+        Cause::UninitialisedRead, info.name,
+        std::string(info.name) + " is read before it was written; after power-on it holds anything (here 0)",
+        now);
   }
-  return lane(address, bits, slot.owner->read(address & ~1u, now));
+  return lane(address, bits, owner->read(address & ~1u, now));
 }
 
 void SfrBus::warn_of_hole(unsigned address, Cycle now) {
@@ -58,26 +63,31 @@ void SfrBus::warn_of_hole(unsigned address, Cycle now) {
                       hex(address, 4) + ": no register of this chip; the write is ignored", now);
 }
 
-void SfrBus::warn(Slot& slot, std::uint16_t bits, Cycle now) {
-  slot.unmodelled &= static_cast<std::uint16_t>(~bits);
-  for (int bit = 0; bit < 16; ++bit) {
-    if (!(bits >> bit & 1)) continue;
-    const std::string name = sfr_bit_name(*slot.info, bit);
-    diagnostics_.report(Cause::UnmodelledBit, name, name + ": not modelled; the bit is kept and does nothing",
-                        now);
+void SfrBus::warn(unsigned address, std::uint16_t value, Cycle now) {
+  for (Unmodelled& u : unmodelled_) {
+    const auto bits = static_cast<std::uint16_t>(u.address == (address & ~1u) ? u.bits & value : 0);
+    u.bits &= static_cast<std::uint16_t>(~bits);
+    for (int bit = 0; bit < 16; ++bit) {
+      if (!(bits >> bit & 1)) continue;
+      const std::string name = sfr_bit_name(*sfr_info(address), bit);
+      diagnostics_.report(Cause::UnmodelledBit, name,
+                          name + ": not modelled; the bit is kept and does nothing", now);
+    }
   }
 }
 
 std::uint16_t SfrBus::peek(unsigned address, Cycle now) const {
   if (address >= kSfrBytes) return 0;
-  const Slot& slot = slots_[address / 2];
-  return slot.owner && !slot.disabled ? slot.owner->peek(address & ~1u, now) : 0;
+  const unsigned slot = slots_[address / 2];
+  const SfrOwner* const owner = owner_of(slot);
+  return owner && !(slot & kDisabled) ? owner->peek(address & ~1u, now) : 0;
 }
 
 Cycle SfrBus::horizon(unsigned address, Cycle now) const {
   if (address >= kSfrBytes) return kNever;
-  const Slot& slot = slots_[address / 2];
-  return slot.owner && !slot.disabled ? slot.owner->horizon(address & ~1u, now) : kNever;
+  const unsigned slot = slots_[address / 2];
+  const SfrOwner* const owner = owner_of(slot);
+  return owner && !(slot & kDisabled) ? owner->horizon(address & ~1u, now) : kNever;
 }
 
 }  // namespace dspic

@@ -4,7 +4,7 @@
 // Modelled: unimplemented bits and addresses read 0 and ignore writes; byte accesses touch one lane;
 // registers of a module switched off by its PMD bit read 0 and ignore writes. A bit that exists and that no
 // model follows is kept and reported once by name when it is set. Not modelled: the address error of an odd
-// word access (the core's).
+// word access (the core's). What all chips have alike is in the table; a chip has two bytes a register.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -39,7 +39,7 @@ class SfrBus {
   /// These bits exist but no model follows them.
   void mark_unmodelled(unsigned address, std::uint16_t bits);
   /// Writes reach the owner with all their bits: keys of an unlock sequence.
-  void take_all_bits(unsigned address) { slots_[address / 2].implemented = 0xFFFF; }
+  void take_all_bits(unsigned address) { slots_[address / 2] |= kAllBits; }
   /// PMD: the registers of [first, last] are switched off or on.
   void set_disabled(unsigned first, unsigned last, bool disabled);
   /// Power-on: nothing has been written.
@@ -47,13 +47,17 @@ class SfrBus {
 
   std::uint16_t read(unsigned address, unsigned bits, Cycle now) {
     if (address >= kSfrBytes) return 0;
-    SfrOwner* owner = readers_[address / 2];
+    SfrOwner* owner = reader(address);
     if (!owner) return read_slowly(address, bits, now);
     return lane(address, bits, owner->read(address & ~1u, now));
   }
 
   /// Who answers a read of the word at `address` without further ado; null: read() knows.
-  SfrOwner* reader(unsigned address) const { return address < kSfrBytes ? readers_[address / 2] : nullptr; }
+  SfrOwner* reader(unsigned address) const {
+    if (address >= kSfrBytes) return nullptr;
+    const unsigned slot = slots_[address / 2];
+    return slot & kSlow ? nullptr : owner_of(slot);
+  }
 
   void write(unsigned address, std::uint16_t value, unsigned bits, Cycle now) {
     const Store store = accept(address, value, bits, now);
@@ -69,37 +73,38 @@ class SfrBus {
   /// modelled: the bits that exist.
   std::uint16_t accept_plain(unsigned address, std::uint16_t value) {
     ++writes_;
-    Slot& slot = slots_[address / 2];
-    if (!slot.is_written) note_written(slot);
-    return value & slot.implemented;
+    const unsigned slot = slots_[address / 2];
+    if (!(slot & kWritten)) note_written(address);
+    return value & implemented(slot, address);
   }
   /// accept_plain() of a word that was written before, and whose bits are in order already.
-  bool was_written(unsigned address) const { return slots_[address / 2].is_written; }
+  bool was_written(unsigned address) const { return (slots_[address / 2] & kWritten) != 0; }
   void count_write() { ++writes_; }
   Store accept(unsigned address, std::uint16_t value, unsigned bits, Cycle now) {
     ++writes_;
     if (address >= kSfrBytes) return {nullptr, 0, 0};
-    Slot& slot = slots_[address / 2];
-    if (!slot.owner) {
+    const unsigned slot = slots_[address / 2];
+    SfrOwner* const owner = owner_of(slot);
+    if (!owner) {
       warn_of_hole(address, now);
       return {nullptr, 0, 0};
     }
-    if (slot.disabled) return {nullptr, 0, 0};
+    if (slot & kDisabled) return {nullptr, 0, 0};
     std::uint16_t lanes = 0xFFFF;
     if (bits <= 8) {
       lanes = (address & 1) ? 0xFF00 : 0x00FF;
       value = static_cast<std::uint16_t>((address & 1) ? value << 8 : value & 0xFF);
     }
-    if (!slot.is_written) note_written(slot);
-    value &= slot.implemented;
-    if (value & slot.unmodelled) warn(slot, value & slot.unmodelled, now);
-    return {slot.owner, value, lanes};
+    if (!(slot & kWritten)) note_written(address);
+    value &= implemented(slot, address);
+    if (slot & kUnmodelled) warn(address, value, now);
+    return {owner, value, lanes};
   }
 
   std::uint16_t peek(unsigned address, Cycle now) const;
   Cycle horizon(unsigned address, Cycle now) const;
-  /// Registers that were written since power-on, in the order of their first write.
-  const std::vector<const SfrInfo*>& written() const { return written_; }
+  /// Addresses of registers that were written since power-on, in the order of their first write.
+  const std::vector<std::uint16_t>& written() const { return written_; }
   /// Writes so far: two writes are consecutive when this differs by one. Those that the core keeps to itself
   /// (Cpu::saved_register()) do not count.
   std::int64_t writes() const { return writes_; }
@@ -109,26 +114,33 @@ class SfrBus {
     if (bits > 8) return word;
     return (address & 1) ? word >> 8 : word & 0xFF;
   }
-  struct Slot {
-    SfrOwner* owner = nullptr;
-    const SfrInfo* info = nullptr;
-    std::uint16_t implemented = 0;
-    std::uint16_t unmodelled = 0;  // and not reported yet
-    bool disabled = false;
-    bool is_written = false;  // since power-on; or it was told that it is read before
-  };
-  void warn(Slot& slot, std::uint16_t bits, Cycle now);
+  // of a register: its owner's number from 1 on, and what else is known of it
+  using Slot = std::uint16_t;
+  static constexpr unsigned kOwner = 0xFF, kDisabled = 0x100,
+                            kWritten = 0x200,     // since power-on; or it was told that it is read before
+      kUnmodelled = 0x400,                        // has bits in unmodelled_
+      kAllBits = 0x800,                           // take_all_bits()
+      kSlow = 0x1000;                             // a read is more than its owner's answer
+  static constexpr std::size_t kMostOwners = 32;  // and 0 for nobody
+  SfrOwner* owner_of(unsigned slot) const { return owners_[slot & kOwner]; }
+  static std::uint16_t implemented(unsigned slot, unsigned address) {
+    return slot & kAllBits ? std::uint16_t{0xFFFF} : kSfrImplemented[address / 2];
+  }
+  __attribute__((noinline)) void warn(unsigned address, std::uint16_t value, Cycle now);
   std::uint16_t read_slowly(unsigned address, unsigned bits, Cycle now);
-  __attribute__((noinline)) void note_written(Slot& slot);
-  void find_reader(unsigned address);
+  __attribute__((noinline)) void note_written(unsigned address);
   void warn_of_hole(unsigned address, Cycle now);
 
   Diagnostics& diagnostics_;
   bool warn_uninitialised_;
   std::array<Slot, kSfrBytes / 2> slots_{};
-  std::array<SfrOwner*, kSfrBytes / 2> readers_{};  // the owner where a word is read without further ado
+  std::array<SfrOwner*, kMostOwners> owners_{};
+  struct Unmodelled {
+    std::uint16_t address, bits;
+  };
+  std::vector<Unmodelled> unmodelled_;  // and not reported yet
   std::int64_t writes_ = 0;
-  std::vector<const SfrInfo*> written_;
+  std::vector<std::uint16_t> written_;
 };
 
 }  // namespace dspic

@@ -2,6 +2,7 @@
 // The chip's registers by address: name, implemented bits, reset value, fields. Generated rows (sfr_rows.inc)
 // from device/sfr.csv; a register with a second name (C1RERRCNT) is listed under its first one.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -35,6 +36,13 @@ constexpr unsigned sfr(std::string_view name) {
   detail::no_such_register();
   return 0;
 }
+
+/// Bits that exist, by word; 0 where nothing is.
+inline constexpr auto kSfrImplemented = [] {
+  std::array<std::uint16_t, kSfrBytes / 2> bits{};
+  for (const SfrInfo& row : kSfrRows) bits[row.address / 2] = row.implemented;
+  return bits;
+}();
 
 namespace detail {
 constexpr unsigned decimal(std::string_view digits) {
