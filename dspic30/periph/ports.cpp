@@ -45,16 +45,19 @@ void Ports::reset(Cycle now) {
 
 void Ports::watch(Pin pin, PinListener& listener) {
   State& s = state(pin.port);
-  s.watched |= static_cast<std::uint16_t>(1 << pin.bit);
   s.heard |= static_cast<std::uint16_t>(1 << pin.bit);
-  watches_.push_back({pin, &listener});
+  const auto known =
+      std::find_if(watches_.begin(), watches_.end(), [&](const Watch& w) { return w.listener == &listener; });
+  Watch& watch = known == watches_.end() ? watches_.emplace_back() : *known;
+  watch.listener = &listener;
+  watch.pins[static_cast<std::size_t>(pin.port)] |= static_cast<std::uint16_t>(1 << pin.bit);
 }
 
 void Ports::set_hearing(const PinListener& listener, bool hears) {
   for (State& s : ports_) s.heard = 0;
   for (Watch& w : watches_) {
     if (w.listener == &listener) w.hears = hears;
-    if (w.hears) state(w.pin.port).heard |= static_cast<std::uint16_t>(1 << w.pin.bit);
+    for (std::size_t p = 0; w.hears && p < kPorts; ++p) ports_[p].heard |= w.pins[p];
   }
   for (State& s : ports_) find_plain_outputs(s);
 }
@@ -122,7 +125,7 @@ void Ports::publish(Port port, Cycle at) {
   const bool changes = now_driven != driven_before || now_levels != levels_before;
   std::uint16_t before = 0;
   const std::uint16_t touched =
-      static_cast<std::uint16_t>(((driven_before ^ now_driven) | (levels_before ^ now_levels)) & s.watched);
+      static_cast<std::uint16_t>(((driven_before ^ now_driven) | (levels_before ^ now_levels)) & s.heard);
   if (touched) before = combine(port, levels_before, driven_before, at, touched);
   if (changes) put_out(port, now_levels, now_driven, at);
   find_plain_outputs(s);
@@ -131,8 +134,9 @@ void Ports::publish(Port port, Cycle at) {
       static_cast<std::uint16_t>((before ^ combine(port, now_levels, now_driven, at, touched)) & touched);
   if (!edges) return;
   for (const Watch& w : watches_)
-    if (w.pin.port == port && (edges >> w.pin.bit & 1))
-      w.listener->own_edge(w.pin, before >> w.pin.bit & 1 ? Edge::Falling : Edge::Rising, at);
+    for (int bit = 0; bit < 16 && w.hears; ++bit)
+      if (edges & w.pins[static_cast<std::size_t>(port)] & 1 << bit)
+        w.listener->own_edge({port, bit}, before >> bit & 1 ? Edge::Falling : Edge::Rising, at);
 }
 
 void Ports::count_vain(Port port, std::uint16_t bits, Cycle now) {

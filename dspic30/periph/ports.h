@@ -91,7 +91,7 @@ class Ports final : public SfrOwner {
     std::uint16_t owned_out = 0, owned_in = 0, owned_levels = 0;
     std::uint16_t pull_ups = 0;
     std::uint16_t last_read = 0;
-    std::uint16_t watched = 0, heard = 0;  // heard: watched by somebody who does something about it now
+    std::uint16_t heard = 0;  // watched by somebody who does something about it now
     // what the outside was told last, and before that
     std::uint16_t levels = 0, driven = 0;
     std::uint16_t old_levels = 0, old_driven = 0;
@@ -99,8 +99,8 @@ class Ports final : public SfrOwner {
     std::array<std::uint8_t, 16> vain_writes{};  // of an input's latch
   };
   struct Watch {
-    Pin pin;
-    PinListener* listener;
+    PinListener* listener = nullptr;
+    std::array<std::uint16_t, kPorts> pins{};
     bool hears = true;
   };
   State& state(Port port) { return ports_[static_cast<std::size_t>(port)]; }
