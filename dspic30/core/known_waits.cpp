@@ -109,15 +109,20 @@ std::size_t KnownWaits::place_of(const Decoded* first) {
 bool KnownWaits::is_plain(const Cpu& cpu) { return !cpu.loop_end && cpu.modcon == 0; }
 
 const KnownWaits::Wait* KnownWaits::find(const Cpu& cpu) const {
-  const Wait& wait = waits_[place_of(cpu.next)];
-  return wait.first == cpu.next && is_plain(cpu) && wait.memory.are_as_read(cpu.ram.data()) &&
-                 wait.state.is_of(cpu)
-             ? &wait
+  const Wait* const wait = waits_[place_of(cpu.next)].get();
+  return wait && wait->first == cpu.next && is_plain(cpu) && wait->memory.are_as_read(cpu.ram.data()) &&
+                 wait->state.is_of(cpu)
+             ? wait
              : nullptr;
 }
 
 void KnownWaits::add(const Cpu& cpu, const Wait& wait) {
-  if (is_plain(cpu)) waits_[place_of(wait.first)] = wait;
+  if (!is_plain(cpu)) return;
+  auto& known = waits_[place_of(wait.first)];
+  if (known)
+    *known = wait;
+  else
+    known = std::make_unique<Wait>(wait);
 }
 
 }  // namespace dspic

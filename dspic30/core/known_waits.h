@@ -9,6 +9,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <memory>
 
 #include "dspic30/memory/cycle.h"
 
@@ -110,7 +111,7 @@ class KnownWaits {
   /// Proven, with cpu.next at its first instruction.
   void add(const Cpu& cpu, const Wait& wait);
   void forget() {
-    for (Wait& wait : waits_) wait.first = nullptr;
+    for (auto& wait : waits_) wait.reset();
   }
 
  private:
@@ -120,7 +121,7 @@ class KnownWaits {
   static bool is_plain(const Cpu& cpu);
 
   // by the instruction that a round is met at: an interrupt comes to any of them
-  std::array<Wait, kMost> waits_{};
+  std::array<std::unique_ptr<Wait>, kMost> waits_;
 };
 
 }  // namespace dspic
