@@ -46,7 +46,7 @@ struct ChipParts {
         compare(fabric, timers),
         spis{Spi(fabric, 1), Spi(fabric, 2)},
         system(fabric, c.fosc, c.fwdt),
-        nvm(fabric, c.eeprom ? *c.eeprom : own_eeprom(), c.program),
+        nvm(fabric, c.eeprom ? *c.eeprom : own_eeprom, c.program),
         cans{Can(fabric, 1), Can(fabric, 2)},
         cpu(fabric),
         plain(fabric) {
@@ -73,7 +73,7 @@ struct ChipParts {
   }
 
   Configuration configuration;
-  std::unique_ptr<Eeprom> eeprom;  // null: somebody else's
+  OwnEeprom own_eeprom;  // unless the configuration has one
   Diagnostics diagnostics;
   SfrBus bus;
   Events events;
@@ -204,11 +204,6 @@ struct ChipParts {
   }
   /// What a write means to others than the register's owner.
   void write_beyond(unsigned address, std::uint16_t value, unsigned bits, Cycle now);
-  Eeprom& own_eeprom() {
-    eeprom = std::make_unique<Eeprom>();
-    eeprom->fill(0xFFFF);
-    return *eeprom;
-  }
   std::uint16_t pmd1 = 0, pmd2 = 0;
 };
 

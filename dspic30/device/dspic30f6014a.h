@@ -28,6 +28,7 @@
 
 namespace dspic {
 
+class EepromMemory;  // nvm.h
 class EventWatch;
 class ProgramMemory;
 struct ChipParts;
@@ -41,8 +42,8 @@ struct Configuration {
   /// of `now`; right when the instants of accesses are estimates.
   bool synchronised_ports = false;
   bool warn_uninitialised = false;  ///< report reads of registers with an undefined power-on value
-  /// Words of the data EEPROM, which outlive the chip; null: its own, blank.
-  std::array<std::uint16_t, 2048>* eeprom = nullptr;
+  /// The data EEPROM, which outlives the chip; null: its own, blank.
+  EepromMemory* eeprom = nullptr;
   /// Flash, which the chip may program itself and which outlives it; null: there is none.
   ProgramMemory* program = nullptr;
 };

@@ -43,7 +43,7 @@ int Nvm::word_index() const {
 }
 
 std::uint16_t Nvm::table_read(unsigned program_address) const {
-  return in_eeprom(program_address) ? eeprom_[(program_address - kEepromStart) / 2] : 0;
+  return in_eeprom(program_address) ? eeprom_.read(static_cast<int>(program_address - kEepromStart) / 2) : 0;
 }
 
 void Nvm::table_write(unsigned program_address, std::uint32_t value, std::uint32_t lanes) {
@@ -66,32 +66,33 @@ void Nvm::begin(Cycle now) {
 }
 
 void Nvm::on_event(int id, Cycle at) {
+  Eeprom& words = eeprom_.words();
   const int word = word_index();
   const int row = word < 0 ? -1 : word - word % kRowWords;
   switch (kProgop.of(con_)) {
     case kEraseAll:
-      eeprom_.fill(0xFFFF);
+      words.fill(0xFFFF);
       break;
     case kEraseWord:
-      if (word >= 0) eeprom_[static_cast<std::size_t>(word)] = 0xFFFF;
+      if (word >= 0) words[static_cast<std::size_t>(word)] = 0xFFFF;
       break;
     case kEraseRow:
-      for (int i = 0; row >= 0 && i < kRowWords; ++i) eeprom_[static_cast<std::size_t>(row + i)] = 0xFFFF;
+      for (int i = 0; row >= 0 && i < kRowWords; ++i) words[static_cast<std::size_t>(row + i)] = 0xFFFF;
       break;
     case kWriteWord:
       if (word >= 0)
-        eeprom_[static_cast<std::size_t>(word)] &=
+        words[static_cast<std::size_t>(word)] &=
             static_cast<std::uint16_t>(latches_[operation_at_ / 2 % kFlashRowWords]);
       break;
     case kWriteRow:
       for (int i = 0; row >= 0 && i < kRowWords; ++i)
-        eeprom_[static_cast<std::size_t>(row + i)] &= static_cast<std::uint16_t>(
+        words[static_cast<std::size_t>(row + i)] &= static_cast<std::uint16_t>(
             latches_[(kEepromStart / 2 + static_cast<unsigned>(row + i)) % kFlashRowWords]);
       break;
     default:
       if (program_) carry_out_on_flash(static_cast<int>(kProgop.of(con_)));
   }
-  eeprom_hash_ = hash_of_memory(eeprom_.data(), sizeof eeprom_);
+  eeprom_hash_ = hash_of_memory(words.data(), sizeof words);
   latches_.fill(kErasedWord);
   con_ &= static_cast<std::uint16_t>(~kWr);
   f_.interrupts.raise(irq::Nvm, at);

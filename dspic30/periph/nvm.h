@@ -12,6 +12,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <memory>
 
 #include "dspic30/memory/program_memory.h"
 #include "dspic30/periph/fabric.h"
@@ -23,17 +24,44 @@ inline constexpr int kEepromWordCount = 2048;
 inline constexpr unsigned kEepromStart = 0x7FF000;
 using Eeprom = std::array<std::uint16_t, kEepromWordCount>;
 
+/// Where the words of the EEPROM are kept. Programs seldom write any, so there may be none to keep.
+class EepromMemory {
+ public:
+  virtual ~EepromMemory() = default;
+  virtual std::uint16_t read(int word) const = 0;
+  virtual Eeprom& words() = 0;  ///< to be written
+};
+
+/// Blank at first.
+class OwnEeprom final : public EepromMemory {
+ public:
+  std::uint16_t read(int word) const override {
+    return words_ ? (*words_)[static_cast<std::size_t>(word)] : kBlank;
+  }
+  Eeprom& words() override {
+    if (!words_) {
+      words_ = std::make_unique<Eeprom>();
+      words_->fill(kBlank);
+    }
+    return *words_;
+  }
+
+ private:
+  static constexpr std::uint16_t kBlank = 0xFFFF;
+  std::unique_ptr<Eeprom> words_;
+};
+
 class Nvm final : public SfrOwner, public EventOwner {
  public:
   /// `eeprom` and `program` outlive this; no program: operations on flash only take their time.
-  Nvm(const Fabric& fabric, Eeprom& eeprom, ProgramMemory* program)
+  Nvm(const Fabric& fabric, EepromMemory& eeprom, ProgramMemory* program)
       : f_(fabric), eeprom_(eeprom), program_(program) {}
   void attach();
   void reset(Cycle now);
   std::uint16_t table_read(unsigned program_address) const;
   /// Loads the latch of that word: the bits of `lanes`, of 24.
   void table_write(unsigned program_address, std::uint32_t value, std::uint32_t lanes = 0xFFFF);
-  Eeprom& eeprom() { return eeprom_; }
+  Eeprom& eeprom() { return eeprom_.words(); }
   /// Of the EEPROM after the last operation; 0: there was none.
   std::uint64_t eeprom_hash() const { return eeprom_hash_; }
   /// A flash operation holds the processor until here.
@@ -64,7 +92,7 @@ class Nvm final : public SfrOwner, public EventOwner {
   int key_step_ = 0;
   std::int64_t key_write_ = 0;
   Cycle stalled_until_ = 0;
-  Eeprom& eeprom_;
+  EepromMemory& eeprom_;
   std::uint64_t eeprom_hash_ = 0;
   ProgramMemory* program_;
 };

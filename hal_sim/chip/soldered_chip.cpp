@@ -76,7 +76,7 @@ std::string hint_for(dspic::Cause cause) {
 
 void SolderedChip::power_up(dspic::Configuration configuration) {
   latest_ = 0;
-  configuration.eeprom = &board_.eeprom().words();
+  configuration.eeprom = &eeprom_;
   dspic::DiagnosticSink* sink = this;
   device_ = std::make_unique<dspic::Dspic30f6014a>(outside_, sink, configuration);
   parts_ = &device_->parts();

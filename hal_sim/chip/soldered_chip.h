@@ -21,7 +21,7 @@ namespace chip {
 class SolderedChip final : private dspic::DiagnosticSink {
  public:
   /// `board` outlives this. There is no device before power_up().
-  explicit SolderedChip(board::Board& board) : board_(board), outside_(board) {}
+  explicit SolderedChip(board::Board& board) : board_(board), eeprom_(board.eeprom()), outside_(board) {}
 
   // --- life
   /// A new device at cycle 0. `configuration`: the program's words; the EEPROM is the board's.
@@ -77,7 +77,21 @@ class SolderedChip final : private dspic::DiagnosticSink {
   }
   std::int64_t count_of(const dspic::Diagnosis& diagnosis) const;
 
+  /// The board's EEPROM as the chip sees it.
+  class BoardEeprom final : public dspic::EepromMemory {
+   public:
+    explicit BoardEeprom(board::DataEeprom& words) : words_(words) {}
+    std::uint16_t read(int word) const override {
+      return words_.read(board::DataEeprom::kFirst + 2 * static_cast<unsigned>(word));
+    }
+    dspic::Eeprom& words() override { return words_.words(); }
+
+   private:
+    board::DataEeprom& words_;
+  };
+
   board::Board& board_;
+  BoardEeprom eeprom_;
   BoardOutside outside_;
   std::unique_ptr<dspic::Dspic30f6014a> device_;
   dspic::ChipParts* parts_ = nullptr;  // of device_
