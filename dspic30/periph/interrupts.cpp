@@ -87,8 +87,10 @@ void Interrupts::set_priority(int irq, int priority) {
 
 // --- acceptance --------------------------------------------------------------------------------------------
 
-/// A program that leaves handlers by jumps.
-void Interrupts::forget_outermost() {
+/// A program that leaves handlers by jumps forgets the outermost one.
+void Interrupts::make_room() {
+  constexpr std::size_t kFirst = 4;
+  if (depth_ < kMostFrames) return frames_.resize(std::max(kFirst, 2 * frames_.size()));
   std::move(frames_.begin() + 1, frames_.end(), frames_.begin());
   --depth_;
 }

@@ -13,6 +13,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "dspic30/memory/sfr_bus.h"
 #include "dspic30/periph/vectors.h"
@@ -160,10 +161,10 @@ class Interrupts final : public SfrOwner {
     Cycle entered;
   };
   void push(const Frame& frame) {
-    if (depth_ == kMostFrames) forget_outermost();
+    if (depth_ == static_cast<int>(frames_.size())) make_room();
     frames_[static_cast<std::size_t>(depth_++)] = frame;
   }
-  __attribute__((noinline)) void forget_outermost();
+  __attribute__((noinline)) void make_room();
   __attribute__((noinline)) std::uint64_t younger_than(Cycle read, std::uint64_t flags) const;
   __attribute__((noinline)) void set_by_program(std::uint64_t flags, Cycle now);
   void set_priority(int irq, int priority);
@@ -186,7 +187,7 @@ class Interrupts final : public SfrOwner {
   std::uint16_t intcon1_ = 0, intcon2_ = 0;
   std::uint16_t last_vector_ = 0, last_level_ = 0;
   int level_ = 0;
-  std::array<Frame, kMostFrames> frames_{};  // of handlers under way, the innermost last
+  std::vector<Frame> frames_;  // of handlers under way, the innermost last; and room for more
   int depth_ = 0;
   std::uint64_t cleared_ = 0;  // bit i: software cleared the flag of IRQ i since its handler began
   Cycle disi_until_ = 0;
