@@ -13,7 +13,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
-#include <deque>
+#include <list>
 
 #include "dspic30/periph/ports.h"
 
@@ -89,7 +89,7 @@ class Uart final : public SfrOwner, public EventOwner {
   Cycle busy_until_ = 0;  // the shift register
   Cycle break_since_ = -1;
   Fifo<Received> in_;
-  std::deque<UartFrame> line_;  // to come, or under way
+  std::list<UartFrame> line_;  // to come, or under way
   Cycle line_free_ = 0;
   bool rate_checked_ = false;
   std::int64_t overruns_ = 0;

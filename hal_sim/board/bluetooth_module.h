@@ -13,7 +13,7 @@
 // and AN1699, facts restated; bluetooth_params.h.
 #pragma once
 #include <array>
-#include <deque>
+#include <list>
 #include <memory>
 #include <string>
 #include <vector>
@@ -114,7 +114,7 @@ class BluetoothModule final : public UartEnd, public sim::LinkPort {
     std::uint8_t byte;
     sim::Clicks at;
   };
-  std::deque<Out> out_;
+  std::list<Out> out_;
 
   struct Found {
     BtAddress address;

@@ -8,7 +8,7 @@
 // latches the receiver, channels changed at any time. Not modelled: direction of the emitter, aperture.
 #pragma once
 #include <cstdint>
-#include <deque>
+#include <list>
 #include <string>
 #include <vector>
 
@@ -73,7 +73,7 @@ class PacketDevices final : public sim::PacketPort {
     bool on = false;
     int bytes = 0;    // in the queue
     int visible = 0;  // packets at the head that the program may see
-    std::deque<sim::ReceivedPacket> queue;
+    std::list<sim::ReceivedPacket> queue;
   };
   static std::size_t index(int n) { return static_cast<std::size_t>(n); }
   static bool hears(const Receiver& r, int channel) {

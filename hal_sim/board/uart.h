@@ -10,7 +10,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
-#include <deque>
+#include <list>
 #include <memory>
 #include <vector>
 
@@ -133,7 +133,7 @@ class Uart {
   std::vector<Cycle> out_ends_;
   std::int64_t sent_ = 0;
 
-  std::deque<Arrival> on_wire_;
+  std::list<Arrival> on_wire_;
   Cycle wire_free_at_ = 0;
   std::int64_t received_ = 0;
   UartReceiver* receiver_ = nullptr;

@@ -39,7 +39,7 @@ void PacketMedium::exchange(const Scene& scene, Clicks now) {
   if (!somebody_sends_.exchange(false, std::memory_order_relaxed)) return;
   bool some_wait = false;
   for (PacketPort* port : ports_) {
-    std::deque<Packet> waiting;
+    std::list<Packet> waiting;
     while (!port->outbox_.empty()) {
       Packet packet = std::move(port->outbox_.front());
       port->outbox_.pop_front();

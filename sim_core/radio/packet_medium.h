@@ -8,7 +8,7 @@
 #pragma once
 #include <atomic>
 #include <cstdint>
-#include <deque>
+#include <list>
 #include <map>
 #include <vector>
 
@@ -69,7 +69,7 @@ class PacketPort {
 
  private:
   friend class PacketMedium;
-  std::deque<Packet> outbox_;
+  std::list<Packet> outbox_;
   std::atomic<bool>* somebody_sends_ = nullptr;
   std::map<int, Clicks> free_at_;  // of each emitter with a baud rate: end of its last packet
 };
