@@ -65,8 +65,9 @@ std::unique_ptr<Team> Team::open(twin::Twin& twin, const twin::Options& options,
     team->members_.push_back(std::move(member));
   }
   if (problems.size() != before) return nullptr;
+  if (team->members_.empty()) return team;
   team->make_nodes();
-  if (!team->members_.empty()) twin.simulation().attend(team.get());
+  twin.simulation().attend(team.get());
   return team;
 }
 
