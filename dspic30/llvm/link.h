@@ -35,7 +35,8 @@ struct Options {
   std::vector<std::string> inputs;   ///< .o: all of it; .a: members that somebody needs
   std::vector<std::string> drivers;  ///< .o that somebody needs, or with a handler of a driver that is linked
   std::vector<std::string> libraries;  ///< .o and .a, of which only what somebody needs
-  std::string output;                  ///< x.elf; x.hex, x.lst and x.map lie beside it
+  std::string output;  ///< x.elf; beside it x.hex, unless the host fills it, and with_texts x.lst and x.map
+  bool with_texts = true;
   /// What objects outside of archives ask for by the first name is the second, both as in C.
   std::map<std::string, std::string> renames;
   std::map<std::string, std::string> library_renames;  ///< the same for what archives ask for

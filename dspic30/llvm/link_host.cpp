@@ -9,14 +9,18 @@
 // A driver of which the program has a part, or whose registers somebody else names, stays as it is.
 #include <algorithm>
 
+#include "dspic30/core/instruction_table.h"
 #include "dspic30/llvm/link.h"
-#include "dspic30/llvm/link_debug.h"
+#include "dspic30/llvm/memory_spaces.h"
 #include "dspic30/memory/host_places.h"
+#include "dspic30/memory/sfr_table.h"
 #include "dspic30/periph/vectors.h"
 
 namespace dspic::link {
 
 namespace {
+
+using llvm::dspic_elf::kWordOctets;
 
 constexpr std::uint32_t kRam = 0x0800;
 constexpr std::uint32_t kHandleOctets = 8;  // a GOTO has two words
@@ -30,6 +34,8 @@ class Look {
     for (const auto& [name, index] : driver.functions) add(name);
     for (const auto& [name, bytes] : driver.registers) add(name);
     for (const std::string& name : driver.owned) {
+      for (const SfrInfo& r : kSfrRows)
+        if (r.name == name) registers_[r.address] = name;
       for (const std::string& label : {name, "_" + name, "_" + name + "bits"})  // registers have no section
         if (const Symbol* s = find(label); s && !s->section) owned_.insert(s);
       for (const std::string& label : {"__" + name, "__Alt" + name})
@@ -84,8 +90,12 @@ class Look {
     return is_variable(s) && s.value == 0 && s.section->size <= bytes && can_lie_anywhere(*s.section);
   }
 
+  /// "main.c:12", "library(time.c)".
+  std::string place(const Section& s, std::uint32_t offset) const {
+    return s.is_hal ? s.from : Whereabouts(program_).line(s, offset);
+  }
   std::string told(const Symbol& s, const char* verb, const std::string& what) const {
-    return (s.section ? Whereabouts(program_).line(s) : s.from) + verb + what;
+    return (s.section ? place(*s.section, s.value) : s.from) + verb + what;
   }
 
   std::string of_vectors() const {
@@ -98,13 +108,36 @@ class Look {
   std::string of_others() const {
     for (const Section& s : program_.sections) {
       if (!s.used || s.kind == Kind::Debug || is_drivers(s)) continue;
+      if (const std::string why = of_code(s); !why.empty()) return why;
       for (const Relocation& r : s.relocations) {
         const Symbol* to = r.symbol;
         const bool is_inner = to->section && is_drivers(*to->section) && !known_.count(to);
         if (!is_inner && !owned_.count(to)) continue;
         const std::string name = in_c(to->name);
-        return Whereabouts(program_).line(s, r.offset) + " uses " + name.substr(0, name.find("bits"));
+        return place(s, r.offset) + " uses " + name.substr(0, name.find("bits"));
       }
+    }
+    return "";
+  }
+
+  /// An instruction with a register's address in it, as compilers write them. Not seen: one that goes by a
+  /// pointer.
+  std::string of_code(const Section& s) const {
+    if (s.kind != Kind::Code) return "";
+    for (std::uint32_t i = 0; i + kWordOctets <= s.bytes.size(); i += kWordOctets) {
+      const std::uint32_t word = s.bytes[i] | s.bytes[i + 1] << 8 | s.bytes[i + 2] << 16;
+      const Row* row = find_row(word);
+      if (!row) continue;
+      for (const Operand kind : row->kinds) {
+        if (kind != Operand::File && kind != Operand::FileWord && kind != Operand::FileBit) continue;
+        const unsigned f = fields_of(*row, word).f, address = kind == Operand::FileWord ? 2 * f : f & ~1u;
+        const auto known = registers_.find(address);
+        if (known == registers_.end()) continue;
+        const bool is_variable = std::any_of(s.relocations.begin(), s.relocations.end(),
+                                             [&](const Relocation& r) { return r.offset == i; });
+        if (!is_variable) return place(s, i) + " uses " + known->second;
+      }
+      i += kWordOctets * std::uint32_t(row->words - 1);
     }
     return "";
   }
@@ -127,12 +160,14 @@ class Look {
   const HostDriver& driver_;
   std::set<const Symbol*> known_, owned_;  // asked for membership only
   std::vector<const Symbol*> handlers_;
+  std::map<unsigned, std::string> registers_;  // by address
   std::set<std::string> modules_;
 };
 
 }  // namespace
 
 void choose_filled(Program& program, const Options& options) {
+  if (!options.host.empty()) program.define(kHalSymbol, options.is_filled_by_host);
   for (const HostDriver& driver : options.host) {
     const Look look(program, driver);
     if (const std::string why = look.obstacle(); look.is_linked() || !why.empty())

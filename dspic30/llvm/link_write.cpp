@@ -249,10 +249,14 @@ bool write_file(Program& program, const std::string& path, const std::string& co
 
 bool write_all(Program& program, const Options& options) {
   const std::string stem = options.output.substr(0, options.output.rfind('.'));
-  return write_file(program, options.output, ElfFile(program).make()) &&
-         write_file(program, stem + ".hex", hex_file(program)) &&
-         write_file(program, stem + ".lst", listing(program, options)) &&
-         write_file(program, stem + ".map", map_file(program));
+  bool is_written = write_file(program, options.output, ElfFile(program).make());
+  // no chip could run the other
+  if (!options.is_filled_by_host)
+    is_written = is_written && write_file(program, stem + ".hex", hex_file(program));
+  if (options.with_texts)
+    is_written = is_written && write_file(program, stem + ".lst", listing(program, options)) &&
+                 write_file(program, stem + ".map", map_file(program));
+  return is_written;
 }
 
 }  // namespace dspic::link

@@ -8,6 +8,7 @@
 
 #include "dspic30/load/firmware_file.h"
 #include "dspic30/memory/hex.h"
+#include "dspic30/memory/host_places.h"
 
 namespace dspic {
 
@@ -153,6 +154,22 @@ class ElfReader {
 };
 
 }  // namespace
+
+std::string hal_of(const FirmwareFile& file) {
+  const auto mark = file.marks.find(kHalSymbol);
+  return mark == file.marks.end() ? "own" : mark->second ? "sim" : "dspic";
+}
+
+std::uint32_t place_of_host_call(const FirmwareFile& file) {
+  constexpr std::uint32_t kGoto = 0x040000;
+  for (auto at = file.words.begin(); at != file.words.end(); ++at) {
+    const auto next = std::next(at);
+    if ((at->second & 0xFF0000) != kGoto || next == file.words.end() || next->first != at->first + 2)
+      continue;
+    if (is_host_place(next->second << 16 | (at->second & 0xFFFF))) return at->first;
+  }
+  return kNoPlace;
+}
 
 FileKind kind_of(const std::string& bytes) {
   if (bytes.compare(0, 4,

@@ -31,6 +31,13 @@ struct FirmwareFile {
   DebugInfo debug;
 };
 
+/// "sim" or "dspic": which HAL it was linked with here; "own": elsewhere, or the file does not say.
+std::string hal_of(const FirmwareFile& file);
+/// The first place at which the program goes on where only the simulator has something (host_places.h), so
+/// that no chip can run it; kNoPlace: nowhere.
+inline constexpr std::uint32_t kNoPlace = 0xFFFFFFFF;
+std::uint32_t place_of_host_call(const FirmwareFile& file);
+
 inline constexpr std::size_t kLongestFirmwareFile = 64u
                                                     << 20;  // bytes [assumed: a hundred times the largest]
 

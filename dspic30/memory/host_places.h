@@ -18,6 +18,8 @@ inline constexpr bool is_host_place(unsigned address) { return address >= kHostS
 /// An absolute symbol of an image that is linked with functions of the host: the RAM address at which plain
 /// RAM begins. From RAM's start to there the library's registers lie, and the host serves them.
 inline constexpr const char* kServedEndSymbol = "_tp_served_end";
+/// Of every image that is linked here for drivers that the host can fill: 1 where it does, else 0.
+inline constexpr const char* kHalSymbol = "_tp_hal";
 /// Another one: a sum over the table of the host's functions that the image was linked for.
 inline constexpr const char* kHostTableSymbol = "_tp_host_table";
 
