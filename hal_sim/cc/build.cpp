@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
-#include <cstring>
 #include <fstream>
 #include <map>
 #include <set>
@@ -18,10 +17,10 @@
 #include "build_record.h"
 #include "driver_variants.h"
 #include "elf_reader.h"
-#include "hal_sim/api/host_table.h"
 #include "hal_sim/host/image_stamp.h"
 #include "large_stack.h"
 #include "library_objects.h"
+#include "link_chip.h"
 #include "link_messages.h"
 #include "object_cache.h"
 #include "original_objects.h"
@@ -33,28 +32,6 @@
 namespace cc {
 namespace fs = std::filesystem;
 namespace {
-
-/// Splits what a compiler printed into errors and warnings; notes stay with the line before them.
-void sort_messages(const std::string& text, BuildResult& result, bool failed) {
-  std::istringstream lines(text);
-  std::vector<std::string>* last = nullptr;
-  for (std::string line; std::getline(lines, line);) {
-    const bool is_summary = line.size() > 11 && line.compare(line.size() - 11, 11, " generated.") == 0;
-    if (line.empty() || is_summary) continue;
-    bool is_error =
-        line.find(" error: ") != std::string::npos || line.find("fatal error: ") != std::string::npos;
-    bool is_warning = line.find("warning: ") != std::string::npos;
-    if (is_error || is_warning) {
-      last = is_error ? &result.errors : &result.warnings;
-      if (std::find(last->begin(), last->end(), line) == last->end()) last->push_back(line);
-    } else if (last && !last->empty() && line.find("note: ") != std::string::npos) {
-      last->back() += "\n" + line;
-    } else if (failed) {
-      last = &result.errors;
-      last->push_back(line);
-    }
-  }
-}
 
 /// `outcomes`: of all C files, the program's own first; for the chip those of assembler follow, whose labels
 /// are no functions, and which may have a start-up of their own instead.
@@ -118,11 +95,6 @@ void tell_of_assembler(const Program& program, const std::vector<CompileOutcome>
                                   "the interrupt has no handler");
     }
 }
-
-/// For the chip's linker: in the program's objects, in the library's.
-struct Renames {
-  std::map<std::string, std::string> of_program, of_library;
-};
 
 /// Makes the program's objects call the forms of drivers that are chosen (driver_variants.h); for the chip
 /// its linker does, by `renames`.
@@ -203,25 +175,6 @@ void check_second_definitions(const std::vector<CompileOutcome>& outcomes, const
   for (const std::string& wrong : second_definitions(functions, choices)) result.errors.push_back(wrong);
 }
 
-/// The linker's numbers, of its report (dspic30/llvm/link_report.cpp).
-void take_sizes(const std::string& report, const fs::path& folder, BuildResult& result) {
-  result.size_report = report;
-  const auto number_behind = [&](const std::string& word) {
-    const std::size_t at = report.find("\n" + word);
-    return at == std::string::npos ? 0 : std::strtol(report.c_str() + at + 1 + word.size(), nullptr, 10);
-  };
-  result.ram_bytes = number_behind("RAM ");
-  result.stack_bytes = number_behind("stack ");
-  if (const std::size_t at = report.find("(no bound: "); at != std::string::npos) {
-    const std::size_t begin = at + std::strlen("(no bound: ");
-    result.recursive = report.substr(begin, report.find("()", begin) - begin);
-  }
-  static const std::string kOfLinker = "link: warning: stack: ";
-  for (std::string& warning : result.warnings)
-    if (warning.rfind(kOfLinker, 0) == 0)
-      warning = result.no_room = folder.string() + warning.substr(std::strlen("link"));
-}
-
 /// What an assembler source may do, by its symbols: each of its labels uses all that it names.
 std::string facts_of_assembler(const fs::path& object) {
   std::string labels, names;
@@ -267,78 +220,6 @@ void read_shared_variables_in_place(std::vector<CompileJob>& all, std::vector<Co
     result.warnings.push_back(read.where + ": warning: '" + read.variable + "' is written by " + read.writer +
                               "() and is not volatile; here it is read where it stands, XC16 at " +
                               o.optimisation + " may read it once and wait for ever");
-}
-
-/// For the chip's linker: the library, and what of it the host can fill, or does.
-void add_host_table(std::vector<std::string>& argv, const fs::path& library, bool fills) {
-  argv.insert(argv.end(), {"--host-library", library.string()});
-  const auto of = [](const auto& row) { return std::string(row.driver) + ":" + row.name; };
-  int place = 0;
-  for (const auto& row : api::kHostFunctions)
-    argv.insert(argv.end(), {"--host", of(row) + "=" + std::to_string(place++)});
-  for (const auto& row : api::kHostRegisters)
-    argv.insert(argv.end(), {"--register", of(row) + "=" + std::to_string(row.bytes)});
-  for (const auto& row : api::kHostOwned) argv.insert(argv.end(), {"--owned", of(row)});
-  if (fills) argv.insert(argv.end(), {"--fill", std::to_string(api::host_table_sum())});
-}
-
-/// The linker's lines of drivers, which end its report: "host  agenda chip: main.c:12 uses T2CON".
-void take_drivers(std::string& report, bool is_filled, BuildResult& result) {
-  const std::size_t begin = report.find("\nhost  ");
-  if (begin == std::string::npos) return;
-  std::istringstream lines(report.substr(begin + 1));
-  report.resize(begin + 1);
-  for (std::string line; is_filled && std::getline(lines, line);)
-    for (const auto& [word, whose] :
-         {std::pair(" chip: ", "the chip's own driver"), std::pair(" own: ", "the program's own driver")})
-      if (const std::size_t at = line.find(word); at != std::string::npos)
-        result.notes.push_back(line.substr(6, at - 6) + ": " + whose + ", since " +
-                               line.substr(at + std::strlen(word)));
-}
-
-/// The chip way's last step: .elf, .hex, .lst and .map, which appear together or not at all.
-void link_chip(const std::vector<CompileOutcome>& user, const std::vector<CompileOutcome>& drivers,
-               const std::vector<CompileOutcome>& members, const Program& program, const Library& library,
-               const Renames& renames, const BuildOptions& o, const fs::path& output, BuildResult& result) {
-  std::error_code ec;
-  const fs::path half = unfinished(output);  // a folder
-  fs::create_directories(half, ec);
-  const fs::path made = half / (output.stem().string() + ".elf");
-  std::vector<std::string> argv = {compiler_path().string(), "--link", "-o", made.string()};
-  for (const auto& u : user) argv.push_back(u.object.string());
-  for (const auto& [from, to] : renames.of_program) argv.insert(argv.end(), {"--rename", from + "=" + to});
-  for (const auto& [from, to] : renames.of_library)
-    argv.insert(argv.end(), {"--rename-library", from + "=" + to});
-  const auto made_of = [&](const fs::path& object, const std::string& source) {
-    argv.insert(argv.end(), {"--source", object.string() + "=" + source});
-  };
-  for (const auto* list : {&user, &drivers, &members})
-    for (const auto& made : *list) made_of(made.object, made.source.string());
-  made_of(library.archive, "library");
-  for (const auto& file : program.objects) {
-    look_at(file);
-    if (file.extension() != ".o") argv.push_back("--library");  // of an archive what is asked for
-    argv.push_back(file.string());
-  }
-  for (const auto& d : drivers) argv.insert(argv.end(), {"--driver", d.object.string()});
-  for (const auto& m : members) argv.insert(argv.end(), {"--library", m.object.string()});
-  add_host_table(argv, library.archive, o.hal == "sim");
-  const auto run = run_process(argv);
-  sort_messages(with_hints(run.output), result, run.status != 0);
-  if (const std::size_t at = run.output.find("flash "); run.status == 0 && at != std::string::npos) {
-    std::string report = run.output.substr(at);
-    take_drivers(report, o.hal == "sim", result);
-    take_sizes(report, o.source_dir, result);
-  }
-  for (const char* kind : {".hex", ".lst", ".map", ".elf"}) {
-    if (!result.errors.empty()) break;
-    fs::path from = made, to = output;
-    if (kind != std::string(".elf")) to.replace_extension(kind);
-    fs::rename(from.replace_extension(kind), to, ec);
-    if (ec) result.errors.push_back(to.string() + ": cannot write: " + ec.message());
-  }
-  fs::remove_all(half, ec);
-  if (result.errors.empty()) look_at(output);
 }
 
 }  // namespace

@@ -21,6 +21,7 @@ struct BuildOptions {
   /// An image of the chip for this HAL: "sim", whose busy drivers are the simulator's, or "dspic", the image
   /// that is flashed. Implies chip_way, which alone means dspic.
   std::string hal;
+  bool with_texts = false;           ///< hal sim: .lst and .map too
   int jobs = 2;                      ///< compilers at once
   std::string name;                  ///< controller's name; default: the folder's
   std::filesystem::path cache_dir;   ///< objects kept between builds; default: below the build folder

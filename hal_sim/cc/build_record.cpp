@@ -148,6 +148,7 @@ BuildRecord::BuildRecord(const BuildOptions& o) {
                                     : o.register_way ? "register"
                                                      : "",
                                     o.hal,
+                                    o.with_texts ? "texts" : "",
                                     o.name,
                                     o.webots_settings,
                                     o.standard,

@@ -148,4 +148,26 @@ void sort_linker_messages(const std::string& text, const Program& program, const
   }
 }
 
+/// Splits what a compiler printed into errors and warnings; notes stay with the line before them.
+void sort_messages(const std::string& text, BuildResult& result, bool failed) {
+  std::istringstream lines(text);
+  std::vector<std::string>* last = nullptr;
+  for (std::string line; std::getline(lines, line);) {
+    const bool is_summary = line.size() > 11 && line.compare(line.size() - 11, 11, " generated.") == 0;
+    if (line.empty() || is_summary) continue;
+    bool is_error =
+        line.find(" error: ") != std::string::npos || line.find("fatal error: ") != std::string::npos;
+    bool is_warning = line.find("warning: ") != std::string::npos;
+    if (is_error || is_warning) {
+      last = is_error ? &result.errors : &result.warnings;
+      if (std::find(last->begin(), last->end(), line) == last->end()) last->push_back(line);
+    } else if (last && !last->empty() && line.find("note: ") != std::string::npos) {
+      last->back() += "\n" + line;
+    } else if (failed) {
+      last = &result.errors;
+      last->push_back(line);
+    }
+  }
+}
+
 }  // namespace cc

@@ -16,4 +16,7 @@ void sort_linker_messages(const std::string& text, const Program& program, const
 /// What twinpuck-cc --link prints, with what may help behind names that have no definition.
 std::string with_hints(const std::string& text);
 
+/// Splits what a compiler printed into errors and warnings; notes stay with the line before them.
+void sort_messages(const std::string& text, BuildResult& result, bool failed);
+
 }  // namespace cc

@@ -163,7 +163,8 @@ dspic::link::HostDriver& host_driver(dspic::link::Options& o, StringRef text, st
 
 /// twinpuck-cc --link -o x.elf a.o b.o [--library c.o]... [--driver d.o]... [--source O=C]... [--heap N]
 /// Of drivers that the host can fill: [--host-library A.a] [--host DRIVER:FUNCTION=PLACE]...
-/// [--register DRIVER:VARIABLE=BYTES]... [--owned DRIVER:T2CON]...; --fill SUM fills them.
+/// [--register DRIVER:VARIABLE=BYTES]... [--owned DRIVER:T2CON]...; --fill SUM fills them. --no-texts:
+/// neither .lst nor .map.
 int link(int argc, char** argv) {
   dspic::link::Options o;
   for (int i = 2; i < argc; ++i) {
@@ -193,6 +194,8 @@ int link(int argc, char** argv) {
     } else if (a == "--host-library") {
       o.libraries.push_back(value());
       o.host_library = o.libraries.back();
+    } else if (a == "--no-texts") {
+      o.with_texts = false;
     } else if (a == "--fill") {
       o.is_filled_by_host = true;
       o.host_table = std::uint32_t(std::strtoul(value().c_str(), nullptr, 0));
