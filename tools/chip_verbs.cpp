@@ -72,7 +72,7 @@ int assemble(const std::string& name, const std::string& output) {
     const auto line = 1 + std::count(text.begin(), text.begin() + found.position(2), '\n');
     complain({fmt::format(
         "{}:{}: #{}: asm has no preprocessor, expected .include, .equ or .if; `twinpuck build DIR "
-        "--way chip` has one",
+        "--hal dspic` has one",
         name, line, found[2].str())});
     return kBadInput;
   }

@@ -30,7 +30,7 @@ void add_help(CLI::App& app);
 /// An option that may be given several times, each time with one value: so that what follows is not
 /// swallowed.
 CLI::Option* one_each(CLI::Option* option);
-/// "--hal sim|dspic" of a verb that runs controllers.
+/// "--hal sim|dspic" of a verb that builds or runs controllers.
 void add_hal(CLI::App& verb, std::string& hal);
 
 /// "ROBOT=VALUE" of each word; what names no robot is for every robot. False, told, when one is neither.

@@ -29,18 +29,23 @@ namespace {
 namespace fs = std::filesystem;
 
 struct DebugArguments {
-  std::string world, robot, commands, way = "chip", optimisation = "-O0";
+  std::string world, robot, commands, way, hal, optimisation = "-O0";
   std::vector<std::string> firmware;
   double seconds = 1e6;
   long long seed = -1;
   bool dap = false, gdb = false;
 };
 
-const std::vector<std::string> kWays{"native", "register", "chip"}, kLevels{"-O0", "-O1", "-O2", "-Os"};
+constexpr const char* kUsualHal = "dspic";
+const std::vector<std::string> kWays{"native", "register", "chip"}, kHals{"sim", "dspic"},
+    kLevels{"-O0", "-O1", "-O2", "-Os"};
 
 bool is_one_of(const std::string& word, const std::vector<std::string>& words) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
+
+/// Programs become code for the PC.
+bool is_of_pc(const DebugArguments& a) { return a.hal.empty() && (a.way == "native" || a.way == "register"); }
 
 volatile std::sig_atomic_t pause_asked = 0;
 
@@ -53,7 +58,8 @@ bool set_up(const DebugArguments& a, debug::Session::Setup& setup, std::vector<s
   setup.world = std::move(*world);
   setup.options.world_folder = fs::path(setup.world.file).parent_path().string();
   setup.options.way = a.way;
-  if (a.way != "chip") setup.options.optimisation = a.optimisation;
+  setup.options.hal = a.hal.empty() && a.way.empty() ? kUsualHal : a.hal;
+  if (is_of_pc(a)) setup.options.optimisation = a.optimisation;
   setup.robot = a.robot;
   setup.seconds = a.seconds;
   return true;
@@ -83,11 +89,15 @@ std::unique_ptr<debug::Session> launched(const nlohmann::json& launch,
   a.robot = launch.value("robot", "");
   a.way = launch.value("way", a.way);
   a.optimisation = launch.value("opt", a.optimisation);
-  if (!is_one_of(a.way, kWays) || !is_one_of(a.optimisation, kLevels)) {
-    problems.push_back(fmt::format("launch: got way '{}' and opt '{}', expected {} and {}", a.way,
-                                   a.optimisation, fmt::join(kWays, ", "), fmt::join(kLevels, ", ")));
-    return nullptr;
-  }
+  a.hal = launch.value("hal", a.hal);
+  for (const auto& [key, value, known] :
+       {std::tuple("hal", &a.hal, &kHals), std::tuple("way", &a.way, &kWays),
+        std::tuple("opt", &a.optimisation, &kLevels)})
+    if (!value->empty() && !is_one_of(*value, *known)) {
+      problems.push_back(
+          fmt::format("launch: {}: got '{}', expected {}", key, *value, fmt::join(*known, ", ")));
+      return nullptr;
+    }
   a.seconds = launch.value("seconds", a.seconds);
   a.seed = launch.value("seed", a.seed);
   if (const std::string firmware = launch.value("firmware", ""); !firmware.empty())
@@ -156,8 +166,8 @@ void add_debug(CLI::App& app, int& exit_code) {
   auto* world = verb->add_option("WORLD", a->world, "world file, or the name of one in worlds/");
   one_each(verb->add_option(
       "--fw", a->firmware, "[ROBOT=]FILE: a .elf, .hex or .so, a folder of C files, or a controller's name"));
-  verb->add_option("--way", a->way,
-                   "what runs the program: chip, instruction by instruction; native, register: the PC's code")
+  add_hal(*verb, a->hal);
+  verb->add_option("--way", a->way, "the program as the PC's code: native, register; chip is --hal dspic")
       ->check(CLI::IsMember(kWays));
   verb->add_option("-x,--commands", a->commands, "file of commands, instead of the terminal");
   verb->add_option("--robot", a->robot, "the robot to look at; else the first");
@@ -172,7 +182,7 @@ void add_debug(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember(kLevels))
       ->capture_default_str();
   verb->callback([a, world, &exit_code] {
-    if (a->gdb && (a->dap || !a->robot.empty() || a->way == "chip"))
+    if (a->gdb && (a->dap || !a->robot.empty() || !is_of_pc(*a)))
       throw CLI::ValidationError("--gdb", "with --way native or register, and without --dap and --robot");
     if (a->dap) {
       std::signal(SIGPIPE, SIG_IGN);

@@ -82,30 +82,31 @@ bool may_replace(const fs::path& output) {
   return false;
 }
 
-int build(cc::BuildOptions options) {
+int build(cc::BuildOptions options, const std::string& way) {
   if (!may_replace(options.output)) return kBadInput;
   const std::string given = options.source_dir.string();
+  twin::Options of_run;
+  of_run.way = way;
+  of_run.hal = options.hal;
+  of_run.sanitize = options.sanitize;
+  of_run.coverage = options.coverage;
   std::vector<std::string> no_controller;
   const std::string found = twin::find_firmware(given, "", no_controller);
-  if (!options.chip_way && !found.empty() && programs::is_pc_program(found))
+  options.hal = twin::hal_of(of_run, found);
+  options.register_way = way == "register" && options.hal.empty();
+  if (options.hal.empty() && !found.empty() && programs::is_pc_program(found))
     return build_program(given, options.output);
   options.source_dir = controller_folder(given, "build");
   if (options.source_dir.empty()) return kBadInput;
-  if (options.output.empty()) {
-    twin::Options of_run;
-    of_run.way = options.chip_way ? "chip" : options.register_way ? "register" : "native";
-    of_run.hal = options.hal;
-    of_run.sanitize = options.sanitize;
-    of_run.coverage = options.coverage;
-    options.output = twin::image_file(options.source_dir.string(), of_run);
-  }
+  options.with_texts = !options.output.empty();
+  if (options.output.empty()) options.output = twin::image_file(options.source_dir.string(), of_run);
   const auto result = cc::build_image(options);
   complain(result.conflicts);
   complain(result.warnings);
   complain(result.notes);
   complain(result.errors);
   if (!result.ok) return kTestFailed;
-  if (options.chip_way) {
+  if (!options.hal.empty()) {
     std::cout << fmt::format("{}: {} files compiled, {} unchanged, {:.2f} s\n{}", options.output.string(),
                              result.compiled, result.reused, result.seconds, result.size_report);
     return kPass;
@@ -187,23 +188,16 @@ void add_build(CLI::App& app, int& exit_code) {
   one_each(verb->add_option("-D", o->defines, "NAME or NAME=value for the preprocessor"));
   one_each(verb->add_option("-I", o->include_dirs, "folder that is searched for headers first"));
   verb->add_option("--std", o->standard, "standard of C, such as gnu99; default: the project's, or XC16's");
-  auto way = std::make_shared<std::string>("native");
-  verb->add_option("--way", *way,
-                   "native: the library's functions; register: the chip's registers; chip: an image "
-                   "for the robot itself, .elf, with .hex and .map beside it")
-      ->check(CLI::IsMember({"native", "register", "chip"}))
-      ->capture_default_str();
-  verb->add_option("--hal", o->hal,
-                   "for the robot's own processor, .elf: sim, whose busy drivers are the simulator's, or "
-                   "dspic, the image that is flashed")
-      ->check(CLI::IsMember({"sim", "dspic"}));
+  add_hal(*verb, o->hal);
+  auto way = std::make_shared<std::string>();
+  verb->add_option(
+          "--way", *way,
+          "for the PC, .so: native, by the library's functions, or register, by the chip's registers; "
+          "chip is --hal dspic")
+      ->check(CLI::IsMember({"native", "register", "chip"}));
   verb->add_flag("--sanitize", o->sanitize, "address and 16-bit overflow checks");
   verb->add_flag("--coverage", o->coverage, "line counters, for run --coverage");
-  verb->callback([o, way, &exit_code] {
-    o->chip_way = *way == "chip" || !o->hal.empty();
-    o->register_way = *way == "register" || o->chip_way;
-    exit_code = build(*o);
-  });
+  verb->callback([o, way, &exit_code] { exit_code = build(*o, *way); });
 }
 
 void add_lint(CLI::App& app, int& exit_code) {

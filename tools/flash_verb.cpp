@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <filesystem>
 #include <iostream>
 
 #include "tools/command_line.h"
@@ -13,6 +14,8 @@
 namespace tools {
 
 namespace {
+
+namespace fs = std::filesystem;
 
 struct FlashOptions {
   std::string image, port;
@@ -67,6 +70,13 @@ int flash(const FlashOptions& options) {
     complain({error});
     return kBadInput;
   }
+  if (const std::uint32_t at = dspic::place_of_host_call(file); at != dspic::kNoPlace) {
+    complain({fmt::format(
+        "{}: image: got one linked with hal_sim, which goes on in the simulator at 0x{:06x}, "
+        "expected one for the robot; `twinpuck build DIR --hal dspic -o {}` makes it",
+        options.image, at, fs::path(options.image).replace_extension(".elf").filename().string())});
+    return kBadInput;
+  }
   SerialDevice line(options.port);
   if (!line.error().empty()) {
     complain({line.error()});
@@ -88,7 +98,7 @@ void add_flash(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<FlashOptions>();
   CLI::App* verb = app.add_subcommand("flash", "Write a program into a robot through its bootloader");
   verb->add_option("IMAGE", options->image,
-                   "the program, .hex or .elf: twinpuck build DIR --way chip makes it")
+                   "the program, .hex or .elf: twinpuck build DIR --hal dspic makes it")
       ->required();
   verb->add_option("--port", options->port,
                    "serial device of the robot: /dev/rfcomm0 (Bluetooth), /dev/ttyUSB0, a pty")

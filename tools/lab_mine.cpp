@@ -34,7 +34,7 @@ std::vector<LabExercise> own_exercises(std::vector<LabExercise> all) {
   return all;
 }
 
-LabPrograms own_programs(const std::string& folder, const std::string& way,
+LabPrograms own_programs(const std::string& folder, twin::Options options,
                          const std::vector<const LabExercise*>& chosen, bool by_id) {
   std::set<std::string> wanted;
   for (const LabExercise* e : chosen)
@@ -45,8 +45,6 @@ LabPrograms own_programs(const std::string& folder, const std::string& way,
                                return has_c_files(home / name);
                              });
   LabPrograms programs;
-  twin::Options options;
-  options.way = way;
   options.tell = [](const std::string& line) { std::cerr << line << '\n'; };
   for (const std::string& name : wanted) {
     const std::string firmware = "lab/" + name;

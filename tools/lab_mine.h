@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "hal_sim/twin/twin.h"
 #include "tools/lab_table.h"
 
 namespace tools {
@@ -21,7 +22,7 @@ std::vector<LabExercise> own_exercises(std::vector<LabExercise> all);
 /// Finds and builds what the chosen exercises ask for in `folder`: its folders of the lab's names, or the
 /// folder itself when it is a controller's. One of another name serves if `by_id`, when the exercises were
 /// named. Compiler's errors go to stderr.
-LabPrograms own_programs(const std::string& folder, const std::string& way,
+LabPrograms own_programs(const std::string& folder, twin::Options options,
                          const std::vector<const LabExercise*>& chosen, bool by_id);
 
 }  // namespace tools

@@ -29,17 +29,15 @@ namespace fs = std::filesystem;
 
 struct LabArguments {
   std::vector<std::string> ids;
-  std::string table, csv, plot, mine, way;
+  std::string table, csv, plot, mine, way, hal;
   int seeds = 0, jobs = 1;
   bool full = false, no_times = false, list = false;
 };
 
 // every firmware is built once, before anything runs
-LabPrograms build_images(const std::vector<const LabExercise*>& chosen, const std::string& way,
+LabPrograms build_images(const std::vector<const LabExercise*>& chosen, twin::Options options,
                          std::vector<std::string>& problems) {
   LabPrograms programs;
-  twin::Options options;
-  options.way = way;
   options.tell = [](const std::string& line) { std::cerr << line << '\n'; };
   for (const LabExercise* e : chosen)
     for (const LabStep& s : e->steps)
@@ -49,14 +47,14 @@ LabPrograms build_images(const std::vector<const LabExercise*>& chosen, const st
 }
 
 std::vector<TrialResult> trials_of(const LabStep& step, int seeds, double seconds, const std::string& image,
-                                   const std::string& way) {
+                                   const LabArguments& a) {
   std::vector<TrialResult> all;
   const std::vector<double> as_written{std::nan("")};
   const auto& scales = step.noise_scales.empty() ? as_written : step.noise_scales;
   for (const std::string& world : step.worlds)
     for (double scale : scales)
       for (int seed = 1; seed <= (step.kind == LabStep::Kind::Sensor ? 1 : seeds); ++seed)
-        all.push_back({{&step, world, image, way, scale, seconds, static_cast<std::uint64_t>(seed)},
+        all.push_back({{&step, world, image, a.way, a.hal, scale, seconds, static_cast<std::uint64_t>(seed)},
                        false,
                        {},
                        "",
@@ -136,7 +134,7 @@ StepResult run_step(const LabStep& step, const LabArguments& a, const LabProgram
   const int seeds = a.seeds > 0 ? a.seeds : a.full ? step.full_seeds : step.quick_seeds;
   const auto image = programs.images.find(step.firmware);
   result.trials = trials_of(step, seeds, a.full ? step.full_seconds : step.seconds,
-                            image == programs.images.end() ? "" : image->second, a.way);
+                            image == programs.images.end() ? "" : image->second, a);
   bool timed = false;
   for (const Shown& s : step.shown) timed = timed || s.measure == Measure::Speed;
   if (a.jobs > 1 && !timed) {
@@ -176,6 +174,9 @@ int lab(const LabArguments& a) {
   if (mine && !fs::is_directory(a.mine))
     problems.push_back(a.mine + ": --mine: got no folder, expected one with your programs");
   LabPrograms programs;
+  twin::Options options;
+  options.way = a.way;
+  options.hal = a.hal;
   std::ofstream csv;
   if (problems.empty() && !a.csv.empty()) {
     csv.open(a.csv, std::ios::trunc);
@@ -183,8 +184,8 @@ int lab(const LabArguments& a) {
     csv << lab_csv_header();
   }
   if (problems.empty())
-    programs =
-        mine ? own_programs(a.mine, a.way, chosen, !a.ids.empty()) : build_images(chosen, a.way, problems);
+    programs = mine ? own_programs(a.mine, options, chosen, !a.ids.empty())
+                    : build_images(chosen, options, problems);
   if (!problems.empty()) {
     complain(problems);
     return kBadInput;
@@ -251,6 +252,7 @@ void add_lab(CLI::App& app, int& exit_code) {
   verb->add_option("--way", a->way,
                    "native, register or chip, for all programs that are built from source; else the worlds'")
       ->check(CLI::IsMember({"native", "register", "chip"}));
+  add_hal(*verb, a->hal);
   verb->add_option("--seeds", a->seeds, "runs of everything left to chance, instead of the table's")
       ->check(CLI::Range(1, 100000));
   verb->add_flag("--full", a->full, "as many runs as the figures in docs/lab.md rest on");

@@ -73,6 +73,7 @@ Summary summarise(const twin::Twin& twin, double wall_s) {
     r.name = twin.world().robots[static_cast<std::size_t>(i)].name;
     r.firmware = twin.image_path(i);
     r.program = twin.program(i);
+    r.hal = twin.hal(i);
     r.way = mind.runner() ? mind.runner()->way() : "none";
     const auto& pose = simulation.pose(i);
     r.x_m = pose.x_m;
@@ -174,6 +175,7 @@ std::string to_json(const Summary& s) {
         r.program.path.empty() ? "" : std::filesystem::absolute(r.program.path).lexically_normal().string();
     robot["files"] = r.program.files;
     robot["way"] = r.way;
+    robot["hal"] = r.hal.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(r.hal);
     robot["x_m"] = r.x_m;
     robot["y_m"] = r.y_m;
     robot["heading_rad"] = r.heading_rad;

@@ -189,6 +189,7 @@ Json to_json(const Opening& o) {
           {"seed", o.seed},
           {"firmware", firmware},
           {"way", o.options.way},
+          {"hal", o.options.hal},
           {"opt", o.options.optimisation},
           {"supervisors", o.supervisors}};
 }
@@ -230,6 +231,7 @@ std::unique_ptr<Replay> Replay::open(const std::string& path, std::vector<std::s
         o.text = line.at("text").get<std::string>();
         o.seed = line.at("seed").get<std::uint64_t>();
         o.options.way = line.at("way").get<std::string>();
+        o.options.hal = line.value("hal", "");
         o.options.optimisation = line.at("opt").get<std::string>();
         o.supervisors = line.at("supervisors").get<std::vector<std::string>>();
         for (const Json& choice : line.at("firmware"))
@@ -252,6 +254,7 @@ std::unique_ptr<Replay> Replay::open(const std::string& path, std::vector<std::s
 
 void Replay::resume(twin::Options& options) const {
   options.way = opening.options.way;
+  options.hal = opening.options.hal;
   options.optimisation = opening.options.optimisation;
   options.firmware = opening.options.firmware;
 }

@@ -33,6 +33,7 @@ Json RobotLook::take() {
     const host::Place place = program->place_now();
     look["place"] = {{"function", place.function}, {"file", place.file}, {"line", place.line}};
     look["way"] = program->way();
+    look["hal"] = twin_.hal(robot_);
   }
   Json parts = Json::array();
   for (const auto& part : mind.board().parts())

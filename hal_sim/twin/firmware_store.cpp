@@ -100,8 +100,11 @@ std::string build_folder() {
   return (fs::path(project_root()) / "build").string();
 }
 
-std::string hal_of(const Options& options) {
-  return !options.hal.empty() ? options.hal : options.way == "chip" ? "dspic" : "";
+std::string hal_of(const Options& options, const std::string& path) {
+  constexpr const char* kUsual = "";
+  if (!options.hal.empty()) return options.hal;
+  if (options.way == "chip") return "dspic";
+  return !options.way.empty() || programs::is_pc_program(path) ? "" : kUsual;
 }
 
 std::string image_file(const std::string& folder, const Options& options) {
@@ -110,7 +113,7 @@ std::string image_file(const std::string& folder, const Options& options) {
   char tag[32];
   std::snprintf(tag, sizeof tag, "-%08x", static_cast<unsigned>(h));
   std::string kind = options.sanitize ? "-sanitize" : options.coverage ? "-coverage" : "";
-  const std::string hal = hal_of(options);
+  const std::string hal = hal_of(options, folder);
   if (!hal.empty())
     kind += "-" + hal;
   else if (options.way == "register")
@@ -197,7 +200,7 @@ std::string provide_image(const std::string& name, const std::string& from_folde
   const fs::path path = found.path = find_firmware(name, from_folder, problems, &found.other);
   if (program) *program = found;
   std::error_code none;
-  if (path.empty() || (hal_of(options).empty() && programs::is_pc_program(path.string())))
+  if (path.empty() || (hal_of(options, path.string()).empty() && programs::is_pc_program(path.string())))
     return path.string();
   if (!fs::is_directory(path, none)) return path.string();
   cc::BuildOptions build;
@@ -206,7 +209,7 @@ std::string provide_image(const std::string& name, const std::string& from_folde
   build.optimisation = options.optimisation;
   build.sanitize = options.sanitize;
   build.coverage = options.coverage;
-  build.hal = hal_of(options);
+  build.hal = hal_of(options, path.string());
   build.webots_settings = options.webots_settings;
   build.register_way = options.way == "register";
   const cc::BuildResult result = cc::build_image(build);

@@ -7,6 +7,8 @@
 #include <atomic>
 #include <map>
 
+#include "dspic30/memory/host_places.h"
+#include "hal_sim/api/host_table.h"
 #include "hal_sim/board/bluetooth_module.h"
 #include "hal_sim/board/epuck_model.h"
 #include "hal_sim/board/part.h"
@@ -99,6 +101,7 @@ struct Firmware {
   std::shared_ptr<host::Image> image;
   std::shared_ptr<const chip::ChipImage> chip;
   std::shared_ptr<const programs::Launch> program;  // or a program of the PC
+  std::string hal = "";                             // of the chip's: sim, dspic or own
 
   bool is_open() const { return image || chip || program; }
 };
@@ -107,17 +110,24 @@ Firmware open_firmware(const std::string& path, const Options& options, std::str
   if (programs::is_pc_program(path)) {
     auto launch = std::make_shared<programs::Launch>();
     std::vector<std::string> problems;
-    if (provide_launch(path, "", options, problems, *launch)) return {nullptr, nullptr, launch};
+    if (provide_launch(path, "", options, problems, *launch)) return {nullptr, nullptr, launch, ""};
     for (const std::string& problem : problems) error += (error.empty() ? "" : "\n") + problem;
     return {};
   }
   std::string bytes;
   if (!host::Image::read(path, bytes, error)) return {};
   if (dspic::kind_of(bytes) == dspic::FileKind::Other)
-    return {host::Image::open(path, std::move(bytes), error), nullptr, nullptr};
+    return {host::Image::open(path, std::move(bytes), error), nullptr, nullptr, ""};
   dspic::FirmwareFile file;
   if (!dspic::load_firmware(bytes, path, file, error)) return {};
-  return {nullptr, std::make_shared<chip::ChipImage>(std::move(file)), nullptr};
+  const std::string hal = dspic::hal_of(file);
+  if (const auto table = file.marks.find(dspic::kHostTableSymbol);
+      hal == "sim" && (table == file.marks.end() || table->second != api::host_table_sum())) {
+    error =
+        path + ": image: got one linked with another hal_sim, expected one of this twinpuck; build it again";
+    return {};
+  }
+  return {nullptr, std::make_shared<chip::ChipImage>(std::move(file)), nullptr, hal};
 }
 
 std::uint16_t fosc_of(const dspic::FirmwareFile& file) {
@@ -247,9 +257,9 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
     if (of_robot.way.empty() && of_robot.hal.empty()) {
       const sim::OwnSettings own = own_settings(world, robot);
       if (robot.own.count("hal")) of_robot.hal = own.text("hal");
-      of_robot.way = own.text("way");
+      if (robot.own.count("way")) of_robot.way = own.text("way");
     }
-    const std::string key = name.empty() ? name : hal_of(of_robot) + "/" + of_robot.way + ":" + name;
+    const std::string key = name.empty() ? name : of_robot.hal + "/" + of_robot.way + ":" + name;
     firmware.push_back(key);
     robot.firmware = name;  // what it runs, for pictures and supervisors
     if (name.empty() || paths.count(key)) continue;
@@ -260,6 +270,9 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
     const Firmware& opened = images[key] = open_firmware(path, options, error);
     if (!opened.is_open()) {
       problems.push_back(error);
+    } else if (opened.hal == "sim" && hal_of(of_robot, path) == "dspic") {
+      problems.push_back("robot '" + robot.name + "': hal: got dspic, but " + path +
+                         " was linked with hal_sim, expected an image of `twinpuck build DIR --hal dspic`");
     } else if (opened.program) {
       programs[key].files = opened.program->files;
     } else if (of_robot.way == "register" && opened.chip) {
@@ -314,6 +327,7 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
     }
     press_keys(*mind, robot.keys);
     twin->minds_.push_back(mind.get());
+    twin->hals_.push_back(firmware[i].empty() ? "" : images[firmware[i]].hal);
     twin->image_paths_.push_back(firmware[i].empty() ? "" : paths[firmware[i]]);
     twin->programs_.push_back(firmware[i].empty() ? Program{} : programs[firmware[i]]);
     minds.push_back(std::move(mind));
@@ -344,6 +358,7 @@ std::string Twin::flash(const std::vector<int>& robots, const std::string& path)
       return where + "got a program with another clock in its configuration words; restart the run";
     minds_[r]->flash(make_runner);
     image_paths_[r] = path;
+    hals_[r] = program.hal;
     launches_[r] = program.program;
     programs_[r] = {path, "", 0};
     simulation_->note_intervention(r);

@@ -60,9 +60,9 @@ struct Options {
   std::function<void()> no_room;
 };
 
-/// Which HAL controllers are linked with that are built with these options: sim or dspic; empty: code for the
-/// PC.
-std::string hal_of(const Options& options);
+/// Which HAL a controller is linked with that is built with these options: sim or dspic; empty: it becomes
+/// code for the PC. `path`: its folder; a program of the PC is one unless the options say otherwise.
+std::string hal_of(const Options& options, const std::string& path);
 
 /// The folder of a controller of the project: firmware/NAME, else firmware/lab/NAME (a solution of the lab,
 /// also called "lab/NAME"). Empty when there is none.
@@ -117,6 +117,8 @@ class Twin {
   const std::string& image_path(int robot) const { return image_paths_[static_cast<std::size_t>(robot)]; }
   /// What that was made of; no path for a robot without firmware.
   const Program& program(int robot) const { return programs_[static_cast<std::size_t>(robot)]; }
+  /// Which HAL its image of the chip was linked with: sim, dspic, or own: elsewhere. Empty: no such image.
+  const std::string& hal(int robot) const { return hals_[static_cast<std::size_t>(robot)]; }
   /// How a robot's program of the PC is started, by whoever gives programs their turns (programs/team); null:
   /// it runs something else.
   const programs::Launch* launch(int robot) const { return launches_[static_cast<std::size_t>(robot)].get(); }
@@ -149,6 +151,7 @@ class Twin {
   void add_media();
   std::unique_ptr<sim::Simulation> simulation_;  // owns the minds
   std::vector<host::FirmwareMind*> minds_;
+  std::vector<std::string> hals_;
   std::vector<std::string> image_paths_;
   std::vector<Program> programs_;
   std::vector<std::shared_ptr<const programs::Launch>> launches_;

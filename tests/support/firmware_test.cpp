@@ -123,8 +123,10 @@ FirmwareTest::FirmwareTest() {
   world.part_kinds = board::part_kinds();
   world.title = "test";
   world.proximity.noise_scale = 0;
-  // the same tests in another way: TWINPUCK_WAY=register or chip
+  // the same tests in another way: TWINPUCK_WAY=native, register or chip, or with a HAL: TWINPUCK_HAL=sim or
+  // dspic
   if (const char* way = std::getenv("TWINPUCK_WAY")) options.way = way;
+  if (const char* hal = std::getenv("TWINPUCK_HAL")) options.hal = hal;
 }
 FirmwareTest::~FirmwareTest() = default;
 
