@@ -231,7 +231,7 @@ class Watch final : public chip::StepWatch {
  public:
   explicit Watch(chip::ChipRunner& runner) : runner_(runner), scenes_(std::size(kScenes) + 1) {
     const auto& file = runner.file();
-    for (const auto& row : api::kHostFunctionRows)
+    for (const auto& row : api::kHostFunctions)
       if (const auto found = file.functions.find(row.name); found != file.functions.end())
         functions_.insert(found->second);
     scene_at_ = file.objects.at("scene");

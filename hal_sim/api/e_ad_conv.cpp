@@ -9,8 +9,9 @@ namespace api {
 namespace {
 
 constexpr int kMicroOnly = 1, kGumstixPosition = 10;
-constexpr unsigned kAdpcfg = dspic::sfr("ADPCFG");
-constexpr unsigned kConverterBit = 1u << 11;   // ADC [DS70143 5]
+constexpr unsigned kAdpcfg = dspic::sfr("ADPCFG"), kIpc2 = dspic::sfr("IPC2");
+constexpr unsigned kConverterBit = 1u << 11;  // ADC [DS70143 5]
+constexpr unsigned kConverterPriority = 0x7000, kGumstixPriority = 0x6000;
 constexpr unsigned kDebuggersInputs = 0x0003;  // AN0 and AN1 stay digital but for the turret
 
 }  // namespace
@@ -25,6 +26,7 @@ HostResult HostLibrary::e_init_ad_scan(const Call& call) {
     const bool five_pairs = selector == kGumstixPosition;
     variables_.started(selector);
     cpu.write16(kAdpcfg, five_pairs ? 0 : kDebuggersInputs);
+    if (five_pairs) cpu.write16(kIpc2, (cpu.read16(kIpc2) & ~kConverterPriority) | kGumstixPriority);
     cpu.write16(kIfs0, cpu.read16(kIfs0) & ~kConverterBit);
     cpu.write16(kIec0, cpu.read16(kIec0) | kConverterBit);
     const Cycle on = call.at + (micro_only ? (five_pairs ? c.scan_micro_gumstix : c.scan_micro)

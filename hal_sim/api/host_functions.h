@@ -4,12 +4,11 @@
 #include <cstdint>
 
 #include "dspic30/memory/sfr_table.h"
-#include "hal_sim/api/host_table.h"
+#include "hal_sim/api/host_index.h"
 #include "hal_sim/drivers/agenda_timer.h"
 
 namespace api {
 
-inline constexpr unsigned kCallersRegisters = 0x00FF;  // a function may leave anything in W0 to W7
 inline constexpr unsigned kIec0 = dspic::sfr("IEC0"), kIfs0 = dspic::sfr("IFS0");
 inline constexpr Cycle kReturnCycles = 3;  // RETURN [DS70143 19.1]
 

@@ -32,7 +32,8 @@ inline constexpr unsigned kServedStart = 0x800;  ///< RAM's first address [DS701
 /// The data address of a variable, each at an even one; of Count: where the last one ends.
 inline constexpr unsigned served_address(HostVariable which) {
   unsigned address = kServedStart;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(which); ++i) address += (kHostRegisters[i].bytes + 1) & ~1u;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(which); ++i)
+    address += (kHostRegisters[i].bytes + 1) & ~1u;
   return address;
 }
 

@@ -14,7 +14,7 @@ namespace api {
 namespace {
 
 constexpr int kAgendaHandler = 0, kScanHandler = 1;
-constexpr Cycle kEntryCycles = 4, kRetfieCycles = 3;  // of a real handler, in its share [DS70143 5.4]
+constexpr Cycle kEntryCycles = 4, kRetfieCycles = 3, kCallCycles = 2;  // [DS70143 5.4, 19.1]
 
 drivers::AgendaCosts costs_of(const CallCycles& c) {
   drivers::AgendaCosts costs;
@@ -34,12 +34,9 @@ drivers::AgendaCosts costs_of(const CallCycles& c) {
 
 }  // namespace
 
-const std::array<HostLibrary::Method, kHostFunctions> HostLibrary::kMethods = {
+const std::array<HostLibrary::Method, kHostFunctionCount> HostLibrary::kMethods = {
 #define HOST_FUNCTION(driver, name) &HostLibrary::name,
-#define HOST_REGISTER(driver, name, bytes)
 #include "hal_sim/api/host_table.inc"
-#undef HOST_FUNCTION
-#undef HOST_REGISTER
 };
 
 HostLibrary::HostLibrary(board::Board& board, Served served)
@@ -50,16 +47,23 @@ HostLibrary::HostLibrary(board::Board& board, Served served)
       variables_(drivers_->scan()) {
   drivers_->leave_motors_to_others();
   agendas().set_costs(costs_of(cycles_));
+  begin(0);
+}
+
+/// Nothing is enabled: the program holds both handlers off, until the core says otherwise.
+void HostLibrary::begin(Cycle at) {
   agendas().name_motor(board::Wheel::Left, key_of(HostFunction::run_left_motor));
   agendas().name_motor(board::Wheel::Right, key_of(HostFunction::run_right_motor));
+  agendas().hold(at);
+  scan().hold(at);
+  held_ = 1u << kAgendaHandler | 1u << kScanHandler;
 }
 
 // --- calls -----------------------------------------------------------------------------------------------
 
 HostResult HostLibrary::call(Cpu& cpu, unsigned index, Cycle at, bool again) {
-  if (index >= kHostFunctions) return HostResult::done(0);
+  if (index >= kHostFunctionCount) return {};
   if (watch_ && !again) watch_->called(static_cast<HostFunction>(index));
-  cpu.written |= kCallersRegisters;
   return (this->*kMethods[index])({cpu, index, at, again});
 }
 
@@ -74,14 +78,12 @@ void HostLibrary::effect(const Call& call) {
 }
 
 void HostLibrary::reset(Cycle at) {
-  // the board tells the drivers of it, who forget their names
-  agendas().name_motor(board::Wheel::Left, key_of(HostFunction::run_left_motor));
-  agendas().name_motor(board::Wheel::Right, key_of(HostFunction::run_right_motor));
+  // the board has told the drivers of it
   variables_.reset();
   heap_ = {};
   zero_steps_ = {};
-  held_ = 0;
   walk_begins_ = false;
+  begin(at);
   note(~std::uint64_t{0}, at);
 }
 
@@ -137,6 +139,7 @@ HandlerStep HostLibrary::next_in_handler(Cycle at) {
   const bool is_empty = walk_begins_ && agendas().nodes() == 0;
   walk_begins_ = false;
   step.function = address_of(function);
+  if (function) step.cycles += kCallCycles;
   if (!function && !is_empty) step.cycles += cycles_.walk_end;
   if (step.divides_by_zero) step.cycles += cycles_.run_divides;
   note(step.function, at);

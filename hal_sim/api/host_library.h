@@ -17,7 +17,7 @@
 #include "dspic30/core/cpu.h"
 #include "dspic30/core/host_calls.h"
 #include "hal_sim/api/call_cycles.h"
-#include "hal_sim/api/host_table.h"
+#include "hal_sim/api/host_index.h"
 #include "hal_sim/api/node_heap.h"
 #include "hal_sim/api/scan_variables.h"
 #include "hal_sim/drivers/drivers.h"
@@ -84,13 +84,11 @@ class HostLibrary final : public dspic::HostCalls {
   };
   // one function of each name of the table; e_agenda.cpp, e_motors.cpp, e_ad_conv.cpp
 #define HOST_FUNCTION(driver, name) HostResult name(const Call& call);
-#define HOST_REGISTER(driver, name, bytes)
 #include "hal_sim/api/host_table.inc"
-#undef HOST_FUNCTION
-#undef HOST_REGISTER
   using Method = HostResult (HostLibrary::*)(const Call&);
-  static const std::array<Method, kHostFunctions> kMethods;
+  static const std::array<Method, kHostFunctionCount> kMethods;
 
+  void begin(Cycle at);
   void note(std::uint64_t what, Cycle at);
   void effect(const Call& call);
   void changed(const Call& call) const { call.cpu.host_changed(); }

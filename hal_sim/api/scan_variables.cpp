@@ -17,9 +17,9 @@ std::uint16_t word_of(int value) { return static_cast<std::uint16_t>(value); }
 
 ScanVariables::Place ScanVariables::place_of(unsigned address) {
   unsigned start = kServedStart;
-  for (std::size_t i = 0; i < kHostRegisters; ++i) {
-    const unsigned end = start + ((kHostRegisterRows[i].bytes + 1) & ~1u);
-    if (address < end) return {static_cast<HostRegister>(i), (address - start) / 2};
+  for (std::size_t i = 0; i < std::size(kHostRegisters); ++i) {
+    const unsigned end = start + ((kHostRegisters[i].bytes + 1) & ~1u);
+    if (address < end) return {static_cast<HostVariable>(i), (address - start) / 2};
     start = end;
   }
   return {};
@@ -64,13 +64,13 @@ std::int64_t ScanVariables::newest(std::int64_t count, std::int64_t offset, unsi
 ScanVariables::Written* ScanVariables::written_at(Place place) const {
   if (!overlay_) return nullptr;
   switch (place.which) {
-    case HostRegister::e_ambient_ir:
+    case HostVariable::e_ambient_ir:
       return &overlay_->dark[place.index];
-    case HostRegister::e_ambient_and_reflected_ir:
+    case HostVariable::e_ambient_and_reflected_ir:
       return &overlay_->lit[place.index];
-    case HostRegister::e_mic_scan:
+    case HostVariable::e_mic_scan:
       return &overlay_->mic[place.index];
-    case HostRegister::e_acc_scan:
+    case HostVariable::e_acc_scan:
       return &overlay_->acc[place.index];
     default:
       return nullptr;
@@ -79,11 +79,11 @@ ScanVariables::Written* ScanVariables::written_at(Place place) const {
 
 std::int64_t ScanVariables::number_of(Place place, Cycle at) const {
   switch (place.which) {
-    case HostRegister::e_ambient_ir:
+    case HostVariable::e_ambient_ir:
       return scan_.dark_number(static_cast<int>(place.index), at);
-    case HostRegister::e_ambient_and_reflected_ir:
+    case HostVariable::e_ambient_and_reflected_ir:
       return scan_.lit_number(static_cast<int>(place.index), at);
-    case HostRegister::e_mic_scan:
+    case HostVariable::e_mic_scan:
       return newest(filed(at), mic_offset_, place.index % drivers::kMicSamples, drivers::kMicSamples);
     default:
       // sample n of the accelerometer lies at n + 1
@@ -99,11 +99,11 @@ std::uint16_t ScanVariables::sample(Place place, Cycle at, bool keep) const {
     return written->value;
   const int index = static_cast<int>(place.index);
   switch (place.which) {
-    case HostRegister::e_ambient_ir:
+    case HostVariable::e_ambient_ir:
       return word_of(keep ? scan_.dark(index, at) : scan_.peek_dark(index, at));
-    case HostRegister::e_ambient_and_reflected_ir:
+    case HostVariable::e_ambient_and_reflected_ir:
       return word_of(keep ? scan_.lit(index, at) : scan_.peek_lit(index, at));
-    case HostRegister::e_mic_scan: {
+    case HostVariable::e_mic_scan: {
       const std::int64_t number = number_of(place, at);
       return number < 0 ? std::uint16_t{0} : word_of(scan_.mic_sample(index / drivers::kMicSamples, number));
     }
@@ -126,20 +126,20 @@ std::uint16_t ScanVariables::value(unsigned address, Cycle at, bool keep) const 
     return static_cast<std::uint16_t>(((count + offset) % ring + ring) % ring);
   };
   switch (place.which) {
-    case HostRegister::e_last_mic_scan_id:
+    case HostVariable::e_last_mic_scan_id:
       return ring_index(filed(at), mic_offset_, drivers::kMicSamples);
-    case HostRegister::e_last_acc_scan_id:
+    case HostVariable::e_last_acc_scan_id:
       return ring_index(scan_.acc_samples(at), acc_offset_, drivers::kAccSamples);
-    case HostRegister::selector:
+    case HostVariable::selector:
       return selector_;
-    case HostRegister::tickAdcIsr:
+    case HostVariable::tickAdcIsr:
       return ticks_.at(scan_.interrupts(at - kCountCycles), kMostTicks);
-    case HostRegister::updateAccI2CCounter:
+    case HostVariable::updateAccI2CCounter:
       return static_cast<std::uint16_t>(acc_refresh_.at(scan_.interrupts(at - kCountCycles), kMostRefresh) |
                                         beside_refresh_ << 8);
-    case HostRegister::hal_starts:
+    case HostVariable::hal_starts:
       return starts_;
-    case HostRegister::Count:
+    case HostVariable::Count:
       return 0;
     default:
       return sample(place, at, keep);
@@ -156,7 +156,7 @@ void ScanVariables::write(unsigned address, std::uint16_t value, std::uint16_t l
   value = static_cast<std::uint16_t>((old & ~lanes) | (value & lanes));
   const std::int64_t interrupts = scan_.interrupts(at - kCountCycles);
   // a ring that goes on elsewhere keeps what it holds
-  const auto move_ring = [&](HostRegister ring, int words) {
+  const auto move_ring = [&](HostVariable ring, int words) {
     const unsigned start = served_address(ring);
     for (int i = 0; i < words; ++i) {
       const unsigned one = start + 2 * static_cast<unsigned>(i);
@@ -164,36 +164,36 @@ void ScanVariables::write(unsigned address, std::uint16_t value, std::uint16_t l
     }
   };
   switch (place.which) {
-    case HostRegister::e_last_mic_scan_id:
+    case HostVariable::e_last_mic_scan_id:
       if (value == old) return;
-      if (scan_.starts() > 0) move_ring(HostRegister::e_mic_scan, kMicWords);
+      if (scan_.starts() > 0) move_ring(HostVariable::e_mic_scan, kMicWords);
       mic_offset_ = value % drivers::kMicSamples - filed(at);
       if (overlay_)
         for (Written& w : overlay_->mic)
           if (w.number != kNobody) w.number = filed(at) - 1;
       return;
-    case HostRegister::e_last_acc_scan_id:
+    case HostVariable::e_last_acc_scan_id:
       if (value == old) return;
-      if (scan_.starts() > 0) move_ring(HostRegister::e_acc_scan, kAccWords);
+      if (scan_.starts() > 0) move_ring(HostVariable::e_acc_scan, kAccWords);
       acc_offset_ = value % drivers::kAccSamples - scan_.acc_samples(at);
       if (overlay_)
         for (Written& w : overlay_->acc)
           if (w.number != kNobody) w.number = scan_.acc_samples(at) - 1;
       return;
-    case HostRegister::selector:
+    case HostVariable::selector:
       selector_ = value;
       return;
-    case HostRegister::tickAdcIsr:
+    case HostVariable::tickAdcIsr:
       ticks_ = {value, interrupts};
       return;
-    case HostRegister::updateAccI2CCounter:
+    case HostVariable::updateAccI2CCounter:
       beside_refresh_ = static_cast<std::uint8_t>(value >> 8);
       if (lanes & 0xFF) acc_refresh_ = {static_cast<std::uint16_t>(value & 0xFF), interrupts};
       return;
-    case HostRegister::hal_starts:
+    case HostVariable::hal_starts:
       starts_ = value;
       return;
-    case HostRegister::Count:
+    case HostVariable::Count:
       return;
     default:
       break;
@@ -213,18 +213,18 @@ Cycle ScanVariables::horizon(unsigned address, Cycle at) {
     return when >= board::kNever ? board::kNever : when + delay;
   };
   switch (place.which) {
-    case HostRegister::e_last_mic_scan_id:
+    case HostVariable::e_last_mic_scan_id:
       return after(filed(at) + 1, kMicFileCycles);
-    case HostRegister::tickAdcIsr:
-    case HostRegister::updateAccI2CCounter:
+    case HostVariable::tickAdcIsr:
+    case HostVariable::updateAccI2CCounter:
       return after(scan_.interrupts(at - kCountCycles) + 1, kCountCycles);
-    case HostRegister::e_mic_scan:
+    case HostVariable::e_mic_scan:
       return after(number_of(place, at) + drivers::kMicSamples + 1, kMicFileCycles);
-    case HostRegister::e_last_acc_scan_id:
-    case HostRegister::e_acc_scan:
+    case HostVariable::e_last_acc_scan_id:
+    case HostVariable::e_acc_scan:
       return scan_.acc_until(at);
-    case HostRegister::e_ambient_ir:
-    case HostRegister::e_ambient_and_reflected_ir:
+    case HostVariable::e_ambient_ir:
+    case HostVariable::e_ambient_and_reflected_ir:
       return scan_.horizon(static_cast<int>(place.index), at);
     default:
       return board::kNever;

@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "hal_sim/api/call_cycles.h"
-#include "hal_sim/api/host_table.h"
+#include "hal_sim/api/host_index.h"
 #include "hal_sim/drivers/adc_scan.h"
 
 namespace api {
@@ -32,7 +32,7 @@ class ScanVariables {
 
  private:
   struct Place {
-    HostRegister which = HostRegister::Count;
+    HostVariable which = HostVariable::Count;
     unsigned index = 0;  // word
   };
   static Place place_of(unsigned address);
