@@ -47,7 +47,8 @@ struct Options {
   std::string host_library;      ///< of `libraries` the archive with the drivers below
   std::vector<HostDriver> host;  ///< their variables come first in RAM, whether the host fills them or not
   bool is_filled_by_host = false;
-  std::uint32_t host_table = 0;  ///< value of kHostTableSymbol
+  std::uint32_t host_table = 0;     ///< value of kHostTableSymbol
+  std::uint32_t library_level = 1;  ///< of kLibraryLevelSymbol
 };
 
 /// What memory a section goes to.

@@ -208,6 +208,7 @@ void fill_by_host(Program& program, const Options& options) {
   put_vectors(program);
   program.define(kServedEndSymbol, program.served_end);
   program.define(kHostTableSymbol, options.host_table);
+  program.define(kLibraryLevelSymbol, options.library_level);
   refill_debug(program);
 }
 

@@ -22,5 +22,7 @@ inline constexpr const char* kServedEndSymbol = "_tp_served_end";
 inline constexpr const char* kHalSymbol = "_tp_hal";
 /// Another one: a sum over the table of the host's functions that the image was linked for.
 inline constexpr const char* kHostTableSymbol = "_tp_host_table";
+/// Another one: the level that the library was compiled at: 0 to 2 of -O0 to -O2, 3 of -Os.
+inline constexpr const char* kLibraryLevelSymbol = "_tp_library_level";
 
 }  // namespace dspic

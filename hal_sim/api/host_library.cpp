@@ -126,6 +126,7 @@ void HostLibrary::hold_handler(int handler, bool held, Cycle at) {
 }
 
 void HostLibrary::begin_handler(Cycle at) {
+  handler_since_ = agendas().next_interrupt();
   agendas().begin(at);
   walk_begins_ = true;
 }

@@ -66,6 +66,8 @@ class HostLibrary final : public dspic::HostCalls {
   int saved_words() const override { return static_cast<int>(cycles_.walk_saved_words); }
   void reset(Cycle at) override;
 
+  /// When the tick came whose handler began last.
+  Cycle handler_since() const { return handler_since_; }
   /// What it did so far, each at its cycle, whatever the order of looks at it.
   std::uint64_t digest() const { return digest_; }
   const drivers::Drivers& drivers() const { return *drivers_; }
@@ -127,6 +129,7 @@ class HostLibrary final : public dspic::HostCalls {
   std::uint64_t digest_ = 0;
   std::uint8_t held_ = 0;  // handlers, a bit each
   bool walk_begins_ = false;
+  Cycle handler_since_ = 0;
 };
 
 }  // namespace api

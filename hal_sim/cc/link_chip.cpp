@@ -37,7 +37,8 @@ void take_sizes(const std::string& report, const fs::path& folder, BuildResult& 
 }
 
 /// For the chip's linker: the library, and what of it the host can fill, or does.
-void add_host_table(std::vector<std::string>& argv, const fs::path& library, bool fills) {
+void add_host_table(std::vector<std::string>& argv, const fs::path& library, bool fills,
+                    const std::string& level) {
   argv.insert(argv.end(), {"--host-library", library.string()});
   const auto of = [](const auto& row) { return std::string(row.driver) + ":" + row.name; };
   int place = 0;
@@ -46,7 +47,9 @@ void add_host_table(std::vector<std::string>& argv, const fs::path& library, boo
   for (const auto& row : api::kHostRegisters)
     argv.insert(argv.end(), {"--register", of(row) + "=" + std::to_string(row.bytes)});
   for (const auto& row : api::kHostOwned) argv.insert(argv.end(), {"--owned", of(row)});
-  if (fills) argv.insert(argv.end(), {"--fill", std::to_string(api::host_table_sum())});
+  if (!fills) return;
+  const char* number = level == "-O0" ? "0" : level == "-O2" ? "2" : level == "-Os" ? "3" : "1";
+  argv.insert(argv.end(), {"--fill", std::to_string(api::host_table_sum()), "--library-level", number});
 }
 
 /// The linker's lines of drivers, which end its report: "host  agenda chip: main.c:12 uses T2CON".
@@ -90,7 +93,7 @@ void link_chip(const std::vector<CompileOutcome>& user, const std::vector<Compil
   }
   for (const auto& d : drivers) argv.insert(argv.end(), {"--driver", d.object.string()});
   for (const auto& m : members) argv.insert(argv.end(), {"--library", m.object.string()});
-  add_host_table(argv, library.archive, o.hal == "sim");
+  add_host_table(argv, library.archive, o.hal == "sim", o.optimisation);
   if (o.hal == "sim" && !o.with_texts) argv.push_back("--no-texts");
   const auto run = run_process(argv);
   sort_messages(with_hints(run.output), result, run.status != 0);

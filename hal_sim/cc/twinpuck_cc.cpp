@@ -199,6 +199,8 @@ int link(int argc, char** argv) {
     } else if (a == "--fill") {
       o.is_filled_by_host = true;
       o.host_table = std::uint32_t(std::strtoul(value().c_str(), nullptr, 0));
+    } else if (a == "--library-level") {
+      o.library_level = unsigned(std::strtoul(value().c_str(), nullptr, 0));
     } else if (a == "--heap")
       o.heap_bytes = unsigned(std::strtoul(value().c_str(), nullptr, 0));
     else

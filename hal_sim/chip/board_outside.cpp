@@ -79,15 +79,26 @@ void BoardOutside::pins_driven(Port port, std::uint16_t levels, std::uint16_t dr
   const auto tris = static_cast<std::uint16_t>(~(driven & ~serial));
   const auto lat = static_cast<std::uint16_t>(levels & ~serial);
   const auto lit_before = static_cast<std::uint16_t>(levels_[p] & ~tris_[p]);
+  if (tris != tris_[p] || lat != levels_[p])
+    digest_.note(EventDigest::Kind::Pins,
+                 static_cast<std::uint64_t>(p) << 32 | static_cast<std::uint64_t>(tris) << 16 | lat, at);
   // directions first: coils that are switched on together with their pins pull the rotor
   if (tris != tris_[p]) board_.port_write(letter, Board::Register::Tris, tris, at);
-  if (lat != levels_[p]) board_.port_write(letter, Board::Register::Lat, lat, at);
+  if (lat != levels_[p]) board_.port_write(letter, Board::Register::Lat, on_board(port, lat, at), at);
   tris_[p] = tris;
   levels_[p] = lat;
   if ((lit_before ^ (lat & ~tris)) & board::kEmitterMask[p]) follow_emitters(port, at);
   if (port != Port::F) return;
   const auto low = static_cast<std::uint16_t>(driven & ~by_peripheral & ~levels & kSerialOut);
   if (low != low_lines_) follow_breaks(low, at);
+}
+
+/// What a latch does to the board.
+std::uint16_t BoardOutside::on_board(Port port, std::uint16_t lat, Cycle at) {
+  if (port != Port::D || !shares_coils_) return lat;
+  constexpr std::uint16_t kCoils = 0x00FF;  // board/wiring.h
+  const auto kept = static_cast<std::uint16_t>(kCoils & ~(lat ^ levels_[static_cast<std::size_t>(port)]));
+  return static_cast<std::uint16_t>((lat & ~kept) | (board_.port_read('D', Board::Register::Lat, at) & kept));
 }
 
 // a port that holds the line low where its module has let go: whoever listens takes more than a word for a
@@ -196,21 +207,35 @@ int BoardOutside::beside_microphones(int channel, Cycle at) {
 }
 
 void BoardOutside::uart_sent(int uart, const dspic::UartFrame& frame) {
+  digest_.note(EventDigest::Kind::UartFrame,
+               static_cast<std::uint64_t>(uart) << 32 | (frame.broken ? 1u << 16 : 0u) | frame.word,
+               frame.end());
   if (frame.broken)
     board_.uart(uart).break_on_wire(frame.end());
   else
     board_.uart(uart).put_on_wire(static_cast<std::uint8_t>(frame.word), frame.end());
 }
 
-void BoardOutside::i2c_start(bool repeated, Cycle at) { board_.i2c().start(at, repeated); }
+void BoardOutside::i2c_start(bool repeated, Cycle at) {
+  digest_.note(EventDigest::Kind::I2c, repeated ? 0x101 : 0x100, at);
+  board_.i2c().start(at, repeated);
+}
 
 dspic::I2cReply BoardOutside::i2c_write(std::uint8_t byte, Cycle at) {
+  digest_.note(EventDigest::Kind::I2c, byte, at);
   return {board_.i2c().write(byte, at), 0xFF, 0};
 }
 
-dspic::I2cReply BoardOutside::i2c_read(Cycle at) { return {true, board_.i2c().read(at), 0}; }
+dspic::I2cReply BoardOutside::i2c_read(Cycle at) {
+  const std::uint8_t byte = board_.i2c().read(at);
+  digest_.note(EventDigest::Kind::I2c, 0x200u | byte, at);
+  return {true, byte, 0};
+}
 
-void BoardOutside::i2c_stop(Cycle at) { board_.i2c().stop(at); }
+void BoardOutside::i2c_stop(Cycle at) {
+  digest_.note(EventDigest::Kind::I2c, 0x102, at);
+  board_.i2c().stop(at);
+}
 
 // --- codec -----------------------------------------------------------------------------------------------
 
@@ -218,6 +243,7 @@ void BoardOutside::i2c_stop(Cycle at) { board_.i2c().stop(at); }
 std::uint16_t BoardOutside::dci_word(int slot, std::uint16_t transmitted, int bits, Cycle end) {
   if (slot != 0) return 0;
   const auto word = static_cast<std::uint16_t>(transmitted << (16 - bits));
+  if (word != 0) digest_.note(EventDigest::Kind::CodecWord, word, end);
   return static_cast<std::uint16_t>(board_.codec().line().word(word, end) >> (16 - bits));
 }
 

@@ -17,6 +17,7 @@
 #include "dspic30/periph/outside.h"
 #include "hal_sim/board/board.h"
 #include "hal_sim/chip/camera_pins.h"
+#include "hal_sim/chip/event_digest.h"
 
 namespace chip {
 
@@ -33,6 +34,13 @@ class BoardOutside final : public dspic::Outside {
   bool begin_window(dspic::Dspic30f6014a& chip, Cycle now);
   /// The board's UARTs learn rate and switch of the chip's.
   void end_window(dspic::Dspic30f6014a& chip, Cycle now);
+
+  /// What the chip did to the board; others may add what they know of.
+  EventDigest& digest() { return digest_; }
+  const EventDigest& digest() const { return digest_; }
+  /// The coils of the motors are somebody else's too: a latch that is written leaves those of its bits alone
+  /// that do not change.
+  void share_coils() { shares_coils_ = true; }
 
   void pins_driven(dspic::Port port, std::uint16_t levels, std::uint16_t driven, std::uint16_t by_peripheral,
                    Cycle at) override;
@@ -70,10 +78,13 @@ class BoardOutside final : public dspic::Outside {
   __attribute__((noinline)) int beside_microphones(int channel, Cycle at);
   /// Cycles for which the emitter beside a sensor has been on at `at`; -1: it was off.
   Cycle lit_for(int sensor, Cycle at) const;
+  std::uint16_t on_board(dspic::Port port, std::uint16_t lat, Cycle at);
   void follow_emitters(dspic::Port port, Cycle at);
   void follow_breaks(std::uint16_t low, Cycle at);
 
   board::Board& board_;
+  EventDigest digest_;
+  bool shares_coils_ = false;
   CameraPins camera_;
   std::array<Emitter, 4> emitters_;
   std::array<std::uint16_t, dspic::kPorts> levels_{};

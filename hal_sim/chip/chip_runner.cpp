@@ -15,6 +15,22 @@ namespace {
 constexpr unsigned kIfs0 = dspic::sfr("IFS0"), kRamStart = dspic::Processor::kRamStart,
                    kRamEnd = dspic::Processor::kRamEnd, kPsvStart = 0x8000, kPsvpag = dspic::sfr("PSVPAG");
 constexpr std::size_t kMostReports = 64;
+/// Which drivers are the host's: those whose functions lead there.
+api::HostLibrary::Served served_by(const dspic::FirmwareFile& file) {
+  const auto is_filled = [&](const char* driver) {
+    for (const api::HostName& f : api::kHostFunctions) {
+      const auto found = file.functions.find(f.name);
+      if (std::string(driver) != f.driver || found == file.functions.end()) continue;
+      if (dspic::is_host_place(goto_target(file, found->second))) return true;
+    }
+    return false;
+  };
+  api::HostLibrary::Served served{is_filled("agenda"), is_filled("scan"), api::Level::O1};
+  if (const auto level = file.marks.find(dspic::kLibraryLevelSymbol); level != file.marks.end())
+    served.level = static_cast<api::Level>(std::min<std::uint32_t>(level->second, 3));
+  return served;
+}
+
 constexpr Cycle kLeastWait = board::kFcyHz / 100;  // a wait is called endless from then on
 
 }  // namespace
@@ -35,7 +51,15 @@ ChipRunner::ChipRunner(std::string name, std::shared_ptr<const ChipImage> image,
   configuration.synchronised_ports = true;
   configuration.program = &program_;
   chip_.power_up(configuration);
-  processor_ = std::make_unique<dspic::Processor>(device(), program_, image_->code());
+  unsigned plain_from = kRamStart;
+  if (const auto end = file_.marks.find(dspic::kServedEndSymbol); end != file_.marks.end()) {
+    plain_from = end->second;
+    library_ = std::make_unique<api::HostLibrary>(board, served_by(file_));
+    library_->tell_calls(this);
+    chip_.share_coils();
+  }
+  processor_ =
+      std::make_unique<dspic::Processor>(device(), program_, image_->code(), library_.get(), plain_from);
   processor_->set_translator(translation());
   processor_->know(image_->known(program_));
   places_ = std::make_unique<ProgramPlaces>(file_, program_, *processor_, chip_);
@@ -47,6 +71,7 @@ ChipRunner::ChipRunner(std::string name, std::shared_ptr<const ChipImage> image,
   end_ = start;
   processor_->wait_until(start);
   chip_.reset(start);
+  if (library_) library_->reset(start);
   processor_->restart();
 }
 
@@ -61,9 +86,15 @@ void ChipRunner::program_eeprom() {
 
 // --- time -------------------------------------------------------------------------------------------------
 
+/// Behind windows that it was idle for: there is nothing in them but time.
+void ChipRunner::catch_up(Cycle now) {
+  while (processor_->now() < now)
+    if (const auto kind = processor_->run(now)) reset(*kind);
+}
+
 // what came from outside finds the program where it is by now; who looks on sees it sleep up to then
 void ChipRunner::begin_window(Cycle now) {
-  if (!is_watched()) pass_to(now);
+  if (!is_watched()) catch_up(now);
   end_ = std::max(end_, now);
   if (chip_.begin_window(now)) processor_->stir();
 }
@@ -91,7 +122,7 @@ Cycle ChipRunner::find_idle_until() {
 void ChipRunner::pass_to(Cycle end) {
   if (end <= end_) return;
   end_ = end;
-  while (const auto kind = processor_->run(end)) reset(*kind);  // it is idle: nothing but its clock goes on
+  catch_up(end);
   chip_.end_window(end);
 }
 
@@ -102,8 +133,11 @@ void ChipRunner::remote_changed() {
 
 void ChipRunner::restart() {
   chip_.note_reset(dspic::ResetKind::Pin);
+  catch_up(end_);
   processor_->wait_until(end_);
+  chip_.digest().note(EventDigest::Kind::Reset, static_cast<std::uint64_t>(dspic::ResetKind::Pin), end_);
   chip_.reset(processor_->now());
+  if (library_) library_->reset(processor_->now());
   processor_->restart();
   tell_reset(processor_->now());
   wake();
@@ -113,6 +147,7 @@ void ChipRunner::begin_again() {
   program_eeprom();
   // an instruction that was under way reached beyond the window's end; the first run began at one
   chip_.begin_again(end_);
+  if (library_) library_->reset(end_);
   processor_->power_up(end_);
   wake();
 }
@@ -171,7 +206,9 @@ void ChipRunner::reset(dspic::ResetKind kind) {
   if (const auto ending = endings_->of_reset(kind)) report(*ending);
   chip_.note_reset(kind);
   tell_reset(at);
+  chip_.digest().note(EventDigest::Kind::Reset, static_cast<std::uint64_t>(kind), at);
   chip_.reset(at);
+  if (library_) library_->reset(at);
   processor_->restart();
 }
 
@@ -210,9 +247,7 @@ void ChipRunner::add_endless_wait(std::vector<board::Diagnosis>& all) const {
   if (wait_) all.push_back(*wait_);
 }
 
-std::uint64_t ChipRunner::hash() const {
-  return device().state_hash(chip_.at(end_), false) ^ processor_->state_hash() * 0x9E3779B97F4A7C15u;
-}
+std::uint64_t ChipRunner::hash() const { return chip_.digest().sum() + (library_ ? library_->digest() : 0); }
 
 // --- watched: instruction by instruction, and what it told in between
 
@@ -243,7 +278,11 @@ void ChipRunner::tell_observer(const Step& step, int nesting) {
   if (step.slept) observer_->waited(step.begin, step.end, nesting);
   if (step.entered != dspic::kNoVector) {
     const int irq = step.entered - dspic::kFirstIrqVector;
-    observer_->handler_begins(irq, irq >= 0 ? device().flag_since(step.entered) : -1, step.begin, step.end);
+    const bool by_heart = library_ && step.entered == library_->vector(0);
+    const Cycle since = by_heart   ? library_->handler_since()
+                        : irq >= 0 ? device().flag_since(step.entered)
+                                   : -1;
+    observer_->handler_begins(irq, since, step.begin, step.end);
   } else if (step.left) {
     observer_->handler_ends(step.end);
   }

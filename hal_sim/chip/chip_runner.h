@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The chip way: a robot's own binary on the model of its chip, soldered to the board.
+// A robot's own binary on the model of its chip, soldered to the board.
 //
 //   .hex or .elf --FirmwareFile--> flash --> dspic::Processor <--> SolderedChip <--> Board
+//                                                  |                                   |
+//                                     api::HostLibrary, when it is linked with hal_sim: drivers known by
+//                                     heart
 //
 // Time is the chip's, exact to the cycle as far as docs/chip-core.md says. Traps and resets are the chip's
 // own: the program goes on at their vectors; a beginning that the program did not ask for is reported
@@ -17,6 +20,7 @@
 
 #include "dspic30/core/processor.h"
 #include "dspic30/core/program_watch.h"
+#include "hal_sim/api/host_library.h"
 #include "hal_sim/chip/chip_image.h"
 #include "hal_sim/chip/endings.h"
 #include "hal_sim/chip/library_calls.h"
@@ -29,14 +33,18 @@ namespace chip {
 
 using dspic::Cycle;
 
-class ChipRunner final : public host::Runner, private dspic::EventWatch, private dspic::ProgramWatch {
+class ChipRunner final : public host::Runner,
+                         private dspic::EventWatch,
+                         private dspic::ProgramWatch,
+                         private api::CallWatch {
  public:
   /// `board` outlives the runner. `clock_factor`: the program's instruction rate over the usual one.
   /// `start`: when it is powered up.
   ChipRunner(std::string name, std::shared_ptr<const ChipImage> image, double clock_factor,
              board::Board& board, Cycle start = 0);
 
-  const char* way() const override { return "chip"; }
+  /// By the HAL that the image is linked with.
+  const char* way() const override { return library_ ? "sim" : "dspic"; }
 
   void begin_window(Cycle now) override;
   void run_until(Cycle end) override;
@@ -59,6 +67,7 @@ class ChipRunner final : public host::Runner, private dspic::EventWatch, private
   const std::vector<host::TrapReport>& traps() const override { return traps_; }
   std::vector<board::Diagnosis> diagnoses() const override;
   std::uint64_t hash() const override;
+  bool hashes_events() const override { return true; }
 
   const host::Variable* find_variable(const std::string& expression, std::string& error) const override;
   std::vector<char> read_variable(const std::string& name, std::size_t bytes) const override;
@@ -87,6 +96,9 @@ class ChipRunner final : public host::Runner, private dspic::EventWatch, private
   const dspic::ProgramMemory& program() const { return program_; }
   dspic::Dspic30f6014a& device() const { return chip_.device(); }
   const dspic::FirmwareFile& file() const { return file_; }
+  const drivers::Drivers* closed_drivers() const override {
+    return library_ ? &library_->drivers() : nullptr;
+  }
   /// `watch` sees every step from now on, or no longer. It outlives the runner or is taken away.
   void watch_steps(StepWatch* watch, bool on);
 
@@ -99,9 +111,15 @@ class ChipRunner final : public host::Runner, private dspic::EventWatch, private
   void add_endless_wait(std::vector<board::Diagnosis>& all) const;
   void tell_observer(const Step& step, int nesting);
   void tell_reset(Cycle at);
-  void trapped(dspic::Trap trap, unsigned from) override { endings_->note_trap(trap, from); }
+  void trapped(dspic::Trap trap, unsigned from) override {
+    chip_.digest().note(EventDigest::Kind::Trap, static_cast<std::uint64_t>(trap) << 32 | from,
+                        processor_->now());
+    endings_->note_trap(trap, from);
+  }
   void went_to_reset_vector(unsigned from) override;
   void entered(unsigned address) override { calls_->entered(address); }
+  void called(api::HostFunction function) override { calls_->called(function); }
+  void catch_up(Cycle now);
   void report(const Ending& ending);
   bool is_ending(const board::Diagnosis& diagnosis) const;
   std::string comment(const dspic::Diagnosis& diagnosis) const;
@@ -112,6 +130,7 @@ class ChipRunner final : public host::Runner, private dspic::EventWatch, private
   board::Board& board_;
   mutable SolderedChip chip_;  // looking advances closed forms
   dspic::ProgramMemory program_;
+  std::unique_ptr<api::HostLibrary> library_;  // null: all drivers are the image's own
   std::unique_ptr<dspic::Processor> processor_;
   std::unique_ptr<ProgramPlaces> places_;
   std::unique_ptr<Endings> endings_;

@@ -70,7 +70,8 @@ LibraryCalls::LibraryCalls(const dspic::FirmwareFile& file, const dspic::Process
       const auto found = file.functions.find(std::string(form) + known.name);
       if (found == file.functions.end()) continue;
       if (!starts(known.function) && !file.code.lines.empty() && places_.is_own(found->second)) continue;
-      sites_[found->second] = {&known, form};
+      const unsigned to = goto_target(file, found->second);
+      sites_[dspic::is_host_place(to) ? to : found->second] = {&known, form};
     }
   for (const char* name : {"run_left_motor", "run_right_motor"})
     if (const auto found = file.functions.find(name); found != file.functions.end())
@@ -79,7 +80,8 @@ LibraryCalls::LibraryCalls(const dspic::FirmwareFile& file, const dspic::Process
 
 std::vector<std::uint32_t> LibraryCalls::addresses() const {
   std::vector<std::uint32_t> all;
-  for (const auto& [address, site] : sites_) all.push_back(address);
+  for (const auto& [address, site] : sites_)
+    if (!dspic::is_host_place(address)) all.push_back(address);
   return all;
 }
 
@@ -92,6 +94,8 @@ void LibraryCalls::forget_starts() {
 }
 
 // --- what a call says ------------------------------------------------------------------------------------
+
+void LibraryCalls::called(api::HostFunction function) { entered(api::host_place(function)); }
 
 void LibraryCalls::entered(unsigned address) {
   const auto found = sites_.find(address);
@@ -167,7 +171,7 @@ void LibraryCalls::set_speed(const Site& site, int wheel, int speed) {
   if (speed != 0 && w.speed == 0) {
     w.since = now;
     w.steps = steps_of(wheel, now);
-    w.place = places_.own(places_.caller());
+    w.place = places_.own(caller());
     if (is_of_agendas(site) && first_speed_ < 0) {
       first_speed_ = now;
       first_speed_at_ = w.place;
@@ -248,9 +252,15 @@ std::vector<board::Diagnosis> LibraryCalls::diagnoses(Cycle now) const {
 
 // --- telling ---------------------------------------------------------------------------------------------
 
-std::string LibraryCalls::where() const {
-  return "; called at " + places_.text_of(places_.own(places_.caller()));
+/// The call that led here; one of the host's functions need not have left a return address.
+unsigned LibraryCalls::caller() const {
+  const unsigned at = processor_.pc_of_access();
+  for (const unsigned behind : {at + 2, at + 4})
+    if (places_.call_before(behind) == at) return at;
+  return places_.caller();
 }
+
+std::string LibraryCalls::where() const { return "; called at " + places_.text_of(places_.own(caller())); }
 
 void LibraryCalls::note_range(const Site& site, const std::string& what, int got, int least, int most,
                               const std::string& then) {

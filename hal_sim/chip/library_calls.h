@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "dspic30/load/firmware_file.h"
+#include "hal_sim/api/host_index.h"
 #include "hal_sim/board/board.h"
 #include "hal_sim/chip/program_places.h"
 
@@ -24,10 +25,12 @@ class LibraryCalls final {
   LibraryCalls(const dspic::FirmwareFile& file, const dspic::Processor& processor,
                const ProgramPlaces& places, SolderedChip& chip, const board::Board& board);
 
-  /// Functions that this wants to hear of.
+  /// Functions that this wants to hear of, of those that the image has.
   std::vector<std::uint32_t> addresses() const;
   /// The function at `address` begins.
   void entered(unsigned address);
+  /// A function of the host is called.
+  void called(api::HostFunction function);
   /// A reset, or a jump to address 0: everything is to be started again.
   void forget_starts();
   /// To be called from time to time, at least each second: does the robot stand?
@@ -61,13 +64,14 @@ class LibraryCalls final {
   bool is_of_agendas(const Site& site) const { return site.prefix.empty(); }
   std::int64_t steps_of(int wheel, Cycle now) const;
   std::string where() const;
+  unsigned caller() const;
 
   const dspic::Processor& processor_;
   const ProgramPlaces& places_;
   SolderedChip& chip_;
   const board::Board& board_;
-  std::map<unsigned, Site> sites_;
-  std::set<unsigned> motors_;  // the library's own agendas
+  std::map<unsigned, Site> sites_;  // by address; of the host's functions the place beyond the flash
+  std::set<unsigned> motors_;       // the library's own agendas
   std::set<Function> started_;
   std::array<Wheel, 2> wheels_;
   Cycle first_speed_ = -1;  // of one that agendas shall turn into steps

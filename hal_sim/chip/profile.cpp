@@ -12,8 +12,8 @@ namespace chip {
 namespace {
 
 constexpr int kLongestRound = 4096;  // instructions
-constexpr int kTrustedRounds = 15;  // after one whose RAM was compared
-constexpr int kMostIgnored = 64;    // rounds of a loop that turned out to be no wait
+constexpr int kTrustedRounds = 15;   // after one whose RAM was compared
+constexpr int kMostIgnored = 64;     // rounds of a loop that turned out to be no wait
 constexpr std::size_t kMostFrames = 512;
 constexpr unsigned kSplim = dspic::sfr("SPLIM");
 

@@ -115,6 +115,13 @@ unsigned ProgramPlaces::last_jump(unsigned call, unsigned to) const {
   return call;
 }
 
+unsigned goto_target(const dspic::FirmwareFile& file, unsigned address) {
+  constexpr std::uint32_t kGoto = 0x04, kHigh = 0x7F;
+  const auto low = file.words.find(address), high = file.words.find(address + 2);
+  if (low == file.words.end() || high == file.words.end() || low->second >> 16 != kGoto) return 0;
+  return (high->second & kHigh) << 16 | (low->second & 0xFFFE);
+}
+
 unsigned ProgramPlaces::caller() const {
   const unsigned stack = processor_.w(15);
   return call_before((stack_word(stack - 2) & 0x7F) << 16 | stack_word(stack - 4));

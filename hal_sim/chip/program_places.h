@@ -54,6 +54,9 @@ class ProgramPlaces final {
   unsigned shared_ = 0;  // what many vectors lead to: the default handler; 0: nothing
 };
 
+/// Where the GOTO at a program address leads; 0: there is none.
+unsigned goto_target(const dspic::FirmwareFile& file, unsigned address);
+
 /// "__T1Interrupt"'s name in C: "_T1Interrupt", "_MathError".
 std::string handler_of(int vector);
 

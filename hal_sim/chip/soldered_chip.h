@@ -49,6 +49,11 @@ class SolderedChip final : private dspic::DiagnosticSink {
   /// Everything that happens by itself up to `now` has happened.
   void end_window(Cycle now);
 
+  EventDigest& digest() { return outside_.digest(); }
+  const EventDigest& digest() const { return outside_.digest(); }
+  /// See BoardOutside.
+  void share_coils() { outside_.share_coils(); }
+
   // --- the device
   dspic::Dspic30f6014a& device() { return *device_; }
   const dspic::Dspic30f6014a& device() const { return *device_; }

@@ -19,7 +19,9 @@ class FirmwareMind final : public sim::RobotMind {
   sim::WheelCourse wheel_course(sim::Clicks at) override;
   sim::MindReport report() const override;
   int proximity_counts(const sim::Scene& scene, int index) override;
-  std::uint64_t state_hash() const override { return hash_; }
+  std::uint64_t state_hash() const override {
+    return runner_ && runner_->hashes_events() ? runner_->hash() : hash_;
+  }
   bool has_sound_news() const override { return board_.has_sound_news(); }
   void publish_sound(sim::SoundField& field, int, sim::Clicks now) override {
     board_.publish_sound(field, now);

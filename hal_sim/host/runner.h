@@ -112,6 +112,8 @@ class Runner {
   virtual std::vector<board::Diagnosis> diagnoses() const = 0;
   /// Of what the program did; the board's own state is not in it. Equal courses have equal ones.
   virtual std::uint64_t hash() const = 0;
+  /// Is that a sum of all it did to the board, each at its cycle? Then the board's state adds nothing.
+  virtual bool hashes_events() const { return false; }
   /// World time of a cycle, for reports; set by the mind, empty on a bench.
   std::function<double(Cycle)> to_world_s;
 
