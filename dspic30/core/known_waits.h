@@ -105,8 +105,8 @@ class KnownWaits {
   const Wait* find(const Cpu& cpu) const;
   /// The one that begins at an instruction; null: none is known.
   const Wait* at(const Decoded* first) const {
-    const Wait& wait = waits_[place_of(first)];
-    return wait.first == first ? &wait : nullptr;
+    const auto& wait = waits_[place_of(first)];
+    return wait && wait->first == first ? wait.get() : nullptr;
   }
   /// Proven, with cpu.next at its first instruction.
   void add(const Cpu& cpu, const Wait& wait);

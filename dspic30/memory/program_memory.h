@@ -30,6 +30,8 @@ class ProgramMemory {
   std::uint32_t read(unsigned address) const;
   /// From outside, as a programmer does; false: nothing can be written there.
   bool write(unsigned address, std::uint32_t word);
+  /// All of flash, until it changes.
+  const std::uint32_t* flash() const { return flash_->data(); }
 
   // --- self-programming; addresses anywhere in the row
   void erase_row(unsigned address);
