@@ -222,6 +222,7 @@ struct Taken {
   Cycle on = -1;              // of it, until the converter is on
   Cycle filled = -1;          // of it, behind the last handler's end
   std::vector<Cycle> walk;    // the T2 handler, cut at calls
+  std::vector<Cycle> began;   // ADC handlers' flags were served
   std::vector<Cycle> frames;  // ADC handlers, entry and RETFIE included
   unsigned saved = 0;         // registers that the handler saves
   int saved_words = 0;        // other words
@@ -263,7 +264,10 @@ class Watch final : public chip::StepWatch {
 
  private:
   void follow_handler(Taken& t, const Step& step, unsigned stack) {
-    if (step.entered == kAdc) frame_since_ = step.begin;
+    if (step.entered == kAdc) {
+      frame_since_ = step.begin;
+      t.began.push_back(step.begin);
+    }
     if (step.left && frame_since_ >= 0) {
       t.frames.push_back(step.end - frame_since_);
       frame_since_ = -1;
@@ -464,6 +468,13 @@ std::map<std::string, int> call_cycles(const std::string& level, std::vector<std
   c["scan_all_gumstix"] = on(gumstix, "on:scan_all_filled");
   c["scan_all_return"] = m["on:scan_all_filled"] - c["scan_all"];
   c["scan_filled_return"] = static_cast<int>(part(usual, "filled:scan_all").filled);
+  const auto round = [&](const char* name) {
+    const auto& began = part(usual, name).began;
+    const std::size_t last = 4 + kFrames;
+    return began.size() > last ? static_cast<int>(began[last] - began[4]) : -1;
+  };
+  c["scan_round"] = round("frames:all");
+  c["scan_micro_round"] = round("frames:micro");
   copy({"array_filled", "completed", "scan_on", "scan_off"});
   c["share_scan_micro"] = sum(part(usual, "frames:micro").frames, 4, kFrames) / kFrames;
   c["share_scan_round"] = sum(part(usual, "frames:all").frames, 4, kFrames);
@@ -573,6 +584,8 @@ std::string call_cycles_text(const std::vector<std::map<std::string, int>>& leve
       {"completed", "e_ad_is_acquisition_completed()"},
       {"scan_on", "e_ad_scan_on()"},
       {"scan_off", "e_ad_scan_off()"},
+      {"scan_round", "converter: 65 frames"},
+      {"scan_micro_round", "65 frames of MICRO_ONLY"},
       {"share_scan_round", "converter's handler, entry and RETFIE included: 65 frames"},
       {"share_scan_micro", "a frame of MICRO_ONLY"},
   };

@@ -31,6 +31,7 @@ HostResult HostLibrary::e_init_ad_scan(const Call& call) {
     cpu.write16(kIec0, cpu.read16(kIec0) | kConverterBit);
     const Cycle on = call.at + (micro_only ? (five_pairs ? c.scan_micro_gumstix : c.scan_micro)
                                            : (five_pairs ? c.scan_all_gumstix : c.scan_all));
+    follow_ticks(call.at);
     scan().start(micro_only, five_pairs, on);
     board_.follow_power(on);
     changed(call);

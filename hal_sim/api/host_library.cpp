@@ -2,6 +2,7 @@
 #include "hal_sim/api/host_library.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "dspic30/memory/irqs.h"
 #include "dspic30/periph/vectors.h"
@@ -44,7 +45,8 @@ HostLibrary::HostLibrary(board::Board& board, Served served)
       served_(served),
       cycles_(call_cycles(served.level)),
       drivers_(std::make_unique<drivers::Drivers>(board)),
-      variables_(drivers_->scan()) {
+      variables_(drivers_->scan()),
+      rhythm_(cycles_) {
   drivers_->leave_motors_to_others();
   agendas().set_costs(costs_of(cycles_));
   begin(0);
@@ -75,6 +77,19 @@ void HostLibrary::note(std::uint64_t what, Cycle at) {
 void HostLibrary::effect(const Call& call) {
   call.cpu.note_effect();
   note(std::uint64_t{call.index} << 48 | std::uint64_t{call.word(1)} << 16 | call.word(0), call.at);
+}
+
+/// How the two handlers are in each other's way may be other than before; a hair's breadth is not worth a look
+/// at all samples.
+void HostLibrary::follow_ticks(Cycle at) {
+  const Cycle round = rhythm_.round(agendas().tick_cycles()), old = scan().full_round();
+  if (std::abs(round - old) > old / 1000) scan().set_round(round, at);
+}
+
+/// When the next agenda comes, and what the handlers take, may be other than before.
+void HostLibrary::changed(const Call& call) {
+  follow_ticks(call.at);
+  call.cpu.host_changed();
 }
 
 void HostLibrary::reset(Cycle at) {

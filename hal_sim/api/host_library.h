@@ -19,6 +19,7 @@
 #include "hal_sim/api/call_cycles.h"
 #include "hal_sim/api/host_index.h"
 #include "hal_sim/api/node_heap.h"
+#include "hal_sim/api/scan_rhythm.h"
 #include "hal_sim/api/scan_variables.h"
 #include "hal_sim/drivers/drivers.h"
 
@@ -93,7 +94,8 @@ class HostLibrary final : public dspic::HostCalls {
   void begin(Cycle at);
   void note(std::uint64_t what, Cycle at);
   void effect(const Call& call);
-  void changed(const Call& call) const { call.cpu.host_changed(); }
+  void follow_ticks(Cycle at);
+  void changed(const Call& call);
 
   // --- agendas
   drivers::AgendaTimer& agendas() { return drivers_->agendas(); }
@@ -123,6 +125,7 @@ class HostLibrary final : public dspic::HostCalls {
   const CallCycles& cycles_;
   std::unique_ptr<drivers::Drivers> drivers_;  // large, and apart from what each call touches
   ScanVariables variables_;
+  ScanRhythm rhythm_;
   NodeHeap heap_;
   CallWatch* watch_ = nullptr;
   std::array<std::int64_t, 2> zero_steps_{};  // what a motor had counted when its counter stood at 0

@@ -47,7 +47,7 @@ std::uint64_t ScanVariables::share_q32(const CallCycles& cycles) const {
     return (static_cast<std::uint64_t>(taken) << 32) / static_cast<std::uint64_t>(of);
   };
   return scan_.micro_only() ? q32(cycles.share_scan_micro, drivers::kScanMicroFrameCycles)
-                            : q32(cycles.share_scan_round, drivers::kScanRoundCycles);
+                            : q32(cycles.share_scan_round, scan_.round());
 }
 
 // --- samples ---------------------------------------------------------------------------------------------

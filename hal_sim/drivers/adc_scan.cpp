@@ -62,7 +62,7 @@ void AdcScan::settle(Cycle at) {
     while (runs_.size() > 1 && runs_[1].first <= run_.first + passed - kMicSamples)
       runs_.erase(runs_.begin());
   }
-  run_ = {run_.first + passed, full_interrupts(at), at + kScanStartCycles, run_.micro_only};
+  run_ = {run_.first + passed, full_interrupts(at), at + kScanStartCycles, run_.micro_only, run_.round};
   for (Samples* samples : {&dark_, &lit_})
     for (Sample& s : *samples) s.until = 0, s.is_regular = false;
   regular_dark_ = 0;
@@ -76,8 +76,22 @@ void AdcScan::start(bool micro_only, bool five_pairs, Cycle at) {
   pairs_ = five_pairs ? 5 : 4;
   pair_base_ %= pairs_;
   run_.micro_only = micro_only;
+  run_.round = micro_only ? kScanPeriod * kScanMicroFrameCycles : full_round_;
   on_ = true;
   ++starts_;
+}
+
+// the frame under way keeps its end
+void AdcScan::set_round(Cycle round, Cycle at) {
+  if (round == full_round_) return;
+  full_round_ = round;
+  if (run_.micro_only) return;
+  if (on_) {
+    const Cycle end = run_.cycle_of(run_.first + frames(at));
+    settle(at);
+    run_.origin = end - run_.sequence();
+  }
+  run_.round = round;
 }
 
 // The converter goes on meanwhile without a stop and sets the flag, which remembers one call. That call comes
@@ -114,6 +128,7 @@ void AdcScan::reset(Cycle at) {
   period_base_ = 0;
   pair_base_ = 0;
   run_ = Run{};
+  run_.round = full_round_;
   dark_.fill(Sample{});
   lit_.fill(Sample{});
   regular_dark_ = 0;
@@ -129,7 +144,7 @@ std::uint64_t AdcScan::share_q32() const {
     return (static_cast<std::uint64_t>(cycles) << 32) / static_cast<std::uint64_t>(of);
   };
   return run_.micro_only ? q32(kScanMicroIsrCycles, kScanMicroFrameCycles)
-                         : q32(kScanRoundIsrCycles, kScanRoundCycles);
+                         : q32(kScanRoundIsrCycles, run_.round);
 }
 
 Cycle AdcScan::first_fill(Cycle at) const {
@@ -174,7 +189,7 @@ void AdcScan::keep(Sample& kept, int sensor, std::int64_t number, bool lit_sampl
 int AdcScan::read(Sample& kept, int sensor, Cycle at, bool lit_sample) {
   if (at < kept.until) return kept.counts;
   if (kept.is_regular && held_since_ < 0) {
-    const Cycle turn = pairs_ * kScanPeriod * kScanFrameCycles;
+    const Cycle turn = pairs_ * run_.round;
     const std::int64_t turns = 1 + quotient(at - kept.until, turn);
     kept.until += turns * turn;
     keep(kept, sensor, kept.number + turns * pairs_, lit_sample);

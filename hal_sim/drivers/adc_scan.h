@@ -41,6 +41,10 @@ class AdcScan {
 
   /// e_init_ad_scan(): converter and interrupt start. `five_pairs`: selector 10.
   void start(bool micro_only, bool five_pairs, Cycle at);
+  /// What 65 frames take from `at` on; of MICRO_ONLY they take what they take. Without it, as natively.
+  void set_round(Cycle round, Cycle at);
+  Cycle round() const { return run_.round; }
+  Cycle full_round() const { return full_round_; }
   /// ADON bit. Off: the frame under way is lost; on: a full frame begins.
   void switch_converter(bool on, Cycle at);
   /// The driver's statics and arrays return to their start values.
@@ -129,6 +133,10 @@ class AdcScan {
   static_assert(sizeof(Sample) == 16);
   using Samples = std::array<Sample, 10>;
 
+  static std::int64_t floor_quotient(std::int64_t a, std::int64_t b) {
+    const std::int64_t q = a / b;
+    return a % b < 0 ? q - 1 : q;
+  }
   /// A run of frames without a break.
   struct Run {
     std::int64_t first = 0;  // number of its first interrupt
@@ -136,10 +144,12 @@ class AdcScan {
     Cycle origin = 0;        // its first sequence begins
     bool micro_only = false;
 
-    Cycle frame() const { return micro_only ? kScanMicroFrameCycles : kScanFrameCycles; }
+    Cycle round = kScanRoundCycles;  // 65 frames
     Cycle sequence() const { return micro_only ? kScanMicroFrameCycles : kScanSequenceCycles; }
     /// When interrupt `number` comes.
-    Cycle cycle_of(std::int64_t number) const { return origin + sequence() + (number - first) * frame(); }
+    Cycle cycle_of(std::int64_t number) const { return origin + sequence() + take(number - first); }
+    /// What so many frames take on average.
+    Cycle take(std::int64_t frames) const { return floor_quotient(frames * round, kScanPeriod); }
   };
 
   Cycle seen(Cycle at) const { return held_since_ >= 0 && at > held_since_ ? held_since_ : at; }
@@ -148,8 +158,9 @@ class AdcScan {
     at = seen(at);
     const Cycle first = run_.origin + run_.sequence();
     if (!on_ || at < first) return 0;
-    return 1 + static_cast<std::int64_t>(static_cast<std::uint64_t>(at - first) /
-                                         static_cast<std::uint64_t>(run_.frame()));
+    // the last one that has come by then: cycle_of() is a floor
+    return 1 + static_cast<std::int64_t>(static_cast<std::uint64_t>((at - first + 1) * kScanPeriod - 1) /
+                                         static_cast<std::uint64_t>(run_.round));
   }
   static std::int64_t acc_samples_of(std::int64_t full_interrupts) {
     return (full_interrupts + kScanPeriod - 1 - kScanAccSlot) / kScanPeriod;
@@ -159,7 +170,7 @@ class AdcScan {
   std::int64_t newest(std::int64_t interrupts, int slot, int shift, int pair) const;
   /// Of ALL_ADC interrupt number (from 0).
   Cycle full_cycle(std::int64_t interrupt) const {
-    return run_.origin + kScanSequenceCycles + (interrupt - run_.full) * kScanFrameCycles;
+    return run_.origin + kScanSequenceCycles + run_.take(interrupt - run_.full);
   }
   /// When the next sample is filed of `slot` and `pair`, after `filed` interrupts; kNever when none will.
   Cycle next_sample(std::int64_t filed, int slot, int shift, int pair) const;
@@ -176,9 +187,10 @@ class AdcScan {
   bool acc_used_ = false;
   std::uint16_t regular_dark_ = 0;  // bit i: dark_[i].is_regular
   int pairs_ = 4;
-  Cycle held_since_ = -1;  // -1: not held
-  Run run_;                // the present one
-  Samples dark_{};         // in darkness nobody looks at them
+  Cycle held_since_ = -1;                // -1: not held
+  Run run_;                              // the present one
+  Cycle full_round_ = kScanRoundCycles;  // of its frames when they are not MICRO_ONLY's
+  Samples dark_{};                       // in darkness nobody looks at them
   int starts_ = 0;
   std::int64_t lost_ = 0;
   Cycle first_lost_ = 0;

@@ -443,6 +443,13 @@ std::uint64_t AgendaTimer::share_q32() const {
   return tick_share_q32_ + motor_share_q32_[0] + motor_share_q32_[1];
 }
 
+Cycle AgendaTimer::tick_cycles() const {
+  if (!running_) return 0;
+  Cycle tick = nodes_.empty() ? costs_.empty : costs_.list;
+  for (const Node& node : nodes_) tick += cost_of(node);
+  return tick;
+}
+
 std::uint64_t AgendaTimer::calling_share_q32() const {
   if (!running_) return 0;
   if (shares_known_ != kAllShares) find_shares();
@@ -454,9 +461,7 @@ void AgendaTimer::find_shares() const {
     return (static_cast<std::uint64_t>(cycles) << 32) / static_cast<std::uint64_t>(ticks * kAgendaTickCycles);
   };
   if (!(shares_known_ & kTicks)) {
-    Cycle tick = nodes_.empty() ? costs_.empty : costs_.list;
-    for (const Node& node : nodes_) tick += cost_of(node);
-    tick_share_q32_ = share(tick, 1);
+    tick_share_q32_ = share(tick_cycles(), 1);
     std::uint64_t calling = 0;  // ticks that do, of all
     for (const Node& node : nodes_)
       if (needs_handler(node) && count_of(node).counts()) calling += kAllTicks / count_of(node).cycle;

@@ -151,6 +151,8 @@ class AgendaTimer {
   /// What the ticks take of each cycle that call no function of the program, as a fraction of 2^32; those
   /// that do are run and charged one by one.
   std::uint64_t share_q32() const;
+  /// What a tick takes that calls nothing and in which no motor fires; 0: the timer stands.
+  Cycle tick_cycles() const;
   /// The part of it that ticks take which do call one, so that these may be charged in full.
   std::uint64_t calling_share_q32() const;
   /// Does the driver step this wheel on and on?
