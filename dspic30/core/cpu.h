@@ -355,6 +355,8 @@ class Cpu final : public SfrOwner {
   /// A function of the host waits here.
   void stand(Cycle until, const Decoded* d);
   Cycle stands_until = 0;
+  /// Does it wait now?
+  bool stands_in_host() const;
 
   // --- waits (waits.h)
   /// Something was done that a wait does not do.

@@ -94,6 +94,7 @@ const Decoded* call_host(Cpu& cpu, const Decoded* d) {
   }
   push_address(cpu, cpu.address_of(d) + 2u * d->b);
   cpu.host_again = result.wait_until > at;
+  cpu.stands_until = result.wait_until;
   cpu.note_effect();
   return host_place(kHostStart + 2 * index);
 }
@@ -102,6 +103,8 @@ const Decoded* jump_to_host(Cpu& cpu, const Decoded* d) {
   cpu.host_again = false;
   return host_place(kHostStart + 2 * static_cast<unsigned>(d->imm));
 }
+
+bool Cpu::stands_in_host() const { return host_again && address_of_host_place(next) != 0; }
 
 // time goes on without the program, up to `until` or the deadline
 void Cpu::stand(Cycle until, const Decoded* d) {

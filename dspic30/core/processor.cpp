@@ -120,13 +120,14 @@ std::optional<ResetKind> Processor::run(Cycle until) {
 // an enabled flag wakes whatever its priority, and so does the watchdog
 void Processor::sleep(Cycle until) {
   Cpu& cpu = *cpu_;
-  if (cpu.parts.interrupts.wakes() || cpu.parts.system.woke() || due_ <= cpu.now) {
+  const Cycle wakes = std::min(cpu.parts.interrupts.wakes_at(), due_);
+  if (wakes <= cpu.now || cpu.parts.system.woke()) {
     cpu.now += cpu.power == Cpu::Power::Sleep ? kSleepWakeCycles : kIdleWakeCycles;
     cpu.power = Cpu::Power::On;
     cpu.parts.system.awake();
     return;
   }
-  const Cycle next = std::min(chip_.next_event(cpu.now), host_horizon());
+  const Cycle next = std::min({chip_.next_event(cpu.now), host_horizon(), wakes});
   const Cycle own = cpu.clocks.own_cycles(cpu.now);
   cpu.now = std::clamp(next, cpu.now + 1, std::max(until, cpu.now + 1));
   slept_ += cpu.clocks.own_cycles(cpu.now) - own;
@@ -183,15 +184,13 @@ Cycle Processor::host_horizon() const {
 
 Cycle Processor::idle_until() const {
   const Cpu& cpu = *cpu_;
-  const bool stands = stands_in_host();
+  const bool stands = cpu.stands_in_host();
   if (!stands && !is_asleep() && !waits_->is_waiting()) return 0;
   Cycle until = std::min(chip_.next_event(cpu.now), host_horizon());
   if (stands) until = std::min(until, cpu.stands_until);
   if (waits_->is_waiting()) until = std::min(until, waits_->until(cpu));
   return until;
 }
-
-bool Processor::stands_in_host() const { return cpu_->host_again && address_of_host_place(cpu_->next) != 0; }
 
 void Processor::stir() { waits_->stir(*cpu_); }
 
@@ -215,7 +214,7 @@ Cycle Processor::idle(Cycle at) const {
   const Cpu& cpu = *cpu_;
   const Cycle now = std::max(cpu.now, cpu.clocks.program_at(at));
   const Cycle own = cpu.clocks.own_cycles(now) - cpu.clocks.own_cycles(cpu.now);
-  const bool passes = is_asleep() || stands_in_host();
+  const bool passes = is_asleep() || cpu.stands_in_host();
   return slept_ + cpu.delayed + waits_->waited(cpu, now) + (passes ? own : 0);
 }
 Cycle Processor::jumped() const { return waits_->jumped(); }

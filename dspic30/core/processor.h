@@ -109,7 +109,6 @@ class Processor {
   void follow_host();
   bool is_host_first(int vector) const;
   Cycle host_horizon() const;
-  bool stands_in_host() const;
 
   std::unique_ptr<Cpu> cpu_;
   std::unique_ptr<Waits> waits_;

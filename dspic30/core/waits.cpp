@@ -30,6 +30,11 @@ void Waits::begin(Cpu& cpu) {
   at_head_ = cpu.head_met;
   cpu.head_met = false;
   look_began_ = cpu.true_now();
+  // a function of the host that waits is none of these
+  if (cpu.stands_in_host()) {
+    schedule(cpu).at = std::max(cpu.stands_until, look_began_ + 1);
+    return;
+  }
   round_began_ = cpu.clocks.own_cycles(cpu.now);
   round_delayed_ = cpu.delayed;
   if (was_cut_) {
@@ -164,7 +169,7 @@ void Waits::end_round(Cpu& cpu) {
 void Waits::fail(Cpu& cpu) {
   state_ = State::Away;
   cpu.still_since = kNever;
-  const Cycle now = cpu.true_now();
+  const Cycle now = cpu.stands_in_host() ? std::max(cpu.true_now(), cpu.stands_until) : cpu.true_now();
   if (at_head_) {
     cpu.heads_from = now + head_pause_;
     head_pause_ = std::min(2 * head_pause_, kRarestLooks);

@@ -120,6 +120,14 @@ class Interrupts final : public SfrOwner {
     return !ready && !(intcon1_ & kTrapFlags);
   }
   bool wakes() const { return (ifs_ & iec_ & ~at_priority_[0]) != 0; }
+  /// When an enabled flag wakes the processor, whatever its priority: a cycle after it was set; kNever: none
+  /// is set.
+  Cycle wakes_at() const {
+    Cycle at = kNever;
+    for (std::uint64_t ready = ifs_ & iec_ & ~at_priority_[0]; ready; ready &= ready - 1)
+      at = std::min(at, since_[static_cast<std::size_t>(__builtin_ctzll(ready))] + 1);
+    return at;
+  }
   const std::optional<ResetKind>& reset_due() const { return reset_due_; }
   /// Did anything happen since forget_stir() after which pending() may answer a vector, or pending_horizon()
   /// earlier? A flag that falls is no such thing.
