@@ -129,7 +129,7 @@ void Processor::sleep(Cycle until) {
   }
   const Cycle next = std::min({chip_.next_event(cpu.now), host_horizon(), wakes});
   const Cycle own = cpu.clocks.own_cycles(cpu.now);
-  cpu.now = std::clamp(next, cpu.now + 1, std::max(until, cpu.now + 1));
+  cpu.now = cpu.clocks.program_at(std::clamp(next, cpu.now + 1, std::max(until, cpu.now + 1)));
   slept_ += cpu.clocks.own_cycles(cpu.now) - own;
 }
 
@@ -186,7 +186,11 @@ Cycle Processor::idle_until() const {
   const Cpu& cpu = *cpu_;
   const bool stands = cpu.stands_in_host();
   if (!stands && !is_asleep() && !waits_->is_waiting()) return 0;
+  const Outlook outlook = cpu.parts.look(cpu.now);
+  if (outlook.reset_due || (due_ <= cpu.now && !held_[0])) return 0;
   Cycle until = std::min(chip_.next_event(cpu.now), host_horizon());
+  if (is_asleep()) return std::min({until, cpu.parts.interrupts.wakes_at(), due_});
+  if (outlook.vector != kNoVector) return 0;
   if (stands) until = std::min(until, cpu.stands_until);
   if (waits_->is_waiting()) until = std::min(until, waits_->until(cpu));
   return until;
