@@ -72,7 +72,7 @@ bool is_beyond_ram(const CallInst& call) {
 }
 
 // most cycles between two looks at the time: what is left of them before something happens is interpreted
-constexpr int kSection = 40;
+constexpr int kSection = 16;
 constexpr std::uint16_t kReturnAddressBytes = 4;
 constexpr std::ptrdiff_t kGap = 16;  // words that were not met, within a piece
 
@@ -666,15 +666,14 @@ Value* Maker::can_be_answered() {
                              ir_.CreateAnd(is_zero(&cpu_.rcount, word), is_zero(&cpu_.modcon, word)));
   Value* const top = ir_.CreateZExt(ir_.CreateLoad(word, field(&cpu_.w[15], word)), number);
   Value* const limit = ir_.CreateZExt(ir_.CreateLoad(word, field(&cpu_.splim, word)), number);
-  Value* const has_limit = ir_.CreateICmpNE(ir_.CreateLoad(byte_, field(&cpu_.splim_on, byte_)),
-                                            ConstantInt::get(byte_, 0));
+  Value* const has_limit =
+      ir_.CreateICmpNE(ir_.CreateLoad(byte_, field(&cpu_.splim_on, byte_)), ConstantInt::get(byte_, 0));
   Value* const ram_end = ir_.getInt32(Cpu::kRamEnd);
   Value* const end =
       ir_.CreateSelect(ir_.CreateAnd(has_limit, ir_.CreateICmpULT(limit, ram_end)), limit, ram_end);
   Value* const lowest = ir_.getInt32(Cpu::kRamStart + kReturnAddressBytes);
   all = ir_.CreateAnd(all, ir_.CreateICmpUGE(top, lowest));
-  return ir_.CreateAnd(all,
-                       ir_.CreateICmpULE(ir_.CreateAdd(top, ir_.getInt32(KnownCalls::kStack)), end));
+  return ir_.CreateAnd(all, ir_.CreateICmpULE(ir_.CreateAdd(top, ir_.getInt32(KnownCalls::kStack)), end));
 }
 
 // a block in which the instruction's time passes
@@ -706,7 +705,8 @@ BasicBlock* Maker::edge(const Item& item, Value* next, int frame) {
   }
   BasicBlock* const first = blocks_[index_of(*target)];
   const bool is_back = target <= &item;
-  const bool begins_section = is_back || takes_long_ || sections_[index_of(*target)] != sections_[index_of(item)];
+  const bool begins_section =
+      is_back || takes_long_ || sections_[index_of(*target)] != sections_[index_of(item)];
   goes_back_ |= is_back;
   if (!begins_section && !may_leave_) {
     ir_.CreateBr(first);
@@ -719,9 +719,15 @@ BasicBlock* Maker::edge(const Item& item, Value* next, int frame) {
     ir_.CreateCondBr(ir_.CreateLoad(ir_.getInt1Ty(), left_), check, first);
   ir_.SetInsertPoint(check);
   ir_.CreateStore(ir_.getFalse(), left_);
+  // what comes there again and again may begin there
+  const bool is_entry = !is_back && frame == 0;
   Value* const exit_pointer = place(*to);
-  ir_.CreateCondBr(may_leave_ ? fits(*target) : is_in_time(*target), first, exit_);
-  exit_at_->addIncoming(exit_pointer, check);
+  ir_.CreateCondBr(may_leave_ ? fits(*target) : is_in_time(*target), first,
+                   is_entry ? ways_[1].block : exit_);
+  if (is_entry)
+    ways_[1].where->addIncoming(ir_.getInt32(static_cast<std::uint32_t>(*to)), check);
+  else
+    exit_at_->addIncoming(exit_pointer, check);
   return begin;
 }
 
