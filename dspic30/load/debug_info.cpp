@@ -2,6 +2,7 @@
 #include "dspic30/load/debug_info.h"
 
 #include <cstdlib>
+#include <mutex>
 
 #include "dspic30/load/cursor.h"
 
@@ -112,6 +113,23 @@ class Reader {
       : out_(out), sections_(sections) {}
 
   void read() {
+    each_unit([&](std::uint32_t unit, Cursor& c) { read_unit(unit, c); });
+  }
+  std::map<std::uint32_t, std::string> folders() {
+    std::map<std::uint32_t, std::string> all;
+    each_unit([&](std::uint32_t unit, Cursor& c) {
+      const Entry* top = read_entries(unit, c, true);
+      const Value *const lines = top ? top->find(kStatements) : nullptr, *const folder =
+                                                                             top ? top->find(kCompileFolder)
+                                                                                 : nullptr;
+      if (lines && folder) all[lines->number] = folder->text;
+    });
+    return all;
+  }
+
+ private:
+  template <class Visit>
+  void each_unit(const Visit& visit) {
     const DebugInfo::Section info = section(".debug_info");
     Cursor all(info.bytes, info.size);
     while (all.left() > 11) {
@@ -119,11 +137,10 @@ class Reader {
       const std::uint32_t length = all.number(4);
       if (length < 7 || length > all.left()) return;
       Cursor inner = all.part(length);
-      read_unit(unit, inner);
+      visit(unit, inner);
     }
   }
 
- private:
   struct Shape {
     unsigned tag = 0;
     bool has_inner = false;
@@ -223,11 +240,12 @@ class Reader {
     return true;
   }
 
-  void read_unit(std::uint32_t unit, Cursor& c) {
+  /// All of a unit, or its first alone; null: it is none that can be read.
+  const Entry* read_entries(std::uint32_t unit, Cursor& c, bool first_alone) {
     const std::size_t all = c.left() + 4;
     unit_ = unit;
     const unsigned version = c.number(2);
-    if (version < 2 || version > 4) return;
+    if (version < 2 || version > 4) return nullptr;
     const auto known = shapes(c.number(4));
     address_bytes_ = c.byte();
     entries_.clear();
@@ -247,19 +265,22 @@ class Reader {
       if (!open.empty()) entries_[open.back()].inner.push_back(offset);
       if (!first) first = offset;
       for (const auto& [attribute, form] : shape->second.attributes)
-        if (!read_value(c, form, entry.attributes[attribute])) return;
+        if (!read_value(c, form, entry.attributes[attribute])) return nullptr;
+      if (first_alone) break;
       if (shape->second.has_inner) open.push_back(offset);
     }
+    const auto top = entries_.find(first);
+    return top == entries_.end() || top->second.tag != kCompileUnit ? nullptr : &top->second;
+  }
+
+  void read_unit(std::uint32_t unit, Cursor& c) {
+    const Entry* const top = read_entries(unit, c, false);
     types_.clear();
     points_.clear();
-    const auto top = entries_.find(first);
-    if (top == entries_.end() || top->second.tag != kCompileUnit) return;
-    if (const Value* name = top->second.find(kName)) file_ = name->text;
-    const Value *const lines = top->second.find(kStatements), *const folder =
-                                                                  top->second.find(kCompileFolder);
-    if (lines && folder) out_.folders[lines->number] = folder->text;
-    low_ = 2 * (top->second.number(kLowPc) / 2);
-    scope(top->second, 0, 0, 14, 0);
+    if (!top) return;
+    if (const Value* name = top->find(kName)) file_ = name->text;
+    low_ = 2 * (top->number(kLowPc) / 2);
+    scope(*top, 0, 0, 14, 0);
     for (std::size_t i = 0; i < points_.size(); ++i) {  // what they point to may hold more of them
       const auto [pointer, offset] = points_[i];
       const int to = type_of(entries_.at(offset));
@@ -606,6 +627,37 @@ bool DebugInfo::step_into(const std::string& name, Found& found, int depth) cons
     return true;
   }
   return false;
+}
+
+std::map<std::uint32_t, std::string> DebugInfo::folders_in(const std::map<std::string, Section>& sections) {
+  DebugInfo none;
+  return Reader(none, sections).folders();
+}
+
+struct LateDebugInfo::Kept {
+  std::map<std::string, std::string> bytes;
+  std::once_flag read;
+  DebugInfo info;
+};
+
+void LateDebugInfo::keep(const std::map<std::string, DebugInfo::Section>& sections) {
+  kept_ = std::make_shared<Kept>();
+  for (const auto& [name, section] : sections)
+    if (name != ".debug_line" && name != ".debug_frame")
+      kept_->bytes[name].assign(reinterpret_cast<const char*>(section.bytes), section.size);
+}
+
+const DebugInfo& LateDebugInfo::info() const {
+  static const DebugInfo none;
+  if (!kept_) return none;
+  std::call_once(kept_->read, [this] {
+    std::map<std::string, DebugInfo::Section> sections;
+    for (const auto& [name, bytes] : kept_->bytes)
+      sections[name] = {reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()};
+    kept_->info.add(sections);
+    kept_->bytes.clear();
+  });
+  return kept_->info;
 }
 
 }  // namespace dspic

@@ -7,6 +7,7 @@
 #pragma once
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -53,7 +54,6 @@ struct DebugInfo {
   std::vector<Variable> variables;
   std::map<std::string, int> named;                 ///< types: "u8", "struct node" (of unions and enums too)
   std::map<std::string, std::int32_t> enumerators;  ///< constants that enums name
-  std::map<std::uint32_t, std::string> folders;     ///< where the compiler stood, by place in .debug_line
 
   /// "speed", "grid[2].x", seen from `pc`: locals of the innermost scope go before. False: `error` says why.
   bool find(const std::string& expression, std::uint32_t pc, Found& found, std::string& error) const;
@@ -68,9 +68,23 @@ struct DebugInfo {
   };
   /// By name. What cannot be read is left out: nothing depends on it.
   void add(const std::map<std::string, Section>& sections);
+  /// Where the compiler stood, by place in .debug_line.
+  static std::map<std::uint32_t, std::string> folders_in(const std::map<std::string, Section>& sections);
 
  private:
   bool step_into(const std::string& name, Found& found, int depth = 0) const;
+};
+
+/// Is read when somebody asks first: most runs never do. Copies share it; several threads may ask.
+class LateDebugInfo {
+ public:
+  /// Keeps the sections' bytes.
+  void keep(const std::map<std::string, DebugInfo::Section>& sections);
+  const DebugInfo& info() const;
+
+ private:
+  struct Kept;
+  std::shared_ptr<Kept> kept_;
 };
 
 }  // namespace dspic

@@ -33,9 +33,9 @@ class ElfReader {
     if (error_.empty()) check_header(bytes.size());
     for (Elf_Scn* s = nullptr; error_.empty() && (s = elf_nextscn(elf_.get(), s));) read_section(s);
     if (error_.empty() && file_.words.empty()) fail("there is no program in it");
-    file_.debug.add(debug_);
+    file_.debug.keep(debug_);
     if (const auto lines = debug_.find(".debug_line"); lines != debug_.end())
-      file_.code.add_lines(lines->second.bytes, lines->second.size, file_.debug.folders);
+      file_.code.add_lines(lines->second.bytes, lines->second.size, DebugInfo::folders_in(debug_));
     file_.code.sort();
     error = error_;
     return error_.empty();

@@ -28,7 +28,7 @@ struct FirmwareFile {
   /// Absolute symbols that begin with "_tp_": what the linker says of the image (memory/host_places.h).
   std::map<std::string, std::uint32_t> marks;
   CodeMap code;
-  DebugInfo debug;
+  LateDebugInfo debug;
 };
 
 /// "sim" or "dspic": which HAL it was linked with here; "own": elsewhere, or the file does not say.

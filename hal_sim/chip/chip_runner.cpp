@@ -322,7 +322,7 @@ const host::Variable* ChipRunner::find_variable(const std::string& expression, s
   const auto known = variables_.find(expression);
   if (known != variables_.end()) return &known->second;
   dspic::DebugInfo::Found found;
-  if (!file_.debug.find(expression, 0, found, error)) {
+  if (!file_.debug.info().find(expression, 0, found, error)) {
     const auto object = file_.objects.find(expression);  // assembler text has no types
     const auto bytes = file_.object_bytes.find(expression);
     if (object == file_.objects.end() || bytes == file_.object_bytes.end() || bytes->second > 4)
@@ -330,7 +330,7 @@ const host::Variable* ChipRunner::find_variable(const std::string& expression, s
     const host::Variable plain{object->second, bytes->second, host::Variable::Kind::Unsigned};
     return &variables_.emplace(expression, plain).first->second;
   }
-  const auto& type = file_.debug.types[static_cast<std::size_t>(found.type)];
+  const auto& type = file_.debug.info().types[static_cast<std::size_t>(found.type)];
   host::Variable v;
   v.address = static_cast<std::uintptr_t>(found.variable->places[0].value) + found.offset;
   v.bytes = type.bytes;

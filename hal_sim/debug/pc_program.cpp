@@ -57,9 +57,9 @@ dspic::FirmwareFile read_pc_program(const std::string& path) {
       if (const Elf_Data* data = elf_getdata(s, nullptr); data && data->d_buf)
         sections[name] = {static_cast<const unsigned char*>(data->d_buf), data->d_size};
     }
-    file.debug.add(sections);
+    file.debug.keep(sections);
     if (const auto lines = sections.find(".debug_line"); lines != sections.end())
-      file.code.add_lines(lines->second.bytes, lines->second.size, file.debug.folders);
+      file.code.add_lines(lines->second.bytes, lines->second.size, dspic::DebugInfo::folders_in(sections));
     file.code.sort();
   }
   close(descriptor);

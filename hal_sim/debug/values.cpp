@@ -59,7 +59,7 @@ class Session::SeenNames final : public Names {
   SeenNames(const Session& session, std::optional<std::uint32_t> pc)
       : session_(session), pc_(pc.value_or(session.pc())), is_elsewhere_(pc.has_value()) {}
 
-  const dspic::DebugInfo& debug_info() const override { return session_.file().debug; }
+  const dspic::DebugInfo& debug_info() const override { return session_.file().debug.info(); }
   unsigned pointer_bits() const override { return session_.machine().address_mask() == 0xFFFF ? 16 : 64; }
   bool find_variable(const std::string& name, Part& part) const override {
     std::string none;
@@ -141,7 +141,7 @@ std::optional<Address> Session::address_of(const Part& part) const {
 
 /// Its bits, from the lowest on; none: it is kept nowhere, or no number.
 std::optional<std::uint64_t> Session::raw_value(const Part& part) const {
-  const auto& type = file().debug.types[static_cast<std::size_t>(part.found.type)];
+  const auto& type = file().debug.info().types[static_cast<std::size_t>(part.found.type)];
   if (type.bytes == 0 || type.bytes > 8 || type.kind == Kind::Array || type.kind == Kind::Struct) return {};
   std::uint64_t raw = 0;
   if (const auto address = address_of(part)) {
@@ -158,7 +158,7 @@ std::optional<std::uint64_t> Session::raw_value(const Part& part) const {
 
 std::string Session::typed(const Part& whole) const {
   constexpr unsigned kMostElements = 32;
-  const auto& debug = file().debug;
+  const auto& debug = file().debug.info();
   const auto& type = debug.types[static_cast<std::size_t>(whole.found.type)];
   Part part = whole;
   if (type.kind == Kind::Array) {
@@ -205,7 +205,7 @@ std::string Session::shown(const CValue& value) const {
 
 std::string Session::locals() const {
   std::string text;
-  for (const auto& variable : file().debug.variables)
+  for (const auto& variable : file().debug.info().variables)
     if (pc() >= variable.begin && pc() < variable.end)
       text += "  " + variable.name + " = " + typed({{&variable, variable.type}, {}, pc(), false}) + "\n";
   return text.empty() ? "no variables of a function are known here\n" : text;
@@ -216,8 +216,8 @@ std::optional<Data> Session::place_of(const CValue& value) const {
   const auto address = address_of(*value.part);
   if (!address) return {};
   const dspic::DebugInfo::Found& found = value.part->found;
-  return Data{*address, bytes_of(file().debug.types[static_cast<std::size_t>(found.type)], found), found.bit,
-              found.width};
+  return Data{*address, bytes_of(file().debug.info().types[static_cast<std::size_t>(found.type)], found),
+              found.bit, found.width};
 }
 
 std::optional<Data> Session::find_data(const std::string& name) const {
