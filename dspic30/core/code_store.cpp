@@ -220,9 +220,18 @@ std::shared_ptr<CodeTable> CodeStore::table(const CodeState& state, bool make) {
   return tables_.emplace_back(std::make_shared<CodeTable>(state, told_, known_));
 }
 
-void CodeStore::forget() {
+std::shared_ptr<const KnownCalls> CodeStore::known() const {
   const std::lock_guard lock(mutex_);
-  for (const auto& table : tables_) table->forget();
+  return known_;
+}
+
+void CodeStore::forget(bool is_other) {
+  const std::lock_guard lock(mutex_);
+  if (is_other) known_.reset();
+  for (const auto& table : tables_) {
+    if (is_other) table->forget_known();
+    table->forget();
+  }
 }
 
 }  // namespace dspic

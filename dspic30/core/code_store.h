@@ -115,6 +115,8 @@ class CodeTable {
   int translated() const;
   /// Words are decoded again. Nobody else runs on this table.
   void forget();
+  /// The flash holds other routines now; before forget().
+  void forget_known() { known_.reset(); }
 
  private:
   struct Beside {
@@ -135,7 +137,7 @@ class CodeTable {
 
   const CodeState state_;
   const std::vector<std::uint32_t> told_;
-  const std::shared_ptr<const KnownCalls> known_;
+  std::shared_ptr<const KnownCalls> known_;
   mutable std::mutex mutex_;  // of all that follows, but what was published
   std::vector<Decoded> words_;
   std::unique_ptr<Beside[], Free> beside_;  // pages of words that are not met take no memory
@@ -152,10 +154,11 @@ class CodeStore {
   std::vector<std::uint32_t> told() const;
   /// The image's routines that are known by heart, from now on; null: none. False: others are known already.
   bool know(std::shared_ptr<const KnownCalls> calls);
+  std::shared_ptr<const KnownCalls> known() const;
   /// The table of a state; null: `make` is false, and nobody has needed it.
   std::shared_ptr<CodeTable> table(const CodeState& state, bool make);
-  /// As CodeTable::forget(), of all tables.
-  void forget();
+  /// As CodeTable::forget(), of all tables. `is_other`: flash was written, so no routine is known any more.
+  void forget(bool is_other);
 
  private:
   static constexpr std::size_t kMost = 8;  // tables; those in use do not count

@@ -57,23 +57,27 @@ Cpu::Cpu(ChipParts& chip, ProgramMemory& memory, std::shared_ptr<CodeStore> stor
 
 // --- code -----------------------------------------------------------------------------------------------
 
-void Cpu::forget_code() {
+// `is_other`: flash was written
+void Cpu::forget_code(bool is_other) {
   if (is_own_)
-    store_->forget();
+    store_->forget(is_other);
+  else if (store_)
+    have_own_store(store_->told(), is_other ? nullptr : store_->known());
   else
-    have_own_store(store_ ? store_->told() : std::vector<std::uint32_t>{});
+    have_own_store({});
   code_is_stale = true;
 }
 
 void Cpu::tell_calls(std::vector<std::uint32_t> addresses) {
   std::sort(addresses.begin(), addresses.end());
-  if (!store_->tell(addresses)) have_own_store(addresses);
+  if (!store_->tell(addresses)) have_own_store(addresses, store_->known());
   code_is_stale = true;
 }
 
-void Cpu::have_own_store(const std::vector<std::uint32_t>& told) {
+void Cpu::have_own_store(const std::vector<std::uint32_t>& told, std::shared_ptr<const KnownCalls> known) {
   store_ = std::make_shared<CodeStore>();
   store_->tell(told);
+  if (known) store_->know(std::move(known));
   is_own_ = true;
 }
 
@@ -81,7 +85,7 @@ void Cpu::have_own_store(const std::vector<std::uint32_t>& told) {
 void Cpu::choose_code() {
   if (program.version() != code_version_) {
     code_version_ = program.version();
-    forget_code();
+    forget_code(true);
   }
   const auto [reads, writes] = special_registers();
   const unsigned so_far = written & kAllWritten;

@@ -81,7 +81,7 @@ class Cpu final : public SfrOwner {
 
   void reset();
   /// All words are decoded again, for this robot alone.
-  void forget_code();
+  void forget_code() { forget_code(false); }
   /// Is it time for choose_code()? Before an instruction.
   bool is_code_stale() const { return code_is_stale || program.version() != code_version_; }
   /// Moves to the code that goes with its flash, the registers that were written, and special pointers.
@@ -483,7 +483,9 @@ class Cpu final : public SfrOwner {
   __attribute__((noinline)) void warm(const Decoded* target);
   Run looked_at(const Decoded* d);
   void run_on(std::shared_ptr<CodeTable> table);
-  void have_own_store(const std::vector<std::uint32_t>& told);
+  void forget_code(bool is_other);
+  void have_own_store(const std::vector<std::uint32_t>& told,
+                      std::shared_ptr<const KnownCalls> known = nullptr);
 
   std::shared_ptr<CodeStore> store_;
   std::shared_ptr<CodeTable> table_;

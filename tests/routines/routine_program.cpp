@@ -50,9 +50,10 @@ RoutineProgram::RoutineProgram(const std::string& source) {
   dspic::Configuration c;
   c.program = &program_;
   chip_ = std::make_unique<dspic::Dspic30f6014a>(outside_, &notes_, c);
-  cpu_ = std::make_unique<dspic::Cpu>(chip_->parts(), program_);
-  cpu_->written = 0xFFFF;
+  cpu_ = std::make_unique<dspic::Cpu>(chip_->parts(), program_, nullptr);
+  cpu_->note_written(0xFFFF);
   cpu_->corcon |= dspic::sfr_bits("CORCON", "PSV");  // page 0, as the start-up code sets it
+  cpu_->choose_code();
 }
 
 unsigned RoutineProgram::address_of(const std::string& function) const {
