@@ -17,6 +17,13 @@ std::uint64_t first_registers(const Cpu& cpu) {
   return all;
 }
 
+// where the routine returns to that was called when W15 was `top`
+std::uint32_t return_address(const Cpu& cpu, unsigned top) {
+  std::uint32_t address;
+  std::memcpy(&address, &cpu.ram[top - kReturnAddress - Cpu::kRamStart], sizeof address);
+  return address & 0x7FFFFE;
+}
+
 // nobody looks on, no loop of the chip can end in it, and pointers and stack are as everywhere
 bool can_be_answered(const Cpu& cpu) {
   const unsigned top = cpu.w[15], full = top + KnownCalls::kStack;
@@ -44,30 +51,32 @@ void KnownCalls::add(unsigned address, const KnownRoutine& routine) {
   put({address, &routine});
 }
 
-const Decoded* recall(Cpu& cpu, const Decoded* d, const KnownRoutine& routine) {
+Cycle answered(Cpu& cpu, const Decoded* d, const KnownRoutine& routine, Cycle begin) {
   cpu.note_written(KnownCalls::kWrites);
-  if (!can_be_answered(cpu)) return nullptr;
-  const unsigned top = cpu.w[15];
-  std::uint32_t address;
-  std::memcpy(&address, &cpu.ram[top - kReturnAddress - Cpu::kRamStart], sizeof address);
-  address &= 0x7FFFFE;
-  if (address == 0 || address >= kFlashEnd) return nullptr;
+  if (!can_be_answered(cpu)) return 0;
+  const unsigned top = cpu.w[15], address = return_address(cpu, top);
+  if (address == 0 || address >= kFlashEnd) return 0;
   // what comes at its very end may come before its RETURN is over, which is shorter then
-  const Cycle begin = cpu.now + d->lead, limit = cpu.deadline - begin - 1;
-  Cycle cycles;
+  const Cycle limit = cpu.deadline - begin - 1;
   cpu.at = d;
-  if (routine.function) {
-    const KnownAnswer answer = routine.function(first_registers(cpu));
-    cycles = answer.cycles;
-    if (cycles <= 0 || cycles > limit) return nullptr;
-    std::memcpy(cpu.w.data(), &answer.w0_to_w3, sizeof answer.w0_to_w3);
+  Cycle cycles = 0;
+  if (routine.action) {
+    if (limit > 0) cycles = routine.action(cpu, limit);
   } else {
-    cycles = limit > 0 ? routine.action(cpu, limit) : 0;
-    if (cycles == 0) return nullptr;
+    const KnownAnswer answer = routine.function(first_registers(cpu));
+    if (answer.cycles > limit) return 0;
+    cycles = answer.cycles;
+    if (cycles != 0) std::memcpy(cpu.w.data(), &answer.w0_to_w3, sizeof answer.w0_to_w3);
   }
-  cpu.w[15] = static_cast<std::uint16_t>(top - kReturnAddress);
+  if (cycles != 0) cpu.w[15] = static_cast<std::uint16_t>(top - kReturnAddress);
+  return cycles;
+}
+
+const Decoded* recall(Cpu& cpu, const Decoded* d, const KnownRoutine& routine) {
+  const Cycle begin = cpu.now + d->lead, cycles = answered(cpu, d, routine, begin);
+  if (cycles == 0) return nullptr;
   cpu.now = begin + cycles - d->cycles;
-  return cpu.jump(address, d);
+  return cpu.jump(return_address(cpu, cpu.w[15] + kReturnAddress), d);
 }
 
 }  // namespace dspic

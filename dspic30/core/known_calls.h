@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "dspic30/core/known_routine.h"
+#include "dspic30/memory/cycle.h"
 
 namespace dspic {
 
@@ -55,5 +56,11 @@ class KnownCalls {
 /// it can be answered, all is done up to behind its RETURN, and the instruction there is returned; as with an
 /// instruction's own function, Decoded::cycles of `d` are not counted yet. Null: nothing was done.
 const Decoded* recall(Cpu& cpu, const Decoded* d, const KnownRoutine& routine);
+
+/// What recall() does, for whoever knows where it returns to, as translated code does: the routine's cycles,
+/// with its return address taken off the stack. `begin` is when its first instruction would; the clock is not
+/// moved. All W registers are in their places, the flags need not be, and all may be changed. 0: nothing was
+/// done, and the routine has to run.
+Cycle answered(Cpu& cpu, const Decoded* d, const KnownRoutine& routine, Cycle begin);
 
 }  // namespace dspic

@@ -19,8 +19,8 @@ struct KnownAnswer {
 /// W0 to W3 as it is called.
 using KnownFunction = KnownAnswer (*)(std::uint64_t w0_to_w3);
 
-/// Of a routine that reads or writes RAM, or more than W0 to W3: `limit` cycles at most. Returns its cycles
-/// and has done what it does; 0: it has done nothing, and the routine runs.
+/// Of a routine that reads or writes RAM, or more than W0 to W3: `limit` cycles at most. Cpu::at is its first
+/// instruction. Returns its cycles and has done what it does; 0: it has done nothing, and the routine runs.
 using KnownAction = int (*)(Cpu& cpu, std::int64_t limit);
 
 struct KnownRoutine {
