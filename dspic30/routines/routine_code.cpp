@@ -8,7 +8,7 @@ namespace dspic {
 
 namespace {
 
-constexpr std::size_t kMostWords = 4096;
+constexpr std::size_t kMostWords = 1024;  // the longest known routines reach less
 
 // what a word does to the course, by its opcode [chip C3]
 enum class Flow { On, Skip, Branch, Always, Call, FarCall, FarGoto, End, Unknown };
