@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <string>
+#include <type_traits>
 
 namespace dspic {
 
@@ -28,9 +29,9 @@ constexpr int kSoftware = 0, kInt0 = 1, kTimer3 = 2, kAutomatic = 7;
 void Adc::attach() {
   f_.bus.attach(*this, kBuffer, kChs);
   f_.bus.attach(*this, kCssl, kCssl);
-  f_.bus.mark_unmodelled(kCon1, sfr_bits("ADCON1", "ADSIDL"));
-  f_.bus.mark_unmodelled(kCon2, sfr_bits("ADCON2", "VCFG"));
-  f_.bus.mark_unmodelled(kChs, sfr_bits("ADCHS", "CH0NA", "CH0NB"));
+  f_.bus.mark_unmodelled(kCon1, std::integral_constant<std::uint16_t, sfr_bits("ADCON1", "ADSIDL")>());
+  f_.bus.mark_unmodelled(kCon2, std::integral_constant<std::uint16_t, sfr_bits("ADCON2", "VCFG")>());
+  f_.bus.mark_unmodelled(kChs, std::integral_constant<std::uint16_t, sfr_bits("ADCHS", "CH0NA", "CH0NB")>());
   slot_ = f_.events.add(*this, 0, std::uint64_t{1} << irq::Adc, false);
   timers_.listen(*this);
 }

@@ -93,7 +93,7 @@ class Adc final : public SfrOwner, public EventOwner, public TimerListener {
   void check_channel(int channel, Cycle at);
   void changed_while_on(unsigned address, Cycle now);
 
-  Fabric f_;
+  const Fabric& f_;
   Timers& timers_;
   int slot_ = -1;
   std::uint16_t con1_ = 0, con2_ = 0, con3_ = 0, chs_ = 0, cssl_ = 0;

@@ -2,6 +2,7 @@
 #include "dspic30/periph/capture_compare.h"
 
 #include <algorithm>
+#include <type_traits>
 
 namespace dspic {
 
@@ -29,7 +30,8 @@ void InputCapture::attach() {
   for (int n = 0; n < kCaptures; ++n) {
     units_[static_cast<std::size_t>(n)].slot =
         f_.events.add(*this, n, std::uint64_t{1} << kIcFlags[n], false);
-    f_.bus.mark_unmodelled(kIc + 4 * static_cast<unsigned>(n) + 2, sfr_bits("IC1CON", "ICSIDL"));
+    f_.bus.mark_unmodelled(kIc + 4 * static_cast<unsigned>(n) + 2,
+                           std::integral_constant<std::uint16_t, sfr_bits("IC1CON", "ICSIDL")>());
   }
 }
 
@@ -137,7 +139,8 @@ void OutputCompare::attach() {
   f_.bus.attach(*this, kOc, kOc + 6 * kCompares - 2);
   for (int n = 0; n < kCompares; ++n) {
     units_[static_cast<std::size_t>(n)].slot = f_.events.add(*this, n, std::uint64_t{1} << kOcFlags[n], true);
-    f_.bus.mark_unmodelled(kOc + 6 * static_cast<unsigned>(n) + 4, sfr_bits("OC1CON", "OCSIDL"));
+    f_.bus.mark_unmodelled(kOc + 6 * static_cast<unsigned>(n) + 4,
+                           std::integral_constant<std::uint16_t, sfr_bits("OC1CON", "OCSIDL")>());
   }
   timers_.listen(*this);
 }

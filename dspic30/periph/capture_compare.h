@@ -40,7 +40,7 @@ class InputCapture final : public SfrOwner, public EventOwner {
   void schedule(int n, Cycle after);
   void capture(Unit& u, int n, Cycle at);
 
-  Fabric f_;
+  const Fabric& f_;
   Timers& timers_;
   std::array<Unit, kCaptures> units_{};
 };
@@ -74,7 +74,7 @@ class OutputCompare final : public SfrOwner, public EventOwner, public TimerList
   void schedule(int n, Cycle after);
   void drive(int n, bool high, Cycle at);
 
-  Fabric f_;
+  const Fabric& f_;
   Timers& timers_;
   std::array<Unit, kCompares> units_{};
 };

@@ -2,6 +2,7 @@
 #include "dspic30/periph/dci.h"
 
 #include <algorithm>
+#include <type_traits>
 
 namespace dspic {
 
@@ -27,7 +28,9 @@ int nth_bit(std::uint16_t mask, std::int64_t n) {
 
 void Dci::attach() {
   f_.bus.attach(*this, kCon1, kTx + 6);
-  f_.bus.mark_unmodelled(kCon1, sfr_bits("DCICON1", "DCISIDL", "CSCKD", "COFSD", "COFSM"));
+  f_.bus.mark_unmodelled(
+      kCon1,
+      std::integral_constant<std::uint16_t, sfr_bits("DCICON1", "DCISIDL", "CSCKD", "COFSD", "COFSM")>());
   slot_ = f_.events.add(*this, 0, std::uint64_t{1} << irq::Dci, false);
 }
 

@@ -50,7 +50,7 @@ class Dci final : public SfrOwner, public EventOwner {
   void transfer();
   void schedule();
 
-  Fabric f_;
+  const Fabric& f_;
   int slot_ = -1;
   std::uint16_t con1_ = 0, con2_ = 0, con3_ = 0, stat_ = 0, tscon_ = 0, rscon_ = 0;
   std::array<std::uint16_t, 4> rx_{}, tx_{}, rx_shadow_{}, tx_shadow_{};

@@ -27,7 +27,7 @@ class EventWatch {
 
 class Events {
  public:
-  static constexpr int kMostSlots = 64;
+  static constexpr int kMostSlots = 40;
 
   /// `irqs`: bit i if the event may set the flag of IRQ i; `outward`: it may move a pin or ask for a reset.
   int add(EventOwner& owner, int id, std::uint64_t irqs, bool outward) {
@@ -84,8 +84,8 @@ class Events {
   using Known = std::int64_t;
   static constexpr int kSlotBits = 6;
   static constexpr Known kNone = kNever << kSlotBits;
-  static_assert(1 << kSlotBits == kMostSlots);
-  static std::size_t slot_of(Known known) { return static_cast<std::size_t>(known & (kMostSlots - 1)); }
+  static_assert(1 << kSlotBits >= kMostSlots);
+  static std::size_t slot_of(Known known) { return static_cast<std::size_t>(known & ((1 << kSlotBits) - 1)); }
   static Cycle instant_of(Known known) { return known >> kSlotBits; }
 
   Cycle delay(std::size_t slot) const { return static_cast<Cycle>(~outward_ >> slot & 1); }

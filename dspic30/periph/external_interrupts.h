@@ -34,7 +34,7 @@ class ExternalInterrupts final : public EventOwner, public FlagListener, public 
   void schedule(int n, Cycle now);
   void forget_before(int n, Cycle now);
 
-  Fabric f_;
+  const Fabric& f_;
   Adc& adc_;
   std::array<int, kLines> slots_{};
   std::array<Cycle, kLines> seen_{};      // edges up to here have been dealt with
@@ -60,7 +60,7 @@ class ChangeNotification final : public SfrOwner, public EventOwner, public PinL
   void compare(Cycle at);
   std::uint16_t watched(Port port) const;
 
-  Fabric f_;
+  const Fabric& f_;
   int slot_ = -1, flag_slot_ = -1;
   std::uint32_t enabled_ = 0, pull_ups_ = 0;
   std::array<std::uint16_t, kPorts> levels_{};  // as the comparison saw them last

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <string>
+#include <type_traits>
 
 namespace dspic {
 
@@ -31,7 +32,8 @@ constexpr Pin kScl{Port::G, 2}, kSda{Port::G, 3};
 void I2c::attach() {
   f_.bus.attach(*this, kRcv, kAdd);
   // slew rate and levels of the pins (DISSLW, SMEN) have no digital effect
-  f_.bus.mark_unmodelled(kCon, sfr_bits("I2CCON", "I2CSIDL", "IPMIEN", "A10M"));
+  f_.bus.mark_unmodelled(
+      kCon, std::integral_constant<std::uint16_t, sfr_bits("I2CCON", "I2CSIDL", "IPMIEN", "A10M")>());
   slot_ = f_.events.add(*this, 0, std::uint64_t{1} << irq::MasterI2c, false);
 }
 

@@ -57,7 +57,7 @@ class I2c final : public SfrOwner, public EventOwner {
   bool take_in(std::uint8_t byte, Cycle at);
   void tell_alone(const char* place, Cycle now);
 
-  Fabric f_;
+  const Fabric& f_;
   int slot_ = -1;
   std::uint16_t con_ = 0, stat_ = 0, brg_ = 0, add_ = 0;
   std::uint8_t rcv_ = 0, trn_ = 0xFF;

@@ -2,6 +2,7 @@
 #include "dspic30/periph/kept_registers.h"
 
 #include <algorithm>
+#include <type_traits>
 
 namespace dspic {
 
@@ -75,7 +76,8 @@ std::uint16_t PlainRegisters::word(unsigned address) const {
 void Can::attach() {
   f_.bus.attach(*this, base_, errors());
   for (const unsigned transmit : {sfr("C1TX0CON"), sfr("C1TX1CON"), sfr("C1TX2CON")})
-    f_.bus.mark_unmodelled(base_ - kBases[0] + transmit, sfr_bits("C1TX0CON", "TXREQ"));
+    f_.bus.mark_unmodelled(base_ - kBases[0] + transmit,
+                           std::integral_constant<std::uint16_t, sfr_bits("C1TX0CON", "TXREQ")>());
 }
 
 void Can::reset() {

@@ -30,7 +30,7 @@ class CpuRegisters final : public SfrOwner {
 
  private:
   static constexpr unsigned kEnd = 0x054;
-  Fabric f_;
+  const Fabric& f_;
   std::array<std::uint16_t, kEnd / 2> words_{};
 };
 
@@ -47,7 +47,7 @@ class PlainRegisters final : public SfrOwner {
   std::uint16_t peek(unsigned address, Cycle now) const override { return word(address); }
 
  private:
-  Fabric f_;
+  const Fabric& f_;
   std::map<unsigned, std::uint16_t> words_;
 };
 
@@ -65,7 +65,7 @@ class Can final : public SfrOwner {
   static constexpr unsigned kBases[2] = {sfr("C1RXF0SID"), sfr("C2RXF0SID")};
   unsigned control() const { return base_ - kBases[0] + sfr("C1CTRL"); }
   unsigned errors() const { return base_ - kBases[0] + sfr("C1EC"); }
-  Fabric f_;
+  const Fabric& f_;
   unsigned base_;
   std::map<unsigned, std::uint16_t> words_;
   int mode_ = 4, next_mode_ = 4;

@@ -84,7 +84,7 @@ class Nvm final : public SfrOwner, public EventOwner {
   void carry_out_on_flash(int operation);
   void begin(Cycle now);
 
-  Fabric f_;
+  const Fabric& f_;
   int slot_ = -1;
   unsigned operation_at_ = 0;  // address of the operation under way
   std::uint16_t con_ = 0, adr_ = 0, adru_ = 0;

@@ -130,7 +130,7 @@ class Ports final : public SfrOwner {
                         std::uint16_t wanted = 0xFFFF) const;
   std::uint16_t digital(Port port, std::uint16_t pins) const;
 
-  Fabric f_;
+  const Fabric& f_;
   bool synchronised_;
   std::array<State, kPorts> ports_{};
   std::uint16_t adpcfg_ = 0;

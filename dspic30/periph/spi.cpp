@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "dspic30/periph/spi.h"
 
+#include <type_traits>
+
 namespace dspic {
 
 namespace {
@@ -18,7 +20,8 @@ constexpr Cycle kPrimary[] = {64, 16, 4, 1};
 void Spi::attach() {
   f_.bus.attach(*this, base_, base_ + 4);
   f_.bus.mark_unmodelled(base_ + kStat, kSpisidl);
-  f_.bus.mark_unmodelled(base_ + kCon, sfr_bits("SPI1CON", "FRMEN", "SPIFSD", "SSEN"));
+  f_.bus.mark_unmodelled(
+      base_ + kCon, std::integral_constant<std::uint16_t, sfr_bits("SPI1CON", "FRMEN", "SPIFSD", "SSEN")>());
   slot_ = f_.events.add(*this, 0, std::uint64_t{1} << (number_ == 1 ? irq::Spi1 : irq::Spi2), false);
 }
 

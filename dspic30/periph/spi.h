@@ -31,7 +31,7 @@ class Spi final : public SfrOwner, public EventOwner {
   Cycle clock() const;
   void start(Cycle now);
 
-  Fabric f_;
+  const Fabric& f_;
   int number_;
   unsigned base_;
   int slot_ = -1;

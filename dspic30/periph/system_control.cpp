@@ -2,6 +2,7 @@
 #include "dspic30/periph/system_control.h"
 
 #include <cmath>
+#include <type_traits>
 
 namespace dspic {
 
@@ -32,7 +33,8 @@ constexpr double kLvdVolts[] = {0, 0, 0, 0, 2.5, 2.7, 2.8, 3.0, 3.3, 3.5, 3.6, 3
 void SystemControl::attach() {
   f_.bus.attach(*this, kRcon, kOsctun);
   f_.bus.take_all_bits(kOsccon);
-  f_.bus.mark_unmodelled(kOsctun, sfr_bits("OSCTUN", "TUN0", "TUN1", "TUN2", "TUN3"));
+  f_.bus.mark_unmodelled(
+      kOsctun, std::integral_constant<std::uint16_t, sfr_bits("OSCTUN", "TUN0", "TUN1", "TUN2", "TUN3")>());
   slot_ = f_.events.add(*this, 0, std::uint64_t{1} << irq::Lvd, true);
 }
 

@@ -43,7 +43,7 @@ class SystemControl final : public SfrOwner, public EventOwner {
   void write_osccon(std::uint16_t value, std::uint16_t lanes, Cycle now);
   void watch_supply(Cycle now);
 
-  Fabric f_;
+  const Fabric& f_;
   std::uint16_t fosc_, fwdt_;
   int slot_ = -1;
   std::uint16_t rcon_ = 0, osccon_ = 0, osctun_ = 0;

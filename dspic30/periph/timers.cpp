@@ -2,6 +2,7 @@
 #include "dspic30/periph/timers.h"
 
 #include <algorithm>
+#include <type_traits>
 #include <utility>
 
 namespace dspic {
@@ -65,7 +66,8 @@ void Timers::attach() {
     unit(t).slot = f_.events.add(*this, t, flags, false);
     f_.interrupts.listen(kFlags[t - 1], *this);
     f_.ports.watch(kClockPins[t - 1], *this);
-    f_.bus.mark_unmodelled(kAt[t - 1].con, sfr_bits("T1CON", "TSIDL"));
+    f_.bus.mark_unmodelled(kAt[t - 1].con,
+                           std::integral_constant<std::uint16_t, sfr_bits("T1CON", "TSIDL")>());
   }
 }
 

@@ -107,7 +107,7 @@ class Timers final : public SfrOwner, public EventOwner, public FlagListener, pu
   __attribute__((noinline)) void catch_up(int timer, Cycle now);
   void tell_changed(int timer, Cycle at);
 
-  Fabric f_;
+  const Fabric& f_;
   std::array<Unit, kTimers> units_{};
   std::vector<TimerListener*> listeners_;
 };

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
+#include <type_traits>
 
 namespace dspic {
 
@@ -38,7 +39,8 @@ Uart::Uart(const Fabric& fabric, int number)
 
 void Uart::attach() {
   f_.bus.attach(*this, base_, base_ + 8);
-  f_.bus.mark_unmodelled(base_ + kMode, sfr_bits("U1MODE", "USIDL", "WAKE", "ABAUD"));
+  f_.bus.mark_unmodelled(
+      base_ + kMode, std::integral_constant<std::uint16_t, sfr_bits("U1MODE", "USIDL", "WAKE", "ABAUD")>());
   slot_tx_ = f_.events.add(*this, Transmit, std::uint64_t{1} << tx_irq_, true);
   slot_rx_ = f_.events.add(*this, Receive, std::uint64_t{1} << rx_irq_, false);
 }

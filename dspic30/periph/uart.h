@@ -77,7 +77,7 @@ class Uart final : public SfrOwner, public EventOwner {
   void check_rate(Cycle at);
   std::string name(const char* suffix) const;
 
-  Fabric f_;
+  const Fabric& f_;
   int number_;
   unsigned base_;
   int tx_irq_, rx_irq_;
