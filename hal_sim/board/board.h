@@ -354,7 +354,7 @@ class Board {
     std::array<std::int64_t, 16> count{};
     std::array<Cycle, 16> first{};
   };
-  std::array<VainWrites, kPorts> vain_writes_{};
+  std::unique_ptr<std::array<VainWrites, kPorts>> vain_writes_;  // null: there were none
   struct Misuse {
     Diagnosis what;
     const void* about;

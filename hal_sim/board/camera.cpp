@@ -217,6 +217,7 @@ void Camera::run_automatics(std::int64_t frames, Cycle at) {
 void Camera::make_curve() {
   if (curve_version_ == seen_version_) return;
   curve_version_ = seen_version_;
+  curve_.resize(1025);
   for (int i = 0; i <= 1024; ++i) {
     const double x = i * 0.25;  // of 256
     int k = 11;

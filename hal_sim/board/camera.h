@@ -141,7 +141,7 @@ class Camera {
   std::vector<sim::Light> light_;
   bool transposed_ = false;  // light_ holds columns of the scene as rows of the picture
   int first_rendered_ = 0, rendered_ = 0;
-  std::array<std::uint8_t, 1025> curve_{};  // gamma, contrast, brightness
+  std::vector<std::uint8_t> curve_;  // gamma, contrast, brightness
   std::uint64_t curve_version_ = 0;
   std::vector<std::uint8_t> picture_;
   std::int64_t pictures_ = 0;

@@ -88,7 +88,7 @@ int scale_of(int value) { return value == 0x80 ? 4 : value == 0x40 ? 2 : 1; }
 CameraSensor::CameraSensor(CameraKind kind) : I2cRegisters(kAddress), kind_(kind) { reset(0); }
 
 void CameraSensor::reset(Cycle at) {
-  for (auto& bank : banks_) bank.fill(0);
+  for (auto& bank : banks_) bank.clear();
   bank_ = 0;
   hash_ = sim::fold(hash_, std::uint64_t{1});
   ++version_;
@@ -149,7 +149,7 @@ bool CameraSensor::write_register(std::uint8_t number, std::uint8_t value, Cycle
     bank_ = value & 3;
     return true;
   }
-  banks_[static_cast<std::size_t>(bank_)][number] = value;
+  put(static_cast<Bank>(bank_), number, value);
   hash_ = sim::fold(hash_, static_cast<std::uint64_t>(bank_ << 16 | number << 8 | value));
   ++version_;
   written_at_ = at;
@@ -157,9 +157,9 @@ bool CameraSensor::write_register(std::uint8_t number, std::uint8_t value, Cycle
 }
 
 std::uint8_t CameraSensor::read_register(std::uint8_t number, Cycle) {
-  if (number < 2) return banks_[A][number];
+  if (number < 2) return at(A, number);
   if (kind_ != CameraKind::Po3030k && number == 3) return static_cast<std::uint8_t>(bank_);
-  return banks_[static_cast<std::size_t>(bank_)][number];
+  return at(static_cast<Bank>(bank_), number);
 }
 
 SensorSetup CameraSensor::setup() const {

@@ -10,6 +10,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "hal_sim/board/i2c_device.h"
 
@@ -66,11 +67,13 @@ class CameraSensor final : public I2cRegisters {
  private:
   enum Bank { A, B, C, D };
   std::uint8_t at(Bank bank, int number) const {
-    return banks_[static_cast<std::size_t>(bank)][static_cast<std::size_t>(number)];
+    const auto& registers = banks_[static_cast<std::size_t>(bank)];
+    return registers.empty() ? std::uint8_t{0} : registers[static_cast<std::size_t>(number)];
   }
   void put(Bank bank, int number, int value) {
-    banks_[static_cast<std::size_t>(bank)][static_cast<std::size_t>(number)] =
-        static_cast<std::uint8_t>(value);
+    auto& registers = banks_[static_cast<std::size_t>(bank)];
+    registers.resize(256);
+    registers[static_cast<std::size_t>(number)] = static_cast<std::uint8_t>(value);
   }
   int word(Bank bank, int high) const { return at(bank, high) << 8 | at(bank, high + 1); }
   SensorSetup setup_3030() const;
@@ -78,7 +81,7 @@ class CameraSensor final : public I2cRegisters {
   SensorSetup setup_8030() const;
 
   CameraKind kind_;
-  std::array<std::array<std::uint8_t, 256>, 4> banks_{};
+  std::array<std::vector<std::uint8_t>, 4> banks_;  // none: all are 0
   int bank_ = 0;
   std::uint64_t version_ = 0;
   Cycle written_at_ = 0;

@@ -65,7 +65,9 @@ void Board::note_vain_writes(std::size_t port, std::uint16_t changed, Cycle at) 
   unsigned vain = changed & tris_[port] & kDriven[port];
   for (; vain; vain &= vain - 1) {
     const auto n = static_cast<std::size_t>(__builtin_ctz(vain));
-    if (vain_writes_[port].count[n]++ == 0) vain_writes_[port].first[n] = at;
+    if (!vain_writes_) vain_writes_ = std::make_unique<std::array<VainWrites, kPorts>>();
+    VainWrites& writes = (*vain_writes_)[port];
+    if (writes.count[n]++ == 0) writes.first[n] = at;
   }
 }
 
@@ -120,16 +122,16 @@ std::vector<Diagnosis> Board::diagnoses(Cycle at) const {
                         line, ms(p.longest), 1000 * 2 * kIrEmitterA),
                    "lower the pulse after the lit sample, 0.3 ms after it rose", p.first, 0, p.count});
   }
-  for (std::size_t port = 0; port < kPorts; ++port)
+  for (std::size_t port = 0; vain_writes_ && port < kPorts; ++port)
     for (std::size_t n = 0; n < 16; ++n) {
-      const std::int64_t count = vain_writes_[port].count[n];
+      const VainWrites& writes = (*vain_writes_)[port];
+      const std::int64_t count = writes.count[n];
       if (count < kVainWrites) continue;
       all.push_back({"input driven", text("TRIS%c%zu", kPortLetters[port], n),
                      text("LAT%c%zu is written again and again, but TRIS%c%zu = 1 makes the pin an input: "
                           "nothing reaches it",
                           kPortLetters[port], n, kPortLetters[port], n),
-                     "clear the TRIS bit, or call e_init_port() first", vain_writes_[port].first[n], 0,
-                     count});
+                     "clear the TRIS bit, or call e_init_port() first", writes.first[n], 0, count});
     }
   if (i2c_.unstopped() > 0)
     all.push_back({"I2C bus not stopped", "I2CCON.PEN",
