@@ -37,17 +37,17 @@ void Team::carry_out_resets() {
   if (resets) {
     // all that lies about is new; what came with the run is gone
     int movable = 0;
-    for (const sim::ObjectDesc& object : at_first_.objects) movable += object.movable;
-    simulation.refurnish(at_first_, std::vector<int>(static_cast<std::size_t>(movable), -1));
+    for (const sim::ObjectDesc& object : at_first_->objects) movable += object.movable;
+    simulation.refurnish(*at_first_, std::vector<int>(static_cast<std::size_t>(movable), -1));
     for (int r = 0; r < twin_.robots(); ++r) {
       moved_.insert(r);
-      simulation.move(r, at_first_.robots[static_cast<std::size_t>(r)].pose);
+      simulation.move(r, at_first_->robots[static_cast<std::size_t>(r)].pose);
       twin_.begin_again(r);
     }
     simulation.begin_again();
     for (const auto& member : members_)
       if (member->robot >= 0)
-        member->custom = at_first_.robots[static_cast<std::size_t>(member->robot)].custom_data;
+        member->custom = at_first_->robots[static_cast<std::size_t>(member->robot)].custom_data;
     make_nodes();
   }
   for (const auto& member : members_) {

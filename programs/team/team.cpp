@@ -14,8 +14,7 @@ namespace programs {
 
 namespace fs = std::filesystem;
 
-Team::Team(twin::Twin& twin, const twin::Options&)
-    : twin_(twin), run_folder_(fs::current_path().string()), at_first_(twin.world()) {
+Team::Team(twin::Twin& twin, const twin::Options&) : twin_(twin), run_folder_(fs::current_path().string()) {
   say = [](const std::string& text) { std::fprintf(stderr, "%s\n", text.c_str()); };
 }
 
@@ -66,6 +65,7 @@ std::unique_ptr<Team> Team::open(twin::Twin& twin, const twin::Options& options,
   }
   if (problems.size() != before) return nullptr;
   if (team->members_.empty()) return team;
+  team->at_first_ = std::make_unique<const sim::WorldDesc>(world);
   team->make_nodes();
   twin.simulation().attend(team.get());
   return team;

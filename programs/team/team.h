@@ -135,7 +135,7 @@ class Team final : public sim::Attendant, private SupervisorHost {
   std::vector<std::unique_ptr<Member>> members_;
   void make_nodes();
   std::unique_ptr<Nodes> nodes_;
-  const sim::WorldDesc at_first_;  // the world as it was opened
+  std::unique_ptr<const sim::WorldDesc> at_first_;  // the world as it was opened; null: nobody can reset it
   Outcome outcome_;
   link_packet packet_{};
   bool began_ = false, finished_ = false;
