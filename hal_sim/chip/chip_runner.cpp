@@ -62,10 +62,10 @@ ChipRunner::ChipRunner(std::string name, std::shared_ptr<const ChipImage> image,
       std::make_unique<dspic::Processor>(device(), program_, image_->code(), library_.get(), plain_from);
   processor_->set_translator(translation());
   processor_->know(image_->known(program_));
-  places_ = std::make_unique<ProgramPlaces>(file_, program_, *processor_, chip_);
+  places_ = std::make_unique<ProgramPlaces>(file_, program_, image_->shared_handler(), *processor_, chip_);
   endings_ = std::make_unique<Endings>(file_, program_, *processor_, chip_, *places_);
-  calls_ = std::make_unique<LibraryCalls>(file_, *processor_, *places_, chip_, board);
-  processor_->tell_calls(this, calls_->addresses());
+  calls_ = std::make_unique<LibraryCalls>(image_->functions(), *processor_, *places_, chip_, board);
+  processor_->tell_calls(this, image_->functions().addresses());
   chip_.comment_on([this](const dspic::Diagnosis& d) { return comment(d); });
   if (start <= 0) return;
   end_ = start;
@@ -76,11 +76,11 @@ ChipRunner::ChipRunner(std::string name, std::shared_ptr<const ChipImage> image,
 }
 
 void ChipRunner::program_eeprom() {
-  for (const auto& [address, word] : file_.words) {
-    if (address >> 16 != dspic::kEepromStart >> 16) continue;
-    const unsigned low = address & 0xFFFF;
+  for (auto at = file_.words.lower_bound(dspic::kEepromStart & 0xFF0000);
+       at != file_.words.end() && at->first >> 16 == dspic::kEepromStart >> 16; ++at) {
+    const unsigned low = at->first & 0xFFFF;
     board_.eeprom().erase(low);
-    board_.eeprom().write(low, static_cast<std::uint16_t>(word));
+    board_.eeprom().write(low, static_cast<std::uint16_t>(at->second));
   }
 }
 

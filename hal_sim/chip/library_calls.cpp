@@ -61,28 +61,26 @@ const LibraryCalls::Known LibraryCalls::kKnown[] = {
     {"e_set_agenda_cycle", Function::SetAgendaCycle},
 };
 
-LibraryCalls::LibraryCalls(const dspic::FirmwareFile& file, const dspic::Processor& processor,
+LibraryCalls::LibraryCalls(const Functions& functions, const dspic::Processor& processor,
                            const ProgramPlaces& places, SolderedChip& chip, const board::Board& board)
-    : processor_(processor), places_(places), chip_(chip), board_(board) {
+    : functions_(functions), processor_(processor), places_(places), chip_(chip), board_(board) {}
+
+LibraryCalls::Functions::Functions(const dspic::FirmwareFile& file) {
   // a program's own function of such a name is its own affair, where lines tell; but it starts what it says
   for (const Known& known : kKnown)
     for (const char* form : kForms) {
       const auto found = file.functions.find(std::string(form) + known.name);
       if (found == file.functions.end()) continue;
-      if (!starts(known.function) && !file.code.lines.empty() && places_.is_own(found->second)) continue;
+      if (!starts(known.function) && !file.code.lines.empty() && ProgramPlaces::is_own(file, found->second))
+        continue;
       const unsigned to = goto_target(file, found->second);
       sites_[dspic::is_host_place(to) ? to : found->second] = {&known, form};
     }
   for (const char* name : {"run_left_motor", "run_right_motor"})
     if (const auto found = file.functions.find(name); found != file.functions.end())
       motors_.insert(found->second);
-}
-
-std::vector<std::uint32_t> LibraryCalls::addresses() const {
-  std::vector<std::uint32_t> all;
   for (const auto& [address, site] : sites_)
-    if (!dspic::is_host_place(address)) all.push_back(address);
-  return all;
+    if (!dspic::is_host_place(address)) addresses_.push_back(address);
 }
 
 void LibraryCalls::forget_starts() {
@@ -98,8 +96,8 @@ void LibraryCalls::forget_starts() {
 void LibraryCalls::called(api::HostFunction function) { entered(api::host_place(function)); }
 
 void LibraryCalls::entered(unsigned address) {
-  const auto found = sites_.find(address);
-  if (found == sites_.end()) return;
+  const auto found = functions_.sites_.find(address);
+  if (found == functions_.sites_.end()) return;
   const Site& site = found->second;
   const auto signed_w = [this](int n) {
     return static_cast<int>(static_cast<std::int16_t>(processor_.w(n)));
@@ -189,7 +187,7 @@ void LibraryCalls::activate_agenda(const Site& site) {
          "got a null pointer, expected a function: the first tick calls address 0, and the program begins "
          "anew",
          "name the function");
-  if (cycle != 0 || !site.prefix.empty() || motors_.count(function)) return;
+  if (cycle != 0 || !site.prefix.empty() || functions_.motors_.count(function)) return;
   board::Diagnosis& idle = idle_agendas_[function];
   if (!idle.cause.empty()) return;
   idle = {"agenda without a period",

@@ -21,12 +21,12 @@ namespace chip {
 
 class LibraryCalls final {
  public:
+  /// Where the library's functions lie in an image; for all robots that run it.
+  class Functions;
   /// All of them outlive this.
-  LibraryCalls(const dspic::FirmwareFile& file, const dspic::Processor& processor,
-               const ProgramPlaces& places, SolderedChip& chip, const board::Board& board);
+  LibraryCalls(const Functions& functions, const dspic::Processor& processor, const ProgramPlaces& places,
+               SolderedChip& chip, const board::Board& board);
 
-  /// Functions that this wants to hear of, of those that the image has.
-  std::vector<std::uint32_t> addresses() const;
   /// The function at `address` begins.
   void entered(unsigned address);
   /// A function of the host is called.
@@ -66,12 +66,11 @@ class LibraryCalls final {
   std::string where() const;
   unsigned caller() const;
 
+  const Functions& functions_;
   const dspic::Processor& processor_;
   const ProgramPlaces& places_;
   SolderedChip& chip_;
   const board::Board& board_;
-  std::map<unsigned, Site> sites_;  // by address; of the host's functions the place beyond the flash
-  std::set<unsigned> motors_;       // the library's own agendas
   std::set<Function> started_;
   std::array<Wheel, 2> wheels_;
   Cycle first_speed_ = -1;  // of one that agendas shall turn into steps
@@ -80,6 +79,19 @@ class LibraryCalls final {
   std::map<unsigned, board::Diagnosis> idle_agendas_;  // by function, until they get a period
   std::vector<board::Diagnosis> diagnoses_;
   Cycle next_look_ = 0;
+};
+
+class LibraryCalls::Functions {
+ public:
+  explicit Functions(const dspic::FirmwareFile& file);
+  /// Those that LibraryCalls wants to hear of, in order.
+  const std::vector<std::uint32_t>& addresses() const { return addresses_; }
+
+ private:
+  friend class LibraryCalls;
+  std::map<unsigned, Site> sites_;  // by address; of the host's functions the place beyond the flash
+  std::set<unsigned> motors_;       // the library's own agendas
+  std::vector<std::uint32_t> addresses_;
 };
 
 }  // namespace chip

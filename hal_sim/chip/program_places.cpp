@@ -33,14 +33,14 @@ std::string handler_of(int vector) {
   return std::string("_") + dspic::vector_name(vector) + (vector < dspic::kFirstIrqVector ? "" : "Interrupt");
 }
 
-ProgramPlaces::ProgramPlaces(const dspic::FirmwareFile& file, const dspic::ProgramMemory& program,
-                             const dspic::Processor& processor, SolderedChip& chip)
-    : file_(file), program_(program), processor_(processor), chip_(chip) {
+unsigned ProgramPlaces::shared_handler(const dspic::FirmwareFile& file, const dspic::ProgramMemory& program) {
   std::map<unsigned, int> users;
+  unsigned shared = 0;
   for (int v = 1; v < dspic::kVectors; ++v) {
-    const unsigned to = program_.read(kTable + 2 * static_cast<unsigned>(v)) & 0x7FFFFE;
-    if (file_.words.count(to) && ++users[to] >= kSharedByMany && users[to] > users[shared_]) shared_ = to;
+    const unsigned to = program.read(kTable + 2 * static_cast<unsigned>(v)) & 0x7FFFFE;
+    if (file.words.count(to) && ++users[to] >= kSharedByMany && users[to] > users[shared]) shared = to;
   }
+  return shared;
 }
 
 host::Place ProgramPlaces::place_of(unsigned address) const {
@@ -53,11 +53,11 @@ host::Place ProgramPlaces::place_of(unsigned address) const {
   return place;
 }
 
-bool ProgramPlaces::is_own(unsigned address) const {
-  if (!file_.words.count(address)) return false;
-  if (file_.code.lines.empty()) return true;
-  const auto* line = file_.code.line_at(address);
-  return line && !is_of_library(file_.code.files[line->file]);
+bool ProgramPlaces::is_own(const dspic::FirmwareFile& file, unsigned address) {
+  if (!file.words.count(address)) return false;
+  if (file.code.lines.empty()) return true;
+  const auto* line = file.code.line_at(address);
+  return line && !is_of_library(file.code.files[line->file]);
 }
 
 unsigned ProgramPlaces::stack_word(unsigned address) const {

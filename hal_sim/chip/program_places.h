@@ -15,9 +15,10 @@ namespace chip {
 
 class ProgramPlaces final {
  public:
-  /// All of them outlive this.
-  ProgramPlaces(const dspic::FirmwareFile& file, const dspic::ProgramMemory& program,
-                const dspic::Processor& processor, SolderedChip& chip);
+  /// All of them outlive this. `shared`: of the image, shared_handler().
+  ProgramPlaces(const dspic::FirmwareFile& file, const dspic::ProgramMemory& program, unsigned shared,
+                const dspic::Processor& processor, SolderedChip& chip)
+      : file_(file), program_(program), processor_(processor), chip_(chip), shared_(shared) {}
 
   /// Function, file and line of an instruction; "?" where there is none.
   host::Place place_of(unsigned address) const;
@@ -29,7 +30,10 @@ class ProgramPlaces final {
   unsigned own(unsigned address) const { return own(address, processor_.w(15)); }
   /// The call whose return address lies on the stack last, as at a function's first instruction; 0: none.
   unsigned caller() const;
-  bool is_own(unsigned address) const;
+  bool is_own(unsigned address) const { return is_own(file_, address); }
+  static bool is_own(const dspic::FirmwareFile& file, unsigned address);
+  /// What many vectors of an image lead to: the default handler; 0: nothing.
+  static unsigned shared_handler(const dspic::FirmwareFile& file, const dspic::ProgramMemory& program);
   /// Where a vector leads.
   unsigned handler(int vector) const;
   /// Does the handler of `vector` belong to it alone?
@@ -51,7 +55,7 @@ class ProgramPlaces final {
   const dspic::ProgramMemory& program_;
   const dspic::Processor& processor_;
   SolderedChip& chip_;
-  unsigned shared_ = 0;  // what many vectors lead to: the default handler; 0: nothing
+  const unsigned shared_;
 };
 
 /// Where the GOTO at a program address leads; 0: there is none.
