@@ -2,6 +2,7 @@
 #include "dspic30/core/code_store.h"
 
 #include <algorithm>
+#include <new>
 
 #include "dspic30/core/cpu.h"
 
@@ -36,11 +37,11 @@ const Decoded* write_first(Cpu& cpu, const Decoded* d) {
   return function_of(cpu.program.read(cpu.address_of(d)))(cpu, d);
 }
 
-Decoded unknown_word() {
-  Decoded d;
-  d.run.store(&meet, std::memory_order_relaxed);
-  d.cycles = 0;
-  return d;
+template <class T>
+T* zeroed() {
+  void* const memory = std::calloc(kFlashWords + 1, sizeof(T));
+  if (!memory) throw std::bad_alloc();
+  return static_cast<T*>(memory);
 }
 
 }  // namespace
@@ -70,8 +71,8 @@ Decoded& Decoded::operator=(const Decoded& o) {
   s_kind = o.s_kind;
   d_kind = o.d_kind;
   heat.store(o.heat.load(std::memory_order_relaxed), std::memory_order_relaxed);
-  is_head.store(o.is_head.load(std::memory_order_relaxed), std::memory_order_relaxed);
   run.store(o.run.load(std::memory_order_relaxed), std::memory_order_release);
+  state.store(o.state.load(std::memory_order_relaxed), std::memory_order_release);
   return *this;
 }
 
@@ -82,18 +83,22 @@ CodeTable::CodeTable(const CodeState& state, std::vector<std::uint32_t> told,
     : state_(state),
       told_(std::move(told)),
       known_(std::move(known)),
-      words_(kFlashWords + 1, unknown_word()),
-      beside_(static_cast<Beside*>(std::calloc(kFlashWords + 1, sizeof(Beside)))) {
-  if (!beside_) throw std::bad_alloc();
-  words_.back().cycles = 1;
-  words_.back().run = &fetch_nothing;
+      words_(zeroed<Decoded>()),
+      beside_(zeroed<Beside>()) {
+  Decoded nowhere;
+  nowhere.run = &fetch_nothing;
+  nowhere.state = Decoded::Met;
+  words_[kFlashWords] = nowhere;
   beside_[kFlashWords].plain = &fetch_nothing;
 }
 
 void CodeTable::decode(const Decoded* d, const ProgramMemory& program, std::uint8_t jumps) {
   const std::lock_guard lock(mutex_);
-  if (d->run.load(std::memory_order_relaxed) != &meet) return;
+  if (is_decoded(d)) return;
   const std::size_t index = index_of(d);
+  // the course may step to those behind it, over a skipped one of two words at most
+  for (std::size_t i = index + 1; i <= std::min<std::size_t>(index + 3, kFlashWords); ++i)
+    if (!words_[i].run.load(std::memory_order_relaxed)) words_[i].run.store(&meet, std::memory_order_release);
   Beside& beside = beside_[index];
   Decoded word = decode_word(program, static_cast<unsigned>(2 * index), state_, beside.registers);
   Run run = word.run;
@@ -103,20 +108,20 @@ void CodeTable::decode(const Decoded* d, const ProgramMemory& program, std::uint
   const auto address = static_cast<std::uint32_t>(2 * index);
   const bool is_told = std::binary_search(told_.begin(), told_.end(), address);
   beside.tells = is_told || known_at(address);
-  word.is_head = beside.tells;
+  word.state = beside.tells ? Decoded::Fronted : Decoded::Met;
   word.run = is_told ? &tell : beside.tells ? &answer : run;
   words_[index] = word;
   decoded_.push_back(static_cast<std::uint32_t>(index));
 }
 
-// `is_head` is stored before `run`: who sees the translation also sees that it is one
+// the state is stored before `run`: who sees the translation also sees that it is one
 void CodeTable::warm(const Cpu& cpu, const Decoded* d, Translator& translator, int hot) {
   const std::uint8_t again = hot == 0 ? 1 : 0xFF;
   bool only_ready;
   {
     const std::lock_guard lock(mutex_);
     d->heat.store(0, std::memory_order_relaxed);
-    if (d->is_head.load(std::memory_order_relaxed)) return;
+    if (d->state.load(std::memory_order_relaxed) == Decoded::Fronted) return;
     Warmth& warmth = warmth_[d];
     if (warmth.is_busy) return;
     const int times = ++warmth.times;
@@ -133,7 +138,7 @@ void CodeTable::warm(const Cpu& cpu, const Decoded* d, Translator& translator, i
   Warmth& warmth = warmth_[d];
   warmth.is_busy = false;
   if (translation.run) {
-    d->is_head.store(true, std::memory_order_release);
+    d->state.store(Decoded::Fronted, std::memory_order_release);
     d->run.store(translation.run, std::memory_order_release);
     warmth.first = translation.first;
     warmth.last = translation.last;
@@ -151,15 +156,15 @@ void CodeTable::mark_wait(const Decoded* d, Run stop) {
     const std::ptrdiff_t place = d - head;
     if (place == 0 || place < warmth.first || place > warmth.last) continue;
     const Beside& beside = beside_[index_of(head)];
-    if (!head->is_head.load(std::memory_order_relaxed) || beside.wait.load(std::memory_order_relaxed))
+    if (head->state.load(std::memory_order_relaxed) != Decoded::Fronted || beside.wait.load(std::memory_order_relaxed))
       continue;
     head->run.store(beside.plain, std::memory_order_release);
-    head->is_head.store(false, std::memory_order_release);
+    head->state.store(Decoded::Met, std::memory_order_release);
     head->heat.store(0xFF, std::memory_order_relaxed);
     --translated_;
   }
   beside_[index].wait.store(d->run.load(std::memory_order_relaxed), std::memory_order_release);
-  d->is_head.store(true, std::memory_order_release);
+  d->state.store(Decoded::Fronted, std::memory_order_release);
   d->run.store(stop, std::memory_order_release);
 }
 
@@ -170,9 +175,10 @@ int CodeTable::translated() const {
 
 void CodeTable::forget() {
   const std::lock_guard lock(mutex_);
-  const Decoded unknown = unknown_word();
+  Decoded unmet;
+  unmet.run = &meet;
   for (const std::uint32_t index : decoded_) {
-    words_[index] = unknown;
+    words_[index] = unmet;
     beside_[index].wait.store(nullptr, std::memory_order_relaxed);
   }
   decoded_.clear();

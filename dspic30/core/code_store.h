@@ -9,8 +9,9 @@
 // modulo or bit-reversed pointers. So there is a table for each such state that lasts, and a Cpu whose state
 // changes moves to another one. A Cpu that changes its flash gets a store of its own.
 //
-// A word is published by its function, which is stored last; until then it is met(). Decoding is guarded by
-// the table's mutex, running is not. The store outlives nothing: whoever runs on a table keeps it.
+// A word is published by its function and then by its state, both stored behind all else. Zeros are a word
+// that is not met; one that the course may step to has meet() as its function. Decoding is guarded by the
+// table's mutex, running is not. Whoever runs on a table keeps it.
 #pragma once
 #include <atomic>
 #include <cstdint>
@@ -46,13 +47,13 @@ struct Decoded {
   std::uint8_t psv = 2;     ///< what reading through the PSV window costs
   std::int8_t s_pre = 0, s_post = 0, d_pre = 0, d_post = 0;
   Pointer s_kind = Pointer::Plain, d_kind = Pointer::Plain;
-  mutable std::atomic<bool> is_head{false};  ///< `run` is not its own function: CodeTable::plain()
+  enum State : std::uint8_t { Unmet, Met, Fronted };
+  mutable std::atomic<State> state{Unmet};  ///< Fronted: `run` is not its own function: CodeTable::plain()
   /// Counts jumps to here down to 1, when it is warm; 0: they do not count.
   mutable std::atomic<std::uint8_t> heat{0};
 
   Decoded() = default;
   Decoded(const Decoded& other) { *this = other; }
-  /// `run` is stored last.
   Decoded& operator=(const Decoded& other);
 };
 static_assert(sizeof(Decoded) == 32);
@@ -86,15 +87,18 @@ class CodeTable {
   CodeTable(const CodeState& state, std::vector<std::uint32_t> told, std::shared_ptr<const KnownCalls> known);
 
   /// One a flash word, then one for addresses where no flash is.
-  const Decoded* words() const { return words_.data(); }
+  const Decoded* words() const { return words_.get(); }
   const CodeState& state() const { return state_; }
+  static bool is_decoded(const Decoded* d) {
+    return d->state.load(std::memory_order_acquire) != Decoded::Unmet;
+  }
   /// Makes a word of `program`, which holds this store's image, ready, unless it is. `jumps`: so many to it
   /// make it warm.
   void decode(const Decoded* d, const ProgramMemory& program, std::uint8_t jumps);
   /// Its own function, not what was put in front of it.
   Run plain(const Decoded* d) const {
     const Run run = d->run.load(std::memory_order_acquire);
-    return run == &meet ? run : beside_[index_of(d)].plain;
+    return is_decoded(d) ? beside_[index_of(d)].plain : run;
   }
   /// Of a word that is decoded.
   const WordRegisters& registers(const Decoded* d) const { return beside_[index_of(d)].registers; }
@@ -133,14 +137,16 @@ class CodeTable {
   struct Free {
     void operator()(void* memory) const { std::free(memory); }
   };
-  std::size_t index_of(const Decoded* d) const { return static_cast<std::size_t>(d - words_.data()); }
+  template <class T>
+  using Zeroed = std::unique_ptr<T[], Free>;  // pages that nobody touches take no memory
+  std::size_t index_of(const Decoded* d) const { return static_cast<std::size_t>(d - words_.get()); }
 
   const CodeState state_;
   const std::vector<std::uint32_t> told_;
   std::shared_ptr<const KnownCalls> known_;
   mutable std::mutex mutex_;  // of all that follows, but what was published
-  std::vector<Decoded> words_;
-  std::unique_ptr<Beside[], Free> beside_;  // pages of words that are not met take no memory
+  const Zeroed<Decoded> words_;
+  const Zeroed<Beside> beside_;
   std::vector<std::uint32_t> decoded_;
   std::unordered_map<const Decoded*, Warmth> warmth_;
   int translated_ = 0;

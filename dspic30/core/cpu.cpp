@@ -102,6 +102,7 @@ void Cpu::run_on(std::shared_ptr<CodeTable> table) {
   next = next ? moved(next) : words;
   code_ = words;
   table_ = std::move(table);
+  if (!address_of_host_place(next) && !is_decoded(next)) decode(next);
   known_waits.forget();
   known_counts.forget();
   own_heads_ = no_heads();

@@ -128,7 +128,7 @@ class Cpu final : public SfrOwner {
   static const Decoded* return_from(Cpu& cpu, const Decoded* from, unsigned address) {
     return cpu.return_to(address, from);
   }
-  bool is_decoded(const Decoded* d) const { return d->run.load(std::memory_order_acquire) != &meet; }
+  static bool is_decoded(const Decoded* d) { return CodeTable::is_decoded(d); }
   static const Decoded* arrive_from(Cpu& cpu, const Decoded* from, std::int32_t words) {
     return cpu.offset(from, words);
   }

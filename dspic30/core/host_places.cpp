@@ -65,6 +65,7 @@ std::array<Decoded, kPlaces> make_places() {
     d.run = i < kMostHostFunctions ? &at_function : &at_handler_return;
     d.imm = static_cast<std::int32_t>(i);
     d.cycles = 1;
+    d.state = Decoded::Met;
   }
   return places;
 }

@@ -29,15 +29,16 @@ inline const std::string kFlashMacro = R"(
 
 struct CoreBench {
   /// `text` is assembled and programmed; the configuration words are those of `c`. `translates`: jumped to,
-  /// code is translated at once.
-  explicit CoreBench(const std::string& text, dspic::Configuration c = {}, bool translates = true) {
+  /// code is translated at once. `store`: shared with others that run the same text.
+  explicit CoreBench(const std::string& text, dspic::Configuration c = {}, bool translates = true,
+                     std::shared_ptr<dspic::CodeStore> store = nullptr) {
     image = dspic::assembly::assemble(text, "test.s");
     EXPECT_TRUE(image.is_whole()) << image.report();
     for (const auto& [address, word] : image.program) program.write(address, word);
     c.program = &program;
     c.synchronised_ports = true;
     chip = std::make_unique<dspic::Dspic30f6014a>(outside, &notes, c);
-    cpu = std::make_unique<dspic::Processor>(*chip, program);
+    cpu = std::make_unique<dspic::Processor>(*chip, program, std::move(store));
     if (!translates) return;
     static dspic::translate::Translations translations(chip::translator_library(), {});
     cpu->set_translator(&translations);
