@@ -160,6 +160,11 @@ std::string hal_of(const FirmwareFile& file) {
   return mark == file.marks.end() ? "own" : mark->second ? "sim" : "dspic";
 }
 
+std::uint32_t host_table_of(const FirmwareFile& file) {
+  const auto mark = file.marks.find(kHostTableSymbol);
+  return mark == file.marks.end() ? 0 : mark->second;
+}
+
 std::uint32_t place_of_host_call(const FirmwareFile& file) {
   constexpr std::uint32_t kGoto = 0x040000;
   for (auto at = file.words.begin(); at != file.words.end(); ++at) {

@@ -33,6 +33,8 @@ struct FirmwareFile {
 
 /// "sim" or "dspic": which HAL it was linked with here; "own": elsewhere, or the file does not say.
 std::string hal_of(const FirmwareFile& file);
+/// The table of host functions that an image of hal_sim was linked for, as a sum; 0: none.
+std::uint32_t host_table_of(const FirmwareFile& file);
 /// The first place at which the program goes on where only the simulator has something (host_places.h), so
 /// that no chip can run it; kNoPlace: nowhere.
 inline constexpr std::uint32_t kNoPlace = 0xFFFFFFFF;

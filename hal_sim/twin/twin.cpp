@@ -7,7 +7,6 @@
 #include <atomic>
 #include <map>
 
-#include "dspic30/memory/host_places.h"
 #include "hal_sim/api/host_table.h"
 #include "hal_sim/board/bluetooth_module.h"
 #include "hal_sim/board/epuck_model.h"
@@ -121,8 +120,7 @@ Firmware open_firmware(const std::string& path, const Options& options, std::str
   dspic::FirmwareFile file;
   if (!dspic::load_firmware(bytes, path, file, error)) return {};
   const std::string hal = dspic::hal_of(file);
-  if (const auto table = file.marks.find(dspic::kHostTableSymbol);
-      hal == "sim" && (table == file.marks.end() || table->second != api::host_table_sum())) {
+  if (hal == "sim" && dspic::host_table_of(file) != api::host_table_sum()) {
     error =
         path + ": image: got one linked with another hal_sim, expected one of this twinpuck; build it again";
     return {};
