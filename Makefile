@@ -47,8 +47,7 @@ build: setup
 ## run: 60 simulated seconds of FW in WORLD: summary, CSV and picture
 run: tool $(if $(findstring --report,$(ARGS)),page)
 	@mkdir -p $(OUT)
-	@$(BUILD)/twinpuck build $(FW) -o $(OUT)/$(notdir $(FW)).so
-	@$(BUILD)/twinpuck run worlds/$(WORLD).toml --fw '*=$(OUT)/$(notdir $(FW)).so' --for 60 --speed max \
+	@$(BUILD)/twinpuck run worlds/$(WORLD).toml --fw '*=$(FW)' --for 60 --speed max \
 	  --record $(OUT)/$(notdir $(FW)).csv --summary $(OUT)/$(notdir $(FW)).json \
 	  --picture $(OUT)/$(notdir $(FW)).png $(ARGS)
 
@@ -93,7 +92,7 @@ test-view: tool $(BUILD)/page/page.js
 ifeq ($(XC16),)
 dspic: tool
 	@mkdir -p $(BUILD)/dspic
-	@$(BUILD)/twinpuck build '$(FW)' --way chip -o '$(BUILD)/dspic/$(notdir $(FW)).elf'
+	@$(BUILD)/twinpuck build '$(FW)' --hal dspic -o '$(BUILD)/dspic/$(notdir $(FW)).elf'
 	@echo $(BUILD)/dspic/$(notdir $(FW)).hex
 else
 dspic:
