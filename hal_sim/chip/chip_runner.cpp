@@ -99,9 +99,11 @@ void ChipRunner::begin_window(Cycle now) {
   if (chip_.begin_window(now)) processor_->stir();
 }
 
+// where nothing was to happen, it counts as left out, also for those who look on
 void ChipRunner::run_until(Cycle end) {
+  const bool passes = idle_until_ > end;
   if (processor_->now() < end) {
-    ++turns_;
+    if (!passes) ++turns_;
     if (is_watched())
       run_watched(end);
     else
@@ -110,13 +112,7 @@ void ChipRunner::run_until(Cycle end) {
   end_ = std::max(end_, end);
   chip_.end_window(std::max(end_, processor_->now()));
   if (end_ >= calls_->next_look()) calls_->look(end_);
-  idle_until_ = find_idle_until();
-}
-
-// whoever looks at each instruction sees those of waits, too
-Cycle ChipRunner::find_idle_until() {
-  if (is_watched() && !processor_->is_asleep()) return 0;
-  return std::min(processor_->idle_until(), calls_->next_look());
+  if (!passes) idle_until_ = std::min(processor_->idle_until(), calls_->next_look());
 }
 
 void ChipRunner::pass_to(Cycle end) {

@@ -48,7 +48,8 @@ class ChipRunner final : public host::Runner,
 
   void begin_window(Cycle now) override;
   void run_until(Cycle end) override;
-  Cycle idle_until() const override { return idle_until_; }
+  /// Whoever looks at each instruction sees those of waits, too.
+  Cycle idle_until() const override { return is_watched() && !processor_->is_asleep() ? 0 : idle_until_; }
   void pass_to(Cycle end) override;
   std::uint64_t turns() const override { return turns_; }
   void wake() override {
@@ -106,7 +107,6 @@ class ChipRunner final : public host::Runner,
   void about_to_change(Cycle at) override { observer_->about_to_change(at); }
   void program_eeprom();
   bool is_watched() const { return observer_ || !watches_.empty(); }
-  Cycle find_idle_until();
   void run_watched(Cycle end);
   void add_endless_wait(std::vector<board::Diagnosis>& all) const;
   void tell_observer(const Step& step, int nesting);
